@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <iosfwd>
+#include <optional>
+
+#include "urban_nav_core/camera/pinhole.hpp"
+
+namespace urban_nav_core {
+
+/// A rectified stereo pair: one pinhole for both images, the right camera `baseline` metres along the left one's x.
+/// A stereo pixel is (u_left, v, u_right) in px; its disparity u_left - u_right = fx baseline / z is >= 0.
+struct StereoCamera {
+  Pinhole left;
+  double baseline = 0.0;  ///< m, > 0
+
+  using Pixel = Eigen::Vector3d;  ///< u_left, v, u_right
+
+  /// Stereo pixel of a point in the left optical frame; empty if it is not in front.
+  std::optional<Pixel> project(const Eigen::Vector3d& p_cam) const;
+  /// d(u_left, v, u_right)/d(p_cam), for a point in front.
+  Eigen::Matrix3d projectJacobian(const Eigen::Vector3d& p_cam) const;
+  /// Point in the left optical frame; empty if the disparity is not above zero.
+  std::optional<Eigen::Vector3d> triangulate(const Pixel& pixel) const;
+  /// d(p_cam)/d(u_left, v, u_right), for a positive disparity.
+  Eigen::Matrix3d triangulateJacobian(const Pixel& pixel) const;
+  /// First-order covariance of triangulate for a 3x3 covariance of the stereo pixel (px^2), in m^2. Optimistic where
+  /// the standard deviation of the disparity is not small beside the disparity.
+  Eigen::Matrix3d triangulateCovariance(const Pixel& pixel, const Eigen::Matrix3d& pixel_covariance) const;
+};
+
+bool isApprox(const StereoCamera& a, const StereoCamera& b, double tolerance);
+std::ostream& operator<<(std::ostream& out, const StereoCamera& camera);
+
+}  // namespace urban_nav_core

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <iosfwd>
+
+#include "urban_nav_core/geometry/so3.hpp"
+
+namespace urban_nav_core {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+/// A rigid transform T_a_b: p_a = R p_b + t. Read T_a_b * T_b_c = T_a_c. The rotation is a unit quaternion; products
+/// are normalised, so that a million of them stay rotations.
+class Pose {
+ public:
+  Pose() : q_(Quaterniond::Identity()), t_(Vector3d::Zero()) {}
+  /// Normalises q. Asserts that q is finite and not zero.
+  Pose(const Quaterniond& q, const Vector3d& t);
+  /// The rotation nearest to R (which must be one to about 1e-3).
+  Pose(const Matrix3d& R, const Vector3d& t);
+
+  const Quaterniond& q() const { return q_; }
+  const Vector3d& t() const { return t_; }
+  Matrix3d R() const { return q_.toRotationMatrix(); }
+  Eigen::Matrix4d matrix() const;
+
+  Pose inverse() const;
+  Pose operator*(const Pose& T_b_c) const;
+  Vector3d operator*(const Vector3d& p_b) const;
+
+  bool isFinite() const;
+
+ private:
+  Quaterniond q_;
+  Vector3d t_;
+};
+
+/// Exponential and logarithm of SE(3), tangent (rho, phi), translation first: Exp(rho, phi) = [Exp(phi), J_l(phi) rho].
+Pose expSe3(const Vector6d& tangent);
+Vector6d logSe3(const Pose& T);
+
+/// Ad(T) with T Exp(x) T^-1 = Exp(Ad(T) x).
+Matrix6d adjoint(const Pose& T);
+
+/// Left Jacobian of SE(3) and its inverse: Exp(x + d) = Exp(J d) Exp(x) to first order.
+Matrix6d leftJacobianSe3(const Vector6d& tangent);
+Matrix6d leftJacobianInverseSe3(const Vector6d& tangent);
+
+/// The perturbation used by every covariance that leaves a stage, and by the estimators:
+/// boxPlus(T, (rho, phi)) = [Exp(phi) R, t + rho], both in the parent frame. boxMinus(A, B) is the d with A = boxPlus(B, d).
+Pose boxPlus(const Pose& T_a_b, const Vector6d& d);
+Vector6d boxMinus(const Pose& A, const Pose& B);
+
+/// Angle of the rotation between two poses, rad, and distance of their origins, m.
+double angleBetween(const Pose& A, const Pose& B);
+double distanceBetween(const Pose& A, const Pose& B);
+
+/// Equal within `tolerance` (m for the translation, rad for the rotation).
+bool isApprox(const Pose& A, const Pose& B, double tolerance);
+/// "t = (x, y, z) m, rotation vector = (a, b, c) rad".
+std::ostream& operator<<(std::ostream& out, const Pose& T);
+
+}  // namespace urban_nav_core

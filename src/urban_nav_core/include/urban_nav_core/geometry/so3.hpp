@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace urban_nav_core {
+
+using Eigen::Matrix3d;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+/// The skew-symmetric matrix with skew(a) b = a x b.
+Matrix3d skew(const Vector3d& a);
+
+/// Rotation by |phi| rad about phi. Exact to machine precision at any angle, the identity at zero.
+Quaterniond expSo3(const Vector3d& phi);
+
+/// The rotation vector of q, |phi| <= pi. Exact near 0 and near pi; q need not be normalised to the last bit, -q gives the same.
+Vector3d logSo3(const Quaterniond& q);
+
+/// Left Jacobian of SO(3): Exp(phi + d) = Exp(J d) Exp(phi) to first order (Barfoot, State Estimation for Robotics, eq. 7.77).
+Matrix3d leftJacobianSo3(const Vector3d& phi);
+/// Its inverse; defined for |phi| < 2 pi.
+Matrix3d leftJacobianInverseSo3(const Vector3d& phi);
+
+}  // namespace urban_nav_core

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <iosfwd>
+#include <string>
+
+#include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_core/types/status.hpp"
+#include "urban_nav_core/types/stamp.hpp"
+
+namespace urban_nav_core {
+
+/// A pose T_a_b and its 6x6 covariance.
+///
+/// WARNING, the convention of everything that leaves a stage: tangent (rho, phi), translation first, both in the
+/// parent frame a: T_a_b = [Exp(phi) R, t + rho]. It is ROS's convention to first order. Proper (positive definite):
+/// a direction that is not observed belongs into a Constraint, as zero information.
+struct UncertainPose {
+  Pose pose;
+  Matrix6d covariance = Matrix6d::Identity();
+};
+
+/// Motion of one frame between two times, as an odometry gives it: T_from_to takes coordinates at `to` to coordinates at `from`.
+struct RelativePose {
+  StampNs from = 0;
+  StampNs to = 0;
+  Pose T_from_to;
+  Matrix6d covariance = Matrix6d::Identity();  ///< as in UncertainPose, parent frame: `from`
+  Status status;
+  std::string source;  ///< which odometry ("swf_vo")
+};
+
+bool isApprox(const UncertainPose& a, const UncertainPose& b, double tolerance);
+bool isApprox(const RelativePose& a, const RelativePose& b, double tolerance);
+std::ostream& operator<<(std::ostream& out, const UncertainPose& value);
+std::ostream& operator<<(std::ostream& out, const RelativePose& value);
+
+}  // namespace urban_nav_core

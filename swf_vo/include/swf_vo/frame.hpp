@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <vector>
+
+#include "urban_nav_core/types/uncertain.hpp"
+
+namespace swf_vo {
+
+/// Why the filter is not OK: Status::reason of every output of this stage.
+enum class Reason : int {
+  None = 0,
+  TooFewFeatures,  ///< fewer matches than the parameters ask for
+  Dark,            ///< an image without light or contrast
+  Blurred,         ///< far less sharp than the frames before
+  Frozen,          ///< the same pixels as the frame before while the other evidence says otherwise, or in one camera only
+  Swapped,         ///< left and right exchanged (disparities are negative), or rows that do not agree
+  ExposureJump,    ///< brightness changed by more than matching bears
+  ImageMissing,    ///< left, right or both did not come
+  BadStamp,        ///< equal to or earlier than the last one: the frame is counted and dropped
+  Gap,             ///< far more time since the last frame than between the frames before
+  Inconsistent,    ///< matches do not agree with one rigid motion
+  NotObserved,     ///< some direction of the motion is held by the prediction alone
+};
+const char* toString(Reason reason);
+
+using LandmarkId = std::int64_t;
+using FrameId = std::int64_t;  ///< counts accepted stereo frames from 0
+
+/// A feature as it was seen in this frame, for pictures and statistics.
+struct Feature {
+  LandmarkId landmark = 0;
+  Eigen::Vector3d pixel = Eigen::Vector3d::Zero();  ///< u_left, v, u_right (px)
+  int age = 0;                                      ///< frames since it was first seen; 0: new in this frame
+  bool trusted = true;                              ///< false: taken back or down-weighted below one half
+};
+
+/// A landmark of the window in the frame `odom`.
+struct Landmark {
+  LandmarkId id = 0;
+  Eigen::Vector3d p_odom = Eigen::Vector3d::Zero();  ///< m
+  float sigma = 0.0F;                                ///< standard deviation along the line of sight, m; 0: not computed
+};
+
+/// Figures of one frame. Times are measured by the caller: a core reads no clock.
+struct Statistics {
+  int corners = 0;                ///< FAST corners found in the left image, all levels
+  int features = 0;               ///< features observed in this frame, new ones included
+  int tracked = 0;                ///< of these, known from earlier frames and trusted
+  double track_length_mean = 0.0; ///< frames, over the features of this frame
+  double reprojection_px = 0.0;   ///< root mean square distance in the left image after the update
+  int iterations = 0;
+  int landmarks = 0;              ///< in the window
+  int landmarks_in_prior = 0;     ///< of these, tied to frames that have left the window
+};
+
+/// A frame as it leaves the window: the settled pose, which is final.
+struct Settled {
+  FrameId frame = 0;
+  urban_nav_core::StampNs stamp = 0;
+  urban_nav_core::UncertainPose T_odom_base;    ///< covariance: of T_first_base in the axes of the first pose
+  urban_nav_core::RelativePose from_previous;   ///< to the settled pose before; from == to for the very first frame
+  urban_nav_core::Status status;                ///< as it was when the frame came
+};
+
+/// What leaves the filter for each stereo pair. `odom` is the first base_link.
+struct Frame {
+  FrameId frame = 0;
+  urban_nav_core::StampNs stamp = 0;
+  bool accepted = true;                         ///< false: dropped because of its stamp; the pose is the last one
+  urban_nav_core::UncertainPose T_odom_base;    ///< now: all evidence up to this frame and none after it
+  urban_nav_core::Status status;
+  Statistics statistics;
+  std::vector<Settled> settled;                 ///< those that left the window with this frame: none or one, more after flush
+  std::vector<Feature> features;
+  std::vector<Landmark> landmarks;
+};
+
+}  // namespace swf_vo

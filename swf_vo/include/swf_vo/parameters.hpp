@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "urban_nav_core/parameters/table.hpp"
+
+namespace swf_vo {
+
+/// What a user may want to change; one member per row of table(), which says what each means, its unit, range and
+/// default. The camera and the extrinsics are not here: they come with the data.
+struct Parameters {
+  int window;                       // frames
+  std::string forget;               // schur, delete
+  std::string linearise;            // first, latest
+  int features;                     // per 512x384 pixels of image
+  double pixel_noise_floor;         // px
+  double huber;                     // standard deviations
+  int iterations;                   // Gauss-Newton steps a frame, at most
+  double acceleration;              // m/s^2, process noise without u
+  double angular_acceleration;      // rad/s^2
+  double search_radius;             // px
+  int pyramid_levels;
+  int fast_threshold;               // grey levels
+  int lost_features;                // fewer inliers than this: prediction only
+  int degraded_features;
+
+  Parameters();
+};
+
+/// The table: the only place where a default, a range, a unit or a sentence about a parameter stands.
+const urban_nav_core::Table<Parameters>& table();
+
+}  // namespace swf_vo
