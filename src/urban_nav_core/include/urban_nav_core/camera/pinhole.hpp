@@ -14,12 +14,14 @@ struct Pinhole {
   double cx = 0.0, cy = 0.0;  ///< principal point, px
   int width = 0, height = 0;  ///< px
 
-  /// Pixel of a point in the optical frame; empty if it is not in front of the camera.
+  /// Pixel of a point in the optical frame, inside the image or not; empty if it is not in front of the camera (z > 1 um).
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& p_cam) const;
   /// d(u, v)/d(p_cam), for a point in front.
   Eigen::Matrix<double, 2, 3> projectJacobian(const Eigen::Vector3d& p_cam) const;
   /// The direction of a pixel with z = 1.
   Eigen::Vector3d ray(const Eigen::Vector2d& pixel) const;
+  /// Does the place lie on one of the image's pixels?
+  bool contains(const Eigen::Vector2d& pixel) const;
 };
 
 bool isApprox(const Pinhole& a, const Pinhole& b, double tolerance_px);
