@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "health/health.hpp"
+
+namespace swf_vo {
+
+using urban_nav_core::Health;
+using urban_nav_core::Status;
+
+const char* toString(Reason reason) {
+  switch (reason) {
+    case Reason::None: return "none";
+    case Reason::TooFewFeatures: return "too_few_features";
+    case Reason::Dark: return "dark";
+    case Reason::Blurred: return "blurred";
+    case Reason::Frozen: return "frozen";
+    case Reason::Swapped: return "swapped";
+    case Reason::ExposureJump: return "exposure_jump";
+    case Reason::ImageMissing: return "image_missing";
+    case Reason::BadStamp: return "bad_stamp";
+    case Reason::Gap: return "gap";
+    case Reason::Inconsistent: return "inconsistent";
+    case Reason::NotObserved: return "not_observed";
+  }
+  return "unknown";
+}
+
+const char* sentence(Reason reason) {
+  switch (reason) {
+    case Reason::None: return "";
+    case Reason::TooFewFeatures: return "too few features could be followed";
+    case Reason::Dark: return "an image has no contrast: dark, covered or washed out";
+    case Reason::Blurred: return "the images are far less sharp than before";
+    case Reason::Frozen: return "an image repeats the pixels of the one before";
+    case Reason::Swapped: return "left and right are exchanged: check the topics; they were used the other way round";
+    case Reason::ExposureJump: return "the brightness jumped";
+    case Reason::ImageMissing: return "an image is missing or of another size";
+    case Reason::BadStamp: return "the stamp is not later than the last one: frame dropped";
+    case Reason::Gap: return "frames are missing before this one";
+    case Reason::Inconsistent: return "the matches do not agree with one rigid motion";
+    case Reason::NotObserved: return "some direction of the motion is held by the prediction alone";
+  }
+  return "";
+}
+
+HealthMonitor::HealthMonitor(const Parameters& parameters)
+    : lost_features_(parameters.lost_features), degraded_features_(parameters.degraded_features) {}
+
+bool HealthMonitor::isTrusted(const Evidence& evidence) const {
+  return evidence.image.usable && evidence.localised && evidence.tracked >= lost_features_;
+}
+
+Reason HealthMonitor::reasonFor(const Evidence& evidence) const {
+  if (evidence.image.reason != Reason::None) return evidence.image.reason;
+  const int enough = evidence.first ? evidence.features : evidence.tracked;
+  if (evidence.gap) return Reason::Gap;
+  if (enough >= degraded_features_) return evidence.inlier_share < 0.4 && !evidence.first ? Reason::Inconsistent : Reason::None;
+  const bool scattered = evidence.candidates >= degraded_features_ && 2 * evidence.tracked < evidence.candidates;
+  return scattered ? Reason::Inconsistent : Reason::TooFewFeatures;
+}
+
+Status HealthMonitor::judge(const Evidence& evidence) {
+  Status status;
+  const Reason reason = reasonFor(evidence);
+  const bool lost = evidence.first ? evidence.features < lost_features_ : !isTrusted(evidence);
+  if (lost) status.health = Health::Lost;
+  else if (reason != Reason::None) status.health = Health::Degraded;
+  else if (was_lost_) status.health = Health::Recovered;
+  was_lost_ = lost;
+  status.reason = static_cast<int>(reason);
+  status.sentence = sentence(reason);
+  return status;
+}
+
+}  // namespace swf_vo

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "front_end/front_end.hpp"
+#include "health/image_check.hpp"
+#include "swf_vo/frame.hpp"
+#include "swf_vo/parameters.hpp"
+
+namespace swf_vo {
+
+/// The evidence of one frame that decides on its status.
+struct Evidence {
+  ImageVerdict image;
+  bool first = false;         ///< of the session: nothing can be tracked yet
+  bool gap = false;           ///< far more time has passed than between frames before
+  bool localised = false;     ///< the pose comes from matches
+  int tracked = 0;            ///< trusted matches of known landmarks
+  int features = 0;           ///< these and the new ones
+  int candidates = 0;         ///< matches before outliers were removed
+  double inlier_share = 0.0;
+};
+
+/// Statistics of a frame -> status and reason; when it is LOST, when RECOVERED. Deterministic, no allocation but for long sentences.
+class HealthMonitor {
+ public:
+  explicit HealthMonitor(const Parameters& parameters);
+
+  /// True if the measurements of this frame are worth using.
+  bool isTrusted(const Evidence& evidence) const;
+  urban_nav_core::Status judge(const Evidence& evidence);
+
+ private:
+  Reason reasonFor(const Evidence& evidence) const;
+
+  int lost_features_;
+  int degraded_features_;
+  bool was_lost_ = false;
+};
+
+/// What a reason means, in a sentence for a person.
+const char* sentence(Reason reason);
+
+}  // namespace swf_vo

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "health/image_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace swf_vo {
+
+using urban_nav_core::ImageView;
+using urban_nav_core::StereoPair;
+
+namespace {
+
+constexpr int column_step = 8;
+constexpr int row_step = 4;
+// Below these an 8-bit image holds no corner above its own noise (FAST at its lowest threshold needs 3 grey levels of contrast).
+constexpr double dark_contrast = 2.0;
+// Matching removes mean and gain; beyond a factor of 1.6 between frames clipping begins to move the corners.
+constexpr double exposure_ratio = 1.6;
+constexpr double blur_ratio = 0.55;
+
+// Sum of absolute differences of two samples; 0 for samples of different size.
+std::int64_t distance(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
+  std::int64_t sum = 0;
+  if (a.size() != b.size()) return 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(static_cast<int>(a[i]) - static_cast<int>(b[i]));
+  return sum;
+}
+
+}  // namespace
+
+ImageCheck::Figures ImageCheck::measure(const ImageView& image, std::vector<std::uint8_t>& sample) const {
+  const int columns = (image.width - 1) / column_step, rows = image.height / row_step;
+  sample.resize(static_cast<std::size_t>(std::max(columns, 0)) * static_cast<std::size_t>(std::max(rows, 0)));
+  if (sample.empty()) return {};
+  std::int64_t sum = 0, squares = 0, differences = 0;
+  std::size_t at = 0;
+  for (int r = 0; r < rows; ++r) {
+    const std::uint8_t* row = image.row(r * row_step);
+    for (int c = 0; c < columns; ++c) {
+      const int value = row[c * column_step];
+      sample[at++] = static_cast<std::uint8_t>(value);
+      sum += value;
+      squares += value * value;
+      differences += std::abs(row[c * column_step + 1] - value);
+    }
+  }
+  const double n = static_cast<double>(sample.size());
+  Figures figures;
+  figures.brightness = static_cast<double>(sum) / n;
+  figures.contrast = std::sqrt(std::max(0.0, static_cast<double>(squares) / n - figures.brightness * figures.brightness));
+  figures.sharpness = static_cast<double>(differences) / n / std::max(figures.contrast, 1.0);
+  return figures;
+}
+
+ImageVerdict ImageCheck::look(const StereoPair& pair, bool doubtful) {
+  ImageVerdict verdict;
+  const bool same_size = pair.left.width == pair.right.width && pair.left.height == pair.right.height;
+  if (pair.left.empty() || pair.right.empty() || !same_size) {
+    verdict.usable = false;
+    verdict.reason = Reason::ImageMissing;
+    return verdict;
+  }
+  const Figures left = measure(pair.left, left_), right = measure(pair.right, right_);
+  verdict.brightness = 0.5 * (left.brightness + right.brightness);
+  verdict.contrast = std::min(left.contrast, right.contrast);
+
+  // The noise of a camera that runs changes some pixel of thousands, even if nothing moves.
+  const bool frozen = !left_.empty() && (left_ == last_left_ || right_ == last_right_);
+  const bool crossed = distance(left_, last_right_) + distance(right_, last_left_) < distance(left_, last_left_) + distance(right_, last_right_);
+  left_.swap(last_left_);
+  right_.swap(last_right_);
+  if (verdict.contrast < dark_contrast) {
+    verdict.usable = false;
+    verdict.reason = Reason::Dark;
+    return verdict;
+  }
+  if (frozen) {
+    verdict.usable = false;
+    verdict.reason = Reason::Frozen;
+    return verdict;
+  }
+
+  const double sharpness = std::min(left.sharpness, right.sharpness);
+  const double ratio = usual_brightness_ > 0.0 ? (verdict.brightness + 1.0) / (usual_brightness_ + 1.0) : 1.0;
+  if (ratio > exposure_ratio || ratio < 1.0 / exposure_ratio) verdict.reason = Reason::ExposureJump;
+  else if (usual_sharpness_ > 0.0 && sharpness < blur_ratio * usual_sharpness_) verdict.reason = Reason::Blurred;
+  if ((doubtful || crossed || usual_sharpness_ < 0.0) && looksExchanged(pair.left, pair.right)) {
+    verdict.exchange = true;
+    verdict.reason = Reason::Swapped;
+  }
+  // What lasts is the new usual: a scene may be smoother than the one before, and auto-exposure arrives.
+  const double rate = usual_sharpness_ > 0.0 ? 0.1 : 1.0;
+  usual_sharpness_ += rate * (sharpness - usual_sharpness_);
+  usual_brightness_ = usual_brightness_ < 0.0 ? verdict.brightness : usual_brightness_ + 0.3 * (verdict.brightness - usual_brightness_);
+  return verdict;
+}
+
+namespace {
+
+constexpr int shrink = 4;   // columns
+constexpr int block = 12;   // shrunk columns
+constexpr int block_rows = 4;
+constexpr int longest_reach = 200;  // shrunk columns
+
+// Sum over `shrink` neighbours of a row: a cheap low-pass that keeps rows apart.
+int shrunk(const std::uint8_t* row, int column) {
+  const std::uint8_t* p = row + column * shrink;
+  return p[0] + p[1] + p[2] + p[3];
+}
+
+// Cost of a block at a shift, mean removed so that a difference of exposure says nothing.
+int difference(const ImageView& left, const ImageView& right, int v, int column, int shift) {
+  int sum = 0;
+  int values[block * block_rows];
+  int at = 0;
+  for (int r = 0; r < block_rows; ++r) {
+    const std::uint8_t *a = left.row(v + 2 * r), *b = right.row(v + 2 * r);
+    for (int c = 0; c < block; ++c) {
+      const int d = shrunk(a, column + c) - shrunk(b, column + c - shift);
+      values[at++] = d;
+      sum += d;
+    }
+  }
+  const int mean = sum / at;
+  int cost = 0;
+  for (int i = 0; i < at; ++i) cost += std::abs(values[i] - mean);
+  return cost;
+}
+
+}  // namespace
+
+bool looksExchanged(const ImageView& left, const ImageView& right) {
+  const int columns = left.width / shrink;
+  const int reach = std::min(columns / 6, longest_reach);
+  if (columns < 4 * block || left.height < 64) return false;
+  int usual = 0, exchanged = 0;
+  for (int i = 0; i < 6; ++i) {
+    const int v = left.height / 8 + i * (left.height * 3 / 4) / 6;
+    for (int j = 0; j < 6; ++j) {
+      const int column = reach + j * (columns - 2 * reach - block) / 5;
+      int costs[2 * longest_reach + 1];
+      for (int shift = -reach; shift <= reach; ++shift) costs[shift + reach] = difference(left, right, v, column, shift);
+      int* const end = costs + 2 * reach + 1;
+      const int* best = std::min_element(costs, end);
+      const int found = static_cast<int>(best - costs) - reach;
+      const int opposite = found > 0 ? *std::min_element(costs, costs + reach + 1) : *std::min_element(costs + reach, end);
+      const int worst = *std::max_element(costs, end);
+      // Only blocks with texture, whose best shift is clear of zero and clearly better than any of the other sign.
+      if (worst < 40 * block * block_rows || found == 0 || 3 * *best > 2 * opposite) continue;
+      (found > 0 ? usual : exchanged)++;
+    }
+  }
+  return exchanged >= 5 && exchanged > 4 * usual;
+}
+
+}  // namespace swf_vo

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "swf_vo/frame.hpp"
+#include "urban_nav_core/types/stereo_pair.hpp"
+
+namespace swf_vo {
+
+/// What the pixels of a pair say of themselves, before anything is matched.
+struct ImageVerdict {
+  bool usable = true;             ///< false: no measurement is to be taken from this pair
+  bool exchange = false;          ///< left and right are exchanged: use them the other way round
+  Reason reason = Reason::None;   ///< the gravest finding
+  double brightness = 0.0;        ///< mean grey level of both images
+  double contrast = 0.0;          ///< standard deviation, grey levels, the lesser of the two images
+};
+
+/// Looks at thinned-out pixels: missing, dark, frozen, exposure jumps, blur, exchanged images. Remembers the last usable pair's
+/// figures. Allocates only when the size of the images changes. Costs some 0.1 ms at 512x384.
+class ImageCheck {
+ public:
+  /// `doubtful`: the frame before was not OK. The test for exchanged images, the dear one, runs then, at the start, and
+  /// where the images resemble each other's predecessors more than their own.
+  ImageVerdict look(const urban_nav_core::StereoPair& pair, bool doubtful);
+
+ private:
+  struct Figures {
+    double brightness = 0.0;
+    double contrast = 0.0;
+    double sharpness = 0.0;  ///< mean absolute difference of neighbours over the contrast
+  };
+  Figures measure(const urban_nav_core::ImageView& image, std::vector<std::uint8_t>& sample) const;
+
+  std::vector<std::uint8_t> left_, right_, last_left_, last_right_;  // every eighth pixel of every fourth row
+  double usual_brightness_ = -1.0;
+  double usual_sharpness_ = -1.0;
+};
+
+/// Does the scene lie behind the cameras? Compares textured blocks along the rows at a quarter of the resolution; true where by far most
+/// disparities that are not about zero have the wrong sign. Needs some ten blocks that differ, else false.
+bool looksExchanged(const urban_nav_core::ImageView& left, const urban_nav_core::ImageView& right);
+
+}  // namespace swf_vo

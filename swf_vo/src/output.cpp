@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "output.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "health/health.hpp"
+#include "urban_nav_core/geometry/compose.hpp"
+
+namespace swf_vo {
+
+using urban_nav_core::compose;
+using urban_nav_core::Matrix6d;
+using urban_nav_core::Pose;
+using urban_nav_core::StampNs;
+using urban_nav_core::Status;
+using urban_nav_core::UncertainPose;
+
+namespace {
+
+Matrix6d moved(const Matrix6d& covariance, const Matrix6d& jacobian) {
+  const Matrix6d result = jacobian * covariance * jacobian.transpose();
+  return 0.5 * (result + result.transpose());
+}
+
+// Pictures and clouds show what is near enough to mean something.
+constexpr double far_away = 200.0;  // m
+
+}  // namespace
+
+Output::Output(const Pose& T_base_camera)
+    : T_base_camera_(T_base_camera), T_camera_base_(T_base_camera.inverse()) {}
+
+int Output::ageOf(LandmarkId landmark, FrameId frame) {
+  const auto at = std::lower_bound(born_.begin(), born_.end(), landmark, [](const auto& entry, LandmarkId id) { return entry.first < id; });
+  if (at != born_.end() && at->first == landmark) return static_cast<int>(frame - at->second);
+  born_.insert(at, {landmark, frame});
+  return 0;
+}
+
+void Output::list(const Window& window, const FrontEndResult* seen) {
+  frame_.features.clear();
+  frame_.landmarks.clear();
+  const Pose T_camera_odom = window.newest().pose.inverse();
+  for (const MapPoint& point : window.map()) {
+    const double w = point.p_odom.w();
+    if (!(w > 0.0)) continue;
+    const Eigen::Vector3d p_odom = point.p_odom.head<3>() / w;
+    const double depth = (T_camera_odom * p_odom).z();
+    if (depth > 0.0 && depth < far_away) frame_.landmarks.push_back({point.landmark, p_odom, 0.0F});
+  }
+  if (seen == nullptr) return;
+  double ages = 0.0;
+  for (const auto* group : {&seen->tracked, &seen->fresh}) {
+    for (const Observation& observation : *group) {
+      const int age = ageOf(observation.landmark, frame_.frame);
+      ages += age + 1;
+      frame_.features.push_back({observation.landmark, observation.z, age, window.weight(observation.landmark) >= 0.5});
+    }
+  }
+  // A landmark that no frame will ask for again: ids grow, so the dead gather at the front.
+  if (born_.size() > 8 * frame_.features.size() + 1000) {
+    const auto& map = window.map();
+    born_.erase(std::remove_if(born_.begin(), born_.end(),
+                               [&](const auto& entry) {
+                                 return std::none_of(map.begin(), map.end(), [&](const MapPoint& point) { return point.landmark == entry.first; });
+                               }),
+                born_.end());
+  }
+  frame_.statistics.corners = seen->corners;
+  frame_.statistics.features = static_cast<int>(frame_.features.size());
+  frame_.statistics.tracked = static_cast<int>(seen->tracked.size());
+  frame_.statistics.track_length_mean = frame_.features.empty() ? 0.0 : ages / static_cast<double>(frame_.features.size());
+}
+
+const Frame& Output::write(FrameId frame, StampNs stamp, const Status& status, const Window& window, const FrontEndResult* seen,
+                           const UpdateReport& update) {
+  frame_.frame = frame;
+  frame_.stamp = stamp;
+  frame_.accepted = true;
+  frame_.status = status;
+  frame_.statistics = {};
+  const UncertainPose newest = window.newest();
+  const auto base = compose(newest.pose, T_camera_base_);
+  frame_.T_odom_base = {base.T_a_c, moved(newest.covariance, base.J1)};
+  list(window, seen);
+  frame_.statistics.reprojection_px = update.reprojection_px;
+  frame_.statistics.iterations = update.iterations;
+  frame_.statistics.landmarks = update.landmarks;
+  frame_.statistics.landmarks_in_prior = update.landmarks_in_prior;
+  waiting_.push_back({frame, stamp, status});
+  frame_.settled.clear();
+  for (const SettledPose& pose : window.settled()) frame_.settled.push_back(settle(pose));
+  return frame_;
+}
+
+const Frame& Output::refused(StampNs stamp) {
+  frame_.stamp = stamp;
+  frame_.accepted = false;
+  frame_.status = {urban_nav_core::Health::Degraded, static_cast<int>(Reason::BadStamp), sentence(Reason::BadStamp)};
+  frame_.settled.clear();
+  frame_.features.clear();
+  return frame_;
+}
+
+Settled Output::settle(const SettledPose& pose) {
+  Settled settled;
+  const auto at = std::find_if(waiting_.begin(), waiting_.end(), [&](const Waiting& w) { return w.frame == pose.frame; });
+  settled.frame = pose.frame;
+  settled.stamp = at->stamp;
+  settled.status = at->status;
+  waiting_.erase(waiting_.begin(), at + 1);
+
+  const auto base = compose(pose.T_odom_camera.pose, T_camera_base_);
+  settled.T_odom_base = {base.T_a_c, moved(pose.T_odom_camera.covariance, base.J1)};
+  const auto inner = compose(T_base_camera_, pose.T_previous_camera);
+  const auto outer = compose(inner.T_a_c, T_camera_base_);
+  settled.from_previous.from = any_settled_ ? last_settled_ : settled.stamp;
+  settled.from_previous.to = settled.stamp;
+  settled.from_previous.T_from_to = any_settled_ ? outer.T_a_c : Pose();
+  settled.from_previous.covariance = moved(pose.relative_covariance, outer.J1 * inner.J2);
+  settled.from_previous.status = settled.status;
+  settled.from_previous.source = "swf_vo";
+  last_settled_ = settled.stamp;
+  any_settled_ = true;
+  return settled;
+}
+
+}  // namespace swf_vo

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "front_end/front_end.hpp"
+#include "swf_vo/frame.hpp"
+#include "window/window.hpp"
+
+namespace swf_vo {
+
+/// Turns what the window knows of the left camera into what leaves the stage of base_link, in the convention of DESIGN.md, section 4.
+class Output {
+ public:
+  explicit Output(const urban_nav_core::Pose& T_base_camera);
+
+  const Frame& write(FrameId frame, urban_nav_core::StampNs stamp, const urban_nav_core::Status& status, const Window& window,
+                     const FrontEndResult* seen, const UpdateReport& update);
+  /// A frame that was not accepted because of its stamp: the last pose again.
+  const Frame& refused(urban_nav_core::StampNs stamp);
+  Settled settle(const SettledPose& pose);
+
+ private:
+  struct Waiting {  // what a settled frame keeps from the time when it came
+    FrameId frame;
+    urban_nav_core::StampNs stamp;
+    urban_nav_core::Status status;
+  };
+  void list(const Window& window, const FrontEndResult* seen);
+  int ageOf(LandmarkId landmark, FrameId frame);
+
+  urban_nav_core::Pose T_base_camera_, T_camera_base_;
+  Frame frame_;
+  std::vector<Waiting> waiting_;                 // oldest first
+  urban_nav_core::StampNs last_settled_ = 0;
+  bool any_settled_ = false;
+  std::vector<std::pair<LandmarkId, FrameId>> born_;  // sorted by landmark: ids only grow
+};
+
+}  // namespace swf_vo

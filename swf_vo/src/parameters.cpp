@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "swf_vo/parameters.hpp"
+
+#include <cstdint>
+
+namespace swf_vo {
+
+using urban_nav_core::Row;
+using urban_nav_core::Table;
+
+Parameters::Parameters() { *this = table().defaults(); }
+
+const Table<Parameters>& table() {
+  using P = Parameters;
+  static const Table<Parameters> rows(
+      "swf_vo",
+      {
+          {"window", &P::window, "frames", std::int64_t{10}, std::int64_t{1}, std::int64_t{100000}, {},
+           "Poses kept and estimated together. More is more accurate and slower; 1 is an extended Kalman filter, all frames are the batch solution.",
+           "section 2.2"},
+          {"forget", &P::forget, "", std::string("schur"), false, false, {"schur", "delete"},
+           "What becomes of poses and landmarks that leave: rolled into the prior by the Schur complement, or deleted (classic visual odometry, for comparison).",
+           "section 2.2.1"},
+          {"linearise", &P::linearise, "", std::string("first"), false, false, {"first", "latest"},
+           "Where blocks touched by the prior are linearised: where the prior was (consistent), or at the latest estimate (textbook Kalman filter).",
+           "Huang, Mourikis, Roumeliotis, IJRR 2010"},
+          {"features", &P::features, "per 512x384 px", std::int64_t{100}, std::int64_t{20}, std::int64_t{2000}, {},
+           "Features followed at a time, in proportion to the area of the image.", "section 2.4 (v)"},
+          {"pixel_noise_floor", &P::pixel_noise_floor, "px", 0.05, 0.001, 5.0, {},
+           "Standard deviation added to that of every measured pixel: what the patch alignment cannot know of (calibration, shape of the surface).",
+           "swf_vo/bench, consistency"},
+          {"huber", &P::huber, "standard deviations", 2.5, 0.0, 100.0, {},
+           "Residuals beyond this count linearly instead of squared; 0 switches the robust kernel off.", "section 2.2"},
+          {"iterations", &P::iterations, "", std::int64_t{3}, std::int64_t{1}, std::int64_t{100}, {},
+           "Gauss-Newton steps of one frame, at most; fewer where the steps become small.", "section 2.1"},
+          {"acceleration", &P::acceleration, "m/s^2", 10.0, 0.01, 1000.0, {},
+           "Process noise without an input u: standard deviation by which the velocity changes in a second.", "section 2.1, eq. 1"},
+          {"angular_acceleration", &P::angular_acceleration, "rad/s^2", 10.0, 0.01, 1000.0, {},
+           "The same for the angular velocity.", "section 2.1, eq. 1"},
+          {"search_radius", &P::search_radius, "px", 24.0, 4.0, 200.0, {},
+           "Half-width of the window in which a projected landmark is looked for, after the rotation between the frames is taken out.",
+           "section 2.4 (iii)"},
+          {"pyramid_levels", &P::pyramid_levels, "", std::int64_t{3}, std::int64_t{1}, std::int64_t{6}, {},
+           "Image scales at which corners are extracted, each half the size of the one below.", "section 2.4 (i)"},
+          {"fast_threshold", &P::fast_threshold, "grey levels", std::int64_t{12}, std::int64_t{3}, std::int64_t{100}, {},
+           "Contrast that makes a FAST corner; lowered by itself where an image has too few.", "section 2.4 (i)"},
+          {"lost_features", &P::lost_features, "", std::int64_t{8}, std::int64_t{4}, std::int64_t{1000}, {},
+           "With fewer trusted matches than this the frame is LOST: the pose goes on by prediction.", "DESIGN.md, section 3"},
+          {"degraded_features", &P::degraded_features, "", std::int64_t{20}, std::int64_t{4}, std::int64_t{1000}, {},
+           "With fewer trusted matches than this the frame is DEGRADED.", "Tables 2 and 3: at least 37"},
+      });
+  return rows;
+}
+
+}  // namespace swf_vo

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prediction.hpp"
+
+#include <Eigen/Cholesky>
+
+#include "urban_nav_core/types/stamp.hpp"
+
+namespace swf_vo {
+
+using urban_nav_core::adjoint;
+using urban_nav_core::boxMinus;
+using urban_nav_core::boxPlus;
+using urban_nav_core::expSe3;
+using urban_nav_core::logSe3;
+using urban_nav_core::Matrix6d;
+using urban_nav_core::MotionInput;
+using urban_nav_core::Pose;
+using urban_nav_core::Vector6d;
+
+namespace {
+
+// Before the first step nothing is known of the velocity: a walking or slowly driving robot, or a car at 15 m/s.
+constexpr double unknown_speed = 10.0;          // m/s
+constexpr double unknown_angular_speed = 1.0;   // rad/s
+
+Matrix6d fromSigmas(double translation, double rotation) {
+  Vector6d diagonal;
+  diagonal << Eigen::Vector3d::Constant(1.0 / (translation * translation)), Eigen::Vector3d::Constant(1.0 / (rotation * rotation));
+  return diagonal.asDiagonal();
+}
+
+// From the tangent of base_link's motion to the camera's; both motions are T_from_to with (rho, phi) in `from`.
+Matrix6d toCamera(const Matrix6d& information_base, const Pose& T_base_camera) {
+  // d(camera) = A d(base), hence information_camera = A^-T information_base A^-1, and A^-1 is the map the other way.
+  const Matrix6d back = adjoint(T_base_camera);
+  return back.transpose() * information_base * back;
+}
+
+// Inputs one after another as one motion. Their covariances add up; with n of about the same information, that is
+// the mean over n, which holds for singular ones too.
+struct Measured {
+  int count = 0;
+  double seconds = 0.0;
+  Pose T_from_to;
+  Matrix6d information = Matrix6d::Zero();
+};
+
+Measured together(const std::vector<MotionInput>& inputs) {
+  Measured sum;
+  for (const MotionInput& input : inputs) {
+    const double span = urban_nav_core::secondsBetween(input.from, input.to);
+    if (!(span > 0.0) || !input.T_from_to.isFinite() || !input.information.allFinite()) continue;
+    ++sum.count;
+    sum.seconds += span;
+    sum.T_from_to = sum.T_from_to * input.T_from_to;
+    sum.information += input.information;
+  }
+  if (sum.count > 0) sum.information /= static_cast<double>(sum.count) * sum.count;
+  return sum;
+}
+
+}  // namespace
+
+Prediction::Prediction(const Parameters& parameters, const Pose& T_base_camera)
+    : T_base_camera_(T_base_camera),
+      acceleration_(parameters.acceleration),
+      angular_acceleration_(parameters.angular_acceleration),
+      velocity_(Vector6d::Zero()) {}
+
+ProcessInput Prediction::step(double seconds, const std::vector<MotionInput>& inputs) const {
+  ProcessInput u;
+  const double steps = 1.0 + unmeasured_;
+  u.T_from_to = known_ ? expSe3(velocity_ * seconds) : Pose();
+  const double translation = known_ ? acceleration_ * seconds * seconds * steps : unknown_speed * seconds;
+  const double rotation = known_ ? angular_acceleration_ * seconds * seconds * steps : unknown_angular_speed * seconds;
+  u.information = fromSigmas(translation, rotation);
+  const Measured measured = together(inputs);
+  if (measured.count == 0) return u;
+  const Pose motion = expSe3(logSe3(measured.T_from_to) * (seconds / measured.seconds));
+  const Pose camera = T_base_camera_.inverse() * motion * T_base_camera_;
+  const Matrix6d information = toCamera(measured.information * (measured.seconds / seconds), T_base_camera_);
+  // Two measurements of one step, fused in the tangent at the prediction.
+  const Vector6d offset = boxMinus(camera, u.T_from_to);
+  const Matrix6d sum = u.information + information;
+  u.T_from_to = boxPlus(u.T_from_to, sum.ldlt().solve(information * offset));
+  u.information = sum;
+  return u;
+}
+
+void Prediction::learn(const Pose& T_last_camera, double seconds, bool measured) {
+  unmeasured_ = measured ? 0 : unmeasured_ + 1;
+  if (!measured || !(seconds > 0.0)) return;
+  velocity_ = logSe3(T_last_camera) / seconds;
+  known_ = true;
+}
+
+}  // namespace swf_vo

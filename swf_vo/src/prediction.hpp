@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "swf_vo/parameters.hpp"
+#include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_core/types/motion_input.hpp"
+#include "window/window.hpp"
+
+namespace swf_vo {
+
+/// The input of the process model (eq. 1) from what is known: constant velocity, and where there is one, a measured u.
+///
+/// Without u: the motion of the last step goes on at the same velocity, with white noise on the acceleration: sigma = a dt^2. It is weak on
+/// purpose, since the velocity itself comes from the same images. After m steps by prediction alone sigma is m times that, so that the sum over m
+/// steps grows as the random walk of the velocity does (m^3 / 3 in variance), although the window takes steps as independent.
+class Prediction {
+ public:
+  Prediction(const Parameters& parameters, const urban_nav_core::Pose& T_base_camera);
+
+  /// `seconds`: from the last frame to this one. Inputs follow one another; what they do not cover of the step is extrapolated.
+  ProcessInput step(double seconds, const std::vector<urban_nav_core::MotionInput>& inputs) const;
+
+  /// The motion of the last step as it was estimated, and whether measurements had part in it.
+  void learn(const urban_nav_core::Pose& T_last_camera, double seconds, bool measured);
+
+ private:
+  urban_nav_core::Pose T_base_camera_;
+  double acceleration_;
+  double angular_acceleration_;
+  urban_nav_core::Vector6d velocity_;  // tangent of SE(3) in the camera, per second
+  bool known_ = false;
+  int unmeasured_ = 0;
+};
+
+}  // namespace swf_vo

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "swf_vo/swf_vo.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "front_end/front_end.hpp"
+#include "health/health.hpp"
+#include "health/image_check.hpp"
+#include "output.hpp"
+#include "prediction.hpp"
+#include "urban_nav_core/types/error.hpp"
+#include "window/window.hpp"
+
+namespace swf_vo {
+
+using urban_nav_core::MotionInput;
+using urban_nav_core::Pose;
+using urban_nav_core::secondsBetween;
+using urban_nav_core::StereoCamera;
+using urban_nav_core::StereoPair;
+using urban_nav_core::UserError;
+
+namespace {
+
+// The first pose is the origin by definition: held to a micrometre and a microradian.
+constexpr double origin_sigma = 1e-6;
+// More than this many usual periods between two frames: something is missing.
+constexpr double gap_periods = 1.7;
+
+WindowOptions windowOptions(const Parameters& parameters) {
+  WindowOptions options;
+  options.size = parameters.window;
+  options.forget_by_deletion = parameters.forget == "delete";
+  options.linearise_first = parameters.linearise == "first";
+  options.huber = parameters.huber;
+  options.iterations = parameters.iterations;
+  return options;
+}
+
+void check(const StereoCamera& camera) {
+  const auto& left = camera.left;
+  const bool finite = std::isfinite(left.fx) && std::isfinite(left.fy) && std::isfinite(left.cx) && std::isfinite(left.cy);
+  if (!finite || left.fx <= 0.0 || left.fy <= 0.0) throw UserError("calibration", "focal lengths are not positive numbers", "fx, fy > 0 (px)");
+  if (!std::isfinite(camera.baseline) || camera.baseline <= 0.0)
+    throw UserError("calibration", "the baseline is not a positive number", "> 0 (m): the right camera lies to the right of the left one");
+  if (left.width < 64 || left.height < 64) throw UserError("calibration", "the images are smaller than 64x64", "at least 64x64 px");
+}
+
+}  // namespace
+
+/// The story of one frame; no algorithm.
+class SwfVo::Implementation {
+ public:
+  Implementation(const Parameters& parameters, const StereoCamera& camera, const Pose& T_base_camera)
+      : parameters_(parameters),
+        T_odom_first_camera_(T_base_camera),
+        prediction_(parameters, T_base_camera),
+        front_end_(parameters, camera),
+        window_(windowOptions(parameters), camera),
+        health_(parameters),
+        output_(T_base_camera) {}
+
+  const Frame& process(const StereoPair& pair, const std::vector<MotionInput>& inputs) {
+    if (started_ && pair.stamp <= stamp_) return output_.refused(pair.stamp);
+
+    Evidence evidence;
+    evidence.first = !started_;
+    evidence.gap = takeTime(pair.stamp);
+    evidence.image = images_.look(pair, doubtful_);
+    const StereoPair usable = evidence.image.exchange ? StereoPair{pair.stamp, pair.right, pair.left} : pair;
+
+    const Pose last = started_ ? window_.newest().pose : T_odom_first_camera_;
+    const ProcessInput u = started_ ? prediction_.step(seconds_, inputs) : ProcessInput();
+    const FrontEndResult* seen = nullptr;
+    if (evidence.image.usable) {
+      seen = &front_end_.process(frame_, usable, last, last * u.T_from_to, window_.map());
+      evidence.localised = seen->localised;
+      evidence.tracked = static_cast<int>(seen->tracked.size());
+      evidence.features = evidence.tracked + static_cast<int>(seen->fresh.size());
+      evidence.candidates = seen->candidates;
+      evidence.inlier_share = seen->inlier_share;
+    }
+
+    if (started_) window_.addPose(frame_, u);
+    else window_.start(frame_, T_odom_first_camera_, urban_nav_core::Matrix6d::Identity() / (origin_sigma * origin_sigma));
+    window_.removePoses();
+    const bool trusted = health_.isTrusted(evidence);
+    if (seen != nullptr) observe(*seen, trusted);
+    const UpdateReport update = window_.update();
+
+    if (started_) prediction_.learn(last.inverse() * window_.newest().pose, seconds_, trusted);
+    const urban_nav_core::Status status = health_.judge(evidence);
+    doubtful_ = status.health != urban_nav_core::Health::Ok;
+    started_ = true;
+    return output_.write(frame_++, pair.stamp, status, window_, seen, update);
+  }
+
+  std::vector<Settled> flush() {
+    std::vector<Settled> left;
+    for (const SettledPose& pose : window_.flush()) left.push_back(output_.settle(pose));
+    return left;
+  }
+
+ private:
+  // Notes the time step; true where it is far longer than usual.
+  bool takeTime(urban_nav_core::StampNs stamp) {
+    seconds_ = started_ ? secondsBetween(stamp_, stamp) : 0.0;
+    stamp_ = stamp;
+    const bool gap = period_ > 0.0 && seconds_ > gap_periods * period_;
+    if (seconds_ > 0.0) period_ = period_ > 0.0 ? period_ + 0.1 * (std::min(seconds_, 2.0 * period_) - period_) : seconds_;
+    return gap;
+  }
+
+  void observe(const FrontEndResult& seen, bool trusted) {
+    for (const LandmarkId landmark : seen.refuted) {
+      window_.withdrawAll(landmark);
+      window_.endLandmark(landmark);
+    }
+    for (const LandmarkId landmark : seen.ended) window_.endLandmark(landmark);
+    if (trusted)
+      for (const Observation& observation : seen.tracked) window_.observe(observation);
+    for (const Observation& observation : seen.fresh) window_.observe(observation);
+  }
+
+  Parameters parameters_;
+  Pose T_odom_first_camera_;
+  ImageCheck images_;
+  Prediction prediction_;
+  FrontEnd front_end_;
+  Window window_;
+  HealthMonitor health_;
+  Output output_;
+
+  bool started_ = false;
+  bool doubtful_ = true;
+  FrameId frame_ = 0;
+  urban_nav_core::StampNs stamp_ = 0;
+  double seconds_ = 0.0;
+  double period_ = 0.0;
+};
+
+SwfVo::SwfVo(const Parameters& parameters, const StereoCamera& camera, const Pose& T_base_camera) {
+  check(camera);
+  implementation_ = std::make_unique<Implementation>(parameters, camera, T_base_camera);
+}
+SwfVo::~SwfVo() = default;
+SwfVo::SwfVo(SwfVo&&) noexcept = default;
+SwfVo& SwfVo::operator=(SwfVo&&) noexcept = default;
+
+const Frame& SwfVo::process(const StereoPair& pair, const std::vector<MotionInput>& inputs) { return implementation_->process(pair, inputs); }
+std::vector<Settled> SwfVo::flush() { return implementation_->flush(); }
+
+}  // namespace swf_vo
