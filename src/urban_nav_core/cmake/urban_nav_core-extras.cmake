@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# How every package of the suite is built. Loaded by find_package(urban_nav_core), from the devel space and the install
+# space alike. Nothing here touches a target, a flag or an include path that is not ours: the suite may share a workspace.
+#catkin_lint: ignore global_var_collision duplicate_find
+include_guard(DIRECTORY)
+include(CheckCXXCompilerFlag)
+
+option(URBAN_NAV_WERROR "Warnings are errors" OFF)
+option(URBAN_NAV_SANITIZE "Address and undefined-behaviour sanitizer" OFF)
+option(URBAN_NAV_CORES_ONLY "Build the ROS-free cores alone" OFF)
+option(URBAN_NAV_BENCH "Configure the programs in bench/ (target urban_nav_benches builds them)" OFF)
+set(URBAN_NAV_TEST_ROOMS "" CACHE STRING "Folders of test/ to compile into the tests; empty: all")
+
+find_package(Eigen3 REQUIRED NO_MODULE)
+find_package(Threads REQUIRED)
+
+# Release flags where the workspace sets none; a stage without optimisation is fifty times slower than its README says.
+set(urban_nav_compile_options $<$<CONFIG:>:-O2> $<$<CONFIG:>:-DNDEBUG> -Wall -Wextra -Wshadow -Wconversion)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
+  check_cxx_compiler_flag(-march=x86-64-v2 URBAN_NAV_HAS_X86_64_V2)
+  if(URBAN_NAV_HAS_X86_64_V2)
+    list(APPEND urban_nav_compile_options -march=x86-64-v2)
+  else()  # GCC 9 has the instructions, but no name for the set
+    list(APPEND urban_nav_compile_options -mcx16 -mpopcnt -msahf -mssse3 -msse4.1 -msse4.2)
+  endif()
+endif()
+# Contraction into fused multiply-add would make the bits depend on the machine.
+list(APPEND urban_nav_compile_options -ffp-contract=off)
+if(URBAN_NAV_WERROR)
+  list(APPEND urban_nav_compile_options -Werror)
+endif()
+set(urban_nav_link_options "")
+if(URBAN_NAV_SANITIZE)
+  # The reduced set: the checks left out take two thirds of the compile time of an Eigen file.
+  set(urban_nav_sanitizers -fsanitize=address,undefined -fno-sanitize=null,alignment,object-size,pointer-overflow,vptr
+      -fno-sanitize-recover=all)
+  list(APPEND urban_nav_compile_options ${urban_nav_sanitizers} -O1 -g1 -UNDEBUG -fno-omit-frame-pointer)
+  list(APPEND urban_nav_link_options -fsanitize=address,undefined)
+endif()
+
+# urban_nav_target(TARGET [ROS]): what all our targets have in common. Without the word ROS a target sees urban_nav_core and
+# no header of ROS, whatever else the package has found: the cores stay free of it.
+function(urban_nav_target target)
+  cmake_parse_arguments(arg "ROS" "" "" ${ARGN})
+  set_target_properties(${target} PROPERTIES
+    CXX_STANDARD 17 CXX_STANDARD_REQUIRED ON CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON
+    INSTALL_RPATH "$ORIGIN;$ORIGIN/..;$ORIGIN/../lib")
+  target_compile_options(${target} PRIVATE ${urban_nav_compile_options})
+  if(EXISTS ${PROJECT_SOURCE_DIR}/include)
+    target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>)
+  endif()
+  if(EXISTS ${PROJECT_SOURCE_DIR}/src)
+    target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  endif()
+  if(arg_ROS)
+    target_include_directories(${target} SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
+    target_link_libraries(${target} ${catkin_LIBRARIES})
+    if(catkin_EXPORTED_TARGETS)
+      add_dependencies(${target} ${catkin_EXPORTED_TARGETS})
+    endif()
+  else()
+    target_include_directories(${target} SYSTEM PRIVATE ${urban_nav_core_INCLUDE_DIRS})
+    target_link_libraries(${target} ${urban_nav_core_LIBRARIES})
+  endif()
+  target_link_libraries(${target} Eigen3::Eigen Threads::Threads ${urban_nav_link_options})
+endfunction()
+
+macro(urban_nav_pass_ros target)
+  if(arg_ROS)
+    urban_nav_target(${target} ROS)
+  else()
+    urban_nav_target(${target})
+  endif()
+endmacro()
+
+# urban_nav_library(TARGET SOURCE... [STATIC] [ROS]): a library of this package, installed. Further libraries: target_link_libraries.
+function(urban_nav_library target)
+  cmake_parse_arguments(arg "STATIC;ROS" "" "" ${ARGN})
+  set(sources ${arg_UNPARSED_ARGUMENTS})
+  if(NOT sources)
+    set(sources ${CMAKE_CURRENT_BINARY_DIR}/${target}-empty.cpp)
+    file(WRITE ${sources} "")
+  endif()
+  if(arg_STATIC)
+    add_library(${target} STATIC ${sources})
+  else()
+    add_library(${target} SHARED ${sources})
+  endif()
+  urban_nav_pass_ros(${target})
+  install(TARGETS ${target}
+    ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
+    LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
+    RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
+endfunction()
+
+# urban_nav_program(TARGET SOURCE... [ON_PATH] [ROS]): a program of this package, installed. ON_PATH: also found without rosrun.
+function(urban_nav_program target)
+  cmake_parse_arguments(arg "ON_PATH;ROS" "" "" ${ARGN})
+  add_executable(${target} ${arg_UNPARSED_ARGUMENTS})
+  urban_nav_pass_ros(${target})
+  install(TARGETS ${target} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+  if(arg_ON_PATH)
+    install(TARGETS ${target} RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
+    add_custom_command(TARGET ${target} POST_BUILD VERBATIM
+      COMMAND ${CMAKE_COMMAND} -E make_directory ${CATKIN_DEVEL_PREFIX}/bin
+      COMMAND ${CMAKE_COMMAND} -E create_symlink $<TARGET_FILE:${target}> ${CATKIN_DEVEL_PREFIX}/bin/$<TARGET_FILE_NAME:${target}>)
+  endif()
+endfunction()
+
+# The library of testing/ for tests, benches and the demo: a target in one workspace, a file when built package by package.
+#catkin_lint: ignore literal_project_name
+if(TARGET urban_nav_core_testing OR PROJECT_NAME STREQUAL "urban_nav_core")
+  set(urban_nav_testing_library urban_nav_core_testing)
+else()
+  find_package(OpenCV REQUIRED COMPONENTS core imgcodecs imgproc)
+  set(urban_nav_testing_library
+    ${urban_nav_core_DIR}/../../../lib/${CMAKE_STATIC_LIBRARY_PREFIX}urban_nav_core_testing${CMAKE_STATIC_LIBRARY_SUFFIX}
+    urban_nav_core ${OpenCV_LIBS})
+endif()
+
+# urban_nav_test(LIBRARY... [ROS]): PACKAGE-test, one gtest binary of test/**/*.cpp without test/ros, linked with the libraries.
+function(urban_nav_test)
+  if(NOT CATKIN_ENABLE_TESTING)
+    return()
+  endif()
+  cmake_parse_arguments(arg "ROS" "" "" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/*.cpp)
+  list(FILTER sources EXCLUDE REGEX "^${PROJECT_SOURCE_DIR}/test/ros/")
+  if(URBAN_NAV_TEST_ROOMS)
+    string(REPLACE ";" "|" rooms "${URBAN_NAV_TEST_ROOMS}")
+    list(FILTER sources INCLUDE REGEX "^${PROJECT_SOURCE_DIR}/test/(${rooms})/")
+  endif()
+  if(NOT sources)
+    return()
+  endif()
+  catkin_add_gtest(${PROJECT_NAME}-test ${sources} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  if(NOT TARGET ${PROJECT_NAME}-test)
+    return()
+  endif()
+  urban_nav_pass_ros(${PROJECT_NAME}-test)
+  target_include_directories(${PROJECT_NAME}-test PRIVATE ${PROJECT_SOURCE_DIR}/test)
+  target_link_libraries(${PROJECT_NAME}-test ${arg_UNPARSED_ARGUMENTS} ${urban_nav_testing_library})
+  if(TARGET GTest::gtest_main)
+    target_link_libraries(${PROJECT_NAME}-test GTest::gtest_main)
+  else()
+    target_link_libraries(${PROJECT_NAME}-test ${GTEST_MAIN_LIBRARIES})
+  endif()
+endfunction()
+
+# urban_nav_bench(LIBRARY...): bench/NAME.cpp becomes PACKAGE-bench-NAME; bench/support/*.cpp belongs to all of them.
+function(urban_nav_bench)
+  if(NOT URBAN_NAV_BENCH)
+    return()
+  endif()
+  find_package(benchmark REQUIRED)
+  if(NOT TARGET urban_nav_benches)
+    add_custom_target(urban_nav_benches)
+  endif()
+  file(GLOB programs CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/bench/*.cpp)
+  file(GLOB support CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/bench/support/*.cpp)
+  set(libraries ${ARGN} ${urban_nav_testing_library} benchmark::benchmark)
+  if(support)
+    add_library(${PROJECT_NAME}-bench-support STATIC EXCLUDE_FROM_ALL ${support})
+    urban_nav_target(${PROJECT_NAME}-bench-support)
+    target_link_libraries(${PROJECT_NAME}-bench-support ${libraries})
+    list(INSERT libraries 0 ${PROJECT_NAME}-bench-support)
+  endif()
+  foreach(program ${programs})
+    get_filename_component(name ${program} NAME_WE)
+    set(target ${PROJECT_NAME}-bench-${name})
+    add_executable(${target} EXCLUDE_FROM_ALL ${program})
+    urban_nav_target(${target})
+    target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/bench)
+    target_link_libraries(${target} ${libraries})
+    add_dependencies(urban_nav_benches ${target})
+  endforeach()
+endfunction()
