@@ -115,7 +115,7 @@ else()
   find_package(OpenCV REQUIRED COMPONENTS core imgcodecs imgproc)
   set(urban_nav_testing_library
     ${urban_nav_core_DIR}/../../../lib/${CMAKE_STATIC_LIBRARY_PREFIX}urban_nav_core_testing${CMAKE_STATIC_LIBRARY_SUFFIX}
-    urban_nav_core ${OpenCV_LIBS})
+    urban_nav_core opencv_core opencv_imgcodecs opencv_imgproc)
 endif()
 
 # urban_nav_test(LIBRARY... [ROS]): PACKAGE-test, one gtest binary of test/**/*.cpp without test/ros, linked with the libraries.
