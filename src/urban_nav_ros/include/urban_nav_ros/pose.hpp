@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <geometry_msgs/Pose.h>
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/Transform.h>
+#include <nav_msgs/Odometry.h>
+#include <urban_nav_msgs/RelativePose.h>
+
+#include <boost/array.hpp>
+#include <optional>
+#include <string>
+
+#include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_core/types/uncertain.hpp"
+
+namespace urban_nav_ros {
+
+/// Messages come from anywhere: a pose that is not finite or whose quaternion is not one (to 1 %) gives nothing.
+std::optional<urban_nav_core::Pose> toPose(const geometry_msgs::Pose& message);
+std::optional<urban_nav_core::Pose> toPose(const geometry_msgs::Transform& message);
+
+geometry_msgs::Pose toPoseMessage(const urban_nav_core::Pose& pose);
+geometry_msgs::Transform toTransformMessage(const urban_nav_core::Pose& pose);
+
+/// Row-major 6x6, translation first: the order of ROS and of the core are the same.
+urban_nav_core::Matrix6d toMatrix6(const boost::array<double, 36>& values);
+boost::array<double, 36> toArray36(const urban_nav_core::Matrix6d& matrix);
+
+/// Pose of child_frame in frame_id with its covariance (in frame_id, DESIGN section 4). The twist is left at zero.
+nav_msgs::Odometry toOdometryMessage(urban_nav_core::StampNs stamp, const urban_nav_core::UncertainPose& T_frame_child,
+                                     const std::string& frame, const std::string& child);
+
+urban_nav_msgs::RelativePose toRelativePoseMessage(const urban_nav_core::RelativePose& relative, const std::string& child_frame);
+std::optional<urban_nav_core::RelativePose> toRelativePose(const urban_nav_msgs::RelativePose& message);
+
+}  // namespace urban_nav_ros

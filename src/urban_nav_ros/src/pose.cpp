@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_ros/pose.hpp"
+
+#include <cmath>
+
+#include "urban_nav_ros/stamp.hpp"
+#include "urban_nav_ros/status.hpp"
+
+namespace urban_nav_ros {
+
+using urban_nav_core::Matrix6d;
+using urban_nav_core::Pose;
+using urban_nav_core::Quaterniond;
+using urban_nav_core::StampNs;
+using urban_nav_core::UncertainPose;
+using urban_nav_core::Vector3d;
+
+namespace {
+
+template <typename Translation, typename Rotation>
+std::optional<Pose> poseOf(const Translation& t, const Rotation& q) {
+  const Quaterniond rotation(q.w, q.x, q.y, q.z);
+  const Vector3d translation(t.x, t.y, t.z);
+  if (!translation.allFinite() || !rotation.coeffs().allFinite() || std::abs(rotation.norm() - 1.0) > 0.01) return std::nullopt;
+  return Pose(rotation, translation);
+}
+
+template <typename Translation, typename Rotation>
+void fill(const Pose& pose, Translation& t, Rotation& q) {
+  t.x = pose.t().x();
+  t.y = pose.t().y();
+  t.z = pose.t().z();
+  q.x = pose.q().x();
+  q.y = pose.q().y();
+  q.z = pose.q().z();
+  q.w = pose.q().w();
+}
+
+}  // namespace
+
+std::optional<Pose> toPose(const geometry_msgs::Pose& message) { return poseOf(message.position, message.orientation); }
+std::optional<Pose> toPose(const geometry_msgs::Transform& message) { return poseOf(message.translation, message.rotation); }
+
+geometry_msgs::Pose toPoseMessage(const Pose& pose) {
+  geometry_msgs::Pose message;
+  fill(pose, message.position, message.orientation);
+  return message;
+}
+
+geometry_msgs::Transform toTransformMessage(const Pose& pose) {
+  geometry_msgs::Transform message;
+  fill(pose, message.translation, message.rotation);
+  return message;
+}
+
+Matrix6d toMatrix6(const boost::array<double, 36>& values) {
+  return Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(values.data());
+}
+
+boost::array<double, 36> toArray36(const Matrix6d& matrix) {
+  boost::array<double, 36> values;
+  Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(values.data()) = matrix;
+  return values;
+}
+
+nav_msgs::Odometry toOdometryMessage(StampNs stamp, const UncertainPose& T_frame_child, const std::string& frame, const std::string& child) {
+  nav_msgs::Odometry message;
+  message.header.stamp = toRosTime(stamp);
+  message.header.frame_id = frame;
+  message.child_frame_id = child;
+  message.pose.pose = toPoseMessage(T_frame_child.pose);
+  message.pose.covariance = toArray36(T_frame_child.covariance);
+  return message;
+}
+
+urban_nav_msgs::RelativePose toRelativePoseMessage(const urban_nav_core::RelativePose& relative, const std::string& child_frame) {
+  urban_nav_msgs::RelativePose message;
+  message.header.stamp = toRosTime(relative.to);
+  message.header.frame_id = child_frame;
+  message.from_stamp = toRosTime(relative.from);
+  message.to_stamp = toRosTime(relative.to);
+  message.child_frame = child_frame;
+  message.T_from_to = toPoseMessage(relative.T_from_to);
+  message.covariance = toArray36(relative.covariance);
+  message.status = toMessage(relative.status.health);
+  message.source = relative.source;
+  return message;
+}
+
+std::optional<urban_nav_core::RelativePose> toRelativePose(const urban_nav_msgs::RelativePose& message) {
+  const std::optional<Pose> pose = toPose(message.T_from_to);
+  const std::optional<urban_nav_core::Health> health = toHealth(message.status);
+  if (!pose || !health) return std::nullopt;
+  urban_nav_core::RelativePose relative;
+  relative.from = toStampNs(message.from_stamp);
+  relative.to = toStampNs(message.to_stamp);
+  relative.T_from_to = *pose;
+  relative.covariance = toMatrix6(message.covariance);
+  if (!relative.covariance.allFinite()) return std::nullopt;
+  relative.status.health = *health;
+  relative.source = message.source;
+  return relative;
+}
+
+}  // namespace urban_nav_ros
