@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "urban_nav_core/image/view.hpp"
+
+namespace urban_nav_core {
+
+/// The piece of an image that a landmark is recognised by, and its alignment to other images: coarse by mean-removed SAD
+/// (Newman et al. 2009, section 2.4 iii), then to a hundredth of a pixel by inverse compositional alignment
+/// (Baker and Matthews 2004) with gain and offset left free.
+///
+/// Images are read through a cubic B-spline as a smoothing kernel, templates through the same one: its alias at any phase is
+/// (w / (2 pi - w))^4 of the signal (1 % at 4 px wavelength, where linear interpolation has 11 %), so the bias of a
+/// position stays below 0.02 px at every phase. The gradient is the template's alone: noise of the current image enters linearly
+/// and cannot pull the minimum to the phase where interpolation smooths most.
+/// All functions are pure; positions are in px of the image handed in.
+
+inline constexpr int patch_radius = 5;   ///< the window is 11 x 11, Gaussian-weighted
+inline constexpr int patch_size = 2 * patch_radius + 1;
+inline constexpr int patch_stride = 12;  ///< rows padded to whole vectors; the padding has no weight
+using PatchGrid = std::array<float, patch_size * patch_stride>;
+
+/// Pixels around a corner as they were when it was first seen; wider than the window, so that they can be turned and scaled.
+struct PatchSource {
+  static constexpr int radius = 11;
+  static constexpr int size = 2 * radius + 1;
+  static constexpr int stride = 24;
+  std::array<std::uint8_t, size * stride> pixels{};
+};
+
+/// Empty if (u, v) is nearer than 7 px to the border; beyond the border the last pixel is repeated.
+std::optional<PatchSource> cutSource(const ImageView& image, int u, int v);
+
+/// A source as it should look in another view, ready for alignment: a shift is a product of the filters with the image.
+struct alignas(16) PatchTemplate {
+  PatchGrid value{};                   ///< grey levels, smoothed by the spline
+  PatchGrid filter_x{}, filter_y{};    ///< weighted gradient, made blind to offset and gain
+  PatchGrid filter_gain{};             ///< weighted deviation from the mean
+  Eigen::Matrix2d A = Eigen::Matrix2d::Identity();                ///< d(view)/d(source) it was made for
+  Eigen::Matrix2d inverse_hessian = Eigen::Matrix2d::Zero();
+  Eigen::Matrix2d unit_covariance = Eigen::Matrix2d::Zero();      ///< of a shift, for one grey level of white pixel noise in the view
+  double energy = 0.0;                                            ///< weighted variance, grey levels^2
+};
+
+/// Fills `made` with the source warped by A (view = A source). False if it has no texture in some direction, or A is
+/// degenerate (scale outside 0.4 ... 2.5); `made` is then of no use.
+bool warpTemplate(const PatchSource& source, const Eigen::Matrix2d& A, PatchTemplate& made);
+
+struct Alignment {
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();   ///< of the template's middle in the image, px
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero(); ///< px^2, from the noise of this image alone (the template's is common to all views)
+  double gain = 1.0;                                    ///< contrast of the image over that of the template
+  double correlation = 0.0;                             ///< weighted, -1 ... 1
+  double noise = 0.0;                                   ///< standard deviation of a pixel, from the residual, grey levels
+  bool converged = false;                               ///< all else is of no use if false
+};
+
+/// Aligns the template to the image from `start`. Not converged if it leaves the image, moves further than `reach` px, or
+/// the image does not look like the template at all (gain <= 0).
+Alignment alignPatch(const ImageView& image, const PatchTemplate& patch, const Eigen::Vector2d& start, double reach = 3.0);
+
+/// Alignment across a rectified pair: also how the disparity varies over the window.
+struct SlopedAlignment {
+  Alignment alignment;                                   ///< covariance with the slopes marginalised
+  Eigen::Vector2d slopes = Eigen::Vector2d::Zero();      ///< d(disparity)/d(u_left, v_left): a road has (0, baseline / height)
+  Eigen::Matrix2d slopes_covariance = Eigen::Matrix2d::Identity();
+};
+/// `prior_sigma`: standard deviation of the slopes before anything was seen; keeps them where texture says nothing.
+/// `made` returns the template of the other image at the slopes found.
+SlopedAlignment alignAcross(const ImageView& image, const PatchSource& source, const Eigen::Vector2d& start, double prior_sigma,
+                            PatchTemplate& made);
+
+/// 8 columns (-4 ... 3) by 9 rows (-4 ... 4) of grey levels, mean removed.
+struct alignas(16) SadPatch {
+  static constexpr int columns = 8, rows = 9;
+  std::array<std::int16_t, columns * rows> value{};
+};
+SadPatch sadPatch(const PatchTemplate& patch);
+/// (u, v) as for meanRemovedSad.
+SadPatch sadPatch(const ImageView& image, int u, int v);
+/// May the patch stand at (u, v)?
+inline bool sadFits(const ImageView& image, int u, int v) {
+  return u >= 4 && v >= 4 && u + 3 < image.width && v + 4 < image.height;
+}
+/// Sum over the patch of |image - mean(image) - patch|, grey levels; needs sadFits.
+int meanRemovedSad(const SadPatch& patch, const ImageView& image, int u, int v);
+
+}  // namespace urban_nav_core

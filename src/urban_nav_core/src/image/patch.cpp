@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_core/image/patch.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <opencv2/core/hal/intrin.hpp>
+
+namespace urban_nav_core {
+namespace {
+
+using cv::v_float32x4;
+
+constexpr double window_sigma = 3.0;      // px
+constexpr int phases = 256;               // of the spline's table: 1/512 px at most beside the exact phase
+constexpr double smoothed_noise = 0.24;   // variance left of white noise by the spline, mean over the phases (0.25 at 0, 0.21 at 1/2)
+constexpr double min_scale = 0.4, max_scale = 2.5;
+constexpr int max_iterations = 12;
+constexpr double settled_step = 0.003;    // px
+
+std::array<float, 4> spline(double f) {
+  const double g = 1.0 - f;
+  return {static_cast<float>(g * g * g / 6.0), static_cast<float>((3.0 * f * f * f - 6.0 * f * f + 4.0) / 6.0),
+          static_cast<float>((3.0 * g * g * g - 6.0 * g * g + 4.0) / 6.0), static_cast<float>(f * f * f / 6.0)};
+}
+
+struct SplineTable {
+  alignas(16) std::array<std::array<float, 4>, phases + 1> weights;
+  SplineTable() {
+    for (int i = 0; i <= phases; ++i) weights[static_cast<std::size_t>(i)] = spline(static_cast<double>(i) / phases);
+  }
+};
+const SplineTable& splineTable() {
+  static const SplineTable table;
+  return table;
+}
+
+struct Window {
+  alignas(16) PatchGrid weight{};
+  double total = 0.0;
+  Window() {
+    for (int v = 0; v < patch_size; ++v)
+      for (int u = 0; u < patch_size; ++u) {
+        const double r2 = std::pow(u - patch_radius, 2) + std::pow(v - patch_radius, 2);
+        const float w = static_cast<float>(std::exp(-r2 / (2.0 * window_sigma * window_sigma)));
+        weight[static_cast<std::size_t>(v * patch_stride + u)] = w;
+        total += static_cast<double>(w);
+      }
+  }
+};
+const Window& window() {
+  static const Window made;
+  return made;
+}
+
+double sum(const v_float32x4& a) { return static_cast<double>(cv::v_reduce_sum(a)); }
+
+double dot(const PatchGrid& a, const PatchGrid& b) {
+  v_float32x4 total = cv::v_setzero_f32();
+  for (std::size_t i = 0; i < a.size(); i += 4) total += cv::v_load(&a[i]) * cv::v_load(&b[i]);
+  return sum(total);
+}
+
+/// May the window, with the spline's margin, stand at this position?
+bool fits(const ImageView& image, double x, double y) {
+  return x >= patch_radius + 1 && y >= patch_radius + 1 && x < image.width - patch_radius - 2 && y < image.height - patch_radius - 2;
+}
+
+struct Row16 {
+  v_float32x4 part[4];
+};
+
+Row16 loadRow(const std::uint8_t* pixels) {
+  cv::v_uint16x8 low, high;
+  cv::v_expand(cv::v_load(pixels), low, high);
+  cv::v_uint32x4 quarter[4];
+  cv::v_expand(low, quarter[0], quarter[1]);
+  cv::v_expand(high, quarter[2], quarter[3]);
+  Row16 row;
+  for (int i = 0; i < 4; ++i) row.part[i] = cv::v_cvt_f32(cv::v_reinterpret_as_s32(quarter[i]));
+  return row;
+}
+
+/// The window at a sub-pixel position, read through the spline. Needs fits().
+void readWindow(const ImageView& image, double x, double y, PatchGrid& out) {
+  const int u = static_cast<int>(x), v = static_cast<int>(y);
+  const std::array<float, 4> wx = spline(x - u), wy = spline(y - v);
+  const int left = u - patch_radius - 1;
+  const int readable = std::min(16, image.width - left);
+  alignas(16) std::uint8_t edge[16] = {};
+  const auto row = [&](int i) {
+    const std::uint8_t* pixels = image.row(v - patch_radius - 1 + i) + left;
+    if (readable == 16) return loadRow(pixels);
+    std::memcpy(edge, pixels, static_cast<std::size_t>(readable));
+    return loadRow(edge);
+  };
+  alignas(16) float column[patch_size][16];
+  Row16 r0 = row(0), r1 = row(1), r2 = row(2);
+  const v_float32x4 y0 = cv::v_setall_f32(wy[0]), y1 = cv::v_setall_f32(wy[1]), y2 = cv::v_setall_f32(wy[2]), y3 = cv::v_setall_f32(wy[3]);
+  for (int i = 0; i < patch_size; ++i) {
+    const Row16 r3 = row(i + 3);
+    for (int k = 0; k < 4; ++k)
+      cv::v_store_aligned(&column[i][4 * k], y0 * r0.part[k] + y1 * r1.part[k] + (y2 * r2.part[k] + y3 * r3.part[k]));
+    r0 = r1;
+    r1 = r2;
+    r2 = r3;
+  }
+  const v_float32x4 x0 = cv::v_setall_f32(wx[0]), x1 = cv::v_setall_f32(wx[1]), x2 = cv::v_setall_f32(wx[2]), x3 = cv::v_setall_f32(wx[3]);
+  for (int i = 0; i < patch_size; ++i)
+    for (int k = 0; k < 12; k += 4) {
+      const float* c = &column[i][k];
+      const v_float32x4 value = x0 * cv::v_load(c) + x1 * cv::v_load(c + 1) + (x2 * cv::v_load(c + 2) + x3 * cv::v_load(c + 3));
+      cv::v_store(&out[static_cast<std::size_t>(i * patch_stride + k)], value);
+    }
+}
+
+constexpr int wide_size = patch_size + 2, wide_stride = 16;
+using WideGrid = std::array<float, wide_size * wide_stride>;
+
+/// The source warped by the inverse of A, one pixel wider than the window on each side.
+void warpWide(const PatchSource& source, const Eigen::Matrix2d& source_from_view, WideGrid& out) {
+  constexpr int stride = PatchSource::stride;
+  alignas(16) std::array<float, PatchSource::size * stride> pixels;
+  for (std::size_t i = 0; i < pixels.size(); i += 4)
+    cv::v_store_aligned(&pixels[i], cv::v_cvt_f32(cv::v_reinterpret_as_s32(cv::v_load_expand_q(&source.pixels[i]))));
+  const auto& table = splineTable().weights;
+  const float ax = static_cast<float>(source_from_view(0, 0)), ay = static_cast<float>(source_from_view(1, 0));
+  const float bx = static_cast<float>(source_from_view(0, 1)), by = static_cast<float>(source_from_view(1, 1));
+  constexpr float low = 1.0F, high = PatchSource::size - 2.01F;
+  for (int j = 0; j < wide_size; ++j)
+    for (int i = 0; i < wide_size; ++i) {
+      const float du = static_cast<float>(i - patch_radius - 1), dv = static_cast<float>(j - patch_radius - 1);
+      const float x = std::clamp(PatchSource::radius + ax * du + bx * dv, low, high);
+      const float y = std::clamp(PatchSource::radius + ay * du + by * dv, low, high);
+      const int u = static_cast<int>(x), v = static_cast<int>(y);
+      const auto& wx = table[static_cast<std::size_t>((x - static_cast<float>(u)) * phases + 0.5F)];
+      const auto& wy = table[static_cast<std::size_t>((y - static_cast<float>(v)) * phases + 0.5F)];
+      const float* p = &pixels[static_cast<std::size_t>((v - 1) * stride + u - 1)];
+      const v_float32x4 column = cv::v_setall_f32(wy[0]) * cv::v_load(p) + cv::v_setall_f32(wy[1]) * cv::v_load(p + stride) +
+                                 (cv::v_setall_f32(wy[2]) * cv::v_load(p + 2 * stride) + cv::v_setall_f32(wy[3]) * cv::v_load(p + 3 * stride));
+      out[static_cast<std::size_t>(j * wide_stride + i)] = cv::v_reduce_sum(column * cv::v_load(wx.data()));
+    }
+}
+
+/// What white noise of one grey level makes of a filter's product with the smoothed image, for two filters (diagonal and cross terms).
+Eigen::Matrix2d noiseThroughSpline(const PatchGrid& fx, const PatchGrid& fy) {
+  constexpr int n = patch_size + 2;
+  alignas(16) float rows[2][n][16] = {}, both[2][n][16] = {};
+  const PatchGrid* filters[2] = {&fx, &fy};
+  for (int k = 0; k < 2; ++k) {
+    for (int j = 0; j < patch_size; ++j)
+      for (int i = 0; i < patch_size; ++i) {
+        const float f = (*filters[k])[static_cast<std::size_t>(j * patch_stride + i)] / 6.0F;
+        rows[k][j + 1][i] += f;
+        rows[k][j + 1][i + 1] += 4.0F * f;
+        rows[k][j + 1][i + 2] += f;
+      }
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < 16; ++i) {
+        float value = 4.0F * rows[k][j][i];
+        if (j > 0) value += rows[k][j - 1][i];
+        if (j + 1 < n) value += rows[k][j + 1][i];
+        both[k][j][i] = value / 6.0F;
+      }
+  }
+  Eigen::Vector3d s = Eigen::Vector3d::Zero();
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < 16; ++i) {
+      const double x = static_cast<double>(both[0][j][i]), y = static_cast<double>(both[1][j][i]);
+      s += Eigen::Vector3d(x * x, x * y, y * y);
+    }
+  Eigen::Matrix2d made;
+  made << s(0), s(1), s(1), s(2);
+  return made;
+}
+
+/// Takes out of a filter's gradient what an offset or a gain would explain; returns it weighted.
+void makeBlind(const PatchGrid& gradient, const PatchGrid& filter_gain, const PatchGrid& value, double mean, double energy_sum, PatchGrid& out) {
+  const Window& w = window();
+  const double along_offset = dot(gradient, w.weight) / w.total;
+  const double along_gain = dot(gradient, filter_gain) / energy_sum;
+  const v_float32x4 offset = cv::v_setall_f32(static_cast<float>(along_offset - along_gain * mean));
+  const v_float32x4 gain = cv::v_setall_f32(static_cast<float>(along_gain));
+  for (std::size_t i = 0; i < out.size(); i += 4)
+    cv::v_store(&out[i], cv::v_load(&w.weight[i]) * (cv::v_load(&gradient[i]) - offset - gain * cv::v_load(&value[i])));
+}
+
+struct Gradients {
+  PatchGrid x{}, y{};
+};
+
+/// Value and central differences out of the wide grid.
+void split(const WideGrid& wide, PatchTemplate& made, Gradients& gradients) {
+  const v_float32x4 half = cv::v_setall_f32(0.5F);
+  for (int j = 0; j < patch_size; ++j)
+    for (int i = 0; i < 12; i += 4) {
+      const float* p = &wide[static_cast<std::size_t>((j + 1) * wide_stride + i + 1)];
+      const std::size_t at = static_cast<std::size_t>(j * patch_stride + i);
+      cv::v_store(&made.value[at], cv::v_load(p));
+      cv::v_store(&gradients.x[at], half * (cv::v_load(p + 1) - cv::v_load(p - 1)));
+      cv::v_store(&gradients.y[at], half * (cv::v_load(p + wide_stride) - cv::v_load(p - wide_stride)));
+    }
+}
+
+bool makeTemplate(const PatchSource& source, const Eigen::Matrix2d& A, PatchTemplate& made, Gradients& gradients) {
+  const double scale2 = std::abs(A.determinant());
+  if (!(scale2 > min_scale * min_scale && scale2 < max_scale * max_scale)) return false;
+  WideGrid wide{};
+  warpWide(source, A.inverse(), wide);
+  split(wide, made, gradients);
+  made.A = A;
+  const Window& w = window();
+  const double mean = dot(made.value, w.weight) / w.total;
+  const v_float32x4 mean4 = cv::v_setall_f32(static_cast<float>(mean));
+  for (std::size_t i = 0; i < made.value.size(); i += 4)
+    cv::v_store(&made.filter_gain[i], cv::v_load(&w.weight[i]) * (cv::v_load(&made.value[i]) - mean4));
+  const double energy_sum = dot(made.filter_gain, made.value);
+  made.energy = energy_sum / w.total;
+  if (!(made.energy > 1.0)) return false;
+  makeBlind(gradients.x, made.filter_gain, made.value, mean, energy_sum, made.filter_x);
+  makeBlind(gradients.y, made.filter_gain, made.value, mean, energy_sum, made.filter_y);
+  Eigen::Matrix2d hessian;
+  const double cross = dot(made.filter_x, gradients.y);
+  hessian << dot(made.filter_x, gradients.x), cross, cross, dot(made.filter_y, gradients.y);
+  const double trace = hessian.trace(), det = hessian.determinant();
+  if (!(trace > 0.0) || !(det > 1e-4 * trace * trace) || !(trace > w.total)) return false;
+  made.inverse_hessian = hessian.inverse();
+  made.unit_covariance = made.inverse_hessian * noiseThroughSpline(made.filter_x, made.filter_y) * made.inverse_hessian;
+  return true;
+}
+
+struct Reading {
+  Eigen::Vector2d along = Eigen::Vector2d::Zero();
+  double gain = 0.0, mean = 0.0, variance = 0.0;  // weighted, of the image
+};
+
+Reading measure(const PatchGrid& pixels, const PatchTemplate& patch) {
+  const Window& w = window();
+  v_float32x4 x = cv::v_setzero_f32(), y = x, g = x, m = x, q = x;
+  for (std::size_t i = 0; i < pixels.size(); i += 4) {
+    const v_float32x4 p = cv::v_load(&pixels[i]), weighted = p * cv::v_load(&w.weight[i]);
+    x += p * cv::v_load(&patch.filter_x[i]);
+    y += p * cv::v_load(&patch.filter_y[i]);
+    g += p * cv::v_load(&patch.filter_gain[i]);
+    m += weighted;
+    q += weighted * p;
+  }
+  Reading r;
+  r.along = {sum(x), sum(y)};
+  r.mean = sum(m) / w.total;
+  r.variance = std::max(sum(q) / w.total - r.mean * r.mean, 0.0);
+  r.gain = sum(g) / (patch.energy * w.total);
+  return r;
+}
+
+/// Noise of a pixel, correlation and covariance from the residual that is left at the minimum.
+void judge(const Reading& reading, const PatchTemplate& patch, Alignment& alignment) {
+  const double g = reading.gain, explained = g * g * patch.energy;
+  alignment.gain = g;
+  alignment.correlation = g * std::sqrt(patch.energy / std::max(reading.variance, 1e-9));
+  // 4 of about 57 / 2 independent weighted values were spent on position, offset and gain
+  const double residual = std::max(reading.variance - explained, 0.0) * 1.15;
+  const double noise2 = residual / (smoothed_noise * (1.0 + g * g));
+  alignment.noise = std::sqrt(noise2);
+  alignment.covariance = patch.unit_covariance * (std::max(noise2, 1.0 / 12.0) / (g * g));  // no better than rounding to grey levels
+}
+
+}  // namespace
+
+std::optional<PatchSource> cutSource(const ImageView& image, int u, int v) {
+  constexpr int margin = patch_radius + 2;
+  if (image.empty() || u < margin || v < margin || u >= image.width - margin || v >= image.height - margin) return std::nullopt;
+  PatchSource source;
+  for (int j = 0; j < PatchSource::size; ++j) {
+    const std::uint8_t* row = image.row(std::clamp(v - PatchSource::radius + j, 0, image.height - 1));
+    for (int i = 0; i < PatchSource::size; ++i)
+      source.pixels[static_cast<std::size_t>(j * PatchSource::stride + i)] = row[std::clamp(u - PatchSource::radius + i, 0, image.width - 1)];
+  }
+  return source;
+}
+
+bool warpTemplate(const PatchSource& source, const Eigen::Matrix2d& A, PatchTemplate& made) {
+  Gradients gradients;
+  return makeTemplate(source, A, made, gradients);
+}
+
+Alignment alignPatch(const ImageView& image, const PatchTemplate& patch, const Eigen::Vector2d& start, double reach) {
+  Alignment alignment;
+  alignment.position = start;
+  PatchGrid pixels;
+  for (int i = 0; i < max_iterations; ++i) {
+    if (!start.allFinite() || !fits(image, alignment.position.x(), alignment.position.y())) return alignment;
+    readWindow(image, alignment.position.x(), alignment.position.y(), pixels);
+    const Reading reading = measure(pixels, patch);
+    if (!(reading.gain > 0.05)) return alignment;
+    Eigen::Vector2d step = patch.inverse_hessian * reading.along / reading.gain;
+    const double length = step.norm();
+    if (length > 1.0) step /= length;
+    if (length < settled_step) {
+      judge(reading, patch, alignment);
+      alignment.position -= step;
+      alignment.converged = true;
+      return alignment;
+    }
+    alignment.position -= step;
+    if ((alignment.position - start).norm() > reach) return alignment;
+  }
+  return alignment;
+}
+
+SlopedAlignment alignAcross(const ImageView& image, const PatchSource& source, const Eigen::Vector2d& start, double prior_sigma,
+                            PatchTemplate& made) {
+  SlopedAlignment result;
+  Eigen::Vector2d position = start;
+  const Window& w = window();
+  for (int round = 0; round < 4; ++round) {
+    Eigen::Matrix2d A;
+    A << 1.0 - result.slopes.x(), -result.slopes.y(), 0.0, 1.0;
+    Gradients gradients;
+    result.alignment.converged = false;
+    if (!makeTemplate(source, A, made, gradients)) return result;
+    const Alignment found = alignPatch(image, made, position, 4.0);
+    if (!found.converged || (found.position - start).norm() > 4.0) return result;
+    result.alignment = found;
+    position = found.position;
+
+    PatchGrid pixels;
+    if (!fits(image, position.x(), position.y())) return result;
+    readWindow(image, position.x(), position.y(), pixels);
+    const Reading reading = measure(pixels, made);
+    // unknowns: shift x, shift y, slope along u, slope along v; J blind to offset and gain, as in alignPatch
+    std::array<PatchGrid, 4> J, blind;
+    J[0] = gradients.x;
+    J[1] = gradients.y;
+    for (int v = 0; v < patch_size; ++v)
+      for (int u = 0; u < patch_stride; ++u) {
+        const std::size_t at = static_cast<std::size_t>(v * patch_stride + u);
+        J[2][at] = gradients.x[at] * static_cast<float>(u - patch_radius);
+        J[3][at] = gradients.x[at] * static_cast<float>(v - patch_radius);
+      }
+    const double mean = dot(made.value, w.weight) / w.total;
+    Eigen::Matrix4d H;
+    Eigen::Vector4d b;
+    for (std::size_t i = 0; i < 4; ++i) makeBlind(J[i], made.filter_gain, made.value, mean, made.energy * w.total, blind[i]);
+    for (int i = 0; i < 4; ++i) {
+      b(i) = dot(blind[static_cast<std::size_t>(i)], pixels) / reading.gain;
+      for (int j = 0; j < 4; ++j) H(i, j) = dot(blind[static_cast<std::size_t>(i)], J[static_cast<std::size_t>(j)]);
+    }
+    // per weighted pixel; the spline's correlation between neighbours costs about a factor of two
+    const double g2 = found.gain * found.gain;
+    const double noise2 = 2.0 * std::max(found.noise * found.noise, 0.5) * smoothed_noise * (1.0 + g2) / g2;
+    const double prior = noise2 / (prior_sigma * prior_sigma);
+    H.block<2, 2>(2, 2) += prior * Eigen::Matrix2d::Identity();
+    b.tail<2>() -= prior * result.slopes;
+    const Eigen::Matrix4d covariance = H.inverse();
+    const Eigen::Vector4d step = covariance * b;
+    if (!step.allFinite()) return result;
+    result.slopes_covariance = noise2 * covariance.block<2, 2>(2, 2);
+    // the shift's covariance grows by what the slopes leave open
+    const Eigen::Matrix2d opened = covariance.block<2, 2>(0, 0) - H.block<2, 2>(0, 0).inverse();
+    result.alignment.covariance += 0.5 * noise2 * opened;
+    if (round == 3 || step.tail<2>().cwiseAbs().maxCoeff() < 0.01) break;
+    result.slopes += step.tail<2>();
+    if (result.slopes.cwiseAbs().maxCoeff() > 0.9) {
+      result.alignment.converged = false;
+      return result;
+    }
+    position.x() -= step.x();
+    position.y() -= step.y();
+  }
+  return result;
+}
+
+}  // namespace urban_nav_core

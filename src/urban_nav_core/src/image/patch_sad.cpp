@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <opencv2/core/hal/intrin.hpp>
+
+#include "urban_nav_core/image/patch.hpp"
+
+namespace urban_nav_core {
+namespace {
+
+constexpr int sad_count = SadPatch::columns * SadPatch::rows;
+
+std::int16_t roundedMean(int sum) {
+  return static_cast<std::int16_t>((2 * sum + sad_count) / (2 * sad_count));
+}
+
+}  // namespace
+
+SadPatch sadPatch(const PatchTemplate& patch) {
+  double sum = 0.0;
+  for (int v = 0; v < SadPatch::rows; ++v)
+    for (int u = 0; u < SadPatch::columns; ++u)
+      sum += static_cast<double>(patch.value[static_cast<std::size_t>((v + 1) * patch_stride + u + 1)]);
+  const double mean = sum / sad_count;
+  SadPatch made;
+  for (int v = 0; v < SadPatch::rows; ++v)
+    for (int u = 0; u < SadPatch::columns; ++u) {
+      const double value = static_cast<double>(patch.value[static_cast<std::size_t>((v + 1) * patch_stride + u + 1)]);
+      made.value[static_cast<std::size_t>(v * SadPatch::columns + u)] = static_cast<std::int16_t>(std::lround(value - mean));
+    }
+  return made;
+}
+
+SadPatch sadPatch(const ImageView& image, int u, int v) {
+  SadPatch made;
+  int sum = 0;
+  for (int j = 0; j < SadPatch::rows; ++j)
+    for (int i = 0; i < SadPatch::columns; ++i) {
+      const std::uint8_t value = image.at(u - 4 + i, v - 4 + j);
+      made.value[static_cast<std::size_t>(j * SadPatch::columns + i)] = value;
+      sum += value;
+    }
+  for (std::int16_t& value : made.value) value = static_cast<std::int16_t>(value - roundedMean(sum));
+  return made;
+}
+
+int meanRemovedSad(const SadPatch& patch, const ImageView& image, int u, int v) {
+  const std::uint8_t* row = image.row(v - 4) + (u - 4);
+  cv::v_int16x8 pixels[SadPatch::rows];
+  cv::v_int16x8 columns = cv::v_setzero_s16();
+  for (cv::v_int16x8& line : pixels) {
+    line = cv::v_reinterpret_as_s16(cv::v_load_expand(row));
+    columns += line;
+    row += image.stride;
+  }
+  const cv::v_int16x8 mean = cv::v_setall_s16(roundedMean(static_cast<int>(cv::v_reduce_sum(columns))));
+  cv::v_uint16x8 sad = cv::v_setzero_u16();
+  const std::int16_t* wanted = patch.value.data();
+  for (const cv::v_int16x8& line : pixels) {
+    sad += cv::v_absdiff(line - mean, cv::v_load_aligned(wanted));
+    wanted += SadPatch::columns;
+  }
+  return static_cast<int>(cv::v_reduce_sum(sad));
+}
+
+}  // namespace urban_nav_core
