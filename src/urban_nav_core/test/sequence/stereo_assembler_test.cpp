@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_core/sequence/stereo_assembler.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+
+namespace urban_nav_core {
+namespace {
+
+constexpr StampNs ms = 1'000'000;
+
+OwnedImage image(StampNs stamp, std::uint8_t value) {
+  auto pixels = std::make_shared<std::vector<std::uint8_t>>(16, value);
+  return {stamp, ImageView{pixels->data(), 4, 4, 4}, pixels};
+}
+
+MotionInput motion(StampNs from, StampNs to) {
+  MotionInput input;
+  input.from = from;
+  input.to = to;
+  return input;
+}
+
+TEST(StereoAssembler, partnersLeaveTogetherWhicheverComesFirst) {
+  StereoAssembler assembler;
+  assembler.addLeft(image(100 * ms, 1));
+  EXPECT_FALSE(assembler.take());
+  assembler.addRight(image(101 * ms, 2));
+  assembler.addRight(image(149 * ms, 4));
+  assembler.addLeft(image(150 * ms, 3));
+  const auto first = assembler.take(), second = assembler.take();
+  ASSERT_TRUE(first && second);
+  EXPECT_FALSE(assembler.take());
+  EXPECT_EQ(first->pair.stamp, 100 * ms);
+  EXPECT_EQ(first->pair.left.at(0, 0), 1);
+  EXPECT_EQ(first->pair.right.at(0, 0), 2);
+  EXPECT_EQ(second->pair.stamp, 150 * ms);
+  EXPECT_EQ(second->pair.left.at(3, 3), 3);
+  EXPECT_EQ(second->pair.right.at(3, 3), 4);
+  EXPECT_EQ(assembler.leftsMissing() + assembler.rightsMissing(), 0);
+}
+
+TEST(StereoAssembler, anImageWithoutPartnerLeavesAloneOnceALaterOneShowsIt) {
+  StereoAssembler assembler;
+  assembler.addLeft(image(100 * ms, 1));
+  assembler.addLeft(image(150 * ms, 3));
+  auto lone = assembler.take();
+  ASSERT_TRUE(lone);
+  EXPECT_EQ(lone->pair.stamp, 100 * ms);
+  EXPECT_FALSE(lone->pair.left.empty());
+  EXPECT_TRUE(lone->pair.right.empty());
+
+  assembler.addRight(image(200 * ms, 6));
+  lone = assembler.take();
+  ASSERT_TRUE(lone);
+  EXPECT_EQ(lone->pair.stamp, 150 * ms);
+  EXPECT_FALSE(assembler.take());
+
+  assembler.finish();
+  lone = assembler.take();
+  ASSERT_TRUE(lone);
+  EXPECT_EQ(lone->pair.stamp, 200 * ms);
+  EXPECT_TRUE(lone->pair.left.empty());
+  EXPECT_EQ(assembler.rightsMissing(), 2);
+  EXPECT_EQ(assembler.leftsMissing(), 1);
+  assembler.finish();
+  EXPECT_FALSE(assembler.take());
+}
+
+TEST(StereoAssembler, toleranceIsTheLargestDifferenceThatPairs) {
+  StereoAssembler assembler(10 * ms);
+  assembler.addLeft(image(100 * ms, 1));
+  assembler.addRight(image(110 * ms, 1));
+  EXPECT_TRUE(assembler.take());
+  assembler.addLeft(image(200 * ms, 1));
+  assembler.addRight(image(210 * ms + 1, 1));
+  const auto lone = assembler.take();
+  ASSERT_TRUE(lone);
+  EXPECT_TRUE(lone->pair.right.empty());
+}
+
+TEST(StereoAssembler, aPairTakesTheMotionThatEndedBeforeIt) {
+  StereoAssembler assembler;
+  for (StampNs t = 0; t < 200; t += 20) assembler.addMotion(motion(t * ms, (t + 20) * ms));
+  assembler.addLeft(image(100 * ms, 1));
+  assembler.addRight(image(100 * ms, 1));
+  assembler.addLeft(image(150 * ms, 1));
+  assembler.addRight(image(150 * ms, 1));
+  const auto first = assembler.take(), second = assembler.take();
+  ASSERT_TRUE(first && second);
+  ASSERT_EQ(first->inputs.size(), 5U);
+  EXPECT_EQ(first->inputs.back().to, 100 * ms);
+  ASSERT_EQ(second->inputs.size(), 2U);
+  EXPECT_EQ(second->inputs.front().from, 100 * ms);
+  EXPECT_EQ(second->inputs.back().to, 140 * ms);
+}
+
+TEST(StereoAssembler, pixelsLiveAsLongAsThePair) {
+  StereoAssembler assembler;
+  std::weak_ptr<const void> alive;
+  {
+    OwnedImage left = image(1, 42);
+    alive = left.owner;
+    assembler.addLeft(std::move(left));
+  }
+  assembler.addRight(image(1, 43));
+  auto pair = assembler.take();
+  ASSERT_TRUE(pair);
+  EXPECT_FALSE(alive.expired());
+  EXPECT_EQ(pair->pair.left.at(2, 2), 42);
+  pair.reset();
+  EXPECT_TRUE(alive.expired());
+}
+
+}  // namespace
+}  // namespace urban_nav_core
