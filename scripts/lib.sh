@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # What the scripts at the top of the repository share: packages, the workspace in build/, building with one lock.
-# shellcheck shell=bash
+# shellcheck shell=bash disable=SC2119,SC2120
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 build=$root/build
@@ -25,18 +25,18 @@ as_root() {
   if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi
 }
 
-# Lines of the package list FILE that are not installed.
+# missing_packages [PACKAGE...]: what of packages.apt and of these is not installed.
 missing_packages() {
-  comm -23 <(sed 's/#.*//; s/ //g; /^$/d' "$1" | sort -u) \
+  comm -23 <({ sed 's/#.*//; s/ //g; /^$/d' "$root/packages.apt"; printf '%s\n' "$@" | sed '/^$/d'; } | sort -u) \
            <(dpkg-query -W -f='${db:Status-Abbrev}${Package}\n' | sed -n 's/^ii *//p' | sort -u)
 }
 
-# install_packages [FILE]: what is missing of packages.apt (or FILE), nothing where all is there.
+# install_packages [PACKAGE...]: what is missing of packages.apt and of these; nothing where all is there.
 install_packages() {
-  local list=${1:-$root/packages.apt} missing
+  local missing
   if [ -d /opt/ros/noetic ]; then return; fi  # Ubuntu has other names: rosdep knows them from the package.xml files
-  command -v dpkg-query >/dev/null || die "no dpkg here; install by hand what $list names"
-  mapfile -t missing < <(missing_packages "$list")
+  command -v dpkg-query >/dev/null || die "no dpkg here; install by hand what packages.apt names"
+  mapfile -t missing < <(missing_packages "$@")
   if [ ${#missing[@]} = 0 ]; then return; fi
   say "Installing ${#missing[@]} packages of Debian: ${missing[*]}"
   mkdir -p "$build"
@@ -72,6 +72,7 @@ configure() {
   rm -f "$folder/configured"
   if command -v ccache >/dev/null; then set -- "$@" -DCMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
   if ! cmake -S "$ws/src" -B "$folder/build" -G Ninja -DPYTHON_EXECUTABLE=/usr/bin/python3 \
+      -DCMAKE_EXPORT_COMPILE_COMMANDS=ON \
       -DCATKIN_DEVEL_PREFIX="$folder/devel" -DCMAKE_INSTALL_PREFIX="$folder/install" "$@" >"$folder/configure.log" 2>&1; then
     grep -A12 -i 'error' "$folder/configure.log" >&2 || tail -20 "$folder/configure.log" >&2
     die "CMake did not configure (all of it: ${folder#"$root"/}/configure.log)"

@@ -1,0 +1,61 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sums up the XML files of gtest and rostest, names what failed and what compiled slowest, and ends with the one line that counts.
+
+Exit status 0 if something passed and nothing failed.
+"""
+import argparse
+import sys
+import xml.etree.ElementTree as xml
+from pathlib import Path
+
+
+def read(path):
+    """(passed, failed, skipped, [what failed]) of one file; a file that cannot be read is a failure."""
+    try:
+        cases = list(xml.parse(path).getroot().iter("testcase"))
+    except (xml.ParseError, OSError) as error:
+        return 0, 1, 0, [f"{path.name}: {error}"]
+    failed = [c for c in cases if c.find("failure") is not None or c.find("error") is not None]
+    skipped = [c for c in cases if c not in failed and (c.find("skipped") is not None or c.get("status") == "notrun")]
+    names = [f"{path.parent.name}: {c.get('classname', '')}.{c.get('name', '')}" for c in failed]
+    return len(cases) - len(failed) - len(skipped), len(failed), len(skipped), names
+
+
+def compile_times(log):
+    """{object file: seconds} of a ninja log, the last entry of each file."""
+    times = {}
+    if log.exists():
+        for line in log.read_text().splitlines()[1:]:
+            start, end, _, output, *_ = line.split("\t")
+            if output.endswith(".o"):
+                times[output.replace("CMakeFiles/", "")] = (int(end) - int(start)) / 1000
+    return times
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--failed-steps", type=int, default=0)
+    parser.add_argument("--ninja-log", type=Path, action="append", default=[])
+    parser.add_argument("folders", type=Path, nargs="*")
+    arguments = parser.parse_args()
+
+    for log in arguments.ninja_log:
+        times = sorted(compile_times(log).items(), key=lambda item: -item[1])[:10]
+        if times:
+            print(f"The slowest files of {log.parent.parent.name}, s:")
+            for name, seconds in times:
+                print(f"  {seconds:6.1f}  {name}")
+
+    passed, failed, skipped = 0, arguments.failed_steps, 0
+    for path in sorted(p for folder in arguments.folders for p in folder.rglob("*.xml")):
+        counts = read(path)
+        passed, failed, skipped = passed + counts[0], failed + counts[1], skipped + counts[2]
+        for name in counts[3]:
+            print(f"FAILED {name}")
+    print(f"{passed} passed, {failed} failed" + (f", {skipped} skipped" if skipped else ""))
+    return 0 if passed and not failed else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,69 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Keeps the tables of the READMEs equal to the measurements they show.
+
+`<!-- table: swf_vo/bench/accuracy -->` ... `<!-- end -->` in any README.md holds the rendering of
+swf_vo/bench/results/accuracy.json: {"columns": [...], "rows": [[...], ...], "machine": ..., "commit": ..., "command": ...}.
+Without an option the texts are compared and a difference is an error; --write renders them anew.
+"""
+import argparse
+import difflib
+import json
+import re
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+TABLE = re.compile(r"(<!-- table: (\S+) -->\n)(.*?)(<!-- end -->)", re.S)
+START = re.compile(r"<!-- table:")
+
+
+def readmes():
+    return sorted(p for p in ROOT.rglob("README.md") if p.relative_to(ROOT).parts[0] not in ("build", "out", ".git"))
+
+
+def render(name):
+    """The Markdown of one table; numbers stand as the file writes them."""
+    path = (ROOT / name).parent / "results" / (Path(name).name + ".json")
+    if not path.is_file():
+        raise ValueError(f"{path.relative_to(ROOT)} does not exist")
+    data = json.loads(path.read_text(), parse_float=str, parse_int=str)
+    missing = [key for key in ("columns", "rows", "machine", "commit", "command") if key not in data]
+    if missing:
+        raise ValueError(f"{path.relative_to(ROOT)} lacks {', '.join(missing)}")
+    wrong = [row for row in data["rows"] if len(row) != len(data["columns"])]
+    if wrong:
+        raise ValueError(f"{path.relative_to(ROOT)}: {len(data['columns'])} columns, but a row is {wrong[0]}")
+    rows = [data["columns"], ["---"] * len(data["columns"]), *data["rows"]]
+    lines = ["| " + " | ".join("" if cell is None else str(cell) for cell in row) + " |" for row in rows]
+    return "\n".join(lines) + f"\n\n<sub>`{data['command']}` on {data['machine']}, commit {data['commit']}</sub>\n"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--write", action="store_true", help="render the tables into the READMEs")
+    write = parser.parse_args().write
+    errors = 0
+    for path in readmes():
+        old = path.read_text()
+        try:
+            if len(START.findall(old)) != len(TABLE.findall(old)):
+                raise ValueError("a table has no <!-- end -->")
+            new = TABLE.sub(lambda match: match[1] + render(match[2]) + match[4], old)
+        except ValueError as error:
+            print(f"{path.relative_to(ROOT)}: {error}", file=sys.stderr)
+            errors += 1
+            continue
+        if new == old:
+            continue
+        if write:
+            path.write_text(new)
+            continue
+        print(f"{path.relative_to(ROOT)} is not what was measured; scripts/tables.py --write renders it", file=sys.stderr)
+        sys.stderr.writelines(difflib.unified_diff(old.splitlines(True), new.splitlines(True), "README.md", "measured", n=1))
+        errors += 1
+    return 1 if errors else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
