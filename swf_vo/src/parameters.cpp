@@ -8,7 +8,7 @@ namespace swf_vo {
 using urban_nav_core::Row;
 using urban_nav_core::Table;
 
-Parameters::Parameters() { *this = table().defaults(); }
+Parameters::Parameters() { table().setDefaults(*this); }
 
 const Table<Parameters>& table() {
   using P = Parameters;

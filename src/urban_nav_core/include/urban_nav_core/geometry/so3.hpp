@@ -21,7 +21,7 @@ Vector3d logSo3(const Quaterniond& q);
 
 /// Left Jacobian of SO(3): Exp(phi + d) = Exp(J d) Exp(phi) to first order (Barfoot, State Estimation for Robotics, eq. 7.77).
 Matrix3d leftJacobianSo3(const Vector3d& phi);
-/// Its inverse; defined for |phi| < 2 pi.
+/// Its inverse (eq. 7.76 there); defined for |phi| < 2 pi.
 Matrix3d leftJacobianInverseSo3(const Vector3d& phi);
 
 }  // namespace urban_nav_core

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <iosfwd>
+
 #include "urban_nav_core/geometry/se3.hpp"
 #include "urban_nav_core/types/stamp.hpp"
 
@@ -14,5 +16,8 @@ struct MotionInput {
   Pose T_from_to;                              ///< of base_link
   Matrix6d information = Matrix6d::Zero();     ///< of (rho, phi) in `from`; may be singular
 };
+
+bool isApprox(const MotionInput& a, const MotionInput& b, double tolerance);
+std::ostream& operator<<(std::ostream& out, const MotionInput& value);
 
 }  // namespace urban_nav_core

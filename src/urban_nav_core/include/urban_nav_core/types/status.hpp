@@ -2,7 +2,9 @@
 #pragma once
 
 #include <iosfwd>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace urban_nav_core {
 
@@ -16,6 +18,8 @@ enum class Health {
 
 /// "OK", "DEGRADED", "LOST", "RECOVERED".
 const char* toString(Health health);
+/// The inverse of toString; empty for any other word.
+std::optional<Health> parseHealth(std::string_view text);
 std::ostream& operator<<(std::ostream& out, Health health);
 
 /// Health with its reason: an enumerator of the stage (0: none) and a sentence for a person.
@@ -26,6 +30,7 @@ struct Status {
 };
 
 bool operator==(const Status& a, const Status& b);
+/// "DEGRADED: 11 features, 20 wanted".
 std::ostream& operator<<(std::ostream& out, const Status& status);
 
 }  // namespace urban_nav_core

@@ -30,9 +30,22 @@ struct RelativePose {
   std::string source;  ///< which odometry ("swf_vo")
 };
 
+/// A measured T_a_b that may leave directions free: what a closure or a plane seen again says.
+///
+/// WARNING: `information` may be singular and must never be inverted. Tangent and frame as in UncertainPose; a
+/// direction that is not observed has zero information, not a small one.
+struct Constraint {
+  Pose T_a_b;
+  Matrix6d information = Matrix6d::Zero();
+};
+
+/// Poses equal within `tolerance` (m, rad), every element of the matrices within `tolerance`; stamps, status and source exactly.
 bool isApprox(const UncertainPose& a, const UncertainPose& b, double tolerance);
 bool isApprox(const RelativePose& a, const RelativePose& b, double tolerance);
+bool isApprox(const Constraint& a, const Constraint& b, double tolerance);
+/// The pose with the standard deviations of its six coordinates.
 std::ostream& operator<<(std::ostream& out, const UncertainPose& value);
 std::ostream& operator<<(std::ostream& out, const RelativePose& value);
+std::ostream& operator<<(std::ostream& out, const Constraint& value);
 
 }  // namespace urban_nav_core

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_core/types/error.hpp"
+
+#include <utility>
+
+namespace urban_nav_core {
+namespace {
+
+std::string join(const UserError::Parts& parts) {
+  std::string text;
+  const auto append = [&text](const std::string& part, const char* before) {
+    if (part.empty()) return;
+    if (!text.empty()) text += ": ";
+    text += before + part;
+  };
+  append(parts.where, "");
+  append(parts.found, "");
+  append(parts.allowed, "allowed ");
+  return text;
+}
+
+}  // namespace
+
+UserError::UserError(Parts parts) : std::runtime_error(join(parts)), parts_(std::move(parts)) {}
+
+UserError::UserError(std::string where, std::string found, std::string allowed)
+    : UserError(Parts{std::move(where), std::move(found), std::move(allowed)}) {}
+
+std::string atLine(const std::string& path, int line) { return line > 0 ? path + ":" + std::to_string(line) : path; }
+
+}  // namespace urban_nav_core

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_core/types/motion_input.hpp"
+
+#include <ostream>
+
+namespace urban_nav_core {
+
+bool isApprox(const MotionInput& a, const MotionInput& b, double tolerance) {
+  return a.from == b.from && a.to == b.to && isApprox(a.T_from_to, b.T_from_to, tolerance) &&
+         ((a.information - b.information).array().abs() <= tolerance).all();
+}
+
+std::ostream& operator<<(std::ostream& out, const MotionInput& value) {
+  return out << printStamp(value.from) << " -> " << printStamp(value.to) << " s: " << value.T_from_to
+             << ", information diagonal = (" << value.information.diagonal().transpose() << ")";
+}
+
+}  // namespace urban_nav_core
