@@ -112,7 +112,7 @@ endfunction()
 if(TARGET urban_nav_core_testing OR PROJECT_NAME STREQUAL "urban_nav_core")
   set(urban_nav_testing_library urban_nav_core_testing)
 else()
-  find_package(OpenCV REQUIRED COMPONENTS core imgcodecs imgproc)
+  find_package(OpenCV REQUIRED COMPONENTS calib3d core imgcodecs imgproc)
   set(urban_nav_testing_library
     ${urban_nav_core_DIR}/../../../lib/${CMAKE_STATIC_LIBRARY_PREFIX}urban_nav_core_testing${CMAKE_STATIC_LIBRARY_SUFFIX}
     urban_nav_core opencv_core opencv_imgcodecs opencv_imgproc)
