@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+namespace urban_nav_core {
+
+/// A corner at a whole pixel of one pyramid level.
+struct Corner {
+  std::int16_t u = 0, v = 0;  ///< px of its level
+  std::uint8_t fast = 0;      ///< score of FAST (fast.hpp), grey levels
+  float harris = 0.0F;        ///< score of Harris (harris.hpp)
+};
+
+inline bool operator==(const Corner& a, const Corner& b) {
+  return a.u == b.u && a.v == b.v && a.fast == b.fast && a.harris == b.harris;
+}
+
+}  // namespace urban_nav_core
