@@ -135,7 +135,8 @@ void collectRow(const ScoreRows& rows, int v, int width, bool suppress, std::vec
   for (int u = Fast::kRadius; u < width - Fast::kRadius; u += kLanes) {
     int kept = keptOfSixteen(rows, u, suppress);
     for (int i = u; kept != 0; ++i, kept >>= 1) {
-      if ((kept & 1) != 0) corners.push_back({static_cast<std::int16_t>(i), static_cast<std::int16_t>(v), rows.here[i], 0.0F});
+      if ((kept & 1) != 0)
+        corners.push_back({static_cast<std::int16_t>(i), static_cast<std::int16_t>(v), rows.here[i], 0.0F});
     }
   }
 }

@@ -65,12 +65,26 @@ Sums sumProducts(const ImageView& image, int u, int v) {
 }  // namespace
 
 GradientMatrix gradientMatrix(const ImageView& image, int u, int v) {
-  assert(u >= kHarrisMargin && v >= kHarrisMargin && u < image.width - kHarrisMargin && v < image.height - kHarrisMargin);
+  assert(u >= kHarrisMargin && v >= kHarrisMargin && u < image.width - kHarrisMargin &&
+         v < image.height - kHarrisMargin);
   constexpr float kPixels = (2 * kHarrisRadius + 1) * (2 * kHarrisRadius + 1);
   constexpr float kSobel = 8.0F;  // the sum of Sobel's weights times the two pixels it spans
   constexpr float kScale = 1.0F / (kPixels * kSobel * kSobel);
   const Sums sums = sumProducts(image, u, v);
-  return {static_cast<float>(sums.uu) * kScale, static_cast<float>(sums.uv) * kScale, static_cast<float>(sums.vv) * kScale};
+  return {static_cast<float>(sums.uu) * kScale, static_cast<float>(sums.uv) * kScale,
+          static_cast<float>(sums.vv) * kScale};
+}
+
+void scoreByHarris(const ImageView& image, std::vector<Corner>& corners) {
+  std::size_t out = 0;
+  for (Corner corner : corners) {
+    const bool has_window = corner.u >= kHarrisMargin && corner.v >= kHarrisMargin &&
+                            corner.u < image.width - kHarrisMargin && corner.v < image.height - kHarrisMargin;
+    if (!has_window) continue;
+    corner.harris = gradientMatrix(image, corner.u, corner.v).harris();
+    corners[out++] = corner;
+  }
+  corners.resize(out);
 }
 
 }  // namespace urban_nav_core

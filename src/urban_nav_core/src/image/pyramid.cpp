@@ -48,7 +48,8 @@ void smoothAcross(const std::int16_t* row, int width, std::uint8_t* out) {
   const v_int32x4 half = cv::v_setall_s32(128);
   const auto four = [&](const std::int16_t* p) {
     return (cv::v_dotprod(cv::v_load(p - 2), before) + cv::v_dotprod(cv::v_load(p), here) +
-            cv::v_dotprod(cv::v_load(p + 2), after) + half) >> 8;
+            cv::v_dotprod(cv::v_load(p + 2), after) + half) >>
+           8;
   };
   for (; u < width; u += 16) {
     const std::int16_t* p = row + 2 * u;

@@ -75,7 +75,8 @@ TEST(CornerCap, KeepsTheBestOfEachCell) {
   // The left half is busy, the right half has few and weak corners.
   std::vector<Corner> corners = randomCorners(600, 96, 96, 4);
   for (const Corner& weak : randomCorners(40, 96, 96, 5)) {
-    corners.push_back({static_cast<std::int16_t>(weak.u + 96), weak.v, static_cast<std::uint8_t>(5 + weak.fast / 4), weak.harris});
+    corners.push_back(
+        {static_cast<std::int16_t>(weak.u + 96), weak.v, static_cast<std::uint8_t>(5 + weak.fast / 4), weak.harris});
   }
   std::vector<Corner> kept = corners;
   CornerCap(quota).apply(kept, 192, 96);

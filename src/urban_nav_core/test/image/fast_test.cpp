@@ -18,7 +18,9 @@ namespace {
 
 using Place = std::pair<int, int>;  // v, u: in reading order
 
-ImageView view(const cv::Mat& image) { return {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)}; }
+ImageView view(const cv::Mat& image) {
+  return {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)};
+}
 
 /// Noise smoothed over `sigma` px and stretched: corners of all scores.
 cv::Mat randomImage(int width, int height, double sigma, unsigned seed) {
@@ -48,7 +50,7 @@ std::set<Place> places(const std::vector<Corner>& corners) {
 
 /// The definition, one pixel at a time: the smallest threshold at which no nine neighbours stand out.
 int plainScore(const cv::Mat& image, int v, int u) {
-  const int circle[16][2] = {{0, 3}, {1, 3}, {2, 2}, {3, 1}, {3, 0}, {3, -1}, {2, -2}, {1, -3},
+  const int circle[16][2] = {{0, 3},  {1, 3},   {2, 2},   {3, 1},   {3, 0},  {3, -1}, {2, -2}, {1, -3},
                              {0, -3}, {-1, -3}, {-2, -2}, {-3, -1}, {-3, 0}, {-3, 1}, {-2, 2}, {-1, 3}};
   const int centre = image.at<std::uint8_t>(v, u);
   int threshold = 0;
@@ -71,9 +73,8 @@ void expectAsOpenCv(const cv::Mat& image, const std::string& name) {
   for (const int threshold : {0, 5, 12, 20, 60, 200, 254}) {
     const std::vector<Corner>& corners = fast.detect(view(image), threshold, Fast::Suppression::None);
     EXPECT_EQ(places(corners), byOpenCv(image, threshold)) << name << ", threshold " << threshold;
-    EXPECT_TRUE(std::is_sorted(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) {
-      return Place(a.v, a.u) < Place(b.v, b.u);
-    }));
+    EXPECT_TRUE(std::is_sorted(corners.begin(), corners.end(),
+                               [](const Corner& a, const Corner& b) { return Place(a.v, a.u) < Place(b.v, b.u); }));
   }
 }
 
@@ -81,7 +82,8 @@ TEST(Fast, FindsTheSetOfOpenCvOnRandomImages) {
   unsigned seed = 1;
   for (const auto& [width, height] : {std::pair{160, 120}, {161, 47}, {23, 31}, {22, 22}, {21, 9}, {10, 10}, {7, 7}}) {
     for (const double sigma : {0.0, 0.8, 2.0}) {
-      expectAsOpenCv(randomImage(width, height, sigma, seed++), std::to_string(width) + " wide, sigma " + std::to_string(sigma));
+      expectAsOpenCv(randomImage(width, height, sigma, seed++),
+                     std::to_string(width) + " wide, sigma " + std::to_string(sigma));
     }
   }
 }
@@ -89,7 +91,8 @@ TEST(Fast, FindsTheSetOfOpenCvOnRandomImages) {
 TEST(Fast, FindsTheSetOfOpenCvOnRealImages) {
   const char* data = std::getenv("URBAN_NAV_DATA");
   const std::string file = std::string(data != nullptr ? data : "") + "/stereo/kitti06_000_050/image_0/000000.png";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "URBAN_NAV_DATA does not name a folder with stereo/kitti06_000_050";
+  if (!std::filesystem::exists(file))
+    GTEST_SKIP() << "URBAN_NAV_DATA does not name a folder with stereo/kitti06_000_050";
   expectAsOpenCv(cv::imread(file, cv::IMREAD_GRAYSCALE), file);
 }
 
@@ -115,7 +118,8 @@ TEST(Fast, SuppressionKeepsLocalMaximaAndOneOfEquals) {
   image /= 12;  // few grey levels, many equal scores
   Fast fast;
   std::map<Place, int> scores;
-  for (const Corner& corner : fast.detect(view(image), 1, Fast::Suppression::None)) scores[{corner.v, corner.u}] = corner.fast;
+  for (const Corner& corner : fast.detect(view(image), 1, Fast::Suppression::None))
+    scores[{corner.v, corner.u}] = corner.fast;
   std::set<Place> expected;
   int ties = 0;
   for (const auto& [place, score] : scores) {

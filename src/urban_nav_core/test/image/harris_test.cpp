@@ -20,7 +20,9 @@ cv::Mat randomImage(int width, int height, unsigned seed) {
   return image;
 }
 
-ImageView view(const cv::Mat& image) { return {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)}; }
+ImageView view(const cv::Mat& image) {
+  return {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)};
+}
 
 GradientMatrix plain(const cv::Mat& image, int u, int v) {
   double uu = 0.0, uv = 0.0, vv = 0.0;
@@ -72,6 +74,17 @@ TEST(Harris, CornersArePositiveEdgesNegativeNothingIsZero) {
   EXPECT_GT(gradientMatrix(view(image), 20, 20).harris(), 1e3F);
   EXPECT_LT(gradientMatrix(view(image), 20, 33).harris(), -1e3F);
   EXPECT_EQ(gradientMatrix(view(image), 8, 8).harris(), 0.0F);
+}
+
+TEST(Harris, ScoresCornersInTheirOrderAndDropsThoseAtTheBorder) {
+  const cv::Mat image = randomImage(40, 30, 9);
+  std::vector<Corner> corners{
+      {3, 10, 7, 0.0F}, {20, 20, 8, 0.0F}, {4, 4, 9, 0.0F}, {20, 26, 10, 0.0F}, {35, 25, 11, 0.0F}};
+  scoreByHarris(view(image), corners);
+  ASSERT_EQ(corners.size(), 3U);
+  EXPECT_EQ(corners[0], (Corner{20, 20, 8, gradientMatrix(view(image), 20, 20).harris()}));
+  EXPECT_EQ(corners[1].fast, 9);
+  EXPECT_EQ(corners[2].fast, 11);
 }
 
 TEST(Harris, HoldsTheSteepestContrast) {

@@ -10,7 +10,9 @@
 namespace urban_nav_core {
 namespace {
 
-ImageView view(const cv::Mat& image) { return {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)}; }
+ImageView view(const cv::Mat& image) {
+  return {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)};
+}
 
 cv::Mat noise(int width, int height, unsigned seed) {
   std::mt19937 random(seed);
@@ -46,7 +48,8 @@ cv::Mat reduced(const cv::Mat& below) {
 }
 
 TEST(Pyramid, EveryPixelIsByTheDefinitionAtOddAndEvenSizes) {
-  for (const auto& [width, height] : {std::pair{64, 48}, {65, 49}, {97, 33}, {161, 47}, {16, 16}, {31, 18}, {3, 2}, {1, 1}}) {
+  for (const auto& [width, height] :
+       {std::pair{64, 48}, {65, 49}, {97, 33}, {161, 47}, {16, 16}, {31, 18}, {3, 2}, {1, 1}}) {
     cv::Mat expected = noise(width, height, static_cast<unsigned>(width));
     Pyramid pyramid(4);
     pyramid.build(view(expected));
@@ -57,7 +60,8 @@ TEST(Pyramid, EveryPixelIsByTheDefinitionAtOddAndEvenSizes) {
       ASSERT_EQ(pyramid.level(l).height, expected.rows);
       for (int v = 0; v < expected.rows; ++v) {
         for (int u = 0; u < expected.cols; ++u) {
-          ASSERT_EQ(pyramid.level(l).at(u, v), expected.at<std::uint8_t>(v, u)) << width << "x" << height << " level " << l << " at " << u << ", " << v;
+          ASSERT_EQ(pyramid.level(l).at(u, v), expected.at<std::uint8_t>(v, u))
+              << width << "x" << height << " level " << l << " at " << u << ", " << v;
         }
       }
     }
@@ -73,7 +77,8 @@ TEST(Pyramid, AgreesWithOpenCv) {
   for (int l = 0; l < 3; ++l) {
     if (l > 0) cv::pyrDown(cv::Mat(expected), expected);
     const ImageView& level = pyramid.level(l);
-    const cv::Mat actual(level.height, level.width, CV_8U, const_cast<std::uint8_t*>(level.data), static_cast<std::size_t>(level.stride));
+    const cv::Mat actual(level.height, level.width, CV_8U, const_cast<std::uint8_t*>(level.data),
+                         static_cast<std::size_t>(level.stride));
     EXPECT_EQ(cv::norm(actual, expected, cv::NORM_INF), 0.0) << "level " << l;
   }
 }

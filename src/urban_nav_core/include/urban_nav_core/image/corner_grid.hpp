@@ -81,9 +81,9 @@ class CornerCap {
 
  private:
   CornerQuota quota_;
-  std::vector<int> histograms_;   ///< of scores, 256 per cell
-  std::vector<int> limits_;       ///< per cell: the lowest score that may stay
-  std::vector<int> room_;         ///< per cell: how many of that score
+  std::vector<int> histograms_;  ///< of scores, 256 per cell
+  std::vector<int> limits_;      ///< per cell: the lowest score that may stay
+  std::vector<int> room_;        ///< per cell: how many of that score
 };
 
 }  // namespace urban_nav_core

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
+#include "urban_nav_core/image/corner.hpp"
 #include "urban_nav_core/image/view.hpp"
 
 namespace urban_nav_core {
@@ -8,9 +11,9 @@ namespace urban_nav_core {
 /// The score of Harris and Stephens (1988): det(M) - k trace(M)^2, where M is the mean over a window of 7x7 pixels of
 /// the products of the gradients (Iu^2, Iu Iv, Iv^2), in grey levels per pixel; gradients by Sobel's operator / 8.
 /// Positive at corners, negative at edges, near zero where there is nothing.
-constexpr int kHarrisRadius = 3;     ///< px, half-width of the window
-constexpr int kHarrisMargin = 4;     ///< px, that the window and its gradients reach from the pixel
-constexpr float kHarrisK = 0.04F;    ///< Harris and Stephens (1988)
+constexpr int kHarrisRadius = 3;   ///< px, half-width of the window
+constexpr int kHarrisMargin = 4;   ///< px, that the window and its gradients reach from the pixel
+constexpr float kHarrisK = 0.04F;  ///< Harris and Stephens (1988)
 
 /// M itself, for who wants its eigenvalues.
 struct GradientMatrix {
@@ -21,5 +24,8 @@ struct GradientMatrix {
 
 /// Of the window about pixel (u, v), at least kHarrisMargin from every border. Integer sums: the same on every machine.
 GradientMatrix gradientMatrix(const ImageView& image, int u, int v);
+
+/// Fills Corner::harris; drops corners nearer to a border than kHarrisMargin. Keeps the order.
+void scoreByHarris(const ImageView& image, std::vector<Corner>& corners);
 
 }  // namespace urban_nav_core
