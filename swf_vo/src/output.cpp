@@ -26,6 +26,10 @@ Matrix6d moved(const Matrix6d& covariance, const Matrix6d& jacobian) {
 // Pictures and clouds show what is near enough to mean something.
 constexpr double far_away = 200.0;  // m
 
+// What is said of the velocity in the first frame of a session.
+constexpr double unknown_speed = 10.0;         // m/s
+constexpr double unknown_angular_speed = 1.0;  // rad/s
+
 }  // namespace
 
 Output::Output(const Pose& T_base_camera)
@@ -73,14 +77,35 @@ void Output::list(const Window& window, const FrontEndResult* seen) {
   frame_.statistics.track_length_mean = frame_.features.empty() ? 0.0 : ages / static_cast<double>(frame_.features.size());
 }
 
-const Frame& Output::write(FrameId frame, StampNs stamp, const Status& status, const Window& window, const FrontEndResult* seen,
-                           const UpdateReport& update) {
+Velocity Output::velocity(FrameId frame, StampNs stamp, bool lost, const Window& window, const ProcessInput& u) const {
+  Velocity velocity;
+  velocity.covariance.diagonal() << Eigen::Vector3d::Constant(unknown_speed * unknown_speed),
+      Eigen::Vector3d::Constant(unknown_angular_speed * unknown_angular_speed);
+  if (waiting_.empty()) return velocity;
+  const double seconds = urban_nav_core::secondsBetween(waiting_.back().stamp, stamp);
+  const Pose last = window.hasPose(frame - 1) ? window.pose(frame - 1) : last_T_odom_camera_;
+  const Pose step = last.inverse() * window.newest().pose;
+  const auto inner = compose(T_base_camera_, step);
+  const auto outer = compose(inner.T_a_c, T_camera_base_);
+  velocity.twist = urban_nav_core::logSe3(outer.T_a_c) / seconds;
+  // Steps that follow one another are known about equally well, so the last settled one speaks for this one, unless nothing was
+  // measured: then the process model alone does.
+  const bool settled = !lost && !step_covariance_.isZero();
+  const Matrix6d covariance = settled ? step_covariance_ : moved(u.information.inverse(), outer.J1 * inner.J2);
+  velocity.covariance = covariance / (seconds * seconds);
+  return velocity;
+}
+
+const Frame& Output::write(FrameId frame, StampNs stamp, const Status& status, const Window& window,
+                           const ProcessInput& u, const FrontEndResult* seen, const UpdateReport& update) {
+  frame_.velocity = velocity(frame, stamp, status.health == urban_nav_core::Health::Lost, window, u);
   frame_.frame = frame;
   frame_.stamp = stamp;
   frame_.accepted = true;
   frame_.status = status;
   frame_.statistics = {};
   const UncertainPose newest = window.newest();
+  last_T_odom_camera_ = newest.pose;
   const auto base = compose(newest.pose, T_camera_base_);
   frame_.T_odom_base = {base.T_a_c, moved(newest.covariance, base.J1)};
   list(window, seen);
@@ -121,6 +146,7 @@ Settled Output::settle(const SettledPose& pose) {
   settled.from_previous.covariance = moved(pose.relative_covariance, outer.J1 * inner.J2);
   settled.from_previous.status = settled.status;
   settled.from_previous.source = "swf_vo";
+  if (any_settled_) step_covariance_ = settled.from_previous.covariance;
   last_settled_ = settled.stamp;
   any_settled_ = true;
   return settled;

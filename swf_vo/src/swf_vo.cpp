@@ -93,7 +93,7 @@ class SwfVo::Implementation {
     const urban_nav_core::Status status = health_.judge(evidence);
     doubtful_ = status.health != urban_nav_core::Health::Ok;
     started_ = true;
-    return output_.write(frame_++, pair.stamp, status, window_, seen, update);
+    return output_.write(frame_++, pair.stamp, status, window_, u, seen, update);
   }
 
   std::vector<Settled> flush() {

@@ -73,6 +73,16 @@ nav_msgs::Odometry toOdometryMessage(StampNs stamp, const UncertainPose& T_frame
   return message;
 }
 
+void setTwist(const urban_nav_core::Vector6d& twist, const urban_nav_core::Matrix6d& covariance, nav_msgs::Odometry& message) {
+  message.twist.twist.linear.x = twist[0];
+  message.twist.twist.linear.y = twist[1];
+  message.twist.twist.linear.z = twist[2];
+  message.twist.twist.angular.x = twist[3];
+  message.twist.twist.angular.y = twist[4];
+  message.twist.twist.angular.z = twist[5];
+  message.twist.covariance = toArray36(covariance);
+}
+
 urban_nav_msgs::RelativePose toRelativePoseMessage(const urban_nav_core::RelativePose& relative, const std::string& child_frame) {
   urban_nav_msgs::RelativePose message;
   message.header.stamp = toRosTime(relative.to);

@@ -65,12 +65,19 @@ struct Settled {
   urban_nav_core::Status status;                ///< as it was when the frame came
 };
 
+/// How base_link moves, in its own axes: m/s, then rad/s.
+struct Velocity {
+  urban_nav_core::Vector6d twist = urban_nav_core::Vector6d::Zero();
+  urban_nav_core::Matrix6d covariance = urban_nav_core::Matrix6d::Identity();
+};
+
 /// What leaves the filter for each stereo pair. `odom` is the first base_link.
 struct Frame {
   FrameId frame = 0;
   urban_nav_core::StampNs stamp = 0;
   bool accepted = true;                         ///< false: dropped because of its stamp; the pose is the last one
   urban_nav_core::UncertainPose T_odom_base;    ///< now: all evidence up to this frame and none after it
+  Velocity velocity;                            ///< since the frame before; zero with a covariance of unknown motion in the first
   urban_nav_core::Status status;
   Statistics statistics;
   std::vector<Settled> settled;                 ///< those that left the window with this frame: none or one, more after flush
