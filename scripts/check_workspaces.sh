@@ -21,7 +21,7 @@ fresh_workspace() {
 # works SPACE: from a shell that sourced it, the command is on the path, the nodelet is known, and each launch file can be read.
 works() (
   set +u
-  # shellcheck disable=SC1090
+  # shellcheck disable=SC1090,SC1091
   . "$1/setup.bash"
   set -u
   export ROS_MASTER_URI=http://localhost:1 ROS_HOSTNAME=localhost ROS_HOME=$temporary/ros_home

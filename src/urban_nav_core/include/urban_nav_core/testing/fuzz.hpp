@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace urban_nav_core::testing {
+
+/// Damages files in ways that keep most of their structure, so that a reader is tested behind its first check: bytes, numbers
+/// (too large, not finite, negative, with garbage behind), words, lines and ends; pieces of one seed in another.
+/// The same seed value gives the same sequence of texts.
+class Mutator {
+ public:
+  /// `seeds`: at least one valid file.
+  Mutator(std::vector<std::string> seeds, std::uint64_t seed);
+  std::string next();
+
+ private:
+  void mutateOnce(std::string& text);
+  std::size_t below(std::size_t limit);
+
+  std::vector<std::string> seeds_;
+  std::mt19937_64 random_;
+};
+
+struct FuzzResult {
+  int accepted = 0;     ///< texts that the reader took
+  int refused = 0;      ///< texts that it refused with a UserError
+  std::string failure;  ///< empty, or the other exception and the text that caused it
+};
+
+/// Seconds to fuzz one reader: the environment's URBAN_NAV_FUZZ_SECONDS, else 0.3.
+double fuzzSeconds();
+
+/// Gives damaged texts to `read` for fuzzSeconds(), the undamaged seeds first. A reader may return or throw UserError; a
+/// different exception ends the run with `failure`, and what else goes wrong (memory, arithmetic) a sanitizer has to say.
+FuzzResult fuzzText(const std::vector<std::string>& seeds, const std::function<void(const std::string& text)>& read,
+                    std::uint64_t seed = 1);
+
+/// The same for a reader that wants the path of a file; the file lies in a folder of its own under the system's one for
+/// temporary files, is called `name`, and is gone afterwards.
+FuzzResult fuzzFile(const std::vector<std::string>& seeds, const std::string& name,
+                    const std::function<void(const std::string& path)>& read, std::uint64_t seed = 1);
+
+}  // namespace urban_nav_core::testing
