@@ -61,7 +61,7 @@ run_group() {
   local targets
   mapfile -t targets < <(ninja -C "$1/build" -t targets all | sed -n "s/^\(run_tests_[A-Za-z0-9_]*_$2_[^:/]*\): phony.*/\1/p" | sort -u)
   if [ ${#targets[@]} = 0 ]; then return; fi
-  ninja -C "$1/build" -k 0 -j "$3" "${targets[@]}" >"$1/$2.log" 2>&1 || true
+  timeout -k 10 1200 ninja -C "$1/build" -k 0 -j "$3" "${targets[@]}" >"$1/$2.log" 2>&1 || true
   grep -E '^\[  (FAILED|SKIPPED) +\]|^\[ERROR\]|AddressSanitizer|runtime error' "$1/$2.log" >&2 || true
 }
 
