@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+namespace urban_nav_core::testing {
+
+/// Calls of operator new, malloc and aligned_alloc by this thread since it began. Counted in programs that link the testing library
+/// and use this function; with a sanitizer, whose allocator cannot be replaced, it stays zero and countsAllocations() says so.
+std::int64_t allocations();
+bool countsAllocations();
+
+/// `const AllocationCount count; work(); EXPECT_EQ(count.sofar(), 0);`
+class AllocationCount {
+ public:
+  AllocationCount() : before_(allocations()) {}
+  std::int64_t sofar() const { return allocations() - before_; }
+
+ private:
+  std::int64_t before_;
+};
+
+}  // namespace urban_nav_core::testing
