@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "front_end/tracks.hpp"
+#include "urban_nav_core/image/corner_grid.hpp"
+#include "urban_nav_core/image/fast.hpp"
+#include "urban_nav_core/image/pyramid.hpp"
+#include "urban_nav_core/types/stereo_pair.hpp"
+
+namespace swf_vo {
+
+/// Step (i) of Newman et al. 2009, section 2.4: pyramids and FAST corners of both images, found by place.
+class Corners {
+ public:
+  /// Corners at `levels` levels; the pyramids go on to level `top` for the rotation between frames. `threshold`: of FAST, in grey
+  /// levels; where a part of the image has too few corners it goes down to half of that.
+  Corners(int levels, int top, int threshold);
+
+  /// Neither image may be empty.
+  void extract(const urban_nav_core::StereoPair& pair);
+
+  /// Levels that have corners (fewer than asked for where the images are small).
+  int levels() const { return std::min(levels_, left_.pyramid.levels()); }
+  /// The smallest level of the pyramids.
+  int top() const { return std::min(top_, left_.pyramid.levels() - 1); }
+  const urban_nav_core::ImageView& image(Side side, int level) const { return of(side).pyramid.level(level); }
+  const urban_nav_core::CornerGrid& at(Side side, int level) const { return of(side).grids[static_cast<std::size_t>(level)]; }
+  int count(Side side) const;
+
+ private:
+  struct Eye {
+    Eye(int pyramid_levels, int corner_levels) : pyramid(pyramid_levels), grids(static_cast<std::size_t>(corner_levels)) {}
+    urban_nav_core::Pyramid pyramid;
+    std::vector<urban_nav_core::CornerGrid> grids;
+  };
+  const Eye& of(Side side) const { return side == Side::Left ? left_ : right_; }
+  void extract(const urban_nav_core::ImageView& image, Eye& eye);
+
+  int levels_, top_, lowest_threshold_;
+  urban_nav_core::Fast fast_;
+  urban_nav_core::CornerCap cap_;
+  std::vector<urban_nav_core::Corner> kept_;
+  Eye left_, right_;
+};
+
+}  // namespace swf_vo

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "front_end/front_end.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "front_end/across.hpp"
+#include "front_end/corners.hpp"
+#include "front_end/localise.hpp"
+#include "front_end/match.hpp"
+#include "front_end/refine.hpp"
+#include "front_end/replenish.hpp"
+#include "front_end/rotation.hpp"
+#include "front_end/temporal.hpp"
+#include "front_end/tracks.hpp"
+
+namespace swf_vo {
+
+using urban_nav_core::Pose;
+using urban_nav_core::Quaterniond;
+using urban_nav_core::StereoCamera;
+using urban_nav_core::StereoPair;
+
+namespace {
+
+constexpr double reference_area = 512.0 * 384.0;  // of the parameter `features`
+constexpr int top_width = 160;                    // the image whose rotation is found is at most this wide
+constexpr double first_radius = 3.0;              // of the search radius, while the motion is not known yet
+constexpr double coarse_slack_px = 1.0, fine_slack_px = 0.1;
+constexpr int most_missed = 3;                    // frames
+constexpr int disagreements_refute = 2, disagreements_refute_young = 1, young = 3;  // frames
+
+int featuresIn(const StereoCamera& camera, int features) {
+  return std::max(8, static_cast<int>(std::lround(features * camera.left.width * camera.left.height / reference_area)));
+}
+
+int topLevel(int width) {
+  int level = 0;
+  while ((width >> level) > top_width) ++level;
+  return level;
+}
+
+}  // namespace
+
+class FrontEnd::Implementation {
+ public:
+  Implementation(const Parameters& parameters, const StereoCamera& camera)
+      : parameters_(parameters),
+        camera_(camera),
+        corners_(parameters.pyramid_levels, topLevel(camera.left.width), parameters.fast_threshold),
+        rotation_(camera.left),
+        localiser_(camera),
+        tracks_(4 * featuresIn(camera, parameters.features)),
+        replenisher_(camera, featuresIn(camera, parameters.features), parameters.pixel_noise_floor) {}
+
+  const FrontEndResult& process(FrameId frame, const StereoPair& pair, const Pose& last, const Pose& predicted, const std::vector<MapPoint>& map) {
+    clear(predicted);
+    if (!isPair(pair)) return result_;
+    corners_.extract(pair);
+    result_.corners = corners_.count(Side::Left);
+    const Pose T_turned_odom = turn(last, predicted);
+    gather(map);
+    locate(T_turned_odom, predicted.inverse());
+    for (const Match& match : matches_) follow(frame, match);
+    replenisher_.replenish(frame, corners_, result_.T_odom_camera, matches_, tracks_, result_.fresh);
+    settled_ = result_.localised;
+    return result_;
+  }
+
+ private:
+  void clear(const Pose& predicted) {
+    result_.tracked.clear();
+    result_.fresh.clear();
+    result_.ended.clear();
+    result_.refuted.clear();
+    result_.T_odom_camera = predicted;
+    result_.localised = false;
+    result_.corners = result_.candidates = 0;
+    result_.inlier_share = result_.reprojection_px = 0.0;
+  }
+
+  bool isPair(const StereoPair& pair) const {
+    const auto fits = [this](const urban_nav_core::ImageView& view) {
+      return !view.empty() && view.width == camera_.left.width && view.height == camera_.left.height;
+    };
+    return fits(pair.left) && fits(pair.right);
+  }
+
+  /// The prediction with the rotation that the images show; odom into the camera.
+  Pose turn(const Pose& last, const Pose& predicted) {
+    const Pose T_now_last = predicted.inverse() * last;
+    const RotationEstimate seen = rotation_.track(corners_.image(Side::Left, corners_.top()), corners_.top(), T_now_last.q());
+    if (!seen.found) return predicted.inverse();
+    // The camera stays where it was predicted to be and is turned there.
+    const Quaterniond correction = seen.q_now_last * T_now_last.q().inverse();
+    return Pose(correction, Eigen::Vector3d::Zero()) * predicted.inverse();
+  }
+
+  /// Pairs the map with what is followed. What is in one only has come to its end.
+  void gather(const std::vector<MapPoint>& map) {
+    matches_.clear();
+    for (const MapPoint& point : map) {
+      Match match;
+      match.track = tracks_.find(point.landmark);
+      match.p_odom = point.p_odom;
+      if (match.track != nullptr && point.p_odom.allFinite()) matches_.push_back(match);
+      else result_.ended.push_back(point.landmark);
+    }
+    std::sort(matches_.begin(), matches_.end(), [](const Match& a, const Match& b) { return a.track->id < b.track->id; });
+    std::size_t next = 0;
+    orphans_.clear();
+    for (int i = 0; i < tracks_.size(); ++i) {
+      const LandmarkId id = tracks_.at(i).id;
+      while (next < matches_.size() && matches_[next].track->id < id) ++next;
+      if (next >= matches_.size() || matches_[next].track->id != id) orphans_.push_back(id);
+    }
+    for (const LandmarkId id : orphans_) tracks_.end(id);
+  }
+
+  void locate(const Pose& T_turned_odom, const Pose& T_predicted_odom) {
+    if (matches_.empty()) return;
+    const double radius = parameters_.search_radius * (settled_ ? 1.0 : first_radius);
+    matchTemporal(corners_, camera_, T_turned_odom, radius, matches_);
+    for (Match& match : matches_) combine(parameters_.pixel_noise_floor, match);
+    starts_.assign({T_predicted_odom, T_turned_odom});
+    LocaliseOptions options;
+    options.slack_px = coarse_slack_px;
+    options.least_inliers = parameters_.lost_features;
+    const Localisation coarse = localiser_.locate(starts_, options, matches_);
+    if (coarse.found)
+      for (Match& match : matches_) {
+        if (!match.measured || match.inlier) continue;
+        match.contradicted = true;
+        match.left = match.right = Sighting();
+      }
+
+    matchAcross(corners_, camera_, coarse.found ? coarse.T_camera_odom : T_turned_odom, matches_);
+    for (Match& match : matches_) combine(parameters_.pixel_noise_floor, match);
+    starts_.assign({coarse.found ? coarse.T_camera_odom : T_predicted_odom});
+    options.slack_px = fine_slack_px;
+    options.consensus = !coarse.found;
+    const Localisation fine = localiser_.locate(starts_, options, matches_);
+    result_.candidates = fine.candidates;
+    result_.localised = fine.found;
+    if (!fine.found) return;
+    result_.T_odom_camera = fine.T_camera_odom.inverse();
+    result_.inlier_share = static_cast<double>(fine.inliers) / fine.candidates;
+    result_.reprojection_px = fine.reprojection_px;
+  }
+
+  /// What this frame says of a landmark's future.
+  void follow(FrameId frame, const Match& match) {
+    Track& track = *match.track;
+    if (match.inlier) {
+      result_.tracked.push_back({track.id, frame, match.z, match.information});
+      ++track.seen;
+      track.missed = track.disagreed = 0;
+      track.z = match.z;
+      return;
+    }
+    if (result_.localised && (match.measured || match.contradicted)) {
+      ++track.disagreed;
+      if (track.disagreed < (track.seen < young ? disagreements_refute_young : disagreements_refute)) return;
+      result_.refuted.push_back(track.id);
+      tracks_.end(track.id);
+      return;
+    }
+    if (++track.missed < most_missed && isInView(match)) return;
+    result_.ended.push_back(track.id);
+    tracks_.end(track.id);
+  }
+
+  bool isInView(const Match& match) const {
+    const auto pixel = projectInto(Side::Left, camera_, result_.T_odom_camera.inverse(), match.p_odom);
+    return pixel && pixel->x() > 0.0 && pixel->y() > 0.0 && pixel->x() < camera_.left.width && pixel->y() < camera_.left.height;
+  }
+
+  Parameters parameters_;
+  StereoCamera camera_;
+  Corners corners_;
+  RotationTracker rotation_;
+  Localiser localiser_;
+  Tracks tracks_;
+  Replenisher replenisher_;
+  FrontEndResult result_;
+  std::vector<Match> matches_;
+  std::vector<LandmarkId> orphans_;
+  std::vector<Pose> starts_;
+  bool settled_ = false;
+};
+
+FrontEnd::FrontEnd(const Parameters& parameters, const StereoCamera& camera)
+    : implementation_(std::make_unique<Implementation>(parameters, camera)) {}
+FrontEnd::~FrontEnd() = default;
+
+const FrontEndResult& FrontEnd::process(FrameId frame, const StereoPair& pair, const Pose& last, const Pose& predicted,
+                                        const std::vector<MapPoint>& map) {
+  return implementation_->process(frame, pair, last, predicted, map);
+}
+
+}  // namespace swf_vo

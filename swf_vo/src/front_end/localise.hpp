@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "front_end/match.hpp"
+#include "urban_nav_core/camera/stereo_camera.hpp"
+#include "urban_nav_core/geometry/se3.hpp"
+
+namespace swf_vo {
+
+struct Localisation {
+  urban_nav_core::Pose T_camera_odom;
+  bool found = false;            ///< enough matches agree; else the pose is the first start's
+  int candidates = 0, inliers = 0;
+  double reprojection_px = 0.0;  ///< of the inliers, root mean square in the left image
+};
+
+struct LocaliseOptions {
+  double slack_px = 0.1;   ///< added to the standard deviation of each coordinate: what the map and the match are wrong by beyond what they say
+  int least_inliers = 8;
+  bool consensus = true;   ///< also tries motions through few matches, for when the starts given are all wrong
+};
+
+/// Step (iv) of section 2.4: the camera's pose by an m-estimator over the measured matches, with the error of a landmark's first
+/// disparity allowed for, from several starts: those given, in order of trust, and motions through minimal sets of matches chosen
+/// by a fixed sequence. Starts are compared by a robust cost in which a landmark counts by how often it was right before: a
+/// van ahead that fills the view has few old friends. Sets `inlier` and `chi2` of each match.
+class Localiser {
+ public:
+  explicit Localiser(const urban_nav_core::StereoCamera& camera) : camera_(camera) {}
+
+  Localisation locate(const std::vector<urban_nav_core::Pose>& T_camera_odom_starts, const LocaliseOptions& options, std::vector<Match>& matches);
+
+ private:
+  struct Item {
+    Eigen::Vector4d p_odom;
+    Eigen::Vector3d z;
+    Eigen::Matrix3d information;
+    double trust;
+    int match;
+  };
+  void prepare(const urban_nav_core::Pose& T_camera_odom, const LocaliseOptions& options, const std::vector<Match>& matches);
+  bool residual(const Item& item, const urban_nav_core::Pose& T_camera_odom, Eigen::Vector3d& e, Eigen::Matrix<double, 3, 6>* J) const;
+  urban_nav_core::Pose descend(urban_nav_core::Pose T_camera_odom, int steps, const std::vector<int>* only) const;
+  double cost(const urban_nav_core::Pose& T_camera_odom) const;
+  urban_nav_core::Pose bestByConsensus(const urban_nav_core::Pose& start, double& best_cost) const;
+
+  urban_nav_core::StereoCamera camera_;
+  std::vector<Item> items_;
+};
+
+}  // namespace swf_vo

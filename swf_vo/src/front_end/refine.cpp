@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "front_end/refine.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <cmath>
+
+namespace swf_vo {
+
+using urban_nav_core::Alignment;
+using urban_nav_core::PatchTemplate;
+using urban_nav_core::Pose;
+using urban_nav_core::StereoCamera;
+
+namespace {
+
+constexpr double largest_scale = 1.7, smallest_scale = 0.55;
+constexpr double same_warp = 0.02;  // of an entry: 0.1 px at the border of the window
+constexpr double row_gate = 9.0;    // chi-square of the difference of the rows, one degree of freedom
+constexpr double row_slack_px = 0.3;  // what rectification may be wrong by
+constexpr double least_gain = 0.2, largest_gain = 5.0;
+
+}  // namespace
+
+double inverseDepthWhereBorn(const Match& match) {
+  const Eigen::Vector3d p = match.track->T_born_odom.q() * match.p_odom.head<3>() + match.track->T_born_odom.t() * match.p_odom.w();
+  return p.z() > 1e-9 ? match.p_odom.w() / p.z() : 0.0;
+}
+
+bool prepareTemplate(Side side, const StereoCamera& camera, const Pose& T_camera_odom, Match& match) {
+  Track& track = *match.track;
+  const Pose T_camera_born = T_camera_odom * track.T_born_odom.inverse();
+  const auto A = warpInto(side, camera, track, T_camera_born, inverseDepthWhereBorn(match));
+  if (!A || !A->allFinite()) return false;
+  const double area = A->determinant();
+  if (!(area > smallest_scale * smallest_scale && area < largest_scale * largest_scale)) return false;
+  PatchTemplate& made = side == Side::Left ? track.in_left : track.in_right;
+  bool& ready = side == Side::Left ? track.left_ready : track.right_ready;
+  if (ready && (made.A - *A).cwiseAbs().maxCoeff() < same_warp) return true;
+  ready = urban_nav_core::warpTemplate(track.source, *A, made);
+  return ready;
+}
+
+Sighting refine(Side side, const Corners& corners, const Track& track, const Eigen::Vector2d& start, double reach) {
+  Sighting sighting;
+  const double size = 1.0 / urban_nav_core::Pyramid::scale(track.level);
+  const PatchTemplate& made = side == Side::Left ? track.in_left : track.in_right;
+  const Alignment a = urban_nav_core::alignPatch(corners.image(side, track.level), made, start / size, reach);
+  if (!a.converged || a.correlation < least_correlation || a.gain < least_gain || a.gain > largest_gain) return sighting;
+  sighting.found = true;
+  sighting.pixel = a.position * size;
+  sighting.covariance = a.covariance * (size * size);
+  sighting.correlation = a.correlation;
+  return sighting;
+}
+
+void combine(double floor_px, Match& match) {
+  match.measured = false;
+  match.information.setZero();
+  Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
+  const Eigen::Matrix2d floor = floor_px * floor_px * Eigen::Matrix2d::Identity();
+  const auto add = [&](const Sighting& sighting, int column) {
+    if (!sighting.found) return;
+    const Eigen::Matrix2d information = (sighting.covariance + floor).inverse();
+    Eigen::Matrix<double, 2, 3> pick = Eigen::Matrix<double, 2, 3>::Zero();
+    pick(0, column) = 1.0;
+    pick(1, 1) = 1.0;
+    match.information += pick.transpose() * information * pick;
+    weighted += pick.transpose() * (information * sighting.pixel);
+  };
+  if (match.left.found && match.right.found) {
+    const double difference = match.left.pixel.y() - match.right.pixel.y();
+    const double variance = match.left.covariance(1, 1) + match.right.covariance(1, 1) + row_slack_px * row_slack_px;
+    if (difference * difference > row_gate * variance) return;
+  }
+  add(match.left, 0);
+  add(match.right, 2);
+  if (match.left.found && match.right.found) {
+    match.z = match.information.ldlt().solve(weighted);
+  } else if (match.left.found) {
+    match.z << match.left.pixel, 0.0;
+  } else if (match.right.found) {
+    match.z << 0.0, match.right.pixel.y(), match.right.pixel.x();
+  }
+  match.measured = (match.left.found || match.right.found) && match.z.allFinite() && match.information.allFinite();
+}
+
+}  // namespace swf_vo

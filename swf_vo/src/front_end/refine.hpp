@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "front_end/corners.hpp"
+#include "front_end/match.hpp"
+#include "urban_nav_core/camera/stereo_camera.hpp"
+#include "urban_nav_core/geometry/se3.hpp"
+
+namespace swf_vo {
+
+inline constexpr double least_correlation = 0.8;  ///< of a patch with its template, below which it is not the same thing
+
+/// 1/z of the landmark in the camera that first saw it, by the map of now.
+double inverseDepthWhereBorn(const Match& match);
+
+/// Makes the track's template for one image ready for a camera pose; false if it is seen too large, too small or too slanted.
+bool prepareTemplate(Side side, const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_camera_odom, Match& match);
+
+/// Aligns the template that was made ready to the image from `start` (px of level 0), at most `reach` px of its level.
+Sighting refine(Side side, const Corners& corners, const Track& track, const Eigen::Vector2d& start, double reach);
+
+/// The two sightings as one measurement (u_left, v, u_right): the row counts once, weighed by both. `floor_px` is added to the
+/// standard deviation of each coordinate. Not measured if neither image has it, or if the rows contradict each other.
+void combine(double floor_px, Match& match);
+
+}  // namespace swf_vo

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "front_end/replenish.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "front_end/across.hpp"
+#include "front_end/refine.hpp"
+#include "urban_nav_core/image/harris.hpp"
+
+namespace swf_vo {
+
+using urban_nav_core::cutSource;
+using urban_nav_core::ImageView;
+using urban_nav_core::kHarrisMargin;
+using urban_nav_core::Pose;
+using urban_nav_core::Pyramid;
+using urban_nav_core::SlopedAlignment;
+using urban_nav_core::Spread;
+using urban_nav_core::StereoCamera;
+
+namespace {
+
+constexpr double slack = 2.0;                 // of the quadtree
+constexpr double largest_disparity = 0.16;    // of the image's width: nearer things pass too fast to be of use
+constexpr int lowest_disparity = -2;          // px of the level: far points, with the error of rectification
+constexpr double least_disparity_px = -1.0;   // after refinement, level 0
+constexpr float level_preference = 0.3F;      // a feature is located to pixels of its own level
+constexpr double slope_prior = 0.2;           // a road seen from a car has 0.3, walls 0.1
+constexpr double same_row = 1.0;              // px of the level between the rows of both images
+constexpr double least_correlation_across = 0.85;
+constexpr int attempts_per_feature = 3, attempts_at_least = 20;  // bounds the time where nothing can be matched
+
+int depthFor(int features) {
+  int depth = 0;
+  while (depth < 8 && (1 << (2 * depth)) < 2 * features) ++depth;
+  return depth;
+}
+
+}  // namespace
+
+Replenisher::Replenisher(const StereoCamera& camera, int features, double floor_px)
+    : camera_(camera),
+      features_(features),
+      floor_px_(floor_px),
+      spread_(camera.left.width, camera.left.height, features, depthFor(features), slack) {}
+
+void Replenisher::gather(const Corners& corners) {
+  candidates_.clear();
+  float weight = 1.0F;
+  for (int level = 0; level < corners.levels(); ++level, weight *= level_preference) {
+    const ImageView& image = corners.image(Side::Left, level);
+    for (const auto& corner : corners.at(Side::Left, level).corners()) {
+      if (!spread_.mayAdd(corner.u << level, corner.v << level)) continue;
+      if (corner.u < kHarrisMargin || corner.v < kHarrisMargin || corner.u >= image.width - kHarrisMargin || corner.v >= image.height - kHarrisMargin) continue;
+      candidates_.push_back({level, corner.u, corner.v, weight * urban_nav_core::gradientMatrix(image, corner.u, corner.v).harris()});
+    }
+  }
+  std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
+    if (a.score != b.score) return a.score > b.score;
+    if (a.level != b.level) return a.level < b.level;
+    return a.v != b.v ? a.v < b.v : a.u < b.u;
+  });
+}
+
+bool Replenisher::start(const Candidate& candidate, FrameId frame, const Corners& corners, const Pose& T_odom_camera, Tracks& tracks,
+                        std::vector<Observation>& fresh) {
+  const ImageView& left = corners.image(Side::Left, candidate.level);
+  const ImageView& right = corners.image(Side::Right, candidate.level);
+  const auto source = cutSource(left, candidate.u, candidate.v);
+  if (!source) return false;
+  const auto disparity = findDisparity(left, right, candidate.u, candidate.v, lowest_disparity, static_cast<int>(largest_disparity * left.width));
+  if (!disparity) return false;
+  Track* track = tracks.start();
+  if (track == nullptr) return false;
+  const SlopedAlignment found = urban_nav_core::alignAcross(right, *source, {candidate.u - *disparity, candidate.v}, slope_prior, track->in_right);
+  const double size = 1.0 / Pyramid::scale(candidate.level);
+  Match match;
+  match.left.found = match.right.found = true;
+  match.left.pixel = size * Eigen::Vector2d(candidate.u, candidate.v);
+  match.right.pixel = size * found.alignment.position;
+  const bool plausible = found.alignment.converged && found.alignment.correlation >= least_correlation_across &&
+                         std::abs(found.alignment.position.y() - candidate.v) <= same_row &&
+                         match.left.pixel.x() - match.right.pixel.x() >= least_disparity_px &&
+                         urban_nav_core::warpTemplate(*source, Eigen::Matrix2d::Identity(), track->in_left);
+  if (plausible) {
+    // the template's own noise is the left image's
+    const double noise = std::max(found.alignment.noise, 0.3);
+    match.left.covariance = track->in_left.unit_covariance * (noise * noise * size * size);
+    match.right.covariance = found.alignment.covariance * (size * size);
+    combine(floor_px_, match);
+  }
+  if (!match.measured) {
+    tracks.end(track->id);
+    return false;
+  }
+  track->born = frame;
+  track->level = candidate.level;
+  track->T_born_odom = T_odom_camera.inverse();
+  track->ray = camera_.left.ray(match.left.pixel);
+  track->plane = surface(camera_, {match.left.pixel.x(), match.left.pixel.y(), match.right.pixel.x()}, found.slopes);
+  track->sigma_disparity = std::sqrt(match.left.covariance(0, 0) + match.right.covariance(0, 0) + 2.0 * floor_px_ * floor_px_);
+  track->z = match.z;
+  track->source = *source;
+  track->left_ready = true;
+  track->right_ready = true;
+  fresh.push_back({track->id, frame, match.z, match.information});
+  return true;
+}
+
+void Replenisher::replenish(FrameId frame, const Corners& corners, const Pose& T_odom_camera, const std::vector<Match>& matches, Tracks& tracks,
+                            std::vector<Observation>& fresh) {
+  spread_.clear();
+  for (const Match& match : matches)
+    if (match.inlier && match.left.found) spread_.add(match.left.pixel.x(), match.left.pixel.y());
+  const int missing = features_ - spread_.count();
+  if (missing <= 0) return;
+  gather(corners);
+  int attempts = std::max(attempts_at_least, attempts_per_feature * missing);
+  for (const Candidate& candidate : candidates_) {
+    if (spread_.count() >= features_ || attempts <= 0) return;
+    const double u = candidate.u << candidate.level, v = candidate.v << candidate.level;
+    if (!spread_.mayAdd(u, v)) continue;
+    --attempts;
+    if (start(candidate, frame, corners, T_odom_camera, tracks, fresh)) spread_.add(u, v);
+  }
+}
+
+}  // namespace swf_vo

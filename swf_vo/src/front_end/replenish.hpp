@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "front_end/corners.hpp"
+#include "front_end/match.hpp"
+#include "front_end/tracks.hpp"
+#include "observation.hpp"
+#include "urban_nav_core/camera/stereo_camera.hpp"
+#include "urban_nav_core/image/spread.hpp"
+
+namespace swf_vo {
+
+/// Step (v) of section 2.4: new features, the best first by Harris score, where the quadtree has room; matched left to right, refined,
+/// and started as tracks with their first observation.
+class Replenisher {
+ public:
+  /// `features`: wanted in the image.
+  Replenisher(const urban_nav_core::StereoCamera& camera, int features, double floor_px);
+
+  /// `matches`: those that are inliers keep their place. Appends to `fresh`.
+  void replenish(FrameId frame, const Corners& corners, const urban_nav_core::Pose& T_odom_camera, const std::vector<Match>& matches,
+                 Tracks& tracks, std::vector<Observation>& fresh);
+
+ private:
+  struct Candidate {
+    int level = 0, u = 0, v = 0;
+    float score = 0.0F;
+  };
+  void gather(const Corners& corners);
+  bool start(const Candidate& candidate, FrameId frame, const Corners& corners, const urban_nav_core::Pose& T_odom_camera, Tracks& tracks,
+             std::vector<Observation>& fresh);
+
+  urban_nav_core::StereoCamera camera_;
+  int features_;
+  double floor_px_;
+  urban_nav_core::Spread spread_;
+  std::vector<Candidate> candidates_;
+};
+
+}  // namespace swf_vo

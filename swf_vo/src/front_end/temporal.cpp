@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "front_end/temporal.hpp"
+
+#include <cstdlib>
+
+#include "front_end/refine.hpp"
+
+namespace swf_vo {
+
+using urban_nav_core::Corner;
+using urban_nav_core::ImageView;
+using urban_nav_core::Pose;
+using urban_nav_core::Pyramid;
+using urban_nav_core::SadPatch;
+using urban_nav_core::StereoCamera;
+
+namespace {
+
+// Share of the patch's own contrast that the difference may have. A corner can stand a pixel beside the landmark.
+constexpr double accepted_share = 0.75;
+// From a corner to the landmark, px of the level: FAST answers move by a pixel or two.
+constexpr double corner_reach = 2.5;
+constexpr double direct_reach = 3.0;
+
+Sighting search(Side side, const Corners& corners, const Track& track, const Eigen::Vector2d& projected, double radius) {
+  const ImageView& image = corners.image(side, track.level);
+  const SadPatch patch = urban_nav_core::sadPatch(side == Side::Left ? track.in_left : track.in_right);
+  int contrast = 0;
+  for (const std::int16_t value : patch.value) contrast += std::abs(value);
+  const double scale = Pyramid::scale(track.level);
+  int best = static_cast<int>(accepted_share * contrast);
+  Corner found;
+  bool any = false;
+  corners.at(side, track.level).forEachWithin(projected.x() * scale, projected.y() * scale, radius * scale + 1.0, [&](const Corner& corner, std::size_t) {
+    if (!urban_nav_core::sadFits(image, corner.u, corner.v)) return;
+    const int sad = urban_nav_core::meanRemovedSad(patch, image, corner.u, corner.v);
+    if (sad >= best) return;
+    best = sad;
+    found = corner;
+    any = true;
+  });
+  Sighting sighting;
+  if (any) sighting = refine(side, corners, track, Eigen::Vector2d(found.u, found.v) / scale, corner_reach);
+  if (!sighting.found) sighting = refine(side, corners, track, projected, direct_reach);
+  return sighting;
+}
+
+}  // namespace
+
+std::optional<Eigen::Vector2d> projectInto(Side side, const StereoCamera& camera, const Pose& T_camera_odom, const Eigen::Vector4d& p_odom) {
+  Eigen::Vector3d p = T_camera_odom.q() * p_odom.head<3>() + T_camera_odom.t() * p_odom.w();
+  if (side == Side::Right) p.x() -= camera.baseline * p_odom.w();
+  if (!(p.z() > 0.0) || !(p.z() > 0.1 * p_odom.w())) return std::nullopt;
+  return Eigen::Vector2d(camera.left.fx * p.x() / p.z() + camera.left.cx, camera.left.fy * p.y() / p.z() + camera.left.cy);
+}
+
+void matchTemporal(const Corners& corners, const StereoCamera& camera, const Pose& T_camera_odom, double radius, std::vector<Match>& matches) {
+  Side side = Side::Left;
+  for (Match& match : matches) {
+    match.left = match.right = Sighting();
+    side = side == Side::Left ? Side::Right : Side::Left;
+    if (match.track->level >= corners.levels()) continue;
+    const auto projected = projectInto(side, camera, T_camera_odom, match.p_odom);
+    if (!projected || !prepareTemplate(side, camera, T_camera_odom, match)) continue;
+    (side == Side::Left ? match.left : match.right) = search(side, corners, *match.track, *projected, radius);
+  }
+}
+
+}  // namespace swf_vo

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "front_end/tracks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace swf_vo {
+
+using urban_nav_core::Pose;
+using urban_nav_core::StereoCamera;
+
+Eigen::Vector3d surface(const StereoCamera& camera, const StereoCamera::Pixel& pixel, const Eigen::Vector2d& slopes) {
+  // d(u, v) = fx B / z and 1 / z = plane . (x, y, 1), so the slopes are B (plane_x, plane_y fx / fy).
+  const auto& c = camera.left;
+  const double inverse_depth = (pixel.x() - pixel.z()) / (c.fx * camera.baseline);
+  const double x = (pixel.x() - c.cx) / c.fx, y = (pixel.y() - c.cy) / c.fy;
+  const double px = slopes.x() / camera.baseline, py = slopes.y() * c.fy / (c.fx * camera.baseline);
+  return {px, py, inverse_depth - px * x - py * y};
+}
+
+std::optional<Eigen::Matrix2d> warpInto(Side side, const StereoCamera& camera, const Track& track, const Pose& T_camera_born,
+                                        double inverse_depth) {
+  Eigen::Vector3d plane = track.plane;
+  const double at_ray = plane.dot(track.ray);
+  if (at_ray > 1e-9 && inverse_depth > 0.0 && inverse_depth < 4.0 * at_ray) plane *= inverse_depth / at_ray;
+  else plane = Eigen::Vector3d(0.0, 0.0, std::max(inverse_depth, 0.0));
+  Eigen::Vector3d t = T_camera_born.t();
+  if (side == Side::Right) t.x() -= camera.baseline;
+  const Eigen::Matrix3d H = T_camera_born.R() + t * plane.transpose();
+  const Eigen::Vector3d p = H * track.ray;
+  if (!(p.z() > 0.05)) return std::nullopt;
+  const double x = p.x() / p.z(), y = p.y() / p.z();
+  const double aspect = camera.left.fx / camera.left.fy;
+  Eigen::Matrix2d A;
+  A << H(0, 0) - x * H(2, 0), (H(0, 1) - x * H(2, 1)) * aspect, (H(1, 0) - y * H(2, 0)) / aspect, H(1, 1) - y * H(2, 1);
+  return A / p.z();
+}
+
+Tracks::Tracks(int capacity) : places_(static_cast<std::size_t>(capacity)) {
+  order_.reserve(places_.size());
+  free_.reserve(places_.size());
+  for (std::size_t i = places_.size(); i > 0; --i) free_.push_back(i - 1);
+}
+
+std::vector<std::size_t>::iterator Tracks::lowerBound(LandmarkId id) {
+  return std::lower_bound(order_.begin(), order_.end(), id, [this](std::size_t place, LandmarkId value) { return places_[place].id < value; });
+}
+
+Track* Tracks::start() {
+  if (free_.empty()) return nullptr;
+  const std::size_t place = free_.back();
+  free_.pop_back();
+  order_.push_back(place);  // ids grow, so it is the last
+  places_[place] = Track();
+  places_[place].id = next_++;
+  return &places_[place];
+}
+
+Track* Tracks::find(LandmarkId id) {
+  const auto it = lowerBound(id);
+  return it != order_.end() && places_[*it].id == id ? &places_[*it] : nullptr;
+}
+
+void Tracks::end(LandmarkId id) {
+  const auto it = lowerBound(id);
+  if (it == order_.end() || places_[*it].id != id) return;
+  free_.push_back(*it);
+  order_.erase(it);
+}
+
+}  // namespace swf_vo

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "observation.hpp"
+#include "urban_nav_core/camera/stereo_camera.hpp"
+#include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_core/image/patch.hpp"
+
+namespace swf_vo {
+
+enum class Side { Left, Right };
+
+/// A landmark that is being followed: its one template, cut from the left image where it was first seen, and the piece of surface
+/// around it. Every later measurement, in either image, aligns the current image to that template, so that errors of different
+/// frames are independent.
+struct Track {
+  LandmarkId id = 0;
+  FrameId born = 0;
+  int level = 0;                                        ///< pyramid level of the template
+  int seen = 1;                                         ///< frames with a trusted measurement
+  int missed = 0;                                       ///< frames in a row without a match
+  int disagreed = 0;                                    ///< frames in a row with a good match that contradicts the motion
+  urban_nav_core::Pose T_born_odom;                     ///< odom into the left camera of its first frame
+  Eigen::Vector3d ray = Eigen::Vector3d::UnitZ();       ///< of the template's middle in that camera, z = 1
+  Eigen::Vector3d plane = Eigen::Vector3d::Zero();      ///< its surface there: plane . X = 1 (1/m); zero: at infinity
+  double sigma_disparity = 1.0;                         ///< of the first observation, px
+  Eigen::Vector3d z = Eigen::Vector3d::Zero();          ///< last trusted measurement: u_left, v, u_right (px)
+  urban_nav_core::PatchSource source;
+  urban_nav_core::PatchTemplate in_left, in_right;      ///< as last warped for either image
+  bool left_ready = false, right_ready = false;
+};
+
+/// The surface through a point with slopes of disparity (d per px of u and v), in the left camera: plane . X = 1.
+Eigen::Vector3d surface(const urban_nav_core::StereoCamera& camera, const urban_nav_core::StereoCamera::Pixel& pixel,
+                        const Eigen::Vector2d& slopes);
+
+/// How pixels around the landmark move from its first left view into a view of now: the Jacobian of the homography of its surface.
+/// `inverse_depth`: 1/z of the landmark in the first camera, as the map has it now. Empty if it would lie behind the camera.
+std::optional<Eigen::Matrix2d> warpInto(Side side, const urban_nav_core::StereoCamera& camera, const Track& track,
+                                        const urban_nav_core::Pose& T_camera_born, double inverse_depth);
+
+/// What is being followed. Places are reused, so nothing is allocated once `capacity` is reached; ids are never reused.
+class Tracks {
+ public:
+  explicit Tracks(int capacity);
+
+  /// A new one with the next id; null if all places are taken.
+  Track* start();
+  Track* find(LandmarkId id);
+  void end(LandmarkId id);
+  int size() const { return static_cast<int>(order_.size()); }
+  /// In order of id.
+  Track& at(int i) { return places_[order_[static_cast<std::size_t>(i)]]; }
+
+ private:
+  std::vector<std::size_t>::iterator lowerBound(LandmarkId id);
+
+  std::vector<Track> places_;
+  std::vector<std::size_t> order_, free_;  // order_: by id
+  LandmarkId next_ = 0;
+};
+
+}  // namespace swf_vo
