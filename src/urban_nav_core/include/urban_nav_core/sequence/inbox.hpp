@@ -19,6 +19,11 @@ struct InboxCounts {
   std::int64_t doubled = 0;  ///< same stream and stamp as one before
 };
 
+enum class InboxArrival {
+  Shuffled,        ///< also within a stream
+  OrderedStreams,  ///< each stream by itself comes in order; streams are delayed against each other
+};
+
 /// Merges several streams into one order: (stamp, stream). Between subscriptions or a bag reader and a stage stands one of these, so
 /// that a stage sees the same sequence however its inputs were delayed on their way. Judges by stamps alone and reads no clock.
 ///
@@ -30,10 +35,7 @@ struct InboxCounts {
 template <typename Item>
 class Inbox {
  public:
-  enum class Arrival {
-    Shuffled,        ///< also within a stream
-    OrderedStreams,  ///< each stream by itself comes in order; streams are delayed against each other
-  };
+  using Arrival = InboxArrival;
   struct Entry {
     StampNs stamp = 0;
     int stream = 0;

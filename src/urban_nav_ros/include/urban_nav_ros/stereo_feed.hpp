@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nav_msgs/Odometry.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/CompressedImage.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/Imu.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "urban_nav_core/sequence/inbox.hpp"
+#include "urban_nav_core/sequence/stereo_assembler.hpp"
+#include "urban_nav_ros/motion.hpp"
+#include "urban_nav_ros/stereo_calibration.hpp"
+
+namespace urban_nav_ros {
+
+/// A rectified grey pair, ready for a stereo stage. An image that did not come or does not decode is an empty view, and a
+/// sentence in `faults` names it.
+struct FedPair {
+  urban_nav_core::AssembledPair assembled;
+  std::vector<std::string> faults;
+};
+
+/// Messages in, stereo pairs out: converters, Inbox, pairing and rectification in the one way that nodelet and bag reader share, so that
+/// both hand a stage the same bytes. One session and one calibration: begin the next with a new object. Not thread-safe.
+class StereoFeed {
+ public:
+  using Arrival = urban_nav_core::InboxArrival;
+  struct Options {
+    urban_nav_core::StampNs max_lateness = 50'000'000;
+    Arrival arrival = Arrival::Shuffled;
+    urban_nav_core::StampNs pairing_tolerance = 5'000'000;
+    bool motion = false;  ///< motion inputs will come: in live order the feed waits for them as for an image
+  };
+  StereoFeed(const Options& options, std::shared_ptr<const StereoCalibration> calibration);
+
+  void add(Side side, const sensor_msgs::ImageConstPtr& image);
+  void add(Side side, const sensor_msgs::CompressedImageConstPtr& image);
+  void add(const urban_nav_core::MotionInput& input);
+  /// Nothing more will come: all that waits may leave.
+  void finish();
+
+  /// The next pair that is complete, or known to stay incomplete. Images are decoded and rectified here, not when they are added.
+  std::optional<FedPair> take();
+
+  /// What came on a side, too late or twice.
+  const urban_nav_core::InboxCounts& counts(Side side) const;
+  /// Pairs that left without an image of this side.
+  std::int64_t missing(Side side) const;
+  /// The latest stamp of a side so far.
+  std::optional<urban_nav_core::StampNs> reached(Side side) const;
+
+ private:
+  using Input = std::variant<sensor_msgs::ImageConstPtr, sensor_msgs::CompressedImageConstPtr, urban_nav_core::MotionInput>;
+  int streamOf(Side side) const;
+  urban_nav_core::OwnedImage decode(Side side, urban_nav_core::StampNs stamp, const Input& input);
+
+  std::shared_ptr<const StereoCalibration> calibration_;
+  int first_image_stream_;
+  urban_nav_core::Inbox<Input> inbox_;
+  urban_nav_core::StereoAssembler assembler_;
+  int left_bits_ = 0, right_bits_ = 0;  // depth of 16-bit pixels, from the first image
+  std::vector<std::string> faults_;
+  bool finished_ = false, drained_ = false;
+};
+
+}  // namespace urban_nav_ros

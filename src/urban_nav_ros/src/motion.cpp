@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_ros/motion.hpp"
+
+#include "urban_nav_ros/pose.hpp"
+#include "urban_nav_ros/stamp.hpp"
+
+namespace urban_nav_ros {
+
+using urban_nav_core::MotionInput;
+using urban_nav_core::Pose;
+using urban_nav_core::StampNs;
+using urban_nav_core::Vector3d;
+
+namespace {
+
+// Resolution of usual encoders over one message: 1 mm, 1 mrad.
+constexpr double resolution = 1e-3;
+
+double informationOf(double sigma) { return 1.0 / (sigma * sigma); }
+
+}  // namespace
+
+std::optional<MotionInput> WheelMotion::add(const nav_msgs::Odometry& message) {
+  const std::optional<Pose> pose = toPose(message.pose.pose);
+  const StampNs stamp = toStampNs(message.header.stamp);
+  if (!pose || (last_ && stamp <= last_->stamp)) return std::nullopt;
+  const std::optional<Last> last = last_;
+  last_ = Last{stamp, *pose};
+  if (!last) return std::nullopt;
+
+  MotionInput input;
+  input.from = last->stamp;
+  input.to = stamp;
+  input.T_from_to = last->T_odom_base.inverse() * *pose;
+  const double distance = input.T_from_to.t().norm();
+  const double angle = urban_nav_core::angleBetween(input.T_from_to, Pose());
+  const double along = informationOf(resolution + noise_ * distance);
+  input.information.diagonal() << along, along, 0.0, 0.0, 0.0, informationOf(resolution + noise_ * angle);
+  return input;
+}
+
+std::optional<MotionInput> GyroMotion::add(const sensor_msgs::Imu& message) {
+  const Vector3d measured(message.angular_velocity.x, message.angular_velocity.y, message.angular_velocity.z);
+  const StampNs stamp = toStampNs(message.header.stamp);
+  const bool absent = message.angular_velocity_covariance[0] < 0.0;  // sensor_msgs/Imu: element 0 is -1 where there is no gyroscope
+  if (absent || !measured.allFinite() || (last_ && stamp <= last_->stamp)) return std::nullopt;
+  const Vector3d rate = R_base_imu_ * measured;
+  const std::optional<Last> last = last_;
+  last_ = Last{stamp, rate};
+  if (!last) return std::nullopt;
+
+  MotionInput input;
+  input.from = last->stamp;
+  input.to = stamp;
+  const double seconds = urban_nav_core::secondsBetween(input.from, input.to);
+  input.T_from_to = Pose(urban_nav_core::expSo3(0.5 * seconds * (last->rate + rate)), Vector3d::Zero());
+  input.information.diagonal().tail<3>().setConstant(informationOf(noise_ * seconds));
+  return input;
+}
+
+}  // namespace urban_nav_ros

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_ros/stereo_feed.hpp"
+
+#include <utility>
+
+#include "urban_nav_ros/image.hpp"
+#include "urban_nav_ros/stamp.hpp"
+
+namespace urban_nav_ros {
+
+using urban_nav_core::ImageView;
+using urban_nav_core::MotionInput;
+using urban_nav_core::OwnedImage;
+using urban_nav_core::StampNs;
+
+namespace {
+
+/// The pixels that a view looks into, whoever they belong to.
+struct Pixels {
+  sensor_msgs::ImageConstPtr message;  // mono8 is not copied
+  cv::Mat grey;
+  std::vector<std::uint8_t> rectified;
+};
+
+constexpr int motion_stream = 0;
+
+std::string sizeOf(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
+
+}  // namespace
+
+StereoFeed::StereoFeed(const Options& options, std::shared_ptr<const StereoCalibration> calibration)
+    : calibration_(std::move(calibration)),
+      first_image_stream_(options.motion ? motion_stream + 1 : 0),
+      inbox_(first_image_stream_ + 2, options.max_lateness, options.arrival),
+      assembler_(options.pairing_tolerance) {}
+
+int StereoFeed::streamOf(Side side) const { return first_image_stream_ + (side == Side::Left ? 0 : 1); }
+
+void StereoFeed::add(Side side, const sensor_msgs::ImageConstPtr& image) { inbox_.put(streamOf(side), toStampNs(image->header.stamp), image); }
+
+void StereoFeed::add(Side side, const sensor_msgs::CompressedImageConstPtr& image) {
+  inbox_.put(streamOf(side), toStampNs(image->header.stamp), image);
+}
+
+void StereoFeed::add(const MotionInput& input) {
+  if (first_image_stream_ > motion_stream) inbox_.put(motion_stream, input.to, input);
+}
+
+void StereoFeed::finish() {
+  inbox_.finish();
+  finished_ = true;
+}
+
+OwnedImage StereoFeed::decode(Side side, StampNs stamp, const Input& input) {
+  int& bits = side == Side::Left ? left_bits_ : right_bits_;
+  auto pixels = std::make_shared<Pixels>();
+  GreyImage image;
+  if (const auto* raw = std::get_if<sensor_msgs::ImageConstPtr>(&input)) {
+    if (bits == 0) bits = significantBits(**raw);
+    pixels->message = *raw;
+    image = toGrey(**raw, bits);
+  } else {
+    // The depth of a compressed image is seen after decoding only, so all of its bits count.
+    image = toGrey(*std::get<sensor_msgs::CompressedImageConstPtr>(input));
+  }
+  const char* name = side == Side::Left ? "left image: " : "right image: ";
+  if (!image.fault.empty()) {
+    faults_.push_back(name + image.fault);
+    return {stamp, {}, nullptr};
+  }
+  pixels->grey = image.pixels;
+  const ImageView view = calibration_->rectify(side, viewOf(pixels->grey), pixels->rectified);
+  if (view.empty()) {
+    faults_.push_back(name + sizeOf(image.pixels.cols, image.pixels.rows) + ", which is not the size in camera_info");
+    return {stamp, {}, nullptr};
+  }
+  if (view.data != pixels->grey.data) {
+    pixels->grey.release();
+    pixels->message.reset();
+  }
+  return {stamp, view, pixels};
+}
+
+std::optional<FedPair> StereoFeed::take() {
+  for (;;) {
+    if (auto ready = assembler_.take()) return FedPair{std::move(*ready), std::exchange(faults_, {})};
+    auto entry = inbox_.take();
+    if (!entry) {
+      if (!finished_ || drained_) return std::nullopt;
+      drained_ = true;
+      assembler_.finish();
+      continue;
+    }
+    if (const auto* motion = std::get_if<MotionInput>(&entry->item)) {
+      assembler_.addMotion(*motion);
+    } else if (entry->stream == streamOf(Side::Left)) {
+      assembler_.addLeft(decode(Side::Left, entry->stamp, entry->item));
+    } else {
+      assembler_.addRight(decode(Side::Right, entry->stamp, entry->item));
+    }
+  }
+}
+
+const urban_nav_core::InboxCounts& StereoFeed::counts(Side side) const { return inbox_.counts(streamOf(side)); }
+
+std::int64_t StereoFeed::missing(Side side) const { return side == Side::Left ? assembler_.leftsMissing() : assembler_.rightsMissing(); }
+
+std::optional<StampNs> StereoFeed::reached(Side side) const { return inbox_.reached(streamOf(side)); }
+
+}  // namespace urban_nav_ros

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_ros/motion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "urban_nav_ros/pose.hpp"
+#include "urban_nav_ros/stamp.hpp"
+
+namespace urban_nav_ros {
+namespace {
+
+using urban_nav_core::isApprox;
+using urban_nav_core::Matrix3d;
+using urban_nav_core::Pose;
+using urban_nav_core::Quaterniond;
+using urban_nav_core::StampNs;
+using urban_nav_core::Vector3d;
+
+constexpr StampNs second = 1'000'000'000;
+
+nav_msgs::Odometry odometry(StampNs stamp, const Pose& pose) {
+  nav_msgs::Odometry message;
+  message.header.stamp = toRosTime(stamp);
+  message.pose.pose = toPoseMessage(pose);
+  return message;
+}
+
+sensor_msgs::Imu imu(StampNs stamp, const Vector3d& rate) {
+  sensor_msgs::Imu message;
+  message.header.stamp = toRosTime(stamp);
+  message.angular_velocity.x = rate.x();
+  message.angular_velocity.y = rate.y();
+  message.angular_velocity.z = rate.z();
+  return message;
+}
+
+TEST(WheelMotion, incrementsMultiplyUpToThePoses) {
+  WheelMotion wheels(0.05);
+  Pose sum;
+  const Pose first(Quaterniond(Eigen::AngleAxisd(0.3, Vector3d::UnitZ())), Vector3d(5, -2, 0));
+  Pose pose = first;
+  EXPECT_FALSE(wheels.add(odometry(10 * second, pose)));
+  for (int i = 1; i <= 10; ++i) {
+    pose = pose * Pose(Quaterniond(Eigen::AngleAxisd(0.1, Vector3d::UnitZ())), Vector3d(0.2, 0, 0));
+    const auto input = wheels.add(odometry(10 * second + i * second / 20, pose));
+    ASSERT_TRUE(input);
+    EXPECT_EQ(input->to - input->from, second / 20);
+    EXPECT_NEAR(input->information(0, 0), 1.0 / std::pow(0.001 + 0.05 * 0.2, 2), 1e-3);
+    EXPECT_NEAR(input->information(5, 5), 1.0 / std::pow(0.001 + 0.05 * 0.1, 2), 1e-3);
+    EXPECT_EQ(input->information(2, 2), 0.0);
+    EXPECT_EQ(input->information(3, 3), 0.0);
+    EXPECT_EQ(input->information(4, 4), 0.0);
+    sum = sum * input->T_from_to;
+  }
+  EXPECT_TRUE(isApprox(first * sum, pose, 1e-12));
+}
+
+TEST(WheelMotion, stampsThatDoNotAdvanceAndPosesThatAreNoneGiveNothing) {
+  WheelMotion wheels(0.05);
+  wheels.add(odometry(second, Pose()));
+  EXPECT_FALSE(wheels.add(odometry(second, Pose())));
+  EXPECT_FALSE(wheels.add(odometry(second / 2, Pose())));
+  nav_msgs::Odometry bad = odometry(2 * second, Pose());
+  bad.pose.pose.position.x = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(wheels.add(bad));
+  const auto input = wheels.add(odometry(3 * second, Pose()));
+  ASSERT_TRUE(input);
+  EXPECT_EQ(input->from, second);
+}
+
+TEST(GyroMotion, integratesTheMeanRateInBaseLink) {
+  // The device looks to the left: its x is base_link's y.
+  Matrix3d R_base_imu;
+  R_base_imu << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  GyroMotion gyro(0.1, R_base_imu);
+  EXPECT_FALSE(gyro.add(imu(second, Vector3d(1.0, 0, 0))));
+  const auto input = gyro.add(imu(second + second / 100, Vector3d(3.0, 0, 0)));
+  ASSERT_TRUE(input);
+  const Pose expected(Quaterniond(Eigen::AngleAxisd(0.02, Vector3d::UnitY())), Vector3d::Zero());
+  EXPECT_TRUE(isApprox(input->T_from_to, expected, 1e-12));
+  EXPECT_EQ(input->information(0, 0), 0.0);
+  EXPECT_NEAR(input->information(4, 4), 1e6, 1e-3);
+}
+
+TEST(GyroMotion, aDeviceWithoutGyroscopeGivesNothing) {
+  GyroMotion gyro(0.1, Matrix3d::Identity());
+  gyro.add(imu(second, Vector3d::Zero()));
+  sensor_msgs::Imu absent = imu(2 * second, Vector3d::Zero());
+  absent.angular_velocity_covariance[0] = -1.0;
+  EXPECT_FALSE(gyro.add(absent));
+}
+
+}  // namespace
+}  // namespace urban_nav_ros

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_ros/stereo_feed.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <boost/make_shared.hpp>
+#include <random>
+
+#include "urban_nav_core/types/error.hpp"
+#include "urban_nav_ros/camera_info.hpp"
+#include "urban_nav_ros/image.hpp"
+#include "urban_nav_ros/stamp.hpp"
+
+namespace urban_nav_ros {
+namespace {
+
+using urban_nav_core::CameraInfo;
+using urban_nav_core::StampNs;
+using urban_nav_core::StereoCamera;
+
+constexpr int width = 96, height = 72;
+constexpr StampNs ms = 1'000'000;
+
+StereoCamera camera() {
+  StereoCamera camera;
+  camera.left = {80.0, 80.0, 47.5, 35.5, width, height};
+  camera.baseline = 0.12;
+  return camera;
+}
+
+std::shared_ptr<const StereoCalibration> calibration() {
+  return std::make_shared<StereoCalibration>(leftInfo(camera()), rightInfo(camera()), false, "test");
+}
+
+sensor_msgs::ImageConstPtr image(StampNs stamp, int value, int w = width, int h = height) {
+  auto message = boost::make_shared<sensor_msgs::Image>(toImageMessage(cv::Mat(h, w, CV_8UC1, cv::Scalar(value))));
+  message->header.stamp = toRosTime(stamp);
+  return message;
+}
+
+std::vector<FedPair> drain(StereoFeed& feed) {
+  std::vector<FedPair> pairs;
+  while (auto pair = feed.take()) pairs.push_back(std::move(*pair));
+  return pairs;
+}
+
+TEST(StereoFeed, aBagShuffledWithinTheLatenessGivesTheSamePairs) {
+  struct Message {
+    double arrival;
+    Side side;
+    StampNs stamp;
+  };
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> delay(0.0, 50.0);
+  for (const bool shuffled : {false, true}) {
+    std::vector<Message> messages;
+    for (StampNs t = 1000; t < 3000; t += 40) {
+      messages.push_back({static_cast<double>(t) + (shuffled ? delay(random) : 0.0), Side::Left, t * ms});
+      messages.push_back({static_cast<double>(t) + (shuffled ? delay(random) : 0.0), Side::Right, t * ms});
+    }
+    std::stable_sort(messages.begin(), messages.end(), [](const Message& a, const Message& b) { return a.arrival < b.arrival; });
+    StereoFeed feed(StereoFeed::Options(), calibration());
+    std::vector<FedPair> pairs;
+    for (const Message& message : messages) {
+      feed.add(message.side, image(message.stamp, message.side == Side::Left ? 10 : 20));
+      for (FedPair& pair : drain(feed)) pairs.push_back(std::move(pair));
+    }
+    feed.finish();
+    for (FedPair& pair : drain(feed)) pairs.push_back(std::move(pair));
+    ASSERT_EQ(pairs.size(), 50U) << (shuffled ? "shuffled" : "in order");
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      EXPECT_EQ(pairs[i].assembled.pair.stamp, (1000 + 40 * static_cast<StampNs>(i)) * ms);
+      ASSERT_FALSE(pairs[i].assembled.pair.left.empty() || pairs[i].assembled.pair.right.empty());
+      EXPECT_EQ(pairs[i].assembled.pair.left.at(3, 3), 10);
+      EXPECT_EQ(pairs[i].assembled.pair.right.at(3, 3), 20);
+    }
+  }
+}
+
+TEST(StereoFeed, liveAPairLeavesWithItsSecondImage) {
+  StereoFeed::Options options;
+  options.arrival = StereoFeed::Arrival::OrderedStreams;
+  StereoFeed feed(options, calibration());
+  feed.add(Side::Left, image(1000 * ms, 1));
+  EXPECT_TRUE(drain(feed).empty());
+  feed.add(Side::Right, image(1000 * ms, 2));
+  EXPECT_EQ(drain(feed).size(), 1U);
+}
+
+TEST(StereoFeed, anImageThatIsMissingOrDamagedLeavesAPairThatSaysSo) {
+  StereoFeed feed(StereoFeed::Options(), calibration());
+  feed.add(Side::Left, image(1000 * ms, 1));
+  feed.add(Side::Left, image(1100 * ms, 1));
+  feed.add(Side::Right, image(1100 * ms, 1, 50, 50));
+  auto damaged = boost::make_shared<sensor_msgs::Image>(*image(1200 * ms, 1));
+  damaged->data.resize(100);
+  feed.add(Side::Left, image(1200 * ms, 1));
+  feed.add(Side::Right, sensor_msgs::ImageConstPtr(damaged));
+  feed.finish();
+  const std::vector<FedPair> pairs = drain(feed);
+  ASSERT_EQ(pairs.size(), 3U);
+  for (const FedPair& pair : pairs) {
+    EXPECT_FALSE(pair.assembled.pair.left.empty());
+    EXPECT_TRUE(pair.assembled.pair.right.empty());
+  }
+  EXPECT_EQ(feed.missing(Side::Right), 1);
+  EXPECT_EQ(feed.missing(Side::Left), 0);
+  ASSERT_EQ(pairs[1].faults.size(), 1U);
+  EXPECT_NE(pairs[1].faults[0].find("right image: 50x50"), std::string::npos) << pairs[1].faults[0];
+  ASSERT_EQ(pairs[2].faults.size(), 1U);
+  EXPECT_NE(pairs[2].faults[0].find("right image: 100 bytes"), std::string::npos) << pairs[2].faults[0];
+}
+
+TEST(StereoFeed, rawImagesAreRectified) {
+  CameraInfo left = leftInfo(camera()), right = rightInfo(camera());
+  left.distortion_model = right.distortion_model = "plumb_bob";
+  left.D = right.D = {-0.2, 0.0, 0.0, 0.0, 0.0};
+  cv::Mat picture(height, width, CV_8UC1);
+  for (int v = 0; v < height; ++v)
+    for (int u = 0; u < width; ++u) picture.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(2 * u);
+  auto message = boost::make_shared<sensor_msgs::Image>(toImageMessage(picture));
+  message->header.stamp = toRosTime(1000 * ms);
+  for (const bool rectified_already : {false, true}) {
+    StereoFeed feed(StereoFeed::Options(), std::make_shared<StereoCalibration>(left, right, rectified_already, "test"));
+    feed.add(Side::Left, sensor_msgs::ImageConstPtr(message));
+    feed.add(Side::Right, sensor_msgs::ImageConstPtr(message));
+    feed.finish();
+    const std::vector<FedPair> pairs = drain(feed);
+    ASSERT_EQ(pairs.size(), 1U);
+    const int seen = pairs[0].assembled.pair.left.at(87, 35);
+    // A ray at x = (87 - 47.5) / 80 is seen at x (1 - 0.2 x^2) in the raw image.
+    const double x = (87 - 47.5) / 80.0, raw = 47.5 + 80.0 * x * (1.0 - 0.2 * x * x);
+    EXPECT_NEAR(seen, rectified_already ? 2 * 87 : 2 * raw, 1.5);
+  }
+}
+
+TEST(StereoFeed, motionComesWithThePairThatItLeadsTo) {
+  StereoFeed::Options options;
+  options.motion = true;
+  StereoFeed feed(options, calibration());
+  for (StampNs t = 0; t < 10; ++t) {
+    urban_nav_core::MotionInput input;
+    input.from = (1000 + 20 * t) * ms;
+    input.to = input.from + 20 * ms;
+    feed.add(input);
+  }
+  for (StampNs t = 1000; t < 1200; t += 50) {
+    feed.add(Side::Right, image(t * ms, 1));
+    feed.add(Side::Left, image(t * ms, 1));
+  }
+  feed.finish();
+  const std::vector<FedPair> pairs = drain(feed);
+  ASSERT_EQ(pairs.size(), 4U);
+  EXPECT_EQ(pairs[0].assembled.inputs.size(), 0U);
+  EXPECT_EQ(pairs[1].assembled.inputs.size(), 2U);
+  EXPECT_EQ(pairs[2].assembled.inputs.size(), 3U);
+  EXPECT_EQ(pairs[3].assembled.inputs.size(), 2U);
+}
+
+TEST(StereoCalibration, aPairThatIsNoneIsTheUsersMistake) {
+  EXPECT_THROW(StereoCalibration(rightInfo(camera()), leftInfo(camera()), false, "topics"), urban_nav_core::UserError);
+  EXPECT_THROW(StereoCalibration(CameraInfo(), CameraInfo(), false, "topics"), urban_nav_core::UserError);
+}
+
+TEST(CameraInfo, thereAndBack) {
+  CameraInfo info = rightInfo(camera());
+  info.distortion_model = "plumb_bob";
+  info.D = {0.1, 0.2, 0.3, 0.4, 0.5};
+  const CameraInfo back = toCameraInfo(toCameraInfoMessage(info));
+  EXPECT_EQ(back.width, info.width);
+  EXPECT_EQ(back.height, info.height);
+  EXPECT_EQ(back.D, info.D);
+  EXPECT_EQ(back.distortion_model, info.distortion_model);
+  EXPECT_EQ(back.K, info.K);
+  EXPECT_EQ(back.R, info.R);
+  EXPECT_EQ(back.P, info.P);
+}
+
+}  // namespace
+}  // namespace urban_nav_ros
