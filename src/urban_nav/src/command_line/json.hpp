@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace urban_nav {
+
+/// A JSON value that keeps its keys in the order they were set. Numbers that are not finite print as null.
+class Json {
+ public:
+  Json() = default;
+  Json(bool value) : value_(value) {}                                         // NOLINT: a literal is a value
+  Json(int value) : value_(static_cast<std::int64_t>(value)) {}               // NOLINT
+  Json(std::int64_t value) : value_(value) {}                                 // NOLINT
+  Json(std::size_t value) : value_(static_cast<std::int64_t>(value)) {}       // NOLINT
+  Json(double value) : value_(value) {}                                       // NOLINT
+  Json(const char* value) : value_(std::string(value)) {}                     // NOLINT
+  Json(std::string value) : value_(std::move(value)) {}                       // NOLINT
+
+  static Json object();
+  static Json array();
+
+  /// The value of a key, made null if it was not there; turns null into an object.
+  Json& operator[](const std::string& key);
+  void append(Json element);
+  bool isObject() const { return std::holds_alternative<Members>(value_); }
+  bool has(const std::string& key) const;
+
+  /// Indented by two blanks, with a newline at the end.
+  std::string print() const;
+
+ private:
+  friend struct JsonPrinter;
+  using Members = std::vector<std::pair<std::string, Json>>;
+  using Elements = std::vector<Json>;
+  std::variant<std::monostate, bool, std::int64_t, double, std::string, Elements, Members> value_;
+};
+
+}  // namespace urban_nav

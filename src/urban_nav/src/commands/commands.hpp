@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "command_line/command.hpp"
+
+namespace urban_nav {
+
+/// The subcommands of CONTRACT.md, each in a file of its name.
+Command mapCommand();
+
+}  // namespace urban_nav

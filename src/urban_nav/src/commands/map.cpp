@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "commands/commands.hpp"
+#include "pipeline/map_job.hpp"
+
+namespace urban_nav {
+
+namespace {
+
+MapRequest requestOf(const Arguments& arguments) {
+  MapRequest request{arguments.all("INPUT"),
+                     arguments.get("out"),
+                     arguments.list("stages"),
+                     arguments.get("truth"),
+                     arguments.get("json"),
+                     {arguments.all("topic"), arguments.get("calibration"), arguments.number("rate", 0.0, 0.01, 10000.0)},
+                     loadParameters(arguments),
+                     static_cast<int>(arguments.integer("threads", 0, 1, 1024))};
+  return request;
+}
+
+}  // namespace
+
+Command mapCommand() {
+  Command command;
+  command.name = "map";
+  command.summary = "Turns recordings into a trajectory with covariance, and a report.";
+  command.options = {{"INPUT", "", "bags, or folders of KITTI or EuRoC", true, true, {}},
+                     {"-o,--out", "DIR", "folder to write into (made if need be)", true, false, {}},
+                     {"--stages", "LIST", "of vo (default: all whose inputs exist)", false, true, {}},
+                     {"--topic", "ROLE:=NAME", "topic of a bag: left, right, left_info, right_info, imu, wheels, truth (default: guessed and said)", false, true, {}},
+                     {"--calibration", "FILE", "where the input has none: KITTI's calib.txt, or LEFT.yaml,RIGHT.yaml (camera_info)", false, false, {}},
+                     {"--rate", "HZ", "of an image folder without times.txt (default 10)", false, false, {}},
+                     {"--truth", "FILE", "trajectory for the report alone (default: what the input has)", false, false, {}},
+                     jsonOption(),
+                     configOption(),
+                     setOption(),
+                     threadsOption()};
+  command.examples = {"urban_nav map sequences/06 --out out", "urban_nav map robot.bag --topic left:=/cam0/image_raw --set swf_vo.window=25 --out out"};
+  command.more_help = parametersHelp;
+  command.run = [](const Arguments& arguments, Console& console) {
+    runMap(requestOf(arguments), console);
+    return 0;
+  };
+  return command;
+}
+
+}  // namespace urban_nav

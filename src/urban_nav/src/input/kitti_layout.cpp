@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "input/kitti_layout.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+
+#include "input/image_file.hpp"
+#include "input/text_lines.hpp"
+#include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav {
+
+namespace fs = std::filesystem;
+using urban_nav_core::atLine;
+using urban_nav_core::StampNs;
+using urban_nav_core::StereoCamera;
+using urban_nav_core::UserError;
+
+namespace {
+
+using Projection = std::array<double, 12>;
+
+Projection parseProjection(const std::string& path, const TextLine& line, const std::string& key, std::string_view values) {
+  const std::vector<std::string_view> words = urban_nav_core::splitBlanks(values);
+  Projection projection{};
+  bool good = words.size() == projection.size();
+  for (std::size_t i = 0; good && i < projection.size(); ++i) {
+    const std::optional<double> value = urban_nav_core::parseNumber(words[i]);
+    good = value.has_value();
+    if (good) projection[i] = *value;
+  }
+  if (!good) throw UserError(atLine(path, line.number), key + " has " + std::to_string(words.size()) + " values or one that is no number", "12 numbers (3x4, row-major)");
+  if (!(projection[0] > 0.0) || !(projection[5] > 0.0)) throw UserError(atLine(path, line.number), key + " has no positive focal length", "f_x, f_y > 0 px");
+  return projection;
+}
+
+Projection findProjection(const std::string& path, const std::vector<TextLine>& lines, const std::string& key) {
+  for (const TextLine& line : lines) {
+    const std::size_t colon = line.text.find(':');
+    if (colon != std::string::npos && urban_nav_core::trimmed(std::string_view(line.text).substr(0, colon)) == key) {
+      return parseProjection(path, line, key, std::string_view(line.text).substr(colon + 1));
+    }
+  }
+  throw UserError(path, "has no row " + key, key + ": 12 numbers (3x4, row-major)");
+}
+
+StereoCamera cameraOf(const std::string& path, const Projection& left, const Projection& right, const std::string& names) {
+  StereoCamera camera;
+  camera.left.fx = left[0];
+  camera.left.fy = left[5];
+  camera.left.cx = left[2];
+  camera.left.cy = left[6];
+  camera.baseline = (left[3] - right[3]) / left[0];
+  const double tolerance = 1e-3 * left[0];
+  for (const std::size_t i : {std::size_t{0}, std::size_t{2}, std::size_t{5}, std::size_t{6}}) {
+    if (std::abs(left[i] - right[i]) > tolerance) throw UserError(path, names + " differ in focal length or centre", "two cameras that are rectified together");
+  }
+  if (!(camera.baseline > 0.0)) {
+    throw UserError(path, names + ": baseline " + urban_nav_core::printNumber(camera.baseline) + " m", "above 0 m: is the right camera's row the left one's?");
+  }
+  return camera;
+}
+
+StampNs daysSince1970(int year, int month, int day) {  // Howard Hinnant, "chrono-compatible low-level date algorithms"
+  year -= month <= 2 ? 1 : 0;
+  const int era = (year >= 0 ? year : year - 399) / 400;
+  const int year_of_era = year - era * 400;
+  const int day_of_year = (153 * (month + (month > 2 ? -3 : 9)) + 2) / 5 + day - 1;
+  const int day_of_era = year_of_era * 365 + year_of_era / 4 - year_of_era / 100 + day_of_year;
+  return static_cast<StampNs>(era) * 146097 + day_of_era - 719468;
+}
+
+}  // namespace
+
+std::optional<KittiLayout> findKittiLayout(const std::string& folder) {
+  struct Names {
+    const char *left, *right, *p_left, *p_right, *rect_left, *rect_right;
+  };
+  static constexpr std::array<Names, 4> all = {{{"image_0", "image_1", "P0", "P1", "P_rect_00", "P_rect_01"},
+                                                {"image_00", "image_01", "P0", "P1", "P_rect_00", "P_rect_01"},
+                                                {"image_2", "image_3", "P2", "P3", "P_rect_02", "P_rect_03"},
+                                                {"image_02", "image_03", "P2", "P3", "P_rect_02", "P_rect_03"}}};
+  for (const Names& names : all) {
+    const fs::path left = fs::path(folder) / names.left;
+    const fs::path right = fs::path(folder) / names.right;
+    if (!fs::is_directory(left) && !fs::is_directory(right)) continue;
+    const std::string inside = fs::is_directory(left / "data") || fs::is_directory(right / "data") ? "data" : "";
+    return KittiLayout{folder, (left / inside).string(), (right / inside).string(), names.p_left, names.p_right, names.rect_left, names.rect_right};
+  }
+  return std::nullopt;
+}
+
+std::map<std::int64_t, std::string> listFrames(const std::string& folder) {
+  std::map<std::int64_t, std::string> frames;
+  if (!fs::is_directory(folder)) return frames;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string stem = entry.path().stem().string();
+    const bool digits = !stem.empty() && std::all_of(stem.begin(), stem.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+    const std::optional<std::int64_t> number = digits ? urban_nav_core::parseInteger(stem) : std::nullopt;
+    if (number && isImageName(entry.path().filename().string())) frames[*number] = entry.path().string();
+  }
+  return frames;
+}
+
+StereoCamera readKittiCamera(const KittiLayout& layout) {
+  const fs::path folder(layout.folder);
+  if (fs::exists(folder / "calib.txt")) {
+    const std::string path = (folder / "calib.txt").string();
+    const std::vector<TextLine> lines = readLines(path);
+    return cameraOf(path, findProjection(path, lines, layout.left_name), findProjection(path, lines, layout.right_name), layout.left_name + " and " + layout.right_name);
+  }
+  for (const fs::path& place : {folder, fs::absolute(folder).parent_path()}) {
+    const std::string path = (place / "calib_cam_to_cam.txt").string();
+    if (!fs::exists(path)) continue;
+    const std::vector<TextLine> lines = readLines(path);
+    return cameraOf(path, findProjection(path, lines, layout.left_rect), findProjection(path, lines, layout.right_rect), layout.left_rect + " and " + layout.right_rect);
+  }
+  throw UserError((folder / "calib.txt").string(), "is not there", "calib.txt with rows P0 and P1, calib_cam_to_cam.txt, or --calibration FILE");
+}
+
+KittiTimes readKittiTimes(const KittiLayout& layout) {
+  const fs::path folder(layout.folder);
+  KittiTimes times;
+  if (fs::exists(folder / "times.txt")) {
+    times.path = (folder / "times.txt").string();
+    for (const TextLine& line : readLines(times.path)) {
+      std::optional<StampNs> stamp = urban_nav_core::parseStamp(line.text);
+      if (!stamp) {  // KITTI writes exponents (1.036224e-01)
+        const std::optional<double> seconds = urban_nav_core::parseNumber(line.text);
+        if (seconds && std::abs(*seconds) < 4e9) stamp = static_cast<StampNs>(std::llround(*seconds * 1e9));
+      }
+      if (!stamp) throw UserError(atLine(times.path, line.number), "\"" + line.text + "\" is no time", "seconds, one number a line");
+      times.stamps.push_back(*stamp);
+    }
+    return times;
+  }
+  const fs::path images(layout.left);
+  for (const fs::path& path : {images / "timestamps.txt", images.parent_path() / "timestamps.txt"}) {
+    if (!fs::exists(path)) continue;
+    times.path = path.string();
+    for (const TextLine& line : readLines(times.path)) {
+      const std::optional<StampNs> stamp = parseDateTime(line.text);
+      if (!stamp) throw UserError(atLine(times.path, line.number), "\"" + line.text + "\" is no date and time", "2011-09-26 13:02:25.964389445");
+      times.stamps.push_back(*stamp);
+    }
+    return times;
+  }
+  return times;
+}
+
+std::optional<StampNs> parseDateTime(const std::string& text) {
+  if (text.size() < 19 || text[4] != '-' || text[7] != '-' || (text[10] != ' ' && text[10] != 'T') || text[13] != ':' || text[16] != ':') return std::nullopt;
+  const auto field = [&](std::size_t begin, std::size_t size) { return urban_nav_core::parseInteger(std::string_view(text).substr(begin, size)).value_or(-1); };
+  const std::int64_t year = field(0, 4), month = field(5, 2), day = field(8, 2), hour = field(11, 2), minute = field(14, 2);
+  const std::optional<StampNs> seconds = urban_nav_core::parseStamp(std::string_view(text).substr(17));
+  if (year < 1900 || month < 1 || month > 12 || day < 1 || day > 31 || hour < 0 || hour > 23 || minute < 0 || minute > 59 || !seconds) return std::nullopt;
+  const StampNs days = daysSince1970(static_cast<int>(year), static_cast<int>(month), static_cast<int>(day));
+  constexpr StampNs minute_ns = 60'000'000'000;
+  return ((days * 24 + hour) * 60 + minute) * minute_ns + *seconds;
+}
+
+}  // namespace urban_nav

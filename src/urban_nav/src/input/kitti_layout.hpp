@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "urban_nav_core/camera/stereo_camera.hpp"
+#include "urban_nav_core/types/stamp.hpp"
+
+namespace urban_nav {
+
+/// Where a KITTI folder has what: `image_0` and `image_1` (odometry), `image_00` and `image_01` (raw), each with or without
+/// `data/` inside; `image_2`, `image_3` (colour) where these are all there is.
+struct KittiLayout {
+  std::string folder;
+  std::string left, right;              ///< folders of images
+  std::string left_name, right_name;    ///< "P0", "P1": rows of calib.txt
+  std::string left_rect, right_rect;    ///< "P_rect_00": rows of calib_cam_to_cam.txt
+};
+std::optional<KittiLayout> findKittiLayout(const std::string& folder);
+
+/// Frame number (the digits of the file name) to file, for one folder of images.
+std::map<std::int64_t, std::string> listFrames(const std::string& folder);
+
+/// The rectified pair out of calib.txt, or calib_cam_to_cam.txt in the folder or above it. Width and height are left at 0.
+/// UserError naming file and line where a row is missing or wrong.
+urban_nav_core::StereoCamera readKittiCamera(const KittiLayout& layout);
+
+/// Stamps of frames 0, 1 ... out of times.txt (s) or KITTI raw's timestamps.txt (date and time); empty if there is neither.
+struct KittiTimes {
+  std::string path;
+  std::vector<urban_nav_core::StampNs> stamps;
+};
+KittiTimes readKittiTimes(const KittiLayout& layout);
+
+/// "2011-09-26 13:02:25.964389445" as ns since 1970 (UTC); empty if it is no such text.
+std::optional<urban_nav_core::StampNs> parseDateTime(const std::string& text);
+
+}  // namespace urban_nav

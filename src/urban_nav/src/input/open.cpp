@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "input/open.hpp"
+
+#include <filesystem>
+#include <fstream>
+
+#include "input/kitti_layout.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav {
+
+namespace fs = std::filesystem;
+using urban_nav_core::UserError;
+
+namespace {
+
+constexpr const char* kKnownInputs =
+    "a bag, a KITTI folder (image_0/, image_1/, calib.txt; image_00/data/ too), a EuRoC folder (mav0/), or a New College folder (*.alog, StereoImages/)";
+
+bool isBag(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string magic(7, '\0');
+  return file.read(magic.data(), 7) && magic == "#ROSBAG";
+}
+
+bool hasAlog(const std::string& folder) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == ".alog") return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+InputKind inputKind(const std::string& path) {
+  if (!fs::exists(path)) throw UserError(path, "is not there", kKnownInputs);
+  if (!fs::is_directory(path)) {
+    if (isBag(path)) return InputKind::Bag;
+    throw UserError(path, "is no bag (its first line is not #ROSBAG)", kKnownInputs);
+  }
+  if (findKittiLayout(path)) return InputKind::KittiFolder;
+  if (fs::is_directory(fs::path(path) / "mav0") || fs::is_directory(fs::path(path) / "cam0")) return InputKind::EurocFolder;
+  if (fs::is_directory(fs::path(path) / "StereoImages") || hasAlog(path)) return InputKind::NewCollegeFolder;
+  throw UserError(path, "holds nothing that is known", kKnownInputs);
+}
+
+std::unique_ptr<Source> openSource(const std::vector<std::string>& paths, const SourceOptions& options) {
+  switch (inputKind(paths.front())) {
+    case InputKind::KittiFolder: return openKittiFolder(paths.front(), options);
+    case InputKind::NewCollegeFolder: throw UserError(paths.front(), "is a New College folder", "the bag that urban_nav convert new-college makes of it");
+    case InputKind::EurocFolder:
+    case InputKind::Bag: break;
+  }
+  throw UserError(paths.front(), "cannot be read by this version", "a KITTI folder");
+}
+
+}  // namespace urban_nav

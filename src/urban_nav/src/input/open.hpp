@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "input/source.hpp"
+
+namespace urban_nav {
+
+/// What the user said about inputs.
+struct SourceOptions {
+  std::vector<std::string> topics;  ///< ROLE:=NAME, for bags
+  std::string calibration;          ///< file for inputs without one; empty: none
+  double rate = 0.0;                ///< Hz of an image folder without stamps; 0: 10 Hz
+};
+
+enum class InputKind { KittiFolder, EurocFolder, NewCollegeFolder, Bag };
+
+/// What lies at `path`. UserError that names what is known where it is none of it.
+InputKind inputKind(const std::string& path);
+
+/// One session: a folder, or the bags of a recording (more than one where it was split).
+std::unique_ptr<Source> openSource(const std::vector<std::string>& paths, const SourceOptions& options);
+
+std::unique_ptr<Source> openKittiFolder(const std::string& folder, const SourceOptions& options);
+std::unique_ptr<Source> openEurocFolder(const std::string& folder, const SourceOptions& options);
+std::unique_ptr<Source> openBags(const std::vector<std::string>& paths, const SourceOptions& options);
+
+}  // namespace urban_nav

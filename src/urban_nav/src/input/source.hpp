@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "urban_nav_core/camera/stereo_camera.hpp"
+#include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_core/sequence/stereo_assembler.hpp"
+#include "urban_nav_core/types/stamp.hpp"
+
+namespace urban_nav {
+
+/// A rectified grey pair and what else was measured since the pair before. An image that is missing or does not decode is an
+/// empty view, and a sentence in `faults` names it.
+struct StereoInput {
+  urban_nav_core::AssembledPair assembled;
+  std::vector<std::string> faults;
+};
+
+/// What is known of an input before its first image is decoded.
+struct SourceInfo {
+  std::string name;                        ///< as the user gave it
+  std::string kind;                        ///< "KITTI folder", "EuRoC folder", "bag"
+  urban_nav_core::StereoCamera camera;     ///< after rectification
+  urban_nav_core::Pose T_base_camera;      ///< left optical frame in base_link
+  std::int64_t frames = 0;                 ///< stereo frames expected; 0: unknown
+  urban_nav_core::StampNs first = 0, last = 0;  ///< of the stereo stream, as far as it is known beforehand
+  std::vector<std::string> notes;          ///< what was guessed or assumed, for the user
+};
+
+/// Stereo pairs in order, whatever they are stored in. One caller at a time, from any thread.
+class Source {
+ public:
+  virtual ~Source() = default;
+  virtual const SourceInfo& info() const = 0;
+  /// The next pair; empty at the end. DataError where the input cannot be read on.
+  virtual std::optional<StereoInput> next() = 0;
+};
+
+/// Reads ahead by at most `depth` pairs in a thread of its own. The pairs and their order are those of `source`.
+std::unique_ptr<Source> readAhead(std::unique_ptr<Source> source, int depth);
+
+}  // namespace urban_nav

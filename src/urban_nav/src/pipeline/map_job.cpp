@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/map_job.hpp"
+
+#include <algorithm>
+#include <memory>
+
+#include "pipeline/map_outcome.hpp"
+#include "pipeline/sessions.hpp"
+#include "pipeline/usage.hpp"
+#include "pipeline/vo_files.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav {
+
+using urban_nav_core::DataError;
+using urban_nav_core::UserError;
+
+namespace {
+
+constexpr double kSecondsBetweenReports = 4.0;
+constexpr int kMostReadAhead = 16;  // pairs: decoding is even enough that more would only cost memory
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+void checkStages(const std::vector<std::string>& stages) {
+  for (const std::string& stage : stages) {
+    const auto in = [&](const std::vector<std::string>& list) { return std::find(list.begin(), list.end(), stage) != list.end(); };
+    if (in(existingStages())) continue;
+    const std::string what = in(knownStages()) ? "stage " + stage + " is not in this version" : "no stage \"" + stage + "\"";
+    throw UserError("--stages", what, joined(existingStages()));
+  }
+}
+
+std::unique_ptr<Source> open(const std::vector<std::string>& paths, const MapRequest& request) {
+  std::unique_ptr<Source> source = openSource(paths, request.source);
+  if (request.threads == 1) return source;
+  const urban_nav_core::Pinhole& camera = source->info().camera.left;
+  const double pair_mb = std::max(0.1, 2e-6 * camera.width * camera.height);
+  const int fits = static_cast<int>(0.1 * request.parameters.command.parameters.memory_mb / pair_mb);
+  return readAhead(std::move(source), std::clamp(fits, 2, kMostReadAhead));
+}
+
+void say(const SourceInfo& info, Console& console) {
+  console.info(info.name + ": " + info.kind + (info.frames > 0 ? ", " + std::to_string(info.frames) + " stereo frames" : "") + ", " + std::to_string(info.camera.left.width) + "x" +
+               std::to_string(info.camera.left.height));
+  for (const std::string& note : info.notes) console.info("  " + note);
+}
+
+/// Frames of one session through visual odometry, with the report kept fresh.
+void runVo(Source& source, VoStage& stage, MapOutcome& outcome, Console& console) {
+  Progress progress(console, "vo", "frames", source.info().frames);
+  std::size_t faults_said = 0;
+  double last_report = outcome.usage.wallSeconds();
+  while (const std::optional<StereoInput> input = source.next()) {
+    stage.process(*input);
+    for (; faults_said < std::min<std::size_t>(stage.run().faults.size(), 10); ++faults_said) console.warn(stage.run().faults[faults_said]);
+    const auto done = static_cast<std::int64_t>(stage.run().rows.size());
+    progress.update(done);
+    if (outcome.usage.wallSeconds() - last_report > kSecondsBetweenReports) {
+      outcome.progress = source.info().frames > 0 ? static_cast<double>(done) / static_cast<double>(source.info().frames) : 0.0;
+      writeReport(outcome);
+      last_report = outcome.usage.wallSeconds();
+    }
+  }
+  stage.finish();
+  progress.finish(static_cast<std::int64_t>(stage.run().rows.size()));
+}
+
+void checkUsable(const VoRun& run) {
+  const bool any = std::any_of(run.rows.begin(), run.rows.end(), [](const VoRow& row) { return row.statistics.features > 0; });
+  if (any) return;
+  const std::string first = run.faults.empty() ? "" : "; the first fault: " + run.faults.front();
+  throw DataError(run.input, "none of " + std::to_string(run.rows.size()) + " stereo frames could be used" + first, "");
+}
+
+}  // namespace
+
+const std::vector<std::string>& knownStages() {
+  static const std::vector<std::string> stages = {"vo", "places", "loops", "graph", "lasers", "stereo", "labels"};
+  return stages;
+}
+
+const std::vector<std::string>& existingStages() {
+  static const std::vector<std::string> stages = {"vo"};
+  return stages;
+}
+
+void runMap(const MapRequest& request, Console& console) {
+  checkStages(request.stages);
+  const std::vector<Session> sessions = findSessions(request.inputs);
+  MapOutcome outcome(request);
+  for (std::size_t i = 0; i < sessions.size(); ++i) {
+    const std::unique_ptr<Source> source = open(sessions[i].paths, request);
+    say(source->info(), console);
+    outcome.stages.push_back(std::make_unique<VoStage>(request.parameters.swf_vo.parameters, source->info()));
+    outcome.infos.push_back(source->info());
+    if (i == 0) writeReport(outcome);
+    runVo(*source, *outcome.stages.back(), outcome, console);
+    checkUsable(outcome.stages.back()->run());
+    writeVoFiles(outcome.folder, outcome.stages.back()->run(), i == 0 ? "" : "_" + std::to_string(i + 1));
+  }
+  finishMap(outcome, sessions, console);
+}
+
+}  // namespace urban_nav

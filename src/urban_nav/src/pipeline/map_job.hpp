@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "command_line/console.hpp"
+#include "input/open.hpp"
+#include "pipeline/parameters.hpp"
+
+namespace urban_nav {
+
+struct MapRequest {
+  std::vector<std::string> inputs;   ///< folders and bags
+  std::string out;                   ///< folder
+  std::vector<std::string> stages;   ///< asked for; empty: all whose inputs exist
+  std::string truth;                 ///< file; empty: what is found in the inputs
+  std::string json;                  ///< a copy of summary.json; empty: none
+  SourceOptions source;
+  AllParameters parameters;
+  int threads = 0;                   ///< 0: one per core
+};
+
+/// The stages that CONTRACT.md knows, in their order, and those of them that this suite has.
+const std::vector<std::string>& knownStages();
+const std::vector<std::string>& existingStages();
+
+/// Runs the stages over the inputs and writes the files of CONTRACT.md. UserError for mistakes of the request, DataError where
+/// the inputs do not allow it.
+void runMap(const MapRequest& request, Console& console);
+
+}  // namespace urban_nav

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/map_outcome.hpp"
+
+#include <algorithm>
+
+#include "pipeline/vo_files.hpp"
+#include "pipeline/vo_summary.hpp"
+#include "report/plot.hpp"
+#include "report/vo_report.hpp"
+
+namespace urban_nav {
+
+namespace {
+
+std::vector<const VoRun*> runsOf(const MapOutcome& outcome) {
+  std::vector<const VoRun*> runs;
+  for (const std::unique_ptr<VoStage>& stage : outcome.stages) runs.push_back(&stage->run());
+  return runs;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+double realtimeFactor(const MapOutcome& outcome, const VoSummary& summary) {
+  return summary.seconds / std::max(1e-9, outcome.usage.wallSeconds());
+}
+
+std::vector<Tile> tilesOf(const MapOutcome& outcome, const VoSummary& summary) {
+  return {{forPerson(summary.distance_m, 4), "m", "driven", Grade::Plain},
+          {std::to_string(summary.frames), "", "stereo frames", Grade::Plain},
+          {forPerson(summary.seconds, 4), "s", "of data", Grade::Plain},
+          {forPerson(realtimeFactor(outcome, summary), 3), "x", "real time, reading included", Grade::Plain},
+          {forPerson(summary.ms_median, 3), "ms", "median time in the filter", Grade::Plain}};
+}
+
+PageTable parametersTable(const AllParameters& parameters) {
+  PageTable table{"Parameters", {"parameter", "value", "from"}, {}, ""};
+  for (const std::vector<urban_nav_core::Setting>* settings : {&parameters.command.settings, &parameters.swf_vo.settings}) {
+    for (const urban_nav_core::Setting& setting : *settings) {
+      table.rows.push_back({urban_nav_core::fullName(setting.stage, setting.name), urban_nav_core::printValue(setting.value), setting.origin});
+    }
+  }
+  return table;
+}
+
+PageTable inputsTable(const MapOutcome& outcome) {
+  PageTable table{"Inputs", {"input", "kind", "frames", "size", "f (px)", "baseline (m)", "said"}, {}, ""};
+  for (std::size_t i = 0; i < outcome.infos.size(); ++i) {
+    const SourceInfo& info = outcome.infos[i];
+    const urban_nav_core::Pinhole& left = info.camera.left;
+    table.rows.push_back({info.name, info.kind, std::to_string(outcome.stages[i]->run().rows.size()), std::to_string(left.width) + "x" + std::to_string(left.height), forPerson(left.fx, 6),
+                          forPerson(info.camera.baseline, 5), joined(info.notes)});
+  }
+  return table;
+}
+
+Page pageOf(const MapOutcome& outcome, bool running) {
+  const std::vector<const VoRun*> runs = runsOf(outcome);
+  const VoSummary summary = summarise(runs);
+  Page page;
+  page.title = "Map of " + joined(outcome.request.inputs);
+  page.subtitle = "Visual odometry: where the robot went, and how far to trust it.";
+  page.running = running;
+  page.progress = outcome.progress;
+  page.tiles = tilesOf(outcome, summary);
+  page.verdicts = voVerdicts(summary);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    for (Section& section : voSections(*runs[i])) {
+      if (runs.size() > 1) {
+        section.id += std::to_string(i + 1);
+        section.title += " (session " + std::to_string(i + 1) + ")";
+      }
+      page.sections.push_back(std::move(section));
+    }
+  }
+  Section how{"how", "How it was made", "", {}, {}, {inputsTable(outcome), parametersTable(outcome.request.parameters)}};
+  if (!summary.warnings.empty()) {
+    PageTable warnings{"Warnings", {"what was wrong with the data"}, {}, ""};
+    for (const std::string& warning : summary.warnings) warnings.rows.push_back({warning});
+    how.tables.insert(how.tables.begin(), warnings);
+  }
+  page.sections.push_back(how);
+  page.footer = "urban_nav map, " + forPerson(outcome.usage.wallSeconds(), 3) + " s of time, " + forPerson(outcome.usage.cpuSeconds(), 3) + " s of processor. Poses and figures: trajectory.tum, covariance.csv, stats.csv beside this file.";
+  return page;
+}
+
+Json summaryOf(const MapOutcome& outcome, const VoSummary& summary) {
+  Json json = Json::object();
+  json["wall_s"] = outcome.usage.wallSeconds();
+  json["cpu_s"] = outcome.usage.cpuSeconds();
+  json["peak_rss_bytes"] = Usage::peakRssBytes();
+  json["realtime_factor"] = realtimeFactor(outcome, summary);
+  json["distance_m"] = summary.distance_m;
+  json["frames"] = summary.frames;
+  json["duration_s"] = summary.seconds;
+  json["sessions"] = outcome.stages.size();
+  Json& inputs = json["inputs"] = Json::array();
+  for (const std::string& input : outcome.request.inputs) inputs.append(input);
+  json["swf_vo"] = toJson(summary);
+  json["parameters"] = parametersJson(outcome.request.parameters);
+  return json;
+}
+
+}  // namespace
+
+void writeReport(const MapOutcome& outcome) { outcome.folder.write("report.html", renderPage(pageOf(outcome, true))); }
+
+void finishMap(const MapOutcome& outcome, const std::vector<Session>& sessions, Console& console) {
+  const std::vector<const VoRun*> runs = runsOf(outcome);
+  const VoSummary summary = summarise(runs);
+  outcome.folder.write("stats.csv", statsCsv(runs));
+  outcome.folder.write("report.html", renderPage(pageOf(outcome, false)));
+  const std::string text = summaryOf(outcome, summary).print();
+  outcome.folder.write("summary.json", text);
+  if (!outcome.request.json.empty()) writeWhole(outcome.request.json, text);
+  console.info(std::to_string(summary.frames) + " frames, " + forPerson(summary.distance_m, 4) + " m" + (sessions.size() > 1 ? ", " + std::to_string(sessions.size()) + " sessions" : "") + ", " +
+               forPerson(realtimeFactor(outcome, summary), 3) + " times real time");
+  console.print(outcome.folder.file("report.html") + "\n" + outcome.folder.file("trajectory.tum") + "\n");
+}
+
+}  // namespace urban_nav

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "pipeline/map_job.hpp"
+#include "pipeline/output_folder.hpp"
+#include "pipeline/sessions.hpp"
+#include "pipeline/usage.hpp"
+#include "pipeline/vo_stage.hpp"
+
+namespace urban_nav {
+
+/// What a run of `map` has made so far: what the report shows while it is at work.
+struct MapOutcome {
+  explicit MapOutcome(const MapRequest& asked) : request(asked), folder(asked.out) {}
+
+  const MapRequest& request;
+  OutputFolder folder;
+  Usage usage;
+  std::vector<std::unique_ptr<VoStage>> stages;  ///< one per session
+  std::vector<SourceInfo> infos;                 ///< one per session
+  double progress = 0.0;                         ///< of the session at work
+};
+
+/// report.html as things stand, marked as unfinished.
+void writeReport(const MapOutcome& outcome);
+
+/// stats.csv, summary.json and the finished report; compares with the truth where there is one, and says how it went.
+void finishMap(const MapOutcome& outcome, const std::vector<Session>& sessions, Console& console);
+
+}  // namespace urban_nav

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/parameters.hpp"
+
+#include "urban_nav_core/parameters/print.hpp"
+
+namespace urban_nav {
+
+using urban_nav_core::Assignment;
+using urban_nav_core::ParameterValue;
+using urban_nav_core::Setting;
+using urban_nav_core::Table;
+
+namespace {
+
+std::vector<Assignment> assignmentsOf(const Arguments& arguments) {
+  std::vector<Assignment> assignments;
+  for (const std::string& path : arguments.all("config")) {
+    const std::vector<Assignment> file = urban_nav_core::readParameters(path);
+    assignments.insert(assignments.end(), file.begin(), file.end());
+  }
+  for (const std::string& setting : arguments.all("set")) assignments.push_back(urban_nav_core::parseSetting(setting));
+  urban_nav_core::refuseUnknownStages(assignments, {"", swf_vo::table().stage()});
+  return assignments;
+}
+
+Json jsonOf(const ParameterValue& value) {
+  return std::visit([](const auto& plain) { return Json(plain); }, value.base());
+}
+
+}  // namespace
+
+CommandParameters::CommandParameters() { commandTable().setDefaults(*this); }
+
+const Table<CommandParameters>& commandTable() {
+  static const Table<CommandParameters> table(
+      "", {{"memory_mb", &CommandParameters::memory_mb, "MB", 4000, 200, 10000000, {}, "Bounds the memory for what is read ahead; the result does not depend on it.", ""}});
+  return table;
+}
+
+AllParameters loadParameters(const Arguments& arguments) {
+  const std::vector<Assignment> assignments = assignmentsOf(arguments);
+  return {urban_nav_core::load(commandTable(), assignments), urban_nav_core::load(swf_vo::table(), assignments)};
+}
+
+std::string parametersHelp(const Arguments& arguments) {
+  const AllParameters all = loadParameters(arguments);
+  return "parameters (--config FILE, --set STAGE.KEY=VALUE):\n" + urban_nav_core::printHelp(commandTable().stage(), commandTable().rows(), all.command.settings) +
+         urban_nav_core::printHelp(swf_vo::table().stage(), swf_vo::table().rows(), all.swf_vo.settings);
+}
+
+Json parametersJson(const AllParameters& parameters) {
+  Json json = Json::object();
+  for (const std::vector<Setting>* settings : {&parameters.command.settings, &parameters.swf_vo.settings}) {
+    for (const Setting& setting : *settings) {
+      Json& entry = json[urban_nav_core::fullName(setting.stage, setting.name)] = Json::object();
+      entry["value"] = jsonOf(setting.value);
+      entry["origin"] = setting.origin;
+    }
+  }
+  return json;
+}
+
+}  // namespace urban_nav

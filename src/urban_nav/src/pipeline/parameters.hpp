@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "command_line/command.hpp"
+#include "command_line/json.hpp"
+#include "swf_vo/parameters.hpp"
+#include "urban_nav_core/parameters/sources.hpp"
+
+namespace urban_nav {
+
+/// What belongs to the command itself and to no stage: keys without a stage in front.
+struct CommandParameters {
+  int memory_mb;  // MB
+  CommandParameters();
+};
+const urban_nav_core::Table<CommandParameters>& commandTable();
+
+/// The parameters of all stages, from --config and --set.
+struct AllParameters {
+  urban_nav_core::Loaded<CommandParameters> command;
+  urban_nav_core::Loaded<swf_vo::Parameters> swf_vo;
+};
+AllParameters loadParameters(const Arguments& arguments);
+
+/// For --help: each parameter with its value and where that came from, --config and --set of the same call included.
+std::string parametersHelp(const Arguments& arguments);
+
+/// For summary.json: stage, key, value, origin.
+Json parametersJson(const AllParameters& parameters);
+
+}  // namespace urban_nav

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/sessions.hpp"
+
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include <algorithm>
+
+#include "input/open.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav {
+
+using urban_nav_core::DataError;
+using urban_nav_core::UserError;
+
+namespace {
+
+constexpr double kLongestSplit = 5.0;  // s between the parts of one recording
+
+struct Extent {
+  std::string path;
+  double begin = 0.0, end = 0.0;  // s
+};
+
+Extent extentOf(const std::string& path) {
+  try {
+    rosbag::Bag bag(path, rosbag::bagmode::Read);
+    rosbag::View view(bag);
+    if (view.size() == 0) throw DataError(path, "holds no messages", "");
+    return {path, view.getBeginTime().toSec(), view.getEndTime().toSec()};
+  } catch (const rosbag::BagUnindexedException&) {
+    throw DataError(path, "has no index: the recording was cut off (rosbag reindex " + path + " repairs that)", "");
+  } catch (const rosbag::BagException& error) {
+    throw DataError(path, std::string("cannot be read: ") + error.what(), "");
+  }
+}
+
+}  // namespace
+
+std::vector<Session> findSessions(const std::vector<std::string>& inputs) {
+  std::vector<Session> sessions;
+  std::vector<Extent> bags;
+  for (const std::string& input : inputs) {
+    if (inputKind(input) == InputKind::Bag) {
+      bags.push_back(extentOf(input));
+    } else {
+      sessions.push_back({{input}});
+    }
+  }
+  std::stable_sort(bags.begin(), bags.end(), [](const Extent& a, const Extent& b) { return a.begin < b.begin; });
+  double end = 0.0;
+  bool first = true;
+  for (const Extent& bag : bags) {
+    if (first || bag.begin - end >= kLongestSplit) sessions.push_back({});
+    sessions.back().paths.push_back(bag.path);
+    end = first ? bag.end : std::max(end, bag.end);
+    first = false;
+  }
+  return sessions;
+}
+
+}  // namespace urban_nav

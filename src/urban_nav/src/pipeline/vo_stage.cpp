@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/vo_stage.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "pipeline/track_picture.hpp"
+
+namespace urban_nav {
+
+using swf_vo::Feature;
+using swf_vo::Frame;
+using urban_nav_core::Health;
+using urban_nav_core::ImageView;
+
+namespace {
+
+constexpr std::size_t kPictures = 8;
+constexpr std::size_t kTail = 6;  // frames that the track of a feature reaches back
+
+std::uint8_t greyAt(const ImageView& image, const Eigen::Vector3d& pixel) {
+  const int u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
+  return image.empty() || u < 0 || v < 0 || u >= image.width || v >= image.height ? std::uint8_t{0} : image.at(u, v);
+}
+
+std::string captionOf(const VoRow& row) {
+  std::string text = std::to_string(row.statistics.features) + " features, " + std::to_string(row.statistics.tracked) + " tracked";
+  if (row.status.health != Health::Ok) text += ", " + std::string(toString(row.status.health)) + ": " + row.status.sentence;
+  return text;
+}
+
+}  // namespace
+
+/// Keeps a few pictures evenly spread over a session whose length is not known: each time there are too many, the step
+/// between them doubles.
+class VoStage::PictureKeeper {
+ public:
+  void add(const VoRow& row, const ImageView& image, const std::vector<Feature>& features, std::vector<VoPicture>& pictures) {
+    tails_.push_back(features);
+    if (tails_.size() > kTail) tails_.erase(tails_.begin());
+    if (row.frame == 0 || row.frame % step_ != 0 || image.empty()) return;
+    VoPicture picture = drawTracks(image, tails_);
+    picture.frame = row.frame;
+    picture.stamp = row.stamp;
+    picture.caption = captionOf(row);
+    pictures.push_back(std::move(picture));
+    if (pictures.size() <= kPictures) return;
+    step_ *= 2;
+    pictures.erase(std::remove_if(pictures.begin(), pictures.end(), [this](const VoPicture& p) { return p.frame % step_ != 0; }), pictures.end());
+  }
+
+ private:
+  std::int64_t step_ = 4;
+  std::vector<std::vector<Feature>> tails_;  // the newest last
+};
+
+VoStage::VoStage(const swf_vo::Parameters& parameters, const SourceInfo& info)
+    : filter_(parameters, info.camera, info.T_base_camera), pictures_(std::make_unique<PictureKeeper>()) {
+  run_.input = info.name;
+  run_.camera = info.camera;
+  run_.T_base_camera = info.T_base_camera;
+}
+
+VoStage::~VoStage() = default;
+
+const VoRow& VoStage::process(const StereoInput& input) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin = Clock::now();
+  const Frame& frame = filter_.process(input.assembled.pair, input.assembled.inputs);
+  const double ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+
+  VoRow row;
+  row.frame = static_cast<std::int64_t>(run_.rows.size());
+  row.stamp = input.assembled.pair.stamp;
+  row.accepted = frame.accepted;
+  row.status = frame.status;
+  row.statistics = frame.statistics;
+  row.T_odom_base = frame.T_odom_base.pose;
+  row.process_ms = ms;
+  run_.faults_total += static_cast<std::int64_t>(input.faults.size());
+  for (const std::string& fault : input.faults) {
+    if (run_.faults.size() < kFaultsKept) run_.faults.push_back(fault);
+  }
+  run_.settled.insert(run_.settled.end(), frame.settled.begin(), frame.settled.end());
+  for (const swf_vo::Landmark& landmark : frame.landmarks) run_.landmarks[landmark.id].landmark = landmark;
+  for (const Feature& feature : frame.features) {
+    const auto known = run_.landmarks.find(feature.landmark);
+    if (known == run_.landmarks.end()) continue;
+    known->second.seen = feature.age + 1;
+    known->second.grey = greyAt(input.assembled.pair.left, feature.pixel);
+  }
+  pictures_->add(row, input.assembled.pair.left, frame.features, run_.pictures);
+  run_.rows.push_back(std::move(row));
+  return run_.rows.back();
+}
+
+void VoStage::finish() {
+  for (swf_vo::Settled& settled : filter_.flush()) run_.settled.push_back(std::move(settled));
+}
+
+}  // namespace urban_nav

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "pipeline/vo_stage.hpp"
+#include "pipeline/vo_summary.hpp"
+#include "report/page.hpp"
+
+namespace urban_nav {
+
+/// What visual odometry has to show of one session: path, trust, features, timing, frames with tracks.
+std::vector<Section> voSections(const VoRun& run);
+
+/// What it says in plain words.
+std::vector<Verdict> voVerdicts(const VoSummary& summary);
+
+}  // namespace urban_nav
