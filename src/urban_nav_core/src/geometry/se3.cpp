@@ -19,6 +19,13 @@ Matrix3d nearestRotation(const Matrix3d& R) {
   return X;
 }
 
+// Normalising what is normalised would turn the last bit to and fro. The bound is above the rounding of a normalisation, so doing it twice is
+// doing it once.
+Quaterniond unit(const Quaterniond& q) {
+  constexpr double kRounding = 1e-15;
+  return std::abs(q.squaredNorm() - 1.0) <= kRounding ? q : q.normalized();
+}
+
 // The block that couples rotation and translation in the left Jacobian of SE(3) (Barfoot, State Estimation for Robotics, eq. 7.86).
 Matrix3d couplingBlock(const Vector3d& rho, const Vector3d& phi) {
   const double angle = phi.norm();
@@ -33,11 +40,11 @@ Matrix3d couplingBlock(const Vector3d& rho, const Vector3d& phi) {
 
 }  // namespace
 
-Pose::Pose(const Quaterniond& q, const Vector3d& t) : q_(q.normalized()), t_(t) {
+Pose::Pose(const Quaterniond& q, const Vector3d& t) : q_(unit(q)), t_(t) {
   assert(std::isfinite(q.squaredNorm()) && q.squaredNorm() > 0.0);
 }
 
-Pose::Pose(const Matrix3d& R, const Vector3d& t) : q_(Quaterniond(nearestRotation(R)).normalized()), t_(t) {
+Pose::Pose(const Matrix3d& R, const Vector3d& t) : q_(unit(Quaterniond(nearestRotation(R)))), t_(t) {
   assert(q_.coeffs().allFinite());
 }
 

@@ -3,6 +3,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <cstddef>
 
 #include "urban_nav_core/io/numbers.hpp"
@@ -62,8 +63,11 @@ const YamlNode* YamlNode::find(std::string_view key) const {
 YamlNode readYaml(const std::string& path) { return parseYaml(readTextFile(path), path); }
 
 YamlNode parseYaml(std::string_view text, const std::string& name) {
+  std::string content(text);
+  // OpenCV's and EuRoC's files begin with %YAML:1.0, which is no directive of YAML. Blanks instead keep the lines' numbers.
+  if (content.rfind("%YAML", 0) == 0) std::fill_n(content.begin(), std::min(content.find('\n'), content.size()), ' ');
   try {
-    return Converter(name).convert(YAML::Load(std::string(text)), 0);
+    return Converter(name).convert(YAML::Load(content), 0);
   } catch (const YAML::Exception& error) {
     throw UserError(atLine(name, error.mark.is_null() ? 0 : error.mark.line + 1), "not YAML: " + error.msg, "");
   }

@@ -11,7 +11,8 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 /// A rigid transform T_a_b: p_a = R p_b + t. Read T_a_b * T_b_c = T_a_c. The rotation is a unit quaternion; products
-/// are normalised, so that a million of them stay rotations.
+/// are normalised, so that a million of them stay rotations. A quaternion whose length is one to the last bits is taken as it
+/// is, so that what a file holds goes in and out unchanged.
 class Pose {
  public:
   Pose() : q_(Quaterniond::Identity()), t_(Vector3d::Zero()) {}

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace urban_nav_core {
+
+/// A table of text with one header line, comma separated; cells may stand in double quotes ("" is a quote), over one line. Lines that are
+/// empty are skipped; a header that begins with # is taken without it (EuRoC). Every row has as many cells as the header.
+class CsvTable {
+ public:
+  /// Throw UserError with file and line.
+  static CsvTable read(const std::string& path);
+  static CsvTable parse(std::string_view text, const std::string& name);
+
+  std::size_t rows() const { return lines_.size(); }
+  const std::vector<std::string>& header() const { return header_; }
+  bool has(std::string_view column) const;
+  /// The place of a column; throws UserError naming the file where there is none of this name.
+  std::size_t column(std::string_view name) const;
+
+  const std::string& text(std::size_t row, std::size_t column) const { return cells_[row * header_.size() + column]; }
+  /// Throw UserError with file, line and column where the cell is no finite number.
+  double number(std::size_t row, std::size_t column) const;
+  std::int64_t integer(std::size_t row, std::size_t column) const;
+  /// "file.csv:12", for errors of the caller's own.
+  std::string where(std::size_t row) const;
+
+ private:
+  std::string name_;
+  std::vector<std::string> header_;
+  std::vector<std::string> cells_;
+  std::vector<int> lines_;
+};
+
+/// One line with its end; cells that need it are quoted.
+std::string printCsvRow(const std::vector<std::string>& cells);
+
+}  // namespace urban_nav_core

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_core/trajectory/trajectory.hpp"
+
+namespace urban_nav_core {
+
+/// KITTI's pose files: a line per frame, the 3x4 matrix [R t] row by row; no stamps. The numbers read back to the last bit as matrices;
+/// as poses, whose rotation is a quaternion, to 1e-15.
+using KittiMatrix = Eigen::Matrix<double, 3, 4>;
+std::string printKitti(const std::vector<KittiMatrix>& matrices);
+std::string printKitti(const std::vector<Pose>& poses);
+void writeKitti(const std::string& path, const std::vector<Pose>& poses);
+
+/// Throws UserError with file and line for lines that do not hold twelve finite numbers and for R that is no rotation to 1e-3.
+std::vector<KittiMatrix> parseKittiMatrices(std::string_view text, const std::string& name);
+std::vector<Pose> readKitti(const std::string& path);
+std::vector<Pose> parseKitti(std::string_view text, const std::string& name);
+
+/// times.txt: seconds, one a line, each later than the one before. Throws UserError with file and line.
+std::vector<StampNs> readTimes(const std::string& path);
+std::vector<StampNs> parseTimes(std::string_view text, const std::string& name);
+
+}  // namespace urban_nav_core

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_core/io/atomic_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <utility>
+
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav_core {
+namespace {
+
+constexpr std::size_t kBuffer = 1U << 16U;
+
+[[noreturn]] void fail(const std::string& path) {
+  throw UserError(path, std::string("cannot be written: ") + std::strerror(errno), "");
+}
+
+std::string beside(const std::string& final_path) {
+  const std::filesystem::path path(final_path);
+  return (path.parent_path() / (path.stem().string() + ".part" + path.extension().string())).string();
+}
+
+// The new name is on disk only once its folder is. Some file systems refuse to flush a folder: the file itself is safe then.
+void flushFolder(const std::string& path) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+}  // namespace
+
+PartialFile::PartialFile(std::string final_path) : final_path_(std::move(final_path)), path_(beside(final_path_)) {}
+
+PartialFile::~PartialFile() {
+  if (!committed_) ::unlink(path_.c_str());
+}
+
+void PartialFile::commit() {
+  const int descriptor = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) fail(final_path_);
+  const bool flushed = ::fsync(descriptor) == 0;
+  ::close(descriptor);
+  if (!flushed || std::rename(path_.c_str(), final_path_.c_str()) != 0) fail(final_path_);
+  committed_ = true;
+  flushFolder(final_path_);
+}
+
+AtomicFile::AtomicFile(std::string path) : partial_(path), name_(std::move(path)) {
+  descriptor_ = ::open(partial_.path().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) fail(name_);
+  buffer_.reserve(kBuffer);
+}
+
+AtomicFile::~AtomicFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void AtomicFile::write(std::string_view text) {
+  buffer_ += text;
+  if (buffer_.size() >= kBuffer) flushBuffer();
+}
+
+void AtomicFile::flushBuffer() {
+  std::size_t done = 0;
+  while (done < buffer_.size()) {
+    const ssize_t written = ::write(descriptor_, buffer_.data() + done, buffer_.size() - done);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail(name_);
+    done += static_cast<std::size_t>(written);
+  }
+  buffer_.clear();
+}
+
+void AtomicFile::commit() {
+  flushBuffer();
+  const int descriptor = std::exchange(descriptor_, -1);
+  if (::close(descriptor) != 0) fail(name_);
+  partial_.commit();
+}
+
+void writeAtomically(const std::string& path, std::string_view content) {
+  AtomicFile file(path);
+  file.write(content);
+  file.commit();
+}
+
+}  // namespace urban_nav_core

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_core/io/kitti.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "urban_nav_core/io/atomic_file.hpp"
+#include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/io/text_file.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav_core {
+namespace {
+
+constexpr int kColumns = 12;
+
+bool isRotation(const Matrix3d& R) {
+  constexpr double kTolerance = 1e-3;
+  return ((R * R.transpose() - Matrix3d::Identity()).array().abs() <= kTolerance).all() && R.determinant() > 0.0;
+}
+
+KittiMatrix parseLine(const std::vector<std::string_view>& words, const std::string& where) {
+  if (words.size() != static_cast<std::size_t>(kColumns)) {
+    throw UserError(where, std::to_string(words.size()) + " columns", "12: a 3x4 matrix, row by row");
+  }
+  KittiMatrix M;
+  for (int i = 0; i < kColumns; ++i) {
+    const std::string_view word = words[static_cast<std::size_t>(i)];
+    const auto number = parseNumber(word);
+    if (!number) throw UserError(where, "`" + std::string(word) + "`", "a finite number");
+    M(i / 4, i % 4) = *number;
+  }
+  if (!isRotation(M.leftCols<3>())) throw UserError(where, "a matrix that is no rotation to 0.001", "");
+  return M;
+}
+
+}  // namespace
+
+std::string printKitti(const std::vector<KittiMatrix>& matrices) {
+  std::string text;
+  for (const KittiMatrix& M : matrices) {
+    for (int i = 0; i < kColumns; ++i) {
+      appendNumber(text, M(i / 4, i % 4));
+      text += i + 1 < kColumns ? ' ' : '\n';
+    }
+  }
+  return text;
+}
+
+std::string printKitti(const std::vector<Pose>& poses) {
+  std::vector<KittiMatrix> matrices;
+  matrices.reserve(poses.size());
+  for (const Pose& pose : poses) matrices.emplace_back(pose.matrix().topRows<3>());
+  return printKitti(matrices);
+}
+
+void writeKitti(const std::string& path, const std::vector<Pose>& poses) { writeAtomically(path, printKitti(poses)); }
+
+std::vector<KittiMatrix> parseKittiMatrices(std::string_view text, const std::string& name) {
+  std::vector<KittiMatrix> matrices;
+  forEachLine(text, [&](std::string_view line, int number) {
+    const auto words = splitBlanks(line);
+    if (!words.empty()) matrices.push_back(parseLine(words, atLine(name, number)));
+  });
+  return matrices;
+}
+
+std::vector<Pose> parseKitti(std::string_view text, const std::string& name) {
+  std::vector<Pose> poses;
+  for (const KittiMatrix& M : parseKittiMatrices(text, name)) poses.emplace_back(Matrix3d(M.leftCols<3>()), Vector3d(M.col(3)));
+  return poses;
+}
+
+std::vector<Pose> readKitti(const std::string& path) { return parseKitti(readTextFile(path), path); }
+
+std::vector<StampNs> parseTimes(std::string_view text, const std::string& name) {
+  std::vector<StampNs> times;
+  forEachLine(text, [&](std::string_view line, int number) {
+    const std::string_view word = trimmed(line);
+    if (word.empty()) return;
+    auto stamp = parseStamp(word);
+    // KITTI itself prints 1.038170e-01: exact enough in a double, since its times begin at zero.
+    const auto seconds = stamp ? std::nullopt : parseNumber(word);
+    if (seconds && std::abs(*seconds) <= 9.2e9) stamp = static_cast<StampNs>(std::llround(*seconds * 1e9));
+    const std::string where = atLine(name, number);
+    if (!stamp) throw UserError(where, "`" + std::string(word) + "`", "seconds, one number a line");
+    if (!times.empty() && *stamp <= times.back()) throw UserError(where, std::string(word) + " is not later than the time before", "");
+    times.push_back(*stamp);
+  });
+  return times;
+}
+
+std::vector<StampNs> readTimes(const std::string& path) { return parseTimes(readTextFile(path), path); }
+
+}  // namespace urban_nav_core
