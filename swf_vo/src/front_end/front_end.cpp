@@ -58,8 +58,8 @@ class FrontEnd::Implementation {
     if (!isPair(pair)) return result_;
     corners_.extract(pair);
     result_.corners = corners_.count(Side::Left);
-    const Pose T_turned_odom = turn(last, predicted);
     gather(map);
+    const Pose T_turned_odom = turn(last, predicted);
     locate(T_turned_odom, predicted.inverse());
     for (const Match& match : matches_) follow(frame, match);
     replenisher_.replenish(frame, corners_, result_.T_odom_camera, matches_, tracks_, result_.fresh);
@@ -89,7 +89,15 @@ class FrontEnd::Implementation {
   /// The prediction with the rotation that the images show; odom into the camera.
   Pose turn(const Pose& last, const Pose& predicted) {
     const Pose T_now_last = predicted.inverse() * last;
-    const RotationEstimate seen = rotation_.track(corners_.image(Side::Left, corners_.top()), corners_.top(), T_now_last.q());
+    parallax_.clear();
+    const Pose T_last_odom = last.inverse();
+    for (const Match& match : matches_) {
+      const auto pixel = projectInto(Side::Left, camera_, T_last_odom, match.p_odom);
+      if (!pixel) continue;
+      const double depth = (T_last_odom.q() * match.p_odom.head<3>() + T_last_odom.t() * match.p_odom.w()).z();
+      parallax_.push_back({*pixel, T_now_last.t() * (match.p_odom.w() / depth)});
+    }
+    const RotationEstimate seen = rotation_.track(corners_.image(Side::Left, corners_.top()), corners_.top(), T_now_last.q(), parallax_);
     if (!seen.found) return predicted.inverse();
     // The camera stays where it was predicted to be and is turned there.
     const Quaterniond correction = seen.q_now_last * T_now_last.q().inverse();
@@ -185,6 +193,7 @@ class FrontEnd::Implementation {
   FrontEndResult result_;
   std::vector<Match> matches_;
   std::vector<LandmarkId> orphans_;
+  std::vector<Parallax> parallax_;
   std::vector<Pose> starts_;
   bool settled_ = false;
 };

@@ -20,6 +20,7 @@ constexpr int most_steps = 10;
 constexpr double settled = 1e-4;      // rad
 constexpr double longest_step = 0.05; // rad
 constexpr int wanted_pixels = 1500;   // of which the sums are made
+constexpr int least_known = 20;       // landmarks, to do without the rest of the image
 constexpr double improvement = 0.98;
 
 using Vector5 = Eigen::Matrix<float, 5, 1>;
@@ -41,7 +42,7 @@ struct RotationTracker::Normal {
   }
 };
 
-void RotationTracker::fill(const ImageView& image, Plane& plane) const {
+void RotationTracker::fill(const ImageView& image, Plane& plane) {
   plane.width = image.width;
   plane.height = image.height;
   const std::size_t size = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
@@ -60,51 +61,79 @@ void RotationTracker::fill(const ImageView& image, Plane& plane) const {
     }
 }
 
-RotationTracker::Normal RotationTracker::sum(const Plane& last, const Plane& now, int level, const Matrix3d& R) const {
+void RotationTracker::choose(int level, const std::vector<Parallax>& known) {
+  samples_.clear();
+  const double scale = 1.0 / static_cast<double>(1 << level);
+  const auto add = [&](int u, int v, const Vector3d& shift) {
+    if (u < 2 || v < 2 || u >= last_.width - 2 || v >= last_.height - 2) return;
+    Sample sample;
+    sample.at = static_cast<std::size_t>(v) * static_cast<std::size_t>(last_.width) + static_cast<std::size_t>(u);
+    sample.ray = camera_.ray({u / scale, v / scale}).cast<float>();
+    sample.shift = shift.cast<float>();
+    samples_.push_back(sample);
+  };
+  const int count = static_cast<int>(known.size());
+  if (count >= least_known) {
+    const int skip = 1 + 9 * count / wanted_pixels;
+    for (int i = 0; i < count; i += skip) {
+      const Parallax& k = known[static_cast<std::size_t>(i)];
+      const int u = static_cast<int>(std::lround(k.pixel.x() * scale)), v = static_cast<int>(std::lround(k.pixel.y() * scale));
+      for (int dv = -2; dv <= 2; dv += 2)
+        for (int du = -2; du <= 2; du += 2) add(u + du, v + dv, k.shift);
+    }
+    return;
+  }
+  const int step = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(last_.width) * last_.height / wanted_pixels)));
+  for (int v = 2; v + 2 < last_.height; v += step)
+    for (int u = 2; u + 2 < last_.width; u += step) add(u, v, Vector3d::Zero());
+}
+
+RotationTracker::Normal RotationTracker::sum(int level, const Matrix3d& R) const {
   const double scale = 1.0 / static_cast<double>(1 << level);
   const float fx = static_cast<float>(camera_.fx * scale), fy = static_cast<float>(camera_.fy * scale);
   const float cx = static_cast<float>(camera_.cx * scale), cy = static_cast<float>(camera_.cy * scale);
+  const float right = static_cast<float>(now_.width - 2), bottom = static_cast<float>(now_.height - 2);
+  const std::size_t w = static_cast<std::size_t>(now_.width);
   const Eigen::Matrix3f r = R.cast<float>();
-  const int step = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(last.width) * last.height / wanted_pixels)));
   Normal n;
-  for (int v = 2; v + 2 < last.height; v += step)
-    for (int u = 2; u + 2 < last.width; u += step) {
-      const Eigen::Vector3f p = r * Eigen::Vector3f((static_cast<float>(u) - cx) / fx, (static_cast<float>(v) - cy) / fy, 1.0F);
-      if (!(p.z() > 0.1F)) continue;
-      const float x = p.x() / p.z(), y = p.y() / p.z();
-      const float un = fx * x + cx, vn = fy * y + cy;
-      if (!(un >= 1.0F && vn >= 1.0F && un < static_cast<float>(now.width - 2) && vn < static_cast<float>(now.height - 2))) continue;
-      const int iu = static_cast<int>(un), iv = static_cast<int>(vn);
-      const float a = un - static_cast<float>(iu), b = vn - static_cast<float>(iv);
-      const std::size_t i = static_cast<std::size_t>(iv * now.width + iu), w = static_cast<std::size_t>(now.width);
-      const auto at = [&](const std::vector<float>& m) {
-        return (1.0F - b) * ((1.0F - a) * m[i] + a * m[i + 1]) + b * ((1.0F - a) * m[i + w] + a * m[i + w + 1]);
-      };
-      const std::size_t j = static_cast<std::size_t>(v * last.width + u);
-      // ESM: the mean of both gradients, which makes the step second order
-      const float gu = 0.5F * (at(now.du) + last.du[j]) * fx, gv = 0.5F * (at(now.dv) + last.dv[j]) * fy;
-      Vector5 J;
-      J << -gu * x * y - gv * (1.0F + y * y), gu * (1.0F + x * x) + gv * x * y, -gu * y + gv * x, last.grey[j] - 128.0F, 1.0F;
-      const float e = at(now.grey) - last.grey[j];
-      // e = what the rotation still to come would take away: now(R p) - last(p) = -J_rotation d + gain last + offset
-      J.head<3>() = -J.head<3>();
-      n.H.noalias() += J * J.transpose();
-      n.b += J * e;
-      n.squares += e * e;
-      ++n.count;
-    }
+  for (const Sample& sample : samples_) {
+    const Eigen::Vector3f turned = r * sample.ray, p = turned + sample.shift;
+    if (!(p.z() > 0.1F)) continue;
+    const float iz = 1.0F / p.z(), x = p.x() * iz, y = p.y() * iz;
+    const float un = fx * x + cx, vn = fy * y + cy;
+    if (!(un >= 1.0F && vn >= 1.0F && un < right && vn < bottom)) continue;
+    const int iu = static_cast<int>(un), iv = static_cast<int>(vn);
+    const float a = un - static_cast<float>(iu), b = vn - static_cast<float>(iv);
+    const std::size_t i = static_cast<std::size_t>(iv) * w + static_cast<std::size_t>(iu);
+    const auto at = [&](const std::vector<float>& m) {
+      return (1.0F - b) * ((1.0F - a) * m[i] + a * m[i + 1]) + b * ((1.0F - a) * m[i + w] + a * m[i + w + 1]);
+    };
+    // ESM: the mean of both gradients, which makes the step second order
+    const float gu = 0.5F * (at(now_.du) + last_.du[sample.at]) * fx * iz, gv = 0.5F * (at(now_.dv) + last_.dv[sample.at]) * fy * iz;
+    const float gz = gu * x + gv * y;
+    // e = now(R ray + shift) - last(ray) = J d + gain last + offset, where d is the rotation gone too far
+    Vector5 J;
+    J << -(gv * turned.z() + gz * turned.y()), gu * turned.z() + gz * turned.x(), gv * turned.x() - gu * turned.y(), last_.grey[sample.at] - 128.0F, 1.0F;
+    J.head<3>() = -J.head<3>();
+    const float e = at(now_.grey) - last_.grey[sample.at];
+    n.H.noalias() += J * J.transpose();
+    n.b += J * e;
+    n.squares += e * e;
+    ++n.count;
+  }
   return n;
 }
 
-RotationEstimate RotationTracker::track(const ImageView& image, int level, const Quaterniond& start) {
+RotationEstimate RotationTracker::track(const ImageView& image, int level, const Quaterniond& start, const std::vector<Parallax>& known) {
   RotationEstimate estimate;
   estimate.q_now_last = start;
   std::swap(last_, now_);
   fill(image, now_);
   if (last_.width != now_.width || last_.height != now_.height) return estimate;
 
+  choose(level, known);
   Quaterniond q = start;
-  Normal normal = sum(last_, now_, level, q.toRotationMatrix());
+  Normal normal = sum(level, q.toRotationMatrix());
   estimate.before = normal.rms();
   double best = estimate.before;
   if (best < 0.0) return estimate;
@@ -115,7 +144,7 @@ RotationEstimate RotationTracker::track(const ImageView& image, int level, const
     if (d.norm() > longest_step) d *= longest_step / d.norm();
     q = (expSo3(d) * q).normalized();
     if (d.norm() < settled) break;
-    normal = sum(last_, now_, level, q.toRotationMatrix());
+    normal = sum(level, q.toRotationMatrix());
     const double rms = normal.rms();
     if (rms < 0.0) break;
     if (rms < best) {
