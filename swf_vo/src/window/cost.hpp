@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "window/prior.hpp"
+#include "window/state.hpp"
+
+namespace swf_vo {
+
+using Matrix63d = Eigen::Matrix<double, 6, 3>;
+
+/// Lambda and g of eq. 3 without the prior, block by block: Lambda d = g (Newman et al. 2009, section 2.1).
+struct NormalEquations {
+  std::vector<urban_nav_core::Matrix6d> pose;            ///< Lambda_p(j, j)
+  std::vector<urban_nav_core::Matrix6d> next;            ///< Lambda_p(j + 1, j)
+  std::vector<urban_nav_core::Vector6d> pose_gradient;   ///< g_p(j)
+  std::vector<Eigen::Matrix3d> landmark;                 ///< Lambda_m(i, i), by slot
+  std::vector<Eigen::Vector3d> landmark_gradient;        ///< g_m(i), by slot
+  std::vector<Matrix63d> cross;                          ///< Lambda_pm(j, i), by slot and then by pose
+  std::vector<int> first_cross;                          ///< by slot; of a known landmark there are none
+  double cost = 0.0;                                     ///< robust cost of sensor and process terms
+};
+
+/// One sensor term linearised: its share of Lambda and g.
+struct SensorTerm {
+  urban_nav_core::Matrix6d pose;
+  Matrix63d cross;
+  Eigen::Matrix3d landmark;
+  urban_nav_core::Vector6d pose_gradient;
+  Eigen::Vector3d landmark_gradient;
+};
+
+/// One process term: blocks of the pose before (last) and after (next).
+struct ProcessTerm {
+  urban_nav_core::Matrix6d last, cross, next;  ///< cross: rows of next, columns of last
+  urban_nav_core::Vector6d last_gradient, next_gradient;
+};
+
+/// l(x) = process + sensor (Newman et al. 2009, eq. 3), the latter under Huber's kernel on the Mahalanobis distance of a stereo pixel.
+class Cost {
+ public:
+  Cost(const SensorModel& sensor, double huber, bool linearise_first)
+      : sensor_(sensor), huber_(huber), linearise_first_(linearise_first) {}
+
+  /// Chooses the linearisation points: the estimates, but for what the prior touches (prior.hpp).
+  void relinearise(State& state, const Prior& prior) const;
+
+  /// Everything, at the linearisation points, residuals and weights at the estimates.
+  void build(State& state, NormalEquations& equations) const;
+  /// Gradients and cost alone; the matrices stay as they are.
+  void buildGradient(State& state, NormalEquations& equations) const;
+  /// Cost alone, with PoseBlock::at_estimate up to date.
+  double value(const State& state) const;
+
+  /// The terms as they go into the prior: as the last solve had them where it had them (textbook), else as now.
+  SensorTerm sensorTerm(const LandmarkBlock& landmark, const Measurement& measurement, const PoseBlock& pose) const;
+  ProcessTerm processTerm(const PoseBlock& last, const PoseBlock& next) const;
+
+  const SensorModel& sensor() const { return sensor_; }
+  bool lineariseFirst() const { return linearise_first_; }
+
+ private:
+  template <bool with_matrices>
+  void accumulate(State& state, NormalEquations& equations) const;
+  template <bool with_matrices>
+  void accumulateProcess(State& state, NormalEquations& equations) const;
+  // Weight of a residual and its robust cost.
+  double weigh(double squared, double& cost) const;
+
+  SensorModel sensor_;
+  double huber_;
+  bool linearise_first_;
+};
+
+}  // namespace swf_vo

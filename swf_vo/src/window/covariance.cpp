@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "window/covariance.hpp"
+
+#include <Eigen/Cholesky>
+
+#include "urban_nav_core/geometry/compose.hpp"
+
+namespace swf_vo::covariance {
+
+using urban_nav_core::Matrix6d;
+using urban_nav_core::Pose;
+
+namespace {
+
+template <typename Matrix>
+Matrix symmetric(const Matrix& M) {
+  return 0.5 * (M + M.transpose());
+}
+
+}  // namespace
+
+Matrix6d marginal(const Solver& solver, std::size_t j) {
+  Matrix6d P;
+  for (int c = 0; c < 6; ++c) P.col(c) = Eigen::Map<const urban_nav_core::Vector6d>(solver.inverseColumn(j, c, true).data() + solver.rowOf(j));
+  return symmetric(P);
+}
+
+Matrix12d joint(const Solver& solver, std::size_t j) {
+  Matrix12d P;
+  for (int c = 0; c < 12; ++c) {
+    const auto& column = solver.inverseColumn(j + static_cast<std::size_t>(c / 6), c % 6, true);
+    P.col(c) = Eigen::Map<const Eigen::Matrix<double, 12, 1>>(column.data() + solver.rowOf(j));
+  }
+  return symmetric(P);
+}
+
+Matrix12d leftAndOldest(const Solver& solver, const Matrix6d& left, const std::vector<double>& gain) {
+  const Eigen::Index size = static_cast<Eigen::Index>(gain.size() / 6);
+  const Eigen::Map<const Eigen::MatrixXd> G(gain.data(), size, 6);
+  Matrix12d P;
+  P.topLeftCorner<6, 6>() = left;
+  for (int c = 0; c < 6; ++c) {
+    const auto& column = solver.inverseColumn(0, c, false);
+    P.block<6, 1>(0, 6 + c).noalias() = G.transpose() * Eigen::Map<const Eigen::VectorXd>(column.data(), size);
+    P.block<6, 1>(6, 6 + c) = Eigen::Map<const urban_nav_core::Vector6d>(column.data() + solver.rowOf(0));
+  }
+  P.bottomLeftCorner<6, 6>() = P.topRightCorner<6, 6>().transpose();
+  return symmetric(P);
+}
+
+Matrix6d relative(const Pose& T_odom_a, const Pose& T_odom_b, const Matrix12d& joint) {
+  const urban_nav_core::Between between = urban_nav_core::between(T_odom_a, T_odom_b);
+  Eigen::Matrix<double, 6, 12> J;
+  J << between.J1, between.J2;
+  return symmetric(Matrix6d(J * joint * J.transpose()));
+}
+
+Matrix6d propagate(const Pose& T_odom_last, const Matrix6d& covariance, const ProcessInput& u) {
+  const urban_nav_core::Composition composed = urban_nav_core::compose(T_odom_last, u.T_from_to);
+  const Matrix6d Q = (u.information + process_model::floor()).llt().solve(Matrix6d::Identity());
+  return symmetric(Matrix6d(composed.J1 * covariance * composed.J1.transpose() + composed.J2 * Q * composed.J2.transpose()));
+}
+
+}  // namespace swf_vo::covariance

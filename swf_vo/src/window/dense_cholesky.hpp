@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace swf_vo {
+
+/// A symmetric matrix of dynamic size, column-major; only the lower triangle counts. Grows by doubling and never shrinks.
+class DenseMatrix {
+ public:
+  /// All zero.
+  void reset(int size);
+  int size() const { return size_; }
+  int stride() const { return stride_; }
+  double* column(int j) { return data_.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(stride_); }
+  const double* column(int j) const { return data_.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(stride_); }
+  double& operator()(int i, int j) { return column(j)[i]; }
+  double operator()(int i, int j) const { return column(j)[i]; }
+
+ private:
+  int size_ = 0;
+  int stride_ = 0;
+  std::vector<double> data_;
+};
+
+/// Lower triangle of C[first..first+rows) -= B B^T; B is rows x columns, column-major with its own stride.
+void subtractProduct(DenseMatrix& C, int first, int rows, const double* B, int columns, int stride);
+
+/// L L^T = A for a positive semidefinite A. Where a pivot falls below 1e-12 of its diagonal element, that direction is not
+/// determined by what stands before it: it is held, that is, solutions leave component j where it is, and its pivot
+/// becomes floor[j] (an information) so that covariances stay proper. Nothing of that goes into A's owner.
+class DenseCholesky {
+ public:
+  /// Overwrites A with L; A must outlive the solves.
+  void factor(DenseMatrix& A, const std::vector<double>& floor);
+
+  /// L x = b and L^T x = b in place, from component `first` on (those before are left alone).
+  void solveLower(double* x, int first = 0) const;
+  void solveUpper(double* x, int first = 0) const;
+
+  /// Sets held components to zero: between solveLower and solveUpper it makes the solution leave them where they are.
+  void release(double* x) const;
+
+  int heldCount() const { return held_count_; }
+
+ private:
+  const DenseMatrix* L_ = nullptr;
+  std::vector<double> diagonal_;
+  std::vector<char> held_;
+  int held_count_ = 0;
+};
+
+}  // namespace swf_vo

@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "window/filter.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace swf_vo {
+
+using Eigen::Vector3d;
+using urban_nav_core::boxMinus;
+using urban_nav_core::boxPlus;
+using urban_nav_core::Matrix6d;
+using urban_nav_core::Pose;
+using urban_nav_core::UncertainPose;
+using urban_nav_core::Vector6d;
+
+namespace {
+
+// Bearings further out than 84 deg from the axis at birth, or nearer than a tenth of a millimetre: an estimate gone astray.
+constexpr double absurd_bearing = 10.0;
+constexpr double absurd_inverse_depth = 1e4;
+// A step that raises the cost by more than this share is halved.
+constexpr double cost_slack = 0.01;
+constexpr int halvings = 4;
+// Gauss-Newton goes on with the old factor while each step is this much smaller than the one before (in d^T g).
+constexpr double contraction = 0.1;
+// ... and the first step was no larger than this (chi-square).
+constexpr double far_start = 100.0;
+
+bool isSane(const Vector3d& theta) {
+  return std::abs(theta.x()) < absurd_bearing && std::abs(theta.y()) < absurd_bearing && std::abs(theta.z()) < absurd_inverse_depth;
+}
+
+bool hasFullRank(const Eigen::Matrix3d& information) {
+  const Eigen::LLT<Eigen::Matrix3d> llt(information);
+  if (llt.info() != Eigen::Success) return false;
+  const Eigen::Matrix3d L = llt.matrixL();
+  for (int i = 0; i < 3; ++i)
+    if (!(L(i, i) * L(i, i) > 1e-9 * information(i, i))) return false;
+  return true;
+}
+
+}  // namespace
+
+Filter::Filter(const WindowOptions& options, const urban_nav_core::StereoCamera& camera)
+    : options_(options), cost_(SensorModel(camera), options.huber, options.linearise_first) {}
+
+std::size_t Filter::limit() const { return static_cast<std::size_t>(std::max(1, options_.size)) + (options_.forget_by_deletion ? 1U : 0U); }
+
+void Filter::start(FrameId frame, const Pose& T_odom_camera, const Matrix6d& information) {
+  PoseBlock pose;
+  pose.frame = frame;
+  pose.estimate = pose.linearised = T_odom_camera;
+  state_.poses.reserve(std::min<std::size_t>(limit(), 256) + 1);
+  state_.poses.push_back(pose);
+  prior_.start(T_odom_camera, information);
+  newest_covariance_ = (information + process_model::floor()).llt().solve(Matrix6d::Identity());
+}
+
+// Adding new pose parameters (section 2.2.1).
+void Filter::addPose(FrameId frame, const ProcessInput& u) {
+  const PoseBlock& last = state_.poses.back();
+  newest_covariance_ = covariance::propagate(last.estimate, newest_covariance_, u);
+  PoseBlock pose;
+  pose.frame = frame;
+  pose.u = u;
+  pose.estimate = pose.linearised = process_model::predict(last.estimate, u);
+  state_.poses.push_back(pose);
+}
+
+// Removing parameters.
+void Filter::removePoses(std::vector<SettledPose>& settled, History* history) {
+  while (state_.poses.size() > limit()) removeOldest(settled, history);
+  for (std::size_t slot = 0; slot < state_.landmarks.size(); ++slot) {
+    const LandmarkBlock& landmark = state_.landmarks[slot];
+    if (landmark.used && !landmark.followed && landmark.prior < 0 && landmark.seen.empty()) state_.remove(static_cast<int>(slot));
+  }
+}
+
+void Filter::removeOldest(std::vector<SettledPose>& settled, History* history) {
+  settled.push_back(settle());
+  if (options_.forget_by_deletion) {
+    deleteOldest();
+    return;
+  }
+  if (cost_.lineariseFirst()) cost_.relinearise(state_, prior_);
+  marginaliser_.removeOldest(state_, prior_, cost_, history);
+  gain_valid_ = true;
+}
+
+SettledPose Filter::settle() {
+  const PoseBlock& oldest = state_.poses.front();
+  SettledPose result;
+  result.frame = oldest.frame;
+  result.T_odom_camera.covariance = covarianceOf(state_.first_step);
+  if (settled_step_ < 0) {
+    result.T_odom_camera.pose = oldest.estimate;
+    result.relative_covariance = Matrix6d::Zero();
+  } else {
+    result.T_previous_camera = settled_.pose.inverse() * oldest.estimate;
+    result.T_odom_camera.pose = settled_.pose * result.T_previous_camera;
+    std::size_t place = 0;
+    covariance::Matrix12d joint = covariance::Matrix12d::Zero();
+    if (gain_valid_ && inFactor(state_.first_step, place) && place == 0) {
+      joint = covariance::leftAndOldest(solver_, settled_.covariance, marginaliser_.gain());
+      result.relative_covariance = covariance::relative(settled_.pose, oldest.estimate, joint);
+    } else if (inFactor(state_.first_step - 1, place) && place + 1 < solver_.poses()) {
+      result.relative_covariance = covariance::relative(settled_.pose, oldest.estimate, covariance::joint(solver_, place));
+    } else {
+      result.relative_covariance = covariance::propagate(Pose(), Matrix6d::Zero(), oldest.u);
+    }
+  }
+  settled_ = result.T_odom_camera;
+  settled_step_ = state_.first_step;
+  return result;
+}
+
+// Classic visual odometry: what the oldest frame said is lost, and the next pose becomes the datum.
+void Filter::deleteOldest() {
+  const Matrix6d covariance = covarianceOf(state_.first_step + 1);
+  const std::int64_t leaving = state_.first_step;
+  for (std::size_t slot = 0; slot < state_.landmarks.size(); ++slot) {
+    LandmarkBlock& landmark = state_.landmarks[slot];
+    if (!landmark.used || landmark.seen.empty() || landmark.seen.front().step != leaving) continue;
+    landmark.seen.erase(landmark.seen.begin());
+    if (!landmark.followed && landmark.seen.empty()) state_.remove(static_cast<int>(slot));
+  }
+  state_.poses.erase(state_.poses.begin());
+  ++state_.first_step;
+  prior_.start(state_.poses.front().estimate, covariance.llt().solve(Matrix6d::Identity()));
+  gain_valid_ = false;
+}
+
+bool Filter::fixLandmark(const MapPoint& point) {
+  if (state_.slotOf(point.landmark) >= 0 || !point.p_odom.allFinite()) return false;
+  LandmarkBlock& landmark = state_.landmarks[static_cast<std::size_t>(state_.add(point.landmark))];
+  landmark.known = true;
+  // An anchor at the origin that looks at the point.
+  const Eigen::Quaterniond q = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), point.p_odom.head<3>());
+  landmark.anchor.R_odom_anchor = q.toRotationMatrix();
+  landmark.anchor.t_odom_anchor.setZero();
+  landmark.estimate = landmark.linearised = Vector3d(0.0, 0.0, point.p_odom.w() / point.p_odom.head<3>().norm());
+  return landmark.estimate.allFinite();
+}
+
+bool Filter::observe(const Observation& observation) {
+  const int pose = state_.poseOf(observation.frame);
+  if (pose < 0 || !observation.z.allFinite() || !observation.information.allFinite()) return false;
+  Measurement measurement;
+  measurement.step = state_.first_step + pose;
+  measurement.z = observation.z;
+  measurement.information = observation.information;
+  int slot = state_.slotOf(observation.landmark);
+  if (slot < 0) {
+    if (!hasFullRank(observation.information) || !isSane(cost_.sensor().invert(observation.z))) return false;
+    slot = state_.add(observation.landmark);
+    place(slot, measurement);
+  }
+  LandmarkBlock& landmark = state_.landmarks[static_cast<std::size_t>(slot)];
+  auto at = landmark.seen.end();
+  while (at != landmark.seen.begin() && std::prev(at)->step > measurement.step) --at;
+  if (at != landmark.seen.begin() && std::prev(at)->step == measurement.step) return false;
+  landmark.seen.insert(at, measurement);
+  return true;
+}
+
+// Initial values are computed via stereo (section 2.2.1).
+void Filter::place(int slot, const Measurement& first) {
+  LandmarkBlock& landmark = state_.landmarks[static_cast<std::size_t>(slot)];
+  const Pose& T_odom_camera = state_.poses[static_cast<std::size_t>(first.step - state_.first_step)].estimate;
+  landmark.anchor.R_odom_anchor = T_odom_camera.R();
+  landmark.anchor.t_odom_anchor = T_odom_camera.t();
+  landmark.estimate = landmark.linearised = cost_.sensor().invert(first.z);
+}
+
+bool Filter::withdraw(LandmarkId id, FrameId frame) {
+  const int slot = state_.slotOf(id);
+  const int pose = state_.poseOf(frame);
+  if (slot < 0 || pose < 0) return false;
+  LandmarkBlock& landmark = state_.landmarks[static_cast<std::size_t>(slot)];
+  const std::int64_t step = state_.first_step + pose;
+  const auto at = std::find_if(landmark.seen.begin(), landmark.seen.end(), [&](const Measurement& m) { return m.step == step; });
+  if (at == landmark.seen.end()) return false;
+  landmark.seen.erase(at);
+  // Nothing is left of it: the next measurement starts it anew.
+  if (landmark.seen.empty() && landmark.prior < 0 && !landmark.known) state_.remove(slot);
+  return true;
+}
+
+void Filter::endLandmark(LandmarkId id) {
+  const int slot = state_.slotOf(id);
+  if (slot >= 0) state_.landmarks[static_cast<std::size_t>(slot)].followed = false;
+}
+
+// The newest pose alone, landmarks held, robustly: Gauss-Newton over everything then begins where residuals are of the size
+// of their noise, so that its first factor has the right weights and can serve to the end.
+void Filter::localiseNewest() {
+  PoseBlock& newest = state_.poses.back();
+  const std::int64_t step = state_.newestStep();
+  const Matrix6d floor = process_model::floor() + newest.u.information;
+  const Pose predicted = newest.estimate;
+  SensorModel::Linearised at;
+  Vector3d z;
+  int known = 0;
+  constexpr int most = 6;
+  for (int i = 0; i < most; ++i) {
+    const PoseMatrices pose(newest.estimate);
+    const Eigen::Matrix3d R = predicted.R();
+    Matrix6d lift = Matrix6d::Zero();
+    lift.topLeftCorner<3, 3>() = lift.bottomRightCorner<3, 3>() = R;
+    // The prediction with its information, in the axes of odom.
+    Matrix6d A = lift * floor * lift.transpose();
+    Vector6d b = -A * boxMinus(newest.estimate, predicted);
+    known = 0;
+    for (const LandmarkBlock& landmark : state_.landmarks) {
+      if (!landmark.used || landmark.seen.empty() || landmark.seen.back().step != step) continue;
+      if (landmark.seen.size() == 1 && landmark.prior < 0 && !landmark.known) continue;
+      const Measurement& measurement = landmark.seen.back();
+      if (!cost_.sensor().predict(landmark.anchor, landmark.estimate, pose, z)) continue;
+      if (!cost_.sensor().linearise(landmark.anchor, landmark.estimate, pose, at)) continue;
+      const Vector3d r = measurement.z - z;
+      const double s = std::sqrt(r.dot(measurement.information * r));
+      const double weight = options_.huber > 0.0 && s > options_.huber ? options_.huber / s : 1.0;
+      const Eigen::Matrix<double, 3, 6> J = at.pose();
+      const Eigen::Matrix<double, 6, 3> JW = weight * (J.transpose() * measurement.information);
+      A.noalias() += JW * J;
+      b.noalias() += JW * r;
+      ++known;
+    }
+    if (known < 3) break;
+    const Vector6d d = A.ldlt().solve(b);
+    if (!d.allFinite()) break;
+    newest.estimate = boxPlus(newest.estimate, d);
+    if (d.dot(b) < 1e-2) break;
+  }
+  if (known < 3 || !newest.estimate.isFinite()) newest.estimate = predicted;
+  for (LandmarkBlock& landmark : state_.landmarks) {
+    if (!landmark.used || landmark.known || landmark.prior >= 0 || landmark.seen.size() != 1 || landmark.seen.back().step != step) continue;
+    place(state_.slotOf(landmark.id), landmark.seen.back());
+  }
+}
+
+double Filter::gradients() {
+  prior_.deviation(state_, prior_deviation_);
+  prior_cost_ = prior_.gradient(prior_deviation_, prior_gradient_);
+  return prior_cost_;
+}
+
+void Filter::take(double scale) {
+  for (std::size_t j = 0; j < state_.poses.size(); ++j) {
+    PoseBlock& pose = state_.poses[j];
+    const Vector6d d = scale * solver_.poseStep(j);
+    // The prior is quadratic in the chart around its centre: its pose moves in that chart.
+    pose.estimate = j == 0 && prior_.has_pose ? boxPlus(prior_.pose_centre, boxMinus(pose.estimate, prior_.pose_centre) + d)
+                                              : boxPlus(pose.estimate, d);
+    pose.at_estimate = PoseMatrices(pose.estimate);
+  }
+  for (std::size_t slot = 0; slot < state_.landmarks.size(); ++slot) {
+    LandmarkBlock& landmark = state_.landmarks[slot];
+    if (landmark.used && !landmark.known) landmark.estimate += scale * solver_.landmarkStep(slot);
+  }
+}
+
+// A landmark that nothing holds any more goes back to where one measurement puts it.
+bool Filter::undoAbsurd() {
+  bool any = false;
+  for (std::size_t slot = 0; slot < state_.landmarks.size(); ++slot) {
+    LandmarkBlock& landmark = state_.landmarks[slot];
+    if (!landmark.used || landmark.known || isSane(landmark.estimate)) continue;
+    any = true;
+    landmark.estimate = landmark.linearised;
+  }
+  return any;
+}
+
+// Updating parameters (section 2.2.1): sparse robust Gauss-Newton over the window.
+UpdateReport Filter::update() {
+  UpdateReport result;
+  if (options_.iterations > 1 && state_.poses.size() > 1) localiseNewest();
+  double last = 0.0;
+  bool refactor = true;
+  for (int i = 0; i < options_.iterations; ++i) {
+    cost_.relinearise(state_, prior_);
+    gradients();
+    if (refactor) {
+      cost_.build(state_, equations_);
+      solver_.factor(state_, prior_, equations_);
+      has_factor_ = true;
+      factor_step_ = state_.first_step;
+    } else {
+      cost_.buildGradient(state_, equations_);
+    }
+    solver_.solve(state_, prior_, equations_, prior_gradient_);
+    ++result.iterations;
+    const double before = prior_cost_ + equations_.cost;
+    take(1.0);
+    if (options_.iterations > 1) {
+      double scale = 1.0;
+      for (int h = 0; h < halvings; ++h) {
+        const double after = gradients() + cost_.value(state_);
+        if (after <= before + cost_slack * (1.0 + std::abs(before))) break;
+        take(-0.5 * scale);
+        scale *= 0.5;
+      }
+      undoAbsurd();
+    }
+    const double decrement = solver_.decrement();
+    if (decrement < options_.tolerance) {
+      result.converged = true;
+      break;
+    }
+    // The textbook's factor belongs to its last step; else a far start or slow progress ask for a new one.
+    refactor = !options_.linearise_first || decrement > (i == 0 ? far_start : contraction * last);
+    last = decrement;
+  }
+  if (!cost_.lineariseFirst()) prior_.recentre(state_);
+  newest_covariance_ = covarianceOf(state_.newestStep());
+  const UpdateReport figures = report();
+  result.observations = figures.observations;
+  result.downweighted = figures.downweighted;
+  result.dropped = figures.dropped;
+  result.reprojection_px = figures.reprojection_px;
+  result.landmarks = figures.landmarks;
+  result.landmarks_in_prior = figures.landmarks_in_prior;
+  return result;
+}
+
+UpdateReport Filter::report() const {
+  UpdateReport result;
+  const std::int64_t newest = state_.newestStep();
+  const PoseMatrices pose(state_.poses.back().estimate);
+  double squares = 0.0;
+  int count = 0;
+  Vector3d z;
+  for (const LandmarkBlock& landmark : state_.landmarks) {
+    if (!landmark.used) continue;
+    if (!landmark.known) ++result.landmarks;
+    if (landmark.prior >= 0) ++result.landmarks_in_prior;
+    for (const Measurement& measurement : landmark.seen) {
+      if (measurement.weight > 0.0) ++result.observations;
+      else ++result.dropped;
+      if (measurement.weight > 0.0 && measurement.weight < 0.5) ++result.downweighted;
+      if (measurement.step != newest || !(measurement.weight > 0.0)) continue;
+      if (!cost_.sensor().predict(landmark.anchor, landmark.estimate, pose, z)) continue;
+      squares += (measurement.z - z).head<2>().squaredNorm();
+      ++count;
+    }
+  }
+  result.reprojection_px = count > 0 ? std::sqrt(squares / count) : 0.0;
+  return result;
+}
+
+bool Filter::inFactor(std::int64_t step, std::size_t& place) const {
+  if (!has_factor_ || step < factor_step_) return false;
+  place = static_cast<std::size_t>(step - factor_step_);
+  return place < solver_.poses();
+}
+
+Matrix6d Filter::covarianceOf(std::int64_t step) const {
+  std::size_t place = 0;
+  return inFactor(step, place) ? covariance::marginal(solver_, place) : newest_covariance_;
+}
+
+UncertainPose Filter::newest() const { return {state_.poses.back().estimate, newest_covariance_}; }
+
+void Filter::flush(std::vector<SettledPose>& settled) {
+  while (!state_.poses.empty()) {
+    settled.push_back(settle());
+    gain_valid_ = false;
+    state_.poses.erase(state_.poses.begin());
+    ++state_.first_step;
+  }
+}
+
+}  // namespace swf_vo

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "window/marginalise.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace swf_vo {
+
+using Eigen::Map;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using urban_nav_core::Matrix6d;
+using urban_nav_core::Vector6d;
+
+namespace {
+
+// An eigenvalue of a block scaled to a unit diagonal below this is rounding.
+constexpr double relative_limit = 1e-12;
+constexpr int unused = 1 << 30;
+
+// G with G G^T = D^-1, or the inverse on what D determines.
+template <int N>
+Eigen::Matrix<double, N, N> inverseRoot(const Eigen::Matrix<double, N, N>& D) {
+  Eigen::Matrix<double, N, 1> scale;
+  for (int i = 0; i < N; ++i) scale[i] = D(i, i) > 0.0 ? 1.0 / std::sqrt(D(i, i)) : 0.0;
+  const Eigen::Matrix<double, N, N> scaled = scale.asDiagonal() * D * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, N, N>> eigen(scaled);
+  Eigen::Matrix<double, N, 1> roots;
+  for (int i = 0; i < N; ++i) roots[i] = eigen.eigenvalues()[i] > relative_limit ? 1.0 / std::sqrt(eigen.eigenvalues()[i]) : 0.0;
+  return scale.asDiagonal() * eigen.eigenvectors() * roots.asDiagonal();
+}
+
+bool seenBy(const LandmarkBlock& landmark, std::int64_t step) { return !landmark.seen.empty() && landmark.seen.front().step == step; }
+
+bool staysWithout(const LandmarkBlock& landmark, std::int64_t step) {
+  return landmark.followed || landmark.seen.size() > (seenBy(landmark, step) ? 1U : 0U);
+}
+
+template <typename Block>
+void add(double* column, int stride, const Block& block) {
+  Eigen::Map<Block, 0, Eigen::OuterStride<>>(column, block.rows(), block.cols(), Eigen::OuterStride<>(stride)) += block;
+}
+
+}  // namespace
+
+void Marginaliser::sort(const State& state, const Prior& prior) {
+  kept_.clear();
+  dying_.clear();
+  place_.assign(state.landmarks.size(), unused);
+  for (const int slot : prior.slots) {
+    const std::size_t at = static_cast<std::size_t>(slot);
+    if (staysWithout(state.landmarks[at], state.first_step)) {
+      place_[at] = 3 * static_cast<int>(kept_.size());
+      kept_.push_back(slot);
+    } else {
+      place_[at] = -1 - 3 * static_cast<int>(dying_.size());
+      dying_.push_back(slot);
+    }
+  }
+  for (std::size_t at = 0; at < state.landmarks.size(); ++at) {
+    const LandmarkBlock& landmark = state.landmarks[at];
+    // One that only this pose saw and nobody follows explains its measurement whatever the pose: it hands nothing on.
+    if (!landmark.used || landmark.known || landmark.prior >= 0 || !seenBy(landmark, state.first_step)) continue;
+    if (!staysWithout(landmark, state.first_step)) continue;
+    place_[at] = 3 * static_cast<int>(kept_.size());
+    kept_.push_back(static_cast<int>(at));
+  }
+  eliminated_ = 3 * static_cast<int>(dying_.size()) + 6;
+  remaining_ = 3 * static_cast<int>(kept_.size()) + 6;
+  stride_ = eliminated_ + remaining_;
+  blocks_.clear();
+  for (int i = 0; i < static_cast<int>(dying_.size()); ++i) blocks_.push_back({3 * i, 3});
+  blocks_.push_back({eliminated_ - 6, 6});
+}
+
+void Marginaliser::gatherPrior(const Prior& prior, const State& state) {
+  panel_.assign(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(eliminated_), 0.0);
+  reduced_.reset(remaining_);
+  gradient_.assign(static_cast<std::size_t>(stride_), 0.0);
+  if (!prior.has_pose) return;
+  prior.deviation(state, d_);
+  prior.gradient(d_, g_);
+  map_.resize(static_cast<std::size_t>(prior.size()));
+  for (std::size_t i = 0; i < prior.slots.size(); ++i) {
+    const int place = place_[static_cast<std::size_t>(prior.slots[i])];
+    for (int c = 0; c < 3; ++c) map_[3 * i + static_cast<std::size_t>(c)] = place >= 0 ? place + c : place - c;
+  }
+  for (int c = 0; c < 6; ++c) map_[static_cast<std::size_t>(prior.landmarkSize() + c)] = -1 - (eliminated_ - 6 + c);
+  for (int j = 0; j < prior.size(); ++j) {
+    const double* from = prior.information.column(j);
+    const int to_j = map_[static_cast<std::size_t>(j)];
+    gradient_[static_cast<std::size_t>(to_j >= 0 ? eliminated_ + to_j : -1 - to_j)] = g_[static_cast<std::size_t>(j)];
+    for (int i = j; i < prior.size(); ++i) {
+      const int to_i = map_[static_cast<std::size_t>(i)];
+      if (to_i >= 0 && to_j >= 0) reduced_(to_i, to_j) = from[i];
+      else if (to_j < 0) eliminatedColumn(-1 - to_j)[to_i >= 0 ? eliminated_ + to_i : -1 - to_i] = from[i];
+      else eliminatedColumn(-1 - to_i)[eliminated_ + to_j] = from[i];
+    }
+  }
+}
+
+void Marginaliser::addTerms(const State& state, const Cost& cost) {
+  const PoseBlock& oldest = state.poses[0];
+  const int pose = eliminated_ - 6;
+  for (std::size_t at = 0; at < state.landmarks.size(); ++at) {
+    const LandmarkBlock& landmark = state.landmarks[at];
+    if (!landmark.used || !seenBy(landmark, state.first_step)) continue;
+    if (!landmark.known && place_[at] == unused) continue;
+    const SensorTerm term = cost.sensorTerm(landmark, landmark.seen.front(), oldest);
+    add(eliminatedColumn(pose) + pose, stride_, term.pose);
+    Map<Vector6d>(gradient_.data() + pose) += term.pose_gradient;
+    if (landmark.known) continue;
+    if (place_[at] >= 0) {
+      const int row = place_[at];
+      add(eliminatedColumn(pose) + eliminated_ + row, stride_, Eigen::Matrix<double, 3, 6>(term.cross.transpose()));
+      add(reduced_.column(row) + row, reduced_.stride(), term.landmark);
+      Map<Vector3d>(gradient_.data() + eliminated_ + row) += term.landmark_gradient;
+    } else {
+      const int column = -1 - place_[at];
+      add(eliminatedColumn(column) + pose, stride_, term.cross);
+      add(eliminatedColumn(column) + column, stride_, term.landmark);
+      Map<Vector3d>(gradient_.data() + column) += term.landmark_gradient;
+    }
+  }
+  const ProcessTerm term = cost.processTerm(oldest, state.poses[1]);
+  add(eliminatedColumn(pose) + pose, stride_, term.last);
+  add(eliminatedColumn(pose) + eliminated_ + remaining_ - 6, stride_, term.cross);
+  add(reduced_.column(remaining_ - 6) + remaining_ - 6, reduced_.stride(), term.next);
+  Map<Vector6d>(gradient_.data() + pose) += term.last_gradient;
+  Map<Vector6d>(gradient_.data() + eliminated_ + remaining_ - 6) += term.next_gradient;
+}
+
+void Marginaliser::eliminate() {
+  roots_.assign(blocks_.size(), Matrix6d::Zero());
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const Block block = blocks_[b];
+    const int below = block.at + block.size;
+    Matrix6d D = Matrix6d::Zero();
+    for (int c = 0; c < block.size; ++c)
+      for (int r = c; r < block.size; ++r) D(r, c) = D(c, r) = eliminatedColumn(block.at + c)[block.at + r];
+    Matrix6d& G = roots_[b];
+    if (block.size == 6) G = inverseRoot<6>(D);
+    else G.topLeftCorner<3, 3>() = inverseRoot<3>(D.topLeftCorner<3, 3>());
+    // F = Lambda_b^T G, row by row, in place.
+    for (int i = below; i < stride_; ++i) {
+      Vector6d row = Vector6d::Zero();
+      for (int c = 0; c < block.size; ++c) row[c] = eliminatedColumn(block.at + c)[i];
+      for (int c = 0; c < block.size; ++c) eliminatedColumn(block.at + c)[i] = row.head(block.size).dot(G.col(c).head(block.size));
+    }
+    Vector6d y = Vector6d::Zero();
+    for (int c = 0; c < block.size; ++c) y[c] = G.col(c).head(block.size).dot(Map<const Eigen::VectorXd>(gradient_.data() + block.at, block.size));
+    for (int c = 0; c < block.size; ++c) {
+      const double* F = eliminatedColumn(block.at + c);
+      for (int i = below; i < stride_; ++i) gradient_[static_cast<std::size_t>(i)] -= F[i] * y[c];
+      for (int j = below; j < eliminated_; ++j) {
+        double* column = eliminatedColumn(j);
+        const double factor = F[j];
+        if (factor == 0.0) continue;
+        for (int i = j; i < stride_; ++i) column[i] -= F[i] * factor;
+      }
+      gradient_[static_cast<std::size_t>(block.at + c)] = y[c];
+    }
+  }
+  subtractProduct(reduced_, 0, remaining_, panel_.data() + eliminated_, eliminated_, stride_);
+  // d_pose = G (y - F^T d): its gain, transposed, is -F G^T.
+  gain_.assign(static_cast<std::size_t>(6 * remaining_), 0.0);
+  const Matrix6d& G = roots_.back();
+  for (int c = 0; c < 6; ++c) {
+    const double* F = eliminatedColumn(eliminated_ - 6 + c) + eliminated_;
+    for (int r = 0; r < 6; ++r)
+      for (int i = 0; i < remaining_; ++i) gain_[static_cast<std::size_t>(r * remaining_ + i)] -= F[i] * G(r, c);
+  }
+}
+
+void Marginaliser::record(const State& state, History& history) const {
+  const auto tieTo = [&](int slot) {
+    const LandmarkBlock& landmark = state.landmarks[static_cast<std::size_t>(slot)];
+    History::Row::Tie tie;
+    tie.id = landmark.id;
+    tie.landmark = landmark.estimate;
+    return tie;
+  };
+  const auto tieToPose = [&](const PoseBlock& pose) {
+    History::Row::Tie tie;
+    tie.is_pose = true;
+    tie.id = pose.frame;
+    tie.pose = pose.estimate;
+    return tie;
+  };
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const Block block = blocks_[b];
+    History::Row row;
+    row.is_pose = block.size == 6;
+    if (row.is_pose) {
+      row.id = state.poses[0].frame;
+      row.pose = state.poses[0].estimate;
+      row.linearised_pose = state.poses[0].linearised;
+    } else {
+      const LandmarkBlock& landmark = state.landmarks[static_cast<std::size_t>(dying_[b])];
+      row.id = landmark.id;
+      row.landmark = landmark.estimate;
+      row.linearised_landmark = landmark.linearised;
+      row.anchor = landmark.anchor;
+    }
+    for (std::size_t later = b + 1; later < dying_.size(); ++later) row.ties.push_back(tieTo(dying_[later]));
+    if (!row.is_pose) row.ties.push_back(tieToPose(state.poses[0]));
+    for (const int slot : kept_) row.ties.push_back(tieTo(slot));
+    row.ties.push_back(tieToPose(state.poses[1]));
+    const Eigen::MatrixXd G = roots_[b].topLeftCorner(block.size, block.size);
+    row.offset.resize(static_cast<std::size_t>(block.size));
+    Map<Eigen::VectorXd>(row.offset.data(), block.size) = G * Map<const Eigen::VectorXd>(gradient_.data() + block.at, block.size);
+    for (int i = block.at + block.size; i < stride_; ++i) {
+      Eigen::VectorXd F(block.size);
+      for (int c = 0; c < block.size; ++c) F[c] = eliminatedColumn(block.at + c)[i];
+      const Eigen::VectorXd column = -(G * F);
+      row.gain.insert(row.gain.end(), column.data(), column.data() + block.size);
+    }
+    history.rows.push_back(std::move(row));
+  }
+}
+
+void Marginaliser::keep(State& state, Prior& prior) {
+  std::swap(prior.information, reduced_);
+  centres_.clear();
+  for (const int slot : kept_) {
+    const LandmarkBlock& landmark = state.landmarks[static_cast<std::size_t>(slot)];
+    centres_.push_back(landmark.prior >= 0 ? prior.landmark_centre[static_cast<std::size_t>(landmark.prior)] : landmark.estimate);
+  }
+  prior.landmark_centre.swap(centres_);
+  prior.slots.swap(kept_);
+  prior.pose_centre = state.poses[1].estimate;
+  prior.has_pose = true;
+  for (const int slot : dying_) state.landmarks[static_cast<std::size_t>(slot)].prior = -1;
+  for (std::size_t i = 0; i < prior.slots.size(); ++i) state.landmarks[static_cast<std::size_t>(prior.slots[i])].prior = static_cast<int>(i);
+
+  const std::int64_t leaving = state.first_step;
+  for (std::size_t at = 0; at < state.landmarks.size(); ++at) {
+    LandmarkBlock& landmark = state.landmarks[at];
+    if (!landmark.used) continue;
+    if (seenBy(landmark, leaving)) landmark.seen.erase(landmark.seen.begin());
+    if (!landmark.followed && landmark.seen.empty()) state.remove(static_cast<int>(at));
+  }
+  state.poses.erase(state.poses.begin());
+  ++state.first_step;
+
+  // The gradient was taken at the estimates, eta is it at the centre: g + Pi d, which is gradient() of -d.
+  prior.eta.assign(gradient_.begin() + eliminated_, gradient_.begin() + stride_);
+  prior.deviation(state, d_);
+  for (double& value : d_) value = -value;
+  prior.gradient(d_, g_);
+  prior.eta.swap(g_);
+}
+
+void Marginaliser::removeOldest(State& state, Prior& prior, const Cost& cost, History* history) {
+  sort(state, prior);
+  gatherPrior(prior, state);
+  addTerms(state, cost);
+  eliminate();
+  if (history != nullptr) record(state, *history);
+  keep(state, prior);
+}
+
+}  // namespace swf_vo

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "window/cost.hpp"
+#include "window/history.hpp"
+#include "window/prior.hpp"
+#include "window/state.hpp"
+
+namespace swf_vo {
+
+/// The only place where information leaves x: the oldest pose, and landmarks that no active pose sees and nobody follows,
+/// go into the prior by the Schur complement Lambda_c - Lambda_b^T Lambda_a^-1 Lambda_b (Newman et al. 2009, section 2.2),
+/// never by deletion. Whatever Lambda_a does not determine is left out of the inverse: there is nothing to hand on.
+class Marginaliser {
+ public:
+  /// Takes poses.front() out of `state` with its measurements; the pose behind it and the landmarks it saw are then tied by
+  /// the prior. Needs a second pose. The linearisation points must be those of Cost::relinearise. `history` may be null.
+  void removeOldest(State& state, Prior& prior, const Cost& cost, History* history);
+
+  /// d(pose that left)/d(blocks of the new prior), 6 columns to a row of the prior, column-major with prior.size() rows:
+  /// -Lambda_a^-1 Lambda_b of that pose, transposed.
+  const std::vector<double>& gain() const { return gain_; }
+
+ private:
+  struct Block {
+    int at, size;
+  };
+
+  void sort(const State& state, const Prior& prior);
+  void gatherPrior(const Prior& prior, const State& state);
+  void addTerms(const State& state, const Cost& cost);
+  void eliminate();
+  void record(const State& state, History& history) const;
+  void keep(State& state, Prior& prior);
+
+  double* eliminatedColumn(int j) { return panel_.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(stride_); }
+  const double* eliminatedColumn(int j) const { return panel_.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(stride_); }
+
+  std::vector<int> kept_, dying_;        // slots
+  std::vector<int> place_;               // by slot: kept: 3 i; dying: -1 - 3 i; neither: unused
+  std::vector<int> map_;                 // old row of the prior -> place as above
+  int eliminated_ = 0, remaining_ = 0;   // sizes: e and n
+  int stride_ = 0;
+  std::vector<double> panel_;            // (e + n) x e: Lambda_a over Lambda_b^T; then its factors
+  DenseMatrix reduced_;                  // n x n
+  std::vector<double> gradient_;         // e + n
+  std::vector<double> d_, g_;
+  std::vector<Block> blocks_;            // of the eliminated, in order
+  std::vector<urban_nav_core::Matrix6d> roots_;  // of each: G with G G^T = the (pseudo-)inverse of its pivot
+  std::vector<double> gain_;
+  std::vector<Eigen::Vector3d> centres_;
+};
+
+}  // namespace swf_vo

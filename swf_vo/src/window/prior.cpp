@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "window/prior.hpp"
+
+namespace swf_vo {
+
+using Eigen::Map;
+using Eigen::Vector3d;
+using urban_nav_core::Matrix6d;
+using urban_nav_core::Pose;
+using urban_nav_core::Vector6d;
+
+void Prior::start(const Pose& centre, const Matrix6d& pose_information) {
+  has_pose = true;
+  slots.clear();
+  landmark_centre.clear();
+  pose_centre = centre;
+  information.reset(6);
+  for (int j = 0; j < 6; ++j)
+    for (int i = j; i < 6; ++i) information(i, j) = pose_information(i, j);
+  eta.assign(6, 0.0);
+}
+
+void Prior::deviation(const State& state, std::vector<double>& d) const {
+  d.resize(static_cast<std::size_t>(size()));
+  if (!has_pose) return;
+  for (std::size_t i = 0; i < slots.size(); ++i)
+    Map<Vector3d>(d.data() + 3 * i) = state.landmarks[static_cast<std::size_t>(slots[i])].estimate - landmark_centre[i];
+  Map<Vector6d>(d.data() + landmarkSize()) = urban_nav_core::boxMinus(state.poses.front().estimate, pose_centre);
+}
+
+double Prior::gradient(const std::vector<double>& d, std::vector<double>& g) const {
+  const int n = size();
+  g.resize(static_cast<std::size_t>(n));
+  for (int i = 0; i < n; ++i) g[static_cast<std::size_t>(i)] = 0.0;
+  for (int j = 0; j < n; ++j) {
+    const double* column = information.column(j);
+    const double dj = d[static_cast<std::size_t>(j)];
+    double sum = column[j] * dj;
+    for (int i = j + 1; i < n; ++i) {
+      sum += column[i] * d[static_cast<std::size_t>(i)];
+      g[static_cast<std::size_t>(i)] -= column[i] * dj;
+    }
+    g[static_cast<std::size_t>(j)] -= sum;
+  }
+  double cost = 0.0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) {
+    cost -= d[i] * (0.5 * g[i] + eta[i]);
+    g[i] += eta[i];
+  }
+  return cost;
+}
+
+void Prior::recentre(const State& state) {
+  if (!has_pose) return;
+  deviation(state, d_);
+  gradient(d_, g_);
+  eta.swap(g_);
+  for (std::size_t i = 0; i < slots.size(); ++i) landmark_centre[i] = state.landmarks[static_cast<std::size_t>(slots[i])].estimate;
+  pose_centre = state.poses.front().estimate;
+}
+
+}  // namespace swf_vo

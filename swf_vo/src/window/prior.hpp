@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "window/dense_cholesky.hpp"
+#include "window/state.hpp"
+
+namespace swf_vo {
+
+/// What earlier frames left behind (Newman et al. 2009, eq. 1 and 3): a Gaussian over the oldest pose and the landmarks that
+/// frames outside the window saw, as information Pi and vector eta:
+///   l(d) = 1/2 d^T Pi d - eta^T d,   d = x - centre  (boxMinus for the pose).
+/// Blocks stand in the order landmarks, pose. Pi may be singular: what was never measured has no information in it.
+///
+/// Two rules make the filter consistent. A block that the prior touches is linearised where the prior was, in every later
+/// term (linearise_first; Huang et al. 2008, "first estimates Jacobian"): so the whole information is J^T W J at one set
+/// of values, and the six gauge directions stay empty. And the robust weights of what went in are frozen: they are in Pi.
+/// The textbook's EKF (linearise_first off) moves the centre to each new estimate instead.
+struct Prior {
+  bool has_pose = false;
+  std::vector<int> slots;        ///< landmark slot of each landmark block
+  std::vector<Eigen::Vector3d> landmark_centre;
+  urban_nav_core::Pose pose_centre;
+  DenseMatrix information;       ///< 3 slots.size() + 6
+  std::vector<double> eta;
+
+  int landmarkSize() const { return 3 * static_cast<int>(slots.size()); }
+  int size() const { return has_pose ? landmarkSize() + 6 : 0; }
+
+  /// A prior of the first pose alone.
+  void start(const urban_nav_core::Pose& centre, const urban_nav_core::Matrix6d& pose_information);
+
+  /// d at the estimates.
+  void deviation(const State& state, std::vector<double>& d) const;
+  /// eta - Pi d, and the cost 1/2 d^T Pi d - eta^T d.
+  double gradient(const std::vector<double>& d, std::vector<double>& g) const;
+  /// Moves the centre to the estimates without changing the quadratic.
+  void recentre(const State& state);
+
+ private:
+  std::vector<double> d_, g_;
+};
+
+}  // namespace swf_vo

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include "urban_nav_core/camera/stereo_camera.hpp"
+#include "urban_nav_core/geometry/se3.hpp"
+
+namespace swf_vo {
+
+/// A landmark as inverse depth in a constant anchor frame: the point ((a, b, 1) / rho) of the frame `anchor`, which is the
+/// camera where the landmark was born *as it was estimated then*: a number, not a state. So a landmark is a fixed point of
+/// `odom`, but the stereo pixel is nearly linear in theta = (a, b, rho), and points near infinity (rho = 0, also slightly
+/// below while estimating) need no special case.
+struct Anchor {
+  Eigen::Matrix3d R_odom_anchor = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d t_odom_anchor = Eigen::Vector3d::Zero();
+
+  /// (x, y, z, w): the point (x, y, z) / w in `odom`.
+  Eigen::Vector4d homogeneous(const Eigen::Vector3d& theta) const;
+};
+
+/// A pose as the sensor model needs it, made once for many landmarks.
+struct PoseMatrices {
+  Eigen::Matrix3d R_camera_odom = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d t_odom_camera = Eigen::Vector3d::Zero();
+
+  PoseMatrices() = default;
+  explicit PoseMatrices(const urban_nav_core::Pose& T_odom_camera);
+};
+
+/// z_ij = h(x_m(i), x_p(j)) + v (Newman et al. 2009, section 2.1 and eq. 2): the stereo pixel (u_left, v, u_right) of a landmark.
+/// h depends on nothing but where the point is seen from, so moving pose and point together changes nothing: its Jacobians
+/// at any one pair of values leave the six gauge directions empty.
+class SensorModel {
+ public:
+  explicit SensorModel(const urban_nav_core::StereoCamera& camera);
+
+  struct Linearised {
+    Eigen::Matrix3d H;        ///< dz/dw, w being the point as seen from the camera's place, scaled by rho, in the axes of odom
+    Eigen::Vector3d w;        ///< ... and w itself
+    double rho = 0.0;
+    Eigen::Matrix3d landmark;  ///< dz/dtheta
+
+    /// dz/dpose for boxPlus: [-rho H, H [w]x].
+    Eigen::Matrix<double, 3, 6> pose() const;
+  };
+
+  /// h; false, and z untouched, where the point is not in front of the camera.
+  bool predict(const Anchor& anchor, const Eigen::Vector3d& theta, const PoseMatrices& pose, Eigen::Vector3d& z) const;
+  /// Both Jacobians, exact; false where the point is not in front.
+  bool linearise(const Anchor& anchor, const Eigen::Vector3d& theta, const PoseMatrices& pose, Linearised& result) const;
+
+  /// theta of a landmark whose anchor is the camera that sees it at z. Any finite z has one; a negative disparity gives rho < 0.
+  Eigen::Vector3d invert(const Eigen::Vector3d& z) const;
+
+ private:
+  double fx_, fy_, cx_, cy_, baseline_;
+};
+
+}  // namespace swf_vo

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "window/solve.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace swf_vo {
+
+using Eigen::Map;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using urban_nav_core::Matrix6d;
+using urban_nav_core::Vector6d;
+
+namespace {
+
+constexpr double relative_limit = 1e-12;
+
+bool isFree(const LandmarkBlock& landmark) { return landmark.used && !landmark.known && landmark.prior < 0; }
+
+// R, lower triangular, with R^T R = C^-1; what C does not determine has zero rows.
+Matrix3d inverseRoot(const Matrix3d& C) {
+  Matrix3d L = Matrix3d::Zero();
+  bool held[3] = {false, false, false};
+  for (int j = 0; j < 3; ++j) {
+    double pivot = C(j, j);
+    for (int k = 0; k < j; ++k) pivot -= L(j, k) * L(j, k);
+    held[j] = !(pivot > relative_limit * C(j, j)) || !(pivot > 0.0);
+    if (held[j]) {
+      L(j, j) = 1.0;
+      continue;
+    }
+    L(j, j) = std::sqrt(pivot);
+    for (int i = j + 1; i < 3; ++i) {
+      double value = C(i, j);
+      for (int k = 0; k < j; ++k) value -= L(i, k) * L(j, k);
+      L(i, j) = value / L(j, j);
+    }
+  }
+  Matrix3d R = Matrix3d::Zero();
+  for (int j = 0; j < 3; ++j) {
+    R(j, j) = 1.0 / L(j, j);
+    for (int i = j + 1; i < 3; ++i) {
+      double value = 0.0;
+      for (int k = j; k < i; ++k) value -= L(i, k) * R(k, j);
+      R(i, j) = value / L(i, i);
+    }
+  }
+  for (int j = 0; j < 3; ++j)
+    if (held[j]) {
+      R.row(j).setZero();
+      R.col(j).setZero();
+    }
+  return R;
+}
+
+void addBlock(DenseMatrix& M, int row, int column, const double* block, int rows, int columns) {
+  for (int c = 0; c < columns; ++c) {
+    double* to = M.column(column + c) + row;
+    for (int r = 0; r < rows; ++r) to[r] += block[c * rows + r];
+  }
+}
+
+}  // namespace
+
+void Solver::eliminateFree(const State& state, const NormalEquations& equations) {
+  eliminated_.resize(equations.cross.size());
+  inverse_root_.resize(state.landmarks.size());
+  for (std::size_t slot = 0; slot < state.landmarks.size(); ++slot) {
+    const LandmarkBlock& landmark = state.landmarks[slot];
+    if (!isFree(landmark)) continue;
+    const Matrix3d& R = inverse_root_[slot] = inverseRoot(equations.landmark[slot]);
+    const std::size_t first = static_cast<std::size_t>(equations.first_cross[slot]);
+    for (std::size_t m = 0; m < landmark.seen.size(); ++m) eliminated_[first + m].noalias() = equations.cross[first + m] * R.transpose();
+    for (std::size_t a = 0; a < landmark.seen.size(); ++a) {
+      const int column = static_cast<int>(offset_) + 6 * static_cast<int>(landmark.seen[a].step - state.first_step);
+      for (std::size_t b = a; b < landmark.seen.size(); ++b) {
+        const int row = static_cast<int>(offset_) + 6 * static_cast<int>(landmark.seen[b].step - state.first_step);
+        const Matrix6d block = -eliminated_[first + b] * eliminated_[first + a].transpose();
+        addBlock(dense_, row, column, block.data(), 6, 6);
+      }
+    }
+  }
+}
+
+void Solver::factor(const State& state, const Prior& prior, const NormalEquations& equations) {
+  poses_ = state.poses.size();
+  offset_ = static_cast<std::size_t>(prior.landmarkSize());
+  const int size = static_cast<int>(offset_ + 6 * poses_);
+  dense_.reset(size);
+  floor_.assign(static_cast<std::size_t>(size), 1.0);
+  // The prior's blocks are the first of this matrix, in its own order.
+  for (int j = 0; j < prior.size(); ++j) std::copy(prior.information.column(j) + j, prior.information.column(j) + prior.size(), dense_.column(j) + j);
+  for (std::size_t i = 0; i < prior.slots.size(); ++i) {
+    const std::size_t slot = static_cast<std::size_t>(prior.slots[i]);
+    const int column = 3 * static_cast<int>(i);
+    addBlock(dense_, column, column, equations.landmark[slot].data(), 3, 3);
+    std::size_t cross = static_cast<std::size_t>(equations.first_cross[slot]);
+    for (const Measurement& measurement : state.landmarks[slot].seen)
+      addBlock(dense_, static_cast<int>(offset_) + 6 * static_cast<int>(measurement.step - state.first_step), column,
+               equations.cross[cross++].data(), 6, 3);
+  }
+  for (std::size_t j = 0; j < poses_; ++j) {
+    const int at = static_cast<int>(offset_ + 6 * j);
+    addBlock(dense_, at, at, equations.pose[j].data(), 6, 6);
+    if (j + 1 < poses_) addBlock(dense_, at + 6, at, equations.next[j].data(), 6, 6);
+    for (int i = 0; i < 6; ++i) floor_[static_cast<std::size_t>(at + i)] = process_model::floor()(i, i);
+  }
+  eliminateFree(state, equations);
+  cholesky_.factor(dense_, floor_);
+}
+
+void Solver::solve(const State& state, const Prior& prior, const NormalEquations& equations, const std::vector<double>& prior_gradient) {
+  rhs_.assign(offset_ + 6 * poses_, 0.0);
+  std::copy(prior_gradient.begin(), prior_gradient.begin() + prior.size(), rhs_.begin());
+  for (std::size_t i = 0; i < prior.slots.size(); ++i)
+    Map<Vector3d>(rhs_.data() + 3 * i) += equations.landmark_gradient[static_cast<std::size_t>(prior.slots[i])];
+  for (std::size_t j = 0; j < poses_; ++j) Map<Vector6d>(rhs_.data() + offset_ + 6 * j) += equations.pose_gradient[j];
+  landmark_step_.resize(state.landmarks.size());
+  decrement_ = 0.0;
+  for (std::size_t slot = 0; slot < state.landmarks.size(); ++slot) {
+    const LandmarkBlock& landmark = state.landmarks[slot];
+    if (!isFree(landmark)) continue;
+    const Vector3d y = inverse_root_[slot] * equations.landmark_gradient[slot];
+    landmark_step_[slot] = y;
+    decrement_ += y.squaredNorm();
+    std::size_t m = static_cast<std::size_t>(equations.first_cross[slot]);
+    for (const Measurement& measurement : landmark.seen)
+      Map<Vector6d>(rhs_.data() + offset_ + 6 * static_cast<std::size_t>(measurement.step - state.first_step)) -= eliminated_[m++] * y;
+  }
+  cholesky_.solveLower(rhs_.data());
+  cholesky_.release(rhs_.data());
+  for (const double value : rhs_) decrement_ += value * value;
+  cholesky_.solveUpper(rhs_.data());
+  cholesky_.release(rhs_.data());
+  for (std::size_t i = 0; i < prior.slots.size(); ++i)
+    landmark_step_[static_cast<std::size_t>(prior.slots[i])] = Map<const Vector3d>(rhs_.data() + 3 * i);
+  for (std::size_t slot = 0; slot < state.landmarks.size(); ++slot) {
+    const LandmarkBlock& landmark = state.landmarks[slot];
+    if (!isFree(landmark)) continue;
+    Vector3d y = landmark_step_[slot];
+    std::size_t m = static_cast<std::size_t>(equations.first_cross[slot]);
+    for (const Measurement& measurement : landmark.seen)
+      y.noalias() -= eliminated_[m++].transpose() * poseStep(static_cast<std::size_t>(measurement.step - state.first_step));
+    landmark_step_[slot] = inverse_root_[slot].transpose() * y;
+  }
+}
+
+Vector6d Solver::poseStep(std::size_t j) const { return Map<const Vector6d>(rhs_.data() + offset_ + 6 * j); }
+
+const std::vector<double>& Solver::inverseColumn(std::size_t j, int c, bool poses_only) const {
+  column_.assign(offset_ + 6 * poses_, 0.0);
+  const std::size_t at = rowOf(j) + static_cast<std::size_t>(c);
+  column_[at] = 1.0;
+  cholesky_.solveLower(column_.data(), static_cast<int>(at));
+  cholesky_.solveUpper(column_.data(), poses_only ? static_cast<int>(offset_) : 0);
+  return column_;
+}
+
+}  // namespace swf_vo
