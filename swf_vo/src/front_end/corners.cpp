@@ -3,28 +3,22 @@
 
 namespace swf_vo {
 
-using urban_nav_core::CornerQuota;
 using urban_nav_core::Fast;
 using urban_nav_core::ImageView;
 using urban_nav_core::StereoPair;
 
 namespace {
 
-CornerQuota quota(int threshold) {
-  CornerQuota made;
-  made.threshold = threshold;
-  return made;
-}
+// Corners wanted at level 0 per feature; a quarter of that at each further level.
+constexpr int fewest_per_feature = 8, most_per_feature = 14;
+constexpr int lowest_threshold = 4, highest_threshold = 60;
 
 }  // namespace
 
-Corners::Corners(int levels, int top, int threshold)
-    : levels_(levels),
-      top_(std::max(top, levels - 1)),
-      lowest_threshold_(std::max(3, threshold / 2)),
-      cap_(quota(threshold)),
-      left_(top_ + 1, levels),
-      right_(top_ + 1, levels) {}
+Corners::Corners(int levels, int top, int threshold, int features)
+    : levels_(levels), top_(std::max(top, levels - 1)), features_(features), left_(top_ + 1, levels), right_(top_ + 1, levels) {
+  for (Eye* eye : {&left_, &right_}) std::fill(eye->thresholds.begin(), eye->thresholds.end(), std::clamp(threshold, lowest_threshold, highest_threshold));
+}
 
 void Corners::extract(const StereoPair& pair) {
   extract(pair.left, left_);
@@ -41,10 +35,12 @@ void Corners::extract(const ImageView& image, Eye& eye) {
   eye.pyramid.build(image);
   for (int level = 0; level < std::min(levels_, eye.pyramid.levels()); ++level) {
     const ImageView& view = eye.pyramid.level(level);
-    const auto& found = fast_.detect(view, lowest_threshold_, Fast::Suppression::LocalMaximum);
-    kept_.assign(found.begin(), found.end());
-    cap_.apply(kept_, view.width, view.height);
-    eye.grids[static_cast<std::size_t>(level)].assign(kept_, view.width, view.height);
+    int& threshold = eye.thresholds[static_cast<std::size_t>(level)];
+    const auto& found = fast_.detect(view, threshold, Fast::Suppression::LocalMaximum);
+    const int unit = std::max(1, features_ >> (2 * level)), count = static_cast<int>(found.size());
+    if (count < fewest_per_feature * unit) threshold = std::max(lowest_threshold, threshold - 1 - threshold / 6);
+    if (count > most_per_feature * unit) threshold = std::min(highest_threshold, threshold + 1 + threshold / 12);
+    eye.grids[static_cast<std::size_t>(level)].assign(found, view.width, view.height);
   }
 }
 

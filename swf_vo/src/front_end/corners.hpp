@@ -16,8 +16,8 @@ namespace swf_vo {
 class Corners {
  public:
   /// Corners at `levels` levels; the pyramids go on to level `top` for the rotation between frames. `threshold`: of FAST, in grey
-  /// levels; where a part of the image has too few corners it goes down to half of that.
-  Corners(int levels, int top, int threshold);
+  /// levels, at the start; it follows the scene from frame to frame so that each level has a few corners for each of `features`.
+  Corners(int levels, int top, int threshold, int features);
 
   /// Neither image may be empty.
   void extract(const urban_nav_core::StereoPair& pair);
@@ -32,17 +32,16 @@ class Corners {
 
  private:
   struct Eye {
-    Eye(int pyramid_levels, int corner_levels) : pyramid(pyramid_levels), grids(static_cast<std::size_t>(corner_levels)) {}
+    Eye(int pyramid_levels, int corner_levels) : pyramid(pyramid_levels), grids(static_cast<std::size_t>(corner_levels)), thresholds(static_cast<std::size_t>(corner_levels)) {}
     urban_nav_core::Pyramid pyramid;
     std::vector<urban_nav_core::CornerGrid> grids;
+    std::vector<int> thresholds;
   };
   const Eye& of(Side side) const { return side == Side::Left ? left_ : right_; }
   void extract(const urban_nav_core::ImageView& image, Eye& eye);
 
-  int levels_, top_, lowest_threshold_;
+  int levels_, top_, features_;
   urban_nav_core::Fast fast_;
-  urban_nav_core::CornerCap cap_;
-  std::vector<urban_nav_core::Corner> kept_;
   Eye left_, right_;
 };
 

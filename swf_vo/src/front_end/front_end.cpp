@@ -27,7 +27,7 @@ constexpr double reference_area = 512.0 * 384.0;  // of the parameter `features`
 constexpr int top_width = 160;                    // the image whose rotation is found is at most this wide
 constexpr double first_radius = 3.0;              // of the search radius, while the motion is not known yet
 constexpr double coarse_slack_px = 1.0, fine_slack_px = 0.1;
-constexpr int most_missed = 3;                    // frames
+constexpr int most_missed = 3, most_missed_young = 1;  // frames
 constexpr int disagreements_refute = 2, disagreements_refute_young = 1, young = 3;  // frames
 
 int featuresIn(const StereoCamera& camera, int features) {
@@ -47,7 +47,7 @@ class FrontEnd::Implementation {
   Implementation(const Parameters& parameters, const StereoCamera& camera)
       : parameters_(parameters),
         camera_(camera),
-        corners_(parameters.pyramid_levels, topLevel(camera.left.width), parameters.fast_threshold),
+        corners_(parameters.pyramid_levels, topLevel(camera.left.width), parameters.fast_threshold, featuresIn(camera, parameters.features)),
         rotation_(camera.left),
         localiser_(camera),
         tracks_(4 * featuresIn(camera, parameters.features)),
@@ -173,7 +173,7 @@ class FrontEnd::Implementation {
       tracks_.end(track.id);
       return;
     }
-    if (++track.missed < most_missed && isInView(match)) return;
+    if (++track.missed < (track.seen < young ? most_missed_young : most_missed) && isInView(match)) return;
     result_.ended.push_back(track.id);
     tracks_.end(track.id);
   }

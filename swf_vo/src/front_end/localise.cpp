@@ -25,6 +25,7 @@ constexpr double gate = 16.3;         // chi-square, 3 degrees of freedom, 99.9 
 constexpr int most_steps = 12;
 constexpr int samples = 24, sample_size = 3;
 constexpr double prediction_bonus = 0.9;  // a start that was found by consensus must be better by more than this
+constexpr double clear_majority = 0.35;   // share of the highest cost, below which no other motion is looked for
 constexpr double full_trust_age = 6.0;    // frames
 
 // Keeps the pose where three points in a row or too few matches say nothing.
@@ -172,7 +173,10 @@ Localisation Localiser::locate(const std::vector<Pose>& starts, const LocaliseOp
     }
   };
   for (std::size_t i = 1; i < starts.size(); ++i) consider(starts[i]);
-  if (options.consensus) {
+  double trust = 0.0;
+  for (const Item& item : items_) trust += item.trust;
+  // Another motion could win only with more than the rest.
+  if (options.consensus && best_cost > clear_majority * gate * trust) {
     double consensus_cost = prediction_bonus * best_cost;
     consider(bestByConsensus(starts.front(), consensus_cost));
   }

@@ -144,35 +144,34 @@ void warpWide(const PatchSource& source, const Eigen::Matrix2d& source_from_view
     }
 }
 
-/// What white noise of one grey level makes of a filter's product with the smoothed image, for two filters (diagonal and cross terms).
+/// Adds (1 4 1)/6 along a row of 12 and its surroundings: 16 columns, the first two left of the filter.
+void spreadAlongRow(const float* row, float* out) {
+  alignas(16) float wide[24] = {};
+  for (int i = 0; i < 12; i += 4) cv::v_store(&wide[i + 4], cv::v_load(row + i));
+  const v_float32x4 side = cv::v_setall_f32(1.0F / 6.0F), middle = cv::v_setall_f32(4.0F / 6.0F);
+  for (int i = 0; i < 16; i += 4)
+    cv::v_store(&out[i], side * (cv::v_load(&wide[i + 2]) + cv::v_load(&wide[i + 4])) + middle * cv::v_load(&wide[i + 3]));
+}
+
+/// Covariance of the products of two filters with the smoothed image, for white noise of one grey level in the image.
 Eigen::Matrix2d noiseThroughSpline(const PatchGrid& fx, const PatchGrid& fy) {
-  constexpr int n = patch_size + 2;
-  alignas(16) float rows[2][n][16] = {}, both[2][n][16] = {};
-  const PatchGrid* filters[2] = {&fx, &fy};
-  for (int k = 0; k < 2; ++k) {
-    for (int j = 0; j < patch_size; ++j)
-      for (int i = 0; i < patch_size; ++i) {
-        const float f = (*filters[k])[static_cast<std::size_t>(j * patch_stride + i)] / 6.0F;
-        rows[k][j + 1][i] += f;
-        rows[k][j + 1][i + 1] += 4.0F * f;
-        rows[k][j + 1][i + 2] += f;
-      }
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < 16; ++i) {
-        float value = 4.0F * rows[k][j][i];
-        if (j > 0) value += rows[k][j - 1][i];
-        if (j + 1 < n) value += rows[k][j + 1][i];
-        both[k][j][i] = value / 6.0F;
-      }
+  alignas(16) float x[patch_size + 4][16] = {}, y[patch_size + 4][16] = {};
+  for (int j = 0; j < patch_size; ++j) {
+    spreadAlongRow(&fx[static_cast<std::size_t>(j * patch_stride)], x[j + 2]);
+    spreadAlongRow(&fy[static_cast<std::size_t>(j * patch_stride)], y[j + 2]);
   }
-  Eigen::Vector3d s = Eigen::Vector3d::Zero();
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < 16; ++i) {
-      const double x = static_cast<double>(both[0][j][i]), y = static_cast<double>(both[1][j][i]);
-      s += Eigen::Vector3d(x * x, x * y, y * y);
+  const v_float32x4 side = cv::v_setall_f32(1.0F / 6.0F), middle = cv::v_setall_f32(4.0F / 6.0F);
+  v_float32x4 xx = cv::v_setzero_f32(), xy = xx, yy = xx;
+  for (int j = 1; j < patch_size + 3; ++j)
+    for (int i = 0; i < 16; i += 4) {
+      const v_float32x4 a = side * (cv::v_load_aligned(&x[j - 1][i]) + cv::v_load_aligned(&x[j + 1][i])) + middle * cv::v_load_aligned(&x[j][i]);
+      const v_float32x4 b = side * (cv::v_load_aligned(&y[j - 1][i]) + cv::v_load_aligned(&y[j + 1][i])) + middle * cv::v_load_aligned(&y[j][i]);
+      xx += a * a;
+      xy += a * b;
+      yy += b * b;
     }
   Eigen::Matrix2d made;
-  made << s(0), s(1), s(1), s(2);
+  made << sum(xx), sum(xy), sum(xy), sum(yy);
   return made;
 }
 
