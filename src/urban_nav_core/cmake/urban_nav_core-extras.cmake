@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # How every package of the suite is built. Loaded by find_package(urban_nav_core), from the devel space and the install
 # space alike. Nothing here touches a target, a flag or an include path that is not ours: the suite may share a workspace.
-#catkin_lint: ignore global_var_collision duplicate_find
+#catkin_lint: ignore global_var_collision duplicate_find shadowed_find
 include_guard(DIRECTORY)
 include(CheckCXXCompilerFlag)
 
