@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <opencv2/imgcodecs.hpp>
+
+#include "urban_nav_core/io/kitti.hpp"
+#include "urban_nav_core/parameters/sources.hpp"
+
+namespace swf_vo::bench {
+
+using urban_nav_core::ImageView;
+using urban_nav_core::Pose;
+
+std::string dataFolder(const std::string& name) {
+  const char* root = std::getenv("URBAN_NAV_DATA");
+  const std::string folder = root == nullptr ? "" : std::string(root) + "/stereo/" + name;
+  if (!folder.empty() && std::filesystem::exists(folder)) return folder;
+  std::cerr << "left out: " << name << " is not below URBAN_NAV_DATA/stereo\n";
+  return {};
+}
+
+namespace {
+
+// P0 and P1 of a rectified pair: "P1: fx 0 cx -fx*baseline 0 fy cy 0 ...".
+urban_nav_core::StereoCamera readCamera(const std::string& path, int width, int height) {
+  urban_nav_core::StereoCamera camera;
+  std::ifstream file(path);
+  for (std::string name; file >> name;) {
+    std::array<double, 12> P{};
+    for (double& number : P) file >> number;
+    if (name == "P0:") camera.left = {P[0], P[5], P[2], P[6], width, height};
+    if (name == "P1:") camera.baseline = -P[3] / P[0];
+  }
+  return camera;
+}
+
+}  // namespace
+
+Sequence kittiFolder(const std::string& folder, std::size_t frames) {
+  Sequence sequence;
+  sequence.name = std::filesystem::path(folder).filename();
+  sequence.stamps = urban_nav_core::readTimes(folder + "/times.txt");
+  if (sequence.stamps.size() > frames) sequence.stamps.resize(frames);
+  if (std::filesystem::exists(folder + "/poses.txt")) sequence.truth = urban_nav_core::readKitti(folder + "/poses.txt");
+  if (sequence.truth.size() > sequence.stamps.size()) sequence.truth.resize(sequence.stamps.size());
+  const auto path = [folder](int camera, std::size_t frame) {
+    char name[64];
+    std::snprintf(name, sizeof name, "/image_%d/%06zu.png", camera, frame);
+    return folder + name;
+  };
+  sequence.read = [path](std::size_t frame, cv::Mat& left, cv::Mat& right) {
+    left = cv::imread(path(0, frame), cv::IMREAD_GRAYSCALE);
+    right = cv::imread(path(1, frame), cv::IMREAD_GRAYSCALE);
+  };
+  const cv::Mat first = cv::imread(path(0, 0), cv::IMREAD_GRAYSCALE);
+  sequence.camera = readCamera(folder + "/calib.txt", first.cols, first.rows);
+  return sequence;
+}
+
+Parameters parametersFrom(const std::vector<std::string>& settings) {
+  std::vector<urban_nav_core::Assignment> assignments;
+  for (const std::string& setting : settings) assignments.push_back(urban_nav_core::parseSetting(setting));
+  urban_nav_core::refuseUnknownStages(assignments, {table().stage()});
+  return urban_nav_core::load(table(), assignments).parameters;
+}
+
+namespace {
+
+ImageView view(const cv::Mat& image) {
+  return image.empty() ? ImageView() : ImageView{image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)};
+}
+
+void take(const std::vector<Settled>& settled, Run& run) {
+  for (const Settled& one : settled) {
+    run.settled.push_back(one.T_odom_base.pose);
+    run.settled_covariance.push_back(one.T_odom_base.covariance);
+    run.relative_covariance.push_back(one.from_previous.covariance);
+  }
+}
+
+}  // namespace
+
+Run run(const Sequence& sequence, const Parameters& parameters) {
+  using Clock = std::chrono::steady_clock;
+  Run result;
+  SwfVo filter(parameters, sequence.camera, Pose());
+  cv::Mat left, right;
+  for (std::size_t i = 0; i < sequence.stamps.size(); ++i) {
+    sequence.read(i, left, right);
+    const auto start = Clock::now();
+    const Frame& frame = filter.process({sequence.stamps[i], view(left), view(right)});
+    result.ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+    result.now.push_back(frame.T_odom_base.pose);
+    result.now_covariance.push_back(frame.T_odom_base.covariance);
+    result.statistics.push_back(frame.statistics);
+    result.status.push_back(frame.status);
+    take(frame.settled, result);
+  }
+  take(filter.flush(), result);
+  return result;
+}
+
+SpanErrors spanErrors(const std::vector<Pose>& truth, const std::vector<Pose>& estimate, std::size_t span) {
+  SpanErrors sum;
+  int count = 0;
+  for (std::size_t i = 0; i + span < std::min(truth.size(), estimate.size()); ++i) {
+    double length = 0.0;
+    for (std::size_t j = i; j < i + span; ++j) length += distanceBetween(truth[j], truth[j + 1]);
+    if (length < 0.005 * static_cast<double>(span)) continue;  // stands still: no percentage
+    const Pose error = (truth[i].inverse() * truth[i + span]).inverse() * (estimate[i].inverse() * estimate[i + span]);
+    sum.percent += 100.0 * error.t().norm() / length;
+    sum.deg_per_m += angleBetween(Pose(), error) * 180.0 / M_PI / length;
+    ++count;
+  }
+  if (count == 0) return {};
+  return {sum.percent / count, sum.deg_per_m / count};
+}
+
+double stepRatio(const std::vector<Pose>& truth, const std::vector<Pose>& estimate) {
+  std::vector<double> ratios;
+  for (std::size_t i = 1; i < std::min(truth.size(), estimate.size()); ++i) {
+    const double step = distanceBetween(truth[i - 1], truth[i]);
+    if (step > 0.05) ratios.push_back(distanceBetween(estimate[i - 1], estimate[i]) / step);
+  }
+  return quantile(ratios, 0.5);
+}
+
+double quantile(std::vector<double> values, double q) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(std::lround(q * static_cast<double>(values.size() - 1)))];
+}
+
+}  // namespace swf_vo::bench

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "swf_vo/swf_vo.hpp"
+
+namespace swf_vo::bench {
+
+/// A stereo sequence with its truth, wherever its images come from.
+struct Sequence {
+  std::string name;
+  urban_nav_core::StereoCamera camera;
+  std::vector<urban_nav_core::StampNs> stamps;
+  std::vector<urban_nav_core::Pose> truth;  ///< left camera in that of frame 0; empty if there is none
+  std::function<void(std::size_t frame, cv::Mat& left, cv::Mat& right)> read;  ///< 8-bit grey; empty where a frame is missing
+};
+
+/// KITTI's layout (image_0, image_1, calib.txt, times.txt, poses.txt), at most `frames` of it.
+Sequence kittiFolder(const std::string& folder, std::size_t frames = 1000000);
+
+/// The folder of a real sequence below URBAN_NAV_DATA/stereo; empty (and said on stderr) where it is absent.
+std::string dataFolder(const std::string& name);
+
+/// The defaults, changed by settings such as "swf_vo.window=25". Throws UserError as the command does.
+Parameters parametersFrom(const std::vector<std::string>& settings);
+
+/// What a filter made of a sequence; poses are of the left camera in that of frame 0.
+struct Run {
+  std::vector<urban_nav_core::Pose> now, settled;
+  std::vector<urban_nav_core::Matrix6d> now_covariance, settled_covariance, relative_covariance;
+  std::vector<Statistics> statistics;
+  std::vector<urban_nav_core::Status> status;
+  std::vector<double> ms;  ///< of process(), wall clock, images already decoded
+};
+Run run(const Sequence& sequence, const Parameters& parameters);
+
+/// Errors over all spans of so many frames: mean in per cent and deg/m, and the median ratio of the lengths of one-frame steps.
+struct SpanErrors {
+  double percent = 0.0;
+  double deg_per_m = 0.0;
+};
+SpanErrors spanErrors(const std::vector<urban_nav_core::Pose>& truth, const std::vector<urban_nav_core::Pose>& estimate, std::size_t span);
+double stepRatio(const std::vector<urban_nav_core::Pose>& truth, const std::vector<urban_nav_core::Pose>& estimate);
+double quantile(std::vector<double> values, double q);
+
+}  // namespace swf_vo::bench

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "health/image_check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+namespace swf_vo {
+namespace {
+
+using urban_nav_core::ImageView;
+using urban_nav_core::StereoPair;
+
+constexpr int width = 512, height = 384;
+
+/// A wall of random blobs seen by both cameras at one disparity, with noise of its own in every frame.
+struct Scene {
+  std::vector<std::uint8_t> left, right;
+
+  Scene(unsigned seed, double disparity, double gain = 1.0, double shift = 0.0, double softness = 1.0) : left(width * height), right(width * height) {
+    std::mt19937 noise(seed);
+    std::normal_distribution<double> grey(0.0, 1.0);
+    for (int v = 0; v < height; ++v)
+      for (int u = 0; u < width; ++u) {
+        left[static_cast<std::size_t>(v * width + u)] = clip(gain * value(u + shift, v, softness) + grey(noise));
+        right[static_cast<std::size_t>(v * width + u)] = clip(gain * value(u + shift + disparity, v, softness) + grey(noise));
+      }
+  }
+  StereoPair pair(std::int64_t stamp = 0) const {
+    return {stamp, {left.data(), width, height, width}, {right.data(), width, height, width}};
+  }
+  StereoPair exchanged() const { return {0, pair().right, pair().left}; }
+
+  static std::uint8_t clip(double grey) { return static_cast<std::uint8_t>(std::clamp(grey, 0.0, 255.0)); }
+  static double value(double u, double v, double softness) {
+    const double coarse = std::sin(0.11 * u + 2.0 * std::sin(0.037 * v)) + std::sin(0.071 * u + 0.13 * v + std::sin(0.017 * u * 1.3));
+    const double fine = std::sin(0.9 * u + 0.3 * v) + std::sin(0.7 * v - 0.4 * u);
+    return 60.0 + 15.0 * coarse + 8.0 * softness * fine;
+  }
+};
+
+TEST(ImageCheck, passesUsualPairs) {
+  ImageCheck check;
+  for (unsigned i = 0; i < 5; ++i) {
+    const ImageVerdict verdict = check.look(Scene(i, 12.0, 1.0, 3.0 * i).pair(), true);
+    EXPECT_TRUE(verdict.usable);
+    EXPECT_FALSE(verdict.exchange);
+    EXPECT_EQ(verdict.reason, Reason::None) << toString(verdict.reason);
+  }
+}
+
+TEST(ImageCheck, namesAMissingImageAndImagesOfOtherSize) {
+  const Scene scene(1, 12.0);
+  ImageCheck check;
+  StereoPair pair = scene.pair();
+  pair.right = ImageView();
+  EXPECT_EQ(check.look(pair, false).reason, Reason::ImageMissing);
+  pair = scene.pair();
+  pair.right.height -= 2;
+  EXPECT_EQ(check.look(pair, false).reason, Reason::ImageMissing);
+  EXPECT_FALSE(check.look(pair, false).usable);
+}
+
+TEST(ImageCheck, namesBlackAndWashedOutImages) {
+  ImageCheck check;
+  check.look(Scene(1, 12.0).pair(), false);
+  EXPECT_EQ(check.look(Scene(2, 12.0, 0.0).pair(), false).reason, Reason::Dark);
+  EXPECT_EQ(check.look(Scene(3, 12.0, 1000.0).pair(), false).reason, Reason::Dark);
+  EXPECT_EQ(check.look(Scene(4, 12.0).pair(), false).reason, Reason::None);
+}
+
+TEST(ImageCheck, namesAFrozenCameraEvenIfOnlyOneIs) {
+  ImageCheck check;
+  const Scene first(1, 12.0), second(2, 12.0);
+  check.look(first.pair(), false);
+  StereoPair half = second.pair();
+  half.right = first.pair().right;
+  EXPECT_EQ(check.look(half, false).reason, Reason::Frozen);
+  EXPECT_EQ(check.look(half, false).reason, Reason::Frozen);
+  EXPECT_EQ(check.look(Scene(3, 12.0).pair(), false).reason, Reason::None) << "the same scene with fresh noise is not frozen";
+}
+
+TEST(ImageCheck, namesAJumpOfExposureOnceAndThenGetsUsedToIt) {
+  ImageCheck check;
+  for (unsigned i = 0; i < 5; ++i) check.look(Scene(i, 12.0).pair(), false);
+  EXPECT_EQ(check.look(Scene(10, 12.0, 2.2).pair(), false).reason, Reason::ExposureJump);
+  for (unsigned i = 0; i < 10; ++i) check.look(Scene(20 + i, 12.0, 2.2).pair(), false);
+  EXPECT_EQ(check.look(Scene(40, 12.0, 2.2).pair(), false).reason, Reason::None);
+}
+
+TEST(ImageCheck, namesBlur) {
+  ImageCheck check;
+  for (unsigned i = 0; i < 5; ++i) check.look(Scene(i, 12.0).pair(), false);
+  EXPECT_EQ(check.look(Scene(9, 12.0, 1.0, 0.0, 0.05).pair(), false).reason, Reason::Blurred);
+}
+
+TEST(ImageCheck, findsExchangedImagesAtTheStartAndLater) {
+  ImageCheck fresh;
+  EXPECT_TRUE(fresh.look(Scene(1, 14.0).exchanged(), false).exchange);
+  ImageCheck running;
+  for (unsigned i = 0; i < 3; ++i) running.look(Scene(i, 14.0).pair(), false);
+  const ImageVerdict verdict = running.look(Scene(7, 14.0).exchanged(), true);
+  EXPECT_TRUE(verdict.exchange);
+  EXPECT_TRUE(verdict.usable) << "they can be used the other way round";
+  EXPECT_EQ(verdict.reason, Reason::Swapped);
+}
+
+TEST(LooksExchanged, asksForEvidence) {
+  EXPECT_FALSE(looksExchanged(Scene(1, 0.0).pair().left, Scene(1, 0.0).pair().right)) << "everything far away";
+  const std::vector<std::uint8_t> flat(width * height, 90);
+  const ImageView view{flat.data(), width, height, width};
+  EXPECT_FALSE(looksExchanged(view, view));
+  const ImageView tiny{flat.data(), 20, 20, width};
+  EXPECT_FALSE(looksExchanged(tiny, tiny));
+}
+
+}  // namespace
+}  // namespace swf_vo

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prediction.hpp"
+
+#include <gtest/gtest.h>
+
+namespace swf_vo {
+namespace {
+
+using urban_nav_core::expSe3;
+using urban_nav_core::Matrix6d;
+using urban_nav_core::MotionInput;
+using urban_nav_core::Pose;
+using urban_nav_core::Vector3d;
+using urban_nav_core::Vector6d;
+
+constexpr std::int64_t ms = 1000000;
+
+Vector6d twist(double vx, double vy, double vz, double wx, double wy, double wz) {
+  Vector6d v;
+  v << vx, vy, vz, wx, wy, wz;
+  return v;
+}
+
+TEST(Prediction, goesOnAtTheVelocityOfTheLastStep) {
+  Prediction prediction(Parameters(), Pose());
+  const Vector6d velocity = twist(0.3, 0.0, 5.0, 0.0, 0.4, 0.1);
+  prediction.learn(expSe3(velocity * 0.1), 0.1, true);
+  EXPECT_TRUE(isApprox(prediction.step(0.1, {}).T_from_to, expSe3(velocity * 0.1), 1e-12));
+  EXPECT_TRUE(isApprox(prediction.step(0.3, {}).T_from_to, expSe3(velocity * 0.3), 1e-12)) << "two frames were dropped";
+}
+
+TEST(Prediction, trustsItselfLessTheLongerNothingWasMeasured) {
+  Prediction prediction(Parameters(), Pose());
+  prediction.learn(Pose(), 0.1, true);
+  double last = prediction.step(0.1, {}).information(0, 0);
+  for (int i = 0; i < 5; ++i) {
+    prediction.learn(Pose(), 0.1, false);
+    const double now = prediction.step(0.1, {}).information(0, 0);
+    EXPECT_LT(now, last);
+    last = now;
+  }
+  prediction.learn(Pose(), 0.1, true);
+  EXPECT_GT(prediction.step(0.1, {}).information(0, 0), last);
+}
+
+TEST(Prediction, takesAGoodInputInsteadOfTheVelocity) {
+  const Pose T_base_camera(Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5), Vector3d(0.1, 0.0, 1.1));
+  Prediction prediction(Parameters(), T_base_camera);
+  prediction.learn(Pose(), 0.1, true);
+  const Pose motion = expSe3(twist(0.1, 0.0, 0.0, 0.0, 0.0, 0.05));
+  const MotionInput input{0, 100 * ms, motion, 1e12 * Matrix6d::Identity()};
+  EXPECT_TRUE(isApprox(prediction.step(0.1, {input}).T_from_to, T_base_camera.inverse() * motion * T_base_camera, 1e-6));
+}
+
+TEST(Prediction, aGyroscopeTurnsAndLeavesTheTranslationToTheVelocity) {
+  Prediction prediction(Parameters(), Pose());
+  prediction.learn(expSe3(twist(0.0, 0.0, 0.1, 0.0, 0.0, 0.0)), 0.1, true);
+  Matrix6d information = Matrix6d::Zero();
+  information.bottomRightCorner<3, 3>() = 1e12 * Eigen::Matrix3d::Identity();
+  std::vector<MotionInput> inputs;
+  for (int i = 0; i < 10; ++i) inputs.push_back({i * 10 * ms, (i + 1) * 10 * ms, expSe3(twist(0, 0, 0, 0, 0.01, 0)), information});
+  const ProcessInput u = prediction.step(0.1, inputs);
+  EXPECT_NEAR(logSe3(u.T_from_to)(4), 0.1, 1e-6);
+  EXPECT_NEAR(u.T_from_to.t().z(), 0.1, 1e-3);
+  EXPECT_TRUE(u.information.allFinite());
+}
+
+TEST(Prediction, ignoresInputsThatMakeNoSense) {
+  Prediction prediction(Parameters(), Pose());
+  prediction.learn(Pose(), 0.1, true);
+  Matrix6d broken = Matrix6d::Identity();
+  broken(2, 2) = std::nan("");
+  const ProcessInput u = prediction.step(0.1, {{100, 100, Pose(), Matrix6d::Identity()}, {0, 100, Pose(), broken}});
+  EXPECT_TRUE(isApprox(u.T_from_to, Pose(), 1e-12));
+  EXPECT_TRUE(u.information.allFinite());
+}
+
+}  // namespace
+}  // namespace swf_vo
