@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <cmath>
-#include <set>
 #include <tuple>
 
 #include "input/image_file.hpp"
@@ -14,88 +12,44 @@
 namespace urban_nav {
 
 using urban_nav_core::AssembledPair;
-using urban_nav_core::StampNs;
-using urban_nav_core::UserError;
 using urban_nav_ros::GreyImage;
 
 namespace {
 
-constexpr double kUsualRate = 10.0;  // Hz, of KITTI's cameras
-
 class KittiFolder : public Source {
  public:
   KittiFolder(const std::string& folder, const SourceOptions& options) : layout_(*findKittiLayout(folder)) {
-    left_ = listFrames(layout_.left);
-    right_ = listFrames(layout_.right);
-    if (left_.empty() && right_.empty()) throw UserError(layout_.left, "holds no images named by numbers", "000000.png, 000001.png, ...");
+    frames_ = listKittiFrames(layout_, options.rate);
     info_.name = folder;
     info_.kind = "KITTI folder";
     info_.T_base_camera = urban_nav_ros::opticalInBody();
     info_.camera = readKittiCamera(layout_);
-    listStamps(options);
+    info_.frames = static_cast<std::int64_t>(frames_.numbers.size());
+    info_.first = *std::min_element(frames_.stamps.begin(), frames_.stamps.end());
+    info_.last = *std::max_element(frames_.stamps.begin(), frames_.stamps.end());
+    info_.notes = frames_.notes;
     look();
   }
 
   const SourceInfo& info() const override { return info_; }
 
   std::optional<StereoInput> next() override {
-    if (position_ >= frames_.size()) return std::nullopt;
-    const std::int64_t number = frames_[position_];
+    if (position_ >= frames_.numbers.size()) return std::nullopt;
+    const std::int64_t number = frames_.numbers[position_];
     StereoInput input;
     AssembledPair& assembled = input.assembled;
-    assembled.pair.stamp = stamps_[position_];
-    std::tie(assembled.pair.left, assembled.left_owner) = keep(read(left_, layout_.left, number, input.faults));
-    std::tie(assembled.pair.right, assembled.right_owner) = keep(read(right_, layout_.right, number, input.faults));
+    assembled.pair.stamp = frames_.stamps[position_];
+    std::tie(assembled.pair.left, assembled.left_owner) = keep(read(frames_.left, layout_.left, number, input.faults));
+    std::tie(assembled.pair.right, assembled.right_owner) = keep(read(frames_.right, layout_.right, number, input.faults));
     ++position_;
     return input;
   }
 
  private:
-  /// Frames are all numbers that either camera has; a stamp belongs to each, by its place where the counts agree, by its number elsewhere.
-  void listStamps(const SourceOptions& options) {
-    std::set<std::int64_t> numbers;
-    for (const auto& [number, path] : left_) numbers.insert(number);
-    for (const auto& [number, path] : right_) numbers.insert(number);
-    const std::int64_t first = *numbers.begin(), last = *numbers.rbegin();
-    const KittiTimes times = readKittiTimes(layout_);
-    if (times.path.empty()) {
-      const double rate = options.rate > 0.0 ? options.rate : kUsualRate;
-      for (std::int64_t number = first; number <= last; ++number) {
-        frames_.push_back(number);
-        stamps_.push_back(static_cast<StampNs>(std::llround(static_cast<double>(number - first) * 1e9 / rate)));
-      }
-      if (options.rate <= 0.0) info_.notes.push_back("no times.txt: taken as 10 Hz (--rate says otherwise)");
-      finishStamps();
-      return;
-    }
-    const auto rows = static_cast<std::int64_t>(times.stamps.size());
-    if (last < rows) {
-      for (std::int64_t number = first; number <= last; ++number) {
-        frames_.push_back(number);
-        stamps_.push_back(times.stamps[static_cast<std::size_t>(number)]);
-      }
-      if (last + 1 < rows) info_.notes.push_back(times.path + " has " + std::to_string(rows) + " stamps, the images end at number " + std::to_string(last));
-    } else if (last - first + 1 == rows) {
-      for (std::int64_t i = 0; i < rows; ++i) {
-        frames_.push_back(first + i);
-        stamps_.push_back(times.stamps[static_cast<std::size_t>(i)]);
-      }
-    } else {
-      throw UserError(times.path, std::to_string(rows) + " stamps for images " + std::to_string(first) + " to " + std::to_string(last), "one line for each image");
-    }
-    finishStamps();
-  }
-
-  void finishStamps() {
-    info_.frames = static_cast<std::int64_t>(frames_.size());
-    info_.first = *std::min_element(stamps_.begin(), stamps_.end());
-    info_.last = *std::max_element(stamps_.begin(), stamps_.end());
-  }
-
   /// Size and depth of the images, from the first that can be read.
   void look() {
     std::string fault;
-    for (const std::map<std::int64_t, std::string>* side : {&left_, &right_}) {
+    for (const std::map<std::int64_t, std::string>* side : {&frames_.left, &frames_.right}) {
       for (const auto& [number, path] : *side) {
         const GreyImage image = urban_nav::readPixels(path);
         if (image.pixels.empty()) {
@@ -129,9 +83,7 @@ class KittiFolder : public Source {
   }
 
   KittiLayout layout_;
-  std::map<std::int64_t, std::string> left_, right_;  // frame number to file
-  std::vector<std::int64_t> frames_;
-  std::vector<StampNs> stamps_;
+  KittiFrames frames_;
   SourceInfo info_;
   int bits_ = 16;
   std::size_t position_ = 0;

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include "input/image_file.hpp"
 #include "input/text_lines.hpp"
@@ -21,6 +22,9 @@ using urban_nav_core::StereoCamera;
 using urban_nav_core::UserError;
 
 namespace {
+
+constexpr double kUsualRate = 10.0;         // Hz, of KITTI's cameras
+constexpr std::int64_t kMostMissing = 1000;  // frames: more than that is another naming scheme
 
 using Projection = std::array<double, 12>;
 
@@ -150,6 +154,38 @@ KittiTimes readKittiTimes(const KittiLayout& layout) {
     return times;
   }
   return times;
+}
+
+KittiFrames listKittiFrames(const KittiLayout& layout, double rate) {
+  KittiFrames frames;
+  frames.left = listFrames(layout.left);
+  frames.right = listFrames(layout.right);
+  if (frames.left.empty() && frames.right.empty()) throw UserError(layout.left, "holds no images named by numbers", "000000.png, 000001.png, ...");
+  std::set<std::int64_t> all;
+  for (const auto& [number, path] : frames.left) all.insert(number);
+  for (const auto& [number, path] : frames.right) all.insert(number);
+  const std::int64_t first = *all.begin(), last = *all.rbegin();
+  if (last - first > kMostMissing + 2 * static_cast<std::int64_t>(all.size())) {
+    throw UserError(layout.left, "images " + std::to_string(first) + " to " + std::to_string(last) + ", of which " + std::to_string(all.size()) + " are there", "frames numbered one by one");
+  }
+  const KittiTimes times = readKittiTimes(layout);
+  const auto rows = static_cast<std::int64_t>(times.stamps.size());
+  std::int64_t row_of_first = first;
+  if (!times.path.empty() && last >= rows) {
+    if (last - first + 1 != rows) throw UserError(times.path, std::to_string(rows) + " stamps for images " + std::to_string(first) + " to " + std::to_string(last), "one line for each image");
+    row_of_first = 0;
+  }
+  const double step = 1e9 / (rate > 0.0 ? rate : kUsualRate);
+  for (std::int64_t number = first; number <= last; ++number) {
+    frames.numbers.push_back(number);
+    const std::int64_t i = number - first;
+    frames.stamps.push_back(times.path.empty() ? static_cast<StampNs>(std::llround(static_cast<double>(i) * step)) : times.stamps[static_cast<std::size_t>(row_of_first + i)]);
+  }
+  if (times.path.empty() && rate <= 0.0) frames.notes.push_back("no times.txt: taken as 10 Hz (--rate says otherwise)");
+  if (!times.path.empty() && row_of_first == first && last + 1 < rows) {
+    frames.notes.push_back(times.path + " has " + std::to_string(rows) + " stamps, the images end at number " + std::to_string(last));
+  }
+  return frames;
 }
 
 std::optional<StampNs> parseDateTime(const std::string& text) {

@@ -36,6 +36,16 @@ struct KittiTimes {
 };
 KittiTimes readKittiTimes(const KittiLayout& layout);
 
+/// The frames of a folder: all numbers that either camera has, and a stamp for each, from times.txt by number (by place where the
+/// counts agree only so), or at `rate` Hz (0: KITTI's 10 Hz) from zero where there is none. UserError where stamps and images do not belong together.
+struct KittiFrames {
+  std::map<std::int64_t, std::string> left, right;   ///< number to file
+  std::vector<std::int64_t> numbers;
+  std::vector<urban_nav_core::StampNs> stamps;
+  std::vector<std::string> notes;                    ///< what was assumed
+};
+KittiFrames listKittiFrames(const KittiLayout& layout, double rate);
+
 /// "2011-09-26 13:02:25.964389445" as ns since 1970 (UTC); empty if it is no such text.
 std::optional<urban_nav_core::StampNs> parseDateTime(const std::string& text);
 

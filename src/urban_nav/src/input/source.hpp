@@ -9,17 +9,13 @@
 
 #include "urban_nav_core/camera/stereo_camera.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
-#include "urban_nav_core/sequence/stereo_assembler.hpp"
 #include "urban_nav_core/types/stamp.hpp"
+#include "urban_nav_ros/stereo_feed.hpp"
 
 namespace urban_nav {
 
-/// A rectified grey pair and what else was measured since the pair before. An image that is missing or does not decode is an
-/// empty view, and a sentence in `faults` names it.
-struct StereoInput {
-  urban_nav_core::AssembledPair assembled;
-  std::vector<std::string> faults;
-};
+/// A rectified grey pair with what else was measured since the pair before, and sentences that name what was wrong with its images.
+using StereoInput = urban_nav_ros::FedPair;
 
 /// What is known of an input before its first image is decoded.
 struct SourceInfo {

@@ -7,6 +7,7 @@
 #include "pipeline/vo_summary.hpp"
 #include "report/plot.hpp"
 #include "report/vo_report.hpp"
+#include "urban_nav_core/io/atomic_file.hpp"
 
 namespace urban_nav {
 
@@ -115,7 +116,7 @@ void finishMap(const MapOutcome& outcome, const std::vector<Session>& sessions, 
   outcome.folder.write("report.html", renderPage(pageOf(outcome, false)));
   const std::string text = summaryOf(outcome, summary).print();
   outcome.folder.write("summary.json", text);
-  if (!outcome.request.json.empty()) writeWhole(outcome.request.json, text);
+  if (!outcome.request.json.empty()) urban_nav_core::writeAtomically(outcome.request.json, text);
   console.info(std::to_string(summary.frames) + " frames, " + forPerson(summary.distance_m, 4) + " m" + (sessions.size() > 1 ? ", " + std::to_string(sessions.size()) + " sessions" : "") + ", " +
                forPerson(realtimeFactor(outcome, summary), 3) + " times real time");
   console.print(outcome.folder.file("report.html") + "\n" + outcome.folder.file("trajectory.tum") + "\n");

@@ -21,7 +21,4 @@ class OutputFolder {
   std::string path_;
 };
 
-/// One file by its path, in the same way.
-void writeWhole(const std::string& path, const std::string& content);
-
 }  // namespace urban_nav

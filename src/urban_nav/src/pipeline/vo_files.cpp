@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/vo_files.hpp"
 
+#include <array>
 #include <cstring>
 
+#include "urban_nav_core/geometry/dense.hpp"
+#include "urban_nav_core/io/covariance_csv.hpp"
+#include "urban_nav_core/io/g2o.hpp"
+#include "urban_nav_core/io/kitti.hpp"
 #include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/io/tum.hpp"
 
 namespace urban_nav {
 
 using swf_vo::Settled;
 using urban_nav_core::appendNumber;
+using urban_nav_core::G2oGraph;
 using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
 
@@ -16,26 +23,12 @@ namespace {
 
 constexpr int kLeastSeen = 3;  // frames: what was seen less is as likely a wrong match as a point
 
-void appendMatrix(std::string& text, const Matrix6d& matrix) {
-  for (int row = 0; row < 6; ++row) {
-    for (int column = 0; column < 6; ++column) {
-      text += ',';
-      appendNumber(text, matrix(row, column));
-    }
-  }
-}
-
-std::string matrixHeader() {
-  std::string text;
-  for (int row = 0; row < 6; ++row) {
-    for (int column = 0; column < 6; ++column) text += ",c" + std::to_string(row) + std::to_string(column);
-  }
-  return text + "\n";
+std::array<double, 7> valuesOf(const Pose& pose) {
+  return {pose.t().x(), pose.t().y(), pose.t().z(), pose.q().x(), pose.q().y(), pose.q().z(), pose.q().w()};
 }
 
 void appendPose(std::string& text, const Pose& pose, char separator) {
-  const double values[] = {pose.t().x(), pose.t().y(), pose.t().z(), pose.q().x(), pose.q().y(), pose.q().z(), pose.q().w()};
-  for (const double value : values) {
+  for (const double value : valuesOf(pose)) {
     text += separator;
     appendNumber(text, value);
   }
@@ -47,96 +40,70 @@ void appendFloat(std::string& bytes, float value) {
   bytes.append(raw, sizeof value);
 }
 
-/// g2o's perturbation is the vector part of a quaternion (half the angle) behind the measurement, in the axes of the vertex it leads to.
-Matrix6d g2oInformation(const Pose& T_from_to, const Matrix6d& covariance) {
-  Matrix6d to_local = Matrix6d::Zero();
-  to_local.topLeftCorner<3, 3>() = T_from_to.R().transpose();
-  to_local.bottomRightCorner<3, 3>() = 0.5 * T_from_to.R().transpose();
-  const Matrix6d local = to_local * covariance * to_local.transpose();
-  const Matrix6d inverse = local.inverse();
-  if (!inverse.allFinite()) return Matrix6d::Zero();
-  return 0.5 * (inverse + inverse.transpose());
+/// A pose per frame and an edge per step; information in g2o's own tangent.
+G2oGraph chainOf(const VoRun& run) {
+  G2oGraph graph;
+  for (std::size_t i = 0; i < run.settled.size(); ++i) {
+    const auto id = static_cast<G2oGraph::Id>(i);
+    graph.vertices.push_back({id, {}});
+    graph.setPose(graph.vertices.back(), run.settled[i].T_odom_base.pose);
+    if (i == 0) continue;
+    const urban_nav_core::RelativePose& step = run.settled[i].from_previous;
+    G2oGraph::Edge edge;
+    edge.from = id - 1;
+    edge.to = id;
+    edge.values = valuesOf(step.T_from_to);
+    const Matrix6d information = urban_nav_core::invertPositiveDefinite(step.covariance).value_or(Matrix6d::Zero());
+    urban_nav_core::setG2oInformation(edge, urban_nav_core::g2oFromBoxInformation(information, step.T_from_to));
+    graph.edges.push_back(edge);
+  }
+  if (!run.settled.empty()) graph.fixed.push_back(0);
+  return graph;
 }
 
 }  // namespace
 
-std::string trajectoryTum(const VoRun& run) {
-  std::string text;
-  for (const Settled& settled : run.settled) {
-    text += urban_nav_core::printStamp(settled.stamp);
-    appendPose(text, settled.T_odom_base.pose, ' ');
-    text += '\n';
-  }
-  return text;
+std::string trajectoryTum(const VoRun& run) { return urban_nav_core::printTum(trajectoryOf(run)); }
+
+urban_nav_core::Trajectory trajectoryOf(const VoRun& run) {
+  urban_nav_core::Trajectory trajectory;
+  for (const Settled& settled : run.settled) trajectory.append(settled.stamp, settled.T_odom_base.pose);
+  return trajectory;
 }
 
 std::string trajectoryKitti(const VoRun& run) {
-  std::string text, line;
-  if (run.settled.empty()) return text;
-  const Pose T_first_odom = (run.settled.front().T_odom_base.pose * run.T_base_camera).inverse();
+  std::vector<Pose> poses;
   std::size_t next = 0;
   for (const VoRow& row : run.rows) {
-    if (row.accepted || line.empty()) {
+    if (row.accepted || poses.empty()) {
       if (next >= run.settled.size()) break;
-      const Eigen::Matrix4d T = (T_first_odom * run.settled[next++].T_odom_base.pose * run.T_base_camera).matrix();
-      line.clear();
-      for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 4; ++j) {
-          if (!line.empty()) line += ' ';
-          appendNumber(line, T(i, j));
-        }
-      }
-      line += '\n';
+      const Pose T_first_camera = (run.settled.front().T_odom_base.pose * run.T_base_camera).inverse() * run.settled[next++].T_odom_base.pose * run.T_base_camera;
+      poses.push_back(T_first_camera);
+    } else {
+      poses.push_back(poses.back());
     }
-    text += line;
   }
-  return text;
+  return urban_nav_core::printKitti(poses);
 }
 
 std::string covarianceCsv(const VoRun& run) {
-  std::string text = "stamp_ns,status" + matrixHeader();
+  std::string text = urban_nav_core::covarianceHeader();
   for (const Settled& settled : run.settled) {
-    text += std::to_string(settled.stamp) + "," + toString(settled.status.health);
-    appendMatrix(text, settled.T_odom_base.covariance);
-    text += '\n';
+    text += urban_nav_core::printCovarianceRow(urban_nav_core::CovarianceRow{settled.stamp, settled.status.health, settled.T_odom_base.covariance});
   }
   return text;
 }
 
 std::string relativeCovarianceCsv(const VoRun& run) {
-  std::string text = "stamp_from_ns,stamp_to_ns,status" + matrixHeader();
+  std::string text = urban_nav_core::relativeCovarianceHeader();
   for (std::size_t i = 1; i < run.settled.size(); ++i) {
     const urban_nav_core::RelativePose& step = run.settled[i].from_previous;
-    text += std::to_string(step.from) + "," + std::to_string(step.to) + "," + toString(run.settled[i].status.health);
-    appendMatrix(text, step.covariance);
-    text += '\n';
+    text += urban_nav_core::printCovarianceRow(urban_nav_core::RelativeCovarianceRow{step.from, step.to, run.settled[i].status.health, step.covariance});
   }
   return text;
 }
 
-std::string graphG2o(const VoRun& run) {
-  std::string text;
-  for (std::size_t i = 0; i < run.settled.size(); ++i) {
-    text += "VERTEX_SE3:QUAT " + std::to_string(i);
-    appendPose(text, run.settled[i].T_odom_base.pose, ' ');
-    text += '\n';
-  }
-  if (!run.settled.empty()) text += "FIX 0\n";
-  for (std::size_t i = 1; i < run.settled.size(); ++i) {
-    const urban_nav_core::RelativePose& step = run.settled[i].from_previous;
-    text += "EDGE_SE3:QUAT " + std::to_string(i - 1) + " " + std::to_string(i);
-    appendPose(text, step.T_from_to, ' ');
-    const Matrix6d information = g2oInformation(step.T_from_to, step.covariance);
-    for (int row = 0; row < 6; ++row) {
-      for (int column = row; column < 6; ++column) {
-        text += ' ';
-        appendNumber(text, information(row, column));
-      }
-    }
-    text += '\n';
-  }
-  return text;
-}
+std::string graphG2o(const VoRun& run) { return urban_nav_core::printG2o(chainOf(run)); }
 
 std::string landmarksPly(const VoRun& run) {
   std::string bytes;

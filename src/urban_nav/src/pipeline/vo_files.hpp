@@ -6,6 +6,7 @@
 
 #include "pipeline/output_folder.hpp"
 #include "pipeline/vo_stage.hpp"
+#include "urban_nav_core/trajectory/trajectory.hpp"
 
 namespace urban_nav {
 
@@ -18,6 +19,9 @@ void writeVoFiles(const OutputFolder& folder, const VoRun& run, const std::strin
 
 /// stats.csv: a row per frame of all sessions.
 std::string statsCsv(const std::vector<const VoRun*>& runs);
+
+/// The settled poses of base_link.
+urban_nav_core::Trajectory trajectoryOf(const VoRun& run);
 
 std::string trajectoryTum(const VoRun& run);
 std::string trajectoryKitti(const VoRun& run);
