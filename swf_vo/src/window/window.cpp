@@ -87,4 +87,6 @@ std::vector<SettledPose> Window::flush() {
 
 std::map<FrameId, Pose> Window::trajectory() const { return implementation_->history.solve(implementation_->filter.state()); }
 
+const Filter& Window::filter() const { return implementation_->filter; }
+
 }  // namespace swf_vo

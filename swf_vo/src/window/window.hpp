@@ -12,6 +12,8 @@
 
 namespace swf_vo {
 
+class Filter;
+
 /// What the window must know of the parameters.
 struct WindowOptions {
   int size = 10;                    ///< poses kept (k)
@@ -93,8 +95,10 @@ class Window {
   /// The full system solved by back-substitution: every frame ever seen, given all that is known now (keep_history).
   std::map<FrameId, urban_nav_core::Pose> trajectory() const;
 
+  /// What is inside, for tests and benches.
+  const Filter& filter() const;
+
  private:
-  friend class WindowProbe;  // tests look at information and linearisation points
   class Implementation;
   std::unique_ptr<Implementation> implementation_;
 };
