@@ -146,7 +146,8 @@ void Marginaliser::eliminate() {
     for (int i = below; i < stride_; ++i) {
       Vector6d row = Vector6d::Zero();
       for (int c = 0; c < block.size; ++c) row[c] = eliminatedColumn(block.at + c)[i];
-      for (int c = 0; c < block.size; ++c) eliminatedColumn(block.at + c)[i] = row.head(block.size).dot(G.col(c).head(block.size));
+      const Vector6d F = G.transpose() * row;  // beyond the block's size both are zero
+      for (int c = 0; c < block.size; ++c) eliminatedColumn(block.at + c)[i] = F[c];
     }
     Vector6d y = Vector6d::Zero();
     for (int c = 0; c < block.size; ++c) y[c] = G.col(c).head(block.size).dot(Map<const Eigen::VectorXd>(gradient_.data() + block.at, block.size));
