@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "diagnostics.hpp"
+
+#include <cmath>
+#include <cstdlib>
+
+namespace swf_vo {
+
+using diagnostic_msgs::DiagnosticStatus;
+using urban_nav_core::Health;
+using urban_nav_core::StampNs;
+
+namespace {
+
+constexpr double silent_after = 1.0;  // s; the slowest cameras that odometry can use have 5 Hz
+
+unsigned char levelOf(Health health) {
+  switch (health) {
+    case Health::Ok:
+    case Health::Recovered: return DiagnosticStatus::OK;
+    case Health::Degraded: return DiagnosticStatus::WARN;
+    case Health::Lost: return DiagnosticStatus::ERROR;
+  }
+  return DiagnosticStatus::ERROR;
+}
+
+std::string milliseconds(double ms) { return std::to_string(std::lround(ms)) + " ms"; }
+
+}  // namespace
+
+Diagnostics::Diagnostics(ros::NodeHandle& nh, ros::NodeHandle& private_nh, const std::string& name) : updater_(nh, private_nh, name) {
+  updater_.setHardwareID("stereo camera");
+  updater_.add("odometry", [this](diagnostic_updater::DiagnosticStatusWrapper& status) { report(status); });
+}
+
+void Diagnostics::expect(Topic topic, const std::string& name) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  arrivals_[topic].name = name;
+}
+
+void Diagnostics::received(Topic topic, StampNs stamp) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  Arrival& arrival = arrivals_[topic];
+  arrival.any = true;
+  arrival.when = Clock::now();
+  arrival.stamp = stamp;
+}
+
+void Diagnostics::worked(const Frame& frame, double process_ms, const Counts& counts) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  status_ = frame.status;
+  statistics_ = frame.statistics;
+  process_ms_ = process_ms;
+  counts_ = counts;
+}
+
+void Diagnostics::waiting(const std::string& reason) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  waiting_ = reason;
+}
+
+void Diagnostics::paused(bool paused) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  paused_ = paused;
+}
+
+std::string Diagnostics::topicTrouble() const {
+  for (const Arrival& arrival : arrivals_)
+    if (!arrival.name.empty() && !arrival.any) return arrival.name + " has not come yet";
+  for (const Topic topic : {LeftImage, RightImage, Motion}) {
+    const Arrival& arrival = arrivals_[topic];
+    if (arrival.name.empty()) continue;
+    const double age = std::chrono::duration<double>(Clock::now() - arrival.when).count();
+    if (age > silent_after) return arrival.name + " has been silent for " + milliseconds(1e3 * age);
+  }
+  // Between two messages one side is ahead of the other in good health too; only a pair that was incomplete makes it a fault.
+  const Arrival& left = arrivals_[LeftImage];
+  const Arrival& right = arrivals_[RightImage];
+  const double behind_ms = 1e-6 * static_cast<double>(left.stamp - right.stamp);
+  if (std::abs(behind_ms) > 1.0 && status_.reason == static_cast<int>(Reason::ImageMissing)) {
+    const bool right_late = behind_ms > 0.0;
+    return (right_late ? right.name : left.name) + " is " + milliseconds(std::abs(behind_ms)) + " behind " + (right_late ? left.name : right.name);
+  }
+  return {};
+}
+
+void Diagnostics::report(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::string trouble = topicTrouble();
+  if (paused_) {
+    status.summary(DiagnosticStatus::OK, "paused");
+  } else if (!waiting_.empty()) {
+    status.summary(DiagnosticStatus::WARN, waiting_ + (trouble.empty() ? "" : ": " + trouble));
+  } else {
+    std::string text = status_.sentence.empty() ? toString(status_.health) : status_.sentence;
+    if (!trouble.empty()) text += ": " + trouble;
+    status.summary(levelOf(status_.health), text);
+    if (!trouble.empty()) status.mergeSummary(DiagnosticStatus::WARN, "");
+  }
+  status.add("status", std::string(toString(status_.health)));
+  status.add("reason", std::string(toString(static_cast<Reason>(status_.reason))));
+  status.add("features", statistics_.features);
+  status.add("tracked", statistics_.tracked);
+  status.add("reprojection error (px)", statistics_.reprojection_px);
+  status.add("time of the last frame (ms)", process_ms_);
+  status.add("frames", counts_.frames);
+  status.add("sessions", counts_.sessions);
+  status.add("dropped: queue full", counts_.queue_dropped);
+  status.add("dropped: paused", counts_.paused_dropped);
+  status.add("dropped: too late", counts_.late);
+  status.add("dropped: came twice", counts_.doubled);
+  status.add("left images missing", counts_.left_missing);
+  status.add("right images missing", counts_.right_missing);
+  status.add("images damaged", counts_.damaged);
+}
+
+}  // namespace swf_vo

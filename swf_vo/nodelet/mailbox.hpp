@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <utility>
+
+namespace swf_vo {
+
+/// A bounded queue between callbacks and the worker: putting never waits. Thread-safe.
+template <typename Item>
+class Mailbox {
+ public:
+  /// Where the box is full its oldest item goes: late work is worth less than fresh work.
+  void put(Item item) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (closed_) return;
+      if (items_.size() >= capacity_) {
+        items_.pop_front();
+        ++dropped_;
+      }
+      items_.push_back(std::move(item));
+    }
+    arrived_.notify_one();
+  }
+
+  /// All there is, oldest first; waits up to `patience` for something. Empty after that, or when the box was closed.
+  std::deque<Item> takeAll(std::chrono::milliseconds patience) {
+    std::unique_lock<std::mutex> lock(mutex_);
+    arrived_.wait_for(lock, patience, [this] { return closed_ || !items_.empty(); });
+    return std::exchange(items_, {});
+  }
+
+  /// Wakes the worker; from now on nothing is taken in.
+  void close() {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      closed_ = true;
+    }
+    arrived_.notify_all();
+  }
+
+  void setCapacity(std::size_t capacity) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    capacity_ = capacity;
+  }
+  bool closed() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return closed_;
+  }
+  std::int64_t dropped() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return dropped_;
+  }
+
+ private:
+  mutable std::mutex mutex_;  // guards everything below
+  std::condition_variable arrived_;
+  std::deque<Item> items_;
+  std::size_t capacity_ = 1;
+  std::int64_t dropped_ = 0;
+  bool closed_ = false;
+};
+
+}  // namespace swf_vo

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tracks_picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace swf_vo {
+
+using urban_nav_core::Health;
+
+namespace {
+
+constexpr std::size_t way_length = 12;  // frames; longer ways hide the image
+constexpr int subpixel_bits = 4;        // OpenCV draws at 1/16 px with them
+
+cv::Point fixedPoint(const cv::Point2f& pixel) {
+  return {cvRound(pixel.x * (1 << subpixel_bits)), cvRound(pixel.y * (1 << subpixel_bits))};
+}
+
+cv::Scalar colourOf(Health health) {
+  switch (health) {
+    case Health::Ok: return {90, 200, 90};
+    case Health::Recovered: return {200, 200, 60};
+    case Health::Degraded: return {30, 170, 255};
+    case Health::Lost: return {60, 60, 240};
+  }
+  return {255, 255, 255};
+}
+
+}  // namespace
+
+TracksPicture::TracksPicture(double near_disparity_px) : near_disparity_px_(near_disparity_px) {
+  cv::Mat ramp(1, 256, CV_8UC1);
+  for (int i = 0; i < 256; ++i) ramp.at<std::uint8_t>(0, i) = static_cast<std::uint8_t>(i);
+  cv::applyColorMap(ramp, colours_, cv::COLORMAP_TURBO);
+}
+
+void TracksPicture::follow(const Frame& frame) {
+  for (const Feature& feature : frame.features) {
+    Way& way = ways_[feature.landmark];
+    if (frame.frame - way.last > 1) way.pixels.clear();
+    way.last = frame.frame;
+    if (way.pixels.size() == way_length) way.pixels.erase(way.pixels.begin());
+    way.pixels.emplace_back(static_cast<float>(feature.pixel.x()), static_cast<float>(feature.pixel.y()));
+  }
+  for (auto it = ways_.begin(); it != ways_.end();) it = it->second.last == frame.frame ? std::next(it) : ways_.erase(it);
+}
+
+const cv::Mat& TracksPicture::draw(const urban_nav_core::ImageView& left, const Frame& frame) {
+  follow(frame);
+  picture_.release();
+  if (left.empty()) return picture_;
+  grey_.create(left.height, left.width, CV_8UC1);
+  for (int v = 0; v < left.height; ++v) std::copy(left.row(v), left.row(v) + left.width, grey_.ptr(v));
+  cv::cvtColor(grey_, picture_, cv::COLOR_GRAY2BGR);
+
+  for (const Feature& feature : frame.features) {
+    const double nearness = std::sqrt(std::clamp((feature.pixel.x() - feature.pixel.z()) / near_disparity_px_, 0.0, 1.0));
+    const cv::Vec3b warm = colours_.at<cv::Vec3b>(0, cvRound(40.0 + 200.0 * nearness));
+    const cv::Scalar colour = feature.trusted ? cv::Scalar(warm[0], warm[1], warm[2]) : cv::Scalar(150, 150, 150);
+    const std::vector<cv::Point2f>& way = ways_.at(feature.landmark).pixels;
+    for (std::size_t i = 1; i < way.size(); ++i)
+      cv::line(picture_, fixedPoint(way[i - 1]), fixedPoint(way[i]), colour, 1, cv::LINE_AA, subpixel_bits);
+    const bool fresh = feature.age == 0;
+    cv::circle(picture_, fixedPoint(way.back()), (fresh ? 3 : 2) << subpixel_bits, colour, fresh ? 1 : cv::FILLED, cv::LINE_AA, subpixel_bits);
+  }
+  cv::rectangle(picture_, {0, 0, picture_.cols, 4}, colourOf(frame.status.health), cv::FILLED);
+  if (!frame.status.sentence.empty())
+    cv::putText(picture_, frame.status.sentence, {8, 22}, cv::FONT_HERSHEY_SIMPLEX, 0.45, colourOf(frame.status.health), 1, cv::LINE_AA);
+  return picture_;
+}
+
+}  // namespace swf_vo
