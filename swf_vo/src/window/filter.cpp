@@ -341,7 +341,8 @@ UpdateReport Filter::report() const {
       if (measurement.weight > 0.0) ++result.observations;
       else ++result.dropped;
       if (measurement.weight > 0.0 && measurement.weight < 0.5) ++result.downweighted;
-      if (measurement.step != newest || !(measurement.weight > 0.0)) continue;
+      const bool in_left = measurement.information(0, 0) > 0.0;
+      if (measurement.step != newest || !(measurement.weight > 0.0) || !in_left) continue;
       if (!cost_.sensor().predict(landmark.anchor, landmark.estimate, pose, z)) continue;
       squares += (measurement.z - z).head<2>().squaredNorm();
       ++count;
