@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace urban_nav_core {
+namespace urban_nav_core::testing {
 
 namespace {
 
@@ -125,4 +125,4 @@ Tracks simulateTracks(const TrackOptions& options) {
   return tracks;
 }
 
-}  // namespace urban_nav_core
+}  // namespace urban_nav_core::testing

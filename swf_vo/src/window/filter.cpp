@@ -55,6 +55,7 @@ void Filter::start(FrameId frame, const Pose& T_odom_camera, const Matrix6d& inf
   state_.poses.reserve(std::min<std::size_t>(limit(), 256) + 1);
   state_.poses.push_back(pose);
   prior_.start(T_odom_camera, information);
+  gauge_free_ = information.llt().info() != Eigen::Success;
   newest_covariance_ = (information + process_model::floor()).llt().solve(Matrix6d::Identity());
 }
 
@@ -136,6 +137,7 @@ bool Filter::fixLandmark(const MapPoint& point) {
   if (state_.slotOf(point.landmark) >= 0 || !point.p_odom.allFinite()) return false;
   LandmarkBlock& landmark = state_.landmarks[static_cast<std::size_t>(state_.add(point.landmark))];
   landmark.known = true;
+  gauge_free_ = false;
   // An anchor at the origin that looks at the point.
   const Eigen::Quaterniond q = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), point.p_odom.head<3>());
   landmark.anchor.R_odom_anchor = q.toRotationMatrix();
@@ -263,15 +265,12 @@ void Filter::take(double scale) {
 }
 
 // A landmark that nothing holds any more goes back to where one measurement puts it.
-bool Filter::undoAbsurd() {
-  bool any = false;
+void Filter::undoAbsurd() {
   for (std::size_t slot = 0; slot < state_.landmarks.size(); ++slot) {
     LandmarkBlock& landmark = state_.landmarks[slot];
     if (!landmark.used || landmark.known || isSane(landmark.estimate)) continue;
-    any = true;
     landmark.estimate = landmark.linearised;
   }
-  return any;
 }
 
 // Updating parameters (section 2.2.1): sparse robust Gauss-Newton over the window.
@@ -285,7 +284,7 @@ UpdateReport Filter::update() {
     gradients();
     if (refactor) {
       cost_.build(state_, equations_);
-      solver_.factor(state_, prior_, equations_);
+      solver_.factor(state_, prior_, equations_, gauge_free_);
       has_factor_ = true;
       factor_step_ = state_.first_step;
     } else {

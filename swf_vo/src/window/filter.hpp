@@ -45,7 +45,7 @@ class Filter {
   void localiseNewest();
   double gradients();
   void take(double scale);
-  bool undoAbsurd();
+  void undoAbsurd();
   UpdateReport report() const;
   // The last factor knows the pose of this step, and in which place.
   bool inFactor(std::int64_t step, std::size_t& place) const;
@@ -66,7 +66,7 @@ class Filter {
   urban_nav_core::UncertainPose settled_;     // the last that left
   std::int64_t settled_step_ = -1;
   bool gain_valid_ = false;                   // of the marginaliser, between settled_ and the oldest pose
-  int dropped_ = 0;
+  bool gauge_free_ = false;                   // nothing says where odom is
 };
 
 }  // namespace swf_vo

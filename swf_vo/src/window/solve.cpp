@@ -15,6 +15,8 @@ using urban_nav_core::Vector6d;
 namespace {
 
 constexpr double relative_limit = 1e-12;
+// Any would do; this one leaves the oldest pose a variance that nobody notices.
+constexpr double datum_strength = 1e3;
 
 bool isFree(const LandmarkBlock& landmark) { return landmark.used && !landmark.known && landmark.prior < 0; }
 
@@ -83,7 +85,7 @@ void Solver::eliminateFree(const State& state, const NormalEquations& equations)
   }
 }
 
-void Solver::factor(const State& state, const Prior& prior, const NormalEquations& equations) {
+void Solver::factor(const State& state, const Prior& prior, const NormalEquations& equations, bool datum) {
   poses_ = state.poses.size();
   offset_ = static_cast<std::size_t>(prior.landmarkSize());
   const int size = static_cast<int>(offset_ + 6 * poses_);
@@ -106,6 +108,8 @@ void Solver::factor(const State& state, const Prior& prior, const NormalEquation
     if (j + 1 < poses_) addBlock(dense_, at + 6, at, equations.next[j].data(), 6, 6);
     for (int i = 0; i < 6; ++i) floor_[static_cast<std::size_t>(at + i)] = process_model::floor()(i, i);
   }
+  if (datum)
+    for (int i = static_cast<int>(offset_); i < static_cast<int>(offset_) + 6; ++i) dense_(i, i) += datum_strength * (1.0 + dense_(i, i));
   eliminateFree(state, equations);
   cholesky_.factor(dense_, floor_);
 }

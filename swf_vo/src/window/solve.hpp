@@ -16,8 +16,9 @@ namespace swf_vo {
 /// (map-onto-path); then the landmarks of the prior, then the poses, oldest first, in one dense Cholesky.
 class Solver {
  public:
-  /// Factors the matrices of `equations` and the prior's.
-  void factor(const State& state, const Prior& prior, const NormalEquations& equations);
+  /// Factors the matrices of `equations` and the prior's. With `datum` the oldest pose is held: the way to solve where no absolute
+  /// information is, and exact there, for a gradient without share in the gauge directions can be answered without moving it.
+  void factor(const State& state, const Prior& prior, const NormalEquations& equations, bool datum);
   /// The step for the gradients of `equations` and the prior's gradient, with the last factor.
   void solve(const State& state, const Prior& prior, const NormalEquations& equations, const std::vector<double>& prior_gradient);
 

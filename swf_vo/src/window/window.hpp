@@ -56,7 +56,8 @@ class Window {
   Window(Window&&) noexcept;
   Window& operator=(Window&&) noexcept;
 
-  /// The first pose, held by a prior of this information (in the parent frame; zero: gauge left free).
+  /// The first pose, held by a prior of this information (in the parent frame). If it is singular, nothing says where `odom`
+  /// is: the gauge is left free, and covariances are relative to the oldest pose of the window.
   void start(FrameId frame, const urban_nav_core::Pose& T_odom_camera, const urban_nav_core::Matrix6d& information);
   /// A further pose by the process model, the frame after the newest.
   void addPose(FrameId frame, const ProcessInput& u);

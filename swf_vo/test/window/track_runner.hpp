@@ -21,7 +21,7 @@ inline urban_nav_core::Matrix6d diagonalInformation(double sigma_translation, do
 /// Drives a Window through simulated tracks, one step a call.
 class TrackRunner {
  public:
-  TrackRunner(const urban_nav_core::Tracks& tracks, const WindowOptions& options) : tracks_(tracks), window(options, tracks.camera) {
+  TrackRunner(const urban_nav_core::testing::Tracks& tracks, const WindowOptions& options) : tracks_(tracks), window(options, tracks.camera) {
     first_information = diagonalInformation(1e-3, 1e-4);
   }
 
@@ -49,7 +49,7 @@ class TrackRunner {
 
   std::vector<Observation> observations(std::size_t i) const {
     std::vector<Observation> result;
-    for (const urban_nav_core::TrackSighting& sighting : tracks_.frames[i].sightings)
+    for (const urban_nav_core::testing::TrackSighting& sighting : tracks_.frames[i].sightings)
       result.push_back({sighting.landmark, static_cast<FrameId>(i), sighting.z, pixelInformation(tracks_.sigma_px)});
     return result;
   }
@@ -70,7 +70,7 @@ class TrackRunner {
   const urban_nav_core::Pose& truth() const { return tracks_.frames[at()].T_world_camera; }
 
  private:
-  const urban_nav_core::Tracks& tracks_;
+  const urban_nav_core::testing::Tracks& tracks_;
   std::size_t next_ = 0;
 
  public:

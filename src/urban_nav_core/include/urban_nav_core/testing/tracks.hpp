@@ -7,7 +7,7 @@
 #include "urban_nav_core/camera/stereo_camera.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
 
-namespace urban_nav_core {
+namespace urban_nav_core::testing {
 
 /// How the simulated camera moves, 10 frames a second, nearly level with a little pitch and roll.
 enum class TrackMotion {
@@ -53,4 +53,4 @@ struct Tracks {
 /// The same options give the same bits. Own projection code: what is tested with it does not test itself.
 Tracks simulateTracks(const TrackOptions& options);
 
-}  // namespace urban_nav_core
+}  // namespace urban_nav_core::testing
