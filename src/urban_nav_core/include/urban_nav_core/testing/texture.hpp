@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace urban_nav_core::testing {
+
+/// What a pixel sees of a plane, as the Gaussian that its point spread function becomes there: covariance in m^2.
+struct Footprint {
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+};
+
+/// Noise of one scale: white noise on a square lattice under cubic B-splines, which leave hardly anything above the
+/// lattice's own frequency.
+struct Octave {
+  double spacing = 0.1;    ///< of the lattice, m
+  double amplitude = 5.0;  ///< standard deviation, grey levels
+  bool patchy = false;     ///< only where a slow mask allows it, so that parts of the surface are smooth
+};
+
+/// Rectangles with sharp edges, one in each cell of a wall: bricks, windows, posters, slabs.
+struct Cells {
+  double width = 0.5, height = 0.25;        ///< of a cell, m
+  double shift = 0.0;                       ///< of every other row, in cells
+  double margin_x = 0.01, margin_y = 0.01;  ///< between the rectangle and its cell, m
+  double share = 1.0;                       ///< of the cells that have one
+  double low = -20.0, high = 20.0;          ///< what it adds, grey levels, drawn evenly per cell
+  std::uint32_t seed = 0;                   ///< equal seeds choose the same cells
+};
+
+/// A surface's brightness as a formula: it can be asked at any point and scale, and is filtered analytically, so that a
+/// picture of it moves by exactly what the geometry says and nothing below a pixel's size shimmers.
+/// At most kMost octaves and kMost patterns of cells. Immutable, so thread-safe.
+class Texture {
+ public:
+  static constexpr std::size_t kMost = 6;
+
+  Texture(double base, const std::vector<Octave>& octaves, const std::vector<Cells>& cells, std::uint32_t seed);
+
+  /// What a footprint leaves of the texture; serves all places where the footprint is about the same.
+  class Filter {
+    friend class Texture;
+    struct Wave {
+      std::size_t which;
+      double amplitude;
+      int steps;              ///< along the footprint's long axis
+      double step_x, step_y;  ///< lattice steps
+    };
+    struct Pattern {
+      std::size_t which;
+      double fade;
+    };
+    std::array<Wave, kMost> waves;
+    std::array<Pattern, kMost> patterns;
+    std::size_t wave_count = 0, pattern_count = 0;
+    double base = 0.0;
+    double per_sigma_x = 0.0, per_sigma_y = 0.0;
+  };
+  Filter filter(const Footprint& footprint) const;
+
+  /// Grey levels (not clipped) at (x, y) m under a filter of this texture.
+  double value(double x, double y, const Filter& filter) const;
+
+ private:
+  struct Wave {
+    double frequency;  ///< lattice steps per m
+    double amplitude;
+    bool patchy;
+    double origin_x, origin_y;  ///< waves share the lattice, each from a place of its own
+  };
+  struct Pattern : Cells {
+    double per_width, per_height;
+    double mean;  ///< of the whole pattern, grey levels
+  };
+  struct Part;
+
+  double noise(double x, double y) const;
+  double mask(double x, double y) const;
+  static double greyOf(const Pattern& pattern, int column, int row);
+  static Part part(double x, double size, double per_size, double margin, double per_sigma);
+  static double rowValue(const Pattern& pattern, int row, double x, double per_sigma_x);
+  static double patternValue(const Pattern& pattern, double x, double y, const Filter& filter);
+
+  double base_;
+  std::vector<Wave> waves_;
+  std::vector<Pattern> patterns_;
+  std::vector<float> lattice_;  ///< three rows and columns more than its period, so that four neighbours never wrap
+};
+
+}  // namespace urban_nav_core::testing

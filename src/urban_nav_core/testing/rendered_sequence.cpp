@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_core/testing/rendered_sequence.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace urban_nav_core::testing {
+namespace {
+
+/// Standard normal values at the middles of 4096 equally likely parts, by Newton's method on the distribution function.
+const std::array<float, 4096>& normalTable() {
+  static const std::array<float, 4096> table = [] {
+    std::array<float, 4096> values{};
+    double z = -3.7;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const double wanted = (static_cast<double>(i) + 0.5) / static_cast<double>(values.size());
+      for (int k = 0; k < 30; ++k) {
+        const double density = std::exp(-0.5 * z * z) / std::sqrt(2.0 * 3.14159265358979323846);
+        z += std::clamp((wanted - 0.5 * std::erfc(-z / std::sqrt(2.0))) / density, -0.5, 0.5);
+      }
+      values[i] = static_cast<float>(z);
+    }
+    return values;
+  }();
+  return table;
+}
+
+/// SplitMix64 (Steele et al. 2014): sixty-four good bits for each count.
+std::uint64_t bitsOf(std::uint64_t count) {
+  std::uint64_t z = count * 0x9E3779B97F4A7C15ULL;
+  z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9ULL;
+  z = (z ^ (z >> 27U)) * 0x94D049BB133111EBULL;
+  return z ^ (z >> 31U);
+}
+
+}  // namespace
+
+RenderedSequence::RenderedSequence(std::function<Scene(double)> scene, Motion motion, const SequenceOptions& options)
+    : scene_(std::move(scene)), motion_(std::move(motion)), options_(options), renderer_(options.camera) {}
+
+RenderedSequence::RenderedSequence(Scene scene, Motion motion, const SequenceOptions& options)
+    : still_(std::move(scene)), motion_(std::move(motion)), options_(options), renderer_(options.camera) {}
+
+StampNs RenderedSequence::stamp(int i) const { return options_.first_stamp + std::llround(time(i) * 1e9); }
+
+void RenderedSequence::expose(const std::vector<float>& radiance, double gain, std::uint64_t stream,
+                              GreyImage& image) const {
+  image.width = options_.camera.width;
+  image.height = options_.camera.height;
+  image.pixels.resize(radiance.size());
+  const std::array<float, 4096>& normal = normalTable();
+  const auto factor = static_cast<float>(gain), noise = static_cast<float>(options_.noise);
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < radiance.size(); ++i) {
+    bits = i % 5 == 0 ? bitsOf((stream << 32U) + i) : bits >> 12U;
+    const float grey = factor * radiance[i] + noise * normal[bits & 4095U];
+    image.pixels[i] = static_cast<std::uint8_t>(std::clamp(grey + 0.5F, 0.0F, 255.0F));
+  }
+}
+
+const StereoFrame& RenderedSequence::frame(int i) {
+  const double t = time(i);
+  const Pose T_world_left = motion_(t);
+  const Pose T_world_right = T_world_left * Pose(Quaterniond::Identity(), Vector3d(options_.camera.baseline, 0.0, 0.0));
+  const double gain = options_.gain ? options_.gain(t) : 1.0;
+  if (scene_) still_ = scene_(t);
+  const std::uint64_t stream =
+      bitsOf((static_cast<std::uint64_t>(options_.seed) << 32U) + static_cast<std::uint64_t>(i)) & 0x7FFFFFFFU;
+  frame_.stamp = stamp(i);
+  expose(renderer_.draw(still_, T_world_left), gain, 2 * stream, frame_.left);
+  expose(renderer_.draw(still_, T_world_right), gain, 2 * stream + 1, frame_.right);
+  return frame_;
+}
+
+}  // namespace urban_nav_core::testing
