@@ -12,7 +12,7 @@ NodeletParameters::NodeletParameters() { nodeletTable().setDefaults(*this); }
 const Table<NodeletParameters>& nodeletTable() {
   using P = NodeletParameters;
   static const Table<NodeletParameters> rows(
-      "swf_vo_nodelet",
+      "",
       {
           {"odom_frame", &P::odom_frame, "", "odom", false, false, {}, "Frame in which the odometry is given; its origin is the first base_link.", "REP-105"},
           {"base_frame", &P::base_frame, "", "base_link", false, false, {}, "Frame of the robot, whose motion is estimated.", "REP-105"},
@@ -22,13 +22,13 @@ const Table<NodeletParameters>& nodeletTable() {
            "image_proc"},
           {"compressed", &P::compressed, "", false, false, true, {}, "Whether the image topics are sensor_msgs/CompressedImage.", ""},
           {"queue", &P::queue, "messages", 200, 2, 100000, {},
-           "Inputs that may wait for the filter; beyond that the oldest is dropped and counted.", "DESIGN.md, section 5"},
+           "Inputs that may wait for the filter; beyond that the oldest is dropped and counted.", ""},
           {"max_lateness", &P::max_lateness, "s", 0.1, 0.0, 10.0, {},
-           "How long, by stamps, an image waits for its partner and for motion inputs. Nothing waits where all came.", "DESIGN.md, section 3"},
+           "How long, by stamps, an image waits for its partner and for motion inputs. Nothing waits where all came.", ""},
           {"pairing", &P::pairing, "s", 0.005, 0.0, 1.0, {}, "Largest difference between the stamps of left and right image.", ""},
           {"tf_wait", &P::tf_wait, "s", 1.0, 0.0, 3600.0, {},
            "How long the first images wait for the place of the camera on /tf_static; after that base_frame is taken to be at the left camera.",
-           "CONTRACT.md, input"},
+           "REP-103"},
       });
   return rows;
 }
