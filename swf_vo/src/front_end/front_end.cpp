@@ -26,6 +26,8 @@ namespace {
 constexpr double reference_area = 512.0 * 384.0;  // of the parameter `features`
 constexpr int top_width = 160;                    // the image whose rotation is found is at most this wide
 constexpr double first_radius = 3.0;              // of the search radius, while the motion is not known yet
+// The window follows what the prediction was off by in the frame before (px, and times the 90 % quantile), up to the search radius.
+constexpr double least_radius = 8.0, radius_per_error = 3.0, radius_offset = 4.0;
 constexpr double coarse_slack_px = 1.0, fine_slack_px = 0.1;
 constexpr int most_missed = 3, most_missed_young = 1;  // frames
 constexpr int disagreements_refute = 2, disagreements_refute_young = 1, young = 3;  // frames
@@ -59,11 +61,13 @@ class FrontEnd::Implementation {
     corners_.extract(pair);
     result_.corners = corners_.count(Side::Left);
     gather(map);
-    const Pose T_turned_odom = turn(last, predicted);
-    locate(T_turned_odom, predicted.inverse());
-    for (const Match& match : matches_) follow(frame, match);
+    const bool next = frame == frame_ + 1;
+    if (!next) radius_ = first_radius * parameters_.search_radius;
+    locate(turn(next ? last : T_odom_last_, predicted), predicted.inverse());
+    for (Match& match : matches_) follow(frame, match);
     replenisher_.replenish(frame, corners_, result_.T_odom_camera, matches_, tracks_, result_.fresh);
-    settled_ = result_.localised;
+    frame_ = frame;
+    T_odom_last_ = result_.T_odom_camera;
     return result_;
   }
 
@@ -125,16 +129,38 @@ class FrontEnd::Implementation {
     for (const LandmarkId id : orphans_) tracks_.end(id);
   }
 
-  void locate(const Pose& T_turned_odom, const Pose& T_predicted_odom) {
-    if (matches_.empty()) return;
-    const double radius = parameters_.search_radius * (settled_ ? 1.0 : first_radius);
-    matchTemporal(corners_, camera_, T_turned_odom, radius, matches_);
+  /// First matches, in one image each, and the pose that most of them agree on to about a pixel.
+  Localisation matchCoarsely(const Pose& T_turned_odom, const Pose& T_predicted_odom) {
+    matchTemporal(corners_, camera_, T_turned_odom, radius_, matches_);
     for (Match& match : matches_) combine(parameters_.pixel_noise_floor, match);
     starts_.assign({T_predicted_odom, T_turned_odom});
     LocaliseOptions options;
     options.slack_px = coarse_slack_px;
     options.least_inliers = parameters_.lost_features;
-    const Localisation coarse = localiser_.locate(starts_, options, matches_);
+    return localiser_.locate(starts_, options, matches_);
+  }
+
+  /// How wide to search next time: by what this frame's inliers were away from where they had been expected.
+  void learnRadius(const Pose& T_expected_odom) {
+    errors_.clear();
+    for (const Match& match : matches_) {
+      if (!match.inlier || !match.left.found) continue;
+      const auto expected = projectInto(Side::Left, camera_, T_expected_odom, match.p_odom);
+      if (expected) errors_.push_back((match.left.pixel - *expected).norm());
+    }
+    if (errors_.empty()) return;
+    const auto quantile = errors_.begin() + static_cast<std::ptrdiff_t>(errors_.size() * 9 / 10);
+    std::nth_element(errors_.begin(), quantile, errors_.end());
+    radius_ = std::clamp(radius_per_error * *quantile + radius_offset, std::min(least_radius, parameters_.search_radius), parameters_.search_radius);
+  }
+
+  void locate(const Pose& T_turned_odom, const Pose& T_predicted_odom) {
+    if (matches_.empty()) return;
+    Localisation coarse = matchCoarsely(T_turned_odom, T_predicted_odom);
+    if (radius_ < parameters_.search_radius && 2 * coarse.inliers < coarse.candidates) {
+      radius_ = parameters_.search_radius;
+      coarse = matchCoarsely(T_turned_odom, T_predicted_odom);
+    }
     if (coarse.found)
       for (Match& match : matches_) {
         if (!match.measured || match.inlier) continue;
@@ -145,21 +171,26 @@ class FrontEnd::Implementation {
     matchAcross(corners_, camera_, coarse.found ? coarse.T_camera_odom : T_turned_odom, matches_);
     for (Match& match : matches_) combine(parameters_.pixel_noise_floor, match);
     starts_.assign({coarse.found ? coarse.T_camera_odom : T_predicted_odom});
+    LocaliseOptions options;
     options.slack_px = fine_slack_px;
+    options.least_inliers = parameters_.lost_features;
     options.consensus = !coarse.found;
     const Localisation fine = localiser_.locate(starts_, options, matches_);
     result_.candidates = fine.candidates;
     result_.localised = fine.found;
+    radius_ = first_radius * parameters_.search_radius;
     if (!fine.found) return;
+    learnRadius(T_turned_odom);
     result_.T_odom_camera = fine.T_camera_odom.inverse();
     result_.inlier_share = static_cast<double>(fine.inliers) / fine.candidates;
     result_.reprojection_px = fine.reprojection_px;
   }
 
   /// What this frame says of a landmark's future.
-  void follow(FrameId frame, const Match& match) {
+  void follow(FrameId frame, Match& match) {
     Track& track = *match.track;
     if (match.inlier) {
+      fillIn(match);
       result_.tracked.push_back({track.id, frame, match.z, match.information});
       ++track.seen;
       track.missed = track.disagreed = 0;
@@ -176,6 +207,14 @@ class FrontEnd::Implementation {
     if (++track.missed < (track.seen < young ? most_missed_young : most_missed) && isInView(match)) return;
     result_.ended.push_back(track.id);
     tracks_.end(track.id);
+  }
+
+  /// What was not measured gets its predicted value, so that a measurement can be drawn; its information stays zero.
+  void fillIn(Match& match) const {
+    const Pose T_camera_odom = result_.T_odom_camera.inverse();
+    const auto left = projectInto(Side::Left, camera_, T_camera_odom, match.p_odom), right = projectInto(Side::Right, camera_, T_camera_odom, match.p_odom);
+    if (!match.left.found && left) match.z.x() = left->x();
+    if (!match.right.found && right) match.z.z() = right->x();
   }
 
   bool isInView(const Match& match) const {
@@ -195,7 +234,10 @@ class FrontEnd::Implementation {
   std::vector<LandmarkId> orphans_;
   std::vector<Parallax> parallax_;
   std::vector<Pose> starts_;
-  bool settled_ = false;
+  std::vector<double> errors_;
+  double radius_ = 0.0;  // px of level 0
+  FrameId frame_ = -2;
+  Pose T_odom_last_;
 };
 
 FrontEnd::FrontEnd(const Parameters& parameters, const StereoCamera& camera)
