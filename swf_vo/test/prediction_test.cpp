@@ -22,7 +22,7 @@ Vector6d twist(double vx, double vy, double vz, double wx, double wy, double wz)
 }
 
 TEST(Prediction, goesOnAtTheVelocityOfTheLastStep) {
-  Prediction prediction(Parameters(), Pose());
+  Prediction prediction{Parameters(), Pose()};
   const Vector6d velocity = twist(0.3, 0.0, 5.0, 0.0, 0.4, 0.1);
   prediction.learn(expSe3(velocity * 0.1), 0.1, true);
   EXPECT_TRUE(isApprox(prediction.step(0.1, {}).T_from_to, expSe3(velocity * 0.1), 1e-12));
@@ -30,7 +30,7 @@ TEST(Prediction, goesOnAtTheVelocityOfTheLastStep) {
 }
 
 TEST(Prediction, trustsItselfLessTheLongerNothingWasMeasured) {
-  Prediction prediction(Parameters(), Pose());
+  Prediction prediction{Parameters(), Pose()};
   prediction.learn(Pose(), 0.1, true);
   double last = prediction.step(0.1, {}).information(0, 0);
   for (int i = 0; i < 5; ++i) {
@@ -53,7 +53,7 @@ TEST(Prediction, takesAGoodInputInsteadOfTheVelocity) {
 }
 
 TEST(Prediction, aGyroscopeTurnsAndLeavesTheTranslationToTheVelocity) {
-  Prediction prediction(Parameters(), Pose());
+  Prediction prediction{Parameters(), Pose()};
   prediction.learn(expSe3(twist(0.0, 0.0, 0.1, 0.0, 0.0, 0.0)), 0.1, true);
   Matrix6d information = Matrix6d::Zero();
   information.bottomRightCorner<3, 3>() = 1e12 * Eigen::Matrix3d::Identity();
@@ -66,7 +66,7 @@ TEST(Prediction, aGyroscopeTurnsAndLeavesTheTranslationToTheVelocity) {
 }
 
 TEST(Prediction, ignoresInputsThatMakeNoSense) {
-  Prediction prediction(Parameters(), Pose());
+  Prediction prediction{Parameters(), Pose()};
   prediction.learn(Pose(), 0.1, true);
   Matrix6d broken = Matrix6d::Identity();
   broken(2, 2) = std::nan("");
