@@ -143,7 +143,7 @@ void appendLine(std::string& text, const G2oGraph& graph, const G2oGraph::Line& 
 }
 
 Pose poseOf(const std::array<double, 7>& v, int dimension) {
-  if (dimension == 2) return Pose(expSo3({0.0, 0.0, v[2]}), {v[0], v[1], 0.0});
+  if (dimension == 2) return Pose(Quaterniond(std::cos(0.5 * v[2]), 0.0, 0.0, std::sin(0.5 * v[2])), {v[0], v[1], 0.0});
   return Pose(Quaterniond(v[6], v[3], v[4], v[5]), {v[0], v[1], v[2]});
 }
 

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_core/io/atomic_file.hpp"
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "io/reader_check.hpp"
+#include "urban_nav_core/io/text_file.hpp"
+
+namespace urban_nav_core {
+namespace {
+
+namespace fs = std::filesystem;
+
+class AtomicFileTest : public ::testing::Test {
+ protected:
+  AtomicFileTest() : folder_(fs::temp_directory_path() / ("urban_nav_atomic_" + std::to_string(::getpid()))) {
+    fs::create_directories(folder_);
+  }
+  ~AtomicFileTest() override { fs::remove_all(folder_); }
+  std::size_t files() const {
+    std::size_t count = 0;
+    for ([[maybe_unused]] const auto& entry : fs::directory_iterator(folder_)) ++count;
+    return count;
+  }
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  fs::path folder_;
+};
+
+TEST_F(AtomicFileTest, AppearsWholeAtCommit) {
+  AtomicFile file(path("a.txt"));
+  file.write("one ");
+  EXPECT_FALSE(fs::exists(path("a.txt")));
+  file.write(std::string(200000, 'x'));
+  file.commit();
+  EXPECT_EQ(readTextFile(path("a.txt")), "one " + std::string(200000, 'x'));
+  EXPECT_EQ(files(), 1U);
+}
+
+TEST_F(AtomicFileTest, LeavesTheOldFileWhenSomethingIsThrown) {
+  writeAtomically(path("a.txt"), "old");
+  try {
+    AtomicFile file(path("a.txt"));
+    file.write(std::string(200000, 'x'));
+    throw std::runtime_error("the source ended");
+  } catch (const std::runtime_error&) {
+  }
+  EXPECT_EQ(readTextFile(path("a.txt")), "old");
+  EXPECT_EQ(files(), 1U);
+}
+
+TEST_F(AtomicFileTest, AnotherWritersFileIsRenamedOrRemoved) {
+  {
+    PartialFile partial(path("a.bag"));
+    EXPECT_EQ(fs::path(partial.path()).extension(), ".bag");
+    EXPECT_EQ(fs::path(partial.path()).parent_path(), folder_);
+    writeAtomically(partial.path(), "half");
+  }
+  EXPECT_EQ(files(), 0U);
+  PartialFile partial(path("a.bag"));
+  writeAtomically(partial.path(), "whole");
+  partial.commit();
+  EXPECT_EQ(readTextFile(path("a.bag")), "whole");
+  EXPECT_EQ(files(), 1U);
+}
+
+TEST_F(AtomicFileTest, NamesThePathThatCannotBeWritten) {
+  const std::string nowhere = path("no/such/folder/a.txt");
+  EXPECT_EQ(errorOf([&] { writeAtomically(nowhere, "x"); }), nowhere + ": cannot be written: No such file or directory");
+  fs::create_directories(path("folder"));
+  EXPECT_EQ(errorOf([&] { writeAtomically(path("folder"), "x"); }), path("folder") + ": cannot be written: Is a directory");
+  EXPECT_EQ(files(), 1U);
+}
+
+TEST_F(AtomicFileTest, AFullDiskIsAnErrorAndNoFile) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
+  fs::create_symlink("/dev/full", path("a.part.txt"));
+  EXPECT_EQ(errorOf([&] { writeAtomically(path("a.txt"), "x"); }), path("a.txt") + ": cannot be written: No space left on device");
+  EXPECT_FALSE(fs::exists(path("a.txt")));
+}
+
+}  // namespace
+}  // namespace urban_nav_core

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "urban_nav_core/testing/fuzz.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav_core {
+
+/// The text of the UserError that a call throws, or "".
+template <typename Call>
+std::string errorOf(const Call& call) {
+  try {
+    call();
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// A reader meets damaged files: it takes or refuses them, and does some of both.
+inline void expectSurvives(const testing::FuzzResult& result) {
+  EXPECT_EQ(result.failure, "");
+  EXPECT_GT(result.accepted, 0);
+  EXPECT_GT(result.refused, 0);
+}
+
+}  // namespace urban_nav_core

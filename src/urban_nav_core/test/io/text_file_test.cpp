@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_core/io/text_file.hpp"
+
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+#include "io/reader_check.hpp"
+#include "urban_nav_core/io/atomic_file.hpp"
+
+namespace urban_nav_core {
+namespace {
+
+using Lines = std::vector<std::pair<std::string, int>>;
+
+Lines linesOf(std::string_view text) {
+  Lines lines;
+  forEachLine(text, [&lines](std::string_view line, int number) { lines.emplace_back(line, number); });
+  return lines;
+}
+
+TEST(TextFile, LinesCountFromOneWhateverTheirEnds) {
+  EXPECT_EQ(linesOf("a\nb\r\n\nc"), (Lines{{"a", 1}, {"b", 2}, {"", 3}, {"c", 4}}));
+  EXPECT_EQ(linesOf("a\n"), (Lines{{"a", 1}}));
+  EXPECT_EQ(linesOf(""), Lines{});
+}
+
+TEST(TextFile, ReadsAllBytes) {
+  const std::string path = (std::filesystem::temp_directory_path() / "urban_nav_text_file").string();
+  for (const std::size_t size : {std::size_t{0}, std::size_t{1}, std::size_t{65535}, std::size_t{65536}, std::size_t{200001}}) {
+    std::string content(size, 'x');
+    if (size > 1) content[size / 2] = '\0';
+    writeAtomically(path, content);
+    EXPECT_EQ(readTextFile(path), content) << size;
+  }
+  std::filesystem::remove(path);
+}
+
+TEST(TextFile, NamesTheFileThatCannotBeRead) {
+  EXPECT_EQ(errorOf([] { readTextFile("/nowhere/poses.txt"); }), "/nowhere/poses.txt: cannot be read: No such file or directory");
+  EXPECT_EQ(errorOf([] { readTextFile("/tmp"); }), "/tmp: cannot be read: Is a directory");
+}
+
+}  // namespace
+}  // namespace urban_nav_core
