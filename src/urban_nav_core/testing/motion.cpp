@@ -121,7 +121,7 @@ Motion namedMotion(const std::string& name, const std::string& scene, std::uint3
       in_room ? lookingAlong({-room.freeX(), 0.3, kHeight}, 0.0) : lookingAlong({0.0, 0.0, kHeight + 0.5}, 0.0);
   const Vector3d middle = in_room ? Vector3d(0.0, 0.0, kHeight) : Vector3d(20.0, 0.0, kHeight + 0.5);
   if (name == "stand") return standing(start);
-  if (name == "straight") return in_room ? straight(start, 0.5, 0.0, 0.5) : drive(8.0, kHeight + 0.5);
+  if (name == "straight") return in_room ? straight(start, 0.5, 0.0, 0.5) : drive(kDriveSpeed, kHeight + 0.5);
   if (name == "creep") return straight(start, 0.02, 1.0, 0.2);
   if (name == "loop")
     return loop(in_room ? 0.75 * room.freeX() : 15.0, in_room ? 0.75 * room.freeY() : 2.0, kHeight, 24.0);

@@ -33,6 +33,9 @@ Motion wander(const Vector3d& position, const Vector3d& reach, double yaw, doubl
 /// Along a street in +x at `speed` (m/s), swaying and pitching a little as a car does.
 Motion drive(double speed, double height);
 
+/// Speed of the motion "straight" in the street, m/s.
+constexpr double kDriveSpeed = 8.0;
+
 /// The names that namedMotion knows, for --help.
 std::vector<std::string> motionNames();
 /// A motion that suits the scene "room" or "street", by its name. Throws UserError with the names allowed.
