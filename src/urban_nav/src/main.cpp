@@ -1,4 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "commands/commands.hpp"
 
-int main(int argc, char** argv) { return urban_nav::runCommandLine({urban_nav::mapCommand()}, argc, argv); }
+int main(int argc, char** argv) { return urban_nav::runCommandLine({urban_nav::mapCommand(), urban_nav::evaluateCommand()}, argc, argv); }

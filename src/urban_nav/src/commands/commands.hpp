@@ -6,6 +6,7 @@
 namespace urban_nav {
 
 /// The subcommands of CONTRACT.md, each in a file of its name.
+Command evaluateCommand();
 Command mapCommand();
 
 }  // namespace urban_nav

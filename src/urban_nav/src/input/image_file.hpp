@@ -5,6 +5,7 @@
 #include <opencv2/core/mat.hpp>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "urban_nav_core/image/view.hpp"
 #include "urban_nav_ros/image.hpp"

@@ -48,10 +48,10 @@ std::unique_ptr<Source> openSource(const std::vector<std::string>& paths, const 
   switch (inputKind(paths.front())) {
     case InputKind::KittiFolder: return openKittiFolder(paths.front(), options);
     case InputKind::NewCollegeFolder: throw UserError(paths.front(), "is a New College folder", "the bag that urban_nav convert new-college makes of it");
-    case InputKind::EurocFolder:
-    case InputKind::Bag: break;
+    case InputKind::EurocFolder: return openEurocFolder(paths.front(), options);
+    case InputKind::Bag: return openBags(paths, options);
   }
-  throw UserError(paths.front(), "cannot be read by this version", "a KITTI folder");
+  throw UserError(paths.front(), "holds nothing that is known", kKnownInputs);
 }
 
 }  // namespace urban_nav

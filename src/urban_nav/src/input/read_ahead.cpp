@@ -42,6 +42,11 @@ class ReadAhead : public Source {
     return input;
   }
 
+  std::vector<std::string> closingFaults() const override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return ended_ ? source_->closingFaults() : std::vector<std::string>();
+  }
+
  private:
   void run() {
     try {
@@ -64,10 +69,10 @@ class ReadAhead : public Source {
     changed_.notify_all();
   }
 
-  const std::unique_ptr<Source> source_;  // used by thread_ alone once it runs
+  const std::unique_ptr<Source> source_;  // used by thread_ alone from its start to ended_
   const SourceInfo info_;
   const std::size_t depth_;
-  std::mutex mutex_;  // guards the four below
+  mutable std::mutex mutex_;  // guards the four below
   std::deque<StereoInput> queue_;
   std::exception_ptr error_;
   bool ended_ = false;

@@ -35,6 +35,8 @@ class Source {
   virtual const SourceInfo& info() const = 0;
   /// The next pair; empty at the end. DataError where the input cannot be read on.
   virtual std::optional<StereoInput> next() = 0;
+  /// What was wrong with the input as a whole: complete when next() has come to the end.
+  virtual std::vector<std::string> closingFaults() const { return {}; }
 };
 
 /// Reads ahead by at most `depth` pairs in a thread of its own. The pairs and their order are those of `source`.

@@ -66,7 +66,8 @@ void runVo(Source& source, VoStage& stage, MapOutcome& outcome, Console& console
       last_report = outcome.usage.wallSeconds();
     }
   }
-  stage.finish();
+  stage.finish(source.closingFaults());
+  for (const std::string& fault : source.closingFaults()) console.warn(fault);
   progress.finish(static_cast<std::int64_t>(stage.run().rows.size()));
 }
 
@@ -91,6 +92,7 @@ const std::vector<std::string>& existingStages() {
 
 void runMap(const MapRequest& request, Console& console) {
   checkStages(request.stages);
+  if (!request.truth.empty()) readTrajectory(request.truth);  // a mistake in it is told now, not after the work
   const std::vector<Session> sessions = findSessions(request.inputs);
   MapOutcome outcome(request);
   for (std::size_t i = 0; i < sessions.size(); ++i) {

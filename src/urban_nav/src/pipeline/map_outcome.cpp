@@ -3,11 +3,14 @@
 
 #include <algorithm>
 
+#include "pipeline/truth.hpp"
 #include "pipeline/vo_files.hpp"
 #include "pipeline/vo_summary.hpp"
+#include "report/evaluation_report.hpp"
 #include "report/plot.hpp"
 #include "report/vo_report.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
+#include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav {
 
@@ -17,6 +20,18 @@ std::vector<const VoRun*> runsOf(const MapOutcome& outcome) {
   std::vector<const VoRun*> runs;
   for (const std::unique_ptr<VoStage>& stage : outcome.stages) runs.push_back(&stage->run());
   return runs;
+}
+
+std::vector<urban_nav_core::StampNs> stampsOf(const VoRun& run) {
+  std::vector<urban_nav_core::StampNs> stamps;
+  for (const VoRow& row : run.rows) stamps.push_back(row.stamp);
+  return stamps;
+}
+
+std::vector<urban_nav_core::CovarianceRow> covariancesOf(const VoRun& run) {
+  std::vector<urban_nav_core::CovarianceRow> rows;
+  for (const swf_vo::Settled& settled : run.settled) rows.push_back({settled.stamp, settled.status.health, settled.T_odom_base.covariance});
+  return rows;
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -58,6 +73,29 @@ PageTable inputsTable(const MapOutcome& outcome) {
   return table;
 }
 
+/// The truth of each session, now that nothing can reach the estimates any more. One that cannot be read costs the comparison, not the map.
+std::vector<std::optional<Evaluation>> compare(const MapOutcome& outcome, const std::vector<Session>& sessions, Console& console) {
+  std::vector<std::optional<Evaluation>> evaluations;
+  EvaluationOptions options;
+  options.spans = {{urban_nav_core::Span::Unit::Metres, 10.0}, {urban_nav_core::Span::Unit::Metres, 100.0}};
+  for (std::size_t i = 0; i < sessions.size(); ++i) {
+    const VoRun& run = outcome.stages[i]->run();
+    evaluations.emplace_back();
+    try {
+      const std::optional<TrajectoryFile> truth =
+          outcome.request.truth.empty() ? findTruth(sessions[i], outcome.infos[i], outcome.request.source) : truthOfBase(readTrajectory(outcome.request.truth), outcome.infos[i], stampsOf(run));
+      if (!truth) continue;
+      TrajectoryFile estimate{outcome.folder.file("trajectory.tum"), true, trajectoryOf(run), {}};
+      for (const urban_nav_core::StampedPose& pose : estimate.trajectory) estimate.poses.push_back(pose.pose);
+      evaluations.back() = evaluate(*truth, estimate, covariancesOf(run), options);
+      console.info("truth: " + truth->path + (outcome.request.truth.empty() ? " (found; it is used for the report alone)" : ""));
+    } catch (const urban_nav_core::UserError& error) {
+      console.warn(std::string("the truth is left out of the report: ") + error.what());
+    }
+  }
+  return evaluations;
+}
+
 Page pageOf(const MapOutcome& outcome, bool running) {
   const std::vector<const VoRun*> runs = runsOf(outcome);
   const VoSummary summary = summarise(runs);
@@ -68,6 +106,12 @@ Page pageOf(const MapOutcome& outcome, bool running) {
   page.progress = outcome.progress;
   page.tiles = tilesOf(outcome, summary);
   page.verdicts = voVerdicts(summary);
+  for (const std::optional<Evaluation>& evaluation : outcome.evaluations) {
+    if (!evaluation) continue;
+    for (const Verdict& verdict : evaluationVerdicts(*evaluation)) page.verdicts.push_back(verdict);
+    for (const Tile& tile : evaluationTiles(*evaluation)) page.tiles.push_back(tile);
+    page.sections.push_back(evaluationSection(*evaluation));
+  }
   for (std::size_t i = 0; i < runs.size(); ++i) {
     for (Section& section : voSections(*runs[i])) {
       if (runs.size() > 1) {
@@ -100,6 +144,8 @@ Json summaryOf(const MapOutcome& outcome, const VoSummary& summary) {
   json["sessions"] = outcome.stages.size();
   Json& inputs = json["inputs"] = Json::array();
   for (const std::string& input : outcome.request.inputs) inputs.append(input);
+  const auto evaluated = std::find_if(outcome.evaluations.begin(), outcome.evaluations.end(), [](const auto& evaluation) { return evaluation.has_value(); });
+  if (evaluated != outcome.evaluations.end()) addToJson(**evaluated, json);
   json["swf_vo"] = toJson(summary);
   json["parameters"] = parametersJson(outcome.request.parameters);
   return json;
@@ -109,7 +155,8 @@ Json summaryOf(const MapOutcome& outcome, const VoSummary& summary) {
 
 void writeReport(const MapOutcome& outcome) { outcome.folder.write("report.html", renderPage(pageOf(outcome, true))); }
 
-void finishMap(const MapOutcome& outcome, const std::vector<Session>& sessions, Console& console) {
+void finishMap(MapOutcome& outcome, const std::vector<Session>& sessions, Console& console) {
+  outcome.evaluations = compare(outcome, sessions, console);
   const std::vector<const VoRun*> runs = runsOf(outcome);
   const VoSummary summary = summarise(runs);
   outcome.folder.write("stats.csv", statsCsv(runs));

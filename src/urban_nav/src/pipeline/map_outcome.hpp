@@ -2,8 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "pipeline/evaluation.hpp"
 #include "pipeline/map_job.hpp"
 #include "pipeline/output_folder.hpp"
 #include "pipeline/sessions.hpp"
@@ -21,6 +23,7 @@ struct MapOutcome {
   Usage usage;
   std::vector<std::unique_ptr<VoStage>> stages;  ///< one per session
   std::vector<SourceInfo> infos;                 ///< one per session
+  std::vector<std::optional<Evaluation>> evaluations;  ///< one per session, when all are finished; empty before
   double progress = 0.0;                         ///< of the session at work
 };
 
@@ -28,6 +31,6 @@ struct MapOutcome {
 void writeReport(const MapOutcome& outcome);
 
 /// stats.csv, summary.json and the finished report; compares with the truth where there is one, and says how it went.
-void finishMap(const MapOutcome& outcome, const std::vector<Session>& sessions, Console& console);
+void finishMap(MapOutcome& outcome, const std::vector<Session>& sessions, Console& console);
 
 }  // namespace urban_nav

@@ -45,11 +45,14 @@ VoPicture drawTracks(const ImageView& image, const std::vector<std::vector<Featu
 
   std::map<swf_vo::LandmarkId, std::vector<cv::Point>> ways;
   for (const std::vector<Feature>& frame : features) {
-    for (const Feature& feature : frame) ways[feature.landmark].push_back(fixedPoint(feature.pixel.x(), feature.pixel.y(), scale));
+    for (const Feature& feature : frame) {
+      if (feature.pixel.x() > 0.0) ways[feature.landmark].push_back(fixedPoint(feature.pixel.x(), feature.pixel.y(), scale));
+    }
   }
   if (!features.empty()) {
     for (const Feature& feature : features.back()) {
-      const double disparity = feature.pixel.x() - feature.pixel.z();
+      if (!(feature.pixel.x() > 0.0)) continue;  // seen in the right image alone
+      const double disparity = feature.pixel.z() > 0.0 ? feature.pixel.x() - feature.pixel.z() : 1.0;
       const double nearness = std::log2(std::max(disparity, 1.0)) / 6.0;  // 1 px ... 64 px
       const cv::Scalar colour = feature.trusted ? colourOf(nearness) : cv::Scalar(150, 150, 150);
       const std::vector<cv::Point>& way = ways[feature.landmark];

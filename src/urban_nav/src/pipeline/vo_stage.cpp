@@ -95,7 +95,9 @@ const VoRow& VoStage::process(const StereoInput& input) {
   return run_.rows.back();
 }
 
-void VoStage::finish() {
+void VoStage::finish(const std::vector<std::string>& faults) {
+  run_.faults.insert(run_.faults.begin(), faults.begin(), faults.end());
+  run_.faults_total += static_cast<std::int64_t>(faults.size());
   for (swf_vo::Settled& settled : filter_.flush()) run_.settled.push_back(std::move(settled));
 }
 

@@ -60,8 +60,8 @@ class VoStage {
 
   /// The row it added to run().
   const VoRow& process(const StereoInput& input);
-  /// Empties the window. No process() after it.
-  void finish();
+  /// Empties the window; `faults` are those of the input as a whole. No process() after it.
+  void finish(const std::vector<std::string>& faults);
 
   const VoRun& run() const { return run_; }
 

@@ -195,11 +195,11 @@ std::string legend(const Plot& plot) {
 
 }  // namespace
 
-std::string renderSvg(const Plot& plot) {
+std::string renderSvg(const Plot& plot, bool with_legend) {
   const Frame f = frameOf(plot);
   if (f.x.empty() || f.y.empty()) return {};
   const auto attribute = [](const char* name, double value) { return std::string(" data-") + name + "=\"" + forPerson(value, 9) + "\""; };
-  std::string svg = legend(plot) + "<svg class=\"plot\" viewBox=\"0 0 " + std::to_string(plot.width) + " " + std::to_string(plot.height) + "\" role=\"img\"" + attribute("x0", f.x.low) +
+  std::string svg = (with_legend ? legend(plot) : "") + "<svg class=\"plot\" viewBox=\"0 0 " + std::to_string(plot.width) + " " + std::to_string(plot.height) + "\" role=\"img\"" + attribute("x0", f.x.low) +
                     attribute("x1", f.x.high) + attribute("y0", f.y.low) + attribute("y1", f.y.high) + " data-xl=\"" + escapeHtml(plot.x_label) + "\" data-yl=\"" + escapeHtml(plot.y_label) +
                     "\">";
   const std::string area = px(kLeft) + " " + px(kTop) + " " + px(f.width - kLeft - kRight) + " " + px(f.height - kTop - kBottom);

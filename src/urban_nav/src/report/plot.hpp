@@ -39,9 +39,9 @@ struct Plot {
   int width = 720, height = 300;    ///< px at the plot's own size; it scales with the page
 };
 
-/// The plot as an SVG element without fixed colours or fonts; empty where there is nothing finite to draw. Long series are thinned so
+/// The plot as an SVG element without fixed colours or fonts, behind a legend in HTML if wanted; empty where there is nothing finite to draw. Long series are thinned so
 /// that extremes stay.
-std::string renderSvg(const Plot& plot);
+std::string renderSvg(const Plot& plot, bool with_legend = true);
 
 /// Round numbers (1, 2, 5 times a power of ten), about `count` of them, within [low, high].
 std::vector<double> niceTicks(double low, double high, int count);

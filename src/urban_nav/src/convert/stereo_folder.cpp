@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <geometry_msgs/PoseStamped.h>
+#include <sensor_msgs/Imu.h>
+
+#include <opencv2/core/mat.hpp>
+
+#include "convert/bag_writer.hpp"
+#include "convert/convert.hpp"
+#include "convert/stereo_topics.hpp"
+#include "input/euroc_layout.hpp"
+#include "pipeline/truth.hpp"
+#include "urban_nav_core/types/error.hpp"
+#include "urban_nav_ros/extrinsics.hpp"
+#include "urban_nav_ros/pose.hpp"
+#include "urban_nav_ros/stamp.hpp"
+
+namespace urban_nav {
+
+using urban_nav_core::DataError;
+using urban_nav_core::StampNs;
+
+namespace {
+
+/// Stamps that count from the start of the sequence are moved to a time that ROS takes for one (2001-09-09).
+constexpr StampNs kEpoch = 1'000'000'000'000'000'000;
+constexpr StampNs kEarliest = 1'000'000'000;
+
+geometry_msgs::PoseStamped truthMessage(const urban_nav_core::StampedPose& pose, StampNs shift) {
+  geometry_msgs::PoseStamped message;
+  message.header.stamp = urban_nav_ros::toRosTime(pose.stamp + shift);
+  message.header.frame_id = "ground_truth";
+  message.pose = urban_nav_ros::toPoseMessage(pose.pose);
+  return message;
+}
+
+/// What is written beside the images, in the order of stamps.
+class Companions {
+ public:
+  Companions(std::vector<sensor_msgs::Imu> imu, std::optional<TrajectoryFile> truth, StampNs shift) : imu_(std::move(imu)), truth_(std::move(truth)), shift_(shift) {}
+
+  /// Everything up to a stamp of the folder.
+  void writeUntil(StampNs stamp, BagWriter& bag) {
+    for (; next_imu_ < imu_.size() && urban_nav_ros::toStampNs(imu_[next_imu_].header.stamp) <= stamp; ++next_imu_) {
+      sensor_msgs::Imu& message = imu_[next_imu_];
+      const StampNs at = urban_nav_ros::toStampNs(message.header.stamp) + shift_;
+      message.header.stamp = urban_nav_ros::toRosTime(at);
+      bag.write("/imu/data", at, message);
+    }
+    if (!truth_) return;
+    for (; next_truth_ < truth_->trajectory.size() && truth_->trajectory[next_truth_].stamp <= stamp; ++next_truth_) {
+      const urban_nav_core::StampedPose& pose = truth_->trajectory[next_truth_];
+      bag.write("/ground_truth/pose", pose.stamp + shift_, truthMessage(pose, shift_));
+    }
+  }
+
+ private:
+  std::vector<sensor_msgs::Imu> imu_;
+  std::optional<TrajectoryFile> truth_;
+  StampNs shift_;
+  std::size_t next_imu_ = 0, next_truth_ = 0;
+};
+
+void refuseFaults(const StereoInput& input) {
+  if (!input.faults.empty()) throw DataError("", input.faults.front(), "");
+}
+
+}  // namespace
+
+Converted convertStereoFolder(const std::string& folder, const std::string& path, const SourceOptions& options, Console& console) {
+  const std::unique_ptr<Source> source = readAhead(openSource({folder}, options), 4);
+  const SourceInfo& info = source->info();
+  const StampNs shift = info.first < kEarliest ? kEpoch : 0;
+  Converted converted;
+  converted.notes = info.notes;
+  if (shift != 0) converted.notes.push_back("stamps count from the start: moved by 1000000000 s, since ROS has no time zero");
+
+  std::vector<sensor_msgs::Imu> imu;
+  std::vector<geometry_msgs::TransformStamped> transforms = stereoTransforms(info.camera, info.T_base_camera);
+  if (inputKind(folder) == InputKind::EurocFolder) {
+    for (const EurocImu& row : readEurocImu(eurocFolder(folder))) imu.push_back(toImuMessage(row));
+    if (!imu.empty()) transforms.push_back(urban_nav_ros::toStaticTransform("base_link", "imu_link", readEurocRig(eurocFolder(folder)).T_base_body));
+  }
+  Companions companions(std::move(imu), findTruth({{folder}}, info, options), shift);
+
+  BagWriter bag(path);
+  bag.writeStaticTransforms(info.first + shift, transforms);
+  Progress progress(console, "convert", "frames", info.frames);
+  std::int64_t frames = 0;
+  while (const std::optional<StereoInput> input = source->next()) {
+    refuseFaults(*input);
+    const urban_nav_core::StereoPair& pair = input->assembled.pair;
+    companions.writeUntil(pair.stamp, bag);
+    writeStereo(pair, pair.stamp + shift, info.camera, bag);
+    progress.update(++frames);
+  }
+  companions.writeUntil(info.last, bag);
+  bag.commit();
+  progress.finish(frames);
+  converted.counts = bag.counts();
+  return converted;
+}
+
+}  // namespace urban_nav

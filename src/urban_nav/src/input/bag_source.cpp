@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <list>
+
+#include "input/bag_topics.hpp"
+#include "input/calibration_file.hpp"
+#include "input/open.hpp"
+#include "urban_nav_core/types/error.hpp"
+#include "urban_nav_ros/camera_info.hpp"
+#include "urban_nav_ros/extrinsics.hpp"
+#include "urban_nav_ros/image.hpp"
+#include "urban_nav_ros/stamp.hpp"
+
+namespace urban_nav {
+
+using urban_nav_core::CameraInfo;
+using urban_nav_core::DataError;
+using urban_nav_core::UserError;
+using urban_nav_ros::Side;
+using urban_nav_ros::StereoFeed;
+
+namespace {
+
+constexpr const char* kBaseFrame = "base_link";
+
+/// The bags of one recording, read as one stream in the order of their receipt; the feed brings it into the order of stamps.
+class BagSource : public Source {
+ public:
+  BagSource(const std::vector<std::string>& paths, const SourceOptions& options) : options_(options), name_(paths.front()) {
+    for (const std::string& path : paths) bags_.emplace_back(path, rosbag::bagmode::Read);
+    topics_ = chooseTopics(available(), options.topics);
+    if (!topics_.find(Role::Left) || !topics_.find(Role::Right)) throw DataError(name_, "has no stereo pair of image topics: " + listing(), "");
+    info_.name = name_ + (paths.size() > 1 ? " and " + std::to_string(paths.size() - 1) + " more" : "");
+    info_.kind = "bag";
+    info_.notes = topics_.notes;
+    calibrate();
+    place();
+    startReading();
+  }
+
+  const SourceInfo& info() const override { return info_; }
+
+  std::optional<StereoInput> next() override {
+    try {
+      while (true) {
+        if (std::optional<StereoInput> pair = feed_->take()) return pair;
+        if (ended_) return std::nullopt;
+        if (next_ == view_->end()) {
+          feed_->finish();
+          ended_ = true;
+          continue;
+        }
+        add(*next_);
+        ++next_;
+      }
+    } catch (const rosbag::BagException& error) {
+      throw DataError(name_, std::string("is damaged: ") + error.what(), "");
+    } catch (const ros::serialization::StreamOverrunException& error) {
+      throw DataError(name_, std::string("holds a message that is damaged: ") + error.what(), "");
+    }
+  }
+
+  std::vector<std::string> closingFaults() const override {
+    std::vector<std::string> faults;
+    const auto count = [&](Side side, Role role) {
+      const urban_nav_core::InboxCounts& counts = feed_->counts(side);
+      const std::string topic = topics_.find(role)->name;
+      if (counts.late > 0) faults.push_back(topic + ": " + std::to_string(counts.late) + " images came too late by their stamps and were dropped");
+      if (counts.doubled > 0) faults.push_back(topic + ": " + std::to_string(counts.doubled) + " images have the stamp of another and were dropped");
+      if (feed_->missing(side) > 0) faults.push_back(topic + ": " + std::to_string(feed_->missing(side)) + " images are missing: no partner within 5 ms");
+    };
+    count(Side::Left, Role::Left);
+    count(Side::Right, Role::Right);
+    return faults;
+  }
+
+ private:
+  std::map<std::string, std::string> available() {
+    std::map<std::string, std::string> topics;
+    for (rosbag::Bag& bag : bags_) {
+      rosbag::View view(bag);
+      for (const rosbag::ConnectionInfo* connection : view.getConnections()) topics[connection->topic] = connection->datatype;
+    }
+    return topics;
+  }
+
+  std::string listing() {
+    std::string text;
+    for (const auto& [topic, type] : available()) {
+      if (isImageType(type)) text += (text.empty() ? "" : ", ") + topic;
+    }
+    return text.empty() ? "it has no images at all" : text + " (--topic left:=NAME --topic right:=NAME)";
+  }
+
+  /// The first message of a topic that is of type Message.
+  template <typename Message>
+  boost::shared_ptr<Message> first(const std::string& topic) {
+    for (rosbag::Bag& bag : bags_) {
+      rosbag::View view(bag, rosbag::TopicQuery(topic));
+      for (const rosbag::MessageInstance& instance : view) {
+        if (const boost::shared_ptr<Message> message = instance.instantiate<Message>()) return message;
+      }
+    }
+    return nullptr;
+  }
+
+  /// Frame and size of a camera's first image.
+  struct Look {
+    std::string frame;
+    int width = 0, height = 0;
+  };
+  Look look(const ChosenTopic& topic) {
+    if (topic.type == "sensor_msgs/Image") {
+      const auto image = first<sensor_msgs::Image>(topic.name);
+      return image ? Look{image->header.frame_id, static_cast<int>(image->width), static_cast<int>(image->height)} : Look{};
+    }
+    const auto image = first<sensor_msgs::CompressedImage>(topic.name);
+    if (!image) return {};
+    const cv::Mat pixels = urban_nav_ros::toGrey(*image).pixels;
+    return {image->header.frame_id, pixels.cols, pixels.rows};
+  }
+
+  CameraInfo infoOf(Role role) {
+    const std::optional<ChosenTopic> topic = topics_.find(role);
+    const auto message = topic ? first<sensor_msgs::CameraInfo>(topic->name) : nullptr;
+    if (!message) throw UserError(name_, std::string("has no camera_info for the ") + (role == Role::LeftInfo ? "left" : "right") + " images", std::string("--calibration FILE, or --topic ") + toString(role) + ":=NAME");
+    if (role == Role::LeftInfo) camera_frame_ = message->header.frame_id;
+    return urban_nav_ros::toCameraInfo(*message);
+  }
+
+  void calibrate() {
+    const ChosenTopic left = *topics_.find(Role::Left);
+    const Look seen = look(left);
+    camera_frame_ = seen.frame;
+    const bool given = !options_.calibration.empty();
+    const auto [left_info, right_info] = given ? readCalibration(options_.calibration, seen.width, seen.height) : std::make_pair(infoOf(Role::LeftInfo), infoOf(Role::RightInfo));
+    if (camera_frame_.empty()) camera_frame_ = seen.frame;
+    const std::string where = given ? options_.calibration : topics_.find(Role::LeftInfo)->name + " and " + topics_.find(Role::RightInfo)->name;
+    calibration_ = std::make_shared<urban_nav_ros::StereoCalibration>(left_info, right_info, isRectifiedName(left.name), where);
+    info_.camera = calibration_->camera();
+    if (calibration_->rectifies()) info_.notes.push_back("raw images with distortion, rectified on the way");
+  }
+
+  void place() {
+    urban_nav_ros::StaticTransforms transforms;
+    for (rosbag::Bag& bag : bags_) {
+      rosbag::View view(bag, rosbag::TopicQuery(std::vector<std::string>{"/tf_static", "tf_static"}));
+      for (const rosbag::MessageInstance& instance : view) {
+        if (const auto message = instance.instantiate<tf2_msgs::TFMessage>()) transforms.add(*message);
+      }
+    }
+    if (const std::optional<urban_nav_core::Pose> T_base_optical = transforms.lookup(kBaseFrame, camera_frame_)) {
+      info_.T_base_camera = *T_base_optical * calibration_->T_optical_rectified();
+    } else {
+      info_.T_base_camera = urban_nav_ros::opticalInBody() * calibration_->T_optical_rectified();
+      info_.notes.push_back("no static tf from base_link to \"" + camera_frame_ + "\": base_link is taken to be at the left camera (REP-103 axes)");
+    }
+    const auto imu = topics_.find(Role::Imu) ? first<sensor_msgs::Imu>(topics_.find(Role::Imu)->name) : nullptr;
+    const std::optional<urban_nav_core::Pose> T_base_imu = imu ? transforms.lookup(kBaseFrame, imu->header.frame_id) : std::nullopt;
+    wheels_.emplace(options_.wheel_noise);
+    gyroscope_.emplace(options_.gyro_noise, T_base_imu ? T_base_imu->R() : urban_nav_core::Matrix3d(urban_nav_core::Matrix3d::Identity()));
+  }
+
+  void startReading() {
+    std::vector<std::string> names = {topics_.find(Role::Left)->name, topics_.find(Role::Right)->name};
+    StereoFeed::Options feed;
+    const Role motion_role = options_.motion_input == "wheels" ? Role::Wheels : Role::Imu;
+    if (options_.motion_input != "none") {
+      if (!topics_.find(motion_role)) throw DataError(name_, "has no topic for swf_vo.motion_input = " + options_.motion_input, "");
+      names.push_back(topics_.find(motion_role)->name);
+      feed.motion = true;
+    }
+    feed_.emplace(feed, calibration_);
+    view_.emplace();
+    for (rosbag::Bag& bag : bags_) {
+      view_->addQuery(bag, rosbag::TopicQuery(names));
+      info_.frames += rosbag::View(bag, rosbag::TopicQuery(names.front())).size();
+    }
+    if (view_->size() == 0) throw DataError(name_, "holds no images", "");
+    info_.first = urban_nav_ros::toStampNs(view_->getBeginTime());
+    info_.last = urban_nav_ros::toStampNs(view_->getEndTime());
+    next_ = view_->begin();
+  }
+
+  void add(const rosbag::MessageInstance& instance) {
+    const std::string topic = instance.getTopic();
+    if (topic == topics_.find(Role::Left)->name || topic == topics_.find(Role::Right)->name) {
+      const Side side = topic == topics_.find(Role::Left)->name ? Side::Left : Side::Right;
+      if (const auto image = instance.instantiate<sensor_msgs::Image>()) {
+        feed_->add(side, sensor_msgs::ImageConstPtr(image));
+      } else if (const auto compressed = instance.instantiate<sensor_msgs::CompressedImage>()) {
+        feed_->add(side, sensor_msgs::CompressedImageConstPtr(compressed));
+      }
+    } else if (const auto odometry = instance.instantiate<nav_msgs::Odometry>()) {
+      if (const auto motion = wheels_->add(*odometry)) feed_->add(*motion);
+    } else if (const auto imu = instance.instantiate<sensor_msgs::Imu>()) {
+      if (const auto motion = gyroscope_->add(*imu)) feed_->add(*motion);
+    }
+  }
+
+  const SourceOptions options_;
+  const std::string name_;
+  std::list<rosbag::Bag> bags_;  // a view points at them
+  BagTopics topics_;
+  SourceInfo info_;
+  std::string camera_frame_;
+  std::shared_ptr<const urban_nav_ros::StereoCalibration> calibration_;
+  std::optional<urban_nav_ros::WheelMotion> wheels_;
+  std::optional<urban_nav_ros::GyroMotion> gyroscope_;
+  std::optional<StereoFeed> feed_;
+  std::optional<rosbag::View> view_;
+  rosbag::View::iterator next_;
+  bool ended_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Source> openBags(const std::vector<std::string>& paths, const SourceOptions& options) {
+  try {
+    return std::make_unique<BagSource>(paths, options);
+  } catch (const rosbag::BagException& error) {
+    throw DataError(paths.front(), std::string("cannot be read: ") + error.what(), "");
+  }
+}
+
+}  // namespace urban_nav

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "input/bag_topics.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav {
+
+using urban_nav_core::UserError;
+
+namespace {
+
+struct RoleNames {
+  Role role;
+  const char* word;
+  const char* topic;  // of DESIGN.md, section 5
+};
+constexpr std::array<RoleNames, 7> kRoles = {{{Role::Left, "left", "stereo/left/image_raw"},
+                                              {Role::Right, "right", "stereo/right/image_raw"},
+                                              {Role::LeftInfo, "left_info", "stereo/left/camera_info"},
+                                              {Role::RightInfo, "right_info", "stereo/right/camera_info"},
+                                              {Role::Imu, "imu", "imu/data"},
+                                              {Role::Wheels, "wheels", "wheel_odom"},
+                                              {Role::Truth, "truth", "ground_truth/pose"}}};
+
+constexpr std::array<std::array<const char*, 2>, 7> kSides = {
+    {{"left", "right"}, {"cam0", "cam1"}, {"cam_0", "cam_1"}, {"image_00", "image_01"}, {"image_0", "image_1"}, {"infra1", "infra2"}, {"camera0", "camera1"}}};
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+std::string bare(const std::string& topic) { return topic.empty() || topic.front() != '/' ? topic : topic.substr(1); }
+
+bool fits(Role role, const std::string& type) {
+  switch (role) {
+    case Role::Left:
+    case Role::Right: return isImageType(type);
+    case Role::LeftInfo:
+    case Role::RightInfo: return type == "sensor_msgs/CameraInfo";
+    case Role::Imu: return type == "sensor_msgs/Imu";
+    case Role::Wheels: return type == "nav_msgs/Odometry";
+    case Role::Truth: return type == "geometry_msgs/PoseStamped";
+  }
+  return false;
+}
+
+std::string roleWords() {
+  std::string words;
+  for (const RoleNames& names : kRoles) words += (words.empty() ? "" : ", ") + std::string(names.word);
+  return words;
+}
+
+/// The topic as it is called in the bag, with or without the leading slash.
+std::map<std::string, std::string>::const_iterator findTopic(const std::map<std::string, std::string>& available, const std::string& name) {
+  return std::find_if(available.begin(), available.end(), [&](const auto& topic) { return bare(topic.first) == bare(name); });
+}
+
+void take(const std::map<std::string, std::string>& available, const std::string& wish, BagTopics& topics) {
+  const std::size_t sign = wish.find(":=");
+  if (sign == std::string::npos) throw UserError("--topic", "\"" + wish + "\"", "ROLE:=NAME with a role of " + roleWords());
+  const std::string role = wish.substr(0, sign), name = wish.substr(sign + 2);
+  const auto names = std::find_if(kRoles.begin(), kRoles.end(), [&](const RoleNames& r) { return role == r.word || bare(role) == r.topic; });
+  if (names == kRoles.end()) throw UserError("--topic", "role \"" + role + "\"", roleWords());
+  const auto topic = findTopic(available, name);
+  if (topic == available.end() || !fits(names->role, topic->second)) {
+    std::string candidates;
+    for (const auto& [known, type] : available) {
+      if (fits(names->role, type)) candidates += (candidates.empty() ? "" : ", ") + known;
+    }
+    const std::string found = topic == available.end() ? "is not in the bag" : "is of type " + topic->second;
+    throw UserError("--topic " + wish, name + " " + found, candidates.empty() ? "none: the bag has no topic of this kind" : candidates);
+  }
+  topics.chosen[names->role] = {topic->first, topic->second};
+}
+
+/// How unlikely a topic is to be what `map` wants; the raw stream is preferred, rectified ones are there to be asked for.
+int oddness(const std::string& topic, const std::string& type) {
+  int value = 0;
+  for (const char* word : {"disparity", "depth", "theora", "color", "colour", "ladybug", "debug", "mask", "label"}) value += contains(topic, word) ? 100 : 0;
+  value += isRectifiedName(topic) ? 10 : 0;
+  value += contains(topic, "stereo") ? 0 : 2;
+  value += contains(topic, "image") ? 0 : 4;
+  value += type == "sensor_msgs/CompressedImage" ? 1 : 0;
+  return value;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) text.replace(at, from.size(), to);
+  return text;
+}
+
+void guessImages(const std::map<std::string, std::string>& available, BagTopics& topics) {
+  int best = 1 << 20;
+  std::pair<ChosenTopic, ChosenTopic> pair;
+  for (const auto& [left, type] : available) {
+    if (!isImageType(type)) continue;
+    const std::optional<ChosenTopic> wished_left = topics.find(Role::Left), wished_right = topics.find(Role::Right);
+    if (wished_left && wished_left->name != left) continue;
+    for (std::size_t i = 0; i < kSides.size(); ++i) {
+      if (!contains(left, kSides[i][0])) continue;
+      const auto right = available.find(replaced(left, kSides[i][0], kSides[i][1]));
+      if (right == available.end() || right->second != type || (wished_right && wished_right->name != right->first)) continue;
+      const int value = oddness(left, type) + static_cast<int>(i);
+      if (value >= best) continue;
+      best = value;
+      pair = {{left, type}, {right->first, type}};
+    }
+  }
+  if (pair.first.name.empty()) return;
+  if (!topics.find(Role::Left)) topics.chosen[Role::Left] = pair.first;
+  if (!topics.find(Role::Right)) topics.chosen[Role::Right] = pair.second;
+}
+
+/// camera_info stands beside the images, or a level above (.../image_raw/compressed).
+void guessInfo(const std::map<std::string, std::string>& available, Role image, Role info, BagTopics& topics) {
+  if (topics.find(info) || !topics.find(image)) return;
+  std::string folder = topics.find(image)->name;
+  while (folder.find('/') != std::string::npos) {
+    folder.resize(folder.rfind('/'));
+    const auto found = available.find(folder + "/camera_info");
+    if (found != available.end() && fits(info, found->second)) {
+      topics.chosen[info] = {found->first, found->second};
+      return;
+    }
+  }
+}
+
+void guessOther(const std::map<std::string, std::string>& available, const RoleNames& names, const std::vector<std::string>& words, BagTopics& topics) {
+  if (topics.find(names.role)) return;
+  for (const std::string& word : words) {
+    for (const auto& [topic, type] : available) {
+      if (fits(names.role, type) && (bare(topic) == names.topic || contains(topic, word))) {
+        topics.chosen[names.role] = {topic, type};
+        return;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+const char* toString(Role role) {
+  return std::find_if(kRoles.begin(), kRoles.end(), [role](const RoleNames& names) { return names.role == role; })->word;
+}
+
+std::optional<ChosenTopic> BagTopics::find(Role role) const {
+  const auto found = chosen.find(role);
+  return found == chosen.end() ? std::nullopt : std::optional<ChosenTopic>(found->second);
+}
+
+BagTopics chooseTopics(const std::map<std::string, std::string>& available, const std::vector<std::string>& wishes) {
+  BagTopics topics;
+  for (const std::string& wish : wishes) take(available, wish, topics);
+  const std::map<Role, ChosenTopic> wished = topics.chosen;
+  guessImages(available, topics);
+  guessInfo(available, Role::Left, Role::LeftInfo, topics);
+  guessInfo(available, Role::Right, Role::RightInfo, topics);
+  guessOther(available, kRoles[4], {"imu"}, topics);
+  guessOther(available, kRoles[5], {"wheel"}, topics);
+  guessOther(available, kRoles[6], {"ground_truth", "groundtruth"}, topics);
+  for (const auto& [role, topic] : topics.chosen) {
+    topics.notes.push_back(std::string(toString(role)) + ": " + topic.name + (wished.count(role) != 0 ? "" : " (guessed; --topic " + std::string(toString(role)) + ":=NAME says otherwise)"));
+  }
+  return topics;
+}
+
+bool isImageType(const std::string& type) { return type == "sensor_msgs/Image" || type == "sensor_msgs/CompressedImage"; }
+
+bool isRectifiedName(const std::string& topic) { return contains(topic, "rect"); }
+
+}  // namespace urban_nav

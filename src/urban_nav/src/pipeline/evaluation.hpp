@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "command_line/json.hpp"
+#include "urban_nav_core/io/covariance_csv.hpp"
+#include "urban_nav_core/trajectory/associate.hpp"
+#include "urban_nav_core/trajectory/errors.hpp"
+#include "urban_nav_core/trajectory/nees.hpp"
+
+namespace urban_nav {
+
+/// A trajectory as a file has it: with stamps (TUM) or without (KITTI's lines).
+struct TrajectoryFile {
+  std::string path;
+  bool stamped = true;
+  urban_nav_core::Trajectory trajectory;       ///< if stamped
+  std::vector<urban_nav_core::Pose> poses;     ///< always
+};
+/// By the extension: .tum; .kitti and .txt with 12 columns; .txt with 8 columns is TUM's. UserError with file and line.
+TrajectoryFile readTrajectory(const std::string& path);
+
+struct SpanError {
+  urban_nav_core::Span span;
+  urban_nav_core::RelativeError error;
+};
+
+/// What an estimate is worth against the truth.
+struct Evaluation {
+  std::string truth;                           ///< where the truth came from
+  std::size_t frames_truth = 0, frames_estimate = 0;
+  urban_nav_core::Matched matched;
+  std::optional<urban_nav_core::TimeOffset> offset;   ///< that was applied, or would help where few stamps match
+  bool offset_applied = false;
+  double length_m = 0.0;                       ///< of the true path
+  urban_nav_core::ErrorStatistics first, se3, sim3;   ///< absolute errors by alignment
+  std::optional<urban_nav_core::RelativeError> ten_frames;
+  std::vector<SpanError> spans;                ///< those asked for that the way is long enough for
+  std::optional<urban_nav_core::NeesSummary> nees;
+  std::vector<urban_nav_core::Matrix6d> covariances;  ///< by matched pose; empty where there are none
+};
+
+struct EvaluationOptions {
+  std::vector<urban_nav_core::Span> spans;
+  bool find_offset = false;
+};
+
+/// DataError where no two poses belong together; where that may be the stamps, it names the offset that would help.
+/// `covariances`: of T_first_estimate, found by stamp (or by line where there are no stamps); may be empty.
+Evaluation evaluate(const TrajectoryFile& truth, const TrajectoryFile& estimate, const std::vector<urban_nav_core::CovarianceRow>& covariances, const EvaluationOptions& options);
+
+/// The keys of CONTRACT.md, and a few more, into an object.
+void addToJson(const Evaluation& evaluation, Json& json);
+
+/// "10f", "100m" and so on; UserError for anything else.
+std::vector<urban_nav_core::Span> parseSpans(const std::vector<std::string>& words);
+std::string printSpan(const urban_nav_core::Span& span);
+
+}  // namespace urban_nav
