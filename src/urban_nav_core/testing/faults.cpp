@@ -68,6 +68,11 @@ void corruptRows(GreyImage& image, double share, std::uint64_t seed) {
 
 }  // namespace
 
+bool Fault::isActive(StampNs since_first) const {
+  const StampNs start = std::llround(start_s * 1e9);
+  return since_first >= start && since_first < start + std::llround(duration_s * 1e9);
+}
+
 const char* toString(FaultKind kind) { return entry(kind).name; }
 
 Fault parseFault(const std::string& text) {
@@ -151,11 +156,11 @@ std::optional<StereoFrame> FaultFilter::apply(const StereoFrame& frame) {
     first_stamp_ = frame.stamp;
     last_good_ = frame;  // a fault from the first frame on has none before it
   }
-  const double t = secondsBetween(*first_stamp_, frame.stamp);
+  const StampNs since_first = frame.stamp - *first_stamp_;
   StereoFrame spoilt = frame;
   bool arrives = true, good = true;
   for (const Fault& fault : faults_) {
-    if (!fault.isActive(t)) continue;
+    if (!fault.isActive(since_first)) continue;
     good = false;
     arrives = spoil(fault, frame, spoilt) && arrives;
   }

@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <iostream>
-#include <opencv2/imgcodecs.hpp>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "urban_nav_core/io/atomic_file.hpp"
-#include "urban_nav_core/io/kitti.hpp"
 #include "urban_nav_core/io/numbers.hpp"
-#include "urban_nav_core/testing/faults.hpp"
-#include "urban_nav_core/testing/rendered_sequence.hpp"
+#include "urban_nav_core/testing/sequence_folder.hpp"
 #include "urban_nav_core/testing/textured_room.hpp"
 #include "urban_nav_core/testing/textured_street.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -21,7 +15,6 @@ namespace {
 
 using namespace urban_nav_core;
 using namespace urban_nav_core::testing;
-namespace fs = std::filesystem;
 
 constexpr const char* kHelp = R"(usage: render_sequence DIR [OPTION VALUE]...
 
@@ -104,8 +97,6 @@ Request readArguments(const std::vector<std::string>& arguments) {
     ++i;
   }
   if (request.folder.empty()) throw UserError("", "no folder named", "render_sequence DIR (see --help)");
-  if (fs::exists(request.folder) && !fs::is_empty(request.folder))
-    throw UserError(request.folder, "is not empty", "a new or empty folder");
   return request;
 }
 
@@ -133,50 +124,14 @@ RenderedSequence makeSequence(const Request& request) {
   return RenderedSequence(texturedStreet(street, request.seed), motion, options);
 }
 
-void writeImage(const fs::path& folder, int index, const GreyImage& image) {
-  if (image.pixels.empty()) return;  // a missing image is a missing file
-  std::string name = std::to_string(index);
-  name.insert(0, 6 - std::min<std::size_t>(6, name.size()), '0');
-  PartialFile file((folder / (name + ".png")).string());
-  const cv::Mat pixels(image.height, image.width, CV_8U, const_cast<std::uint8_t*>(image.pixels.data()));
-  if (!cv::imwrite(file.path(), pixels)) throw std::runtime_error("cannot write " + file.path());
-  file.commit();
-}
-
-std::string calibration(const RenderCamera& camera) {
-  const auto line = [&camera](const char* name, double shift) {
-    const double P[12] = {camera.fx, 0, camera.cx, shift, 0, camera.fy, camera.cy, 0, 0, 0, 1, 0};
-    std::string text = name;
-    for (const double value : P) text += " " + printNumber(value);
-    return text + "\n";
-  };
-  return line("P0:", 0.0) + line("P1:", -camera.fx * camera.baseline);
-}
-
 void render(const Request& request) {
   RenderedSequence sequence = makeSequence(request);
-  const fs::path folder = request.folder;
-  fs::create_directories(folder / "image_0");
-  fs::create_directories(folder / "image_1");
-  writeAtomically((folder / "calib.txt").string(), calibration(sequence.options().camera));
-  FaultFilter filter(request.faults, request.seed);
-  std::string times;
-  std::vector<Pose> poses;
-  const Pose T_first_world = sequence.T_world_camera(0).inverse();
   const int frames = std::max(1, static_cast<int>(std::lround(request.seconds * request.rate)));
-  for (int i = 0; i < frames; ++i) {
-    const std::optional<StereoFrame> frame = filter.apply(sequence.frame(i));
-    if (i % 20 == 0) std::cerr << "\rframe " << i << " of " << frames << std::flush;
-    if (!frame) continue;
-    const int index = static_cast<int>(poses.size());
-    writeImage(folder / "image_0", index, frame->left);
-    writeImage(folder / "image_1", index, frame->right);
-    times += printStamp(frame->stamp) + "\n";
-    poses.push_back(T_first_world * sequence.T_world_camera(i));
-  }
-  std::cerr << "\r" << poses.size() << " frames in " << request.folder << "        \n";
-  writeAtomically((folder / "times.txt").string(), times);
-  writeKitti((folder / "poses.txt").string(), poses);
+  const int written =
+      writeSequenceFolder(sequence, frames, FaultFilter(request.faults, request.seed), request.folder, [&](int i) {
+        if (i % 20 == 0) std::cerr << "\rframe " << i << " of " << frames << std::flush;
+      });
+  std::cerr << "\r" << written << " frames in " << request.folder << "        \n";
 }
 
 void printHelp() {

@@ -35,7 +35,7 @@ struct Fault {
   double duration_s = 1.0;
   std::optional<double> value;  ///< what it means, and the default: FaultKind
 
-  bool isActive(double t_s) const { return t_s >= start_s && t_s < start_s + duration_s; }
+  bool isActive(StampNs since_first) const;
 };
 
 /// "KIND:START_S:DURATION_S[:VALUE]", "black:2:1", "drop:0:100:0.3". Throws UserError that says what is allowed.

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_core/testing/sequence_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "urban_nav_core/io/kitti.hpp"
+#include "urban_nav_core/testing/textured_room.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav_core::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+class SequenceFolder : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "sequence_folder_XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    root_ = name;
+  }
+  void TearDown() override { fs::remove_all(root_); }
+
+  static RenderedSequence sequence() {
+    SequenceOptions options;
+    options.camera = {100.0, 100.0, 63.5, 47.5, 128, 96, 0.12, 0.5};
+    options.first_stamp = 0;
+    return RenderedSequence(texturedRoom(), namedMotion("loop", "room", 1), options);
+  }
+
+  fs::path root_;
+};
+
+TEST_F(SequenceFolder, HoldsImagesTimesAndTruth) {
+  RenderedSequence rendered = sequence();
+  const fs::path folder = root_ / "new";
+  ASSERT_EQ(writeSequenceFolder(rendered, 4, FaultFilter({}, 1), folder.string()), 4);
+  for (int i = 0; i < 4; ++i) {
+    const StereoFrame& frame = rendered.frame(i);
+    const std::string name = "00000" + std::to_string(i) + ".png";
+    const cv::Mat left = cv::imread((folder / "image_0" / name).string(), cv::IMREAD_UNCHANGED);
+    const cv::Mat right = cv::imread((folder / "image_1" / name).string(), cv::IMREAD_UNCHANGED);
+    ASSERT_EQ(left.type(), CV_8U);
+    EXPECT_EQ(std::vector<std::uint8_t>(left.datastart, left.dataend), frame.left.pixels);
+    EXPECT_EQ(std::vector<std::uint8_t>(right.datastart, right.dataend), frame.right.pixels);
+  }
+  EXPECT_EQ(readTimes((folder / "times.txt").string()),
+            (std::vector<StampNs>{0, 50'000'000, 100'000'000, 150'000'000}));
+  const std::vector<Pose> poses = readKitti((folder / "poses.txt").string());
+  ASSERT_EQ(poses.size(), 4U);
+  EXPECT_TRUE(isApprox(poses[0], Pose(), 1e-12));
+  EXPECT_TRUE(isApprox(poses[3], rendered.T_world_camera(0).inverse() * rendered.T_world_camera(3), 1e-12));
+}
+
+TEST_F(SequenceFolder, DroppedFramesAreNotCountedAndMissingImagesAreMissing) {
+  RenderedSequence rendered = sequence();
+  const int written =
+      writeSequenceFolder(rendered, 6, FaultFilter({parseFault("drop:0.05:0.1"), parseFault("noright:0.2:0.05")}, 1),
+                          (root_ / "f").string());
+  EXPECT_EQ(written, 4);
+  EXPECT_EQ(readTimes((root_ / "f" / "times.txt").string()),
+            (std::vector<StampNs>{0, 150'000'000, 200'000'000, 250'000'000}));
+  EXPECT_TRUE(fs::exists(root_ / "f" / "image_0" / "000002.png"));
+  EXPECT_FALSE(fs::exists(root_ / "f" / "image_1" / "000002.png"));
+  EXPECT_FALSE(fs::exists(root_ / "f" / "image_0" / "000004.png"));
+}
+
+TEST_F(SequenceFolder, AFolderWithSomethingInItIsLeftAlone) {
+  RenderedSequence rendered = sequence();
+  fs::create_directories(root_ / "full" / "mine");
+  EXPECT_THROW(writeSequenceFolder(rendered, 1, FaultFilter({}, 1), (root_ / "full").string()), UserError);
+  EXPECT_FALSE(fs::exists(root_ / "full" / "calib.txt"));
+}
+
+}  // namespace
+}  // namespace urban_nav_core::testing
