@@ -13,6 +13,8 @@
 
 #include "urban_nav_core/io/kitti.hpp"
 #include "urban_nav_core/parameters/sources.hpp"
+#include "urban_nav_core/testing/textured_room.hpp"
+#include "urban_nav_core/testing/textured_street.hpp"
 
 namespace swf_vo::bench {
 
@@ -62,6 +64,36 @@ Sequence kittiFolder(const std::string& folder, std::size_t frames) {
   };
   const cv::Mat first = cv::imread(path(0, 0), cv::IMREAD_GRAYSCALE);
   sequence.camera = readCamera(folder + "/calib.txt", first.cols, first.rows);
+  return sequence;
+}
+
+Sequence rendered(const RenderedOptions& options) {
+  using namespace urban_nav_core::testing;
+  SequenceOptions how;
+  how.camera = options.camera;
+  how.rate = options.rate;
+  how.noise = options.noise;
+  how.seed = options.seed;
+  const Scene scene = options.scene == "street" ? texturedStreet({}, options.seed) : texturedRoom({}, options.seed);
+  const auto source = std::make_shared<RenderedSequence>(scene, namedMotion(options.motion, options.scene, options.seed), how);
+  Sequence sequence;
+  sequence.name = options.scene + ", " + options.motion + ", seed " + std::to_string(options.seed);
+  const auto& c = options.camera;
+  sequence.camera = {{c.fx, c.fy, c.cx, c.cy, c.width, c.height}, c.baseline};
+  const Pose first = source->T_world_camera(0);
+  for (std::size_t i = 0; i < options.frames; ++i) {
+    sequence.stamps.push_back(source->stamp(static_cast<int>(i)));
+    sequence.truth.push_back(first.inverse() * source->T_world_camera(static_cast<int>(i)));
+  }
+  sequence.read = [source](std::size_t frame, cv::Mat& left, cv::Mat& right) {
+    const StereoFrame& drawn = source->frame(static_cast<int>(frame));
+    const auto copy = [](const GreyImage& image, cv::Mat& to) {
+      to.create(image.height, image.width, CV_8UC1);
+      std::copy(image.pixels.begin(), image.pixels.end(), to.data);
+    };
+    copy(drawn.left, left);
+    copy(drawn.right, right);
+  };
   return sequence;
 }
 

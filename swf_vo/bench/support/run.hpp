@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "swf_vo/swf_vo.hpp"
+#include "urban_nav_core/testing/rendered_sequence.hpp"
 
 namespace swf_vo::bench {
 
@@ -24,6 +25,17 @@ Sequence kittiFolder(const std::string& folder, std::size_t frames = 1000000);
 
 /// The folder of a real sequence below URBAN_NAV_DATA/stereo; empty (and said on stderr) where it is absent.
 std::string dataFolder(const std::string& name);
+
+/// A scene of the renderer ("room" or "street", by its seed) along a motion of that name, at 20 Hz, 512x384 unless `camera` says otherwise.
+struct RenderedOptions {
+  std::string scene = "room", motion = "wander";
+  std::uint32_t seed = 1;
+  std::size_t frames = 201;
+  double rate = 20.0;   ///< Hz
+  double noise = 1.0;   ///< grey levels
+  urban_nav_core::testing::RenderCamera camera;
+};
+Sequence rendered(const RenderedOptions& options);
 
 /// The defaults, changed by settings such as "swf_vo.window=25". Throws UserError as the command does.
 Parameters parametersFrom(const std::vector<std::string>& settings);
