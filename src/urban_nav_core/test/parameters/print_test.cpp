@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_core/parameters/print.hpp"
+
+#include "io/reader_check.hpp"
+#include "parameters/example_table.hpp"
+
+namespace urban_nav_core {
+namespace {
+
+const std::vector<RowInfo>& rows() { return exampleTable().rows(); }
+
+TEST(Print, YamlReadsBackAsWhatWasPrinted) {
+  const std::string text = printYaml("stage", rows());
+  const auto settings = resolve("stage", rows(), parseParameters(text, "stage.yaml"));
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    EXPECT_EQ(printValue(settings[i].value), printValue(rows()[i].standard)) << settings[i].name;
+    EXPECT_EQ(settings[i].origin.rfind("stage.yaml:", 0), 0U) << "every row is in the file";
+  }
+}
+
+TEST(Print, YamlWithSettingsReadsBackToo) {
+  const std::vector<Assignment> given = {parseSetting("stage.window=25"), parseSetting("stage.name=odd: #\"text\" \\ here"), parseSetting("stage.noise=0.1")};
+  const auto settings = resolve("stage", rows(), given);
+  const auto back = resolve("stage", rows(), parseParameters(printYaml("stage", rows(), settings), "stage.yaml"));
+  for (std::size_t i = 0; i < settings.size(); ++i) EXPECT_EQ(printValue(back[i].value), printValue(settings[i].value));
+}
+
+TEST(Print, YamlSaysWhatIsAllowed) {
+  const std::string text = printYaml("stage", rows());
+  EXPECT_EQ(text.rfind("stage:\n  # Poses kept. Allowed: 1...100000 (frames). [section 2.2]\n  window: 10\n", 0), 0U) << text;
+  EXPECT_EQ(printYaml("", {rows()[0]}).rfind("# Poses kept.", 0), 0U);
+}
+
+TEST(Print, LongSentencesAreWrapped) {
+  RowInfo row = rows()[0];
+  row.sentence.clear();
+  for (int i = 0; i < 60; ++i) row.sentence += "word ";
+  const std::string text = printYaml("stage", {row});
+  std::size_t begin = 0;
+  while (begin < text.size()) {
+    const std::size_t end = text.find('\n', begin);
+    EXPECT_LE(end - begin, 110U);
+    begin = end + 1;
+  }
+}
+
+TEST(Print, MarkdownHasARowAParameter) {
+  const std::string text = printMarkdown("stage", rows());
+  EXPECT_NE(text.find("| `stage.window` | `10` | frames | 1...100000 | Poses kept. | section 2.2 |\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("pixel \\| of any"), std::string::npos);
+}
+
+TEST(Print, MarkdownGoesBetweenItsMarkers) {
+  const std::string readme = "# Title\n<!-- parameters: stage -->\nold\n<!-- end -->\nrest\n";
+  const std::string text = insertMarkdown(readme, "README.md", "stage", rows());
+  EXPECT_EQ(text, "# Title\n<!-- parameters: stage -->\n" + printMarkdown("stage", rows()) + "<!-- end -->\nrest\n");
+  EXPECT_EQ(insertMarkdown(text, "README.md", "stage", rows()), text);
+  EXPECT_EQ(errorOf([] { insertMarkdown("# Title\n", "README.md", "stage", rows()); }),
+            "README.md: no markers for the table of parameters: allowed `<!-- parameters: stage -->` ... `<!-- end -->`");
+}
+
+TEST(Print, HelpShowsValuesAndOrigins) {
+  const auto settings = resolve("stage", rows(), {parseSetting("stage.window=25")});
+  const std::string text = printHelp("stage", rows(), settings);
+  EXPECT_NE(text.find("  stage.window = 25  (--set stage.window=25)\n      Poses kept."), std::string::npos) << text;
+  EXPECT_NE(text.find("  stage.forget = schur  (default)\n"), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace urban_nav_core
