@@ -34,7 +34,8 @@ if(URBAN_NAV_SANITIZE)
   # The reduced set: the checks left out take two thirds of the compile time of an Eigen file.
   set(urban_nav_sanitizers -fsanitize=address,undefined -fno-sanitize=null,alignment,object-size,pointer-overflow,vptr
       -fno-sanitize-recover=all)
-  list(APPEND urban_nav_compile_options ${urban_nav_sanitizers} -O1 -g1 -UNDEBUG -fno-omit-frame-pointer)
+  list(APPEND urban_nav_compile_options ${urban_nav_sanitizers} -O1 -g1 -UNDEBUG -fno-omit-frame-pointer
+       -Wno-maybe-uninitialized)  # which GCC sees in Eigen where the sanitizers are
   list(APPEND urban_nav_link_options -fsanitize=address,undefined)
 endif()
 
