@@ -29,6 +29,7 @@ constexpr double first_radius = 3.0;              // of the search radius, while
 // The window follows what the prediction was off by in the frame before (px, and times the 90 % quantile), up to the search radius.
 constexpr double least_radius = 8.0, radius_per_error = 3.0, radius_offset = 4.0;
 constexpr double coarse_slack_px = 1.0, fine_slack_px = 0.1;
+constexpr double least_two_eyed = 0.3;            // share of the inliers
 constexpr int most_missed = 3, most_missed_young = 1;  // frames
 constexpr int disagreements_refute = 2, disagreements_refute_young = 1, young = 3;  // frames
 
@@ -177,13 +178,25 @@ class FrontEnd::Implementation {
     options.consensus = !coarse.found;
     const Localisation fine = localiser_.locate(starts_, options, matches_);
     result_.candidates = fine.candidates;
-    result_.localised = fine.found;
+    result_.localised = fine.found && !isOneEyed(fine.inliers);
     radius_ = first_radius * parameters_.search_radius;
-    if (!fine.found) return;
+    if (!result_.localised) {
+      for (Match& match : matches_) match.inlier = false;
+      return;
+    }
     learnRadius(T_turned_odom);
     result_.T_odom_camera = fine.T_camera_odom.inverse();
     result_.inlier_share = static_cast<double>(fine.inliers) / fine.candidates;
     result_.reprojection_px = fine.reprojection_px;
+  }
+
+  /// Do most matches live in one image although the other has something to show? Then the two images are no pair (swapped, or of
+  /// different times), and a motion that explains one of them is wrong. A dark image is another matter: one eye is enough.
+  bool isOneEyed(int inliers) const {
+    int both = 0;
+    for (const Match& match : matches_) both += match.inlier && match.left.found && match.right.found ? 1 : 0;
+    const int enough = static_cast<int>(matches_.size());
+    return both < least_two_eyed * inliers && corners_.count(Side::Left) > enough && corners_.count(Side::Right) > enough;
   }
 
   /// What this frame says of a landmark's future.

@@ -14,7 +14,7 @@ using urban_nav_core::StereoCamera;
 
 namespace {
 
-constexpr double largest_scale = 1.7, smallest_scale = 0.55;
+constexpr double largest_scale = 1.5, smallest_scale = 0.6;
 constexpr double same_warp = 0.02;  // of an entry: 0.1 px at the border of the window
 constexpr double row_gate = 9.0;    // chi-square of the difference of the rows, one degree of freedom
 constexpr double row_slack_px = 0.3;  // what rectification may be wrong by

@@ -26,7 +26,9 @@ constexpr double largest_disparity = 0.16;    // of the image's width: nearer th
 constexpr int lowest_disparity = -2;          // px of the level: far points, with the error of rectification
 constexpr double least_disparity_px = -1.0;   // after refinement, level 0
 constexpr float level_preference = 0.3F;      // a feature is located to pixels of its own level
-constexpr double slope_prior = 0.2;           // a road seen from a car has 0.3, walls 0.1
+// Disparity of a plane slopes by baseline / (its distance from the camera): planes at 2 m and more are provided for, a road seen from
+// a car has 0.3. Most corners lie on things whose depth changes less than by their width.
+constexpr double nearest_plane = 2.0, steepest = 0.25, usual_slant = 0.7;
 constexpr double same_row = 1.0;              // px of the level between the rows of both images
 constexpr double least_correlation_across = 0.85;
 constexpr int attempts_per_feature = 3, attempts_at_least = 20;  // bounds the time where nothing can be matched
@@ -73,7 +75,10 @@ bool Replenisher::start(const Candidate& candidate, FrameId frame, const Corners
   if (!disparity) return false;
   Track* track = tracks.start();
   if (track == nullptr) return false;
-  const SlopedAlignment found = urban_nav_core::alignAcross(right, *source, {candidate.u - *disparity, candidate.v}, slope_prior, track->in_right);
+  urban_nav_core::SlopePrior prior;
+  prior.wide_sigma = std::min(steepest, camera_.baseline / nearest_plane);
+  prior.usual_sigma = std::min(prior.wide_sigma, usual_slant * std::max(1.0, (*disparity + 0.5) / Pyramid::scale(candidate.level)) / camera_.left.fx);
+  const SlopedAlignment found = urban_nav_core::alignAcross(right, *source, {candidate.u - *disparity, candidate.v}, prior, track->in_right);
   const double size = 1.0 / Pyramid::scale(candidate.level);
   Match match;
   match.left.found = match.right.found = true;

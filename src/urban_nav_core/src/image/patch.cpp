@@ -15,10 +15,13 @@ using cv::v_float32x4;
 
 constexpr double window_sigma = 3.0;      // px
 constexpr int phases = 256;               // of the spline's table: 1/512 px at most beside the exact phase
+constexpr double own_blur = 1.0 / 3.0 + 0.25;  // px^2, variance of the spline and of a usual lens (0.5 px), along each axis
+constexpr double largest_blur_tap = 0.33;       // a scale of 1.46
 constexpr double smoothed_noise = 0.24;   // variance left of white noise by the spline, mean over the phases (0.25 at 0, 0.21 at 1/2)
 constexpr double min_scale = 0.4, max_scale = 2.5;
 constexpr int max_iterations = 12;
 constexpr double settled_step = 0.003;    // px
+constexpr double insistence = 6.0;        // chi-square by which pixels must speak for an unusual slope
 
 std::array<float, 4> spline(double f) {
   const double g = 1.0 - f;
@@ -65,7 +68,7 @@ double dot(const PatchGrid& a, const PatchGrid& b) {
 
 /// May the window, with the spline's margin, stand at this position?
 bool fits(const ImageView& image, double x, double y) {
-  return x >= patch_radius + 1 && y >= patch_radius + 1 && x < image.width - patch_radius - 2 && y < image.height - patch_radius - 2;
+  return x >= patch_radius + 2 && y >= patch_radius + 2 && x < image.width - patch_radius - 3 && y < image.height - patch_radius - 3;
 }
 
 struct Row16 {
@@ -83,44 +86,53 @@ Row16 loadRow(const std::uint8_t* pixels) {
   return row;
 }
 
-/// The window at a sub-pixel position, read through the spline. Needs fits().
-void readWindow(const ImageView& image, double x, double y, PatchGrid& out) {
-  const int u = static_cast<int>(x), v = static_cast<int>(y);
-  const std::array<float, 4> wx = spline(x - u), wy = spline(y - v);
-  const int left = u - patch_radius - 1;
-  const int readable = std::min(16, image.width - left);
-  alignas(16) std::uint8_t edge[16] = {};
-  const auto row = [&](int i) {
-    const std::uint8_t* pixels = image.row(v - patch_radius - 1 + i) + left;
-    if (readable == 16) return loadRow(pixels);
-    std::memcpy(edge, pixels, static_cast<std::size_t>(readable));
-    return loadRow(edge);
-  };
-  alignas(16) float column[patch_size][16];
-  Row16 r0 = row(0), r1 = row(1), r2 = row(2);
-  const v_float32x4 y0 = cv::v_setall_f32(wy[0]), y1 = cv::v_setall_f32(wy[1]), y2 = cv::v_setall_f32(wy[2]), y3 = cv::v_setall_f32(wy[3]);
-  for (int i = 0; i < patch_size; ++i) {
-    const Row16 r3 = row(i + 3);
-    for (int k = 0; k < 4; ++k)
-      cv::v_store_aligned(&column[i][4 * k], y0 * r0.part[k] + y1 * r1.part[k] + (y2 * r2.part[k] + y3 * r3.part[k]));
-    r0 = r1;
-    r1 = r2;
-    r2 = r3;
+constexpr int taps = 6;
+
+/// The spline's weights at a phase, spread by (blur, 1 - 2 blur, blur).
+std::array<float, taps> blurredSpline(double f, double blur) {
+  const std::array<float, 4> w = spline(f);
+  const float side = static_cast<float>(blur), middle = static_cast<float>(1.0 - 2.0 * blur);
+  std::array<float, taps> made{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    made[i] += side * w[i];
+    made[i + 1] += middle * w[i];
+    made[i + 2] += side * w[i];
   }
-  const v_float32x4 x0 = cv::v_setall_f32(wx[0]), x1 = cv::v_setall_f32(wx[1]), x2 = cv::v_setall_f32(wx[2]), x3 = cv::v_setall_f32(wx[3]);
+  return made;
+}
+
+/// The window at a sub-pixel position, read through the spline and as blurred as the template. Needs fits().
+void readWindow(const ImageView& image, double x, double y, double blur, PatchGrid& out) {
+  const int u = static_cast<int>(x), v = static_cast<int>(y);
+  const std::array<float, taps> wx = blurredSpline(x - u, blur), wy = blurredSpline(y - v, blur);
+  const int left = u - patch_radius - 2;
+  alignas(16) float column[patch_size][20];  // what is beyond 16 meets the padding alone
+  v_float32x4 weight[taps];
+  for (std::size_t k = 0; k < taps; ++k) weight[k] = cv::v_setall_f32(wy[k]);
+  Row16 rows[patch_size + taps - 1];
+  for (int i = 0; i < patch_size + taps - 1; ++i) rows[i] = loadRow(image.row(v - patch_radius - 2 + i) + left);
+  for (int i = 0; i < patch_size; ++i) {
+    cv::v_store_aligned(&column[i][16], cv::v_setzero_f32());
+    for (int k = 0; k < 4; ++k)
+      cv::v_store_aligned(&column[i][4 * k],
+                          weight[0] * rows[i].part[k] + weight[1] * rows[i + 1].part[k] + (weight[2] * rows[i + 2].part[k] + weight[3] * rows[i + 3].part[k]) +
+                              (weight[4] * rows[i + 4].part[k] + weight[5] * rows[i + 5].part[k]));
+  }
+  for (std::size_t k = 0; k < taps; ++k) weight[k] = cv::v_setall_f32(wx[k]);
   for (int i = 0; i < patch_size; ++i)
     for (int k = 0; k < 12; k += 4) {
       const float* c = &column[i][k];
-      const v_float32x4 value = x0 * cv::v_load(c) + x1 * cv::v_load(c + 1) + (x2 * cv::v_load(c + 2) + x3 * cv::v_load(c + 3));
+      const v_float32x4 value = weight[0] * cv::v_load(c) + weight[1] * cv::v_load(c + 1) + (weight[2] * cv::v_load(c + 2) + weight[3] * cv::v_load(c + 3)) +
+                                (weight[4] * cv::v_load(c + 4) + weight[5] * cv::v_load(c + 5));
       cv::v_store(&out[static_cast<std::size_t>(i * patch_stride + k)], value);
     }
 }
 
-constexpr int wide_size = patch_size + 2, wide_stride = 16;
+constexpr int wide_size = patch_size + 4, wide_stride = 16;  // one for the gradient, one for the blur
 using WideGrid = std::array<float, wide_size * wide_stride>;
 
-/// The source warped by the inverse of A, one pixel wider than the window on each side.
-void warpWide(const PatchSource& source, const Eigen::Matrix2d& source_from_view, WideGrid& out) {
+/// The source warped by the inverse of A, `margin` (1 or 2) pixels wider than the window on each side.
+void warpWide(const PatchSource& source, const Eigen::Matrix2d& source_from_view, int margin, WideGrid& out) {
   constexpr int stride = PatchSource::stride;
   alignas(16) std::array<float, PatchSource::size * stride> pixels;
   for (std::size_t i = 0; i < pixels.size(); i += 4)
@@ -129,9 +141,9 @@ void warpWide(const PatchSource& source, const Eigen::Matrix2d& source_from_view
   const float ax = static_cast<float>(source_from_view(0, 0)), ay = static_cast<float>(source_from_view(1, 0));
   const float bx = static_cast<float>(source_from_view(0, 1)), by = static_cast<float>(source_from_view(1, 1));
   constexpr float low = 1.0F, high = PatchSource::size - 2.01F;
-  for (int j = 0; j < wide_size; ++j)
-    for (int i = 0; i < wide_size; ++i) {
-      const float du = static_cast<float>(i - patch_radius - 1), dv = static_cast<float>(j - patch_radius - 1);
+  for (int j = 2 - margin; j < wide_size - 2 + margin; ++j)
+    for (int i = 2 - margin; i < wide_size - 2 + margin; ++i) {
+      const float du = static_cast<float>(i - patch_radius - 2), dv = static_cast<float>(j - patch_radius - 2);
       const float x = std::clamp(PatchSource::radius + ax * du + bx * dv, low, high);
       const float y = std::clamp(PatchSource::radius + ay * du + by * dv, low, high);
       const int u = static_cast<int>(x), v = static_cast<int>(y);
@@ -142,6 +154,25 @@ void warpWide(const PatchSource& source, const Eigen::Matrix2d& source_from_view
                                  (cv::v_setall_f32(wy[2]) * cv::v_load(p + 2 * stride) + cv::v_setall_f32(wy[3]) * cv::v_load(p + 3 * stride));
       out[static_cast<std::size_t>(j * wide_stride + i)] = cv::v_reduce_sum(column * cv::v_load(wx.data()));
     }
+}
+
+/// Spreads by (blur, 1 - 2 blur, blur) in both directions, the outermost pixels excepted.
+void blurWide(double blur, WideGrid& grid) {
+  const float side = static_cast<float>(blur), middle = static_cast<float>(1.0 - 2.0 * blur);
+  for (const std::size_t to : {std::size_t{1}, static_cast<std::size_t>(wide_stride)}) {
+    const WideGrid before = grid;
+    for (std::size_t j = 1; j + 1 < wide_size; ++j)
+      for (std::size_t i = 1; i + 1 < wide_size; ++i) {
+        const std::size_t at = j * wide_stride + i;
+        grid[at] = side * (before[at - to] + before[at + to]) + middle * before[at];
+      }
+    if (to != 1) break;
+    for (const std::size_t j : {std::size_t{0}, static_cast<std::size_t>(wide_size - 1)})
+      for (std::size_t i = 1; i + 1 < wide_size; ++i) {
+        const std::size_t at = j * wide_stride + i;
+        grid[at] = side * (before[at - 1] + before[at + 1]) + middle * before[at];
+      }
+  }
 }
 
 /// Adds (1 4 1)/6 along a row of 12 and its surroundings: 16 columns, the first two left of the filter.
@@ -195,7 +226,7 @@ void split(const WideGrid& wide, PatchTemplate& made, Gradients& gradients) {
   const v_float32x4 half = cv::v_setall_f32(0.5F);
   for (int j = 0; j < patch_size; ++j)
     for (int i = 0; i < 12; i += 4) {
-      const float* p = &wide[static_cast<std::size_t>((j + 1) * wide_stride + i + 1)];
+      const float* p = &wide[static_cast<std::size_t>((j + 2) * wide_stride + i + 2)];
       const std::size_t at = static_cast<std::size_t>(j * patch_stride + i);
       cv::v_store(&made.value[at], cv::v_load(p));
       cv::v_store(&gradients.x[at], half * (cv::v_load(p + 1) - cv::v_load(p - 1)));
@@ -207,7 +238,12 @@ bool makeTemplate(const PatchSource& source, const Eigen::Matrix2d& A, PatchTemp
   const double scale2 = std::abs(A.determinant());
   if (!(scale2 > min_scale * min_scale && scale2 < max_scale * max_scale)) return false;
   WideGrid wide{};
-  warpWide(source, A.inverse(), wide);
+  // A template seen larger is more blurred than the view, one seen smaller less: at a corner, blur moves the place.
+  const double blur_tap = std::clamp(0.5 * own_blur * std::abs(scale2 - 1.0), 0.0, largest_blur_tap);
+  const bool smaller = scale2 < 1.0 && blur_tap > 0.01;
+  warpWide(source, A.inverse(), smaller ? 2 : 1, wide);
+  if (smaller) blurWide(blur_tap, wide);
+  made.view_blur = scale2 > 1.0 ? blur_tap : 0.0;
   split(wide, made, gradients);
   made.A = A;
   const Window& w = window();
@@ -261,7 +297,9 @@ void judge(const Reading& reading, const PatchTemplate& patch, Alignment& alignm
   alignment.correlation = g * std::sqrt(patch.energy / std::max(reading.variance, 1e-9));
   // 4 of about 57 / 2 independent weighted values were spent on position, offset and gain
   const double residual = std::max(reading.variance - explained, 0.0) * 1.15;
-  const double noise2 = residual / (smoothed_noise * (1.0 + g * g));
+  const double b = patch.view_blur, left = 1.0 - 4.0 * b + 6.0 * b * b;  // variance left by the extra blur along an axis, if the spline were none
+  const double view_noise = smoothed_noise * std::pow(left, 0.5);        // being smooth already, it loses about half as much
+  const double noise2 = residual / (view_noise + g * g * smoothed_noise);
   alignment.noise = std::sqrt(noise2);
   alignment.covariance = patch.unit_covariance * (std::max(noise2, 1.0 / 12.0) / (g * g));  // no better than rounding to grey levels
 }
@@ -269,7 +307,7 @@ void judge(const Reading& reading, const PatchTemplate& patch, Alignment& alignm
 }  // namespace
 
 std::optional<PatchSource> cutSource(const ImageView& image, int u, int v) {
-  constexpr int margin = patch_radius + 2;
+  constexpr int margin = patch_radius + 3;
   if (image.empty() || u < margin || v < margin || u >= image.width - margin || v >= image.height - margin) return std::nullopt;
   PatchSource source;
   for (int j = 0; j < PatchSource::size; ++j) {
@@ -291,7 +329,7 @@ Alignment alignPatch(const ImageView& image, const PatchTemplate& patch, const E
   PatchGrid pixels;
   for (int i = 0; i < max_iterations; ++i) {
     if (!start.allFinite() || !fits(image, alignment.position.x(), alignment.position.y())) return alignment;
-    readWindow(image, alignment.position.x(), alignment.position.y(), pixels);
+    readWindow(image, alignment.position.x(), alignment.position.y(), patch.view_blur, pixels);
     const Reading reading = measure(pixels, patch);
     if (!(reading.gain > 0.05)) return alignment;
     Eigen::Vector2d step = patch.inverse_hessian * reading.along / reading.gain;
@@ -309,7 +347,31 @@ Alignment alignPatch(const ImageView& image, const PatchTemplate& patch, const E
   return alignment;
 }
 
-SlopedAlignment alignAcross(const ImageView& image, const PatchSource& source, const Eigen::Vector2d& start, double prior_sigma,
+namespace {
+
+/// One step for (shift x, shift y, slope u, slope v) under a Gaussian prior of the slopes.
+struct SlopeStep {
+  Eigen::Matrix4d inverse;
+  Eigen::Vector4d step;
+  double cost = 0.0;  // chi-square of residual and prior, up to a constant
+};
+
+SlopeStep solveSlopes(Eigen::Matrix4d H, Eigen::Vector4d b, const Eigen::Vector2d& slopes, double noise2, double sigma) {
+  const Eigen::Matrix4d without = H;
+  const Eigen::Vector4d b_without = b;
+  const double weight = noise2 / (sigma * sigma);
+  H.block<2, 2>(2, 2) += weight * Eigen::Matrix2d::Identity();
+  b.tail<2>() -= weight * slopes;
+  SlopeStep made;
+  made.inverse = H.inverse();
+  made.step = made.inverse * b;
+  made.cost = (made.step.dot(without * made.step) - 2.0 * b_without.dot(made.step) + weight * (slopes + made.step.tail<2>()).squaredNorm()) / noise2;
+  return made;
+}
+
+}  // namespace
+
+SlopedAlignment alignAcross(const ImageView& image, const PatchSource& source, const Eigen::Vector2d& start, const SlopePrior& prior,
                             PatchTemplate& made) {
   SlopedAlignment result;
   Eigen::Vector2d position = start;
@@ -327,7 +389,7 @@ SlopedAlignment alignAcross(const ImageView& image, const PatchSource& source, c
 
     PatchGrid pixels;
     if (!fits(image, position.x(), position.y())) return result;
-    readWindow(image, position.x(), position.y(), pixels);
+    readWindow(image, position.x(), position.y(), made.view_blur, pixels);
     const Reading reading = measure(pixels, made);
     // unknowns: shift x, shift y, slope along u, slope along v; J blind to offset and gain, as in alignPatch
     std::array<PatchGrid, 4> J, blind;
@@ -350,15 +412,14 @@ SlopedAlignment alignAcross(const ImageView& image, const PatchSource& source, c
     // per weighted pixel; the spline's correlation between neighbours costs about a factor of two
     const double g2 = found.gain * found.gain;
     const double noise2 = 2.0 * std::max(found.noise * found.noise, 0.5) * smoothed_noise * (1.0 + g2) / g2;
-    const double prior = noise2 / (prior_sigma * prior_sigma);
-    H.block<2, 2>(2, 2) += prior * Eigen::Matrix2d::Identity();
-    b.tail<2>() -= prior * result.slopes;
-    const Eigen::Matrix4d covariance = H.inverse();
-    const Eigen::Vector4d step = covariance * b;
+    const SlopeStep usual = solveSlopes(H, b, result.slopes, noise2, prior.usual_sigma);
+    const SlopeStep wide = solveSlopes(H, b, result.slopes, noise2, prior.wide_sigma);
+    const SlopeStep& chosen = usual.cost - wide.cost > insistence ? wide : usual;
+    const Eigen::Vector4d& step = chosen.step;
     if (!step.allFinite()) return result;
-    result.slopes_covariance = noise2 * covariance.block<2, 2>(2, 2);
+    result.slopes_covariance = noise2 * chosen.inverse.block<2, 2>(2, 2);
     // the shift's covariance grows by what the slopes leave open
-    const Eigen::Matrix2d opened = covariance.block<2, 2>(0, 0) - H.block<2, 2>(0, 0).inverse();
+    const Eigen::Matrix2d opened = chosen.inverse.block<2, 2>(0, 0) - H.block<2, 2>(0, 0).inverse();
     result.alignment.covariance += 0.5 * noise2 * opened;
     if (round == 3 || step.tail<2>().cwiseAbs().maxCoeff() < 0.01) break;
     result.slopes += step.tail<2>();

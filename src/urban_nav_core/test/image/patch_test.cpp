@@ -162,7 +162,7 @@ TEST(Patch, SlopesOfDisparityAreFound) {
       return texture.at(30.0 + (x - 30.0 + d + b * (y - 20.0)) / (1.0 - a), y);
     });
     PatchTemplate made;
-    const SlopedAlignment found = alignAcross(right.view(), *cutSource(left.view(), 30, 20), {27.0, 20.0}, 0.3, made);
+    const SlopedAlignment found = alignAcross(right.view(), *cutSource(left.view(), 30, 20), {27.0, 20.0}, {0.05, 0.3}, made);
     if (!found.alignment.converged) continue;
     slopes += found.slopes;
     bias += found.alignment.position - Eigen::Vector2d(30.0 - d, 20.0);
@@ -171,6 +171,20 @@ TEST(Patch, SlopesOfDisparityAreFound) {
   ASSERT_GT(count, 90);
   EXPECT_LT((slopes / count - Eigen::Vector2d(0.1, 0.3)).norm(), 0.03);
   EXPECT_LT((bias / count).norm(), 0.02);
+}
+
+TEST(Patch, SlopesStayUsualWherePixelsDoNotInsist) {
+  double usual = 0.0, wide = 0.0;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    const Texture texture(seed + 700);
+    const Picture left = render(61, 41, 6.0, seed, [&](double x, double y) { return texture.at(x, y); });
+    const Picture right = render(61, 41, 6.0, seed + 100, [&](double x, double y) { return texture.at(x + 3.3, y); });
+    PatchTemplate made;
+    const auto source = *cutSource(left.view(), 30, 20);
+    usual += alignAcross(right.view(), source, {27.0, 20.0}, {0.01, 0.3}, made).slopes.norm();
+    wide += alignAcross(right.view(), source, {27.0, 20.0}, {0.3, 0.3}, made).slopes.norm();
+  }
+  EXPECT_LT(usual, 0.5 * wide);
 }
 
 TEST(Patch, RefusesWhatHasNoTextureOrLeavesTheImage) {

@@ -33,7 +33,7 @@ struct PatchSource {
   std::array<std::uint8_t, size * stride> pixels{};
 };
 
-/// Empty if (u, v) is nearer than 7 px to the border; beyond the border the last pixel is repeated.
+/// Empty if (u, v) is nearer than 8 px to the border; beyond the border the last pixel is repeated.
 std::optional<PatchSource> cutSource(const ImageView& image, int u, int v);
 
 /// A source as it should look in another view, ready for alignment: a shift is a product of the filters with the image.
@@ -44,6 +44,7 @@ struct alignas(16) PatchTemplate {
   Eigen::Matrix2d A = Eigen::Matrix2d::Identity();                ///< d(view)/d(source) it was made for
   Eigen::Matrix2d inverse_hessian = Eigen::Matrix2d::Zero();
   Eigen::Matrix2d unit_covariance = Eigen::Matrix2d::Zero();      ///< of a shift, for one grey level of white pixel noise in the view
+  double view_blur = 0.0;                                         ///< outer weight of the (b, 1 - 2 b, b) that makes the view as blurred
   double energy = 0.0;                                            ///< weighted variance, grey levels^2
 };
 
@@ -70,9 +71,13 @@ struct SlopedAlignment {
   Eigen::Vector2d slopes = Eigen::Vector2d::Zero();      ///< d(disparity)/d(u_left, v_left): a road has (0, baseline / height)
   Eigen::Matrix2d slopes_covariance = Eigen::Matrix2d::Identity();
 };
-/// `prior_sigma`: standard deviation of the slopes before anything was seen; keeps them where texture says nothing.
+/// What the slopes may be before anything was seen: usually as `usual_sigma` says (most things are seen more or less from
+/// the front), now and then, where the pixels insist, as `wide_sigma` says (roads, walls alongside). Both standard deviations.
+struct SlopePrior {
+  double usual_sigma = 0.05, wide_sigma = 0.2;
+};
 /// `made` returns the template of the other image at the slopes found.
-SlopedAlignment alignAcross(const ImageView& image, const PatchSource& source, const Eigen::Vector2d& start, double prior_sigma,
+SlopedAlignment alignAcross(const ImageView& image, const PatchSource& source, const Eigen::Vector2d& start, const SlopePrior& prior,
                             PatchTemplate& made);
 
 /// 8 columns (-4 ... 3) by 9 rows (-4 ... 4) of grey levels, mean removed.

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "front_end/tracks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+
+namespace swf_vo {
+namespace {
+
+using urban_nav_core::expSo3;
+using urban_nav_core::Pose;
+using urban_nav_core::StereoCamera;
+
+StereoCamera camera() {
+  StereoCamera c;
+  c.left.fx = 400.0;
+  c.left.fy = 410.0;
+  c.left.cx = 250.0;
+  c.left.cy = 190.0;
+  c.left.width = 512;
+  c.left.height = 384;
+  c.baseline = 0.2;
+  return c;
+}
+
+TEST(Tracks, IdsAreNeverReusedAndPlacesAre) {
+  Tracks tracks(3);
+  const LandmarkId a = tracks.start()->id, b = tracks.start()->id, c = tracks.start()->id;
+  EXPECT_LT(a, b);
+  EXPECT_LT(b, c);
+  EXPECT_EQ(tracks.start(), nullptr);
+  tracks.end(b);
+  tracks.end(b);
+  EXPECT_EQ(tracks.find(b), nullptr);
+  const Track* fresh = tracks.start();
+  ASSERT_NE(fresh, nullptr);
+  EXPECT_GT(fresh->id, c);
+  EXPECT_EQ(fresh->seen, 1);
+  EXPECT_FALSE(fresh->left_ready);
+  ASSERT_EQ(tracks.size(), 3);
+  for (int i = 1; i < tracks.size(); ++i) EXPECT_LT(tracks.at(i - 1).id, tracks.at(i).id);
+  EXPECT_EQ(tracks.find(a)->id, a);
+  EXPECT_EQ(tracks.find(12345), nullptr);
+}
+
+TEST(Tracks, SurfaceHasTheSlopesOfItsDisparity) {
+  const StereoCamera c = camera();
+  const StereoCamera::Pixel pixel(300.0, 250.0, 290.0);
+  const Eigen::Vector2d slopes(0.1, 0.3);
+  const Eigen::Vector3d plane = surface(c, pixel, slopes);
+  for (const Eigen::Vector2d& d : {Eigen::Vector2d(0, 0), Eigen::Vector2d(5, 0), Eigen::Vector2d(0, 5), Eigen::Vector2d(-3, 4)}) {
+    const double disparity = 10.0 + slopes.dot(d);
+    const auto p = c.triangulate({300.0 + d.x(), 250.0 + d.y(), 300.0 + d.x() - disparity});
+    ASSERT_TRUE(p);
+    EXPECT_NEAR(plane.dot(*p), 1.0, 1e-9);
+  }
+}
+
+/// Where a point of the surface seen at `pixel` in the first view lies in another.
+Eigen::Vector2d through(Side side, const StereoCamera& c, const Eigen::Vector3d& plane, const Pose& T, const Eigen::Vector2d& pixel) {
+  const Eigen::Vector3d ray = c.left.ray(pixel);
+  Eigen::Vector3d p = T * Eigen::Vector3d(ray / plane.dot(ray));
+  if (side == Side::Right) p.x() -= c.baseline;
+  return *c.left.project(p);
+}
+
+TEST(Tracks, WarpIsTheDerivativeOfTheHomography) {
+  const StereoCamera c = camera();
+  Track track;
+  const Eigen::Vector2d pixel(300.0, 250.0);
+  track.ray = c.left.ray(pixel);
+  track.plane = surface(c, {300.0, 250.0, 290.0}, {0.05, 0.25});
+  const Pose T(expSo3({0.03, -0.1, 0.2}), Eigen::Vector3d(0.3, -0.1, -2.0));
+  for (const Side side : {Side::Left, Side::Right}) {
+    const auto A = warpInto(side, c, track, T, track.plane.dot(track.ray));
+    ASSERT_TRUE(A);
+    Eigen::Matrix2d numeric;
+    for (int k = 0; k < 2; ++k) {
+      const Eigen::Vector2d d = 1e-4 * Eigen::Vector2d::Unit(k);
+      numeric.col(k) = (through(side, c, track.plane, T, pixel + d) - through(side, c, track.plane, T, pixel - d)) / 2e-4;
+    }
+    EXPECT_LT((*A - numeric).cwiseAbs().maxCoeff(), 1e-6);
+  }
+}
+
+TEST(Tracks, WarpOfAPointAtInfinityTurnsOnly) {
+  const StereoCamera c = camera();
+  Track track;
+  track.ray = Eigen::Vector3d::UnitZ();
+  const Pose T(expSo3({0.0, 0.0, 0.3}), Eigen::Vector3d(5.0, 0.0, 3.0));
+  const auto A = warpInto(Side::Right, c, track, T, 0.0);
+  ASSERT_TRUE(A);
+  EXPECT_NEAR(A->determinant(), 1.0, 1e-12);
+  EXPECT_FALSE(warpInto(Side::Left, c, track, Pose(expSo3({0.0, 3.0, 0.0}), Eigen::Vector3d::Zero()), 0.0));
+}
+
+}  // namespace
+}  // namespace swf_vo
