@@ -14,7 +14,7 @@ namespace {
 constexpr int kPoints = 4;
 constexpr double kStep = 0.9, kWeightVariance = 0.7, kPointBlur = 0.64;
 // Neighbouring pixels of a row, so many, share the filter of their middle.
-constexpr int kRun = 8;
+constexpr int kRun = static_cast<int>(Texture::kRun);
 constexpr double kEdgeOn = 1e-9;  // determinant below which a plane is seen from its edge
 
 }  // namespace
@@ -181,28 +181,48 @@ const std::vector<float>& Renderer::draw(const Scene& scene, const Pose& T_world
   return image_;
 }
 
-void Renderer::drawRow(int v) {
-  Texture::Filter filter;
-  int filter_owner = -1;
-  for (int u = 0; u < camera_.width; ++u) {
-    const int owner = ownerAt(u, v);
-    if (u % kRun == 0) filter_owner = -1;
-    double grey = background_;
-    if (isBorder(u, v)) {
-      grey = blend(u, v);
-    } else if (owner >= 0) {
-      const Plane& plane = planes_[static_cast<std::size_t>(owner)];
-      if (owner != filter_owner) {
-        const int middle = std::min(u - u % kRun + kRun / 2, camera_.width - 1);
-        filter = filterAt(plane, ownerAt(middle, v) == owner ? middle : u, v, camera_.blur);
-        filter_owner = owner;
-      }
-      const Place at = placeAt(plane, u, v);
-      grey = plane.shade * plane.texture->value(at.a, at.b, filter);
+bool Renderer::drawRun(int u0, int v) {
+  const int owner = ownerAt(u0, v);
+  if (owner < 0 || u0 + kRun > camera_.width) return false;
+  for (int y = std::max(0, v - 1); y <= std::min(camera_.height - 1, v + 1); ++y) {
+    for (int x = std::max(0, u0 - 1); x <= std::min(camera_.width - 1, u0 + kRun); ++x) {
+      if (ownerAt(x, y) != owner) return false;
     }
-    image_[static_cast<std::size_t>(v) * static_cast<std::size_t>(camera_.width) + static_cast<std::size_t>(u)] =
-        static_cast<float>(grey);
   }
+  const Plane& plane = planes_[static_cast<std::size_t>(owner)];
+  Texture::Run a, b, grey;
+  for (int i = 0; i < kRun; ++i) {
+    const Place at = placeAt(plane, u0 + i, v);
+    a[static_cast<std::size_t>(i)] = at.a;
+    b[static_cast<std::size_t>(i)] = at.b;
+  }
+  plane.texture->values(a, b, filterAt(plane, u0 + 0.5 * (kRun - 1), v, camera_.blur), grey);
+  float* out = pixel(u0, v);
+  for (const double value : grey) *out++ = static_cast<float>(plane.shade * value);
+  return true;
+}
+
+void Renderer::drawRow(int v) {
+  for (int u0 = 0; u0 < camera_.width; u0 += kRun) {
+    if (drawRun(u0, v)) continue;
+    for (int u = u0; u < std::min(u0 + kRun, camera_.width); ++u) {
+      const int owner = ownerAt(u, v);
+      double grey = background_;
+      if (isBorder(u, v)) {
+        grey = blend(u, v);
+      } else if (owner >= 0) {
+        const Plane& plane = planes_[static_cast<std::size_t>(owner)];
+        const Place at = placeAt(plane, u, v);
+        grey = plane.shade * plane.texture->value(at.a, at.b, filterAt(plane, u, v, camera_.blur));
+      }
+      *pixel(u, v) = static_cast<float>(grey);
+    }
+  }
+}
+
+float* Renderer::pixel(int u, int v) {
+  return image_.data() + static_cast<std::size_t>(v) * static_cast<std::size_t>(camera_.width) +
+         static_cast<std::size_t>(u);
 }
 
 }  // namespace urban_nav_core::testing

@@ -18,7 +18,9 @@ constexpr double kSplineDeviation = 0.277;
 constexpr double kSquaredFrequency = 4.84;
 constexpr double kMaskFrequency = 0.6;  // lattice steps per m
 constexpr double kReach = 3.5;          // standard deviations after which an edge is over
-constexpr double kNegligible = 0.02;    // share of an amplitude that is not worth its computation
+// Lattice steps that a run may span so that a parabola follows the waves: the error is under 1 % of the amplitude.
+constexpr double kSlowRun = 0.45;
+constexpr double kNegligible = 0.02;  // share of an amplitude that is not worth its computation
 
 /// Weights of the four lattice points about a place, by the powers of its fraction t.
 const Eigen::Vector4f kSpline0(1.0F / 6, 4.0F / 6, 1.0F / 6, 0.0F), kSpline1(-0.5F, 0.0F, 0.5F, 0.0F);
@@ -184,29 +186,92 @@ double Texture::patternValue(const Pattern& pattern, double x, double y, const F
   return sum;
 }
 
+double Texture::waveValue(double x, double y, const Filter::Wave& filtered) const {
+  const Wave& wave = waves_[filtered.which];
+  const double lattice_x = x * wave.frequency + wave.origin_x, lattice_y = y * wave.frequency + wave.origin_y;
+  if (filtered.steps == 1) return filtered.amplitude * noise(lattice_x, lattice_y);
+  double sum = 0.0;
+  for (int k = 0; k < filtered.steps; ++k) {
+    const double along = k - 0.5 * (filtered.steps - 1);
+    sum += noise(lattice_x + along * filtered.step_x, lattice_y + along * filtered.step_y);
+  }
+  return filtered.amplitude * sum / filtered.steps;
+}
+
 double Texture::value(double x, double y, const Filter& filter) const {
   double sum = filter.base, patchy = 0.0;
   for (std::size_t i = 0; i < filter.wave_count; ++i) {
-    const Filter::Wave& filtered = filter.waves[i];
-    const Wave& wave = waves_[filtered.which];
-    const double lattice_x = x * wave.frequency + wave.origin_x, lattice_y = y * wave.frequency + wave.origin_y;
-    double grey = 0.0;
-    if (filtered.steps == 1) {
-      grey = filtered.amplitude * noise(lattice_x, lattice_y);
-    } else {
-      for (int k = 0; k < filtered.steps; ++k) {
-        const double along = k - 0.5 * (filtered.steps - 1);
-        grey += noise(lattice_x + along * filtered.step_x, lattice_y + along * filtered.step_y);
-      }
-      grey *= filtered.amplitude / filtered.steps;
-    }
-    (wave.patchy ? patchy : sum) += grey;
+    (waves_[filter.waves[i].which].patchy ? patchy : sum) += waveValue(x, y, filter.waves[i]);
   }
   if (patchy != 0.0) sum += patchy * mask(x, y);
   for (std::size_t i = 0; i < filter.pattern_count; ++i) {
     sum += filter.patterns[i].fade * patternValue(patterns_[filter.patterns[i].which], x, y, filter);
   }
   return sum;
+}
+
+/// Fills a run by a function of the place; where the function is slow beside the run, by a parabola through three of its values.
+template <typename Function>
+void Texture::alongRun(const Run& x, const Run& y, double frequency, Function function, Run& out) {
+  constexpr std::size_t kMiddle = kRun / 2, kLast = kRun - 1;
+  const double span = std::max(std::abs(x[kLast] - x[0]), std::abs(y[kLast] - y[0])) * frequency;
+  if (span > kSlowRun) {
+    for (std::size_t i = 0; i < kRun; ++i) out[i] = function(x[i], y[i]);
+    return;
+  }
+  const double a = function(x[0], y[0]), b = function(x[kMiddle], y[kMiddle]), c = function(x[kLast], y[kLast]);
+  constexpr double h1 = kMiddle, h2 = kLast;
+  const double curve = ((c - a) / h2 - (b - a) / h1) / (h2 - h1);
+  const double slope = (b - a) / h1 - curve * h1;
+  for (std::size_t i = 0; i < kRun; ++i) {
+    const auto t = static_cast<double>(i);
+    out[i] = a + t * (slope + t * curve);
+  }
+}
+
+bool Texture::isUniform(const Pattern& pattern, const Run& x, const Run& y, const Filter& filter) {
+  constexpr std::size_t kLast = kRun - 1;
+  const Part first_row = part(y[0], pattern.height, pattern.per_height, pattern.margin_y, filter.per_sigma_y);
+  if (first_row.own_share != 1.0) return false;
+  const Part last_row = part(y[kLast], pattern.height, pattern.per_height, pattern.margin_y, filter.per_sigma_y);
+  if (last_row.own_share != 1.0 || last_row.own != first_row.own) return false;
+  const double shift = (first_row.own & 1) != 0 ? pattern.shift * pattern.width : 0.0;
+  const Part first = part(x[0] - shift, pattern.width, pattern.per_width, pattern.margin_x, filter.per_sigma_x);
+  if (first.own_share != 1.0) return false;
+  const Part last = part(x[kLast] - shift, pattern.width, pattern.per_width, pattern.margin_x, filter.per_sigma_x);
+  return last.own_share == 1.0 && last.own == first.own;
+}
+
+void Texture::values(const Run& x, const Run& y, const Filter& filter, Run& grey) const {
+  Run part_values, patchy{};
+  bool any_patchy = false;
+  grey.fill(filter.base);
+  for (std::size_t i = 0; i < filter.wave_count; ++i) {
+    const Filter::Wave& wave = filter.waves[i];
+    // Several steps along a footprint mean that neighbouring pixels are far apart on the lattice.
+    const double frequency = wave.steps == 1 ? waves_[wave.which].frequency : 1e9;
+    alongRun(
+        x, y, frequency, [&](double px, double py) { return waveValue(px, py, wave); }, part_values);
+    const bool is_patchy = waves_[wave.which].patchy;
+    any_patchy |= is_patchy;
+    Run& sum = is_patchy ? patchy : grey;
+    for (std::size_t k = 0; k < kRun; ++k) sum[k] += part_values[k];
+  }
+  if (any_patchy) {
+    alongRun(
+        x, y, kMaskFrequency, [&](double px, double py) { return mask(px, py); }, part_values);
+    for (std::size_t k = 0; k < kRun; ++k) grey[k] += patchy[k] * part_values[k];
+  }
+  for (std::size_t i = 0; i < filter.pattern_count; ++i) {
+    const Pattern& pattern = patterns_[filter.patterns[i].which];
+    const double fade = filter.patterns[i].fade;
+    if (isUniform(pattern, x, y, filter)) {
+      const double common = fade * patternValue(pattern, x[0], y[0], filter);
+      for (double& value : grey) value += common;
+    } else {
+      for (std::size_t k = 0; k < kRun; ++k) grey[k] += fade * patternValue(pattern, x[k], y[k], filter);
+    }
+  }
 }
 
 }  // namespace urban_nav_core::testing

@@ -49,6 +49,8 @@ class Renderer {
   std::vector<const Plane*> planesAbout(int u, int v) const;
   int ownerAt(int u, int v) const;
   void drawRow(int v);
+  bool drawRun(int u0, int v);
+  float* pixel(int u, int v);
   double blend(int u, int v) const;
   bool isBorder(int u, int v) const;
 

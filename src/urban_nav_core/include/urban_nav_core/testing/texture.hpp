@@ -64,6 +64,11 @@ class Texture {
   /// Grey levels (not clipped) at (x, y) m under a filter of this texture.
   double value(double x, double y, const Filter& filter) const;
 
+  /// The same for neighbouring pixels of one row, faster: to within 1 % of each octave's amplitude.
+  static constexpr std::size_t kRun = 8;
+  using Run = std::array<double, kRun>;
+  void values(const Run& x, const Run& y, const Filter& filter, Run& grey) const;
+
  private:
   struct Wave {
     double frequency;  ///< lattice steps per m
@@ -79,6 +84,10 @@ class Texture {
 
   double noise(double x, double y) const;
   double mask(double x, double y) const;
+  double waveValue(double x, double y, const Filter::Wave& filtered) const;
+  template <typename Function>
+  static void alongRun(const Run& x, const Run& y, double frequency, Function function, Run& out);
+  static bool isUniform(const Pattern& pattern, const Run& x, const Run& y, const Filter& filter);
   static double greyOf(const Pattern& pattern, int column, int row);
   static Part part(double x, double size, double per_size, double margin, double per_sigma);
   static double rowValue(const Pattern& pattern, int row, double x, double per_sigma_x);
