@@ -3,11 +3,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <opencv2/calib3d.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <random>
 
+#include "urban_nav_core/image/fast.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav_core {
@@ -173,6 +179,51 @@ TEST(Rectify, AnImageOfAnotherSizeGivesNone) {
   std::vector<std::uint8_t> out;
   EXPECT_TRUE(map.remap(view(other), out).empty());
   EXPECT_TRUE(map.remap(ImageView{}, out).empty());
+}
+
+/// Row, to a fraction of a pixel, at which the right image fits a patch of the left best; empty if no place fits well.
+std::optional<double> matchedRow(const cv::Mat& left_image, const cv::Mat& right_image, int u, int v) {
+  constexpr int kHalf = 7, kRows = 4, kDisparities = 90;
+  if (u < kDisparities + kHalf || u >= left_image.cols - kHalf || v < kHalf + kRows ||
+      v >= left_image.rows - kHalf - kRows)
+    return {};
+  const cv::Mat patch = left_image(cv::Rect(u - kHalf, v - kHalf, 2 * kHalf + 1, 2 * kHalf + 1));
+  const cv::Mat band = right_image(
+      cv::Rect(u - kHalf - kDisparities, v - kHalf - kRows, 2 * kHalf + 1 + kDisparities, 2 * (kHalf + kRows) + 1));
+  cv::Mat score;
+  cv::matchTemplate(band, patch, score, cv::TM_CCOEFF_NORMED);
+  double best = 0.0;
+  cv::Point at;
+  cv::minMaxLoc(score, nullptr, &best, nullptr, &at);
+  if (best < 0.95 || at.y == 0 || at.y == score.rows - 1) return {};
+  const double above = score.at<float>(at.y - 1, at.x), below = score.at<float>(at.y + 1, at.x);
+  return at.y - kRows + 0.5 * (above - below) / (above - 2.0 * best + below);
+}
+
+TEST(Rectify, RowsOfARealPairAgree) {
+  const char* data = std::getenv("URBAN_NAV_DATA");
+  const std::filesystem::path folder = std::filesystem::path(data != nullptr ? data : "") / "stereo/euroc_still/mav0";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "URBAN_NAV_DATA does not name a folder with stereo/euroc_still";
+  const auto first = [&folder](const char* camera) {
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / camera / "data"))
+      files.push_back(entry.path());
+    return cv::imread(std::min_element(files.begin(), files.end())->string(), cv::IMREAD_GRAYSCALE);
+  };
+  const StereoRectification pair = rectifyStereo(left(), right(), T_right_left(), "here");
+  std::vector<std::uint8_t> left_pixels, right_pixels;
+  RectifyMap(left(), pair.R_left, pair.camera.left).remap(view(first("cam0")), left_pixels);
+  RectifyMap(right(), pair.R_right, pair.camera.left).remap(view(first("cam1")), right_pixels);
+  const cv::Mat left_image(480, 752, CV_8U, left_pixels.data()), right_image(480, 752, CV_8U, right_pixels.data());
+  Fast fast;
+  std::vector<double> rows;
+  for (const Corner& corner : fast.detect(view(left_image), 25, Fast::Suppression::LocalMaximum)) {
+    const std::optional<double> row = matchedRow(left_image, right_image, corner.u, corner.v);
+    if (row) rows.push_back(*row);
+  }
+  ASSERT_GT(rows.size(), 50U);
+  std::nth_element(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(rows.size() / 2), rows.end());
+  EXPECT_NEAR(rows[rows.size() / 2], 0.0, 0.3) << "px, over " << rows.size() << " corners";
 }
 
 TEST(Rectify, RefusesPairsThatAreSwappedOrLookApart) {
