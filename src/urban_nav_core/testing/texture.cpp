@@ -93,7 +93,7 @@ Texture::Texture(double base, const std::vector<Octave>& octaves, const std::vec
   }
 }
 
-double Texture::noise(double x, double y) const {
+inline double Texture::noise(double x, double y) const {
   const double floor_x = std::floor(x), floor_y = std::floor(y);
   const int column = static_cast<int>(floor_x) & (kLattice - 1);
   const int row = static_cast<int>(floor_y) & (kLattice - 1);
@@ -153,7 +153,7 @@ struct Texture::Part {
   double own_share, other_share;
 };
 
-Texture::Part Texture::part(double x, double size, double per_size, double margin, double per_sigma) {
+inline Texture::Part Texture::part(double x, double size, double per_size, double margin, double per_sigma) {
   const double own = std::floor(x * per_size);
   const double place = x - own * size;  // in the own cell
   const bool is_left = place < 0.5 * size;
@@ -165,7 +165,7 @@ Texture::Part Texture::part(double x, double size, double per_size, double margi
           kStepUp(-(edge + margin) * per_sigma)};
 }
 
-double Texture::greyOf(const Pattern& pattern, int column, int row) {
+inline double Texture::greyOf(const Pattern& pattern, int column, int row) {
   const std::uint32_t h = hash(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row), pattern.seed);
   if ((h & 0xFFFFU) >= pattern.share * 65536.0) return 0.0;
   return pattern.low + (pattern.high - pattern.low) * ((h >> 16U) * (1.0 / 65535.0));
@@ -186,7 +186,7 @@ double Texture::patternValue(const Pattern& pattern, double x, double y, const F
   return sum;
 }
 
-double Texture::waveValue(double x, double y, const Filter::Wave& filtered) const {
+inline double Texture::waveValue(double x, double y, const Filter::Wave& filtered) const {
   const Wave& wave = waves_[filtered.which];
   const double lattice_x = x * wave.frequency + wave.origin_x, lattice_y = y * wave.frequency + wave.origin_y;
   if (filtered.steps == 1) return filtered.amplitude * noise(lattice_x, lattice_y);

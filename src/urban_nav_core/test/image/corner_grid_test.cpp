@@ -6,6 +6,11 @@
 #include <random>
 #include <set>
 
+#include "urban_nav_core/image/fast.hpp"
+#include "urban_nav_core/image/harris.hpp"
+#include "urban_nav_core/image/pyramid.hpp"
+#include "urban_nav_core/testing/allocations.hpp"
+
 namespace urban_nav_core {
 namespace {
 
@@ -111,6 +116,30 @@ TEST(CornerCap, OfEqualsTheFirstStayAndOrderIsKept) {
   EXPECT_EQ(corners[1].u, 1);
   EXPECT_EQ(corners[2].u, 2);
   EXPECT_EQ(corners[3].u, 11);
+}
+
+TEST(CornerGrid, FromPixelsToTheGridNothingIsAllocatedOnceBuffersHaveGrown) {
+  if (!testing::countsAllocations()) GTEST_SKIP() << "the sanitizer's allocator does not count";
+  std::mt19937 random(8);
+  std::vector<std::uint8_t> pixels(320 * 240);
+  for (std::uint8_t& pixel : pixels) pixel = static_cast<std::uint8_t>(random() & 255U);
+  Pyramid pyramid(3);
+  Fast fast;
+  CornerCap cap(CornerQuota{});
+  CornerGrid grid;
+  std::vector<Corner> corners;
+  std::int64_t before = 0;
+  for (int i = 0; i < 4; ++i) {
+    if (i == 1) before = testing::allocations();
+    pyramid.build({pixels.data(), 320, 240, 320});
+    for (int l = 0; l < pyramid.levels(); ++l) {
+      corners = fast.detect(pyramid.level(l), 10, Fast::Suppression::LocalMaximum);
+      cap.apply(corners, pyramid.level(l).width, pyramid.level(l).height);
+      scoreByHarris(pyramid.level(l), corners);
+      grid.assign(corners, pyramid.level(l).width, pyramid.level(l).height);
+    }
+  }
+  EXPECT_EQ(testing::allocations(), before);
 }
 
 }  // namespace
