@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "commands/commands.hpp"
 
-int main(int argc, char** argv) { return urban_nav::runCommandLine({urban_nav::mapCommand(), urban_nav::evaluateCommand()}, argc, argv); }
+int main(int argc, char** argv) {
+  return urban_nav::runCommandLine({urban_nav::mapCommand(), urban_nav::convertCommand(), urban_nav::evaluateCommand(), urban_nav::infoCommand()}, argc, argv);
+}

@@ -100,7 +100,7 @@ Arguments parse(const Command& command, int argc, const char* const* argv) {
     }
     CLI::Option* added = app.add_option(option.name, values[key]);
     if (isPositional(option)) {
-      if (!option.repeatable) added->expected(1);
+      if (!option.repeatable) added->expected(1)->allow_extra_args(false);
     } else {
       added->expected(1)->allow_extra_args(false);
       added->multi_option_policy(option.repeatable ? CLI::MultiOptionPolicy::TakeAll : CLI::MultiOptionPolicy::TakeLast);

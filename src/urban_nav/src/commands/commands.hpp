@@ -6,7 +6,9 @@
 namespace urban_nav {
 
 /// The subcommands of CONTRACT.md, each in a file of its name.
+Command convertCommand();
 Command evaluateCommand();
+Command infoCommand();
 Command mapCommand();
 
 }  // namespace urban_nav

@@ -25,6 +25,7 @@ using urban_nav_ros::StereoFeed;
 namespace {
 
 constexpr const char* kBaseFrame = "base_link";
+constexpr urban_nav_core::StampNs kMaxLateness = 200'000'000;  // ns: waiting costs nothing where nobody waits
 
 /// The bags of one recording, read as one stream in the order of their receipt; the feed brings it into the order of stamps.
 class BagSource : public Source {
@@ -167,6 +168,7 @@ class BagSource : public Source {
   void startReading() {
     std::vector<std::string> names = {topics_.find(Role::Left)->name, topics_.find(Role::Right)->name};
     StereoFeed::Options feed;
+    feed.max_lateness = kMaxLateness;
     const Role motion_role = options_.motion_input == "wheels" ? Role::Wheels : Role::Imu;
     if (options_.motion_input != "none") {
       if (!topics_.find(motion_role)) throw DataError(name_, "has no topic for swf_vo.motion_input = " + options_.motion_input, "");

@@ -47,7 +47,7 @@ InputKind inputKind(const std::string& path) {
 std::unique_ptr<Source> openSource(const std::vector<std::string>& paths, const SourceOptions& options) {
   switch (inputKind(paths.front())) {
     case InputKind::KittiFolder: return openKittiFolder(paths.front(), options);
-    case InputKind::NewCollegeFolder: throw UserError(paths.front(), "is a New College folder", "the bag that urban_nav convert new-college makes of it");
+    case InputKind::NewCollegeFolder: return openNewCollegeFolder(paths.front(), options);
     case InputKind::EurocFolder: return openEurocFolder(paths.front(), options);
     case InputKind::Bag: return openBags(paths, options);
   }

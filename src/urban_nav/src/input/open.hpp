@@ -29,6 +29,7 @@ std::unique_ptr<Source> openSource(const std::vector<std::string>& paths, const 
 
 std::unique_ptr<Source> openKittiFolder(const std::string& folder, const SourceOptions& options);
 std::unique_ptr<Source> openEurocFolder(const std::string& folder, const SourceOptions& options);
+std::unique_ptr<Source> openNewCollegeFolder(const std::string& folder, const SourceOptions& options);
 std::unique_ptr<Source> openBags(const std::vector<std::string>& paths, const SourceOptions& options);
 
 }  // namespace urban_nav

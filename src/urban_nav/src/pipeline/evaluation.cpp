@@ -12,6 +12,7 @@
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/io/tum.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_ros/extrinsics.hpp"
 
 namespace urban_nav {
 
@@ -27,6 +28,12 @@ namespace {
 constexpr double kFew = 0.5;  // share of the shorter trajectory below which an offset is looked for
 
 std::string secondsText(StampNs ns) { return urban_nav_core::printNumber(1e-9 * static_cast<double>(ns)) + " s"; }
+
+/// KITTI's poses are of optical axes (z forward); with the axes of base_link, plots and covariances mean the same for every format.
+Pose turned(const Pose& T_first_camera) {
+  const Pose T_base_camera = urban_nav_ros::opticalInBody();
+  return T_base_camera * T_first_camera * T_base_camera.inverse();
+}
 
 Matched match(const TrajectoryFile& truth, const TrajectoryFile& estimate, Evaluation& evaluation, bool find_offset) {
   if (!truth.stamped || !estimate.stamped) {
@@ -85,7 +92,7 @@ TrajectoryFile readTrajectory(const std::string& path) {
     file.trajectory = urban_nav_core::readTum(path);
     for (const urban_nav_core::StampedPose& pose : file.trajectory) file.poses.push_back(pose.pose);
   } else {
-    file.poses = urban_nav_core::readKitti(path);
+    for (const Pose& camera : urban_nav_core::readKitti(path)) file.poses.push_back(turned(camera));
   }
   if (file.poses.empty()) throw DataError(path, "holds no poses", "");
   return file;

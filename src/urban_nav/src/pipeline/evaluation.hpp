@@ -18,7 +18,7 @@ struct TrajectoryFile {
   std::string path;
   bool stamped = true;
   urban_nav_core::Trajectory trajectory;       ///< if stamped
-  std::vector<urban_nav_core::Pose> poses;     ///< always
+  std::vector<urban_nav_core::Pose> poses;     ///< always; axes as REP-103 has them, also where the file has a camera's
 };
 /// By the extension: .tum; .kitti and .txt with 12 columns; .txt with 8 columns is TUM's. UserError with file and line.
 TrajectoryFile readTrajectory(const std::string& path);

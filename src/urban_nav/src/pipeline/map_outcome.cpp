@@ -2,6 +2,7 @@
 #include "pipeline/map_outcome.hpp"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "pipeline/truth.hpp"
 #include "pipeline/vo_files.hpp"
@@ -38,6 +39,16 @@ std::string joined(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
   return text;
+}
+
+/// The last part of each path.
+std::string titleOf(const std::vector<std::string>& inputs) {
+  std::vector<std::string> names;
+  for (const std::string& input : inputs) {
+    const std::filesystem::path path = std::filesystem::absolute(input).lexically_normal();
+    names.push_back((path.has_filename() ? path : path.parent_path()).filename().string());
+  }
+  return joined(names);
 }
 
 double realtimeFactor(const MapOutcome& outcome, const VoSummary& summary) {
@@ -100,7 +111,7 @@ Page pageOf(const MapOutcome& outcome, bool running) {
   const std::vector<const VoRun*> runs = runsOf(outcome);
   const VoSummary summary = summarise(runs);
   Page page;
-  page.title = "Map of " + joined(outcome.request.inputs);
+  page.title = "Map of " + titleOf(outcome.request.inputs);
   page.subtitle = "Visual odometry: where the robot went, and how far to trust it.";
   page.running = running;
   page.progress = outcome.progress;
@@ -113,7 +124,7 @@ Page pageOf(const MapOutcome& outcome, bool running) {
     page.sections.push_back(evaluationSection(*evaluation));
   }
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    for (Section& section : voSections(*runs[i])) {
+    for (Section& section : voSections(*runs[i], i >= outcome.evaluations.size() || !outcome.evaluations[i])) {
       if (runs.size() > 1) {
         section.id += std::to_string(i + 1);
         section.title += " (session " + std::to_string(i + 1) + ")";

@@ -13,6 +13,7 @@
 #include "input/kitti_layout.hpp"
 #include "urban_nav_core/io/kitti.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/pose.hpp"
 #include "urban_nav_ros/stamp.hpp"
 
@@ -93,7 +94,11 @@ std::optional<TrajectoryFile> findTruth(const Session& session, const SourceInfo
 }
 
 TrajectoryFile truthOfBase(const TrajectoryFile& file, const SourceInfo& info, const std::vector<StampNs>& stamps) {
-  return file.stamped ? file : stamped(file.path, baseOfCamera(file.poses, stamps, info.T_base_camera, file.path));
+  if (file.stamped) return file;
+  const Pose T_body_optical = urban_nav_ros::opticalInBody();
+  std::vector<Pose> camera;
+  for (const Pose& pose : file.poses) camera.push_back(T_body_optical.inverse() * pose * T_body_optical);
+  return stamped(file.path, baseOfCamera(camera, stamps, info.T_base_camera, file.path));
 }
 
 }  // namespace urban_nav

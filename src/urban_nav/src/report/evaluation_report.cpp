@@ -86,6 +86,7 @@ Plot errorPlot(const Evaluation& evaluation) {
   Plot plot;
   plot.x_label = "distance travelled (m)";
   plot.y_label = "position error (m)";
+  plot.width = 1100;
   plot.y_from_zero = true;
   plot.series.push_back(line("error, first poses aligned", "a", Series::Kind::Line, points));
   if (!way.empty() && way.back() > 1.0) plot.series.push_back(line("1 % of the way", "plain", Series::Kind::Dashed, percent));

@@ -115,7 +115,7 @@ std::string axes(const Plot& plot, const Frame& f) {
     svg += "<line class=\"grid\" x1=\"" + u + "\" y1=\"" + px(kTop) + "\" x2=\"" + u + "\" y2=\"" + px(bottom) + "\"/>";
     svg += "<text class=\"tick\" x=\"" + u + "\" y=\"" + px(bottom + 16) + "\" text-anchor=\"middle\">" + forPerson(tick, 6) + "</text>";
   }
-  for (const double tick : niceTicks(f.y.low, f.y.high, plot.height / 55)) {
+  for (const double tick : niceTicks(f.y.low, f.y.high, plot.y_label.empty() ? 0 : plot.height / 55)) {
     const std::string v = px(f.v(tick));
     svg += "<line class=\"grid\" x1=\"" + px(kLeft) + "\" y1=\"" + v + "\" x2=\"" + px(right) + "\" y2=\"" + v + "\"/>";
     svg += "<text class=\"tick\" x=\"" + px(kLeft - 7) + "\" y=\"" + px(f.v(tick) + 4) + "\" text-anchor=\"end\">" + forPerson(tick, 6) + "</text>";

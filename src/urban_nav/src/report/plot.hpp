@@ -30,7 +30,7 @@ struct Span {
 };
 
 struct Plot {
-  std::string x_label, y_label;
+  std::string x_label, y_label;     ///< without the latter the y axis has no numbers
   std::vector<Series> series;
   std::vector<Span> spans;
   bool equal_axes = false;          ///< a metre is a metre in both directions

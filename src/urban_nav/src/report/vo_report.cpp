@@ -2,6 +2,7 @@
 #include "report/vo_report.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "report/plot.hpp"
@@ -76,6 +77,23 @@ Figure pathFigure(const VoRun& run, int a, int b, const std::string& title, cons
   return {title, renderSvg(plot), "", false};
 }
 
+/// Standard deviations of three coordinates from `first` on, as the estimate states them.
+Figure doubtFigure(const VoRun& run, int first, const std::string& title, const std::string& y_label, double unit) {
+  static const std::array<const char*, 6> names = {"x", "y", "z", "roll", "pitch", "heading"};
+  static const std::array<const char*, 3> colours = {"a", "b", "c"};
+  Plot plot;
+  plot.x_label = "time (s)";
+  plot.y_label = y_label;
+  plot.y_from_zero = true;
+  plot.spans = troubles(run);
+  for (int i = 0; i < 3; ++i) {
+    std::vector<PlotPoint> points;
+    for (const Settled& s : run.settled) points.push_back({secondsOf(run, s.stamp), unit * std::sqrt(std::max(0.0, s.T_odom_base.covariance(first + i, first + i)))});
+    plot.series.push_back(line(names[static_cast<std::size_t>(first + i)], colours[static_cast<std::size_t>(i)], points));
+  }
+  return {title, renderSvg(plot), "As the estimate itself says it, relative to the first pose. Shaded: the status was not OK.", false};
+}
+
 Figure featuresFigure(const VoRun& run) {
   Plot plot;
   plot.x_label = "time (s)";
@@ -85,6 +103,22 @@ Figure featuresFigure(const VoRun& run) {
   plot.series.push_back(line("in the frame", "a", overTime(run, [](const VoRow& row) { return static_cast<double>(row.statistics.features); })));
   plot.series.push_back(line("known from before and trusted", "c", overTime(run, [](const VoRow& row) { return static_cast<double>(row.statistics.tracked); })));
   return {"Features", renderSvg(plot), "What the motion rests on. Shaded: the status was not OK.", false};
+}
+
+/// Every frame's status as a stripe over time.
+Figure statusFigure(const VoRun& run) {
+  Plot plot;
+  plot.x_label = "time (s)";
+  plot.width = 1100;
+  plot.height = 84;
+  plot.spans = troubles(run);
+  plot.series.push_back(line("", "good", {{0.0, 0.0}, {secondsOf(run, run.rows.back().stamp), 0.0}}));
+  for (const Health health : {Health::Ok, Health::Degraded, Health::Lost, Health::Recovered}) {
+    Series key = line(toString(health), colourOf(health), {});
+    key.kind = Series::Kind::Band;
+    plot.series.push_back(key);
+  }
+  return {"Status", renderSvg(plot), "Degraded: less to go on than there should be. Lost: the pose goes on by prediction, and its covariance grows.", true};
 }
 
 Figure reprojectionFigure(const VoRun& run) {
@@ -116,14 +150,16 @@ Figure timingFigure(const VoRun& run, const VoSummary& summary) {
 
 }  // namespace
 
-std::vector<Section> voSections(const VoRun& run) {
+std::vector<Section> voSections(const VoRun& run, bool with_path) {
   if (run.rows.empty()) return {};
   const VoSummary summary = summarise(run);
-  Section path{"path", "The path", "Settled poses of base_link, relative to the first.", {}, {}, {}};
-  path.figures.push_back(pathFigure(run, 0, 1, "From above", "x, forward at the start (m)", "y, left (m)"));
-  path.figures.push_back(pathFigure(run, 0, 2, "From the side", "x, forward at the start (m)", "z, up (m)"));
+  Section path{"path", with_path ? "The path" : "Its own doubt", "Settled poses of base_link, relative to the first.", {}, {}, {}};
+  if (with_path) path.figures.push_back(pathFigure(run, 0, 1, "From above", "x, forward at the start (m)", "y, left (m)"));
+  if (with_path) path.figures.push_back(pathFigure(run, 0, 2, "From the side", "x, forward at the start (m)", "z, up (m)"));
+  path.figures.push_back(doubtFigure(run, 0, "How far the position is to be trusted", "one standard deviation (m)", 1.0));
+  path.figures.push_back(doubtFigure(run, 3, "How far the direction is to be trusted", "one standard deviation (deg)", 180.0 / M_PI));
   Section work{"work", "How it worked", "", {}, {}, {}};
-  work.figures = {featuresFigure(run), reprojectionFigure(run), timingFigure(run, summary)};
+  work.figures = {statusFigure(run), featuresFigure(run), reprojectionFigure(run), timingFigure(run, summary)};
   Section views{"views", "What it saw", "Left images; the line behind a feature is where it was in the frames before. Red is near, blue is far, grey is not trusted, a ring is new.", {}, {}, {}};
   for (const VoPicture& picture : run.pictures) {
     views.pictures.push_back({forPerson(secondsOf(run, picture.stamp), 4) + " s, frame " + std::to_string(picture.frame) + ": " + picture.caption, picture.jpeg, picture.width, picture.height});

@@ -9,8 +9,9 @@
 
 namespace urban_nav {
 
-/// What visual odometry has to show of one session: path, trust, features, timing, frames with tracks.
-std::vector<Section> voSections(const VoRun& run);
+/// What visual odometry has to show of one session: path, trust, features, timing, frames with tracks. `with_path`: false where the
+/// path is shown against the truth already.
+std::vector<Section> voSections(const VoRun& run, bool with_path);
 
 /// What it says in plain words.
 std::vector<Verdict> voVerdicts(const VoSummary& summary);

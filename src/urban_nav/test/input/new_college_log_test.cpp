@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "convert/new_college_log.hpp"
+#include "input/new_college_log.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "convert/alog.hpp"
+#include "input/alog.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
 #include "urban_nav_core/laser/scan.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "convert/alog.hpp"
+#include "input/alog.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <nav_msgs/Odometry.h>
+#include <sensor_msgs/CompressedImage.h>
+#include <sensor_msgs/LaserScan.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <limits>
+
+#include "convert/convert.hpp"
+#include "input/new_college_files.hpp"
+#include "input/new_college_log.hpp"
+#include "convert/row_check.hpp"
+#include "convert/stereo_topics.hpp"
+#include "input/image_file.hpp"
+#include "input/new_college_rig.hpp"
+#include "urban_nav_core/types/error.hpp"
+#include "urban_nav_ros/extrinsics.hpp"
+#include "urban_nav_ros/pose.hpp"
+#include "urban_nav_ros/stamp.hpp"
+
+namespace urban_nav {
+
+using urban_nav_core::DataError;
+using urban_nav_core::StampNs;
+
+namespace {
+
+constexpr double kRowsAgree = 0.3;  // px
+constexpr std::size_t kPairsChecked = 3;
+
+std::vector<geometry_msgs::TransformStamped> transforms() {
+  std::vector<geometry_msgs::TransformStamped> all = stereoTransforms(newCollegeCamera(), newCollegeLeftCamera());
+  all.push_back(urban_nav_ros::toStaticTransform("base_link", "laser_left", newCollegeLeftLaser()));
+  all.push_back(urban_nav_ros::toStaticTransform("base_link", "laser_right", newCollegeRightLaser()));
+  return all;
+}
+
+void write(const NewCollegeScan& event, BagWriter& bag) {
+  const std::string side = event.side == Side::Left ? "left" : "right";
+  const urban_nav_core::PlanarScan& scan = event.scan;
+  sensor_msgs::LaserScan message;
+  message.header.stamp = urban_nav_ros::toRosTime(event.stamp);
+  message.header.frame_id = "laser_" + side;
+  message.header.seq = static_cast<std::uint32_t>(event.id);
+  message.angle_min = static_cast<float>(scan.angle_first);
+  message.angle_increment = static_cast<float>(scan.angle_step);
+  message.angle_max = static_cast<float>(scan.angle_first + scan.angle_step * static_cast<double>(scan.ranges.size() - 1));
+  message.time_increment = static_cast<float>(scan.time_step);
+  message.scan_time = static_cast<float>(scan.period);
+  message.range_min = static_cast<float>(scan.range_min);
+  message.range_max = static_cast<float>(scan.range_max);
+  message.ranges = scan.ranges;
+  message.intensities = scan.intensities;
+  bag.write("/laser_" + side + "/scan", event.stamp, message);
+}
+
+void write(const NewCollegeOdometry& event, BagWriter& bag) {
+  nav_msgs::Odometry message;
+  message.header.stamp = urban_nav_ros::toRosTime(event.stamp);
+  message.header.frame_id = "odom";
+  message.child_frame_id = "base_link";
+  message.pose.pose = urban_nav_ros::toPoseMessage(event.T_odom_base);
+  message.twist.twist.linear.x = event.speed;
+  message.twist.twist.angular.y = event.pitch_rate;
+  message.twist.twist.angular.z = event.yaw_rate;
+  bag.write("/wheel_odom", event.stamp, message);
+}
+
+void write(const NewCollegePanorama& /*event*/, BagWriter& /*bag*/) {}  // the index alone; pictures are taken by the names of their files
+
+void write(const NewCollegeFiles::Image& image, BagWriter& bag) {
+  const urban_nav_ros::GreyImage seen = readPixels(image.path);
+  if (seen.pixels.empty()) throw DataError("", seen.fault, "");
+  std::ifstream file(image.path, std::ios::binary);
+  sensor_msgs::CompressedImage message;
+  message.header.stamp = urban_nav_ros::toRosTime(image.stamp);
+  message.header.frame_id = "ladybug_camera" + std::to_string(image.camera) + "_optical_frame";
+  message.format = "jpeg";
+  message.data.assign(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+  bag.write("/ladybug/camera" + std::to_string(image.camera) + "/image_raw/compressed", image.stamp, message);
+}
+
+/// Everything of one data set, in the order of stamps.
+class NewCollege {
+ public:
+  explicit NewCollege(const std::string& source) : files_(findNewCollege(source)) {
+    if (!files_.alog.empty()) log_.emplace(files_.alog);
+    if (log_) event_ = log_->next();
+  }
+
+  StampNs first() const {
+    StampNs stamp = event_ ? stampOf(*event_) : std::numeric_limits<StampNs>::max();
+    if (!files_.stereo.empty()) stamp = std::min(stamp, files_.stereo.front().stamp);
+    if (!files_.panorama.empty()) stamp = std::min(stamp, files_.panorama.front().stamp);
+    return stamp;
+  }
+
+  void writeAll(BagWriter& bag, Progress& progress) {
+    std::int64_t written = 0;
+    for (; event_; event_ = log_->next()) {
+      writeImagesUntil(stampOf(*event_), bag);
+      std::visit([&](const auto& event) { write(event, bag); }, *event_);
+      progress.update(++written);
+    }
+    writeImagesUntil(std::numeric_limits<StampNs>::max(), bag);
+    progress.finish(written + static_cast<std::int64_t>(files_.stereo.size() + files_.panorama.size()));
+  }
+
+  std::vector<std::string> notes() const {
+    std::vector<std::string> notes;
+    if (!log_) notes.push_back("no .alog: no lasers, no odometry");
+    if (files_.stereo.empty()) notes.push_back("no StereoImages");
+    if (files_.panorama.empty()) notes.push_back("no pictures of the Ladybug");
+    if (!files_.stereo.empty()) notes.push_back("the stereo camera's place is not known: taken as 0.1 m ahead and 1.1 m up");
+    if (!row_differences_.empty()) {
+      const double worst = *std::max_element(row_differences_.begin(), row_differences_.end());
+      notes.push_back("rows of the stereo images agree to " + std::to_string(worst) + " px" + (worst > kRowsAgree ? ": they are NOT rectified, and the calibration without distortion does not fit them" : ""));
+    }
+    if (lonely_ > 0) notes.push_back(std::to_string(lonely_) + " stereo images have no partner");
+    if (log_) addLogNotes(notes);
+    return notes;
+  }
+
+ private:
+  void addLogNotes(std::vector<std::string>& notes) const {
+    const NewCollegeCounts& counts = log_->counts();
+    if (counts.scans_lost > 0) notes.push_back(std::to_string(counts.scans_lost) + " laser scans were lost before the log (gaps in their numbers)");
+    if (counts.odometry_without_tilt > 0) notes.push_back(std::to_string(counts.odometry_without_tilt) + " odometry rows have no tilt: roll and pitch are 0");
+    if (counts.out_of_order > 0) notes.push_back(std::to_string(counts.out_of_order) + " rows came over 2 s late and are left out");
+  }
+
+  void writeImagesUntil(StampNs stamp, BagWriter& bag) {
+    for (; next_stereo_ < files_.stereo.size() && files_.stereo[next_stereo_].stamp <= stamp; ++next_stereo_) writePair(files_.stereo[next_stereo_], bag);
+    for (; next_panorama_ < files_.panorama.size() && files_.panorama[next_panorama_].stamp <= stamp; ++next_panorama_) write(files_.panorama[next_panorama_], bag);
+  }
+
+  static cv::Mat read(const std::string& path, const urban_nav_core::Pinhole& size) {
+    if (path.empty()) return {};
+    const urban_nav_ros::GreyImage image = readGrey(path);
+    if (image.pixels.empty()) throw DataError("", image.fault, "");
+    if (image.pixels.cols != size.width || image.pixels.rows != size.height) {
+      throw DataError(path, std::to_string(image.pixels.cols) + "x" + std::to_string(image.pixels.rows) + " pixels", "512x384, which the data set's calibration is for");
+    }
+    return image.pixels;
+  }
+
+  void writePair(const NewCollegeFiles::Pair& files, BagWriter& bag) {
+    const urban_nav_core::StereoCamera camera = newCollegeCamera();
+    const cv::Mat left = read(files.left, camera.left), right = read(files.right, camera.left);
+    if (left.empty() || right.empty()) ++lonely_;
+    if (row_differences_.size() < kPairsChecked) {
+      if (const std::optional<double> rows = rowDisagreement(left, right)) row_differences_.push_back(*rows);
+    }
+    const auto [left_view, left_owner] = keep(left);
+    const auto [right_view, right_owner] = keep(right);
+    writeStereo({files.stamp, left_view, right_view}, files.stamp, camera, bag);
+  }
+
+  const NewCollegeFiles files_;
+  std::optional<NewCollegeLog> log_;
+  std::optional<NewCollegeEvent> event_;
+  std::size_t next_stereo_ = 0, next_panorama_ = 0;
+  std::vector<double> row_differences_;
+  std::int64_t lonely_ = 0;
+};
+
+}  // namespace
+
+Converted convertNewCollege(const std::string& source, const std::string& path, Console& console) {
+  NewCollege data(source);
+  BagWriter bag(path);
+  bag.writeStaticTransforms(data.first(), transforms());
+  Progress progress(console, "convert", "rows", 0);
+  data.writeAll(bag, progress);
+  bag.commit();
+  return {bag.counts(), data.notes()};
+}
+
+}  // namespace urban_nav

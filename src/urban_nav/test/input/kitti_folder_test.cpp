@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "input/kitti_layout.hpp"
+#include "input/open.hpp"
+#include "support/folders.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav {
+namespace {
+
+using testing::KittiStyle;
+using testing::readFile;
+using testing::TemporaryFolder;
+using testing::writeFile;
+using urban_nav_core::UserError;
+
+std::vector<StereoInput> all(Source& source) {
+  std::vector<StereoInput> inputs;
+  while (std::optional<StereoInput> input = source.next()) inputs.push_back(std::move(*input));
+  return inputs;
+}
+
+std::string messageOf(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(KittiFolder, readsEachLayout) {
+  for (const auto& [left, right, digits] : {std::tuple("image_0", "image_1", 6), std::tuple("image_00", "image_01", 10), std::tuple("image_00/data", "image_01/data", 10)}) {
+    const TemporaryFolder folder;
+    KittiStyle style;
+    style.left = left;
+    style.right = right;
+    style.digits = digits;
+    style.frames = 3;
+    testing::makeKittiFolder(folder.file("in"), style);
+    const auto source = openKittiFolder(folder.file("in"), {});
+    EXPECT_EQ(source->info().frames, 3) << left;
+    EXPECT_EQ(source->info().camera.left.width, 240);
+    EXPECT_NEAR(source->info().camera.baseline, 0.12, 1e-9);
+    const std::vector<StereoInput> inputs = all(*source);
+    ASSERT_EQ(inputs.size(), 3U) << left;
+    EXPECT_EQ(inputs[1].assembled.pair.stamp, 50'000'000);
+    for (const StereoInput& input : inputs) {
+      EXPECT_TRUE(input.faults.empty());
+      EXPECT_EQ(input.assembled.pair.left.width, 240);
+      EXPECT_EQ(input.assembled.pair.right.height, 180);
+    }
+  }
+}
+
+TEST(KittiFolder, takesStampsFromRawTimestampsAndRates) {
+  const TemporaryFolder folder;
+  KittiStyle style;
+  style.left = "image_00/data";
+  style.right = "image_01/data";
+  style.times = false;
+  style.frames = 2;
+  testing::makeKittiFolder(folder.file("in"), style);
+  SourceOptions options;
+  options.rate = 4.0;
+  EXPECT_EQ(openKittiFolder(folder.file("in"), options)->info().last, 250'000'000);
+  EXPECT_EQ(openKittiFolder(folder.file("in"), {})->info().last, 100'000'000) << "KITTI's cameras run at 10 Hz";
+  writeFile(folder.file("in/image_00/timestamps.txt"), "2011-09-26 13:02:25.964389445\n2011-09-26 13:02:26.067389445\n");
+  EXPECT_EQ(openKittiFolder(folder.file("in"), {})->info().first, 1317042145964389445);
+}
+
+TEST(KittiFolder, namesAnImageThatIsTruncatedMissingOrOfAnotherSize) {
+  const TemporaryFolder folder;
+  KittiStyle style;
+  style.frames = 4;
+  testing::makeKittiFolder(folder.file("in"), style);
+  const std::string whole = readFile(folder.file("in/image_0/000001.png"));
+  writeFile(folder.file("in/image_0/000001.png"), whole.substr(0, whole.size() / 2));
+  std::filesystem::remove(folder.file("in/image_1/000002.png"));
+  const std::vector<StereoInput> inputs = all(*openKittiFolder(folder.file("in"), {}));
+  ASSERT_EQ(inputs.size(), 4U);
+  ASSERT_EQ(inputs[1].faults.size(), 1U);
+  EXPECT_NE(inputs[1].faults[0].find("image_0/000001.png"), std::string::npos);
+  EXPECT_TRUE(inputs[1].assembled.pair.left.empty());
+  EXPECT_FALSE(inputs[1].assembled.pair.right.empty());
+  ASSERT_EQ(inputs[2].faults.size(), 1U);
+  EXPECT_NE(inputs[2].faults[0].find("image_1"), std::string::npos);
+  EXPECT_TRUE(inputs[3].faults.empty());
+}
+
+TEST(KittiFolder, namesFileAndLineOfWhatIsWrong) {
+  const TemporaryFolder folder;
+  KittiStyle style;
+  style.frames = 3;
+  testing::makeKittiFolder(folder.file("in"), style);
+  const auto open = [&] { openKittiFolder(folder.file("in"), {}); };
+  writeFile(folder.file("in/times.txt"), "0.0\nsoon\n0.2\n");
+  EXPECT_NE(messageOf(open).find("times.txt:2"), std::string::npos) << messageOf(open);
+  writeFile(folder.file("in/times.txt"), "0.0\n0.1\n");
+  EXPECT_NE(messageOf(open).find("2 stamps"), std::string::npos) << messageOf(open);
+  std::filesystem::remove(folder.file("in/times.txt"));
+  writeFile(folder.file("in/calib.txt"), "P0: 1 0 0 0 0 1 0 0 0 0 1 0\nP1: 1 0 0 zero 0 1 0 0 0 0 1 0\n");
+  EXPECT_NE(messageOf(open).find("calib.txt:2"), std::string::npos) << messageOf(open);
+  writeFile(folder.file("in/calib.txt"), "P0: 200 0 100 0 0 200 90 0 0 0 1 0\nP1: 200 0 100 20 0 200 90 0 0 0 1 0\n");
+  EXPECT_NE(messageOf(open).find("baseline"), std::string::npos) << "right camera to the left: " << messageOf(open);
+  std::filesystem::remove(folder.file("in/calib.txt"));
+  EXPECT_NE(messageOf(open).find("calib.txt"), std::string::npos);
+}
+
+TEST(KittiLayout, parsesDates) {
+  EXPECT_EQ(parseDateTime("1970-01-01 00:00:01.5"), 1'500'000'000);
+  EXPECT_EQ(parseDateTime("2000-02-29T12:00:00.000000001"), 951825600000000001);
+  EXPECT_FALSE(parseDateTime("2011-13-26 13:02:25.9"));
+  EXPECT_FALSE(parseDateTime("yesterday"));
+}
+
+TEST(InputKind, tellsWhatItKnows) {
+  const TemporaryFolder folder;
+  writeFile(folder.file("text.bag"), "no bag");
+  std::filesystem::create_directories(folder.file("empty"));
+  EXPECT_NE(messageOf([&] { inputKind(folder.file("text.bag")); }).find("#ROSBAG"), std::string::npos);
+  EXPECT_NE(messageOf([&] { inputKind(folder.file("empty")); }).find("KITTI"), std::string::npos);
+  EXPECT_NE(messageOf([&] { inputKind(folder.file("nowhere")); }).find("is not there"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace urban_nav

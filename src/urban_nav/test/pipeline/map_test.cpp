@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "convert/convert.hpp"
+#include "pipeline/map_job.hpp"
+#include "support/bags.hpp"
+#include "support/folders.hpp"
+#include "urban_nav_core/io/kitti.hpp"
+#include "urban_nav_core/io/tum.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::readFile;
+using testing::TemporaryFolder;
+using testing::writeFile;
+using urban_nav_core::DataError;
+using urban_nav_core::UserError;
+
+const std::vector<std::string> kSame = {"trajectory.tum", "trajectory.kitti", "covariance.csv", "relative_covariance.csv", "graph.g2o", "landmarks.ply"};
+
+void map(const std::vector<std::string>& inputs, const std::string& out, int threads = 1, const std::function<void(MapRequest&)>& change = {}) {
+  const Arguments none({});
+  MapRequest request{inputs, out, {"vo"}, "", "", {}, loadParameters(none), threads};
+  if (change) change(request);
+  Console console;
+  runMap(request, console);
+}
+
+void expectSame(const std::string& a, const std::string& b) {
+  for (const std::string& name : kSame) EXPECT_EQ(readFile(a + "/" + name), readFile(b + "/" + name)) << name;
+}
+
+/// A folder that several tests map: rendered once.
+class Map : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    shared_ = std::make_unique<TemporaryFolder>();
+    testing::makeKittiFolder(in());
+    map({in()}, out());
+  }
+  static void TearDownTestSuite() { shared_.reset(); }
+  static std::string in() { return shared_->file("in"); }
+  static std::string out() { return shared_->file("out"); }
+
+ private:
+  static std::unique_ptr<TemporaryFolder> shared_;
+};
+std::unique_ptr<TemporaryFolder> Map::shared_;
+
+TEST_F(Map, writesAPosePerFrameNearTheTruth) {
+  const urban_nav_core::Trajectory trajectory = urban_nav_core::readTum(out() + "/trajectory.tum");
+  const std::vector<urban_nav_core::Pose> estimate = urban_nav_core::readKitti(out() + "/trajectory.kitti"), truth = urban_nav_core::readKitti(in() + "/poses.txt");
+  ASSERT_EQ(trajectory.size(), 16U);
+  ASSERT_EQ(estimate.size(), truth.size());
+  EXPECT_EQ(trajectory[3].stamp, 150'000'000);
+  EXPECT_TRUE(isApprox(trajectory.front().pose, urban_nav_core::Pose(), 1e-9)) << "odom is the first base_link";
+  EXPECT_LT(distanceBetween(estimate.back(), truth.back()), 0.05);
+  EXPECT_GT(distanceBetween(truth.front(), truth.back()), 0.2) << "else the test says nothing";
+  for (const char* name : {"stats.csv", "summary.json", "report.html"}) EXPECT_FALSE(readFile(out() + "/" + name).empty()) << name;
+}
+
+TEST_F(Map, saysWhatTheContractAsksFor) {
+  const std::string summary = readFile(out() + "/summary.json");
+  for (const char* key : {"wall_s", "cpu_s", "peak_rss_bytes", "realtime_factor", "distance_m", "frames", "swf_vo", "ms_median", "ms_p99", "features_mean", "track_length_mean", "reprojection_px_mean",
+                          "status_counts", "warnings", "ate_m", "ate_se3_m", "ate_sim3_m", "rpe_percent", "rpe_deg_per_m", "nees_mean", "frames_truth", "frames_estimate"}) {
+    EXPECT_NE(summary.find("\"" + std::string(key) + "\":"), std::string::npos) << key;
+  }
+  const std::string report = readFile(out() + "/report.html");
+  EXPECT_EQ(report.find("http-equiv=\"refresh\""), std::string::npos) << "a finished report stands still";
+  for (const char* word : {"src=\"http", "href=\"http", "url(http", "@import"}) EXPECT_EQ(report.find(word), std::string::npos) << word;
+}
+
+TEST_F(Map, givesEqualBytesWithTwoThreads) {
+  const TemporaryFolder folder;
+  map({in()}, folder.file("two"), 2);
+  expectSame(out(), folder.file("two"));
+}
+
+TEST_F(Map, keepsTheTruthFromTheEstimate) {
+  const TemporaryFolder folder;
+  fs::copy(in(), folder.file("in"), fs::copy_options::recursive);
+  fs::remove(folder.file("in/poses.txt"));
+  map({folder.file("in")}, folder.file("without"));
+  expectSame(out(), folder.file("without"));
+  EXPECT_EQ(readFile(folder.file("without/summary.json")).find("ate_m"), std::string::npos);
+  for (const char* scrambled : {"no poses at all\n", "1 0 0 7 0 1 0 8 0 0 1 9\n"}) {
+    writeFile(folder.file("in/poses.txt"), scrambled);
+    map({folder.file("in")}, folder.file("scrambled"));
+    expectSame(out(), folder.file("scrambled"));
+  }
+}
+
+TEST_F(Map, goesOnOverADamagedImageAndNamesIt) {
+  const TemporaryFolder folder;
+  fs::copy(in(), folder.file("in"), fs::copy_options::recursive);
+  writeFile(folder.file("in/image_0/000008.png"), readFile(in() + "/image_0/000008.png").substr(0, 500));
+  map({folder.file("in")}, folder.file("out"));
+  EXPECT_EQ(urban_nav_core::readKitti(folder.file("out/trajectory.kitti")).size(), 16U);
+  EXPECT_NE(readFile(folder.file("out/summary.json")).find("000008.png"), std::string::npos);
+}
+
+TEST_F(Map, refusesWhatNobodyCanMap) {
+  const TemporaryFolder folder;
+  const auto with_stage = [](const char* stage) { return [stage](MapRequest& request) { request.stages = {stage}; }; };
+  EXPECT_THROW(map({in()}, folder.file("out"), 1, with_stage("places")), UserError);
+  EXPECT_THROW(map({in()}, folder.file("out"), 1, with_stage("vision")), UserError);
+  EXPECT_THROW(map({in()}, folder.file("out"), 1, [](MapRequest& request) { request.truth = "/nowhere.tum"; }), UserError);
+  fs::copy(in(), folder.file("in"), fs::copy_options::recursive);
+  for (const char* side : {"image_0", "image_1"}) {
+    for (const auto& entry : fs::directory_iterator(folder.file(std::string("in/") + side))) writeFile(entry.path().string(), "damaged");
+  }
+  EXPECT_THROW(map({folder.file("in")}, folder.file("out")), DataError);
+}
+
+TEST_F(Map, readsItsOwnBagsLikeTheFolder) {
+  const TemporaryFolder folder;
+  Console console;
+  const Converted converted = convertStereoFolder(in(), folder.file("in.bag"), {}, console);
+  EXPECT_EQ(converted.counts.at("/stereo/left/image_raw"), 16);
+  EXPECT_EQ(converted.counts.at("/stereo/right/camera_info"), 16);
+  EXPECT_EQ(converted.counts.at("/ground_truth/pose"), 16);
+  EXPECT_EQ(converted.counts.at("/tf_static"), 1);
+  map({folder.file("in.bag")}, folder.file("out"));
+  EXPECT_EQ(readFile(out() + "/trajectory.kitti"), readFile(folder.file("out/trajectory.kitti"))) << "same images, same camera, same bytes";
+  EXPECT_NE(readFile(folder.file("out/summary.json")).find("/ground_truth/pose"), std::string::npos);
+
+  testing::rewriteBag(folder.file("in.bag"), folder.file("shuffled.bag"), testing::Rewrite::Shuffle);
+  map({folder.file("shuffled.bag")}, folder.file("shuffled"), 2);
+  expectSame(folder.file("out"), folder.file("shuffled"));
+
+  testing::rewriteBag(folder.file("in.bag"), folder.file("blind.bag"), testing::Rewrite::WithoutTruth);
+  map({folder.file("blind.bag")}, folder.file("blind"));
+  expectSame(folder.file("out"), folder.file("blind"));
+
+  testing::rewriteBag(folder.file("in.bag"), folder.file("other.bag"), testing::Rewrite::CompressedColourUnderOtherNames);
+  map({folder.file("other.bag")}, folder.file("other"), 1, [&](MapRequest& request) { request.source.calibration = in() + "/calib.txt"; });
+  EXPECT_EQ(readFile(out() + "/trajectory.kitti"), readFile(folder.file("other/trajectory.kitti"))) << "PNG in colour holds the same grey";
+}
+
+TEST_F(Map, leavesNoHalfBagBehind) {
+  const TemporaryFolder folder;
+  fs::copy(in(), folder.file("in"), fs::copy_options::recursive);
+  writeFile(folder.file("in/image_1/000005.png"), "damaged");
+  Console console;
+  try {
+    convertStereoFolder(folder.file("in"), folder.file("in.bag"), {}, console);
+    FAIL() << "a damaged image must end a conversion";
+  } catch (const DataError& error) {
+    EXPECT_NE(std::string(error.what()).find("image_1/000005.png"), std::string::npos) << error.what();
+  }
+  for (const auto& entry : fs::directory_iterator(folder.file(""))) EXPECT_EQ(entry.path().filename(), "in") << entry.path();
+}
+
+}  // namespace
+}  // namespace urban_nav

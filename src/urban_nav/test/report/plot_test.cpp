@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/plot.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "report/page.hpp"
+#include "report/standalone_svg.hpp"
+
+namespace urban_nav {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+Series line(std::vector<PlotPoint> points) {
+  Series series;
+  series.name = "a <b>";
+  series.points = std::move(points);
+  return series;
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+TEST(Plot, drawsNothingOutOfNothing) {
+  EXPECT_EQ(renderSvg({}), "");
+  Plot plot;
+  plot.series.push_back(line({{kNan, 1.0}, {0.0, kNan}}));
+  EXPECT_EQ(renderSvg(plot), "");
+}
+
+TEST(Plot, breaksALineAtWhatIsNotFinite) {
+  Plot plot;
+  plot.series.push_back(line({{0, 0}, {1, 1}, {2, kNan}, {3, 1}, {4, 0}}));
+  const std::string svg = renderSvg(plot, false);
+  const std::size_t begin = svg.find(" d=\"");
+  ASSERT_NE(begin, std::string::npos);
+  EXPECT_EQ(count(svg.substr(begin, svg.find("\"/>", begin) - begin), "M"), 2U);
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  EXPECT_EQ(svg.find("inf"), std::string::npos);
+}
+
+TEST(Plot, keepsExtremesOfALongLine) {
+  std::vector<PlotPoint> points;
+  for (int i = 0; i < 100000; ++i) points.push_back({0.001 * i, i == 77777 ? 50.0 : std::sin(0.01 * i)});
+  Plot plot;
+  plot.series.push_back(line(points));
+  const std::string svg = renderSvg(plot);
+  EXPECT_LT(svg.size(), 60000U);
+  EXPECT_NE(svg.find(" 25."), std::string::npos) << "the spike reaches the top of the plot (12 px, and 6 % of the range, below its edge)";
+}
+
+TEST(Plot, survivesASinglePoint) {
+  Plot plot;
+  plot.equal_axes = true;
+  plot.series.push_back(line({{5.0, 5.0}}));
+  EXPECT_EQ(renderSvg(plot).find("nan"), std::string::npos);
+}
+
+TEST(Plot, escapesNames) {
+  Plot plot;
+  plot.series.push_back(line({{0, 0}, {1, 1}}));
+  EXPECT_EQ(renderSvg(plot).find("<b>"), std::string::npos);
+  EXPECT_NE(standaloneSvg({{"x & y", plot}}).find("x &amp; y"), std::string::npos);
+}
+
+TEST(NiceTicks, areRoundAndInside) {
+  EXPECT_EQ(niceTicks(0.0, 10.0, 5), (std::vector<double>{0, 2, 4, 6, 8, 10}));
+  for (const double tick : niceTicks(-0.37, 1.2e6, 7)) {
+    EXPECT_GE(tick, -0.37);
+    EXPECT_LE(tick, 1.2e6);
+  }
+  EXPECT_TRUE(niceTicks(1.0, 1.0, 5).empty());
+  EXPECT_TRUE(niceTicks(kNan, 1.0, 5).empty());
+}
+
+TEST(ForPerson, writesWhatPeopleWrite) {
+  EXPECT_EQ(forPerson(0.0), "0");
+  EXPECT_EQ(forPerson(59.8612, 4), "59.86");
+  EXPECT_EQ(forPerson(1234567.0, 3), "1234567");
+  EXPECT_EQ(forPerson(0.0012345, 3), "0.00123");
+  EXPECT_EQ(forPerson(-2.50, 3), "-2.5");
+  EXPECT_EQ(forPerson(kNan), "–");
+}
+
+TEST(Page, isOneFileThatRefreshesOnlyWhileItRuns) {
+  Page page;
+  page.title = "<script>alert(1)</script>";
+  page.running = true;
+  page.progress = 0.5;
+  EXPECT_NE(renderPage(page).find("http-equiv=\"refresh\""), std::string::npos);
+  EXPECT_EQ(renderPage(page).find("<script>alert"), std::string::npos);
+  page.running = false;
+  EXPECT_EQ(renderPage(page).find("http-equiv=\"refresh\""), std::string::npos);
+}
+
+TEST(Base64, agreesWithTheStandard) {  // RFC 4648, section 10
+  const auto of = [](const std::string& text) { return base64({text.begin(), text.end()}); };
+  EXPECT_EQ(of(""), "");
+  EXPECT_EQ(of("f"), "Zg==");
+  EXPECT_EQ(of("fo"), "Zm8=");
+  EXPECT_EQ(of("foobar"), "Zm9vYmFy");
+}
+
+}  // namespace
+}  // namespace urban_nav

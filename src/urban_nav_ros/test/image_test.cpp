@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_ros/image.hpp"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace urban_nav_ros {
+namespace {
+
+sensor_msgs::Image message(const std::string& encoding, std::uint32_t width, std::uint32_t height, std::vector<std::uint8_t> data, std::uint32_t step = 0) {
+  sensor_msgs::Image image;
+  image.encoding = encoding;
+  image.width = width;
+  image.height = height;
+  image.step = step != 0 ? step : static_cast<std::uint32_t>(data.size() / height);
+  image.data = std::move(data);
+  return image;
+}
+
+TEST(ToGrey, sharesTheBytesOfMono8AndHeedsTheStep) {
+  const sensor_msgs::Image image = message("mono8", 2, 2, {1, 2, 99, 3, 4, 99}, 3);
+  const GreyImage grey = toGrey(image);
+  ASSERT_TRUE(grey.fault.empty()) << grey.fault;
+  EXPECT_EQ(grey.pixels.data, image.data.data());
+  EXPECT_EQ(grey.pixels.at<std::uint8_t>(1, 0), 3);
+}
+
+TEST(ToGrey, weighsColoursByTheirNames) {
+  EXPECT_EQ(toGrey(message("rgb8", 1, 1, {255, 0, 0})).pixels.at<std::uint8_t>(0, 0), 76);
+  EXPECT_EQ(toGrey(message("bgr8", 1, 1, {255, 0, 0})).pixels.at<std::uint8_t>(0, 0), 29);
+  EXPECT_EQ(toGrey(message("rgba8", 1, 1, {255, 0, 0, 7})).pixels.at<std::uint8_t>(0, 0), 76);
+  EXPECT_EQ(toGrey(message("bgra8", 1, 1, {255, 0, 0, 7})).pixels.at<std::uint8_t>(0, 0), 29);
+}
+
+TEST(ToGrey, knowsWhichPixelOfAMosaicIsRed) {
+  // Red light alone: the red pixels are bright, the others dark. Grey is 0.299 red wherever the pattern is read rightly.
+  const auto mosaic = [](int red_u, int red_v) {
+    std::vector<std::uint8_t> data(16 * 16, 0);
+    for (int v = red_v; v < 16; v += 2) {
+      for (int u = red_u; u < 16; u += 2) data[static_cast<std::size_t>(16 * v + u)] = 200;
+    }
+    return data;
+  };
+  EXPECT_NEAR(toGrey(message("bayer_rggb8", 16, 16, mosaic(0, 0))).pixels.at<std::uint8_t>(8, 8), 60, 1);
+  EXPECT_NEAR(toGrey(message("bayer_bggr8", 16, 16, mosaic(1, 1))).pixels.at<std::uint8_t>(8, 8), 60, 1);
+  EXPECT_NEAR(toGrey(message("bayer_grbg8", 16, 16, mosaic(1, 0))).pixels.at<std::uint8_t>(8, 8), 60, 1);
+  EXPECT_NEAR(toGrey(message("bayer_gbrg8", 16, 16, mosaic(0, 1))).pixels.at<std::uint8_t>(8, 8), 60, 1);
+}
+
+TEST(ToGrey, keepsTheHighestEightOfTheBitsInUse) {
+  sensor_msgs::Image image = message("mono16", 2, 1, {0xff, 0x0f, 0x00, 0x01});  // 4095 and 256
+  EXPECT_EQ(significantBits(image), 12);
+  EXPECT_EQ(toGrey(image, 12).pixels.at<std::uint8_t>(0, 0), 255);
+  EXPECT_EQ(toGrey(image, 12).pixels.at<std::uint8_t>(0, 1), 16);
+  EXPECT_EQ(toGrey(image).pixels.at<std::uint8_t>(0, 0), 15);
+  EXPECT_EQ(toGrey(image, 8).pixels.at<std::uint8_t>(0, 1), 255) << "brighter than the first image: saturated, not wrapped";
+  image = message("mono16", 2, 1, {0x0f, 0xff, 0x01, 0x00});
+  image.is_bigendian = 1;
+  EXPECT_EQ(toGrey(image, 12).pixels.at<std::uint8_t>(0, 0), 255);
+}
+
+TEST(ToGrey, saysWhatIsWrong) {
+  EXPECT_NE(toGrey(message("yuv422", 2, 1, {1, 2, 3, 4})).fault.find("mono8"), std::string::npos) << "names what is known";
+  EXPECT_FALSE(toGrey(message("mono8", 4, 4, std::vector<std::uint8_t>(15), 4)).fault.empty());
+  EXPECT_FALSE(toGrey(message("mono8", 4, 1, std::vector<std::uint8_t>(4), 3)).fault.empty()) << "step shorter than a row";
+  EXPECT_FALSE(toGrey(message("mono8", 0, 1, {})).fault.empty());
+  sensor_msgs::Image huge = message("mono8", 4, 1, {1, 2, 3, 4});
+  huge.width = huge.step = 0xffffffff;
+  EXPECT_FALSE(toGrey(huge).fault.empty());
+}
+
+TEST(ToGrey, decodesWhatIsCompressed) {
+  cv::Mat picture(8, 8, CV_8UC1);
+  cv::randu(picture, 0, 255);
+  sensor_msgs::CompressedImage compressed;
+  cv::imencode(".png", picture, compressed.data);
+  EXPECT_EQ(cv::norm(toGrey(compressed).pixels, picture, cv::NORM_INF), 0.0);
+  compressed.data.resize(20);
+  EXPECT_FALSE(toGrey(compressed).fault.empty());
+  compressed.data.clear();
+  EXPECT_FALSE(toGrey(compressed).fault.empty());
+}
+
+TEST(ToImageMessage, comesBackTheSame) {
+  cv::Mat picture(5, 7, CV_8UC1);
+  cv::randu(picture, 0, 255);
+  const sensor_msgs::Image image = toImageMessage(picture(cv::Rect(1, 1, 5, 3)));
+  EXPECT_EQ(image.step, 5U);
+  EXPECT_EQ(cv::norm(toGrey(image).pixels, picture(cv::Rect(1, 1, 5, 3)), cv::NORM_INF), 0.0);
+  EXPECT_TRUE(viewOf(cv::Mat()).empty());
+  EXPECT_EQ(viewOf(picture).at(6, 4), picture.at<std::uint8_t>(4, 6));
+}
+
+}  // namespace
+}  // namespace urban_nav_ros
