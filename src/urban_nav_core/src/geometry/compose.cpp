@@ -25,12 +25,12 @@ Composition compose(const Pose& T_a_b, const Pose& T_b_c) {
 }
 
 Inversion invert(const Pose& T_a_b) {
-  const Matrix3d R_b_a = T_a_b.R().transpose();
+  const Matrix3d R_b_a = T_a_b.q().conjugate().toRotationMatrix();
   return {T_a_b.inverse(), blocks(-R_b_a, -R_b_a * skew(T_a_b.t()), -R_b_a)};
 }
 
 Between between(const Pose& T_a_b, const Pose& T_a_c) {
-  const Matrix3d R_b_a = T_a_b.R().transpose();
+  const Matrix3d R_b_a = T_a_b.q().conjugate().toRotationMatrix();
   return {T_a_b.inverse() * T_a_c, blocks(-R_b_a, R_b_a * skew(T_a_c.t() - T_a_b.t()), -R_b_a),
           blocks(R_b_a, Matrix3d::Zero(), R_b_a)};
 }

@@ -48,7 +48,7 @@ std::optional<double> decimal(std::string_view text) {
   double value = 0.0;
   const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
   if (end.ptr != text.data() + text.size()) return std::nullopt;
-  if (end.ec == std::errc::result_out_of_range) return isUnderflow(text) ? std::optional<double>(0.0) : std::nullopt;
+  if (end.ec == std::errc::result_out_of_range && isUnderflow(text)) return 0.0;
   if (end.ec != std::errc()) return std::nullopt;
   return value;
 }
@@ -93,7 +93,8 @@ void appendNumber(std::string& text, double value) { text += shortest(value); }
 std::optional<double> parseNumber(std::string_view text) {
   if (!looksDecimal(text)) return std::nullopt;
   const auto value = decimal(withoutPlus(text));
-  return value && std::isfinite(*value) ? value : std::nullopt;
+  if (!value || !std::isfinite(*value)) return std::nullopt;
+  return *value;
 }
 
 std::optional<std::int64_t> parseInteger(std::string_view text) {
