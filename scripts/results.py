@@ -19,7 +19,10 @@ def read(path):
     failed = [c for c in cases if c.find("failure") is not None or c.find("error") is not None]
     skipped = [c for c in cases if c not in failed and (c.find("skipped") is not None or c.get("status") == "notrun")]
     names = [f"{path.parent.name}: {c.get('classname', '')}.{c.get('name', '')}" for c in failed]
-    return len(cases) - len(failed) - len(skipped), len(failed), len(skipped), names
+    passed = len(cases) - len(failed) - len(skipped)
+    if path.name.startswith("rostest-"):  # it only says that a test ran, whose cases stand in a rosunit file of their own
+        passed = 0
+    return passed, len(failed), len(skipped), names
 
 
 def compile_times(log):
