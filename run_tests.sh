@@ -52,7 +52,7 @@ build_all() (
 build_cores() (
   lock
   configure "$build/cores" -DCATKIN_ENABLE_TESTING=ON -DURBAN_NAV_CORES_ONLY=ON -DURBAN_NAV_SANITIZE=ON \
-    -DCATKIN_WHITELIST_PACKAGES='urban_nav_core;swf_vo' -DURBAN_NAV_TEST_ROOMS="$1"
+    -DCATKIN_WHITELIST_PACKAGES='urban_nav_core;swf_vo;urban_nav' -DURBAN_NAV_TEST_ROOMS="$1"
   compile "$build/cores" "Building the sanitized cores" tests
 )
 

@@ -119,15 +119,18 @@ else()
     urban_nav_core opencv_core opencv_imgcodecs opencv_imgproc)
 endif()
 
-# urban_nav_test(LIBRARY... [ROS]): PACKAGE-test, one gtest binary of test/**/*.cpp without test/ros, linked with the libraries.
+# urban_nav_test(LIBRARY... [ROS] [ONLY SOURCE...]): PACKAGE-test, one gtest binary of test/**/*.cpp without test/ros, linked
+# with the libraries.
 function(urban_nav_test)
   if(NOT CATKIN_ENABLE_TESTING)
     return()
   endif()
-  cmake_parse_arguments(arg "ROS" "" "" ${ARGN})
+  cmake_parse_arguments(arg "ROS" "" "ONLY" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/*.cpp)
   list(FILTER sources EXCLUDE REGEX "^${PROJECT_SOURCE_DIR}/test/ros/")
-  if(URBAN_NAV_TEST_ROOMS)
+  if(arg_ONLY)
+    set(sources ${arg_ONLY})
+  elseif(URBAN_NAV_TEST_ROOMS)
     string(REPLACE ";" "|" rooms "${URBAN_NAV_TEST_ROOMS}")
     list(FILTER sources INCLUDE REGEX "^${PROJECT_SOURCE_DIR}/test/(${rooms})/")
   endif()
