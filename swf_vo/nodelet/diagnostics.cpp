@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "diagnostics.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace swf_vo {
 
@@ -64,22 +64,21 @@ void Diagnostics::paused(bool paused) {
   paused_ = paused;
 }
 
+double Diagnostics::ageOf(const Arrival& arrival) { return std::chrono::duration<double>(Clock::now() - arrival.when).count(); }
+
 std::string Diagnostics::topicTrouble() const {
   for (const Arrival& arrival : arrivals_)
     if (!arrival.name.empty() && !arrival.any) return arrival.name + " has not come yet";
+  const bool left_leads = arrivals_[LeftImage].stamp > arrivals_[RightImage].stamp;
+  const Arrival& leader = arrivals_[left_leads ? LeftImage : RightImage];
+  const Arrival& partner = arrivals_[left_leads ? RightImage : LeftImage];
+  // Between two messages one side is ahead of the other in good health too; only a pair that was incomplete makes it a fault.
+  const double behind_ms = 1e-6 * static_cast<double>(leader.stamp - partner.stamp);
+  const bool incomplete = status_.reason == static_cast<int>(Reason::ImageMissing) || ageOf(partner) > silent_after;
+  if (incomplete && behind_ms > 0.0 && ageOf(leader) < silent_after) return partner.name + " is " + milliseconds(behind_ms) + " behind " + leader.name;
   for (const Topic topic : {LeftImage, RightImage, Motion}) {
     const Arrival& arrival = arrivals_[topic];
-    if (arrival.name.empty()) continue;
-    const double age = std::chrono::duration<double>(Clock::now() - arrival.when).count();
-    if (age > silent_after) return arrival.name + " has been silent for " + milliseconds(1e3 * age);
-  }
-  // Between two messages one side is ahead of the other in good health too; only a pair that was incomplete makes it a fault.
-  const Arrival& left = arrivals_[LeftImage];
-  const Arrival& right = arrivals_[RightImage];
-  const double behind_ms = 1e-6 * static_cast<double>(left.stamp - right.stamp);
-  if (std::abs(behind_ms) > 1.0 && status_.reason == static_cast<int>(Reason::ImageMissing)) {
-    const bool right_late = behind_ms > 0.0;
-    return (right_late ? right.name : left.name) + " is " + milliseconds(std::abs(behind_ms)) + " behind " + (right_late ? left.name : right.name);
+    if (!arrival.name.empty() && ageOf(arrival) > silent_after) return arrival.name + " has been silent for " + milliseconds(1e3 * ageOf(arrival));
   }
   return {};
 }
@@ -94,8 +93,8 @@ void Diagnostics::report(diagnostic_updater::DiagnosticStatusWrapper& status) co
   } else {
     std::string text = status_.sentence.empty() ? toString(status_.health) : status_.sentence;
     if (!trouble.empty()) text += ": " + trouble;
-    status.summary(levelOf(status_.health), text);
-    if (!trouble.empty()) status.mergeSummary(DiagnosticStatus::WARN, "");
+    const unsigned char at_least = trouble.empty() ? DiagnosticStatus::OK : DiagnosticStatus::WARN;
+    status.summary(std::max(levelOf(status_.health), at_least), text);
   }
   status.add("status", std::string(toString(status_.health)));
   status.add("reason", std::string(toString(static_cast<Reason>(status_.reason))));

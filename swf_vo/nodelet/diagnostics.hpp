@@ -52,6 +52,7 @@ class Diagnostics {
   };
   void report(diagnostic_updater::DiagnosticStatusWrapper& status) const;
   std::string topicTrouble() const;
+  static double ageOf(const Arrival& arrival);  // s
 
   mutable std::mutex mutex_;  // guards everything below but updater_
   std::array<Arrival, topic_count> arrivals_;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <future>
 #include <thread>
 
 #include "diagnostics.hpp"
@@ -35,8 +36,13 @@ struct InfoInput {
   Side side;
   sensor_msgs::CameraInfoConstPtr message;
 };
-struct Reset {};
+struct Reset {
+  std::shared_ptr<std::promise<void>> done;
+};
 using Input = std::variant<SensorInput, InfoInput, tf2_msgs::TFMessageConstPtr, Reset>;
+
+// A queue of images takes this long to be worked off, at most; a caller of ~reset does not wait longer.
+constexpr std::chrono::seconds reset_patience{10};
 
 // A stamp that lies this far back is a bag that began again or a clock that was set, not a late message.
 constexpr StampNs back_in_time = 1'000'000'000;
@@ -187,14 +193,16 @@ void SwfVoNodelet::advertiseServices() {
   const auto advertise = [this](const char* name, const auto& action) {
     const boost::function<bool(Request&, Response&)> callback = [action](Request&, Response& response) {
       response.message = action();
-      response.success = true;
+      response.success = !response.message.empty();
       return true;
     };
     services_.push_back(getPrivateNodeHandle().advertiseService(name, callback));
   };
   advertise("reset", [this] {
-    mailbox_.put(Reset());
-    return "the next pair begins a new session";
+    const auto done = std::make_shared<std::promise<void>>();
+    mailbox_.put(Reset{done});
+    const bool ended = done->get_future().wait_for(reset_patience) == std::future_status::ready;
+    return ended ? "the session has ended, the next pair begins a new one" : "";
   });
   advertise("pause", [this] {
     paused_ = true;
@@ -230,7 +238,10 @@ void SwfVoNodelet::work() {
 void SwfVoNodelet::take(Input& input) {
   if (const auto* info = std::get_if<InfoInput>(&input)) return takeInfo(*info);
   if (const auto* transforms = std::get_if<tf2_msgs::TFMessageConstPtr>(&input)) return transforms_.add(**transforms);
-  if (std::holds_alternative<Reset>(input)) return endSession("reset");
+  if (const auto* reset = std::get_if<Reset>(&input)) {
+    endSession("reset");
+    return reset->done->set_value();
+  }
   auto& sensor = std::get<SensorInput>(input);
   if (const auto* image = std::get_if<ImageInput>(&sensor)) {
     if (newest_ && image->stamp < *newest_ - back_in_time) endSession("time went back");
@@ -249,6 +260,8 @@ void SwfVoNodelet::takeInfo(const InfoInput& info) {
   sensor_msgs::CameraInfoConstPtr& known = info.side == Side::Left ? left_info_ : right_info_;
   if (known && sameCalibration(*known, *info.message)) return;
   if (session_) endSession("the calibration changed");
+  // A new left camera with the old right one would be neither: the other side has to speak again.
+  if (known) (info.side == Side::Left ? right_info_ : left_info_).reset();
   known = info.message;
   refusal_.clear();
 }

@@ -1,0 +1,159 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""bag.launch as a user starts it: once at three times the speed, once paused, once looped; and against the offline command."""
+import csv
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import rospkg
+import rospy
+import yaml
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from graph import Launched, Listener, command, make_bag, published, subscribed_by, until  # noqa: E402
+
+TOPICS = {
+    "/vo/odometry": "nav_msgs/Odometry",
+    "/vo/relative_pose": "urban_nav_msgs/RelativePose",
+    "/vo/frame": "urban_nav_msgs/VoFrame",
+    "/vo/landmarks": "sensor_msgs/PointCloud2",
+    "/vo/tracks": "sensor_msgs/Image",
+    "/vo/path": "nav_msgs/Path",
+    "/swf_vo/status": "urban_nav_msgs/StageStatus",
+    "/diagnostics": "diagnostic_msgs/DiagnosticArray",
+    "/stereo/left/image_raw": "sensor_msgs/Image",
+    "/stereo/right/image_raw": "sensor_msgs/Image",
+    "/stereo/left/camera_info": "sensor_msgs/CameraInfo",
+    "/stereo/right/camera_info": "sensor_msgs/CameraInfo",
+    "/clock": "rosgraph_msgs/Clock",
+}
+SENSOR_FRAMES = ["base_link", "stereo_left_optical_frame", "stereo_right_optical_frame"]
+# What a display of rviz reads, and the property that names it.
+DISPLAYS = {
+    "rviz/Image": ("Image Topic", "sensor_msgs/Image"),
+    "rviz/Path": ("Topic", "nav_msgs/Path"),
+    "rviz/PointCloud2": ("Topic", "sensor_msgs/PointCloud2"),
+    "rviz/Odometry": ("Topic", "nav_msgs/Odometry"),
+}
+WITHOUT_TOPIC = {"rviz/Grid", "rviz/TF", "rviz/Axes"}
+
+
+def stamp_of(message):
+    return message.header.stamp.to_nsec()
+
+
+class BagLaunch(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("bag_launch_test", disable_signals=True)
+        cls.folder = tempfile.mkdtemp()
+        cls.bag = make_bag(cls.folder)
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    def setUp(self):
+        self.listener = Listener()
+        self.launched = None
+
+    def tearDown(self):
+        if self.launched:
+            self.assertEqual(self.launched.stop(), "")
+        self.listener.close()
+        self.assertEqual(self.listener.errors, [])
+
+    def launch(self, **arguments):
+        arguments.setdefault("rviz", "false")
+        self.launched = Launched("bag.launch", bag=self.bag, **arguments)
+
+    def test_plays_and_agrees_with_the_command_to_the_last_bit(self):
+        out = Path(self.folder) / "out"
+        subprocess.run([command(), "map", str(self.bag), "--stages", "vo", "--out", str(out)], check=True,
+                       stdout=subprocess.DEVNULL)
+        with open(out / "stats.csv") as file:
+            rows = list(csv.DictReader(file))
+        self.launch(rate=3)
+        self.assertTrue(until(lambda: len(self.listener.odometry) >= 5, 60), self.launched.output())
+        present = published()
+        for topic, type_name in TOPICS.items():
+            self.assertEqual(present.get(topic), type_name, topic)
+        self.assertTrue(until(lambda: len(self.listener.odometry) == len(rows), 60),
+                        f"{len(self.listener.odometry)} of {len(rows)} frames\n{self.launched.output()}")
+        for frame in SENSOR_FRAMES:
+            self.assertTrue(self.listener.connected("odom", frame), f"{frame} hangs from nothing: {self.listener.links}")
+
+        for row, message in zip(rows, self.listener.odometry):
+            self.assertEqual(int(row["stamp_ns"]), stamp_of(message))
+            p, q = message.pose.pose.position, message.pose.pose.orientation
+            now = [float(row["now_" + name]) for name in ("x", "y", "z", "qx", "qy", "qz", "qw")]
+            self.assertEqual(now, [p.x, p.y, p.z, q.x, q.y, q.z, q.w], f"stamp {row['stamp_ns']}")
+
+        # Settled frames follow when the window is emptied.
+        subprocess.run(["rosservice", "call", "/swf_vo/reset"], check=True, stdout=subprocess.DEVNULL)
+        with open(out / "relative_covariance.csv") as file:
+            relative = [line.strip().split(",") for line in file if line[0].isdigit()]
+        self.assertTrue(until(lambda: len(self.listener.relative) == len(relative), 20),
+                        f"{len(self.listener.relative)} of {len(relative)} relative poses")
+        for row, message in zip(relative, self.listener.relative):
+            self.assertEqual([int(row[0]), int(row[1])], [message.from_stamp.to_nsec(), message.to_stamp.to_nsec()])
+            self.assertEqual([float(value) for value in row[3:]], list(message.covariance))
+
+    def test_waits_when_paused(self):
+        self.launch(paused="true", delay=0.5)
+        self.assertTrue(until(lambda: "/player/pause_playback" in services() and "/swf_vo/reset" in services(), 30), self.launched.output())
+        self.assertFalse(until(lambda: self.listener.odometry, 2), "nothing was to move")
+        subprocess.run(["rosservice", "call", "/player/pause_playback", "false"], check=True, stdout=subprocess.DEVNULL)
+        self.assertTrue(until(lambda: len(self.listener.odometry) >= 3, 30), self.launched.output())
+
+    def test_each_round_of_a_loop_is_a_new_session(self):
+        self.launch(loop="true", rate=3)
+        self.assertTrue(until(lambda: any(a.frame > 20 and b.frame == 0 for a, b in pairs(self.listener.frames)), 60),
+                        self.launched.output())
+        stamps = [stamp_of(message) for message in self.listener.odometry]
+        self.assertTrue(any(b < a for a, b in pairs(stamps)), "time went back")
+
+    def test_ends_with_the_bag_if_told_to(self):
+        self.launch(exit="true", rate=3)
+        self.assertTrue(self.launched.ended(60), self.launched.output())
+        self.assertEqual(self.launched.process.returncode, 0)
+        self.assertGreater(len(self.listener.odometry), 20)
+
+    def test_rviz_shows_what_is_there(self):
+        for path in sorted((Path(rospkg.RosPack().get_path("urban_nav_rviz")) / "rviz").glob("*.rviz")):
+            with self.subTest(path.name):
+                self.look_at(path)
+
+    def look_at(self, path):
+        config = yaml.safe_load(path.read_text())["Visualization Manager"]
+        self.launch(loop="true")
+        self.assertTrue(until(lambda: self.listener.odometry, 60), self.launched.output())
+        present = published()
+        for display in config["Displays"]:
+            kind = display["Class"]
+            if kind in WITHOUT_TOPIC:
+                continue
+            key, type_name = DISPLAYS[kind]
+            self.assertEqual(present.get(display[key]), type_name, f"{display['Name']} reads {display[key]}")
+        frames = set(self.listener.links) | set(self.listener.links.values())
+        self.assertIn(config["Global Options"]["Fixed Frame"], frames)
+        for view in [config["Views"]["Current"]] + (config["Views"]["Saved"] or []):
+            self.assertIn(view["Target Frame"], frames, view["Name"])
+
+
+def pairs(items):
+    return list(zip(items[:-1], items[1:]))
+
+
+def services():
+    import rosgraph
+    return {name for name, _ in rosgraph.Master("/launch_test").getSystemState()[2]}
+
+
+if __name__ == "__main__":
+    import rostest
+    rostest.rosrun("urban_nav_launch", "bag_launch", BagLaunch)
