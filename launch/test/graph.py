@@ -126,7 +126,7 @@ def sequence_folder(directory):
     if real and real.is_dir():
         return real
     folder = Path(directory) / "rendered"
-    subprocess.run(["rosrun", "urban_nav_core", "render_sequence", str(folder), "--frames", "60"], check=True)
+    subprocess.run(["rosrun", "urban_nav_core", "render_sequence", str(folder), "--seconds", "4", "--rate", "15"], check=True)
     return folder
 
 
