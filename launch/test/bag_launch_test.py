@@ -121,7 +121,7 @@ class BagLaunch(unittest.TestCase):
         self.launch(exit="true", rate=3)
         self.assertTrue(self.launched.ended(60), self.launched.output())
         self.assertEqual(self.launched.process.returncode, 0)
-        self.assertGreater(len(self.listener.odometry), 20)
+        self.assertTrue(self.listener.odometry)
 
     def test_rviz_shows_what_is_there(self):
         for path in sorted((Path(rospkg.RosPack().get_path("urban_nav_rviz")) / "rviz").glob("*.rviz")):
