@@ -210,7 +210,8 @@ double Texture::value(double x, double y, const Filter& filter) const {
   return sum;
 }
 
-/// Fills a run by a function of the place; where the function is slow beside the run, by a parabola through three of its values.
+/// Fills a run by a function of the place; where the function is slow beside the run, by a parabola through three of
+/// its values.
 template <typename Function>
 void Texture::alongRun(const Run& x, const Run& y, double frequency, Function function, Run& out) {
   constexpr std::size_t kMiddle = kRun / 2, kLast = kRun - 1;

@@ -20,7 +20,8 @@ struct Rectangle {
   double top = left, bottom = right;
 };
 
-/// Direction, rectified, of a pixel on the border; where the lens folds, of the outermost pixel towards the centre that it reaches.
+/// Direction, rectified, of a pixel on the border; where the lens folds, of the outermost pixel towards the centre
+/// that it reaches.
 std::optional<Eigen::Vector2d> borderDirection(const RawCamera& raw, const Eigen::Matrix3d& R,
                                                const Eigen::Vector2d& pixel) {
   const Eigen::Vector2d centre(raw.pinhole.cx, raw.pinhole.cy);

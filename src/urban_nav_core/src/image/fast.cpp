@@ -50,8 +50,8 @@ std::uint8_t scoreOf(const std::uint8_t* pixel, const std::ptrdiff_t* offsets) {
 #if CV_SIMD128
 using cv::v_uint8x16;
 
-/// Scores of sixteen pixels; those that are no corner at the threshold get 0. Any nine neighbours on the circle hold two
-/// neighbouring points of the compass: without such a pair in any lane the sixteen are done.
+/// Scores of sixteen pixels; those that are no corner at the threshold get 0. Any nine neighbours on the circle hold
+/// two neighbouring points of the compass: without such a pair in any lane the sixteen are done.
 inline bool scoreSixteen(const std::uint8_t* pixel, const std::ptrdiff_t* offsets, const v_uint8x16& threshold,
                          std::uint8_t* scores) {
   const v_uint8x16 zero = cv::v_setzero_u8();

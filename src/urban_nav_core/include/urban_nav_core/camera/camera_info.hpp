@@ -21,7 +21,8 @@ struct CameraInfo {
       Eigen::Matrix<double, 3, 4>::Zero();  ///< rectified pinhole; P(0,3) = -fx baseline of a right camera
 };
 
-/// The raw camera. Throws UserError that begins with `where` (file or topic) if size, K or D cannot be those of a camera.
+/// The raw camera. Throws UserError that begins with `where` (file or topic) if size, K or D cannot be those of a
+/// camera.
 RawCamera rawCamera(const CameraInfo& info, const std::string& where);
 /// The pinhole after rectification, by P. Throws UserError as above.
 Pinhole rectifiedPinhole(const CameraInfo& info, const std::string& where);

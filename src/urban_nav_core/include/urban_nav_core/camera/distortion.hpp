@@ -10,8 +10,8 @@
 
 namespace urban_nav_core {
 
-/// Distortion of a lens between the image plane at z = 1 without and with it (Brown 1966; the models, and the order of the coefficients, of
-/// sensor_msgs/CameraInfo and OpenCV): with r^2 = x^2 + y^2
+/// Distortion of a lens between the image plane at z = 1 without and with it (Brown 1966; the models, and the order
+/// of the coefficients, of sensor_msgs/CameraInfo and OpenCV): with r^2 = x^2 + y^2
 ///
 ///   plumb bob  k1 k2 p1 p2 [k3]      radial factor 1 + k1 r^2 + k2 r^4 + k3 r^6
 ///   rational   k1 k2 p1 p2 k3 k4 k5 k6   the same over 1 + k4 r^2 + k5 r^4 + k6 r^6

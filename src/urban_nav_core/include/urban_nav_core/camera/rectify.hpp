@@ -14,19 +14,21 @@ namespace urban_nav_core {
 /// Where each pixel of a rectified image lies in the raw one.
 class RectifyMap {
  public:
-  /// R_rectified_raw takes directions of the raw camera to the rectified one. Throws nothing; pixels that the raw camera does not see are
-  /// filled with the nearest border of the raw image.
+  /// R_rectified_raw takes directions of the raw camera to the rectified one. Throws nothing; pixels that the raw
+  /// camera does not see are filled with the nearest border of the raw image.
   RectifyMap(const RawCamera& raw, const Eigen::Matrix3d& R_rectified_raw, const Pinhole& rectified);
 
   const Pinhole& rectified() const { return rectified_; }
-  /// Raw pixel that is seen at a place of the rectified image (not rounded to the table); empty if the lens does not reach there.
+  /// Raw pixel that is seen at a place of the rectified image (not rounded to the table); empty if the lens does not
+  /// reach there.
   std::optional<Eigen::Vector2d> rawPixel(const Eigen::Vector2d& pixel) const;
   /// Share of the rectified pixels that the raw image covers, 0...1.
   double coveredShare() const { return covered_share_; }
   bool isCovered(int u, int v) const { return covered_[index(u, v)] != 0; }
 
-  /// Bilinear interpolation on a grid of 1/128 px. `raw` has the raw camera's size, else (or if it is empty) the result is
-  /// an empty view. `out` is resized only if it has another size; the view looks into it. Thread-safe for different `out`.
+  /// Bilinear interpolation on a grid of 1/128 px. `raw` has the raw camera's size, else (or if it is empty) the
+  /// result is an empty view. `out` is resized only if it has another size; the view looks into it. Thread-safe for
+  /// different `out`.
   ImageView remap(const ImageView& raw, std::vector<std::uint8_t>& out) const;
 
  private:
@@ -55,7 +57,8 @@ struct StereoRectification {
   StereoCamera camera;
 };
 /// T_right_left takes coordinates of the left optical frame to the right one. Throws UserError that begins with
-/// `where` if there is no such rectification: sizes differ, the right camera is not on the right, or the two look apart.
+/// `where` if there is no such rectification: sizes differ, the right camera is not on the right, or the two look
+/// apart.
 StereoRectification rectifyStereo(const RawCamera& left, const RawCamera& right, const Pose& T_right_left,
                                   const std::string& where);
 

@@ -35,7 +35,8 @@ class CornerGrid {
   const std::vector<Corner>& corners() const { return corners_; }
   std::size_t size() const { return corners_.size(); }
 
-  /// Calls visit(corner, index into corners()) for all corners within `radius` of (u, v), borders included, in a fixed order.
+  /// Calls visit(corner, index into corners()) for all corners within `radius` of (u, v), borders included, in a
+  /// fixed order.
   template <typename Visit>
   void forEachWithin(double u, double v, double radius, Visit visit) const {
     forEachInside(u - radius, v - radius, u + radius, v + radius, [&](const Corner& corner, std::size_t index) {

@@ -8,8 +8,8 @@
 
 namespace urban_nav_core {
 
-/// FAST-9/16 (Rosten and Drummond 2006): a pixel is a corner at threshold t if nine neighbouring pixels of the circle of
-/// sixteen around it are all brighter than it by more than t grey levels, or all darker. Its score is the smallest
+/// FAST-9/16 (Rosten and Drummond 2006): a pixel is a corner at threshold t if nine neighbouring pixels of the circle
+/// of sixteen around it are all brighter than it by more than t grey levels, or all darker. Its score is the smallest
 /// threshold at which it is one no more; so the corners at a higher threshold are those with score > threshold, and
 /// one pass at the lowest threshold of interest serves all (corner_grid.hpp chooses among them).
 ///
@@ -21,7 +21,8 @@ class Fast {
 
   enum class Suppression {
     None,
-    /// Kept if no neighbour of the eight has a higher score; of neighbours with equal scores the first in reading order stays.
+    /// Kept if no neighbour of the eight has a higher score; of neighbours with equal scores the first in reading
+    /// order stays.
     LocalMaximum,
   };
 

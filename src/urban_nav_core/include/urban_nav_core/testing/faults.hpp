@@ -25,7 +25,8 @@ enum class FaultKind {
   StampEqual,     ///< the stamp of the frame before the fault
   StampBackward,  ///< stamps run backwards from the one before the fault
 };
-/// "black", "freeze", "swap", "drop", "overexpose", "blur", "corrupt", "noleft", "noright", "jump", "equal", "backward".
+/// "black", "freeze", "swap", "drop", "overexpose", "blur", "corrupt", "noleft", "noright", "jump", "equal",
+/// "backward".
 const char* toString(FaultKind kind);
 
 /// A fault for some time. Times count from the first frame of the stream.

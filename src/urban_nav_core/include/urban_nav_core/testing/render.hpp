@@ -18,13 +18,15 @@ struct RenderCamera {
   double blur = 0.5;  ///< standard deviation of the point spread function, px: that of a good lens and a pixel's area
 };
 
-/// Draws a scene. Keeps its buffers, so one renderer should draw many frames. Not thread-safe; different renderers are independent.
+/// Draws a scene. Keeps its buffers, so one renderer should draw many frames. Not thread-safe; different renderers
+/// are independent.
 class Renderer {
  public:
   explicit Renderer(const RenderCamera& camera);
 
   const RenderCamera& camera() const { return camera_; }
-  /// Grey levels, not rounded and not clipped, row by row; what a camera at T_world_camera sees. Lives until the next call.
+  /// Grey levels, not rounded and not clipped, row by row; what a camera at T_world_camera sees. Lives until the next
+  /// call.
   const std::vector<float>& draw(const Scene& scene, const Pose& T_world_camera);
 
  private:
