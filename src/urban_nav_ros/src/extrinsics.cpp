@@ -23,7 +23,8 @@ void StaticTransforms::add(const geometry_msgs::TransformStamped& transform) {
   const std::string child = bare(transform.child_frame_id);
   const std::optional<Pose> pose = toPose(transform.transform);
   if (parent.empty() || child.empty() || parent == child || !pose) {
-    faults_.push_back("static transform from \"" + parent + "\" to \"" + child + "\" is no rigid motion between two frames");
+    faults_.push_back("static transform from \"" + parent + "\" to \"" + child +
+                      "\" is no rigid motion between two frames");
     return;
   }
   parents_[child] = {parent, *pose};
@@ -60,7 +61,8 @@ std::vector<std::string> StaticTransforms::frames() const {
   return {names.begin(), names.end()};
 }
 
-geometry_msgs::TransformStamped toStaticTransform(const std::string& parent, const std::string& child, const Pose& T_parent_child) {
+geometry_msgs::TransformStamped toStaticTransform(const std::string& parent, const std::string& child,
+                                                  const Pose& T_parent_child) {
   geometry_msgs::TransformStamped transform;
   transform.header.frame_id = parent;
   transform.child_frame_id = child;
@@ -68,6 +70,8 @@ geometry_msgs::TransformStamped toStaticTransform(const std::string& parent, con
   return transform;
 }
 
-Pose opticalInBody() { return Pose(urban_nav_core::Quaterniond(0.5, -0.5, 0.5, -0.5), urban_nav_core::Vector3d::Zero()); }
+Pose opticalInBody() {
+  return Pose(urban_nav_core::Quaterniond(0.5, -0.5, 0.5, -0.5), urban_nav_core::Vector3d::Zero());
+}
 
 }  // namespace urban_nav_ros

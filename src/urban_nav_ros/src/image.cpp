@@ -15,7 +15,7 @@ using urban_nav_core::ImageView;
 
 namespace {
 
-constexpr int kAsItIs = -1;   // one channel already
+constexpr int kAsItIs = -1;  // one channel already
 
 struct Layout {
   const char* encoding;
@@ -45,7 +45,8 @@ const std::array<Layout, 14>& layouts() {
 }
 
 const Layout* layoutOf(const std::string& encoding) {
-  const auto found = std::find_if(layouts().begin(), layouts().end(), [&](const Layout& l) { return encoding == l.encoding; });
+  const auto found =
+      std::find_if(layouts().begin(), layouts().end(), [&](const Layout& l) { return encoding == l.encoding; });
   return found == layouts().end() ? nullptr : &*found;
 }
 
@@ -64,7 +65,8 @@ GreyImage pixelsOf(const sensor_msgs::Image& message, const Layout*& layout) {
   if (message.width == 0 || message.height == 0) return {{}, "no pixels"};
   if (message.width > 65535 || message.height > 65535) return {{}, "larger than 65535 pixels"};
   const std::size_t row = message.width * static_cast<std::size_t>(CV_ELEM_SIZE(layout->type));
-  if (message.step < row) return {{}, "step " + std::to_string(message.step) + " is shorter than a row of " + std::to_string(row) + " bytes"};
+  if (message.step < row)
+    return {{}, "step " + std::to_string(message.step) + " is shorter than a row of " + std::to_string(row) + " bytes"};
   const std::size_t needed = static_cast<std::size_t>(message.step) * (message.height - 1) + row;
   if (message.data.size() < needed) {
     return {{}, std::to_string(message.data.size()) + " bytes where " + std::to_string(needed) + " are needed"};
@@ -75,7 +77,8 @@ GreyImage pixelsOf(const sensor_msgs::Image& message, const Layout*& layout) {
     cv::Mat swapped = shared.clone();
     for (int v = 0; v < swapped.rows; ++v) {
       auto* pixels = swapped.ptr<std::uint16_t>(v);
-      for (int u = 0; u < swapped.cols; ++u) pixels[u] = static_cast<std::uint16_t>((pixels[u] << 8) | (pixels[u] >> 8));
+      for (int u = 0; u < swapped.cols; ++u)
+        pixels[u] = static_cast<std::uint16_t>((pixels[u] << 8) | (pixels[u] >> 8));
     }
     return {swapped, {}};
   }
@@ -118,7 +121,10 @@ GreyImage toGrey(const sensor_msgs::CompressedImage& message, int bits) {
   if (message.data.empty()) return {{}, "no bytes"};
   try {
     const cv::Mat decoded = cv::imdecode(message.data, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR);
-    if (decoded.empty()) return {{}, "format \"" + message.format + "\": " + std::to_string(message.data.size()) + " bytes that do not decode"};
+    if (decoded.empty())
+      return {
+          {},
+          "format \"" + message.format + "\": " + std::to_string(message.data.size()) + " bytes that do not decode"};
     return toGrey(decoded, bits);
   } catch (const cv::Exception& error) {
     return {{}, "format \"" + message.format + "\": " + error.err};
@@ -159,7 +165,8 @@ sensor_msgs::Image toImageMessage(const cv::Mat& grey) {
   message.height = static_cast<std::uint32_t>(grey.rows);
   message.step = message.width;
   message.data.resize(static_cast<std::size_t>(grey.cols) * static_cast<std::size_t>(grey.rows));
-  for (int v = 0; v < grey.rows; ++v) std::copy_n(grey.ptr(v), grey.cols, message.data.begin() + static_cast<std::ptrdiff_t>(v) * grey.cols);
+  for (int v = 0; v < grey.rows; ++v)
+    std::copy_n(grey.ptr(v), grey.cols, message.data.begin() + static_cast<std::ptrdiff_t>(v) * grey.cols);
   return message;
 }
 

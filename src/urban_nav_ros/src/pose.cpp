@@ -21,7 +21,8 @@ template <typename Translation, typename Rotation>
 std::optional<Pose> poseOf(const Translation& t, const Rotation& q) {
   const Quaterniond rotation(q.w, q.x, q.y, q.z);
   const Vector3d translation(t.x, t.y, t.z);
-  if (!translation.allFinite() || !rotation.coeffs().allFinite() || std::abs(rotation.norm() - 1.0) > 0.01) return std::nullopt;
+  if (!translation.allFinite() || !rotation.coeffs().allFinite() || std::abs(rotation.norm() - 1.0) > 0.01)
+    return std::nullopt;
   return Pose(rotation, translation);
 }
 
@@ -39,7 +40,9 @@ void fill(const Pose& pose, Translation& t, Rotation& q) {
 }  // namespace
 
 std::optional<Pose> toPose(const geometry_msgs::Pose& message) { return poseOf(message.position, message.orientation); }
-std::optional<Pose> toPose(const geometry_msgs::Transform& message) { return poseOf(message.translation, message.rotation); }
+std::optional<Pose> toPose(const geometry_msgs::Transform& message) {
+  return poseOf(message.translation, message.rotation);
+}
 
 geometry_msgs::Pose toPoseMessage(const Pose& pose) {
   geometry_msgs::Pose message;
@@ -63,7 +66,8 @@ boost::array<double, 36> toArray36(const Matrix6d& matrix) {
   return values;
 }
 
-nav_msgs::Odometry toOdometryMessage(StampNs stamp, const UncertainPose& T_frame_child, const std::string& frame, const std::string& child) {
+nav_msgs::Odometry toOdometryMessage(StampNs stamp, const UncertainPose& T_frame_child, const std::string& frame,
+                                     const std::string& child) {
   nav_msgs::Odometry message;
   message.header.stamp = toRosTime(stamp);
   message.header.frame_id = frame;
@@ -73,7 +77,8 @@ nav_msgs::Odometry toOdometryMessage(StampNs stamp, const UncertainPose& T_frame
   return message;
 }
 
-void setTwist(const urban_nav_core::Vector6d& twist, const urban_nav_core::Matrix6d& covariance, nav_msgs::Odometry& message) {
+void setTwist(const urban_nav_core::Vector6d& twist, const urban_nav_core::Matrix6d& covariance,
+              nav_msgs::Odometry& message) {
   message.twist.twist.linear.x = twist[0];
   message.twist.twist.linear.y = twist[1];
   message.twist.twist.linear.z = twist[2];
@@ -83,7 +88,8 @@ void setTwist(const urban_nav_core::Vector6d& twist, const urban_nav_core::Matri
   message.twist.covariance = toArray36(covariance);
 }
 
-urban_nav_msgs::RelativePose toRelativePoseMessage(const urban_nav_core::RelativePose& relative, const std::string& child_frame) {
+urban_nav_msgs::RelativePose toRelativePoseMessage(const urban_nav_core::RelativePose& relative,
+                                                   const std::string& child_frame) {
   urban_nav_msgs::RelativePose message;
   message.header.stamp = toRosTime(relative.to);
   message.header.frame_id = child_frame;

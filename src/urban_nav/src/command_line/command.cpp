@@ -66,21 +66,28 @@ std::string helpOf(const Command& command, const Arguments& arguments) {
 
 std::string generalHelp(const std::vector<Command>& commands) {
   std::string text =
-      "urban_nav: what a robot's cameras and lasers saw, turned into a trajectory, a map, and a report on how far to trust both.\n\n"
+      "urban_nav: what a robot's cameras and lasers saw, turned into a trajectory, a map, and a report on how far to "
+      "trust both.\n\n"
       "usage: urban_nav COMMAND [options]      (urban_nav COMMAND --help says more)\n\n";
-  for (const Command& command : commands) text += "  " + command.name + std::string(10 - std::min<std::size_t>(9, command.name.size()), ' ') + command.summary + "\n";
+  for (const Command& command : commands)
+    text += "  " + command.name + std::string(10 - std::min<std::size_t>(9, command.name.size()), ' ') +
+            command.summary + "\n";
   return text + "\nexit status: 0 done, 1 the data did not allow it, 2 a mistake in the call\n";
 }
 
 void checkRequired(const Command& command, const Arguments& arguments) {
   for (const Option& option : command.options) {
     if (option.required && !arguments.has(keyOf(option))) {
-      throw UserError("urban_nav " + command.name, (isPositional(option) ? option.name : "--" + keyOf(option)) + " is missing; usage: " + usageOf(command), "");
+      throw UserError(
+          "urban_nav " + command.name,
+          (isPositional(option) ? option.name : "--" + keyOf(option)) + " is missing; usage: " + usageOf(command), "");
     }
     if (option.words.empty()) continue;
     for (const std::string& value : arguments.all(keyOf(option))) {
       if (std::find(option.words.begin(), option.words.end(), value) == option.words.end()) {
-        throw UserError("urban_nav " + command.name, (isPositional(option) ? option.name : "--" + keyOf(option)) + " = " + value, joined(option.words));
+        throw UserError("urban_nav " + command.name,
+                        (isPositional(option) ? option.name : "--" + keyOf(option)) + " = " + value,
+                        joined(option.words));
       }
     }
   }
@@ -103,7 +110,8 @@ Arguments parse(const Command& command, int argc, const char* const* argv) {
       if (!option.repeatable) added->expected(1)->allow_extra_args(false);
     } else {
       added->expected(1)->allow_extra_args(false);
-      added->multi_option_policy(option.repeatable ? CLI::MultiOptionPolicy::TakeAll : CLI::MultiOptionPolicy::TakeLast);
+      added->multi_option_policy(option.repeatable ? CLI::MultiOptionPolicy::TakeAll
+                                                   : CLI::MultiOptionPolicy::TakeLast);
     }
   }
   bool help = false;
@@ -117,7 +125,8 @@ Arguments parse(const Command& command, int argc, const char* const* argv) {
     if (given) values[key] = {"true"};
   }
   if (help) values["help"] = {"true"};
-  for (auto entry = values.begin(); entry != values.end();) entry = entry->second.empty() ? values.erase(entry) : std::next(entry);
+  for (auto entry = values.begin(); entry != values.end();)
+    entry = entry->second.empty() ? values.erase(entry) : std::next(entry);
   return Arguments(std::move(values));
 }
 
@@ -135,10 +144,13 @@ int runCommand(const Command& command, int argc, const char* const* argv, Consol
 
 std::optional<std::string> Arguments::find(const std::string& name) const {
   const auto found = values_.find(name);
-  return found == values_.end() || found->second.empty() ? std::nullopt : std::optional<std::string>(found->second.back());
+  return found == values_.end() || found->second.empty() ? std::nullopt
+                                                         : std::optional<std::string>(found->second.back());
 }
 
-std::string Arguments::get(const std::string& name, const std::string& otherwise) const { return find(name).value_or(otherwise); }
+std::string Arguments::get(const std::string& name, const std::string& otherwise) const {
+  return find(name).value_or(otherwise);
+}
 
 std::vector<std::string> Arguments::all(const std::string& name) const {
   const auto found = values_.find(name);
@@ -155,12 +167,14 @@ std::vector<std::string> Arguments::list(const std::string& name) const {
   return words;
 }
 
-std::int64_t Arguments::integer(const std::string& name, std::int64_t otherwise, std::int64_t low, std::int64_t high) const {
+std::int64_t Arguments::integer(const std::string& name, std::int64_t otherwise, std::int64_t low,
+                                std::int64_t high) const {
   const std::optional<std::string> text = find(name);
   if (!text) return otherwise;
   const std::optional<std::int64_t> value = urban_nav_core::parseInteger(*text);
   if (!value || *value < low || *value > high) {
-    throw UserError("--" + name, name + " = " + *text, "a whole number, " + std::to_string(low) + "..." + std::to_string(high));
+    throw UserError("--" + name, name + " = " + *text,
+                    "a whole number, " + std::to_string(low) + "..." + std::to_string(high));
   }
   return *value;
 }
@@ -170,7 +184,8 @@ double Arguments::number(const std::string& name, double otherwise, double low, 
   if (!text) return otherwise;
   const std::optional<double> value = urban_nav_core::parseNumber(*text);
   if (!value || !(*value >= low && *value <= high)) {
-    throw UserError("--" + name, name + " = " + *text, "a number, " + urban_nav_core::printNumber(low) + "..." + urban_nav_core::printNumber(high));
+    throw UserError("--" + name, name + " = " + *text,
+                    "a number, " + urban_nav_core::printNumber(low) + "..." + urban_nav_core::printNumber(high));
   }
   return *value;
 }
@@ -183,7 +198,8 @@ int runCommandLine(const std::vector<Command>& commands, int argc, const char* c
       console.print(generalHelp(commands));
       return name.empty() ? 2 : 0;
     }
-    const auto command = std::find_if(commands.begin(), commands.end(), [&](const Command& c) { return c.name == name; });
+    const auto command =
+        std::find_if(commands.begin(), commands.end(), [&](const Command& c) { return c.name == name; });
     if (command == commands.end()) {
       std::vector<std::string> names;
       for (const Command& c : commands) names.push_back(c.name);
@@ -205,6 +221,8 @@ int runCommandLine(const std::vector<Command>& commands, int argc, const char* c
 Option jsonOption() { return {"--json", "FILE", "a machine-readable summary", false, false, {}}; }
 Option setOption() { return {"--set", "STAGE.KEY=VALUE", "one parameter; stands above --config", false, true, {}}; }
 Option configOption() { return {"--config", "FILE", "parameters as YAML: stage, then key: value", false, true, {}}; }
-Option threadsOption() { return {"--threads", "N", "threads to use (default: one per core); the results are the same", false, false, {}}; }
+Option threadsOption() {
+  return {"--threads", "N", "threads to use (default: one per core); the results are the same", false, false, {}};
+}
 
 }  // namespace urban_nav

@@ -14,12 +14,12 @@ class Console;
 
 /// One option or positional argument of a command.
 struct Option {
-  std::string name;                 ///< "--out", "-o,--output", or "INPUT" for a positional argument
-  std::string value;                ///< what stands for the value in the help: "DIR"; empty: a flag
-  std::string sentence;             ///< what it does, with the default
+  std::string name;      ///< "--out", "-o,--output", or "INPUT" for a positional argument
+  std::string value;     ///< what stands for the value in the help: "DIR"; empty: a flag
+  std::string sentence;  ///< what it does, with the default
   bool required = false;
   bool repeatable = false;
-  std::vector<std::string> words;   ///< allowed values; empty: any
+  std::vector<std::string> words;  ///< allowed values; empty: any
 };
 
 /// What the user gave. Options are asked for by their long name without dashes ("out"), positionals by theirs ("INPUT").

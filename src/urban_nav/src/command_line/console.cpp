@@ -26,7 +26,8 @@ std::string rounded(double value) {
 
 class Console::Implementation {
  public:
-  Implementation() : logger("urban_nav", std::make_shared<spdlog::sinks::stderr_sink_mt>()), terminal(isatty(STDERR_FILENO) == 1) {
+  Implementation()
+      : logger("urban_nav", std::make_shared<spdlog::sinks::stderr_sink_mt>()), terminal(isatty(STDERR_FILENO) == 1) {
     logger.set_pattern("%v");
     logger.flush_on(spdlog::level::trace);
   }
@@ -39,7 +40,7 @@ class Console::Implementation {
   }
 
   spdlog::logger logger;
-  std::mutex mutex;                  // guards transient_width and the order of what is written
+  std::mutex mutex;  // guards transient_width and the order of what is written
   std::size_t transient_width = 0;
   const bool terminal;
 };
@@ -83,7 +84,12 @@ void Console::transient(const std::string& text) {
 bool Console::isTerminal() const { return implementation_->terminal; }
 
 Progress::Progress(Console& console, std::string label, std::string unit, std::int64_t total)
-    : console_(console), label_(std::move(label)), unit_(std::move(unit)), total_(total), begin_(Clock::now()), last_(begin_) {}
+    : console_(console),
+      label_(std::move(label)),
+      unit_(std::move(unit)),
+      total_(total),
+      begin_(Clock::now()),
+      last_(begin_) {}
 
 void Progress::update(std::int64_t done) {
   const Clock::time_point now = Clock::now();
@@ -101,7 +107,8 @@ void Progress::update(std::int64_t done) {
 void Progress::finish(std::int64_t done) {
   const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
   const double rate = seconds > 0.0 ? static_cast<double>(done) / seconds : 0.0;
-  console_.info(label_ + ": " + std::to_string(done) + " " + unit_ + " in " + printDuration(seconds) + ", " + rounded(rate) + " " + unit_ + "/s");
+  console_.info(label_ + ": " + std::to_string(done) + " " + unit_ + " in " + printDuration(seconds) + ", " +
+                rounded(rate) + " " + unit_ + "/s");
 }
 
 std::string Progress::line(std::int64_t done, double seconds) const {
@@ -111,12 +118,15 @@ std::string Progress::line(std::int64_t done, double seconds) const {
     const double share = std::min(1.0, static_cast<double>(done) / static_cast<double>(total_));
     if (console_.isTerminal()) {
       const int filled = static_cast<int>(share * kBarWidth);
-      text += "[" + std::string(static_cast<std::size_t>(filled), '#') + std::string(static_cast<std::size_t>(kBarWidth - filled), '.') + "] ";
+      text += "[" + std::string(static_cast<std::size_t>(filled), '#') +
+              std::string(static_cast<std::size_t>(kBarWidth - filled), '.') + "] ";
     }
     text += std::to_string(static_cast<int>(std::floor(100.0 * share))) + " %, ";
   }
-  text += std::to_string(done) + (total_ > 0 ? "/" + std::to_string(total_) : "") + " " + unit_ + ", " + rounded(rate) + " " + unit_ + "/s";
-  if (total_ > 0 && rate > 0.0) text += ", " + printDuration(static_cast<double>(std::max<std::int64_t>(0, total_ - done)) / rate) + " left";
+  text += std::to_string(done) + (total_ > 0 ? "/" + std::to_string(total_) : "") + " " + unit_ + ", " + rounded(rate) +
+          " " + unit_ + "/s";
+  if (total_ > 0 && rate > 0.0)
+    text += ", " + printDuration(static_cast<double>(std::max<std::int64_t>(0, total_ - done)) / rate) + " left";
   return text;
 }
 

@@ -42,7 +42,8 @@ Json Json::array() {
 Json& Json::operator[](const std::string& key) {
   if (!isObject()) value_ = Members();
   Members& members = std::get<Members>(value_);
-  const auto found = std::find_if(members.begin(), members.end(), [&](const auto& member) { return member.first == key; });
+  const auto found =
+      std::find_if(members.begin(), members.end(), [&](const auto& member) { return member.first == key; });
   if (found != members.end()) return found->second;
   members.emplace_back(key, Json());
   return members.back().second;
@@ -55,7 +56,8 @@ void Json::append(Json element) {
 
 bool Json::has(const std::string& key) const {
   const Members* members = std::get_if<Members>(&value_);
-  return members != nullptr && std::any_of(members->begin(), members->end(), [&](const auto& member) { return member.first == key; });
+  return members != nullptr &&
+         std::any_of(members->begin(), members->end(), [&](const auto& member) { return member.first == key; });
 }
 
 std::string Json::print() const {

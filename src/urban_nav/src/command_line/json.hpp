@@ -15,13 +15,13 @@ namespace urban_nav {
 class Json {
  public:
   Json() = default;
-  Json(bool value) : value_(value) {}                                         // NOLINT: a literal is a value
-  Json(int value) : value_(static_cast<std::int64_t>(value)) {}               // NOLINT
-  Json(std::int64_t value) : value_(value) {}                                 // NOLINT
-  Json(std::size_t value) : value_(static_cast<std::int64_t>(value)) {}       // NOLINT
-  Json(double value) : value_(value) {}                                       // NOLINT
-  Json(const char* value) : value_(std::string(value)) {}                     // NOLINT
-  Json(std::string value) : value_(std::move(value)) {}                       // NOLINT
+  Json(bool value) : value_(value) {}                                    // NOLINT: a literal is a value
+  Json(int value) : value_(static_cast<std::int64_t>(value)) {}          // NOLINT
+  Json(std::int64_t value) : value_(value) {}                            // NOLINT
+  Json(std::size_t value) : value_(static_cast<std::int64_t>(value)) {}  // NOLINT
+  Json(double value) : value_(value) {}                                  // NOLINT
+  Json(const char* value) : value_(std::string(value)) {}                // NOLINT
+  Json(std::string value) : value_(std::move(value)) {}                  // NOLINT
 
   static Json object();
   static Json array();

@@ -12,8 +12,11 @@ namespace {
 
 void checkKind(const std::string& kind, const std::string& source) {
   const InputKind found = inputKind(source);
-  const bool right = (kind == "kitti" && found == InputKind::KittiFolder) || (kind == "euroc" && found == InputKind::EurocFolder);
-  if (!right) throw urban_nav_core::UserError(source, "is no folder of " + kind, kind == "kitti" ? "image_0/, image_1/, calib.txt" : "mav0/ with cam0 and cam1");
+  const bool right =
+      (kind == "kitti" && found == InputKind::KittiFolder) || (kind == "euroc" && found == InputKind::EurocFolder);
+  if (!right)
+    throw urban_nav_core::UserError(source, "is no folder of " + kind,
+                                    kind == "kitti" ? "image_0/, image_1/, calib.txt" : "mav0/ with cam0 and cam1");
 }
 
 int run(const Arguments& arguments, Console& console) {
@@ -53,7 +56,8 @@ Command convertCommand() {
                      {"-o,--output", "BAG", "bag to write; it appears when it is complete", true, false, {}},
                      {"--rate", "HZ", "of a KITTI folder without times.txt (default 10)", false, false, {}},
                      jsonOption()};
-  command.examples = {"urban_nav convert kitti sequences/06 -o kitti06.bag", "urban_nav convert new-college MOOSLog_3_11_2008_____13_43_32 -o college.bag"};
+  command.examples = {"urban_nav convert kitti sequences/06 -o kitti06.bag",
+                      "urban_nav convert new-college MOOSLog_3_11_2008_____13_43_32 -o college.bag"};
   command.run = run;
   return command;
 }

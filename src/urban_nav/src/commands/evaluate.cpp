@@ -5,6 +5,7 @@
 #include "commands/commands.hpp"
 #include "pipeline/evaluation.hpp"
 #include "report/evaluation_report.hpp"
+#include "report/raster_plot.hpp"
 #include "report/standalone_svg.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -17,9 +18,11 @@ using urban_nav_core::UserError;
 namespace {
 
 std::vector<urban_nav_core::CovarianceRow> covariancesFor(const Arguments& arguments) {
-  if (const std::optional<std::string> given = arguments.find("covariance")) return urban_nav_core::readCovariances(*given);
+  if (const std::optional<std::string> given = arguments.find("covariance"))
+    return urban_nav_core::readCovariances(*given);
   const fs::path beside = fs::path(arguments.get("estimate")).parent_path() / "covariance.csv";
-  return fs::exists(beside) ? urban_nav_core::readCovariances(beside.string()) : std::vector<urban_nav_core::CovarianceRow>();
+  return fs::exists(beside) ? urban_nav_core::readCovariances(beside.string())
+                            : std::vector<urban_nav_core::CovarianceRow>();
 }
 
 void writePlot(const std::string& path, const Evaluation& evaluation, const std::string& title) {
@@ -34,22 +37,32 @@ void writePlot(const std::string& path, const Evaluation& evaluation, const std:
     page.footer = "urban_nav evaluate";
     urban_nav_core::writeAtomically(path, renderPage(page));
   } else {
-    urban_nav_core::writeAtomically(path, standaloneSvg({{"From above", pathPlot(evaluation, 0, 1)}, {"From the side", pathPlot(evaluation, 0, 2)}, {"Error over distance", errorPlot(evaluation)}}));
+    const std::vector<std::pair<std::string, Plot>> plots = {{"From above", pathPlot(evaluation, 0, 1)},
+                                                             {"From the side", pathPlot(evaluation, 0, 2)},
+                                                             {"Error over distance", errorPlot(evaluation)}};
+    const std::vector<unsigned char> png = extension == ".png" ? rasterPng(plots) : std::vector<unsigned char>();
+    urban_nav_core::writeAtomically(path,
+                                    extension == ".png" ? std::string(png.begin(), png.end()) : standaloneSvg(plots));
   }
 }
 
 int run(const Arguments& arguments, Console& console) {
   const std::string plot = arguments.get("output");
   const std::string extension = fs::path(plot).extension().string();
-  if (!plot.empty() && extension != ".html" && extension != ".svg") throw UserError("--output", plot, "a file that ends in .html or .svg");
+  if (!plot.empty() && extension != ".html" && extension != ".svg" && extension != ".png")
+    throw UserError("--output", plot, "a file that ends in .html, .svg or .png");
   EvaluationOptions options;
-  options.spans = parseSpans(arguments.has("spans") ? arguments.list("spans") : std::vector<std::string>{"10m", "100m"});
+  options.spans =
+      parseSpans(arguments.has("spans") ? arguments.list("spans") : std::vector<std::string>{"10m", "100m"});
   options.find_offset = arguments.has("find-offset");
-  const TrajectoryFile truth = readTrajectory(arguments.get("truth")), estimate = readTrajectory(arguments.get("estimate"));
+  const TrajectoryFile truth = readTrajectory(arguments.get("truth")),
+                       estimate = readTrajectory(arguments.get("estimate"));
   const Evaluation evaluation = evaluate(truth, estimate, covariancesFor(arguments), options);
   if (evaluation.offset && !evaluation.offset_applied) {
-    console.warn("only " + std::to_string(evaluation.matched.truth.size()) + " poses have a stamp within 0.02 s of one of the truth; --find-offset would add " +
-                 forPerson(1e-9 * static_cast<double>(evaluation.offset->offset), 9) + " s to the estimate's and match " + std::to_string(evaluation.offset->matched));
+    console.warn("only " + std::to_string(evaluation.matched.truth.size()) +
+                 " poses have a stamp within 0.02 s of one of the truth; --find-offset would add " +
+                 forPerson(1e-9 * static_cast<double>(evaluation.offset->offset), 9) +
+                 " s to the estimate's and match " + std::to_string(evaluation.offset->matched));
   }
   console.print(evaluationText(evaluation));
   if (arguments.has("json")) {
@@ -70,12 +83,24 @@ Command evaluateCommand() {
   command.summary = "Compares a trajectory with the truth: absolute and relative errors, NEES, a plot.";
   command.options = {{"--truth", "FILE", "TUM (.tum) or KITTI (.kitti, .txt with 12 columns)", true, false, {}},
                      {"--estimate", "FILE", "the same", true, false, {}},
-                     {"--covariance", "FILE", "covariances of the estimate, for NEES (default: covariance.csv beside it)", false, false, {}},
-                     {"--spans", "LIST", "of relative errors, in frames or metres (default 10m,100m; 10 frames always)", false, true, {}},
+                     {"--covariance",
+                      "FILE",
+                      "covariances of the estimate, for NEES (default: covariance.csv beside it)",
+                      false,
+                      false,
+                      {}},
+                     {"--spans",
+                      "LIST",
+                      "of relative errors, in frames or metres (default 10m,100m; 10 frames always)",
+                      false,
+                      true,
+                      {}},
                      {"--find-offset", "", "find the offset between the clocks and apply it", false, false, {}},
-                     {"-o,--output", "FILE", "plot: a page (.html) or a drawing (.svg)", false, false, {}},
+                     {"-o,--output", "FILE", "plot: a page (.html) or a drawing (.svg, .png)", false, false, {}},
                      jsonOption()};
-  command.examples = {"urban_nav evaluate --truth poses.txt --estimate out/trajectory.kitti", "urban_nav evaluate --truth truth.tum --estimate out/trajectory.tum --spans 10f,100m -o errors.html"};
+  command.examples = {
+      "urban_nav evaluate --truth poses.txt --estimate out/trajectory.kitti",
+      "urban_nav evaluate --truth truth.tum --estimate out/trajectory.tum --spans 10f,100m -o errors.html"};
   command.run = run;
   return command;
 }

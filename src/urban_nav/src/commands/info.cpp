@@ -12,7 +12,9 @@ namespace urban_nav {
 
 namespace {
 
-std::string padded(const std::string& text, std::size_t width) { return text + std::string(text.size() < width ? width - text.size() : 1, ' '); }
+std::string padded(const std::string& text, std::size_t width) {
+  return text + std::string(text.size() < width ? width - text.size() : 1, ' ');
+}
 
 std::string textOf(const InputInfo& info) {
   std::string text = info.name + ": " + info.kind + "\n";
@@ -22,11 +24,14 @@ std::string textOf(const InputInfo& info) {
     width = std::max(width, stream.name.size() + 2);
     type_width = std::max(type_width, stream.type.size() + 2);
   }
-  text += "  " + padded("topic", width) + padded("type", type_width) + padded("messages", 10) + padded("rate (Hz)", 11) + padded("longest gap (s)", 17) + "from ... to (s)\n";
+  text += "  " + padded("topic", width) + padded("type", type_width) + padded("messages", 10) +
+          padded("rate (Hz)", 11) + padded("longest gap (s)", 17) + "from ... to (s)\n";
   for (const StreamInfo& stream : info.streams) {
-    text += "  " + padded(stream.name, width) + padded(stream.type, type_width) + padded(std::to_string(stream.messages), 10);
+    text += "  " + padded(stream.name, width) + padded(stream.type, type_width) +
+            padded(std::to_string(stream.messages), 10);
     if (stream.messages > 0) {
-      text += padded(forPerson(stream.rate_hz, 4), 11) + padded(forPerson(stream.longest_gap_s, 3), 17) + urban_nav_core::printStamp(stream.first) + " ... " + urban_nav_core::printStamp(stream.last);
+      text += padded(forPerson(stream.rate_hz, 4), 11) + padded(forPerson(stream.longest_gap_s, 3), 17) +
+              urban_nav_core::printStamp(stream.first) + " ... " + urban_nav_core::printStamp(stream.last);
     }
     if (stream.backward > 0) text += "  " + std::to_string(stream.backward) + " stamps not later than the one before";
     text += "\n";

@@ -9,15 +9,16 @@ namespace {
 MapRequest requestOf(const Arguments& arguments) {
   AllParameters parameters = loadParameters(arguments);
   const swf_vo::Parameters& vo = parameters.swf_vo.parameters;
-  const SourceOptions source{arguments.all("topic"), arguments.get("calibration"), arguments.number("rate", 0.0, 0.01, 10000.0), vo.motion_input, vo.wheel_noise, vo.gyro_noise};
-  return {arguments.all("INPUT"),
-          arguments.get("out"),
-          arguments.list("stages"),
-          arguments.get("truth"),
-          arguments.get("json"),
-          source,
-          std::move(parameters),
-          static_cast<int>(arguments.integer("threads", 0, 1, 1024))};
+  const SourceOptions source{arguments.all("topic"),
+                             arguments.get("calibration"),
+                             arguments.number("rate", 0.0, 0.01, 10000.0),
+                             vo.motion_input,
+                             vo.wheel_noise,
+                             vo.gyro_noise};
+  return {arguments.all("INPUT"),   arguments.get("out"),
+          arguments.list("stages"), arguments.get("truth"),
+          arguments.get("json"),    source,
+          std::move(parameters),    static_cast<int>(arguments.integer("threads", 0, 1, 1024))};
 }
 
 }  // namespace
@@ -26,18 +27,30 @@ Command mapCommand() {
   Command command;
   command.name = "map";
   command.summary = "Turns recordings into a trajectory with covariance, and a report.";
-  command.options = {{"INPUT", "", "bags, or folders of KITTI or EuRoC", true, true, {}},
-          {"-o,--out", "DIR", "folder to write into (made if need be)", true, false, {}},
-          {"--stages", "LIST", "of vo (default: all whose inputs exist)", false, true, {}},
-          {"--topic", "ROLE:=NAME", "topic of a bag: left, right, left_info, right_info, imu, wheels, truth (default: guessed and said)", false, true, {}},
-          {"--calibration", "FILE", "where the input has none: KITTI's calib.txt, or LEFT.yaml,RIGHT.yaml (camera_info)", false, false, {}},
-          {"--rate", "HZ", "of an image folder without times.txt (default 10)", false, false, {}},
-          {"--truth", "FILE", "trajectory for the report alone (default: what the input has)", false, false, {}},
-          jsonOption(),
-          configOption(),
-          setOption(),
-          threadsOption()};
-  command.examples = {"urban_nav map sequences/06 --out out", "urban_nav map robot.bag --topic left:=/cam0/image_raw --set swf_vo.window=25 --out out"};
+  command.options = {
+      {"INPUT", "", "bags, or folders of KITTI or EuRoC", true, true, {}},
+      {"-o,--out", "DIR", "folder to write into (made if need be)", true, false, {}},
+      {"--stages", "LIST", "of vo (default: all whose inputs exist)", false, true, {}},
+      {"--topic",
+       "ROLE:=NAME",
+       "topic of a bag: left, right, left_info, right_info, imu, wheels, truth (default: guessed and said)",
+       false,
+       true,
+       {}},
+      {"--calibration",
+       "FILE",
+       "where the input has none: KITTI's calib.txt, or LEFT.yaml,RIGHT.yaml (camera_info)",
+       false,
+       false,
+       {}},
+      {"--rate", "HZ", "of an image folder without times.txt (default 10)", false, false, {}},
+      {"--truth", "FILE", "trajectory for the report alone (default: what the input has)", false, false, {}},
+      jsonOption(),
+      configOption(),
+      setOption(),
+      threadsOption()};
+  command.examples = {"urban_nav map sequences/06 --out out",
+                      "urban_nav map robot.bag --topic left:=/cam0/image_raw --set swf_vo.window=25 --out out"};
   command.more_help = parametersHelp;
   command.run = [](const Arguments& arguments, Console& console) {
     runMap(requestOf(arguments), console);

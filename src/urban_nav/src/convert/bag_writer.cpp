@@ -26,7 +26,8 @@ BagWriter::~BagWriter() = default;
 void BagWriter::writeStaticTransforms(StampNs stamp, const std::vector<geometry_msgs::TransformStamped>& transforms) {
   tf2_msgs::TFMessage message;
   message.transforms = transforms;
-  for (geometry_msgs::TransformStamped& transform : message.transforms) transform.header.stamp = urban_nav_ros::toRosTime(stamp);
+  for (geometry_msgs::TransformStamped& transform : message.transforms)
+    transform.header.stamp = urban_nav_ros::toRosTime(stamp);
   const auto header = boost::make_shared<ros::M_string>();
   (*header)["type"] = ros::message_traits::datatype(message);
   (*header)["md5sum"] = ros::message_traits::md5sum(message);
@@ -48,6 +49,8 @@ void BagWriter::commit() {
 /// rosbag refuses a receipt at time zero; the stamp in the header stays what it is.
 ros::Time BagWriter::receipt(StampNs stamp) const { return std::max(ros::TIME_MIN, urban_nav_ros::toRosTime(stamp)); }
 
-void BagWriter::fail(const std::exception& error) const { throw urban_nav_core::UserError(path_, std::string("cannot be written: ") + error.what(), ""); }
+void BagWriter::fail(const std::exception& error) const {
+  throw urban_nav_core::UserError(path_, std::string("cannot be written: ") + error.what(), "");
+}
 
 }  // namespace urban_nav

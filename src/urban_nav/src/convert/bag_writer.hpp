@@ -2,8 +2,8 @@
 #pragma once
 
 #include <geometry_msgs/TransformStamped.h>
-#include <rosbag/bag.h>
 #include <ros/message_traits.h>
+#include <rosbag/bag.h>
 #include <sensor_msgs/CameraInfo.h>
 
 #include <cstdint>
@@ -29,7 +29,8 @@ class BagWriter {
     writeNow(topic, stamp, message, nullptr);
   }
   /// /tf_static, latched.
-  void writeStaticTransforms(urban_nav_core::StampNs stamp, const std::vector<geometry_msgs::TransformStamped>& transforms);
+  void writeStaticTransforms(urban_nav_core::StampNs stamp,
+                             const std::vector<geometry_msgs::TransformStamped>& transforms);
 
   /// Closes, flushes, renames.
   void commit();
@@ -38,7 +39,8 @@ class BagWriter {
 
  private:
   template <typename Message>
-  void writeNow(const std::string& topic, urban_nav_core::StampNs stamp, const Message& message, const boost::shared_ptr<ros::M_string>& header);
+  void writeNow(const std::string& topic, urban_nav_core::StampNs stamp, const Message& message,
+                const boost::shared_ptr<ros::M_string>& header);
   ros::Time receipt(urban_nav_core::StampNs stamp) const;
   [[noreturn]] void fail(const std::exception& error) const;
 
@@ -49,7 +51,8 @@ class BagWriter {
 };
 
 template <typename Message>
-void BagWriter::writeNow(const std::string& topic, urban_nav_core::StampNs stamp, const Message& message, const boost::shared_ptr<ros::M_string>& header) {
+void BagWriter::writeNow(const std::string& topic, urban_nav_core::StampNs stamp, const Message& message,
+                         const boost::shared_ptr<ros::M_string>& header) {
   try {
     bag_.write(topic, receipt(stamp), message, header);
     ++counts_[topic];

@@ -9,11 +9,11 @@
 #include <limits>
 
 #include "convert/convert.hpp"
-#include "input/new_college_files.hpp"
-#include "input/new_college_log.hpp"
 #include "convert/row_check.hpp"
 #include "convert/stereo_topics.hpp"
 #include "input/image_file.hpp"
+#include "input/new_college_files.hpp"
+#include "input/new_college_log.hpp"
 #include "input/new_college_rig.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
@@ -46,7 +46,8 @@ void write(const NewCollegeScan& event, BagWriter& bag) {
   message.header.seq = static_cast<std::uint32_t>(event.id);
   message.angle_min = static_cast<float>(scan.angle_first);
   message.angle_increment = static_cast<float>(scan.angle_step);
-  message.angle_max = static_cast<float>(scan.angle_first + scan.angle_step * static_cast<double>(scan.ranges.size() - 1));
+  message.angle_max =
+      static_cast<float>(scan.angle_first + scan.angle_step * static_cast<double>(scan.ranges.size() - 1));
   message.time_increment = static_cast<float>(scan.time_step);
   message.scan_time = static_cast<float>(scan.period);
   message.range_min = static_cast<float>(scan.range_min);
@@ -68,7 +69,8 @@ void write(const NewCollegeOdometry& event, BagWriter& bag) {
   bag.write("/wheel_odom", event.stamp, message);
 }
 
-void write(const NewCollegePanorama& /*event*/, BagWriter& /*bag*/) {}  // the index alone; pictures are taken by the names of their files
+void write(const NewCollegePanorama& /*event*/, BagWriter& /*bag*/) {
+}  // the index alone; pictures are taken by the names of their files
 
 void write(const NewCollegeFiles::Image& image, BagWriter& bag) {
   const urban_nav_ros::GreyImage seen = readPixels(image.path);
@@ -113,10 +115,14 @@ class NewCollege {
     if (!log_) notes.push_back("no .alog: no lasers, no odometry");
     if (files_.stereo.empty()) notes.push_back("no StereoImages");
     if (files_.panorama.empty()) notes.push_back("no pictures of the Ladybug");
-    if (!files_.stereo.empty()) notes.push_back("the stereo camera's place is not known: taken as 0.1 m ahead and 1.1 m up");
+    if (!files_.stereo.empty())
+      notes.push_back("the stereo camera's place is not known: taken as 0.1 m ahead and 1.1 m up");
     if (!row_differences_.empty()) {
       const double worst = *std::max_element(row_differences_.begin(), row_differences_.end());
-      notes.push_back("rows of the stereo images agree to " + std::to_string(worst) + " px" + (worst > kRowsAgree ? ": they are NOT rectified, and the calibration without distortion does not fit them" : ""));
+      notes.push_back("rows of the stereo images agree to " + std::to_string(worst) + " px" +
+                      (worst > kRowsAgree
+                           ? ": they are NOT rectified, and the calibration without distortion does not fit them"
+                           : ""));
     }
     if (lonely_ > 0) notes.push_back(std::to_string(lonely_) + " stereo images have no partner");
     if (log_) addLogNotes(notes);
@@ -126,14 +132,21 @@ class NewCollege {
  private:
   void addLogNotes(std::vector<std::string>& notes) const {
     const NewCollegeCounts& counts = log_->counts();
-    if (counts.scans_lost > 0) notes.push_back(std::to_string(counts.scans_lost) + " laser scans were lost before the log (gaps in their numbers)");
-    if (counts.odometry_without_tilt > 0) notes.push_back(std::to_string(counts.odometry_without_tilt) + " odometry rows have no tilt: roll and pitch are 0");
-    if (counts.out_of_order > 0) notes.push_back(std::to_string(counts.out_of_order) + " rows came over 2 s late and are left out");
+    if (counts.scans_lost > 0)
+      notes.push_back(std::to_string(counts.scans_lost) +
+                      " laser scans were lost before the log (gaps in their numbers)");
+    if (counts.odometry_without_tilt > 0)
+      notes.push_back(std::to_string(counts.odometry_without_tilt) +
+                      " odometry rows have no tilt: roll and pitch are 0");
+    if (counts.out_of_order > 0)
+      notes.push_back(std::to_string(counts.out_of_order) + " rows came over 2 s late and are left out");
   }
 
   void writeImagesUntil(StampNs stamp, BagWriter& bag) {
-    for (; next_stereo_ < files_.stereo.size() && files_.stereo[next_stereo_].stamp <= stamp; ++next_stereo_) writePair(files_.stereo[next_stereo_], bag);
-    for (; next_panorama_ < files_.panorama.size() && files_.panorama[next_panorama_].stamp <= stamp; ++next_panorama_) write(files_.panorama[next_panorama_], bag);
+    for (; next_stereo_ < files_.stereo.size() && files_.stereo[next_stereo_].stamp <= stamp; ++next_stereo_)
+      writePair(files_.stereo[next_stereo_], bag);
+    for (; next_panorama_ < files_.panorama.size() && files_.panorama[next_panorama_].stamp <= stamp; ++next_panorama_)
+      write(files_.panorama[next_panorama_], bag);
   }
 
   static cv::Mat read(const std::string& path, const urban_nav_core::Pinhole& size) {
@@ -141,7 +154,8 @@ class NewCollege {
     const urban_nav_ros::GreyImage image = readGrey(path);
     if (image.pixels.empty()) throw DataError("", image.fault, "");
     if (image.pixels.cols != size.width || image.pixels.rows != size.height) {
-      throw DataError(path, std::to_string(image.pixels.cols) + "x" + std::to_string(image.pixels.rows) + " pixels", "512x384, which the data set's calibration is for");
+      throw DataError(path, std::to_string(image.pixels.cols) + "x" + std::to_string(image.pixels.rows) + " pixels",
+                      "512x384, which the data set's calibration is for");
     }
     return image.pixels;
   }

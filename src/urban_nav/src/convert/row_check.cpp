@@ -11,9 +11,9 @@ namespace urban_nav {
 namespace {
 
 constexpr int kCorners = 200;
-constexpr int kHalf = 7;            // px: half-width of the patch
-constexpr int kRows = 5;            // px: how far up and down is looked
-constexpr int kDisparities = 96;    // px
+constexpr int kHalf = 7;             // px: half-width of the patch
+constexpr int kRows = 5;             // px: how far up and down is looked
+constexpr int kDisparities = 96;     // px
 constexpr double kLeastMatch = 0.9;  // normalised correlation
 constexpr std::size_t kLeastMatches = 20;
 
@@ -25,7 +25,8 @@ double topOf(double before, double middle, double after) {
 
 std::optional<double> rowOf(const cv::Mat& left, const cv::Mat& right, const cv::Point& corner) {
   const cv::Rect patch(corner.x - kHalf, corner.y - kHalf, 2 * kHalf + 1, 2 * kHalf + 1);
-  const cv::Rect strip(corner.x - kHalf - kDisparities, corner.y - kHalf - kRows, kDisparities + 2 * kHalf + 1, 2 * (kHalf + kRows) + 1);
+  const cv::Rect strip(corner.x - kHalf - kDisparities, corner.y - kHalf - kRows, kDisparities + 2 * kHalf + 1,
+                       2 * (kHalf + kRows) + 1);
   const cv::Rect image(0, 0, left.cols, left.rows);
   if ((patch & image) != patch || (strip & image) != strip) return std::nullopt;
   cv::Mat scores;
@@ -34,7 +35,8 @@ std::optional<double> rowOf(const cv::Mat& left, const cv::Mat& right, const cv:
   cv::Point at;
   cv::minMaxLoc(scores, nullptr, &best, nullptr, &at);
   if (best < kLeastMatch || at.y == 0 || at.y == scores.rows - 1) return std::nullopt;
-  return at.y - kRows + topOf(scores.at<float>(at.y - 1, at.x), scores.at<float>(at.y, at.x), scores.at<float>(at.y + 1, at.x));
+  return at.y - kRows +
+         topOf(scores.at<float>(at.y - 1, at.x), scores.at<float>(at.y, at.x), scores.at<float>(at.y + 1, at.x));
 }
 
 }  // namespace
@@ -45,7 +47,8 @@ std::optional<double> rowDisagreement(const cv::Mat& left, const cv::Mat& right)
   cv::goodFeaturesToTrack(left, corners, kCorners, 0.01, 10.0);
   std::vector<double> rows;
   for (const cv::Point2f& corner : corners) {
-    if (const std::optional<double> row = rowOf(left, right, cv::Point(cvRound(corner.x), cvRound(corner.y)))) rows.push_back(std::abs(*row));
+    if (const std::optional<double> row = rowOf(left, right, cv::Point(cvRound(corner.x), cvRound(corner.y))))
+      rows.push_back(std::abs(*row));
   }
   if (rows.size() < kLeastMatches) return std::nullopt;
   std::nth_element(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(rows.size() / 2), rows.end());

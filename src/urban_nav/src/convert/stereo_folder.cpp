@@ -2,7 +2,7 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <sensor_msgs/Imu.h>
 
-#include <opencv2/core/mat.hpp>
+#include <limits>
 
 #include "convert/bag_writer.hpp"
 #include "convert/convert.hpp"
@@ -36,7 +36,8 @@ geometry_msgs::PoseStamped truthMessage(const urban_nav_core::StampedPose& pose,
 /// What is written beside the images, in the order of stamps.
 class Companions {
  public:
-  Companions(std::vector<sensor_msgs::Imu> imu, std::optional<TrajectoryFile> truth, StampNs shift) : imu_(std::move(imu)), truth_(std::move(truth)), shift_(shift) {}
+  Companions(std::vector<sensor_msgs::Imu> imu, std::optional<TrajectoryFile> truth, StampNs shift)
+      : imu_(std::move(imu)), truth_(std::move(truth)), shift_(shift) {}
 
   /// Everything up to a stamp of the folder.
   void writeUntil(StampNs stamp, BagWriter& bag) {
@@ -66,19 +67,23 @@ void refuseFaults(const StereoInput& input) {
 
 }  // namespace
 
-Converted convertStereoFolder(const std::string& folder, const std::string& path, const SourceOptions& options, Console& console) {
+Converted convertStereoFolder(const std::string& folder, const std::string& path, const SourceOptions& options,
+                              Console& console) {
   const std::unique_ptr<Source> source = readAhead(openSource({folder}, options), 4);
   const SourceInfo& info = source->info();
   const StampNs shift = info.first < kEarliest ? kEpoch : 0;
   Converted converted;
   converted.notes = info.notes;
-  if (shift != 0) converted.notes.push_back("stamps count from the start: moved by 1000000000 s, since ROS has no time zero");
+  if (shift != 0)
+    converted.notes.push_back("stamps count from the start: moved by 1000000000 s, since ROS has no time zero");
 
   std::vector<sensor_msgs::Imu> imu;
   std::vector<geometry_msgs::TransformStamped> transforms = stereoTransforms(info.camera, info.T_base_camera);
   if (inputKind(folder) == InputKind::EurocFolder) {
     for (const EurocImu& row : readEurocImu(eurocFolder(folder))) imu.push_back(toImuMessage(row));
-    if (!imu.empty()) transforms.push_back(urban_nav_ros::toStaticTransform("base_link", "imu_link", readEurocRig(eurocFolder(folder)).T_base_body));
+    if (!imu.empty())
+      transforms.push_back(
+          urban_nav_ros::toStaticTransform("base_link", "imu_link", readEurocRig(eurocFolder(folder)).T_base_body));
   }
   Companions companions(std::move(imu), findTruth({{folder}}, info, options), shift);
 
@@ -93,7 +98,7 @@ Converted convertStereoFolder(const std::string& folder, const std::string& path
     writeStereo(pair, pair.stamp + shift, info.camera, bag);
     progress.update(++frames);
   }
-  companions.writeUntil(info.last, bag);
+  companions.writeUntil(std::numeric_limits<StampNs>::max(), bag);
   bag.commit();
   progress.finish(frames);
   converted.counts = bag.counts();

@@ -19,10 +19,12 @@ namespace {
 constexpr const char* kLeftFrame = "stereo_left_optical_frame";
 constexpr const char* kRightFrame = "stereo_right_optical_frame";
 
-void writeSide(const std::string& side, const std::string& frame, const urban_nav_core::ImageView& view, StampNs stamp, const urban_nav_core::CameraInfo& info, BagWriter& bag) {
+void writeSide(const std::string& side, const std::string& frame, const urban_nav_core::ImageView& view, StampNs stamp,
+               const urban_nav_core::CameraInfo& info, BagWriter& bag) {
   if (view.empty()) return;
   auto* bytes = const_cast<std::uint8_t*>(view.data);  // cv::Mat has no const view; it is only read
-  sensor_msgs::Image image = urban_nav_ros::toImageMessage(cv::Mat(view.height, view.width, CV_8UC1, bytes, static_cast<std::size_t>(view.stride)));
+  sensor_msgs::Image image = urban_nav_ros::toImageMessage(
+      cv::Mat(view.height, view.width, CV_8UC1, bytes, static_cast<std::size_t>(view.stride)));
   image.header.stamp = urban_nav_ros::toRosTime(stamp);
   image.header.frame_id = frame;
   sensor_msgs::CameraInfo camera = urban_nav_ros::toCameraInfoMessage(info);
@@ -33,14 +35,18 @@ void writeSide(const std::string& side, const std::string& frame, const urban_na
 
 }  // namespace
 
-void writeStereo(const urban_nav_core::StereoPair& pair, StampNs stamp, const urban_nav_core::StereoCamera& camera, BagWriter& bag) {
+void writeStereo(const urban_nav_core::StereoPair& pair, StampNs stamp, const urban_nav_core::StereoCamera& camera,
+                 BagWriter& bag) {
   writeSide("left", kLeftFrame, pair.left, stamp, urban_nav_core::leftInfo(camera), bag);
   writeSide("right", kRightFrame, pair.right, stamp, urban_nav_core::rightInfo(camera), bag);
 }
 
-std::vector<geometry_msgs::TransformStamped> stereoTransforms(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_base_left) {
-  const urban_nav_core::Pose T_left_right(urban_nav_core::Quaterniond::Identity(), urban_nav_core::Vector3d(camera.baseline, 0.0, 0.0));
-  return {urban_nav_ros::toStaticTransform("base_link", kLeftFrame, T_base_left), urban_nav_ros::toStaticTransform(kLeftFrame, kRightFrame, T_left_right)};
+std::vector<geometry_msgs::TransformStamped> stereoTransforms(const urban_nav_core::StereoCamera& camera,
+                                                              const urban_nav_core::Pose& T_base_left) {
+  const urban_nav_core::Pose T_left_right(urban_nav_core::Quaterniond::Identity(),
+                                          urban_nav_core::Vector3d(camera.baseline, 0.0, 0.0));
+  return {urban_nav_ros::toStaticTransform("base_link", kLeftFrame, T_base_left),
+          urban_nav_ros::toStaticTransform(kLeftFrame, kRightFrame, T_left_right)};
 }
 
 }  // namespace urban_nav

@@ -11,9 +11,11 @@
 namespace urban_nav {
 
 /// A rectified pair with its camera_info on the topics of DESIGN.md section 5; an empty view is left out, with its camera_info.
-void writeStereo(const urban_nav_core::StereoPair& pair, urban_nav_core::StampNs stamp, const urban_nav_core::StereoCamera& camera, BagWriter& bag);
+void writeStereo(const urban_nav_core::StereoPair& pair, urban_nav_core::StampNs stamp,
+                 const urban_nav_core::StereoCamera& camera, BagWriter& bag);
 
 /// Where the two optical frames are on base_link.
-std::vector<geometry_msgs::TransformStamped> stereoTransforms(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_base_left);
+std::vector<geometry_msgs::TransformStamped> stereoTransforms(const urban_nav_core::StereoCamera& camera,
+                                                              const urban_nav_core::Pose& T_base_left);
 
 }  // namespace urban_nav

@@ -30,10 +30,12 @@ constexpr urban_nav_core::StampNs kMaxLateness = 200'000'000;  // ns: waiting co
 /// The bags of one recording, read as one stream in the order of their receipt; the feed brings it into the order of stamps.
 class BagSource : public Source {
  public:
-  BagSource(const std::vector<std::string>& paths, const SourceOptions& options) : options_(options), name_(paths.front()) {
+  BagSource(const std::vector<std::string>& paths, const SourceOptions& options)
+      : options_(options), name_(paths.front()) {
     for (const std::string& path : paths) bags_.emplace_back(path, rosbag::bagmode::Read);
     topics_ = chooseTopics(available(), options.topics);
-    if (!topics_.find(Role::Left) || !topics_.find(Role::Right)) throw DataError(name_, "has no stereo pair of image topics: " + listing(), "");
+    if (!topics_.find(Role::Left) || !topics_.find(Role::Right))
+      throw DataError(name_, "has no stereo pair of image topics: " + listing(), "");
     info_.name = name_ + (paths.size() > 1 ? " and " + std::to_string(paths.size() - 1) + " more" : "");
     info_.kind = "bag";
     info_.notes = topics_.notes;
@@ -69,9 +71,15 @@ class BagSource : public Source {
     const auto count = [&](Side side, Role role) {
       const urban_nav_core::InboxCounts& counts = feed_->counts(side);
       const std::string topic = topics_.find(role)->name;
-      if (counts.late > 0) faults.push_back(topic + ": " + std::to_string(counts.late) + " images came too late by their stamps and were dropped");
-      if (counts.doubled > 0) faults.push_back(topic + ": " + std::to_string(counts.doubled) + " images have the stamp of another and were dropped");
-      if (feed_->missing(side) > 0) faults.push_back(topic + ": " + std::to_string(feed_->missing(side)) + " images are missing: no partner within 5 ms");
+      if (counts.late > 0)
+        faults.push_back(topic + ": " + std::to_string(counts.late) +
+                         " images came too late by their stamps and were dropped");
+      if (counts.doubled > 0)
+        faults.push_back(topic + ": " + std::to_string(counts.doubled) +
+                         " images have the stamp of another and were dropped");
+      if (feed_->missing(side) > 0)
+        faults.push_back(topic + ": " + std::to_string(feed_->missing(side)) +
+                         " images are missing: no partner within 5 ms");
     };
     count(Side::Left, Role::Left);
     count(Side::Right, Role::Right);
@@ -83,7 +91,8 @@ class BagSource : public Source {
     std::map<std::string, std::string> topics;
     for (rosbag::Bag& bag : bags_) {
       rosbag::View view(bag);
-      for (const rosbag::ConnectionInfo* connection : view.getConnections()) topics[connection->topic] = connection->datatype;
+      for (const rosbag::ConnectionInfo* connection : view.getConnections())
+        topics[connection->topic] = connection->datatype;
     }
     return topics;
   }
@@ -116,7 +125,8 @@ class BagSource : public Source {
   Look look(const ChosenTopic& topic) {
     if (topic.type == "sensor_msgs/Image") {
       const auto image = first<sensor_msgs::Image>(topic.name);
-      return image ? Look{image->header.frame_id, static_cast<int>(image->width), static_cast<int>(image->height)} : Look{};
+      return image ? Look{image->header.frame_id, static_cast<int>(image->width), static_cast<int>(image->height)}
+                   : Look{};
     }
     const auto image = first<sensor_msgs::CompressedImage>(topic.name);
     if (!image) return {};
@@ -127,7 +137,10 @@ class BagSource : public Source {
   CameraInfo infoOf(Role role) {
     const std::optional<ChosenTopic> topic = topics_.find(role);
     const auto message = topic ? first<sensor_msgs::CameraInfo>(topic->name) : nullptr;
-    if (!message) throw UserError(name_, std::string("has no camera_info for the ") + (role == Role::LeftInfo ? "left" : "right") + " images", std::string("--calibration FILE, or --topic ") + toString(role) + ":=NAME");
+    if (!message)
+      throw UserError(
+          name_, std::string("has no camera_info for the ") + (role == Role::LeftInfo ? "left" : "right") + " images",
+          std::string("--calibration FILE, or --topic ") + toString(role) + ":=NAME");
     if (role == Role::LeftInfo) camera_frame_ = message->header.frame_id;
     return urban_nav_ros::toCameraInfo(*message);
   }
@@ -137,10 +150,14 @@ class BagSource : public Source {
     const Look seen = look(left);
     camera_frame_ = seen.frame;
     const bool given = !options_.calibration.empty();
-    const auto [left_info, right_info] = given ? readCalibration(options_.calibration, seen.width, seen.height) : std::make_pair(infoOf(Role::LeftInfo), infoOf(Role::RightInfo));
+    const auto [left_info, right_info] = given ? readCalibration(options_.calibration, seen.width, seen.height)
+                                               : std::make_pair(infoOf(Role::LeftInfo), infoOf(Role::RightInfo));
     if (camera_frame_.empty()) camera_frame_ = seen.frame;
-    const std::string where = given ? options_.calibration : topics_.find(Role::LeftInfo)->name + " and " + topics_.find(Role::RightInfo)->name;
-    calibration_ = std::make_shared<urban_nav_ros::StereoCalibration>(left_info, right_info, isRectifiedName(left.name), where);
+    const std::string where = given
+                                  ? options_.calibration
+                                  : topics_.find(Role::LeftInfo)->name + " and " + topics_.find(Role::RightInfo)->name;
+    calibration_ =
+        std::make_shared<urban_nav_ros::StereoCalibration>(left_info, right_info, isRectifiedName(left.name), where);
     info_.camera = calibration_->camera();
     if (calibration_->rectifies()) info_.notes.push_back("raw images with distortion, rectified on the way");
   }
@@ -157,12 +174,15 @@ class BagSource : public Source {
       info_.T_base_camera = *T_base_optical * calibration_->T_optical_rectified();
     } else {
       info_.T_base_camera = urban_nav_ros::opticalInBody() * calibration_->T_optical_rectified();
-      info_.notes.push_back("no static tf from base_link to \"" + camera_frame_ + "\": base_link is taken to be at the left camera (REP-103 axes)");
+      info_.notes.push_back("no static tf from base_link to \"" + camera_frame_ +
+                            "\": base_link is taken to be at the left camera (REP-103 axes)");
     }
     const auto imu = topics_.find(Role::Imu) ? first<sensor_msgs::Imu>(topics_.find(Role::Imu)->name) : nullptr;
-    const std::optional<urban_nav_core::Pose> T_base_imu = imu ? transforms.lookup(kBaseFrame, imu->header.frame_id) : std::nullopt;
+    const std::optional<urban_nav_core::Pose> T_base_imu =
+        imu ? transforms.lookup(kBaseFrame, imu->header.frame_id) : std::nullopt;
     wheels_.emplace(options_.wheel_noise);
-    gyroscope_.emplace(options_.gyro_noise, T_base_imu ? T_base_imu->R() : urban_nav_core::Matrix3d(urban_nav_core::Matrix3d::Identity()));
+    gyroscope_.emplace(options_.gyro_noise,
+                       T_base_imu ? T_base_imu->R() : urban_nav_core::Matrix3d(urban_nav_core::Matrix3d::Identity()));
   }
 
   void startReading() {
@@ -171,7 +191,8 @@ class BagSource : public Source {
     feed.max_lateness = kMaxLateness;
     const Role motion_role = options_.motion_input == "wheels" ? Role::Wheels : Role::Imu;
     if (options_.motion_input != "none") {
-      if (!topics_.find(motion_role)) throw DataError(name_, "has no topic for swf_vo.motion_input = " + options_.motion_input, "");
+      if (!topics_.find(motion_role))
+        throw DataError(name_, "has no topic for swf_vo.motion_input = " + options_.motion_input, "");
       names.push_back(topics_.find(motion_role)->name);
       feed.motion = true;
     }

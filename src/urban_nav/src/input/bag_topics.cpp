@@ -25,8 +25,13 @@ constexpr std::array<RoleNames, 7> kRoles = {{{Role::Left, "left", "stereo/left/
                                               {Role::Wheels, "wheels", "wheel_odom"},
                                               {Role::Truth, "truth", "ground_truth/pose"}}};
 
-constexpr std::array<std::array<const char*, 2>, 7> kSides = {
-    {{"left", "right"}, {"cam0", "cam1"}, {"cam_0", "cam_1"}, {"image_00", "image_01"}, {"image_0", "image_1"}, {"infra1", "infra2"}, {"camera0", "camera1"}}};
+constexpr std::array<std::array<const char*, 2>, 7> kSides = {{{"left", "right"},
+                                                               {"cam0", "cam1"},
+                                                               {"cam_0", "cam_1"},
+                                                               {"image_00", "image_01"},
+                                                               {"image_0", "image_1"},
+                                                               {"infra1", "infra2"},
+                                                               {"camera0", "camera1"}}};
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
@@ -35,12 +40,17 @@ std::string bare(const std::string& topic) { return topic.empty() || topic.front
 bool fits(Role role, const std::string& type) {
   switch (role) {
     case Role::Left:
-    case Role::Right: return isImageType(type);
+    case Role::Right:
+      return isImageType(type);
     case Role::LeftInfo:
-    case Role::RightInfo: return type == "sensor_msgs/CameraInfo";
-    case Role::Imu: return type == "sensor_msgs/Imu";
-    case Role::Wheels: return type == "nav_msgs/Odometry";
-    case Role::Truth: return type == "geometry_msgs/PoseStamped";
+    case Role::RightInfo:
+      return type == "sensor_msgs/CameraInfo";
+    case Role::Imu:
+      return type == "sensor_msgs/Imu";
+    case Role::Wheels:
+      return type == "nav_msgs/Odometry";
+    case Role::Truth:
+      return type == "geometry_msgs/PoseStamped";
   }
   return false;
 }
@@ -52,15 +62,19 @@ std::string roleWords() {
 }
 
 /// The topic as it is called in the bag, with or without the leading slash.
-std::map<std::string, std::string>::const_iterator findTopic(const std::map<std::string, std::string>& available, const std::string& name) {
-  return std::find_if(available.begin(), available.end(), [&](const auto& topic) { return bare(topic.first) == bare(name); });
+std::map<std::string, std::string>::const_iterator findTopic(const std::map<std::string, std::string>& available,
+                                                             const std::string& name) {
+  return std::find_if(available.begin(), available.end(),
+                      [&](const auto& topic) { return bare(topic.first) == bare(name); });
 }
 
 void take(const std::map<std::string, std::string>& available, const std::string& wish, BagTopics& topics) {
   const std::size_t sign = wish.find(":=");
-  if (sign == std::string::npos) throw UserError("--topic", "\"" + wish + "\"", "ROLE:=NAME with a role of " + roleWords());
+  if (sign == std::string::npos)
+    throw UserError("--topic", "\"" + wish + "\"", "ROLE:=NAME with a role of " + roleWords());
   const std::string role = wish.substr(0, sign), name = wish.substr(sign + 2);
-  const auto names = std::find_if(kRoles.begin(), kRoles.end(), [&](const RoleNames& r) { return role == r.word || bare(role) == r.topic; });
+  const auto names = std::find_if(kRoles.begin(), kRoles.end(),
+                                  [&](const RoleNames& r) { return role == r.word || bare(role) == r.topic; });
   if (names == kRoles.end()) throw UserError("--topic", "role \"" + role + "\"", roleWords());
   const auto topic = findTopic(available, name);
   if (topic == available.end() || !fits(names->role, topic->second)) {
@@ -69,7 +83,8 @@ void take(const std::map<std::string, std::string>& available, const std::string
       if (fits(names->role, type)) candidates += (candidates.empty() ? "" : ", ") + known;
     }
     const std::string found = topic == available.end() ? "is not in the bag" : "is of type " + topic->second;
-    throw UserError("--topic " + wish, name + " " + found, candidates.empty() ? "none: the bag has no topic of this kind" : candidates);
+    throw UserError("--topic " + wish, name + " " + found,
+                    candidates.empty() ? "none: the bag has no topic of this kind" : candidates);
   }
   topics.chosen[names->role] = {topic->first, topic->second};
 }
@@ -77,7 +92,8 @@ void take(const std::map<std::string, std::string>& available, const std::string
 /// How unlikely a topic is to be what `map` wants; the raw stream is preferred, rectified ones are there to be asked for.
 int oddness(const std::string& topic, const std::string& type) {
   int value = 0;
-  for (const char* word : {"disparity", "depth", "theora", "color", "colour", "ladybug", "debug", "mask", "label"}) value += contains(topic, word) ? 100 : 0;
+  for (const char* word : {"disparity", "depth", "theora", "color", "colour", "ladybug", "debug", "mask", "label"})
+    value += contains(topic, word) ? 100 : 0;
   value += isRectifiedName(topic) ? 10 : 0;
   value += contains(topic, "stereo") ? 0 : 2;
   value += contains(topic, "image") ? 0 : 4;
@@ -86,7 +102,8 @@ int oddness(const std::string& topic, const std::string& type) {
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) text.replace(at, from.size(), to);
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
   return text;
 }
 
@@ -100,7 +117,8 @@ void guessImages(const std::map<std::string, std::string>& available, BagTopics&
     for (std::size_t i = 0; i < kSides.size(); ++i) {
       if (!contains(left, kSides[i][0])) continue;
       const auto right = available.find(replaced(left, kSides[i][0], kSides[i][1]));
-      if (right == available.end() || right->second != type || (wished_right && wished_right->name != right->first)) continue;
+      if (right == available.end() || right->second != type || (wished_right && wished_right->name != right->first))
+        continue;
       const int value = oddness(left, type) + static_cast<int>(i);
       if (value >= best) continue;
       best = value;
@@ -126,7 +144,8 @@ void guessInfo(const std::map<std::string, std::string>& available, Role image, 
   }
 }
 
-void guessOther(const std::map<std::string, std::string>& available, const RoleNames& names, const std::vector<std::string>& words, BagTopics& topics) {
+void guessOther(const std::map<std::string, std::string>& available, const RoleNames& names,
+                const std::vector<std::string>& words, BagTopics& topics) {
   if (topics.find(names.role)) return;
   for (const std::string& word : words) {
     for (const auto& [topic, type] : available) {
@@ -141,7 +160,8 @@ void guessOther(const std::map<std::string, std::string>& available, const RoleN
 }  // namespace
 
 const char* toString(Role role) {
-  return std::find_if(kRoles.begin(), kRoles.end(), [role](const RoleNames& names) { return names.role == role; })->word;
+  return std::find_if(kRoles.begin(), kRoles.end(), [role](const RoleNames& names) { return names.role == role; })
+      ->word;
 }
 
 std::optional<ChosenTopic> BagTopics::find(Role role) const {
@@ -160,12 +180,17 @@ BagTopics chooseTopics(const std::map<std::string, std::string>& available, cons
   guessOther(available, kRoles[5], {"wheel"}, topics);
   guessOther(available, kRoles[6], {"ground_truth", "groundtruth"}, topics);
   for (const auto& [role, topic] : topics.chosen) {
-    topics.notes.push_back(std::string(toString(role)) + ": " + topic.name + (wished.count(role) != 0 ? "" : " (guessed; --topic " + std::string(toString(role)) + ":=NAME says otherwise)"));
+    topics.notes.push_back(std::string(toString(role)) + ": " + topic.name +
+                           (wished.count(role) != 0 ? "" : " (guessed)"));
   }
+  if (topics.chosen.size() > wished.size())
+    topics.notes.push_back("guessed from types and names; --topic ROLE:=NAME decides");
   return topics;
 }
 
-bool isImageType(const std::string& type) { return type == "sensor_msgs/Image" || type == "sensor_msgs/CompressedImage"; }
+bool isImageType(const std::string& type) {
+  return type == "sensor_msgs/Image" || type == "sensor_msgs/CompressedImage";
+}
 
 bool isRectifiedName(const std::string& topic) { return contains(topic, "rect"); }
 

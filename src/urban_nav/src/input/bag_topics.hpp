@@ -15,7 +15,7 @@ const char* toString(Role role);
 
 struct ChosenTopic {
   std::string name;
-  std::string type;      ///< "sensor_msgs/Image"
+  std::string type;  ///< "sensor_msgs/Image"
 };
 
 /// Topics by role, with what to tell the user about them.

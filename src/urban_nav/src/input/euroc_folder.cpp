@@ -15,7 +15,8 @@ namespace {
 
 class EurocFolder : public Source {
  public:
-  EurocFolder(const std::string& folder, const SourceOptions& options) : mav0_(eurocFolder(folder)), rig_(readEurocRig(mav0_)), pairs_(readEurocPairs(mav0_)) {
+  EurocFolder(const std::string& folder, const SourceOptions& options)
+      : mav0_(eurocFolder(folder)), rig_(readEurocRig(mav0_)), pairs_(readEurocPairs(mav0_)) {
     if (pairs_.empty()) throw UserError(mav0_, "lists no images", "cam0/data.csv and cam1/data.csv");
     info_.name = folder;
     info_.kind = "EuRoC folder";
@@ -35,9 +36,12 @@ class EurocFolder : public Source {
     const EurocPair& pair = pairs_[position_++];
     StereoInput input;
     input.assembled.pair.stamp = pair.stamp;
-    std::tie(input.assembled.pair.left, input.assembled.left_owner) = keep(read(pair.left, "left", pair.stamp, rig_.left_map, input.faults));
-    std::tie(input.assembled.pair.right, input.assembled.right_owner) = keep(read(pair.right, "right", pair.stamp, rig_.right_map, input.faults));
-    for (; next_motion_ < motion_.size() && motion_[next_motion_].to <= pair.stamp; ++next_motion_) input.assembled.inputs.push_back(motion_[next_motion_]);
+    std::tie(input.assembled.pair.left, input.assembled.left_owner) =
+        keep(read(pair.left, "left", pair.stamp, rig_.left_map, input.faults));
+    std::tie(input.assembled.pair.right, input.assembled.right_owner) =
+        keep(read(pair.right, "right", pair.stamp, rig_.right_map, input.faults));
+    for (; next_motion_ < motion_.size() && motion_[next_motion_].to <= pair.stamp; ++next_motion_)
+      input.assembled.inputs.push_back(motion_[next_motion_]);
     return input;
   }
 
@@ -50,7 +54,8 @@ class EurocFolder : public Source {
     if (motion_.empty()) throw urban_nav_core::DataError(mav0_, "has no imu0 for swf_vo.motion_input = gyroscope", "");
   }
 
-  static cv::Mat read(const std::string& path, const char* side, urban_nav_core::StampNs stamp, const urban_nav_core::RectifyMap& map, std::vector<std::string>& faults) {
+  static cv::Mat read(const std::string& path, const char* side, urban_nav_core::StampNs stamp,
+                      const urban_nav_core::RectifyMap& map, std::vector<std::string>& faults) {
     if (path.empty()) {
       faults.push_back(std::string(side) + " image of " + std::to_string(stamp) + " ns is missing");
       return {};
@@ -70,6 +75,8 @@ class EurocFolder : public Source {
 
 }  // namespace
 
-std::unique_ptr<Source> openEurocFolder(const std::string& folder, const SourceOptions& options) { return std::make_unique<EurocFolder>(folder, options); }
+std::unique_ptr<Source> openEurocFolder(const std::string& folder, const SourceOptions& options) {
+  return std::make_unique<EurocFolder>(folder, options);
+}
 
 }  // namespace urban_nav

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "input/euroc_layout.hpp"
 
-#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
 #include "input/image_file.hpp"
+#include "urban_nav_core/io/calibration.hpp"
 #include "urban_nav_core/io/csv.hpp"
-#include "urban_nav_core/io/yaml.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/stamp.hpp"
@@ -22,49 +22,21 @@ using urban_nav_core::RectifyMap;
 using urban_nav_core::StampNs;
 using urban_nav_core::UserError;
 using urban_nav_core::Vector3d;
-using urban_nav_core::YamlNode;
 
 namespace {
 
 constexpr StampNs kPairing = 5'000'000;  // ns between the two images of a pair
 
-struct BodyCamera {
-  RawCamera camera;
-  Pose T_body_camera;
-};
-
-BodyCamera readCamera(const std::string& path) {
-  const YamlNode yaml = urban_nav_core::readYaml(path);
-  const std::vector<double> intrinsics = urban_nav_core::requireNumbers(yaml, "intrinsics", 4, path);
-  const std::vector<double> resolution = urban_nav_core::requireNumbers(yaml, "resolution", 2, path);
-  const std::vector<double> T = urban_nav_core::requireNumbers(urban_nav_core::require(yaml, "T_BS", path), "data", 16, path);
-  const std::vector<double> distortion = urban_nav_core::requireNumbers(yaml, "distortion_coefficients", 4, path);
-  BodyCamera result;
-  urban_nav_core::Pinhole& pinhole = result.camera.pinhole;
-  pinhole.fx = intrinsics[0];
-  pinhole.fy = intrinsics[1];
-  pinhole.cx = intrinsics[2];
-  pinhole.cy = intrinsics[3];
-  pinhole.width = static_cast<int>(resolution[0]);
-  pinhole.height = static_cast<int>(resolution[1]);
-  if (!(pinhole.fx > 0.0) || !(pinhole.fy > 0.0) || pinhole.width < 1 || pinhole.height < 1 || pinhole.width > 65535 || pinhole.height > 65535) {
-    throw UserError(path, "intrinsics or resolution are those of no camera", "focal lengths and sizes above 0 px");
-  }
-  result.camera.distortion = urban_nav_core::Distortion::named(urban_nav_core::require(yaml, "distortion_model", path).scalar, distortion, path);
-  const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> matrix(T.data());
-  const Eigen::Matrix3d R = matrix.topLeftCorner<3, 3>();
-  if (!(R * R.transpose()).isIdentity(1e-3) || R.determinant() < 0.0) throw UserError(path, "T_BS holds no rotation", "a rigid motion, 4x4 row-major");
-  result.T_body_camera = Pose(R, Vector3d(matrix.topRightCorner<3, 1>()));
-  return result;
-}
-
 std::vector<std::pair<StampNs, std::string>> readImages(const std::string& camera) {
   const CsvTable table = CsvTable::read((fs::path(camera) / "data.csv").string());
   std::vector<std::pair<StampNs, std::string>> images;
-  if (table.header().size() < 2) throw UserError(table.where(0), "has " + std::to_string(table.header().size()) + " columns", "stamp in ns, file name");
+  if (table.header().size() < 2)
+    throw UserError(table.where(0), "has " + std::to_string(table.header().size()) + " columns",
+                    "stamp in ns, file name");
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const fs::path name(table.text(row, 1));
-    if (name.has_parent_path()) throw UserError(table.where(row), "file name \"" + name.string() + "\"", "a name without folders");
+    if (name.has_parent_path())
+      throw UserError(table.where(row), "file name \"" + name.string() + "\"", "a name without folders");
     images.emplace_back(table.integer(row, 0), (fs::path(camera) / "data" / name).string());
   }
   return images;
@@ -72,7 +44,9 @@ std::vector<std::pair<StampNs, std::string>> readImages(const std::string& camer
 
 }  // namespace
 
-std::string eurocFolder(const std::string& path) { return fs::is_directory(fs::path(path) / "mav0") ? (fs::path(path) / "mav0").string() : path; }
+std::string eurocFolder(const std::string& path) {
+  return fs::is_directory(fs::path(path) / "mav0") ? (fs::path(path) / "mav0").string() : path;
+}
 
 std::vector<EurocPair> readEurocPairs(const std::string& mav0) {
   const auto left = readImages((fs::path(mav0) / "cam0").string());
@@ -80,7 +54,8 @@ std::vector<EurocPair> readEurocPairs(const std::string& mav0) {
   std::vector<EurocPair> pairs;
   std::size_t j = 0;
   for (const auto& [stamp, path] : left) {
-    for (; j < right.size() && right[j].first < stamp - kPairing; ++j) pairs.push_back({right[j].first, "", right[j].second});
+    for (; j < right.size() && right[j].first < stamp - kPairing; ++j)
+      pairs.push_back({right[j].first, "", right[j].second});
     const bool partner = j < right.size() && std::abs(right[j].first - stamp) <= kPairing;
     pairs.push_back({stamp, path, partner ? right[j].second : ""});
     if (partner) ++j;
@@ -90,18 +65,23 @@ std::vector<EurocPair> readEurocPairs(const std::string& mav0) {
 }
 
 EurocRig readEurocRig(const std::string& mav0) {
-  const BodyCamera left = readCamera((fs::path(mav0) / "cam0" / "sensor.yaml").string());
-  const BodyCamera right = readCamera((fs::path(mav0) / "cam1" / "sensor.yaml").string());
+  const std::string left_path = (fs::path(mav0) / "cam0" / "sensor.yaml").string(),
+                    right_path = (fs::path(mav0) / "cam1" / "sensor.yaml").string();
+  const urban_nav_core::EurocCamera left = urban_nav_core::readEurocCamera(left_path),
+                                    right = urban_nav_core::readEurocCamera(right_path);
+  const RawCamera left_raw = urban_nav_core::rawCamera(left.info, left_path),
+                  right_raw = urban_nav_core::rawCamera(right.info, right_path);
   const Pose T_right_left = right.T_body_camera.inverse() * left.T_body_camera;
-  const urban_nav_core::StereoRectification rectification = urban_nav_core::rectifyStereo(left.camera, right.camera, T_right_left, mav0);
+  const urban_nav_core::StereoRectification rectification =
+      urban_nav_core::rectifyStereo(left_raw, right_raw, T_right_left, mav0);
   const urban_nav_core::Pinhole& rectified = rectification.camera.left;
   const Pose T_base_camera = urban_nav_ros::opticalInBody();
   const Pose T_camera_raw(rectification.R_left, Vector3d::Zero());
-  return {left.camera,
-          right.camera,
+  return {left_raw,
+          right_raw,
           rectification,
-          RectifyMap(left.camera, rectification.R_left, rectified),
-          RectifyMap(right.camera, rectification.R_right, rectified),
+          RectifyMap(left_raw, rectification.R_left, rectified),
+          RectifyMap(right_raw, rectification.R_right, rectified),
           T_base_camera,
           T_base_camera * T_camera_raw * left.T_body_camera.inverse()};
 }
@@ -111,9 +91,13 @@ std::vector<EurocImu> readEurocImu(const std::string& mav0) {
   std::vector<EurocImu> rows;
   if (!fs::exists(path)) return rows;
   const CsvTable table = CsvTable::read(path);
-  if (table.header().size() != 7) throw UserError(path, std::to_string(table.header().size()) + " columns", "stamp in ns, three rates, three accelerations");
+  if (table.header().size() != 7)
+    throw UserError(path, std::to_string(table.header().size()) + " columns",
+                    "stamp in ns, three rates, three accelerations");
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    rows.push_back({table.integer(row, 0), {table.number(row, 1), table.number(row, 2), table.number(row, 3)}, {table.number(row, 4), table.number(row, 5), table.number(row, 6)}});
+    rows.push_back({table.integer(row, 0),
+                    {table.number(row, 1), table.number(row, 2), table.number(row, 3)},
+                    {table.number(row, 4), table.number(row, 5), table.number(row, 6)}});
   }
   return rows;
 }
@@ -136,13 +120,18 @@ std::optional<urban_nav_core::Trajectory> readEurocTruth(const std::string& mav0
   const std::string path = (fs::path(mav0) / "state_groundtruth_estimate0" / "data.csv").string();
   if (!fs::exists(path)) return std::nullopt;
   const CsvTable table = CsvTable::read(path);
-  if (table.header().size() < 8) throw UserError(path, std::to_string(table.header().size()) + " columns", "stamp in ns, position, quaternion w x y z");
+  if (table.header().size() < 8)
+    throw UserError(path, std::to_string(table.header().size()) + " columns",
+                    "stamp in ns, position, quaternion w x y z");
   urban_nav_core::Trajectory trajectory;
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    const urban_nav_core::Quaterniond q(table.number(row, 4), table.number(row, 5), table.number(row, 6), table.number(row, 7));
-    if (std::abs(q.norm() - 1.0) > 0.01) throw UserError(table.where(row), "quaternion of length " + std::to_string(q.norm()), "length 1");
+    const urban_nav_core::Quaterniond q(table.number(row, 4), table.number(row, 5), table.number(row, 6),
+                                        table.number(row, 7));
+    if (std::abs(q.norm() - 1.0) > 0.01)
+      throw UserError(table.where(row), "quaternion of length " + std::to_string(q.norm()), "length 1");
     const Pose T_world_body(q, Vector3d(table.number(row, 1), table.number(row, 2), table.number(row, 3)));
-    if (!trajectory.append(table.integer(row, 0), T_world_body * T_base_body.inverse())) throw UserError(table.where(row), "stamp is not later than the one before", "");
+    if (!trajectory.append(table.integer(row, 0), T_world_body * T_base_body.inverse()))
+      throw UserError(table.where(row), "stamp is not later than the one before", "");
   }
   return trajectory;
 }
@@ -153,7 +142,9 @@ urban_nav_ros::GreyImage readRectified(const std::string& path, const RectifyMap
   std::vector<std::uint8_t> bytes;
   const urban_nav_core::ImageView view = map.remap(urban_nav_ros::viewOf(raw.pixels), bytes);
   if (view.empty()) {
-    return {{}, path + ": " + std::to_string(raw.pixels.cols) + "x" + std::to_string(raw.pixels.rows) + " pixels, which is not the size in sensor.yaml"};
+    return {{},
+            path + ": " + std::to_string(raw.pixels.cols) + "x" + std::to_string(raw.pixels.rows) +
+                " pixels, which is not the size in sensor.yaml"};
   }
   return {cv::Mat(view.height, view.width, CV_8UC1, bytes.data(), static_cast<std::size_t>(view.stride)).clone(), {}};
 }

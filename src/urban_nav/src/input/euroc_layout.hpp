@@ -47,7 +47,8 @@ std::vector<EurocImu> readEurocImu(const std::string& mav0);
 /// As a message in the frame imu_link.
 sensor_msgs::Imu toImuMessage(const EurocImu& row);
 /// base_link in the frame of the truth, from state_groundtruth_estimate0; empty where the folder has none.
-std::optional<urban_nav_core::Trajectory> readEurocTruth(const std::string& mav0, const urban_nav_core::Pose& T_base_body);
+std::optional<urban_nav_core::Trajectory> readEurocTruth(const std::string& mav0,
+                                                         const urban_nav_core::Pose& T_base_body);
 
 /// A raw image, rectified; or a fault that names it.
 urban_nav_ros::GreyImage readRectified(const std::string& path, const urban_nav_core::RectifyMap& map);

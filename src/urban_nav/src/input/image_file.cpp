@@ -19,7 +19,9 @@ namespace {
 
 std::string_view asText(const std::vector<char>& bytes) { return {bytes.data(), bytes.size()}; }
 
-bool startsWith(const std::vector<char>& bytes, std::string_view magic) { return asText(bytes).substr(0, magic.size()) == magic; }
+bool startsWith(const std::vector<char>& bytes, std::string_view magic) {
+  return asText(bytes).substr(0, magic.size()) == magic;
+}
 
 /// Do PNG and JPEG end as they must? (A camera may append a few bytes to a JPEG, so its end is looked for in the last kilobyte.)
 bool isComplete(const std::vector<char>& bytes) {
@@ -62,9 +64,11 @@ std::pair<urban_nav_core::ImageView, std::shared_ptr<const void>> keep(const cv:
 }
 
 bool isImageName(const std::string& name) {
-  static constexpr std::array<std::string_view, 9> known = {".png", ".jpg", ".jpeg", ".pgm", ".pnm", ".ppm", ".bmp", ".tif", ".tiff"};
+  static constexpr std::array<std::string_view, 9> known = {".png", ".jpg", ".jpeg", ".pgm", ".pnm",
+                                                            ".ppm", ".bmp", ".tif",  ".tiff"};
   std::string extension = std::filesystem::path(name).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return std::find(known.begin(), known.end(), extension) != known.end();
 }
 

@@ -40,7 +40,8 @@ class KittiFolder : public Source {
     AssembledPair& assembled = input.assembled;
     assembled.pair.stamp = frames_.stamps[position_];
     std::tie(assembled.pair.left, assembled.left_owner) = keep(read(frames_.left, layout_.left, number, input.faults));
-    std::tie(assembled.pair.right, assembled.right_owner) = keep(read(frames_.right, layout_.right, number, input.faults));
+    std::tie(assembled.pair.right, assembled.right_owner) =
+        keep(read(frames_.right, layout_.right, number, input.faults));
     ++position_;
     return input;
   }
@@ -65,7 +66,8 @@ class KittiFolder : public Source {
     throw urban_nav_core::DataError(info_.name, "no image can be read, the first: " + fault, "");
   }
 
-  cv::Mat read(const std::map<std::int64_t, std::string>& files, const std::string& folder, std::int64_t number, std::vector<std::string>& faults) const {
+  cv::Mat read(const std::map<std::int64_t, std::string>& files, const std::string& folder, std::int64_t number,
+               std::vector<std::string>& faults) const {
     const auto file = files.find(number);
     if (file == files.end()) {
       faults.push_back(folder + ": image " + std::to_string(number) + " is missing");
@@ -75,7 +77,8 @@ class KittiFolder : public Source {
     if (!image.fault.empty()) faults.push_back(image.fault);
     if (image.pixels.empty()) return {};
     if (image.pixels.cols != info_.camera.left.width || image.pixels.rows != info_.camera.left.height) {
-      faults.push_back(file->second + ": " + std::to_string(image.pixels.cols) + "x" + std::to_string(image.pixels.rows) + " pixels where the others have " +
+      faults.push_back(file->second + ": " + std::to_string(image.pixels.cols) + "x" +
+                       std::to_string(image.pixels.rows) + " pixels where the others have " +
                        std::to_string(info_.camera.left.width) + "x" + std::to_string(info_.camera.left.height));
       return {};
     }

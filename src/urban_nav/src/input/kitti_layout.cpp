@@ -23,12 +23,13 @@ using urban_nav_core::UserError;
 
 namespace {
 
-constexpr double kUsualRate = 10.0;         // Hz, of KITTI's cameras
+constexpr double kUsualRate = 10.0;          // Hz, of KITTI's cameras
 constexpr std::int64_t kMostMissing = 1000;  // frames: more than that is another naming scheme
 
 using Projection = std::array<double, 12>;
 
-Projection parseProjection(const std::string& path, const TextLine& line, const std::string& key, std::string_view values) {
+Projection parseProjection(const std::string& path, const TextLine& line, const std::string& key,
+                           std::string_view values) {
   const std::vector<std::string_view> words = urban_nav_core::splitBlanks(values);
   Projection projection{};
   bool good = words.size() == projection.size();
@@ -37,8 +38,12 @@ Projection parseProjection(const std::string& path, const TextLine& line, const 
     good = value.has_value();
     if (good) projection[i] = *value;
   }
-  if (!good) throw UserError(atLine(path, line.number), key + " has " + std::to_string(words.size()) + " values or one that is no number", "12 numbers (3x4, row-major)");
-  if (!(projection[0] > 0.0) || !(projection[5] > 0.0)) throw UserError(atLine(path, line.number), key + " has no positive focal length", "f_x, f_y > 0 px");
+  if (!good)
+    throw UserError(atLine(path, line.number),
+                    key + " has " + std::to_string(words.size()) + " values or one that is no number",
+                    "12 numbers (3x4, row-major)");
+  if (!(projection[0] > 0.0) || !(projection[5] > 0.0))
+    throw UserError(atLine(path, line.number), key + " has no positive focal length", "f_x, f_y > 0 px");
   return projection;
 }
 
@@ -52,7 +57,8 @@ Projection findProjection(const std::string& path, const std::vector<TextLine>& 
   throw UserError(path, "has no row " + key, key + ": 12 numbers (3x4, row-major)");
 }
 
-StereoCamera cameraOf(const std::string& path, const Projection& left, const Projection& right, const std::string& names) {
+StereoCamera cameraOf(const std::string& path, const Projection& left, const Projection& right,
+                      const std::string& names) {
   StereoCamera camera;
   camera.left.fx = left[0];
   camera.left.fy = left[5];
@@ -61,10 +67,12 @@ StereoCamera cameraOf(const std::string& path, const Projection& left, const Pro
   camera.baseline = (left[3] - right[3]) / left[0];
   const double tolerance = 1e-3 * left[0];
   for (const std::size_t i : {std::size_t{0}, std::size_t{2}, std::size_t{5}, std::size_t{6}}) {
-    if (std::abs(left[i] - right[i]) > tolerance) throw UserError(path, names + " differ in focal length or centre", "two cameras that are rectified together");
+    if (std::abs(left[i] - right[i]) > tolerance)
+      throw UserError(path, names + " differ in focal length or centre", "two cameras that are rectified together");
   }
   if (!(camera.baseline > 0.0)) {
-    throw UserError(path, names + ": baseline " + urban_nav_core::printNumber(camera.baseline) + " m", "above 0 m: is the right camera's row the left one's?");
+    throw UserError(path, names + ": baseline " + urban_nav_core::printNumber(camera.baseline) + " m",
+                    "above 0 m: is the right camera's row the left one's?");
   }
   return camera;
 }
@@ -93,7 +101,8 @@ std::optional<KittiLayout> findKittiLayout(const std::string& folder) {
     const fs::path right = fs::path(folder) / names.right;
     if (!fs::is_directory(left) && !fs::is_directory(right)) continue;
     const std::string inside = fs::is_directory(left / "data") || fs::is_directory(right / "data") ? "data" : "";
-    return KittiLayout{folder, (left / inside).string(), (right / inside).string(), names.p_left, names.p_right, names.rect_left, names.rect_right};
+    return KittiLayout{folder,        (left / inside).string(), (right / inside).string(), names.p_left,
+                       names.p_right, names.rect_left,          names.rect_right};
   }
   return std::nullopt;
 }
@@ -103,7 +112,8 @@ std::map<std::int64_t, std::string> listFrames(const std::string& folder) {
   if (!fs::is_directory(folder)) return frames;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string stem = entry.path().stem().string();
-    const bool digits = !stem.empty() && std::all_of(stem.begin(), stem.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+    const bool digits =
+        !stem.empty() && std::all_of(stem.begin(), stem.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
     const std::optional<std::int64_t> number = digits ? urban_nav_core::parseInteger(stem) : std::nullopt;
     if (number && isImageName(entry.path().filename().string())) frames[*number] = entry.path().string();
   }
@@ -115,15 +125,18 @@ StereoCamera readKittiCamera(const KittiLayout& layout) {
   if (fs::exists(folder / "calib.txt")) {
     const std::string path = (folder / "calib.txt").string();
     const std::vector<TextLine> lines = readLines(path);
-    return cameraOf(path, findProjection(path, lines, layout.left_name), findProjection(path, lines, layout.right_name), layout.left_name + " and " + layout.right_name);
+    return cameraOf(path, findProjection(path, lines, layout.left_name), findProjection(path, lines, layout.right_name),
+                    layout.left_name + " and " + layout.right_name);
   }
   for (const fs::path& place : {folder, fs::absolute(folder).parent_path()}) {
     const std::string path = (place / "calib_cam_to_cam.txt").string();
     if (!fs::exists(path)) continue;
     const std::vector<TextLine> lines = readLines(path);
-    return cameraOf(path, findProjection(path, lines, layout.left_rect), findProjection(path, lines, layout.right_rect), layout.left_rect + " and " + layout.right_rect);
+    return cameraOf(path, findProjection(path, lines, layout.left_rect), findProjection(path, lines, layout.right_rect),
+                    layout.left_rect + " and " + layout.right_rect);
   }
-  throw UserError((folder / "calib.txt").string(), "is not there", "calib.txt with rows P0 and P1, calib_cam_to_cam.txt, or --calibration FILE");
+  throw UserError((folder / "calib.txt").string(), "is not there",
+                  "calib.txt with rows P0 and P1, calib_cam_to_cam.txt, or --calibration FILE");
 }
 
 KittiTimes readKittiTimes(const KittiLayout& layout) {
@@ -137,7 +150,9 @@ KittiTimes readKittiTimes(const KittiLayout& layout) {
         const std::optional<double> seconds = urban_nav_core::parseNumber(line.text);
         if (seconds && std::abs(*seconds) < 4e9) stamp = static_cast<StampNs>(std::llround(*seconds * 1e9));
       }
-      if (!stamp) throw UserError(atLine(times.path, line.number), "\"" + line.text + "\" is no time", "seconds, one number a line");
+      if (!stamp)
+        throw UserError(atLine(times.path, line.number), "\"" + line.text + "\" is no time",
+                        "seconds, one number a line");
       times.stamps.push_back(*stamp);
     }
     return times;
@@ -148,7 +163,9 @@ KittiTimes readKittiTimes(const KittiLayout& layout) {
     times.path = path.string();
     for (const TextLine& line : readLines(times.path)) {
       const std::optional<StampNs> stamp = parseDateTime(line.text);
-      if (!stamp) throw UserError(atLine(times.path, line.number), "\"" + line.text + "\" is no date and time", "2011-09-26 13:02:25.964389445");
+      if (!stamp)
+        throw UserError(atLine(times.path, line.number), "\"" + line.text + "\" is no date and time",
+                        "2011-09-26 13:02:25.964389445");
       times.stamps.push_back(*stamp);
     }
     return times;
@@ -160,40 +177,57 @@ KittiFrames listKittiFrames(const KittiLayout& layout, double rate) {
   KittiFrames frames;
   frames.left = listFrames(layout.left);
   frames.right = listFrames(layout.right);
-  if (frames.left.empty() && frames.right.empty()) throw UserError(layout.left, "holds no images named by numbers", "000000.png, 000001.png, ...");
+  if (frames.left.empty() && frames.right.empty())
+    throw UserError(layout.left, "holds no images named by numbers", "000000.png, 000001.png, ...");
   std::set<std::int64_t> all;
   for (const auto& [number, path] : frames.left) all.insert(number);
   for (const auto& [number, path] : frames.right) all.insert(number);
   const std::int64_t first = *all.begin(), last = *all.rbegin();
   if (last - first > kMostMissing + 2 * static_cast<std::int64_t>(all.size())) {
-    throw UserError(layout.left, "images " + std::to_string(first) + " to " + std::to_string(last) + ", of which " + std::to_string(all.size()) + " are there", "frames numbered one by one");
+    throw UserError(layout.left,
+                    "images " + std::to_string(first) + " to " + std::to_string(last) + ", of which " +
+                        std::to_string(all.size()) + " are there",
+                    "frames numbered one by one");
   }
   const KittiTimes times = readKittiTimes(layout);
   const auto rows = static_cast<std::int64_t>(times.stamps.size());
   std::int64_t row_of_first = first;
   if (!times.path.empty() && last >= rows) {
-    if (last - first + 1 != rows) throw UserError(times.path, std::to_string(rows) + " stamps for images " + std::to_string(first) + " to " + std::to_string(last), "one line for each image");
+    if (last - first + 1 != rows)
+      throw UserError(
+          times.path,
+          std::to_string(rows) + " stamps for images " + std::to_string(first) + " to " + std::to_string(last),
+          "one line for each image");
     row_of_first = 0;
   }
   const double step = 1e9 / (rate > 0.0 ? rate : kUsualRate);
   for (std::int64_t number = first; number <= last; ++number) {
     frames.numbers.push_back(number);
     const std::int64_t i = number - first;
-    frames.stamps.push_back(times.path.empty() ? static_cast<StampNs>(std::llround(static_cast<double>(i) * step)) : times.stamps[static_cast<std::size_t>(row_of_first + i)]);
+    frames.stamps.push_back(times.path.empty() ? static_cast<StampNs>(std::llround(static_cast<double>(i) * step))
+                                               : times.stamps[static_cast<std::size_t>(row_of_first + i)]);
   }
   if (times.path.empty() && rate <= 0.0) frames.notes.push_back("no times.txt: taken as 10 Hz (--rate says otherwise)");
   if (!times.path.empty() && row_of_first == first && last + 1 < rows) {
-    frames.notes.push_back(times.path + " has " + std::to_string(rows) + " stamps, the images end at number " + std::to_string(last));
+    frames.notes.push_back(times.path + " has " + std::to_string(rows) + " stamps, the images end at number " +
+                           std::to_string(last));
   }
   return frames;
 }
 
 std::optional<StampNs> parseDateTime(const std::string& text) {
-  if (text.size() < 19 || text[4] != '-' || text[7] != '-' || (text[10] != ' ' && text[10] != 'T') || text[13] != ':' || text[16] != ':') return std::nullopt;
-  const auto field = [&](std::size_t begin, std::size_t size) { return urban_nav_core::parseInteger(std::string_view(text).substr(begin, size)).value_or(-1); };
-  const std::int64_t year = field(0, 4), month = field(5, 2), day = field(8, 2), hour = field(11, 2), minute = field(14, 2);
+  if (text.size() < 19 || text[4] != '-' || text[7] != '-' || (text[10] != ' ' && text[10] != 'T') || text[13] != ':' ||
+      text[16] != ':')
+    return std::nullopt;
+  const auto field = [&](std::size_t begin, std::size_t size) {
+    return urban_nav_core::parseInteger(std::string_view(text).substr(begin, size)).value_or(-1);
+  };
+  const std::int64_t year = field(0, 4), month = field(5, 2), day = field(8, 2), hour = field(11, 2),
+                     minute = field(14, 2);
   const std::optional<StampNs> seconds = urban_nav_core::parseStamp(std::string_view(text).substr(17));
-  if (year < 1900 || month < 1 || month > 12 || day < 1 || day > 31 || hour < 0 || hour > 23 || minute < 0 || minute > 59 || !seconds) return std::nullopt;
+  if (year < 1900 || month < 1 || month > 12 || day < 1 || day > 31 || hour < 0 || hour > 23 || minute < 0 ||
+      minute > 59 || !seconds)
+    return std::nullopt;
   const StampNs days = daysSince1970(static_cast<int>(year), static_cast<int>(month), static_cast<int>(day));
   constexpr StampNs minute_ns = 60'000'000'000;
   return ((days * 24 + hour) * 60 + minute) * minute_ns + *seconds;

@@ -16,9 +16,9 @@ namespace urban_nav {
 /// `data/` inside; `image_2`, `image_3` (colour) where these are all there is.
 struct KittiLayout {
   std::string folder;
-  std::string left, right;              ///< folders of images
-  std::string left_name, right_name;    ///< "P0", "P1": rows of calib.txt
-  std::string left_rect, right_rect;    ///< "P_rect_00": rows of calib_cam_to_cam.txt
+  std::string left, right;            ///< folders of images
+  std::string left_name, right_name;  ///< "P0", "P1": rows of calib.txt
+  std::string left_rect, right_rect;  ///< "P_rect_00": rows of calib_cam_to_cam.txt
 };
 std::optional<KittiLayout> findKittiLayout(const std::string& folder);
 
@@ -39,10 +39,10 @@ KittiTimes readKittiTimes(const KittiLayout& layout);
 /// The frames of a folder: all numbers that either camera has, and a stamp for each, from times.txt by number (by place where the
 /// counts agree only so), or at `rate` Hz (0: KITTI's 10 Hz) from zero where there is none. UserError where stamps and images do not belong together.
 struct KittiFrames {
-  std::map<std::int64_t, std::string> left, right;   ///< number to file
+  std::map<std::int64_t, std::string> left, right;  ///< number to file
   std::vector<std::int64_t> numbers;
   std::vector<urban_nav_core::StampNs> stamps;
-  std::vector<std::string> notes;                    ///< what was assumed
+  std::vector<std::string> notes;  ///< what was assumed
 };
 KittiFrames listKittiFrames(const KittiLayout& layout, double rate);
 

@@ -21,7 +21,9 @@ namespace {
 constexpr int kDepth = 3;
 constexpr int kLadybugCameras = 5;
 
-bool endsWith(const std::string& text, const std::string& end) { return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0; }
+bool endsWith(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
 
 /// "left" or "right" of "...-left.pnm"; empty for other names.
 std::string sideOf(const fs::path& path) {
@@ -35,7 +37,8 @@ std::string sideOf(const fs::path& path) {
 /// K of "ladybug_TIME-K.jpg"; -1 for other names.
 int ladybugCamera(const fs::path& path) {
   const std::string name = path.filename().string(), stem = path.stem().string();
-  if (name.rfind("ladybug_", 0) != 0 || stem.size() < 3 || stem[stem.size() - 2] != '-' || !isImageName(name)) return -1;
+  if (name.rfind("ladybug_", 0) != 0 || stem.size() < 3 || stem[stem.size() - 2] != '-' || !isImageName(name))
+    return -1;
   const int camera = stem.back() - '0';
   return camera >= 0 && camera < kLadybugCameras ? camera : -1;
 }
@@ -47,14 +50,16 @@ std::optional<StampNs> stampOfName(const std::string& name) {
   const std::size_t dash = stem.rfind('-');
   if (dash != std::string::npos) stem.resize(dash);
   std::size_t begin = stem.size();
-  while (begin > 0 && (std::isdigit(static_cast<unsigned char>(stem[begin - 1])) != 0 || stem[begin - 1] == '.')) --begin;
+  while (begin > 0 && (std::isdigit(static_cast<unsigned char>(stem[begin - 1])) != 0 || stem[begin - 1] == '.'))
+    --begin;
   return urban_nav_core::parseStamp(std::string_view(stem).substr(begin));
 }
 
 NewCollegeFiles findNewCollege(const std::string& source) {
   NewCollegeFiles files;
   fs::path folder(source);
-  if (!fs::exists(folder)) throw UserError(source, "is not there", "a folder of the New College data set, or its .alog file");
+  if (!fs::exists(folder))
+    throw UserError(source, "is not there", "a folder of the New College data set, or its .alog file");
   if (!fs::is_directory(folder)) {
     files.alog = source;
     folder = fs::absolute(folder).parent_path();
@@ -65,7 +70,9 @@ NewCollegeFiles findNewCollege(const std::string& source) {
     if (!entry->is_regular_file()) continue;
     const fs::path& path = entry->path();
     if (path.extension() == ".alog" && fs::is_directory(source)) {
-      if (!files.alog.empty()) throw UserError(source, "holds " + files.alog + " and " + path.string(), "one log at a time: give the .alog file itself");
+      if (!files.alog.empty())
+        throw UserError(source, "holds " + files.alog + " and " + path.string(),
+                        "one log at a time: give the .alog file itself");
       files.alog = path.string();
     }
     const std::string side = sideOf(path);
@@ -82,9 +89,11 @@ NewCollegeFiles findNewCollege(const std::string& source) {
     }
   }
   for (const auto& [stamp, pair] : pairs) files.stereo.push_back(pair);
-  std::sort(files.panorama.begin(), files.panorama.end(), [](const auto& a, const auto& b) { return std::pair(a.stamp, a.camera) < std::pair(b.stamp, b.camera); });
+  std::sort(files.panorama.begin(), files.panorama.end(),
+            [](const auto& a, const auto& b) { return std::pair(a.stamp, a.camera) < std::pair(b.stamp, b.camera); });
   if (files.alog.empty() && files.panorama.empty() && files.stereo.empty()) {
-    throw UserError(source, "holds nothing of the New College data set", "*.alog, ladybug_TIME-K.jpg, StereoImage__TIME-left.pnm");
+    throw UserError(source, "holds nothing of the New College data set",
+                    "*.alog, ladybug_TIME-K.jpg, StereoImage__TIME-left.pnm");
   }
   return files;
 }

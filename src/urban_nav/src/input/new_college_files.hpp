@@ -14,15 +14,15 @@ struct NewCollegeFiles {
   struct Image {
     urban_nav_core::StampNs stamp = 0;
     std::string path;
-    int camera = 0;                   ///< ladybug: 0...4
+    int camera = 0;  ///< ladybug: 0...4
   };
   struct Pair {
     urban_nav_core::StampNs stamp = 0;
-    std::string left, right;          ///< either may be empty
+    std::string left, right;  ///< either may be empty
   };
-  std::string alog;                   ///< empty: none
-  std::vector<Image> panorama;        ///< ladybug_TIME-K.jpg, in order of time and camera
-  std::vector<Pair> stereo;           ///< StereoImage__TIME-left.pnm and its partner, in order of time
+  std::string alog;             ///< empty: none
+  std::vector<Image> panorama;  ///< ladybug_TIME-K.jpg, in order of time and camera
+  std::vector<Pair> stereo;     ///< StereoImage__TIME-left.pnm and its partner, in order of time
 };
 
 /// `source`: a folder, or an .alog file whose folder is looked through. UserError where there is none of it, or more than one log.

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <tuple>
 
+#include "input/image_file.hpp"
 #include "input/new_college_files.hpp"
 #include "input/new_college_log.hpp"
-#include "input/image_file.hpp"
 #include "input/new_college_rig.hpp"
 #include "input/open.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -29,8 +29,11 @@ class NewCollegeFolder : public Source {
     info_.frames = static_cast<std::int64_t>(files_.stereo.size());
     info_.first = files_.stereo.front().stamp;
     info_.last = files_.stereo.back().stamp;
-    info_.notes.push_back("images taken as rectified, with the data set's calibration; the camera's place on the robot is not known: 0.1 m ahead, 1.1 m up");
-    if (options.motion_input == "gyroscope") throw DataError(folder, "has no IMU for swf_vo.motion_input = gyroscope", "");
+    info_.notes.push_back(
+        "images taken as rectified, with the data set's calibration; the camera's place on the robot is not known: 0.1 "
+        "m ahead, 1.1 m up");
+    if (options.motion_input == "gyroscope")
+      throw DataError(folder, "has no IMU for swf_vo.motion_input = gyroscope", "");
     if (options.motion_input == "wheels") openLog(folder, options.wheel_noise);
   }
 
@@ -76,7 +79,8 @@ class NewCollegeFolder : public Source {
     if (!image.fault.empty()) faults.push_back(image.fault);
     if (image.pixels.empty()) return {};
     if (image.pixels.cols != info_.camera.left.width || image.pixels.rows != info_.camera.left.height) {
-      faults.push_back(path + ": " + std::to_string(image.pixels.cols) + "x" + std::to_string(image.pixels.rows) + " pixels where the calibration is for 512x384");
+      faults.push_back(path + ": " + std::to_string(image.pixels.cols) + "x" + std::to_string(image.pixels.rows) +
+                       " pixels where the calibration is for 512x384");
       return {};
     }
     return image.pixels;
@@ -92,6 +96,8 @@ class NewCollegeFolder : public Source {
 
 }  // namespace
 
-std::unique_ptr<Source> openNewCollegeFolder(const std::string& folder, const SourceOptions& options) { return std::make_unique<NewCollegeFolder>(folder, options); }
+std::unique_ptr<Source> openNewCollegeFolder(const std::string& folder, const SourceOptions& options) {
+  return std::make_unique<NewCollegeFolder>(folder, options);
+}
 
 }  // namespace urban_nav

@@ -15,7 +15,8 @@ using urban_nav_core::UserError;
 namespace {
 
 constexpr const char* kKnownInputs =
-    "a bag, a KITTI folder (image_0/, image_1/, calib.txt; image_00/data/ too), a EuRoC folder (mav0/), or a New College folder (*.alog, StereoImages/)";
+    "a bag, a KITTI folder (image_0/, image_1/, calib.txt; image_00/data/ too), a EuRoC folder (mav0/), or a New "
+    "College folder (*.alog, StereoImages/)";
 
 bool isBag(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -39,17 +40,22 @@ InputKind inputKind(const std::string& path) {
     throw UserError(path, "is no bag (its first line is not #ROSBAG)", kKnownInputs);
   }
   if (findKittiLayout(path)) return InputKind::KittiFolder;
-  if (fs::is_directory(fs::path(path) / "mav0") || fs::is_directory(fs::path(path) / "cam0")) return InputKind::EurocFolder;
+  if (fs::is_directory(fs::path(path) / "mav0") || fs::is_directory(fs::path(path) / "cam0"))
+    return InputKind::EurocFolder;
   if (fs::is_directory(fs::path(path) / "StereoImages") || hasAlog(path)) return InputKind::NewCollegeFolder;
   throw UserError(path, "holds nothing that is known", kKnownInputs);
 }
 
 std::unique_ptr<Source> openSource(const std::vector<std::string>& paths, const SourceOptions& options) {
   switch (inputKind(paths.front())) {
-    case InputKind::KittiFolder: return openKittiFolder(paths.front(), options);
-    case InputKind::NewCollegeFolder: return openNewCollegeFolder(paths.front(), options);
-    case InputKind::EurocFolder: return openEurocFolder(paths.front(), options);
-    case InputKind::Bag: return openBags(paths, options);
+    case InputKind::KittiFolder:
+      return openKittiFolder(paths.front(), options);
+    case InputKind::NewCollegeFolder:
+      return openNewCollegeFolder(paths.front(), options);
+    case InputKind::EurocFolder:
+      return openEurocFolder(paths.front(), options);
+    case InputKind::Bag:
+      return openBags(paths, options);
   }
   throw UserError(paths.front(), "holds nothing that is known", kKnownInputs);
 }

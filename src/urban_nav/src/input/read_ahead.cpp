@@ -15,7 +15,10 @@ namespace {
 class ReadAhead : public Source {
  public:
   ReadAhead(std::unique_ptr<Source> source, int depth)
-      : source_(std::move(source)), info_(source_->info()), depth_(static_cast<std::size_t>(depth)), thread_([this] { run(); }) {}
+      : source_(std::move(source)),
+        info_(source_->info()),
+        depth_(static_cast<std::size_t>(depth)),
+        thread_([this] { run(); }) {}
 
   ~ReadAhead() override {
     {

@@ -19,13 +19,13 @@ using StereoInput = urban_nav_ros::FedPair;
 
 /// What is known of an input before its first image is decoded.
 struct SourceInfo {
-  std::string name;                        ///< as the user gave it
-  std::string kind;                        ///< "KITTI folder", "EuRoC folder", "bag"
-  urban_nav_core::StereoCamera camera;     ///< after rectification
-  urban_nav_core::Pose T_base_camera;      ///< left optical frame in base_link
-  std::int64_t frames = 0;                 ///< stereo frames expected; 0: unknown
+  std::string name;                             ///< as the user gave it
+  std::string kind;                             ///< "KITTI folder", "EuRoC folder", "bag"
+  urban_nav_core::StereoCamera camera;          ///< after rectification
+  urban_nav_core::Pose T_base_camera;           ///< left optical frame in base_link
+  std::int64_t frames = 0;                      ///< stereo frames expected; 0: unknown
   urban_nav_core::StampNs first = 0, last = 0;  ///< of the stereo stream, as far as it is known beforehand
-  std::vector<std::string> notes;          ///< what was guessed or assumed, for the user
+  std::vector<std::string> notes;               ///< what was guessed or assumed, for the user
 };
 
 /// Stereo pairs in order, whatever they are stored in. One caller at a time, from any thread.

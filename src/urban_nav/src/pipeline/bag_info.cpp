@@ -9,10 +9,10 @@
 #include <algorithm>
 #include <map>
 
-#include "input/new_college_files.hpp"
-#include "input/new_college_log.hpp"
 #include "input/euroc_layout.hpp"
 #include "input/kitti_layout.hpp"
+#include "input/new_college_files.hpp"
+#include "input/new_college_log.hpp"
 #include "input/open.hpp"
 #include "pipeline/truth.hpp"
 #include "pipeline/vo_summary.hpp"
@@ -67,18 +67,22 @@ void lookIntoBag(const std::string& path, InputInfo& info) {
   rosbag::Bag bag(path, rosbag::bagmode::Read);
   rosbag::View view(bag);
   std::map<std::string, Counter> counters;
-  for (const rosbag::ConnectionInfo* connection : view.getConnections()) counters.emplace(connection->topic, Counter(connection->topic, connection->datatype));
+  for (const rosbag::ConnectionInfo* connection : view.getConnections())
+    counters.emplace(connection->topic, Counter(connection->topic, connection->datatype));
   std::map<std::string, std::vector<Vector3d>> ways;
   for (const rosbag::MessageInstance& instance : view) {
     counters.at(instance.getTopic()).add(urban_nav_ros::toStampNs(instance.getTime()));
     std::optional<urban_nav_core::Pose> pose;
-    if (const auto odometry = instance.instantiate<nav_msgs::Odometry>()) pose = urban_nav_ros::toPose(odometry->pose.pose);
-    if (const auto stamped = instance.instantiate<geometry_msgs::PoseStamped>()) pose = urban_nav_ros::toPose(stamped->pose);
+    if (const auto odometry = instance.instantiate<nav_msgs::Odometry>())
+      pose = urban_nav_ros::toPose(odometry->pose.pose);
+    if (const auto stamped = instance.instantiate<geometry_msgs::PoseStamped>())
+      pose = urban_nav_ros::toPose(stamped->pose);
     if (pose) ways[instance.getTopic()].push_back(pose->t());
   }
   for (const auto& [topic, counter] : counters) info.streams.push_back(counter.info());
   if (ways.empty()) return;
-  const auto truth = std::find_if(ways.begin(), ways.end(), [](const auto& way) { return way.first.find("truth") != std::string::npos; });
+  const auto truth = std::find_if(ways.begin(), ways.end(),
+                                  [](const auto& way) { return way.first.find("truth") != std::string::npos; });
   const auto& [topic, way] = truth != ways.end() ? *truth : *ways.begin();
   info.distance_m = pathLength(way);
   info.distance_of = topic;
@@ -90,7 +94,8 @@ void lookIntoFolder(const std::string& path, InputKind kind, InputInfo& info) {
   const std::unique_ptr<Source> source = openSource({path}, options);
   info.notes = source->info().notes;
   const urban_nav_core::StereoCamera& camera = source->info().camera;
-  info.notes.push_back(std::to_string(camera.left.width) + "x" + std::to_string(camera.left.height) + ", f " + std::to_string(camera.left.fx) + " px, baseline " + std::to_string(camera.baseline) + " m");
+  info.notes.push_back(std::to_string(camera.left.width) + "x" + std::to_string(camera.left.height) + ", f " +
+                       std::to_string(camera.left.fx) + " px, baseline " + std::to_string(camera.baseline) + " m");
   if (kind == InputKind::KittiFolder) {
     info.streams.push_back(streamOf("stereo", "image pairs", listKittiFrames(*findKittiLayout(path), 0.0).stamps));
   } else {
@@ -128,7 +133,8 @@ void lookIntoNewCollege(const std::string& path, InputInfo& info) {
   std::vector<Vector3d> way;
   NewCollegeLog log(files.alog);
   while (const std::optional<NewCollegeEvent> event = log.next()) {
-    if (const auto* scan = std::get_if<NewCollegeScan>(&*event)) (scan->side == Side::Left ? left : right).add(scan->stamp);
+    if (const auto* scan = std::get_if<NewCollegeScan>(&*event))
+      (scan->side == Side::Left ? left : right).add(scan->stamp);
     if (const auto* pose = std::get_if<NewCollegeOdometry>(&*event)) {
       odometry.add(pose->stamp);
       way.push_back(pose->T_odom_base.t());

@@ -23,8 +23,8 @@ struct StreamInfo {
 struct InputInfo {
   std::string name, kind;
   std::vector<StreamInfo> streams;
-  std::optional<double> distance_m;   ///< along wheel odometry or truth
-  std::string distance_of;            ///< where that comes from
+  std::optional<double> distance_m;  ///< along wheel odometry or truth
+  std::string distance_of;           ///< where that comes from
   std::vector<std::string> notes;
 };
 

@@ -39,7 +39,10 @@ Matched match(const TrajectoryFile& truth, const TrajectoryFile& estimate, Evalu
   if (!truth.stamped || !estimate.stamped) {
     std::optional<Matched> matched = urban_nav_core::associateByIndex(truth.poses, estimate.poses);
     if (matched) return *matched;
-    throw DataError(estimate.path, std::to_string(estimate.poses.size()) + " poses for " + std::to_string(truth.poses.size()) + " of the truth, and no stamps to tell which belong together", "");
+    throw DataError(estimate.path,
+                    std::to_string(estimate.poses.size()) + " poses for " + std::to_string(truth.poses.size()) +
+                        " of the truth, and no stamps to tell which belong together",
+                    "");
   }
   Matched matched = urban_nav_core::associate(truth.trajectory, estimate.trajectory);
   const auto shorter = static_cast<double>(std::min(truth.poses.size(), estimate.poses.size()));
@@ -50,15 +53,17 @@ Matched match(const TrajectoryFile& truth, const TrajectoryFile& estimate, Evalu
     return urban_nav_core::associate(truth.trajectory, estimate.trajectory, evaluation.offset->offset);
   }
   if (matched.stamps.empty()) {
-    const std::string help = evaluation.offset ? "; with " + secondsText(evaluation.offset->offset) + " added to the estimate's stamps " + std::to_string(evaluation.offset->matched) +
-                                                     " poses match: --find-offset applies that"
-                                               : "";
+    const std::string help =
+        evaluation.offset ? "; with " + secondsText(evaluation.offset->offset) + " added to the estimate's stamps " +
+                                std::to_string(evaluation.offset->matched) + " poses match: --find-offset applies that"
+                          : "";
     throw DataError(estimate.path, "no stamp is within 0.02 s of one of the truth" + help, "");
   }
   return matched;
 }
 
-std::vector<urban_nav_core::Matrix6d> covariancesOf(const TrajectoryFile& estimate, const Matched& matched, const std::vector<urban_nav_core::CovarianceRow>& rows) {
+std::vector<urban_nav_core::Matrix6d> covariancesOf(const TrajectoryFile& estimate, const Matched& matched,
+                                                    const std::vector<urban_nav_core::CovarianceRow>& rows) {
   std::map<StampNs, const urban_nav_core::CovarianceRow*> by_stamp;
   for (const urban_nav_core::CovarianceRow& row : rows) by_stamp[row.stamp] = &row;
   std::vector<urban_nav_core::Matrix6d> result;
@@ -82,7 +87,8 @@ TrajectoryFile readTrajectory(const std::string& path) {
   TrajectoryFile file;
   file.path = path;
   const std::string extension = std::filesystem::path(path).extension().string();
-  if (extension != ".tum" && extension != ".kitti" && extension != ".txt") throw UserError(path, "extension \"" + extension + "\"", ".tum, .kitti, or .txt with 12 columns");
+  if (extension != ".tum" && extension != ".kitti" && extension != ".txt")
+    throw UserError(path, "extension \"" + extension + "\"", ".tum, .kitti, or .txt with 12 columns");
   file.stamped = extension == ".tum";
   if (extension == ".txt") {
     const std::vector<TextLine> lines = readLines(path);
@@ -98,7 +104,8 @@ TrajectoryFile readTrajectory(const std::string& path) {
   return file;
 }
 
-Evaluation evaluate(const TrajectoryFile& truth, const TrajectoryFile& estimate, const std::vector<urban_nav_core::CovarianceRow>& covariances, const EvaluationOptions& options) {
+Evaluation evaluate(const TrajectoryFile& truth, const TrajectoryFile& estimate,
+                    const std::vector<urban_nav_core::CovarianceRow>& covariances, const EvaluationOptions& options) {
   using urban_nav_core::Alignment;
   Evaluation evaluation;
   evaluation.truth = truth.path;
@@ -112,10 +119,12 @@ Evaluation evaluate(const TrajectoryFile& truth, const TrajectoryFile& estimate,
   evaluation.sim3 = urban_nav_core::absoluteError(m.truth, m.estimate, Alignment::Sim3);
   evaluation.ten_frames = urban_nav_core::relativeError(m.truth, m.estimate, {Span::Unit::Frames, 10.0});
   for (const Span& span : options.spans) {
-    if (const auto error = urban_nav_core::relativeError(m.truth, m.estimate, span)) evaluation.spans.push_back({span, *error});
+    if (const auto error = urban_nav_core::relativeError(m.truth, m.estimate, span))
+      evaluation.spans.push_back({span, *error});
   }
   evaluation.covariances = covariancesOf(estimate, m, covariances);
-  if (!evaluation.covariances.empty()) evaluation.nees = urban_nav_core::neesOfTrajectory(m.truth, m.estimate, evaluation.covariances);
+  if (!evaluation.covariances.empty())
+    evaluation.nees = urban_nav_core::neesOfTrajectory(m.truth, m.estimate, evaluation.covariances);
   return evaluation;
 }
 

@@ -17,8 +17,8 @@ namespace urban_nav {
 struct TrajectoryFile {
   std::string path;
   bool stamped = true;
-  urban_nav_core::Trajectory trajectory;       ///< if stamped
-  std::vector<urban_nav_core::Pose> poses;     ///< always; axes as REP-103 has them, also where the file has a camera's
+  urban_nav_core::Trajectory trajectory;    ///< if stamped
+  std::vector<urban_nav_core::Pose> poses;  ///< always; axes as REP-103 has them, also where the file has a camera's
 };
 /// By the extension: .tum; .kitti and .txt with 12 columns; .txt with 8 columns is TUM's. UserError with file and line.
 TrajectoryFile readTrajectory(const std::string& path);
@@ -30,15 +30,15 @@ struct SpanError {
 
 /// What an estimate is worth against the truth.
 struct Evaluation {
-  std::string truth;                           ///< where the truth came from
+  std::string truth;  ///< where the truth came from
   std::size_t frames_truth = 0, frames_estimate = 0;
   urban_nav_core::Matched matched;
-  std::optional<urban_nav_core::TimeOffset> offset;   ///< that was applied, or would help where few stamps match
+  std::optional<urban_nav_core::TimeOffset> offset;  ///< that was applied, or would help where few stamps match
   bool offset_applied = false;
-  double length_m = 0.0;                       ///< of the true path
-  urban_nav_core::ErrorStatistics first, se3, sim3;   ///< absolute errors by alignment
+  double length_m = 0.0;                             ///< of the true path
+  urban_nav_core::ErrorStatistics first, se3, sim3;  ///< absolute errors by alignment
   std::optional<urban_nav_core::RelativeError> ten_frames;
-  std::vector<SpanError> spans;                ///< those asked for that the way is long enough for
+  std::vector<SpanError> spans;  ///< those asked for that the way is long enough for
   std::optional<urban_nav_core::NeesSummary> nees;
   std::vector<urban_nav_core::Matrix6d> covariances;  ///< by matched pose; empty where there are none
 };
@@ -50,7 +50,8 @@ struct EvaluationOptions {
 
 /// DataError where no two poses belong together; where that may be the stamps, it names the offset that would help.
 /// `covariances`: of T_first_estimate, found by stamp (or by line where there are no stamps); may be empty.
-Evaluation evaluate(const TrajectoryFile& truth, const TrajectoryFile& estimate, const std::vector<urban_nav_core::CovarianceRow>& covariances, const EvaluationOptions& options);
+Evaluation evaluate(const TrajectoryFile& truth, const TrajectoryFile& estimate,
+                    const std::vector<urban_nav_core::CovarianceRow>& covariances, const EvaluationOptions& options);
 
 /// The keys of CONTRACT.md, and a few more, into an object.
 void addToJson(const Evaluation& evaluation, Json& json);

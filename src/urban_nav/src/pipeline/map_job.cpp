@@ -28,9 +28,12 @@ std::string joined(const std::vector<std::string>& words) {
 
 void checkStages(const std::vector<std::string>& stages) {
   for (const std::string& stage : stages) {
-    const auto in = [&](const std::vector<std::string>& list) { return std::find(list.begin(), list.end(), stage) != list.end(); };
+    const auto in = [&](const std::vector<std::string>& list) {
+      return std::find(list.begin(), list.end(), stage) != list.end();
+    };
     if (in(existingStages())) continue;
-    const std::string what = in(knownStages()) ? "stage " + stage + " is not in this version" : "no stage \"" + stage + "\"";
+    const std::string what =
+        in(knownStages()) ? "stage " + stage + " is not in this version" : "no stage \"" + stage + "\"";
     throw UserError("--stages", what, joined(existingStages()));
   }
 }
@@ -45,8 +48,9 @@ std::unique_ptr<Source> open(const std::vector<std::string>& paths, const MapReq
 }
 
 void say(const SourceInfo& info, Console& console) {
-  console.info(info.name + ": " + info.kind + (info.frames > 0 ? ", " + std::to_string(info.frames) + " stereo frames" : "") + ", " + std::to_string(info.camera.left.width) + "x" +
-               std::to_string(info.camera.left.height));
+  console.info(info.name + ": " + info.kind +
+               (info.frames > 0 ? ", " + std::to_string(info.frames) + " stereo frames" : "") + ", " +
+               std::to_string(info.camera.left.width) + "x" + std::to_string(info.camera.left.height));
   for (const std::string& note : info.notes) console.info("  " + note);
 }
 
@@ -57,11 +61,13 @@ void runVo(Source& source, VoStage& stage, MapOutcome& outcome, Console& console
   double last_report = outcome.usage.wallSeconds();
   while (const std::optional<StereoInput> input = source.next()) {
     stage.process(*input);
-    for (; faults_said < std::min<std::size_t>(stage.run().faults.size(), 10); ++faults_said) console.warn(stage.run().faults[faults_said]);
+    for (; faults_said < std::min<std::size_t>(stage.run().faults.size(), 10); ++faults_said)
+      console.warn(stage.run().faults[faults_said]);
     const auto done = static_cast<std::int64_t>(stage.run().rows.size());
     progress.update(done);
     if (outcome.usage.wallSeconds() - last_report > kSecondsBetweenReports) {
-      outcome.progress = source.info().frames > 0 ? static_cast<double>(done) / static_cast<double>(source.info().frames) : 0.0;
+      outcome.progress =
+          source.info().frames > 0 ? static_cast<double>(done) / static_cast<double>(source.info().frames) : 0.0;
       writeReport(outcome);
       last_report = outcome.usage.wallSeconds();
     }
@@ -72,7 +78,8 @@ void runVo(Source& source, VoStage& stage, MapOutcome& outcome, Console& console
 }
 
 void checkUsable(const VoRun& run) {
-  const bool any = std::any_of(run.rows.begin(), run.rows.end(), [](const VoRow& row) { return row.statistics.features > 0; });
+  const bool any =
+      std::any_of(run.rows.begin(), run.rows.end(), [](const VoRow& row) { return row.statistics.features > 0; });
   if (any) return;
   const std::string first = run.faults.empty() ? "" : "; the first fault: " + run.faults.front();
   throw DataError(run.input, "none of " + std::to_string(run.rows.size()) + " stereo frames could be used" + first, "");

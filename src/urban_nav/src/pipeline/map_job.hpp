@@ -11,14 +11,14 @@
 namespace urban_nav {
 
 struct MapRequest {
-  std::vector<std::string> inputs;   ///< folders and bags
-  std::string out;                   ///< folder
-  std::vector<std::string> stages;   ///< asked for; empty: all whose inputs exist
-  std::string truth;                 ///< file; empty: what is found in the inputs
-  std::string json;                  ///< a copy of summary.json; empty: none
+  std::vector<std::string> inputs;  ///< folders and bags
+  std::string out;                  ///< folder
+  std::vector<std::string> stages;  ///< asked for; empty: all whose inputs exist
+  std::string truth;                ///< file; empty: what is found in the inputs
+  std::string json;                 ///< a copy of summary.json; empty: none
   SourceOptions source;
   AllParameters parameters;
-  int threads = 0;                   ///< 0: one per core
+  int threads = 0;  ///< 0: one per core
 };
 
 /// The stages that CONTRACT.md knows, in their order, and those of them that this suite has.

@@ -31,7 +31,8 @@ std::vector<urban_nav_core::StampNs> stampsOf(const VoRun& run) {
 
 std::vector<urban_nav_core::CovarianceRow> covariancesOf(const VoRun& run) {
   std::vector<urban_nav_core::CovarianceRow> rows;
-  for (const swf_vo::Settled& settled : run.settled) rows.push_back({settled.stamp, settled.status.health, settled.T_odom_base.covariance});
+  for (const swf_vo::Settled& settled : run.settled)
+    rows.push_back({settled.stamp, settled.status.health, settled.T_odom_base.covariance});
   return rows;
 }
 
@@ -65,9 +66,11 @@ std::vector<Tile> tilesOf(const MapOutcome& outcome, const VoSummary& summary) {
 
 PageTable parametersTable(const AllParameters& parameters) {
   PageTable table{"Parameters", {"parameter", "value", "from"}, {}, ""};
-  for (const std::vector<urban_nav_core::Setting>* settings : {&parameters.command.settings, &parameters.swf_vo.settings}) {
+  for (const std::vector<urban_nav_core::Setting>* settings :
+       {&parameters.command.settings, &parameters.swf_vo.settings}) {
     for (const urban_nav_core::Setting& setting : *settings) {
-      table.rows.push_back({urban_nav_core::fullName(setting.stage, setting.name), urban_nav_core::printValue(setting.value), setting.origin});
+      table.rows.push_back({urban_nav_core::fullName(setting.stage, setting.name),
+                            urban_nav_core::printValue(setting.value), setting.origin});
     }
   }
   return table;
@@ -78,14 +81,16 @@ PageTable inputsTable(const MapOutcome& outcome) {
   for (std::size_t i = 0; i < outcome.infos.size(); ++i) {
     const SourceInfo& info = outcome.infos[i];
     const urban_nav_core::Pinhole& left = info.camera.left;
-    table.rows.push_back({info.name, info.kind, std::to_string(outcome.stages[i]->run().rows.size()), std::to_string(left.width) + "x" + std::to_string(left.height), forPerson(left.fx, 6),
+    table.rows.push_back({info.name, info.kind, std::to_string(outcome.stages[i]->run().rows.size()),
+                          std::to_string(left.width) + "x" + std::to_string(left.height), forPerson(left.fx, 6),
                           forPerson(info.camera.baseline, 5), joined(info.notes)});
   }
   return table;
 }
 
 /// The truth of each session, now that nothing can reach the estimates any more. One that cannot be read costs the comparison, not the map.
-std::vector<std::optional<Evaluation>> compare(const MapOutcome& outcome, const std::vector<Session>& sessions, Console& console) {
+std::vector<std::optional<Evaluation>> compare(const MapOutcome& outcome, const std::vector<Session>& sessions,
+                                               Console& console) {
   std::vector<std::optional<Evaluation>> evaluations;
   EvaluationOptions options;
   options.spans = {{urban_nav_core::Span::Unit::Metres, 10.0}, {urban_nav_core::Span::Unit::Metres, 100.0}};
@@ -94,12 +99,15 @@ std::vector<std::optional<Evaluation>> compare(const MapOutcome& outcome, const 
     evaluations.emplace_back();
     try {
       const std::optional<TrajectoryFile> truth =
-          outcome.request.truth.empty() ? findTruth(sessions[i], outcome.infos[i], outcome.request.source) : truthOfBase(readTrajectory(outcome.request.truth), outcome.infos[i], stampsOf(run));
+          outcome.request.truth.empty()
+              ? findTruth(sessions[i], outcome.infos[i], outcome.request.source)
+              : truthOfBase(readTrajectory(outcome.request.truth), outcome.infos[i], stampsOf(run));
       if (!truth) continue;
       TrajectoryFile estimate{outcome.folder.file("trajectory.tum"), true, trajectoryOf(run), {}};
       for (const urban_nav_core::StampedPose& pose : estimate.trajectory) estimate.poses.push_back(pose.pose);
       evaluations.back() = evaluate(*truth, estimate, covariancesOf(run), options);
-      console.info("truth: " + truth->path + (outcome.request.truth.empty() ? " (found; it is used for the report alone)" : ""));
+      console.info("truth: " + truth->path +
+                   (outcome.request.truth.empty() ? " (found; it is used for the report alone)" : ""));
     } catch (const urban_nav_core::UserError& error) {
       console.warn(std::string("the truth is left out of the report: ") + error.what());
     }
@@ -132,14 +140,17 @@ Page pageOf(const MapOutcome& outcome, bool running) {
       page.sections.push_back(std::move(section));
     }
   }
-  Section how{"how", "How it was made", "", {}, {}, {inputsTable(outcome), parametersTable(outcome.request.parameters)}};
+  Section how{
+      "how", "How it was made", "", {}, {}, {inputsTable(outcome), parametersTable(outcome.request.parameters)}};
   if (!summary.warnings.empty()) {
     PageTable warnings{"Warnings", {"what was wrong with the data"}, {}, ""};
     for (const std::string& warning : summary.warnings) warnings.rows.push_back({warning});
     how.tables.insert(how.tables.begin(), warnings);
   }
   page.sections.push_back(how);
-  page.footer = "urban_nav map, " + forPerson(outcome.usage.wallSeconds(), 3) + " s of time, " + forPerson(outcome.usage.cpuSeconds(), 3) + " s of processor. Poses and figures: trajectory.tum, covariance.csv, stats.csv beside this file.";
+  page.footer = "urban_nav map, " + forPerson(outcome.usage.wallSeconds(), 3) + " s of time, " +
+                forPerson(outcome.usage.cpuSeconds(), 3) +
+                " s of processor. Poses and figures: trajectory.tum, covariance.csv, stats.csv beside this file.";
   return page;
 }
 
@@ -155,7 +166,8 @@ Json summaryOf(const MapOutcome& outcome, const VoSummary& summary) {
   json["sessions"] = outcome.stages.size();
   Json& inputs = json["inputs"] = Json::array();
   for (const std::string& input : outcome.request.inputs) inputs.append(input);
-  const auto evaluated = std::find_if(outcome.evaluations.begin(), outcome.evaluations.end(), [](const auto& evaluation) { return evaluation.has_value(); });
+  const auto evaluated = std::find_if(outcome.evaluations.begin(), outcome.evaluations.end(),
+                                      [](const auto& evaluation) { return evaluation.has_value(); });
   if (evaluated != outcome.evaluations.end()) addToJson(**evaluated, json);
   json["swf_vo"] = toJson(summary);
   json["parameters"] = parametersJson(outcome.request.parameters);
@@ -175,7 +187,8 @@ void finishMap(MapOutcome& outcome, const std::vector<Session>& sessions, Consol
   const std::string text = summaryOf(outcome, summary).print();
   outcome.folder.write("summary.json", text);
   if (!outcome.request.json.empty()) urban_nav_core::writeAtomically(outcome.request.json, text);
-  console.info(std::to_string(summary.frames) + " frames, " + forPerson(summary.distance_m, 4) + " m" + (sessions.size() > 1 ? ", " + std::to_string(sessions.size()) + " sessions" : "") + ", " +
+  console.info(std::to_string(summary.frames) + " frames, " + forPerson(summary.distance_m, 4) + " m" +
+               (sessions.size() > 1 ? ", " + std::to_string(sessions.size()) + " sessions" : "") + ", " +
                forPerson(realtimeFactor(outcome, summary), 3) + " times real time");
   console.print(outcome.folder.file("report.html") + "\n" + outcome.folder.file("trajectory.tum") + "\n");
 }

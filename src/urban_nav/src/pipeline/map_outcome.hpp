@@ -21,10 +21,10 @@ struct MapOutcome {
   const MapRequest& request;
   OutputFolder folder;
   Usage usage;
-  std::vector<std::unique_ptr<VoStage>> stages;  ///< one per session
-  std::vector<SourceInfo> infos;                 ///< one per session
+  std::vector<std::unique_ptr<VoStage>> stages;        ///< one per session
+  std::vector<SourceInfo> infos;                       ///< one per session
   std::vector<std::optional<Evaluation>> evaluations;  ///< one per session, when all are finished; empty before
-  double progress = 0.0;                         ///< of the session at work
+  double progress = 0.0;                               ///< of the session at work
 };
 
 /// report.html as things stand, marked as unfinished.

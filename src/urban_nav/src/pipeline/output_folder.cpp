@@ -15,12 +15,16 @@ using urban_nav_core::UserError;
 OutputFolder::OutputFolder(std::string path) : path_(std::move(path)) {
   std::error_code error;
   fs::create_directories(path_, error);
-  if (!fs::is_directory(path_)) throw UserError(path_, "cannot be made: " + (error ? error.message() : "it is no folder"), "a folder to write into");
+  if (!fs::is_directory(path_))
+    throw UserError(path_, "cannot be made: " + (error ? error.message() : "it is no folder"),
+                    "a folder to write into");
 }
 
 std::string OutputFolder::file(const std::string& name) const { return (fs::path(path_) / name).string(); }
 
-void OutputFolder::write(const std::string& name, const std::string& content) const { urban_nav_core::writeAtomically(file(name), content); }
+void OutputFolder::write(const std::string& name, const std::string& content) const {
+  urban_nav_core::writeAtomically(file(name), content);
+}
 
 void OutputFolder::remove(const std::string& name) const {
   std::error_code error;

@@ -33,7 +33,15 @@ CommandParameters::CommandParameters() { commandTable().setDefaults(*this); }
 
 const Table<CommandParameters>& commandTable() {
   static const Table<CommandParameters> table(
-      "", {{"memory_mb", &CommandParameters::memory_mb, "MB", 4000, 200, 10000000, {}, "Bounds the memory for what is read ahead; the result does not depend on it.", ""}});
+      "", {{"memory_mb",
+            &CommandParameters::memory_mb,
+            "MB",
+            4000,
+            200,
+            10000000,
+            {},
+            "Bounds the memory for what is read ahead; the result does not depend on it.",
+            ""}});
   return table;
 }
 
@@ -44,7 +52,8 @@ AllParameters loadParameters(const Arguments& arguments) {
 
 std::string parametersHelp(const Arguments& arguments) {
   const AllParameters all = loadParameters(arguments);
-  return "parameters (--config FILE, --set STAGE.KEY=VALUE):\n" + urban_nav_core::printHelp(commandTable().stage(), commandTable().rows(), all.command.settings) +
+  return "parameters (--config FILE, --set STAGE.KEY=VALUE):\n" +
+         urban_nav_core::printHelp(commandTable().stage(), commandTable().rows(), all.command.settings) +
          urban_nav_core::printHelp(swf_vo::table().stage(), swf_vo::table().rows(), all.swf_vo.settings);
 }
 

@@ -14,7 +14,7 @@ using urban_nav_core::ImageView;
 
 namespace {
 
-constexpr int kWidest = 900;      // px, in the report
+constexpr int kWidest = 900;  // px, in the report
 constexpr int kJpegQuality = 78;
 constexpr int kSubpixelBits = 4;  // of OpenCV's drawing coordinates
 
@@ -25,7 +25,8 @@ cv::Point fixedPoint(double u, double v, double scale) {
 
 /// Blue (far) over green and yellow to red (near), in BGR; `nearness` in 0...1.
 cv::Scalar colourOf(double nearness) {
-  static const std::vector<cv::Scalar> stops = {{230, 120, 40}, {200, 200, 40}, {80, 210, 90}, {40, 200, 240}, {50, 70, 240}};
+  static const std::vector<cv::Scalar> stops = {
+      {230, 120, 40}, {200, 200, 40}, {80, 210, 90}, {40, 200, 240}, {50, 70, 240}};
   const double at = std::clamp(nearness, 0.0, 1.0) * static_cast<double>(stops.size() - 1);
   const auto i = std::min(static_cast<std::size_t>(at), stops.size() - 2);
   const double share = at - static_cast<double>(i);
@@ -46,7 +47,8 @@ VoPicture drawTracks(const ImageView& image, const std::vector<std::vector<Featu
   std::map<swf_vo::LandmarkId, std::vector<cv::Point>> ways;
   for (const std::vector<Feature>& frame : features) {
     for (const Feature& feature : frame) {
-      if (feature.pixel.x() > 0.0) ways[feature.landmark].push_back(fixedPoint(feature.pixel.x(), feature.pixel.y(), scale));
+      if (feature.pixel.x() > 0.0)
+        ways[feature.landmark].push_back(fixedPoint(feature.pixel.x(), feature.pixel.y(), scale));
     }
   }
   if (!features.empty()) {
@@ -56,8 +58,10 @@ VoPicture drawTracks(const ImageView& image, const std::vector<std::vector<Featu
       const double nearness = std::log2(std::max(disparity, 1.0)) / 6.0;  // 1 px ... 64 px
       const cv::Scalar colour = feature.trusted ? colourOf(nearness) : cv::Scalar(150, 150, 150);
       const std::vector<cv::Point>& way = ways[feature.landmark];
-      for (std::size_t i = 1; i < way.size(); ++i) cv::line(canvas, way[i - 1], way[i], colour, 1, cv::LINE_AA, kSubpixelBits);
-      cv::circle(canvas, way.back(), (feature.age == 0 ? 2 : 3) << kSubpixelBits, colour, feature.age == 0 ? 1 : cv::FILLED, cv::LINE_AA, kSubpixelBits);
+      for (std::size_t i = 1; i < way.size(); ++i)
+        cv::line(canvas, way[i - 1], way[i], colour, 1, cv::LINE_AA, kSubpixelBits);
+      cv::circle(canvas, way.back(), (feature.age == 0 ? 2 : 3) << kSubpixelBits, colour,
+                 feature.age == 0 ? 1 : cv::FILLED, cv::LINE_AA, kSubpixelBits);
     }
   }
   picture.width = canvas.cols;

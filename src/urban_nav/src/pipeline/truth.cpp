@@ -34,14 +34,19 @@ TrajectoryFile stamped(const std::string& path, const Trajectory& trajectory) {
 }
 
 /// Poses of the left camera relative to its first, line by line, as poses of base_link.
-Trajectory baseOfCamera(const std::vector<Pose>& poses, const std::vector<StampNs>& stamps, const Pose& T_base_camera, const std::string& path) {
-  if (poses.size() != stamps.size()) throw UserError(path, std::to_string(poses.size()) + " poses for " + std::to_string(stamps.size()) + " frames", "one line a frame");
+Trajectory baseOfCamera(const std::vector<Pose>& poses, const std::vector<StampNs>& stamps, const Pose& T_base_camera,
+                        const std::string& path) {
+  if (poses.size() != stamps.size())
+    throw UserError(path, std::to_string(poses.size()) + " poses for " + std::to_string(stamps.size()) + " frames",
+                    "one line a frame");
   Trajectory trajectory;
-  for (std::size_t i = 0; i < poses.size(); ++i) trajectory.append(stamps[i], T_base_camera * poses[i] * T_base_camera.inverse());
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    trajectory.append(stamps[i], T_base_camera * poses[i] * T_base_camera.inverse());
   return trajectory;
 }
 
-std::optional<TrajectoryFile> kittiTruth(const std::string& folder, const SourceInfo& info, const SourceOptions& options) {
+std::optional<TrajectoryFile> kittiTruth(const std::string& folder, const SourceInfo& info,
+                                         const SourceOptions& options) {
   const std::string path = (fs::path(folder) / "poses.txt").string();
   if (!fs::exists(path)) return std::nullopt;
   std::vector<Pose> poses = urban_nav_core::readKitti(path);
@@ -58,7 +63,8 @@ std::optional<TrajectoryFile> bagTruth(const Session& session, const SourceOptio
   for (const std::string& path : session.paths) {
     bags.emplace_back(path, rosbag::bagmode::Read);
     rosbag::View view(bags.back());
-    for (const rosbag::ConnectionInfo* connection : view.getConnections()) available[connection->topic] = connection->datatype;
+    for (const rosbag::ConnectionInfo* connection : view.getConnections())
+      available[connection->topic] = connection->datatype;
   }
   const std::optional<ChosenTopic> topic = chooseTopics(available, options.topics).find(Role::Truth);
   if (!topic) return std::nullopt;
@@ -68,7 +74,8 @@ std::optional<TrajectoryFile> bagTruth(const Session& session, const SourceOptio
     for (const rosbag::MessageInstance& instance : view) {
       const auto message = instance.instantiate<geometry_msgs::PoseStamped>();
       if (!message) continue;
-      if (const std::optional<Pose> pose = urban_nav_ros::toPose(message->pose)) trajectory.append(urban_nav_ros::toStampNs(message->header.stamp), *pose);
+      if (const std::optional<Pose> pose = urban_nav_ros::toPose(message->pose))
+        trajectory.append(urban_nav_ros::toStampNs(message->header.stamp), *pose);
     }
   }
   const std::string where = session.paths.front() + ", topic " + topic->name;
@@ -81,14 +88,19 @@ std::optional<TrajectoryFile> bagTruth(const Session& session, const SourceOptio
 std::optional<TrajectoryFile> findTruth(const Session& session, const SourceInfo& info, const SourceOptions& options) {
   const std::string& path = session.paths.front();
   switch (inputKind(path)) {
-    case InputKind::KittiFolder: return kittiTruth(path, info, options);
+    case InputKind::KittiFolder:
+      return kittiTruth(path, info, options);
     case InputKind::EurocFolder: {
       const std::string mav0 = eurocFolder(path);
       const std::optional<Trajectory> truth = readEurocTruth(mav0, readEurocRig(mav0).T_base_body);
-      return truth && truth->size() > 1 ? std::optional<TrajectoryFile>(stamped(mav0 + "/state_groundtruth_estimate0", *truth)) : std::nullopt;
+      return truth && truth->size() > 1
+                 ? std::optional<TrajectoryFile>(stamped(mav0 + "/state_groundtruth_estimate0", *truth))
+                 : std::nullopt;
     }
-    case InputKind::Bag: return bagTruth(session, options);
-    case InputKind::NewCollegeFolder: break;
+    case InputKind::Bag:
+      return bagTruth(session, options);
+    case InputKind::NewCollegeFolder:
+      break;
   }
   return std::nullopt;
 }

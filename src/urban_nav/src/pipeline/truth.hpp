@@ -15,6 +15,7 @@ namespace urban_nav {
 std::optional<TrajectoryFile> findTruth(const Session& session, const SourceInfo& info, const SourceOptions& options);
 
 /// A truth given as a file, as poses of base_link: lines without stamps are those of the left camera, frame by frame at `stamps`.
-TrajectoryFile truthOfBase(const TrajectoryFile& file, const SourceInfo& info, const std::vector<urban_nav_core::StampNs>& stamps);
+TrajectoryFile truthOfBase(const TrajectoryFile& file, const SourceInfo& info,
+                           const std::vector<urban_nav_core::StampNs>& stamps);
 
 }  // namespace urban_nav

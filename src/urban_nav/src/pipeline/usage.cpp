@@ -6,7 +6,9 @@
 namespace urban_nav {
 
 namespace {
-double seconds(const timeval& time) { return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec); }
+double seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
 
 double cpuNow() {
   rusage used{};
@@ -17,7 +19,9 @@ double cpuNow() {
 
 Usage::Usage() : begin_(std::chrono::steady_clock::now()), cpu_begin_(cpuNow()) {}
 
-double Usage::wallSeconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
+double Usage::wallSeconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+}
 double Usage::cpuSeconds() const { return cpuNow() - cpu_begin_; }
 
 std::int64_t Usage::peakRssBytes() {

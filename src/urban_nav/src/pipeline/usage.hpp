@@ -11,8 +11,8 @@ class Usage {
  public:
   Usage();
   double wallSeconds() const;
-  double cpuSeconds() const;             ///< of all threads, of the whole process
-  static std::int64_t peakRssBytes();    ///< of the whole process
+  double cpuSeconds() const;           ///< of all threads, of the whole process
+  static std::int64_t peakRssBytes();  ///< of the whole process
 
  private:
   std::chrono::steady_clock::time_point begin_;

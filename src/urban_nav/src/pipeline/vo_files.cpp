@@ -77,7 +77,8 @@ std::string trajectoryKitti(const VoRun& run) {
   for (const VoRow& row : run.rows) {
     if (row.accepted || poses.empty()) {
       if (next >= run.settled.size()) break;
-      const Pose T_first_camera = (run.settled.front().T_odom_base.pose * run.T_base_camera).inverse() * run.settled[next++].T_odom_base.pose * run.T_base_camera;
+      const Pose T_first_camera = (run.settled.front().T_odom_base.pose * run.T_base_camera).inverse() *
+                                  run.settled[next++].T_odom_base.pose * run.T_base_camera;
       poses.push_back(T_first_camera);
     } else {
       poses.push_back(poses.back());
@@ -89,7 +90,8 @@ std::string trajectoryKitti(const VoRun& run) {
 std::string covarianceCsv(const VoRun& run) {
   std::string text = urban_nav_core::covarianceHeader();
   for (const Settled& settled : run.settled) {
-    text += urban_nav_core::printCovarianceRow(urban_nav_core::CovarianceRow{settled.stamp, settled.status.health, settled.T_odom_base.covariance});
+    text += urban_nav_core::printCovarianceRow(
+        urban_nav_core::CovarianceRow{settled.stamp, settled.status.health, settled.T_odom_base.covariance});
   }
   return text;
 }
@@ -98,7 +100,8 @@ std::string relativeCovarianceCsv(const VoRun& run) {
   std::string text = urban_nav_core::relativeCovarianceHeader();
   for (std::size_t i = 1; i < run.settled.size(); ++i) {
     const urban_nav_core::RelativePose& step = run.settled[i].from_previous;
-    text += urban_nav_core::printCovarianceRow(urban_nav_core::RelativeCovarianceRow{step.from, step.to, run.settled[i].status.health, step.covariance});
+    text += urban_nav_core::printCovarianceRow(
+        urban_nav_core::RelativeCovarianceRow{step.from, step.to, run.settled[i].status.health, step.covariance});
   }
   return text;
 }
@@ -116,17 +119,21 @@ std::string landmarksPly(const VoRun& run) {
     ++count;
   }
   return "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(count) +
-         "\nproperty float x\nproperty float y\nproperty float z\nproperty float sigma\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n" + bytes;
+         "\nproperty float x\nproperty float y\nproperty float z\nproperty float sigma\nproperty uchar red\nproperty "
+         "uchar green\nproperty uchar blue\nend_header\n" +
+         bytes;
 }
 
 std::string statsCsv(const std::vector<const VoRun*>& runs) {
   std::string text =
-      "session,frame,stamp_ns,accepted,status,reason,corners,features,tracked,track_length_mean,reprojection_px,iterations,landmarks,landmarks_in_prior,"
+      "session,frame,stamp_ns,accepted,status,reason,corners,features,tracked,track_length_mean,reprojection_px,"
+      "iterations,landmarks,landmarks_in_prior,"
       "now_x,now_y,now_z,now_qx,now_qy,now_qz,now_qw,swf_vo_ms\n";
   for (std::size_t session = 0; session < runs.size(); ++session) {
     for (const VoRow& row : runs[session]->rows) {
       const swf_vo::Statistics& s = row.statistics;
-      text += std::to_string(session + 1) + "," + std::to_string(row.frame) + "," + std::to_string(row.stamp) + (row.accepted ? ",1," : ",0,") + toString(row.status.health) + "," +
+      text += std::to_string(session + 1) + "," + std::to_string(row.frame) + "," + std::to_string(row.stamp) +
+              (row.accepted ? ",1," : ",0,") + toString(row.status.health) + "," +
               swf_vo::toString(static_cast<swf_vo::Reason>(row.status.reason));
       for (const int value : {s.corners, s.features, s.tracked}) text += "," + std::to_string(value);
       for (const double value : {s.track_length_mean, s.reprojection_px}) {

@@ -25,8 +25,10 @@ std::uint8_t greyAt(const ImageView& image, const Eigen::Vector3d& pixel) {
 }
 
 std::string captionOf(const VoRow& row) {
-  std::string text = std::to_string(row.statistics.features) + " features, " + std::to_string(row.statistics.tracked) + " tracked";
-  if (row.status.health != Health::Ok) text += ", " + std::string(toString(row.status.health)) + ": " + row.status.sentence;
+  std::string text =
+      std::to_string(row.statistics.features) + " features, " + std::to_string(row.statistics.tracked) + " tracked";
+  if (row.status.health != Health::Ok)
+    text += ", " + std::string(toString(row.status.health)) + ": " + row.status.sentence;
   return text;
 }
 
@@ -36,7 +38,8 @@ std::string captionOf(const VoRow& row) {
 /// between them doubles.
 class VoStage::PictureKeeper {
  public:
-  void add(const VoRow& row, const ImageView& image, const std::vector<Feature>& features, std::vector<VoPicture>& pictures) {
+  void add(const VoRow& row, const ImageView& image, const std::vector<Feature>& features,
+           std::vector<VoPicture>& pictures) {
     tails_.push_back(features);
     if (tails_.size() > kTail) tails_.erase(tails_.begin());
     if (row.frame == 0 || row.frame % step_ != 0 || image.empty()) return;
@@ -47,7 +50,9 @@ class VoStage::PictureKeeper {
     pictures.push_back(std::move(picture));
     if (pictures.size() <= kPictures) return;
     step_ *= 2;
-    pictures.erase(std::remove_if(pictures.begin(), pictures.end(), [this](const VoPicture& p) { return p.frame % step_ != 0; }), pictures.end());
+    pictures.erase(
+        std::remove_if(pictures.begin(), pictures.end(), [this](const VoPicture& p) { return p.frame % step_ != 0; }),
+        pictures.end());
   }
 
  private:

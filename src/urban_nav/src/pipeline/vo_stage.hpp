@@ -14,12 +14,12 @@ namespace urban_nav {
 
 /// What is kept of one stereo frame: the row of stats.csv.
 struct VoRow {
-  std::int64_t frame = 0;                ///< counts stereo frames from 0, dropped ones included
+  std::int64_t frame = 0;  ///< counts stereo frames from 0, dropped ones included
   urban_nav_core::StampNs stamp = 0;
-  bool accepted = true;                  ///< false: dropped because of its stamp
+  bool accepted = true;  ///< false: dropped because of its stamp
   urban_nav_core::Status status;
   swf_vo::Statistics statistics;
-  urban_nav_core::Pose T_odom_base;      ///< now: as odometry has it live
+  urban_nav_core::Pose T_odom_base;  ///< now: as odometry has it live
   double process_ms = 0.0;
 };
 
@@ -34,8 +34,8 @@ struct VoPicture {
 
 struct VoLandmark {
   swf_vo::Landmark landmark;
-  std::uint8_t grey = 0;   ///< of the pixel where it was last seen
-  int seen = 0;            ///< frames
+  std::uint8_t grey = 0;  ///< of the pixel where it was last seen
+  int seen = 0;           ///< frames
 };
 
 /// All that visual odometry made of one session.
@@ -43,11 +43,11 @@ struct VoRun {
   std::string input;
   urban_nav_core::StereoCamera camera;
   urban_nav_core::Pose T_base_camera;
-  std::vector<VoRow> rows;                           ///< one per stereo frame
-  std::vector<swf_vo::Settled> settled;              ///< one per accepted frame, as far as they have left the window
+  std::vector<VoRow> rows;               ///< one per stereo frame
+  std::vector<swf_vo::Settled> settled;  ///< one per accepted frame, as far as they have left the window
   std::map<swf_vo::LandmarkId, VoLandmark> landmarks;
-  std::vector<VoPicture> pictures;                   ///< evenly spread over the session
-  std::vector<std::string> faults;                   ///< of the data, each with the file or topic; at most kFaultsKept
+  std::vector<VoPicture> pictures;  ///< evenly spread over the session
+  std::vector<std::string> faults;  ///< of the data, each with the file or topic; at most kFaultsKept
   std::int64_t faults_total = 0;
 };
 constexpr std::size_t kFaultsKept = 100;

@@ -15,7 +15,9 @@ constexpr std::size_t kWarningsShown = 20;
 
 void addWarnings(const VoRun& run, std::int64_t dropped, std::vector<std::string>& warnings) {
   const std::string where = run.input + ": ";
-  if (dropped > 0) warnings.push_back(where + std::to_string(dropped) + " frames dropped: their stamps are not later than those before");
+  if (dropped > 0)
+    warnings.push_back(where + std::to_string(dropped) +
+                       " frames dropped: their stamps are not later than those before");
   for (std::size_t i = 0; i < std::min(run.faults.size(), kWarningsShown); ++i) warnings.push_back(run.faults[i]);
   const auto more = run.faults_total - static_cast<std::int64_t>(std::min(run.faults.size(), kWarningsShown));
   if (more > 0) warnings.push_back(where + std::to_string(more) + " more faults of this kind");
@@ -36,7 +38,8 @@ VoSummary summarise(const std::vector<const VoRun*>& runs) {
     for (const VoRow& row : run->rows) {
       ++summary.frames;
       ++summary.status_counts[toString(row.status.health)];
-      if (row.status.health != Health::Ok) ++summary.reason_counts[swf_vo::toString(static_cast<swf_vo::Reason>(row.status.reason))];
+      if (row.status.health != Health::Ok)
+        ++summary.reason_counts[swf_vo::toString(static_cast<swf_vo::Reason>(row.status.reason))];
       if (!row.accepted) {
         ++dropped;
         continue;
@@ -54,7 +57,8 @@ VoSummary summarise(const std::vector<const VoRun*>& runs) {
     std::vector<Vector3d> positions;
     for (const swf_vo::Settled& settled : run->settled) positions.push_back(settled.T_odom_base.pose.t());
     summary.distance_m += pathLength(positions);
-    if (run->settled.size() > 1) summary.seconds += urban_nav_core::secondsBetween(run->settled.front().stamp, run->settled.back().stamp);
+    if (run->settled.size() > 1)
+      summary.seconds += urban_nav_core::secondsBetween(run->settled.front().stamp, run->settled.back().stamp);
     addWarnings(*run, dropped, summary.warnings);
   }
   const auto mean = [](double sum, std::int64_t count) { return count > 0 ? sum / static_cast<double>(count) : 0.0; };
@@ -99,7 +103,8 @@ double pathLength(const std::vector<Vector3d>& positions, double step) {
 
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
-  const auto at = static_cast<std::ptrdiff_t>(std::min(static_cast<double>(values.size() - 1), std::floor(share * static_cast<double>(values.size()))));
+  const auto at = static_cast<std::ptrdiff_t>(
+      std::min(static_cast<double>(values.size() - 1), std::floor(share * static_cast<double>(values.size()))));
   std::nth_element(values.begin(), values.begin() + at, values.end());
   return values[static_cast<std::size_t>(at)];
 }

@@ -13,9 +13,9 @@ namespace urban_nav {
 /// The figures of a run of visual odometry that summary.json and the report show.
 struct VoSummary {
   std::int64_t frames = 0;
-  std::int64_t dropped = 0;             ///< because of their stamps
-  double seconds = 0.0;                 ///< from the first stamp to the last
-  double distance_m = 0.0;              ///< along the settled trajectory, standing still left out
+  std::int64_t dropped = 0;  ///< because of their stamps
+  double seconds = 0.0;      ///< from the first stamp to the last
+  double distance_m = 0.0;   ///< along the settled trajectory, standing still left out
   double ms_median = 0.0, ms_p99 = 0.0;
   double features_mean = 0.0, track_length_mean = 0.0, reprojection_px_mean = 0.0;
   std::map<std::string, std::int64_t> status_counts;  ///< OK, DEGRADED, LOST, RECOVERED: all four

@@ -24,7 +24,8 @@ std::vector<Pose> fromFirst(const std::vector<Pose>& poses) {
 
 std::vector<double> distances(const std::vector<Pose>& poses) {
   std::vector<double> way;
-  for (std::size_t i = 0; i < poses.size(); ++i) way.push_back(i == 0 ? 0.0 : way.back() + urban_nav_core::distanceBetween(poses[i - 1], poses[i]));
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    way.push_back(i == 0 ? 0.0 : way.back() + urban_nav_core::distanceBetween(poses[i - 1], poses[i]));
   return way;
 }
 
@@ -43,21 +44,36 @@ std::vector<PlotPoint> projected(const std::vector<Pose>& poses, int a, int b) {
   return points;
 }
 
-std::string percentText(const urban_nav_core::RelativeError& error) { return forPerson(error.percent, 3) + " %, " + forPerson(error.deg_per_m, 3) + " deg/m"; }
+std::string percentText(const urban_nav_core::RelativeError& error) {
+  return forPerson(error.percent, 3) + " %, " + forPerson(error.deg_per_m, 3) + " deg/m";
+}
 
 /// Two columns: what, how much.
 std::vector<std::vector<std::string>> figuresOf(const Evaluation& e) {
   std::vector<std::vector<std::string>> rows;
-  rows.push_back({"poses", std::to_string(e.matched.truth.size()) + " matched, " + std::to_string(e.frames_estimate) + " estimated, " + std::to_string(e.frames_truth) + " true"});
+  rows.push_back({"poses", std::to_string(e.matched.truth.size()) + " matched, " + std::to_string(e.frames_estimate) +
+                               " estimated, " + std::to_string(e.frames_truth) + " true"});
   rows.push_back({"length of the true path", forPerson(e.length_m, 5) + " m"});
-  if (e.offset) rows.push_back({e.offset_applied ? "offset that was applied to the stamps" : "offset of the stamps that would help", forPerson(1e-9 * static_cast<double>(e.offset->offset), 6) + " s"});
-  const auto absolute = [&](const char* name, const urban_nav_core::ErrorStatistics& s) { rows.push_back({name, forPerson(s.rmse, 4) + " m (median " + forPerson(s.median, 3) + ", largest " + forPerson(s.max, 3) + ")"}); };
+  if (e.offset)
+    rows.push_back({e.offset_applied ? "offset that was applied to the stamps" : "offset of the stamps that would help",
+                    forPerson(1e-9 * static_cast<double>(e.offset->offset), 6) + " s"});
+  const auto absolute = [&](const char* name, const urban_nav_core::ErrorStatistics& s) {
+    rows.push_back({name, forPerson(s.rmse, 4) + " m (median " + forPerson(s.median, 3) + ", largest " +
+                              forPerson(s.max, 3) + ")"});
+  };
   absolute("absolute error, first poses aligned", e.first);
   absolute("absolute error, after a rigid motion", e.se3);
   absolute("absolute error, after a similarity", e.sim3);
-  if (e.ten_frames) rows.push_back({"relative error over 10 frames", percentText(*e.ten_frames) + ", step ratio " + forPerson(e.ten_frames->step_ratio, 5)});
-  for (const SpanError& span : e.spans) rows.push_back({"relative error over " + printSpan(span.span), percentText(span.error) + " (" + std::to_string(span.error.count) + " spans)"});
-  if (e.nees) rows.push_back({"NEES, 6 degrees of freedom", forPerson(e.nees->mean, 3) + " (translation " + forPerson(e.nees->mean_translation, 3) + " of 3, rotation " + forPerson(e.nees->mean_rotation, 3) + " of 3)"});
+  if (e.ten_frames)
+    rows.push_back({"relative error over 10 frames",
+                    percentText(*e.ten_frames) + ", step ratio " + forPerson(e.ten_frames->step_ratio, 5)});
+  for (const SpanError& span : e.spans)
+    rows.push_back({"relative error over " + printSpan(span.span),
+                    percentText(span.error) + " (" + std::to_string(span.error.count) + " spans)"});
+  if (e.nees)
+    rows.push_back({"NEES, 6 degrees of freedom", forPerson(e.nees->mean, 3) + " (translation " +
+                                                      forPerson(e.nees->mean_translation, 3) + " of 3, rotation " +
+                                                      forPerson(e.nees->mean_rotation, 3) + " of 3)"});
   return rows;
 }
 
@@ -67,17 +83,19 @@ Plot pathPlot(const Evaluation& evaluation, int a, int b) {
   static const std::array<const char*, 3> names = {"x, forward at the start (m)", "y, left (m)", "z, up (m)"};
   Plot plot;
   plot.equal_axes = true;
-  plot.height = 420;
+  plot.height = 400;
   plot.x_label = names[static_cast<std::size_t>(a)];
   plot.y_label = names[static_cast<std::size_t>(b)];
-  plot.series.push_back(line("estimate", "a", Series::Kind::Line, projected(fromFirst(evaluation.matched.estimate), a, b)));
+  plot.series.push_back(
+      line("estimate", "a", Series::Kind::Line, projected(fromFirst(evaluation.matched.estimate), a, b)));
   plot.series.push_back(line("truth", "b", Series::Kind::Dashed, projected(fromFirst(evaluation.matched.truth), a, b)));
   return plot;
 }
 
 Plot errorPlot(const Evaluation& evaluation) {
   const std::vector<double> way = distances(evaluation.matched.truth);
-  const std::vector<double> errors = urban_nav_core::absoluteErrors(evaluation.matched.truth, evaluation.matched.estimate, urban_nav_core::Alignment::First);
+  const std::vector<double> errors = urban_nav_core::absoluteErrors(
+      evaluation.matched.truth, evaluation.matched.estimate, urban_nav_core::Alignment::First);
   std::vector<PlotPoint> points, percent;
   for (std::size_t i = 0; i < way.size(); ++i) {
     points.push_back({way[i], errors[i]});
@@ -89,14 +107,17 @@ Plot errorPlot(const Evaluation& evaluation) {
   plot.width = 1100;
   plot.y_from_zero = true;
   plot.series.push_back(line("error, first poses aligned", "a", Series::Kind::Line, points));
-  if (!way.empty() && way.back() > 1.0) plot.series.push_back(line("1 % of the way", "plain", Series::Kind::Dashed, percent));
+  if (!way.empty() && way.back() > 1.0)
+    plot.series.push_back(line("1 % of the way", "plain", Series::Kind::Dashed, percent));
   return plot;
 }
 
 Plot trustPlot(const Evaluation& evaluation, int coordinate) {
-  static const std::array<const char*, 6> names = {"x (m)", "y (m)", "z (m)", "about x (deg)", "about y (deg)", "about z (deg)"};
+  static const std::array<const char*, 6> names = {"x (m)",         "y (m)",         "z (m)",
+                                                   "about x (deg)", "about y (deg)", "about z (deg)"};
   const std::vector<double> way = distances(evaluation.matched.truth);
-  const std::vector<Pose> truth = fromFirst(evaluation.matched.truth), estimate = fromFirst(evaluation.matched.estimate);
+  const std::vector<Pose> truth = fromFirst(evaluation.matched.truth),
+                          estimate = fromFirst(evaluation.matched.estimate);
   const double unit = coordinate < 3 ? 1.0 : kDegrees;
   Series band = line("3 standard deviations", "c", Series::Kind::Band, {});
   std::vector<PlotPoint> errors;
@@ -118,55 +139,88 @@ Plot trustPlot(const Evaluation& evaluation, int coordinate) {
 }
 
 Section evaluationSection(const Evaluation& evaluation) {
-  Section section{"truth", "Against the truth", "Truth: " + evaluation.truth + ". It is looked at after the estimate is finished.", {}, {}, {}};
-  section.figures.push_back({"From above", renderSvg(pathPlot(evaluation, 0, 1)), "First poses aligned, nothing else.", false});
+  Section section{"truth",
+                  "Against the truth",
+                  "Truth: " + evaluation.truth + ". It is looked at after the estimate is finished.",
+                  {},
+                  {},
+                  {}};
+  section.figures.push_back(
+      {"From above", renderSvg(pathPlot(evaluation, 0, 1)), "First poses aligned, nothing else.", false});
   section.figures.push_back({"From the side", renderSvg(pathPlot(evaluation, 0, 2)), "", false});
   section.figures.push_back({"Error over distance", renderSvg(errorPlot(evaluation)), "", true});
-  static const std::array<const char*, 6> titles = {"Error along x", "Error along y", "Error along z", "Error of roll", "Error of pitch", "Error of heading"};
+  static const std::array<const char*, 6> titles = {"Error along x", "Error along y",  "Error along z",
+                                                    "Error of roll", "Error of pitch", "Error of heading"};
   for (int i = 0; i < 6; ++i) {
-    section.figures.push_back({titles[static_cast<std::size_t>(i)], renderSvg(trustPlot(evaluation, i)), evaluation.covariances.empty() ? "" : "The error should stay within the band nearly always, and fill it now and then.", false});
+    section.figures.push_back({titles[static_cast<std::size_t>(i)], renderSvg(trustPlot(evaluation, i)),
+                               evaluation.covariances.empty()
+                                   ? ""
+                                   : "The error should stay within the band nearly always, and fill it now and then.",
+                               false});
   }
-  section.tables.push_back({"Figures", {"what", "value"}, figuresOf(evaluation), "Relative errors: of the motion over a span, in per cent and degrees of its true length. NEES: 6 where the covariance tells the truth, more where it is too small."});
+  section.tables.push_back({"Figures",
+                            {"what", "value"},
+                            figuresOf(evaluation),
+                            "Relative errors: of the motion over a span, in per cent and degrees of its true length. "
+                            "NEES: 6 where the covariance tells the truth, more where it is too small."});
   return section;
 }
 
 std::vector<Verdict> evaluationVerdicts(const Evaluation& e) {
   std::vector<Verdict> verdicts;
   if (e.ten_frames) {
-    const Grade grade = e.ten_frames->percent < 1.0 ? Grade::Good : e.ten_frames->percent < 3.0 ? Grade::Fair : Grade::Bad;
-    verdicts.push_back({grade, "Off by " + forPerson(e.ten_frames->percent, 2) + " % of the way", "and " + forPerson(e.ten_frames->deg_per_m, 2) + " deg per metre, over spans of ten frames. After " + forPerson(e.length_m, 3) +
-                                                                                                   " m the position is wrong by at most " + forPerson(e.first.max, 2) + " m."});
+    const Grade grade = e.ten_frames->percent < 1.0   ? Grade::Good
+                        : e.ten_frames->percent < 3.0 ? Grade::Fair
+                                                      : Grade::Bad;
+    verdicts.push_back({grade, "Off by " + forPerson(e.ten_frames->percent, 2) + " % of the way",
+                        "and " + forPerson(e.ten_frames->deg_per_m, 2) +
+                            " deg per metre, over spans of ten frames. After " + forPerson(e.length_m, 3) +
+                            " m the position is wrong by at most " + forPerson(e.first.max, 2) + " m."});
   } else {
     const Grade grade = e.first.rmse < 0.01 ? Grade::Good : e.first.rmse < 0.1 ? Grade::Fair : Grade::Bad;
-    verdicts.push_back({grade, "Off by " + forPerson(1000.0 * e.first.rmse, 2) + " mm while standing still,", "root mean square."});
+    verdicts.push_back(
+        {grade, "Off by " + forPerson(1000.0 * e.first.rmse, 2) + " mm while standing still,", "root mean square."});
   }
   if (e.nees) {
     const double ratio = e.nees->mean / kExpectedNees;
     if (ratio > 2.0) {
-      verdicts.push_back({ratio > 5.0 ? Grade::Bad : Grade::Fair, "The covariance is too small.", "Errors are " + forPerson(std::sqrt(ratio), 2) + " times as large as it says (NEES " + forPerson(e.nees->mean, 3) + ", expected 6)."});
+      verdicts.push_back({ratio > 5.0 ? Grade::Bad : Grade::Fair, "The covariance is too small.",
+                          "Errors are " + forPerson(std::sqrt(ratio), 2) + " times as large as it says (NEES " +
+                              forPerson(e.nees->mean, 3) + ", expected 6)."});
     } else if (ratio < 0.2) {
-      verdicts.push_back({Grade::Fair, "The covariance is too large.", "Errors are " + forPerson(std::sqrt(ratio), 2) + " times as large as it says (NEES " + forPerson(e.nees->mean, 3) + ", expected 6)."});
+      verdicts.push_back({Grade::Fair, "The covariance is too large.",
+                          "Errors are " + forPerson(std::sqrt(ratio), 2) + " times as large as it says (NEES " +
+                              forPerson(e.nees->mean, 3) + ", expected 6)."});
     } else {
-      verdicts.push_back({Grade::Good, "The covariance tells the truth.", "NEES " + forPerson(e.nees->mean, 3) + ", expected 6; errors along one path are not independent, so factors of two are chance."});
+      verdicts.push_back(
+          {Grade::Good, "The covariance tells the truth.",
+           "NEES " + forPerson(e.nees->mean, 3) +
+               ", expected 6; errors along one path are not independent, so factors of two are chance."});
     }
   }
   if (e.offset && !e.offset_applied) {
-    verdicts.push_back({Grade::Fair, "Few stamps match the truth's.", "Only " + std::to_string(e.matched.truth.size()) + " poses; with " + forPerson(1e-9 * static_cast<double>(e.offset->offset), 6) + " s added to the estimate's stamps " +
-                                                                          std::to_string(e.offset->matched) + " would (evaluate --find-offset)."});
+    verdicts.push_back({Grade::Fair, "Few stamps match the truth's.",
+                        "Only " + std::to_string(e.matched.truth.size()) + " poses; with " +
+                            forPerson(1e-9 * static_cast<double>(e.offset->offset), 6) +
+                            " s added to the estimate's stamps " + std::to_string(e.offset->matched) +
+                            " would (evaluate --find-offset)."});
   }
   return verdicts;
 }
 
 std::vector<Tile> evaluationTiles(const Evaluation& e) {
   std::vector<Tile> tiles = {{forPerson(e.first.rmse, 3), "m", "absolute error (root mean square)", Grade::Plain}};
-  if (e.ten_frames) tiles.push_back({forPerson(e.ten_frames->percent, 3), "%", "relative error over ten frames", e.ten_frames->percent < 1.0 ? Grade::Good : Grade::Fair});
+  if (e.ten_frames)
+    tiles.push_back({forPerson(e.ten_frames->percent, 3), "%", "relative error over ten frames",
+                     e.ten_frames->percent < 1.0 ? Grade::Good : Grade::Fair});
   if (e.nees) tiles.push_back({forPerson(e.nees->mean, 3), "", "NEES (6 is right)", Grade::Plain});
   return tiles;
 }
 
 std::string evaluationText(const Evaluation& evaluation) {
   std::string text;
-  for (const std::vector<std::string>& row : figuresOf(evaluation)) text += row[0] + std::string(row[0].size() < 44 ? 44 - row[0].size() : 1, ' ') + row[1] + "\n";
+  for (const std::vector<std::string>& row : figuresOf(evaluation))
+    text += row[0] + std::string(row[0].size() < 44 ? 44 - row[0].size() : 1, ' ') + row[1] + "\n";
   return text;
 }
 

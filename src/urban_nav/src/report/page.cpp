@@ -10,20 +10,28 @@ namespace {
 
 const char* classOf(Grade grade) {
   switch (grade) {
-    case Grade::Good: return "good";
-    case Grade::Fair: return "fair";
-    case Grade::Bad: return "bad";
-    case Grade::Plain: break;
+    case Grade::Good:
+      return "good";
+    case Grade::Fair:
+      return "fair";
+    case Grade::Bad:
+      return "bad";
+    case Grade::Plain:
+      break;
   }
   return "plain";
 }
 
 const char* markOf(Grade grade) {
   switch (grade) {
-    case Grade::Good: return "&#10003;";
-    case Grade::Fair: return "!";
-    case Grade::Bad: return "&#10007;";
-    case Grade::Plain: break;
+    case Grade::Good:
+      return "&#10003;";
+    case Grade::Fair:
+      return "!";
+    case Grade::Bad:
+      return "&#10007;";
+    case Grade::Plain:
+      break;
   }
   return "i";
 }
@@ -31,7 +39,8 @@ const char* markOf(Grade grade) {
 std::string tilesOf(const std::vector<Tile>& tiles) {
   std::string html = "<div class=\"tiles\">";
   for (const Tile& tile : tiles) {
-    html += "<div class=\"tile " + std::string(classOf(tile.grade)) + "\"><div class=\"value\">" + escapeHtml(tile.value) + "<small> " + escapeHtml(tile.unit) + "</small></div><div class=\"what\">" +
+    html += "<div class=\"tile " + std::string(classOf(tile.grade)) + "\"><div class=\"value\">" +
+            escapeHtml(tile.value) + "<small> " + escapeHtml(tile.unit) + "</small></div><div class=\"what\">" +
             escapeHtml(tile.label) + "</div></div>";
   }
   return html + "</div>\n";
@@ -40,8 +49,8 @@ std::string tilesOf(const std::vector<Tile>& tiles) {
 std::string verdictsOf(const std::vector<Verdict>& verdicts) {
   std::string html = "<ul class=\"verdicts\">";
   for (const Verdict& verdict : verdicts) {
-    html += "<li class=\"" + std::string(classOf(verdict.grade)) + "\"><span class=\"mark\">" + markOf(verdict.grade) + "</span><div><b>" + escapeHtml(verdict.headline) + "</b> " +
-            escapeHtml(verdict.sentence) + "</div></li>";
+    html += "<li class=\"" + std::string(classOf(verdict.grade)) + "\"><span class=\"mark\">" + markOf(verdict.grade) +
+            "</span><div><b>" + escapeHtml(verdict.headline) + "</b> " + escapeHtml(verdict.sentence) + "</div></li>";
   }
   return html + "</ul>\n";
 }
@@ -50,8 +59,8 @@ std::string figuresOf(const std::vector<Figure>& figures) {
   std::string html = "<div class=\"figures\">";
   for (const Figure& figure : figures) {
     if (figure.svg.empty()) continue;
-    html += std::string("<figure") + (figure.wide ? " class=\"wide\"" : "") + "><h3>" + escapeHtml(figure.title) + "</h3>" + figure.svg + "<figcaption>" + escapeHtml(figure.caption) +
-            "</figcaption></figure>\n";
+    html += std::string("<figure") + (figure.wide ? " class=\"wide\"" : "") + "><h3>" + escapeHtml(figure.title) +
+            "</h3>" + figure.svg + "<figcaption>" + escapeHtml(figure.caption) + "</figcaption></figure>\n";
   }
   return html + "</div>\n";
 }
@@ -59,8 +68,9 @@ std::string figuresOf(const std::vector<Figure>& figures) {
 std::string picturesOf(const std::vector<PagePicture>& pictures) {
   std::string html = "<div class=\"pictures\">";
   for (const PagePicture& picture : pictures) {
-    html += "<figure><img alt=\"" + escapeHtml(picture.caption) + "\" width=\"" + std::to_string(picture.width) + "\" height=\"" + std::to_string(picture.height) +
-            "\" src=\"data:image/jpeg;base64," + base64(picture.jpeg) + "\"><figcaption>" + escapeHtml(picture.caption) + "</figcaption></figure>\n";
+    html += "<figure><img alt=\"" + escapeHtml(picture.caption) + "\" width=\"" + std::to_string(picture.width) +
+            "\" height=\"" + std::to_string(picture.height) + "\" src=\"data:image/jpeg;base64," +
+            base64(picture.jpeg) + "\"><figcaption>" + escapeHtml(picture.caption) + "</figcaption></figure>\n";
   }
   return html + "</div>\n";
 }
@@ -91,20 +101,26 @@ std::string sectionOf(const Section& section) {
 }  // namespace
 
 std::string renderPage(const Page& page) {
-  std::string html = "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
+  std::string html =
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+      "content=\"width=device-width, initial-scale=1\">\n";
   if (page.running) html += "<meta http-equiv=\"refresh\" content=\"4\">\n";
-  html += "<title>" + escapeHtml(page.title) + "</title>\n<style>" + std::string(pageStyle()) + "</style></head>\n<body>\n<header><h1>" + escapeHtml(page.title) + "</h1><p class=\"subtitle\">" +
+  html += "<title>" + escapeHtml(page.title) + "</title>\n<style>" + std::string(pageStyle()) +
+          "</style></head>\n<body>\n<header><h1>" + escapeHtml(page.title) + "</h1><p class=\"subtitle\">" +
           escapeHtml(page.subtitle) + "</p>\n";
   if (page.running) {
     const int percent = static_cast<int>(100.0 * page.progress);
-    html += "<div class=\"running\"><div class=\"bar\" style=\"width:" + std::to_string(percent) + "%\"></div><span>still at work" + (percent > 0 ? ", " + std::to_string(percent) + " %" : "") +
+    html += "<div class=\"running\"><div class=\"bar\" style=\"width:" + std::to_string(percent) +
+            "%\"></div><span>still at work" + (percent > 0 ? ", " + std::to_string(percent) + " %" : "") +
             "; this page refreshes itself</span></div>\n";
   }
   html += "<nav>";
-  for (const Section& section : page.sections) html += "<a href=\"#" + section.id + "\">" + escapeHtml(section.title) + "</a>";
+  for (const Section& section : page.sections)
+    html += "<a href=\"#" + section.id + "\">" + escapeHtml(section.title) + "</a>";
   html += "</nav></header>\n<main>\n" + tilesOf(page.tiles) + verdictsOf(page.verdicts);
   for (const Section& section : page.sections) html += sectionOf(section);
-  return html + "</main>\n<footer>" + escapeHtml(page.footer) + "</footer>\n<script>" + pageScript() + "</script>\n</body></html>\n";
+  return html + "</main>\n<footer>" + escapeHtml(page.footer) + "</footer>\n<script>" + pageScript() +
+         "</script>\n</body></html>\n";
 }
 
 std::string base64(const std::vector<unsigned char>& bytes) {
@@ -112,7 +128,8 @@ std::string base64(const std::vector<unsigned char>& bytes) {
   std::string text;
   text.reserve((bytes.size() + 2) / 3 * 4);
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const unsigned a = bytes[i], b = i + 1 < bytes.size() ? bytes[i + 1] : 0U, c = i + 2 < bytes.size() ? bytes[i + 2] : 0U;
+    const unsigned a = bytes[i], b = i + 1 < bytes.size() ? bytes[i + 1] : 0U,
+                   c = i + 2 < bytes.size() ? bytes[i + 2] : 0U;
     text += digits[a >> 2U];
     text += digits[((a & 3U) << 4U) | (b >> 4U)];
     text += i + 1 < bytes.size() ? digits[((b & 15U) << 2U) | (c >> 6U)] : '=';

@@ -25,9 +25,9 @@ struct Verdict {
 
 struct Figure {
   std::string title;
-  std::string svg;       ///< of renderSvg; an empty one is left out with its title
-  std::string caption;   ///< how to read it
-  bool wide = false;     ///< over the whole width of the page
+  std::string svg;      ///< of renderSvg; an empty one is left out with its title
+  std::string caption;  ///< how to read it
+  bool wide = false;    ///< over the whole width of the page
 };
 
 struct PagePicture {
@@ -54,8 +54,8 @@ struct Section {
 struct Page {
   std::string title;
   std::string subtitle;
-  bool running = false;          ///< the page says so and refreshes itself
-  double progress = 0.0;         ///< 0...1, while running
+  bool running = false;   ///< the page says so and refreshes itself
+  double progress = 0.0;  ///< 0...1, while running
   std::vector<Tile> tiles;
   std::vector<Verdict> verdicts;
   std::vector<Section> sections;

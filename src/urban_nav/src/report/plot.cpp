@@ -113,15 +113,19 @@ std::string axes(const Plot& plot, const Frame& f) {
   for (const double tick : niceTicks(f.x.low, f.x.high, plot.width / 90)) {
     const std::string u = px(f.u(tick));
     svg += "<line class=\"grid\" x1=\"" + u + "\" y1=\"" + px(kTop) + "\" x2=\"" + u + "\" y2=\"" + px(bottom) + "\"/>";
-    svg += "<text class=\"tick\" x=\"" + u + "\" y=\"" + px(bottom + 16) + "\" text-anchor=\"middle\">" + forPerson(tick, 6) + "</text>";
+    svg += "<text class=\"tick\" x=\"" + u + "\" y=\"" + px(bottom + 16) + "\" text-anchor=\"middle\">" +
+           forPerson(tick, 6) + "</text>";
   }
   for (const double tick : niceTicks(f.y.low, f.y.high, plot.y_label.empty() ? 0 : plot.height / 55)) {
     const std::string v = px(f.v(tick));
     svg += "<line class=\"grid\" x1=\"" + px(kLeft) + "\" y1=\"" + v + "\" x2=\"" + px(right) + "\" y2=\"" + v + "\"/>";
-    svg += "<text class=\"tick\" x=\"" + px(kLeft - 7) + "\" y=\"" + px(f.v(tick) + 4) + "\" text-anchor=\"end\">" + forPerson(tick, 6) + "</text>";
+    svg += "<text class=\"tick\" x=\"" + px(kLeft - 7) + "\" y=\"" + px(f.v(tick) + 4) + "\" text-anchor=\"end\">" +
+           forPerson(tick, 6) + "</text>";
   }
-  svg += "<text class=\"label\" x=\"" + px(0.5 * (kLeft + right)) + "\" y=\"" + px(f.height - 8) + "\" text-anchor=\"middle\">" + escapeHtml(plot.x_label) + "</text>";
-  svg += "<text class=\"label\" transform=\"translate(14 " + px(0.5 * (kTop + bottom)) + ") rotate(-90)\" text-anchor=\"middle\">" + escapeHtml(plot.y_label) + "</text>";
+  svg += "<text class=\"label\" x=\"" + px(0.5 * (kLeft + right)) + "\" y=\"" + px(f.height - 8) +
+         "\" text-anchor=\"middle\">" + escapeHtml(plot.x_label) + "</text>";
+  svg += "<text class=\"label\" transform=\"translate(14 " + px(0.5 * (kTop + bottom)) +
+         ") rotate(-90)\" text-anchor=\"middle\">" + escapeHtml(plot.y_label) + "</text>";
   return svg;
 }
 
@@ -156,8 +160,8 @@ std::string barsOf(const Series& series, const Frame& f) {
   for (const PlotPoint& p : series.points) {
     if (!finite(p) || p.y <= 0.0) continue;
     const double left = f.u(p.x - 0.5 * series.bar_width), right = f.u(p.x + 0.5 * series.bar_width);
-    svg += "<rect class=\"bar c-" + series.colour + "\" x=\"" + px(left + 0.5) + "\" y=\"" + px(f.v(p.y)) + "\" width=\"" + px(std::max(0.5, right - left - 1.0)) + "\" height=\"" +
-           px(f.v(0.0) - f.v(p.y)) + "\"/>";
+    svg += "<rect class=\"bar c-" + series.colour + "\" x=\"" + px(left + 0.5) + "\" y=\"" + px(f.v(p.y)) +
+           "\" width=\"" + px(std::max(0.5, right - left - 1.0)) + "\" height=\"" + px(f.v(0.0) - f.v(p.y)) + "\"/>";
   }
   return svg;
 }
@@ -166,29 +170,40 @@ std::string dotsOf(const Series& series, const Frame& f) {
   std::string svg;
   for (const std::size_t i : thinned(series.points)) {
     const PlotPoint& p = series.points[i];
-    if (finite(p)) svg += "<circle class=\"dot c-" + series.colour + "\" cx=\"" + px(f.u(p.x)) + "\" cy=\"" + px(f.v(p.y)) + "\" r=\"3\"/>";
+    if (finite(p))
+      svg += "<circle class=\"dot c-" + series.colour + "\" cx=\"" + px(f.u(p.x)) + "\" cy=\"" + px(f.v(p.y)) +
+             "\" r=\"3\"/>";
   }
   return svg;
 }
 
 std::string draw(const Series& series, const Frame& f) {
   switch (series.kind) {
-    case Series::Kind::Band: return bandOf(series, f);
-    case Series::Kind::Bars: return barsOf(series, f);
-    case Series::Kind::Dots: return dotsOf(series, f);
+    case Series::Kind::Band:
+      return bandOf(series, f);
+    case Series::Kind::Bars:
+      return barsOf(series, f);
+    case Series::Kind::Dots:
+      return dotsOf(series, f);
     case Series::Kind::Line:
-    case Series::Kind::Dashed: break;
+    case Series::Kind::Dashed:
+      break;
   }
   const std::string dashed = series.kind == Series::Kind::Dashed ? " dashed" : "";
-  return "<path class=\"line c-" + series.colour + dashed + "\" data-name=\"" + escapeHtml(series.name) + "\" d=\"" + pathOf(series, f) + "\"/>";
+  return "<path class=\"line c-" + series.colour + dashed + "\" data-name=\"" + escapeHtml(series.name) + "\" d=\"" +
+         pathOf(series, f) + "\"/>";
 }
 
 std::string legend(const Plot& plot) {
   std::string html;
   for (const Series& series : plot.series) {
     if (series.name.empty()) continue;
-    const char* shape = series.kind == Series::Kind::Band ? "block" : series.kind == Series::Kind::Dots ? "round" : series.kind == Series::Kind::Dashed ? "dash" : "stroke";
-    html += "<span class=\"key\"><i class=\"" + std::string(shape) + " c-" + series.colour + "\"></i>" + escapeHtml(series.name) + "</span>";
+    const char* shape = series.kind == Series::Kind::Band     ? "block"
+                        : series.kind == Series::Kind::Dots   ? "round"
+                        : series.kind == Series::Kind::Dashed ? "dash"
+                                                              : "stroke";
+    html += "<span class=\"key\"><i class=\"" + std::string(shape) + " c-" + series.colour + "\"></i>" +
+            escapeHtml(series.name) + "</span>";
   }
   return html.empty() ? "" : "<div class=\"legend\">" + html + "</div>";
 }
@@ -198,16 +213,24 @@ std::string legend(const Plot& plot) {
 std::string renderSvg(const Plot& plot, bool with_legend) {
   const Frame f = frameOf(plot);
   if (f.x.empty() || f.y.empty()) return {};
-  const auto attribute = [](const char* name, double value) { return std::string(" data-") + name + "=\"" + forPerson(value, 9) + "\""; };
-  std::string svg = (with_legend ? legend(plot) : "") + "<svg class=\"plot\" viewBox=\"0 0 " + std::to_string(plot.width) + " " + std::to_string(plot.height) + "\" role=\"img\"" + attribute("x0", f.x.low) +
-                    attribute("x1", f.x.high) + attribute("y0", f.y.low) + attribute("y1", f.y.high) + " data-xl=\"" + escapeHtml(plot.x_label) + "\" data-yl=\"" + escapeHtml(plot.y_label) +
-                    "\">";
-  const std::string area = px(kLeft) + " " + px(kTop) + " " + px(f.width - kLeft - kRight) + " " + px(f.height - kTop - kBottom);
-  svg += axes(plot, f) + "<svg class=\"area\" x=\"" + px(kLeft) + "\" y=\"" + px(kTop) + "\" width=\"" + px(f.width - kLeft - kRight) + "\" height=\"" +
-         px(f.height - kTop - kBottom) + "\" viewBox=\"" + area + "\">";  // a viewport of its own clips without an id
+  const auto attribute = [](const char* name, double value) {
+    return std::string(" data-") + name + "=\"" + forPerson(value, 9) + "\"";
+  };
+  std::string svg = (with_legend ? legend(plot) : "") + "<svg class=\"plot\" viewBox=\"0 0 " +
+                    std::to_string(plot.width) + " " + std::to_string(plot.height) + "\" role=\"img\"" +
+                    attribute("x0", f.x.low) + attribute("x1", f.x.high) + attribute("y0", f.y.low) +
+                    attribute("y1", f.y.high) + " data-xl=\"" + escapeHtml(plot.x_label) + "\" data-yl=\"" +
+                    escapeHtml(plot.y_label) + "\">";
+  const std::string area =
+      px(kLeft) + " " + px(kTop) + " " + px(f.width - kLeft - kRight) + " " + px(f.height - kTop - kBottom);
+  svg += axes(plot, f) + "<svg class=\"area\" x=\"" + px(kLeft) + "\" y=\"" + px(kTop) + "\" width=\"" +
+         px(f.width - kLeft - kRight) + "\" height=\"" + px(f.height - kTop - kBottom) + "\" viewBox=\"" + area +
+         "\">";  // a viewport of its own clips without an id
   for (const Span& span : plot.spans) {
     const double left = f.u(std::max(span.from, f.x.low)), right = f.u(std::min(span.to, f.x.high));
-    if (right >= left) svg += "<rect class=\"span c-" + span.colour + "\" x=\"" + px(left) + "\" y=\"" + px(kTop) + "\" width=\"" + px(std::max(1.0, right - left)) + "\" height=\"" + px(f.height - kTop - kBottom) + "\"/>";
+    if (right >= left)
+      svg += "<rect class=\"span c-" + span.colour + "\" x=\"" + px(left) + "\" y=\"" + px(kTop) + "\" width=\"" +
+             px(std::max(1.0, right - left)) + "\" height=\"" + px(f.height - kTop - kBottom) + "\"/>";
   }
   for (const Series& series : plot.series) svg += draw(series, f);
   return svg + "</svg></svg>";
@@ -222,7 +245,8 @@ std::vector<double> niceTicks(double low, double high, int count) {
   for (const double factor : {5.0, 2.0, 1.0}) {
     if (factor * power >= rough) step = factor * power;
   }
-  for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; i += 1.0) ticks.push_back(i == 0.0 ? 0.0 : i * step);
+  for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; i += 1.0)
+    ticks.push_back(i == 0.0 ? 0.0 : i * step);
   return ticks;
 }
 
@@ -230,12 +254,23 @@ std::string escapeHtml(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
     switch (c) {
-      case '&': escaped += "&amp;"; break;
-      case '<': escaped += "&lt;"; break;
-      case '>': escaped += "&gt;"; break;
-      case '"': escaped += "&quot;"; break;
-      case '\'': escaped += "&#39;"; break;
-      default: escaped += c;
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      case '\'':
+        escaped += "&#39;";
+        break;
+      default:
+        escaped += c;
     }
   }
   return escaped;

@@ -16,11 +16,11 @@ struct PlotPoint {
 struct Series {
   enum class Kind { Line, Dashed, Dots, Band, Bars };
   Kind kind = Kind::Line;
-  std::string name;                 ///< in the legend; empty: not in it
+  std::string name;  ///< in the legend; empty: not in it
   std::string colour = "a";
-  std::vector<PlotPoint> points;    ///< points that are not finite end a line
-  std::vector<double> lower;        ///< Band: as many as points; the band is from lower to y. Bars: unused
-  double bar_width = 0.0;           ///< Bars: in units of x
+  std::vector<PlotPoint> points;  ///< points that are not finite end a line
+  std::vector<double> lower;      ///< Band: as many as points; the band is from lower to y. Bars: unused
+  double bar_width = 0.0;         ///< Bars: in units of x
 };
 
 /// A stretch of x in another colour behind everything else.
@@ -30,13 +30,13 @@ struct Span {
 };
 
 struct Plot {
-  std::string x_label, y_label;     ///< without the latter the y axis has no numbers
+  std::string x_label, y_label;  ///< without the latter the y axis has no numbers
   std::vector<Series> series;
   std::vector<Span> spans;
-  bool equal_axes = false;          ///< a metre is a metre in both directions
+  bool equal_axes = false;  ///< a metre is a metre in both directions
   bool y_from_zero = false;
-  std::optional<double> y_top;      ///< cut off above
-  int width = 720, height = 300;    ///< px at the plot's own size; it scales with the page
+  std::optional<double> y_top;    ///< cut off above
+  int width = 600, height = 280;  ///< px at the plot's own size; it scales with the page
 };
 
 /// The plot as an SVG element without fixed colours or fonts, behind a legend in HTML if wanted; empty where there is nothing finite to draw. Long series are thinned so

@@ -16,7 +16,9 @@ namespace {
 
 constexpr std::size_t kBins = 40;
 
-double secondsOf(const VoRun& run, urban_nav_core::StampNs stamp) { return urban_nav_core::secondsBetween(run.rows.front().stamp, stamp); }
+double secondsOf(const VoRun& run, urban_nav_core::StampNs stamp) {
+  return urban_nav_core::secondsBetween(run.rows.front().stamp, stamp);
+}
 
 Series line(const std::string& name, const std::string& colour, std::vector<PlotPoint> points) {
   Series series;
@@ -28,10 +30,14 @@ Series line(const std::string& name, const std::string& colour, std::vector<Plot
 
 const char* colourOf(Health health) {
   switch (health) {
-    case Health::Ok: return "good";
-    case Health::Degraded: return "fair";
-    case Health::Lost: return "bad";
-    case Health::Recovered: return "c";
+    case Health::Ok:
+      return "good";
+    case Health::Degraded:
+      return "fair";
+    case Health::Lost:
+      return "bad";
+    case Health::Recovered:
+      return "c";
   }
   return "plain";
 }
@@ -60,12 +66,13 @@ std::vector<PlotPoint> overTime(const VoRun& run, Value value) {
   return points;
 }
 
-Figure pathFigure(const VoRun& run, int a, int b, const std::string& title, const std::string& x_label, const std::string& y_label) {
+Figure pathFigure(const VoRun& run, int a, int b, const std::string& title, const std::string& x_label,
+                  const std::string& y_label) {
   Plot plot;
   plot.x_label = x_label;
   plot.y_label = y_label;
   plot.equal_axes = true;
-  plot.height = 420;
+  plot.height = 400;
   std::vector<PlotPoint> settled;
   for (const Settled& s : run.settled) settled.push_back({s.T_odom_base.pose.t()(a), s.T_odom_base.pose.t()(b)});
   plot.series.push_back(line("estimate", "a", settled));
@@ -88,10 +95,14 @@ Figure doubtFigure(const VoRun& run, int first, const std::string& title, const 
   plot.spans = troubles(run);
   for (int i = 0; i < 3; ++i) {
     std::vector<PlotPoint> points;
-    for (const Settled& s : run.settled) points.push_back({secondsOf(run, s.stamp), unit * std::sqrt(std::max(0.0, s.T_odom_base.covariance(first + i, first + i)))});
-    plot.series.push_back(line(names[static_cast<std::size_t>(first + i)], colours[static_cast<std::size_t>(i)], points));
+    for (const Settled& s : run.settled)
+      points.push_back(
+          {secondsOf(run, s.stamp), unit * std::sqrt(std::max(0.0, s.T_odom_base.covariance(first + i, first + i)))});
+    plot.series.push_back(
+        line(names[static_cast<std::size_t>(first + i)], colours[static_cast<std::size_t>(i)], points));
   }
-  return {title, renderSvg(plot), "As the estimate itself says it, relative to the first pose. Shaded: the status was not OK.", false};
+  return {title, renderSvg(plot),
+          "As the estimate itself says it, relative to the first pose. Shaded: the status was not OK.", false};
 }
 
 Figure featuresFigure(const VoRun& run) {
@@ -100,8 +111,12 @@ Figure featuresFigure(const VoRun& run) {
   plot.y_label = "features";
   plot.y_from_zero = true;
   plot.spans = troubles(run);
-  plot.series.push_back(line("in the frame", "a", overTime(run, [](const VoRow& row) { return static_cast<double>(row.statistics.features); })));
-  plot.series.push_back(line("known from before and trusted", "c", overTime(run, [](const VoRow& row) { return static_cast<double>(row.statistics.tracked); })));
+  plot.series.push_back(line("in the frame", "a", overTime(run, [](const VoRow& row) {
+                               return static_cast<double>(row.statistics.features);
+                             })));
+  plot.series.push_back(line("known from before and trusted", "c", overTime(run, [](const VoRow& row) {
+                               return static_cast<double>(row.statistics.tracked);
+                             })));
   return {"Features", renderSvg(plot), "What the motion rests on. Shaded: the status was not OK.", false};
 }
 
@@ -118,7 +133,10 @@ Figure statusFigure(const VoRun& run) {
     key.kind = Series::Kind::Band;
     plot.series.push_back(key);
   }
-  return {"Status", renderSvg(plot), "Degraded: less to go on than there should be. Lost: the pose goes on by prediction, and its covariance grows.", true};
+  return {
+      "Status", renderSvg(plot),
+      "Degraded: less to go on than there should be. Lost: the pose goes on by prediction, and its covariance grows.",
+      true};
 }
 
 Figure reprojectionFigure(const VoRun& run) {
@@ -126,8 +144,10 @@ Figure reprojectionFigure(const VoRun& run) {
   plot.x_label = "time (s)";
   plot.y_label = "px";
   plot.y_from_zero = true;
-  plot.series.push_back(line("root mean square", "d", overTime(run, [](const VoRow& row) { return row.statistics.reprojection_px; })));
-  return {"Reprojection error", renderSvg(plot), "How far landmarks are from where the estimate puts them in the left image.", false};
+  plot.series.push_back(
+      line("root mean square", "d", overTime(run, [](const VoRow& row) { return row.statistics.reprojection_px; })));
+  return {"Reprojection error", renderSvg(plot),
+          "How far landmarks are from where the estimate puts them in the left image.", false};
 }
 
 Figure timingFigure(const VoRun& run, const VoSummary& summary) {
@@ -139,13 +159,16 @@ Figure timingFigure(const VoRun& run, const VoSummary& summary) {
   Series bars = line("", "a", {});
   bars.kind = Series::Kind::Bars;
   bars.bar_width = top / kBins;
-  for (std::size_t i = 0; i < kBins; ++i) bars.points.push_back({(static_cast<double>(i) + 0.5) * bars.bar_width, counts[i]});
+  for (std::size_t i = 0; i < kBins; ++i)
+    bars.points.push_back({(static_cast<double>(i) + 0.5) * bars.bar_width, counts[i]});
   Plot plot;
   plot.x_label = "ms a frame (the last bar: and more)";
   plot.y_label = "frames";
   plot.y_from_zero = true;
   plot.series.push_back(bars);
-  return {"Time in the filter", renderSvg(plot), "Median " + forPerson(summary.ms_median) + " ms, 99th percentile " + forPerson(summary.ms_p99) + " ms.", false};
+  return {"Time in the filter", renderSvg(plot),
+          "Median " + forPerson(summary.ms_median) + " ms, 99th percentile " + forPerson(summary.ms_p99) + " ms.",
+          false};
 }
 
 }  // namespace
@@ -153,16 +176,30 @@ Figure timingFigure(const VoRun& run, const VoSummary& summary) {
 std::vector<Section> voSections(const VoRun& run, bool with_path) {
   if (run.rows.empty()) return {};
   const VoSummary summary = summarise(run);
-  Section path{"path", with_path ? "The path" : "Its own doubt", "Settled poses of base_link, relative to the first.", {}, {}, {}};
-  if (with_path) path.figures.push_back(pathFigure(run, 0, 1, "From above", "x, forward at the start (m)", "y, left (m)"));
-  if (with_path) path.figures.push_back(pathFigure(run, 0, 2, "From the side", "x, forward at the start (m)", "z, up (m)"));
-  path.figures.push_back(doubtFigure(run, 0, "How far the position is to be trusted", "one standard deviation (m)", 1.0));
-  path.figures.push_back(doubtFigure(run, 3, "How far the direction is to be trusted", "one standard deviation (deg)", 180.0 / M_PI));
+  Section path{
+      "path", with_path ? "The path" : "Its own doubt", "Settled poses of base_link, relative to the first.", {}, {},
+      {}};
+  if (with_path)
+    path.figures.push_back(pathFigure(run, 0, 1, "From above", "x, forward at the start (m)", "y, left (m)"));
+  if (with_path)
+    path.figures.push_back(pathFigure(run, 0, 2, "From the side", "x, forward at the start (m)", "z, up (m)"));
+  path.figures.push_back(
+      doubtFigure(run, 0, "How far the position is to be trusted", "one standard deviation (m)", 1.0));
+  path.figures.push_back(
+      doubtFigure(run, 3, "How far the direction is to be trusted", "one standard deviation (deg)", 180.0 / M_PI));
   Section work{"work", "How it worked", "", {}, {}, {}};
   work.figures = {statusFigure(run), featuresFigure(run), reprojectionFigure(run), timingFigure(run, summary)};
-  Section views{"views", "What it saw", "Left images; the line behind a feature is where it was in the frames before. Red is near, blue is far, grey is not trusted, a ring is new.", {}, {}, {}};
+  Section views{"views",
+                "What it saw",
+                "Left images; the line behind a feature is where it was in the frames before. Red is near, blue is "
+                "far, grey is not trusted, a ring is new.",
+                {},
+                {},
+                {}};
   for (const VoPicture& picture : run.pictures) {
-    views.pictures.push_back({forPerson(secondsOf(run, picture.stamp), 4) + " s, frame " + std::to_string(picture.frame) + ": " + picture.caption, picture.jpeg, picture.width, picture.height});
+    views.pictures.push_back({forPerson(secondsOf(run, picture.stamp), 4) + " s, frame " +
+                                  std::to_string(picture.frame) + ": " + picture.caption,
+                              picture.jpeg, picture.width, picture.height});
   }
   return {path, work, views};
 }
@@ -170,15 +207,24 @@ std::vector<Section> voSections(const VoRun& run, bool with_path) {
 std::vector<Verdict> voVerdicts(const VoSummary& summary) {
   std::vector<Verdict> verdicts;
   const std::int64_t ok = summary.status_counts.at("OK"), lost = summary.status_counts.at("LOST"), all = summary.frames;
-  const auto percent = [&](std::int64_t count) { return forPerson(100.0 * static_cast<double>(count) / static_cast<double>(std::max<std::int64_t>(1, all)), 3) + " %"; };
+  const auto percent = [&](std::int64_t count) {
+    return forPerson(100.0 * static_cast<double>(count) / static_cast<double>(std::max<std::int64_t>(1, all)), 3) +
+           " %";
+  };
   std::string reasons;
-  for (const auto& [reason, count] : summary.reason_counts) reasons += (reasons.empty() ? " Reasons: " : ", ") + reason + " (" + std::to_string(count) + ")";
+  for (const auto& [reason, count] : summary.reason_counts)
+    reasons += (reasons.empty() ? " Reasons: " : ", ") + reason + " (" + std::to_string(count) + ")";
   if (lost > 0) {
-    verdicts.push_back({Grade::Bad, "Tracking was lost.", percent(lost) + " of the frames rest on prediction alone; their covariance says so." + reasons + "."});
+    verdicts.push_back(
+        {Grade::Bad, "Tracking was lost.",
+         percent(lost) + " of the frames rest on prediction alone; their covariance says so." + reasons + "."});
   } else if (ok < all) {
-    verdicts.push_back({Grade::Fair, "Tracking held, with less to go on at times.", percent(all - ok) + " of the frames are not OK." + reasons + "."});
+    verdicts.push_back({Grade::Fair, "Tracking held, with less to go on at times.",
+                        percent(all - ok) + " of the frames are not OK." + reasons + "."});
   } else {
-    verdicts.push_back({Grade::Good, "Tracking held throughout.", "All " + std::to_string(all) + " frames are OK, with " + forPerson(summary.features_mean) + " features on average."});
+    verdicts.push_back({Grade::Good, "Tracking held throughout.",
+                        "All " + std::to_string(all) + " frames are OK, with " + forPerson(summary.features_mean) +
+                            " features on average."});
   }
   return verdicts;
 }

@@ -22,7 +22,12 @@ int call(const std::vector<Command>& commands, std::vector<const char*> words) {
 Command probe(std::function<int(const Arguments&)> run) {
   Command command;
   command.name = "probe";
-  command.options = {{"INPUT", "", "", true, true, {}}, {"-o,--out", "DIR", "", true, false, {}}, {"--stages", "LIST", "", false, true, {}}, {"--fast", "", "", false, false, {}}, {"--kind", "K", "", false, false, {"a", "b"}}, threadsOption()};
+  command.options = {{"INPUT", "", "", true, true, {}},
+                     {"-o,--out", "DIR", "", true, false, {}},
+                     {"--stages", "LIST", "", false, true, {}},
+                     {"--fast", "", "", false, false, {}},
+                     {"--kind", "K", "", false, false, {"a", "b"}},
+                     threadsOption()};
   command.run = [run = std::move(run)](const Arguments& arguments, Console&) { return run(arguments); };
   return command;
 }
@@ -39,7 +44,9 @@ TEST(CommandLine, givesWhatWasGiven) {
     EXPECT_EQ(arguments.integer("threads", 7, 1, 64), 2);
     return 0;
   });
-  EXPECT_EQ(call({command}, {"probe", "x", "--stages", "vo,places", "y", "-o", "there", "--fast", "--threads", "2", "--stages", "loops"}), 0);
+  EXPECT_EQ(call({command}, {"probe", "x", "--stages", "vo,places", "y", "-o", "there", "--fast", "--threads", "2",
+                             "--stages", "loops"}),
+            0);
   EXPECT_TRUE(ran);
 }
 
@@ -52,9 +59,15 @@ TEST(CommandLine, tellsMistakesOfTheUserFromFaultsOfTheData) {
   EXPECT_EQ(call({fine}, {"probe", "x"}), 2) << "--out is missing";
   EXPECT_EQ(call({fine}, {"probe", "x", "-o", "d", "--unknown"}), 2);
   EXPECT_EQ(call({fine}, {"probe", "x", "-o", "d", "--kind", "c"}), 2);
-  EXPECT_EQ(call({probe([](const Arguments& a) { return static_cast<int>(a.integer("threads", 1, 1, 64)); })}, {"probe", "x", "-o", "d", "--threads", "0"}), 2);
-  EXPECT_EQ(call({probe([](const Arguments&) -> int { throw urban_nav_core::DataError("x", "is empty", ""); })}, {"probe", "x", "-o", "d"}), 1);
-  EXPECT_EQ(call({probe([](const Arguments&) -> int { throw std::runtime_error("the disk is full"); })}, {"probe", "x", "-o", "d"}), 1);
+  EXPECT_EQ(call({probe([](const Arguments& a) { return static_cast<int>(a.integer("threads", 1, 1, 64)); })},
+                 {"probe", "x", "-o", "d", "--threads", "0"}),
+            2);
+  EXPECT_EQ(call({probe([](const Arguments&) -> int { throw urban_nav_core::DataError("x", "is empty", ""); })},
+                 {"probe", "x", "-o", "d"}),
+            1);
+  EXPECT_EQ(call({probe([](const Arguments&) -> int { throw std::runtime_error("the disk is full"); })},
+                 {"probe", "x", "-o", "d"}),
+            1);
 }
 
 TEST(CommandLine, knowsTheParametersOfItsStages) {

@@ -9,8 +9,8 @@
 #include <filesystem>
 
 #include "convert/convert.hpp"
-#include "input/new_college_files.hpp"
 #include "convert/row_check.hpp"
+#include "input/new_college_files.hpp"
 #include "support/folders.hpp"
 #include "urban_nav_core/types/error.hpp"
 
@@ -47,7 +47,8 @@ TEST(NewCollegeBag, holdsTheRealCut) {
   const char* data = std::getenv("URBAN_NAV_DATA");
   if (data == nullptr) GTEST_SKIP() << "URBAN_NAV_DATA is not set: the log of New College is not here";
   const TemporaryFolder folder;
-  const std::string command = "xz -dc '" + std::string(data) + "/new_college/QuadTree_Alog.alog.xz' > '" + folder.file("cut.alog") + "'";
+  const std::string command =
+      "xz -dc '" + std::string(data) + "/new_college/QuadTree_Alog.alog.xz' > '" + folder.file("cut.alog") + "'";
   ASSERT_EQ(std::system(command.c_str()), 0);
   Console console;
   const Converted converted = convertNewCollege(folder.file("cut.alog"), folder.file("cut.bag"), console);
@@ -67,14 +68,18 @@ TEST(NewCollegeBag, holdsTheRealCut) {
       EXPECT_NEAR(scan->angle_min, -M_PI / 4, 1e-6);
       EXPECT_NEAR(scan->time_increment, 18.5e-6, 1e-6);
     }
-    if (const auto odometry = instance.instantiate<nav_msgs::Odometry>()) roll_span = std::max(roll_span, std::abs(odometry->pose.pose.orientation.x) + std::abs(odometry->pose.pose.orientation.y));
+    if (const auto odometry = instance.instantiate<nav_msgs::Odometry>())
+      roll_span = std::max(roll_span,
+                           std::abs(odometry->pose.pose.orientation.x) + std::abs(odometry->pose.pose.orientation.y));
   }
   EXPECT_GT(roll_span, 0.001) << "the tilt is there";
 }
 
 TEST(NewCollegeBag, leavesNothingBehindWhereTheLogIsDamaged) {
   const TemporaryFolder folder;
-  writeFile(folder.file("in/cut.alog"), "%% LOGSTART               1225719811.65\n61.850 LMS_LASER_2D_LEFT LMS1 ID=4044,time=1225719873.501685,angRes=0.50,Range=[181]{1.054,\n");
+  writeFile(folder.file("in/cut.alog"),
+            "%% LOGSTART               1225719811.65\n61.850 LMS_LASER_2D_LEFT LMS1 "
+            "ID=4044,time=1225719873.501685,angRes=0.50,Range=[181]{1.054,\n");
   Console console;
   try {
     convertNewCollege(folder.file("in"), folder.file("cut.bag"), console);

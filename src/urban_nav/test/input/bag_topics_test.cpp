@@ -16,9 +16,17 @@ const char* const kInfo = "sensor_msgs/CameraInfo";
 std::string name(const BagTopics& topics, Role role) { return topics.find(role) ? topics.find(role)->name : "none"; }
 
 TEST(BagTopics, takesTheSuitesOwnNames) {
-  const BagTopics topics = chooseTopics({{"/stereo/left/image_raw", kImage}, {"/stereo/right/image_raw", kImage}, {"/stereo/left/image_rect", kImage}, {"/stereo/right/image_rect", kImage},
-                                         {"/stereo/left/camera_info", kInfo}, {"/stereo/right/camera_info", kInfo}, {"/ladybug/camera0/image_raw/compressed", kCompressed},
-                                         {"/ladybug/camera1/image_raw/compressed", kCompressed}, {"/imu/data", "sensor_msgs/Imu"}, {"/wheel_odom", "nav_msgs/Odometry"}, {"/vo/odometry", "nav_msgs/Odometry"},
+  const BagTopics topics = chooseTopics({{"/stereo/left/image_raw", kImage},
+                                         {"/stereo/right/image_raw", kImage},
+                                         {"/stereo/left/image_rect", kImage},
+                                         {"/stereo/right/image_rect", kImage},
+                                         {"/stereo/left/camera_info", kInfo},
+                                         {"/stereo/right/camera_info", kInfo},
+                                         {"/ladybug/camera0/image_raw/compressed", kCompressed},
+                                         {"/ladybug/camera1/image_raw/compressed", kCompressed},
+                                         {"/imu/data", "sensor_msgs/Imu"},
+                                         {"/wheel_odom", "nav_msgs/Odometry"},
+                                         {"/vo/odometry", "nav_msgs/Odometry"},
                                          {"/ground_truth/pose", "geometry_msgs/PoseStamped"}},
                                         {});
   EXPECT_EQ(name(topics, Role::Left), "/stereo/left/image_raw");
@@ -28,13 +36,15 @@ TEST(BagTopics, takesTheSuitesOwnNames) {
   EXPECT_EQ(name(topics, Role::Imu), "/imu/data");
   EXPECT_EQ(name(topics, Role::Wheels), "/wheel_odom");
   EXPECT_EQ(name(topics, Role::Truth), "/ground_truth/pose");
-  EXPECT_EQ(topics.notes.size(), 7U);
+  EXPECT_EQ(topics.notes.size(), 8U);
 }
 
 TEST(BagTopics, guessesOtherPeoplesNames) {
-  for (const auto& [left, right, type] : {std::tuple("/cam0/image_raw", "/cam1/image_raw", kImage), std::tuple("/camera/infra1/image_rect_raw", "/camera/infra2/image_rect_raw", kImage),
-                                          std::tuple("/zed/left/image_rect_color/compressed", "/zed/right/image_rect_color/compressed", kCompressed),
-                                          std::tuple("kitti/image_00", "kitti/image_01", kImage)}) {
+  for (const auto& [left, right, type] :
+       {std::tuple("/cam0/image_raw", "/cam1/image_raw", kImage),
+        std::tuple("/camera/infra1/image_rect_raw", "/camera/infra2/image_rect_raw", kImage),
+        std::tuple("/zed/left/image_rect_color/compressed", "/zed/right/image_rect_color/compressed", kCompressed),
+        std::tuple("kitti/image_00", "kitti/image_01", kImage)}) {
     const BagTopics topics = chooseTopics({{left, type}, {right, type}, {"/other/image", kImage}}, {});
     EXPECT_EQ(name(topics, Role::Left), left);
     EXPECT_EQ(name(topics, Role::Right), right);
@@ -43,13 +53,22 @@ TEST(BagTopics, guessesOtherPeoplesNames) {
 }
 
 TEST(BagTopics, findsCameraInfoAboveCompressedImages) {
-  const BagTopics topics = chooseTopics({{"/a/left/image_raw/compressed", kCompressed}, {"/a/right/image_raw/compressed", kCompressed}, {"/a/left/camera_info", kInfo}, {"/a/right/camera_info", kInfo}}, {});
+  const BagTopics topics = chooseTopics({{"/a/left/image_raw/compressed", kCompressed},
+                                         {"/a/right/image_raw/compressed", kCompressed},
+                                         {"/a/left/camera_info", kInfo},
+                                         {"/a/right/camera_info", kInfo}},
+                                        {});
   EXPECT_EQ(name(topics, Role::LeftInfo), "/a/left/camera_info");
 }
 
 TEST(BagTopics, doesAsItIsTold) {
-  const Topics available = {{"/stereo/left/image_raw", kImage}, {"/stereo/right/image_raw", kImage}, {"/stereo/left/image_rect", kImage}, {"/stereo/right/image_rect", kImage}, {"/p", "geometry_msgs/PoseStamped"}};
-  EXPECT_EQ(name(chooseTopics(available, {"left:=stereo/left/image_rect"}), Role::Right), "/stereo/right/image_rect") << "the partner follows";
+  const Topics available = {{"/stereo/left/image_raw", kImage},
+                            {"/stereo/right/image_raw", kImage},
+                            {"/stereo/left/image_rect", kImage},
+                            {"/stereo/right/image_rect", kImage},
+                            {"/p", "geometry_msgs/PoseStamped"}};
+  EXPECT_EQ(name(chooseTopics(available, {"left:=stereo/left/image_rect"}), Role::Right), "/stereo/right/image_rect")
+      << "the partner follows";
   EXPECT_EQ(name(chooseTopics(available, {"ground_truth/pose:=/p"}), Role::Truth), "/p");
   EXPECT_THROW(chooseTopics(available, {"left:=/nowhere"}), urban_nav_core::UserError);
   EXPECT_THROW(chooseTopics(available, {"left:=/p"}), urban_nav_core::UserError) << "no image";

@@ -33,7 +33,8 @@ std::string messageOf(const std::function<void()>& call) {
 }
 
 TEST(KittiFolder, readsEachLayout) {
-  for (const auto& [left, right, digits] : {std::tuple("image_0", "image_1", 6), std::tuple("image_00", "image_01", 10), std::tuple("image_00/data", "image_01/data", 10)}) {
+  for (const auto& [left, right, digits] : {std::tuple("image_0", "image_1", 6), std::tuple("image_00", "image_01", 10),
+                                            std::tuple("image_00/data", "image_01/data", 10)}) {
     const TemporaryFolder folder;
     KittiStyle style;
     style.left = left;
@@ -68,7 +69,8 @@ TEST(KittiFolder, takesStampsFromRawTimestampsAndRates) {
   options.rate = 4.0;
   EXPECT_EQ(openKittiFolder(folder.file("in"), options)->info().last, 250'000'000);
   EXPECT_EQ(openKittiFolder(folder.file("in"), {})->info().last, 100'000'000) << "KITTI's cameras run at 10 Hz";
-  writeFile(folder.file("in/image_00/timestamps.txt"), "2011-09-26 13:02:25.964389445\n2011-09-26 13:02:26.067389445\n");
+  writeFile(folder.file("in/image_00/timestamps.txt"),
+            "2011-09-26 13:02:25.964389445\n2011-09-26 13:02:26.067389445\n");
   EXPECT_EQ(openKittiFolder(folder.file("in"), {})->info().first, 1317042145964389445);
 }
 

@@ -47,7 +47,8 @@ TEST(Evaluation, seesAScale) {
   const TemporaryFolder folder;
   urban_nav_core::writeTum(folder.file("a.tum"), curve(0, 1.0));
   urban_nav_core::writeTum(folder.file("b.tum"), curve(0, 1.02));
-  const Evaluation evaluation = evaluate(readTrajectory(folder.file("a.tum")), readTrajectory(folder.file("b.tum")), {}, {});
+  const Evaluation evaluation =
+      evaluate(readTrajectory(folder.file("a.tum")), readTrajectory(folder.file("b.tum")), {}, {});
   EXPECT_NEAR(evaluation.ten_frames->percent, 2.0, 0.05);
   EXPECT_NEAR(evaluation.ten_frames->step_ratio, 1.02, 1e-6);
   EXPECT_LT(evaluation.sim3.rmse, 1e-9);
@@ -76,10 +77,12 @@ TEST(Evaluation, readsKittiLinesWithoutStamps) {
   for (int i = 0; i < 20; ++i) poses.push_back(onCurve(i));
   urban_nav_core::writeKitti(folder.file("a.txt"), poses);
   urban_nav_core::writeKitti(folder.file("b.kitti"), poses);
-  EXPECT_LT(evaluate(readTrajectory(folder.file("a.txt")), readTrajectory(folder.file("b.kitti")), {}, {}).first.rmse, 1e-12);
+  EXPECT_LT(evaluate(readTrajectory(folder.file("a.txt")), readTrajectory(folder.file("b.kitti")), {}, {}).first.rmse,
+            1e-12);
   poses.pop_back();
   urban_nav_core::writeKitti(folder.file("c.kitti"), poses);
-  EXPECT_THROW(evaluate(readTrajectory(folder.file("a.txt")), readTrajectory(folder.file("c.kitti")), {}, {}), urban_nav_core::DataError);
+  EXPECT_THROW(evaluate(readTrajectory(folder.file("a.txt")), readTrajectory(folder.file("c.kitti")), {}, {}),
+               urban_nav_core::DataError);
   EXPECT_THROW(readTrajectory(folder.file("d.bin")), urban_nav_core::UserError);
   EXPECT_THROW(parseSpans({"10"}), urban_nav_core::UserError);
 }
@@ -89,10 +92,13 @@ TEST(Evaluation, weighsErrorsByTheCovariance) {
   urban_nav_core::writeTum(folder.file("a.tum"), curve(0, 1.0));
   urban_nav_core::writeTum(folder.file("b.tum"), curve(0, 1.01));
   std::vector<urban_nav_core::CovarianceRow> rows;
-  for (const urban_nav_core::StampedPose& pose : curve(0, 1.01)) rows.push_back({pose.stamp, urban_nav_core::Health::Ok, 1e-4 * urban_nav_core::Matrix6d::Identity()});
-  const Evaluation small = evaluate(readTrajectory(folder.file("a.tum")), readTrajectory(folder.file("b.tum")), rows, {});
+  for (const urban_nav_core::StampedPose& pose : curve(0, 1.01))
+    rows.push_back({pose.stamp, urban_nav_core::Health::Ok, 1e-4 * urban_nav_core::Matrix6d::Identity()});
+  const Evaluation small =
+      evaluate(readTrajectory(folder.file("a.tum")), readTrajectory(folder.file("b.tum")), rows, {});
   for (urban_nav_core::CovarianceRow& row : rows) row.covariance *= 4.0;
-  const Evaluation large = evaluate(readTrajectory(folder.file("a.tum")), readTrajectory(folder.file("b.tum")), rows, {});
+  const Evaluation large =
+      evaluate(readTrajectory(folder.file("a.tum")), readTrajectory(folder.file("b.tum")), rows, {});
   ASSERT_TRUE(small.nees && large.nees);
   EXPECT_NEAR(small.nees->mean, 4.0 * large.nees->mean, 1e-9 * small.nees->mean);
 }

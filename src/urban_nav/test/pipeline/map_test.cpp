@@ -21,9 +21,11 @@ using testing::writeFile;
 using urban_nav_core::DataError;
 using urban_nav_core::UserError;
 
-const std::vector<std::string> kSame = {"trajectory.tum", "trajectory.kitti", "covariance.csv", "relative_covariance.csv", "graph.g2o", "landmarks.ply"};
+const std::vector<std::string> kSame = {"trajectory.tum",          "trajectory.kitti", "covariance.csv",
+                                        "relative_covariance.csv", "graph.g2o",        "landmarks.ply"};
 
-void map(const std::vector<std::string>& inputs, const std::string& out, int threads = 1, const std::function<void(MapRequest&)>& change = {}) {
+void map(const std::vector<std::string>& inputs, const std::string& out, int threads = 1,
+         const std::function<void(MapRequest&)>& change = {}) {
   const Arguments none({});
   MapRequest request{inputs, out, {"vo"}, "", "", {}, loadParameters(none), threads};
   if (change) change(request);
@@ -54,25 +56,31 @@ std::unique_ptr<TemporaryFolder> Map::shared_;
 
 TEST_F(Map, writesAPosePerFrameNearTheTruth) {
   const urban_nav_core::Trajectory trajectory = urban_nav_core::readTum(out() + "/trajectory.tum");
-  const std::vector<urban_nav_core::Pose> estimate = urban_nav_core::readKitti(out() + "/trajectory.kitti"), truth = urban_nav_core::readKitti(in() + "/poses.txt");
+  const std::vector<urban_nav_core::Pose> estimate = urban_nav_core::readKitti(out() + "/trajectory.kitti"),
+                                          truth = urban_nav_core::readKitti(in() + "/poses.txt");
   ASSERT_EQ(trajectory.size(), 16U);
   ASSERT_EQ(estimate.size(), truth.size());
   EXPECT_EQ(trajectory[3].stamp, 150'000'000);
   EXPECT_TRUE(isApprox(trajectory.front().pose, urban_nav_core::Pose(), 1e-9)) << "odom is the first base_link";
   EXPECT_LT(distanceBetween(estimate.back(), truth.back()), 0.05);
   EXPECT_GT(distanceBetween(truth.front(), truth.back()), 0.2) << "else the test says nothing";
-  for (const char* name : {"stats.csv", "summary.json", "report.html"}) EXPECT_FALSE(readFile(out() + "/" + name).empty()) << name;
+  for (const char* name : {"stats.csv", "summary.json", "report.html"})
+    EXPECT_FALSE(readFile(out() + "/" + name).empty()) << name;
 }
 
 TEST_F(Map, saysWhatTheContractAsksFor) {
   const std::string summary = readFile(out() + "/summary.json");
-  for (const char* key : {"wall_s", "cpu_s", "peak_rss_bytes", "realtime_factor", "distance_m", "frames", "swf_vo", "ms_median", "ms_p99", "features_mean", "track_length_mean", "reprojection_px_mean",
-                          "status_counts", "warnings", "ate_m", "ate_se3_m", "ate_sim3_m", "rpe_percent", "rpe_deg_per_m", "nees_mean", "frames_truth", "frames_estimate"}) {
+  for (const char* key :
+       {"wall_s",        "cpu_s",     "peak_rss_bytes", "realtime_factor", "distance_m",        "frames",
+        "swf_vo",        "ms_median", "ms_p99",         "features_mean",   "track_length_mean", "reprojection_px_mean",
+        "status_counts", "warnings",  "ate_m",          "ate_se3_m",       "ate_sim3_m",        "rpe_percent",
+        "rpe_deg_per_m", "nees_mean", "frames_truth",   "frames_estimate"}) {
     EXPECT_NE(summary.find("\"" + std::string(key) + "\":"), std::string::npos) << key;
   }
   const std::string report = readFile(out() + "/report.html");
   EXPECT_EQ(report.find("http-equiv=\"refresh\""), std::string::npos) << "a finished report stands still";
-  for (const char* word : {"src=\"http", "href=\"http", "url(http", "@import"}) EXPECT_EQ(report.find(word), std::string::npos) << word;
+  for (const char* word : {"src=\"http", "href=\"http", "url(http", "@import"})
+    EXPECT_EQ(report.find(word), std::string::npos) << word;
 }
 
 TEST_F(Map, givesEqualBytesWithTwoThreads) {
@@ -109,10 +117,12 @@ TEST_F(Map, refusesWhatNobodyCanMap) {
   const auto with_stage = [](const char* stage) { return [stage](MapRequest& request) { request.stages = {stage}; }; };
   EXPECT_THROW(map({in()}, folder.file("out"), 1, with_stage("places")), UserError);
   EXPECT_THROW(map({in()}, folder.file("out"), 1, with_stage("vision")), UserError);
-  EXPECT_THROW(map({in()}, folder.file("out"), 1, [](MapRequest& request) { request.truth = "/nowhere.tum"; }), UserError);
+  EXPECT_THROW(map({in()}, folder.file("out"), 1, [](MapRequest& request) { request.truth = "/nowhere.tum"; }),
+               UserError);
   fs::copy(in(), folder.file("in"), fs::copy_options::recursive);
   for (const char* side : {"image_0", "image_1"}) {
-    for (const auto& entry : fs::directory_iterator(folder.file(std::string("in/") + side))) writeFile(entry.path().string(), "damaged");
+    for (const auto& entry : fs::directory_iterator(folder.file(std::string("in/") + side)))
+      writeFile(entry.path().string(), "damaged");
   }
   EXPECT_THROW(map({folder.file("in")}, folder.file("out")), DataError);
 }
@@ -126,7 +136,8 @@ TEST_F(Map, readsItsOwnBagsLikeTheFolder) {
   EXPECT_EQ(converted.counts.at("/ground_truth/pose"), 16);
   EXPECT_EQ(converted.counts.at("/tf_static"), 1);
   map({folder.file("in.bag")}, folder.file("out"));
-  EXPECT_EQ(readFile(out() + "/trajectory.kitti"), readFile(folder.file("out/trajectory.kitti"))) << "same images, same camera, same bytes";
+  EXPECT_EQ(readFile(out() + "/trajectory.kitti"), readFile(folder.file("out/trajectory.kitti")))
+      << "same images, same camera, same bytes";
   EXPECT_NE(readFile(folder.file("out/summary.json")).find("/ground_truth/pose"), std::string::npos);
 
   testing::rewriteBag(folder.file("in.bag"), folder.file("shuffled.bag"), testing::Rewrite::Shuffle);
@@ -137,9 +148,12 @@ TEST_F(Map, readsItsOwnBagsLikeTheFolder) {
   map({folder.file("blind.bag")}, folder.file("blind"));
   expectSame(folder.file("out"), folder.file("blind"));
 
-  testing::rewriteBag(folder.file("in.bag"), folder.file("other.bag"), testing::Rewrite::CompressedColourUnderOtherNames);
-  map({folder.file("other.bag")}, folder.file("other"), 1, [&](MapRequest& request) { request.source.calibration = in() + "/calib.txt"; });
-  EXPECT_EQ(readFile(out() + "/trajectory.kitti"), readFile(folder.file("other/trajectory.kitti"))) << "PNG in colour holds the same grey";
+  testing::rewriteBag(folder.file("in.bag"), folder.file("other.bag"),
+                      testing::Rewrite::CompressedColourUnderOtherNames);
+  map({folder.file("other.bag")}, folder.file("other"), 1,
+      [&](MapRequest& request) { request.source.calibration = in() + "/calib.txt"; });
+  EXPECT_EQ(readFile(out() + "/trajectory.kitti"), readFile(folder.file("other/trajectory.kitti")))
+      << "PNG in colour holds the same grey";
 }
 
 TEST_F(Map, leavesNoHalfBagBehind) {
@@ -153,7 +167,8 @@ TEST_F(Map, leavesNoHalfBagBehind) {
   } catch (const DataError& error) {
     EXPECT_NE(std::string(error.what()).find("image_1/000005.png"), std::string::npos) << error.what();
   }
-  for (const auto& entry : fs::directory_iterator(folder.file(""))) EXPECT_EQ(entry.path().filename(), "in") << entry.path();
+  for (const auto& entry : fs::directory_iterator(folder.file("")))
+    EXPECT_EQ(entry.path().filename(), "in") << entry.path();
 }
 
 }  // namespace

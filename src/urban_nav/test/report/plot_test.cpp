@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "report/page.hpp"
+#include "report/raster_plot.hpp"
 #include "report/standalone_svg.hpp"
 
 namespace urban_nav {
@@ -52,7 +53,8 @@ TEST(Plot, keepsExtremesOfALongLine) {
   plot.series.push_back(line(points));
   const std::string svg = renderSvg(plot);
   EXPECT_LT(svg.size(), 60000U);
-  EXPECT_NE(svg.find(" 25."), std::string::npos) << "the spike reaches the top of the plot (12 px, and 6 % of the range, below its edge)";
+  EXPECT_NE(svg.find(" 25."), std::string::npos)
+      << "the spike reaches the top of the plot (12 px, and 6 % of the range, below its edge)";
 }
 
 TEST(Plot, survivesASinglePoint) {
@@ -60,6 +62,14 @@ TEST(Plot, survivesASinglePoint) {
   plot.equal_axes = true;
   plot.series.push_back(line({{5.0, 5.0}}));
   EXPECT_EQ(renderSvg(plot).find("nan"), std::string::npos);
+}
+
+TEST(Plot, becomesAPicture) {
+  Plot plot;
+  plot.series.push_back(line({{0, 0}, {1, kNan}, {2, 3}, {4, 1}}));
+  const std::vector<unsigned char> png = rasterPng({{"one", plot}, {"nothing", {}}});
+  ASSERT_GT(png.size(), 1000U);
+  EXPECT_EQ(std::string(png.begin() + 1, png.begin() + 4), "PNG");
 }
 
 TEST(Plot, escapesNames) {

@@ -17,7 +17,8 @@ namespace {
 void writeCompressed(const rosbag::MessageInstance& instance, rosbag::Bag& bag) {
   const auto image = instance.instantiate<sensor_msgs::Image>();
   if (!image) return;
-  const cv::Mat grey(static_cast<int>(image->height), static_cast<int>(image->width), CV_8UC1, image->data.data(), image->step);
+  const cv::Mat grey(static_cast<int>(image->height), static_cast<int>(image->width), CV_8UC1, image->data.data(),
+                     image->step);
   cv::Mat colour;
   cv::cvtColor(grey, colour, cv::COLOR_GRAY2BGR);
   sensor_msgs::CompressedImage message;
@@ -45,7 +46,9 @@ void rewriteBag(const std::string& from, const std::string& to, Rewrite how) {
       case Rewrite::WithoutTruth:
         if (topic != "/ground_truth/pose") out.write(topic, instance.getTime(), instance);
         break;
-      case Rewrite::CompressedColourUnderOtherNames: writeCompressed(instance, out); break;
+      case Rewrite::CompressedColourUnderOtherNames:
+        writeCompressed(instance, out);
+        break;
     }
   }
 }

@@ -6,7 +6,7 @@
 namespace urban_nav::testing {
 
 enum class Rewrite {
-  Shuffle,                          ///< messages in another order, each within 40 ms of its place
+  Shuffle,  ///< messages in another order, each within 40 ms of its place
   WithoutTruth,
   CompressedColourUnderOtherNames,  ///< PNG in colour on /cam0/..., no camera_info, no tf
 };

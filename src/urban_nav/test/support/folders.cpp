@@ -49,7 +49,8 @@ void makeKittiFolder(const std::string& path, const KittiStyle& style) {
   options.camera.cy = 89.5;
   options.camera.baseline = 0.12;
   options.first_stamp = 0;
-  urban_nav_core::testing::RenderedSequence sequence(urban_nav_core::testing::texturedRoom(), urban_nav_core::testing::loop(2.5, 1.5, 1.1, 30.0), options);
+  urban_nav_core::testing::RenderedSequence sequence(urban_nav_core::testing::texturedRoom(),
+                                                     urban_nav_core::testing::loop(2.5, 1.5, 1.1, 30.0), options);
   StereoCamera camera;
   camera.left = {190.0, 190.0, 119.5, 89.5, 240, 180};
   camera.baseline = 0.12;
@@ -66,7 +67,8 @@ void makeKittiFolder(const std::string& path, const KittiStyle& style) {
       const auto& image = left ? frame.left : frame.right;
       const fs::path folder = fs::path(path) / (left ? style.left : style.right);
       fs::create_directories(folder);
-      cv::imwrite((folder / (name.str() + ".png")).string(), cv::Mat(image.height, image.width, CV_8U, const_cast<std::uint8_t*>(image.pixels.data())));
+      cv::imwrite((folder / (name.str() + ".png")).string(),
+                  cv::Mat(image.height, image.width, CV_8U, const_cast<std::uint8_t*>(image.pixels.data())));
     }
     times += printStamp(frame.stamp) + "\n";
     poses.push_back(sequence.T_world_camera(0).inverse() * sequence.T_world_camera(i));
