@@ -15,6 +15,7 @@ header, main, footer { max-width: 1180px; margin: 0 auto; padding: 0 20px; }
 header { padding-top: 28px; }
 h1 { font-size: 1.9rem; margin: 0; letter-spacing: -0.01em; overflow-wrap: anywhere; }
 h2 { font-size: 1.3rem; margin: 44px 0 6px; padding-top: 14px; border-top: 1px solid var(--edge); }
+p, td, figcaption { overflow-wrap: anywhere; }
 h3 { font-size: 0.98rem; margin: 0 0 8px; }
 .subtitle { color: var(--soft); margin: 4px 0 10px; }
 nav { display: flex; flex-wrap: wrap; gap: 4px 18px; font-size: 0.92rem; }
