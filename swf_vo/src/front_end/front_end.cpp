@@ -52,9 +52,21 @@ class FrontEnd::Implementation {
         camera_(camera),
         corners_(parameters.pyramid_levels, topLevel(camera.left.width), parameters.fast_threshold, featuresIn(camera, parameters.features)),
         rotation_(camera.left),
-        localiser_(camera),
-        tracks_(4 * featuresIn(camera, parameters.features)),
-        replenisher_(camera, featuresIn(camera, parameters.features), parameters.pixel_noise_floor) {}
+        capacity_(4 * featuresIn(camera, parameters.features)),
+        localiser_(camera, capacity_),
+        tracks_(capacity_),
+        replenisher_(camera, featuresIn(camera, parameters.features), parameters.pixel_noise_floor) {
+    const std::size_t capacity = static_cast<std::size_t>(capacity_);
+    matches_.reserve(capacity);
+    orphans_.reserve(capacity);
+    parallax_.reserve(capacity);
+    errors_.reserve(capacity);
+    starts_.reserve(2);
+    result_.tracked.reserve(capacity);
+    result_.fresh.reserve(capacity);
+    result_.ended.reserve(2 * capacity);
+    result_.refuted.reserve(capacity);
+  }
 
   const FrontEndResult& process(FrameId frame, const StereoPair& pair, const Pose& last, const Pose& predicted, const std::vector<MapPoint>& map) {
     clear(predicted);
@@ -204,6 +216,7 @@ class FrontEnd::Implementation {
     Track& track = *match.track;
     if (match.inlier) {
       fillIn(match);
+      learnSurface(corners_, camera_, result_.T_odom_camera.inverse(), match);
       result_.tracked.push_back({track.id, frame, match.z, match.information});
       ++track.seen;
       track.missed = track.disagreed = 0;
@@ -239,6 +252,7 @@ class FrontEnd::Implementation {
   StereoCamera camera_;
   Corners corners_;
   RotationTracker rotation_;
+  int capacity_;
   Localiser localiser_;
   Tracks tracks_;
   Replenisher replenisher_;

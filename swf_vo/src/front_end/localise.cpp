@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -23,7 +24,7 @@ namespace {
 constexpr double cauchy2 = 5.7;       // (2.385 sigma)^2: 95 % efficiency, Zhang 1997
 constexpr double gate = 16.3;         // chi-square, 3 degrees of freedom, 99.9 %
 constexpr int most_steps = 12;
-constexpr int samples = 24, sample_size = 3;
+constexpr int samples = 24;
 constexpr double prediction_bonus = 0.9;  // a start that was found by consensus must be better by more than this
 constexpr double clear_majority = 0.35;   // share of the highest cost, below which no other motion is looked for
 constexpr double full_trust_age = 6.0;    // frames
@@ -88,7 +89,7 @@ bool Localiser::residual(const Item& item, const Pose& T_camera_odom, Eigen::Vec
   return true;
 }
 
-Pose Localiser::descend(Pose T, int steps, const std::vector<int>* only) const {
+Pose Localiser::descend(Pose T, int steps, const std::array<int, sample_size>* only) const {
   const Pose anchor = T;
   for (int step = 0; step < steps; ++step) {
     Matrix6d H = Matrix6d::Zero();
@@ -134,15 +135,12 @@ Pose Localiser::bestByConsensus(const Pose& start, double& best_cost) const {
   Pose best = start;
   const std::uint32_t count = static_cast<std::uint32_t>(items_.size());
   std::uint32_t state = 12345;
-  static_assert(sample_size == 3);
-  std::vector<int> chosen;
-  chosen.reserve(sample_size);
+  std::array<int, sample_size> chosen{};
   for (int sample = 0; sample < samples; ++sample) {
-    chosen.clear();
-    while (chosen.size() < sample_size) {
+    for (auto next = chosen.begin(); next != chosen.end();) {
       state = state * 1664525U + 1013904223U;
-      const int i = static_cast<int>((state >> 8) % count);
-      if (std::find(chosen.begin(), chosen.end(), i) == chosen.end()) chosen.push_back(i);
+      *next = static_cast<int>((state >> 8) % count);
+      if (std::find(chosen.begin(), next, *next) == next) ++next;
     }
     const Pose T = descend(start, 6, &chosen);
     const double c = cost(T);

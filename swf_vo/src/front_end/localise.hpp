@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "front_end/match.hpp"
@@ -28,11 +29,13 @@ struct LocaliseOptions {
 /// van ahead that fills the view has few old friends. Sets `inlier` and `chi2` of each match.
 class Localiser {
  public:
-  explicit Localiser(const urban_nav_core::StereoCamera& camera) : camera_(camera) {}
+  /// `capacity`: of matches, for which memory is taken at once.
+  explicit Localiser(const urban_nav_core::StereoCamera& camera, int capacity = 0) : camera_(camera) { items_.reserve(static_cast<std::size_t>(capacity)); }
 
   Localisation locate(const std::vector<urban_nav_core::Pose>& T_camera_odom_starts, const LocaliseOptions& options, std::vector<Match>& matches);
 
  private:
+  static constexpr int sample_size = 3;  // three points in stereo fix a motion with some to spare
   struct Item {
     Eigen::Vector4d p_odom;
     Eigen::Vector3d z;
@@ -42,7 +45,7 @@ class Localiser {
   };
   void prepare(const urban_nav_core::Pose& T_camera_odom, const LocaliseOptions& options, const std::vector<Match>& matches);
   bool residual(const Item& item, const urban_nav_core::Pose& T_camera_odom, Eigen::Vector3d& e, Eigen::Matrix<double, 3, 6>* J) const;
-  urban_nav_core::Pose descend(urban_nav_core::Pose T_camera_odom, int steps, const std::vector<int>* only) const;
+  urban_nav_core::Pose descend(urban_nav_core::Pose T_camera_odom, int steps, const std::array<int, sample_size>* only) const;
   double cost(const urban_nav_core::Pose& T_camera_odom) const;
   urban_nav_core::Pose bestByConsensus(const urban_nav_core::Pose& start, double& best_cost) const;
 

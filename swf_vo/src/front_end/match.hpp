@@ -12,7 +12,7 @@ struct Sighting {
   bool found = false;
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
-  double correlation = 0.0;
+  double correlation = 0.0, gain = 1.0, noise = 0.0;        ///< of the alignment (patch.hpp)
 };
 
 /// What became of one landmark of the map in the frame at hand.

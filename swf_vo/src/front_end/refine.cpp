@@ -18,6 +18,8 @@ constexpr double largest_scale = 1.5, smallest_scale = 0.6;
 constexpr double same_warp = 0.02;  // of an entry: 0.1 px at the border of the window
 constexpr double row_gate = 9.0;    // chi-square of the difference of the rows, one degree of freedom
 constexpr double row_slack_px = 0.3;  // what rectification may be wrong by
+constexpr double further = 1.4;         // a slant is learnt anew each time the camera has moved so much further
+constexpr double steepest = 20.0;       // change of a surface's slant in one step, tangent
 constexpr double least_gain = 0.2, largest_gain = 5.0;
 
 }  // namespace
@@ -51,7 +53,30 @@ Sighting refine(Side side, const Corners& corners, const Track& track, const Eig
   sighting.pixel = a.position * size;
   sighting.covariance = a.covariance * (size * size);
   sighting.correlation = a.correlation;
+  sighting.gain = a.gain;
+  sighting.noise = a.noise;
   return sighting;
+}
+
+void learnSurface(const Corners& corners, const StereoCamera& camera, const Pose& T_camera_odom, Match& match) {
+  Track& track = *match.track;
+  const double inverse_depth = inverseDepthWhereBorn(match);
+  const Eigen::Vector2d direction = slantDirection(camera, track, T_camera_odom * track.T_born_odom.inverse(), inverse_depth);
+  if (!match.left.found || !track.left_ready || !(direction.norm() > further * track.slant_reach)) return;
+  Alignment alignment;
+  alignment.converged = true;
+  alignment.position = match.left.pixel * urban_nav_core::Pyramid::scale(track.level);
+  alignment.gain = match.left.gain;
+  alignment.noise = match.left.noise;
+  const urban_nav_core::Slant slant = urban_nav_core::refineSlant(corners.image(Side::Left, track.level), track.source, track.in_left, alignment, direction,
+                                                                  track.slant_information);
+  track.slant_reach = direction.norm();
+  const double at_ray = track.plane.dot(track.ray);
+  if (!(slant.change.norm() < steepest * std::max(inverse_depth, 1e-3)) || !(at_ray > 1e-9) || !(inverse_depth > 0.0)) return;
+  track.plane *= inverse_depth / at_ray;
+  const Eigen::Vector2d change(slant.change.x(), slant.change.y() * camera.left.fy / camera.left.fx);
+  track.plane += Eigen::Vector3d(change.x(), change.y(), -change.dot(track.ray.head<2>()));
+  track.slant_information = slant.information;
 }
 
 void combine(double floor_px, Match& match) {

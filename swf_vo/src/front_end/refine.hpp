@@ -19,6 +19,10 @@ bool prepareTemplate(Side side, const urban_nav_core::StereoCamera& camera, cons
 /// Aligns the template that was made ready to the image from `start` (px of level 0), at most `reach` px of its level.
 Sighting refine(Side side, const Corners& corners, const Track& track, const Eigen::Vector2d& start, double reach);
 
+/// Learns how the landmark's surface slants from its sighting in the left image, once the camera has moved far enough since this was
+/// done last. The templates must be those of the sighting.
+void learnSurface(const Corners& corners, const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_camera_odom, Match& match);
+
 /// The two sightings as one measurement (u_left, v, u_right): the row counts once, weighed by both. `floor_px` is added to the
 /// standard deviation of each coordinate. Not measured if neither image has it, or if the rows contradict each other.
 void combine(double floor_px, Match& match);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "front_end/replenish.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -104,6 +105,8 @@ bool Replenisher::start(const Candidate& candidate, FrameId frame, const Corners
   track->T_born_odom = T_odom_camera.inverse();
   track->ray = camera_.left.ray(match.left.pixel);
   track->plane = surface(camera_, {match.left.pixel.x(), match.left.pixel.y(), match.right.pixel.x()}, found.slopes);
+  track->slant_information = camera_.baseline * camera_.baseline * found.slopes_covariance.inverse();
+  track->slant_reach = camera_.baseline;
   track->sigma_disparity = std::sqrt(match.left.covariance(0, 0) + match.right.covariance(0, 0) + 2.0 * floor_px_ * floor_px_);
   track->z = match.z;
   track->source = *source;

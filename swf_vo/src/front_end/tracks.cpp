@@ -36,6 +36,14 @@ std::optional<Eigen::Matrix2d> warpInto(Side side, const StereoCamera& camera, c
   return A / p.z();
 }
 
+Eigen::Vector2d slantDirection(const StereoCamera& camera, const Track& track, const Pose& T_camera_born, double inverse_depth) {
+  const Eigen::Vector3d t = T_camera_born.t();
+  const Eigen::Vector3d p = T_camera_born.q() * track.ray + t * std::max(inverse_depth, 0.0);
+  if (!(p.z() > 0.05)) return Eigen::Vector2d::Zero();
+  const Eigen::Vector2d along = (t.head<2>() - p.head<2>() / p.z() * t.z()) / p.z();
+  return {along.x(), along.y() * camera.left.fy / camera.left.fx};
+}
+
 Tracks::Tracks(int capacity) : places_(static_cast<std::size_t>(capacity)) {
   order_.reserve(places_.size());
   free_.reserve(places_.size());

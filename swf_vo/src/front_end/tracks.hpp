@@ -27,6 +27,8 @@ struct Track {
   urban_nav_core::Pose T_born_odom;                     ///< odom into the left camera of its first frame
   Eigen::Vector3d ray = Eigen::Vector3d::UnitZ();       ///< of the template's middle in that camera, z = 1
   Eigen::Vector3d plane = Eigen::Vector3d::Zero();      ///< its surface there: plane . X = 1 (1/m); zero: at infinity
+  Eigen::Matrix2d slant_information = Eigen::Matrix2d::Zero();  ///< of plane.x and plane.y fx / fy, m^2
+  double slant_reach = 0.0;                             ///< how far the camera had moved, as far as the slant shows it, when it was last learnt (m)
   double sigma_disparity = 1.0;                         ///< of the first observation, px
   Eigen::Vector3d z = Eigen::Vector3d::Zero();          ///< last trusted measurement: u_left, v, u_right (px)
   urban_nav_core::PatchSource source;
@@ -42,6 +44,10 @@ Eigen::Vector3d surface(const urban_nav_core::StereoCamera& camera, const urban_
 /// `inverse_depth`: 1/z of the landmark in the first camera, as the map has it now. Empty if it would lie behind the camera.
 std::optional<Eigen::Matrix2d> warpInto(Side side, const urban_nav_core::StereoCamera& camera, const Track& track,
                                         const urban_nav_core::Pose& T_camera_born, double inverse_depth);
+
+/// Where a pixel next to the landmark goes if its surface slants by one unit more: the `direction` of urban_nav_core::refineSlant, m.
+Eigen::Vector2d slantDirection(const urban_nav_core::StereoCamera& camera, const Track& track, const urban_nav_core::Pose& T_camera_born,
+                               double inverse_depth);
 
 /// What is being followed. Places are reused, so nothing is allocated once `capacity` is reached; ids are never reused.
 class Tracks {

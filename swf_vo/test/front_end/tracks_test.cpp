@@ -84,6 +84,22 @@ TEST(Tracks, WarpIsTheDerivativeOfTheHomography) {
   }
 }
 
+TEST(Tracks, SlantDirectionIsTheDerivativeOfTheWarp) {
+  const StereoCamera c = camera();
+  Track track;
+  track.ray = c.left.ray({300.0, 250.0});
+  track.plane = surface(c, {300.0, 250.0, 290.0}, {0.05, 0.25});
+  const Pose T(expSo3({0.03, -0.1, 0.2}), Eigen::Vector3d(0.3, -0.1, -2.0));
+  const double inverse_depth = track.plane.dot(track.ray);
+  const Eigen::Vector2d direction = slantDirection(c, track, T, inverse_depth);
+  const Eigen::Matrix2d before = *warpInto(Side::Left, c, track, T, inverse_depth);
+  const Eigen::Vector2d slant(1e-5, -2e-5);
+  const Eigen::Vector2d change(slant.x(), slant.y() * c.left.fy / c.left.fx);
+  track.plane += Eigen::Vector3d(change.x(), change.y(), -change.dot(track.ray.head<2>()));
+  const Eigen::Matrix2d after = *warpInto(Side::Left, c, track, T, inverse_depth);
+  EXPECT_LT((after - before - direction * slant.transpose()).norm(), 1e-9);
+}
+
 TEST(Tracks, WarpOfAPointAtInfinityTurnsOnly) {
   const StereoCamera c = camera();
   Track track;

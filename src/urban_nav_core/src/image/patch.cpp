@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "urban_nav_core/image/patch.hpp"
+#include "patch_kernel.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -9,6 +9,9 @@
 #include <opencv2/core/hal/intrin.hpp>
 
 namespace urban_nav_core {
+
+using namespace patch_kernel;
+
 namespace {
 
 using cv::v_float32x4;
@@ -16,12 +19,10 @@ using cv::v_float32x4;
 constexpr double window_sigma = 3.0;      // px
 constexpr int phases = 256;               // of the spline's table: 1/512 px at most beside the exact phase
 constexpr double own_blur = 1.0 / 3.0 + 0.25;  // px^2, variance of the spline and of a usual lens (0.5 px), along each axis
-constexpr double largest_blur_tap = 0.33;       // a scale of 1.46
-constexpr double smoothed_noise = 0.24;   // variance left of white noise by the spline, mean over the phases (0.25 at 0, 0.21 at 1/2)
+constexpr double least_blur_tap = 0.01, largest_blur_tap = 0.33;  // the largest is a scale of 1.46
 constexpr double min_scale = 0.4, max_scale = 2.5;
 constexpr int max_iterations = 12;
 constexpr double settled_step = 0.003;    // px
-constexpr double insistence = 6.0;        // chi-square by which pixels must speak for an unusual slope
 
 std::array<float, 4> spline(double f) {
   const double g = 1.0 - f;
@@ -40,36 +41,7 @@ const SplineTable& splineTable() {
   return table;
 }
 
-struct Window {
-  alignas(16) PatchGrid weight{};
-  double total = 0.0;
-  Window() {
-    for (int v = 0; v < patch_size; ++v)
-      for (int u = 0; u < patch_size; ++u) {
-        const double r2 = std::pow(u - patch_radius, 2) + std::pow(v - patch_radius, 2);
-        const float w = static_cast<float>(std::exp(-r2 / (2.0 * window_sigma * window_sigma)));
-        weight[static_cast<std::size_t>(v * patch_stride + u)] = w;
-        total += static_cast<double>(w);
-      }
-  }
-};
-const Window& window() {
-  static const Window made;
-  return made;
-}
-
 double sum(const v_float32x4& a) { return static_cast<double>(cv::v_reduce_sum(a)); }
-
-double dot(const PatchGrid& a, const PatchGrid& b) {
-  v_float32x4 total = cv::v_setzero_f32();
-  for (std::size_t i = 0; i < a.size(); i += 4) total += cv::v_load(&a[i]) * cv::v_load(&b[i]);
-  return sum(total);
-}
-
-/// May the window, with the spline's margin, stand at this position?
-bool fits(const ImageView& image, double x, double y) {
-  return x >= patch_radius + 2 && y >= patch_radius + 2 && x < image.width - patch_radius - 3 && y < image.height - patch_radius - 3;
-}
 
 struct Row16 {
   v_float32x4 part[4];
@@ -101,33 +73,6 @@ std::array<float, taps> blurredSpline(double f, double blur) {
   return made;
 }
 
-/// The window at a sub-pixel position, read through the spline and as blurred as the template. Needs fits().
-void readWindow(const ImageView& image, double x, double y, double blur, PatchGrid& out) {
-  const int u = static_cast<int>(x), v = static_cast<int>(y);
-  const std::array<float, taps> wx = blurredSpline(x - u, blur), wy = blurredSpline(y - v, blur);
-  const int left = u - patch_radius - 2;
-  alignas(16) float column[patch_size][20];  // what is beyond 16 meets the padding alone
-  v_float32x4 weight[taps];
-  for (std::size_t k = 0; k < taps; ++k) weight[k] = cv::v_setall_f32(wy[k]);
-  Row16 rows[patch_size + taps - 1];
-  for (int i = 0; i < patch_size + taps - 1; ++i) rows[i] = loadRow(image.row(v - patch_radius - 2 + i) + left);
-  for (int i = 0; i < patch_size; ++i) {
-    cv::v_store_aligned(&column[i][16], cv::v_setzero_f32());
-    for (int k = 0; k < 4; ++k)
-      cv::v_store_aligned(&column[i][4 * k],
-                          weight[0] * rows[i].part[k] + weight[1] * rows[i + 1].part[k] + (weight[2] * rows[i + 2].part[k] + weight[3] * rows[i + 3].part[k]) +
-                              (weight[4] * rows[i + 4].part[k] + weight[5] * rows[i + 5].part[k]));
-  }
-  for (std::size_t k = 0; k < taps; ++k) weight[k] = cv::v_setall_f32(wx[k]);
-  for (int i = 0; i < patch_size; ++i)
-    for (int k = 0; k < 12; k += 4) {
-      const float* c = &column[i][k];
-      const v_float32x4 value = weight[0] * cv::v_load(c) + weight[1] * cv::v_load(c + 1) + (weight[2] * cv::v_load(c + 2) + weight[3] * cv::v_load(c + 3)) +
-                                (weight[4] * cv::v_load(c + 4) + weight[5] * cv::v_load(c + 5));
-      cv::v_store(&out[static_cast<std::size_t>(i * patch_stride + k)], value);
-    }
-}
-
 constexpr int wide_size = patch_size + 4, wide_stride = 16;  // one for the gradient, one for the blur
 using WideGrid = std::array<float, wide_size * wide_stride>;
 
@@ -156,23 +101,11 @@ void warpWide(const PatchSource& source, const Eigen::Matrix2d& source_from_view
     }
 }
 
-/// Spreads by (blur, 1 - 2 blur, blur) in both directions, the outermost pixels excepted.
-void blurWide(double blur, WideGrid& grid) {
+/// Spreads by (blur, 1 - 2 blur, blur) along rows (step 1) or columns (step wide_stride); the outermost pixels stay.
+void blurWide(double blur, std::size_t step, WideGrid& grid) {
   const float side = static_cast<float>(blur), middle = static_cast<float>(1.0 - 2.0 * blur);
-  for (const std::size_t to : {std::size_t{1}, static_cast<std::size_t>(wide_stride)}) {
-    const WideGrid before = grid;
-    for (std::size_t j = 1; j + 1 < wide_size; ++j)
-      for (std::size_t i = 1; i + 1 < wide_size; ++i) {
-        const std::size_t at = j * wide_stride + i;
-        grid[at] = side * (before[at - to] + before[at + to]) + middle * before[at];
-      }
-    if (to != 1) break;
-    for (const std::size_t j : {std::size_t{0}, static_cast<std::size_t>(wide_size - 1)})
-      for (std::size_t i = 1; i + 1 < wide_size; ++i) {
-        const std::size_t at = j * wide_stride + i;
-        grid[at] = side * (before[at - 1] + before[at + 1]) + middle * before[at];
-      }
-  }
+  const WideGrid before = grid;
+  for (std::size_t at = step; at + step < grid.size(); ++at) grid[at] = side * (before[at - step] + before[at + step]) + middle * before[at];
 }
 
 /// Adds (1 4 1)/6 along a row of 12 and its surroundings: 16 columns, the first two left of the filter.
@@ -206,21 +139,6 @@ Eigen::Matrix2d noiseThroughSpline(const PatchGrid& fx, const PatchGrid& fy) {
   return made;
 }
 
-/// Takes out of a filter's gradient what an offset or a gain would explain; returns it weighted.
-void makeBlind(const PatchGrid& gradient, const PatchGrid& filter_gain, const PatchGrid& value, double mean, double energy_sum, PatchGrid& out) {
-  const Window& w = window();
-  const double along_offset = dot(gradient, w.weight) / w.total;
-  const double along_gain = dot(gradient, filter_gain) / energy_sum;
-  const v_float32x4 offset = cv::v_setall_f32(static_cast<float>(along_offset - along_gain * mean));
-  const v_float32x4 gain = cv::v_setall_f32(static_cast<float>(along_gain));
-  for (std::size_t i = 0; i < out.size(); i += 4)
-    cv::v_store(&out[i], cv::v_load(&w.weight[i]) * (cv::v_load(&gradient[i]) - offset - gain * cv::v_load(&value[i])));
-}
-
-struct Gradients {
-  PatchGrid x{}, y{};
-};
-
 /// Value and central differences out of the wide grid.
 void split(const WideGrid& wide, PatchTemplate& made, Gradients& gradients) {
   const v_float32x4 half = cv::v_setall_f32(0.5F);
@@ -234,16 +152,84 @@ void split(const WideGrid& wide, PatchTemplate& made, Gradients& gradients) {
     }
 }
 
+}  // namespace
+
+namespace patch_kernel {
+
+Window::Window() {
+  for (int v = 0; v < patch_size; ++v)
+    for (int u = 0; u < patch_size; ++u) {
+      const double r2 = std::pow(u - patch_radius, 2) + std::pow(v - patch_radius, 2);
+      const float w = static_cast<float>(std::exp(-r2 / (2.0 * window_sigma * window_sigma)));
+      weight[static_cast<std::size_t>(v * patch_stride + u)] = w;
+      total += static_cast<double>(w);
+    }
+}
+
+const Window& window() {
+  static const Window made;
+  return made;
+}
+
+double dot(const PatchGrid& a, const PatchGrid& b) {
+  v_float32x4 total = cv::v_setzero_f32();
+  for (std::size_t i = 0; i < a.size(); i += 4) total += cv::v_load(&a[i]) * cv::v_load(&b[i]);
+  return sum(total);
+}
+
+bool fits(const ImageView& image, double x, double y) {
+  return x >= patch_radius + 2 && y >= patch_radius + 2 && x < image.width - patch_radius - 3 && y < image.height - patch_radius - 3;
+}
+
+void readWindow(const ImageView& image, double x, double y, const Eigen::Vector2d& blur, PatchGrid& out) {
+  const int u = static_cast<int>(x), v = static_cast<int>(y);
+  const std::array<float, taps> wx = blurredSpline(x - u, blur.x()), wy = blurredSpline(y - v, blur.y());
+  const int left = u - patch_radius - 2;
+  alignas(16) float column[patch_size][20];  // what is beyond 16 meets the padding alone
+  v_float32x4 weight[taps];
+  for (std::size_t k = 0; k < taps; ++k) weight[k] = cv::v_setall_f32(wy[k]);
+  Row16 rows[patch_size + taps - 1];
+  for (int i = 0; i < patch_size + taps - 1; ++i) rows[i] = loadRow(image.row(v - patch_radius - 2 + i) + left);
+  for (int i = 0; i < patch_size; ++i) {
+    cv::v_store_aligned(&column[i][16], cv::v_setzero_f32());
+    for (int k = 0; k < 4; ++k)
+      cv::v_store_aligned(&column[i][4 * k],
+                          weight[0] * rows[i].part[k] + weight[1] * rows[i + 1].part[k] + (weight[2] * rows[i + 2].part[k] + weight[3] * rows[i + 3].part[k]) +
+                              (weight[4] * rows[i + 4].part[k] + weight[5] * rows[i + 5].part[k]));
+  }
+  for (std::size_t k = 0; k < taps; ++k) weight[k] = cv::v_setall_f32(wx[k]);
+  for (int i = 0; i < patch_size; ++i)
+    for (int k = 0; k < 12; k += 4) {
+      const float* c = &column[i][k];
+      const v_float32x4 value = weight[0] * cv::v_load(c) + weight[1] * cv::v_load(c + 1) + (weight[2] * cv::v_load(c + 2) + weight[3] * cv::v_load(c + 3)) +
+                                (weight[4] * cv::v_load(c + 4) + weight[5] * cv::v_load(c + 5));
+      cv::v_store(&out[static_cast<std::size_t>(i * patch_stride + k)], value);
+    }
+}
+
+void makeBlind(const PatchGrid& gradient, const PatchTemplate& patch, PatchGrid& out) {
+  const Window& w = window();
+  const double mean = dot(patch.value, w.weight) / w.total;
+  const double along_offset = dot(gradient, w.weight) / w.total;
+  const double along_gain = dot(gradient, patch.filter_gain) / (patch.energy * w.total);
+  const v_float32x4 offset = cv::v_setall_f32(static_cast<float>(along_offset - along_gain * mean));
+  const v_float32x4 gain = cv::v_setall_f32(static_cast<float>(along_gain));
+  for (std::size_t i = 0; i < out.size(); i += 4)
+    cv::v_store(&out[i], cv::v_load(&w.weight[i]) * (cv::v_load(&gradient[i]) - offset - gain * cv::v_load(&patch.value[i])));
+}
+
 bool makeTemplate(const PatchSource& source, const Eigen::Matrix2d& A, PatchTemplate& made, Gradients& gradients) {
   const double scale2 = std::abs(A.determinant());
   if (!(scale2 > min_scale * min_scale && scale2 < max_scale * max_scale)) return false;
   WideGrid wide{};
   // A template seen larger is more blurred than the view, one seen smaller less: at a corner, blur moves the place.
-  const double blur_tap = std::clamp(0.5 * own_blur * std::abs(scale2 - 1.0), 0.0, largest_blur_tap);
-  const bool smaller = scale2 < 1.0 && blur_tap > 0.01;
-  warpWide(source, A.inverse(), smaller ? 2 : 1, wide);
-  if (smaller) blurWide(blur_tap, wide);
-  made.view_blur = scale2 > 1.0 ? blur_tap : 0.0;
+  const Eigen::Vector2d excess = 0.5 * own_blur * ((A * A.transpose()).diagonal().array() - 1.0).matrix();
+  const Eigen::Vector2d own = (-excess).cwiseMax(0.0).cwiseMin(largest_blur_tap);
+  made.view_blur = excess.cwiseMax(0.0).cwiseMin(largest_blur_tap);
+  const bool blurs = own.maxCoeff() > least_blur_tap;
+  warpWide(source, A.inverse(), blurs ? 2 : 1, wide);
+  if (own.x() > least_blur_tap) blurWide(own.x(), 1, wide);
+  if (own.y() > least_blur_tap) blurWide(own.y(), wide_stride, wide);
   split(wide, made, gradients);
   made.A = A;
   const Window& w = window();
@@ -254,8 +240,8 @@ bool makeTemplate(const PatchSource& source, const Eigen::Matrix2d& A, PatchTemp
   const double energy_sum = dot(made.filter_gain, made.value);
   made.energy = energy_sum / w.total;
   if (!(made.energy > 1.0)) return false;
-  makeBlind(gradients.x, made.filter_gain, made.value, mean, energy_sum, made.filter_x);
-  makeBlind(gradients.y, made.filter_gain, made.value, mean, energy_sum, made.filter_y);
+  makeBlind(gradients.x, made, made.filter_x);
+  makeBlind(gradients.y, made, made.filter_y);
   Eigen::Matrix2d hessian;
   const double cross = dot(made.filter_x, gradients.y);
   hessian << dot(made.filter_x, gradients.x), cross, cross, dot(made.filter_y, gradients.y);
@@ -265,11 +251,6 @@ bool makeTemplate(const PatchSource& source, const Eigen::Matrix2d& A, PatchTemp
   made.unit_covariance = made.inverse_hessian * noiseThroughSpline(made.filter_x, made.filter_y) * made.inverse_hessian;
   return true;
 }
-
-struct Reading {
-  Eigen::Vector2d along = Eigen::Vector2d::Zero();
-  double gain = 0.0, mean = 0.0, variance = 0.0;  // weighted, of the image
-};
 
 Reading measure(const PatchGrid& pixels, const PatchTemplate& patch) {
   const Window& w = window();
@@ -290,6 +271,10 @@ Reading measure(const PatchGrid& pixels, const PatchTemplate& patch) {
   return r;
 }
 
+}  // namespace patch_kernel
+
+namespace {
+
 /// Noise of a pixel, correlation and covariance from the residual that is left at the minimum.
 void judge(const Reading& reading, const PatchTemplate& patch, Alignment& alignment) {
   const double g = reading.gain, explained = g * g * patch.energy;
@@ -297,8 +282,9 @@ void judge(const Reading& reading, const PatchTemplate& patch, Alignment& alignm
   alignment.correlation = g * std::sqrt(patch.energy / std::max(reading.variance, 1e-9));
   // 4 of about 57 / 2 independent weighted values were spent on position, offset and gain
   const double residual = std::max(reading.variance - explained, 0.0) * 1.15;
-  const double b = patch.view_blur, left = 1.0 - 4.0 * b + 6.0 * b * b;  // variance left by the extra blur along an axis, if the spline were none
-  const double view_noise = smoothed_noise * std::pow(left, 0.5);        // being smooth already, it loses about half as much
+  // (b, 1 - 2 b, b) leaves 1 - 4 b + 6 b^2 of white noise; of noise that is smooth already, about the root of that
+  const auto left = [](double tap) { return std::sqrt(1.0 - 4.0 * tap + 6.0 * tap * tap); };
+  const double view_noise = smoothed_noise * std::sqrt(left(patch.view_blur.x()) * left(patch.view_blur.y()));
   const double noise2 = residual / (view_noise + g * g * smoothed_noise);
   alignment.noise = std::sqrt(noise2);
   alignment.covariance = patch.unit_covariance * (std::max(noise2, 1.0 / 12.0) / (g * g));  // no better than rounding to grey levels
@@ -345,92 +331,6 @@ Alignment alignPatch(const ImageView& image, const PatchTemplate& patch, const E
     if ((alignment.position - start).norm() > reach) return alignment;
   }
   return alignment;
-}
-
-namespace {
-
-/// One step for (shift x, shift y, slope u, slope v) under a Gaussian prior of the slopes.
-struct SlopeStep {
-  Eigen::Matrix4d inverse;
-  Eigen::Vector4d step;
-  double cost = 0.0;  // chi-square of residual and prior, up to a constant
-};
-
-SlopeStep solveSlopes(Eigen::Matrix4d H, Eigen::Vector4d b, const Eigen::Vector2d& slopes, double noise2, double sigma) {
-  const Eigen::Matrix4d without = H;
-  const Eigen::Vector4d b_without = b;
-  const double weight = noise2 / (sigma * sigma);
-  H.block<2, 2>(2, 2) += weight * Eigen::Matrix2d::Identity();
-  b.tail<2>() -= weight * slopes;
-  SlopeStep made;
-  made.inverse = H.inverse();
-  made.step = made.inverse * b;
-  made.cost = (made.step.dot(without * made.step) - 2.0 * b_without.dot(made.step) + weight * (slopes + made.step.tail<2>()).squaredNorm()) / noise2;
-  return made;
-}
-
-}  // namespace
-
-SlopedAlignment alignAcross(const ImageView& image, const PatchSource& source, const Eigen::Vector2d& start, const SlopePrior& prior,
-                            PatchTemplate& made) {
-  SlopedAlignment result;
-  Eigen::Vector2d position = start;
-  const Window& w = window();
-  for (int round = 0; round < 4; ++round) {
-    Eigen::Matrix2d A;
-    A << 1.0 - result.slopes.x(), -result.slopes.y(), 0.0, 1.0;
-    Gradients gradients;
-    result.alignment.converged = false;
-    if (!makeTemplate(source, A, made, gradients)) return result;
-    const Alignment found = alignPatch(image, made, position, 4.0);
-    if (!found.converged || (found.position - start).norm() > 4.0) return result;
-    result.alignment = found;
-    position = found.position;
-
-    PatchGrid pixels;
-    if (!fits(image, position.x(), position.y())) return result;
-    readWindow(image, position.x(), position.y(), made.view_blur, pixels);
-    const Reading reading = measure(pixels, made);
-    // unknowns: shift x, shift y, slope along u, slope along v; J blind to offset and gain, as in alignPatch
-    std::array<PatchGrid, 4> J, blind;
-    J[0] = gradients.x;
-    J[1] = gradients.y;
-    for (int v = 0; v < patch_size; ++v)
-      for (int u = 0; u < patch_stride; ++u) {
-        const std::size_t at = static_cast<std::size_t>(v * patch_stride + u);
-        J[2][at] = gradients.x[at] * static_cast<float>(u - patch_radius);
-        J[3][at] = gradients.x[at] * static_cast<float>(v - patch_radius);
-      }
-    const double mean = dot(made.value, w.weight) / w.total;
-    Eigen::Matrix4d H;
-    Eigen::Vector4d b;
-    for (std::size_t i = 0; i < 4; ++i) makeBlind(J[i], made.filter_gain, made.value, mean, made.energy * w.total, blind[i]);
-    for (int i = 0; i < 4; ++i) {
-      b(i) = dot(blind[static_cast<std::size_t>(i)], pixels) / reading.gain;
-      for (int j = 0; j < 4; ++j) H(i, j) = dot(blind[static_cast<std::size_t>(i)], J[static_cast<std::size_t>(j)]);
-    }
-    // per weighted pixel; the spline's correlation between neighbours costs about a factor of two
-    const double g2 = found.gain * found.gain;
-    const double noise2 = 2.0 * std::max(found.noise * found.noise, 0.5) * smoothed_noise * (1.0 + g2) / g2;
-    const SlopeStep usual = solveSlopes(H, b, result.slopes, noise2, prior.usual_sigma);
-    const SlopeStep wide = solveSlopes(H, b, result.slopes, noise2, prior.wide_sigma);
-    const SlopeStep& chosen = usual.cost - wide.cost > insistence ? wide : usual;
-    const Eigen::Vector4d& step = chosen.step;
-    if (!step.allFinite()) return result;
-    result.slopes_covariance = noise2 * chosen.inverse.block<2, 2>(2, 2);
-    // the shift's covariance grows by what the slopes leave open
-    const Eigen::Matrix2d opened = chosen.inverse.block<2, 2>(0, 0) - H.block<2, 2>(0, 0).inverse();
-    result.alignment.covariance += 0.5 * noise2 * opened;
-    if (round == 3 || step.tail<2>().cwiseAbs().maxCoeff() < 0.01) break;
-    result.slopes += step.tail<2>();
-    if (result.slopes.cwiseAbs().maxCoeff() > 0.9) {
-      result.alignment.converged = false;
-      return result;
-    }
-    position.x() -= step.x();
-    position.y() -= step.y();
-  }
-  return result;
 }
 
 }  // namespace urban_nav_core

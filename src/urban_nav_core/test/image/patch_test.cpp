@@ -187,6 +187,36 @@ TEST(Patch, SlopesStayUsualWherePixelsDoNotInsist) {
   EXPECT_LT(usual, 0.5 * wide);
 }
 
+TEST(Patch, ALaterViewTellsHowTheSurfaceSlants) {
+  // The view is the source sheared by direction (slant . p); the template was made without the slant.
+  const Eigen::Vector2d direction(0.6, -0.2), slant(0.2, -0.1);
+  const Eigen::Matrix2d B = (Eigen::Matrix2d::Identity() + direction * slant.transpose()).inverse();
+  Eigen::Vector2d change = Eigen::Vector2d::Zero();
+  int count = 0;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    const Texture texture(seed + 900);
+    const Picture first = render(41, 41, 1.0, seed, [&](double x, double y) { return texture.at(x, y); });
+    const Picture second = render(41, 41, 1.0, seed + 100, [&](double x, double y) {
+      const Eigen::Vector2d p = Eigen::Vector2d(20.0, 20.0) + B * Eigen::Vector2d(x - 20.3, y - 20.1);
+      return texture.at(p.x(), p.y());
+    });
+    const auto source = *cutSource(first.view(), 20, 20);
+    PatchTemplate made;
+    if (!warpTemplate(source, Eigen::Matrix2d::Identity(), made)) continue;
+    const Alignment a = alignPatch(second.view(), made, {20.0, 20.0});
+    if (!a.converged) continue;
+    const Eigen::Matrix2d before = 1e-3 * Eigen::Matrix2d::Identity();
+    const Slant found = refineSlant(second.view(), source, made, a, direction, before);
+    EXPECT_GT(found.information.determinant(), before.determinant());
+    change += found.change;
+    ++count;
+    // who is sure already does not change his mind
+    EXPECT_LT(refineSlant(second.view(), source, made, a, direction, 1e9 * Eigen::Matrix2d::Identity()).change.norm(), 1e-3);
+  }
+  ASSERT_GT(count, 50);
+  EXPECT_LT((change / count - slant).norm(), 0.03);
+}
+
 TEST(Patch, RefusesWhatHasNoTextureOrLeavesTheImage) {
   const Picture flat = render(41, 41, 0.0, 1, [](double, double) { return 90.0; });
   const Picture edge = render(41, 41, 0.0, 1, [](double x, double) { return x < 20 ? 20.0 : 200.0; });

@@ -44,7 +44,7 @@ struct alignas(16) PatchTemplate {
   Eigen::Matrix2d A = Eigen::Matrix2d::Identity();                ///< d(view)/d(source) it was made for
   Eigen::Matrix2d inverse_hessian = Eigen::Matrix2d::Zero();
   Eigen::Matrix2d unit_covariance = Eigen::Matrix2d::Zero();      ///< of a shift, for one grey level of white pixel noise in the view
-  double view_blur = 0.0;                                         ///< outer weight of the (b, 1 - 2 b, b) that makes the view as blurred
+  Eigen::Vector2d view_blur = Eigen::Vector2d::Zero();            ///< b along rows and columns of the (b, 1 - 2 b, b) that makes the view as blurred
   double energy = 0.0;                                            ///< weighted variance, grey levels^2
 };
 
@@ -79,6 +79,16 @@ struct SlopePrior {
 /// `made` returns the template of the other image at the slopes found.
 SlopedAlignment alignAcross(const ImageView& image, const PatchSource& source, const Eigen::Vector2d& start, const SlopePrior& prior,
                             PatchTemplate& made);
+
+/// How a piece of surface leans, learnt from a later view: pixel p of the source (from its middle) stands at A p + direction (slant . p)
+/// in the view, so that `direction` says how far the camera has moved for the purpose.
+struct Slant {
+  Eigen::Vector2d change = Eigen::Vector2d::Zero();            ///< of the slant, from the one that A was made with
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();       ///< of the slant, what was known before included
+};
+/// One step from an alignment of `patch`, which was made from `source`. `information`: of the slant that A was made with.
+Slant refineSlant(const ImageView& image, const PatchSource& source, const PatchTemplate& patch, const Alignment& alignment,
+                  const Eigen::Vector2d& direction, const Eigen::Matrix2d& information);
 
 /// 8 columns (-4 ... 3) by 9 rows (-4 ... 4) of grey levels, mean removed.
 struct alignas(16) SadPatch {
