@@ -17,9 +17,12 @@ constexpr double silent_after = 1.0;  // s; the slowest cameras that odometry ca
 unsigned char levelOf(Health health) {
   switch (health) {
     case Health::Ok:
-    case Health::Recovered: return DiagnosticStatus::OK;
-    case Health::Degraded: return DiagnosticStatus::WARN;
-    case Health::Lost: return DiagnosticStatus::ERROR;
+    case Health::Recovered:
+      return DiagnosticStatus::OK;
+    case Health::Degraded:
+      return DiagnosticStatus::WARN;
+    case Health::Lost:
+      return DiagnosticStatus::ERROR;
   }
   return DiagnosticStatus::ERROR;
 }
@@ -28,7 +31,8 @@ std::string milliseconds(double ms) { return std::to_string(std::lround(ms)) + "
 
 }  // namespace
 
-Diagnostics::Diagnostics(ros::NodeHandle& nh, ros::NodeHandle& private_nh, const std::string& name) : updater_(nh, private_nh, name) {
+Diagnostics::Diagnostics(ros::NodeHandle& nh, ros::NodeHandle& private_nh, const std::string& name)
+    : updater_(nh, private_nh, name) {
   updater_.setHardwareID("stereo camera");
   updater_.add("odometry", [this](diagnostic_updater::DiagnosticStatusWrapper& status) { report(status); });
 }
@@ -64,7 +68,9 @@ void Diagnostics::paused(bool paused) {
   paused_ = paused;
 }
 
-double Diagnostics::ageOf(const Arrival& arrival) { return std::chrono::duration<double>(Clock::now() - arrival.when).count(); }
+double Diagnostics::ageOf(const Arrival& arrival) {
+  return std::chrono::duration<double>(Clock::now() - arrival.when).count();
+}
 
 std::string Diagnostics::topicTrouble() const {
   for (const Arrival& arrival : arrivals_)
@@ -72,13 +78,16 @@ std::string Diagnostics::topicTrouble() const {
   const bool left_leads = arrivals_[LeftImage].stamp > arrivals_[RightImage].stamp;
   const Arrival& leader = arrivals_[left_leads ? LeftImage : RightImage];
   const Arrival& partner = arrivals_[left_leads ? RightImage : LeftImage];
-  // Between two messages one side is ahead of the other in good health too; only a pair that was incomplete makes it a fault.
+  // Between two messages one side is ahead of the other in good health too; only a pair that was incomplete makes it a
+  // fault.
   const double behind_ms = 1e-6 * static_cast<double>(leader.stamp - partner.stamp);
   const bool incomplete = status_.reason == static_cast<int>(Reason::ImageMissing) || ageOf(partner) > silent_after;
-  if (incomplete && behind_ms > 0.0 && ageOf(leader) < silent_after) return partner.name + " is " + milliseconds(behind_ms) + " behind " + leader.name;
+  if (incomplete && behind_ms > 0.0 && ageOf(leader) < silent_after)
+    return partner.name + " is " + milliseconds(behind_ms) + " behind " + leader.name;
   for (const Topic topic : {LeftImage, RightImage, Motion}) {
     const Arrival& arrival = arrivals_[topic];
-    if (!arrival.name.empty() && ageOf(arrival) > silent_after) return arrival.name + " has been silent for " + milliseconds(1e3 * ageOf(arrival));
+    if (!arrival.name.empty() && ageOf(arrival) > silent_after)
+      return arrival.name + " has been silent for " + milliseconds(1e3 * ageOf(arrival));
   }
   return {};
 }

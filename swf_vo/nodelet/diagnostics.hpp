@@ -20,12 +20,13 @@ struct Counts {
   std::int64_t sessions = 0;
   std::int64_t queue_dropped = 0;
   std::int64_t paused_dropped = 0;
-  std::int64_t late = 0, doubled = 0;            ///< refused by the Inbox
+  std::int64_t late = 0, doubled = 0;  ///< refused by the Inbox
   std::int64_t left_missing = 0, right_missing = 0;
-  std::int64_t damaged = 0;                      ///< images that do not decode or have a wrong size
+  std::int64_t damaged = 0;  ///< images that do not decode or have a wrong size
 };
 
-/// /diagnostics of the nodelet: the top reason first, then which topic is missing or behind its partner, then the counts. Thread-safe.
+/// /diagnostics of the nodelet: the top reason first, then which topic is missing or behind its partner, then the
+/// counts. Thread-safe.
 class Diagnostics {
  public:
   enum Topic { LeftImage, RightImage, LeftInfo, RightInfo, Motion, topic_count };

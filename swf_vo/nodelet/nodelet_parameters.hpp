@@ -13,12 +13,12 @@ struct NodeletParameters {
   std::string odom_frame;
   std::string base_frame;
   bool publish_tf;
-  std::string images;      // auto, raw, rectified
+  std::string images;  // auto, raw, rectified
   bool compressed;
-  int queue;               // messages
-  double max_lateness;     // s
-  double pairing;          // s
-  double tf_wait;          // s
+  int queue;            // messages
+  double max_lateness;  // s
+  double pairing;       // s
+  double tf_wait;       // s
 
   NodeletParameters();
 };

@@ -18,7 +18,8 @@ using urban_nav_ros::toRosTime;
 
 namespace {
 
-// The path is for pictures: a point where the robot has moved on this far, and not more of them than a viewer draws with ease.
+// The path is for pictures: a point where the robot has moved on this far, and not more of them than a viewer draws
+// with ease.
 constexpr double path_step = 0.5;  // m
 constexpr std::size_t path_points = 4000;
 
@@ -62,7 +63,8 @@ void Publisher::publish(const Settled& settled) {
 }
 
 void Publisher::publishOdometry(const Frame& frame) {
-  nav_msgs::Odometry odometry = urban_nav_ros::toOdometryMessage(frame.stamp, frame.T_odom_base, frames_.odom, frames_.base);
+  nav_msgs::Odometry odometry =
+      urban_nav_ros::toOdometryMessage(frame.stamp, frame.T_odom_base, frames_.odom, frames_.base);
   urban_nav_ros::setTwist(frame.velocity.twist, frame.velocity.covariance, odometry);
   odometry_.publish(odometry);
   if (!frames_.publish_tf) return;
@@ -98,8 +100,10 @@ void Publisher::publishFrame(const Frame& frame, double process_ms) {
 }
 
 void Publisher::publishStatus(const Frame& frame) {
-  const urban_nav_msgs::StageStatus status = urban_nav_ros::toStatusMessage(frame.stamp, "swf_vo", frame.status, reasonName(frame.status));
-  if (!last_status_.stage.empty() && status.status == last_status_.status && status.reason == last_status_.reason) return;
+  const urban_nav_msgs::StageStatus status =
+      urban_nav_ros::toStatusMessage(frame.stamp, "swf_vo", frame.status, reasonName(frame.status));
+  if (!last_status_.stage.empty() && status.status == last_status_.status && status.reason == last_status_.reason)
+    return;
   last_status_ = status;
   status_.publish(status);
 }
@@ -126,7 +130,8 @@ void Publisher::publishLandmarks(const Frame& frame) {
   cloud.header.frame_id = frames_.odom;
   sensor_msgs::PointCloud2Modifier fields(cloud);
   using sensor_msgs::PointField;
-  fields.setPointCloud2Fields(4, "x", 1, PointField::FLOAT32, "y", 1, PointField::FLOAT32, "z", 1, PointField::FLOAT32, "sigma", 1, PointField::FLOAT32);
+  fields.setPointCloud2Fields(4, "x", 1, PointField::FLOAT32, "y", 1, PointField::FLOAT32, "z", 1, PointField::FLOAT32,
+                              "sigma", 1, PointField::FLOAT32);
   fields.resize(frame.landmarks.size());
   sensor_msgs::PointCloud2Iterator<float> at(cloud, "x");
   for (const Landmark& landmark : frame.landmarks) {

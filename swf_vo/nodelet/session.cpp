@@ -25,15 +25,16 @@ StereoFeed::Options feedOptions(const Parameters& parameters, const NodeletParam
 
 }  // namespace
 
-Mounting mountingOf(const urban_nav_ros::StaticTransforms& transforms, const std::string& base_frame, const std::string& camera_frame,
-                    const std::string& imu_frame) {
+Mounting mountingOf(const urban_nav_ros::StaticTransforms& transforms, const std::string& base_frame,
+                    const std::string& camera_frame, const std::string& imu_frame) {
   Mounting mounting;
   if (const auto T_base_camera = transforms.lookup(base_frame, camera_frame)) {
     mounting.T_base_optical = *T_base_camera;
     mounting.sentence = "camera at tf " + base_frame + " -> " + camera_frame;
   } else {
     mounting.T_base_optical = urban_nav_ros::opticalInBody();
-    mounting.sentence = "no static tf from " + base_frame + " to " + camera_frame + ": " + base_frame + " is taken to be at the left camera (REP-103 axes)";
+    mounting.sentence = "no static tf from " + base_frame + " to " + camera_frame + ": " + base_frame +
+                        " is taken to be at the left camera (REP-103 axes)";
   }
   if (const auto T_base_imu = transforms.lookup(base_frame, imu_frame)) mounting.R_base_imu = T_base_imu->R();
   return mounting;

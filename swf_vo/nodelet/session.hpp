@@ -30,15 +30,15 @@ struct Mounting {
 };
 
 /// From the static transforms; where they do not connect the frames, base_link is at the left camera with REP-103 axes.
-Mounting mountingOf(const urban_nav_ros::StaticTransforms& transforms, const std::string& base_frame, const std::string& camera_frame,
-                    const std::string& imu_frame);
+Mounting mountingOf(const urban_nav_ros::StaticTransforms& transforms, const std::string& base_frame,
+                    const std::string& camera_frame, const std::string& imu_frame);
 
 /// One unbroken run of the filter: a calibration, a feed, a SwfVo. Used by the worker alone.
 class Session {
  public:
   /// Throws UserError where the calibration is none.
-  Session(const Parameters& parameters, const NodeletParameters& nodelet, std::shared_ptr<const urban_nav_ros::StereoCalibration> calibration,
-          const Mounting& mounting);
+  Session(const Parameters& parameters, const NodeletParameters& nodelet,
+          std::shared_ptr<const urban_nav_ros::StereoCalibration> calibration, const Mounting& mounting);
 
   void add(const SensorInput& input);
   /// The next stereo pair that is ready; process it before the next call.

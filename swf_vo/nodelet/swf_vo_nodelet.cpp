@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <nodelet/nodelet.h>
-#include <pluginlib/class_list_macros.hpp>
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_msgs/TFMessage.h>
+#include <pluginlib/class_list_macros.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -53,7 +53,8 @@ bool sameCalibration(const sensor_msgs::CameraInfo& a, const sensor_msgs::Camera
 
 }  // namespace
 
-/// Visual odometry on topics (DESIGN.md, sections 3 and 5): callbacks enqueue, one worker converts, calls the core and publishes.
+/// Visual odometry on topics: callbacks enqueue, one worker converts, calls the core and
+/// publishes.
 class SwfVoNodelet : public nodelet::Nodelet {
  public:
   ~SwfVoNodelet() override {
@@ -109,7 +110,7 @@ class SwfVoNodelet : public nodelet::Nodelet {
   std::optional<StampNs> newest_;
   std::string refusal_;  // why these camera_info make no session; said once
   std::unique_ptr<Session> session_;
-  Counts finished_;      // of the sessions before
+  Counts finished_;  // of the sessions before
   std::int64_t pending_dropped_ = 0;
 };
 
@@ -126,7 +127,8 @@ void SwfVoNodelet::onInit() {
   worker_ = std::thread([this] { work(); });
   subscribe();
   advertiseServices();
-  timer_ = getNodeHandle().createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { diagnostics_->update(); });
+  timer_ = getNodeHandle().createWallTimer(ros::WallDuration(1.0),
+                                           [this](const ros::WallTimerEvent&) { diagnostics_->update(); });
 }
 
 void SwfVoNodelet::readParameters() {
@@ -134,7 +136,8 @@ void SwfVoNodelet::readParameters() {
   std::map<std::string, urban_nav_core::ParameterValue> own, filters;
   for (const auto& [name, value] : urban_nav_ros::serverValues(getPrivateNodeHandle())) {
     const auto& rows = nodeletTable().rows();
-    const bool is_own = std::any_of(rows.begin(), rows.end(), [&, &key = name](const auto& row) { return row.name == key; });
+    const bool is_own =
+        std::any_of(rows.begin(), rows.end(), [&, &key = name](const auto& row) { return row.name == key; });
     (is_own ? own : filters)[name] = value;
   }
   nodelet_ = load(nodeletTable(), serverParameters(nodeletTable().stage(), own, where)).parameters;
@@ -146,7 +149,8 @@ void SwfVoNodelet::subscribe() {
   const std::string left = "stereo/left/image_raw", right = "stereo/right/image_raw";
   const std::string name = nh.resolveName(left);
   rectified_ = nodelet_.images == "rectified" || (nodelet_.images == "auto" && name.find("rect") != std::string::npos);
-  subscribers_.push_back(nh.subscribe<tf2_msgs::TFMessage>("/tf_static", 100, [this](const tf2_msgs::TFMessageConstPtr& message) { mailbox_.put(message); }));
+  subscribers_.push_back(nh.subscribe<tf2_msgs::TFMessage>(
+      "/tf_static", 100, [this](const tf2_msgs::TFMessageConstPtr& message) { mailbox_.put(message); }));
   subscribeInfo("stereo/left/camera_info", Side::Left, Diagnostics::LeftInfo);
   subscribeInfo("stereo/right/camera_info", Side::Right, Diagnostics::RightInfo);
   if (nodelet_.compressed) {
@@ -159,14 +163,16 @@ void SwfVoNodelet::subscribe() {
   const auto queue = static_cast<std::uint32_t>(nodelet_.queue);
   if (parameters_.motion_input == "wheels") {
     diagnostics_->expect(Diagnostics::Motion, nh.resolveName("wheel_odom"));
-    subscribers_.push_back(nh.subscribe<nav_msgs::Odometry>("wheel_odom", queue, [this](const nav_msgs::OdometryConstPtr& message) {
-      put(Diagnostics::Motion, toStampNs(message->header.stamp), SensorInput(message));
-    }));
+    subscribers_.push_back(
+        nh.subscribe<nav_msgs::Odometry>("wheel_odom", queue, [this](const nav_msgs::OdometryConstPtr& message) {
+          put(Diagnostics::Motion, toStampNs(message->header.stamp), SensorInput(message));
+        }));
   } else if (parameters_.motion_input == "gyroscope") {
     diagnostics_->expect(Diagnostics::Motion, nh.resolveName("imu/data"));
-    subscribers_.push_back(nh.subscribe<sensor_msgs::Imu>("imu/data", queue, [this](const sensor_msgs::ImuConstPtr& message) {
-      put(Diagnostics::Motion, toStampNs(message->header.stamp), SensorInput(message));
-    }));
+    subscribers_.push_back(
+        nh.subscribe<sensor_msgs::Imu>("imu/data", queue, [this](const sensor_msgs::ImuConstPtr& message) {
+          put(Diagnostics::Motion, toStampNs(message->header.stamp), SensorInput(message));
+        }));
   }
 }
 
@@ -177,14 +183,16 @@ void SwfVoNodelet::subscribeImage(const std::string& name, Side side, Diagnostic
     const StampNs stamp = toStampNs(message->header.stamp);
     put(topic, stamp, SensorInput(ImageInput{side, message, stamp}));
   };
-  subscribers_.push_back(getNodeHandle().subscribe<Message>(name, static_cast<std::uint32_t>(nodelet_.queue), callback));
+  subscribers_.push_back(
+      getNodeHandle().subscribe<Message>(name, static_cast<std::uint32_t>(nodelet_.queue), callback));
 }
 
 void SwfVoNodelet::subscribeInfo(const std::string& name, Side side, Diagnostics::Topic topic) {
   diagnostics_->expect(topic, getNodeHandle().resolveName(name));
-  subscribers_.push_back(getNodeHandle().subscribe<sensor_msgs::CameraInfo>(name, 10, [this, side, topic](const sensor_msgs::CameraInfoConstPtr& message) {
-    put(topic, toStampNs(message->header.stamp), InfoInput{side, message});
-  }));
+  subscribers_.push_back(getNodeHandle().subscribe<sensor_msgs::CameraInfo>(
+      name, 10, [this, side, topic](const sensor_msgs::CameraInfoConstPtr& message) {
+        put(topic, toStampNs(message->header.stamp), InfoInput{side, message});
+      }));
 }
 
 void SwfVoNodelet::advertiseServices() {
@@ -218,8 +226,10 @@ void SwfVoNodelet::advertiseServices() {
 
 void SwfVoNodelet::put(Diagnostics::Topic topic, StampNs stamp, Input input) {
   diagnostics_->received(topic, stamp);
-  if (paused_) ++paused_dropped_;
-  else mailbox_.put(std::move(input));
+  if (paused_)
+    ++paused_dropped_;
+  else
+    mailbox_.put(std::move(input));
 }
 
 void SwfVoNodelet::work() {
@@ -280,16 +290,19 @@ void SwfVoNodelet::tryToStart() {
 }
 
 void SwfVoNodelet::start() {
-  const auto calibration = std::make_shared<StereoCalibration>(urban_nav_ros::toCameraInfo(*left_info_), urban_nav_ros::toCameraInfo(*right_info_),
-                                                               rectified_, getNodeHandle().resolveName("stereo"));
+  const auto calibration = std::make_shared<StereoCalibration>(urban_nav_ros::toCameraInfo(*left_info_),
+                                                               urban_nav_ros::toCameraInfo(*right_info_), rectified_,
+                                                               getNodeHandle().resolveName("stereo"));
   const std::string& camera_frame = left_info_->header.frame_id;
   const Mounting mounting = mountingOf(transforms_, nodelet_.base_frame, camera_frame, imu_frame_);
   session_ = std::make_unique<Session>(parameters_, nodelet_, calibration, mounting);
-  publisher_->startSession({nodelet_.odom_frame, nodelet_.base_frame, camera_frame, nodelet_.publish_tf}, 0.1 * calibration->camera().left.width);
+  publisher_->startSession({nodelet_.odom_frame, nodelet_.base_frame, camera_frame, nodelet_.publish_tf},
+                           0.1 * calibration->camera().left.width);
   diagnostics_->waiting("");
   ++finished_.sessions;
   NODELET_INFO("session %ld: %dx%d px, %s; %s", static_cast<long>(finished_.sessions), calibration->camera().left.width,
-               calibration->camera().left.height, calibration->rectifies() ? "rectified here" : "rectified already", mounting.sentence.c_str());
+               calibration->camera().left.height, calibration->rectifies() ? "rectified here" : "rectified already",
+               mounting.sentence.c_str());
   for (const SensorInput& input : std::exchange(before_session_, {})) session_->add(input);
 }
 

@@ -20,10 +20,14 @@ cv::Point fixedPoint(const cv::Point2f& pixel) {
 
 cv::Scalar colourOf(Health health) {
   switch (health) {
-    case Health::Ok: return {90, 200, 90};
-    case Health::Recovered: return {200, 200, 60};
-    case Health::Degraded: return {30, 170, 255};
-    case Health::Lost: return {60, 60, 240};
+    case Health::Ok:
+      return {90, 200, 90};
+    case Health::Recovered:
+      return {200, 200, 60};
+    case Health::Degraded:
+      return {30, 170, 255};
+    case Health::Lost:
+      return {60, 60, 240};
   }
   return {255, 255, 255};
 }
@@ -44,7 +48,8 @@ void TracksPicture::follow(const Frame& frame) {
     if (way.pixels.size() == way_length) way.pixels.erase(way.pixels.begin());
     way.pixels.emplace_back(static_cast<float>(feature.pixel.x()), static_cast<float>(feature.pixel.y()));
   }
-  for (auto it = ways_.begin(); it != ways_.end();) it = it->second.last == frame.frame ? std::next(it) : ways_.erase(it);
+  for (auto it = ways_.begin(); it != ways_.end();)
+    it = it->second.last == frame.frame ? std::next(it) : ways_.erase(it);
 }
 
 const cv::Mat& TracksPicture::draw(const urban_nav_core::ImageView& left, const Frame& frame) {
@@ -56,18 +61,21 @@ const cv::Mat& TracksPicture::draw(const urban_nav_core::ImageView& left, const 
   cv::cvtColor(grey_, picture_, cv::COLOR_GRAY2BGR);
 
   for (const Feature& feature : frame.features) {
-    const double nearness = std::sqrt(std::clamp((feature.pixel.x() - feature.pixel.z()) / near_disparity_px_, 0.0, 1.0));
+    const double nearness =
+        std::sqrt(std::clamp((feature.pixel.x() - feature.pixel.z()) / near_disparity_px_, 0.0, 1.0));
     const cv::Vec3b warm = colours_.at<cv::Vec3b>(0, cvRound(40.0 + 200.0 * nearness));
     const cv::Scalar colour = feature.trusted ? cv::Scalar(warm[0], warm[1], warm[2]) : cv::Scalar(150, 150, 150);
     const std::vector<cv::Point2f>& way = ways_.at(feature.landmark).pixels;
     for (std::size_t i = 1; i < way.size(); ++i)
       cv::line(picture_, fixedPoint(way[i - 1]), fixedPoint(way[i]), colour, 1, cv::LINE_AA, subpixel_bits);
     const bool fresh = feature.age == 0;
-    cv::circle(picture_, fixedPoint(way.back()), (fresh ? 3 : 2) << subpixel_bits, colour, fresh ? 1 : cv::FILLED, cv::LINE_AA, subpixel_bits);
+    cv::circle(picture_, fixedPoint(way.back()), (fresh ? 3 : 2) << subpixel_bits, colour, fresh ? 1 : cv::FILLED,
+               cv::LINE_AA, subpixel_bits);
   }
   cv::rectangle(picture_, {0, 0, picture_.cols, 4}, colourOf(frame.status.health), cv::FILLED);
   if (!frame.status.sentence.empty())
-    cv::putText(picture_, frame.status.sentence, {8, 22}, cv::FONT_HERSHEY_SIMPLEX, 0.45, colourOf(frame.status.health), 1, cv::LINE_AA);
+    cv::putText(picture_, frame.status.sentence, {8, 22}, cv::FONT_HERSHEY_SIMPLEX, 0.45, colourOf(frame.status.health),
+                1, cv::LINE_AA);
   return picture_;
 }
 

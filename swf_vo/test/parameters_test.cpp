@@ -18,7 +18,9 @@ using urban_nav_core::readTextFile;
 
 // Tests run in the folder of the package. What differs is written anew by the build target swf_vo_documents.
 
-TEST(Parameters, theYamlFileIsTheTable) { EXPECT_EQ(readTextFile("config/swf_vo.yaml"), printYaml(table().stage(), table().rows())); }
+TEST(Parameters, theYamlFileIsTheTable) {
+  EXPECT_EQ(readTextFile("config/swf_vo.yaml"), printYaml(table().stage(), table().rows()));
+}
 
 TEST(Parameters, theReadmeShowsTheTables) {
   const std::string readme = readTextFile("README.md");
@@ -29,7 +31,9 @@ TEST(Parameters, theReadmeShowsTheTables) {
 TEST(Parameters, theYamlFileGivesTheDefaults) {
   const auto loaded = load(table(), urban_nav_core::readParameters("config/swf_vo.yaml"));
   const Parameters defaults;
-  for (const auto& row : table().rows()) EXPECT_EQ(printValue(table().get(loaded.parameters, row.name)), printValue(table().get(defaults, row.name))) << row.name;
+  for (const auto& row : table().rows())
+    EXPECT_EQ(printValue(table().get(loaded.parameters, row.name)), printValue(table().get(defaults, row.name)))
+        << row.name;
 }
 
 TEST(Parameters, everyRowSaysWhatItDoesAndWhereItComesFrom) {

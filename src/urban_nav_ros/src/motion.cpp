@@ -42,7 +42,8 @@ std::optional<MotionInput> WheelMotion::add(const nav_msgs::Odometry& message) {
 std::optional<MotionInput> GyroMotion::add(const sensor_msgs::Imu& message) {
   const Vector3d measured(message.angular_velocity.x, message.angular_velocity.y, message.angular_velocity.z);
   const StampNs stamp = toStampNs(message.header.stamp);
-  const bool absent = message.angular_velocity_covariance[0] < 0.0;  // sensor_msgs/Imu: element 0 is -1 where there is no gyroscope
+  const bool absent =
+      message.angular_velocity_covariance[0] < 0.0;  // sensor_msgs/Imu: element 0 is -1 where there is no gyroscope
   if (absent || !measured.allFinite() || (last_ && stamp <= last_->stamp)) return std::nullopt;
   const Vector3d rate = R_base_imu_ * measured;
   const std::optional<Last> last = last_;

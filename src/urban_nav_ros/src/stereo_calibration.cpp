@@ -11,7 +11,9 @@ using urban_nav_core::RectifyMap;
 namespace {
 
 // A driver that does not rectify leaves R at zero.
-Eigen::Matrix3d rotationOf(const CameraInfo& info) { return info.R.isZero() ? Eigen::Matrix3d::Identity().eval() : info.R; }
+Eigen::Matrix3d rotationOf(const CameraInfo& info) {
+  return info.R.isZero() ? Eigen::Matrix3d::Identity().eval() : info.R;
+}
 
 RectifyMap mapOf(const CameraInfo& info, const std::string& where) {
   return RectifyMap(rawCamera(info, where), rotationOf(info), rectifiedPinhole(info, where));
@@ -19,7 +21,8 @@ RectifyMap mapOf(const CameraInfo& info, const std::string& where) {
 
 }  // namespace
 
-StereoCalibration::StereoCalibration(const CameraInfo& left, const CameraInfo& right, bool images_are_rectified, const std::string& where)
+StereoCalibration::StereoCalibration(const CameraInfo& left, const CameraInfo& right, bool images_are_rectified,
+                                     const std::string& where)
     : camera_(stereoCamera(left, right, where)),
       T_optical_rectified_(Pose(rotationOf(left), Eigen::Vector3d::Zero()).inverse()),
       raw_width_(left.width),

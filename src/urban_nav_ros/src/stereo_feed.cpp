@@ -36,7 +36,9 @@ StereoFeed::StereoFeed(const Options& options, std::shared_ptr<const StereoCalib
 
 int StereoFeed::streamOf(Side side) const { return first_image_stream_ + (side == Side::Left ? 0 : 1); }
 
-void StereoFeed::add(Side side, const sensor_msgs::ImageConstPtr& image) { inbox_.put(streamOf(side), toStampNs(image->header.stamp), image); }
+void StereoFeed::add(Side side, const sensor_msgs::ImageConstPtr& image) {
+  inbox_.put(streamOf(side), toStampNs(image->header.stamp), image);
+}
 
 void StereoFeed::add(Side side, const sensor_msgs::CompressedImageConstPtr& image) {
   inbox_.put(streamOf(side), toStampNs(image->header.stamp), image);
@@ -103,7 +105,9 @@ std::optional<FedPair> StereoFeed::take() {
 
 const urban_nav_core::InboxCounts& StereoFeed::counts(Side side) const { return inbox_.counts(streamOf(side)); }
 
-std::int64_t StereoFeed::missing(Side side) const { return side == Side::Left ? assembler_.leftsMissing() : assembler_.rightsMissing(); }
+std::int64_t StereoFeed::missing(Side side) const {
+  return side == Side::Left ? assembler_.leftsMissing() : assembler_.rightsMissing();
+}
 
 std::optional<StampNs> StereoFeed::reached(Side side) const { return inbox_.reached(streamOf(side)); }
 

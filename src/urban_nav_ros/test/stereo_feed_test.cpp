@@ -59,7 +59,8 @@ TEST(StereoFeed, aBagShuffledWithinTheLatenessGivesTheSamePairs) {
       messages.push_back({static_cast<double>(t) + (shuffled ? delay(random) : 0.0), Side::Left, t * ms});
       messages.push_back({static_cast<double>(t) + (shuffled ? delay(random) : 0.0), Side::Right, t * ms});
     }
-    std::stable_sort(messages.begin(), messages.end(), [](const Message& a, const Message& b) { return a.arrival < b.arrival; });
+    std::stable_sort(messages.begin(), messages.end(),
+                     [](const Message& a, const Message& b) { return a.arrival < b.arrival; });
     StereoFeed feed(StereoFeed::Options(), calibration());
     std::vector<FedPair> pairs;
     for (const Message& message : messages) {

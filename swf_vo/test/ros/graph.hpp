@@ -63,18 +63,22 @@ class Graph {
     keep("swf_vo/status", statuses);
     keep("/tf", transforms);
     keep("/diagnostics", diagnostics);
-    connected_ = until([this] { return left_.getNumSubscribers() > 0 && right_.getNumSubscribers() > 0 && left_info_.getNumSubscribers() > 0 &&
-                                       tf_static_.getNumSubscribers() > 0 && subscribers_[0].getNumPublishers() > 0; });
+    connected_ = until([this] {
+      return left_.getNumSubscribers() > 0 && right_.getNumSubscribers() > 0 && left_info_.getNumSubscribers() > 0 &&
+             tf_static_.getNumSubscribers() > 0 && subscribers_[0].getNumPublishers() > 0;
+    });
   }
   bool connected() const { return connected_; }
 
   void place(const urban_nav_core::Pose& T_base_camera) {
     tf2_msgs::TFMessage message;
-    message.transforms.push_back(urban_nav_ros::toStaticTransform("base_link", "stereo_left_optical_frame", T_base_camera));
+    message.transforms.push_back(
+        urban_nav_ros::toStaticTransform("base_link", "stereo_left_optical_frame", T_base_camera));
     tf_static_.publish(message);
   }
 
-  void publish(const urban_nav_core::testing::StereoFrame& frame, const urban_nav_core::StereoCamera& camera, bool left = true, bool right = true) {
+  void publish(const urban_nav_core::testing::StereoFrame& frame, const urban_nav_core::StereoCamera& camera,
+               bool left = true, bool right = true) {
     if (left) publish(left_, left_info_, frame.left, leftInfo(camera), frame.stamp, "stereo_left_optical_frame");
     if (right) publish(right_, right_info_, frame.right, rightInfo(camera), frame.stamp, "stereo_right_optical_frame");
   }
@@ -117,14 +121,16 @@ class Graph {
  private:
   template <typename Message>
   void keep(const std::string& topic, std::vector<Message>& into) {
-    const boost::function<void(const boost::shared_ptr<const Message>&)> callback = [&into](const boost::shared_ptr<const Message>& message) { into.push_back(*message); };
+    const boost::function<void(const boost::shared_ptr<const Message>&)> callback =
+        [&into](const boost::shared_ptr<const Message>& message) { into.push_back(*message); };
     subscribers_.push_back(nh_.subscribe<Message>(topic, 1000, callback));
   }
 
   static void publish(ros::Publisher& images, ros::Publisher& infos, const urban_nav_core::testing::GreyImage& image,
                       const urban_nav_core::CameraInfo& info, urban_nav_core::StampNs stamp, const std::string& frame) {
     auto pixels = image.pixels;
-    sensor_msgs::Image message = urban_nav_ros::toImageMessage(cv::Mat(image.height, image.width, CV_8UC1, pixels.data()));
+    sensor_msgs::Image message =
+        urban_nav_ros::toImageMessage(cv::Mat(image.height, image.width, CV_8UC1, pixels.data()));
     sensor_msgs::CameraInfo calibration = urban_nav_ros::toCameraInfoMessage(info);
     message.header.stamp = calibration.header.stamp = urban_nav_ros::toRosTime(stamp);
     message.header.frame_id = calibration.header.frame_id = frame;

@@ -65,7 +65,8 @@ TEST_F(SwfVoNodelet, agreesWithTheCoreToTheLastBit) {
     const Frame& frame = filter.process(sequence().frame(i).pair());
     settled.insert(settled.end(), frame.settled.begin(), frame.settled.end());
     const auto n = static_cast<std::size_t>(i);
-    const nav_msgs::Odometry expected = urban_nav_ros::toOdometryMessage(frame.stamp, frame.T_odom_base, "odom", "base_link");
+    const nav_msgs::Odometry expected =
+        urban_nav_ros::toOdometryMessage(frame.stamp, frame.T_odom_base, "odom", "base_link");
     EXPECT_EQ(graph().odometry[n].header.stamp, expected.header.stamp);
     EXPECT_EQ(graph().odometry[n].header.frame_id, "odom");
     EXPECT_EQ(graph().odometry[n].child_frame_id, "base_link");
@@ -83,7 +84,8 @@ TEST_F(SwfVoNodelet, agreesWithTheCoreToTheLastBit) {
     expected.header.seq = graph().relative[i - 1].header.seq;
     EXPECT_EQ(graph().relative[i - 1], expected) << "settled frame " << i;
   }
-  EXPECT_GT(urban_nav_core::distanceBetween(settled.front().T_odom_base.pose, settled.back().T_odom_base.pose), 0.3) << "it did move";
+  EXPECT_GT(urban_nav_core::distanceBetween(settled.front().T_odom_base.pose, settled.back().T_odom_base.pose), 0.3)
+      << "it did move";
 }
 
 TEST_F(SwfVoNodelet, aPartnerThatDoesNotComeIsNamedWithItsDelay) {
@@ -102,7 +104,8 @@ TEST_F(SwfVoNodelet, aPartnerThatDoesNotComeIsNamedWithItsDelay) {
     ros::WallDuration(0.05).sleep();
     ros::spinOnce();
   }
-  EXPECT_TRUE(named()) << (graph().diagnostics.empty() ? "no diagnostics" : graph().diagnostics.back().status.front().message);
+  EXPECT_TRUE(named()) << (graph().diagnostics.empty() ? "no diagnostics"
+                                                       : graph().diagnostics.back().status.front().message);
   ASSERT_GE(graph().frames.size(), 8U);
   EXPECT_EQ(graph().frames[7].reason_name, "image_missing");
   EXPECT_NE(graph().frames[7].status, urban_nav_msgs::VoFrame::OK);

@@ -35,7 +35,8 @@ TEST(Inbox, whateverIsShuffledWithinTheLatenessLeavesInOrder) {
   std::uniform_real_distribution<double> delay(0.0, 50.0);
   for (int run = 0; run < 20; ++run) {
     std::vector<std::pair<double, Place>> arrivals;
-    for (const Place& input : inputs) arrivals.emplace_back(static_cast<double>(input.first) / ms + delay(random), input);
+    for (const Place& input : inputs)
+      arrivals.emplace_back(static_cast<double>(input.first) / ms + delay(random), input);
     std::sort(arrivals.begin(), arrivals.end());
     TestInbox inbox(3, 50 * ms);
     std::vector<Place> out;

@@ -11,12 +11,13 @@
 
 namespace urban_nav_ros {
 
-/// Wheel odometry as a motion input: from message to message, how base_link moved on the ground. Observed are forward, sideways and
-/// heading; height, roll and pitch have zero information, whatever the message says of them. A message that is not later than the one before,
-/// or whose pose is none, gives nothing.
+/// Wheel odometry as a motion input: from message to message, how base_link moved on the ground. Observed are forward,
+/// sideways and heading; height, roll and pitch have zero information, whatever the message says of them. A message
+/// that is not later than the one before, or whose pose is none, gives nothing.
 class WheelMotion {
  public:
-  /// Standard deviation of an increment: `noise` times the distance (m) or the angle (rad), and 1 mm and 1 mrad beneath.
+  /// Standard deviation of an increment: `noise` times the distance (m) or the angle (rad), and 1 mm and 1 mrad
+  /// beneath.
   explicit WheelMotion(double noise) : noise_(noise) {}
   std::optional<urban_nav_core::MotionInput> add(const nav_msgs::Odometry& message);
 
@@ -29,8 +30,9 @@ class WheelMotion {
   std::optional<Last> last_;
 };
 
-/// A gyroscope as a motion input: the rotation of base_link from message to message, at the mean of the two rates. Translation has
-/// zero information. A message that is not later than the one before, or has no finite rates, gives nothing.
+/// A gyroscope as a motion input: the rotation of base_link from message to message, at the mean of the two rates.
+/// Translation has zero information. A message that is not later than the one before, or has no finite rates, gives
+/// nothing.
 class GyroMotion {
  public:
   /// `noise`: standard deviation of the rate, bias included, rad/s. `R_base_imu`: rotation of the device in base_link.

@@ -20,15 +20,16 @@
 
 namespace urban_nav_ros {
 
-/// A rectified grey pair, ready for a stereo stage. An image that did not come or does not decode is an empty view, and a
-/// sentence in `faults` names it.
+/// A rectified grey pair, ready for a stereo stage. An image that did not come or does not decode is an empty view, and
+/// a sentence in `faults` names it.
 struct FedPair {
   urban_nav_core::AssembledPair assembled;
   std::vector<std::string> faults;
 };
 
-/// Messages in, stereo pairs out: converters, Inbox, pairing and rectification in the one way that nodelet and bag reader share, so that
-/// both hand a stage the same bytes. One session and one calibration: begin the next with a new object. Not thread-safe.
+/// Messages in, stereo pairs out: converters, Inbox, pairing and rectification in the one way that nodelet and bag
+/// reader share, so that both hand a stage the same bytes. One session and one calibration: begin the next with a new
+/// object. Not thread-safe.
 class StereoFeed {
  public:
   using Arrival = urban_nav_core::InboxArrival;
@@ -46,7 +47,8 @@ class StereoFeed {
   /// Nothing more will come: all that waits may leave.
   void finish();
 
-  /// The next pair that is complete, or known to stay incomplete. Images are decoded and rectified here, not when they are added.
+  /// The next pair that is complete, or known to stay incomplete. Images are decoded and rectified here, not when they
+  /// are added.
   std::optional<FedPair> take();
 
   /// What came on a side, too late or twice.
@@ -57,7 +59,8 @@ class StereoFeed {
   std::optional<urban_nav_core::StampNs> reached(Side side) const;
 
  private:
-  using Input = std::variant<sensor_msgs::ImageConstPtr, sensor_msgs::CompressedImageConstPtr, urban_nav_core::MotionInput>;
+  using Input =
+      std::variant<sensor_msgs::ImageConstPtr, sensor_msgs::CompressedImageConstPtr, urban_nav_core::MotionInput>;
   int streamOf(Side side) const;
   urban_nav_core::OwnedImage decode(Side side, urban_nav_core::StampNs stamp, const Input& input);
 

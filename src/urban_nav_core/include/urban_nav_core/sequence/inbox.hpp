@@ -24,14 +24,15 @@ enum class InboxArrival {
   OrderedStreams,  ///< each stream by itself comes in order; streams are delayed against each other
 };
 
-/// Merges several streams into one order: (stamp, stream). Between subscriptions or a bag reader and a stage stands one of these, so
-/// that a stage sees the same sequence however its inputs were delayed on their way. Judges by stamps alone and reads no clock.
+/// Merges several streams into one order: (stamp, stream). Between subscriptions or a bag reader and a stage stands one
+/// of these, so that a stage sees the same sequence however its inputs were delayed on their way. Judges by stamps
+/// alone and reads no clock.
 ///
 /// An input may come up to `max_lateness` behind one with a later stamp; what comes later still is counted and dropped.
 /// The price is that inputs are held back: until a stamp has come that is later by max_lateness, or, with
-/// Arrival::OrderedStreams, until every stream has come as far as the input, since then nothing earlier can follow. That is the
-/// choice for live streams, where an answer at once is worth more than a message that overtook another of its own stream.
-/// Not thread-safe.
+/// Arrival::OrderedStreams, until every stream has come as far as the input, since then nothing earlier can follow.
+/// That is the choice for live streams, where an answer at once is worth more than a message that overtook another of
+/// its own stream. Not thread-safe.
 template <typename Item>
 class Inbox {
  public:
@@ -43,7 +44,10 @@ class Inbox {
   };
 
   Inbox(int streams, StampNs max_lateness, Arrival arrival = Arrival::Shuffled)
-      : counts_(static_cast<std::size_t>(streams)), reached_(counts_.size()), max_lateness_(max_lateness), arrival_(arrival) {}
+      : counts_(static_cast<std::size_t>(streams)),
+        reached_(counts_.size()),
+        max_lateness_(max_lateness),
+        arrival_(arrival) {}
 
   /// False: it came too late or twice, and is dropped.
   bool put(int stream, StampNs stamp, Item item) {
@@ -55,8 +59,9 @@ class Inbox {
       ++(*handed_on_ == place ? counts.doubled : counts.late);
       return false;
     }
-    const auto at = std::lower_bound(waiting_.begin(), waiting_.end(), place,
-                                     [](const Entry& entry, const Place& p) { return Place{entry.stamp, entry.stream} < p; });
+    const auto at = std::lower_bound(waiting_.begin(), waiting_.end(), place, [](const Entry& entry, const Place& p) {
+      return Place{entry.stamp, entry.stream} < p;
+    });
     if (at != waiting_.end() && at->stamp == stamp && at->stream == stream) {
       ++counts.doubled;
       return false;
@@ -91,7 +96,8 @@ class Inbox {
   bool mayLeave(const Entry& entry) const {
     if (finished_ || *newest_ - entry.stamp >= max_lateness_) return true;
     if (arrival_ == Arrival::Shuffled) return false;
-    return std::all_of(reached_.begin(), reached_.end(), [&](const std::optional<StampNs>& reached) { return reached && *reached >= entry.stamp; });
+    return std::all_of(reached_.begin(), reached_.end(),
+                       [&](const std::optional<StampNs>& reached) { return reached && *reached >= entry.stamp; });
   }
 
   std::vector<Entry> waiting_;  // sorted; short: what comes in max_lateness

@@ -15,20 +15,20 @@ namespace urban_nav_core {
 /// An image and whoever keeps its pixels alive.
 struct OwnedImage {
   StampNs stamp = 0;
-  ImageView view;                     ///< empty: the image came, but cannot be read
+  ImageView view;  ///< empty: the image came, but cannot be read
   std::shared_ptr<const void> owner;
 };
 
 /// A pair as a stereo stage eats it, with the motion inputs that ended behind the pair before and up to this one.
 struct AssembledPair {
-  StereoPair pair;                    ///< stamp: the left image's; the right one's where there is no left
-  std::vector<MotionInput> inputs;    ///< in the order of time
+  StereoPair pair;                  ///< stamp: the left image's; the right one's where there is no left
+  std::vector<MotionInput> inputs;  ///< in the order of time
   std::shared_ptr<const void> left_owner, right_owner;
 };
 
-/// Left and right images and motion inputs, in the order in which an Inbox hands them on, become stereo pairs. An image whose partner did
-/// not come leaves as a pair with an empty view as soon as a later image shows that: by stamps alone, so the same inputs
-/// give the same pairs whether live or from a file. Not thread-safe.
+/// Left and right images and motion inputs, in the order in which an Inbox hands them on, become stereo pairs. An image
+/// whose partner did not come leaves as a pair with an empty view as soon as a later image shows that: by stamps alone,
+/// so the same inputs give the same pairs whether live or from a file. Not thread-safe.
 class StereoAssembler {
  public:
   /// Two images belong together if their stamps differ by at most `tolerance`.
