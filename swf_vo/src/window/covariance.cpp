@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "window/covariance.hpp"
 
-#include <Eigen/Cholesky>
-
 #include "urban_nav_core/geometry/compose.hpp"
+#include "urban_nav_core/geometry/dense.hpp"
 
 namespace swf_vo::covariance {
 
@@ -57,7 +56,8 @@ Matrix6d relative(const Pose& T_odom_a, const Pose& T_odom_b, const Matrix12d& j
 
 Matrix6d propagate(const Pose& T_odom_last, const Matrix6d& covariance, const ProcessInput& u) {
   const urban_nav_core::Composition composed = urban_nav_core::compose(T_odom_last, u.T_from_to);
-  const Matrix6d Q = (u.information + process_model::floor()).llt().solve(Matrix6d::Identity());
+  Matrix6d information = u.information + process_model::floor(), Q = Matrix6d::Identity();
+  urban_nav_core::solvePositiveDefiniteInPlace(information, Q);
   return symmetric(Matrix6d(composed.J1 * covariance * composed.J1.transpose() + composed.J2 * Q * composed.J2.transpose()));
 }
 

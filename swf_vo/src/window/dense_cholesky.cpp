@@ -6,32 +6,76 @@
 
 namespace swf_vo {
 
+using kernels::strip;
+
 namespace {
 
 // Rounding leaves about 1e-15 of the diagonal; what lies a thousand times above it is taken for information.
 constexpr double relative_limit = 1e-12;
-constexpr int block = 32;
+// Columns of a panel: a packed strip of it (3 KB) and the strip it is multiplied with stay in the first-level cache.
+constexpr int panel = 48;
+
+std::size_t rounded(int n) { return static_cast<std::size_t>((n + strip - 1) / strip * strip); }
+
+// Rows [first, last) of column-major columns as strips; rows past the last are zero.
+void pack(const double* columns, std::size_t stride, int first, int last, int depth, std::vector<double>& packed) {
+  const std::size_t strips = rounded(last - first) / strip;
+  const std::size_t size = static_cast<std::size_t>(strip) * static_cast<std::size_t>(depth);
+  if (packed.size() < strips * size) packed.resize(strips * size);
+  for (std::size_t s = 0; s < strips; ++s) {
+    const int row = first + static_cast<int>(s) * strip;
+    const int rows = std::min(strip, last - row);
+    for (int k = 0; k < depth; ++k) {
+      double* to = packed.data() + s * size + static_cast<std::size_t>(k * strip);
+      const double* from = columns + static_cast<std::size_t>(k) * stride + row;
+      for (int r = 0; r < rows; ++r) to[r] = from[r];
+      for (int r = rows; r < strip; ++r) to[r] = 0.0;
+    }
+  }
+}
 
 }  // namespace
 
 void DenseMatrix::reset(int size) {
   size_ = size;
-  stride_ = (size + 7) / 8 * 8;
-  const std::size_t needed = static_cast<std::size_t>(stride_) * static_cast<std::size_t>(size);
+  stride_ = static_cast<int>(rounded(size));
+  // A power of two would put every column into the same lines of the cache.
+  if (stride_ % 64 == 0) stride_ += strip;
+  const std::size_t needed = static_cast<std::size_t>(stride_) * rounded(size);
   if (data_.size() < needed) data_.resize(std::max(needed, 2 * data_.size()));
   std::fill(data_.begin(), data_.begin() + static_cast<std::ptrdiff_t>(needed), 0.0);
 }
 
-void subtractProduct(DenseMatrix& C, int first, int rows, const double* B, int columns, int stride) {
-  for (int j = 0; j < rows; ++j) {
-    double* c = C.column(first + j) + first;
-    for (int k = 0; k < columns; ++k) {
-      const double* b = B + static_cast<std::size_t>(k) * static_cast<std::size_t>(stride);
-      const double factor = b[j];
-      if (factor == 0.0) continue;
-      for (int i = j; i < rows; ++i) c[i] -= b[i] * factor;
+void StripProduct::subtract(DenseMatrix& C, int first, int rows, const double* B, int columns, int stride) {
+  pack(B, static_cast<std::size_t>(stride), 0, rows, columns, packed_);
+  set_.subtractStrips(C.column(first) + first, C.stride(), packed_.data(), static_cast<int>(rounded(rows)) / strip, columns);
+}
+
+// The diagonal block, row-major in `block_`, by the plain algorithm.
+void DenseCholesky::factorDiagonal(DenseMatrix& A, int start, int width, const std::vector<double>& floor) {
+  double* L = block_.data();
+  for (int r = 0; r < width; ++r)
+    for (int c = 0; c <= r; ++c) L[r * width + c] = A(start + r, start + c);
+  for (int j = 0; j < width; ++j) {
+    const std::size_t at = static_cast<std::size_t>(start + j);
+    double* row = L + j * width;
+    double pivot = row[j];
+    for (int k = 0; k < j; ++k) pivot -= row[k] * row[k];
+    const bool held = !(pivot > relative_limit * diagonal_[at]) || !(pivot > 0.0);
+    held_[at] = held ? 1 : 0;
+    held_count_ += held ? 1 : 0;
+    row[j] = std::sqrt(held ? floor[at] : pivot);
+    const double inverse = held ? 0.0 : 1.0 / row[j];
+    inverse_[static_cast<std::size_t>(j)] = inverse;
+    for (int i = j + 1; i < width; ++i) {
+      double* below = L + i * width;
+      double value = below[j];
+      for (int k = 0; k < j; ++k) value -= below[k] * row[k];
+      below[j] = value * inverse;
     }
   }
+  for (int r = 0; r < width; ++r)
+    for (int c = 0; c <= r; ++c) A(start + r, start + c) = L[r * width + c];
 }
 
 void DenseCholesky::factor(DenseMatrix& A, const std::vector<double>& floor) {
@@ -40,30 +84,22 @@ void DenseCholesky::factor(DenseMatrix& A, const std::vector<double>& floor) {
   held_count_ = 0;
   held_.assign(static_cast<std::size_t>(n), 0);
   diagonal_.resize(static_cast<std::size_t>(n));
+  block_.resize(static_cast<std::size_t>(panel * panel));
+  inverse_.resize(static_cast<std::size_t>(panel));
   for (int j = 0; j < n; ++j) diagonal_[static_cast<std::size_t>(j)] = A(j, j);
-  for (int start = 0; start < n; start += block) {
-    const int end = std::min(n, start + block);
-    for (int j = start; j < end; ++j) {
-      double* column = A.column(j);
-      for (int k = start; k < j; ++k) {
-        const double* left = A.column(k);
-        const double factor = left[j];
-        for (int i = j; i < n; ++i) column[i] -= left[i] * factor;
+  for (int start = 0; start < n; start += panel) {
+    const int width = std::min(panel, n - start), end = start + width;
+    factorDiagonal(A, start, width, floor);
+    if (end == n) break;
+    const int strips = static_cast<int>(rounded(n - end)) / strip;
+    pack(A.column(start), static_cast<std::size_t>(A.stride()), end, n, width, packed_);
+    set_.solveStrips(packed_.data(), strips, width, block_.data(), inverse_.data());
+    for (int s = 0; s < strips; ++s)
+      for (int k = 0; k < width; ++k) {
+        const double* from = packed_.data() + static_cast<std::size_t>(s * width + k) * strip;
+        std::copy(from, from + strip, A.column(start + k) + end + s * strip);
       }
-      const std::size_t at = static_cast<std::size_t>(j);
-      if (!(column[j] > relative_limit * diagonal_[at]) || !(column[j] > 0.0)) {
-        held_[at] = 1;
-        ++held_count_;
-        std::fill(column + j, column + n, 0.0);
-        column[j] = std::sqrt(floor[at]);
-        continue;
-      }
-      const double pivot = std::sqrt(column[j]);
-      const double inverse = 1.0 / pivot;
-      for (int i = j + 1; i < n; ++i) column[i] *= inverse;
-      column[j] = pivot;
-    }
-    if (end < n) subtractProduct(A, end, n - end, A.column(start) + end, end - start, A.stride());
+    set_.subtractStrips(A.column(end) + end, A.stride(), packed_.data(), strips, width);
   }
 }
 
@@ -72,22 +108,19 @@ void DenseCholesky::solveLower(double* x, int first) const {
   for (int j = first; j < n; ++j) {
     const double* column = L_->column(j);
     x[j] = x[j] / column[j];
-    const double value = x[j];
-    if (value == 0.0) continue;
-    for (int i = j + 1; i < n; ++i) x[i] -= column[i] * value;
+    kernels::subtract(x + j + 1, column + j + 1, x[j], n - j - 1);
   }
 }
 
 void DenseCholesky::solveUpper(double* x, int first) const {
   for (int j = L_->size() - 1; j >= first; --j) {
     const double* column = L_->column(j);
-    double sum = 0.0;
-    for (int i = j + 1; i < L_->size(); ++i) sum += column[i] * x[i];
-    x[j] = (x[j] - sum) / column[j];
+    x[j] = (x[j] - kernels::dot(column + j + 1, x + j + 1, L_->size() - j - 1)) / column[j];
   }
 }
 
 void DenseCholesky::release(double* x) const {
+  if (held_count_ == 0) return;
   for (std::size_t j = 0; j < held_.size(); ++j)
     if (held_[j]) x[j] = 0.0;
 }

@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <vector>
 
+#include "window/dense_kernels.hpp"
+
 namespace swf_vo {
 
-/// A symmetric matrix of dynamic size, column-major; only the lower triangle counts. Grows by doubling and never shrinks.
+/// A symmetric matrix of dynamic size, column-major; only the lower triangle counts (anything may stand in the upper one). Grows by doubling and never shrinks.
 class DenseMatrix {
  public:
   /// All zero.
@@ -24,14 +26,26 @@ class DenseMatrix {
   std::vector<double> data_;
 };
 
-/// Lower triangle of C[first..first+rows) -= B B^T; B is rows x columns, column-major with its own stride.
-void subtractProduct(DenseMatrix& C, int first, int rows, const double* B, int columns, int stride);
+/// C[first, first + rows) -= B B^T, lower triangle, B column-major with its own stride. `first` is a multiple of 8, and so is
+/// first + rows unless it is the end of C. Keeps its buffer.
+class StripProduct {
+ public:
+  explicit StripProduct(const kernels::InstructionSet& set = kernels::instructionSets().front()) : set_(set) {}
+
+  void subtract(DenseMatrix& C, int first, int rows, const double* B, int columns, int stride);
+
+ private:
+  kernels::InstructionSet set_;
+  std::vector<double> packed_;
+};
 
 /// L L^T = A for a positive semidefinite A. Where a pivot falls below 1e-12 of its diagonal element, that direction is not
 /// determined by what stands before it: it is held, that is, solutions leave component j where it is, and its pivot
 /// becomes floor[j] (an information) so that covariances stay proper. Nothing of that goes into A's owner.
 class DenseCholesky {
  public:
+  explicit DenseCholesky(const kernels::InstructionSet& set = kernels::instructionSets().front()) : set_(set) {}
+
   /// Overwrites A with L; A must outlive the solves.
   void factor(DenseMatrix& A, const std::vector<double>& floor);
 
@@ -45,8 +59,11 @@ class DenseCholesky {
   int heldCount() const { return held_count_; }
 
  private:
+  void factorDiagonal(DenseMatrix& A, int start, int width, const std::vector<double>& floor);
+
+  kernels::InstructionSet set_;
   const DenseMatrix* L_ = nullptr;
-  std::vector<double> diagonal_;
+  std::vector<double> diagonal_, block_, inverse_, packed_;
   std::vector<char> held_;
   int held_count_ = 0;
 };

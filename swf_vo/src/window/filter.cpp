@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "window/filter.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+
+#include "urban_nav_core/geometry/dense.hpp"
 
 namespace swf_vo {
 
@@ -27,18 +28,34 @@ constexpr int halvings = 4;
 constexpr double contraction = 0.1;
 // ... and the first step was no larger than this (chi-square).
 constexpr double far_start = 100.0;
+// A datum is held ten times as well as one frame would.
+constexpr double datum_strength = 10.0;
 
 bool isSane(const Vector3d& theta) {
   return std::abs(theta.x()) < absurd_bearing && std::abs(theta.y()) < absurd_bearing && std::abs(theta.z()) < absurd_inverse_depth;
 }
 
-bool hasFullRank(const Eigen::Matrix3d& information) {
-  const Eigen::LLT<Eigen::Matrix3d> llt(information);
-  if (llt.info() != Eigen::Success) return false;
-  const Eigen::Matrix3d L = llt.matrixL();
+bool hasFullRank(Eigen::Matrix3d information) {
+  const Vector3d diagonal = information.diagonal();
+  if (!urban_nav_core::choleskyInPlace(information)) return false;
   for (int i = 0; i < 3; ++i)
-    if (!(L(i, i) * L(i, i) > 1e-9 * information(i, i))) return false;
+    if (!(information(i, i) * information(i, i) > 1e-9 * diagonal[i])) return false;
   return true;
+}
+
+Matrix6d inverse(Matrix6d A) {
+  Matrix6d B = Matrix6d::Identity();
+  urban_nav_core::solvePositiveDefiniteInPlace(A, B);
+  return B;
+}
+
+// Any rotation that turns z towards the direction.
+Eigen::Matrix3d lookingAlong(const Vector3d& direction) {
+  Eigen::Matrix3d R;
+  const Vector3d z = direction.normalized();
+  const Vector3d x = (std::abs(z.x()) < 0.7 ? Vector3d::UnitX() : Vector3d::UnitY()).cross(z).normalized();
+  R << x, z.cross(x), z;
+  return R;
 }
 
 }  // namespace
@@ -55,8 +72,9 @@ void Filter::start(FrameId frame, const Pose& T_odom_camera, const Matrix6d& inf
   state_.poses.reserve(std::min<std::size_t>(limit(), 256) + 1);
   state_.poses.push_back(pose);
   prior_.start(T_odom_camera, information);
-  gauge_free_ = information.llt().info() != Eigen::Success;
-  newest_covariance_ = (information + process_model::floor()).llt().solve(Matrix6d::Identity());
+  Matrix6d root = information;
+  gauge_free_ = !urban_nav_core::choleskyInPlace(root);
+  newest_covariance_ = inverse(information + process_model::floor());
 }
 
 // Adding new pose parameters (section 2.2.1).
@@ -88,6 +106,32 @@ void Filter::removeOldest(std::vector<SettledPose>& settled, History* history) {
   if (cost_.lineariseFirst()) cost_.relinearise(state_, prior_);
   marginaliser_.removeOldest(state_, prior_, cost_, history);
   gain_valid_ = true;
+  anchor();
+}
+
+// The covariance of T_odom_anchor and that of the window around the anchor are kept apart from here on, as if independent: what
+// they share is what the last frames say of both, a few frames in thousands.
+void Filter::anchor() {
+  std::size_t place = 0;
+  if (gauge_free_ || !inFactor(state_.first_step - 1, place)) return;
+  const Matrix6d& local = equations_.pose[place];
+  const double shift = local.diagonal().head<3>().maxCoeff(), turn = local.diagonal().tail<3>().maxCoeff();
+  const Matrix6d& P = settled_in_window_;
+  if (std::max(P.diagonal().head<3>().maxCoeff() * shift, P.diagonal().tail<3>().maxCoeff() * turn) < options_.anchor_ratio) return;
+  step_known_ = place + 1 < solver_.poses();
+  if (step_known_) step_covariance_ = covariance::relative(settled_.pose, state_.poses.front().estimate, covariance::joint(solver_, place));
+  gain_valid_ = false;
+  const Matrix6d total = covarianceOf(state_.first_step);
+  anchor_ = {state_.poses.front().estimate, total};
+  const int at = prior_.landmarkSize();
+  for (int i = 0; i < 6; ++i) prior_.information(at + i, at + i) += datum_strength * (i < 3 ? shift : turn);
+}
+
+// Turning the anchor moves what lies far from it.
+Matrix6d Filter::carried(const Pose& T_odom_camera) const {
+  Matrix6d A = Matrix6d::Identity();
+  A.topRightCorner<3, 3>() = -urban_nav_core::skew(T_odom_camera.t() - anchor_.pose.t());
+  return A * anchor_.covariance * A.transpose();
 }
 
 SettledPose Filter::settle() {
@@ -103,8 +147,10 @@ SettledPose Filter::settle() {
     result.T_odom_camera.pose = settled_.pose * result.T_previous_camera;
     std::size_t place = 0;
     covariance::Matrix12d joint = covariance::Matrix12d::Zero();
-    if (gain_valid_ && inFactor(state_.first_step, place) && place == 0) {
-      joint = covariance::leftAndOldest(solver_, settled_.covariance, marginaliser_.gain());
+    if (step_known_) {
+      result.relative_covariance = step_covariance_;
+    } else if (gain_valid_ && inFactor(state_.first_step, place) && place == 0) {
+      joint = covariance::leftAndOldest(solver_, settled_in_window_, marginaliser_.gain());
       result.relative_covariance = covariance::relative(settled_.pose, oldest.estimate, joint);
     } else if (inFactor(state_.first_step - 1, place) && place + 1 < solver_.poses()) {
       result.relative_covariance = covariance::relative(settled_.pose, oldest.estimate, covariance::joint(solver_, place));
@@ -113,7 +159,9 @@ SettledPose Filter::settle() {
     }
   }
   settled_ = result.T_odom_camera;
+  settled_in_window_ = windowCovarianceOf(state_.first_step);
   settled_step_ = state_.first_step;
+  step_known_ = false;
   return result;
 }
 
@@ -129,7 +177,7 @@ void Filter::deleteOldest() {
   }
   state_.poses.erase(state_.poses.begin());
   ++state_.first_step;
-  prior_.start(state_.poses.front().estimate, covariance.llt().solve(Matrix6d::Identity()));
+  prior_.start(state_.poses.front().estimate, inverse(covariance));
   gain_valid_ = false;
 }
 
@@ -139,8 +187,7 @@ bool Filter::fixLandmark(const MapPoint& point) {
   landmark.known = true;
   gauge_free_ = false;
   // An anchor at the origin that looks at the point.
-  const Eigen::Quaterniond q = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), point.p_odom.head<3>());
-  landmark.anchor.R_odom_anchor = q.toRotationMatrix();
+  landmark.anchor.R_odom_anchor = lookingAlong(point.p_odom.head<3>());
   landmark.anchor.t_odom_anchor.setZero();
   landmark.estimate = landmark.linearised = Vector3d(0.0, 0.0, point.p_odom.w() / point.p_odom.head<3>().norm());
   return landmark.estimate.allFinite();
@@ -190,6 +237,42 @@ bool Filter::withdraw(LandmarkId id, FrameId frame) {
   return true;
 }
 
+void Filter::setMeasurements(FrameId frame, const std::vector<Observation>& observations) {
+  const int pose = state_.poseOf(frame);
+  if (pose < 0) return;
+  const std::int64_t step = state_.first_step + pose;
+  for (LandmarkBlock& landmark : state_.landmarks) {
+    if (!landmark.used) continue;
+    const auto same = [&](const Measurement& measurement) { return measurement.step == step; };
+    landmark.seen.erase(std::remove_if(landmark.seen.begin(), landmark.seen.end(), same), landmark.seen.end());
+  }
+  for (const Observation& observation : observations) observe(observation);
+  for (std::size_t slot = 0; slot < state_.landmarks.size(); ++slot) {
+    const LandmarkBlock& landmark = state_.landmarks[slot];
+    if (landmark.used && landmark.seen.empty() && landmark.prior < 0 && !landmark.known) state_.remove(static_cast<int>(slot));
+  }
+}
+
+void Filter::save(Checkpoint& checkpoint) const {
+  checkpoint.state = state_;
+  checkpoint.prior = prior_;
+  checkpoint.newest_covariance = newest_covariance_;
+  checkpoint.anchor = anchor_;
+}
+
+void Filter::restore(const Checkpoint& checkpoint) {
+  state_ = checkpoint.state;
+  prior_ = checkpoint.prior;
+  newest_covariance_ = checkpoint.newest_covariance;
+  anchor_ = checkpoint.anchor;
+  has_factor_ = false;
+}
+
+void Filter::publish(const Published& published) {
+  settled_ = published.settled;
+  settled_step_ = published.step;
+}
+
 void Filter::endLandmark(LandmarkId id) {
   const int slot = state_.slotOf(id);
   if (slot >= 0) state_.landmarks[static_cast<std::size_t>(slot)].followed = false;
@@ -231,8 +314,8 @@ void Filter::localiseNewest() {
       ++known;
     }
     if (known < 3) break;
-    const Vector6d d = A.ldlt().solve(b);
-    if (!d.allFinite()) break;
+    Vector6d d = b;
+    if (!urban_nav_core::solvePositiveDefiniteInPlace(A, d) || !d.allFinite()) break;
     newest.estimate = boxPlus(newest.estimate, d);
     if (d.dot(b) < 1e-2) break;
   }
@@ -357,9 +440,15 @@ bool Filter::inFactor(std::int64_t step, std::size_t& place) const {
   return place < solver_.poses();
 }
 
-Matrix6d Filter::covarianceOf(std::int64_t step) const {
+Matrix6d Filter::windowCovarianceOf(std::int64_t step) const {
   std::size_t place = 0;
   return inFactor(step, place) ? covariance::marginal(solver_, place) : newest_covariance_;
+}
+
+Matrix6d Filter::covarianceOf(std::int64_t step) const {
+  std::size_t place = 0;
+  if (!inFactor(step, place)) return newest_covariance_;
+  return covariance::marginal(solver_, place) + carried(state_.poses[static_cast<std::size_t>(step - state_.first_step)].estimate);
 }
 
 UncertainPose Filter::newest() const { return {state_.poses.back().estimate, newest_covariance_}; }

@@ -29,6 +29,8 @@ class Filter {
   bool withdraw(LandmarkId landmark, FrameId frame);
   void endLandmark(LandmarkId landmark);
   UpdateReport update();
+  /// The measurements of a frame become these (undo.hpp).
+  void setMeasurements(FrameId frame, const std::vector<Observation>& observations);
   void flush(std::vector<SettledPose>& settled);
 
   urban_nav_core::UncertainPose newest() const;
@@ -36,11 +38,35 @@ class Filter {
   const Prior& prior() const { return prior_; }
   const Cost& cost() const { return cost_; }
 
+  /// All that the following steps depend on.
+  struct Checkpoint {
+    State state;
+    Prior prior;
+    urban_nav_core::Matrix6d newest_covariance;
+    urban_nav_core::UncertainPose anchor;
+  };
+  void save(Checkpoint& checkpoint) const;
+  void restore(const Checkpoint& checkpoint);
+
+  /// What was handed out as settled, and stays whatever is undone.
+  struct Published {
+    urban_nav_core::UncertainPose settled;
+    std::int64_t step = -1;
+  };
+  Published published() const { return {settled_, settled_step_}; }
+  void publish(const Published& published);
+
+  /// The next addPose will take information out of the window.
+  bool isFull() const { return state_.poses.size() >= limit(); }
+
  private:
   std::size_t limit() const;
   void removeOldest(std::vector<SettledPose>& settled, History* history);
   SettledPose settle();
   void deleteOldest();
+  void anchor();
+  urban_nav_core::Matrix6d carried(const urban_nav_core::Pose& T_odom_camera) const;
+  urban_nav_core::Matrix6d windowCovarianceOf(std::int64_t step) const;
   void place(int slot, const Measurement& first);
   void localiseNewest();
   double gradients();
@@ -65,7 +91,11 @@ class Filter {
   urban_nav_core::Matrix6d newest_covariance_ = urban_nav_core::Matrix6d::Zero();
   urban_nav_core::UncertainPose settled_;     // the last that left
   std::int64_t settled_step_ = -1;
+  urban_nav_core::Matrix6d settled_in_window_ = urban_nav_core::Matrix6d::Zero();  // its covariance without what is carried
   bool gain_valid_ = false;                   // of the marginaliser, between settled_ and the oldest pose
+  bool step_known_ = false;                   // a new datum came between them: their covariance was taken before
+  urban_nav_core::Matrix6d step_covariance_ = urban_nav_core::Matrix6d::Zero();
+  urban_nav_core::UncertainPose anchor_{urban_nav_core::Pose(), urban_nav_core::Matrix6d::Zero()};  // the datum and its covariance
   bool gauge_free_ = false;                   // nothing says where odom is
 };
 

@@ -163,7 +163,7 @@ void Marginaliser::eliminate() {
       gradient_[static_cast<std::size_t>(block.at + c)] = y[c];
     }
   }
-  subtractProduct(reduced_, 0, remaining_, panel_.data() + eliminated_, eliminated_, stride_);
+  product_.subtract(reduced_, 0, remaining_, panel_.data() + eliminated_, eliminated_, stride_);
   // d_pose = G (y - F^T d): its gain, transposed, is -F G^T.
   gain_.assign(static_cast<std::size_t>(6 * remaining_), 0.0);
   const Matrix6d& G = roots_.back();

@@ -44,6 +44,7 @@ class Marginaliser {
   int eliminated_ = 0, remaining_ = 0;   // sizes: e and n
   int stride_ = 0;
   std::vector<double> panel_;            // (e + n) x e: Lambda_a over Lambda_b^T; then its factors
+  StripProduct product_;
   DenseMatrix reduced_;                  // n x n
   std::vector<double> gradient_;         // e + n
   std::vector<double> d_, g_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "window/prior.hpp"
 
+#include "window/dense_kernels.hpp"
+
 namespace swf_vo {
 
 using Eigen::Map;
@@ -33,14 +35,11 @@ double Prior::gradient(const std::vector<double>& d, std::vector<double>& g) con
   g.resize(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) g[static_cast<std::size_t>(i)] = 0.0;
   for (int j = 0; j < n; ++j) {
-    const double* column = information.column(j);
+    const double* below = information.column(j) + j + 1;
+    double* rest = g.data() + j + 1;
     const double dj = d[static_cast<std::size_t>(j)];
-    double sum = column[j] * dj;
-    for (int i = j + 1; i < n; ++i) {
-      sum += column[i] * d[static_cast<std::size_t>(i)];
-      g[static_cast<std::size_t>(i)] -= column[i] * dj;
-    }
-    g[static_cast<std::size_t>(j)] -= sum;
+    g[static_cast<std::size_t>(j)] -= below[-1] * dj + kernels::dot(below, d.data() + j + 1, n - j - 1);
+    kernels::subtract(rest, below, dj, n - j - 1);
   }
   double cost = 0.0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) {

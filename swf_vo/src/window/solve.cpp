@@ -15,6 +15,10 @@ using urban_nav_core::Vector6d;
 namespace {
 
 constexpr double relative_limit = 1e-12;
+// The other way has to promise this share of the work: its panels are narrow.
+constexpr double worth_changing = 0.0;
+// Columns of eliminated landmarks that are taken together.
+constexpr int panel = 48;
 // Any would do; this one leaves the oldest pose a variance that nobody notices.
 constexpr double datum_strength = 1e3;
 
@@ -68,26 +72,93 @@ void addBlock(DenseMatrix& M, int row, int column, const double* block, int rows
 void Solver::eliminateFree(const State& state, const NormalEquations& equations) {
   eliminated_.resize(equations.cross.size());
   inverse_root_.resize(state.landmarks.size());
+  onto_poses_.reset(6 * static_cast<int>(poses_));
+  columns_.assign(static_cast<std::size_t>(onto_poses_.stride()) * panel, 0.0);
+  Strip strip;
   for (std::size_t slot = 0; slot < state.landmarks.size(); ++slot) {
     const LandmarkBlock& landmark = state.landmarks[slot];
-    if (!isFree(landmark)) continue;
+    if (!isFree(landmark) || landmark.seen.empty()) continue;
     const Matrix3d& R = inverse_root_[slot] = inverseRoot(equations.landmark[slot]);
-    const std::size_t first = static_cast<std::size_t>(equations.first_cross[slot]);
-    for (std::size_t m = 0; m < landmark.seen.size(); ++m) eliminated_[first + m].noalias() = equations.cross[first + m] * R.transpose();
-    for (std::size_t a = 0; a < landmark.seen.size(); ++a) {
-      const int column = static_cast<int>(offset_) + 6 * static_cast<int>(landmark.seen[a].step - state.first_step);
-      for (std::size_t b = a; b < landmark.seen.size(); ++b) {
-        const int row = static_cast<int>(offset_) + 6 * static_cast<int>(landmark.seen[b].step - state.first_step);
-        const Matrix6d block = -eliminated_[first + b] * eliminated_[first + a].transpose();
-        addBlock(dense_, row, column, block.data(), 6, 6);
-      }
+    std::size_t cross = static_cast<std::size_t>(equations.first_cross[slot]);
+    for (const Measurement& measurement : landmark.seen) {
+      const int row = 6 * static_cast<int>(measurement.step - state.first_step);
+      Matrix63d& F = eliminated_[cross];
+      F.noalias() = equations.cross[cross] * R.transpose();
+      ++cross;
+      for (int c = 0; c < 3; ++c)
+        Map<Vector6d>(columns_.data() + static_cast<std::size_t>(strip.columns + c) * static_cast<std::size_t>(onto_poses_.stride()) + row) = F.col(c);
+      strip.first = std::min(strip.first, row);
+      strip.last = std::max(strip.last, row + 6);
+    }
+    strip.columns += 3;
+    if (strip.columns + 3 > panel) subtractStrip(strip);
+  }
+  subtractStrip(strip);
+  for (int j = 0; j < onto_poses_.size(); ++j) {
+    const double* from = onto_poses_.column(j);
+    double* to = dense_.column(static_cast<int>(offset_) + j) + offset_;
+    for (int i = j; i < onto_poses_.size(); ++i) to[i] += from[i];
+  }
+}
+
+// Landmarks are born in the order of their slots more or less, so that those of one strip were seen from much the same poses.
+void Solver::subtractStrip(Strip& strip) {
+  if (strip.columns > 0) {
+    const int first = strip.first / kernels::strip * kernels::strip;
+    const int last = std::min(onto_poses_.size(), (strip.last + kernels::strip - 1) / kernels::strip * kernels::strip);
+    product_.subtract(onto_poses_, first, last - first, columns_.data() + first, strip.columns, onto_poses_.stride());
+    for (int c = 0; c < strip.columns; ++c) {
+      double* column = columns_.data() + static_cast<std::size_t>(c) * static_cast<std::size_t>(onto_poses_.stride());
+      std::fill(column + first, column + last, 0.0);
     }
   }
+  strip = Strip();
+}
+
+bool Solver::isCheaperOntoMap(const State& state, const Prior& prior) const {
+  if (way_ != Way::Cheaper) return way_ == Way::PathOntoMap;
+  std::size_t free = 0;
+  for (const LandmarkBlock& landmark : state.landmarks) free += isFree(landmark) && !landmark.seen.empty() ? 1 : 0;
+  const double path = 6.0 * static_cast<double>(state.poses.size()), dense = 3.0 * static_cast<double>(prior.slots.size()) + path;
+  const double onto_path = dense * dense * dense / 6.0 + 1.5 * static_cast<double>(free) * path * path;
+  return PathOntoMap::operations(state.poses.size(), prior.slots.size() + free) < worth_changing * onto_path;
 }
 
 void Solver::factor(const State& state, const Prior& prior, const NormalEquations& equations, bool datum) {
   poses_ = state.poses.size();
   offset_ = static_cast<std::size_t>(prior.landmarkSize());
+  onto_map_ = isCheaperOntoMap(state, prior);
+  if (onto_map_) path_onto_map_.factor(state, prior, equations, datum ? datum_strength : 0.0);
+  else factorOntoPath(state, prior, equations, datum);
+}
+
+void Solver::solve(const State& state, const Prior& prior, const NormalEquations& equations, const std::vector<double>& prior_gradient) {
+  if (onto_map_) solveOntoMap(state, prior, equations, prior_gradient);
+  else solveOntoPath(state, prior, equations, prior_gradient);
+}
+
+void Solver::solveOntoMap(const State& state, const Prior& prior, const NormalEquations& equations, const std::vector<double>& prior_gradient) {
+  path_.resize(6 * poses_);
+  map_.assign(static_cast<std::size_t>(path_onto_map_.mapSize()), 0.0);
+  for (std::size_t j = 0; j < poses_; ++j) Map<Vector6d>(path_.data() + 6 * j) = equations.pose_gradient[j];
+  std::copy(prior_gradient.begin(), prior_gradient.begin() + static_cast<std::ptrdiff_t>(offset_), map_.begin());
+  if (prior.has_pose) Map<Vector6d>(path_.data()) += Map<const Vector6d>(prior_gradient.data() + offset_);
+  for (std::size_t slot = 0; slot < state.landmarks.size(); ++slot)
+    if (path_onto_map_.rowOf(slot) >= 0) Map<Vector3d>(map_.data() + path_onto_map_.rowOf(slot)) += equations.landmark_gradient[slot];
+  right_path_ = path_;
+  right_map_ = map_;
+  path_onto_map_.solve(path_, map_, true);
+  decrement_ = 0.0;
+  for (std::size_t i = 0; i < path_.size(); ++i) decrement_ += path_[i] * right_path_[i];
+  for (std::size_t i = 0; i < map_.size(); ++i) decrement_ += map_[i] * right_map_[i];
+  rhs_.assign(offset_ + 6 * poses_, 0.0);
+  std::copy(path_.begin(), path_.end(), rhs_.begin() + static_cast<std::ptrdiff_t>(offset_));
+  landmark_step_.assign(state.landmarks.size(), Vector3d::Zero());
+  for (std::size_t slot = 0; slot < state.landmarks.size(); ++slot)
+    if (path_onto_map_.rowOf(slot) >= 0) landmark_step_[slot] = Map<const Vector3d>(map_.data() + path_onto_map_.rowOf(slot));
+}
+
+void Solver::factorOntoPath(const State& state, const Prior& prior, const NormalEquations& equations, bool datum) {
   const int size = static_cast<int>(offset_ + 6 * poses_);
   dense_.reset(size);
   floor_.assign(static_cast<std::size_t>(size), 1.0);
@@ -114,17 +185,17 @@ void Solver::factor(const State& state, const Prior& prior, const NormalEquation
   cholesky_.factor(dense_, floor_);
 }
 
-void Solver::solve(const State& state, const Prior& prior, const NormalEquations& equations, const std::vector<double>& prior_gradient) {
+void Solver::solveOntoPath(const State& state, const Prior& prior, const NormalEquations& equations, const std::vector<double>& prior_gradient) {
   rhs_.assign(offset_ + 6 * poses_, 0.0);
   std::copy(prior_gradient.begin(), prior_gradient.begin() + prior.size(), rhs_.begin());
   for (std::size_t i = 0; i < prior.slots.size(); ++i)
     Map<Vector3d>(rhs_.data() + 3 * i) += equations.landmark_gradient[static_cast<std::size_t>(prior.slots[i])];
   for (std::size_t j = 0; j < poses_; ++j) Map<Vector6d>(rhs_.data() + offset_ + 6 * j) += equations.pose_gradient[j];
-  landmark_step_.resize(state.landmarks.size());
+  landmark_step_.assign(state.landmarks.size(), Vector3d::Zero());
   decrement_ = 0.0;
   for (std::size_t slot = 0; slot < state.landmarks.size(); ++slot) {
     const LandmarkBlock& landmark = state.landmarks[slot];
-    if (!isFree(landmark)) continue;
+    if (!isFree(landmark) || landmark.seen.empty()) continue;
     const Vector3d y = inverse_root_[slot] * equations.landmark_gradient[slot];
     landmark_step_[slot] = y;
     decrement_ += y.squaredNorm();
@@ -141,7 +212,7 @@ void Solver::solve(const State& state, const Prior& prior, const NormalEquations
     landmark_step_[static_cast<std::size_t>(prior.slots[i])] = Map<const Vector3d>(rhs_.data() + 3 * i);
   for (std::size_t slot = 0; slot < state.landmarks.size(); ++slot) {
     const LandmarkBlock& landmark = state.landmarks[slot];
-    if (!isFree(landmark)) continue;
+    if (!isFree(landmark) || landmark.seen.empty()) continue;
     Vector3d y = landmark_step_[slot];
     std::size_t m = static_cast<std::size_t>(equations.first_cross[slot]);
     for (const Measurement& measurement : landmark.seen)
@@ -154,6 +225,15 @@ Vector6d Solver::poseStep(std::size_t j) const { return Map<const Vector6d>(rhs_
 
 const std::vector<double>& Solver::inverseColumn(std::size_t j, int c, bool poses_only) const {
   column_.assign(offset_ + 6 * poses_, 0.0);
+  if (onto_map_) {
+    path_.assign(6 * poses_, 0.0);
+    map_.assign(static_cast<std::size_t>(path_onto_map_.mapSize()), 0.0);
+    path_[6 * j + static_cast<std::size_t>(c)] = 1.0;
+    path_onto_map_.solve(path_, map_, false);
+    std::copy(map_.begin(), map_.begin() + static_cast<std::ptrdiff_t>(offset_), column_.begin());
+    std::copy(path_.begin(), path_.end(), column_.begin() + static_cast<std::ptrdiff_t>(offset_));
+    return column_;
+  }
   const std::size_t at = rowOf(j) + static_cast<std::size_t>(c);
   column_[at] = 1.0;
   cholesky_.solveLower(column_.data(), static_cast<int>(at));

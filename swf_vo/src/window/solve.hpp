@@ -5,6 +5,7 @@
 
 #include "window/cost.hpp"
 #include "window/dense_cholesky.hpp"
+#include "window/path_onto_map.hpp"
 #include "window/prior.hpp"
 
 namespace swf_vo {
@@ -12,10 +13,16 @@ namespace swf_vo {
 /// Solves Lambda d = g of eq. 3 (Newman et al. 2009, section 2.1) and keeps the factor for further right-hand sides and for
 /// covariances.
 ///
-/// Landmarks that the prior does not touch are block-diagonal: they are eliminated first, 3x3 by 3x3, onto the path
-/// (map-onto-path); then the landmarks of the prior, then the poses, oldest first, in one dense Cholesky.
+/// Map-onto-path: landmarks that the prior does not touch are block-diagonal and are eliminated first, 3x3 by 3x3, onto the path; then
+/// the landmarks of the prior, then the poses, oldest first, in one dense Cholesky. Path-onto-map (path_onto_map.hpp) where that is less work.
 class Solver {
  public:
+  enum class Way { Cheaper, MapOntoPath, PathOntoMap };
+  explicit Solver(Way way = Way::Cheaper) : way_(way) {}
+
+  /// The way of the last factor.
+  bool wentOntoMap() const { return onto_map_; }
+
   /// Factors the matrices of `equations` and the prior's. With `datum` the oldest pose is held: the way to solve where no absolute
   /// information is, and exact there, for a gradient without share in the gauge directions can be answered without moving it.
   void factor(const State& state, const Prior& prior, const NormalEquations& equations, bool datum);
@@ -36,13 +43,28 @@ class Solver {
   std::size_t poses() const { return poses_; }
 
  private:
+  bool isCheaperOntoMap(const State& state, const Prior& prior) const;
+  void factorOntoPath(const State& state, const Prior& prior, const NormalEquations& equations, bool datum);
+  void solveOntoPath(const State& state, const Prior& prior, const NormalEquations& equations, const std::vector<double>& prior_gradient);
+  void solveOntoMap(const State& state, const Prior& prior, const NormalEquations& equations, const std::vector<double>& prior_gradient);
+  struct Strip {
+    int columns = 0, first = 1 << 30, last = 0;  // rows touched
+  };
   void eliminateFree(const State& state, const NormalEquations& equations);
+  void subtractStrip(Strip& strip);
 
-  DenseMatrix dense_;
+  DenseMatrix dense_, onto_poses_;
+  StripProduct product_;
+  std::vector<double> columns_;
   DenseCholesky cholesky_;
   std::vector<Eigen::Matrix3d> inverse_root_;  // by slot: R with R^T R = Lambda_m(i, i)^-1, lower triangular
   std::vector<Matrix63d> eliminated_;          // cross R^T, as NormalEquations::cross
+  Way way_;
+  bool onto_map_ = false;
+  PathOntoMap path_onto_map_;
   std::vector<double> floor_, rhs_;
+  mutable std::vector<double> path_, map_;
+  std::vector<double> right_path_, right_map_;
   mutable std::vector<double> column_;
   std::vector<Eigen::Vector3d> landmark_step_;
   std::size_t poses_ = 0;

@@ -9,6 +9,7 @@ namespace {
 
 // A track is seldom longer than this; longer ones grow by doubling.
 constexpr std::size_t usual_track = 16;
+constexpr std::size_t fewest_slots = 64;
 
 bool before(const std::pair<LandmarkId, int>& entry, LandmarkId id) { return entry.first < id; }
 
@@ -26,9 +27,15 @@ int State::slotOf(LandmarkId landmark) const {
 
 int State::add(LandmarkId landmark) {
   if (free_.empty()) {
-    free_.push_back(static_cast<int>(landmarks.size()));
-    landmarks.emplace_back();
-    landmarks.back().seen.reserve(usual_track);
+    // Twice as many as before: after a few frames there are enough for good.
+    const std::size_t had = landmarks.size();
+    landmarks.resize(std::max(fewest_slots, 2 * had));
+    slots_.reserve(landmarks.size());
+    free_.reserve(landmarks.size());
+    for (std::size_t slot = landmarks.size(); slot-- > had;) {
+      landmarks[slot].seen.reserve(usual_track);
+      free_.push_back(static_cast<int>(slot));
+    }
   }
   const int slot = free_.back();
   free_.pop_back();

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "window/filter.hpp"
+#include "window/undo.hpp"
 
 namespace swf_vo {
 
@@ -16,10 +17,15 @@ class Window::Implementation {
  public:
   Implementation(const WindowOptions& chosen, const StereoCamera& camera) : options(chosen), filter(chosen, camera) {}
 
+  // An earlier frame's measurement, with something marginalised since.
+  bool isLate(FrameId frame) const { return options.exact_undo && filter.state().poseOf(frame) >= 0 && undo.needsReplay(frame); }
+
   WindowOptions options;
   Filter filter;
+  Undo undo;
   History history;
   std::vector<SettledPose> settled;
+  std::vector<FrameId> frames;
   mutable std::vector<MapPoint> map;
 };
 
@@ -30,9 +36,17 @@ Window& Window::operator=(Window&&) noexcept = default;
 
 void Window::start(FrameId frame, const Pose& T_odom_camera, const Matrix6d& information) {
   implementation_->filter.start(frame, T_odom_camera, information);
+  if (implementation_->options.exact_undo) implementation_->undo.beginStep(implementation_->filter, frame, ProcessInput(), false, 1);
 }
 
-void Window::addPose(FrameId frame, const ProcessInput& u) { implementation_->filter.addPose(frame, u); }
+void Window::addPose(FrameId frame, const ProcessInput& u) {
+  Implementation& all = *implementation_;
+  if (all.options.exact_undo) {
+    if (all.undo.isPending()) update();
+    all.undo.beginStep(all.filter, frame, u, all.filter.isFull(), static_cast<std::size_t>(std::max(1, all.options.size)));
+  }
+  all.filter.addPose(frame, u);
+}
 
 void Window::removePoses() {
   implementation_->settled.clear();
@@ -42,19 +56,44 @@ void Window::removePoses() {
 const std::vector<SettledPose>& Window::settled() const { return implementation_->settled; }
 
 bool Window::fixLandmark(const MapPoint& point) { return implementation_->filter.fixLandmark(point); }
-bool Window::observe(const Observation& observation) { return implementation_->filter.observe(observation); }
-bool Window::withdraw(LandmarkId landmark, FrameId frame) { return implementation_->filter.withdraw(landmark, frame); }
 
-void Window::withdrawAll(LandmarkId landmark) {
-  const State& state = implementation_->filter.state();
-  for (int slot = state.slotOf(landmark); slot >= 0 && !state.landmarks[static_cast<std::size_t>(slot)].seen.empty(); slot = state.slotOf(landmark)) {
-    const std::int64_t step = state.landmarks[static_cast<std::size_t>(slot)].seen.back().step;
-    withdraw(landmark, state.poses[static_cast<std::size_t>(step - state.first_step)].frame);
-  }
+bool Window::observe(const Observation& observation) {
+  Implementation& all = *implementation_;
+  if (all.isLate(observation.frame)) return all.undo.insert(observation);
+  if (!all.filter.observe(observation)) return false;
+  if (all.options.exact_undo) all.undo.observed(observation);
+  return true;
 }
 
-void Window::endLandmark(LandmarkId landmark) { implementation_->filter.endLandmark(landmark); }
-UpdateReport Window::update() { return implementation_->filter.update(); }
+bool Window::withdraw(LandmarkId landmark, FrameId frame) {
+  Implementation& all = *implementation_;
+  if (all.isLate(frame)) return all.undo.withdraw(landmark, frame);
+  if (!all.filter.withdraw(landmark, frame)) return false;
+  if (all.options.exact_undo) all.undo.forget(landmark, frame);
+  return true;
+}
+
+void Window::withdrawAll(LandmarkId landmark) {
+  Implementation& all = *implementation_;
+  const int slot = all.filter.state().slotOf(landmark);
+  if (slot < 0) return;
+  const State& state = all.filter.state();
+  all.frames.clear();
+  for (const Measurement& measurement : state.landmarks[static_cast<std::size_t>(slot)].seen)
+    all.frames.push_back(state.poses[static_cast<std::size_t>(measurement.step - state.first_step)].frame);
+  for (const FrameId frame : all.frames) withdraw(landmark, frame);
+}
+
+void Window::endLandmark(LandmarkId landmark) {
+  implementation_->filter.endLandmark(landmark);
+  if (implementation_->options.exact_undo) implementation_->undo.ended(landmark);
+}
+
+UpdateReport Window::update() {
+  implementation_->undo.replay(implementation_->filter);
+  return implementation_->filter.update();
+}
+
 UncertainPose Window::newest() const { return implementation_->filter.newest(); }
 bool Window::hasPose(FrameId frame) const { return implementation_->filter.state().poseOf(frame) >= 0; }
 

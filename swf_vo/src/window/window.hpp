@@ -23,6 +23,11 @@ struct WindowOptions {
   double huber = 2.5;               ///< in standard deviations of a stereo pixel (Mahalanobis); <= 0: no robust kernel
   int iterations = 3;               ///< Gauss-Newton steps of one update, at most; 1: one step from the prediction, as the EKF
   double tolerance = 1e-5;          ///< stops once a step promises to lower the cost (in chi-square) by less than this
+  bool exact_undo = true;           ///< withdraw and late observe as if it had always been so (undo.hpp); false: the measurement itself
+                                    ///< goes in or out, but what was marginalised since keeps the linearisation points it had
+  double anchor_ratio = 1e10;       ///< once the oldest pose is this much less certain than what one frame tells of it (in variance), it
+                                    ///< becomes the datum, and its covariance is carried beside the window: else rounding would
+                                    ///< eat what is known of the way back to the first pose
   bool keep_history = false;        ///< keep the eliminated rows for Window::trajectory(): grows with the trajectory
 };
 
@@ -72,7 +77,8 @@ class Window {
   /// is still in the window may be an earlier one. False if the frame has left, the landmark was seen from it already,
   /// it cannot be started, or a number is not finite.
   bool observe(const Observation& observation);
-  /// Takes one back, or all of a landmark: exact while the frames are in the window. False if there is none.
+  /// Takes one back, or all of a landmark that active frames saw: exact while the frames are in the window (exact_undo).
+  /// False if there is none. Takes effect with the next update().
   bool withdraw(LandmarkId landmark, FrameId frame);
   void withdrawAll(LandmarkId landmark);
   /// This landmark is not looked for any more: marginalised as soon as no active pose sees it.

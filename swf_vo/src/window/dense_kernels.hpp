@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+namespace swf_vo::kernels {
+
+/// The inner loops of the dense Cholesky, own code because Eigen compiled for the portable baseline reaches a quarter of the
+/// processor: chosen at run time by what it can do. Each sum runs in the same order and nothing is fused, so the bits do not
+/// depend on that choice.
+///
+/// A strip of 8 rows and `depth` columns is packed as depth groups of 8 numbers; strips follow one another.
+constexpr int strip = 8;
+
+struct InstructionSet {
+  const char* name;
+
+  /// C -= X X^T for the matrix X whose rows are `count` packed strips: tiles of 8x8 on and below the diagonal, whole ones.
+  /// C points at the first element, column-major.
+  void (*subtractStrips)(double* C, int stride, const double* packed, int count, int depth);
+
+  /// Each strip X becomes X L^-T. L is depth x depth, row-major, its strictly lower part is used; `inverse` holds the inverses of
+  /// its diagonal, and a zero there makes a zero column.
+  void (*solveStrips)(double* packed, int count, int depth, const double* L, const double* inverse);
+};
+
+/// What this machine can run, fastest first. The last is always there.
+std::vector<InstructionSet> instructionSets();
+
+/// sum a[i] b[i].
+double dot(const double* a, const double* b, int n);
+/// y -= factor x.
+void subtract(double* y, const double* x, double factor, int n);
+
+}  // namespace swf_vo::kernels

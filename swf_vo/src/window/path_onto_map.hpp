@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "window/cost.hpp"
+#include "window/dense_cholesky.hpp"
+#include "window/prior.hpp"
+
+namespace swf_vo {
+
+/// The other way to solve Lambda d = g: poses first (Newman et al. 2009, section 2.1, path-onto-map). They form a chain, each
+/// tied to the next by its process term, so eliminating k of them costs k small steps; what is left is a dense system of all
+/// landmarks. The cheaper way where there are few landmarks and many poses.
+class PathOntoMap {
+ public:
+  /// Operations (multiply and add) of a factor by this way.
+  static double operations(std::size_t poses, std::size_t landmarks);
+
+  void factor(const State& state, const Prior& prior, const NormalEquations& equations, double datum_strength);
+
+  /// In place: `path` holds 6 numbers a pose, `map` 3 a landmark, those of the prior first, then by slot. `hold`: components that
+  /// nothing determines stay where they are (steps); else they answer with process_model::floor() (covariances).
+  void solve(std::vector<double>& path, std::vector<double>& map, bool hold) const;
+
+  /// Row of a landmark in `map`, by slot.
+  int rowOf(std::size_t slot) const { return row_[slot]; }
+  int mapSize() const { return map_size_; }
+
+ private:
+  struct Link {
+    urban_nav_core::Matrix6d L;     ///< of this pose
+    urban_nav_core::Matrix6d next;  ///< rows of the pose after it, times L^-T
+    bool held[6];
+  };
+
+  void gather(const State& state, const Prior& prior, const NormalEquations& equations);
+  void factorPose(std::size_t j, const urban_nav_core::Vector6d& diagonal);
+  double* across(std::size_t column) { return across_.data() + column * stride_; }
+  const double* across(std::size_t column) const { return across_.data() + column * stride_; }
+
+  std::vector<Link> links_;
+  std::vector<urban_nav_core::Matrix6d> pivots_;
+  std::vector<int> row_;
+  std::vector<double> across_;  // landmarks x poses, column-major: Lambda_mp, then times L^-T
+  std::vector<double> floor_;
+  std::size_t stride_ = 0;
+  int map_size_ = 0;
+  DenseMatrix dense_;
+  StripProduct product_;
+  DenseCholesky cholesky_;
+};
+
+}  // namespace swf_vo
