@@ -26,6 +26,17 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
+/// The stages that CONTRACT.md knows and this version has not, with the reason.
+std::string leftOut() {
+  std::vector<std::string> absent;
+  for (const std::string& stage : knownStages()) {
+    if (std::find(existingStages().begin(), existingStages().end(), stage) == existingStages().end()) {
+      absent.push_back(stage);
+    }
+  }
+  return joined(absent) + " (not in this version)";
+}
+
 void checkStages(const std::vector<std::string>& stages) {
   for (const std::string& stage : stages) {
     const auto in = [&](const std::vector<std::string>& list) {
@@ -100,6 +111,7 @@ const std::vector<std::string>& existingStages() {
 void runMap(const MapRequest& request, Console& console) {
   checkStages(request.stages);
   if (!request.truth.empty()) readTrajectory(request.truth);  // a mistake in it is told now, not after the work
+  if (request.stages.empty()) console.info("stages: " + joined(existingStages()) + "; left out: " + leftOut());
   const std::vector<Session> sessions = findSessions(request.inputs);
   MapOutcome outcome(request);
   for (std::size_t i = 0; i < sessions.size(); ++i) {
@@ -111,6 +123,9 @@ void runMap(const MapRequest& request, Console& console) {
     runVo(*source, *outcome.stages.back(), outcome, console);
     checkUsable(outcome.stages.back()->run());
     writeVoFiles(outcome.folder, outcome.stages.back()->run(), i == 0 ? "" : "_" + std::to_string(i + 1));
+  }
+  for (std::size_t i = sessions.size() + 1; outcome.folder.has("trajectory_" + std::to_string(i) + ".tum"); ++i) {
+    removeVoFiles(outcome.folder, "_" + std::to_string(i));
   }
   finishMap(outcome, sessions, console);
 }

@@ -22,6 +22,8 @@ OutputFolder::OutputFolder(std::string path) : path_(std::move(path)) {
 
 std::string OutputFolder::file(const std::string& name) const { return (fs::path(path_) / name).string(); }
 
+bool OutputFolder::has(const std::string& name) const { return fs::exists(file(name)); }
+
 void OutputFolder::write(const std::string& name, const std::string& content) const {
   urban_nav_core::writeAtomically(file(name), content);
 }

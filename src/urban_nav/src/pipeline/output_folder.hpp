@@ -13,6 +13,7 @@ class OutputFolder {
 
   const std::string& path() const { return path_; }
   std::string file(const std::string& name) const;
+  bool has(const std::string& name) const;
   void write(const std::string& name, const std::string& content) const;
   /// A file of an earlier run that this one does not make.
   void remove(const std::string& name) const;

@@ -17,6 +17,9 @@ namespace urban_nav {
 /// images count alike; elsewhere, where lines are found by stamp, it has none.
 void writeVoFiles(const OutputFolder& folder, const VoRun& run, const std::string& suffix);
 
+/// Files of the same names that an earlier run with more sessions left.
+void removeVoFiles(const OutputFolder& folder, const std::string& suffix);
+
 /// stats.csv: a row per frame of all sessions.
 std::string statsCsv(const std::vector<const VoRun*>& runs);
 

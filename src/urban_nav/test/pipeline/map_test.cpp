@@ -156,6 +156,20 @@ TEST_F(Map, readsItsOwnBagsLikeTheFolder) {
       << "PNG in colour holds the same grey";
 }
 
+TEST_F(Map, joinsTheBagsOfASplitRecordingAndKeepsSessionsApart) {
+  const TemporaryFolder folder;
+  Console console;
+  convertStereoFolder(in(), folder.file("a.bag"), {}, console);
+  testing::delayBag(folder.file("a.bag"), folder.file("b.bag"), 2.0);
+  testing::delayBag(folder.file("a.bag"), folder.file("c.bag"), 100.0);
+  map({folder.file("c.bag"), folder.file("a.bag"), folder.file("b.bag")}, folder.file("out"));
+  EXPECT_EQ(urban_nav_core::readTum(folder.file("out/trajectory.tum")).size(), 32U);
+  EXPECT_EQ(urban_nav_core::readTum(folder.file("out/trajectory_2.tum")).size(), 16U);
+  EXPECT_FALSE(fs::exists(folder.file("out/trajectory_3.tum")));
+  map({folder.file("a.bag")}, folder.file("out"));
+  EXPECT_FALSE(fs::exists(folder.file("out/trajectory_2.tum"))) << "of the run before";
+}
+
 TEST_F(Map, leavesNoHalfBagBehind) {
   const TemporaryFolder folder;
   fs::copy(in(), folder.file("in"), fs::copy_options::recursive);

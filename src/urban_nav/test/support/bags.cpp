@@ -3,6 +3,7 @@
 
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
+#include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
 
@@ -30,6 +31,24 @@ void writeCompressed(const rosbag::MessageInstance& instance, rosbag::Bag& bag) 
 }
 
 }  // namespace
+
+void delayBag(const std::string& from, const std::string& to, double seconds) {
+  rosbag::Bag in(from, rosbag::bagmode::Read), out(to, rosbag::bagmode::Write);
+  const ros::Duration delay(seconds);
+  rosbag::View view(in);
+  for (const rosbag::MessageInstance& instance : view) {
+    const ros::Time time = instance.getTime() + delay;
+    if (const auto image = instance.instantiate<sensor_msgs::Image>()) {
+      image->header.stamp += delay;
+      out.write(instance.getTopic(), time, *image);
+    } else if (const auto info = instance.instantiate<sensor_msgs::CameraInfo>()) {
+      info->header.stamp += delay;
+      out.write(instance.getTopic(), time, *info);
+    } else if (instance.getTopic() == "/tf_static") {
+      out.write(instance.getTopic(), time, instance);
+    }
+  }
+}
 
 void rewriteBag(const std::string& from, const std::string& to, Rewrite how) {
   rosbag::Bag in(from, rosbag::bagmode::Read), out(to, rosbag::bagmode::Write);

@@ -5,6 +5,9 @@
 
 namespace urban_nav::testing {
 
+/// The same bag, `seconds` later: stamps and times of receipt.
+void delayBag(const std::string& from, const std::string& to, double seconds);
+
 enum class Rewrite {
   Shuffle,  ///< messages in another order, each within 40 ms of its place
   WithoutTruth,
