@@ -50,6 +50,8 @@ class BagLaunch(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         rospy.init_node("bag_launch_test", disable_signals=True)
+        # Not a frame may be dropped on a machine that is busy: the bits are compared.
+        rospy.set_param("/swf_vo/queue", 100000)
         cls.folder = tempfile.mkdtemp()
         cls.bag = make_bag(cls.folder)
 
@@ -112,7 +114,7 @@ class BagLaunch(unittest.TestCase):
 
     def test_each_round_of_a_loop_is_a_new_session(self):
         self.launch(loop="true", rate=3)
-        self.assertTrue(until(lambda: any(a.frame > 20 and b.frame == 0 for a, b in pairs(self.listener.frames)), 60),
+        self.assertTrue(until(lambda: any(a.frame > 3 and b.frame == 0 for a, b in pairs(self.listener.frames)), 60),
                         self.launched.output())
         stamps = [stamp_of(message) for message in self.listener.odometry]
         self.assertTrue(any(b < a for a, b in pairs(stamps)), "time went back")
