@@ -185,6 +185,7 @@ void readWindow(const ImageView& image, double x, double y, const Eigen::Vector2
   const int u = static_cast<int>(x), v = static_cast<int>(y);
   const std::array<float, taps> wx = blurredSpline(x - u, blur.x()), wy = blurredSpline(y - v, blur.y());
   const int left = u - patch_radius - 2;
+  const bool blurs = blur.maxCoeff() > 0.0;  // else the outer weights are zero
   alignas(16) float column[patch_size][20];  // what is beyond 16 meets the padding alone
   v_float32x4 weight[taps];
   for (std::size_t k = 0; k < taps; ++k) weight[k] = cv::v_setall_f32(wy[k]);
@@ -192,17 +193,18 @@ void readWindow(const ImageView& image, double x, double y, const Eigen::Vector2
   for (int i = 0; i < patch_size + taps - 1; ++i) rows[i] = loadRow(image.row(v - patch_radius - 2 + i) + left);
   for (int i = 0; i < patch_size; ++i) {
     cv::v_store_aligned(&column[i][16], cv::v_setzero_f32());
-    for (int k = 0; k < 4; ++k)
-      cv::v_store_aligned(&column[i][4 * k],
-                          weight[0] * rows[i].part[k] + weight[1] * rows[i + 1].part[k] + (weight[2] * rows[i + 2].part[k] + weight[3] * rows[i + 3].part[k]) +
-                              (weight[4] * rows[i + 4].part[k] + weight[5] * rows[i + 5].part[k]));
+    for (int k = 0; k < 4; ++k) {
+      v_float32x4 value = weight[1] * rows[i + 1].part[k] + weight[2] * rows[i + 2].part[k] + (weight[3] * rows[i + 3].part[k] + weight[4] * rows[i + 4].part[k]);
+      if (blurs) value += weight[0] * rows[i].part[k] + weight[5] * rows[i + 5].part[k];
+      cv::v_store_aligned(&column[i][4 * k], value);
+    }
   }
   for (std::size_t k = 0; k < taps; ++k) weight[k] = cv::v_setall_f32(wx[k]);
   for (int i = 0; i < patch_size; ++i)
     for (int k = 0; k < 12; k += 4) {
       const float* c = &column[i][k];
-      const v_float32x4 value = weight[0] * cv::v_load(c) + weight[1] * cv::v_load(c + 1) + (weight[2] * cv::v_load(c + 2) + weight[3] * cv::v_load(c + 3)) +
-                                (weight[4] * cv::v_load(c + 4) + weight[5] * cv::v_load(c + 5));
+      v_float32x4 value = weight[1] * cv::v_load(c + 1) + weight[2] * cv::v_load(c + 2) + (weight[3] * cv::v_load(c + 3) + weight[4] * cv::v_load(c + 4));
+      if (blurs) value += weight[0] * cv::v_load(c) + weight[5] * cv::v_load(c + 5);
       cv::v_store(&out[static_cast<std::size_t>(i * patch_stride + k)], value);
     }
 }
@@ -225,7 +227,7 @@ bool makeTemplate(const PatchSource& source, const Eigen::Matrix2d& A, PatchTemp
   // A template seen larger is more blurred than the view, one seen smaller less: at a corner, blur moves the place.
   const Eigen::Vector2d excess = 0.5 * own_blur * ((A * A.transpose()).diagonal().array() - 1.0).matrix();
   const Eigen::Vector2d own = (-excess).cwiseMax(0.0).cwiseMin(largest_blur_tap);
-  made.view_blur = excess.cwiseMax(0.0).cwiseMin(largest_blur_tap);
+  made.view_blur = (excess.array() > least_blur_tap).select(excess.array().min(largest_blur_tap), 0.0).matrix();
   const bool blurs = own.maxCoeff() > least_blur_tap;
   warpWide(source, A.inverse(), blurs ? 2 : 1, wide);
   if (own.x() > least_blur_tap) blurWide(own.x(), 1, wide);
@@ -296,8 +298,14 @@ std::optional<PatchSource> cutSource(const ImageView& image, int u, int v) {
   constexpr int margin = patch_radius + 3;
   if (image.empty() || u < margin || v < margin || u >= image.width - margin || v >= image.height - margin) return std::nullopt;
   PatchSource source;
+  const int first = u - PatchSource::radius;
+  const bool inside = first >= 0 && first + PatchSource::size <= image.width;
   for (int j = 0; j < PatchSource::size; ++j) {
     const std::uint8_t* row = image.row(std::clamp(v - PatchSource::radius + j, 0, image.height - 1));
+    if (inside) {
+      std::memcpy(&source.pixels[static_cast<std::size_t>(j * PatchSource::stride)], row + first, PatchSource::size);
+      continue;
+    }
     for (int i = 0; i < PatchSource::size; ++i)
       source.pixels[static_cast<std::size_t>(j * PatchSource::stride + i)] = row[std::clamp(u - PatchSource::radius + i, 0, image.width - 1)];
   }
