@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Trajectories from above, as in Fig. 5 of the paper: python3 figure5.py OUT_FOLDER_OF_MAP[=TRUTH.txt[=NAME]]... -o PICTURE.png
+"""Trajectories from above, as in Fig. 5 of the paper:
+python3 figure5.py OUT_FOLDER_OF_MAP[=TRUTH.txt[=NAME]]... -o PICTURE.png
 
 TRUTH is a KITTI file of left camera poses; needs python3-matplotlib.
 """
