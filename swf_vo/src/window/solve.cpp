@@ -16,7 +16,7 @@ namespace {
 
 constexpr double relative_limit = 1e-12;
 // The other way has to promise this share of the work: its panels are narrow.
-constexpr double worth_changing = 0.0;
+constexpr double worth_changing = 0.7;
 // Columns of eliminated landmarks that are taken together.
 constexpr int panel = 48;
 // Any would do; this one leaves the oldest pose a variance that nobody notices.
