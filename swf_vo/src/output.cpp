@@ -32,28 +32,14 @@ constexpr double unknown_angular_speed = 1.0;  // rad/s
 
 }  // namespace
 
-Output::Output(const urban_nav_core::StereoCamera& camera, const Pose& T_base_camera)
-    : camera_(camera), T_base_camera_(T_base_camera), T_camera_base_(T_base_camera.inverse()) {}
+Output::Output(const Pose& T_base_camera)
+    : T_base_camera_(T_base_camera), T_camera_base_(T_base_camera.inverse()) {}
 
 int Output::ageOf(LandmarkId landmark, FrameId frame) {
   const auto at = std::lower_bound(born_.begin(), born_.end(), landmark, [](const auto& entry, LandmarkId id) { return entry.first < id; });
   if (at != born_.end() && at->first == landmark) return static_cast<int>(frame - at->second);
   born_.insert(at, {landmark, frame});
   return 0;
-}
-
-// What only the right camera has seen is shown where the left one would see it.
-Eigen::Vector3d Output::pixelOf(const Observation& observation, const Window& window) const {
-  if (observation.information(0, 0) > 0.0) return observation.z;
-  const auto& map = window.map();
-  const auto at = std::lower_bound(map.begin(), map.end(), observation.landmark, [](const MapPoint& point, LandmarkId id) { return point.landmark < id; });
-  Eigen::Vector3d pixel = observation.z;
-  pixel.x() = pixel.z();
-  if (at == map.end() || at->landmark != observation.landmark) return pixel;
-  const Pose T_camera_odom = window.newest().pose.inverse();
-  const double depth_over_w = (T_camera_odom.q() * at->p_odom.head<3>() + T_camera_odom.t() * at->p_odom.w()).z();
-  if (depth_over_w > 0.0) pixel.x() += camera_.left.fx * camera_.baseline * at->p_odom.w() / depth_over_w;
-  return pixel;
 }
 
 void Output::list(const Window& window, const FrontEndResult* seen) {
@@ -73,7 +59,7 @@ void Output::list(const Window& window, const FrontEndResult* seen) {
     for (const Observation& observation : *group) {
       const int age = ageOf(observation.landmark, frame_.frame);
       ages += age + 1;
-      frame_.features.push_back({observation.landmark, pixelOf(observation, window), age, window.weight(observation.landmark) >= 0.5});
+      frame_.features.push_back({observation.landmark, observation.z, age, window.weight(observation.landmark) >= 0.5});
     }
   }
   // A landmark that no frame will ask for again: ids grow, so the dead gather at the front.

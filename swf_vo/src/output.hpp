@@ -6,7 +6,6 @@
 
 #include "front_end/front_end.hpp"
 #include "swf_vo/frame.hpp"
-#include "urban_nav_core/camera/stereo_camera.hpp"
 #include "window/window.hpp"
 
 namespace swf_vo {
@@ -14,7 +13,7 @@ namespace swf_vo {
 /// Turns what the window knows of the left camera into what leaves the stage of base_link, in the convention of DESIGN.md, section 4.
 class Output {
  public:
-  Output(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_base_camera);
+  explicit Output(const urban_nav_core::Pose& T_base_camera);
 
   /// `u`: what the process model said of the step to this frame.
   const Frame& write(FrameId frame, urban_nav_core::StampNs stamp, const urban_nav_core::Status& status, const Window& window,
@@ -32,9 +31,7 @@ class Output {
   Velocity velocity(FrameId frame, urban_nav_core::StampNs stamp, bool lost, const Window& window, const ProcessInput& u) const;
   void list(const Window& window, const FrontEndResult* seen);
   int ageOf(LandmarkId landmark, FrameId frame);
-  Eigen::Vector3d pixelOf(const Observation& observation, const Window& window) const;
 
-  urban_nav_core::StereoCamera camera_;
   urban_nav_core::Pose T_base_camera_, T_camera_base_;
   Frame frame_;
   std::vector<Waiting> waiting_;                 // oldest first

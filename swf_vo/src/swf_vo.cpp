@@ -59,7 +59,7 @@ class SwfVo::Implementation {
         front_end_(parameters, camera),
         window_(windowOptions(parameters), camera),
         health_(parameters),
-        output_(camera, T_base_camera) {}
+        output_(T_base_camera) {}
 
   const Frame& process(const StereoPair& pair, const std::vector<MotionInput>& inputs) {
     if (started_ && pair.stamp <= stamp_) return output_.refused(pair.stamp);
