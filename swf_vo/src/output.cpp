@@ -30,10 +30,19 @@ constexpr double far_away = 200.0;  // m
 constexpr double unknown_speed = 10.0;         // m/s
 constexpr double unknown_angular_speed = 1.0;  // rad/s
 
+// Landmarks whose first frame is remembered, before those that have left are forgotten.
+constexpr std::size_t largest_memory = 16384;
+
 }  // namespace
 
 Output::Output(const Pose& T_base_camera)
-    : T_base_camera_(T_base_camera), T_camera_base_(T_base_camera.inverse()) {}
+    : T_base_camera_(T_base_camera), T_camera_base_(T_base_camera.inverse()) {
+  born_.reserve(largest_memory);
+  frame_.features.reserve(1024);
+  frame_.landmarks.reserve(1024);
+  frame_.settled.reserve(4);
+  waiting_.reserve(64);
+}
 
 int Output::ageOf(LandmarkId landmark, FrameId frame) {
   const auto at = std::lower_bound(born_.begin(), born_.end(), landmark, [](const auto& entry, LandmarkId id) { return entry.first < id; });
@@ -63,7 +72,7 @@ void Output::list(const Window& window, const FrontEndResult* seen) {
     }
   }
   // A landmark that no frame will ask for again: ids grow, so the dead gather at the front.
-  if (born_.size() > 8 * frame_.features.size() + 1000) {
+  if (born_.size() + 1024 > largest_memory) {
     const auto& map = window.map();
     born_.erase(std::remove_if(born_.begin(), born_.end(),
                                [&](const auto& entry) {

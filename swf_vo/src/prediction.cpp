@@ -22,6 +22,8 @@ namespace {
 // Before the first step nothing is known of the velocity: a walking or slowly driving robot, or a car at 15 m/s.
 constexpr double unknown_speed = 10.0;          // m/s
 constexpr double unknown_angular_speed = 1.0;   // rad/s
+// Good images in which nothing is found where the velocity says, so many times in a row: the velocity is wrong.
+constexpr int patience = 3;
 
 Matrix6d fromSigmas(double translation, double rotation) {
   Vector6d diagonal;
@@ -87,8 +89,9 @@ ProcessInput Prediction::step(double seconds, const std::vector<MotionInput>& in
   return u;
 }
 
-void Prediction::learn(const Pose& T_last_camera, double seconds, bool measured) {
+void Prediction::learn(const Pose& T_last_camera, double seconds, bool measured, bool blind) {
   unmeasured_ = measured ? 0 : unmeasured_ + 1;
+  if (!measured && !blind && unmeasured_ >= patience) known_ = false;
   if (!measured || !(seconds > 0.0)) return;
   velocity_ = logSe3(T_last_camera) / seconds;
   known_ = true;

@@ -22,8 +22,9 @@ class Prediction {
   /// `seconds`: from the last frame to this one. Inputs follow one another; what they do not cover of the step is extrapolated.
   ProcessInput step(double seconds, const std::vector<urban_nav_core::MotionInput>& inputs) const;
 
-  /// The motion of the last step as it was estimated, and whether measurements had part in it.
-  void learn(const urban_nav_core::Pose& T_last_camera, double seconds, bool measured);
+  /// The motion of the last step as it was estimated, and whether measurements had part in it. `blind`: there were none because
+  /// there was no usable image; the velocity then goes on, else it is given up after some frames.
+  void learn(const urban_nav_core::Pose& T_last_camera, double seconds, bool measured, bool blind = false);
 
  private:
   urban_nav_core::Pose T_base_camera_;

@@ -35,6 +35,9 @@ WindowOptions windowOptions(const Parameters& parameters) {
   options.linearise_first = parameters.linearise == "first";
   options.huber = parameters.huber;
   options.iterations = parameters.iterations;
+  // Live, a frame must end within its period: what is refuted goes out at the estimates of now instead of by taking up to k steps again.
+  options.exact_undo = false;
+  options.tolerance = 1e-3;
   return options;
 }
 
@@ -89,7 +92,7 @@ class SwfVo::Implementation {
     if (seen != nullptr) observe(*seen, trusted);
     const UpdateReport update = window_.update();
 
-    if (started_) prediction_.learn(last.inverse() * window_.newest().pose, seconds_, trusted);
+    if (started_) prediction_.learn(last.inverse() * window_.newest().pose, seconds_, trusted, !evidence.image.usable);
     const urban_nav_core::Status status = health_.judge(evidence);
     doubtful_ = status.health != urban_nav_core::Health::Ok;
     started_ = true;

@@ -34,13 +34,26 @@ TEST(Prediction, trustsItselfLessTheLongerNothingWasMeasured) {
   prediction.learn(Pose(), 0.1, true);
   double last = prediction.step(0.1, {}).information(0, 0);
   for (int i = 0; i < 5; ++i) {
-    prediction.learn(Pose(), 0.1, false);
+    prediction.learn(Pose(), 0.1, false, true);
     const double now = prediction.step(0.1, {}).information(0, 0);
     EXPECT_LT(now, last);
     last = now;
   }
   prediction.learn(Pose(), 0.1, true);
   EXPECT_GT(prediction.step(0.1, {}).information(0, 0), last);
+}
+
+TEST(Prediction, givesUpAVelocityThatFindsNothingInGoodImagesButNotInTheDark) {
+  const Pose step = expSe3(twist(0.0, 0.0, 2.0, 0.0, 0.0, 0.0));
+  Prediction seeing{Parameters(), Pose()}, blind{Parameters(), Pose()};
+  seeing.learn(step, 0.1, true);
+  blind.learn(step, 0.1, true);
+  for (int i = 0; i < 10; ++i) {
+    seeing.learn(step, 0.1, false, false);
+    blind.learn(step, 0.1, false, true);
+  }
+  EXPECT_TRUE(isApprox(seeing.step(0.1, {}).T_from_to, Pose(), 1e-12));
+  EXPECT_TRUE(isApprox(blind.step(0.1, {}).T_from_to, step, 1e-12));
 }
 
 TEST(Prediction, takesAGoodInputInsteadOfTheVelocity) {
