@@ -89,10 +89,14 @@ class SwfVo::Implementation {
     else window_.start(frame_, T_odom_first_camera_, urban_nav_core::Matrix6d::Identity() / (origin_sigma * origin_sigma));
     window_.removePoses();
     const bool trusted = health_.isTrusted(evidence);
-    if (seen != nullptr) observe(*seen, trusted);
+    const bool blurred = evidence.image.reason == Reason::Blurred;
+    if (seen != nullptr) observe(*seen, trusted, !blurred);
+    // The first frame has no measurement of its motion either, but nothing before it that could run away.
+    unmeasured_ago_ = started_ && !trusted ? 0 : unmeasured_ago_ + 1;
+    window_.limitIterations(unmeasured_ago_ > parameters_.window ? parameters_.iterations : 1);
     const UpdateReport update = window_.update();
 
-    if (started_) prediction_.learn(last.inverse() * window_.newest().pose, seconds_, trusted, !evidence.image.usable);
+    if (started_) prediction_.learn(last.inverse() * window_.newest().pose, seconds_, trusted, blurred || !evidence.image.usable);
     const urban_nav_core::Status status = health_.judge(evidence);
     doubtful_ = status.health != urban_nav_core::Health::Ok;
     started_ = true;
@@ -115,7 +119,8 @@ class SwfVo::Implementation {
     return gap;
   }
 
-  void observe(const FrontEndResult& seen, bool trusted) {
+  // A landmark born in a blurred image is not found again in a sharp one, but much like it is: no new ones from there.
+  void observe(const FrontEndResult& seen, bool trusted, bool welcome) {
     for (const LandmarkId landmark : seen.refuted) {
       window_.withdrawAll(landmark);
       window_.endLandmark(landmark);
@@ -123,6 +128,7 @@ class SwfVo::Implementation {
     for (const LandmarkId landmark : seen.ended) window_.endLandmark(landmark);
     if (trusted)
       for (const Observation& observation : seen.tracked) window_.observe(observation);
+    if (!welcome) return;
     for (const Observation& observation : seen.fresh) window_.observe(observation);
   }
 
@@ -137,6 +143,7 @@ class SwfVo::Implementation {
 
   bool started_ = false;
   bool doubtful_ = true;
+  std::int64_t unmeasured_ago_ = 1000000;  // frames since one without trusted measurements
   FrameId frame_ = 0;
   urban_nav_core::StampNs stamp_ = 0;
   double seconds_ = 0.0;

@@ -25,6 +25,7 @@ constexpr double absurd_inverse_depth = 1e4;
 constexpr double cost_slack = 0.01;
 constexpr int halvings = 4;
 // Gauss-Newton goes on with the old factor while each step is this much smaller than the one before (in d^T g).
+constexpr double loose_m = 0.1, loose_rad = 0.03;
 constexpr double contraction = 0.1;
 // ... and the first step was no larger than this (chi-square).
 constexpr double far_start = 100.0;
@@ -115,9 +116,12 @@ void Filter::anchor() {
   std::size_t place = 0;
   if (gauge_free_ || !inFactor(state_.first_step - 1, place)) return;
   const Matrix6d& local = equations_.pose[place];
-  const double shift = local.diagonal().head<3>().maxCoeff(), turn = local.diagonal().tail<3>().maxCoeff();
   const Matrix6d& P = settled_in_window_;
-  if (std::max(P.diagonal().head<3>().maxCoeff() * shift, P.diagonal().tail<3>().maxCoeff() * turn) < options_.anchor_ratio) return;
+  // Weakly held poses run away from their frozen linearisation points as steps are repeated, so a datum that has become this loose is held anew.
+  const bool loose = P.diagonal().head<3>().maxCoeff() > loose_m * loose_m || P.diagonal().tail<3>().maxCoeff() > loose_rad * loose_rad;
+  const double shift = std::max(local.diagonal().head<3>().maxCoeff(), loose ? 1e6 : 0.0);
+  const double turn = std::max(local.diagonal().tail<3>().maxCoeff(), loose ? 1e6 : 0.0);
+  if (!loose && std::max(P.diagonal().head<3>().maxCoeff() * shift, P.diagonal().tail<3>().maxCoeff() * turn) < options_.anchor_ratio) return;
   step_known_ = place + 1 < solver_.poses();
   if (step_known_) step_covariance_ = covariance::relative(settled_.pose, state_.poses.front().estimate, covariance::joint(solver_, place));
   gain_valid_ = false;

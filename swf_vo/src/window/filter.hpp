@@ -29,6 +29,7 @@ class Filter {
   bool withdraw(LandmarkId landmark, FrameId frame);
   void endLandmark(LandmarkId landmark);
   UpdateReport update();
+  void limitIterations(int most) { options_.iterations = most; }
   /// The measurements of a frame become these (undo.hpp).
   void setMeasurements(FrameId frame, const std::vector<Observation>& observations);
   void flush(std::vector<SettledPose>& settled);

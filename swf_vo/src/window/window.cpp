@@ -89,6 +89,8 @@ void Window::endLandmark(LandmarkId landmark) {
   if (implementation_->options.exact_undo) implementation_->undo.ended(landmark);
 }
 
+void Window::limitIterations(int most) { implementation_->filter.limitIterations(most); }
+
 UpdateReport Window::update() {
   implementation_->undo.replay(implementation_->filter);
   return implementation_->filter.update();

@@ -86,6 +86,9 @@ class Window {
 
   /// Robust Gauss-Newton over all that is in the window.
   UpdateReport update();
+  /// From the next update on. While poses without measurements are in the window, frozen linearisation points are far from the estimates, and
+  /// repeated steps run away along the directions that nothing holds: one step a frame is safe there.
+  void limitIterations(int most);
 
   /// Before update(): the prediction. The window must have been started.
   urban_nav_core::UncertainPose newest() const;
