@@ -54,7 +54,7 @@ int main(int argc, char** argv) try {
     else folders.emplace_back(argv[i]);
   }
   if (folders.empty())
-    for (const char* name : {"kitti06_000_050", "kitti_raw_0926_0005", "kitti_raw_0926_0009"})
+    for (const char* name : {"kitti06_000_050", "kitti_raw_0926_0005"})
       if (const std::string folder = dataFolder(name); !folder.empty()) folders.push_back(folder);
 
   BenchTable table({"sequence", "row", "average", "minimum", "maximum"}, argc, argv);
