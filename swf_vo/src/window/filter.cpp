@@ -25,7 +25,7 @@ constexpr double absurd_inverse_depth = 1e4;
 constexpr double cost_slack = 0.01;
 constexpr int halvings = 4;
 // Gauss-Newton goes on with the old factor while each step is this much smaller than the one before (in d^T g).
-constexpr double loose_m = 0.1, loose_rad = 0.03;
+constexpr double loose_m = 0.5, loose_rad = 0.15;
 constexpr double contraction = 0.1;
 // ... and the first step was no larger than this (chi-square).
 constexpr double far_start = 100.0;
