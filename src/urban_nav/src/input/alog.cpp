@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
+#include <optional>
 
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -138,10 +140,18 @@ std::string_view AlogFields::text(std::string_view key) const {
   throw UserError(where_, "no field `" + std::string(key) + "`", "");
 }
 
+namespace {
+
+// Beyond this a number is damaged: squares of it overflow, sines of it mean nothing.
+constexpr double kLargestNumber = 1e12;
+bool isSensible(const std::optional<double>& number) { return number && std::abs(*number) <= kLargestNumber; }
+
+}  // namespace
+
 double AlogFields::number(std::string_view key) const {
   const std::string_view value = text(key);
   const auto number = parseNumber(value);
-  if (!number) throw UserError(where_, std::string(key) + " = " + std::string(value), "a finite number");
+  if (!isSensible(number)) throw UserError(where_, std::string(key) + " = " + std::string(value), "a finite number");
   return *number;
 }
 
@@ -172,7 +182,7 @@ std::vector<double> AlogFields::array(std::string_view key, std::size_t count) c
   if (!content.empty()) {
     for (const std::string_view piece : urban_nav_core::splitAt(content, ',')) {
       const auto number = parseNumber(piece);
-      if (!number) refuse("`" + std::string(piece) + "`");
+      if (!isSensible(number)) refuse("`" + std::string(piece) + "`");
       numbers.push_back(*number);
     }
   }
