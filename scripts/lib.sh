@@ -68,7 +68,8 @@ configure() {
   if [ -f "$folder/configured" ] && [ "$(cut -d' ' -f1 "$folder/configured")" != "$root" ]; then
     rm -rf "$folder/build" "$folder/devel"  # the repository has moved, and CMake keeps absolute paths
   fi
-  mkdir -p "$folder/build"
+  # catkin notes once, while it configures, which of these folders exist, and tests see no others in their environment.
+  mkdir -p "$folder/build" "$folder/devel/bin" "$folder/devel/lib/pkgconfig" "$folder/devel/lib/python3/dist-packages"
   rm -f "$folder/configured"
   if command -v ccache >/dev/null; then set -- "$@" -DCMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
   if ! cmake -S "$ws/src" -B "$folder/build" -G Ninja -DPYTHON_EXECUTABLE=/usr/bin/python3 \
