@@ -2,19 +2,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """bag.launch as a user starts it: once at three times the speed, once paused, once looped; and against the offline command."""
 import csv
-import shutil
 import subprocess
 import sys
-import tempfile
-import unittest
 from pathlib import Path
 
 import rospkg
-import rospy
 import yaml
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from graph import Launched, Listener, command, make_bag, published, subscribed_by, until  # noqa: E402
+from graph import command, connections, published, services  # noqa: E402
+from launch_case import PATIENCE, LaunchCase  # noqa: E402
 
 TOPICS = {
     "/vo/odometry": "nav_msgs/Odometry",
@@ -31,6 +28,7 @@ TOPICS = {
     "/stereo/right/camera_info": "sensor_msgs/CameraInfo",
     "/clock": "rosgraph_msgs/Clock",
 }
+HEARD = [f"/stereo/{side}/{topic}" for side in ("left", "right") for topic in ("image_raw", "camera_info")]
 SENSOR_FRAMES = ["base_link", "stereo_left_optical_frame", "stereo_right_optical_frame"]
 # What a display of rviz reads, and the property that names it.
 DISPLAYS = {
@@ -46,32 +44,16 @@ def stamp_of(message):
     return message.header.stamp.to_nsec()
 
 
-class BagLaunch(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        rospy.init_node("bag_launch_test", disable_signals=True)
-        # Not a frame may be dropped on a machine that is busy: the bits are compared.
-        rospy.set_param("/swf_vo/queue", 100000)
-        cls.folder = tempfile.mkdtemp()
-        cls.bag = make_bag(cls.folder)
-
-    @classmethod
-    def tearDownClass(cls):
-        shutil.rmtree(cls.folder)
-
-    def setUp(self):
-        self.listener = Listener()
-        self.launched = None
-
-    def tearDown(self):
-        if self.launched:
-            self.assertEqual(self.launched.stop(), "")
-        self.listener.close()
-        self.assertEqual(self.listener.errors, [])
-
-    def launch(self, **arguments):
+class BagLaunch(LaunchCase):
+    def play(self, **arguments):
         arguments.setdefault("rviz", "false")
-        self.launched = Launched("bag.launch", bag=self.bag, **arguments)
+        self.launch("bag.launch", bag=self.bag, **arguments)
+
+    def play_on(self):
+        """Lets a paused player go as soon as the odometry hears it."""
+        self.expect(lambda: "/player/pause_playback" in services(), "the player")
+        self.expect(lambda: set(HEARD) <= connections("/swf_vo"), lambda: f"only {connections('/swf_vo')}")
+        subprocess.run(["rosservice", "call", "/player/pause_playback", "false"], check=True, stdout=subprocess.DEVNULL)
 
     def test_plays_and_agrees_with_the_command_to_the_last_bit(self):
         out = Path(self.folder) / "out"
@@ -79,13 +61,13 @@ class BagLaunch(unittest.TestCase):
                        stdout=subprocess.DEVNULL)
         with open(out / "stats.csv") as file:
             rows = list(csv.DictReader(file))
-        self.launch(rate=3)
-        self.assertTrue(until(lambda: len(self.listener.odometry) >= 5, 60), self.launched.output())
+        self.play(rate=3, paused="true")
+        self.play_on()
+        self.expect(lambda: len(self.listener.odometry) >= 5, "five frames")
         present = published()
         for topic, type_name in TOPICS.items():
             self.assertEqual(present.get(topic), type_name, topic)
-        self.assertTrue(until(lambda: len(self.listener.odometry) == len(rows), 60),
-                        f"{len(self.listener.odometry)} of {len(rows)} frames\n{self.launched.output()}")
+        self.expect(lambda: len(self.listener.odometry) == len(rows), lambda: f"{len(self.listener.odometry)} of {len(rows)} frames")
         for frame in SENSOR_FRAMES:
             self.assertTrue(self.listener.connected("odom", frame), f"{frame} hangs from nothing: {self.listener.links}")
 
@@ -99,29 +81,29 @@ class BagLaunch(unittest.TestCase):
         subprocess.run(["rosservice", "call", "/swf_vo/reset"], check=True, stdout=subprocess.DEVNULL)
         with open(out / "relative_covariance.csv") as file:
             relative = [line.strip().split(",") for line in file if line[0].isdigit()]
-        self.assertTrue(until(lambda: len(self.listener.relative) == len(relative), 20),
-                        f"{len(self.listener.relative)} of {len(relative)} relative poses")
+        self.expect(lambda: len(self.listener.relative) == len(relative),
+                    lambda: f"{len(self.listener.relative)} of {len(relative)} relative poses")
         for row, message in zip(relative, self.listener.relative):
             self.assertEqual([int(row[0]), int(row[1])], [message.from_stamp.to_nsec(), message.to_stamp.to_nsec()])
             self.assertEqual([float(value) for value in row[3:]], list(message.covariance))
 
     def test_waits_when_paused(self):
-        self.launch(paused="true", delay=0.5)
-        self.assertTrue(until(lambda: "/player/pause_playback" in services() and "/swf_vo/reset" in services(), 30), self.launched.output())
-        self.assertFalse(until(lambda: self.listener.odometry, 2), "nothing was to move")
-        subprocess.run(["rosservice", "call", "/player/pause_playback", "false"], check=True, stdout=subprocess.DEVNULL)
-        self.assertTrue(until(lambda: len(self.listener.odometry) >= 3, 30), self.launched.output())
+        self.play(paused="true", delay=0.5)
+        self.expect(lambda: len(self.listener.clock) >= 100, "the clock of a paused player stands, but is told")
+        self.assertEqual(len(set(self.listener.clock)), 1)
+        self.assertEqual(self.listener.odometry, [], "nothing was to move")
+        self.play_on()
+        self.expect(lambda: len(self.listener.odometry) >= 3, "three frames")
 
     def test_each_round_of_a_loop_is_a_new_session(self):
-        self.launch(loop="true", rate=3)
-        self.assertTrue(until(lambda: any(a.frame > 3 and b.frame == 0 for a, b in pairs(self.listener.frames)), 60),
-                        self.launched.output())
+        self.play(loop="true", rate=3)
+        self.expect(lambda: any(a.frame > 3 and b.frame == 0 for a, b in pairs(self.listener.frames)), "a second round")
         stamps = [stamp_of(message) for message in self.listener.odometry]
         self.assertTrue(any(b < a for a, b in pairs(stamps)), "time went back")
 
     def test_ends_with_the_bag_if_told_to(self):
-        self.launch(exit="true", rate=3)
-        self.assertTrue(self.launched.ended(60), self.launched.output())
+        self.play(exit="true", rate=3)
+        self.assertTrue(self.launched.ended(PATIENCE), self.launched.output())
         self.assertEqual(self.launched.process.returncode, 0)
         self.assertTrue(self.listener.odometry)
 
@@ -132,8 +114,8 @@ class BagLaunch(unittest.TestCase):
 
     def look_at(self, path):
         config = yaml.safe_load(path.read_text())["Visualization Manager"]
-        self.launch(loop="true")
-        self.assertTrue(until(lambda: self.listener.odometry, 60), self.launched.output())
+        self.play(loop="true")
+        self.expect(lambda: self.listener.odometry, "a frame")
         present = published()
         for display in config["Displays"]:
             kind = display["Class"]
@@ -149,11 +131,6 @@ class BagLaunch(unittest.TestCase):
 
 def pairs(items):
     return list(zip(items[:-1], items[1:]))
-
-
-def services():
-    import rosgraph
-    return {name for name, _ in rosgraph.Master("/launch_test").getSystemState()[2]}
 
 
 if __name__ == "__main__":

@@ -7,12 +7,13 @@ import subprocess
 import tempfile
 import time
 from pathlib import Path
+from xmlrpc.client import ServerProxy
 
 import rosgraph
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import Odometry
-from rosgraph_msgs.msg import Log
+from rosgraph_msgs.msg import Clock, Log
 from tf2_msgs.msg import TFMessage
 from urban_nav_msgs.msg import RelativePose, VoFrame
 
@@ -64,13 +65,14 @@ class Listener:
     """Keeps what the odometry says, which frames tf connects, and every error."""
 
     def __init__(self):
-        self.odometry, self.relative, self.frames, self.diagnostics, self.errors = [], [], [], [], []
+        self.odometry, self.relative, self.frames, self.diagnostics, self.clock, self.errors = [], [], [], [], [], []
         self.links = {}
         self.subscribers = [
             rospy.Subscriber("vo/odometry", Odometry, self.odometry.append),
             rospy.Subscriber("vo/relative_pose", RelativePose, self.relative.append),
             rospy.Subscriber("vo/frame", VoFrame, self.frames.append),
             rospy.Subscriber("/diagnostics", DiagnosticArray, self.diagnostics.append),
+            rospy.Subscriber("/clock", Clock, lambda message: self.clock.append(message.clock.to_nsec())),
             rospy.Subscriber("/rosout", Log, self._log),
             rospy.Subscriber("/tf", TFMessage, self._transforms),
             rospy.Subscriber("/tf_static", TFMessage, self._transforms),
@@ -106,17 +108,26 @@ def published():
     return {name: types.get(name, "") for name, _ in master.getSystemState()[0]}
 
 
-def subscribed_by(node):
-    return {name for name, nodes in rosgraph.Master("/launch_test").getSystemState()[1] if node in nodes}
+def services():
+    return {name for name, _ in rosgraph.Master("/launch_test").getSystemState()[2]}
+
+
+def connections(node):
+    """The topics that `node` hears: not only asked for, but connected to somebody who publishes them."""
+    try:
+        uri = rosgraph.Master("/launch_test").lookupNode(node)
+        _, _, rows = ServerProxy(uri).getBusInfo("/launch_test")
+    except (rosgraph.MasterException, OSError):
+        return set()
+    return {row[4] for row in rows if row[2] == "i" and row[5]}
 
 
 def command():
     """The `urban_nav` program of this workspace."""
     found = shutil.which("urban_nav")
-    if found:
-        return found
-    import rospkg.common  # noqa: F401  (only where the workspace's bin is not on the path)
-    raise RuntimeError("urban_nav is not on the path: source the workspace's setup.bash")
+    if not found:
+        raise RuntimeError("urban_nav is not on the path: source the workspace's setup.bash")
+    return found
 
 
 def sequence_folder(directory):
