@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Pyramid, FAST and Harris (1241x376) and the remap (752x376) beside OpenCV's, on one core, with the texture of a street.
+// SPDX-License-Identifier: BSD-3-Clause Pyramid, FAST and Harris (1241x376) and the remap (752x376) beside OpenCV's, on
+// one core, with the texture of a street.
 #include <benchmark/benchmark.h>
 
 #include <opencv2/calib3d.hpp>

@@ -11,13 +11,13 @@
 
 #if URBAN_NAV_COUNTS_ALLOCATIONS
 
-// glibc's own entry points, under which malloc can be replaced by a program without touching dlsym: operator new and Eigen's aligned
-// buffers both end here.
+// glibc's own entry points, under which malloc can be replaced by a program without touching dlsym: operator new and
+// Eigen's aligned buffers both end here.
 extern "C" {
-void* __libc_malloc(std::size_t size);                              // NOLINT(bugprone-reserved-identifier)
-void* __libc_calloc(std::size_t count, std::size_t size);           // NOLINT(bugprone-reserved-identifier)
-void* __libc_realloc(void* old, std::size_t size);                  // NOLINT(bugprone-reserved-identifier)
-void* __libc_memalign(std::size_t alignment, std::size_t size);     // NOLINT(bugprone-reserved-identifier)
+void* __libc_malloc(std::size_t size);                           // NOLINT(bugprone-reserved-identifier)
+void* __libc_calloc(std::size_t count, std::size_t size);        // NOLINT(bugprone-reserved-identifier)
+void* __libc_realloc(void* old, std::size_t size);               // NOLINT(bugprone-reserved-identifier)
+void* __libc_memalign(std::size_t alignment, std::size_t size);  // NOLINT(bugprone-reserved-identifier)
 }
 
 namespace {

@@ -46,7 +46,8 @@ std::string baseName(const std::string& path) { return path.substr(path.find_las
 
 BenchTable::BenchTable(std::vector<std::string> columns, int argc, char** argv) : columns_(std::move(columns)) {
   // Paths are of one machine: a reader needs the names alone.
-  for (int i = 0; i < argc; ++i) command_ += (i > 0 ? " " : "") + (argv[i][0] == '-' ? std::string(argv[i]) : baseName(argv[i]));
+  for (int i = 0; i < argc; ++i)
+    command_ += (i > 0 ? " " : "") + (argv[i][0] == '-' ? std::string(argv[i]) : baseName(argv[i]));
 }
 
 void BenchTable::add(std::vector<std::string> cells) {
@@ -76,9 +77,10 @@ std::string BenchTable::text() const {
 
 void BenchTable::write(const std::string& path) const {
   std::ostringstream out;
-  out << "{\n  \"machine\": " << quoted(machineName()) << ",\n  \"commit\": " << quoted(commitName()) << ",\n  \"command\": " << quoted(command_)
-      << ",\n  \"columns\": " << list(columns_) << ",\n  \"rows\": [\n";
-  for (std::size_t i = 0; i < rows_.size(); ++i) out << "    " << list(rows_[i]) << (i + 1 < rows_.size() ? ",\n" : "\n");
+  out << "{\n  \"machine\": " << quoted(machineName()) << ",\n  \"commit\": " << quoted(commitName())
+      << ",\n  \"command\": " << quoted(command_) << ",\n  \"columns\": " << list(columns_) << ",\n  \"rows\": [\n";
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    out << "    " << list(rows_[i]) << (i + 1 < rows_.size() ? ",\n" : "\n");
   out << "  ],\n  \"notes\": " << list(notes_) << "\n}\n";
   writeAtomically(path, out.str());
 }

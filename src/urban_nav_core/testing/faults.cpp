@@ -115,11 +115,8 @@ bool FaultFilter::spoil(const Fault& fault, const StereoFrame& original, StereoF
       frame.left = last_good_.left;
       frame.right = last_good_.right;
       break;
-    case FaultKind::Swap:
-      std::swap(frame.left, frame.right);
-      break;
-    case FaultKind::Drop:
-      return chance(1) >= value;
+    case FaultKind::Swap: std::swap(frame.left, frame.right); break;
+    case FaultKind::Drop: return chance(1) >= value;
     case FaultKind::OverExpose:
       expose(frame.left, value);
       expose(frame.right, value);
@@ -132,21 +129,11 @@ bool FaultFilter::spoil(const Fault& fault, const StereoFrame& original, StereoF
       corruptRows(frame.left, value, seed);
       corruptRows(frame.right, value, seed + 1'000'000);
       break;
-    case FaultKind::NoLeft:
-      frame.left = GreyImage{};
-      break;
-    case FaultKind::NoRight:
-      frame.right = GreyImage{};
-      break;
-    case FaultKind::StampJump:
-      frame.stamp += std::llround(value * 1e9);
-      break;
-    case FaultKind::StampEqual:
-      frame.stamp = last_good_.stamp;
-      break;
-    case FaultKind::StampBackward:
-      frame.stamp = 2 * last_good_.stamp - original.stamp;
-      break;
+    case FaultKind::NoLeft: frame.left = GreyImage{}; break;
+    case FaultKind::NoRight: frame.right = GreyImage{}; break;
+    case FaultKind::StampJump: frame.stamp += std::llround(value * 1e9); break;
+    case FaultKind::StampEqual: frame.stamp = last_good_.stamp; break;
+    case FaultKind::StampBackward: frame.stamp = 2 * last_good_.stamp - original.stamp; break;
   }
   return true;
 }

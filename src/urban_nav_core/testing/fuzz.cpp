@@ -56,30 +56,16 @@ void Mutator::mutateOnce(std::string& text) {
   const auto [line, line_end] = pieceAround(text, position, "\n");
   const std::string whole_line = text.substr(line, line_end - line) + "\n";
   switch (below(10)) {
-    case 0:
-      text.insert(position, 1, static_cast<char>(below(256)));
-      break;
+    case 0: text.insert(position, 1, static_cast<char>(below(256))); break;
     case 1:
       if (!text.empty()) text[position] = static_cast<char>(text[position] ^ (1 << below(8)));
       break;
-    case 2:
-      text.erase(position, 1 + below(8));
-      break;
-    case 3:
-      text.resize(position);
-      break;
-    case 4:
-      text.replace(word, word_end - word, nasty_words[below(nasty_words.size())]);
-      break;
-    case 5:
-      text.erase(word, word_end - word);
-      break;
-    case 6:
-      text.insert(line, whole_line);
-      break;
-    case 7:
-      text.erase(line, line_end - line + below(2));
-      break;
+    case 2: text.erase(position, 1 + below(8)); break;
+    case 3: text.resize(position); break;
+    case 4: text.replace(word, word_end - word, nasty_words[below(nasty_words.size())]); break;
+    case 5: text.erase(word, word_end - word); break;
+    case 6: text.insert(line, whole_line); break;
+    case 7: text.erase(line, line_end - line + below(2)); break;
     case 8:
       text.insert(word, std::string(1 + below(300), text.empty() ? '9' : text[word < text.size() ? word : 0]));
       break;

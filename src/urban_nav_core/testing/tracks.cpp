@@ -43,7 +43,8 @@ std::vector<Pose> drive(const TrackOptions& options) {
     const double along = static_cast<double>(i);
     const double tilt = options.motion == TrackMotion::Standing ? 0.0 : 0.02;
     const Quaterniond level = expSo3(Vector3d(0.0, heading, 0.0));
-    const Quaterniond shaken = expSo3(Vector3d(tilt * std::sin(0.31 * along), 0.0, 0.7 * tilt * std::sin(0.23 * along)));
+    const Quaterniond shaken =
+        expSo3(Vector3d(tilt * std::sin(0.31 * along), 0.0, 0.7 * tilt * std::sin(0.23 * along)));
     poses.emplace_back(level * shaken, t);
     double speed = options.speed, turn = 0.0;
     const int phase = i % 100;
@@ -92,7 +93,8 @@ Tracks simulateTracks(const TrackOptions& options) {
       sighting.landmark = landmark;
       sighting.z = z + options.sigma_px * Vector3d(dice.normal(), dice.normal(), dice.normal());
       sighting.outlier = dice.uniform() < options.outliers;
-      if (sighting.outlier) sighting.z += Vector3d(dice.uniform(-20.0, 20.0), dice.uniform(-20.0, 20.0), dice.uniform(-20.0, 20.0));
+      if (sighting.outlier)
+        sighting.z += Vector3d(dice.uniform(-20.0, 20.0), dice.uniform(-20.0, 20.0), dice.uniform(-20.0, 20.0));
       frame.sightings.push_back(sighting);
     };
     std::vector<Alive> still;
@@ -106,10 +108,12 @@ Tracks simulateTracks(const TrackOptions& options) {
       else frame.ended.push_back(track.landmark);
     }
     while (static_cast<int>(frame.sightings.size()) < options.features) {
-      const Vector3d pixel(dice.uniform(5.0, camera.left.width - 6.0), dice.uniform(5.0, camera.left.height - 6.0), 0.0);
+      const Vector3d pixel(dice.uniform(5.0, camera.left.width - 6.0), dice.uniform(5.0, camera.left.height - 6.0),
+                           0.0);
       const double depth = options.nearest * std::pow(options.farthest / options.nearest, dice.uniform());
       const double life = std::log(dice.uniform()) / std::log(1.0 - 1.0 / std::max(1.0 + 1e-9, options.track_length));
-      const Vector3d p((pixel.x() - camera.left.cx) / camera.left.fx * depth, (pixel.y() - camera.left.cy) / camera.left.fy * depth, depth);
+      const Vector3d p((pixel.x() - camera.left.cx) / camera.left.fx * depth,
+                       (pixel.y() - camera.left.cy) / camera.left.fy * depth, depth);
       const Vector3d p_world = frame.T_world_camera * p;
       if (!project(camera, frame.T_world_camera, p_world, z)) continue;
       const std::int64_t landmark = static_cast<std::int64_t>(tracks.points.size());

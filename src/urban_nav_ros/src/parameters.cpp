@@ -15,18 +15,10 @@ std::map<std::string, ParameterValue> serverValues(const ros::NodeHandle& nh) {
   if (!nh.getParam(nh.getNamespace(), tree) || tree.getType() != XmlRpc::XmlRpcValue::TypeStruct) return values;
   for (auto& [name, value] : tree) {
     switch (value.getType()) {
-      case XmlRpc::XmlRpcValue::TypeBoolean:
-        values[name] = static_cast<bool>(value);
-        break;
-      case XmlRpc::XmlRpcValue::TypeInt:
-        values[name] = static_cast<int>(value);
-        break;
-      case XmlRpc::XmlRpcValue::TypeDouble:
-        values[name] = static_cast<double>(value);
-        break;
-      case XmlRpc::XmlRpcValue::TypeString:
-        values[name] = static_cast<std::string>(value);
-        break;
+      case XmlRpc::XmlRpcValue::TypeBoolean: values[name] = static_cast<bool>(value); break;
+      case XmlRpc::XmlRpcValue::TypeInt: values[name] = static_cast<int>(value); break;
+      case XmlRpc::XmlRpcValue::TypeDouble: values[name] = static_cast<double>(value); break;
+      case XmlRpc::XmlRpcValue::TypeString: values[name] = static_cast<std::string>(value); break;
       default:
         throw urban_nav_core::UserError(nh.getNamespace() + "/" + name, "a list, a map or binary data",
                                         "true or false, a number, or text");

@@ -10,30 +10,21 @@ using urban_nav_msgs::StageStatus;
 
 std::uint8_t toMessage(Health health) {
   switch (health) {
-    case Health::Ok:
-      return StageStatus::OK;
-    case Health::Degraded:
-      return StageStatus::DEGRADED;
-    case Health::Lost:
-      return StageStatus::LOST;
-    case Health::Recovered:
-      return StageStatus::RECOVERED;
+    case Health::Ok: return StageStatus::OK;
+    case Health::Degraded: return StageStatus::DEGRADED;
+    case Health::Lost: return StageStatus::LOST;
+    case Health::Recovered: return StageStatus::RECOVERED;
   }
   return StageStatus::LOST;
 }
 
 std::optional<Health> toHealth(std::uint8_t value) {
   switch (value) {
-    case StageStatus::OK:
-      return Health::Ok;
-    case StageStatus::DEGRADED:
-      return Health::Degraded;
-    case StageStatus::LOST:
-      return Health::Lost;
-    case StageStatus::RECOVERED:
-      return Health::Recovered;
-    default:
-      return std::nullopt;
+    case StageStatus::OK: return Health::Ok;
+    case StageStatus::DEGRADED: return Health::Degraded;
+    case StageStatus::LOST: return Health::Lost;
+    case StageStatus::RECOVERED: return Health::Recovered;
+    default: return std::nullopt;
   }
 }
 

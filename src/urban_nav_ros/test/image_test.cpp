@@ -9,7 +9,8 @@
 namespace urban_nav_ros {
 namespace {
 
-sensor_msgs::Image message(const std::string& encoding, std::uint32_t width, std::uint32_t height, std::vector<std::uint8_t> data, std::uint32_t step = 0) {
+sensor_msgs::Image message(const std::string& encoding, std::uint32_t width, std::uint32_t height,
+                           std::vector<std::uint8_t> data, std::uint32_t step = 0) {
   sensor_msgs::Image image;
   image.encoding = encoding;
   image.width = width;
@@ -35,7 +36,8 @@ TEST(ToGrey, weighsColoursByTheirNames) {
 }
 
 TEST(ToGrey, knowsWhichPixelOfAMosaicIsRed) {
-  // Red light alone: the red pixels are bright, the others dark. Grey is 0.299 red wherever the pattern is read rightly.
+  // Red light alone: the red pixels are bright, the others dark. Grey is 0.299 red wherever the pattern is read
+  // rightly.
   const auto mosaic = [](int red_u, int red_v) {
     std::vector<std::uint8_t> data(16 * 16, 0);
     for (int v = red_v; v < 16; v += 2) {
@@ -55,16 +57,19 @@ TEST(ToGrey, keepsTheHighestEightOfTheBitsInUse) {
   EXPECT_EQ(toGrey(image, 12).pixels.at<std::uint8_t>(0, 0), 255);
   EXPECT_EQ(toGrey(image, 12).pixels.at<std::uint8_t>(0, 1), 16);
   EXPECT_EQ(toGrey(image).pixels.at<std::uint8_t>(0, 0), 15);
-  EXPECT_EQ(toGrey(image, 8).pixels.at<std::uint8_t>(0, 1), 255) << "brighter than the first image: saturated, not wrapped";
+  EXPECT_EQ(toGrey(image, 8).pixels.at<std::uint8_t>(0, 1), 255)
+      << "brighter than the first image: saturated, not wrapped";
   image = message("mono16", 2, 1, {0x0f, 0xff, 0x01, 0x00});
   image.is_bigendian = 1;
   EXPECT_EQ(toGrey(image, 12).pixels.at<std::uint8_t>(0, 0), 255);
 }
 
 TEST(ToGrey, saysWhatIsWrong) {
-  EXPECT_NE(toGrey(message("yuv422", 2, 1, {1, 2, 3, 4})).fault.find("mono8"), std::string::npos) << "names what is known";
+  EXPECT_NE(toGrey(message("yuv422", 2, 1, {1, 2, 3, 4})).fault.find("mono8"), std::string::npos)
+      << "names what is known";
   EXPECT_FALSE(toGrey(message("mono8", 4, 4, std::vector<std::uint8_t>(15), 4)).fault.empty());
-  EXPECT_FALSE(toGrey(message("mono8", 4, 1, std::vector<std::uint8_t>(4), 3)).fault.empty()) << "step shorter than a row";
+  EXPECT_FALSE(toGrey(message("mono8", 4, 1, std::vector<std::uint8_t>(4), 3)).fault.empty())
+      << "step shorter than a row";
   EXPECT_FALSE(toGrey(message("mono8", 0, 1, {})).fault.empty());
   sensor_msgs::Image huge = message("mono8", 4, 1, {1, 2, 3, 4});
   huge.width = huge.step = 0xffffffff;

@@ -16,7 +16,8 @@ using urban_nav_core::Pose;
 using urban_nav_core::Vector3d;
 
 TEST(Stamp, isExactBothWays) {
-  for (const urban_nav_core::StampNs stamp : {0LL, 1LL, 1225719873501685001LL, 4294967295999999999LL}) EXPECT_EQ(toStampNs(toRosTime(stamp)), stamp);
+  for (const urban_nav_core::StampNs stamp : {0LL, 1LL, 1225719873501685001LL, 4294967295999999999LL})
+    EXPECT_EQ(toStampNs(toRosTime(stamp)), stamp);
   EXPECT_EQ(toStampNs(toRosTime(-5)), 0);
   EXPECT_EQ(toStampNs(toRosTime(std::numeric_limits<urban_nav_core::StampNs>::max())), 4294967295999999999LL);
 }
@@ -56,7 +57,8 @@ TEST(RelativePoseMessage, comesBackTheSame) {
 }
 
 TEST(HealthMessage, knowsFourStates) {
-  for (const Health health : {Health::Ok, Health::Degraded, Health::Lost, Health::Recovered}) EXPECT_EQ(toHealth(toMessage(health)), health);
+  for (const Health health : {Health::Ok, Health::Degraded, Health::Lost, Health::Recovered})
+    EXPECT_EQ(toHealth(toMessage(health)), health);
   EXPECT_FALSE(toHealth(4));
   const auto message = toStatusMessage(5, "swf_vo", {Health::Lost, 3, "too dark"}, "Dark");
   EXPECT_EQ(message.status, urban_nav_msgs::StageStatus::LOST);

@@ -22,7 +22,8 @@ struct Option {
   std::vector<std::string> words;  ///< allowed values; empty: any
 };
 
-/// What the user gave. Options are asked for by their long name without dashes ("out"), positionals by theirs ("INPUT").
+/// What the user gave. Options are asked for by their long name without dashes ("out"), positionals by theirs
+/// ("INPUT").
 class Arguments {
  public:
   explicit Arguments(std::map<std::string, std::vector<std::string>> values) : values_(std::move(values)) {}
@@ -43,7 +44,8 @@ class Arguments {
   std::map<std::string, std::vector<std::string>> values_;
 };
 
-/// A subcommand: what it takes and what it does. `run` returns the exit status 0 or 1, and throws UserError (2) or DataError (1).
+/// A subcommand: what it takes and what it does. `run` returns the exit status 0 or 1, and throws UserError (2) or
+/// DataError (1).
 struct Command {
   std::string name;
   std::string summary;
@@ -53,7 +55,8 @@ struct Command {
   std::function<int(const Arguments&, Console&)> run;
 };
 
-/// Parses, runs, and turns errors into lines and exit statuses: 0 done; 1 the data did not allow it; 2 the user's mistake.
+/// Parses, runs, and turns errors into lines and exit statuses: 0 done; 1 the data did not allow it; 2 the user's
+/// mistake.
 int runCommandLine(const std::vector<Command>& commands, int argc, const char* const* argv);
 
 /// The options that every command has (--json, --set, --config, --threads): appended where a command wants them.

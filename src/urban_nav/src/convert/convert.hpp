@@ -15,13 +15,14 @@ struct Converted {
   std::vector<std::string> notes;              ///< what was assumed or left out
 };
 
-/// A folder of KITTI or EuRoC into a bag: rectified images with camera_info, static tf, IMU and truth where the folder has them.
-/// Throws DataError naming the file for an image that is missing or damaged: no bag is left behind.
+/// A folder of KITTI or EuRoC into a bag: rectified images with camera_info, static tf, IMU and truth where the folder
+/// has them. Throws DataError naming the file for an image that is missing or damaged: no bag is left behind.
 Converted convertStereoFolder(const std::string& folder, const std::string& bag, const SourceOptions& options,
                               Console& console);
 
-/// A folder of the New College data set (or its .alog alone) into a bag: lasers with reflectance, odometry in REP-103, whatever
-/// stereo and panoramic images there are. Throws UserError naming file and line for damaged parts: no bag is left behind.
+/// A folder of the New College data set (or its .alog alone) into a bag: lasers with reflectance, odometry in REP-103,
+/// whatever stereo and panoramic images there are. Throws UserError naming file and line for damaged parts: no bag is
+/// left behind.
 Converted convertNewCollege(const std::string& source, const std::string& bag, Console& console);
 
 }  // namespace urban_nav

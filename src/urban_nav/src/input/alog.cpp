@@ -102,11 +102,13 @@ std::optional<AlogRow> AlogReader::next() {
     if (beginning) {
       row = std::move(beginning);
     } else if (row) {
-      if (row->value.size() + line_.size() > kLongestValue) throw UserError(atLine(path_, row->line), "a value longer than 16 MB", "");
+      if (row->value.size() + line_.size() > kLongestValue)
+        throw UserError(atLine(path_, row->line), "a value longer than 16 MB", "");
       row->value += "\n";
       row->value += trimmed(line_);
     } else if (!trimmed(line_).empty()) {
-      throw UserError(atLine(path_, number_), "no row of a MOOS log", "`time VARIABLE source value`, or comments that begin with %%");
+      throw UserError(atLine(path_, number_), "no row of a MOOS log",
+                      "`time VARIABLE source value`, or comments that begin with %%");
     }
   }
   return row;
@@ -124,7 +126,8 @@ AlogFields::AlogFields(std::string_view value, std::string where) : where_(std::
     }
     const std::string_view piece = value.substr(at, end - at);
     const std::size_t equals = piece.find('=');
-    if (equals != std::string_view::npos) fields_.emplace_back(trimmed(piece.substr(0, equals)), trimmed(piece.substr(equals + 1)));
+    if (equals != std::string_view::npos)
+      fields_.emplace_back(trimmed(piece.substr(0, equals)), trimmed(piece.substr(equals + 1)));
     at = end + 1;
   }
 }
@@ -164,17 +167,22 @@ urban_nav_core::StampNs AlogFields::stamp(std::string_view key) const {
 
 std::vector<double> AlogFields::array(std::string_view key, std::size_t count) const {
   const std::string_view value = text(key);
-  const auto refuse = [&](const std::string& what) { throw UserError(where_, std::string(key) + ": " + what, "[n]{v,v,...} or [rxc]{...}"); };
+  const auto refuse = [&](const std::string& what) {
+    throw UserError(where_, std::string(key) + ": " + what, "[n]{v,v,...} or [rxc]{...}");
+  };
   const std::size_t bracket = value.find(']'), open = value.find('{');
-  if (value.empty() || value[0] != '[' || bracket == std::string_view::npos || open != bracket + 1 || value.back() != '}') {
+  if (value.empty() || value[0] != '[' || bracket == std::string_view::npos || open != bracket + 1 ||
+      value.back() != '}') {
     refuse("no whole array");
   }
   const std::string_view size = value.substr(1, bracket - 1);
   const std::size_t cross = size.find('x');
   const auto rows = parseInteger(size.substr(0, cross));
-  const auto columns = cross == std::string_view::npos ? std::optional<std::int64_t>(1) : parseInteger(size.substr(cross + 1));
+  const auto columns =
+      cross == std::string_view::npos ? std::optional<std::int64_t>(1) : parseInteger(size.substr(cross + 1));
   constexpr std::int64_t kLargest = 1000000;
-  if (!rows || !columns || *rows < 0 || *columns < 0 || *rows > kLargest || *columns > kLargest) refuse("size [" + std::string(size) + "]");
+  if (!rows || !columns || *rows < 0 || *columns < 0 || *rows > kLargest || *columns > kLargest)
+    refuse("size [" + std::string(size) + "]");
 
   std::string_view content = trimmed(value.substr(open + 1, value.size() - open - 2));
   if (!content.empty() && content.back() == ',') content.remove_suffix(1);
@@ -189,7 +197,8 @@ std::vector<double> AlogFields::array(std::string_view key, std::size_t count) c
   if (static_cast<std::int64_t>(numbers.size()) != *rows * *columns) {
     refuse(std::to_string(numbers.size()) + " numbers in [" + std::string(size) + "]");
   }
-  if (count != 0 && numbers.size() != count) refuse(std::to_string(numbers.size()) + " numbers instead of " + std::to_string(count));
+  if (count != 0 && numbers.size() != count)
+    refuse(std::to_string(numbers.size()) + " numbers instead of " + std::to_string(count));
   return numbers;
 }
 

@@ -16,7 +16,7 @@ namespace urban_nav {
 struct AlogRow {
   urban_nav_core::StampNs logged = 0;  ///< when the logger got it, since LOGSTART
   std::string variable, source, value;
-  int line = 0;                        ///< of its beginning, from 1
+  int line = 0;  ///< of its beginning, from 1
 };
 
 /// Reads a log row by row, in the order of the file (which is not that of time), in bounded memory.
@@ -28,8 +28,8 @@ class AlogReader {
   /// Unix time that AlogRow::logged counts from; empty until a LOGSTART comment has been read.
   std::optional<urban_nav_core::StampNs> logStart() const { return log_start_; }
 
-  /// The next row; empty at the end. Throws UserError with file and line for text before the first row that is no comment, and
-  /// for a value longer than 16 MB.
+  /// The next row; empty at the end. Throws UserError with file and line for text before the first row that is no
+  /// comment, and for a value longer than 16 MB.
   std::optional<AlogRow> next();
 
  private:
@@ -44,15 +44,16 @@ class AlogReader {
   std::optional<urban_nav_core::StampNs> log_start_;
 };
 
-/// The `key=value,key=value` of a value, with arrays `[n]{...}` and `[rxc]{...}` that may hold commas. Looks into the row's text, which must live on.
+/// The `key=value,key=value` of a value, with arrays `[n]{...}` and `[rxc]{...}` that may hold commas. Looks into the
+/// row's text, which must live on.
 class AlogFields {
  public:
   /// `where` begins the errors: "file.alog:212".
   AlogFields(std::string_view value, std::string where);
 
   bool has(std::string_view key) const;
-  /// All throw UserError with file, line and key: where the key is missing, the number is none or not finite, or the array has not as
-  /// many numbers as its own brackets say, or as `count` says if that is not 0.
+  /// All throw UserError with file, line and key: where the key is missing, the number is none or not finite, or the
+  /// array has not as many numbers as its own brackets say, or as `count` says if that is not 0.
   std::string_view text(std::string_view key) const;
   double number(std::string_view key) const;
   urban_nav_core::StampNs stamp(std::string_view key) const;

@@ -27,7 +27,8 @@ namespace {
 constexpr const char* kBaseFrame = "base_link";
 constexpr urban_nav_core::StampNs kMaxLateness = 200'000'000;  // ns: waiting costs nothing where nobody waits
 
-/// The bags of one recording, read as one stream in the order of their receipt; the feed brings it into the order of stamps.
+/// The bags of one recording, read as one stream in the order of their receipt; the feed brings it into the order of
+/// stamps.
 class BagSource : public Source {
  public:
   BagSource(const std::vector<std::string>& paths, const SourceOptions& options)

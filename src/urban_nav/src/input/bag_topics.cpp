@@ -40,17 +40,12 @@ std::string bare(const std::string& topic) { return topic.empty() || topic.front
 bool fits(Role role, const std::string& type) {
   switch (role) {
     case Role::Left:
-    case Role::Right:
-      return isImageType(type);
+    case Role::Right: return isImageType(type);
     case Role::LeftInfo:
-    case Role::RightInfo:
-      return type == "sensor_msgs/CameraInfo";
-    case Role::Imu:
-      return type == "sensor_msgs/Imu";
-    case Role::Wheels:
-      return type == "nav_msgs/Odometry";
-    case Role::Truth:
-      return type == "geometry_msgs/PoseStamped";
+    case Role::RightInfo: return type == "sensor_msgs/CameraInfo";
+    case Role::Imu: return type == "sensor_msgs/Imu";
+    case Role::Wheels: return type == "nav_msgs/Odometry";
+    case Role::Truth: return type == "geometry_msgs/PoseStamped";
   }
   return false;
 }
@@ -89,7 +84,8 @@ void take(const std::map<std::string, std::string>& available, const std::string
   topics.chosen[names->role] = {topic->first, topic->second};
 }
 
-/// How unlikely a topic is to be what `map` wants; the raw stream is preferred, rectified ones are there to be asked for.
+/// How unlikely a topic is to be what `map` wants; the raw stream is preferred, rectified ones are there to be asked
+/// for.
 int oddness(const std::string& topic, const std::string& type) {
   int value = 0;
   for (const char* word : {"disparity", "depth", "theora", "color", "colour", "ladybug", "debug", "mask", "label"})

@@ -8,8 +8,8 @@
 
 namespace urban_nav {
 
-/// What a topic is to `map`. The words are those of --topic ROLE:=NAME; the topics of DESIGN.md section 5 stand for their roles too
-/// (stereo/left/image_raw:=/cam0/image_raw).
+/// What a topic is to `map`. The words are those of --topic ROLE:=NAME; the topics of DESIGN.md section 5 stand for
+/// their roles too (stereo/left/image_raw:=/cam0/image_raw).
 enum class Role { Left, Right, LeftInfo, RightInfo, Imu, Wheels, Truth };
 const char* toString(Role role);
 
@@ -25,9 +25,10 @@ struct BagTopics {
   std::optional<ChosenTopic> find(Role role) const;
 };
 
-/// `available`: name and type of every topic of a bag. What `wishes` (ROLE:=NAME) do not say is guessed from types and names: a stereo pair are two
-/// image topics whose names differ in "left" and "right" (or cam0 and cam1, image_0 and image_1, infra1 and infra2). UserError for
-/// a wish that is no role, or a topic that is not there or of another type. Roles for which nothing fits are absent.
+/// `available`: name and type of every topic of a bag. What `wishes` (ROLE:=NAME) do not say is guessed from types and
+/// names: a stereo pair are two image topics whose names differ in "left" and "right" (or cam0 and cam1, image_0 and
+/// image_1, infra1 and infra2). UserError for a wish that is no role, or a topic that is not there or of another type.
+/// Roles for which nothing fits are absent.
 BagTopics chooseTopics(const std::map<std::string, std::string>& available, const std::vector<std::string>& wishes);
 
 bool isImageType(const std::string& type);

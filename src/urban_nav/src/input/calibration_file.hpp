@@ -8,8 +8,8 @@
 
 namespace urban_nav {
 
-/// Left and right camera of --calibration: KITTI's calib.txt (whose size of image is that of the images, `width` x `height`), or
-/// `LEFT.yaml,RIGHT.yaml` as ROS's camera_info. UserError where it is neither.
+/// Left and right camera of --calibration: KITTI's calib.txt (whose size of image is that of the images, `width` x
+/// `height`), or `LEFT.yaml,RIGHT.yaml` as ROS's camera_info. UserError where it is neither.
 std::pair<urban_nav_core::CameraInfo, urban_nav_core::CameraInfo> readCalibration(const std::string& files, int width,
                                                                                   int height);
 

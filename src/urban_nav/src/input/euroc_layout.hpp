@@ -27,7 +27,8 @@ struct EurocImu {
   urban_nav_core::Vector3d acceleration = urban_nav_core::Vector3d::Zero();  ///< m/s^2
 };
 
-/// The two cameras of a EuRoC folder, and the rectified pair made of them. base_link is at the rectified left camera, axes turned to REP-103.
+/// The two cameras of a EuRoC folder, and the rectified pair made of them. base_link is at the rectified left camera,
+/// axes turned to REP-103.
 struct EurocRig {
   urban_nav_core::RawCamera left, right;
   urban_nav_core::StereoRectification rectification;

@@ -23,7 +23,8 @@ bool startsWith(const std::vector<char>& bytes, std::string_view magic) {
   return asText(bytes).substr(0, magic.size()) == magic;
 }
 
-/// Do PNG and JPEG end as they must? (A camera may append a few bytes to a JPEG, so its end is looked for in the last kilobyte.)
+/// Do PNG and JPEG end as they must? (A camera may append a few bytes to a JPEG, so its end is looked for in the last
+/// kilobyte.)
 bool isComplete(const std::vector<char>& bytes) {
   const std::string_view text = asText(bytes);
   const std::string_view tail = text.substr(text.size() > 1024 ? text.size() - 1024 : 0);

@@ -12,8 +12,8 @@
 
 namespace urban_nav {
 
-/// Pixels of an image file as they are stored (8 or 16 bits, one, three or four channels), or none and a fault that names the file.
-/// A file that ends early is a fault: decoders would fill the rest with grey.
+/// Pixels of an image file as they are stored (8 or 16 bits, one, three or four channels), or none and a fault that
+/// names the file. A file that ends early is a fault: decoders would fill the rest with grey.
 urban_nav_ros::GreyImage readPixels(const std::string& path);
 
 /// The same as 8-bit grey; `bits` as in urban_nav_ros::toGrey.

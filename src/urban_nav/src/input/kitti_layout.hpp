@@ -12,8 +12,8 @@
 
 namespace urban_nav {
 
-/// Where a KITTI folder has what: `image_0` and `image_1` (odometry), `image_00` and `image_01` (raw), each with or without
-/// `data/` inside; `image_2`, `image_3` (colour) where these are all there is.
+/// Where a KITTI folder has what: `image_0` and `image_1` (odometry), `image_00` and `image_01` (raw), each with or
+/// without `data/` inside; `image_2`, `image_3` (colour) where these are all there is.
 struct KittiLayout {
   std::string folder;
   std::string left, right;            ///< folders of images
@@ -25,19 +25,21 @@ std::optional<KittiLayout> findKittiLayout(const std::string& folder);
 /// Frame number (the digits of the file name) to file, for one folder of images.
 std::map<std::int64_t, std::string> listFrames(const std::string& folder);
 
-/// The rectified pair out of calib.txt, or calib_cam_to_cam.txt in the folder or above it. Width and height are left at 0.
-/// UserError naming file and line where a row is missing or wrong.
+/// The rectified pair out of calib.txt, or calib_cam_to_cam.txt in the folder or above it. Width and height are left at
+/// 0. UserError naming file and line where a row is missing or wrong.
 urban_nav_core::StereoCamera readKittiCamera(const KittiLayout& layout);
 
-/// Stamps of frames 0, 1 ... out of times.txt (s) or KITTI raw's timestamps.txt (date and time); empty if there is neither.
+/// Stamps of frames 0, 1 ... out of times.txt (s) or KITTI raw's timestamps.txt (date and time); empty if there is
+/// neither.
 struct KittiTimes {
   std::string path;
   std::vector<urban_nav_core::StampNs> stamps;
 };
 KittiTimes readKittiTimes(const KittiLayout& layout);
 
-/// The frames of a folder: all numbers that either camera has, and a stamp for each, from times.txt by number (by place where the
-/// counts agree only so), or at `rate` Hz (0: KITTI's 10 Hz) from zero where there is none. UserError where stamps and images do not belong together.
+/// The frames of a folder: all numbers that either camera has, and a stamp for each, from times.txt by number (by place
+/// where the counts agree only so), or at `rate` Hz (0: KITTI's 10 Hz) from zero where there is none. UserError where
+/// stamps and images do not belong together.
 struct KittiFrames {
   std::map<std::int64_t, std::string> left, right;  ///< number to file
   std::vector<std::int64_t> numbers;

@@ -19,12 +19,12 @@ using urban_nav_core::UserError;
 using urban_nav_core::Vector3d;
 
 constexpr double kDegree = M_PI / 180.0;
-constexpr StampNs kWindow = 2000000000;        // rows come at most 0.9 s late
-constexpr StampNs kSameStamp = 100000;         // one of the two is printed with four decimals
-constexpr double kLongestOff = 3600.0;         // s between a value's time and the logger's: more is damage
-constexpr double kNeighbour = 0.2;             // s: headings further apart say little about the turning rate now
-constexpr double kPeriod = 0.0133381;          // s a turn of the LMS, a straight line through the log's stamps
-constexpr double kRangeMax = 80.0;             // m, reach of the LMS291
+constexpr StampNs kWindow = 2000000000;  // rows come at most 0.9 s late
+constexpr StampNs kSameStamp = 100000;   // one of the two is printed with four decimals
+constexpr double kLongestOff = 3600.0;   // s between a value's time and the logger's: more is damage
+constexpr double kNeighbour = 0.2;       // s: headings further apart say little about the turning rate now
+constexpr double kPeriod = 0.0133381;    // s a turn of the LMS, a straight line through the log's stamps
+constexpr double kRangeMax = 80.0;       // m, reach of the LMS291
 
 double yawOf(const Pose& T) { return 2.0 * std::atan2(T.q().z(), T.q().w()); }
 
@@ -52,8 +52,10 @@ NewCollegePanorama panoramaOf(const AlogFields& fields, StampNs stamp, const std
   NewCollegePanorama panorama;
   panorama.stamp = stamp;
   const double count = fields.number("NumImages");
-  if (count < 0.0 || count > kMostImages || std::floor(count) != count) throw UserError(where, "NumImages = " + std::to_string(count), "0...64");
-  for (int i = 0; i < static_cast<int>(count); ++i) panorama.files.push_back(baseName(fields.text("File" + std::to_string(i))));
+  if (count < 0.0 || count > kMostImages || std::floor(count) != count)
+    throw UserError(where, "NumImages = " + std::to_string(count), "0...64");
+  for (int i = 0; i < static_cast<int>(count); ++i)
+    panorama.files.push_back(baseName(fields.text("File" + std::to_string(i))));
   return panorama;
 }
 
@@ -81,7 +83,8 @@ StampNs NewCollegeLog::timeOf(const AlogRow& row, const AlogFields& fields) cons
   const StampNs start = reader_.logStart().value_or(0);
   const double off = secondsBetween(start, stamp) - secondsBetween(0, row.logged);
   if (stamp < 0 || (reader_.logStart() && std::abs(off) > kLongestOff)) {
-    throw UserError(atLine(path_, row.line), "time = " + std::string(fields.text("time")), "Unix seconds within an hour of the logger's");
+    throw UserError(atLine(path_, row.line), "time = " + std::string(fields.text("time")),
+                    "Unix seconds within an hour of the logger's");
   }
   return stamp;
 }
@@ -90,7 +93,8 @@ void NewCollegeLog::take(const AlogRow& row) {
   const std::string where = atLine(path_, row.line);
   if (row.variable == "LMS_LASER_2D_LEFT") return put(scan(row, Side::Left));
   if (row.variable == "LMS_LASER_2D_RIGHT") return put(scan(row, Side::Right));
-  if (row.variable != "ODOMETRY_POSE" && row.variable != "RAW_ODOMETRY_POSE" && row.variable != "CAMERA_FILE_WRITE") return;
+  if (row.variable != "ODOMETRY_POSE" && row.variable != "RAW_ODOMETRY_POSE" && row.variable != "CAMERA_FILE_WRITE")
+    return;
 
   const AlogFields fields(row.value, where);
   const StampNs stamp = timeOf(row, fields);
@@ -172,9 +176,12 @@ void NewCollegeLog::complete(NewCollegeOdometry& odometry) {
   odometry.pitch_rate = -tilt->second.pitch_rate;
 }
 
-// Between the headings before and after, which has no lag; at the ends and beside gaps between this one and its neighbour.
+// Between the headings before and after, which has no lag; at the ends and beside gaps between this one and its
+// neighbour.
 double NewCollegeLog::yawRate(const NewCollegeOdometry& odometry) const {
-  const NewCollegeOdometry* before = last_odometry_ && secondsBetween(last_odometry_->stamp, odometry.stamp) <= kNeighbour ? &*last_odometry_ : &odometry;
+  const NewCollegeOdometry* before =
+      last_odometry_ && secondsBetween(last_odometry_->stamp, odometry.stamp) <= kNeighbour ? &*last_odometry_
+                                                                                            : &odometry;
   const NewCollegeOdometry* after = &odometry;
   for (const auto& [stamp, event] : waiting_) {
     const auto* next = std::get_if<NewCollegeOdometry>(&event);

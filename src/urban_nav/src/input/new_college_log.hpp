@@ -14,25 +14,27 @@
 
 namespace urban_nav {
 
-/// What the New College log holds, in REP-103 axes and SI units (Smith, Baldwin, Churchill, Paul, Newman, IJRR 2009; the conventions were
-/// read off the log itself). Stamps are the values' own `time=`, Unix time.
+/// What the New College log holds, in REP-103 axes and SI units (Smith, Baldwin, Churchill, Paul, Newman, IJRR 2009;
+/// the conventions were read off the log itself). Stamps are the values' own `time=`, Unix time.
 enum class Side { Left, Right };
 
-/// A turn of one of the two vertical lasers. Angles are those of the frame laser_left or laser_right: x along beam 90 deg, z forward.
+/// A turn of one of the two vertical lasers. Angles are those of the frame laser_left or laser_right: x along beam 90
+/// deg, z forward.
 struct NewCollegeScan {
   urban_nav_core::StampNs stamp = 0;
   Side side = Side::Left;
-  std::int64_t id = 0;  ///< counts on by one per turn: a gap is a lost scan
+  std::int64_t id = 0;              ///< counts on by one per turn: a gap is a lost scan
   urban_nav_core::PlanarScan scan;  ///< ranges <= 0 of the log are 0 here; reflectances are the intensities
 };
 
 /// Wheel odometry with the tilt of the vehicle.
 struct NewCollegeOdometry {
   urban_nav_core::StampNs stamp = 0;
-  urban_nav_core::Pose T_odom_base;  ///< x, y, yaw from ODOMETRY_POSE; roll and pitch from the RAW row of the same stamp
-  double speed = 0.0;                ///< m/s, forward
-  double yaw_rate = 0.0;             ///< rad/s, from neighbouring headings: the log's own is spoilt
-  double pitch_rate = 0.0;           ///< rad/s
+  urban_nav_core::Pose
+      T_odom_base;          ///< x, y, yaw from ODOMETRY_POSE; roll and pitch from the RAW row of the same stamp
+  double speed = 0.0;       ///< m/s, forward
+  double yaw_rate = 0.0;    ///< rad/s, from neighbouring headings: the log's own is spoilt
+  double pitch_rate = 0.0;  ///< rad/s
 };
 
 /// The pictures of one panorama: base names, by camera.
@@ -46,11 +48,11 @@ urban_nav_core::StampNs stampOf(const NewCollegeEvent& event);
 
 struct NewCollegeCounts {
   std::int64_t scans_left = 0, scans_right = 0;
-  std::int64_t scans_lost = 0;             ///< gaps in the ids
+  std::int64_t scans_lost = 0;  ///< gaps in the ids
   std::int64_t odometry = 0;
   std::int64_t odometry_without_tilt = 0;  ///< no RAW row of the same stamp: roll and pitch are 0
   std::int64_t panoramas = 0;
-  std::int64_t out_of_order = 0;           ///< came more than two seconds late: left out
+  std::int64_t out_of_order = 0;  ///< came more than two seconds late: left out
 };
 
 /// Reads a log in order of stamps, through a window of two seconds, in bounded memory.
@@ -59,8 +61,8 @@ class NewCollegeLog {
   /// Throws UserError where the file cannot be opened.
   explicit NewCollegeLog(const std::string& path);
 
-  /// The next event; empty at the end. Throws UserError with file and line for a row of a known variable that is damaged, also where
-  /// the file was cut off within one. Variables that are not known are skipped.
+  /// The next event; empty at the end. Throws UserError with file and line for a row of a known variable that is
+  /// damaged, also where the file was cut off within one. Variables that are not known are skipped.
   std::optional<NewCollegeEvent> next();
   const NewCollegeCounts& counts() const { return counts_; }
 

@@ -6,11 +6,12 @@
 
 namespace urban_nav {
 
-/// The Bumblebee2 of the New College data set: the data set's "Details" page, as four readers quote it, for the rectified images of 512x384.
+/// The Bumblebee2 of the New College data set: the data set's "Details" page, as four readers quote it, for the
+/// rectified images of 512x384.
 urban_nav_core::StereoCamera newCollegeCamera();
 
-/// Where things are on base_link. The lasers (frames with x along beam 90 deg and z forward): as the data set's readers have them, the height from the
-/// ground that they see. The left camera: not known; on the mast, as launch/ has it.
+/// Where things are on base_link. The lasers (frames with x along beam 90 deg and z forward): as the data set's readers
+/// have them, the height from the ground that they see. The left camera: not known; on the mast, as launch/ has it.
 urban_nav_core::Pose newCollegeLeftLaser();
 urban_nav_core::Pose newCollegeRightLaser();
 urban_nav_core::Pose newCollegeLeftCamera();

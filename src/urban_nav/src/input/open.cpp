@@ -48,14 +48,10 @@ InputKind inputKind(const std::string& path) {
 
 std::unique_ptr<Source> openSource(const std::vector<std::string>& paths, const SourceOptions& options) {
   switch (inputKind(paths.front())) {
-    case InputKind::KittiFolder:
-      return openKittiFolder(paths.front(), options);
-    case InputKind::NewCollegeFolder:
-      return openNewCollegeFolder(paths.front(), options);
-    case InputKind::EurocFolder:
-      return openEurocFolder(paths.front(), options);
-    case InputKind::Bag:
-      return openBags(paths, options);
+    case InputKind::KittiFolder: return openKittiFolder(paths.front(), options);
+    case InputKind::NewCollegeFolder: return openNewCollegeFolder(paths.front(), options);
+    case InputKind::EurocFolder: return openEurocFolder(paths.front(), options);
+    case InputKind::Bag: return openBags(paths, options);
   }
   throw UserError(paths.front(), "holds nothing that is known", kKnownInputs);
 }

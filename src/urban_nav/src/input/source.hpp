@@ -14,7 +14,8 @@
 
 namespace urban_nav {
 
-/// A rectified grey pair with what else was measured since the pair before, and sentences that name what was wrong with its images.
+/// A rectified grey pair with what else was measured since the pair before, and sentences that name what was wrong with
+/// its images.
 using StereoInput = urban_nav_ros::FedPair;
 
 /// What is known of an input before its first image is decoded.

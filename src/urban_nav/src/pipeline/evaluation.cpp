@@ -29,7 +29,8 @@ constexpr double kFew = 0.5;  // share of the shorter trajectory below which an 
 
 std::string secondsText(StampNs ns) { return urban_nav_core::printNumber(1e-9 * static_cast<double>(ns)) + " s"; }
 
-/// KITTI's poses are of optical axes (z forward); with the axes of base_link, plots and covariances mean the same for every format.
+/// KITTI's poses are of optical axes (z forward); with the axes of base_link, plots and covariances mean the same for
+/// every format.
 Pose turned(const Pose& T_first_camera) {
   const Pose T_base_camera = urban_nav_ros::opticalInBody();
   return T_base_camera * T_first_camera * T_base_camera.inverse();

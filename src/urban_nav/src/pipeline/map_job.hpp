@@ -25,8 +25,8 @@ struct MapRequest {
 const std::vector<std::string>& knownStages();
 const std::vector<std::string>& existingStages();
 
-/// Runs the stages over the inputs and writes the files of CONTRACT.md. UserError for mistakes of the request, DataError where
-/// the inputs do not allow it.
+/// Runs the stages over the inputs and writes the files of CONTRACT.md. UserError for mistakes of the request,
+/// DataError where the inputs do not allow it.
 void runMap(const MapRequest& request, Console& console);
 
 }  // namespace urban_nav

@@ -88,7 +88,8 @@ PageTable inputsTable(const MapOutcome& outcome) {
   return table;
 }
 
-/// The truth of each session, now that nothing can reach the estimates any more. One that cannot be read costs the comparison, not the map.
+/// The truth of each session, now that nothing can reach the estimates any more. One that cannot be read costs the
+/// comparison, not the map.
 std::vector<std::optional<Evaluation>> compare(const MapOutcome& outcome, const std::vector<Session>& sessions,
                                                Console& console) {
   std::vector<std::optional<Evaluation>> evaluations;

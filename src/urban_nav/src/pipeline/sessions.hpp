@@ -11,7 +11,8 @@ struct Session {
   std::vector<std::string> paths;
 };
 
-/// Each folder is a session; bags less than 5 s apart are one (a split recording). UserError where there is nothing that is known.
+/// Each folder is a session; bags less than 5 s apart are one (a split recording). UserError where there is nothing
+/// that is known.
 std::vector<Session> findSessions(const std::vector<std::string>& inputs);
 
 }  // namespace urban_nav

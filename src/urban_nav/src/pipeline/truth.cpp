@@ -88,8 +88,7 @@ std::optional<TrajectoryFile> bagTruth(const Session& session, const SourceOptio
 std::optional<TrajectoryFile> findTruth(const Session& session, const SourceInfo& info, const SourceOptions& options) {
   const std::string& path = session.paths.front();
   switch (inputKind(path)) {
-    case InputKind::KittiFolder:
-      return kittiTruth(path, info, options);
+    case InputKind::KittiFolder: return kittiTruth(path, info, options);
     case InputKind::EurocFolder: {
       const std::string mav0 = eurocFolder(path);
       const std::optional<Trajectory> truth = readEurocTruth(mav0, readEurocRig(mav0).T_base_body);
@@ -97,10 +96,8 @@ std::optional<TrajectoryFile> findTruth(const Session& session, const SourceInfo
                  ? std::optional<TrajectoryFile>(stamped(mav0 + "/state_groundtruth_estimate0", *truth))
                  : std::nullopt;
     }
-    case InputKind::Bag:
-      return bagTruth(session, options);
-    case InputKind::NewCollegeFolder:
-      break;
+    case InputKind::Bag: return bagTruth(session, options);
+    case InputKind::NewCollegeFolder: break;
   }
   return std::nullopt;
 }

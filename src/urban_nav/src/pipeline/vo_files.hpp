@@ -10,11 +10,12 @@
 
 namespace urban_nav {
 
-/// The files of CONTRACT.md that visual odometry makes: trajectory.tum, trajectory.kitti, covariance.csv, relative_covariance.csv,
-/// graph.g2o, landmarks.ply. All hold settled poses. `suffix` ("", "_2") stands before the extension.
+/// The files of CONTRACT.md that visual odometry makes: trajectory.tum, trajectory.kitti, covariance.csv,
+/// relative_covariance.csv, graph.g2o, landmarks.ply. All hold settled poses. `suffix` ("", "_2") stands before the
+/// extension.
 ///
-/// A frame that was dropped because of its stamp has a line in trajectory.kitti, with the pose before it, so that lines and
-/// images count alike; elsewhere, where lines are found by stamp, it has none.
+/// A frame that was dropped because of its stamp has a line in trajectory.kitti, with the pose before it, so that lines
+/// and images count alike; elsewhere, where lines are found by stamp, it has none.
 void writeVoFiles(const OutputFolder& folder, const VoRun& run, const std::string& suffix);
 
 /// Files of the same names that an earlier run with more sessions left.
@@ -31,7 +32,8 @@ std::string trajectoryKitti(const VoRun& run);
 std::string covarianceCsv(const VoRun& run);
 std::string relativeCovarianceCsv(const VoRun& run);
 std::string graphG2o(const VoRun& run);
-/// Binary: float x y z (m, `odom`), float sigma (m, along the line of sight), uchar red green blue. Landmarks seen in at least three frames.
+/// Binary: float x y z (m, `odom`), float sigma (m, along the line of sight), uchar red green blue. Landmarks seen in
+/// at least three frames.
 std::string landmarksPly(const VoRun& run);
 
 }  // namespace urban_nav

@@ -30,7 +30,8 @@ VoSummary summarise(const std::vector<const VoRun*>& runs);
 /// The object "swf_vo" of summary.json.
 Json toJson(const VoSummary& summary);
 
-/// The length of a path in which steps below the noise of standing still do not add up: positions count once they are `step` m from the last that counted.
+/// The length of a path in which steps below the noise of standing still do not add up: positions count once they are
+/// `step` m from the last that counted.
 double pathLength(const std::vector<urban_nav_core::Vector3d>& positions, double step = 0.05);
 
 /// The value below which `share` of the values lie; 0 for none.

@@ -13,7 +13,8 @@ namespace urban_nav {
 /// Plots of an evaluation, in the frame of the truth's first pose unless said otherwise.
 Plot pathPlot(const Evaluation& evaluation, int a, int b);
 Plot errorPlot(const Evaluation& evaluation);
-/// Error of one coordinate (0...5: x, y, z in m, rotation about them in deg) within three standard deviations; without covariances the error alone.
+/// Error of one coordinate (0...5: x, y, z in m, rotation about them in deg) within three standard deviations; without
+/// covariances the error alone.
 Plot trustPlot(const Evaluation& evaluation, int coordinate);
 
 /// "Against the truth": the plots above and a table of figures.

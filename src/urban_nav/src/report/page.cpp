@@ -10,28 +10,20 @@ namespace {
 
 const char* classOf(Grade grade) {
   switch (grade) {
-    case Grade::Good:
-      return "good";
-    case Grade::Fair:
-      return "fair";
-    case Grade::Bad:
-      return "bad";
-    case Grade::Plain:
-      break;
+    case Grade::Good: return "good";
+    case Grade::Fair: return "fair";
+    case Grade::Bad: return "bad";
+    case Grade::Plain: break;
   }
   return "plain";
 }
 
 const char* markOf(Grade grade) {
   switch (grade) {
-    case Grade::Good:
-      return "&#10003;";
-    case Grade::Fair:
-      return "!";
-    case Grade::Bad:
-      return "&#10007;";
-    case Grade::Plain:
-      break;
+    case Grade::Good: return "&#10003;";
+    case Grade::Fair: return "!";
+    case Grade::Bad: return "&#10007;";
+    case Grade::Plain: break;
   }
   return "i";
 }

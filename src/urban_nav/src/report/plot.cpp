@@ -179,15 +179,11 @@ std::string dotsOf(const Series& series, const Frame& f) {
 
 std::string draw(const Series& series, const Frame& f) {
   switch (series.kind) {
-    case Series::Kind::Band:
-      return bandOf(series, f);
-    case Series::Kind::Bars:
-      return barsOf(series, f);
-    case Series::Kind::Dots:
-      return dotsOf(series, f);
+    case Series::Kind::Band: return bandOf(series, f);
+    case Series::Kind::Bars: return barsOf(series, f);
+    case Series::Kind::Dots: return dotsOf(series, f);
     case Series::Kind::Line:
-    case Series::Kind::Dashed:
-      break;
+    case Series::Kind::Dashed: break;
   }
   const std::string dashed = series.kind == Series::Kind::Dashed ? " dashed" : "";
   return "<path class=\"line c-" + series.colour + dashed + "\" data-name=\"" + escapeHtml(series.name) + "\" d=\"" +
@@ -254,23 +250,12 @@ std::string escapeHtml(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
     switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      case '\'':
-        escaped += "&#39;";
-        break;
-      default:
-        escaped += c;
+      case '&': escaped += "&amp;"; break;
+      case '<': escaped += "&lt;"; break;
+      case '>': escaped += "&gt;"; break;
+      case '"': escaped += "&quot;"; break;
+      case '\'': escaped += "&#39;"; break;
+      default: escaped += c;
     }
   }
   return escaped;

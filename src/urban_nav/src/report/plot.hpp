@@ -11,8 +11,8 @@ struct PlotPoint {
   double x = 0.0, y = 0.0;
 };
 
-/// One thing in a plot. Colours are names of the page's palette ("a" the estimate, "b" the truth, "c", "d", "good", "fair", "bad"), so
-/// that they change with the page's light.
+/// One thing in a plot. Colours are names of the page's palette ("a" the estimate, "b" the truth, "c", "d", "good",
+/// "fair", "bad"), so that they change with the page's light.
 struct Series {
   enum class Kind { Line, Dashed, Dots, Band, Bars };
   Kind kind = Kind::Line;
@@ -39,8 +39,8 @@ struct Plot {
   int width = 600, height = 280;  ///< px at the plot's own size; it scales with the page
 };
 
-/// The plot as an SVG element without fixed colours or fonts, behind a legend in HTML if wanted; empty where there is nothing finite to draw. Long series are thinned so
-/// that extremes stay.
+/// The plot as an SVG element without fixed colours or fonts, behind a legend in HTML if wanted; empty where there is
+/// nothing finite to draw. Long series are thinned so that extremes stay.
 std::string renderSvg(const Plot& plot, bool with_legend = true);
 
 /// Round numbers (1, 2, 5 times a power of ten), about `count` of them, within [low, high].

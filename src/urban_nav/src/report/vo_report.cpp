@@ -30,14 +30,10 @@ Series line(const std::string& name, const std::string& colour, std::vector<Plot
 
 const char* colourOf(Health health) {
   switch (health) {
-    case Health::Ok:
-      return "good";
-    case Health::Degraded:
-      return "fair";
-    case Health::Lost:
-      return "bad";
-    case Health::Recovered:
-      return "c";
+    case Health::Ok: return "good";
+    case Health::Degraded: return "fair";
+    case Health::Lost: return "bad";
+    case Health::Recovered: return "c";
   }
   return "plain";
 }

@@ -9,8 +9,8 @@
 
 namespace urban_nav {
 
-/// What visual odometry has to show of one session: path, trust, features, timing, frames with tracks. `with_path`: false where the
-/// path is shown against the truth already.
+/// What visual odometry has to show of one session: path, trust, features, timing, frames with tracks. `with_path`:
+/// false where the path is shown against the truth already.
 std::vector<Section> voSections(const VoRun& run, bool with_path);
 
 /// What it says in plain words.

@@ -46,7 +46,8 @@ class AlogFile : public ::testing::Test {
     }
     return "";
   }
-  const std::string path_ = (std::filesystem::temp_directory_path() / ("alog_" + std::to_string(::getpid()) + ".alog")).string();
+  const std::string path_ =
+      (std::filesystem::temp_directory_path() / ("alog_" + std::to_string(::getpid()) + ".alog")).string();
   std::optional<urban_nav_core::StampNs> start_;
 };
 
@@ -94,7 +95,9 @@ TEST_F(AlogFile, NamesFileAndLineOfWhatIsNoLog) {
 }
 
 TEST(AlogFields, KnowsNumbersStampsAndArrays) {
-  const AlogFields fields(" Name=LISA, Sensor_0=LMS, Pose=[3x1]{4.2216,18.5450,-0.7990},time=1225719873.5024,Tail=[2x2]{1,2,3,4,},Empty=[0]{}", "a:1");
+  const AlogFields fields(
+      " Name=LISA, Sensor_0=LMS, Pose=[3x1]{4.2216,18.5450,-0.7990},time=1225719873.5024,Tail=[2x2]{1,2,3,4,},Empty=[0]{}",
+      "a:1");
   EXPECT_EQ(fields.text("Name"), "LISA");
   EXPECT_EQ(fields.text("Sensor_0"), "LMS");
   EXPECT_EQ(fields.array("Pose", 3), (std::vector<double>{4.2216, 18.545, -0.799}));

@@ -52,7 +52,8 @@ class NewCollege : public ::testing::Test {
     }
     return "";
   }
-  const std::string path_ = (std::filesystem::temp_directory_path() / ("new_college_" + std::to_string(::getpid()) + ".alog")).string();
+  const std::string path_ =
+      (std::filesystem::temp_directory_path() / ("new_college_" + std::to_string(::getpid()) + ".alog")).string();
   NewCollegeCounts counts_;
 };
 
@@ -86,8 +87,10 @@ TEST_F(NewCollege, OdometryIsInRep103WithTheTiltOfTheRawRow) {
     EXPECT_EQ(odometry.pitch_rate, -0.5);
     const Vector3d forward = odometry.T_odom_base.q() * Vector3d::UnitX();
     EXPECT_NEAR(forward.x() / forward.y(), -std::sin(-0.799) / std::cos(-0.799), 1e-12);
-    EXPECT_NEAR(forward.z(), std::sin(0.02), 1e-12) << "RAW's positive pitch, about the axis to the right, lifts the front";
-    EXPECT_NEAR((odometry.T_odom_base.q() * Vector3d::UnitY()).z(), std::cos(0.02) * std::sin(0.03), 1e-12) << "left side up";
+    EXPECT_NEAR(forward.z(), std::sin(0.02), 1e-12)
+        << "RAW's positive pitch, about the axis to the right, lifts the front";
+    EXPECT_NEAR((odometry.T_odom_base.q() * Vector3d::UnitY()).z(), std::cos(0.02) * std::sin(0.03), 1e-12)
+        << "left side up";
     EXPECT_EQ(counts_.odometry_without_tilt, 0);
   }
   const auto bare = std::get<NewCollegeOdometry>(events(std::string(kStart) + kOdometry).at(0));
@@ -109,7 +112,8 @@ TEST_F(NewCollege, LostScansAndTooLateRowsAreCounted) {
     return "61.8 LMS_LASER_2D_LEFT LMS1 ID=" + std::to_string(id) + ",time=" + stamp +
            ",angRes=0.50,minAngle=45.00,maxAngle=45.00,Range=[1]{1.0},Reflectance=[1]{40}\n";
   };
-  const auto all = events(kStart + scan(7, "1225719873.5") + scan(9, "1225719873.6") + scan(300, "1225719880.0") + scan(8, "1225719873.55"));
+  const auto all = events(kStart + scan(7, "1225719873.5") + scan(9, "1225719873.6") + scan(300, "1225719880.0") +
+                          scan(8, "1225719873.55"));
   EXPECT_EQ(all.size(), 4U - 1U);
   EXPECT_EQ(counts_.scans_lost, 1 + 290);
   EXPECT_EQ(counts_.out_of_order, 1);
@@ -130,7 +134,8 @@ TEST_F(NewCollege, DamageIsNamedWithItsLine) {
 TEST_F(NewCollege, TheRealCut) {
   const char* data = std::getenv("URBAN_NAV_DATA");
   const std::string packed = std::string(data == nullptr ? "" : data) + "/new_college/QuadTree_Alog.alog.xz";
-  if (data == nullptr || !std::filesystem::exists(packed)) GTEST_SKIP() << "URBAN_NAV_DATA names no folder with new_college/QuadTree_Alog.alog.xz";
+  if (data == nullptr || !std::filesystem::exists(packed))
+    GTEST_SKIP() << "URBAN_NAV_DATA names no folder with new_college/QuadTree_Alog.alog.xz";
   if (std::system(("xz -dc '" + packed + "' > '" + path_ + "'").c_str()) != 0) GTEST_SKIP() << "xz is not installed";
   NewCollegeLog log(path_);
   urban_nav_core::StampNs last = 0;
@@ -173,7 +178,8 @@ TEST_F(NewCollege, Fuzzed) {
         NewCollegeLog log(path);
         while (const auto event = log.next()) {
           if (const auto* odometry = std::get_if<NewCollegeOdometry>(&*event)) {
-            if (!odometry->T_odom_base.isFinite() || !std::isfinite(odometry->yaw_rate)) throw std::runtime_error("not finite");
+            if (!odometry->T_odom_base.isFinite() || !std::isfinite(odometry->yaw_rate))
+              throw std::runtime_error("not finite");
           }
         }
       });

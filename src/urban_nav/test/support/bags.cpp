@@ -65,9 +65,7 @@ void rewriteBag(const std::string& from, const std::string& to, Rewrite how) {
       case Rewrite::WithoutTruth:
         if (topic != "/ground_truth/pose") out.write(topic, instance.getTime(), instance);
         break;
-      case Rewrite::CompressedColourUnderOtherNames:
-        writeCompressed(instance, out);
-        break;
+      case Rewrite::CompressedColourUnderOtherNames: writeCompressed(instance, out); break;
     }
   }
 }

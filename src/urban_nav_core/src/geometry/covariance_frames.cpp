@@ -72,7 +72,8 @@ Matrix6d covarianceForDisplay(const Matrix6d& information, double length) {
   for (int i = 0; i < 6; ++i) {
     const Vector6d v = eigen->vectors.col(i);
     const double translation_share = v.head<3>().squaredNorm();
-    const double free = translation_share * kFreeTranslation / (length * length) + (1.0 - translation_share) * kFreeRotation;
+    const double free =
+        translation_share * kFreeTranslation / (length * length) + (1.0 - translation_share) * kFreeRotation;
     const double variance = eigen->values[i] > limit ? std::min(1.0 / eigen->values[i], free) : free;
     covariance += variance * (unit.asDiagonal() * v) * (unit.asDiagonal() * v).transpose();
   }

@@ -44,7 +44,8 @@ bool choleskyInPlace(MatrixRef A) {
   return true;
 }
 
-// Rank-four steps over columns: unit stride, vectorised, and without the temporary that Eigen's own products take from the heap.
+// Rank-four steps over columns: unit stride, vectorised, and without the temporary that Eigen's own products take from
+// the heap.
 void subtractOuterInPlace(MatrixRef C, const ConstMatrixRef& A) {
   assert(C.rows() == C.cols() && A.rows() == C.rows());
   constexpr Index kSteps = 4;
@@ -54,7 +55,8 @@ void subtractOuterInPlace(MatrixRef C, const ConstMatrixRef& A) {
     auto column = C.col(j).tail(n - j);
     const auto below = [&A, n, j](Index k) { return A.col(k).tail(n - j); };
     for (Index k = 0; k < whole; k += kSteps) {
-      column.noalias() -= below(k) * A(j, k) + below(k + 1) * A(j, k + 1) + below(k + 2) * A(j, k + 2) + below(k + 3) * A(j, k + 3);
+      column.noalias() -=
+          below(k) * A(j, k) + below(k + 1) * A(j, k + 1) + below(k + 2) * A(j, k + 2) + below(k + 3) * A(j, k + 3);
     }
     for (Index k = whole; k < A.cols(); ++k) column.noalias() -= below(k) * A(j, k);
   }

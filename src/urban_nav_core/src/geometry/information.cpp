@@ -36,7 +36,8 @@ std::vector<Information::Name> others(const Information& information, const std:
 MatrixXd part(const MatrixXd& M, const std::vector<Index>& rows, const std::vector<Index>& columns) {
   MatrixXd out(static_cast<Index>(rows.size()), static_cast<Index>(columns.size()));
   for (Index c = 0; c < out.cols(); ++c) {
-    for (Index r = 0; r < out.rows(); ++r) out(r, c) = M(rows[static_cast<std::size_t>(r)], columns[static_cast<std::size_t>(c)]);
+    for (Index r = 0; r < out.rows(); ++r)
+      out(r, c) = M(rows[static_cast<std::size_t>(r)], columns[static_cast<std::size_t>(c)]);
   }
   return out;
 }
@@ -67,7 +68,9 @@ Index Information::offset(Name name) const {
   return 0;
 }
 
-MatrixXd Information::H(Name row, Name column) const { return part(H_, indicesOf(*this, {row}), indicesOf(*this, {column})); }
+MatrixXd Information::H(Name row, Name column) const {
+  return part(H_, indicesOf(*this, {row}), indicesOf(*this, {column}));
+}
 
 VectorXd Information::b(Name name) const { return part(b_, indicesOf(*this, {name})); }
 
@@ -107,7 +110,8 @@ Information Information::permuted(const std::vector<Name>& order) const {
   const std::vector<Index> at = indicesOf(*this, order);
   Information out;
   for (const Name name : order) {
-    out.blocks_.push_back(*std::find_if(blocks_.begin(), blocks_.end(), [name](const Block& each) { return each.name == name; }));
+    out.blocks_.push_back(
+        *std::find_if(blocks_.begin(), blocks_.end(), [name](const Block& each) { return each.name == name; }));
   }
   out.H_ = part(H_, at, at);
   out.b_ = part(b_, at);
@@ -160,7 +164,9 @@ std::optional<MatrixXd> Information::covariance(Name name) const {
 }
 
 bool isApprox(const Information& a, const Information& b, double tolerance) {
-  const auto same = [](const Information::Block& x, const Information::Block& y) { return x.name == y.name && x.size == y.size; };
+  const auto same = [](const Information::Block& x, const Information::Block& y) {
+    return x.name == y.name && x.size == y.size;
+  };
   if (!std::equal(a.blocks().begin(), a.blocks().end(), b.blocks().begin(), b.blocks().end(), same)) return false;
   return ((a.H() - b.H()).array().abs() <= tolerance).all() && ((a.b() - b.b()).array().abs() <= tolerance).all();
 }

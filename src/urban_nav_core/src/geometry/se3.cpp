@@ -11,7 +11,8 @@
 namespace urban_nav_core {
 namespace {
 
-// Newton's iteration for the orthogonal factor of the polar decomposition: quadratic, four steps from 1e-1 to the last bit.
+// Newton's iteration for the orthogonal factor of the polar decomposition: quadratic, four steps from 1e-1 to the last
+// bit.
 Matrix3d nearestRotation(const Matrix3d& R) {
   constexpr int kSteps = 5;
   Matrix3d X = R;
@@ -19,14 +20,15 @@ Matrix3d nearestRotation(const Matrix3d& R) {
   return X;
 }
 
-// Normalising what is normalised would turn the last bit to and fro. The bound is above the rounding of a normalisation, so doing it twice is
-// doing it once.
+// Normalising what is normalised would turn the last bit to and fro. The bound is above the rounding of a
+// normalisation, so doing it twice is doing it once.
 Quaterniond unit(const Quaterniond& q) {
   constexpr double kRounding = 1e-15;
   return std::abs(q.squaredNorm() - 1.0) <= kRounding ? q : q.normalized();
 }
 
-// The block that couples rotation and translation in the left Jacobian of SE(3) (Barfoot, State Estimation for Robotics, eq. 7.86).
+// The block that couples rotation and translation in the left Jacobian of SE(3) (Barfoot, State Estimation for
+// Robotics, eq. 7.86).
 Matrix3d couplingBlock(const Vector3d& rho, const Vector3d& phi) {
   const double angle = phi.norm();
   const Matrix3d P = skew(rho);
@@ -34,8 +36,8 @@ Matrix3d couplingBlock(const Vector3d& rho, const Vector3d& phi) {
   const Matrix3d FP = F * P;
   const Matrix3d PF = P * F;
   const Matrix3d FPF = FP * F;
-  return 0.5 * P + series::sineRest(angle) * (FP + PF + FPF) + series::cosineRest(angle) * (F * FP + PF * F - 3.0 * FPF) +
-         series::mixedRest(angle) * (FPF * F + F * FPF);
+  return 0.5 * P + series::sineRest(angle) * (FP + PF + FPF) +
+         series::cosineRest(angle) * (F * FP + PF * F - 3.0 * FPF) + series::mixedRest(angle) * (FPF * F + F * FPF);
 }
 
 }  // namespace
@@ -98,7 +100,8 @@ Matrix6d leftJacobianSe3(const Vector6d& tangent) {
 Matrix6d leftJacobianInverseSe3(const Vector6d& tangent) {
   const Matrix3d J_inverse = leftJacobianInverseSo3(tangent.tail<3>());
   Matrix6d M;
-  M << J_inverse, -J_inverse * couplingBlock(tangent.head<3>(), tangent.tail<3>()) * J_inverse, Matrix3d::Zero(), J_inverse;
+  M << J_inverse, -J_inverse * couplingBlock(tangent.head<3>(), tangent.tail<3>()) * J_inverse, Matrix3d::Zero(),
+      J_inverse;
   return M;
 }
 
@@ -123,8 +126,8 @@ bool isApprox(const Pose& A, const Pose& B, double tolerance) {
 std::ostream& operator<<(std::ostream& out, const Pose& T) {
   const Vector3d t = T.t();
   const Vector3d r = logSo3(T.q());
-  return out << "t = (" << t.x() << ", " << t.y() << ", " << t.z() << ") m, rotation vector = (" << r.x() << ", " << r.y() << ", "
-             << r.z() << ") rad";
+  return out << "t = (" << t.x() << ", " << t.y() << ", " << t.z() << ") m, rotation vector = (" << r.x() << ", "
+             << r.y() << ", " << r.z() << ") rad";
 }
 
 }  // namespace urban_nav_core

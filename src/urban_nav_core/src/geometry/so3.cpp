@@ -22,7 +22,8 @@ Quaterniond expSo3(const Vector3d& phi) {
 Vector3d logSo3(const Quaterniond& q) {
   double w = q.w();
   Vector3d v = q.vec();
-  // q and -q are one rotation. At exactly half a turn both axes are right: the first coordinate that is not zero decides.
+  // q and -q are one rotation. At exactly half a turn both axes are right: the first coordinate that is not zero
+  // decides.
   const auto pointsBack = [&v] {
     for (int i = 0; i < 3; ++i) {
       if (v[i] != 0.0) return v[i] < 0.0;

@@ -26,7 +26,8 @@ std::string beside(const std::string& final_path) {
   return (path.parent_path() / (path.stem().string() + ".part" + path.extension().string())).string();
 }
 
-// The new name is on disk only once its folder is. Some file systems refuse to flush a folder: the file itself is safe then.
+// The new name is on disk only once its folder is. Some file systems refuse to flush a folder: the file itself is safe
+// then.
 void flushFolder(const std::string& path) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);

@@ -25,7 +25,8 @@ int requireSize(const YamlNode& node, double value, std::string_view key, const 
 }
 
 template <int Rows, int Columns>
-Eigen::Matrix<double, Rows, Columns> requireMatrix(const YamlNode& node, std::string_view key, const std::string& file) {
+Eigen::Matrix<double, Rows, Columns> requireMatrix(const YamlNode& node, std::string_view key,
+                                                   const std::string& file) {
   const YamlNode& matrix = require(node, key, file);
   const auto numbers = requireNumbers(matrix, "data", static_cast<std::size_t>(Rows * Columns), file);
   return Eigen::Map<const Eigen::Matrix<double, Rows, Columns, Eigen::RowMajor>>(numbers.data());
@@ -33,7 +34,8 @@ Eigen::Matrix<double, Rows, Columns> requireMatrix(const YamlNode& node, std::st
 
 void refuseUnlessRotation(const Matrix3d& R, const std::string& where, const std::string& what) {
   constexpr double kTolerance = 1e-3;
-  const bool rotation = ((R * R.transpose() - Matrix3d::Identity()).array().abs() <= kTolerance).all() && R.determinant() > 0.0;
+  const bool rotation =
+      ((R * R.transpose() - Matrix3d::Identity()).array().abs() <= kTolerance).all() && R.determinant() > 0.0;
   if (!rotation) throw UserError(where, what + " is no rotation", "");
 }
 
@@ -45,7 +47,9 @@ Pose requireExtrinsics(const YamlNode& root, const std::string& file) {
 
 double requireNotNegative(const YamlNode& root, std::string_view key, const std::string& file) {
   const double value = requireNumber(root, key, file);
-  if (value < 0.0) throw UserError(atLine(file, require(root, key, file).line), std::string(key) + " = " + printNumber(value), "0 or more");
+  if (value < 0.0)
+    throw UserError(atLine(file, require(root, key, file).line), std::string(key) + " = " + printNumber(value),
+                    "0 or more");
   return value;
 }
 
@@ -56,16 +60,21 @@ std::vector<double> numbersOf(const YamlNode& node, std::string_view key, const 
 
 // ---- KITTI
 
-std::optional<Projection> projectionOf(std::string_view line, std::string_view key, std::string_view raw_key, const std::string& where) {
+std::optional<Projection> projectionOf(std::string_view line, std::string_view key, std::string_view raw_key,
+                                       const std::string& where) {
   const std::size_t colon = line.find(':');
   const std::string_view name = trimmed(line.substr(0, colon));
   if (colon == std::string_view::npos || (name != key && name != raw_key)) return std::nullopt;
   const auto words = splitBlanks(line.substr(colon + 1));
-  if (words.size() != 12) throw UserError(where, std::string(name) + " with " + std::to_string(words.size()) + " numbers", "12: a 3x4 matrix, row by row");
+  if (words.size() != 12)
+    throw UserError(where, std::string(name) + " with " + std::to_string(words.size()) + " numbers",
+                    "12: a 3x4 matrix, row by row");
   Projection P;
   for (int i = 0; i < 12; ++i) {
     const auto number = parseNumber(words[static_cast<std::size_t>(i)]);
-    if (!number) throw UserError(where, std::string(name) + " holds `" + std::string(words[static_cast<std::size_t>(i)]) + "`", "finite numbers");
+    if (!number)
+      throw UserError(where, std::string(name) + " holds `" + std::string(words[static_cast<std::size_t>(i)]) + "`",
+                      "finite numbers");
     P(i / 4, i % 4) = *number;
   }
   return P;
@@ -83,7 +92,8 @@ CameraInfo infoOf(const Projection& P, int width, int height) {
 std::string printProjection(const std::string& key, const StereoCamera& camera, double offset) {
   const Pinhole& c = camera.left;
   std::string line = key + ":";
-  for (const double value : {c.fx, 0.0, c.cx, offset, 0.0, c.fy, c.cy, 0.0, 0.0, 0.0, 1.0, 0.0}) line += " " + printNumber(value);
+  for (const double value : {c.fx, 0.0, c.cx, offset, 0.0, c.fy, c.cy, 0.0, 0.0, 0.0, 1.0, 0.0})
+    line += " " + printNumber(value);
   return line + "\n";
 }
 
@@ -91,7 +101,8 @@ std::string printProjection(const std::string& key, const StereoCamera& camera, 
 
 template <typename Matrix>
 std::string printMatrix(const std::string& key, const Matrix& M) {
-  std::string text = key + ":\n  rows: " + std::to_string(M.rows()) + "\n  cols: " + std::to_string(M.cols()) + "\n  data: [";
+  std::string text =
+      key + ":\n  rows: " + std::to_string(M.rows()) + "\n  cols: " + std::to_string(M.cols()) + "\n  data: [";
   for (Eigen::Index i = 0; i < M.size(); ++i) text += (i == 0 ? "" : ", ") + printNumber(M(i / M.cols(), i % M.cols()));
   return text + "]\n";
 }
@@ -105,7 +116,8 @@ StereoCamera parseKittiCalibration(std::string_view text, const std::string& nam
     if (const auto P = projectionOf(line, "P0", "P_rect_00", where)) left = P;
     if (const auto P = projectionOf(line, "P1", "P_rect_01", where)) right = P;
   });
-  if (!left || !right) throw UserError(name, std::string("no line ") + (left ? "P1" : "P0"), "`P0: ` and `P1: ` with twelve numbers each");
+  if (!left || !right)
+    throw UserError(name, std::string("no line ") + (left ? "P1" : "P0"), "`P0: ` and `P1: ` with twelve numbers each");
   // The left camera need not be the origin of the rig: what counts is how far right of it the other one is.
   right->col(3) -= left->col(3);
   left->col(3).setZero();
@@ -123,11 +135,14 @@ std::string printKittiCalibration(const StereoCamera& camera) {
 CameraInfo parseCameraInfo(std::string_view text, const std::string& name) {
   const YamlNode root = parseYaml(text, name);
   CameraInfo info;
-  info.width = requireSize(require(root, "image_width", name), requireNumber(root, "image_width", name), "image_width", name);
-  info.height = requireSize(require(root, "image_height", name), requireNumber(root, "image_height", name), "image_height", name);
+  info.width =
+      requireSize(require(root, "image_width", name), requireNumber(root, "image_width", name), "image_width", name);
+  info.height =
+      requireSize(require(root, "image_height", name), requireNumber(root, "image_height", name), "image_height", name);
   const YamlNode* model = root.find("distortion_model");
   info.distortion_model = model != nullptr ? model->scalar : "";
-  if (root.find("distortion_coefficients") != nullptr) info.D = numbersOf(require(root, "distortion_coefficients", name), "data", name);
+  if (root.find("distortion_coefficients") != nullptr)
+    info.D = numbersOf(require(root, "distortion_coefficients", name), "data", name);
   info.K = requireMatrix<3, 3>(root, "camera_matrix", name);
   if (root.find("rectification_matrix") != nullptr) info.R = requireMatrix<3, 3>(root, "rectification_matrix", name);
   if (info.R.isZero(0.0)) info.R.setIdentity();  // "not set", as in the message
@@ -142,10 +157,11 @@ CameraInfo readCameraInfo(const std::string& path) { return parseCameraInfo(read
 
 std::string printCameraInfo(const CameraInfo& info, const std::string& camera_name) {
   const Eigen::Map<const Eigen::RowVectorXd> D(info.D.data(), static_cast<Eigen::Index>(info.D.size()));
-  return "image_width: " + std::to_string(info.width) + "\nimage_height: " + std::to_string(info.height) + "\ncamera_name: " + camera_name +
-         "\n" + printMatrix("camera_matrix", info.K) + "distortion_model: " +
-         (info.distortion_model.empty() ? "plumb_bob" : info.distortion_model) + "\n" + printMatrix("distortion_coefficients", D) +
-         printMatrix("rectification_matrix", info.R) + printMatrix("projection_matrix", info.P);
+  return "image_width: " + std::to_string(info.width) + "\nimage_height: " + std::to_string(info.height) +
+         "\ncamera_name: " + camera_name + "\n" + printMatrix("camera_matrix", info.K) +
+         "distortion_model: " + (info.distortion_model.empty() ? "plumb_bob" : info.distortion_model) + "\n" +
+         printMatrix("distortion_coefficients", D) + printMatrix("rectification_matrix", info.R) +
+         printMatrix("projection_matrix", info.P);
 }
 
 EurocCamera parseEurocCamera(std::string_view text, const std::string& name) {

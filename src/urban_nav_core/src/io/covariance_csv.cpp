@@ -37,9 +37,11 @@ Health statusAt(const CsvTable& table, std::size_t row, std::size_t column) {
 
 Matrix6d matrixAt(const CsvTable& table, std::size_t row, std::size_t first) {
   Matrix6d M;
-  for (std::size_t i = 0; i < kNumbers; ++i) M(static_cast<int>(i / 6), static_cast<int>(i % 6)) = table.number(row, first + i);
+  for (std::size_t i = 0; i < kNumbers; ++i)
+    M(static_cast<int>(i / 6), static_cast<int>(i % 6)) = table.number(row, first + i);
   const bool symmetric = ((M - M.transpose()).array().abs() <= 1e-9 * M.array().abs().maxCoeff()).all();
-  if (!symmetric || M.diagonal().minCoeff() < 0.0) throw UserError(table.where(row), "no covariance", "a symmetric matrix with variances of 0 or more");
+  if (!symmetric || M.diagonal().minCoeff() < 0.0)
+    throw UserError(table.where(row), "no covariance", "a symmetric matrix with variances of 0 or more");
   return M;
 }
 
@@ -47,7 +49,8 @@ CsvTable tableOf(std::string_view text, const std::string& name, const std::stri
   CsvTable table = CsvTable::parse(text, name);
   const std::size_t wanted = CsvTable::parse(header, name).header().size();
   if (table.header().size() != wanted) {
-    throw UserError(name, std::to_string(table.header().size()) + " columns", std::to_string(wanted) + ": " + header.substr(0, header.find(",c12")) + "...");
+    throw UserError(name, std::to_string(table.header().size()) + " columns",
+                    std::to_string(wanted) + ": " + header.substr(0, header.find(",c12")) + "...");
   }
   return table;
 }
@@ -87,7 +90,9 @@ std::vector<RelativeCovarianceRow> parseRelativeCovariances(std::string_view tex
   return rows;
 }
 
-std::vector<CovarianceRow> readCovariances(const std::string& path) { return parseCovariances(readTextFile(path), path); }
+std::vector<CovarianceRow> readCovariances(const std::string& path) {
+  return parseCovariances(readTextFile(path), path);
+}
 std::vector<RelativeCovarianceRow> readRelativeCovariances(const std::string& path) {
   return parseRelativeCovariances(readTextFile(path), path);
 }

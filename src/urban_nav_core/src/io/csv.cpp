@@ -64,7 +64,8 @@ CsvTable CsvTable::parse(std::string_view text, const std::string& name) {
     }
     std::vector<std::string> cells = splitLine(line, where);
     if (cells.size() != table.header_.size()) {
-      throw UserError(where, std::to_string(cells.size()) + " cells", std::to_string(table.header_.size()) + ", as in the header");
+      throw UserError(where, std::to_string(cells.size()) + " cells",
+                      std::to_string(table.header_.size()) + ", as in the header");
     }
     std::move(cells.begin(), cells.end(), std::back_inserter(table.cells_));
     table.lines_.push_back(number);
@@ -73,7 +74,9 @@ CsvTable CsvTable::parse(std::string_view text, const std::string& name) {
   return table;
 }
 
-bool CsvTable::has(std::string_view column) const { return std::find(header_.begin(), header_.end(), column) != header_.end(); }
+bool CsvTable::has(std::string_view column) const {
+  return std::find(header_.begin(), header_.end(), column) != header_.end();
+}
 
 std::size_t CsvTable::column(std::string_view name) const {
   const auto found = std::find(header_.begin(), header_.end(), name);

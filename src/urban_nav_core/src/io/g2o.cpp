@@ -44,7 +44,8 @@ class Parser {
     G2oGraph::Vertex vertex;
     vertex.id = id(words[1]);
     pose(words, 2, dimension, vertex.values);
-    if (!known_.insert(vertex.id).second) throw UserError(where_, "vertex " + std::to_string(vertex.id) + " stands twice", "");
+    if (!known_.insert(vertex.id).second)
+      throw UserError(where_, "vertex " + std::to_string(vertex.id) + " stands twice", "");
     graph_.lines.push_back({G2oGraph::Kind::Vertex, graph_.vertices.size()});
     graph_.vertices.push_back(vertex);
   }
@@ -56,7 +57,8 @@ class Parser {
     edge.to = id(words[2]);
     if (edge.from == edge.to) throw UserError(where_, "an edge from " + std::to_string(edge.from) + " to itself", "");
     pose(words, 3, dimension, edge.values);
-    for (std::size_t i = 0; i < informationSize(dimension); ++i) edge.information[i] = number(words[3 + poseSize(dimension) + i]);
+    for (std::size_t i = 0; i < informationSize(dimension); ++i)
+      edge.information[i] = number(words[3 + poseSize(dimension) + i]);
     graph_.lines.push_back({G2oGraph::Kind::Edge, graph_.edges.size()});
     graph_.edges.push_back(edge);
   }
@@ -71,7 +73,8 @@ class Parser {
 
   void other(std::string_view text, std::string_view tag) {
     if (unknown_ == UnknownTags::Refuse && tag.front() != '#') {
-      throw UserError(where_, "unknown tag " + std::string(tag), "VERTEX_SE2, VERTEX_SE3:QUAT, EDGE_SE2, EDGE_SE3:QUAT, FIX");
+      throw UserError(where_, "unknown tag " + std::string(tag),
+                      "VERTEX_SE2, VERTEX_SE3:QUAT, EDGE_SE2, EDGE_SE3:QUAT, FIX");
     }
     graph_.lines.push_back({G2oGraph::Kind::Other, graph_.others.size()});
     graph_.others.emplace_back(text);
@@ -79,9 +82,11 @@ class Parser {
 
   void demand(const Words& words, std::size_t columns, int dimension) {
     if (words.size() != columns) {
-      throw UserError(where_, std::string(words[0]) + " with " + std::to_string(words.size()) + " columns", std::to_string(columns));
+      throw UserError(where_, std::string(words[0]) + " with " + std::to_string(words.size()) + " columns",
+                      std::to_string(columns));
     }
-    if (has_dimension_ && graph_.dimension != dimension) throw UserError(where_, "SE2 and SE3 in one file", "one of them");
+    if (has_dimension_ && graph_.dimension != dimension)
+      throw UserError(where_, "SE2 and SE3 in one file", "one of them");
     graph_.dimension = dimension;
     has_dimension_ = true;
   }
@@ -102,7 +107,8 @@ class Parser {
     for (std::size_t i = 0; i < poseSize(dimension); ++i) values[i] = number(words[first + i]);
     if (dimension == 2) return;
     const double length = Quaterniond(values[6], values[3], values[4], values[5]).norm();
-    if (!(std::abs(length - 1.0) <= 0.01)) throw UserError(where_, "a quaternion of length " + printNumber(length), "length 1 (1 %)");
+    if (!(std::abs(length - 1.0) <= 0.01))
+      throw UserError(where_, "a quaternion of length " + printNumber(length), "length 1 (1 %)");
   }
 
   std::string name_, where_;
@@ -185,7 +191,8 @@ void setG2oInformation(G2oGraph::Edge& edge, const Eigen::MatrixXd& information)
   assert(information.rows() == information.cols() && (information.rows() == 3 || information.rows() == 6));
   std::size_t at = 0;
   for (Eigen::Index row = 0; row < information.rows(); ++row) {
-    for (Eigen::Index column = row; column < information.cols(); ++column) edge.information[at++] = information(row, column);
+    for (Eigen::Index column = row; column < information.cols(); ++column)
+      edge.information[at++] = information(row, column);
   }
 }
 

@@ -67,7 +67,8 @@ std::vector<KittiMatrix> parseKittiMatrices(std::string_view text, const std::st
 
 std::vector<Pose> parseKitti(std::string_view text, const std::string& name) {
   std::vector<Pose> poses;
-  for (const KittiMatrix& M : parseKittiMatrices(text, name)) poses.emplace_back(Matrix3d(M.leftCols<3>()), Vector3d(M.col(3)));
+  for (const KittiMatrix& M : parseKittiMatrices(text, name))
+    poses.emplace_back(Matrix3d(M.leftCols<3>()), Vector3d(M.col(3)));
   return poses;
 }
 
@@ -84,7 +85,8 @@ std::vector<StampNs> parseTimes(std::string_view text, const std::string& name) 
     if (seconds && std::abs(*seconds) <= 9.2e9) stamp = static_cast<StampNs>(std::llround(*seconds * 1e9));
     const std::string where = atLine(name, number);
     if (!stamp) throw UserError(where, "`" + std::string(word) + "`", "seconds, one number a line");
-    if (!times.empty() && *stamp <= times.back()) throw UserError(where, std::string(word) + " is not later than the time before", "");
+    if (!times.empty() && *stamp <= times.back())
+      throw UserError(where, std::string(word) + " is not later than the time before", "");
     times.push_back(*stamp);
   });
   return times;

@@ -27,7 +27,8 @@ std::string_view withoutPlus(std::string_view text) {
   return plus ? text.substr(1) : text;
 }
 
-// A number out of range is too small rather than too large if its exponent is negative, or if there is none and it begins with a zero.
+// A number out of range is too small rather than too large if its exponent is negative, or if there is none and it
+// begins with a zero.
 bool isUnderflow(std::string_view text) {
   const std::size_t e = text.find_first_of("eE");
   if (e != std::string_view::npos) return e + 1 < text.size() && text[e + 1] == '-';

@@ -12,7 +12,9 @@
 namespace urban_nav_core {
 
 std::string readTextFile(const std::string& path) {
-  const auto fail = [&path](int code) { throw UserError(path, std::string("cannot be read: ") + std::strerror(code), ""); };
+  const auto fail = [&path](int code) {
+    throw UserError(path, std::string("cannot be read: ") + std::strerror(code), "");
+  };
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
   if (!file) fail(errno);
   constexpr std::size_t kPiece = 1U << 16U;

@@ -36,7 +36,8 @@ StampedPose parseLine(std::string_view line, const std::string& where) {
     v[i] = *number;
   }
   const Quaterniond q(v[6], v[3], v[4], v[5]);
-  if (!(std::abs(q.norm() - 1.0) <= 0.01)) throw UserError(where, "a quaternion of length " + printNumber(q.norm()), "length 1 (1 %)");
+  if (!(std::abs(q.norm() - 1.0) <= 0.01))
+    throw UserError(where, "a quaternion of length " + printNumber(q.norm()), "length 1 (1 %)");
   return {*stamp, Pose(q, {v[0], v[1], v[2]})};
 }
 

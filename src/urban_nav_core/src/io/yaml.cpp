@@ -20,11 +20,13 @@ class Converter {
  public:
   explicit Converter(std::string file) : file_(std::move(file)) {}
 
-  // An alias is a node that hangs in the tree more than once: both limits also end documents that multiply or contain themselves.
+  // An alias is a node that hangs in the tree more than once: both limits also end documents that multiply or contain
+  // themselves.
   YamlNode convert(const YAML::Node& node, int depth) {
     YamlNode out;
     out.line = node.Mark().line + 1;
-    if (depth > kDepth) throw UserError(atLine(file_, out.line), "nested too deeply", std::to_string(kDepth) + " levels");
+    if (depth > kDepth)
+      throw UserError(atLine(file_, out.line), "nested too deeply", std::to_string(kDepth) + " levels");
     if (++count_ > kNodes) throw UserError(file_, "too many values", std::to_string(kNodes));
     if (node.IsScalar()) {
       out.kind = YamlNode::Kind::Scalar;
@@ -64,7 +66,8 @@ YamlNode readYaml(const std::string& path) { return parseYaml(readTextFile(path)
 
 YamlNode parseYaml(std::string_view text, const std::string& name) {
   std::string content(text);
-  // OpenCV's and EuRoC's files begin with %YAML:1.0, which is no directive of YAML. Blanks instead keep the lines' numbers.
+  // OpenCV's and EuRoC's files begin with %YAML:1.0, which is no directive of YAML. Blanks instead keep the lines'
+  // numbers.
   if (content.rfind("%YAML", 0) == 0) std::fill_n(content.begin(), std::min(content.find('\n'), content.size()), ' ');
   try {
     return Converter(name).convert(YAML::Load(content), 0);
@@ -86,11 +89,13 @@ double requireNumber(const YamlNode& node, std::string_view key, const std::stri
   return *number;
 }
 
-std::vector<double> requireNumbers(const YamlNode& node, std::string_view key, std::size_t count, const std::string& file) {
+std::vector<double> requireNumbers(const YamlNode& node, std::string_view key, std::size_t count,
+                                   const std::string& file) {
   const YamlNode& found = require(node, key, file);
   const std::string wanted = std::to_string(count) + " numbers in a list";
   if (found.kind != YamlNode::Kind::List || found.list.size() != count) {
-    throw UserError(atLine(file, found.line), std::string(key) + " has " + std::to_string(found.list.size()) + " elements", wanted);
+    throw UserError(atLine(file, found.line),
+                    std::string(key) + " has " + std::to_string(found.list.size()) + " elements", wanted);
   }
   std::vector<double> numbers;
   for (const YamlNode& each : found.list) {

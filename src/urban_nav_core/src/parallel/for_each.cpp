@@ -24,9 +24,10 @@ void forEachPart(std::size_t parts, const std::function<void(std::size_t)>& work
     }
   };
   // TBB would hand on whichever exception came first by the clock.
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, parts, 1), [&guarded](const tbb::blocked_range<std::size_t>& range) {
-    for (std::size_t part = range.begin(); part != range.end(); ++part) guarded(part);
-  });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, parts, 1),
+                    [&guarded](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t part = range.begin(); part != range.end(); ++part) guarded(part);
+                    });
   if (first) std::rethrow_exception(first->second);
 }
 
@@ -37,7 +38,8 @@ struct ThreadLimit::Control {
   tbb::global_control limit;
 };
 
-ThreadLimit::ThreadLimit(int threads) : control_(threads > 0 ? std::make_unique<Control>(static_cast<std::size_t>(threads)) : nullptr) {}
+ThreadLimit::ThreadLimit(int threads)
+    : control_(threads > 0 ? std::make_unique<Control>(static_cast<std::size_t>(threads)) : nullptr) {}
 ThreadLimit::~ThreadLimit() = default;
 
 }  // namespace urban_nav_core

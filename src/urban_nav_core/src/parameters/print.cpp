@@ -30,8 +30,9 @@ std::string wrapped(const std::string& prose, const std::string& beginning) {
 }
 
 std::string rangeOf(const RowInfo& row) {
-  return row.type == ParameterType::Integer || row.type == ParameterType::Number ? printValue(row.low) + "..." + printValue(row.high)
-                                                                                 : allowed(row);
+  return row.type == ParameterType::Integer || row.type == ParameterType::Number
+             ? printValue(row.low) + "..." + printValue(row.high)
+             : allowed(row);
 }
 
 std::string described(const RowInfo& row) {
@@ -41,7 +42,8 @@ std::string described(const RowInfo& row) {
 }
 
 const Setting* find(const std::vector<Setting>& settings, const std::string& name) {
-  const auto it = std::find_if(settings.begin(), settings.end(), [&name](const Setting& each) { return each.name == name; });
+  const auto it =
+      std::find_if(settings.begin(), settings.end(), [&name](const Setting& each) { return each.name == name; });
   return it == settings.end() ? nullptr : &*it;
 }
 
@@ -56,7 +58,8 @@ std::string cell(const std::string& text) {
 
 std::string printYaml(const std::string& stage, const std::vector<RowInfo>& rows) { return printYaml(stage, rows, {}); }
 
-std::string printYaml(const std::string& stage, const std::vector<RowInfo>& rows, const std::vector<Setting>& settings) {
+std::string printYaml(const std::string& stage, const std::vector<RowInfo>& rows,
+                      const std::vector<Setting>& settings) {
   const std::string indent = stage.empty() ? "" : "  ";
   std::string out = stage.empty() ? "" : stage + ":\n";
   for (const RowInfo& row : rows) {
@@ -72,18 +75,19 @@ std::string printYaml(const std::string& stage, const std::vector<RowInfo>& rows
 std::string printMarkdown(const std::string& stage, const std::vector<RowInfo>& rows) {
   std::string out = "| parameter | default | unit | allowed | what it does | source |\n|---|---|---|---|---|---|\n";
   for (const RowInfo& row : rows) {
-    out += "|" + cell("`" + fullName(stage, row.name) + "`") + cell("`" + printValue(row.standard) + "`") + cell(row.unit) +
-           cell(rangeOf(row)) + cell(row.sentence) + cell(row.source) + "\n";
+    out += "|" + cell("`" + fullName(stage, row.name) + "`") + cell("`" + printValue(row.standard) + "`") +
+           cell(row.unit) + cell(rangeOf(row)) + cell(row.sentence) + cell(row.source) + "\n";
   }
   return out;
 }
 
-std::string printHelp(const std::string& stage, const std::vector<RowInfo>& rows, const std::vector<Setting>& settings) {
+std::string printHelp(const std::string& stage, const std::vector<RowInfo>& rows,
+                      const std::vector<Setting>& settings) {
   std::string out;
   for (const RowInfo& row : rows) {
     const Setting* setting = find(settings, row.name);
-    out += "  " + fullName(stage, row.name) + " = " + printValue(setting != nullptr ? setting->value : row.standard) + "  (" +
-           (setting != nullptr ? setting->origin : "default") + ")\n" + wrapped(described(row), "      ");
+    out += "  " + fullName(stage, row.name) + " = " + printValue(setting != nullptr ? setting->value : row.standard) +
+           "  (" + (setting != nullptr ? setting->origin : "default") + ")\n" + wrapped(described(row), "      ");
   }
   return out;
 }

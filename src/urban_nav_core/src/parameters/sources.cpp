@@ -31,7 +31,9 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
 std::string nearest(const std::string& wanted, const std::vector<std::string>& known) {
   constexpr std::size_t kLongest = 100;  // the distance costs the product of the lengths
   const std::string head = wanted.substr(0, kLongest);
-  const auto closer = [&head](const std::string& a, const std::string& b) { return editDistance(head, a) < editDistance(head, b); };
+  const auto closer = [&head](const std::string& a, const std::string& b) {
+    return editDistance(head, a) < editDistance(head, b);
+  };
   const auto best = std::min_element(known.begin(), known.end(), closer);
   return best == known.end() ? "" : *best;
 }
@@ -73,12 +75,14 @@ ParameterValue checked(const RowInfo& row, const Assignment& assignment) {
   throw UserError(assignment.where, fullName(assignment.stage, assignment.name) + " = " + found, allowed(row));
 }
 
-void append(std::vector<Assignment>& assignments, const std::string& stage, const YamlNode& rows, const std::string& file) {
+void append(std::vector<Assignment>& assignments, const std::string& stage, const YamlNode& rows,
+            const std::string& file) {
   std::set<std::string> seen;
   for (const auto& [key, node] : rows.map) {
     const std::string where = atLine(file, node.line);
     const std::string full = fullName(stage, key);
-    if (node.kind != YamlNode::Kind::Scalar) throw UserError(where, full + " is not a single value", "one value behind the colon");
+    if (node.kind != YamlNode::Kind::Scalar)
+      throw UserError(where, full + " is not a single value", "one value behind the colon");
     if (!seen.insert(key).second) throw UserError(where, full + " stands twice", "");
     assignments.push_back({stage, key, node.scalar, true, where});
   }
@@ -87,7 +91,8 @@ void append(std::vector<Assignment>& assignments, const std::string& stage, cons
 std::vector<Assignment> fromYaml(const YamlNode& root, const std::string& file) {
   std::vector<Assignment> assignments;
   if (root.kind == YamlNode::Kind::Null) return assignments;
-  if (root.kind != YamlNode::Kind::Map) throw UserError(atLine(file, root.line), "no map of stages", "lines such as `swf_vo:`");
+  if (root.kind != YamlNode::Kind::Map)
+    throw UserError(atLine(file, root.line), "no map of stages", "lines such as `swf_vo:`");
   YamlNode without_stage;
   std::set<std::string> seen;
   for (const auto& [stage, node] : root.map) {
@@ -128,15 +133,18 @@ std::vector<Assignment> serverParameters(const std::string& stage, const std::ma
   return assignments;
 }
 
-std::vector<Setting> resolve(const std::string& stage, const std::vector<RowInfo>& rows, const std::vector<Assignment>& assignments) {
+std::vector<Setting> resolve(const std::string& stage, const std::vector<RowInfo>& rows,
+                             const std::vector<Assignment>& assignments) {
   std::vector<Setting> settings;
   for (const RowInfo& row : rows) settings.push_back({stage, row.name, row.standard, "default"});
   for (const Assignment& assignment : assignments) {
     if (assignment.stage != stage) continue;
-    const auto row = std::find_if(rows.begin(), rows.end(), [&](const RowInfo& each) { return each.name == assignment.name; });
+    const auto row =
+        std::find_if(rows.begin(), rows.end(), [&](const RowInfo& each) { return each.name == assignment.name; });
     if (row == rows.end()) {
-      throw UserError(assignment.where, fullName(stage, assignment.name) + " is no parameter",
-                      "the parameters that --help lists; nearest: " + fullName(stage, nearest(assignment.name, namesOf(rows))));
+      throw UserError(
+          assignment.where, fullName(stage, assignment.name) + " is no parameter",
+          "the parameters that --help lists; nearest: " + fullName(stage, nearest(assignment.name, namesOf(rows))));
     }
     Setting& setting = settings[static_cast<std::size_t>(row - rows.begin())];
     setting.value = checked(*row, assignment);
@@ -149,8 +157,10 @@ void refuseUnknownStages(const std::vector<Assignment>& assignments, const std::
   for (const Assignment& assignment : assignments) {
     if (std::find(stages.begin(), stages.end(), assignment.stage) != stages.end()) continue;
     std::string known;
-    for (const std::string& stage : stages) known += (known.empty() ? "" : ", ") + (stage.empty() ? std::string("none") : stage);
-    const std::string found = assignment.stage.empty() ? assignment.name + " has no stage in front" : assignment.stage + " is no stage";
+    for (const std::string& stage : stages)
+      known += (known.empty() ? "" : ", ") + (stage.empty() ? std::string("none") : stage);
+    const std::string found =
+        assignment.stage.empty() ? assignment.name + " has no stage in front" : assignment.stage + " is no stage";
     throw UserError(assignment.where, found, known + "; nearest: " + nearest(assignment.stage, stages));
   }
 }

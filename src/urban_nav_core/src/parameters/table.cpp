@@ -24,13 +24,15 @@ double asNumber(const ParameterValue& value) {
 }
 
 bool isPlainYaml(const std::string& text) {
-  static const std::set<std::string> kMeaningful = {"true", "false", "null", "True", "False", "Null", "TRUE", "FALSE", "NULL",
-                                                    "yes",  "no",    "Yes",  "No",   "YES",   "NO",   "y",    "n",     "Y",
-                                                    "N",    "On",    "Off",  "ON",   "OFF"};
+  static const std::set<std::string> kMeaningful = {"true", "false", "null", "True", "False", "Null", "TRUE", "FALSE",
+                                                    "NULL", "yes",   "no",   "Yes",  "No",    "YES",  "NO",   "y",
+                                                    "n",    "Y",     "N",    "On",   "Off",   "ON",   "OFF"};
   const auto harmless = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '/';
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
+           c == '/';
   };
-  const bool starts_with_letter = !text.empty() && harmless(text[0]) && text[0] != '-' && !(text[0] >= '0' && text[0] <= '9');
+  const bool starts_with_letter =
+      !text.empty() && harmless(text[0]) && text[0] != '-' && !(text[0] >= '0' && text[0] <= '9');
   return starts_with_letter && std::all_of(text.begin(), text.end(), harmless) && kMeaningful.count(text) == 0;
 }
 
@@ -52,7 +54,9 @@ std::string quoted(const std::string& text) {
 
 }  // namespace
 
-std::string fullName(const std::string& stage, const std::string& name) { return stage.empty() ? name : stage + "." + name; }
+std::string fullName(const std::string& stage, const std::string& name) {
+  return stage.empty() ? name : stage + "." + name;
+}
 
 std::string printValue(const ParameterValue& value) {
   if (const auto* flag = std::get_if<bool>(&value.base())) return *flag ? "true" : "false";
@@ -69,7 +73,8 @@ std::string allowed(const RowInfo& row) {
     case ParameterType::Integer:
     case ParameterType::Number: break;
   }
-  return (row.type == ParameterType::Integer ? "" : "numbers ") + printValue(row.low) + "..." + printValue(row.high) + unit;
+  return (row.type == ParameterType::Integer ? "" : "numbers ") + printValue(row.low) + "..." + printValue(row.high) +
+         unit;
 }
 
 bool isAllowed(const RowInfo& row, const ParameterValue& value) {
@@ -78,11 +83,13 @@ bool isAllowed(const RowInfo& row, const ParameterValue& value) {
     case ParameterType::Bool: return std::holds_alternative<bool>(value.base());
     case ParameterType::Word: {
       const auto* word = std::get_if<std::string>(&value.base());
-      return word != nullptr && (row.words.empty() || std::find(row.words.begin(), row.words.end(), *word) != row.words.end());
+      return word != nullptr &&
+             (row.words.empty() || std::find(row.words.begin(), row.words.end(), *word) != row.words.end());
     }
     case ParameterType::Integer: {
       const auto* number = std::get_if<std::int64_t>(&value.base());
-      return number != nullptr && *number >= std::get<std::int64_t>(row.low) && *number <= std::get<std::int64_t>(row.high);
+      return number != nullptr && *number >= std::get<std::int64_t>(row.low) &&
+             *number <= std::get<std::int64_t>(row.high);
     }
     case ParameterType::Number: {
       if (!whole && !std::holds_alternative<double>(value.base())) return false;

@@ -42,7 +42,8 @@ Similarity umeyama(const std::vector<Pose>& truth, const std::vector<Pose>& esti
   const Matrix3d heading = (truth.front().q() * estimate.front().q().conjugate()).toRotationMatrix();
   const Eigen::JacobiSVD<Matrix3d> svd(covariance);
   const bool open = !(svd.singularValues()[1] > 1e-6 * size) || !(size > 0.0);
-  const Matrix3d R = bestRotation(open ? Matrix3d(covariance + (size > 0.0 ? kTieBreak * size : 1.0) * heading) : covariance);
+  const Matrix3d R =
+      bestRotation(open ? Matrix3d(covariance + (size > 0.0 ? kTieBreak * size : 1.0) * heading) : covariance);
 
   Similarity similarity;
   if (with_scale && variance > 0.0) similarity.scale = (R.transpose() * covariance).trace() / variance;
@@ -60,8 +61,12 @@ Similarity alignFirst(const std::vector<Pose>& truth, const std::vector<Pose>& e
   return {1.0, truth.front() * estimate.front().inverse()};
 }
 
-Similarity alignSe3(const std::vector<Pose>& truth, const std::vector<Pose>& estimate) { return umeyama(truth, estimate, false); }
-Similarity alignSim3(const std::vector<Pose>& truth, const std::vector<Pose>& estimate) { return umeyama(truth, estimate, true); }
+Similarity alignSe3(const std::vector<Pose>& truth, const std::vector<Pose>& estimate) {
+  return umeyama(truth, estimate, false);
+}
+Similarity alignSim3(const std::vector<Pose>& truth, const std::vector<Pose>& estimate) {
+  return umeyama(truth, estimate, true);
+}
 
 bool isApprox(const Similarity& a, const Similarity& b, double tolerance) {
   return std::abs(a.scale - b.scale) <= tolerance && isApprox(a.T_truth_estimate, b.T_truth_estimate, tolerance);

@@ -35,10 +35,12 @@ Motion motionOf(const Trajectory& trajectory, double step, std::size_t samples) 
   Motion motion{std::vector<double>(samples), std::vector<double>(samples)};
   std::size_t after = 1;
   const auto poseAt = [&trajectory, &after](double seconds) {
-    while (after + 1 < trajectory.size() && secondsBetween(trajectory.front().stamp, trajectory[after].stamp) < seconds) ++after;
+    while (after + 1 < trajectory.size() && secondsBetween(trajectory.front().stamp, trajectory[after].stamp) < seconds)
+      ++after;
     const double begin = secondsBetween(trajectory.front().stamp, trajectory[after - 1].stamp);
     const double end = secondsBetween(trajectory.front().stamp, trajectory[after].stamp);
-    return interpolate(trajectory[after - 1].pose, trajectory[after].pose, std::clamp((seconds - begin) / (end - begin), 0.0, 1.0));
+    return interpolate(trajectory[after - 1].pose, trajectory[after].pose,
+                       std::clamp((seconds - begin) / (end - begin), 0.0, 1.0));
   };
   Pose last = poseAt(0.0);
   for (std::size_t i = 0; i < samples; ++i) {
@@ -53,7 +55,8 @@ Motion motionOf(const Trajectory& trajectory, double step, std::size_t samples) 
 // Pearson's correlation of b, shifted by `lag` samples, with a over their overlap; zero where either does not vary.
 double correlation(const std::vector<double>& a, const std::vector<double>& b, std::ptrdiff_t lag) {
   const std::ptrdiff_t begin = std::max<std::ptrdiff_t>(0, lag);
-  const std::ptrdiff_t end = std::min(static_cast<std::ptrdiff_t>(a.size()), static_cast<std::ptrdiff_t>(b.size()) + lag);
+  const std::ptrdiff_t end =
+      std::min(static_cast<std::ptrdiff_t>(a.size()), static_cast<std::ptrdiff_t>(b.size()) + lag);
   double sum_a = 0, sum_b = 0, sum_aa = 0, sum_bb = 0, sum_ab = 0;
   for (std::ptrdiff_t i = begin; i < end; ++i) {
     const double x = a[static_cast<std::size_t>(i)], y = b[static_cast<std::size_t>(i - lag)];
@@ -71,10 +74,12 @@ struct Peak {
 };
 
 Peak bestLag(const Motion& truth, const Motion& estimate) {
-  const auto n = static_cast<std::ptrdiff_t>(truth.speed.size()), m = static_cast<std::ptrdiff_t>(estimate.speed.size());
+  const auto n = static_cast<std::ptrdiff_t>(truth.speed.size()),
+             m = static_cast<std::ptrdiff_t>(estimate.speed.size());
   const std::ptrdiff_t overlap = std::max<std::ptrdiff_t>(2, std::min(n, m) * 3 / 10);
   const auto score = [&](std::ptrdiff_t lag) {
-    const double speed = correlation(truth.speed, estimate.speed, lag), rate = correlation(truth.rate, estimate.rate, lag);
+    const double speed = correlation(truth.speed, estimate.speed, lag),
+                 rate = correlation(truth.rate, estimate.rate, lag);
     return speed == 0.0 ? rate : rate == 0.0 ? speed : 0.5 * (speed + rate);
   };
   std::ptrdiff_t best = 0;
@@ -104,7 +109,8 @@ Matched associate(const Trajectory& truth, const Trajectory& estimate, StampNs o
     const auto between = truth.at(*stamp, kInterpolationGap);
     if (!between && nearest == last_nearest) {
       if (distance >= std::abs(secondsBetween(truth[nearest].stamp, matched.stamps.back()))) continue;
-      matched.stamps.pop_back(), matched.truth.pop_back(), matched.estimate.pop_back(), matched.estimate_index.pop_back();
+      matched.stamps.pop_back(), matched.truth.pop_back(), matched.estimate.pop_back(),
+          matched.estimate_index.pop_back();
     }
     last_nearest = between ? kNone : nearest;
     matched.stamps.push_back(*stamp);
@@ -135,7 +141,8 @@ std::optional<TimeOffset> findOffset(const Trajectory& truth, const Trajectory& 
 
   double shift = 0.0, height = 0.0;  // behind the one that lines up the first stamps
   if (samples(long_truth) >= 3 && samples(long_estimate) >= 3) {
-    const Peak peak = bestLag(motionOf(truth, step, samples(long_truth)), motionOf(estimate, step, samples(long_estimate)));
+    const Peak peak =
+        bestLag(motionOf(truth, step, samples(long_truth)), motionOf(estimate, step, samples(long_estimate)));
     if (peak.height >= 0.5) shift = peak.lag * step, height = peak.height;
   }
   TimeOffset result;
@@ -149,7 +156,8 @@ std::optional<TimeOffset> findOffset(const Trajectory& truth, const Trajectory& 
 }
 
 std::ostream& operator<<(std::ostream& out, const TimeOffset& offset) {
-  return out << printStamp(offset.offset) << " s (correlation " << offset.correlation << ", " << offset.matched << " poses)";
+  return out << printStamp(offset.offset) << " s (correlation " << offset.correlation << ", " << offset.matched
+             << " poses)";
 }
 
 }  // namespace urban_nav_core

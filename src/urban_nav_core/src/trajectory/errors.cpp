@@ -47,7 +47,8 @@ Similarity align(const std::vector<Pose>& truth, const std::vector<Pose>& estima
 
 double pathLength(const std::vector<Pose>& poses) { return poses.empty() ? 0.0 : distances(poses).back(); }
 
-std::vector<double> absoluteErrors(const std::vector<Pose>& truth, const std::vector<Pose>& estimate, Alignment alignment) {
+std::vector<double> absoluteErrors(const std::vector<Pose>& truth, const std::vector<Pose>& estimate,
+                                   Alignment alignment) {
   assert(truth.size() == estimate.size());
   std::vector<double> errors;
   if (truth.empty()) return errors;
@@ -86,7 +87,8 @@ std::ostream& operator<<(std::ostream& out, const Span& span) {
   return out << printNumber(span.length) << (span.unit == Span::Unit::Frames ? "f" : "m");
 }
 
-std::optional<RelativeError> relativeError(const std::vector<Pose>& truth, const std::vector<Pose>& estimate, const Span& span) {
+std::optional<RelativeError> relativeError(const std::vector<Pose>& truth, const std::vector<Pose>& estimate,
+                                           const Span& span) {
   assert(truth.size() == estimate.size());
   const std::vector<double> along = distances(truth);
   RelativeError sum;
@@ -111,7 +113,8 @@ std::optional<RelativeError> relativeError(const std::vector<Pose>& truth, const
   return sum;
 }
 
-SegmentErrors kittiSegmentErrors(const std::vector<Pose>& truth, const std::vector<Pose>& estimate, const std::vector<double>& lengths) {
+SegmentErrors kittiSegmentErrors(const std::vector<Pose>& truth, const std::vector<Pose>& estimate,
+                                 const std::vector<double>& lengths) {
   assert(truth.size() == estimate.size());
   constexpr std::size_t kBegunEvery = 10;
   const std::vector<double> along = distances(truth);

@@ -28,14 +28,16 @@ std::optional<double> neesRotation(const Pose& truth, const UncertainPose& estim
   return normalised<3>(boxMinus(truth, estimate.pose).tail<3>(), estimate.covariance.bottomRightCorner<3, 3>());
 }
 
-NeesSummary neesOfTrajectory(const std::vector<Pose>& truth, const std::vector<Pose>& estimate, const std::vector<Matrix6d>& covariances) {
+NeesSummary neesOfTrajectory(const std::vector<Pose>& truth, const std::vector<Pose>& estimate,
+                             const std::vector<Matrix6d>& covariances) {
   assert(truth.size() == estimate.size() && truth.size() == covariances.size());
   NeesSummary summary;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const Pose relative_truth = truth.front().inverse() * truth[i];
     const UncertainPose relative{estimate.front().inverse() * estimate[i], covariances[i]};
     const auto all = nees(relative_truth, relative);
-    const auto translation = neesTranslation(relative_truth, relative), rotation = neesRotation(relative_truth, relative);
+    const auto translation = neesTranslation(relative_truth, relative),
+               rotation = neesRotation(relative_truth, relative);
     if (!all || !translation || !rotation) {
       ++summary.left_out;
       continue;

@@ -13,8 +13,8 @@ bool closeTo(const Matrix6d& a, const Matrix6d& b, double tolerance) {
 
 void printSigmas(std::ostream& out, const Matrix6d& covariance) {
   const Vector6d sigma = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
-  out << ", sigma = (" << sigma[0] << ", " << sigma[1] << ", " << sigma[2] << ") m, (" << sigma[3] << ", " << sigma[4] << ", "
-      << sigma[5] << ") rad";
+  out << ", sigma = (" << sigma[0] << ", " << sigma[1] << ", " << sigma[2] << ") m, (" << sigma[3] << ", " << sigma[4]
+      << ", " << sigma[5] << ") rad";
 }
 
 }  // namespace

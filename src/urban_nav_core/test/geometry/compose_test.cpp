@@ -15,7 +15,8 @@ using testing::numericJacobian;
 
 class ComposeAt : public ::testing::TestWithParam<double> {
  protected:
-  // Two poses 0.5 m off with rotations of the parameter's size: Jacobians that drop a term which vanishes at zero fail here.
+  // Two poses 0.5 m off with rotations of the parameter's size: Jacobians that drop a term which vanishes at zero fail
+  // here.
   ComposeAt() : random_(11) {}
   Pose pose(double length) {
     std::normal_distribution<double> n;
@@ -58,11 +59,14 @@ TEST_P(ComposeAt, CovarianceOfAChainDoesNotDependOnTheBrackets) {
   EXPECT_TRUE(isApprox(compose(compose(A, B), C), compose(A, compose(B, C)), 1e-12));
 }
 
-INSTANTIATE_TEST_SUITE_P(Angles, ComposeAt, ::testing::Values(0.0, 1e-7, 0.1, 40.0 * M_PI / 180.0, 2.0, M_PI - 1e-3, M_PI));
+INSTANTIATE_TEST_SUITE_P(Angles, ComposeAt,
+                         ::testing::Values(0.0, 1e-7, 0.1, 40.0 * M_PI / 180.0, 2.0, M_PI - 1e-3, M_PI));
 
 TEST(Compose, CovarianceAgreesWithSamples) {
-  const UncertainPose A{Pose(expSo3({0.1, 0.7, -0.3}), {1.0, 2.0, 0.5}), Vector6d(Vector6d::Constant(1e-6)).asDiagonal()};
-  const UncertainPose B{Pose(expSo3({-0.4, 0.2, 0.6}), {3.0, -1.0, 2.0}), Vector6d(Vector6d::Constant(4e-6)).asDiagonal()};
+  const UncertainPose A{Pose(expSo3({0.1, 0.7, -0.3}), {1.0, 2.0, 0.5}),
+                        Vector6d(Vector6d::Constant(1e-6)).asDiagonal()};
+  const UncertainPose B{Pose(expSo3({-0.4, 0.2, 0.6}), {3.0, -1.0, 2.0}),
+                        Vector6d(Vector6d::Constant(4e-6)).asDiagonal()};
   const UncertainPose C = compose(A, B);
   std::mt19937 random(5);
   std::normal_distribution<double> normal;

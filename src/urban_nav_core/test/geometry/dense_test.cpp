@@ -65,7 +65,8 @@ TEST_P(DenseOfSize, OuterProductTouchesTheLowerTriangleAlone) {
   MatrixXd D = C;
   subtractOuterInPlace(D, A);
   const MatrixXd expected = C - A * A.transpose();
-  EXPECT_LE((MatrixXd(D.triangularView<Eigen::Lower>()) - MatrixXd(expected.triangularView<Eigen::Lower>())).norm(), 1e-12);
+  EXPECT_LE((MatrixXd(D.triangularView<Eigen::Lower>()) - MatrixXd(expected.triangularView<Eigen::Lower>())).norm(),
+            1e-12);
   EXPECT_EQ(MatrixXd(D.triangularView<Eigen::StrictlyUpper>()), MatrixXd(C.triangularView<Eigen::StrictlyUpper>()));
 }
 

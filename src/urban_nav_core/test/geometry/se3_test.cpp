@@ -18,7 +18,8 @@ constexpr double kDegree = M_PI / 180.0;
 
 Vector6d randomTangent(std::mt19937& random, double length, double angle) {
   std::normal_distribution<double> normal;
-  const Vector3d rho(normal(random), normal(random), normal(random)), phi(normal(random), normal(random), normal(random));
+  const Vector3d rho(normal(random), normal(random), normal(random)),
+      phi(normal(random), normal(random), normal(random));
   Vector6d x;
   x << length * rho.normalized(), angle * phi.normalized();
   return x;
@@ -49,7 +50,8 @@ TEST(Pose, TakesTheNearestRotation) {
   Matrix3d noise;
   noise << 1, -2, 3, 2, 1, -1, 0, 2, -3;
   EXPECT_LE((Pose(R, Vector3d::Zero()).R() - R).norm(), 1e-15);
-  const Matrix3d stretched = R * (Matrix3d::Identity() + 1e-3 * (noise + noise.transpose()));  // a symmetric factor turns nothing
+  const Matrix3d stretched =
+      R * (Matrix3d::Identity() + 1e-3 * (noise + noise.transpose()));  // a symmetric factor turns nothing
   EXPECT_LE((Pose(stretched, Vector3d::Zero()).R() - R).norm(), 1e-14);
   EXPECT_LE((Pose(R + 1e-3 * noise, Vector3d::Zero()).R() - R).norm(), 1e-2);
 }

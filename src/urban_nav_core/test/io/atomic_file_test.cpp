@@ -68,16 +68,19 @@ TEST_F(AtomicFileTest, AnotherWritersFileIsRenamedOrRemoved) {
 
 TEST_F(AtomicFileTest, NamesThePathThatCannotBeWritten) {
   const std::string nowhere = path("no/such/folder/a.txt");
-  EXPECT_EQ(errorOf([&] { writeAtomically(nowhere, "x"); }), nowhere + ": cannot be written: No such file or directory");
+  EXPECT_EQ(errorOf([&] { writeAtomically(nowhere, "x"); }),
+            nowhere + ": cannot be written: No such file or directory");
   fs::create_directories(path("folder"));
-  EXPECT_EQ(errorOf([&] { writeAtomically(path("folder"), "x"); }), path("folder") + ": cannot be written: Is a directory");
+  EXPECT_EQ(errorOf([&] { writeAtomically(path("folder"), "x"); }),
+            path("folder") + ": cannot be written: Is a directory");
   EXPECT_EQ(files(), 1U);
 }
 
 TEST_F(AtomicFileTest, AFullDiskIsAnErrorAndNoFile) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
   fs::create_symlink("/dev/full", path("a.part.txt"));
-  EXPECT_EQ(errorOf([&] { writeAtomically(path("a.txt"), "x"); }), path("a.txt") + ": cannot be written: No space left on device");
+  EXPECT_EQ(errorOf([&] { writeAtomically(path("a.txt"), "x"); }),
+            path("a.txt") + ": cannot be written: No space left on device");
   EXPECT_FALSE(fs::exists(path("a.txt")));
 }
 

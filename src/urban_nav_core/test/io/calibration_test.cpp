@@ -102,7 +102,8 @@ TEST(Calibration, EurocNamesWhatIsWrong) {
   EXPECT_EQ(errorOf([&] { parseEurocCamera(text, "sensor.yaml"); }), "sensor.yaml:6: T_BS is no rotation");
   text = kImu;
   text.replace(text.find("1.6968e-04"), 10, "-1");
-  EXPECT_EQ(errorOf([&] { parseEurocImu(text, "sensor.yaml"); }), "sensor.yaml:6: gyroscope_noise_density = -1: allowed 0 or more");
+  EXPECT_EQ(errorOf([&] { parseEurocImu(text, "sensor.yaml"); }),
+            "sensor.yaml:6: gyroscope_noise_density = -1: allowed 0 or more");
 }
 
 TEST(Calibration, ReadsRealFiles) {
@@ -110,15 +111,18 @@ TEST(Calibration, ReadsRealFiles) {
   const std::string stereo = std::string(data == nullptr ? "" : data) + "/stereo";
   if (data == nullptr || !std::filesystem::exists(stereo)) GTEST_SKIP() << "URBAN_NAV_DATA names no folder with stereo";
   EXPECT_NEAR(readKittiCalibration(stereo + "/kitti06_000_050/calib.txt", 1226, 370).baseline, 0.537, 1e-3);
-  EXPECT_NEAR(readKittiCalibration(stereo + "/kitti_raw_0926_0005/calib_cam_to_cam.txt", 1242, 375).baseline, 0.537, 1e-3);
-  const EurocCamera left = readEurocCamera(stereo + "/euroc_still/mav0/cam0/sensor.yaml"), right = readEurocCamera(stereo + "/euroc_still/mav0/cam1/sensor.yaml");
+  EXPECT_NEAR(readKittiCalibration(stereo + "/kitti_raw_0926_0005/calib_cam_to_cam.txt", 1242, 375).baseline, 0.537,
+              1e-3);
+  const EurocCamera left = readEurocCamera(stereo + "/euroc_still/mav0/cam0/sensor.yaml"),
+                    right = readEurocCamera(stereo + "/euroc_still/mav0/cam1/sensor.yaml");
   EXPECT_NEAR((left.T_body_camera.inverse() * right.T_body_camera).t().norm(), 0.11, 2e-3);
 }
 
 TEST(Calibration, Fuzzed) {
   expectSurvives(testing::fuzzText({kKitti}, [](const std::string& text) {
     const StereoCamera camera = parseKittiCalibration(text, "c", 100, 100);
-    if (!(camera.baseline > 0.0) || !std::isfinite(camera.left.cx + camera.left.fx)) throw std::runtime_error("no camera");
+    if (!(camera.baseline > 0.0) || !std::isfinite(camera.left.cx + camera.left.fx))
+      throw std::runtime_error("no camera");
   }));
   expectSurvives(testing::fuzzText({kInfo}, [](const std::string& text) {
     const CameraInfo info = parseCameraInfo(text, "c");

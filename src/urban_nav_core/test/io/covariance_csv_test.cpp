@@ -17,12 +17,14 @@ Matrix6d someCovariance() {
 Matrix6d symmetric(const Matrix6d& M) { return 0.5 * (M + M.transpose()); }
 
 std::string covariances() {
-  return covarianceHeader() + printCovarianceRow(CovarianceRow{1225719873501685123, Health::Lost, symmetric(someCovariance())}) +
+  return covarianceHeader() +
+         printCovarianceRow(CovarianceRow{1225719873501685123, Health::Lost, symmetric(someCovariance())}) +
          printCovarianceRow(CovarianceRow{1225719873551685123, Health::Ok, Matrix6d::Identity()});
 }
 
 std::string relatives() {
-  return relativeCovarianceHeader() + printCovarianceRow(RelativeCovarianceRow{1, 2, Health::Degraded, symmetric(someCovariance())});
+  return relativeCovarianceHeader() +
+         printCovarianceRow(RelativeCovarianceRow{1, 2, Health::Degraded, symmetric(someCovariance())});
 }
 
 TEST(CovarianceCsv, RoundTripIsExact) {
@@ -47,14 +49,23 @@ TEST(CovarianceCsv, HeadersBeginAsTheContractSays) {
 TEST(CovarianceCsv, NamesFileAndLine) {
   std::string text = covariances();
   text.replace(text.find("LOST"), 4, "GONE");
-  EXPECT_EQ(errorOf([&] { parseCovariances(text, "c.csv"); }), "c.csv:2: status GONE: allowed OK, DEGRADED, LOST, RECOVERED");
+  EXPECT_EQ(errorOf([&] { parseCovariances(text, "c.csv"); }),
+            "c.csv:2: status GONE: allowed OK, DEGRADED, LOST, RECOVERED");
   Matrix6d lopsided = Matrix6d::Identity();
   lopsided(0, 1) = 0.1;
   const std::string header = covarianceHeader();
-  EXPECT_NE(errorOf([&] { parseCovariances(header + printCovarianceRow(CovarianceRow{1, Health::Ok, lopsided}), "c.csv"); }).find("c.csv:2: no covariance"),
+  EXPECT_NE(errorOf([&] {
+              parseCovariances(header + printCovarianceRow(CovarianceRow{1, Health::Ok, lopsided}), "c.csv");
+            }).find("c.csv:2: no covariance"),
             std::string::npos);
-  EXPECT_NE(errorOf([&] { parseCovariances(header + printCovarianceRow(CovarianceRow{1, Health::Ok, -Matrix6d::Identity()}), "c.csv"); }), "");
-  EXPECT_NE(errorOf([&] { parseCovariances(relatives(), "c.csv"); }).find("39 columns: allowed 38: stamp_ns,status,c11..."), std::string::npos);
+  EXPECT_NE(
+      errorOf([&] {
+        parseCovariances(header + printCovarianceRow(CovarianceRow{1, Health::Ok, -Matrix6d::Identity()}), "c.csv");
+      }),
+      "");
+  EXPECT_NE(
+      errorOf([&] { parseCovariances(relatives(), "c.csv"); }).find("39 columns: allowed 38: stamp_ns,status,c11..."),
+      std::string::npos);
 }
 
 TEST(CovarianceCsv, Fuzzed) {
@@ -63,7 +74,8 @@ TEST(CovarianceCsv, Fuzzed) {
       if (!row.covariance.allFinite()) throw std::runtime_error("a covariance that is not finite");
     }
   }));
-  expectSurvives(testing::fuzzText({relatives()}, [](const std::string& text) { parseRelativeCovariances(text, "c"); }));
+  expectSurvives(
+      testing::fuzzText({relatives()}, [](const std::string& text) { parseRelativeCovariances(text, "c"); }));
 }
 
 }  // namespace

@@ -49,8 +49,9 @@ TEST(G2o, ReadsSpaceAndNormalisesOnlyOnRequest) {
 
 TEST(G2o, RoundTripKeepsNumbersAndOrder) {
   const std::string text = printG2o(parseG2o(kPlane, "g.g2o"));
-  EXPECT_EQ(text,
-            "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1.5 0.25 -3.1\nFIX 0\nEDGE_SE2 0 1 1.5 0.25 -3.1 50 1 2 60 3 100\n# a remark\nPARAMS_X 0  1 2\n");
+  EXPECT_EQ(
+      text,
+      "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1.5 0.25 -3.1\nFIX 0\nEDGE_SE2 0 1 1.5 0.25 -3.1 50 1 2 60 3 100\n# a remark\nPARAMS_X 0  1 2\n");
   EXPECT_EQ(printG2o(parseG2o(text, "g.g2o")), text);
   EXPECT_EQ(printG2o(parseG2o(kSpace, "g.g2o")), kSpace);
 }
@@ -68,8 +69,9 @@ TEST(G2o, GraphsMadeHereArePrintedToo) {
   setG2oInformation(edge, Matrix6d::Identity());
   graph.edges.push_back(edge);
   graph.fixed.push_back(3);
-  EXPECT_EQ(printG2o(graph),
-            "VERTEX_SE3:QUAT 3 1 2 3 0 0 0 1\nEDGE_SE3:QUAT 3 4 1 2 3 0 0 0 1 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1\nFIX 3\n");
+  EXPECT_EQ(
+      printG2o(graph),
+      "VERTEX_SE3:QUAT 3 1 2 3 0 0 0 1\nEDGE_SE3:QUAT 3 4 1 2 3 0 0 0 1 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1\nFIX 3\n");
   const G2oGraph back = parseG2o(printG2o(graph), "g");
   EXPECT_EQ(g2oInformation(back.edges[0], 3), Eigen::MatrixXd(Matrix6d::Identity()));
 }
@@ -111,12 +113,16 @@ TEST(G2o, RealGraphsRoundTrip) {
   const char* data = std::getenv("URBAN_NAV_DATA");
   const std::string folder = std::string(data == nullptr ? "" : data) + "/graphs";
   if (data == nullptr || !std::filesystem::exists(folder)) GTEST_SKIP() << "URBAN_NAV_DATA names no folder with graphs";
-  const std::string path = (std::filesystem::temp_directory_path() / ("urban_nav_g2o_" + std::to_string(::getpid()))).string();
+  const std::string path =
+      (std::filesystem::temp_directory_path() / ("urban_nav_g2o_" + std::to_string(::getpid()))).string();
   struct Expected {
     const char* name;
     std::size_t vertices, edges;
   };
-  for (const Expected& expected : {Expected{"smallGrid3D", 125, 297}, {"manhattan", 0, 5453}, {"intel", 1728, 2512}, {"parking-garage", 1661, 6275}}) {
+  for (const Expected& expected : {Expected{"smallGrid3D", 125, 297},
+                                   {"manhattan", 0, 5453},
+                                   {"intel", 1728, 2512},
+                                   {"parking-garage", 1661, 6275}}) {
     const std::string packed = folder + "/" + expected.name + ".g2o.xz";
     if (std::system(("xz -dc '" + packed + "' > '" + path + "'").c_str()) != 0) GTEST_SKIP() << "xz is not installed";
     const G2oGraph graph = readG2o(path, UnknownTags::Refuse);

@@ -13,7 +13,8 @@ namespace {
 
 std::vector<Pose> somePoses() {
   std::vector<Pose> poses;
-  for (int i = 0; i < 20; ++i) poses.emplace_back(expSo3({0.1 * i, -0.2, 0.03 * i * i}), Vector3d(i, 0.1, -3.0 / (i + 1)));
+  for (int i = 0; i < 20; ++i)
+    poses.emplace_back(expSo3({0.1 * i, -0.2, 0.03 * i * i}), Vector3d(i, 0.1, -3.0 / (i + 1)));
   return poses;
 }
 
@@ -33,8 +34,10 @@ TEST(Kitti, PosesRoundTripToRounding) {
 }
 
 TEST(Kitti, ReadsTheFormOfTheBenchmark) {
-  const auto poses = parseKitti("1.000000e+00 9.043680e-12 2.326809e-11 5.551115e-17 9.043683e-12 1.000000e+00 2.392370e-10 3.330669e-16 "
-                                "2.326810e-11 2.392370e-10 9.999999e-01 -4.440892e-16\n\n0 -1 0 1 1 0 0 2 0 0 1 3\n", "p.txt");
+  const auto poses = parseKitti(
+      "1.000000e+00 9.043680e-12 2.326809e-11 5.551115e-17 9.043683e-12 1.000000e+00 2.392370e-10 3.330669e-16 "
+      "2.326810e-11 2.392370e-10 9.999999e-01 -4.440892e-16\n\n0 -1 0 1 1 0 0 2 0 0 1 3\n",
+      "p.txt");
   ASSERT_EQ(poses.size(), 2U);
   EXPECT_TRUE(isApprox(poses[0], Pose(), 1e-7));
   EXPECT_TRUE(isApprox(poses[1], Pose(expSo3({0, 0, M_PI / 2}), {1, 2, 3}), 1e-15));
@@ -43,22 +46,29 @@ TEST(Kitti, ReadsTheFormOfTheBenchmark) {
 TEST(Kitti, ChecksTheNumberOfColumnsAndTheRotation) {
   EXPECT_EQ(errorOf([] { parseKitti("1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1\n", "p.txt"); }),
             "p.txt:2: 11 columns: allowed 12: a 3x4 matrix, row by row");
-  EXPECT_EQ(errorOf([] { parseKitti("1 0 0 0 0 1 0 0 0 0 1 inf\n", "p.txt"); }), "p.txt:1: `inf`: allowed a finite number");
-  EXPECT_EQ(errorOf([] { parseKitti("1 0 0 0 0 1 0 0 0 0 -1 0\n", "p.txt"); }), "p.txt:1: a matrix that is no rotation to 0.001");
-  EXPECT_EQ(errorOf([] { parseKitti("2 0 0 0 0 1 0 0 0 0 1 0\n", "p.txt"); }), "p.txt:1: a matrix that is no rotation to 0.001");
+  EXPECT_EQ(errorOf([] { parseKitti("1 0 0 0 0 1 0 0 0 0 1 inf\n", "p.txt"); }),
+            "p.txt:1: `inf`: allowed a finite number");
+  EXPECT_EQ(errorOf([] { parseKitti("1 0 0 0 0 1 0 0 0 0 -1 0\n", "p.txt"); }),
+            "p.txt:1: a matrix that is no rotation to 0.001");
+  EXPECT_EQ(errorOf([] { parseKitti("2 0 0 0 0 1 0 0 0 0 1 0\n", "p.txt"); }),
+            "p.txt:1: a matrix that is no rotation to 0.001");
   EXPECT_NE(errorOf([] { parseKitti("1e200 0 0 0 0 1e200 0 0 0 0 1e200 0\n", "p.txt"); }), "");
 }
 
 TEST(Kitti, TimesRise) {
-  EXPECT_EQ(parseTimes("0.000000e+00\n1.038170e-01\n\n0.3\n", "times.txt"), (std::vector<StampNs>{0, 103817000, 300000000}));
-  EXPECT_EQ(errorOf([] { parseTimes("0.1\n0.1\n", "times.txt"); }), "times.txt:2: 0.1 is not later than the time before");
-  EXPECT_EQ(errorOf([] { parseTimes("0.1\n0.1 0.2\n", "times.txt"); }), "times.txt:2: `0.1 0.2`: allowed seconds, one number a line");
+  EXPECT_EQ(parseTimes("0.000000e+00\n1.038170e-01\n\n0.3\n", "times.txt"),
+            (std::vector<StampNs>{0, 103817000, 300000000}));
+  EXPECT_EQ(errorOf([] { parseTimes("0.1\n0.1\n", "times.txt"); }),
+            "times.txt:2: 0.1 is not later than the time before");
+  EXPECT_EQ(errorOf([] { parseTimes("0.1\n0.1 0.2\n", "times.txt"); }),
+            "times.txt:2: `0.1 0.2`: allowed seconds, one number a line");
 }
 
 TEST(Kitti, ReadsRealTruth) {
   const char* data = std::getenv("URBAN_NAV_DATA");
   const std::string path = std::string(data == nullptr ? "" : data) + "/stereo/kitti06_000_050/poses.txt";
-  if (data == nullptr || !std::filesystem::exists(path)) GTEST_SKIP() << "URBAN_NAV_DATA names no folder with stereo/kitti06_000_050";
+  if (data == nullptr || !std::filesystem::exists(path))
+    GTEST_SKIP() << "URBAN_NAV_DATA names no folder with stereo/kitti06_000_050";
   EXPECT_EQ(readKitti(path).size(), 51U);
   EXPECT_EQ(readTimes(std::filesystem::path(path).replace_filename("times.txt").string()).size(), 51U);
 }
@@ -72,7 +82,8 @@ TEST(Kitti, Fuzzed) {
 }
 
 TEST(Kitti, TimesFuzzed) {
-  expectSurvives(testing::fuzzText({"0.000000e+00\n1.038170e-01\n0.3\n"}, [](const std::string& text) { parseTimes(text, "t"); }));
+  expectSurvives(
+      testing::fuzzText({"0.000000e+00\n1.038170e-01\n0.3\n"}, [](const std::string& text) { parseTimes(text, "t"); }));
 }
 
 }  // namespace

@@ -67,8 +67,8 @@ TEST(Numbers, ParseDecimals) {
 }
 
 TEST(Numbers, RefuseWhatIsNoFiniteDecimal) {
-  for (const char* text : {"", " 1", "1 ", "nan", "inf", "-inf", "Infinity", "0x10", "1e999", "-1e999", "1.2.3", "1,5", "--1", "+-1", "+", "e5",
-                           "1e", ".", "1_000", "1f"}) {
+  for (const char* text : {"",      " 1",  "1 ",  "nan", "inf", "-inf", "Infinity", "0x10", "1e999", "-1e999",
+                           "1.2.3", "1,5", "--1", "+-1", "+",   "e5",   "1e",       ".",    "1_000", "1f"}) {
     EXPECT_FALSE(parseNumber(text)) << text;
   }
   EXPECT_FALSE(parseNumber("1" + std::string(400, '0')));
@@ -78,7 +78,8 @@ TEST(Numbers, ParseIntegers) {
   EXPECT_EQ(parseInteger("42"), 42);
   EXPECT_EQ(parseInteger("+42"), 42);
   EXPECT_EQ(parseInteger("-9223372036854775808"), std::numeric_limits<std::int64_t>::min());
-  for (const char* text : {"", "-", "4.0", "9223372036854775808", "1e3", " 1", "+-1"}) EXPECT_FALSE(parseInteger(text)) << text;
+  for (const char* text : {"", "-", "4.0", "9223372036854775808", "1e3", " 1", "+-1"})
+    EXPECT_FALSE(parseInteger(text)) << text;
 }
 
 TEST(Numbers, SplitLines) {

@@ -27,7 +27,8 @@ TEST(TextFile, LinesCountFromOneWhateverTheirEnds) {
 
 TEST(TextFile, ReadsAllBytes) {
   const std::string path = (std::filesystem::temp_directory_path() / "urban_nav_text_file").string();
-  for (const std::size_t size : {std::size_t{0}, std::size_t{1}, std::size_t{65535}, std::size_t{65536}, std::size_t{200001}}) {
+  for (const std::size_t size :
+       {std::size_t{0}, std::size_t{1}, std::size_t{65535}, std::size_t{65536}, std::size_t{200001}}) {
     std::string content(size, 'x');
     if (size > 1) content[size / 2] = '\0';
     writeAtomically(path, content);
@@ -37,7 +38,8 @@ TEST(TextFile, ReadsAllBytes) {
 }
 
 TEST(TextFile, NamesTheFileThatCannotBeRead) {
-  EXPECT_EQ(errorOf([] { readTextFile("/nowhere/poses.txt"); }), "/nowhere/poses.txt: cannot be read: No such file or directory");
+  EXPECT_EQ(errorOf([] { readTextFile("/nowhere/poses.txt"); }),
+            "/nowhere/poses.txt: cannot be read: No such file or directory");
   EXPECT_EQ(errorOf([] { readTextFile("/tmp"); }), "/tmp: cannot be read: Is a directory");
 }
 

@@ -16,7 +16,8 @@ Trajectory someTrajectory() {
   std::normal_distribution<double> n;
   Trajectory trajectory;
   for (int i = 0; i < 200; ++i) {
-    trajectory.append(1225719873501685123 + StampNs{i} * 50000001, Pose(expSo3({n(random), n(random), n(random)}), {n(random), 1e3 * n(random), 1e-9 * n(random)}));
+    trajectory.append(1225719873501685123 + StampNs{i} * 50000001,
+                      Pose(expSo3({n(random), n(random), n(random)}), {n(random), 1e3 * n(random), 1e-9 * n(random)}));
   }
   return trajectory;
 }
@@ -42,7 +43,9 @@ TEST(Tum, FilesRoundTripToo) {
 }
 
 TEST(Tum, ReadsCommentsBlanksAndOtherStamps) {
-  const Trajectory t = parseTum("# stamp x y z qx qy qz qw\n\n  1.5 1 2 3\t0 0 0 1  # a comment\r\n1.403715273262142976e+09 1 2 3 0 0 0.6 0.8\n", "t");
+  const Trajectory t = parseTum(
+      "# stamp x y z qx qy qz qw\n\n  1.5 1 2 3\t0 0 0 1  # a comment\r\n1.403715273262142976e+09 1 2 3 0 0 0.6 0.8\n",
+      "t");
   ASSERT_EQ(t.size(), 2U);
   EXPECT_EQ(t[0].stamp, 1500000000);
   EXPECT_TRUE(isApprox(t[0].pose, Pose(Quaterniond::Identity(), {1, 2, 3}), 0.0));
@@ -57,21 +60,25 @@ TEST(Tum, PrintsItsLines) {
 }
 
 TEST(Tum, NamesFileAndLine) {
-  EXPECT_EQ(errorOf([] { parseTum("1 1 2 3 0 0 0 1\n2 1 2 3 0 0 0\n", "t.tum"); }), "t.tum:2: 7 columns: allowed 8: stamp x y z qx qy qz qw");
+  EXPECT_EQ(errorOf([] { parseTum("1 1 2 3 0 0 0 1\n2 1 2 3 0 0 0\n", "t.tum"); }),
+            "t.tum:2: 7 columns: allowed 8: stamp x y z qx qy qz qw");
   EXPECT_EQ(errorOf([] { parseTum("1 1 nan 3 0 0 0 1\n", "t.tum"); }), "t.tum:1: `nan`: allowed a finite number");
   EXPECT_EQ(errorOf([] { parseTum("x 1 1 3 0 0 0 1\n", "t.tum"); }), "t.tum:1: stamp x: allowed seconds");
-  EXPECT_EQ(errorOf([] { parseTum("1 1 1 3 0 0 0 0\n", "t.tum"); }), "t.tum:1: a quaternion of length 0: allowed length 1 (1 %)");
+  EXPECT_EQ(errorOf([] { parseTum("1 1 1 3 0 0 0 0\n", "t.tum"); }),
+            "t.tum:1: a quaternion of length 0: allowed length 1 (1 %)");
   EXPECT_EQ(errorOf([] { parseTum("1 1 1 3 0 0 0 1\n1 1 1 3 0 0 0 1\n", "t.tum"); }),
             "t.tum:2: stamp 1.000000000 is not later than the one before");
   EXPECT_NE(errorOf([] { readTum("/nowhere.tum"); }), "");
 }
 
 TEST(Tum, Fuzzed) {
-  expectSurvives(testing::fuzzText({printTum(someTrajectory()).substr(0, 1500) + "\n", "# c\n1 1 2 3 0 0 0 1\n2.5 0 0 0 1 0 0 0\n"}, [](const std::string& text) {
-    for (const StampedPose& each : parseTum(text, "t")) {
-      if (!each.pose.isFinite()) throw std::runtime_error("a pose that is not finite");
-    }
-  }));
+  expectSurvives(testing::fuzzText(
+      {printTum(someTrajectory()).substr(0, 1500) + "\n", "# c\n1 1 2 3 0 0 0 1\n2.5 0 0 0 1 0 0 0\n"},
+      [](const std::string& text) {
+        for (const StampedPose& each : parseTum(text, "t")) {
+          if (!each.pose.isFinite()) throw std::runtime_error("a pose that is not finite");
+        }
+      }));
 }
 
 }  // namespace

@@ -32,8 +32,10 @@ TEST(Yaml, NamesFileLineAndKey) {
   const YamlNode root = parseYaml("a: x\nb: [1, nan]\n", "f.yaml");
   EXPECT_EQ(errorOf([&] { requireNumber(root, "z", "f.yaml"); }), "f.yaml:1: no key `z`");
   EXPECT_EQ(errorOf([&] { requireNumber(root, "a", "f.yaml"); }), "f.yaml:1: a = x: allowed a number");
-  EXPECT_EQ(errorOf([&] { requireNumbers(root, "b", 3, "f.yaml"); }), "f.yaml:2: b has 2 elements: allowed 3 numbers in a list");
-  EXPECT_EQ(errorOf([&] { requireNumbers(root, "b", 2, "f.yaml"); }), "f.yaml:2: b holds `nan`: allowed 2 numbers in a list");
+  EXPECT_EQ(errorOf([&] { requireNumbers(root, "b", 3, "f.yaml"); }),
+            "f.yaml:2: b has 2 elements: allowed 3 numbers in a list");
+  EXPECT_EQ(errorOf([&] { requireNumbers(root, "b", 2, "f.yaml"); }),
+            "f.yaml:2: b holds `nan`: allowed 2 numbers in a list");
 }
 
 TEST(Yaml, BombsAreRefused) {
@@ -51,8 +53,9 @@ TEST(Yaml, BombsAreRefused) {
 }
 
 TEST(Yaml, Fuzzed) {
-  expectSurvives(testing::fuzzText({"a: 1\nb:\n  - x\n  - [1, 2.5]\nc: {d: ~, e: \"q\"}\n", "%YAML:1.0\nx: &x [1, 2]\ny: *x\n"},
-                                   [](const std::string& text) { parseYaml(text, "f"); }));
+  expectSurvives(
+      testing::fuzzText({"a: 1\nb:\n  - x\n  - [1, 2.5]\nc: {d: ~, e: \"q\"}\n", "%YAML:1.0\nx: &x [1, 2]\ny: *x\n"},
+                        [](const std::string& text) { parseYaml(text, "f"); }));
 }
 
 }  // namespace

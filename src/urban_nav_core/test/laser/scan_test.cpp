@@ -19,7 +19,15 @@ PlanarScan someScan() {
   scan.period = 13.3e-3;
   scan.range_min = 0.1;
   scan.range_max = 80.0;
-  scan.ranges = {1.0F, 0.0F, 2.0F, -6.0F, std::numeric_limits<float>::quiet_NaN(), 81.0F, 0.05F, std::numeric_limits<float>::infinity(), 80.0F};
+  scan.ranges = {1.0F,
+                 0.0F,
+                 2.0F,
+                 -6.0F,
+                 std::numeric_limits<float>::quiet_NaN(),
+                 81.0F,
+                 0.05F,
+                 std::numeric_limits<float>::infinity(),
+                 80.0F};
   scan.intensities = {10, 0, 20, 0, 0, 30, 40, 50, 60};
   return scan;
 }

@@ -21,7 +21,9 @@ TEST(ForEach, VisitsEachOnce) {
 
 TEST(SumInOrder, DoesNotDependOnTheThreads) {
   constexpr std::size_t kCount = 100000;
-  const auto term = [](std::size_t i) { return std::sin(static_cast<double>(i)) * std::pow(10.0, static_cast<double>(i % 17) - 8.0); };
+  const auto term = [](std::size_t i) {
+    return std::sin(static_cast<double>(i)) * std::pow(10.0, static_cast<double>(i % 17) - 8.0);
+  };
   const auto sum = [&term](int threads) {
     const ThreadLimit limit(threads);
     return sumInOrder(kCount, 100, 0.0, term);

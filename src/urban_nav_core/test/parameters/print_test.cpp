@@ -19,7 +19,9 @@ TEST(Print, YamlReadsBackAsWhatWasPrinted) {
 }
 
 TEST(Print, YamlWithSettingsReadsBackToo) {
-  const std::vector<Assignment> given = {parseSetting("stage.window=25"), parseSetting("stage.name=odd: #\"text\" \\ here"), parseSetting("stage.noise=0.1")};
+  const std::vector<Assignment> given = {parseSetting("stage.window=25"),
+                                         parseSetting("stage.name=odd: #\"text\" \\ here"),
+                                         parseSetting("stage.noise=0.1")};
   const auto settings = resolve("stage", rows(), given);
   const auto back = resolve("stage", rows(), parseParameters(printYaml("stage", rows(), settings), "stage.yaml"));
   for (std::size_t i = 0; i < settings.size(); ++i) EXPECT_EQ(printValue(back[i].value), printValue(settings[i].value));
@@ -27,7 +29,8 @@ TEST(Print, YamlWithSettingsReadsBackToo) {
 
 TEST(Print, YamlSaysWhatIsAllowed) {
   const std::string text = printYaml("stage", rows());
-  EXPECT_EQ(text.rfind("stage:\n  # Poses kept. Allowed: 1...100000 (frames). [section 2.2]\n  window: 10\n", 0), 0U) << text;
+  EXPECT_EQ(text.rfind("stage:\n  # Poses kept. Allowed: 1...100000 (frames). [section 2.2]\n  window: 10\n", 0), 0U)
+      << text;
   EXPECT_EQ(printYaml("", {rows()[0]}).rfind("# Poses kept.", 0), 0U);
 }
 
@@ -46,7 +49,9 @@ TEST(Print, LongSentencesAreWrapped) {
 
 TEST(Print, MarkdownHasARowAParameter) {
   const std::string text = printMarkdown("stage", rows());
-  EXPECT_NE(text.find("| `stage.window` | `10` | frames | 1...100000 | Poses kept. | section 2.2 |\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("| `stage.window` | `10` | frames | 1...100000 | Poses kept. | section 2.2 |\n"),
+            std::string::npos)
+      << text;
   EXPECT_NE(text.find("pixel \\| of any"), std::string::npos);
 }
 
@@ -55,8 +60,9 @@ TEST(Print, MarkdownGoesBetweenItsMarkers) {
   const std::string text = insertMarkdown(readme, "README.md", "stage", rows());
   EXPECT_EQ(text, "# Title\n<!-- parameters: stage -->\n" + printMarkdown("stage", rows()) + "<!-- end -->\nrest\n");
   EXPECT_EQ(insertMarkdown(text, "README.md", "stage", rows()), text);
-  EXPECT_EQ(errorOf([] { insertMarkdown("# Title\n", "README.md", "stage", rows()); }),
-            "README.md: no markers for the table of parameters: allowed `<!-- parameters: stage -->` ... `<!-- end -->`");
+  EXPECT_EQ(
+      errorOf([] { insertMarkdown("# Title\n", "README.md", "stage", rows()); }),
+      "README.md: no markers for the table of parameters: allowed `<!-- parameters: stage -->` ... `<!-- end -->`");
 }
 
 TEST(Print, HelpShowsValuesAndOrigins) {

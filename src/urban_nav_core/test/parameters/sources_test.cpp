@@ -10,7 +10,8 @@
 namespace urban_nav_core {
 namespace {
 
-const char* const kYaml = "# a comment\nstage:\n  window: 25\n  noise: 1\n  forget: delete\n  switch: off\nother:\n  window: 3\nmemory_mb: 100\n";
+const char* const kYaml =
+    "# a comment\nstage:\n  window: 25\n  noise: 1\n  forget: delete\n  switch: off\nother:\n  window: 3\nmemory_mb: 100\n";
 
 Loaded<Example> loadText(const std::string& text) { return load(exampleTable(), parseParameters(text, "config.yaml")); }
 
@@ -36,7 +37,8 @@ TEST(Sources, YamlOverridesDefaults) {
 
 TEST(Sources, LaterOnesWinAndSayWhoTheyAre) {
   auto assignments = parseParameters(kYaml, "config.yaml");
-  for (const auto& each : serverParameters("stage", {{"window", 30}, {"switch", true}, {"noise", 2}}, "/vo")) assignments.push_back(each);
+  for (const auto& each : serverParameters("stage", {{"window", 30}, {"switch", true}, {"noise", 2}}, "/vo"))
+    assignments.push_back(each);
   auto loaded = load(exampleTable(), assignments);
   EXPECT_EQ(loaded.parameters.window, 30);
   EXPECT_EQ(loaded.parameters.noise, 2.0);
@@ -50,28 +52,43 @@ TEST(Sources, LaterOnesWinAndSayWhoTheyAre) {
 }
 
 TEST(Sources, ErrorsNameFileLineKeyValueAndWhatIsAllowed) {
-  EXPECT_EQ(errorOf([] { loadText("stage:\n\n  window: 0\n"); }), "config.yaml:3: stage.window = 0: allowed 1...100000 (frames)");
-  EXPECT_EQ(errorOf([] { loadText("stage:\n  window: 2.5\n"); }), "config.yaml:2: stage.window = 2.5: allowed 1...100000 (frames)");
-  EXPECT_EQ(errorOf([] { loadText("stage:\n  noise: nan\n"); }), "config.yaml:2: stage.noise = nan: allowed numbers 0.001...5 (px)");
+  EXPECT_EQ(errorOf([] { loadText("stage:\n\n  window: 0\n"); }),
+            "config.yaml:3: stage.window = 0: allowed 1...100000 (frames)");
+  EXPECT_EQ(errorOf([] { loadText("stage:\n  window: 2.5\n"); }),
+            "config.yaml:2: stage.window = 2.5: allowed 1...100000 (frames)");
+  EXPECT_EQ(errorOf([] { loadText("stage:\n  noise: nan\n"); }),
+            "config.yaml:2: stage.noise = nan: allowed numbers 0.001...5 (px)");
   EXPECT_EQ(errorOf([] { loadText("stage:\n  robust: 1\n"); }), "config.yaml:2: stage.robust = 1: allowed true, false");
-  EXPECT_EQ(errorOf([] { loadText("stage:\n  forget: keep\n"); }), "config.yaml:2: stage.forget = keep: allowed schur, delete");
-  EXPECT_EQ(errorOf([] { loadText("stage:\n  windw: 3\n"); }),
-            "config.yaml:2: stage.windw is no parameter: allowed the parameters that --help lists; nearest: stage.window");
-  EXPECT_EQ(errorOf([] { loadText("stage:\n  window: [1]\n"); }), "config.yaml:2: stage.window is not a single value: allowed one value behind the colon");
-  EXPECT_EQ(errorOf([] { loadText("stage:\n  window: 1\n  window: 2\n"); }), "config.yaml:3: stage.window stands twice");
-  EXPECT_EQ(errorOf([] { loadText("stage:\n  window: 1\nstage:\n  noise: 2\n"); }), "config.yaml:3: stage stands twice");
+  EXPECT_EQ(errorOf([] { loadText("stage:\n  forget: keep\n"); }),
+            "config.yaml:2: stage.forget = keep: allowed schur, delete");
+  EXPECT_EQ(
+      errorOf([] { loadText("stage:\n  windw: 3\n"); }),
+      "config.yaml:2: stage.windw is no parameter: allowed the parameters that --help lists; nearest: stage.window");
+  EXPECT_EQ(errorOf([] { loadText("stage:\n  window: [1]\n"); }),
+            "config.yaml:2: stage.window is not a single value: allowed one value behind the colon");
+  EXPECT_EQ(errorOf([] { loadText("stage:\n  window: 1\n  window: 2\n"); }),
+            "config.yaml:3: stage.window stands twice");
+  EXPECT_EQ(errorOf([] { loadText("stage:\n  window: 1\nstage:\n  noise: 2\n"); }),
+            "config.yaml:3: stage stands twice");
   EXPECT_EQ(errorOf([] { loadText("- 1\n"); }), "config.yaml:1: no map of stages: allowed lines such as `swf_vo:`");
   EXPECT_NE(errorOf([] { loadText("stage: [\n"); }).find("config.yaml:"), std::string::npos);
-  EXPECT_EQ(errorOf([] { load(exampleTable(), {parseSetting("stage.window=x")}); }), "--set stage.window=x: stage.window = x: allowed 1...100000 (frames)");
-  EXPECT_EQ(errorOf([] { load(exampleTable(), serverParameters("stage", {{"window", "25"}}, "/vo")); }),
+  EXPECT_EQ(errorOf([] { load(exampleTable(), {parseSetting("stage.window=x")}); }),
+            "--set stage.window=x: stage.window = x: allowed 1...100000 (frames)");
+  EXPECT_EQ(errorOf([] {
+              load(exampleTable(), serverParameters("stage", {{"window", "25"}}, "/vo"));
+            }),
             "/vo/window: stage.window = \"25\": allowed 1...100000 (frames)");
 }
 
 TEST(Sources, UnknownStagesAreRefused) {
   const auto assignments = parseParameters(kYaml, "config.yaml");
-  EXPECT_EQ(errorOf([&] { refuseUnknownStages(assignments, {"stage", "others", ""}); }),
+  EXPECT_EQ(errorOf([&] {
+              refuseUnknownStages(assignments, {"stage", "others", ""});
+            }),
             "config.yaml:8: other is no stage: allowed stage, others, none; nearest: others");
-  EXPECT_EQ(errorOf([&] { refuseUnknownStages(assignments, {"stage", "other"}); }),
+  EXPECT_EQ(errorOf([&] {
+              refuseUnknownStages(assignments, {"stage", "other"});
+            }),
             "config.yaml:9: memory_mb has no stage in front: allowed stage, other; nearest: stage");
   EXPECT_EQ(errorOf([&] { refuseUnknownStages(assignments, {"stage", "other", ""}); }), "");
 }
@@ -81,7 +98,8 @@ TEST(Sources, SettingsOfTheCommandLine) {
   EXPECT_EQ(a.stage, "");
   EXPECT_EQ(a.name, "memory_mb");
   EXPECT_EQ(std::get<std::string>(parseSetting("stage.name=a=b").value), "a=b");
-  EXPECT_EQ(errorOf([] { parseSetting("stage.window"); }), "--set stage.window: no key and value: allowed stage.key=value");
+  EXPECT_EQ(errorOf([] { parseSetting("stage.window"); }),
+            "--set stage.window: no key and value: allowed stage.key=value");
   EXPECT_NE(errorOf([] { parseSetting("=3"); }), "");
 }
 
@@ -90,7 +108,8 @@ TEST(Sources, Fuzzed) {
     const Example example = loadText(text).parameters;
     if (!std::isfinite(example.noise) || example.window < 1) throw std::runtime_error("a value that is not allowed");
   }));
-  expectSurvives(testing::fuzzText({"stage.window=25", "stage.noise=1e-2"}, [](const std::string& text) { load(exampleTable(), {parseSetting(text)}); }));
+  expectSurvives(testing::fuzzText({"stage.window=25", "stage.noise=1e-2"},
+                                   [](const std::string& text) { load(exampleTable(), {parseSetting(text)}); }));
 }
 
 }  // namespace

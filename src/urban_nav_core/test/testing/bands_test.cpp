@@ -23,7 +23,8 @@ TEST(Bands, SayWhatWasExpected) {
   EXPECT_TRUE(meanChiSquareFits(6.0, 6, 50));
   const auto result = meanChiSquareFits(9.0, 6, 50);
   EXPECT_FALSE(result);
-  EXPECT_NE(std::string(result.message()).find("mean of 50 values is 9, expected 4.81"), std::string::npos) << result.message();
+  EXPECT_NE(std::string(result.message()).find("mean of 50 values is 9, expected 4.81"), std::string::npos)
+      << result.message();
 }
 
 }  // namespace

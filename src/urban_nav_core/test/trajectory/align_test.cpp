@@ -13,7 +13,8 @@ std::vector<Pose> randomPoses(int count) {
   std::mt19937 random(1);
   std::normal_distribution<double> n;
   std::vector<Pose> poses;
-  for (int i = 0; i < count; ++i) poses.emplace_back(expSo3({n(random), n(random), n(random)}), Vector3d(10 * n(random), 10 * n(random), n(random)));
+  for (int i = 0; i < count; ++i)
+    poses.emplace_back(expSo3({n(random), n(random), n(random)}), Vector3d(10 * n(random), 10 * n(random), n(random)));
   return poses;
 }
 

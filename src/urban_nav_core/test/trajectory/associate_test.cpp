@@ -15,7 +15,8 @@ constexpr StampNs kMs = 1000000;
 
 // A way with bends and changes of speed, sampled every `step`.
 Pose wayAt(double s) {
-  return Pose(expSo3({0, 0, std::sin(0.3 * s) + 0.4 * std::sin(1.1 * s)}), {2 * s + std::sin(0.9 * s), std::cos(0.5 * s), 0});
+  return Pose(expSo3({0, 0, std::sin(0.3 * s) + 0.4 * std::sin(1.1 * s)}),
+              {2 * s + std::sin(0.9 * s), std::cos(0.5 * s), 0});
 }
 Trajectory way(double begin, double seconds, StampNs step, StampNs origin) {
   Trajectory t;
@@ -37,7 +38,8 @@ TEST(Associate, InterpolatesADenseTruth) {
   const Trajectory estimate = way(0.007, 9, 50 * kMs, 7 * kMs);
   const Matched matched = associate(truth, estimate);
   ASSERT_EQ(matched.stamps.size(), estimate.size());
-  for (std::size_t i = 0; i < matched.stamps.size(); ++i) EXPECT_LT(distanceBetween(matched.truth[i], matched.estimate[i]), 2e-4);
+  for (std::size_t i = 0; i < matched.stamps.size(); ++i)
+    EXPECT_LT(distanceBetween(matched.truth[i], matched.estimate[i]), 2e-4);
 }
 
 TEST(Associate, StaysWithinItsTolerance) {
@@ -53,7 +55,8 @@ TEST(Associate, APoseOfASparseTruthServesOnce) {
   const Trajectory truth = way(0, 10, kSecond, 0);
   const Matched matched = associate(truth, way(0, 10, 5 * kMs, 3 * kMs));
   EXPECT_EQ(matched.stamps.size(), 10U);
-  for (const StampNs stamp : matched.stamps) EXPECT_LE(std::abs(stamp - (stamp + kSecond / 2) / kSecond * kSecond), 3 * kMs);
+  for (const StampNs stamp : matched.stamps)
+    EXPECT_LE(std::abs(stamp - (stamp + kSecond / 2) / kSecond * kSecond), 3 * kMs);
 }
 
 TEST(Associate, AppliesAnOffsetAndSurvivesOverflow) {

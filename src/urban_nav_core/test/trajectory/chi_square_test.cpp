@@ -9,11 +9,13 @@ namespace urban_nav_core {
 namespace {
 
 TEST(ChiSquare, OfTwoDegreesIsExponential) {
-  for (const double x : {0.01, 0.5, 1.0, 3.0, 10.0, 50.0}) EXPECT_NEAR(chiSquareProbability(x, 2), 1.0 - std::exp(-0.5 * x), 1e-14) << x;
+  for (const double x : {0.01, 0.5, 1.0, 3.0, 10.0, 50.0})
+    EXPECT_NEAR(chiSquareProbability(x, 2), 1.0 - std::exp(-0.5 * x), 1e-14) << x;
 }
 
 TEST(ChiSquare, OfOneDegreeIsTheSquareOfANormal) {
-  for (const double z : {0.1, 1.0, 1.96, 3.0}) EXPECT_NEAR(chiSquareProbability(z * z, 1), std::erf(z / std::sqrt(2.0)), 1e-14) << z;
+  for (const double z : {0.1, 1.0, 1.96, 3.0})
+    EXPECT_NEAR(chiSquareProbability(z * z, 1), std::erf(z / std::sqrt(2.0)), 1e-14) << z;
 }
 
 TEST(ChiSquare, AgreesWithTables) {
@@ -25,7 +27,8 @@ TEST(ChiSquare, AgreesWithTables) {
 
 TEST(ChiSquare, QuantileUndoesProbability) {
   for (const double dof : {0.5, 1.0, 6.0, 300.0, 6000.0, 1e6}) {
-    for (const double p : {1e-6, 0.005, 0.5, 0.995, 1.0 - 1e-6}) EXPECT_NEAR(chiSquareProbability(chiSquareQuantile(p, dof), dof), p, 1e-9) << dof;
+    for (const double p : {1e-6, 0.005, 0.5, 0.995, 1.0 - 1e-6})
+      EXPECT_NEAR(chiSquareProbability(chiSquareQuantile(p, dof), dof), p, 1e-9) << dof;
   }
 }
 

@@ -100,7 +100,8 @@ TEST(Span, ParsesAndPrints) {
   EXPECT_EQ(parseSpan("10f")->unit, Span::Unit::Frames);
   EXPECT_EQ(parseSpan("100m")->length, 100.0);
   EXPECT_EQ(parseSpan("0.5m")->length, 0.5);
-  for (const char* text : {"", "f", "10", "0f", "-1m", "1.5f", "nanm", "10 m", "10x", "1e300f"}) EXPECT_FALSE(parseSpan(text)) << text;
+  for (const char* text : {"", "f", "10", "0f", "-1m", "1.5f", "nanm", "10 m", "10x", "1e300f"})
+    EXPECT_FALSE(parseSpan(text)) << text;
   std::ostringstream out;
   out << *parseSpan("10f") << " " << *parseSpan("2.5m");
   EXPECT_EQ(out.str(), "10f 2.5m");

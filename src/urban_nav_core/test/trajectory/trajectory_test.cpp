@@ -31,7 +31,8 @@ TEST(Interpolate, GoesStraightAndTurnsAtConstantRate) {
 
 TEST(Interpolate, TakesTheShorterWayRound) {
   const Pose a(expSo3({0, 0, 3.0}), Vector3d::Zero()), b(expSo3({0, 0, -3.0}), Vector3d::Zero());
-  EXPECT_NEAR(angleBetween(interpolate(a, b, 0.5), Pose(expSo3({0, 0, 3.14159265358979}), Vector3d::Zero())), 0.0, 1e-12);
+  EXPECT_NEAR(angleBetween(interpolate(a, b, 0.5), Pose(expSo3({0, 0, 3.14159265358979}), Vector3d::Zero())), 0.0,
+              1e-12);
 }
 
 TEST(Trajectory, KeepsStampsRising) {

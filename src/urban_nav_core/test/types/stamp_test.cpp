@@ -44,7 +44,8 @@ TEST(Stamp, RefusesWhatIsNoDecimalOrDoesNotFit) {
 TEST(Stamp, DifferenceIsExactWhereADoubleOfTheEpochIsNot) {
   EXPECT_EQ(secondsBetween(1225719873501685000, 1225719873501685001), 1e-9);
   EXPECT_EQ(secondsBetween(5, 2), -3e-9);
-  EXPECT_NEAR(secondsBetween(std::numeric_limits<StampNs>::min(), std::numeric_limits<StampNs>::max()), 1.8446744073709552e10, 1.0);
+  EXPECT_NEAR(secondsBetween(std::numeric_limits<StampNs>::min(), std::numeric_limits<StampNs>::max()),
+              1.8446744073709552e10, 1.0);
 }
 
 }  // namespace

@@ -55,9 +55,10 @@ TEST(Uncertain, PrintsThemselves) {
   EXPECT_EQ(out.str(), "t = (1, 2, 3) m, rotation vector = (0, 0, 0.5) rad, sigma = (2, 2, 2) m, (2, 2, 2) rad");
   out.str("");
   out << RelativePose{0, 1000000000, Pose(), Matrix6d::Identity(), {}, "swf_vo"};
-  EXPECT_EQ(out.str(),
-            "0.000000000 -> 1.000000000 s: t = (0, 0, 0) m, rotation vector = (0, 0, 0) rad, sigma = (1, 1, 1) m, (1, 1, 1) rad, OK, "
-            "from swf_vo");
+  EXPECT_EQ(
+      out.str(),
+      "0.000000000 -> 1.000000000 s: t = (0, 0, 0) m, rotation vector = (0, 0, 0) rad, sigma = (1, 1, 1) m, (1, 1, 1) rad, OK, "
+      "from swf_vo");
   out.str("");
   out << MotionInput{0, 1, Pose(), Matrix6d::Identity()} << Constraint{};
   EXPECT_NE(out.str().find("information diagonal = (1 1 1 1 1 1)"), std::string::npos);

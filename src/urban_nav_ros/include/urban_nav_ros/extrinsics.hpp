@@ -13,15 +13,16 @@
 
 namespace urban_nav_ros {
 
-/// Static transforms as they come on /tf_static, from the robot description or a bag: a forest of frames. The later of two
-/// transforms to the same child wins. Names are taken without a leading slash (tf's of 2008 have one).
+/// Static transforms as they come on /tf_static, from the robot description or a bag: a forest of frames. The later of
+/// two transforms to the same child wins. Names are taken without a leading slash (tf's of 2008 have one).
 class StaticTransforms {
  public:
   /// Transforms that are no rigid motion are left out and named in faults().
   void add(const tf2_msgs::TFMessage& message);
   void add(const geometry_msgs::TransformStamped& transform);
 
-  /// T_to_from: takes coordinates in `from` to coordinates in `to`. Empty where the tree does not connect them. A frame is connected to itself.
+  /// T_to_from: takes coordinates in `from` to coordinates in `to`. Empty where the tree does not connect them. A frame
+  /// is connected to itself.
   std::optional<urban_nav_core::Pose> lookup(const std::string& to, const std::string& from) const;
   bool has(const std::string& frame) const;
   bool empty() const { return parents_.empty(); }
@@ -44,7 +45,8 @@ class StaticTransforms {
 };
 
 /// A transform of a sensor's place for /tf_static; its stamp stays zero, static transforms hold always.
-geometry_msgs::TransformStamped toStaticTransform(const std::string& parent, const std::string& child, const urban_nav_core::Pose& T_parent_child);
+geometry_msgs::TransformStamped toStaticTransform(const std::string& parent, const std::string& child,
+                                                  const urban_nav_core::Pose& T_parent_child);
 
 /// The axes of an optical frame (z forward, x right, y down) in a body frame (x forward, y left, z up), REP-103.
 urban_nav_core::Pose opticalInBody();

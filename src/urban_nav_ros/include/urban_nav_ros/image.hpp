@@ -11,8 +11,8 @@
 
 namespace urban_nav_ros {
 
-/// Grey pixels (CV_8UC1), or none and a sentence that says why ("encoding yuv422: known are ..."): images of a robot are
-/// data, and a bad one is no exception.
+/// Grey pixels (CV_8UC1), or none and a sentence that says why ("encoding yuv422: known are ..."): images of a robot
+/// are data, and a bad one is no exception.
 struct GreyImage {
   cv::Mat pixels;
   std::string fault;
@@ -20,14 +20,16 @@ struct GreyImage {
 
 /// Grey of mono8, 8UC1, mono16, 16UC1, bgr8, rgb8, bgra8, rgba8, 8UC3 (as bgr8), 8UC4 and the 8-bit Bayer patterns.
 /// mono8 is not copied: the pixels then live as long as the message. `bits` is the depth of 16-bit pixels (8...16, from
-/// significantBits): the highest eight of them are kept, the same for every image of a camera so that brightness stays comparable.
+/// significantBits): the highest eight of them are kept, the same for every image of a camera so that brightness stays
+/// comparable.
 GreyImage toGrey(const sensor_msgs::Image& message, int bits = 16);
 /// JPEG, PNG or whatever OpenCV reads.
 GreyImage toGrey(const sensor_msgs::CompressedImage& message, int bits = 16);
 /// The same for decoded pixels; three and four channels are taken as BGR(A).
 GreyImage toGrey(const cv::Mat& pixels, int bits = 16);
 
-/// How many low bits of a 16-bit image are in use, rounded up to 8, 10, 12, 14 or 16 (cameras put 10 or 12 bits into 16). 8 for other images.
+/// How many low bits of a 16-bit image are in use, rounded up to 8, 10, 12, 14 or 16 (cameras put 10 or 12 bits into
+/// 16). 8 for other images.
 int significantBits(const sensor_msgs::Image& message);
 int significantBits(const cv::Mat& pixels);
 

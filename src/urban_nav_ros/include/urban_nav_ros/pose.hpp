@@ -27,14 +27,17 @@ geometry_msgs::Transform toTransformMessage(const urban_nav_core::Pose& pose);
 urban_nav_core::Matrix6d toMatrix6(const boost::array<double, 36>& values);
 boost::array<double, 36> toArray36(const urban_nav_core::Matrix6d& matrix);
 
-/// Pose of child_frame in frame_id with its covariance (in frame_id, DESIGN section 4). The twist is left at zero: setTwist.
+/// Pose of child_frame in frame_id with its covariance (in frame_id, DESIGN section 4). The twist is left at zero:
+/// setTwist.
 nav_msgs::Odometry toOdometryMessage(urban_nav_core::StampNs stamp, const urban_nav_core::UncertainPose& T_frame_child,
                                      const std::string& frame, const std::string& child);
 
 /// Velocity of child_frame in its own axes (m/s, rad/s), as nav_msgs/Odometry wants it.
-void setTwist(const urban_nav_core::Vector6d& twist, const urban_nav_core::Matrix6d& covariance, nav_msgs::Odometry& message);
+void setTwist(const urban_nav_core::Vector6d& twist, const urban_nav_core::Matrix6d& covariance,
+              nav_msgs::Odometry& message);
 
-urban_nav_msgs::RelativePose toRelativePoseMessage(const urban_nav_core::RelativePose& relative, const std::string& child_frame);
+urban_nav_msgs::RelativePose toRelativePoseMessage(const urban_nav_core::RelativePose& relative,
+                                                   const std::string& child_frame);
 std::optional<urban_nav_core::RelativePose> toRelativePose(const urban_nav_msgs::RelativePose& message);
 
 }  // namespace urban_nav_ros

@@ -17,8 +17,8 @@ struct CameraInfo {
   std::vector<double> D;                            ///< coefficients, order as in distortion.hpp
   Eigen::Matrix3d K = Eigen::Matrix3d::Zero();      ///< raw pinhole, px
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();  ///< R_rectified_raw
-  Eigen::Matrix<double, 3, 4> P =
-      Eigen::Matrix<double, 3, 4>::Zero();  ///< rectified pinhole; P(0,3) = -fx baseline of a right camera
+  /// Rectified pinhole; P(0,3) = -fx baseline of a right camera.
+  Eigen::Matrix<double, 3, 4> P = Eigen::Matrix<double, 3, 4>::Zero();
 };
 
 /// The raw camera. Throws UserError that begins with `where` (file or topic) if size, K or D cannot be those of a

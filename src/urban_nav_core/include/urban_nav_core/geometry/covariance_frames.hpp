@@ -5,8 +5,9 @@
 
 namespace urban_nav_core {
 
-/// From one convention of a pose's tangent to another, and from one body frame to another. "Box" is the convention of everything that
-/// leaves a stage (DESIGN.md section 4): T_a_b = [Exp(phi) R, t + rho], both in the parent frame, translation first.
+/// From one convention of a pose's tangent to another, and from one body frame to another. "Box" is the convention of
+/// everything that leaves a stage (DESIGN.md section 4): T_a_b = [Exp(phi) R, t + rho], both in the parent frame,
+/// translation first.
 ///
 /// d_box = boxFromLeft(T) d_left for T = Exp(d_left) T_mean, the tangent of SE(3) in the parent frame.
 Matrix6d boxFromLeft(const Pose& T_a_b);
@@ -29,8 +30,9 @@ UncertainPose baseMotionFromCameraMotion(const UncertainPose& T_camera1_camera2,
 /// T_first_base in the axes of the first base_link, where `odom` is any frame in which the first pose is known exactly.
 UncertainPose relativeToFirst(const UncertainPose& T_odom_base, const Pose& T_odom_first);
 
-/// A covariance for display of a constraint that leaves directions free: the inverse where there is information, 1e6 m^2 and
-/// 10 rad^2 along the free directions. Translation and rotation are told apart by `length`, the m that weigh as much as one rad.
+/// A covariance for display of a constraint that leaves directions free: the inverse where there is information, 1e6
+/// m^2 and 10 rad^2 along the free directions. Translation and rotation are told apart by `length`, the m that weigh as
+/// much as one rad.
 Matrix6d covarianceForDisplay(const Matrix6d& information, double length);
 
 }  // namespace urban_nav_core

@@ -6,9 +6,10 @@
 
 namespace urban_nav_core {
 
-/// Dense linear algebra of dynamic size behind plain functions: the only place that instantiates factorisations, which is
-/// where compile time goes. Matrices are column-major. The functions that say "in place" allocate nothing when they are handed a
-/// matrix, a block of one, or a Map; any other expression would be copied by Eigen::Ref. The same numbers in give the same bits out.
+/// Dense linear algebra of dynamic size behind plain functions: the only place that instantiates factorisations, which
+/// is where compile time goes. Matrices are column-major. The functions that say "in place" allocate nothing when they
+/// are handed a matrix, a block of one, or a Map; any other expression would be copied by Eigen::Ref. The same numbers
+/// in give the same bits out.
 using MatrixRef = Eigen::Ref<Eigen::MatrixXd>;
 using ConstMatrixRef = Eigen::Ref<const Eigen::MatrixXd>;
 
@@ -24,8 +25,8 @@ void solveLowerTransposedFromRightInPlace(const ConstMatrixRef& L, MatrixRef B);
 /// C becomes C - A A^T, lower triangle alone: what a Schur complement and a blocked factorisation are made of.
 void subtractOuterInPlace(MatrixRef C, const ConstMatrixRef& A);
 
-/// B becomes A^-1 B for a symmetric positive definite A, of which the lower triangle is read and spoilt. False as choleskyInPlace;
-/// B is then as it was.
+/// B becomes A^-1 B for a symmetric positive definite A, of which the lower triangle is read and spoilt. False as
+/// choleskyInPlace; B is then as it was.
 bool solvePositiveDefiniteInPlace(MatrixRef A, MatrixRef B);
 
 /// Copies the lower triangle onto the upper one.
@@ -47,8 +48,8 @@ std::optional<SymmetricEigen> symmetricEigen(const ConstMatrixRef& A);
 /// Eigenvalues alone; empty as above.
 std::optional<Eigen::VectorXd> symmetricEigenvalues(const ConstMatrixRef& A);
 
-/// Pseudo-inverse of a symmetric positive semi-definite matrix: eigenvalues below `relative_limit` times the largest count as zero.
-/// Empty as above. Allocates.
+/// Pseudo-inverse of a symmetric positive semi-definite matrix: eigenvalues below `relative_limit` times the largest
+/// count as zero. Empty as above. Allocates.
 std::optional<Eigen::MatrixXd> pseudoInverse(const ConstMatrixRef& A, double relative_limit);
 
 }  // namespace urban_nav_core

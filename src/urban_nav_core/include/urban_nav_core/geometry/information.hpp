@@ -9,9 +9,10 @@
 
 namespace urban_nav_core {
 
-/// A Gaussian over named blocks, as information: p(x) ~ exp(-x^T H x / 2 + b^T x). H may be singular: directions of which nothing is known
-/// have zero information. Meant for prior terms and for checks; the fast path of an estimator works on its own buffers.
-/// Newman et al. 2009, section 2.2: marginalising is the Schur complement, conditioning takes rows away.
+/// A Gaussian over named blocks, as information: p(x) ~ exp(-x^T H x / 2 + b^T x). H may be singular: directions of
+/// which nothing is known have zero information. Meant for prior terms and for checks; the fast path of an estimator
+/// works on its own buffers. Newman et al. 2009, section 2.2: marginalising is the Schur complement, conditioning takes
+/// rows away.
 class Information {
  public:
   using Name = std::int64_t;
@@ -42,8 +43,8 @@ class Information {
 
   /// The same Gaussian with its blocks in another order; `order` holds each name once.
   Information permuted(const std::vector<Name>& order) const;
-  /// The marginal of the other blocks. Directions of the removed blocks without information (eigenvalues below 1e-12 of the largest)
-  /// take nothing away. Empty where H is not finite.
+  /// The marginal of the other blocks. Directions of the removed blocks without information (eigenvalues below 1e-12 of
+  /// the largest) take nothing away. Empty where H is not finite.
   std::optional<Information> marginalised(const std::vector<Name>& removed) const;
   /// The others given that this block has this value.
   Information conditioned(Name name, const Eigen::VectorXd& value) const;

@@ -11,8 +11,8 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 /// A rigid transform T_a_b: p_a = R p_b + t. Read T_a_b * T_b_c = T_a_c. The rotation is a unit quaternion; products
-/// are normalised, so that a million of them stay rotations. A quaternion whose length is one to the last bits is taken as it
-/// is, so that what a file holds goes in and out unchanged.
+/// are normalised, so that a million of them stay rotations. A quaternion whose length is one to the last bits is taken
+/// as it is, so that what a file holds goes in and out unchanged.
 class Pose {
  public:
   Pose() : q_(Quaterniond::Identity()), t_(Vector3d::Zero()) {}
@@ -49,7 +49,8 @@ Matrix6d leftJacobianSe3(const Vector6d& tangent);
 Matrix6d leftJacobianInverseSe3(const Vector6d& tangent);
 
 /// The perturbation used by every covariance that leaves a stage, and by the estimators:
-/// boxPlus(T, (rho, phi)) = [Exp(phi) R, t + rho], both in the parent frame. boxMinus(A, B) is the d with A = boxPlus(B, d).
+/// boxPlus(T, (rho, phi)) = [Exp(phi) R, t + rho], both in the parent frame. boxMinus(A, B) is the d with A =
+/// boxPlus(B, d).
 Pose boxPlus(const Pose& T_a_b, const Vector6d& d);
 Vector6d boxMinus(const Pose& A, const Pose& B);
 

@@ -6,8 +6,9 @@
 
 namespace urban_nav_core {
 
-/// A path to write to beside the final one, for other libraries' writers (bags, pictures). commit() flushes the file to disk and
-/// renames it; without commit() (an exception, say) the destructor removes it, so that no partial file ever has the final name.
+/// A path to write to beside the final one, for other libraries' writers (bags, pictures). commit() flushes the file to
+/// disk and renames it; without commit() (an exception, say) the destructor removes it, so that no partial file ever
+/// has the final name.
 class PartialFile {
  public:
   explicit PartialFile(std::string final_path);
@@ -25,7 +26,8 @@ class PartialFile {
   bool committed_ = false;
 };
 
-/// A file that appears whole or not at all. Buffered; not thread-safe. Throws UserError naming the path and the system's reason.
+/// A file that appears whole or not at all. Buffered; not thread-safe. Throws UserError naming the path and the
+/// system's reason.
 class AtomicFile {
  public:
   explicit AtomicFile(std::string path);

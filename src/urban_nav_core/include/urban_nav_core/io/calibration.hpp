@@ -9,11 +9,12 @@
 
 namespace urban_nav_core {
 
-/// Calibrations as files hold them. All functions throw UserError with file and line for what is missing, no number, not finite or not
-/// possible (a matrix that is no rotation, a size of no pixels, a right camera that is not to the right).
+/// Calibrations as files hold them. All functions throw UserError with file and line for what is missing, no number,
+/// not finite or not possible (a matrix that is no rotation, a size of no pixels, a right camera that is not to the
+/// right).
 
-/// KITTI's calib.txt: lines `P0: ` and `P1: ` with 3x4 projection matrices, row by row (`P_rect_00: ` and `P_rect_01: ` in the raw
-/// data's calib_cam_to_cam.txt). It has no image size: the images tell.
+/// KITTI's calib.txt: lines `P0: ` and `P1: ` with 3x4 projection matrices, row by row (`P_rect_00: ` and `P_rect_01: `
+/// in the raw data's calib_cam_to_cam.txt). It has no image size: the images tell.
 StereoCamera readKittiCalibration(const std::string& path, int width, int height);
 StereoCamera parseKittiCalibration(std::string_view text, const std::string& name, int width, int height);
 /// As such a file holds it, P0 to P1, with the numbers that read back to the same focal lengths and centre.
@@ -37,10 +38,10 @@ EurocCamera parseEurocCamera(std::string_view text, const std::string& name);
 struct EurocImu {
   Pose T_body_imu;
   double rate_hz = 0.0;
-  double gyroscope_noise = 0.0;       ///< rad/s/sqrt(Hz)
-  double gyroscope_walk = 0.0;        ///< rad/s^2/sqrt(Hz)
-  double accelerometer_noise = 0.0;   ///< m/s^2/sqrt(Hz)
-  double accelerometer_walk = 0.0;    ///< m/s^3/sqrt(Hz)
+  double gyroscope_noise = 0.0;      ///< rad/s/sqrt(Hz)
+  double gyroscope_walk = 0.0;       ///< rad/s^2/sqrt(Hz)
+  double accelerometer_noise = 0.0;  ///< m/s^2/sqrt(Hz)
+  double accelerometer_walk = 0.0;   ///< m/s^3/sqrt(Hz)
 };
 EurocImu readEurocImu(const std::string& path);
 EurocImu parseEurocImu(std::string_view text, const std::string& name);

@@ -30,8 +30,8 @@ std::string relativeCovarianceHeader();
 std::string printCovarianceRow(const CovarianceRow& row);
 std::string printCovarianceRow(const RelativeCovarianceRow& row);
 
-/// Throw UserError with file and line for anything but such rows, and for matrices that are not symmetric to 1e-9 of their size or have a
-/// negative diagonal.
+/// Throw UserError with file and line for anything but such rows, and for matrices that are not symmetric to 1e-9 of
+/// their size or have a negative diagonal.
 std::vector<CovarianceRow> readCovariances(const std::string& path);
 std::vector<CovarianceRow> parseCovariances(std::string_view text, const std::string& name);
 std::vector<RelativeCovarianceRow> readRelativeCovariances(const std::string& path);

@@ -8,8 +8,9 @@
 
 namespace urban_nav_core {
 
-/// A table of text with one header line, comma separated; cells may stand in double quotes ("" is a quote), over one line. Lines that are
-/// empty are skipped; a header that begins with # is taken without it (EuRoC). Every row has as many cells as the header.
+/// A table of text with one header line, comma separated; cells may stand in double quotes ("" is a quote), over one
+/// line. Lines that are empty are skipped; a header that begins with # is taken without it (EuRoC). Every row has as
+/// many cells as the header.
 class CsvTable {
  public:
   /// Throw UserError with file and line.

@@ -12,8 +12,8 @@
 
 namespace urban_nav_core {
 
-/// A pose graph as a g2o text file holds it, number for number, so that reading and writing changes none: the quaternions of files
-/// are not exactly of length one, and who normalises them does it in pose().
+/// A pose graph as a g2o text file holds it, number for number, so that reading and writing changes none: the
+/// quaternions of files are not exactly of length one, and who normalises them does it in pose().
 struct G2oGraph {
   using Id = std::int64_t;
 
@@ -24,8 +24,9 @@ struct G2oGraph {
   /// Measures pose `to` in the frame of pose `from`.
   struct Edge {
     Id from = 0, to = 0;
-    std::array<double, 7> values{};        ///< as in Vertex
-    std::array<double, 21> information{};  ///< upper triangle, row by row; SE2: x, y, theta, 6 numbers; SE3: x, y, z, qx, qy, qz
+    std::array<double, 7> values{};  ///< as in Vertex
+    std::array<double, 21>
+        information{};  ///< upper triangle, row by row; SE2: x, y, theta, 6 numbers; SE3: x, y, z, qx, qy, qz
   };
 
   int dimension = 3;  ///< 2 (SE2) or 3 (SE3:QUAT), one for the whole file
@@ -34,8 +35,8 @@ struct G2oGraph {
   std::vector<Id> fixed;
   std::vector<std::string> others;  ///< lines with other tags and comments, as they were
 
-  /// What stands in which line, as an index into the vectors above. Elements appended to those vectors later need no line: they are written at the
-  /// end, vertices first. Who removes elements clears `lines`.
+  /// What stands in which line, as an index into the vectors above. Elements appended to those vectors later need no
+  /// line: they are written at the end, vertices first. Who removes elements clears `lines`.
   enum class Kind { Vertex, Edge, Fix, Other };
   struct Line {
     Kind kind;
@@ -52,16 +53,17 @@ struct G2oGraph {
 /// The symmetric matrix of an upper triangle of the first n (n + 1) / 2 numbers, and back.
 Eigen::MatrixXd g2oInformation(const G2oGraph::Edge& edge, int dimension);
 void setG2oInformation(G2oGraph::Edge& edge, const Eigen::MatrixXd& information);
-/// The information of (rho, phi) in `from` (the convention of everything that leaves a stage) for that of g2o's error, which is the
-/// translation and the quaternion's vector of Z^-1 X in the frame `to`, at a small error; and back. 6x6.
+/// The information of (rho, phi) in `from` (the convention of everything that leaves a stage) for that of g2o's error,
+/// which is the translation and the quaternion's vector of Z^-1 X in the frame `to`, at a small error; and back. 6x6.
 Matrix6d boxFromG2oInformation(const Matrix6d& g2o, const Pose& T_from_to);
 Matrix6d g2oFromBoxInformation(const Matrix6d& box, const Pose& T_from_to);
 
 /// What becomes of lines that are neither vertex, edge, FIX nor empty.
 enum class UnknownTags { Keep, Refuse };
 
-/// Throw UserError with file and line for: a wrong number of columns, numbers that are not finite, quaternions not of length one to
-/// 1 %, doubled vertices, SE2 and SE3 in one file, and unknown tags if they are refused. Edges may name vertices that have no line.
+/// Throw UserError with file and line for: a wrong number of columns, numbers that are not finite, quaternions not of
+/// length one to 1 %, doubled vertices, SE2 and SE3 in one file, and unknown tags if they are refused. Edges may name
+/// vertices that have no line.
 G2oGraph readG2o(const std::string& path, UnknownTags unknown = UnknownTags::Keep);
 G2oGraph parseG2o(std::string_view text, const std::string& name, UnknownTags unknown = UnknownTags::Keep);
 

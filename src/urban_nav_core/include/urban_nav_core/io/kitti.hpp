@@ -10,14 +10,15 @@
 
 namespace urban_nav_core {
 
-/// KITTI's pose files: a line per frame, the 3x4 matrix [R t] row by row; no stamps. The numbers read back to the last bit as matrices;
-/// as poses, whose rotation is a quaternion, to 1e-15.
+/// KITTI's pose files: a line per frame, the 3x4 matrix [R t] row by row; no stamps. The numbers read back to the last
+/// bit as matrices; as poses, whose rotation is a quaternion, to 1e-15.
 using KittiMatrix = Eigen::Matrix<double, 3, 4>;
 std::string printKitti(const std::vector<KittiMatrix>& matrices);
 std::string printKitti(const std::vector<Pose>& poses);
 void writeKitti(const std::string& path, const std::vector<Pose>& poses);
 
-/// Throws UserError with file and line for lines that do not hold twelve finite numbers and for R that is no rotation to 1e-3.
+/// Throws UserError with file and line for lines that do not hold twelve finite numbers and for R that is no rotation
+/// to 1e-3.
 std::vector<KittiMatrix> parseKittiMatrices(std::string_view text, const std::string& name);
 std::vector<Pose> readKitti(const std::string& path);
 std::vector<Pose> parseKitti(std::string_view text, const std::string& name);

@@ -9,15 +9,16 @@
 
 namespace urban_nav_core {
 
-/// The one way in which a number gets into a file: the shortest text that reads back as the same double, whatever the locale.
-/// The caller sees to it that the value is finite; NaN and infinities print as "nan", "inf", "-inf", which parseNumber refuses.
+/// The one way in which a number gets into a file: the shortest text that reads back as the same double, whatever the
+/// locale. The caller sees to it that the value is finite; NaN and infinities print as "nan", "inf", "-inf", which
+/// parseNumber refuses.
 std::string printNumber(double value);
 /// The same for single precision: the shortest text that reads back as the same float.
 std::string printNumber(float value);
 void appendNumber(std::string& text, double value);
 
-/// A decimal number that fills the whole text ("-1.5", "+2e-3", ".5"), whatever the locale. Empty for anything else: blanks,
-/// hexadecimal, "nan", "inf", values beyond a double's range. A value too small for a double is zero.
+/// A decimal number that fills the whole text ("-1.5", "+2e-3", ".5"), whatever the locale. Empty for anything else:
+/// blanks, hexadecimal, "nan", "inf", values beyond a double's range. A value too small for a double is zero.
 std::optional<double> parseNumber(std::string_view text);
 /// A whole number that fills the text and fits.
 std::optional<std::int64_t> parseInteger(std::string_view text);

@@ -13,8 +13,8 @@ namespace urban_nav_core {
 std::string printTum(const Trajectory& trajectory);
 void writeTum(const std::string& path, const Trajectory& trajectory);
 
-/// Throws UserError with file and line for lines that do not hold eight finite numbers, quaternions that are not of length one to
-/// 1 %, and stamps that are not later than the one before.
+/// Throws UserError with file and line for lines that do not hold eight finite numbers, quaternions that are not of
+/// length one to 1 %, and stamps that are not later than the one before.
 Trajectory readTum(const std::string& path);
 /// The same from text; `name` stands for the path in errors.
 Trajectory parseTum(std::string_view text, const std::string& name);

@@ -8,7 +8,8 @@
 
 namespace urban_nav_core {
 
-/// A YAML document as a plain tree; every node knows its line. The only door to yaml-cpp, so that no other file includes it.
+/// A YAML document as a plain tree; every node knows its line. The only door to yaml-cpp, so that no other file
+/// includes it.
 struct YamlNode {
   enum class Kind { Null, Scalar, List, Map };
   Kind kind = Kind::Null;
@@ -21,14 +22,16 @@ struct YamlNode {
   const YamlNode* find(std::string_view key) const;
 };
 
-/// Throws UserError with file and line for what is not YAML, and for trees deeper than 32 or of more than a million nodes.
+/// Throws UserError with file and line for what is not YAML, and for trees deeper than 32 or of more than a million
+/// nodes.
 YamlNode readYaml(const std::string& path);
 YamlNode parseYaml(std::string_view text, const std::string& name);
 
-/// The value below `key`, a number, or several in a list. Throws UserError with file, line and key where it is missing, no
-/// number, not finite, or of another length.
+/// The value below `key`, a number, or several in a list. Throws UserError with file, line and key where it is missing,
+/// no number, not finite, or of another length.
 const YamlNode& require(const YamlNode& node, std::string_view key, const std::string& file);
 double requireNumber(const YamlNode& node, std::string_view key, const std::string& file);
-std::vector<double> requireNumbers(const YamlNode& node, std::string_view key, std::size_t count, const std::string& file);
+std::vector<double> requireNumbers(const YamlNode& node, std::string_view key, std::size_t count,
+                                   const std::string& file);
 
 }  // namespace urban_nav_core

@@ -8,8 +8,8 @@
 
 namespace urban_nav_core {
 
-/// config/<pkg>.yaml: the rows at their defaults, each below a comment that says what it does, what is allowed and where it comes
-/// from. readParameters gives back what was printed.
+/// config/<pkg>.yaml: the rows at their defaults, each below a comment that says what it does, what is allowed and
+/// where it comes from. readParameters gives back what was printed.
 std::string printYaml(const std::string& stage, const std::vector<RowInfo>& rows);
 /// The same with the values in force and their origins.
 std::string printYaml(const std::string& stage, const std::vector<RowInfo>& rows, const std::vector<Setting>& settings);
@@ -20,8 +20,9 @@ std::string printMarkdown(const std::string& stage, const std::vector<RowInfo>& 
 /// The part of --help: each parameter with its value, where that came from, and what is allowed.
 std::string printHelp(const std::string& stage, const std::vector<RowInfo>& rows, const std::vector<Setting>& settings);
 
-/// Puts the Markdown table between `<!-- parameters: STAGE -->` and `<!-- end -->` in the text of a README. Throws UserError
-/// naming `path` where the markers are missing.
-std::string insertMarkdown(const std::string& readme, const std::string& path, const std::string& stage, const std::vector<RowInfo>& rows);
+/// Puts the Markdown table between `<!-- parameters: STAGE -->` and `<!-- end -->` in the text of a README. Throws
+/// UserError naming `path` where the markers are missing.
+std::string insertMarkdown(const std::string& readme, const std::string& path, const std::string& stage,
+                           const std::vector<RowInfo>& rows);
 
 }  // namespace urban_nav_core

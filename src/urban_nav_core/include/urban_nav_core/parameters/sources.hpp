@@ -13,11 +13,11 @@ namespace urban_nav_core {
 /// One wish of the user: this key shall have this value. Text (YAML, --set) takes the type of its row; values of the
 /// parameter server come typed.
 struct Assignment {
-  std::string stage;     ///< "swf_vo"; "" for keys without a stage
-  std::string name;      ///< "window"
+  std::string stage;  ///< "swf_vo"; "" for keys without a stage
+  std::string name;   ///< "window"
   ParameterValue value;
-  bool is_text = true;   ///< `value` is a string that has still to be read by the row's type
-  std::string where;     ///< "config.yaml:12", "--set swf_vo.window=25", "/swf_vo/window"
+  bool is_text = true;  ///< `value` is a string that has still to be read by the row's type
+  std::string where;    ///< "config.yaml:12", "--set swf_vo.window=25", "/swf_vo/window"
 };
 
 /// A YAML file: a map of stages, each a map of rows; rows without a stage stand at the top level. Throws UserError with
@@ -40,10 +40,11 @@ struct Setting {
   std::string origin;
 };
 
-/// The settings of one stage: defaults, overridden by the assignments to this stage in their order (so pass YAML first, then
-/// the parameter server, then --set). Throws UserError for an unknown key, naming the nearest known one, and for a value of
-/// the wrong type or out of range. Assignments to other stages are skipped: refuseUnknownStages sees to them.
-std::vector<Setting> resolve(const std::string& stage, const std::vector<RowInfo>& rows, const std::vector<Assignment>& assignments);
+/// The settings of one stage: defaults, overridden by the assignments to this stage in their order (so pass YAML first,
+/// then the parameter server, then --set). Throws UserError for an unknown key, naming the nearest known one, and for a
+/// value of the wrong type or out of range. Assignments to other stages are skipped: refuseUnknownStages sees to them.
+std::vector<Setting> resolve(const std::string& stage, const std::vector<RowInfo>& rows,
+                             const std::vector<Assignment>& assignments);
 
 /// Throws UserError for the first assignment to a stage that is not in the list.
 void refuseUnknownStages(const std::vector<Assignment>& assignments, const std::vector<std::string>& stages);

@@ -8,8 +8,8 @@
 
 namespace urban_nav_core {
 
-/// A value of a parameter: bool, whole number, number, or a word out of a list. The constructors keep `25` a whole number
-/// and "schur" a word on compilers whose std::variant would make a bool of either.
+/// A value of a parameter: bool, whole number, number, or a word out of a list. The constructors keep `25` a whole
+/// number and "schur" a word on compilers whose std::variant would make a bool of either.
 struct ParameterValue : std::variant<bool, std::int64_t, double, std::string> {
   using Base = std::variant<bool, std::int64_t, double, std::string>;
   ParameterValue() : Base(false) {}
@@ -27,14 +27,14 @@ struct ParameterValue : std::variant<bool, std::int64_t, double, std::string> {
 /// server, --set, range checks, --help, the README's table and config/<pkg>.yaml.
 template <typename Parameters>
 struct Row {
-  std::string name;                                      ///< "window"; with the stage in front it is "swf_vo.window"
+  std::string name;  ///< "window"; with the stage in front it is "swf_vo.window"
   std::variant<bool Parameters::*, int Parameters::*, double Parameters::*, std::string Parameters::*> member;
-  std::string unit;                                      ///< "frames", "px", "" for none
-  ParameterValue standard;                               ///< the default: written here and nowhere else
-  ParameterValue low = false, high = false;              ///< allowed range, ends included (numbers only)
-  std::vector<std::string> words;                        ///< allowed words (words only; empty: any text)
-  std::string sentence;                                  ///< what it does
-  std::string source;                                    ///< section of the paper, publication, or measurement
+  std::string unit;                          ///< "frames", "px", "" for none
+  ParameterValue standard;                   ///< the default: written here and nowhere else
+  ParameterValue low = false, high = false;  ///< allowed range, ends included (numbers only)
+  std::vector<std::string> words;            ///< allowed words (words only; empty: any text)
+  std::string sentence;                      ///< what it does
+  std::string source;                        ///< section of the paper, publication, or measurement
 };
 
 enum class ParameterType { Bool, Integer, Number, Word };
@@ -51,13 +51,14 @@ struct RowInfo {
 std::string allowed(const RowInfo& row);
 /// Does the value have the row's type (a whole number serves as a number) and lie within its range? NaN never does.
 bool isAllowed(const RowInfo& row, const ParameterValue& value);
-/// As YAML writes it: "true", "25", "0.3", "schur"; shortest form that reads back exactly. Text that YAML would take for
-/// something else is quoted.
+/// As YAML writes it: "true", "25", "0.3", "schur"; shortest form that reads back exactly. Text that YAML would take
+/// for something else is quoted.
 std::string printValue(const ParameterValue& value);
 /// "swf_vo.window"; the name alone where the stage is "" (keys of the command itself, such as memory_mb).
 std::string fullName(const std::string& stage, const std::string& name);
 
-/// Asserts what a programmer owes a table: different names, defaults of the right type and within their ranges, a sentence in each row.
+/// Asserts what a programmer owes a table: different names, defaults of the right type and within their ranges, a
+/// sentence in each row.
 void assertSound(const std::string& stage, const std::vector<RowInfo>& rows);
 
 /// The rows of one stage. Parameters is a plain struct whose members have no initialisers. Immutable, so thread-safe.

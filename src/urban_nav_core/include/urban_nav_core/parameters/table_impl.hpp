@@ -23,7 +23,9 @@ constexpr ParameterType typeOfMember(Member Parameters::*) {
 }
 
 inline void assign(bool& member, const ParameterValue& value) { member = std::get<bool>(value); }
-inline void assign(int& member, const ParameterValue& value) { member = static_cast<int>(std::get<std::int64_t>(value)); }
+inline void assign(int& member, const ParameterValue& value) {
+  member = static_cast<int>(std::get<std::int64_t>(value));
+}
 inline void assign(double& member, const ParameterValue& value) {
   const auto* whole = std::get_if<std::int64_t>(&value.base());
   member = whole != nullptr ? static_cast<double>(*whole) : std::get<double>(value);
@@ -33,7 +35,8 @@ inline void assign(std::string& member, const ParameterValue& value) { member = 
 }  // namespace detail
 
 template <typename Parameters>
-Table<Parameters>::Table(std::string stage, std::vector<Row<Parameters>> rows) : stage_(std::move(stage)), rows_(std::move(rows)) {
+Table<Parameters>::Table(std::string stage, std::vector<Row<Parameters>> rows)
+    : stage_(std::move(stage)), rows_(std::move(rows)) {
   for (const Row<Parameters>& row : rows_) {
     const ParameterType type = std::visit([](auto member) { return detail::typeOfMember(member); }, row.member);
     infos_.push_back({row.name, row.unit, row.sentence, row.source, type, row.standard, row.low, row.high, row.words});

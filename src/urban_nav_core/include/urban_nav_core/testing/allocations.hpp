@@ -5,8 +5,9 @@
 
 namespace urban_nav_core::testing {
 
-/// Calls of operator new, malloc and aligned_alloc by this thread since it began. Counted in programs that link the testing library
-/// and use this function; with a sanitizer, whose allocator cannot be replaced, it stays zero and countsAllocations() says so.
+/// Calls of operator new, malloc and aligned_alloc by this thread since it began. Counted in programs that link the
+/// testing library and use this function; with a sanitizer, whose allocator cannot be replaced, it stays zero and
+/// countsAllocations() says so.
 std::int64_t allocations();
 bool countsAllocations();
 

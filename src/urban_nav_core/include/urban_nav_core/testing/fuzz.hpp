@@ -9,9 +9,9 @@
 
 namespace urban_nav_core::testing {
 
-/// Damages files in ways that keep most of their structure, so that a reader is tested behind its first check: bytes, numbers
-/// (too large, not finite, negative, with garbage behind), words, lines and ends; pieces of one seed in another.
-/// The same seed value gives the same sequence of texts.
+/// Damages files in ways that keep most of their structure, so that a reader is tested behind its first check: bytes,
+/// numbers (too large, not finite, negative, with garbage behind), words, lines and ends; pieces of one seed in
+/// another. The same seed value gives the same sequence of texts.
 class Mutator {
  public:
   /// `seeds`: at least one valid file.
@@ -35,8 +35,9 @@ struct FuzzResult {
 /// Seconds to fuzz one reader: the environment's URBAN_NAV_FUZZ_SECONDS, else 0.3.
 double fuzzSeconds();
 
-/// Gives damaged texts to `read` for fuzzSeconds(), the undamaged seeds first. A reader may return or throw UserError; a
-/// different exception ends the run with `failure`, and what else goes wrong (memory, arithmetic) a sanitizer has to say.
+/// Gives damaged texts to `read` for fuzzSeconds(), the undamaged seeds first. A reader may return or throw UserError;
+/// a different exception ends the run with `failure`, and what else goes wrong (memory, arithmetic) a sanitizer has to
+/// say.
 FuzzResult fuzzText(const std::vector<std::string>& seeds, const std::function<void(const std::string& text)>& read,
                     std::uint64_t seed = 1);
 

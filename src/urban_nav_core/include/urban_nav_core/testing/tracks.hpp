@@ -22,12 +22,12 @@ struct TrackOptions {
   std::uint64_t seed = 1;
   int frames = 200;
   TrackMotion motion = TrackMotion::Turning;
-  double speed = 0.1;           ///< m a frame
-  int features = 60;            ///< seen in a frame
-  double sigma_px = 0.3;        ///< of each of u_left, v, u_right, independent
-  double track_length = 13.0;   ///< mean life of a landmark, frames, where it does not leave the image before; geometric
-  double missed = 0.05;         ///< share of sightings that are left out while the landmark lives on
-  double outliers = 0.0;        ///< share of sightings that are off by up to 20 px
+  double speed = 0.1;          ///< m a frame
+  int features = 60;           ///< seen in a frame
+  double sigma_px = 0.3;       ///< of each of u_left, v, u_right, independent
+  double track_length = 13.0;  ///< mean life of a landmark, frames, where it does not leave the image before; geometric
+  double missed = 0.05;        ///< share of sightings that are left out while the landmark lives on
+  double outliers = 0.0;       ///< share of sightings that are off by up to 20 px
   double nearest = 2.0, farthest = 40.0;  ///< depth of new points, m, uniform in the logarithm
 };
 
@@ -38,16 +38,16 @@ struct TrackSighting {
 };
 
 struct TrackFrame {
-  Pose T_world_camera;                    ///< truth; the first is the identity
-  std::vector<TrackSighting> sightings;   ///< in order of landmark
-  std::vector<std::int64_t> ended;        ///< landmarks that will not be seen again, after this frame
+  Pose T_world_camera;                   ///< truth; the first is the identity
+  std::vector<TrackSighting> sightings;  ///< in order of landmark
+  std::vector<std::int64_t> ended;       ///< landmarks that will not be seen again, after this frame
 };
 
 struct Tracks {
   StereoCamera camera;
   double sigma_px = 0.0;
   std::vector<TrackFrame> frames;
-  std::vector<Eigen::Vector3d> points;    ///< truth by landmark, in `world`, m
+  std::vector<Eigen::Vector3d> points;  ///< truth by landmark, in `world`, m
 };
 
 /// The same options give the same bits. Own projection code: what is tested with it does not test itself.

@@ -21,10 +21,11 @@ struct Similarity {
 /// First pose onto first pose.
 Similarity alignFirst(const std::vector<Pose>& truth, const std::vector<Pose>& estimate);
 
-/// The rigid motion, or similarity, that brings the estimated positions closest to the true ones in the mean square (Umeyama,
-/// "Least-squares estimation of transformation parameters between two point patterns", PAMI 1991). Where the positions lie on a line or in one
-/// point, the rotation that they leave open is the one that brings the first pose's heading closest to the truth's; where the
-/// estimate stands still, the scale is 1. Both vectors equally long and not empty.
+/// The rigid motion, or similarity, that brings the estimated positions closest to the true ones in the mean square
+/// (Umeyama, "Least-squares estimation of transformation parameters between two point patterns", PAMI 1991). Where the
+/// positions lie on a line or in one point, the rotation that they leave open is the one that brings the first pose's
+/// heading closest to the truth's; where the estimate stands still, the scale is 1. Both vectors equally long and not
+/// empty.
 Similarity alignSe3(const std::vector<Pose>& truth, const std::vector<Pose>& estimate);
 Similarity alignSim3(const std::vector<Pose>& truth, const std::vector<Pose>& estimate);
 

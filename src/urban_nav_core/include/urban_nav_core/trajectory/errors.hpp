@@ -17,11 +17,13 @@ struct ErrorStatistics {
   std::size_t count = 0;
 };
 
-/// Absolute trajectory error: distances between true and estimated positions after an alignment. Both vectors equally long.
+/// Absolute trajectory error: distances between true and estimated positions after an alignment. Both vectors equally
+/// long.
 enum class Alignment { None, First, Se3, Sim3 };
 ErrorStatistics absoluteError(const std::vector<Pose>& truth, const std::vector<Pose>& estimate, Alignment alignment);
 /// The distances themselves, m, by pose.
-std::vector<double> absoluteErrors(const std::vector<Pose>& truth, const std::vector<Pose>& estimate, Alignment alignment);
+std::vector<double> absoluteErrors(const std::vector<Pose>& truth, const std::vector<Pose>& estimate,
+                                   Alignment alignment);
 
 /// How long a piece of the way is over which relative errors are taken.
 struct Span {
@@ -32,27 +34,30 @@ struct Span {
 std::optional<Span> parseSpan(const std::string& text);
 std::ostream& operator<<(std::ostream& out, const Span& span);
 
-/// Relative pose error over all spans of the truth: E = (T_i^-1 T_j)^-1 (P_i^-1 P_j), its translation in per cent of the true
-/// path between i and j and its rotation angle in degrees per metre of it. Spans of frames: every i with j = i + length; of metres: every i with
-/// the first j at which the path has that length. Where the truth stands still (under 5 mm a frame) there is no percentage: the span is left out.
+/// Relative pose error over all spans of the truth: E = (T_i^-1 T_j)^-1 (P_i^-1 P_j), its translation in per cent of
+/// the true path between i and j and its rotation angle in degrees per metre of it. Spans of frames: every i with j = i
+/// + length; of metres: every i with the first j at which the path has that length. Where the truth stands still (under
+/// 5 mm a frame) there is no percentage: the span is left out.
 struct RelativeError {
-  double percent = 0.0;        ///< mean
-  double deg_per_m = 0.0;      ///< mean
-  double step_ratio = 0.0;     ///< estimated over true length of the spans' chords, summed: 1 where the scale is right
+  double percent = 0.0;     ///< mean
+  double deg_per_m = 0.0;   ///< mean
+  double step_ratio = 0.0;  ///< estimated over true length of the spans' chords, summed: 1 where the scale is right
   std::size_t count = 0;
 };
-std::optional<RelativeError> relativeError(const std::vector<Pose>& truth, const std::vector<Pose>& estimate, const Span& span);
+std::optional<RelativeError> relativeError(const std::vector<Pose>& truth, const std::vector<Pose>& estimate,
+                                           const Span& span);
 
-/// KITTI's odometry benchmark: segments of the given lengths (m), begun at every tenth frame; errors over the nominal length.
+/// KITTI's odometry benchmark: segments of the given lengths (m), begun at every tenth frame; errors over the nominal
+/// length.
 struct SegmentError {
-  double length = 0.0;         ///< m
-  double percent = 0.0;        ///< mean
-  double deg_per_m = 0.0;      ///< mean
-  std::size_t count = 0;       ///< segments; 0: the way is too short, the means are 0
+  double length = 0.0;     ///< m
+  double percent = 0.0;    ///< mean
+  double deg_per_m = 0.0;  ///< mean
+  std::size_t count = 0;   ///< segments; 0: the way is too short, the means are 0
 };
 struct SegmentErrors {
   std::vector<SegmentError> by_length;
-  SegmentError all;            ///< mean over all segments of all lengths; length 0
+  SegmentError all;  ///< mean over all segments of all lengths; length 0
 };
 SegmentErrors kittiSegmentErrors(const std::vector<Pose>& truth, const std::vector<Pose>& estimate,
                                  const std::vector<double>& lengths = {100, 200, 300, 400, 500, 600, 700, 800});

@@ -10,22 +10,24 @@
 
 namespace urban_nav_core {
 
-/// Normalised estimation error squared, d^T covariance^-1 d with truth = boxPlus(estimate, d): on average 6 where the covariance tells the
-/// truth, more where it is too small. Empty where the covariance is not positive definite.
+/// Normalised estimation error squared, d^T covariance^-1 d with truth = boxPlus(estimate, d): on average 6 where the
+/// covariance tells the truth, more where it is too small. Empty where the covariance is not positive definite.
 std::optional<double> nees(const Pose& truth, const UncertainPose& estimate);
 /// The same of the translation (3 degrees of freedom) and of the rotation alone.
 std::optional<double> neesTranslation(const Pose& truth, const UncertainPose& estimate);
 std::optional<double> neesRotation(const Pose& truth, const UncertainPose& estimate);
 
-/// Mean NEES of estimates of T_first_body, in the axes of the first pose, against the truth: both trajectories are taken relative to their first
-/// pose. Poses without a proper covariance (the first has none by definition) are left out and counted.
+/// Mean NEES of estimates of T_first_body, in the axes of the first pose, against the truth: both trajectories are
+/// taken relative to their first pose. Poses without a proper covariance (the first has none by definition) are left
+/// out and counted.
 struct NeesSummary {
   double mean = 0.0, mean_translation = 0.0, mean_rotation = 0.0;  ///< expected 6, 3, 3
   std::size_t count = 0, left_out = 0;
-  /// 99 % band of `mean` if the errors of all poses were independent. Those of one trajectory are not: it is too narrow then, and a mean inside is
-  /// good news, one outside not yet bad.
+  /// 99 % band of `mean` if the errors of all poses were independent. Those of one trajectory are not: it is too narrow
+  /// then, and a mean inside is good news, one outside not yet bad.
   Band band;
 };
-NeesSummary neesOfTrajectory(const std::vector<Pose>& truth, const std::vector<Pose>& estimate, const std::vector<Matrix6d>& covariances);
+NeesSummary neesOfTrajectory(const std::vector<Pose>& truth, const std::vector<Pose>& estimate,
+                             const std::vector<Matrix6d>& covariances);
 
 }  // namespace urban_nav_core

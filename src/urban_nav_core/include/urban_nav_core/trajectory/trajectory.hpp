@@ -35,8 +35,8 @@ class Trajectory {
   std::vector<StampedPose>::const_iterator begin() const { return poses_.begin(); }
   std::vector<StampedPose>::const_iterator end() const { return poses_.end(); }
 
-  /// The pose at a time between the first and the last stamp, interpolated between neighbours (interpolate.hpp); empty outside, or
-  /// where the neighbours are further apart than `max_gap`.
+  /// The pose at a time between the first and the last stamp, interpolated between neighbours (interpolate.hpp); empty
+  /// outside, or where the neighbours are further apart than `max_gap`.
   std::optional<Pose> at(StampNs stamp, StampNs max_gap) const;
   /// The index of the pose nearest in time, the earlier of two equally near; the trajectory must not be empty.
   std::size_t nearest(StampNs stamp) const;

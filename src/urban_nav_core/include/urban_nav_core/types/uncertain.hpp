@@ -5,8 +5,8 @@
 #include <string>
 
 #include "urban_nav_core/geometry/se3.hpp"
-#include "urban_nav_core/types/status.hpp"
 #include "urban_nav_core/types/stamp.hpp"
+#include "urban_nav_core/types/status.hpp"
 
 namespace urban_nav_core {
 
@@ -20,7 +20,8 @@ struct UncertainPose {
   Matrix6d covariance = Matrix6d::Identity();
 };
 
-/// Motion of one frame between two times, as an odometry gives it: T_from_to takes coordinates at `to` to coordinates at `from`.
+/// Motion of one frame between two times, as an odometry gives it: T_from_to takes coordinates at `to` to coordinates
+/// at `from`.
 struct RelativePose {
   StampNs from = 0;
   StampNs to = 0;
@@ -39,7 +40,8 @@ struct Constraint {
   Matrix6d information = Matrix6d::Zero();
 };
 
-/// Poses equal within `tolerance` (m, rad), every element of the matrices within `tolerance`; stamps, status and source exactly.
+/// Poses equal within `tolerance` (m, rad), every element of the matrices within `tolerance`; stamps, status and source
+/// exactly.
 bool isApprox(const UncertainPose& a, const UncertainPose& b, double tolerance);
 bool isApprox(const RelativePose& a, const RelativePose& b, double tolerance);
 bool isApprox(const Constraint& a, const Constraint& b, double tolerance);
