@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "urban_nav_core/geometry/compose.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
+#include "window/gauge.hpp"
 
 namespace swf_vo {
 
@@ -25,12 +27,11 @@ constexpr double absurd_inverse_depth = 1e4;
 constexpr double cost_slack = 0.01;
 constexpr int halvings = 4;
 // Gauss-Newton goes on with the old factor while each step is this much smaller than the one before (in d^T g).
-constexpr double loose_m = 0.5, loose_rad = 0.15;
 constexpr double contraction = 0.1;
 // ... and the first step was no larger than this (chi-square).
 constexpr double far_start = 100.0;
-// A datum is held ten times as well as one frame would.
-constexpr double datum_strength = 10.0;
+// Share of a step's covariance that is always taken as drift, so that it stays proper where nothing drifts: one step's in a thousand steps.
+constexpr double least_drift = 1e-3;
 
 bool isSane(const Vector3d& theta) {
   return std::abs(theta.x()) < absurd_bearing && std::abs(theta.y()) < absurd_bearing && std::abs(theta.z()) < absurd_inverse_depth;
@@ -74,7 +75,9 @@ void Filter::start(FrameId frame, const Pose& T_odom_camera, const Matrix6d& inf
   state_.poses.push_back(pose);
   prior_.start(T_odom_camera, information);
   Matrix6d root = information;
-  gauge_free_ = !urban_nav_core::choleskyInPlace(root);
+  gauge_free_ = !has_known_ && !urban_nav_core::choleskyInPlace(root);
+  datum_.start(prior_);
+  if (has_known_ || !options_.linearise_first || options_.forget_by_deletion) datum_.giveUp();
   newest_covariance_ = inverse(information + process_model::floor());
 }
 
@@ -105,37 +108,20 @@ void Filter::removeOldest(std::vector<SettledPose>& settled, History* history) {
     return;
   }
   if (cost_.lineariseFirst()) cost_.relinearise(state_, prior_);
-  marginaliser_.removeOldest(state_, prior_, cost_, history);
+  const Vector3d origin = state_.poses[1].linearised.t();
+  const Matrix6d left = gauge::ofPose(state_.poses.front().linearised, origin);
+  marginaliser_.removeOldest(state_, prior_, cost_, origin, history);
   gain_valid_ = true;
-  anchor();
-}
-
-// The covariance of T_odom_anchor and that of the window around the anchor are kept apart from here on, as if independent: what
-// they share is what the last frames say of both, a few frames in thousands.
-void Filter::anchor() {
+  settled_apart_.setZero();
+  if (!datum_.isActive()) return;
+  datum_.moveTo(origin);
+  datum_.marginalised(marginaliser_.gaugeLoss());
   std::size_t place = 0;
-  if (gauge_free_ || !inFactor(state_.first_step - 1, place)) return;
-  const Matrix6d& local = equations_.pose[place];
-  const Matrix6d& P = settled_in_window_;
-  // Weakly held poses run away from their frozen linearisation points as steps are repeated, so a datum that has become this loose is held anew.
-  const bool loose = P.diagonal().head<3>().maxCoeff() > loose_m * loose_m || P.diagonal().tail<3>().maxCoeff() > loose_rad * loose_rad;
-  const double shift = std::max(local.diagonal().head<3>().maxCoeff(), loose ? 1e6 : 0.0);
-  const double turn = std::max(local.diagonal().tail<3>().maxCoeff(), loose ? 1e6 : 0.0);
-  if (!loose && std::max(P.diagonal().head<3>().maxCoeff() * shift, P.diagonal().tail<3>().maxCoeff() * turn) < options_.anchor_ratio) return;
-  step_known_ = place + 1 < solver_.poses();
-  if (step_known_) step_covariance_ = covariance::relative(settled_.pose, state_.poses.front().estimate, covariance::joint(solver_, place));
-  gain_valid_ = false;
-  const Matrix6d total = covarianceOf(state_.first_step);
-  anchor_ = {state_.poses.front().estimate, total};
-  const int at = prior_.landmarkSize();
-  for (int i = 0; i < 6; ++i) prior_.information(at + i, at + i) += datum_strength * (i < 3 ? shift : turn);
-}
-
-// Turning the anchor moves what lies far from it.
-Matrix6d Filter::carried(const Pose& T_odom_camera) const {
-  Matrix6d A = Matrix6d::Identity();
-  A.topRightCorner<3, 3>() = -urban_nav_core::skew(T_odom_camera.t() - anchor_.pose.t());
-  return A * anchor_.covariance * A.transpose();
+  if (!inFactor(state_.first_step - 1, place) || !datum_.hold(equations_.pose[place], options_.datum_ratio, state_, prior_)) return;
+  // The pose that left goes with the window as its gain says, not quite as a rigid piece of it: the rest stays in the step.
+  const Matrix6d gain = marginaliser_.gaugeGain(), slack = gain - left;
+  settled_in_window_ -= gain * datum_.shift() * gain.transpose();
+  settled_apart_ = slack * datum_.shift() * slack.transpose();
 }
 
 SettledPose Filter::settle() {
@@ -145,28 +131,34 @@ SettledPose Filter::settle() {
   result.T_odom_camera.covariance = covarianceOf(state_.first_step);
   if (settled_step_ < 0) {
     result.T_odom_camera.pose = oldest.estimate;
-    result.relative_covariance = Matrix6d::Zero();
   } else {
     result.T_previous_camera = settled_.pose.inverse() * oldest.estimate;
     result.T_odom_camera.pose = settled_.pose * result.T_previous_camera;
-    std::size_t place = 0;
-    covariance::Matrix12d joint = covariance::Matrix12d::Zero();
-    if (step_known_) {
-      result.relative_covariance = step_covariance_;
-    } else if (gain_valid_ && inFactor(state_.first_step, place) && place == 0) {
-      joint = covariance::leftAndOldest(solver_, settled_in_window_, marginaliser_.gain());
-      result.relative_covariance = covariance::relative(settled_.pose, oldest.estimate, joint);
-    } else if (inFactor(state_.first_step - 1, place) && place + 1 < solver_.poses()) {
-      result.relative_covariance = covariance::relative(settled_.pose, oldest.estimate, covariance::joint(solver_, place));
-    } else {
-      result.relative_covariance = covariance::propagate(Pose(), Matrix6d::Zero(), oldest.u);
-    }
+    result.relative_covariance = relativeCovariance(oldest);
+    result.drift_covariance = driftCovariance(oldest, result.relative_covariance);
   }
   settled_ = result.T_odom_camera;
   settled_in_window_ = windowCovarianceOf(state_.first_step);
   settled_step_ = state_.first_step;
-  step_known_ = false;
   return result;
+}
+
+Matrix6d Filter::relativeCovariance(const PoseBlock& oldest) const {
+  std::size_t place = 0;
+  if (gain_valid_ && inFactor(state_.first_step, place) && place == 0) {
+    covariance::Matrix12d joint = covariance::leftAndOldest(solver_, settled_in_window_, marginaliser_.gain());
+    joint.topLeftCorner<6, 6>() += settled_apart_;
+    return covariance::relative(settled_.pose, oldest.estimate, joint);
+  }
+  if (inFactor(state_.first_step - 1, place) && place + 1 < solver_.poses())
+    return covariance::relative(settled_.pose, oldest.estimate, covariance::joint(solver_, place));
+  return covariance::propagate(Pose(), Matrix6d::Zero(), oldest.u);
+}
+
+Matrix6d Filter::driftCovariance(const PoseBlock& oldest, const Matrix6d& relative) const {
+  if (!gain_valid_ || !datum_.isActive()) return relative;
+  const Matrix6d J = urban_nav_core::between(settled_.pose, oldest.estimate).J2 * gauge::ofPose(oldest.estimate, datum_.origin());
+  return J * datum_.growth() * J.transpose() + least_drift * relative;
 }
 
 // Classic visual odometry: what the oldest frame said is lost, and the next pose becomes the datum.
@@ -189,7 +181,9 @@ bool Filter::fixLandmark(const MapPoint& point) {
   if (state_.slotOf(point.landmark) >= 0 || !point.p_odom.allFinite()) return false;
   LandmarkBlock& landmark = state_.landmarks[static_cast<std::size_t>(state_.add(point.landmark))];
   landmark.known = true;
+  has_known_ = true;
   gauge_free_ = false;
+  datum_.giveUp();
   // An anchor at the origin that looks at the point.
   landmark.anchor.R_odom_anchor = lookingAlong(point.p_odom.head<3>());
   landmark.anchor.t_odom_anchor.setZero();
@@ -261,14 +255,14 @@ void Filter::save(Checkpoint& checkpoint) const {
   checkpoint.state = state_;
   checkpoint.prior = prior_;
   checkpoint.newest_covariance = newest_covariance_;
-  checkpoint.anchor = anchor_;
+  checkpoint.datum = datum_;
 }
 
 void Filter::restore(const Checkpoint& checkpoint) {
   state_ = checkpoint.state;
   prior_ = checkpoint.prior;
   newest_covariance_ = checkpoint.newest_covariance;
-  anchor_ = checkpoint.anchor;
+  datum_ = checkpoint.datum;
   has_factor_ = false;
 }
 
@@ -452,7 +446,7 @@ Matrix6d Filter::windowCovarianceOf(std::int64_t step) const {
 Matrix6d Filter::covarianceOf(std::int64_t step) const {
   std::size_t place = 0;
   if (!inFactor(step, place)) return newest_covariance_;
-  return covariance::marginal(solver_, place) + carried(state_.poses[static_cast<std::size_t>(step - state_.first_step)].estimate);
+  return covariance::marginal(solver_, place) + datum_.carried(state_.poses[static_cast<std::size_t>(step - state_.first_step)].estimate);
 }
 
 UncertainPose Filter::newest() const { return {state_.poses.back().estimate, newest_covariance_}; }

@@ -6,6 +6,7 @@
 
 #include "window/cost.hpp"
 #include "window/covariance.hpp"
+#include "window/datum.hpp"
 #include "window/history.hpp"
 #include "window/marginalise.hpp"
 #include "window/prior.hpp"
@@ -38,13 +39,14 @@ class Filter {
   const State& state() const { return state_; }
   const Prior& prior() const { return prior_; }
   const Cost& cost() const { return cost_; }
+  const Datum& datum() const { return datum_; }
 
   /// All that the following steps depend on.
   struct Checkpoint {
     State state;
     Prior prior;
     urban_nav_core::Matrix6d newest_covariance;
-    urban_nav_core::UncertainPose anchor;
+    Datum datum;
   };
   void save(Checkpoint& checkpoint) const;
   void restore(const Checkpoint& checkpoint);
@@ -65,8 +67,8 @@ class Filter {
   void removeOldest(std::vector<SettledPose>& settled, History* history);
   SettledPose settle();
   void deleteOldest();
-  void anchor();
-  urban_nav_core::Matrix6d carried(const urban_nav_core::Pose& T_odom_camera) const;
+  urban_nav_core::Matrix6d relativeCovariance(const PoseBlock& oldest) const;
+  urban_nav_core::Matrix6d driftCovariance(const PoseBlock& oldest, const urban_nav_core::Matrix6d& relative) const;
   urban_nav_core::Matrix6d windowCovarianceOf(std::int64_t step) const;
   void place(int slot, const Measurement& first);
   void localiseNewest();
@@ -94,9 +96,9 @@ class Filter {
   std::int64_t settled_step_ = -1;
   urban_nav_core::Matrix6d settled_in_window_ = urban_nav_core::Matrix6d::Zero();  // its covariance without what is carried
   bool gain_valid_ = false;                   // of the marginaliser, between settled_ and the oldest pose
-  bool step_known_ = false;                   // a new datum came between them: their covariance was taken before
-  urban_nav_core::Matrix6d step_covariance_ = urban_nav_core::Matrix6d::Zero();
-  urban_nav_core::UncertainPose anchor_{urban_nav_core::Pose(), urban_nav_core::Matrix6d::Zero()};  // the datum and its covariance
+  urban_nav_core::Matrix6d settled_apart_ = urban_nav_core::Matrix6d::Zero();
+  Datum datum_;
+  bool has_known_ = false;                    // landmarks whose places are given
   bool gauge_free_ = false;                   // nothing says where odom is
 };
 

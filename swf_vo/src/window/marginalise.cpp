@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "window/gauge.hpp"
+
 namespace swf_vo {
 
 using Eigen::Map;
@@ -131,8 +133,38 @@ void Marginaliser::addTerms(const State& state, const Cost& cost) {
   Map<Vector6d>(gradient_.data() + eliminated_ + remaining_ - 6) += term.next_gradient;
 }
 
+// Lambda G at the eliminated rows: what they hold of the gauge.
+void Marginaliser::gatherGauge(const State& state, const Vector3d& origin) {
+  directions_.resize(static_cast<std::size_t>(stride_));
+  const auto put = [&](int row, const auto& G) {
+    for (int r = 0; r < G.rows(); ++r) directions_[static_cast<std::size_t>(row + r)] = G.row(r).transpose();
+  };
+  const auto putLandmarks = [&](const std::vector<int>& slots, int row) {
+    for (const int slot : slots) {
+      const LandmarkBlock& landmark = state.landmarks[static_cast<std::size_t>(slot)];
+      put(row, gauge::ofLandmark(landmark.anchor, landmark.linearised, origin));
+      row += 3;
+    }
+  };
+  putLandmarks(dying_, 0);
+  put(eliminated_ - 6, gauge::ofPose(state.poses[0].linearised, origin));
+  putLandmarks(kept_, eliminated_);
+  put(stride_ - 6, gauge::ofPose(state.poses[1].linearised, origin));
+  gauge_.assign(static_cast<std::size_t>(eliminated_), Vector6d::Zero());
+  for (int j = 0; j < eliminated_; ++j) {
+    const double* column = eliminatedColumn(j);
+    Vector6d& own = gauge_[static_cast<std::size_t>(j)];
+    own += column[j] * directions_[static_cast<std::size_t>(j)];
+    for (int i = j + 1; i < stride_; ++i) {
+      own += column[i] * directions_[static_cast<std::size_t>(i)];
+      if (i < eliminated_) gauge_[static_cast<std::size_t>(i)] += column[i] * directions_[static_cast<std::size_t>(j)];
+    }
+  }
+}
+
 void Marginaliser::eliminate() {
   roots_.assign(blocks_.size(), Matrix6d::Zero());
+  gauge_loss_.setZero();
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const Block block = blocks_[b];
     const int below = block.at + block.size;
@@ -161,6 +193,10 @@ void Marginaliser::eliminate() {
         for (int i = j; i < stride_; ++i) column[i] -= F[i] * factor;
       }
       gradient_[static_cast<std::size_t>(block.at + c)] = y[c];
+      Vector6d held = Vector6d::Zero();
+      for (int r = 0; r < block.size; ++r) held += G(r, c) * gauge_[static_cast<std::size_t>(block.at + r)];
+      gauge_loss_.noalias() += held * held.transpose();
+      for (int j = below; j < eliminated_; ++j) gauge_[static_cast<std::size_t>(j)] -= F[j] * held;
     }
   }
   product_.subtract(reduced_, 0, remaining_, panel_.data() + eliminated_, eliminated_, stride_);
@@ -172,6 +208,10 @@ void Marginaliser::eliminate() {
     for (int r = 0; r < 6; ++r)
       for (int i = 0; i < remaining_; ++i) gain_[static_cast<std::size_t>(r * remaining_ + i)] -= F[i] * G(r, c);
   }
+  gauge_gain_.setZero();
+  for (int r = 0; r < 6; ++r)
+    for (int i = 0; i < remaining_; ++i)
+      gauge_gain_.row(r) += gain_[static_cast<std::size_t>(r * remaining_ + i)] * directions_[static_cast<std::size_t>(eliminated_ + i)].transpose();
 }
 
 void Marginaliser::record(const State& state, History& history) const {
@@ -253,10 +293,11 @@ void Marginaliser::keep(State& state, Prior& prior) {
   prior.eta.swap(g_);
 }
 
-void Marginaliser::removeOldest(State& state, Prior& prior, const Cost& cost, History* history) {
+void Marginaliser::removeOldest(State& state, Prior& prior, const Cost& cost, const Vector3d& origin, History* history) {
   sort(state, prior);
   gatherPrior(prior, state);
   addTerms(state, cost);
+  gatherGauge(state, origin);
   eliminate();
   if (history != nullptr) record(state, *history);
   keep(state, prior);

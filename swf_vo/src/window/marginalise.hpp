@@ -17,7 +17,13 @@ class Marginaliser {
  public:
   /// Takes poses.front() out of `state` with its measurements; the pose behind it and the landmarks it saw are then tied by
   /// the prior. Needs a second pose. The linearisation points must be those of Cost::relinearise. `history` may be null.
-  void removeOldest(State& state, Prior& prior, const Cost& cost, History* history);
+  void removeOldest(State& state, Prior& prior, const Cost& cost, const Eigen::Vector3d& origin, History* history);
+
+  /// G^T Lambda G before less G^T Lambda G after (gauge.hpp, about `origin`): the information on where the window stands that went with
+  /// what left, Lambda taken of prior and of the terms that went in.
+  const urban_nav_core::Matrix6d& gaugeLoss() const { return gauge_loss_; }
+  /// gain() times the directions of the gauge: how the pose that left goes with the rest of the window.
+  const urban_nav_core::Matrix6d& gaugeGain() const { return gauge_gain_; }
 
   /// d(pose that left)/d(blocks of the new prior), 6 columns to a row of the prior, column-major with prior.size() rows:
   /// -Lambda_a^-1 Lambda_b of that pose, transposed.
@@ -31,6 +37,7 @@ class Marginaliser {
   void sort(const State& state, const Prior& prior);
   void gatherPrior(const Prior& prior, const State& state);
   void addTerms(const State& state, const Cost& cost);
+  void gatherGauge(const State& state, const Eigen::Vector3d& origin);
   void eliminate();
   void record(const State& state, History& history) const;
   void keep(State& state, Prior& prior);
@@ -51,6 +58,8 @@ class Marginaliser {
   std::vector<Block> blocks_;            // of the eliminated, in order
   std::vector<urban_nav_core::Matrix6d> roots_;  // of each: G with G G^T = the (pseudo-)inverse of its pivot
   std::vector<double> gain_;
+  std::vector<urban_nav_core::Vector6d> directions_, gauge_;  // rows of G; rows of Lambda G, of the eliminated
+  urban_nav_core::Matrix6d gauge_loss_ = urban_nav_core::Matrix6d::Zero(), gauge_gain_ = urban_nav_core::Matrix6d::Zero();
   std::vector<Eigen::Vector3d> centres_;
 };
 

@@ -25,18 +25,26 @@ struct WindowOptions {
   double tolerance = 1e-5;          ///< stops once a step promises to lower the cost (in chi-square) by less than this
   bool exact_undo = true;           ///< withdraw and late observe as if it had always been so (undo.hpp); false: the measurement itself
                                     ///< goes in or out, but what was marginalised since keeps the linearisation points it had
-  double anchor_ratio = 1e10;       ///< once the oldest pose is this much less certain than what one frame tells of it (in variance), it
-                                    ///< becomes the datum, and its covariance is carried beside the window: else rounding would
-                                    ///< eat what is known of the way back to the first pose
+  double datum_ratio = 100.0;        ///< once the place of the whole window is this much less certain than what one frame tells of its own pose
+                                    ///< (in variance), it is held anew and the difference carried beside (datum.hpp): changes no result but
+                                    ///< for rounding
   bool keep_history = false;        ///< keep the eliminated rows for Window::trajectory(): grows with the trajectory
 };
 
 /// A pose that left the window.
+///
+/// WARNING: relative covariances of neighbours are correlated. A step is off by the errors of the two frames at its ends and by the drift between
+/// them; the next step begins with the error with which this one ends, and takes it back. Composed as if independent, relative_covariance
+/// is right for one step and 6 to 50 times too large over 100. What adds up is the drift: the covariance of the way from frame i to frame j
+/// is that composed of the drift_covariance of all its steps, with half of relative_covariance added to the first and to the last
+/// (a single step: relative_covariance alone). Measured: bench/consistency_tracks.
 struct SettledPose {
   FrameId frame = 0;
   urban_nav_core::UncertainPose T_odom_camera;        ///< previous pose times T_previous_camera, to the last bit
   urban_nav_core::Pose T_previous_camera;             ///< from the settled pose before; identity for the first
-  urban_nav_core::Matrix6d relative_covariance = urban_nav_core::Matrix6d::Zero();  ///< of T_previous_camera, in `previous`
+  urban_nav_core::Matrix6d relative_covariance = urban_nav_core::Matrix6d::Zero();  ///< of T_previous_camera, in `previous`: between both as they settled
+  urban_nav_core::Matrix6d drift_covariance = urban_nav_core::Matrix6d::Zero();     ///< that part of it which adds up over steps; all of it where the
+                                                                                    ///< filter does not keep the gauge apart (datum.hpp)
 };
 
 struct UpdateReport {

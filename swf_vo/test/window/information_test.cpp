@@ -109,6 +109,7 @@ TEST(Information, isTheSchurComplementOfTheBatch) {
   WindowOptions options;
   options.size = 5;
   options.huber = 0.0;
+  options.datum_ratio = 1e300;  // a datum held anew is in the prior, and not in the batch
   Filter filter(options, tracks.camera);
   TrackRunner inputs(tracks, options);
   History history;

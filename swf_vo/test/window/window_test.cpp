@@ -88,16 +88,21 @@ TEST(Window, settledPosesAreTheProductOfTheirSteps) {
 
 TEST(Window, isConsistent) {
   // Eight runs in place of the bench's fifty: a wide band (99.99 % of the mean of eight chi-squares of six).
-  double now = 0.0;
+  double now = 0.0, relative = 0.0;
+  int steps = 0;
   constexpr int runs = 8;
   for (int seed = 0; seed < runs; ++seed) {
     const auto tracks = simulateTracks(tracksOf(100, 0.5, static_cast<std::uint64_t>(50 + seed)));
     TrackRunner run(tracks, WindowOptions());
     while (!run.done()) run.step();
     now += nees(run.truth(), run.window.newest()) / runs;
+    for (std::size_t i = 1; i < run.settled.size(); ++i, ++steps)
+      relative += nees(tracks.frames[i - 1].T_world_camera.inverse() * tracks.frames[i].T_world_camera,
+                       {run.settled[i].T_previous_camera, run.settled[i].relative_covariance});
   }
   EXPECT_GT(now, 2.3);
   EXPECT_LT(now, 12.0);
+  EXPECT_NEAR(relative / steps, 6.0, 1.0);
 }
 
 TEST(Window, goesOnByPredictionWhereNothingIsSeen) {
@@ -196,6 +201,24 @@ TEST(Window, knownLandmarksHoldThePose) {
   }
   EXPECT_LT(urban_nav_core::distanceBetween(run.window.newest().pose, run.truth()), 0.02);
   EXPECT_NEAR(sum / 60.0, 6.0, 2.0);
+}
+
+TEST(Window, allocatesNothingInASteadyState) {
+  if (!urban_nav_core::testing::countsAllocations()) GTEST_SKIP() << "the allocator of this build cannot be counted";
+  const auto tracks = simulateTracks(tracksOf(260, 0.5));
+  TrackRunner run(tracks, WindowOptions());
+  run.settled.reserve(300);
+  while (run.at() + 1 < 200) run.step();
+  std::int64_t count = 0;
+  while (!run.done()) {
+    const auto observations = run.observations(run.at() + 1);
+    const urban_nav_core::testing::AllocationCount allocations;
+    run.beginStep();
+    for (const Observation& observation : observations) run.window.observe(observation);
+    run.endStep();
+    count += allocations.sofar();
+  }
+  EXPECT_LE(count, 6) << "buffers may still grow once in a while";
 }
 
 }  // namespace

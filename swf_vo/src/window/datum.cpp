@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "window/datum.hpp"
+
+#include <algorithm>
+
+#include "urban_nav_core/geometry/dense.hpp"
+#include "window/dense_kernels.hpp"
+#include "window/gauge.hpp"
+
+namespace swf_vo {
+
+using Eigen::Vector3d;
+using urban_nav_core::Matrix6d;
+using urban_nav_core::Vector6d;
+
+namespace {
+
+bool invert(Matrix6d A, Matrix6d& result) {
+  result.setIdentity();
+  return urban_nav_core::solvePositiveDefiniteInPlace(A, result);
+}
+
+Matrix6d symmetric(const Matrix6d& A) { return 0.5 * (A + A.transpose()); }
+
+}  // namespace
+
+void Datum::start(const Prior& prior) {
+  origin_ = prior.pose_centre.t();
+  for (int j = 0; j < 6; ++j)
+    for (int i = j; i < 6; ++i) information_(i, j) = information_(j, i) = prior.information(i, j);
+  carried_.setZero();
+  growth_.setZero();
+  strength_m_ = strength_rad_ = 0.0;
+  Matrix6d covariance;
+  active_ = invert(information_, covariance);
+}
+
+void Datum::moveTo(const Vector3d& origin) {
+  const Matrix6d there = gauge::transport(origin_, origin), back = gauge::transport(origin, origin_);
+  carried_ = symmetric(there * carried_ * there.transpose());
+  information_ = symmetric(back.transpose() * information_ * back);
+  origin_ = origin;
+}
+
+void Datum::marginalised(const Matrix6d& loss) {
+  growth_.setZero();
+  const Matrix6d left = symmetric(information_ - loss);
+  Matrix6d before, after;
+  if (!invert(information_, before) || !invert(left, after)) {
+    giveUp();
+    return;
+  }
+  information_ = left;
+  growth_ = symmetric(before * loss * after);
+}
+
+bool Datum::hold(const Matrix6d& local, double ratio, const State& state, Prior& prior) {
+  Matrix6d covariance;
+  strength_m_ = std::max(strength_m_, local.diagonal().head<3>().maxCoeff());
+  strength_rad_ = std::max(strength_rad_, local.diagonal().tail<3>().maxCoeff());
+  if (!invert(information_, covariance)) return false;
+  const double looseness = std::max(covariance.diagonal().head<3>().maxCoeff() * strength_m_, covariance.diagonal().tail<3>().maxCoeff() * strength_rad_);
+  if (looseness < ratio) return false;
+
+  const int n = prior.size();
+  directions_.resize(static_cast<std::size_t>(6 * n));
+  held_.assign(static_cast<std::size_t>(6 * n), 0.0);
+  using Columns = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 6>>;
+  Columns G(directions_.data(), n, 6), u(held_.data(), n, 6);
+  for (std::size_t i = 0; i < prior.slots.size(); ++i)
+    G.middleRows<3>(static_cast<Eigen::Index>(3 * i)) =
+        gauge::ofLandmark(state.landmarks[static_cast<std::size_t>(prior.slots[i])].anchor, prior.landmark_centre[i], origin_);
+  G.middleRows<6>(prior.landmarkSize()) = gauge::ofPose(prior.pose_centre, origin_);
+  for (int c = 0; c < 6; ++c)
+    for (int j = 0; j < n; ++j) {
+      const double* below = prior.information.column(j) + j + 1;
+      u(j, c) += below[-1] * G(j, c) + kernels::dot(below, &G(j, c) + 1, n - j - 1);
+      kernels::subtract(&u(j, c) + 1, below, -G(j, c), n - j - 1);
+    }
+  const Matrix6d M = symmetric(G.transpose() * u);
+  if (!invert(M, covariance)) return false;
+  Matrix6d W = M, held;
+  for (int i = 0; i < 6; ++i) W(i, i) += i < 3 ? strength_m_ : strength_rad_;
+  if (!invert(W, held)) return false;
+
+  // The gradient at the estimates loses what it has along the gauge, so the window stays where it is: with d the deviation,
+  // gradient = eta - Pi d.
+  prior.deviation(state, deviation_);
+  prior.gradient(deviation_, gradient_);
+  Eigen::Map<Eigen::VectorXd> gradient(gradient_.data(), n);
+  const Vector6d along = covariance * (G.transpose() * gradient);
+  gradient.noalias() -= u * along;
+  const Matrix6d added = covariance * (W - M) * covariance;
+  for (int j = 0; j < n; ++j) {
+    const Vector6d row = added * u.row(j).transpose();
+    for (int c = 0; c < 6; ++c) kernels::subtract(prior.information.column(j) + j, &u(j, c), -row[c], n - j);
+  }
+  std::fill(prior.eta.begin(), prior.eta.end(), 0.0);
+  prior.gradient(deviation_, product_);
+  for (std::size_t i = 0; i < product_.size(); ++i) prior.eta[i] = gradient_[i] - product_[i];
+
+  shift_ = symmetric(covariance - held);
+  carried_ += shift_;
+  information_ = W;
+  return true;
+}
+
+Matrix6d Datum::carried(const urban_nav_core::Pose& T_odom_camera) const {
+  const Matrix6d G = gauge::ofPose(T_odom_camera, origin_);
+  return symmetric(G * carried_ * G.transpose());
+}
+
+}  // namespace swf_vo

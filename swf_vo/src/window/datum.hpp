@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "window/prior.hpp"
+#include "window/state.hpp"
+
+namespace swf_vo {
+
+/// Where the window stands in `odom`, and how well that is known.
+///
+/// All measurements are relative, and with first estimates none of them says anything in the six directions G of the gauge. So Pi G is
+/// what is left of the prior of the first pose, and nothing else:
+///   Pi = Pi_relative + v M v^T,   Pi_relative G = 0,   M = G^T Pi G,   v = Pi G M^-1,
+/// with M the information on gamma = v^T x, the place of the window as a whole (its shape given). Neither the estimate nor the
+/// covariance of the shape depends on M; the covariance of a block is that of the shape plus G_b M^-1 G_b^T. Hence
+///
+/// * M may be exchanged for a stronger W at any time, with M^-1 - W^-1 carried beside the window, and nothing has changed: rounding no longer
+///   eats what is known of the way back to the first pose, and Gauss-Newton has no loose direction to run along (hold);
+/// * marginalising can only lower M, and what M^-1 grows by is the drift of this step: the part of the error that never comes back
+///   (growth). It is positive semidefinite, and the drift from one pose to another is the sum of the steps'.
+///
+/// Not for the textbook's linearisation, which puts information into G, nor where places of landmarks are known.
+class Datum {
+ public:
+  /// The prior is that of the first pose alone. Where its information is singular, nothing is known of the gauge and isActive is false.
+  void start(const Prior& prior);
+  void giveUp() { active_ = false; }
+  bool isActive() const { return active_; }
+
+  /// Point about which (shift, turn) are said; chosen anew before each marginalisation, near the window.
+  void moveTo(const Eigen::Vector3d& origin);
+  const Eigen::Vector3d& origin() const { return origin_; }
+
+  /// The oldest pose has left, with `loss` of M (Marginaliser::gaugeLoss).
+  void marginalised(const urban_nav_core::Matrix6d& loss);
+  /// Covariance that the last step added to gamma, about origin().
+  const urban_nav_core::Matrix6d& growth() const { return growth_; }
+
+  /// `local`: information of one frame on its own pose. Holds the window at least so well once M^-1 exceeds `ratio` times its inverse;
+  /// true if it did: what was covariance in the window before has then shrunk by G_b shift() G_b^T.
+  bool hold(const urban_nav_core::Matrix6d& local, double ratio, const State& state, Prior& prior);
+  const urban_nav_core::Matrix6d& shift() const { return shift_; }
+
+  /// What the window's own covariance of this pose does not have.
+  urban_nav_core::Matrix6d carried(const urban_nav_core::Pose& T_odom_camera) const;
+
+ private:
+  bool active_ = false;
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
+  urban_nav_core::Matrix6d information_ = urban_nav_core::Matrix6d::Zero();  // M
+  urban_nav_core::Matrix6d carried_ = urban_nav_core::Matrix6d::Zero();
+  urban_nav_core::Matrix6d growth_ = urban_nav_core::Matrix6d::Zero();
+  urban_nav_core::Matrix6d shift_ = urban_nav_core::Matrix6d::Zero();
+  std::vector<double> directions_, held_, deviation_, gradient_, product_;   // n x 6, column-major: G, u = Pi G; n
+  double strength_m_ = 0.0, strength_rad_ = 0.0;                             // largest `local` so far
+};
+
+}  // namespace swf_vo
