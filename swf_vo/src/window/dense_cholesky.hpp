@@ -13,6 +13,8 @@ class DenseMatrix {
  public:
   /// All zero.
   void reset(int size);
+  /// As much room as another has, so that copies of it allocate nothing.
+  void reserveLike(const DenseMatrix& other) { data_.reserve(other.data_.capacity()); }
   int size() const { return size_; }
   int stride() const { return stride_; }
   double* column(int j) { return data_.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(stride_); }

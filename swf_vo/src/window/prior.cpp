@@ -58,4 +58,11 @@ void Prior::recentre(const State& state) {
   pose_centre = state.poses.front().estimate;
 }
 
+void Prior::reserveLike(const Prior& other) {
+  slots.reserve(other.slots.capacity());
+  landmark_centre.reserve(other.landmark_centre.capacity());
+  information.reserveLike(other.information);
+  for (const auto& [own, others] : {std::pair(&eta, &other.eta), std::pair(&d_, &other.d_), std::pair(&g_, &other.g_)}) own->reserve(others->capacity());
+}
+
 }  // namespace swf_vo

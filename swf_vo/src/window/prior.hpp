@@ -38,6 +38,9 @@ struct Prior {
   /// Moves the centre to the estimates without changing the quadratic.
   void recentre(const State& state);
 
+  /// As much room as another has, so that copies of it allocate nothing.
+  void reserveLike(const Prior& other);
+
  private:
   std::vector<double> d_, g_;
 };

@@ -25,6 +25,14 @@ int State::slotOf(LandmarkId landmark) const {
   return at != slots_.end() && at->first == landmark ? at->second : -1;
 }
 
+void State::reserveLike(const State& other) {
+  poses.reserve(other.poses.capacity());
+  slots_.reserve(other.slots_.capacity());
+  free_.reserve(other.free_.capacity());
+  landmarks.resize(other.landmarks.size());
+  for (std::size_t i = 0; i < landmarks.size(); ++i) landmarks[i].seen.reserve(other.landmarks[i].seen.capacity());
+}
+
 int State::add(LandmarkId landmark) {
   if (free_.empty()) {
     // Twice as many as before: after a few frames there are enough for good.

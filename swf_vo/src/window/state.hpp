@@ -56,6 +56,8 @@ class State {
   int poseOf(FrameId frame) const;
   /// Slot of a landmark, -1 if unknown.
   int slotOf(LandmarkId landmark) const;
+  /// As much room as another has, so that copies of it allocate nothing.
+  void reserveLike(const State& other);
   /// A free slot for a new landmark.
   int add(LandmarkId landmark);
   void remove(int slot);

@@ -5,17 +5,6 @@
 
 namespace swf_vo {
 
-namespace {
-
-// As much room as the original has, so that copies of the same size later on allocate nothing.
-void makeRoom(const State& from, State& to) {
-  to.poses.reserve(from.poses.capacity());
-  to.landmarks.resize(from.landmarks.size());
-  for (std::size_t i = 0; i < from.landmarks.size(); ++i) to.landmarks[i].seen.reserve(from.landmarks[i].seen.capacity());
-}
-
-}  // namespace
-
 void Undo::beginStep(const Filter& filter, FrameId frame, const ProcessInput& u, bool marginalises, std::size_t size) {
   // The oldest record moves to the back and is written over, so that its memory is used again.
   if (steps_.size() > size) std::rotate(steps_.begin(), steps_.begin() + 1, steps_.end());
@@ -25,10 +14,15 @@ void Undo::beginStep(const Filter& filter, FrameId frame, const ProcessInput& u,
   step.u = u;
   step.observations.clear();
   step.ended.clear();
+  for (const Step& other : steps_) {
+    step.observations.reserve(other.observations.capacity());
+    step.ended.reserve(other.ended.capacity());
+  }
   step.changed = false;
   step.has_checkpoint = marginalises;
   if (!marginalises) return;
-  makeRoom(filter.state(), step.before.state);
+  step.before.state.reserveLike(filter.state());
+  step.before.prior.reserveLike(filter.prior());
   filter.save(step.before);
 }
 
