@@ -23,16 +23,7 @@ class Dice {
   std::mt19937_64 engine_;
 };
 
-StereoCamera usualCamera() {
-  StereoCamera camera;
-  camera.left.fx = camera.left.fy = 400.0;
-  camera.left.cx = 255.5;
-  camera.left.cy = 191.5;
-  camera.left.width = 512;
-  camera.left.height = 384;
-  camera.baseline = 0.12;
-  return camera;
-}
+StereoCamera usualCamera() { return {{400.0, 400.0, 255.5, 191.5, 512, 384}, 0.12}; }
 
 // Camera axes: z forward, x right, y down; heading turns about y.
 std::vector<Pose> drive(const TrackOptions& options) {

@@ -2,15 +2,14 @@
 #include "run.hpp"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <opencv2/imgcodecs.hpp>
 
+#include "urban_nav_core/io/calibration.hpp"
 #include "urban_nav_core/io/kitti.hpp"
 #include "urban_nav_core/parameters/sources.hpp"
 #include "urban_nav_core/testing/textured_room.hpp"
@@ -29,23 +28,6 @@ std::string dataFolder(const std::string& name) {
   return {};
 }
 
-namespace {
-
-// P0 and P1 of a rectified pair: "P1: fx 0 cx -fx*baseline 0 fy cy 0 ...".
-urban_nav_core::StereoCamera readCamera(const std::string& path, int width, int height) {
-  urban_nav_core::StereoCamera camera;
-  std::ifstream file(path);
-  for (std::string name; file >> name;) {
-    std::array<double, 12> P{};
-    for (double& number : P) file >> number;
-    if (name == "P0:") camera.left = {P[0], P[5], P[2], P[6], width, height};
-    if (name == "P1:") camera.baseline = -P[3] / P[0];
-  }
-  return camera;
-}
-
-}  // namespace
-
 Sequence kittiFolder(const std::string& folder, std::size_t frames) {
   Sequence sequence;
   sequence.name = std::filesystem::path(folder).filename();
@@ -63,7 +45,7 @@ Sequence kittiFolder(const std::string& folder, std::size_t frames) {
     right = cv::imread(path(1, frame), cv::IMREAD_GRAYSCALE);
   };
   const cv::Mat first = cv::imread(path(0, 0), cv::IMREAD_GRAYSCALE);
-  sequence.camera = readCamera(folder + "/calib.txt", first.cols, first.rows);
+  sequence.camera = urban_nav_core::readKittiCalibration(folder + "/calib.txt", first.cols, first.rows);
   return sequence;
 }
 

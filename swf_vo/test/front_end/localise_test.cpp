@@ -17,16 +17,7 @@ using urban_nav_core::Pose;
 using urban_nav_core::StereoCamera;
 using urban_nav_core::Vector6d;
 
-StereoCamera camera() {
-  StereoCamera c;
-  c.left.fx = c.left.fy = 400.0;
-  c.left.cx = 255.5;
-  c.left.cy = 191.5;
-  c.left.width = 512;
-  c.left.height = 384;
-  c.baseline = 0.3;
-  return c;
-}
+StereoCamera camera() { return {{400.0, 400.0, 255.5, 191.5, 512, 384}, 0.3}; }
 
 Vector6d tangent(double x, double y, double z, double a, double b, double c) {
   Vector6d v;

@@ -12,17 +12,7 @@ using urban_nav_core::expSo3;
 using urban_nav_core::Pose;
 using urban_nav_core::StereoCamera;
 
-StereoCamera camera() {
-  StereoCamera c;
-  c.left.fx = 400.0;
-  c.left.fy = 410.0;
-  c.left.cx = 250.0;
-  c.left.cy = 190.0;
-  c.left.width = 512;
-  c.left.height = 384;
-  c.baseline = 0.2;
-  return c;
-}
+StereoCamera camera() { return {{400.0, 410.0, 250.0, 190.0, 512, 384}, 0.2}; }
 
 TEST(Tracks, IdsAreNeverReusedAndPlacesAre) {
   Tracks tracks(3);

@@ -23,7 +23,6 @@ class KittiFolder : public Source {
     info_.name = folder;
     info_.kind = "KITTI folder";
     info_.T_base_camera = urban_nav_ros::opticalInBody();
-    info_.camera = readKittiCamera(layout_);
     info_.frames = static_cast<std::int64_t>(frames_.numbers.size());
     info_.first = *std::min_element(frames_.stamps.begin(), frames_.stamps.end());
     info_.last = *std::max_element(frames_.stamps.begin(), frames_.stamps.end());
@@ -47,7 +46,7 @@ class KittiFolder : public Source {
   }
 
  private:
-  /// Size and depth of the images, from the first that can be read.
+  /// Size and depth of the images, from the first that can be read, and with the size the camera.
   void look() {
     std::string fault;
     for (const std::map<std::int64_t, std::string>* side : {&frames_.left, &frames_.right}) {
@@ -57,8 +56,7 @@ class KittiFolder : public Source {
           if (fault.empty()) fault = image.fault;
           continue;
         }
-        info_.camera.left.width = image.pixels.cols;
-        info_.camera.left.height = image.pixels.rows;
+        info_.camera = readKittiCamera(layout_, image.pixels.cols, image.pixels.rows);
         bits_ = urban_nav_ros::significantBits(image.pixels);
         return;
       }

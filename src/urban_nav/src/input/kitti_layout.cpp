@@ -10,6 +10,8 @@
 
 #include "input/image_file.hpp"
 #include "input/text_lines.hpp"
+#include "urban_nav_core/io/calibration.hpp"
+#include "urban_nav_core/io/kitti.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/types/error.hpp"
 
@@ -17,6 +19,7 @@ namespace urban_nav {
 
 namespace fs = std::filesystem;
 using urban_nav_core::atLine;
+using urban_nav_core::KittiPair;
 using urban_nav_core::StampNs;
 using urban_nav_core::StereoCamera;
 using urban_nav_core::UserError;
@@ -25,57 +28,6 @@ namespace {
 
 constexpr double kUsualRate = 10.0;          // Hz, of KITTI's cameras
 constexpr std::int64_t kMostMissing = 1000;  // frames: more than that is another naming scheme
-
-using Projection = std::array<double, 12>;
-
-Projection parseProjection(const std::string& path, const TextLine& line, const std::string& key,
-                           std::string_view values) {
-  const std::vector<std::string_view> words = urban_nav_core::splitBlanks(values);
-  Projection projection{};
-  bool good = words.size() == projection.size();
-  for (std::size_t i = 0; good && i < projection.size(); ++i) {
-    const std::optional<double> value = urban_nav_core::parseNumber(words[i]);
-    good = value.has_value();
-    if (good) projection[i] = *value;
-  }
-  if (!good)
-    throw UserError(atLine(path, line.number),
-                    key + " has " + std::to_string(words.size()) + " values or one that is no number",
-                    "12 numbers (3x4, row-major)");
-  if (!(projection[0] > 0.0) || !(projection[5] > 0.0))
-    throw UserError(atLine(path, line.number), key + " has no positive focal length", "f_x, f_y > 0 px");
-  return projection;
-}
-
-Projection findProjection(const std::string& path, const std::vector<TextLine>& lines, const std::string& key) {
-  for (const TextLine& line : lines) {
-    const std::size_t colon = line.text.find(':');
-    if (colon != std::string::npos && urban_nav_core::trimmed(std::string_view(line.text).substr(0, colon)) == key) {
-      return parseProjection(path, line, key, std::string_view(line.text).substr(colon + 1));
-    }
-  }
-  throw UserError(path, "has no row " + key, key + ": 12 numbers (3x4, row-major)");
-}
-
-StereoCamera cameraOf(const std::string& path, const Projection& left, const Projection& right,
-                      const std::string& names) {
-  StereoCamera camera;
-  camera.left.fx = left[0];
-  camera.left.fy = left[5];
-  camera.left.cx = left[2];
-  camera.left.cy = left[6];
-  camera.baseline = (left[3] - right[3]) / left[0];
-  const double tolerance = 1e-3 * left[0];
-  for (const std::size_t i : {std::size_t{0}, std::size_t{2}, std::size_t{5}, std::size_t{6}}) {
-    if (std::abs(left[i] - right[i]) > tolerance)
-      throw UserError(path, names + " differ in focal length or centre", "two cameras that are rectified together");
-  }
-  if (!(camera.baseline > 0.0)) {
-    throw UserError(path, names + ": baseline " + urban_nav_core::printNumber(camera.baseline) + " m",
-                    "above 0 m: is the right camera's row the left one's?");
-  }
-  return camera;
-}
 
 StampNs daysSince1970(int year, int month, int day) {  // Howard Hinnant, "chrono-compatible low-level date algorithms"
   year -= month <= 2 ? 1 : 0;
@@ -90,19 +42,19 @@ StampNs daysSince1970(int year, int month, int day) {  // Howard Hinnant, "chron
 
 std::optional<KittiLayout> findKittiLayout(const std::string& folder) {
   struct Names {
-    const char *left, *right, *p_left, *p_right, *rect_left, *rect_right;
+    const char *left, *right;
+    KittiPair pair;
   };
-  static constexpr std::array<Names, 4> all = {{{"image_0", "image_1", "P0", "P1", "P_rect_00", "P_rect_01"},
-                                                {"image_00", "image_01", "P0", "P1", "P_rect_00", "P_rect_01"},
-                                                {"image_2", "image_3", "P2", "P3", "P_rect_02", "P_rect_03"},
-                                                {"image_02", "image_03", "P2", "P3", "P_rect_02", "P_rect_03"}}};
+  static constexpr std::array<Names, 4> all = {{{"image_0", "image_1", KittiPair::Grey},
+                                                {"image_00", "image_01", KittiPair::Grey},
+                                                {"image_2", "image_3", KittiPair::Colour},
+                                                {"image_02", "image_03", KittiPair::Colour}}};
   for (const Names& names : all) {
     const fs::path left = fs::path(folder) / names.left;
     const fs::path right = fs::path(folder) / names.right;
     if (!fs::is_directory(left) && !fs::is_directory(right)) continue;
     const std::string inside = fs::is_directory(left / "data") || fs::is_directory(right / "data") ? "data" : "";
-    return KittiLayout{folder,        (left / inside).string(), (right / inside).string(), names.p_left,
-                       names.p_right, names.rect_left,          names.rect_right};
+    return KittiLayout{folder, (left / inside).string(), (right / inside).string(), names.pair};
   }
   return std::nullopt;
 }
@@ -120,20 +72,11 @@ std::map<std::int64_t, std::string> listFrames(const std::string& folder) {
   return frames;
 }
 
-StereoCamera readKittiCamera(const KittiLayout& layout) {
+StereoCamera readKittiCamera(const KittiLayout& layout, int width, int height) {
   const fs::path folder(layout.folder);
-  if (fs::exists(folder / "calib.txt")) {
-    const std::string path = (folder / "calib.txt").string();
-    const std::vector<TextLine> lines = readLines(path);
-    return cameraOf(path, findProjection(path, lines, layout.left_name), findProjection(path, lines, layout.right_name),
-                    layout.left_name + " and " + layout.right_name);
-  }
-  for (const fs::path& place : {folder, fs::absolute(folder).parent_path()}) {
-    const std::string path = (place / "calib_cam_to_cam.txt").string();
-    if (!fs::exists(path)) continue;
-    const std::vector<TextLine> lines = readLines(path);
-    return cameraOf(path, findProjection(path, lines, layout.left_rect), findProjection(path, lines, layout.right_rect),
-                    layout.left_rect + " and " + layout.right_rect);
+  for (const fs::path& path : {folder / "calib.txt", folder / "calib_cam_to_cam.txt",
+                               fs::absolute(folder).parent_path() / "calib_cam_to_cam.txt"}) {
+    if (fs::exists(path)) return urban_nav_core::readKittiCalibration(path.string(), width, height, layout.pair);
   }
   throw UserError((folder / "calib.txt").string(), "is not there",
                   "calib.txt with rows P0 and P1, calib_cam_to_cam.txt, or --calibration FILE");
@@ -145,11 +88,7 @@ KittiTimes readKittiTimes(const KittiLayout& layout) {
   if (fs::exists(folder / "times.txt")) {
     times.path = (folder / "times.txt").string();
     for (const TextLine& line : readLines(times.path)) {
-      std::optional<StampNs> stamp = urban_nav_core::parseStamp(line.text);
-      if (!stamp) {  // KITTI writes exponents (1.036224e-01)
-        const std::optional<double> seconds = urban_nav_core::parseNumber(line.text);
-        if (seconds && std::abs(*seconds) < 4e9) stamp = static_cast<StampNs>(std::llround(*seconds * 1e9));
-      }
+      const std::optional<StampNs> stamp = urban_nav_core::parseTime(line.text);
       if (!stamp)
         throw UserError(atLine(times.path, line.number), "\"" + line.text + "\" is no time",
                         "seconds, one number a line");

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "urban_nav_core/camera/stereo_camera.hpp"
+#include "urban_nav_core/io/calibration.hpp"
 #include "urban_nav_core/types/stamp.hpp"
 
 namespace urban_nav {
@@ -16,18 +17,17 @@ namespace urban_nav {
 /// without `data/` inside; `image_2`, `image_3` (colour) where these are all there is.
 struct KittiLayout {
   std::string folder;
-  std::string left, right;            ///< folders of images
-  std::string left_name, right_name;  ///< "P0", "P1": rows of calib.txt
-  std::string left_rect, right_rect;  ///< "P_rect_00": rows of calib_cam_to_cam.txt
+  std::string left, right;  ///< folders of images
+  urban_nav_core::KittiPair pair = urban_nav_core::KittiPair::Grey;
 };
 std::optional<KittiLayout> findKittiLayout(const std::string& folder);
 
 /// Frame number (the digits of the file name) to file, for one folder of images.
 std::map<std::int64_t, std::string> listFrames(const std::string& folder);
 
-/// The rectified pair out of calib.txt, or calib_cam_to_cam.txt in the folder or above it. Width and height are left at
-/// 0. UserError naming file and line where a row is missing or wrong.
-urban_nav_core::StereoCamera readKittiCamera(const KittiLayout& layout);
+/// The rectified pair out of calib.txt, or calib_cam_to_cam.txt in the folder or above it; `width` x `height` are the
+/// images'. UserError naming file and line where a row is missing or wrong.
+urban_nav_core::StereoCamera readKittiCamera(const KittiLayout& layout, int width, int height);
 
 /// Stamps of frames 0, 1 ... out of times.txt (s) or KITTI raw's timestamps.txt (date and time); empty if there is
 /// neither.

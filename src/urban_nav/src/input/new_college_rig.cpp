@@ -10,14 +10,8 @@ using urban_nav_core::Pose;
 using urban_nav_core::Vector3d;
 
 urban_nav_core::StereoCamera newCollegeCamera() {
-  urban_nav_core::StereoCamera camera;
-  camera.left.fx = camera.left.fy = 389.956085;
-  camera.left.cx = 254.903519;
-  camera.left.cy = 201.899490;
-  camera.left.width = 512;
-  camera.left.height = 384;
-  camera.baseline = 0.120005;
-  return camera;
+  constexpr double focal_length = 389.956085;  // px
+  return {{focal_length, focal_length, 254.903519, 201.899490, 512, 384}, 0.120005};
 }
 
 Pose newCollegeLeftLaser() {

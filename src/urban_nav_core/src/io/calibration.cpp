@@ -109,23 +109,25 @@ std::string printMatrix(const std::string& key, const Matrix& M) {
 
 }  // namespace
 
-StereoCamera parseKittiCalibration(std::string_view text, const std::string& name, int width, int height) {
+StereoCamera parseKittiCalibration(std::string_view text, const std::string& name, int width, int height,
+                                   KittiPair pair) {
+  const std::string a = pair == KittiPair::Grey ? "0" : "2", b = pair == KittiPair::Grey ? "1" : "3";
   std::optional<Projection> left, right;
   forEachLine(text, [&](std::string_view line, int number) {
     const std::string where = atLine(name, number);
-    if (const auto P = projectionOf(line, "P0", "P_rect_00", where)) left = P;
-    if (const auto P = projectionOf(line, "P1", "P_rect_01", where)) right = P;
+    if (const auto P = projectionOf(line, "P" + a, "P_rect_0" + a, where)) left = P;
+    if (const auto P = projectionOf(line, "P" + b, "P_rect_0" + b, where)) right = P;
   });
   if (!left || !right)
-    throw UserError(name, std::string("no line ") + (left ? "P1" : "P0"), "`P0: ` and `P1: ` with twelve numbers each");
+    throw UserError(name, "no line P" + (left ? b : a), "`P" + a + ": ` and `P" + b + ": ` with twelve numbers each");
   // The left camera need not be the origin of the rig: what counts is how far right of it the other one is.
   right->col(3) -= left->col(3);
   left->col(3).setZero();
   return stereoCamera(infoOf(*left, width, height), infoOf(*right, width, height), name);
 }
 
-StereoCamera readKittiCalibration(const std::string& path, int width, int height) {
-  return parseKittiCalibration(readTextFile(path), path, width, height);
+StereoCamera readKittiCalibration(const std::string& path, int width, int height, KittiPair pair) {
+  return parseKittiCalibration(readTextFile(path), path, width, height, pair);
 }
 
 std::string printKittiCalibration(const StereoCamera& camera) {

@@ -74,15 +74,20 @@ std::vector<Pose> parseKitti(std::string_view text, const std::string& name) {
 
 std::vector<Pose> readKitti(const std::string& path) { return parseKitti(readTextFile(path), path); }
 
+std::optional<StampNs> parseTime(std::string_view word) {
+  if (const auto stamp = parseStamp(word)) return stamp;
+  // Exact enough in a double, since KITTI's times begin at zero.
+  const auto seconds = parseNumber(word);
+  if (!seconds || std::abs(*seconds) > 9.2e9) return std::nullopt;
+  return static_cast<StampNs>(std::llround(*seconds * 1e9));
+}
+
 std::vector<StampNs> parseTimes(std::string_view text, const std::string& name) {
   std::vector<StampNs> times;
   forEachLine(text, [&](std::string_view line, int number) {
     const std::string_view word = trimmed(line);
     if (word.empty()) return;
-    auto stamp = parseStamp(word);
-    // KITTI itself prints 1.038170e-01: exact enough in a double, since its times begin at zero.
-    const auto seconds = stamp ? std::nullopt : parseNumber(word);
-    if (seconds && std::abs(*seconds) <= 9.2e9) stamp = static_cast<StampNs>(std::llround(*seconds * 1e9));
+    const auto stamp = parseTime(word);
     const std::string where = atLine(name, number);
     if (!stamp) throw UserError(where, "`" + std::string(word) + "`", "seconds, one number a line");
     if (!times.empty() && *stamp <= times.back())

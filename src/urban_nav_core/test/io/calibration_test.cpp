@@ -48,6 +48,14 @@ TEST(Calibration, KittisCamerasNeedNotBeginAtTheOrigin) {
   EXPECT_NEAR(parseKittiCalibration(text, "c", 1226, 370).baseline, 0.53715, 1e-5);
 }
 
+TEST(Calibration, KittiHasAPairInColour) {
+  std::string text = kKitti;
+  text.replace(text.find("P0:"), 3, "P2:").replace(text.find("P1:"), 3, "P3:");
+  EXPECT_NEAR(parseKittiCalibration(text, "calib.txt", 1226, 370, KittiPair::Colour).baseline, 0.53715, 1e-5);
+  EXPECT_EQ(errorOf([] { parseKittiCalibration(kKitti, "calib.txt", 1226, 370, KittiPair::Colour); }),
+            "calib.txt: no line P2: allowed `P2: ` and `P3: ` with twelve numbers each");
+}
+
 TEST(Calibration, KittiNamesWhatIsWrong) {
   EXPECT_EQ(errorOf([] { parseKittiCalibration("P0: 1 2 3\n", "calib.txt", 10, 10); }),
             "calib.txt:1: P0 with 3 numbers: allowed 12: a 3x4 matrix, row by row");

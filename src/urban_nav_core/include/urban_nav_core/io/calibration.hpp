@@ -14,9 +14,11 @@ namespace urban_nav_core {
 /// right).
 
 /// KITTI's calib.txt: lines `P0: ` and `P1: ` with 3x4 projection matrices, row by row (`P_rect_00: ` and `P_rect_01: `
-/// in the raw data's calib_cam_to_cam.txt). It has no image size: the images tell.
-StereoCamera readKittiCalibration(const std::string& path, int width, int height);
-StereoCamera parseKittiCalibration(std::string_view text, const std::string& name, int width, int height);
+/// in the raw data's calib_cam_to_cam.txt), 2 and 3 for the colour cameras. It has no image size: the images tell.
+enum class KittiPair { Grey, Colour };
+StereoCamera readKittiCalibration(const std::string& path, int width, int height, KittiPair pair = KittiPair::Grey);
+StereoCamera parseKittiCalibration(std::string_view text, const std::string& name, int width, int height,
+                                   KittiPair pair = KittiPair::Grey);
 /// As such a file holds it, P0 to P1, with the numbers that read back to the same focal lengths and centre.
 std::string printKittiCalibration(const StereoCamera& camera);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,5 +27,7 @@ std::vector<Pose> parseKitti(std::string_view text, const std::string& name);
 /// times.txt: seconds, one a line, each later than the one before. Throws UserError with file and line.
 std::vector<StampNs> readTimes(const std::string& path);
 std::vector<StampNs> parseTimes(std::string_view text, const std::string& name);
+/// Seconds as such a file holds them, with decimals or KITTI's exponents (1.038170e-01); empty if it is no number.
+std::optional<StampNs> parseTime(std::string_view word);
 
 }  // namespace urban_nav_core
