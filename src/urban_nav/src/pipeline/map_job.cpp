@@ -119,7 +119,10 @@ void runMap(const MapRequest& request, Console& console) {
     say(source->info(), console);
     outcome.stages.push_back(std::make_unique<VoStage>(request.parameters.swf_vo.parameters, source->info()));
     outcome.infos.push_back(source->info());
-    if (i == 0) writeReport(outcome);
+    if (i == 0) {
+      writeReport(outcome);
+      console.info("report: " + outcome.folder.file("report.html") + " (open it now; it grows as the run goes on)");
+    }
     runVo(*source, *outcome.stages.back(), outcome, console);
     checkUsable(outcome.stages.back()->run());
     writeVoFiles(outcome.folder, outcome.stages.back()->run(), i == 0 ? "" : "_" + std::to_string(i + 1));

@@ -14,6 +14,13 @@ namespace {
 
 constexpr double kDegrees = 180.0 / M_PI;
 constexpr double kExpectedNees = 6.0;
+constexpr double kTooLarge = 0.2, kTooSmall = 2.0, kFarTooSmall = 5.0;  // measured over expected NEES
+
+Grade gradeOfNees(double nees) {
+  const double ratio = nees / kExpectedNees;
+  if (ratio > kFarTooSmall) return Grade::Bad;
+  return ratio > kTooSmall || ratio < kTooLarge ? Grade::Fair : Grade::Good;
+}
 
 /// Relative to the first pose, in its axes.
 std::vector<Pose> fromFirst(const std::vector<Pose>& poses) {
@@ -183,17 +190,18 @@ std::vector<Verdict> evaluationVerdicts(const Evaluation& e) {
   }
   if (e.nees) {
     const double ratio = e.nees->mean / kExpectedNees;
-    if (ratio > 2.0) {
-      verdicts.push_back({ratio > 5.0 ? Grade::Bad : Grade::Fair, "The covariance is too small.",
+    const Grade grade = gradeOfNees(e.nees->mean);
+    if (ratio > kTooSmall) {
+      verdicts.push_back({grade, "The covariance is too small.",
                           "Errors are " + forPerson(std::sqrt(ratio), 2) + " times as large as it says (NEES " +
                               forPerson(e.nees->mean, 3) + ", expected 6)."});
-    } else if (ratio < 0.2) {
-      verdicts.push_back({Grade::Fair, "The covariance is too large.",
+    } else if (ratio < kTooLarge) {
+      verdicts.push_back({grade, "The covariance is too large.",
                           "Errors are " + forPerson(std::sqrt(ratio), 2) + " times as large as it says (NEES " +
                               forPerson(e.nees->mean, 3) + ", expected 6)."});
     } else {
       verdicts.push_back(
-          {Grade::Good, "The covariance tells the truth.",
+          {grade, "The covariance tells the truth.",
            "NEES " + forPerson(e.nees->mean, 3) +
                ", expected 6; errors along one path are not independent, so factors of two are chance."});
     }
@@ -213,7 +221,7 @@ std::vector<Tile> evaluationTiles(const Evaluation& e) {
   if (e.ten_frames)
     tiles.push_back({forPerson(e.ten_frames->percent, 3), "%", "relative error over ten frames",
                      e.ten_frames->percent < 1.0 ? Grade::Good : Grade::Fair});
-  if (e.nees) tiles.push_back({forPerson(e.nees->mean, 3), "", "NEES (6 is right)", Grade::Plain});
+  if (e.nees) tiles.push_back({forPerson(e.nees->mean, 3), "", "NEES (6 is right)", gradeOfNees(e.nees->mean)});
   return tiles;
 }
 

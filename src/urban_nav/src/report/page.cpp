@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "report/page.hpp"
 
+#include <algorithm>
+#include <cstddef>
+
 #include "report/page_style.hpp"
 #include "report/plot.hpp"
 
 namespace urban_nav {
 
 namespace {
+
+constexpr std::size_t kMostTilesAcross = 6;
 
 const char* classOf(Grade grade) {
   switch (grade) {
@@ -29,7 +34,9 @@ const char* markOf(Grade grade) {
 }
 
 std::string tilesOf(const std::vector<Tile>& tiles) {
-  std::string html = "<div class=\"tiles\">";
+  const std::size_t across = tiles.size() <= kMostTilesAcross ? tiles.size() : (tiles.size() + 1) / 2;
+  std::string html =
+      "<div class=\"tiles\" style=\"--across: " + std::to_string(std::max<std::size_t>(1, across)) + "\">";
   for (const Tile& tile : tiles) {
     html += "<div class=\"tile " + std::string(classOf(tile.grade)) + "\"><div class=\"value\">" +
             escapeHtml(tile.value) + "<small> " + escapeHtml(tile.unit) + "</small></div><div class=\"what\">" +

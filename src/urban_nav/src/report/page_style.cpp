@@ -23,7 +23,8 @@ nav a { color: var(--a); text-decoration: none; } nav a:hover { text-decoration:
 .running { position: relative; border: 1px solid var(--edge); border-radius: 8px; overflow: hidden; margin: 8px 0 12px; background: var(--card); }
 .running .bar { position: absolute; inset: 0 auto 0 0; background: var(--a); opacity: 0.22; }
 .running span { position: relative; display: block; padding: 6px 12px; font-size: 0.9rem; }
-.tiles { display: grid; grid-template-columns: repeat(auto-fit, minmax(150px, 1fr)); gap: 12px; margin: 22px 0; }
+.tiles { display: grid; grid-template-columns: repeat(var(--across), 1fr); gap: 12px; margin: 22px 0; }
+@media (max-width: 760px) { .tiles { grid-template-columns: repeat(auto-fit, minmax(150px, 1fr)); } }
 .tile { background: var(--card); border: 1px solid var(--edge); border-left: 4px solid var(--edge); border-radius: 8px; padding: 12px 14px; }
 .tile.good { border-left-color: var(--good); } .tile.fair { border-left-color: var(--fair); } .tile.bad { border-left-color: var(--bad); }
 .value { font-size: 1.55rem; font-weight: 650; line-height: 1.2; font-variant-numeric: tabular-nums; } .value small { font-size: 0.85rem; font-weight: 450; color: var(--soft); }
