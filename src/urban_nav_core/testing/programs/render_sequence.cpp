@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -127,11 +129,16 @@ RenderedSequence makeSequence(const Request& request) {
 void render(const Request& request) {
   RenderedSequence sequence = makeSequence(request);
   const int frames = std::max(1, static_cast<int>(std::lround(request.seconds * request.rate)));
+  const bool terminal = ::isatty(STDERR_FILENO) != 0;
+  const int step = terminal ? 5 : std::max(1, (frames + 3) / 4);
+  const auto say = [&](int i) {
+    if (i % step == 0)
+      std::cerr << (terminal ? "\r" : "") << "frame " << i << " of " << frames << (terminal ? "" : "\n") << std::flush;
+  };
   const int written =
-      writeSequenceFolder(sequence, frames, FaultFilter(request.faults, request.seed), request.folder, [&](int i) {
-        if (i % 20 == 0) std::cerr << "\rframe " << i << " of " << frames << std::flush;
-      });
-  std::cerr << "\r" << written << " frames in " << request.folder << "        \n";
+      writeSequenceFolder(sequence, frames, FaultFilter(request.faults, request.seed), request.folder, say);
+  std::cerr << (terminal ? "\r" : "") << written << " frames in " << request.folder << (terminal ? "        " : "")
+            << "\n";
 }
 
 void printHelp() {
