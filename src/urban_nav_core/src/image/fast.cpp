@@ -6,28 +6,12 @@
 #include <cstring>
 #include <opencv2/core/hal/intrin.hpp>
 
+#include "fast_score.hpp"
+
 namespace urban_nav_core {
 namespace {
 
-constexpr int kCircle = 16;
-// Bresenham's circle of radius 3 from the bottom, counter-clockwise (Rosten and Drummond 2006, figure 1).
-constexpr int kCircleU[kCircle] = {0, 1, 2, 3, 3, 3, 2, 1, 0, -1, -2, -3, -3, -3, -2, -1};
-constexpr int kCircleV[kCircle] = {3, 3, 2, 1, 0, -1, -2, -3, -3, -3, -2, -1, 0, 1, 2, 3};
 constexpr int kLanes = 16;
-
-/// Largest value that nine neighbours on the circle all reach: max over arcs of min over the arc. Arcs that begin at
-/// k - 1 and at k, k odd, share eight places, so eight minima of eight serve all sixteen.
-template <typename V, typename Min, typename Max>
-inline V bestArc(const V* d, Min min, Max max) {
-  V pair[8], quad[8];
-  for (int i = 0; i < 8; ++i) pair[i] = min(d[2 * i + 1], d[(2 * i + 2) % kCircle]);
-  for (int i = 0; i < 8; ++i) quad[i] = min(pair[i], pair[(i + 1) % 8]);
-  V best = min(min(quad[0], quad[2]), max(d[0], d[9]));
-  for (int i = 1; i < 8; ++i) {
-    best = max(best, min(min(quad[i], quad[(i + 2) % 8]), max(d[2 * i], d[(2 * i + 9) % kCircle])));
-  }
-  return best;
-}
 
 /// Scores of three successive rows.
 struct ScoreRows {
@@ -36,50 +20,8 @@ struct ScoreRows {
   const std::uint8_t* below;
 };
 
-std::uint8_t scoreOf(const std::uint8_t* pixel, const std::ptrdiff_t* offsets) {
-  int brighter[kCircle], darker[kCircle];
-  for (int i = 0; i < kCircle; ++i) {
-    brighter[i] = std::max(pixel[offsets[i]] - pixel[0], 0);
-    darker[i] = std::max(pixel[0] - pixel[offsets[i]], 0);
-  }
-  const auto min = [](int a, int b) { return std::min(a, b); };
-  const auto max = [](int a, int b) { return std::max(a, b); };
-  return static_cast<std::uint8_t>(std::max(bestArc(brighter, min, max), bestArc(darker, min, max)));
-}
-
 #if CV_SIMD128
 using cv::v_uint8x16;
-
-/// Scores of sixteen pixels; those that are no corner at the threshold get 0. Any nine neighbours on the circle hold
-/// two neighbouring points of the compass: without such a pair in any lane the sixteen are done.
-inline bool scoreSixteen(const std::uint8_t* pixel, const std::ptrdiff_t* offsets, const v_uint8x16& threshold,
-                         std::uint8_t* scores) {
-  const v_uint8x16 zero = cv::v_setzero_u8();
-  const v_uint8x16 centre = cv::v_load(pixel);
-  const v_uint8x16 above = centre + threshold, below = centre - threshold;  // saturating
-  v_uint8x16 bright[4], dark[4];
-  for (int i = 0; i < 4; ++i) {
-    const v_uint8x16 p = cv::v_load(pixel + offsets[4 * i]);
-    bright[i] = p - above;
-    dark[i] = below - p;
-  }
-  const auto opposed = [](const v_uint8x16* d) { return cv::v_min(cv::v_max(d[0], d[2]), cv::v_max(d[1], d[3])); };
-  const v_uint8x16 candidate = cv::v_max(opposed(bright), opposed(dark)) != zero;
-  if (!cv::v_check_any(candidate)) {
-    cv::v_store(scores, zero);
-    return false;
-  }
-  const auto min = [](const v_uint8x16& a, const v_uint8x16& b) { return cv::v_min(a, b); };
-  const auto max = [](const v_uint8x16& a, const v_uint8x16& b) { return cv::v_max(a, b); };
-  v_uint8x16 d[kCircle];
-  for (int i = 0; i < kCircle; ++i) d[i] = cv::v_load(pixel + offsets[i]) - centre;
-  v_uint8x16 score = bestArc(d, min, max);
-  for (int i = 0; i < kCircle; ++i) d[i] = centre - cv::v_load(pixel + offsets[i]);
-  score = cv::v_max(score, bestArc(d, min, max));
-  const v_uint8x16 is_corner = score > threshold;
-  cv::v_store(scores, score & is_corner);
-  return cv::v_check_any(is_corner);
-}
 
 /// Bit i is set where the score of pixel i is above zero and, if asked, a local maximum.
 inline int keptOfSixteen(const ScoreRows& rows, int u, bool suppress) {
@@ -107,30 +49,6 @@ int keptOfSixteen(const ScoreRows& rows, int first, bool suppress) {
 }
 #endif
 
-/// Scores of row v into scores[0...width): zero where there is no corner. Says whether there is one.
-bool scoreRow(const ImageView& image, int v, int threshold, std::uint8_t* scores) {
-  std::ptrdiff_t offsets[kCircle];
-  for (int i = 0; i < kCircle; ++i) offsets[i] = kCircleV[i] * image.stride + kCircleU[i];
-  const std::uint8_t* row = image.row(v);
-  const int end = image.width - Fast::kRadius;
-  bool any = false;
-  int u = Fast::kRadius;
-#if CV_SIMD128
-  const v_uint8x16 threshold16 = cv::v_setall_u8(static_cast<std::uint8_t>(threshold));
-  for (; u + kLanes <= end; u += kLanes) any |= scoreSixteen(row + u, offsets, threshold16, scores + u);
-  if (u < end && end - Fast::kRadius >= kLanes) {  // some pixels twice, rather than bytes behind the row
-    any |= scoreSixteen(row + end - kLanes, offsets, threshold16, scores + end - kLanes);
-    u = end;
-  }
-#endif
-  for (; u < end; ++u) {
-    const std::uint8_t score = scoreOf(row + u, offsets);
-    scores[u] = score > threshold ? score : std::uint8_t{0};
-    any |= scores[u] != 0;
-  }
-  return any;
-}
-
 void collectRow(const ScoreRows& rows, int v, int width, bool suppress, std::vector<Corner>& corners) {
   for (int u = Fast::kRadius; u < width - Fast::kRadius; u += kLanes) {
     int kept = keptOfSixteen(rows, u, suppress);
@@ -151,12 +69,13 @@ const std::vector<Corner>& Fast::detect(const ImageView& image, int threshold, S
 
   const std::size_t stride = static_cast<std::size_t>(image.width) + 2 * kLanes;
   scores_.assign(3 * stride, 0);
+  static const fast_score::InstructionSet set = fast_score::instructionSets().front();
   const auto scores = [&](int v) { return scores_.data() + static_cast<std::size_t>(v % 3) * stride; };
   bool any_here = false;
   for (int v = kRadius; v <= image.height - kRadius; ++v) {
     bool any_below = false;
     if (v < image.height - kRadius) {
-      any_below = scoreRow(image, v, threshold, scores(v));
+      any_below = set.scoreRow(image.row(v), image.stride, kRadius, image.width - kRadius, threshold, scores(v));
     } else {
       std::memset(scores(v), 0, stride);
     }

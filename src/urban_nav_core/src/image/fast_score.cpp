@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fast_score.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#if defined(__x86_64__)
+#define URBAN_NAV_X86 1
+#endif
+
+// Vectors wider than the baseline's are handed between functions that are all inlined: there is no call whose ABI could change.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+namespace urban_nav_core::fast_score {
+namespace {
+
+constexpr int kCircle = 16;
+// Bresenham's circle of radius 3 from the bottom, counter-clockwise (Rosten and Drummond 2006, figure 1).
+constexpr int kCircleU[kCircle] = {0, 1, 2, 3, 3, 3, 2, 1, 0, -1, -2, -3, -3, -3, -2, -1};
+constexpr int kCircleV[kCircle] = {3, 3, 2, 1, 0, -1, -2, -3, -3, -3, -2, -1, 0, 1, 2, 3};
+
+// Vectors of the compiler's own, so that one text serves every width.
+struct Narrow {
+  typedef std::uint8_t Vector __attribute__((vector_size(16)));
+  static constexpr int lanes = 16;
+};
+struct Middle {
+  typedef std::uint8_t Vector __attribute__((vector_size(32)));
+  static constexpr int lanes = 32;
+};
+
+#define URBAN_NAV_INLINE __attribute__((always_inline)) inline
+
+template <typename V>
+URBAN_NAV_INLINE V least(const V& a, const V& b) { return a < b ? a : b; }
+template <typename V>
+URBAN_NAV_INLINE V most(const V& a, const V& b) { return a > b ? a : b; }
+template <typename V>
+URBAN_NAV_INLINE V excess(const V& a, const V& b) { return most(a, b) - b; }
+template <typename V>
+URBAN_NAV_INLINE V load(const std::uint8_t* p) {
+  V v;
+  std::memcpy(&v, p, sizeof v);
+  return v;
+}
+
+/// Largest value that nine neighbours on the circle all reach: max over arcs of min over the arc. Arcs that begin at
+/// k - 1 and at k, k odd, share eight places, so eight minima of eight serve all sixteen.
+template <typename V>
+URBAN_NAV_INLINE V bestArc(const V* d) {
+  V pair[8], quad[8];
+#pragma GCC unroll 16
+  for (int i = 0; i < 8; ++i) pair[i] = least(d[2 * i + 1], d[(2 * i + 2) % kCircle]);
+#pragma GCC unroll 16
+  for (int i = 0; i < 8; ++i) quad[i] = least(pair[i], pair[(i + 1) % 8]);
+  V best = least(least(quad[0], quad[2]), most(d[0], d[9]));
+#pragma GCC unroll 16
+  for (int i = 1; i < 8; ++i) best = most(best, least(least(quad[i], quad[(i + 2) % 8]), most(d[2 * i], d[(2 * i + 9) % kCircle])));
+  return best;
+}
+
+template <typename V>
+URBAN_NAV_INLINE V scoreOf(const V* circle, const V& centre, const V& threshold) {
+  V d[kCircle];
+#pragma GCC unroll 16
+  for (int i = 0; i < kCircle; ++i) d[i] = excess(circle[i], centre);
+  V score = bestArc(d);
+#pragma GCC unroll 16
+  for (int i = 0; i < kCircle; ++i) d[i] = excess(centre, circle[i]);
+  score = most(score, bestArc(d));
+  return score > threshold ? score : V{};
+}
+
+/// Lanes that may hold a corner: any nine neighbours on the circle hold four of its even places in a row, among them two neighbouring points
+/// of the compass.
+template <typename V>
+URBAN_NAV_INLINE V opposed(const V* d) { return least(most(d[0], d[4]), most(d[2], d[6])); }
+template <typename V>
+URBAN_NAV_INLINE V fourInARow(const V* d) {
+  V pair[8];
+#pragma GCC unroll 16
+  for (int i = 0; i < 8; ++i) pair[i] = least(d[i], d[(i + 1) % 8]);
+  V best = least(pair[0], pair[2]);
+#pragma GCC unroll 16
+  for (int i = 1; i < 8; ++i) best = most(best, least(pair[i], pair[(i + 2) % 8]));
+  return best;
+}
+
+template <typename V>
+URBAN_NAV_INLINE bool any(const V& v) {
+  std::uint64_t words[sizeof(V) / 8];
+  std::memcpy(words, &v, sizeof v);
+  std::uint64_t all = 0;
+  for (const std::uint64_t word : words) all |= word;
+  return all != 0;
+}
+
+/// Few pixels stand the test of the even places, and they stand alone: so they are gathered from their row and scored together.
+template <typename Width>
+struct Gathered {
+  using V = typename Width::Vector;
+  alignas(32) std::uint8_t circle[kCircle][Width::lanes];
+  alignas(32) std::uint8_t centre[Width::lanes];
+  int at[Width::lanes];
+  int count = 0;
+};
+
+template <typename Width>
+URBAN_NAV_INLINE bool scoreGathered(Gathered<Width>& some, const typename Width::Vector& threshold, std::uint8_t* scores) {
+  using V = typename Width::Vector;
+  V circle[kCircle];
+#pragma GCC unroll 16
+  for (int i = 0; i < kCircle; ++i) circle[i] = load<V>(some.circle[i]);
+  const V score = scoreOf<V>(circle, load<V>(some.centre), threshold);
+  for (int i = 0; i < some.count; ++i) scores[some.at[i]] = score[i];
+  some.count = 0;
+  return any(score);
+}
+
+template <typename Width>
+URBAN_NAV_INLINE bool scoreRowAs(const std::uint8_t* row, std::ptrdiff_t stride, int begin, int end, int threshold, std::uint8_t* scores) {
+  using V = typename Width::Vector;
+  constexpr int lanes = Width::lanes;
+  std::ptrdiff_t offsets[kCircle];
+#pragma GCC unroll 16
+  for (int i = 0; i < kCircle; ++i) offsets[i] = kCircleV[i] * stride + kCircleU[i];
+  const std::uint8_t t = static_cast<std::uint8_t>(threshold), room = static_cast<std::uint8_t>(255 - threshold);
+  V limit = V{} + t;
+  std::memset(scores + begin, 0, static_cast<std::size_t>(end - begin));
+  Gathered<Width> some{};
+  bool found = false;
+  const auto gather = [&](int u) __attribute__((always_inline)) {
+    const std::uint8_t* pixel = row + u;
+#pragma GCC unroll 16
+    for (int i = 0; i < kCircle; ++i) some.circle[i][some.count] = pixel[offsets[i]];
+    some.centre[some.count] = *pixel;
+    some.at[some.count] = u;
+    if (++some.count == lanes) found |= scoreGathered<Width>(some, limit, scores);
+  };
+  for (int u = begin; u < end; u += lanes) {
+    if (u + lanes > end) {
+      if (end - begin < lanes) {
+        for (; u < end; ++u) gather(u);
+        break;
+      }
+      u = end - lanes;  // some pixels twice, rather than bytes behind the row
+    }
+    const std::uint8_t* pixel = row + u;
+    const V centre = load<V>(pixel);
+    const V above = least(centre, V{} + room) + t, below = excess(centre, limit);
+    V bright[8], dark[8];
+#pragma GCC unroll 16
+    for (int i = 0; i < 8; i += 2) {
+      const V p = load<V>(pixel + offsets[2 * i]);
+      bright[i] = excess(p, above);
+      dark[i] = excess(below, p);
+    }
+    if (!any(most(opposed(bright), opposed(dark)))) continue;
+#pragma GCC unroll 16
+    for (int i = 1; i < 8; i += 2) {
+      const V p = load<V>(pixel + offsets[2 * i]);
+      bright[i] = excess(p, above);
+      dark[i] = excess(below, p);
+    }
+    const V rest = most(fourInARow(bright), fourInARow(dark));
+    const V candidates = reinterpret_cast<V>(rest > V{});
+    std::uint64_t words[lanes / 8];
+    std::memcpy(words, &candidates, sizeof candidates);
+    for (int w = 0; w < lanes / 8; ++w)
+      for (std::uint64_t bits = words[w] & 0x8080808080808080ULL; bits != 0; bits &= bits - 1) gather(u + 8 * w + __builtin_ctzll(bits) / 8);
+  }
+  if (some.count > 0) found |= scoreGathered<Width>(some, limit, scores);
+  return found;
+}
+
+bool scoreRowNarrow(const std::uint8_t* row, std::ptrdiff_t stride, int begin, int end, int threshold, std::uint8_t* scores) {
+  return scoreRowAs<Narrow>(row, stride, begin, end, threshold, scores);
+}
+#ifdef URBAN_NAV_X86
+__attribute__((target("avx2"))) bool scoreRowMiddle(const std::uint8_t* row, std::ptrdiff_t stride, int begin, int end, int threshold,
+                                                    std::uint8_t* scores) {
+  return scoreRowAs<Middle>(row, stride, begin, end, threshold, scores);
+}
+#endif
+
+}  // namespace
+
+std::vector<InstructionSet> instructionSets() {
+  std::vector<InstructionSet> sets;
+#ifdef URBAN_NAV_X86
+  if (__builtin_cpu_supports("avx2") != 0) sets.push_back({"avx2", scoreRowMiddle});
+#endif
+  sets.push_back({"baseline", scoreRowNarrow});
+  return sets;
+}
+
+}  // namespace urban_nav_core::fast_score
