@@ -52,13 +52,12 @@ Best searchRow(const SadPatch& patch, const ImageView& image, int from, int to, 
   Best best;
   std::array<int, longest_row> sads;
   to = std::min(to, from + longest_row - 1);
+  urban_nav_core::meanRemovedSads(patch, image, from, v, to - from + 1, sads.data());
   for (int u = from; u <= to; ++u) {
-    const int sad = urban_nav_core::meanRemovedSad(patch, image, u, v);
-    sads[static_cast<std::size_t>(u - from)] = sad;
-    if (sad < best.sad) {
-      best.sad = sad;
-      best.u = u;
-    }
+    const int sad = sads[static_cast<std::size_t>(u - from)];
+    if (sad >= best.sad) continue;
+    best.sad = sad;
+    best.u = u;
   }
   for (int u = from; u <= to; ++u)
     if (std::abs(u - best.u) > 2) best.second = std::min(best.second, sads[static_cast<std::size_t>(u - from)]);

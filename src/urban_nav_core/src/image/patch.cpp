@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "patch_kernel.hpp"
+#include "patch_read.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -43,22 +44,7 @@ const SplineTable& splineTable() {
 
 double sum(const v_float32x4& a) { return static_cast<double>(cv::v_reduce_sum(a)); }
 
-struct Row16 {
-  v_float32x4 part[4];
-};
-
-Row16 loadRow(const std::uint8_t* pixels) {
-  cv::v_uint16x8 low, high;
-  cv::v_expand(cv::v_load(pixels), low, high);
-  cv::v_uint32x4 quarter[4];
-  cv::v_expand(low, quarter[0], quarter[1]);
-  cv::v_expand(high, quarter[2], quarter[3]);
-  Row16 row;
-  for (int i = 0; i < 4; ++i) row.part[i] = cv::v_cvt_f32(cv::v_reinterpret_as_s32(quarter[i]));
-  return row;
-}
-
-constexpr int taps = 6;
+constexpr std::size_t taps = patch_read::taps;
 
 /// The spline's weights at a phase, spread by (blur, 1 - 2 blur, blur).
 std::array<float, taps> blurredSpline(double f, double blur) {
@@ -76,29 +62,48 @@ std::array<float, taps> blurredSpline(double f, double blur) {
 constexpr int wide_size = patch_size + 4, wide_stride = 16;  // one for the gradient, one for the blur
 using WideGrid = std::array<float, wide_size * wide_stride>;
 
-/// The source warped by the inverse of A, `margin` (1 or 2) pixels wider than the window on each side.
-void warpWide(const PatchSource& source, const Eigen::Matrix2d& source_from_view, int margin, WideGrid& out) {
+/// Sixteen taps at once: pixels about (u, v), weighed by the table's lines of two phases.
+v_float32x4 weighed(const float* p, const float* wx, const float* wy) {
   constexpr int stride = PatchSource::stride;
+  const v_float32x4 y = cv::v_load_aligned(wy);
+  const v_float32x4 column = cv::v_broadcast_element<0>(y) * cv::v_load(p) + cv::v_broadcast_element<1>(y) * cv::v_load(p + stride) +
+                             (cv::v_broadcast_element<2>(y) * cv::v_load(p + 2 * stride) + cv::v_broadcast_element<3>(y) * cv::v_load(p + 3 * stride));
+  return column * cv::v_load_aligned(wx);
+}
+
+/// The source warped by the inverse of A, at least `margin` (1 or 2) pixels wider than the window on each side.
+void warpWide(const PatchSource& source, const Eigen::Matrix2d& source_from_view, int margin, WideGrid& out) {
+  using cv::v_int32x4;
+  constexpr int stride = PatchSource::stride;
+  static_assert(stride == 24, "24 = 16 + 8, below");
   alignas(16) std::array<float, PatchSource::size * stride> pixels;
   for (std::size_t i = 0; i < pixels.size(); i += 4)
     cv::v_store_aligned(&pixels[i], cv::v_cvt_f32(cv::v_reinterpret_as_s32(cv::v_load_expand_q(&source.pixels[i]))));
   const auto& table = splineTable().weights;
-  const float ax = static_cast<float>(source_from_view(0, 0)), ay = static_cast<float>(source_from_view(1, 0));
+  const v_float32x4 ax = cv::v_setall_f32(static_cast<float>(source_from_view(0, 0))), ay = cv::v_setall_f32(static_cast<float>(source_from_view(1, 0)));
   const float bx = static_cast<float>(source_from_view(0, 1)), by = static_cast<float>(source_from_view(1, 1));
-  constexpr float low = 1.0F, high = PatchSource::size - 2.01F;
-  for (int j = 2 - margin; j < wide_size - 2 + margin; ++j)
-    for (int i = 2 - margin; i < wide_size - 2 + margin; ++i) {
-      const float du = static_cast<float>(i - patch_radius - 2), dv = static_cast<float>(j - patch_radius - 2);
-      const float x = std::clamp(PatchSource::radius + ax * du + bx * dv, low, high);
-      const float y = std::clamp(PatchSource::radius + ay * du + by * dv, low, high);
-      const int u = static_cast<int>(x), v = static_cast<int>(y);
-      const auto& wx = table[static_cast<std::size_t>((x - static_cast<float>(u)) * phases + 0.5F)];
-      const auto& wy = table[static_cast<std::size_t>((y - static_cast<float>(v)) * phases + 0.5F)];
-      const float* p = &pixels[static_cast<std::size_t>((v - 1) * stride + u - 1)];
-      const v_float32x4 column = cv::v_setall_f32(wy[0]) * cv::v_load(p) + cv::v_setall_f32(wy[1]) * cv::v_load(p + stride) +
-                                 (cv::v_setall_f32(wy[2]) * cv::v_load(p + 2 * stride) + cv::v_setall_f32(wy[3]) * cv::v_load(p + 3 * stride));
-      out[static_cast<std::size_t>(j * wide_stride + i)] = cv::v_reduce_sum(column * cv::v_load(wx.data()));
+  const v_float32x4 low = cv::v_setall_f32(1.0F), high = cv::v_setall_f32(PatchSource::size - 2.01F), lines = cv::v_setall_f32(phases), half = cv::v_setall_f32(0.5F);
+  const v_float32x4 middle = cv::v_setall_f32(PatchSource::radius), step(0.0F, 1.0F, 2.0F, 3.0F);
+  for (int j = 2 - margin; j < wide_size - 2 + margin; ++j) {
+    const float dv = static_cast<float>(j - patch_radius - 2);
+    const v_float32x4 x0 = middle + cv::v_setall_f32(bx * dv), y0 = middle + cv::v_setall_f32(by * dv);
+    for (int i = 0; i < wide_size; i += 4) {
+      const v_float32x4 du = step + cv::v_setall_f32(static_cast<float>(i - patch_radius - 2));
+      const v_float32x4 x = cv::v_min(cv::v_max(x0 + ax * du, low), high), y = cv::v_min(cv::v_max(y0 + ay * du, low), high);
+      const v_int32x4 u = cv::v_trunc(x), v = cv::v_trunc(y);
+      alignas(16) int place[4], phase_x[4], phase_y[4];
+      cv::v_store_aligned(place, (v << 4) + (v << 3) + u);
+      cv::v_store_aligned(phase_x, cv::v_trunc((x - cv::v_cvt_f32(u)) * lines + half));
+      cv::v_store_aligned(phase_y, cv::v_trunc((y - cv::v_cvt_f32(v)) * lines + half));
+      v_float32x4 part[4], across[4];
+#pragma GCC unroll 4
+      for (int k = 0; k < 4; ++k)
+        part[k] = weighed(&pixels[static_cast<std::size_t>(place[k] - stride - 1)], table[static_cast<std::size_t>(phase_x[k])].data(),
+                          table[static_cast<std::size_t>(phase_y[k])].data());
+      cv::v_transpose4x4(part[0], part[1], part[2], part[3], across[0], across[1], across[2], across[3]);
+      cv::v_store(&out[static_cast<std::size_t>(j * wide_stride + i)], (across[0] + across[1]) + (across[2] + across[3]));
     }
+  }
 }
 
 /// Spreads by (blur, 1 - 2 blur, blur) along rows (step 1) or columns (step wide_stride); the outermost pixels stay.
@@ -184,29 +189,8 @@ bool fits(const ImageView& image, double x, double y) {
 void readWindow(const ImageView& image, double x, double y, const Eigen::Vector2d& blur, PatchGrid& out) {
   const int u = static_cast<int>(x), v = static_cast<int>(y);
   const std::array<float, taps> wx = blurredSpline(x - u, blur.x()), wy = blurredSpline(y - v, blur.y());
-  const int left = u - patch_radius - 2;
   const bool blurs = blur.maxCoeff() > 0.0;  // else the outer weights are zero
-  alignas(16) float column[patch_size][20];  // what is beyond 16 meets the padding alone
-  v_float32x4 weight[taps];
-  for (std::size_t k = 0; k < taps; ++k) weight[k] = cv::v_setall_f32(wy[k]);
-  Row16 rows[patch_size + taps - 1];
-  for (int i = 0; i < patch_size + taps - 1; ++i) rows[i] = loadRow(image.row(v - patch_radius - 2 + i) + left);
-  for (int i = 0; i < patch_size; ++i) {
-    cv::v_store_aligned(&column[i][16], cv::v_setzero_f32());
-    for (int k = 0; k < 4; ++k) {
-      v_float32x4 value = weight[1] * rows[i + 1].part[k] + weight[2] * rows[i + 2].part[k] + (weight[3] * rows[i + 3].part[k] + weight[4] * rows[i + 4].part[k]);
-      if (blurs) value += weight[0] * rows[i].part[k] + weight[5] * rows[i + 5].part[k];
-      cv::v_store_aligned(&column[i][4 * k], value);
-    }
-  }
-  for (std::size_t k = 0; k < taps; ++k) weight[k] = cv::v_setall_f32(wx[k]);
-  for (int i = 0; i < patch_size; ++i)
-    for (int k = 0; k < 12; k += 4) {
-      const float* c = &column[i][k];
-      v_float32x4 value = weight[1] * cv::v_load(c + 1) + weight[2] * cv::v_load(c + 2) + (weight[3] * cv::v_load(c + 3) + weight[4] * cv::v_load(c + 4));
-      if (blurs) value += weight[0] * cv::v_load(c) + weight[5] * cv::v_load(c + 5);
-      cv::v_store(&out[static_cast<std::size_t>(i * patch_stride + k)], value);
-    }
+  patch_read::fastest().read(image.row(v - patch_radius - 2) + u - patch_radius - 2, image.stride, wx.data(), wy.data(), blurs, out.data());
 }
 
 void makeBlind(const PatchGrid& gradient, const PatchTemplate& patch, PatchGrid& out) {
@@ -256,20 +240,12 @@ bool makeTemplate(const PatchSource& source, const Eigen::Matrix2d& A, PatchTemp
 
 Reading measure(const PatchGrid& pixels, const PatchTemplate& patch) {
   const Window& w = window();
-  v_float32x4 x = cv::v_setzero_f32(), y = x, g = x, m = x, q = x;
-  for (std::size_t i = 0; i < pixels.size(); i += 4) {
-    const v_float32x4 p = cv::v_load(&pixels[i]), weighted = p * cv::v_load(&w.weight[i]);
-    x += p * cv::v_load(&patch.filter_x[i]);
-    y += p * cv::v_load(&patch.filter_y[i]);
-    g += p * cv::v_load(&patch.filter_gain[i]);
-    m += weighted;
-    q += weighted * p;
-  }
+  const patch_read::Sums sums = patch_read::fastest().measure(pixels.data(), w.weight.data(), patch.filter_x.data(), patch.filter_y.data(), patch.filter_gain.data());
   Reading r;
-  r.along = {sum(x), sum(y)};
-  r.mean = sum(m) / w.total;
-  r.variance = std::max(sum(q) / w.total - r.mean * r.mean, 0.0);
-  r.gain = sum(g) / (patch.energy * w.total);
+  r.along = {static_cast<double>(sums.along_x), static_cast<double>(sums.along_y)};
+  r.mean = static_cast<double>(sums.mean) / w.total;
+  r.variance = std::max(static_cast<double>(sums.square) / w.total - r.mean * r.mean, 0.0);
+  r.gain = static_cast<double>(sums.gain) / (patch.energy * w.total);
   return r;
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 #include <opencv2/core/hal/intrin.hpp>
 
+#include "sad_row.hpp"
 #include "urban_nav_core/image/patch.hpp"
 
 namespace urban_nav_core {
@@ -60,6 +62,19 @@ int meanRemovedSad(const SadPatch& patch, const ImageView& image, int u, int v) 
     wanted += SadPatch::columns;
   }
   return static_cast<int>(cv::v_reduce_sum(sad));
+}
+
+void meanRemovedSads(const SadPatch& patch, const ImageView& image, int u, int v, int count, int* sads) {
+  static const sad_row::InstructionSet set = sad_row::instructionSets().front();
+  if (count < set.lanes) {
+    for (int i = 0; i < count; ++i) sads[i] = meanRemovedSad(patch, image, u + i, v);
+    return;
+  }
+  const std::uint8_t* first = image.row(v - 4) + (u - 4);
+  for (int i = 0; i < count; i += set.lanes) {
+    const int at = std::min(i, count - set.lanes);  // some places twice, rather than pixels behind the last
+    set.compare(patch.value.data(), first + at, image.stride, sads + at);
+  }
 }
 
 }  // namespace urban_nav_core

@@ -104,5 +104,7 @@ inline bool sadFits(const ImageView& image, int u, int v) {
 }
 /// Sum over the patch of |image - mean(image) - patch|, grey levels; needs sadFits.
 int meanRemovedSad(const SadPatch& patch, const ImageView& image, int u, int v);
+/// The same at `count` places side by side, from (u, v) to the right, all of which need sadFits.
+void meanRemovedSads(const SadPatch& patch, const ImageView& image, int u, int v, int count, int* sads);
 
 }  // namespace urban_nav_core

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "patch_read.hpp"
+
+#include <cstring>
+#include <opencv2/core/hal/intrin.hpp>
+
+#if defined(__x86_64__)
+#define URBAN_NAV_X86 1
+#endif
+
+// Vectors wider than the baseline's are handed between functions that are all inlined: there is no call whose ABI could change.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+namespace urban_nav_core::patch_read {
+namespace {
+
+// Vectors of the compiler's own, so that one text serves every width.
+struct Narrow {
+  typedef float Floats __attribute__((vector_size(16)));
+  static constexpr int lanes = 4;
+};
+struct Middle {
+  typedef float Floats __attribute__((vector_size(32)));
+  static constexpr int lanes = 8;
+};
+
+#define URBAN_NAV_INLINE __attribute__((always_inline)) inline
+
+constexpr int line = 12, wide = 16, padded = 24;
+
+template <typename V, typename T>
+URBAN_NAV_INLINE V load(const T* p) {
+  V v;
+  std::memcpy(&v, p, sizeof v);
+  return v;
+}
+template <typename V, typename T>
+URBAN_NAV_INLINE void store(T* p, const V& v) { std::memcpy(p, &v, sizeof v); }
+
+/// Six taps, `apart` numbers from one to the next; four where nothing is blurred.
+template <typename V>
+URBAN_NAV_INLINE V filtered(const float* p, int apart, const float* w, bool blurs) {
+  V value = w[1] * load<V>(p + apart) + w[2] * load<V>(p + 2 * apart) + (w[3] * load<V>(p + 3 * apart) + w[4] * load<V>(p + 4 * apart));
+  if (blurs) value += w[0] * load<V>(p) + w[5] * load<V>(p + 5 * apart);
+  return value;
+}
+
+template <typename Width>
+URBAN_NAV_INLINE void readAs(const std::uint8_t* first, std::ptrdiff_t stride, const float* wx, const float* wy, bool blurs, float* window) {
+  using V = typename Width::Floats;
+  constexpr int lanes = Width::lanes, lines = rows + taps - 1;
+  alignas(32) float pixels[lines * wide];
+  for (int i = 0; i < lines; ++i) {
+    cv::v_uint16x8 half[2];
+    cv::v_expand(cv::v_load(first + i * stride), half[0], half[1]);
+#pragma GCC unroll 2
+    for (int k = 0; k < 2; ++k) {
+      cv::v_uint32x4 low, high;
+      cv::v_expand(half[k], low, high);
+      cv::v_store_aligned(pixels + i * wide + 8 * k, cv::v_cvt_f32(cv::v_reinterpret_as_s32(low)));
+      cv::v_store_aligned(pixels + i * wide + 8 * k + 4, cv::v_cvt_f32(cv::v_reinterpret_as_s32(high)));
+    }
+  }
+  alignas(32) float column[rows * padded];  // what is beyond 16 meets the padding alone
+  for (int i = 0; i < rows; ++i) {
+#pragma GCC unroll 4
+    for (int k = 0; k < wide; k += lanes) store(column + i * padded + k, filtered<V>(pixels + i * wide + k, wide, wy, blurs));
+#pragma GCC unroll 2
+    for (int k = wide; k < padded; k += lanes) store(column + i * padded + k, V{});
+  }
+  for (int i = 0; i < rows; ++i) {
+    const float* from = column + i * padded;
+    float* to = window + i * line;
+    int k = 0;
+#pragma GCC unroll 3
+    for (; k + lanes <= line; k += lanes) store(to + k, filtered<V>(from + k, 1, wx, blurs));
+    if (lanes > 4) store(to + k, filtered<Narrow::Floats>(from + k, 1, wx, blurs));
+  }
+}
+
+/// Eight sums side by side, whatever the width.
+template <typename Width>
+struct Eight {
+  typename Width::Floats part[8 / Width::lanes];
+};
+
+template <typename Width>
+URBAN_NAV_INLINE float total(const Eight<Width>& sum) {
+  float each[8];
+  std::memcpy(each, &sum, sizeof each);
+  return ((each[0] + each[4]) + (each[2] + each[6])) + ((each[1] + each[5]) + (each[3] + each[7]));
+}
+
+template <typename Width>
+URBAN_NAV_INLINE Sums measureAs(const float* window, const float* weight, const float* fx, const float* fy, const float* fg) {
+  using V = typename Width::Floats;
+  constexpr int lanes = Width::lanes, count = rows * line;
+  Eight<Width> x{}, y{}, g{}, m{}, q{};
+  for (int i = 0; i + 8 <= count; i += 8)
+#pragma GCC unroll 2
+    for (int k = 0; k < 8 / lanes; ++k) {
+      const int at = i + k * lanes;
+      const V p = load<V>(window + at), weighted = p * load<V>(weight + at);
+      x.part[k] += p * load<V>(fx + at);
+      y.part[k] += p * load<V>(fy + at);
+      g.part[k] += p * load<V>(fg + at);
+      m.part[k] += weighted;
+      q.part[k] += weighted * p;
+    }
+  Sums sums{total<Width>(x), total<Width>(y), total<Width>(g), total<Width>(m), total<Width>(q)};
+  for (int i = count / 8 * 8; i < count - 1; ++i) {  // the last is padding
+    const float p = window[i], weighted = p * weight[i];
+    sums.along_x += p * fx[i];
+    sums.along_y += p * fy[i];
+    sums.gain += p * fg[i];
+    sums.mean += weighted;
+    sums.square += weighted * p;
+  }
+  return sums;
+}
+
+// One function of each kind for every width; only so can a compiler be told what processor it is for.
+#define URBAN_NAV_KERNELS(Width, target)                                                                                                  \
+  target void read##Width(const std::uint8_t* first, std::ptrdiff_t stride, const float* wx, const float* wy, bool blurs, float* window) { \
+    if (blurs) readAs<Width>(first, stride, wx, wy, true, window);                                                                        \
+    else readAs<Width>(first, stride, wx, wy, false, window);                                                                             \
+  }                                                                                                                                       \
+  target Sums measure##Width(const float* window, const float* weight, const float* fx, const float* fy, const float* fg) {               \
+    return measureAs<Width>(window, weight, fx, fy, fg);                                                                                  \
+  }
+
+URBAN_NAV_KERNELS(Narrow, )
+#ifdef URBAN_NAV_X86
+URBAN_NAV_KERNELS(Middle, __attribute__((target("avx2"))))
+#endif
+
+}  // namespace
+
+std::vector<InstructionSet> instructionSets() {
+  std::vector<InstructionSet> sets;
+#ifdef URBAN_NAV_X86
+  if (__builtin_cpu_supports("avx2") != 0) sets.push_back({"avx2", readMiddle, measureMiddle});
+#endif
+  sets.push_back({"baseline", readNarrow, measureNarrow});
+  return sets;
+}
+
+const InstructionSet& fastest() {
+  static const InstructionSet set = instructionSets().front();
+  return set;
+}
+
+}  // namespace urban_nav_core::patch_read

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sad_row.hpp"
+
+#include <cstring>
+
+#include "urban_nav_core/image/patch.hpp"
+
+#if defined(__x86_64__)
+#define URBAN_NAV_X86 1
+#endif
+
+// Vectors wider than the baseline's are handed between functions that are all inlined: there is no call whose ABI could change.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+namespace urban_nav_core::sad_row {
+namespace {
+
+// Vectors of the compiler's own, so that one text serves every width.
+struct Narrow {
+  typedef std::uint8_t Bytes __attribute__((vector_size(8)));
+  typedef std::int16_t Numbers __attribute__((vector_size(16)));
+  static constexpr int lanes = 8;
+};
+struct Middle {
+  typedef std::uint8_t Bytes __attribute__((vector_size(16)));
+  typedef std::int16_t Numbers __attribute__((vector_size(32)));
+  static constexpr int lanes = 16;
+};
+
+#define URBAN_NAV_INLINE __attribute__((always_inline)) inline
+
+constexpr int columns = SadPatch::columns, rows = SadPatch::rows, count = columns * rows;
+
+template <typename V, typename T>
+URBAN_NAV_INLINE V load(const T* p) {
+  V v;
+  std::memcpy(&v, p, sizeof v);
+  return v;
+}
+template <typename V, typename T>
+URBAN_NAV_INLINE void store(T* p, const V& v) { std::memcpy(p, &v, sizeof v); }
+
+template <typename Width>
+URBAN_NAV_INLINE void compareAs(const std::int16_t* patch, const std::uint8_t* first, std::ptrdiff_t stride, int* sads) {
+  using V = typename Width::Numbers;
+  constexpr int lanes = Width::lanes, line = lanes + columns;
+  alignas(32) std::int16_t pixels[rows * line], sums[line];
+  V near{}, far{};  // column by column, and seven further: no pixel beyond the last patch is touched
+  for (int j = 0; j < rows; ++j) {
+    const V a = __builtin_convertvector(load<typename Width::Bytes>(first + j * stride), V);
+    const V b = __builtin_convertvector(load<typename Width::Bytes>(first + j * stride + columns - 1), V);
+    store(pixels + j * line, a);
+    store(pixels + j * line + columns - 1, b);
+    near += a;
+    far += b;
+  }
+  store(sums, near);
+  store(sums + columns - 1, far);
+  V sum{};
+#pragma GCC unroll 8
+  for (int i = 0; i < columns; ++i) sum += load<V>(sums + i);
+  std::int16_t means[lanes];
+  store(means, sum);
+  for (std::int16_t& mean : means) mean = static_cast<std::int16_t>((2U * static_cast<unsigned>(mean) + count) / (2U * count));
+  const V mean = load<V>(means);
+  V total{};  // up to 36 720: taken as unsigned
+  for (int j = 0; j < rows; ++j)
+#pragma GCC unroll 8
+    for (int i = 0; i < columns; ++i) {
+      const V difference = load<V>(pixels + j * line + i) - mean - patch[j * columns + i];
+      total += difference > V{} ? difference : -difference;
+    }
+  std::uint16_t result[lanes];
+  store(result, total);
+  for (int l = 0; l < lanes; ++l) sads[l] = result[l];
+}
+
+void compareNarrow(const std::int16_t* patch, const std::uint8_t* first, std::ptrdiff_t stride, int* sads) { compareAs<Narrow>(patch, first, stride, sads); }
+#ifdef URBAN_NAV_X86
+__attribute__((target("avx2"))) void compareMiddle(const std::int16_t* patch, const std::uint8_t* first, std::ptrdiff_t stride, int* sads) {
+  compareAs<Middle>(patch, first, stride, sads);
+}
+#endif
+
+}  // namespace
+
+std::vector<InstructionSet> instructionSets() {
+  std::vector<InstructionSet> sets;
+#ifdef URBAN_NAV_X86
+  if (__builtin_cpu_supports("avx2") != 0) sets.push_back({"avx2", Middle::lanes, compareMiddle});
+#endif
+  sets.push_back({"baseline", Narrow::lanes, compareNarrow});
+  return sets;
+}
+
+}  // namespace urban_nav_core::sad_row
