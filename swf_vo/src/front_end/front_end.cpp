@@ -135,7 +135,7 @@ class FrontEnd::Implementation {
     std::size_t next = 0;
     orphans_.clear();
     for (int i = 0; i < tracks_.size(); ++i) {
-      const LandmarkId id = tracks_.at(i).id;
+      const LandmarkId id = tracks_.idAt(i);
       while (next < matches_.size() && matches_[next].track->id < id) ++next;
       if (next >= matches_.size() || matches_[next].track->id != id) orphans_.push_back(id);
     }

@@ -36,10 +36,15 @@ bool prepareTemplate(Side side, const StereoCamera& camera, const Pose& T_camera
   if (!A || !A->allFinite()) return false;
   const double area = A->determinant();
   if (!(area > smallest_scale * smallest_scale && area < largest_scale * largest_scale)) return false;
-  PatchTemplate& made = side == Side::Left ? track.in_left : track.in_right;
-  bool& ready = side == Side::Left ? track.left_ready : track.right_ready;
-  if (ready && (made.A - *A).cwiseAbs().maxCoeff() < same_warp) return true;
-  ready = urban_nav_core::warpTemplate(track.source, *A, made);
+  const bool is_left = side == Side::Left;
+  PatchTemplate &made = is_left ? track.in_left : track.in_right, &others = is_left ? track.in_right : track.in_left;
+  bool &ready = is_left ? track.left_ready : track.right_ready, &others_ready = is_left ? track.right_ready : track.left_ready;
+  const auto serves = [&](const PatchTemplate& patch) { return (patch.A - *A).cwiseAbs().maxCoeff() < same_warp; };
+  if (ready && serves(made)) return true;
+  // What is seen from the front looks the same to both eyes.
+  ready = others_ready && serves(others);
+  if (ready) made = others;
+  else ready = urban_nav_core::warpTemplate(track.source, *A, made);
   return ready;
 }
 

@@ -70,10 +70,10 @@ bool Replenisher::start(const Candidate& candidate, FrameId frame, const Corners
                         std::vector<Observation>& fresh) {
   const ImageView& left = corners.image(Side::Left, candidate.level);
   const ImageView& right = corners.image(Side::Right, candidate.level);
-  const auto source = cutSource(left, candidate.u, candidate.v);
-  if (!source) return false;
   const auto disparity = findDisparity(left, right, candidate.u, candidate.v, lowest_disparity, static_cast<int>(largest_disparity * left.width));
   if (!disparity) return false;
+  const auto source = cutSource(left, candidate.u, candidate.v);
+  if (!source) return false;
   Track* track = tracks.start();
   if (track == nullptr) return false;
   urban_nav_core::SlopePrior prior;

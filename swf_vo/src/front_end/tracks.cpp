@@ -50,15 +50,15 @@ Tracks::Tracks(int capacity) : places_(static_cast<std::size_t>(capacity)) {
   for (std::size_t i = places_.size(); i > 0; --i) free_.push_back(i - 1);
 }
 
-std::vector<std::size_t>::iterator Tracks::lowerBound(LandmarkId id) {
-  return std::lower_bound(order_.begin(), order_.end(), id, [this](std::size_t place, LandmarkId value) { return places_[place].id < value; });
+std::vector<Tracks::Entry>::iterator Tracks::lowerBound(LandmarkId id) {
+  return std::lower_bound(order_.begin(), order_.end(), id, [](const Entry& entry, LandmarkId value) { return entry.id < value; });
 }
 
 Track* Tracks::start() {
   if (free_.empty()) return nullptr;
   const std::size_t place = free_.back();
   free_.pop_back();
-  order_.push_back(place);  // ids grow, so it is the last
+  order_.push_back({next_, place});  // ids grow, so it is the last
   places_[place] = Track();
   places_[place].id = next_++;
   return &places_[place];
@@ -66,13 +66,13 @@ Track* Tracks::start() {
 
 Track* Tracks::find(LandmarkId id) {
   const auto it = lowerBound(id);
-  return it != order_.end() && places_[*it].id == id ? &places_[*it] : nullptr;
+  return it != order_.end() && it->id == id ? &places_[it->place] : nullptr;
 }
 
 void Tracks::end(LandmarkId id) {
   const auto it = lowerBound(id);
-  if (it == order_.end() || places_[*it].id != id) return;
-  free_.push_back(*it);
+  if (it == order_.end() || it->id != id) return;
+  free_.push_back(it->place);
   order_.erase(it);
 }
 

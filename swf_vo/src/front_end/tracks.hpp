@@ -60,13 +60,20 @@ class Tracks {
   void end(LandmarkId id);
   int size() const { return static_cast<int>(order_.size()); }
   /// In order of id.
-  Track& at(int i) { return places_[order_[static_cast<std::size_t>(i)]]; }
+  Track& at(int i) { return places_[order_[static_cast<std::size_t>(i)].place]; }
+  LandmarkId idAt(int i) const { return order_[static_cast<std::size_t>(i)].id; }
 
  private:
-  std::vector<std::size_t>::iterator lowerBound(LandmarkId id);
+  // A track is large; looking for one must not touch the others.
+  struct Entry {
+    LandmarkId id;
+    std::size_t place;
+  };
+  std::vector<Entry>::iterator lowerBound(LandmarkId id);
 
   std::vector<Track> places_;
-  std::vector<std::size_t> order_, free_;  // order_: by id
+  std::vector<Entry> order_;  // by id
+  std::vector<std::size_t> free_;
   LandmarkId next_ = 0;
 };
 
