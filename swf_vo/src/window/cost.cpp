@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "window/make_room.hpp"
+
 namespace swf_vo {
 
 using Eigen::Matrix3d;
@@ -118,6 +120,7 @@ void Cost::accumulate(State& state, NormalEquations& equations) const {
     equations.landmark.resize(slots);
     equations.first_cross.resize(slots);
     equations.cross.clear();
+    makeRoom(equations.cross, 2 * slots);
   }
   SensorModel::Linearised at;
   Vector3d z;

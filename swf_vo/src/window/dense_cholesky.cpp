@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "window/make_room.hpp"
+
 namespace swf_vo {
 
 using kernels::strip;
@@ -21,6 +23,7 @@ std::size_t rounded(int n) { return static_cast<std::size_t>((n + strip - 1) / s
 void pack(const double* columns, std::size_t stride, int first, int last, int depth, std::vector<double>& packed) {
   const std::size_t strips = rounded(last - first) / strip;
   const std::size_t size = static_cast<std::size_t>(strip) * static_cast<std::size_t>(depth);
+  makeRoom(packed, strips * size);
   if (packed.size() < strips * size) packed.resize(strips * size);
   for (std::size_t s = 0; s < strips; ++s) {
     const int row = first + static_cast<int>(s) * strip;
@@ -36,14 +39,19 @@ void pack(const double* columns, std::size_t stride, int first, int last, int de
 
 }  // namespace
 
-void DenseMatrix::reset(int size) {
+void DenseMatrix::resize(int size) {
   size_ = size;
   stride_ = static_cast<int>(rounded(size));
   // A power of two would put every column into the same lines of the cache.
   if (stride_ % 64 == 0) stride_ += strip;
   const std::size_t needed = static_cast<std::size_t>(stride_) * rounded(size);
-  if (data_.size() < needed) data_.resize(std::max(needed, 2 * data_.size()));
-  std::fill(data_.begin(), data_.begin() + static_cast<std::ptrdiff_t>(needed), 0.0);
+  makeRoom(data_, needed);
+  if (data_.size() < needed) data_.resize(needed);
+}
+
+void DenseMatrix::reset(int size) {
+  resize(size);
+  for (int j = 0; j < size_; ++j) std::fill(column(j) + j, column(j) + size_, 0.0);
 }
 
 void StripProduct::subtract(DenseMatrix& C, int first, int rows, const double* B, int columns, int stride) {
@@ -82,6 +90,8 @@ void DenseCholesky::factor(DenseMatrix& A, const std::vector<double>& floor) {
   const int n = A.size();
   L_ = &A;
   held_count_ = 0;
+  makeRoom(held_, static_cast<std::size_t>(n));
+  makeRoom(diagonal_, static_cast<std::size_t>(n));
   held_.assign(static_cast<std::size_t>(n), 0);
   diagonal_.resize(static_cast<std::size_t>(n));
   block_.resize(static_cast<std::size_t>(panel * panel));

@@ -8,11 +8,13 @@
 
 namespace swf_vo {
 
-/// A symmetric matrix of dynamic size, column-major; only the lower triangle counts (anything may stand in the upper one). Grows by doubling and never shrinks.
+/// A symmetric matrix of dynamic size, column-major; only the lower triangle counts (anything may stand in the upper one). Takes three times the room it needs, and never shrinks.
 class DenseMatrix {
  public:
   /// All zero.
   void reset(int size);
+  /// Holds anything.
+  void resize(int size);
   /// As much room as another has, so that copies of it allocate nothing.
   void reserveLike(const DenseMatrix& other) { data_.reserve(other.data_.capacity()); }
   int size() const { return size_; }

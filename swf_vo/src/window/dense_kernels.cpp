@@ -81,31 +81,83 @@ __attribute__((always_inline)) inline void solveStripsAs(double* packed, int cou
   }
 }
 
-void subtractNarrow(double* C, int stride, const double* packed, int count, int depth) { subtractStripsAs<Narrow>(C, stride, packed, count, depth); }
-void solveNarrow(double* packed, int count, int depth, const double* L, const double* inverse) {
-  solveStripsAs<Narrow>(packed, count, depth, L, inverse);
+// Sixteen sums side by side, whatever the width.
+template <typename Width>
+__attribute__((always_inline)) inline double dotAs(const double* a, const double* b, int n) {
+  using Vector = typename Width::Vector;
+  constexpr int sums = 16, vectors = sums / Width::lanes;
+  Vector sum[vectors];
+#pragma GCC unroll 8
+  for (int v = 0; v < vectors; ++v) sum[v] = Vector{};
+  int i = 0;
+  for (; i + sums <= n; i += sums)
+#pragma GCC unroll 8
+    for (int v = 0; v < vectors; ++v)
+      sum[v] += *reinterpret_cast<const Vector*>(a + i + v * Width::lanes) * *reinterpret_cast<const Vector*>(b + i + v * Width::lanes);
+  for (; i + sums / 2 <= n; i += sums / 2)
+#pragma GCC unroll 8
+    for (int v = 0; v < vectors / 2; ++v)
+      sum[v] += *reinterpret_cast<const Vector*>(a + i + v * Width::lanes) * *reinterpret_cast<const Vector*>(b + i + v * Width::lanes);
+#pragma GCC unroll 8
+  for (int v = 0; v < vectors / 2; ++v) sum[v] += sum[v + vectors / 2];
+  double each[sums / 2];
+  std::memcpy(each, sum, sizeof each);
+  double rest = 0.0;
+  for (; i < n; ++i) rest += a[i] * b[i];
+  return ((each[0] + each[4]) + (each[2] + each[6])) + ((each[1] + each[5]) + (each[3] + each[7])) + rest;
 }
+
+template <typename Width>
+__attribute__((always_inline)) inline void subtractAs(double* y, const double* x, double factor, int n) {
+  using Vector = typename Width::Vector;
+  int i = 0;
+  for (; i + 8 <= n; i += 8)
+#pragma GCC unroll 4
+    for (int v = 0; v < 8; v += Width::lanes) *reinterpret_cast<Vector*>(y + i + v) -= *reinterpret_cast<const Vector*>(x + i + v) * factor;
+  for (; i < n; ++i) y[i] -= x[i] * factor;
+}
+
+template <typename Width>
+__attribute__((always_inline)) inline void subtractThreeAs(double* y, const double* x0, const double* x1, const double* x2, const double* f, int n) {
+  using Vector = typename Width::Vector;
+  const double a = f[0], b = f[1], c = f[2];
+  int i = 0;
+  for (; i + 8 <= n; i += 8)
+#pragma GCC unroll 4
+    for (int v = i; v < i + 8; v += Width::lanes) {
+      const Vector first = *reinterpret_cast<const Vector*>(y + v) - *reinterpret_cast<const Vector*>(x0 + v) * a;
+      *reinterpret_cast<Vector*>(y + v) = first - *reinterpret_cast<const Vector*>(x1 + v) * b - *reinterpret_cast<const Vector*>(x2 + v) * c;
+    }
+  for (; i < n; ++i) y[i] = y[i] - x0[i] * a - x1[i] * b - x2[i] * c;
+}
+
+// One function of each kind for every width; only so can a compiler be told what processor it is for.
+#define SWF_VO_KERNELS(Width, target)                                                                                                    \
+  target void subtractStrips##Width(double* C, int stride, const double* packed, int count, int depth) {                                 \
+    subtractStripsAs<Width>(C, stride, packed, count, depth);                                                                            \
+  }                                                                                                                                      \
+  target void solveStrips##Width(double* packed, int count, int depth, const double* L, const double* inverse) {                         \
+    solveStripsAs<Width>(packed, count, depth, L, inverse);                                                                              \
+  }                                                                                                                                      \
+  target double dot##Width(const double* a, const double* b, int n) { return dotAs<Width>(a, b, n); }                                    \
+  target void subtract##Width(double* y, const double* x, double factor, int n) { subtractAs<Width>(y, x, factor, n); }                  \
+  target void subtractThree##Width(double* y, const double* x0, const double* x1, const double* x2, const double* factors, int n) {      \
+    subtractThreeAs<Width>(y, x0, x1, x2, factors, n);                                                                                   \
+  }
+#define SWF_VO_SET(name, Width) {name, subtractStrips##Width, solveStrips##Width, dot##Width, subtract##Width, subtractThree##Width}
+
+SWF_VO_KERNELS(Narrow, )
 #ifdef SWF_VO_X86
-__attribute__((target("avx2"))) void subtractMiddle(double* C, int stride, const double* packed, int count, int depth) {
-  subtractStripsAs<Middle>(C, stride, packed, count, depth);
-}
-__attribute__((target("avx2"))) void solveMiddle(double* packed, int count, int depth, const double* L, const double* inverse) {
-  solveStripsAs<Middle>(packed, count, depth, L, inverse);
-}
-__attribute__((target("avx512f"))) void subtractWide(double* C, int stride, const double* packed, int count, int depth) {
-  subtractStripsAs<Wide>(C, stride, packed, count, depth);
-}
-__attribute__((target("avx512f"))) void solveWide(double* packed, int count, int depth, const double* L, const double* inverse) {
-  solveStripsAs<Wide>(packed, count, depth, L, inverse);
-}
+SWF_VO_KERNELS(Middle, __attribute__((target("avx2"))))
+SWF_VO_KERNELS(Wide, __attribute__((target("avx512f"))))
 #endif
 
 constexpr InstructionSet sets[] = {
 #ifdef SWF_VO_X86
-    {"avx512f", subtractWide, solveWide},
-    {"avx2", subtractMiddle, solveMiddle},
+    SWF_VO_SET("avx512f", Wide),
+    SWF_VO_SET("avx2", Middle),
 #endif
-    {"baseline", subtractNarrow, solveNarrow},
+    SWF_VO_SET("baseline", Narrow),
 };
 
 bool supports(const InstructionSet& set) {
@@ -114,6 +166,11 @@ bool supports(const InstructionSet& set) {
   if (std::strcmp(set.name, "avx2") == 0) return __builtin_cpu_supports("avx2") != 0;
 #endif
   return std::strcmp(set.name, "baseline") == 0;
+}
+
+const InstructionSet& fastest() {
+  static const InstructionSet set = instructionSets().front();
+  return set;
 }
 
 }  // namespace
@@ -125,18 +182,10 @@ std::vector<InstructionSet> instructionSets() {
   return result;
 }
 
-double dot(const double* a, const double* b, int n) {
-  double sum[8] = {};
-  int i = 0;
-  for (; i + 8 <= n; i += 8)
-    for (int l = 0; l < 8; ++l) sum[l] += a[i + l] * b[i + l];
-  double rest = 0.0;
-  for (; i < n; ++i) rest += a[i] * b[i];
-  return ((sum[0] + sum[4]) + (sum[2] + sum[6])) + ((sum[1] + sum[5]) + (sum[3] + sum[7])) + rest;
-}
-
-void subtract(double* y, const double* x, double factor, int n) {
-  for (int i = 0; i < n; ++i) y[i] -= x[i] * factor;
+double dot(const double* a, const double* b, int n) { return fastest().dot(a, b, n); }
+void subtract(double* y, const double* x, double factor, int n) { fastest().subtract(y, x, factor, n); }
+void subtractThree(double* y, const double* x0, const double* x1, const double* x2, const double* factors, int n) {
+  fastest().subtractThree(y, x0, x1, x2, factors, n);
 }
 
 }  // namespace swf_vo::kernels

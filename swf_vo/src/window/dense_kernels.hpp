@@ -22,14 +22,21 @@ struct InstructionSet {
   /// Each strip X becomes X L^-T. L is depth x depth, row-major, its strictly lower part is used; `inverse` holds the inverses of
   /// its diagonal, and a zero there makes a zero column.
   void (*solveStrips)(double* packed, int count, int depth, const double* L, const double* inverse);
+
+  /// sum a[i] b[i].
+  double (*dot)(const double* a, const double* b, int n);
+  /// y -= factor x.
+  void (*subtract)(double* y, const double* x, double factor, int n);
+  /// y -= factors[0] x0, then factors[1] x1, then factors[2] x2.
+  void (*subtractThree)(double* y, const double* x0, const double* x1, const double* x2, const double* factors, int n);
 };
 
 /// What this machine can run, fastest first. The last is always there.
 std::vector<InstructionSet> instructionSets();
 
-/// sum a[i] b[i].
+/// By the fastest set.
 double dot(const double* a, const double* b, int n);
-/// y -= factor x.
 void subtract(double* y, const double* x, double factor, int n);
+void subtractThree(double* y, const double* x0, const double* x1, const double* x2, const double* factors, int n);
 
 }  // namespace swf_vo::kernels

@@ -346,12 +346,15 @@ void Filter::take(double scale) {
 }
 
 // A landmark that nothing holds any more goes back to where one measurement puts it.
-void Filter::undoAbsurd() {
+bool Filter::undoAbsurd() {
+  bool any = false;
   for (std::size_t slot = 0; slot < state_.landmarks.size(); ++slot) {
     LandmarkBlock& landmark = state_.landmarks[slot];
     if (!landmark.used || landmark.known || isSane(landmark.estimate)) continue;
     landmark.estimate = landmark.linearised;
+    any = true;
   }
+  return any;
 }
 
 // Updating parameters (section 2.2.1): sparse robust Gauss-Newton over the window.
@@ -359,10 +362,10 @@ UpdateReport Filter::update() {
   UpdateReport result;
   if (options_.iterations > 1 && state_.poses.size() > 1) localiseNewest();
   double last = 0.0;
-  bool refactor = true;
+  bool refactor = true, current = false;  // current: the prior's gradient is that at the estimates
   for (int i = 0; i < options_.iterations; ++i) {
     cost_.relinearise(state_, prior_);
-    gradients();
+    if (!current) gradients();
     if (refactor) {
       cost_.build(state_, equations_);
       solver_.factor(state_, prior_, equations_, gauge_free_);
@@ -375,15 +378,17 @@ UpdateReport Filter::update() {
     ++result.iterations;
     const double before = prior_cost_ + equations_.cost;
     take(1.0);
+    current = false;
     if (options_.iterations > 1) {
       double scale = 1.0;
       for (int h = 0; h < halvings; ++h) {
         const double after = gradients() + cost_.value(state_);
-        if (after <= before + cost_slack * (1.0 + std::abs(before))) break;
+        current = after <= before + cost_slack * (1.0 + std::abs(before));
+        if (current) break;
         take(-0.5 * scale);
         scale *= 0.5;
       }
-      undoAbsurd();
+      if (undoAbsurd()) current = false;
     }
     const double decrement = solver_.decrement();
     if (decrement < options_.tolerance) {

@@ -74,7 +74,7 @@ class Filter {
   void localiseNewest();
   double gradients();
   void take(double scale);
-  void undoAbsurd();
+  bool undoAbsurd();
   UpdateReport report() const;
   // The last factor knows the pose of this step, and in which place.
   bool inFactor(std::int64_t step, std::size_t& place) const;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "window/gauge.hpp"
+#include "window/make_room.hpp"
 
 namespace swf_vo {
 
@@ -49,6 +50,8 @@ void add(double* column, int stride, const Block& block) {
 void Marginaliser::sort(const State& state, const Prior& prior) {
   kept_.clear();
   dying_.clear();
+  for (std::vector<int>* slots : {&kept_, &dying_}) slots->reserve(state.landmarks.size());
+  centres_.reserve(state.landmarks.size());
   place_.assign(state.landmarks.size(), unused);
   for (const int slot : prior.slots) {
     const std::size_t at = static_cast<std::size_t>(slot);
@@ -72,17 +75,21 @@ void Marginaliser::sort(const State& state, const Prior& prior) {
   remaining_ = 3 * static_cast<int>(kept_.size()) + 6;
   stride_ = eliminated_ + remaining_;
   blocks_.clear();
+  blocks_.reserve(state.landmarks.size() + 1);
   for (int i = 0; i < static_cast<int>(dying_.size()); ++i) blocks_.push_back({3 * i, 3});
   blocks_.push_back({eliminated_ - 6, 6});
 }
 
 void Marginaliser::gatherPrior(const Prior& prior, const State& state) {
+  makeRoom(panel_, static_cast<std::size_t>(stride_) * static_cast<std::size_t>(eliminated_));
   panel_.assign(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(eliminated_), 0.0);
   reduced_.reset(remaining_);
+  for (std::vector<double>* some : {&gradient_, &d_, &g_}) makeRoom(*some, static_cast<std::size_t>(stride_));
   gradient_.assign(static_cast<std::size_t>(stride_), 0.0);
   if (!prior.has_pose) return;
   prior.deviation(state, d_);
   prior.gradient(d_, g_);
+  makeRoom(map_, static_cast<std::size_t>(prior.size()));
   map_.resize(static_cast<std::size_t>(prior.size()));
   for (std::size_t i = 0; i < prior.slots.size(); ++i) {
     const int place = place_[static_cast<std::size_t>(prior.slots[i])];
@@ -135,9 +142,12 @@ void Marginaliser::addTerms(const State& state, const Cost& cost) {
 
 // Lambda G at the eliminated rows: what they hold of the gauge.
 void Marginaliser::gatherGauge(const State& state, const Vector3d& origin) {
-  directions_.resize(static_cast<std::size_t>(stride_));
+  const std::size_t stride = static_cast<std::size_t>(stride_);
+  makeRoom(directions_, 6 * stride);
+  directions_.resize(6 * stride);
   const auto put = [&](int row, const auto& G) {
-    for (int r = 0; r < G.rows(); ++r) directions_[static_cast<std::size_t>(row + r)] = G.row(r).transpose();
+    for (std::size_t k = 0; k < 6; ++k)
+      for (int r = 0; r < G.rows(); ++r) directions_[k * stride + static_cast<std::size_t>(row + r)] = G(r, static_cast<Eigen::Index>(k));
   };
   const auto putLandmarks = [&](const std::vector<int>& slots, int row) {
     for (const int slot : slots) {
@@ -150,19 +160,34 @@ void Marginaliser::gatherGauge(const State& state, const Vector3d& origin) {
   put(eliminated_ - 6, gauge::ofPose(state.poses[0].linearised, origin));
   putLandmarks(kept_, eliminated_);
   put(stride_ - 6, gauge::ofPose(state.poses[1].linearised, origin));
-  gauge_.assign(static_cast<std::size_t>(eliminated_), Vector6d::Zero());
+  makeRoom(gauge_, static_cast<std::size_t>(eliminated_));
+  gauge_.resize(static_cast<std::size_t>(eliminated_));
   for (int j = 0; j < eliminated_; ++j) {
-    const double* column = eliminatedColumn(j);
-    Vector6d& own = gauge_[static_cast<std::size_t>(j)];
-    own += column[j] * directions_[static_cast<std::size_t>(j)];
-    for (int i = j + 1; i < stride_; ++i) {
-      own += column[i] * directions_[static_cast<std::size_t>(i)];
-      if (i < eliminated_) gauge_[static_cast<std::size_t>(i)] += column[i] * directions_[static_cast<std::size_t>(j)];
+    double* column = eliminatedColumn(j);
+    for (int i = 0; i < j; ++i) column[i] = eliminatedColumn(i)[j];
+    for (std::size_t k = 0; k < 6; ++k)
+      gauge_[static_cast<std::size_t>(j)][static_cast<Eigen::Index>(k)] = kernels::dot(column, directions_.data() + k * stride, stride_);
+  }
+}
+
+void Marginaliser::timesRoot(const Block& block, const Matrix6d& G) {
+  const int below = block.at + block.size, rows = stride_ - below;
+  makeRoom(times_root_, static_cast<std::size_t>(rows) * 6);
+  times_root_.resize(static_cast<std::size_t>(rows) * 6);
+  for (int c = 0; c < block.size; ++c) std::copy_n(eliminatedColumn(block.at + c) + below, rows, times_root_.data() + static_cast<std::size_t>(c) * static_cast<std::size_t>(rows));
+  for (int c = 0; c < block.size; ++c) {
+    double* column = eliminatedColumn(block.at + c) + below;
+    std::fill_n(column, rows, 0.0);
+    for (int r = 0; r < block.size; r += 3) {
+      const double* X = times_root_.data() + static_cast<std::size_t>(r) * static_cast<std::size_t>(rows);
+      const double factors[3] = {-G(r, c), -G(r + 1, c), -G(r + 2, c)};
+      kernels::subtractThree(column, X, X + rows, X + 2 * rows, factors, rows);
     }
   }
 }
 
 void Marginaliser::eliminate() {
+  makeRoom(roots_, blocks_.size());
   roots_.assign(blocks_.size(), Matrix6d::Zero());
   gauge_loss_.setZero();
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
@@ -174,33 +199,30 @@ void Marginaliser::eliminate() {
     Matrix6d& G = roots_[b];
     if (block.size == 6) G = inverseRoot<6>(D);
     else G.topLeftCorner<3, 3>() = inverseRoot<3>(D.topLeftCorner<3, 3>());
-    // F = Lambda_b^T G, row by row, in place.
-    for (int i = below; i < stride_; ++i) {
-      Vector6d row = Vector6d::Zero();
-      for (int c = 0; c < block.size; ++c) row[c] = eliminatedColumn(block.at + c)[i];
-      const Vector6d F = G.transpose() * row;  // beyond the block's size both are zero
-      for (int c = 0; c < block.size; ++c) eliminatedColumn(block.at + c)[i] = F[c];
-    }
+    // F = Lambda_b^T G in place, then what it takes from the blocks that follow.
+    timesRoot(block, G);
     Vector6d y = Vector6d::Zero();
     for (int c = 0; c < block.size; ++c) y[c] = G.col(c).head(block.size).dot(Map<const Eigen::VectorXd>(gradient_.data() + block.at, block.size));
-    for (int c = 0; c < block.size; ++c) {
-      const double* F = eliminatedColumn(block.at + c);
-      for (int i = below; i < stride_; ++i) gradient_[static_cast<std::size_t>(i)] -= F[i] * y[c];
+    for (int c = 0; c < block.size; c += 3) {
+      const double *F0 = eliminatedColumn(block.at + c), *F1 = eliminatedColumn(block.at + c + 1), *F2 = eliminatedColumn(block.at + c + 2);
+      kernels::subtractThree(gradient_.data() + below, F0 + below, F1 + below, F2 + below, y.data() + c, stride_ - below);
       for (int j = below; j < eliminated_; ++j) {
-        double* column = eliminatedColumn(j);
-        const double factor = F[j];
-        if (factor == 0.0) continue;
-        for (int i = j; i < stride_; ++i) column[i] -= F[i] * factor;
+        const double factors[3] = {F0[j], F1[j], F2[j]};
+        kernels::subtractThree(eliminatedColumn(j) + j, F0 + j, F1 + j, F2 + j, factors, stride_ - j);
       }
-      gradient_[static_cast<std::size_t>(block.at + c)] = y[c];
-      Vector6d held = Vector6d::Zero();
-      for (int r = 0; r < block.size; ++r) held += G(r, c) * gauge_[static_cast<std::size_t>(block.at + r)];
-      gauge_loss_.noalias() += held * held.transpose();
-      for (int j = below; j < eliminated_; ++j) gauge_[static_cast<std::size_t>(j)] -= F[j] * held;
+      for (int k = c; k < c + 3; ++k) {
+        const double* F = eliminatedColumn(block.at + k);
+        Vector6d held = Vector6d::Zero();
+        for (int r = 0; r < block.size; ++r) held += G(r, k) * gauge_[static_cast<std::size_t>(block.at + r)];
+        gauge_loss_.noalias() += held * held.transpose();
+        for (int j = below; j < eliminated_; ++j) gauge_[static_cast<std::size_t>(j)] -= F[j] * held;
+      }
     }
+    for (int c = 0; c < block.size; ++c) gradient_[static_cast<std::size_t>(block.at + c)] = y[c];
   }
   product_.subtract(reduced_, 0, remaining_, panel_.data() + eliminated_, eliminated_, stride_);
   // d_pose = G (y - F^T d): its gain, transposed, is -F G^T.
+  makeRoom(gain_, static_cast<std::size_t>(6 * remaining_));
   gain_.assign(static_cast<std::size_t>(6 * remaining_), 0.0);
   const Matrix6d& G = roots_.back();
   for (int c = 0; c < 6; ++c) {
@@ -208,10 +230,9 @@ void Marginaliser::eliminate() {
     for (int r = 0; r < 6; ++r)
       for (int i = 0; i < remaining_; ++i) gain_[static_cast<std::size_t>(r * remaining_ + i)] -= F[i] * G(r, c);
   }
-  gauge_gain_.setZero();
   for (int r = 0; r < 6; ++r)
-    for (int i = 0; i < remaining_; ++i)
-      gauge_gain_.row(r) += gain_[static_cast<std::size_t>(r * remaining_ + i)] * directions_[static_cast<std::size_t>(eliminated_ + i)].transpose();
+    for (int k = 0; k < 6; ++k)
+      gauge_gain_(r, k) = kernels::dot(gain_.data() + r * remaining_, directions_.data() + k * stride_ + eliminated_, remaining_);
 }
 
 void Marginaliser::record(const State& state, History& history) const {
@@ -286,6 +307,7 @@ void Marginaliser::keep(State& state, Prior& prior) {
   ++state.first_step;
 
   // The gradient was taken at the estimates, eta is it at the centre: g + Pi d, which is gradient() of -d.
+  makeRoom(prior.eta, static_cast<std::size_t>(remaining_));
   prior.eta.assign(gradient_.begin() + eliminated_, gradient_.begin() + stride_);
   prior.deviation(state, d_);
   for (double& value : d_) value = -value;

@@ -39,6 +39,7 @@ class Marginaliser {
   void addTerms(const State& state, const Cost& cost);
   void gatherGauge(const State& state, const Eigen::Vector3d& origin);
   void eliminate();
+  void timesRoot(const Block& block, const urban_nav_core::Matrix6d& G);
   void record(const State& state, History& history) const;
   void keep(State& state, Prior& prior);
 
@@ -57,8 +58,9 @@ class Marginaliser {
   std::vector<double> d_, g_;
   std::vector<Block> blocks_;            // of the eliminated, in order
   std::vector<urban_nav_core::Matrix6d> roots_;  // of each: G with G G^T = the (pseudo-)inverse of its pivot
-  std::vector<double> gain_;
-  std::vector<urban_nav_core::Vector6d> directions_, gauge_;  // rows of G; rows of Lambda G, of the eliminated
+  std::vector<double> gain_, times_root_;
+  std::vector<double> directions_;       // G, (e + n) x 6
+  std::vector<urban_nav_core::Vector6d> gauge_;  // rows of Lambda G, of the eliminated
   urban_nav_core::Matrix6d gauge_loss_ = urban_nav_core::Matrix6d::Zero(), gauge_gain_ = urban_nav_core::Matrix6d::Zero();
   std::vector<Eigen::Vector3d> centres_;
 };

@@ -2,6 +2,7 @@
 #include "window/prior.hpp"
 
 #include "window/dense_kernels.hpp"
+#include "window/make_room.hpp"
 
 namespace swf_vo {
 
@@ -23,6 +24,7 @@ void Prior::start(const Pose& centre, const Matrix6d& pose_information) {
 }
 
 void Prior::deviation(const State& state, std::vector<double>& d) const {
+  makeRoom(d, static_cast<std::size_t>(size()));
   d.resize(static_cast<std::size_t>(size()));
   if (!has_pose) return;
   for (std::size_t i = 0; i < slots.size(); ++i)
@@ -32,6 +34,7 @@ void Prior::deviation(const State& state, std::vector<double>& d) const {
 
 double Prior::gradient(const std::vector<double>& d, std::vector<double>& g) const {
   const int n = size();
+  makeRoom(g, static_cast<std::size_t>(n));
   g.resize(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) g[static_cast<std::size_t>(i)] = 0.0;
   for (int j = 0; j < n; ++j) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "window/make_room.hpp"
+
 namespace swf_vo {
 
 using Eigen::Map;
@@ -70,6 +72,7 @@ void addBlock(DenseMatrix& M, int row, int column, const double* block, int rows
 }  // namespace
 
 void Solver::eliminateFree(const State& state, const NormalEquations& equations) {
+  makeRoom(eliminated_, equations.cross.size());
   eliminated_.resize(equations.cross.size());
   inverse_root_.resize(state.landmarks.size());
   onto_poses_.reset(6 * static_cast<int>(poses_));
@@ -160,10 +163,15 @@ void Solver::solveOntoMap(const State& state, const Prior& prior, const NormalEq
 
 void Solver::factorOntoPath(const State& state, const Prior& prior, const NormalEquations& equations, bool datum) {
   const int size = static_cast<int>(offset_ + 6 * poses_);
-  dense_.reset(size);
+  dense_.resize(size);
+  for (std::vector<double>* some : {&floor_, &rhs_, &column_}) makeRoom(*some, static_cast<std::size_t>(size));
   floor_.assign(static_cast<std::size_t>(size), 1.0);
   // The prior's blocks are the first of this matrix, in its own order.
-  for (int j = 0; j < prior.size(); ++j) std::copy(prior.information.column(j) + j, prior.information.column(j) + prior.size(), dense_.column(j) + j);
+  for (int j = 0; j < size; ++j) {
+    const int known = std::max(prior.size(), j);
+    if (j < prior.size()) std::copy(prior.information.column(j) + j, prior.information.column(j) + known, dense_.column(j) + j);
+    std::fill(dense_.column(j) + known, dense_.column(j) + size, 0.0);
+  }
   for (std::size_t i = 0; i < prior.slots.size(); ++i) {
     const std::size_t slot = static_cast<std::size_t>(prior.slots[i]);
     const int column = 3 * static_cast<int>(i);

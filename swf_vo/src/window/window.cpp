@@ -15,7 +15,9 @@ using urban_nav_core::UncertainPose;
 
 class Window::Implementation {
  public:
-  Implementation(const WindowOptions& chosen, const StereoCamera& camera) : options(chosen), filter(chosen, camera) {}
+  Implementation(const WindowOptions& chosen, const StereoCamera& camera) : options(chosen), filter(chosen, camera) {
+    frames.reserve(static_cast<std::size_t>(std::clamp(chosen.size, 1, 256)) + 2);  // of one landmark
+  }
 
   // An earlier frame's measurement, with something marginalised since.
   bool isLate(FrameId frame) const { return options.exact_undo && filter.state().poseOf(frame) >= 0 && undo.needsReplay(frame); }

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "window/dense_kernels.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace swf_vo::kernels {
+namespace {
+
+std::vector<double> numbers(int n, double pace) {
+  std::vector<double> made(static_cast<std::size_t>(n));
+  for (int i = 0; i < n; ++i) made[static_cast<std::size_t>(i)] = std::sin(pace * i + 0.1);
+  return made;
+}
+
+TEST(DenseKernels, agreeWithThePlainSums) {
+  for (const InstructionSet& set : instructionSets())
+    for (int n = 0; n < 70; ++n) {
+      const std::vector<double> a = numbers(n, 0.7), b = numbers(n, 1.3), c = numbers(n, 2.1), before = numbers(n, 0.4);
+      double product = 0.0;
+      std::vector<double> one = before, three = before;
+      const double factors[3] = {0.3, -1.7, 2.9};
+      for (std::size_t i = 0; i < a.size(); ++i) {
+        product += a[i] * b[i];
+        one[i] -= 0.3 * a[i];
+        three[i] -= factors[0] * a[i] + factors[1] * b[i] + factors[2] * c[i];
+      }
+      EXPECT_NEAR(set.dot(a.data(), b.data(), n), product, 1e-13) << set.name << ' ' << n;
+      std::vector<double> y = before;
+      set.subtract(y.data(), a.data(), 0.3, n);
+      for (std::size_t i = 0; i < y.size(); ++i) EXPECT_NEAR(y[i], one[i], 1e-15) << set.name << ' ' << n;
+      y = before;
+      set.subtractThree(y.data(), a.data(), b.data(), c.data(), factors, n);
+      for (std::size_t i = 0; i < y.size(); ++i) EXPECT_NEAR(y[i], three[i], 1e-14) << set.name << ' ' << n;
+    }
+}
+
+TEST(DenseKernels, giveTheSameBitsWithEveryInstructionSet) {
+  const auto sets = instructionSets();
+  for (int n = 0; n < 70; ++n) {
+    const std::vector<double> a = numbers(n, 0.7), b = numbers(n, 1.3), c = numbers(n, 2.1);
+    const double factors[3] = {0.3, -1.7, 2.9};
+    std::vector<double> one = c, three = c;
+    sets.front().subtract(one.data(), a.data(), 0.3, n);
+    sets.front().subtractThree(three.data(), a.data(), b.data(), a.data(), factors, n);
+    for (const InstructionSet& set : sets) {
+      EXPECT_EQ(set.dot(a.data(), b.data(), n), sets.front().dot(a.data(), b.data(), n)) << set.name << ' ' << n;
+      std::vector<double> y = c;
+      set.subtract(y.data(), a.data(), 0.3, n);
+      EXPECT_EQ(y, one) << set.name << ' ' << n;
+      y = c;
+      set.subtractThree(y.data(), a.data(), b.data(), a.data(), factors, n);
+      EXPECT_EQ(y, three) << set.name << ' ' << n;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace swf_vo::kernels
