@@ -25,7 +25,7 @@ using urban_nav_core::testing::Tracks;
 
 struct Method {
   const char* name;
-  int size;          // 0: all frames
+  int size;  // 0: all frames
   bool deletion;
   const char* colour;
 };
@@ -61,7 +61,9 @@ ProcessInput wheels(const Tracks& tracks, std::size_t i, bool standing, std::uin
   urban_nav_core::Vector6d noise;
   for (int c = 0; c < 6; ++c) {
     double sum = -6.0;  // twelve uniform numbers make a normal one
-    for (int n = 0; n < 12; ++n) sum += static_cast<double>((dice = dice * 6364136223846793005ULL + 1442695040888963407ULL) >> 11) / 9007199254740992.0;
+    for (int n = 0; n < 12; ++n)
+      sum += static_cast<double>((dice = dice * 6364136223846793005ULL + 1442695040888963407ULL) >> 11) /
+             9007199254740992.0;
     noise[c] = sum * (c < 3 ? translation : rotation);
   }
   u.T_from_to = urban_nav_core::boxPlus(tracks.frames[i - 1].T_world_camera.inverse() * tracks.frames[i].T_world_camera,
@@ -113,7 +115,8 @@ void run(const Method& method, const Tracks& tracks, bool standing, std::uint64_
 double value(const Errors& errors, bool map) { return map ? errors.map / errors.points : errors.pose / errors.runs; }
 
 // One panel, both axes logarithmic.
-void panel(std::ofstream& out, const std::vector<Curve>& curves, bool map, const std::string& title, double left, double top) {
+void panel(std::ofstream& out, const std::vector<Curve>& curves, bool map, const std::string& title, double left,
+           double top) {
   constexpr double width = 330.0, height = 240.0;
   double low = 1e300, high = 0.0;
   for (const Curve& curve : curves)
@@ -125,15 +128,18 @@ void panel(std::ofstream& out, const std::vector<Curve>& curves, bool map, const
   const double most = std::log10(200.0);
   const auto x = [&](double step) { return left + width * std::log10(step) / most; };
   const auto y = [&](double v) { return top + height * (ceiling - std::log10(v)) / (ceiling - bottom); };
-  out << "<rect x='" << left << "' y='" << top << "' width='" << width << "' height='" << height << "' fill='none' stroke='#888'/>\n";
+  out << "<rect x='" << left << "' y='" << top << "' width='" << width << "' height='" << height
+      << "' fill='none' stroke='#888'/>\n";
   out << "<text x='" << left + width / 2 << "' y='" << top - 8 << "' text-anchor='middle'>" << title << "</text>\n";
   for (double decade = bottom; decade <= ceiling; ++decade)
-    out << "<text x='" << left - 6 << "' y='" << y(std::pow(10.0, decade)) + 4 << "' text-anchor='end'>1e" << decade << "</text>\n";
+    out << "<text x='" << left - 6 << "' y='" << y(std::pow(10.0, decade)) + 4 << "' text-anchor='end'>1e" << decade
+        << "</text>\n";
   for (const int step : {1, 10, 100})
     out << "<text x='" << x(step) << "' y='" << top + height + 16 << "' text-anchor='middle'>" << step << "</text>\n";
   for (std::size_t m = 0; m < curves.size(); ++m) {
     out << "<polyline fill='none' stroke-width='2' stroke='" << methods[m].colour << "' points='";
-    for (const auto& [step, errors] : curves[m]) out << x(static_cast<double>(step)) << ',' << y(value(errors, map)) << ' ';
+    for (const auto& [step, errors] : curves[m])
+      out << x(static_cast<double>(step)) << ',' << y(value(errors, map)) << ' ';
     out << "'/>\n";
   }
 }
@@ -144,10 +150,13 @@ int main(int argc, char** argv) {
   const int runs = argc > 1 ? std::atoi(argv[1]) : 50;
   const int frames = argc > 2 ? std::atoi(argv[2]) : 200;
   const std::string path = argc > 3 ? argv[3] : "swf_vo/bench/results/figure4.json";
-  urban_nav_core::testing::BenchTable table({"motion", "method", "step 10: map, mm²", "step 50", "step 199", "step 10: position, mm²", "step 50", "step 199", "over batch (position, 199)"},
-                                            argc, argv);
+  urban_nav_core::testing::BenchTable table(
+      {"motion", "method", "step 10: map, mm²", "step 50", "step 199", "step 10: position, mm²", "step 50", "step 199",
+       "over batch (position, 199)"},
+      argc, argv);
   std::ofstream plot(path.substr(0, path.rfind('.')) + ".svg");
-  plot << "<svg xmlns='http://www.w3.org/2000/svg' width='860' height='700' font-family='sans-serif' font-size='12'>\n<rect width='860' height='700' fill='white'/>\n";
+  plot
+      << "<svg xmlns='http://www.w3.org/2000/svg' width='860' height='700' font-family='sans-serif' font-size='12'>\n<rect width='860' height='700' fill='white'/>\n";
   for (const bool standing : {true, false}) {
     std::vector<Curve> curves(std::size(methods));
     for (int r = 0; r < runs; ++r) {
@@ -158,8 +167,10 @@ int main(int argc, char** argv) {
     for (std::size_t m = 0; m < curves.size(); ++m) {
       std::vector<std::string> row = {standing ? "standing" : "moving", methods[m].name};
       for (const bool map : {true, false})
-        for (const std::size_t step : {10U, 50U, 199U}) row.push_back(curves[m].count(step) > 0 ? cell(1e6 * value(curves[m][step], map), 3) : "");
-      row.push_back(curves[m].count(199) > 0 ? cell(value(curves[m][199], false) / value(curves[0][199], false), 3) : "");
+        for (const std::size_t step : {10U, 50U, 199U})
+          row.push_back(curves[m].count(step) > 0 ? cell(1e6 * value(curves[m][step], map), 3) : "");
+      row.push_back(curves[m].count(199) > 0 ? cell(value(curves[m][199], false) / value(curves[0][199], false), 3)
+                                             : "");
       table.add(row);
     }
     const double top = standing ? 40.0 : 360.0;
@@ -168,13 +179,14 @@ int main(int argc, char** argv) {
   }
   double at = 60.0;
   for (const Method& method : methods) {
-    plot << "<line x1='" << at << "' y1='670' x2='" << at + 24 << "' y2='670' stroke-width='3' stroke='" << method.colour << "'/><text x='" << at + 30
-         << "' y='674'>" << method.name << "</text>\n";
+    plot << "<line x1='" << at << "' y1='670' x2='" << at + 24 << "' y2='670' stroke-width='3' stroke='"
+         << method.colour << "'/><text x='" << at + 30 << "' y='674'>" << method.name << "</text>\n";
     at += 150.0;
   }
   plot << "</svg>\n";
-  table.note("Mean over " + std::to_string(runs) + " runs of " + std::to_string(frames) +
-             " steps; map: landmarks within 6 m that the newest frame sees. Deletion keeps one pose more, as the datum.");
+  table.note(
+      "Mean over " + std::to_string(runs) + " runs of " + std::to_string(frames) +
+      " steps; map: landmarks within 6 m that the newest frame sees. Deletion keeps one pose more, as the datum.");
   std::fputs(table.text().c_str(), stdout);
   table.write(path);
 }

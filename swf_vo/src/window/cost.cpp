@@ -75,7 +75,7 @@ double Cost::weigh(double squared, double& cost) const {
 void Cost::relinearise(State& state, const Prior& prior) const {
   for (std::size_t j = 0; j < state.poses.size(); ++j) {
     PoseBlock& pose = state.poses[j];
-    const bool touched = linearise_first_ && prior.has_pose && j == 0;
+    const bool touched = linearise_first_ && prior.frozen && j == 0;
     pose.linearised = touched ? prior.pose_centre : pose.estimate;
     pose.at_estimate = PoseMatrices(pose.estimate);
     pose.at_linearised = touched ? PoseMatrices(pose.linearised) : pose.at_estimate;

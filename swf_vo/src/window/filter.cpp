@@ -107,6 +107,7 @@ void Filter::removeOldest(std::vector<SettledPose>& settled, History* history) {
     deleteOldest();
     return;
   }
+  if (!prior_.frozen) prior_.recentre(state_);
   if (cost_.lineariseFirst()) cost_.relinearise(state_, prior_);
   const Vector3d origin = state_.poses[1].linearised.t();
   const Matrix6d left = gauge::ofPose(state_.poses.front().linearised, origin);

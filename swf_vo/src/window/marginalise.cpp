@@ -292,7 +292,7 @@ void Marginaliser::keep(State& state, Prior& prior) {
   prior.landmark_centre.swap(centres_);
   prior.slots.swap(kept_);
   prior.pose_centre = state.poses[1].estimate;
-  prior.has_pose = true;
+  prior.has_pose = prior.frozen = true;
   for (const int slot : dying_) state.landmarks[static_cast<std::size_t>(slot)].prior = -1;
   for (std::size_t i = 0; i < prior.slots.size(); ++i) state.landmarks[static_cast<std::size_t>(prior.slots[i])].prior = static_cast<int>(i);
 

@@ -14,6 +14,7 @@ using urban_nav_core::Vector6d;
 
 void Prior::start(const Pose& centre, const Matrix6d& pose_information) {
   has_pose = true;
+  frozen = false;
   slots.clear();
   landmark_centre.clear();
   pose_centre = centre;

@@ -19,6 +19,8 @@ namespace swf_vo {
 /// The textbook's EKF (linearise_first off) moves the centre to each new estimate instead.
 struct Prior {
   bool has_pose = false;
+  bool frozen = false;           ///< something was marginalised into it: from now on blocks are linearised where they
+                                 ///< were then. Before that it is a measurement like any other
   std::vector<int> slots;        ///< landmark slot of each landmark block
   std::vector<Eigen::Vector3d> landmark_centre;
   urban_nav_core::Pose pose_centre;

@@ -50,7 +50,8 @@ TEST(Datum, heldAnewChangesNothing) {
   }
   ASSERT_EQ(a.settled.size(), b.settled.size());
   for (std::size_t i = 1; i < a.settled.size(); ++i) {
-    EXPECT_LT(largestDifference(a.settled[i].T_odom_camera.covariance, b.settled[i].T_odom_camera.covariance), 1e-3) << i;
+    EXPECT_LT(largestDifference(a.settled[i].T_odom_camera.covariance, b.settled[i].T_odom_camera.covariance), 1e-3)
+        << i;
     EXPECT_LT(largestDifference(a.settled[i].relative_covariance, b.settled[i].relative_covariance), 2e-2) << i;
     EXPECT_LT(largestDifference(a.settled[i].drift_covariance, b.settled[i].drift_covariance), 2e-2) << i;
   }
@@ -91,14 +92,19 @@ double meanNees(std::size_t length, urban_nav_core::testing::TrackMotion kind) {
     const auto tracks = simulateTracks(motion);
     TrackRunner run(tracks, WindowOptions());
     while (!run.done()) run.step();
-    for (std::size_t first = 2; first + length < run.settled.size(); first += std::max<std::size_t>(1, length / 2), ++ways) {
+    for (std::size_t first = 2; first + length < run.settled.size();
+         first += std::max<std::size_t>(1, length / 2), ++ways) {
       UncertainPose way{Pose(), Matrix6d::Zero()};
       for (std::size_t i = first + 1; i <= first + length; ++i) {
         const SettledPose& step = run.settled[i];
         const double ends = (i == first + 1 ? 0.5 : 0.0) + (i == first + length ? 0.5 : 0.0);
-        way = urban_nav_core::compose(way, UncertainPose{step.T_previous_camera, length == 1 ? step.relative_covariance : Matrix6d(step.drift_covariance + ends * step.relative_covariance)});
+        way = urban_nav_core::compose(
+            way, UncertainPose{step.T_previous_camera,
+                               length == 1 ? step.relative_covariance
+                                           : Matrix6d(step.drift_covariance + ends * step.relative_covariance)});
       }
-      const Vector6d e = urban_nav_core::boxMinus(tracks.frames[first].T_world_camera.inverse() * tracks.frames[first + length].T_world_camera, way.pose);
+      const Vector6d e = urban_nav_core::boxMinus(
+          tracks.frames[first].T_world_camera.inverse() * tracks.frames[first + length].T_world_camera, way.pose);
       sum += e.dot(way.covariance.ldlt().solve(e));
     }
   }

@@ -78,7 +78,8 @@ TEST(StripProduct, subtractsAProduct) {
     for (int i = j; i < n; ++i) {
       double expected = before(i, j);
       if (j >= 8)
-        for (int k = 0; k < columns; ++k) expected -= B[static_cast<std::size_t>(k * stride + i - 8)] * B[static_cast<std::size_t>(k * stride + j - 8)];
+        for (int k = 0; k < columns; ++k)
+          expected -= B[static_cast<std::size_t>(k * stride + i - 8)] * B[static_cast<std::size_t>(k * stride + j - 8)];
       EXPECT_NEAR(C(i, j), expected, 1e-13) << i << ' ' << j;
     }
 }

@@ -16,7 +16,8 @@ namespace swf_vo {
 /// 2008) instead of the latest.
 class EkfReference {
  public:
-  EkfReference(const urban_nav_core::StereoCamera& camera, bool first_estimates) : sensor_(camera), first_(first_estimates) {}
+  EkfReference(const urban_nav_core::StereoCamera& camera, bool first_estimates)
+      : sensor_(camera), first_(first_estimates) {}
 
   urban_nav_core::Pose pose;
   Eigen::MatrixXd P;  ///< landmarks in order of `order_`, then the pose
@@ -47,7 +48,8 @@ class EkfReference {
       if (landmarks_[i].id == id) {
         const Eigen::Index at = 3 * static_cast<Eigen::Index>(i), n = P.rows();
         Eigen::MatrixXd reduced(n - 3, n - 3);
-        reduced << P.topLeftCorner(at, at), P.topRightCorner(at, n - at - 3), P.bottomLeftCorner(n - at - 3, at), P.bottomRightCorner(n - at - 3, n - at - 3);
+        reduced << P.topLeftCorner(at, at), P.topRightCorner(at, n - at - 3), P.bottomLeftCorner(n - at - 3, at),
+            P.bottomRightCorner(n - at - 3, n - at - 3);
         P = reduced;
         Eigen::VectorXd shorter(n - 3);
         if (first_) {
@@ -85,7 +87,9 @@ class EkfReference {
       Eigen::Vector3d z;
       SensorModel::Linearised at;
       if (!sensor_.predict(landmark.anchor, landmark.theta, at_pose, z)) throw 1;
-      if (!sensor_.linearise(landmark.anchor, first_ ? landmark.theta_first : landmark.theta, first_ ? at_first : at_pose, at)) throw 1;
+      if (!sensor_.linearise(landmark.anchor, first_ ? landmark.theta_first : landmark.theta,
+                             first_ ? at_first : at_pose, at))
+        throw 1;
       Eigen::MatrixXd H = Eigen::MatrixXd::Zero(3, P.rows());
       H.block<3, 3>(0, 3 * static_cast<Eigen::Index>(i)) = at.landmark;
       H.rightCols<6>() = at.pose();
@@ -96,7 +100,8 @@ class EkfReference {
       P -= K * PHt.transpose();
       P = 0.5 * (P + P.transpose()).eval();
     }
-    for (std::size_t i = 0; i < landmarks_.size(); ++i) landmarks_[i].theta += dx.segment<3>(3 * static_cast<Eigen::Index>(i));
+    for (std::size_t i = 0; i < landmarks_.size(); ++i)
+      landmarks_[i].theta += dx.segment<3>(3 * static_cast<Eigen::Index>(i));
     const urban_nav_core::Vector6d d = dx.tail<6>();
     // A landmark that is born in this frame moves with the pose, as the measurement that made it demands.
     for (auto& [id, birth] : fresh_) {
@@ -120,8 +125,8 @@ class EkfReference {
     Eigen::Vector3d theta, theta_first;
   };
 
-  void keepLeftOver(const std::vector<Observation>& known, const std::vector<Landmark>& before, const PoseMatrices& at_pose,
-                    const PoseMatrices& at_first, const Eigen::VectorXd& dx) {
+  void keepLeftOver(const std::vector<Observation>& known, const std::vector<Landmark>& before,
+                    const PoseMatrices& at_pose, const PoseMatrices& at_first, const Eigen::VectorXd& dx) {
     left_over_ = Eigen::VectorXd::Zero(P.rows());
     const PoseMatrices now(pose);
     for (const Observation& observation : known) {
@@ -162,7 +167,8 @@ class EkfReference {
     grown.block(m, m + 3, 3, 6) = cross.rightCols(6);
     grown.block(0, m, m, 3) = cross.leftCols(m).transpose();
     grown.block(m + 3, m, 6, 3) = cross.rightCols(6).transpose();
-    grown.block(m, m, 3, 3) = cross.rightCols(6) * G.transpose() + inverse * observation.information.inverse() * inverse.transpose();
+    grown.block(m, m, 3, 3) =
+        cross.rightCols(6) * G.transpose() + inverse * observation.information.inverse() * inverse.transpose();
     P = grown;
     if (first_) {
       Eigen::VectorXd longer(n + 3);

@@ -38,7 +38,8 @@ TEST_P(WindowOne, equalsTheExtendedKalmanFilter) {
     ekf.update(run.observations(i));
     run.step();
     const auto newest = run.window.newest();
-    EXPECT_TRUE(urban_nav_core::isApprox(newest.pose, ekf.pose, 1e-8)) << "frame " << i << ": " << newest.pose << " / " << ekf.pose;
+    EXPECT_TRUE(urban_nav_core::isApprox(newest.pose, ekf.pose, 1e-8))
+        << "frame " << i << ": " << newest.pose << " / " << ekf.pose;
     const Matrix6d P = ekf.covariance();
     const urban_nav_core::Vector6d scale = P.diagonal().cwiseSqrt().cwiseInverse();
     const Matrix6d difference = scale.asDiagonal() * (newest.covariance - P) * scale.asDiagonal();

@@ -68,7 +68,8 @@ TEST(Gauge, isSeenByNoTerm) {
   SensorModel::Linearised at;
   const Pose near(expSo3(Vector3d(-0.2, 0.4, 0.1)), Vector3d(0.5, 0.0, 0.3));
   ASSERT_TRUE(sensor.linearise(anchor, theta, PoseMatrices(near), at));
-  const Eigen::Matrix<double, 3, 6> seen = at.pose() * gauge::ofPose(near, origin) + at.landmark * gauge::ofLandmark(anchor, theta, origin);
+  const Eigen::Matrix<double, 3, 6> seen =
+      at.pose() * gauge::ofPose(near, origin) + at.landmark * gauge::ofLandmark(anchor, theta, origin);
   EXPECT_LT(seen.norm(), 1e-10 * at.pose().norm());
   const auto step = process_model::residual(T_odom_camera, near, Pose());
   EXPECT_LT((step.last * gauge::ofPose(T_odom_camera, origin) + step.next * gauge::ofPose(near, origin)).norm(), 1e-12);
@@ -76,7 +77,10 @@ TEST(Gauge, isSeenByNoTerm) {
 
 TEST(Gauge, isTransportedBetweenOrigins) {
   const Vector3d other(-3.0, 1.0, 2.0);
-  EXPECT_LT((gauge::ofPose(T_odom_camera, other) * gauge::transport(origin, other) - gauge::ofPose(T_odom_camera, origin)).norm(), 1e-12);
+  EXPECT_LT(
+      (gauge::ofPose(T_odom_camera, other) * gauge::transport(origin, other) - gauge::ofPose(T_odom_camera, origin))
+          .norm(),
+      1e-12);
 }
 
 }  // namespace

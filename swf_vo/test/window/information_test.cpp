@@ -37,8 +37,8 @@ struct Batch {
   Eigen::Index size() const { return order.empty() ? 0 : row.at(order.back()) + (order.back().first ? 6 : 3); }
 };
 
-void addSensor(Batch& batch, const SensorModel& model, const Point& point, const Block& landmark, const Pose& pose, const Block& frame,
-               const Eigen::Matrix3d& W) {
+void addSensor(Batch& batch, const SensorModel& model, const Point& point, const Block& landmark, const Pose& pose,
+               const Block& frame, const Eigen::Matrix3d& W) {
   SensorModel::Linearised at;
   ASSERT_TRUE(model.linearise(point.anchor, point.theta, PoseMatrices(pose), at));
   const Eigen::Index p = batch.row.at(frame), m = batch.row.at(landmark);
@@ -48,7 +48,8 @@ void addSensor(Batch& batch, const SensorModel& model, const Point& point, const
   batch.information.block(m, p, 3, 6) += at.landmark.transpose() * W * at.pose();
 }
 
-void addProcess(Batch& batch, const Pose& last, const Block& last_frame, const Pose& next, const Block& next_frame, const ProcessInput& u) {
+void addProcess(Batch& batch, const Pose& last, const Block& last_frame, const Pose& next, const Block& next_frame,
+                const ProcessInput& u) {
   const auto at = process_model::residual(last, next, u.T_from_to);
   const Matrix6d W = u.information + process_model::floor();
   const Eigen::Index l = batch.row.at(last_frame), n = batch.row.at(next_frame);
@@ -84,12 +85,13 @@ Batch windowInformation(const Filter& filter, const SensorModel& model) {
     if (!landmark.used) continue;
     for (const Measurement& measurement : landmark.seen) {
       const PoseBlock& pose = state.poses[static_cast<std::size_t>(measurement.step - state.first_step)];
-      addSensor(batch, model, {landmark.anchor, landmark.linearised}, {false, landmark.id}, pose.linearised, {true, pose.frame}, measurement.information);
+      addSensor(batch, model, {landmark.anchor, landmark.linearised}, {false, landmark.id}, pose.linearised,
+                {true, pose.frame}, measurement.information);
     }
   }
   for (std::size_t j = 1; j < state.poses.size(); ++j)
-    addProcess(batch, state.poses[j - 1].linearised, {true, state.poses[j - 1].frame}, state.poses[j].linearised, {true, state.poses[j].frame},
-               state.poses[j].u);
+    addProcess(batch, state.poses[j - 1].linearised, {true, state.poses[j - 1].frame}, state.poses[j].linearised,
+               {true, state.poses[j].frame}, state.poses[j].u);
   return batch;
 }
 
@@ -146,7 +148,8 @@ TEST(Information, isTheSchurComplementOfTheBatch) {
     const std::int64_t frame = static_cast<std::int64_t>(i);
     for (const Observation& observation : inputs.observations(i))
       if (points.count(observation.landmark) > 0 && batch.row.count({false, observation.landmark}) > 0) {
-        addSensor(batch, model, points[observation.landmark], {false, observation.landmark}, poses[frame], {true, frame}, observation.information);
+        addSensor(batch, model, points[observation.landmark], {false, observation.landmark}, poses[frame],
+                  {true, frame}, observation.information);
         ++terms;
       }
     if (i > 0) addProcess(batch, poses[frame - 1], {true, frame - 1}, poses[frame], {true, frame}, inputs.input(i));

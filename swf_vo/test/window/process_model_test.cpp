@@ -30,8 +30,10 @@ TEST(ProcessModel, jacobiansHoldAtLargeResiduals) {
   for (const auto& [translation, angle] : {std::pair{0.0, 0.0}, {0.01, 0.01}, {0.5, 0.7}}) {
     const Pose next = nextAt(translation, angle);
     const auto at = process_model::residual(last, next, u);
-    const auto by_last = urban_nav_core::testing::numericJacobian<6, 6>([&](const Pose& T) { return process_model::error(T, next, u); }, last);
-    const auto by_next = urban_nav_core::testing::numericJacobian<6, 6>([&](const Pose& T) { return process_model::error(last, T, u); }, next);
+    const auto by_last = urban_nav_core::testing::numericJacobian<6, 6>(
+        [&](const Pose& T) { return process_model::error(T, next, u); }, last);
+    const auto by_next = urban_nav_core::testing::numericJacobian<6, 6>(
+        [&](const Pose& T) { return process_model::error(last, T, u); }, next);
     EXPECT_LT((at.last - by_last).norm(), 1e-8) << angle;
     EXPECT_LT((at.next - by_next).norm(), 1e-8) << angle;
   }

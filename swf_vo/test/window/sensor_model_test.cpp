@@ -33,7 +33,8 @@ Vector6d tangent(double x, double y, double z, double a, double b, double c) {
 }
 
 // Far from the anchor as well: half a metre and 40 deg.
-const Vector6d offsets[] = {Vector6d::Zero(), tangent(0.02, -0.01, 0.03, 0.01, 0.02, -0.02), tangent(0.3, -0.3, 0.25, 0.1, 0.6, -0.3)};
+const Vector6d offsets[] = {Vector6d::Zero(), tangent(0.02, -0.01, 0.03, 0.01, 0.02, -0.02),
+                            tangent(0.3, -0.3, 0.25, 0.1, 0.6, -0.3)};
 const Vector3d thetas[] = {{0.1, -0.2, 0.3}, {-0.3, 0.1, 0.01}, {0.2, 0.2, 0.0}, {0.0, 0.1, -0.02}, {0.1, 0.0, 0.5}};
 
 TEST(SensorModel, jacobiansAreThoseOfThePrediction) {
@@ -48,10 +49,14 @@ TEST(SensorModel, jacobiansAreThoseOfThePrediction) {
         EXPECT_TRUE(scene.model.predict(scene.anchor, x, PoseMatrices(T), z));
         return z;
       };
-      const auto by_pose = urban_nav_core::testing::numericJacobian<3, 6>([&](const Pose& T) { return predict(T, theta); }, pose);
-      const auto by_theta = urban_nav_core::testing::numericJacobian<3, 3>([&](const Vector3d& x) { return predict(pose, x); }, theta);
-      EXPECT_LT((at.pose() - by_pose).norm(), 1e-6 * (1.0 + by_pose.norm())) << offset.transpose() << " / " << theta.transpose();
-      EXPECT_LT((at.landmark - by_theta).norm(), 1e-6 * (1.0 + by_theta.norm())) << offset.transpose() << " / " << theta.transpose();
+      const auto by_pose =
+          urban_nav_core::testing::numericJacobian<3, 6>([&](const Pose& T) { return predict(T, theta); }, pose);
+      const auto by_theta =
+          urban_nav_core::testing::numericJacobian<3, 3>([&](const Vector3d& x) { return predict(pose, x); }, theta);
+      EXPECT_LT((at.pose() - by_pose).norm(), 1e-6 * (1.0 + by_pose.norm()))
+          << offset.transpose() << " / " << theta.transpose();
+      EXPECT_LT((at.landmark - by_theta).norm(), 1e-6 * (1.0 + by_theta.norm()))
+          << offset.transpose() << " / " << theta.transpose();
     }
 }
 

@@ -49,7 +49,8 @@ void expectSame(const System& system, bool datum) {
   }
   ASSERT_FALSE(path.wentOntoMap());
   ASSERT_TRUE(map.wentOntoMap());
-  for (std::size_t j = 0; j < system.state.poses.size(); ++j) EXPECT_LT((path.poseStep(j) - map.poseStep(j)).norm(), 1e-9) << j;
+  for (std::size_t j = 0; j < system.state.poses.size(); ++j)
+    EXPECT_LT((path.poseStep(j) - map.poseStep(j)).norm(), 1e-9) << j;
   double largest = 0.0;
   for (std::size_t slot = 0; slot < system.state.landmarks.size(); ++slot) {
     if (!system.state.landmarks[slot].used) continue;

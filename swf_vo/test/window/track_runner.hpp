@@ -14,21 +14,24 @@ inline Eigen::Matrix3d pixelInformation(double sigma_px) { return Eigen::Matrix3
 
 inline urban_nav_core::Matrix6d diagonalInformation(double sigma_translation, double sigma_rotation) {
   urban_nav_core::Vector6d d;
-  d << Eigen::Vector3d::Constant(1.0 / (sigma_translation * sigma_translation)), Eigen::Vector3d::Constant(1.0 / (sigma_rotation * sigma_rotation));
+  d << Eigen::Vector3d::Constant(1.0 / (sigma_translation * sigma_translation)),
+      Eigen::Vector3d::Constant(1.0 / (sigma_rotation * sigma_rotation));
   return d.asDiagonal();
 }
 
 /// Drives a Window through simulated tracks, one step a call.
 class TrackRunner {
  public:
-  TrackRunner(const urban_nav_core::testing::Tracks& tracks, const WindowOptions& options) : tracks_(tracks), window(options, tracks.camera) {
+  TrackRunner(const urban_nav_core::testing::Tracks& tracks, const WindowOptions& options)
+      : tracks_(tracks), window(options, tracks.camera) {
     first_information = diagonalInformation(1e-3, 1e-4);
   }
 
   /// The process input of a step: by default what was driven, off by a fixed amount, with an information to match.
   ProcessInput input(std::size_t i) const {
     ProcessInput u;
-    const urban_nav_core::Pose truth = tracks_.frames[i - 1].T_world_camera.inverse() * tracks_.frames[i].T_world_camera;
+    const urban_nav_core::Pose truth =
+        tracks_.frames[i - 1].T_world_camera.inverse() * tracks_.frames[i].T_world_camera;
     urban_nav_core::Vector6d off;
     off << 0.01, -0.006, 0.012, 0.003, 0.004, -0.002;
     u.T_from_to = urban_nav_core::boxPlus(truth, off * (i % 2 == 0 ? 1.0 : -1.0));

@@ -53,7 +53,9 @@ TEST(Undo, withdrawnMeasurementLeavesNoTrace) {
   const auto tracks = someTracks();
   const LandmarkId landmark = victim(tracks);
   ASSERT_GE(landmark, 0);
-  const auto without = [&](const Observation& o) { return o.landmark != landmark || o.frame != static_cast<FrameId>(touched_frame); };
+  const auto without = [&](const Observation& o) {
+    return o.landmark != landmark || o.frame != static_cast<FrameId>(touched_frame);
+  };
   TrackRunner had(tracks, sixPoses()), never(tracks, sixPoses()), always(tracks, sixPoses());
   for (std::size_t i = 0; i <= last_frame; ++i) {
     if (i == change_frame) {
@@ -64,7 +66,8 @@ TEST(Undo, withdrawnMeasurementLeavesNoTrace) {
     always.step();
   }
   expectSame(had.window, never.window, 1e-9);
-  EXPECT_FALSE(urban_nav_core::isApprox(always.window.newest().pose, never.window.newest().pose, 1e-7)) << "it made no difference";
+  EXPECT_FALSE(urban_nav_core::isApprox(always.window.newest().pose, never.window.newest().pose, 1e-7))
+      << "it made no difference";
 }
 
 TEST(Undo, lateMeasurementCountsAsIfInTime) {

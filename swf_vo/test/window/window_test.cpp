@@ -42,7 +42,8 @@ TEST(Window, withoutNoiseWithoutError) {
     TrackRunner run(tracks, options);
     while (!run.done()) {
       run.step();
-      ASSERT_LT(urban_nav_core::distanceBetween(run.window.newest().pose, run.truth()), 0.01) << "the inputs are off, the images are not";
+      ASSERT_LT(urban_nav_core::distanceBetween(run.window.newest().pose, run.truth()), 0.01)
+          << "the inputs are off, the images are not";
     }
   }
 }
@@ -67,7 +68,9 @@ TEST(Window, backSubstitutionGivesTheBatchWhereTheWorldIsNearlyLinear) {
   for (const auto& [frame, pose] : trajectory) {
     EXPECT_TRUE(isApprox(pose, batch.window.pose(frame), 1e-8)) << frame;
     if (static_cast<std::size_t>(frame) < filter.settled.size())
-      settled_off = std::max(settled_off, urban_nav_core::distanceBetween(filter.settled[static_cast<std::size_t>(frame)].T_odom_camera.pose, batch.window.pose(frame)));
+      settled_off = std::max(settled_off, urban_nav_core::distanceBetween(
+                                              filter.settled[static_cast<std::size_t>(frame)].T_odom_camera.pose,
+                                              batch.window.pose(frame)));
   }
   EXPECT_GT(settled_off, 1e-7) << "what settled could not know what came after";
 }
@@ -140,7 +143,9 @@ TEST(Window, survivesNonsense) {
   const auto tracks = simulateTracks(tracksOf(60, 0.5));
   TrackRunner run(tracks, WindowOptions());
   std::uint64_t dice = 12345;
-  const auto roll = [&] { return static_cast<double>((dice = dice * 6364136223846793005ULL + 1442695040888963407ULL) >> 33) / 2147483648.0; };
+  const auto roll = [&] {
+    return static_cast<double>((dice = dice * 6364136223846793005ULL + 1442695040888963407ULL) >> 33) / 2147483648.0;
+  };
   while (!run.done()) {
     run.beginStep();
     const std::size_t i = run.at() + 1;
