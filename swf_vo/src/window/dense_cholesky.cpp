@@ -75,7 +75,23 @@ void DenseCholesky::factorDiagonal(DenseMatrix& A, int start, int width, const s
     row[j] = std::sqrt(held ? floor[at] : pivot);
     const double inverse = held ? 0.0 : 1.0 / row[j];
     inverse_[static_cast<std::size_t>(j)] = inverse;
-    for (int i = j + 1; i < width; ++i) {
+    // Four rows at a time, for a difference must wait for the one before.
+    int i = j + 1;
+    for (; i + 4 <= width; i += 4) {
+      double *a = L + i * width, *b = a + width, *c = b + width, *d = c + width;
+      double va = a[j], vb = b[j], vc = c[j], vd = d[j];
+      for (int k = 0; k < j; ++k) {
+        va -= a[k] * row[k];
+        vb -= b[k] * row[k];
+        vc -= c[k] * row[k];
+        vd -= d[k] * row[k];
+      }
+      a[j] = va * inverse;
+      b[j] = vb * inverse;
+      c[j] = vc * inverse;
+      d[j] = vd * inverse;
+    }
+    for (; i < width; ++i) {
       double* below = L + i * width;
       double value = below[j];
       for (int k = 0; k < j; ++k) value -= below[k] * row[k];

@@ -30,18 +30,24 @@ template <typename Width>
 __attribute__((always_inline)) inline void tile(double* C, std::ptrdiff_t stride, const double* a, const double* b, int depth) {
   using Vector = typename Width::Vector;
   Vector sum[Width::columns][Width::vectors];
+#pragma GCC unroll 8
   for (int c = 0; c < Width::columns; ++c)
+#pragma GCC unroll 8
     for (int v = 0; v < Width::vectors; ++v) sum[c][v] = Vector{};
   for (int k = 0; k < depth; ++k) {
     Vector x[Width::vectors];
+#pragma GCC unroll 8
     for (int v = 0; v < Width::vectors; ++v) x[v] = *reinterpret_cast<const Vector*>(a + k * strip + v * Width::lanes);
 #pragma GCC unroll 8
     for (int c = 0; c < Width::columns; ++c) {
       const double y = b[k * strip + c];
+#pragma GCC unroll 8
       for (int v = 0; v < Width::vectors; ++v) sum[c][v] += x[v] * y;
     }
   }
+#pragma GCC unroll 8
   for (int c = 0; c < Width::columns; ++c)
+#pragma GCC unroll 8
     for (int v = 0; v < Width::vectors; ++v) *reinterpret_cast<Vector*>(C + c * stride + v * Width::lanes) -= sum[c][v];
 }
 
@@ -62,11 +68,14 @@ __attribute__((always_inline)) inline void solveAs(double* X, std::ptrdiff_t apa
   using Vector = typename Width::Vector;
   for (int j = 0; j < depth; ++j) {
     Vector sum[several];
+#pragma GCC unroll 8
     for (int s = 0; s < several; ++s) sum[s] = *reinterpret_cast<const Vector*>(X + s * apart + j * strip);
     for (int k = 0; k < j; ++k) {
       const double factor = L[j * depth + k];
+#pragma GCC unroll 8
       for (int s = 0; s < several; ++s) sum[s] -= *reinterpret_cast<const Vector*>(X + s * apart + k * strip) * factor;
     }
+#pragma GCC unroll 8
     for (int s = 0; s < several; ++s) *reinterpret_cast<Vector*>(X + s * apart + j * strip) = sum[s] * inverse[j];
   }
 }

@@ -44,45 +44,50 @@ URBAN_NAV_INLINE V load(const std::uint8_t* p) {
   return v;
 }
 
-/// Largest value that nine neighbours on the circle all reach: max over arcs of min over the arc. Arcs that begin at
+/// The lesser or the greater, turned round where dark arcs are looked for: the least of the greatest is found as is the greatest of the
+/// least.
+template <bool dark, typename V>
+URBAN_NAV_INLINE V lower(const V& a, const V& b) { return dark ? most(a, b) : least(a, b); }
+template <bool dark, typename V>
+URBAN_NAV_INLINE V upper(const V& a, const V& b) { return dark ? least(a, b) : most(a, b); }
+
+/// The grey level that nine neighbours on the circle all reach: max over arcs of min over the arc (dark: min of max). Arcs that begin at
 /// k - 1 and at k, k odd, share eight places, so eight minima of eight serve all sixteen.
-template <typename V>
-URBAN_NAV_INLINE V bestArc(const V* d) {
+template <bool dark, typename V>
+URBAN_NAV_INLINE V bestArc(const V* p) {
   V pair[8], quad[8];
 #pragma GCC unroll 16
-  for (int i = 0; i < 8; ++i) pair[i] = least(d[2 * i + 1], d[(2 * i + 2) % kCircle]);
+  for (int i = 0; i < 8; ++i) pair[i] = lower<dark>(p[2 * i + 1], p[(2 * i + 2) % kCircle]);
 #pragma GCC unroll 16
-  for (int i = 0; i < 8; ++i) quad[i] = least(pair[i], pair[(i + 1) % 8]);
-  V best = least(least(quad[0], quad[2]), most(d[0], d[9]));
+  for (int i = 0; i < 8; ++i) quad[i] = lower<dark>(pair[i], pair[(i + 1) % 8]);
+  V best = lower<dark>(lower<dark>(quad[0], quad[2]), upper<dark>(p[0], p[9]));
 #pragma GCC unroll 16
-  for (int i = 1; i < 8; ++i) best = most(best, least(least(quad[i], quad[(i + 2) % 8]), most(d[2 * i], d[(2 * i + 9) % kCircle])));
+  for (int i = 1; i < 8; ++i)
+    best = upper<dark>(best, lower<dark>(lower<dark>(quad[i], quad[(i + 2) % 8]), upper<dark>(p[2 * i], p[(2 * i + 9) % kCircle])));
   return best;
 }
 
+/// Grey levels less one another where that is positive: what comes of the arcs is compared, not every pixel.
 template <typename V>
 URBAN_NAV_INLINE V scoreOf(const V* circle, const V& centre, const V& threshold) {
-  V d[kCircle];
-#pragma GCC unroll 16
-  for (int i = 0; i < kCircle; ++i) d[i] = excess(circle[i], centre);
-  V score = bestArc(d);
-#pragma GCC unroll 16
-  for (int i = 0; i < kCircle; ++i) d[i] = excess(centre, circle[i]);
-  score = most(score, bestArc(d));
+  const V score = most(excess(bestArc<false>(circle), centre), excess(centre, bestArc<true>(circle)));
   return score > threshold ? score : V{};
 }
 
-/// Lanes that may hold a corner: any nine neighbours on the circle hold four of its even places in a row, among them two neighbouring points
-/// of the compass.
-template <typename V>
-URBAN_NAV_INLINE V opposed(const V* d) { return least(most(d[0], d[4]), most(d[2], d[6])); }
-template <typename V>
-URBAN_NAV_INLINE V fourInARow(const V* d) {
+/// Any nine neighbours on the circle hold four of its even places in a row, among them two neighbouring points of the compass. `even`: those
+/// places, of which the first test needs every other one.
+template <bool dark, typename V>
+URBAN_NAV_INLINE V twoOfTheCompass(const V* even) {
+  return lower<dark>(upper<dark>(even[0], even[4]), upper<dark>(even[2], even[6]));
+}
+template <bool dark, typename V>
+URBAN_NAV_INLINE V fourInARow(const V* even) {
   V pair[8];
 #pragma GCC unroll 16
-  for (int i = 0; i < 8; ++i) pair[i] = least(d[i], d[(i + 1) % 8]);
-  V best = least(pair[0], pair[2]);
+  for (int i = 0; i < 8; ++i) pair[i] = lower<dark>(even[i], even[(i + 1) % 8]);
+  V best = lower<dark>(pair[0], pair[2]);
 #pragma GCC unroll 16
-  for (int i = 1; i < 8; ++i) best = most(best, least(pair[i], pair[(i + 2) % 8]));
+  for (int i = 1; i < 8; ++i) best = upper<dark>(best, lower<dark>(pair[i], pair[(i + 2) % 8]));
   return best;
 }
 
@@ -148,21 +153,13 @@ URBAN_NAV_INLINE bool scoreRowAs(const std::uint8_t* row, std::ptrdiff_t stride,
     const std::uint8_t* pixel = row + u;
     const V centre = load<V>(pixel);
     const V above = least(centre, V{} + room) + t, below = excess(centre, limit);
-    V bright[8], dark[8];
+    V even[8];
 #pragma GCC unroll 16
-    for (int i = 0; i < 8; i += 2) {
-      const V p = load<V>(pixel + offsets[2 * i]);
-      bright[i] = excess(p, above);
-      dark[i] = excess(below, p);
-    }
-    if (!any(most(opposed(bright), opposed(dark)))) continue;
+    for (int i = 0; i < 8; i += 2) even[i] = load<V>(pixel + offsets[2 * i]);
+    if (!any(most(excess(twoOfTheCompass<false>(even), above), excess(below, twoOfTheCompass<true>(even))))) continue;
 #pragma GCC unroll 16
-    for (int i = 1; i < 8; i += 2) {
-      const V p = load<V>(pixel + offsets[2 * i]);
-      bright[i] = excess(p, above);
-      dark[i] = excess(below, p);
-    }
-    const V rest = most(fourInARow(bright), fourInARow(dark));
+    for (int i = 1; i < 8; i += 2) even[i] = load<V>(pixel + offsets[2 * i]);
+    const V rest = most(excess(fourInARow<false>(even), above), excess(below, fourInARow<true>(even)));
     const V candidates = reinterpret_cast<V>(rest > V{});
     std::uint64_t words[lanes / 8];
     std::memcpy(words, &candidates, sizeof candidates);

@@ -110,31 +110,46 @@ void warpWide(const PatchSource& source, const Eigen::Matrix2d& source_from_view
 void blurWide(double blur, std::size_t step, WideGrid& grid) {
   const float side = static_cast<float>(blur), middle = static_cast<float>(1.0 - 2.0 * blur);
   const WideGrid before = grid;
-  for (std::size_t at = step; at + step < grid.size(); ++at) grid[at] = side * (before[at - step] + before[at + step]) + middle * before[at];
+  const v_float32x4 side4 = cv::v_setall_f32(side), middle4 = cv::v_setall_f32(middle);
+  std::size_t at = step;
+  for (; at + step + 4 <= grid.size(); at += 4)
+    cv::v_store(&grid[at], side4 * (cv::v_load(&before[at - step]) + cv::v_load(&before[at + step])) + middle4 * cv::v_load(&before[at]));
+  for (; at + step < grid.size(); ++at) grid[at] = side * (before[at - step] + before[at + step]) + middle * before[at];
 }
 
-/// Adds (1 4 1)/6 along a row of 12 and its surroundings: 16 columns, the first two left of the filter.
-void spreadAlongRow(const float* row, float* out) {
-  alignas(16) float wide[24] = {};
-  for (int i = 0; i < 12; i += 4) cv::v_store(&wide[i + 4], cv::v_load(row + i));
+constexpr int spread_rows = patch_size + 2, spread_stride = 24, spread_margin = 4;
+using SpreadGrid = std::array<float, spread_rows * spread_stride>;
+
+/// A filter spread by (1 4 1)/6 along columns, with zeros left and right of it. All of it is written before any is read across: a
+/// load that meets two stores under way has to wait for both.
+void spreadAlongColumns(const PatchGrid& filter, SpreadGrid& out) {
+  static constexpr float zeros[patch_stride] = {};
+  const auto row = [&](int j) { return j < 0 || j >= patch_size ? zeros : &filter[static_cast<std::size_t>(j * patch_stride)]; };
   const v_float32x4 side = cv::v_setall_f32(1.0F / 6.0F), middle = cv::v_setall_f32(4.0F / 6.0F);
-  for (int i = 0; i < 16; i += 4)
-    cv::v_store(&out[i], side * (cv::v_load(&wide[i + 2]) + cv::v_load(&wide[i + 4])) + middle * cv::v_load(&wide[i + 3]));
+  for (int j = 0; j < spread_rows; ++j) {
+    const float *above = row(j - 2), *here = row(j - 1), *below = row(j);
+    float* to = &out[static_cast<std::size_t>(j * spread_stride)];
+    cv::v_store(to, cv::v_setzero_f32());
+#pragma GCC unroll 3
+    for (int i = 0; i < patch_stride; i += 4)
+      cv::v_store(to + spread_margin + i, side * (cv::v_load(above + i) + cv::v_load(below + i)) + middle * cv::v_load(here + i));
+    cv::v_store(to + spread_margin + patch_stride, cv::v_setzero_f32());
+    cv::v_store(to + spread_margin + patch_stride + 4, cv::v_setzero_f32());
+  }
 }
 
 /// Covariance of the products of two filters with the smoothed image, for white noise of one grey level in the image.
 Eigen::Matrix2d noiseThroughSpline(const PatchGrid& fx, const PatchGrid& fy) {
-  alignas(16) float x[patch_size + 4][16] = {}, y[patch_size + 4][16] = {};
-  for (int j = 0; j < patch_size; ++j) {
-    spreadAlongRow(&fx[static_cast<std::size_t>(j * patch_stride)], x[j + 2]);
-    spreadAlongRow(&fy[static_cast<std::size_t>(j * patch_stride)], y[j + 2]);
-  }
+  SpreadGrid x, y;
+  spreadAlongColumns(fx, x);
+  spreadAlongColumns(fy, y);
   const v_float32x4 side = cv::v_setall_f32(1.0F / 6.0F), middle = cv::v_setall_f32(4.0F / 6.0F);
   v_float32x4 xx = cv::v_setzero_f32(), xy = xx, yy = xx;
-  for (int j = 1; j < patch_size + 3; ++j)
-    for (int i = 0; i < 16; i += 4) {
-      const v_float32x4 a = side * (cv::v_load_aligned(&x[j - 1][i]) + cv::v_load_aligned(&x[j + 1][i])) + middle * cv::v_load_aligned(&x[j][i]);
-      const v_float32x4 b = side * (cv::v_load_aligned(&y[j - 1][i]) + cv::v_load_aligned(&y[j + 1][i])) + middle * cv::v_load_aligned(&y[j][i]);
+  for (std::size_t j = 0; j < x.size(); j += spread_stride)
+#pragma GCC unroll 4
+    for (std::size_t i = j; i < j + 16; i += 4) {  // from two left of the filter to two right of it
+      const v_float32x4 a = side * (cv::v_load(&x[i + 1]) + cv::v_load(&x[i + 3])) + middle * cv::v_load(&x[i + 2]);
+      const v_float32x4 b = side * (cv::v_load(&y[i + 1]) + cv::v_load(&y[i + 3])) + middle * cv::v_load(&y[i + 2]);
       xx += a * a;
       xy += a * b;
       yy += b * b;
@@ -177,9 +192,11 @@ const Window& window() {
 }
 
 double dot(const PatchGrid& a, const PatchGrid& b) {
-  v_float32x4 total = cv::v_setzero_f32();
-  for (std::size_t i = 0; i < a.size(); i += 4) total += cv::v_load(&a[i]) * cv::v_load(&b[i]);
-  return sum(total);
+  v_float32x4 total[3] = {cv::v_setzero_f32(), cv::v_setzero_f32(), cv::v_setzero_f32()};
+  for (std::size_t i = 0; i < a.size(); i += patch_stride)
+#pragma GCC unroll 3
+    for (std::size_t k = 0; k < 3; ++k) total[k] += cv::v_load(&a[i + 4 * k]) * cv::v_load(&b[i + 4 * k]);
+  return sum(total[0] + total[1] + total[2]);
 }
 
 bool fits(const ImageView& image, double x, double y) {
