@@ -46,9 +46,12 @@ struct Run {
   std::vector<urban_nav_core::Matrix6d> now_covariance, settled_covariance, relative_covariance;
   std::vector<Statistics> statistics;
   std::vector<urban_nav_core::Status> status;
-  std::vector<double> ms;  ///< of process(), wall clock, images already decoded
+  std::vector<double> ms;  ///< of process(), images already decoded: time of the processor, so that what else runs does not count
 };
 Run run(const Sequence& sequence, const Parameters& parameters);
+
+/// Time that this thread has had of a processor.
+double processorMs();
 
 /// Errors over all spans of so many frames: mean in per cent and deg/m, and the median ratio of the lengths of one-frame steps.
 struct SpanErrors {
