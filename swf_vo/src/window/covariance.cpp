@@ -3,6 +3,7 @@
 
 #include "urban_nav_core/geometry/compose.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
+#include "window/dense_kernels.hpp"
 
 namespace swf_vo::covariance {
 
@@ -38,11 +39,11 @@ Matrix12d leftAndOldest(const Solver& solver, const Matrix6d& left, const std::v
   const Eigen::Map<const Eigen::MatrixXd> G(gain.data(), size, 6);
   Matrix12d P;
   P.topLeftCorner<6, 6>() = left;
-  for (int c = 0; c < 6; ++c) {
-    const auto& column = solver.inverseColumn(0, c, false);
-    P.block<6, 1>(0, 6 + c).noalias() = G.transpose() * Eigen::Map<const Eigen::VectorXd>(column.data(), size);
-    P.block<6, 1>(6, 6 + c) = Eigen::Map<const urban_nav_core::Vector6d>(column.data() + solver.rowOf(0));
-  }
+  const std::vector<double>& columns = solver.inverseColumns(0);
+  const Eigen::Map<const Eigen::MatrixXd> X(columns.data(), static_cast<Eigen::Index>(columns.size() / 6), 6);
+  for (int c = 0; c < 6; ++c)
+    for (int r = 0; r < 6; ++r) P(r, 6 + c) = kernels::dot(G.col(r).data(), X.col(c).data(), static_cast<int>(size));
+  P.block<6, 6>(6, 6) = X.block<6, 6>(static_cast<Eigen::Index>(solver.rowOf(0)), 0);
   P.bottomLeftCorner<6, 6>() = P.topRightCorner<6, 6>().transpose();
   return symmetric(P);
 }

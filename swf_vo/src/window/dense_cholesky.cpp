@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "window/make_room.hpp"
 
@@ -31,6 +32,10 @@ void pack(const double* columns, std::size_t stride, int first, int last, int de
     for (int k = 0; k < depth; ++k) {
       double* to = packed.data() + s * size + static_cast<std::size_t>(k * strip);
       const double* from = columns + static_cast<std::size_t>(k) * stride + row;
+      if (rows == strip) {
+        std::memcpy(to, from, strip * sizeof(double));
+        continue;
+      }
       for (int r = 0; r < rows; ++r) to[r] = from[r];
       for (int r = rows; r < strip; ++r) to[r] = 0.0;
     }
@@ -123,7 +128,7 @@ void DenseCholesky::factor(DenseMatrix& A, const std::vector<double>& floor) {
     for (int s = 0; s < strips; ++s)
       for (int k = 0; k < width; ++k) {
         const double* from = packed_.data() + static_cast<std::size_t>(s * width + k) * strip;
-        std::copy(from, from + strip, A.column(start + k) + end + s * strip);
+        std::memcpy(A.column(start + k) + end + s * strip, from, strip * sizeof(double));
       }
     set_.subtractStrips(A.column(end) + end, A.stride(), packed_.data(), strips, width);
   }
@@ -142,6 +147,16 @@ void DenseCholesky::solveUpper(double* x, int first) const {
   for (int j = L_->size() - 1; j >= first; --j) {
     const double* column = L_->column(j);
     x[j] = (x[j] - kernels::dot(column + j + 1, x + j + 1, L_->size() - j - 1)) / column[j];
+  }
+}
+
+void DenseCholesky::solveUpperSix(double* x, int stride) const {
+  const int n = L_->size();
+  double products[6];
+  for (int j = n - 1; j >= 0; --j) {
+    const double* column = L_->column(j);
+    kernels::dotSix(column + j + 1, x + j + 1, stride, n - j - 1, products);
+    for (int c = 0; c < 6; ++c) x[c * stride + j] = (x[c * stride + j] - products[c]) / column[j];
   }
 }
 

@@ -56,6 +56,8 @@ class DenseCholesky {
   /// L x = b and L^T x = b in place, from component `first` on (those before are left alone).
   void solveLower(double* x, int first = 0) const;
   void solveUpper(double* x, int first = 0) const;
+  /// L^T x = b for six columns, `stride` numbers from one to the next.
+  void solveUpperSix(double* x, int stride) const;
 
   /// Sets held components to zero: between solveLower and solveUpper it makes the solution leave them where they are.
   void release(double* x) const;

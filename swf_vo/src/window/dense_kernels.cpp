@@ -116,6 +116,34 @@ __attribute__((always_inline)) inline double dotAs(const double* a, const double
   return ((each[0] + each[4]) + (each[2] + each[6])) + ((each[1] + each[5]) + (each[3] + each[7])) + rest;
 }
 
+// Eight sums of each, whatever the width: a passes once.
+template <typename Width>
+__attribute__((always_inline)) inline void dotSixAs(const double* a, const double* b, std::ptrdiff_t stride, int n, double* products) {
+  using Vector = typename Width::Vector;
+  constexpr int sums = 8, vectors = sums / Width::lanes, together = Width::lanes == 2 ? 3 : 6;  // as many as there are registers for
+  for (int first = 0; first < 6; first += together) {
+    Vector sum[together][vectors];
+#pragma GCC unroll 6
+    for (int c = 0; c < together; ++c)
+#pragma GCC unroll 4
+      for (int v = 0; v < vectors; ++v) sum[c][v] = Vector{};
+    int i = 0;
+    for (; i + sums <= n; i += sums)
+#pragma GCC unroll 4
+      for (int v = 0; v < vectors; ++v) {
+        const Vector x = *reinterpret_cast<const Vector*>(a + i + v * Width::lanes);
+#pragma GCC unroll 6
+        for (int c = 0; c < together; ++c) sum[c][v] += x * *reinterpret_cast<const Vector*>(b + (first + c) * stride + i + v * Width::lanes);
+      }
+    for (int c = 0; c < together; ++c) {
+      double each[sums], rest = 0.0;
+      std::memcpy(each, sum[c], sizeof each);
+      for (int k = i; k < n; ++k) rest += a[k] * b[(first + c) * stride + k];
+      products[first + c] = ((each[0] + each[4]) + (each[2] + each[6])) + ((each[1] + each[5]) + (each[3] + each[7])) + rest;
+    }
+  }
+}
+
 template <typename Width>
 __attribute__((always_inline)) inline void subtractAs(double* y, const double* x, double factor, int n) {
   using Vector = typename Width::Vector;
@@ -149,11 +177,14 @@ __attribute__((always_inline)) inline void subtractThreeAs(double* y, const doub
     solveStripsAs<Width>(packed, count, depth, L, inverse);                                                                              \
   }                                                                                                                                      \
   target double dot##Width(const double* a, const double* b, int n) { return dotAs<Width>(a, b, n); }                                    \
+  target void dotSix##Width(const double* a, const double* b, int stride, int n, double* products) {                                     \
+    dotSixAs<Width>(a, b, stride, n, products);                                                                                          \
+  }                                                                                                                                      \
   target void subtract##Width(double* y, const double* x, double factor, int n) { subtractAs<Width>(y, x, factor, n); }                  \
   target void subtractThree##Width(double* y, const double* x0, const double* x1, const double* x2, const double* factors, int n) {      \
     subtractThreeAs<Width>(y, x0, x1, x2, factors, n);                                                                                   \
   }
-#define SWF_VO_SET(name, Width) {name, subtractStrips##Width, solveStrips##Width, dot##Width, subtract##Width, subtractThree##Width}
+#define SWF_VO_SET(name, Width) {name, subtractStrips##Width, solveStrips##Width, dot##Width, dotSix##Width, subtract##Width, subtractThree##Width}
 
 SWF_VO_KERNELS(Narrow, )
 #ifdef SWF_VO_X86
@@ -192,6 +223,7 @@ std::vector<InstructionSet> instructionSets() {
 }
 
 double dot(const double* a, const double* b, int n) { return fastest().dot(a, b, n); }
+void dotSix(const double* a, const double* b, int stride, int n, double* products) { fastest().dotSix(a, b, stride, n, products); }
 void subtract(double* y, const double* x, double factor, int n) { fastest().subtract(y, x, factor, n); }
 void subtractThree(double* y, const double* x0, const double* x1, const double* x2, const double* factors, int n) {
   fastest().subtractThree(y, x0, x1, x2, factors, n);

@@ -25,6 +25,8 @@ struct InstructionSet {
 
   /// sum a[i] b[i].
   double (*dot)(const double* a, const double* b, int n);
+  /// The same of one vector with each of six, `stride` numbers from one to the next.
+  void (*dotSix)(const double* a, const double* b, int stride, int n, double* products);
   /// y -= factor x.
   void (*subtract)(double* y, const double* x, double factor, int n);
   /// y -= factors[0] x0, then factors[1] x1, then factors[2] x2.
@@ -36,6 +38,7 @@ std::vector<InstructionSet> instructionSets();
 
 /// By the fastest set.
 double dot(const double* a, const double* b, int n);
+void dotSix(const double* a, const double* b, int stride, int n, double* products);
 void subtract(double* y, const double* x, double factor, int n);
 void subtractThree(double* y, const double* x0, const double* x1, const double* x2, const double* factors, int n);
 

@@ -29,7 +29,7 @@ constexpr int halvings = 4;
 // Gauss-Newton goes on with the old factor while each step is this much smaller than the one before (in d^T g).
 constexpr double contraction = 0.1;
 // ... and the first step was no larger than this (chi-square).
-constexpr double far_start = 100.0;
+constexpr double far_start = 2000.0;
 // Share of a step's covariance that is always taken as drift, so that it stays proper where nothing drifts: one step's in a thousand steps.
 constexpr double least_drift = 1e-3;
 

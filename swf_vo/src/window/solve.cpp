@@ -249,4 +249,22 @@ const std::vector<double>& Solver::inverseColumn(std::size_t j, int c, bool pose
   return column_;
 }
 
+const std::vector<double>& Solver::inverseColumns(std::size_t j) const {
+  const std::size_t size = offset_ + 6 * poses_;
+  makeRoom(columns_of_pose_, 6 * size);
+  columns_of_pose_.assign(6 * size, 0.0);
+  for (std::size_t c = 0; c < 6; ++c) {
+    double* column = columns_of_pose_.data() + c * size;
+    if (onto_map_) {
+      const std::vector<double>& one = inverseColumn(j, static_cast<int>(c), false);
+      std::copy(one.begin(), one.end(), column);
+      continue;
+    }
+    column[rowOf(j) + c] = 1.0;
+    cholesky_.solveLower(column, static_cast<int>(rowOf(j) + c));
+  }
+  if (!onto_map_) cholesky_.solveUpperSix(columns_of_pose_.data(), static_cast<int>(size));
+  return columns_of_pose_;
+}
+
 }  // namespace swf_vo

@@ -38,6 +38,8 @@ class Solver {
   /// Column (pose j, component c) of the inverse, the covariance: landmarks of the prior, then poses. With `poses_only` the
   /// rows of the landmarks are not made. Valid until the next call.
   const std::vector<double>& inverseColumn(std::size_t j, int c, bool poses_only) const;
+  /// All six columns of pose j, whole and one after the other. Valid until the next call.
+  const std::vector<double>& inverseColumns(std::size_t j) const;
   /// Row where pose j begins in such a column.
   std::size_t rowOf(std::size_t j) const { return offset_ + 6 * j; }
   std::size_t poses() const { return poses_; }
@@ -65,7 +67,7 @@ class Solver {
   std::vector<double> floor_, rhs_;
   mutable std::vector<double> path_, map_;
   std::vector<double> right_path_, right_map_;
-  mutable std::vector<double> column_;
+  mutable std::vector<double> column_, columns_of_pose_;
   std::vector<Eigen::Vector3d> landmark_step_;
   std::size_t poses_ = 0;
   std::size_t offset_ = 0;  // where the poses begin

@@ -36,6 +36,23 @@ TEST(DenseKernels, agreeWithThePlainSums) {
     }
 }
 
+TEST(DenseKernels, sixProductsAreThoseOfOneByOne) {
+  const auto sets = instructionSets();
+  for (int n = 0; n < 40; ++n) {
+    const int stride = n + 3;
+    const std::vector<double> a = numbers(n, 0.7), b = numbers(6 * stride, 1.3);
+    double first[6], products[6];
+    sets.front().dotSix(a.data(), b.data(), stride, n, first);
+    for (const InstructionSet& set : sets) {
+      set.dotSix(a.data(), b.data(), stride, n, products);
+      for (int c = 0; c < 6; ++c) {
+        EXPECT_NEAR(products[c], set.dot(a.data(), b.data() + c * stride, n), 1e-13) << set.name << ' ' << n;
+        EXPECT_EQ(products[c], first[c]) << set.name << ' ' << n;
+      }
+    }
+  }
+}
+
 TEST(DenseKernels, giveTheSameBitsWithEveryInstructionSet) {
   const auto sets = instructionSets();
   for (int n = 0; n < 70; ++n) {

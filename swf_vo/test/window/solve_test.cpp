@@ -69,6 +69,12 @@ void expectSame(const System& system, bool datum) {
         off = std::max(off, std::abs(a[i] - b[i]));
       }
       EXPECT_LT(off, 1e-8 * scale) << j << ' ' << c;
+      for (const Solver* solver : {&path, &map}) {
+        const std::vector<double>& six = solver->inverseColumns(j);
+        ASSERT_EQ(six.size(), 6 * a.size());
+        for (std::size_t i = 0; i < a.size(); ++i)
+          ASSERT_NEAR(six[static_cast<std::size_t>(c) * a.size() + i], a[i], 1e-8 * scale) << j << ' ' << c;
+      }
     }
 }
 
