@@ -104,28 +104,28 @@ constexpr int block = 12;   // shrunk columns
 constexpr int block_rows = 4;
 constexpr int longest_reach = 200;  // shrunk columns
 
-// Sum over `shrink` neighbours of a row: a cheap low-pass that keeps rows apart.
-int shrunk(const std::uint8_t* row, int column) {
-  const std::uint8_t* p = row + column * shrink;
-  return p[0] + p[1] + p[2] + p[3];
+// Sums over `shrink` neighbours of a row, from a shrunk column on: a cheap low-pass that keeps rows apart.
+void shrinkRows(const ImageView& image, int v, int column, int count, int* out) {
+  for (int r = 0; r < block_rows; ++r) {
+    const std::uint8_t* p = image.row(v + 2 * r) + column * shrink;
+    for (int c = 0; c < count; ++c, p += shrink) *out++ = p[0] + p[1] + p[2] + p[3];
+  }
 }
 
-// Cost of a block at a shift, mean removed so that a difference of exposure says nothing.
-int difference(const ImageView& left, const ImageView& right, int v, int column, int shift) {
+// Cost of a block beside another, whose rows are `stride` apart; mean removed so that a difference of exposure says nothing.
+int difference(const int* a, const int* b, int stride) {
+  constexpr int count = block * block_rows;
+  int values[count];
   int sum = 0;
-  int values[block * block_rows];
-  int at = 0;
-  for (int r = 0; r < block_rows; ++r) {
-    const std::uint8_t *a = left.row(v + 2 * r), *b = right.row(v + 2 * r);
+  for (int r = 0; r < block_rows; ++r)
     for (int c = 0; c < block; ++c) {
-      const int d = shrunk(a, column + c) - shrunk(b, column + c - shift);
-      values[at++] = d;
+      const int d = a[r * block + c] - b[r * stride + c];
+      values[r * block + c] = d;
       sum += d;
     }
-  }
-  const int mean = sum / at;
+  const int mean = sum / count;
   int cost = 0;
-  for (int i = 0; i < at; ++i) cost += std::abs(values[i] - mean);
+  for (const int value : values) cost += std::abs(value - mean);
   return cost;
 }
 
@@ -140,8 +140,11 @@ bool looksExchanged(const ImageView& left, const ImageView& right) {
     const int v = left.height / 8 + i * (left.height * 3 / 4) / 6;
     for (int j = 0; j < 6; ++j) {
       const int column = reach + j * (columns - 2 * reach - block) / 5;
-      int costs[2 * longest_reach + 1];
-      for (int shift = -reach; shift <= reach; ++shift) costs[shift + reach] = difference(left, right, v, column, shift);
+      const int stride = block + 2 * reach;
+      int here[block * block_rows], there[(block + 2 * longest_reach) * block_rows], costs[2 * longest_reach + 1];
+      shrinkRows(left, v, column, block, here);
+      shrinkRows(right, v, column - reach, stride, there);
+      for (int shift = -reach; shift <= reach; ++shift) costs[shift + reach] = difference(here, there + reach - shift, stride);
       int* const end = costs + 2 * reach + 1;
       const int* best = std::min_element(costs, end);
       const int found = static_cast<int>(best - costs) - reach;

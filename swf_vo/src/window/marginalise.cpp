@@ -80,33 +80,51 @@ void Marginaliser::sort(const State& state, const Prior& prior) {
   blocks_.push_back({eliminated_ - 6, 6});
 }
 
+// Blocks that stay neighbours, in the order of the prior; its pose is the last of what is eliminated.
+void Marginaliser::findRuns(const Prior& prior) {
+  runs_.clear();
+  runs_.reserve(prior.slots.capacity() + 1);
+  const auto add = [&](int from, int to, int size, bool dies) {
+    if (!runs_.empty() && runs_.back().dies == dies && runs_.back().to + runs_.back().size == to) runs_.back().size += size;
+    else runs_.push_back({from, to, size, dies});
+  };
+  for (std::size_t i = 0; i < prior.slots.size(); ++i) {
+    const int place = place_[static_cast<std::size_t>(prior.slots[i])];
+    add(3 * static_cast<int>(i), place >= 0 ? place : -1 - place, 3, place < 0);
+  }
+  add(prior.landmarkSize(), eliminated_ - 6, 6, true);
+}
+
 void Marginaliser::gatherPrior(const Prior& prior, const State& state) {
-  makeRoom(panel_, static_cast<std::size_t>(stride_) * static_cast<std::size_t>(eliminated_));
-  panel_.assign(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(eliminated_), 0.0);
-  reduced_.reset(remaining_);
+  const std::size_t size = static_cast<std::size_t>(stride_) * static_cast<std::size_t>(eliminated_);
+  makeRoom(panel_, size);
+  panel_.resize(size);
+  reduced_.resize(remaining_);
   for (std::vector<double>* some : {&gradient_, &d_, &g_}) makeRoom(*some, static_cast<std::size_t>(stride_));
   gradient_.assign(static_cast<std::size_t>(stride_), 0.0);
+  // What the prior does not touch is zero; the rest is overwritten.
+  const int touched = prior.has_pose ? prior.landmarkSize() - (eliminated_ - 6) : 0;
+  for (int j = 0; j < eliminated_; ++j) std::fill(eliminatedColumn(j) + (prior.has_pose ? eliminated_ + touched : 0), eliminatedColumn(j) + stride_, 0.0);
+  for (int j = 0; j < remaining_; ++j) std::fill(reduced_.column(j) + std::max(j, touched), reduced_.column(j) + remaining_, 0.0);
   if (!prior.has_pose) return;
   prior.deviation(state, d_);
   prior.gradient(d_, g_);
-  makeRoom(map_, static_cast<std::size_t>(prior.size()));
-  map_.resize(static_cast<std::size_t>(prior.size()));
-  for (std::size_t i = 0; i < prior.slots.size(); ++i) {
-    const int place = place_[static_cast<std::size_t>(prior.slots[i])];
-    for (int c = 0; c < 3; ++c) map_[3 * i + static_cast<std::size_t>(c)] = place >= 0 ? place + c : place - c;
-  }
-  for (int c = 0; c < 6; ++c) map_[static_cast<std::size_t>(prior.landmarkSize() + c)] = -1 - (eliminated_ - 6 + c);
-  for (int j = 0; j < prior.size(); ++j) {
-    const double* from = prior.information.column(j);
-    const int to_j = map_[static_cast<std::size_t>(j)];
-    gradient_[static_cast<std::size_t>(to_j >= 0 ? eliminated_ + to_j : -1 - to_j)] = g_[static_cast<std::size_t>(j)];
-    for (int i = j; i < prior.size(); ++i) {
-      const int to_i = map_[static_cast<std::size_t>(i)];
-      if (to_i >= 0 && to_j >= 0) reduced_(to_i, to_j) = from[i];
-      else if (to_j < 0) eliminatedColumn(-1 - to_j)[to_i >= 0 ? eliminated_ + to_i : -1 - to_i] = from[i];
-      else eliminatedColumn(-1 - to_i)[eliminated_ + to_j] = from[i];
+  findRuns(prior);
+  for (const Run& columns : runs_)
+    for (int c = 0; c < columns.size; ++c) {
+      const int j = columns.from + c, to_j = columns.to + c;
+      const double* from = prior.information.column(j);
+      double* to = columns.dies ? eliminatedColumn(to_j) : reduced_.column(to_j);
+      gradient_[static_cast<std::size_t>(columns.dies ? to_j : eliminated_ + to_j)] = g_[static_cast<std::size_t>(j)];
+      for (const Run& rows : runs_) {
+        const int first = std::max(rows.from, j), last = rows.from + rows.size, at = rows.to + first - rows.from;
+        if (first >= last) continue;
+        if (columns.dies) std::copy(from + first, from + last, to + (rows.dies ? at : eliminated_ + at));
+        else if (!rows.dies) std::copy(from + first, from + last, to + at);
+        else
+          for (int i = first; i < last; ++i) eliminatedColumn(at + i - first)[eliminated_ + to_j] = from[i];
+      }
     }
-  }
 }
 
 void Marginaliser::addTerms(const State& state, const Cost& cost) {

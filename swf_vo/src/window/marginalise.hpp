@@ -33,8 +33,13 @@ class Marginaliser {
   struct Block {
     int at, size;
   };
+  struct Run {
+    int from, to, size;  // rows of the prior, of what dies or of what is kept
+    bool dies;
+  };
 
   void sort(const State& state, const Prior& prior);
+  void findRuns(const Prior& prior);
   void gatherPrior(const Prior& prior, const State& state);
   void addTerms(const State& state, const Cost& cost);
   void gatherGauge(const State& state, const Eigen::Vector3d& origin);
@@ -48,7 +53,7 @@ class Marginaliser {
 
   std::vector<int> kept_, dying_;        // slots
   std::vector<int> place_;               // by slot: kept: 3 i; dying: -1 - 3 i; neither: unused
-  std::vector<int> map_;                 // old row of the prior -> place as above
+  std::vector<Run> runs_;
   int eliminated_ = 0, remaining_ = 0;   // sizes: e and n
   int stride_ = 0;
   std::vector<double> panel_;            // (e + n) x e: Lambda_a over Lambda_b^T; then its factors
