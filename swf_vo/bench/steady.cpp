@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Does a frame cost the same after a day as after a second? A loop through the rendered room is drawn once and played forth and back.
+//   swf_vo-bench-steady [FOLDER] [--frames N] [-o results/steady.json]
+#include <fstream>
+#include <iostream>
+#include <string>
+#include <unistd.h>
+
+#include "support/run.hpp"
+#include "urban_nav_core/testing/bench_table.hpp"
+
+namespace {
+
+using namespace swf_vo;
+using namespace swf_vo::bench;
+using urban_nav_core::testing::BenchTable;
+using urban_nav_core::testing::cell;
+
+constexpr std::size_t drawn_frames = 200;
+constexpr std::size_t block = 900;  // frames of one row
+constexpr std::int64_t period_ns = 50000000;
+
+double residentMb() {
+  std::ifstream file("/proc/self/statm");
+  double pages = 0.0;
+  file >> pages >> pages;
+  return pages * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
+}
+
+std::size_t forthAndBack(std::size_t i, std::size_t count) {
+  const std::size_t at = i % (2 * count - 2);
+  return at < count ? at : 2 * count - 2 - at;
+}
+
+urban_nav_core::ImageView view(const cv::Mat& image) { return {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)}; }
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  std::size_t frames = 20000;
+  std::string output, folder;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--frames" && i + 1 < argc) frames = static_cast<std::size_t>(std::stoi(argv[++i]));
+    else if (word == "-o" && i + 1 < argc) output = argv[++i];
+    else folder = word;
+  }
+  RenderedOptions room;
+  room.motion = "loop";
+  room.frames = drawn_frames;
+  const Sequence sequence = folder.empty() ? rendered(room) : kittiFolder(folder, drawn_frames);
+  std::vector<cv::Mat> left(sequence.stamps.size()), right(sequence.stamps.size());
+  for (std::size_t i = 0; i < left.size(); ++i) sequence.read(i, left[i], right[i]);
+
+  BenchTable table({"frames", "ms a frame, median", "99 %", "features", "landmarks in the prior", "memory of the program, MB"}, argc, argv);
+  SwfVo filter(Parameters(), sequence.camera, urban_nav_core::Pose());
+  std::vector<double> ms;
+  ms.reserve(block);
+  double features = 0.0, landmarks = 0.0;
+  std::size_t next = 100;
+  for (std::size_t i = 0; i < frames; ++i) {
+    const std::size_t at = forthAndBack(i, left.size());
+    const double start = processorMs();
+    const Frame& frame = filter.process({static_cast<std::int64_t>(i) * period_ns, view(left[at]), view(right[at])});
+    const double took = processorMs() - start;
+    if (i < next) continue;
+    ms.push_back(took);
+    features += frame.statistics.features;
+    landmarks += frame.statistics.landmarks_in_prior;
+    if (ms.size() < block && i + 1 < frames) continue;
+    const double count = static_cast<double>(ms.size());
+    table.add({std::to_string(next) + " to " + std::to_string(i + 1), cell(quantile(ms, 0.5), 2), cell(quantile(ms, 0.99), 2), cell(features / count, 0),
+               cell(landmarks / count, 0), cell(residentMb(), 1)});
+    ms.clear();
+    features = landmarks = 0.0;
+    next = next < 1000 ? 4100 : next + 5000;
+    if (next + block > frames && i + 1 < frames) next = frames - block;
+  }
+  std::cout << table.text();
+  if (!output.empty()) table.write(output);
+  return 0;
+} catch (const std::exception& error) {
+  std::cerr << error.what() << '\n';
+  return 2;
+}
