@@ -15,6 +15,8 @@ struct Observation {
   FrameId frame = 0;
   Eigen::Vector3d z = Eigen::Vector3d::Zero();
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  /// By how much what is measured may have crept over its surface since it was seen last: px^2 in the left image of its first frame.
+  Eigen::Matrix2d wander = Eigen::Matrix2d::Zero();
 };
 
 /// A landmark as the window knows it, for matching: homogeneous, so that far points need no special case (w = 0: at infinity).

@@ -122,6 +122,8 @@ const Frame& Output::write(FrameId frame, StampNs stamp, const Status& status, c
   frame_.statistics.iterations = update.iterations;
   frame_.statistics.landmarks = update.landmarks;
   frame_.statistics.landmarks_in_prior = update.landmarks_in_prior;
+  frame_.statistics.disparity_offset_px = window.disparityOffset();
+  frame_.statistics.disparity_offset_sigma_px = window.disparityOffsetSigma();
   waiting_.push_back({frame, stamp, status});
   frame_.settled.clear();
   for (const SettledPose& pose : window.settled()) frame_.settled.push_back(settle(pose));

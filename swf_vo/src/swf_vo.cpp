@@ -35,6 +35,7 @@ WindowOptions windowOptions(const Parameters& parameters) {
   options.linearise_first = parameters.linearise == "first";
   options.huber = parameters.huber;
   options.iterations = parameters.iterations;
+  options.disparity_offset = parameters.disparity_offset;
   // Live, a frame must end within its period: what is refuted goes out at the estimates of now instead of by taking up to k steps again.
   options.exact_undo = false;
   options.tolerance = 1e-3;
@@ -77,7 +78,7 @@ class SwfVo::Implementation {
     const ProcessInput u = started_ ? prediction_.step(seconds_, inputs) : ProcessInput();
     const FrontEndResult* seen = nullptr;
     if (evidence.image.usable) {
-      seen = &front_end_.process(frame_, usable, last, last * u.T_from_to, window_.map());
+      seen = &front_end_.process(frame_, usable, last, last * u.T_from_to, window_.map(), window_.disparityOffset());
       evidence.localised = seen->localised;
       evidence.tracked = static_cast<int>(seen->tracked.size());
       evidence.features = evidence.tracked + static_cast<int>(seen->fresh.size());
@@ -85,15 +86,10 @@ class SwfVo::Implementation {
       evidence.inlier_share = seen->inlier_share;
     }
 
-    if (started_) window_.addPose(frame_, u);
-    else window_.start(frame_, T_odom_first_camera_, urban_nav_core::Matrix6d::Identity() / (origin_sigma * origin_sigma));
-    window_.removePoses();
+    takeStep(u);
     const bool trusted = health_.isTrusted(evidence);
     const bool blurred = evidence.image.reason == Reason::Blurred;
     if (seen != nullptr) observe(*seen, trusted, !blurred);
-    // The first frame has no measurement of its motion either, but nothing before it that could run away.
-    unmeasured_ago_ = started_ && !trusted ? 0 : unmeasured_ago_ + 1;
-    window_.limitIterations(unmeasured_ago_ > parameters_.window ? parameters_.iterations : 1);
     const UpdateReport update = window_.update();
 
     if (started_) prediction_.learn(last.inverse() * window_.newest().pose, seconds_, trusted, blurred || !evidence.image.usable);
@@ -117,6 +113,17 @@ class SwfVo::Implementation {
     const bool gap = period_ > 0.0 && seconds_ > gap_periods * period_;
     if (seconds_ > 0.0) period_ = period_ > 0.0 ? period_ + 0.1 * (std::min(seconds_, 2.0 * period_) - period_) : seconds_;
     return gap;
+  }
+
+  void takeStep(const ProcessInput& u) {
+    if (!started_) {
+      window_.start(frame_, T_odom_first_camera_, urban_nav_core::Matrix6d::Identity() / (origin_sigma * origin_sigma));
+    } else if (window_.map().empty()) {
+      window_.restart(frame_, u);
+    } else {
+      window_.addPose(frame_, u);
+      window_.removePoses();
+    }
   }
 
   // A landmark born in a blurred image is not found again in a sharp one, but much like it is: no new ones from there.
@@ -143,7 +150,6 @@ class SwfVo::Implementation {
 
   bool started_ = false;
   bool doubtful_ = true;
-  std::int64_t unmeasured_ago_ = 1000000;  // frames since one without trusted measurements
   FrameId frame_ = 0;
   urban_nav_core::StampNs stamp_ = 0;
   double seconds_ = 0.0;

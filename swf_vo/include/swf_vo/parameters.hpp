@@ -15,6 +15,7 @@ struct Parameters {
   std::string linearise;            // first, latest
   int features;                     // per 512x384 pixels of image
   double pixel_noise_floor;         // px
+  double disparity_offset;          // px, standard deviation of a state; 0: none
   double huber;                     // standard deviations
   int iterations;                   // Gauss-Newton steps a frame, at most
   double acceleration;              // m/s^2, process noise without u

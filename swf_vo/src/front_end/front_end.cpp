@@ -8,6 +8,7 @@
 #include "front_end/corners.hpp"
 #include "front_end/localise.hpp"
 #include "front_end/match.hpp"
+#include "front_end/misfit.hpp"
 #include "front_end/refine.hpp"
 #include "front_end/replenish.hpp"
 #include "front_end/rotation.hpp"
@@ -29,6 +30,9 @@ constexpr double first_radius = 3.0;              // of the search radius, while
 // The window follows what the prediction was off by in the frame before (px, and times the 90 % quantile), up to the search radius.
 constexpr double least_radius = 8.0, radius_per_error = 3.0, radius_offset = 4.0;
 constexpr double coarse_slack_px = 1.0, fine_slack_px = 0.1;
+// Within the window a landmark stands still, and what it creeps by there has to be in its measurements: n of them with this share of n^2 steps
+// added to their variance show a motion along the track as badly as n steps of a random walk do (6 / (5 n) q = 12 / n^3 R).
+constexpr double slope_share = 0.1;
 constexpr double least_two_eyed = 0.3;            // share of the inliers
 constexpr int most_missed = 3, most_missed_young = 1;  // frames
 constexpr int disagreements_refute = 2, disagreements_refute_young = 1, young = 3;  // frames
@@ -53,10 +57,11 @@ class FrontEnd::Implementation {
         corners_(parameters.pyramid_levels, topLevel(camera.left.width), parameters.fast_threshold, featuresIn(camera, parameters.features)),
         rotation_(camera.left),
         capacity_(4 * featuresIn(camera, parameters.features)),
-        localiser_(camera, capacity_),
+        localiser_(camera_, capacity_),
         tracks_(capacity_),
-        replenisher_(camera, featuresIn(camera, parameters.features), parameters.pixel_noise_floor) {
+        replenisher_(camera_, featuresIn(camera, parameters.features), parameters.pixel_noise_floor) {
     const std::size_t capacity = static_cast<std::size_t>(capacity_);
+    misfit_.resize(static_cast<std::size_t>(parameters.pyramid_levels));
     matches_.reserve(capacity);
     orphans_.reserve(capacity);
     parallax_.reserve(capacity);
@@ -68,8 +73,10 @@ class FrontEnd::Implementation {
     result_.refuted.reserve(capacity);
   }
 
-  const FrontEndResult& process(FrameId frame, const StereoPair& pair, const Pose& last, const Pose& predicted, const std::vector<MapPoint>& map) {
+  const FrontEndResult& process(FrameId frame, const StereoPair& pair, const Pose& last, const Pose& predicted, const std::vector<MapPoint>& map,
+                                double disparity_offset) {
     clear(predicted);
+    camera_.disparity_offset = disparity_offset;
     if (!isPair(pair)) return result_;
     corners_.extract(pair);
     result_.corners = corners_.count(Side::Left);
@@ -182,7 +189,10 @@ class FrontEnd::Implementation {
       }
 
     matchAcross(corners_, camera_, coarse.found ? coarse.T_camera_odom : T_turned_odom, matches_);
-    for (Match& match : matches_) combine(parameters_.pixel_noise_floor, match);
+    for (Match& match : matches_) {
+      dropMisfits(match);
+      combine(parameters_.pixel_noise_floor, match);
+    }
     starts_.assign({coarse.found ? coarse.T_camera_odom : T_predicted_odom});
     LocaliseOptions options;
     options.slack_px = fine_slack_px;
@@ -202,6 +212,11 @@ class FrontEnd::Implementation {
     result_.reprojection_px = fine.reprojection_px;
   }
 
+  void dropMisfits(Match& match) {
+    for (Sighting* sighting : {&match.left, &match.right})
+      if (sighting->found && !misfit_[static_cast<std::size_t>(match.track->level)].isUsual(sighting->noise)) *sighting = Sighting();
+  }
+
   /// Do most matches live in one image although the other has something to show? Then the two images are no pair (swapped, or of
   /// different times), and a motion that explains one of them is wrong. A dark image is another matter: one eye is enough.
   bool isOneEyed(int inliers) const {
@@ -217,8 +232,11 @@ class FrontEnd::Implementation {
     if (match.inlier) {
       fillIn(match);
       learnSurface(corners_, camera_, result_.T_odom_camera.inverse(), match);
-      result_.tracked.push_back({track.id, frame, match.z, match.information});
       ++track.seen;
+      const Eigen::Matrix2d crept = creep(camera_, result_.T_odom_camera.inverse(), match);
+      const double together = std::min<double>(track.seen, parameters_.window);
+      loosen(slope_share * together * together * crept, match);
+      result_.tracked.push_back({track.id, frame, match.z, match.information, crept});
       track.missed = track.disagreed = 0;
       track.z = match.z;
       return;
@@ -256,6 +274,7 @@ class FrontEnd::Implementation {
   Localiser localiser_;
   Tracks tracks_;
   Replenisher replenisher_;
+  std::vector<Misfit> misfit_;  // of landmarks that are followed, by level
   FrontEndResult result_;
   std::vector<Match> matches_;
   std::vector<LandmarkId> orphans_;
@@ -272,8 +291,8 @@ FrontEnd::FrontEnd(const Parameters& parameters, const StereoCamera& camera)
 FrontEnd::~FrontEnd() = default;
 
 const FrontEndResult& FrontEnd::process(FrameId frame, const StereoPair& pair, const Pose& last, const Pose& predicted,
-                                        const std::vector<MapPoint>& map) {
-  return implementation_->process(frame, pair, last, predicted, map);
+                                        const std::vector<MapPoint>& map, double disparity_offset) {
+  return implementation_->process(frame, pair, last, predicted, map, disparity_offset);
 }
 
 }  // namespace swf_vo

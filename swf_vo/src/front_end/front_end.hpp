@@ -33,9 +33,10 @@ class FrontEnd {
   ~FrontEnd();
 
   /// `predicted`: T_odom_camera of this frame by the process model; `last` that of the frame processed last, as the window has it now.
-  /// `map`: the landmarks of the window that are still being followed. The result lives until the next call.
+  /// `map`: the landmarks of the window that are still being followed. `disparity_offset`: of the camera, as the window has it now (px).
+  /// The result lives until the next call.
   const FrontEndResult& process(FrameId frame, const urban_nav_core::StereoPair& pair, const urban_nav_core::Pose& last,
-                                const urban_nav_core::Pose& predicted, const std::vector<MapPoint>& map);
+                                const urban_nav_core::Pose& predicted, const std::vector<MapPoint>& map, double disparity_offset);
 
  private:
   class Implementation;

@@ -79,7 +79,7 @@ bool Localiser::residual(const Item& item, const Pose& T_camera_odom, Eigen::Vec
   const Eigen::Vector3d p = T_camera_odom.q() * item.p_odom.head<3>() + T_camera_odom.t() * w;
   if (!(p.z() > 1e-6)) return false;
   const double iz = 1.0 / p.z(), x = p.x() * iz, y = p.y() * iz, r = (p.x() - camera_.baseline * w) * iz;
-  e = item.z - Eigen::Vector3d(c.fx * x + c.cx, c.fy * y + c.cy, c.fx * r + c.cx);
+  e = item.z - Eigen::Vector3d(c.fx * x + c.cx, c.fy * y + c.cy, c.fx * r + c.cx - camera_.disparity_offset);
   if (J != nullptr) {
     Eigen::Matrix3d P;
     P << c.fx * iz, 0.0, -c.fx * x * iz, 0.0, c.fy * iz, -c.fy * y * iz, c.fx * iz, 0.0, -c.fx * r * iz;

@@ -29,7 +29,7 @@ struct LocaliseOptions {
 /// van ahead that fills the view has few old friends. Sets `inlier` and `chi2` of each match.
 class Localiser {
  public:
-  /// `capacity`: of matches, for which memory is taken at once.
+  /// The camera must outlive it, and may learn its disparity offset. `capacity`: of matches, for which memory is taken at once.
   explicit Localiser(const urban_nav_core::StereoCamera& camera, int capacity = 0) : camera_(camera) { items_.reserve(static_cast<std::size_t>(capacity)); }
 
   Localisation locate(const std::vector<urban_nav_core::Pose>& T_camera_odom_starts, const LocaliseOptions& options, std::vector<Match>& matches);
@@ -49,7 +49,7 @@ class Localiser {
   double cost(const urban_nav_core::Pose& T_camera_odom) const;
   urban_nav_core::Pose bestByConsensus(const urban_nav_core::Pose& start, double& best_cost) const;
 
-  urban_nav_core::StereoCamera camera_;
+  const urban_nav_core::StereoCamera& camera_;
   std::vector<Item> items_;
 };
 

@@ -84,6 +84,30 @@ void learnSurface(const Corners& corners, const StereoCamera& camera, const Pose
   track.slant_information = slant.information;
 }
 
+Eigen::Matrix2d creep(const StereoCamera& camera, const Pose& T_camera_odom, Match& match) {
+  Track& track = *match.track;
+  const auto A = warpInto(Side::Left, camera, track, T_camera_odom * track.T_born_odom.inverse(), inverseDepthWhereBorn(match));
+  if (!A || !A->allFinite() || !(std::abs(A->determinant()) > 1e-3)) return Eigen::Matrix2d::Zero();
+  const double change = (*A * track.seen_as.inverse() - Eigen::Matrix2d::Identity()).norm();
+  track.seen_as = *A;
+  return change * track.creep;
+}
+
+void loosen(const Eigen::Matrix2d& covariance, Match& match) {
+  const bool left = match.left.found, right = match.right.found;
+  Eigen::Matrix<double, 2, 3> pick = Eigen::Matrix<double, 2, 3>::Zero();
+  pick(1, 1) = 1.0;
+  if (left && right) {
+    pick(0, 0) = pick(0, 2) = 1.0;
+    match.information = (match.information.inverse() + pick.transpose() * covariance * pick).inverse();
+  } else {
+    pick(0, left ? 0 : 2) = 1.0;
+    const Eigen::Matrix2d own = pick * match.information * pick.transpose();
+    match.information = pick.transpose() * (own.inverse() + covariance).inverse() * pick;
+  }
+  match.information = (0.5 * (match.information + match.information.transpose())).eval();
+}
+
 void combine(double floor_px, Match& match) {
   match.measured = false;
   match.information.setZero();

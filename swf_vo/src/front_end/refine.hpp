@@ -23,6 +23,13 @@ Sighting refine(Side side, const Corners& corners, const Track& track, const Eig
 /// done last. The templates must be those of the sighting.
 void learnSurface(const Corners& corners, const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_camera_odom, Match& match);
 
+/// By how much what the template stands for may have crept over its surface since it was last trusted (Observation::wander), by the change of
+/// the left view from then to T_camera_odom, which is noted.
+Eigen::Matrix2d creep(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_camera_odom, Match& match);
+
+/// Adds a covariance that both images share (px^2) to a measurement.
+void loosen(const Eigen::Matrix2d& covariance, Match& match);
+
 /// The two sightings as one measurement (u_left, v, u_right): the row counts once, weighed by both. `floor_px` is added to the
 /// standard deviation of each coordinate. Not measured if neither image has it, or if the rows contradict each other.
 void combine(double floor_px, Match& match);

@@ -5,6 +5,7 @@
 
 #include "front_end/corners.hpp"
 #include "front_end/match.hpp"
+#include "front_end/misfit.hpp"
 #include "front_end/tracks.hpp"
 #include "observation.hpp"
 #include "urban_nav_core/camera/stereo_camera.hpp"
@@ -16,7 +17,7 @@ namespace swf_vo {
 /// and started as tracks with their first observation.
 class Replenisher {
  public:
-  /// `features`: wanted in the image.
+  /// The camera must outlive it, and may learn its disparity offset. `features`: wanted in the image.
   Replenisher(const urban_nav_core::StereoCamera& camera, int features, double floor_px);
 
   /// `matches`: those that are inliers keep their place. Appends to `fresh`.
@@ -32,11 +33,12 @@ class Replenisher {
   bool start(const Candidate& candidate, FrameId frame, const Corners& corners, const urban_nav_core::Pose& T_odom_camera, Tracks& tracks,
              std::vector<Observation>& fresh);
 
-  urban_nav_core::StereoCamera camera_;
+  const urban_nav_core::StereoCamera& camera_;
   int features_;
   double floor_px_;
   urban_nav_core::Spread spread_;
   std::vector<Candidate> candidates_;
+  std::vector<Misfit> misfit_;  // by level: noise is less further up
 };
 
 }  // namespace swf_vo

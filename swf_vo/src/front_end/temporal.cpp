@@ -51,7 +51,8 @@ std::optional<Eigen::Vector2d> projectInto(Side side, const StereoCamera& camera
   Eigen::Vector3d p = T_camera_odom.q() * p_odom.head<3>() + T_camera_odom.t() * p_odom.w();
   if (side == Side::Right) p.x() -= camera.baseline * p_odom.w();
   if (!(p.z() > 0.0) || !(p.z() > 0.1 * p_odom.w())) return std::nullopt;
-  return Eigen::Vector2d(camera.left.fx * p.x() / p.z() + camera.left.cx, camera.left.fy * p.y() / p.z() + camera.left.cy);
+  const double cx = side == Side::Right ? camera.left.cx - camera.disparity_offset : camera.left.cx;
+  return Eigen::Vector2d(camera.left.fx * p.x() / p.z() + cx, camera.left.fy * p.y() / p.z() + camera.left.cy);
 }
 
 void matchTemporal(const Corners& corners, const StereoCamera& camera, const Pose& T_camera_odom, double radius, std::vector<Match>& matches) {

@@ -12,7 +12,7 @@ using urban_nav_core::StereoCamera;
 Eigen::Vector3d surface(const StereoCamera& camera, const StereoCamera::Pixel& pixel, const Eigen::Vector2d& slopes) {
   // d(u, v) = fx B / z and 1 / z = plane . (x, y, 1), so the slopes are B (plane_x, plane_y fx / fy).
   const auto& c = camera.left;
-  const double inverse_depth = (pixel.x() - pixel.z()) / (c.fx * camera.baseline);
+  const double inverse_depth = (pixel.x() - pixel.z() - camera.disparity_offset) / (c.fx * camera.baseline);
   const double x = (pixel.x() - c.cx) / c.fx, y = (pixel.y() - c.cy) / c.fy;
   const double px = slopes.x() / camera.baseline, py = slopes.y() * c.fy / (c.fx * camera.baseline);
   return {px, py, inverse_depth - px * x - py * y};

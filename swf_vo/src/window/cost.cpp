@@ -49,6 +49,11 @@ Matrix63d crossBlock(const SensorModel::Linearised& at, const Matrix3d& K) {
   return E;
 }
 
+// The right image shows everything further left by the disparity offset: dz/doffset = (0, 0, -1).
+Vector3d residual(const State& state, const Measurement& measurement, const Vector3d& z) {
+  return {measurement.z.x() - z.x(), measurement.z.y() - z.y(), measurement.z.z() - z.z() + state.disparity_offset};
+}
+
 ProcessTerm weighted(const process_model::Residual& residual, const Matrix6d& information) {
   ProcessTerm term;
   const Matrix6d WL = information * residual.last, WN = information * residual.next;
@@ -114,7 +119,11 @@ void Cost::accumulate(State& state, NormalEquations& equations) const {
   equations.pose_gradient.assign(poses, Vector6d::Zero());
   equations.landmark_gradient.resize(slots);
   equations.cost = 0.0;
+  equations.border.gradient = 0.0;
   if (with_matrices) {
+    equations.border.pose.assign(poses, Vector6d::Zero());
+    equations.border.landmark.resize(slots);
+    equations.border.information = 0.0;
     equations.pose.assign(poses, Matrix6d::Zero());
     equations.next.assign(poses, Matrix6d::Zero());
     equations.landmark.resize(slots);
@@ -128,7 +137,7 @@ void Cost::accumulate(State& state, NormalEquations& equations) const {
     LandmarkBlock& landmark = state.landmarks[slot];
     if (!landmark.used) continue;
     Matrix3d C = Matrix3d::Zero();
-    Vector3d g = Vector3d::Zero();
+    Vector3d g = Vector3d::Zero(), b = Vector3d::Zero();
     if (with_matrices) equations.first_cross[slot] = static_cast<int>(equations.cross.size());
     for (Measurement& measurement : landmark.seen) {
       const std::size_t j = static_cast<std::size_t>(measurement.step - state.first_step);
@@ -140,13 +149,18 @@ void Cost::accumulate(State& state, NormalEquations& equations) const {
         if (with_matrices && !landmark.known) equations.cross.push_back(Matrix63d::Zero());
         continue;
       }
-      const Vector3d r = measurement.z - z;
+      const Vector3d r = residual(state, measurement, z);
       const Vector3d Or = measurement.information * r;
       measurement.weight = weigh(r.dot(Or), equations.cost);
       const Vector3d Wr = measurement.weight * Or;
       equations.pose_gradient[j] += poseGradient(at, at.H.transpose() * Wr);
       g.noalias() += at.landmark.transpose() * Wr;
+      equations.border.gradient -= Wr.z();
       if (with_matrices) {
+        const Vector3d Wo = -measurement.weight * measurement.information.col(2);
+        equations.border.pose[j] += poseGradient(at, at.H.transpose() * Wo);
+        equations.border.information -= Wo.z();
+        b.noalias() += at.landmark.transpose() * Wo;
         const Matrix3d HW = measurement.weight * (at.H.transpose() * measurement.information);
         addPoseBlock(at, HW * at.H, equations.pose[j]);
         if (landmark.known) continue;
@@ -157,6 +171,7 @@ void Cost::accumulate(State& state, NormalEquations& equations) const {
     }
     equations.landmark_gradient[slot] = g;
     if (with_matrices) equations.landmark[slot] = C;
+    if (with_matrices) equations.border.landmark[slot] = b;
   }
   accumulateProcess<with_matrices>(state, equations);
 }
@@ -172,7 +187,7 @@ double Cost::value(const State& state) const {
     for (const Measurement& measurement : landmark.seen) {
       const PoseBlock& pose = state.poses[static_cast<std::size_t>(measurement.step - state.first_step)];
       if (!sensor_.predict(landmark.anchor, landmark.estimate, pose.at_estimate, z)) continue;
-      const Vector3d r = measurement.z - z;
+      const Vector3d r = residual(state, measurement, z);
       weigh(r.dot(measurement.information * r), cost);
     }
   }
@@ -183,8 +198,8 @@ double Cost::value(const State& state) const {
   return cost;
 }
 
-SensorTerm Cost::sensorTerm(const LandmarkBlock& landmark, const Measurement& measurement, const PoseBlock& pose) const {
-  SensorTerm term{Matrix6d::Zero(), Matrix63d::Zero(), Matrix3d::Zero(), Vector6d::Zero(), Vector3d::Zero()};
+SensorTerm Cost::sensorTerm(const State& state, const LandmarkBlock& landmark, const Measurement& measurement, const PoseBlock& pose) const {
+  SensorTerm term{Matrix6d::Zero(), Matrix63d::Zero(), Matrix3d::Zero(), Vector6d::Zero(), Vector6d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
   // The textbook keeps what its update used: the residual at the linearisation point, and the step taken from there.
   const bool as_solved = !linearise_first_ && measurement.solved;
   const bool at_first = linearise_first_ || as_solved;
@@ -196,7 +211,7 @@ SensorTerm Cost::sensorTerm(const LandmarkBlock& landmark, const Measurement& me
   const bool seen = as_solved ? sensor_.predict(landmark.anchor, theta, linearised, z)
                               : sensor_.predict(landmark.anchor, landmark.estimate, now, z);
   if (!seen || !sensor_.linearise(landmark.anchor, theta, linearised, at)) return term;
-  Vector3d r = measurement.z - z;
+  Vector3d r = residual(state, measurement, z);
   double unused = 0.0;
   const double weight = weigh(r.dot(measurement.information * r), unused);
   if (as_solved) {
@@ -207,10 +222,14 @@ SensorTerm Cost::sensorTerm(const LandmarkBlock& landmark, const Measurement& me
   const Matrix3d HW = at.H.transpose() * W;
   addPoseBlock(at, HW * at.H, term.pose);
   term.pose_gradient = poseGradient(at, HW * r);
+  term.pose_border = poseGradient(at, -HW.col(2));
+  term.border_information = W(2, 2);
+  term.border_gradient = -W.row(2).dot(r);
   if (landmark.known) return term;
   term.cross = crossBlock(at, HW * at.landmark);
   term.landmark = at.landmark.transpose() * W * at.landmark;
   term.landmark_gradient = at.landmark.transpose() * W * r;
+  term.landmark_border = -at.landmark.transpose() * W.col(2);
   return term;
 }
 

@@ -9,6 +9,7 @@ namespace swf_vo::covariance {
 
 using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
+using urban_nav_core::Vector6d;
 
 namespace {
 
@@ -19,7 +20,24 @@ Matrix symmetric(const Matrix& M) {
 
 }  // namespace
 
+namespace {
+
+// How estimates go with the disparity offset.
+template <int N>
+Eigen::Matrix<double, N, 1> perOffset(const Solver& solver, std::size_t row) {
+  Eigen::Matrix<double, N, 1> s;
+  for (int i = 0; i < N; ++i) s[i] = solver.perOffset(row + static_cast<std::size_t>(i));
+  return s;
+}
+
+}  // namespace
+
 Matrix6d marginal(const Solver& solver, std::size_t j) {
+  const Vector6d s = perOffset<6>(solver, solver.rowOf(j));
+  return givenOffset(solver, j) + solver.offsetVariance() * s * s.transpose();
+}
+
+Matrix6d givenOffset(const Solver& solver, std::size_t j) {
   Matrix6d P;
   for (int c = 0; c < 6; ++c) P.col(c) = Eigen::Map<const urban_nav_core::Vector6d>(solver.inverseColumn(j, c, true).data() + solver.rowOf(j));
   return symmetric(P);
@@ -31,12 +49,13 @@ Matrix12d joint(const Solver& solver, std::size_t j) {
     const auto& column = solver.inverseColumn(j + static_cast<std::size_t>(c / 6), c % 6, true);
     P.col(c) = Eigen::Map<const Eigen::Matrix<double, 12, 1>>(column.data() + solver.rowOf(j));
   }
-  return symmetric(P);
+  const Eigen::Matrix<double, 12, 1> s = perOffset<12>(solver, solver.rowOf(j));
+  return symmetric(Matrix12d(P + solver.offsetVariance() * s * s.transpose()));
 }
 
-Matrix12d leftAndOldest(const Solver& solver, const Matrix6d& left, const std::vector<double>& gain) {
-  const Eigen::Index size = static_cast<Eigen::Index>(gain.size() / 6);
-  const Eigen::Map<const Eigen::MatrixXd> G(gain.data(), size, 6);
+Matrix12d leftAndOldest(const Solver& solver, const Matrix6d& left, const Departed& departed) {
+  const Eigen::Index size = static_cast<Eigen::Index>(departed.gain.size() / 6);
+  const Eigen::Map<const Eigen::MatrixXd> G(departed.gain.data(), size, 6);
   Matrix12d P;
   P.topLeftCorner<6, 6>() = left;
   const std::vector<double>& columns = solver.inverseColumns(0);
@@ -45,6 +64,11 @@ Matrix12d leftAndOldest(const Solver& solver, const Matrix6d& left, const std::v
     for (int r = 0; r < 6; ++r) P(r, 6 + c) = kernels::dot(G.col(r).data(), X.col(c).data(), static_cast<int>(size));
   P.block<6, 6>(6, 6) = X.block<6, 6>(static_cast<Eigen::Index>(solver.rowOf(0)), 0);
   P.bottomLeftCorner<6, 6>() = P.topRightCorner<6, 6>().transpose();
+  Eigen::Matrix<double, 12, 1> s;
+  s.tail<6>() = perOffset<6>(solver, solver.rowOf(0));
+  s.head<6>() = departed.offset_gain;
+  for (Eigen::Index i = 0; i < size; ++i) s.head<6>() += G.row(i).transpose() * solver.perOffset(static_cast<std::size_t>(i));
+  P += solver.offsetVariance() * s * s.transpose();
   return symmetric(P);
 }
 

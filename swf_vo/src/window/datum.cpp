@@ -20,6 +20,8 @@ bool invert(Matrix6d A, Matrix6d& result) {
   return urban_nav_core::solvePositiveDefiniteInPlace(A, result);
 }
 
+using Columns = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 6>>;
+
 Matrix6d symmetric(const Matrix6d& A) { return 0.5 * (A + A.transpose()); }
 
 }  // namespace
@@ -29,15 +31,22 @@ void Datum::start(const Prior& prior) {
   for (int j = 0; j < 6; ++j)
     for (int i = j; i < 6; ++i) information_(i, j) = information_(j, i) = prior.information(i, j);
   carried_.setZero();
+  along_offset_.setZero();
   growth_.setZero();
   strength_m_ = strength_rad_ = 0.0;
   Matrix6d covariance;
   active_ = invert(information_, covariance);
 }
 
+void Datum::start(const Prior& prior, const Matrix6d& carried) {
+  start(prior);
+  carried_ = carried;
+}
+
 void Datum::moveTo(const Vector3d& origin) {
   const Matrix6d there = gauge::transport(origin_, origin), back = gauge::transport(origin, origin_);
   carried_ = symmetric(there * carried_ * there.transpose());
+  along_offset_ = there * along_offset_;
   information_ = symmetric(back.transpose() * information_ * back);
   origin_ = origin;
 }
@@ -54,6 +63,49 @@ void Datum::marginalised(const Matrix6d& loss) {
   growth_ = symmetric(before * loss * after);
 }
 
+// G and u = Pi G.
+void Datum::look(const State& state, const Prior& prior) {
+  const int n = prior.size();
+  gauge::ofPrior(state, prior, origin_, directions_);
+  held_.assign(static_cast<std::size_t>(6 * n), 0.0);
+  const Columns G(directions_.data(), n, 6);
+  Columns u(held_.data(), n, 6);
+  for (int c = 0; c < 6; ++c)
+    for (int j = 0; j < n; ++j) {
+      const double* below = prior.information.column(j) + j + 1;
+      u(j, c) += below[-1] * G(j, c) + kernels::dot(below, &G(j, c) + 1, n - j - 1);
+      kernels::subtract(&u(j, c) + 1, below, -G(j, c), n - j - 1);
+    }
+}
+
+Vector6d Datum::releaseOffset(double sigma, const State& state, Prior& prior) {
+  Vector6d per_px = Vector6d::Zero();
+  if (!prior.has_offset || !active_) return per_px;
+  look(state, prior);
+  const int n = prior.size();
+  const Columns G(directions_.data(), n, 6), u(held_.data(), n, 6);
+  Matrix6d covariance;
+  if (!invert(symmetric(G.transpose() * u), covariance)) return per_px;
+  Eigen::Map<Eigen::VectorXd> border(prior.border.data(), n);
+  const Vector6d along = G.transpose() * border;
+  per_px = -(covariance * along);
+  // Gradients stay as they are at the estimates.
+  double offset_gradient = 0.0;
+  prior.deviation(state, deviation_);
+  prior.gradient(deviation_, state.disparity_offset, gradient_, offset_gradient);
+  product_.resize(static_cast<std::size_t>(n));
+  Eigen::Map<Eigen::VectorXd> released(product_.data(), n);
+  released.noalias() = u * (-per_px);
+  border -= released;
+  prior.offset_information -= along.dot(covariance * along);
+  Eigen::Map<Eigen::VectorXd>(prior.eta.data(), n) -= released * state.disparity_offset;
+  prior.offset_eta = offset_gradient + border.dot(Eigen::Map<const Eigen::VectorXd>(deviation_.data(), n)) +
+                     prior.offset_information * state.disparity_offset;
+  along_offset_ += sigma * per_px;
+  growth_ += sigma * sigma * per_px * per_px.transpose();
+  return per_px;
+}
+
 bool Datum::hold(const Matrix6d& local, double ratio, const State& state, Prior& prior) {
   Matrix6d covariance;
   strength_m_ = std::max(strength_m_, local.diagonal().head<3>().maxCoeff());
@@ -62,21 +114,9 @@ bool Datum::hold(const Matrix6d& local, double ratio, const State& state, Prior&
   const double looseness = std::max(covariance.diagonal().head<3>().maxCoeff() * strength_m_, covariance.diagonal().tail<3>().maxCoeff() * strength_rad_);
   if (looseness < ratio) return false;
 
+  look(state, prior);
   const int n = prior.size();
-  directions_.resize(static_cast<std::size_t>(6 * n));
-  held_.assign(static_cast<std::size_t>(6 * n), 0.0);
-  using Columns = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 6>>;
-  Columns G(directions_.data(), n, 6), u(held_.data(), n, 6);
-  for (std::size_t i = 0; i < prior.slots.size(); ++i)
-    G.middleRows<3>(static_cast<Eigen::Index>(3 * i)) =
-        gauge::ofLandmark(state.landmarks[static_cast<std::size_t>(prior.slots[i])].anchor, prior.landmark_centre[i], origin_);
-  G.middleRows<6>(prior.landmarkSize()) = gauge::ofPose(prior.pose_centre, origin_);
-  for (int c = 0; c < 6; ++c)
-    for (int j = 0; j < n; ++j) {
-      const double* below = prior.information.column(j) + j + 1;
-      u(j, c) += below[-1] * G(j, c) + kernels::dot(below, &G(j, c) + 1, n - j - 1);
-      kernels::subtract(&u(j, c) + 1, below, -G(j, c), n - j - 1);
-    }
+  const Columns G(directions_.data(), n, 6), u(held_.data(), n, 6);
   const Matrix6d M = symmetric(G.transpose() * u);
   if (!invert(M, covariance)) return false;
   Matrix6d W = M, held;
@@ -86,7 +126,8 @@ bool Datum::hold(const Matrix6d& local, double ratio, const State& state, Prior&
   // The gradient at the estimates loses what it has along the gauge, so the window stays where it is: with d the deviation,
   // gradient = eta - Pi d.
   prior.deviation(state, deviation_);
-  prior.gradient(deviation_, gradient_);
+  double unchanged = 0.0;
+  prior.gradient(deviation_, state.disparity_offset, gradient_, unchanged);
   Eigen::Map<Eigen::VectorXd> gradient(gradient_.data(), n);
   const Vector6d along = covariance * (G.transpose() * gradient);
   gradient.noalias() -= u * along;
@@ -96,7 +137,7 @@ bool Datum::hold(const Matrix6d& local, double ratio, const State& state, Prior&
     for (int c = 0; c < 6; ++c) kernels::subtract(prior.information.column(j) + j, &u(j, c), -row[c], n - j);
   }
   std::fill(prior.eta.begin(), prior.eta.end(), 0.0);
-  prior.gradient(deviation_, product_);
+  prior.gradient(deviation_, state.disparity_offset, product_, unchanged);
   for (std::size_t i = 0; i < product_.size(); ++i) prior.eta[i] = gradient_[i] - product_[i];
 
   shift_ = symmetric(covariance - held);
@@ -107,7 +148,8 @@ bool Datum::hold(const Matrix6d& local, double ratio, const State& state, Prior&
 
 Matrix6d Datum::carried(const urban_nav_core::Pose& T_odom_camera) const {
   const Matrix6d G = gauge::ofPose(T_odom_camera, origin_);
-  return symmetric(G * carried_ * G.transpose());
+  const Vector6d along = G * along_offset_;
+  return symmetric(G * carried_ * G.transpose() + along * along.transpose());
 }
 
 }  // namespace swf_vo

@@ -24,6 +24,8 @@ class Datum {
  public:
   /// The prior is that of the first pose alone. Where its information is singular, nothing is known of the gauge and isActive is false.
   void start(const Prior& prior);
+  /// Likewise, with what is not known of that pose carried beside.
+  void start(const Prior& prior, const urban_nav_core::Matrix6d& carried);
   void giveUp() { active_ = false; }
   bool isActive() const { return active_; }
 
@@ -36,6 +38,11 @@ class Datum {
   /// Covariance that the last step added to gamma, about origin().
   const urban_nav_core::Matrix6d& growth() const { return growth_; }
 
+  /// An error of the disparity offset is one of scale, and goes with the way travelled. What the prior ties between the offset and the place of
+  /// the window is taken out of it and carried here, as the same error in every step: so what is learnt of the offset
+  /// corrects the way to come, and `odom` never jumps. `sigma`: of the offset, px. Returns d(gamma)/d(offset) of the last step.
+  urban_nav_core::Vector6d releaseOffset(double sigma, const State& state, Prior& prior);
+
   /// `local`: information of one frame on its own pose. Holds the window at least so well once M^-1 exceeds `ratio` times its inverse;
   /// true if it did: what was covariance in the window before has then shrunk by G_b shift() G_b^T.
   bool hold(const urban_nav_core::Matrix6d& local, double ratio, const State& state, Prior& prior);
@@ -45,6 +52,8 @@ class Datum {
   urban_nav_core::Matrix6d carried(const urban_nav_core::Pose& T_odom_camera) const;
 
  private:
+  void look(const State& state, const Prior& prior);
+
   bool active_ = false;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   urban_nav_core::Matrix6d information_ = urban_nav_core::Matrix6d::Zero();  // M
@@ -52,6 +61,7 @@ class Datum {
   urban_nav_core::Matrix6d growth_ = urban_nav_core::Matrix6d::Zero();
   urban_nav_core::Matrix6d shift_ = urban_nav_core::Matrix6d::Zero();
   std::vector<double> directions_, held_, deviation_, gradient_, product_;   // n x 6, column-major: G, u = Pi G; n
+  urban_nav_core::Vector6d along_offset_ = urban_nav_core::Vector6d::Zero();  // error of gamma for an offset that is off by its sigma
   double strength_m_ = 0.0, strength_rad_ = 0.0;                             // largest `local` so far
 };
 

@@ -21,8 +21,12 @@ using urban_nav_core::Vector6d;
 namespace {
 
 // Bearings further out than 84 deg from the axis at birth, or nearer than a tenth of a millimetre: an estimate gone astray.
+// Of the pose that a window begins with, m and rad.
+constexpr double datum_sigma = 1e-6;
 constexpr double absurd_bearing = 10.0;
 constexpr double absurd_inverse_depth = 1e4;
+// Radians: a fifth of what a good match is off by in an image of 500 px.
+constexpr double least_wander = 5e-5;
 // A step that raises the cost by more than this share is halved.
 constexpr double cost_slack = 0.01;
 constexpr int halvings = 4;
@@ -63,7 +67,9 @@ Eigen::Matrix3d lookingAlong(const Vector3d& direction) {
 }  // namespace
 
 Filter::Filter(const WindowOptions& options, const urban_nav_core::StereoCamera& camera)
-    : options_(options), cost_(SensorModel(camera), options.huber, options.linearise_first) {}
+    : options_(options), cost_(SensorModel(camera), options.huber, options.linearise_first) {
+  state_.disparity_offset = camera.disparity_offset;
+}
 
 std::size_t Filter::limit() const { return static_cast<std::size_t>(std::max(1, options_.size)) + (options_.forget_by_deletion ? 1U : 0U); }
 
@@ -74,6 +80,8 @@ void Filter::start(FrameId frame, const Pose& T_odom_camera, const Matrix6d& inf
   state_.poses.reserve(std::min<std::size_t>(limit(), 256) + 1);
   state_.poses.push_back(pose);
   prior_.start(T_odom_camera, information);
+  prior_.startOffset(state_.disparity_offset, options_.disparity_offset);
+  offset_sigma_ = options_.disparity_offset;
   Matrix6d root = information;
   gauge_free_ = !has_known_ && !urban_nav_core::choleskyInPlace(root);
   datum_.start(prior_);
@@ -90,6 +98,31 @@ void Filter::addPose(FrameId frame, const ProcessInput& u) {
   pose.u = u;
   pose.estimate = pose.linearised = process_model::predict(last.estimate, u);
   state_.poses.push_back(pose);
+}
+
+void Filter::restart(FrameId frame, const ProcessInput& u, std::vector<SettledPose>& settled) {
+  const Pose& last = state_.poses.back().estimate;
+  const UncertainPose next{process_model::predict(last, u), covariance::propagate(last, newest_covariance_, u)};
+  // What is known of the disparity offset, with all else marginalised.
+  const double information = prior_.has_offset ? solver_.offsetInformation(prior_) : 0.0, offset = state_.disparity_offset;
+  flush(settled);
+  for (std::size_t slot = 0; slot < state_.landmarks.size(); ++slot)
+    if (state_.landmarks[slot].used && !state_.landmarks[slot].known) state_.remove(static_cast<int>(slot));
+  PoseBlock pose;
+  pose.frame = frame;
+  pose.u = u;
+  pose.estimate = pose.linearised = next.pose;
+  state_.poses.push_back(pose);
+  newest_covariance_ = next.covariance;
+  has_factor_ = gain_valid_ = false;
+  if (datum_.isActive()) {
+    prior_.start(next.pose, Matrix6d::Identity() / (datum_sigma * datum_sigma));
+    datum_.start(prior_, next.covariance);
+  } else {
+    prior_.start(next.pose, inverse(next.covariance));
+  }
+  prior_.offset_information = information;
+  prior_.offset_eta = information * offset - solver_.offsetPull(prior_, offset);
 }
 
 // Removing parameters.
@@ -116,13 +149,35 @@ void Filter::removeOldest(std::vector<SettledPose>& settled, History* history) {
   settled_apart_.setZero();
   if (!datum_.isActive()) return;
   datum_.moveTo(origin);
-  datum_.marginalised(marginaliser_.gaugeLoss());
+  wander(origin);
+  Departed& departed = marginaliser_.departed();
+  datum_.marginalised(departed.gauge_loss);
+  const Vector6d per_px = datum_.releaseOffset(offset_sigma_, state_, prior_);
+  departed.offset_gain += (departed.gauge_gain - left) * per_px;
   std::size_t place = 0;
   if (!inFactor(state_.first_step - 1, place) || !datum_.hold(equations_.pose[place], options_.datum_ratio, state_, prior_)) return;
   // The pose that left goes with the window as its gain says, not quite as a rigid piece of it: the rest stays in the step.
-  const Matrix6d gain = marginaliser_.gaugeGain(), slack = gain - left;
+  const Matrix6d gain = departed.gauge_gain, slack = gain - left;
   settled_in_window_ -= gain * datum_.shift() * gain.transpose();
   settled_apart_ = slack * datum_.shift() * slack.transpose();
+}
+
+// Small steps are gathered: a landmark costs a pass over the prior.
+void Filter::wander(const Vector3d& origin) {
+  wandered_.clear();
+  for (LandmarkBlock& landmark : state_.landmarks) {
+    if (!landmark.used || landmark.prior < 0) continue;
+    if (!landmark.seen.empty()) {
+      landmark.wander += landmark.seen.front().wander;
+      landmark.seen.front().wander.setZero();
+    }
+    if (landmark.wander.trace() < least_wander * least_wander) continue;
+    wandered_.push_back({landmark.prior, landmark.wander});
+    landmark.wander.setZero();
+  }
+  if (wandered_.empty()) return;
+  gauge::ofPrior(state_, prior_, origin, directions_);
+  wander_.apply(wandered_, directions_, prior_, marginaliser_.departed());
 }
 
 SettledPose Filter::settle() {
@@ -147,7 +202,7 @@ SettledPose Filter::settle() {
 Matrix6d Filter::relativeCovariance(const PoseBlock& oldest) const {
   std::size_t place = 0;
   if (gain_valid_ && inFactor(state_.first_step, place) && place == 0) {
-    covariance::Matrix12d joint = covariance::leftAndOldest(solver_, settled_in_window_, marginaliser_.gain());
+    covariance::Matrix12d joint = covariance::leftAndOldest(solver_, settled_in_window_, marginaliser_.departed());
     joint.topLeftCorner<6, 6>() += settled_apart_;
     return covariance::relative(settled_.pose, oldest.estimate, joint);
   }
@@ -199,9 +254,10 @@ bool Filter::observe(const Observation& observation) {
   measurement.step = state_.first_step + pose;
   measurement.z = observation.z;
   measurement.information = observation.information;
+  measurement.wander = cost_.sensor().bearing(observation.wander);
   int slot = state_.slotOf(observation.landmark);
   if (slot < 0) {
-    if (!hasFullRank(observation.information) || !isSane(cost_.sensor().invert(observation.z))) return false;
+    if (!hasFullRank(observation.information) || !isSane(cost_.sensor().invert(withoutOffset(observation.z)))) return false;
     slot = state_.add(observation.landmark);
     place(slot, measurement);
   }
@@ -219,8 +275,10 @@ void Filter::place(int slot, const Measurement& first) {
   const Pose& T_odom_camera = state_.poses[static_cast<std::size_t>(first.step - state_.first_step)].estimate;
   landmark.anchor.R_odom_anchor = T_odom_camera.R();
   landmark.anchor.t_odom_anchor = T_odom_camera.t();
-  landmark.estimate = landmark.linearised = cost_.sensor().invert(first.z);
+  landmark.estimate = landmark.linearised = cost_.sensor().invert(withoutOffset(first.z));
 }
+
+Vector3d Filter::withoutOffset(const Vector3d& z) const { return {z.x(), z.y(), z.z() + state_.disparity_offset}; }
 
 bool Filter::withdraw(LandmarkId id, FrameId frame) {
   const int slot = state_.slotOf(id);
@@ -303,7 +361,7 @@ void Filter::localiseNewest() {
       const Measurement& measurement = landmark.seen.back();
       if (!cost_.sensor().predict(landmark.anchor, landmark.estimate, pose, z)) continue;
       if (!cost_.sensor().linearise(landmark.anchor, landmark.estimate, pose, at)) continue;
-      const Vector3d r = measurement.z - z;
+      const Vector3d r = withoutOffset(measurement.z) - z;
       const double s = std::sqrt(r.dot(measurement.information * r));
       const double weight = options_.huber > 0.0 && s > options_.huber ? options_.huber / s : 1.0;
       const Eigen::Matrix<double, 3, 6> J = at.pose();
@@ -327,11 +385,12 @@ void Filter::localiseNewest() {
 
 double Filter::gradients() {
   prior_.deviation(state_, prior_deviation_);
-  prior_cost_ = prior_.gradient(prior_deviation_, prior_gradient_);
+  prior_cost_ = prior_.gradient(prior_deviation_, state_.disparity_offset, prior_gradient_, prior_offset_gradient_);
   return prior_cost_;
 }
 
 void Filter::take(double scale) {
+  state_.disparity_offset += scale * solver_.offsetStep();
   for (std::size_t j = 0; j < state_.poses.size(); ++j) {
     PoseBlock& pose = state_.poses[j];
     const Vector6d d = scale * solver_.poseStep(j);
@@ -375,7 +434,7 @@ UpdateReport Filter::update() {
     } else {
       cost_.buildGradient(state_, equations_);
     }
-    solver_.solve(state_, prior_, equations_, prior_gradient_);
+    solver_.solve(state_, prior_, equations_, prior_gradient_, prior_offset_gradient_);
     ++result.iterations;
     const double before = prior_cost_ + equations_.cost;
     take(1.0);
@@ -402,6 +461,7 @@ UpdateReport Filter::update() {
   }
   if (!cost_.lineariseFirst()) prior_.recentre(state_);
   newest_covariance_ = covarianceOf(state_.newestStep());
+  offset_sigma_ = std::sqrt(solver_.offsetVariance());
   const UpdateReport figures = report();
   result.observations = figures.observations;
   result.downweighted = figures.downweighted;
@@ -446,7 +506,7 @@ bool Filter::inFactor(std::int64_t step, std::size_t& place) const {
 
 Matrix6d Filter::windowCovarianceOf(std::int64_t step) const {
   std::size_t place = 0;
-  return inFactor(step, place) ? covariance::marginal(solver_, place) : newest_covariance_;
+  return inFactor(step, place) ? covariance::givenOffset(solver_, place) : newest_covariance_;
 }
 
 Matrix6d Filter::covarianceOf(std::int64_t step) const {

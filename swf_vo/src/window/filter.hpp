@@ -12,6 +12,7 @@
 #include "window/prior.hpp"
 #include "window/solve.hpp"
 #include "window/state.hpp"
+#include "window/wander.hpp"
 #include "window/window.hpp"
 
 namespace swf_vo {
@@ -24,18 +25,19 @@ class Filter {
 
   void start(FrameId frame, const urban_nav_core::Pose& T_odom_camera, const urban_nav_core::Matrix6d& information);
   void addPose(FrameId frame, const ProcessInput& u);
+  void restart(FrameId frame, const ProcessInput& u, std::vector<SettledPose>& settled);
   void removePoses(std::vector<SettledPose>& settled, History* history);
   bool fixLandmark(const MapPoint& point);
   bool observe(const Observation& observation);
   bool withdraw(LandmarkId landmark, FrameId frame);
   void endLandmark(LandmarkId landmark);
   UpdateReport update();
-  void limitIterations(int most) { options_.iterations = most; }
   /// The measurements of a frame become these (undo.hpp).
   void setMeasurements(FrameId frame, const std::vector<Observation>& observations);
   void flush(std::vector<SettledPose>& settled);
 
   urban_nav_core::UncertainPose newest() const;
+  double disparityOffsetSigma() const { return offset_sigma_; }
   const State& state() const { return state_; }
   const Prior& prior() const { return prior_; }
   const Cost& cost() const { return cost_; }
@@ -47,6 +49,7 @@ class Filter {
     Prior prior;
     urban_nav_core::Matrix6d newest_covariance;
     Datum datum;
+    double offset_sigma = 0.0;
   };
   void save(Checkpoint& checkpoint) const;
   void restore(const Checkpoint& checkpoint);
@@ -69,8 +72,10 @@ class Filter {
   void deleteOldest();
   urban_nav_core::Matrix6d relativeCovariance(const PoseBlock& oldest) const;
   urban_nav_core::Matrix6d driftCovariance(const PoseBlock& oldest, const urban_nav_core::Matrix6d& relative) const;
+  void wander(const Eigen::Vector3d& origin);
   urban_nav_core::Matrix6d windowCovarianceOf(std::int64_t step) const;
   void place(int slot, const Measurement& first);
+  Eigen::Vector3d withoutOffset(const Eigen::Vector3d& z) const;
   void localiseNewest();
   double gradients();
   void take(double scale);
@@ -87,8 +92,12 @@ class Filter {
   NormalEquations equations_;
   Solver solver_;
   Marginaliser marginaliser_;
+  Wander wander_;
+  std::vector<Wander::Step> wandered_;
+  std::vector<double> directions_;  // of the gauge, of the prior
   std::vector<double> prior_deviation_, prior_gradient_;
-  double prior_cost_ = 0.0;
+  double prior_cost_ = 0.0, prior_offset_gradient_ = 0.0;
+  double offset_sigma_ = 0.0;
   std::int64_t factor_step_ = 0;       // step of the factor's first pose
   bool has_factor_ = false;
   urban_nav_core::Matrix6d newest_covariance_ = urban_nav_core::Matrix6d::Zero();

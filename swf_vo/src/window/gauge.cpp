@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "window/gauge.hpp"
 
+#include "window/make_room.hpp"
+
 namespace swf_vo::gauge {
 
 using Eigen::Vector3d;
@@ -26,6 +28,17 @@ Eigen::Matrix<double, 3, 6> ofLandmark(const Anchor& anchor, const Vector3d& the
   G.row(1) = moved.row(1) - theta.y() * moved.row(2);
   G.row(2) = -theta.z() * moved.row(2);
   return G;
+}
+
+void ofPrior(const State& state, const Prior& prior, const Vector3d& origin, std::vector<double>& directions) {
+  const Eigen::Index n = prior.size();
+  makeRoom(directions, static_cast<std::size_t>(6 * n));
+  directions.resize(static_cast<std::size_t>(6 * n));
+  Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 6>> G(directions.data(), n, 6);
+  for (std::size_t i = 0; i < prior.slots.size(); ++i)
+    G.middleRows<3>(static_cast<Eigen::Index>(3 * i)) =
+        ofLandmark(state.landmarks[static_cast<std::size_t>(prior.slots[i])].anchor, prior.landmark_centre[i], origin);
+  G.middleRows<6>(prior.landmarkSize()) = ofPose(prior.pose_centre, origin);
 }
 
 }  // namespace swf_vo::gauge

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
+#include "window/prior.hpp"
 #include "window/state.hpp"
 
 namespace swf_vo::gauge {
@@ -10,6 +13,9 @@ namespace swf_vo::gauge {
 /// term at the same values, J G = 0: exactly so, whatever the values are (sensor_model.hpp).
 urban_nav_core::Matrix6d ofPose(const urban_nav_core::Pose& T_odom_camera, const Eigen::Vector3d& origin);
 Eigen::Matrix<double, 3, 6> ofLandmark(const Anchor& anchor, const Eigen::Vector3d& theta, const Eigen::Vector3d& origin);
+
+/// Of all blocks of the prior, at its centres: n x 6, column-major.
+void ofPrior(const State& state, const Prior& prior, const Eigen::Vector3d& origin, std::vector<double>& directions);
 
 /// (shift, turn) about `from` said about `to`.
 urban_nav_core::Matrix6d transport(const Eigen::Vector3d& from, const Eigen::Vector3d& to);

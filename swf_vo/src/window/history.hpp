@@ -31,6 +31,8 @@ class History {
     std::vector<Tie> ties;
     std::vector<double> offset;                ///< 3 or 6
     std::vector<double> gain;                  ///< column-major, offset.size() rows
+    double disparity_offset = 0.0;             ///< estimate at that time
+    std::vector<double> disparity_gain;        ///< of the disparity offset, offset.size()
   };
 
   std::vector<Row> rows;  ///< in the order in which they left

@@ -100,22 +100,27 @@ void Marginaliser::gatherPrior(const Prior& prior, const State& state) {
   makeRoom(panel_, size);
   panel_.resize(size);
   reduced_.resize(remaining_);
-  for (std::vector<double>* some : {&gradient_, &d_, &g_}) makeRoom(*some, static_cast<std::size_t>(stride_));
+  for (std::vector<double>* some : {&gradient_, &border_, &d_, &g_}) makeRoom(*some, static_cast<std::size_t>(stride_));
   gradient_.assign(static_cast<std::size_t>(stride_), 0.0);
+  border_.assign(static_cast<std::size_t>(stride_), 0.0);
+  offset_information_ = prior.offset_information;
+  offset_gradient_ = 0.0;
   // What the prior does not touch is zero; the rest is overwritten.
   const int touched = prior.has_pose ? prior.landmarkSize() - (eliminated_ - 6) : 0;
   for (int j = 0; j < eliminated_; ++j) std::fill(eliminatedColumn(j) + (prior.has_pose ? eliminated_ + touched : 0), eliminatedColumn(j) + stride_, 0.0);
   for (int j = 0; j < remaining_; ++j) std::fill(reduced_.column(j) + std::max(j, touched), reduced_.column(j) + remaining_, 0.0);
   if (!prior.has_pose) return;
   prior.deviation(state, d_);
-  prior.gradient(d_, g_);
+  prior.gradient(d_, state.disparity_offset, g_, offset_gradient_);
   findRuns(prior);
   for (const Run& columns : runs_)
     for (int c = 0; c < columns.size; ++c) {
       const int j = columns.from + c, to_j = columns.to + c;
       const double* from = prior.information.column(j);
       double* to = columns.dies ? eliminatedColumn(to_j) : reduced_.column(to_j);
-      gradient_[static_cast<std::size_t>(columns.dies ? to_j : eliminated_ + to_j)] = g_[static_cast<std::size_t>(j)];
+      const std::size_t row = static_cast<std::size_t>(columns.dies ? to_j : eliminated_ + to_j);
+      gradient_[row] = g_[static_cast<std::size_t>(j)];
+      border_[row] = prior.border[static_cast<std::size_t>(j)];
       for (const Run& rows : runs_) {
         const int first = std::max(rows.from, j), last = rows.from + rows.size, at = rows.to + first - rows.from;
         if (first >= last) continue;
@@ -134,20 +139,25 @@ void Marginaliser::addTerms(const State& state, const Cost& cost) {
     const LandmarkBlock& landmark = state.landmarks[at];
     if (!landmark.used || !seenBy(landmark, state.first_step)) continue;
     if (!landmark.known && place_[at] == unused) continue;
-    const SensorTerm term = cost.sensorTerm(landmark, landmark.seen.front(), oldest);
+    const SensorTerm term = cost.sensorTerm(state, landmark, landmark.seen.front(), oldest);
     add(eliminatedColumn(pose) + pose, stride_, term.pose);
     Map<Vector6d>(gradient_.data() + pose) += term.pose_gradient;
+    Map<Vector6d>(border_.data() + pose) += term.pose_border;
+    offset_information_ += term.border_information;
+    offset_gradient_ += term.border_gradient;
     if (landmark.known) continue;
     if (place_[at] >= 0) {
       const int row = place_[at];
       add(eliminatedColumn(pose) + eliminated_ + row, stride_, Eigen::Matrix<double, 3, 6>(term.cross.transpose()));
       add(reduced_.column(row) + row, reduced_.stride(), term.landmark);
       Map<Vector3d>(gradient_.data() + eliminated_ + row) += term.landmark_gradient;
+      Map<Vector3d>(border_.data() + eliminated_ + row) += term.landmark_border;
     } else {
       const int column = -1 - place_[at];
       add(eliminatedColumn(column) + pose, stride_, term.cross);
       add(eliminatedColumn(column) + column, stride_, term.landmark);
       Map<Vector3d>(gradient_.data() + column) += term.landmark_gradient;
+      Map<Vector3d>(border_.data() + column) += term.landmark_border;
     }
   }
   const ProcessTerm term = cost.processTerm(oldest, state.poses[1]);
@@ -207,7 +217,7 @@ void Marginaliser::timesRoot(const Block& block, const Matrix6d& G) {
 void Marginaliser::eliminate() {
   makeRoom(roots_, blocks_.size());
   roots_.assign(blocks_.size(), Matrix6d::Zero());
-  gauge_loss_.setZero();
+  departed_.gauge_loss.setZero();
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const Block block = blocks_[b];
     const int below = block.at + block.size;
@@ -219,11 +229,17 @@ void Marginaliser::eliminate() {
     else G.topLeftCorner<3, 3>() = inverseRoot<3>(D.topLeftCorner<3, 3>());
     // F = Lambda_b^T G in place, then what it takes from the blocks that follow.
     timesRoot(block, G);
-    Vector6d y = Vector6d::Zero();
-    for (int c = 0; c < block.size; ++c) y[c] = G.col(c).head(block.size).dot(Map<const Eigen::VectorXd>(gradient_.data() + block.at, block.size));
+    Vector6d y = Vector6d::Zero(), tied = Vector6d::Zero();
+    for (int c = 0; c < block.size; ++c) {
+      y[c] = G.col(c).head(block.size).dot(Map<const Eigen::VectorXd>(gradient_.data() + block.at, block.size));
+      tied[c] = G.col(c).head(block.size).dot(Map<const Eigen::VectorXd>(border_.data() + block.at, block.size));
+    }
+    offset_information_ -= tied.squaredNorm();
+    offset_gradient_ -= tied.dot(y);
     for (int c = 0; c < block.size; c += 3) {
       const double *F0 = eliminatedColumn(block.at + c), *F1 = eliminatedColumn(block.at + c + 1), *F2 = eliminatedColumn(block.at + c + 2);
       kernels::subtractThree(gradient_.data() + below, F0 + below, F1 + below, F2 + below, y.data() + c, stride_ - below);
+      kernels::subtractThree(border_.data() + below, F0 + below, F1 + below, F2 + below, tied.data() + c, stride_ - below);
       for (int j = below; j < eliminated_; ++j) {
         const double factors[3] = {F0[j], F1[j], F2[j]};
         kernels::subtractThree(eliminatedColumn(j) + j, F0 + j, F1 + j, F2 + j, factors, stride_ - j);
@@ -232,25 +248,29 @@ void Marginaliser::eliminate() {
         const double* F = eliminatedColumn(block.at + k);
         Vector6d held = Vector6d::Zero();
         for (int r = 0; r < block.size; ++r) held += G(r, k) * gauge_[static_cast<std::size_t>(block.at + r)];
-        gauge_loss_.noalias() += held * held.transpose();
+        departed_.gauge_loss.noalias() += held * held.transpose();
         for (int j = below; j < eliminated_; ++j) gauge_[static_cast<std::size_t>(j)] -= F[j] * held;
       }
     }
-    for (int c = 0; c < block.size; ++c) gradient_[static_cast<std::size_t>(block.at + c)] = y[c];
+    for (int c = 0; c < block.size; ++c) {
+      gradient_[static_cast<std::size_t>(block.at + c)] = y[c];
+      border_[static_cast<std::size_t>(block.at + c)] = tied[c];
+    }
   }
   product_.subtract(reduced_, 0, remaining_, panel_.data() + eliminated_, eliminated_, stride_);
-  // d_pose = G (y - F^T d): its gain, transposed, is -F G^T.
-  makeRoom(gain_, static_cast<std::size_t>(6 * remaining_));
-  gain_.assign(static_cast<std::size_t>(6 * remaining_), 0.0);
+  // d_pose = G (y - F^T d - b o): its gain, transposed, is -F G^T.
+  makeRoom(departed_.gain, static_cast<std::size_t>(6 * remaining_));
+  departed_.gain.assign(static_cast<std::size_t>(6 * remaining_), 0.0);
   const Matrix6d& G = roots_.back();
+  departed_.offset_gain = -(G * Map<const Vector6d>(border_.data() + eliminated_ - 6));
   for (int c = 0; c < 6; ++c) {
     const double* F = eliminatedColumn(eliminated_ - 6 + c) + eliminated_;
     for (int r = 0; r < 6; ++r)
-      for (int i = 0; i < remaining_; ++i) gain_[static_cast<std::size_t>(r * remaining_ + i)] -= F[i] * G(r, c);
+      for (int i = 0; i < remaining_; ++i) departed_.gain[static_cast<std::size_t>(r * remaining_ + i)] -= F[i] * G(r, c);
   }
   for (int r = 0; r < 6; ++r)
     for (int k = 0; k < 6; ++k)
-      gauge_gain_(r, k) = kernels::dot(gain_.data() + r * remaining_, directions_.data() + k * stride_ + eliminated_, remaining_);
+      departed_.gauge_gain(r, k) = kernels::dot(departed_.gain.data() + r * remaining_, directions_.data() + k * stride_ + eliminated_, remaining_);
 }
 
 void Marginaliser::record(const State& state, History& history) const {
@@ -290,6 +310,9 @@ void Marginaliser::record(const State& state, History& history) const {
     const Eigen::MatrixXd G = roots_[b].topLeftCorner(block.size, block.size);
     row.offset.resize(static_cast<std::size_t>(block.size));
     Map<Eigen::VectorXd>(row.offset.data(), block.size) = G * Map<const Eigen::VectorXd>(gradient_.data() + block.at, block.size);
+    row.disparity_offset = state.disparity_offset;
+    row.disparity_gain.resize(static_cast<std::size_t>(block.size));
+    Map<Eigen::VectorXd>(row.disparity_gain.data(), block.size) = -(G * Map<const Eigen::VectorXd>(border_.data() + block.at, block.size));
     for (int i = block.at + block.size; i < stride_; ++i) {
       Eigen::VectorXd F(block.size);
       for (int c = 0; c < block.size; ++c) F[c] = eliminatedColumn(block.at + c)[i];
@@ -324,13 +347,19 @@ void Marginaliser::keep(State& state, Prior& prior) {
   state.poses.erase(state.poses.begin());
   ++state.first_step;
 
-  // The gradient was taken at the estimates, eta is it at the centre: g + Pi d, which is gradient() of -d.
+  // The gradient was taken at the estimates, eta is it at the centre: g + Pi d + border o, which is gradient() of (-d, -o).
   makeRoom(prior.eta, static_cast<std::size_t>(remaining_));
+  makeRoom(prior.border, static_cast<std::size_t>(remaining_));
   prior.eta.assign(gradient_.begin() + eliminated_, gradient_.begin() + stride_);
+  prior.border.assign(border_.begin() + eliminated_, border_.begin() + stride_);
+  prior.offset_information = prior.has_offset ? offset_information_ : 0.0;
+  prior.offset_eta = offset_gradient_;
   prior.deviation(state, d_);
   for (double& value : d_) value = -value;
-  prior.gradient(d_, g_);
+  double eta_offset = 0.0;
+  prior.gradient(d_, -state.disparity_offset, g_, eta_offset);
   prior.eta.swap(g_);
+  prior.offset_eta = eta_offset;
 }
 
 void Marginaliser::removeOldest(State& state, Prior& prior, const Cost& cost, const Vector3d& origin, History* history) {

@@ -10,24 +10,31 @@
 
 namespace swf_vo {
 
+/// What the pose that left last owes to what is still there.
+struct Departed {
+  /// d(it)/d(blocks of the prior), 6 columns to a row of the prior, column-major with prior.size() rows: -Lambda_a^-1 Lambda_b, transposed.
+  std::vector<double> gain;
+  urban_nav_core::Vector6d offset_gain = urban_nav_core::Vector6d::Zero();  ///< d(it)/d(disparity offset)
+  /// `gain` times the directions of the gauge (gauge.hpp): how it goes with the rest of the window.
+  urban_nav_core::Matrix6d gauge_gain = urban_nav_core::Matrix6d::Zero();
+  /// G^T Lambda G before less G^T Lambda G after: the information on where the window stands that went with it, Lambda taken of the prior and
+  /// of the terms that went in.
+  urban_nav_core::Matrix6d gauge_loss = urban_nav_core::Matrix6d::Zero();
+};
+
 /// The only place where information leaves x: the oldest pose, and landmarks that no active pose sees and nobody follows,
 /// go into the prior by the Schur complement Lambda_c - Lambda_b^T Lambda_a^-1 Lambda_b (Newman et al. 2009, section 2.2),
 /// never by deletion. Whatever Lambda_a does not determine is left out of the inverse: there is nothing to hand on.
 class Marginaliser {
  public:
   /// Takes poses.front() out of `state` with its measurements; the pose behind it and the landmarks it saw are then tied by
-  /// the prior. Needs a second pose. The linearisation points must be those of Cost::relinearise. `history` may be null.
+  /// the prior. Needs a second pose. The linearisation points must be those of Cost::relinearise. Directions of the gauge are
+  /// about `origin`. `history` may be null.
   void removeOldest(State& state, Prior& prior, const Cost& cost, const Eigen::Vector3d& origin, History* history);
 
-  /// G^T Lambda G before less G^T Lambda G after (gauge.hpp, about `origin`): the information on where the window stands that went with
-  /// what left, Lambda taken of prior and of the terms that went in.
-  const urban_nav_core::Matrix6d& gaugeLoss() const { return gauge_loss_; }
-  /// gain() times the directions of the gauge: how the pose that left goes with the rest of the window.
-  const urban_nav_core::Matrix6d& gaugeGain() const { return gauge_gain_; }
-
-  /// d(pose that left)/d(blocks of the new prior), 6 columns to a row of the prior, column-major with prior.size() rows:
-  /// -Lambda_a^-1 Lambda_b of that pose, transposed.
-  const std::vector<double>& gain() const { return gain_; }
+  /// About the pose that left; what happens to the prior before the next one is added to it.
+  Departed& departed() { return departed_; }
+  const Departed& departed() const { return departed_; }
 
  private:
   struct Block {
@@ -60,13 +67,15 @@ class Marginaliser {
   StripProduct product_;
   DenseMatrix reduced_;                  // n x n
   std::vector<double> gradient_;         // e + n
+  std::vector<double> border_;           // e + n: the disparity offset's, eliminated like a gradient
+  double offset_information_ = 0.0, offset_gradient_ = 0.0;
   std::vector<double> d_, g_;
   std::vector<Block> blocks_;            // of the eliminated, in order
   std::vector<urban_nav_core::Matrix6d> roots_;  // of each: G with G G^T = the (pseudo-)inverse of its pivot
-  std::vector<double> gain_, times_root_;
+  Departed departed_;
+  std::vector<double> times_root_;
   std::vector<double> directions_;       // G, (e + n) x 6
   std::vector<urban_nav_core::Vector6d> gauge_;  // rows of Lambda G, of the eliminated
-  urban_nav_core::Matrix6d gauge_loss_ = urban_nav_core::Matrix6d::Zero(), gauge_gain_ = urban_nav_core::Matrix6d::Zero();
   std::vector<Eigen::Vector3d> centres_;
 };
 

@@ -22,6 +22,14 @@ void Prior::start(const Pose& centre, const Matrix6d& pose_information) {
   for (int j = 0; j < 6; ++j)
     for (int i = j; i < 6; ++i) information(i, j) = pose_information(i, j);
   eta.assign(6, 0.0);
+  border.assign(6, 0.0);
+}
+
+void Prior::startOffset(double offset, double sigma) {
+  has_offset = sigma > 0.0;
+  calibrated_offset = offset;
+  calibration_information = has_offset ? 1.0 / (sigma * sigma) : 0.0;
+  offset_information = offset_eta = 0.0;
 }
 
 void Prior::deviation(const State& state, std::vector<double>& d) const {
@@ -33,7 +41,7 @@ void Prior::deviation(const State& state, std::vector<double>& d) const {
   Map<Vector6d>(d.data() + landmarkSize()) = urban_nav_core::boxMinus(state.poses.front().estimate, pose_centre);
 }
 
-double Prior::gradient(const std::vector<double>& d, std::vector<double>& g) const {
+double Prior::gradient(const std::vector<double>& d, double offset, std::vector<double>& g, double& g_offset) const {
   const int n = size();
   makeRoom(g, static_cast<std::size_t>(n));
   g.resize(static_cast<std::size_t>(n));
@@ -50,14 +58,21 @@ double Prior::gradient(const std::vector<double>& d, std::vector<double>& g) con
     cost -= d[i] * (0.5 * g[i] + eta[i]);
     g[i] += eta[i];
   }
-  return cost;
+  g_offset = 0.0;
+  if (!has_offset) return cost;
+  const double tied = kernels::dot(border.data(), d.data(), n);
+  kernels::subtract(g.data(), border.data(), offset, n);
+  g_offset = offset_eta - tied - offset_information * offset;
+  return cost + offset * (tied + 0.5 * offset_information * offset - offset_eta);
 }
 
 void Prior::recentre(const State& state) {
   if (!has_pose) return;
   deviation(state, d_);
-  gradient(d_, g_);
+  double g_offset = 0.0;
+  gradient(d_, 0.0, g_, g_offset);
   eta.swap(g_);
+  if (has_offset) offset_eta = g_offset;
   for (std::size_t i = 0; i < slots.size(); ++i) landmark_centre[i] = state.landmarks[static_cast<std::size_t>(slots[i])].estimate;
   pose_centre = state.poses.front().estimate;
 }

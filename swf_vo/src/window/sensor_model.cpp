@@ -70,4 +70,9 @@ Vector3d SensorModel::invert(const Vector3d& z) const {
   return Vector3d((z.x() - cx_) / fx_, (z.y() - cy_) / fy_, (z.x() - z.z()) / (fx_ * baseline_));
 }
 
+Eigen::Matrix2d SensorModel::bearing(const Eigen::Matrix2d& covariance_px) const {
+  const Eigen::Vector2d per_px(1.0 / fx_, 1.0 / fy_);
+  return per_px.asDiagonal() * covariance_px * per_px.asDiagonal();
+}
+
 }  // namespace swf_vo

@@ -53,6 +53,8 @@ class SensorModel {
 
   /// theta of a landmark whose anchor is the camera that sees it at z. Any finite z has one; a negative disparity gives rho < 0.
   Eigen::Vector3d invert(const Eigen::Vector3d& z) const;
+  /// A covariance of pixels of the left image as one of (a, b).
+  Eigen::Matrix2d bearing(const Eigen::Matrix2d& covariance_px) const;
 
  private:
   double fx_, fy_, cx_, cy_, baseline_;

@@ -27,28 +27,45 @@ class Solver {
   /// information is, and exact there, for a gradient without share in the gauge directions can be answered without moving it.
   void factor(const State& state, const Prior& prior, const NormalEquations& equations, bool datum);
   /// The step for the gradients of `equations` and the prior's gradient, with the last factor.
-  void solve(const State& state, const Prior& prior, const NormalEquations& equations, const std::vector<double>& prior_gradient);
+  void solve(const State& state, const Prior& prior, const NormalEquations& equations, const std::vector<double>& prior_gradient,
+             double prior_offset_gradient);
 
-  /// Steps of the last solve: of pose j, of the landmark in a slot.
+  /// Steps of the last solve: of pose j, of the landmark in a slot, of the disparity offset.
   urban_nav_core::Vector6d poseStep(std::size_t j) const;
   const Eigen::Vector3d& landmarkStep(std::size_t slot) const { return landmark_step_[slot]; }
+  double offsetStep() const { return offset_step_; }
   /// d^T g: twice the decrease that the quadratic promises.
   double decrement() const { return decrement_; }
 
-  /// Column (pose j, component c) of the inverse, the covariance: landmarks of the prior, then poses. With `poses_only` the
+  /// Column (pose j, component c) of the inverse, the covariance were the disparity offset known: landmarks of the prior, then poses. With `poses_only` the
   /// rows of the landmarks are not made. Valid until the next call.
   const std::vector<double>& inverseColumn(std::size_t j, int c, bool poses_only) const;
   /// All six columns of pose j, whole and one after the other. Valid until the next call.
   const std::vector<double>& inverseColumns(std::size_t j) const;
   /// Row where pose j begins in such a column.
   std::size_t rowOf(std::size_t j) const { return offset_ + 6 * j; }
+  /// Variance of the disparity offset (px^2), 0 where it is a constant, and how the estimate in such a row goes with it.
+  double offsetVariance() const { return border_.used ? 1.0 / border_.pivot : 0.0; }
+  /// What measurements say of the offset with all else marginalised, and what the calibration pulls at an estimate: Prior's terms of it.
+  double offsetInformation(const Prior& prior) const;
+  double offsetPull(const Prior& prior, double offset) const;
+  double perOffset(std::size_t row) const { return border_.used ? -border_.rows[row] : 0.0; }
   std::size_t poses() const { return poses_; }
 
  private:
   bool isCheaperOntoMap(const State& state, const Prior& prior) const;
   void factorOntoPath(const State& state, const Prior& prior, const NormalEquations& equations, bool datum);
-  void solveOntoPath(const State& state, const Prior& prior, const NormalEquations& equations, const std::vector<double>& prior_gradient);
-  void solveOntoMap(const State& state, const Prior& prior, const NormalEquations& equations, const std::vector<double>& prior_gradient);
+  /// A right-hand side, or the border, which is solved for as one. `prior`: landmarks of the prior, then the oldest pose; may be empty.
+  struct RightSide {
+    const std::vector<double>& prior;
+    const std::vector<urban_nav_core::Vector6d>& pose;
+    const std::vector<Eigen::Vector3d>& landmark;
+  };
+  void solveFor(const State& state, const Prior& prior, const NormalEquations& equations, const RightSide& right);
+  void solveOntoPath(const State& state, const Prior& prior, const NormalEquations& equations, const RightSide& right);
+  void solveOntoMap(const State& state, const Prior& prior, const RightSide& right);
+  void factorBorder(const State& state, const Prior& prior, const NormalEquations& equations);
+  double dotBorder(const State& state, const Prior& prior, const NormalEquations& equations) const;
   struct Strip {
     int columns = 0, first = 1 << 30, last = 0;  // rows touched
   };
@@ -72,6 +89,13 @@ class Solver {
   std::size_t poses_ = 0;
   std::size_t offset_ = 0;  // where the poses begin
   double decrement_ = 0.0;
+  double offset_step_ = 0.0;
+  struct {
+    bool used = false;
+    std::vector<double> rows;                // Lambda^-1 border: landmarks of the prior, then poses
+    std::vector<Eigen::Vector3d> landmark;   // ... by slot
+    double pivot = 1.0;                      // what is left of the offset's information
+  } border_;
 };
 
 }  // namespace swf_vo

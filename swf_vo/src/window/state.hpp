@@ -26,6 +26,7 @@ struct Measurement {
   std::int64_t step = 0;
   Eigen::Vector3d z = Eigen::Vector3d::Zero();
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  Eigen::Matrix2d wander = Eigen::Matrix2d::Zero();  ///< of the bearing, since the measurement before
   double weight = 1.0;  ///< robust weight at the last linearisation; 0: not in front of the camera
   bool solved = false;  ///< the last solve had this measurement
 };
@@ -37,6 +38,7 @@ struct LandmarkBlock {
   Eigen::Vector3d estimate = Eigen::Vector3d::Zero();
   Eigen::Vector3d linearised = Eigen::Vector3d::Zero();
   int prior = -1;         ///< which landmark of the prior; -1: the prior does not touch it
+  Eigen::Matrix2d wander = Eigen::Matrix2d::Zero();  ///< of the bearing, since what the prior knows of it
   bool used = false;      ///< false: the slot is free
   bool known = false;     ///< its place is given: a constant, not a state
   bool followed = true;   ///< still looked for
@@ -50,6 +52,7 @@ class State {
   std::vector<PoseBlock> poses;            ///< oldest first
   std::int64_t first_step = 0;             ///< of poses.front()
   std::vector<LandmarkBlock> landmarks;    ///< by slot
+  double disparity_offset = 0.0;           ///< px, of the camera (StereoCamera): one number for all frames
 
   std::int64_t newestStep() const { return first_step + static_cast<std::int64_t>(poses.size()) - 1; }
   /// Place in `poses`, -1 if the frame is not active.

@@ -50,6 +50,15 @@ void Window::addPose(FrameId frame, const ProcessInput& u) {
   all.filter.addPose(frame, u);
 }
 
+void Window::restart(FrameId frame, const ProcessInput& u) {
+  Implementation& all = *implementation_;
+  all.settled.clear();
+  all.filter.restart(frame, u, all.settled);
+  if (!all.options.exact_undo) return;
+  all.undo = Undo();
+  all.undo.beginStep(all.filter, frame, u, false, 1);
+}
+
 void Window::removePoses() {
   implementation_->settled.clear();
   implementation_->filter.removePoses(implementation_->settled, implementation_->options.keep_history ? &implementation_->history : nullptr);
@@ -91,8 +100,6 @@ void Window::endLandmark(LandmarkId landmark) {
   if (implementation_->options.exact_undo) implementation_->undo.ended(landmark);
 }
 
-void Window::limitIterations(int most) { implementation_->filter.limitIterations(most); }
-
 UpdateReport Window::update() {
   implementation_->undo.replay(implementation_->filter);
   return implementation_->filter.update();
@@ -105,6 +112,9 @@ Pose Window::pose(FrameId frame) const {
   const State& state = implementation_->filter.state();
   return state.poses[static_cast<std::size_t>(std::max(0, state.poseOf(frame)))].estimate;
 }
+
+double Window::disparityOffset() const { return implementation_->filter.state().disparity_offset; }
+double Window::disparityOffsetSigma() const { return implementation_->filter.disparityOffsetSigma(); }
 
 const std::vector<MapPoint>& Window::map() const {
   std::vector<MapPoint>& map = implementation_->map;

@@ -28,6 +28,7 @@ struct WindowOptions {
   double datum_ratio = 100.0;        ///< once the place of the whole window is this much less certain than what one frame tells of its own pose
                                     ///< (in variance), it is held anew and the difference carried beside (datum.hpp): changes no result but
                                     ///< for rounding
+  double disparity_offset = 0.0;    ///< px, standard deviation of the camera's disparity offset, which is then a state; 0: it is a constant
   bool keep_history = false;        ///< keep the eliminated rows for Window::trajectory(): grows with the trajectory
 };
 
@@ -74,6 +75,9 @@ class Window {
   void start(FrameId frame, const urban_nav_core::Pose& T_odom_camera, const urban_nav_core::Matrix6d& information);
   /// A further pose by the process model, the frame after the newest.
   void addPose(FrameId frame, const ProcessInput& u);
+  /// A further pose by the process model that nothing else will ever tie to those before: no landmark is left that is still looked for. All
+  /// of them leave (settled()), and the window begins anew at the prediction, with its covariance.
+  void restart(FrameId frame, const ProcessInput& u);
   /// Marginalises the oldest poses until at most `size` are left, with them landmarks that no active pose sees and that are
   /// not followed any more. What left is in settled() until the next call.
   void removePoses();
@@ -94,14 +98,14 @@ class Window {
 
   /// Robust Gauss-Newton over all that is in the window.
   UpdateReport update();
-  /// From the next update on. While poses without measurements are in the window, frozen linearisation points are far from the estimates, and
-  /// repeated steps run away along the directions that nothing holds: one step a frame is safe there.
-  void limitIterations(int most);
 
   /// Before update(): the prediction. The window must have been started.
   urban_nav_core::UncertainPose newest() const;
   urban_nav_core::Pose pose(FrameId frame) const;  ///< of an active frame
   bool hasPose(FrameId frame) const;
+  /// The camera's disparity offset as known now, px, and its standard deviation (0 if it is a constant).
+  double disparityOffset() const;
+  double disparityOffsetSigma() const;
   /// Landmarks that are still looked for, in order of id; lives until the next change.
   const std::vector<MapPoint>& map() const;
   /// How well the last update trusts the newest observation of it (0...1); 1 if it has none.

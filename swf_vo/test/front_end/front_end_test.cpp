@@ -31,7 +31,7 @@ class Bench {
   const FrontEndResult& see(const StereoPair& pair, const Pose& last, const Pose& predicted) {
     map_.clear();
     for (const auto& [id, p] : landmarks_) map_.push_back({id, p});
-    return front_end_.process(frame_++, pair, last, predicted, map_);
+    return front_end_.process(frame_++, pair, last, predicted, map_, 0.0);
   }
 
   void learn(const FrontEndResult& seen, const Pose& T_odom_camera) {

@@ -74,7 +74,8 @@ const Pose kTruth = expSe3(tangent(0.2, -0.05, -0.6, 0.02, -0.05, 0.01));
 TEST(Localise, ExactMatchesGiveTheExactPose) {
   World world(1);
   world.add(40, 0.0, 5, kTruth);
-  Localiser localiser(camera());
+  const StereoCamera stereo = camera();
+  Localiser localiser(stereo);
   const Localisation found = localiser.locate({Pose()}, {}, world.matches);
   ASSERT_TRUE(found.found);
   EXPECT_EQ(found.inliers, 40);
@@ -87,7 +88,8 @@ TEST(Localise, OutliersAreNamedAndDoNotMoveThePose) {
   World world(2);
   world.add(60, 0.1, 5, kTruth);
   world.spoil(24);
-  Localiser localiser(camera());
+  const StereoCamera stereo = camera();
+  Localiser localiser(stereo);
   const Localisation found = localiser.locate({Pose()}, {}, world.matches);
   ASSERT_TRUE(found.found);
   EXPECT_LT(distanceBetween(found.T_camera_odom, kTruth), 0.02);
@@ -112,7 +114,8 @@ TEST(Localise, PointsWithoutRightImageAndAtInfinityCount) {
     const Eigen::Vector3d p = kTruth.q() * match.p_odom.head<3>();
     match.z << 400.0 * p.x() / p.z() + 255.5, 400.0 * p.y() / p.z() + 191.5, 400.0 * p.x() / p.z() + 255.5;
   }
-  Localiser localiser(camera());
+  const StereoCamera stereo = camera();
+  Localiser localiser(stereo);
   const Localisation found = localiser.locate({Pose()}, {}, world.matches);
   EXPECT_EQ(found.inliers, 30);
   EXPECT_LT(distanceBetween(found.T_camera_odom, kTruth), 1e-3);
@@ -125,7 +128,8 @@ TEST(Localise, AVanThatFillsTheViewDoesNotCarryUsAway) {
     const Pose van(urban_nav_core::Quaterniond::Identity(), Eigen::Vector3d(0.05, 0.0, 0.5));
     world.add(40, 0.1, 8, kTruth);
     world.add(60, 0.1, 1, kTruth, van);
-    Localiser localiser(camera());
+    const StereoCamera stereo = camera();
+  Localiser localiser(stereo);
     const Pose predicted = boxPlus(kTruth, tangent(0.02, 0.01, 0.1, 0.002, 0.003, 0.0));
     const Localisation found = localiser.locate({predicted}, {}, world.matches);
     ASSERT_TRUE(found.found) << seed;
@@ -141,7 +145,8 @@ TEST(Localise, ConsensusFindsAMotionThatNobodyPredicted) {
   const Pose far = expSe3(tangent(0.1, 0.0, -1.5, 0.0, 0.25, 0.0));
   world.add(60, 0.1, 4, far);
   world.spoil(20);
-  Localiser localiser(camera());
+  const StereoCamera stereo = camera();
+  Localiser localiser(stereo);
   const Localisation found = localiser.locate({Pose()}, {}, world.matches);
   ASSERT_TRUE(found.found);
   EXPECT_LT(distanceBetween(found.T_camera_odom, far), 0.05);
@@ -150,7 +155,8 @@ TEST(Localise, ConsensusFindsAMotionThatNobodyPredicted) {
 TEST(Localise, TooFewOrAbsurdMatchesLeaveThePrediction) {
   World world(4);
   world.add(3, 0.0, 5, kTruth);
-  Localiser localiser(camera());
+  const StereoCamera stereo = camera();
+  Localiser localiser(stereo);
   const Pose predicted = expSe3(tangent(1, 2, 3, 0.1, 0.2, 0.3));
   Localisation found = localiser.locate({predicted}, {}, world.matches);
   EXPECT_FALSE(found.found);

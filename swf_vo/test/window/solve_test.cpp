@@ -15,6 +15,7 @@ struct System {
   Prior prior;
   NormalEquations equations;
   std::vector<double> gradient;
+  double offset_gradient = 0.0;
 };
 
 System systemAfter(int frames, int size, int features, bool absolute = true) {
@@ -29,7 +30,7 @@ System systemAfter(int frames, int size, int features, bool absolute = true) {
   TrackRunner run(tracks, options);
   if (!absolute) run.first_information.setZero();
   while (!run.done()) run.step();
-  System system{run.window.filter().state(), run.window.filter().prior(), {}, {}};
+  System system{run.window.filter().state(), run.window.filter().prior(), {}, {}, 0.0};
   // Somewhere beside the optimum, so that there is a step to take.
   for (PoseBlock& pose : system.state.poses)
     pose.estimate = urban_nav_core::boxPlus(pose.estimate, urban_nav_core::Vector6d::Constant(0.002));
@@ -37,7 +38,7 @@ System systemAfter(int frames, int size, int features, bool absolute = true) {
   run.window.filter().cost().build(system.state, system.equations);
   std::vector<double> d;
   system.prior.deviation(system.state, d);
-  system.prior.gradient(d, system.gradient);
+  system.prior.gradient(d, system.state.disparity_offset, system.gradient, system.offset_gradient);
   return system;
 }
 
@@ -45,7 +46,7 @@ void expectSame(const System& system, bool datum) {
   Solver path(Solver::Way::MapOntoPath), map(Solver::Way::PathOntoMap);
   for (Solver* solver : {&path, &map}) {
     solver->factor(system.state, system.prior, system.equations, datum);
-    solver->solve(system.state, system.prior, system.equations, system.gradient);
+    solver->solve(system.state, system.prior, system.equations, system.gradient, system.offset_gradient);
   }
   ASSERT_FALSE(path.wentOntoMap());
   ASSERT_TRUE(map.wentOntoMap());

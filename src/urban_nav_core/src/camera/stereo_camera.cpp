@@ -15,7 +15,7 @@ constexpr double kLeastDisparity = 1e-9;  // px
 std::optional<StereoCamera::Pixel> StereoCamera::project(const Eigen::Vector3d& p_cam) const {
   const std::optional<Eigen::Vector2d> pixel = left.project(p_cam);
   if (!pixel) return std::nullopt;
-  return Pixel(pixel->x(), pixel->y(), pixel->x() - left.fx * baseline / p_cam.z());
+  return Pixel(pixel->x(), pixel->y(), pixel->x() - left.fx * baseline / p_cam.z() - disparity_offset);
 }
 
 Eigen::Matrix3d StereoCamera::projectJacobian(const Eigen::Vector3d& p_cam) const {
@@ -27,13 +27,13 @@ Eigen::Matrix3d StereoCamera::projectJacobian(const Eigen::Vector3d& p_cam) cons
 }
 
 std::optional<Eigen::Vector3d> StereoCamera::triangulate(const Pixel& pixel) const {
-  const double disparity = pixel(0) - pixel(2);
+  const double disparity = pixel(0) - pixel(2) - disparity_offset;
   if (!(disparity > kLeastDisparity)) return std::nullopt;
   return left.ray(pixel.head<2>()) * (left.fx * baseline / disparity);
 }
 
 Eigen::Matrix3d StereoCamera::triangulateJacobian(const Pixel& pixel) const {
-  const double disparity = pixel(0) - pixel(2);
+  const double disparity = pixel(0) - pixel(2) - disparity_offset;
   const double z = left.fx * baseline / disparity;
   const Eigen::Vector3d p_by_disparity = left.ray(pixel.head<2>()) * (-z / disparity);
   Eigen::Matrix3d J;
@@ -49,11 +49,14 @@ Eigen::Matrix3d StereoCamera::triangulateCovariance(const Pixel& pixel, const Ei
 }
 
 bool isApprox(const StereoCamera& a, const StereoCamera& b, double tolerance) {
-  return isApprox(a.left, b.left, tolerance) && std::abs(a.baseline - b.baseline) <= tolerance;
+  return isApprox(a.left, b.left, tolerance) && std::abs(a.baseline - b.baseline) <= tolerance &&
+         std::abs(a.disparity_offset - b.disparity_offset) <= tolerance;
 }
 
 std::ostream& operator<<(std::ostream& out, const StereoCamera& camera) {
-  return out << camera.left << ", baseline = " << camera.baseline << " m";
+  out << camera.left << ", baseline = " << camera.baseline << " m";
+  if (camera.disparity_offset != 0.0) out << ", disparity offset = " << camera.disparity_offset << " px";
+  return out;
 }
 
 }  // namespace urban_nav_core

@@ -10,10 +10,11 @@
 namespace urban_nav_core {
 
 /// A rectified stereo pair: one pinhole for both images, the right camera `baseline` metres along the left one's x.
-/// A stereo pixel is (u_left, v, u_right) in px; its disparity u_left - u_right = fx baseline / z is >= 0.
+/// A stereo pixel is (u_left, v, u_right) in px; its disparity u_left - u_right is fx baseline / z + disparity_offset.
 struct StereoCamera {
   Pinhole left;
   double baseline = 0.0;  ///< m, > 0
+  double disparity_offset = 0.0;  ///< px, of a point at infinity: cx_left - cx_right where the images have principal points of their own
 
   using Pixel = Eigen::Vector3d;  ///< u_left, v, u_right
 
