@@ -21,6 +21,11 @@ constexpr double kEdgeOn = 1e-9;  // determinant below which a plane is seen fro
 
 Renderer::Renderer(const RenderCamera& camera) : camera_(camera) {
   const std::size_t size = static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
+  for (int i = 0; i < kPoints; ++i)
+    for (int k = 0; k < kPoints; ++k) {
+      const double du = k - 0.5 * (kPoints - 1), dv = i - 0.5 * (kPoints - 1);
+      point_weights_.push_back(std::exp(-0.5 * kStep * kStep * (du * du + dv * dv) / kWeightVariance));
+    }
   owner_.resize(size);
   inverse_z_.resize(size);
   image_.resize(size);
@@ -148,14 +153,13 @@ const Renderer::Plane* Renderer::nearest(const std::vector<const Plane*>& planes
 double Renderer::blend(int u, int v) const {
   const std::vector<const Plane*> planes = planesAbout(u, v);
   const double step = kStep * camera_.blur, point_blur = kPointBlur * camera_.blur;
-  const double variance = kWeightVariance * camera_.blur * camera_.blur;
   const Plane* filtered = nullptr;
   Texture::Filter filter;
   double sum = 0.0, weights = 0.0;
   for (int i = 0; i < kPoints; ++i) {
     for (int k = 0; k < kPoints; ++k) {
       const double du = (k - 0.5 * (kPoints - 1)) * step, dv = (i - 0.5 * (kPoints - 1)) * step;
-      const double weight = std::exp(-0.5 * (du * du + dv * dv) / variance);
+      const double weight = point_weights_[static_cast<std::size_t>(i * kPoints + k)];
       const Eigen::Vector3d p(u + du, v + dv, 1.0);
       const Plane* plane = nearest(planes, p);
       double grey = background_;

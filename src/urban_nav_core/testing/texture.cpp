@@ -230,16 +230,20 @@ void Texture::alongRun(const Run& x, const Run& y, double frequency, Function fu
   }
 }
 
-bool Texture::isUniform(const Pattern& pattern, const Run& x, const Run& y, const Filter& filter) {
-  constexpr std::size_t kLast = kRun - 1;
-  const Part first_row = part(y[0], pattern.height, pattern.per_height, pattern.margin_y, filter.per_sigma_y);
-  if (first_row.own_share != 1.0) return false;
-  const Part last_row = part(y[kLast], pattern.height, pattern.per_height, pattern.margin_y, filter.per_sigma_y);
-  if (last_row.own_share != 1.0 || last_row.own != first_row.own) return false;
-  const double shift = (first_row.own & 1) != 0 ? pattern.shift * pattern.width : 0.0;
+/// The row of cells that all of a run lies in, its edges out of reach; empty if there is none.
+std::optional<int> Texture::commonRow(const Pattern& pattern, const Run& y, const Filter& filter) {
+  const Part first = part(y[0], pattern.height, pattern.per_height, pattern.margin_y, filter.per_sigma_y);
+  if (first.own_share != 1.0) return std::nullopt;
+  const Part last = part(y[kRun - 1], pattern.height, pattern.per_height, pattern.margin_y, filter.per_sigma_y);
+  if (last.own_share != 1.0 || last.own != first.own) return std::nullopt;
+  return first.own;
+}
+
+bool Texture::isUniform(const Pattern& pattern, int row, const Run& x, const Filter& filter) {
+  const double shift = (row & 1) != 0 ? pattern.shift * pattern.width : 0.0;
   const Part first = part(x[0] - shift, pattern.width, pattern.per_width, pattern.margin_x, filter.per_sigma_x);
   if (first.own_share != 1.0) return false;
-  const Part last = part(x[kLast] - shift, pattern.width, pattern.per_width, pattern.margin_x, filter.per_sigma_x);
+  const Part last = part(x[kRun - 1] - shift, pattern.width, pattern.per_width, pattern.margin_x, filter.per_sigma_x);
   return last.own_share == 1.0 && last.own == first.own;
 }
 
@@ -266,9 +270,12 @@ void Texture::values(const Run& x, const Run& y, const Filter& filter, Run& grey
   for (std::size_t i = 0; i < filter.pattern_count; ++i) {
     const Pattern& pattern = patterns_[filter.patterns[i].which];
     const double fade = filter.patterns[i].fade;
-    if (isUniform(pattern, x, y, filter)) {
-      const double common = fade * patternValue(pattern, x[0], y[0], filter);
+    const std::optional<int> row = commonRow(pattern, y, filter);
+    if (row && isUniform(pattern, *row, x, filter)) {
+      const double common = fade * rowValue(pattern, *row, x[0], filter.per_sigma_x);
       for (double& value : grey) value += common;
+    } else if (row) {
+      for (std::size_t k = 0; k < kRun; ++k) grey[k] += fade * rowValue(pattern, *row, x[k], filter.per_sigma_x);
     } else {
       for (std::size_t k = 0; k < kRun; ++k) grey[k] += fade * patternValue(pattern, x[k], y[k], filter);
     }

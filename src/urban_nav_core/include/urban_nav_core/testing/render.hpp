@@ -58,6 +58,7 @@ class Renderer {
 
   RenderCamera camera_;
   double background_ = 0.0;
+  std::vector<double> point_weights_;  ///< of the points of a pixel where planes meet
   std::vector<Plane> planes_;
   std::vector<int> owner_;  ///< plane of each pixel's centre, -1: none
   std::vector<float> inverse_z_;

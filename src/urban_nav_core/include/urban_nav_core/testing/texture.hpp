@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace urban_nav_core::testing {
@@ -87,7 +88,8 @@ class Texture {
   double waveValue(double x, double y, const Filter::Wave& filtered) const;
   template <typename Function>
   static void alongRun(const Run& x, const Run& y, double frequency, Function function, Run& out);
-  static bool isUniform(const Pattern& pattern, const Run& x, const Run& y, const Filter& filter);
+  static std::optional<int> commonRow(const Pattern& pattern, const Run& y, const Filter& filter);
+  static bool isUniform(const Pattern& pattern, int row, const Run& x, const Filter& filter);
   static double greyOf(const Pattern& pattern, int column, int row);
   static Part part(double x, double size, double per_size, double margin, double per_sigma);
   static double rowValue(const Pattern& pattern, int row, double x, double per_sigma_x);
