@@ -45,6 +45,8 @@ VoSummary summarise(const std::vector<const VoRun*>& runs) {
         continue;
       }
       ++accepted;
+      summary.disparity_offset_px = row.statistics.disparity_offset_px;
+      summary.disparity_offset_sigma_px = row.statistics.disparity_offset_sigma_px;
       ms.push_back(row.process_ms);
       features += row.statistics.features;
       lengths += row.statistics.track_length_mean;
@@ -79,6 +81,8 @@ Json toJson(const VoSummary& summary) {
   json["features_mean"] = summary.features_mean;
   json["track_length_mean"] = summary.track_length_mean;
   json["reprojection_px_mean"] = summary.reprojection_px_mean;
+  json["disparity_offset_px"] = summary.disparity_offset_px;
+  json["disparity_offset_sigma_px"] = summary.disparity_offset_sigma_px;
   Json& statuses = json["status_counts"] = Json::object();
   for (const char* name : {"OK", "DEGRADED", "LOST", "RECOVERED"}) statuses[name] = summary.status_counts.at(name);
   Json& reasons = json["reason_counts"] = Json::object();

@@ -18,6 +18,7 @@ struct VoSummary {
   double distance_m = 0.0;   ///< along the settled trajectory, standing still left out
   double ms_median = 0.0, ms_p99 = 0.0;
   double features_mean = 0.0, track_length_mean = 0.0, reprojection_px_mean = 0.0;
+  double disparity_offset_px = 0.0, disparity_offset_sigma_px = 0.0;  ///< of the camera, as known in the end
   std::map<std::string, std::int64_t> status_counts;  ///< OK, DEGRADED, LOST, RECOVERED: all four
   std::map<std::string, std::int64_t> reason_counts;  ///< of frames that are not OK
   std::vector<std::string> warnings;

@@ -146,6 +146,19 @@ Figure reprojectionFigure(const VoRun& run) {
           "How far landmarks are from where the estimate puts them in the left image.", false};
 }
 
+Figure offsetFigure(const VoRun& run) {
+  Plot plot;
+  plot.x_label = "time (s)";
+  plot.y_label = "px";
+  plot.series.push_back(line("estimate", "b", overTime(run, [](const VoRow& row) { return row.statistics.disparity_offset_px; })));
+  for (const double side : {-1.0, 1.0})
+    plot.series.push_back(line(side < 0.0 ? "one standard deviation" : "", "d", overTime(run, [side](const VoRow& row) {
+      return row.statistics.disparity_offset_px + side * row.statistics.disparity_offset_sigma_px;
+    })));
+  return {"Disparity offset", renderSvg(plot),
+          "What the calibration left of a constant error of the disparity: a tenth of a pixel is half a per cent of scale.", false};
+}
+
 Figure timingFigure(const VoRun& run, const VoSummary& summary) {
   std::vector<double> ms;
   for (const VoRow& row : run.rows) ms.push_back(row.process_ms);
@@ -184,7 +197,8 @@ std::vector<Section> voSections(const VoRun& run, bool with_path) {
   path.figures.push_back(
       doubtFigure(run, 3, "How far the direction is to be trusted", "one standard deviation (deg)", 180.0 / M_PI));
   Section work{"work", "How it worked", "", {}, {}, {}};
-  work.figures = {statusFigure(run), featuresFigure(run), reprojectionFigure(run), timingFigure(run, summary)};
+  work.figures = {statusFigure(run), featuresFigure(run), reprojectionFigure(run), offsetFigure(run),
+                  timingFigure(run, summary)};
   Section views{"views",
                 "What it saw",
                 "Left images; the line behind a feature is where it was in the frames before. Red is near, blue is "
