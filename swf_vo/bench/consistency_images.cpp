@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Is the covariance honest on images? Normalised estimation error squared of the pose (6 degrees of freedom: 6 is right) at frames 50,
 // 100 and 200, averaged over runs in rendered rooms, wandering, turning through 360 deg with stops, and round the room, at three
-// levels of image noise, with the shipped defaults; also of T_{i,i+100} composed of the relative poses as if they were independent.
+// levels of image noise, with the shipped defaults; also of T_{i,i+100} composed of the relative poses and their drifts, and of single steps.
 //   swf_vo-bench-consistency_images [--runs N] [--set swf_vo.NAME=VALUE]... [-o results/consistency_images.json]
 #include <algorithm>
 #include <array>
@@ -18,9 +18,9 @@ namespace {
 
 using namespace swf_vo::bench;
 using urban_nav_core::Pose;
+using urban_nav_core::UncertainPose;
 using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
-using urban_nav_core::UncertainPose;
 
 constexpr std::array<std::size_t, 3> checkpoints = {50, 100, 200};
 const std::array<const char*, 3> motions = {"wander", "turns", "loop"};
@@ -37,30 +37,44 @@ struct Mean {
     ++count;
   }
   std::string text() const {
-    return count == 0 ? "-" : cell(sum / count, 2) + " (" + cell(translation / count, 2) + " + " + cell(rotation / count, 2) + ")";
+    return count == 0
+               ? "-"
+               : cell(sum / count, 2) + " (" + cell(translation / count, 2) + " + " + cell(rotation / count, 2) + ")";
   }
 };
 
 struct Score {
   std::array<Mean, 3> at;
-  Mean composed;
+  Mean composed, steps;
   double error_m = 0.0, error_deg = 0.0;
   int runs = 0;
 };
 
-// Frames 50 to 150 from the settled relative poses alone.
+// Frames 50 to 150 from the settled relative poses alone: by their drifts and the two ends (Settled::drift_covariance).
 UncertainPose composed(const Run& run) {
+  constexpr std::size_t first = 51, last = 150;
   UncertainPose sum;
   sum.covariance.setZero();
-  for (std::size_t i = 51; i <= 150; ++i)
-    sum = compose(sum, UncertainPose{run.settled[i - 1].inverse() * run.settled[i], run.relative_covariance[i]});
+  for (std::size_t i = first; i <= last; ++i) {
+    urban_nav_core::Matrix6d covariance = run.drift_covariance[i];
+    if (i == first || i == last) covariance += 0.5 * run.relative_covariance[i];
+    sum = compose(sum, UncertainPose{run.settled[i - 1].inverse() * run.settled[i], covariance});
+  }
   return sum;
+}
+
+// Each step by its own covariance.
+void addSteps(Mean& steps, const Sequence& sequence, const Run& run) {
+  for (std::size_t i = 1; i < run.settled.size(); ++i)
+    steps.add(sequence.truth[i - 1].inverse() * sequence.truth[i],
+              {run.settled[i - 1].inverse() * run.settled[i], run.relative_covariance[i]});
 }
 
 void addRun(Score& score, const Sequence& sequence, const Run& run) {
   for (std::size_t c = 0; c < checkpoints.size(); ++c)
     score.at[c].add(sequence.truth[checkpoints[c]], {run.now[checkpoints[c]], run.now_covariance[checkpoints[c]]});
   score.composed.add(sequence.truth[50].inverse() * sequence.truth[150], composed(run));
+  addSteps(score.steps, sequence, run);
   score.error_m += distanceBetween(sequence.truth.back(), run.now.back());
   score.error_deg += angleBetween(sequence.truth.back(), run.now.back()) * 180.0 / M_PI;
   ++score.runs;
@@ -79,7 +93,9 @@ int main(int argc, char** argv) try {
     else if (std::string(argv[i]) == "--set") sets.emplace_back(argv[++i]);
     else if (std::string(argv[i]) == "-o") output = argv[++i];
   }
-  BenchTable table({"image noise (grey levels)", "motion", "runs", "NEES at 50", "at 100", "at 200", "T_i,i+100 composed", "error at 200"}, argc, argv);
+  BenchTable table({"image noise (grey levels)", "motion", "runs", "NEES at 50", "at 100", "at 200",
+                    "T_i,i+100 composed", "one step", "error at 200"},
+                   argc, argv);
   for (const double noise : noises) {
     Score all;
     for (std::size_t m = 0; m < motions.size(); ++m) {
@@ -93,18 +109,21 @@ int main(int argc, char** argv) try {
         const Run result = run(sequence, parametersFrom(sets));
         addRun(score, sequence, result);
         addRun(all, sequence, result);
-        std::cerr << sequence.name << ", noise " << noise << ": off by " << cell(distanceBetween(sequence.truth.back(), result.now.back()), 4) << " m\n";
+        std::cerr << sequence.name << ", noise " << noise << ": off by "
+                  << cell(distanceBetween(sequence.truth.back(), result.now.back()), 4) << " m\n";
       }
       const auto row = [&](const char* name, const Score& s) {
         if (s.runs == 0) return;
-        table.add({cell(noise, 0), name, std::to_string(s.runs), s.at[0].text(), s.at[1].text(), s.at[2].text(), s.composed.text(),
+        table.add({cell(noise, 0), name, std::to_string(s.runs), s.at[0].text(), s.at[1].text(), s.at[2].text(),
+                   s.composed.text(), s.steps.text(),
                    cell(1000.0 * s.error_m / s.runs, 1) + " mm, " + cell(s.error_deg / s.runs, 3) + " deg"});
       };
       row(motions[m], score);
       if (m + 1 == motions.size()) row("all", all);
     }
   }
-  table.note("NEES: 6 is right; of a mean over 50 runs, 99 % lie between 4.81 and 7.34. In brackets translation and rotation, 3 each.");
+  table.note(
+      "NEES: 6 is right; of a mean over 50 runs, 99 % lie between 4.81 and 7.34. In brackets translation and rotation, 3 each.");
   std::cout << table.text();
   if (!output.empty()) table.write(output);
   return 0;

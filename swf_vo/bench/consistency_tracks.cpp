@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Is the covariance honest? Normalised squared errors (6 is right) over simulated tracks, moving straight, turning, standing, and turning
-// through 360 deg with stops: of the pose at steps 50, 100 and 200, and of T_{i,i+n} by SettledPose's two covariances.
+// Is the covariance honest? Normalised squared errors (6 is right) over simulated tracks, moving straight, turning,
+// standing, and turning through 360 deg with stops: of the pose at steps 50, 100 and 200, and of T_{i,i+n} by
+// SettledPose's two covariances.
 //   swf_vo-bench-consistency_tracks [--runs N] [-o OUT.json]
 #include <Eigen/Cholesky>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Figure 4 of the paper: mean squared error over time of the filter, of classic odometry (parameters deleted instead of
 // marginalised), of window 1 and of the batch; standing and moving. Writes a table and a plot.
-//   swf_vo-bench-figure4 [RUNS [FRAMES [OUT.json]]]
+//   swf_vo-bench-figure4 [--runs N] [--frames N] [-o OUT.json]     (the plot goes beside it, as .svg)
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -54,9 +54,9 @@ TrackOptions scene(bool standing, std::uint64_t seed, int frames) {
   return options;
 }
 
-// What the wheels say, with the noise that is claimed of them: nothing moves, or a centimetre and half a degree a step.
-ProcessInput wheels(const Tracks& tracks, std::size_t i, bool standing, std::uint64_t& dice) {
-  const double translation = standing ? 1e-4 : 0.01, rotation = standing ? 1e-5 : 0.01;
+// What the wheels say, with the noise that is claimed of them: a centimetre and half a degree a step.
+ProcessInput wheels(const Tracks& tracks, std::size_t i, std::uint64_t& dice) {
+  constexpr double translation = 0.01, rotation = 0.01;
   ProcessInput u;
   urban_nav_core::Vector6d noise;
   for (int c = 0; c < 6; ++c) {
@@ -66,8 +66,8 @@ ProcessInput wheels(const Tracks& tracks, std::size_t i, bool standing, std::uin
              9007199254740992.0;
     noise[c] = sum * (c < 3 ? translation : rotation);
   }
-  u.T_from_to = urban_nav_core::boxPlus(tracks.frames[i - 1].T_world_camera.inverse() * tracks.frames[i].T_world_camera,
-                                        standing ? urban_nav_core::Vector6d(urban_nav_core::Vector6d::Zero()) : noise);
+  const Pose moved = tracks.frames[i - 1].T_world_camera.inverse() * tracks.frames[i].T_world_camera;
+  u.T_from_to = urban_nav_core::boxPlus(moved, noise);
   u.information = diagonalInformation(translation, rotation);
   return u;
 }
@@ -88,7 +88,7 @@ void measure(const Window& window, const Tracks& tracks, std::size_t i, Errors& 
   }
 }
 
-void run(const Method& method, const Tracks& tracks, bool standing, std::uint64_t seed, Curve& curve) {
+void run(const Method& method, const Tracks& tracks, std::uint64_t seed, Curve& curve) {
   WindowOptions options;
   options.size = method.size > 0 ? method.size : static_cast<int>(tracks.frames.size()) + 1;
   options.forget_by_deletion = method.deletion;
@@ -99,7 +99,7 @@ void run(const Method& method, const Tracks& tracks, bool standing, std::uint64_
   std::uint64_t dice = seed * 7919;
   for (std::size_t i = 0; i < tracks.frames.size(); ++i) {
     if (i == 0) window.start(0, tracks.frames[0].T_world_camera, diagonalInformation(1e-6, 1e-6));
-    else window.addPose(static_cast<FrameId>(i), wheels(tracks, i, standing, dice));
+    else window.addPose(static_cast<FrameId>(i), wheels(tracks, i, dice));
     window.removePoses();
     for (const auto& sighting : tracks.frames[i].sightings)
       window.observe({sighting.landmark, static_cast<FrameId>(i), sighting.z, pixelInformation(tracks.sigma_px)});
@@ -147,9 +147,13 @@ void panel(std::ofstream& out, const std::vector<Curve>& curves, bool map, const
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int runs = argc > 1 ? std::atoi(argv[1]) : 50;
-  const int frames = argc > 2 ? std::atoi(argv[2]) : 200;
-  const std::string path = argc > 3 ? argv[3] : "swf_vo/bench/results/figure4.json";
+  int runs = 50, frames = 200;
+  std::string path = "figure4.json";
+  for (int i = 1; i + 1 < argc; i += 2) {
+    if (std::string(argv[i]) == "--runs") runs = std::stoi(argv[i + 1]);
+    else if (std::string(argv[i]) == "--frames") frames = std::stoi(argv[i + 1]);
+    else if (std::string(argv[i]) == "-o") path = argv[i + 1];
+  }
   urban_nav_core::testing::BenchTable table(
       {"motion", "method", "step 10: map, mm²", "step 50", "step 199", "step 10: position, mm²", "step 50", "step 199",
        "over batch (position, 199)"},
@@ -162,7 +166,7 @@ int main(int argc, char** argv) {
     for (int r = 0; r < runs; ++r) {
       const std::uint64_t seed = static_cast<std::uint64_t>(1000 + r);
       const Tracks tracks = simulateTracks(scene(standing, seed, frames));
-      for (std::size_t m = 0; m < curves.size(); ++m) run(methods[m], tracks, standing, seed, curves[m]);
+      for (std::size_t m = 0; m < curves.size(); ++m) run(methods[m], tracks, seed, curves[m]);
     }
     for (std::size_t m = 0; m < curves.size(); ++m) {
       std::vector<std::string> row = {standing ? "standing" : "moving", methods[m].name};

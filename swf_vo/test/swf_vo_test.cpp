@@ -207,5 +207,41 @@ INSTANTIATE_TEST_SUITE_P(
                     Trouble{"noright:1:0.3", {Reason::ImageMissing}}, Trouble{"equal:1:0.3", {Reason::BadStamp}},
                     Trouble{"backward:1:0.3", {Reason::BadStamp}}));
 
+struct Effort {
+  int window, iterations;
+};
+void PrintTo(const Effort& effort, std::ostream* out) { *out << effort.window << " poses, " << effort.iterations << " steps"; }
+
+class SwfVoEfforts : public testing::TestWithParam<Effort> {};
+
+// For a while the window holds nothing but poses that only the process model ties together.
+TEST_P(SwfVoEfforts, overcomeAPauseInTheMeasurements) {
+  const Recording& room = recording("loop", 1.0, 70);
+  for (const char* fault : {"blur:1:0.5", "blur:0.5:1.5", "black:0.7:1.5"}) {
+    FaultFilter faults({parseFault(fault)}, 1);
+    Parameters parameters;
+    parameters.window = GetParam().window;
+    parameters.iterations = GetParam().iterations;
+    SwfVo filter(parameters, stereoCamera(), Pose());
+    Frame last;
+    for (const StereoFrame& frame : room.frames) {
+      const auto arrived = faults.apply(frame);
+      if (!arrived) continue;
+      last = filter.process(arrived->pair());
+      expectProper(last);
+    }
+    EXPECT_NE(last.status.health, Health::Lost) << fault << ": did not recover: " << last.status;
+    const Eigen::Matrix<double, 6, 1> d = boxMinus(room.truth.back(), last.T_odom_base.pose);
+    const Matrix6d& P = last.T_odom_base.covariance;
+    EXPECT_LT(d.head<3>().norm(), 0.02 + 3.0 * std::sqrt(P.topLeftCorner<3, 3>().trace())) << fault;
+    EXPECT_LT(d.tail<3>().norm(), 0.01 + 3.0 * std::sqrt(P.bottomRightCorner<3, 3>().trace())) << fault;
+    EXPECT_LT(d.head<3>().norm(), 10.0) << fault << ": ran away";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, SwfVoEfforts,
+                         testing::Values(Effort{1, 1}, Effort{1, 3}, Effort{1, 20}, Effort{10, 1}, Effort{10, 3},
+                                         Effort{10, 20}, Effort{25, 1}, Effort{25, 3}, Effort{25, 20}));
+
 }  // namespace
 }  // namespace swf_vo

@@ -43,7 +43,8 @@ Parameters parametersFrom(const std::vector<std::string>& settings);
 /// What a filter made of a sequence; poses are of the left camera in that of frame 0.
 struct Run {
   std::vector<urban_nav_core::Pose> now, settled;
-  std::vector<urban_nav_core::Matrix6d> now_covariance, settled_covariance, relative_covariance;
+  std::vector<urban_nav_core::Matrix6d> now_covariance, settled_covariance, relative_covariance,
+      drift_covariance;
   std::vector<Statistics> statistics;
   std::vector<urban_nav_core::Status> status;
   std::vector<double> ms;  ///< of process(), images already decoded: time of the processor, so that what else runs does not count

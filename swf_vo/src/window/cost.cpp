@@ -16,6 +16,10 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
+// What lies behind the camera cannot have been measured, so it costs as much as one that is off by so many standard
+// deviations: else a step that turns the camera away from everything would be the best of all.
+constexpr double unseen = 100.0;
+
 // The columns of [w]x^T A, that is -[w]x A, for A of three rows.
 Matrix3d minusCross(const Vector3d& w, const Matrix3d& A) {
   Matrix3d result;
@@ -146,6 +150,7 @@ void Cost::accumulate(State& state, NormalEquations& equations) const {
       if (!sensor_.predict(landmark.anchor, landmark.estimate, pose.at_estimate, z) ||
           !sensor_.linearise(landmark.anchor, landmark.linearised, pose.at_linearised, at)) {
         measurement.weight = 0.0;
+        weigh(unseen * unseen, equations.cost);
         if (with_matrices && !landmark.known) equations.cross.push_back(Matrix63d::Zero());
         continue;
       }
@@ -186,7 +191,10 @@ double Cost::value(const State& state) const {
     if (!landmark.used) continue;
     for (const Measurement& measurement : landmark.seen) {
       const PoseBlock& pose = state.poses[static_cast<std::size_t>(measurement.step - state.first_step)];
-      if (!sensor_.predict(landmark.anchor, landmark.estimate, pose.at_estimate, z)) continue;
+      if (!sensor_.predict(landmark.anchor, landmark.estimate, pose.at_estimate, z)) {
+        weigh(unseen * unseen, cost);
+        continue;
+      }
       const Vector3d r = residual(state, measurement, z);
       weigh(r.dot(measurement.information * r), cost);
     }

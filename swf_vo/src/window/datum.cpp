@@ -123,15 +123,14 @@ bool Datum::hold(const Matrix6d& local, double ratio, const State& state, Prior&
   for (int i = 0; i < 6; ++i) W(i, i) += i < 3 ? strength_m_ : strength_rad_;
   if (!invert(W, held)) return false;
 
-  // The gradient at the estimates loses what it has along the gauge, so the window stays where it is: with d the deviation,
-  // gradient = eta - Pi d.
+  // Pi + v (W - M) v^T, and gamma is drawn to where it was drawn before: with d the deviation, gradient = eta - Pi d.
   prior.deviation(state, deviation_);
   double unchanged = 0.0;
   prior.gradient(deviation_, state.disparity_offset, gradient_, unchanged);
   Eigen::Map<Eigen::VectorXd> gradient(gradient_.data(), n);
-  const Vector6d along = covariance * (G.transpose() * gradient);
-  gradient.noalias() -= u * along;
   const Matrix6d added = covariance * (W - M) * covariance;
+  const Vector6d drawn = added * (G.transpose() * gradient);
+  gradient.noalias() += u * drawn;
   for (int j = 0; j < n; ++j) {
     const Vector6d row = added * u.row(j).transpose();
     for (int c = 0; c < 6; ++c) kernels::subtract(prior.information.column(j) + j, &u(j, c), -row[c], n - j);

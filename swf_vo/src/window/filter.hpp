@@ -7,18 +7,18 @@
 #include "window/cost.hpp"
 #include "window/covariance.hpp"
 #include "window/datum.hpp"
+#include "window/gauss_newton.hpp"
 #include "window/history.hpp"
 #include "window/marginalise.hpp"
 #include "window/prior.hpp"
-#include "window/solve.hpp"
 #include "window/state.hpp"
 #include "window/wander.hpp"
 #include "window/window.hpp"
 
 namespace swf_vo {
 
-/// The four steps of section 2.2.1 over one set of values, without the memory that undoing needs (window.hpp): add the pose,
-/// remove the oldest, add landmarks, update. A value: a copy goes on from where the original stood.
+/// The four steps of section 2.2.1 over one set of values, without the memory that undoing needs (window.hpp): add
+/// the pose, remove the oldest, add landmarks, update. A value: a copy goes on from where the original stood.
 class Filter {
  public:
   Filter(const WindowOptions& options, const urban_nav_core::StereoCamera& camera);
@@ -74,41 +74,29 @@ class Filter {
   urban_nav_core::Matrix6d driftCovariance(const PoseBlock& oldest, const urban_nav_core::Matrix6d& relative) const;
   void wander(const Eigen::Vector3d& origin);
   urban_nav_core::Matrix6d windowCovarianceOf(std::int64_t step) const;
-  void place(int slot, const Measurement& first);
-  Eigen::Vector3d withoutOffset(const Eigen::Vector3d& z) const;
-  void localiseNewest();
-  double gradients();
-  void take(double scale);
-  bool undoAbsurd();
-  UpdateReport report() const;
-  // The last factor knows the pose of this step, and in which place.
-  bool inFactor(std::int64_t step, std::size_t& place) const;
   urban_nav_core::Matrix6d covarianceOf(std::int64_t step) const;
 
   WindowOptions options_;
   Cost cost_;
   State state_;
   Prior prior_;
-  NormalEquations equations_;
-  Solver solver_;
+  GaussNewton gauss_newton_;
   Marginaliser marginaliser_;
   Wander wander_;
   std::vector<Wander::Step> wandered_;
   std::vector<double> directions_;  // of the gauge, of the prior
-  std::vector<double> prior_deviation_, prior_gradient_;
-  double prior_cost_ = 0.0, prior_offset_gradient_ = 0.0;
   double offset_sigma_ = 0.0;
-  std::int64_t factor_step_ = 0;       // step of the factor's first pose
-  bool has_factor_ = false;
   urban_nav_core::Matrix6d newest_covariance_ = urban_nav_core::Matrix6d::Zero();
-  urban_nav_core::UncertainPose settled_;     // the last that left
+  urban_nav_core::UncertainPose settled_;  // the last that left
   std::int64_t settled_step_ = -1;
-  urban_nav_core::Matrix6d settled_in_window_ = urban_nav_core::Matrix6d::Zero();  // its covariance without what is carried
-  bool gain_valid_ = false;                   // of the marginaliser, between settled_ and the oldest pose
-  urban_nav_core::Matrix6d settled_apart_ = urban_nav_core::Matrix6d::Zero();
+  urban_nav_core::Matrix6d settled_in_window_ =
+      urban_nav_core::Matrix6d::Zero();  // its covariance without what is carried
+  bool gain_valid_ = false;              // of the marginaliser, between settled_ and the oldest pose
+  urban_nav_core::Matrix6d settled_apart_ =
+      urban_nav_core::Matrix6d::Zero();  // added to it in the step to its neighbour
   Datum datum_;
-  bool has_known_ = false;                    // landmarks whose places are given
-  bool gauge_free_ = false;                   // nothing says where odom is
+  bool has_known_ = false;   // landmarks whose places are given
+  bool gauge_free_ = false;  // nothing says where odom is
 };
 
 }  // namespace swf_vo

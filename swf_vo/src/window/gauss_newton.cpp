@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "window/gauss_newton.hpp"
+
+#include <cmath>
+
+#include "window/measurements.hpp"
+
+namespace swf_vo {
+
+using Eigen::Vector3d;
+using urban_nav_core::boxMinus;
+using urban_nav_core::boxPlus;
+using urban_nav_core::Vector6d;
+
+namespace {
+
+// A step that raises the cost by more than this share is halved.
+constexpr double cost_slack = 0.01;
+constexpr int halvings = 4;
+// Gauss-Newton goes on with the old factor while each step is this much smaller than the one before (in d^T g).
+constexpr double contraction = 0.1;
+// ... and the first step was no larger than this (chi-square).
+constexpr double far_start = 2000.0;
+
+}  // namespace
+
+void GaussNewton::factor(State& state, const Prior& prior, const Cost& cost, bool datum) {
+  cost.build(state, equations_);
+  solver_.factor(state, prior, equations_, datum);
+  has_factor_ = true;
+  factor_step_ = state.first_step;
+}
+
+double GaussNewton::priorGradient(const State& state, const Prior& prior) {
+  prior.deviation(state, prior_deviation_);
+  prior_cost_ = prior.gradient(prior_deviation_, state.disparity_offset, prior_gradient_, prior_offset_gradient_);
+  return prior_cost_;
+}
+
+void GaussNewton::take(double scale, State& state, const Prior& prior) const {
+  state.disparity_offset += scale * solver_.offsetStep();
+  for (std::size_t j = 0; j < state.poses.size(); ++j) {
+    PoseBlock& pose = state.poses[j];
+    const Vector6d d = scale * solver_.poseStep(j);
+    // The prior is quadratic in the chart around its centre: its pose moves in that chart.
+    pose.estimate = j == 0 && prior.has_pose
+                        ? boxPlus(prior.pose_centre, boxMinus(pose.estimate, prior.pose_centre) + d)
+                        : boxPlus(pose.estimate, d);
+    pose.at_estimate = PoseMatrices(pose.estimate);
+  }
+  for (std::size_t slot = 0; slot < state.landmarks.size(); ++slot) {
+    LandmarkBlock& landmark = state.landmarks[slot];
+    if (landmark.used && !landmark.known) landmark.estimate += scale * solver_.landmarkStep(slot);
+  }
+}
+
+// Shortens the step until the cost does not rise; false, and nothing has moved, where it does all the same.
+bool GaussNewton::descend(double before, State& state, const Prior& prior, const Cost& cost) {
+  double scale = 1.0;
+  for (int h = 0; h <= halvings; ++h) {
+    const double after = priorGradient(state, prior) + cost.value(state);
+    if (after <= before + cost_slack * (1.0 + std::abs(before))) return true;
+    if (h == halvings) break;
+    take(-0.5 * scale, state, prior);
+    scale *= 0.5;
+  }
+  take(-scale, state, prior);
+  return false;
+}
+
+GaussNewton::Progress GaussNewton::run(State& state, Prior& prior, const Cost& cost, bool datum) {
+  Progress progress;
+  double last = 0.0;
+  bool refactor = true, current = false;  // current: the prior's gradient is that at the estimates
+  for (int i = 0; i < options_.iterations; ++i) {
+    cost.relinearise(state, prior);
+    if (!current) priorGradient(state, prior);
+    if (refactor) factor(state, prior, cost, datum);
+    else cost.buildGradient(state, equations_);
+    solver_.solve(state, prior, equations_, prior_gradient_, prior_offset_gradient_);
+    // Where something is held loosely a shared factor may not contract: the direction in which nothing is measured
+    // has turned with the estimates, and what the old factor sees along it is divided by next to nothing.
+    if (!refactor && solver_.decrement() > contraction * last) {
+      factor(state, prior, cost, datum);
+      solver_.solve(state, prior, equations_, prior_gradient_, prior_offset_gradient_);
+    }
+    ++progress.iterations;
+    take(1.0, state, prior);
+    current = false;
+    // One step of one pose is the extended Kalman filter's, taken whatever comes of it.
+    if (options_.iterations > 1 || state.poses.size() > 1) {
+      if (!descend(prior_cost_ + equations_.cost, state, prior, cost)) break;
+      current = !measurements::undoAbsurd(state);
+    }
+    const double decrement = solver_.decrement();
+    progress.converged = decrement < options_.tolerance;
+    if (progress.converged) break;
+    // The textbook's factor belongs to its last step; else a far start or slow progress ask for a new one.
+    refactor = !options_.linearise_first || decrement > (i == 0 ? far_start : contraction * last);
+    last = decrement;
+  }
+  if (!cost.lineariseFirst()) prior.recentre(state);
+  return progress;
+}
+
+bool GaussNewton::inFactor(std::int64_t step, std::size_t& place) const {
+  if (!has_factor_ || step < factor_step_) return false;
+  place = static_cast<std::size_t>(step - factor_step_);
+  return place < solver_.poses();
+}
+
+UpdateReport report(const State& state, const SensorModel& sensor) {
+  UpdateReport result;
+  const std::int64_t newest = state.newestStep();
+  const PoseMatrices pose(state.poses.back().estimate);
+  double squares = 0.0;
+  int count = 0;
+  Vector3d z;
+  for (const LandmarkBlock& landmark : state.landmarks) {
+    if (!landmark.used) continue;
+    if (!landmark.known) ++result.landmarks;
+    if (landmark.prior >= 0) ++result.landmarks_in_prior;
+    for (const Measurement& measurement : landmark.seen) {
+      if (measurement.weight > 0.0) ++result.observations;
+      else ++result.dropped;
+      if (measurement.weight > 0.0 && measurement.weight < 0.5) ++result.downweighted;
+      const bool in_left = measurement.information(0, 0) > 0.0;
+      if (measurement.step != newest || !(measurement.weight > 0.0) || !in_left) continue;
+      if (!sensor.predict(landmark.anchor, landmark.estimate, pose, z)) continue;
+      squares += (measurement.z - z).head<2>().squaredNorm();
+      ++count;
+    }
+  }
+  result.reprojection_px = count > 0 ? std::sqrt(squares / count) : 0.0;
+  return result;
+}
+
+}  // namespace swf_vo
