@@ -29,7 +29,7 @@ struct Method {
   bool deletion;
   const char* colour;
 };
-const Method methods[] = {{"batch", 0, false, "#000000"},
+const Method methods[] = {{"batch", 0, false, "#bbbbbb"},
                           {"filter, k = 10", 10, false, "#1f77b4"},
                           {"filter, k = 1", 1, false, "#2ca02c"},
                           {"deletion, k = 10", 10, true, "#ff7f0e"},
@@ -137,7 +137,8 @@ void panel(std::ofstream& out, const std::vector<Curve>& curves, bool map, const
   for (const int step : {1, 10, 100})
     out << "<text x='" << x(step) << "' y='" << top + height + 16 << "' text-anchor='middle'>" << step << "</text>\n";
   for (std::size_t m = 0; m < curves.size(); ++m) {
-    out << "<polyline fill='none' stroke-width='2' stroke='" << methods[m].colour << "' points='";
+    // The batch lies broad beneath those that meet it.
+    out << "<polyline fill='none' stroke-width='" << (m == 0 ? 8 : 2) << "' stroke='" << methods[m].colour << "' points='";
     for (const auto& [step, errors] : curves[m])
       out << x(static_cast<double>(step)) << ',' << y(value(errors, map)) << ' ';
     out << "'/>\n";

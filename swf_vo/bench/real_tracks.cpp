@@ -287,7 +287,7 @@ void kitti(const std::string& name, const KittiTracks& data, std::size_t first, 
     table.add({name, "k = " + std::to_string(size) + (causal ? ", now" : ", settled"),
                cell(off, 2) + " m of " + cell(length, 0) + " m: " + cell(100.0 * off / length, 2) + " %",
                relative
-                   ? "10-frame spans " + cell(relative->percent, 2) + " %, " + cell(relative->deg_per_m, 4) + "deg/m"
+                   ? "10-frame spans " + cell(relative->percent, 2) + " %, " + cell(relative->deg_per_m, 4) + " deg/m"
                    : ""});
   }
 }
