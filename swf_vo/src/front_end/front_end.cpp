@@ -33,6 +33,9 @@ constexpr double coarse_slack_px = 1.0, fine_slack_px = 0.1;
 // Within the window a landmark stands still, and what it creeps by there has to be in its measurements: n of them with this share of n^2 steps
 // added to their variance show a motion along the track as badly as n steps of a random walk do (6 / (5 n) q = 12 / n^3 R).
 constexpr double slope_share = 0.1;
+// Of the error of a disparity a part stays the same as long as the landmark lives (that of its slope, and of what else is in its patch): about
+// as much as the floor. However many measurements there are, up to this many, their mean is no better.
+constexpr int longest_average = 30;
 constexpr double least_two_eyed = 0.3;            // share of the inliers
 constexpr int most_missed = 3, most_missed_young = 1;  // frames
 constexpr int disagreements_refute = 2, disagreements_refute_young = 1, young = 3;  // frames
@@ -235,7 +238,8 @@ class FrontEnd::Implementation {
       ++track.seen;
       const Eigen::Matrix2d crept = creep(camera_, result_.T_odom_camera.inverse(), match);
       const double together = std::min<double>(track.seen, parameters_.window);
-      loosen(slope_share * together * together * crept, match);
+      const double constant = parameters_.pixel_noise_floor * parameters_.pixel_noise_floor;
+      loosen(slope_share * together * together * crept, std::min(track.seen, longest_average) * constant, match);
       result_.tracked.push_back({track.id, frame, match.z, match.information, crept});
       track.missed = track.disagreed = 0;
       track.z = match.z;

@@ -93,13 +93,15 @@ Eigen::Matrix2d creep(const StereoCamera& camera, const Pose& T_camera_odom, Mat
   return change * track.creep;
 }
 
-void loosen(const Eigen::Matrix2d& covariance, Match& match) {
+void loosen(const Eigen::Matrix2d& covariance, double of_disparity, Match& match) {
   const bool left = match.left.found, right = match.right.found;
   Eigen::Matrix<double, 2, 3> pick = Eigen::Matrix<double, 2, 3>::Zero();
   pick(1, 1) = 1.0;
   if (left && right) {
     pick(0, 0) = pick(0, 2) = 1.0;
-    match.information = (match.information.inverse() + pick.transpose() * covariance * pick).inverse();
+    Eigen::Matrix3d R = match.information.inverse() + pick.transpose() * covariance * pick;
+    R(2, 2) += of_disparity;
+    match.information = R.inverse();
   } else {
     pick(0, left ? 0 : 2) = 1.0;
     const Eigen::Matrix2d own = pick * match.information * pick.transpose();

@@ -27,8 +27,8 @@ void learnSurface(const Corners& corners, const urban_nav_core::StereoCamera& ca
 /// the left view from then to T_camera_odom, which is noted.
 Eigen::Matrix2d creep(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_camera_odom, Match& match);
 
-/// Adds a covariance that both images share (px^2) to a measurement.
-void loosen(const Eigen::Matrix2d& covariance, Match& match);
+/// Adds a covariance that both images share, and a variance of the disparity (px^2), to a measurement.
+void loosen(const Eigen::Matrix2d& covariance, double of_disparity, Match& match);
 
 /// The two sightings as one measurement (u_left, v, u_right): the row counts once, weighed by both. `floor_px` is added to the
 /// standard deviation of each coordinate. Not measured if neither image has it, or if the rows contradict each other.
