@@ -150,13 +150,17 @@ Figure offsetFigure(const VoRun& run) {
   Plot plot;
   plot.x_label = "time (s)";
   plot.y_label = "px";
-  plot.series.push_back(line("estimate", "b", overTime(run, [](const VoRow& row) { return row.statistics.disparity_offset_px; })));
+  plot.series.push_back(
+      line("estimate", "b", overTime(run, [](const VoRow& row) { return row.statistics.disparity_offset_px; })));
   for (const double side : {-1.0, 1.0})
     plot.series.push_back(line(side < 0.0 ? "one standard deviation" : "", "d", overTime(run, [side](const VoRow& row) {
-      return row.statistics.disparity_offset_px + side * row.statistics.disparity_offset_sigma_px;
-    })));
-  return {"Disparity offset", renderSvg(plot),
-          "What the calibration left of a constant error of the disparity: a tenth of a pixel is half a per cent of scale.", false};
+                                 return row.statistics.disparity_offset_px +
+                                        side * row.statistics.disparity_offset_sigma_px;
+                               })));
+  return {
+      "Disparity offset", renderSvg(plot),
+      "What the calibration left of a constant error of the disparity: a tenth of a pixel is half a per cent of scale.",
+      false};
 }
 
 Figure timingFigure(const VoRun& run, const VoSummary& summary) {

@@ -40,7 +40,8 @@ std::vector<Rate> readGyroscope(const std::string& path) {
 TEST(Still, TurnsNoFurtherThanTheGyroscopeSays) {
   const char* data = std::getenv("URBAN_NAV_DATA");
   const std::string folder = data == nullptr ? "" : std::string(data) + "/stereo/euroc_still";
-  if (folder.empty() || !std::filesystem::exists(folder)) GTEST_SKIP() << "URBAN_NAV_DATA/stereo/euroc_still is not there";
+  if (folder.empty() || !std::filesystem::exists(folder))
+    GTEST_SKIP() << "URBAN_NAV_DATA/stereo/euroc_still is not there";
   const testing::TemporaryFolder out;
   Console console;
   runMap({{folder}, out.file("out"), {"vo"}, "", "", {}, loadParameters(Arguments({})), 1}, console);
