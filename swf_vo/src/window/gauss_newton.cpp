@@ -17,10 +17,12 @@ namespace {
 // A step that raises the cost by more than this share is halved.
 constexpr double cost_slack = 0.01;
 constexpr int halvings = 4;
-// Gauss-Newton goes on with the old factor while each step is this much smaller than the one before (in d^T g).
+// Gauss-Newton goes on with the old factor while each step is this much smaller than the one before (in d^T g)
 constexpr double contraction = 0.1;
 // ... and the first step was no larger than this (chi-square).
 constexpr double far_start = 2000.0;
+// A step that an old factor promises, and that is not so much smaller than the one before, is not taken: a new factor is asked.
+constexpr double stalled = 0.5;
 
 }  // namespace
 
@@ -80,7 +82,7 @@ GaussNewton::Progress GaussNewton::run(State& state, Prior& prior, const Cost& c
     solver_.solve(state, prior, equations_, prior_gradient_, prior_offset_gradient_);
     // Where something is held loosely a shared factor may not contract: the direction in which nothing is measured
     // has turned with the estimates, and what the old factor sees along it is divided by next to nothing.
-    if (!refactor && solver_.decrement() > contraction * last) {
+    if (!refactor && solver_.decrement() > stalled * last) {
       factor(state, prior, cost, datum);
       solver_.solve(state, prior, equations_, prior_gradient_, prior_offset_gradient_);
     }
