@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What one patch costs: coarse comparison, warp, alignment in the same and in a larger view, alignment across with slopes.
+// What one patch costs: coarse comparison, warp, alignment in the same and in a larger view, alignment across with
+// slopes.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -19,7 +20,9 @@ std::vector<std::uint8_t> picture(double shift, double scale) {
   for (int v = 0; v < kSize; ++v)
     for (int u = 0; u < kSize; ++u) {
       const double x = (u - 32 - shift) / scale, y = (v - 32) / scale;
-      pixels.push_back(static_cast<std::uint8_t>(128.0 + 35.0 * std::sin(0.9 * x + 0.3 * y) + 30.0 * std::sin(0.5 * y - 0.2 * x) + 25.0 * std::sin(0.35 * x + 1.1 * y)));
+      pixels.push_back(static_cast<std::uint8_t>(128.0 + 35.0 * std::sin(0.9 * x + 0.3 * y) +
+                                                 30.0 * std::sin(0.5 * y - 0.2 * x) +
+                                                 25.0 * std::sin(0.35 * x + 1.1 * y)));
     }
   return pixels;
 }

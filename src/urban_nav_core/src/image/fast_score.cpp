@@ -8,7 +8,8 @@
 #define URBAN_NAV_X86 1
 #endif
 
-// Vectors wider than the baseline's are handed between functions that are all inlined: there is no call whose ABI could change.
+// Vectors wider than the baseline's are handed between functions that are all inlined: there is no call whose ABI
+// could change.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace urban_nav_core::fast_score {
@@ -32,11 +33,17 @@ struct Middle {
 #define URBAN_NAV_INLINE __attribute__((always_inline)) inline
 
 template <typename V>
-URBAN_NAV_INLINE V least(const V& a, const V& b) { return a < b ? a : b; }
+URBAN_NAV_INLINE V least(const V& a, const V& b) {
+  return a < b ? a : b;
+}
 template <typename V>
-URBAN_NAV_INLINE V most(const V& a, const V& b) { return a > b ? a : b; }
+URBAN_NAV_INLINE V most(const V& a, const V& b) {
+  return a > b ? a : b;
+}
 template <typename V>
-URBAN_NAV_INLINE V excess(const V& a, const V& b) { return most(a, b) - b; }
+URBAN_NAV_INLINE V excess(const V& a, const V& b) {
+  return most(a, b) - b;
+}
 template <typename V>
 URBAN_NAV_INLINE V load(const std::uint8_t* p) {
   V v;
@@ -44,15 +51,19 @@ URBAN_NAV_INLINE V load(const std::uint8_t* p) {
   return v;
 }
 
-/// The lesser or the greater, turned round where dark arcs are looked for: the least of the greatest is found as is the greatest of the
-/// least.
+/// The lesser or the greater, turned round where dark arcs are looked for: the least of the greatest is found as is
+/// the greatest of the least.
 template <bool dark, typename V>
-URBAN_NAV_INLINE V lower(const V& a, const V& b) { return dark ? most(a, b) : least(a, b); }
+URBAN_NAV_INLINE V lower(const V& a, const V& b) {
+  return dark ? most(a, b) : least(a, b);
+}
 template <bool dark, typename V>
-URBAN_NAV_INLINE V upper(const V& a, const V& b) { return dark ? least(a, b) : most(a, b); }
+URBAN_NAV_INLINE V upper(const V& a, const V& b) {
+  return dark ? least(a, b) : most(a, b);
+}
 
-/// The grey level that nine neighbours on the circle all reach: max over arcs of min over the arc (dark: min of max). Arcs that begin at
-/// k - 1 and at k, k odd, share eight places, so eight minima of eight serve all sixteen.
+/// The grey level that nine neighbours on the circle all reach: max over arcs of min over the arc (dark: min of max).
+/// Arcs that begin at k - 1 and at k, k odd, share eight places, so eight minima of eight serve all sixteen.
 template <bool dark, typename V>
 URBAN_NAV_INLINE V bestArc(const V* p) {
   V pair[8], quad[8];
@@ -63,7 +74,8 @@ URBAN_NAV_INLINE V bestArc(const V* p) {
   V best = lower<dark>(lower<dark>(quad[0], quad[2]), upper<dark>(p[0], p[9]));
 #pragma GCC unroll 16
   for (int i = 1; i < 8; ++i)
-    best = upper<dark>(best, lower<dark>(lower<dark>(quad[i], quad[(i + 2) % 8]), upper<dark>(p[2 * i], p[(2 * i + 9) % kCircle])));
+    best = upper<dark>(
+        best, lower<dark>(lower<dark>(quad[i], quad[(i + 2) % 8]), upper<dark>(p[2 * i], p[(2 * i + 9) % kCircle])));
   return best;
 }
 
@@ -74,8 +86,8 @@ URBAN_NAV_INLINE V scoreOf(const V* circle, const V& centre, const V& threshold)
   return score > threshold ? score : V{};
 }
 
-/// Any nine neighbours on the circle hold four of its even places in a row, among them two neighbouring points of the compass. `even`: those
-/// places, of which the first test needs every other one.
+/// Any nine neighbours on the circle hold four of its even places in a row, among them two neighbouring points of the
+/// compass. `even`: those places, of which the first test needs every other one.
 template <bool dark, typename V>
 URBAN_NAV_INLINE V twoOfTheCompass(const V* even) {
   return lower<dark>(upper<dark>(even[0], even[4]), upper<dark>(even[2], even[6]));
@@ -100,7 +112,8 @@ URBAN_NAV_INLINE bool any(const V& v) {
   return all != 0;
 }
 
-/// Few pixels stand the test of the even places, and they stand alone: so they are gathered from their row and scored together.
+/// Few pixels stand the test of the even places, and they stand alone: so they are gathered from their row and scored
+/// together.
 template <typename Width>
 struct Gathered {
   using V = typename Width::Vector;
@@ -111,7 +124,8 @@ struct Gathered {
 };
 
 template <typename Width>
-URBAN_NAV_INLINE bool scoreGathered(Gathered<Width>& some, const typename Width::Vector& threshold, std::uint8_t* scores) {
+URBAN_NAV_INLINE bool scoreGathered(Gathered<Width>& some, const typename Width::Vector& threshold,
+                                    std::uint8_t* scores) {
   using V = typename Width::Vector;
   V circle[kCircle];
 #pragma GCC unroll 16
@@ -123,7 +137,8 @@ URBAN_NAV_INLINE bool scoreGathered(Gathered<Width>& some, const typename Width:
 }
 
 template <typename Width>
-URBAN_NAV_INLINE bool scoreRowAs(const std::uint8_t* row, std::ptrdiff_t stride, int begin, int end, int threshold, std::uint8_t* scores) {
+URBAN_NAV_INLINE bool scoreRowAs(const std::uint8_t* row, std::ptrdiff_t stride, int begin, int end, int threshold,
+                                 std::uint8_t* scores) {
   using V = typename Width::Vector;
   constexpr int lanes = Width::lanes;
   std::ptrdiff_t offsets[kCircle];
@@ -164,18 +179,20 @@ URBAN_NAV_INLINE bool scoreRowAs(const std::uint8_t* row, std::ptrdiff_t stride,
     std::uint64_t words[lanes / 8];
     std::memcpy(words, &candidates, sizeof candidates);
     for (int w = 0; w < lanes / 8; ++w)
-      for (std::uint64_t bits = words[w] & 0x8080808080808080ULL; bits != 0; bits &= bits - 1) gather(u + 8 * w + __builtin_ctzll(bits) / 8);
+      for (std::uint64_t bits = words[w] & 0x8080808080808080ULL; bits != 0; bits &= bits - 1)
+        gather(u + 8 * w + __builtin_ctzll(bits) / 8);
   }
   if (some.count > 0) found |= scoreGathered<Width>(some, limit, scores);
   return found;
 }
 
-bool scoreRowNarrow(const std::uint8_t* row, std::ptrdiff_t stride, int begin, int end, int threshold, std::uint8_t* scores) {
+bool scoreRowNarrow(const std::uint8_t* row, std::ptrdiff_t stride, int begin, int end, int threshold,
+                    std::uint8_t* scores) {
   return scoreRowAs<Narrow>(row, stride, begin, end, threshold, scores);
 }
 #ifdef URBAN_NAV_X86
-__attribute__((target("avx2"))) bool scoreRowMiddle(const std::uint8_t* row, std::ptrdiff_t stride, int begin, int end, int threshold,
-                                                    std::uint8_t* scores) {
+__attribute__((target("avx2"))) bool scoreRowMiddle(const std::uint8_t* row, std::ptrdiff_t stride, int begin, int end,
+                                                    int threshold, std::uint8_t* scores) {
   return scoreRowAs<Middle>(row, stride, begin, end, threshold, scores);
 }
 #endif

@@ -17,13 +17,14 @@ namespace {
 
 using cv::v_float32x4;
 
-constexpr double window_sigma = 3.0;      // px
-constexpr int phases = 256;               // of the spline's table: 1/512 px at most beside the exact phase
-constexpr double own_blur = 1.0 / 3.0 + 0.25;  // px^2, variance of the spline and of a usual lens (0.5 px), along each axis
+constexpr double window_sigma = 3.0;  // px
+constexpr int phases = 256;           // of the spline's table: 1/512 px at most beside the exact phase
+constexpr double own_blur =
+    1.0 / 3.0 + 0.25;  // px^2, variance of the spline and of a usual lens (0.5 px), along each axis
 constexpr double least_blur_tap = 0.01, largest_blur_tap = 0.33;  // the largest is a scale of 1.46
 constexpr double min_scale = 0.4, max_scale = 2.5;
 constexpr int max_iterations = 12;
-constexpr double settled_step = 0.003;    // px
+constexpr double settled_step = 0.003;  // px
 
 std::array<float, 4> spline(double f) {
   const double g = 1.0 - f;
@@ -66,8 +67,10 @@ using WideGrid = std::array<float, wide_size * wide_stride>;
 v_float32x4 weighed(const float* p, const float* wx, const float* wy) {
   constexpr int stride = PatchSource::stride;
   const v_float32x4 y = cv::v_load_aligned(wy);
-  const v_float32x4 column = cv::v_broadcast_element<0>(y) * cv::v_load(p) + cv::v_broadcast_element<1>(y) * cv::v_load(p + stride) +
-                             (cv::v_broadcast_element<2>(y) * cv::v_load(p + 2 * stride) + cv::v_broadcast_element<3>(y) * cv::v_load(p + 3 * stride));
+  const v_float32x4 column = cv::v_broadcast_element<0>(y) * cv::v_load(p) +
+                             cv::v_broadcast_element<1>(y) * cv::v_load(p + stride) +
+                             (cv::v_broadcast_element<2>(y) * cv::v_load(p + 2 * stride) +
+                              cv::v_broadcast_element<3>(y) * cv::v_load(p + 3 * stride));
   return column * cv::v_load_aligned(wx);
 }
 
@@ -80,16 +83,19 @@ void warpWide(const PatchSource& source, const Eigen::Matrix2d& source_from_view
   for (std::size_t i = 0; i < pixels.size(); i += 4)
     cv::v_store_aligned(&pixels[i], cv::v_cvt_f32(cv::v_reinterpret_as_s32(cv::v_load_expand_q(&source.pixels[i]))));
   const auto& table = splineTable().weights;
-  const v_float32x4 ax = cv::v_setall_f32(static_cast<float>(source_from_view(0, 0))), ay = cv::v_setall_f32(static_cast<float>(source_from_view(1, 0)));
+  const v_float32x4 ax = cv::v_setall_f32(static_cast<float>(source_from_view(0, 0))),
+                    ay = cv::v_setall_f32(static_cast<float>(source_from_view(1, 0)));
   const float bx = static_cast<float>(source_from_view(0, 1)), by = static_cast<float>(source_from_view(1, 1));
-  const v_float32x4 low = cv::v_setall_f32(1.0F), high = cv::v_setall_f32(PatchSource::size - 2.01F), lines = cv::v_setall_f32(phases), half = cv::v_setall_f32(0.5F);
+  const v_float32x4 low = cv::v_setall_f32(1.0F), high = cv::v_setall_f32(PatchSource::size - 2.01F),
+                    lines = cv::v_setall_f32(phases), half = cv::v_setall_f32(0.5F);
   const v_float32x4 middle = cv::v_setall_f32(PatchSource::radius), step(0.0F, 1.0F, 2.0F, 3.0F);
   for (int j = 2 - margin; j < wide_size - 2 + margin; ++j) {
     const float dv = static_cast<float>(j - patch_radius - 2);
     const v_float32x4 x0 = middle + cv::v_setall_f32(bx * dv), y0 = middle + cv::v_setall_f32(by * dv);
     for (int i = 0; i < wide_size; i += 4) {
       const v_float32x4 du = step + cv::v_setall_f32(static_cast<float>(i - patch_radius - 2));
-      const v_float32x4 x = cv::v_min(cv::v_max(x0 + ax * du, low), high), y = cv::v_min(cv::v_max(y0 + ay * du, low), high);
+      const v_float32x4 x = cv::v_min(cv::v_max(x0 + ax * du, low), high),
+                        y = cv::v_min(cv::v_max(y0 + ay * du, low), high);
       const v_int32x4 u = cv::v_trunc(x), v = cv::v_trunc(y);
       alignas(16) int place[4], phase_x[4], phase_y[4];
       cv::v_store_aligned(place, (v << 4) + (v << 3) + u);
@@ -98,10 +104,12 @@ void warpWide(const PatchSource& source, const Eigen::Matrix2d& source_from_view
       v_float32x4 part[4], across[4];
 #pragma GCC unroll 4
       for (int k = 0; k < 4; ++k)
-        part[k] = weighed(&pixels[static_cast<std::size_t>(place[k] - stride - 1)], table[static_cast<std::size_t>(phase_x[k])].data(),
+        part[k] = weighed(&pixels[static_cast<std::size_t>(place[k] - stride - 1)],
+                          table[static_cast<std::size_t>(phase_x[k])].data(),
                           table[static_cast<std::size_t>(phase_y[k])].data());
       cv::v_transpose4x4(part[0], part[1], part[2], part[3], across[0], across[1], across[2], across[3]);
-      cv::v_store(&out[static_cast<std::size_t>(j * wide_stride + i)], (across[0] + across[1]) + (across[2] + across[3]));
+      cv::v_store(&out[static_cast<std::size_t>(j * wide_stride + i)],
+                  (across[0] + across[1]) + (across[2] + across[3]));
     }
   }
 }
@@ -113,7 +121,8 @@ void blurWide(double blur, std::size_t step, WideGrid& grid) {
   const v_float32x4 side4 = cv::v_setall_f32(side), middle4 = cv::v_setall_f32(middle);
   std::size_t at = step;
   for (; at + step + 4 <= grid.size(); at += 4)
-    cv::v_store(&grid[at], side4 * (cv::v_load(&before[at - step]) + cv::v_load(&before[at + step])) + middle4 * cv::v_load(&before[at]));
+    cv::v_store(&grid[at], side4 * (cv::v_load(&before[at - step]) + cv::v_load(&before[at + step])) +
+                               middle4 * cv::v_load(&before[at]));
   for (; at + step < grid.size(); ++at) grid[at] = side * (before[at - step] + before[at + step]) + middle * before[at];
 }
 
@@ -124,7 +133,9 @@ using SpreadGrid = std::array<float, spread_rows * spread_stride>;
 /// load that meets two stores under way has to wait for both.
 void spreadAlongColumns(const PatchGrid& filter, SpreadGrid& out) {
   static constexpr float zeros[patch_stride] = {};
-  const auto row = [&](int j) { return j < 0 || j >= patch_size ? zeros : &filter[static_cast<std::size_t>(j * patch_stride)]; };
+  const auto row = [&](int j) {
+    return j < 0 || j >= patch_size ? zeros : &filter[static_cast<std::size_t>(j * patch_stride)];
+  };
   const v_float32x4 side = cv::v_setall_f32(1.0F / 6.0F), middle = cv::v_setall_f32(4.0F / 6.0F);
   for (int j = 0; j < spread_rows; ++j) {
     const float *above = row(j - 2), *here = row(j - 1), *below = row(j);
@@ -132,7 +143,8 @@ void spreadAlongColumns(const PatchGrid& filter, SpreadGrid& out) {
     cv::v_store(to, cv::v_setzero_f32());
 #pragma GCC unroll 3
     for (int i = 0; i < patch_stride; i += 4)
-      cv::v_store(to + spread_margin + i, side * (cv::v_load(above + i) + cv::v_load(below + i)) + middle * cv::v_load(here + i));
+      cv::v_store(to + spread_margin + i,
+                  side * (cv::v_load(above + i) + cv::v_load(below + i)) + middle * cv::v_load(here + i));
     cv::v_store(to + spread_margin + patch_stride, cv::v_setzero_f32());
     cv::v_store(to + spread_margin + patch_stride + 4, cv::v_setzero_f32());
   }
@@ -200,14 +212,16 @@ double dot(const PatchGrid& a, const PatchGrid& b) {
 }
 
 bool fits(const ImageView& image, double x, double y) {
-  return x >= patch_radius + 2 && y >= patch_radius + 2 && x < image.width - patch_radius - 3 && y < image.height - patch_radius - 3;
+  return x >= patch_radius + 2 && y >= patch_radius + 2 && x < image.width - patch_radius - 3 &&
+         y < image.height - patch_radius - 3;
 }
 
 void readWindow(const ImageView& image, double x, double y, const Eigen::Vector2d& blur, PatchGrid& out) {
   const int u = static_cast<int>(x), v = static_cast<int>(y);
   const std::array<float, taps> wx = blurredSpline(x - u, blur.x()), wy = blurredSpline(y - v, blur.y());
   const bool blurs = blur.maxCoeff() > 0.0;  // else the outer weights are zero
-  patch_read::fastest().read(image.row(v - patch_radius - 2) + u - patch_radius - 2, image.stride, wx.data(), wy.data(), blurs, out.data());
+  patch_read::fastest().read(image.row(v - patch_radius - 2) + u - patch_radius - 2, image.stride, wx.data(), wy.data(),
+                             blurs, out.data());
 }
 
 void makeBlind(const PatchGrid& gradient, const PatchTemplate& patch, PatchGrid& out) {
@@ -218,7 +232,8 @@ void makeBlind(const PatchGrid& gradient, const PatchTemplate& patch, PatchGrid&
   const v_float32x4 offset = cv::v_setall_f32(static_cast<float>(along_offset - along_gain * mean));
   const v_float32x4 gain = cv::v_setall_f32(static_cast<float>(along_gain));
   for (std::size_t i = 0; i < out.size(); i += 4)
-    cv::v_store(&out[i], cv::v_load(&w.weight[i]) * (cv::v_load(&gradient[i]) - offset - gain * cv::v_load(&patch.value[i])));
+    cv::v_store(&out[i],
+                cv::v_load(&w.weight[i]) * (cv::v_load(&gradient[i]) - offset - gain * cv::v_load(&patch.value[i])));
 }
 
 bool makeTemplate(const PatchSource& source, const Eigen::Matrix2d& A, PatchTemplate& made, Gradients& gradients) {
@@ -257,7 +272,8 @@ bool makeTemplate(const PatchSource& source, const Eigen::Matrix2d& A, PatchTemp
 
 Reading measure(const PatchGrid& pixels, const PatchTemplate& patch) {
   const Window& w = window();
-  const patch_read::Sums sums = patch_read::fastest().measure(pixels.data(), w.weight.data(), patch.filter_x.data(), patch.filter_y.data(), patch.filter_gain.data());
+  const patch_read::Sums sums = patch_read::fastest().measure(pixels.data(), w.weight.data(), patch.filter_x.data(),
+                                                              patch.filter_y.data(), patch.filter_gain.data());
   Reading r;
   r.along = {static_cast<double>(sums.along_x), static_cast<double>(sums.along_y)};
   r.mean = static_cast<double>(sums.mean) / w.total;
@@ -282,14 +298,16 @@ void judge(const Reading& reading, const PatchTemplate& patch, Alignment& alignm
   const double view_noise = smoothed_noise * std::sqrt(left(patch.view_blur.x()) * left(patch.view_blur.y()));
   const double noise2 = residual / (view_noise + g * g * smoothed_noise);
   alignment.noise = std::sqrt(noise2);
-  alignment.covariance = patch.unit_covariance * (std::max(noise2, 1.0 / 12.0) / (g * g));  // no better than rounding to grey levels
+  alignment.covariance =
+      patch.unit_covariance * (std::max(noise2, 1.0 / 12.0) / (g * g));  // no better than rounding to grey levels
 }
 
 }  // namespace
 
 std::optional<PatchSource> cutSource(const ImageView& image, int u, int v) {
   constexpr int margin = patch_radius + 3;
-  if (image.empty() || u < margin || v < margin || u >= image.width - margin || v >= image.height - margin) return std::nullopt;
+  if (image.empty() || u < margin || v < margin || u >= image.width - margin || v >= image.height - margin)
+    return std::nullopt;
   PatchSource source;
   const int first = u - PatchSource::radius;
   const bool inside = first >= 0 && first + PatchSource::size <= image.width;
@@ -300,7 +318,8 @@ std::optional<PatchSource> cutSource(const ImageView& image, int u, int v) {
       continue;
     }
     for (int i = 0; i < PatchSource::size; ++i)
-      source.pixels[static_cast<std::size_t>(j * PatchSource::stride + i)] = row[std::clamp(u - PatchSource::radius + i, 0, image.width - 1)];
+      source.pixels[static_cast<std::size_t>(j * PatchSource::stride + i)] =
+          row[std::clamp(u - PatchSource::radius + i, 0, image.width - 1)];
   }
   return source;
 }

@@ -8,7 +8,8 @@
 #define URBAN_NAV_X86 1
 #endif
 
-// Vectors wider than the baseline's are handed between functions that are all inlined: there is no call whose ABI could change.
+// Vectors wider than the baseline's are handed between functions that are all inlined: there is no call whose ABI
+// could change.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace urban_nav_core::patch_read {
@@ -35,18 +36,22 @@ URBAN_NAV_INLINE V load(const T* p) {
   return v;
 }
 template <typename V, typename T>
-URBAN_NAV_INLINE void store(T* p, const V& v) { std::memcpy(p, &v, sizeof v); }
+URBAN_NAV_INLINE void store(T* p, const V& v) {
+  std::memcpy(p, &v, sizeof v);
+}
 
 /// Six taps, `apart` numbers from one to the next; four where nothing is blurred.
 template <typename V>
 URBAN_NAV_INLINE V filtered(const float* p, int apart, const float* w, bool blurs) {
-  V value = w[1] * load<V>(p + apart) + w[2] * load<V>(p + 2 * apart) + (w[3] * load<V>(p + 3 * apart) + w[4] * load<V>(p + 4 * apart));
+  V value = w[1] * load<V>(p + apart) + w[2] * load<V>(p + 2 * apart) +
+            (w[3] * load<V>(p + 3 * apart) + w[4] * load<V>(p + 4 * apart));
   if (blurs) value += w[0] * load<V>(p) + w[5] * load<V>(p + 5 * apart);
   return value;
 }
 
 template <typename Width>
-URBAN_NAV_INLINE void readAs(const std::uint8_t* first, std::ptrdiff_t stride, const float* wx, const float* wy, bool blurs, float* window) {
+URBAN_NAV_INLINE void readAs(const std::uint8_t* first, std::ptrdiff_t stride, const float* wx, const float* wy,
+                             bool blurs, float* window) {
   using V = typename Width::Floats;
   constexpr int lanes = Width::lanes, lines = rows + taps - 1;
   alignas(32) float pixels[lines * wide];
@@ -64,7 +69,8 @@ URBAN_NAV_INLINE void readAs(const std::uint8_t* first, std::ptrdiff_t stride, c
   alignas(32) float column[rows * padded];  // what is beyond 16 meets the padding alone
   for (int i = 0; i < rows; ++i) {
 #pragma GCC unroll 4
-    for (int k = 0; k < wide; k += lanes) store(column + i * padded + k, filtered<V>(pixels + i * wide + k, wide, wy, blurs));
+    for (int k = 0; k < wide; k += lanes)
+      store(column + i * padded + k, filtered<V>(pixels + i * wide + k, wide, wy, blurs));
 #pragma GCC unroll 2
     for (int k = wide; k < padded; k += lanes) store(column + i * padded + k, V{});
   }
@@ -92,7 +98,8 @@ URBAN_NAV_INLINE float total(const Eight<Width>& sum) {
 }
 
 template <typename Width>
-URBAN_NAV_INLINE Sums measureAs(const float* window, const float* weight, const float* fx, const float* fy, const float* fg) {
+URBAN_NAV_INLINE Sums measureAs(const float* window, const float* weight, const float* fx, const float* fy,
+                                const float* fg) {
   using V = typename Width::Floats;
   constexpr int lanes = Width::lanes, count = rows * line;
   Eight<Width> x{}, y{}, g{}, m{}, q{};
@@ -120,13 +127,15 @@ URBAN_NAV_INLINE Sums measureAs(const float* window, const float* weight, const 
 }
 
 // One function of each kind for every width; only so can a compiler be told what processor it is for.
-#define URBAN_NAV_KERNELS(Width, target)                                                                                                  \
-  target void read##Width(const std::uint8_t* first, std::ptrdiff_t stride, const float* wx, const float* wy, bool blurs, float* window) { \
-    if (blurs) readAs<Width>(first, stride, wx, wy, true, window);                                                                        \
-    else readAs<Width>(first, stride, wx, wy, false, window);                                                                             \
-  }                                                                                                                                       \
-  target Sums measure##Width(const float* window, const float* weight, const float* fx, const float* fy, const float* fg) {               \
-    return measureAs<Width>(window, weight, fx, fy, fg);                                                                                  \
+#define URBAN_NAV_KERNELS(Width, target)                                                                      \
+  target void read##Width(const std::uint8_t* first, std::ptrdiff_t stride, const float* wx, const float* wy, \
+                          bool blurs, float* window) {                                                        \
+    if (blurs) readAs<Width>(first, stride, wx, wy, true, window);                                            \
+    else readAs<Width>(first, stride, wx, wy, false, window);                                                 \
+  }                                                                                                           \
+  target Sums measure##Width(const float* window, const float* weight, const float* fx, const float* fy,      \
+                             const float* fg) {                                                               \
+    return measureAs<Width>(window, weight, fx, fy, fg);                                                      \
   }
 
 URBAN_NAV_KERNELS(Narrow, )

@@ -7,9 +7,9 @@
 
 namespace urban_nav_core::patch_read {
 
-/// What an alignment does at each step, own code beside OpenCV's universal intrinsics because those are compiled for the portable
-/// baseline: chosen at run time by what the processor can do. Each sum runs in the same order and nothing is fused, so the bits do not depend
-/// on that choice.
+/// What an alignment does at each step, own code beside OpenCV's universal intrinsics because those are compiled for
+/// the portable baseline: chosen at run time by what the processor can do. Each sum runs in the same order and nothing
+/// is fused, so the bits do not depend on that choice.
 constexpr int taps = 6;   ///< of a filter along one axis; the outermost are zero where nothing is blurred
 constexpr int rows = 11;  ///< of the window (patch.hpp), in lines of 12
 
@@ -21,11 +21,14 @@ struct Sums {
 struct InstructionSet {
   const char* name;
 
-  /// The window at a place between pixels: `first` is the pixel that the first taps of its first pixel meet; 16 by 16 pixels are read.
-  void (*read)(const std::uint8_t* first, std::ptrdiff_t stride, const float* weights_x, const float* weights_y, bool blurs, float* window);
+  /// The window at a place between pixels: `first` is the pixel that the first taps of its first pixel meet; 16 by 16
+  /// pixels are read.
+  void (*read)(const std::uint8_t* first, std::ptrdiff_t stride, const float* weights_x, const float* weights_y,
+               bool blurs, float* window);
 
   /// All arrays of rows x 12.
-  Sums (*measure)(const float* window, const float* weight, const float* filter_x, const float* filter_y, const float* filter_gain);
+  Sums (*measure)(const float* window, const float* weight, const float* filter_x, const float* filter_y,
+                  const float* filter_gain);
 };
 
 /// What this machine can run, fastest first. The last is always there.

@@ -11,9 +11,7 @@ namespace {
 
 constexpr int sad_count = SadPatch::columns * SadPatch::rows;
 
-std::int16_t roundedMean(int sum) {
-  return static_cast<std::int16_t>((2 * sum + sad_count) / (2 * sad_count));
-}
+std::int16_t roundedMean(int sum) { return static_cast<std::int16_t>((2 * sum + sad_count) / (2 * sad_count)); }
 
 }  // namespace
 
@@ -27,7 +25,8 @@ SadPatch sadPatch(const PatchTemplate& patch) {
   for (int v = 0; v < SadPatch::rows; ++v)
     for (int u = 0; u < SadPatch::columns; ++u) {
       const double value = static_cast<double>(patch.value[static_cast<std::size_t>((v + 1) * patch_stride + u + 1)]);
-      made.value[static_cast<std::size_t>(v * SadPatch::columns + u)] = static_cast<std::int16_t>(std::lround(value - mean));
+      made.value[static_cast<std::size_t>(v * SadPatch::columns + u)] =
+          static_cast<std::int16_t>(std::lround(value - mean));
     }
   return made;
 }

@@ -9,7 +9,8 @@
 #define URBAN_NAV_X86 1
 #endif
 
-// Vectors wider than the baseline's are handed between functions that are all inlined: there is no call whose ABI could change.
+// Vectors wider than the baseline's are handed between functions that are all inlined: there is no call whose ABI
+// could change.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace urban_nav_core::sad_row {
@@ -38,10 +39,13 @@ URBAN_NAV_INLINE V load(const T* p) {
   return v;
 }
 template <typename V, typename T>
-URBAN_NAV_INLINE void store(T* p, const V& v) { std::memcpy(p, &v, sizeof v); }
+URBAN_NAV_INLINE void store(T* p, const V& v) {
+  std::memcpy(p, &v, sizeof v);
+}
 
 template <typename Width>
-URBAN_NAV_INLINE void compareAs(const std::int16_t* patch, const std::uint8_t* first, std::ptrdiff_t stride, int* sads) {
+URBAN_NAV_INLINE void compareAs(const std::int16_t* patch, const std::uint8_t* first, std::ptrdiff_t stride,
+                                int* sads) {
   using V = typename Width::Numbers;
   constexpr int lanes = Width::lanes, line = lanes + columns;
   alignas(32) std::int16_t pixels[rows * line], sums[line];
@@ -61,7 +65,8 @@ URBAN_NAV_INLINE void compareAs(const std::int16_t* patch, const std::uint8_t* f
   for (int i = 0; i < columns; ++i) sum += load<V>(sums + i);
   std::int16_t means[lanes];
   store(means, sum);
-  for (std::int16_t& mean : means) mean = static_cast<std::int16_t>((2U * static_cast<unsigned>(mean) + count) / (2U * count));
+  for (std::int16_t& mean : means)
+    mean = static_cast<std::int16_t>((2U * static_cast<unsigned>(mean) + count) / (2U * count));
   const V mean = load<V>(means);
   V total{};  // up to 36 720: taken as unsigned
   for (int j = 0; j < rows; ++j)
@@ -75,9 +80,12 @@ URBAN_NAV_INLINE void compareAs(const std::int16_t* patch, const std::uint8_t* f
   for (int l = 0; l < lanes; ++l) sads[l] = result[l];
 }
 
-void compareNarrow(const std::int16_t* patch, const std::uint8_t* first, std::ptrdiff_t stride, int* sads) { compareAs<Narrow>(patch, first, stride, sads); }
+void compareNarrow(const std::int16_t* patch, const std::uint8_t* first, std::ptrdiff_t stride, int* sads) {
+  compareAs<Narrow>(patch, first, stride, sads);
+}
 #ifdef URBAN_NAV_X86
-__attribute__((target("avx2"))) void compareMiddle(const std::int16_t* patch, const std::uint8_t* first, std::ptrdiff_t stride, int* sads) {
+__attribute__((target("avx2"))) void compareMiddle(const std::int16_t* patch, const std::uint8_t* first,
+                                                   std::ptrdiff_t stride, int* sads) {
   compareAs<Middle>(patch, first, stride, sads);
 }
 #endif

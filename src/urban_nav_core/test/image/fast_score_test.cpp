@@ -12,7 +12,8 @@ namespace {
 std::vector<std::uint8_t> picture(int stride, int rows, int step, unsigned seed) {
   std::mt19937 random(seed);
   std::vector<std::uint8_t> pixels;
-  for (int i = 0; i < stride * rows; ++i) pixels.push_back(static_cast<std::uint8_t>(static_cast<int>(random()) % (step + 1) + (i / 5 % 7 == 0 ? 90 : 20)));
+  for (int i = 0; i < stride * rows; ++i)
+    pixels.push_back(static_cast<std::uint8_t>(static_cast<int>(random()) % (step + 1) + (i / 5 % 7 == 0 ? 90 : 20)));
   return pixels;
 }
 
@@ -25,15 +26,18 @@ TEST(FastScore, IsTheSameWithEveryInstructionSetAndTouchesNoOtherPixel) {
     for (const int end : {3, 4, 18, 19, 34, 35, 36, 67, 147})
       for (const int threshold : {0, 4, 12, 60}) {
         std::vector<std::uint8_t> expected(stride, 7);
-        const bool any = sets.back().scoreRow(pixels.data() + 3 * stride, stride, begin, end, threshold, expected.data());
+        const bool any =
+            sets.back().scoreRow(pixels.data() + 3 * stride, stride, begin, end, threshold, expected.data());
         for (int u = 0; u < stride; ++u) {
           const bool outside = u < begin || u >= end;
           EXPECT_TRUE(!outside || expected[static_cast<std::size_t>(u)] == 7) << u;
         }
         for (const InstructionSet& set : sets) {
           std::vector<std::uint8_t> scores(stride, 7);
-          EXPECT_EQ(set.scoreRow(pixels.data() + 3 * stride, stride, begin, end, threshold, scores.data()), any) << set.name;
-          EXPECT_EQ(scores, expected) << set.name << ", step " << step << ", end " << end << ", threshold " << threshold;
+          EXPECT_EQ(set.scoreRow(pixels.data() + 3 * stride, stride, begin, end, threshold, scores.data()), any)
+              << set.name;
+          EXPECT_EQ(scores, expected) << set.name << ", step " << step << ", end " << end << ", threshold "
+                                      << threshold;
         }
       }
   }

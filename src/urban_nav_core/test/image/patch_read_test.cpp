@@ -27,7 +27,8 @@ struct Example {
 
 Window filled(double pace) {
   Window made{};
-  for (std::size_t i = 0; i < made.size(); ++i) made[i] = i % line == line - 1 ? 0.0F : static_cast<float>(std::sin(pace * static_cast<double>(i)));
+  for (std::size_t i = 0; i < made.size(); ++i)
+    made[i] = i % line == line - 1 ? 0.0F : static_cast<float>(std::sin(pace * static_cast<double>(i)));
   return made;
 }
 
@@ -42,9 +43,11 @@ TEST(PatchRead, FiltersAlongBothAxes) {
           double expected = 0.0;
           for (int j = 0; j < taps; ++j)
             for (int i = 0; i < taps; ++i)
-              expected += static_cast<double>(e.y[static_cast<std::size_t>(j)]) * static_cast<double>(e.x[static_cast<std::size_t>(i)]) *
+              expected += static_cast<double>(e.y[static_cast<std::size_t>(j)]) *
+                          static_cast<double>(e.x[static_cast<std::size_t>(i)]) *
                           e.pixels[static_cast<std::size_t>((v + j) * side + u + i)];
-          EXPECT_NEAR(static_cast<double>(window[static_cast<std::size_t>(v * line + u)]), expected, 1e-3) << set.name << ' ' << u << ' ' << v;
+          EXPECT_NEAR(static_cast<double>(window[static_cast<std::size_t>(v * line + u)]), expected, 1e-3)
+              << set.name << ' ' << u << ' ' << v;
         }
     }
   }
@@ -87,7 +90,8 @@ TEST(PatchRead, GivesTheSameBitsWithEveryInstructionSet) {
       Window one, other;
       sets.front().read(e.pixels.data(), side, e.x.data(), e.y.data(), blurs, one.data());
       set.read(e.pixels.data(), side, e.x.data(), e.y.data(), blurs, other.data());
-      for (std::size_t i = 0; i < one.size(); ++i) EXPECT_TRUE(i % line == line - 1 || one[i] == other[i]) << set.name << ' ' << i;
+      for (std::size_t i = 0; i < one.size(); ++i)
+        EXPECT_TRUE(i % line == line - 1 || one[i] == other[i]) << set.name << ' ' << i;
     }
   }
 }

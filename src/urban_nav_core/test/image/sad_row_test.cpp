@@ -14,7 +14,8 @@ namespace {
 std::vector<std::uint8_t> noise(int width, int height, unsigned seed) {
   std::mt19937 random(seed);
   std::vector<std::uint8_t> pixels;
-  for (int i = 0; i < width * height; ++i) pixels.push_back(random() % 3 == 0 ? 255 : random() % 2 == 0 ? 0 : static_cast<std::uint8_t>(random()));
+  for (int i = 0; i < width * height; ++i)
+    pixels.push_back(random() % 3 == 0 ? 255 : random() % 2 == 0 ? 0 : static_cast<std::uint8_t>(random()));
   return pixels;
 }
 
@@ -27,7 +28,9 @@ TEST(SadRow, IsTheSumPlaceByPlaceWithEveryInstructionSet) {
     for (int u = 4; u + set.lanes - 1 + 3 < width; ++u) {
       std::vector<int> sads(static_cast<std::size_t>(set.lanes));
       set.compare(patch.value.data(), right.row(0) + u - 4, right.stride, sads.data());
-      for (int i = 0; i < set.lanes; ++i) EXPECT_EQ(sads[static_cast<std::size_t>(i)], meanRemovedSad(patch, right, u + i, 4)) << set.name << ' ' << u + i;
+      for (int i = 0; i < set.lanes; ++i)
+        EXPECT_EQ(sads[static_cast<std::size_t>(i)], meanRemovedSad(patch, right, u + i, 4))
+            << set.name << ' ' << u + i;
     }
 }
 
@@ -39,7 +42,8 @@ TEST(SadRow, HasAnyLength) {
   for (int count = 0; count <= width - 7; ++count) {
     std::vector<int> sads(static_cast<std::size_t>(count) + 1, -1);
     meanRemovedSads(patch, image, 4, 4, count, sads.data());
-    for (int i = 0; i < count; ++i) ASSERT_EQ(sads[static_cast<std::size_t>(i)], meanRemovedSad(patch, image, 4 + i, 4)) << count << ' ' << i;
+    for (int i = 0; i < count; ++i)
+      ASSERT_EQ(sads[static_cast<std::size_t>(i)], meanRemovedSad(patch, image, 4 + i, 4)) << count << ' ' << i;
     EXPECT_EQ(sads.back(), -1);
   }
 }
