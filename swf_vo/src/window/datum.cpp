@@ -102,7 +102,6 @@ Vector6d Datum::releaseOffset(double sigma, const State& state, Prior& prior) {
   prior.offset_eta = offset_gradient + border.dot(Eigen::Map<const Eigen::VectorXd>(deviation_.data(), n)) +
                      prior.offset_information * state.disparity_offset;
   along_offset_ += sigma * per_px;
-  growth_ += sigma * sigma * per_px * per_px.transpose();
   return per_px;
 }
 

@@ -34,11 +34,13 @@ struct WindowOptions {
 
 /// A pose that left the window.
 ///
-/// WARNING: relative covariances of neighbours are correlated. A step is off by the errors of the two frames at its ends and by the drift between
-/// them; the next step begins with the error with which this one ends, and takes it back. Composed as if independent, relative_covariance
-/// is right for one step and 6 to 50 times too large over 100. What adds up is the drift: the covariance of the way from frame i to frame j
-/// is that composed of the drift_covariance of all its steps, with half of relative_covariance added to the first and to the last
-/// (a single step: relative_covariance alone). Measured: bench/consistency_tracks.
+/// WARNING: relative covariances of neighbours are correlated. A step is off by the errors of the two frames at its
+/// ends and by the drift between them; the next step begins with the error with which this one ends, and takes it
+/// back. Composed as if independent, relative_covariance is right for one step and 5 to 50 times too large over 100.
+/// What adds up is the drift: the covariance of the way from frame i to frame j is that composed of the
+/// drift_covariance of all its steps, with half of relative_covariance added to the first and to the last (a single
+/// step: relative_covariance alone). Measured: bench/consistency_tracks. The error of the disparity offset is one and
+/// the same in all steps and not in the drift: the covariance of T_odom_camera has it.
 struct SettledPose {
   FrameId frame = 0;
   urban_nav_core::UncertainPose T_odom_camera;        ///< previous pose times T_previous_camera, to the last bit
