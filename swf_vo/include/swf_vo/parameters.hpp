@@ -13,7 +13,7 @@ struct Parameters {
   int window;                       // frames
   std::string forget;               // schur, delete
   std::string linearise;            // first, latest
-  int features;                     // per 512x384 pixels of image
+  int features;                     // in an image of 512x384
   double pixel_noise_floor;         // px
   double disparity_offset;          // px, standard deviation of a state; 0: none
   double huber;                     // standard deviations

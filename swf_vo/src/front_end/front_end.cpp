@@ -41,7 +41,8 @@ constexpr int most_missed = 3, most_missed_young = 1;  // frames
 constexpr int disagreements_refute = 2, disagreements_refute_young = 1, young = 3;  // frames
 
 int featuresIn(const StereoCamera& camera, int features) {
-  return std::max(8, static_cast<int>(std::lround(features * camera.left.width * camera.left.height / reference_area)));
+  const double area = static_cast<double>(camera.left.width) * camera.left.height;
+  return std::max(8, static_cast<int>(std::lround(features * std::pow(area / reference_area, 2.0 / 3.0))));
 }
 
 int topLevel(int width) {
