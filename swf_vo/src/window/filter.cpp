@@ -236,6 +236,7 @@ void Filter::save(Checkpoint& checkpoint) const {
   checkpoint.prior = prior_;
   checkpoint.newest_covariance = newest_covariance_;
   checkpoint.datum = datum_;
+  checkpoint.offset_sigma = offset_sigma_;
 }
 
 void Filter::restore(const Checkpoint& checkpoint) {
@@ -243,6 +244,7 @@ void Filter::restore(const Checkpoint& checkpoint) {
   prior_ = checkpoint.prior;
   newest_covariance_ = checkpoint.newest_covariance;
   datum_ = checkpoint.datum;
+  offset_sigma_ = checkpoint.offset_sigma;
   gauss_newton_.forget();
 }
 
