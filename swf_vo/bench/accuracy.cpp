@@ -13,9 +13,9 @@
 namespace {
 
 using namespace swf_vo::bench;
+using urban_nav_core::Pose;
 using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
-using urban_nav_core::Pose;
 
 struct Options {
   std::vector<std::string> peers, sets, folders;
@@ -36,8 +36,11 @@ Options parse(int argc, char** argv) {
 
 void add(BenchTable& table, const std::string& sequence, const std::string& system, const std::vector<Pose>& truth,
          const std::vector<Pose>& estimate, const std::string& ms) {
-  const SpanErrors ten = spanErrors(truth, estimate, 10), fifty = spanErrors(truth, estimate, 50), hundred = spanErrors(truth, estimate, 100);
-  const auto pair = [](const SpanErrors& e) { return e.percent > 0.0 ? cell(e.percent, 3) + " %, " + cell(e.deg_per_m, 4) + " deg/m" : std::string("-"); };
+  const SpanErrors ten = spanErrors(truth, estimate, 10), fifty = spanErrors(truth, estimate, 50),
+                   hundred = spanErrors(truth, estimate, 100);
+  const auto pair = [](const SpanErrors& e) {
+    return e.percent > 0.0 ? cell(e.percent, 3) + " %, " + cell(e.deg_per_m, 4) + " deg/m" : std::string("-");
+  };
   table.add({sequence, system, pair(ten), pair(fifty), pair(hundred), cell(stepRatio(truth, estimate), 4), ms});
 }
 
@@ -45,7 +48,8 @@ void addPeers(BenchTable& table, const Sequence& sequence, const std::vector<std
   for (const std::string& peer : peers) {
     const auto first = peer.find('='), second = peer.find('=', first + 1);
     if (second == std::string::npos || peer.substr(first + 1, second - first - 1) != sequence.name) continue;
-    add(table, sequence.name, peer.substr(0, first), sequence.truth, urban_nav_core::readKitti(peer.substr(second + 1)), "");
+    add(table, sequence.name, peer.substr(0, first), sequence.truth, urban_nav_core::readKitti(peer.substr(second + 1)),
+        "");
   }
 }
 
@@ -58,7 +62,8 @@ int main(int argc, char** argv) try {
     for (const char* name : {"kitti06_000_050", "kitti_raw_0926_0005"})
       if (const std::string folder = dataFolder(name); !folder.empty()) options.folders.push_back(folder);
 
-  BenchTable table({"sequence", "system", "10 frames", "50 frames", "100 frames", "step ratio", "ms a frame"}, argc, argv);
+  BenchTable table({"sequence", "system", "10 frames", "50 frames", "100 frames", "step ratio", "ms a frame"}, argc,
+                   argv);
   for (const std::string& folder : options.folders) {
     const Sequence sequence = kittiFolder(folder);
     const Run result = run(sequence, parameters);

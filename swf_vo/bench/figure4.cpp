@@ -138,7 +138,8 @@ void panel(std::ofstream& out, const std::vector<Curve>& curves, bool map, const
     out << "<text x='" << x(step) << "' y='" << top + height + 16 << "' text-anchor='middle'>" << step << "</text>\n";
   for (std::size_t m = 0; m < curves.size(); ++m) {
     // The batch lies broad beneath those that meet it.
-    out << "<polyline fill='none' stroke-width='" << (m == 0 ? 8 : 2) << "' stroke='" << methods[m].colour << "' points='";
+    out << "<polyline fill='none' stroke-width='" << (m == 0 ? 8 : 2) << "' stroke='" << methods[m].colour
+        << "' points='";
     for (const auto& [step, errors] : curves[m])
       out << x(static_cast<double>(step)) << ',' << y(value(errors, map)) << ' ';
     out << "'/>\n";

@@ -62,7 +62,8 @@ std::vector<Sequence> sequences(const Options& options) {
 /// All images at once: every variant sees the same pixels.
 Sequence inMemory(const Sequence& sequence) {
   const std::size_t count = sequence.stamps.size();
-  const auto left = std::make_shared<std::vector<cv::Mat>>(count), right = std::make_shared<std::vector<cv::Mat>>(count);
+  const auto left = std::make_shared<std::vector<cv::Mat>>(count),
+             right = std::make_shared<std::vector<cv::Mat>>(count);
   for (std::size_t i = 0; i < count; ++i) sequence.read(i, (*left)[i], (*right)[i]);
   Sequence made = sequence;
   made.read = [left, right](std::size_t i, cv::Mat& l, cv::Mat& r) { l = (*left)[i], r = (*right)[i]; };
@@ -76,7 +77,8 @@ double meanFeatures(const Run& run) {
 }
 
 std::string title(const Sequence& sequence) {
-  return std::to_string(sequence.camera.left.width) + "x" + std::to_string(sequence.camera.left.height) + ", " + sequence.name;
+  return std::to_string(sequence.camera.left.width) + "x" + std::to_string(sequence.camera.left.height) + ", " +
+         sequence.name;
 }
 
 void addPeers(BenchTable& table, const Sequence& sequence, const std::vector<std::string>& peers) {
@@ -97,7 +99,8 @@ int main(int argc, char** argv) try {
                                          {"window 25", {"swf_vo.window=25"}},
                                          {"one iteration", {"swf_vo.iterations=1"}},
                                          {"prior dropped (forget: delete)", {"swf_vo.forget=delete"}}};
-  BenchTable table({"images", "variant", "ms a frame, median", "99 %", "frames/s", "features", "10-frame spans"}, argc, argv);
+  BenchTable table({"images", "variant", "ms a frame, median", "99 %", "frames/s", "features", "10-frame spans"}, argc,
+                   argv);
   for (const Sequence& drawn : sequences(options)) {
     const Sequence sequence = inMemory(drawn);
     for (const Variant& variant : variants) {

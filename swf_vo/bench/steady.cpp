@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Does a frame cost the same after a day as after a second? A loop through the rendered room is drawn once and played forth and back.
 //   swf_vo-bench-steady [FOLDER] [--frames N] [-o results/steady.json]
+#include <unistd.h>
 #include <fstream>
 #include <iostream>
 #include <string>
-#include <unistd.h>
 
 #include "support/run.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
@@ -32,7 +32,9 @@ std::size_t forthAndBack(std::size_t i, std::size_t count) {
   return at < count ? at : 2 * count - 2 - at;
 }
 
-urban_nav_core::ImageView view(const cv::Mat& image) { return {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)}; }
+urban_nav_core::ImageView view(const cv::Mat& image) {
+  return {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)};
+}
 
 }  // namespace
 
@@ -52,7 +54,9 @@ int main(int argc, char** argv) try {
   std::vector<cv::Mat> left(sequence.stamps.size()), right(sequence.stamps.size());
   for (std::size_t i = 0; i < left.size(); ++i) sequence.read(i, left[i], right[i]);
 
-  BenchTable table({"frames", "ms a frame, median", "99 %", "features", "landmarks in the prior", "memory of the program, MB"}, argc, argv);
+  BenchTable table(
+      {"frames", "ms a frame, median", "99 %", "features", "landmarks in the prior", "memory of the program, MB"}, argc,
+      argv);
   SwfVo filter(Parameters(), sequence.camera, urban_nav_core::Pose());
   std::vector<double> ms;
   ms.reserve(block);
@@ -69,8 +73,9 @@ int main(int argc, char** argv) try {
     landmarks += frame.statistics.landmarks_in_prior;
     if (ms.size() < block && i + 1 < frames) continue;
     const double count = static_cast<double>(ms.size());
-    table.add({std::to_string(next) + " to " + std::to_string(i + 1), cell(quantile(ms, 0.5), 2), cell(quantile(ms, 0.99), 2), cell(features / count, 0),
-               cell(landmarks / count, 0), cell(residentMb(), 1)});
+    table.add({std::to_string(next) + " to " + std::to_string(i + 1), cell(quantile(ms, 0.5), 2),
+               cell(quantile(ms, 0.99), 2), cell(features / count, 0), cell(landmarks / count, 0),
+               cell(residentMb(), 1)});
     ms.clear();
     features = landmarks = 0.0;
     next = next < 1000 ? 4100 : next + 5000;

@@ -25,7 +25,8 @@ struct Series {
 
 std::vector<Series> seriesOf(const Sequence& sequence, const Run& run) {
   Series speed{"velocity (m/s)", {}, 2}, turn{"angular velocity (deg/s)", {}, 2}, rate{"frames per second", {}, 0};
-  Series features{"features per frame", {}, 0}, length{"feature track length", {}, 2}, error{"reprojection error (px)", {}, 3};
+  Series features{"features per frame", {}, 0}, length{"feature track length", {}, 2},
+      error{"reprojection error (px)", {}, 3};
   for (std::size_t i = 1; i < run.settled.size(); ++i) {
     const double seconds = urban_nav_core::secondsBetween(sequence.stamps[i - 1], sequence.stamps[i]);
     speed.values.push_back(distanceBetween(run.settled[i - 1], run.settled[i]) / seconds);
@@ -65,8 +66,10 @@ int main(int argc, char** argv) try {
     table.add({"", "frames processed", "", "", std::to_string(result.settled.size())});
     for (const Series& series : seriesOf(sequence, result)) {
       const auto [low, high] = std::minmax_element(series.values.begin(), series.values.end());
-      const double mean = std::accumulate(series.values.begin(), series.values.end(), 0.0) / static_cast<double>(series.values.size());
-      table.add({"", series.name, cell(mean, series.decimals), cell(*low, series.decimals), cell(*high, series.decimals)});
+      const double mean =
+          std::accumulate(series.values.begin(), series.values.end(), 0.0) / static_cast<double>(series.values.size());
+      table.add(
+          {"", series.name, cell(mean, series.decimals), cell(*low, series.decimals), cell(*high, series.decimals)});
     }
   }
   std::cout << table.text();

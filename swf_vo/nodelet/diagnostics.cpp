@@ -17,12 +17,9 @@ constexpr double silent_after = 1.0;  // s; the slowest cameras that odometry ca
 unsigned char levelOf(Health health) {
   switch (health) {
     case Health::Ok:
-    case Health::Recovered:
-      return DiagnosticStatus::OK;
-    case Health::Degraded:
-      return DiagnosticStatus::WARN;
-    case Health::Lost:
-      return DiagnosticStatus::ERROR;
+    case Health::Recovered: return DiagnosticStatus::OK;
+    case Health::Degraded: return DiagnosticStatus::WARN;
+    case Health::Lost: return DiagnosticStatus::ERROR;
   }
   return DiagnosticStatus::ERROR;
 }

@@ -226,10 +226,8 @@ void SwfVoNodelet::advertiseServices() {
 
 void SwfVoNodelet::put(Diagnostics::Topic topic, StampNs stamp, Input input) {
   diagnostics_->received(topic, stamp);
-  if (paused_)
-    ++paused_dropped_;
-  else
-    mailbox_.put(std::move(input));
+  if (paused_) ++paused_dropped_;
+  else mailbox_.put(std::move(input));
 }
 
 void SwfVoNodelet::work() {

@@ -20,14 +20,10 @@ cv::Point fixedPoint(const cv::Point2f& pixel) {
 
 cv::Scalar colourOf(Health health) {
   switch (health) {
-    case Health::Ok:
-      return {90, 200, 90};
-    case Health::Recovered:
-      return {200, 200, 60};
-    case Health::Degraded:
-      return {30, 170, 255};
-    case Health::Lost:
-      return {60, 60, 240};
+    case Health::Ok: return {90, 200, 90};
+    case Health::Recovered: return {200, 200, 60};
+    case Health::Degraded: return {30, 170, 255};
+    case Health::Lost: return {60, 60, 240};
   }
   return {255, 255, 255};
 }

@@ -35,8 +35,7 @@ constexpr std::size_t largest_memory = 16384;
 
 }  // namespace
 
-Output::Output(const Pose& T_base_camera)
-    : T_base_camera_(T_base_camera), T_camera_base_(T_base_camera.inverse()) {
+Output::Output(const Pose& T_base_camera) : T_base_camera_(T_base_camera), T_camera_base_(T_base_camera.inverse()) {
   born_.reserve(largest_memory);
   frame_.features.reserve(1024);
   frame_.landmarks.reserve(1024);
@@ -45,7 +44,8 @@ Output::Output(const Pose& T_base_camera)
 }
 
 int Output::ageOf(LandmarkId landmark, FrameId frame) {
-  const auto at = std::lower_bound(born_.begin(), born_.end(), landmark, [](const auto& entry, LandmarkId id) { return entry.first < id; });
+  const auto at = std::lower_bound(born_.begin(), born_.end(), landmark,
+                                   [](const auto& entry, LandmarkId id) { return entry.first < id; });
   if (at != born_.end() && at->first == landmark) return static_cast<int>(frame - at->second);
   born_.insert(at, {landmark, frame});
   return 0;
@@ -76,14 +76,17 @@ void Output::list(const Window& window, const FrontEndResult* seen) {
     const auto& map = window.map();
     born_.erase(std::remove_if(born_.begin(), born_.end(),
                                [&](const auto& entry) {
-                                 return std::none_of(map.begin(), map.end(), [&](const MapPoint& point) { return point.landmark == entry.first; });
+                                 return std::none_of(map.begin(), map.end(), [&](const MapPoint& point) {
+                                   return point.landmark == entry.first;
+                                 });
                                }),
                 born_.end());
   }
   frame_.statistics.corners = seen->corners;
   frame_.statistics.features = static_cast<int>(frame_.features.size());
   frame_.statistics.tracked = static_cast<int>(seen->tracked.size());
-  frame_.statistics.track_length_mean = frame_.features.empty() ? 0.0 : ages / static_cast<double>(frame_.features.size());
+  frame_.statistics.track_length_mean =
+      frame_.features.empty() ? 0.0 : ages / static_cast<double>(frame_.features.size());
 }
 
 Velocity Output::velocity(FrameId frame, StampNs stamp, bool lost, const Window& window, const ProcessInput& u) const {
@@ -141,7 +144,8 @@ const Frame& Output::refused(StampNs stamp) {
 
 Settled Output::settle(const SettledPose& pose) {
   Settled settled;
-  const auto at = std::find_if(waiting_.begin(), waiting_.end(), [&](const Waiting& w) { return w.frame == pose.frame; });
+  const auto at =
+      std::find_if(waiting_.begin(), waiting_.end(), [&](const Waiting& w) { return w.frame == pose.frame; });
   settled.frame = pose.frame;
   settled.stamp = at->stamp;
   settled.status = at->status;

@@ -16,8 +16,9 @@ class Output {
   explicit Output(const urban_nav_core::Pose& T_base_camera);
 
   /// `u`: what the process model said of the step to this frame.
-  const Frame& write(FrameId frame, urban_nav_core::StampNs stamp, const urban_nav_core::Status& status, const Window& window,
-                     const ProcessInput& u, const FrontEndResult* seen, const UpdateReport& update);
+  const Frame& write(FrameId frame, urban_nav_core::StampNs stamp, const urban_nav_core::Status& status,
+                     const Window& window, const ProcessInput& u, const FrontEndResult* seen,
+                     const UpdateReport& update);
   /// A frame that was not accepted because of its stamp: the last pose again.
   const Frame& refused(urban_nav_core::StampNs stamp);
   Settled settle(const SettledPose& pose);
@@ -28,17 +29,19 @@ class Output {
     urban_nav_core::StampNs stamp;
     urban_nav_core::Status status;
   };
-  Velocity velocity(FrameId frame, urban_nav_core::StampNs stamp, bool lost, const Window& window, const ProcessInput& u) const;
+  Velocity velocity(FrameId frame, urban_nav_core::StampNs stamp, bool lost, const Window& window,
+                    const ProcessInput& u) const;
   void list(const Window& window, const FrontEndResult* seen);
   int ageOf(LandmarkId landmark, FrameId frame);
 
   urban_nav_core::Pose T_base_camera_, T_camera_base_;
   Frame frame_;
-  std::vector<Waiting> waiting_;                 // oldest first
+  std::vector<Waiting> waiting_;  // oldest first
   urban_nav_core::StampNs last_settled_ = 0;
   bool any_settled_ = false;
-  urban_nav_core::Pose last_T_odom_camera_;      // of the frame before, as it was known when it came
-  urban_nav_core::Matrix6d step_covariance_ = urban_nav_core::Matrix6d::Zero();  // of the last settled step of base_link; zero: none yet
+  urban_nav_core::Pose last_T_odom_camera_;  // of the frame before, as it was known when it came
+  urban_nav_core::Matrix6d step_covariance_ =
+      urban_nav_core::Matrix6d::Zero();               // of the last settled step of base_link; zero: none yet
   std::vector<std::pair<LandmarkId, FrameId>> born_;  // sorted by landmark: ids only grow
 };
 

@@ -10,6 +10,8 @@ using urban_nav_core::Table;
 
 Parameters::Parameters() { table().setDefaults(*this); }
 
+// clang-format would give each of the columns a line.
+// clang-format off
 const Table<Parameters>& table() {
   using P = Parameters;
   static const Table<Parameters> rows(
@@ -61,5 +63,6 @@ const Table<Parameters>& table() {
       });
   return rows;
 }
+// clang-format on
 
 }  // namespace swf_vo

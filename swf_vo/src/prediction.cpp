@@ -20,14 +20,15 @@ using urban_nav_core::Vector6d;
 namespace {
 
 // Before the first step nothing is known of the velocity: a walking or slowly driving robot, or a car at 15 m/s.
-constexpr double unknown_speed = 10.0;          // m/s
-constexpr double unknown_angular_speed = 1.0;   // rad/s
+constexpr double unknown_speed = 10.0;         // m/s
+constexpr double unknown_angular_speed = 1.0;  // rad/s
 // Good images in which nothing is found where the velocity says, so many times in a row: the velocity is wrong.
 constexpr int patience = 3;
 
 Matrix6d fromSigmas(double translation, double rotation) {
   Vector6d diagonal;
-  diagonal << Eigen::Vector3d::Constant(1.0 / (translation * translation)), Eigen::Vector3d::Constant(1.0 / (rotation * rotation));
+  diagonal << Eigen::Vector3d::Constant(1.0 / (translation * translation)),
+      Eigen::Vector3d::Constant(1.0 / (rotation * rotation));
   return diagonal.asDiagonal();
 }
 

@@ -44,11 +44,15 @@ WindowOptions windowOptions(const Parameters& parameters) {
 
 void check(const StereoCamera& camera) {
   const auto& left = camera.left;
-  const bool finite = std::isfinite(left.fx) && std::isfinite(left.fy) && std::isfinite(left.cx) && std::isfinite(left.cy);
-  if (!finite || left.fx <= 0.0 || left.fy <= 0.0) throw UserError("calibration", "focal lengths are not positive numbers", "fx, fy > 0 (px)");
+  const bool finite =
+      std::isfinite(left.fx) && std::isfinite(left.fy) && std::isfinite(left.cx) && std::isfinite(left.cy);
+  if (!finite || left.fx <= 0.0 || left.fy <= 0.0)
+    throw UserError("calibration", "focal lengths are not positive numbers", "fx, fy > 0 (px)");
   if (!std::isfinite(camera.baseline) || camera.baseline <= 0.0)
-    throw UserError("calibration", "the baseline is not a positive number", "> 0 (m): the right camera lies to the right of the left one");
-  if (left.width < 64 || left.height < 64) throw UserError("calibration", "the images are smaller than 64x64", "at least 64x64 px");
+    throw UserError("calibration", "the baseline is not a positive number",
+                    "> 0 (m): the right camera lies to the right of the left one");
+  if (left.width < 64 || left.height < 64)
+    throw UserError("calibration", "the images are smaller than 64x64", "at least 64x64 px");
 }
 
 }  // namespace
@@ -92,7 +96,8 @@ class SwfVo::Implementation {
     if (seen != nullptr) observe(*seen, trusted, !blurred);
     const UpdateReport update = window_.update();
 
-    if (started_) prediction_.learn(last.inverse() * window_.newest().pose, seconds_, trusted, blurred || !evidence.image.usable);
+    if (started_)
+      prediction_.learn(last.inverse() * window_.newest().pose, seconds_, trusted, blurred || !evidence.image.usable);
     const urban_nav_core::Status status = health_.judge(evidence);
     doubtful_ = status.health != urban_nav_core::Health::Ok;
     started_ = true;
@@ -111,7 +116,8 @@ class SwfVo::Implementation {
     seconds_ = started_ ? secondsBetween(stamp_, stamp) : 0.0;
     stamp_ = stamp;
     const bool gap = period_ > 0.0 && seconds_ > gap_periods * period_;
-    if (seconds_ > 0.0) period_ = period_ > 0.0 ? period_ + 0.1 * (std::min(seconds_, 2.0 * period_) - period_) : seconds_;
+    if (seconds_ > 0.0)
+      period_ = period_ > 0.0 ? period_ + 0.1 * (std::min(seconds_, 2.0 * period_) - period_) : seconds_;
     return gap;
   }
 
@@ -164,7 +170,9 @@ SwfVo::~SwfVo() = default;
 SwfVo::SwfVo(SwfVo&&) noexcept = default;
 SwfVo& SwfVo::operator=(SwfVo&&) noexcept = default;
 
-const Frame& SwfVo::process(const StereoPair& pair, const std::vector<MotionInput>& inputs) { return implementation_->process(pair, inputs); }
+const Frame& SwfVo::process(const StereoPair& pair, const std::vector<MotionInput>& inputs) {
+  return implementation_->process(pair, inputs);
+}
 std::vector<Settled> SwfVo::flush() { return implementation_->flush(); }
 
 }  // namespace swf_vo

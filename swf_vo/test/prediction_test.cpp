@@ -62,7 +62,8 @@ TEST(Prediction, takesAGoodInputInsteadOfTheVelocity) {
   prediction.learn(Pose(), 0.1, true);
   const Pose motion = expSe3(twist(0.1, 0.0, 0.0, 0.0, 0.0, 0.05));
   const MotionInput input{0, 100 * ms, motion, 1e12 * Matrix6d::Identity()};
-  EXPECT_TRUE(isApprox(prediction.step(0.1, {input}).T_from_to, T_base_camera.inverse() * motion * T_base_camera, 1e-6));
+  EXPECT_TRUE(
+      isApprox(prediction.step(0.1, {input}).T_from_to, T_base_camera.inverse() * motion * T_base_camera, 1e-6));
 }
 
 TEST(Prediction, aGyroscopeTurnsAndLeavesTheTranslationToTheVelocity) {
@@ -71,7 +72,8 @@ TEST(Prediction, aGyroscopeTurnsAndLeavesTheTranslationToTheVelocity) {
   Matrix6d information = Matrix6d::Zero();
   information.bottomRightCorner<3, 3>() = 1e12 * Eigen::Matrix3d::Identity();
   std::vector<MotionInput> inputs;
-  for (int i = 0; i < 10; ++i) inputs.push_back({i * 10 * ms, (i + 1) * 10 * ms, expSe3(twist(0, 0, 0, 0, 0.01, 0)), information});
+  for (int i = 0; i < 10; ++i)
+    inputs.push_back({i * 10 * ms, (i + 1) * 10 * ms, expSe3(twist(0, 0, 0, 0, 0.01, 0)), information});
   const ProcessInput u = prediction.step(0.1, inputs);
   EXPECT_NEAR(logSe3(u.T_from_to)(4), 0.1, 1e-6);
   EXPECT_NEAR(u.T_from_to.t().z(), 0.1, 1e-3);

@@ -122,8 +122,9 @@ TEST(SwfVo, movesTheBaseNotTheCamera) {
     const auto& frame = room.frames[static_cast<std::size_t>(i)];
     const Pose T_first_camera = camera.process(frame.pair()).T_odom_base.pose;
     const Pose T_odom_base = base.process(frame.pair()).T_odom_base.pose;
-// In other axes sums round otherwise; once that has decided about a feature, the runs are as far apart as their errors.
-    EXPECT_TRUE(isApprox(T_odom_base, T_base_camera * T_first_camera * T_base_camera.inverse(), i < 3 ? 1e-5 : 1e-3)) << i;
+    // In other axes sums round otherwise; once that has decided about a feature, the runs are as far apart as their errors.
+    EXPECT_TRUE(isApprox(T_odom_base, T_base_camera * T_first_camera * T_base_camera.inverse(), i < 3 ? 1e-5 : 1e-3))
+        << i;
   }
 }
 
@@ -186,7 +187,8 @@ TEST_P(SwfVoFaults, areNamedWithinTwoFramesAndOvercome) {
     const Frame& now = filter.process(arrived->pair());
     expectProper(now);
     const auto& names = GetParam().names;
-    if (named < 0 && std::find(names.begin(), names.end(), static_cast<Reason>(now.status.reason)) != names.end()) named = since;
+    if (named < 0 && std::find(names.begin(), names.end(), static_cast<Reason>(now.status.reason)) != names.end())
+      named = since;
     if (now.accepted) last = now;
   }
   EXPECT_GE(named, 0) << "never named";
@@ -202,7 +204,8 @@ INSTANTIATE_TEST_SUITE_P(
     Each, SwfVoFaults,
     testing::Values(Trouble{"black:1:1", {Reason::Dark}}, Trouble{"freeze:1:0.5", {Reason::Frozen}},
                     Trouble{"swap:1:0.5", {Reason::Swapped}}, Trouble{"drop:1:0.3", {Reason::Gap}},
-                    Trouble{"drop:1:2:0.6", {Reason::Gap}}, Trouble{"overexpose:1:0.5", {Reason::ExposureJump, Reason::Dark}},
+                    Trouble{"drop:1:2:0.6", {Reason::Gap}},
+                    Trouble{"overexpose:1:0.5", {Reason::ExposureJump, Reason::Dark}},
                     Trouble{"blur:1:0.5", {Reason::Blurred}}, Trouble{"noleft:1:0.3", {Reason::ImageMissing}},
                     Trouble{"noright:1:0.3", {Reason::ImageMissing}}, Trouble{"equal:1:0.3", {Reason::BadStamp}},
                     Trouble{"backward:1:0.3", {Reason::BadStamp}}));
@@ -210,7 +213,9 @@ INSTANTIATE_TEST_SUITE_P(
 struct Effort {
   int window, iterations;
 };
-void PrintTo(const Effort& effort, std::ostream* out) { *out << effort.window << " poses, " << effort.iterations << " steps"; }
+void PrintTo(const Effort& effort, std::ostream* out) {
+  *out << effort.window << " poses, " << effort.iterations << " steps";
+}
 
 class SwfVoEfforts : public testing::TestWithParam<Effort> {};
 

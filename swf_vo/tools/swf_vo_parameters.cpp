@@ -34,12 +34,10 @@ int main(int argc, char** argv) {
   const auto& rows = swf_vo::table();
   const auto& nodelet = swf_vo::nodeletTable();
   try {
-    if (what == "--yaml")
-      std::cout << printYaml(rows.stage(), rows.rows());
+    if (what == "--yaml") std::cout << printYaml(rows.stage(), rows.rows());
     else if (what == "--markdown")
       std::cout << printMarkdown(rows.stage(), rows.rows()) << "\n" << printMarkdown(nodelet.stage(), nodelet.rows());
-    else if (what == "--write" && argc == 3)
-      return write(argv[2]);
+    else if (what == "--write" && argc == 3) return write(argv[2]);
     else {
       std::cerr << "swf_vo_parameters --yaml | --markdown | --write FOLDER_OF_THE_PACKAGE\n";
       return 2;

@@ -57,7 +57,8 @@ Sequence rendered(const RenderedOptions& options) {
   how.noise = options.noise;
   how.seed = options.seed;
   const Scene scene = options.scene == "street" ? texturedStreet({}, options.seed) : texturedRoom({}, options.seed);
-  const auto source = std::make_shared<RenderedSequence>(scene, namedMotion(options.motion, options.scene, options.seed), how);
+  const auto source =
+      std::make_shared<RenderedSequence>(scene, namedMotion(options.motion, options.scene, options.seed), how);
   Sequence sequence;
   sequence.name = options.scene + ", " + options.motion + ", seed " + std::to_string(options.seed);
   const auto& c = options.camera;
@@ -89,7 +90,8 @@ Parameters parametersFrom(const std::vector<std::string>& settings) {
 namespace {
 
 ImageView view(const cv::Mat& image) {
-  return image.empty() ? ImageView() : ImageView{image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)};
+  return image.empty() ? ImageView()
+                       : ImageView{image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)};
 }
 
 void take(const std::vector<Settled>& settled, Run& run) {

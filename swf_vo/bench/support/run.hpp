@@ -17,7 +17,8 @@ struct Sequence {
   urban_nav_core::StereoCamera camera;
   std::vector<urban_nav_core::StampNs> stamps;
   std::vector<urban_nav_core::Pose> truth;  ///< left camera in that of frame 0; empty if there is none
-  std::function<void(std::size_t frame, cv::Mat& left, cv::Mat& right)> read;  ///< 8-bit grey; empty where a frame is missing
+  std::function<void(std::size_t frame, cv::Mat& left, cv::Mat& right)>
+      read;  ///< 8-bit grey; empty where a frame is missing
 };
 
 /// KITTI's layout (image_0, image_1, calib.txt, times.txt, poses.txt), at most `frames` of it.
@@ -31,8 +32,8 @@ struct RenderedOptions {
   std::string scene = "room", motion = "wander";
   std::uint32_t seed = 1;
   std::size_t frames = 201;
-  double rate = 20.0;   ///< Hz
-  double noise = 1.0;   ///< grey levels
+  double rate = 20.0;  ///< Hz
+  double noise = 1.0;  ///< grey levels
   urban_nav_core::testing::RenderCamera camera;
 };
 Sequence rendered(const RenderedOptions& options);
@@ -43,11 +44,11 @@ Parameters parametersFrom(const std::vector<std::string>& settings);
 /// What a filter made of a sequence; poses are of the left camera in that of frame 0.
 struct Run {
   std::vector<urban_nav_core::Pose> now, settled;
-  std::vector<urban_nav_core::Matrix6d> now_covariance, settled_covariance, relative_covariance,
-      drift_covariance;
+  std::vector<urban_nav_core::Matrix6d> now_covariance, settled_covariance, relative_covariance, drift_covariance;
   std::vector<Statistics> statistics;
   std::vector<urban_nav_core::Status> status;
-  std::vector<double> ms;  ///< of process(), images already decoded: time of the processor, so that what else runs does not count
+  std::vector<double>
+      ms;  ///< of process(), images already decoded: time of the processor, so that what else runs does not count
 };
 Run run(const Sequence& sequence, const Parameters& parameters);
 
@@ -59,7 +60,8 @@ struct SpanErrors {
   double percent = 0.0;
   double deg_per_m = 0.0;
 };
-SpanErrors spanErrors(const std::vector<urban_nav_core::Pose>& truth, const std::vector<urban_nav_core::Pose>& estimate, std::size_t span);
+SpanErrors spanErrors(const std::vector<urban_nav_core::Pose>& truth, const std::vector<urban_nav_core::Pose>& estimate,
+                      std::size_t span);
 double stepRatio(const std::vector<urban_nav_core::Pose>& truth, const std::vector<urban_nav_core::Pose>& estimate);
 double quantile(std::vector<double> values, double q);
 

@@ -15,14 +15,14 @@ enum class Reason : int {
   TooFewFeatures,  ///< fewer matches than the parameters ask for
   Dark,            ///< an image without light or contrast
   Blurred,         ///< far less sharp than the frames before
-  Frozen,          ///< the same pixels as the frame before while the other evidence says otherwise, or in one camera only
-  Swapped,         ///< left and right exchanged (disparities are negative), or rows that do not agree
-  ExposureJump,    ///< brightness changed by more than matching bears
-  ImageMissing,    ///< left, right or both did not come
-  BadStamp,        ///< equal to or earlier than the last one: the frame is counted and dropped
-  Gap,             ///< far more time since the last frame than between the frames before
-  Inconsistent,    ///< matches do not agree with one rigid motion
-  NotObserved,     ///< some direction of the motion is held by the prediction alone
+  Frozen,        ///< the same pixels as the frame before while the other evidence says otherwise, or in one camera only
+  Swapped,       ///< left and right exchanged (disparities are negative), or rows that do not agree
+  ExposureJump,  ///< brightness changed by more than matching bears
+  ImageMissing,  ///< left, right or both did not come
+  BadStamp,      ///< equal to or earlier than the last one: the frame is counted and dropped
+  Gap,           ///< far more time since the last frame than between the frames before
+  Inconsistent,  ///< matches do not agree with one rigid motion
+  NotObserved,   ///< some direction of the motion is held by the prediction alone
 };
 const char* toString(Reason reason);
 
@@ -46,14 +46,14 @@ struct Landmark {
 
 /// Figures of one frame. Times are measured by the caller: a core reads no clock.
 struct Statistics {
-  int corners = 0;                ///< FAST corners found in the left image, all levels
-  int features = 0;               ///< features observed in this frame, new ones included
-  int tracked = 0;                ///< of these, known from earlier frames and trusted
-  double track_length_mean = 0.0; ///< frames, over the features of this frame
-  double reprojection_px = 0.0;   ///< root mean square distance in the left image after the update
+  int corners = 0;                 ///< FAST corners found in the left image, all levels
+  int features = 0;                ///< features observed in this frame, new ones included
+  int tracked = 0;                 ///< of these, known from earlier frames and trusted
+  double track_length_mean = 0.0;  ///< frames, over the features of this frame
+  double reprojection_px = 0.0;    ///< root mean square distance in the left image after the update
   int iterations = 0;
-  int landmarks = 0;              ///< in the window
-  int landmarks_in_prior = 0;     ///< of these, tied to frames that have left the window
+  int landmarks = 0;                       ///< in the window
+  int landmarks_in_prior = 0;              ///< of these, tied to frames that have left the window
   double disparity_offset_px = 0.0;        ///< of the camera, as estimated by now: what its calibration left
   double disparity_offset_sigma_px = 0.0;  ///< its standard deviation; 0 where it is not estimated
 };
@@ -62,14 +62,14 @@ struct Statistics {
 struct Settled {
   FrameId frame = 0;
   urban_nav_core::StampNs stamp = 0;
-  urban_nav_core::UncertainPose T_odom_base;    ///< covariance: of T_first_base in the axes of the first pose
-  urban_nav_core::RelativePose from_previous;   ///< to the settled pose before; from == to for the very first frame
+  urban_nav_core::UncertainPose T_odom_base;   ///< covariance: of T_first_base in the axes of the first pose
+  urban_nav_core::RelativePose from_previous;  ///< to the settled pose before; from == to for the very first frame
   /// WARNING: covariances of from_previous are right one by one, and neighbours are correlated: composed as if independent they
   /// are 5 to 50 times too large over 100 steps. This is the part that adds up. The covariance of a way of many steps is
   /// that composed of their drifts, with half of from_previous.covariance added to the first and to the last. The error of the
   /// disparity offset is one and the same in all steps, so it is not in here: T_odom_base's covariance has it.
   urban_nav_core::Matrix6d drift_covariance = urban_nav_core::Matrix6d::Zero();
-  urban_nav_core::Status status;                ///< as it was when the frame came
+  urban_nav_core::Status status;  ///< as it was when the frame came
 };
 
 /// How base_link moves, in its own axes: m/s, then rad/s.
@@ -82,12 +82,12 @@ struct Velocity {
 struct Frame {
   FrameId frame = 0;
   urban_nav_core::StampNs stamp = 0;
-  bool accepted = true;                         ///< false: dropped because of its stamp; the pose is the last one
-  urban_nav_core::UncertainPose T_odom_base;    ///< now: all evidence up to this frame and none after it
-  Velocity velocity;                            ///< since the frame before; zero with a covariance of unknown motion in the first
+  bool accepted = true;                       ///< false: dropped because of its stamp; the pose is the last one
+  urban_nav_core::UncertainPose T_odom_base;  ///< now: all evidence up to this frame and none after it
+  Velocity velocity;  ///< since the frame before; zero with a covariance of unknown motion in the first
   urban_nav_core::Status status;
   Statistics statistics;
-  std::vector<Settled> settled;                 ///< those that left the window with this frame: none or one, more after flush
+  std::vector<Settled> settled;  ///< those that left the window with this frame: none or one, more after flush
   std::vector<Feature> features;
   std::vector<Landmark> landmarks;
 };

@@ -10,24 +10,24 @@ namespace swf_vo {
 /// What a user may want to change; one member per row of table(), which says what each means, its unit, range and
 /// default. The camera and the extrinsics are not here: they come with the data.
 struct Parameters {
-  int window;                       // frames
-  std::string forget;               // schur, delete
-  std::string linearise;            // first, latest
-  int features;                     // in an image of 512x384
-  double pixel_noise_floor;         // px
-  double disparity_offset;          // px, standard deviation of a state; 0: none
-  double huber;                     // standard deviations
-  int iterations;                   // Gauss-Newton steps a frame, at most
-  double acceleration;              // m/s^2, process noise without u
-  double angular_acceleration;      // rad/s^2
-  double search_radius;             // px
+  int window;                   // frames
+  std::string forget;           // schur, delete
+  std::string linearise;        // first, latest
+  int features;                 // in an image of 512x384
+  double pixel_noise_floor;     // px
+  double disparity_offset;      // px, standard deviation of a state; 0: none
+  double huber;                 // standard deviations
+  int iterations;               // Gauss-Newton steps a frame, at most
+  double acceleration;          // m/s^2, process noise without u
+  double angular_acceleration;  // rad/s^2
+  double search_radius;         // px
   int pyramid_levels;
-  int fast_threshold;               // grey levels
-  int lost_features;                // fewer inliers than this: prediction only
+  int fast_threshold;  // grey levels
+  int lost_features;   // fewer inliers than this: prediction only
   int degraded_features;
-  std::string motion_input;         // none, wheels, gyroscope: the input u
-  double wheel_noise;               // m/m and rad/rad
-  double gyro_noise;                // rad/s
+  std::string motion_input;  // none, wheels, gyroscope: the input u
+  double wheel_noise;        // m/m and rad/rad
+  double gyro_noise;         // rad/s
 
   Parameters();
 };

@@ -21,13 +21,15 @@ namespace swf_vo {
 class SwfVo {
  public:
   /// T_base_camera: the left optical frame in base_link. Throws UserError where parameters or camera contradict themselves.
-  SwfVo(const Parameters& parameters, const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_base_camera);
+  SwfVo(const Parameters& parameters, const urban_nav_core::StereoCamera& camera,
+        const urban_nav_core::Pose& T_base_camera);
   ~SwfVo();
   SwfVo(SwfVo&&) noexcept;
   SwfVo& operator=(SwfVo&&) noexcept;
 
   /// One stereo pair and the motion inputs that came since the last (may be empty). The result lives until the next call.
-  const Frame& process(const urban_nav_core::StereoPair& pair, const std::vector<urban_nav_core::MotionInput>& inputs = {});
+  const Frame& process(const urban_nav_core::StereoPair& pair,
+                       const std::vector<urban_nav_core::MotionInput>& inputs = {});
 
   /// Empties the window: the frames that were still in it leave as settled, oldest first. The filter cannot go on after it.
   std::vector<Settled> flush();

@@ -20,18 +20,19 @@ using urban_nav_core::StereoCamera;
 
 namespace {
 
-constexpr double reach = 3.0;              // px of the level
-constexpr int row_steps = 4;               // px of the level to both sides, searched where the template does not take hold at once
-constexpr double uniqueness = 0.85;        // best over second best, more than two pixels away
-constexpr double accepted_share = 0.75;    // of the patch's own contrast
-constexpr int longest_row = 1024;          // disparities of one search
+constexpr double reach = 3.0;  // px of the level
+constexpr int row_steps = 4;   // px of the level to both sides, searched where the template does not take hold at once
+constexpr double uniqueness = 0.85;      // best over second best, more than two pixels away
+constexpr double accepted_share = 0.75;  // of the patch's own contrast
+constexpr int longest_row = 1024;        // disparities of one search
 
 /// The place along a row where the template fits best to whole pixels.
 Eigen::Vector2d bestOnRow(Side side, const Corners& corners, const Track& track, const Eigen::Vector2d& around) {
   const ImageView& image = corners.image(side, track.level);
   const double scale = Pyramid::scale(track.level);
   const SadPatch patch = urban_nav_core::sadPatch(side == Side::Left ? track.in_left : track.in_right);
-  const int u = static_cast<int>(std::lround(around.x() * scale)), v = static_cast<int>(std::lround(around.y() * scale));
+  const int u = static_cast<int>(std::lround(around.x() * scale)),
+            v = static_cast<int>(std::lround(around.y() * scale));
   int best = std::numeric_limits<int>::max(), at = u;
   for (int i = u - row_steps; i <= u + row_steps; ++i) {
     if (!urban_nav_core::sadFits(image, i, v)) continue;
@@ -66,7 +67,8 @@ Best searchRow(const SadPatch& patch, const ImageView& image, int from, int to, 
 
 }  // namespace
 
-void matchAcross(const Corners& corners, const StereoCamera& camera, const Pose& T_camera_odom, std::vector<Match>& matches) {
+void matchAcross(const Corners& corners, const StereoCamera& camera, const Pose& T_camera_odom,
+                 std::vector<Match>& matches) {
   for (Match& match : matches) {
     if (match.track->level >= corners.levels()) continue;
     for (const Side side : {Side::Left, Side::Right}) {
@@ -74,12 +76,14 @@ void matchAcross(const Corners& corners, const StereoCamera& camera, const Pose&
       const Sighting& other = side == Side::Left ? match.right : match.left;
       if (mine.found) continue;
       const auto projected = projectInto(side, camera, T_camera_odom, match.p_odom);
-      const auto partner = projectInto(side == Side::Left ? Side::Right : Side::Left, camera, T_camera_odom, match.p_odom);
+      const auto partner =
+          projectInto(side == Side::Left ? Side::Right : Side::Left, camera, T_camera_odom, match.p_odom);
       if (!projected || !partner || !prepareTemplate(side, camera, T_camera_odom, match)) continue;
       // What the sighting in the other image is off by is mostly the pose's error, and so common to both.
       const Eigen::Vector2d start = other.found ? Eigen::Vector2d(*projected + (other.pixel - *partner)) : *projected;
       mine = refine(side, corners, *match.track, start, reach);
-      if (!mine.found && other.found) mine = refine(side, corners, *match.track, bestOnRow(side, corners, *match.track, start), reach);
+      if (!mine.found && other.found)
+        mine = refine(side, corners, *match.track, bestOnRow(side, corners, *match.track, start), reach);
     }
   }
 }
@@ -93,7 +97,8 @@ std::optional<int> findDisparity(const ImageView& left, const ImageView& right, 
   if (to <= from) return std::nullopt;
   const Best forth = searchRow(patch, right, from, to, v);
   if (forth.sad > accepted_share * contrast || forth.sad > uniqueness * forth.second) return std::nullopt;
-  const Best back = searchRow(urban_nav_core::sadPatch(right, forth.u, v), left, std::max(4, forth.u + lowest), std::min(left.width - 4, forth.u + highest), v);
+  const Best back = searchRow(urban_nav_core::sadPatch(right, forth.u, v), left, std::max(4, forth.u + lowest),
+                              std::min(left.width - 4, forth.u + highest), v);
   if (std::abs(back.u - u) > 1) return std::nullopt;
   return u - forth.u;
 }

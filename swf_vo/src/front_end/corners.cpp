@@ -16,8 +16,14 @@ constexpr int lowest_threshold = 4, highest_threshold = 60;
 }  // namespace
 
 Corners::Corners(int levels, int top, int threshold, int features)
-    : levels_(levels), top_(std::max(top, levels - 1)), features_(features), left_(top_ + 1, levels), right_(top_ + 1, levels) {
-  for (Eye* eye : {&left_, &right_}) std::fill(eye->thresholds.begin(), eye->thresholds.end(), std::clamp(threshold, lowest_threshold, highest_threshold));
+    : levels_(levels),
+      top_(std::max(top, levels - 1)),
+      features_(features),
+      left_(top_ + 1, levels),
+      right_(top_ + 1, levels) {
+  for (Eye* eye : {&left_, &right_})
+    std::fill(eye->thresholds.begin(), eye->thresholds.end(),
+              std::clamp(threshold, lowest_threshold, highest_threshold));
 }
 
 void Corners::extract(const StereoPair& pair) {

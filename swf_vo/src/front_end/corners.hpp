@@ -27,12 +27,17 @@ class Corners {
   /// The smallest level of the pyramids.
   int top() const { return std::min(top_, left_.pyramid.levels() - 1); }
   const urban_nav_core::ImageView& image(Side side, int level) const { return of(side).pyramid.level(level); }
-  const urban_nav_core::CornerGrid& at(Side side, int level) const { return of(side).grids[static_cast<std::size_t>(level)]; }
+  const urban_nav_core::CornerGrid& at(Side side, int level) const {
+    return of(side).grids[static_cast<std::size_t>(level)];
+  }
   int count(Side side) const;
 
  private:
   struct Eye {
-    Eye(int pyramid_levels, int corner_levels) : pyramid(pyramid_levels), grids(static_cast<std::size_t>(corner_levels)), thresholds(static_cast<std::size_t>(corner_levels)) {}
+    Eye(int pyramid_levels, int corner_levels)
+        : pyramid(pyramid_levels),
+          grids(static_cast<std::size_t>(corner_levels)),
+          thresholds(static_cast<std::size_t>(corner_levels)) {}
     urban_nav_core::Pyramid pyramid;
     std::vector<urban_nav_core::CornerGrid> grids;
     std::vector<int> thresholds;

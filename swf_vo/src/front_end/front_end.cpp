@@ -36,8 +36,8 @@ constexpr double slope_share = 0.1;
 // Of the error of a disparity a part stays the same as long as the landmark lives (that of its slope, and of what else is in its patch): about
 // as much as the floor. However many measurements there are, up to this many, their mean is no better.
 constexpr int longest_average = 30;
-constexpr double least_two_eyed = 0.3;            // share of the inliers
-constexpr int most_missed = 3, most_missed_young = 1;  // frames
+constexpr double least_two_eyed = 0.3;                                              // share of the inliers
+constexpr int most_missed = 3, most_missed_young = 1;                               // frames
 constexpr int disagreements_refute = 2, disagreements_refute_young = 1, young = 3;  // frames
 
 int featuresIn(const StereoCamera& camera, int features) {
@@ -58,7 +58,8 @@ class FrontEnd::Implementation {
   Implementation(const Parameters& parameters, const StereoCamera& camera)
       : parameters_(parameters),
         camera_(camera),
-        corners_(parameters.pyramid_levels, topLevel(camera.left.width), parameters.fast_threshold, featuresIn(camera, parameters.features)),
+        corners_(parameters.pyramid_levels, topLevel(camera.left.width), parameters.fast_threshold,
+                 featuresIn(camera, parameters.features)),
         rotation_(camera.left),
         capacity_(4 * featuresIn(camera, parameters.features)),
         localiser_(camera_, capacity_),
@@ -77,8 +78,8 @@ class FrontEnd::Implementation {
     result_.refuted.reserve(capacity);
   }
 
-  const FrontEndResult& process(FrameId frame, const StereoPair& pair, const Pose& last, const Pose& predicted, const std::vector<MapPoint>& map,
-                                double disparity_offset) {
+  const FrontEndResult& process(FrameId frame, const StereoPair& pair, const Pose& last, const Pose& predicted,
+                                const std::vector<MapPoint>& map, double disparity_offset) {
     clear(predicted);
     camera_.disparity_offset = disparity_offset;
     if (!isPair(pair)) return result_;
@@ -125,7 +126,8 @@ class FrontEnd::Implementation {
       const double depth = (T_last_odom.q() * match.p_odom.head<3>() + T_last_odom.t() * match.p_odom.w()).z();
       parallax_.push_back({*pixel, T_now_last.t() * (match.p_odom.w() / depth)});
     }
-    const RotationEstimate seen = rotation_.track(corners_.image(Side::Left, corners_.top()), corners_.top(), T_now_last.q(), parallax_);
+    const RotationEstimate seen =
+        rotation_.track(corners_.image(Side::Left, corners_.top()), corners_.top(), T_now_last.q(), parallax_);
     if (!seen.found) return predicted.inverse();
     // The camera stays where it was predicted to be and is turned there.
     const Quaterniond correction = seen.q_now_last * T_now_last.q().inverse();
@@ -142,7 +144,8 @@ class FrontEnd::Implementation {
       if (match.track != nullptr && point.p_odom.allFinite()) matches_.push_back(match);
       else result_.ended.push_back(point.landmark);
     }
-    std::sort(matches_.begin(), matches_.end(), [](const Match& a, const Match& b) { return a.track->id < b.track->id; });
+    std::sort(matches_.begin(), matches_.end(),
+              [](const Match& a, const Match& b) { return a.track->id < b.track->id; });
     std::size_t next = 0;
     orphans_.clear();
     for (int i = 0; i < tracks_.size(); ++i) {
@@ -175,7 +178,8 @@ class FrontEnd::Implementation {
     if (errors_.empty()) return;
     const auto quantile = errors_.begin() + static_cast<std::ptrdiff_t>(errors_.size() * 9 / 10);
     std::nth_element(errors_.begin(), quantile, errors_.end());
-    radius_ = std::clamp(radius_per_error * *quantile + radius_offset, std::min(least_radius, parameters_.search_radius), parameters_.search_radius);
+    radius_ = std::clamp(radius_per_error * *quantile + radius_offset,
+                         std::min(least_radius, parameters_.search_radius), parameters_.search_radius);
   }
 
   void locate(const Pose& T_turned_odom, const Pose& T_predicted_odom) {
@@ -218,7 +222,8 @@ class FrontEnd::Implementation {
 
   void dropMisfits(Match& match) {
     for (Sighting* sighting : {&match.left, &match.right})
-      if (sighting->found && !misfit_[static_cast<std::size_t>(match.track->level)].isUsual(sighting->noise)) *sighting = Sighting();
+      if (sighting->found && !misfit_[static_cast<std::size_t>(match.track->level)].isUsual(sighting->noise))
+        *sighting = Sighting();
   }
 
   /// Do most matches live in one image although the other has something to show? Then the two images are no pair (swapped, or of
@@ -227,7 +232,8 @@ class FrontEnd::Implementation {
     int both = 0;
     for (const Match& match : matches_) both += match.inlier && match.left.found && match.right.found ? 1 : 0;
     const int enough = static_cast<int>(matches_.size());
-    return both < least_two_eyed * inliers && corners_.count(Side::Left) > enough && corners_.count(Side::Right) > enough;
+    return both < least_two_eyed * inliers && corners_.count(Side::Left) > enough &&
+           corners_.count(Side::Right) > enough;
   }
 
   /// What this frame says of a landmark's future.
@@ -261,14 +267,16 @@ class FrontEnd::Implementation {
   /// What was not measured gets its predicted value, so that a measurement can be drawn; its information stays zero.
   void fillIn(Match& match) const {
     const Pose T_camera_odom = result_.T_odom_camera.inverse();
-    const auto left = projectInto(Side::Left, camera_, T_camera_odom, match.p_odom), right = projectInto(Side::Right, camera_, T_camera_odom, match.p_odom);
+    const auto left = projectInto(Side::Left, camera_, T_camera_odom, match.p_odom),
+               right = projectInto(Side::Right, camera_, T_camera_odom, match.p_odom);
     if (!match.left.found && left) match.z.x() = left->x();
     if (!match.right.found && right) match.z.z() = right->x();
   }
 
   bool isInView(const Match& match) const {
     const auto pixel = projectInto(Side::Left, camera_, result_.T_odom_camera.inverse(), match.p_odom);
-    return pixel && pixel->x() > 0.0 && pixel->y() > 0.0 && pixel->x() < camera_.left.width && pixel->y() < camera_.left.height;
+    return pixel && pixel->x() > 0.0 && pixel->y() > 0.0 && pixel->x() < camera_.left.width &&
+           pixel->y() < camera_.left.height;
   }
 
   Parameters parameters_;

@@ -14,16 +14,17 @@ namespace swf_vo {
 
 /// What the front end made of one stereo pair (Newman et al. 2009, section 2.4).
 struct FrontEndResult {
-  std::vector<Observation> tracked;      ///< of landmarks that were handed in, outliers removed
-  std::vector<Observation> fresh;        ///< first observations of new landmarks, with new ids
-  std::vector<LandmarkId> ended;         ///< landmarks that will not be looked for again
-  std::vector<LandmarkId> refuted;       ///< landmarks that move or were matched wrongly: also earlier measurements should be withdrawn
-  urban_nav_core::Pose T_odom_camera;    ///< by m-estimation over the matches; the prediction if there were too few
-  bool localised = false;                ///< T_odom_camera comes from matches, not from the prediction
-  int corners = 0;                       ///< FAST corners in the left image
-  int candidates = 0;                    ///< matches before outliers were removed
+  std::vector<Observation> tracked;  ///< of landmarks that were handed in, outliers removed
+  std::vector<Observation> fresh;    ///< first observations of new landmarks, with new ids
+  std::vector<LandmarkId> ended;     ///< landmarks that will not be looked for again
+  std::vector<LandmarkId>
+      refuted;  ///< landmarks that move or were matched wrongly: also earlier measurements should be withdrawn
+  urban_nav_core::Pose T_odom_camera;  ///< by m-estimation over the matches; the prediction if there were too few
+  bool localised = false;              ///< T_odom_camera comes from matches, not from the prediction
+  int corners = 0;                     ///< FAST corners in the left image
+  int candidates = 0;                  ///< matches before outliers were removed
   double inlier_share = 0.0;
-  double reprojection_px = 0.0;          ///< of the inliers, root mean square in the left image
+  double reprojection_px = 0.0;  ///< of the inliers, root mean square in the left image
 };
 
 /// Images in, observations out: knows pixels and a predicted pose, no covariance of poses, no window.
@@ -36,7 +37,8 @@ class FrontEnd {
   /// `map`: the landmarks of the window that are still being followed. `disparity_offset`: of the camera, as the window has it now (px).
   /// The result lives until the next call.
   const FrontEndResult& process(FrameId frame, const urban_nav_core::StereoPair& pair, const urban_nav_core::Pose& last,
-                                const urban_nav_core::Pose& predicted, const std::vector<MapPoint>& map, double disparity_offset);
+                                const urban_nav_core::Pose& predicted, const std::vector<MapPoint>& map,
+                                double disparity_offset);
 
  private:
   class Implementation;

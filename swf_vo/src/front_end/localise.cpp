@@ -21,8 +21,8 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
-constexpr double cauchy2 = 5.7;       // (2.385 sigma)^2: 95 % efficiency, Zhang 1997
-constexpr double gate = 16.3;         // chi-square, 3 degrees of freedom, 99.9 %
+constexpr double cauchy2 = 5.7;  // (2.385 sigma)^2: 95 % efficiency, Zhang 1997
+constexpr double gate = 16.3;    // chi-square, 3 degrees of freedom, 99.9 %
 constexpr int most_steps = 12;
 constexpr int samples = 24;
 constexpr double prediction_bonus = 0.9;  // a start that was found by consensus must be better by more than this
@@ -33,7 +33,8 @@ constexpr double full_trust_age = 6.0;    // frames
 constexpr double anchor_m = 1.0, anchor_rad = 0.2;
 
 /// A landmark seen in one frame has the error of its first disparity, which shows as the camera moves; it averages out.
-Eigen::Matrix3d mapCovariance(const StereoCamera& camera, const Track& track, const Pose& T_camera_odom, double inverse_depth) {
+Eigen::Matrix3d mapCovariance(const StereoCamera& camera, const Track& track, const Pose& T_camera_odom,
+                              double inverse_depth) {
   const Pose T_camera_born = T_camera_odom * track.T_born_odom.inverse();
   const double per_px = 1.0 / (camera.left.fx * camera.baseline);
   const Eigen::Vector3d p = T_camera_born.q() * track.ray + T_camera_born.t() * inverse_depth;
@@ -73,7 +74,8 @@ void Localiser::prepare(const Pose& T_camera_odom, const LocaliseOptions& option
   }
 }
 
-bool Localiser::residual(const Item& item, const Pose& T_camera_odom, Eigen::Vector3d& e, Eigen::Matrix<double, 3, 6>* J) const {
+bool Localiser::residual(const Item& item, const Pose& T_camera_odom, Eigen::Vector3d& e,
+                         Eigen::Matrix<double, 3, 6>* J) const {
   const auto& c = camera_.left;
   const double w = item.p_odom.w();
   const Eigen::Vector3d p = T_camera_odom.q() * item.p_odom.head<3>() + T_camera_odom.t() * w;
@@ -152,7 +154,8 @@ Pose Localiser::bestByConsensus(const Pose& start, double& best_cost) const {
   return best;
 }
 
-Localisation Localiser::locate(const std::vector<Pose>& starts, const LocaliseOptions& options, std::vector<Match>& matches) {
+Localisation Localiser::locate(const std::vector<Pose>& starts, const LocaliseOptions& options,
+                               std::vector<Match>& matches) {
   Localisation result;
   result.T_camera_odom = starts.front();
   prepare(starts.front(), options, matches);

@@ -12,15 +12,16 @@ namespace swf_vo {
 
 struct Localisation {
   urban_nav_core::Pose T_camera_odom;
-  bool found = false;            ///< enough matches agree; else the pose is the first start's
+  bool found = false;  ///< enough matches agree; else the pose is the first start's
   int candidates = 0, inliers = 0;
   double reprojection_px = 0.0;  ///< of the inliers, root mean square in the left image
 };
 
 struct LocaliseOptions {
-  double slack_px = 0.1;   ///< added to the standard deviation of each coordinate: what the map and the match are wrong by beyond what they say
+  double slack_px =
+      0.1;  ///< added to the standard deviation of each coordinate: what the map and the match are wrong by beyond what they say
   int least_inliers = 8;
-  bool consensus = true;   ///< also tries motions through few matches, for when the starts given are all wrong
+  bool consensus = true;  ///< also tries motions through few matches, for when the starts given are all wrong
 };
 
 /// Step (iv) of section 2.4: the camera's pose by an m-estimator over the measured matches, with the error of a landmark's first
@@ -30,9 +31,12 @@ struct LocaliseOptions {
 class Localiser {
  public:
   /// The camera must outlive it, and may learn its disparity offset. `capacity`: of matches, for which memory is taken at once.
-  explicit Localiser(const urban_nav_core::StereoCamera& camera, int capacity = 0) : camera_(camera) { items_.reserve(static_cast<std::size_t>(capacity)); }
+  explicit Localiser(const urban_nav_core::StereoCamera& camera, int capacity = 0) : camera_(camera) {
+    items_.reserve(static_cast<std::size_t>(capacity));
+  }
 
-  Localisation locate(const std::vector<urban_nav_core::Pose>& T_camera_odom_starts, const LocaliseOptions& options, std::vector<Match>& matches);
+  Localisation locate(const std::vector<urban_nav_core::Pose>& T_camera_odom_starts, const LocaliseOptions& options,
+                      std::vector<Match>& matches);
 
  private:
   static constexpr int sample_size = 3;  // three points in stereo fix a motion with some to spare
@@ -43,9 +47,12 @@ class Localiser {
     double trust;
     int match;
   };
-  void prepare(const urban_nav_core::Pose& T_camera_odom, const LocaliseOptions& options, const std::vector<Match>& matches);
-  bool residual(const Item& item, const urban_nav_core::Pose& T_camera_odom, Eigen::Vector3d& e, Eigen::Matrix<double, 3, 6>* J) const;
-  urban_nav_core::Pose descend(urban_nav_core::Pose T_camera_odom, int steps, const std::array<int, sample_size>* only) const;
+  void prepare(const urban_nav_core::Pose& T_camera_odom, const LocaliseOptions& options,
+               const std::vector<Match>& matches);
+  bool residual(const Item& item, const urban_nav_core::Pose& T_camera_odom, Eigen::Vector3d& e,
+                Eigen::Matrix<double, 3, 6>* J) const;
+  urban_nav_core::Pose descend(urban_nav_core::Pose T_camera_odom, int steps,
+                               const std::array<int, sample_size>* only) const;
   double cost(const urban_nav_core::Pose& T_camera_odom) const;
   urban_nav_core::Pose bestByConsensus(const urban_nav_core::Pose& start, double& best_cost) const;
 

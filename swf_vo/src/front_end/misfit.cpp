@@ -20,7 +20,8 @@ bool Misfit::isUsual(double noise) {
   if (count_ < enough) return true;
   if (limit_ == 0.0 || count_ % renewal == 0) {
     const std::size_t known = std::min(count_, size);
-    const auto end = sorted_.begin() + static_cast<std::ptrdiff_t>(known), middle = sorted_.begin() + static_cast<std::ptrdiff_t>(known / 2);
+    const auto end = sorted_.begin() + static_cast<std::ptrdiff_t>(known),
+               middle = sorted_.begin() + static_cast<std::ptrdiff_t>(known / 2);
     std::copy_n(recent_.begin(), known, sorted_.begin());
     std::nth_element(sorted_.begin(), middle, end);
     const double median = *middle;

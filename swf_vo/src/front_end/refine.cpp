@@ -15,17 +15,18 @@ using urban_nav_core::StereoCamera;
 namespace {
 
 constexpr double largest_scale = 1.5, smallest_scale = 0.6;
-constexpr double same_warp = 0.02;  // of an entry: 0.1 px at the border of the window
-constexpr double row_gate = 9.0;    // chi-square of the difference of the rows, one degree of freedom
+constexpr double same_warp = 0.02;    // of an entry: 0.1 px at the border of the window
+constexpr double row_gate = 9.0;      // chi-square of the difference of the rows, one degree of freedom
 constexpr double row_slack_px = 0.3;  // what rectification may be wrong by
-constexpr double further = 1.4;         // a slant is learnt anew each time the camera has moved so much further
-constexpr double steepest = 20.0;       // change of a surface's slant in one step, tangent
+constexpr double further = 1.4;       // a slant is learnt anew each time the camera has moved so much further
+constexpr double steepest = 20.0;     // change of a surface's slant in one step, tangent
 constexpr double least_gain = 0.2, largest_gain = 5.0;
 
 }  // namespace
 
 double inverseDepthWhereBorn(const Match& match) {
-  const Eigen::Vector3d p = match.track->T_born_odom.q() * match.p_odom.head<3>() + match.track->T_born_odom.t() * match.p_odom.w();
+  const Eigen::Vector3d p =
+      match.track->T_born_odom.q() * match.p_odom.head<3>() + match.track->T_born_odom.t() * match.p_odom.w();
   return p.z() > 1e-9 ? match.p_odom.w() / p.z() : 0.0;
 }
 
@@ -38,7 +39,8 @@ bool prepareTemplate(Side side, const StereoCamera& camera, const Pose& T_camera
   if (!(area > smallest_scale * smallest_scale && area < largest_scale * largest_scale)) return false;
   const bool is_left = side == Side::Left;
   PatchTemplate &made = is_left ? track.in_left : track.in_right, &others = is_left ? track.in_right : track.in_left;
-  bool &ready = is_left ? track.left_ready : track.right_ready, &others_ready = is_left ? track.right_ready : track.left_ready;
+  bool &ready = is_left ? track.left_ready : track.right_ready,
+       &others_ready = is_left ? track.right_ready : track.left_ready;
   const auto serves = [&](const PatchTemplate& patch) { return (patch.A - *A).cwiseAbs().maxCoeff() < same_warp; };
   if (ready && serves(made)) return true;
   // What is seen from the front looks the same to both eyes.
@@ -53,7 +55,8 @@ Sighting refine(Side side, const Corners& corners, const Track& track, const Eig
   const double size = 1.0 / urban_nav_core::Pyramid::scale(track.level);
   const PatchTemplate& made = side == Side::Left ? track.in_left : track.in_right;
   const Alignment a = urban_nav_core::alignPatch(corners.image(side, track.level), made, start / size, reach);
-  if (!a.converged || a.correlation < least_correlation || a.gain < least_gain || a.gain > largest_gain) return sighting;
+  if (!a.converged || a.correlation < least_correlation || a.gain < least_gain || a.gain > largest_gain)
+    return sighting;
   sighting.found = true;
   sighting.pixel = a.position * size;
   sighting.covariance = a.covariance * (size * size);
@@ -66,18 +69,21 @@ Sighting refine(Side side, const Corners& corners, const Track& track, const Eig
 void learnSurface(const Corners& corners, const StereoCamera& camera, const Pose& T_camera_odom, Match& match) {
   Track& track = *match.track;
   const double inverse_depth = inverseDepthWhereBorn(match);
-  const Eigen::Vector2d direction = slantDirection(camera, track, T_camera_odom * track.T_born_odom.inverse(), inverse_depth);
+  const Eigen::Vector2d direction =
+      slantDirection(camera, track, T_camera_odom * track.T_born_odom.inverse(), inverse_depth);
   if (!match.left.found || !track.left_ready || !(direction.norm() > further * track.slant_reach)) return;
   Alignment alignment;
   alignment.converged = true;
   alignment.position = match.left.pixel * urban_nav_core::Pyramid::scale(track.level);
   alignment.gain = match.left.gain;
   alignment.noise = match.left.noise;
-  const urban_nav_core::Slant slant = urban_nav_core::refineSlant(corners.image(Side::Left, track.level), track.source, track.in_left, alignment, direction,
-                                                                  track.slant_information);
+  const urban_nav_core::Slant slant =
+      urban_nav_core::refineSlant(corners.image(Side::Left, track.level), track.source, track.in_left, alignment,
+                                  direction, track.slant_information);
   track.slant_reach = direction.norm();
   const double at_ray = track.plane.dot(track.ray);
-  if (!(slant.change.norm() < steepest * std::max(inverse_depth, 1e-3)) || !(at_ray > 1e-9) || !(inverse_depth > 0.0)) return;
+  if (!(slant.change.norm() < steepest * std::max(inverse_depth, 1e-3)) || !(at_ray > 1e-9) || !(inverse_depth > 0.0))
+    return;
   track.plane *= inverse_depth / at_ray;
   const Eigen::Vector2d change(slant.change.x(), slant.change.y() * camera.left.fy / camera.left.fx);
   track.plane += Eigen::Vector3d(change.x(), change.y(), -change.dot(track.ray.head<2>()));
@@ -86,7 +92,8 @@ void learnSurface(const Corners& corners, const StereoCamera& camera, const Pose
 
 Eigen::Matrix2d creep(const StereoCamera& camera, const Pose& T_camera_odom, Match& match) {
   Track& track = *match.track;
-  const auto A = warpInto(Side::Left, camera, track, T_camera_odom * track.T_born_odom.inverse(), inverseDepthWhereBorn(match));
+  const auto A =
+      warpInto(Side::Left, camera, track, T_camera_odom * track.T_born_odom.inverse(), inverseDepthWhereBorn(match));
   if (!A || !A->allFinite() || !(std::abs(A->determinant()) > 1e-3)) return Eigen::Matrix2d::Zero();
   const double change = (*A * track.seen_as.inverse() - Eigen::Matrix2d::Identity()).norm();
   track.seen_as = *A;

@@ -8,24 +8,28 @@
 
 namespace swf_vo {
 
-inline constexpr double least_correlation = 0.8;  ///< of a patch with its template, below which it is not the same thing
+inline constexpr double least_correlation =
+    0.8;  ///< of a patch with its template, below which it is not the same thing
 
 /// 1/z of the landmark in the camera that first saw it, by the map of now.
 double inverseDepthWhereBorn(const Match& match);
 
 /// Makes the track's template for one image ready for a camera pose; false if it is seen too large, too small or too slanted.
-bool prepareTemplate(Side side, const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_camera_odom, Match& match);
+bool prepareTemplate(Side side, const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_camera_odom,
+                     Match& match);
 
 /// Aligns the template that was made ready to the image from `start` (px of level 0), at most `reach` px of its level.
 Sighting refine(Side side, const Corners& corners, const Track& track, const Eigen::Vector2d& start, double reach);
 
 /// Learns how the landmark's surface slants from its sighting in the left image, once the camera has moved far enough since this was
 /// done last. The templates must be those of the sighting.
-void learnSurface(const Corners& corners, const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_camera_odom, Match& match);
+void learnSurface(const Corners& corners, const urban_nav_core::StereoCamera& camera,
+                  const urban_nav_core::Pose& T_camera_odom, Match& match);
 
 /// By how much what the template stands for may have crept over its surface since it was last trusted (Observation::wander), by the change of
 /// the left view from then to T_camera_odom, which is noted.
-Eigen::Matrix2d creep(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_camera_odom, Match& match);
+Eigen::Matrix2d creep(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_camera_odom,
+                      Match& match);
 
 /// Adds a covariance that both images share, and a variance of the disparity (px^2), to a measurement.
 void loosen(const Eigen::Matrix2d& covariance, double of_disparity, Match& match);

@@ -22,15 +22,15 @@ using urban_nav_core::StereoCamera;
 
 namespace {
 
-constexpr double slack = 2.0;                 // of the quadtree
-constexpr double largest_disparity = 0.16;    // of the image's width: nearer things pass too fast to be of use
-constexpr int lowest_disparity = -2;          // px of the level: far points, with the error of rectification
-constexpr double least_disparity_px = -1.0;   // after refinement, level 0
-constexpr float level_preference = 0.3F;      // a feature is located to pixels of its own level
+constexpr double slack = 2.0;                // of the quadtree
+constexpr double largest_disparity = 0.16;   // of the image's width: nearer things pass too fast to be of use
+constexpr int lowest_disparity = -2;         // px of the level: far points, with the error of rectification
+constexpr double least_disparity_px = -1.0;  // after refinement, level 0
+constexpr float level_preference = 0.3F;     // a feature is located to pixels of its own level
 // Disparity of a plane slopes by baseline / (its distance from the camera): planes at 2 m and more are provided for, a road seen from
 // a car has 0.3. Most corners lie on things whose depth changes less than by their width.
 constexpr double nearest_plane = 2.0, steepest = 0.25, usual_slant = 0.7;
-constexpr double same_row = 1.0;              // px of the level between the rows of both images
+constexpr double same_row = 1.0;  // px of the level between the rows of both images
 constexpr double least_correlation_across = 0.85;
 // As the view changes, a template weighs its pixels anew, and where it stands creeps: by the error it was born with (its noise, and what the
 // surface is beside a plane, creep_px), in variance, times this for a change of one. Measured in rendered rooms at 1 and 6 grey levels of
@@ -60,8 +60,11 @@ void Replenisher::gather(const Corners& corners) {
     const ImageView& image = corners.image(Side::Left, level);
     for (const auto& corner : corners.at(Side::Left, level).corners()) {
       if (!spread_.mayAdd(corner.u << level, corner.v << level)) continue;
-      if (corner.u < kHarrisMargin || corner.v < kHarrisMargin || corner.u >= image.width - kHarrisMargin || corner.v >= image.height - kHarrisMargin) continue;
-      candidates_.push_back({level, corner.u, corner.v, weight * urban_nav_core::gradientMatrix(image, corner.u, corner.v).harris()});
+      if (corner.u < kHarrisMargin || corner.v < kHarrisMargin || corner.u >= image.width - kHarrisMargin ||
+          corner.v >= image.height - kHarrisMargin)
+        continue;
+      candidates_.push_back(
+          {level, corner.u, corner.v, weight * urban_nav_core::gradientMatrix(image, corner.u, corner.v).harris()});
     }
   }
   std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
@@ -71,8 +74,8 @@ void Replenisher::gather(const Corners& corners) {
   });
 }
 
-bool Replenisher::start(const Candidate& candidate, FrameId frame, const Corners& corners, const Pose& T_odom_camera, Tracks& tracks,
-                        std::vector<Observation>& fresh) {
+bool Replenisher::start(const Candidate& candidate, FrameId frame, const Corners& corners, const Pose& T_odom_camera,
+                        Tracks& tracks, std::vector<Observation>& fresh) {
   const ImageView& left = corners.image(Side::Left, candidate.level);
   const ImageView& right = corners.image(Side::Right, candidate.level);
   const int offset = static_cast<int>(std::lround(camera_.disparity_offset * Pyramid::scale(candidate.level)));
@@ -85,18 +88,22 @@ bool Replenisher::start(const Candidate& candidate, FrameId frame, const Corners
   if (track == nullptr) return false;
   urban_nav_core::SlopePrior prior;
   prior.wide_sigma = std::min(steepest, camera_.baseline / nearest_plane);
-  prior.usual_sigma = std::min(prior.wide_sigma, usual_slant * std::max(1.0, (*disparity - offset + 0.5) / Pyramid::scale(candidate.level)) / camera_.left.fx);
-  const SlopedAlignment found = urban_nav_core::alignAcross(right, *source, {candidate.u - *disparity, candidate.v}, prior, track->in_right);
+  prior.usual_sigma = std::min(
+      prior.wide_sigma,
+      usual_slant * std::max(1.0, (*disparity - offset + 0.5) / Pyramid::scale(candidate.level)) / camera_.left.fx);
+  const SlopedAlignment found =
+      urban_nav_core::alignAcross(right, *source, {candidate.u - *disparity, candidate.v}, prior, track->in_right);
   const double size = 1.0 / Pyramid::scale(candidate.level);
   Match match;
   match.left.found = match.right.found = true;
   match.left.pixel = size * Eigen::Vector2d(candidate.u, candidate.v);
   match.right.pixel = size * found.alignment.position;
-  const bool plausible = found.alignment.converged && found.alignment.correlation >= least_correlation_across &&
-                         std::abs(found.alignment.position.y() - candidate.v) <= same_row &&
-                         match.left.pixel.x() - match.right.pixel.x() - camera_.disparity_offset >= least_disparity_px &&
-                         misfit_[static_cast<std::size_t>(candidate.level)].isUsual(found.alignment.noise) &&
-                         urban_nav_core::warpTemplate(*source, Eigen::Matrix2d::Identity(), track->in_left);
+  const bool plausible =
+      found.alignment.converged && found.alignment.correlation >= least_correlation_across &&
+      std::abs(found.alignment.position.y() - candidate.v) <= same_row &&
+      match.left.pixel.x() - match.right.pixel.x() - camera_.disparity_offset >= least_disparity_px &&
+      misfit_[static_cast<std::size_t>(candidate.level)].isUsual(found.alignment.noise) &&
+      urban_nav_core::warpTemplate(*source, Eigen::Matrix2d::Identity(), track->in_left);
   if (plausible) {
     // the template's own noise is the left image's
     const double noise = std::max(found.alignment.noise, 0.3);
@@ -116,7 +123,8 @@ bool Replenisher::start(const Candidate& candidate, FrameId frame, const Corners
   track->slant_information = camera_.baseline * camera_.baseline * found.slopes_covariance.inverse();
   track->slant_reach = camera_.baseline;
   track->creep = creep_per_change * (match.left.covariance + creep_px * creep_px * Eigen::Matrix2d::Identity());
-  track->sigma_disparity = std::sqrt(match.left.covariance(0, 0) + match.right.covariance(0, 0) + 2.0 * floor_px_ * floor_px_);
+  track->sigma_disparity =
+      std::sqrt(match.left.covariance(0, 0) + match.right.covariance(0, 0) + 2.0 * floor_px_ * floor_px_);
   track->z = match.z;
   track->source = *source;
   track->left_ready = true;
@@ -125,8 +133,8 @@ bool Replenisher::start(const Candidate& candidate, FrameId frame, const Corners
   return true;
 }
 
-void Replenisher::replenish(FrameId frame, const Corners& corners, const Pose& T_odom_camera, const std::vector<Match>& matches, Tracks& tracks,
-                            std::vector<Observation>& fresh) {
+void Replenisher::replenish(FrameId frame, const Corners& corners, const Pose& T_odom_camera,
+                            const std::vector<Match>& matches, Tracks& tracks, std::vector<Observation>& fresh) {
   spread_.clear();
   for (const Match& match : matches)
     if (match.inlier && match.left.found) spread_.add(match.left.pixel.x(), match.left.pixel.y());

@@ -21,8 +21,8 @@ class Replenisher {
   Replenisher(const urban_nav_core::StereoCamera& camera, int features, double floor_px);
 
   /// `matches`: those that are inliers keep their place. Appends to `fresh`.
-  void replenish(FrameId frame, const Corners& corners, const urban_nav_core::Pose& T_odom_camera, const std::vector<Match>& matches,
-                 Tracks& tracks, std::vector<Observation>& fresh);
+  void replenish(FrameId frame, const Corners& corners, const urban_nav_core::Pose& T_odom_camera,
+                 const std::vector<Match>& matches, Tracks& tracks, std::vector<Observation>& fresh);
 
  private:
   struct Candidate {
@@ -30,8 +30,8 @@ class Replenisher {
     float score = 0.0F;
   };
   void gather(const Corners& corners);
-  bool start(const Candidate& candidate, FrameId frame, const Corners& corners, const urban_nav_core::Pose& T_odom_camera, Tracks& tracks,
-             std::vector<Observation>& fresh);
+  bool start(const Candidate& candidate, FrameId frame, const Corners& corners,
+             const urban_nav_core::Pose& T_odom_camera, Tracks& tracks, std::vector<Observation>& fresh);
 
   const urban_nav_core::StereoCamera& camera_;
   int features_;

@@ -17,10 +17,10 @@ using urban_nav_core::Vector3d;
 namespace {
 
 constexpr int most_steps = 10;
-constexpr double settled = 1e-4;      // rad
-constexpr double longest_step = 0.05; // rad
-constexpr int wanted_pixels = 1500;   // of which the sums are made
-constexpr int least_known = 20;       // landmarks, to do without the rest of the image
+constexpr double settled = 1e-4;       // rad
+constexpr double longest_step = 0.05;  // rad
+constexpr int wanted_pixels = 1500;    // of which the sums are made
+constexpr int least_known = 20;        // landmarks, to do without the rest of the image
 constexpr double improvement = 0.98;
 
 using Vector5 = Eigen::Matrix<float, 5, 1>;
@@ -29,7 +29,7 @@ using Matrix5 = Eigen::Matrix<float, 5, 5>;
 }  // namespace
 
 struct RotationTracker::Normal {
-  Matrix5 H = Matrix5::Zero();   // rotation, gain, offset
+  Matrix5 H = Matrix5::Zero();  // rotation, gain, offset
   Vector5 b = Vector5::Zero();
   float squares = 0.0F;
   int count = 0;
@@ -77,13 +77,15 @@ void RotationTracker::choose(int level, const std::vector<Parallax>& known) {
     const int skip = 1 + 9 * count / wanted_pixels;
     for (int i = 0; i < count; i += skip) {
       const Parallax& k = known[static_cast<std::size_t>(i)];
-      const int u = static_cast<int>(std::lround(k.pixel.x() * scale)), v = static_cast<int>(std::lround(k.pixel.y() * scale));
+      const int u = static_cast<int>(std::lround(k.pixel.x() * scale)),
+                v = static_cast<int>(std::lround(k.pixel.y() * scale));
       for (int dv = -2; dv <= 2; dv += 2)
         for (int du = -2; du <= 2; du += 2) add(u + du, v + dv, k.shift);
     }
     return;
   }
-  const int step = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(last_.width) * last_.height / wanted_pixels)));
+  const int step =
+      std::max(1, static_cast<int>(std::sqrt(static_cast<double>(last_.width) * last_.height / wanted_pixels)));
   for (int v = 2; v + 2 < last_.height; v += step)
     for (int u = 2; u + 2 < last_.width; u += step) add(u, v, Vector3d::Zero());
 }
@@ -109,11 +111,13 @@ RotationTracker::Normal RotationTracker::sum(int level, const Matrix3d& R) const
       return (1.0F - b) * ((1.0F - a) * m[i] + a * m[i + 1]) + b * ((1.0F - a) * m[i + w] + a * m[i + w + 1]);
     };
     // ESM: the mean of both gradients, which makes the step second order
-    const float gu = 0.5F * (at(now_.du) + last_.du[sample.at]) * fx * iz, gv = 0.5F * (at(now_.dv) + last_.dv[sample.at]) * fy * iz;
+    const float gu = 0.5F * (at(now_.du) + last_.du[sample.at]) * fx * iz,
+                gv = 0.5F * (at(now_.dv) + last_.dv[sample.at]) * fy * iz;
     const float gz = gu * x + gv * y;
     // e = now(R ray + shift) - last(ray) = J d + gain last + offset, where d is the rotation gone too far
     Vector5 J;
-    J << -(gv * turned.z() + gz * turned.y()), gu * turned.z() + gz * turned.x(), gv * turned.x() - gu * turned.y(), last_.grey[sample.at] - 128.0F, 1.0F;
+    J << -(gv * turned.z() + gz * turned.y()), gu * turned.z() + gz * turned.x(), gv * turned.x() - gu * turned.y(),
+        last_.grey[sample.at] - 128.0F, 1.0F;
     J.head<3>() = -J.head<3>();
     const float e = at(now_.grey) - last_.grey[sample.at];
     n.H.noalias() += J * J.transpose();
@@ -124,7 +128,8 @@ RotationTracker::Normal RotationTracker::sum(int level, const Matrix3d& R) const
   return n;
 }
 
-RotationEstimate RotationTracker::track(const ImageView& image, int level, const Quaterniond& start, const std::vector<Parallax>& known) {
+RotationEstimate RotationTracker::track(const ImageView& image, int level, const Quaterniond& start,
+                                        const std::vector<Parallax>& known) {
   RotationEstimate estimate;
   estimate.q_now_last = start;
   std::swap(last_, now_);

@@ -11,14 +11,15 @@ namespace swf_vo {
 
 struct RotationEstimate {
   urban_nav_core::Quaterniond q_now_last = urban_nav_core::Quaterniond::Identity();
-  bool found = false;          ///< descended to a lower difference than the start had; else q_now_last is the start
+  bool found = false;  ///< descended to a lower difference than the start had; else q_now_last is the start
   double before = 0.0, after = 0.0;  ///< root mean square difference at the start and the end, grey levels
 };
 
 /// A place of the last image whose depth is known, and what the predicted translation does to it.
 struct Parallax {
-  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();         ///< in the last image, px of level 0
-  urban_nav_core::Vector3d shift = urban_nav_core::Vector3d::Zero();  ///< t_now_last / depth, so that its ray becomes R ray + shift
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  ///< in the last image, px of level 0
+  urban_nav_core::Vector3d shift =
+      urban_nav_core::Vector3d::Zero();  ///< t_now_last / depth, so that its ray becomes R ray + shift
 };
 
 /// Step (ii) of section 2.4: the rotation between two frames that makes their smallest images most alike (sum of squared
@@ -44,7 +45,7 @@ class RotationTracker {
     std::vector<float> grey, du, dv;
   };
   struct Sample {
-    std::size_t at = 0;                                    // in last_
+    std::size_t at = 0;  // in last_
     Eigen::Vector3f ray, shift;
   };
   struct Normal;

@@ -22,7 +22,8 @@ constexpr double accepted_share = 0.75;
 constexpr double corner_reach = 2.5;
 constexpr double direct_reach = 3.0;
 
-Sighting search(Side side, const Corners& corners, const Track& track, const Eigen::Vector2d& projected, double radius) {
+Sighting search(Side side, const Corners& corners, const Track& track, const Eigen::Vector2d& projected,
+                double radius) {
   const ImageView& image = corners.image(side, track.level);
   const SadPatch patch = urban_nav_core::sadPatch(side == Side::Left ? track.in_left : track.in_right);
   int contrast = 0;
@@ -31,14 +32,16 @@ Sighting search(Side side, const Corners& corners, const Track& track, const Eig
   int best = static_cast<int>(accepted_share * contrast);
   Corner found;
   bool any = false;
-  corners.at(side, track.level).forEachWithin(projected.x() * scale, projected.y() * scale, radius * scale + 1.0, [&](const Corner& corner, std::size_t) {
-    if (!urban_nav_core::sadFits(image, corner.u, corner.v)) return;
-    const int sad = urban_nav_core::meanRemovedSad(patch, image, corner.u, corner.v);
-    if (sad >= best) return;
-    best = sad;
-    found = corner;
-    any = true;
-  });
+  corners.at(side, track.level)
+      .forEachWithin(projected.x() * scale, projected.y() * scale, radius * scale + 1.0,
+                     [&](const Corner& corner, std::size_t) {
+                       if (!urban_nav_core::sadFits(image, corner.u, corner.v)) return;
+                       const int sad = urban_nav_core::meanRemovedSad(patch, image, corner.u, corner.v);
+                       if (sad >= best) return;
+                       best = sad;
+                       found = corner;
+                       any = true;
+                     });
   Sighting sighting;
   if (any) sighting = refine(side, corners, track, Eigen::Vector2d(found.u, found.v) / scale, corner_reach);
   if (!sighting.found) sighting = refine(side, corners, track, projected, direct_reach);
@@ -47,7 +50,8 @@ Sighting search(Side side, const Corners& corners, const Track& track, const Eig
 
 }  // namespace
 
-std::optional<Eigen::Vector2d> projectInto(Side side, const StereoCamera& camera, const Pose& T_camera_odom, const Eigen::Vector4d& p_odom) {
+std::optional<Eigen::Vector2d> projectInto(Side side, const StereoCamera& camera, const Pose& T_camera_odom,
+                                           const Eigen::Vector4d& p_odom) {
   Eigen::Vector3d p = T_camera_odom.q() * p_odom.head<3>() + T_camera_odom.t() * p_odom.w();
   if (side == Side::Right) p.x() -= camera.baseline * p_odom.w();
   if (!(p.z() > 0.0) || !(p.z() > 0.1 * p_odom.w())) return std::nullopt;
@@ -55,7 +59,8 @@ std::optional<Eigen::Vector2d> projectInto(Side side, const StereoCamera& camera
   return Eigen::Vector2d(camera.left.fx * p.x() / p.z() + cx, camera.left.fy * p.y() / p.z() + camera.left.cy);
 }
 
-void matchTemporal(const Corners& corners, const StereoCamera& camera, const Pose& T_camera_odom, double radius, std::vector<Match>& matches) {
+void matchTemporal(const Corners& corners, const StereoCamera& camera, const Pose& T_camera_odom, double radius,
+                   std::vector<Match>& matches) {
   Side side = Side::Left;
   for (Match& match : matches) {
     match.left = match.right = Sighting();

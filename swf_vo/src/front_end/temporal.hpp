@@ -12,13 +12,13 @@
 namespace swf_vo {
 
 /// Pixel of a homogeneous point of `odom` in one image; empty if it is not in front of the camera. Not limited to the image.
-std::optional<Eigen::Vector2d> projectInto(Side side, const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_camera_odom,
-                                           const Eigen::Vector4d& p_odom);
+std::optional<Eigen::Vector2d> projectInto(Side side, const urban_nav_core::StereoCamera& camera,
+                                           const urban_nav_core::Pose& T_camera_odom, const Eigen::Vector4d& p_odom);
 
 /// Step (iii) of section 2.4: landmarks projected in turn into the left and the right image, compared with the FAST corners of
 /// their level within `radius` px (of level 0) by mean-removed SAD, the best one refined. Where no corner is accepted the
 /// template is aligned at the projection itself. Fills `left` or `right` of each match.
-void matchTemporal(const Corners& corners, const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_camera_odom, double radius,
-                   std::vector<Match>& matches);
+void matchTemporal(const Corners& corners, const urban_nav_core::StereoCamera& camera,
+                   const urban_nav_core::Pose& T_camera_odom, double radius, std::vector<Match>& matches);
 
 }  // namespace swf_vo

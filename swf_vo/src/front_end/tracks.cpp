@@ -18,8 +18,8 @@ Eigen::Vector3d surface(const StereoCamera& camera, const StereoCamera::Pixel& p
   return {px, py, inverse_depth - px * x - py * y};
 }
 
-std::optional<Eigen::Matrix2d> warpInto(Side side, const StereoCamera& camera, const Track& track, const Pose& T_camera_born,
-                                        double inverse_depth) {
+std::optional<Eigen::Matrix2d> warpInto(Side side, const StereoCamera& camera, const Track& track,
+                                        const Pose& T_camera_born, double inverse_depth) {
   Eigen::Vector3d plane = track.plane;
   const double at_ray = plane.dot(track.ray);
   if (at_ray > 1e-9 && inverse_depth > 0.0 && inverse_depth < 4.0 * at_ray) plane *= inverse_depth / at_ray;
@@ -36,7 +36,8 @@ std::optional<Eigen::Matrix2d> warpInto(Side side, const StereoCamera& camera, c
   return A / p.z();
 }
 
-Eigen::Vector2d slantDirection(const StereoCamera& camera, const Track& track, const Pose& T_camera_born, double inverse_depth) {
+Eigen::Vector2d slantDirection(const StereoCamera& camera, const Track& track, const Pose& T_camera_born,
+                               double inverse_depth) {
   const Eigen::Vector3d t = T_camera_born.t();
   const Eigen::Vector3d p = T_camera_born.q() * track.ray + t * std::max(inverse_depth, 0.0);
   if (!(p.z() > 0.05)) return Eigen::Vector2d::Zero();
@@ -51,7 +52,8 @@ Tracks::Tracks(int capacity) : places_(static_cast<std::size_t>(capacity)) {
 }
 
 std::vector<Tracks::Entry>::iterator Tracks::lowerBound(LandmarkId id) {
-  return std::lower_bound(order_.begin(), order_.end(), id, [](const Entry& entry, LandmarkId value) { return entry.id < value; });
+  return std::lower_bound(order_.begin(), order_.end(), id,
+                          [](const Entry& entry, LandmarkId value) { return entry.id < value; });
 }
 
 Track* Tracks::start() {

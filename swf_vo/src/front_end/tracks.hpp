@@ -20,21 +20,23 @@ enum class Side { Left, Right };
 struct Track {
   LandmarkId id = 0;
   FrameId born = 0;
-  int level = 0;                                        ///< pyramid level of the template
-  int seen = 1;                                         ///< frames with a trusted measurement
-  int missed = 0;                                       ///< frames in a row without a match
-  int disagreed = 0;                                    ///< frames in a row with a good match that contradicts the motion
-  urban_nav_core::Pose T_born_odom;                     ///< odom into the left camera of its first frame
-  Eigen::Vector3d ray = Eigen::Vector3d::UnitZ();       ///< of the template's middle in that camera, z = 1
-  Eigen::Vector3d plane = Eigen::Vector3d::Zero();      ///< its surface there: plane . X = 1 (1/m); zero: at infinity
+  int level = 0;                                    ///< pyramid level of the template
+  int seen = 1;                                     ///< frames with a trusted measurement
+  int missed = 0;                                   ///< frames in a row without a match
+  int disagreed = 0;                                ///< frames in a row with a good match that contradicts the motion
+  urban_nav_core::Pose T_born_odom;                 ///< odom into the left camera of its first frame
+  Eigen::Vector3d ray = Eigen::Vector3d::UnitZ();   ///< of the template's middle in that camera, z = 1
+  Eigen::Vector3d plane = Eigen::Vector3d::Zero();  ///< its surface there: plane . X = 1 (1/m); zero: at infinity
   Eigen::Matrix2d slant_information = Eigen::Matrix2d::Zero();  ///< of plane.x and plane.y fx / fy, m^2
-  double slant_reach = 0.0;                             ///< how far the camera had moved, as far as the slant shows it, when it was last learnt (m)
-  Eigen::Matrix2d seen_as = Eigen::Matrix2d::Identity();    ///< warp into the left image when it was last trusted
-  Eigen::Matrix2d creep = Eigen::Matrix2d::Zero();          ///< what the template may creep by as the view changes by one, px^2 where it was born
-  double sigma_disparity = 1.0;                         ///< of the first observation, px
-  Eigen::Vector3d z = Eigen::Vector3d::Zero();          ///< last trusted measurement: u_left, v, u_right (px)
+  double slant_reach =
+      0.0;  ///< how far the camera had moved, as far as the slant shows it, when it was last learnt (m)
+  Eigen::Matrix2d seen_as = Eigen::Matrix2d::Identity();  ///< warp into the left image when it was last trusted
+  Eigen::Matrix2d creep =
+      Eigen::Matrix2d::Zero();   ///< what the template may creep by as the view changes by one, px^2 where it was born
+  double sigma_disparity = 1.0;  ///< of the first observation, px
+  Eigen::Vector3d z = Eigen::Vector3d::Zero();  ///< last trusted measurement: u_left, v, u_right (px)
   urban_nav_core::PatchSource source;
-  urban_nav_core::PatchTemplate in_left, in_right;      ///< as last warped for either image
+  urban_nav_core::PatchTemplate in_left, in_right;  ///< as last warped for either image
   bool left_ready = false, right_ready = false;
 };
 
@@ -48,8 +50,8 @@ std::optional<Eigen::Matrix2d> warpInto(Side side, const urban_nav_core::StereoC
                                         const urban_nav_core::Pose& T_camera_born, double inverse_depth);
 
 /// Where a pixel next to the landmark goes if its surface slants by one unit more: the `direction` of urban_nav_core::refineSlant, m.
-Eigen::Vector2d slantDirection(const urban_nav_core::StereoCamera& camera, const Track& track, const urban_nav_core::Pose& T_camera_born,
-                               double inverse_depth);
+Eigen::Vector2d slantDirection(const urban_nav_core::StereoCamera& camera, const Track& track,
+                               const urban_nav_core::Pose& T_camera_born, double inverse_depth);
 
 /// What is being followed. Places are reused, so nothing is allocated once `capacity` is reached; ids are never reused.
 class Tracks {

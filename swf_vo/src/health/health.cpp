@@ -53,7 +53,8 @@ Reason HealthMonitor::reasonFor(const Evidence& evidence) const {
   if (evidence.image.reason != Reason::None) return evidence.image.reason;
   const int enough = evidence.first ? evidence.features : evidence.tracked;
   if (evidence.gap) return Reason::Gap;
-  if (enough >= degraded_features_) return evidence.inlier_share < 0.4 && !evidence.first ? Reason::Inconsistent : Reason::None;
+  if (enough >= degraded_features_)
+    return evidence.inlier_share < 0.4 && !evidence.first ? Reason::Inconsistent : Reason::None;
   const bool scattered = evidence.candidates >= degraded_features_ && 2 * evidence.tracked < evidence.candidates;
   return scattered ? Reason::Inconsistent : Reason::TooFewFeatures;
 }

@@ -13,12 +13,12 @@ namespace swf_vo {
 /// The evidence of one frame that decides on its status.
 struct Evidence {
   ImageVerdict image;
-  bool first = false;         ///< of the session: nothing can be tracked yet
-  bool gap = false;           ///< far more time has passed than between frames before
-  bool localised = false;     ///< the pose comes from matches
-  int tracked = 0;            ///< trusted matches of known landmarks
-  int features = 0;           ///< these and the new ones
-  int candidates = 0;         ///< matches before outliers were removed
+  bool first = false;      ///< of the session: nothing can be tracked yet
+  bool gap = false;        ///< far more time has passed than between frames before
+  bool localised = false;  ///< the pose comes from matches
+  int tracked = 0;         ///< trusted matches of known landmarks
+  int features = 0;        ///< these and the new ones
+  int candidates = 0;      ///< matches before outliers were removed
   double inlier_share = 0.0;
 };
 

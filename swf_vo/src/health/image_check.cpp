@@ -49,7 +49,8 @@ ImageCheck::Figures ImageCheck::measure(const ImageView& image, std::vector<std:
   const double n = static_cast<double>(sample.size());
   Figures figures;
   figures.brightness = static_cast<double>(sum) / n;
-  figures.contrast = std::sqrt(std::max(0.0, static_cast<double>(squares) / n - figures.brightness * figures.brightness));
+  figures.contrast =
+      std::sqrt(std::max(0.0, static_cast<double>(squares) / n - figures.brightness * figures.brightness));
   figures.sharpness = static_cast<double>(differences) / n / std::max(figures.contrast, 1.0);
   return figures;
 }
@@ -68,7 +69,8 @@ ImageVerdict ImageCheck::look(const StereoPair& pair, bool doubtful) {
 
   // The noise of a camera that runs changes some pixel of thousands, even if nothing moves.
   const bool frozen = !left_.empty() && (left_ == last_left_ || right_ == last_right_);
-  const bool crossed = distance(left_, last_right_) + distance(right_, last_left_) < distance(left_, last_left_) + distance(right_, last_right_);
+  const bool crossed = distance(left_, last_right_) + distance(right_, last_left_) <
+                       distance(left_, last_left_) + distance(right_, last_right_);
   left_.swap(last_left_);
   right_.swap(last_right_);
   if (verdict.contrast < dark_contrast) {
@@ -93,14 +95,15 @@ ImageVerdict ImageCheck::look(const StereoPair& pair, bool doubtful) {
   // What lasts is the new usual: a scene may be smoother than the one before, and auto-exposure arrives.
   const double rate = usual_sharpness_ > 0.0 ? 0.1 : 1.0;
   usual_sharpness_ += rate * (sharpness - usual_sharpness_);
-  usual_brightness_ = usual_brightness_ < 0.0 ? verdict.brightness : usual_brightness_ + 0.3 * (verdict.brightness - usual_brightness_);
+  usual_brightness_ =
+      usual_brightness_ < 0.0 ? verdict.brightness : usual_brightness_ + 0.3 * (verdict.brightness - usual_brightness_);
   return verdict;
 }
 
 namespace {
 
-constexpr int shrink = 4;   // columns
-constexpr int block = 12;   // shrunk columns
+constexpr int shrink = 4;  // columns
+constexpr int block = 12;  // shrunk columns
 constexpr int block_rows = 4;
 constexpr int longest_reach = 200;  // shrunk columns
 
@@ -144,11 +147,13 @@ bool looksExchanged(const ImageView& left, const ImageView& right) {
       int here[block * block_rows], there[(block + 2 * longest_reach) * block_rows], costs[2 * longest_reach + 1];
       shrinkRows(left, v, column, block, here);
       shrinkRows(right, v, column - reach, stride, there);
-      for (int shift = -reach; shift <= reach; ++shift) costs[shift + reach] = difference(here, there + reach - shift, stride);
+      for (int shift = -reach; shift <= reach; ++shift)
+        costs[shift + reach] = difference(here, there + reach - shift, stride);
       int* const end = costs + 2 * reach + 1;
       const int* best = std::min_element(costs, end);
       const int found = static_cast<int>(best - costs) - reach;
-      const int opposite = found > 0 ? *std::min_element(costs, costs + reach + 1) : *std::min_element(costs + reach, end);
+      const int opposite =
+          found > 0 ? *std::min_element(costs, costs + reach + 1) : *std::min_element(costs + reach, end);
       const int worst = *std::max_element(costs, end);
       // Only blocks with texture, whose best shift is clear of zero and clearly better than any of the other sign.
       if (worst < 40 * block * block_rows || found == 0 || 3 * *best > 2 * opposite) continue;

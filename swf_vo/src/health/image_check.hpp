@@ -11,11 +11,11 @@ namespace swf_vo {
 
 /// What the pixels of a pair say of themselves, before anything is matched.
 struct ImageVerdict {
-  bool usable = true;             ///< false: no measurement is to be taken from this pair
-  bool exchange = false;          ///< left and right are exchanged: use them the other way round
-  Reason reason = Reason::None;   ///< the gravest finding
-  double brightness = 0.0;        ///< mean grey level of both images
-  double contrast = 0.0;          ///< standard deviation, grey levels, the lesser of the two images
+  bool usable = true;            ///< false: no measurement is to be taken from this pair
+  bool exchange = false;         ///< left and right are exchanged: use them the other way round
+  Reason reason = Reason::None;  ///< the gravest finding
+  double brightness = 0.0;       ///< mean grey level of both images
+  double contrast = 0.0;         ///< standard deviation, grey levels, the lesser of the two images
 };
 
 /// Looks at thinned-out pixels: missing, dark, frozen, exposure jumps, blur, exchanged images. Remembers the last usable pair's

@@ -200,14 +200,17 @@ double Cost::value(const State& state) const {
     }
   }
   for (std::size_t j = 1; j < state.poses.size(); ++j) {
-    const Vector6d e = process_model::error(state.poses[j - 1].estimate, state.poses[j].estimate, state.poses[j].u.T_from_to);
+    const Vector6d e =
+        process_model::error(state.poses[j - 1].estimate, state.poses[j].estimate, state.poses[j].u.T_from_to);
     cost += 0.5 * e.dot((state.poses[j].u.information + process_model::floor()) * e);
   }
   return cost;
 }
 
-SensorTerm Cost::sensorTerm(const State& state, const LandmarkBlock& landmark, const Measurement& measurement, const PoseBlock& pose) const {
-  SensorTerm term{Matrix6d::Zero(), Matrix63d::Zero(), Matrix3d::Zero(), Vector6d::Zero(), Vector6d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
+SensorTerm Cost::sensorTerm(const State& state, const LandmarkBlock& landmark, const Measurement& measurement,
+                            const PoseBlock& pose) const {
+  SensorTerm term{Matrix6d::Zero(), Matrix63d::Zero(), Matrix3d::Zero(), Vector6d::Zero(),
+                  Vector6d::Zero(), Vector3d::Zero(),  Vector3d::Zero()};
   // The textbook keeps what its update used: the residual at the linearisation point, and the step taken from there.
   const bool as_solved = !linearise_first_ && measurement.solved;
   const bool at_first = linearise_first_ || as_solved;
@@ -244,10 +247,11 @@ SensorTerm Cost::sensorTerm(const State& state, const LandmarkBlock& landmark, c
 ProcessTerm Cost::processTerm(const PoseBlock& last, const PoseBlock& next) const {
   const bool as_solved = !linearise_first_ && next.u_solved;
   const bool at_first = linearise_first_ || as_solved;
-  process_model::Residual residual = process_model::residual(at_first ? last.linearised : last.estimate,
-                                                             at_first ? next.linearised : next.estimate, next.u.T_from_to);
+  process_model::Residual residual = process_model::residual(
+      at_first ? last.linearised : last.estimate, at_first ? next.linearised : next.estimate, next.u.T_from_to);
   if (as_solved) {
-    residual.e += residual.last * boxMinus(last.estimate, last.linearised) + residual.next * boxMinus(next.estimate, next.linearised);
+    residual.e += residual.last * boxMinus(last.estimate, last.linearised) +
+                  residual.next * boxMinus(next.estimate, next.linearised);
   } else {
     residual.e = process_model::error(last.estimate, next.estimate, next.u.T_from_to);
   }

@@ -13,22 +13,22 @@ using Matrix63d = Eigen::Matrix<double, 6, 3>;
 /// The row and column that the disparity offset adds to Lambda: it is tied to everything that was measured in the right image, so it
 /// stands last and is eliminated last.
 struct Border {
-  std::vector<urban_nav_core::Vector6d> pose;            ///< Lambda(p(j), offset)
-  std::vector<Eigen::Vector3d> landmark;                 ///< Lambda(m(i), offset), by slot
+  std::vector<urban_nav_core::Vector6d> pose;  ///< Lambda(p(j), offset)
+  std::vector<Eigen::Vector3d> landmark;       ///< Lambda(m(i), offset), by slot
   double information = 0.0, gradient = 0.0;
 };
 
 /// Lambda and g of eq. 3 without the prior, block by block: Lambda d = g (Newman et al. 2009, section 2.1).
 struct NormalEquations {
-  std::vector<urban_nav_core::Matrix6d> pose;            ///< Lambda_p(j, j)
-  std::vector<urban_nav_core::Matrix6d> next;            ///< Lambda_p(j + 1, j)
-  std::vector<urban_nav_core::Vector6d> pose_gradient;   ///< g_p(j)
-  std::vector<Eigen::Matrix3d> landmark;                 ///< Lambda_m(i, i), by slot
-  std::vector<Eigen::Vector3d> landmark_gradient;        ///< g_m(i), by slot
-  std::vector<Matrix63d> cross;                          ///< Lambda_pm(j, i), by slot and then by pose
-  std::vector<int> first_cross;                          ///< by slot; of a known landmark there are none
-  Border border;                                         ///< the row of the disparity offset
-  double cost = 0.0;                                     ///< robust cost of sensor and process terms
+  std::vector<urban_nav_core::Matrix6d> pose;           ///< Lambda_p(j, j)
+  std::vector<urban_nav_core::Matrix6d> next;           ///< Lambda_p(j + 1, j)
+  std::vector<urban_nav_core::Vector6d> pose_gradient;  ///< g_p(j)
+  std::vector<Eigen::Matrix3d> landmark;                ///< Lambda_m(i, i), by slot
+  std::vector<Eigen::Vector3d> landmark_gradient;       ///< g_m(i), by slot
+  std::vector<Matrix63d> cross;                         ///< Lambda_pm(j, i), by slot and then by pose
+  std::vector<int> first_cross;                         ///< by slot; of a known landmark there are none
+  Border border;                                        ///< the row of the disparity offset
+  double cost = 0.0;                                    ///< robust cost of sensor and process terms
 };
 
 /// One sensor term linearised: its share of Lambda and g.
@@ -64,7 +64,8 @@ class Cost {
   double value(const State& state) const;
 
   /// The terms as they go into the prior: as the last solve had them where it had them (textbook), else as now.
-  SensorTerm sensorTerm(const State& state, const LandmarkBlock& landmark, const Measurement& measurement, const PoseBlock& pose) const;
+  SensorTerm sensorTerm(const State& state, const LandmarkBlock& landmark, const Measurement& measurement,
+                        const PoseBlock& pose) const;
   ProcessTerm processTerm(const PoseBlock& last, const PoseBlock& next) const;
 
   const SensorModel& sensor() const { return sensor_; }

@@ -39,7 +39,8 @@ Matrix6d marginal(const Solver& solver, std::size_t j) {
 
 Matrix6d givenOffset(const Solver& solver, std::size_t j) {
   Matrix6d P;
-  for (int c = 0; c < 6; ++c) P.col(c) = Eigen::Map<const urban_nav_core::Vector6d>(solver.inverseColumn(j, c, true).data() + solver.rowOf(j));
+  for (int c = 0; c < 6; ++c)
+    P.col(c) = Eigen::Map<const urban_nav_core::Vector6d>(solver.inverseColumn(j, c, true).data() + solver.rowOf(j));
   return symmetric(P);
 }
 
@@ -67,7 +68,8 @@ Matrix12d leftAndOldest(const Solver& solver, const Matrix6d& left, const Depart
   Eigen::Matrix<double, 12, 1> s;
   s.tail<6>() = perOffset<6>(solver, solver.rowOf(0));
   s.head<6>() = departed.offset_gain;
-  for (Eigen::Index i = 0; i < size; ++i) s.head<6>() += G.row(i).transpose() * solver.perOffset(static_cast<std::size_t>(i));
+  for (Eigen::Index i = 0; i < size; ++i)
+    s.head<6>() += G.row(i).transpose() * solver.perOffset(static_cast<std::size_t>(i));
   P += solver.offsetVariance() * s * s.transpose();
   return symmetric(P);
 }
@@ -83,7 +85,8 @@ Matrix6d propagate(const Pose& T_odom_last, const Matrix6d& covariance, const Pr
   const urban_nav_core::Composition composed = urban_nav_core::compose(T_odom_last, u.T_from_to);
   Matrix6d information = u.information + process_model::floor(), Q = Matrix6d::Identity();
   urban_nav_core::solvePositiveDefiniteInPlace(information, Q);
-  return symmetric(Matrix6d(composed.J1 * covariance * composed.J1.transpose() + composed.J2 * Q * composed.J2.transpose()));
+  return symmetric(
+      Matrix6d(composed.J1 * covariance * composed.J1.transpose() + composed.J2 * Q * composed.J2.transpose()));
 }
 
 }  // namespace swf_vo::covariance

@@ -30,10 +30,12 @@ Matrix12d joint(const Solver& solver, std::size_t j);
 Matrix12d leftAndOldest(const Solver& solver, const urban_nav_core::Matrix6d& left, const Departed& departed);
 
 /// Of T_a_b = T_odom_a^-1 T_odom_b, in a, from the joint covariance of both poses.
-urban_nav_core::Matrix6d relative(const urban_nav_core::Pose& T_odom_a, const urban_nav_core::Pose& T_odom_b, const Matrix12d& joint);
+urban_nav_core::Matrix6d relative(const urban_nav_core::Pose& T_odom_a, const urban_nav_core::Pose& T_odom_b,
+                                  const Matrix12d& joint);
 
 /// Of T_odom_next = T_odom_last u, before it was measured: error propagation (Newman et al. 2009, section 2.2.1).
-urban_nav_core::Matrix6d propagate(const urban_nav_core::Pose& T_odom_last, const urban_nav_core::Matrix6d& covariance, const ProcessInput& u);
+urban_nav_core::Matrix6d propagate(const urban_nav_core::Pose& T_odom_last, const urban_nav_core::Matrix6d& covariance,
+                                   const ProcessInput& u);
 
 }  // namespace covariance
 }  // namespace swf_vo

@@ -110,7 +110,8 @@ bool Datum::hold(const Matrix6d& local, double ratio, const State& state, Prior&
   strength_m_ = std::max(strength_m_, local.diagonal().head<3>().maxCoeff());
   strength_rad_ = std::max(strength_rad_, local.diagonal().tail<3>().maxCoeff());
   if (!invert(information_, covariance)) return false;
-  const double looseness = std::max(covariance.diagonal().head<3>().maxCoeff() * strength_m_, covariance.diagonal().tail<3>().maxCoeff() * strength_rad_);
+  const double looseness = std::max(covariance.diagonal().head<3>().maxCoeff() * strength_m_,
+                                    covariance.diagonal().tail<3>().maxCoeff() * strength_rad_);
   if (looseness < ratio) return false;
 
   look(state, prior);

@@ -60,9 +60,10 @@ class Datum {
   urban_nav_core::Matrix6d carried_ = urban_nav_core::Matrix6d::Zero();
   urban_nav_core::Matrix6d growth_ = urban_nav_core::Matrix6d::Zero();
   urban_nav_core::Matrix6d shift_ = urban_nav_core::Matrix6d::Zero();
-  std::vector<double> directions_, held_, deviation_, gradient_, product_;   // n x 6, column-major: G, u = Pi G; n
-  urban_nav_core::Vector6d along_offset_ = urban_nav_core::Vector6d::Zero();  // error of gamma for an offset that is off by its sigma
-  double strength_m_ = 0.0, strength_rad_ = 0.0;                             // largest `local` so far
+  std::vector<double> directions_, held_, deviation_, gradient_, product_;  // n x 6, column-major: G, u = Pi G; n
+  urban_nav_core::Vector6d along_offset_ =
+      urban_nav_core::Vector6d::Zero();           // error of gamma for an offset that is off by its sigma
+  double strength_m_ = 0.0, strength_rad_ = 0.0;  // largest `local` so far
 };
 
 }  // namespace swf_vo

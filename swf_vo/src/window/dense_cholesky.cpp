@@ -61,7 +61,8 @@ void DenseMatrix::reset(int size) {
 
 void StripProduct::subtract(DenseMatrix& C, int first, int rows, const double* B, int columns, int stride) {
   pack(B, static_cast<std::size_t>(stride), 0, rows, columns, packed_);
-  set_.subtractStrips(C.column(first) + first, C.stride(), packed_.data(), static_cast<int>(rounded(rows)) / strip, columns);
+  set_.subtractStrips(C.column(first) + first, C.stride(), packed_.data(), static_cast<int>(rounded(rows)) / strip,
+                      columns);
 }
 
 // The diagonal block, row-major in `block_`, by the plain algorithm.

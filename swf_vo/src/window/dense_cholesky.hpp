@@ -20,7 +20,9 @@ class DenseMatrix {
   int size() const { return size_; }
   int stride() const { return stride_; }
   double* column(int j) { return data_.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(stride_); }
-  const double* column(int j) const { return data_.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(stride_); }
+  const double* column(int j) const {
+    return data_.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(stride_);
+  }
   double& operator()(int i, int j) { return column(j)[i]; }
   double operator()(int i, int j) const { return column(j)[i]; }
 

@@ -27,7 +27,8 @@ struct Wide {
 };
 
 template <typename Width>
-__attribute__((always_inline)) inline void tile(double* C, std::ptrdiff_t stride, const double* a, const double* b, int depth) {
+__attribute__((always_inline)) inline void tile(double* C, std::ptrdiff_t stride, const double* a, const double* b,
+                                                int depth) {
   using Vector = typename Width::Vector;
   Vector sum[Width::columns][Width::vectors];
 #pragma GCC unroll 8
@@ -52,19 +53,22 @@ __attribute__((always_inline)) inline void tile(double* C, std::ptrdiff_t stride
 }
 
 template <typename Width>
-__attribute__((always_inline)) inline void subtractStripsAs(double* C, int stride, const double* packed, int count, int depth) {
+__attribute__((always_inline)) inline void subtractStripsAs(double* C, int stride, const double* packed, int count,
+                                                            int depth) {
   const std::ptrdiff_t size = static_cast<std::ptrdiff_t>(strip) * depth;
   constexpr int rows = Width::lanes * Width::vectors;
   for (int j = 0; j < count; ++j)
     for (int i = j; i < count; ++i)
       for (int r = 0; r < strip; r += rows)
         for (int c = 0; c < strip; c += Width::columns)
-          tile<Width>(C + static_cast<std::ptrdiff_t>(j * strip + c) * stride + i * strip + r, stride, packed + i * size + r, packed + j * size + c, depth);
+          tile<Width>(C + static_cast<std::ptrdiff_t>(j * strip + c) * stride + i * strip + r, stride,
+                      packed + i * size + r, packed + j * size + c, depth);
 }
 
 // Four vectors at a time, for a sum must wait for the one before.
 template <typename Width, int several>
-__attribute__((always_inline)) inline void solveAs(double* X, std::ptrdiff_t apart, int depth, const double* L, const double* inverse) {
+__attribute__((always_inline)) inline void solveAs(double* X, std::ptrdiff_t apart, int depth, const double* L,
+                                                   const double* inverse) {
   using Vector = typename Width::Vector;
   for (int j = 0; j < depth; ++j) {
     Vector sum[several];
@@ -81,7 +85,8 @@ __attribute__((always_inline)) inline void solveAs(double* X, std::ptrdiff_t apa
 }
 
 template <typename Width>
-__attribute__((always_inline)) inline void solveStripsAs(double* packed, int count, int depth, const double* L, const double* inverse) {
+__attribute__((always_inline)) inline void solveStripsAs(double* packed, int count, int depth, const double* L,
+                                                         const double* inverse) {
   const std::ptrdiff_t size = static_cast<std::ptrdiff_t>(strip) * depth;
   for (int r = 0; r < strip; r += Width::lanes) {
     int i = 0;
@@ -102,11 +107,13 @@ __attribute__((always_inline)) inline double dotAs(const double* a, const double
   for (; i + sums <= n; i += sums)
 #pragma GCC unroll 8
     for (int v = 0; v < vectors; ++v)
-      sum[v] += *reinterpret_cast<const Vector*>(a + i + v * Width::lanes) * *reinterpret_cast<const Vector*>(b + i + v * Width::lanes);
+      sum[v] += *reinterpret_cast<const Vector*>(a + i + v * Width::lanes) *
+                *reinterpret_cast<const Vector*>(b + i + v * Width::lanes);
   for (; i + sums / 2 <= n; i += sums / 2)
 #pragma GCC unroll 8
     for (int v = 0; v < vectors / 2; ++v)
-      sum[v] += *reinterpret_cast<const Vector*>(a + i + v * Width::lanes) * *reinterpret_cast<const Vector*>(b + i + v * Width::lanes);
+      sum[v] += *reinterpret_cast<const Vector*>(a + i + v * Width::lanes) *
+                *reinterpret_cast<const Vector*>(b + i + v * Width::lanes);
 #pragma GCC unroll 8
   for (int v = 0; v < vectors / 2; ++v) sum[v] += sum[v + vectors / 2];
   double each[sums / 2];
@@ -118,9 +125,11 @@ __attribute__((always_inline)) inline double dotAs(const double* a, const double
 
 // Eight sums of each, whatever the width: a passes once.
 template <typename Width>
-__attribute__((always_inline)) inline void dotSixAs(const double* a, const double* b, std::ptrdiff_t stride, int n, double* products) {
+__attribute__((always_inline)) inline void dotSixAs(const double* a, const double* b, std::ptrdiff_t stride, int n,
+                                                    double* products) {
   using Vector = typename Width::Vector;
-  constexpr int sums = 8, vectors = sums / Width::lanes, together = Width::lanes == 2 ? 3 : 6;  // as many as there are registers for
+  constexpr int sums = 8, vectors = sums / Width::lanes,
+                together = Width::lanes == 2 ? 3 : 6;  // as many as there are registers for
   for (int first = 0; first < 6; first += together) {
     Vector sum[together][vectors];
 #pragma GCC unroll 6
@@ -133,13 +142,15 @@ __attribute__((always_inline)) inline void dotSixAs(const double* a, const doubl
       for (int v = 0; v < vectors; ++v) {
         const Vector x = *reinterpret_cast<const Vector*>(a + i + v * Width::lanes);
 #pragma GCC unroll 6
-        for (int c = 0; c < together; ++c) sum[c][v] += x * *reinterpret_cast<const Vector*>(b + (first + c) * stride + i + v * Width::lanes);
+        for (int c = 0; c < together; ++c)
+          sum[c][v] += x * *reinterpret_cast<const Vector*>(b + (first + c) * stride + i + v * Width::lanes);
       }
     for (int c = 0; c < together; ++c) {
       double each[sums], rest = 0.0;
       std::memcpy(each, sum[c], sizeof each);
       for (int k = i; k < n; ++k) rest += a[k] * b[(first + c) * stride + k];
-      products[first + c] = ((each[0] + each[4]) + (each[2] + each[6])) + ((each[1] + each[5]) + (each[3] + each[7])) + rest;
+      products[first + c] =
+          ((each[0] + each[4]) + (each[2] + each[6])) + ((each[1] + each[5]) + (each[3] + each[7])) + rest;
     }
   }
 }
@@ -150,12 +161,14 @@ __attribute__((always_inline)) inline void subtractAs(double* y, const double* x
   int i = 0;
   for (; i + 8 <= n; i += 8)
 #pragma GCC unroll 4
-    for (int v = 0; v < 8; v += Width::lanes) *reinterpret_cast<Vector*>(y + i + v) -= *reinterpret_cast<const Vector*>(x + i + v) * factor;
+    for (int v = 0; v < 8; v += Width::lanes)
+      *reinterpret_cast<Vector*>(y + i + v) -= *reinterpret_cast<const Vector*>(x + i + v) * factor;
   for (; i < n; ++i) y[i] -= x[i] * factor;
 }
 
 template <typename Width>
-__attribute__((always_inline)) inline void subtractThreeAs(double* y, const double* x0, const double* x1, const double* x2, const double* f, int n) {
+__attribute__((always_inline)) inline void subtractThreeAs(double* y, const double* x0, const double* x1,
+                                                           const double* x2, const double* f, int n) {
   using Vector = typename Width::Vector;
   const double a = f[0], b = f[1], c = f[2];
   int i = 0;
@@ -163,28 +176,33 @@ __attribute__((always_inline)) inline void subtractThreeAs(double* y, const doub
 #pragma GCC unroll 4
     for (int v = i; v < i + 8; v += Width::lanes) {
       const Vector first = *reinterpret_cast<const Vector*>(y + v) - *reinterpret_cast<const Vector*>(x0 + v) * a;
-      *reinterpret_cast<Vector*>(y + v) = first - *reinterpret_cast<const Vector*>(x1 + v) * b - *reinterpret_cast<const Vector*>(x2 + v) * c;
+      *reinterpret_cast<Vector*>(y + v) =
+          first - *reinterpret_cast<const Vector*>(x1 + v) * b - *reinterpret_cast<const Vector*>(x2 + v) * c;
     }
   for (; i < n; ++i) y[i] = y[i] - x0[i] * a - x1[i] * b - x2[i] * c;
 }
 
 // One function of each kind for every width; only so can a compiler be told what processor it is for.
-#define SWF_VO_KERNELS(Width, target)                                                                                                    \
-  target void subtractStrips##Width(double* C, int stride, const double* packed, int count, int depth) {                                 \
-    subtractStripsAs<Width>(C, stride, packed, count, depth);                                                                            \
-  }                                                                                                                                      \
-  target void solveStrips##Width(double* packed, int count, int depth, const double* L, const double* inverse) {                         \
-    solveStripsAs<Width>(packed, count, depth, L, inverse);                                                                              \
-  }                                                                                                                                      \
-  target double dot##Width(const double* a, const double* b, int n) { return dotAs<Width>(a, b, n); }                                    \
-  target void dotSix##Width(const double* a, const double* b, int stride, int n, double* products) {                                     \
-    dotSixAs<Width>(a, b, stride, n, products);                                                                                          \
-  }                                                                                                                                      \
-  target void subtract##Width(double* y, const double* x, double factor, int n) { subtractAs<Width>(y, x, factor, n); }                  \
-  target void subtractThree##Width(double* y, const double* x0, const double* x1, const double* x2, const double* factors, int n) {      \
-    subtractThreeAs<Width>(y, x0, x1, x2, factors, n);                                                                                   \
+#define SWF_VO_KERNELS(Width, target)                                                                            \
+  target void subtractStrips##Width(double* C, int stride, const double* packed, int count, int depth) {         \
+    subtractStripsAs<Width>(C, stride, packed, count, depth);                                                    \
+  }                                                                                                              \
+  target void solveStrips##Width(double* packed, int count, int depth, const double* L, const double* inverse) { \
+    solveStripsAs<Width>(packed, count, depth, L, inverse);                                                      \
+  }                                                                                                              \
+  target double dot##Width(const double* a, const double* b, int n) { return dotAs<Width>(a, b, n); }            \
+  target void dotSix##Width(const double* a, const double* b, int stride, int n, double* products) {             \
+    dotSixAs<Width>(a, b, stride, n, products);                                                                  \
+  }                                                                                                              \
+  target void subtract##Width(double* y, const double* x, double factor, int n) {                                \
+    subtractAs<Width>(y, x, factor, n);                                                                          \
+  }                                                                                                              \
+  target void subtractThree##Width(double* y, const double* x0, const double* x1, const double* x2,              \
+                                   const double* factors, int n) {                                               \
+    subtractThreeAs<Width>(y, x0, x1, x2, factors, n);                                                           \
   }
-#define SWF_VO_SET(name, Width) {name, subtractStrips##Width, solveStrips##Width, dot##Width, dotSix##Width, subtract##Width, subtractThree##Width}
+#define SWF_VO_SET(name, Width) \
+  { name, subtractStrips##Width, solveStrips##Width, dot##Width, dotSix##Width, subtract##Width, subtractThree##Width }
 
 SWF_VO_KERNELS(Narrow, )
 #ifdef SWF_VO_X86
@@ -223,7 +241,9 @@ std::vector<InstructionSet> instructionSets() {
 }
 
 double dot(const double* a, const double* b, int n) { return fastest().dot(a, b, n); }
-void dotSix(const double* a, const double* b, int stride, int n, double* products) { fastest().dotSix(a, b, stride, n, products); }
+void dotSix(const double* a, const double* b, int stride, int n, double* products) {
+  fastest().dotSix(a, b, stride, n, products);
+}
 void subtract(double* y, const double* x, double factor, int n) { fastest().subtract(y, x, factor, n); }
 void subtractThree(double* y, const double* x0, const double* x1, const double* x2, const double* factors, int n) {
   fastest().subtractThree(y, x0, x1, x2, factors, n);

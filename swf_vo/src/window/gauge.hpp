@@ -12,7 +12,8 @@ namespace swf_vo::gauge {
 /// for a small (shift, turn) of the world about the point `origin`, all in the axes of `odom`. With J of any sensor or process
 /// term at the same values, J G = 0: exactly so, whatever the values are (sensor_model.hpp).
 urban_nav_core::Matrix6d ofPose(const urban_nav_core::Pose& T_odom_camera, const Eigen::Vector3d& origin);
-Eigen::Matrix<double, 3, 6> ofLandmark(const Anchor& anchor, const Eigen::Vector3d& theta, const Eigen::Vector3d& origin);
+Eigen::Matrix<double, 3, 6> ofLandmark(const Anchor& anchor, const Eigen::Vector3d& theta,
+                                       const Eigen::Vector3d& origin);
 
 /// Of all blocks of the prior, at its centres: n x 6, column-major.
 void ofPrior(const State& state, const Prior& prior, const Eigen::Vector3d& origin, std::vector<double>& directions);

@@ -30,7 +30,8 @@ std::map<FrameId, Pose> History::solve(const State& state) const {
       step += Map<const Eigen::MatrixXd>(gain, size, width) * moved;
       gain += size * width;
     }
-    step += Map<const Eigen::VectorXd>(row->disparity_gain.data(), size) * (state.disparity_offset - row->disparity_offset);
+    step +=
+        Map<const Eigen::VectorXd>(row->disparity_gain.data(), size) * (state.disparity_offset - row->disparity_offset);
     if (row->is_pose) poses[row->id] = boxPlus(row->pose, Vector6d(step));
     else landmarks[row->id] = row->landmark + Vector3d(step);
   }

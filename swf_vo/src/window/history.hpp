@@ -16,23 +16,23 @@ class History {
   /// A block that left: d_a = mean + gain d_b, with d_b the deviations of the blocks it was tied to from where they were then.
   struct Row {
     bool is_pose = false;
-    std::int64_t id = 0;                       ///< frame or landmark
-    urban_nav_core::Pose pose;                 ///< estimate when it left
+    std::int64_t id = 0;        ///< frame or landmark
+    urban_nav_core::Pose pose;  ///< estimate when it left
     Eigen::Vector3d landmark = Eigen::Vector3d::Zero();
-    urban_nav_core::Pose linearised_pose;      ///< and where its terms were linearised
+    urban_nav_core::Pose linearised_pose;  ///< and where its terms were linearised
     Eigen::Vector3d linearised_landmark = Eigen::Vector3d::Zero();
     Anchor anchor;
     struct Tie {
       bool is_pose = false;
       std::int64_t id = 0;
-      urban_nav_core::Pose pose;               ///< estimate at that time
+      urban_nav_core::Pose pose;  ///< estimate at that time
       Eigen::Vector3d landmark = Eigen::Vector3d::Zero();
     };
     std::vector<Tie> ties;
-    std::vector<double> offset;                ///< 3 or 6
-    std::vector<double> gain;                  ///< column-major, offset.size() rows
-    double disparity_offset = 0.0;             ///< estimate at that time
-    std::vector<double> disparity_gain;        ///< of the disparity offset, offset.size()
+    std::vector<double> offset;          ///< 3 or 6
+    std::vector<double> gain;            ///< column-major, offset.size() rows
+    double disparity_offset = 0.0;       ///< estimate at that time
+    std::vector<double> disparity_gain;  ///< of the disparity offset, offset.size()
   };
 
   std::vector<Row> rows;  ///< in the order in which they left

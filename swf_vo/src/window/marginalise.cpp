@@ -30,11 +30,14 @@ Eigen::Matrix<double, N, N> inverseRoot(const Eigen::Matrix<double, N, N>& D) {
   const Eigen::Matrix<double, N, N> scaled = scale.asDiagonal() * D * scale.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, N, N>> eigen(scaled);
   Eigen::Matrix<double, N, 1> roots;
-  for (int i = 0; i < N; ++i) roots[i] = eigen.eigenvalues()[i] > relative_limit ? 1.0 / std::sqrt(eigen.eigenvalues()[i]) : 0.0;
+  for (int i = 0; i < N; ++i)
+    roots[i] = eigen.eigenvalues()[i] > relative_limit ? 1.0 / std::sqrt(eigen.eigenvalues()[i]) : 0.0;
   return scale.asDiagonal() * eigen.eigenvectors() * roots.asDiagonal();
 }
 
-bool seenBy(const LandmarkBlock& landmark, std::int64_t step) { return !landmark.seen.empty() && landmark.seen.front().step == step; }
+bool seenBy(const LandmarkBlock& landmark, std::int64_t step) {
+  return !landmark.seen.empty() && landmark.seen.front().step == step;
+}
 
 bool staysWithout(const LandmarkBlock& landmark, std::int64_t step) {
   return landmark.followed || landmark.seen.size() > (seenBy(landmark, step) ? 1U : 0U);
@@ -85,7 +88,8 @@ void Marginaliser::findRuns(const Prior& prior) {
   runs_.clear();
   runs_.reserve(prior.slots.capacity() + 1);
   const auto add = [&](int from, int to, int size, bool dies) {
-    if (!runs_.empty() && runs_.back().dies == dies && runs_.back().to + runs_.back().size == to) runs_.back().size += size;
+    if (!runs_.empty() && runs_.back().dies == dies && runs_.back().to + runs_.back().size == to)
+      runs_.back().size += size;
     else runs_.push_back({from, to, size, dies});
   };
   for (std::size_t i = 0; i < prior.slots.size(); ++i) {
@@ -107,8 +111,10 @@ void Marginaliser::gatherPrior(const Prior& prior, const State& state) {
   offset_gradient_ = 0.0;
   // What the prior does not touch is zero; the rest is overwritten.
   const int touched = prior.has_pose ? prior.landmarkSize() - (eliminated_ - 6) : 0;
-  for (int j = 0; j < eliminated_; ++j) std::fill(eliminatedColumn(j) + (prior.has_pose ? eliminated_ + touched : 0), eliminatedColumn(j) + stride_, 0.0);
-  for (int j = 0; j < remaining_; ++j) std::fill(reduced_.column(j) + std::max(j, touched), reduced_.column(j) + remaining_, 0.0);
+  for (int j = 0; j < eliminated_; ++j)
+    std::fill(eliminatedColumn(j) + (prior.has_pose ? eliminated_ + touched : 0), eliminatedColumn(j) + stride_, 0.0);
+  for (int j = 0; j < remaining_; ++j)
+    std::fill(reduced_.column(j) + std::max(j, touched), reduced_.column(j) + remaining_, 0.0);
   if (!prior.has_pose) return;
   prior.deviation(state, d_);
   prior.gradient(d_, state.disparity_offset, g_, offset_gradient_);
@@ -175,7 +181,8 @@ void Marginaliser::gatherGauge(const State& state, const Vector3d& origin) {
   directions_.resize(6 * stride);
   const auto put = [&](int row, const auto& G) {
     for (std::size_t k = 0; k < 6; ++k)
-      for (int r = 0; r < G.rows(); ++r) directions_[k * stride + static_cast<std::size_t>(row + r)] = G(r, static_cast<Eigen::Index>(k));
+      for (int r = 0; r < G.rows(); ++r)
+        directions_[k * stride + static_cast<std::size_t>(row + r)] = G(r, static_cast<Eigen::Index>(k));
   };
   const auto putLandmarks = [&](const std::vector<int>& slots, int row) {
     for (const int slot : slots) {
@@ -194,7 +201,8 @@ void Marginaliser::gatherGauge(const State& state, const Vector3d& origin) {
     double* column = eliminatedColumn(j);
     for (int i = 0; i < j; ++i) column[i] = eliminatedColumn(i)[j];
     for (std::size_t k = 0; k < 6; ++k)
-      gauge_[static_cast<std::size_t>(j)][static_cast<Eigen::Index>(k)] = kernels::dot(column, directions_.data() + k * stride, stride_);
+      gauge_[static_cast<std::size_t>(j)][static_cast<Eigen::Index>(k)] =
+          kernels::dot(column, directions_.data() + k * stride, stride_);
   }
 }
 
@@ -202,7 +210,9 @@ void Marginaliser::timesRoot(const Block& block, const Matrix6d& G) {
   const int below = block.at + block.size, rows = stride_ - below;
   makeRoom(times_root_, static_cast<std::size_t>(rows) * 6);
   times_root_.resize(static_cast<std::size_t>(rows) * 6);
-  for (int c = 0; c < block.size; ++c) std::copy_n(eliminatedColumn(block.at + c) + below, rows, times_root_.data() + static_cast<std::size_t>(c) * static_cast<std::size_t>(rows));
+  for (int c = 0; c < block.size; ++c)
+    std::copy_n(eliminatedColumn(block.at + c) + below, rows,
+                times_root_.data() + static_cast<std::size_t>(c) * static_cast<std::size_t>(rows));
   for (int c = 0; c < block.size; ++c) {
     double* column = eliminatedColumn(block.at + c) + below;
     std::fill_n(column, rows, 0.0);
@@ -237,9 +247,12 @@ void Marginaliser::eliminate() {
     offset_information_ -= tied.squaredNorm();
     offset_gradient_ -= tied.dot(y);
     for (int c = 0; c < block.size; c += 3) {
-      const double *F0 = eliminatedColumn(block.at + c), *F1 = eliminatedColumn(block.at + c + 1), *F2 = eliminatedColumn(block.at + c + 2);
-      kernels::subtractThree(gradient_.data() + below, F0 + below, F1 + below, F2 + below, y.data() + c, stride_ - below);
-      kernels::subtractThree(border_.data() + below, F0 + below, F1 + below, F2 + below, tied.data() + c, stride_ - below);
+      const double *F0 = eliminatedColumn(block.at + c), *F1 = eliminatedColumn(block.at + c + 1),
+                   *F2 = eliminatedColumn(block.at + c + 2);
+      kernels::subtractThree(gradient_.data() + below, F0 + below, F1 + below, F2 + below, y.data() + c,
+                             stride_ - below);
+      kernels::subtractThree(border_.data() + below, F0 + below, F1 + below, F2 + below, tied.data() + c,
+                             stride_ - below);
       for (int j = below; j < eliminated_; ++j) {
         const double factors[3] = {F0[j], F1[j], F2[j]};
         kernels::subtractThree(eliminatedColumn(j) + j, F0 + j, F1 + j, F2 + j, factors, stride_ - j);
@@ -266,11 +279,13 @@ void Marginaliser::eliminate() {
   for (int c = 0; c < 6; ++c) {
     const double* F = eliminatedColumn(eliminated_ - 6 + c) + eliminated_;
     for (int r = 0; r < 6; ++r)
-      for (int i = 0; i < remaining_; ++i) departed_.gain[static_cast<std::size_t>(r * remaining_ + i)] -= F[i] * G(r, c);
+      for (int i = 0; i < remaining_; ++i)
+        departed_.gain[static_cast<std::size_t>(r * remaining_ + i)] -= F[i] * G(r, c);
   }
   for (int r = 0; r < 6; ++r)
     for (int k = 0; k < 6; ++k)
-      departed_.gauge_gain(r, k) = kernels::dot(departed_.gain.data() + r * remaining_, directions_.data() + k * stride_ + eliminated_, remaining_);
+      departed_.gauge_gain(r, k) = kernels::dot(departed_.gain.data() + r * remaining_,
+                                                directions_.data() + k * stride_ + eliminated_, remaining_);
 }
 
 void Marginaliser::record(const State& state, History& history) const {
@@ -309,10 +324,12 @@ void Marginaliser::record(const State& state, History& history) const {
     row.ties.push_back(tieToPose(state.poses[1]));
     const Eigen::MatrixXd G = roots_[b].topLeftCorner(block.size, block.size);
     row.offset.resize(static_cast<std::size_t>(block.size));
-    Map<Eigen::VectorXd>(row.offset.data(), block.size) = G * Map<const Eigen::VectorXd>(gradient_.data() + block.at, block.size);
+    Map<Eigen::VectorXd>(row.offset.data(), block.size) =
+        G * Map<const Eigen::VectorXd>(gradient_.data() + block.at, block.size);
     row.disparity_offset = state.disparity_offset;
     row.disparity_gain.resize(static_cast<std::size_t>(block.size));
-    Map<Eigen::VectorXd>(row.disparity_gain.data(), block.size) = -(G * Map<const Eigen::VectorXd>(border_.data() + block.at, block.size));
+    Map<Eigen::VectorXd>(row.disparity_gain.data(), block.size) =
+        -(G * Map<const Eigen::VectorXd>(border_.data() + block.at, block.size));
     for (int i = block.at + block.size; i < stride_; ++i) {
       Eigen::VectorXd F(block.size);
       for (int c = 0; c < block.size; ++c) F[c] = eliminatedColumn(block.at + c)[i];
@@ -328,14 +345,16 @@ void Marginaliser::keep(State& state, Prior& prior) {
   centres_.clear();
   for (const int slot : kept_) {
     const LandmarkBlock& landmark = state.landmarks[static_cast<std::size_t>(slot)];
-    centres_.push_back(landmark.prior >= 0 ? prior.landmark_centre[static_cast<std::size_t>(landmark.prior)] : landmark.estimate);
+    centres_.push_back(landmark.prior >= 0 ? prior.landmark_centre[static_cast<std::size_t>(landmark.prior)]
+                                           : landmark.estimate);
   }
   prior.landmark_centre.swap(centres_);
   prior.slots.swap(kept_);
   prior.pose_centre = state.poses[1].estimate;
   prior.has_pose = prior.frozen = true;
   for (const int slot : dying_) state.landmarks[static_cast<std::size_t>(slot)].prior = -1;
-  for (std::size_t i = 0; i < prior.slots.size(); ++i) state.landmarks[static_cast<std::size_t>(prior.slots[i])].prior = static_cast<int>(i);
+  for (std::size_t i = 0; i < prior.slots.size(); ++i)
+    state.landmarks[static_cast<std::size_t>(prior.slots[i])].prior = static_cast<int>(i);
 
   const std::int64_t leaving = state.first_step;
   for (std::size_t at = 0; at < state.landmarks.size(); ++at) {
@@ -362,7 +381,8 @@ void Marginaliser::keep(State& state, Prior& prior) {
   prior.offset_eta = eta_offset;
 }
 
-void Marginaliser::removeOldest(State& state, Prior& prior, const Cost& cost, const Vector3d& origin, History* history) {
+void Marginaliser::removeOldest(State& state, Prior& prior, const Cost& cost, const Vector3d& origin,
+                                History* history) {
   sort(state, prior);
   gatherPrior(prior, state);
   addTerms(state, cost);

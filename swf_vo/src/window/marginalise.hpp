@@ -55,26 +55,30 @@ class Marginaliser {
   void record(const State& state, History& history) const;
   void keep(State& state, Prior& prior);
 
-  double* eliminatedColumn(int j) { return panel_.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(stride_); }
-  const double* eliminatedColumn(int j) const { return panel_.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(stride_); }
+  double* eliminatedColumn(int j) {
+    return panel_.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(stride_);
+  }
+  const double* eliminatedColumn(int j) const {
+    return panel_.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(stride_);
+  }
 
-  std::vector<int> kept_, dying_;        // slots
-  std::vector<int> place_;               // by slot: kept: 3 i; dying: -1 - 3 i; neither: unused
+  std::vector<int> kept_, dying_;  // slots
+  std::vector<int> place_;         // by slot: kept: 3 i; dying: -1 - 3 i; neither: unused
   std::vector<Run> runs_;
-  int eliminated_ = 0, remaining_ = 0;   // sizes: e and n
+  int eliminated_ = 0, remaining_ = 0;  // sizes: e and n
   int stride_ = 0;
-  std::vector<double> panel_;            // (e + n) x e: Lambda_a over Lambda_b^T; then its factors
+  std::vector<double> panel_;  // (e + n) x e: Lambda_a over Lambda_b^T; then its factors
   StripProduct product_;
-  DenseMatrix reduced_;                  // n x n
-  std::vector<double> gradient_;         // e + n
-  std::vector<double> border_;           // e + n: the disparity offset's, eliminated like a gradient
+  DenseMatrix reduced_;           // n x n
+  std::vector<double> gradient_;  // e + n
+  std::vector<double> border_;    // e + n: the disparity offset's, eliminated like a gradient
   double offset_information_ = 0.0, offset_gradient_ = 0.0;
   std::vector<double> d_, g_;
-  std::vector<Block> blocks_;            // of the eliminated, in order
+  std::vector<Block> blocks_;                    // of the eliminated, in order
   std::vector<urban_nav_core::Matrix6d> roots_;  // of each: G with G G^T = the (pseudo-)inverse of its pivot
   Departed departed_;
   std::vector<double> times_root_;
-  std::vector<double> directions_;       // G, (e + n) x 6
+  std::vector<double> directions_;               // G, (e + n) x 6
   std::vector<urban_nav_core::Vector6d> gauge_;  // rows of Lambda G, of the eliminated
   std::vector<Eigen::Vector3d> centres_;
 };

@@ -13,7 +13,9 @@ namespace {
 
 constexpr double relative_limit = 1e-12;
 
-bool isState(const LandmarkBlock& landmark) { return landmark.used && !landmark.known && (landmark.prior >= 0 || !landmark.seen.empty()); }
+bool isState(const LandmarkBlock& landmark) {
+  return landmark.used && !landmark.known && (landmark.prior >= 0 || !landmark.seen.empty());
+}
 
 }  // namespace
 
@@ -42,7 +44,8 @@ void PathOntoMap::gather(const State& state, const Prior& prior, const NormalEqu
   const int marginal = prior.landmarkSize();
   for (int j = 0; j < marginal; ++j) {
     std::copy(prior.information.column(j) + j, prior.information.column(j) + marginal, dense_.column(j) + j);
-    for (int c = 0; c < 6 && prior.has_pose; ++c) across(static_cast<std::size_t>(c))[j] = prior.information(marginal + c, j);
+    for (int c = 0; c < 6 && prior.has_pose; ++c)
+      across(static_cast<std::size_t>(c))[j] = prior.information(marginal + c, j);
   }
   for (std::size_t slot = 0; slot < state.landmarks.size(); ++slot) {
     if (row_[slot] < 0) continue;
@@ -77,7 +80,8 @@ void PathOntoMap::factorPose(std::size_t j, const Vector6d& diagonal) {
   }
 }
 
-void PathOntoMap::factor(const State& state, const Prior& prior, const NormalEquations& equations, double datum_strength) {
+void PathOntoMap::factor(const State& state, const Prior& prior, const NormalEquations& equations,
+                         double datum_strength) {
   const std::size_t poses = state.poses.size();
   gather(state, prior, equations);
   links_.resize(poses);
@@ -89,7 +93,8 @@ void PathOntoMap::factor(const State& state, const Prior& prior, const NormalEqu
         pivots_[0](r, c) += value;
         if (r != c) pivots_[0](c, r) += value;
       }
-  for (int c = 0; c < 6; ++c) pivots_[0](c, c) += datum_strength > 0.0 ? datum_strength * (1.0 + pivots_[0](c, c)) : 0.0;
+  for (int c = 0; c < 6; ++c)
+    pivots_[0](c, c) += datum_strength > 0.0 ? datum_strength * (1.0 + pivots_[0](c, c)) : 0.0;
   Vector6d diagonal = pivots_[0].diagonal();
   for (std::size_t j = 0; j < poses; ++j) {
     factorPose(j, diagonal);
@@ -114,7 +119,8 @@ void PathOntoMap::factor(const State& state, const Prior& prior, const NormalEqu
     pivots_[j + 1].noalias() -= link.next * link.next.transpose();
     for (std::size_t c = 0; c < 6; ++c)
       for (std::size_t k = 0; k < 6; ++k)
-        kernels::subtract(across(6 * (j + 1) + c), across(6 * j + k), link.next(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(k)), map_size_);
+        kernels::subtract(across(6 * (j + 1) + c), across(6 * j + k),
+                          link.next(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(k)), map_size_);
   }
   if (map_size_ == 0) return;
   product_.subtract(dense_, 0, map_size_, across_.data(), static_cast<int>(6 * poses), static_cast<int>(stride_));
@@ -129,7 +135,8 @@ void PathOntoMap::solve(std::vector<double>& path, std::vector<double>& map, boo
     for (int c = 0; c < 6 && hold; ++c)
       if (links_[j].held[c]) y[c] = 0.0;
     if (j + 1 < links_.size()) Column(path.data() + 6 * (j + 1)) -= links_[j].next * y;
-    for (std::size_t c = 0; c < 6; ++c) kernels::subtract(map.data(), across(6 * j + c), y[static_cast<Eigen::Index>(c)], map_size_);
+    for (std::size_t c = 0; c < 6; ++c)
+      kernels::subtract(map.data(), across(6 * j + c), y[static_cast<Eigen::Index>(c)], map_size_);
   }
   if (map_size_ > 0) {
     cholesky_.solveLower(map.data());
@@ -139,7 +146,8 @@ void PathOntoMap::solve(std::vector<double>& path, std::vector<double>& map, boo
   for (std::size_t j = links_.size(); j-- > 0;) {
     Column y(path.data() + 6 * j);
     if (j + 1 < links_.size()) y -= links_[j].next.transpose() * Column(path.data() + 6 * (j + 1));
-    for (std::size_t c = 0; c < 6; ++c) y[static_cast<Eigen::Index>(c)] -= kernels::dot(across(6 * j + c), map.data(), map_size_);
+    for (std::size_t c = 0; c < 6; ++c)
+      y[static_cast<Eigen::Index>(c)] -= kernels::dot(across(6 * j + c), map.data(), map_size_);
     links_[j].L.transpose().triangularView<Eigen::Upper>().solveInPlace(y);
   }
 }

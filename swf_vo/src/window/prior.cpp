@@ -73,7 +73,8 @@ void Prior::recentre(const State& state) {
   gradient(d_, 0.0, g_, g_offset);
   eta.swap(g_);
   if (has_offset) offset_eta = g_offset;
-  for (std::size_t i = 0; i < slots.size(); ++i) landmark_centre[i] = state.landmarks[static_cast<std::size_t>(slots[i])].estimate;
+  for (std::size_t i = 0; i < slots.size(); ++i)
+    landmark_centre[i] = state.landmarks[static_cast<std::size_t>(slots[i])].estimate;
   pose_centre = state.poses.front().estimate;
 }
 
@@ -81,7 +82,8 @@ void Prior::reserveLike(const Prior& other) {
   slots.reserve(other.slots.capacity());
   landmark_centre.reserve(other.landmark_centre.capacity());
   information.reserveLike(other.information);
-  for (const auto& [own, others] : {std::pair(&eta, &other.eta), std::pair(&d_, &other.d_), std::pair(&g_, &other.g_)}) own->reserve(others->capacity());
+  for (const auto& [own, others] : {std::pair(&eta, &other.eta), std::pair(&d_, &other.d_), std::pair(&g_, &other.g_)})
+    own->reserve(others->capacity());
 }
 
 }  // namespace swf_vo

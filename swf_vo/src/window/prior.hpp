@@ -20,16 +20,16 @@ namespace swf_vo {
 /// The textbook's EKF (linearise_first off) moves the centre to each new estimate instead.
 struct Prior {
   bool has_pose = false;
-  bool frozen = false;           ///< something was marginalised into it: from now on blocks are linearised where they
-                                 ///< were then. Before that it is a measurement like any other
-  std::vector<int> slots;        ///< landmark slot of each landmark block
+  bool frozen = false;     ///< something was marginalised into it: from now on blocks are linearised where they
+                           ///< were then. Before that it is a measurement like any other
+  std::vector<int> slots;  ///< landmark slot of each landmark block
   std::vector<Eigen::Vector3d> landmark_centre;
   urban_nav_core::Pose pose_centre;
-  DenseMatrix information;       ///< 3 slots.size() + 6
+  DenseMatrix information;  ///< 3 slots.size() + 6
   std::vector<double> eta;
-  bool has_offset = false;       ///< the disparity offset is a state; else a constant
-  std::vector<double> border;    ///< 3 slots.size() + 6
-  double offset_information = 0.0, offset_eta = 0.0;   ///< from measurements
+  bool has_offset = false;                                        ///< the disparity offset is a state; else a constant
+  std::vector<double> border;                                     ///< 3 slots.size() + 6
+  double offset_information = 0.0, offset_eta = 0.0;              ///< from measurements
   double calibrated_offset = 0.0, calibration_information = 0.0;  ///< what the calibration says of it
 
   int landmarkSize() const { return 3 * static_cast<int>(slots.size()); }

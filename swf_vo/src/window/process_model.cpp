@@ -19,7 +19,9 @@ Matrix6d floor() {
 
 Pose predict(const Pose& T_odom_last, const ProcessInput& u) { return T_odom_last * u.T_from_to; }
 
-Vector6d error(const Pose& T_odom_last, const Pose& T_odom_next, const Pose& u) { return boxMinus(T_odom_last.inverse() * T_odom_next, u); }
+Vector6d error(const Pose& T_odom_last, const Pose& T_odom_next, const Pose& u) {
+  return boxMinus(T_odom_last.inverse() * T_odom_next, u);
+}
 
 Residual residual(const Pose& T_odom_last, const Pose& T_odom_next, const Pose& u) {
   // With T_last -> (t + rho, Exp(phi) R): the relative translation R^T (t' - t) changes by -R^T rho + R^T [t' - t]x phi,

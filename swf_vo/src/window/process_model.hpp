@@ -29,10 +29,12 @@ struct Residual {
   urban_nav_core::Matrix6d last;
   urban_nav_core::Matrix6d next;
 };
-Residual residual(const urban_nav_core::Pose& T_odom_last, const urban_nav_core::Pose& T_odom_next, const urban_nav_core::Pose& u);
+Residual residual(const urban_nav_core::Pose& T_odom_last, const urban_nav_core::Pose& T_odom_next,
+                  const urban_nav_core::Pose& u);
 
 /// e alone.
-urban_nav_core::Vector6d error(const urban_nav_core::Pose& T_odom_last, const urban_nav_core::Pose& T_odom_next, const urban_nav_core::Pose& u);
+urban_nav_core::Vector6d error(const urban_nav_core::Pose& T_odom_last, const urban_nav_core::Pose& T_odom_next,
+                               const urban_nav_core::Pose& u);
 
 }  // namespace process_model
 }  // namespace swf_vo

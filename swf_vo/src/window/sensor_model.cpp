@@ -40,7 +40,8 @@ SensorModel::SensorModel(const urban_nav_core::StereoCamera& camera)
     : fx_(camera.left.fx), fy_(camera.left.fy), cx_(camera.left.cx), cy_(camera.left.cy), baseline_(camera.baseline) {}
 
 bool SensorModel::predict(const Anchor& anchor, const Vector3d& theta, const PoseMatrices& pose, Vector3d& z) const {
-  const Vector3d w = anchor.R_odom_anchor * Vector3d(theta.x(), theta.y(), 1.0) + theta.z() * (anchor.t_odom_anchor - pose.t_odom_camera);
+  const Vector3d w = anchor.R_odom_anchor * Vector3d(theta.x(), theta.y(), 1.0) +
+                     theta.z() * (anchor.t_odom_anchor - pose.t_odom_camera);
   const Vector3d q = pose.R_camera_odom * w;
   if (!(q.z() > nearest)) return false;
   const double inverse = 1.0 / q.z();
@@ -49,14 +50,16 @@ bool SensorModel::predict(const Anchor& anchor, const Vector3d& theta, const Pos
   return true;
 }
 
-bool SensorModel::linearise(const Anchor& anchor, const Vector3d& theta, const PoseMatrices& pose, Linearised& result) const {
+bool SensorModel::linearise(const Anchor& anchor, const Vector3d& theta, const PoseMatrices& pose,
+                            Linearised& result) const {
   const Vector3d towards = anchor.t_odom_anchor - pose.t_odom_camera;
   result.rho = theta.z();
   result.w = anchor.R_odom_anchor * Vector3d(theta.x(), theta.y(), 1.0) + theta.z() * towards;
   const Vector3d q = pose.R_camera_odom * result.w;
   if (!(q.z() > nearest)) return false;
   const double inverse = 1.0 / q.z();
-  const Vector3d x_row = pose.R_camera_odom.row(0), y_row = pose.R_camera_odom.row(1), z_row = pose.R_camera_odom.row(2);
+  const Vector3d x_row = pose.R_camera_odom.row(0), y_row = pose.R_camera_odom.row(1),
+                 z_row = pose.R_camera_odom.row(2);
   result.H.row(0) = fx_ * inverse * (x_row - q.x() * inverse * z_row);
   result.H.row(1) = fy_ * inverse * (y_row - q.y() * inverse * z_row);
   result.H.row(2) = fx_ * inverse * (x_row - (q.x() - baseline_ * theta.z()) * inverse * z_row);

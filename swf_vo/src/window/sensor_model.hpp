@@ -37,8 +37,9 @@ class SensorModel {
   explicit SensorModel(const urban_nav_core::StereoCamera& camera);
 
   struct Linearised {
-    Eigen::Matrix3d H;        ///< dz/dw, w being the point as seen from the camera's place, scaled by rho, in the axes of odom
-    Eigen::Vector3d w;        ///< ... and w itself
+    Eigen::Matrix3d
+        H;  ///< dz/dw, w being the point as seen from the camera's place, scaled by rho, in the axes of odom
+    Eigen::Vector3d w;  ///< ... and w itself
     double rho = 0.0;
     Eigen::Matrix3d landmark;  ///< dz/dtheta
 
@@ -49,7 +50,8 @@ class SensorModel {
   /// h; false, and z untouched, where the point is not in front of the camera.
   bool predict(const Anchor& anchor, const Eigen::Vector3d& theta, const PoseMatrices& pose, Eigen::Vector3d& z) const;
   /// Both Jacobians, exact; false where the point is not in front.
-  bool linearise(const Anchor& anchor, const Eigen::Vector3d& theta, const PoseMatrices& pose, Linearised& result) const;
+  bool linearise(const Anchor& anchor, const Eigen::Vector3d& theta, const PoseMatrices& pose,
+                 Linearised& result) const;
 
   /// theta of a landmark whose anchor is the camera that sees it at z. Any finite z has one; a negative disparity gives rho < 0.
   Eigen::Vector3d invert(const Eigen::Vector3d& z) const;

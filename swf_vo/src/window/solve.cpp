@@ -93,7 +93,9 @@ void Solver::eliminateFree(const State& state, const NormalEquations& equations)
       F.noalias() = equations.cross[cross] * R.transpose();
       ++cross;
       for (int c = 0; c < 3; ++c)
-        Map<Vector6d>(columns_.data() + static_cast<std::size_t>(strip.columns + c) * static_cast<std::size_t>(onto_poses_.stride()) + row) = F.col(c);
+        Map<Vector6d>(columns_.data() +
+                      static_cast<std::size_t>(strip.columns + c) * static_cast<std::size_t>(onto_poses_.stride()) +
+                      row) = F.col(c);
       strip.first = std::min(strip.first, row);
       strip.last = std::max(strip.last, row + 6);
     }
@@ -126,7 +128,8 @@ bool Solver::isCheaperOntoMap(const State& state, const Prior& prior) const {
   if (way_ != Way::Cheaper) return way_ == Way::PathOntoMap;
   std::size_t free = 0;
   for (const LandmarkBlock& landmark : state.landmarks) free += isFree(landmark) && !landmark.seen.empty() ? 1 : 0;
-  const double path = 6.0 * static_cast<double>(state.poses.size()), dense = 3.0 * static_cast<double>(prior.slots.size()) + path;
+  const double path = 6.0 * static_cast<double>(state.poses.size()),
+               dense = 3.0 * static_cast<double>(prior.slots.size()) + path;
   const double onto_path = dense * dense * dense / 6.0 + 1.5 * static_cast<double>(free) * path * path;
   return PathOntoMap::operations(state.poses.size(), prior.slots.size() + free) < worth_changing * onto_path;
 }
@@ -163,24 +166,28 @@ double Solver::dotBorder(const State& state, const Prior& prior, const NormalEqu
   for (std::size_t i = 0; i < static_cast<std::size_t>(prior.size()); ++i) sum += prior.border[i] * rhs_[i];
   for (std::size_t j = 0; j < poses_; ++j) sum += equations.border.pose[j].dot(poseStep(j));
   for (std::size_t slot = 0; slot < state.landmarks.size(); ++slot)
-    if (state.landmarks[slot].used && !state.landmarks[slot].known) sum += equations.border.landmark[slot].dot(landmark_step_[slot]);
+    if (state.landmarks[slot].used && !state.landmarks[slot].known)
+      sum += equations.border.landmark[slot].dot(landmark_step_[slot]);
   return sum;
 }
 
-void Solver::solve(const State& state, const Prior& prior, const NormalEquations& equations, const std::vector<double>& prior_gradient,
-                   double prior_offset_gradient) {
+void Solver::solve(const State& state, const Prior& prior, const NormalEquations& equations,
+                   const std::vector<double>& prior_gradient, double prior_offset_gradient) {
   solveFor(state, prior, equations, {prior_gradient, equations.pose_gradient, equations.landmark_gradient});
   offset_step_ = 0.0;
   if (!border_.used) return;
   const double left = prior_offset_gradient + equations.border.gradient - dotBorder(state, prior, equations);
-  const double pull = left / caution + prior.calibration_information * (prior.calibrated_offset - state.disparity_offset);
+  const double pull =
+      left / caution + prior.calibration_information * (prior.calibrated_offset - state.disparity_offset);
   offset_step_ = pull / border_.pivot;
   decrement_ += pull * offset_step_;
   for (std::size_t i = 0; i < rhs_.size(); ++i) rhs_[i] -= border_.rows[i] * offset_step_;
-  for (std::size_t slot = 0; slot < landmark_step_.size(); ++slot) landmark_step_[slot] -= border_.landmark[slot] * offset_step_;
+  for (std::size_t slot = 0; slot < landmark_step_.size(); ++slot)
+    landmark_step_[slot] -= border_.landmark[slot] * offset_step_;
 }
 
-void Solver::solveFor(const State& state, const Prior& prior, const NormalEquations& equations, const RightSide& right) {
+void Solver::solveFor(const State& state, const Prior& prior, const NormalEquations& equations,
+                      const RightSide& right) {
   if (onto_map_) solveOntoMap(state, prior, right);
   else solveOntoPath(state, prior, equations, right);
 }
@@ -192,7 +199,8 @@ void Solver::solveOntoMap(const State& state, const Prior& prior, const RightSid
   std::copy(right.prior.begin(), right.prior.begin() + static_cast<std::ptrdiff_t>(offset_), map_.begin());
   if (prior.has_pose) Map<Vector6d>(path_.data()) += Map<const Vector6d>(right.prior.data() + offset_);
   for (std::size_t slot = 0; slot < state.landmarks.size(); ++slot)
-    if (path_onto_map_.rowOf(slot) >= 0) Map<Vector3d>(map_.data() + path_onto_map_.rowOf(slot)) += right.landmark[slot];
+    if (path_onto_map_.rowOf(slot) >= 0)
+      Map<Vector3d>(map_.data() + path_onto_map_.rowOf(slot)) += right.landmark[slot];
   right_path_ = path_;
   right_map_ = map_;
   path_onto_map_.solve(path_, map_, true);
@@ -203,7 +211,8 @@ void Solver::solveOntoMap(const State& state, const Prior& prior, const RightSid
   std::copy(path_.begin(), path_.end(), rhs_.begin() + static_cast<std::ptrdiff_t>(offset_));
   landmark_step_.assign(state.landmarks.size(), Vector3d::Zero());
   for (std::size_t slot = 0; slot < state.landmarks.size(); ++slot)
-    if (path_onto_map_.rowOf(slot) >= 0) landmark_step_[slot] = Map<const Vector3d>(map_.data() + path_onto_map_.rowOf(slot));
+    if (path_onto_map_.rowOf(slot) >= 0)
+      landmark_step_[slot] = Map<const Vector3d>(map_.data() + path_onto_map_.rowOf(slot));
 }
 
 void Solver::factorOntoPath(const State& state, const Prior& prior, const NormalEquations& equations, bool datum) {
@@ -214,7 +223,8 @@ void Solver::factorOntoPath(const State& state, const Prior& prior, const Normal
   // The prior's blocks are the first of this matrix, in its own order.
   for (int j = 0; j < size; ++j) {
     const int known = std::max(prior.size(), j);
-    if (j < prior.size()) std::copy(prior.information.column(j) + j, prior.information.column(j) + known, dense_.column(j) + j);
+    if (j < prior.size())
+      std::copy(prior.information.column(j) + j, prior.information.column(j) + known, dense_.column(j) + j);
     std::fill(dense_.column(j) + known, dense_.column(j) + size, 0.0);
   }
   for (std::size_t i = 0; i < prior.slots.size(); ++i) {
@@ -233,12 +243,14 @@ void Solver::factorOntoPath(const State& state, const Prior& prior, const Normal
     for (int i = 0; i < 6; ++i) floor_[static_cast<std::size_t>(at + i)] = process_model::floor()(i, i);
   }
   if (datum)
-    for (int i = static_cast<int>(offset_); i < static_cast<int>(offset_) + 6; ++i) dense_(i, i) += datum_strength * (1.0 + dense_(i, i));
+    for (int i = static_cast<int>(offset_); i < static_cast<int>(offset_) + 6; ++i)
+      dense_(i, i) += datum_strength * (1.0 + dense_(i, i));
   eliminateFree(state, equations);
   cholesky_.factor(dense_, floor_);
 }
 
-void Solver::solveOntoPath(const State& state, const Prior& prior, const NormalEquations& equations, const RightSide& right) {
+void Solver::solveOntoPath(const State& state, const Prior& prior, const NormalEquations& equations,
+                           const RightSide& right) {
   rhs_.assign(offset_ + 6 * poses_, 0.0);
   std::copy(right.prior.begin(), right.prior.begin() + prior.size(), rhs_.begin());
   for (std::size_t i = 0; i < prior.slots.size(); ++i)
@@ -254,7 +266,8 @@ void Solver::solveOntoPath(const State& state, const Prior& prior, const NormalE
     decrement_ += y.squaredNorm();
     std::size_t m = static_cast<std::size_t>(equations.first_cross[slot]);
     for (const Measurement& measurement : landmark.seen)
-      Map<Vector6d>(rhs_.data() + offset_ + 6 * static_cast<std::size_t>(measurement.step - state.first_step)) -= eliminated_[m++] * y;
+      Map<Vector6d>(rhs_.data() + offset_ + 6 * static_cast<std::size_t>(measurement.step - state.first_step)) -=
+          eliminated_[m++] * y;
   }
   cholesky_.solveLower(rhs_.data());
   cholesky_.release(rhs_.data());
@@ -269,7 +282,8 @@ void Solver::solveOntoPath(const State& state, const Prior& prior, const NormalE
     Vector3d y = landmark_step_[slot];
     std::size_t m = static_cast<std::size_t>(equations.first_cross[slot]);
     for (const Measurement& measurement : landmark.seen)
-      y.noalias() -= eliminated_[m++].transpose() * poseStep(static_cast<std::size_t>(measurement.step - state.first_step));
+      y.noalias() -=
+          eliminated_[m++].transpose() * poseStep(static_cast<std::size_t>(measurement.step - state.first_step));
     landmark_step_[slot] = inverse_root_[slot].transpose() * y;
   }
 }

@@ -27,8 +27,8 @@ class Solver {
   /// information is, and exact there, for a gradient without share in the gauge directions can be answered without moving it.
   void factor(const State& state, const Prior& prior, const NormalEquations& equations, bool datum);
   /// The step for the gradients of `equations` and the prior's gradient, with the last factor.
-  void solve(const State& state, const Prior& prior, const NormalEquations& equations, const std::vector<double>& prior_gradient,
-             double prior_offset_gradient);
+  void solve(const State& state, const Prior& prior, const NormalEquations& equations,
+             const std::vector<double>& prior_gradient, double prior_offset_gradient);
 
   /// Steps of the last solve: of pose j, of the landmark in a slot, of the disparity offset.
   urban_nav_core::Vector6d poseStep(std::size_t j) const;
@@ -92,9 +92,9 @@ class Solver {
   double offset_step_ = 0.0;
   struct {
     bool used = false;
-    std::vector<double> rows;                // Lambda^-1 border: landmarks of the prior, then poses
-    std::vector<Eigen::Vector3d> landmark;   // ... by slot
-    double pivot = 1.0;                      // what is left of the offset's information
+    std::vector<double> rows;               // Lambda^-1 border: landmarks of the prior, then poses
+    std::vector<Eigen::Vector3d> landmark;  // ... by slot
+    double pivot = 1.0;                     // what is left of the offset's information
   } border_;
 };
 

@@ -16,7 +16,8 @@ bool before(const std::pair<LandmarkId, int>& entry, LandmarkId id) { return ent
 }  // namespace
 
 int State::poseOf(FrameId frame) const {
-  const auto at = std::lower_bound(poses.begin(), poses.end(), frame, [](const PoseBlock& pose, FrameId value) { return pose.frame < value; });
+  const auto at = std::lower_bound(poses.begin(), poses.end(), frame,
+                                   [](const PoseBlock& pose, FrameId value) { return pose.frame < value; });
   return at != poses.end() && at->frame == frame ? static_cast<int>(at - poses.begin()) : -1;
 }
 

@@ -37,11 +37,11 @@ struct LandmarkBlock {
   Anchor anchor;
   Eigen::Vector3d estimate = Eigen::Vector3d::Zero();
   Eigen::Vector3d linearised = Eigen::Vector3d::Zero();
-  int prior = -1;         ///< which landmark of the prior; -1: the prior does not touch it
+  int prior = -1;                                    ///< which landmark of the prior; -1: the prior does not touch it
   Eigen::Matrix2d wander = Eigen::Matrix2d::Zero();  ///< of the bearing, since what the prior knows of it
-  bool used = false;      ///< false: the slot is free
-  bool known = false;     ///< its place is given: a constant, not a state
-  bool followed = true;   ///< still looked for
+  bool used = false;                                 ///< false: the slot is free
+  bool known = false;                                ///< its place is given: a constant, not a state
+  bool followed = true;                              ///< still looked for
   std::vector<Measurement> seen;
 };
 
@@ -49,10 +49,10 @@ struct LandmarkBlock {
 /// with the memory of their measurements, so that a steady state allocates nothing.
 class State {
  public:
-  std::vector<PoseBlock> poses;            ///< oldest first
-  std::int64_t first_step = 0;             ///< of poses.front()
-  std::vector<LandmarkBlock> landmarks;    ///< by slot
-  double disparity_offset = 0.0;           ///< px, of the camera (StereoCamera): one number for all frames
+  std::vector<PoseBlock> poses;          ///< oldest first
+  std::int64_t first_step = 0;           ///< of poses.front()
+  std::vector<LandmarkBlock> landmarks;  ///< by slot
+  double disparity_offset = 0.0;         ///< px, of the camera (StereoCamera): one number for all frames
 
   std::int64_t newestStep() const { return first_step + static_cast<std::int64_t>(poses.size()) - 1; }
   /// Place in `poses`, -1 if the frame is not active.

@@ -43,7 +43,8 @@ Undo::Step* Undo::find(FrameId frame) { return const_cast<Step*>(static_cast<con
 
 bool Undo::needsReplay(FrameId frame) const {
   if (isPending()) return true;
-  return std::any_of(steps_.begin(), steps_.end(), [&](const Step& step) { return step.has_checkpoint && step.frame > frame; });
+  return std::any_of(steps_.begin(), steps_.end(),
+                     [&](const Step& step) { return step.has_checkpoint && step.frame > frame; });
 }
 
 void Undo::change(Step& step) {

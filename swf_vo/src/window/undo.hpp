@@ -49,8 +49,8 @@ class Undo {
   static bool erase(Step& step, LandmarkId landmark);
   void change(Step& step);
 
-  std::vector<Step> steps_;      // oldest first
-  int pending_ = -1;             // first changed step
+  std::vector<Step> steps_;  // oldest first
+  int pending_ = -1;         // first changed step
   std::vector<SettledPose> unused_;
 };
 

@@ -10,9 +10,11 @@
 
 namespace swf_vo {
 
-void Wander::apply(const std::vector<Step>& steps, const std::vector<double>& directions, Prior& prior, Departed& departed) {
+void Wander::apply(const std::vector<Step>& steps, const std::vector<double>& directions, Prior& prior,
+                   Departed& departed) {
   for (std::size_t at = 0; at < steps.size(); at += group)
-    apply(steps.data() + at, static_cast<int>(std::min<std::size_t>(group, steps.size() - at)), directions, prior, departed);
+    apply(steps.data() + at, static_cast<int>(std::min<std::size_t>(group, steps.size() - at)), directions, prior,
+          departed);
 }
 
 void Wander::gather(const Step* steps, int count, const Prior& prior) {
@@ -31,7 +33,8 @@ void Wander::gather(const Step* steps, int count, const Prior& prior) {
 void Wander::factor(const Step* steps, int count) {
   const int m = 2 * count;
   for (int j = 0; j < m; ++j)
-    for (int i = 0; i < m; ++i) L_[i][j] = columns_[static_cast<std::size_t>(j) * stride_ + static_cast<std::size_t>(row_[i])];
+    for (int i = 0; i < m; ++i)
+      L_[i][j] = columns_[static_cast<std::size_t>(j) * stride_ + static_cast<std::size_t>(row_[i])];
   for (int b = 0; b < count; ++b) {
     const Eigen::Matrix2d inverse = steps[b].covariance.inverse();
     for (int r = 0; r < 2; ++r)
@@ -45,7 +48,8 @@ void Wander::factor(const Step* steps, int count) {
   }
 }
 
-void Wander::apply(const Step* steps, int count, const std::vector<double>& directions, Prior& prior, Departed& departed) {
+void Wander::apply(const Step* steps, int count, const std::vector<double>& directions, Prior& prior,
+                   Departed& departed) {
   const int n = prior.size(), m = 2 * count;
   gather(steps, count, prior);
   factor(steps, count);

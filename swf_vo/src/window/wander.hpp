@@ -32,7 +32,7 @@ class Wander {
   std::size_t stride_ = 0;
   std::vector<double> columns_;  // Pi E, then times L^-T
   int row_[most] = {};
-  double L_[most][most] = {};    // L L^T = E^T Pi E + Q^-1
+  double L_[most][most] = {};  // L L^T = E^T Pi E + Q^-1
   StripProduct product_;
 };
 

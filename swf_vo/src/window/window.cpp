@@ -20,7 +20,9 @@ class Window::Implementation {
   }
 
   // An earlier frame's measurement, with something marginalised since.
-  bool isLate(FrameId frame) const { return options.exact_undo && filter.state().poseOf(frame) >= 0 && undo.needsReplay(frame); }
+  bool isLate(FrameId frame) const {
+    return options.exact_undo && filter.state().poseOf(frame) >= 0 && undo.needsReplay(frame);
+  }
 
   WindowOptions options;
   Filter filter;
@@ -31,21 +33,24 @@ class Window::Implementation {
   mutable std::vector<MapPoint> map;
 };
 
-Window::Window(const WindowOptions& options, const StereoCamera& camera) : implementation_(std::make_unique<Implementation>(options, camera)) {}
+Window::Window(const WindowOptions& options, const StereoCamera& camera)
+    : implementation_(std::make_unique<Implementation>(options, camera)) {}
 Window::~Window() = default;
 Window::Window(Window&&) noexcept = default;
 Window& Window::operator=(Window&&) noexcept = default;
 
 void Window::start(FrameId frame, const Pose& T_odom_camera, const Matrix6d& information) {
   implementation_->filter.start(frame, T_odom_camera, information);
-  if (implementation_->options.exact_undo) implementation_->undo.beginStep(implementation_->filter, frame, ProcessInput(), false, 1);
+  if (implementation_->options.exact_undo)
+    implementation_->undo.beginStep(implementation_->filter, frame, ProcessInput(), false, 1);
 }
 
 void Window::addPose(FrameId frame, const ProcessInput& u) {
   Implementation& all = *implementation_;
   if (all.options.exact_undo) {
     if (all.undo.isPending()) update();
-    all.undo.beginStep(all.filter, frame, u, all.filter.isFull(), static_cast<std::size_t>(std::max(1, all.options.size)));
+    all.undo.beginStep(all.filter, frame, u, all.filter.isFull(),
+                       static_cast<std::size_t>(std::max(1, all.options.size)));
   }
   all.filter.addPose(frame, u);
 }
@@ -61,7 +66,8 @@ void Window::restart(FrameId frame, const ProcessInput& u) {
 
 void Window::removePoses() {
   implementation_->settled.clear();
-  implementation_->filter.removePoses(implementation_->settled, implementation_->options.keep_history ? &implementation_->history : nullptr);
+  implementation_->filter.removePoses(implementation_->settled,
+                                      implementation_->options.keep_history ? &implementation_->history : nullptr);
 }
 
 const std::vector<SettledPose>& Window::settled() const { return implementation_->settled; }
@@ -120,7 +126,8 @@ const std::vector<MapPoint>& Window::map() const {
   std::vector<MapPoint>& map = implementation_->map;
   map.clear();
   for (const LandmarkBlock& landmark : implementation_->filter.state().landmarks)
-    if (landmark.used && landmark.followed) map.push_back({landmark.id, landmark.anchor.homogeneous(landmark.estimate)});
+    if (landmark.used && landmark.followed)
+      map.push_back({landmark.id, landmark.anchor.homogeneous(landmark.estimate)});
   std::sort(map.begin(), map.end(), [](const MapPoint& a, const MapPoint& b) { return a.landmark < b.landmark; });
   return map;
 }
@@ -138,7 +145,9 @@ std::vector<SettledPose> Window::flush() {
   return left;
 }
 
-std::map<FrameId, Pose> Window::trajectory() const { return implementation_->history.solve(implementation_->filter.state()); }
+std::map<FrameId, Pose> Window::trajectory() const {
+  return implementation_->history.solve(implementation_->filter.state());
+}
 
 const Filter& Window::filter() const { return implementation_->filter; }
 

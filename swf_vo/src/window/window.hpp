@@ -16,20 +16,24 @@ class Filter;
 
 /// What the window must know of the parameters.
 struct WindowOptions {
-  int size = 10;                    ///< poses kept (k)
-  bool forget_by_deletion = false;  ///< classic visual odometry for comparison: no information is rolled into the prior. One pose
-                                    ///< more is kept, the oldest, as the datum: size 1 is odometry from frame to frame
-  bool linearise_first = true;      ///< blocks touched by the prior keep their linearisation point; false: textbook EKF
-  double huber = 2.5;               ///< in standard deviations of a stereo pixel (Mahalanobis); <= 0: no robust kernel
-  int iterations = 3;               ///< Gauss-Newton steps of one update, at most; 1: one step from the prediction, as the EKF
-  double tolerance = 1e-5;          ///< stops once a step promises to lower the cost (in chi-square) by less than this
-  bool exact_undo = true;           ///< withdraw and late observe as if it had always been so (undo.hpp); false: the measurement itself
-                                    ///< goes in or out, but what was marginalised since keeps the linearisation points it had
-  double datum_ratio = 100.0;        ///< once the place of the whole window is this much less certain than what one frame tells of its own pose
-                                    ///< (in variance), it is held anew and the difference carried beside (datum.hpp): changes no result but
-                                    ///< for rounding
-  double disparity_offset = 0.0;    ///< px, standard deviation of the camera's disparity offset, which is then a state; 0: it is a constant
-  bool keep_history = false;        ///< keep the eliminated rows for Window::trajectory(): grows with the trajectory
+  int size = 10;  ///< poses kept (k)
+  bool forget_by_deletion =
+      false;  ///< classic visual odometry for comparison: no information is rolled into the prior. One pose
+              ///< more is kept, the oldest, as the datum: size 1 is odometry from frame to frame
+  bool linearise_first = true;  ///< blocks touched by the prior keep their linearisation point; false: textbook EKF
+  double huber = 2.5;           ///< in standard deviations of a stereo pixel (Mahalanobis); <= 0: no robust kernel
+  int iterations = 3;       ///< Gauss-Newton steps of one update, at most; 1: one step from the prediction, as the EKF
+  double tolerance = 1e-5;  ///< stops once a step promises to lower the cost (in chi-square) by less than this
+  bool exact_undo =
+      true;  ///< withdraw and late observe as if it had always been so (undo.hpp); false: the measurement itself
+             ///< goes in or out, but what was marginalised since keeps the linearisation points it had
+  double datum_ratio =
+      100.0;  ///< once the place of the whole window is this much less certain than what one frame tells of its own pose
+              ///< (in variance), it is held anew and the difference carried beside (datum.hpp): changes no result but
+              ///< for rounding
+  double disparity_offset =
+      0.0;  ///< px, standard deviation of the camera's disparity offset, which is then a state; 0: it is a constant
+  bool keep_history = false;  ///< keep the eliminated rows for Window::trajectory(): grows with the trajectory
 };
 
 /// A pose that left the window.
@@ -43,20 +47,22 @@ struct WindowOptions {
 /// the same in all steps and not in the drift: the covariance of T_odom_camera has it.
 struct SettledPose {
   FrameId frame = 0;
-  urban_nav_core::UncertainPose T_odom_camera;        ///< previous pose times T_previous_camera, to the last bit
-  urban_nav_core::Pose T_previous_camera;             ///< from the settled pose before; identity for the first
-  urban_nav_core::Matrix6d relative_covariance = urban_nav_core::Matrix6d::Zero();  ///< of T_previous_camera, in `previous`: between both as they settled
-  urban_nav_core::Matrix6d drift_covariance = urban_nav_core::Matrix6d::Zero();     ///< that part of it which adds up over steps; all of it where the
-                                                                                    ///< filter does not keep the gauge apart (datum.hpp)
+  urban_nav_core::UncertainPose T_odom_camera;  ///< previous pose times T_previous_camera, to the last bit
+  urban_nav_core::Pose T_previous_camera;       ///< from the settled pose before; identity for the first
+  urban_nav_core::Matrix6d relative_covariance =
+      urban_nav_core::Matrix6d::Zero();  ///< of T_previous_camera, in `previous`: between both as they settled
+  urban_nav_core::Matrix6d drift_covariance =
+      urban_nav_core::Matrix6d::Zero();  ///< that part of it which adds up over steps; all of it where the
+                                         ///< filter does not keep the gauge apart (datum.hpp)
 };
 
 struct UpdateReport {
   int iterations = 0;
   bool converged = false;
-  int observations = 0;           ///< in the window, dropped ones apart
-  int downweighted = 0;           ///< with a robust weight under one half
-  int dropped = 0;                ///< of landmarks that came to lie behind a camera or nowhere: without influence
-  double reprojection_px = 0.0;   ///< root mean square over the newest frame, left image
+  int observations = 0;          ///< in the window, dropped ones apart
+  int downweighted = 0;          ///< with a robust weight under one half
+  int dropped = 0;               ///< of landmarks that came to lie behind a camera or nowhere: without influence
+  double reprojection_px = 0.0;  ///< root mean square over the newest frame, left image
   int landmarks = 0;
   int landmarks_in_prior = 0;
 };

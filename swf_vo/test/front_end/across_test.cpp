@@ -45,7 +45,8 @@ TEST(FindDisparity, FindsItInSpiteOfBrightness) {
 TEST(FindDisparity, RefusesWhatRepeatsItselfOrIsNotThere) {
   Picture left, right;
   for (int v = 0; v < 40; ++v)
-    for (int u = 0; u < 160; ++u) left.at(u, v) = right.at(u, v) = static_cast<std::uint8_t>(100 + 50 * ((u / 5 + v / 5) % 2));
+    for (int u = 0; u < 160; ++u)
+      left.at(u, v) = right.at(u, v) = static_cast<std::uint8_t>(100 + 50 * ((u / 5 + v / 5) % 2));
   EXPECT_FALSE(findDisparity(left.view(), right.view(), 100, 20, -2, 64));
   Picture other, unused;
   paint(0, 1, left, unused);

@@ -114,7 +114,8 @@ TEST(FrontEnd, FirstObservationsAreAsGoodAsTheySay) {
     ASSERT_TRUE(hit);
     const double error = o.z.x() - o.z.z() - camera.left.fx * camera.baseline / hit->distance;
     if (std::abs(error) < 0.3) ++near;
-    const double variance = Eigen::Vector3d(1.0, 0.0, -1.0).dot(Eigen::Matrix3d(o.information.inverse()) * Eigen::Vector3d(1.0, 0.0, -1.0));
+    const double variance =
+        Eigen::Vector3d(1.0, 0.0, -1.0).dot(Eigen::Matrix3d(o.information.inverse()) * Eigen::Vector3d(1.0, 0.0, -1.0));
     normalised += std::min(9.0, error * error / variance);
   }
   const double count = static_cast<double>(seen.fresh.size());
@@ -135,8 +136,9 @@ TEST(FrontEnd, SwappedDarkAndAbsurdImagesGiveFewMatchesAndNoHarm) {
   for (std::size_t i = 0; i < noise.size(); ++i) noise[i] = static_cast<std::uint8_t>((i * 2654435761U) >> 13);
   const auto view = [](const std::vector<std::uint8_t>& pixels) { return ImageView{pixels.data(), 320, 240, 320}; };
   const StereoPair good = sequence.frame(0).pair();
-  const StereoPair swapped{1, good.right, good.left}, dark{2, view(black), view(black)}, bright{3, view(white), good.right},
-      random{4, view(noise), view(noise)}, missing{5, ImageView(), good.right}, wrong_size{6, {good.left.data, 200, 100, 320}, good.right};
+  const StereoPair swapped{1, good.right, good.left}, dark{2, view(black), view(black)},
+      bright{3, view(white), good.right}, random{4, view(noise), view(noise)}, missing{5, ImageView(), good.right},
+      wrong_size{6, {good.left.data, 200, 100, 320}, good.right};
   for (const StereoPair& pair : {swapped, dark, bright, random, missing, wrong_size}) {
     Bench fresh(camera);
     fresh.learn(fresh.see(good, truth, truth), truth);
@@ -159,7 +161,8 @@ TEST(FrontEnd, GoesOnAfterDarkness) {
     const Pose truth = sequence.T_world_camera(i);
     const std::vector<std::uint8_t> black(320 * 240, 0);
     const ImageView dark{black.data(), 320, 240, 320};
-    const FrontEndResult& seen = i == 3 ? bench.see({0, dark, dark}, last, truth) : bench.see(sequence.frame(i).pair(), last, truth);
+    const FrontEndResult& seen =
+        i == 3 ? bench.see({0, dark, dark}, last, truth) : bench.see(sequence.frame(i).pair(), last, truth);
     EXPECT_FALSE(i == 3 && seen.localised);
     localised += seen.localised ? 1 : 0;
     bench.learn(seen, truth);

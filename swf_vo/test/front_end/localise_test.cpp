@@ -129,7 +129,7 @@ TEST(Localise, AVanThatFillsTheViewDoesNotCarryUsAway) {
     world.add(40, 0.1, 8, kTruth);
     world.add(60, 0.1, 1, kTruth, van);
     const StereoCamera stereo = camera();
-  Localiser localiser(stereo);
+    Localiser localiser(stereo);
     const Pose predicted = boxPlus(kTruth, tangent(0.02, 0.01, 0.1, 0.002, 0.003, 0.0));
     const Localisation found = localiser.locate({predicted}, {}, world.matches);
     ASSERT_TRUE(found.found) << seed;

@@ -26,7 +26,8 @@ double errorOf(const Vector3d& turn, double gain, const std::vector<Parallax>& k
   options.gain = [gain](double t) { return t > 0.0 ? gain : 1.0; };
   const Pose start = lookingAlong({0.3, 0.2, 1.2}, 0.4);
   const Pose turned = start * Pose(expSo3(turn), Vector3d::Zero());
-  RenderedSequence sequence(texturedRoom(), [&](double t) { return t > 0.0 ? turned : start; }, options);
+  RenderedSequence sequence(
+      texturedRoom(), [&](double t) { return t > 0.0 ? turned : start; }, options);
   RotationTracker tracker(cameraOf(options.camera).left);
   Pyramid pyramid(3);
   for (int i = 0; i < 2; ++i) {
@@ -55,7 +56,8 @@ TEST(Rotation, BrightnessDoesNotMatter) {
 
 TEST(Rotation, KnownPlacesSuffice) {
   std::vector<Parallax> known;
-  for (int i = 0; i < 60; ++i) known.push_back({Eigen::Vector2d(40.0 + 4.0 * i, 40.0 + (i * 37) % 160), Vector3d::Zero()});
+  for (int i = 0; i < 60; ++i)
+    known.push_back({Eigen::Vector2d(40.0 + 4.0 * i, 40.0 + (i * 37) % 160), Vector3d::Zero()});
   EXPECT_LT(errorOf({0.0, 3.0 * kDegree, 0.0}, 1.0, known), 0.15);
 }
 

@@ -5,8 +5,8 @@
 
 #include "front_end/across.hpp"
 #include "front_end/refine.hpp"
-#include "rendered.hpp"
 #include "front_end/replenish.hpp"
+#include "rendered.hpp"
 
 namespace swf_vo {
 namespace {
@@ -28,7 +28,8 @@ class TwoFrames : public ::testing::Test {
     motion << 0.03, -0.01, 0.12, 0.01, 0.02, 0.02;
     const Pose second = first * expSe3(motion);
     SequenceOptions options = smallCamera(2.0);
-    RenderedSequence sequence(texturedRoom(), [&](double t) { return t > 0.0 ? second : first; }, options);
+    RenderedSequence sequence(
+        texturedRoom(), [&](double t) { return t > 0.0 ? second : first; }, options);
     camera_ = cameraOf(options.camera);
     T_camera_odom_ = second.inverse();
     corners_.extract(sequence.frame(0).pair());

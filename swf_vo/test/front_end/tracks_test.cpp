@@ -39,7 +39,8 @@ TEST(Tracks, SurfaceHasTheSlopesOfItsDisparity) {
   const StereoCamera::Pixel pixel(300.0, 250.0, 290.0);
   const Eigen::Vector2d slopes(0.1, 0.3);
   const Eigen::Vector3d plane = surface(c, pixel, slopes);
-  for (const Eigen::Vector2d& d : {Eigen::Vector2d(0, 0), Eigen::Vector2d(5, 0), Eigen::Vector2d(0, 5), Eigen::Vector2d(-3, 4)}) {
+  for (const Eigen::Vector2d& d :
+       {Eigen::Vector2d(0, 0), Eigen::Vector2d(5, 0), Eigen::Vector2d(0, 5), Eigen::Vector2d(-3, 4)}) {
     const double disparity = 10.0 + slopes.dot(d);
     const auto p = c.triangulate({300.0 + d.x(), 250.0 + d.y(), 300.0 + d.x() - disparity});
     ASSERT_TRUE(p);
@@ -48,7 +49,8 @@ TEST(Tracks, SurfaceHasTheSlopesOfItsDisparity) {
 }
 
 /// Where a point of the surface seen at `pixel` in the first view lies in another.
-Eigen::Vector2d through(Side side, const StereoCamera& c, const Eigen::Vector3d& plane, const Pose& T, const Eigen::Vector2d& pixel) {
+Eigen::Vector2d through(Side side, const StereoCamera& c, const Eigen::Vector3d& plane, const Pose& T,
+                        const Eigen::Vector2d& pixel) {
   const Eigen::Vector3d ray = c.left.ray(pixel);
   Eigen::Vector3d p = T * Eigen::Vector3d(ray / plane.dot(ray));
   if (side == Side::Right) p.x() -= c.baseline;
@@ -68,7 +70,8 @@ TEST(Tracks, WarpIsTheDerivativeOfTheHomography) {
     Eigen::Matrix2d numeric;
     for (int k = 0; k < 2; ++k) {
       const Eigen::Vector2d d = 1e-4 * Eigen::Vector2d::Unit(k);
-      numeric.col(k) = (through(side, c, track.plane, T, pixel + d) - through(side, c, track.plane, T, pixel - d)) / 2e-4;
+      numeric.col(k) =
+          (through(side, c, track.plane, T, pixel + d) - through(side, c, track.plane, T, pixel - d)) / 2e-4;
     }
     EXPECT_LT((*A - numeric).cwiseAbs().maxCoeff(), 1e-6);
   }

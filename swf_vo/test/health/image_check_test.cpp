@@ -21,13 +21,15 @@ constexpr int width = 512, height = 384;
 struct Scene {
   std::vector<std::uint8_t> left, right;
 
-  Scene(unsigned seed, double disparity, double gain = 1.0, double shift = 0.0, double softness = 1.0) : left(width * height), right(width * height) {
+  Scene(unsigned seed, double disparity, double gain = 1.0, double shift = 0.0, double softness = 1.0)
+      : left(width * height), right(width * height) {
     std::mt19937 noise(seed);
     std::normal_distribution<double> grey(0.0, 1.0);
     for (int v = 0; v < height; ++v)
       for (int u = 0; u < width; ++u) {
         left[static_cast<std::size_t>(v * width + u)] = clip(gain * value(u + shift, v, softness) + grey(noise));
-        right[static_cast<std::size_t>(v * width + u)] = clip(gain * value(u + shift + disparity, v, softness) + grey(noise));
+        right[static_cast<std::size_t>(v * width + u)] =
+            clip(gain * value(u + shift + disparity, v, softness) + grey(noise));
       }
   }
   StereoPair pair(std::int64_t stamp = 0) const {
@@ -37,7 +39,8 @@ struct Scene {
 
   static std::uint8_t clip(double grey) { return static_cast<std::uint8_t>(std::clamp(grey, 0.0, 255.0)); }
   static double value(double u, double v, double softness) {
-    const double coarse = std::sin(0.11 * u + 2.0 * std::sin(0.037 * v)) + std::sin(0.071 * u + 0.13 * v + std::sin(0.017 * u * 1.3));
+    const double coarse =
+        std::sin(0.11 * u + 2.0 * std::sin(0.037 * v)) + std::sin(0.071 * u + 0.13 * v + std::sin(0.017 * u * 1.3));
     const double fine = std::sin(0.9 * u + 0.3 * v) + std::sin(0.7 * v - 0.4 * u);
     return 60.0 + 15.0 * coarse + 8.0 * softness * fine;
   }
@@ -81,7 +84,8 @@ TEST(ImageCheck, namesAFrozenCameraEvenIfOnlyOneIs) {
   half.right = first.pair().right;
   EXPECT_EQ(check.look(half, false).reason, Reason::Frozen);
   EXPECT_EQ(check.look(half, false).reason, Reason::Frozen);
-  EXPECT_EQ(check.look(Scene(3, 12.0).pair(), false).reason, Reason::None) << "the same scene with fresh noise is not frozen";
+  EXPECT_EQ(check.look(Scene(3, 12.0).pair(), false).reason, Reason::None)
+      << "the same scene with fresh noise is not frozen";
 }
 
 TEST(ImageCheck, namesAJumpOfExposureOnceAndThenGetsUsedToIt) {

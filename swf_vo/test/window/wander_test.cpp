@@ -91,7 +91,8 @@ TEST(Wander, keepsWhatTheDepartedPoseOwes) {
   const Eigen::MatrixXd gauge_before = G.transpose() * full(prior) * G;
   departed.gauge_gain = gain.transpose() * G;
   Wander wander;
-  wander.apply({{3, 0.5 * Eigen::Matrix2d::Identity()}, {8, 0.2 * Eigen::Matrix2d::Identity()}}, directions, prior, departed);
+  wander.apply({{3, 0.5 * Eigen::Matrix2d::Identity()}, {8, 0.2 * Eigen::Matrix2d::Identity()}}, directions, prior,
+               departed);
   const Eigen::MatrixXd after = Eigen::Map<const Eigen::MatrixXd>(departed.gain.data(), n, 6);
   const Eigen::MatrixXd P_after = full(prior).inverse();
   EXPECT_LT((after.transpose() * P_after - gain.transpose() * P).norm(), 1e-8 * (gain.transpose() * P).norm());

@@ -12,8 +12,8 @@ using namespace patch_kernel;
 
 namespace {
 
-constexpr double insistence = 6.0;       // chi-square by which pixels must speak for an unusual slope
-constexpr double across_reach = 4.0;     // px
+constexpr double insistence = 6.0;    // chi-square by which pixels must speak for an unusual slope
+constexpr double across_reach = 4.0;  // px
 constexpr int most_rounds = 4;
 constexpr double settled_slope = 0.01;
 constexpr double steepest_slope = 0.9;
@@ -26,8 +26,8 @@ struct Equations {
 };
 
 /// A pixel p of the source stands at A p + direction (slant . p) in the view; alignment.position is where the image was aligned.
-Equations observe(const ImageView& image, const PatchTemplate& patch, const Gradients& gradients, const Alignment& alignment,
-                  const Eigen::Vector2d& direction) {
+Equations observe(const ImageView& image, const PatchTemplate& patch, const Gradients& gradients,
+                  const Alignment& alignment, const Eigen::Vector2d& direction) {
   PatchGrid pixels;
   readWindow(image, alignment.position.x(), alignment.position.y(), patch.view_blur, pixels);
   const Eigen::Matrix2f back = patch.A.inverse().cast<float>();
@@ -36,7 +36,8 @@ Equations observe(const ImageView& image, const PatchTemplate& patch, const Grad
   for (int v = 0; v < patch_size; ++v)
     for (int u = 0; u < patch_size; ++u) {
       const std::size_t at = static_cast<std::size_t>(v * patch_stride + u);
-      const Eigen::Vector2f p = back * Eigen::Vector2f(static_cast<float>(u - patch_radius), static_cast<float>(v - patch_radius));
+      const Eigen::Vector2f p =
+          back * Eigen::Vector2f(static_cast<float>(u - patch_radius), static_cast<float>(v - patch_radius));
       const float slope = -(gradients.x[at] * d.x() + gradients.y[at] * d.y());
       J[2][at] = slope * p.x();
       J[3][at] = slope * p.y();
@@ -76,8 +77,8 @@ SlopeStep solve(const Equations& equations, const Eigen::Vector2d& slopes, doubl
 
 }  // namespace
 
-SlopedAlignment alignAcross(const ImageView& image, const PatchSource& source, const Eigen::Vector2d& start, const SlopePrior& prior,
-                            PatchTemplate& made) {
+SlopedAlignment alignAcross(const ImageView& image, const PatchSource& source, const Eigen::Vector2d& start,
+                            const SlopePrior& prior, PatchTemplate& made) {
   SlopedAlignment result;
   Eigen::Vector2d position = start;
   for (int round = 0; round < most_rounds; ++round) {
@@ -87,11 +88,14 @@ SlopedAlignment alignAcross(const ImageView& image, const PatchSource& source, c
     result.alignment.converged = false;
     if (!makeTemplate(source, A, made, gradients)) return result;
     const Alignment found = alignPatch(image, made, position, across_reach);
-    if (!found.converged || (found.position - start).norm() > across_reach || !fits(image, found.position.x(), found.position.y())) return result;
+    if (!found.converged || (found.position - start).norm() > across_reach ||
+        !fits(image, found.position.x(), found.position.y()))
+      return result;
     result.alignment = found;
 
     const Equations equations = observe(image, made, gradients, found, {-1.0, 0.0});
-    const SlopeStep usual = solve(equations, result.slopes, prior.usual_sigma), wide = solve(equations, result.slopes, prior.wide_sigma);
+    const SlopeStep usual = solve(equations, result.slopes, prior.usual_sigma),
+                    wide = solve(equations, result.slopes, prior.wide_sigma);
     const SlopeStep& chosen = usual.cost - wide.cost > insistence ? wide : usual;
     if (!chosen.step.allFinite()) {
       result.alignment.converged = false;
@@ -113,17 +117,19 @@ SlopedAlignment alignAcross(const ImageView& image, const PatchSource& source, c
   return result;
 }
 
-Slant refineSlant(const ImageView& image, const PatchSource& source, const PatchTemplate& patch, const Alignment& alignment,
-                  const Eigen::Vector2d& direction, const Eigen::Matrix2d& information) {
+Slant refineSlant(const ImageView& image, const PatchSource& source, const PatchTemplate& patch,
+                  const Alignment& alignment, const Eigen::Vector2d& direction, const Eigen::Matrix2d& information) {
   Slant slant;
   slant.information = information;
   PatchTemplate again;
   Gradients gradients;
-  if (!alignment.converged || !fits(image, alignment.position.x(), alignment.position.y()) || !makeTemplate(source, patch.A, again, gradients))
+  if (!alignment.converged || !fits(image, alignment.position.x(), alignment.position.y()) ||
+      !makeTemplate(source, patch.A, again, gradients))
     return slant;
   const Equations equations = observe(image, again, gradients, alignment, direction);
   const Eigen::Matrix2d coupling = equations.H.block<2, 2>(2, 0) * equations.H.block<2, 2>(0, 0).inverse();
-  const Eigen::Matrix2d seen = (equations.H.block<2, 2>(2, 2) - coupling * equations.H.block<2, 2>(0, 2)) / equations.noise2;
+  const Eigen::Matrix2d seen =
+      (equations.H.block<2, 2>(2, 2) - coupling * equations.H.block<2, 2>(0, 2)) / equations.noise2;
   const Eigen::Vector2d right = (equations.b.tail<2>() - coupling * equations.b.head<2>()) / equations.noise2;
   const Eigen::Matrix2d sum = information + 0.5 * (seen + seen.transpose());
   const Eigen::Vector2d change = sum.ldlt().solve(right);

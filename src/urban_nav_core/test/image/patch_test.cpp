@@ -26,7 +26,8 @@ class Texture {
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     for (Wave& wave : waves_) {
       const double length = 4.0 * std::pow(7.5, unit(random)), angle = 2.0 * M_PI * unit(random);
-      wave = {2.0 * M_PI / length * std::cos(angle), 2.0 * M_PI / length * std::sin(angle), 2.0 * M_PI * unit(random), 4.0 + 0.5 * length};
+      wave = {2.0 * M_PI / length * std::cos(angle), 2.0 * M_PI / length * std::sin(angle), 2.0 * M_PI * unit(random),
+              4.0 + 0.5 * length};
     }
   }
   double at(double x, double y) const {
@@ -67,8 +68,8 @@ Statistics alignShifted(double du, double dv, double noise, double gain, double 
     const unsigned seed = static_cast<unsigned>(1000 + k);
     const Texture texture(seed);
     const Picture first = render(25, 25, noise, seed, [&](double x, double y) { return texture.at(x, y); });
-    const Picture second =
-        render(25, 25, noise, seed + 5000, [&](double x, double y) { return offset + gain * texture.at(x - du, y - dv); });
+    const Picture second = render(25, 25, noise, seed + 5000,
+                                  [&](double x, double y) { return offset + gain * texture.at(x - du, y - dv); });
     const auto source = cutSource(first.view(), 12, 12);
     PatchTemplate made;
     if (!warpTemplate(*source, Eigen::Matrix2d::Identity(), made)) continue;
@@ -162,7 +163,8 @@ TEST(Patch, SlopesOfDisparityAreFound) {
       return texture.at(30.0 + (x - 30.0 + d + b * (y - 20.0)) / (1.0 - a), y);
     });
     PatchTemplate made;
-    const SlopedAlignment found = alignAcross(right.view(), *cutSource(left.view(), 30, 20), {27.0, 20.0}, {0.05, 0.3}, made);
+    const SlopedAlignment found =
+        alignAcross(right.view(), *cutSource(left.view(), 30, 20), {27.0, 20.0}, {0.05, 0.3}, made);
     if (!found.alignment.converged) continue;
     slopes += found.slopes;
     bias += found.alignment.position - Eigen::Vector2d(30.0 - d, 20.0);
@@ -211,7 +213,8 @@ TEST(Patch, ALaterViewTellsHowTheSurfaceSlants) {
     change += found.change;
     ++count;
     // who is sure already does not change his mind
-    EXPECT_LT(refineSlant(second.view(), source, made, a, direction, 1e9 * Eigen::Matrix2d::Identity()).change.norm(), 1e-3);
+    EXPECT_LT(refineSlant(second.view(), source, made, a, direction, 1e9 * Eigen::Matrix2d::Identity()).change.norm(),
+              1e-3);
   }
   ASSERT_GT(count, 50);
   EXPECT_LT((change / count - slant).norm(), 0.03);
@@ -250,7 +253,8 @@ TEST(Sad, EqualsItsDefinition) {
       int expected = 0;
       for (int j = -4; j <= 4; ++j)
         for (int i = -4; i < 4; ++i)
-          expected += std::abs(view.at(u + i, v + j) - mean - patch.value[static_cast<std::size_t>((j + 4) * 8 + i + 4)]);
+          expected +=
+              std::abs(view.at(u + i, v + j) - mean - patch.value[static_cast<std::size_t>((j + 4) * 8 + i + 4)]);
       EXPECT_EQ(meanRemovedSad(patch, view, u, v), expected);
     }
   EXPECT_FALSE(sadFits(view, 3, 10));

@@ -14,7 +14,8 @@ namespace urban_nav_core {
 struct StereoCamera {
   Pinhole left;
   double baseline = 0.0;  ///< m, > 0
-  double disparity_offset = 0.0;  ///< px, of a point at infinity: cx_left - cx_right where the images have principal points of their own
+  double disparity_offset =
+      0.0;  ///< px, of a point at infinity: cx_left - cx_right where the images have principal points of their own
 
   using Pixel = Eigen::Vector3d;  ///< u_left, v, u_right
 

@@ -20,7 +20,7 @@ namespace urban_nav_core {
 /// and cannot pull the minimum to the phase where interpolation smooths most.
 /// All functions are pure; positions are in px of the image handed in.
 
-inline constexpr int patch_radius = 5;   ///< the window is 11 x 11, Gaussian-weighted
+inline constexpr int patch_radius = 5;  ///< the window is 11 x 11, Gaussian-weighted
 inline constexpr int patch_size = 2 * patch_radius + 1;
 inline constexpr int patch_stride = 12;  ///< rows padded to whole vectors; the padding has no weight
 using PatchGrid = std::array<float, patch_size * patch_stride>;
@@ -38,14 +38,16 @@ std::optional<PatchSource> cutSource(const ImageView& image, int u, int v);
 
 /// A source as it should look in another view, ready for alignment: a shift is a product of the filters with the image.
 struct alignas(16) PatchTemplate {
-  PatchGrid value{};                   ///< grey levels, smoothed by the spline
-  PatchGrid filter_x{}, filter_y{};    ///< weighted gradient, made blind to offset and gain
-  PatchGrid filter_gain{};             ///< weighted deviation from the mean
-  Eigen::Matrix2d A = Eigen::Matrix2d::Identity();                ///< d(view)/d(source) it was made for
+  PatchGrid value{};                                ///< grey levels, smoothed by the spline
+  PatchGrid filter_x{}, filter_y{};                 ///< weighted gradient, made blind to offset and gain
+  PatchGrid filter_gain{};                          ///< weighted deviation from the mean
+  Eigen::Matrix2d A = Eigen::Matrix2d::Identity();  ///< d(view)/d(source) it was made for
   Eigen::Matrix2d inverse_hessian = Eigen::Matrix2d::Zero();
-  Eigen::Matrix2d unit_covariance = Eigen::Matrix2d::Zero();      ///< of a shift, for one grey level of white pixel noise in the view
-  Eigen::Vector2d view_blur = Eigen::Vector2d::Zero();            ///< b along rows and columns of the (b, 1 - 2 b, b) that makes the view as blurred
-  double energy = 0.0;                                            ///< weighted variance, grey levels^2
+  Eigen::Matrix2d unit_covariance =
+      Eigen::Matrix2d::Zero();  ///< of a shift, for one grey level of white pixel noise in the view
+  Eigen::Vector2d view_blur =
+      Eigen::Vector2d::Zero();  ///< b along rows and columns of the (b, 1 - 2 b, b) that makes the view as blurred
+  double energy = 0.0;          ///< weighted variance, grey levels^2
 };
 
 /// Fills `made` with the source warped by A (view = A source). False if it has no texture in some direction, or A is
@@ -53,22 +55,25 @@ struct alignas(16) PatchTemplate {
 bool warpTemplate(const PatchSource& source, const Eigen::Matrix2d& A, PatchTemplate& made);
 
 struct Alignment {
-  Eigen::Vector2d position = Eigen::Vector2d::Zero();   ///< of the template's middle in the image, px
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero(); ///< px^2, from the noise of this image alone (the template's is common to all views)
-  double gain = 1.0;                                    ///< contrast of the image over that of the template
-  double correlation = 0.0;                             ///< weighted, -1 ... 1
-  double noise = 0.0;                                   ///< standard deviation of a pixel, from the residual, grey levels
-  bool converged = false;                               ///< all else is of no use if false
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< of the template's middle in the image, px
+  Eigen::Matrix2d covariance =
+      Eigen::Matrix2d::Zero();  ///< px^2, from the noise of this image alone (the template's is common to all views)
+  double gain = 1.0;            ///< contrast of the image over that of the template
+  double correlation = 0.0;     ///< weighted, -1 ... 1
+  double noise = 0.0;           ///< standard deviation of a pixel, from the residual, grey levels
+  bool converged = false;       ///< all else is of no use if false
 };
 
 /// Aligns the template to the image from `start`. Not converged if it leaves the image, moves further than `reach` px, or
 /// the image does not look like the template at all (gain <= 0).
-Alignment alignPatch(const ImageView& image, const PatchTemplate& patch, const Eigen::Vector2d& start, double reach = 3.0);
+Alignment alignPatch(const ImageView& image, const PatchTemplate& patch, const Eigen::Vector2d& start,
+                     double reach = 3.0);
 
 /// Alignment across a rectified pair: also how the disparity varies over the window.
 struct SlopedAlignment {
-  Alignment alignment;                                   ///< covariance with the slopes marginalised
-  Eigen::Vector2d slopes = Eigen::Vector2d::Zero();      ///< d(disparity)/d(u_left, v_left): a road has (0, baseline / height)
+  Alignment alignment;  ///< covariance with the slopes marginalised
+  Eigen::Vector2d slopes =
+      Eigen::Vector2d::Zero();  ///< d(disparity)/d(u_left, v_left): a road has (0, baseline / height)
   Eigen::Matrix2d slopes_covariance = Eigen::Matrix2d::Identity();
 };
 /// What the slopes may be before anything was seen: usually as `usual_sigma` says (most things are seen more or less from
@@ -77,18 +82,18 @@ struct SlopePrior {
   double usual_sigma = 0.05, wide_sigma = 0.2;
 };
 /// `made` returns the template of the other image at the slopes found.
-SlopedAlignment alignAcross(const ImageView& image, const PatchSource& source, const Eigen::Vector2d& start, const SlopePrior& prior,
-                            PatchTemplate& made);
+SlopedAlignment alignAcross(const ImageView& image, const PatchSource& source, const Eigen::Vector2d& start,
+                            const SlopePrior& prior, PatchTemplate& made);
 
 /// How a piece of surface leans, learnt from a later view: pixel p of the source (from its middle) stands at A p + direction (slant . p)
 /// in the view, so that `direction` says how far the camera has moved for the purpose.
 struct Slant {
-  Eigen::Vector2d change = Eigen::Vector2d::Zero();            ///< of the slant, from the one that A was made with
-  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();       ///< of the slant, what was known before included
+  Eigen::Vector2d change = Eigen::Vector2d::Zero();       ///< of the slant, from the one that A was made with
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();  ///< of the slant, what was known before included
 };
 /// One step from an alignment of `patch`, which was made from `source`. `information`: of the slant that A was made with.
-Slant refineSlant(const ImageView& image, const PatchSource& source, const PatchTemplate& patch, const Alignment& alignment,
-                  const Eigen::Vector2d& direction, const Eigen::Matrix2d& information);
+Slant refineSlant(const ImageView& image, const PatchSource& source, const PatchTemplate& patch,
+                  const Alignment& alignment, const Eigen::Vector2d& direction, const Eigen::Matrix2d& information);
 
 /// 8 columns (-4 ... 3) by 9 rows (-4 ... 4) of grey levels, mean removed.
 struct alignas(16) SadPatch {
