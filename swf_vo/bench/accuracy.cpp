@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Accuracy on the real sequences with the shipped defaults, now and settled, beside other systems on the same frames.
-//   swf_vo-bench-accuracy [--peer NAME=SEQUENCE=TRAJECTORY.kitti]... [--set swf_vo.NAME=VALUE]... [-o results/accuracy.json]
+// Accuracy on the real sequences with the shipped defaults, now and settled, beside other systems on the same frames; and how far the
+// covariance is to be believed there (NEES, mean over the frames: 6 is right).
+//   swf_vo-bench-accuracy [FOLDER...] [--peer NAME=SEQUENCE=FILE]... [--set swf_vo.NAME=VALUE]... [-o results/accuracy.json]
+// FOLDER: a sequence in KITTI's layout with poses.txt, such as render_sequence writes; default: the two real ones. FILE: what another
+// system made of the folder named SEQUENCE, poses of the left camera in KITTI's or (.tum) the TUM format, one a frame.
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -8,7 +11,11 @@
 
 #include "support/run.hpp"
 #include "urban_nav_core/io/kitti.hpp"
+#include "urban_nav_core/io/tum.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
+#include "urban_nav_core/trajectory/errors.hpp"
+#include "urban_nav_core/trajectory/nees.hpp"
+#include "urban_nav_core/types/error.hpp"
 
 namespace {
 
@@ -34,22 +41,45 @@ Options parse(int argc, char** argv) {
   return options;
 }
 
-void add(BenchTable& table, const std::string& sequence, const std::string& system, const std::vector<Pose>& truth,
-         const std::vector<Pose>& estimate, const std::string& ms) {
-  const SpanErrors ten = spanErrors(truth, estimate, 10), fifty = spanErrors(truth, estimate, 50),
-                   hundred = spanErrors(truth, estimate, 100);
-  const auto pair = [](const SpanErrors& e) {
+std::string positionError(const std::vector<Pose>& truth, const std::vector<Pose>& estimate) {
+  const double rmse = absoluteError(truth, estimate, urban_nav_core::Alignment::First).rmse;
+  return rmse < 0.1 ? cell(1000.0 * rmse, 1) + " mm" : cell(rmse, 3) + " m";
+}
+
+std::string meanNees(const std::vector<Pose>& truth, const std::vector<Pose>& estimate,
+                     const std::vector<urban_nav_core::Matrix6d>& covariances) {
+  const urban_nav_core::NeesSummary summary = neesOfTrajectory(truth, estimate, covariances);
+  return summary.count > 0 ? cell(summary.mean, summary.mean < 100.0 ? 1 : 0) : "-";
+}
+
+void add(BenchTable& table, const Sequence& sequence, const std::string& system, const std::vector<Pose>& estimate,
+         const std::string& nees, const std::string& ms) {
+  if (estimate.size() != sequence.truth.size())
+    throw urban_nav_core::UserError(system + " on " + sequence.name, std::to_string(estimate.size()) + " poses",
+                                    std::to_string(sequence.truth.size()) + ", as many as the truth");
+  const auto spans = [&](std::size_t frames) {
+    const SpanErrors e = spanErrors(sequence.truth, estimate, frames);
     return e.percent > 0.0 ? cell(e.percent, 3) + " %, " + cell(e.deg_per_m, 4) + " deg/m" : std::string("-");
   };
-  table.add({sequence, system, pair(ten), pair(fifty), pair(hundred), cell(stepRatio(truth, estimate), 4), ms});
+  const double ratio = stepRatio(sequence.truth, estimate);
+  table.add({sequence.name, system, spans(10), spans(50), spans(100), ratio > 0.0 ? cell(ratio, 4) : "-",
+             positionError(sequence.truth, estimate), nees, ms});
+}
+
+std::vector<Pose> readPeer(const std::string& path) {
+  if (std::filesystem::path(path).extension() == ".tum") {
+    std::vector<Pose> poses;
+    for (const auto& stamped : urban_nav_core::readTum(path)) poses.push_back(stamped.pose);
+    return poses;
+  }
+  return urban_nav_core::readKitti(path);
 }
 
 void addPeers(BenchTable& table, const Sequence& sequence, const std::vector<std::string>& peers) {
   for (const std::string& peer : peers) {
     const auto first = peer.find('='), second = peer.find('=', first + 1);
     if (second == std::string::npos || peer.substr(first + 1, second - first - 1) != sequence.name) continue;
-    add(table, sequence.name, peer.substr(0, first), sequence.truth, urban_nav_core::readKitti(peer.substr(second + 1)),
-        "");
+    add(table, sequence, peer.substr(0, first), readPeer(peer.substr(second + 1)), "", "");
   }
 }
 
@@ -62,14 +92,16 @@ int main(int argc, char** argv) try {
     for (const char* name : {"kitti06_000_050", "kitti_raw_0926_0005"})
       if (const std::string folder = dataFolder(name); !folder.empty()) options.folders.push_back(folder);
 
-  BenchTable table({"sequence", "system", "10 frames", "50 frames", "100 frames", "step ratio", "ms a frame"}, argc,
-                   argv);
+  BenchTable table({"sequence", "system", "10 frames", "50 frames", "100 frames", "step ratio", "position, rms", "NEES",
+                    "ms a frame"},
+                   argc, argv);
   for (const std::string& folder : options.folders) {
     const Sequence sequence = kittiFolder(folder);
     const Run result = run(sequence, parameters);
     const std::string ms = cell(quantile(result.ms, 0.5), 1) + " (99 %: " + cell(quantile(result.ms, 0.99), 1) + ")";
-    add(table, sequence.name, "swf_vo, now", sequence.truth, result.now, ms);
-    add(table, sequence.name, "swf_vo, settled", sequence.truth, result.settled, ms);
+    add(table, sequence, "swf_vo, now", result.now, meanNees(sequence.truth, result.now, result.now_covariance), ms);
+    add(table, sequence, "swf_vo, settled", result.settled,
+        meanNees(sequence.truth, result.settled, result.settled_covariance), ms);
     addPeers(table, sequence, options.peers);
   }
   std::cout << table.text();

@@ -286,9 +286,9 @@ void kitti(const std::string& name, const KittiTracks& data, std::size_t first, 
     const auto relative = urban_nav_core::relativeError(truth, estimate, {urban_nav_core::Span::Unit::Frames, 10.0});
     table.add({name, "k = " + std::to_string(size) + (causal ? ", now" : ", settled"),
                cell(off, 2) + " m of " + cell(length, 0) + " m: " + cell(100.0 * off / length, 2) + " %",
-               relative
-                   ? "10-frame spans " + cell(relative->percent, 2) + " %, " + cell(relative->deg_per_m, 4) + " deg/m"
-                   : ""});
+               relative ? "10-frame spans " + cell(relative->percent, 2) + " %, " + cell(relative->deg_per_m, 4) +
+                              " deg/m, length " + cell(100.0 * relative->step_ratio, 1) + " %"
+                        : ""});
   }
 }
 
@@ -312,7 +312,7 @@ int main(int argc, char** argv) try {
   KittiTracks kitti07 = readTracks(data + "/kitti07_tracks_ucsd", true, 0.7);
   kitti07.camera.left = {707.0912, 707.0912, 601.8873, 183.1104, 1226, 370};
   kitti07.camera.baseline = 0.537151;
-  for (const int size : {1, 10}) kitti("kitti07_tracks_ucsd", kitti07, 0, 1100, size, table);
+  for (const int size : {1, 10, 25}) kitti("kitti07_tracks_ucsd", kitti07, 0, 1100, size, table);
   table.note(
       "kitti00_tracks: the first 14 poses of its truth are rough (its README). kitti07_tracks_ucsd: in 91 frames all tracks repeat "
       "the frame before; they end there, and no track sees that step.");

@@ -40,14 +40,18 @@ std::string firstLineOf(const char* command) {
   return line;
 }
 
-std::string baseName(const std::string& path) { return path.substr(path.find_last_of('/') + 1); }
+/// "NAME=/some/folder/FILE" becomes "NAME=FILE".
+std::string withoutFolder(const std::string& word) {
+  const std::size_t slash = word.find_last_of('/'), value = word.find_last_of('=', slash);
+  if (slash == std::string::npos) return word;
+  return (value == std::string::npos ? "" : word.substr(0, value + 1)) + word.substr(slash + 1);
+}
 
 }  // namespace
 
 BenchTable::BenchTable(std::vector<std::string> columns, int argc, char** argv) : columns_(std::move(columns)) {
   // Paths are of one machine: a reader needs the names alone.
-  for (int i = 0; i < argc; ++i)
-    command_ += (i > 0 ? " " : "") + (argv[i][0] == '-' ? std::string(argv[i]) : baseName(argv[i]));
+  for (int i = 0; i < argc; ++i) command_ += (i > 0 ? " " : "") + withoutFolder(argv[i]);
 }
 
 void BenchTable::add(std::vector<std::string> cells) {

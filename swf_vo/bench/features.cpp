@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How many features are worth their time? Errors and ms a frame by the number that is followed; the defaults are the rule of the area to
+// the power of 2/3, and "by area" is the number in proportion to the area.
+//   swf_vo-bench-features [FOLDER...] [-o results/features.json]
+// FOLDER: a sequence in KITTI's layout with poses.txt; default: the two real ones.
+#include <cmath>
+#include <iostream>
+#include <numeric>
+#include <string>
+
+#include "support/run.hpp"
+#include "urban_nav_core/testing/bench_table.hpp"
+
+namespace {
+
+using namespace swf_vo::bench;
+using urban_nav_core::testing::BenchTable;
+using urban_nav_core::testing::cell;
+
+struct Variant {
+  std::string name;
+  std::vector<std::string> sets;
+};
+
+std::vector<Variant> variantsFor(const Sequence& sequence) {
+  const double area = sequence.camera.left.width * sequence.camera.left.height / (512.0 * 384.0);
+  const int normal = swf_vo::Parameters().features;
+  const auto set = [](double features) {
+    return std::vector<std::string>{"swf_vo.features=" + std::to_string(std::lround(features))};
+  };
+  return {{"half", set(0.5 * normal)},
+          {"defaults", {}},
+          {"by area", set(normal * std::cbrt(area))},
+          {"twice", set(2.0 * normal)}};
+}
+
+double meanFeatures(const Run& run) {
+  return std::accumulate(run.statistics.begin(), run.statistics.end(), 0.0,
+                         [](double sum, const auto& statistics) { return sum + statistics.features; }) /
+         static_cast<double>(run.statistics.size());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  std::vector<std::string> folders;
+  std::string output;
+  for (int i = 1; i < argc; ++i) {
+    if (std::string(argv[i]) == "-o" && i + 1 < argc) output = argv[++i];
+    else folders.emplace_back(argv[i]);
+  }
+  if (folders.empty())
+    for (const char* name : {"kitti06_000_050", "kitti_raw_0926_0005"})
+      if (const std::string folder = dataFolder(name); !folder.empty()) folders.push_back(folder);
+
+  BenchTable table({"sequence", "features", "followed", "ms a frame, median", "10 frames", "50 frames"}, argc, argv);
+  for (const std::string& folder : folders) {
+    const Sequence sequence = kittiFolder(folder);
+    for (const Variant& variant : variantsFor(sequence)) {
+      const Run result = run(sequence, parametersFrom(variant.sets));
+      const auto spans = [&](std::size_t frames) {
+        const SpanErrors e = spanErrors(sequence.truth, result.settled, frames);
+        return cell(e.percent, 3) + " %, " + cell(e.deg_per_m, 4) + " deg/m";
+      };
+      table.add({sequence.name, variant.name, cell(meanFeatures(result), 0), cell(quantile(result.ms, 0.5), 1),
+                 spans(10), spans(50)});
+    }
+  }
+  std::cout << table.text();
+  if (!output.empty()) table.write(output);
+  return 0;
+} catch (const std::exception& error) {
+  std::cerr << error.what() << '\n';
+  return 2;
+}
