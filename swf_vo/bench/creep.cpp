@@ -148,7 +148,7 @@ void addRows(BenchTable& table, double noise, const std::vector<Error>& errors) 
   const Bin first = bin(errors, 0.0, limits[0]);
   for (std::size_t i = 0; i < limits.size(); ++i) {
     const Bin here = bin(errors, i == 0 ? 0.0 : limits[i - 1], limits[i]);
-    if (here.count < 100) continue;
+    if (here.count < 1000) continue;
     std::vector<std::string> row = {cell(noise, 0), cell(here.change, 2), std::to_string(here.count),
                                     cell(std::sqrt(here.birth), 3)};
     for (const double value : here.variance) row.push_back(cell(std::sqrt(value), 3));
@@ -169,8 +169,8 @@ int main(int argc, char** argv) try {
     if (word == "--seeds") seeds = std::stoi(argv[i + 1]);
     else if (word == "-o") output = argv[i + 1];
   }
-  BenchTable table({"image noise (grey levels)", "change of the view", "observations", "u, px", "v, px",
-                    "disparity, px", "growth: u", "v", "disparity"},
+  BenchTable table({"image noise (grey levels)", "change of the view", "observations", "born with, px", "u, px",
+                    "v, px", "disparity, px", "growth of the variance: u", "v", "disparity"},
                    argc, argv);
   for (const double noise : {1.0, 6.0}) {
     std::vector<Error> errors;

@@ -77,7 +77,7 @@ PageTable parametersTable(const AllParameters& parameters) {
 }
 
 PageTable inputsTable(const MapOutcome& outcome) {
-  PageTable table{"Inputs", {"input", "kind", "frames", "size", "f (px)", "baseline (m)", "said"}, {}, ""};
+  PageTable table{"Inputs", {"input", "kind", "frames", "size", "f (px)", "baseline (m)", "notes"}, {}, ""};
   for (std::size_t i = 0; i < outcome.infos.size(); ++i) {
     const SourceInfo& info = outcome.infos[i];
     const urban_nav_core::Pinhole& left = info.camera.left;

@@ -55,6 +55,18 @@ std::string percentText(const urban_nav_core::RelativeError& error) {
   return forPerson(error.percent, 3) + " %, " + forPerson(error.deg_per_m, 3) + " deg/m";
 }
 
+/// In which unit a length reads well.
+struct Length {
+  const char* name;
+  double per_m;
+};
+Length lengthFor(double m) { return m < 0.01 ? Length{"mm", 1000.0} : Length{"m", 1.0}; }
+
+std::string lengthText(double m) {
+  const Length unit = lengthFor(m);
+  return forPerson(unit.per_m * m, 2) + " " + unit.name;
+}
+
 /// Two columns: what, how much.
 std::vector<std::vector<std::string>> figuresOf(const Evaluation& e) {
   std::vector<std::vector<std::string>> rows;
@@ -65,8 +77,10 @@ std::vector<std::vector<std::string>> figuresOf(const Evaluation& e) {
     rows.push_back({e.offset_applied ? "offset that was applied to the stamps" : "offset of the stamps that would help",
                     forPerson(1e-9 * static_cast<double>(e.offset->offset), 6) + " s"});
   const auto absolute = [&](const char* name, const urban_nav_core::ErrorStatistics& s) {
-    rows.push_back({name, forPerson(s.rmse, 4) + " m (median " + forPerson(s.median, 3) + ", largest " +
-                              forPerson(s.max, 3) + ")"});
+    const Length unit = lengthFor(s.rmse);
+    rows.push_back({name, forPerson(unit.per_m * s.rmse, 4) + " " + unit.name + " (median " +
+                              forPerson(unit.per_m * s.median, 3) + ", largest " + forPerson(unit.per_m * s.max, 3) +
+                              ")"});
   };
   absolute("absolute error, first poses aligned", e.first);
   absolute("absolute error, after a rigid motion", e.se3);
@@ -182,11 +196,10 @@ std::vector<Verdict> evaluationVerdicts(const Evaluation& e) {
     verdicts.push_back({grade, "Off by " + forPerson(e.ten_frames->percent, 2) + " % of the way",
                         "and " + forPerson(e.ten_frames->deg_per_m, 2) +
                             " deg per metre, over spans of ten frames. After " + forPerson(e.length_m, 3) +
-                            " m the position is wrong by at most " + forPerson(e.first.max, 2) + " m."});
+                            " m the position is wrong by at most " + lengthText(e.first.max) + "."});
   } else {
     const Grade grade = e.first.rmse < 0.01 ? Grade::Good : e.first.rmse < 0.1 ? Grade::Fair : Grade::Bad;
-    verdicts.push_back(
-        {grade, "Off by " + forPerson(1000.0 * e.first.rmse, 2) + " mm while standing still,", "root mean square."});
+    verdicts.push_back({grade, "Off by " + lengthText(e.first.rmse) + " while standing still,", "root mean square."});
   }
   if (e.nees) {
     const double ratio = e.nees->mean / kExpectedNees;
@@ -217,7 +230,9 @@ std::vector<Verdict> evaluationVerdicts(const Evaluation& e) {
 }
 
 std::vector<Tile> evaluationTiles(const Evaluation& e) {
-  std::vector<Tile> tiles = {{forPerson(e.first.rmse, 3), "m", "absolute error (root mean square)", Grade::Plain}};
+  const Length unit = lengthFor(e.first.rmse);
+  std::vector<Tile> tiles = {
+      {forPerson(unit.per_m * e.first.rmse, 3), unit.name, "absolute error (root mean square)", Grade::Plain}};
   if (e.ten_frames)
     tiles.push_back({forPerson(e.ten_frames->percent, 3), "%", "relative error over ten frames",
                      e.ten_frames->percent < 1.0 ? Grade::Good : Grade::Fair});
