@@ -246,7 +246,8 @@ std::unique_ptr<Source> openBags(const std::vector<std::string>& paths, const So
   try {
     return std::make_unique<BagSource>(paths, options);
   } catch (const rosbag::BagException& error) {
-    throw DataError(paths.front(), std::string("cannot be read: ") + error.what(), "");
+    throw DataError(paths.front(), std::string("cannot be read: ") + error.what(),
+                    "a whole bag (`rosbag reindex` mends one that was cut off)");
   }
 }
 

@@ -157,7 +157,8 @@ InputInfo lookInto(const std::string& path) {
       try {
         lookIntoBag(path, info);
       } catch (const rosbag::BagException& error) {
-        throw urban_nav_core::DataError(path, std::string("cannot be read: ") + error.what(), "");
+        throw urban_nav_core::DataError(path, std::string("cannot be read: ") + error.what(),
+                                        "a whole bag (`rosbag reindex` mends one that was cut off)");
       }
       break;
     case InputKind::NewCollegeFolder:

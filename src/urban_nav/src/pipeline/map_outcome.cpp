@@ -175,6 +175,24 @@ Json summaryOf(const MapOutcome& outcome, const VoSummary& summary) {
   return json;
 }
 
+/// What ailed the run, most often, in the words of the frame that first said so; empty where no frame had a reason.
+std::string troubleOf(const std::vector<const VoRun*>& runs, const VoSummary& summary) {
+  if (summary.reason_counts.empty()) return {};
+  const auto most = std::max_element(summary.reason_counts.begin(), summary.reason_counts.end(),
+                                     [](const auto& a, const auto& b) { return a.second < b.second; });
+  std::string counts, sentence;
+  for (const char* name : {"DEGRADED", "LOST", "RECOVERED"}) {
+    const std::int64_t count = summary.status_counts.at(name);
+    if (count > 0) counts += (counts.empty() ? "" : ", ") + std::to_string(count) + " " + name;
+  }
+  for (const VoRun* run : runs)
+    for (const VoRow& row : run->rows)
+      if (sentence.empty() && swf_vo::toString(static_cast<swf_vo::Reason>(row.status.reason)) == most->first)
+        sentence = row.status.sentence;
+  return counts + " of " + std::to_string(summary.frames) +
+         " frames; most often: " + (sentence.empty() ? most->first : sentence);
+}
+
 }  // namespace
 
 void writeReport(const MapOutcome& outcome) { outcome.folder.write("report.html", renderPage(pageOf(outcome, true))); }
@@ -188,6 +206,7 @@ void finishMap(MapOutcome& outcome, const std::vector<Session>& sessions, Consol
   const std::string text = summaryOf(outcome, summary).print();
   outcome.folder.write("summary.json", text);
   if (!outcome.request.json.empty()) urban_nav_core::writeAtomically(outcome.request.json, text);
+  if (const std::string trouble = troubleOf(runs, summary); !trouble.empty()) console.warn(trouble);
   console.info(std::to_string(summary.frames) + " frames, " + forPerson(summary.distance_m, 4) + " m" +
                (sessions.size() > 1 ? ", " + std::to_string(sessions.size()) + " sessions" : "") + ", " +
                forPerson(realtimeFactor(outcome, summary), 3) + " times real time");

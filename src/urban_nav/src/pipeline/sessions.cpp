@@ -32,7 +32,8 @@ Extent extentOf(const std::string& path) {
   } catch (const rosbag::BagUnindexedException&) {
     throw DataError(path, "has no index: the recording was cut off (rosbag reindex " + path + " repairs that)", "");
   } catch (const rosbag::BagException& error) {
-    throw DataError(path, std::string("cannot be read: ") + error.what(), "");
+    throw DataError(path, std::string("cannot be read: ") + error.what(),
+                    "a whole bag (`rosbag reindex` mends one that was cut off)");
   }
 }
 

@@ -38,8 +38,8 @@ VoSummary summarise(const std::vector<const VoRun*>& runs) {
     for (const VoRow& row : run->rows) {
       ++summary.frames;
       ++summary.status_counts[toString(row.status.health)];
-      if (row.status.health != Health::Ok)
-        ++summary.reason_counts[swf_vo::toString(static_cast<swf_vo::Reason>(row.status.reason))];
+      if (const auto reason = static_cast<swf_vo::Reason>(row.status.reason); reason != swf_vo::Reason::None)
+        ++summary.reason_counts[swf_vo::toString(reason)];
       if (!row.accepted) {
         ++dropped;
         continue;

@@ -20,7 +20,7 @@ struct VoSummary {
   double features_mean = 0.0, track_length_mean = 0.0, reprojection_px_mean = 0.0;
   double disparity_offset_px = 0.0, disparity_offset_sigma_px = 0.0;  ///< of the camera, as known in the end
   std::map<std::string, std::int64_t> status_counts;                  ///< OK, DEGRADED, LOST, RECOVERED: all four
-  std::map<std::string, std::int64_t> reason_counts;                  ///< of frames that are not OK
+  std::map<std::string, std::int64_t> reason_counts;                  ///< of frames that have one
   std::vector<std::string> warnings;
 };
 VoSummary summarise(const VoRun& run);
