@@ -45,32 +45,40 @@ RenderedSequence::RenderedSequence(Scene scene, Motion motion, const SequenceOpt
 
 StampNs RenderedSequence::stamp(int i) const { return options_.first_stamp + std::llround(time(i) * 1e9); }
 
-void RenderedSequence::expose(const std::vector<float>& radiance, double gain, std::uint64_t stream,
+void RenderedSequence::expose(const std::vector<float>& radiance, double gain, double noise, std::uint64_t stream,
                               GreyImage& image) const {
   image.width = options_.camera.width;
   image.height = options_.camera.height;
   image.pixels.resize(radiance.size());
   const std::array<float, 4096>& normal = normalTable();
-  const auto factor = static_cast<float>(gain), noise = static_cast<float>(options_.noise);
+  const auto factor = static_cast<float>(gain), spread = static_cast<float>(noise);
   std::uint64_t bits = 0;
   for (std::size_t i = 0; i < radiance.size(); ++i) {
     bits = i % 5 == 0 ? bitsOf((stream << 32U) + i) : bits >> 12U;
-    const float grey = factor * radiance[i] + noise * normal[bits & 4095U];
+    const float grey = factor * radiance[i] + spread * normal[bits & 4095U];
     image.pixels[i] = static_cast<std::uint8_t>(std::clamp(grey + 0.5F, 0.0F, 255.0F));
   }
 }
 
-const StereoFrame& RenderedSequence::frame(int i) {
+void RenderedSequence::draw(int i) {
+  if (i == drawn_) return;
   const double t = time(i);
   const Pose T_world_left = motion_(t);
   const Pose T_world_right = T_world_left * Pose(Quaterniond::Identity(), Vector3d(options_.camera.baseline, 0.0, 0.0));
-  const double gain = options_.gain ? options_.gain(t) : 1.0;
   if (scene_) still_ = scene_(t);
+  radiance_left_ = renderer_.draw(still_, T_world_left);
+  radiance_right_ = renderer_.draw(still_, T_world_right);
+  drawn_ = i;
+}
+
+const StereoFrame& RenderedSequence::frame(int i, double noise) {
+  draw(i);
+  const double gain = options_.gain ? options_.gain(time(i)) : 1.0;
   const std::uint64_t stream =
       bitsOf((static_cast<std::uint64_t>(options_.seed) << 32U) + static_cast<std::uint64_t>(i)) & 0x7FFFFFFFU;
   frame_.stamp = stamp(i);
-  expose(renderer_.draw(still_, T_world_left), gain, 2 * stream, frame_.left);
-  expose(renderer_.draw(still_, T_world_right), gain, 2 * stream + 1, frame_.right);
+  expose(radiance_left_, gain, noise, 2 * stream, frame_.left);
+  expose(radiance_right_, gain, noise, 2 * stream + 1, frame_.right);
   return frame_;
 }
 

@@ -49,12 +49,11 @@ Sequence kittiFolder(const std::string& folder, std::size_t frames) {
   return sequence;
 }
 
-Sequence rendered(const RenderedOptions& options) {
+std::vector<Sequence> renderedAt(const std::vector<double>& noises, const RenderedOptions& options) {
   using namespace urban_nav_core::testing;
   SequenceOptions how;
   how.camera = options.camera;
   how.rate = options.rate;
-  how.noise = options.noise;
   how.seed = options.seed;
   const Scene scene = options.scene == "street" ? texturedStreet({}, options.seed) : texturedRoom({}, options.seed);
   const auto source =
@@ -68,17 +67,21 @@ Sequence rendered(const RenderedOptions& options) {
     sequence.stamps.push_back(source->stamp(static_cast<int>(i)));
     sequence.truth.push_back(first.inverse() * source->T_world_camera(static_cast<int>(i)));
   }
-  sequence.read = [source](std::size_t frame, cv::Mat& left, cv::Mat& right) {
-    const StereoFrame& drawn = source->frame(static_cast<int>(frame));
-    const auto copy = [](const GreyImage& image, cv::Mat& to) {
-      to.create(image.height, image.width, CV_8UC1);
-      std::copy(image.pixels.begin(), image.pixels.end(), to.data);
+  std::vector<Sequence> sequences(noises.size(), sequence);
+  for (std::size_t n = 0; n < noises.size(); ++n)
+    sequences[n].read = [source, noise = noises[n]](std::size_t frame, cv::Mat& left, cv::Mat& right) {
+      const StereoFrame& drawn = source->frame(static_cast<int>(frame), noise);
+      const auto copy = [](const GreyImage& image, cv::Mat& to) {
+        to.create(image.height, image.width, CV_8UC1);
+        std::copy(image.pixels.begin(), image.pixels.end(), to.data);
+      };
+      copy(drawn.left, left);
+      copy(drawn.right, right);
     };
-    copy(drawn.left, left);
-    copy(drawn.right, right);
-  };
-  return sequence;
+  return sequences;
 }
+
+Sequence rendered(const RenderedOptions& options) { return renderedAt({options.noise}, options).front(); }
 
 Parameters parametersFrom(const std::vector<std::string>& settings) {
   std::vector<urban_nav_core::Assignment> assignments;
@@ -111,23 +114,30 @@ double processorMs() {
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
-Run run(const Sequence& sequence, const Parameters& parameters) {
-  Run result;
-  SwfVo filter(parameters, sequence.camera, Pose());
+std::vector<Run> runTogether(const std::vector<Sequence>& sequences, const Parameters& parameters) {
+  std::vector<Run> results(sequences.size());
+  std::vector<SwfVo> filters;
+  for (const Sequence& sequence : sequences) filters.emplace_back(parameters, sequence.camera, Pose());
   cv::Mat left, right;
-  for (std::size_t i = 0; i < sequence.stamps.size(); ++i) {
-    sequence.read(i, left, right);
-    const double start = processorMs();
-    const Frame& frame = filter.process({sequence.stamps[i], view(left), view(right)});
-    result.ms.push_back(processorMs() - start);
-    result.now.push_back(frame.T_odom_base.pose);
-    result.now_covariance.push_back(frame.T_odom_base.covariance);
-    result.statistics.push_back(frame.statistics);
-    result.status.push_back(frame.status);
-    take(frame.settled, result);
-  }
-  take(filter.flush(), result);
-  return result;
+  for (std::size_t i = 0; i < sequences.front().stamps.size(); ++i)
+    for (std::size_t s = 0; s < sequences.size(); ++s) {
+      Run& result = results[s];
+      sequences[s].read(i, left, right);
+      const double start = processorMs();
+      const Frame& frame = filters[s].process({sequences[s].stamps[i], view(left), view(right)});
+      result.ms.push_back(processorMs() - start);
+      result.now.push_back(frame.T_odom_base.pose);
+      result.now_covariance.push_back(frame.T_odom_base.covariance);
+      result.statistics.push_back(frame.statistics);
+      result.status.push_back(frame.status);
+      take(frame.settled, result);
+    }
+  for (std::size_t s = 0; s < sequences.size(); ++s) take(filters[s].flush(), results[s]);
+  return results;
+}
+
+Run run(const Sequence& sequence, const Parameters& parameters) {
+  return std::move(runTogether({sequence}, parameters).front());
 }
 
 SpanErrors spanErrors(const std::vector<Pose>& truth, const std::vector<Pose>& estimate, std::size_t span) {

@@ -37,6 +37,8 @@ struct RenderedOptions {
   urban_nav_core::testing::RenderCamera camera;
 };
 Sequence rendered(const RenderedOptions& options);
+/// The same frames at each of these noises (options.noise apart); read frame by frame in turn, each is drawn once.
+std::vector<Sequence> renderedAt(const std::vector<double>& noises, const RenderedOptions& options);
 
 /// The defaults, changed by settings such as "swf_vo.window=25". Throws UserError as the command does.
 Parameters parametersFrom(const std::vector<std::string>& settings);
@@ -51,6 +53,8 @@ struct Run {
       ms;  ///< of process(), images already decoded: time of the processor, so that what else runs does not count
 };
 Run run(const Sequence& sequence, const Parameters& parameters);
+/// A filter each, frame by frame in turn. All sequences have as many frames.
+std::vector<Run> runTogether(const std::vector<Sequence>& sequences, const Parameters& parameters);
 
 /// Time that this thread has had of a processor.
 double processorMs();

@@ -51,16 +51,23 @@ class RenderedSequence {
   /// Exact pose of the left optical frame.
   Pose T_world_camera(int i) const { return motion_(time(i)); }
   /// The pair. Lives until the next call.
-  const StereoFrame& frame(int i);
+  const StereoFrame& frame(int i) { return frame(i, options_.noise); }
+  /// The same with another standard deviation of the image noise, grey levels. What is seen is drawn once per frame: its further
+  /// exposures are cheap.
+  const StereoFrame& frame(int i, double noise);
 
  private:
-  void expose(const std::vector<float>& radiance, double gain, std::uint64_t stream, GreyImage& image) const;
+  void draw(int i);
+  void expose(const std::vector<float>& radiance, double gain, double noise, std::uint64_t stream,
+              GreyImage& image) const;
 
   std::function<Scene(double)> scene_;
   Scene still_;
   Motion motion_;
   SequenceOptions options_;
   Renderer renderer_;
+  int drawn_ = -1;
+  std::vector<float> radiance_left_, radiance_right_;  // of frame drawn_
   StereoFrame frame_;
 };
 
