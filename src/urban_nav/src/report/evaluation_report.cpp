@@ -25,6 +25,7 @@ Grade gradeOfNees(double nees) {
 /// Relative to the first pose, in its axes.
 std::vector<Pose> fromFirst(const std::vector<Pose>& poses) {
   std::vector<Pose> relative;
+  relative.reserve(poses.size());
   for (const Pose& pose : poses) relative.push_back(poses.front().inverse() * pose);
   return relative;
 }
@@ -47,6 +48,7 @@ Series line(const std::string& name, const std::string& colour, Series::Kind kin
 
 std::vector<PlotPoint> projected(const std::vector<Pose>& poses, int a, int b) {
   std::vector<PlotPoint> points;
+  points.reserve(poses.size());
   for (const Pose& pose : poses) points.push_back({pose.t()(a), pose.t()(b)});
   return points;
 }

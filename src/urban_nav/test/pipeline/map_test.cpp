@@ -112,6 +112,21 @@ TEST_F(Map, goesOnOverADamagedImageAndNamesIt) {
   EXPECT_NE(readFile(folder.file("out/summary.json")).find("000008.png"), std::string::npos);
 }
 
+TEST_F(Map, saysThatTheCamerasAreExchanged) {
+  const TemporaryFolder folder;
+  fs::copy(in(), folder.file("in"), fs::copy_options::recursive);
+  fs::rename(folder.file("in/image_0"), folder.file("in/left"));
+  fs::rename(folder.file("in/image_1"), folder.file("in/image_0"));
+  fs::rename(folder.file("in/left"), folder.file("in/image_1"));
+  ::testing::internal::CaptureStderr();
+  map({folder.file("in")}, folder.file("out"));
+  const std::string said = ::testing::internal::GetCapturedStderr();
+  EXPECT_NE(said.find("16 DEGRADED of 16 frames; most often: left and right are exchanged"), std::string::npos) << said;
+  const std::string summary = readFile(folder.file("out/summary.json"));
+  EXPECT_NE(summary.find("\"swapped\": 16"), std::string::npos);
+  EXPECT_EQ(summary.find("\"none\":"), std::string::npos);
+}
+
 TEST_F(Map, refusesWhatNobodyCanMap) {
   const TemporaryFolder folder;
   const auto with_stage = [](const char* stage) { return [stage](MapRequest& request) { request.stages = {stage}; }; };
