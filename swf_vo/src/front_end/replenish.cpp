@@ -17,7 +17,6 @@ using urban_nav_core::kHarrisMargin;
 using urban_nav_core::Pose;
 using urban_nav_core::Pyramid;
 using urban_nav_core::SlopedAlignment;
-using urban_nav_core::Spread;
 using urban_nav_core::StereoCamera;
 
 namespace {

@@ -28,7 +28,7 @@ Command mapCommand() {
   command.name = "map";
   command.summary = "Turns recordings into a trajectory with covariance, and a report.";
   command.options = {
-      {"INPUT", "", "bags, or folders of KITTI or EuRoC", true, true, {}},
+      {"INPUT", "", "bags, or folders of KITTI, EuRoC or New College", true, true, {}},
       {"-o,--out", "DIR", "folder to write into (made if need be)", true, false, {}},
       {"--stages", "LIST", "of vo (default: all whose inputs exist)", false, true, {}},
       {"--topic",
