@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "front_end/across.hpp"
 #include "front_end/corners.hpp"
@@ -30,6 +31,10 @@ constexpr double first_radius = 3.0;              // of the search radius, while
 // The window follows what the prediction was off by in the frame before (px, and times the 90 % quantile), up to the search radius.
 constexpr double least_radius = 8.0, radius_per_error = 3.0, radius_offset = 4.0;
 constexpr double coarse_slack_px = 1.0, fine_slack_px = 0.1;
+// Where so little agrees that nothing is known of the motion: how far around landmarks are then looked for (share of the width; about as far as the
+// nearest of them stand apart in the two images), and how many motions are tried, for one match in five to be right.
+constexpr double widest_radius = 0.16;
+constexpr int wide_samples = 400;
 // Within the window a landmark stands still, and what it creeps by there has to be in its measurements: n of them with this share of n^2 steps
 // added to their variance show a motion along the track as badly as n steps of a random walk do (6 / (5 n) q = 12 / n^3 R).
 constexpr double slope_share = 0.1;
@@ -68,6 +73,7 @@ class FrontEnd::Implementation {
     const std::size_t capacity = static_cast<std::size_t>(capacity_);
     misfit_.resize(static_cast<std::size_t>(parameters.pyramid_levels));
     matches_.reserve(capacity);
+    spare_.reserve(capacity);
     orphans_.reserve(capacity);
     parallax_.reserve(capacity);
     errors_.reserve(capacity);
@@ -167,6 +173,27 @@ class FrontEnd::Implementation {
     return localiser_.locate(starts_, options, matches_);
   }
 
+  /// Nothing fits where it was expected, as when the first step is a large one: looks far around for a motion, then matches again from there.
+  /// Taken if it explains clearly more than `explained` matches; else all stays as it was.
+  std::optional<Localisation> searchWidely(const Pose& T_turned_odom, int explained) {
+    spare_ = matches_;
+    const double radius = std::max(first_radius * parameters_.search_radius, widest_radius * camera_.left.width);
+    matchAnywhere(corners_, camera_, T_turned_odom, radius, matches_);
+    for (Match& match : matches_) combine(parameters_.pixel_noise_floor, match);
+    starts_.assign({T_turned_odom});
+    LocaliseOptions options;
+    options.slack_px = coarse_slack_px;
+    options.least_inliers = parameters_.lost_features;
+    options.samples = wide_samples;
+    const Localisation guess = localiser_.locate(starts_, options, matches_);
+    if (guess.found) {
+      const Localisation coarse = matchCoarsely(guess.T_camera_odom, guess.T_camera_odom);
+      if (coarse.found && coarse.inliers > 2 * explained) return coarse;
+    }
+    matches_.swap(spare_);
+    return std::nullopt;
+  }
+
   /// How wide to search next time: by what this frame's inliers were away from where they had been expected.
   void learnRadius(const Pose& T_expected_odom) {
     errors_.clear();
@@ -182,20 +209,12 @@ class FrontEnd::Implementation {
                          std::min(least_radius, parameters_.search_radius), parameters_.search_radius);
   }
 
-  void locate(const Pose& T_turned_odom, const Pose& T_predicted_odom) {
-    if (matches_.empty()) return;
-    Localisation coarse = matchCoarsely(T_turned_odom, T_predicted_odom);
-    if (radius_ < parameters_.search_radius && 2 * coarse.inliers < coarse.candidates) {
-      radius_ = parameters_.search_radius;
-      coarse = matchCoarsely(T_turned_odom, T_predicted_odom);
+  /// What the coarse motion explains is completed in the other image and placed to a hundredth of a pixel.
+  Localisation matchFinely(const Localisation& coarse, const Pose& T_turned_odom, const Pose& T_predicted_odom) {
+    for (Match& match : matches_) {
+      match.contradicted = coarse.found && match.measured && !match.inlier;
+      if (match.contradicted) match.left = match.right = Sighting();
     }
-    if (coarse.found)
-      for (Match& match : matches_) {
-        if (!match.measured || match.inlier) continue;
-        match.contradicted = true;
-        match.left = match.right = Sighting();
-      }
-
     matchAcross(corners_, camera_, coarse.found ? coarse.T_camera_odom : T_turned_odom, matches_);
     for (Match& match : matches_) {
       dropMisfits(match);
@@ -206,7 +225,21 @@ class FrontEnd::Implementation {
     options.slack_px = fine_slack_px;
     options.least_inliers = parameters_.lost_features;
     options.consensus = !coarse.found;
-    const Localisation fine = localiser_.locate(starts_, options, matches_);
+    return localiser_.locate(starts_, options, matches_);
+  }
+
+  void locate(const Pose& T_turned_odom, const Pose& T_predicted_odom) {
+    if (matches_.empty()) return;
+    Localisation coarse = matchCoarsely(T_turned_odom, T_predicted_odom);
+    if (radius_ < parameters_.search_radius && 2 * coarse.inliers < coarse.candidates) {
+      radius_ = parameters_.search_radius;
+      coarse = matchCoarsely(T_turned_odom, T_predicted_odom);
+    }
+    Localisation fine = matchFinely(coarse, T_turned_odom, T_predicted_odom);
+    if (fine.inliers < parameters_.degraded_features)
+      if (const auto wide = searchWidely(T_turned_odom, fine.inliers))
+        fine = matchFinely(*wide, T_turned_odom, T_predicted_odom);
+
     result_.candidates = fine.candidates;
     result_.localised = fine.found && !isOneEyed(fine.inliers);
     radius_ = first_radius * parameters_.search_radius;
@@ -289,7 +322,7 @@ class FrontEnd::Implementation {
   Replenisher replenisher_;
   std::vector<Misfit> misfit_;  // of landmarks that are followed, by level
   FrontEndResult result_;
-  std::vector<Match> matches_;
+  std::vector<Match> matches_, spare_;
   std::vector<LandmarkId> orphans_;
   std::vector<Parallax> parallax_;
   std::vector<Pose> starts_;

@@ -24,7 +24,6 @@ namespace {
 constexpr double cauchy2 = 5.7;  // (2.385 sigma)^2: 95 % efficiency, Zhang 1997
 constexpr double gate = 16.3;    // chi-square, 3 degrees of freedom, 99.9 %
 constexpr int most_steps = 12;
-constexpr int samples = 24;
 constexpr double prediction_bonus = 0.9;  // a start that was found by consensus must be better by more than this
 constexpr double clear_majority = 0.35;   // share of the highest cost, below which no other motion is looked for
 constexpr double full_trust_age = 6.0;    // frames
@@ -133,7 +132,7 @@ double Localiser::cost(const Pose& T_camera_odom) const {
   return total;
 }
 
-Pose Localiser::bestByConsensus(const Pose& start, double& best_cost) const {
+Pose Localiser::bestByConsensus(const Pose& start, int samples, double& best_cost) const {
   Pose best = start;
   const std::uint32_t count = static_cast<std::uint32_t>(items_.size());
   std::uint32_t state = 12345;
@@ -179,7 +178,7 @@ Localisation Localiser::locate(const std::vector<Pose>& starts, const LocaliseOp
   // Another motion could win only with more than the rest.
   if (options.consensus && best_cost > clear_majority * gate * trust) {
     double consensus_cost = prediction_bonus * best_cost;
-    consider(bestByConsensus(starts.front(), consensus_cost));
+    consider(bestByConsensus(starts.front(), options.samples, consensus_cost));
   }
 
   double squares = 0.0;

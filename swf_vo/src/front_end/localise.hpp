@@ -22,6 +22,7 @@ struct LocaliseOptions {
       0.1;  ///< added to the standard deviation of each coordinate: what the map and the match are wrong by beyond what they say
   int least_inliers = 8;
   bool consensus = true;  ///< also tries motions through few matches, for when the starts given are all wrong
+  int samples = 24;       ///< ... this many
 };
 
 /// Step (iv) of section 2.4: the camera's pose by an m-estimator over the measured matches, with the error of a landmark's first
@@ -54,7 +55,7 @@ class Localiser {
   urban_nav_core::Pose descend(urban_nav_core::Pose T_camera_odom, int steps,
                                const std::array<int, sample_size>* only) const;
   double cost(const urban_nav_core::Pose& T_camera_odom) const;
-  urban_nav_core::Pose bestByConsensus(const urban_nav_core::Pose& start, double& best_cost) const;
+  urban_nav_core::Pose bestByConsensus(const urban_nav_core::Pose& start, int samples, double& best_cost) const;
 
   const urban_nav_core::StereoCamera& camera_;
   std::vector<Item> items_;

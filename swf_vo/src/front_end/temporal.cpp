@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "front_end/temporal.hpp"
 
+#include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 
 #include "front_end/refine.hpp"
@@ -21,31 +23,77 @@ constexpr double accepted_share = 0.75;
 // From a corner to the landmark, px of the level: FAST answers move by a pixel or two.
 constexpr double corner_reach = 2.5;
 constexpr double direct_reach = 3.0;
+// Best over second best of corners that stand apart, where the search is wide.
+constexpr double uniqueness = 0.85;
+constexpr int apart = 3;  // px of the level
 
-Sighting search(Side side, const Corners& corners, const Track& track, const Eigen::Vector2d& projected,
-                double radius) {
+struct BestCorner {
+  bool any = false;
+  Corner corner;
+  int sad = 0, second = 0;  // `second`: of those that stand apart from the best
+};
+
+BestCorner bestCorner(Side side, const Corners& corners, const Track& track, const Eigen::Vector2d& projected,
+                      double radius) {
   const ImageView& image = corners.image(side, track.level);
   const SadPatch patch = urban_nav_core::sadPatch(side == Side::Left ? track.in_left : track.in_right);
   int contrast = 0;
   for (const std::int16_t value : patch.value) contrast += std::abs(value);
   const double scale = Pyramid::scale(track.level);
-  int best = static_cast<int>(accepted_share * contrast);
-  Corner found;
-  bool any = false;
+  BestCorner best;
+  best.sad = best.second = static_cast<int>(accepted_share * contrast);
   corners.at(side, track.level)
-      .forEachWithin(projected.x() * scale, projected.y() * scale, radius * scale + 1.0,
-                     [&](const Corner& corner, std::size_t) {
-                       if (!urban_nav_core::sadFits(image, corner.u, corner.v)) return;
-                       const int sad = urban_nav_core::meanRemovedSad(patch, image, corner.u, corner.v);
-                       if (sad >= best) return;
-                       best = sad;
-                       found = corner;
-                       any = true;
-                     });
+      .forEachWithin(
+          projected.x() * scale, projected.y() * scale, radius * scale + 1.0, [&](const Corner& corner, std::size_t) {
+            if (!urban_nav_core::sadFits(image, corner.u, corner.v)) return;
+            const int sad = urban_nav_core::meanRemovedSad(patch, image, corner.u, corner.v);
+            const bool is_same =
+                best.any && std::abs(corner.u - best.corner.u) < apart && std::abs(corner.v - best.corner.v) < apart;
+            if (sad >= best.sad) {
+              if (!is_same) best.second = std::min(best.second, sad);
+              return;
+            }
+            if (!is_same) best.second = best.sad;
+            best.sad = sad;
+            best.corner = corner;
+            best.any = true;
+          });
+  return best;
+}
+
+Sighting at(Side side, const Corners& corners, const Track& track, const Corner& corner) {
+  return refine(side, corners, track, Eigen::Vector2d(corner.u, corner.v) / Pyramid::scale(track.level), corner_reach);
+}
+
+Sighting search(Side side, const Corners& corners, const Track& track, const Eigen::Vector2d& projected,
+                double radius) {
+  const BestCorner best = bestCorner(side, corners, track, projected, radius);
   Sighting sighting;
-  if (any) sighting = refine(side, corners, track, Eigen::Vector2d(found.u, found.v) / scale, corner_reach);
+  if (best.any) sighting = at(side, corners, track, best.corner);
   if (!sighting.found) sighting = refine(side, corners, track, projected, direct_reach);
   return sighting;
+}
+
+Sighting searchAnywhere(Side side, const Corners& corners, const Track& track, const Eigen::Vector2d& projected,
+                        double radius) {
+  const BestCorner best = bestCorner(side, corners, track, projected, radius);
+  if (!best.any || best.sad > uniqueness * best.second) return Sighting();
+  return at(side, corners, track, best.corner);
+}
+
+/// One image for each match, in turn.
+template <typename Search>
+void matchInTurn(const Corners& corners, const StereoCamera& camera, const Pose& T_camera_odom, double radius,
+                 std::vector<Match>& matches, const Search& search_one) {
+  Side side = Side::Left;
+  for (Match& match : matches) {
+    match.left = match.right = Sighting();
+    side = side == Side::Left ? Side::Right : Side::Left;
+    if (match.track->level >= corners.levels()) continue;
+    const auto projected = projectInto(side, camera, T_camera_odom, match.p_odom);
+    if (!projected || !prepareTemplate(side, camera, T_camera_odom, match)) continue;
+    (side == Side::Left ? match.left : match.right) = search_one(side, corners, *match.track, *projected, radius);
+  }
 }
 
 }  // namespace
@@ -61,15 +109,12 @@ std::optional<Eigen::Vector2d> projectInto(Side side, const StereoCamera& camera
 
 void matchTemporal(const Corners& corners, const StereoCamera& camera, const Pose& T_camera_odom, double radius,
                    std::vector<Match>& matches) {
-  Side side = Side::Left;
-  for (Match& match : matches) {
-    match.left = match.right = Sighting();
-    side = side == Side::Left ? Side::Right : Side::Left;
-    if (match.track->level >= corners.levels()) continue;
-    const auto projected = projectInto(side, camera, T_camera_odom, match.p_odom);
-    if (!projected || !prepareTemplate(side, camera, T_camera_odom, match)) continue;
-    (side == Side::Left ? match.left : match.right) = search(side, corners, *match.track, *projected, radius);
-  }
+  matchInTurn(corners, camera, T_camera_odom, radius, matches, search);
+}
+
+void matchAnywhere(const Corners& corners, const StereoCamera& camera, const Pose& T_camera_odom, double radius,
+                   std::vector<Match>& matches) {
+  matchInTurn(corners, camera, T_camera_odom, radius, matches, searchAnywhere);
 }
 
 }  // namespace swf_vo

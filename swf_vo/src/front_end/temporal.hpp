@@ -21,4 +21,9 @@ std::optional<Eigen::Vector2d> projectInto(Side side, const urban_nav_core::Ster
 void matchTemporal(const Corners& corners, const urban_nav_core::StereoCamera& camera,
                    const urban_nav_core::Pose& T_camera_odom, double radius, std::vector<Match>& matches);
 
+/// The same where nobody knows how the camera moved: so far around that much looks alike, hence corners alone, and only one that is clearly
+/// better than all others.
+void matchAnywhere(const Corners& corners, const urban_nav_core::StereoCamera& camera,
+                   const urban_nav_core::Pose& T_camera_odom, double radius, std::vector<Match>& matches);
+
 }  // namespace swf_vo

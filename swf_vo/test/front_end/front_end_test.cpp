@@ -152,6 +152,31 @@ TEST(FrontEnd, SwappedDarkAndAbsurdImagesGiveFewMatchesAndNoHarm) {
   }
 }
 
+TEST(FrontEnd, FindsAFirstStepThatNothingForetold) {
+  SequenceOptions options;
+  options.camera.fx = options.camera.fy = 720.0;
+  options.camera.cx = 619.5;
+  options.camera.cy = 187.5;
+  options.camera.width = 1240;
+  options.camera.height = 376;
+  options.noise = 2.0;
+  const Pose first = lookingAlong({0.2, 0.1, 1.2}, 0.3);
+  for (const double metres : {1.0, 1.2, 1.4}) {
+    Vector6d motion;
+    motion << 0.1, 0.0, metres, 0.0, 0.06, 0.0;
+    const Pose second = first * expSe3(motion);
+    RenderedSequence sequence(
+        texturedRoom(), [&](double t) { return t > 0.0 ? second : first; }, options);
+    Bench bench(cameraOf(options.camera));
+    bench.learn(bench.see(sequence.frame(0).pair(), first, first), first);
+    const FrontEndResult& seen = bench.see(sequence.frame(1).pair(), first, first);
+    ASSERT_TRUE(seen.localised) << metres;
+    EXPECT_GT(seen.tracked.size(), 60U) << metres;
+    EXPECT_LT(distanceBetween(seen.T_odom_camera, second), 0.02) << metres;
+    EXPECT_LT(angleBetween(seen.T_odom_camera, second), 0.005) << metres;
+  }
+}
+
 TEST(FrontEnd, GoesOnAfterDarkness) {
   RenderedSequence sequence = room(20.0);
   Bench bench(cameraOf(sequence.options().camera));

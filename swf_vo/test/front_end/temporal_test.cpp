@@ -82,6 +82,21 @@ TEST_F(TwoFrames, CornersAreFoundFromACrudePrediction) {
   EXPECT_GT(good, 0.6 * static_cast<double>(matches_.size()));
 }
 
+TEST_F(TwoFrames, WhatIsUniqueIsFoundFromFarAway) {
+  Vector6d wrong;
+  wrong << 0.0, 0.0, 0.0, 0.1, 0.2, 0.0;  // 56 px
+  matchAnywhere(corners_, camera_, expSe3(wrong) * T_camera_odom_, 80.0, matches_);
+  int good = 0, found = 0;
+  for (const Match& match : matches_) {
+    EXPECT_FALSE(match.left.found && match.right.found);
+    found += match.left.found || match.right.found;
+    if (match.left.found && error(Side::Left, match) < 0.5) ++good;
+    if (match.right.found && error(Side::Right, match) < 0.5) ++good;
+  }
+  EXPECT_GT(good, 0.4 * static_cast<double>(matches_.size()));
+  EXPECT_GT(good, 0.7 * found);
+}
+
 TEST_F(TwoFrames, BothImagesAreMeasuredToATenthOfAPixel) {
   matchTemporal(corners_, camera_, T_camera_odom_, 8.0, matches_);
   matchAcross(corners_, camera_, T_camera_odom_, matches_);
