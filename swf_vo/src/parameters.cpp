@@ -5,7 +5,6 @@
 
 namespace swf_vo {
 
-using urban_nav_core::Row;
 using urban_nav_core::Table;
 
 Parameters::Parameters() { table().setDefaults(*this); }

@@ -144,7 +144,7 @@ bool looksExchanged(const ImageView& left, const ImageView& right) {
     for (int j = 0; j < 6; ++j) {
       const int column = reach + j * (columns - 2 * reach - block) / 5;
       const int stride = block + 2 * reach;
-      int here[block * block_rows], there[(block + 2 * longest_reach) * block_rows], costs[2 * longest_reach + 1];
+      int here[block * block_rows], there[(block + 2 * longest_reach) * block_rows], costs[2 * longest_reach + 1] = {};
       shrinkRows(left, v, column, block, here);
       shrinkRows(right, v, column - reach, stride, there);
       for (int shift = -reach; shift <= reach; ++shift)
