@@ -76,7 +76,7 @@ void Filter::restart(FrameId frame, const ProcessInput& u, std::vector<SettledPo
   const Pose& last = state_.poses.back().estimate;
   const UncertainPose next{process_model::predict(last, u), covariance::propagate(last, newest_covariance_, u)};
   // What is known of the disparity offset, with all else marginalised.
-  const double information = prior_.has_offset ? gauss_newton_.solver().offsetInformation(prior_) : 0.0,
+  const double information = prior_.has_offset ? gauss_newton_.solver().offsetInformation() : 0.0,
                offset = state_.disparity_offset;
   flush(settled);
   for (std::size_t slot = 0; slot < state_.landmarks.size(); ++slot)

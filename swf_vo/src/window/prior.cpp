@@ -12,6 +12,12 @@ using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
 using urban_nav_core::Vector6d;
 
+namespace {
+
+constexpr double degrees_of_freedom = 4.0;  // of what is known of calibrations: the usual choice for data with outliers
+
+}  // namespace
+
 void Prior::start(const Pose& centre, const Matrix6d& pose_information) {
   has_pose = true;
   frozen = false;
@@ -30,6 +36,11 @@ void Prior::startOffset(double offset, double sigma) {
   calibrated_offset = offset;
   calibration_information = has_offset ? 1.0 / (sigma * sigma) : 0.0;
   offset_information = offset_eta = 0.0;
+}
+
+double Prior::calibrationInformation(double offset) const {
+  const double off = offset - calibrated_offset;
+  return calibration_information / (1.0 + off * off * calibration_information / degrees_of_freedom);
 }
 
 void Prior::deviation(const State& state, std::vector<double>& d) const {

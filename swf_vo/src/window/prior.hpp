@@ -39,6 +39,9 @@ struct Prior {
   void start(const urban_nav_core::Pose& centre, const urban_nav_core::Matrix6d& pose_information);
   /// What the calibration says of the disparity offset, and how well it knows (px); with sigma 0 it is a constant.
   void startOffset(double offset, double sigma);
+  /// What the calibration counts for at an offset: all of 1 / sigma^2 close to what it says, and less the further away the measurements
+  /// want it, as with Student's t: most calibrations are as good as they are said to be, and some are far off.
+  double calibrationInformation(double offset) const;
 
   /// d at the estimates.
   void deviation(const State& state, std::vector<double>& d) const;

@@ -150,15 +150,16 @@ void Solver::factorBorder(const State& state, const Prior& prior, const NormalEq
   border_.rows = rhs_;
   border_.landmark = landmark_step_;
   const double measured = prior.offset_information + equations.border.information;
-  border_.pivot = prior.calibration_information + std::max(measured - decrement_, 0.0) / caution;
+  border_.calibration = prior.calibrationInformation(state.disparity_offset);
+  border_.pivot = border_.calibration + std::max(measured - decrement_, 0.0) / caution;
 }
 
-double Solver::offsetInformation(const Prior& prior) const {
-  return border_.used ? (border_.pivot - prior.calibration_information) * caution : 0.0;
+double Solver::offsetInformation() const {
+  return border_.used ? (border_.pivot - border_.calibration) * caution : 0.0;
 }
 
 double Solver::offsetPull(const Prior& prior, double offset) const {
-  return caution * prior.calibration_information * (prior.calibrated_offset - offset);
+  return caution * prior.calibrationInformation(offset) * (prior.calibrated_offset - offset);
 }
 
 double Solver::dotBorder(const State& state, const Prior& prior, const NormalEquations& equations) const {
@@ -177,8 +178,8 @@ void Solver::solve(const State& state, const Prior& prior, const NormalEquations
   offset_step_ = 0.0;
   if (!border_.used) return;
   const double left = prior_offset_gradient + equations.border.gradient - dotBorder(state, prior, equations);
-  const double pull =
-      left / caution + prior.calibration_information * (prior.calibrated_offset - state.disparity_offset);
+  const double pull = left / caution + prior.calibrationInformation(state.disparity_offset) *
+                                           (prior.calibrated_offset - state.disparity_offset);
   offset_step_ = pull / border_.pivot;
   decrement_ += pull * offset_step_;
   for (std::size_t i = 0; i < rhs_.size(); ++i) rhs_[i] -= border_.rows[i] * offset_step_;

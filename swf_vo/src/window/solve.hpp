@@ -47,7 +47,7 @@ class Solver {
   /// Variance of the disparity offset (px^2), 0 where it is a constant, and how the estimate in such a row goes with it.
   double offsetVariance() const { return border_.used ? 1.0 / border_.pivot : 0.0; }
   /// What measurements say of the offset with all else marginalised, and what the calibration pulls at an estimate: Prior's terms of it.
-  double offsetInformation(const Prior& prior) const;
+  double offsetInformation() const;
   double offsetPull(const Prior& prior, double offset) const;
   double perOffset(std::size_t row) const { return border_.used ? -border_.rows[row] : 0.0; }
   std::size_t poses() const { return poses_; }
@@ -95,6 +95,7 @@ class Solver {
     std::vector<double> rows;               // Lambda^-1 border: landmarks of the prior, then poses
     std::vector<Eigen::Vector3d> landmark;  // ... by slot
     double pivot = 1.0;                     // what is left of the offset's information
+    double calibration = 0.0;               // ... that of the calibration
   } border_;
 };
 

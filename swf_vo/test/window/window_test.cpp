@@ -108,6 +108,23 @@ TEST(Window, isConsistent) {
   EXPECT_NEAR(relative / steps, 6.0, 1.0);
 }
 
+// The calibration is believed where it is right, and given up where the images insist on something else.
+TEST(Window, learnsWhatTheCalibrationGotWrong) {
+  for (const double offset : {0.0, 0.1, 0.8}) {
+    urban_nav_core::testing::TrackOptions motion = tracksOf(120, 0.1);
+    motion.features = 60;
+    auto tracks = simulateTracks(motion);
+    for (auto& frame : tracks.frames)
+      for (auto& sighting : frame.sightings) sighting.z.z() -= offset;
+    WindowOptions options;
+    options.disparity_offset = 0.1;
+    TrackRunner run(tracks, options);
+    while (!run.done()) run.step();
+    EXPECT_NEAR(run.window.disparityOffset(), offset, 3.0 * run.window.disparityOffsetSigma());
+    EXPECT_LT(run.window.disparityOffsetSigma(), 0.1);
+  }
+}
+
 TEST(Window, goesOnByPredictionWhereNothingIsSeen) {
   const auto tracks = simulateTracks(tracksOf(60, 0.5));
   TrackRunner run(tracks, WindowOptions());
