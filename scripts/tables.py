@@ -3,7 +3,7 @@
 """Keeps the tables of the READMEs equal to the measurements they show.
 
 `<!-- table: swf_vo/bench/accuracy -->` ... `<!-- end -->` in any README.md holds the rendering of
-swf_vo/bench/results/accuracy.json: {"columns": [...], "rows": [[...], ...], "machine": ..., "commit": ..., "command": ...}.
+swf_vo/bench/results/accuracy.json: {"columns": [...], "rows": [[...], ...], "machine": ..., "commit": ..., "command": ..., "notes": [...]}.
 Without an option the texts are compared and a difference is an error; --write renders them anew.
 """
 import argparse
@@ -36,7 +36,8 @@ def render(name):
         raise ValueError(f"{path.relative_to(ROOT)}: {len(data['columns'])} columns, but a row is {wrong[0]}")
     rows = [data["columns"], ["---"] * len(data["columns"]), *data["rows"]]
     lines = ["| " + " | ".join("" if cell is None else str(cell) for cell in row) + " |" for row in rows]
-    return "\n".join(lines) + f"\n\n<sub>`{data['command']}` on {data['machine']}, commit {data['commit']}</sub>\n"
+    notes = "".join(f"{note}\n" for note in data.get("notes", []))
+    return "\n".join(lines) + f"\n\n{notes}<sub>`{data['command']}` on {data['machine']}, commit {data['commit']}</sub>\n"
 
 
 def main():
