@@ -68,16 +68,16 @@ Best searchRow(const SadPatch& patch, const ImageView& image, int from, int to, 
 }  // namespace
 
 void matchAcross(const Corners& corners, const StereoCamera& camera, const Pose& T_camera_odom,
-                 std::vector<Match>& matches) {
+                 std::vector<Match>& matches, double row_offset) {
   for (Match& match : matches) {
     if (match.track->level >= corners.levels()) continue;
     for (const Side side : {Side::Left, Side::Right}) {
       Sighting& mine = side == Side::Left ? match.left : match.right;
       const Sighting& other = side == Side::Left ? match.right : match.left;
       if (mine.found) continue;
-      const auto projected = projectInto(side, camera, T_camera_odom, match.p_odom);
+      const auto projected = projectInto(side, camera, T_camera_odom, match.p_odom, row_offset);
       const auto partner =
-          projectInto(side == Side::Left ? Side::Right : Side::Left, camera, T_camera_odom, match.p_odom);
+          projectInto(side == Side::Left ? Side::Right : Side::Left, camera, T_camera_odom, match.p_odom, row_offset);
       if (!projected || !partner || !prepareTemplate(side, camera, T_camera_odom, match)) continue;
       // What the sighting in the other image is off by is mostly the pose's error, and so common to both.
       const Eigen::Vector2d start = other.found ? Eigen::Vector2d(*projected + (other.pixel - *partner)) : *projected;
@@ -88,16 +88,19 @@ void matchAcross(const Corners& corners, const StereoCamera& camera, const Pose&
   }
 }
 
-std::optional<int> findDisparity(const ImageView& left, const ImageView& right, int u, int v, int lowest, int highest) {
-  if (!urban_nav_core::sadFits(left, u, v)) return std::nullopt;
+std::optional<int> findDisparity(const ImageView& left, const ImageView& right, int u, int v, int lowest, int highest,
+                                 int row_offset) {
+  const int row = v + row_offset;
+  if (!urban_nav_core::sadFits(left, u, v) || !urban_nav_core::sadFits(right, right.width / 2, row))
+    return std::nullopt;
   const SadPatch patch = urban_nav_core::sadPatch(left, u, v);
   int contrast = 0;
   for (const std::int16_t value : patch.value) contrast += std::abs(value);
   const int from = std::max(4, u - highest), to = std::min(right.width - 4, u - lowest);
   if (to <= from) return std::nullopt;
-  const Best forth = searchRow(patch, right, from, to, v);
+  const Best forth = searchRow(patch, right, from, to, row);
   if (forth.sad > accepted_share * contrast || forth.sad > uniqueness * forth.second) return std::nullopt;
-  const Best back = searchRow(urban_nav_core::sadPatch(right, forth.u, v), left, std::max(4, forth.u + lowest),
+  const Best back = searchRow(urban_nav_core::sadPatch(right, forth.u, row), left, std::max(4, forth.u + lowest),
                               std::min(left.width - 4, forth.u + highest), v);
   if (std::abs(back.u - u) > 1) return std::nullopt;
   return u - forth.u;

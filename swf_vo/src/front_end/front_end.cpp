@@ -13,6 +13,7 @@
 #include "front_end/refine.hpp"
 #include "front_end/replenish.hpp"
 #include "front_end/rotation.hpp"
+#include "front_end/row_offset.hpp"
 #include "front_end/temporal.hpp"
 #include "front_end/tracks.hpp"
 
@@ -31,6 +32,7 @@ constexpr double first_radius = 3.0;              // of the search radius, while
 // The window follows what the prediction was off by in the frame before (px, and times the 90 % quantile), up to the search radius.
 constexpr double least_radius = 8.0, radius_per_error = 3.0, radius_offset = 4.0;
 constexpr double coarse_slack_px = 1.0, fine_slack_px = 0.1;
+constexpr double noticed_row_offset = 0.1;  // px
 // Where so little agrees that nothing is known of the motion: how far around landmarks are then looked for (share of the width; about as far as the
 // nearest of them stand apart in the two images), and how many motions are tried, for one match in five to be right.
 constexpr double widest_radius = 0.16;
@@ -69,6 +71,7 @@ class FrontEnd::Implementation {
         capacity_(4 * featuresIn(camera, parameters.features)),
         localiser_(camera_, capacity_),
         tracks_(capacity_),
+        rows_(4 * capacity_),
         replenisher_(camera_, featuresIn(camera, parameters.features), parameters.pixel_noise_floor) {
     const std::size_t capacity = static_cast<std::size_t>(capacity_);
     misfit_.resize(static_cast<std::size_t>(parameters.pyramid_levels));
@@ -96,7 +99,7 @@ class FrontEnd::Implementation {
     if (!next) radius_ = first_radius * parameters_.search_radius;
     locate(turn(next ? last : T_odom_last_, predicted), predicted.inverse());
     for (Match& match : matches_) follow(frame, match);
-    replenisher_.replenish(frame, corners_, result_.T_odom_camera, matches_, tracks_, result_.fresh);
+    replenish(frame);
     frame_ = frame;
     T_odom_last_ = result_.T_odom_camera;
     return result_;
@@ -112,6 +115,18 @@ class FrontEnd::Implementation {
     result_.localised = false;
     result_.corners = result_.candidates = 0;
     result_.inlier_share = result_.reprojection_px = 0.0;
+  }
+
+  /// New landmarks. The first frame is looked at twice where the rows of its images turn out to differ: its landmarks want to be right too.
+  void replenish(FrameId frame) {
+    const bool first = !rows_.isKnown();
+    replenisher_.replenish(frame, corners_, result_.T_odom_camera, matches_, tracks_, result_.fresh, rows_);
+    rows_.learn();
+    if (!first || std::abs(rows_.px()) < noticed_row_offset) return;
+    for (const Observation& observation : result_.fresh) tracks_.end(observation.landmark);
+    result_.fresh.clear();
+    replenisher_.replenish(frame, corners_, result_.T_odom_camera, matches_, tracks_, result_.fresh, rows_);
+    rows_.learn();
   }
 
   bool isPair(const StereoPair& pair) const {
@@ -164,8 +179,8 @@ class FrontEnd::Implementation {
 
   /// First matches, in one image each, and the pose that most of them agree on to about a pixel.
   Localisation matchCoarsely(const Pose& T_turned_odom, const Pose& T_predicted_odom) {
-    matchTemporal(corners_, camera_, T_turned_odom, radius_, matches_);
-    for (Match& match : matches_) combine(parameters_.pixel_noise_floor, match);
+    matchTemporal(corners_, camera_, T_turned_odom, radius_, matches_, rows_.px());
+    for (Match& match : matches_) combine(parameters_.pixel_noise_floor, match, rows_.px());
     starts_.assign({T_predicted_odom, T_turned_odom});
     LocaliseOptions options;
     options.slack_px = coarse_slack_px;
@@ -178,8 +193,8 @@ class FrontEnd::Implementation {
   std::optional<Localisation> searchWidely(const Pose& T_turned_odom, int explained) {
     spare_ = matches_;
     const double radius = std::max(first_radius * parameters_.search_radius, widest_radius * camera_.left.width);
-    matchAnywhere(corners_, camera_, T_turned_odom, radius, matches_);
-    for (Match& match : matches_) combine(parameters_.pixel_noise_floor, match);
+    matchAnywhere(corners_, camera_, T_turned_odom, radius, matches_, rows_.px());
+    for (Match& match : matches_) combine(parameters_.pixel_noise_floor, match, rows_.px());
     starts_.assign({T_turned_odom});
     LocaliseOptions options;
     options.slack_px = coarse_slack_px;
@@ -215,10 +230,10 @@ class FrontEnd::Implementation {
       match.contradicted = coarse.found && match.measured && !match.inlier;
       if (match.contradicted) match.left = match.right = Sighting();
     }
-    matchAcross(corners_, camera_, coarse.found ? coarse.T_camera_odom : T_turned_odom, matches_);
+    matchAcross(corners_, camera_, coarse.found ? coarse.T_camera_odom : T_turned_odom, matches_, rows_.px());
     for (Match& match : matches_) {
       dropMisfits(match);
-      combine(parameters_.pixel_noise_floor, match);
+      combine(parameters_.pixel_noise_floor, match, rows_.px());
     }
     starts_.assign({coarse.found ? coarse.T_camera_odom : T_predicted_odom});
     LocaliseOptions options;
@@ -273,6 +288,7 @@ class FrontEnd::Implementation {
   void follow(FrameId frame, Match& match) {
     Track& track = *match.track;
     if (match.inlier) {
+      if (match.left.found && match.right.found) rows_.see(match.right.pixel.y() - match.left.pixel.y());
       fillIn(match);
       learnSurface(corners_, camera_, result_.T_odom_camera.inverse(), match);
       ++track.seen;
@@ -319,6 +335,7 @@ class FrontEnd::Implementation {
   int capacity_;
   Localiser localiser_;
   Tracks tracks_;
+  RowOffset rows_;
   Replenisher replenisher_;
   std::vector<Misfit> misfit_;  // of landmarks that are followed, by level
   FrontEndResult result_;

@@ -117,33 +117,34 @@ void loosen(const Eigen::Matrix2d& covariance, double of_disparity, Match& match
   match.information = (0.5 * (match.information + match.information.transpose())).eval();
 }
 
-void combine(double floor_px, Match& match) {
+void combine(double floor_px, Match& match, double row_offset) {
   match.measured = false;
   match.information.setZero();
   Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
   const Eigen::Matrix2d floor = floor_px * floor_px * Eigen::Matrix2d::Identity();
-  const auto add = [&](const Sighting& sighting, int column) {
+  const Eigen::Vector2d in_right = match.right.pixel - Eigen::Vector2d(0.0, row_offset);
+  const auto add = [&](const Sighting& sighting, const Eigen::Vector2d& pixel, int column) {
     if (!sighting.found) return;
     const Eigen::Matrix2d information = (sighting.covariance + floor).inverse();
     Eigen::Matrix<double, 2, 3> pick = Eigen::Matrix<double, 2, 3>::Zero();
     pick(0, column) = 1.0;
     pick(1, 1) = 1.0;
     match.information += pick.transpose() * information * pick;
-    weighted += pick.transpose() * (information * sighting.pixel);
+    weighted += pick.transpose() * (information * pixel);
   };
   if (match.left.found && match.right.found) {
-    const double difference = match.left.pixel.y() - match.right.pixel.y();
+    const double difference = match.left.pixel.y() - in_right.y();
     const double variance = match.left.covariance(1, 1) + match.right.covariance(1, 1) + row_slack_px * row_slack_px;
     if (difference * difference > row_gate * variance) return;
   }
-  add(match.left, 0);
-  add(match.right, 2);
+  add(match.left, match.left.pixel, 0);
+  add(match.right, in_right, 2);
   if (match.left.found && match.right.found) {
     match.z = match.information.ldlt().solve(weighted);
   } else if (match.left.found) {
     match.z << match.left.pixel, 0.0;
   } else if (match.right.found) {
-    match.z << 0.0, match.right.pixel.y(), match.right.pixel.x();
+    match.z << 0.0, in_right.y(), in_right.x();
   }
   match.measured = (match.left.found || match.right.found) && match.z.allFinite() && match.information.allFinite();
 }

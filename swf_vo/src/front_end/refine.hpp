@@ -35,7 +35,8 @@ Eigen::Matrix2d creep(const urban_nav_core::StereoCamera& camera, const urban_na
 void loosen(const Eigen::Matrix2d& covariance, double of_disparity, Match& match);
 
 /// The two sightings as one measurement (u_left, v, u_right): the row counts once, weighed by both. `floor_px` is added to the
-/// standard deviation of each coordinate. Not measured if neither image has it, or if the rows contradict each other.
-void combine(double floor_px, Match& match);
+/// standard deviation of each coordinate. The row is the left image's: the right one's is `row_offset` (RowOffset) less than was sighted. Not
+/// measured if neither image has it, or if the rows contradict each other.
+void combine(double floor_px, Match& match, double row_offset = 0.0);
 
 }  // namespace swf_vo

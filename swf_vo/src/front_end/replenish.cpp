@@ -74,12 +74,14 @@ void Replenisher::gather(const Corners& corners) {
 }
 
 bool Replenisher::start(const Candidate& candidate, FrameId frame, const Corners& corners, const Pose& T_odom_camera,
-                        Tracks& tracks, std::vector<Observation>& fresh) {
+                        Tracks& tracks, std::vector<Observation>& fresh, RowOffset& rows) {
   const ImageView& left = corners.image(Side::Left, candidate.level);
   const ImageView& right = corners.image(Side::Right, candidate.level);
   const int offset = static_cast<int>(std::lround(camera_.disparity_offset * Pyramid::scale(candidate.level)));
+  const double row_offset = rows.px() * Pyramid::scale(candidate.level);
   const auto disparity = findDisparity(left, right, candidate.u, candidate.v, lowest_disparity + offset,
-                                       static_cast<int>(largest_disparity * left.width) + offset);
+                                       static_cast<int>(largest_disparity * left.width) + offset,
+                                       static_cast<int>(std::lround(row_offset)));
   if (!disparity) return false;
   const auto source = cutSource(left, candidate.u, candidate.v);
   if (!source) return false;
@@ -90,16 +92,18 @@ bool Replenisher::start(const Candidate& candidate, FrameId frame, const Corners
   prior.usual_sigma = std::min(
       prior.wide_sigma,
       usual_slant * std::max(1.0, (*disparity - offset + 0.5) / Pyramid::scale(candidate.level)) / camera_.left.fx);
-  const SlopedAlignment found =
-      urban_nav_core::alignAcross(right, *source, {candidate.u - *disparity, candidate.v}, prior, track->in_right);
+  const SlopedAlignment found = urban_nav_core::alignAcross(
+      right, *source, {candidate.u - *disparity, candidate.v + row_offset}, prior, track->in_right);
   const double size = 1.0 / Pyramid::scale(candidate.level);
   Match match;
   match.left.found = match.right.found = true;
   match.left.pixel = size * Eigen::Vector2d(candidate.u, candidate.v);
   match.right.pixel = size * found.alignment.position;
+  const bool fits = found.alignment.converged && found.alignment.correlation >= least_correlation_across;
+  const double lower = found.alignment.position.y() - candidate.v;
+  if (fits) rows.see(size * lower);
   const bool plausible =
-      found.alignment.converged && found.alignment.correlation >= least_correlation_across &&
-      std::abs(found.alignment.position.y() - candidate.v) <= same_row &&
+      fits && std::abs(lower - row_offset) <= same_row &&
       match.left.pixel.x() - match.right.pixel.x() - camera_.disparity_offset >= least_disparity_px &&
       misfit_[static_cast<std::size_t>(candidate.level)].isUsual(found.alignment.noise) &&
       urban_nav_core::warpTemplate(*source, Eigen::Matrix2d::Identity(), track->in_left);
@@ -108,7 +112,7 @@ bool Replenisher::start(const Candidate& candidate, FrameId frame, const Corners
     const double noise = std::max(found.alignment.noise, 0.3);
     match.left.covariance = track->in_left.unit_covariance * (noise * noise * size * size);
     match.right.covariance = found.alignment.covariance * (size * size);
-    combine(floor_px_, match);
+    combine(floor_px_, match, rows.px());
   }
   if (!match.measured) {
     tracks.end(track->id);
@@ -133,7 +137,8 @@ bool Replenisher::start(const Candidate& candidate, FrameId frame, const Corners
 }
 
 void Replenisher::replenish(FrameId frame, const Corners& corners, const Pose& T_odom_camera,
-                            const std::vector<Match>& matches, Tracks& tracks, std::vector<Observation>& fresh) {
+                            const std::vector<Match>& matches, Tracks& tracks, std::vector<Observation>& fresh,
+                            RowOffset& rows) {
   spread_.clear();
   for (const Match& match : matches)
     if (match.inlier && match.left.found) spread_.add(match.left.pixel.x(), match.left.pixel.y());
@@ -146,7 +151,7 @@ void Replenisher::replenish(FrameId frame, const Corners& corners, const Pose& T
     const double u = candidate.u << candidate.level, v = candidate.v << candidate.level;
     if (!spread_.mayAdd(u, v)) continue;
     --attempts;
-    if (start(candidate, frame, corners, T_odom_camera, tracks, fresh)) spread_.add(u, v);
+    if (start(candidate, frame, corners, T_odom_camera, tracks, fresh, rows)) spread_.add(u, v);
   }
 }
 

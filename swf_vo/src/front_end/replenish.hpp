@@ -6,6 +6,7 @@
 #include "front_end/corners.hpp"
 #include "front_end/match.hpp"
 #include "front_end/misfit.hpp"
+#include "front_end/row_offset.hpp"
 #include "front_end/tracks.hpp"
 #include "observation.hpp"
 #include "urban_nav_core/camera/stereo_camera.hpp"
@@ -20,9 +21,9 @@ class Replenisher {
   /// The camera must outlive it, and may learn its disparity offset. `features`: wanted in the image.
   Replenisher(const urban_nav_core::StereoCamera& camera, int features, double floor_px);
 
-  /// `matches`: those that are inliers keep their place. Appends to `fresh`.
+  /// `matches`: those that are inliers keep their place. Appends to `fresh`. `rows`: by what the images differ, and what is seen of it.
   void replenish(FrameId frame, const Corners& corners, const urban_nav_core::Pose& T_odom_camera,
-                 const std::vector<Match>& matches, Tracks& tracks, std::vector<Observation>& fresh);
+                 const std::vector<Match>& matches, Tracks& tracks, std::vector<Observation>& fresh, RowOffset& rows);
 
  private:
   struct Candidate {
@@ -31,7 +32,8 @@ class Replenisher {
   };
   void gather(const Corners& corners);
   bool start(const Candidate& candidate, FrameId frame, const Corners& corners,
-             const urban_nav_core::Pose& T_odom_camera, Tracks& tracks, std::vector<Observation>& fresh);
+             const urban_nav_core::Pose& T_odom_camera, Tracks& tracks, std::vector<Observation>& fresh,
+             RowOffset& rows);
 
   const urban_nav_core::StereoCamera& camera_;
   int features_;

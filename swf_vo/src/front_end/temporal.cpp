@@ -84,13 +84,13 @@ Sighting searchAnywhere(Side side, const Corners& corners, const Track& track, c
 /// One image for each match, in turn.
 template <typename Search>
 void matchInTurn(const Corners& corners, const StereoCamera& camera, const Pose& T_camera_odom, double radius,
-                 std::vector<Match>& matches, const Search& search_one) {
+                 std::vector<Match>& matches, double row_offset, const Search& search_one) {
   Side side = Side::Left;
   for (Match& match : matches) {
     match.left = match.right = Sighting();
     side = side == Side::Left ? Side::Right : Side::Left;
     if (match.track->level >= corners.levels()) continue;
-    const auto projected = projectInto(side, camera, T_camera_odom, match.p_odom);
+    const auto projected = projectInto(side, camera, T_camera_odom, match.p_odom, row_offset);
     if (!projected || !prepareTemplate(side, camera, T_camera_odom, match)) continue;
     (side == Side::Left ? match.left : match.right) = search_one(side, corners, *match.track, *projected, radius);
   }
@@ -99,22 +99,23 @@ void matchInTurn(const Corners& corners, const StereoCamera& camera, const Pose&
 }  // namespace
 
 std::optional<Eigen::Vector2d> projectInto(Side side, const StereoCamera& camera, const Pose& T_camera_odom,
-                                           const Eigen::Vector4d& p_odom) {
+                                           const Eigen::Vector4d& p_odom, double row_offset) {
   Eigen::Vector3d p = T_camera_odom.q() * p_odom.head<3>() + T_camera_odom.t() * p_odom.w();
   if (side == Side::Right) p.x() -= camera.baseline * p_odom.w();
   if (!(p.z() > 0.0) || !(p.z() > 0.1 * p_odom.w())) return std::nullopt;
   const double cx = side == Side::Right ? camera.left.cx - camera.disparity_offset : camera.left.cx;
-  return Eigen::Vector2d(camera.left.fx * p.x() / p.z() + cx, camera.left.fy * p.y() / p.z() + camera.left.cy);
+  return Eigen::Vector2d(camera.left.fx * p.x() / p.z() + cx,
+                         camera.left.fy * p.y() / p.z() + camera.left.cy + (side == Side::Right ? row_offset : 0.0));
 }
 
 void matchTemporal(const Corners& corners, const StereoCamera& camera, const Pose& T_camera_odom, double radius,
-                   std::vector<Match>& matches) {
-  matchInTurn(corners, camera, T_camera_odom, radius, matches, search);
+                   std::vector<Match>& matches, double row_offset) {
+  matchInTurn(corners, camera, T_camera_odom, radius, matches, row_offset, search);
 }
 
 void matchAnywhere(const Corners& corners, const StereoCamera& camera, const Pose& T_camera_odom, double radius,
-                   std::vector<Match>& matches) {
-  matchInTurn(corners, camera, T_camera_odom, radius, matches, searchAnywhere);
+                   std::vector<Match>& matches, double row_offset) {
+  matchInTurn(corners, camera, T_camera_odom, radius, matches, row_offset, searchAnywhere);
 }
 
 }  // namespace swf_vo

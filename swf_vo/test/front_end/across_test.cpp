@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -40,6 +41,18 @@ TEST(FindDisparity, FindsItInSpiteOfBrightness) {
     ASSERT_TRUE(found) << disparity;
     EXPECT_EQ(*found, disparity);
   }
+}
+
+TEST(FindDisparity, LooksInTheRowThatIsMeant) {
+  Picture left, right, lower;
+  paint(7, 3, left, right);
+  for (int v = 0; v < 40; ++v)
+    for (int u = 0; u < 160; ++u) lower.at(u, v) = right.at(u, std::max(0, v - 3));
+  EXPECT_FALSE(findDisparity(left.view(), lower.view(), 100, 20, -2, 64));
+  const auto found = findDisparity(left.view(), lower.view(), 100, 20, -2, 64, 3);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(*found, 7);
+  EXPECT_FALSE(findDisparity(left.view(), lower.view(), 100, 20, -2, 64, 30)) << "outside the image";
 }
 
 TEST(FindDisparity, RefusesWhatRepeatsItselfOrIsNotThere) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <set>
@@ -96,6 +97,38 @@ TEST(FrontEnd, FollowsLandmarksThroughARoom) {
     }
     bench.learn(seen, truth);
     last = truth;
+  }
+}
+
+TEST(FrontEnd, BearsARightImageWhoseRowsLieLower) {
+  RenderedSequence sequence = room(20.0);
+  const StereoCamera camera = cameraOf(sequence.options().camera);
+  for (const int lower : {-1, 1, 2}) {
+    Bench bench(camera);
+    Pose last = sequence.T_world_camera(0);
+    for (int i = 0; i < 6; ++i) {
+      const Pose truth = sequence.T_world_camera(i);
+      const StereoFrame frame = sequence.frame(i);
+      StereoPair pair = frame.pair();
+      std::vector<std::uint8_t> moved(320 * 240);
+      for (int v = 0; v < 240; ++v) {
+        const std::uint8_t* row = pair.right.data + std::clamp(v - lower, 0, 239) * pair.right.stride;
+        std::copy(row, row + 320, moved.begin() + 320 * v);
+      }
+      pair.right = ImageView{moved.data(), 320, 240, 320};
+      const FrontEndResult& seen = bench.see(pair, last, i == 0 ? truth : off(truth, 0.02, 0.01));
+      if (i > 0) {
+        ASSERT_TRUE(seen.localised) << lower;
+        EXPECT_LT(distanceBetween(seen.T_odom_camera, truth), 0.01) << lower;
+        EXPECT_LT(angleBetween(seen.T_odom_camera, truth), 0.003) << lower;
+        EXPECT_GT(seen.tracked.size(), 20U) << lower;
+        EXPECT_LT(seen.reprojection_px, 0.5) << lower;
+      } else {
+        EXPECT_GT(seen.fresh.size(), 20U) << lower;
+      }
+      bench.learn(seen, truth);
+      last = truth;
+    }
   }
 }
 

@@ -55,6 +55,17 @@ TEST(Combine, RowsThatContradictEachOtherAreNoMeasurement) {
   EXPECT_FALSE(match.measured);
 }
 
+TEST(Combine, RowsAreTheLeftImages) {
+  Match match = pairAt(50.0, 52.1), right_only = pairAt(50.0, 52.1);
+  combine(0.0, match, 2.0);
+  ASSERT_TRUE(match.measured);
+  EXPECT_NEAR(match.z.y(), 50.02, 1e-12);
+  EXPECT_NEAR(match.z.x(), 100.0, 1e-12);
+  right_only.left.found = false;
+  combine(0.0, right_only, 2.0);
+  EXPECT_NEAR(right_only.z.y(), 50.1, 1e-12);
+}
+
 TEST(Combine, OneImageLeavesTheOtherCoordinateWithoutInformation) {
   Match match = pairAt(50.0, 50.0);
   match.right.found = false;

@@ -25,12 +25,13 @@ class Replenish : public ::testing::Test {
   StereoCamera camera_;
   Corners corners_{3, 2, 12, 50};
   Tracks tracks_{200};
+  RowOffset rows_{400};
   std::vector<Observation> fresh_;
 };
 
 TEST_F(Replenish, StartsNoMoreThanWantedAndSpreadsThem) {
   Replenisher replenisher(camera_, 50, 0.05);
-  replenisher.replenish(7, corners_, Pose(), {}, tracks_, fresh_);
+  replenisher.replenish(7, corners_, Pose(), {}, tracks_, fresh_, rows_);
   EXPECT_LE(fresh_.size(), 50U);
   EXPECT_GT(fresh_.size(), 25U);
   EXPECT_EQ(tracks_.size(), static_cast<int>(fresh_.size()));
@@ -49,7 +50,7 @@ TEST_F(Replenish, StartsNoMoreThanWantedAndSpreadsThem) {
 
 TEST_F(Replenish, WhatIsFollowedKeepsItsPlace) {
   Replenisher replenisher(camera_, 50, 0.05);
-  replenisher.replenish(0, corners_, Pose(), {}, tracks_, fresh_);
+  replenisher.replenish(0, corners_, Pose(), {}, tracks_, fresh_, rows_);
   std::vector<Match> matches;
   for (const Observation& o : fresh_) {
     Match match;
@@ -60,7 +61,7 @@ TEST_F(Replenish, WhatIsFollowedKeepsItsPlace) {
   }
   const std::size_t before = fresh_.size();
   fresh_.clear();
-  replenisher.replenish(1, corners_, Pose(), matches, tracks_, fresh_);
+  replenisher.replenish(1, corners_, Pose(), matches, tracks_, fresh_, rows_);
   EXPECT_LE(fresh_.size() + before, 50U);
   for (const Observation& o : fresh_)
     for (const Match& match : matches) EXPECT_GT((o.z.head<2>() - match.left.pixel).norm(), 1.0);
@@ -69,7 +70,7 @@ TEST_F(Replenish, WhatIsFollowedKeepsItsPlace) {
 TEST_F(Replenish, StopsWhereThereIsNoPlaceForTracks) {
   Tracks few(5);
   Replenisher replenisher(camera_, 50, 0.05);
-  replenisher.replenish(0, corners_, Pose(), {}, few, fresh_);
+  replenisher.replenish(0, corners_, Pose(), {}, few, fresh_, rows_);
   EXPECT_EQ(fresh_.size(), 5U);
 }
 

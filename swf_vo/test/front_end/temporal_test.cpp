@@ -34,7 +34,7 @@ class TwoFrames : public ::testing::Test {
     T_camera_odom_ = second.inverse();
     corners_.extract(sequence.frame(0).pair());
     Replenisher replenisher(camera_, 60, kFloor);
-    replenisher.replenish(0, corners_, first, {}, tracks_, fresh_);
+    replenisher.replenish(0, corners_, first, {}, tracks_, fresh_, rows_);
     const Scene scene = texturedRoom();
     for (const Observation& o : fresh_) {
       const Track* track = tracks_.find(o.landmark);
@@ -59,6 +59,7 @@ class TwoFrames : public ::testing::Test {
   StereoCamera camera_;
   Corners corners_{3, 2, 12, 60};
   Tracks tracks_{200};
+  RowOffset rows_{400};
   std::vector<Observation> fresh_;
   std::vector<Match> matches_;
   Pose T_camera_odom_;

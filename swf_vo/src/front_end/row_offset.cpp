@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "front_end/row_offset.hpp"
+
+#include <algorithm>
+
+namespace swf_vo {
+
+namespace {
+
+constexpr std::size_t enough = 20;  // differences, for their median to mean something
+constexpr int memory = 100;         // frames; cameras move in their mounts, slowly
+
+}  // namespace
+
+void RowOffset::learn() {
+  if (differences_.size() >= enough) {
+    const auto middle = differences_.begin() + static_cast<std::ptrdiff_t>(differences_.size() / 2);
+    std::nth_element(differences_.begin(), middle, differences_.end());
+    frames_ = std::min(frames_ + 1, memory);
+    px_ += (*middle - px_) / frames_;
+  }
+  differences_.clear();
+}
+
+}  // namespace swf_vo
