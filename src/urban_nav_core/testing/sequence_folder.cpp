@@ -2,12 +2,14 @@
 #include "urban_nav_core/testing/sequence_folder.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <vector>
 
 #include "urban_nav_core/io/atomic_file.hpp"
+#include "urban_nav_core/io/calibration.hpp"
 #include "urban_nav_core/io/kitti.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -17,14 +19,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void writeImage(const fs::path& folder, int index, const GreyImage& image) {
-  if (image.pixels.empty()) return;  // a missing image is a missing file
+std::string imagePath(const fs::path& folder, std::size_t index) {
   std::string name = std::to_string(index);
   name.insert(0, 6 - std::min<std::size_t>(6, name.size()), '0');
-  PartialFile file((folder / (name + ".png")).string());
+  return (folder / (name + ".png")).string();
+}
+
+void writeImage(const std::string& path, const GreyImage& image) {
+  if (image.pixels.empty()) return;  // a missing image is a missing file
+  PartialFile file(path);
   const cv::Mat pixels(image.height, image.width, CV_8U, const_cast<std::uint8_t*>(image.pixels.data()));
   if (!cv::imwrite(file.path(), pixels)) throw std::runtime_error("cannot write " + file.path());
   file.commit();
+}
+
+GreyImage readImage(const std::string& path) {
+  const cv::Mat pixels = cv::imread(path, cv::IMREAD_GRAYSCALE);
+  if (pixels.empty()) return {};
+  return {pixels.cols, pixels.rows,
+          std::vector<std::uint8_t>(pixels.begin<std::uint8_t>(), pixels.end<std::uint8_t>())};
 }
 
 std::string calibration(const RenderCamera& camera) {
@@ -53,15 +66,40 @@ int writeSequenceFolder(RenderedSequence& sequence, int frames, FaultFilter faul
     const std::optional<StereoFrame> frame = faults.apply(sequence.frame(i));
     if (progress) progress(i);
     if (!frame) continue;
-    const int index = static_cast<int>(poses.size());
-    writeImage(root / "image_0", index, frame->left);
-    writeImage(root / "image_1", index, frame->right);
+    writeImage(imagePath(root / "image_0", poses.size()), frame->left);
+    writeImage(imagePath(root / "image_1", poses.size()), frame->right);
     times += printStamp(frame->stamp) + "\n";
     poses.push_back(T_first_world * sequence.T_world_camera(i));
   }
   writeAtomically((root / "times.txt").string(), times);
   writeKitti((root / "poses.txt").string(), poses);
   return static_cast<int>(poses.size());
+}
+
+Recording readSequenceFolder(const std::string& folder, std::size_t first, std::size_t count) {
+  const fs::path root = folder;
+  const std::vector<StampNs> stamps = readTimes((root / "times.txt").string());
+  const std::vector<Pose> poses = readKitti((root / "poses.txt").string());
+  const std::size_t end = std::min(stamps.size(), poses.size());
+  if (first >= end) throw UserError(folder, "frame " + std::to_string(first), "fewer than " + std::to_string(end));
+  Recording recording;
+  int width = 0, height = 0;
+  for (std::size_t i = first; i < end && recording.frames.size() < count; ++i) {
+    recording.frames.push_back(
+        {stamps[i], readImage(imagePath(root / "image_0", i)), readImage(imagePath(root / "image_1", i))});
+    recording.truth.push_back(poses[first].inverse() * poses[i]);
+    width = std::max(width, recording.frames.back().left.width);
+    height = std::max(height, recording.frames.back().left.height);
+  }
+  recording.camera = readKittiCalibration((root / "calib.txt").string(), width, height);
+  return recording;
+}
+
+std::string dataFolder(const std::string& name) {
+  const char* root = std::getenv("URBAN_NAV_DATA");
+  if (root == nullptr || *root == '\0') return {};
+  const std::string folder = (fs::path(root) / name).string();
+  return fs::is_directory(folder) ? folder : std::string();
 }
 
 }  // namespace urban_nav_core::testing

@@ -77,5 +77,29 @@ TEST_F(SequenceFolder, AFolderWithSomethingInItIsLeftAlone) {
   EXPECT_FALSE(fs::exists(root_ / "full" / "calib.txt"));
 }
 
+TEST_F(SequenceFolder, ReadsBackAnyPieceOfIt) {
+  RenderedSequence rendered = sequence();
+  const std::string folder = (root_ / "f").string();
+  writeSequenceFolder(rendered, 5, FaultFilter({parseFault("noright:0.1:0.05")}, 1), folder);
+  const Recording piece = readSequenceFolder(folder, 2, 2);
+  ASSERT_EQ(piece.frames.size(), 2U);
+  ASSERT_EQ(piece.truth.size(), 2U);
+  EXPECT_TRUE(piece.frames[0].right.pixels.empty());
+  const StereoFrame& drawn = rendered.frame(3);
+  EXPECT_EQ(piece.frames[1].stamp, drawn.stamp);
+  EXPECT_EQ(piece.frames[1].left.pixels, drawn.left.pixels);
+  EXPECT_EQ(piece.frames[1].right.pixels, drawn.right.pixels);
+  EXPECT_TRUE(isApprox(piece.truth[0], Pose(), 1e-12));
+  EXPECT_TRUE(isApprox(piece.truth[1], rendered.T_world_camera(2).inverse() * rendered.T_world_camera(3), 1e-12));
+  EXPECT_EQ(piece.camera.left.fx, 100.0);
+  EXPECT_EQ(piece.camera.left.width, 128);
+  EXPECT_NEAR(piece.camera.baseline, 0.12, 1e-12);
+  EXPECT_EQ(readSequenceFolder(folder).frames.size(), 5U);
+  EXPECT_THROW(readSequenceFolder(folder, 5), UserError);
+  EXPECT_THROW(readSequenceFolder((root_ / "nowhere").string()), UserError);
+}
+
+TEST(DataFolder, IsEmptyWhereThereIsNone) { EXPECT_EQ(dataFolder("no/such/folder/anywhere"), ""); }
+
 }  // namespace
 }  // namespace urban_nav_core::testing
