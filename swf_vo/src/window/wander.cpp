@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "window/dense_kernels.hpp"
 #include "window/make_room.hpp"
@@ -43,8 +44,10 @@ void Wander::factor(const Step* steps, int count) {
   for (int j = 0; j < m; ++j) {
     for (int k = 0; k < j; ++k)
       for (int i = j; i < m; ++i) L_[i][j] -= L_[i][k] * L_[j][k];
-    const double root = std::sqrt(L_[j][j]);
-    for (int i = j; i < m; ++i) L_[i][j] /= root;
+    // Where rounding has left less than nothing, there is nothing to take away.
+    const double root = L_[j][j] > 0.0 ? std::sqrt(L_[j][j]) : std::numeric_limits<double>::infinity();
+    for (int i = j + 1; i < m; ++i) L_[i][j] /= root;
+    L_[j][j] = root;
   }
 }
 
