@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "report/plot.hpp"
 
@@ -15,6 +16,7 @@ using urban_nav_core::Health;
 namespace {
 
 constexpr std::size_t kBins = 40;
+constexpr double kGap = std::numeric_limits<double>::quiet_NaN();  // ends a line
 
 double secondsOf(const VoRun& run, urban_nav_core::StampNs stamp) {
   return urban_nav_core::secondsBetween(run.rows.front().stamp, stamp);
@@ -123,7 +125,14 @@ Figure statusFigure(const VoRun& run) {
   plot.width = 1100;
   plot.height = 84;
   plot.spans = troubles(run);
-  plot.series.push_back(line("", "good", {{0.0, 0.0}, {secondsOf(run, run.rows.back().stamp), 0.0}}));
+  Series ok = line("", "good", {{0.0, 0.0}});
+  for (const Span& trouble : plot.spans) {
+    if (trouble.from - ok.points.back().x > 1e-9) ok.points.push_back({trouble.from, 0.0});
+    else ok.points.pop_back();
+    ok.points.insert(ok.points.end(), {{trouble.from, kGap}, {trouble.to, 0.0}});
+  }
+  ok.points.push_back({secondsOf(run, run.rows.back().stamp), 0.0});
+  plot.series.push_back(ok);
   for (const Health health : {Health::Ok, Health::Degraded, Health::Lost, Health::Recovered}) {
     Series key = line(toString(health), colourOf(health), {});
     key.kind = Series::Kind::Band;
@@ -140,8 +149,9 @@ Figure reprojectionFigure(const VoRun& run) {
   plot.x_label = "time (s)";
   plot.y_label = "px";
   plot.y_from_zero = true;
-  plot.series.push_back(
-      line("root mean square", "d", overTime(run, [](const VoRow& row) { return row.statistics.reprojection_px; })));
+  plot.series.push_back(line("root mean square", "d", overTime(run, [](const VoRow& row) {
+                               return row.statistics.tracked > 0 ? row.statistics.reprojection_px : kGap;
+                             })));
   return {"Reprojection error", renderSvg(plot),
           "How far landmarks are from where the estimate puts them in the left image.", false};
 }
