@@ -11,7 +11,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using urban_nav_core::boxMinus;
 using urban_nav_core::Matrix6d;
-using urban_nav_core::Pose;
 using urban_nav_core::Vector6d;
 
 namespace {

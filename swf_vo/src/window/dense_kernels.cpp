@@ -104,16 +104,18 @@ __attribute__((always_inline)) inline double dotAs(const double* a, const double
 #pragma GCC unroll 8
   for (int v = 0; v < vectors; ++v) sum[v] = Vector{};
   int i = 0;
-  for (; i + sums <= n; i += sums)
+  for (; i + sums <= n; i += sums) {
 #pragma GCC unroll 8
     for (int v = 0; v < vectors; ++v)
       sum[v] += *reinterpret_cast<const Vector*>(a + i + v * Width::lanes) *
                 *reinterpret_cast<const Vector*>(b + i + v * Width::lanes);
-  for (; i + sums / 2 <= n; i += sums / 2)
+  }
+  for (; i + sums / 2 <= n; i += sums / 2) {
 #pragma GCC unroll 8
     for (int v = 0; v < vectors / 2; ++v)
       sum[v] += *reinterpret_cast<const Vector*>(a + i + v * Width::lanes) *
                 *reinterpret_cast<const Vector*>(b + i + v * Width::lanes);
+  }
 #pragma GCC unroll 8
   for (int v = 0; v < vectors / 2; ++v) sum[v] += sum[v + vectors / 2];
   double each[sums / 2];
@@ -183,6 +185,7 @@ __attribute__((always_inline)) inline void subtractThreeAs(double* y, const doub
 }
 
 // One function of each kind for every width; only so can a compiler be told what processor it is for.
+// NOLINTBEGIN(bugprone-macro-parentheses): names of types, and attributes, stand in none.
 #define SWF_VO_KERNELS(Width, target)                                                                            \
   target void subtractStrips##Width(double* C, int stride, const double* packed, int count, int depth) {         \
     subtractStripsAs<Width>(C, stride, packed, count, depth);                                                    \
@@ -203,6 +206,7 @@ __attribute__((always_inline)) inline void subtractThreeAs(double* y, const doub
   }
 #define SWF_VO_SET(name, Width) \
   { name, subtractStrips##Width, solveStrips##Width, dot##Width, dotSix##Width, subtract##Width, subtractThree##Width }
+// NOLINTEND(bugprone-macro-parentheses)
 
 SWF_VO_KERNELS(Narrow, )
 #ifdef SWF_VO_X86
