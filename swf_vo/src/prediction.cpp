@@ -2,6 +2,8 @@
 #include "prediction.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
 
 #include "urban_nav_core/types/stamp.hpp"
 
@@ -74,9 +76,13 @@ ProcessInput Prediction::step(double seconds, const std::vector<MotionInput>& in
   ProcessInput u;
   const double steps = 1.0 + unmeasured_;
   u.T_from_to = known_ ? expSe3(velocity_ * seconds) : Pose();
-  const double translation = known_ ? acceleration_ * seconds * seconds * steps : unknown_speed * seconds;
-  const double rotation = known_ ? angular_acceleration_ * seconds * seconds * steps : unknown_angular_speed * seconds;
-  u.information = fromSigmas(translation, rotation);
+  // What was known of the velocity is never worth less than nothing; m steps at one unknown velocity are m times as uncertain as one.
+  const double speed = unknown_speed * std::sqrt(2.0 * steps - 1.0) * seconds,
+               angular_speed = unknown_angular_speed * std::sqrt(2.0 * steps - 1.0) * seconds;
+  const double drift = steps * seconds * seconds;
+  u.information = known_ ? fromSigmas(std::min(acceleration_ * drift, speed),
+                                      std::min(angular_acceleration_ * drift, angular_speed))
+                         : fromSigmas(unknown_speed * seconds, unknown_angular_speed * seconds);
   const Measured measured = together(inputs);
   if (measured.count == 0) return u;
   const Pose motion = expSe3(logSe3(measured.T_from_to) * (seconds / measured.seconds));
@@ -90,10 +96,11 @@ ProcessInput Prediction::step(double seconds, const std::vector<MotionInput>& in
   return u;
 }
 
-void Prediction::learn(const Pose& T_last_camera, double seconds, bool measured, bool blind) {
+void Prediction::learn(const Pose& T_last_camera, double seconds, bool measured, bool blind, bool smoothed) {
+  const bool reckoned = unmeasured_ > 0 && !smoothed;
   unmeasured_ = measured ? 0 : unmeasured_ + 1;
   if (!measured && !blind && unmeasured_ >= patience) known_ = false;
-  if (!measured || !(seconds > 0.0)) return;
+  if (!measured || !(seconds > 0.0) || (reckoned && known_)) return;
   velocity_ = logSe3(T_last_camera) / seconds;
   known_ = true;
 }

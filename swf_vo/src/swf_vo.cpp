@@ -27,8 +27,12 @@ namespace {
 constexpr double origin_sigma = 1e-6;
 // More than this many usual periods between two frames: something is missing.
 constexpr double gap_periods = 1.7;
+// After more frames than a landmark may be missed in, as many are missing as a spell of darkness has.
+constexpr double astray_periods = 3.5;
+// Landmarks in the window for each that is followed: most live for a few frames, and the window for ten.
+constexpr int landmarks_per_feature = 4;
 
-WindowOptions windowOptions(const Parameters& parameters) {
+WindowOptions windowOptions(const Parameters& parameters, const StereoCamera& camera) {
   WindowOptions options;
   options.size = parameters.window;
   options.forget_by_deletion = parameters.forget == "delete";
@@ -39,6 +43,7 @@ WindowOptions windowOptions(const Parameters& parameters) {
   // Live, a frame must end within its period: what is refuted goes out at the estimates of now instead of by taking up to k steps again.
   options.exact_undo = false;
   options.tolerance = 1e-3;
+  options.landmarks = landmarks_per_feature * featuresIn(camera, parameters.features);
   return options;
 }
 
@@ -65,7 +70,7 @@ class SwfVo::Implementation {
         T_odom_first_camera_(T_base_camera),
         prediction_(parameters, T_base_camera),
         front_end_(parameters, camera),
-        window_(windowOptions(parameters), camera),
+        window_(windowOptions(parameters, camera), camera),
         health_(parameters),
         output_(T_base_camera) {}
 
@@ -74,7 +79,8 @@ class SwfVo::Implementation {
 
     Evidence evidence;
     evidence.first = !started_;
-    evidence.gap = takeTime(pair.stamp);
+    const double periods = takeTime(pair.stamp);
+    evidence.gap = periods > gap_periods;
     evidence.image = images_.look(pair, doubtful_);
     const StereoPair usable = evidence.image.exchange ? StereoPair{pair.stamp, pair.right, pair.left} : pair;
 
@@ -82,7 +88,8 @@ class SwfVo::Implementation {
     const ProcessInput u = started_ ? prediction_.step(seconds_, inputs) : ProcessInput();
     const FrontEndResult* seen = nullptr;
     if (evidence.image.usable) {
-      seen = &front_end_.process(frame_, usable, last, last * u.T_from_to, window_.map(), window_.disparityOffset());
+      seen = &front_end_.process(frame_, usable, last, last * u.T_from_to, window_.map(), window_.disparityOffset(),
+                                 periods > astray_periods);
       evidence.localised = seen->localised;
       evidence.tracked = static_cast<int>(seen->tracked.size());
       evidence.features = evidence.tracked + static_cast<int>(seen->fresh.size());
@@ -90,14 +97,14 @@ class SwfVo::Implementation {
       evidence.inlier_share = seen->inlier_share;
     }
 
-    takeStep(u);
     const bool trusted = health_.isTrusted(evidence);
+    takeStep(u, trusted && isAdrift(*seen) ? seen : nullptr);
+    if (seen != nullptr && (trusted || !started_)) remember(*seen);
     const bool blurred = evidence.image.reason == Reason::Blurred;
     if (seen != nullptr) observe(*seen, trusted, !blurred);
     const UpdateReport update = window_.update();
 
-    if (started_)
-      prediction_.learn(last.inverse() * window_.newest().pose, seconds_, trusted, blurred || !evidence.image.usable);
+    if (started_) learn(last, trusted, blurred || !evidence.image.usable);
     const urban_nav_core::Status status = health_.judge(evidence);
     doubtful_ = status.health != urban_nav_core::Health::Ok;
     started_ = true;
@@ -111,25 +118,51 @@ class SwfVo::Implementation {
   }
 
  private:
-  // Notes the time step; true where it is far longer than usual.
-  bool takeTime(urban_nav_core::StampNs stamp) {
+  // Notes the time step; how many usual ones it is.
+  double takeTime(urban_nav_core::StampNs stamp) {
     seconds_ = started_ ? secondsBetween(stamp_, stamp) : 0.0;
     stamp_ = stamp;
-    const bool gap = period_ > 0.0 && seconds_ > gap_periods * period_;
+    const double periods = period_ > 0.0 ? seconds_ / period_ : 1.0;
     if (seconds_ > 0.0)
       period_ = period_ > 0.0 ? period_ + 0.1 * (std::min(seconds_, 2.0 * period_) - period_) : seconds_;
-    return gap;
+    return periods;
   }
 
-  void takeStep(const ProcessInput& u) {
+  // Too little is recognised that is older than the loss of frames: what few there are may be matched wrongly.
+  bool isAdrift(const FrontEndResult& seen) const {
+    const auto old = std::count_if(seen.tracked.begin(), seen.tracked.end(), [&](const Observation& observation) {
+      return observation.landmark <= newest_known_;
+    });
+    return old < parameters_.lost_features;
+  }
+
+  void remember(const FrontEndResult& seen) {
+    for (const auto* group : {&seen.tracked, &seen.fresh})
+      for (const Observation& observation : *group) newest_known_ = std::max(newest_known_, observation.landmark);
+  }
+
+  // `adrift`: what was seen, where nothing but the prediction ties it to the frames before the loss. Held by that alone for ever, the window would
+  // be as loose as a second of darkness leaves it, too loose to be linear; anew, it is firm in itself and carries what is not known of its place.
+  void takeStep(const ProcessInput& u, const FrontEndResult* adrift) {
     if (!started_) {
       window_.start(frame_, T_odom_first_camera_, urban_nav_core::Matrix6d::Identity() / (origin_sigma * origin_sigma));
+    } else if (adrift != nullptr) {
+      // Its landmarks begin with this frame, from where they say that it is.
+      window_.restart(frame_, {window_.newest().pose.inverse() * adrift->T_odom_camera, u.information});
     } else if (window_.map().empty()) {
       window_.restart(frame_, u);
     } else {
       window_.addPose(frame_, u);
       window_.removePoses();
     }
+  }
+
+  // The step as the window has it now. The frame before may have been moved by this one's measurements, and after darkness is moved far: from
+  // where it was believed to be until now, the step would have the error of the whole dead reckoning in it.
+  void learn(const Pose& last, bool trusted, bool blind) {
+    const bool smoothed = window_.hasPose(frame_ - 1);
+    const Pose from = smoothed ? window_.pose(frame_ - 1) : last;
+    prediction_.learn(from.inverse() * window_.newest().pose, seconds_, trusted, blind, smoothed);
   }
 
   // A landmark born in a blurred image is not found again in a sharp one, but much like it is: no new ones from there.
@@ -157,6 +190,7 @@ class SwfVo::Implementation {
   bool started_ = false;
   bool doubtful_ = true;
   FrameId frame_ = 0;
+  LandmarkId newest_known_ = -1;  // of the last frame that is tied to the first by measurements
   urban_nav_core::StampNs stamp_ = 0;
   double seconds_ = 0.0;
   double period_ = 0.0;

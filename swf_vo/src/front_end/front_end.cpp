@@ -33,6 +33,8 @@ constexpr double first_radius = 3.0;              // of the search radius, while
 constexpr double least_radius = 8.0, radius_per_error = 3.0, radius_offset = 4.0;
 constexpr double coarse_slack_px = 1.0, fine_slack_px = 0.1;
 constexpr double noticed_row_offset = 0.1;  // px
+// A template that was last seen a while ago has been warped far, by a slant of its surface that is known roughly.
+constexpr double astray_slack_px = 0.5;
 // Where so little agrees that nothing is known of the motion: how far around landmarks are then looked for (share of the width; about as far as the
 // nearest of them stand apart in the two images), and how many motions are tried, for one match in five to be right.
 constexpr double widest_radius = 0.16;
@@ -47,11 +49,6 @@ constexpr double least_two_eyed = 0.3;                                          
 constexpr int most_missed = 3, most_missed_young = 1;                               // frames
 constexpr int disagreements_refute = 2, disagreements_refute_young = 1, young = 3;  // frames
 
-int featuresIn(const StereoCamera& camera, int features) {
-  const double area = static_cast<double>(camera.left.width) * camera.left.height;
-  return std::max(8, static_cast<int>(std::lround(features * std::pow(area / reference_area, 2.0 / 3.0))));
-}
-
 int topLevel(int width) {
   int level = 0;
   while ((width >> level) > top_width) ++level;
@@ -59,6 +56,11 @@ int topLevel(int width) {
 }
 
 }  // namespace
+
+int featuresIn(const StereoCamera& camera, int features) {
+  const double area = static_cast<double>(camera.left.width) * camera.left.height;
+  return std::max(8, static_cast<int>(std::lround(features * std::pow(area / reference_area, 2.0 / 3.0))));
+}
 
 class FrontEnd::Implementation {
  public:
@@ -88,7 +90,7 @@ class FrontEnd::Implementation {
   }
 
   const FrontEndResult& process(FrameId frame, const StereoPair& pair, const Pose& last, const Pose& predicted,
-                                const std::vector<MapPoint>& map, double disparity_offset) {
+                                const std::vector<MapPoint>& map, double disparity_offset, bool astray) {
     clear(predicted);
     camera_.disparity_offset = disparity_offset;
     if (!isPair(pair)) return result_;
@@ -96,10 +98,12 @@ class FrontEnd::Implementation {
     result_.corners = corners_.count(Side::Left);
     gather(map);
     const bool next = frame == frame_ + 1;
-    if (!next) radius_ = first_radius * parameters_.search_radius;
+    if (!next || astray) radius_ = first_radius * parameters_.search_radius;
+    astray_ = astray_ || astray || !next;
     locate(turn(next ? last : T_odom_last_, predicted), predicted.inverse());
     for (Match& match : matches_) follow(frame, match);
     replenish(frame);
+    astray_ = !result_.localised && !matches_.empty();
     frame_ = frame;
     T_odom_last_ = result_.T_odom_camera;
     return result_;
@@ -188,6 +192,23 @@ class FrontEnd::Implementation {
     return localiser_.locate(starts_, options, matches_);
   }
 
+  /// After frames without measurements the prediction may be far off, most of all in heading, and what is warped by it fits badly. From the headings
+  /// about it, then from the pose that most matches agree on, they are sought again.
+  Localisation matchAstray(Localisation best, const Pose& T_turned_odom, const Pose& T_predicted_odom) {
+    radius_ = first_radius * parameters_.search_radius;
+    if (!best.found || 2 * best.inliers < best.candidates)
+      for (const double share : {0.0, -0.5, 0.5, -1.0, 1.0}) {
+        const double yaw = std::atan(share * radius_ / camera_.left.fx);
+        const Quaterniond q(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitY()));
+        const Pose T_camera_odom = Pose(q, Eigen::Vector3d::Zero()) * T_predicted_odom;
+        const Localisation other = matchCoarsely(T_camera_odom, T_camera_odom);
+        if (other.found && (!best.found || other.inliers > best.inliers)) best = other;
+      }
+    if (!best.found) return matchCoarsely(T_turned_odom, T_predicted_odom);
+    radius_ = parameters_.search_radius;
+    return matchCoarsely(best.T_camera_odom, best.T_camera_odom);
+  }
+
   /// Nothing fits where it was expected, as when the first step is a large one: looks far around for a motion, then matches again from there.
   /// Taken if it explains clearly more than `explained` matches; else all stays as it was.
   std::optional<Localisation> searchWidely(const Pose& T_turned_odom, int explained) {
@@ -237,7 +258,7 @@ class FrontEnd::Implementation {
     }
     starts_.assign({coarse.found ? coarse.T_camera_odom : T_predicted_odom});
     LocaliseOptions options;
-    options.slack_px = fine_slack_px;
+    options.slack_px = astray_ ? astray_slack_px : fine_slack_px;
     options.least_inliers = parameters_.lost_features;
     options.consensus = !coarse.found;
     return localiser_.locate(starts_, options, matches_);
@@ -250,6 +271,7 @@ class FrontEnd::Implementation {
       radius_ = parameters_.search_radius;
       coarse = matchCoarsely(T_turned_odom, T_predicted_odom);
     }
+    if (astray_) coarse = matchAstray(coarse, T_turned_odom, T_predicted_odom);
     Localisation fine = matchFinely(coarse, T_turned_odom, T_predicted_odom);
     if (fine.inliers < parameters_.degraded_features)
       if (const auto wide = searchWidely(T_turned_odom, fine.inliers))
@@ -308,6 +330,8 @@ class FrontEnd::Implementation {
       tracks_.end(track.id);
       return;
     }
+    // Lost for a moment, as in a flash of light: what was known well may still be found when the images are good again.
+    if (!result_.localised && track.seen >= young) return;
     if (++track.missed < (track.seen < young ? most_missed_young : most_missed) && isInView(match)) return;
     result_.ended.push_back(track.id);
     tracks_.end(track.id);
@@ -345,6 +369,7 @@ class FrontEnd::Implementation {
   std::vector<Pose> starts_;
   std::vector<double> errors_;
   double radius_ = 0.0;  // px of level 0
+  bool astray_ = false;  // nothing says where the frame before was but the prediction
   FrameId frame_ = -2;
   Pose T_odom_last_;
 };
@@ -354,8 +379,8 @@ FrontEnd::FrontEnd(const Parameters& parameters, const StereoCamera& camera)
 FrontEnd::~FrontEnd() = default;
 
 const FrontEndResult& FrontEnd::process(FrameId frame, const StereoPair& pair, const Pose& last, const Pose& predicted,
-                                        const std::vector<MapPoint>& map, double disparity_offset) {
-  return implementation_->process(frame, pair, last, predicted, map, disparity_offset);
+                                        const std::vector<MapPoint>& map, double disparity_offset, bool astray) {
+  return implementation_->process(frame, pair, last, predicted, map, disparity_offset, astray);
 }
 
 }  // namespace swf_vo

@@ -27,6 +27,9 @@ struct FrontEndResult {
   double reprojection_px = 0.0;  ///< of the inliers, root mean square in the left image
 };
 
+/// How many landmarks are followed at a time in images of this size, of the parameter `features`.
+int featuresIn(const urban_nav_core::StereoCamera& camera, int features);
+
 /// Images in, observations out: knows pixels and a predicted pose, no covariance of poses, no window.
 class FrontEnd {
  public:
@@ -35,10 +38,11 @@ class FrontEnd {
 
   /// `predicted`: T_odom_camera of this frame by the process model; `last` that of the frame processed last, as the window has it now.
   /// `map`: the landmarks of the window that are still being followed. `disparity_offset`: of the camera, as the window has it now (px).
+  /// `astray`: so much time has passed since the frame before that the prediction may be far off, as it is after frames that were left out here.
   /// The result lives until the next call.
   const FrontEndResult& process(FrameId frame, const urban_nav_core::StereoPair& pair, const urban_nav_core::Pose& last,
                                 const urban_nav_core::Pose& predicted, const std::vector<MapPoint>& map,
-                                double disparity_offset);
+                                double disparity_offset, bool astray = false);
 
  private:
   class Implementation;

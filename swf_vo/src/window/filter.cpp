@@ -39,6 +39,7 @@ Matrix6d inverse(Matrix6d A) {
 Filter::Filter(const WindowOptions& options, const urban_nav_core::StereoCamera& camera)
     : options_(options), cost_(SensorModel(camera), options.huber, options.linearise_first), gauss_newton_(options) {
   state_.disparity_offset = camera.disparity_offset;
+  state_.reserve(static_cast<std::size_t>(std::max(options.landmarks, 0)));
 }
 
 std::size_t Filter::limit() const {

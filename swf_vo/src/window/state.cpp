@@ -34,18 +34,20 @@ void State::reserveLike(const State& other) {
   for (std::size_t i = 0; i < landmarks.size(); ++i) landmarks[i].seen.reserve(other.landmarks[i].seen.capacity());
 }
 
-int State::add(LandmarkId landmark) {
-  if (free_.empty()) {
-    // Twice as many as before: after a few frames there are enough for good.
-    const std::size_t had = landmarks.size();
-    landmarks.resize(std::max(fewest_slots, 2 * had));
-    slots_.reserve(landmarks.size());
-    free_.reserve(landmarks.size());
-    for (std::size_t slot = landmarks.size(); slot-- > had;) {
-      landmarks[slot].seen.reserve(usual_track);
-      free_.push_back(static_cast<int>(slot));
-    }
+void State::reserve(std::size_t slots) {
+  const std::size_t had = landmarks.size();
+  if (slots <= had) return;
+  landmarks.resize(slots);
+  slots_.reserve(slots);
+  free_.reserve(slots);
+  for (std::size_t slot = slots; slot-- > had;) {
+    landmarks[slot].seen.reserve(usual_track);
+    free_.push_back(static_cast<int>(slot));
   }
+}
+
+int State::add(LandmarkId landmark) {
+  if (free_.empty()) reserve(std::max(fewest_slots, 2 * landmarks.size()));
   const int slot = free_.back();
   free_.pop_back();
   slots_.insert(std::lower_bound(slots_.begin(), slots_.end(), landmark, before), {landmark, slot});

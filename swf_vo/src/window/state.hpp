@@ -61,6 +61,8 @@ class State {
   int slotOf(LandmarkId landmark) const;
   /// As much room as another has, so that copies of it allocate nothing.
   void reserveLike(const State& other);
+  /// Room for so many landmarks.
+  void reserve(std::size_t slots);
   /// A free slot for a new landmark.
   int add(LandmarkId landmark);
   void remove(int slot);
