@@ -3,16 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
-#include <algorithm>
-#include <map>
-#include <string>
 #include <vector>
 
+#include "recordings.hpp"
 #include "urban_nav_core/testing/allocations.hpp"
 #include "urban_nav_core/testing/faults.hpp"
-#include "urban_nav_core/testing/rendered_sequence.hpp"
-#include "urban_nav_core/testing/textured_room.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace swf_vo {
@@ -24,50 +19,8 @@ using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
 using urban_nav_core::StereoCamera;
 
-RenderCamera smallCamera() {
-  RenderCamera camera;
-  camera.fx = camera.fy = 300.0;
-  camera.cx = 191.5;
-  camera.cy = 143.5;
-  camera.width = 384;
-  camera.height = 288;
-  return camera;
-}
-
-StereoCamera stereoCamera() {
-  const RenderCamera c = smallCamera();
-  return {{c.fx, c.fy, c.cx, c.cy, c.width, c.height}, c.baseline};
-}
-
-/// Frames and truth of a motion in the room, drawn once for all tests.
-struct Recording {
-  std::vector<StereoFrame> frames;
-  std::vector<Pose> truth;  // left camera in that of frame 0
-};
-
-const Recording& recording(const std::string& motion, double noise, int count) {
-  static std::map<std::string, Recording> drawn;
-  Recording& result = drawn[motion + std::to_string(noise)];
-  if (static_cast<int>(result.frames.size()) >= count) return result;
-  SequenceOptions options;
-  options.camera = smallCamera();
-  options.noise = noise;
-  RenderedSequence sequence(texturedRoom(), namedMotion(motion, "room", 1), options);
-  for (int i = static_cast<int>(result.frames.size()); i < count; ++i) {
-    result.frames.push_back(sequence.frame(i));
-    result.truth.push_back(sequence.T_world_camera(0).inverse() * sequence.T_world_camera(i));
-  }
-  return result;
-}
-
-void expectProper(const Frame& frame) {
-  EXPECT_TRUE(frame.T_odom_base.pose.isFinite()) << frame.frame;
-  ASSERT_TRUE(frame.T_odom_base.covariance.allFinite()) << frame.frame;
-  EXPECT_EQ(Eigen::LLT<Matrix6d>(frame.T_odom_base.covariance).info(), Eigen::Success) << frame.frame;
-}
-
 TEST(SwfVo, followsTheRobotAndSettlesEveryFrame) {
-  const Recording& room = recording("loop", 1.0, 70);
+  const Recording& room = inTheRoom("loop", 1.0, 70);
   SwfVo filter(Parameters(), stereoCamera(), Pose());
   std::vector<Settled> settled;
   double length = 0.0;
@@ -92,7 +45,7 @@ TEST(SwfVo, followsTheRobotAndSettlesEveryFrame) {
 }
 
 TEST(SwfVo, standsStill) {
-  const Recording& room = recording("stand", 2.0, 40);
+  const Recording& room = inTheRoom("stand", 2.0, 40);
   SwfVo filter(Parameters(), stereoCamera(), Pose());
   for (const StereoFrame& frame : room.frames) {
     const Frame& now = filter.process(frame.pair());
@@ -102,7 +55,7 @@ TEST(SwfVo, standsStill) {
 }
 
 TEST(SwfVo, theSameCallsGiveTheSameBits) {
-  const Recording& room = recording("loop", 1.0, 30);
+  const Recording& room = inTheRoom("loop", 1.0, 30);
   SwfVo a(Parameters(), stereoCamera(), Pose()), b(Parameters(), stereoCamera(), Pose());
   for (int i = 0; i < 30; ++i) {
     const auto& frame = room.frames[static_cast<std::size_t>(i)];
@@ -115,7 +68,7 @@ TEST(SwfVo, theSameCallsGiveTheSameBits) {
 }
 
 TEST(SwfVo, movesTheBaseNotTheCamera) {
-  const Recording& room = recording("loop", 1.0, 20);
+  const Recording& room = inTheRoom("loop", 1.0, 20);
   const Pose T_base_camera(Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5), Eigen::Vector3d(0.1, 0.0, 1.1));
   SwfVo camera(Parameters(), stereoCamera(), Pose()), base(Parameters(), stereoCamera(), T_base_camera);
   for (int i = 0; i < 20; ++i) {
@@ -152,7 +105,7 @@ TEST(SwfVo, livesOnNothingAtAll) {
 
 TEST(SwfVo, allocatesNothingAfterFrame50) {
   if (!countsAllocations()) GTEST_SKIP() << "the sanitizer's allocator cannot be counted";
-  const Recording& room = recording("loop", 1.0, 70);
+  const Recording& room = inTheRoom("loop", 1.0, 70);
   SwfVo filter(Parameters(), stereoCamera(), Pose());
   std::int64_t made = 0;
   for (std::size_t i = 0; i < room.frames.size(); ++i) {
@@ -162,53 +115,6 @@ TEST(SwfVo, allocatesNothingAfterFrame50) {
   }
   EXPECT_EQ(made, 0);
 }
-
-struct Trouble {
-  const char* fault;
-  std::vector<Reason> names;  ///< what it may be called
-};
-void PrintTo(const Trouble& trouble, std::ostream* out) { *out << trouble.fault; }
-
-class SwfVoFaults : public testing::TestWithParam<Trouble> {};
-
-TEST_P(SwfVoFaults, areNamedWithinTwoFramesAndOvercome) {
-  const Recording& room = recording("loop", 1.0, 70);
-  FaultFilter faults({parseFault(GetParam().fault)}, 1);
-  const Fault fault = parseFault(GetParam().fault);
-  SwfVo filter(Parameters(), stereoCamera(), Pose());
-  bool begun = false;
-  int since = -1, named = -1;  // frames that have arrived since it began
-  Frame last;
-  for (const StereoFrame& frame : room.frames) {
-    begun = begun || fault.isActive(frame.stamp - room.frames.front().stamp);
-    const auto arrived = faults.apply(frame);
-    if (!arrived) continue;
-    if (begun) ++since;
-    const Frame& now = filter.process(arrived->pair());
-    expectProper(now);
-    const auto& names = GetParam().names;
-    if (named < 0 && std::find(names.begin(), names.end(), static_cast<Reason>(now.status.reason)) != names.end())
-      named = since;
-    if (now.accepted) last = now;
-  }
-  EXPECT_GE(named, 0) << "never named";
-  EXPECT_LE(named, 2) << "named late";
-  EXPECT_NE(last.status.health, Health::Lost) << "did not recover: " << last.status;
-  const Eigen::Matrix<double, 6, 1> d = boxMinus(room.truth.back(), last.T_odom_base.pose);
-  const double error = d.head<3>().norm();
-  const double sigma = std::sqrt(last.T_odom_base.covariance.topLeftCorner<3, 3>().trace());
-  EXPECT_TRUE(error < 0.02 || error < 3.0 * sigma) << "off by " << error << " m, sigma " << sigma << " m";
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    Each, SwfVoFaults,
-    testing::Values(Trouble{"black:1:1", {Reason::Dark}}, Trouble{"freeze:1:0.5", {Reason::Frozen}},
-                    Trouble{"swap:1:0.5", {Reason::Swapped}}, Trouble{"drop:1:0.3", {Reason::Gap}},
-                    Trouble{"drop:1:2:0.6", {Reason::Gap}},
-                    Trouble{"overexpose:1:0.5", {Reason::ExposureJump, Reason::Dark}},
-                    Trouble{"blur:1:0.5", {Reason::Blurred}}, Trouble{"noleft:1:0.3", {Reason::ImageMissing}},
-                    Trouble{"noright:1:0.3", {Reason::ImageMissing}}, Trouble{"equal:1:0.3", {Reason::BadStamp}},
-                    Trouble{"backward:1:0.3", {Reason::BadStamp}}));
 
 struct Effort {
   int window, iterations;
@@ -221,7 +127,7 @@ class SwfVoEfforts : public testing::TestWithParam<Effort> {};
 
 // For a while the window holds nothing but poses that only the process model ties together.
 TEST_P(SwfVoEfforts, overcomeAPauseInTheMeasurements) {
-  const Recording& room = recording("loop", 1.0, 70);
+  const Recording& room = inTheRoom("loop", 1.0, 70);
   for (const char* fault : {"blur:1:0.5", "blur:0.5:1.5", "black:0.7:1.5"}) {
     FaultFilter faults({parseFault(fault)}, 1);
     Parameters parameters;

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What goes wrong with cameras, on the frames of a rendered room and of a real street: it is named, survived, and does not pass for knowledge.
+#include "urban_nav_core/testing/faults.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "recordings.hpp"
+#include "urban_nav_core/trajectory/nees.hpp"
+
+namespace swf_vo {
+namespace {
+
+using urban_nav_core::chiSquareQuantile;
+using urban_nav_core::distanceBetween;
+using urban_nav_core::Health;
+using urban_nav_core::Pose;
+using urban_nav_core::UncertainPose;
+using urban_nav_core::testing::dataFolder;
+using urban_nav_core::testing::Fault;
+using urban_nav_core::testing::FaultFilter;
+using urban_nav_core::testing::parseFault;
+using urban_nav_core::testing::readSequenceFolder;
+using urban_nav_core::testing::StereoFrame;
+
+struct Trouble {
+  const char* fault;
+  std::vector<Reason> names;  ///< what it may be called
+  /// What was known before is recognised afterwards, so that nothing is lost: the error at the end is under twice the undisturbed one's.
+  bool bridged = true;
+};
+void PrintTo(const Trouble& trouble, std::ostream* out) { *out << trouble.fault; }
+
+/// What became of a recording.
+struct Outcome {
+  int named = -1;  ///< frames that arrived from the first of the fault until it was called by its name
+  Frame last;      ///< the last that was accepted
+  Pose truth;      ///< of that
+  double error() const { return distanceBetween(truth, last.T_odom_base.pose); }
+};
+
+Outcome play(const Recording& recording, const Trouble& trouble) {
+  FaultFilter faults({parseFault(trouble.fault)}, 1);
+  const Fault fault = parseFault(trouble.fault);
+  SwfVo filter(Parameters(), recording.camera, Pose());
+  Outcome outcome;
+  bool begun = false;
+  int since = -1;
+  for (std::size_t i = 0; i < recording.frames.size(); ++i) {
+    const StereoFrame& frame = recording.frames[i];
+    begun = begun || fault.isActive(frame.stamp - recording.frames.front().stamp);
+    const auto arrived = faults.apply(frame);
+    if (!arrived) continue;
+    if (begun) ++since;
+    const Frame& now = filter.process(arrived->pair());
+    expectProper(now);
+    const auto& names = trouble.names;
+    if (outcome.named < 0 && begun &&
+        std::find(names.begin(), names.end(), static_cast<Reason>(now.status.reason)) != names.end())
+      outcome.named = since;
+    if (!now.accepted) continue;
+    outcome.last = now;
+    outcome.truth = recording.truth[i];
+  }
+  return outcome;
+}
+
+// The fault after all frames is none.
+Outcome undisturbed(const Recording& recording) { return play(recording, {"black:1000:1", {}}); }
+
+double lengthOf(const Recording& recording) {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < recording.truth.size(); ++i)
+    sum += distanceBetween(recording.truth[i - 1], recording.truth[i]);
+  return sum;
+}
+
+void expectNamedAndOvercome(const Outcome& outcome) {
+  EXPECT_GE(outcome.named, 0) << "never named";
+  EXPECT_LE(outcome.named, 2) << "named late";
+  EXPECT_NE(outcome.last.status.health, Health::Lost) << "did not recover: " << outcome.last.status;
+}
+
+class FaultsInTheRoom : public testing::TestWithParam<Trouble> {};
+
+TEST_P(FaultsInTheRoom, areNamedWithinTwoFramesAndOvercome) {
+  const Recording& room = inTheRoom("loop", 1.0, 80);
+  static const double usual = undisturbed(room).error();
+  const Outcome outcome = play(room, GetParam());
+  expectNamedAndOvercome(outcome);
+  const UncertainPose& end = outcome.last.T_odom_base;
+  EXPECT_LT(urban_nav_core::nees(outcome.truth, end).value(), chiSquareQuantile(0.99, 6.0));
+  EXPECT_LT(outcome.error(), GetParam().bridged ? 2.0 * usual : 0.02 * lengthOf(room));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, FaultsInTheRoom,
+    testing::Values(Trouble{"black:1.5:1", {Reason::Dark}}, Trouble{"freeze:1.5:1", {Reason::Frozen}},
+                    Trouble{"swap:1.5:1", {Reason::Swapped}}, Trouble{"drop:1.5:1", {Reason::Gap}},
+                    Trouble{"drop:1:10:0.3", {Reason::Gap}}, Trouble{"noleft:1.5:1", {Reason::ImageMissing}},
+                    Trouble{"noright:1.5:1", {Reason::ImageMissing}}, Trouble{"equal:1.5:0.5", {Reason::BadStamp}},
+                    Trouble{"backward:1.5:0.5", {Reason::BadStamp}},
+                    // Nearly all is white, or nothing is sharp, and new landmarks are all that there is to hold to.
+                    Trouble{"overexpose:1.5:1", {Reason::ExposureJump, Reason::Dark}, false},
+                    Trouble{"blur:1.5:0.5", {Reason::Blurred}, false}));
+
+// kitti_raw_0926_0005: a car in a bend, with a van ahead. Frames 20 to 90 (28 m) for the faults, 46 to 146 for turning fast.
+struct Street {
+  Recording faults, turning;
+  double usual = 0.0;
+};
+
+Recording piece(const Recording& whole, std::size_t first, std::size_t count, std::size_t step = 1) {
+  Recording result;
+  result.camera = whole.camera;
+  for (std::size_t i = 0; i < count; i += step) {
+    result.frames.push_back(whole.frames[first + i]);
+    result.frames.back().stamp = whole.frames[first + i / step].stamp;
+    result.truth.push_back(whole.truth[first].inverse() * whole.truth[first + i]);
+  }
+  return result;
+}
+
+const Street* street() {
+  static const Street* const read = []() -> const Street* {
+    const std::string folder = dataFolder("stereo/kitti_raw_0926_0005");
+    if (folder.empty()) return nullptr;
+    const Recording whole = readSequenceFolder(folder, 20, 123);
+    static Street street;
+    street.faults = piece(whole, 0, 70);
+    street.turning = piece(whole, 26, 97);
+    street.usual = undisturbed(street.faults).error();
+    return &street;
+  }();
+  return read;
+}
+
+// The truth is from a laser: a common scale of half a per cent is within what the calibrations of laser and camera can differ by (the folder's
+// README), so the distance has that as its own error. Nothing is stated of its headings, and the undisturbed run is 0.2 deg from them where the
+// filter, which takes the calibration as exact, says 0.02: of those the test says nothing.
+bool isWithinWhatIsStated(const Outcome& outcome, double length) {
+  UncertainPose end = outcome.last.T_odom_base;
+  end.covariance.topLeftCorner<3, 3>() += std::pow(0.005 * length, 2) * Eigen::Matrix3d::Identity();
+  return urban_nav_core::neesTranslation(outcome.truth, end).value() < chiSquareQuantile(0.99, 3.0);
+}
+
+class FaultsInTheStreet : public testing::TestWithParam<Trouble> {};
+
+TEST_P(FaultsInTheStreet, areNamedWithinTwoFramesAndOvercome) {
+  if (street() == nullptr) GTEST_SKIP() << "URBAN_NAV_DATA names no folder with stereo/kitti_raw_0926_0005";
+  const Outcome outcome = play(street()->faults, GetParam());
+  expectNamedAndOvercome(outcome);
+  EXPECT_LT(outcome.error(), 2.0 * street()->usual);
+  EXPECT_TRUE(isWithinWhatIsStated(outcome, lengthOf(street()->faults))) << "off by " << outcome.error() << " m";
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, FaultsInTheStreet,
+                         testing::Values(Trouble{"black:1.5:1", {Reason::Dark}},
+                                         Trouble{"freeze:1.5:1", {Reason::Frozen}},
+                                         Trouble{"swap:1.5:1", {Reason::Swapped}}, Trouble{"drop:1.5:1", {Reason::Gap}},
+                                         Trouble{"drop:1:10:0.3", {Reason::Gap}},
+                                         Trouble{"overexpose:1.5:1", {Reason::ExposureJump, Reason::Dark}},
+                                         Trouble{"blur:1.5:1", {Reason::Blurred}},
+                                         Trouble{"backward:1.5:0.5", {Reason::BadStamp}}));
+
+// A fault of the motion, not of the images: followed, it needs no name. Of real frames every fourth, at the pace of all, turns through the bend at
+// 59 deg/s, and goes at 20 m/s.
+TEST(Turning, sixtyDegreesASecondAreFollowedInTheStreet) {
+  if (street() == nullptr) GTEST_SKIP() << "URBAN_NAV_DATA names no folder with stereo/kitti_raw_0926_0005";
+  const Recording& slow = street()->turning;
+  const Recording fast = piece(slow, 0, slow.frames.size(), 4);
+  double most = 0.0;
+  for (std::size_t i = 1; i < fast.truth.size(); ++i)
+    most = std::max(most, angleBetween(fast.truth[i - 1], fast.truth[i]) /
+                              urban_nav_core::secondsBetween(fast.frames[i - 1].stamp, fast.frames[i].stamp));
+  EXPECT_GT(most, 57.0 * M_PI / 180.0);
+  const Outcome usual = undisturbed(slow), outcome = undisturbed(fast);
+  EXPECT_EQ(outcome.last.status.health, Health::Ok) << outcome.last.status;
+  EXPECT_LT(outcome.error(), 2.0 * usual.error());
+  EXPECT_TRUE(isWithinWhatIsStated(outcome, lengthOf(fast))) << "off by " << outcome.error() << " m";
+}
+
+TEST(Turning, sixtyDegreesASecondAreFollowedInTheRoom) {
+  const Recording& room = inTheRoom("spin", 1.0, 70);
+  const Outcome outcome = undisturbed(room);
+  EXPECT_EQ(outcome.last.status.health, Health::Ok) << outcome.last.status;
+  EXPECT_GT(angleBetween(room.truth[68], room.truth[69]), 0.05);
+  EXPECT_LT(urban_nav_core::nees(outcome.truth, outcome.last.T_odom_base).value(), chiSquareQuantile(0.99, 6.0));
+  EXPECT_LT(outcome.error(), 0.01);
+}
+
+// Two frames in the wrong order: the later is used, the earlier refused.
+TEST(FramesInTheWrongOrder, areRefused) {
+  Recording room = inTheRoom("loop", 1.0, 80);
+  room.frames.resize(40);
+  room.truth.resize(40);
+  std::swap(room.frames[20], room.frames[21]);
+  std::swap(room.truth[20], room.truth[21]);
+  SwfVo filter(Parameters(), room.camera, Pose());
+  for (std::size_t i = 0; i < room.frames.size(); ++i) {
+    const Frame& now = filter.process(room.frames[i].pair());
+    EXPECT_EQ(now.accepted, i != 21) << i;
+    EXPECT_EQ(now.status.reason == static_cast<int>(Reason::BadStamp), i == 21) << i;
+    EXPECT_LT(distanceBetween(now.T_odom_base.pose, room.truth[i == 21 ? 20 : i]), 0.01) << i;
+  }
+}
+
+}  // namespace
+}  // namespace swf_vo
