@@ -260,7 +260,6 @@ class FrontEnd::Implementation {
     LocaliseOptions options;
     options.slack_px = astray_ ? astray_slack_px : fine_slack_px;
     options.least_inliers = parameters_.lost_features;
-    options.consensus = !coarse.found;
     return localiser_.locate(starts_, options, matches_);
   }
 

@@ -176,7 +176,7 @@ Localisation Localiser::locate(const std::vector<Pose>& starts, const LocaliseOp
   double trust = 0.0;
   for (const Item& item : items_) trust += item.trust;
   // Another motion could win only with more than the rest.
-  if (options.consensus && best_cost > clear_majority * gate * trust) {
+  if (best_cost > clear_majority * gate * trust) {
     double consensus_cost = prediction_bonus * best_cost;
     consider(bestByConsensus(starts.front(), options.samples, consensus_cost));
   }

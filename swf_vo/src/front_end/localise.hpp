@@ -21,8 +21,7 @@ struct LocaliseOptions {
   double slack_px =
       0.1;  ///< added to the standard deviation of each coordinate: what the map and the match are wrong by beyond what they say
   int least_inliers = 8;
-  bool consensus = true;  ///< also tries motions through few matches, for when the starts given are all wrong
-  int samples = 24;       ///< ... this many
+  int samples = 24;  ///< motions through few matches that are tried too, for when the starts given are all wrong
 };
 
 /// Step (iv) of section 2.4: the camera's pose by an m-estimator over the measured matches, with the error of a landmark's first

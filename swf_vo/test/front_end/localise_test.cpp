@@ -152,6 +152,19 @@ TEST(Localise, ConsensusFindsAMotionThatNobodyPredicted) {
   EXPECT_LT(distanceBetween(found.T_camera_odom, far), 0.05);
 }
 
+TEST(Localise, AMinorityThatAgreesCloselyDoesNotHoldThePose) {
+  World world(8);
+  const Pose mover = expSe3(tangent(0.0, 0.0, 0.3, 0.0, 0.0, 0.0));
+  world.add(30, 0.02, 2, kTruth, mover);
+  world.add(70, 0.03, 2, kTruth);
+  const StereoCamera stereo = camera();
+  Localiser localiser(stereo);
+  const Localisation found = localiser.locate({kTruth * mover}, {}, world.matches);
+  ASSERT_TRUE(found.found);
+  EXPECT_LT(distanceBetween(found.T_camera_odom, kTruth), 0.03);
+  EXPECT_GE(found.inliers, 65);
+}
+
 TEST(Localise, TooFewOrAbsurdMatchesLeaveThePrediction) {
   World world(4);
   world.add(3, 0.0, 5, kTruth);
