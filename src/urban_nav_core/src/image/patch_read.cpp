@@ -4,18 +4,15 @@
 #include <cstring>
 #include <opencv2/core/hal/intrin.hpp>
 
-#if defined(__x86_64__)
-#define URBAN_NAV_X86 1
-#endif
-
-// Vectors wider than the baseline's are handed between functions that are all inlined: there is no call whose ABI
-// could change.
-#pragma GCC diagnostic ignored "-Wpsabi"
+#include "vectors.hpp"
 
 namespace urban_nav_core::patch_read {
 namespace {
 
-// Vectors of the compiler's own, so that one text serves every width.
+using vectors::load;
+using vectors::store;
+
+// One text serves every width.
 struct Narrow {
   typedef float Floats __attribute__((vector_size(16)));
   static constexpr int lanes = 4;
@@ -25,20 +22,7 @@ struct Middle {
   static constexpr int lanes = 8;
 };
 
-#define URBAN_NAV_INLINE __attribute__((always_inline)) inline
-
 constexpr int line = 12, wide = 16, padded = 24;
-
-template <typename V, typename T>
-URBAN_NAV_INLINE V load(const T* p) {
-  V v;
-  std::memcpy(&v, p, sizeof v);
-  return v;
-}
-template <typename V, typename T>
-URBAN_NAV_INLINE void store(T* p, const V& v) {
-  std::memcpy(p, &v, sizeof v);
-}
 
 /// Six taps, `apart` numbers from one to the next; four where nothing is blurred.
 template <typename V>

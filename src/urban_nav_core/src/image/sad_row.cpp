@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sad_row.hpp"
 
-#include <cstring>
-
 #include "urban_nav_core/image/patch.hpp"
-
-#if defined(__x86_64__)
-#define URBAN_NAV_X86 1
-#endif
-
-// Vectors wider than the baseline's are handed between functions that are all inlined: there is no call whose ABI
-// could change.
-#pragma GCC diagnostic ignored "-Wpsabi"
+#include "vectors.hpp"
 
 namespace urban_nav_core::sad_row {
 namespace {
 
-// Vectors of the compiler's own, so that one text serves every width.
+using vectors::load;
+using vectors::store;
+
+// One text serves every width.
 struct Narrow {
   typedef std::uint8_t Bytes __attribute__((vector_size(8)));
   typedef std::int16_t Numbers __attribute__((vector_size(16)));
@@ -28,20 +22,7 @@ struct Middle {
   static constexpr int lanes = 16;
 };
 
-#define URBAN_NAV_INLINE __attribute__((always_inline)) inline
-
 constexpr int columns = SadPatch::columns, rows = SadPatch::rows, count = columns * rows;
-
-template <typename V, typename T>
-URBAN_NAV_INLINE V load(const T* p) {
-  V v;
-  std::memcpy(&v, p, sizeof v);
-  return v;
-}
-template <typename V, typename T>
-URBAN_NAV_INLINE void store(T* p, const V& v) {
-  std::memcpy(p, &v, sizeof v);
-}
 
 template <typename Width>
 URBAN_NAV_INLINE void compareAs(const std::int16_t* patch, const std::uint8_t* first, std::ptrdiff_t stride,
