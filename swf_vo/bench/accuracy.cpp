@@ -6,9 +6,9 @@
 // system made of the folder named SEQUENCE, poses of the left camera in KITTI's or (.tum) the TUM format, one a frame.
 #include <algorithm>
 #include <filesystem>
-#include <iostream>
 #include <string>
 
+#include "support/program.hpp"
 #include "support/run.hpp"
 #include "urban_nav_core/io/kitti.hpp"
 #include "urban_nav_core/io/tum.hpp"
@@ -88,9 +88,7 @@ void addPeers(BenchTable& table, const Sequence& sequence, const std::vector<std
 int main(int argc, char** argv) try {
   Options options = parse(argc, argv);
   const swf_vo::Parameters parameters = parametersFrom(options.sets);
-  if (options.folders.empty())
-    for (const char* name : {"kitti06_000_050", "kitti_raw_0926_0005"})
-      if (const std::string folder = dataFolder(name); !folder.empty()) options.folders.push_back(folder);
+  options.folders = orRealSequences(options.folders);
 
   BenchTable table({"sequence", "system", "10 frames", "50 frames", "100 frames", "step ratio", "position, rms", "NEES",
                     "ms a frame"},
@@ -104,10 +102,7 @@ int main(int argc, char** argv) try {
         meanNees(sequence.truth, result.settled, result.settled_covariance), ms);
     addPeers(table, sequence, options.peers);
   }
-  std::cout << table.text();
-  if (!options.output.empty()) table.write(options.output);
-  return 0;
+  return show(table, options.output);
 } catch (const std::exception& error) {
-  std::cerr << error.what() << '\n';
-  return 2;
+  return complain(error);
 }

@@ -8,11 +8,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iostream>
 #include <map>
 #include <string>
 
 #include "front_end/front_end.hpp"
+#include "support/program.hpp"
 #include "support/run.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
 #include "urban_nav_core/testing/textured_room.hpp"
@@ -184,10 +184,7 @@ int main(int argc, char** argv) try {
       }
     addRows(table, noise, errors);
   }
-  std::cout << table.text();
-  if (!output.empty()) table.write(output);
-  return 0;
+  return show(table, output);
 } catch (const std::exception& error) {
-  std::cerr << error.what() << '\n';
-  return 2;
+  return complain(error);
 }

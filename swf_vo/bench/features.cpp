@@ -4,10 +4,10 @@
 //   swf_vo-bench-features [FOLDER...] [-o results/features.json]
 // FOLDER: a sequence in KITTI's layout with poses.txt; default: the two real ones.
 #include <cmath>
-#include <iostream>
 #include <numeric>
 #include <string>
 
+#include "support/program.hpp"
 #include "support/run.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
 
@@ -43,15 +43,7 @@ double meanFeatures(const Run& run) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-  std::vector<std::string> folders;
-  std::string output;
-  for (int i = 1; i < argc; ++i) {
-    if (std::string(argv[i]) == "-o" && i + 1 < argc) output = argv[++i];
-    else folders.emplace_back(argv[i]);
-  }
-  if (folders.empty())
-    for (const char* name : {"kitti06_000_050", "kitti_raw_0926_0005"})
-      if (const std::string folder = dataFolder(name); !folder.empty()) folders.push_back(folder);
+  const auto [folders, output] = foldersAndOutput(argc, argv);
 
   BenchTable table({"sequence", "features", "followed", "ms a frame, median", "10 frames", "50 frames"}, argc, argv);
   for (const std::string& folder : folders) {
@@ -66,10 +58,7 @@ int main(int argc, char** argv) try {
                  spans(10), spans(50)});
     }
   }
-  std::cout << table.text();
-  if (!output.empty()) table.write(output);
-  return 0;
+  return show(table, output);
 } catch (const std::exception& error) {
-  std::cerr << error.what() << '\n';
-  return 2;
+  return complain(error);
 }

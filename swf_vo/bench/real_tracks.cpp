@@ -15,6 +15,7 @@
 
 #include "../test/window/batch_ceres.hpp"
 #include "../test/window/track_runner.hpp"
+#include "support/program.hpp"
 #include "urban_nav_core/io/csv.hpp"
 #include "urban_nav_core/io/kitti.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
@@ -316,10 +317,7 @@ int main(int argc, char** argv) try {
   table.note(
       "kitti00_tracks: the first 14 poses of its truth are rough (its README). kitti07_tracks_ucsd: in 91 frames all tracks repeat "
       "the frame before; they end there, and no track sees that step.");
-  std::puts(table.text().c_str());
-  if (!output.empty()) table.write(output);
-  return 0;
+  return swf_vo::bench::show(table, output);
 } catch (const std::exception& error) {
-  std::fprintf(stderr, "%s\n", error.what());
-  return 2;
+  return swf_vo::bench::complain(error);
 }

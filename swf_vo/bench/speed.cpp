@@ -3,10 +3,10 @@
 // processor, so that what else runs does not count; ratios between the rows of one run depend least on the machine.
 //   swf_vo-bench-speed [FOLDER...] [--frames N] [--peer NAME=SEQUENCE=MS]... [-o results/speed.json]
 // FOLDER: a sequence in KITTI's layout in place of those rendered here, so that a peer can be measured on the same images.
-#include <iostream>
 #include <memory>
 #include <string>
 
+#include "support/program.hpp"
 #include "support/run.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
 
@@ -114,10 +114,7 @@ int main(int argc, char** argv) try {
     }
     addPeers(table, sequence, options.peers);
   }
-  std::cout << table.text();
-  if (!options.output.empty()) table.write(options.output);
-  return 0;
+  return show(table, options.output);
 } catch (const std::exception& error) {
-  std::cerr << error.what() << '\n';
-  return 2;
+  return complain(error);
 }

@@ -3,9 +3,9 @@
 //   swf_vo-bench-steady [FOLDER] [--frames N] [-o results/steady.json]
 #include <unistd.h>
 #include <fstream>
-#include <iostream>
 #include <string>
 
+#include "support/program.hpp"
 #include "support/run.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
 
@@ -81,10 +81,7 @@ int main(int argc, char** argv) try {
     next = next < 1000 ? 4100 : next + 5000;
     if (next + block > frames && i + 1 < frames) next = frames - block;
   }
-  std::cout << table.text();
-  if (!output.empty()) table.write(output);
-  return 0;
+  return show(table, output);
 } catch (const std::exception& error) {
-  std::cerr << error.what() << '\n';
-  return 2;
+  return complain(error);
 }

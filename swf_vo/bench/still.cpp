@@ -3,9 +3,9 @@
 //   swf_vo-bench-still [--set swf_vo.NAME=VALUE]... [-o results/still.json]
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <opencv2/imgcodecs.hpp>
 
+#include "support/program.hpp"
 #include "support/run.hpp"
 #include "urban_nav_core/camera/rectify.hpp"
 #include "urban_nav_core/io/calibration.hpp"
@@ -113,10 +113,7 @@ int main(int argc, char** argv) try {
   add(table, "swf_vo, settled", result.settled, gyroscope);
   table.add({"gyroscope, bias taken off", "", cell(*std::max_element(gyroscope.begin(), gyroscope.end()), 3),
              cell(gyroscope.back(), 3), ""});
-  std::cout << table.text();
-  if (!output.empty()) table.write(output);
-  return 0;
+  return show(table, output);
 } catch (const std::exception& error) {
-  std::cerr << error.what() << '\n';
-  return 2;
+  return complain(error);
 }

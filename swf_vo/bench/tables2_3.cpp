@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <iostream>
 #include <numeric>
 #include <string>
 
+#include "support/program.hpp"
 #include "support/run.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
 
@@ -48,15 +48,7 @@ double travelled(const Run& run) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-  std::vector<std::string> folders;
-  std::string output;
-  for (int i = 1; i < argc; ++i) {
-    if (std::string(argv[i]) == "-o" && i + 1 < argc) output = argv[++i];
-    else folders.emplace_back(argv[i]);
-  }
-  if (folders.empty())
-    for (const char* name : {"kitti06_000_050", "kitti_raw_0926_0005"})
-      if (const std::string folder = dataFolder(name); !folder.empty()) folders.push_back(folder);
+  const auto [folders, output] = foldersAndOutput(argc, argv);
 
   BenchTable table({"sequence", "row", "average", "minimum", "maximum"}, argc, argv);
   for (const std::string& folder : folders) {
@@ -72,10 +64,7 @@ int main(int argc, char** argv) try {
           {"", series.name, cell(mean, series.decimals), cell(*low, series.decimals), cell(*high, series.decimals)});
     }
   }
-  std::cout << table.text();
-  if (!output.empty()) table.write(output);
-  return 0;
+  return show(table, output);
 } catch (const std::exception& error) {
-  std::cerr << error.what() << '\n';
-  return 2;
+  return complain(error);
 }
