@@ -18,13 +18,7 @@ using urban_nav_core::UncertainPose;
 using urban_nav_core::Vector6d;
 
 urban_nav_core::testing::Tracks turning(int frames, double sigma_px, std::uint64_t seed = 8) {
-  urban_nav_core::testing::TrackOptions motion;
-  motion.seed = seed;
-  motion.frames = frames;
-  motion.features = 25;
-  motion.sigma_px = sigma_px;
-  motion.motion = urban_nav_core::testing::TrackMotion::Mixed;
-  return simulateTracks(motion);
+  return simulateTracks(mixedMotion(frames, sigma_px, seed));
 }
 
 double largestDifference(const Matrix6d& P, const Matrix6d& Q) {

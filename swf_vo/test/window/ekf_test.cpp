@@ -13,14 +13,10 @@ using urban_nav_core::Matrix6d;
 class WindowOne : public testing::TestWithParam<bool> {};
 
 TEST_P(WindowOne, equalsTheExtendedKalmanFilter) {
-  urban_nav_core::testing::TrackOptions motion;
-  motion.seed = 7;
-  motion.frames = 50;
+  auto motion = mixedMotion(50, 0.5, 7);
   motion.features = 15;
   motion.track_length = 6.0;
   motion.missed = 0.2;
-  motion.sigma_px = 0.5;
-  motion.motion = urban_nav_core::testing::TrackMotion::Mixed;
   const auto tracks = urban_nav_core::testing::simulateTracks(motion);
   WindowOptions options;
   options.size = 1;

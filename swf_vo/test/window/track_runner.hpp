@@ -19,6 +19,17 @@ inline urban_nav_core::Matrix6d diagonalInformation(double sigma_translation, do
   return d.asDiagonal();
 }
 
+/// 25 features that come and go as the camera drives, turns and stops.
+inline urban_nav_core::testing::TrackOptions mixedMotion(int frames, double sigma_px, std::uint64_t seed) {
+  urban_nav_core::testing::TrackOptions motion;
+  motion.seed = seed;
+  motion.frames = frames;
+  motion.features = 25;
+  motion.sigma_px = sigma_px;
+  motion.motion = urban_nav_core::testing::TrackMotion::Mixed;
+  return motion;
+}
+
 /// Drives a Window through simulated tracks, one step a call.
 class TrackRunner {
  public:

@@ -17,13 +17,7 @@ using urban_nav_core::Pose;
 using urban_nav_core::Vector6d;
 
 urban_nav_core::testing::TrackOptions tracksOf(int frames, double sigma_px, std::uint64_t seed = 3) {
-  urban_nav_core::testing::TrackOptions motion;
-  motion.seed = seed;
-  motion.frames = frames;
-  motion.features = 25;
-  motion.sigma_px = sigma_px;
-  motion.motion = urban_nav_core::testing::TrackMotion::Mixed;
-  return motion;
+  return mixedMotion(frames, sigma_px, seed);
 }
 
 double nees(const Pose& truth, const urban_nav_core::UncertainPose& estimate) {
