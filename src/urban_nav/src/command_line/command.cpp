@@ -202,6 +202,7 @@ int runCommandLine(const std::vector<Command>& commands, int argc, const char* c
         std::find_if(commands.begin(), commands.end(), [&](const Command& c) { return c.name == name; });
     if (command == commands.end()) {
       std::vector<std::string> names;
+      names.reserve(commands.size());
       for (const Command& c : commands) names.push_back(c.name);
       throw UserError("urban_nav", "no command \"" + name + "\"", joined(names));
     }

@@ -112,7 +112,7 @@ class BagSource : public Source {
     for (rosbag::Bag& bag : bags_) {
       rosbag::View view(bag, rosbag::TopicQuery(topic));
       for (const rosbag::MessageInstance& instance : view) {
-        if (const boost::shared_ptr<Message> message = instance.instantiate<Message>()) return message;
+        if (boost::shared_ptr<Message> message = instance.instantiate<Message>()) return message;
       }
     }
     return nullptr;
@@ -210,7 +210,7 @@ class BagSource : public Source {
   }
 
   void add(const rosbag::MessageInstance& instance) {
-    const std::string topic = instance.getTopic();
+    const std::string& topic = instance.getTopic();
     if (topic == topics_.find(Role::Left)->name || topic == topics_.find(Role::Right)->name) {
       const Side side = topic == topics_.find(Role::Left)->name ? Side::Left : Side::Right;
       if (const auto image = instance.instantiate<sensor_msgs::Image>()) {

@@ -51,7 +51,7 @@ GreyImage readPixels(const std::string& path) {
 }
 
 GreyImage readGrey(const std::string& path, int bits) {
-  const GreyImage image = readPixels(path);
+  GreyImage image = readPixels(path);
   if (image.pixels.empty()) return image;
   GreyImage grey = urban_nav_ros::toGrey(image.pixels, bits);
   if (!grey.fault.empty()) grey.fault = path + ": " + grey.fault;
