@@ -12,7 +12,6 @@
 namespace urban_nav {
 
 using urban_nav_core::DataError;
-using urban_nav_core::UserError;
 
 namespace {
 

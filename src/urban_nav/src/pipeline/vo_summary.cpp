@@ -6,7 +6,6 @@
 
 namespace urban_nav {
 
-using urban_nav_core::Health;
 using urban_nav_core::Vector3d;
 
 namespace {
