@@ -108,7 +108,9 @@ class SwfVo::Implementation {
     const urban_nav_core::Status status = health_.judge(evidence);
     doubtful_ = status.health != urban_nav_core::Health::Ok;
     started_ = true;
-    return output_.write(frame_++, pair.stamp, status, window_, u, seen, update);
+    const Frame& frame = output_.write(frame_++, pair.stamp, status, window_, u, seen, update);
+    giveUp(window_.strays());
+    return frame;
   }
 
   std::vector<Settled> flush() {
@@ -165,12 +167,16 @@ class SwfVo::Implementation {
     prediction_.learn(from.inverse() * window_.newest().pose, seconds_, trusted, blind, smoothed);
   }
 
-  // A landmark born in a blurred image is not found again in a sharp one, but much like it is: no new ones from there.
-  void observe(const FrontEndResult& seen, bool trusted, bool welcome) {
-    for (const LandmarkId landmark : seen.refuted) {
+  void giveUp(const std::vector<LandmarkId>& landmarks) {
+    for (const LandmarkId landmark : landmarks) {
       window_.withdrawAll(landmark);
       window_.endLandmark(landmark);
     }
+  }
+
+  // A landmark born in a blurred image is not found again in a sharp one, but much like it is: no new ones from there.
+  void observe(const FrontEndResult& seen, bool trusted, bool welcome) {
+    giveUp(seen.refuted);
     for (const LandmarkId landmark : seen.ended) window_.endLandmark(landmark);
     if (trusted)
       for (const Observation& observation : seen.tracked) window_.observe(observation);

@@ -32,9 +32,9 @@ constexpr double nearest_plane = 2.0, steepest = 0.25, usual_slant = 0.7;
 constexpr double same_row = 1.0;  // px of the level between the rows of both images
 constexpr double least_correlation_across = 0.85;
 // As the view changes, a template weighs its pixels anew, and where it stands creeps: by the error it was born with (its noise, and what the
-// surface is beside a plane, creep_px), in variance, times this for a change of one. Measured in rendered rooms at 1 and 6 grey levels of
-// noise: 1.5 to 2 for u and v alike, in both images at once; disparities do not creep.
-constexpr double creep_per_change = 1.75, creep_px = 0.05;
+// surface is beside a plane, creep_px), in variance, times this for a change of one. Measured in rendered rooms at 1, 3 and 6 grey
+// levels of noise (bench/creep), for u and v alike, in both images at once; disparities do not creep.
+constexpr double creep_per_change = 2.75, creep_px = 0.026;
 constexpr int attempts_per_feature = 3, attempts_at_least = 20;  // bounds the time where nothing can be matched
 
 int depthFor(int features) {
@@ -132,7 +132,7 @@ bool Replenisher::start(const Candidate& candidate, FrameId frame, const Corners
   track->source = *source;
   track->left_ready = true;
   track->right_ready = true;
-  fresh.push_back({track->id, frame, match.z, match.information, Eigen::Matrix2d::Zero()});
+  fresh.push_back({track->id, frame, match.z, match.information, Eigen::Matrix2d::Zero(), 0.0});
   return true;
 }
 

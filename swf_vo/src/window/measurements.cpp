@@ -72,6 +72,7 @@ bool observe(State& state, const SensorModel& sensor, const Observation& observa
   // What is not symmetric would come back as information, good or bad, in directions that were not measured: at 1e-8 of a pixel's, more than a second
   // of prediction has.
   measurement.information = 0.5 * (observation.information + observation.information.transpose());
+  measurement.sigma_px = observation.sigma_px;
   measurement.wander = sensor.bearing(observation.wander);
   int slot = state.slotOf(observation.landmark);
   if (slot < 0) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "window/filter.hpp"
+#include "window/strays.hpp"
 #include "window/undo.hpp"
 
 namespace swf_vo {
@@ -28,6 +29,7 @@ class Window::Implementation {
   Filter filter;
   Undo undo;
   History history;
+  Strays strays;
   std::vector<SettledPose> settled;
   std::vector<FrameId> frames;
   mutable std::vector<MapPoint> map;
@@ -109,6 +111,10 @@ void Window::endLandmark(LandmarkId landmark) {
 UpdateReport Window::update() {
   implementation_->undo.replay(implementation_->filter);
   return implementation_->filter.update();
+}
+
+const std::vector<LandmarkId>& Window::strays() {
+  return implementation_->strays.find(implementation_->filter.state(), implementation_->filter.cost().sensor());
 }
 
 UncertainPose Window::newest() const { return implementation_->filter.newest(); }

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "window/strays.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "window/make_room.hpp"
+#include "window/measurements.hpp"
+
+namespace swf_vo {
+
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double gate = 4.0;                  // standard deviations, by the median deviation
+constexpr double deviation = 1.4826;          // standard deviation of a Gaussian over its median deviation
+constexpr int fewest_coordinates = 12;        // four frames: with fewer a landmark can take up whatever it is off by
+constexpr std::size_t fewest_landmarks = 16;  // to know what is usual
+
+double medianOf(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+bool Strays::score(const State& state, const SensorModel& sensor, const LandmarkBlock& landmark) {
+  double sum = 0.0;
+  int coordinates = 0;
+  Vector3d z;
+  for (const Measurement& measurement : landmark.seen) {
+    const PoseBlock& pose = state.poses[static_cast<std::size_t>(measurement.step - state.first_step)];
+    if (!(measurement.sigma_px > 0.0) || !sensor.predict(landmark.anchor, landmark.estimate, pose.at_estimate, z))
+      continue;
+    const Vector3d r = (measurements::withoutOffset(state, measurement.z) - z) / measurement.sigma_px;
+    for (int c = 0; c < 3; ++c) {
+      if (!(measurement.information(c, c) > 0.0)) continue;
+      sum += r[c] * r[c];
+      ++coordinates;
+    }
+  }
+  if (coordinates < fewest_coordinates) return false;
+  scores_.push_back({landmark.id, std::sqrt(sum / coordinates)});
+  return true;
+}
+
+const std::vector<LandmarkId>& Strays::find(const State& state, const SensorModel& sensor) {
+  makeRoom(scores_, state.landmarks.size());
+  makeRoom(sorted_, state.landmarks.size());
+  makeRoom(strays_, state.landmarks.size());
+  scores_.clear();
+  sorted_.clear();
+  strays_.clear();
+  for (const LandmarkBlock& landmark : state.landmarks)
+    if (landmark.used && !landmark.known && landmark.followed && score(state, sensor, landmark))
+      sorted_.push_back(scores_.back().residual);
+  if (scores_.size() < fewest_landmarks) return strays_;
+  const double median = medianOf(sorted_);
+  for (double& value : sorted_) value = std::abs(value - median);
+  const double limit = median + gate * deviation * medianOf(sorted_);
+  for (const Score& score : scores_)
+    if (score.residual > limit) strays_.push_back(score.landmark);
+  return strays_;
+}
+
+}  // namespace swf_vo
