@@ -28,7 +28,7 @@ const Table<Parameters>& table() {
           {"features", &P::features, "at 512x384 px", std::int64_t{100}, std::int64_t{20}, std::int64_t{2000}, {},
            "Features followed at a time; in images of another size they follow the area to the power of 2/3.", "section 2.4 (v)"},
           {"pixel_noise_floor", &P::pixel_noise_floor, "px", 0.03, 0.001, 5.0, {},
-           "Standard deviation added to that of every measured pixel, and of the part of a disparity that stays wrong as long as its landmark lives: what the patch alignment cannot know of.",
+           "Standard deviation added to that of every measured pixel: what the patch alignment cannot know of.",
            "swf_vo/bench, consistency"},
           {"disparity_offset", &P::disparity_offset, "px", 0.1, 0.0, 5.0, {},
            "Standard deviation of a constant error of the disparity, left by calibration and rectification and estimated with the motion; 0 takes the calibration as exact.",
