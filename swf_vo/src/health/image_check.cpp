@@ -19,6 +19,10 @@ constexpr double dark_contrast = 2.0;
 // Matching removes mean and gain; beyond a factor of 1.6 between frames clipping begins to move the corners.
 constexpr double exposure_ratio = 1.6;
 constexpr double blur_ratio = 0.55;
+// An image that is suddenly white by half is no better than a black one: what is left of it is matched wrongly or not at all, and landmarks are worth
+// keeping for when the light is back. For so many frames it is not: then it is the new usual.
+constexpr int white = 250;
+constexpr double white_share = 0.5, white_rate = 0.01;
 
 // Sum of absolute differences of two samples; 0 for samples of different size.
 std::int64_t distance(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
@@ -34,7 +38,7 @@ ImageCheck::Figures ImageCheck::measure(const ImageView& image, std::vector<std:
   const int columns = (image.width - 1) / column_step, rows = image.height / row_step;
   sample.resize(static_cast<std::size_t>(std::max(columns, 0)) * static_cast<std::size_t>(std::max(rows, 0)));
   if (sample.empty()) return {};
-  std::int64_t sum = 0, squares = 0, differences = 0;
+  std::int64_t sum = 0, squares = 0, differences = 0, clipped = 0;
   std::size_t at = 0;
   for (int r = 0; r < rows; ++r) {
     const std::uint8_t* row = image.row(r * row_step);
@@ -42,6 +46,7 @@ ImageCheck::Figures ImageCheck::measure(const ImageView& image, std::vector<std:
       const int value = row[c * column_step];
       sample[at++] = static_cast<std::uint8_t>(value);
       sum += value;
+      clipped += value >= white ? 1 : 0;
       squares += value * value;
       differences += std::abs(row[c * column_step + 1] - value);
     }
@@ -49,6 +54,7 @@ ImageCheck::Figures ImageCheck::measure(const ImageView& image, std::vector<std:
   const double n = static_cast<double>(sample.size());
   Figures figures;
   figures.brightness = static_cast<double>(sum) / n;
+  figures.white = static_cast<double>(clipped) / n;
   figures.contrast =
       std::sqrt(std::max(0.0, static_cast<double>(squares) / n - figures.brightness * figures.brightness));
   figures.sharpness = static_cast<double>(differences) / n / std::max(figures.contrast, 1.0);
@@ -86,6 +92,13 @@ ImageVerdict ImageCheck::look(const StereoPair& pair, bool doubtful) {
 
   const double sharpness = std::min(left.sharpness, right.sharpness);
   const double ratio = usual_brightness_ > 0.0 ? (verdict.brightness + 1.0) / (usual_brightness_ + 1.0) : 1.0;
+  const bool washed_out = ratio > exposure_ratio && std::max(left.white, right.white) > white_share;
+  if (washed_out) {
+    usual_brightness_ += white_rate * (verdict.brightness - usual_brightness_);
+    verdict.usable = false;
+    verdict.reason = Reason::ExposureJump;
+    return verdict;
+  }
   if (ratio > exposure_ratio || ratio < 1.0 / exposure_ratio) verdict.reason = Reason::ExposureJump;
   else if (usual_sharpness_ > 0.0 && sharpness < blur_ratio * usual_sharpness_) verdict.reason = Reason::Blurred;
   if ((doubtful || crossed || usual_sharpness_ < 0.0) && looksExchanged(pair.left, pair.right)) {

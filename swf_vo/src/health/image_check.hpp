@@ -29,6 +29,7 @@ class ImageCheck {
  private:
   struct Figures {
     double brightness = 0.0;
+    double white = 0.0;  ///< share of clipped pixels
     double contrast = 0.0;
     double sharpness = 0.0;  ///< mean absolute difference of neighbours over the contrast
   };

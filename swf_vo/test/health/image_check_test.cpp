@@ -56,6 +56,22 @@ TEST(ImageCheck, passesUsualPairs) {
   }
 }
 
+// Suddenly white by half: of no use, until it has lasted so long that it is how the scene looks.
+TEST(ImageCheck, waitsForTheLightToComeBack) {
+  ImageCheck check;
+  for (unsigned i = 0; i < 5; ++i) EXPECT_TRUE(check.look(Scene(i, 12.0, 1.0, 3.0 * i).pair(), true).usable);
+  unsigned frame = 5;
+  const auto white = [&] { return check.look(Scene(frame, 12.0, 4.5, 3.0 * frame).pair(), false); };
+  for (; frame < 25; ++frame) {
+    const ImageVerdict verdict = white();
+    EXPECT_FALSE(verdict.usable) << frame;
+    EXPECT_EQ(verdict.reason, Reason::ExposureJump) << toString(verdict.reason);
+  }
+  bool taken = false;
+  for (; frame < 150 && !taken; ++frame) taken = white().usable;
+  EXPECT_TRUE(taken);
+}
+
 TEST(ImageCheck, namesAMissingImageAndImagesOfOtherSize) {
   const Scene scene(1, 12.0);
   ImageCheck check;
