@@ -3,7 +3,7 @@
 # Builds and tests all there is, on a bare Debian 12 too; the last line is the result, and so is the exit status.
 #   ./run_tests.sh              warnings are errors; lint, gtest, rostest; readers and window once more under sanitizers
 #   ./run_tests.sh --sanitize   all ROS-free cores under the sanitizers, every reader fuzzed for a minute
-#   ./run_tests.sh --tidy       clang-tidy over all sources as well
+#   ./run_tests.sh --tidy       clang-format and clang-tidy over all sources as well
 # Tests on real data look in the folder that URBAN_NAV_DATA names, and are skipped without it.
 set -eu
 # shellcheck source=scripts/lib.sh
@@ -82,10 +82,14 @@ run_tidy() {
   }
 }
 
+run_format() {
+  git ls-files -z '*.cpp' '*.hpp' | xargs -0 clang-format --dry-run -Werror
+}
+
 results=()
 find "$build" -path '*/test_results/*' -name '*.xml' -delete 2>/dev/null || true
 tools=()
-if [ $tidy = yes ]; then tools=(clang-tidy clang-tools); fi
+if [ $tidy = yes ]; then tools=(clang-format clang-tidy clang-tools); fi
 step "packages" install_packages "${tools[@]}" || true
 if [ $sanitize = no ]; then
   if step "build" build_all; then
@@ -95,7 +99,10 @@ if [ $sanitize = no ]; then
   fi || true
   step "catkin_lint" catkin_lint --offline --rosdistro noetic --strict --quiet . || true
   step "tables of the READMEs" scripts/tables.py || true
-  if [ $tidy = yes ]; then step "clang-tidy" run_tidy || true; fi
+  if [ $tidy = yes ]; then
+    step "clang-format" run_format || true
+    step "clang-tidy" run_tidy || true
+  fi
 fi
 
 rooms='io;parameters;window' seconds=${URBAN_NAV_FUZZ_SECONDS:-20}
