@@ -306,7 +306,7 @@ int main(int argc, char** argv) try {
   KittiTracks kitti00 = readTracks(data + "/kitti00_tracks", false, 1.0);
   kitti00.camera.left = {718.856, 718.856, 607.1928, 185.2157, 1241, 376};
   kitti00.camera.baseline = 0.53717;
-  for (const int size : {1, 10})
+  for (const int size : {1, 10, 100})
     for (const std::size_t first : {0U, 14U})
       kitti("kitti00_tracks, frames " + std::to_string(first) + "-76", kitti00, first, 76, size, table);
   std::puts(table.text().c_str());
