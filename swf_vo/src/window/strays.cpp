@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "window/strays.hpp"
 
-#include <algorithm>
 #include <cmath>
 
+#include "usual.hpp"
 #include "window/make_room.hpp"
 #include "window/measurements.hpp"
 
@@ -13,16 +13,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double gate = 4.0;                  // standard deviations, by the median deviation
-constexpr double deviation = 1.4826;          // standard deviation of a Gaussian over its median deviation
 constexpr int fewest_coordinates = 12;        // four frames: with fewer a landmark can take up whatever it is off by
 constexpr std::size_t fewest_landmarks = 16;  // to know what is usual
-
-double medianOf(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 
@@ -57,9 +49,7 @@ const std::vector<LandmarkId>& Strays::find(const State& state, const SensorMode
     if (landmark.used && !landmark.known && landmark.followed && score(state, sensor, landmark))
       sorted_.push_back(scores_.back().residual);
   if (scores_.size() < fewest_landmarks) return strays_;
-  const double median = medianOf(sorted_);
-  for (double& value : sorted_) value = std::abs(value - median);
-  const double limit = median + gate * deviation * medianOf(sorted_);
+  const double limit = usualLimit(sorted_.begin(), sorted_.end());
   for (const Score& score : scores_)
     if (score.residual > limit) strays_.push_back(score.landmark);
   return strays_;
