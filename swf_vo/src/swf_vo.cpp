@@ -89,7 +89,7 @@ class SwfVo::Implementation {
     const FrontEndResult* seen = nullptr;
     if (evidence.image.usable) {
       seen = &front_end_.process(frame_, usable, last, last * u.T_from_to, window_.map(), window_.disparityOffset(),
-                                 periods > astray_periods);
+                                 periods > astray_periods, evidence.image.edges);
       evidence.localised = seen->localised;
       evidence.tracked = static_cast<int>(seen->tracked.size());
       evidence.features = evidence.tracked + static_cast<int>(seen->fresh.size());
@@ -98,10 +98,12 @@ class SwfVo::Implementation {
     }
 
     const bool trusted = health_.isTrusted(evidence);
-    takeStep(u, trusted && isAdrift(*seen) ? seen : nullptr);
-    if (seen != nullptr && (trusted || !started_)) remember(*seen);
     const bool blurred = evidence.image.reason == Reason::Blurred;
-    if (seen != nullptr) observe(*seen, trusted, !blurred);
+    // As long as all is blurred, what was known before may come back any frame: nothing begins anew.
+    const bool adrift = started_ && trusted && isAdrift(*seen);
+    takeStep(u, adrift && !blurred ? seen : nullptr);
+    if (seen != nullptr && (trusted || !started_) && !(adrift && blurred)) remember(*seen);
+    if (seen != nullptr) observe(*seen, trusted);
     const UpdateReport update = window_.update();
 
     if (started_) learn(last, trusted, blurred || !evidence.image.usable);
@@ -174,13 +176,11 @@ class SwfVo::Implementation {
     }
   }
 
-  // A landmark born in a blurred image is not found again in a sharp one, but much like it is: no new ones from there.
-  void observe(const FrontEndResult& seen, bool trusted, bool welcome) {
+  void observe(const FrontEndResult& seen, bool trusted) {
     giveUp(seen.refuted);
     for (const LandmarkId landmark : seen.ended) window_.endLandmark(landmark);
     if (trusted)
       for (const Observation& observation : seen.tracked) window_.observe(observation);
-    if (!welcome) return;
     for (const Observation& observation : seen.fresh) window_.observe(observation);
   }
 

@@ -16,6 +16,7 @@
 #include "front_end/row_offset.hpp"
 #include "front_end/temporal.hpp"
 #include "front_end/tracks.hpp"
+#include "health/edge_width.hpp"
 
 namespace swf_vo {
 
@@ -47,8 +48,9 @@ constexpr double slope_share = 0.1;
 // measurements there are, up to this many, their mean is no better.
 constexpr double constant_share = 0.2;
 constexpr int longest_average = 30;
-constexpr double least_two_eyed = 0.3;                                              // share of the inliers
-constexpr int most_missed = 3, most_missed_young = 1;                               // frames
+constexpr double least_two_eyed = 0.3;                 // share of the inliers
+constexpr int most_missed = 3, most_missed_young = 1;  // frames
+constexpr int longest_aside = 50;                      // frames: what was known as long ago has left the view
 constexpr int disagreements_refute = 2, disagreements_refute_young = 1, young = 3;  // frames
 
 int topLevel(int width) {
@@ -92,8 +94,10 @@ class FrontEnd::Implementation {
   }
 
   const FrontEndResult& process(FrameId frame, const StereoPair& pair, const Pose& last, const Pose& predicted,
-                                const std::vector<MapPoint>& map, double disparity_offset, bool astray) {
+                                const std::vector<MapPoint>& map, double disparity_offset, bool astray,
+                                const Edges& edges) {
     clear(predicted);
+    edges_ = edges;
     camera_.disparity_offset = disparity_offset;
     if (!isPair(pair)) return result_;
     corners_.extract(pair);
@@ -127,12 +131,18 @@ class FrontEnd::Implementation {
   void replenish(FrameId frame) {
     const bool first = !rows_.isKnown();
     replenisher_.replenish(frame, corners_, result_.T_odom_camera, matches_, tracks_, result_.fresh, rows_);
+    noteEdges();
     rows_.learn();
     if (!first || std::abs(rows_.px()) < noticed_row_offset) return;
     for (const Observation& observation : result_.fresh) tracks_.end(observation.landmark);
     result_.fresh.clear();
     replenisher_.replenish(frame, corners_, result_.T_odom_camera, matches_, tracks_, result_.fresh, rows_);
+    noteEdges();
     rows_.learn();
+  }
+
+  void noteEdges() {
+    for (const Observation& observation : result_.fresh) tracks_.find(observation.landmark)->born_edges = edges_.left;
   }
 
   bool isPair(const StereoPair& pair) const {
@@ -161,6 +171,18 @@ class FrontEnd::Implementation {
     return Pose(correction, Eigen::Vector3d::Zero()) * predicted.inverse();
   }
 
+  /// By what the images are less sharp than when the track was born; in both by the same, where it is about the same: a difference would go into
+  /// the disparity.
+  void setBlur(Track& track) const {
+    const double size = 1.0 / urban_nav_core::Pyramid::scale(track.level);
+    Eigen::Vector2d left = widening(edges_.left, track.born_edges), right = widening(edges_.right, track.born_edges);
+    for (int i = 0; i < 2; ++i)
+      if (left[i] > 0.0 && right[i] > 0.0) left[i] = right[i] = 0.5 * (left[i] + right[i]);
+    track.blur_left = left / (size * size);
+    track.blur_right = right / (size * size);
+    track.sharper = !widening(track.born_edges, edges_.left.cwiseMax(edges_.right)).isZero();
+  }
+
   /// Pairs the map with what is followed. What is in one only has come to its end.
   void gather(const std::vector<MapPoint>& map) {
     matches_.clear();
@@ -171,6 +193,7 @@ class FrontEnd::Implementation {
       if (match.track != nullptr && point.p_odom.allFinite()) matches_.push_back(match);
       else result_.ended.push_back(point.landmark);
     }
+    for (Match& match : matches_) setBlur(*match.track);
     std::sort(matches_.begin(), matches_.end(),
               [](const Match& a, const Match& b) { return a.track->id < b.track->id; });
     std::size_t next = 0;
@@ -321,12 +344,18 @@ class FrontEnd::Implementation {
       const Eigen::Matrix2d crept = creep(camera_, result_.T_odom_camera.inverse(), match);
       const double together = std::min<double>(track.seen, parameters_.window);
       const double constant = constant_share * track.sigma_disparity * track.sigma_disparity;
-      loosen(slope_share * together * together * crept, std::min(track.seen, longest_average) * constant, match);
+      const Eigen::Matrix2d displaced = displacedByBlur(track, match.left.found);
+      track.blurred = displaced.isZero() ? 0 : track.blurred + 1;
+      loosen(slope_share * together * together * crept + std::min(track.blurred, longest_average) * displaced,
+             std::min(track.seen, longest_average) * constant, match);
       result_.tracked.push_back({track.id, frame, match.z, match.information, crept, sigma_px});
-      track.missed = track.disagreed = 0;
+      track.missed = track.disagreed = track.aside = 0;
       track.z = match.z;
       return;
     }
+    // Less or more sharp than it was, it is looked for in vain, or found elsewhere; that says nothing of it.
+    const bool unlike = track.sharper || !track.blur_left.isZero() || !track.blur_right.isZero();
+    if (unlike && ++track.aside <= longest_aside) return;
     if (result_.localised && (match.measured || match.contradicted)) {
       ++track.disagreed;
       if (track.disagreed < (track.seen < young ? disagreements_refute_young : disagreements_refute)) return;
@@ -372,6 +401,7 @@ class FrontEnd::Implementation {
   std::vector<Parallax> parallax_;
   std::vector<Pose> starts_;
   std::vector<double> errors_;
+  Edges edges_;
   double radius_ = 0.0;  // px of level 0
   bool astray_ = false;  // nothing says where the frame before was but the prediction
   FrameId frame_ = -2;
@@ -383,8 +413,9 @@ FrontEnd::FrontEnd(const Parameters& parameters, const StereoCamera& camera)
 FrontEnd::~FrontEnd() = default;
 
 const FrontEndResult& FrontEnd::process(FrameId frame, const StereoPair& pair, const Pose& last, const Pose& predicted,
-                                        const std::vector<MapPoint>& map, double disparity_offset, bool astray) {
-  return implementation_->process(frame, pair, last, predicted, map, disparity_offset, astray);
+                                        const std::vector<MapPoint>& map, double disparity_offset, bool astray,
+                                        const Edges& edges) {
+  return implementation_->process(frame, pair, last, predicted, map, disparity_offset, astray, edges);
 }
 
 }  // namespace swf_vo

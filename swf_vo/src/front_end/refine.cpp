@@ -20,6 +20,9 @@ constexpr double row_gate = 9.0;      // chi-square of the difference of the row
 constexpr double row_slack_px = 0.3;  // what rectification may be wrong by
 constexpr double further = 1.4;       // a slant is learnt anew each time the camera has moved so much further
 constexpr double steepest = 20.0;     // change of a surface's slant in one step, tangent
+constexpr double same_blur = 0.05;    // px^2 of the level
+// Of the blur that edges show, what it may be off by, and what a blur that is no Gaussian adds: of the displacement that the blur makes.
+constexpr double blur_share = 0.3;
 constexpr double least_gain = 0.2, largest_gain = 5.0;
 
 }  // namespace
@@ -32,21 +35,29 @@ double inverseDepthWhereBorn(const Match& match) {
 
 bool prepareTemplate(Side side, const StereoCamera& camera, const Pose& T_camera_odom, Match& match) {
   Track& track = *match.track;
+  const bool is_left = side == Side::Left;
+  const Eigen::Vector2d& blur = is_left ? track.blur_left : track.blur_right;
+  if (track.sharper || blur.maxCoeff() > urban_nav_core::largest_blur) return false;
   const Pose T_camera_born = T_camera_odom * track.T_born_odom.inverse();
   const auto A = warpInto(side, camera, track, T_camera_born, inverseDepthWhereBorn(match));
   if (!A || !A->allFinite()) return false;
   const double area = A->determinant();
   if (!(area > smallest_scale * smallest_scale && area < largest_scale * largest_scale)) return false;
-  const bool is_left = side == Side::Left;
   PatchTemplate &made = is_left ? track.in_left : track.in_right, &others = is_left ? track.in_right : track.in_left;
   bool &ready = is_left ? track.left_ready : track.right_ready,
        &others_ready = is_left ? track.right_ready : track.left_ready;
-  const auto serves = [&](const PatchTemplate& patch) { return (patch.A - *A).cwiseAbs().maxCoeff() < same_warp; };
-  if (ready && serves(made)) return true;
+  Eigen::Vector2d &made_blur = is_left ? track.made_blur_left : track.made_blur_right,
+                  &others_blur = is_left ? track.made_blur_right : track.made_blur_left;
+  const auto serves = [&](const PatchTemplate& patch, const Eigen::Vector2d& its_blur) {
+    return (patch.A - *A).cwiseAbs().maxCoeff() < same_warp && (its_blur - blur).cwiseAbs().maxCoeff() < same_blur;
+  };
+  if (ready && serves(made, made_blur)) return true;
   // What is seen from the front looks the same to both eyes.
-  ready = others_ready && serves(others);
+  ready = others_ready && serves(others, others_blur);
+  made_blur = ready ? others_blur : blur;
   if (ready) made = others;
-  else ready = urban_nav_core::warpTemplate(track.source, *A, made);
+  else if (blur.isZero()) ready = urban_nav_core::warpTemplate(track.source, *A, made);
+  else ready = urban_nav_core::warpTemplate(urban_nav_core::blurred(track.source, blur), *A, made);
   return ready;
 }
 
@@ -98,6 +109,16 @@ Eigen::Matrix2d creep(const StereoCamera& camera, const Pose& T_camera_odom, Mat
   const double change = (*A * track.seen_as.inverse() - Eigen::Matrix2d::Identity()).norm();
   track.seen_as = *A;
   return change * track.creep;
+}
+
+Eigen::Matrix2d displacedByBlur(const Track& track, bool in_left) {
+  const Eigen::Vector2d& blur = in_left ? track.made_blur_left : track.made_blur_right;
+  const PatchTemplate& made = in_left ? track.in_left : track.in_right;
+  PatchTemplate sharp;
+  if (blur.isZero() || !urban_nav_core::warpTemplate(track.source, made.A, sharp)) return Eigen::Matrix2d::Zero();
+  const Eigen::Vector2d d =
+      blur_share * urban_nav_core::displacement(made, sharp) / urban_nav_core::Pyramid::scale(track.level);
+  return d * d.transpose();
 }
 
 void loosen(const Eigen::Matrix2d& covariance, double of_disparity, Match& match) {

@@ -31,6 +31,10 @@ void learnSurface(const Corners& corners, const urban_nav_core::StereoCamera& ca
 Eigen::Matrix2d creep(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_camera_odom,
                       Match& match);
 
+/// What a sighting may be off by since the view is less sharp than where the track was born, px^2 of level 0: the template was blurred as well,
+/// but nobody knows exactly how the camera does it.
+Eigen::Matrix2d displacedByBlur(const Track& track, bool in_left);
+
 /// Adds a covariance that both images share, and a variance of the disparity (px^2), to a measurement.
 void loosen(const Eigen::Matrix2d& covariance, double of_disparity, Match& match);
 

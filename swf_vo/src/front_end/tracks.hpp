@@ -22,6 +22,8 @@ struct Track {
   FrameId born = 0;
   int level = 0;                                    ///< pyramid level of the template
   int seen = 1;                                     ///< frames with a trusted measurement
+  int blurred = 0;                                  ///< frames in a row in less sharp images with a trusted measurement
+  int aside = 0;                                    ///< frames since then in images that were less or more sharp
   int missed = 0;                                   ///< frames in a row without a match
   int disagreed = 0;                                ///< frames in a row with a good match that contradicts the motion
   urban_nav_core::Pose T_born_odom;                 ///< odom into the left camera of its first frame
@@ -38,6 +40,11 @@ struct Track {
   urban_nav_core::PatchSource source;
   urban_nav_core::PatchTemplate in_left, in_right;  ///< as last warped for either image
   bool left_ready = false, right_ready = false;
+  Eigen::Vector2d born_edges = Eigen::Vector2d::Zero();  ///< edgeVariance of the image it was cut from, px^2 of level 0
+  /// What the images of now are less sharp by than that one, px^2 of its level along rows and columns, and what the templates were made with.
+  Eigen::Vector2d blur_left = Eigen::Vector2d::Zero(), blur_right = Eigen::Vector2d::Zero();
+  Eigen::Vector2d made_blur_left = Eigen::Vector2d::Zero(), made_blur_right = Eigen::Vector2d::Zero();
+  bool sharper = false;  ///< the images of now are much sharper than that one: there is nothing to find in them
 };
 
 /// The surface through a point with slopes of disparity (d per px of u and v), in the left camera: plane . X = 1.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "health/edge_width.hpp"
+
 namespace swf_vo {
 
 using urban_nav_core::ImageView;
@@ -18,7 +20,8 @@ constexpr int row_step = 4;
 constexpr double dark_contrast = 2.0;
 // Matching removes mean and gain; beyond a factor of 1.6 between frames clipping begins to move the corners.
 constexpr double exposure_ratio = 1.6;
-constexpr double blur_ratio = 0.55;
+// A lens that is out of focus for so many frames is so for good: then it is the new usual.
+constexpr int longest_blur = 50;
 // An image that is suddenly white by half is no better than a black one: what is left of it is matched wrongly or not at all, and landmarks are worth
 // keeping for when the light is back. For so many frames it is not: then it is the new usual.
 constexpr int white = 250;
@@ -38,7 +41,7 @@ ImageCheck::Figures ImageCheck::measure(const ImageView& image, std::vector<std:
   const int columns = (image.width - 1) / column_step, rows = image.height / row_step;
   sample.resize(static_cast<std::size_t>(std::max(columns, 0)) * static_cast<std::size_t>(std::max(rows, 0)));
   if (sample.empty()) return {};
-  std::int64_t sum = 0, squares = 0, differences = 0, clipped = 0;
+  std::int64_t sum = 0, squares = 0, clipped = 0;
   std::size_t at = 0;
   for (int r = 0; r < rows; ++r) {
     const std::uint8_t* row = image.row(r * row_step);
@@ -48,7 +51,6 @@ ImageCheck::Figures ImageCheck::measure(const ImageView& image, std::vector<std:
       sum += value;
       clipped += value >= white ? 1 : 0;
       squares += value * value;
-      differences += std::abs(row[c * column_step + 1] - value);
     }
   }
   const double n = static_cast<double>(sample.size());
@@ -57,7 +59,7 @@ ImageCheck::Figures ImageCheck::measure(const ImageView& image, std::vector<std:
   figures.white = static_cast<double>(clipped) / n;
   figures.contrast =
       std::sqrt(std::max(0.0, static_cast<double>(squares) / n - figures.brightness * figures.brightness));
-  figures.sharpness = static_cast<double>(differences) / n / std::max(figures.contrast, 1.0);
+  figures.edges = edgeVariance(image);
   return figures;
 }
 
@@ -72,6 +74,7 @@ ImageVerdict ImageCheck::look(const StereoPair& pair, bool doubtful) {
   const Figures left = measure(pair.left, left_), right = measure(pair.right, right_);
   verdict.brightness = 0.5 * (left.brightness + right.brightness);
   verdict.contrast = std::min(left.contrast, right.contrast);
+  verdict.edges = {left.edges, right.edges};
 
   // The noise of a camera that runs changes some pixel of thousands, even if nothing moves.
   const bool frozen = !left_.empty() && (left_ == last_left_ || right_ == last_right_);
@@ -90,7 +93,6 @@ ImageVerdict ImageCheck::look(const StereoPair& pair, bool doubtful) {
     return verdict;
   }
 
-  const double sharpness = std::min(left.sharpness, right.sharpness);
   const double ratio = usual_brightness_ > 0.0 ? (verdict.brightness + 1.0) / (usual_brightness_ + 1.0) : 1.0;
   const bool washed_out = ratio > exposure_ratio && std::max(left.white, right.white) > white_share;
   if (washed_out) {
@@ -100,14 +102,23 @@ ImageVerdict ImageCheck::look(const StereoPair& pair, bool doubtful) {
     return verdict;
   }
   if (ratio > exposure_ratio || ratio < 1.0 / exposure_ratio) verdict.reason = Reason::ExposureJump;
-  else if (usual_sharpness_ > 0.0 && sharpness < blur_ratio * usual_sharpness_) verdict.reason = Reason::Blurred;
-  if ((doubtful || crossed || usual_sharpness_ < 0.0) && looksExchanged(pair.left, pair.right)) {
+  const bool first = usual_brightness_ < 0.0;
+  const bool wider = !first && !(widening(left.edges, usual_edges_.left).isZero() &&
+                                 widening(right.edges, usual_edges_.right).isZero());
+  blurred_ = wider ? blurred_ + 1 : 0;
+  const bool is_blurred = blurred_ > 0 && blurred_ <= longest_blur;
+  if (is_blurred) verdict.reason = Reason::Blurred;
+  if ((doubtful || crossed || first) && looksExchanged(pair.left, pair.right)) {
     verdict.exchange = true;
+    verdict.edges = {right.edges, left.edges};
     verdict.reason = Reason::Swapped;
   }
-  // What lasts is the new usual: a scene may be smoother than the one before, and auto-exposure arrives.
-  const double rate = usual_sharpness_ > 0.0 ? 0.1 : 1.0;
-  usual_sharpness_ += rate * (sharpness - usual_sharpness_);
+  // What lasts is the new usual: auto-exposure arrives.
+  const double rate = first || blurred_ > 0 ? 1.0 : 0.1;
+  if (!is_blurred) {
+    usual_edges_.left += rate * (left.edges - usual_edges_.left);
+    usual_edges_.right += rate * (right.edges - usual_edges_.right);
+  }
   usual_brightness_ =
       usual_brightness_ < 0.0 ? verdict.brightness : usual_brightness_ + 0.3 * (verdict.brightness - usual_brightness_);
   return verdict;

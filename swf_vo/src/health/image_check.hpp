@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <vector>
 
+#include "health/edge_width.hpp"
 #include "swf_vo/frame.hpp"
 #include "urban_nav_core/types/stereo_pair.hpp"
 
@@ -15,6 +17,7 @@ struct ImageVerdict {
   bool exchange = false;         ///< left and right are exchanged: use them the other way round
   Reason reason = Reason::None;  ///< the gravest finding
   double brightness = 0.0;       ///< mean grey level of both images
+  Edges edges;                   ///< how sharp they are
   double contrast = 0.0;         ///< standard deviation, grey levels, the lesser of the two images
 };
 
@@ -31,13 +34,14 @@ class ImageCheck {
     double brightness = 0.0;
     double white = 0.0;  ///< share of clipped pixels
     double contrast = 0.0;
-    double sharpness = 0.0;  ///< mean absolute difference of neighbours over the contrast
+    Eigen::Vector2d edges = Eigen::Vector2d::Zero();  ///< edgeVariance, px^2
   };
   Figures measure(const urban_nav_core::ImageView& image, std::vector<std::uint8_t>& sample) const;
 
   std::vector<std::uint8_t> left_, right_, last_left_, last_right_;  // every eighth pixel of every fourth row
   double usual_brightness_ = -1.0;
-  double usual_sharpness_ = -1.0;
+  Edges usual_edges_;
+  int blurred_ = 0;  // frames in a row whose edges are wider than usual
 };
 
 /// Does the scene lie behind the cameras? Compares textured blocks along the rows at a quarter of the resolution; true where by far most

@@ -112,10 +112,34 @@ TEST(ImageCheck, namesAJumpOfExposureOnceAndThenGetsUsedToIt) {
   EXPECT_EQ(check.look(Scene(40, 12.0, 2.2).pair(), false).reason, Reason::None);
 }
 
-TEST(ImageCheck, namesBlur) {
+/// The scene in steps of grey, so that it has edges; then spread over 5 x 5 pixels, `times` times.
+Scene stepped(unsigned seed, int times) {
+  Scene scene(seed, 12.0, 1.0, 3.0 * seed, 0.0);
+  for (auto* image : {&scene.left, &scene.right}) {
+    for (std::uint8_t& grey : *image) grey = static_cast<std::uint8_t>(grey / 24 * 24);
+    for (int i = 0; i < 2 * times; ++i) {
+      const std::vector<std::uint8_t> before = *image;
+      const std::size_t step = i % 2 == 0 ? 1 : width;
+      for (std::size_t at = 2 * step; at + 2 * step < before.size(); ++at)
+        (*image)[at] = static_cast<std::uint8_t>(
+            (before[at - 2 * step] + before[at - step] + before[at] + before[at + step] + before[at + 2 * step] + 2) /
+            5);
+    }
+  }
+  return scene;
+}
+
+TEST(ImageCheck, namesBlurAndGetsUsedToIt) {
   ImageCheck check;
-  for (unsigned i = 0; i < 5; ++i) check.look(Scene(i, 12.0).pair(), false);
-  EXPECT_EQ(check.look(Scene(9, 12.0, 1.0, 0.0, 0.05).pair(), false).reason, Reason::Blurred);
+  for (unsigned i = 0; i < 5; ++i) EXPECT_EQ(check.look(stepped(i, 0).pair(), false).reason, Reason::None) << i;
+  const ImageVerdict verdict = check.look(stepped(5, 2).pair(), false);
+  EXPECT_EQ(verdict.reason, Reason::Blurred);
+  EXPECT_TRUE(verdict.usable);
+  EXPECT_GT(verdict.edges.left.minCoeff(), 2.0);
+  unsigned frames = 6;
+  while (frames < 100 && check.look(stepped(frames, 2).pair(), false).reason == Reason::Blurred) ++frames;
+  EXPECT_GT(frames, 30U);
+  EXPECT_LT(frames, 100U);
 }
 
 TEST(ImageCheck, findsExchangedImagesAtTheStartAndLater) {

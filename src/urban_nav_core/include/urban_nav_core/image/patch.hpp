@@ -36,6 +36,12 @@ struct PatchSource {
 /// Empty if (u, v) is nearer than 8 px to the border; beyond the border the last pixel is repeated.
 std::optional<PatchSource> cutSource(const ImageView& image, int u, int v);
 
+/// The most that a source is to be blurred by, px^2 along each axis: of details of a pixel little is left then, and where that seems to stand
+/// depends on how exactly the camera blurs.
+inline constexpr double largest_blur = 1.0;
+/// The source as a camera would see it that is less sharp by a Gaussian of this variance (px^2 of the source along rows and columns, 0 ... largest_blur).
+PatchSource blurred(const PatchSource& source, const Eigen::Vector2d& variance);
+
 /// A source as it should look in another view, ready for alignment: a shift is a product of the filters with the image.
 struct alignas(16) PatchTemplate {
   PatchGrid value{};                                ///< grey levels, smoothed by the spline
@@ -53,6 +59,9 @@ struct alignas(16) PatchTemplate {
 /// Fills `made` with the source warped by A (view = A source). False if it has no texture in some direction, or A is
 /// degenerate (scale outside 0.4 ... 2.5); `made` is then of no use.
 bool warpTemplate(const PatchSource& source, const Eigen::Matrix2d& A, PatchTemplate& made);
+
+/// Where `other`, a template of the same size, seems to stand in `patch`, px: by how much what it has more or less of moves it.
+Eigen::Vector2d displacement(const PatchTemplate& patch, const PatchTemplate& other);
 
 struct Alignment {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< of the template's middle in the image, px

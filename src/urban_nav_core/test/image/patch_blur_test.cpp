@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "urban_nav_core/image/patch.hpp"
+
+namespace urban_nav_core {
+namespace {
+
+constexpr int width = 64;
+
+/// A corner as a lens of this blur shows it: where two edges cross.
+std::vector<std::uint8_t> corner(double sigma) {
+  const auto edge = [&](double x) { return 0.5 + 0.5 * std::erf(x / (std::sqrt(2.0) * sigma)); };
+  std::vector<std::uint8_t> pixels(width * width);
+  for (int v = 0; v < width; ++v)
+    for (int u = 0; u < width; ++u)
+      pixels[static_cast<std::size_t>(v * width + u)] =
+          static_cast<std::uint8_t>(std::lround(40.0 + 160.0 * edge(u - 32.8) * edge(v - 33.3)));
+  return pixels;
+}
+
+ImageView view(const std::vector<std::uint8_t>& pixels) { return {pixels.data(), width, width, width}; }
+
+// A corner moves into its bright side as it is blurred, and a template that is blurred as well moves along.
+TEST(PatchBlur, takesTheDisplacementOfACornerAway) {
+  const std::vector<std::uint8_t> sharp = corner(0.6), soft = corner(std::sqrt(0.36 + 1.0));
+  const auto source = cutSource(view(sharp), 32, 32);
+  ASSERT_TRUE(source);
+  PatchTemplate as_it_was, as_blurred;
+  ASSERT_TRUE(warpTemplate(*source, Eigen::Matrix2d::Identity(), as_it_was));
+  ASSERT_TRUE(warpTemplate(blurred(*source, {1.0, 1.0}), Eigen::Matrix2d::Identity(), as_blurred));
+  const Alignment wrong = alignPatch(view(soft), as_it_was, {32.0, 32.0}),
+                  right = alignPatch(view(soft), as_blurred, {32.0, 32.0});
+  ASSERT_TRUE(wrong.converged && right.converged);
+  const Eigen::Vector2d middle(32.0, 32.0);
+  EXPECT_GT((wrong.position - middle).norm(), 0.1);
+  EXPECT_LT((right.position - middle).norm(), 0.02);
+  const Eigen::Vector2d told = displacement(as_blurred, as_it_was);
+  EXPECT_NEAR(told.norm(), (wrong.position - middle).norm(), 0.6 * told.norm());
+}
+
+TEST(PatchBlur, ofNothingChangesNothing) {
+  const std::vector<std::uint8_t> sharp = corner(0.6);
+  const auto source = cutSource(view(sharp), 32, 32);
+  EXPECT_EQ(blurred(*source, Eigen::Vector2d::Zero()).pixels, source->pixels);
+}
+
+}  // namespace
+}  // namespace urban_nav_core

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "health/edge_width.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+
+namespace swf_vo {
+
+using urban_nav_core::ImageView;
+
+namespace {
+
+constexpr int column_step = 4, row_step = 4;
+constexpr int reach = 3;           // px: over which the slope of an edge is taken
+constexpr int steepest_part = 50;  // one in so many places: edges, even where most of the scene is smooth
+
+/// Places by how much the image rises over `reach` pixels there, and the squared change of its slope.
+struct Rises {
+  std::array<std::int32_t, 256> count{};
+  std::array<std::int64_t, 256> bends{};
+
+  void add(int a, int b, int c, int d) {
+    const auto rise = static_cast<std::size_t>(std::abs(d - a));
+    const int bend = (d - c) - (b - a);
+    ++count[rise];
+    bends[rise] += bend * bend;
+  }
+
+  double variance(std::int64_t places) const {
+    std::int64_t wanted = places / steepest_part + 1;
+    double slopes = 0.0, curved = 0.0;
+    for (std::size_t rise = count.size() - 1; rise > 0 && wanted > 0; --rise) {
+      const double r = static_cast<double>(rise) / reach;
+      slopes += static_cast<double>(count[rise]) * r * r;
+      curved += static_cast<double>(bends[rise]);
+      wanted -= count[rise];
+    }
+    return slopes > 0.0 ? slopes / std::max(curved, 1.0) : 0.0;
+  }
+};
+
+constexpr double noticed = 1.0;        // px^2
+constexpr double scenes_differ = 2.0;  // times
+
+}  // namespace
+
+Eigen::Vector2d edgeVariance(const ImageView& image) {
+  Rises across, down;
+  std::int64_t places = 0;
+  for (int v = 0; v + reach < image.height; v += row_step) {
+    const std::uint8_t *p = image.row(v), *q = image.row(v + 1), *r = image.row(v + 2), *s = image.row(v + 3);
+    for (int u = 0; u + reach < image.width; u += column_step, ++places) {
+      across.add(p[u], p[u + 1], p[u + 2], p[u + 3]);
+      down.add(p[u], q[u], r[u], s[u]);
+    }
+  }
+  return {across.variance(places), down.variance(places)};
+}
+
+Eigen::Vector2d widening(const Eigen::Vector2d& edges, const Eigen::Vector2d& others) {
+  Eigen::Vector2d more = Eigen::Vector2d::Zero();
+  for (int i = 0; i < 2; ++i)
+    if (edges[i] > std::max(scenes_differ * others[i], others[i] + noticed)) more[i] = edges[i] - others[i];
+  return more;
+}
+
+}  // namespace swf_vo
