@@ -10,7 +10,8 @@ namespace swf_vo {
 /// How wide the steepest edges of an image are, as the variance of a Gaussian, px^2 along rows (x) and columns (y): their slope over their
 /// curvature, squared. It says how blurred an image is, whatever its contrast and however many edges it has: a Gaussian of s px adds s^2 to it,
 /// within a fifth in streets, half as much again in rendered rooms, and up to three times as much where all edges are straight and alike; a sharp
-/// image has about 0.4. Noise makes an image look sharper, never less sharp. Zero without any contrast. Looks at every fourth pixel of every fourth row. Allocates nothing.
+/// image has about 0.4. Noise makes an image look sharper, never less sharp. Zero without any contrast.
+/// Looks at every fourth pixel of every fourth row. Allocates nothing.
 Eigen::Vector2d edgeVariance(const urban_nav_core::ImageView& image);
 
 /// How wide the edges of both images are (edgeVariance), px^2; zero: not known.
