@@ -77,6 +77,7 @@ void follow(const RenderedOptions& options, std::vector<Error>& errors) {
       return ImageView{image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)};
     };
     std::vector<MapPoint> known;
+    known.reserve(map.size());
     for (const auto& [id, point] : map) known.push_back(point);
     const Pose& T = sequence.truth[i];
     const FrontEndResult& result =
@@ -112,6 +113,7 @@ void follow(const RenderedOptions& options, std::vector<Error>& errors) {
 /// Without the few beyond four standard deviations (by the median), which are points on edges.
 double variance(const std::vector<double>& values) {
   std::vector<double> sizes;
+  sizes.reserve(values.size());
   for (const double value : values) sizes.push_back(std::abs(value));
   const double limit = 4.0 * 1.4826 * quantile(sizes, 0.5);
   double sum = 0.0;

@@ -8,31 +8,25 @@
 #include <string>
 #include <vector>
 
+#include "../test/play.hpp"
 #include "support/program.hpp"
-#include "swf_vo/swf_vo.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
-#include "urban_nav_core/testing/faults.hpp"
-#include "urban_nav_core/testing/rendered_sequence.hpp"
-#include "urban_nav_core/testing/sequence_folder.hpp"
 #include "urban_nav_core/testing/textured_room.hpp"
 #include "urban_nav_core/trajectory/nees.hpp"
 
 namespace {
 
 using namespace swf_vo;
-using urban_nav_core::Pose;
-using urban_nav_core::StampNs;
 using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
-using urban_nav_core::testing::Fault;
-using urban_nav_core::testing::parseFault;
 using urban_nav_core::testing::Recording;
 
 constexpr std::array<const char*, 11> faults = {"black:1.5:1",  "freeze:1.5:1",     "drop:1.5:1",   "drop:1:10:0.3",
                                                 "swap:1.5:1",   "blur:1.5:1",       "blur:1.5:1:2", "blur:0.5:3",
                                                 "noleft:1.5:1", "overexpose:1.5:1", "equal:1.5:0.5"};
 constexpr const char* none = "black:1000:1";
-constexpr std::size_t piece_frames = 70, room_frames = 80;
+constexpr std::size_t piece_frames = 70;
+constexpr int room_frames = 80;
 
 struct Outcome {
   double error = 0.0, nees = 0.0;
@@ -41,24 +35,16 @@ struct Outcome {
 };
 
 Outcome play(const Recording& recording, const std::string& what) {
-  const Fault fault = parseFault(what);
-  urban_nav_core::testing::FaultFilter filter({fault}, 1);
-  SwfVo odometry(Parameters(), recording.camera, Pose());
   Outcome outcome;
-  int since = -1;
-  bool begun = false;
-  for (std::size_t i = 0; i < recording.frames.size(); ++i) {
-    begun = begun || fault.isActive(recording.frames[i].stamp - recording.frames.front().stamp);
-    const auto arrived = filter.apply(recording.frames[i]);
-    if (!arrived) continue;
-    since += begun ? 1 : 0;
-    const Frame& frame = odometry.process(arrived->pair());
-    if (begun && outcome.blamed < 0 && frame.status.health != urban_nav_core::Health::Ok) outcome.blamed = since;
-    if (!frame.accepted) continue;
-    outcome.error = distanceBetween(recording.truth[i], frame.T_odom_base.pose);
-    outcome.nees = urban_nav_core::nees(recording.truth[i], frame.T_odom_base).value_or(0.0);
+  playWithFault(recording, what, [&](const Played& played) {
+    const Frame& frame = played.frame;
+    if (outcome.blamed < 0 && frame.status.health != urban_nav_core::Health::Ok) outcome.blamed = played.since;
+    if (!frame.accepted) return;
+    const urban_nav_core::Pose& truth = recording.truth[played.index];
+    outcome.error = distanceBetween(truth, frame.T_odom_base.pose);
+    outcome.nees = urban_nav_core::nees(truth, frame.T_odom_base).value_or(0.0);
     outcome.lost = frame.status.health == urban_nav_core::Health::Lost;
-  }
+  });
   return outcome;
 }
 
@@ -80,14 +66,7 @@ std::vector<Recording> rooms() {
       urban_nav_core::testing::RenderedSequence sequence(urban_nav_core::testing::texturedRoom({}, seed),
                                                          urban_nav_core::testing::namedMotion(motion, "room", seed),
                                                          options);
-      const auto& c = options.camera;
-      Recording room;
-      room.camera = {{c.fx, c.fy, c.cx, c.cy, c.width, c.height}, c.baseline};
-      for (int i = 0; i < static_cast<int>(room_frames); ++i) {
-        room.frames.push_back(sequence.frame(i));
-        room.truth.push_back(sequence.T_world_camera(0).inverse() * sequence.T_world_camera(i));
-      }
-      result.push_back(std::move(room));
+      result.push_back(urban_nav_core::testing::record(sequence, room_frames));
     }
   return result;
 }

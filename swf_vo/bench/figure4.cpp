@@ -131,7 +131,7 @@ void panel(std::ofstream& out, const std::vector<Curve>& curves, bool map, const
   out << "<rect x='" << left << "' y='" << top << "' width='" << width << "' height='" << height
       << "' fill='none' stroke='#888'/>\n";
   out << "<text x='" << left + width / 2 << "' y='" << top - 8 << "' text-anchor='middle'>" << title << "</text>\n";
-  for (double decade = bottom; decade <= ceiling; ++decade)
+  for (int decade = static_cast<int>(bottom); decade <= static_cast<int>(ceiling); ++decade)
     out << "<text x='" << left - 6 << "' y='" << y(std::pow(10.0, decade)) + 4 << "' text-anchor='end'>1e" << decade
         << "</text>\n";
   for (const int step : {1, 10, 100})

@@ -6,7 +6,6 @@
 
 namespace swf_vo {
 
-using urban_nav_core::Pose;
 using urban_nav_core::StampNs;
 using urban_nav_ros::StereoFeed;
 
@@ -41,7 +40,7 @@ Mounting mountingOf(const urban_nav_ros::StaticTransforms& transforms, const std
 }
 
 Session::Session(const Parameters& parameters, const NodeletParameters& nodelet,
-                 std::shared_ptr<const urban_nav_ros::StereoCalibration> calibration, const Mounting& mounting)
+                 const std::shared_ptr<const urban_nav_ros::StereoCalibration>& calibration, const Mounting& mounting)
     : feed_(feedOptions(parameters, nodelet), calibration),
       filter_(parameters, calibration->camera(), mounting.T_base_optical * calibration->T_optical_rectified()),
       wheels_(parameters.wheel_noise),

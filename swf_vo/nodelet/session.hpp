@@ -38,7 +38,7 @@ class Session {
  public:
   /// Throws UserError where the calibration is none.
   Session(const Parameters& parameters, const NodeletParameters& nodelet,
-          std::shared_ptr<const urban_nav_ros::StereoCalibration> calibration, const Mounting& mounting);
+          const std::shared_ptr<const urban_nav_ros::StereoCalibration>& calibration, const Mounting& mounting);
 
   void add(const SensorInput& input);
   /// The next stereo pair that is ready; process it before the next call.

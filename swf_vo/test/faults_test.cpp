@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What goes wrong with cameras, on the frames of a rendered room and of a real street: it is named, survived, and does not pass for knowledge.
-#include "urban_nav_core/testing/faults.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "play.hpp"
 #include "recordings.hpp"
 #include "urban_nav_core/trajectory/nees.hpp"
 
@@ -19,11 +18,7 @@ using urban_nav_core::Health;
 using urban_nav_core::Pose;
 using urban_nav_core::UncertainPose;
 using urban_nav_core::testing::dataFolder;
-using urban_nav_core::testing::Fault;
-using urban_nav_core::testing::FaultFilter;
-using urban_nav_core::testing::parseFault;
 using urban_nav_core::testing::readSequenceFolder;
-using urban_nav_core::testing::StereoFrame;
 
 struct Trouble {
   const char* fault;
@@ -40,28 +35,18 @@ struct Outcome {
 };
 
 Outcome play(const Recording& recording, const Trouble& trouble) {
-  FaultFilter faults({parseFault(trouble.fault)}, 1);
-  const Fault fault = parseFault(trouble.fault);
-  SwfVo filter(Parameters(), recording.camera, Pose());
   Outcome outcome;
-  bool begun = false;
-  int since = -1;
-  for (std::size_t i = 0; i < recording.frames.size(); ++i) {
-    const StereoFrame& frame = recording.frames[i];
-    begun = begun || fault.isActive(frame.stamp - recording.frames.front().stamp);
-    const auto arrived = faults.apply(frame);
-    if (!arrived) continue;
-    if (begun) ++since;
-    const Frame& now = filter.process(arrived->pair());
+  playWithFault(recording, trouble.fault, [&](const Played& played) {
+    const Frame& now = played.frame;
     expectProper(now);
     const auto& names = trouble.names;
-    if (outcome.named < 0 && begun &&
+    if (outcome.named < 0 &&
         std::find(names.begin(), names.end(), static_cast<Reason>(now.status.reason)) != names.end())
-      outcome.named = since;
-    if (!now.accepted) continue;
+      outcome.named = played.since;
+    if (!now.accepted) return;
     outcome.last = now;
-    outcome.truth = recording.truth[i];
-  }
+    outcome.truth = recording.truth[played.index];
+  });
   return outcome;
 }
 

@@ -29,13 +29,7 @@ inline Recording inTheRoom(const urban_nav_core::testing::Motion& motion, double
   options.camera = smallCamera();
   options.noise = noise;
   urban_nav_core::testing::RenderedSequence sequence(urban_nav_core::testing::texturedRoom(), motion, options);
-  Recording result;
-  result.camera = stereoCamera();
-  for (int i = 0; i < count; ++i) {
-    result.frames.push_back(sequence.frame(i));
-    result.truth.push_back(sequence.T_world_camera(0).inverse() * sequence.T_world_camera(i));
-  }
-  return result;
+  return record(sequence, count);
 }
 
 /// The room along one of the motions with a name, drawn once for all tests; it may be longer than asked for.

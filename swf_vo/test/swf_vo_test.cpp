@@ -5,9 +5,9 @@
 
 #include <vector>
 
+#include "play.hpp"
 #include "recordings.hpp"
 #include "urban_nav_core/testing/allocations.hpp"
-#include "urban_nav_core/testing/faults.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace swf_vo {
@@ -129,18 +129,15 @@ class SwfVoEfforts : public testing::TestWithParam<Effort> {};
 TEST_P(SwfVoEfforts, overcomeAPauseInTheMeasurements) {
   const Recording& room = inTheRoom("loop", 1.0, 70);
   for (const char* fault : {"blur:1:0.5", "blur:0.5:1.5", "black:0.7:1.5"}) {
-    FaultFilter faults({parseFault(fault)}, 1);
     Parameters parameters;
     parameters.window = GetParam().window;
     parameters.iterations = GetParam().iterations;
-    SwfVo filter(parameters, stereoCamera(), Pose());
     Frame last;
-    for (const StereoFrame& frame : room.frames) {
-      const auto arrived = faults.apply(frame);
-      if (!arrived) continue;
-      last = filter.process(arrived->pair());
+    const auto see = [&](const Played& played) {
+      last = played.frame;
       expectProper(last);
-    }
+    };
+    playWithFault(room, fault, see, parameters);
     EXPECT_NE(last.status.health, Health::Lost) << fault << ": did not recover: " << last.status;
     const Eigen::Matrix<double, 6, 1> d = boxMinus(room.truth.back(), last.T_odom_base.pose);
     const Matrix6d& P = last.T_odom_base.covariance;

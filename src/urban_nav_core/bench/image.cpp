@@ -47,7 +47,7 @@ ImageView view(const cv::Mat& image) {
 void pyramidOurs(benchmark::State& state) {
   const cv::Mat input = image();
   Pyramid pyramid(kLevels);
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     pyramid.build(view(input));
     benchmark::DoNotOptimize(pyramid.level(kLevels - 1).data);
   }
@@ -56,7 +56,7 @@ void pyramidOurs(benchmark::State& state) {
 void pyramidOpenCv(benchmark::State& state) {
   const cv::Mat input = image();
   std::vector<cv::Mat> levels(kLevels);
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     input.copyTo(levels[0]);
     for (std::size_t l = 1; l < kLevels; ++l) cv::pyrDown(levels[l - 1], levels[l]);
     benchmark::DoNotOptimize(levels.back().data);
@@ -69,7 +69,7 @@ void fastOurs(benchmark::State& state) {
   pyramid.build(view(input));
   Fast fast;
   std::size_t corners = 0;
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     corners = 0;
     for (int l = 0; l < kLevels; ++l) {
       corners +=
@@ -88,7 +88,7 @@ void fastOpenCv(benchmark::State& state) {
   }
   std::vector<cv::KeyPoint> found;
   std::size_t corners = 0;
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     corners = 0;
     for (const cv::Mat& level : levels) {
       cv::FAST(level, found, static_cast<int>(state.range(0)), true);
@@ -107,7 +107,7 @@ void cornersWithHarris(benchmark::State& state) {
   CornerGrid grid;
   std::vector<Corner> corners;
   std::size_t kept = 0;
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     kept = 0;
     for (int l = 0; l < kLevels; ++l) {
       const ImageView& level = pyramid.level(l);
@@ -124,7 +124,7 @@ void cornersWithHarris(benchmark::State& state) {
 void harrisOpenCv(benchmark::State& state) {
   const cv::Mat input = image();
   cv::Mat response;
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     cv::cornerHarris(input, response, 7, 3, kHarrisK);
     benchmark::DoNotOptimize(response.data);
   }
@@ -142,7 +142,7 @@ void remapOurs(benchmark::State& state) {
   camera.pinhole.height = input.rows;
   const RectifyMap map(camera, Matrix3d::Identity(), camera.pinhole);
   std::vector<std::uint8_t> out;
-  for (auto _ : state) benchmark::DoNotOptimize(map.remap(view(input), out).data);
+  while (state.KeepRunning()) benchmark::DoNotOptimize(map.remap(view(input), out).data);
 }
 
 void remapOpenCv(benchmark::State& state) {
@@ -153,7 +153,7 @@ void remapOpenCv(benchmark::State& state) {
   cv::Mat map1, map2, out;
   cv::initUndistortRectifyMap(K, std::vector<double>(k.begin(), k.end()), cv::noArray(), K, input.size(), CV_16SC2,
                               map1, map2);
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     cv::remap(input, out, map1, map2, cv::INTER_LINEAR);
     benchmark::DoNotOptimize(out.data);
   }

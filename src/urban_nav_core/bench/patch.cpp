@@ -33,7 +33,7 @@ void meanRemovedSadOfAPatch(benchmark::State& state) {
   const auto pixels = picture(0.0, 1.0);
   const SadPatch patch = sadPatch(view(pixels), 30, 30);
   int u = 20;
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     benchmark::DoNotOptimize(meanRemovedSad(patch, view(pixels), u, 31));
     u = 20 + (u + 1) % 20;
   }
@@ -44,7 +44,7 @@ void rowOfSads(benchmark::State& state) {
   const auto pixels = picture(0.0, 1.0);
   const SadPatch patch = sadPatch(view(pixels), 30, 30);
   int sads[48];
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     meanRemovedSads(patch, view(pixels), 6, 31, 48, sads);
     benchmark::DoNotOptimize(sads[0]);
   }
@@ -56,7 +56,7 @@ void warp(benchmark::State& state) {
   const auto source = *cutSource(view(pixels), 32, 32);
   const Eigen::Matrix2d A = 0.01 * static_cast<double>(state.range(0)) * Eigen::Matrix2d::Identity();
   PatchTemplate made;
-  for (auto _ : state) benchmark::DoNotOptimize(warpTemplate(source, A, made));
+  while (state.KeepRunning()) benchmark::DoNotOptimize(warpTemplate(source, A, made));
 }
 BENCHMARK(warp)->Arg(80)->Arg(100)->Arg(130);
 
@@ -65,7 +65,7 @@ void align(benchmark::State& state) {
   const auto first = picture(0.0, 1.0), second = picture(0.4, scale);
   PatchTemplate made;
   warpTemplate(*cutSource(view(first), 32, 32), scale * Eigen::Matrix2d::Identity(), made);
-  for (auto _ : state) benchmark::DoNotOptimize(alignPatch(view(second), made, {32.0, 32.0}));
+  while (state.KeepRunning()) benchmark::DoNotOptimize(alignPatch(view(second), made, {32.0, 32.0}));
 }
 BENCHMARK(align)->Arg(100)->Arg(130);
 
@@ -73,7 +73,7 @@ void across(benchmark::State& state) {
   const auto left = picture(0.0, 1.0), right = picture(-2.4, 1.0);
   const auto source = *cutSource(view(left), 32, 32);
   PatchTemplate made;
-  for (auto _ : state) benchmark::DoNotOptimize(alignAcross(view(right), source, {30.0, 32.0}, {}, made));
+  while (state.KeepRunning()) benchmark::DoNotOptimize(alignAcross(view(right), source, {30.0, 32.0}, {}, made));
 }
 BENCHMARK(across);
 

@@ -12,7 +12,7 @@ using namespace urban_nav_core::testing;
 
 void run(benchmark::State& state, RenderedSequence sequence) {
   int i = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(sequence.frame(i = (i + 37) % 480).left.pixels.data());
+  while (state.KeepRunning()) benchmark::DoNotOptimize(sequence.frame(i = (i + 37) % 480).left.pixels.data());
 }
 
 void room(benchmark::State& state) { run(state, RenderedSequence(texturedRoom(), namedMotion("loop", "room", 1), {})); }

@@ -76,6 +76,18 @@ int writeSequenceFolder(RenderedSequence& sequence, int frames, FaultFilter faul
   return static_cast<int>(poses.size());
 }
 
+Recording record(RenderedSequence& sequence, int frames) {
+  const RenderCamera& c = sequence.options().camera;
+  Recording recording;
+  recording.camera = {{c.fx, c.fy, c.cx, c.cy, c.width, c.height}, c.baseline};
+  const Pose T_first_world = sequence.T_world_camera(0).inverse();
+  for (int i = 0; i < frames; ++i) {
+    recording.frames.push_back(sequence.frame(i));
+    recording.truth.push_back(T_first_world * sequence.T_world_camera(i));
+  }
+  return recording;
+}
+
 Recording readSequenceFolder(const std::string& folder, std::size_t first, std::size_t count) {
   const fs::path root = folder;
   const std::vector<StampNs> stamps = readTimes((root / "times.txt").string());

@@ -76,10 +76,11 @@ Scene texturedStreet(const StreetSize& size, std::uint32_t seed) {
       which += 1 + static_cast<std::size_t>(between(0.0, 2.0));
       x += width + (between(0.0, 1.0) < 0.25 ? 2.5 : 0.0);
     }
-    for (double x = begin + between(0.0, 8.0); x < size.length; x += between(6.0, 17.0)) {
+    for (double x = begin + between(0.0, 8.0); x < size.length;) {
       const Pose T_world_car(expSo3(Vector3d(0.0, 0.0, between(-0.03, 0.03))), Vector3d(x, side * (kerb - 1.15), 0.0));
       street.addBox(T_world_car, {between(3.8, 4.8), 1.75, between(1.35, 1.9)}, cars[random() % cars.size()],
                     between(0.0, 9.0));
+      x += between(6.0, 17.0);
     }
   }
   return street;

@@ -22,7 +22,7 @@ using urban_nav_core::Pose;
 
 std::string dataFolder(const std::string& name) {
   const char* root = std::getenv("URBAN_NAV_DATA");
-  const std::string folder = root == nullptr ? "" : std::string(root) + "/stereo/" + name;
+  std::string folder = root == nullptr ? "" : std::string(root) + "/stereo/" + name;
   if (!folder.empty() && std::filesystem::exists(folder)) return folder;
   std::cerr << "left out: " << name << " is not below URBAN_NAV_DATA/stereo\n";
   return {};
@@ -85,6 +85,7 @@ Sequence rendered(const RenderedOptions& options) { return renderedAt({options.n
 
 Parameters parametersFrom(const std::vector<std::string>& settings) {
   std::vector<urban_nav_core::Assignment> assignments;
+  assignments.reserve(settings.size());
   for (const std::string& setting : settings) assignments.push_back(urban_nav_core::parseSetting(setting));
   urban_nav_core::refuseUnknownStages(assignments, {table().stage()});
   return urban_nav_core::load(table(), assignments).parameters;
@@ -117,6 +118,7 @@ double processorMs() {
 std::vector<Run> runTogether(const std::vector<Sequence>& sequences, const Parameters& parameters) {
   std::vector<Run> results(sequences.size());
   std::vector<SwfVo> filters;
+  filters.reserve(sequences.size());
   for (const Sequence& sequence : sequences) filters.emplace_back(parameters, sequence.camera, Pose());
   cv::Mat left, right;
   for (std::size_t i = 0; i < sequences.front().stamps.size(); ++i)

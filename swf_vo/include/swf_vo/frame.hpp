@@ -56,6 +56,7 @@ struct Statistics {
   int landmarks_in_prior = 0;              ///< of these, tied to frames that have left the window
   double disparity_offset_px = 0.0;        ///< of the camera, as estimated by now: what its calibration left
   double disparity_offset_sigma_px = 0.0;  ///< its standard deviation; 0 where it is not estimated
+  double row_offset_px = 0.0;  ///< by how much the right image shows everything lower than the left, as known by now
 };
 
 /// A frame as it leaves the window: the settled pose, which is final.

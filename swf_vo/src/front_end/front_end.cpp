@@ -109,6 +109,7 @@ class FrontEnd::Implementation {
     locate(turn(next ? last : T_odom_last_, predicted), predicted.inverse());
     for (Match& match : matches_) follow(frame, match);
     replenish(frame);
+    result_.row_offset_px = rows_.px();
     astray_ = !result_.localised && !matches_.empty();
     frame_ = frame;
     T_odom_last_ = result_.T_odom_camera;

@@ -26,6 +26,7 @@ struct FrontEndResult {
   int candidates = 0;                  ///< matches before outliers were removed
   double inlier_share = 0.0;
   double reprojection_px = 0.0;  ///< of the inliers, root mean square in the left image
+  double row_offset_px = 0.0;    ///< RowOffset, as known by now
 };
 
 /// How many landmarks are followed at a time in images of this size, of the parameter `features`.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "urban_nav_core/geometry/compose.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
@@ -89,6 +90,7 @@ void Filter::restart(FrameId frame, const ProcessInput& u, std::vector<SettledPo
   state_.poses.push_back(pose);
   newest_covariance_ = next.covariance;
   gauss_newton_.forget();
+  oldest_information_.reset();
   gain_valid_ = false;
   if (datum_.isActive()) {
     prior_.start(next.pose, Matrix6d::Identity() / (datum_sigma * datum_sigma));
@@ -130,10 +132,8 @@ void Filter::removeOldest(std::vector<SettledPose>& settled, History* history) {
   datum_.marginalised(departed.gauge_loss);
   const Vector6d per_px = datum_.releaseOffset(offset_sigma_, state_, prior_);
   departed.offset_gain += (departed.gauge_gain - left) * per_px;
-  std::size_t place = 0;
-  if (!gauss_newton_.inFactor(state_.first_step - 1, place) ||
-      !datum_.hold(gauss_newton_.ownInformation(place), options_.datum_ratio, state_, prior_))
-    return;
+  const std::optional<Matrix6d> own = std::exchange(oldest_information_, std::nullopt);
+  if (!own || !datum_.hold(*own, options_.datum_ratio, state_, prior_)) return;
   // The pose that left goes with the window as its gain says, not quite as a rigid piece of it: the rest stays in the
   // step.
   const Matrix6d gain = departed.gauge_gain, slack = gain - left;
@@ -238,6 +238,7 @@ void Filter::save(Checkpoint& checkpoint) const {
   checkpoint.newest_covariance = newest_covariance_;
   checkpoint.datum = datum_;
   checkpoint.offset_sigma = offset_sigma_;
+  checkpoint.oldest_information = oldest_information_;
 }
 
 void Filter::restore(const Checkpoint& checkpoint) {
@@ -246,6 +247,7 @@ void Filter::restore(const Checkpoint& checkpoint) {
   newest_covariance_ = checkpoint.newest_covariance;
   datum_ = checkpoint.datum;
   offset_sigma_ = checkpoint.offset_sigma;
+  oldest_information_ = checkpoint.oldest_information;
   gauss_newton_.forget();
 }
 
@@ -265,6 +267,7 @@ UpdateReport Filter::update() {
   const GaussNewton::Progress progress = gauss_newton_.run(state_, prior_, cost_, gauge_free_);
   newest_covariance_ = covarianceOf(state_.newestStep());
   offset_sigma_ = std::sqrt(gauss_newton_.solver().offsetVariance());
+  oldest_information_ = gauss_newton_.ownInformation(0);
   UpdateReport result = report(state_, cost_.sensor());
   result.iterations = progress.iterations;
   result.converged = progress.converged;

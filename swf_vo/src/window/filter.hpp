@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "window/cost.hpp"
@@ -50,6 +51,7 @@ class Filter {
     urban_nav_core::Matrix6d newest_covariance;
     Datum datum;
     double offset_sigma = 0.0;
+    std::optional<urban_nav_core::Matrix6d> oldest_information;
   };
   void save(Checkpoint& checkpoint) const;
   void restore(const Checkpoint& checkpoint);
@@ -95,6 +97,8 @@ class Filter {
   urban_nav_core::Matrix6d settled_apart_ =
       urban_nav_core::Matrix6d::Zero();  // added to it in the step to its neighbour
   Datum datum_;
+  std::optional<urban_nav_core::Matrix6d>
+      oldest_information_;   // of the oldest pose on itself at the last update, until it leaves
   bool has_known_ = false;   // landmarks whose places are given
   bool gauge_free_ = false;  // nothing says where odom is
 };

@@ -11,7 +11,9 @@ namespace swf_vo {
 /// that a measurement can go in or out of the past exactly (reversible data association, out-of-sequence measurements:
 /// Newman et al. 2009, section 2.2.1). What went into the prior since was linearised and weighted with it or without it; so the
 /// filter goes back to the step of the measurement and takes the later steps again: what results is, to the last bit, the filter
-/// that never had it, or had it in time. Costs `size` copies of state and prior, and as many updates as steps are taken again.
+/// that never had it, or had it in time. (Of the first `size` frames, before which nothing was marginalised, it goes in or out by
+/// itself, and the two agree as far as Gauss-Newton converges.) Costs `size` copies of state and prior, and as many updates as
+/// steps are taken again.
 class Undo {
  public:
   /// Before addPose: `marginalises` says whether this step will take information out of the window.

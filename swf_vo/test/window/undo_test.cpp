@@ -2,6 +2,9 @@
 // A measurement that is withdrawn or comes late leaves the filter that never had it, or had it in time (section 2.2.1).
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <map>
+
 #include "window/track_runner.hpp"
 
 namespace swf_vo {
@@ -10,6 +13,8 @@ namespace {
 using urban_nav_core::Matrix6d;
 
 constexpr std::size_t touched_frame = 14, change_frame = 18, last_frame = 24;
+constexpr std::size_t slides_from = 10, first_undone = 12;  // from there on every frame of six can be gone back to
+constexpr double px_a_frame = 0.4;
 
 urban_nav_core::testing::Tracks someTracks() {
   urban_nav_core::testing::TrackOptions motion;
@@ -28,13 +33,14 @@ WindowOptions sixPoses() {
   return options;
 }
 
-// A landmark that was seen before and after the touched frame.
-LandmarkId victim(const urban_nav_core::testing::Tracks& tracks) {
-  for (const auto& sighting : tracks.frames[touched_frame].sightings) {
+// A landmark, another than `but`, that was seen before and after the touched frame.
+LandmarkId victim(const urban_nav_core::testing::Tracks& tracks, std::size_t touched = touched_frame,
+                  LandmarkId but = -1) {
+  for (const auto& sighting : tracks.frames[touched].sightings) {
     int seen = 0;
-    for (std::size_t i = touched_frame - 2; i < touched_frame + 3; ++i)
+    for (std::size_t i = touched - 2; i < touched + 3; ++i)
       for (const auto& other : tracks.frames[i].sightings) seen += other.landmark == sighting.landmark;
-    if (seen == 5) return sighting.landmark;
+    if (seen == 5 && sighting.landmark != but) return sighting.landmark;
   }
   return -1;
 }
@@ -106,6 +112,114 @@ TEST(Undo, aLandmarkTakenBackInTheMiddleOfAStepIsGone) {
     never.step(before);
   }
   expectSame(had.window, never.window, 1e-9);
+}
+
+/// Tracks in which one landmark slides over its surface; the window gives up what strays after each update, as SwfVo has it done.
+class Sliding {
+ public:
+  using Wanted = std::function<bool(const Observation&)>;
+  using GivenUp = std::map<LandmarkId, std::size_t>;  ///< after the update of which frame
+
+  Sliding(const urban_nav_core::testing::Tracks& tracks, LandmarkId slides)
+      : sigma_px_(tracks.sigma_px), slides_(slides), run_(tracks, sixPoses()) {}
+
+  void step(const Wanted& wanted) {
+    observe(wanted);
+    if (run_.at() < first_undone) return;
+    for (const LandmarkId landmark : run_.window.strays()) {
+      given_up[landmark] = run_.at();
+      run_.window.withdrawAll(landmark);
+      run_.window.endLandmark(landmark);
+    }
+  }
+
+  /// The same with what another gave up: never seen from the frames that were in the window then, nor later.
+  void stepWithout(const GivenUp& others, const Wanted& wanted) {
+    observe([&](const Observation& o) {
+      const auto at = others.find(o.landmark);
+      return wanted(o) && (at == others.end() || o.frame + 5 < static_cast<FrameId>(at->second));
+    });
+    for (const auto& [landmark, frame] : others)
+      if (frame == run_.at()) run_.window.endLandmark(landmark);
+  }
+
+  Window& window() { return run_.window; }
+
+  GivenUp given_up;
+
+ private:
+  void observe(const Wanted& wanted) {
+    run_.beginStep();
+    for (Observation observation : run_.observations(next_)) {
+      observation.sigma_px = sigma_px_;
+      const double by = observation.landmark == slides_ && next_ > slides_from
+                            ? px_a_frame * static_cast<double>(next_ - slides_from)
+                            : 0.0;
+      observation.z += Eigen::Vector3d(by, 0.0, by);
+      if (given_up.count(observation.landmark) == 0 && wanted(observation)) run_.window.observe(observation);
+    }
+    run_.endStep();
+    ++next_;
+  }
+
+  double sigma_px_;
+  LandmarkId slides_;
+  TrackRunner run_;
+  std::size_t next_ = 0;
+};
+
+urban_nav_core::testing::Tracks manyTracks() {
+  urban_nav_core::testing::TrackOptions motion;
+  motion.seed = 5;
+  motion.frames = 30;
+  motion.sigma_px = 0.1;
+  return simulateTracks(motion);
+}
+
+bool everything(const Observation&) { return true; }
+
+TEST(Undo, strayLeavesNoTraceInTheWindow) {
+  const auto tracks = manyTracks();
+  const LandmarkId stray = victim(tracks);
+  Sliding had(tracks, stray), never(tracks, stray);
+  for (std::size_t i = 0; i <= last_frame; ++i) had.step(everything);
+  ASSERT_EQ(had.given_up.count(stray), 1U);
+  for (std::size_t i = 0; i <= last_frame; ++i) never.stepWithout(had.given_up, everything);
+  expectSame(had.window(), never.window(), 1e-9);
+}
+
+// The steps that are taken again go over the one after which the stray was given up.
+TEST(Undo, withdrawnAndLateMeasurementsCountRightAroundAStray) {
+  const auto tracks = manyTracks();
+  const LandmarkId stray = victim(tracks);
+  Sliding always(tracks, stray);
+  for (std::size_t i = 0; i <= last_frame; ++i) always.step(everything);
+  ASSERT_EQ(always.given_up.count(stray), 1U);
+  const std::size_t given_up = always.given_up[stray], touched = given_up - 2, change = given_up + 2;
+  const LandmarkId landmark = victim(tracks, touched, stray);
+  ASSERT_GE(landmark, 0);
+
+  Observation late;
+  const auto without = [&](const Observation& o) {
+    if (o.landmark != landmark || o.frame != static_cast<FrameId>(touched)) return true;
+    late = o;
+    return false;
+  };
+  Sliding withdrawn(tracks, stray), inserted(tracks, stray), never(tracks, stray);
+  for (std::size_t i = 0; i <= last_frame; ++i) {
+    if (i == change) {
+      EXPECT_TRUE(withdrawn.window().withdraw(landmark, static_cast<FrameId>(touched)));
+      EXPECT_TRUE(inserted.window().observe(late));
+    }
+    withdrawn.step(everything);
+    inserted.step(without);
+    never.step(without);
+  }
+  for (const Sliding* run : {&withdrawn, &inserted, &never}) ASSERT_EQ(run->given_up, always.given_up);
+  expectSame(withdrawn.window(), never.window(), 1e-9);
+  expectSame(inserted.window(), always.window(), 1e-9);
+  EXPECT_FALSE(urban_nav_core::isApprox(always.window().newest().pose, never.window().newest().pose, 1e-7))
+      << "it made no difference";
 }
 
 TEST(Undo, refusesWhatLeftTheWindow) {

@@ -11,7 +11,7 @@ struct TextLine {
   std::string text;
 };
 
-/// The lines of a small text file that are neither blank nor begin with '#' or '%'. UserError if it does not open.
+/// The lines of a small text file that are neither blank nor begin with '#' or '%'. UserError as readTextFile.
 std::vector<TextLine> readLines(const std::string& path);
 
 }  // namespace urban_nav

@@ -104,6 +104,9 @@ TEST(KittiFolder, namesFileAndLineOfWhatIsWrong) {
   writeFile(folder.file("in/times.txt"), "0.0\n0.1\n");
   EXPECT_NE(messageOf(open).find("2 stamps"), std::string::npos) << messageOf(open);
   std::filesystem::remove(folder.file("in/times.txt"));
+  std::filesystem::create_directory(folder.file("in/times.txt"));
+  EXPECT_EQ(messageOf(open), folder.file("in/times.txt") + ": is a folder: allowed a text file");
+  std::filesystem::remove(folder.file("in/times.txt"));
   writeFile(folder.file("in/calib.txt"), "P0: 1 0 0 0 0 1 0 0 0 0 1 0\nP1: 1 0 0 zero 0 1 0 0 0 0 1 0\n");
   EXPECT_NE(messageOf(open).find("calib.txt:2"), std::string::npos) << messageOf(open);
   writeFile(folder.file("in/calib.txt"), "P0: 200 0 100 0 0 200 90 0 0 0 1 0\nP1: 200 0 100 20 0 200 90 0 0 0 1 0\n");

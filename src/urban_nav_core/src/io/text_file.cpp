@@ -13,6 +13,7 @@ namespace urban_nav_core {
 
 std::string readTextFile(const std::string& path) {
   const auto fail = [&path](int code) {
+    if (code == EISDIR) throw UserError(path, "is a folder", "a text file");
     throw UserError(path, std::string("cannot be read: ") + std::strerror(code), "");
   };
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);

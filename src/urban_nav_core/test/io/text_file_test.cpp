@@ -40,7 +40,7 @@ TEST(TextFile, ReadsAllBytes) {
 TEST(TextFile, NamesTheFileThatCannotBeRead) {
   EXPECT_EQ(errorOf([] { readTextFile("/nowhere/poses.txt"); }),
             "/nowhere/poses.txt: cannot be read: No such file or directory");
-  EXPECT_EQ(errorOf([] { readTextFile("/tmp"); }), "/tmp: cannot be read: Is a directory");
+  EXPECT_EQ(errorOf([] { readTextFile("/tmp"); }), "/tmp: is a folder: allowed a text file");
 }
 
 }  // namespace

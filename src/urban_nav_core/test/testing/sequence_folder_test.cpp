@@ -77,6 +77,23 @@ TEST_F(SequenceFolder, AFolderWithSomethingInItIsLeftAlone) {
   EXPECT_FALSE(fs::exists(root_ / "full" / "calib.txt"));
 }
 
+TEST_F(SequenceFolder, IsReadBackAsItIsRecorded) {
+  RenderedSequence rendered = sequence();
+  writeSequenceFolder(rendered, 3, FaultFilter({}, 1), (root_ / "f").string());
+  const Recording read = readSequenceFolder((root_ / "f").string()), recorded = record(rendered, 3);
+  ASSERT_EQ(recorded.frames.size(), 3U);
+  ASSERT_EQ(recorded.truth.size(), 3U);
+  EXPECT_EQ(recorded.camera.left.fx, read.camera.left.fx);
+  EXPECT_EQ(recorded.camera.left.height, read.camera.left.height);
+  EXPECT_NEAR(recorded.camera.baseline, read.camera.baseline, 1e-12);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(recorded.frames[i].stamp, read.frames[i].stamp);
+    EXPECT_EQ(recorded.frames[i].left.pixels, read.frames[i].left.pixels);
+    EXPECT_EQ(recorded.frames[i].right.pixels, read.frames[i].right.pixels);
+    EXPECT_TRUE(isApprox(recorded.truth[i], read.truth[i], 1e-12)) << i;
+  }
+}
+
 TEST_F(SequenceFolder, ReadsBackAnyPieceOfIt) {
   RenderedSequence rendered = sequence();
   const std::string folder = (root_ / "f").string();

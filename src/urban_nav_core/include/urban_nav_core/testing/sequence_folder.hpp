@@ -25,7 +25,9 @@ struct Recording {
   std::vector<StereoFrame> frames;
   std::vector<Pose> truth;  ///< left camera in that of the first frame here, one per frame
 };
-/// At most `count` frames from `first` on; a missing file is a missing image. Throws UserError naming the file where calib.txt,
+/// The first `frames` frames of a sequence.
+Recording record(RenderedSequence& sequence, int frames);
+/// At most `count` frames of a folder from `first` on; a missing file is a missing image. Throws UserError naming the file where calib.txt,
 /// times.txt or poses.txt is absent or broken, or where there is no such frame.
 Recording readSequenceFolder(const std::string& folder, std::size_t first = 0, std::size_t count = 1'000'000);
 

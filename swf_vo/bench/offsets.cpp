@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What calibration and rectification left in a stereo pair, as the filter finds it: by how much the right image lies lower, and by how much
+// disparities are too large. Beside it the same on rendered images, where there is neither, with a calibration that says so and with one that does not.
+//   swf_vo-bench-offsets [FOLDER...] [-o results/offsets.json]
+// FOLDER: a sequence in KITTI's layout; default: the two real ones.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "support/program.hpp"
+#include "support/run.hpp"
+#include "urban_nav_core/testing/bench_table.hpp"
+
+namespace {
+
+using namespace swf_vo::bench;
+using urban_nav_core::testing::BenchTable;
+using urban_nav_core::testing::cell;
+
+constexpr double wrong_px = 0.2;  // what the calibration says of the disparities, which are exact
+
+void add(BenchTable& table, const std::string& name, const Run& run, const std::string& truth) {
+  const std::vector<swf_vo::Statistics>& found = run.statistics;
+  const swf_vo::Statistics &tenth = found[std::min<std::size_t>(9, found.size() - 1)], &last = found.back();
+  table.add({name, cell(found.front().row_offset_px, 3), cell(tenth.row_offset_px, 3), cell(last.row_offset_px, 3),
+             cell(last.disparity_offset_px, 3), cell(last.disparity_offset_sigma_px, 3), truth});
+}
+
+void addRendered(BenchTable& table, const RenderedOptions& options) {
+  std::vector<Sequence> sequences = renderedAt({options.noise, options.noise}, options);
+  sequences[1].camera.disparity_offset = wrong_px;
+  const std::vector<Run> runs = runTogether(sequences, swf_vo::Parameters());
+  add(table, options.scene + ", rendered", runs[0], "0");
+  add(table, options.scene + ", rendered; told " + cell(wrong_px, 1) + " px", runs[1], "0");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  const FoldersAndOutput asked = foldersAndOutput(argc, argv);
+  BenchTable table({"sequence", "right image lower by, px: frame 1", "frame 10", "at the end",
+                    "disparities too large by, px, at the end", "its standard deviation, px", "truth, px"},
+                   argc, argv);
+  for (const std::string& folder : asked.folders) {
+    const Sequence sequence = kittiFolder(folder);
+    add(table, sequence.name, run(sequence, swf_vo::Parameters()), "");
+  }
+  RenderedOptions room;
+  addRendered(table, room);
+  RenderedOptions street;
+  street.scene = "street";
+  street.rate = 10.0;
+  street.camera = {718.9, 718.9, 620.0, 187.5, 1241, 376, 0.537, 0.5};
+  addRendered(table, street);
+  return show(table, asked.output);
+} catch (const std::exception& error) {
+  return complain(error);
+}
