@@ -172,15 +172,10 @@ class FrontEnd::Implementation {
     return Pose(correction, Eigen::Vector3d::Zero()) * predicted.inverse();
   }
 
-  /// By what the images are less sharp than when the track was born; in both by the same, where it is about the same: a difference would go into
-  /// the disparity.
+  /// By what the images are less sharp than when the track was born; in both by the same: a difference would go into the disparity.
   void setBlur(Track& track) const {
     const double size = 1.0 / urban_nav_core::Pyramid::scale(track.level);
-    Eigen::Vector2d left = widening(edges_.left, track.born_edges), right = widening(edges_.right, track.born_edges);
-    for (int i = 0; i < 2; ++i)
-      if (left[i] > 0.0 && right[i] > 0.0) left[i] = right[i] = 0.5 * (left[i] + right[i]);
-    track.blur_left = left / (size * size);
-    track.blur_right = right / (size * size);
+    track.blur = widening(edges_, {track.born_edges, track.born_edges}) / (size * size);
     track.sharper = !widening(track.born_edges, edges_.left.cwiseMax(edges_.right)).isZero();
   }
 
@@ -355,7 +350,7 @@ class FrontEnd::Implementation {
       return;
     }
     // Less or more sharp than it was, it is looked for in vain, or found elsewhere; that says nothing of it.
-    const bool unlike = track.sharper || !track.blur_left.isZero() || !track.blur_right.isZero();
+    const bool unlike = track.sharper || !track.blur.isZero();
     if (unlike && ++track.aside <= longest_aside) return;
     if (result_.localised && (match.measured || match.contradicted)) {
       ++track.disagreed;

@@ -36,7 +36,7 @@ double inverseDepthWhereBorn(const Match& match) {
 bool prepareTemplate(Side side, const StereoCamera& camera, const Pose& T_camera_odom, Match& match) {
   Track& track = *match.track;
   const bool is_left = side == Side::Left;
-  const Eigen::Vector2d& blur = is_left ? track.blur_left : track.blur_right;
+  const Eigen::Vector2d& blur = track.blur;
   if (track.sharper || blur.maxCoeff() > urban_nav_core::largest_blur) return false;
   const Pose T_camera_born = T_camera_odom * track.T_born_odom.inverse();
   const auto A = warpInto(side, camera, track, T_camera_born, inverseDepthWhereBorn(match));

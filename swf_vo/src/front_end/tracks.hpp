@@ -42,7 +42,7 @@ struct Track {
   bool left_ready = false, right_ready = false;
   Eigen::Vector2d born_edges = Eigen::Vector2d::Zero();  ///< edgeVariance of the image it was cut from, px^2 of level 0
   /// What the images of now are less sharp by than that one, px^2 of its level along rows and columns, and what the templates were made with.
-  Eigen::Vector2d blur_left = Eigen::Vector2d::Zero(), blur_right = Eigen::Vector2d::Zero();
+  Eigen::Vector2d blur = Eigen::Vector2d::Zero();
   Eigen::Vector2d made_blur_left = Eigen::Vector2d::Zero(), made_blur_right = Eigen::Vector2d::Zero();
   bool sharper = false;  ///< the images of now are much sharper than that one: there is nothing to find in them
 };

@@ -66,4 +66,9 @@ Eigen::Vector2d widening(const Eigen::Vector2d& edges, const Eigen::Vector2d& ot
   return more;
 }
 
+Eigen::Vector2d widening(const Edges& edges, const Edges& others) {
+  const Eigen::Vector2d left = widening(edges.left, others.left), right = widening(edges.right, others.right);
+  return (left.array() > 0.0 && right.array() > 0.0).select(0.5 * (left + right), 0.0);
+}
+
 }  // namespace swf_vo

@@ -21,5 +21,8 @@ struct Edges {
 
 /// By how much edges are wider than others, px^2, each along its axis: zero unless it is a pixel's width more, and more than scenes differ by.
 Eigen::Vector2d widening(const Eigen::Vector2d& edges, const Eigen::Vector2d& others);
+/// The mean of both images where edges are wider in both of them, along each axis: one of them alone is something else, as a thing with soft edges
+/// that only one camera sees.
+Eigen::Vector2d widening(const Edges& edges, const Edges& others);
 
 }  // namespace swf_vo

@@ -103,8 +103,7 @@ ImageVerdict ImageCheck::look(const StereoPair& pair, bool doubtful) {
   }
   if (ratio > exposure_ratio || ratio < 1.0 / exposure_ratio) verdict.reason = Reason::ExposureJump;
   const bool first = usual_brightness_ < 0.0;
-  const bool wider = !first && !(widening(left.edges, usual_edges_.left).isZero() &&
-                                 widening(right.edges, usual_edges_.right).isZero());
+  const bool wider = !first && !widening(verdict.edges, usual_edges_).isZero();
   blurred_ = wider ? blurred_ + 1 : 0;
   const bool is_blurred = blurred_ > 0 && blurred_ <= longest_blur;
   if (is_blurred) verdict.reason = Reason::Blurred;

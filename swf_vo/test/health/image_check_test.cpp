@@ -142,6 +142,14 @@ TEST(ImageCheck, namesBlurAndGetsUsedToIt) {
   EXPECT_LT(frames, 100U);
 }
 
+TEST(ImageCheck, DoesNotTakeOneSoftImageForBlur) {
+  ImageCheck check;
+  for (unsigned i = 0; i < 5; ++i) check.look(stepped(i, 0).pair(), false);
+  Scene one_soft = stepped(5, 0);
+  one_soft.right = stepped(5, 2).right;
+  EXPECT_EQ(check.look(one_soft.pair(), false).reason, Reason::None);
+}
+
 TEST(ImageCheck, findsExchangedImagesAtTheStartAndLater) {
   ImageCheck fresh;
   EXPECT_TRUE(fresh.look(Scene(1, 14.0).exchanged(), false).exchange);
