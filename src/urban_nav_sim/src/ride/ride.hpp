@@ -10,11 +10,11 @@ namespace urban_nav_sim {
 
 /// How the robot moves at one time. All from one twice differentiable function of time, so they agree exactly.
 struct Moment {
-  urban_nav_core::Pose T_world_base;      ///< base_link: on the ground between the wheels, x forward, y left
-  Eigen::Vector3d velocity_world;         ///< of base_link, m/s
-  Eigen::Vector3d acceleration_world;     ///< m/s^2, gravity not included
-  Eigen::Vector3d rate_base;              ///< angular, in the axes of base_link, rad/s
-  Eigen::Vector3d rate_change_base;       ///< its derivative there, rad/s^2
+  urban_nav_core::Pose T_world_base;   ///< base_link: on the ground between the wheels, x forward, y left
+  Eigen::Vector3d velocity_world;      ///< of base_link, m/s
+  Eigen::Vector3d acceleration_world;  ///< m/s^2, gravity not included
+  Eigen::Vector3d rate_base;           ///< angular, in the axes of base_link, rad/s
+  Eigen::Vector3d rate_change_base;    ///< its derivative there, rad/s^2
 };
 
 /// The true way of a session. Immutable, so thread-safe.
