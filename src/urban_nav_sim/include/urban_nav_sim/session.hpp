@@ -34,8 +34,14 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// The next one in order of stamps (of true ones, where a fault changes them); empty at the end.
-  std::optional<Measurement> next();
+  struct Arrival {
+    Measurement measurement;
+    urban_nav_core::StampNs taken = 0;  ///< when it was truly taken, whatever its stamp says
+  };
+  /// The next one, in the order in which they were taken; empty at the end.
+  std::optional<Arrival> next();
+  /// Where the robot truly was at a time that is not a fault's.
+  urban_nav_core::Pose truth(urban_nav_core::StampNs taken) const;
 
   /// True stamp of t = 0.
   urban_nav_core::StampNs begin() const;
