@@ -34,8 +34,8 @@ double logarithm(double u) {
 
 // cos(2 pi v) for 0 <= v < 1: an eighth of a turn about the nearest quarter, by Taylor's series, to the last bits.
 double cosineOfTurn(double v) {
-  const int quarter = static_cast<int>(v * 4.0 + 0.5);
-  const double x = 6.2831853071795865 * (v - 0.25 * quarter), x2 = x * x;
+  const auto quarter = std::lround(v * 4.0);
+  const double x = 6.2831853071795865 * (v - 0.25 * static_cast<double>(quarter)), x2 = x * x;
   double cosine = 1.0, sine = 1.0;
   for (int k = 16; k >= 2; k -= 2) {
     cosine = 1.0 - cosine * x2 / (k * (k - 1));

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kArrived = 0.15;        // m before a stop
 constexpr double kWindow = 1.2;          // m of the way on which the robot may find itself next
+constexpr double kBetween = 0.02;        // m between the places on it that are compared
 constexpr double kBend = 1.5;            // m over which a bend is judged
 constexpr double kBendTurn = 0.75;       // rad/s in a bend
 constexpr double kLeastBendSpeed = 0.3;  // m/s
@@ -45,7 +46,9 @@ Eigen::Vector2d Driver::wantedPlace(double s, double stop) const {
 void Driver::comeAlong(const SegwayState& state, double stop) {
   const double from = along_, to = std::min(from + kWindow, stop);
   double least = (way_.at(from) - state.position).norm();
-  for (double s = from; s <= to; s += 0.02) {
+  const auto places = static_cast<int>((to - from) / kBetween);
+  for (int i = 0; i <= places; ++i) {
+    const double s = from + i * kBetween;
     const double distance = (way_.at(s) - state.position).norm();
     if (distance > least) continue;
     least = distance;
@@ -55,8 +58,9 @@ void Driver::comeAlong(const SegwayState& state, double stop) {
 
 double Driver::allowedSpeed(double stop) const {
   double allowed = std::min(way_.speed(along_), kTopSpeed) * (1.0 + 0.05 * smoothNoise(haste_, along_ / 8.0));
-  for (double ahead = 0.0; ahead < 2.6 && along_ + ahead < stop; ahead += 0.2) {
-    const double s = along_ + ahead;
+  for (int i = 0; i < 13; ++i) {
+    const double ahead = 0.2 * i, s = along_ + ahead;
+    if (s >= stop) break;
     const Eigen::Vector2d before = way_.direction(std::max(s - 0.5 * kBend, passed_));
     const Eigen::Vector2d after = way_.direction(std::min(s + 0.5 * kBend, stop - 1e-6));
     const double bend = std::abs(std::atan2(before.x() * after.y() - before.y() * after.x(), before.dot(after)));

@@ -31,7 +31,7 @@ class Pushes {
     SegwayDisturbance pushes;
     pushes.slope = slope;
     pushes.pitch_push = 0.06 * strength * sway(pitch_, t);
-    pushes.turn_push = 0.08 * strength * sway(turn_, t);
+    pushes.turn_push = 0.15 * strength * sway(turn_, t);
     return pushes;
   }
 

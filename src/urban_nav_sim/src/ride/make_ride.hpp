@@ -14,7 +14,7 @@ struct RideOptions {
   std::uint64_t seed = 1;    ///< of hand and ground: two rides of one route are never equal
   double start = 0.0;        ///< m along the route at which the ride begins; longer ones begin in a later round
   double wander = 0.08;      ///< how far the driver strays to the side of the straight way, m (standard deviation)
-  double roughness = 1.0;    ///< of the ground under the wheels: 0 as World::ground is, 1 paving, 3 gravel
+  double roughness = 1.0;    ///< of the ground under the wheels: 0 as World::ground is, 0.5 paving, 1 gravel
   double oscillation = 1.0;  ///< of the pendulum: 0 none, 1 some 0.3 deg of pitch
 };
 

@@ -109,6 +109,7 @@ std::vector<Closure> falseClosures(const Trajectory& panoramas, std::size_t coun
     if (pairs.size() == i) break;
   }
   std::vector<Closure> closures;
+  closures.reserve(pairs.size());
   for (const auto& [b, a] : pairs) closures.push_back({a, b, sure(noise.of("sure"), closures.size())});
   return closures;
 }

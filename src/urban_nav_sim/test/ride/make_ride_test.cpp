@@ -112,7 +112,7 @@ TEST(MakeRide, WheelsStayOnSlopedGround) {
         most = std::max(most, std::abs(gapOf(world, moment.T_world_base * on_body)));
       }
     }
-    EXPECT_LT(most, roughness == 0.0 ? 5e-4 : 8e-3);
+    EXPECT_LT(most, roughness == 0.0 ? 5e-4 : 0.025);
   }
 }
 
@@ -121,7 +121,7 @@ TEST(MakeRide, BaseLinkStaysOnTheGroundBetweenTheWheels) {
   const auto ride = makeRide(world, loop(), optionsFor(60.0));
   for (double t = 0.0; t < 60.0; t += 0.1) {
     const Vector3d p = ride->at(t).T_world_base.t();
-    EXPECT_NEAR(p.z(), world.ground(p.x(), p.y()), 0.012) << t;
+    EXPECT_NEAR(p.z(), world.ground(p.x(), p.y()), 0.03) << t;
   }
 }
 
