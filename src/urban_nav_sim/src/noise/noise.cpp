@@ -47,6 +47,12 @@ double cosineOfTurn(double v) {
 
 }  // namespace
 
+double normalFrom(std::uint64_t bits) {
+  const double radius = (static_cast<double>(bits >> 32) + 0.5) * 0x1.0p-32;
+  const double turn = static_cast<double>(bits & 0xffffffffU) * 0x1.0p-32;
+  return std::sqrt(-2.0 * logarithm(radius)) * cosineOfTurn(turn);
+}
+
 Noise::Noise(std::uint64_t seed, std::uint64_t number)
     : start_(mixed(mixed(seed + kGolden) + number * kGolden)), step_(mixed(start_ + kGolden) | 1U) {
   // Steps whose bits hardly alternate mix badly (section 4.3 there).
@@ -57,13 +63,6 @@ Noise::Noise(std::uint64_t seed, std::string_view name) : Noise(seed, hashOf(nam
 
 Noise Noise::of(std::uint64_t number) const { return Noise(start_ ^ step_, number); }
 Noise Noise::of(std::string_view name) const { return Noise(start_ ^ step_, hashOf(name)); }
-
-double Noise::normal(std::uint64_t counter) const {
-  const std::uint64_t both = bits(counter);
-  const double radius = (static_cast<double>(both >> 32) + 0.5) * 0x1.0p-32;
-  const double turn = static_cast<double>(both & 0xffffffffU) * 0x1.0p-32;
-  return std::sqrt(-2.0 * logarithm(radius)) * cosineOfTurn(turn);
-}
 
 Eigen::Vector3d Noise::normal3(std::uint64_t counter) const {
   const Noise three = of(counter);

@@ -7,6 +7,10 @@
 
 namespace urban_nav_sim {
 
+/// Mean 0, variance 1, normal to the resolution of 32 bits: |value| at most 6.8 (Box and Muller 1958, one of the two), of
+/// 64 even bits.
+double normalFrom(std::uint64_t bits);
+
 /// A stream of random numbers as a function of a counter: no state, so any thread may ask for any number in any order,
 /// and asking twice gives the same. Streams are told apart by a seed and a name (or number); those of one seed are
 /// independent of each other. Only whole numbers and + - * / sqrt on doubles are used, never a function of libm, so the
@@ -37,8 +41,8 @@ class Noise {
   }
   /// True with this probability.
   bool chance(std::uint64_t counter, double probability) const { return uniform(counter) < probability; }
-  /// Mean 0, variance 1, normal to the resolution of 32 bits: |value| at most 6.8 (Box and Muller 1958, one of the two).
-  double normal(std::uint64_t counter) const;
+  /// normalFrom(bits(counter)).
+  double normal(std::uint64_t counter) const { return normalFrom(bits(counter)); }
   /// Three that are independent; a counter here shares nothing with the same counter of `normal`.
   Eigen::Vector3d normal3(std::uint64_t counter) const;
   /// The sum of the eight bytes, scaled: mean 0, variance 1, steps of 1/209, |value| at most 4.9, fourth moment 2.85
