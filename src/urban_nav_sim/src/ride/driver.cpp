@@ -21,7 +21,7 @@ constexpr double kHaste = 0.65;          // m/s^2: change of the wanted speed
 constexpr double kLag = 0.4;             // s: the robot slows down after it is told to
 constexpr double kCreep = 0.14;          // m/s: turning round is done in a small arc
 constexpr double kSteering = 2.2;        // 1/s
-constexpr double kNever = 1e9;           // m
+constexpr double kNever = 1e9;           // m: where there is no stop any more
 
 double wrapped(double angle) { return std::remainder(angle, 2.0 * M_PI); }
 
@@ -73,14 +73,9 @@ double Driver::allowedSpeed(double stop) const {
 double Driver::wantedSpeed(const SegwayState& state, double off_course, double stop) const {
   if (waiting_ > 0.0) return 0.0;
   const double facing = std::max(std::cos(off_course), 0.0);
-  double speed = kCreep + (allowedSpeed(stop) - kCreep) * facing * facing;
-  const auto next = way_.nextStop(passed_);
-  if (next) {
-    const double there = std::min((way_.at(stop) - state.position).norm(), stop - along_ + 0.5);
-    const double left = std::max(there - kArrived - kLag * std::max(state.speed, 0.0), 0.0);
-    speed = std::min(speed, std::sqrt(kCreep * kCreep + 2.0 * kBraking * left));
-  }
-  return speed;
+  const double on_course = kCreep + (allowedSpeed(stop) - kCreep) * facing * facing;
+  const double left = std::max(stop - along_ - kArrived - kLag * std::max(state.speed, 0.0), 0.0);
+  return std::min(on_course, std::sqrt(kCreep * kCreep + 2.0 * kBraking * left));
 }
 
 SegwayCommand Driver::steer(const SegwayState& state, double dt) {
@@ -90,10 +85,10 @@ SegwayCommand Driver::steer(const SegwayState& state, double dt) {
     waiting_ -= dt;
   } else {
     comeAlong(state, stop);
-    const Eigen::Vector2d to_stop =
-        next ? Eigen::Vector2d(way_.at(stop) - state.position) : Eigen::Vector2d(kNever, 0.0);
-    const bool past = to_stop.dot(way_.direction(stop - 1e-6)) < 0.0 && to_stop.norm() < 1.0;
-    if (next && (to_stop.norm() < kArrived || past)) {
+    const Eigen::Vector2d to_stop = way_.at(stop) - state.position;
+    // The way may come by a stop's place before it is its turn.
+    const bool near = along_ > stop - kWindow;
+    if (near && (to_stop.norm() < kArrived || to_stop.dot(way_.direction(stop - 1e-6)) < 0.0)) {
       along_ = passed_ = stop;
       waiting_ = next->pause;
     }
