@@ -10,9 +10,9 @@
 namespace urban_nav_sim {
 namespace {
 
-constexpr double kStep = 0.02;                        // m: of the differences that give the gradient
+constexpr double kStep = 0.02;                          // m: of the differences that give the gradient
 constexpr double kShort = 0.12, kShortHeight = 1.2e-3;  // m: spacing of the lattice and standard deviation
-constexpr double kLong = 0.5, kLongHeight = 5e-3;     // m
+constexpr double kLong = 0.5, kLongHeight = 6e-3;       // m
 
 // The height of the centre of a wheel that touches the ground in one point, r along the normal below it.
 double wheelCentre(const RoughGround& ground, const Eigen::Vector2d& centre) {

@@ -12,8 +12,8 @@ namespace urban_nav_sim {
 /// it, nothing is shorter than 0.24 m. Immutable, so thread-safe.
 class RoughGround {
  public:
-  /// `roughness` 1: 1.2 mm (standard deviation) of some 0.3 m length and 5 mm of 1 m, which rocks the robot as the
-  /// gravel of the New College log does (roll about its trend over 3.5 s: 0.4 deg, there 0.5). An empty function is
+  /// `roughness` 1: 1.2 mm (standard deviation) of some 0.3 m length and 6 mm of 1 m, which rocks the robot as the
+  /// gravel of the New College log does (roll about its trend over 3.5 s: 0.45 deg, there 0.5). An empty function is
   /// level ground.
   RoughGround(std::function<double(double, double)> smooth, double roughness, const Noise& noise);
 

@@ -30,15 +30,15 @@ class Pushes {
     const double strength = strength_ * (0.3 + 0.7 * std::min(std::abs(speed), 1.0));
     SegwayDisturbance pushes;
     pushes.slope = slope;
-    pushes.pitch_push = 0.06 * strength * sway(pitch_, t);
-    pushes.turn_push = 0.15 * strength * sway(turn_, t);
+    pushes.pitch_push = 0.105 * strength * sway(pitch_, t);
+    pushes.turn_push = 0.2 * strength * sway(turn_, t);
     return pushes;
   }
 
  private:
-  // What it does it undoes 0.6 s later: a lasting push would drive the robot away.
+  // What it does it undoes 0.45 s later: a lasting push would drive the robot away.
   static double sway(const Noise& noise, double t) {
-    return smoothNoise(noise, t / 0.12) - smoothNoise(noise, t / 0.12 - 5.0);
+    return std::clamp(smoothNoise(noise, t / 0.09) - smoothNoise(noise, t / 0.09 - 5.0), -3.0, 3.0);
   }
 
   double strength_;
@@ -61,10 +61,9 @@ std::unique_ptr<Ride> makeRide(const World& world, const Route& route, const Rid
   const Pushes pushes(options.oscillation, noise.of("pushes"));
   Driver driver(way, options.start, options.wander, noise.of("hand"));
 
-  SegwayState state;
-  state.position = way.at(options.start);
-  const Eigen::Vector2d forward = way.direction(options.start);
-  state.yaw = std::atan2(forward.y(), forward.x());
+  const Eigen::Vector2d place = way.at(options.start), forward = way.direction(options.start);
+  const double yaw = std::atan2(forward.y(), forward.x());
+  SegwayState state = standingSegway(place, yaw, ground.slope(place.x(), place.y(), yaw));
 
   // A spline of degree five begins two steps behind its first control point.
   const auto before = static_cast<int>(std::ceil(kMargin / kKnot)) + 3;

@@ -27,7 +27,7 @@ std::unique_ptr<Ride> makeRide(const World& world, const Route& route, const Rid
 constexpr double kClosed = 2.0;        ///< m
 constexpr double kWheelRadius = 0.24;  ///< m, of a Segway RMP200
 constexpr double kTrack = 0.54;        ///< m from wheel to wheel
-constexpr double kTopSpeed = 1.38;     ///< m/s that is steered for; Tables 2 and 3 have up to 1.53
+constexpr double kTopSpeed = 1.30;     ///< m/s that is steered for; Tables 2 and 3 have up to 1.53
 constexpr double kTopTurn = 1.13;      ///< rad/s that is steered for; Tables 2 and 3 have up to 75 deg/s
 
 }  // namespace urban_nav_sim

@@ -20,13 +20,24 @@ constexpr double kMostLean = 0.09;                                 // rad: 0.9 m
 constexpr double kTurnLag = 0.18;                                  // s
 constexpr double kMostTurnChange = 3.0;                            // rad/s^2
 
+// How far in front of the axle the wheel touches a slope, as the sine of the lean that brings the mass above it.
+double footOf(double slope) { return kWheelRadius / kMass * std::sin(slope); }
+
 }  // namespace
+
+SegwayState standingSegway(const Eigen::Vector2d& position, double yaw, double slope) {
+  SegwayState state;
+  state.position = position;
+  state.yaw = yaw;
+  state.pitch = std::asin(footOf(slope));
+  return state;
+}
 
 SegwayState stepSegway(const SegwayState& state, const SegwayCommand& command, const SegwayDisturbance& disturbance,
                        double dt) {
   // The lean that would hold the acceleration; the stiffness has gravity to overcome first.
   const double wanted = kSpeedGain * (command.speed - state.speed) / kGravity * (kStiffness - kGravity) / kStiffness;
-  const double foot = kWheelRadius / kMass * std::sin(disturbance.slope);
+  const double foot = footOf(disturbance.slope);
   const double lean = std::clamp(wanted, -kMostLean, kMostLean) + foot;
   const double acceleration = kStiffness * (state.pitch - lean) + kBrake * state.pitch_rate;
   const double fall = kGravity * (std::sin(state.pitch) - foot) - acceleration * std::cos(state.pitch);

@@ -28,6 +28,9 @@ struct SegwayDisturbance {
   double turn_push = 0.0;   ///< rad/s^2
 };
 
+/// At rest on a slope (rad, uphill positive), with the lean that it needs there.
+SegwayState standingSegway(const Eigen::Vector2d& position, double yaw, double slope);
+
 /// One step of `dt` seconds (at most 0.01). The body is an inverted pendulum of equivalent length L whose foot the
 /// wheels accelerate by a; the ground pushes where the wheel touches, on a slope in front of the axle by r sin(slope):
 ///   L pitch'' = g sin(pitch) - a cos(pitch) - g r / l sin(slope)

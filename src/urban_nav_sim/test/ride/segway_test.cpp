@@ -21,6 +21,15 @@ TEST(Segway, StandsUprightWhereNothingIsWanted) {
   EXPECT_EQ(state.speed, 0.0);
 }
 
+TEST(Segway, StandsOnSlopesAsWell) {
+  SegwayDisturbance disturbance;
+  disturbance.slope = 0.12;
+  const SegwayState start = standingSegway({3, 4}, 0.5, disturbance.slope), state = driven(start, {}, disturbance, 5.0);
+  EXPECT_GT(start.pitch, 0.03);
+  EXPECT_NEAR(state.speed, 0.0, 1e-3);
+  EXPECT_LT((state.position - Eigen::Vector2d(3, 4)).norm(), 2e-3);
+}
+
 TEST(Segway, CatchesItselfFromALean) {
   SegwayState leaning;
   leaning.pitch = 0.1;
