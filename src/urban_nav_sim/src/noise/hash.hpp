@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <cstdint>
-
-#include "noise/noise.hpp"
 
 namespace urban_nav_sim {
 
@@ -24,8 +23,11 @@ std::uint64_t hash(std::uint64_t x, std::uint64_t y, More... more) {
 /// 0 <= u < 1, of the upper 53 bits.
 inline double uniformOf(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1.0p-53; }
 
-/// Mean 0, variance 1, the same bits on every machine.
-inline double normalOf(std::uint64_t bits) { return normalFrom(bits); }
+/// Mean 0, variance 1: Box and Muller of the number and its successor in the stream.
+inline double normalOf(std::uint64_t bits) {
+  const double u = 1.0 - uniformOf(bits), v = uniformOf(hash(bits));
+  return std::sqrt(-2.0 * std::log(u)) * std::cos(6.283185307179586 * v);
+}
 
 /// A stream of such numbers, for code that draws one after another. Not shared by threads.
 class Draw {
