@@ -61,13 +61,13 @@ Material Stock::wall(Stuff stuff, Draw& v) {
       m.name = "ashlar", m.detail = tile(Drawing::Ashlar);
       base = varied({0.46F, 0.37F, 0.24F}, 0.12, 0.05, v);
       colour(m, base, base * 0.45F, 0.8F), infrared(m, 0.55F, 0.4F, 0.5F);
-      m.layers = {clouds(1.3F, 0.4F, base * 0.55F, base * 0.3F), streaks(1.0F, base * 0.8F)};
+      m.layers = {clouds(1.3F, 0.4F, base * 0.28F, base * 0.2F), streaks(1.0F, base * 0.35F)};
       break;
     case Stuff::Rubble:
       m.name = "rubble", m.detail = tile(Drawing::Rubble);
       base = varied({0.34F, 0.28F, 0.19F}, 0.1, 0.05, v);
       colour(m, base, Vector3f(0.33F, 0.29F, 0.23F), 0.9F), infrared(m, 0.5F, 0.5F, 0.5F);
-      m.layers = {clouds(1.6F, 0.7F, base * 0.6F, Vector3f(-0.1F, -0.02F, -0.12F)), streaks(1.5F, base * 0.5F)};
+      m.layers = {clouds(1.6F, 0.7F, base * 0.35F, Vector3f(-0.1F, -0.02F, -0.12F)), streaks(1.5F, base * 0.25F)};
       break;
     case Stuff::Brick:
     case Stuff::DarkBrick:
@@ -75,7 +75,7 @@ Material Stock::wall(Stuff stuff, Draw& v) {
       base = stuff == Stuff::Brick ? varied({0.32F, 0.13F, 0.08F}, 0.15, 0.1, v)
                                    : varied({0.13F, 0.08F, 0.06F}, 0.15, 0.1, v);
       colour(m, base, Vector3f(0.38F, 0.34F, 0.28F), 1.0F), infrared(m, 0.42F, 0.5F, 0.4F);
-      m.layers = {clouds(1.1F, 0.5F, base * 0.6F, base * 0.3F), streaks(1.2F, base * 0.6F)};
+      m.layers = {clouds(1.1F, 0.5F, base * 0.35F, base * 0.2F), streaks(1.2F, base * 0.3F)};
       break;
     case Stuff::Slate:
       m.name = "slate", m.detail = tile(Drawing::Slate);
@@ -95,7 +95,7 @@ Material Stock::wall(Stuff stuff, Draw& v) {
       m.name = "render", m.detail = tile(Drawing::Plaster), m.surface_class = SurfaceClass::SmoothWall;
       base = varied({0.6F, 0.56F, 0.47F}, 0.15, 0.07, v);
       colour(m, base, base * 0.5F, 0.55F), infrared(m, 0.65F, 0.4F, 0.3F);
-      m.layers = {clouds(1.4F, 0.6F, base * 0.3F, base * 0.15F), streaks(1.0F, base * 0.55F)};
+      m.layers = {clouds(1.4F, 0.6F, base * 0.15F, base * 0.1F), streaks(1.0F, base * 0.28F)};
       break;
   }
   return m;
@@ -114,13 +114,13 @@ Material Stock::ground(Stuff stuff, Draw& v) {
       base = stuff == Stuff::Slabs ? varied({0.36F, 0.33F, 0.27F}, 0.1, 0.04, v)
                                    : varied({0.24F, 0.22F, 0.2F}, 0.1, 0.05, v);
       colour(m, base, base * 0.35F, 0.9F), infrared(m, 0.45F, 0.25F, 0.4F);
-      m.layers = {clouds(1.0F, 0.4F, base * 0.6F, base * 0.4F), clouds(0.17F, 1.0F, base * 0.4F, Vector3f::Zero())};
+      m.layers = {clouds(1.0F, 0.4F, base * 0.3F, base * 0.25F), clouds(0.17F, 1.0F, base * 0.25F, Vector3f::Zero())};
       break;
     case Stuff::Gravel:
       m.name = "gravel", m.detail = tile(Drawing::Gravel), m.surface_class = SurfaceClass::DirtPath;
       base = varied({0.42F, 0.35F, 0.25F}, 0.1, 0.05, v);
       colour(m, base, base * 0.35F, 0.8F), infrared(m, 0.4F, 0.25F, 0.4F);
-      m.layers = {clouds(1.7F, 0.4F, base * 0.5F, base * 0.25F), clouds(0.19F, 1.1F, base * 0.6F, base * 0.5F)};
+      m.layers = {clouds(1.7F, 0.4F, base * 0.25F, base * 0.15F), clouds(0.19F, 1.1F, base * 0.28F, base * 0.3F)};
       break;
     case Stuff::Lawn:
     case Stuff::Meadow:
@@ -130,14 +130,14 @@ Material Stock::ground(Stuff stuff, Draw& v) {
       m.colours = {base, Vector3f(0.21F, 0.19F, 0.075F)}, m.per_tone = Vector3f(0.14F, 0.18F, 0.06F);
       if (stuff == Stuff::Meadow) m.stretch = 1.35F, m.per_tone *= 1.3F;
       infrared(m, 0.5F, 0.45F, 0.5F), m.shines = 0.0F, m.soaks = 0.2F;
-      m.layers = {clouds(1.5F, 0.4F, Vector3f(0.06F, 0.06F, 0.02F), Vector3f(0.1F, 0.06F, 0.0F)),
-                  clouds(0.21F, 1.1F, Vector3f(0.06F, 0.07F, 0.025F), Vector3f(0.09F, 0.07F, 0.02F))};
+      m.layers = {clouds(1.5F, 0.4F, Vector3f(0.035F, 0.04F, 0.012F), Vector3f(0.08F, 0.05F, 0.0F)),
+                  clouds(0.21F, 1.1F, Vector3f(0.045F, 0.055F, 0.018F), Vector3f(0.06F, 0.05F, 0.015F))};
       break;
     case Stuff::Soil:
       m.name = "soil", m.detail = tile(Drawing::Soil), m.surface_class = SurfaceClass::DirtPath;
       base = varied({0.2F, 0.15F, 0.095F}, 0.12, 0.06, v);
       colour(m, base, Vector3f(0.36F, 0.31F, 0.22F), 0.9F), infrared(m, 0.35F, 0.45F, 0.4F);
-      m.layers = {clouds(1.4F, 0.4F, base * 0.7F, base * 0.4F), clouds(0.2F, 1.1F, base * 0.5F, base * 0.3F)};
+      m.layers = {clouds(1.4F, 0.4F, base * 0.4F, base * 0.25F), clouds(0.2F, 1.1F, base * 0.35F, base * 0.2F)};
       break;
     case Stuff::Kerb:
       m.name = "kerb", m.detail = tile(Drawing::Slabs);
@@ -155,7 +155,7 @@ Material Stock::ground(Stuff stuff, Draw& v) {
       m.name = "asphalt", m.detail = tile(Drawing::Asphalt);
       base = varied({0.085F, 0.083F, 0.08F}, 0.15, 0.03, v);
       colour(m, base, Vector3f(0.27F, 0.26F, 0.24F), 1.0F), infrared(m, 0.16F, 0.3F, 0.6F);
-      m.layers = {clouds(2.0F, 0.4F, base * 0.9F, base * 0.5F), clouds(0.25F, 1.1F, base * 0.9F, base * 0.6F)};
+      m.layers = {clouds(2.0F, 0.4F, base * 0.6F, base * 0.4F), clouds(0.25F, 1.1F, base * 0.6F, base * 0.4F)};
       break;
   }
   return m;
@@ -273,7 +273,7 @@ std::shared_ptr<const Tile> Stock::draw(Drawing drawing) const {
   switch (drawing) {
     case Drawing::Ashlar:
       courses(4.2F, 0.22F, 0.38F, 0.35F, 0.85F, 0.012F);
-      bond.block_tone = 0.13F, bond.grain = 0.1F, bond.pits = 0.35F, bond.wobble = 0.003F;
+      bond.block_tone = 0.17F, bond.grain = 0.13F, bond.pits = 0.4F, bond.wobble = 0.003F;
       return drawBond(bond);
     case Drawing::Rubble: return drawRubble(15, 3.4F, bond.seed);
     case Drawing::Brick:
