@@ -155,7 +155,7 @@ Material Stock::ground(Stuff stuff, Draw& v) {
       m.name = "asphalt", m.detail = tile(Drawing::Asphalt);
       base = varied({0.085F, 0.083F, 0.08F}, 0.15, 0.03, v);
       colour(m, base, Vector3f(0.27F, 0.26F, 0.24F), 1.0F), infrared(m, 0.16F, 0.3F, 0.6F);
-      m.layers = {clouds(2.0F, 0.4F, base * 0.6F, base * 0.4F), clouds(0.25F, 1.1F, base * 0.6F, base * 0.4F)};
+      m.layers = {clouds(2.0F, 0.4F, base * 0.3F, base * 0.3F), clouds(0.25F, 1.1F, base * 0.3F, base * 0.3F)};
       break;
   }
   return m;
@@ -211,9 +211,9 @@ Material Stock::made(Stuff stuff, Draw& v) {
                       : stuff == Stuff::Casement ? Drawing::Casement
                                                  : Drawing::Shop);
       m.colours = {Vector3f(0.09F, 0.09F, 0.09F), varied({0.62F, 0.6F, 0.55F}, 0.15, 0.04, v)},
-      m.per_tone = Vector3f(0.34F, 0.31F, 0.27F);
+      m.per_tone = Vector3f(0.26F, 0.24F, 0.21F);
       m.glosses = {0.3F, 0.03F}, m.infrareds = {0.08F, 0.55F};
-      m.layers = {clouds(0.35F, 0.2F, Vector3f::Constant(0.1F), Vector3f::Constant(0.06F)), Layer()};
+      m.layers = {clouds(0.35F, 0.2F, Vector3f::Constant(0.04F), Vector3f::Constant(0.03F)), Layer()};
       break;
     case Stuff::Door:
     case Stuff::Boards:
@@ -242,10 +242,7 @@ Material Stock::made(Stuff stuff, Draw& v) {
       break;
     case Stuff::Iron: plain("iron", varied({0.06F, 0.065F, 0.065F}, 0.3, 0.05, v), 0.5F, 0.15F); break;
     case Stuff::Cloth:
-      plain("cloth",
-            Vector3f(static_cast<float>(v.uniform(0.05, 0.5)), static_cast<float>(v.uniform(0.05, 0.4)),
-                     static_cast<float>(v.uniform(0.05, 0.45))),
-            0.6F, 0.5F);
+      plain("cloth", varied(Vector3f::Constant(static_cast<float>(v.uniform(0.04, 0.35))), 0.1, 0.35, v), 0.6F, 0.5F);
       m.layers = {clouds(0.05F, 0.3F, base * 0.6F, base * 0.4F), Layer()};
       break;
     case Stuff::Skin: plain("skin", varied({0.42F, 0.27F, 0.19F}, 0.2, 0.05, v), 0.1F, 0.5F); break;

@@ -156,8 +156,13 @@ World buildBegbroke(std::uint32_t seed, int day) {
   Site site(world, seed);
   const double w = p.half();
   const Extent all{-w - 52, -48, w + 66, p.depth + 28}, park = p.carPark(), south = p.southPark();
+  const auto strewn = patches({-w - 3, -3, w + 3, p.depth + 3}, 120, seed);
+  const auto mended = [&](double x, double y) {
+    return std::min(strewn(x, y), kRoad - 0.4 - distanceTo(p.ring, x, y));
+  };
   layGround(site, all,
-            {{{Stuff::Asphalt, 0, 1}, [&](double x, double y) { return kRoad - distanceTo(p.ring, x, y); }},
+            {{{Stuff::Asphalt, 2, 5}, mended},
+             {{Stuff::Asphalt, 0, 1}, [&](double x, double y) { return kRoad - distanceTo(p.ring, x, y); }},
              {{Stuff::Asphalt, 1, 2}, [&](double x, double y) { return insideRectangle(park, 1.0, x, y); }},
              {{Stuff::Asphalt, 1, 2}, [&](double x, double y) { return insideRectangle(south, 1.0, x, y); }},
              {{Stuff::Soil, 0, 1}, [&](double x, double y) { return 1.3 - distanceTo(p.footpath, x, y); }},
@@ -173,6 +178,8 @@ World buildBegbroke(std::uint32_t seed, int day) {
   laySurroundings(site, all, 80.0, {Stuff::Meadow, 1, 2});
   buildPark(site, p, seed);
   plantPark(site, p, seed);
+  const double x0 = all.x0 + 2, x1 = all.x1 - 2, y0 = all.y0 + 2, y1 = all.y1 - 3;
+  plantBelt(site, {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}, {x0, y0}}, seed);
   paintBays(site, p);
   fillDay(site, p, seed, day);
   return world;

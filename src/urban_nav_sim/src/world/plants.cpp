@@ -99,4 +99,20 @@ void plantHedge(Site& site, const Vector2d& from, const Vector2d& to, double wid
   }
 }
 
+void plantBelt(Site& site, const std::vector<Vector2d>& line, std::uint64_t seed) {
+  Draw draw(hash(seed, 0xBE17));
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const Vector2d d = line[i + 1] - line[i], along = d.normalized(), out(along.y(), -along.x());
+    for (double s = 0.0; s < d.norm();) {
+      const double length = draw.uniform(5, 11);
+      const Vector2d a = line[i] + s * along + draw.uniform(0, 2) * out;
+      if (draw.chance(0.85))
+        plantHedge(site, a, a + 0.9 * length * along, 2.0, draw.uniform(1.5, 3.0), Stuff::Shrub, draw.bits());
+      const Vector2d t = a + 3.0 * out + 0.5 * length * along;
+      plantTree(site, t.x(), t.y(), draw.uniform(8, 14), draw.bits());
+      s += length;
+    }
+  }
+}
+
 }  // namespace urban_nav_sim

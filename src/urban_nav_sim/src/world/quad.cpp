@@ -222,6 +222,8 @@ World buildQuad(std::uint32_t seed, int day) {
   buildWings(site, plan, seed);
   furnishCourt(site, plan, seed);
   plantGardens(site, plan, seed);
+  const Extent g = plan.gardens();
+  plantBelt(site, {{g.x0 + 8, g.y0 - 20}, {g.x1 + 22, g.y0 - 20}, {g.x1 + 22, g.y1 + 20}, {g.x0 + 8, g.y1 + 20}}, seed);
   peopleDay(site, plan, seed, day);
   return world;
 }

@@ -138,7 +138,7 @@ void paintRoads(Site& site, const Plan& p) {
 void fillDay(Site& site, const Plan& p, std::uint32_t seed, int day) {
   Draw draw(hash(seed, 0xDA9, static_cast<std::uint64_t>(day)));
   for (int b = 0; b < kBlocks; ++b) {
-    for (const double y : {-kRoad + 1.25, p.second + kRoad - 1.25, p.second - kRoad + 1.25}) {
+    for (const double y : {kRoad - 1.25, p.second + kRoad - 1.25, p.second - kRoad + 1.25}) {
       for (double x = p.first(b) + 6; x < p.first(b) + p.house * p.houses - 3; x += draw.uniform(5.0, 6.5)) {
         if (draw.chance(0.35)) continue;
         parkCar(site, x, y + 0.08 * draw.normal(), draw.chance(0.8) ? 0.0 : M_PI, draw.chance(0.2), draw.bits());
@@ -151,8 +151,9 @@ void fillDay(Site& site, const Plan& p, std::uint32_t seed, int day) {
     sendWalker(site, {{x, y}, {x + p.house * p.houses, y}}, draw.uniform(1.0, 1.6), draw.uniform(), draw.bits());
   }
   for (int i = 0; i < (day == 1 ? 1 : 3); ++i) {
-    sendCar(site, {p.sideStreet(kBlocks) - 2.0, 3.2}, {p.sideStreet(-1), 3.2}, draw.uniform(5, 8), draw.uniform(),
-            draw.bits());
+    // The robot turns off to the north alone, and the ends are inside houses.
+    sendCar(site, {p.sideStreet(kBlocks + 1) - 3.0, -3.2}, {p.sideStreet(-1) + 2.5, -3.2}, draw.uniform(5, 8),
+            draw.uniform(), draw.bits());
   }
 }
 
@@ -170,7 +171,15 @@ World buildStreet(std::uint32_t seed, int day) {
     return std::min(0.5 * p.house * p.houses - off, std::min(y - kFace - 1.0, p.second - kFace - 1.0 - y));
   };
   const auto path = [&](double x, double y) { return std::min(yard(x, y), 0.8 - std::abs(y - 0.5 * p.second)); };
-  layGround(site, all, {{{Stuff::Soil, 0, 1}, path}, {{Stuff::Lawn, 0, 1}, yard}, {{Stuff::Asphalt, 0, 1}, nullptr}});
+  const auto on_road = [&](std::uint64_t which) {
+    return patches({all.x0, -kRoad + 0.5, all.x1, kRoad - 2.5}, 60, hash(seed, which));
+  };
+  layGround(site, all,
+            {{{Stuff::Soil, 0, 1}, path},
+             {{Stuff::Lawn, 0, 1}, yard},
+             {{Stuff::Asphalt, 1, 4}, on_road(1)},
+             {{Stuff::Asphalt, 2, 5}, on_road(2)},
+             {{Stuff::Asphalt, 0, 1}, nullptr}});
   laySurroundings(site, all, 80.0, {Stuff::Meadow, 1, 2});
   buildBlocks(site, p, seed);
   paintRoads(site, p);
@@ -179,6 +188,17 @@ World buildStreet(std::uint32_t seed, int day) {
   end.wall = {Stuff::Ashlar, 1, 3}, end.storeys = 3, end.seed = seed, end.doors = {0, 4, 0, 4};
   buildHouse(site, {p.sideStreet(-1) - 2, -9, p.sideStreet(-1) + 7, 9}, end);
   buildHouse(site, {p.sideStreet(kBlocks + 1) - 7, -9, p.sideStreet(kBlocks + 1) + 2, 9}, end);
+  // ... and the side streets.
+  for (int b = -1; b <= kBlocks + 1; ++b) {
+    end.seed = hash(seed, static_cast<std::uint64_t>(b + 9)),
+    end.wall = {b % 2 == 0 ? Stuff::Render : Stuff::Rubble, 2, static_cast<std::uint32_t>(b + 40)},
+    end.doors = {3, 0, 3, 0};
+    buildHouse(site, {p.sideStreet(b) - 7, -kFace - kDepth - 24, p.sideStreet(b) + 7, -kFace - kDepth - 14}, end);
+    buildHouse(
+        site,
+        {p.sideStreet(b) - 7, p.second + kFace + kDepth + 14, p.sideStreet(b) + 7, p.second + kFace + kDepth + 24},
+        end);
+  }
   fillDay(site, p, seed, day);
   return world;
 }

@@ -139,6 +139,21 @@ void layStrip(Site& site, const Finish& top, const Finish& side, const Vector2d&
   site.quad(side, at(length, -h, -0.1), at(length, h, -0.1), at(length, h, height), at(length, -h, height));
 }
 
+std::function<double(double, double)> patches(const Extent& e, int count, std::uint64_t seed) {
+  Draw draw(hash(seed, 0x9A7C));
+  std::vector<Extent> all;
+  for (int i = 0; i < count; ++i) {
+    const double x = draw.uniform(e.x0, e.x1), y = draw.uniform(e.y0, e.y1), w = draw.uniform(0.8, 5.0),
+                 h = draw.uniform(0.8, 2.0);
+    all.push_back({x, y, x + w, y + h});
+  }
+  return [all](double x, double y) {
+    double best = -1e9;
+    for (const Extent& p : all) best = std::max(best, std::min({x - p.x0, p.x1 - x, y - p.y0, p.y1 - y}));
+    return best;
+  };
+}
+
 double distanceTo(const std::vector<Vector2d>& line, double x, double y) {
   double best = 1e9;
   const Vector2d p(x, y);

@@ -34,6 +34,9 @@ void laySurroundings(Site& site, const Extent& extent, double reach, const Finis
 void layStrip(Site& site, const Finish& top, const Finish& side, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
               double width, double height);
 
+/// `count` rectangles of 0.8 to 5 m strewn over an extent: where a road was opened and mended. As Region::inside.
+std::function<double(double, double)> patches(const Extent& extent, int count, std::uint64_t seed);
+
 double distanceTo(const std::vector<Eigen::Vector2d>& line, double x, double y);
 /// Positive inside a rectangle with rounded corners.
 double insideRectangle(const Extent& extent, double radius, double x, double y);

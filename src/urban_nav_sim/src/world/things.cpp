@@ -16,6 +16,23 @@ Pose poseAt(const Vector3d& t, double yaw) {
   return {Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Vector3d::UnitZ())), t};
 }
 
+/// Along a line and back, turning on the spot at its ends, so that nothing ever jumps. `bob`: m up and down, once a step.
+std::function<Pose(double)> toAndFro(const std::vector<Vector2d>& line, double speed, double phase,
+                                     const std::function<double(double, double)>& ground, double bob) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < line.size(); ++i) length += (line[i] - line[i - 1]).norm();
+  return [=](double t) {
+    double s = std::fmod(speed * t + 2.0 * length * phase, 2.0 * length);
+    const bool back = s > length;
+    if (back) s = 2.0 * length - s;
+    std::size_t i = 1;
+    while (i + 1 < line.size() && s > (line[i] - line[i - 1]).norm()) s -= (line[i] - line[i - 1]).norm(), ++i;
+    const Vector2d d = (line[i] - line[i - 1]).normalized(), p = line[i - 1] + s * d;
+    const double up = bob * std::abs(std::sin(3.5 * speed * t));
+    return poseAt({p.x(), p.y(), ground(p.x(), p.y()) + up}, std::atan2(d.y(), d.x()) + (back ? M_PI : 0.0));
+  };
+}
+
 /// A body with the same outline at each side: `outline` counter-clockwise in the x-z plane as seen from the right (-y).
 void prism(Site& site, const Finish& finish, const std::vector<Vector2d>& outline, double half_width, double narrower) {
   const std::size_t n = outline.size();
@@ -151,29 +168,13 @@ void sendWalker(Site& site, const std::vector<Vector2d>& line, double speed, dou
   site.pole(coat, {0, 0, 1.25 * k}, {0, 0, 1.5 * k}, 0.2, 0.07, 10);
   site.pole(skin, {0, 0, 1.48 * k}, {0.02, 0, 1.62 * k}, 0.06, 0.1, 9);
   site.pole(hair, {0.02, 0, 1.62 * k}, {0, 0, 1.76 * k}, 0.105, 0.04, 9);
-  double length = 0.0;
-  for (std::size_t i = 1; i < line.size(); ++i) length += (line[i] - line[i - 1]).norm();
-  site.release([line, speed, phase, length, ground = site.world().ground](double t) {
-    double s = std::fmod(speed * t + 2.0 * length * phase, 2.0 * length);
-    const bool back = s > length;
-    if (back) s = 2.0 * length - s;
-    std::size_t i = 1;
-    while (i + 1 < line.size() && s > (line[i] - line[i - 1]).norm()) s -= (line[i] - line[i - 1]).norm(), ++i;
-    const Vector2d d = (line[i] - line[i - 1]).normalized(), p = line[i - 1] + s * d;
-    const double bob = 0.02 * std::abs(std::sin(4.5 * speed / 1.3 * t));
-    return poseAt({p.x(), p.y(), ground(p.x(), p.y()) + bob}, std::atan2(d.y(), d.x()) + (back ? M_PI : 0.0));
-  });
+  site.release(toAndFro(line, speed, phase, site.world().ground, 0.02));
 }
 
 void sendCar(Site& site, const Vector2d& from, const Vector2d& to, double speed, double phase, std::uint64_t seed) {
   site.beginMover();
   makeCar(site, seed % 5 == 0, seed);
-  const double length = (to - from).norm();
-  site.release(
-      [from, d = Vector2d((to - from) / length), length, speed, phase, ground = site.world().ground](double t) {
-        const Vector2d p = from + d * std::fmod(speed * t + phase * length, length);
-        return poseAt({p.x(), p.y(), ground(p.x(), p.y())}, std::atan2(d.y(), d.x()));
-      });
+  site.release(toAndFro({from, to}, speed, phase, site.world().ground, 0.0));
 }
 
 }  // namespace urban_nav_sim
