@@ -56,8 +56,9 @@ void writeImage(const std::string& side, const cv::Mat& pixels, sensor_msgs::Cam
 MeasurementTopics::MeasurementTopics(const urban_nav_sim::Session& session, BagWriter& bag)
     : bag_(bag),
       left_(urban_nav_ros::toCameraInfoMessage(session.stereoInfo(Side::Left))),
-      right_(urban_nav_ros::toCameraInfoMessage(session.stereoInfo(Side::Right))),
-      ladybug_(urban_nav_ros::toCameraInfoMessage(session.ladybugInfo())) {
+      right_(urban_nav_ros::toCameraInfoMessage(session.stereoInfo(Side::Right))) {
+  for (int i = 0; i < 5; ++i)
+    ladybug_[static_cast<std::size_t>(i)] = urban_nav_ros::toCameraInfoMessage(session.ladybugInfo(i));
   std::vector<geometry_msgs::TransformStamped> places;
   for (const auto& [frame, T_base_sensor] : session.places())
     places.push_back(urban_nav_ros::toStaticTransform("base_link", frame, T_base_sensor));
@@ -75,12 +76,13 @@ void MeasurementTopics::put(const urban_nav_sim::StereoMeasurement& pair) {
 
 void MeasurementTopics::put(const urban_nav_sim::LadybugMeasurement& panorama) {
   const std::string name = "camera" + std::to_string(panorama.camera);
+  sensor_msgs::CameraInfo& info = ladybug_[static_cast<std::size_t>(panorama.camera)];
   sensor_msgs::CompressedImage message;
-  message.header = ladybug_.header = header(panorama.stamp, "ladybug_" + name + "_optical_frame");
+  message.header = info.header = header(panorama.stamp, "ladybug_" + name + "_optical_frame");
   message.format = "jpeg";
   cv::imencode(".jpg", panorama.image, message.data, {cv::IMWRITE_JPEG_QUALITY, jpeg_quality});
   bag_.write("/ladybug/" + name + "/image_raw/compressed", panorama.stamp, message);
-  bag_.write("/ladybug/" + name + "/camera_info", panorama.stamp, ladybug_);
+  bag_.write("/ladybug/" + name + "/camera_info", panorama.stamp, info);
 }
 
 void MeasurementTopics::put(const urban_nav_sim::LaserMeasurement& turn) {

@@ -29,7 +29,8 @@ class MeasurementTopics {
   void put(const urban_nav_sim::TruthMeasurement& truth);
 
   BagWriter& bag_;
-  sensor_msgs::CameraInfo left_, right_, ladybug_;
+  sensor_msgs::CameraInfo left_, right_;
+  std::array<sensor_msgs::CameraInfo, 5> ladybug_;
   std::array<std::uint32_t, 2> turns_{};
 };
 

@@ -52,7 +52,7 @@ class Session {
   /// T_base_sensor by frame.
   std::map<std::string, urban_nav_core::Pose> places() const;
   urban_nav_core::CameraInfo stereoInfo(Side side) const;
-  urban_nav_core::CameraInfo ladybugInfo() const;  ///< the same for all five
+  urban_nav_core::CameraInfo ladybugInfo(int camera) const;  ///< 0 ... 4
 
   /// trajectory.tum, revisits.csv, closures_true.csv, closures_false.csv (if `false_closures` is not zero: their per cent of the true ones), cloud.ply
   /// (CONTRACT.md) into a folder that exists. What sensors there are does not matter.

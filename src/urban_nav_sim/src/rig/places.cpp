@@ -12,6 +12,7 @@ using urban_nav_core::Vector3d;
 namespace {
 
 constexpr double half_baseline = 0.0600025;          // m
+constexpr double ladybug_height = 1.4;               // m
 constexpr double ladybug_radius = 0.04;              // m, of the ring of lenses
 constexpr double between_lenses = 2.0 * M_PI / 5.0;  // rad, clockwise seen from above
 
@@ -31,7 +32,7 @@ std::map<std::string, Pose> sensorPlaces() {
   for (int i = 0; i < 5; ++i) {
     const double yaw = -i * between_lenses;
     places["ladybug_camera" + std::to_string(i) + "_optical_frame"] =
-        Pose(looking(yaw), Vector3d(ladybug_radius * std::cos(yaw), ladybug_radius * std::sin(yaw), 1.4));
+        Pose(looking(yaw), Vector3d(ladybug_radius * std::cos(yaw), ladybug_radius * std::sin(yaw), ladybug_height));
   }
   // x along the middle beam, z forward: the scan planes stand upright and across the direction of travel.
   Matrix3d left, right;
@@ -43,6 +44,8 @@ std::map<std::string, Pose> sensorPlaces() {
   places["gps_link"] = Pose(Matrix3d(Matrix3d::Identity()), Vector3d(-0.15, 0.0, 1.30));
   return places;
 }
+
+Pose ladybugPlace() { return Pose(Matrix3d(Matrix3d::Identity()), Vector3d(0.0, 0.0, ladybug_height)); }
 
 Pose placeOf(const std::string& frame) { return sensorPlaces().at(frame); }
 

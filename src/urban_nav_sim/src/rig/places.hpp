@@ -12,5 +12,7 @@ namespace urban_nav_sim {
 /// it. The lasers' places are those of the New College set, the others plausible.
 std::map<std::string, urban_nav_core::Pose> sensorPlaces();
 urban_nav_core::Pose placeOf(const std::string& frame);
+/// T_base_head of the Ladybug: x forward, z up, in the middle of its ring of lenses.
+urban_nav_core::Pose ladybugPlace();
 
 }  // namespace urban_nav_sim
