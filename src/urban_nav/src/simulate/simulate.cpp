@@ -15,6 +15,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr std::int64_t frame_period = 50'000'000;  // ns, of the stereo camera, by which progress is told
+
 std::string truthFolderOf(const std::string& bag) { return fs::path(bag).replace_extension(".truth").string(); }
 
 void makeFolder(const std::string& path) {
@@ -36,7 +38,7 @@ Simulated simulate(const SimulateJob& job, Console& console) {
   made.truth_folder = truthFolderOf(job.bag);
   makeFolder(made.truth_folder);
 
-  Progress progress(console, "simulate", "s", static_cast<std::int64_t>(session.duration()));
+  Progress progress(console, "simulate", "frames", session.frames());
   std::optional<urban_nav_core::Pose> last;
   while (const std::optional<urban_nav_sim::Session::Arrival> arrival = session.next()) {
     topics.write(arrival->measurement);
@@ -46,9 +48,9 @@ Simulated simulate(const SimulateJob& job, Console& console) {
       if (last) made.distance_m += distanceBetween(*last, truth->T_world_base);
       last = truth->T_world_base;
     }
-    progress.update((arrival->taken - session.begin()) / 1'000'000'000);
+    progress.update((arrival->taken - session.begin()) / frame_period);
   }
-  progress.finish(static_cast<std::int64_t>(session.duration()));
+  progress.finish(session.frames());
   console.info("truth: " + made.truth_folder);
   session.writeTruth(made.truth_folder, job.false_closures);
   if (folder) folder->finish();

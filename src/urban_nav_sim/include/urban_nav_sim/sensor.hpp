@@ -14,8 +14,8 @@ inline constexpr std::array<Sensor, 6> all_sensors = {Sensor::Stereo, Sensor::La
 
 /// "stereo", "ladybug", "lasers", "imu", "wheels", "gps".
 const char* toString(Sensor sensor);
-/// Throws UserError that names what there is.
-Sensor parseSensor(const std::string& word);
+/// Throws UserError that names what there is; `where`: its option.
+Sensor parseSensor(const std::string& word, const std::string& where);
 std::string sensorList();
 
 }  // namespace urban_nav_sim

@@ -61,7 +61,7 @@ Fault parseFault(const std::string& text) {
   Fault fault;
   fault.kind = parseKind(parts[0], where);
   if (parts.size() < 4 || parts.size() > 5) throw UserError(where, "incomplete", form);
-  fault.sensor = parseSensor(std::string(parts[1]));
+  fault.sensor = parseSensor(std::string(parts[1]), where);
   fault.start = within(parts[2], "start", 0.0, 1e6, where);
   fault.duration = within(parts[3], "duration", 0.0, 1e6, where);
   if (parts.size() == 5) {

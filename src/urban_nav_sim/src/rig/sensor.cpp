@@ -23,10 +23,10 @@ std::string sensorList() {
   return list;
 }
 
-Sensor parseSensor(const std::string& word) {
+Sensor parseSensor(const std::string& word, const std::string& where) {
   for (const Sensor sensor : all_sensors)
     if (word == toString(sensor)) return sensor;
-  throw urban_nav_core::UserError("", "sensor \"" + word + "\"", sensorList());
+  throw urban_nav_core::UserError(where, "sensor \"" + word + "\"", sensorList());
 }
 
 }  // namespace urban_nav_sim

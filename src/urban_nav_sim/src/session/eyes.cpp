@@ -4,6 +4,7 @@
 #include "body/schedule.hpp"
 #include "camera/heads.hpp"
 #include "camera/sky.hpp"
+#include "laser/lms291.hpp"
 #include "rig/places.hpp"
 #include "trace/tracer.hpp"
 
@@ -22,7 +23,9 @@ class Eyes::Implementation {
         tracer_(world),
         sky_(world.day, noise.of("sky").bits(0)),
         stereo_(tracer_, sky_, images, placeOf("stereo_left_optical_frame"), noise.of("stereo").bits(0)),
-        ladybug_(tracer_, sky_, ladybugPlace(), noise.of("ladybug").bits(0)) {}
+        ladybug_(tracer_, sky_, ladybugPlace(), noise.of("ladybug").bits(0)),
+        left_laser_(tracer_, placeOf("laser_left"), noise.of("lasers").bits(0), "laser_left", Lms291::Settings()),
+        right_laser_(tracer_, placeOf("laser_right"), noise.of("lasers").bits(0), "laser_right", Lms291::Settings()) {}
 
   std::vector<Measurement> stereo(std::int64_t k, const Clock& clock) {
     const double t = scheduleOf(Sensor::Stereo).at(k);
@@ -39,7 +42,11 @@ class Eyes::Implementation {
     return measurements;
   }
 
-  std::vector<Measurement> laser(Side /*side*/, std::int64_t /*k*/, const Clock& /*clock*/) { return {}; }
+  std::vector<Measurement> laser(Side side, std::int64_t k, const Clock& clock) const {
+    const double t = laserSchedule(side).at(k);
+    const Lms291& device = side == Side::Left ? left_laser_ : right_laser_;
+    return {LaserMeasurement{side, device.scan(ride_, t, clock.stamp(k, t), static_cast<std::uint64_t>(k))}};
+  }
 
  private:
   const Ride& ride_;
@@ -47,6 +54,7 @@ class Eyes::Implementation {
   Sky sky_;
   StereoHead stereo_;
   LadybugHead ladybug_;
+  Lms291 left_laser_, right_laser_;
 };
 
 Eyes::Eyes(const World& world, const Ride& ride, const Noise& noise)

@@ -8,6 +8,7 @@
 #include "body/clock.hpp"
 #include "noise/noise.hpp"
 #include "ride/ride.hpp"
+#include "urban_nav_core/camera/camera_info.hpp"
 #include "urban_nav_sim/measurement.hpp"
 #include "world/world.hpp"
 
