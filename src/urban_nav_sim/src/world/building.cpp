@@ -141,15 +141,23 @@ void buildHouse(Site& site, const Extent& e, const Style& s) {
     const Vector2d along = way / length;
     Finish wall = s.wall;
     wall.seed += static_cast<std::uint32_t>(17 * side);
-    buildWall(site, wall, s.trim, start, along, length, floor - 2.0, eaves, baysOf(s, side, length, floor));
+    const std::vector<Opening> openings = baysOf(s, side, length, floor);
+    buildWall(site, wall, s.trim, start, along, length, floor - 2.0, eaves, openings);
     const WallFrame f{{start.x(), start.y(), 0}, {along.x(), along.y(), 0}};
-    const auto band = [&](double v, double height, double out) {
-      const Vector3d a = f.at(-out, v, -out), b = f.at(length + out, v, -out), up(0, 0, height);
-      site.quad(s.trim, a, b, b + up, a + up, {0, v});
-      site.quad(s.trim, a + up, b + up, f.at(length, v + height), f.at(0, v + height));
-      site.quad(s.trim, f.at(0, v), f.at(length, v), b, a);
+    const auto bandPiece = [&](double u0, double u1, double v, double height, double out) {
+      const Vector3d p = f.at(u0, v, -out), q = f.at(u1, v, -out), up(0, 0, height);
+      site.quad(s.trim, p, q, q + up, p + up, {u0, v});
+      site.quad(s.trim, p + up, q + up, f.at(u1, v + height), f.at(u0, v + height));
+      site.quad(s.trim, f.at(u0, v), f.at(u1, v), q, p);
     };
-    band(floor + 0.25, 0.15, 0.06);
+    const auto band = [&](double v, double height, double out) { bandPiece(-out, length + out, v, height, out); };
+    double from = -0.06;  // the plinth, which ends where doors are
+    for (const Opening& o : openings) {
+      if (o.filling.stuff != Stuff::Door) continue;
+      bandPiece(from, o.u0 - 0.14, floor + 0.25, 0.15, 0.06);
+      from = o.u1 + 0.14;
+    }
+    bandPiece(from, length + 0.06, floor + 0.25, 0.15, 0.06);
     for (int i = 1; i < s.storeys; ++i) band(floor + i * s.storey + 0.25, 0.16, 0.07);
     band(eaves - 0.25, 0.22, 0.12);
     if (!s.battlements) continue;
