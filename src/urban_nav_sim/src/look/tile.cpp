@@ -67,6 +67,7 @@ Tile::Tile(int size, float period, const std::vector<float>& mix, const std::vec
   }
   for (int n = size; n >= 1; n /= 2) {
     first_.push_back(static_cast<std::uint32_t>(texels_.size()));
+    scales_.push_back(static_cast<float>(n) / period);
     for (int y = 0; y < n; ++y) {
       for (int x = 0; x <= n; ++x) {
         const Value& v = level[static_cast<std::size_t>(y * n + x % n)];
@@ -99,9 +100,9 @@ Eigen::Vector2f Tile::shuffled(const Eigen::Vector2f& at) const {
 }
 
 /// Between two rows that lie side by side: `mix` and `tone` of a texel and of the next one, in one register where there is one.
-Tile::Value Tile::bilinear(const Eigen::Vector2f& at, int level) const {
+inline Tile::Value Tile::bilinear(const Eigen::Vector2f& at, int level) const {
   const int n = size_ >> level, mask = n - 1;
-  const float scale = texels_per_metre_ / static_cast<float>(1 << level);
+  const float scale = scales_[static_cast<std::size_t>(level)];
   const float x = at.x() * scale - 0.5F, y = at.y() * scale - 0.5F;
   const int x0 = floorOf(x), y0 = floorOf(y);
   const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);

@@ -54,6 +54,7 @@ class Tile {
   Value mean_;
   std::vector<Texel> texels_;         ///< level after level, rows within, each with its first texel again at its end
   std::vector<std::uint32_t> first_;  ///< where a level begins
+  std::vector<float> scales_;         ///< texels a metre, of each level
 };
 
 }  // namespace urban_nav_sim
