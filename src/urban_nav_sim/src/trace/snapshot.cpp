@@ -105,7 +105,9 @@ std::uint32_t Snapshot::occluded(const Packet& rays) const {
   alignas(64) RTCRay16 query;
   fillMask(rays.active, valid);
   fillRays(rays, query);
-  RTCIntersectContext context = coherentContext();
+  // Not as coherent rays: Embree 3.13 then loops for ever on some packets of which few lanes are active.
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
   rtcOccluded16(valid, tracer_.still_.scene, &context, &query);
   std::uint32_t met = 0;
   // Embree marks a ray that met something by a `far` of minus infinity.
@@ -120,7 +122,6 @@ std::uint32_t Snapshot::occluded(const Packet& rays) const {
   collect();
   if (scene_ != nullptr && met != rays.active) {
     rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     rtcOccluded16(valid, scene_, &context, &query);
     collect();
   }
