@@ -10,5 +10,6 @@ Command convertCommand();
 Command evaluateCommand();
 Command infoCommand();
 Command mapCommand();
+Command simulateCommand();
 
 }  // namespace urban_nav

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/CompressedImage.h>
-#include <sensor_msgs/LaserScan.h>
 
 #include <algorithm>
 #include <fstream>
@@ -9,6 +8,7 @@
 #include <limits>
 
 #include "convert/convert.hpp"
+#include "convert/laser_topics.hpp"
 #include "convert/row_check.hpp"
 #include "convert/stereo_topics.hpp"
 #include "input/image_file.hpp"
@@ -38,23 +38,9 @@ std::vector<geometry_msgs::TransformStamped> transforms() {
 }
 
 void write(const NewCollegeScan& event, BagWriter& bag) {
-  const std::string side = event.side == Side::Left ? "left" : "right";
-  const urban_nav_core::PlanarScan& scan = event.scan;
-  sensor_msgs::LaserScan message;
-  message.header.stamp = urban_nav_ros::toRosTime(event.stamp);
-  message.header.frame_id = "laser_" + side;
-  message.header.seq = static_cast<std::uint32_t>(event.id);
-  message.angle_min = static_cast<float>(scan.angle_first);
-  message.angle_increment = static_cast<float>(scan.angle_step);
-  message.angle_max =
-      static_cast<float>(scan.angle_first + scan.angle_step * static_cast<double>(scan.ranges.size() - 1));
-  message.time_increment = static_cast<float>(scan.time_step);
-  message.scan_time = static_cast<float>(scan.period);
-  message.range_min = static_cast<float>(scan.range_min);
-  message.range_max = static_cast<float>(scan.range_max);
-  message.ranges = scan.ranges;
-  message.intensities = scan.intensities;
-  bag.write("/laser_" + side + "/scan", event.stamp, message);
+  urban_nav_core::PlanarScan scan = event.scan;
+  scan.stamp = event.stamp;
+  writeLaser(event.side == Side::Left ? "left" : "right", scan, static_cast<std::uint32_t>(event.id), bag);
 }
 
 void write(const NewCollegeOdometry& event, BagWriter& bag) {

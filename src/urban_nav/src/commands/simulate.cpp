@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulate/simulate.hpp"
+
+#include "command_line/console.hpp"
+#include "command_line/json.hpp"
+#include "commands/commands.hpp"
+#include "urban_nav_core/io/atomic_file.hpp"
+#include "urban_nav_core/parallel/for_each.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav {
+
+using urban_nav_core::UserError;
+
+namespace {
+
+constexpr double longest = 86400.0;  // s
+
+/// Words of a comma-separated list; each named with its option where it is not known.
+std::set<urban_nav_sim::Sensor> sensorsOf(const Arguments& arguments) {
+  if (!arguments.has("sensors")) return {urban_nav_sim::all_sensors.begin(), urban_nav_sim::all_sensors.end()};
+  std::set<urban_nav_sim::Sensor> sensors;
+  for (const std::string& word : arguments.list("sensors")) sensors.insert(urban_nav_sim::parseSensor(word, "--sensors"));
+  if (sensors.empty()) throw UserError("--sensors", "none", urban_nav_sim::sensorList());
+  return sensors;
+}
+
+SimulateJob jobOf(const Arguments& arguments) {
+  SimulateJob job;
+  job.session.world = arguments.get("world", job.session.world);
+  job.session.route = arguments.get("route", job.session.route);
+  job.session.seed = static_cast<std::uint32_t>(arguments.integer("seed", 1, 0, 4294967295));
+  job.session.day = static_cast<int>(arguments.integer("day", 1, 1, 100000));
+  job.session.duration = arguments.number("duration", job.session.duration, 0.1, longest);
+  job.session.sensors = sensorsOf(arguments);
+  for (const std::string& fault : arguments.all("fault"))
+    job.session.faults.push_back(urban_nav_sim::parseFault(fault));
+  job.bag = arguments.get("output");
+  job.folder = arguments.get("folder");
+  job.false_closures = arguments.number("false-closures", 0.0, 0.0, 1000.0);
+  if (!job.folder.empty() && job.session.sensors.count(urban_nav_sim::Sensor::Stereo) == 0)
+    throw UserError("--folder", "needs the stereo camera, which --sensors leaves out", "--sensors stereo,...");
+  return job;
+}
+
+int run(const Arguments& arguments, Console& console) {
+  const urban_nav_core::ThreadLimit threads(static_cast<int>(arguments.integer("threads", 0, 0, 1024)));
+  const SimulateJob job = jobOf(arguments);
+  const Simulated made = simulate(job, console);
+  Json json = Json::object();
+  json["bag"] = job.bag;
+  json["truth"] = made.truth_folder;
+  json["distance_m"] = made.distance_m;
+  Json& counts = json["messages"] = Json::object();
+  for (const auto& [topic, count] : made.counts) {
+    console.info("  " + topic + ": " + std::to_string(count));
+    counts[topic] = count;
+  }
+  if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), json.print());
+  console.print(job.bag + "\n");
+  return 0;
+}
+
+}  // namespace
+
+Command simulateCommand() {
+  Command command;
+  command.name = "simulate";
+  command.summary = "Drives the simulated robot through a world and writes what its sensors say, and the truth.";
+  command.options = {{"--world", "W", "which world (default quad; below)", false, false, {}},
+                     {"--seed", "N", "of the world and of all chance (default 1)", false, false, {}},
+                     {"--route", "R", "which way through it (default loops; below)", false, false, {}},
+                     {"--duration", "S", "how long (default 60)", false, false, {}},
+                     {"--day",
+                      "D",
+                      "1, 2, ...: the same world in other weather, with other vehicles and people (default 1)",
+                      false,
+                      false,
+                      {}},
+                     {"-o,--output",
+                      "BAG",
+                      "bag to write; it appears when it is complete, the truth beside it in BAG_STEM.truth/",
+                      true,
+                      false,
+                      {}},
+                     {"--folder", "DIR", "also the stereo stream as a KITTI folder", false, false, {}},
+                     {"--sensors", "LIST", "of " + urban_nav_sim::sensorList() + " (default: all)", false, true, {}},
+                     {"--fault",
+                      "FAULT",
+                      "KIND:SENSOR:START_S:DURATION_S[:VALUE], KIND one of " + urban_nav_sim::faultList() +
+                          "; VALUE: share of drop and corrupt, seconds of jump",
+                      false,
+                      true,
+                      {}},
+                     {"--false-closures",
+                      "PERCENT",
+                      "of the true closures: as many false ones in closures_false.csv",
+                      false,
+                      false,
+                      {}},
+                     threadsOption(),
+                     jsonOption()};
+  command.more_help = [](const Arguments&) { return urban_nav_sim::worldHelp(); };
+  command.examples = {"urban_nav simulate --world quad --seed 7 --route loops --duration 300 --day 2 -o day2.bag",
+                      "urban_nav simulate --sensors stereo --folder quad/ -o quad.bag",
+                      "urban_nav simulate --fault unplug:lasers:20:5 --fault drop:stereo:30:10:0.3 -o faults.bag"};
+  command.run = run;
+  return command;
+}
+
+}  // namespace urban_nav

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulate/simulate.hpp"
+
+#include <filesystem>
+#include <optional>
+
+#include "command_line/console.hpp"
+#include "simulate/measurement_topics.hpp"
+#include "simulate/stereo_folder_writer.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::int64_t frame_period = 50'000'000;  // ns, of the stereo camera, by which progress is told
+
+std::string truthFolderOf(const std::string& bag) { return fs::path(bag).replace_extension(".truth").string(); }
+
+void makeFolder(const std::string& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) throw urban_nav_core::UserError(path, "cannot be made: " + error.message(), "");
+}
+
+}  // namespace
+
+Simulated simulate(const SimulateJob& job, Console& console) {
+  urban_nav_sim::Session session(job.session);
+  const urban_nav_core::Pose T_base_left = session.places().at("stereo_left_optical_frame");
+  BagWriter bag(job.bag);
+  MeasurementTopics topics(session, bag);
+  std::optional<StereoFolderWriter> folder;
+  if (!job.folder.empty()) folder.emplace(job.folder, session);
+  Simulated made;
+  made.truth_folder = truthFolderOf(job.bag);
+  makeFolder(made.truth_folder);
+
+  Progress progress(console, "simulate", "frames", session.frames());
+  std::optional<urban_nav_core::Pose> last;
+  while (const std::optional<urban_nav_sim::Session::Arrival> arrival = session.next()) {
+    topics.write(arrival->measurement);
+    if (const auto* pair = std::get_if<urban_nav_sim::StereoMeasurement>(&arrival->measurement); pair && folder)
+      folder->add(*pair, session.truth(arrival->taken) * T_base_left);
+    if (const auto* truth = std::get_if<urban_nav_sim::TruthMeasurement>(&arrival->measurement)) {
+      if (last) made.distance_m += distanceBetween(*last, truth->T_world_base);
+      last = truth->T_world_base;
+    }
+    progress.update((arrival->taken - session.begin()) / frame_period);
+  }
+  progress.finish(session.frames());
+  console.info("truth: " + made.truth_folder);
+  session.writeTruth(made.truth_folder, job.false_closures);
+  if (folder) folder->finish();
+  bag.commit();
+  made.counts = bag.counts();
+  return made;
+}
+
+}  // namespace urban_nav

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "urban_nav_sim/session.hpp"
+
+namespace urban_nav {
+
+class Console;
+
+struct SimulateJob {
+  urban_nav_sim::SessionOptions session;
+  std::string bag, folder;      ///< folder: empty for none
+  double false_closures = 0.0;  ///< per cent of the true ones
+};
+
+struct Simulated {
+  std::string truth_folder;
+  double distance_m = 0.0;
+  std::map<std::string, std::int64_t> counts;  ///< messages by topic
+};
+
+/// Writes the truth, the folder and at last the bag: where there is a bag, all of it is there. Throws UserError.
+Simulated simulate(const SimulateJob& job, Console& console);
+
+}  // namespace urban_nav

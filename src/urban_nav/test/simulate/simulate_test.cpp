@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulate/simulate.hpp"
+
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include <filesystem>
+
+#include "command_line/console.hpp"
+#include "commands/commands.hpp"
+#include "support/folders.hpp"
+#include "urban_nav_core/io/kitti.hpp"
+#include "urban_nav_core/io/tum.hpp"
+#include "urban_nav_core/parallel/for_each.hpp"
+
+namespace urban_nav {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::readFile;
+using testing::TemporaryFolder;
+
+SimulateJob shortJob(const TemporaryFolder& folder) {
+  SimulateJob job;
+  job.session.seed = 3;
+  job.session.duration = 0.5;
+  job.bag = folder.file("session.bag");
+  return job;
+}
+
+int runSimulate(std::vector<std::string> words) {
+  words.insert(words.begin(), {"urban_nav", "simulate"});
+  std::vector<const char*> argv;
+  for (const std::string& word : words) argv.push_back(word.c_str());
+  return runCommandLine({simulateCommand()}, static_cast<int>(argv.size()), argv.data());
+}
+
+TEST(Simulate, WritesEveryTopicTheFolderAndTheTruth) {
+  const TemporaryFolder folder;
+  SimulateJob job = shortJob(folder);
+  job.folder = folder.file("kitti");
+  Console console;
+  const Simulated made = simulate(job, console);
+  for (const char* topic : {"/stereo/left/image_raw", "/stereo/right/camera_info",
+                            "/ladybug/camera4/image_raw/compressed", "/laser_left/scan", "/laser_right/scan",
+                            "/imu/data", "/imu/mag", "/wheel_odom", "/ground_truth/pose", "/tf_static"})
+    EXPECT_GT(made.counts.count(topic), 0U) << topic;
+  EXPECT_EQ(made.counts.at("/stereo/left/image_raw"), 10);
+  const rosbag::Bag bag(job.bag);
+  EXPECT_EQ(rosbag::View(bag, rosbag::TopicQuery("/stereo/left/image_raw")).size(), 10U);
+
+  EXPECT_EQ(urban_nav_core::readKitti(job.folder + "/poses.txt").size(), 10U);
+  EXPECT_EQ(urban_nav_core::readTimes(job.folder + "/times.txt").size(), 10U);
+  for (const char* name : {"trajectory.tum", "revisits.csv", "closures_true.csv", "cloud.ply"})
+    EXPECT_TRUE(fs::exists(made.truth_folder + "/" + name)) << name;
+  EXPECT_GE(urban_nav_core::readTum(made.truth_folder + "/trajectory.tum").size(), 100U);
+}
+
+TEST(Simulate, GivesTheSameBytesOnOneThreadAndOnTwo) {
+  const TemporaryFolder first, second;
+  Console console;
+  const auto run = [&console](const TemporaryFolder& folder, int threads) {
+    const urban_nav_core::ThreadLimit limit(threads);
+    SimulateJob job = shortJob(folder);
+    job.session.duration = 0.2;
+    simulate(job, console);
+    return readFile(job.bag);
+  };
+  EXPECT_EQ(run(first, 1), run(second, 2));
+}
+
+TEST(Simulate, FaultsSpoilTheSensorNotTheTruth) {
+  const TemporaryFolder folder;
+  SimulateJob job = shortJob(folder);
+  job.session.sensors = {urban_nav_sim::Sensor::Imu, urban_nav_sim::Sensor::Wheels};
+  job.session.faults = {urban_nav_sim::parseFault("unplug:wheels:0:9")};
+  Console console;
+  const Simulated made = simulate(job, console);
+  EXPECT_EQ(made.counts.count("/wheel_odom"), 0U);
+  EXPECT_EQ(made.counts.count("/stereo/left/image_raw"), 0U);
+  EXPECT_GT(made.counts.at("/imu/data"), 40);
+  EXPECT_GT(made.counts.at("/ground_truth/pose"), 90);
+}
+
+TEST(Simulate, RefusesWhatThereIsNotAndLeavesNothing) {
+  const TemporaryFolder folder;
+  const std::string bag = folder.file("never.bag");
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"--world", "atlantis"},
+                                                {"--route", "moonwalk"},
+                                                {"--sensors", "stereo,sonar"},
+                                                {"--fault", "melt:stereo:0:1"},
+                                                {"--fault", "stereo"},
+                                                {"--duration", "0"},
+                                                {"--sensors", "imu", "--folder", folder.file("kitti")}}) {
+    std::vector<std::string> all = words;
+    all.insert(all.end(), {"-o", bag});
+    EXPECT_EQ(runSimulate(all), 2) << words[0] << " " << words[1];
+    EXPECT_TRUE(fs::is_empty(fs::path(bag).parent_path())) << words[0] << " " << words[1];
+  }
+}
+
+}  // namespace
+}  // namespace urban_nav

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "urban_nav_sim/sensor.hpp"
+
+namespace urban_nav_sim {
+
+/// What can go wrong with what a sensor sends.
+enum class FaultKind : std::uint8_t {
+  Drop,     ///< messages are missing; value: their share, 0...1 (default 0.3)
+  Freeze,   ///< the last measurement from before goes on under new stamps
+  Swap,     ///< left and right exchanged (stereo, lasers); others: as freeze
+  Corrupt,  ///< rubbish in a share of the rows, beams or numbers; value: that share, 0...1 (default 0.3)
+  Jump,     ///< stamps are later by value in s (default 10; may be below zero)
+  Unplug,   ///< nothing comes
+  Nan       ///< numbers are NaN; pictures, which have none, are black
+};
+/// "drop", "freeze", "swap", "corrupt", "jump", "unplug", "nan".
+const char* toString(FaultKind kind);
+std::string faultList();
+
+/// A fault of one sensor for some time, s since the session began.
+struct Fault {
+  FaultKind kind = FaultKind::Drop;
+  Sensor sensor = Sensor::Stereo;
+  double start = 0.0, duration = 1.0;
+  std::optional<double> value;
+
+  bool isActive(double t) const { return t >= start && t < start + duration; }
+};
+
+/// "KIND:SENSOR:START_S:DURATION_S[:VALUE]". Throws UserError that says what is wrong and what is allowed.
+Fault parseFault(const std::string& text);
+
+}  // namespace urban_nav_sim

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core/mat.hpp>
+#include <variant>
+
+#include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_core/laser/scan.hpp"
+#include "urban_nav_core/types/stamp.hpp"
+
+namespace urban_nav_sim {
+
+enum class Side : std::uint8_t { Left, Right };
+
+/// A stereo pair, grey, 8 bit. An image that is missing is empty.
+struct StereoMeasurement {
+  urban_nav_core::StampNs stamp = 0;
+  cv::Mat left, right;
+};
+
+/// What one camera of the Ladybug saw, BGR, 8 bit.
+struct LadybugMeasurement {
+  urban_nav_core::StampNs stamp = 0;
+  int camera = 0;  ///< 0 forward, then clockwise seen from above
+  cv::Mat image;
+};
+
+struct LaserMeasurement {
+  Side side = Side::Left;
+  urban_nav_core::PlanarScan scan;
+};
+
+struct ImuMeasurement {
+  urban_nav_core::StampNs stamp = 0;
+  Eigen::Vector3d rate = Eigen::Vector3d::Zero();            ///< rad/s, axes of imu_link
+  Eigen::Vector3d specific_force = Eigen::Vector3d::Zero();  ///< m/s^2, +9.81 along z at rest
+  Eigen::Vector3d field = Eigen::Vector3d::Zero();           ///< T
+};
+
+struct WheelMeasurement {
+  urban_nav_core::StampNs stamp = 0;
+  urban_nav_core::Pose T_odom_base;
+  double speed = 0.0, yaw_rate = 0.0;  ///< m/s, rad/s
+};
+
+struct GpsMeasurement {
+  urban_nav_core::StampNs stamp = 0;
+  bool has_fix = true;
+  double latitude = 0.0, longitude = 0.0, altitude = 0.0;  ///< deg, deg, m over the ellipsoid
+  Eigen::Vector3d sigma = Eigen::Vector3d::Ones();         ///< as the receiver states it: east, north, up, m
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();      ///< east, north, up, m/s
+};
+
+struct TruthMeasurement {
+  urban_nav_core::StampNs stamp = 0;
+  urban_nav_core::Pose T_world_base;
+};
+
+using Measurement = std::variant<StereoMeasurement, LadybugMeasurement, LaserMeasurement, ImuMeasurement,
+                                 WheelMeasurement, GpsMeasurement, TruthMeasurement>;
+
+urban_nav_core::StampNs stampOf(const Measurement& measurement);
+
+}  // namespace urban_nav_sim

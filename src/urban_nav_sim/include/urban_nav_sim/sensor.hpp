@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+namespace urban_nav_sim {
+
+/// What the robot carries, as the command line names it.
+enum class Sensor : std::uint8_t { Stereo, Ladybug, Lasers, Imu, Wheels, Gps };
+inline constexpr std::array<Sensor, 6> all_sensors = {Sensor::Stereo, Sensor::Ladybug, Sensor::Lasers,
+                                                      Sensor::Imu,    Sensor::Wheels,  Sensor::Gps};
+
+/// "stereo", "ladybug", "lasers", "imu", "wheels", "gps".
+const char* toString(Sensor sensor);
+/// Throws UserError that names what there is; `where`: its option.
+Sensor parseSensor(const std::string& word, const std::string& where);
+std::string sensorList();
+
+}  // namespace urban_nav_sim

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "urban_nav_core/camera/camera_info.hpp"
+#include "urban_nav_sim/fault.hpp"
+#include "urban_nav_sim/measurement.hpp"
+
+namespace urban_nav_sim {
+
+/// What is driven. Equal options give equal bytes, whatever the number of threads.
+struct SessionOptions {
+  std::string world = "quad", route = "loops";
+  std::uint32_t seed = 1;
+  int day = 1;             ///< 1, 2, ...
+  double duration = 60.0;  ///< s
+  std::set<Sensor> sensors{all_sensors.begin(), all_sensors.end()};
+  std::vector<Fault> faults;
+};
+
+/// A session of the simulated robot. Throws UserError from its constructor that names the worlds or routes there are. Not thread-safe; works on as
+/// many threads as urban_nav_core::ThreadLimit allows.
+class Session {
+ public:
+  explicit Session(const SessionOptions& options);
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  struct Arrival {
+    Measurement measurement;
+    urban_nav_core::StampNs taken = 0;  ///< when it was truly taken, whatever its stamp says
+  };
+  /// The next one, in the order in which they were taken; empty at the end.
+  std::optional<Arrival> next();
+  /// Where the robot truly was at a time that is not a fault's.
+  urban_nav_core::Pose truth(urban_nav_core::StampNs taken) const;
+
+  /// True stamp of t = 0.
+  urban_nav_core::StampNs begin() const;
+  double duration() const;
+  /// Stereo pairs, to show how far it is.
+  std::int64_t frames() const;
+
+  /// T_base_sensor by frame.
+  std::map<std::string, urban_nav_core::Pose> places() const;
+  urban_nav_core::CameraInfo stereoInfo(Side side) const;
+  urban_nav_core::CameraInfo ladybugInfo(int camera) const;  ///< 0 ... 4
+
+  /// trajectory.tum, revisits.csv, closures_true.csv, closures_false.csv (if `false_closures` is not zero: their per cent of the true ones), cloud.ply
+  /// (CONTRACT.md) into a folder that exists. What sensors there are does not matter.
+  void writeTruth(const std::string& folder, double false_closures) const;
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+/// For --help: each world with its routes, a line a route.
+std::string worldHelp();
+
+}  // namespace urban_nav_sim

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "camera/exposure.hpp"
+#include "camera/motion_blur.hpp"
+#include "noise/noise.hpp"
+
+namespace urban_nav_sim {
+
+/// What makes grey levels of light: smear of the motion, spread of a point over its neighbours, vignetting, noise, 8 bits.
+/// Keeps buffers, so one thread at a time; uses several inside. Same bytes whatever their number.
+class Imager {
+ public:
+  struct Settings {
+    double vignetting = 0.30;                                 ///< share of light that is lost in the corners
+    double spread = 0.50;                                     ///< px, sigma of the point spread
+    double read_noise = 0.55;                                 ///< grey levels without gain
+    double shot_noise = 0.006;                                ///< levels^2 per level without gain
+    double sensitivity = 1.0;                                 ///< of this imager beside the others of its head
+    Eigen::Vector3f white_balance = Eigen::Vector3f::Ones();  ///< factors of red, green, blue
+    double gamma = 1.0;                                       ///< 255 (level / 255)^gamma
+    bool blurs = true, is_noisy = true;
+  };
+  Imager(const Lens& lens, const Settings& settings, const Noise& noise);
+
+  const RayTable& rays() const { return rays_; }
+  /// 8 bit, grey or BGR. `levels`: grey levels for a radiance of 1; `number`: of the frame, for its noise.
+  cv::Mat develop(const Picture& picture, const CameraMotion& motion, const Exposure& exposure, double levels,
+                  std::uint64_t number);
+
+ private:
+  void developRow(const Picture& picture, const std::vector<float>& radiance, int v, float levels, float gain,
+                  const Noise& noise, std::uint8_t* out) const;
+
+  RayTable rays_;
+  Settings settings_;
+  Noise noise_;
+  std::vector<float> vignetting_;
+  std::array<std::uint8_t, 1024> curve_{};  ///< of quarters of a level
+  std::vector<float> smeared_;
+};
+
+}  // namespace urban_nav_sim

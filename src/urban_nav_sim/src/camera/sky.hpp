@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "world/day.hpp"
+
+namespace urban_nav_sim {
+
+/// What is infinitely far away: blue that pales to the horizon, clouds, the glow of the sun; and the light it throws.
+/// Linear RGB, 1 = a white sheet in the sun of a clear day. Immutable, so thread-safe.
+class Sky {
+ public:
+  Sky(const Day& day, std::uint64_t seed);
+
+  const Day& day() const { return day_; }
+  /// Seen in a direction (unit, `world`); below the horizon the haze there would be.
+  Eigen::Vector3f radiance(const Eigen::Vector3f& direction) const;
+  /// What a mirror shows where the direction leads: the sky above roofs, below it their dark outline.
+  Eigen::Vector3f mirrored(const Eigen::Vector3f& direction) const;
+  /// What a white surface sends back of the light of sky and ground, without the sun. Normal: unit, `world`.
+  Eigen::Vector3f ambient(const Eigen::Vector3f& normal) const {
+    const float up = 0.5F + 0.5F * normal.z();
+    return up * day_.sky + (1.0F - up) * day_.ground;
+  }
+  /// The colour that things take on in the distance.
+  const Eigen::Vector3f& haze() const { return haze_; }
+
+ private:
+  Eigen::Vector3f evaluate(const Eigen::Vector3f& direction, std::uint64_t seed) const;
+  Eigen::Vector3f sample(const Eigen::Vector3f& direction) const;
+
+  Day day_;
+  Eigen::Vector3f haze_ = Eigen::Vector3f::Zero();
+  std::vector<Eigen::Vector3f> map_;  ///< rows: elevation from the horizon up; columns: azimuth, one more than a turn
+};
+
+}  // namespace urban_nav_sim

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "faults/fault_filter.hpp"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "faults/spoil.hpp"
+#include "noise/hash.hpp"
+
+namespace urban_nav_sim {
+
+using urban_nav_core::StampNs;
+
+namespace {
+
+constexpr double default_drop = 0.3, default_corrupt = 0.3, default_jump = 10.0;
+
+struct Origin {
+  std::optional<Sensor> operator()(const StereoMeasurement&) const { return Sensor::Stereo; }
+  std::optional<Sensor> operator()(const LadybugMeasurement&) const { return Sensor::Ladybug; }
+  std::optional<Sensor> operator()(const LaserMeasurement&) const { return Sensor::Lasers; }
+  std::optional<Sensor> operator()(const ImuMeasurement&) const { return Sensor::Imu; }
+  std::optional<Sensor> operator()(const WheelMeasurement&) const { return Sensor::Wheels; }
+  std::optional<Sensor> operator()(const GpsMeasurement&) const { return Sensor::Gps; }
+  std::optional<Sensor> operator()(const TruthMeasurement&) const { return std::nullopt; }
+};
+
+int partOf(const Measurement& measurement) {
+  if (const auto* image = std::get_if<LadybugMeasurement>(&measurement)) return image->camera;
+  if (const auto* turn = std::get_if<LaserMeasurement>(&measurement)) return static_cast<int>(turn->side);
+  return 0;
+}
+
+}  // namespace
+
+FaultFilter::FaultFilter(std::vector<Fault> faults, std::uint64_t seed, StampNs begin)
+    : faults_(std::move(faults)), seed_(seed), begin_(begin) {}
+
+void FaultFilter::spoil(const Fault& fault, const Stream& stream, Measurement& measurement) const {
+  const auto freeze = [&] {
+    const auto before = last_good_.find(stream);
+    if (before == last_good_.end()) return;
+    const StampNs now = stampOf(measurement);
+    measurement = before->second;
+    setStamp(now, measurement);
+  };
+  switch (fault.kind) {
+    case FaultKind::Drop:
+    case FaultKind::Unplug: return;
+    case FaultKind::Freeze: return freeze();
+    case FaultKind::Swap:
+      if (!swapSides(measurement)) freeze();
+      return;
+    case FaultKind::Corrupt: return corrupt(fault.value.value_or(default_corrupt), hash(seed_, count_), measurement);
+    case FaultKind::Jump:
+      return setStamp(stampOf(measurement) + std::llround(1e9 * fault.value.value_or(default_jump)), measurement);
+    case FaultKind::Nan: return blank(measurement);
+  }
+}
+
+std::optional<Measurement> FaultFilter::apply(Measurement measurement) {
+  const std::optional<Sensor> sensor = std::visit(Origin(), measurement);
+  if (!sensor) return measurement;
+  const Stream stream(*sensor, partOf(measurement));
+  const double t = 1e-9 * static_cast<double>(stampOf(measurement) - begin_);
+  ++count_;
+  bool spoilt = false;
+  const Measurement original = measurement;
+  for (const Fault& fault : faults_) {
+    if (fault.sensor != *sensor || !fault.isActive(t)) continue;
+    if (fault.kind == FaultKind::Unplug) return std::nullopt;
+    if (fault.kind == FaultKind::Drop) {
+      if (uniformOf(hash(seed_, count_, 1)) < fault.value.value_or(default_drop)) return std::nullopt;
+      continue;
+    }
+    spoil(fault, stream, measurement);
+    spoilt = true;
+  }
+  if (!spoilt && !faults_.empty()) last_good_[stream] = original;
+  return measurement;
+}
+
+}  // namespace urban_nav_sim

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "urban_nav_sim/fault.hpp"
+#include "urban_nav_sim/measurement.hpp"
+
+namespace urban_nav_sim {
+
+/// Lets measurements through, faults included. The same seed and measurements give the same result. Not thread-safe.
+class FaultFilter {
+ public:
+  FaultFilter(std::vector<Fault> faults, std::uint64_t seed, urban_nav_core::StampNs begin);
+
+  /// The measurement as it arrives; none if it was lost. They come in the order of their true stamps. The truth has no faults.
+  std::optional<Measurement> apply(Measurement measurement);
+
+ private:
+  /// Streams that freeze each by itself: a camera of the Ladybug, one of the lasers.
+  using Stream = std::pair<Sensor, int>;
+
+  void spoil(const Fault& fault, const Stream& stream, Measurement& measurement) const;
+
+  std::vector<Fault> faults_;
+  std::uint64_t seed_, count_ = 0;
+  urban_nav_core::StampNs begin_;
+  std::map<Stream, Measurement> last_good_;
+};
+
+}  // namespace urban_nav_sim

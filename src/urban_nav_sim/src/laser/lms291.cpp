@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "laser/lms291.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace urban_nav_sim {
+
+/// What a fifth of the beam's cross-section sends back.
+struct Lms291::Echo {
+  double range = std::numeric_limits<double>::infinity();  ///< m
+  double strength = 0.0;                                   ///< albedo times cosine of incidence
+  SurfaceClass surface_class = SurfaceClass::Other;
+};
+
+struct Lms291::Reading {
+  double range = std::numeric_limits<double>::infinity();  ///< m
+  double intensity = 0.0;                                  ///< 0 ... 255
+};
+
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+using urban_nav_core::Pose;
+
+constexpr double kStep = 0.5 * M_PI / 180.0;          // rad from beam to beam
+constexpr double kExit = 0.013, kDivergence = 0.011;  // m, rad: width of the beam (1.6 there)
+constexpr double kWeakest = 0.1 / (30.0 * 30.0);      // 30 m on an albedo of 0.1 (1.3 there)
+constexpr double kPulse = 1.5;                        // m: echoes nearer to each other than that are one to the device
+constexpr float kFar = 200.0F;                        // m
+constexpr int kRays = 5, kBeamsOfPacket = kLanes / kRays;  // the middle of the beam, and four places around it
+
+/// Towards the ray of a beam's footprint, laser's frame; the outer ones lie at half the radius.
+Vector3d rayOf(int beam, int ray) {
+  const double angle = -M_PI / 4.0 + kStep * beam, off = kDivergence / 4.0;
+  const double up = ray == 1 ? off : ray == 2 ? -off : 0.0, aside = ray == 3 ? off : ray == 4 ? -off : 0.0;
+  return {std::cos(angle) - aside * std::sin(angle), std::sin(angle) + aside * std::cos(angle), up};
+}
+
+/// The echo's value as the log has it: path at 1-1.5 m 37-54, walls at 3.5-5.5 m 53-80; the optics lose light near by,
+/// distance takes it from 8 m on (NEW_COLLEGE.md, section 4; DEVICE_PROTOCOLS.md, 1.6).
+double intensityOf(double strength, double range) {
+  const double optics = range / (range + 0.5), distance = range > 8.0 ? 8.0 / range : 1.0;
+  return 190.0 * std::pow(std::max(strength, 0.0), 0.85) * optics * distance;
+}
+
+}  // namespace
+
+Lms291::Lms291(const Tracer& tracer, const Pose& T_base_laser, std::uint64_t seed, std::string_view name,
+               const Settings& settings)
+    : tracer_(tracer),
+      T_base_laser_(T_base_laser),
+      settings_(settings),
+      noise_(Noise(seed, "lasers").of(name)),
+      bias_(settings.has_defects ? noise_.of("bias").uniform(0, -settings.largest_bias, settings.largest_bias) : 0.0) {}
+
+Lms291::Reading Lms291::measured(const Footprint& footprint, const Noise& noise, int beam) const {
+  const Echo& middle = footprint[0];
+  if (!settings_.has_defects) return {middle.range, intensityOf(middle.strength, middle.range)};
+  double near = std::numeric_limits<double>::infinity(), far = 0.0;
+  for (const Echo& echo : footprint) {
+    near = std::min(near, echo.range);
+    if (std::isfinite(echo.range)) far = std::max(far, echo.range);
+  }
+  if (!std::isfinite(near)) return {};
+  // A slanted surface spreads its echoes evenly about the middle one; an edge does not.
+  const double slant = std::abs(footprint[1].range - 2.0 * middle.range + footprint[2].range) +
+                       std::abs(footprint[3].range - 2.0 * middle.range + footprint[4].range);
+  double range = middle.range, strength = middle.strength;
+  if (!(slant < 0.02)) {
+    // The first echo that is strong enough, drawn backwards by what follows it within the pulse.
+    double weights = 0.0, sum = 0.0;
+    for (std::size_t i = 0; i < footprint.size(); ++i) {
+      const Echo& echo = footprint[i];
+      if (!(echo.range < near + kPulse)) continue;
+      const double weight = (i == 0 ? 2.0 : 1.0) / 6.0 * echo.strength / (echo.range * echo.range);
+      weights += weight;
+      sum += weight * echo.range;
+    }
+    if (!(weights > 0.0)) return {};
+    range = sum / weights;
+    strength = weights * range * range;
+  }
+  const auto counter = static_cast<std::uint64_t>(beam);
+  // Fading makes the limit a soft one.
+  const double limit = kWeakest * std::exp(0.4 * noise.of("fading").normal(counter));
+  if (!(strength / (range * range) > limit)) return {};
+  const double sigma = settings_.sigma * (range > 20.0 ? 2.0 : 1.0);
+  double shown = range + bias_ + settings_.systematic_error + sigma * noise.of("range").normal(counter);
+  shown = std::round(shown / settings_.step) * settings_.step;
+  if (!(shown > 0.0 && shown < settings_.range_max)) return {};
+  const double intensity = intensityOf(strength, range) * (1.0 + 0.04 * noise.of("intensity").normal(counter));
+  return {shown, std::clamp(std::round(intensity), 1.0, 255.0)};
+}
+
+/// What comes back to each part of the beam's cross-section.
+Lms291::Footprint Lms291::echoes(const Snapshot& snapshot, const Packet& packet, const Hits& hits, int first_lane) {
+  Footprint footprint;
+  for (int ray = 0; ray < kRays; ++ray) {
+    const int lane = first_lane + ray;
+    if (hits.facet[lane] == kNothing) continue;
+    // The look is taken over the width of the beam.
+    const Vector3f direction = packet.directionOf(lane);
+    const float angle =
+        static_cast<float>(kDivergence) + static_cast<float>(kExit) / std::max(0.1F, hits.distance[lane]);
+    const Vector3f aside = direction.unitOrthogonal(), along = direction.cross(aside);
+    const SurfacePoint point = snapshot.surfaceAt(hits, lane, packet, angle * aside, angle * along);
+    const Look look = lookAt(*point.material, point.spot);
+    const float cosine = std::abs(point.normal.dot(direction.normalized()));
+    Echo& echo = footprint[static_cast<std::size_t>(ray)];
+    echo.range = point.distance;
+    echo.strength = static_cast<double>(look.infrared * (1.0F - look.gloss) * cosine);
+    // Glass that stands square to the beam is a mirror.
+    if (cosine > 0.998F) echo.strength += static_cast<double>(look.gloss);
+    echo.surface_class = point.surface_class;
+  }
+  return footprint;
+}
+
+urban_nav_core::PlanarScan Lms291::scan(const Ride& ride, double t, urban_nav_core::StampNs stamp, std::uint64_t number,
+                                        std::vector<BeamTruth>* truth) const {
+  urban_nav_core::PlanarScan scan;
+  scan.stamp = stamp;
+  scan.angle_first = -M_PI / 4.0;
+  scan.angle_step = kStep;
+  scan.time_step = settings_.period / 720.0;
+  scan.period = settings_.period;
+  scan.range_min = 0.05;
+  scan.range_max = settings_.range_max;
+  if (truth != nullptr) truth->clear();
+  const Snapshot snapshot(tracer_, t, t + scan.time_step * (kBeams - 1));
+  const Noise noise = noise_.of(number);
+  for (int first = 0; first < kBeams; first += kBeamsOfPacket) {
+    const int beams = std::min(kBeamsOfPacket, kBeams - first);
+    Packet packet{};
+    for (int lane = 0; lane < kRays * beams; ++lane) {
+      const int beam = first + lane / kRays, ray = lane % kRays;
+      const Pose T_world_laser = ride.at(t + scan.time_step * beam).T_world_base * T_base_laser_;
+      packet.setOrigin(lane, T_world_laser.t().cast<float>());
+      packet.setDirection(lane, (T_world_laser.q() * rayOf(beam, ray)).cast<float>());
+      packet.far[lane] = kFar;
+      packet.time[lane] = static_cast<float>(beam) / (kBeams - 1);
+      packet.active |= 1U << lane;
+    }
+    Hits hits;
+    snapshot.closest(packet, hits);
+    for (int i = 0; i < beams; ++i) {
+      const Footprint footprint = echoes(snapshot, packet, hits, i * kRays);
+      const Reading reading = measured(footprint, noise, first + i);
+      scan.ranges.push_back(static_cast<float>(reading.range));
+      scan.intensities.push_back(std::isfinite(reading.range) ? static_cast<float>(reading.intensity) : 0.0F);
+      if (truth != nullptr) truth->push_back({footprint[0].range, footprint[0].surface_class});
+    }
+  }
+  return scan;
+}
+
+}  // namespace urban_nav_sim

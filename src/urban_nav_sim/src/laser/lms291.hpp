@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "noise/noise.hpp"
+#include "ride/ride.hpp"
+#include "trace/tracer.hpp"
+#include "urban_nav_core/laser/scan.hpp"
+
+namespace urban_nav_sim {
+
+/// What a beam meets, without noise.
+struct BeamTruth {
+  double range = 0.0;  ///< m along the middle of the beam; infinite for the sky
+  SurfaceClass surface_class = SurfaceClass::Other;
+};
+
+/// A SICK LMS291-S14 (DEVICE_PROTOCOLS.md, section 1): 181 beams of 0.5 deg in one turn of 13.338 ms, each at its own time.
+/// Frame: x along beam 90 (the middle one), scan plane x-y, beams from -45 to 45 deg. Immutable, so thread-safe; the tracer
+/// must outlive it.
+class Lms291 {
+ public:
+  static constexpr int kBeams = 181;
+  struct Settings {
+    double period = 13.3381e-3;     ///< s of a turn (NEW_COLLEGE.md, section 3)
+    double sigma = 5e-3;            ///< m to 20 m; twice that beyond
+    double largest_bias = 5e-3;     ///< m; the constant bias of a device is even within it
+    double systematic_error = 0.0;  ///< m, added to every range; the data sheet's fault: 0.035
+    double step = 1e-3;             ///< m
+    double range_max = 32.7;        ///< m: 15 bits of millimetres (1.4 there)
+    bool has_defects = true;        ///< without: no noise, bias, mixed pixels, drop-outs, steps
+  };
+
+  /// `name` ("laser_left") tells the noise of devices of one seed apart.
+  Lms291(const Tracer& tracer, const urban_nav_core::Pose& T_base_laser, std::uint64_t seed, std::string_view name,
+         const Settings& settings);
+
+  /// The turn whose first beam is at `t` (s of the session), the `number`-th of this device. `stamp` is passed on.
+  /// Beams without return have infinite range and no intensity. `truth`, if not null: what each beam met.
+  urban_nav_core::PlanarScan scan(const Ride& ride, double t, urban_nav_core::StampNs stamp, std::uint64_t number,
+                                  std::vector<BeamTruth>* truth = nullptr) const;
+  double bias() const { return bias_; }  ///< m
+
+ private:
+  struct Echo;
+  using Footprint = std::array<Echo, 5>;
+  struct Reading;
+  static Footprint echoes(const Snapshot& snapshot, const Packet& packet, const Hits& hits, int first_lane);
+  Reading measured(const Footprint& footprint, const Noise& noise, int beam) const;
+
+  const Tracer& tracer_;
+  urban_nav_core::Pose T_base_laser_;
+  Settings settings_;
+  Noise noise_;
+  double bias_;
+};
+
+}  // namespace urban_nav_sim

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_sim/session.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "body/gps.hpp"
+#include "body/imu.hpp"
+#include "body/wheels.hpp"
+#include "faults/fault_filter.hpp"
+#include "ride/make_ride.hpp"
+#include "rig/places.hpp"
+#include "session/eyes.hpp"
+#include "session/timeline.hpp"
+#include "truth/cloud.hpp"
+#include "truth/truth_files.hpp"
+#include "urban_nav_core/types/error.hpp"
+#include "world/world.hpp"
+
+namespace urban_nav_sim {
+
+using urban_nav_core::Pose;
+using urban_nav_core::StampNs;
+using urban_nav_core::UserError;
+
+namespace {
+
+constexpr StampNs first_day = 1'225'719'873'000'000'000;  // of the New College set: 3 November 2008
+constexpr StampNs one_day = 86'400'000'000'000;
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string list;
+  for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
+  return list;
+}
+
+const SessionOptions& checked(const SessionOptions& options) {
+  const std::vector<std::string> worlds = worldNames();
+  if (std::find(worlds.begin(), worlds.end(), options.world) == worlds.end())
+    throw UserError("--world", options.world, joined(worlds));
+  return options;
+}
+
+Route routeOf(const SessionOptions& options) {
+  std::vector<std::string> names;
+  for (Route& route : routesOf(options.world, options.seed)) {
+    if (route.name == options.route) return std::move(route);
+    names.push_back(route.name);
+  }
+  throw UserError("--route", options.route, joined(names) + " in " + options.world);
+}
+
+RideOptions rideOptions(const SessionOptions& options) {
+  RideOptions made;
+  made.duration = options.duration;
+  made.seed = Noise(options.seed, "ride").bits(static_cast<std::uint64_t>(options.day));
+  return made;
+}
+
+}  // namespace
+
+class Session::Implementation {
+ public:
+  explicit Implementation(const SessionOptions& options)
+      : options_(checked(options)),
+        route_(routeOf(options_)),
+        world_(buildWorld(options_.world, options_.seed, options_.day)),
+        ride_(makeRide(world_, route_, rideOptions(options_))),
+        begin_(first_day + (options_.day - 1) * one_day),
+        noise_(Noise(options_.seed, "session").of(static_cast<std::uint64_t>(options_.day))),
+        timeline_(options_.duration),
+        faults_(options_.faults, options_.seed, begin_) {
+    addTruth();
+    if (has(Sensor::Imu)) addImu();
+    if (has(Sensor::Wheels)) addWheels();
+    if (has(Sensor::Gps)) addGps();
+    if (has(Sensor::Stereo) || has(Sensor::Ladybug) || has(Sensor::Lasers)) addEyes();
+  }
+
+  std::optional<Arrival> next() {
+    while (std::optional<Timeline::Due> due = timeline_.next()) {
+      const StampNs taken = begin_ + std::llround(1e9 * due->taken);
+      if (std::optional<Measurement> arrived = faults_.apply(std::move(due->measurement)))
+        return Arrival{std::move(*arrived), taken};
+    }
+    return std::nullopt;
+  }
+
+  Pose truth(StampNs taken) const { return ride_->at(1e-9 * static_cast<double>(taken - begin_)).T_world_base; }
+  StampNs begin() const { return begin_; }
+  const SessionOptions& options() const { return options_; }
+
+  void writeTruth(const std::string& folder, double false_closures) const {
+    writeTruthFiles(folder, *ride_, truthClock(), clockOf(Sensor::Ladybug), false_closures, options_.seed);
+    writeCloud(folder + "/cloud.ply", world_, *ride_);
+  }
+
+ private:
+  bool has(Sensor sensor) const { return options_.sensors.count(sensor) != 0; }
+  Clock clockOf(Sensor sensor) const { return {begin_, correctedClock(sensor), noise_.of(toString(sensor))}; }
+  Clock truthClock() const { return {begin_, ClockOptions(), noise_.of("truth")}; }
+
+  void addTruth() {
+    timeline_.add(truthSchedule(), [this, clock = truthClock()](std::int64_t k) {
+      const double t = truthSchedule().at(k);
+      return std::vector<Measurement>{TruthMeasurement{clock.stamp(k, t), ride_->at(t).T_world_base}};
+    });
+  }
+
+  void addImu() {
+    imu_.emplace(*ride_, placeOf("imu_link"), ImuOptions(), clockOf(Sensor::Imu), noise_.of("imu errors"));
+    timeline_.add(scheduleOf(Sensor::Imu), [this](std::int64_t k) { return std::vector<Measurement>{imu_->at(k)}; });
+  }
+
+  void addWheels() {
+    wheels_.emplace(*ride_, WheelOptions(), clockOf(Sensor::Wheels), noise_.of("wheel errors"));
+    timeline_.add(scheduleOf(Sensor::Wheels), [this](std::int64_t k) {
+      return k < wheels_->count() ? std::vector<Measurement>{wheels_->at(k)} : std::vector<Measurement>();
+    });
+  }
+
+  void addGps() {
+    gps_.emplace(*ride_, placeOf("gps_link"), GpsOptions(), clockOf(Sensor::Gps), noise_.of("gps errors"));
+    timeline_.add(scheduleOf(Sensor::Gps), [this](std::int64_t k) { return std::vector<Measurement>{gps_->at(k)}; });
+  }
+
+  void addEyes() {
+    eyes_ = std::make_unique<Eyes>(world_, *ride_, noise_);
+    if (has(Sensor::Lasers))
+      for (const Side side : {Side::Left, Side::Right})
+        timeline_.add(laserSchedule(side), [this, side, clock = clockOf(Sensor::Lasers)](std::int64_t k) {
+          return eyes_->laser(side, k, clock);
+        });
+    if (has(Sensor::Stereo))
+      timeline_.add(scheduleOf(Sensor::Stereo),
+                    [this, clock = clockOf(Sensor::Stereo)](std::int64_t k) { return eyes_->stereo(k, clock); });
+    if (has(Sensor::Ladybug))
+      timeline_.add(scheduleOf(Sensor::Ladybug),
+                    [this, clock = clockOf(Sensor::Ladybug)](std::int64_t k) { return eyes_->panorama(k, clock); });
+  }
+
+  SessionOptions options_;
+  Route route_;
+  World world_;
+  std::unique_ptr<Ride> ride_;
+  StampNs begin_;
+  Noise noise_;
+  Timeline timeline_;
+  FaultFilter faults_;
+  std::optional<Imu> imu_;
+  std::optional<Wheels> wheels_;
+  std::optional<Gps> gps_;
+  std::unique_ptr<Eyes> eyes_;
+};
+
+Session::Session(const SessionOptions& options) : implementation_(std::make_unique<Implementation>(options)) {}
+Session::~Session() = default;
+
+std::optional<Session::Arrival> Session::next() { return implementation_->next(); }
+Pose Session::truth(StampNs taken) const { return implementation_->truth(taken); }
+StampNs Session::begin() const { return implementation_->begin(); }
+double Session::duration() const { return implementation_->options().duration; }
+std::int64_t Session::frames() const { return scheduleOf(Sensor::Stereo).count(duration()); }
+std::map<std::string, Pose> Session::places() const { return sensorPlaces(); }
+urban_nav_core::CameraInfo Session::stereoInfo(Side side) const { return Eyes::stereoInfo(side); }
+urban_nav_core::CameraInfo Session::ladybugInfo(int camera) const { return Eyes::ladybugInfo(camera); }
+void Session::writeTruth(const std::string& folder, double false_closures) const {
+  implementation_->writeTruth(folder, false_closures);
+}
+
+std::string worldHelp() {
+  std::string text = "Worlds and their routes:\n";
+  for (const std::string& world : worldNames()) {
+    text += "  " + world + "\n";
+    for (const Route& route : routesOf(world, 1)) {
+      std::string name = route.name;
+      name.resize(std::max<std::size_t>(name.size() + 1, 14), ' ');
+      text += "    " + name + route.summary + "\n";
+    }
+  }
+  return text;
+}
+
+}  // namespace urban_nav_sim

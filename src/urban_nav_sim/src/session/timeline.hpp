@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "body/schedule.hpp"
+#include "urban_nav_sim/measurement.hpp"
+
+namespace urban_nav_sim {
+
+/// Asks devices for their measurements in the order in which they are due. Not thread-safe.
+class Timeline {
+ public:
+  explicit Timeline(double duration) : duration_(duration) {}
+
+  /// `measure` gives what the device says the k-th time, none or several measurements. Of devices that are due at once the one added first is asked
+  /// first.
+  void add(const Schedule& schedule, std::function<std::vector<Measurement>(std::int64_t k)> measure);
+
+  struct Due {
+    Measurement measurement;
+    double taken = 0.0;  ///< s of the session
+  };
+  /// Empty when the session is over.
+  std::optional<Due> next();
+
+ private:
+  struct Device {
+    Schedule schedule;
+    std::function<std::vector<Measurement>(std::int64_t)> measure;
+    std::int64_t count, k = 0;
+  };
+
+  double duration_;
+  std::vector<Device> devices_;
+  std::deque<Due> ready_;
+};
+
+}  // namespace urban_nav_sim

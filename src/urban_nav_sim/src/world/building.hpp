@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "world/site.hpp"
+#include "world/terrain.hpp"
+
+namespace urban_nav_sim {
+
+/// A hole in a wall: where it is (m along the wall and above z = 0), how deep its reveal, what closes it.
+struct Opening {
+  double u0, u1, v0, v1, depth = 0.18;
+  Finish filling;
+};
+
+/// A wall from `start` along a direction, from z = `low` to `high`, seen from its right; with reveals, sills and fillings.
+void buildWall(Site& site, const Finish& finish, const Finish& trim, const Eigen::Vector2d& start,
+               const Eigen::Vector2d& along, double length, double low, double high,
+               const std::vector<Opening>& openings);
+
+/// How a building looks. Sides are in the order south, east, north, west.
+struct Style {
+  Finish wall, trim{Stuff::Kerb, 1, 0}, roof{Stuff::Slate, 0, 0}, door{Stuff::Door, 0, 0};
+  Stuff window = Stuff::Sash;
+  int storeys = 2;
+  double storey = 3.4, window_width = 1.1, window_height = 1.7, sill = 0.95, spacing = 2.9;  ///< m
+  double pitch = 0.7;  ///< of the roof, rise over run; 0: flat with a parapet
+  bool battlements = false;
+  std::array<int, 4> doors = {0, 0, 0, 0};  ///< the so-manieth bay of a side has a door; 0: none
+  std::array<bool, 4> windows = {true, true, true, true};
+  double irregular = 0.12;  ///< share of the bays that are left blank
+  std::uint64_t seed = 0;
+};
+
+/// A building on a rectangle, roof included. Its floor is z = 0 at the ground's height in its middle.
+void buildHouse(Site& site, const Extent& extent, const Style& style);
+
+}  // namespace urban_nav_sim

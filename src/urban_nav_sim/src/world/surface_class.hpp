@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+namespace urban_nav_sim {
+
+/// What a surface is, in the words of the paper's classifier (Newman et al. 2009, section 8), and as cloud.ply numbers it.
+enum class SurfaceClass : std::uint8_t {
+  Other = 0,
+  Grass = 1,
+  Paved = 2,  ///< tarmac, paving
+  DirtPath = 3,
+  TexturedWall = 4,
+  SmoothWall = 5,
+  Foliage = 6,
+  Vehicle = 7
+};
+
+const char* nameOf(SurfaceClass surface_class);
+
+}  // namespace urban_nav_sim

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "world/world.hpp"
+
+#include <algorithm>
+
+#include "urban_nav_core/types/error.hpp"
+#include "world/worlds.hpp"
+
+namespace urban_nav_sim {
+
+using Eigen::Vector2d;
+
+std::vector<std::string> worldNames() { return {"quad", "begbroke", "street"}; }
+
+World buildWorld(const std::string& world, std::uint32_t seed, int day) {
+  if (world == "quad") return buildQuad(seed, day);
+  if (world == "begbroke") return buildBegbroke(seed, day);
+  if (world == "street") return buildStreet(seed, day);
+  throw urban_nav_core::UserError("world", "\"" + world + "\"", "quad, begbroke, street");
+}
+
+std::vector<Route> routesOf(const std::string& world, std::uint32_t seed) {
+  if (world == "quad") return routesOfQuad(seed);
+  if (world == "begbroke") return routesOfBegbroke(seed);
+  if (world == "street") return routesOfStreet(seed);
+  throw urban_nav_core::UserError("world", "\"" + world + "\"", "quad, begbroke, street");
+}
+
+std::vector<Waypoint> through(const std::vector<Vector2d>& places, double speed) {
+  std::vector<Waypoint> result;
+  for (const Vector2d& p : places) result.push_back({p, speed, 0.0});
+  return result;
+}
+
+std::vector<Waypoint> backwards(const std::vector<Waypoint>& waypoints) {
+  return {waypoints.rbegin(), waypoints.rend()};
+}
+
+std::vector<Vector2d> rounded(std::vector<Vector2d> line, bool closed) {
+  for (int round = 0; round < 2; ++round) {
+    std::vector<Vector2d> next;
+    const std::size_t n = line.size();
+    if (!closed) next.push_back(line.front());
+    for (std::size_t i = 0; i + (closed ? 0 : 1) < n; ++i) {
+      const Vector2d &a = line[i], &b = line[(i + 1) % n];
+      next.push_back(0.75 * a + 0.25 * b);
+      next.push_back(0.25 * a + 0.75 * b);
+    }
+    if (!closed) next.push_back(line.back());
+    line = std::move(next);
+  }
+  return line;
+}
+
+}  // namespace urban_nav_sim

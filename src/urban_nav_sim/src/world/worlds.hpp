@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "world/world.hpp"
+
+namespace urban_nav_sim {
+
+/// What each world is: its ground, what is built on it for a day, and the ways through it.
+World buildQuad(std::uint32_t seed, int day);
+World buildStreet(std::uint32_t seed, int day);
+World buildBegbroke(std::uint32_t seed, int day);
+std::vector<Route> routesOfQuad(std::uint32_t seed);
+std::vector<Route> routesOfStreet(std::uint32_t seed);
+std::vector<Route> routesOfBegbroke(std::uint32_t seed);
+
+/// For building routes: a way through places, and the same way backwards.
+std::vector<Waypoint> through(const std::vector<Eigen::Vector2d>& places, double speed = 1.25);
+std::vector<Waypoint> backwards(const std::vector<Waypoint>& waypoints);
+/// Corners of a line rounded off twice (Chaikin 1974). `closed`: the last point is joined to the first.
+std::vector<Eigen::Vector2d> rounded(std::vector<Eigen::Vector2d> line, bool closed);
+
+}  // namespace urban_nav_sim

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "faults/fault_filter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/core.hpp>
+
+namespace urban_nav_sim {
+namespace {
+
+constexpr urban_nav_core::StampNs begin = 1'000'000'000'000;
+
+urban_nav_core::StampNs at(double t) { return begin + std::llround(1e9 * t); }
+
+StereoMeasurement pairAt(double t) {
+  const int grey = static_cast<int>(10.0 * t);
+  return {at(t), cv::Mat(8, 8, CV_8UC1, cv::Scalar(grey)), cv::Mat(8, 8, CV_8UC1, cv::Scalar(grey + 100))};
+}
+
+ImuMeasurement imuAt(double t) {
+  ImuMeasurement imu;
+  imu.stamp = at(t);
+  return imu;
+}
+
+GpsMeasurement gpsAt(double t) {
+  GpsMeasurement gps;
+  gps.stamp = at(t);
+  return gps;
+}
+
+int grey(const cv::Mat& image) { return image.at<std::uint8_t>(0, 0); }
+
+FaultFilter filterOf(const std::string& fault) { return {{parseFault(fault)}, 7, begin}; }
+
+TEST(FaultFilter, LeavesOtherTimesAndSensorsAlone) {
+  FaultFilter filter = filterOf("unplug:stereo:1:1");
+  for (const double t : {0.0, 0.5, 1.0, 1.9, 2.0}) {
+    const bool lost = t >= 1.0 && t < 2.0;
+    EXPECT_EQ(filter.apply(pairAt(t)).has_value(), !lost) << t;
+    EXPECT_TRUE(filter.apply(imuAt(t)));
+    EXPECT_TRUE(filter.apply(TruthMeasurement{at(t), {}}));
+  }
+}
+
+TEST(FaultFilter, FreezesWithNewStamps) {
+  FaultFilter filter = filterOf("freeze:stereo:1:1");
+  filter.apply(pairAt(0.9));
+  const auto frozen = std::get<StereoMeasurement>(*filter.apply(pairAt(1.5)));
+  EXPECT_EQ(frozen.stamp, at(1.5));
+  EXPECT_EQ(grey(frozen.left), 9);
+  EXPECT_EQ(grey(std::get<StereoMeasurement>(*filter.apply(pairAt(2.5))).left), 25);
+}
+
+TEST(FaultFilter, SwapsSides) {
+  FaultFilter filter = filterOf("swap:stereo:0:9");
+  EXPECT_EQ(grey(std::get<StereoMeasurement>(*filter.apply(pairAt(1.0))).left), 110);
+  FaultFilter lasers = filterOf("swap:lasers:0:9");
+  LaserMeasurement turn;
+  turn.scan.stamp = at(1.0);
+  EXPECT_EQ(std::get<LaserMeasurement>(*lasers.apply(turn)).side, Side::Right);
+}
+
+TEST(FaultFilter, DropsTheShare) {
+  FaultFilter filter = filterOf("drop:imu:0:100:0.25");
+  int arrived = 0;
+  for (int i = 0; i < 4000; ++i) arrived += filter.apply(imuAt(0.01 * i)) ? 1 : 0;
+  EXPECT_NEAR(arrived, 3000, 100);
+}
+
+TEST(FaultFilter, CorruptsACopyAndStaysFinite) {
+  FaultFilter filter = filterOf("corrupt:stereo:0:9:1");
+  const StereoMeasurement sent = pairAt(1.0);
+  const auto arrived = std::get<StereoMeasurement>(*filter.apply(sent));
+  EXPECT_EQ(cv::norm(sent.left, pairAt(1.0).left, cv::NORM_INF), 0.0);
+  EXPECT_GT(cv::norm(arrived.left, sent.left, cv::NORM_INF), 20.0);
+  FaultFilter lasers = filterOf("corrupt:lasers:0:9:1");
+  LaserMeasurement turn;
+  turn.scan.stamp = at(1.0);
+  turn.scan.range_max = 80.0;
+  turn.scan.ranges.assign(181, 5.0F);
+  const auto arrived_turn = std::get<LaserMeasurement>(*lasers.apply(turn));
+  for (const float range : arrived_turn.scan.ranges) {
+    EXPECT_TRUE(std::isfinite(range));
+    EXPECT_LE(range, 80.0F);
+  }
+}
+
+TEST(FaultFilter, JumpsAndBlanks) {
+  FaultFilter jump = filterOf("jump:gps:0:9:-2.5");
+  EXPECT_EQ(stampOf(*jump.apply(gpsAt(1.0))), at(-1.5));
+  FaultFilter blank = filterOf("nan:imu:0:9");
+  const auto imu = std::get<ImuMeasurement>(*blank.apply(imuAt(1.0)));
+  EXPECT_TRUE(std::isnan(imu.rate.x()));
+  EXPECT_EQ(imu.stamp, at(1.0));
+  FaultFilter black = filterOf("nan:stereo:0:9");
+  EXPECT_EQ(grey(std::get<StereoMeasurement>(*black.apply(pairAt(5.0))).right), 0);
+}
+
+TEST(FaultFilter, SameBytesAgain) {
+  for (int run = 0; run < 2; ++run) {
+    static cv::Mat first;
+    FaultFilter filter = filterOf("corrupt:stereo:0:9");
+    const auto arrived = std::get<StereoMeasurement>(*filter.apply(pairAt(1.0)));
+    if (run == 0) first = arrived.left;
+    else EXPECT_EQ(cv::norm(first, arrived.left, cv::NORM_INF), 0.0);
+  }
+}
+
+}  // namespace
+}  // namespace urban_nav_sim

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_sim/fault.hpp"
+
+#include <gtest/gtest.h>
+
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav_sim {
+namespace {
+
+TEST(Fault, IsReadAsTheCommandLineHasIt) {
+  const Fault fault = parseFault("drop:lasers:12.5:3:0.4");
+  EXPECT_EQ(fault.kind, FaultKind::Drop);
+  EXPECT_EQ(fault.sensor, Sensor::Lasers);
+  EXPECT_EQ(fault.start, 12.5);
+  EXPECT_EQ(fault.duration, 3.0);
+  EXPECT_EQ(fault.value, 0.4);
+  EXPECT_FALSE(parseFault("nan:imu:0:1").value);
+  EXPECT_FALSE(fault.isActive(12.4));
+  EXPECT_TRUE(fault.isActive(12.5));
+  EXPECT_FALSE(fault.isActive(15.5));
+}
+
+/// What is wrong is named, and what there is.
+void expectComplaint(const std::string& text, const std::string& found, const std::string& allowed) {
+  try {
+    parseFault(text);
+    ADD_FAILURE() << text << " was taken";
+  } catch (const urban_nav_core::UserError& error) {
+    const std::string words = error.what();
+    EXPECT_NE(words.find(found), std::string::npos) << words;
+    EXPECT_NE(words.find(allowed), std::string::npos) << words;
+  }
+}
+
+TEST(Fault, SaysWhatIsAllowed) {
+  expectComplaint("melt:stereo:0:1", "melt", "drop, freeze, swap, corrupt, jump, unplug, nan");
+  expectComplaint("drop:sonar:0:1", "sonar", "stereo, ladybug, lasers, imu, wheels, gps");
+  expectComplaint("drop:stereo", "incomplete", "KIND:SENSOR:START_S:DURATION_S");
+  expectComplaint("drop:stereo:0:1:0.5:9", "incomplete", "KIND:SENSOR:START_S:DURATION_S");
+  expectComplaint("drop:stereo:-1:1", "start", "0...");
+  expectComplaint("drop:stereo:0:abc", "duration", "0...");
+  expectComplaint("drop:stereo:0:1:1.5", "share", "0...1");
+  expectComplaint("freeze:stereo:0:1:1", "freeze takes no value", "KIND");
+  expectComplaint("", "fault", "drop");
+}
+
+}  // namespace
+}  // namespace urban_nav_sim
