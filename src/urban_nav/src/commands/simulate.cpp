@@ -20,7 +20,8 @@ constexpr double longest = 86400.0;  // s
 std::set<urban_nav_sim::Sensor> sensorsOf(const Arguments& arguments) {
   if (!arguments.has("sensors")) return {urban_nav_sim::all_sensors.begin(), urban_nav_sim::all_sensors.end()};
   std::set<urban_nav_sim::Sensor> sensors;
-  for (const std::string& word : arguments.list("sensors")) sensors.insert(urban_nav_sim::parseSensor(word, "--sensors"));
+  for (const std::string& word : arguments.list("sensors"))
+    sensors.insert(urban_nav_sim::parseSensor(word, "--sensors"));
   if (sensors.empty()) throw UserError("--sensors", "none", urban_nav_sim::sensorList());
   return sensors;
 }
