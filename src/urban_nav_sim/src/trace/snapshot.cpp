@@ -14,10 +14,11 @@ namespace {
 using RayHits = RTCRayHit16;
 static_assert(kLanes == 16, "the calls below are those for sixteen rays");
 
-RTCIntersectContext coherentContext() {
+/// Embree 3.13 loops for ever on some coherent packets of which few lanes are active: coherent are full ones alone.
+RTCIntersectContext contextOf(std::uint32_t active) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  if (active == (1U << kLanes) - 1U) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   return context;
 }
 
@@ -79,7 +80,7 @@ void Snapshot::closest(const Packet& rays, Hits& hits) const {
   fillRays(rays, query.ray);
   std::fill_n(query.hit.geomID, kLanes, RTC_INVALID_GEOMETRY_ID);
   std::fill_n(query.hit.instID[0], kLanes, RTC_INVALID_GEOMETRY_ID);
-  RTCIntersectContext context = coherentContext();
+  RTCIntersectContext context = contextOf(rays.active);
   rtcIntersect16(valid, tracer_.still_.scene, &context, &query);
   for (int i = 0; i < kLanes; ++i) {
     const bool hit = valid[i] != 0 && query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
@@ -87,8 +88,7 @@ void Snapshot::closest(const Packet& rays, Hits& hits) const {
     hits.mover[i] = kNothing;
   }
   if (scene_ != nullptr) {
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    context = contextOf(rays.active);
     rtcIntersect16(valid, scene_, &context, &query);
     for (int i = 0; i < kLanes; ++i) {
       const std::uint32_t mover = query.hit.instID[0][i];
@@ -105,9 +105,7 @@ std::uint32_t Snapshot::occluded(const Packet& rays) const {
   alignas(64) RTCRay16 query;
   fillMask(rays.active, valid);
   fillRays(rays, query);
-  // Not as coherent rays: Embree 3.13 then loops for ever on some packets of which few lanes are active.
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+  RTCIntersectContext context = contextOf(0);
   rtcOccluded16(valid, tracer_.still_.scene, &context, &query);
   std::uint32_t met = 0;
   // Embree marks a ray that met something by a `far` of minus infinity.
