@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulate/simulate.hpp"
 
+#include <filesystem>
+
 #include "command_line/console.hpp"
 #include "command_line/json.hpp"
 #include "commands/commands.hpp"
@@ -37,6 +39,8 @@ SimulateJob jobOf(const Arguments& arguments) {
   for (const std::string& fault : arguments.all("fault"))
     job.session.faults.push_back(urban_nav_sim::parseFault(fault));
   job.bag = arguments.get("output");
+  if (std::filesystem::path(job.bag).extension() != ".bag")
+    throw UserError("--output", job.bag, "a name that ends in .bag; the truth goes beside it");
   job.folder = arguments.get("folder");
   job.false_closures = arguments.number("false-closures", 0.0, 0.0, 1000.0);
   if (!job.folder.empty() && job.session.sensors.count(urban_nav_sim::Sensor::Stereo) == 0)

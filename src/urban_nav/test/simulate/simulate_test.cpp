@@ -83,6 +83,12 @@ TEST(Simulate, FaultsSpoilTheSensorNotTheTruth) {
   EXPECT_GT(made.counts.at("/ground_truth/pose"), 90);
 }
 
+TEST(Simulate, RefusesAnOutputThatIsNoBag) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(runSimulate({"--duration", "0.2", "--sensors", "imu", "-o", folder.file("session.truth")}), 2);
+  EXPECT_TRUE(fs::is_empty(fs::path(folder.file("x")).parent_path()));
+}
+
 TEST(Simulate, RefusesWhatThereIsNotAndLeavesNothing) {
   const TemporaryFolder folder;
   const std::string bag = folder.file("never.bag");
