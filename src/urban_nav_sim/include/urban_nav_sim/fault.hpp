@@ -33,7 +33,7 @@ struct Fault {
   bool isActive(double t) const { return t >= start && t < start + duration; }
 };
 
-/// "KIND:SENSOR:START_S:DURATION_S[:VALUE]". Throws UserError that says what is wrong and what is allowed.
-Fault parseFault(const std::string& text);
+/// "KIND:SENSOR:START_S:DURATION_S[:VALUE]". Throws UserError that says what is wrong and what is allowed; `option`: where the text stood.
+Fault parseFault(const std::string& text, const std::string& option = "--fault");
 
 }  // namespace urban_nav_sim

@@ -23,10 +23,14 @@ struct SessionOptions {
   double duration = 60.0;  ///< s
   std::set<Sensor> sensors{all_sensors.begin(), all_sensors.end()};
   std::vector<Fault> faults;
+  std::string where = "--";  ///< what stands before the name of an option in an error
 };
 
-/// A session of the simulated robot. Throws UserError from its constructor that names the worlds or routes there are. Not thread-safe; works on as
-/// many threads as urban_nav_core::ThreadLimit allows.
+/// Throws UserError where there is no such world or route, naming those there are: what the constructor of Session does first, without the work.
+void checkPlace(const SessionOptions& options);
+
+/// A session of the simulated robot. Its constructor throws as checkPlace does. Not thread-safe; works on as many threads as
+/// urban_nav_core::ThreadLimit allows.
 class Session {
  public:
   explicit Session(const SessionOptions& options);

@@ -55,8 +55,8 @@ std::string faultList() {
   return list;
 }
 
-Fault parseFault(const std::string& text) {
-  const std::string where = "--fault " + text;
+Fault parseFault(const std::string& text, const std::string& option) {
+  const std::string where = option + " " + text;
   const std::vector<std::string_view> parts = urban_nav_core::splitAt(text, ':');
   Fault fault;
   fault.kind = parseKind(parts[0], where);

@@ -37,7 +37,7 @@ std::string joined(const std::vector<std::string>& words) {
 const SessionOptions& checked(const SessionOptions& options) {
   const std::vector<std::string> worlds = worldNames();
   if (std::find(worlds.begin(), worlds.end(), options.world) == worlds.end())
-    throw UserError("--world", options.world, joined(worlds));
+    throw UserError(options.where + "world", options.world, joined(worlds));
   return options;
 }
 
@@ -47,7 +47,7 @@ Route routeOf(const SessionOptions& options) {
     if (route.name == options.route) return std::move(route);
     names.push_back(route.name);
   }
-  throw UserError("--route", options.route, joined(names) + " in " + options.world);
+  throw UserError(options.where + "route", options.route, joined(names) + " in " + options.world);
 }
 
 RideOptions rideOptions(const SessionOptions& options) {
@@ -152,6 +152,8 @@ class Session::Implementation {
   std::optional<Gps> gps_;
   std::unique_ptr<Eyes> eyes_;
 };
+
+void checkPlace(const SessionOptions& options) { routeOf(checked(options)); }
 
 Session::Session(const SessionOptions& options) : implementation_(std::make_unique<Implementation>(options)) {}
 Session::~Session() = default;

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_sim/ros/measurement_messages.hpp"
+
+#include <boost/make_shared.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <utility>
+
+#include "urban_nav_ros/camera_info.hpp"
+#include "urban_nav_ros/extrinsics.hpp"
+#include "urban_nav_ros/image.hpp"
+#include "urban_nav_ros/laser_scan.hpp"
+#include "urban_nav_ros/pose.hpp"
+#include "urban_nav_ros/stamp.hpp"
+
+namespace urban_nav_sim {
+
+using urban_nav_core::StampNs;
+
+namespace {
+
+constexpr int jpeg_quality = 90;  // the Ladybug2's own compression is about as good
+constexpr double unknown = -1.0;  // first element of a covariance: what it belongs to is not measured (sensor_msgs/Imu)
+
+std_msgs::Header header(StampNs stamp, const std::string& frame) {
+  std_msgs::Header made;
+  made.stamp = urban_nav_ros::toRosTime(stamp);
+  made.frame_id = frame;
+  return made;
+}
+
+void set(const Eigen::Vector3d& from, geometry_msgs::Vector3& to) {
+  to.x = from.x();
+  to.y = from.y();
+  to.z = from.z();
+}
+
+template <typename Message>
+TopicMessage onTopic(const std::string& topic, StampNs stamp, Message message) {
+  return {topic, stamp, boost::make_shared<Message>(std::move(message))};
+}
+
+std::string nameOf(Side side) { return side == Side::Left ? "left" : "right"; }
+std::string ladybugName(int camera) { return "camera" + std::to_string(camera); }
+
+void addImage(Side side, const cv::Mat& pixels, sensor_msgs::CameraInfo camera, StampNs stamp,
+              std::vector<TopicMessage>& messages) {
+  if (pixels.empty()) return;
+  sensor_msgs::Image image = urban_nav_ros::toImageMessage(pixels);
+  image.header = camera.header = header(stamp, "stereo_" + nameOf(side) + "_optical_frame");
+  messages.push_back(onTopic("stereo/" + nameOf(side) + "/image_raw", stamp, std::move(image)));
+  messages.push_back(onTopic("stereo/" + nameOf(side) + "/camera_info", stamp, std::move(camera)));
+}
+
+template <typename Message>
+void addTopic(const std::string& topic, std::vector<TopicMessage>& topics) {
+  topics.push_back(onTopic(topic, 0, Message()));
+}
+
+void addTopics(Sensor sensor, std::vector<TopicMessage>& topics) {
+  switch (sensor) {
+    case Sensor::Stereo:
+      for (const Side side : {Side::Left, Side::Right}) {
+        addTopic<sensor_msgs::Image>("stereo/" + nameOf(side) + "/image_raw", topics);
+        addTopic<sensor_msgs::CameraInfo>("stereo/" + nameOf(side) + "/camera_info", topics);
+      }
+      return;
+    case Sensor::Ladybug:
+      for (int camera = 0; camera < 5; ++camera) {
+        addTopic<sensor_msgs::CompressedImage>("ladybug/" + ladybugName(camera) + "/image_raw/compressed", topics);
+        addTopic<sensor_msgs::CameraInfo>("ladybug/" + ladybugName(camera) + "/camera_info", topics);
+      }
+      return;
+    case Sensor::Lasers:
+      for (const Side side : {Side::Left, Side::Right})
+        addTopic<sensor_msgs::LaserScan>("laser_" + nameOf(side) + "/scan", topics);
+      return;
+    case Sensor::Imu:
+      addTopic<sensor_msgs::Imu>("imu/data", topics);
+      addTopic<sensor_msgs::MagneticField>("imu/mag", topics);
+      return;
+    case Sensor::Wheels: addTopic<nav_msgs::Odometry>("wheel_odom", topics); return;
+    case Sensor::Gps:
+      addTopic<sensor_msgs::NavSatFix>("gps/fix", topics);
+      addTopic<geometry_msgs::TwistStamped>("gps/vel", topics);
+      return;
+  }
+}
+
+}  // namespace
+
+std::vector<TopicMessage> topicsOf(const std::set<Sensor>& sensors) {
+  std::vector<TopicMessage> topics;
+  for (const Sensor sensor : sensors) addTopics(sensor, topics);
+  addTopic<geometry_msgs::PoseStamped>("ground_truth/pose", topics);
+  return topics;
+}
+
+std::vector<geometry_msgs::TransformStamped> staticTransforms(const Session& session) {
+  std::vector<geometry_msgs::TransformStamped> transforms;
+  for (const auto& [frame, T_base_sensor] : session.places()) {
+    transforms.push_back(urban_nav_ros::toStaticTransform("base_link", frame, T_base_sensor));
+    transforms.back().header.stamp = urban_nav_ros::toRosTime(session.begin());
+  }
+  return transforms;
+}
+
+MeasurementMessages::MeasurementMessages(const Session& session)
+    : left_(urban_nav_ros::toCameraInfoMessage(session.stereoInfo(Side::Left))),
+      right_(urban_nav_ros::toCameraInfoMessage(session.stereoInfo(Side::Right))) {
+  for (int i = 0; i < 5; ++i)
+    ladybug_[static_cast<std::size_t>(i)] = urban_nav_ros::toCameraInfoMessage(session.ladybugInfo(i));
+}
+
+std::vector<TopicMessage> MeasurementMessages::convert(const Measurement& measurement) {
+  return std::visit([this](const auto& any) { return from(any); }, measurement);
+}
+
+std::vector<TopicMessage> MeasurementMessages::from(const StereoMeasurement& pair) const {
+  Messages messages;
+  addImage(Side::Left, pair.left, left_, pair.stamp, messages);
+  addImage(Side::Right, pair.right, right_, pair.stamp, messages);
+  return messages;
+}
+
+std::vector<TopicMessage> MeasurementMessages::from(const LadybugMeasurement& panorama) const {
+  const std::string name = ladybugName(panorama.camera);
+  sensor_msgs::CameraInfo info = ladybug_[static_cast<std::size_t>(panorama.camera)];
+  sensor_msgs::CompressedImage image;
+  image.header = info.header = header(panorama.stamp, "ladybug_" + name + "_optical_frame");
+  image.format = "jpeg";
+  cv::imencode(".jpg", panorama.image, image.data, {cv::IMWRITE_JPEG_QUALITY, jpeg_quality});
+  return {onTopic("ladybug/" + name + "/image_raw/compressed", panorama.stamp, std::move(image)),
+          onTopic("ladybug/" + name + "/camera_info", panorama.stamp, std::move(info))};
+}
+
+std::vector<TopicMessage> MeasurementMessages::from(const LaserMeasurement& turn) {
+  const std::string name = "laser_" + nameOf(turn.side);
+  sensor_msgs::LaserScan scan = urban_nav_ros::toLaserScanMessage(turn.scan, name);
+  scan.header.seq = turns_[static_cast<std::size_t>(turn.side)]++;
+  return {onTopic(name + "/scan", turn.scan.stamp, std::move(scan))};
+}
+
+std::vector<TopicMessage> MeasurementMessages::from(const ImuMeasurement& imu) const {
+  sensor_msgs::Imu motion;
+  motion.header = header(imu.stamp, "imu_link");
+  motion.orientation.w = 1.0;
+  motion.orientation_covariance[0] = unknown;
+  set(imu.rate, motion.angular_velocity);
+  set(imu.specific_force, motion.linear_acceleration);
+  sensor_msgs::MagneticField field;
+  field.header = motion.header;
+  set(imu.field, field.magnetic_field);
+  return {onTopic("imu/data", imu.stamp, std::move(motion)), onTopic("imu/mag", imu.stamp, std::move(field))};
+}
+
+std::vector<TopicMessage> MeasurementMessages::from(const WheelMeasurement& wheels) const {
+  nav_msgs::Odometry odometry;
+  odometry.header = header(wheels.stamp, "odom");
+  odometry.child_frame_id = "base_link";
+  odometry.pose.pose = urban_nav_ros::toPoseMessage(wheels.T_odom_base);
+  odometry.twist.twist.linear.x = wheels.speed;
+  odometry.twist.twist.angular.z = wheels.yaw_rate;
+  return {onTopic("wheel_odom", wheels.stamp, std::move(odometry))};
+}
+
+std::vector<TopicMessage> MeasurementMessages::from(const GpsMeasurement& gps) const {
+  sensor_msgs::NavSatFix fix;
+  fix.header = header(gps.stamp, "gps_link");
+  fix.status.status = gps.has_fix ? sensor_msgs::NavSatStatus::STATUS_FIX : sensor_msgs::NavSatStatus::STATUS_NO_FIX;
+  fix.status.service = sensor_msgs::NavSatStatus::SERVICE_GPS;
+  fix.latitude = gps.latitude;
+  fix.longitude = gps.longitude;
+  fix.altitude = gps.altitude;
+  for (std::size_t k = 0; k < 3; ++k)
+    fix.position_covariance[4 * k] = gps.sigma[static_cast<Eigen::Index>(k)] * gps.sigma[static_cast<Eigen::Index>(k)];
+  fix.position_covariance_type = sensor_msgs::NavSatFix::COVARIANCE_TYPE_DIAGONAL_KNOWN;
+  geometry_msgs::TwistStamped velocity;
+  velocity.header = fix.header;
+  set(gps.velocity, velocity.twist.linear);
+  Messages messages = {onTopic("gps/fix", gps.stamp, std::move(fix))};
+  if (gps.has_fix) messages.push_back(onTopic("gps/vel", gps.stamp, std::move(velocity)));
+  return messages;
+}
+
+std::vector<TopicMessage> MeasurementMessages::from(const TruthMeasurement& truth) const {
+  geometry_msgs::PoseStamped pose;
+  pose.header = header(truth.stamp, "ground_truth");
+  pose.pose = urban_nav_ros::toPoseMessage(truth.T_world_base);
+  return {onTopic("ground_truth/pose", truth.stamp, std::move(pose))};
+}
+
+}  // namespace urban_nav_sim
