@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
+
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <string>
+
+namespace urban_nav_sim {
+
+/// How the simulation goes.
+struct Progress {
+  std::string state;             ///< "running", "paused", ...
+  double time = 0.0;             ///< s of the session
+  std::optional<double> factor;  ///< s of the session in a second of the wall
+  bool slow = false;             ///< the machine does not keep up with the rate that was asked for
+  std::int64_t messages = 0;     ///< published
+};
+
+/// /diagnostics of the nodelet. Thread-safe.
+class Diagnostics {
+ public:
+  /// `session`: what is driven, in words. `duration`: s. `rate`: as asked for.
+  Diagnostics(ros::NodeHandle& nh, ros::NodeHandle& private_nh, const std::string& name, std::string session,
+              double duration, double rate);
+
+  void report(const Progress& progress);
+  /// Publishes; to be called about once a second, by the wall clock.
+  void update() { updater_.force_update(); }
+
+ private:
+  void fill(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+
+  const std::string session_;
+  const double duration_, rate_;
+  mutable std::mutex mutex_;  // guards progress_
+  Progress progress_;
+  diagnostic_updater::Updater updater_;
+};
+
+}  // namespace urban_nav_sim

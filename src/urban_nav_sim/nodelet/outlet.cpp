@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "outlet.hpp"
+
+#include <rosgraph_msgs/Clock.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include "urban_nav_ros/stamp.hpp"
+
+namespace urban_nav_sim {
+
+using urban_nav_core::StampNs;
+
+namespace {
+
+constexpr StampNs clock_step = 5'000'000;  // ns, that of the truth
+
+}  // namespace
+
+Outlet::Outlet(ros::NodeHandle& nh, const std::set<Sensor>& sensors, std::uint32_t queue)
+    : static_(nh.advertise<tf2_msgs::TFMessage>("/tf_static", 10, true)) {
+  for (const TopicMessage& each : topicsOf(sensors)) {
+    publishers_[each.topic] = std::visit(
+        [&](const auto& message) {
+          using Message = typename std::decay_t<decltype(message)>::element_type;
+          return nh.advertise<Message>(each.topic, queue);
+        },
+        each.message);
+  }
+  if (ros::Time::isSimTime()) clock_ = nh.advertise<rosgraph_msgs::Clock>("/clock", queue);
+}
+
+void Outlet::publish(const std::vector<geometry_msgs::TransformStamped>& transforms) {
+  tf2_msgs::TFMessage message;
+  message.transforms = transforms;
+  static_.publish(message);
+}
+
+void Outlet::publish(const TopicMessage& message) {
+  const ros::Publisher& publisher = publishers_.at(message.topic);
+  std::visit([&](const auto& pointer) { publisher.publish(pointer); }, message.message);
+}
+
+void Outlet::advance(StampNs now) {
+  if (now_ && now >= *now_ && now - *now_ < clock_step) return;
+  now_ = now;
+  repeatClock();
+}
+
+void Outlet::repeatClock() {
+  if (!clock_ || !now_) return;
+  rosgraph_msgs::Clock message;
+  message.clock = urban_nav_ros::toRosTime(*now_);
+  clock_.publish(message);
+}
+
+}  // namespace urban_nav_sim

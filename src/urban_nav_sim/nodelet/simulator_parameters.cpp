@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulator_parameters.hpp"
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav_sim {
+
+using urban_nav_core::Table;
+
+namespace {
+
+/// Words between commas and blanks.
+std::vector<std::string> wordsOf(const std::string& text) {
+  std::vector<std::string> words;
+  constexpr const char* separators = ", \t\n";
+  for (std::size_t begin = text.find_first_not_of(separators); begin != std::string::npos;) {
+    const std::size_t end = text.find_first_of(separators, begin);
+    words.push_back(text.substr(begin, end - begin));
+    begin = text.find_first_not_of(separators, end);
+  }
+  return words;
+}
+
+}  // namespace
+
+SimulatorParameters::SimulatorParameters() { simulatorTable().setDefaults(*this); }
+
+// clang-format would give each of the columns a line.
+// clang-format off
+const Table<SimulatorParameters>& simulatorTable() {
+  using P = SimulatorParameters;
+  static const Table<SimulatorParameters> rows(
+      "",
+      {
+          {"world", &P::world, "", "quad", false, false, {},
+           "Which world; `urban_nav simulate --help` lists them with their routes.", ""},
+          {"route", &P::route, "", "loops", false, false, {}, "Which way through it.", ""},
+          {"seed", &P::seed, "", 1, 0, std::int64_t{std::numeric_limits<int>::max()}, {},
+           "Of the world and of all chance: the same seed gives the same bytes.", "STYLE.md R6"},
+          {"day", &P::day, "", 1, 1, 100000, {},
+           "The same world in other weather, with other vehicles and people.", ""},
+          {"duration", &P::duration, "s", 60.0, 0.1, 86400.0, {}, "How long the session is.", ""},
+          {"sensors", &P::sensors, "", "stereo, ladybug, lasers, imu, wheels, gps", false, false, {},
+           "What the robot carries, separated by commas; what is left out costs no time.", "DESIGN.md, section 5"},
+          {"fault", &P::fault, "", "", false, false, {},
+           "What goes wrong, separated by commas: KIND:SENSOR:START_S:DURATION_S[:VALUE], as for "
+           "`urban_nav simulate --fault`.",
+           ""},
+          {"rate", &P::rate, "s/s", 1.0, 0.0, 1000.0, {},
+           "Seconds of the session in a second, where the machine keeps up; 0: as fast as it can.", ""},
+          {"delay", &P::delay, "s", 2.0, 0.0, 3600.0, {},
+           "How long subscribers have, at least, to connect before the first message.", "rosbag play --delay"},
+          {"paused", &P::paused, "", false, false, true, {}, "Whether it waits at the first message for ~resume.", ""},
+          {"exit", &P::exit, "", true, false, true, {},
+           "Whether its process ends with the session; where that is a manager with other nodelets in it, false: it "
+           "then waits for ~reset.",
+           ""},
+          {"threads", &P::threads, "", 0, 0, 1024, {},
+           "Threads to render with, in the whole process; 0: as many as the machine has. The bytes are the same.", ""},
+          {"queue", &P::queue, "messages", 1000, 1, 100000, {},
+           "Messages of a topic that may wait for a subscriber; beyond that the oldest is lost to it.", ""},
+      });
+  return rows;
+}
+// clang-format on
+
+SessionOptions sessionOptions(const SimulatorParameters& parameters, const std::string& where) {
+  SessionOptions options;
+  options.where = where;
+  options.world = parameters.world;
+  options.route = parameters.route;
+  options.seed = static_cast<std::uint32_t>(parameters.seed);
+  options.day = parameters.day;
+  options.duration = parameters.duration;
+  options.sensors.clear();
+  for (const std::string& word : wordsOf(parameters.sensors))
+    options.sensors.insert(parseSensor(word, where + "sensors"));
+  if (options.sensors.empty()) throw urban_nav_core::UserError(where + "sensors", "none", sensorList());
+  for (const std::string& word : wordsOf(parameters.fault)) options.faults.push_back(parseFault(word, where + "fault"));
+  checkPlace(options);
+  return options;
+}
+
+}  // namespace urban_nav_sim

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "../../nodelet/simulator_parameters.hpp"
+
+#include <gtest/gtest.h>
+
+#include "urban_nav_core/io/text_file.hpp"
+#include "urban_nav_core/parameters/print.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav_sim {
+namespace {
+
+// Tests run in the folder of the package. What differs is written anew by the build target urban_nav_sim_documents.
+TEST(SimulatorParameters, TheReadmeShowsTheTable) {
+  const std::string readme = urban_nav_core::readTextFile("README.md");
+  EXPECT_EQ(readme, insertMarkdown(readme, "README.md", simulatorTable().stage(), simulatorTable().rows()));
+}
+
+TEST(SimulatorParameters, TheirDefaultsAreThoseOfTheCommand) {
+  const SessionOptions options = sessionOptions(SimulatorParameters(), ""), standard;
+  EXPECT_EQ(options.world, standard.world);
+  EXPECT_EQ(options.route, standard.route);
+  EXPECT_EQ(options.seed, standard.seed);
+  EXPECT_EQ(options.day, standard.day);
+  EXPECT_EQ(options.duration, standard.duration);
+  EXPECT_EQ(options.sensors, standard.sensors);
+  EXPECT_TRUE(options.faults.empty());
+}
+
+TEST(SimulatorParameters, ListsAreSeparatedByCommasAndBlanks) {
+  SimulatorParameters parameters;
+  parameters.sensors = " stereo,imu, gps ";
+  parameters.fault = "unplug:lasers:20:5 drop:stereo:30:10:0.25";
+  const SessionOptions options = sessionOptions(parameters, "");
+  EXPECT_EQ(options.sensors, (std::set<Sensor>{Sensor::Stereo, Sensor::Imu, Sensor::Gps}));
+  ASSERT_EQ(options.faults.size(), 2U);
+  EXPECT_EQ(options.faults[0].kind, FaultKind::Unplug);
+  EXPECT_EQ(options.faults[1].value, 0.25);
+}
+
+std::string errorOf(std::string SimulatorParameters::*key, const std::string& text) {
+  SimulatorParameters parameters;
+  parameters.*key = text;
+  try {
+    sessionOptions(parameters, "/simulator/");
+  } catch (const urban_nav_core::UserError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+void expectIn(const std::string& text, const std::string& part) {
+  EXPECT_NE(text.find(part), std::string::npos) << text << "\n  lacks " << part;
+}
+
+TEST(SimulatorParameters, WhatThereIsNotIsNamedWithItsKeyAndWhatThereIs) {
+  const std::string world = errorOf(&SimulatorParameters::world, "atlantis");
+  expectIn(world, "/simulator/world");
+  expectIn(world, "quad, begbroke, street");
+  const std::string route = errorOf(&SimulatorParameters::route, "moonwalk");
+  expectIn(route, "/simulator/route");
+  expectIn(route, "orbits4");
+  const std::string sensors = errorOf(&SimulatorParameters::sensors, "stereo, sonar");
+  expectIn(sensors, "/simulator/sensors");
+  expectIn(sensors, "sonar");
+  expectIn(sensors, sensorList());
+  expectIn(errorOf(&SimulatorParameters::sensors, " , "), sensorList());
+  const std::string fault = errorOf(&SimulatorParameters::fault, "melt:stereo:0:1");
+  expectIn(fault, "/simulator/fault melt:stereo:0:1");
+  expectIn(fault, faultList());
+}
+
+}  // namespace
+}  // namespace urban_nav_sim

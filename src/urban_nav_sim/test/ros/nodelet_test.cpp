@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <rosgraph_msgs/Clock.h>
+#include <std_srvs/Trigger.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "urban_nav_ros/stamp.hpp"
+#include "urban_nav_sim/ros/measurement_messages.hpp"
+
+namespace urban_nav_sim::test {
+namespace {
+
+using urban_nav_core::StampNs;
+
+/// As in nodelet.test.
+SessionOptions sameSession() {
+  SessionOptions options;
+  options.seed = 3;
+  options.duration = 1.0;
+  options.sensors = {Sensor::Stereo, Sensor::Lasers, Sensor::Imu};
+  options.faults = {parseFault("unplug:lasers:0.5:9")};
+  return options;
+}
+
+/// What a message says, but for header.seq, which the publisher counts.
+template <typename Message>
+std::vector<std::uint8_t> bytesOf(Message message) {
+  message.header.seq = 0;
+  std::vector<std::uint8_t> bytes(ros::serialization::serializationLength(message));
+  ros::serialization::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+  ros::serialization::serialize(stream, message);
+  return bytes;
+}
+
+/// A listener that keeps everything, and the services.
+class Simulator : public ::testing::Test {
+ protected:
+  struct Heard {
+    StampNs stamp, clock;
+    std::vector<std::uint8_t> bytes;
+  };
+
+  void SetUp() override {
+    call("pause");
+    for (const TopicMessage& each : topicsOf(sameSession().sensors))
+      std::visit([&](const auto& pointer) { keep(each.topic, *pointer); }, each.message);
+    subscribers_.push_back(
+        nh_.subscribe<rosgraph_msgs::Clock>("/clock", 10000, [this](const rosgraph_msgs::ClockConstPtr& message) {
+          clock_.push_back(urban_nav_ros::toStampNs(message->clock));
+        }));
+    subscribers_.push_back(nh_.subscribe<diagnostic_msgs::DiagnosticArray>(
+        "/diagnostics", 100, [this](const diagnostic_msgs::DiagnosticArrayConstPtr& message) {
+          for (const auto& status : message->status) diagnostics_.push_back(status);
+        }));
+    ASSERT_TRUE(until([this] {
+      return std::all_of(subscribers_.begin(), subscribers_.end(),
+                         [](const ros::Subscriber& each) { return each.getNumPublishers() > 0; });
+    }));
+    ASSERT_TRUE(call("reset"));
+    // At the beginning, and held there.
+    ASSERT_TRUE(until([this] { return !clock_.empty() && clock_.back() == begin(); })) << lastState();
+    heard_.clear();
+    clock_.clear();
+    diagnostics_.clear();
+  }
+
+  static StampNs begin() {
+    static const StampNs stamp = Session(sameSession()).begin();
+    return stamp;
+  }
+
+  static bool call(const std::string& service) {
+    std_srvs::Trigger trigger;
+    ros::service::waitForService("simulator/" + service, ros::Duration(20.0));
+    return ros::service::call("simulator/" + service, trigger) && trigger.response.success;
+  }
+
+  /// Spins until it is so; false after a time that is long enough for a busy machine.
+  static bool until(const std::function<bool()>& so) {
+    for (int i = 0; i < 4000 && ros::ok(); ++i) {
+      ros::spinOnce();
+      if (so()) return true;
+      ros::WallDuration(0.01).sleep();
+    }
+    return false;
+  }
+
+  bool said(const std::string& state) const {
+    return std::any_of(diagnostics_.begin(), diagnostics_.end(),
+                       [&](const auto& status) { return status.message.find(state) == 0; });
+  }
+  std::string lastState() const { return diagnostics_.empty() ? "no diagnostics" : diagnostics_.back().message; }
+
+  template <typename Message>
+  void keep(const std::string& topic, const Message&) {
+    const boost::function<void(const boost::shared_ptr<const Message>&)> callback =
+        [this, topic](const boost::shared_ptr<const Message>& message) {
+          heard_[topic].push_back(
+              {urban_nav_ros::toStampNs(message->header.stamp), clock_.empty() ? 0 : clock_.back(), bytesOf(*message)});
+        };
+    subscribers_.push_back(nh_.subscribe<Message>(topic, 10000, callback));
+  }
+
+  ros::NodeHandle nh_;
+  std::vector<ros::Subscriber> subscribers_;
+  std::map<std::string, std::vector<Heard>> heard_;
+  std::vector<StampNs> clock_;
+  std::vector<diagnostic_msgs::DiagnosticStatus> diagnostics_;
+};
+
+TEST_F(Simulator, PublishesTheSessionToTheLastBit) {
+  std::map<std::string, std::vector<std::vector<std::uint8_t>>> expected;
+  Session session(sameSession());
+  MeasurementMessages messages(session);
+  while (const auto arrival = session.next())
+    for (const TopicMessage& each : messages.convert(arrival->measurement))
+      std::visit([&](const auto& pointer) { expected[each.topic].push_back(bytesOf(*pointer)); }, each.message);
+  EXPECT_EQ(expected["stereo/left/image_raw"].size(), 20U);
+  EXPECT_LT(expected["laser_left/scan"].size(), 60U) << "the fault is in force";
+  ASSERT_EQ(expected.size(), topicsOf(sameSession().sensors).size());
+
+  ASSERT_TRUE(call("resume"));
+  ASSERT_TRUE(until([this] { return said("over"); })) << lastState();
+  for (const auto& [topic, all] : expected) {
+    ASSERT_TRUE(until([&, &name = topic, &wanted = all] { return heard_[name].size() >= wanted.size(); }))
+        << topic << ": " << heard_[topic].size() << " of " << all.size();
+    ASSERT_EQ(heard_[topic].size(), all.size()) << topic;
+    for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(heard_[topic][i].bytes, all[i]) << topic << " " << i;
+  }
+}
+
+TEST_F(Simulator, TheClockFollowsTheMessagesAndTheDiagnosticsTellHowFar) {
+  ASSERT_TRUE(call("resume"));
+  ASSERT_TRUE(until([this] { return said("over"); })) << lastState();
+  EXPECT_TRUE(std::is_sorted(clock_.begin(), clock_.end()));
+  EXPECT_EQ(clock_.back(), begin() + 1'000'000'000) << "the end of the session";
+  EXPECT_GE(clock_.size(), 150U);
+  for (const Heard& truth : heard_["ground_truth/pose"]) {
+    if (truth.clock == 0) continue;  // heard before the first /clock
+    EXPECT_NEAR(1e-9 * static_cast<double>(truth.stamp - truth.clock), 0.0, 0.1);
+  }
+
+  std::map<std::string, std::string> values;
+  for (const auto& each : diagnostics_.back().values) values[each.key] = each.value;
+  EXPECT_EQ(values["session"], "quad, seed 3, route loops, day 1");
+  EXPECT_EQ(values["time (s)"], "1.00");
+  EXPECT_EQ(values["duration (s)"], "1.00");
+  EXPECT_NE(values["time factor"], "");
+  const std::size_t end = heard_["ground_truth/pose"].size();
+  EXPECT_GT(std::stoul(values["messages"]), end) << "of this session, not of those before";
+  EXPECT_LT(std::stoul(values["messages"]), 4 * end);
+}
+
+TEST_F(Simulator, PausesAndGoesOn) {
+  ASSERT_TRUE(until([this] { return clock_.size() >= 3; })) << "the clock is said while it stands";
+  EXPECT_EQ(clock_.front(), clock_.back());
+  EXPECT_TRUE(heard_["ground_truth/pose"].empty());
+  ASSERT_TRUE(call("resume"));
+  ASSERT_TRUE(until([this] { return heard_["stereo/left/image_raw"].size() >= 3; }));
+  ASSERT_TRUE(call("pause"));
+  ASSERT_TRUE(until([this] { return said("paused"); })) << lastState();
+  const std::size_t before = heard_["stereo/left/image_raw"].size();
+  ros::WallDuration(0.3).sleep();
+  ros::spinOnce();
+  EXPECT_LE(heard_["stereo/left/image_raw"].size(), before + 1);
+  ASSERT_TRUE(call("resume"));
+  ASSERT_TRUE(until([this] { return heard_["stereo/left/image_raw"].size() == 20; }))
+      << heard_["stereo/left/image_raw"].size();
+}
+
+TEST_F(Simulator, ItsFramesHangTogether) {
+  const auto message = ros::topic::waitForMessage<tf2_msgs::TFMessage>("/tf_static", ros::Duration(20.0));
+  ASSERT_TRUE(message);
+  std::vector<std::string> frames;
+  for (const auto& transform : message->transforms) {
+    EXPECT_EQ(transform.header.frame_id, "base_link");
+    frames.push_back(transform.child_frame_id);
+  }
+  for (const char* frame : {"stereo_left_optical_frame", "stereo_right_optical_frame", "laser_left", "laser_right",
+                            "imu_link", "gps_link", "ladybug_camera0_optical_frame", "ladybug_camera4_optical_frame"})
+    EXPECT_EQ(std::count(frames.begin(), frames.end(), frame), 1) << frame;
+}
+
+}  // namespace
+}  // namespace urban_nav_sim::test
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "simulator_nodelet_test");
+  ros::NodeHandle keeps_ros_alive;
+  return RUN_ALL_TESTS();
+}
