@@ -7,7 +7,6 @@ import sys
 from pathlib import Path
 
 import rospkg
-import yaml
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from graph import command, connections, published, services  # noqa: E402
@@ -30,14 +29,6 @@ TOPICS = {
 }
 HEARD = [f"/stereo/{side}/{topic}" for side in ("left", "right") for topic in ("image_raw", "camera_info")]
 SENSOR_FRAMES = ["base_link", "stereo_left_optical_frame", "stereo_right_optical_frame"]
-# What a display of rviz reads, and the property that names it.
-DISPLAYS = {
-    "rviz/Image": ("Image Topic", "sensor_msgs/Image"),
-    "rviz/Path": ("Topic", "nav_msgs/Path"),
-    "rviz/PointCloud2": ("Topic", "sensor_msgs/PointCloud2"),
-    "rviz/Odometry": ("Topic", "nav_msgs/Odometry"),
-}
-WITHOUT_TOPIC = {"rviz/Grid", "rviz/TF", "rviz/Axes"}
 
 
 def stamp_of(message):
@@ -110,23 +101,8 @@ class BagLaunch(LaunchCase):
     def test_rviz_shows_what_is_there(self):
         for path in sorted((Path(rospkg.RosPack().get_path("urban_nav_rviz")) / "rviz").glob("*.rviz")):
             with self.subTest(path.name):
+                self.play(loop="true")
                 self.look_at(path)
-
-    def look_at(self, path):
-        config = yaml.safe_load(path.read_text())["Visualization Manager"]
-        self.play(loop="true")
-        self.expect(lambda: self.listener.odometry, "a frame")
-        present = published()
-        for display in config["Displays"]:
-            kind = display["Class"]
-            if kind in WITHOUT_TOPIC:
-                continue
-            key, type_name = DISPLAYS[kind]
-            self.assertEqual(present.get(display[key]), type_name, f"{display['Name']} reads {display[key]}")
-        frames = set(self.listener.links) | set(self.listener.links.values())
-        self.assertIn(config["Global Options"]["Fixed Frame"], frames)
-        for view in [config["Views"]["Current"]] + (config["Views"]["Saved"] or []):
-            self.assertIn(view["Target Frame"], frames, view["Name"])
 
 
 def pairs(items):

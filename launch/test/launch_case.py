@@ -5,10 +5,20 @@ import tempfile
 import unittest
 
 import rospy
+import yaml
 
-from graph import Launched, Listener, make_bag, until
+from graph import Launched, Listener, make_bag, published, until
 
 PATIENCE = 90.0  # seconds for what takes two on an idle machine; a test that passes does not wait for them to end
+
+# What a display of rviz reads, and the property that names it.
+DISPLAYS = {
+    "rviz/Image": ("Image Topic", "sensor_msgs/Image"),
+    "rviz/Path": ("Topic", "nav_msgs/Path"),
+    "rviz/PointCloud2": ("Topic", "sensor_msgs/PointCloud2"),
+    "rviz/Odometry": ("Topic", "nav_msgs/Odometry"),
+}
+WITHOUT_TOPIC = {"rviz/Grid", "rviz/TF", "rviz/Axes"}
 
 
 class LaunchCase(unittest.TestCase):
@@ -19,7 +29,12 @@ class LaunchCase(unittest.TestCase):
         rospy.set_param("/swf_vo/queue", 100000)
         cls.folder = tempfile.mkdtemp()
         cls.addClassCleanup(shutil.rmtree, cls.folder)
-        cls.bag = make_bag(cls.folder)
+        cls.bag = cls.record(cls.folder)
+
+    @classmethod
+    def record(cls, folder):
+        """The bag that the tests of a class share."""
+        return make_bag(folder)
 
     def setUp(self):
         self.listener = Listener()
@@ -38,3 +53,19 @@ class LaunchCase(unittest.TestCase):
         """Waits until it is so; `what` is a text, or a function that makes one of how far it came."""
         if not until(so, seconds):
             self.fail(f"{what() if callable(what) else what}\n{self.launched.output() if self.launched else ''}")
+
+    def look_at(self, path):
+        """Every display of an rviz file reads a topic that is there, in frames that are."""
+        config = yaml.safe_load(path.read_text())["Visualization Manager"]
+        self.expect(lambda: self.listener.odometry, "a frame")
+        present = published()
+        for display in config["Displays"]:
+            kind = display["Class"]
+            if kind in WITHOUT_TOPIC:
+                continue
+            key, type_name = DISPLAYS[kind]
+            self.assertEqual(present.get(display[key]), type_name, f"{display['Name']} reads {display[key]}")
+        frames = set(self.listener.links) | set(self.listener.links.values())
+        self.assertIn(config["Global Options"]["Fixed Frame"], frames)
+        for view in [config["Views"]["Current"]] + (config["Views"]["Saved"] or []):
+            self.assertIn(view["Target Frame"], frames, view["Name"])
