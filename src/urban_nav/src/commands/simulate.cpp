@@ -41,6 +41,7 @@ SimulateJob jobOf(const Arguments& arguments) {
   job.bag = arguments.get("output");
   if (std::filesystem::path(job.bag).extension() != ".bag")
     throw UserError("--output", job.bag, "a name that ends in .bag; the truth goes beside it");
+  job.part = arguments.number("split", 0.0, 0.1, longest);
   job.folder = arguments.get("folder");
   job.false_closures = arguments.number("false-closures", 0.0, 0.0, 1000.0);
   if (!job.folder.empty() && job.session.sensors.count(urban_nav_sim::Sensor::Stereo) == 0)
@@ -54,6 +55,8 @@ int run(const Arguments& arguments, Console& console) {
   const Simulated made = simulate(job, console);
   Json json = Json::object();
   json["bag"] = job.bag;
+  Json& bags = json["bags"] = Json::array();
+  for (const std::string& bag : made.bags) bags.append(bag);
   json["truth"] = made.truth_folder;
   json["distance_m"] = made.distance_m;
   Json& counts = json["messages"] = Json::object();
@@ -62,7 +65,7 @@ int run(const Arguments& arguments, Console& console) {
     counts[topic] = count;
   }
   if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), json.print());
-  console.print(job.bag + "\n");
+  for (const std::string& bag : made.bags) console.print(bag + "\n");
   return 0;
 }
 
@@ -86,6 +89,12 @@ Command simulateCommand() {
                       "BAG",
                       "bag to write; it appears when it is complete, the truth beside it in BAG_STEM.truth/",
                       true,
+                      false,
+                      {}},
+                     {"--split",
+                      "S",
+                      "a bag for every S seconds, BAG_STEM_0.bag and so on, each there as soon as it is complete",
+                      false,
                       false,
                       {}},
                      {"--folder", "DIR", "also the stereo stream as a KITTI folder", false, false, {}},

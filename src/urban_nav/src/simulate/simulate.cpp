@@ -5,10 +5,9 @@
 #include <optional>
 
 #include "command_line/console.hpp"
-#include "convert/bag_writer.hpp"
+#include "simulate/session_bags.hpp"
 #include "simulate/stereo_folder_writer.hpp"
 #include "urban_nav_core/types/error.hpp"
-#include "urban_nav_sim/ros/measurement_messages.hpp"
 
 namespace urban_nav {
 
@@ -26,18 +25,12 @@ void makeFolder(const std::string& path) {
   if (error) throw urban_nav_core::UserError(path, "cannot be made: " + error.message(), "");
 }
 
-void write(const urban_nav_sim::TopicMessage& message, BagWriter& bag) {
-  std::visit([&](const auto& pointer) { bag.write("/" + message.topic, message.stamp, *pointer); }, message.message);
-}
-
 }  // namespace
 
 Simulated simulate(const SimulateJob& job, Console& console) {
   urban_nav_sim::Session session(job.session);
   const urban_nav_core::Pose T_base_left = session.places().at("stereo_left_optical_frame");
-  BagWriter bag(job.bag);
-  bag.writeStaticTransforms(session.begin(), urban_nav_sim::staticTransforms(session));
-  urban_nav_sim::MeasurementMessages messages(session);
+  SessionBags bags(job.bag, job.part, session);
   std::optional<StereoFolderWriter> folder;
   if (!job.folder.empty()) folder.emplace(job.folder, session);
   Simulated made;
@@ -47,7 +40,7 @@ Simulated simulate(const SimulateJob& job, Console& console) {
   Progress progress(console, "simulate", "frames", session.frames());
   std::optional<urban_nav_core::Pose> last;
   while (const std::optional<urban_nav_sim::Session::Arrival> arrival = session.next()) {
-    for (const urban_nav_sim::TopicMessage& message : messages.convert(arrival->measurement)) write(message, bag);
+    bags.write(arrival->measurement, arrival->taken);
     if (const auto* pair = std::get_if<urban_nav_sim::StereoMeasurement>(&arrival->measurement); pair && folder)
       folder->add(*pair, session.truth(arrival->taken) * T_base_left);
     if (const auto* truth = std::get_if<urban_nav_sim::TruthMeasurement>(&arrival->measurement)) {
@@ -60,8 +53,9 @@ Simulated simulate(const SimulateJob& job, Console& console) {
   console.info("truth: " + made.truth_folder);
   session.writeTruth(made.truth_folder, job.false_closures);
   if (folder) folder->finish();
-  bag.commit();
-  made.counts = bag.counts();
+  bags.commit();
+  made.bags = bags.paths();
+  made.counts = bags.counts();
   return made;
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "urban_nav_sim/session.hpp"
 
@@ -14,16 +15,18 @@ class Console;
 struct SimulateJob {
   urban_nav_sim::SessionOptions session;
   std::string bag, folder;      ///< folder: empty for none
+  double part = 0.0;            ///< s of the session in a bag; 0: one bag for all
   double false_closures = 0.0;  ///< per cent of the true ones
 };
 
 struct Simulated {
+  std::vector<std::string> bags;
   std::string truth_folder;
   double distance_m = 0.0;
   std::map<std::string, std::int64_t> counts;  ///< messages by topic
 };
 
-/// Writes the truth, the folder and at last the bag: where there is a bag, all of it is there. Throws UserError.
+/// Writes the truth, the folder and at last the bag, or the last of its parts: where that is, all is there. Throws UserError.
 Simulated simulate(const SimulateJob& job, Console& console);
 
 }  // namespace urban_nav

@@ -70,6 +70,35 @@ TEST(Simulate, GivesTheSameBytesOnOneThreadAndOnTwo) {
   EXPECT_EQ(run(first, 1), run(second, 2));
 }
 
+std::int64_t messagesIn(const std::string& path, const std::string& topic) {
+  const rosbag::Bag bag(path);
+  return rosbag::View(bag, rosbag::TopicQuery(topic)).size();
+}
+
+TEST(Simulate, PartsTogetherHoldWhatOneBagHolds) {
+  const TemporaryFolder folder;
+  SimulateJob job = shortJob(folder);
+  job.session.sensors = {urban_nav_sim::Sensor::Imu, urban_nav_sim::Sensor::Wheels};
+  Console console;
+  const Simulated whole = simulate(job, console);
+  EXPECT_EQ(whole.bags, std::vector<std::string>{job.bag});
+  job.bag = folder.file("parts.bag");
+  job.part = 0.2;
+  const Simulated parts = simulate(job, console);
+  ASSERT_EQ(parts.bags, (std::vector<std::string>{folder.file("parts_0.bag"), folder.file("parts_1.bag"),
+                                                  folder.file("parts_2.bag")}));
+  EXPECT_FALSE(fs::exists(job.bag));
+  EXPECT_TRUE(fs::exists(folder.file("parts.truth/trajectory.tum")));
+  for (const char* topic : {"/imu/data", "/wheel_odom", "/ground_truth/pose"}) {
+    EXPECT_EQ(parts.counts.at(topic), whole.counts.at(topic)) << topic;
+    std::int64_t found = 0;
+    for (const std::string& part : parts.bags) found += messagesIn(part, topic);
+    EXPECT_EQ(found, whole.counts.at(topic)) << topic;
+  }
+  for (const std::string& part : parts.bags) EXPECT_EQ(messagesIn(part, "/tf_static"), 1) << part;
+  EXPECT_EQ(messagesIn(parts.bags[1], "/ground_truth/pose"), 40) << "0.2 s at 200 Hz";
+}
+
 TEST(Simulate, FaultsSpoilTheSensorNotTheTruth) {
   const TemporaryFolder folder;
   SimulateJob job = shortJob(folder);
@@ -98,6 +127,7 @@ TEST(Simulate, RefusesWhatThereIsNotAndLeavesNothing) {
                                                 {"--fault", "melt:stereo:0:1"},
                                                 {"--fault", "stereo"},
                                                 {"--duration", "0"},
+                                                {"--split", "-1"},
                                                 {"--sensors", "imu", "--folder", folder.file("kitti")}}) {
     std::vector<std::string> all = words;
     all.insert(all.end(), {"-o", bag});

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulate/session_bags.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <utility>
+#include <variant>
+
+#include "urban_nav_ros/stamp.hpp"
+
+namespace urban_nav {
+
+using urban_nav_core::StampNs;
+
+SessionBags::SessionBags(std::string path, double part, const urban_nav_sim::Session& session)
+    : path_(std::move(path)),
+      part_(static_cast<StampNs>(std::llround(1e9 * part))),
+      session_(session),
+      messages_(session) {
+  begin();
+}
+
+void SessionBags::begin() {
+  const std::filesystem::path whole(path_);
+  const auto number = static_cast<StampNs>(paths_.size());
+  paths_.push_back(part_ == 0 ? path_
+                              : (whole.parent_path() / whole.stem()).string() + "_" + std::to_string(number) +
+                                    whole.extension().string());
+  bag_.emplace(paths_.back());
+  bag_->writeStaticTransforms(session_.begin() + number * part_, urban_nav_sim::staticTransforms(session_));
+}
+
+void SessionBags::end() {
+  bag_->commit();
+  for (const auto& [topic, count] : bag_->counts()) counts_[topic] += count;
+  bag_.reset();
+}
+
+void SessionBags::write(const urban_nav_sim::Measurement& measurement, StampNs taken) {
+  while (part_ > 0 && taken >= session_.begin() + static_cast<StampNs>(paths_.size()) * part_) {
+    end();
+    begin();
+  }
+  for (const urban_nav_sim::TopicMessage& message : messages_.convert(measurement))
+    std::visit([&](const auto& pointer) { bag_->write("/" + message.topic, message.stamp, *pointer); },
+               message.message);
+}
+
+void SessionBags::commit() { end(); }
+
+}  // namespace urban_nav

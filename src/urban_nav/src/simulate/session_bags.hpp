@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "convert/bag_writer.hpp"
+#include "urban_nav_sim/ros/measurement_messages.hpp"
+
+namespace urban_nav {
+
+/// The bag of a simulated session, or BAG_STEM_0.bag, BAG_STEM_1.bag, ... of equal length, as `rosbag record --split` names them: each appears when it is
+/// complete, the last (or only) one with commit(). Static transforms begin each of them. `session` must outlive it. Throws UserError as BagWriter does.
+class SessionBags {
+ public:
+  /// `part`: s of the session in a bag; 0: all of it.
+  SessionBags(std::string path, double part, const urban_nav_sim::Session& session);
+
+  /// `taken` does not decrease from call to call.
+  void write(const urban_nav_sim::Measurement& measurement, urban_nav_core::StampNs taken);
+  void commit();
+
+  /// Bags in order, and messages by topic in all of them; when committed.
+  const std::vector<std::string>& paths() const { return paths_; }
+  const std::map<std::string, std::int64_t>& counts() const { return counts_; }
+
+ private:
+  void begin();
+  void end();
+
+  std::string path_;
+  urban_nav_core::StampNs part_;  // ns; 0: no parts
+  const urban_nav_sim::Session& session_;
+  urban_nav_sim::MeasurementMessages messages_;
+  std::vector<std::string> paths_;
+  std::optional<BagWriter> bag_;
+  std::map<std::string, std::int64_t> counts_;
+};
+
+}  // namespace urban_nav
