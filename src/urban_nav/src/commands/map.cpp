@@ -15,10 +15,17 @@ MapRequest requestOf(const Arguments& arguments) {
                              vo.motion_input,
                              vo.wheel_noise,
                              vo.gyro_noise};
-  return {arguments.all("INPUT"),   arguments.get("out"),
-          arguments.list("stages"), arguments.get("truth"),
-          arguments.get("json"),    source,
-          std::move(parameters),    static_cast<int>(arguments.integer("threads", 0, 1, 1024))};
+  const std::optional<double> so_far =
+      arguments.has("so-far") ? std::optional(arguments.number("so-far", 1.0, 0.0, 1.0)) : std::nullopt;
+  return {arguments.all("INPUT"),
+          arguments.get("out"),
+          arguments.list("stages"),
+          arguments.get("truth"),
+          arguments.get("json"),
+          source,
+          std::move(parameters),
+          static_cast<int>(arguments.integer("threads", 0, 1, 1024)),
+          so_far};
 }
 
 }  // namespace
@@ -45,6 +52,12 @@ Command mapCommand() {
        {}},
       {"--rate", "HZ", "of an image folder without times.txt (default 10)", false, false, {}},
       {"--truth", "FILE", "trajectory for the report alone (default: what the input has)", false, false, {}},
+      {"--so-far",
+       "SHARE",
+       "of a recording that goes on, 0...1, these inputs are this share: until 1 the report says so and refreshes itself",
+       false,
+       false,
+       {}},
       jsonOption(),
       configOption(),
       setOption(),

@@ -76,7 +76,7 @@ void runVo(Source& source, VoStage& stage, MapOutcome& outcome, Console& console
       console.warn(stage.run().faults[faults_said]);
     const auto done = static_cast<std::int64_t>(stage.run().rows.size());
     progress.update(done);
-    if (outcome.usage.wallSeconds() - last_report > kSecondsBetweenReports) {
+    if (!outcome.request.so_far && outcome.usage.wallSeconds() - last_report > kSecondsBetweenReports) {
       outcome.progress =
           source.info().frames > 0 ? static_cast<double>(done) / static_cast<double>(source.info().frames) : 0.0;
       writeReport(outcome);
@@ -119,7 +119,7 @@ void runMap(const MapRequest& request, Console& console) {
     say(source->info(), console);
     outcome.stages.push_back(std::make_unique<VoStage>(request.parameters.swf_vo.parameters, source->info()));
     outcome.infos.push_back(source->info());
-    if (i == 0) {
+    if (i == 0 && !request.so_far) {
       writeReport(outcome);
       console.info("report: " + outcome.folder.file("report.html") + " (open it now; it grows as the run goes on)");
     }

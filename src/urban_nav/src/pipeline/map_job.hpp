@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct MapRequest {
   SourceOptions source;
   AllParameters parameters;
   int threads = 0;  ///< 0: one per core
+  /// The share, 0...1, of a recording that the inputs are so far. Below 1 the report stays marked as unfinished, and with any value it is written once, at the
+  /// end: what it shows from the run before is better than a run that has just begun.
+  std::optional<double> so_far = std::nullopt;
 };
 
 /// The stages that CONTRACT.md knows, in their order, and those of them that this suite has.

@@ -202,7 +202,8 @@ void finishMap(MapOutcome& outcome, const std::vector<Session>& sessions, Consol
   const std::vector<const VoRun*> runs = runsOf(outcome);
   const VoSummary summary = summarise(runs);
   outcome.folder.write("stats.csv", statsCsv(runs));
-  outcome.folder.write("report.html", renderPage(pageOf(outcome, false)));
+  outcome.progress = outcome.request.so_far.value_or(1.0);
+  outcome.folder.write("report.html", renderPage(pageOf(outcome, outcome.progress < 1.0)));
   const std::string text = summaryOf(outcome, summary).print();
   outcome.folder.write("summary.json", text);
   if (!outcome.request.json.empty()) urban_nav_core::writeAtomically(outcome.request.json, text);

@@ -83,6 +83,20 @@ TEST_F(Map, saysWhatTheContractAsksFor) {
     EXPECT_EQ(report.find(word), std::string::npos) << word;
 }
 
+TEST_F(Map, theReportOfARecordingThatGoesOnRefreshesItself) {
+  const TemporaryFolder folder;
+  const auto refreshes = [&](double so_far) {
+    map({in()}, folder.file("out"), 1, [&](MapRequest& request) { request.so_far = so_far; });
+    const std::string report = readFile(folder.file("out/report.html"));
+    EXPECT_NE(report.find("ATE"), std::string::npos) << "what there is, is compared with the truth";
+    EXPECT_EQ(report.find("still at work, 25 %") != std::string::npos, so_far < 1.0);
+    return report.find("http-equiv=\"refresh\"") != std::string::npos;
+  };
+  EXPECT_TRUE(refreshes(0.25));
+  expectSame(out(), folder.file("out"));
+  EXPECT_FALSE(refreshes(1.0));
+}
+
 TEST_F(Map, givesEqualBytesWithTwoThreads) {
   const TemporaryFolder folder;
   map({in()}, folder.file("two"), 2);
