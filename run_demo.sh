@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Maps a recording and says where the report is, on a bare Debian 12 too.
 #   ./run_demo.sh [FOLDER|BAG...]   folders as KITTI or EuRoC have them, or bags with a stereo pair
-# Without an argument: the real sequence of the data folder (URBAN_NAV_DATA, or ../shared/data beside the repository) where
-# that is present, else 20 s of a rendered room. The results go to out/demo.
+# Without an argument: 60 s of a simulated robot in a college quad, mapped in parts of 20 s as they come; what was simulated
+# stays in build/demo for the next time. The results go to out/demo.
 set -eu
 # shellcheck source=scripts/lib.sh
 . "$(dirname "$(readlink -f "$0")")/scripts/lib.sh"
@@ -11,37 +11,63 @@ set -eu
 case ${1:-} in -*) sed -n 's/^#   //p' "$0" >&2; exit 2 ;; esac
 for input; do [ -e "$input" ] || { say "run_demo.sh: $input: no such file or folder"; exit 2; }; done
 
-# The small renderer's room: only built where it is needed.
-render_room() (
-  use_system_tools
-  lock
-  compile "$ws" "Building the renderer" render_sequence || die "the renderer does not compile"
-  rm -rf "$1.partial"
-  "$ws/devel/lib/urban_nav_core/render_sequence" "$1.partial" || die "the room could not be rendered"
-  mv "$1.partial" "$1"
-)
+out=$root/out/demo seconds=60 part=20
 
-inputs=("$@")
-steps=2 data=${URBAN_NAV_DATA:-$root/../shared/data}/stereo/kitti_raw_0926_0005
-if [ $# = 0 ] && [ -d "$data" ]; then
-  inputs=("$(realpath "$data")")
-elif [ $# = 0 ]; then
-  inputs=("$build/demo/room")
-  steps=3
-fi
+map_inputs() { "$program" map "$@" --out "$out" >/dev/null; }  # its results are named at the end
 
-say "[1/$steps] The command and what it needs"
+# is_simulated FOLDER: the whole session, by the simulator as it is now?
+is_simulated() { [ "$1/quad_$((seconds / part - 1)).bag" -nt "$ws/devel/lib/liburban_nav_sim.so" ]; }
+
+# wait_for FILE LOG: shows how far the simulator is until it has written the file.
+wait_for() {
+  local shown line
+  shown=$(grep '^simulate' "$2" | tail -n 1)
+  until [ -e "$1" ]; do
+    kill -0 "$simulator" 2>/dev/null || [ -e "$1" ] || { cat "$2" >&2; die "the session could not be simulated"; }
+    sleep 1
+    line=$(grep '^simulate' "$2" | tail -n 1)
+    if [ "$line" != "$shown" ]; then say "$line"; fi
+    shown=$line
+  done
+}
+
+# The stereo camera alone: the stages there are need no more. Each part is mapped with those before it.
+map_while_simulating() {
+  local folder=$1 log=$1/simulate.log parts=() bag n
+  rm -rf "$folder"
+  mkdir -p "$folder"
+  : >"$log"
+  "$program" simulate --world quad --seed 7 --sensors stereo --duration $seconds --split $part -o "$folder/quad.bag" >/dev/null 2>>"$log" &
+  simulator=$!
+  trap 'kill $simulator 2>/dev/null' EXIT
+  trap 'exit 130' INT TERM
+  for ((n = 1; n <= seconds / part; n++)); do
+    bag=$folder/quad_$((n - 1)).bag
+    wait_for "$bag" "$log"
+    parts+=("$bag")
+    say "Mapping the first $((n * part)) of $seconds s"
+    if [ $n = $((seconds / part)) ]; then break; fi
+    map_inputs "${parts[@]}" --so-far "$(awk "BEGIN { print $n * $part / $seconds }")" 2>"$folder/map.log" ||
+      { cat "$folder/map.log" >&2; die "the first part could not be mapped"; }
+    if [ $n = 1 ]; then say "The first picture is there, and grows with the session: $out/report.html"; fi
+  done
+  wait $simulator || { tail "$log" >&2; die "the session could not be simulated"; }
+  trap - EXIT INT TERM
+  map_inputs "${parts[@]}" --so-far 1
+}
+
+say "[1/2] The command and what it needs"
 if ! command_is_current; then build_command; fi
-if [ $steps = 3 ]; then
-  say "[2/3] No data folder here, so 20 s of a rendered room"
-  mkdir -p "$build/demo"
-  if [ ! -d "${inputs[0]}" ]; then render_room "${inputs[0]}"; fi
-fi
-say "[$steps/$steps] Mapping ${inputs[*]}"
-out=$root/out/demo
 rm -rf "$out"
 mkdir -p "$out"
-"$program" map "${inputs[@]}" --out "$out"
+if [ $# = 0 ]; then
+  quad=$build/demo/quad
+  say "[2/2] $seconds s of a simulated robot in a college quad"
+  if is_simulated "$quad"; then map_inputs "$quad"/quad_*.bag; else map_while_simulating "$quad"; fi
+else
+  say "[2/2] Mapping $*"
+  map_inputs "$@"
+fi
 
 here=$(realpath --relative-to=. "$out")
 printf '\n'
