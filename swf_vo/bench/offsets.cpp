@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What calibration and rectification left in a stereo pair, as the filter finds it: by how much the right image lies lower, and by how much
-// disparities are too large. Beside it the same on rendered images, where there is neither, with a calibration that says so and with one that does not.
+// disparities are too large; and how much larger the errors of measurements are than their alignments say. Beside it the same on rendered images, where there is neither, with a calibration that says so and with one that does not.
 //   swf_vo-bench-offsets [FOLDER...] [-o results/offsets.json]
 // FOLDER: a sequence in KITTI's layout; default: the two real ones.
 #include <algorithm>
@@ -19,11 +19,18 @@ using urban_nav_core::testing::cell;
 
 constexpr double wrong_px = 0.2;  // what the calibration says of the disparities, which are exact
 
+double medianScale(const std::vector<swf_vo::Statistics>& found) {
+  std::vector<double> scales;
+  for (const swf_vo::Statistics& frame : found) scales.push_back(frame.noise_scale);
+  return quantile(scales, 0.5);
+}
+
 void add(BenchTable& table, const std::string& name, const Run& run, const std::string& truth) {
   const std::vector<swf_vo::Statistics>& found = run.statistics;
   const swf_vo::Statistics &tenth = found[std::min<std::size_t>(9, found.size() - 1)], &last = found.back();
   table.add({name, cell(found.front().row_offset_px, 3), cell(tenth.row_offset_px, 3), cell(last.row_offset_px, 3),
-             cell(last.disparity_offset_px, 3), cell(last.disparity_offset_sigma_px, 3), truth});
+             cell(last.disparity_offset_px, 3), cell(last.disparity_offset_sigma_px, 3), truth,
+             cell(medianScale(found), 2)});
 }
 
 void addRendered(BenchTable& table, const RenderedOptions& options) {
@@ -39,7 +46,8 @@ void addRendered(BenchTable& table, const RenderedOptions& options) {
 int main(int argc, char** argv) try {
   const FoldersAndOutput asked = foldersAndOutput(argc, argv);
   BenchTable table({"sequence", "right image lower by, px: frame 1", "frame 10", "at the end",
-                    "disparities too large by, px, at the end", "its standard deviation, px", "truth, px"},
+                    "disparities too large by, px, at the end", "its standard deviation, px", "truth, px",
+                    "errors over what alignments say"},
                    argc, argv);
   for (const std::string& folder : asked.folders) {
     const Sequence sequence = kittiFolder(folder);

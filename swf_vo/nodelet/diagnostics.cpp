@@ -109,6 +109,7 @@ void Diagnostics::report(diagnostic_updater::DiagnosticStatusWrapper& status) co
   status.add("reprojection error (px)", statistics_.reprojection_px);
   status.add("disparity offset (px)", statistics_.disparity_offset_px);
   status.add("row offset (px)", statistics_.row_offset_px);
+  status.add("noise, of what images say", statistics_.noise_scale);
   status.add("time of the last frame (ms)", process_ms_);
   status.add("frames", counts_.frames);
   status.add("sessions", counts_.sessions);

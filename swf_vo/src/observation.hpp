@@ -20,6 +20,8 @@ struct Observation {
   /// Standard deviation of the alignment alone, px, in one coordinate: without what `information` has for errors that stay the same from frame to
   /// frame. 0: not known.
   double sigma_px = 0.0;
+  /// By how much earlier residuals taught to make the covariance larger than the alignment says: it is in `information` already.
+  double inflation = 1.0;
 };
 
 /// A landmark as the window knows it, for matching: homogeneous, so that far points need no special case (w = 0: at infinity).

@@ -116,6 +116,7 @@ const Frame& Output::write(FrameId frame, StampNs stamp, const Status& status, c
   frame_.accepted = true;
   frame_.status = status;
   const double row_offset = seen != nullptr ? seen->row_offset_px : frame_.statistics.row_offset_px;
+  const double noise_scale = seen != nullptr ? seen->noise_scale : frame_.statistics.noise_scale;
   frame_.statistics = {};
   const UncertainPose newest = window.newest();
   last_T_odom_camera_ = newest.pose;
@@ -129,6 +130,7 @@ const Frame& Output::write(FrameId frame, StampNs stamp, const Status& status, c
   frame_.statistics.disparity_offset_px = window.disparityOffset();
   frame_.statistics.disparity_offset_sigma_px = window.disparityOffsetSigma();
   frame_.statistics.row_offset_px = row_offset;
+  frame_.statistics.noise_scale = noise_scale;
   waiting_.push_back({frame, stamp, status});
   frame_.settled.clear();
   for (const SettledPose& pose : window.settled()) frame_.settled.push_back(settle(pose));

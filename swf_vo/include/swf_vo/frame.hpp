@@ -57,6 +57,8 @@ struct Statistics {
   double disparity_offset_px = 0.0;        ///< of the camera, as estimated by now: what its calibration left
   double disparity_offset_sigma_px = 0.0;  ///< its standard deviation; 0 where it is not estimated
   double row_offset_px = 0.0;  ///< by how much the right image shows everything lower than the left, as known by now
+  double noise_scale =
+      1.0;  ///< errors of measurements in standard deviations of their alignments, as usual by now; 1 at least
 };
 
 /// A frame as it leaves the window: the settled pose, which is final.

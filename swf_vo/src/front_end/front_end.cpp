@@ -10,6 +10,7 @@
 #include "front_end/localise.hpp"
 #include "front_end/match.hpp"
 #include "front_end/misfit.hpp"
+#include "front_end/noise_scale.hpp"
 #include "front_end/refine.hpp"
 #include "front_end/replenish.hpp"
 #include "front_end/rotation.hpp"
@@ -77,6 +78,7 @@ class FrontEnd::Implementation {
         capacity_(4 * featuresIn(camera, parameters.features)),
         localiser_(camera_, capacity_),
         tracks_(capacity_),
+        noise_(capacity_),
         rows_(4 * capacity_),
         replenisher_(camera_, featuresIn(camera, parameters.features), parameters.pixel_noise_floor) {
     const std::size_t capacity = static_cast<std::size_t>(capacity_);
@@ -103,13 +105,19 @@ class FrontEnd::Implementation {
     corners_.extract(pair);
     result_.corners = corners_.count(Side::Left);
     gather(map);
+    learnNoise(last);
     const bool next = frame == frame_ + 1;
     if (!next || astray) radius_ = first_radius * parameters_.search_radius;
     astray_ = astray_ || astray || !next;
     locate(turn(next ? last : T_odom_last_, predicted), predicted.inverse());
     for (Match& match : matches_) follow(frame, match);
     replenish(frame);
+    for (Observation& observation : result_.fresh) {
+      observation.inflation = noise_.usual();
+      observation.information /= observation.inflation;
+    }
     result_.row_offset_px = rows_.px();
+    result_.noise_scale = std::sqrt(noise_.usual());
     astray_ = !result_.localised && !matches_.empty();
     frame_ = frame;
     T_odom_last_ = result_.T_odom_camera;
@@ -200,6 +208,23 @@ class FrontEnd::Implementation {
       if (next >= matches_.size() || matches_[next].track->id != id) orphans_.push_back(id);
     }
     for (const LandmarkId id : orphans_) tracks_.end(id);
+  }
+
+  /// What the measurements of the frame before have left, now that the window has them. A landmark's own place takes up its share.
+  void learnNoise(const Pose& last) {
+    const Pose T_last_odom = last.inverse();
+    for (const Match& match : matches_) {
+      Track& track = *match.track;
+      if (track.measured != frame_ || track.seen < 2) continue;
+      const auto left = projectInto(Side::Left, camera_, T_last_odom, match.p_odom),
+                 right = projectInto(Side::Right, camera_, T_last_odom, match.p_odom);
+      if (!left || !right) continue;
+      const Eigen::Vector3d r = track.z - Eigen::Vector3d(left->x(), left->y(), right->x());
+      const auto coordinates = static_cast<double>((track.information.diagonal().array() > 0.0).count());
+      noise_.see(r.dot(track.information * r), coordinates * (1.0 - 1.0 / track.seen), track.noise);
+    }
+    noise_.learn();
+    for (Match& match : matches_) match.inflation = noise_.of(match.track->noise);
   }
 
   /// First matches, in one image each, and the pose that most of them agree on to about a pixel.
@@ -336,6 +361,8 @@ class FrontEnd::Implementation {
       ++track.seen;
       const Eigen::Matrix2d& aligned = match.left.found ? match.left.covariance : match.right.covariance;
       const double floor = parameters_.pixel_noise_floor;
+      track.information = match.information;
+      track.measured = frame;
       const double sigma_px = std::sqrt(0.5 * aligned.trace() + floor * floor);
       const Eigen::Matrix2d crept = creep(camera_, result_.T_odom_camera.inverse(), match);
       const double together = std::min<double>(track.seen, parameters_.window);
@@ -344,7 +371,9 @@ class FrontEnd::Implementation {
       track.blurred = displaced.isZero() ? 0 : track.blurred + 1;
       loosen(slope_share * together * together * crept + std::min(track.blurred, longest_average) * displaced,
              std::min(track.seen, longest_average) * constant, match);
-      result_.tracked.push_back({track.id, frame, match.z, match.information, crept, sigma_px});
+      const double inflation = match.inflation;
+      result_.tracked.push_back(
+          {track.id, frame, match.z, match.information / inflation, crept * inflation, sigma_px, inflation});
       track.missed = track.disagreed = track.aside = 0;
       track.z = match.z;
       return;
@@ -388,6 +417,7 @@ class FrontEnd::Implementation {
   int capacity_;
   Localiser localiser_;
   Tracks tracks_;
+  NoiseScale noise_;
   RowOffset rows_;
   Replenisher replenisher_;
   std::vector<Misfit> misfit_;  // of landmarks that are followed, by level

@@ -66,8 +66,9 @@ void Localiser::prepare(const Pose& T_camera_odom, const LocaliseOptions& option
     Eigen::Matrix3d extra = mapCovariance(camera_, *match.track, T_camera_odom, inverseDepthWhereBorn(match));
     extra.diagonal().array() += options.slack_px * options.slack_px;
     // (R + extra)^-1 without inverting R, which may say nothing of a coordinate
-    const Eigen::Matrix3d sum = Eigen::Matrix3d::Identity() + match.information * extra;
-    item.information = sum.inverse() * match.information;
+    const Eigen::Matrix3d own = match.information / match.inflation;
+    const Eigen::Matrix3d sum = Eigen::Matrix3d::Identity() + own * extra;
+    item.information = sum.inverse() * own;
     item.information = (0.5 * (item.information + item.information.transpose())).eval();
     if (item.information.allFinite()) items_.push_back(item);
   }

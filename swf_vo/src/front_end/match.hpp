@@ -23,6 +23,7 @@ struct Match {
   bool measured = false;                                  ///< z is valid
   Eigen::Vector3d z = Eigen::Vector3d::Zero();            ///< u_left, v, u_right (px)
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< zero rows for what was not measured
+  double inflation = 1.0;                                 ///< NoiseScale; not in the information
   double chi2 = 0.0;  ///< of the residual at the localised pose, the map's own error allowed for
   bool inlier = false;
   bool contradicted = false;  ///< was found, but where the motion of the camera does not take it

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "front_end/noise_scale.hpp"
 #include "observation.hpp"
 #include "urban_nav_core/camera/stereo_camera.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
@@ -20,7 +21,8 @@ enum class Side { Left, Right };
 struct Track {
   LandmarkId id = 0;
   FrameId born = 0;
-  int level = 0;                                    ///< pyramid level of the template
+  int level = 0;  ///< pyramid level of the template
+  NoiseScale::Own noise;
   int seen = 1;                                     ///< frames with a trusted measurement
   int blurred = 0;                                  ///< frames in a row in less sharp images with a trusted measurement
   int aside = 0;                                    ///< frames since then in images that were less or more sharp
@@ -36,7 +38,9 @@ struct Track {
   Eigen::Matrix2d creep =
       Eigen::Matrix2d::Zero();   ///< what the template may creep by as the view changes by one, px^2 where it was born
   double sigma_disparity = 1.0;  ///< of the first observation, px
-  Eigen::Vector3d z = Eigen::Vector3d::Zero();  ///< last trusted measurement: u_left, v, u_right (px)
+  Eigen::Vector3d z = Eigen::Vector3d::Zero();            ///< last trusted measurement: u_left, v, u_right (px)
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of that, by its alignments (1/px^2)
+  FrameId measured = -1;                                  ///< in this frame
   urban_nav_core::PatchSource source;
   urban_nav_core::PatchTemplate in_left, in_right;  ///< as last warped for either image
   bool left_ready = false, right_ready = false;

@@ -73,6 +73,7 @@ bool observe(State& state, const SensorModel& sensor, const Observation& observa
   // of prediction has.
   measurement.information = 0.5 * (observation.information + observation.information.transpose());
   measurement.sigma_px = observation.sigma_px;
+  measurement.inflation = observation.inflation;
   measurement.wander = sensor.bearing(observation.wander);
   int slot = state.slotOf(observation.landmark);
   if (slot < 0) {

@@ -25,8 +25,19 @@ constexpr int panel = 48;
 constexpr double datum_strength = 1e3;
 // The disparity offset is read off how disparities change as things come nearer, and so is everything that the model of camera and
 // surfaces leaves out: measured in rendered rooms, where there is none, and on real sequences its estimate is off by 2 to 30 times what the
-// information says. It is believed a twentieth as well (in standard deviation).
+// information says. It is believed a twentieth as well (in standard deviation) as alignments alone would have it; by what measurements are
+// inflated they have lost of that already.
 constexpr double caution = 400.0;
+
+double cautionFor(const State& state) {
+  double sum = 0.0, count = 0.0;
+  for (const LandmarkBlock& landmark : state.landmarks) {
+    if (!landmark.used) continue;
+    for (const Measurement& measurement : landmark.seen) sum += measurement.inflation;
+    count += static_cast<double>(landmark.seen.size());
+  }
+  return count > 0.0 ? std::max(1.0, caution * count / sum) : caution;
+}
 
 bool isFree(const LandmarkBlock& landmark) { return landmark.used && !landmark.known && landmark.prior < 0; }
 
@@ -149,17 +160,18 @@ void Solver::factorBorder(const State& state, const Prior& prior, const NormalEq
   solveFor(state, prior, equations, {prior.border, equations.border.pose, equations.border.landmark});
   border_.rows = rhs_;
   border_.landmark = landmark_step_;
+  border_.caution = cautionFor(state);
   const double measured = prior.offset_information + equations.border.information;
   border_.calibration = prior.calibrationInformation(state.disparity_offset);
-  border_.pivot = border_.calibration + std::max(measured - decrement_, 0.0) / caution;
+  border_.pivot = border_.calibration + std::max(measured - decrement_, 0.0) / border_.caution;
 }
 
 double Solver::offsetInformation() const {
-  return border_.used ? (border_.pivot - border_.calibration) * caution : 0.0;
+  return border_.used ? (border_.pivot - border_.calibration) * border_.caution : 0.0;
 }
 
 double Solver::offsetPull(const Prior& prior, double offset) const {
-  return caution * prior.calibrationInformation(offset) * (prior.calibrated_offset - offset);
+  return border_.caution * prior.calibrationInformation(offset) * (prior.calibrated_offset - offset);
 }
 
 double Solver::dotBorder(const State& state, const Prior& prior, const NormalEquations& equations) const {
@@ -178,8 +190,8 @@ void Solver::solve(const State& state, const Prior& prior, const NormalEquations
   offset_step_ = 0.0;
   if (!border_.used) return;
   const double left = prior_offset_gradient + equations.border.gradient - dotBorder(state, prior, equations);
-  const double pull = left / caution + prior.calibrationInformation(state.disparity_offset) *
-                                           (prior.calibrated_offset - state.disparity_offset);
+  const double pull = left / border_.caution + prior.calibrationInformation(state.disparity_offset) *
+                                                   (prior.calibrated_offset - state.disparity_offset);
   offset_step_ = pull / border_.pivot;
   decrement_ += pull * offset_step_;
   for (std::size_t i = 0; i < rhs_.size(); ++i) rhs_[i] -= border_.rows[i] * offset_step_;

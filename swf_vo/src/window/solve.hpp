@@ -96,6 +96,7 @@ class Solver {
     std::vector<Eigen::Vector3d> landmark;  // ... by slot
     double pivot = 1.0;                     // what is left of the offset's information
     double calibration = 0.0;               // ... that of the calibration
+    double caution = 1.0;                   // what the measurements' is divided by
   } border_;
 };
 

@@ -28,6 +28,7 @@ struct Measurement {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Matrix2d wander = Eigen::Matrix2d::Zero();  ///< of the bearing, since the measurement before
   double sigma_px = 0.0;                             ///< of the alignment alone
+  double inflation = 1.0;                            ///< Observation::inflation
   double weight = 1.0;  ///< robust weight at the last linearisation; 0: not in front of the camera
   bool solved = false;  ///< the last solve had this measurement
 };

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Images that shimmer as over a hot road: everything is where it should not be by a fifth of a pixel, another way in each frame, and no patch looks
+// any worse for it. The filter has to find out from what the measurements leave.
+#include <gtest/gtest.h>
+
+#include <opencv2/imgproc.hpp>
+
+#include "recordings.hpp"
+#include "urban_nav_core/trajectory/nees.hpp"
+
+namespace swf_vo {
+namespace {
+
+using urban_nav_core::ImageView;
+using urban_nav_core::Pose;
+using urban_nav_core::StereoPair;
+using urban_nav_core::testing::namedMotion;
+using urban_nav_core::testing::RenderedSequence;
+using urban_nav_core::testing::SequenceOptions;
+using urban_nav_core::testing::texturedRoom;
+
+constexpr int frames = 60, cell = 12;  // px
+constexpr double amplitude = 0.2;      // px, standard deviation
+
+/// A field of displacements that are alike within a patch, and not further away.
+void shimmer(const ImageView& image, cv::RNG& random, cv::Mat& moved) {
+  const cv::Mat whole(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.data),
+                      static_cast<std::size_t>(image.stride));
+  cv::Mat coarse(image.height / cell + 1, image.width / cell + 1, CV_32FC2), field;
+  random.fill(coarse, cv::RNG::NORMAL, 0.0, amplitude);
+  cv::resize(coarse, field, whole.size(), 0, 0, cv::INTER_CUBIC);
+  for (int v = 0; v < field.rows; ++v)
+    for (int u = 0; u < field.cols; ++u)
+      field.at<cv::Vec2f>(v, u) += cv::Vec2f(static_cast<float>(u), static_cast<float>(v));
+  cv::remap(whole, moved, field, cv::noArray(), cv::INTER_CUBIC, cv::BORDER_REPLICATE);
+}
+
+TEST(Shimmer, isInTheCovariance) {
+  double nees = 0.0;
+  constexpr int rooms = 2;
+  for (int room = 1; room <= rooms; ++room) {
+    const auto seed = static_cast<std::uint32_t>(room);
+    const auto motion = namedMotion("wander", "room", seed);
+    SequenceOptions options;
+    options.camera = smallCamera();
+    options.seed = seed;
+    RenderedSequence sequence(texturedRoom({}, seed), motion, options);
+    SwfVo filter(Parameters(), stereoCamera(), Pose());
+    cv::RNG random(seed);
+    cv::Mat left, right;
+    double sum = 0.0;
+    for (int i = 0; i < frames; ++i) {
+      const StereoPair pair = sequence.frame(i).pair();
+      shimmer(pair.left, random, left);
+      shimmer(pair.right, random, right);
+      const auto view = [](const cv::Mat& image) {
+        return ImageView{image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)};
+      };
+      const Frame& frame = filter.process({pair.stamp, view(left), view(right)});
+      expectProper(frame);
+      if (i < 20) continue;
+      sum += urban_nav_core::nees(motion(0.0).inverse() * motion(sequence.time(i)), frame.T_odom_base).value_or(1e9);
+    }
+    nees += sum / (frames - 20) / rooms;
+  }
+  EXPECT_LT(nees, 10.0) << "6 were right";
+}
+
+}  // namespace
+}  // namespace swf_vo
