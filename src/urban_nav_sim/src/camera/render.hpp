@@ -27,8 +27,8 @@ struct Picture {
   }
 };
 
-/// What a camera sees from `T_world_camera` at the time of the snapshot, one ray a pixel: anti-aliased within surfaces,
-/// where looks are filtered, but not at their edges. `picture` is made to fit; given again, it is not allocated again.
+/// What a camera sees from `T_world_camera` at the time of the snapshot: a ray through the middle of each pixel, whose looks are filtered over it,
+/// and several where an edge goes through (edges.hpp). Depth and class are those of the middle. `picture` is made to fit; given again, it is not allocated again.
 /// The same bytes whatever the number of threads.
 void render(const Snapshot& snapshot, const Sky& sky, const RayTable& rays, const urban_nav_core::Pose& T_world_camera,
             Colours colours, Picture& picture);

@@ -22,9 +22,9 @@ float sunOn(const SurfacePoint& point, const Sky& sky) {
 
 bool facesSun(const SurfacePoint& point, const Sky& sky) { return sunOn(point, sky) > 0.0F; }
 
-Vector3f shade(const SurfacePoint& point, const Look& look, const Vector3f& direction, bool sunlit, const Sky& sky) {
+Vector3f shade(const SurfacePoint& point, const Look& look, const Vector3f& direction, float sunlit, const Sky& sky) {
   Vector3f light = sky.ambient(point.normal);
-  if (sunlit) light += sunOn(point, sky) * sky.day().sun;
+  if (sunlit > 0.0F) light += sunlit * sunOn(point, sky) * sky.day().sun;
   const Vector3f scattered = look.albedo.cwiseProduct(light);
   if (!(look.gloss > 0.0F)) return scattered;
   // Schlick 1994, with the gloss as what is mirrored head on.

@@ -12,8 +12,8 @@ namespace urban_nav_sim {
 bool facesSun(const SurfacePoint& point, const Sky& sky);
 
 /// The light that a point sends to the viewer: linear RGB, 1 = a white sheet in the sun. `direction`: of the viewing ray,
-/// unit; `sunlit`: nothing between point and sun.
-Eigen::Vector3f shade(const SurfacePoint& point, const Look& look, const Eigen::Vector3f& direction, bool sunlit,
+/// unit; `sunlit`: the share of the sun that nothing hides from the point.
+Eigen::Vector3f shade(const SurfacePoint& point, const Look& look, const Eigen::Vector3f& direction, float sunlit,
                       const Sky& sky);
 
 /// What is left of it after so many metres of air.

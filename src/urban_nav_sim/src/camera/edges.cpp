@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "camera/edges.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bitset>
+#include <cmath>
+
+#include "urban_nav_core/parallel/for_each.hpp"
+
+namespace urban_nav_sim {
+namespace {
+
+using Eigen::Vector3f;
+
+constexpr int kRays = 4;                        // through a pixel
+constexpr int kTogether = kLanes / kRays;       // pixels of a packet
+constexpr float kSamePlane = 1e-3F;             // m
+constexpr float kSameDirection = 1.0F - 1e-4F;  // cosine
+
+/// Rooks that do not take each other, and not on a diagonal either: any edge, however it lies, goes past them one by one.
+constexpr std::array<int, kRays> kRow = {2, 0, 3, 1};
+float along(int i) { return (static_cast<float>(i) + 0.5F) / kRays - 0.5F; }
+
+int bits(std::uint32_t mask) { return static_cast<int>(std::bitset<kLanes>(mask).count()); }
+
+struct Met {
+  std::uint32_t facet = kNothing, mover = kNothing;
+};
+
+/// Leaves of a tree are one surface, or a pixel of them would be looked at eight times.
+bool areSame(const Tracer& tracer, const Met& a, const Met& b) {
+  if (a.mover != b.mover) return false;
+  if (a.facet == b.facet) return true;
+  if (a.facet == kNothing || b.facet == kNothing) return false;
+  const Facet &one = tracer.facets()[a.facet], &other = tracer.facets()[b.facet];
+  if (one.part != other.part) return false;
+  if (tracer.partOf(one).surface_class == SurfaceClass::Foliage) return true;
+  return one.normal.dot(other.normal) > kSameDirection &&
+         std::abs(one.normal.dot(other.corner - one.corner)) < kSamePlane;
+}
+
+enum class Edge { None, OfSurface, OfShadow };
+
+class Smoother {
+ public:
+  Smoother(const Tracer& tracer, const Eye& eye, const Traces& traces, Picture& picture)
+      : tracer_(tracer), eye_(eye), traces_(traces), picture_(picture) {}
+
+  void row(int v) const {
+    std::array<Pixel, kTogether> waiting{};
+    int count = 0;
+    for (int u = 0; u < picture_.width; ++u) {
+      const Edge edge = edgeAt(u, v);
+      if (edge == Edge::None) continue;
+      waiting[static_cast<std::size_t>(count++)] = {u, edge};
+      if (count == kTogether) {
+        smooth(waiting, count, v);
+        count = 0;
+      }
+    }
+    if (count > 0) smooth(waiting, count, v);
+  }
+
+ private:
+  struct Pixel {
+    int u = 0;
+    Edge edge = Edge::None;
+  };
+  /// Rays of a pixel that met one surface.
+  struct Share {
+    int first = 0;  ///< lane
+    std::uint32_t lanes = 0;
+  };
+  struct Shares {
+    std::array<Share, kRays> all;
+    int count = 0;
+  };
+
+  bool isLeaf(std::uint32_t facet) const {
+    return facet != kNothing && tracer_.partOf(tracer_.facets()[facet]).surface_class == SurfaceClass::Foliage;
+  }
+
+  /// What its neighbours say that may go through a pixel.
+  Edge edgeAt(int u, int v) const {
+    const std::size_t here = picture_.at(u, v);
+    const Met met{traces_.facet[here], traces_.mover[here]};
+    Edge edge = Edge::None;
+    for (int y = std::max(v - 1, 0); y <= std::min(v + 1, picture_.height - 1); ++y) {
+      for (int x = std::max(u - 1, 0); x <= std::min(u + 1, picture_.width - 1); ++x) {
+        const std::size_t there = picture_.at(x, y);
+        const Met other{traces_.facet[there], traces_.mover[there]};
+        const bool is_one = other.facet == met.facet && other.mover == met.mover;
+        if (!is_one && !areSame(tracer_, met, other)) edge = Edge::OfSurface;
+        else if (traces_.sunlit[there] != traces_.sunlit[here]) return Edge::OfShadow;
+        else if (!is_one && isLeaf(met.facet)) edge = Edge::OfSurface;
+      }
+    }
+    return edge;
+  }
+
+  void smooth(const std::array<Pixel, kTogether>& waiting, int count, int v) const {
+    Packet packet;
+    std::array<std::array<int, 2>, kLanes> pixels{};
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const int i = lane % kRays, u = waiting[static_cast<std::size_t>(std::min(lane / kRays, count - 1))].u;
+      pixels[static_cast<std::size_t>(lane)] = {u, v};
+      eye_.aim(lane, u, v, along(i), along(kRow[static_cast<std::size_t>(i)]), packet);
+    }
+    packet.active = (1U << count * kRays) - 1U;
+    Eye::Seen seen;
+    eye_.trace(packet, seen);
+    std::array<Shares, kTogether> shares;
+    std::uint32_t lanes = 0;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+      shares[k] = sharesOf(seen, static_cast<int>(k) * kRays);
+      for (int i = 0; i < shares[k].count; ++i) {
+        const Share& share = shares[k].all[static_cast<std::size_t>(i)];
+        if (waiting[k].edge == Edge::OfShadow) lanes |= share.lanes;
+        else if (!isMiddle(seen, share, waiting[k].u, v)) lanes |= 1U << share.first;
+      }
+    }
+    eye_.examine(packet, pixels, lanes, seen);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
+      put(packet, seen, shares[k], lanes, picture_.at(waiting[k].u, v));
+  }
+
+  Shares sharesOf(const Eye::Seen& seen, int begin) const {
+    Shares shares;
+    for (int lane = begin; lane < begin + kRays; ++lane) {
+      const Met met{seen.hits.facet[lane], seen.hits.mover[lane]};
+      int i = 0;
+      for (; i < shares.count; ++i) {
+        const int first = shares.all[static_cast<std::size_t>(i)].first;
+        if (areSame(tracer_, {seen.hits.facet[first], seen.hits.mover[first]}, met)) break;
+      }
+      Share& share = shares.all[static_cast<std::size_t>(i)];
+      if (i == shares.count) {
+        share.first = lane;
+        ++shares.count;
+      }
+      share.lanes |= 1U << lane;
+    }
+    return shares;
+  }
+
+  /// Is it the surface that the middle of the pixel has met?
+  bool isMiddle(const Eye::Seen& seen, const Share& share, int u, int v) const {
+    const std::size_t pixel = picture_.at(u, v);
+    return areSame(tracer_, {traces_.facet[pixel], traces_.mover[pixel]},
+                   {seen.hits.facet[share.first], seen.hits.mover[share.first]});
+  }
+
+  /// The mean over the shares. `examined`: lanes of which it is known whether the sun shines there; of a share that has none the light is in the
+  /// picture already.
+  void put(const Packet& packet, const Eye::Seen& seen, const Shares& shares, std::uint32_t examined,
+           std::size_t pixel) const {
+    const auto channels = static_cast<std::size_t>(picture_.channels);
+    float* radiance = &picture_.radiance[pixel * channels];
+    std::array<float, 3> sum{};
+    for (int i = 0; i < shares.count; ++i) {
+      const auto [first, lanes] = shares.all[static_cast<std::size_t>(i)];
+      std::array<float, 3> own{};
+      if ((lanes & examined) == 0) {
+        std::copy_n(radiance, channels, own.begin());
+      } else {
+        const Vector3f direction = packet.directionOf(first);
+        const auto sunlit = static_cast<float>(bits(lanes & seen.sunlit)) / static_cast<float>(bits(lanes & examined));
+        const auto& point = seen.points[static_cast<std::size_t>(first)];
+        urban_nav_sim::put(seen.met(first) ? eye_.light(point, direction, sunlit) : eye_.skyLight(direction),
+                           picture_.channels, own.data());
+      }
+      for (std::size_t c = 0; c < channels; ++c) sum[c] += static_cast<float>(bits(lanes)) * own[c];
+    }
+    for (std::size_t c = 0; c < channels; ++c) radiance[c] = sum[c] / kRays;
+  }
+
+  const Tracer& tracer_;
+  const Eye& eye_;
+  const Traces& traces_;
+  Picture& picture_;
+};
+
+}  // namespace
+
+void smoothEdges(const Tracer& tracer, const Eye& eye, const Traces& traces, Picture& picture) {
+  const Smoother smoother(tracer, eye, traces, picture);
+  urban_nav_core::forEach(static_cast<std::size_t>(picture.height), 4,
+                          [&](std::size_t row) { smoother.row(static_cast<int>(row)); });
+}
+
+}  // namespace urban_nav_sim

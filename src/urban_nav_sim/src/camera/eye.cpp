@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "camera/eye.hpp"
+
+#include "camera/shade.hpp"
+
+namespace urban_nav_sim {
+
+using Eigen::Vector3f;
+
+namespace {
+
+constexpr float kFar = 5000.0F;         // m of depth
+constexpr float kShadowOffset = 2e-3F;  // m off the surface, so that it does not shade itself
+
+/// What a grey sensor makes of colours: silicon behind glass, most sensitive to green and red.
+const Vector3f kGrey(0.32F, 0.46F, 0.22F);
+
+}  // namespace
+
+Eye::Eye(const Snapshot& snapshot, const Sky& sky, const RayTable& rays, const urban_nav_core::Pose& T_world_camera)
+    : snapshot_(snapshot),
+      sky_(sky),
+      rays_(rays),
+      R_(T_world_camera.R().cast<float>()),
+      origin_(T_world_camera.t().cast<float>()) {}
+
+void Eye::aim(int lane, int u, int v, float du, float dv, Packet& packet) const {
+  const Eigen::Vector2f ideal = rays_.at(u, v) + du * rays_.right(u, v) + dv * rays_.down(u, v);
+  packet.setOrigin(lane, origin_);
+  packet.setDirection(lane, inWorld(ideal, 1.0F));
+  packet.far[lane] = kFar;
+  packet.time[lane] = 0.0F;
+  packet.active |= 1U << lane;
+}
+
+void Eye::examine(const Packet& packet, const std::array<std::array<int, 2>, kLanes>& pixels, std::uint32_t lanes,
+                  Seen& seen) const {
+  Packet shadow;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    shadow.setDirection(lane, sky_.day().to_sun);
+    shadow.setOrigin(lane, origin_);
+    shadow.far[lane] = kFar;
+    shadow.time[lane] = 0.0F;
+    if ((lanes >> lane & 1U) == 0 || !seen.met(lane)) continue;
+    const auto [u, v] = pixels[static_cast<std::size_t>(lane)];
+    auto& point = seen.points[static_cast<std::size_t>(lane)];
+    point =
+        snapshot_.surfaceAt(seen.hits, lane, packet, inWorld(rays_.right(u, v), 0.0F), inWorld(rays_.down(u, v), 0.0F));
+    if (!facesSun(point, sky_)) continue;
+    shadow.setOrigin(lane, point.position + kShadowOffset * point.normal);
+    shadow.active |= 1U << lane;
+  }
+  seen.sunlit = shadow.active != 0 ? shadow.active & ~snapshot_.occluded(shadow) : 0;
+}
+
+Vector3f Eye::light(const SurfacePoint& point, const Vector3f& direction, float sunlit) const {
+  const float length = direction.norm();
+  const Look look = lookAt(*point.material, point.spot);
+  const Vector3f light = shade(point, look, direction / length, sunlit, sky_);
+  return throughAir(light, static_cast<float>(point.distance) * length, sky_);
+}
+
+void put(const Vector3f& light, int channels, float* radiance) {
+  if (channels == 1) *radiance = kGrey.dot(light);
+  else
+    for (int i = 0; i < 3; ++i) radiance[i] = light[i];
+}
+
+}  // namespace urban_nav_sim
