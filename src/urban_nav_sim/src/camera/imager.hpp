@@ -18,10 +18,11 @@ namespace urban_nav_sim {
 class Imager {
  public:
   struct Settings {
-    double vignetting = 0.30;                                 ///< share of light that is lost in the corners
-    double spread = 0.50;                                     ///< px, sigma of the point spread
-    double read_noise = 0.55;                                 ///< grey levels without gain
-    double shot_noise = 0.006;                                ///< levels^2 per level without gain
+    double vignetting = 0.30;  ///< share of light that is lost in the corners
+    double spread = 0.50;      ///< px, sigma of the point spread
+    double read_noise = 0.45;  ///< grey levels without gain
+    /// Levels^2 per level without gain: four pixels of 16 000 electrons, read as one.
+    double shot_noise = 0.004;
     double sensitivity = 1.0;                                 ///< of this imager beside the others of its head
     Eigen::Vector3f white_balance = Eigen::Vector3f::Ones();  ///< factors of red, green, blue
     double gamma = 1.0;                                       ///< 255 (level / 255)^gamma

@@ -79,10 +79,10 @@ std::shared_ptr<const Tile> drawGravel(std::uint64_t seed) {
       const float edge = p.edge.at(x, y);
       mix.at(x, y) = 1.0F - smoothStep(0.05F, 0.2F, edge);
       tone.at(x, y) =
-          1.1F * (p.id.at(x, y) - 0.5F) + 0.15F * (smoothStep(0.1F, 0.6F, edge) - 0.5F) + 0.14F * drift.at(x, y);
+          0.5F * (p.id.at(x, y) - 0.5F) + 0.12F * (smoothStep(0.1F, 0.6F, edge) - 0.5F) + 0.05F * drift.at(x, y);
     }
   }
-  scatter(mix, tone, 260, 3.0, 9.0, 0.0F, 0.5, hash(seed, 5));
+  scatter(mix, tone, 260, 3.0, 9.0, 0.0F, 0.35, hash(seed, 5));
   return tileOf(2.6F, mix, tone);
 }
 
@@ -96,7 +96,7 @@ std::shared_ptr<const Tile> drawAsphalt(std::uint64_t seed) {
       const float chip = smoothStep(0.6F, 0.95F, chips.id.at(x, y)) * smoothStep(0.08F, 0.25F, chips.edge.at(x, y));
       const float line = wear.at(x, y) > -0.3F ? 1.0F - smoothStep(0.0F, 0.03F, std::abs(crack.at(x, y))) : 0.0F;
       mix.at(x, y) = std::clamp(chip * (0.8F + 0.25F * wear.at(x, y)), 0.0F, 1.0F);
-      tone.at(x, y) = 0.2F * (chips.id.at(x, y) - 0.5F) + 0.16F * wear.at(x, y) - 0.45F * line;
+      tone.at(x, y) = 0.2F * (chips.id.at(x, y) - 0.5F) + 0.1F * wear.at(x, y) - 0.45F * line;
     }
   }
   scatter(mix, tone, 60, 2.0, 7.0, 0.2F, 0.5, hash(seed, 4));  // gum, stones
@@ -108,7 +108,7 @@ std::shared_ptr<const Tile> drawSoil(std::uint64_t seed) {
                drift = fractalNoise(kSize, 5, 5, 5, 0.6F, hash(seed, 2));
   Canvas mix(kSize), tone(kSize);
   for (int y = 0; y < kSize; ++y) {
-    for (int x = 0; x < kSize; ++x) tone.at(x, y) = 0.2F * lumps.at(x, y) + 0.12F * drift.at(x, y);
+    for (int x = 0; x < kSize; ++x) tone.at(x, y) = 0.13F * lumps.at(x, y) + 0.06F * drift.at(x, y);
   }
   scatter(mix, tone, 2600, 1.5, 5.0, 1.0F, 0.35, hash(seed, 3));
   scatter(mix, tone, 260, 5.0, 11.0, 0.7F, 0.35, hash(seed, 4));

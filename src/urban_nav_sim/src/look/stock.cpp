@@ -61,7 +61,7 @@ Material Stock::wall(Stuff stuff, Draw& v) {
       m.name = "ashlar", m.detail = tile(Drawing::Ashlar);
       base = varied({0.46F, 0.37F, 0.24F}, 0.12, 0.05, v);
       colour(m, base, base * 0.45F, 0.8F), infrared(m, 0.55F, 0.4F, 0.5F);
-      m.layers = {clouds(1.3F, 0.4F, base * 0.28F, base * 0.2F), streaks(1.0F, base * 0.35F)};
+      m.layers = {clouds(1.3F, 0.4F, base * 0.16F, base * 0.12F), streaks(1.0F, base * 0.3F)};
       break;
     case Stuff::Rubble:
       m.name = "rubble", m.detail = tile(Drawing::Rubble);
@@ -114,13 +114,13 @@ Material Stock::ground(Stuff stuff, Draw& v) {
       base = stuff == Stuff::Slabs ? varied({0.36F, 0.33F, 0.27F}, 0.1, 0.04, v)
                                    : varied({0.24F, 0.22F, 0.2F}, 0.1, 0.05, v);
       colour(m, base, base * 0.35F, 0.9F), infrared(m, 0.45F, 0.25F, 0.4F);
-      m.layers = {clouds(1.0F, 0.4F, base * 0.3F, base * 0.25F), clouds(0.17F, 1.0F, base * 0.25F, Vector3f::Zero())};
+      m.layers = {clouds(1.0F, 0.4F, base * 0.2F, base * 0.18F), clouds(0.17F, 1.0F, base * 0.12F, Vector3f::Zero())};
       break;
     case Stuff::Gravel:
       m.name = "gravel", m.detail = tile(Drawing::Gravel), m.surface_class = SurfaceClass::DirtPath;
       base = varied({0.42F, 0.35F, 0.25F}, 0.1, 0.05, v);
-      colour(m, base, base * 0.35F, 0.8F), infrared(m, 0.4F, 0.25F, 0.4F);
-      m.layers = {clouds(1.7F, 0.4F, base * 0.25F, base * 0.15F), clouds(0.19F, 1.1F, base * 0.28F, base * 0.3F)};
+      colour(m, base, base * 0.45F, 0.8F), infrared(m, 0.4F, 0.25F, 0.4F);
+      m.layers = {clouds(1.7F, 0.4F, base * 0.2F, base * 0.15F), clouds(0.31F, 1.1F, base * 0.1F, base * 0.1F)};
       break;
     case Stuff::Lawn:
     case Stuff::Meadow:
@@ -137,7 +137,7 @@ Material Stock::ground(Stuff stuff, Draw& v) {
       m.name = "soil", m.detail = tile(Drawing::Soil), m.surface_class = SurfaceClass::DirtPath;
       base = varied({0.2F, 0.15F, 0.095F}, 0.12, 0.06, v);
       colour(m, base, Vector3f(0.36F, 0.31F, 0.22F), 0.9F), infrared(m, 0.35F, 0.45F, 0.4F);
-      m.layers = {clouds(1.4F, 0.4F, base * 0.4F, base * 0.25F), clouds(0.2F, 1.1F, base * 0.35F, base * 0.2F)};
+      m.layers = {clouds(1.4F, 0.4F, base * 0.25F, base * 0.2F), clouds(0.3F, 1.1F, base * 0.15F, base * 0.1F)};
       break;
     case Stuff::Kerb:
       m.name = "kerb", m.detail = tile(Drawing::Slabs);
@@ -155,7 +155,7 @@ Material Stock::ground(Stuff stuff, Draw& v) {
       m.name = "asphalt", m.detail = tile(Drawing::Asphalt);
       base = varied({0.085F, 0.083F, 0.08F}, 0.15, 0.03, v);
       colour(m, base, Vector3f(0.27F, 0.26F, 0.24F), 1.0F), infrared(m, 0.16F, 0.3F, 0.6F);
-      m.layers = {clouds(2.0F, 0.4F, base * 0.3F, base * 0.3F), clouds(0.25F, 1.1F, base * 0.3F, base * 0.3F)};
+      m.layers = {clouds(2.0F, 0.4F, base * 0.3F, base * 0.3F), clouds(0.25F, 1.1F, base * 0.18F, base * 0.18F)};
       break;
   }
   return m;
@@ -270,7 +270,7 @@ std::shared_ptr<const Tile> Stock::draw(Drawing drawing) const {
   switch (drawing) {
     case Drawing::Ashlar:
       courses(4.2F, 0.22F, 0.38F, 0.35F, 0.85F, 0.012F);
-      bond.block_tone = 0.17F, bond.grain = 0.13F, bond.pits = 0.4F, bond.wobble = 0.003F;
+      bond.block_tone = 0.13F, bond.grain = 0.045F, bond.pits = 0.2F, bond.wobble = 0.003F;
       return drawBond(bond);
     case Drawing::Rubble: return drawRubble(15, 3.4F, bond.seed);
     case Drawing::Brick:
@@ -286,7 +286,7 @@ std::shared_ptr<const Tile> Stock::draw(Drawing drawing) const {
       return drawBond(bond);
     case Drawing::Slabs:
       courses(4.2F, 0.45F, 0.7F, 0.5F, 1.0F, 0.012F);
-      bond.block_tone = 0.14F, bond.grain = 0.1F, bond.shade = 0.0F, bond.pits = 0.2F, bond.wobble = 0.002F;
+      bond.block_tone = 0.14F, bond.grain = 0.06F, bond.shade = 0.0F, bond.pits = 0.1F, bond.wobble = 0.002F;
       return drawBond(bond);
     case Drawing::Setts:
       courses(2.4F, 0.12F, 0.12F, 0.2F, 0.2F, 0.018F);
