@@ -31,12 +31,15 @@ constexpr std::size_t kEvery = 8;      // of the real frames, which are much ali
 
 /// Of many pictures, a value each; of gradients, one for each pixel that was taken.
 struct Textures {
-  Values textured_blocks, corners, two_octaves_up, noise, gradients;
+  Values textured_blocks, corners, two_octaves_up, above, below, white, noise, gradients;
 
   void add(const Texture& texture) {
     textured_blocks.push_back(texture.textured_blocks);
     corners.push_back(texture.corners);
     two_octaves_up.push_back(texture.two_octaves_up);
+    above.push_back(texture.above);
+    below.push_back(texture.below);
+    white.push_back(texture.white);
     noise.push_back(texture.noise);
     gradients.insert(gradients.end(), texture.gradients.begin(), texture.gradients.end());
   }
@@ -110,6 +113,9 @@ int main(int argc, char** argv) try {
   add("textured blocks (share)", &Textures::textured_blocks, 2);
   add("FAST corners in 512x384", &Textures::corners, 0);
   add("gradient two octaves up over that at full size", &Textures::two_octaves_up, 2);
+  add("... in the upper half", &Textures::above, 2);
+  add("... in the lower half", &Textures::below, 2);
+  add("burnt out (share)", &Textures::white, 2);
   add("noise (grey levels)", &Textures::noise, 2);
   add("log2(1 + gradient), every pixel", &Textures::gradients, 2);
   table.note(

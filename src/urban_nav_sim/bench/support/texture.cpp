@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kBlock = 16;                       // px
 constexpr double kTextured = 2.5;                // levels a pixel
+constexpr int kBurnt = 250;                      // levels
 constexpr int kFastThreshold = 20;               // grey levels
 constexpr double kFrame = 512 * 384;             // px
 constexpr std::size_t kEvery = 61;               // a prime: no column is left out
@@ -23,6 +24,13 @@ cv::Mat gradientOf(const cv::Mat& image) {
   cv::Sobel(image, dy, CV_32F, 0, 1, 3, 1.0 / 8.0);
   cv::magnitude(dx, dy, length);
   return length;
+}
+
+double twoOctavesUp(const cv::Mat& levels) {
+  cv::Mat half, quarter;
+  cv::pyrDown(levels, half);
+  cv::pyrDown(half, quarter);
+  return cv::mean(gradientOf(quarter))[0] / std::max(cv::mean(gradientOf(levels))[0], 1e-9);
 }
 
 /// Means over whole blocks, row by row.
@@ -50,10 +58,8 @@ double noiseOf(const cv::Mat& image) {
 }  // namespace
 
 Texture textureOf(const cv::Mat& image) {
-  cv::Mat levels, quarter;
+  cv::Mat levels;
   image.convertTo(levels, CV_32F);
-  cv::pyrDown(levels, quarter);
-  cv::pyrDown(quarter.clone(), quarter);
   const cv::Mat gradient = gradientOf(levels);
 
   Texture texture;
@@ -63,7 +69,10 @@ Texture textureOf(const cv::Mat& image) {
   std::vector<cv::KeyPoint> corners;
   cv::FAST(image, corners, kFastThreshold);
   texture.corners = static_cast<double>(corners.size()) * kFrame / static_cast<double>(image.total());
-  texture.two_octaves_up = cv::mean(gradientOf(quarter))[0] / std::max(cv::mean(gradient)[0], 1e-9);
+  texture.two_octaves_up = twoOctavesUp(levels);
+  texture.above = twoOctavesUp(levels.rowRange(0, levels.rows / 2));
+  texture.below = twoOctavesUp(levels.rowRange(levels.rows / 2, levels.rows));
+  texture.white = static_cast<double>(cv::countNonZero(image >= kBurnt)) / static_cast<double>(image.total());
   texture.noise = noiseOf(levels);
   const auto* first = gradient.ptr<float>();
   for (std::size_t i = 0; i < gradient.total(); i += kEvery)
