@@ -30,6 +30,8 @@ const Table<Parameters>& table() {
           {"pixel_noise_floor", &P::pixel_noise_floor, "px", 0.03, 0.001, 5.0, {},
            "Standard deviation added to that of every measured pixel: what the patch alignment cannot know of.",
            "swf_vo/bench, consistency"},
+          {"subpixel", &P::subpixel, "", true, false, false, {},
+           "Places corners to a hundredth of a pixel; without, to the next whole one (for comparison).", "section 2.4"},
           {"disparity_offset", &P::disparity_offset, "px", 0.1, 0.0, 5.0, {},
            "Standard deviation of a constant error of the disparity, left by calibration and rectification and estimated with the motion; 0 takes the calibration as exact.",
            "swf_vo/bench, accuracy"},

@@ -15,6 +15,7 @@ struct Parameters {
   std::string linearise;        // first, latest
   int features;                 // in an image of 512x384
   double pixel_noise_floor;     // px
+  bool subpixel;
   double disparity_offset;      // px, standard deviation of a state; 0: none
   double huber;                 // standard deviations
   int iterations;               // Gauss-Newton steps a frame, at most

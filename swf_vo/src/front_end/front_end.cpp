@@ -80,7 +80,8 @@ class FrontEnd::Implementation {
         tracks_(capacity_),
         noise_(capacity_),
         rows_(4 * capacity_),
-        replenisher_(camera_, featuresIn(camera, parameters.features), parameters.pixel_noise_floor) {
+        replenisher_(camera_, featuresIn(camera, parameters.features), parameters.pixel_noise_floor,
+                     parameters.subpixel) {
     const std::size_t capacity = static_cast<std::size_t>(capacity_);
     misfit_.resize(static_cast<std::size_t>(parameters.pyramid_levels));
     matches_.reserve(capacity);
@@ -230,7 +231,7 @@ class FrontEnd::Implementation {
   /// First matches, in one image each, and the pose that most of them agree on to about a pixel.
   Localisation matchCoarsely(const Pose& T_turned_odom, const Pose& T_predicted_odom) {
     matchTemporal(corners_, camera_, T_turned_odom, radius_, matches_, rows_.px());
-    for (Match& match : matches_) combine(parameters_.pixel_noise_floor, match, rows_.px());
+    for (Match& match : matches_) measure(match);
     starts_.assign({T_predicted_odom, T_turned_odom});
     LocaliseOptions options;
     options.slack_px = coarse_slack_px;
@@ -261,7 +262,7 @@ class FrontEnd::Implementation {
     spare_ = matches_;
     const double radius = std::max(first_radius * parameters_.search_radius, widest_radius * camera_.left.width);
     matchAnywhere(corners_, camera_, T_turned_odom, radius, matches_, rows_.px());
-    for (Match& match : matches_) combine(parameters_.pixel_noise_floor, match, rows_.px());
+    for (Match& match : matches_) measure(match);
     starts_.assign({T_turned_odom});
     LocaliseOptions options;
     options.slack_px = coarse_slack_px;
@@ -300,7 +301,7 @@ class FrontEnd::Implementation {
     matchAcross(corners_, camera_, coarse.found ? coarse.T_camera_odom : T_turned_odom, matches_, rows_.px());
     for (Match& match : matches_) {
       dropMisfits(match);
-      combine(parameters_.pixel_noise_floor, match, rows_.px());
+      measure(match);
     }
     starts_.assign({coarse.found ? coarse.T_camera_odom : T_predicted_odom});
     LocaliseOptions options;
@@ -333,6 +334,11 @@ class FrontEnd::Implementation {
     result_.T_odom_camera = fine.T_camera_odom.inverse();
     result_.inlier_share = static_cast<double>(fine.inliers) / fine.candidates;
     result_.reprojection_px = fine.reprojection_px;
+  }
+
+  void measure(Match& match) {
+    if (!parameters_.subpixel) roundToPixels(match);
+    combine(parameters_.pixel_noise_floor, match, rows_.px());
   }
 
   void dropMisfits(Match& match) {

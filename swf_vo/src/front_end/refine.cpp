@@ -138,6 +138,15 @@ void loosen(const Eigen::Matrix2d& covariance, double of_disparity, Match& match
   match.information = (0.5 * (match.information + match.information.transpose())).eval();
 }
 
+void roundToPixels(Match& match) {
+  const double size = 1.0 / urban_nav_core::Pyramid::scale(match.track->level);
+  for (Sighting* sighting : {&match.left, &match.right}) {
+    if (!sighting->found) continue;
+    for (double& coordinate : sighting->pixel) coordinate = size * std::round(coordinate / size);
+    sighting->covariance = size * size / 12.0 * Eigen::Matrix2d::Identity();
+  }
+}
+
 void combine(double floor_px, Match& match, double row_offset) {
   match.measured = false;
   match.information.setZero();

@@ -38,6 +38,9 @@ Eigen::Matrix2d displacedByBlur(const Track& track, bool in_left);
 /// Adds a covariance that both images share, and a variance of the disparity (px^2), to a measurement.
 void loosen(const Eigen::Matrix2d& covariance, double of_disparity, Match& match);
 
+/// Puts the sightings onto the pixels of their level, as without any refinement.
+void roundToPixels(Match& match);
+
 /// The two sightings as one measurement (u_left, v, u_right): the row counts once, weighed by both. `floor_px` is added to the
 /// standard deviation of each coordinate. The row is the left image's: the right one's is `row_offset` (RowOffset) less than was sighted. Not
 /// measured if neither image has it, or if the rows contradict each other.

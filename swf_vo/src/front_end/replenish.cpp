@@ -45,10 +45,11 @@ int depthFor(int features) {
 
 }  // namespace
 
-Replenisher::Replenisher(const StereoCamera& camera, int features, double floor_px)
+Replenisher::Replenisher(const StereoCamera& camera, int features, double floor_px, bool subpixel)
     : camera_(camera),
       features_(features),
       floor_px_(floor_px),
+      subpixel_(subpixel),
       spread_(camera.left.width, camera.left.height, features, depthFor(features), slack) {}
 
 void Replenisher::gather(const Corners& corners) {
@@ -87,6 +88,7 @@ bool Replenisher::start(const Candidate& candidate, FrameId frame, const Corners
   if (!source) return false;
   Track* track = tracks.start();
   if (track == nullptr) return false;
+  track->level = candidate.level;
   urban_nav_core::SlopePrior prior;
   prior.wide_sigma = std::min(steepest, camera_.baseline / nearest_plane);
   prior.usual_sigma = std::min(
@@ -112,6 +114,8 @@ bool Replenisher::start(const Candidate& candidate, FrameId frame, const Corners
     const double noise = std::max(found.alignment.noise, 0.3);
     match.left.covariance = track->in_left.unit_covariance * (noise * noise * size * size);
     match.right.covariance = found.alignment.covariance * (size * size);
+    match.track = track;
+    if (!subpixel_) roundToPixels(match);
     combine(floor_px_, match, rows.px());
   }
   if (!match.measured) {
@@ -119,7 +123,6 @@ bool Replenisher::start(const Candidate& candidate, FrameId frame, const Corners
     return false;
   }
   track->born = frame;
-  track->level = candidate.level;
   track->T_born_odom = T_odom_camera.inverse();
   track->ray = camera_.left.ray(match.left.pixel);
   track->plane = surface(camera_, {match.left.pixel.x(), match.left.pixel.y(), match.right.pixel.x()}, found.slopes);

@@ -19,7 +19,7 @@ namespace swf_vo {
 class Replenisher {
  public:
   /// The camera must outlive it, and may learn its disparity offset. `features`: wanted in the image.
-  Replenisher(const urban_nav_core::StereoCamera& camera, int features, double floor_px);
+  Replenisher(const urban_nav_core::StereoCamera& camera, int features, double floor_px, bool subpixel = true);
 
   /// `matches`: those that are inliers keep their place. Appends to `fresh`. `rows`: by what the images differ, and what is seen of it.
   void replenish(FrameId frame, const Corners& corners, const urban_nav_core::Pose& T_odom_camera,
@@ -38,6 +38,7 @@ class Replenisher {
   const urban_nav_core::StereoCamera& camera_;
   int features_;
   double floor_px_;
+  bool subpixel_;
   urban_nav_core::Spread spread_;
   std::vector<Candidate> candidates_;
   std::vector<Misfit> misfit_;  // by level: noise is less further up
