@@ -61,12 +61,11 @@ void FaultFilter::spoil(const Fault& fault, const Stream& stream, Measurement& m
 
 std::optional<Measurement> FaultFilter::apply(Measurement measurement) {
   const std::optional<Sensor> sensor = std::visit(Origin(), measurement);
-  if (!sensor) return measurement;
+  if (!sensor || faults_.empty()) return measurement;
   const Stream stream(*sensor, partOf(measurement));
   const double t = 1e-9 * static_cast<double>(stampOf(measurement) - begin_);
   ++count_;
   bool spoilt = false;
-  const Measurement original = measurement;
   for (const Fault& fault : faults_) {
     if (fault.sensor != *sensor || !fault.isActive(t)) continue;
     if (fault.kind == FaultKind::Unplug) return std::nullopt;
@@ -77,7 +76,7 @@ std::optional<Measurement> FaultFilter::apply(Measurement measurement) {
     spoil(fault, stream, measurement);
     spoilt = true;
   }
-  if (!spoilt && !faults_.empty()) last_good_[stream] = original;
+  if (!spoilt) last_good_[stream] = measurement;
   return measurement;
 }
 

@@ -135,14 +135,17 @@ urban_nav_core::PlanarScan Lms291::scan(const Ride& ride, double t, urban_nav_co
   for (int first = 0; first < kBeams; first += kBeamsOfPacket) {
     const int beams = std::min(kBeamsOfPacket, kBeams - first);
     Packet packet{};
-    for (int lane = 0; lane < kRays * beams; ++lane) {
-      const int beam = first + lane / kRays, ray = lane % kRays;
+    for (int i = 0; i < beams; ++i) {
+      const int beam = first + i;
       const Pose T_world_laser = ride.at(t + scan.time_step * beam).T_world_base * T_base_laser_;
-      packet.setOrigin(lane, T_world_laser.t().cast<float>());
-      packet.setDirection(lane, (T_world_laser.q() * rayOf(beam, ray)).cast<float>());
-      packet.far[lane] = kFar;
-      packet.time[lane] = static_cast<float>(beam) / (kBeams - 1);
-      packet.active |= 1U << lane;
+      for (int ray = 0; ray < kRays; ++ray) {
+        const int lane = i * kRays + ray;
+        packet.setOrigin(lane, T_world_laser.t().cast<float>());
+        packet.setDirection(lane, (T_world_laser.q() * rayOf(beam, ray)).cast<float>());
+        packet.far[lane] = kFar;
+        packet.time[lane] = static_cast<float>(beam) / (kBeams - 1);
+        packet.active |= 1U << lane;
+      }
     }
     Hits hits;
     snapshot.closest(packet, hits);
