@@ -19,6 +19,7 @@ namespace {
 
 constexpr double radius = 30.0;   // m
 constexpr float spacing = 0.05F;  // m
+constexpr double sunk = 0.3;  // m: walls go on below the ground; the land around a site is seen, and lies 0.15 m lower
 constexpr std::size_t row_bytes = 3 * sizeof(float) + 1;
 
 /// Calls point(p, class) for each, always in the same order.
@@ -34,6 +35,7 @@ void forEachPoint(const World& world, const NearWay& near, const Point& point) {
       sampleTriangle(a, b, c, spacing, [&](const Vector3f& w) {
         const Vector3f p = w[0] * a + w[1] * b + w[2] * c;
         if (!near.has(p.x(), p.y())) return;
+        if (world.ground && p.z() < world.ground(p.x(), p.y()) - sunk) return;
         if (holes) {
           const Vector2f at =
               w[0] * part.texture[triangle[0]] + w[1] * part.texture[triangle[1]] + w[2] * part.texture[triangle[2]];

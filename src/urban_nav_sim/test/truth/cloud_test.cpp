@@ -70,7 +70,8 @@ TEST(Cloud, HoldsWhatIsNearTheWay) {
     return part;
   };
   world.parts = {rectangle({0, -1, 0}, {4, 0, 0}, {0, 2, 0}, 0), rectangle({0, 60, 0}, {4, 0, 0}, {0, 0, 3}, 1),
-                 rectangle({2, 28, 0}, {1, 0, 0}, {0, 0, 1}, 1)};
+                 rectangle({2, 28, -2}, {1, 0, 0}, {0, 0, 3}, 1)};
+  world.ground = [](double, double) { return 0.0; };
   const std::string path = testing::TempDir() + "cloud_test.ply";
   writeCloud(path, world, Straight());
   std::ifstream in(path, std::ios::binary);
@@ -88,6 +89,7 @@ TEST(Cloud, HoldsWhatIsNearTheWay) {
     std::memcpy(p, &bytes[13 * i], 12);
     const int surface_class = bytes[13 * i + 12];
     EXPECT_LT(p[1], 30.5F) << "the wall 60 m away is too far";
+    EXPECT_GT(p[2], -0.31F) << "nobody sees the foot of a wall below the ground";
     EXPECT_EQ(surface_class, p[1] > 20.0F ? 4 : 2);
     ground += surface_class == 2 ? 1 : 0;
   }
