@@ -119,7 +119,8 @@ int main(int argc, char** argv) try {
   add("noise (grey levels)", &Textures::noise, 2);
   add("log2(1 + gradient), every pixel", &Textures::gradients, 2);
   table.note(
-      "Median (tenth ... ninth decile) over frames. Real: every eighth left image of kitti06_000_050 and kitti_raw_0926_0005, at full size and at the "
+      "Median (tenth ... ninth decile) over frames. Real: every eighth left image of kitti06_000_050 and "
+      "kitti_raw_0926_0005, at full size and at the "
       "simulated camera's pixels a radian. Distance: earth mover's, in units of the real standard deviation.");
   return show(table, options);
 } catch (const std::exception& error) {
