@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Bags (format 2.0) read with the standard library and numpy alone, so that what is checked is not what wrote them."""
+import bz2
+import struct
+
+import numpy as np
+
+CHUNK, CONNECTION, MESSAGE = 5, 7, 2
+
+
+def _records(data, start, end):
+    """(fields, data) of each record."""
+    while start < end:
+        size = struct.unpack_from("<I", data, start)[0]
+        place, stop, fields = start + 4, start + 4 + size, {}
+        while place < stop:
+            length = struct.unpack_from("<I", data, place)[0]
+            name, _, value = data[place + 4:place + 4 + length].partition(b"=")
+            fields[name.decode()] = value
+            place += 4 + length
+        length = struct.unpack_from("<I", data, stop)[0]
+        yield fields, data[stop + 4:stop + 4 + length]
+        start = stop + 4 + length
+
+
+def messages(path, wanted):
+    """(topic, bytes) of each message whose topic, without its first slash, is in `wanted`."""
+    data, topics = path.read_bytes(), {}
+    magic = b"#ROSBAG V2.0\n"
+    if not data.startswith(magic):
+        raise ValueError(f"{path} is no bag of format 2.0")
+
+    def inside(part, start):
+        for fields, body in _records(part, start, len(part)):
+            kind = fields["op"][0]
+            if kind == CHUNK:
+                packed = fields["compression"]
+                if packed not in (b"none", b"bz2"):
+                    raise ValueError(f"{path}: chunks packed by {packed.decode()}")
+                yield from inside(bz2.decompress(body) if packed == b"bz2" else body, 0)
+            elif kind == CONNECTION:
+                topics[fields["conn"]] = fields["topic"].decode().strip("/")
+            elif kind == MESSAGE and topics[fields["conn"]] in wanted:
+                yield topics[fields["conn"]], body
+    yield from inside(data, len(magic))
+
+
+def _text(body, place):
+    size = struct.unpack_from("<I", body, place)[0]
+    return body[place + 4:place + 4 + size].decode().strip("/"), place + 4 + size
+
+
+def header(body, place=0):
+    """Stamp (s), frame, and where the rest begins."""
+    _, seconds, nanoseconds = struct.unpack_from("<3I", body, place)
+    frame, rest = _text(body, place + 12)
+    return seconds + 1e-9 * nanoseconds, frame, rest
+
+
+def transforms(body):
+    """(parent, child, 4x4 matrix) of a tf2_msgs/TFMessage."""
+    count, place = struct.unpack_from("<I", body)[0], 4
+    for _ in range(count):
+        _, parent, place = header(body, place)
+        child, place = _text(body, place)
+        x, y, z, qx, qy, qz, qw = struct.unpack_from("<7d", body, place)
+        matrix = np.eye(4)
+        matrix[:3, :3], matrix[:3, 3] = rotation([qx, qy, qz, qw]), (x, y, z)
+        yield parent, child, matrix
+        place += 56
+
+
+def scan(body):
+    """Stamp, frame, angles, times after the stamp, ranges of a sensor_msgs/LaserScan."""
+    stamp, frame, place = header(body)
+    first, _, step, apart, _, _, _, count = struct.unpack_from("<7fI", body, place)
+    ranges = np.frombuffer(body, "<f4", count, place + 32).astype(float)
+    return stamp, frame, first + step * np.arange(count), apart * np.arange(count), ranges
+
+
+def rate(body):
+    """Stamp, frame, angular velocity of a sensor_msgs/Imu."""
+    stamp, frame, place = header(body)
+    return stamp, frame, np.array(struct.unpack_from("<3d", body, place + 32 + 72))
+
+
+def rotation(quaternion):
+    """Matrices of (..., 4) quaternions x, y, z, w."""
+    x, y, z, w = np.moveaxis(np.asarray(quaternion, float), -1, 0)
+    rows = [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]
+    return np.stack([np.stack(row, -1) for row in rows], -2)

@@ -1,0 +1,299 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Do cameras, lasers, gyroscope and poses of a simulated session agree on one truth? Asked with numpy and OpenCV alone:
+
+    urban_nav simulate --world quad --seed 7 --duration 20 --sensors stereo,lasers,imu --folder quad -o quad.bag
+    python3 exactness.py quad.bag quad [-o exactness.json]
+
+SESSION.bag has its truth beside it in SESSION.truth/; FOLDER is what --folder wrote.
+"""
+import argparse
+import json
+import platform
+import subprocess
+import sys
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+import bags
+
+NEAR, FAR = 1.0, 6.0  # m of depth in which a pair measures well
+STEP = 6              # frames from one to the next whose motion is looked for: some 0.4 m
+
+
+# The truth
+
+class Truth:
+    """base_link in `world` at any time between the poses of trajectory.tum."""
+
+    def __init__(self, path):
+        rows = np.loadtxt(path)
+        self.stamps, self.places, self.quaternions = rows[:, 0], rows[:, 1:4], rows[:, 4:8]
+        for i in range(1, len(rows)):  # the same turn, on the side of the sphere where its neighbour is
+            if self.quaternions[i] @ self.quaternions[i - 1] < 0:
+                self.quaternions[i] *= -1
+
+    def at(self, when):
+        when = np.atleast_1d(when)
+        poses = np.tile(np.eye(4), (len(when), 1, 1))
+        between = [np.interp(when, self.stamps, self.quaternions[:, i]) for i in range(4)]
+        quaternion = np.stack(between, -1)
+        poses[:, :3, :3] = bags.rotation(quaternion / np.linalg.norm(quaternion, axis=1, keepdims=True))
+        poses[:, :3, 3] = np.stack([np.interp(when, self.stamps, self.places[:, i]) for i in range(3)], -1)
+        return poses
+
+
+class Surface:
+    """The true surfaces, as points of cloud.ply; a plane through the nearest twelve where they lie in one."""
+
+    def __init__(self, path, way):
+        with open(path, "rb") as file:
+            while not (line := file.readline()).startswith(b"end_header"):
+                if line.startswith(b"element vertex"):
+                    count = int(line.split()[2])
+            rows = np.frombuffer(file.read(), np.dtype([("p", "<f4", 3), ("class", "u1")]), count)
+        points = rows["p"]
+        low, high = way.min(0)[:2] - 16, way.max(0)[:2] + 16
+        inside = ((points[:, :2] > low) & (points[:, :2] < high)).all(1)
+        self.points = np.ascontiguousarray(points[inside])
+        self.index = cv2.flann_Index(self.points, {"algorithm": 4})  # a kd-tree, exact
+
+    def planes(self, queries):
+        """Centre, normal and whether there is a plane at all near each point."""
+        near, squares = self.index.knnSearch(np.ascontiguousarray(queries, np.float32), 12, params={"checks": -1})
+        patch = self.points[near].astype(float)
+        centre = patch.mean(1)
+        apart = patch - centre[:, None]
+        values, vectors = np.linalg.eigh(np.einsum("nki,nkj->nij", apart, apart))
+        flat = (values[:, 0] < 1e-6 * values[:, 2]) & (values[:, 1] > 0.02 * values[:, 2])
+        return centre, vectors[:, :, 0], flat & (squares[:, 0] < 0.3 ** 2)
+
+    def along(self, origins, points):
+        """How far (m, along the ray from its origin) each point lies behind the plane beside it, and which have one."""
+        centre, normal, flat = self.planes(points)
+        ray = points - origins
+        ray /= np.linalg.norm(ray, axis=1, keepdims=True)
+        slope = np.einsum("ni,ni->n", ray, normal)
+        flat &= np.abs(slope) > 0.3
+        return np.einsum("ni,ni->n", points - centre, normal) / np.where(flat, slope, 1.0), flat
+
+
+def moved(pose, points):
+    return points @ pose[:3, :3].T + pose[:3, 3]
+
+
+def inverse(pose):
+    result = np.eye(4)
+    result[:3, :3], result[:3, 3] = pose[:3, :3].T, -pose[:3, :3].T @ pose[:3, 3]
+    return result
+
+
+def angle(turn):
+    return np.degrees(np.linalg.norm(cv2.Rodrigues(turn)[0]))
+
+
+# What was measured
+
+class Session:
+    def __init__(self, bag, folder):
+        self.truth = Truth(bag.with_suffix(".truth") / "trajectory.tum")
+        self.surface = Surface(bag.with_suffix(".truth") / "cloud.ply", self.truth.places)
+        self.folder, links = folder, []
+        self.left, self.scans, self.rates = [], [], []
+        wanted = {"tf_static", "stereo/left/image_raw", "laser_left/scan", "laser_right/scan", "imu/data"}
+        for topic, body in bags.messages(bag, wanted):
+            if topic == "tf_static":
+                links += bags.transforms(body)
+            elif topic == "stereo/left/image_raw":
+                self.left.append(bags.header(body)[0])
+            elif topic == "imu/data":
+                self.rates.append(bags.rate(body))
+            else:
+                self.scans.append(bags.scan(body))
+        self.places = {"base_link": np.eye(4)}  # T_base_frame
+        for _ in links:
+            for parent, child, matrix in links:
+                if parent in self.places:
+                    self.places[child] = self.places[parent] @ matrix
+        lines = dict(line.split(":", 1) for line in (folder / "calib.txt").read_text().splitlines() if ":" in line)
+        left, right = (np.array(lines[name].split(), float).reshape(3, 4) for name in ("P0", "P1"))
+        self.camera, self.bf = left[:, :3], left[0, 3] - right[0, 3]
+        self.eyes = self.truth.at(np.array(self.left)) @ self.places["stereo_left_optical_frame"]
+
+    def image(self, side, i):
+        return cv2.imread(str(self.folder / f"image_{side}" / f"{i:06d}.png"), cv2.IMREAD_GRAYSCALE)
+
+    def points(self, pixels, disparity):
+        """In the left camera."""
+        rays = np.column_stack([pixels, np.ones(len(pixels))]) @ np.linalg.inv(self.camera).T
+        return rays * (self.bf / disparity)[:, None]
+
+
+def followed(a, b, corners):
+    """Where corners of a are in b, by Lucas and Kanade; which of them come back to where they began."""
+    how = dict(winSize=(13, 13), maxLevel=4, criteria=(3, 50, 0.001))
+    there, ok, _ = cv2.calcOpticalFlowPyrLK(a, b, corners, None, **how)
+    back, ok_back, _ = cv2.calcOpticalFlowPyrLK(b, a, there, None, **how)
+    same = np.linalg.norm((back - corners).reshape(-1, 2), axis=1) < 0.3
+    return there.reshape(-1, 2).astype(float), same & (ok.ravel() == 1) & (ok_back.ravel() == 1)
+
+
+def poses(session):
+    """poses.txt beside the trajectory, both seen from the first left camera."""
+    rows = np.loadtxt(session.folder / "poses.txt").reshape(-1, 3, 4)
+    if len(rows) != len(session.eyes):
+        raise ValueError(f"{len(rows)} poses in poses.txt, {len(session.eyes)} left images in the bag")
+    first, metres, turn = inverse(session.eyes[0]), 0.0, 0.0
+    start = np.vstack([rows[0], [0, 0, 0, 1]])
+    for row, eye in zip(rows, session.eyes):
+        apart = inverse(inverse(start) @ np.vstack([row, [0, 0, 0, 1]])) @ first @ eye
+        metres, turn = max(metres, np.linalg.norm(apart[:3, 3])), max(turn, angle(apart[:3, :3]))
+    return [["poses.txt beside trajectory.tum and tf, at most", f"{1000 * metres:.2f} mm, {turn:.4f} deg", "",
+             len(rows)]]
+
+
+def motion(session):
+    """Corners of a pair, set into space by their disparity, and found again: solvePnP says how the camera moved."""
+    told, true, apart, turns = [], [], [], []
+    for i in range(0, len(session.eyes) - STEP, STEP):
+        left, right, later = session.image(0, i), session.image(1, i), session.image(0, i + STEP)
+        corners = cv2.goodFeaturesToTrack(left, 800, 0.005, 6)
+        if corners is None:
+            continue
+        other, paired = followed(left, right, corners)
+        next_, found = followed(left, later, corners)
+        pixels = corners.reshape(-1, 2).astype(float)
+        disparity = pixels[:, 0] - other[:, 0]
+        good = paired & found & (disparity > session.bf / 25) & (np.abs(pixels[:, 1] - other[:, 1]) < 0.7)
+        if good.sum() < 30:
+            continue
+        points = session.points(pixels[good], disparity[good])
+        cv2.setRNGSeed(i)
+        ok, turn, shift, inliers = cv2.solvePnPRansac(points, next_[good], session.camera, None, reprojectionError=1.0,
+                                                     iterationsCount=300, confidence=0.999)
+        if not ok or inliers is None or len(inliers) < 20:
+            continue
+        turn, shift = cv2.solvePnPRefineLM(points[inliers[:, 0]], next_[good][inliers[:, 0]], session.camera, None,
+                                           turn, shift)
+        now = inverse(session.eyes[i + STEP]) @ session.eyes[i]
+        told.append(np.linalg.norm(shift))
+        true.append(np.linalg.norm(now[:3, 3]))
+        apart.append(np.linalg.norm(shift.ravel() - now[:3, 3]))
+        turns.append(angle(cv2.Rodrigues(turn)[0].T @ now[:3, :3]))
+    ratio = 100 * (sum(told) / sum(true) - 1)
+    return [["length of the motion by solvePnP over the true one", f"{ratio:+.2f} %", "1 %", len(told)],
+            ["each step of it off by, median", f"{1000 * np.median(apart):.1f} mm of {1000 * np.median(true):.0f}, "
+             f"{np.median(turns):.3f} deg", "", len(told)]]
+
+
+def by_blocks(session, i, matcher):
+    """StereoSGBM: a pixel and its disparity, for 3000 of them."""
+    disparity = matcher.compute(session.image(0, i), session.image(1, i)) / 16.0
+    v, u = np.nonzero((disparity > session.bf / FAR) & (disparity < min(62, session.bf / NEAR)))
+    some = np.linspace(0, len(v) - 1, min(3000, len(v))).astype(int)
+    return np.column_stack([u[some], v[some]]).astype(float), disparity[v[some], u[some]]
+
+
+def by_corners(session, i, _):
+    """Lucas and Kanade: another matcher, other errors."""
+    left, right = session.image(0, i), session.image(1, i)
+    found = cv2.goodFeaturesToTrack(left, 1500, 0.002, 5)
+    if found is None:
+        return np.empty((0, 2)), np.empty(0)
+    other, paired = followed(left, right, found)
+    pixels = found.reshape(-1, 2).astype(float)
+    disparity = pixels[:, 0] - other[:, 0]
+    paired &= (disparity > session.bf / FAR) & (disparity < session.bf / NEAR)
+    paired &= np.abs(pixels[:, 1] - other[:, 1]) < 0.7
+    return pixels[paired], disparity[paired]
+
+
+def disparities(session, name, match):
+    """Beside the plane that is there, where there is one; and how deep walls seem for it."""
+    matcher = cv2.StereoSGBM_create(0, 64, 5, 200, 800, 1, 31, 10, 100, 2)
+    pixels_off, walls_off = [], []
+    for i in range(0, len(session.eyes), max(1, len(session.eyes) // 40)):
+        pixels, disparity = match(session, i, matcher)
+        if not len(pixels):
+            continue
+        local = session.points(pixels, disparity)
+        points, origin = moved(session.eyes[i], local), session.eyes[i][:3, 3]
+        behind, flat = session.surface.along(np.tile(origin, (len(points), 1)), points)
+        # Behind along the ray, in depth, in disparity.
+        deeper = behind * local[:, 2] / np.linalg.norm(local, axis=1)
+        flat &= np.abs(deeper) < 0.2 * local[:, 2]
+        pixels_off.append((disparity - session.bf / (local[:, 2] - deeper))[flat])
+        upright = np.abs(session.surface.planes(points)[1][:, 2]) < 0.2
+        walls_off.append(deeper[flat & upright])
+    pixels_off, walls_off = np.concatenate(pixels_off), np.concatenate(walls_off)
+    wall = "too few"
+    if len(walls_off) > 500:
+        wall = f"{100 * np.median(walls_off):+.1f} cm, {100 * np.median(np.abs(walls_off)):.1f} cm"
+    return [[f"{name}: disparity less the true one, median; of its size",
+             f"{np.median(pixels_off):+.3f} px, {np.median(np.abs(pixels_off)):.3f} px", "0.05 px", len(pixels_off)],
+            [f"{name}: walls {NEAR:.0f} to {FAR:.0f} m away too deep by, median; of its size", wall, "3 cm",
+             len(walls_off)]]
+
+
+def beams(session):
+    """Each beam at its own time on the true way."""
+    rows = []
+    for frame in ("laser_left", "laser_right"):
+        off = []
+        for stamp, name, angles, delays, ranges in [s for s in session.scans if s[1] == frame][::25]:
+            good = np.isfinite(ranges) & (ranges > 0.1) & (ranges < 15)
+            sensor = session.truth.at(stamp + delays[good]) @ session.places[frame]
+            way = np.column_stack([np.cos(angles[good]), np.sin(angles[good]), np.zeros(good.sum())])
+            points = np.einsum("nij,nj->ni", sensor[:, :3, :3], way * ranges[good, None]) + sensor[:, :3, 3]
+            behind, flat = session.surface.along(sensor[:, :3, 3], points)
+            off.append(behind[flat & (np.abs(behind) < 0.3)])
+        off = np.concatenate(off) * 1000
+        spread = (np.percentile(off, 84.13) - np.percentile(off, 15.87)) / 2
+        rows.append([f"{frame}: behind the true surface, median; spread", f"{np.median(off):+.1f} mm; {spread:.1f} mm",
+                     "within 5 mm; 5 mm", len(off)])
+    return rows
+
+
+def gyroscope(session):
+    """Rates beside those of the true way, over 20 ms."""
+    inside = [r for r in session.rates
+              if session.truth.stamps[0] + 0.02 < r[0] < session.truth.stamps[-1] - 0.02]
+    stamps, off = np.array([r[0] for r in inside]), []
+    before, after = session.truth.at(stamps - 0.01), session.truth.at(stamps + 0.01)
+    for (_, frame, rate), a, b in zip(inside, before, after):
+        true = session.places[frame][:3, :3].T @ (cv2.Rodrigues(a[:3, :3].T @ b[:3, :3])[0].ravel() / 0.02)
+        off.append(rate - true)
+    return [["gyroscope less the true rate, root mean square", f"{np.sqrt(np.mean(np.square(off))):.4f} rad/s", "",
+             len(off)]]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("bag", type=Path)
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("-o", "--output", type=Path)
+    arguments = parser.parse_args()
+    cv2.setNumThreads(1)
+    session = Session(arguments.bag, arguments.folder)
+    table = []
+    for part in (poses, motion):
+        table += part(session)
+    table += disparities(session, "StereoSGBM", by_blocks) + disparities(session, "Lucas-Kanade", by_corners)
+    for part in (beams, gyroscope):
+        table += part(session)
+    for row in table:
+        print(f"{row[0]:66s} {row[1]:28s} {row[2]:20s} of {row[3]}")
+    if arguments.output:
+        commit = subprocess.run(["git", "describe", "--always", "--dirty=+"], capture_output=True, text=True).stdout
+        model = [line.split(":")[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")]
+        columns = ["simulated and true", "measured", "asked for", "of"]
+        arguments.output.write_text(json.dumps({
+            "machine": model[0] if model else platform.machine(), "commit": commit.strip() or "unknown",
+            "command": " ".join(["exactness.py", *(Path(a).name if "/" in a else a for a in sys.argv[1:])]),
+            "columns": columns, "rows": [[str(cell) for cell in row] for row in table]}, indent=2) + "\n")
+
+
+if __name__ == "__main__":
+    main()
