@@ -79,7 +79,7 @@ std::shared_ptr<const Tile> drawGravel(std::uint64_t seed) {
       const float edge = p.edge.at(x, y);
       mix.at(x, y) = 1.0F - smoothStep(0.05F, 0.2F, edge);
       tone.at(x, y) =
-          0.5F * (p.id.at(x, y) - 0.5F) + 0.12F * (smoothStep(0.1F, 0.6F, edge) - 0.5F) + 0.05F * drift.at(x, y);
+          0.35F * (p.id.at(x, y) - 0.5F) + 0.1F * (smoothStep(0.1F, 0.6F, edge) - 0.5F) + 0.05F * drift.at(x, y);
     }
   }
   scatter(mix, tone, 260, 3.0, 9.0, 0.0F, 0.35, hash(seed, 5));
