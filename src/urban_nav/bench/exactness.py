@@ -8,16 +8,13 @@
 SESSION.bag has its truth beside it in SESSION.truth/; FOLDER is what --folder wrote.
 """
 import argparse
-import json
-import platform
-import subprocess
-import sys
 from pathlib import Path
 
 import cv2
 import numpy as np
 
 import bags
+from support import commit, show
 
 NEAR, FAR = 1.0, 6.0  # m of depth in which a pair measures well
 STEP = 6              # frames from one to the next whose motion is looked for: some 0.4 m
@@ -275,6 +272,7 @@ def main():
     parser.add_argument("folder", type=Path)
     parser.add_argument("-o", "--output", type=Path)
     arguments = parser.parse_args()
+    measured = commit()
     cv2.setNumThreads(1)
     session = Session(arguments.bag, arguments.folder)
     table = []
@@ -283,16 +281,7 @@ def main():
     table += disparities(session, "StereoSGBM", by_blocks) + disparities(session, "Lucas-Kanade", by_corners)
     for part in (beams, gyroscope):
         table += part(session)
-    for row in table:
-        print(f"{row[0]:66s} {row[1]:28s} {row[2]:20s} of {row[3]}")
-    if arguments.output:
-        commit = subprocess.run(["git", "describe", "--always", "--dirty=+"], capture_output=True, text=True).stdout
-        model = [line.split(":")[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")]
-        columns = ["simulated and true", "measured", "asked for", "of"]
-        arguments.output.write_text(json.dumps({
-            "machine": model[0] if model else platform.machine(), "commit": commit.strip() or "unknown",
-            "command": " ".join(["exactness.py", *(Path(a).name if "/" in a else a for a in sys.argv[1:])]),
-            "columns": columns, "rows": [[str(cell) for cell in row] for row in table]}, indent=2) + "\n")
+    show(("simulated and true", "measured", "asked for", "of"), [[str(cell) for cell in row] for row in table], [], measured, arguments.output)
 
 
 if __name__ == "__main__":

@@ -82,6 +82,16 @@ std::vector<urban_nav_core::Matrix6d> covariancesOf(const TrajectoryFile& estima
   return result;
 }
 
+Evaluation::End endOf(const Matched& matched, const std::vector<urban_nav_core::Matrix6d>& covariances) {
+  const Pose truth = matched.truth.front().inverse() * matched.truth.back();
+  const Pose estimate = matched.estimate.front().inverse() * matched.estimate.back();
+  Evaluation::End end;
+  end.m = urban_nav_core::distanceBetween(truth, estimate);
+  end.deg = urban_nav_core::angleBetween(truth, estimate) * 180.0 / M_PI;
+  if (!covariances.empty()) end.nees = urban_nav_core::nees(truth, {estimate, covariances.back()});
+  return end;
+}
+
 }  // namespace
 
 TrajectoryFile readTrajectory(const std::string& path) {
@@ -126,6 +136,7 @@ Evaluation evaluate(const TrajectoryFile& truth, const TrajectoryFile& estimate,
   evaluation.covariances = covariancesOf(estimate, m, covariances);
   if (!evaluation.covariances.empty())
     evaluation.nees = urban_nav_core::neesOfTrajectory(m.truth, m.estimate, evaluation.covariances);
+  evaluation.end = endOf(m, evaluation.covariances);
   return evaluation;
 }
 
@@ -139,6 +150,10 @@ void addToJson(const Evaluation& evaluation, Json& json) {
   json["rpe_deg_per_m"] = evaluation.ten_frames ? evaluation.ten_frames->deg_per_m : none;
   json["step_ratio"] = evaluation.ten_frames ? evaluation.ten_frames->step_ratio : none;
   json["nees_mean"] = evaluation.nees ? evaluation.nees->mean : none;
+  Json& end = json["end"] = Json::object();
+  end["error_m"] = evaluation.end.m;
+  end["error_deg"] = evaluation.end.deg;
+  end["nees"] = evaluation.end.nees.value_or(none);
   json["frames_truth"] = evaluation.frames_truth;
   json["frames_estimate"] = evaluation.frames_estimate;
   json["frames_matched"] = evaluation.matched.truth.size();

@@ -40,6 +40,11 @@ struct Evaluation {
   std::optional<urban_nav_core::RelativeError> ten_frames;
   std::vector<SpanError> spans;  ///< those asked for that the way is long enough for
   std::optional<urban_nav_core::NeesSummary> nees;
+  /// Of the last pose, first poses aligned.
+  struct End {
+    double m = 0.0, deg = 0.0;
+    std::optional<double> nees;
+  } end;
   std::vector<urban_nav_core::Matrix6d> covariances;  ///< by matched pose; empty where there are none
 };
 

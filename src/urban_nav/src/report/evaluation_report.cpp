@@ -97,6 +97,8 @@ std::vector<std::vector<std::string>> figuresOf(const Evaluation& e) {
     rows.push_back({"NEES, 6 degrees of freedom", forPerson(e.nees->mean, 3) + " (translation " +
                                                       forPerson(e.nees->mean_translation, 3) + " of 3, rotation " +
                                                       forPerson(e.nees->mean_rotation, 3) + " of 3)"});
+  rows.push_back({"at the end", forPerson(e.end.m, 3) + " m, " + forPerson(e.end.deg, 3) + " deg" +
+                                    (e.end.nees ? ", NEES " + forPerson(*e.end.nees, 3) : "")});
   return rows;
 }
 

@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the programs of this folder share: the command, and a table as the READMEs take it (scripts/tables.py)."""
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+TOP = Path(__file__).resolve().parents[3]
+
+
+def urban_nav(*arguments):
+    """Runs the command; what it complains of ends the program."""
+    result = subprocess.run([TOP / "urban_nav", *map(str, arguments)], capture_output=True, text=True)
+    if result.returncode != 0:
+        sys.exit(f"urban_nav {' '.join(map(str, arguments))}:\n{result.stderr[-2000:]}")
+
+
+def machine():
+    info = Path("/proc/cpuinfo").read_text().splitlines()
+    names = [line.split(":", 1)[1].strip() for line in info if line.startswith("model name")]
+    return f"{names[0] if names else 'unknown'} ({len(names)} cores)"
+
+
+def commit():
+    """Of what is measured; with a + if files are changed. Ask before anything is written."""
+    def git(*words):
+        return subprocess.run(["git", "-C", TOP, *words], capture_output=True, text=True).stdout.strip()
+    return git("rev-parse", "--short", "HEAD") + ("+" if git("status", "--porcelain") else "")
+
+
+def show(columns, rows, notes, measured, output):
+    """Prints a table; `output`: file that keeps it, or None. `measured`: commit(). Paths of this machine are left out."""
+    lines = [columns, *rows]
+    widths = [max(len(line[i]) for line in lines) for i in range(len(columns))]
+    for line in lines:
+        print("  ".join(cell.ljust(width) for cell, width in zip(line, widths)).rstrip())
+    for note in notes:
+        print(note)
+    if output:
+        command = " ".join(re.sub(r"[^=]*/", "", word) for word in sys.argv)
+        table = {"machine": machine(), "commit": measured, "command": command, "columns": list(columns), "rows": rows, "notes": notes}
+        output.write_text(json.dumps(table, indent=1, ensure_ascii=False) + "\n")
