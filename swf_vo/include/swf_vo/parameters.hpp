@@ -10,11 +10,11 @@ namespace swf_vo {
 /// What a user may want to change; one member per row of table(), which says what each means, its unit, range and
 /// default. The camera and the extrinsics are not here: they come with the data.
 struct Parameters {
-  int window;                   // frames
-  std::string forget;           // schur, delete
-  std::string linearise;        // first, latest
-  int features;                 // in an image of 512x384
-  double pixel_noise_floor;     // px
+  int window;                // frames
+  std::string forget;        // schur, delete
+  std::string linearise;     // first, latest
+  int features;              // in an image of 512x384
+  double pixel_noise_floor;  // px
   bool subpixel;
   double disparity_offset;      // px, standard deviation of a state; 0: none
   double huber;                 // standard deviations
