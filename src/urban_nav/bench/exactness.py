@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Do cameras, lasers, gyroscope and poses of a simulated session agree on one truth? Asked with numpy and OpenCV alone:
 

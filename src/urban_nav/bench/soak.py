@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """A long ride on which something goes wrong all the time: does visual odometry end where it says it does?
 

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Visual odometry in the simulated worlds: how hard they are, and how good it is there.
 
