@@ -73,6 +73,19 @@ double undisturbedError(const std::string& motion) {
   return known[motion];
 }
 
+// What was measured before frames were left out says nothing beside a pose of after.
+TEST(Darkness, saysNothingOfTheNoise) {
+  double before = 0.0;
+  playWithFault(inTheRoom("wander", 1.0, 80), "black:1.5:0.1", [&](const Played& played) {
+    const double noise = played.frame.statistics.noise_scale;
+    if (played.since <= 0) before = noise;
+    if (played.since > 0 && played.since < 8) {
+      EXPECT_LT(noise, 1.1 * before) << played.since << " frames after";
+    }
+  });
+  EXPECT_GT(before, 0.0);
+}
+
 class FaultsInTheRoom : public testing::TestWithParam<Trouble> {};
 
 // One end point is a throw of dice: three of them, root mean square.

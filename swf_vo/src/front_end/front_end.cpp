@@ -106,8 +106,9 @@ class FrontEnd::Implementation {
     corners_.extract(pair);
     result_.corners = corners_.count(Side::Left);
     gather(map);
-    learnNoise(last);
     const bool next = frame == frame_ + 1;
+    if (next) learnNoise(last);
+    for (Match& match : matches_) match.inflation = noise_.of(match.track->noise);
     if (!next || astray) radius_ = first_radius * parameters_.search_radius;
     astray_ = astray_ || astray || !next;
     locate(turn(next ? last : T_odom_last_, predicted), predicted.inverse());
@@ -225,7 +226,6 @@ class FrontEnd::Implementation {
       noise_.see(r.dot(track.information * r), coordinates * (1.0 - 1.0 / track.seen), track.noise);
     }
     noise_.learn();
-    for (Match& match : matches_) match.inflation = noise_.of(match.track->noise);
   }
 
   /// First matches, in one image each, and the pose that most of them agree on to about a pixel.
