@@ -55,6 +55,34 @@ TEST(Evaluation, seesAScale) {
   EXPECT_GT(evaluation.se3.rmse, 1e-3);
 }
 
+TEST(Evaluation, ofTheEndIsOfTheLastPoseAloneSeenFromTheFirst) {
+  const TemporaryFolder folder;
+  const Trajectory truth = curve(0, 1.0);
+  // Another world frame, and each pose but the first off by 0.3 m and 2 deg; only the last one's covariance may count.
+  Trajectory estimate;
+  std::vector<urban_nav_core::CovarianceRow> rows;
+  Vector6d shift, off;
+  shift << 5.0, -2.0, 1.0, 0.3, -0.2, 1.5;
+  off << 0.0, 0.3, 0.0, 0.0, 0.0, 2.0 * M_PI / 180.0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const Pose pose = i == 0 ? truth[i].pose : truth[i].pose * urban_nav_core::expSe3(off);
+    estimate.append(truth[i].stamp, urban_nav_core::expSe3(shift) * pose);
+    rows.push_back({truth[i].stamp, urban_nav_core::Health::Ok,
+                    urban_nav_core::Matrix6d::Identity() * (i + 1 < truth.size() ? 1e6 : 0.01)});
+  }
+  urban_nav_core::writeTum(folder.file("a.tum"), truth);
+  urban_nav_core::writeTum(folder.file("b.tum"), estimate);
+  const Evaluation evaluation =
+      evaluate(readTrajectory(folder.file("a.tum")), readTrajectory(folder.file("b.tum")), rows, {});
+  EXPECT_NEAR(evaluation.end.m, 0.3, 1e-3);
+  EXPECT_NEAR(evaluation.end.deg, 2.0, 1e-5);
+  ASSERT_TRUE(evaluation.end.nees);
+  EXPECT_NEAR(*evaluation.end.nees, (0.09 + std::pow(2.0 * M_PI / 180.0, 2)) / 0.01, 0.05);
+  Json json = Json::object();
+  addToJson(evaluation, json);
+  EXPECT_NE(json.print().find("\"end\""), std::string::npos);
+}
+
 TEST(Evaluation, namesTheOffsetAndAppliesItIfAsked) {
   const TemporaryFolder folder;
   urban_nav_core::writeTum(folder.file("a.tum"), curve(0, 1.0));
