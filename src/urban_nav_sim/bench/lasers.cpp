@@ -61,9 +61,11 @@ struct Turning {
 struct Errors {
   Values near, far;   // mm, of ranges to 20 m and beyond, without mixed ones and the device's bias
   Values path, wall;  // reflectance of the ground 1 to 1.5 m away, of walls 3.5 to 5.5 m away
+  Values far_plane;   // mm, of those beyond 20 m that lie on a plane
   double returns = 0.0, mixed = 0.0, reachable = 0.0, lost = 0.0, sky_returns = 0.0;
 
-  void add(double range, double intensity, const BeamTruth& truth, double bias, double range_max) {
+  /// `plane`: the beams beside it meet the same plane. Where they do not, what the middle meets is not what its whole width does.
+  void add(double range, double intensity, const BeamTruth& truth, double bias, double range_max, bool plane) {
     const bool returned = std::isfinite(range), reachable_now = truth.range < range_max;
     if (reachable_now) reachable += 1.0;
     if (reachable_now && !returned) lost += 1.0;
@@ -78,8 +80,18 @@ struct Errors {
     const double error = range - truth.range - bias;
     if (!(std::abs(error) < kMixed)) mixed += 1.0;
     else (truth.range < 20.0 ? near : far).push_back(1000.0 * error);
+    if (plane && truth.range >= 20.0 && std::abs(error) < kMixed) far_plane.push_back(1000.0 * error);
   }
 };
+
+/// Do this beam and those beside it meet one plane? The reciprocal of range is then a sum of a sine and a cosine.
+bool isOnPlane(const std::vector<BeamTruth>& truth, std::size_t i) {
+  constexpr double kStep = 0.5 * M_PI / 180.0, kOff = 0.02;  // m
+  if (i == 0 || i + 1 >= truth.size()) return false;
+  const double a = truth[i - 1].range, b = truth[i].range, c = truth[i + 1].range;
+  if (!std::isfinite(a) || !std::isfinite(b) || !std::isfinite(c)) return false;
+  return std::abs(2.0 * std::cos(kStep) / (1.0 / a + 1.0 / c) - b) < kOff;
+}
 
 /// Half the width of the middle 68 %: what a standard deviation would be without tails.
 double coreSpread(const Values& values) { return 0.5 * (quantileOf(values, 0.8413) - quantileOf(values, 0.1587)); }
@@ -115,7 +127,7 @@ Simulated simulated(const Options& options, const std::string& name) {
         for (std::size_t i = 0; i < truth.size(); ++i) {
           const auto range = static_cast<double>(scan.ranges[i]);
           ranges.push_back(std::isfinite(range) ? range : 0.0);
-          result.errors.add(range, intensities[i], truth[i], laser.bias(), settings.range_max);
+          result.errors.add(range, intensities[i], truth[i], laser.bias(), settings.range_max, isOnPlane(truth, i));
         }
         turns.ranges.push_back(std::move(ranges));
         turns.intensities.push_back(std::move(intensities));
@@ -154,6 +166,7 @@ int main(int argc, char** argv) try {
   BenchTable table({"", "asked for, or real", world, "distance"}, argc, argv);
   table.add({"noise to 20 m (mm)", "5", cell(coreSpread(errors.near), 2), ""});
   table.add({"noise beyond 20 m (mm)", "10", cell(coreSpread(errors.far), 2), ""});
+  table.add({"... where three beams meet one plane (mm)", "10", cell(coreSpread(errors.far_plane), 2), ""});
   table.add(
       {"bias left, right (mm)", "within 5", cell(1000 * sim.bias[0], 2) + ", " + cell(1000 * sim.bias[1], 2), ""});
   table.add({"median error to 20 m without the bias (mm)", "0", cell(quantileOf(errors.near, 0.5), 2), ""});

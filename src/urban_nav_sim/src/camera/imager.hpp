@@ -20,9 +20,9 @@ class Imager {
   struct Settings {
     double vignetting = 0.30;  ///< share of light that is lost in the corners
     double spread = 0.50;      ///< px, sigma of the point spread
-    double read_noise = 0.45;  ///< grey levels without gain
+    double read_noise = 0.40;  ///< grey levels without gain
     /// Levels^2 per level without gain. Not from a data sheet: with it and the above, frames have about the noise of real ones (bench/realism).
-    double shot_noise = 0.004;
+    double shot_noise = 0.0033;
     double sensitivity = 1.0;                                 ///< of this imager beside the others of its head
     Eigen::Vector3f white_balance = Eigen::Vector3f::Ones();  ///< factors of red, green, blue
     double gamma = 1.0;                                       ///< 255 (level / 255)^gamma

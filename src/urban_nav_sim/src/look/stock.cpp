@@ -60,13 +60,13 @@ Material Stock::wall(Stuff stuff, Draw& v) {
     case Stuff::Ashlar:
       m.name = "ashlar", m.detail = tile(Drawing::Ashlar);
       base = varied({0.46F, 0.37F, 0.24F}, 0.12, 0.05, v);
-      colour(m, base, base * 0.45F, 0.8F), infrared(m, 0.55F, 0.4F, 0.5F);
+      colour(m, base, base * 0.45F, 0.8F), infrared(m, 0.4F, 0.3F, 0.35F);
       m.layers = {clouds(1.3F, 0.4F, base * 0.16F, base * 0.12F), streaks(1.0F, base * 0.3F)};
       break;
     case Stuff::Rubble:
       m.name = "rubble", m.detail = tile(Drawing::Rubble);
       base = varied({0.34F, 0.28F, 0.19F}, 0.1, 0.05, v);
-      colour(m, base, Vector3f(0.33F, 0.29F, 0.23F), 0.9F), infrared(m, 0.5F, 0.5F, 0.5F);
+      colour(m, base, Vector3f(0.33F, 0.29F, 0.23F), 0.9F), infrared(m, 0.38F, 0.38F, 0.35F);
       m.layers = {clouds(1.6F, 0.7F, base * 0.35F, Vector3f(-0.1F, -0.02F, -0.12F)), streaks(1.5F, base * 0.25F)};
       break;
     case Stuff::Brick:
@@ -119,7 +119,7 @@ Material Stock::ground(Stuff stuff, Draw& v) {
     case Stuff::Gravel:
       m.name = "gravel", m.detail = tile(Drawing::Gravel), m.surface_class = SurfaceClass::DirtPath;
       base = varied({0.42F, 0.35F, 0.25F}, 0.1, 0.05, v);
-      colour(m, base, base * 0.6F, 0.8F), infrared(m, 0.4F, 0.25F, 0.4F);
+      colour(m, base, base * 0.6F, 0.8F), infrared(m, 0.48F, 0.36F, 0.3F);
       m.layers = {clouds(1.7F, 0.4F, base * 0.2F, base * 0.15F), clouds(0.31F, 1.1F, base * 0.1F, base * 0.1F)};
       break;
     case Stuff::Lawn:
@@ -153,7 +153,7 @@ Material Stock::ground(Stuff stuff, Draw& v) {
       break;
     default:
       m.name = "asphalt", m.detail = tile(Drawing::Asphalt);
-      base = varied({0.085F, 0.083F, 0.08F}, 0.15, 0.03, v);
+      base = varied({0.125F, 0.122F, 0.117F}, 0.15, 0.03, v);  // worn, not fresh
       colour(m, base, Vector3f(0.27F, 0.26F, 0.24F), 1.0F), infrared(m, 0.16F, 0.3F, 0.6F);
       m.layers = {clouds(2.0F, 0.4F, base * 0.3F, base * 0.3F), clouds(0.25F, 1.1F, base * 0.18F, base * 0.18F)};
       break;
