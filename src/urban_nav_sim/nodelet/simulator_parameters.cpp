@@ -46,6 +46,12 @@ const Table<SimulatorParameters>& simulatorTable() {
           {"duration", &P::duration, "s", 60.0, 0.1, 86400.0, {}, "How long the session is.", ""},
           {"sensors", &P::sensors, "", "stereo, ladybug, lasers, imu, wheels, gps", false, false, {},
            "What the robot carries, separated by commas; what is left out costs no time.", "DESIGN.md, section 5"},
+          {"with", &P::with, "", "", false, false, {},
+           "Defects that sensors have besides the usual ones, separated by commas: stereo:lens, all:clock, as for "
+           "`urban_nav simulate --with`.",
+           ""},
+          {"without", &P::without, "", "", false, false, {},
+           "Usual defects that they do not have: imu:noise, gps:all, as for `urban_nav simulate --without`.", ""},
           {"fault", &P::fault, "", "", false, false, {},
            "What goes wrong, separated by commas: KIND:SENSOR:START_S:DURATION_S[:VALUE], as for "
            "`urban_nav simulate --fault`.",
@@ -80,6 +86,8 @@ SessionOptions sessionOptions(const SimulatorParameters& parameters, const std::
   for (const std::string& word : wordsOf(parameters.sensors))
     options.sensors.insert(parseSensor(word, where + "sensors"));
   if (options.sensors.empty()) throw urban_nav_core::UserError(where + "sensors", "none", sensorList());
+  for (const std::string& word : wordsOf(parameters.without)) options.defects.switchOff(word, where + "without");
+  for (const std::string& word : wordsOf(parameters.with)) options.defects.switchOn(word, where + "with");
   for (const std::string& word : wordsOf(parameters.fault)) options.faults.push_back(parseFault(word, where + "fault"));
   checkPlace(options);
   return options;

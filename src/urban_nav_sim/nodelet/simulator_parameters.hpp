@@ -12,11 +12,12 @@ namespace urban_nav_sim {
 struct SimulatorParameters {
   std::string world, route;
   int seed, day;
-  double duration;      // s
-  std::string sensors;  // words of sensorList()
-  std::string fault;    // faults as parseFault takes them
-  double rate;          // seconds of the session in a second
-  double delay;         // s
+  double duration;            // s
+  std::string sensors;        // words of sensorList()
+  std::string with, without;  // defects as Defects takes them
+  std::string fault;          // faults as parseFault takes them
+  double rate;                // seconds of the session in a second
+  double delay;               // s
   bool paused, exit;
   int threads;
   int queue;  // messages

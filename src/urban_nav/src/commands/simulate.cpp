@@ -19,11 +19,16 @@ namespace {
 constexpr double longest = 86400.0;  // s
 
 /// Words of a comma-separated list; each named with its option where it is not known.
+std::set<urban_nav_sim::Sensor> listOf(const std::string& option, const Arguments& arguments) {
+  std::set<urban_nav_sim::Sensor> sensors;
+  for (const std::string& word : arguments.list(option))
+    sensors.insert(urban_nav_sim::parseSensor(word, "--" + option));
+  return sensors;
+}
+
 std::set<urban_nav_sim::Sensor> sensorsOf(const Arguments& arguments) {
   if (!arguments.has("sensors")) return {urban_nav_sim::all_sensors.begin(), urban_nav_sim::all_sensors.end()};
-  std::set<urban_nav_sim::Sensor> sensors;
-  for (const std::string& word : arguments.list("sensors"))
-    sensors.insert(urban_nav_sim::parseSensor(word, "--sensors"));
+  std::set<urban_nav_sim::Sensor> sensors = listOf("sensors", arguments);
   if (sensors.empty()) throw UserError("--sensors", "none", urban_nav_sim::sensorList());
   return sensors;
 }
@@ -36,6 +41,9 @@ SimulateJob jobOf(const Arguments& arguments) {
   job.session.day = static_cast<int>(arguments.integer("day", 1, 1, 100000));
   job.session.duration = arguments.number("duration", job.session.duration, 0.1, longest);
   job.session.sensors = sensorsOf(arguments);
+  job.session.views = listOf("views", arguments);
+  for (const std::string& word : arguments.list("without")) job.session.defects.switchOff(word);
+  for (const std::string& word : arguments.list("with")) job.session.defects.switchOn(word);
   for (const std::string& fault : arguments.all("fault"))
     job.session.faults.push_back(urban_nav_sim::parseFault(fault));
   job.bag = arguments.get("output");
@@ -46,6 +54,8 @@ SimulateJob jobOf(const Arguments& arguments) {
   job.false_closures = arguments.number("false-closures", 0.0, 0.0, 1000.0);
   if (!job.folder.empty() && job.session.sensors.count(urban_nav_sim::Sensor::Stereo) == 0)
     throw UserError("--folder", "needs the stereo camera, which --sensors leaves out", "--sensors stereo,...");
+  if (!job.folder.empty() && job.session.defects.has(urban_nav_sim::Sensor::Stereo, urban_nav_sim::Defect::Lens))
+    throw UserError("--folder", "holds rectified pairs, and --with stereo:lens makes raw ones", "one of the two");
   return job;
 }
 
@@ -75,48 +85,68 @@ Command simulateCommand() {
   Command command;
   command.name = "simulate";
   command.summary = "Drives the simulated robot through a world and writes what its sensors say, and the truth.";
-  command.options = {{"--world", "W", "which world (default quad; below)", false, false, {}},
-                     {"--seed", "N", "of the world and of all chance (default 1)", false, false, {}},
-                     {"--route", "R", "which way through it (default loops; below)", false, false, {}},
-                     {"--duration", "S", "how long (default 60)", false, false, {}},
-                     {"--day",
-                      "D",
-                      "1, 2, ...: the same world in other weather, with other vehicles and people (default 1)",
-                      false,
-                      false,
-                      {}},
-                     {"-o,--output",
-                      "BAG",
-                      "bag to write; it appears when it is complete, the truth beside it in BAG_STEM.truth/",
-                      true,
-                      false,
-                      {}},
-                     {"--split",
-                      "S",
-                      "a bag for every S seconds, BAG_STEM_0.bag and so on, each there as soon as it is complete",
-                      false,
-                      false,
-                      {}},
-                     {"--folder", "DIR", "also the stereo stream as a KITTI folder", false, false, {}},
-                     {"--sensors", "LIST", "of " + urban_nav_sim::sensorList() + " (default: all)", false, true, {}},
-                     {"--fault",
-                      "FAULT",
-                      "KIND:SENSOR:START_S:DURATION_S[:VALUE], KIND one of " + urban_nav_sim::faultList() +
-                          "; VALUE: share of drop and corrupt, seconds of jump",
-                      false,
-                      true,
-                      {}},
-                     {"--false-closures",
-                      "PERCENT",
-                      "of the true closures: as many false ones in closures_false.csv",
-                      false,
-                      false,
-                      {}},
-                     threadsOption(),
-                     jsonOption()};
-  command.more_help = [](const Arguments&) { return urban_nav_sim::worldHelp(); };
+  command.options = {
+      {"--world", "W", "which world (default quad; below)", false, false, {}},
+      {"--seed", "N", "of the world and of all chance (default 1)", false, false, {}},
+      {"--route", "R", "which way through it (default loops; below)", false, false, {}},
+      {"--duration", "S", "how long (default 60)", false, false, {}},
+      {"--day",
+       "D",
+       "1, 2, ...: the same world in other weather, with other vehicles and people (default 1)",
+       false,
+       false,
+       {}},
+      {"-o,--output",
+       "BAG",
+       "bag to write; it appears when it is complete, the truth beside it in BAG_STEM.truth/",
+       true,
+       false,
+       {}},
+      {"--split",
+       "S",
+       "a bag for every S seconds, BAG_STEM_0.bag and so on, each there as soon as it is complete",
+       false,
+       false,
+       {}},
+      {"--folder", "DIR", "also the stereo stream as a KITTI folder", false, false, {}},
+      {"--sensors", "LIST", "of " + urban_nav_sim::sensorList() + " (default: all)", false, true, {}},
+      {"--without",
+       "LIST",
+       "SENSOR:DEFECT,... that sensors do not have; all for either: imu:noise, gps:all, all:jitter (below)",
+       false,
+       true,
+       {}},
+      {"--with",
+       "LIST",
+       "SENSOR:DEFECT,... that they have besides: stereo:lens (raw pairs), lasers:offset, all:clock (below)",
+       false,
+       true,
+       {}},
+      {"--views",
+       "LIST",
+       "of stereo, ladybug, lasers: depth and class of each pixel and beam too, in BAG_STEM.truth/",
+       false,
+       true,
+       {}},
+      {"--fault",
+       "FAULT",
+       "KIND:SENSOR:START_S:DURATION_S[:VALUE], KIND one of " + urban_nav_sim::faultList() +
+           "; VALUE: share of drop and corrupt, seconds of jump",
+       false,
+       true,
+       {}},
+      {"--false-closures",
+       "PERCENT",
+       "of the true closures: as many false ones in closures_false.csv",
+       false,
+       false,
+       {}},
+      threadsOption(),
+      jsonOption()};
+  command.more_help = [](const Arguments&) { return urban_nav_sim::worldHelp() + "\n" + urban_nav_sim::defectHelp(); };
   command.examples = {"urban_nav simulate --world quad --seed 7 --route loops --duration 300 --day 2 -o day2.bag",
                       "urban_nav simulate --sensors stereo --folder quad/ -o quad.bag",
+                      "urban_nav simulate --without all:all --with stereo:lens --views stereo,lasers -o ideal.bag",
                       "urban_nav simulate --fault unplug:lasers:20:5 --fault drop:stereo:30:10:0.3 -o faults.bag"};
   command.run = run;
   return command;

@@ -7,6 +7,7 @@
 #include "command_line/console.hpp"
 #include "simulate/session_bags.hpp"
 #include "simulate/stereo_folder_writer.hpp"
+#include "simulate/view_writer.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav {
@@ -36,6 +37,7 @@ Simulated simulate(const SimulateJob& job, Console& console) {
   Simulated made;
   made.truth_folder = truthFolderOf(job.bag);
   makeFolder(made.truth_folder);
+  ViewWriter views(made.truth_folder);
 
   Progress progress(console, "simulate", "frames", session.frames());
   std::optional<urban_nav_core::Pose> last;
@@ -47,11 +49,13 @@ Simulated simulate(const SimulateJob& job, Console& console) {
       if (last) made.distance_m += distanceBetween(*last, truth->T_world_base);
       last = truth->T_world_base;
     }
+    if (const auto* view = std::get_if<urban_nav_sim::ViewTruth>(&arrival->measurement)) views.add(*view);
     progress.update((arrival->taken - session.begin()) / frame_period);
   }
   progress.finish(session.frames());
   console.info("truth: " + made.truth_folder);
   session.writeTruth(made.truth_folder, job.false_closures);
+  views.finish();
   if (folder) folder->finish();
   bags.commit();
   made.bags = bags.paths();

@@ -4,12 +4,18 @@
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/Imu.h>
+#include <sensor_msgs/LaserScan.h>
 
 #include <filesystem>
+#include <opencv2/imgcodecs.hpp>
 
 #include "command_line/console.hpp"
 #include "commands/commands.hpp"
 #include "support/folders.hpp"
+#include "urban_nav_core/io/csv.hpp"
 #include "urban_nav_core/io/kitti.hpp"
 #include "urban_nav_core/io/tum.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
@@ -112,6 +118,89 @@ TEST(Simulate, FaultsSpoilTheSensorNotTheTruth) {
   EXPECT_GT(made.counts.at("/ground_truth/pose"), 90);
 }
 
+TEST(Simulate, ViewsOfPixelsAndBeamsLieInTheTruthFolder) {
+  const TemporaryFolder folder;
+  SimulateJob job = shortJob(folder);
+  job.session.duration = 0.2;
+  job.session.sensors = {urban_nav_sim::Sensor::Stereo, urban_nav_sim::Sensor::Lasers};
+  job.session.views = job.session.sensors;
+  job.session.defects.switchOff("all:all");
+  Console console;
+  const Simulated made = simulate(job, console);
+  const rosbag::Bag bag(job.bag);
+  int pairs = 0;
+  for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery("/stereo/right/image_raw"))) {
+    const auto stamp = message.instantiate<sensor_msgs::Image>()->header.stamp.toNSec();
+    const std::string view = made.truth_folder + "/stereo_right_optical_frame/" + std::to_string(stamp);
+    const cv::Mat depth = cv::imread(view + ".pfm", cv::IMREAD_UNCHANGED);
+    ASSERT_EQ(depth.type(), CV_32F) << view;
+    EXPECT_EQ(depth.size(), cv::Size(512, 384));
+    EXPECT_GT(depth.at<float>(380, 256), 0.5F);  // the ground before the robot
+    EXPECT_LT(depth.at<float>(380, 256), 10.0F);
+    EXPECT_EQ(cv::imread(view + ".png", cv::IMREAD_UNCHANGED).type(), CV_8U);
+    ++pairs;
+  }
+  EXPECT_EQ(pairs, 4);
+  const auto beams = urban_nav_core::CsvTable::read(made.truth_folder + "/laser_left.csv");
+  std::size_t row = 0;
+  for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery("/laser_left/scan"))) {
+    const auto scan = message.instantiate<sensor_msgs::LaserScan>();
+    for (const float range : scan->ranges) {
+      ASSERT_LT(row, beams.rows());
+      if (range < 30.0F) {
+        EXPECT_NEAR(static_cast<double>(range), beams.number(row, 2), 1e-6 * static_cast<double>(range));
+      }
+      ++row;
+    }
+  }
+  EXPECT_EQ(row, beams.rows());
+}
+
+TEST(Simulate, RawPairsSayHowTheyAreRectified) {
+  const TemporaryFolder folder;
+  SimulateJob job = shortJob(folder);
+  job.session.duration = 0.1;
+  job.session.sensors = {urban_nav_sim::Sensor::Stereo};
+  job.session.defects.switchOn("stereo:lens");
+  Console console;
+  simulate(job, console);
+  const rosbag::Bag bag(job.bag);
+  for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery("/stereo/right/camera_info"))) {
+    const auto info = message.instantiate<sensor_msgs::CameraInfo>();
+    EXPECT_EQ(info->distortion_model, "plumb_bob");
+    ASSERT_EQ(info->D.size(), 5U);
+    EXPECT_LT(info->D[0], -0.1);
+    EXPECT_NE(info->R[1], 0.0);
+    EXPECT_NEAR(info->P[3], -389.956085 * 0.120005, 1e-9);
+  }
+}
+
+TEST(Simulate, ClocksOfTheirOwnAreOffByWhatTheTruthSays) {
+  const TemporaryFolder folder;
+  SimulateJob job = shortJob(folder);
+  job.session.sensors = {urban_nav_sim::Sensor::Imu};
+  job.session.defects.switchOff("imu:jitter");
+  Console console;
+  const auto firstStamp = [&] {
+    simulate(job, console);
+    const rosbag::Bag bag(job.bag);
+    rosbag::View view(bag, rosbag::TopicQuery("/imu/data"));
+    return view.begin()->instantiate<sensor_msgs::Imu>()->header.stamp.toNSec();
+  };
+  const auto right = firstStamp();
+  job.session.defects.switchOn("imu:clock");
+  const auto off = 1e-9 * (static_cast<double>(firstStamp()) - static_cast<double>(right));
+  const auto clocks = urban_nav_core::CsvTable::read(folder.file("session.truth/clocks.csv"));
+  ASSERT_EQ(clocks.rows(), 6U);
+  for (std::size_t row = 0; row < clocks.rows(); ++row) {
+    const bool is_imu = clocks.text(row, clocks.column("sensor")) == "imu";
+    if (is_imu) {
+      EXPECT_NEAR(clocks.number(row, clocks.column("offset_s")), off, 1e-6);
+    }
+    EXPECT_EQ(clocks.number(row, clocks.column("skew")) != 0.0, is_imu);
+  }
+}
+
 TEST(Simulate, RefusesAnOutputThatIsNoBag) {
   const TemporaryFolder folder;
   EXPECT_EQ(runSimulate({"--duration", "0.2", "--sensors", "imu", "-o", folder.file("session.truth")}), 2);
@@ -127,6 +216,12 @@ TEST(Simulate, RefusesWhatThereIsNotAndLeavesNothing) {
                                                 {"--fault", "melt:stereo:0:1"},
                                                 {"--fault", "stereo"},
                                                 {"--duration", "0"},
+                                                {"--with", "stereo:rust"},
+                                                {"--without", "sonar:noise"},
+                                                {"--views", "imu"},
+                                                {"--views", "sonar"},
+                                                {"--sensors", "imu", "--views", "stereo"},
+                                                {"--with", "stereo:lens", "--folder", folder.file("kitti")},
                                                 {"--split", "-1"},
                                                 {"--sensors", "imu", "--folder", folder.file("kitti")}}) {
     std::vector<std::string> all = words;

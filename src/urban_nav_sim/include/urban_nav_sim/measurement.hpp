@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <opencv2/core/mat.hpp>
+#include <string>
 #include <variant>
 
 #include "urban_nav_core/geometry/se3.hpp"
@@ -57,8 +58,16 @@ struct TruthMeasurement {
   urban_nav_core::Pose T_world_base;
 };
 
+/// What the pixels of a camera or the beams of a laser truly met, taken with the measurement of the same stamp. Faults leave it alone.
+struct ViewTruth {
+  urban_nav_core::StampNs stamp = 0;
+  std::string frame;  ///< "laser_left", "stereo_right_optical_frame", ...
+  cv::Mat depth;  ///< CV_32F, m along the camera's axis; of a laser a row of beams, m along each; infinite for the sky
+  cv::Mat surface_class;  ///< CV_8U, as in cloud.ply
+};
+
 using Measurement = std::variant<StereoMeasurement, LadybugMeasurement, LaserMeasurement, ImuMeasurement,
-                                 WheelMeasurement, GpsMeasurement, TruthMeasurement>;
+                                 WheelMeasurement, GpsMeasurement, TruthMeasurement, ViewTruth>;
 
 urban_nav_core::StampNs stampOf(const Measurement& measurement);
 

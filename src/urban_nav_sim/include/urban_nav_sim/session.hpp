@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "urban_nav_core/camera/camera_info.hpp"
+#include "urban_nav_sim/defect.hpp"
 #include "urban_nav_sim/fault.hpp"
 #include "urban_nav_sim/measurement.hpp"
 
@@ -22,11 +23,14 @@ struct SessionOptions {
   int day = 1;             ///< 1, 2, ...
   double duration = 60.0;  ///< s
   std::set<Sensor> sensors{all_sensors.begin(), all_sensors.end()};
+  Defects defects;
+  std::set<Sensor> views;  ///< of these cameras and lasers, what each pixel and beam truly met too (ViewTruth)
   std::vector<Fault> faults;
   std::string where = "--";  ///< what stands before the name of an option in an error
 };
 
-/// Throws UserError where there is no such world or route, naming those there are: what the constructor of Session does first, without the work.
+/// Throws UserError where there is no such world or route, or no view of a sensor, naming those there are: what the constructor of Session does first,
+/// without the work.
 void checkPlace(const SessionOptions& options);
 
 /// A session of the simulated robot. Its constructor throws as checkPlace does. Not thread-safe; works on as many threads as
@@ -59,7 +63,7 @@ class Session {
   urban_nav_core::CameraInfo ladybugInfo(int camera) const;  ///< 0 ... 4
 
   /// trajectory.tum, revisits.csv, closures_true.csv, closures_false.csv (if `false_closures` is not zero: their per cent of the true ones), cloud.ply
-  /// (CONTRACT.md) into a folder that exists. What sensors there are does not matter.
+  /// (CONTRACT.md), clocks.csv (`sensor,offset_s,skew,jitter_s`: by how much stamps are off) into a folder that exists. What sensors there are does not matter.
   void writeTruth(const std::string& folder, double false_closures) const;
 
  private:

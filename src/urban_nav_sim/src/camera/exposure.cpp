@@ -35,7 +35,7 @@ Exposure AutoExposure::next(const Picture& picture) {
   const double product = products_.front();
   products_.pop_front();
   // The step starts from the last decision, the error is that of this picture.
-  const double ratio = wanted(picture, product) / product;
+  const double ratio = settings_.adapts ? wanted(picture, product) / product : 1.0;
   products_.push_back(std::clamp((products_.empty() ? product : products_.back()) * ratio, 2e-5,
                                  settings_.longest * settings_.largest_gain));
   const double seconds = std::min(product, settings_.longest);

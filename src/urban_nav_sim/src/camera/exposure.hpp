@@ -23,8 +23,9 @@ class AutoExposure {
     double white_seconds = 0.0012;  ///< a radiance of 1 gives 255 levels in this time without gain
     double longest = 0.010;         ///< s
     double largest_gain = 8.0;
-    double step = 0.1;  ///< share by which exposure changes from frame to frame at most
-    int lag = 2;        ///< frames
+    double step = 0.1;   ///< share by which exposure changes from frame to frame at most
+    int lag = 2;         ///< frames
+    bool adapts = true;  ///< without: all pictures have the exposure of the first
   };
   AutoExposure() : AutoExposure(Settings()) {}
   explicit AutoExposure(const Settings& settings) : settings_(settings) {}

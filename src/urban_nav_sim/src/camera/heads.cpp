@@ -25,8 +25,14 @@ Imager::Settings colourSettings(const CameraDefects& defects, const Day& day) {
   return settings;
 }
 
-AutoExposure::Settings colourExposure() {
+AutoExposure::Settings greyExposure(const CameraDefects& defects) {
   AutoExposure::Settings settings;
+  settings.adapts = defects.adapts;
+  return settings;
+}
+
+AutoExposure::Settings colourExposure(const CameraDefects& defects) {
+  AutoExposure::Settings settings = greyExposure(defects);
   settings.target = 70.0;  // before gamma
   return settings;
 }
@@ -40,7 +46,8 @@ StereoHead::StereoHead(const Tracer& tracer, const Sky& sky, StereoImages images
       T_base_left_(T_base_left),
       cameras_(bumblebee(images)),
       imagers_{Imager(cameras_[0].lens, settingsOf(defects, 1.0), Noise(seed, "stereo left")),
-               Imager(cameras_[1].lens, settingsOf(defects, 0.97), Noise(seed, "stereo right"))} {}
+               Imager(cameras_[1].lens, settingsOf(defects, 0.97), Noise(seed, "stereo right"))},
+      exposure_(greyExposure(defects)) {}
 
 std::array<cv::Mat, 2> StereoHead::take(const Ride& ride, double t) {
   const Snapshot snapshot(tracer_, t, t);
@@ -62,7 +69,7 @@ LadybugHead::LadybugHead(const Tracer& tracer, const Sky& sky, const Pose& T_bas
                          const CameraDefects& defects)
     : tracer_(tracer), sky_(sky), T_base_head_(T_base_head), cameras_(ladybug()) {
   const Noise noise(seed, "ladybug");
-  exposures_.fill(AutoExposure(colourExposure()));
+  exposures_.fill(AutoExposure(colourExposure(defects)));
   for (const Camera& camera : cameras_) {
     imagers_.emplace_back(camera.lens, colourSettings(defects, sky.day()), noise.of(imagers_.size()));
   }

@@ -14,6 +14,7 @@ struct CameraDefects {
   bool blurs = true;      ///< motion blur
   bool is_noisy = true;   ///< shot and read noise
   bool vignettes = true;  ///< and imagers of unequal sensitivity
+  bool adapts = true;     ///< automatic exposure; without: that of the first picture
 };
 
 /// A Bumblebee2: two imagers, one shutter. Frames are taken in order of time, since the exposure of one follows from those

@@ -24,6 +24,7 @@ struct Origin {
   std::optional<Sensor> operator()(const WheelMeasurement&) const { return Sensor::Wheels; }
   std::optional<Sensor> operator()(const GpsMeasurement&) const { return Sensor::Gps; }
   std::optional<Sensor> operator()(const TruthMeasurement&) const { return std::nullopt; }
+  std::optional<Sensor> operator()(const ViewTruth&) const { return std::nullopt; }
 };
 
 int partOf(const Measurement& measurement) {
@@ -59,11 +60,11 @@ void FaultFilter::spoil(const Fault& fault, const Stream& stream, Measurement& m
   }
 }
 
-std::optional<Measurement> FaultFilter::apply(Measurement measurement) {
+std::optional<Measurement> FaultFilter::apply(Measurement measurement, StampNs taken) {
   const std::optional<Sensor> sensor = std::visit(Origin(), measurement);
   if (!sensor || faults_.empty()) return measurement;
   const Stream stream(*sensor, partOf(measurement));
-  const double t = 1e-9 * static_cast<double>(stampOf(measurement) - begin_);
+  const double t = 1e-9 * static_cast<double>(taken - begin_);
   ++count_;
   bool spoilt = false;
   for (const Fault& fault : faults_) {

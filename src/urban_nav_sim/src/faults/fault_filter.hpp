@@ -17,8 +17,9 @@ class FaultFilter {
  public:
   FaultFilter(std::vector<Fault> faults, std::uint64_t seed, urban_nav_core::StampNs begin);
 
-  /// The measurement as it arrives; none if it was lost. They come in the order of their true stamps. The truth has no faults.
-  std::optional<Measurement> apply(Measurement measurement);
+  /// The measurement as it arrives; none if it was lost. They come in the order in which they were `taken`, whatever their stamps say. The truth has no
+  /// faults.
+  std::optional<Measurement> apply(Measurement measurement, urban_nav_core::StampNs taken);
 
  private:
   /// Streams that freeze each by itself: a camera of the Ladybug, one of the lasers.

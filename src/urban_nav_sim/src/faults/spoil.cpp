@@ -82,6 +82,7 @@ struct Corrupt {
     rubbish.into(100.0, gps.velocity);
   }
   void operator()(TruthMeasurement&) const {}
+  void operator()(ViewTruth&) const {}
 };
 
 struct Blank {
@@ -109,6 +110,7 @@ struct Blank {
     gps.velocity.setConstant(nan);
   }
   void operator()(TruthMeasurement&) const {}
+  void operator()(ViewTruth&) const {}
 };
 
 }  // namespace

@@ -54,45 +54,53 @@ Lms291::Lms291(const Tracer& tracer, const Pose& T_base_laser, std::uint64_t see
       T_base_laser_(T_base_laser),
       settings_(settings),
       noise_(Noise(seed, "lasers").of(name)),
-      bias_(settings.has_defects ? noise_.of("bias").uniform(0, -settings.largest_bias, settings.largest_bias) : 0.0) {}
+      bias_(noise_.of("bias").uniform(0, -settings.largest_bias, settings.largest_bias)) {}
 
-Lms291::Reading Lms291::measured(const Footprint& footprint, const Noise& noise, int beam) const {
+Lms291::Settings Lms291::Settings::exact() {
+  Settings settings;
+  settings.sigma = settings.largest_bias = settings.step = 0.0;
+  settings.mixes = settings.loses = false;
+  return settings;
+}
+
+/// What the device takes for one echo: of the middle of the beam, or of all that it meets where that mixes.
+Lms291::Echo Lms291::mixed(const Footprint& footprint) {
   const Echo& middle = footprint[0];
-  if (!settings_.has_defects) return {middle.range, intensityOf(middle.strength, middle.range)};
-  double near = std::numeric_limits<double>::infinity(), far = 0.0;
-  for (const Echo& echo : footprint) {
-    near = std::min(near, echo.range);
-    if (std::isfinite(echo.range)) far = std::max(far, echo.range);
-  }
-  if (!std::isfinite(near)) return {};
+  double near = std::numeric_limits<double>::infinity();
+  for (const Echo& echo : footprint) near = std::min(near, echo.range);
   // A slanted surface spreads its echoes evenly about the middle one; an edge does not.
   const double slant = std::abs(footprint[1].range - 2.0 * middle.range + footprint[2].range) +
                        std::abs(footprint[3].range - 2.0 * middle.range + footprint[4].range);
-  double range = middle.range, strength = middle.strength;
-  if (!(slant < 0.02)) {
-    // The first echo that is strong enough, drawn backwards by what follows it within the pulse.
-    double weights = 0.0, sum = 0.0;
-    for (std::size_t i = 0; i < footprint.size(); ++i) {
-      const Echo& echo = footprint[i];
-      if (!(echo.range < near + kPulse)) continue;
-      const double weight = (i == 0 ? 2.0 : 1.0) / 6.0 * echo.strength / (echo.range * echo.range);
-      weights += weight;
-      sum += weight * echo.range;
-    }
-    if (!(weights > 0.0)) return {};
-    range = sum / weights;
-    strength = weights * range * range;
+  if (!std::isfinite(near) || slant < 0.02) return middle;
+  // The first echo that is strong enough, drawn backwards by what follows it within the pulse.
+  double weights = 0.0, sum = 0.0;
+  for (std::size_t i = 0; i < footprint.size(); ++i) {
+    const Echo& echo = footprint[i];
+    if (!(echo.range < near + kPulse)) continue;
+    const double weight = (i == 0 ? 2.0 : 1.0) / 6.0 * echo.strength / (echo.range * echo.range);
+    weights += weight;
+    sum += weight * echo.range;
   }
+  if (!(weights > 0.0)) return {};
+  const double range = sum / weights;
+  return {range, weights * range * range, middle.surface_class};
+}
+
+Lms291::Reading Lms291::measured(const Footprint& footprint, const Noise& noise, int beam) const {
+  const Echo echo = settings_.mixes ? mixed(footprint) : footprint[0];
+  if (!std::isfinite(echo.range)) return {};
   const auto counter = static_cast<std::uint64_t>(beam);
   // Fading makes the limit a soft one.
   const double limit = kWeakest * std::exp(0.4 * noise.of("fading").normal(counter));
-  if (!(strength / (range * range) > limit)) return {};
-  const double sigma = settings_.sigma * (range > 20.0 ? 2.0 : 1.0);
-  double shown = range + bias_ + settings_.systematic_error + sigma * noise.of("range").normal(counter);
-  shown = std::round(shown / settings_.step) * settings_.step;
+  if (settings_.loses && !(echo.strength / (echo.range * echo.range) > limit)) return {};
+  const double sigma = settings_.sigma * (echo.range > 20.0 ? 2.0 : 1.0);
+  double shown = echo.range + bias_ + settings_.systematic_error + sigma * noise.of("range").normal(counter);
+  if (settings_.step > 0.0) shown = std::round(shown / settings_.step) * settings_.step;
   if (!(shown > 0.0 && shown < settings_.range_max)) return {};
-  const double intensity = intensityOf(strength, range) * (1.0 + 0.04 * noise.of("intensity").normal(counter));
-  return {shown, std::clamp(std::round(intensity), 1.0, 255.0)};
+  double intensity = intensityOf(echo.strength, echo.range);
+  if (settings_.sigma > 0.0) intensity *= 1.0 + 0.04 * noise.of("intensity").normal(counter);
+  if (settings_.step > 0.0) intensity = std::round(intensity);
+  return {shown, std::clamp(intensity, 1.0, 255.0)};
 }
 
 /// What comes back to each part of the beam's cross-section.

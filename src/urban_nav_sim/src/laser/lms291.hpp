@@ -27,12 +27,16 @@ class Lms291 {
   static constexpr int kBeams = 181;
   struct Settings {
     double period = 13.3381e-3;     ///< s of a turn (NEW_COLLEGE.md, section 3)
-    double sigma = 5e-3;            ///< m to 20 m; twice that beyond
+    double sigma = 5e-3;            ///< m to 20 m; twice that beyond; 0: intensities have no noise either
     double largest_bias = 5e-3;     ///< m; the constant bias of a device is even within it
     double systematic_error = 0.0;  ///< m, added to every range; the data sheet's fault: 0.035
-    double step = 1e-3;             ///< m
+    double step = 1e-3;             ///< m; 0: none, nor of intensities
     double range_max = 32.7;        ///< m: 15 bits of millimetres (1.4 there)
-    bool has_defects = true;        ///< without: no noise, bias, mixed pixels, drop-outs, steps
+    bool mixes = true;              ///< echoes of what lies behind an edge draw a beam backwards
+    bool loses = true;              ///< weak echoes are lost
+
+    /// Without noise, bias, steps, mixed pixels and losses.
+    static Settings exact();
   };
 
   /// `name` ("laser_left") tells the noise of devices of one seed apart.
@@ -49,6 +53,7 @@ class Lms291 {
   struct Echo;
   using Footprint = std::array<Echo, 5>;
   struct Reading;
+  static Echo mixed(const Footprint& footprint);
   static Footprint echoes(const Snapshot& snapshot, const Packet& packet, const Hits& hits, int first_lane);
   Reading measured(const Footprint& footprint, const Noise& noise, int beam) const;
 

@@ -1,55 +1,102 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "session/eyes.hpp"
 
+#include <algorithm>
+#include <opencv2/core.hpp>
+#include <string>
+#include <utility>
+
 #include "body/schedule.hpp"
 #include "camera/heads.hpp"
 #include "camera/sky.hpp"
 #include "laser/lms291.hpp"
 #include "rig/places.hpp"
+#include "session/settings.hpp"
 #include "trace/tracer.hpp"
 
 namespace urban_nav_sim {
 
+using urban_nav_core::StampNs;
+
 namespace {
 
-constexpr StereoImages images = StereoImages::Rectified;
+ViewTruth viewOf(const Picture& picture, std::string frame, StampNs stamp) {
+  ViewTruth view{stamp, std::move(frame), cv::Mat(picture.height, picture.width, CV_32F),
+                 cv::Mat(picture.height, picture.width, CV_8U)};
+  std::copy(picture.depth.begin(), picture.depth.end(), view.depth.begin<float>());
+  std::copy(picture.surface_class.begin(), picture.surface_class.end(), view.surface_class.begin<std::uint8_t>());
+  return view;
+}
+
+ViewTruth viewOf(const std::vector<BeamTruth>& beams, std::string frame, StampNs stamp) {
+  const auto count = static_cast<int>(beams.size());
+  ViewTruth view{stamp, std::move(frame), cv::Mat(1, count, CV_32F), cv::Mat(1, count, CV_8U)};
+  for (int i = 0; i < count; ++i) {
+    const BeamTruth& beam = beams[static_cast<std::size_t>(i)];
+    view.depth.at<float>(i) = static_cast<float>(beam.range);
+    view.surface_class.at<std::uint8_t>(i) = static_cast<std::uint8_t>(beam.surface_class);
+  }
+  return view;
+}
 
 }  // namespace
 
 class Eyes::Implementation {
  public:
-  Implementation(const World& world, const Ride& ride, const Noise& noise)
+  Implementation(const World& world, const Ride& ride, const Noise& noise, const Defects& defects,
+                 const std::set<Sensor>& views)
       : ride_(ride),
+        views_(views),
         tracer_(world),
         sky_(world.day, noise.of("sky").bits(0)),
-        stereo_(tracer_, sky_, images, placeOf("stereo_left_optical_frame"), noise.of("stereo").bits(0)),
-        ladybug_(tracer_, sky_, ladybugPlace(), noise.of("ladybug").bits(0)),
-        left_laser_(tracer_, placeOf("laser_left"), noise.of("lasers").bits(0), "laser_left", Lms291::Settings()),
-        right_laser_(tracer_, placeOf("laser_right"), noise.of("lasers").bits(0), "laser_right", Lms291::Settings()) {}
+        stereo_(tracer_, sky_, stereoImages(defects), placeOf("stereo_left_optical_frame"), noise.of("stereo").bits(0),
+                cameraDefects(defects, Sensor::Stereo)),
+        ladybug_(tracer_, sky_, ladybugPlace(), noise.of("ladybug").bits(0), cameraDefects(defects, Sensor::Ladybug)),
+        left_laser_(tracer_, placeOf("laser_left"), noise.of("lasers").bits(0), "laser_left", laserSettings(defects)),
+        right_laser_(tracer_, placeOf("laser_right"), noise.of("lasers").bits(0), "laser_right",
+                     laserSettings(defects)) {}
 
   std::vector<Measurement> stereo(std::int64_t k, const Clock& clock) {
     const double t = scheduleOf(Sensor::Stereo).at(k);
+    const StampNs stamp = clock.stamp(k, t);
     auto [left, right] = stereo_.take(ride_, t);
-    return {StereoMeasurement{clock.stamp(k, t), std::move(left), std::move(right)}};
+    std::vector<Measurement> measurements = {StereoMeasurement{stamp, std::move(left), std::move(right)}};
+    if (views_.count(Sensor::Stereo) != 0) {
+      measurements.emplace_back(viewOf(stereo_.pictures()[0], "stereo_left_optical_frame", stamp));
+      measurements.emplace_back(viewOf(stereo_.pictures()[1], "stereo_right_optical_frame", stamp));
+    }
+    return measurements;
   }
 
   std::vector<Measurement> panorama(std::int64_t k, const Clock& clock) {
     const double t = scheduleOf(Sensor::Ladybug).at(k);
+    const StampNs stamp = clock.stamp(k, t);
     std::array<cv::Mat, 5> taken = ladybug_.take(ride_, t);
     std::vector<Measurement> measurements;
-    for (std::size_t i = 0; i < taken.size(); ++i)
-      measurements.emplace_back(LadybugMeasurement{clock.stamp(k, t), static_cast<int>(i), std::move(taken[i])});
+    for (std::size_t i = 0; i < taken.size(); ++i) {
+      measurements.emplace_back(LadybugMeasurement{stamp, static_cast<int>(i), std::move(taken[i])});
+      if (views_.count(Sensor::Ladybug) != 0)
+        measurements.emplace_back(
+            viewOf(ladybug_.pictures()[i], "ladybug_camera" + std::to_string(i) + "_optical_frame", stamp));
+    }
     return measurements;
   }
 
   std::vector<Measurement> laser(Side side, std::int64_t k, const Clock& clock) const {
     const double t = laserSchedule(side).at(k);
+    const StampNs stamp = clock.stamp(k, t);
     const Lms291& device = side == Side::Left ? left_laser_ : right_laser_;
-    return {LaserMeasurement{side, device.scan(ride_, t, clock.stamp(k, t), static_cast<std::uint64_t>(k))}};
+    const bool is_viewed = views_.count(Sensor::Lasers) != 0;
+    std::vector<BeamTruth> beams;
+    std::vector<Measurement> measurements = {LaserMeasurement{
+        side, device.scan(ride_, t, stamp, static_cast<std::uint64_t>(k), is_viewed ? &beams : nullptr)}};
+    if (is_viewed) measurements.emplace_back(viewOf(beams, side == Side::Left ? "laser_left" : "laser_right", stamp));
+    return measurements;
   }
 
  private:
   const Ride& ride_;
+  std::set<Sensor> views_;
   Tracer tracer_;
   Sky sky_;
   StereoHead stereo_;
@@ -57,8 +104,9 @@ class Eyes::Implementation {
   Lms291 left_laser_, right_laser_;
 };
 
-Eyes::Eyes(const World& world, const Ride& ride, const Noise& noise)
-    : implementation_(std::make_unique<Implementation>(world, ride, noise)) {}
+Eyes::Eyes(const World& world, const Ride& ride, const Noise& noise, const Defects& defects,
+           const std::set<Sensor>& views)
+    : implementation_(std::make_unique<Implementation>(world, ride, noise, defects, views)) {}
 Eyes::~Eyes() = default;
 
 std::vector<Measurement> Eyes::stereo(std::int64_t k, const Clock& clock) { return implementation_->stereo(k, clock); }
@@ -69,8 +117,8 @@ std::vector<Measurement> Eyes::laser(Side side, std::int64_t k, const Clock& clo
   return implementation_->laser(side, k, clock);
 }
 
-urban_nav_core::CameraInfo Eyes::stereoInfo(Side side) {
-  return bumblebee(images)[static_cast<std::size_t>(side)].info;
+urban_nav_core::CameraInfo Eyes::stereoInfo(Side side, const Defects& defects) {
+  return bumblebee(stereoImages(defects))[static_cast<std::size_t>(side)].info;
 }
 urban_nav_core::CameraInfo Eyes::ladybugInfo(int camera) { return ladybug()[static_cast<std::size_t>(camera)].info; }
 

@@ -3,29 +3,32 @@
 
 #include <cstdint>
 #include <memory>
+#include <set>
 #include <vector>
 
 #include "body/clock.hpp"
 #include "noise/noise.hpp"
 #include "ride/ride.hpp"
 #include "urban_nav_core/camera/camera_info.hpp"
+#include "urban_nav_sim/defect.hpp"
 #include "urban_nav_sim/measurement.hpp"
 #include "world/world.hpp"
 
 namespace urban_nav_sim {
 
-/// The cameras and lasers of a session: all that sends rays into the world. Measurements of one device are asked for in their order. Not thread-safe
+/// The cameras and lasers of a session: all that sends rays into the world. Measurements of one device are asked for in their order; with each come the
+/// views of it that the session wants. Not thread-safe
 /// (each works on all threads); world and ride must outlive it.
 class Eyes {
  public:
-  Eyes(const World& world, const Ride& ride, const Noise& noise);
+  Eyes(const World& world, const Ride& ride, const Noise& noise, const Defects& defects, const std::set<Sensor>& views);
   ~Eyes();
 
   std::vector<Measurement> stereo(std::int64_t k, const Clock& clock);
   std::vector<Measurement> panorama(std::int64_t k, const Clock& clock);
   std::vector<Measurement> laser(Side side, std::int64_t k, const Clock& clock);
 
-  static urban_nav_core::CameraInfo stereoInfo(Side side);
+  static urban_nav_core::CameraInfo stereoInfo(Side side, const Defects& defects);
   static urban_nav_core::CameraInfo ladybugInfo(int camera);
 
  private:

@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "body/gps.hpp"
-#include "body/imu.hpp"
-#include "body/wheels.hpp"
 #include "faults/fault_filter.hpp"
 #include "ride/make_ride.hpp"
 #include "rig/places.hpp"
 #include "session/eyes.hpp"
+#include "session/settings.hpp"
 #include "session/timeline.hpp"
 #include "truth/cloud.hpp"
 #include "truth/truth_files.hpp"
@@ -34,10 +32,18 @@ std::string joined(const std::vector<std::string>& words) {
   return list;
 }
 
+bool seesTheWorld(Sensor sensor) {
+  return sensor == Sensor::Stereo || sensor == Sensor::Ladybug || sensor == Sensor::Lasers;
+}
+
 const SessionOptions& checked(const SessionOptions& options) {
   const std::vector<std::string> worlds = worldNames();
   if (std::find(worlds.begin(), worlds.end(), options.world) == worlds.end())
     throw UserError(options.where + "world", options.world, joined(worlds));
+  for (const Sensor sensor : options.views)
+    if (!seesTheWorld(sensor) || options.sensors.count(sensor) == 0)
+      throw UserError(options.where + "views", std::string("views of \"") + toString(sensor) + "\"",
+                      "stereo, ladybug, lasers, if among the sensors");
   return options;
 }
 
@@ -80,7 +86,7 @@ class Session::Implementation {
   std::optional<Arrival> next() {
     while (std::optional<Timeline::Due> due = timeline_.next()) {
       const StampNs taken = begin_ + std::llround(1e9 * due->taken);
-      if (std::optional<Measurement> arrived = faults_.apply(std::move(due->measurement)))
+      if (std::optional<Measurement> arrived = faults_.apply(std::move(due->measurement), taken))
         return Arrival{std::move(*arrived), taken};
     }
     return std::nullopt;
@@ -92,12 +98,18 @@ class Session::Implementation {
 
   void writeTruth(const std::string& folder, double false_closures) const {
     writeTruthFiles(folder, *ride_, truthClock(), clockOf(Sensor::Ladybug), false_closures, options_.seed);
+    std::map<Sensor, ClockOptions> clocks;
+    for (const Sensor sensor : all_sensors) clocks[sensor] = clockErrors(sensor);
+    writeClocks(folder + "/clocks.csv", clocks);
     writeCloud(folder + "/cloud.ply", world_, *ride_);
   }
 
  private:
   bool has(Sensor sensor) const { return options_.sensors.count(sensor) != 0; }
-  Clock clockOf(Sensor sensor) const { return {begin_, correctedClock(sensor), noise_.of(toString(sensor))}; }
+  ClockOptions clockErrors(Sensor sensor) const {
+    return clockOptions(options_.defects, sensor, noise_.of("clocks").bits(0));
+  }
+  Clock clockOf(Sensor sensor) const { return {begin_, clockErrors(sensor), noise_.of(toString(sensor))}; }
   Clock truthClock() const { return {begin_, ClockOptions(), noise_.of("truth")}; }
 
   void addTruth() {
@@ -108,24 +120,26 @@ class Session::Implementation {
   }
 
   void addImu() {
-    imu_.emplace(*ride_, placeOf("imu_link"), ImuOptions(), clockOf(Sensor::Imu), noise_.of("imu errors"));
+    imu_.emplace(*ride_, placeOf("imu_link"), imuOptions(options_.defects), clockOf(Sensor::Imu),
+                 noise_.of("imu errors"));
     timeline_.add(scheduleOf(Sensor::Imu), [this](std::int64_t k) { return std::vector<Measurement>{imu_->at(k)}; });
   }
 
   void addWheels() {
-    wheels_.emplace(*ride_, WheelOptions(), clockOf(Sensor::Wheels), noise_.of("wheel errors"));
+    wheels_.emplace(*ride_, wheelOptions(options_.defects), clockOf(Sensor::Wheels), noise_.of("wheel errors"));
     timeline_.add(scheduleOf(Sensor::Wheels), [this](std::int64_t k) {
       return k < wheels_->count() ? std::vector<Measurement>{wheels_->at(k)} : std::vector<Measurement>();
     });
   }
 
   void addGps() {
-    gps_.emplace(*ride_, placeOf("gps_link"), GpsOptions(), clockOf(Sensor::Gps), noise_.of("gps errors"));
+    gps_.emplace(*ride_, placeOf("gps_link"), gpsOptions(options_.defects), clockOf(Sensor::Gps),
+                 noise_.of("gps errors"));
     timeline_.add(scheduleOf(Sensor::Gps), [this](std::int64_t k) { return std::vector<Measurement>{gps_->at(k)}; });
   }
 
   void addEyes() {
-    eyes_ = std::make_unique<Eyes>(world_, *ride_, noise_);
+    eyes_ = std::make_unique<Eyes>(world_, *ride_, noise_, options_.defects, options_.views);
     if (has(Sensor::Lasers))
       for (const Side side : {Side::Left, Side::Right})
         timeline_.add(laserSchedule(side), [this, side, clock = clockOf(Sensor::Lasers)](std::int64_t k) {
@@ -164,7 +178,9 @@ StampNs Session::begin() const { return implementation_->begin(); }
 double Session::duration() const { return implementation_->options().duration; }
 std::int64_t Session::frames() const { return scheduleOf(Sensor::Stereo).count(duration()); }
 std::map<std::string, Pose> Session::places() const { return sensorPlaces(); }
-urban_nav_core::CameraInfo Session::stereoInfo(Side side) const { return Eyes::stereoInfo(side); }
+urban_nav_core::CameraInfo Session::stereoInfo(Side side) const {
+  return Eyes::stereoInfo(side, implementation_->options().defects);
+}
 urban_nav_core::CameraInfo Session::ladybugInfo(int camera) const { return Eyes::ladybugInfo(camera); }
 void Session::writeTruth(const std::string& folder, double false_closures) const {
   implementation_->writeTruth(folder, false_closures);

@@ -64,6 +64,14 @@ void writeClosures(const std::string& path, const Trajectory& panoramas, const s
   file.commit();
 }
 
+void writeClocks(const std::string& path, const std::map<Sensor, ClockOptions>& clocks) {
+  std::string text = printCsvRow({"sensor", "offset_s", "skew", "jitter_s"});
+  for (const auto& [sensor, clock] : clocks)
+    text +=
+        printCsvRow({toString(sensor), printNumber(clock.offset), printNumber(clock.skew), printNumber(clock.jitter)});
+  urban_nav_core::writeAtomically(path, text);
+}
+
 void writeTruthFiles(const std::string& folder, const Ride& ride, const Clock& truth, const Clock& ladybug,
                      double false_percent, std::uint64_t seed) {
   const Noise noise(seed, "closures");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ void writeRevisits(const std::string& path, const urban_nav_core::Trajectory& pa
 /// `session_a,stamp_a_ns,session_b,stamp_b_ns,probability`; both sessions are 0.
 void writeClosures(const std::string& path, const urban_nav_core::Trajectory& panoramas,
                    const std::vector<Closure>& closures);
+
+/// `sensor,offset_s,skew,jitter_s`: by how much the stamps of each are off.
+void writeClocks(const std::string& path, const std::map<Sensor, ClockOptions>& clocks);
 
 /// The truth folder of CONTRACT.md ("Others") but for cloud.ply, into a folder that exists: trajectory.tum, revisits.csv,
 /// closures_true.csv and, if `false_percent` is above zero, closures_false.csv with so many per cent of the number of true

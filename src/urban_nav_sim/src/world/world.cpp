@@ -19,11 +19,31 @@ World buildWorld(const std::string& world, std::uint32_t seed, int day) {
   throw urban_nav_core::UserError("world", "\"" + world + "\"", "quad, begbroke, street");
 }
 
-std::vector<Route> routesOf(const std::string& world, std::uint32_t seed) {
+namespace {
+
+std::vector<Route> fastRoutesOf(const std::string& world, std::uint32_t seed) {
   if (world == "quad") return routesOfQuad(seed);
   if (world == "begbroke") return routesOfBegbroke(seed);
   if (world == "street") return routesOfStreet(seed);
   throw urban_nav_core::UserError("world", "\"" + world + "\"", "quad, begbroke, street");
+}
+
+/// The same way, but for a start that is hardly one.
+Route creeping(const Route& route) {
+  Route slow = route;
+  slow.name = "creep";
+  slow.summary = "loops, the first half a metre at 2 cm/s";
+  const Vector2d first = route.waypoints[0].position, towards = (route.waypoints[1].position - first).normalized();
+  slow.waypoints.insert(slow.waypoints.begin() + 1, {Vector2d(first + 0.5 * towards), 0.02, 0.0});
+  return slow;
+}
+
+}  // namespace
+
+std::vector<Route> routesOf(const std::string& world, std::uint32_t seed) {
+  std::vector<Route> routes = fastRoutesOf(world, seed);
+  routes.push_back(creeping(routes.front()));
+  return routes;
 }
 
 std::vector<Waypoint> through(const std::vector<Vector2d>& places, double speed) {

@@ -197,6 +197,12 @@ TEST(AutoExposure, SettlesOnItsTargetAfterALag) {
   }
   EXPECT_NEAR(last, 110.0, 2.0);
   EXPECT_LT(highest, 130.0);
+  AutoExposure::Settings fixed;
+  fixed.adapts = false;
+  AutoExposure held(fixed);
+  const double first = held.levels(held.next(picture));
+  picture.radiance.assign(900, 0.8F);
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(held.levels(held.next(picture)), first);
   picture.radiance.assign(900, 0.001F);
   for (int i = 0; i < 100; ++i) exposure.next(picture);
   const Exposure dark = exposure.next(picture);

@@ -61,10 +61,8 @@ TEST(Render, DepthIsThatOfTheTrueSurfaceThroughEachLens) {
 TEST(Render, ABeamAndTheDepthImageMeetInOnePoint) {
   const Scene scene;
   const Lens lens = bumblebee(StereoImages::Rectified)[0].lens;
-  Lms291::Settings settings;
-  settings.has_defects = false;
   const Pose T_laser(Eigen::Quaterniond::Identity(), Vector3d(0.1, 0.0600025, 1.1));
-  const Lms291 laser(scene.tracer, T_laser, 1, "test", settings);
+  const Lms291 laser(scene.tracer, T_laser, 1, "test", Lms291::Settings::exact());
   const auto scan = laser.scan(SteadyRide(), 2.5, 0, 0);
   int compared = 0;
   for (int beam = 30; beam <= 150; beam += 3) {

@@ -15,12 +15,6 @@ namespace {
 using urban_nav_core::PlanarScan;
 using urban_nav_core::Pose;
 
-Lms291::Settings exact() {
-  Lms291::Settings settings;
-  settings.has_defects = false;
-  return settings;
-}
-
 Eigen::Vector3d directionOf(const PlanarScan& scan, int beam) {
   const double angle = scan.angle_first + beam * scan.angle_step;
   return {std::cos(angle), std::sin(angle), 0.0};
@@ -31,7 +25,7 @@ TEST(Lms291, BeamsEndOnTheSurfaceAtTheirOwnTime) {
   const Tracer tracer(world);
   const SteadyRide ride(1.5, 1.2);
   const Pose T_base_laser = placeOf("laser_left");
-  const Lms291 laser(tracer, T_base_laser, 7, "laser_left", exact());
+  const Lms291 laser(tracer, T_base_laser, 7, "laser_left", Lms291::Settings::exact());
   const PlanarScan scan = laser.scan(ride, 0.3, 1000, 0);
   ASSERT_EQ(scan.ranges.size(), 181U);
   EXPECT_EQ(scan.stamp, 1000);
@@ -55,8 +49,8 @@ TEST(Lms291, BeamsEndOnTheSurfaceAtTheirOwnTime) {
 TEST(Lms291, LooksToItsSideFromTheGroundUpAndTheRightOneFromTheTopDown) {
   const World world = yard();
   const Tracer tracer(world);
-  const Lms291 left(tracer, placeOf("laser_left"), 7, "laser_left", exact());
-  const Lms291 right(tracer, placeOf("laser_right"), 7, "laser_right", exact());
+  const Lms291 left(tracer, placeOf("laser_left"), 7, "laser_left", Lms291::Settings::exact());
+  const Lms291 right(tracer, placeOf("laser_right"), 7, "laser_right", Lms291::Settings::exact());
   const auto first = left.scan(SteadyRide(), 0.0, 0, 0), second = right.scan(SteadyRide(), 0.0, 0, 0);
   EXPECT_NEAR(first.ranges.front(), 0.75 * std::sqrt(2.0), 1e-5);
   EXPECT_NEAR(second.ranges.back(), 0.75 * std::sqrt(2.0), 1e-5);
@@ -90,6 +84,33 @@ TEST(Lms291, ErrsAsItsDataSheetSays) {
   const Lms291 other(tracer, placeOf("laser_left"), 7, "laser_left", faulty);
   EXPECT_NEAR(other.scan(SteadyRide(), 0, 0, 3).ranges[10] - laser.scan(SteadyRide(), 0, 0, 3).ranges[10], 0.035,
               1.1e-3);
+}
+
+TEST(Lms291, EachDefectIsSwitchedByItself) {
+  const World world = yard();
+  const Tracer tracer(world);
+  const auto scanOf = [&](const Lms291::Settings& settings, std::vector<BeamTruth>& truth) {
+    return Lms291(tracer, placeOf("laser_right"), 7, "laser_right", settings).scan(SteadyRide(), 0.0, 0, 0, &truth);
+  };
+  std::vector<BeamTruth> truth;
+  const PlanarScan exact = scanOf(Lms291::Settings::exact(), truth);
+  Lms291::Settings stepped = Lms291::Settings::exact(), losing = stepped, mixing = stepped;
+  stepped.step = 1e-3;
+  losing.loses = true;
+  mixing.mixes = true;
+  const PlanarScan in_steps = scanOf(stepped, truth), with_losses = scanOf(losing, truth),
+                   mixed = scanOf(mixing, truth);
+  int lost = 0, moved = 0;
+  for (std::size_t beam = 0; beam < truth.size(); ++beam) {
+    if (!(truth[beam].range < 32.0)) continue;
+    EXPECT_NEAR(exact.ranges[beam], truth[beam].range, 1e-6 * truth[beam].range) << beam;
+    EXPECT_NEAR(in_steps.ranges[beam], std::round(1000.0 * truth[beam].range) / 1000.0, 1e-5) << beam;
+    if (std::isinf(with_losses.ranges[beam])) ++lost;
+    else EXPECT_EQ(with_losses.ranges[beam], exact.ranges[beam]) << beam;
+    moved += mixed.ranges[beam] != exact.ranges[beam];
+  }
+  EXPECT_LT(lost, 60);
+  EXPECT_GT(moved, 3);  // the hedge
 }
 
 TEST(Lms291, EdgesMixAndOnlyEdgesDo) {

@@ -38,6 +38,16 @@ TEST(SimulatorParameters, ListsAreSeparatedByCommasAndBlanks) {
   EXPECT_EQ(options.faults[1].value, 0.25);
 }
 
+TEST(SimulatorParameters, DefectsAreSwitchedAsByTheCommand) {
+  SimulatorParameters parameters;
+  parameters.without = "all:all";
+  parameters.with = "imu:noise, stereo:lens";
+  const Defects defects = sessionOptions(parameters, "").defects;
+  EXPECT_TRUE(defects.has(Sensor::Imu, Defect::Noise));
+  EXPECT_TRUE(defects.has(Sensor::Stereo, Defect::Lens));
+  EXPECT_FALSE(defects.has(Sensor::Imu, Defect::Bias));
+}
+
 std::string errorOf(std::string SimulatorParameters::*key, const std::string& text) {
   SimulatorParameters parameters;
   parameters.*key = text;
@@ -65,6 +75,8 @@ TEST(SimulatorParameters, WhatThereIsNotIsNamedWithItsKeyAndWhatThereIs) {
   expectIn(sensors, "sonar");
   expectIn(sensors, sensorList());
   expectIn(errorOf(&SimulatorParameters::sensors, " , "), sensorList());
+  expectIn(errorOf(&SimulatorParameters::with, "imu:blur"), "/simulator/with");
+  expectIn(errorOf(&SimulatorParameters::without, "imu:blur"), "noise, bias, jitter, clock");
   const std::string fault = errorOf(&SimulatorParameters::fault, "melt:stereo:0:1");
   expectIn(fault, "/simulator/fault melt:stereo:0:1");
   expectIn(fault, faultList());

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "look/material.hpp"
+#include "ride/make_ride.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav_sim {
@@ -47,6 +48,21 @@ std::vector<Vector2d> placesOf(const Route& route, double step) {
     for (int k = 0; k <= n; ++k) places.push_back(a + d * k / n);
   }
   return places;
+}
+
+TEST_P(Worlds, OneOfTheRoutesCreeps) {
+  const std::vector<Route> routes = routesOf(GetParam(), 7);
+  const auto creep =
+      std::find_if(routes.begin(), routes.end(), [](const Route& route) { return route.name == "creep"; });
+  ASSERT_NE(creep, routes.end());
+  RideOptions options;
+  options.duration = 15.0;
+  const auto ride = makeRide(worldOf(GetParam()), *creep, options);
+  const auto way = [&](double a, double b) {
+    return (ride->at(b).T_world_base.t() - ride->at(a).T_world_base.t()).head<2>().norm();
+  };
+  EXPECT_NEAR(way(3.0, 13.0), 0.2, 0.04);  // at 2 cm/s, and it sways
+  EXPECT_LT(way(0.0, 3.0), 0.09);
 }
 
 TEST_P(Worlds, RoutesKeepClearOfWhatStandsThere) {

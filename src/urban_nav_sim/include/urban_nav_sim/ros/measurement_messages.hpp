@@ -56,6 +56,7 @@ class MeasurementMessages {
   Messages from(const WheelMeasurement& wheels) const;
   Messages from(const GpsMeasurement& gps) const;
   Messages from(const TruthMeasurement& truth) const;
+  Messages from(const ViewTruth&) const { return {}; }  ///< for the truth folder alone
 
   sensor_msgs::CameraInfo left_, right_;
   std::array<sensor_msgs::CameraInfo, 5> ladybug_;

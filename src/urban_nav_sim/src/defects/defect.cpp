@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_sim/defect.hpp"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav_sim {
+
+using urban_nav_core::UserError;
+
+namespace {
+
+constexpr const char* any = "all";
+
+constexpr std::array<std::pair<Defect, const char*>, 16> names = {{{Defect::Noise, "noise"},
+                                                                   {Defect::Bias, "bias"},
+                                                                   {Defect::Blur, "blur"},
+                                                                   {Defect::Vignetting, "vignetting"},
+                                                                   {Defect::Exposure, "exposure"},
+                                                                   {Defect::Lens, "lens"},
+                                                                   {Defect::Edges, "edges"},
+                                                                   {Defect::Losses, "losses"},
+                                                                   {Defect::Steps, "steps"},
+                                                                   {Defect::Offset, "offset"},
+                                                                   {Defect::Tyres, "tyres"},
+                                                                   {Defect::Slip, "slip"},
+                                                                   {Defect::Multipath, "multipath"},
+                                                                   {Defect::Gaps, "gaps"},
+                                                                   {Defect::Jitter, "jitter"},
+                                                                   {Defect::Clock, "clock"}}};
+
+std::string nameOf(Defect defect) {
+  return std::find_if(names.begin(), names.end(), [defect](const auto& each) { return each.first == defect; })->second;
+}
+
+bool isUsual(Defect defect) { return defect != Defect::Lens && defect != Defect::Offset && defect != Defect::Clock; }
+
+std::vector<Defect> defectsOf(Sensor sensor) {
+  std::vector<Defect> defects;
+  switch (sensor) {
+    case Sensor::Stereo:
+      defects = {Defect::Noise, Defect::Blur, Defect::Vignetting, Defect::Exposure, Defect::Lens};
+      break;
+    case Sensor::Ladybug: defects = {Defect::Noise, Defect::Blur, Defect::Vignetting, Defect::Exposure}; break;
+    case Sensor::Lasers:
+      defects = {Defect::Noise, Defect::Bias, Defect::Edges, Defect::Losses, Defect::Steps, Defect::Offset};
+      break;
+    case Sensor::Imu: defects = {Defect::Noise, Defect::Bias}; break;
+    case Sensor::Wheels: defects = {Defect::Tyres, Defect::Slip, Defect::Steps}; break;
+    case Sensor::Gps: defects = {Defect::Noise, Defect::Bias, Defect::Multipath, Defect::Gaps}; break;
+  }
+  defects.insert(defects.end(), {Defect::Jitter, Defect::Clock});
+  return defects;
+}
+
+std::string listOf(Sensor sensor) {
+  std::string list;
+  for (const Defect defect : defectsOf(sensor)) list += (list.empty() ? "" : ", ") + nameOf(defect);
+  return list;
+}
+
+/// What a word of the command line stands for, at least one.
+std::vector<std::pair<Sensor, Defect>> parse(const std::string& word, const std::string& where) {
+  const std::size_t colon = word.find(':');
+  if (colon == std::string::npos) throw UserError(where, "\"" + word + "\"", "SENSOR:DEFECT, as in imu:noise");
+  const std::string of = word.substr(0, colon), name = word.substr(colon + 1);
+  const std::vector<Sensor> sensors = of == any ? std::vector<Sensor>(all_sensors.begin(), all_sensors.end())
+                                                : std::vector<Sensor>{parseSensor(of, where)};
+  std::vector<std::pair<Sensor, Defect>> meant;
+  for (const Sensor sensor : sensors)
+    for (const Defect defect : defectsOf(sensor))
+      if (name == any ? isUsual(defect) : name == nameOf(defect)) meant.emplace_back(sensor, defect);
+  if (!meant.empty()) return meant;
+  std::string list;
+  for (const auto& each : names) list += (list.empty() ? "" : ", ") + std::string(each.second);
+  throw UserError(where, "defect \"" + word + "\"", of == any ? list : listOf(sensors.front()));
+}
+
+}  // namespace
+
+Defects::Defects() {
+  for (const Sensor sensor : all_sensors)
+    for (const Defect defect : defectsOf(sensor))
+      if (isUsual(defect)) on_.emplace(sensor, defect);
+}
+
+void Defects::switchOn(const std::string& word, const std::string& where) {
+  for (const auto& each : parse(word, where)) on_.insert(each);
+}
+
+void Defects::switchOff(const std::string& word, const std::string& where) {
+  for (const auto& each : parse(word, where)) on_.erase(each);
+}
+
+std::string defectHelp() {
+  std::string text = "Defects of the sensors (--with has lens, offset and clock, --without the others):\n";
+  for (const Sensor sensor : all_sensors) {
+    std::string name = toString(sensor);
+    name.resize(9, ' ');
+    text += "  " + name + listOf(sensor) + "\n";
+  }
+  return text;
+}
+
+}  // namespace urban_nav_sim

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "session/settings.hpp"
+
+namespace urban_nav_sim {
+
+namespace {
+
+constexpr double data_sheet_error = 0.035;  // m: DEVICE_PROTOCOLS.md, section 1.6
+
+}  // namespace
+
+StereoImages stereoImages(const Defects& defects) {
+  return defects.has(Sensor::Stereo, Defect::Lens) ? StereoImages::Raw : StereoImages::Rectified;
+}
+
+CameraDefects cameraDefects(const Defects& defects, Sensor sensor) {
+  CameraDefects made;
+  made.is_noisy = defects.has(sensor, Defect::Noise);
+  made.blurs = defects.has(sensor, Defect::Blur);
+  made.vignettes = defects.has(sensor, Defect::Vignetting);
+  made.adapts = defects.has(sensor, Defect::Exposure);
+  return made;
+}
+
+Lms291::Settings laserSettings(const Defects& defects) {
+  Lms291::Settings settings;
+  if (!defects.has(Sensor::Lasers, Defect::Noise)) settings.sigma = 0.0;
+  if (!defects.has(Sensor::Lasers, Defect::Bias)) settings.largest_bias = 0.0;
+  if (!defects.has(Sensor::Lasers, Defect::Steps)) settings.step = 0.0;
+  settings.mixes = defects.has(Sensor::Lasers, Defect::Edges);
+  settings.loses = defects.has(Sensor::Lasers, Defect::Losses);
+  if (defects.has(Sensor::Lasers, Defect::Offset)) settings.systematic_error = data_sheet_error;
+  return settings;
+}
+
+ImuOptions imuOptions(const Defects& defects) {
+  const ImuOptions usual;
+  ImuOptions options = perfectImu();
+  if (defects.has(Sensor::Imu, Defect::Noise)) {
+    options.rate_density = usual.rate_density;
+    options.force_density = usual.force_density;
+    options.field_sigma = usual.field_sigma;
+  }
+  if (defects.has(Sensor::Imu, Defect::Bias)) {
+    options.rate_bias = usual.rate_bias;
+    options.rate_walk = usual.rate_walk;
+    options.force_bias = usual.force_bias;
+    options.field_bias = usual.field_bias;
+    options.field_disturbance = usual.field_disturbance;
+  }
+  return options;
+}
+
+WheelOptions wheelOptions(const Defects& defects) {
+  const WheelOptions usual;
+  WheelOptions options = perfectWheels();
+  if (defects.has(Sensor::Wheels, Defect::Tyres)) {
+    options.scale_sigma = usual.scale_sigma;
+    options.difference_sigma = usual.difference_sigma;
+    options.track = usual.track;
+  }
+  if (defects.has(Sensor::Wheels, Defect::Slip)) options.slip_sigma = usual.slip_sigma;
+  options.counts = defects.has(Sensor::Wheels, Defect::Steps);
+  return options;
+}
+
+GpsOptions gpsOptions(const Defects& defects) {
+  const GpsOptions usual;
+  GpsOptions options = perfectGps();
+  if (defects.has(Sensor::Gps, Defect::Noise)) {
+    options.white_sigma = usual.white_sigma;
+    options.velocity_sigma = usual.velocity_sigma;
+  }
+  if (defects.has(Sensor::Gps, Defect::Bias)) options.slow_sigma = usual.slow_sigma;
+  if (defects.has(Sensor::Gps, Defect::Multipath)) options.multipath_sigma = usual.multipath_sigma;
+  options.gaps = defects.has(Sensor::Gps, Defect::Gaps);
+  return options;
+}
+
+ClockOptions clockOptions(const Defects& defects, Sensor sensor, std::uint64_t seed) {
+  ClockOptions options = defects.has(sensor, Defect::Clock) ? uncorrectedClock(sensor, seed) : correctedClock(sensor);
+  if (!defects.has(sensor, Defect::Jitter)) options.jitter = 0.0;
+  return options;
+}
+
+}  // namespace urban_nav_sim

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "body/clock.hpp"
+#include "body/gps.hpp"
+#include "body/imu.hpp"
+#include "body/wheels.hpp"
+#include "camera/heads.hpp"
+#include "laser/lms291.hpp"
+#include "urban_nav_sim/defect.hpp"
+
+namespace urban_nav_sim {
+
+// What the devices have to be told so that they have these defects and no others.
+StereoImages stereoImages(const Defects& defects);
+/// `sensor`: Stereo or Ladybug.
+CameraDefects cameraDefects(const Defects& defects, Sensor sensor);
+Lms291::Settings laserSettings(const Defects& defects);
+ImuOptions imuOptions(const Defects& defects);
+WheelOptions wheelOptions(const Defects& defects);
+GpsOptions gpsOptions(const Defects& defects);
+/// `seed`: of offsets and skews.
+ClockOptions clockOptions(const Defects& defects, Sensor sensor, std::uint64_t seed);
+
+}  // namespace urban_nav_sim

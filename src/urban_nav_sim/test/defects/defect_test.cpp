@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_sim/defect.hpp"
+
+#include <gtest/gtest.h>
+
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav_sim {
+namespace {
+
+TEST(Defects, SensorsHaveTheUsualOnes) {
+  const Defects defects;
+  EXPECT_TRUE(defects.has(Sensor::Stereo, Defect::Noise));
+  EXPECT_TRUE(defects.has(Sensor::Gps, Defect::Gaps));
+  EXPECT_FALSE(defects.has(Sensor::Stereo, Defect::Lens));
+  EXPECT_FALSE(defects.has(Sensor::Lasers, Defect::Offset));
+  for (const Sensor sensor : all_sensors) {
+    EXPECT_TRUE(defects.has(sensor, Defect::Jitter)) << toString(sensor);
+    EXPECT_FALSE(defects.has(sensor, Defect::Clock)) << toString(sensor);
+  }
+}
+
+TEST(Defects, AreSwitchedOneByOne) {
+  Defects defects;
+  defects.switchOff("imu:noise");
+  EXPECT_FALSE(defects.has(Sensor::Imu, Defect::Noise));
+  EXPECT_TRUE(defects.has(Sensor::Imu, Defect::Bias));
+  EXPECT_TRUE(defects.has(Sensor::Stereo, Defect::Noise));
+  defects.switchOn("imu:noise");
+  defects.switchOn("stereo:lens");
+  EXPECT_TRUE(defects.has(Sensor::Imu, Defect::Noise));
+  EXPECT_TRUE(defects.has(Sensor::Stereo, Defect::Lens));
+}
+
+TEST(Defects, AllStandsForSensorsAndForUsualDefects) {
+  Defects defects;
+  defects.switchOff("all:all");
+  for (const Sensor sensor : all_sensors) EXPECT_FALSE(defects.has(sensor, Defect::Jitter)) << toString(sensor);
+  EXPECT_FALSE(defects.has(Sensor::Lasers, Defect::Edges));
+  defects.switchOn("all:clock");
+  for (const Sensor sensor : all_sensors) EXPECT_TRUE(defects.has(sensor, Defect::Clock)) << toString(sensor);
+  defects.switchOn("stereo:all");
+  EXPECT_TRUE(defects.has(Sensor::Stereo, Defect::Blur));
+  EXPECT_FALSE(defects.has(Sensor::Stereo, Defect::Lens));  // a pair of another kind, not one with more errors
+}
+
+/// What is wrong is named, and what there is.
+void expectComplaint(const std::string& word, const std::string& found, const std::string& allowed) {
+  try {
+    Defects().switchOff(word, "--without");
+    ADD_FAILURE() << word << " was taken";
+  } catch (const urban_nav_core::UserError& error) {
+    const std::string words = error.what();
+    EXPECT_NE(words.find("--without"), std::string::npos) << words;
+    EXPECT_NE(words.find(found), std::string::npos) << words;
+    EXPECT_NE(words.find(allowed), std::string::npos) << words;
+  }
+}
+
+TEST(Defects, SaysWhatThereIs) {
+  expectComplaint("imu", "imu", "SENSOR:DEFECT");
+  expectComplaint("", "\"\"", "SENSOR:DEFECT");
+  expectComplaint("sonar:noise", "sonar", "stereo, ladybug, lasers, imu, wheels, gps");
+  expectComplaint("imu:blur", "imu:blur", "noise, bias, jitter, clock");
+  expectComplaint("all:rust", "all:rust", "vignetting");
+  for (const Sensor sensor : all_sensors)
+    EXPECT_NE(defectHelp().find(toString(sensor)), std::string::npos) << toString(sensor);
+}
+
+}  // namespace
+}  // namespace urban_nav_sim
