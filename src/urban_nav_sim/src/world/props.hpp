@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "noise/hash.hpp"
 #include "world/site.hpp"
 
 namespace urban_nav_sim {
@@ -29,6 +30,9 @@ void sendWalker(Site& site, const std::vector<Eigen::Vector2d>& line, double spe
 /// A car that drives along a line and back; it turns on the spot, so its ends had better be out of sight.
 void sendCar(Site& site, const Eigen::Vector2d& from, const Eigen::Vector2d& to, double speed, double phase,
              std::uint64_t seed);
+/// Cars that drive along a line one behind the other, all at one speed (m/s), again and again. Its ends must be out of sight.
+void sendTraffic(Site& site, const Eigen::Vector2d& from, const Eigen::Vector2d& to, double speed, int cars,
+                 Draw& draw);
 
 /// m
 constexpr double kCarLength = 4.2, kCarWidth = 1.8;

@@ -150,11 +150,9 @@ void fillDay(Site& site, const Plan& p, std::uint32_t seed, int day) {
     const double y = draw.chance(0.5) ? kRoad + 1.3 : -kRoad - 1.3, x = p.first(draw.index(3));
     sendWalker(site, {{x, y}, {x + p.house * p.houses, y}}, draw.uniform(1.0, 1.6), draw.uniform(), draw.bits());
   }
-  for (int i = 0; i < (day == 1 ? 1 : 3); ++i) {
-    // The robot turns off to the north alone, and the ends are inside houses.
-    sendCar(site, {p.sideStreet(kBlocks + 1) - 3.0, -3.2}, {p.sideStreet(-1) + 2.5, -3.2}, draw.uniform(5, 8),
-            draw.uniform(), draw.bits());
-  }
+  // The robot turns off to the north alone, and the ends are inside houses.
+  const Vector2d east(p.sideStreet(kBlocks + 1) - 3.0, -3.2), west(p.sideStreet(-1) + 2.5, -3.2);
+  sendTraffic(site, east, west, draw.uniform(5, 8), day == 1 ? 2 : 4, draw);
 }
 
 }  // namespace

@@ -33,6 +33,20 @@ std::function<Pose(double)> toAndFro(const std::vector<Vector2d>& line, double s
   };
 }
 
+/// From one place to the other, and back where nobody sees it, under the ground: for ends that are out of sight.
+std::function<Pose(double)> oneWay(const Vector2d& from, const Vector2d& to, double speed, double phase,
+                                   const std::function<double(double, double)>& ground) {
+  constexpr double depth = 8.0;  // m
+  const double length = (to - from).norm();
+  const Vector2d along = (to - from) / length;
+  return [=](double t) {
+    const double s = std::fmod(speed * t + 2.0 * length * phase, 2.0 * length);
+    const bool back = s > length;
+    const Vector2d p = from + (back ? 2.0 * length - s : s) * along;
+    return poseAt({p.x(), p.y(), ground(p.x(), p.y()) - (back ? depth : 0.0)}, std::atan2(along.y(), along.x()));
+  };
+}
+
 /// A body with the same outline at each side: `outline` counter-clockwise in the x-z plane as seen from the right (-y).
 void prism(Site& site, const Finish& finish, const std::vector<Vector2d>& outline, double half_width, double narrower) {
   const std::size_t n = outline.size();
@@ -175,6 +189,16 @@ void sendCar(Site& site, const Vector2d& from, const Vector2d& to, double speed,
   site.beginMover();
   makeCar(site, seed % 5 == 0, seed);
   site.release(toAndFro({from, to}, speed, phase, site.world().ground, 0.0));
+}
+
+void sendTraffic(Site& site, const Vector2d& from, const Vector2d& to, double speed, int cars, Draw& draw) {
+  const double first = draw.uniform();
+  for (int i = 0; i < cars; ++i) {
+    const std::uint64_t seed = draw.bits();
+    site.beginMover();
+    makeCar(site, seed % 5 == 0, seed);
+    site.release(oneWay(from, to, speed, first + static_cast<double>(i) / cars, site.world().ground));
+  }
 }
 
 }  // namespace urban_nav_sim

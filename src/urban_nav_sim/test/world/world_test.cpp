@@ -176,6 +176,26 @@ TEST_P(Worlds, IsTheSameAgainAndItsBuildingsStandOnOtherDays) {
   EXPECT_NE(first.movers.size(), later.movers.size());
 }
 
+TEST_P(Worlds, HasNoCarsInEachOther) {
+  const World world = buildWorld(GetParam(), 7, 2);
+  std::vector<const Mover*> cars;
+  for (const Mover& mover : world.movers) {
+    const auto is_car = [&](const Part& part) {
+      return world.materials[part.material].surface_class == SurfaceClass::Vehicle;
+    };
+    if (std::any_of(mover.parts.begin(), mover.parts.end(), is_car)) cars.push_back(&mover);
+  }
+  EXPECT_GE(cars.size(), GetParam() == "street" ? 4U : 0U);
+  for (double t = 0.0; t < 300.0; t += 0.25) {
+    for (std::size_t i = 0; i < cars.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const Eigen::Vector3d a = cars[i]->T_world_mover(t).t(), b = cars[j]->T_world_mover(t).t();
+        ASSERT_GT((a - b).norm(), 4.5) << "at " << t << " s";
+      }
+    }
+  }
+}
+
 TEST_P(Worlds, IsMadeOfProperTriangles) {
   const World& world = worldOf(GetParam());
   std::size_t triangles = 0;
