@@ -17,7 +17,7 @@
 #include "front_end/row_offset.hpp"
 #include "front_end/temporal.hpp"
 #include "front_end/tracks.hpp"
-#include "health/edge_width.hpp"
+#include "edge_width.hpp"
 
 namespace swf_vo {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "health/edge_width.hpp"
+#include "edge_width.hpp"
 #include "observation.hpp"
 #include "swf_vo/parameters.hpp"
 #include "urban_nav_core/camera/stereo_camera.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "health/edge_width.hpp"
+#include "edge_width.hpp"
 
 namespace swf_vo {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "health/edge_width.hpp"
+#include "edge_width.hpp"
 #include "swf_vo/frame.hpp"
 #include "urban_nav_core/types/stereo_pair.hpp"
 

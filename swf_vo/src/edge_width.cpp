@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "health/edge_width.hpp"
+#include "edge_width.hpp"
 
 #include <algorithm>
 #include <array>
