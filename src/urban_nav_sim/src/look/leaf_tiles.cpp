@@ -15,7 +15,9 @@ struct Drawn {
   std::vector<std::uint8_t> ranks;
 };
 
-Drawn leavesOn(int size, float texel, int count, double low, double high, float background, std::uint64_t seed) {
+/// `blossoms`: share of them that are of the second colour; 0: each is of some colour between the two.
+Drawn leavesOn(int size, float texel, int count, double low, double high, float background, double blossoms,
+               std::uint64_t seed) {
   Drawn drawn{Canvas(size, 0.4F), Canvas(size, background),
               std::vector<std::uint8_t>(static_cast<std::size_t>(size) * static_cast<std::size_t>(size), 0)};
   Draw draw(seed);
@@ -26,7 +28,8 @@ Drawn leavesOn(int size, float texel, int count, double low, double high, float 
                  slim = draw.uniform(0.45, 0.75);
     // Later leaves lie above earlier ones and see more light.
     const double light = -0.3 + 0.5 * i / count + 0.22 * draw.normal();
-    const float share = static_cast<float>(std::clamp(0.4 + 0.3 * draw.normal(), 0.0, 1.0));
+    const double between = std::clamp(0.4 + 0.3 * draw.normal(), 0.0, 1.0);
+    const float share = static_cast<float>(blossoms > 0.0 ? (draw.chance(blossoms) ? 1.0 : 0.0) : between);
     const auto rank = static_cast<std::uint8_t>(1 + draw.index(255));
     const int reach = static_cast<int>(half) + 1;
     for (int y = -reach; y <= reach; ++y) {
@@ -57,16 +60,16 @@ bool Cut::isThere(const Eigen::Vector2f& at, float leaves) const {
 
 Leaves drawLeaves(int count, double low, double high, std::uint64_t seed) {
   const Cut shape;
-  Drawn drawn = leavesOn(shape.size, shape.period / static_cast<float>(shape.size), count, low, high, 0.0F, seed);
+  Drawn drawn = leavesOn(shape.size, shape.period / static_cast<float>(shape.size), count, low, high, 0.0F, 0.0, seed);
   auto cut = std::make_shared<Cut>(shape);
   cut->ranks = std::move(drawn.ranks);
   return {std::make_shared<Tile>(shape.size, shape.period, drawn.mix.values(), drawn.tone.values()), cut};
 }
 
-std::shared_ptr<const Tile> drawHedge(std::uint64_t seed) {
+std::shared_ptr<const Tile> drawHedge(double blossoms, std::uint64_t seed) {
   const int size = 1024;
   const float period = 3.0F;
-  Drawn drawn = leavesOn(size, period / static_cast<float>(size), 26000, 0.025, 0.06, -0.5F, seed);
+  Drawn drawn = leavesOn(size, period / static_cast<float>(size), 26000, 0.025, 0.06, -0.5F, blossoms, seed);
   const Canvas depth = fractalNoise(size, 16, 16, 4, 0.7F, hash(seed, 5));
   for (std::size_t i = 0; i < drawn.tone.values().size(); ++i) {
     const float hole = smoothStep(0.8F, 1.8F, depth.values()[i]);

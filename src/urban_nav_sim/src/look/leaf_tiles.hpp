@@ -26,8 +26,8 @@ struct Leaves {
 
 /// Leaves of `low` to `high` m length, `count` of them on a square of 2 m.
 Leaves drawLeaves(int count, double low, double high, std::uint64_t seed);
-/// A dense hedge or shrub: leaves that hide all behind them.
-std::shared_ptr<const Tile> drawHedge(std::uint64_t seed);
+/// A dense hedge or shrub: leaves that hide all behind them. `blossoms`: share of them that are wholly of the second colour.
+std::shared_ptr<const Tile> drawHedge(double blossoms, std::uint64_t seed);
 std::shared_ptr<const Tile> drawBark(std::uint64_t seed);
 
 }  // namespace urban_nav_sim

@@ -81,7 +81,7 @@ Material Stock::wall(Stuff stuff, Draw& v) {
       m.name = "slate", m.detail = tile(Drawing::Slate);
       base = varied({0.12F, 0.13F, 0.15F}, 0.1, 0.05, v);
       colour(m, base, base * 0.3F, 1.0F), infrared(m, 0.2F, 0.1F, 0.5F);
-      m.layers = {clouds(1.2F, 0.3F, base * 0.8F, Vector3f(0.05F, 0.05F, 0.0F)), Layer()};
+      m.layers = {clouds(1.2F, 0.3F, base * 0.4F, Vector3f(0.03F, 0.03F, 0.01F)), Layer()};
       m.surface_class = SurfaceClass::Other, m.shines = 0.2F;
       break;
     case Stuff::RoofTile:
@@ -179,7 +179,7 @@ Material Stock::plant(Stuff stuff, Draw& v) {
   }
   m.layers = {clouds(0.5F, 0.3F, green * 1.2F, light * 0.4F), Layer()};
   m.name = "hedge";
-  m.detail = tile(stuff == Stuff::Bark ? Drawing::Bark : Drawing::Hedge);
+  m.detail = tile(stuff == Stuff::Bark ? Drawing::Bark : stuff == Stuff::Flowers ? Drawing::Flowers : Drawing::Hedge);
   if (stuff == Stuff::Shrub) m.name = "shrub", m.stretch = 1.6F;
   if (stuff == Stuff::Flowers) {
     m.name = "flowers";
@@ -302,7 +302,8 @@ std::shared_ptr<const Tile> Stock::draw(Drawing drawing) const {
     case Drawing::Soil: return drawSoil(bond.seed);
     case Drawing::Clouds: return drawClouds(bond.seed);
     case Drawing::Streaks: return drawStreaks(bond.seed);
-    case Drawing::Hedge: return drawHedge(bond.seed);
+    case Drawing::Hedge: return drawHedge(0.0, bond.seed);
+    case Drawing::Flowers: return drawHedge(0.22, bond.seed);
     case Drawing::Bark: return drawBark(bond.seed);
     case Drawing::Sash: return drawWindow(3, 4, bond.seed);
     case Drawing::Casement: return drawWindow(2, 3, bond.seed);

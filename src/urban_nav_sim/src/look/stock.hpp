@@ -78,7 +78,8 @@ class Stock {
     Sash,
     Casement,
     Shop,
-    Boards
+    Boards,
+    Flowers
   };
   std::shared_ptr<const Tile> tile(Drawing drawing);
   std::shared_ptr<const Tile> draw(Drawing drawing) const;

@@ -78,16 +78,41 @@ void buildWings(Site& site, const Plan& p, std::uint32_t seed) {
   style.doors = {0, 0, 0, 5}, style.windows = {false, true, false, true};
   wing({p.east, p.south, p.garden, p.gate - 0.5 * kArch}, 2);
   wing({p.east, p.gate + 0.5 * kArch, p.garden, p.north}, 4);
-  // Over the archway: a block with a tower, whose underside is the vault.
-  const double low = site.ground(p.east + 4, p.gate) + 3.3, high = low + 7.5, y0 = p.gate - 0.5 * kArch - 0.6,
-               y1 = p.gate + 0.5 * kArch + 0.6;
-  const double x0 = p.east - 0.35, x1 = p.garden + 0.35;
+}
+
+/// A tower over the archway: a barrel vault through it, round arches with a ring of stones at both ends.
+void buildGate(Site& site, const Plan& p) {
+  constexpr int kStones = 11;
+  constexpr double kRing = 0.4, kProud = 0.06;  // m: how broad the ring is, and how far before the wall
+  const double radius = 0.5 * kArch, floor = site.ground(p.east + 4, p.gate);
+  const double spring = floor + 2.2, low = spring + radius + 0.1, high = floor + 10.8;
+  const double x0 = p.east - 0.35, x1 = p.garden + 0.35, y0 = p.gate - radius - 0.6, y1 = p.gate + radius + 0.6;
   const Finish tower{Stuff::Ashlar, 7, 55};
   site.box(tower, {0.5 * (x0 + x1), p.gate, low}, {x1 - x0, y1 - y0, high - low});
-  site.quad(tower, {x0, y1, low}, {x1, y1, low}, {x1, y0, low}, {x0, y0, low});
+  const auto on_arch = [&](double x, int stone, double r) {
+    const double angle = M_PI * stone / kStones;
+    return Vector3d(x, p.gate - r * std::cos(angle), spring + r * std::sin(angle));
+  };
+  const auto over = [&](const Vector3d& q) { return Vector3d(q.x(), q.y(), low); };
+  for (int i = 0; i < kStones; ++i) {
+    const Finish stone{Stuff::Ashlar, 7, static_cast<std::uint32_t>(60 + i)};
+    site.quad(tower, on_arch(x0, i + 1, radius), on_arch(x1, i + 1, radius), on_arch(x1, i, radius),
+              on_arch(x0, i, radius));
+    for (const double side : {-1.0, 1.0}) {
+      const double x = side < 0 ? x0 : x1, out = x + side * kProud;
+      const int a = side < 0 ? i + 1 : i, b = side < 0 ? i : i + 1;  // counter-clockwise as seen from outside
+      const Vector3d left = on_arch(x, a, radius), right = on_arch(x, b, radius);
+      site.quad(tower, over(right), over(left), left, right, {right.y(), 0});
+      site.quad(stone, on_arch(out, a, radius), on_arch(out, b, radius), on_arch(out, b, radius + kRing),
+                on_arch(out, a, radius + kRing), {1.7 * i, 0.4 * i});
+      site.quad(stone, on_arch(out, b, radius), on_arch(out, a, radius), left, right);
+      site.quad(stone, on_arch(out, a, radius + kRing), on_arch(out, b, radius + kRing), on_arch(x, b, radius + kRing),
+                on_arch(x, a, radius + kRing));
+    }
+  }
   for (const double x : {x0 + 0.2, x1 - 0.2}) {
-    for (const double y : {p.gate - 0.5 * kArch - 0.3, p.gate + 0.5 * kArch + 0.3})
-      site.box(tower, {x, y, low - 3.8}, {0.4, 0.6, 3.8});
+    for (const double y : {p.gate - radius - 0.3, p.gate + radius + 0.3})
+      site.box(tower, {x, y, floor - 0.5}, {0.4, 0.6, low - floor + 0.5});
     for (double y = y0 + 0.3; y < y1; y += 1.0) site.box(tower, {x, y, high}, {0.4, 0.6, 0.7});
   }
 }
@@ -218,8 +243,9 @@ World buildQuad(std::uint32_t seed, int day) {
               }},
              {{Stuff::Soil, 0, 1}, [&](double x, double y) { return 1.6 - distanceTo(path, x, y); }},
              {{Stuff::Meadow, 0, 1}, nullptr}});
-  laySurroundings(site, all, 60.0, {Stuff::Meadow, 1, 2});
+  laySurroundings(site, all, 60.0, {Stuff::Meadow, 0, 1});
   buildWings(site, plan, seed);
+  buildGate(site, plan);
   furnishCourt(site, plan, seed);
   plantGardens(site, plan, seed);
   const Extent g = plan.gardens();
