@@ -19,7 +19,7 @@ class Imager {
  public:
   struct Settings {
     double vignetting = 0.30;  ///< share of light that is lost in the corners
-    double spread = 0.50;      ///< px, sigma of the point spread
+    double spread = 0.44;      ///< px, sigma of the point spread beside what looks are filtered by (look/tile.cpp)
     double read_noise = 0.40;  ///< grey levels without gain
     /// Levels^2 per level without gain. Not from a data sheet: with it and the above, frames have about the noise of real ones (bench/realism).
     double shot_noise = 0.0033;

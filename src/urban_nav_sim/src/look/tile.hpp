@@ -18,9 +18,9 @@ struct Footprint {
 /// widths gets a wider one, so the look-up's time is bounded; what is lost is sharpness, not the mean.
 Footprint footprintOf(const Eigen::Vector2f& per_u, const Eigen::Vector2f& per_v, int most_taps);
 
-/// Two numbers for each place of a plane, periodic in both directions, with a pyramid of box means (Williams 1983): `mix`
+/// Two numbers for each place of a plane, periodic in both directions, with a pyramid (Williams 1983) of smoothed copies: `mix`
 /// (0 ... 1) says which of two colours is there, `tone` (-1 ... 1, mean zero by custom) how light it is.
-/// The mean over any footprint is that of the texels under it, to 1e-4 and without a shift: levels are means of 2x2.
+/// The mean over any footprint is that of the texels under it, to 1e-4 and without a shift: levels are weighted means, symmetric about their texels.
 class Tile {
  public:
   struct Value {
