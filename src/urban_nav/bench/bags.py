@@ -84,6 +84,47 @@ def rate(body):
     return stamp, frame, np.array(struct.unpack_from("<3d", body, place + 32 + 72))
 
 
+def force(body):
+    """Specific force of a sensor_msgs/Imu."""
+    return np.array(struct.unpack_from("<3d", body, header(body)[2] + 32 + 72 + 24 + 72))
+
+
+def speeds(body):
+    """Stamp, forward speed, yaw rate of a nav_msgs/Odometry."""
+    stamp, _, place = header(body)
+    place = _text(body, place)[1] + 8 * (7 + 36)
+    return stamp, *struct.unpack_from("<d32xd", body, place)
+
+
+def velocity(body):
+    """Stamp, linear velocity of a geometry_msgs/TwistStamped."""
+    stamp, _, place = header(body)
+    return stamp, np.array(struct.unpack_from("<3d", body, place))
+
+
+def image(body):
+    """Stamp (ns), pixels of a sensor_msgs/Image of 8 bits in grey."""
+    _, seconds, nanoseconds = struct.unpack_from("<3I", body)
+    place = header(body)[2]
+    height, width = struct.unpack_from("<2I", body, place)
+    encoding, place = _text(body, place + 8)
+    step = struct.unpack_from("<I", body, place + 1)[0]
+    if encoding != "mono8":
+        raise ValueError(f"an image of {encoding}, not mono8")
+    pixels = np.frombuffer(body, np.uint8, height * step, place + 9).reshape(height, step)
+    return 1_000_000_000 * seconds + nanoseconds, pixels[:, :width]
+
+
+def camera_info(body):
+    """D, K, R, P of a sensor_msgs/CameraInfo."""
+    place = header(body)[2] + 8
+    place = _text(body, place)[1]
+    count = struct.unpack_from("<I", body, place)[0]
+    numbers = np.frombuffer(body, "<f8", count + 30, place + 4)
+    rest = numbers[count:]
+    return numbers[:count], rest[:9].reshape(3, 3), rest[9:18].reshape(3, 3), rest[18:].reshape(3, 4)
+
+
 def rotation(quaternion):
     """Matrices of (..., 4) quaternions x, y, z, w."""
     x, y, z, w = np.moveaxis(np.asarray(quaternion, float), -1, 0)

@@ -14,83 +14,11 @@ import numpy as np
 
 import bags
 from support import commit, show
+from truth import Surface, Truth, angle, inverse, moved
 
 NEAR, FAR = 1.0, 6.0  # m of depth in which a pair measures well
 STEP = 6              # frames from one to the next whose motion is looked for: some 0.4 m
 
-
-# The truth
-
-class Truth:
-    """base_link in `world` at any time between the poses of trajectory.tum."""
-
-    def __init__(self, path):
-        rows = np.loadtxt(path)
-        self.stamps, self.places, self.quaternions = rows[:, 0], rows[:, 1:4], rows[:, 4:8]
-        for i in range(1, len(rows)):  # the same turn, on the side of the sphere where its neighbour is
-            if self.quaternions[i] @ self.quaternions[i - 1] < 0:
-                self.quaternions[i] *= -1
-
-    def at(self, when):
-        when = np.atleast_1d(when)
-        poses = np.tile(np.eye(4), (len(when), 1, 1))
-        between = [np.interp(when, self.stamps, self.quaternions[:, i]) for i in range(4)]
-        quaternion = np.stack(between, -1)
-        poses[:, :3, :3] = bags.rotation(quaternion / np.linalg.norm(quaternion, axis=1, keepdims=True))
-        poses[:, :3, 3] = np.stack([np.interp(when, self.stamps, self.places[:, i]) for i in range(3)], -1)
-        return poses
-
-
-class Surface:
-    """The true surfaces, as points of cloud.ply; a plane through the nearest twelve where they lie in one."""
-
-    def __init__(self, path, way):
-        with open(path, "rb") as file:
-            while not (line := file.readline()).startswith(b"end_header"):
-                if line.startswith(b"element vertex"):
-                    count = int(line.split()[2])
-            rows = np.frombuffer(file.read(), np.dtype([("p", "<f4", 3), ("class", "u1")]), count)
-        points = rows["p"]
-        low, high = way.min(0)[:2] - 16, way.max(0)[:2] + 16
-        inside = ((points[:, :2] > low) & (points[:, :2] < high)).all(1)
-        self.points = np.ascontiguousarray(points[inside])
-        self.index = cv2.flann_Index(self.points, {"algorithm": 4})  # a kd-tree, exact
-
-    def planes(self, queries):
-        """Centre, normal and whether there is a plane at all near each point."""
-        near, squares = self.index.knnSearch(np.ascontiguousarray(queries, np.float32), 12, params={"checks": -1})
-        patch = self.points[near].astype(float)
-        centre = patch.mean(1)
-        apart = patch - centre[:, None]
-        values, vectors = np.linalg.eigh(np.einsum("nki,nkj->nij", apart, apart))
-        flat = (values[:, 0] < 1e-6 * values[:, 2]) & (values[:, 1] > 0.02 * values[:, 2])
-        return centre, vectors[:, :, 0], flat & (squares[:, 0] < 0.3 ** 2)
-
-    def along(self, origins, points):
-        """How far (m, along the ray from its origin) each point lies behind the plane beside it, and which have one."""
-        centre, normal, flat = self.planes(points)
-        ray = points - origins
-        ray /= np.linalg.norm(ray, axis=1, keepdims=True)
-        slope = np.einsum("ni,ni->n", ray, normal)
-        flat &= np.abs(slope) > 0.3
-        return np.einsum("ni,ni->n", points - centre, normal) / np.where(flat, slope, 1.0), flat
-
-
-def moved(pose, points):
-    return points @ pose[:3, :3].T + pose[:3, 3]
-
-
-def inverse(pose):
-    result = np.eye(4)
-    result[:3, :3], result[:3, 3] = pose[:3, :3].T, -pose[:3, :3].T @ pose[:3, 3]
-    return result
-
-
-def angle(turn):
-    return np.degrees(np.linalg.norm(cv2.Rodrigues(turn)[0]))
-
-
-# What was measured
 
 class Session:
     def __init__(self, bag, folder):
@@ -253,14 +181,11 @@ def beams(session):
 
 
 def gyroscope(session):
-    """Rates beside those of the true way, over 20 ms."""
+    """Rates beside those of the true way."""
     inside = [r for r in session.rates
               if session.truth.stamps[0] + 0.02 < r[0] < session.truth.stamps[-1] - 0.02]
-    stamps, off = np.array([r[0] for r in inside]), []
-    before, after = session.truth.at(stamps - 0.01), session.truth.at(stamps + 0.01)
-    for (_, frame, rate), a, b in zip(inside, before, after):
-        true = session.places[frame][:3, :3].T @ (cv2.Rodrigues(a[:3, :3].T @ b[:3, :3])[0].ravel() / 0.02)
-        off.append(rate - true)
+    true = session.truth.rates(np.array([r[0] for r in inside]))
+    off = [rate - session.places[frame][:3, :3].T @ turn for (_, frame, rate), turn in zip(inside, true)]
     return [["gyroscope less the true rate, root mean square", f"{np.sqrt(np.mean(np.square(off))):.4f} rad/s", "",
              len(off)]]
 

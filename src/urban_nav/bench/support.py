@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 TOP = Path(__file__).resolve().parents[3]
+WORLDS = ("quad", "begbroke", "street")
 
 
 def urban_nav(*arguments):
@@ -14,6 +15,22 @@ def urban_nav(*arguments):
     result = subprocess.run([TOP / "urban_nav", *map(str, arguments)], capture_output=True, text=True)
     if result.returncode != 0:
         sys.exit(f"urban_nav {' '.join(map(str, arguments))}:\n{result.stderr[-2000:]}")
+
+
+def simulated(folder, world, seed, duration, *options):
+    """The stereo stream of a session as a KITTI folder; what is there already is taken."""
+    if not (folder / "poses.txt").exists():
+        print(f"drives {folder.name} for {duration} s", file=sys.stderr)
+        urban_nav("simulate", "--world", world, "--seed", seed, "--duration", duration, "--sensors", "stereo", *options, "--folder", folder,
+                  "-o", f"{folder}.bag")
+        Path(f"{folder}.bag").unlink()  # the folder has all of it
+    return folder
+
+
+def mapped(folder, out, *settings):
+    """What visual odometry makes of a folder: its summary, compared with the truth that lies there."""
+    urban_nav("map", folder, "--stages", "vo", "--out", out, *(word for each in settings for word in ("--set", each)))
+    return json.loads((out / "summary.json").read_text())
 
 
 def machine():

@@ -7,23 +7,12 @@ poses with --peer.
 """
 import argparse
 import json
-import sys
 from pathlib import Path
 
-from support import commit, show, urban_nav
+from support import WORLDS, commit, mapped, show, simulated, urban_nav
 
-WORLDS = ("quad", "begbroke", "street")
 PLAIN = ("swf_vo.window=1", "swf_vo.forget=delete", "swf_vo.subpixel=false")
 COLUMNS = ("world", "system", "10 frames", "10 m", "position, rms, mm", "NEES", "frames not OK", "ms a frame, median")
-
-
-def simulate(world, arguments):
-    folder = arguments.folder / f"{world}{arguments.seed}"
-    if not (folder / "poses.txt").exists():
-        print(f"drives {world} for {arguments.duration} s", file=sys.stderr)
-        urban_nav("simulate", "--world", world, "--seed", arguments.seed, "--duration", arguments.duration, "--sensors", "stereo",
-            "--folder", folder, "-o", f"{folder}.bag")
-    return folder
 
 
 def row(world, system, found):
@@ -37,12 +26,11 @@ def row(world, system, found):
 
 
 def rows_of(world, arguments):
-    folder = simulate(world, arguments)
+    folder = simulated(arguments.folder / f"{world}{arguments.seed}", world, arguments.seed, arguments.duration)
     rows = []
     for system, settings in (("swf_vo", ()), ("plain", PLAIN)):
         out = arguments.folder / f"{folder.name}_{system}"
-        urban_nav("map", folder, "--stages", "vo", "--out", out, *(word for s in settings for word in ("--set", s)))
-        rows.append(row(world, system, json.loads((out / "summary.json").read_text())))
+        rows.append(row(world, system, mapped(folder, out, *settings)))
     for name, of, poses in (peer.split("=", 2) for peer in arguments.peer):
         if of == world:
             found = arguments.folder / f"{folder.name}_{name}.json"

@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Visual odometry in the simulated worlds: is its covariance right, what do faults do to it, does it follow a start at 2 cm/s?
+
+    python3 bars.py consistency FOLDER [--seed N]... [-o bars_consistency.json]
+    python3 bars.py faults FOLDER [--peer NAME=PROGRAM] [-o bars_faults.json]
+    python3 bars.py creep FOLDER [--peer NAME=PROGRAM] [-o bars_creep.json]
+
+Shipped parameters; sessions are simulated into FOLDER unless they are there. Another system beside it: PROGRAM FOLDER POSES takes a KITTI folder and writes
+KITTI's poses.
+"""
+import argparse
+import csv
+import json
+import shutil
+import subprocess
+from pathlib import Path
+
+import numpy as np
+
+from support import WORLDS, commit, mapped, show, simulated, urban_nav
+
+FRAMES = (50, 100, 200, 400)  # after which the last pose is compared with the truth
+SEEDS, LENGTH = (7, 8, 9), 20  # s
+BEGIN, DURATION, SHORT = 1.5, 1.0, 4  # s: of a fault, of its session
+FAULTS = (("drop", ":0.3"), ("freeze", ""), ("swap", ""), ("corrupt", ":0.3"), ("jump", ""), ("unplug", ""), ("nan", ""))
+CREPT, CREEP = (0.01, 0.02, 0.05), 5  # m, s
+RATE = 20  # Hz
+
+
+def first_frames(folder, count):
+    """A KITTI folder with the first frames of another, by links."""
+    part = folder.with_name(f"{folder.name}_{count}")
+    if part.exists():
+        shutil.rmtree(part)
+    for side in ("image_0", "image_1"):
+        (part / side).mkdir(parents=True)
+        for i in range(count):
+            (part / side / f"{i:06d}.png").symlink_to((folder / side / f"{i:06d}.png").resolve())
+    shutil.copy(folder / "calib.txt", part)
+    for name in ("times.txt", "poses.txt"):
+        (part / name).write_text("\n".join((folder / name).read_text().splitlines()[:count]) + "\n")
+    return part
+
+
+def ended(summary):
+    """Frames that are not OK, and the error of the last pose."""
+    counts = summary["swf_vo"]["status_counts"]
+    return sum(n for status, n in counts.items() if status != "OK"), summary["end"]
+
+
+def peer_poses(peer, folder):
+    name, program = peer.split("=", 1)
+    poses = folder.with_name(f"{folder.name}_{name}.txt")
+    subprocess.run([program, folder, poses], check=True, capture_output=True)
+    return name, poses
+
+
+def consistency(arguments):
+    rows, everything = [], []
+    for world in WORLDS:
+        found = []
+        for seed in arguments.seed or SEEDS:
+            folder = simulated(arguments.folder / f"{world}{seed}", world, seed, LENGTH)
+            ends = [ended(mapped(part, part.with_name(part.name + "_out")))[1] for part in (first_frames(folder, count) for count in FRAMES)]
+            found.append([end["nees"] for end in ends])
+            print(world, seed, found[-1], flush=True)
+            last = ends[-1]
+            rows.append([world, str(seed), *(f"{nees:.1f}" for nees in found[-1]), f"{1e3 * last['error_m']:.1f} mm, {last['error_deg']:.3f} deg"])
+        everything += found
+        rows.append([world, "mean", *(f"{nees:.1f}" for nees in np.mean(found, 0)), ""])
+    rows.append(["all", "mean", *(f"{nees:.1f}" for nees in np.mean(everything, 0)), ""])
+    runs = len(everything)
+    notes = [f"Normalised squared error of the last of so many frames, first poses aligned; 6 is right. {runs} runs: 99 % of means of as many would lie in "
+             f"{band(runs)[0]:.2f}...{band(runs)[1]:.2f}."]
+    return ("world", "seed", *(f"frame {count}" for count in FRAMES), f"error at {FRAMES[-1]}"), rows, notes
+
+
+def band(runs):
+    """99 % of the mean of so many values of chi-square with 6 degrees of freedom lie in it (Wilson and Hilferty 1931)."""
+    freedom = 6 * runs
+    return [freedom * (1 - 2 / (9 * freedom) + z * np.sqrt(2 / (9 * freedom))) ** 3 / runs for z in (-2.5758, 2.5758)]
+
+
+def named(out):
+    """Frames from the beginning of the fault until it is named (status not OK, or a reason), counted in frames that came; the reason; the last status."""
+    with open(out / "stats.csv", newline="") as file:
+        frames = list(csv.DictReader(file))
+    begin = int(frames[0]["stamp_ns"]) + int(1e9 * BEGIN)
+    late = [frame for frame in frames if int(frame["stamp_ns"]) >= begin - 1_000_000]
+    for i, frame in enumerate(late):
+        if frame["status"] != "OK" or frame["reason"] not in ("", "none"):
+            return f"{i}: {frame['reason']}", frames[-1]["status"]
+    return "-", frames[-1]["status"]
+
+
+def faults(arguments):
+    rows = []
+    for world in WORLDS:
+        whole = simulated(arguments.folder / f"{world}{SEEDS[0]}", world, SEEDS[0], LENGTH)
+        fair = first_frames(whole, SHORT * RATE)
+        undisturbed = ended(mapped(fair, fair.with_name(fair.name + "_out")))[1]
+        fair_peers = {}
+        for peer in arguments.peer:
+            name, poses = peer_poses(peer, fair)
+            fair_peers[name] = error_of(poses, fair)
+        rows.append([world, "none", f"{1e3 * undisturbed['error_m']:.1f}", "1.0", f"{undisturbed['nees']:.1f}", "", "", "",
+                     *(f"{1e3 * each:.1f}" for each in fair_peers.values())])
+        for kind, value in FAULTS:
+            fault = f"{kind}:stereo:{BEGIN}:{DURATION}{value}"
+            folder = simulated(arguments.folder / f"{world}{SEEDS[0]}_{kind}", world, SEEDS[0], SHORT, "--fault", fault)
+            out = folder.with_name(folder.name + "_out")
+            not_ok, end = ended(mapped(folder, out))
+            reason, status = named(out)
+            peers = [error_of(peer_poses(peer, folder)[1], folder) for peer in arguments.peer]
+            rows.append([world, fault, f"{1e3 * end['error_m']:.1f}", f"{end['error_m'] / undisturbed['error_m']:.1f}", f"{end['nees']:.1f}",
+                         reason, str(not_ok), status, *(f"{1e3 * each:.1f}" for each in peers)])
+            print(*rows[-1], sep=" | ", flush=True)
+    names = [peer.split("=", 1)[0] for peer in arguments.peer]
+    columns = ("world", "fault", "end off by, mm", "over the undisturbed one's", "NEES at the end", "named after, frames", "frames not OK", "last status",
+               *(f"{name}: end off by, mm" for name in names))
+    return columns, rows, [f"{SHORT} s, seed {SEEDS[0]}, the fault from {BEGIN} s on for {DURATION:.0f} s; loops."]
+
+
+def error_of(poses, folder):
+    found = poses.with_suffix(".json")
+    urban_nav("evaluate", "--truth", folder / "poses.txt", "--estimate", poses, "--json", found)
+    return json.loads(found.read_text())["end"]["error_m"]
+
+
+def way_of(poses):
+    """From the first place to that of each frame, m."""
+    places = np.loadtxt(poses).reshape(-1, 3, 4)[:, :, 3]
+    return np.linalg.norm(places - places[0], axis=1)
+
+
+def creep(arguments):
+    rows = []
+    for world in WORLDS:
+        for seed in arguments.seed or SEEDS[:1]:
+            folder = simulated(arguments.folder / f"{world}{seed}_creep", world, seed, CREEP, "--route", "creep")
+            out = folder.with_name(folder.name + "_out")
+            mapped(folder, out)
+            systems = [("swf_vo", out / "trajectory.kitti"), *(peer_poses(peer, folder) for peer in arguments.peer)]
+            true = way_of(folder / "poses.txt")
+            at = [int(np.argmax(true >= length)) for length in CREPT]
+            for name, poses in systems:
+                told = way_of(poses)
+                rows.append([world, str(seed), name, *(f"{100 * (told[i] / true[i] - 1):+.1f} %" if true[i] >= length else "not reached"
+                                                       for i, length in zip(at, CREPT)), str(at[-1])])
+    columns = ("world", "seed", "system", *(f"after {100 * length:.0f} cm" for length in CREPT), "frames until then")
+    return columns, rows, ["How much too far the left camera seems to be from where it began, once it is truly so far away. Route creep: at 2 cm/s."]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("what", choices=("consistency", "faults", "creep"))
+    parser.add_argument("folder", type=Path, help="for what is simulated and mapped")
+    parser.add_argument("--seed", type=int, action="append", help=f"default: {SEEDS}")
+    parser.add_argument("--peer", action="append", default=[], metavar="NAME=PROGRAM")
+    parser.add_argument("-o", "--output", type=Path, help="the table, for a README")
+    arguments = parser.parse_args()
+    arguments.folder.mkdir(parents=True, exist_ok=True)
+    before = commit()
+    columns, rows, notes = {"consistency": consistency, "faults": faults, "creep": creep}[arguments.what](arguments)
+    show(columns, rows, notes, before, arguments.output)
+
+
+if __name__ == "__main__":
+    main()
