@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <bitset>
-#include <cmath>
 
 #include "urban_nav_core/parallel/for_each.hpp"
 
@@ -13,10 +12,8 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr int kRays = 4;                        // through a pixel
-constexpr int kTogether = kLanes / kRays;       // pixels of a packet
-constexpr float kSamePlane = 1e-3F;             // m
-constexpr float kSameDirection = 1.0F - 1e-4F;  // cosine
+constexpr int kRays = 4;                   // through a pixel
+constexpr int kTogether = kLanes / kRays;  // pixels of a packet
 
 /// Rooks that do not take each other, and not on a diagonal either: any edge, however it lies, goes past them one by one.
 constexpr std::array<int, kRays> kRow = {2, 0, 3, 1};
@@ -24,34 +21,20 @@ float along(int i) { return (static_cast<float>(i) + 0.5F) / kRays - 0.5F; }
 
 int bits(std::uint32_t mask) { return static_cast<int>(std::bitset<kLanes>(mask).count()); }
 
-struct Met {
-  std::uint32_t facet = kNothing, mover = kNothing;
-};
-
-/// Leaves of a tree are one surface, or a pixel of them would be looked at eight times.
-bool areSame(const Tracer& tracer, const Met& a, const Met& b) {
-  if (a.mover != b.mover) return false;
-  if (a.facet == b.facet) return true;
-  if (a.facet == kNothing || b.facet == kNothing) return false;
-  const Facet &one = tracer.facets()[a.facet], &other = tracer.facets()[b.facet];
-  if (one.part != other.part) return false;
-  if (tracer.partOf(one).surface_class == SurfaceClass::Foliage) return true;
-  return one.normal.dot(other.normal) > kSameDirection &&
-         std::abs(one.normal.dot(other.corner - one.corner)) < kSamePlane;
-}
-
-enum class Edge { None, OfSurface, OfShadow };
-
 class Smoother {
  public:
   Smoother(const Tracer& tracer, const Eye& eye, const Traces& traces, Picture& picture)
-      : tracer_(tracer), eye_(eye), traces_(traces), picture_(picture) {}
+      : tracer_(tracer),
+        eye_(eye),
+        traces_(traces),
+        picture_(picture),
+        seams_(tracer, traces, picture.width, picture.height) {}
 
   void row(int v) const {
     std::array<Pixel, kTogether> waiting{};
     int count = 0;
     for (int u = 0; u < picture_.width; ++u) {
-      const Edge edge = edgeAt(u, v);
+      const Edge edge = seams_.at(u, v);
       if (edge == Edge::None) continue;
       waiting[static_cast<std::size_t>(count++)] = {u, edge};
       if (count == kTogether) {
@@ -76,28 +59,6 @@ class Smoother {
     std::array<Share, kRays> all;
     int count = 0;
   };
-
-  bool isLeaf(std::uint32_t facet) const {
-    return facet != kNothing && tracer_.partOf(tracer_.facets()[facet]).surface_class == SurfaceClass::Foliage;
-  }
-
-  /// What its neighbours say that may go through a pixel.
-  Edge edgeAt(int u, int v) const {
-    const std::size_t here = picture_.at(u, v);
-    const Met met{traces_.facet[here], traces_.mover[here]};
-    Edge edge = Edge::None;
-    for (int y = std::max(v - 1, 0); y <= std::min(v + 1, picture_.height - 1); ++y) {
-      for (int x = std::max(u - 1, 0); x <= std::min(u + 1, picture_.width - 1); ++x) {
-        const std::size_t there = picture_.at(x, y);
-        const Met other{traces_.facet[there], traces_.mover[there]};
-        const bool is_one = other.facet == met.facet && other.mover == met.mover;
-        if (!is_one && !areSame(tracer_, met, other)) edge = Edge::OfSurface;
-        else if (traces_.sunlit[there] != traces_.sunlit[here]) return Edge::OfShadow;
-        else if (!is_one && isLeaf(met.facet)) edge = Edge::OfSurface;
-      }
-    }
-    return edge;
-  }
 
   void smooth(const std::array<Pixel, kTogether>& waiting, int count, int v) const {
     Packet packet;
@@ -147,8 +108,7 @@ class Smoother {
   /// Is it the surface that the middle of the pixel has met?
   bool isMiddle(const Eye::Seen& seen, const Share& share, int u, int v) const {
     const std::size_t pixel = picture_.at(u, v);
-    return areSame(tracer_, {traces_.facet[pixel], traces_.mover[pixel]},
-                   {seen.hits.facet[share.first], seen.hits.mover[share.first]});
+    return areSame(tracer_, traces_.met[pixel], {seen.hits.facet[share.first], seen.hits.mover[share.first]});
   }
 
   /// The mean over the shares. `examined`: lanes of which it is known whether the sun shines there; of a share that has none the light is in the
@@ -179,6 +139,7 @@ class Smoother {
   const Eye& eye_;
   const Traces& traces_;
   Picture& picture_;
+  Seams seams_;
 };
 
 }  // namespace

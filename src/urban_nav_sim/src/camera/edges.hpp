@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "camera/eye.hpp"
 #include "camera/render.hpp"
+#include "camera/seams.hpp"
 #include "trace/tracer.hpp"
 
 namespace urban_nav_sim {
-
-/// What the ray through the middle of each pixel met, row by row.
-struct Traces {
-  std::vector<std::uint32_t> facet;  ///< index of Tracer::facets(), or kNothing
-  std::vector<std::uint32_t> mover;  ///< of World::movers, or kNothing
-  std::vector<std::uint8_t> sunlit;
-};
 
 /// Pixels through which the edge of a surface or of its shadow may go: of the colour that several rays through each of them see. Looks are filtered
 /// over the pixel, edges are not: without this they would jump from pixel to pixel, and with them whatever tracks their corners.

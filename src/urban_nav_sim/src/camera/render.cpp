@@ -36,8 +36,7 @@ void renderBlock(const Eye& eye, int u0, int v0, Picture& picture, Traces& trace
     const auto& point = seen.points[static_cast<std::size_t>(lane)];
     const Eigen::Vector3f direction = packet.directionOf(lane);
     const std::size_t pixel = picture.at(u0 + lane % kBlock, v0 + lane / kBlock);
-    traces.facet[pixel] = seen.hits.facet[lane];
-    traces.mover[pixel] = met ? seen.hits.mover[lane] : kNothing;
+    traces.met[pixel] = {seen.hits.facet[lane], met ? seen.hits.mover[lane] : kNothing};
     traces.sunlit[pixel] = sunlit ? 1 : 0;
     picture.depth[pixel] = met ? static_cast<float>(point.distance) : std::numeric_limits<float>::infinity();
     picture.surface_class[pixel] = static_cast<std::uint8_t>(met ? point.surface_class : SurfaceClass::Other);
@@ -58,8 +57,7 @@ void render(const Snapshot& snapshot, const Sky& sky, const RayTable& rays, cons
   picture.depth.resize(pixels);
   picture.surface_class.resize(pixels);
   Traces traces;
-  traces.facet.resize(pixels);
-  traces.mover.resize(pixels);
+  traces.met.resize(pixels);
   traces.sunlit.resize(pixels);
   const Eye eye(snapshot, sky, rays, T_world_camera);
   const auto stripes = static_cast<std::size_t>((picture.height + kBlock - 1) / kBlock);

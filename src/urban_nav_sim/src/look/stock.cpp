@@ -119,7 +119,7 @@ Material Stock::ground(Stuff stuff, Draw& v) {
     case Stuff::Gravel:
       m.name = "gravel", m.detail = tile(Drawing::Gravel), m.surface_class = SurfaceClass::DirtPath;
       base = varied({0.42F, 0.35F, 0.25F}, 0.1, 0.05, v);
-      colour(m, base, base * 0.6F, 0.8F), infrared(m, 0.48F, 0.36F, 0.3F);
+      colour(m, base, base * 0.7F, 0.55F), infrared(m, 0.48F, 0.36F, 0.3F);
       m.layers = {clouds(1.7F, 0.4F, base * 0.2F, base * 0.15F), clouds(0.31F, 1.1F, base * 0.1F, base * 0.1F)};
       break;
     case Stuff::Lawn:
