@@ -90,10 +90,10 @@ def force(body):
 
 
 def speeds(body):
-    """Stamp, forward speed, yaw rate of a nav_msgs/Odometry."""
+    """Stamp, forward speed and yaw rate of a nav_msgs/Odometry."""
     stamp, _, place = header(body)
     place = _text(body, place)[1] + 8 * (7 + 36)
-    return stamp, *struct.unpack_from("<d32xd", body, place)
+    return stamp, np.array(struct.unpack_from("<d32xd", body, place))
 
 
 def velocity(body):
