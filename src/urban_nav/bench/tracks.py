@@ -27,18 +27,21 @@ def column(folder, out):
     """A cell for each row of the table."""
     summary = mapped(folder, out)
     with open(out / "stats.csv", newline="") as file:
-        frames = [row for row in csv.DictReader(file) if row["accepted"] == "1"][1:]
+        frames = [row for row in csv.DictReader(file) if row["accepted"] == "1"]
     stamps = 1e-9 * np.array([int(row["stamp_ns"]) for row in frames])
     places = np.loadtxt(folder / "poses.txt").reshape(-1, 3, 4)[:, :, 3]
     step = np.linalg.norm(np.diff(places, axis=0), axis=1).mean()
     rate = (len(stamps) - 1) / (stamps[-1] - stamps[0])
 
     def of(name):
-        return np.array([float(row[name]) for row in frames])
+        return np.array([float(row[name]) for row in frames[1:]])
+    born = float(frames[0]["features"]) + (of("features") - of("tracked")).sum()
+    length = (float(frames[0]["features"]) + of("features").sum()) / born
     return {"frames a second": f"{rate:.0f}", "velocity (m/s)": f"{step * rate:.2f}", "way between frames (m)": f"{step:.2f}",
             "features per frame": spread(of("features"), ".0f"),
             "... of them seen before": spread(of("tracked"), ".0f"),
-            "feature track length (frames)": spread(of("track_length_mean"), ".1f"),
+            "feature track length (frames)": f"{length:.1f}",
+            "... of those in view, so far": spread(of("track_length_mean"), ".1f"),
             "reprojection error (px)": spread(of("reprojection_px"), ".3f"),
             "frames not OK": str(sum(n for status, n in summary["swf_vo"]["status_counts"].items() if status != "OK"))}
 
@@ -53,8 +56,8 @@ def main():
     folders = [simulated(arguments.worlds / f"{world}{SEED}", world, SEED, LENGTH) for world in WORLDS] + arguments.real
     columns = [column(folder, arguments.worlds / f"tracks_{folder.name}") for folder in folders]
     rows = [[name, PAPER.get(name, ""), *(each[name] for each in columns)] for name in columns[0]]
-    notes = ["Mean (least ... most) over frames; of the paper the means of four sessions (least ... most of all). Track length: of the features of a frame, how many "
-             "frames each has been seen in so far."]
+    notes = ["Mean (least ... most) over frames; of the paper the means of four sessions (least ... most of all). Track length: features of all frames "
+             "over tracks begun."]
     show(("", "paper, Tables 2 and 3", *WORLDS, *(folder.name for folder in arguments.real)), rows, notes, before, arguments.output)
 
 
