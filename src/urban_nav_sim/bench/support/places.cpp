@@ -61,6 +61,17 @@ Recognition recognise(const std::vector<Place>& ride, const std::vector<double>&
   return result;
 }
 
+Neighbour nearestIn(const std::vector<Place>& map, const Place& place, const std::vector<double>& worth) {
+  Neighbour nearest = Neighbour::Elsewhere;
+  double best = -1.0;
+  for (const Place& known : map) {
+    if ((known.position - place.position).norm() < kSameSpot) continue;
+    const double alike = likeness(place.words, known.words, worth);
+    if (alike > best) best = alike, nearest = neighbourOf(place, known);
+  }
+  return nearest;
+}
+
 double shareLost(const Counts& before, const Counts& after) {
   int seen = 0, lost = 0;
   for (std::size_t word = 0; word < before.size(); ++word) {

@@ -40,6 +40,10 @@ struct Recognition {
 };
 Recognition recognise(const std::vector<Place>& ride, const std::vector<double>& worth, double apart);
 
+/// Where the most alike picture of a map is from. Pictures from within kSameSpot are left out: another ride seldom has them.
+constexpr double kSameSpot = 1.0;  ///< m
+Neighbour nearestIn(const std::vector<Place>& map, const Place& place, const std::vector<double>& worth);
+
 /// Of the words in one picture the share that is not in another. 0 if there are none.
 double shareLost(const Counts& before, const Counts& after);
 

@@ -58,6 +58,14 @@ TEST(Places, NewPlacesLikeOldOnesAreTakenForThem) {
   EXPECT_EQ(found.taken_for_known, 1);
 }
 
+TEST(Places, TheNearestInAMapIsNotTheVerySameSpot) {
+  const Counts a = {4, 0}, near_a = {4, 1}, b = {0, 4};
+  const Place here = at(0.2, 0, 0, a);
+  EXPECT_EQ(nearestIn({at(0, 0, 0, a), at(3, 0, 3, near_a), at(60, 0, 60, b)}, here, {1, 1}), Neighbour::Same);
+  EXPECT_EQ(nearestIn({at(0, 0, 0, a), at(3, 0, 3, b), at(60, 0, 60, near_a)}, here, {1, 1}), Neighbour::Elsewhere);
+  EXPECT_EQ(nearestIn({at(0, 0, 0, a), at(8, 0, 8, near_a)}, here, {1, 1}), Neighbour::Near);
+}
+
 TEST(Places, WordsLostAreCountedOnce) {
   EXPECT_DOUBLE_EQ(shareLost({9, 1, 0, 2}, {1, 0, 7, 0}), 2.0 / 3.0);
   EXPECT_EQ(shareLost({0, 0}, {1, 1}), 0.0);
