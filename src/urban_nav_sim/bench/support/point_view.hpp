@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "free_camera.hpp"
+
+namespace urban_nav_sim::bench {
+
+/// A laser's return.
+struct Return {
+  Eigen::Vector3f place;     ///< m, in `world`
+  float reflectance = 0.0F;  ///< 0 ... 255
+};
+
+/// A cloud as a free camera sees it, 8 bit, BGR, on a dark ground: coloured by height (0 ... `top` m over z = 0), light where it
+/// reflects well, darker behind the edges of what is nearer (Boucheny 2009).
+cv::Mat drawCloud(const std::vector<Return>& cloud, const FreeCamera& camera, float top);
+
+}  // namespace urban_nav_sim::bench
