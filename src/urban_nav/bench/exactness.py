@@ -78,12 +78,23 @@ def poses(session):
              len(rows)]]
 
 
+def corners_all_over(image, size=64):
+    """Of each square of the picture the strongest: ground and walls count alike."""
+    found = []
+    for v in range(0, image.shape[0], size):
+        for u in range(0, image.shape[1], size):
+            corners = cv2.goodFeaturesToTrack(image[v:v + size, u:u + size], 20, 0.01, 6)
+            if corners is not None:
+                found.append(corners + np.float32([u, v]))
+    return np.concatenate(found) if found else None
+
+
 def motion(session):
     """Corners of a pair, set into space by their disparity, and found again: solvePnP says how the camera moved."""
     told, true, apart, turns = [], [], [], []
     for i in range(0, len(session.eyes) - STEP, STEP):
         left, right, later = session.image(0, i), session.image(1, i), session.image(0, i + STEP)
-        corners = cv2.goodFeaturesToTrack(left, 800, 0.005, 6)
+        corners = corners_all_over(left)
         if corners is None:
             continue
         other, paired = followed(left, right, corners)
