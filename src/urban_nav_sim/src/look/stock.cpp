@@ -154,7 +154,7 @@ Material Stock::ground(Stuff stuff, Draw& v) {
     default:
       m.name = "asphalt", m.detail = tile(Drawing::Asphalt);
       base = varied({0.125F, 0.122F, 0.117F}, 0.15, 0.03, v);  // worn, not fresh
-      colour(m, base, Vector3f(0.27F, 0.26F, 0.24F), 1.0F), infrared(m, 0.16F, 0.3F, 0.6F);
+      colour(m, base, Vector3f(0.38F, 0.365F, 0.34F), 1.0F), infrared(m, 0.16F, 0.3F, 0.6F);
       m.layers = {clouds(2.0F, 0.4F, base * 0.3F, base * 0.3F), clouds(0.25F, 1.1F, base * 0.18F, base * 0.18F)};
       break;
   }
