@@ -85,7 +85,7 @@ class SwfVo::Implementation {
     const StereoPair usable = evidence.image.exchange ? StereoPair{pair.stamp, pair.right, pair.left} : pair;
 
     const Pose last = started_ ? window_.newest().pose : T_odom_first_camera_;
-    const ProcessInput u = started_ ? prediction_.step(seconds_, inputs) : ProcessInput();
+    ProcessInput u = started_ ? prediction_.step(seconds_, inputs) : ProcessInput();
     const FrontEndResult* seen = nullptr;
     if (evidence.image.usable) {
       seen = &front_end_.process(frame_, usable, last, last * u.T_from_to, window_.map(), window_.disparityOffset(),
@@ -101,6 +101,8 @@ class SwfVo::Implementation {
     const bool blurred = evidence.image.reason == Reason::Blurred;
     // As long as all is blurred, what was known before may come back any frame: nothing begins anew.
     const bool adrift = started_ && trusted && isAdrift(*seen);
+    // Too long a time to predict over, and the images know better: from metres away no residual would lead there.
+    if (started_ && trusted && periods > astray_periods) u.T_from_to = last.inverse() * seen->T_odom_camera;
     takeStep(u, adrift && !blurred ? seen : nullptr);
     if (seen != nullptr && (trusted || !started_) && !(adrift && blurred)) remember(*seen);
     if (seen != nullptr) observe(*seen, trusted);

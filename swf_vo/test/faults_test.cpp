@@ -86,6 +86,22 @@ TEST(Darkness, saysNothingOfTheNoise) {
   EXPECT_GT(before, 0.0);
 }
 
+// A clock that is set ten seconds forwards does not move the camera: the images say where it is.
+TEST(ClockJump, movesNothing) {
+  for (const char* motion : {"loop", "wander"}) {
+    const Recording& room = inTheRoom(motion, 1.0, 80);
+    int seen = 0;
+    playWithFault(room, "jump:1.5:1:10", [&](const Played& played) {
+      if (played.since < 0 || !played.frame.accepted) return;
+      ++seen;
+      EXPECT_LT(distanceBetween(room.truth[played.index], played.frame.T_odom_base.pose), 0.02)
+          << motion << ", " << played.since << " frames after";
+      EXPECT_NE(played.frame.status.health, Health::Lost) << motion << ": " << played.frame.status;
+    });
+    EXPECT_GE(seen, 15);
+  }
+}
+
 class FaultsInTheRoom : public testing::TestWithParam<Trouble> {};
 
 // One end point is a throw of dice: three of them, root mean square.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "edge_width.hpp"
 #include "front_end/across.hpp"
 #include "front_end/corners.hpp"
 #include "front_end/localise.hpp"
@@ -17,7 +18,6 @@
 #include "front_end/row_offset.hpp"
 #include "front_end/temporal.hpp"
 #include "front_end/tracks.hpp"
-#include "edge_width.hpp"
 
 namespace swf_vo {
 
@@ -107,7 +107,8 @@ class FrontEnd::Implementation {
     result_.corners = corners_.count(Side::Left);
     gather(map);
     const bool next = frame == frame_ + 1;
-    if (next) learnNoise(last);
+    T_last_odom_ = last.inverse();
+    if (next) learnNoise();
     for (Match& match : matches_) match.inflation = noise_.of(match.track->noise);
     if (!next || astray) radius_ = first_radius * parameters_.search_radius;
     astray_ = astray_ || astray || !next;
@@ -213,13 +214,12 @@ class FrontEnd::Implementation {
   }
 
   /// What the measurements of the frame before have left, now that the window has them. A landmark's own place takes up its share.
-  void learnNoise(const Pose& last) {
-    const Pose T_last_odom = last.inverse();
+  void learnNoise() {
     for (const Match& match : matches_) {
       Track& track = *match.track;
       if (track.measured != frame_ || track.seen < 2) continue;
-      const auto left = projectInto(Side::Left, camera_, T_last_odom, match.p_odom),
-                 right = projectInto(Side::Right, camera_, T_last_odom, match.p_odom);
+      const auto left = projectInto(Side::Left, camera_, T_last_odom_, match.p_odom),
+                 right = projectInto(Side::Right, camera_, T_last_odom_, match.p_odom);
       if (!left || !right) continue;
       const Eigen::Vector3d r = track.z - Eigen::Vector3d(left->x(), left->y(), right->x());
       const auto coordinates = static_cast<double>((track.information.diagonal().array() > 0.0).count());
@@ -240,17 +240,22 @@ class FrontEnd::Implementation {
   }
 
   /// After frames without measurements the prediction may be far off, most of all in heading, and what is warped by it fits badly. From the headings
-  /// about it, then from the pose that most matches agree on, they are sought again.
+  /// about it, and from where the camera was last, for a clock may jump and the camera need not; then from the pose that most matches agree on, they
+  /// are sought again.
   Localisation matchAstray(Localisation best, const Pose& T_turned_odom, const Pose& T_predicted_odom) {
     radius_ = first_radius * parameters_.search_radius;
-    if (!best.found || 2 * best.inliers < best.candidates)
+    if (!best.found || 2 * best.inliers < best.candidates) {
+      const auto tryFrom = [&](const Pose& T_camera_odom) {
+        const Localisation other = matchCoarsely(T_camera_odom, T_camera_odom);
+        if (other.found && (!best.found || other.inliers > best.inliers)) best = other;
+      };
       for (const double share : {0.0, -0.5, 0.5, -1.0, 1.0}) {
         const double yaw = std::atan(share * radius_ / camera_.left.fx);
         const Quaterniond q(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitY()));
-        const Pose T_camera_odom = Pose(q, Eigen::Vector3d::Zero()) * T_predicted_odom;
-        const Localisation other = matchCoarsely(T_camera_odom, T_camera_odom);
-        if (other.found && (!best.found || other.inliers > best.inliers)) best = other;
+        tryFrom(Pose(q, Eigen::Vector3d::Zero()) * T_predicted_odom);
       }
+      tryFrom(T_last_odom_);
+    }
     if (!best.found) return matchCoarsely(T_turned_odom, T_predicted_odom);
     radius_ = parameters_.search_radius;
     return matchCoarsely(best.T_camera_odom, best.T_camera_odom);
@@ -437,7 +442,8 @@ class FrontEnd::Implementation {
   double radius_ = 0.0;  // px of level 0
   bool astray_ = false;  // nothing says where the frame before was but the prediction
   FrameId frame_ = -2;
-  Pose T_odom_last_;
+  Pose T_odom_last_;  // of the frame processed here last, as it was localised
+  Pose T_last_odom_;  // of the frame before, as the window has it now
 };
 
 FrontEnd::FrontEnd(const Parameters& parameters, const StereoCamera& camera)
