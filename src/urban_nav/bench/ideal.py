@@ -210,19 +210,47 @@ def by_correlation(left, right):
     return np.array(pixels, float), np.array(disparities)
 
 
+def by_blocks(left, right):
+    """StereoSGBM, as in exactness.py: every fourth pixel of every fourth row that has a disparity."""
+    disparity = cv2.StereoSGBM_create(0, 64, 5, 200, 800, 1, 31, 10, 100, 2).compute(left, right) / 16.0
+    v, u = np.nonzero(disparity[::4, ::4] > 0)
+    return 4.0 * np.column_stack([u, v]), disparity[4 * v, 4 * u]
+
+
+def warped(stamp, left, bf, truth_folder):
+    """The left picture as the right camera would have it, by the true depths: what a matcher errs by on this pair is its own."""
+    depth = view(truth_folder, stamp, "right")[0]
+    u, v = np.meshgrid(np.arange(left.shape[1], dtype=np.float32), np.arange(left.shape[0], dtype=np.float32))
+    return cv2.remap(left, (u + bf / depth).astype(np.float32), v, cv2.INTER_LANCZOS4)
+
+
+def disparities_of_blocks(bag, truth_folder, bf):
+    rows = []
+    for name, other in (("rectified", lambda stamp, left, right: right),
+                        ("the left picture and itself, warped by the truth", lambda stamp, left, right: warped(stamp, left, bf, truth_folder))):
+        matched = ((stamp, *by_blocks(left, other(stamp, left, right))) for stamp, left, right in list(pairs(bag))[::8])
+        rows.append([f"{name}, StereoSGBM: disparity less the true one, median; of its size", *beside_truth(matched, truth_folder, bf)])
+    return rows
+
+
+def beside_truth(matched, truth_folder, bf):
+    """Cells of the table, of (stamp, pixels, disparities): beside bf / depth where that is a plane all over the patch."""
+    off = []
+    for stamp, pixels, found in matched:
+        inside = ((pixels > PATCH + 1) & (pixels < (510 - PATCH, 382 - PATCH))).all(1)
+        pixels, found = pixels[inside], found[inside]
+        true, flat = planar(bf / view(truth_folder, stamp)[0], pixels[:, 0], pixels[:, 1], PATCH, PLANE)
+        off.append((found - true)[flat & (np.abs(found - true) < 1)])
+    off = np.concatenate(off)
+    return f"{sizes(off)} px", "0.05 px", len(off)
+
+
 def disparities(name, bag, truth_folder, bf):
-    """Beside bf / depth where that is a plane all over the patch; `truth_folder`: of a session with rectified views."""
+    """`truth_folder`: of a session with rectified views."""
     rows = []
     for how, match in (("Lucas-Kanade", by_corners), ("correlation", by_correlation)):
-        off, solid = [], []
-        for stamp, left, right in list(pairs(bag))[::4]:
-            pixels, found = match(left, right)
-            inside = ((pixels > PATCH + 1) & (pixels < (510 - PATCH, 382 - PATCH))).all(1)
-            pixels, found = pixels[inside], found[inside]
-            true, flat = planar(bf / view(truth_folder, stamp)[0], pixels[:, 0], pixels[:, 1], PATCH, PLANE)
-            off.append((found - true)[flat & (np.abs(found - true) < 1)])
-        off = np.concatenate(off)
-        rows.append([f"{name}, {how}: disparity less the true one, median; of its size", f"{sizes(off)} px", "0.05 px", len(off)])
+        matched = ((stamp, *match(left, right)) for stamp, left, right in list(pairs(bag))[::4])
+        rows.append([f"{name}, {how}: disparity less the true one, median; of its size", *beside_truth(matched, truth_folder, bf)])
     return rows
 
 
@@ -303,7 +331,7 @@ def main():
     infos = {topic: bags.camera_info(body) for topic, body in bags.messages(bag, {"stereo/left/camera_info", "stereo/right/camera_info"})}
     camera, bf = infos["stereo/left/camera_info"][3], -infos["stereo/right/camera_info"][3][0, 3]
     table = imu(moving, Truth(its_truth / "trajectory.tum"), places) + points(bag, truth_folder, truth, places, camera)
-    table += disparities("rectified", bag, truth_folder, bf)
+    table += disparities("rectified", bag, truth_folder, bf) + disparities_of_blocks(bag, truth_folder, bf)
     short = ("--duration", 4, "--sensors", "stereo", "--with", "stereo:lens")
     raw, _ = simulated(arguments.folder, "raw", *short, *pure)
     table += disparities("raw, rectified by OpenCV", raw, truth_folder, bf)
