@@ -106,9 +106,7 @@ int main(int argc, char** argv) try {
   }
   table.note(
       "Allowed with all sensors: 6.67 core-seconds a second (60 s in 200 s on two cores) and 2 000 MB. "
-      "Measurements alone, without a bag. Seconds by the clock are of a machine that did other work too, more "
-      "at some rows than at others: they say nothing of the speed-up by a second thread, which is not measured "
-      "here.");
+      "Measurements alone, without a bag. Seconds by the clock say something where the machine does nothing else.");
   return show(table, options);
 } catch (const std::exception& error) {
   return urban_nav_sim::bench::complain(error);
