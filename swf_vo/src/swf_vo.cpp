@@ -101,10 +101,8 @@ class SwfVo::Implementation {
     const bool blurred = evidence.image.reason == Reason::Blurred;
     // As long as all is blurred, what was known before may come back any frame: nothing begins anew.
     const bool adrift = started_ && trusted && isAdrift(*seen);
-    // Too long a time to predict over unless wheels or a gyroscope have measured it: from metres away no residual would lead there. The images count
-    // twice in that, with next to no weight; with that of a measurement it would be too much.
-    if (started_ && trusted && inputs.empty() && periods > astray_periods)
-      u.T_from_to = last.inverse() * seen->T_odom_camera;
+    // Too long a time to predict over: from metres away no residual would lead to where the images say.
+    if (started_ && trusted && periods > astray_periods) u.T_from_start = last.inverse() * seen->T_odom_camera;
     takeStep(u, adrift && !blurred ? seen : nullptr);
     if (seen != nullptr && (trusted || !started_) && !(adrift && blurred)) remember(*seen);
     if (seen != nullptr) observe(*seen, trusted);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <string>
+#include <vector>
 
 #include "swf_vo/swf_vo.hpp"
 #include "urban_nav_core/testing/faults.hpp"
@@ -16,21 +18,27 @@ struct Played {
   const Frame& frame;  ///< lives until the next
 };
 
+/// What wheels say from one frame of a recording to another.
+using Wheels = std::function<std::vector<urban_nav_core::MotionInput>(std::size_t from, std::size_t to)>;
+
 /// A recording with one fault on it (parseFault) through a filter; `see` gets a Played for each frame that arrives.
 template <typename See>
 void playWithFault(const urban_nav_core::testing::Recording& recording, const std::string& what, const See& see,
-                   const Parameters& parameters = Parameters()) {
+                   const Parameters& parameters = Parameters(), const Wheels& wheels = {}) {
   const urban_nav_core::testing::Fault fault = urban_nav_core::testing::parseFault(what);
   urban_nav_core::testing::FaultFilter faults({fault}, 1);
   SwfVo filter(parameters, recording.camera, urban_nav_core::Pose());
   bool begun = false;
   int since = -1;
+  std::size_t last = 0;
   for (std::size_t i = 0; i < recording.frames.size(); ++i) {
     begun = begun || fault.isActive(recording.frames[i].stamp - recording.frames.front().stamp);
     const auto arrived = faults.apply(recording.frames[i]);
     if (!arrived) continue;
     if (begun) ++since;
-    see(Played{i, since, filter.process(arrived->pair())});
+    const auto inputs = wheels && i > 0 ? wheels(last, i) : std::vector<urban_nav_core::MotionInput>();
+    see(Played{i, since, filter.process(arrived->pair(), inputs)});
+    last = i;
   }
 }
 

@@ -2,8 +2,8 @@
 """Visual odometry in the simulated worlds: is its covariance right, what do faults do to it, does it follow a start at 2 cm/s?
 
     python3 bars.py consistency FOLDER [--seed N]... [-o bars_consistency.json]
-    python3 bars.py faults FOLDER [--peer NAME=PROGRAM] [-o bars_faults.json]
-    python3 bars.py creep FOLDER [--peer NAME=PROGRAM] [-o bars_creep.json]
+    python3 bars.py faults FOLDER [--seed N]... [--peer NAME=PROGRAM] [-o bars_faults.json]
+    python3 bars.py creep FOLDER [--seed N]... [--peer NAME=PROGRAM] [-o bars_creep.json]
 
 Shipped parameters; sessions are simulated into FOLDER unless they are there. Another system beside it: PROGRAM FOLDER POSES takes a KITTI folder and writes
 KITTI's poses.
@@ -13,6 +13,7 @@ import csv
 import json
 import shutil
 import subprocess
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -21,6 +22,7 @@ from support import WORLDS, commit, mapped, show, simulated, urban_nav
 
 FRAMES = (50, 100, 200, 400)  # after which the last pose is compared with the truth
 SEEDS, LENGTH = (7, 8, 9), 20  # s
+FAULT_SEEDS = (7, 8, 9, 10, 11)
 BEGIN, DURATION, SHORT = 1.5, 1.0, 4  # s: of a fault, of its session
 FAULTS = (("drop", ":0.3"), ("freeze", ""), ("swap", ""), ("corrupt", ":0.3"), ("jump", ""), ("unplug", ""), ("nan", ""))
 CREPT, CREEP = (0.01, 0.02, 0.05), 5  # m, s
@@ -98,29 +100,55 @@ def named(out):
 def faults(arguments):
     rows = []
     for world in WORLDS:
-        whole = simulated(arguments.folder / f"{world}{SEEDS[0]}", world, SEEDS[0], LENGTH)
-        fair = first_frames(whole, SHORT * RATE)
-        undisturbed = ended(mapped(fair, fair.with_name(fair.name + "_out")))[1]
-        fair_peers = {}
-        for peer in arguments.peer:
-            name, poses = peer_poses(peer, fair)
-            fair_peers[name] = error_of(poses, fair)
-        rows.append([world, "none", f"{1e3 * undisturbed['error_m']:.1f}", "1.0", f"{undisturbed['nees']:.1f}", "", "", "",
-                     *(f"{1e3 * each:.1f}" for each in fair_peers.values())])
+        fair = [Outcome.of(arguments, world, seed) for seed in arguments.seed or FAULT_SEEDS]
+        fair_error = rms(one.error for one in fair)
+        rows.append([world, "none", f"{1e3 * fair_error:.1f}", "1.0", f"{np.mean([one.nees for one in fair]):.1f}", "", "", "",
+                     *(f"{1e3 * each:.1f}" for each in peers_rms(fair))])
         for kind, value in FAULTS:
             fault = f"{kind}:stereo:{BEGIN}:{DURATION}{value}"
-            folder = simulated(arguments.folder / f"{world}{SEEDS[0]}_{kind}", world, SEEDS[0], SHORT, "--fault", fault)
-            out = folder.with_name(folder.name + "_out")
-            not_ok, end = ended(mapped(folder, out))
-            reason, status = named(out)
-            peers = [error_of(peer_poses(peer, folder)[1], folder) for peer in arguments.peer]
-            rows.append([world, fault, f"{1e3 * end['error_m']:.1f}", f"{end['error_m'] / undisturbed['error_m']:.1f}", f"{end['nees']:.1f}",
-                         reason, str(not_ok), status, *(f"{1e3 * each:.1f}" for each in peers)])
+            each = [Outcome.of(arguments, world, seed, kind, fault) for seed in arguments.seed or FAULT_SEEDS]
+            error = rms(one.error for one in each)
+            rows.append([world, fault, f"{1e3 * error:.1f}", f"{error / fair_error:.1f}", f"{np.mean([one.nees for one in each]):.1f}",
+                         ", ".join(sorted({one.named for one in each})), str(round(np.mean([one.not_ok for one in each]))),
+                         ", ".join(sorted({one.status for one in each})), *(f"{1e3 * peer:.1f}" for peer in peers_rms(each))])
             print(*rows[-1], sep=" | ", flush=True)
     names = [peer.split("=", 1)[0] for peer in arguments.peer]
-    columns = ("world", "fault", "end off by, mm", "over the undisturbed one's", "NEES at the end", "named after, frames", "frames not OK", "last status",
-               *(f"{name}: end off by, mm" for name in names))
-    return columns, rows, [f"{SHORT} s, seed {SEEDS[0]}, the fault from {BEGIN} s on for {DURATION:.0f} s; loops."]
+    columns = ("world", "fault", "end off by, rms, mm", "over the undisturbed one's", "mean NEES at the end", "named after, frames", "frames not OK",
+               "last status", *(f"{name}: end off by, rms, mm" for name in names))
+    seeds = arguments.seed or FAULT_SEEDS
+    low, high = band(len(seeds))
+    return columns, rows, [f"{len(seeds)} sessions of {SHORT} s of each kind, seeds {', '.join(map(str, seeds))}; the fault from {BEGIN} s on for "
+                           f"{DURATION:.0f} s; loops. 99 % of means of as many NEES would lie in {low:.2f}...{high:.2f}."]
+
+
+@dataclass
+class Outcome:
+    """What became of one short session."""
+    error: float  # m, of the last pose
+    nees: float
+    named: str  # frames until the fault was named, and how
+    not_ok: int  # frames
+    status: str  # of the last frame
+    peers: list  # of their last poses, m
+
+    @staticmethod
+    def of(arguments, world, seed, kind="fair", *fault):
+        options = ("--fault", *fault) if fault else ()
+        folder = simulated(arguments.folder / f"{world}{seed}_{kind}", world, seed, SHORT, *options)
+        out = folder.with_name(folder.name + "_out")
+        not_ok, end = ended(mapped(folder, out))
+        name, status = named(out)
+        return Outcome(end["error_m"], end["nees"], name, not_ok, status,
+                       [error_of(peer_poses(peer, folder)[1], folder) for peer in arguments.peer])
+
+
+def rms(values):
+    return float(np.sqrt(np.mean(np.square(list(values)))))
+
+
+def peers_rms(outcomes):
+    """Of each peer, over the sessions."""
+    return [rms(errors) for errors in zip(*(one.peers for one in outcomes))]
 
 
 def error_of(poses, folder):
@@ -157,7 +185,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("what", choices=("consistency", "faults", "creep"))
     parser.add_argument("folder", type=Path, help="for what is simulated and mapped")
-    parser.add_argument("--seed", type=int, action="append", help=f"default: {SEEDS}")
+    parser.add_argument("--seed", type=int, action="append", help=f"default: {SEEDS}, of faults {FAULT_SEEDS}, of creep {SEEDS[0]}")
     parser.add_argument("--there", action="store_true", help="consistency: of the sessions that are there, no others")
     parser.add_argument("--peer", action="append", default=[], metavar="NAME=PROGRAM")
     parser.add_argument("-o", "--output", type=Path, help="the table, for a README")

@@ -107,12 +107,12 @@ class FrontEnd::Implementation {
     result_.corners = corners_.count(Side::Left);
     gather(map);
     const bool next = frame == frame_ + 1;
-    T_last_odom_ = last.inverse();
+    T_window_odom_ = last.inverse();
     if (next) learnNoise();
     for (Match& match : matches_) match.inflation = noise_.of(match.track->noise);
     if (!next || astray) radius_ = first_radius * parameters_.search_radius;
     astray_ = astray_ || astray || !next;
-    locate(turn(next ? last : T_odom_last_, predicted), predicted.inverse());
+    locate(turn(next ? last : T_odom_localised_, predicted), predicted.inverse());
     for (Match& match : matches_) follow(frame, match);
     replenish(frame);
     for (Observation& observation : result_.fresh) {
@@ -123,7 +123,7 @@ class FrontEnd::Implementation {
     result_.noise_scale = std::sqrt(noise_.usual());
     astray_ = !result_.localised && !matches_.empty();
     frame_ = frame;
-    T_odom_last_ = result_.T_odom_camera;
+    T_odom_localised_ = result_.T_odom_camera;
     return result_;
   }
 
@@ -218,8 +218,8 @@ class FrontEnd::Implementation {
     for (const Match& match : matches_) {
       Track& track = *match.track;
       if (track.measured != frame_ || track.seen < 2) continue;
-      const auto left = projectInto(Side::Left, camera_, T_last_odom_, match.p_odom),
-                 right = projectInto(Side::Right, camera_, T_last_odom_, match.p_odom);
+      const auto left = projectInto(Side::Left, camera_, T_window_odom_, match.p_odom),
+                 right = projectInto(Side::Right, camera_, T_window_odom_, match.p_odom);
       if (!left || !right) continue;
       const Eigen::Vector3d r = track.z - Eigen::Vector3d(left->x(), left->y(), right->x());
       const auto coordinates = static_cast<double>((track.information.diagonal().array() > 0.0).count());
@@ -254,7 +254,7 @@ class FrontEnd::Implementation {
         const Quaterniond q(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitY()));
         tryFrom(Pose(q, Eigen::Vector3d::Zero()) * T_predicted_odom);
       }
-      tryFrom(T_last_odom_);
+      tryFrom(T_window_odom_);
     }
     if (!best.found) return matchCoarsely(T_turned_odom, T_predicted_odom);
     radius_ = parameters_.search_radius;
@@ -442,8 +442,8 @@ class FrontEnd::Implementation {
   double radius_ = 0.0;  // px of level 0
   bool astray_ = false;  // nothing says where the frame before was but the prediction
   FrameId frame_ = -2;
-  Pose T_odom_last_;  // of the frame processed here last, as it was localised
-  Pose T_last_odom_;  // of the frame before, as the window has it now
+  Pose T_odom_localised_;  // of the frame processed here last, as it was localised
+  Pose T_window_odom_;     // of the frame before, as the window has it now
 };
 
 FrontEnd::FrontEnd(const Parameters& parameters, const StereoCamera& camera)

@@ -70,7 +70,7 @@ void Filter::addPose(FrameId frame, const ProcessInput& u) {
   PoseBlock pose;
   pose.frame = frame;
   pose.u = u;
-  pose.estimate = pose.linearised = process_model::predict(last.estimate, u);
+  pose.estimate = pose.linearised = process_model::startOf(last.estimate, u);
   state_.poses.push_back(pose);
 }
 

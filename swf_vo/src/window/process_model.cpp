@@ -19,6 +19,10 @@ Matrix6d floor() {
 
 Pose predict(const Pose& T_odom_last, const ProcessInput& u) { return T_odom_last * u.T_from_to; }
 
+Pose startOf(const Pose& T_odom_last, const ProcessInput& u) {
+  return u.T_from_start ? T_odom_last * *u.T_from_start : predict(T_odom_last, u);
+}
+
 Vector6d error(const Pose& T_odom_last, const Pose& T_odom_next, const Pose& u) {
   return boxMinus(T_odom_last.inverse() * T_odom_next, u);
 }

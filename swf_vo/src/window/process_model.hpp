@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+
 #include "urban_nav_core/geometry/se3.hpp"
 
 namespace swf_vo {
@@ -10,6 +12,8 @@ namespace swf_vo {
 struct ProcessInput {
   urban_nav_core::Pose T_from_to;
   urban_nav_core::Matrix6d information = urban_nav_core::Matrix6d::Zero();
+  std::optional<urban_nav_core::Pose> T_from_start =
+      std::nullopt;  ///< where the estimate of the new pose begins, if not at the prediction; no evidence
 };
 
 /// The process model x_p(j+1) = f(x_p(j), u(j+1)) + w, w ~ N(0, Q) (Newman et al. 2009, section 2.1 and eq. 1):
@@ -21,6 +25,8 @@ namespace process_model {
 urban_nav_core::Matrix6d floor();
 
 urban_nav_core::Pose predict(const urban_nav_core::Pose& T_odom_last, const ProcessInput& u);
+/// Where the estimate of the next pose begins.
+urban_nav_core::Pose startOf(const urban_nav_core::Pose& T_odom_last, const ProcessInput& u);
 
 /// e = (T_odom_last^-1 T_odom_next) boxMinus u, zero where the prediction is exact, and its exact Jacobians by boxPlus
 /// of either pose. e depends on the relative pose alone, so the six gauge directions stay empty.

@@ -108,7 +108,7 @@ class Window {
   /// Robust Gauss-Newton over all that is in the window.
   UpdateReport update();
 
-  /// Before update(): the prediction. The window must have been started.
+  /// Before update(): the prediction, or where the process input has the estimate begin. The window must have been started.
   urban_nav_core::UncertainPose newest() const;
   urban_nav_core::Pose pose(FrameId frame) const;  ///< of an active frame
   bool hasPose(FrameId frame) const;

@@ -11,6 +11,7 @@
 namespace swf_vo {
 namespace {
 
+using urban_nav_core::expSe3;
 using urban_nav_core::isApprox;
 using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
@@ -134,6 +135,31 @@ TEST(Window, goesOnByPredictionWhereNothingIsSeen) {
   }
   while (!run.done()) run.step();
   EXPECT_LT(nees(run.truth(), run.window.newest()), 40.0);
+}
+
+// Where the estimate of a pose begins says nothing of where the pose is.
+TEST(Window, takesAStartForNoEvidence) {
+  const auto tracks = simulateTracks(tracksOf(40, 0.5));
+  const Pose start = expSe3((Vector6d() << 0.4, -0.1, 0.6, 0.02, 0.1, -0.03).finished());
+  for (const bool seen : {false, true}) {
+    WindowOptions options;
+    options.iterations = 20;
+    TrackRunner plain(tracks, options), started(tracks, options);
+    for (int i = 0; i < 20; ++i) plain.step(), started.step();
+    ProcessInput u = plain.input(20);
+    plain.window.addPose(20, u);
+    u.T_from_start = start;
+    started.window.addPose(20, u);
+    ASSERT_FALSE(isApprox(plain.window.newest().pose, started.window.newest().pose, 0.1));
+    for (TrackRunner* run : {&plain, &started}) {
+      run->window.removePoses();
+      if (seen)
+        for (const Observation& observation : run->observations(20)) run->window.observe(observation);
+      run->window.update();
+    }
+    EXPECT_TRUE(isApprox(plain.window.newest().pose, started.window.newest().pose, 1e-4)) << seen;
+    EXPECT_TRUE(plain.window.newest().covariance.isApprox(started.window.newest().covariance, 1e-2)) << seen;
+  }
 }
 
 TEST(Window, withNeitherInputNorMeasurementStaysWithAProperCovariance) {
