@@ -10,6 +10,7 @@ from pathlib import Path
 from xmlrpc.client import ServerProxy
 
 import rosgraph
+import rospkg
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import Odometry
@@ -90,6 +91,10 @@ class Listener:
         for transform in message.transforms:
             self.links[transform.child_frame_id.lstrip("/")] = transform.header.frame_id.lstrip("/")
 
+    def hear_truth(self):
+        """What rviz is given for tf where no odometry runs."""
+        self.subscribers.append(rospy.Subscriber("/ground_truth/tf", TFMessage, self._transforms))
+
     def connected(self, root, frame):
         """Does tf know the way from `root` down to `frame`?"""
         for _ in range(50):
@@ -120,6 +125,10 @@ def connections(node):
     except (rosgraph.MasterException, OSError):
         return set()
     return {row[4] for row in rows if row[2] == "i" and row[5]}
+
+
+def rviz_file(name):
+    return Path(rospkg.RosPack().get_path("urban_nav_rviz")) / "rviz" / f"{name}.rviz"
 
 
 def command():

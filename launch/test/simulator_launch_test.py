@@ -8,13 +8,12 @@ import sys
 from pathlib import Path
 
 import rosbag
-import rospkg
 import rospy
 from geometry_msgs.msg import PoseStamped
 from roslib.message import get_message_class
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from graph import command, connections, services  # noqa: E402
+from graph import command, connections, published, rviz_file, services  # noqa: E402
 from launch_case import PATIENCE, LaunchCase  # noqa: E402
 
 SECONDS = 1.2  # enough for each sensor to speak twice, GPS to speak once
@@ -119,7 +118,22 @@ class SimulatorLaunch(LaunchCase):
 
     def test_rviz_shows_what_is_there(self):
         self.launch("simulator.launch", sensors="stereo", duration=60)
-        self.look_at(Path(rospkg.RosPack().get_path("urban_nav_rviz")) / "rviz" / "urban_nav.rviz")
+        self.look_at(rviz_file("urban_nav"))
+
+    def test_rviz_shows_sensors_and_truth_without_odometry(self):
+        self.listener.hear_truth()
+        self.launch("simulator.launch", sensors="stereo,lasers", duration=60, vo="false")
+        self.look_at(rviz_file("simulator"))
+        for frame in ("laser_left", "laser_right", "stereo_left_optical_frame"):
+            self.assertTrue(self.listener.connected("ground_truth", frame), frame)
+        self.assertNotIn("/tf", published(), "a robot does not know where it truly is")
+
+    def test_rviz_is_told_the_truth_by_nothing_but_the_absence_of_odometry(self):
+        for vo, name, told in (("true", "urban_nav", False), ("false", "simulator", True)):
+            asked = ["roslaunch", "--args", "/rviz", "urban_nav_launch", "simulator.launch", "rviz:=true", f"vo:={vo}"]
+            words = subprocess.run(asked, check=True, capture_output=True, text=True).stdout.split()
+            self.assertIn(str(rviz_file(name)), words)
+            self.assertEqual("/tf:=/ground_truth/tf" in words, told, words)
 
     def test_ends_with_the_session_if_told_to(self):
         self.launch("simulator.launch", sensors="wheels,gps", duration=2, exit="true", rate=0, vo="false")

@@ -4,6 +4,8 @@
 #include <rosgraph_msgs/Clock.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <utility>
+
 #include "urban_nav_ros/stamp.hpp"
 
 namespace urban_nav_sim {
@@ -14,10 +16,24 @@ namespace {
 
 constexpr StampNs clock_step = 5'000'000;  // ns, that of the truth
 
+tf2_msgs::TFMessage asTransform(const geometry_msgs::PoseStamped& pose) {
+  geometry_msgs::TransformStamped transform;
+  transform.header = pose.header;
+  transform.child_frame_id = "base_link";
+  transform.transform.translation.x = pose.pose.position.x;
+  transform.transform.translation.y = pose.pose.position.y;
+  transform.transform.translation.z = pose.pose.position.z;
+  transform.transform.rotation = pose.pose.orientation;
+  tf2_msgs::TFMessage message;
+  message.transforms.push_back(std::move(transform));
+  return message;
+}
+
 }  // namespace
 
 Outlet::Outlet(ros::NodeHandle& nh, const std::set<Sensor>& sensors, std::uint32_t queue)
-    : static_(nh.advertise<tf2_msgs::TFMessage>("/tf_static", 10, true)) {
+    : static_(nh.advertise<tf2_msgs::TFMessage>("/tf_static", 10, true)),
+      truth_(nh.advertise<tf2_msgs::TFMessage>("ground_truth/tf", queue)) {
   for (const TopicMessage& each : topicsOf(sensors)) {
     publishers_[each.topic] = std::visit(
         [&](const auto& message) {
@@ -38,6 +54,8 @@ void Outlet::publish(const std::vector<geometry_msgs::TransformStamped>& transfo
 void Outlet::publish(const TopicMessage& message) {
   const ros::Publisher& publisher = publishers_.at(message.topic);
   std::visit([&](const auto& pointer) { publisher.publish(pointer); }, message.message);
+  if (const auto* truth = std::get_if<geometry_msgs::PoseStampedPtr>(&message.message))
+    truth_.publish(asTransform(**truth));
 }
 
 void Outlet::advance(StampNs now) {

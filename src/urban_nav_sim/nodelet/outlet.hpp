@@ -16,6 +16,7 @@
 namespace urban_nav_sim {
 
 /// The simulator's side of the graph: all topics of some sensors, /tf_static, and /clock if the graph keeps simulated time. Used by the worker alone.
+/// No /tf: where the robot is in the world, its odometry has to find out. Who is to see the truth as tf (rviz) hears ground_truth/tf in its place.
 class Outlet {
  public:
   /// Advertises all of them, so that subscribers may connect before the first message. `queue`: messages that may wait for a subscriber.
@@ -24,7 +25,7 @@ class Outlet {
   bool keepsTime() const { return clock_; }
   /// Latched.
   void publish(const std::vector<geometry_msgs::TransformStamped>& transforms);
-  /// The message is shared with nodelets of the same process: nobody changes it any more.
+  /// The message is shared with nodelets of the same process: nobody changes it any more. The true pose goes to ground_truth/tf as well.
   void publish(const TopicMessage& message);
   /// /clock goes on to `now`, in steps of 5 ms at least; or back, where a session begins.
   void advance(urban_nav_core::StampNs now);
@@ -33,7 +34,7 @@ class Outlet {
 
  private:
   std::map<std::string, ros::Publisher> publishers_;
-  ros::Publisher static_, clock_;
+  ros::Publisher static_, truth_, clock_;
   std::optional<urban_nav_core::StampNs> now_;
 };
 
