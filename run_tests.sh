@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Builds and tests all there is, on a bare Debian 12 too; the last line is the result, and so is the exit status.
-#   ./run_tests.sh              warnings are errors; lint, gtest, rostest; readers and window once more under sanitizers
+#   ./run_tests.sh              warnings are errors; lint, gtest, Python, rostest; readers and window once more under sanitizers
 #   ./run_tests.sh --sanitize   all ROS-free cores under the sanitizers, every reader fuzzed for a minute
 #   ./run_tests.sh --tidy       clang-format and clang-tidy over all sources as well
 # Tests on real data look in the folder that URBAN_NAV_DATA names, and are skipped without it.
@@ -56,7 +56,7 @@ build_cores() (
   compile "$build/cores" "Building the sanitized cores" tests
 )
 
-# run_group FOLDER KIND JOBS: the tests of one kind (gtest, rostest) by catkin's own targets; how they end is in the XML files,
+# run_group FOLDER KIND JOBS: the tests of one kind (gtest, python, rostest) by catkin's own targets; how they end is in the XML files,
 # so this fails only where they did not come to their end.
 run_group() {
   local targets status=0 limit=$((1200 + 30 * ${URBAN_NAV_FUZZ_SECONDS:-0}))
@@ -95,6 +95,7 @@ step "packages" install_packages "${tools[@]}" || true
 if [ $sanitize = no ]; then
   if step "build" build_all; then
     step "gtest" run_group "$ws" gtest "$(jobs)"
+    step "Python" run_group "$ws" python "$(jobs)"
     step "rostest" run_ros_tests
     results+=("$ws/build/test_results")
   fi || true

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sums up the XML files of gtest and rostest, names what failed and what compiled slowest, and ends with the one line that counts.
+"""Sums up the XML files of gtest, rosunit and rostest, names what failed and what compiled slowest, and ends with the one line that counts.
 
 Exit status 0 if something passed and nothing failed.
 """

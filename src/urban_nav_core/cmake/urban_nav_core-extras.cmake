@@ -146,6 +146,23 @@ function(urban_nav_test)
   endif()
 endfunction()
 
+# urban_nav_python_tests(): each test/FOLDER/NAME_test.py of this package, run by the python3 of the workspace. It ends with
+# rosunit.unitrun, which leaves the same XML as gtest.
+function(urban_nav_python_tests)
+  if(NOT CATKIN_ENABLE_TESTING)
+    return()
+  endif()
+  file(GLOB tests CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/test ${PROJECT_SOURCE_DIR}/test/*/*_test.py)
+  foreach(test ${tests})
+    string(REGEX REPLACE "_test\\.py$" "" name ${test})
+    string(REPLACE "/" "_" name ${name})
+    set(results ${CATKIN_TEST_RESULTS_DIR}/${PROJECT_NAME}/python-${name}.xml)
+    # What rostest uses as well: catkin's own function for Python needs nose, which is no longer kept up.
+    catkin_run_tests_target(python ${name} python-${name}.xml
+      COMMAND "${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/${test} --gtest_output=xml:${results}")
+  endforeach()
+endfunction()
+
 # urban_nav_bench(LIBRARY...): bench/NAME.cpp becomes PACKAGE-bench-NAME; bench/support/*.cpp belongs to all of them.
 function(urban_nav_bench)
   if(NOT URBAN_NAV_BENCH)
