@@ -57,8 +57,10 @@ void Imager::developRow(const Picture& picture, const std::vector<float>& radian
     if (channels == 3) level *= settings_.white_balance[channel];
     level = std::clamp(level, 0.0F, 255.0F);
     const int target = channels == 3 ? i - channel + 2 - channel : i;  // OpenCV's colours: blue, green, red
-    out[target] =
-        is_linear ? static_cast<std::uint8_t>(level + 0.5F) : curve_[static_cast<std::size_t>(4.0F * level + 0.5F)];
+    // A level is not negative, and lround is a call for each pixel.
+    // NOLINTNEXTLINE(bugprone-incorrect-roundings)
+    const auto steps = static_cast<std::size_t>((is_linear ? level : 4.0F * level) + 0.5F);
+    out[target] = is_linear ? static_cast<std::uint8_t>(steps) : curve_[steps];
   }
 }
 

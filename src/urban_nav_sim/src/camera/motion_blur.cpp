@@ -40,7 +40,7 @@ CameraMotion motionOf(const Moment& moment, const urban_nav_core::Pose& T_base_c
 }
 
 Eigen::Vector2f flowAt(const RayTable& rays, int u, int v, float depth, const CameraMotion& motion) {
-  const Eigen::Vector2f at = rays.at(u, v);
+  const Eigen::Vector2f& at = rays.at(u, v);
   const Eigen::Vector3f velocity = motion.velocity.cast<float>(), rate = motion.rate.cast<float>();
   const float x = at.x(), y = at.y(), near = 1.0F / depth;
   // Longuet-Higgins and Prazdny 1980, of a camera that moves in a world that stands.

@@ -25,7 +25,7 @@ bool facesSun(const SurfacePoint& point, const Sky& sky) { return sunOn(point, s
 Vector3f shade(const SurfacePoint& point, const Look& look, const Vector3f& direction, float sunlit, const Sky& sky) {
   Vector3f light = sky.ambient(point.normal);
   if (sunlit > 0.0F) light += sunlit * sunOn(point, sky) * sky.day().sun;
-  const Vector3f scattered = look.albedo.cwiseProduct(light);
+  Vector3f scattered = look.albedo.cwiseProduct(light);
   if (!(look.gloss > 0.0F)) return scattered;
   // Schlick 1994, with the gloss as what is mirrored head on.
   const float cosine = std::clamp(-direction.dot(point.normal), 0.0F, 1.0F), edge = 1.0F - cosine;
