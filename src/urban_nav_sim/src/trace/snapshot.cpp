@@ -52,25 +52,21 @@ Snapshot::Snapshot(const Tracer& tracer, double t_begin, double t_end)
   const auto& movers = tracer.world_.movers;
   if (movers.empty()) return;
   const bool lasts = t_end > t_begin;
-  scene_ = rtcNewScene(tracer.device_);
-  rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
-  rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_LOW);
+  scene_.reset(rtcNewScene(tracer.device_.get()));
+  rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_LOW);
   for (std::size_t i = 0; i < movers.size(); ++i) {
     T_world_mover_.push_back(movers[i].T_world_mover(t_begin));
-    RTCGeometry instance = rtcNewGeometry(tracer.device_, RTC_GEOMETRY_TYPE_INSTANCE);
-    rtcSetGeometryInstancedScene(instance, tracer.movers_[i].scene);
+    const Held<RTCGeometryTy> held(rtcNewGeometry(tracer.device_.get(), RTC_GEOMETRY_TYPE_INSTANCE));
+    const RTCGeometry instance = held.get();
+    rtcSetGeometryInstancedScene(instance, tracer.movers_[i].scene.get());
     rtcSetGeometryTimeStepCount(instance, lasts ? 2 : 1);
     setTransform(instance, 0, T_world_mover_.back());
     if (lasts) setTransform(instance, 1, movers[i].T_world_mover(t_end));
     rtcCommitGeometry(instance);
-    rtcAttachGeometry(scene_, instance);
-    rtcReleaseGeometry(instance);
+    rtcAttachGeometry(scene_.get(), instance);
   }
-  rtcCommitScene(scene_);
-}
-
-Snapshot::~Snapshot() {
-  if (scene_ != nullptr) rtcReleaseScene(scene_);
+  rtcCommitScene(scene_.get());
 }
 
 void Snapshot::closest(const Packet& rays, Hits& hits) const {
@@ -81,7 +77,7 @@ void Snapshot::closest(const Packet& rays, Hits& hits) const {
   std::fill_n(query.hit.geomID, kLanes, RTC_INVALID_GEOMETRY_ID);
   std::fill_n(query.hit.instID[0], kLanes, RTC_INVALID_GEOMETRY_ID);
   RTCIntersectContext context = contextOf(rays.active);
-  rtcIntersect16(valid, tracer_.still_.scene, &context, &query);
+  rtcIntersect16(valid, tracer_.still_.scene.get(), &context, &query);
   for (int i = 0; i < kLanes; ++i) {
     const bool hit = valid[i] != 0 && query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
     hits.facet[i] = hit ? tracer_.still_.first_facet[query.hit.geomID[i]] + query.hit.primID[i] : kNothing;
@@ -89,7 +85,7 @@ void Snapshot::closest(const Packet& rays, Hits& hits) const {
   }
   if (scene_ != nullptr) {
     context = contextOf(rays.active);
-    rtcIntersect16(valid, scene_, &context, &query);
+    rtcIntersect16(valid, scene_.get(), &context, &query);
     for (int i = 0; i < kLanes; ++i) {
       const std::uint32_t mover = query.hit.instID[0][i];
       if (valid[i] == 0 || mover == RTC_INVALID_GEOMETRY_ID) continue;
@@ -106,7 +102,7 @@ std::uint32_t Snapshot::occluded(const Packet& rays) const {
   fillMask(rays.active, valid);
   fillRays(rays, query);
   RTCIntersectContext context = contextOf(0);
-  rtcOccluded16(valid, tracer_.still_.scene, &context, &query);
+  rtcOccluded16(valid, tracer_.still_.scene.get(), &context, &query);
   std::uint32_t met = 0;
   // Embree marks a ray that met something by a `far` of minus infinity.
   const auto collect = [&] {
@@ -120,7 +116,7 @@ std::uint32_t Snapshot::occluded(const Packet& rays) const {
   collect();
   if (scene_ != nullptr && met != rays.active) {
     rtcInitIntersectContext(&context);
-    rtcOccluded16(valid, scene_, &context, &query);
+    rtcOccluded16(valid, scene_.get(), &context, &query);
     collect();
   }
   return met;

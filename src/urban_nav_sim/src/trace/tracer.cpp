@@ -49,8 +49,11 @@ void throwOnError(RTCDevice device, const char* what) {
 
 }  // namespace
 
-Tracer::Tracer(const World& world) : world_(world) {
-  device_ = rtcNewDevice(nullptr);
+void Release::operator()(RTCDeviceTy* device) const { rtcReleaseDevice(device); }
+void Release::operator()(RTCGeometryTy* geometry) const { rtcReleaseGeometry(geometry); }
+void Release::operator()(RTCSceneTy* scene) const { rtcReleaseScene(scene); }
+
+Tracer::Tracer(const World& world) : world_(world), device_(rtcNewDevice(nullptr)) {
   if (device_ == nullptr) throw urban_nav_core::UserError("ray tracer", "Embree does not start", "");
   // Which of two triangles at one distance is met depends on the tree, and a tree built by several threads on their number.
   const urban_nav_core::ThreadLimit one(1);
@@ -64,17 +67,13 @@ Tracer::Tracer(const World& world) : world_(world) {
   for (const Mover& mover : world.movers) movers_.push_back(buildGroup(mover.parts));
 }
 
-Tracer::~Tracer() {
-  for (const Group& mover : movers_) rtcReleaseScene(mover.scene);
-  rtcReleaseScene(still_.scene);
-  rtcReleaseDevice(device_);
-}
+Tracer::~Tracer() = default;
 
 Tracer::Group Tracer::buildGroup(const std::vector<Part>& parts) {
   Group group;
-  group.scene = rtcNewScene(device_);
-  rtcSetSceneFlags(group.scene, RTC_SCENE_FLAG_ROBUST);
-  rtcSetSceneBuildQuality(group.scene, RTC_BUILD_QUALITY_MEDIUM);
+  group.scene.reset(rtcNewScene(device_.get()));
+  rtcSetSceneFlags(group.scene.get(), RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(group.scene.get(), RTC_BUILD_QUALITY_MEDIUM);
   for (const Part& part : parts) {
     if (part.material >= world_.materials.size()) {
       throw urban_nav_core::UserError("world", "a part of a material that is not there", "");
@@ -85,12 +84,13 @@ Tracer::Group Tracer::buildGroup(const std::vector<Part>& parts) {
     facets_.insert(facets_.end(), facets.begin(), facets.end());
     parts_.push_back({&material, part.seed, material.surface_class});
 
-    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    const Held<RTCGeometryTy> held(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
+    const RTCGeometry geometry = held.get();
     void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                              sizeof(Eigen::Vector3f), part.vertices.size());
     void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                             sizeof(part.triangles[0]), part.triangles.size());
-    throwOnError(device_, "take a part of the world");
+    throwOnError(device_.get(), "take a part of the world");
     if (!part.vertices.empty()) {
       std::memcpy(vertices, part.vertices.data()->data(), part.vertices.size() * sizeof(Eigen::Vector3f));
     }
@@ -104,13 +104,12 @@ Tracer::Group Tracer::buildGroup(const std::vector<Part>& parts) {
       rtcSetGeometryOccludedFilterFunction(geometry, leaveOutHoles<CutOut>);
     }
     rtcCommitGeometry(geometry);
-    [[maybe_unused]] const unsigned id = rtcAttachGeometry(group.scene, geometry);
+    [[maybe_unused]] const unsigned id = rtcAttachGeometry(group.scene.get(), geometry);
     assert(id == group.first_facet.size());
     group.first_facet.push_back(first);
-    rtcReleaseGeometry(geometry);
   }
-  rtcCommitScene(group.scene);
-  throwOnError(device_, "build a tree");
+  rtcCommitScene(group.scene.get());
+  throwOnError(device_.get(), "build a tree");
   return group;
 }
 

@@ -10,9 +10,19 @@
 #include "urban_nav_core/geometry/se3.hpp"
 
 struct RTCDeviceTy;
+struct RTCGeometryTy;
 struct RTCSceneTy;
 
 namespace urban_nav_sim {
+
+/// Embree counts who holds its things; this gives one back.
+struct Release {
+  void operator()(RTCDeviceTy* device) const;
+  void operator()(RTCGeometryTy* geometry) const;
+  void operator()(RTCSceneTy* scene) const;
+};
+template <typename Thing>
+using Held = std::unique_ptr<Thing, Release>;
 
 /// What rays can meet: the triangles of a world in Embree's trees, those that stand still in one, and one for each mover.
 /// Embree is named in the sources of this folder alone. Immutable once built, so thread-safe; `world` must outlive it.
@@ -38,13 +48,13 @@ class Tracer {
   friend class Snapshot;
   struct CutOut;
   struct Group {  ///< one tree
-    RTCSceneTy* scene = nullptr;
+    Held<RTCSceneTy> scene;
     std::vector<std::uint32_t> first_facet;  ///< of each of its geometries
   };
   Group buildGroup(const std::vector<Part>& parts);
 
   const World& world_;
-  RTCDeviceTy* device_ = nullptr;
+  Held<RTCDeviceTy> device_;
   Group still_;
   std::vector<Group> movers_;
   std::vector<Facet> facets_;
@@ -67,7 +77,6 @@ struct SurfacePoint {
 class Snapshot {
  public:
   Snapshot(const Tracer& tracer, double t_begin, double t_end);
-  ~Snapshot();
   Snapshot(const Snapshot&) = delete;
   Snapshot& operator=(const Snapshot&) = delete;
 
@@ -87,7 +96,7 @@ class Snapshot {
 
   const Tracer& tracer_;
   double t_begin_, t_end_;
-  RTCSceneTy* scene_ = nullptr;                      ///< of the movers; none: null
+  Held<RTCSceneTy> scene_;                           ///< of the movers; none: null
   std::vector<urban_nav_core::Pose> T_world_mover_;  ///< at t_begin
 };
 
