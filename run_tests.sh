@@ -48,11 +48,11 @@ build_all() (
   mv "$ws/command.started" "$ws/command.built"
 )
 
-# cores ROOMS: the cores under the sanitizers, with the tests of these folders of test/ (all, if empty).
+# build_cores ROOMS PACKAGES: the cores of these packages under the sanitizers, with the tests of these folders of test/ (all, if empty).
 build_cores() (
   lock
   configure "$build/cores" -DCATKIN_ENABLE_TESTING=ON -DURBAN_NAV_CORES_ONLY=ON -DURBAN_NAV_SANITIZE=ON \
-    -DCATKIN_WHITELIST_PACKAGES='urban_nav_core;swf_vo;urban_nav' -DURBAN_NAV_TEST_ROOMS="$1"
+    -DCATKIN_WHITELIST_PACKAGES="$2" -DURBAN_NAV_TEST_ROOMS="$1"
   compile "$build/cores" "Building the sanitized cores" tests
 )
 
@@ -107,10 +107,10 @@ if [ $sanitize = no ]; then
   fi
 fi
 
-rooms='io;parameters;window' seconds=${URBAN_NAV_FUZZ_SECONDS:-20}
-if [ $sanitize = yes ]; then rooms='' seconds=${URBAN_NAV_FUZZ_SECONDS:-60}; fi
+rooms='io;parameters;window' packages='urban_nav_core;swf_vo;urban_nav' seconds=${URBAN_NAV_FUZZ_SECONDS:-20}
+if [ $sanitize = yes ]; then rooms='' packages+=';urban_nav_sim' seconds=${URBAN_NAV_FUZZ_SECONDS:-60}; fi
 export URBAN_NAV_FUZZ_SECONDS=$seconds
-if step "build under the sanitizers" build_cores "$rooms"; then
+if step "build under the sanitizers" build_cores "$rooms" "$packages"; then
   step "tests under the sanitizers, $seconds s of fuzzing a reader" run_group "$build/cores" gtest "$(jobs)"
   results+=("$build/cores/build/test_results")
 fi || true
