@@ -29,6 +29,7 @@ class Replenisher {
   struct Candidate {
     int level = 0, u = 0, v = 0;
     float score = 0.0F;
+    bool of_clipped = false;
   };
   void gather(const Corners& corners);
   bool start(const Candidate& candidate, FrameId frame, const Corners& corners,

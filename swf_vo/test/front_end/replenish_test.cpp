@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
 
 #include "rendered.hpp"
 
@@ -19,8 +21,29 @@ class Replenish : public ::testing::Test {
   void SetUp() override {
     RenderedSequence sequence(texturedRoom(), standing(lookingAlong({0.0, 0.0, 1.2}, 0.3)), smallCamera(1.0));
     camera_ = cameraOf(sequence.options().camera);
-    corners_.extract(sequence.frame(0).pair());
+    frame_ = sequence.frame(0);
+    corners_.extract(frame_.pair());
   }
+
+  // As if exposed for so many times as long.
+  void expose(double times) {
+    for (GreyImage* image : {&frame_.left, &frame_.right})
+      for (std::uint8_t& pixel : image->pixels)
+        pixel = static_cast<std::uint8_t>(std::min(255.0, std::round(times * pixel)));
+    corners_.extract(frame_.pair());
+  }
+
+  // White within so many pixels of an observation's place in the left image.
+  bool isNearWhite(const Observation& observation, int reach) const {
+    const int u = static_cast<int>(std::lround(observation.z.x())),
+              v = static_cast<int>(std::lround(observation.z.y()));
+    for (int j = v - reach; j <= v + reach; ++j)
+      for (int i = u - reach; i <= u + reach; ++i)
+        if (frame_.left.view().at(i, j) == 255) return true;
+    return false;
+  }
+
+  StereoFrame frame_;
 
   StereoCamera camera_;
   Corners corners_{3, 2, 12, 50};
@@ -65,6 +88,26 @@ TEST_F(Replenish, WhatIsFollowedKeepsItsPlace) {
   EXPECT_LE(fresh_.size() + before, 50U);
   for (const Observation& o : fresh_)
     for (const Match& match : matches) EXPECT_GT((o.z.head<2>() - match.left.pixel).norm(), 1.0);
+}
+
+TEST_F(Replenish, TakesNoCornerOfWhatIsClipped) {
+  expose(1.4);
+  const auto& pixels = frame_.left.pixels;
+  const auto white = std::count(pixels.begin(), pixels.end(), 255);
+  ASSERT_GT(white, static_cast<std::ptrdiff_t>(pixels.size() / 50));
+  ASSERT_LT(white, static_cast<std::ptrdiff_t>(pixels.size() / 3));
+  Replenisher replenisher(camera_, 50, 0.05);
+  replenisher.replenish(0, corners_, Pose(), {}, tracks_, fresh_, rows_);
+  EXPECT_GT(fresh_.size(), 25U);
+  for (const Observation& o : fresh_) EXPECT_FALSE(isNearWhite(o, 1)) << o.z.transpose();
+}
+
+TEST_F(Replenish, TakesThemWhereThereIsLittleElse) {
+  expose(3.0);
+  Replenisher replenisher(camera_, 50, 0.05);
+  replenisher.replenish(0, corners_, Pose(), {}, tracks_, fresh_, rows_);
+  EXPECT_GT(fresh_.size(), 10U);
+  EXPECT_GT(std::count_if(fresh_.begin(), fresh_.end(), [&](const auto& o) { return isNearWhite(o, 2); }), 0);
 }
 
 TEST_F(Replenish, StopsWhereThereIsNoPlaceForTracks) {
