@@ -21,9 +21,10 @@ using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
 using urban_nav_core::testing::Recording;
 
-constexpr std::array<const char*, 11> faults = {"black:1.5:1",  "freeze:1.5:1",     "drop:1.5:1",   "drop:1:10:0.3",
-                                                "swap:1.5:1",   "blur:1.5:1",       "blur:1.5:1:2", "blur:0.5:3",
-                                                "noleft:1.5:1", "overexpose:1.5:1", "equal:1.5:0.5"};
+constexpr std::array<const char*, 14> faults = {
+    "black:1.5:1",       "freeze:1.5:1",  "drop:1.5:1",        "drop:1:10:0.3", "swap:1.5:1",
+    "blur:1.5:1",        "blur:1.5:1:2",  "blur:0.5:3",        "noleft:1.5:1",  "overexpose:1.5:1",
+    "corrupt:1.5:1:0.1", "corrupt:1.5:1", "corrupt:1.5:1:0.6", "equal:1.5:0.5"};
 constexpr const char* none = "black:1000:1";
 constexpr std::size_t piece_frames = 70;
 constexpr int room_frames = 80;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "front_end/front_end.hpp"
+#include "health/corruption.hpp"
 #include "health/health.hpp"
 #include "health/image_check.hpp"
 #include "output.hpp"
@@ -68,6 +69,7 @@ class SwfVo::Implementation {
   Implementation(const Parameters& parameters, const StereoCamera& camera, const Pose& T_base_camera)
       : parameters_(parameters),
         T_odom_first_camera_(T_base_camera),
+        mender_(camera.left.width, camera.left.height),
         prediction_(parameters, T_base_camera),
         front_end_(parameters, camera),
         window_(windowOptions(parameters, camera), camera),
@@ -81,8 +83,11 @@ class SwfVo::Implementation {
     evidence.first = !started_;
     const double periods = takeTime(pair.stamp);
     evidence.gap = periods > gap_periods;
-    evidence.image = images_.look(pair, doubtful_);
-    const StereoPair usable = evidence.image.exchange ? StereoPair{pair.stamp, pair.right, pair.left} : pair;
+    const RowMender::Mended mended = mender_.mend(pair);
+    evidence.corrupted = mended.corrupted;
+    evidence.image = images_.look(mended.pair, doubtful_);
+    const StereoPair usable =
+        evidence.image.exchange ? StereoPair{pair.stamp, mended.pair.right, mended.pair.left} : mended.pair;
 
     const Pose last = started_ ? window_.newest().pose : T_odom_first_camera_;
     ProcessInput u = started_ ? prediction_.step(seconds_, inputs) : ProcessInput();
@@ -188,6 +193,7 @@ class SwfVo::Implementation {
 
   Parameters parameters_;
   Pose T_odom_first_camera_;
+  RowMender mender_;
   ImageCheck images_;
   Prediction prediction_;
   FrontEnd front_end_;

@@ -158,7 +158,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Trouble{"noright:1.5:1", {Reason::ImageMissing}}, Trouble{"equal:1.5:0.5", {Reason::BadStamp}},
                     Trouble{"backward:1.5:0.5", {Reason::BadStamp}},
                     Trouble{"overexpose:1.5:1", {Reason::ExposureJump, Reason::Dark}},
-                    Trouble{"blur:1.5:1", {Reason::Blurred}}, Trouble{"blur:1.5:1:2", {Reason::Blurred}}));
+                    Trouble{"blur:1.5:1", {Reason::Blurred}}, Trouble{"blur:1.5:1:2", {Reason::Blurred}},
+                    Trouble{"corrupt:1.5:1", {Reason::Corrupted}}, Trouble{"corrupt:1.5:1:0.1", {Reason::Corrupted}},
+                    Trouble{"corrupt:1.5:1:0.6", {Reason::Corrupted}}));
 
 // kitti_raw_0926_0005: a car in a bend, with a van ahead. Frames 20 to 90 (28 m) for the faults, 46 to 146 for turning fast.
 struct Street {
@@ -210,15 +212,16 @@ TEST_P(FaultsInTheStreet, areNamedWithinTwoFramesAndOvercome) {
   EXPECT_TRUE(isWithinWhatIsStated(outcome, lengthOf(street()->faults))) << "off by " << outcome.error() << " m";
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, FaultsInTheStreet,
-                         testing::Values(Trouble{"black:1.5:1", {Reason::Dark}},
-                                         Trouble{"freeze:1.5:1", {Reason::Frozen}},
-                                         Trouble{"swap:1.5:1", {Reason::Swapped}}, Trouble{"drop:1.5:1", {Reason::Gap}},
-                                         Trouble{"drop:1:10:0.3", {Reason::Gap}},
-                                         Trouble{"overexpose:1.5:1", {Reason::ExposureJump, Reason::Dark}},
-                                         Trouble{"blur:1.5:1", {Reason::Blurred}},
-                                         Trouble{"blur:1.5:1:2", {Reason::Blurred}},
-                                         Trouble{"backward:1.5:0.5", {Reason::BadStamp}}));
+INSTANTIATE_TEST_SUITE_P(
+    Each, FaultsInTheStreet,
+    testing::Values(Trouble{"black:1.5:1", {Reason::Dark}}, Trouble{"freeze:1.5:1", {Reason::Frozen}},
+                    Trouble{"swap:1.5:1", {Reason::Swapped}}, Trouble{"drop:1.5:1", {Reason::Gap}},
+                    Trouble{"drop:1:10:0.3", {Reason::Gap}},
+                    Trouble{"overexpose:1.5:1", {Reason::ExposureJump, Reason::Dark}},
+                    Trouble{"blur:1.5:1", {Reason::Blurred}}, Trouble{"blur:1.5:1:2", {Reason::Blurred}},
+                    Trouble{"corrupt:1.5:1", {Reason::Corrupted}}, Trouble{"corrupt:1.5:1:0.1", {Reason::Corrupted}},
+                    Trouble{"corrupt:1.5:1:0.6", {Reason::Corrupted}},
+                    Trouble{"backward:1.5:0.5", {Reason::BadStamp}}));
 
 // A fault of the motion, not of the images: followed, it needs no name. Of real frames every fourth, at the pace of all, turns through the bend at
 // 59 deg/s, and goes at 20 m/s.

@@ -20,6 +20,7 @@ const char* toString(Reason reason) {
     case Reason::Gap: return "gap";
     case Reason::Inconsistent: return "inconsistent";
     case Reason::NotObserved: return "not_observed";
+    case Reason::Corrupted: return "corrupted";
   }
   return "unknown";
 }
@@ -38,6 +39,8 @@ const char* sentence(Reason reason) {
     case Reason::Gap: return "frames are missing before this one";
     case Reason::Inconsistent: return "the matches do not agree with one rigid motion";
     case Reason::NotObserved: return "some direction of the motion is held by the prediction alone";
+    case Reason::Corrupted:
+      return "rows of an image are rubbish: check cables, bandwidth and drivers; the rest of it is used";
   }
   return "";
 }
@@ -50,6 +53,8 @@ bool HealthMonitor::isTrusted(const Evidence& evidence) const {
 }
 
 Reason HealthMonitor::reasonFor(const Evidence& evidence) const {
+  const bool replaceable = evidence.image.usable && !evidence.image.exchange;
+  if (evidence.corrupted && replaceable) return Reason::Corrupted;
   if (evidence.image.reason != Reason::None) return evidence.image.reason;
   const int enough = evidence.first ? evidence.features : evidence.tracked;
   if (evidence.gap) return Reason::Gap;

@@ -58,6 +58,23 @@ TEST(HealthMonitor, degradesWithFewMatchesAndSaysWhy) {
   EXPECT_EQ(monitor.judge(few).health, Health::Lost);
 }
 
+TEST(HealthMonitor, namesRubbishWhereTheRestIsGood) {
+  HealthMonitor monitor{Parameters()};
+  Evidence evidence = good();
+  evidence.corrupted = true;
+  evidence.image.reason = Reason::Blurred;
+  EXPECT_TRUE(monitor.isTrusted(evidence));
+  EXPECT_EQ(monitor.judge(evidence).health, Health::Degraded);
+  EXPECT_EQ(monitor.judge(evidence).reason, static_cast<int>(Reason::Corrupted));
+  evidence.image.exchange = true;
+  evidence.image.reason = Reason::Swapped;
+  EXPECT_EQ(monitor.judge(evidence).reason, static_cast<int>(Reason::Swapped));
+  evidence.image = {};
+  evidence.tracked = 0;
+  EXPECT_EQ(monitor.judge(evidence).health, Health::Lost);
+  EXPECT_EQ(monitor.judge(evidence).reason, static_cast<int>(Reason::Corrupted));
+}
+
 TEST(HealthMonitor, theFirstFrameIsJudgedByItsFeatures) {
   HealthMonitor monitor{Parameters()};
   Evidence first;
@@ -71,13 +88,13 @@ TEST(HealthMonitor, theFirstFrameIsJudgedByItsFeatures) {
 
 TEST(Reasons, haveNamesOfTheirOwnAndSentences) {
   std::set<std::string> names;
-  for (int i = 0; i <= static_cast<int>(Reason::NotObserved); ++i) {
+  for (int i = 0; i <= static_cast<int>(Reason::Corrupted); ++i) {
     names.insert(toString(static_cast<Reason>(i)));
     if (i > 0) {
       EXPECT_STRNE(sentence(static_cast<Reason>(i)), "");
     }
   }
-  EXPECT_EQ(names.size(), static_cast<std::size_t>(Reason::NotObserved) + 1);
+  EXPECT_EQ(names.size(), static_cast<std::size_t>(Reason::Corrupted) + 1);
 }
 
 }  // namespace

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "health/corruption.hpp"
+
+#include <algorithm>
+#include <opencv2/core/hal/intrin.hpp>
+
+namespace swf_vo {
+
+using urban_nav_core::ImageView;
+using urban_nav_core::StereoPair;
+
+namespace {
+
+// A place: so many neighbours along a row; few enough for a row that rectification has bent to stay in it.
+constexpr int length = 32;
+constexpr int column_step = 64, row_step = 4;
+// From pixel to pixel random bytes differ by 85 grey levels, and at a place by more than 60 nearly always; below 16 it may be the noise of the camera.
+constexpr unsigned least_rough = 16 * length, random_bytes = 60 * length;
+// Halfway, in proportion, between what pictures have and what rubbish has (the header).
+constexpr double enough = 0.025;
+// Rows: where 60 % are rubbish, one in twenty has nothing else about it, and that is over random_bytes by itself.
+constexpr int reach = 3;
+constexpr int white = 250;
+
+unsigned difference(const std::uint8_t* p, const std::uint8_t* q) {
+  return cv::v_reduce_sad(cv::v_load(p), cv::v_load(q)) + cv::v_reduce_sad(cv::v_load(p + 16), cv::v_load(q + 16));
+}
+
+unsigned roughness(const std::uint8_t* p) { return difference(p, p + 1); }
+
+bool isRougher(unsigned roughness, unsigned other) { return roughness > least_rough && 2 * roughness > 5 * other; }
+
+}  // namespace
+
+bool looksCorrupted(const ImageView& image) {
+  if (image.empty()) return false;
+  int places = 0, rubbish = 0;
+  for (int v = 0; v + 1 < image.height; v += row_step) {
+    const std::uint8_t *upper = image.row(v), *lower = image.row(v + 1);
+    for (int u = 0; u + length < image.width; u += column_step, ++places) {
+      const unsigned a = roughness(upper + u), b = roughness(lower + u);
+      const bool torn = isRougher(std::max(a, b), std::min(a, b));
+      const bool random = std::min({a, b, difference(upper + u, lower + u)}) > random_bytes;
+      rubbish += torn || random ? 1 : 0;
+    }
+  }
+  return rubbish > enough * places;
+}
+
+RowMender::RowMender(int width, int height)
+    : width_(width),
+      height_(height),
+      left_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
+      right_(left_.size()),
+      roughness_(static_cast<std::size_t>(height)),
+      rubbish_(static_cast<std::size_t>(height)) {}
+
+RowMender::Mended RowMender::mend(const StereoPair& pair) {
+  Mended result{pair, false};
+  const auto mendOne = [&](ImageView& image, std::vector<std::uint8_t>& pixels) {
+    if (image.width != width_ || image.height != height_ || !looksCorrupted(image)) return;
+    mend(image, pixels);
+    image = {pixels.data(), width_, height_, width_};
+    result.corrupted = true;
+  };
+  mendOne(result.pair.left, left_);
+  mendOne(result.pair.right, right_);
+  return result;
+}
+
+void RowMender::mend(const ImageView& image, std::vector<std::uint8_t>& pixels) {
+  for (int v = 0; v < height_; ++v)
+    std::copy_n(image.row(v), width_, pixels.begin() + static_cast<std::ptrdiff_t>(v) * width_);
+  for (int begin = 0; begin < width_; begin += length) {
+    const int count = std::min(length, width_ - begin);
+    findRubbish(image, std::min(begin, width_ - length - 1));
+    bridge(pixels, begin, count);
+  }
+}
+
+void RowMender::findRubbish(const ImageView& image, int column) {
+  for (int v = 0; v < height_; ++v) roughness_[static_cast<std::size_t>(v)] = roughness(image.row(v) + column);
+  for (int v = 0; v < height_; ++v) {
+    const unsigned here = roughness_[static_cast<std::size_t>(v)];
+    unsigned least = here;
+    for (int w = std::max(0, v - reach); w < std::min(height_, v + reach + 1); ++w) {
+      const unsigned there = roughness_[static_cast<std::size_t>(w)];
+      // A row without any texture may be one that is missing, unless it is of a white sky.
+      if (there > 0 || image.at(column, w) >= white) least = std::min(least, there);
+    }
+    rubbish_[static_cast<std::size_t>(v)] = here > random_bytes || isRougher(here, least);
+  }
+}
+
+void RowMender::bridge(std::vector<std::uint8_t>& pixels, int column, int count) const {
+  const auto rowAt = [&](int v) { return pixels.begin() + static_cast<std::ptrdiff_t>(v) * width_ + column; };
+  int above = -1;
+  for (int v = 0; v <= height_; ++v) {
+    if (v < height_ && rubbish_[static_cast<std::size_t>(v)]) continue;
+    const int below = v;
+    const bool has_above = above >= 0, has_below = below < height_;
+    for (int w = above + 1; w < below && (has_above || has_below); ++w) {
+      const auto from = rowAt(has_above ? above : below), to = rowAt(has_below ? below : above);
+      const int share = 256 * (w - above) / (below - above);
+      std::transform(from, from + count, to, rowAt(w), [share](int a, int b) {
+        return static_cast<std::uint8_t>((a * (256 - share) + b * share + 128) / 256);
+      });
+    }
+    above = v;
+  }
+}
+
+}  // namespace swf_vo

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "health/corruption.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <opencv2/imgproc.hpp>
+#include <random>
+
+#include "recordings.hpp"
+#include "urban_nav_core/testing/allocations.hpp"
+#include "urban_nav_core/testing/faults.hpp"
+
+namespace swf_vo {
+namespace {
+
+using namespace urban_nav_core::testing;
+using urban_nav_core::ImageView;
+
+ImageView viewOf(const cv::Mat& image) {
+  return {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)};
+}
+
+cv::Mat imageOf(const GreyImage& grey) {
+  return cv::Mat(grey.height, grey.width, CV_8U, const_cast<std::uint8_t*>(grey.pixels.data())).clone();
+}
+
+/// A view into the rendered room.
+cv::Mat room() { return imageOf(inTheRoom("loop", 1.0, 70).frames[10].left); }
+
+void fillWithRubbish(cv::Mat rows, unsigned seed) {
+  std::mt19937 draw(seed);
+  for (int v = 0; v < rows.rows; ++v)
+    for (int u = 0; u < rows.cols; ++u) rows.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(draw() & 255U);
+}
+
+cv::Mat spoilt(const cv::Mat& image, double share, unsigned seed = 1) {
+  cv::Mat result = image.clone();
+  std::mt19937 draw(seed);
+  for (int v = 0; v < image.rows; ++v)
+    if (std::uniform_real_distribution<double>()(draw) < share)
+      fillWithRubbish(result.row(v), seed + 1000U * static_cast<unsigned>(v + 1));
+  return result;
+}
+
+double meanDifference(const cv::Mat& a, const cv::Mat& b) {
+  return cv::norm(a, b, cv::NORM_L1) / static_cast<double>(a.total());
+}
+
+cv::Mat withNoise(const cv::Mat& image, double sigma) {
+  cv::Mat noise(image.size(), CV_16S), result;
+  cv::theRNG().state = 7;
+  cv::randn(noise, 0.0, sigma);
+  image.convertTo(result, CV_16S);
+  result += noise;
+  result.convertTo(result, CV_8U);
+  return result;
+}
+
+/// Stripes of so many pixels, from black to white: along u, along v, or both.
+cv::Mat stripes(int along_u, int along_v) {
+  cv::Mat image(288, 384, CV_8U);
+  for (int v = 0; v < image.rows; ++v)
+    for (int u = 0; u < image.cols; ++u) {
+      const int odd = (along_u > 0 ? u / along_u : 0) + (along_v > 0 ? v / along_v : 0);
+      image.at<std::uint8_t>(v, u) = odd % 2 == 0 ? 0 : 255;
+    }
+  return image;
+}
+
+TEST(LooksCorrupted, sparesPicturesWhateverTheirTexture) {
+  EXPECT_FALSE(looksCorrupted(viewOf(room())));
+  for (const double sigma : {6.0, 20.0, 40.0}) EXPECT_FALSE(looksCorrupted(viewOf(withNoise(room(), sigma)))) << sigma;
+  cv::Mat blurred;
+  cv::GaussianBlur(room(), blurred, cv::Size(), 4.0);
+  EXPECT_FALSE(looksCorrupted(viewOf(blurred)));
+  EXPECT_FALSE(looksCorrupted(viewOf(room() * 4.0))) << "over-exposed";
+  EXPECT_FALSE(looksCorrupted(viewOf(stripes(3, 0))));
+  EXPECT_FALSE(looksCorrupted(viewOf(stripes(0, 1))));
+  EXPECT_FALSE(looksCorrupted(viewOf(stripes(8, 8))));
+  EXPECT_FALSE(looksCorrupted(viewOf(cv::Mat::zeros(288, 384, CV_8U))));
+  EXPECT_FALSE(looksCorrupted(ImageView()));
+  EXPECT_FALSE(looksCorrupted(viewOf(cv::Mat::zeros(1, 20, CV_8U))));
+}
+
+TEST(LooksCorrupted, findsAnyShareOfRubbish) {
+  for (const double share : {0.05, 0.1, 0.3, 0.6, 0.9, 1.0})
+    for (unsigned seed = 1; seed <= 5; ++seed)
+      EXPECT_TRUE(looksCorrupted(viewOf(spoilt(room(), share, seed)))) << share << ", " << seed;
+}
+
+TEST(LooksCorrupted, findsHalfAnImageOfRubbish) {
+  cv::Mat image = room();
+  fillWithRubbish(image.rowRange(image.rows / 2, image.rows), 3);
+  EXPECT_TRUE(looksCorrupted(viewOf(image)));
+}
+
+TEST(LooksCorrupted, forgivesOneRow) {
+  cv::Mat image = room();
+  fillWithRubbish(image.row(100), 3);
+  EXPECT_FALSE(looksCorrupted(viewOf(image)));
+}
+
+TEST(LooksCorrupted, findsRowsThatRectificationHasBent) {
+  // Barrel distortion as of a wide lens: the rows at the top sag by 14 px.
+  cv::Mat map_u(288, 384, CV_32F), map_v(288, 384, CV_32F), bent;
+  for (int v = 0; v < 288; ++v)
+    for (int u = 0; u < 384; ++u) {
+      const float x = static_cast<float>(u) / 192.0F - 1.0F, y = static_cast<float>(v) / 144.0F - 1.0F;
+      const float scale = 1.0F - 0.1F * (x * x + y * y);
+      map_u.at<float>(v, u) = 192.0F * (1.0F + x * scale);
+      map_v.at<float>(v, u) = 144.0F * (1.0F + y * scale);
+    }
+  const auto bend = [&](const cv::Mat& image) {
+    cv::remap(image, bent, map_u, map_v, cv::INTER_LINEAR);
+    return viewOf(bent);
+  };
+  EXPECT_FALSE(looksCorrupted(bend(room())));
+  for (const double share : {0.1, 0.3, 0.6}) EXPECT_TRUE(looksCorrupted(bend(spoilt(room(), share)))) << share;
+}
+
+TEST(LooksCorrupted, isNoMatterOfTheImagesPlaceInMemory) {
+  const cv::Mat whole = spoilt(room(), 0.3);
+  EXPECT_TRUE(looksCorrupted(viewOf(whole(cv::Rect(7, 5, 101, 77)))));
+  EXPECT_FALSE(looksCorrupted(viewOf(room()(cv::Rect(7, 5, 101, 77)))));
+}
+
+TEST(LooksCorrupted, neverSaysSoOfRealImages) {
+  for (const char* name : {"stereo/kitti06_000_050", "stereo/kitti_raw_0926_0005"}) {
+    const std::string folder = dataFolder(name);
+    if (folder.empty()) GTEST_SKIP() << "URBAN_NAV_DATA names no folder with " << name;
+    const Recording recording = readSequenceFolder(folder, 0, 200);
+    for (const StereoFrame& frame : recording.frames) {
+      EXPECT_FALSE(looksCorrupted(frame.pair().left)) << name << ", " << frame.stamp;
+      EXPECT_FALSE(looksCorrupted(frame.pair().right)) << name << ", " << frame.stamp;
+    }
+    const cv::Mat real = imageOf(recording.frames[10].left);
+    EXPECT_TRUE(looksCorrupted(viewOf(spoilt(real, 0.1))));
+  }
+}
+
+TEST(RowMender, leavesWhatIsGoodWhereItIs) {
+  const cv::Mat left = room(), right = room(), rubbish = spoilt(right, 0.3);
+  RowMender mender(left.cols, left.rows);
+  const auto whole = mender.mend({5, viewOf(left), viewOf(right)});
+  EXPECT_FALSE(whole.corrupted);
+  EXPECT_EQ(whole.pair.stamp, 5);
+  EXPECT_EQ(whole.pair.left.data, left.data);
+  EXPECT_EQ(whole.pair.right.data, right.data);
+  const auto half = mender.mend({6, viewOf(left), viewOf(rubbish)});
+  EXPECT_TRUE(half.corrupted);
+  EXPECT_EQ(half.pair.left.data, left.data);
+  EXPECT_NE(half.pair.right.data, rubbish.data);
+  RowMender other(left.cols - 2, left.rows);
+  EXPECT_FALSE(other.mend({7, viewOf(rubbish), viewOf(rubbish)}).corrupted);
+  EXPECT_FALSE(other.mend({8, ImageView(), viewOf(rubbish)}).corrupted);
+}
+
+TEST(RowMender, bridgesRubbishAndNothingElse) {
+  const cv::Mat good = room();
+  RowMender mender(good.cols, good.rows);
+  for (const double share : {0.1, 0.3, 0.6}) {
+    const cv::Mat bad = spoilt(good, share);
+    const ImageView view = mender.mend({0, viewOf(bad), viewOf(good)}).pair.left;
+    const cv::Mat mended(view.height, view.width, CV_8U, const_cast<std::uint8_t*>(view.data));
+    EXPECT_LT(meanDifference(mended, good), 0.2 * meanDifference(bad, good)) << share;
+    int spared = 0, changed = 0;
+    for (int v = 0; v < good.rows; ++v) {
+      if (meanDifference(bad.row(v), good.row(v)) > 0.0) continue;
+      ++spared;
+      changed += meanDifference(mended.row(v), good.row(v)) > 0.0 ? 1 : 0;
+    }
+    EXPECT_LE(changed, spared / 10) << share;
+  }
+}
+
+// A strip that is saturated has no texture at all, nor have rows that are missing: rubbish is found in the first, and what is good stays beside the second.
+TEST(RowMender, tellsAWhiteSkyFromMissingRows) {
+  cv::Mat white = room();
+  white.rowRange(0, 100).setTo(255);
+  RowMender mender(white.cols, white.rows);
+  const auto mended = [&](const cv::Mat& image) {
+    const ImageView view = mender.mend({0, viewOf(image), viewOf(image)}).pair.left;
+    return cv::Mat(view.height, view.width, CV_8U, const_cast<std::uint8_t*>(view.data));
+  };
+  const cv::Mat sky = mended(spoilt(white, 0.3)).rowRange(5, 95);
+  EXPECT_LT(meanDifference(sky, cv::Mat(sky.size(), CV_8U, cv::Scalar(255))), 0.5);
+  cv::Mat holes = stripes(3, 0) * 0.3 + 50;
+  const cv::Mat full = holes.clone();
+  for (int v = 0; v < holes.rows; v += 3) holes.row(v).setTo(0);
+  EXPECT_EQ(meanDifference(mended(holes).row(100), full.row(100)), 0.0);
+}
+
+TEST(RowMender, survivesNothingButRubbishAndAllocatesNothing) {
+  cv::Mat rubbish(288, 384, CV_8U);
+  fillWithRubbish(rubbish, 1);
+  RowMender mender(384, 288);
+  const AllocationCount count;
+  const auto mended = mender.mend({0, viewOf(rubbish), viewOf(rubbish)});
+  if (countsAllocations()) {
+    EXPECT_EQ(count.sofar(), 0);
+  }
+  EXPECT_TRUE(mended.corrupted);
+  EXPECT_EQ(mended.pair.left.width, 384);
+}
+
+}  // namespace
+}  // namespace swf_vo
