@@ -40,8 +40,8 @@ constexpr std::uint8_t clipped_from = 254;
 constexpr int clipping_reach = 2;                                // px of the level
 constexpr int attempts_per_feature = 3, attempts_at_least = 20;  // bounds the time where nothing can be matched
 
-/// Is it a corner of what is clipped, such as leaves before a white sky? Where the light is cut off moves with the exposure and with what gets into
-/// each pixel: followed, such corners turned the camera by 10 mdeg in 2 s in the simulated streets, all of them alike.
+/// Is it a corner of what is clipped, such as leaves before a white sky? Where the light is cut off moves with the exposure and with what falls into
+/// each pixel, alike for all such corners: they turn the camera, and no residual shows it.
 bool isOfClipped(const ImageView& image, int u, int v, int reach) {
   const int first = std::max(u - reach, 0), end = std::min(u + reach + 1, image.width);
   for (int j = std::max(v - reach, 0); j <= std::min(v + reach, image.height - 1); ++j)
