@@ -224,20 +224,26 @@ INSTANTIATE_TEST_SUITE_P(
                     Trouble{"backward:1.5:0.5", {Reason::BadStamp}}));
 
 // A fault of the motion, not of the images: followed, it needs no name. Of real frames every fourth, at the pace of all, turns through the bend at
-// 59 deg/s, and goes at 20 m/s.
+// 59 deg/s, and goes at 20 m/s. From each of the first four frames, root mean square, since one end point is a throw of dice.
 TEST(Turning, sixtyDegreesASecondAreFollowedInTheStreet) {
   if (street() == nullptr) GTEST_SKIP() << "URBAN_NAV_DATA names no folder with stereo/kitti_raw_0926_0005";
-  const Recording& slow = street()->turning;
-  const Recording fast = piece(slow, 0, slow.frames.size(), 4);
-  double most = 0.0;
-  for (std::size_t i = 1; i < fast.truth.size(); ++i)
-    most = std::max(most, angleBetween(fast.truth[i - 1], fast.truth[i]) /
-                              urban_nav_core::secondsBetween(fast.frames[i - 1].stamp, fast.frames[i].stamp));
-  EXPECT_GT(most, 57.0 * M_PI / 180.0);
-  const Outcome usual = undisturbed(slow), outcome = undisturbed(fast);
-  EXPECT_EQ(outcome.last.status.health, Health::Ok) << outcome.last.status;
-  EXPECT_LT(outcome.error(), 2.0 * usual.error());
-  EXPECT_TRUE(isWithinWhatIsStated(outcome, lengthOf(fast))) << "off by " << outcome.error() << " m";
+  const Recording& whole = street()->turning;
+  double squares = 0.0, usual = 0.0;
+  for (std::size_t first = 0; first < 4; ++first) {
+    const Recording slow = piece(whole, first, whole.frames.size() - first);
+    const Recording fast = piece(slow, 0, slow.frames.size(), 4);
+    double most = 0.0;
+    for (std::size_t i = 1; i < fast.truth.size(); ++i)
+      most = std::max(most, angleBetween(fast.truth[i - 1], fast.truth[i]) /
+                                urban_nav_core::secondsBetween(fast.frames[i - 1].stamp, fast.frames[i].stamp));
+    EXPECT_GT(most, 57.0 * M_PI / 180.0);
+    const Outcome outcome = undisturbed(fast);
+    EXPECT_EQ(outcome.last.status.health, Health::Ok) << first << ": " << outcome.last.status;
+    EXPECT_TRUE(isWithinWhatIsStated(outcome, lengthOf(fast))) << first << ": off by " << outcome.error() << " m";
+    squares += std::pow(outcome.error(), 2);
+    usual += std::pow(undisturbed(slow).error(), 2);
+  }
+  EXPECT_LT(std::sqrt(squares), 2.0 * std::sqrt(usual));
 }
 
 TEST(Turning, sixtyDegreesASecondAreFollowedInTheRoom) {
