@@ -18,6 +18,8 @@ constexpr int column_step = 64, row_step = 4;
 constexpr unsigned least_rough = 16 * length, random_bytes = 60 * length;
 // Halfway, in proportion, between what pictures have and what rubbish has (the header).
 constexpr double enough = 0.025;
+constexpr int fewest =
+    4;  // places: a small image has a few tens, and one of them may be an edge that lies along the rows
 // Rows: where 60 % are rubbish, one in twenty has nothing else about it, and that is over random_bytes by itself.
 constexpr int reach = 3;
 constexpr int white = 250;
@@ -44,7 +46,7 @@ bool looksCorrupted(const ImageView& image) {
       rubbish += torn || random ? 1 : 0;
     }
   }
-  return rubbish > enough * places;
+  return rubbish >= fewest && rubbish > enough * places;
 }
 
 RowMender::RowMender(int width, int height)

@@ -121,6 +121,17 @@ TEST(LooksCorrupted, findsRowsThatRectificationHasBent) {
   for (const double share : {0.1, 0.3, 0.6}) EXPECT_TRUE(looksCorrupted(bend(spoilt(room(), share)))) << share;
 }
 
+// Small images have few places, and no lens has spread what was left out of larger ones.
+TEST(LooksCorrupted, sparesSmallImages) {
+  for (const int width : {70, 96, 128, 192})
+    for (const int interpolation : {cv::INTER_NEAREST, cv::INTER_LINEAR, cv::INTER_AREA})
+      for (const auto& frame : inTheRoom("loop", 1.0, 70).frames) {
+        cv::Mat small;
+        cv::resize(imageOf(frame.left), small, {width, width * 3 / 4}, 0, 0, interpolation);
+        EXPECT_FALSE(looksCorrupted(viewOf(small))) << width << " " << interpolation;
+      }
+}
+
 TEST(LooksCorrupted, isNoMatterOfTheImagesPlaceInMemory) {
   const cv::Mat whole = spoilt(room(), 0.3);
   EXPECT_TRUE(looksCorrupted(viewOf(whole(cv::Rect(7, 5, 101, 77)))));
