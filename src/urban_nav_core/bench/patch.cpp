@@ -64,7 +64,7 @@ void align(benchmark::State& state) {
   const double scale = 0.01 * static_cast<double>(state.range(0));
   const auto first = picture(0.0, 1.0), second = picture(0.4, scale);
   PatchTemplate made;
-  warpTemplate(*cutSource(view(first), 32, 32), scale * Eigen::Matrix2d::Identity(), made);
+  warpTemplate(*cutSource(view(first), 32, 32), Eigen::Matrix2d(scale * Eigen::Matrix2d::Identity()), made);
   while (state.KeepRunning()) benchmark::DoNotOptimize(alignPatch(view(second), made, {32.0, 32.0}));
 }
 BENCHMARK(align)->Arg(100)->Arg(130);
@@ -73,7 +73,7 @@ void across(benchmark::State& state) {
   const auto left = picture(0.0, 1.0), right = picture(-2.4, 1.0);
   const auto source = *cutSource(view(left), 32, 32);
   PatchTemplate made;
-  while (state.KeepRunning()) benchmark::DoNotOptimize(alignAcross(view(right), source, {30.0, 32.0}, {}, made));
+  while (state.KeepRunning()) benchmark::DoNotOptimize(alignAcross(view(right), source, {30.0, 32.0}, 0.05, made));
 }
 BENCHMARK(across);
 

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double largest_scale = 1.5, smallest_scale = 0.6;
 constexpr double same_warp = 0.02;    // of an entry: 0.1 px at the border of the window
+constexpr double same_bend = 0.002;   // 1/px, half as much there
 constexpr double row_gate = 9.0;      // chi-square of the difference of the rows, one degree of freedom
 constexpr double row_slack_px = 0.3;  // what rectification may be wrong by
 constexpr double further = 1.4;       // a slant is learnt anew each time the camera has moved so much further
@@ -39,9 +40,11 @@ bool prepareTemplate(Side side, const StereoCamera& camera, const Pose& T_camera
   const Eigen::Vector2d& blur = track.blur;
   if (track.sharper || blur.maxCoeff() > urban_nav_core::largest_blur) return false;
   const Pose T_camera_born = T_camera_odom * track.T_born_odom.inverse();
-  const auto A = warpInto(side, camera, track, T_camera_born, inverseDepthWhereBorn(match));
-  if (!A || !A->allFinite()) return false;
-  const double area = A->determinant();
+  auto warp = warpInto(side, camera, track, T_camera_born, inverseDepthWhereBorn(match));
+  if (!warp || !warp->A.allFinite() || !warp->bend.allFinite()) return false;
+  warp->bend /= urban_nav_core::Pyramid::scale(track.level);
+  warp->bend *= std::min(1.0, urban_nav_core::largest_bend / std::max(warp->bend.norm(), 1e-9));
+  const double area = warp->A.determinant();
   if (!(area > smallest_scale * smallest_scale && area < largest_scale * largest_scale)) return false;
   PatchTemplate &made = is_left ? track.in_left : track.in_right, &others = is_left ? track.in_right : track.in_left;
   bool &ready = is_left ? track.left_ready : track.right_ready,
@@ -49,15 +52,17 @@ bool prepareTemplate(Side side, const StereoCamera& camera, const Pose& T_camera
   Eigen::Vector2d &made_blur = is_left ? track.made_blur_left : track.made_blur_right,
                   &others_blur = is_left ? track.made_blur_right : track.made_blur_left;
   const auto serves = [&](const PatchTemplate& patch, const Eigen::Vector2d& its_blur) {
-    return (patch.A - *A).cwiseAbs().maxCoeff() < same_warp && (its_blur - blur).cwiseAbs().maxCoeff() < same_blur;
+    return (patch.warp.A - warp->A).cwiseAbs().maxCoeff() < same_warp &&
+           (patch.warp.bend - warp->bend).cwiseAbs().maxCoeff() < same_bend &&
+           (its_blur - blur).cwiseAbs().maxCoeff() < same_blur;
   };
   if (ready && serves(made, made_blur)) return true;
   // What is seen from the front looks the same to both eyes.
   ready = others_ready && serves(others, others_blur);
   made_blur = ready ? others_blur : blur;
   if (ready) made = others;
-  else if (blur.isZero()) ready = urban_nav_core::warpTemplate(track.source, *A, made);
-  else ready = urban_nav_core::warpTemplate(urban_nav_core::blurred(track.source, blur), *A, made);
+  else if (blur.isZero()) ready = urban_nav_core::warpTemplate(track.source, *warp, made);
+  else ready = urban_nav_core::warpTemplate(urban_nav_core::blurred(track.source, blur), *warp, made);
   return ready;
 }
 
@@ -88,26 +93,26 @@ void learnSurface(const Corners& corners, const StereoCamera& camera, const Pose
   alignment.position = match.left.pixel * urban_nav_core::Pyramid::scale(track.level);
   alignment.gain = match.left.gain;
   alignment.noise = match.left.noise;
-  const urban_nav_core::Slant slant =
-      urban_nav_core::refineSlant(corners.image(Side::Left, track.level), track.source, track.in_left, alignment,
-                                  direction, track.slant_information);
+  const Eigen::Vector3d plane = surfaceAt(track, inverse_depth);
+  const Eigen::Vector2d assumed(plane.x(), plane.y() * camera.left.fx / camera.left.fy);
+  urban_nav_core::Slope slant = track.slant;
+  urban_nav_core::seeSlant(corners.image(Side::Left, track.level), track.source, track.in_left, alignment, direction,
+                           assumed, slant);
   track.slant_reach = direction.norm();
-  const double at_ray = track.plane.dot(track.ray);
-  if (!(slant.change.norm() < steepest * std::max(inverse_depth, 1e-3)) || !(at_ray > 1e-9) || !(inverse_depth > 0.0))
-    return;
-  track.plane *= inverse_depth / at_ray;
-  const Eigen::Vector2d change(slant.change.x(), slant.change.y() * camera.left.fy / camera.left.fx);
-  track.plane += Eigen::Vector3d(change.x(), change.y(), -change.dot(track.ray.head<2>()));
-  track.slant_information = slant.information;
+  if (!(inverse_depth > 0.0)) return;
+  const Eigen::Vector2d mean = slant.under(inverse_depth).mean;
+  if (!((mean - assumed).norm() < steepest * std::max(inverse_depth, 1e-3))) return;
+  track.slant = slant;
+  track.plane = leaning(camera, track.ray, inverse_depth, mean);
 }
 
 Eigen::Matrix2d creep(const StereoCamera& camera, const Pose& T_camera_odom, Match& match) {
   Track& track = *match.track;
-  const auto A =
+  const auto warp =
       warpInto(Side::Left, camera, track, T_camera_odom * track.T_born_odom.inverse(), inverseDepthWhereBorn(match));
-  if (!A || !A->allFinite() || !(std::abs(A->determinant()) > 1e-3)) return Eigen::Matrix2d::Zero();
-  const double change = (*A * track.seen_as.inverse() - Eigen::Matrix2d::Identity()).norm();
-  track.seen_as = *A;
+  if (!warp || !warp->A.allFinite() || !(std::abs(warp->A.determinant()) > 1e-3)) return Eigen::Matrix2d::Zero();
+  const double change = (warp->A * track.seen_as.inverse() - Eigen::Matrix2d::Identity()).norm();
+  track.seen_as = warp->A;
   return change * track.creep;
 }
 
@@ -115,7 +120,7 @@ Eigen::Matrix2d displacedByBlur(const Track& track, bool in_left) {
   const Eigen::Vector2d& blur = in_left ? track.made_blur_left : track.made_blur_right;
   const PatchTemplate& made = in_left ? track.in_left : track.in_right;
   PatchTemplate sharp;
-  if (blur.isZero() || !urban_nav_core::warpTemplate(track.source, made.A, sharp)) return Eigen::Matrix2d::Zero();
+  if (blur.isZero() || !urban_nav_core::warpTemplate(track.source, made.warp, sharp)) return Eigen::Matrix2d::Zero();
   const Eigen::Vector2d d =
       blur_share * urban_nav_core::displacement(made, sharp) / urban_nav_core::Pyramid::scale(track.level);
   return d * d.transpose();

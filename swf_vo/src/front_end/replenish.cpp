@@ -26,10 +26,7 @@ constexpr double largest_disparity = 0.16;   // of the image's width: nearer thi
 constexpr int lowest_disparity = -2;         // px of the level: far points, with the error of rectification
 constexpr double least_disparity_px = -1.0;  // after refinement, level 0
 constexpr float level_preference = 0.3F;     // a feature is located to pixels of its own level
-// Disparity of a plane slopes by baseline / (its distance from the camera): planes at 2 m and more are provided for, a road seen from
-// a car has 0.3. Most corners lie on things whose depth changes less than by their width.
-constexpr double nearest_plane = 2.0, steepest = 0.25, usual_slant = 0.7;
-constexpr double same_row = 1.0;  // px of the level between the rows of both images
+constexpr double same_row = 1.0;             // px of the level between the rows of both images
 constexpr double least_correlation_across = 0.85;
 // As the view changes, a template weighs its pixels anew, and where it stands creeps: by the error it was born with (its noise, and what the
 // surface is beside a plane, creep_px), in variance, times this for a change of one. Measured in rendered rooms at 1, 3 and 6 grey
@@ -104,13 +101,11 @@ bool Replenisher::start(const Candidate& candidate, FrameId frame, const Corners
   Track* track = tracks.start();
   if (track == nullptr) return false;
   track->level = candidate.level;
-  urban_nav_core::SlopePrior prior;
-  prior.wide_sigma = std::min(steepest, camera_.baseline / nearest_plane);
-  prior.usual_sigma = std::min(
-      prior.wide_sigma,
-      usual_slant * std::max(1.0, (*disparity - offset + 0.5) / Pyramid::scale(candidate.level)) / camera_.left.fx);
+  // a surface at 45 deg to the line of sight is as deep as it is wide
+  const double usual_slope =
+      std::max(1.0, (*disparity - offset + 0.5) / Pyramid::scale(candidate.level)) / camera_.left.fx;
   const SlopedAlignment found = urban_nav_core::alignAcross(
-      right, *source, {candidate.u - *disparity, candidate.v + row_offset}, prior, track->in_right);
+      right, *source, {candidate.u - *disparity, candidate.v + row_offset}, usual_slope, track->in_right);
   const double size = 1.0 / Pyramid::scale(candidate.level);
   Match match;
   match.left.found = match.right.found = true;
@@ -123,7 +118,7 @@ bool Replenisher::start(const Candidate& candidate, FrameId frame, const Corners
       fits && std::abs(lower - row_offset) <= same_row &&
       match.left.pixel.x() - match.right.pixel.x() - camera_.disparity_offset >= least_disparity_px &&
       misfit_[static_cast<std::size_t>(candidate.level)].isUsual(found.alignment.noise) &&
-      urban_nav_core::warpTemplate(*source, Eigen::Matrix2d::Identity(), track->in_left);
+      urban_nav_core::warpTemplate(*source, {}, track->in_left);
   if (plausible) {
     // the template's own noise is the left image's
     const double noise = std::max(found.alignment.noise, 0.3);
@@ -141,7 +136,7 @@ bool Replenisher::start(const Candidate& candidate, FrameId frame, const Corners
   track->T_born_odom = T_odom_camera.inverse();
   track->ray = camera_.left.ray(match.left.pixel);
   track->plane = surface(camera_, {match.left.pixel.x(), match.left.pixel.y(), match.right.pixel.x()}, found.slopes);
-  track->slant_information = camera_.baseline * camera_.baseline * found.slopes_covariance.inverse();
+  track->slant = found.seen.scaled(1.0 / camera_.baseline);
   track->slant_reach = camera_.baseline;
   track->creep = creep_per_change * (match.left.covariance + creep_px * creep_px * Eigen::Matrix2d::Identity());
   track->sigma_disparity =

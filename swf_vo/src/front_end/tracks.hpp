@@ -31,7 +31,7 @@ struct Track {
   urban_nav_core::Pose T_born_odom;                 ///< odom into the left camera of its first frame
   Eigen::Vector3d ray = Eigen::Vector3d::UnitZ();   ///< of the template's middle in that camera, z = 1
   Eigen::Vector3d plane = Eigen::Vector3d::Zero();  ///< its surface there: plane . X = 1 (1/m); zero: at infinity
-  Eigen::Matrix2d slant_information = Eigen::Matrix2d::Zero();  ///< of plane.x and plane.y fx / fy, m^2
+  urban_nav_core::Slope slant;                      ///< what pixels said of plane.x and plane.y fx / fy, 1/m
   double slant_reach =
       0.0;  ///< how far the camera had moved, as far as the slant shows it, when it was last learnt (m)
   Eigen::Matrix2d seen_as = Eigen::Matrix2d::Identity();  ///< warp into the left image when it was last trusted
@@ -55,12 +55,20 @@ struct Track {
 Eigen::Vector3d surface(const urban_nav_core::StereoCamera& camera, const urban_nav_core::StereoCamera::Pixel& pixel,
                         const Eigen::Vector2d& slopes);
 
-/// How pixels around the landmark move from its first left view into a view of now: the Jacobian of the homography of its surface.
-/// `inverse_depth`: 1/z of the landmark in the first camera, as the map has it now. Empty if it would lie behind the camera.
-std::optional<Eigen::Matrix2d> warpInto(Side side, const urban_nav_core::StereoCamera& camera, const Track& track,
-                                        const urban_nav_core::Pose& T_camera_born, double inverse_depth);
+/// The surface through the point at `inverse_depth` (1/z) on `ray` with the slant (1/m) that plane.x and plane.y fx / fy are.
+Eigen::Vector3d leaning(const urban_nav_core::StereoCamera& camera, const Eigen::Vector3d& ray, double inverse_depth,
+                        const Eigen::Vector2d& slant);
 
-/// Where a pixel next to the landmark goes if its surface slants by one unit more: the `direction` of urban_nav_core::refineSlant, m.
+/// The landmark's surface, if 1/z of the landmark in the first camera is `inverse_depth`.
+Eigen::Vector3d surfaceAt(const Track& track, double inverse_depth);
+
+/// How pixels around the landmark move from its first left view into a view of now, by the homography of its surface (px of level 0).
+/// `inverse_depth`: 1/z of the landmark in the first camera, as the map has it now. Empty if it would lie behind the camera.
+std::optional<urban_nav_core::PatchWarp> warpInto(Side side, const urban_nav_core::StereoCamera& camera,
+                                                  const Track& track, const urban_nav_core::Pose& T_camera_born,
+                                                  double inverse_depth);
+
+/// Where a pixel next to the landmark goes if its surface slants by one unit more: the `direction` of urban_nav_core::seeSlant, m.
 Eigen::Vector2d slantDirection(const urban_nav_core::StereoCamera& camera, const Track& track,
                                const urban_nav_core::Pose& T_camera_born, double inverse_depth);
 

@@ -57,7 +57,7 @@ Eigen::Vector2d through(Side side, const StereoCamera& c, const Eigen::Vector3d&
   return *c.left.project(p);
 }
 
-TEST(Tracks, WarpIsTheDerivativeOfTheHomography) {
+TEST(Tracks, WarpIsTheHomographyOfTheSurface) {
   const StereoCamera c = camera();
   Track track;
   const Eigen::Vector2d pixel(300.0, 250.0);
@@ -65,15 +65,20 @@ TEST(Tracks, WarpIsTheDerivativeOfTheHomography) {
   track.plane = surface(c, {300.0, 250.0, 290.0}, {0.05, 0.25});
   const Pose T(expSo3({0.03, -0.1, 0.2}), Eigen::Vector3d(0.3, -0.1, -2.0));
   for (const Side side : {Side::Left, Side::Right}) {
-    const auto A = warpInto(side, c, track, T, track.plane.dot(track.ray));
-    ASSERT_TRUE(A);
+    const auto warp = warpInto(side, c, track, T, track.plane.dot(track.ray));
+    ASSERT_TRUE(warp);
     Eigen::Matrix2d numeric;
     for (int k = 0; k < 2; ++k) {
       const Eigen::Vector2d d = 1e-4 * Eigen::Vector2d::Unit(k);
       numeric.col(k) =
           (through(side, c, track.plane, T, pixel + d) - through(side, c, track.plane, T, pixel - d)) / 2e-4;
     }
-    EXPECT_LT((*A - numeric).cwiseAbs().maxCoeff(), 1e-6);
+    EXPECT_LT((warp->A - numeric).cwiseAbs().maxCoeff(), 1e-6);
+    const Eigen::Vector2d middle = through(side, c, track.plane, T, pixel);
+    for (const Eigen::Vector2d& p : {Eigen::Vector2d(12, 0), Eigen::Vector2d(-7, 9), Eigen::Vector2d(0, -12)}) {
+      const Eigen::Vector2d moved = through(side, c, track.plane, T, pixel + p) - middle;
+      EXPECT_LT((moved - warp->A * p / (1.0 + warp->bend.dot(p))).norm(), 1e-9);
+    }
   }
 }
 
@@ -85,11 +90,11 @@ TEST(Tracks, SlantDirectionIsTheDerivativeOfTheWarp) {
   const Pose T(expSo3({0.03, -0.1, 0.2}), Eigen::Vector3d(0.3, -0.1, -2.0));
   const double inverse_depth = track.plane.dot(track.ray);
   const Eigen::Vector2d direction = slantDirection(c, track, T, inverse_depth);
-  const Eigen::Matrix2d before = *warpInto(Side::Left, c, track, T, inverse_depth);
+  const Eigen::Matrix2d before = warpInto(Side::Left, c, track, T, inverse_depth)->A;
   const Eigen::Vector2d slant(1e-5, -2e-5);
   const Eigen::Vector2d change(slant.x(), slant.y() * c.left.fy / c.left.fx);
   track.plane += Eigen::Vector3d(change.x(), change.y(), -change.dot(track.ray.head<2>()));
-  const Eigen::Matrix2d after = *warpInto(Side::Left, c, track, T, inverse_depth);
+  const Eigen::Matrix2d after = warpInto(Side::Left, c, track, T, inverse_depth)->A;
   EXPECT_LT((after - before - direction * slant.transpose()).norm(), 1e-9);
 }
 
@@ -98,9 +103,10 @@ TEST(Tracks, WarpOfAPointAtInfinityTurnsOnly) {
   Track track;
   track.ray = Eigen::Vector3d::UnitZ();
   const Pose T(expSo3({0.0, 0.0, 0.3}), Eigen::Vector3d(5.0, 0.0, 3.0));
-  const auto A = warpInto(Side::Right, c, track, T, 0.0);
-  ASSERT_TRUE(A);
-  EXPECT_NEAR(A->determinant(), 1.0, 1e-12);
+  const auto warp = warpInto(Side::Right, c, track, T, 0.0);
+  ASSERT_TRUE(warp);
+  EXPECT_NEAR(warp->A.determinant(), 1.0, 1e-12);
+  EXPECT_EQ(warp->bend.norm(), 0.0);
   EXPECT_FALSE(warpInto(Side::Left, c, track, Pose(expSo3({0.0, 3.0, 0.0}), Eigen::Vector3d::Zero()), 0.0));
 }
 

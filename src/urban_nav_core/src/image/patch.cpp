@@ -74,8 +74,8 @@ v_float32x4 weighed(const float* p, const float* wx, const float* wy) {
   return column * cv::v_load_aligned(wx);
 }
 
-/// The source warped by the inverse of A, at least `margin` (1 or 2) pixels wider than the window on each side.
-void warpWide(const PatchSource& source, const Eigen::Matrix2d& source_from_view, int margin, WideGrid& out) {
+/// The source as the view has it, at least `margin` (1 or 2) pixels wider than the window on each side.
+void warpWide(const PatchSource& source, const PatchWarp& warp, int margin, WideGrid& out) {
   using cv::v_int32x4;
   constexpr int stride = PatchSource::stride;
   static_assert(stride == 24, "24 = 16 + 8, below");
@@ -83,19 +83,24 @@ void warpWide(const PatchSource& source, const Eigen::Matrix2d& source_from_view
   for (std::size_t i = 0; i < pixels.size(); i += 4)
     cv::v_store_aligned(&pixels[i], cv::v_cvt_f32(cv::v_reinterpret_as_s32(cv::v_load_expand_q(&source.pixels[i]))));
   const auto& table = splineTable().weights;
+  // p = back q / (1 - bend . back q)
+  const Eigen::Matrix2d source_from_view = warp.A.inverse();
   const v_float32x4 ax = cv::v_setall_f32(static_cast<float>(source_from_view(0, 0))),
                     ay = cv::v_setall_f32(static_cast<float>(source_from_view(1, 0)));
   const float bx = static_cast<float>(source_from_view(0, 1)), by = static_cast<float>(source_from_view(1, 1));
   const v_float32x4 low = cv::v_setall_f32(1.0F), high = cv::v_setall_f32(PatchSource::size - 2.01F),
                     lines = cv::v_setall_f32(phases), half = cv::v_setall_f32(0.5F);
   const v_float32x4 middle = cv::v_setall_f32(PatchSource::radius), step(0.0F, 1.0F, 2.0F, 3.0F);
+  const v_float32x4 one = cv::v_setall_f32(1.0F), bend_x = cv::v_setall_f32(static_cast<float>(warp.bend.x())),
+                    bend_y = cv::v_setall_f32(static_cast<float>(warp.bend.y()));
   for (int j = 2 - margin; j < wide_size - 2 + margin; ++j) {
     const float dv = static_cast<float>(j - patch_radius - 2);
-    const v_float32x4 x0 = middle + cv::v_setall_f32(bx * dv), y0 = middle + cv::v_setall_f32(by * dv);
+    const v_float32x4 x0 = cv::v_setall_f32(bx * dv), y0 = cv::v_setall_f32(by * dv);
     for (int i = 0; i < wide_size; i += 4) {
       const v_float32x4 du = step + cv::v_setall_f32(static_cast<float>(i - patch_radius - 2));
-      const v_float32x4 x = cv::v_min(cv::v_max(x0 + ax * du, low), high),
-                        y = cv::v_min(cv::v_max(y0 + ay * du, low), high);
+      const v_float32x4 qx = x0 + ax * du, qy = y0 + ay * du, depth = one / (one - bend_x * qx - bend_y * qy);
+      const v_float32x4 x = cv::v_min(cv::v_max(middle + qx * depth, low), high),
+                        y = cv::v_min(cv::v_max(middle + qy * depth, low), high);
       const v_int32x4 u = cv::v_trunc(x), v = cv::v_trunc(y);
       alignas(16) int place[4], phase_x[4], phase_y[4];
       cv::v_store_aligned(place, (v << 4) + (v << 3) + u);
@@ -236,20 +241,22 @@ void makeBlind(const PatchGrid& gradient, const PatchTemplate& patch, PatchGrid&
                 cv::v_load(&w.weight[i]) * (cv::v_load(&gradient[i]) - offset - gain * cv::v_load(&patch.value[i])));
 }
 
-bool makeTemplate(const PatchSource& source, const Eigen::Matrix2d& A, PatchTemplate& made, Gradients& gradients) {
+bool makeTemplate(const PatchSource& source, const PatchWarp& warp, PatchTemplate& made, Gradients& gradients) {
+  const Eigen::Matrix2d& A = warp.A;
   const double scale2 = std::abs(A.determinant());
-  if (!(scale2 > min_scale * min_scale && scale2 < max_scale * max_scale)) return false;
+  if (!(scale2 > min_scale * min_scale && scale2 < max_scale * max_scale) || !(warp.bend.norm() <= largest_bend))
+    return false;
   WideGrid wide{};
   // A template seen larger is more blurred than the view, one seen smaller less: at a corner, blur moves the place.
   const Eigen::Vector2d excess = 0.5 * own_blur * ((A * A.transpose()).diagonal().array() - 1.0).matrix();
   const Eigen::Vector2d own = (-excess).cwiseMax(0.0).cwiseMin(largest_blur_tap);
   made.view_blur = (excess.array() > least_blur_tap).select(excess.array().min(largest_blur_tap), 0.0).matrix();
   const bool blurs = own.maxCoeff() > least_blur_tap;
-  warpWide(source, A.inverse(), blurs ? 2 : 1, wide);
+  warpWide(source, warp, blurs ? 2 : 1, wide);
   if (own.x() > least_blur_tap) blurWide(own.x(), 1, wide);
   if (own.y() > least_blur_tap) blurWide(own.y(), wide_stride, wide);
   split(wide, made, gradients);
-  made.A = A;
+  made.warp = warp;
   const Window& w = window();
   const double mean = dot(made.value, w.weight) / w.total;
   const v_float32x4 mean4 = cv::v_setall_f32(static_cast<float>(mean));
@@ -324,9 +331,9 @@ std::optional<PatchSource> cutSource(const ImageView& image, int u, int v) {
   return source;
 }
 
-bool warpTemplate(const PatchSource& source, const Eigen::Matrix2d& A, PatchTemplate& made) {
+bool warpTemplate(const PatchSource& source, const PatchWarp& warp, PatchTemplate& made) {
   Gradients gradients;
-  return makeTemplate(source, A, made, gradients);
+  return makeTemplate(source, warp, made, gradients);
 }
 
 Alignment alignPatch(const ImageView& image, const PatchTemplate& patch, const Eigen::Vector2d& start, double reach) {

@@ -32,7 +32,7 @@ struct Gradients {
   PatchGrid x{}, y{};
 };
 /// warpTemplate, with the gradients.
-bool makeTemplate(const PatchSource& source, const Eigen::Matrix2d& A, PatchTemplate& made, Gradients& gradients);
+bool makeTemplate(const PatchSource& source, const PatchWarp& warp, PatchTemplate& made, Gradients& gradients);
 
 /// A window of pixels through the filters of a template.
 struct Reading {

@@ -12,7 +12,6 @@ using namespace patch_kernel;
 
 namespace {
 
-constexpr double insistence = 6.0;    // chi-square by which pixels must speak for an unusual slope
 constexpr double across_reach = 4.0;  // px
 constexpr int most_rounds = 4;
 constexpr double settled_slope = 0.01;
@@ -30,7 +29,7 @@ Equations observe(const ImageView& image, const PatchTemplate& patch, const Grad
                   const Alignment& alignment, const Eigen::Vector2d& direction) {
   PatchGrid pixels;
   readWindow(image, alignment.position.x(), alignment.position.y(), patch.view_blur, pixels);
-  const Eigen::Matrix2f back = patch.A.inverse().cast<float>();
+  const Eigen::Matrix2f back = patch.warp.A.inverse().cast<float>();
   const Eigen::Vector2f d = direction.cast<float>();
   std::array<PatchGrid, 4> J{gradients.x, gradients.y, {}, {}}, blind;
   for (int v = 0; v < patch_size; ++v)
@@ -54,31 +53,19 @@ Equations observe(const ImageView& image, const PatchTemplate& patch, const Grad
   return made;
 }
 
-struct SlopeStep {
-  Eigen::Matrix4d inverse;
-  Eigen::Vector4d step;
-  double cost = 0.0;  // chi-square of residual and prior, up to a constant
-};
-
-/// One step under a Gaussian prior of the slopes about zero.
-SlopeStep solve(const Equations& equations, const Eigen::Vector2d& slopes, double sigma) {
-  const double weight = equations.noise2 / (sigma * sigma);
-  Eigen::Matrix4d H = equations.H;
-  Eigen::Vector4d b = equations.b;
-  H.block<2, 2>(2, 2) += weight * Eigen::Matrix2d::Identity();
-  b.tail<2>() -= weight * slopes;
-  SlopeStep made;
-  made.inverse = H.inverse();
-  made.step = made.inverse * b;
-  const double residual = made.step.dot(equations.H * made.step) - 2.0 * equations.b.dot(made.step);
-  made.cost = (residual + weight * (slopes + made.step.tail<2>()).squaredNorm()) / equations.noise2;
-  return made;
+/// What they say of the slopes, the shift being whatever fits best; `assumed`: the slopes that the template was made with.
+void see(const Equations& equations, const Eigen::Vector2d& assumed, Slope& slope) {
+  const Eigen::Matrix2d coupling = equations.H.block<2, 2>(2, 0) * equations.H.block<2, 2>(0, 0).inverse();
+  const Eigen::Matrix2d information =
+      (equations.H.block<2, 2>(2, 2) - coupling * equations.H.block<2, 2>(0, 2)) / equations.noise2;
+  const Eigen::Vector2d ahead = (equations.b.tail<2>() - coupling * equations.b.head<2>()) / equations.noise2;
+  if (information.allFinite() && ahead.allFinite()) slope.see(ahead + information * assumed, information);
 }
 
 }  // namespace
 
 SlopedAlignment alignAcross(const ImageView& image, const PatchSource& source, const Eigen::Vector2d& start,
-                            const SlopePrior& prior, PatchTemplate& made) {
+                            double usual_slope, PatchTemplate& made) {
   SlopedAlignment result;
   Eigen::Vector2d position = start;
   for (int round = 0; round < most_rounds; ++round) {
@@ -94,49 +81,36 @@ SlopedAlignment alignAcross(const ImageView& image, const PatchSource& source, c
     result.alignment = found;
 
     const Equations equations = observe(image, made, gradients, found, {-1.0, 0.0});
-    const SlopeStep usual = solve(equations, result.slopes, prior.usual_sigma),
-                    wide = solve(equations, result.slopes, prior.wide_sigma);
-    const SlopeStep& chosen = usual.cost - wide.cost > insistence ? wide : usual;
-    if (!chosen.step.allFinite()) {
+    result.seen = {};
+    see(equations, result.slopes, result.seen);
+    const Slope::Estimate estimate = result.seen.under(usual_slope);
+    const Eigen::Vector2d change = estimate.mean - result.slopes;
+    if (!change.allFinite()) {
       result.alignment.converged = false;
       return result;
     }
-    result.slopes_covariance = equations.noise2 * chosen.inverse.block<2, 2>(2, 2);
     // the shift's covariance grows by what the slopes leave open
-    const Eigen::Matrix2d opened = chosen.inverse.block<2, 2>(0, 0) - equations.H.block<2, 2>(0, 0).inverse();
-    result.alignment.covariance += 0.5 * equations.noise2 * opened;
-    const Eigen::Vector2d change = chosen.step.tail<2>();
+    const Eigen::Matrix2d inverse = equations.H.block<2, 2>(0, 0).inverse(),
+                          coupling = inverse * equations.H.block<2, 2>(0, 2);
+    result.alignment.covariance += 0.5 * coupling * estimate.covariance * coupling.transpose();
     if (round + 1 == most_rounds || change.cwiseAbs().maxCoeff() < settled_slope) break;
     result.slopes += change;
     if (result.slopes.cwiseAbs().maxCoeff() > steepest_slope) {
       result.alignment.converged = false;
       return result;
     }
-    position = found.position - chosen.step.head<2>();
+    position = found.position - inverse * equations.b.head<2>() + coupling * change;
   }
   return result;
 }
 
-Slant refineSlant(const ImageView& image, const PatchSource& source, const PatchTemplate& patch,
-                  const Alignment& alignment, const Eigen::Vector2d& direction, const Eigen::Matrix2d& information) {
-  Slant slant;
-  slant.information = information;
+void seeSlant(const ImageView& image, const PatchSource& source, const PatchTemplate& patch, const Alignment& alignment,
+              const Eigen::Vector2d& direction, const Eigen::Vector2d& assumed, Slope& slant) {
   PatchTemplate again;
   Gradients gradients;
-  if (!alignment.converged || !fits(image, alignment.position.x(), alignment.position.y()) ||
-      !makeTemplate(source, patch.A, again, gradients))
-    return slant;
-  const Equations equations = observe(image, again, gradients, alignment, direction);
-  const Eigen::Matrix2d coupling = equations.H.block<2, 2>(2, 0) * equations.H.block<2, 2>(0, 0).inverse();
-  const Eigen::Matrix2d seen =
-      (equations.H.block<2, 2>(2, 2) - coupling * equations.H.block<2, 2>(0, 2)) / equations.noise2;
-  const Eigen::Vector2d right = (equations.b.tail<2>() - coupling * equations.b.head<2>()) / equations.noise2;
-  const Eigen::Matrix2d sum = information + 0.5 * (seen + seen.transpose());
-  const Eigen::Vector2d change = sum.ldlt().solve(right);
-  if (!change.allFinite() || !sum.allFinite()) return slant;
-  slant.change = change;
-  slant.information = sum;
-  return slant;
+  if (alignment.converged && fits(image, alignment.position.x(), alignment.position.y()) &&
+      makeTemplate(source, patch.warp, again, gradients))
+    see(observe(image, again, gradients, alignment, direction), assumed, slant);
 }
 
 }  // namespace urban_nav_core

@@ -31,8 +31,8 @@ TEST(PatchBlur, takesTheDisplacementOfACornerAway) {
   const auto source = cutSource(view(sharp), 32, 32);
   ASSERT_TRUE(source);
   PatchTemplate as_it_was, as_blurred;
-  ASSERT_TRUE(warpTemplate(*source, Eigen::Matrix2d::Identity(), as_it_was));
-  ASSERT_TRUE(warpTemplate(blurred(*source, {1.0, 1.0}), Eigen::Matrix2d::Identity(), as_blurred));
+  ASSERT_TRUE(warpTemplate(*source, {}, as_it_was));
+  ASSERT_TRUE(warpTemplate(blurred(*source, {1.0, 1.0}), {}, as_blurred));
   const Alignment wrong = alignPatch(view(soft), as_it_was, {32.0, 32.0}),
                   right = alignPatch(view(soft), as_blurred, {32.0, 32.0});
   ASSERT_TRUE(wrong.converged && right.converged);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "urban_nav_core/image/slope.hpp"
 #include "urban_nav_core/image/view.hpp"
 
 namespace urban_nav_core {
@@ -42,12 +43,21 @@ inline constexpr double largest_blur = 1.0;
 /// The source as a camera would see it that is less sharp by a Gaussian of this variance (px^2 of the source along rows and columns, 0 ... largest_blur).
 PatchSource blurred(const PatchSource& source, const Eigen::Vector2d& variance);
 
+/// How the pixels around a place move into another view: what is p from the middle of the source stands at A p / (1 + bend . p) there.
+struct PatchWarp {
+  PatchWarp(const Eigen::Matrix2d& linear = Eigen::Matrix2d::Identity(),
+            const Eigen::Vector2d& perspective = Eigen::Vector2d::Zero())
+      : A(linear), bend(perspective) {}
+  Eigen::Matrix2d A;
+  Eigen::Vector2d bend;  ///< 1/px
+};
+
 /// A source as it should look in another view, ready for alignment: a shift is a product of the filters with the image.
 struct alignas(16) PatchTemplate {
-  PatchGrid value{};                                ///< grey levels, smoothed by the spline
-  PatchGrid filter_x{}, filter_y{};                 ///< weighted gradient, made blind to offset and gain
-  PatchGrid filter_gain{};                          ///< weighted deviation from the mean
-  Eigen::Matrix2d A = Eigen::Matrix2d::Identity();  ///< d(view)/d(source) it was made for
+  PatchGrid value{};                 ///< grey levels, smoothed by the spline
+  PatchGrid filter_x{}, filter_y{};  ///< weighted gradient, made blind to offset and gain
+  PatchGrid filter_gain{};           ///< weighted deviation from the mean
+  PatchWarp warp;                    ///< from the source, that it was made for
   Eigen::Matrix2d inverse_hessian = Eigen::Matrix2d::Zero();
   Eigen::Matrix2d unit_covariance =
       Eigen::Matrix2d::Zero();  ///< of a shift, for one grey level of white pixel noise in the view
@@ -56,9 +66,10 @@ struct alignas(16) PatchTemplate {
   double energy = 0.0;          ///< weighted variance, grey levels^2
 };
 
-/// Fills `made` with the source warped by A (view = A source). False if it has no texture in some direction, or A is
-/// degenerate (scale outside 0.4 ... 2.5); `made` is then of no use.
-bool warpTemplate(const PatchSource& source, const Eigen::Matrix2d& A, PatchTemplate& made);
+inline constexpr double largest_bend = 0.05;  ///< 1/px: a quarter larger or smaller at the window's border
+/// Fills `made` with the source warped. False if it has no texture in some direction, or the warp is degenerate (scale outside 0.4 ... 2.5,
+/// perspective of more than largest_bend); `made` is then of no use.
+bool warpTemplate(const PatchSource& source, const PatchWarp& warp, PatchTemplate& made);
 
 /// Where `other`, a template of the same size, seems to stand in `patch`, px: by how much what it has more or less of moves it.
 Eigen::Vector2d displacement(const PatchTemplate& patch, const PatchTemplate& other);
@@ -83,26 +94,17 @@ struct SlopedAlignment {
   Alignment alignment;  ///< covariance with the slopes marginalised
   Eigen::Vector2d slopes =
       Eigen::Vector2d::Zero();  ///< d(disparity)/d(u_left, v_left): a road has (0, baseline / height)
-  Eigen::Matrix2d slopes_covariance = Eigen::Matrix2d::Identity();
+  Slope seen;                   ///< what these pixels say of them
 };
-/// What the slopes may be before anything was seen: usually as `usual_sigma` says (most things are seen more or less from
-/// the front), now and then, where the pixels insist, as `wide_sigma` says (roads, walls alongside). Both standard deviations.
-struct SlopePrior {
-  double usual_sigma = 0.05, wide_sigma = 0.2;
-};
-/// `made` returns the template of the other image at the slopes found.
+/// `usual_slope`: of disparities on surfaces at 45 deg to the line of sight. `made` returns the template of the other image at the slopes found.
 SlopedAlignment alignAcross(const ImageView& image, const PatchSource& source, const Eigen::Vector2d& start,
-                            const SlopePrior& prior, PatchTemplate& made);
+                            double usual_slope, PatchTemplate& made);
 
-/// How a piece of surface leans, learnt from a later view: pixel p of the source (from its middle) stands at A p + direction (slant . p)
-/// in the view, so that `direction` says how far the camera has moved for the purpose.
-struct Slant {
-  Eigen::Vector2d change = Eigen::Vector2d::Zero();       ///< of the slant, from the one that A was made with
-  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();  ///< of the slant, what was known before included
-};
-/// One step from an alignment of `patch`, which was made from `source`. `information`: of the slant that A was made with.
-Slant refineSlant(const ImageView& image, const PatchSource& source, const PatchTemplate& patch,
-                  const Alignment& alignment, const Eigen::Vector2d& direction, const Eigen::Matrix2d& information);
+/// What a later view says of how a piece of surface leans: pixel p of the source (from its middle) stands at A p + direction (slant . p)
+/// in the view, so that `direction` says how far the camera has moved for the purpose. From an alignment of `patch`, which was made
+/// from `source` at the slant `assumed`. Nothing is seen where the alignment is of no use.
+void seeSlant(const ImageView& image, const PatchSource& source, const PatchTemplate& patch, const Alignment& alignment,
+              const Eigen::Vector2d& direction, const Eigen::Vector2d& assumed, Slope& slant);
 
 /// 8 columns (-4 ... 3) by 9 rows (-4 ... 4) of grey levels, mean removed.
 struct alignas(16) SadPatch {
