@@ -12,7 +12,7 @@ namespace swf_vo {
 /// about equally rough, place by place, and never as rough as random bytes: at most 1 % of the places say otherwise, of all real and rendered pictures
 /// tried, bare trees at half resolution included. Where 10 % of the rows are random it is 16 % of the places, and 10 % where rectification has bent them.
 /// Each image for itself: none before it is needed. Below some 2 % of the rows it says no, and so it mostly does of rows that are missing or grey.
-/// Looks at two of four rows, and at half of their pixels; allocates nothing; 5 us for both images of 512x384, 40 us of 1241x376.
+/// Looks at two of four rows, and at half of their pixels; allocates nothing.
 bool looksCorrupted(const urban_nav_core::ImageView& image);
 
 /// Bridges rows of rubbish, so that what is left of the images can be matched.
