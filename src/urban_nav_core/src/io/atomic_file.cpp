@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "urban_nav_core/types/error.hpp"
@@ -15,21 +16,37 @@
 namespace urban_nav_core {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr std::size_t kBuffer = 1U << 16U;
 
 [[noreturn]] void fail(const std::string& path) {
   throw UserError(path, std::string("cannot be written: ") + std::strerror(errno), "");
 }
 
+// A device or a pipe (/dev/stdout, say): a rename would put a file in its place.
+bool isStream(const std::string& path) {
+  std::error_code ignored;
+  return fs::is_other(fs::status(path, ignored));
+}
+
+// A rename would put a file in the place of a link, and leave alone what it points to.
+std::string linkTarget(const std::string& path) {
+  std::error_code error;
+  if (!fs::is_symlink(path, error)) return path;
+  const fs::path target = fs::canonical(path, error);
+  return error ? path : target.string();
+}
+
 std::string beside(const std::string& final_path) {
-  const std::filesystem::path path(final_path);
+  const fs::path path(final_path);
   return (path.parent_path() / (path.stem().string() + ".part" + path.extension().string())).string();
 }
 
 // The new name is on disk only once its folder is. Some file systems refuse to flush a folder: the file itself is safe
 // then.
 void flushFolder(const std::string& path) {
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  const fs::path folder = fs::path(path).parent_path();
   const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;
   ::fsync(descriptor);
@@ -38,7 +55,10 @@ void flushFolder(const std::string& path) {
 
 }  // namespace
 
-PartialFile::PartialFile(std::string final_path) : final_path_(std::move(final_path)), path_(beside(final_path_)) {}
+PartialFile::PartialFile(const std::string& final_path)
+    : final_path_(linkTarget(final_path)), path_(beside(final_path_)) {
+  if (isStream(final_path)) throw UserError(final_path, "is a device or a pipe", "a file");
+}
 
 PartialFile::~PartialFile() {
   if (!committed_) ::unlink(path_.c_str());
@@ -54,8 +74,10 @@ void PartialFile::commit() {
   flushFolder(final_path_);
 }
 
-AtomicFile::AtomicFile(std::string path) : partial_(path), name_(std::move(path)) {
-  descriptor_ = ::open(partial_.path().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+AtomicFile::AtomicFile(std::string path) : name_(std::move(path)) {
+  if (!isStream(name_)) partial_.emplace(name_);
+  const std::string& target = partial_ ? partial_->path() : name_;
+  descriptor_ = ::open(target.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail(name_);
   buffer_.reserve(kBuffer);
 }
@@ -84,7 +106,7 @@ void AtomicFile::commit() {
   flushBuffer();
   const int descriptor = std::exchange(descriptor_, -1);
   if (::close(descriptor) != 0) fail(name_);
-  partial_.commit();
+  if (partial_) partial_->commit();
 }
 
 void writeAtomically(const std::string& path, std::string_view content) {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "urban_nav_core/io/atomic_file.hpp"
 
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <filesystem>
 #include <stdexcept>
 
@@ -82,6 +85,35 @@ TEST_F(AtomicFileTest, AFullDiskIsAnErrorAndNoFile) {
   EXPECT_EQ(errorOf([&] { writeAtomically(path("a.txt"), "x"); }),
             path("a.txt") + ": cannot be written: No space left on device");
   EXPECT_FALSE(fs::exists(path("a.txt")));
+}
+
+TEST_F(AtomicFileTest, ALinkStaysALink) {
+  writeAtomically(path("a.txt"), "old");
+  fs::create_symlink("a.txt", path("link.txt"));
+  writeAtomically(path("link.txt"), "new");
+  EXPECT_TRUE(fs::is_symlink(path("link.txt")));
+  EXPECT_EQ(readTextFile(path("a.txt")), "new");
+  EXPECT_EQ(files(), 2U);
+}
+
+TEST_F(AtomicFileTest, APipeIsWrittenAndNotReplaced) {
+  ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+  const int reader = ::open(path("pipe").c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  ASSERT_GE(reader, 0);
+  writeAtomically(path("pipe"), "said");
+  std::array<char, 16> heard{};
+  EXPECT_EQ(::read(reader, heard.data(), heard.size()), 4);
+  ::close(reader);
+  EXPECT_STREQ(heard.data(), "said");
+  EXPECT_TRUE(fs::is_fifo(path("pipe")));
+  EXPECT_EQ(files(), 1U);
+}
+
+TEST_F(AtomicFileTest, AnotherWriterIsGivenNoPipe) {
+  ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+  EXPECT_EQ(errorOf([&] { const PartialFile partial(path("pipe")); }),
+            path("pipe") + ": is a device or a pipe: allowed a file");
+  EXPECT_TRUE(fs::is_fifo(path("pipe")));
 }
 
 }  // namespace

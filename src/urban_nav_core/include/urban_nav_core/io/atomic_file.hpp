@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -8,10 +9,10 @@ namespace urban_nav_core {
 
 /// A path to write to beside the final one, for other libraries' writers (bags, pictures). commit() flushes the file to
 /// disk and renames it; without commit() (an exception, say) the destructor removes it, so that no partial file ever
-/// has the final name.
+/// has the final name. A link stays, and what it points to is replaced. Throws UserError for a device or a pipe.
 class PartialFile {
  public:
-  explicit PartialFile(std::string final_path);
+  explicit PartialFile(const std::string& final_path);
   ~PartialFile();
   PartialFile(const PartialFile&) = delete;
   PartialFile& operator=(const PartialFile&) = delete;
@@ -26,8 +27,8 @@ class PartialFile {
   bool committed_ = false;
 };
 
-/// A file that appears whole or not at all. Buffered; not thread-safe. Throws UserError naming the path and the
-/// system's reason.
+/// A file that appears whole or not at all; a device or a pipe (/dev/stdout) is written as it is. Buffered; not
+/// thread-safe. Throws UserError naming the path and the system's reason.
 class AtomicFile {
  public:
   explicit AtomicFile(std::string path);
@@ -41,7 +42,7 @@ class AtomicFile {
  private:
   void flushBuffer();
 
-  PartialFile partial_;
+  std::optional<PartialFile> partial_;
   std::string name_, buffer_;
   int descriptor_ = -1;
 };
