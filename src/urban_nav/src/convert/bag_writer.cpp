@@ -12,10 +12,19 @@ namespace urban_nav {
 
 using urban_nav_core::StampNs;
 
-BagWriter::BagWriter(const std::string& path) : path_(path), file_(path) {
+void BagWriter::Close::operator()(rosbag::Bag* bag) const {
   try {
-    bag_.open(file_.path(), rosbag::bagmode::Write);
-    bag_.setCompression(rosbag::compression::Uncompressed);
+    bag->close();
+  } catch (const rosbag::BagException&) {
+    return;
+  }
+  delete bag;
+}
+
+BagWriter::BagWriter(const std::string& path) : path_(path), file_(path), bag_(new rosbag::Bag) {
+  try {
+    bag_->open(file_.path(), rosbag::bagmode::Write);
+    bag_->setCompression(rosbag::compression::Uncompressed);
   } catch (const rosbag::BagException& error) {
     fail(error);
   }
@@ -39,7 +48,7 @@ void BagWriter::writeStaticTransforms(StampNs stamp, const std::vector<geometry_
 
 void BagWriter::commit() {
   try {
-    bag_.close();
+    bag_->close();
   } catch (const rosbag::BagException& error) {
     fail(error);
   }

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -44,9 +45,14 @@ class BagWriter {
   ros::Time receipt(urban_nav_core::StampNs stamp) const;
   [[noreturn]] void fail(const std::exception& error) const;
 
+  /// The destructor of a bag that cannot be closed (the disk is full) ends the process: such a bag is never destroyed.
+  struct Close {
+    void operator()(rosbag::Bag* bag) const;
+  };
+
   std::string path_;
   urban_nav_core::PartialFile file_;
-  rosbag::Bag bag_;
+  std::unique_ptr<rosbag::Bag, Close> bag_;
   std::map<std::string, std::int64_t> counts_;
 };
 
@@ -54,7 +60,7 @@ template <typename Message>
 void BagWriter::writeNow(const std::string& topic, urban_nav_core::StampNs stamp, const Message& message,
                          const boost::shared_ptr<ros::M_string>& header) {
   try {
-    bag_.write(topic, receipt(stamp), message, header);
+    bag_->write(topic, receipt(stamp), message, header);
     ++counts_[topic];
   } catch (const rosbag::BagException& error) {
     fail(error);
