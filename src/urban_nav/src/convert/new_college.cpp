@@ -174,6 +174,7 @@ Converted convertNewCollege(const std::string& source, const std::string& path, 
   bag.writeStaticTransforms(data.first(), transforms());
   Progress progress(console, "convert", "rows", 0);
   data.writeAll(bag, progress);
+  if (bag.counts().size() == 1) throw DataError(source, "holds no scans, odometry or images", "");
   bag.commit();
   return {bag.counts(), data.notes()};
 }

@@ -90,5 +90,13 @@ TEST(NewCollegeBag, leavesNothingBehindWhereTheLogIsDamaged) {
   EXPECT_FALSE(fs::exists(folder.file("cut.bag")));
 }
 
+TEST(NewCollegeBag, makesNoBagOfAnEmptyLog) {
+  const TemporaryFolder folder;
+  writeFile(folder.file("cut.alog"), "%% LOGSTART               1225719811.65\n");
+  Console console;
+  EXPECT_THROW(convertNewCollege(folder.file("cut.alog"), folder.file("cut.bag"), console), urban_nav_core::DataError);
+  EXPECT_FALSE(fs::exists(folder.file("cut.bag")));
+}
+
 }  // namespace
 }  // namespace urban_nav
