@@ -92,7 +92,9 @@ void checkUsable(const VoRun& run) {
   const bool any =
       std::any_of(run.rows.begin(), run.rows.end(), [](const VoRow& row) { return row.statistics.features > 0; });
   if (any) return;
-  const std::string first = run.faults.empty() ? "" : "; the first fault: " + run.faults.front();
+  const std::string first = !run.faults.empty() ? "; the first fault: " + run.faults.front()
+                            : !run.rows.empty() ? "; the first: " + run.rows.front().status.sentence
+                                                : "";
   throw DataError(run.input, "none of " + std::to_string(run.rows.size()) + " stereo frames could be used" + first, "");
 }
 

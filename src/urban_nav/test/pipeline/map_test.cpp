@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <opencv2/imgcodecs.hpp>
 
 #include "convert/convert.hpp"
 #include "pipeline/map_job.hpp"
@@ -154,6 +155,20 @@ TEST_F(Map, refusesWhatNobodyCanMap) {
       writeFile(entry.path().string(), "damaged");
   }
   EXPECT_THROW(map({folder.file("in")}, folder.file("out")), DataError);
+}
+
+TEST_F(Map, saysWhyNoFrameWasOfUse) {
+  const TemporaryFolder folder;
+  fs::copy(in(), folder.file("in"), fs::copy_options::recursive);
+  for (const char* camera : {"image_0", "image_1"})
+    for (const auto& entry : fs::directory_iterator(folder.file("in") + "/" + camera))
+      cv::imwrite(entry.path().string(), cv::Mat::zeros(180, 240, CV_8U));
+  try {
+    map({folder.file("in")}, folder.file("out"));
+    FAIL() << "there was nothing to see";
+  } catch (const DataError& error) {
+    EXPECT_NE(std::string(error.what()).find("dark"), std::string::npos) << error.what();
+  }
 }
 
 TEST_F(Map, readsItsOwnBagsLikeTheFolder) {
