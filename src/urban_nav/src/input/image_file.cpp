@@ -37,7 +37,7 @@ bool isComplete(const std::vector<char>& bytes) {
 
 GreyImage readPixels(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) return {{}, path + ": does not open"};
+  if (!file || std::filesystem::is_directory(path)) return {{}, path + ": does not open"};
   const std::vector<char> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   if (bytes.empty()) return {{}, path + ": empty file"};
   if (!isComplete(bytes)) return {{}, path + ": ends early (" + std::to_string(bytes.size()) + " bytes)"};
