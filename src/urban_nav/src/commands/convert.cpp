@@ -3,6 +3,7 @@
 
 #include "command_line/console.hpp"
 #include "commands/commands.hpp"
+#include "pipeline/parameters.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/types/error.hpp"
 
@@ -20,6 +21,7 @@ void checkKind(const std::string& kind, const std::string& source) {
 }
 
 int run(const Arguments& arguments, Console& console) {
+  checkCommonOptions(arguments);
   const std::string kind = arguments.get("FORMAT"), source = arguments.get("SRC"), bag = arguments.get("output");
   Converted converted;
   if (kind == "new-college") {
@@ -28,7 +30,7 @@ int run(const Arguments& arguments, Console& console) {
     checkKind(kind, source);
     SourceOptions options;
     options.rate = arguments.number("rate", 0.0, 0.01, 10000.0);
-    converted = convertStereoFolder(source, bag, options, console);
+    converted = convertStereoFolder(source, bag, options, console, arguments.integer("threads", 0, 1, 1024) != 1);
   }
   for (const std::string& note : converted.notes) console.info("  " + note);
   Json json = Json::object();
@@ -55,9 +57,13 @@ Command convertCommand() {
                      {"SRC", "", "folder (new-college: or the .alog file)", true, false, {}},
                      {"-o,--output", "BAG", "bag to write; it appears when it is complete", true, false, {}},
                      {"--rate", "HZ", "of a KITTI folder without times.txt (default 10)", false, false, {}},
-                     jsonOption()};
+                     jsonOption(),
+                     configOption(),
+                     setOption(),
+                     threadsOption()};
   command.examples = {"urban_nav convert kitti sequences/06 -o kitti06.bag",
                       "urban_nav convert new-college MOOSLog_3_11_2008_____13_43_32 -o college.bag"};
+  command.more_help = commonHelp;
   command.run = run;
   return command;
 }

@@ -4,6 +4,7 @@
 #include "command_line/console.hpp"
 #include "commands/commands.hpp"
 #include "pipeline/evaluation.hpp"
+#include "pipeline/parameters.hpp"
 #include "report/evaluation_report.hpp"
 #include "report/raster_plot.hpp"
 #include "report/standalone_svg.hpp"
@@ -47,6 +48,7 @@ void writePlot(const std::string& path, const Evaluation& evaluation, const std:
 }
 
 int run(const Arguments& arguments, Console& console) {
+  checkCommonOptions(arguments);
   const std::string plot = arguments.get("output");
   const std::string extension = fs::path(plot).extension().string();
   if (!plot.empty() && extension != ".html" && extension != ".svg" && extension != ".png")
@@ -57,7 +59,11 @@ int run(const Arguments& arguments, Console& console) {
   options.find_offset = arguments.has("find-offset");
   const TrajectoryFile truth = readTrajectory(arguments.get("truth")),
                        estimate = readTrajectory(arguments.get("estimate"));
-  const Evaluation evaluation = evaluate(truth, estimate, covariancesFor(arguments), options);
+  const std::vector<urban_nav_core::CovarianceRow> covariances = covariancesFor(arguments);
+  const Evaluation evaluation = evaluate(truth, estimate, covariances, options);
+  if (!covariances.empty() && evaluation.covariances.empty())
+    console.warn("no NEES: " + std::to_string(covariances.size()) + " covariances, and not one for each of " +
+                 std::to_string(evaluation.matched.truth.size()) + " matched poses");
   if (evaluation.offset && !evaluation.offset_applied) {
     console.warn("only " + std::to_string(evaluation.matched.truth.size()) +
                  " poses have a stamp within 0.02 s of one of the truth; --find-offset would add " +
@@ -97,10 +103,14 @@ Command evaluateCommand() {
                       {}},
                      {"--find-offset", "", "find the offset between the clocks and apply it", false, false, {}},
                      {"-o,--output", "FILE", "plot: a page (.html) or a drawing (.svg, .png)", false, false, {}},
-                     jsonOption()};
+                     jsonOption(),
+                     configOption(),
+                     setOption(),
+                     threadsOption()};
   command.examples = {
       "urban_nav evaluate --truth poses.txt --estimate out/trajectory.kitti",
       "urban_nav evaluate --truth truth.tum --estimate out/trajectory.tum --spans 10f,100m -o errors.html"};
+  command.more_help = commonHelp;
   command.run = run;
   return command;
 }

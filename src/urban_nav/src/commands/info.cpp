@@ -5,6 +5,7 @@
 #include "command_line/json.hpp"
 #include "commands/commands.hpp"
 #include "pipeline/bag_info.hpp"
+#include "pipeline/parameters.hpp"
 #include "report/plot.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 
@@ -62,6 +63,7 @@ Json jsonOf(const InputInfo& info) {
 }
 
 int run(const Arguments& arguments, Console& console) {
+  checkCommonOptions(arguments);
   Json all = Json::array();
   for (const std::string& input : arguments.all("INPUT")) {
     const InputInfo info = lookInto(input);
@@ -78,8 +80,10 @@ Command infoCommand() {
   Command command;
   command.name = "info";
   command.summary = "Says what is in a bag or folder: topics, rates, gaps, distance.";
-  command.options = {{"INPUT", "", "bags or folders", true, true, {}}, jsonOption()};
+  command.options = {
+      {"INPUT", "", "bags or folders", true, true, {}}, jsonOption(), configOption(), setOption(), threadsOption()};
   command.examples = {"urban_nav info robot.bag"};
+  command.more_help = commonHelp;
   command.run = run;
   return command;
 }

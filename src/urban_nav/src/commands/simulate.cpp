@@ -6,6 +6,7 @@
 #include "command_line/console.hpp"
 #include "command_line/json.hpp"
 #include "commands/commands.hpp"
+#include "pipeline/parameters.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -61,6 +62,7 @@ SimulateJob jobOf(const Arguments& arguments) {
 
 int run(const Arguments& arguments, Console& console) {
   const urban_nav_core::ThreadLimit threads(static_cast<int>(arguments.integer("threads", 0, 0, 1024)));
+  loadParameters(arguments);  // none is the simulator's own: a mistake in them is told all the same
   const SimulateJob job = jobOf(arguments);
   const Simulated made = simulate(job, console);
   Json json = Json::object();
@@ -142,8 +144,12 @@ Command simulateCommand() {
        false,
        {}},
       threadsOption(),
+      configOption(),
+      setOption(),
       jsonOption()};
-  command.more_help = [](const Arguments&) { return urban_nav_sim::worldHelp() + "\n" + urban_nav_sim::defectHelp(); };
+  command.more_help = [](const Arguments& arguments) {
+    return urban_nav_sim::worldHelp() + "\n" + urban_nav_sim::defectHelp() + "\n" + commonHelp(arguments);
+  };
   command.examples = {"urban_nav simulate --world quad --seed 7 --route loops --duration 300 --day 2 -o day2.bag",
                       "urban_nav simulate --sensors stereo --folder quad/ -o quad.bag",
                       "urban_nav simulate --without all:all --with stereo:lens --views stereo,lasers -o ideal.bag",

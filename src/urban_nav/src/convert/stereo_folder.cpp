@@ -68,8 +68,9 @@ void refuseFaults(const StereoInput& input) {
 }  // namespace
 
 Converted convertStereoFolder(const std::string& folder, const std::string& path, const SourceOptions& options,
-                              Console& console) {
-  const std::unique_ptr<Source> source = readAhead(openSource({folder}, options), 4);
+                              Console& console, bool ahead) {
+  std::unique_ptr<Source> source = openSource({folder}, options);
+  if (ahead) source = readAhead(std::move(source), 4);
   const SourceInfo& info = source->info();
   const StampNs shift = info.first < kEarliest ? kEpoch : 0;
   Converted converted;

@@ -50,6 +50,17 @@ AllParameters loadParameters(const Arguments& arguments) {
   return {urban_nav_core::load(commandTable(), assignments), urban_nav_core::load(swf_vo::table(), assignments)};
 }
 
+void checkCommonOptions(const Arguments& arguments) {
+  loadParameters(arguments);
+  arguments.integer("threads", 0, 1, 1024);
+}
+
+std::string commonHelp(const Arguments& arguments) {
+  return "parameters (--config FILE, --set KEY=VALUE):\n" +
+         urban_nav_core::printHelp(commandTable().stage(), commandTable().rows(),
+                                   loadParameters(arguments).command.settings);
+}
+
 std::string parametersHelp(const Arguments& arguments) {
   const AllParameters all = loadParameters(arguments);
   return "parameters (--config FILE, --set STAGE.KEY=VALUE):\n" +

@@ -25,6 +25,13 @@ struct AllParameters {
 };
 AllParameters loadParameters(const Arguments& arguments);
 
+/// --config, --set and --threads of a command that runs no stage: refused where they are wrong, so that one file and
+/// one set of options serve every command.
+void checkCommonOptions(const Arguments& arguments);
+
+/// For --help of such a command: the parameters that belong to no stage.
+std::string commonHelp(const Arguments& arguments);
+
 /// For --help: each parameter with its value and where that came from, --config and --set of the same call included.
 std::string parametersHelp(const Arguments& arguments);
 

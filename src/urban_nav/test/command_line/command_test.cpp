@@ -78,6 +78,19 @@ TEST(CommandLine, knowsTheParametersOfItsStages) {
   EXPECT_EQ(call({mapCommand()}, {"map", "/nowhere", "--out", "/tmp/x", "--stages", "vo"}), 2);
 }
 
+TEST(CommandLine, everyCommandTakesTheCommonOptions) {
+  const std::vector<Command> commands = {mapCommand(), convertCommand(), evaluateCommand(), infoCommand(),
+                                         simulateCommand()};
+  for (const Command& command : commands) {
+    const char* name = command.name.c_str();
+    EXPECT_EQ(call(commands, {name, "--help", "--json", "x", "--threads", "1", "--set", "swf_vo.window=25"}), 0)
+        << name;
+    EXPECT_EQ(call(commands, {name, "--help", "--set", "swf_vo.window=0"}), 2) << name;
+    EXPECT_EQ(call(commands, {name, "--help", "--config", "/nowhere.yaml"}), 2) << name;
+  }
+  EXPECT_EQ(call(commands, {"info", "/tmp", "--set", "swf_vo.window=0"}), 2);
+}
+
 TEST(CommandLine, keepsPositionalsApart) {
   Command command;
   command.name = "turn";
