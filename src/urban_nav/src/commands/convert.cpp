@@ -29,6 +29,7 @@ int run(const Arguments& arguments, Console& console) {
   } else {
     checkKind(kind, source);
     SourceOptions options;
+    options.calibration = arguments.get("calibration");
     options.rate = arguments.number("rate", 0.0, 0.01, 10000.0);
     converted = convertStereoFolder(source, bag, options, console, arguments.integer("threads", 0, 1, 1024) != 1);
   }
@@ -56,6 +57,12 @@ Command convertCommand() {
   command.options = {{"FORMAT", "", "of the folder", true, false, {"kitti", "euroc", "new-college"}},
                      {"SRC", "", "folder (new-college: or the .alog file)", true, false, {}},
                      {"-o,--output", "BAG", "bag to write; it appears when it is complete", true, false, {}},
+                     {"--calibration",
+                      "FILE",
+                      "where a KITTI folder has none: a calib.txt, or LEFT.yaml,RIGHT.yaml (camera_info)",
+                      false,
+                      false,
+                      {}},
                      {"--rate", "HZ", "of a KITTI folder without times.txt (default 10)", false, false, {}},
                      jsonOption(),
                      configOption(),

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "input/calibration_file.hpp"
 
-#include "urban_nav_core/io/calibration.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/types/error.hpp"
 
@@ -10,7 +9,8 @@ namespace urban_nav {
 using urban_nav_core::UserError;
 
 std::pair<urban_nav_core::CameraInfo, urban_nav_core::CameraInfo> readCalibration(const std::string& files, int width,
-                                                                                  int height) {
+                                                                                  int height,
+                                                                                  urban_nav_core::KittiPair pair) {
   const std::vector<std::string_view> names = urban_nav_core::splitAt(files, ',');
   if (names.size() == 2)
     return {urban_nav_core::readCameraInfo(std::string(names[0])),
@@ -19,7 +19,7 @@ std::pair<urban_nav_core::CameraInfo, urban_nav_core::CameraInfo> readCalibratio
       files.size() > 4 && (files.substr(files.size() - 4) == "yaml" || files.substr(files.size() - 4) == ".yml");
   if (names.size() > 2 || yaml)
     throw UserError("--calibration", files, "a file like KITTI's calib.txt, or LEFT.yaml,RIGHT.yaml (camera_info)");
-  const urban_nav_core::StereoCamera camera = urban_nav_core::readKittiCalibration(files, width, height);
+  const urban_nav_core::StereoCamera camera = urban_nav_core::readKittiCalibration(files, width, height, pair);
   return {urban_nav_core::leftInfo(camera), urban_nav_core::rightInfo(camera)};
 }
 

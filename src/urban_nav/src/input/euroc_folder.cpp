@@ -27,6 +27,7 @@ class EurocFolder : public Source {
     info_.last = pairs_.back().stamp;
     if (options.motion_input == "gyroscope") readMotion(options.gyro_noise);
     info_.notes.push_back("raw images, rectified on the way; base_link is at the left camera");
+    if (!options.calibration.empty()) info_.notes.push_back("--calibration is left aside: sensor.yaml counts");
   }
 
   const SourceInfo& info() const override { return info_; }

@@ -2,17 +2,20 @@
 #include <algorithm>
 #include <tuple>
 
+#include "input/calibration_file.hpp"
 #include "input/image_file.hpp"
 #include "input/kitti_layout.hpp"
 #include "input/open.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
+#include "urban_nav_ros/stereo_calibration.hpp"
 
 namespace urban_nav {
 
 using urban_nav_core::AssembledPair;
 using urban_nav_ros::GreyImage;
+using urban_nav_ros::Side;
 
 namespace {
 
@@ -27,7 +30,7 @@ class KittiFolder : public Source {
     info_.first = *std::min_element(frames_.stamps.begin(), frames_.stamps.end());
     info_.last = *std::max_element(frames_.stamps.begin(), frames_.stamps.end());
     info_.notes = frames_.notes;
-    look();
+    look(options.calibration);
   }
 
   const SourceInfo& info() const override { return info_; }
@@ -38,16 +41,15 @@ class KittiFolder : public Source {
     StereoInput input;
     AssembledPair& assembled = input.assembled;
     assembled.pair.stamp = frames_.stamps[position_];
-    std::tie(assembled.pair.left, assembled.left_owner) = keep(read(frames_.left, layout_.left, number, input.faults));
-    std::tie(assembled.pair.right, assembled.right_owner) =
-        keep(read(frames_.right, layout_.right, number, input.faults));
+    std::tie(assembled.pair.left, assembled.left_owner) = keep(read(Side::Left, number, input.faults));
+    std::tie(assembled.pair.right, assembled.right_owner) = keep(read(Side::Right, number, input.faults));
     ++position_;
     return input;
   }
 
  private:
   /// Size and depth of the images, from the first that can be read, and with the size the camera.
-  void look() {
+  void look(const std::string& calibration) {
     std::string fault;
     for (const std::map<std::int64_t, std::string>* side : {&frames_.left, &frames_.right}) {
       for (const auto& [number, path] : *side) {
@@ -56,7 +58,8 @@ class KittiFolder : public Source {
           if (fault.empty()) fault = image.fault;
           continue;
         }
-        info_.camera = readKittiCamera(layout_, image.pixels.cols, image.pixels.rows);
+        size_ = image.pixels.size();
+        calibrate(calibration);
         bits_ = urban_nav_ros::significantBits(image.pixels);
         return;
       }
@@ -64,28 +67,52 @@ class KittiFolder : public Source {
     throw urban_nav_core::DataError(info_.name, "no image can be read, the first: " + fault, "");
   }
 
-  cv::Mat read(const std::map<std::int64_t, std::string>& files, const std::string& folder, std::int64_t number,
-               std::vector<std::string>& faults) const {
+  /// By the user's files where there are any, else by the folder's.
+  void calibrate(const std::string& files) {
+    if (files.empty()) {
+      info_.camera = readKittiCamera(layout_, size_.width, size_.height);
+      return;
+    }
+    const auto [left, right] = readCalibration(files, size_.width, size_.height, layout_.pair);
+    if (left.width != size_.width || left.height != size_.height)
+      throw urban_nav_core::UserError(
+          files, "images of " + sizeText(left.width, left.height),
+          sizeText(size_.width, size_.height) + ", the size of the images of " + info_.name);
+    calibration_.emplace(left, right, false, files);
+    info_.camera = calibration_->camera();
+    info_.notes.push_back("calibration: " + files);
+    if (calibration_->rectifies()) info_.notes.push_back("raw images with distortion, rectified on the way");
+  }
+
+  static std::string sizeText(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
+
+  cv::Mat read(Side side, std::int64_t number, std::vector<std::string>& faults) const {
+    const std::map<std::int64_t, std::string>& files = side == Side::Left ? frames_.left : frames_.right;
     const auto file = files.find(number);
     if (file == files.end()) {
-      faults.push_back(folder + ": image " + std::to_string(number) + " is missing");
+      faults.push_back((side == Side::Left ? layout_.left : layout_.right) + ": image " + std::to_string(number) +
+                       " is missing");
       return {};
     }
     const GreyImage image = readGrey(file->second, bits_);
     if (!image.fault.empty()) faults.push_back(image.fault);
     if (image.pixels.empty()) return {};
-    if (image.pixels.cols != info_.camera.left.width || image.pixels.rows != info_.camera.left.height) {
-      faults.push_back(file->second + ": " + std::to_string(image.pixels.cols) + "x" +
-                       std::to_string(image.pixels.rows) + " pixels where the others have " +
-                       std::to_string(info_.camera.left.width) + "x" + std::to_string(info_.camera.left.height));
+    if (image.pixels.size() != size_) {
+      faults.push_back(file->second + ": " + sizeText(image.pixels.cols, image.pixels.rows) +
+                       " pixels where the others have " + sizeText(size_.width, size_.height));
       return {};
     }
-    return image.pixels;
+    if (!calibration_ || !calibration_->rectifies()) return image.pixels;
+    std::vector<std::uint8_t> bytes;
+    const urban_nav_core::ImageView view = calibration_->rectify(side, urban_nav_ros::viewOf(image.pixels), bytes);
+    return cv::Mat(view.height, view.width, CV_8UC1, bytes.data(), static_cast<std::size_t>(view.stride)).clone();
   }
 
   KittiLayout layout_;
   KittiFrames frames_;
   SourceInfo info_;
+  std::optional<urban_nav_ros::StereoCalibration> calibration_;  // where the user gave one
+  cv::Size size_;                                                // of the images in the folder
   int bits_ = 16;
   std::size_t position_ = 0;
 };

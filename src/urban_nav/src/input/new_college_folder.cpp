@@ -32,6 +32,7 @@ class NewCollegeFolder : public Source {
     info_.notes.push_back(
         "images taken as rectified, with the data set's calibration; the camera's place on the robot is not known: 0.1 "
         "m ahead, 1.1 m up");
+    if (!options.calibration.empty()) info_.notes.push_back("--calibration is left aside: the data set's counts");
     if (options.motion_input == "gyroscope")
       throw DataError(folder, "has no IMU for swf_vo.motion_input = gyroscope", "");
     if (options.motion_input == "wheels") openLog(folder, options.wheel_noise);

@@ -12,7 +12,7 @@ namespace urban_nav {
 /// What the user said about inputs.
 struct SourceOptions {
   std::vector<std::string> topics;    ///< ROLE:=NAME, for bags
-  std::string calibration;            ///< file for inputs without one; empty: none
+  std::string calibration;            ///< file for bags and KITTI folders; empty: their own
   double rate = 0.0;                  ///< Hz of an image folder without stamps; 0: 10 Hz
   std::string motion_input = "none";  ///< as swf_vo.motion_input: what else is read for the process model
   double wheel_noise = 0.0;           ///< as swf_vo.wheel_noise

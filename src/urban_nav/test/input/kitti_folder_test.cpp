@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 
 #include "input/kitti_layout.hpp"
@@ -113,6 +114,63 @@ TEST(KittiFolder, namesFileAndLineOfWhatIsWrong) {
   EXPECT_NE(messageOf(open).find("baseline"), std::string::npos) << "right camera to the left: " << messageOf(open);
   std::filesystem::remove(folder.file("in/calib.txt"));
   EXPECT_NE(messageOf(open).find("calib.txt"), std::string::npos);
+}
+
+TEST(KittiFolder, takesTheCalibrationOfTheUser) {
+  const TemporaryFolder folder;
+  KittiStyle style;
+  style.frames = 2;
+  testing::makeKittiFolder(folder.file("in"), style);
+  const auto own = openKittiFolder(folder.file("in"), {});
+  std::filesystem::rename(folder.file("in/calib.txt"), folder.file("calib.txt"));
+  SourceOptions options;
+  options.calibration = folder.file("calib.txt");
+  const auto given = openKittiFolder(folder.file("in"), options);
+  EXPECT_EQ(given->info().camera.baseline, own->info().camera.baseline);
+  EXPECT_EQ(given->info().camera.left.fx, own->info().camera.left.fx);
+  writeFile(folder.file("in/calib.txt"), "P0: 9 0 9 0 0 9 9 0 0 0 1 0\nP1: 9 0 9 -9 0 9 9 0 0 0 1 0\n");
+  EXPECT_EQ(openKittiFolder(folder.file("in"), options)->info().camera.left.fx, own->info().camera.left.fx)
+      << "what the user says stands above what the folder has";
+}
+
+std::string cameraYaml(double shift, double distortion, int width = 240) {
+  return "image_width: " + std::to_string(width) +
+         "\nimage_height: 180\n"
+         "camera_matrix: {rows: 3, cols: 3, data: [200, 0, 120, 0, 200, 90, 0, 0, 1]}\n"
+         "distortion_model: plumb_bob\n"
+         "distortion_coefficients: {rows: 1, cols: 5, data: [" +
+         std::to_string(distortion) +
+         ", 0, 0, 0, 0]}\n"
+         "rectification_matrix: {rows: 3, cols: 3, data: [1, 0, 0, 0, 1, 0, 0, 0, 1]}\n"
+         "projection_matrix: {rows: 3, cols: 4, data: [200, 0, 120, " +
+         std::to_string(shift) + ", 0, 200, 90, 0, 0, 0, 1, 0]}\n";
+}
+
+TEST(KittiFolder, rectifiesByTheCalibrationOfTheUser) {
+  const TemporaryFolder folder;
+  KittiStyle style;
+  style.frames = 1;
+  testing::makeKittiFolder(folder.file("in"), style);
+  SourceOptions options;
+  options.calibration = folder.file("left.yaml") + "," + folder.file("right.yaml");
+  const auto firstOf = [&](double distortion) {
+    writeFile(folder.file("left.yaml"), cameraYaml(0.0, distortion));
+    writeFile(folder.file("right.yaml"), cameraYaml(-24.0, distortion));
+    return all(*openKittiFolder(folder.file("in"), options)).front();
+  };
+  const StereoInput plain = firstOf(0.0), bent = firstOf(-0.2);
+  ASSERT_FALSE(plain.assembled.pair.left.empty());
+  ASSERT_FALSE(bent.assembled.pair.left.empty());
+  int centre = 0, corner = 0;
+  for (int k = 0; k < 20; ++k) {
+    centre += std::abs(plain.assembled.pair.left.at(110 + k, 90) - bent.assembled.pair.left.at(110 + k, 90));
+    corner += std::abs(plain.assembled.pair.left.at(k, 5) - bent.assembled.pair.left.at(k, 5));
+  }
+  EXPECT_LT(centre, corner) << "a lens bends the border";
+  EXPECT_GT(corner, 0);
+  writeFile(folder.file("left.yaml"), cameraYaml(0.0, 0.0, 320));
+  writeFile(folder.file("right.yaml"), cameraYaml(-24.0, 0.0, 320));
+  EXPECT_NE(messageOf([&] { openKittiFolder(folder.file("in"), options); }).find("320x180"), std::string::npos);
 }
 
 TEST(KittiLayout, parsesDates) {
