@@ -12,7 +12,7 @@ namespace urban_nav_sim {
 /// What can go wrong with what a sensor sends.
 enum class FaultKind : std::uint8_t {
   Drop,     ///< messages are missing; value: their share, 0...1 (default 0.3)
-  Freeze,   ///< the last measurement from before goes on under new stamps
+  Freeze,   ///< the last measurement from before, or else the first, goes on under new stamps
   Swap,     ///< left and right exchanged (stereo, lasers); others: as freeze
   Corrupt,  ///< rubbish in a share of the rows, beams or numbers; value: that share, 0...1 (default 0.3)
   Jump,     ///< stamps are later by value in s (default 10; may be below zero)

@@ -38,12 +38,10 @@ int partOf(const Measurement& measurement) {
 FaultFilter::FaultFilter(std::vector<Fault> faults, std::uint64_t seed, StampNs begin)
     : faults_(std::move(faults)), seed_(seed), begin_(begin) {}
 
-void FaultFilter::spoil(const Fault& fault, const Stream& stream, Measurement& measurement) const {
+void FaultFilter::spoil(const Fault& fault, const Stream& stream, Measurement& measurement) {
   const auto freeze = [&] {
-    const auto before = last_good_.find(stream);
-    if (before == last_good_.end()) return;
     const StampNs now = stampOf(measurement);
-    measurement = before->second;
+    measurement = last_good_.try_emplace(stream, measurement).first->second;
     setStamp(now, measurement);
   };
   switch (fault.kind) {

@@ -25,7 +25,7 @@ class FaultFilter {
   /// Streams that freeze each by itself: a camera of the Ladybug, one of the lasers.
   using Stream = std::pair<Sensor, int>;
 
-  void spoil(const Fault& fault, const Stream& stream, Measurement& measurement) const;
+  void spoil(const Fault& fault, const Stream& stream, Measurement& measurement);
 
   std::vector<Fault> faults_;
   std::uint64_t seed_, count_ = 0;

@@ -64,6 +64,14 @@ TEST(FaultFilter, FreezesWithNewStamps) {
   EXPECT_EQ(grey(std::get<StereoMeasurement>(*applied(filter, pairAt(2.5))).left), 25);
 }
 
+TEST(FaultFilter, FreezesTheFirstWhereThereIsNoneBefore) {
+  FaultFilter filter = filterOf("freeze:stereo:0:1");
+  EXPECT_EQ(grey(std::get<StereoMeasurement>(*applied(filter, pairAt(0.2))).left), 2);
+  const auto frozen = std::get<StereoMeasurement>(*applied(filter, pairAt(0.7)));
+  EXPECT_EQ(frozen.stamp, at(0.7));
+  EXPECT_EQ(grey(frozen.left), 2);
+}
+
 TEST(FaultFilter, SwapsSides) {
   FaultFilter filter = filterOf("swap:stereo:0:9");
   EXPECT_EQ(grey(std::get<StereoMeasurement>(*applied(filter, pairAt(1.0))).left), 110);
