@@ -84,12 +84,14 @@ void take(const std::map<std::string, std::string>& available, const std::string
   topics.chosen[names->role] = {topic->first, topic->second};
 }
 
+constexpr int kOdd = 100;  // oddness of what is no camera's image, or a worse one
+
 /// How unlikely a topic is to be what `map` wants; the raw stream is preferred, rectified ones are there to be asked
 /// for.
 int oddness(const std::string& topic, const std::string& type) {
   int value = 0;
   for (const char* word : {"disparity", "depth", "theora", "color", "colour", "ladybug", "debug", "mask", "label"})
-    value += contains(topic, word) ? 100 : 0;
+    value += contains(topic, word) ? kOdd : 0;
   value += isRectifiedName(topic) ? 10 : 0;
   value += contains(topic, "stereo") ? 0 : 2;
   value += contains(topic, "image") ? 0 : 4;
@@ -101,6 +103,21 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
     text.replace(at, from.size(), to);
   return text;
+}
+
+/// Where names tell nothing: the only two streams of images there are, in the order of their names. Not a camera's raw
+/// and rectified images, and not depth beside colour.
+std::pair<ChosenTopic, ChosenTopic> onlyPair(const std::map<std::string, std::string>& available) {
+  std::vector<ChosenTopic> images;
+  for (const auto& [topic, type] : available) {
+    if (isImageType(type)) images.push_back({topic, type});
+  }
+  if (images.size() != 2 || images[0].type != images[1].type ||
+      isRectifiedName(images[0].name) != isRectifiedName(images[1].name))
+    return {};
+  const bool odd = std::any_of(images.begin(), images.end(),
+                               [](const ChosenTopic& topic) { return oddness(topic.name, topic.type) >= kOdd; });
+  return odd ? std::pair<ChosenTopic, ChosenTopic>() : std::make_pair(images[0], images[1]);
 }
 
 void guessImages(const std::map<std::string, std::string>& available, BagTopics& topics) {
@@ -120,6 +137,12 @@ void guessImages(const std::map<std::string, std::string>& available, BagTopics&
       best = value;
       pair = {{left, type}, {right->first, type}};
     }
+  }
+  if (pair.first.name.empty()) {
+    pair = onlyPair(available);
+    const std::optional<ChosenTopic> left = topics.find(Role::Left), right = topics.find(Role::Right);
+    if ((left && left->name == pair.second.name) || (right && right->name == pair.first.name))
+      std::swap(pair.first, pair.second);
   }
   if (pair.first.name.empty()) return;
   if (!topics.find(Role::Left)) topics.chosen[Role::Left] = pair.first;

@@ -27,8 +27,8 @@ struct BagTopics {
 
 /// `available`: name and type of every topic of a bag. What `wishes` (ROLE:=NAME) do not say is guessed from types and
 /// names: a stereo pair are two image topics whose names differ in "left" and "right" (or cam0 and cam1, image_0 and
-/// image_1, infra1 and infra2). UserError for a wish that is no role, or a topic that is not there or of another type.
-/// Roles for which nothing fits are absent.
+/// image_1, infra1 and infra2), else the only two there are, in the order of their names. UserError for a wish that is
+/// no role, or a topic that is not there or of another type. Roles for which nothing fits are absent.
 BagTopics chooseTopics(const std::map<std::string, std::string>& available, const std::vector<std::string>& wishes);
 
 bool isImageType(const std::string& type);

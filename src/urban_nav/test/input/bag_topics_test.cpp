@@ -52,6 +52,20 @@ TEST(BagTopics, guessesOtherPeoplesNames) {
   }
 }
 
+TEST(BagTopics, takesTheOnlyTwoImagesWhateverTheirNames) {
+  const Topics two = {{"/cam_1/image_raw", kImage}, {"/cam_2/image_raw", kImage}, {"/cam_2/camera_info", kInfo}};
+  EXPECT_EQ(name(chooseTopics(two, {}), Role::Left), "/cam_1/image_raw");
+  EXPECT_EQ(name(chooseTopics(two, {}), Role::Right), "/cam_2/image_raw");
+  EXPECT_EQ(name(chooseTopics(two, {}), Role::RightInfo), "/cam_2/camera_info");
+  EXPECT_EQ(name(chooseTopics(two, {"left:=/cam_2/image_raw"}), Role::Right), "/cam_1/image_raw");
+  EXPECT_EQ(name(chooseTopics(two, {"right:=/cam_1/image_raw"}), Role::Left), "/cam_2/image_raw");
+  for (const Topics& none : {Topics{{"/a", kImage}}, Topics{{"/a", kImage}, {"/b", kImage}, {"/c", kImage}},
+                             Topics{{"/a", kImage}, {"/a/compressed", kCompressed}},
+                             Topics{{"/a/image_raw", kImage}, {"/a/image_rect", kImage}},
+                             Topics{{"/a/image_raw", kImage}, {"/a/depth", kImage}}})
+    EXPECT_EQ(name(chooseTopics(none, {}), Role::Left), "none");
+}
+
 TEST(BagTopics, findsCameraInfoAboveCompressedImages) {
   const BagTopics topics = chooseTopics({{"/a/left/image_raw/compressed", kCompressed},
                                          {"/a/right/image_raw/compressed", kCompressed},
