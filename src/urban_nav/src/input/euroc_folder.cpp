@@ -25,6 +25,8 @@ class EurocFolder : public Source {
     info_.frames = static_cast<std::int64_t>(pairs_.size());
     info_.first = pairs_.front().stamp;
     info_.last = pairs_.back().stamp;
+    if (options.motion_input == "wheels")
+      throw urban_nav_core::DataError(mav0_, "has no wheel odometry for swf_vo.motion_input = wheels", "");
     if (options.motion_input == "gyroscope") readMotion(options.gyro_noise);
     info_.notes.push_back("raw images, rectified on the way; base_link is at the left camera");
     if (!options.calibration.empty()) info_.notes.push_back("--calibration is left aside: sensor.yaml counts");

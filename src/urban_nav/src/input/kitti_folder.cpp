@@ -30,6 +30,9 @@ class KittiFolder : public Source {
     info_.first = *std::min_element(frames_.stamps.begin(), frames_.stamps.end());
     info_.last = *std::max_element(frames_.stamps.begin(), frames_.stamps.end());
     info_.notes = frames_.notes;
+    if (options.motion_input != "none")
+      throw urban_nav_core::DataError(
+          folder, "holds images alone, nothing for swf_vo.motion_input = " + options.motion_input, "");
     look(options.calibration);
   }
 

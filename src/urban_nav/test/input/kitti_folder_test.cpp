@@ -133,6 +133,16 @@ TEST(KittiFolder, takesTheCalibrationOfTheUser) {
       << "what the user says stands above what the folder has";
 }
 
+TEST(KittiFolder, hasNoOtherMeasurementOfTheMotion) {
+  const TemporaryFolder folder;
+  KittiStyle style;
+  style.frames = 2;
+  testing::makeKittiFolder(folder.file("in"), style);
+  SourceOptions options;
+  options.motion_input = "gyroscope";
+  EXPECT_THROW(openKittiFolder(folder.file("in"), options), urban_nav_core::DataError);
+}
+
 std::string cameraYaml(double shift, double distortion, int width = 240) {
   return "image_width: " + std::to_string(width) +
          "\nimage_height: 180\n"
