@@ -21,7 +21,7 @@ void BagWriter::Close::operator()(rosbag::Bag* bag) const {
   delete bag;
 }
 
-BagWriter::BagWriter(const std::string& path) : path_(path), file_(path), bag_(new rosbag::Bag) {
+BagWriter::BagWriter(const std::string& path) : path_(path), file_(path, ".active"), bag_(new rosbag::Bag) {
   try {
     bag_->open(file_.path(), rosbag::bagmode::Write);
     bag_->setCompression(rosbag::compression::Uncompressed);

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "command_line/console.hpp"
+#include "command_line/held_signals.hpp"
 #include "simulate/session_bags.hpp"
 #include "simulate/stereo_folder_writer.hpp"
 #include "simulate/view_writer.hpp"
@@ -29,6 +30,7 @@ void makeFolder(const std::string& path) {
 }  // namespace
 
 Simulated simulate(const SimulateJob& job, Console& console) {
+  const HeldSignals signals;
   urban_nav_sim::Session session(job.session);
   const urban_nav_core::Pose T_base_left = session.places().at("stereo_left_optical_frame");
   SessionBags bags(job.bag, job.part, session);
@@ -42,6 +44,7 @@ Simulated simulate(const SimulateJob& job, Console& console) {
   Progress progress(console, "simulate", "frames", session.frames());
   std::optional<urban_nav_core::Pose> last;
   while (const std::optional<urban_nav_sim::Session::Arrival> arrival = session.next()) {
+    signals.check();
     bags.write(arrival->measurement, arrival->taken);
     if (const auto* pair = std::get_if<urban_nav_sim::StereoMeasurement>(&arrival->measurement); pair && folder)
       folder->add(*pair, session.truth(arrival->taken) * T_base_left);
@@ -56,6 +59,7 @@ Simulated simulate(const SimulateJob& job, Console& console) {
   console.info("truth: " + made.truth_folder);
   session.writeTruth(made.truth_folder, job.false_closures);
   views.finish();
+  signals.check();
   if (folder) folder->finish();
   bags.commit();
   made.bags = bags.paths();

@@ -23,6 +23,7 @@ TEST(BagWriter, aBagThatIsNotCommittedLeavesNothing) {
   {
     BagWriter bag(folder.file("a.bag"));
     bag.write("/pose", kSecond, geometry_msgs::PoseStamped());
+    EXPECT_TRUE(fs::exists(folder.file("a.bag.active")));
   }
   EXPECT_TRUE(fs::is_empty(folder.file("")));
 }
@@ -31,7 +32,7 @@ TEST(BagWriter, aFullDiskIsAnErrorAndNoBag) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
   const TemporaryFolder folder;
   for (const int messages : {1, 20000}) {
-    fs::create_symlink("/dev/full", folder.file("a.part.bag"));
+    fs::create_symlink("/dev/full", folder.file("a.bag.active"));
     const auto write = [&] {
       BagWriter bag(folder.file("a.bag"));
       for (int i = 0; i < messages; ++i) bag.write("/pose", kSecond, geometry_msgs::PoseStamped());

@@ -2,6 +2,7 @@
 #include "simulate/simulate.hpp"
 
 #include <gtest/gtest.h>
+#include <pthread.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <sensor_msgs/CameraInfo.h>
@@ -9,6 +10,7 @@
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/LaserScan.h>
 
+#include <csignal>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
@@ -19,6 +21,7 @@
 #include "urban_nav_core/io/kitti.hpp"
 #include "urban_nav_core/io/tum.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
+#include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav {
 namespace {
@@ -199,6 +202,48 @@ TEST(Simulate, ClocksOfTheirOwnAreOffByWhatTheTruthSays) {
     }
     EXPECT_EQ(clocks.number(row, clocks.column("skew")) != 0.0, is_imu);
   }
+}
+
+TEST(SimulateDeathTest, AnInterruptEndsItAndLeavesNoBag) {
+  const TemporaryFolder folder;
+  SimulateJob job = shortJob(folder);
+  job.session.sensors = {urban_nav_sim::Sensor::Imu};
+  const auto runInterrupted = [&job] {
+    sigset_t interrupts;
+    sigemptyset(&interrupts);
+    sigaddset(&interrupts, SIGINT);
+    std::signal(SIGINT, SIG_DFL);
+    pthread_sigmask(SIG_BLOCK, &interrupts, nullptr);
+    std::raise(SIGINT);  // it waits, as one that comes while a frame is rendered
+    Console console;
+    try {
+      simulate(job, console);
+    } catch (const std::exception&) {
+      pthread_sigmask(SIG_UNBLOCK, &interrupts, nullptr);
+    }
+  };
+  EXPECT_EXIT(runInterrupted(), ::testing::KilledBySignal(SIGINT), "");
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(job.bag).parent_path()))
+    EXPECT_TRUE(entry.is_directory()) << entry.path();
+}
+
+TEST(Simulate, BeginsAFolderAnewThatWasCutOff) {
+  const TemporaryFolder folder;
+  SimulateJob job = shortJob(folder);
+  job.session.duration = 0.1;
+  job.session.sensors = {urban_nav_sim::Sensor::Stereo};
+  job.folder = folder.file("kitti");
+  fs::create_directories(job.folder + "/image_0");
+  testing::writeFile(job.folder + "/image_0/000007.png", "of a longer run");
+  Console console;
+  EXPECT_THROW(simulate(job, console), urban_nav_core::UserError) << "a folder of somebody else";
+  EXPECT_FALSE(fs::exists(job.bag));
+  testing::writeFile(job.folder + "/unfinished", "");
+  simulate(job, console);
+  EXPECT_FALSE(fs::exists(job.folder + "/image_0/000007.png"));
+  EXPECT_FALSE(fs::exists(job.folder + "/unfinished"));
+  EXPECT_EQ(urban_nav_core::readKitti(job.folder + "/poses.txt").size(), 2U);
+  EXPECT_THROW(simulate(job, console), urban_nav_core::UserError) << "a folder that is complete";
 }
 
 TEST(Simulate, RefusesAnOutputThatIsNoBag) {

@@ -55,8 +55,10 @@ void flushFolder(const std::string& path) {
 
 }  // namespace
 
-PartialFile::PartialFile(const std::string& final_path)
-    : final_path_(linkTarget(final_path)), path_(beside(final_path_)) {
+PartialFile::PartialFile(const std::string& final_path) : PartialFile(final_path, "") {}
+
+PartialFile::PartialFile(const std::string& final_path, const std::string& suffix)
+    : final_path_(linkTarget(final_path)), path_(suffix.empty() ? beside(final_path_) : final_path_ + suffix) {
   if (isStream(final_path)) throw UserError(final_path, "is a device or a pipe", "a file");
 }
 
