@@ -47,7 +47,11 @@ InputKind inputKind(const std::string& path) {
 }
 
 std::unique_ptr<Source> openSource(const std::vector<std::string>& paths, const SourceOptions& options) {
-  switch (inputKind(paths.front())) {
+  const InputKind kind = inputKind(paths.front());
+  if (kind != InputKind::Bag && !options.topics.empty())
+    throw UserError("--topic " + options.topics.front(), "names a topic, but " + paths.front() + " is a folder",
+                    "for bags alone");
+  switch (kind) {
     case InputKind::KittiFolder: return openKittiFolder(paths.front(), options);
     case InputKind::NewCollegeFolder: return openNewCollegeFolder(paths.front(), options);
     case InputKind::EurocFolder: return openEurocFolder(paths.front(), options);

@@ -54,10 +54,11 @@ Matched match(const TrajectoryFile& truth, const TrajectoryFile& estimate, Evalu
     return urban_nav_core::associate(truth.trajectory, estimate.trajectory, evaluation.offset->offset);
   }
   if (matched.stamps.empty()) {
-    const std::string help =
-        evaluation.offset ? "; with " + secondsText(evaluation.offset->offset) + " added to the estimate's stamps " +
-                                std::to_string(evaluation.offset->matched) + " poses match: --find-offset applies that"
-                          : "";
+    const std::string help = evaluation.offset
+                                 ? "; with " + secondsText(evaluation.offset->offset) +
+                                       " added to the estimate's stamps " + std::to_string(evaluation.offset->matched) +
+                                       " poses match: urban_nav evaluate --find-offset applies that"
+                                 : "";
     throw DataError(estimate.path, "no stamp is within 0.02 s of one of the truth" + help, "");
   }
   return matched;

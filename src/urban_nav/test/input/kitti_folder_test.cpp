@@ -143,6 +143,17 @@ TEST(KittiFolder, hasNoOtherMeasurementOfTheMotion) {
   EXPECT_THROW(openKittiFolder(folder.file("in"), options), urban_nav_core::DataError);
 }
 
+TEST(KittiFolder, hasNoTopics) {
+  const TemporaryFolder folder;
+  KittiStyle style;
+  style.frames = 2;
+  testing::makeKittiFolder(folder.file("in"), style);
+  SourceOptions options;
+  EXPECT_NO_THROW(openSource({folder.file("in")}, options));
+  options.topics = {"left:=/cam0/image_raw"};
+  EXPECT_THROW(openSource({folder.file("in")}, options), urban_nav_core::UserError);
+}
+
 std::string cameraYaml(double shift, double distortion, int width = 240) {
   return "image_width: " + std::to_string(width) +
          "\nimage_height: 180\n"
