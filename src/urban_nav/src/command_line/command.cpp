@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 
 #include "command_line/console.hpp"
 #include "urban_nav_core/io/numbers.hpp"
@@ -206,7 +207,9 @@ int runCommandLine(const std::vector<Command>& commands, int argc, const char* c
       for (const Command& c : commands) names.push_back(c.name);
       throw UserError("urban_nav", "no command \"" + name + "\"", joined(names));
     }
-    return runCommand(*command, argc - 1, argv + 1, console);
+    const int status = runCommand(*command, argc - 1, argv + 1, console);
+    if (std::ferror(stdout) != 0) throw UserError("standard output", "could not be written", "a disk with room");
+    return status;
   } catch (const DataError& error) {
     console.error(error.what());
     return 1;

@@ -51,7 +51,7 @@ Console::~Console() { implementation_->clearTransient(); }
 void Console::print(const std::string& text) {
   const std::lock_guard<std::mutex> lock(implementation_->mutex);
   implementation_->clearTransient();
-  std::fwrite(text.data(), 1, text.size(), stdout);
+  std::fwrite(text.data(), 1, text.size(), stdout);  // what fails is seen at the end
   std::fflush(stdout);
 }
 

@@ -163,6 +163,22 @@ void guessInfo(const std::map<std::string, std::string>& available, Role image, 
   }
 }
 
+/// Where none stands beside the images: the only two that are left over, by their sides, else in the order of their names.
+void guessOtherInfos(const std::map<std::string, std::string>& available, BagTopics& topics) {
+  if (topics.find(Role::LeftInfo) || topics.find(Role::RightInfo)) return;
+  std::vector<ChosenTopic> infos;
+  for (const auto& [topic, type] : available) {
+    if (fits(Role::LeftInfo, type)) infos.push_back({topic, type});
+  }
+  if (infos.size() != 2) return;
+  for (const auto& side : kSides) {
+    if (contains(infos[1].name, side[0]) && replaced(infos[1].name, side[0], side[1]) == infos[0].name)
+      std::swap(infos[0], infos[1]);
+  }
+  topics.chosen[Role::LeftInfo] = infos[0];
+  topics.chosen[Role::RightInfo] = infos[1];
+}
+
 void guessOther(const std::map<std::string, std::string>& available, const RoleNames& names,
                 const std::vector<std::string>& words, BagTopics& topics) {
   if (topics.find(names.role)) return;
@@ -195,6 +211,7 @@ BagTopics chooseTopics(const std::map<std::string, std::string>& available, cons
   guessImages(available, topics);
   guessInfo(available, Role::Left, Role::LeftInfo, topics);
   guessInfo(available, Role::Right, Role::RightInfo, topics);
+  guessOtherInfos(available, topics);
   guessOther(available, kRoles[4], {"imu"}, topics);
   guessOther(available, kRoles[5], {"wheel"}, topics);
   guessOther(available, kRoles[6], {"ground_truth", "groundtruth"}, topics);

@@ -75,6 +75,20 @@ TEST(BagTopics, findsCameraInfoAboveCompressedImages) {
   EXPECT_EQ(name(topics, Role::LeftInfo), "/a/left/camera_info");
 }
 
+TEST(BagTopics, takesTheOnlyTwoCameraInfosWhereverTheyStand) {
+  const Topics images = {{"/left/image_raw", kImage}, {"/right/image_raw", kImage}};
+  const auto with = [&](std::vector<std::string> infos) {
+    Topics all = images;
+    for (const std::string& info : infos) all[info] = kInfo;
+    const BagTopics topics = chooseTopics(all, {});
+    return name(topics, Role::LeftInfo) + " " + name(topics, Role::RightInfo);
+  };
+  EXPECT_EQ(with({"/l/info", "/r/info"}), "/l/info /r/info");
+  EXPECT_EQ(with({"/calibration/a_left", "/calibration/a_right"}), "/calibration/a_left /calibration/a_right");
+  EXPECT_EQ(with({"/info"}), "none none");
+  EXPECT_EQ(with({"/a/info", "/b/info", "/c/info"}), "none none");
+}
+
 TEST(BagTopics, doesAsItIsTold) {
   const Topics available = {{"/stereo/left/image_raw", kImage},
                             {"/stereo/right/image_raw", kImage},
