@@ -20,12 +20,16 @@ SessionBags::SessionBags(std::string path, double part, const urban_nav_sim::Ses
   begin();
 }
 
-void SessionBags::begin() {
+std::string SessionBags::pathOf(std::size_t number) const {
   const std::filesystem::path whole(path_);
+  return part_ == 0 ? path_
+                    : (whole.parent_path() / whole.stem()).string() + "_" + std::to_string(number) +
+                          whole.extension().string();
+}
+
+void SessionBags::begin() {
   const auto number = static_cast<StampNs>(paths_.size());
-  paths_.push_back(part_ == 0 ? path_
-                              : (whole.parent_path() / whole.stem()).string() + "_" + std::to_string(number) +
-                                    whole.extension().string());
+  paths_.push_back(pathOf(paths_.size()));
   bag_.emplace(paths_.back());
   bag_->writeStaticTransforms(session_.begin() + number * part_, urban_nav_sim::staticTransforms(session_));
 }
@@ -42,10 +46,14 @@ void SessionBags::write(const urban_nav_sim::Measurement& measurement, StampNs t
     begin();
   }
   for (const urban_nav_sim::TopicMessage& message : messages_.convert(measurement))
-    std::visit([&](const auto& pointer) { bag_->write("/" + message.topic, message.stamp, *pointer); },
-               message.message);
+    std::visit([&](const auto& pointer) { bag_->write("/" + message.topic, taken, *pointer); }, message.message);
 }
 
 void SessionBags::commit() { end(); }
+
+std::string SessionBags::leftBehind() const {
+  const std::string next = pathOf(paths_.size());
+  return part_ > 0 && std::filesystem::exists(next) ? next : "";
+}
 
 }  // namespace urban_nav

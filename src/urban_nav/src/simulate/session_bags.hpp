@@ -19,15 +19,18 @@ class SessionBags {
   /// `part`: s of the session in a bag; 0: all of it.
   SessionBags(std::string path, double part, const urban_nav_sim::Session& session);
 
-  /// `taken` does not decrease from call to call.
+  /// `taken`, which does not decrease from call to call, is when a recorder receives it; the stamp in its header may be any.
   void write(const urban_nav_sim::Measurement& measurement, urban_nav_core::StampNs taken);
   void commit();
 
   /// Bags in order, and messages by topic in all of them; when committed.
   const std::vector<std::string>& paths() const { return paths_; }
   const std::map<std::string, std::int64_t>& counts() const { return counts_; }
+  /// A part of a longer session that was written here before, which would pass for the next one; empty: none.
+  std::string leftBehind() const;
 
  private:
+  std::string pathOf(std::size_t number) const;
   void begin();
   void end();
 

@@ -63,6 +63,8 @@ Simulated simulate(const SimulateJob& job, Console& console) {
   if (folder) folder->finish();
   bags.commit();
   made.bags = bags.paths();
+  if (const std::string old = bags.leftBehind(); !old.empty())
+    console.warn(old + " is of an earlier session, and no part of this one");
   made.counts = bags.counts();
   return made;
 }

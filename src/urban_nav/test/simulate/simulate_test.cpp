@@ -121,6 +121,29 @@ TEST(Simulate, FaultsSpoilTheSensorNotTheTruth) {
   EXPECT_GT(made.counts.at("/ground_truth/pose"), 90);
 }
 
+TEST(Simulate, AJumpOfStampsIsNoneOfTheRecorder) {
+  const TemporaryFolder folder;
+  SimulateJob job = shortJob(folder);
+  job.session.sensors = {urban_nav_sim::Sensor::Imu};
+  job.session.faults = {urban_nav_sim::parseFault("jump:imu:0.2:0.1:5")};
+  Console console;
+  const Simulated made = simulate(job, console);
+  const rosbag::Bag bag(job.bag);
+  ros::Time received(0), stamped(0);
+  int backward = 0, count = 0;
+  for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery("/imu/data"))) {
+    const ros::Time stamp = message.instantiate<sensor_msgs::Imu>()->header.stamp;
+    EXPECT_GT(message.getTime(), received);
+    backward += stamp < stamped ? 1 : 0;
+    received = message.getTime();
+    stamped = stamp;
+    ++count;
+  }
+  EXPECT_EQ(backward, 1) << "in the order in which they came, the stamps go back once, when the jump ends";
+  EXPECT_EQ(count, made.counts.at("/imu/data"));
+  EXPECT_GT(count, 40);
+}
+
 TEST(Simulate, ViewsOfPixelsAndBeamsLieInTheTruthFolder) {
   const TemporaryFolder folder;
   SimulateJob job = shortJob(folder);
