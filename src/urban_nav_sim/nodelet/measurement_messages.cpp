@@ -35,8 +35,8 @@ void set(const Eigen::Vector3d& from, geometry_msgs::Vector3& to) {
 }
 
 template <typename Message>
-TopicMessage onTopic(const std::string& topic, StampNs stamp, Message message) {
-  return {topic, stamp, boost::make_shared<Message>(std::move(message))};
+TopicMessage onTopic(const std::string& topic, Message message) {
+  return {topic, boost::make_shared<Message>(std::move(message))};
 }
 
 std::string nameOf(Side side) { return side == Side::Left ? "left" : "right"; }
@@ -47,13 +47,13 @@ void addImage(Side side, const cv::Mat& pixels, sensor_msgs::CameraInfo camera, 
   if (pixels.empty()) return;
   sensor_msgs::Image image = urban_nav_ros::toImageMessage(pixels);
   image.header = camera.header = header(stamp, "stereo_" + nameOf(side) + "_optical_frame");
-  messages.push_back(onTopic("stereo/" + nameOf(side) + "/image_raw", stamp, std::move(image)));
-  messages.push_back(onTopic("stereo/" + nameOf(side) + "/camera_info", stamp, std::move(camera)));
+  messages.push_back(onTopic("stereo/" + nameOf(side) + "/image_raw", std::move(image)));
+  messages.push_back(onTopic("stereo/" + nameOf(side) + "/camera_info", std::move(camera)));
 }
 
 template <typename Message>
 void addTopic(const std::string& topic, std::vector<TopicMessage>& topics) {
-  topics.push_back(onTopic(topic, 0, Message()));
+  topics.push_back(onTopic(topic, Message()));
 }
 
 void addTopics(Sensor sensor, std::vector<TopicMessage>& topics) {
@@ -129,15 +129,15 @@ std::vector<TopicMessage> MeasurementMessages::from(const LadybugMeasurement& pa
   image.header = info.header = header(panorama.stamp, "ladybug_" + name + "_optical_frame");
   image.format = "jpeg";
   cv::imencode(".jpg", panorama.image, image.data, {cv::IMWRITE_JPEG_QUALITY, jpeg_quality});
-  return {onTopic("ladybug/" + name + "/image_raw/compressed", panorama.stamp, std::move(image)),
-          onTopic("ladybug/" + name + "/camera_info", panorama.stamp, std::move(info))};
+  return {onTopic("ladybug/" + name + "/image_raw/compressed", std::move(image)),
+          onTopic("ladybug/" + name + "/camera_info", std::move(info))};
 }
 
 std::vector<TopicMessage> MeasurementMessages::from(const LaserMeasurement& turn) {
   const std::string name = "laser_" + nameOf(turn.side);
   sensor_msgs::LaserScan scan = urban_nav_ros::toLaserScanMessage(turn.scan, name);
   scan.header.seq = turns_[static_cast<std::size_t>(turn.side)]++;
-  return {onTopic(name + "/scan", turn.scan.stamp, std::move(scan))};
+  return {onTopic(name + "/scan", std::move(scan))};
 }
 
 std::vector<TopicMessage> MeasurementMessages::from(const ImuMeasurement& imu) const {
@@ -150,7 +150,7 @@ std::vector<TopicMessage> MeasurementMessages::from(const ImuMeasurement& imu) c
   sensor_msgs::MagneticField field;
   field.header = motion.header;
   set(imu.field, field.magnetic_field);
-  return {onTopic("imu/data", imu.stamp, std::move(motion)), onTopic("imu/mag", imu.stamp, std::move(field))};
+  return {onTopic("imu/data", std::move(motion)), onTopic("imu/mag", std::move(field))};
 }
 
 std::vector<TopicMessage> MeasurementMessages::from(const WheelMeasurement& wheels) const {
@@ -160,7 +160,7 @@ std::vector<TopicMessage> MeasurementMessages::from(const WheelMeasurement& whee
   odometry.pose.pose = urban_nav_ros::toPoseMessage(wheels.T_odom_base);
   odometry.twist.twist.linear.x = wheels.speed;
   odometry.twist.twist.angular.z = wheels.yaw_rate;
-  return {onTopic("wheel_odom", wheels.stamp, std::move(odometry))};
+  return {onTopic("wheel_odom", std::move(odometry))};
 }
 
 std::vector<TopicMessage> MeasurementMessages::from(const GpsMeasurement& gps) const {
@@ -177,8 +177,8 @@ std::vector<TopicMessage> MeasurementMessages::from(const GpsMeasurement& gps) c
   geometry_msgs::TwistStamped velocity;
   velocity.header = fix.header;
   set(gps.velocity, velocity.twist.linear);
-  Messages messages = {onTopic("gps/fix", gps.stamp, std::move(fix))};
-  if (gps.has_fix) messages.push_back(onTopic("gps/vel", gps.stamp, std::move(velocity)));
+  Messages messages = {onTopic("gps/fix", std::move(fix))};
+  if (gps.has_fix) messages.push_back(onTopic("gps/vel", std::move(velocity)));
   return messages;
 }
 
@@ -186,7 +186,7 @@ std::vector<TopicMessage> MeasurementMessages::from(const TruthMeasurement& trut
   geometry_msgs::PoseStamped pose;
   pose.header = header(truth.stamp, "ground_truth");
   pose.pose = urban_nav_ros::toPoseMessage(truth.T_world_base);
-  return {onTopic("ground_truth/pose", truth.stamp, std::move(pose))};
+  return {onTopic("ground_truth/pose", std::move(pose))};
 }
 
 }  // namespace urban_nav_sim

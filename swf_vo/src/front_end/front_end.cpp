@@ -37,8 +37,8 @@ constexpr double coarse_slack_px = 1.0, fine_slack_px = 0.1;
 constexpr double noticed_row_offset = 0.1;  // px
 // A template that was last seen a while ago has been warped far, by a slant of its surface that is known roughly.
 constexpr double astray_slack_px = 0.5;
-// By chance 8 % of the landmarks in view agreed in ten simulated minutes with gaps; of those that were right at least 21 % did, in streets
-// that a car had gone on in for a second (bench/faults).
+// By chance 8 % of the landmarks in view agreed, once in ten simulated minutes with gaps (the soak of src/urban_nav/bench); where the pose was
+// right at least 21 % did, after a second without pictures in a real street seen from a car (the recordings of bench/faults).
 constexpr double least_share_in_view = 0.15;
 // Where so little agrees that nothing is known of the motion: how far around landmarks are then looked for (share of the width; about as far as the
 // nearest of them stand apart in the two images), and how many motions are tried, for one match in five to be right.

@@ -19,7 +19,7 @@
 namespace urban_nav {
 
 /// A bag that appears whole or not at all (until then it is PATH.active, as rosbag record has it), its chunks not
-/// compressed. Messages are to come in the order of their stamps. Throws UserError naming the bag where it cannot be
+/// compressed. Messages are to come in the order of their receipt. Throws UserError naming the bag where it cannot be
 /// written.
 class BagWriter {
  public:

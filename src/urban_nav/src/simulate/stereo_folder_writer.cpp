@@ -26,7 +26,7 @@ std::string projection(const char* name, const urban_nav_core::CameraInfo& info)
 }
 
 /// By what tells a folder of a run that was cut off from one that must not be touched.
-std::string markOf(const std::string& folder) { return folder + "/unfinished"; }
+std::string markOf(const std::string& folder) { return folder + "/simulate.unfinished"; }
 
 }  // namespace
 

@@ -133,23 +133,16 @@ TEST(KittiFolder, takesTheCalibrationOfTheUser) {
       << "what the user says stands above what the folder has";
 }
 
-TEST(KittiFolder, hasNoOtherMeasurementOfTheMotion) {
-  const TemporaryFolder folder;
-  KittiStyle style;
-  style.frames = 2;
-  testing::makeKittiFolder(folder.file("in"), style);
-  SourceOptions options;
-  options.motion_input = "gyroscope";
-  EXPECT_THROW(openKittiFolder(folder.file("in"), options), urban_nav_core::DataError);
-}
-
-TEST(KittiFolder, hasNoTopics) {
+TEST(KittiFolder, hasNoOtherMeasurementOfTheMotionAndNoTopics) {
   const TemporaryFolder folder;
   KittiStyle style;
   style.frames = 2;
   testing::makeKittiFolder(folder.file("in"), style);
   SourceOptions options;
   EXPECT_NO_THROW(openSource({folder.file("in")}, options));
+  options.motion_input = "gyroscope";
+  EXPECT_THROW(openSource({folder.file("in")}, options), urban_nav_core::DataError);
+  options = {};
   options.topics = {"left:=/cam0/image_raw"};
   EXPECT_THROW(openSource({folder.file("in")}, options), urban_nav_core::UserError);
 }

@@ -261,10 +261,10 @@ TEST(Simulate, BeginsAFolderAnewThatWasCutOff) {
   Console console;
   EXPECT_THROW(simulate(job, console), urban_nav_core::UserError) << "a folder of somebody else";
   EXPECT_FALSE(fs::exists(job.bag));
-  testing::writeFile(job.folder + "/unfinished", "");
+  testing::writeFile(job.folder + "/simulate.unfinished", "");
   simulate(job, console);
   EXPECT_FALSE(fs::exists(job.folder + "/image_0/000007.png"));
-  EXPECT_FALSE(fs::exists(job.folder + "/unfinished"));
+  EXPECT_FALSE(fs::exists(job.folder + "/simulate.unfinished"));
   EXPECT_EQ(urban_nav_core::readKitti(job.folder + "/poses.txt").size(), 2U);
   EXPECT_THROW(simulate(job, console), urban_nav_core::UserError) << "a folder that is complete";
 }

@@ -32,7 +32,6 @@ struct TopicMessage {
                    sensor_msgs::LaserScanPtr, sensor_msgs::ImuPtr, sensor_msgs::MagneticFieldPtr, nav_msgs::OdometryPtr,
                    sensor_msgs::NavSatFixPtr, geometry_msgs::TwistStampedPtr, geometry_msgs::PoseStampedPtr>;
   std::string topic;
-  urban_nav_core::StampNs stamp = 0;  ///< as in its header
   Message message;
 };
 
