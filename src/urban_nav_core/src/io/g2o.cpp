@@ -217,20 +217,23 @@ G2oGraph parseG2o(std::string_view text, const std::string& name, UnknownTags un
   return parser.take();
 }
 
-std::string printG2o(const G2oGraph& graph) {
-  std::string text;
+std::vector<G2oGraph::Line> linesOf(const G2oGraph& graph) {
+  std::vector<G2oGraph::Line> lines = graph.lines;
   std::array<std::size_t, 4> listed{};
-  for (const G2oGraph::Line& line : graph.lines) {
-    appendLine(text, graph, line);
-    ++listed[static_cast<std::size_t>(line.kind)];
-  }
+  for (const G2oGraph::Line& line : graph.lines) ++listed[static_cast<std::size_t>(line.kind)];
   const auto append_rest = [&](G2oGraph::Kind kind, std::size_t size) {
-    for (std::size_t i = listed[static_cast<std::size_t>(kind)]; i < size; ++i) appendLine(text, graph, {kind, i});
+    for (std::size_t i = listed[static_cast<std::size_t>(kind)]; i < size; ++i) lines.push_back({kind, i});
   };
   append_rest(G2oGraph::Kind::Vertex, graph.vertices.size());
   append_rest(G2oGraph::Kind::Edge, graph.edges.size());
   append_rest(G2oGraph::Kind::Fix, graph.fixed.size());
   append_rest(G2oGraph::Kind::Other, graph.others.size());
+  return lines;
+}
+
+std::string printG2o(const G2oGraph& graph) {
+  std::string text;
+  for (const G2oGraph::Line& line : linesOf(graph)) appendLine(text, graph, line);
   return text;
 }
 

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_core/io/toro.hpp"
+
+#include <cmath>
+#include <set>
+
+#include "urban_nav_core/io/atomic_file.hpp"
+#include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/io/text_file.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav_core {
+namespace {
+
+using Words = std::vector<std::string_view>;
+
+constexpr const char* known_tags = "VERTEX2, VERTEX, EDGE2, EDGE, VERTEX3, EDGE3, FIX";
+
+bool isVertex2(std::string_view tag) { return tag == "VERTEX2" || tag == "VERTEX"; }
+bool isEdge2(std::string_view tag) { return tag == "EDGE2" || tag == "EDGE"; }
+
+std::size_t poseSize(int dimension) { return dimension == 2 ? 3 : 6; }
+std::size_t informationSize(int dimension) { return dimension == 2 ? 6 : 21; }
+
+// Where the numbers of EDGE2 (11 12 22 33 13 23) stand in the upper triangle (11 12 13 22 23 33).
+constexpr std::array<std::size_t, 6> upper_of_toro = {0, 1, 3, 5, 2, 4};
+
+Quaterniond rotationOf(double roll, double pitch, double yaw) {
+  const Quaterniond z(std::cos(0.5 * yaw), 0.0, 0.0, std::sin(0.5 * yaw));
+  const Quaterniond y(std::cos(0.5 * pitch), 0.0, std::sin(0.5 * pitch), 0.0);
+  const Quaterniond x(std::cos(0.5 * roll), std::sin(0.5 * roll), 0.0, 0.0);
+  return z * y * x;
+}
+
+double wrapped(double angle) { return std::remainder(angle, 2.0 * M_PI); }
+
+// The sum and the difference of yaw and roll are each exact to rounding of the quaternion at every pitch; a quotient of
+// elements of the matrix is not near 90 deg, where one of the two loses its meaning.
+Vector3d rollPitchYaw(const Quaterniond& q) {
+  const double sum = 2.0 * std::atan2(q.x() + q.z(), q.w() - q.y());
+  const double difference = 2.0 * std::atan2(q.z() - q.x(), q.w() + q.y());
+  const double pitch =
+      2.0 * std::atan2(std::hypot(q.w() + q.y(), q.z() - q.x()), std::hypot(q.w() - q.y(), q.x() + q.z())) - 0.5 * M_PI;
+  return {wrapped(0.5 * (sum - difference)), pitch, wrapped(0.5 * (sum + difference))};
+}
+
+// The upper triangle from one rotation to another that is `1 / scale` of it: the quaternion's vector is half the rotation
+// vector (scale 2), and back (0.5).
+void scaleRotation(std::array<double, 21>& information, double scale) {
+  std::size_t at = 0;
+  for (int row = 0; row < 6; ++row) {
+    for (int column = row; column < 6; ++column, ++at)
+      information[at] *= (row >= 3 ? scale : 1.0) * (column >= 3 ? scale : 1.0);
+  }
+}
+
+class Parser {
+ public:
+  Parser(std::string name, UnknownTags unknown) : name_(std::move(name)), unknown_(unknown) {}
+
+  void line(std::string_view text, int number) {
+    const Words words = splitBlanks(text);
+    if (words.empty()) return;
+    where_ = atLine(name_, number);
+    const std::string_view tag = words[0];
+    if (isVertex2(tag)) vertex(words, 2);
+    else if (tag == "VERTEX3") vertex(words, 3);
+    else if (isEdge2(tag)) edge(words, 2);
+    else if (tag == "EDGE3") edge(words, 3);
+    else if (tag == "FIX") fix(words);
+    else other(text, tag);
+  }
+
+  G2oGraph take() { return std::move(graph_); }
+
+ private:
+  void vertex(const Words& words, int dimension) {
+    demand(words, 2 + poseSize(dimension), dimension);
+    G2oGraph::Vertex vertex;
+    vertex.id = id(words[1]);
+    vertex.values = pose(words, 2, dimension);
+    if (!known_.insert(vertex.id).second)
+      throw UserError(where_, "vertex " + std::to_string(vertex.id) + " stands twice", "");
+    graph_.lines.push_back({G2oGraph::Kind::Vertex, graph_.vertices.size()});
+    graph_.vertices.push_back(vertex);
+  }
+
+  void edge(const Words& words, int dimension) {
+    demand(words, 3 + poseSize(dimension) + informationSize(dimension), dimension);
+    G2oGraph::Edge edge;
+    edge.from = id(words[1]);
+    edge.to = id(words[2]);
+    if (edge.from == edge.to) throw UserError(where_, "an edge from " + std::to_string(edge.from) + " to itself", "");
+    edge.values = pose(words, 3, dimension);
+    for (std::size_t i = 0; i < informationSize(dimension); ++i)
+      edge.information[dimension == 2 ? upper_of_toro[i] : i] = number(words[3 + poseSize(dimension) + i]);
+    if (dimension == 3) scaleRotation(edge.information, 2.0);
+    for (const double value : edge.information)
+      if (!std::isfinite(value)) throw UserError(where_, "information beyond a double's range", "");
+    graph_.lines.push_back({G2oGraph::Kind::Edge, graph_.edges.size()});
+    graph_.edges.push_back(edge);
+  }
+
+  void fix(const Words& words) {
+    if (words.size() == 1) throw UserError(where_, "FIX without a vertex", "FIX id");
+    for (std::size_t i = 1; i < words.size(); ++i) {
+      graph_.lines.push_back({G2oGraph::Kind::Fix, graph_.fixed.size()});
+      graph_.fixed.push_back(id(words[i]));
+    }
+  }
+
+  void other(std::string_view text, std::string_view tag) {
+    if (unknown_ == UnknownTags::Refuse && tag.front() != '#')
+      throw UserError(where_, "unknown tag " + std::string(tag), known_tags);
+    graph_.lines.push_back({G2oGraph::Kind::Other, graph_.others.size()});
+    graph_.others.emplace_back(text);
+  }
+
+  void demand(const Words& words, std::size_t columns, int dimension) {
+    if (words.size() != columns) {
+      throw UserError(where_, std::string(words[0]) + " with " + std::to_string(words.size()) + " columns",
+                      std::to_string(columns));
+    }
+    if (has_dimension_ && graph_.dimension != dimension)
+      throw UserError(where_, "plane and space in one file", "one of them");
+    graph_.dimension = dimension;
+    has_dimension_ = true;
+  }
+
+  G2oGraph::Id id(std::string_view word) const {
+    const auto value = parseInteger(word);
+    if (!value || *value < 0) throw UserError(where_, "vertex `" + std::string(word) + "`", "whole numbers from 0");
+    return *value;
+  }
+
+  double number(std::string_view word) const {
+    const auto value = parseNumber(word);
+    if (!value) throw UserError(where_, "`" + std::string(word) + "`", "a finite number");
+    return *value;
+  }
+
+  std::array<double, 7> pose(const Words& words, std::size_t first, int dimension) const {
+    std::array<double, 7> values{};
+    for (std::size_t i = 0; i < 3; ++i) values[i] = number(words[first + i]);
+    if (dimension == 2) return values;
+    const Quaterniond q = rotationOf(number(words[first + 3]), number(words[first + 4]), number(words[first + 5]));
+    values[3] = q.x();
+    values[4] = q.y();
+    values[5] = q.z();
+    values[6] = q.w();
+    return values;
+  }
+
+  std::string name_, where_;
+  UnknownTags unknown_;
+  bool has_dimension_ = false;
+  std::set<G2oGraph::Id> known_;
+  G2oGraph graph_;
+};
+
+void appendValue(std::string& text, double value) {
+  text += ' ';
+  appendNumber(text, value);
+}
+
+void appendPose(std::string& text, const std::array<double, 7>& values, const Pose& pose, int dimension) {
+  for (std::size_t i = 0; i < 3; ++i) appendValue(text, values[i]);
+  if (dimension == 2) return;
+  const Vector3d angles = rollPitchYaw(pose.q());
+  for (int i = 0; i < 3; ++i) appendValue(text, angles[i]);
+}
+
+void appendLine(std::string& text, const G2oGraph& graph, const G2oGraph::Line& line) {
+  const char digit = graph.dimension == 2 ? '2' : '3';
+  switch (line.kind) {
+    case G2oGraph::Kind::Vertex: {
+      const auto& vertex = graph.vertices[line.index];
+      text += std::string("VERTEX") + digit + " " + std::to_string(vertex.id);
+      appendPose(text, vertex.values, graph.pose(vertex), graph.dimension);
+      break;
+    }
+    case G2oGraph::Kind::Edge: {
+      const auto& edge = graph.edges[line.index];
+      text += std::string("EDGE") + digit + " " + std::to_string(edge.from) + " " + std::to_string(edge.to);
+      appendPose(text, edge.values, graph.pose(edge), graph.dimension);
+      std::array<double, 21> information = edge.information;
+      if (graph.dimension == 3) scaleRotation(information, 0.5);
+      for (std::size_t i = 0; i < informationSize(graph.dimension); ++i)
+        appendValue(text, information[graph.dimension == 2 ? upper_of_toro[i] : i]);
+      break;
+    }
+    case G2oGraph::Kind::Fix: text += "FIX " + std::to_string(graph.fixed[line.index]); break;
+    case G2oGraph::Kind::Other: text += graph.others[line.index]; break;
+  }
+  text += '\n';
+}
+
+}  // namespace
+
+G2oGraph readToro(const std::string& path, UnknownTags unknown) { return parseToro(readTextFile(path), path, unknown); }
+
+G2oGraph parseToro(std::string_view text, const std::string& name, UnknownTags unknown) {
+  Parser parser(name, unknown);
+  forEachLine(text, [&parser](std::string_view line, int number) { parser.line(line, number); });
+  return parser.take();
+}
+
+std::string printToro(const G2oGraph& graph) {
+  std::string text;
+  for (const G2oGraph::Line& line : linesOf(graph)) appendLine(text, graph, line);
+  return text;
+}
+
+void writeToro(const std::string& path, const G2oGraph& graph) { writeAtomically(path, printToro(graph)); }
+
+bool isToro(std::string_view text) {
+  bool known = false, toro = false;
+  forEachLine(text, [&](std::string_view line, int) {
+    if (known) return;
+    const Words words = splitBlanks(line);
+    if (words.empty()) return;
+    toro = isVertex2(words[0]) || isEdge2(words[0]) || words[0] == "VERTEX3" || words[0] == "EDGE3";
+    known = toro || words[0].substr(0, 10) == "VERTEX_SE2" || words[0].substr(0, 10) == "VERTEX_SE3" ||
+            words[0].substr(0, 8) == "EDGE_SE2" || words[0].substr(0, 8) == "EDGE_SE3";
+  });
+  return toro;
+}
+
+}  // namespace urban_nav_core
