@@ -3,25 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
+
+#include "urban_nav_core/testing/dice.hpp"
 
 namespace urban_nav_core::testing {
 
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-
-// The standard library's distributions differ between implementations; these do not.
-class Dice {
- public:
-  explicit Dice(std::uint64_t seed) : engine_(seed) {}
-  double uniform() { return (static_cast<double>(engine_() >> 11) + 0.5) / 9007199254740992.0; }
-  double uniform(double low, double high) { return low + (high - low) * uniform(); }
-  double normal() { return std::sqrt(-2.0 * std::log(uniform())) * std::cos(2.0 * pi * uniform()); }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 StereoCamera usualCamera() { return {{400.0, 400.0, 255.5, 191.5, 512, 384}, 0.12}; }
 
