@@ -3,9 +3,11 @@
 
 #include "urban_nav_core/geometry/compose.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
-#include "window/dense_kernels.hpp"
+#include "urban_nav_core/geometry/dense_kernels.hpp"
 
 namespace swf_vo::covariance {
+
+namespace kernels = urban_nav_core::kernels;
 
 using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;

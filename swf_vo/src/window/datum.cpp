@@ -4,10 +4,12 @@
 #include <algorithm>
 
 #include "urban_nav_core/geometry/dense.hpp"
-#include "window/dense_kernels.hpp"
+#include "urban_nav_core/geometry/dense_kernels.hpp"
 #include "window/gauge.hpp"
 
 namespace swf_vo {
+
+namespace kernels = urban_nav_core::kernels;
 
 using Eigen::Vector3d;
 using urban_nav_core::Matrix6d;

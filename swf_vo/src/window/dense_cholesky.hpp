@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <vector>
 
-#include "window/dense_kernels.hpp"
+#include "urban_nav_core/geometry/dense_kernels.hpp"
 
 namespace swf_vo {
+
+namespace kernels = urban_nav_core::kernels;
 
 /// A symmetric matrix of dynamic size, column-major; only the lower triangle counts (anything may stand in the upper one). Takes three times the room it needs, and never shrinks.
 class DenseMatrix {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "window/prior.hpp"
 
-#include "window/dense_kernels.hpp"
+#include "urban_nav_core/geometry/dense_kernels.hpp"
 #include "window/make_room.hpp"
 
 namespace swf_vo {
+
+namespace kernels = urban_nav_core::kernels;
 
 using Eigen::Map;
 using Eigen::Vector3d;

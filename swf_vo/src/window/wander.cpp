@@ -6,10 +6,12 @@
 #include <cmath>
 #include <limits>
 
-#include "window/dense_kernels.hpp"
+#include "urban_nav_core/geometry/dense_kernels.hpp"
 #include "window/make_room.hpp"
 
 namespace swf_vo {
+
+namespace kernels = urban_nav_core::kernels;
 
 void Wander::apply(const std::vector<Step>& steps, const std::vector<double>& directions, Prior& prior,
                    Departed& departed) {

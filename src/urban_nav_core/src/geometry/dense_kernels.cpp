@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "window/dense_kernels.hpp"
+#include "urban_nav_core/geometry/dense_kernels.hpp"
 
 #include <cstddef>
 #include <cstring>
 
 #if defined(__x86_64__)
-#define SWF_VO_X86 1
+#define URBAN_NAV_X86 1
 #endif
 
-namespace swf_vo::kernels {
+namespace urban_nav_core::kernels {
 
 namespace {
 
@@ -186,7 +186,7 @@ __attribute__((always_inline)) inline void subtractThreeAs(double* y, const doub
 
 // One function of each kind for every width; only so can a compiler be told what processor it is for.
 // NOLINTBEGIN(bugprone-macro-parentheses): names of types, and attributes, stand in none.
-#define SWF_VO_KERNELS(Width, target)                                                                            \
+#define URBAN_NAV_KERNELS(Width, target)                                                                         \
   target void subtractStrips##Width(double* C, int stride, const double* packed, int count, int depth) {         \
     subtractStripsAs<Width>(C, stride, packed, count, depth);                                                    \
   }                                                                                                              \
@@ -204,26 +204,26 @@ __attribute__((always_inline)) inline void subtractThreeAs(double* y, const doub
                                    const double* factors, int n) {                                               \
     subtractThreeAs<Width>(y, x0, x1, x2, factors, n);                                                           \
   }
-#define SWF_VO_SET(name, Width) \
+#define URBAN_NAV_SET(name, Width) \
   { name, subtractStrips##Width, solveStrips##Width, dot##Width, dotSix##Width, subtract##Width, subtractThree##Width }
 // NOLINTEND(bugprone-macro-parentheses)
 
-SWF_VO_KERNELS(Narrow, )
-#ifdef SWF_VO_X86
-SWF_VO_KERNELS(Middle, __attribute__((target("avx2"))))
-SWF_VO_KERNELS(Wide, __attribute__((target("avx512f"))))
+URBAN_NAV_KERNELS(Narrow, )
+#ifdef URBAN_NAV_X86
+URBAN_NAV_KERNELS(Middle, __attribute__((target("avx2"))))
+URBAN_NAV_KERNELS(Wide, __attribute__((target("avx512f"))))
 #endif
 
 constexpr InstructionSet sets[] = {
-#ifdef SWF_VO_X86
-    SWF_VO_SET("avx512f", Wide),
-    SWF_VO_SET("avx2", Middle),
+#ifdef URBAN_NAV_X86
+    URBAN_NAV_SET("avx512f", Wide),
+    URBAN_NAV_SET("avx2", Middle),
 #endif
-    SWF_VO_SET("baseline", Narrow),
+    URBAN_NAV_SET("baseline", Narrow),
 };
 
 bool supports(const InstructionSet& set) {
-#ifdef SWF_VO_X86
+#ifdef URBAN_NAV_X86
   if (std::strcmp(set.name, "avx512f") == 0) return __builtin_cpu_supports("avx512f") != 0;
   if (std::strcmp(set.name, "avx2") == 0) return __builtin_cpu_supports("avx2") != 0;
 #endif
@@ -253,4 +253,4 @@ void subtractThree(double* y, const double* x0, const double* x1, const double* 
   fastest().subtractThree(y, x0, x1, x2, factors, n);
 }
 
-}  // namespace swf_vo::kernels
+}  // namespace urban_nav_core::kernels

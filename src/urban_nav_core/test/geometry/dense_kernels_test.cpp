@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "window/dense_kernels.hpp"
+#include "urban_nav_core/geometry/dense_kernels.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace swf_vo::kernels {
+namespace urban_nav_core::kernels {
 namespace {
 
 std::vector<double> numbers(int n, double pace) {
@@ -74,4 +74,4 @@ TEST(DenseKernels, giveTheSameBitsWithEveryInstructionSet) {
 }
 
 }  // namespace
-}  // namespace swf_vo::kernels
+}  // namespace urban_nav_core::kernels

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-namespace swf_vo::kernels {
+namespace urban_nav_core::kernels {
 
 /// The inner loops of the dense Cholesky, own code because Eigen compiled for the portable baseline reaches a quarter of the
 /// processor: chosen at run time by what it can do. Each sum runs in the same order and nothing is fused, so the bits do not
@@ -42,4 +42,4 @@ void dotSix(const double* a, const double* b, int stride, int n, double* product
 void subtract(double* y, const double* x, double factor, int n);
 void subtractThree(double* y, const double* x0, const double* x1, const double* x2, const double* factors, int n);
 
-}  // namespace swf_vo::kernels
+}  // namespace urban_nav_core::kernels

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace pose_graph {
+
+/// Numbers of a tangent of SE(D): 3 in the plane, 6 in space. Translation first, then rotation.
+template <int D>
+constexpr int tangent_size = D == 2 ? 3 : 6;
+template <int D>
+using Tangent = Eigen::Matrix<double, tangent_size<D>, 1>;
+template <int D>
+using TangentMatrix = Eigen::Matrix<double, tangent_size<D>, tangent_size<D>>;
+
+/// A rigid transform of the plane (D = 2) or of space (D = 3) as the solver keeps it: a proper rotation matrix, so that
+/// a residual costs products alone, and a translation (m). p_a = R p_b + t for T_a_b.
+template <int D>
+struct Rigid {
+  Eigen::Matrix<double, D, D> R = Eigen::Matrix<double, D, D>::Identity();
+  Eigen::Matrix<double, D, 1> t = Eigen::Matrix<double, D, 1>::Zero();
+
+  Rigid inverse() const { return {R.transpose(), -(R.transpose() * t)}; }
+  Rigid operator*(const Rigid& T_b_c) const { return {R * T_b_c.R, R * T_b_c.t + t}; }
+};
+
+/// Measures pose `to` in the frame of pose `from`: Z = T_from_to.
+///
+/// `information` is that of e = (translation of E, rotation vector of E; in the plane its angle), E = Z^-1 T_from^-1 T_to:
+/// both parts in the frame of Z's child. It may be singular and is never inverted; it must be symmetric and positive
+/// semidefinite. The convention of everything that leaves a stage is the same one seen from `from`: turn both blocks by
+/// Z.R, exactly, at any size of e.
+template <int D>
+struct Edge {
+  int from = 0, to = 0;
+  Rigid<D> Z;
+  TangentMatrix<D> information = TangentMatrix<D>::Identity();
+};
+
+/// A pose graph on SE(D): `poses` are T_map_i, the first guess (any), named 0...n-1; an edge may run either way, and a
+/// pair of poses may have several.
+template <int D>
+struct Problem {
+  std::vector<Rigid<D>> poses;
+  std::vector<Edge<D>> edges;
+};
+
+/// What is minimised, each without the factor 1/2 (definitions: README.md, "Costs").
+enum class Objective {
+  Geodesic,  ///< e^T information e, e as in Edge
+  Chordal,   ///< sum of kappa |R_j - R_i R_ij|^2 + tau |t_j - t_i - R_i t_ij|^2 (Rosen et al., SE-Sync, IJRR 2019, eq. 11)
+  G2o,       ///< e with the quaternion's vector in place of the rotation vector, as g2o has it
+};
+
+}  // namespace pose_graph
