@@ -49,8 +49,8 @@ struct Problem {
 /// What is minimised, each without the factor 1/2 (definitions: README.md, "Costs").
 enum class Objective {
   Geodesic,  ///< e^T information e, e as in Edge
-  Chordal,   ///< sum of kappa |R_j - R_i R_ij|^2 + tau |t_j - t_i - R_i t_ij|^2 (Rosen et al., SE-Sync, IJRR 2019, eq. 11)
-  G2o,       ///< e with the quaternion's vector in place of the rotation vector, as g2o has it
+  Chordal,  ///< sum of kappa |R_j - R_i R_ij|^2 + tau |t_j - t_i - R_i t_ij|^2 (Rosen et al., SE-Sync, IJRR 2019, eq. 11)
+  G2o,      ///< e with the quaternion's vector in place of the rotation vector, as g2o has it
 };
 
 }  // namespace pose_graph

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "linear/block_matrix.hpp"
+#include "linear/front.hpp"
+
+namespace pose_graph {
+
+/// Sparse Cholesky factorisation of a symmetric positive definite matrix of BxB blocks, supernodal and multifrontal (Duff, Reid,
+/// ACM TOMS 1983; Liu, SIAM Review 1992). Own code: it takes blocks where they are, needs one symbolic analysis for blocks of
+/// every size, gives the same bits on every machine, and lets marginal covariances be read off its supernodes. Compiled for
+/// B = 2, 3, 6. Keeps its buffers; not thread-safe.
+template <int B>
+class BlockCholesky {
+ public:
+  /// `symbolic` must outlive it.
+  explicit BlockCholesky(const Symbolic& symbolic);
+
+  /// False where A is not positive definite to working precision, or holds NaN.
+  bool factor(const BlockMatrix<B>& A, const BlockPattern& pattern);
+
+  /// x becomes A^-1 x for `columns` right-hand sides, one after another, each B numbers a place.
+  void solve(double* x, int columns = 1) const;
+
+  const Symbolic& symbolic() const { return *symbolic_; }
+  /// The columns of supernode s: columnMajor, (columns + rows) * B long, columns * B of them.
+  const double* panel(int s) const { return panels_.data() + offset_[static_cast<std::size_t>(s)]; }
+  int panelRows(int s) const { return B * (symbolic_->columns(s) + symbolic_->rowsBelow(s)); }
+
+ private:
+  void assemble(int s, const BlockMatrix<B>& A, const BlockPattern& pattern);
+  void addChild(int child, int s);
+
+  const Symbolic* symbolic_;
+  std::vector<std::size_t> offset_;
+  std::vector<double> panels_;
+  std::vector<int> first_child_, next_sibling_;
+  std::vector<std::size_t> update_;  // of each supernode, in pending_
+  std::vector<double> pending_;      // Schur complements not yet taken by their parents
+  std::size_t pending_end_ = 0;
+  std::vector<int> local_;  // of each place in the front at work
+  std::vector<int> child_local_;
+  Front front_;
+  mutable std::vector<double> gathered_;
+};
+
+extern template class BlockCholesky<2>;
+extern template class BlockCholesky<3>;
+extern template class BlockCholesky<6>;
+
+}  // namespace pose_graph

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linear/front.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+
+namespace pose_graph {
+
+namespace {
+
+using urban_nav_core::kernels::strip;
+
+constexpr int kPanel = 48;  // columns eliminated together: bench/linear
+
+std::size_t sz(int i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+void Front::reset(int size) {
+  size_ = size;
+  stride_ = (size + strip - 1) / strip * strip + strip;
+  const std::size_t room = sz(stride_) * sz(stride_);
+  if (data_.size() < room) data_.resize(room);
+  // The lower triangle alone is read: a tile that crosses the diagonal, or the end, computes numbers that nobody needs, so
+  // they must be finite: all of it is cleared.
+  std::memset(data_.data(), 0, room * sizeof(double));
+}
+
+bool Front::eliminateDiagonal(int start, int width) {
+  lower_.assign(sz(width) * sz(width), 0.0);
+  inverse_.assign(sz(width), 0.0);
+  for (int j = 0; j < width; ++j) {
+    double* a = column(start + j) + start;
+    double* row_j = lower_.data() + sz(j) * sz(width);
+    double pivot = a[j];
+    for (int k = 0; k < j; ++k) pivot -= row_j[k] * row_j[k];
+    if (!(pivot > 0.0) || !std::isfinite(pivot)) return false;
+    const double root = std::sqrt(pivot);
+    row_j[j] = root;
+    inverse_[sz(j)] = 1.0 / root;
+    a[j] = root;
+    for (int i = j + 1; i < width; ++i) {
+      double* row_i = lower_.data() + sz(i) * sz(width);
+      double sum = a[i];
+      for (int k = 0; k < j; ++k) sum -= row_i[k] * row_j[k];
+      row_i[j] = sum * inverse_[sz(j)];
+      a[i] = row_i[j];
+    }
+  }
+  return true;
+}
+
+bool Front::eliminate(int pivots) {
+  for (int start = 0; start < pivots; start += kPanel) {
+    const int width = std::min(kPanel, pivots - start), below = start + width;
+    if (!eliminateDiagonal(start, width)) return false;
+    const int rows = size_ - below, strips = (rows + strip - 1) / strip;
+    if (strips == 0) continue;
+    const std::size_t piece = sz(strip) * sz(width);
+    packed_.resize(sz(strips) * piece);
+    for (int c = 0; c < width; ++c) {
+      const double* source = column(start + c) + below;
+      for (int s = 0; s < strips; ++s)
+        std::memcpy(&packed_[sz(s) * piece + sz(c) * strip], source + s * strip, strip * sizeof(double));
+    }
+    // What stands behind the last row is padding.
+    for (int c = 0; c < width; ++c)
+      for (int r = rows; r < strips * strip; ++r) packed_[sz(strips - 1) * piece + sz(c) * strip + sz(r % strip)] = 0.0;
+    kernels_.solveStrips(packed_.data(), strips, width, lower_.data(), inverse_.data());
+    for (int c = 0; c < width; ++c) {
+      double* target = column(start + c) + below;
+      for (int s = 0; s < strips; ++s)
+        std::memcpy(target + s * strip, &packed_[sz(s) * piece + sz(c) * strip], strip * sizeof(double));
+    }
+    kernels_.subtractStrips(column(below) + below, stride_, packed_.data(), strips, width);
+  }
+  return true;
+}
+
+}  // namespace pose_graph

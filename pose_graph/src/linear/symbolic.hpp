@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "linear/pattern.hpp"
+
+namespace pose_graph {
+
+/// The shape of the Cholesky factor of a symmetric matrix of blocks, by supernodes: neighbouring columns with (almost) the
+/// same rows below them, factored as one dense piece. Made once for a graph; serves blocks of every size.
+///
+/// "Place" is where a node stands in the order of elimination. Supernode s holds the places begin[s]...begin[s + 1] - 1; the
+/// places of the rows below it are rows[row_begin[s]]...rows[row_begin[s + 1] - 1], ascending. Supernodes are in postorder:
+/// children come before their parent, and all of a subtree directly before its root.
+struct Symbolic {
+  std::vector<int> place;  ///< of each node
+  std::vector<int> node;   ///< at each place
+  std::vector<int> begin = {0};
+  std::vector<int> row_begin = {0};
+  std::vector<int> rows;
+  std::vector<int> parent;     ///< of each supernode, -1 for a root
+  std::vector<int> supernode;  ///< of each place
+
+  int size() const { return static_cast<int>(begin.size()) - 1; }
+  int columns(int s) const { return begin[static_cast<std::size_t>(s) + 1] - begin[static_cast<std::size_t>(s)]; }
+  int rowsBelow(int s) const {
+    return row_begin[static_cast<std::size_t>(s) + 1] - row_begin[static_cast<std::size_t>(s)];
+  }
+};
+
+/// Orders the nodes (ordering.hpp) and finds the supernodes, small ones joined to their parents where that adds few zeros.
+Symbolic analyse(const Adjacency& graph);
+Symbolic analyse(const Adjacency& graph, const std::vector<int>& order);
+
+}  // namespace pose_graph

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "manifold/rotation.hpp"
+#include "pose_graph/problem.hpp"
+
+namespace pose_graph {
+
+/// What an objective needs of an edge, made once: `rotation` and `translation` are kappa and tau of the chordal objective.
+template <int D>
+struct EdgeTerm {
+  int from = 0, to = 0;
+  Rotation<D> R_Z;
+  Eigen::Matrix<double, D, 1> t_Z;  ///< of Z, in the frame of its child: R_Z^T t
+  TangentMatrix<D> information;
+  double kappa = 0.0, tau = 0.0;
+};
+template <int D>
+EdgeTerm<D> termOf(const Edge<D>& edge);
+
+/// An edge's cost around two poses. With A = R_from R_Z (how the child of Z would stand in the map) and d = t_to - t_from, every
+/// objective is a function of e_t = A^T d - R_Z^T t_Z and R_E = A^T R_to alone, so that it does not change when both poses move
+/// together. Moving `to` by y, in the axes of A, changes it to
+///   cost + 2 g^T y + y^T H y + ...
+/// H is the Gauss-Newton matrix, positive semidefinite.
+template <int D>
+struct LocalQuadratic {
+  double cost = 0.0;
+  Tangent<D> g;
+  TangentMatrix<D> H;
+};
+template <Objective objective, int D>
+LocalQuadratic<D> localQuadratic(const EdgeTerm<D>& term, const Eigen::Matrix<double, D, 1>& e_t,
+                                 const Rotation<D>& R_E);
+
+/// The cost alone.
+template <Objective objective, int D>
+double localCost(const EdgeTerm<D>& term, const Eigen::Matrix<double, D, 1>& e_t, const Rotation<D>& R_E);
+
+/// The same cost in the map's axes, for both poses moved by x_from and x_to (moved() of manifold/rotation.hpp):
+///   cost + 2 (g_from^T x_from + g_to^T x_to) + x_to^T K x_to + ...
+/// The derivatives by `from` follow, since nothing changes when both move as one body: with T = [I, -[d]x; 0, I],
+///   g_from = -T^T g_to,  H_from_to = -T^T K,  H_from_from = T^T K T.
+template <int D>
+struct EdgeQuadratic {
+  double cost = 0.0;
+  Eigen::Matrix<double, D, 1> d;
+  Tangent<D> g_to;
+  TangentMatrix<D> K;
+};
+
+template <Objective objective, int D>
+EdgeQuadratic<D> edgeQuadratic(const EdgeTerm<D>& term, const Rigid<D>& from, const Rigid<D>& to) {
+  EdgeQuadratic<D> made;
+  const Rotation<D> A = from.R * term.R_Z;
+  made.d = to.t - from.t;
+  const LocalQuadratic<D> local =
+      localQuadratic<objective, D>(term, A.transpose() * made.d - term.t_Z, A.transpose() * to.R);
+  made.cost = local.cost;
+  constexpr int r = rotation_size<D>;
+  if constexpr (D == 2) {
+    made.g_to.template head<2>() = A * local.g.template head<2>();
+    made.g_to[2] = local.g[2];
+    made.K.template topLeftCorner<2, 2>() = A * local.H.template topLeftCorner<2, 2>() * A.transpose();
+    made.K.template topRightCorner<2, 1>() = A * local.H.template topRightCorner<2, 1>();
+    made.K.template bottomLeftCorner<1, 2>() = made.K.template topRightCorner<2, 1>().transpose();
+    made.K(2, 2) = local.H(2, 2);
+  } else {
+    made.g_to.template head<D>() = A * local.g.template head<D>();
+    made.g_to.template tail<r>() = A * local.g.template tail<r>();
+    made.K.template topLeftCorner<D, D>() = A * local.H.template topLeftCorner<D, D>() * A.transpose();
+    made.K.template topRightCorner<D, r>() = A * local.H.template topRightCorner<D, r>() * A.transpose();
+    made.K.template bottomLeftCorner<r, D>() = made.K.template topRightCorner<D, r>().transpose();
+    made.K.template bottomRightCorner<r, r>() = A * local.H.template bottomRightCorner<r, r>() * A.transpose();
+  }
+  return made;
+}
+
+template <Objective objective, int D>
+double edgeCost(const EdgeTerm<D>& term, const Rigid<D>& from, const Rigid<D>& to) {
+  const Rotation<D> A = from.R * term.R_Z;
+  return localCost<objective, D>(term, A.transpose() * (to.t - from.t) - term.t_Z, A.transpose() * to.R);
+}
+
+}  // namespace pose_graph

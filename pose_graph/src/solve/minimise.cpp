@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/minimise.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pose_graph {
+
+namespace {
+
+std::size_t sz(int i) { return static_cast<std::size_t>(i); }
+
+constexpr double kFirstDamping = 1e-5, kLargestDamping = 1e8;
+
+template <int D>
+void addDamping(BlockMatrix<tangent_size<D>>& H, const std::vector<TangentMatrix<D>>& undamped, double damping) {
+  for (std::size_t k = 0; k < undamped.size(); ++k) {
+    H.diagonal[k] = undamped[k];
+    H.diagonal[k].diagonal() += damping * undamped[k].diagonal();
+  }
+}
+
+template <int D>
+std::vector<Rigid<D>> stepped(const NormalEquations<D>& equations, const std::vector<double>& x,
+                              const std::vector<Rigid<D>>& poses) {
+  constexpr int N = tangent_size<D>;
+  std::vector<Rigid<D>> made = poses;
+  const Unknowns& unknowns = equations.unknowns();
+  for (std::size_t u = 0; u < unknowns.pose.size(); ++u) {
+    const std::size_t place = sz(equations.symbolic().place[u]), pose = sz(unknowns.pose[u]);
+    made[pose] = moved<D>(poses[pose], Eigen::Map<const Tangent<D>>(x.data() + place * N));
+  }
+  return made;
+}
+
+double dot(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+/// What further steps will still gain, by how much less each gains than the one before.
+class Forecast {
+ public:
+  double remaining(double gained) {
+    const double rate = last_ > 0.0 ? std::min(gained / last_, 0.999) : 0.1;
+    last_ = gained;
+    return gained * rate / (1.0 - rate);
+  }
+
+ private:
+  double last_ = 0.0;
+};
+
+}  // namespace
+
+template <int D>
+Descent minimise(NormalEquations<D>& equations, BlockCholesky<tangent_size<D>>& cholesky, const SolveOptions& options,
+                 const std::vector<double>& weights, std::vector<Rigid<D>>& poses) {
+  constexpr std::size_t N = tangent_size<D>;
+  Descent made;
+  made.ending = Ending::Iterations;
+  double damping = 0.0;
+  Forecast forecast;
+  std::vector<double> x;
+  std::vector<TangentMatrix<D>> undamped;
+  made.cost = equations.linearise(options.objective, poses, weights);
+  if (equations.unknowns().pose.empty()) {
+    made.ending = Ending::Converged;
+    return made;
+  }
+  while (static_cast<int>(made.iterations.size()) < options.iterations) {
+    undamped = equations.H().diagonal;
+    Iteration step;
+    std::vector<Rigid<D>> next;
+    for (;; ++step.refused) {
+      if (damping > kLargestDamping) {
+        made.ending = Ending::Stuck;
+        return made;
+      }
+      if (damping > 0.0 || step.refused > 0) addDamping<D>(equations.H(), undamped, damping);
+      if (cholesky.factor(equations.H(), equations.pattern())) {
+        x = equations.g();
+        for (double& value : x) value = -value;
+        cholesky.solve(x.data());
+        step.predicted = -dot(equations.g(), x);
+        for (std::size_t k = 0; k < undamped.size() && damping > 0.0; ++k) {
+          const Eigen::Map<const Tangent<D>> part(x.data() + k * N);
+          step.predicted += damping * part.dot(undamped[k].diagonal().cwiseProduct(part));
+        }
+        next = stepped(equations, x, poses);
+        step.cost = equations.cost(options.objective, next, weights);
+        if (step.cost <= made.cost) break;
+        // At the minimum round-off decides: a step that promises nothing is none.
+        if (step.predicted <= options.tolerance * made.cost) {
+          made.ending = Ending::Converged;
+          return made;
+        }
+      }
+      damping = std::max(8.0 * damping, kFirstDamping);
+    }
+    step.damping = damping;
+    poses.swap(next);
+    const double gained = made.cost - step.cost, ratio = gained / step.predicted;
+    made.cost = step.cost;
+    made.iterations.push_back(step);
+    const double still = forecast.remaining(std::max(gained, step.predicted));
+    if (still <= options.tolerance * made.cost || made.cost <= 0.0) {
+      made.ending = Ending::Converged;
+      return made;
+    }
+    if (options.progress && !options.progress(static_cast<int>(made.iterations.size()), made.cost)) {
+      made.ending = Ending::Stopped;
+      return made;
+    }
+    if (ratio > 0.75) damping = damping > kFirstDamping ? damping / 10.0 : 0.0;
+    else if (ratio < 0.25) damping = std::max(4.0 * damping, kFirstDamping);
+    equations.linearise(options.objective, poses, weights);
+  }
+  return made;
+}
+
+template Descent minimise<2>(NormalEquations<2>&, BlockCholesky<3>&, const SolveOptions&, const std::vector<double>&,
+                             std::vector<Rigid<2>>&);
+template Descent minimise<3>(NormalEquations<3>&, BlockCholesky<6>&, const SolveOptions&, const std::vector<double>&,
+                             std::vector<Rigid<3>>&);
+
+}  // namespace pose_graph

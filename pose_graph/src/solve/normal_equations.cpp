@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/normal_equations.hpp"
+
+#include <Eigen/Core>
+#include <numeric>
+
+#include "urban_nav_core/parallel/for_each.hpp"
+
+namespace pose_graph {
+
+namespace {
+
+std::size_t sz(int i) { return static_cast<std::size_t>(i); }
+
+int rootOf(std::vector<int>& above, int i) {
+  while (above[sz(i)] != i) i = above[sz(i)] = above[sz(above[sz(i)])];
+  return i;
+}
+
+template <int D>
+Adjacency adjacencyOfUnknowns(const Problem<D>& problem, const Unknowns& unknowns) {
+  std::vector<std::pair<int, int>> pairs;
+  pairs.reserve(problem.edges.size());
+  for (const Edge<D>& edge : problem.edges)
+    pairs.emplace_back(unknowns.of_pose[sz(edge.from)], unknowns.of_pose[sz(edge.to)]);
+  return adjacencyOf(static_cast<int>(unknowns.pose.size()), pairs);
+}
+
+// T = [I, turned(d); 0, I] of EdgeQuadratic: K T and T^T K by their blocks alone.
+template <int D>
+TangentMatrix<D> timesT(const TangentMatrix<D>& K, const Eigen::Matrix<double, D, rotation_size<D>>& turn) {
+  TangentMatrix<D> made = K;
+  made.template rightCols<rotation_size<D>>().noalias() += K.template leftCols<D>() * turn;
+  return made;
+}
+template <int D>
+TangentMatrix<D> transposedTimes(const Eigen::Matrix<double, D, rotation_size<D>>& turn, const TangentMatrix<D>& K) {
+  TangentMatrix<D> made = K;
+  made.template bottomRows<rotation_size<D>>().noalias() += turn.transpose() * K.template topRows<D>();
+  return made;
+}
+
+constexpr std::size_t kGrain = 256;  // edges summed by one thread at a time
+
+}  // namespace
+
+template <int D>
+Unknowns unknownsOf(const Problem<D>& problem) {
+  const int n = static_cast<int>(problem.poses.size());
+  std::vector<int> above(sz(n));
+  std::iota(above.begin(), above.end(), 0);
+  for (const Edge<D>& edge : problem.edges) {
+    const int a = rootOf(above, edge.from), b = rootOf(above, edge.to);
+    if (a != b) above[sz(std::max(a, b))] = std::min(a, b);  // the first pose of a component is its root
+  }
+  Unknowns made;
+  made.of_pose.assign(sz(n), -1);
+  made.component.assign(sz(n), 0);
+  for (int i = 0; i < n; ++i) {
+    const int root = rootOf(above, i);
+    if (root == i) {
+      made.component[sz(i)] = made.components++;
+    } else {
+      made.component[sz(i)] = made.component[sz(root)];
+      made.of_pose[sz(i)] = static_cast<int>(made.pose.size());
+      made.pose.push_back(i);
+    }
+  }
+  return made;
+}
+
+template <int D>
+NormalEquations<D>::NormalEquations(const Problem<D>& problem)
+    : unknowns_(unknownsOf(problem)),
+      graph_(adjacencyOfUnknowns(problem, unknowns_)),
+      symbolic_(analyse(graph_)),
+      pattern_(graph_, symbolic_) {
+  terms_.reserve(problem.edges.size());
+  places_.reserve(problem.edges.size());
+  for (const Edge<D>& edge : problem.edges) {
+    terms_.push_back(termOf(edge));
+    const int from = unknowns_.of_pose[sz(edge.from)], to = unknowns_.of_pose[sz(edge.to)];
+    EdgePlace place;
+    if (from >= 0) place.from = symbolic_.place[sz(from)];
+    if (to >= 0) place.to = symbolic_.place[sz(to)];
+    if (from >= 0 && to >= 0) place.slot = pattern_.slot(from, to);
+    places_.push_back(place);
+  }
+}
+
+template <int D>
+template <Objective objective>
+double NormalEquations<D>::lineariseAs(const std::vector<Rigid<D>>& poses, const std::vector<double>& weights) {
+  H_.setZero(pattern_);
+  g_.assign(unknowns_.pose.size() * N, 0.0);
+  double total = 0.0;
+  for (std::size_t e = 0; e < terms_.size(); ++e) {
+    const double weight = weights.empty() ? 1.0 : weights[e];
+    if (weight == 0.0) continue;
+    const EdgeTerm<D>& term = terms_[e];
+    const EdgePlace& place = places_[e];
+    EdgeQuadratic<D> quadratic = edgeQuadratic<objective, D>(term, poses[sz(term.from)], poses[sz(term.to)]);
+    if (weight != 1.0) {
+      quadratic.cost *= weight;
+      quadratic.g_to *= weight;
+      quadratic.K *= weight;
+    }
+    total += quadratic.cost;
+    const Eigen::Matrix<double, D, rotation_size<D>> turn = turned(quadratic.d);
+    if (place.to >= 0) {
+      H_.diagonal[sz(place.to)] += quadratic.K;
+      Eigen::Map<Tangent<D>>(g_.data() + sz(place.to) * N) += quadratic.g_to;
+    }
+    if (place.from >= 0) {
+      const TangentMatrix<D> TK = transposedTimes<D>(turn, quadratic.K);
+      H_.diagonal[sz(place.from)] += timesT<D>(TK, turn);
+      Tangent<D> g = quadratic.g_to;
+      g.template tail<rotation_size<D>>().noalias() += turn.transpose() * quadratic.g_to.template head<D>();
+      Eigen::Map<Tangent<D>>(g_.data() + sz(place.from) * N) -= g;
+      if (place.to >= 0) {
+        auto& block = H_.lower[sz(place.slot.index)];
+        // The block of row `from` and column `to` is -T^T K; slot.turned: it stands as (to, from).
+        if (place.slot.turned) block -= TK.transpose();
+        else block -= TK;
+      }
+    }
+  }
+  return total;
+}
+
+template <int D>
+template <Objective objective>
+double NormalEquations<D>::costAs(const std::vector<Rigid<D>>& poses, const std::vector<double>& weights) const {
+  return urban_nav_core::sumInOrder(terms_.size(), kGrain, 0.0, [&](std::size_t e) {
+    const double weight = weights.empty() ? 1.0 : weights[e];
+    const EdgeTerm<D>& term = terms_[e];
+    return weight == 0.0 ? 0.0 : weight * edgeCost<objective, D>(term, poses[sz(term.from)], poses[sz(term.to)]);
+  });
+}
+
+template <int D>
+double NormalEquations<D>::linearise(Objective objective, const std::vector<Rigid<D>>& poses,
+                                     const std::vector<double>& weights) {
+  switch (objective) {
+    case Objective::Geodesic: return lineariseAs<Objective::Geodesic>(poses, weights);
+    case Objective::Chordal: return lineariseAs<Objective::Chordal>(poses, weights);
+    case Objective::G2o: return lineariseAs<Objective::G2o>(poses, weights);
+  }
+  return 0.0;
+}
+
+template <int D>
+double NormalEquations<D>::cost(Objective objective, const std::vector<Rigid<D>>& poses,
+                                const std::vector<double>& weights) const {
+  switch (objective) {
+    case Objective::Geodesic: return costAs<Objective::Geodesic>(poses, weights);
+    case Objective::Chordal: return costAs<Objective::Chordal>(poses, weights);
+    case Objective::G2o: return costAs<Objective::G2o>(poses, weights);
+  }
+  return 0.0;
+}
+
+template Unknowns unknownsOf<2>(const Problem<2>&);
+template Unknowns unknownsOf<3>(const Problem<3>&);
+template class NormalEquations<2>;
+template class NormalEquations<3>;
+
+}  // namespace pose_graph

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "linear/block_cholesky.hpp"
+#include "objective/objective.hpp"
+
+namespace pose_graph {
+
+/// Which poses of a graph are free: all but the first of each connected component.
+struct Unknowns {
+  std::vector<int> of_pose;    ///< name of the unknown, -1 for a pose that is held
+  std::vector<int> pose;       ///< of each unknown
+  std::vector<int> component;  ///< of each pose, by their first poses
+  int components = 0;
+};
+/// Edges with weight zero count as edges: the pattern does not depend on weights.
+template <int D>
+Unknowns unknownsOf(const Problem<D>& problem);
+
+/// The sparse linear system of a pose graph: its shape once, its numbers as often as wanted.
+template <int D>
+class NormalEquations {
+ public:
+  static constexpr int N = tangent_size<D>;
+
+  explicit NormalEquations(const Problem<D>& problem);
+  NormalEquations(const NormalEquations&) = delete;
+  NormalEquations& operator=(const NormalEquations&) = delete;
+
+  const Unknowns& unknowns() const { return unknowns_; }
+  const Symbolic& symbolic() const { return symbolic_; }
+  const BlockPattern& pattern() const { return pattern_; }
+  const std::vector<EdgeTerm<D>>& terms() const { return terms_; }
+
+  /// Linearises all edges at these poses; `weights` as in cost(). Returns the cost.
+  double linearise(Objective objective, const std::vector<Rigid<D>>& poses, const std::vector<double>& weights);
+  double cost(Objective objective, const std::vector<Rigid<D>>& poses, const std::vector<double>& weights) const;
+
+  /// H x = -g by places, after linearise: H, and g.
+  const BlockMatrix<N>& H() const { return H_; }
+  BlockMatrix<N>& H() { return H_; }
+  const std::vector<double>& g() const { return g_; }
+
+  /// Where the blocks of an edge lie; places are -1 for poses that are held.
+  struct EdgePlace {
+    int from = -1, to = -1;
+    BlockPattern::Slot slot;
+  };
+  const std::vector<EdgePlace>& edgePlaces() const { return places_; }
+
+ private:
+  template <Objective objective>
+  double lineariseAs(const std::vector<Rigid<D>>& poses, const std::vector<double>& weights);
+  template <Objective objective>
+  double costAs(const std::vector<Rigid<D>>& poses, const std::vector<double>& weights) const;
+
+  Unknowns unknowns_;
+  Adjacency graph_;
+  Symbolic symbolic_;
+  BlockPattern pattern_;
+  std::vector<EdgeTerm<D>> terms_;
+  std::vector<EdgePlace> places_;
+  BlockMatrix<N> H_;
+  std::vector<double> g_;
+};
+
+extern template class NormalEquations<2>;
+extern template class NormalEquations<3>;
+
+}  // namespace pose_graph

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/solution.hpp"
+#include "solve/minimise.hpp"
+#include "start/along_edges.hpp"
+#include "start/chordal_start.hpp"
+
+namespace pose_graph {
+
+namespace {
+
+template <int D>
+std::vector<Rigid<D>> firstGuess(const NormalEquations<D>& equations, const Problem<D>& problem,
+                                 const SolveOptions& options, const std::vector<double>& weights) {
+  if (options.start == Start::Vertices) return problem.poses;
+  if (options.start == Start::Odometry) return posesAlongEdges(problem);
+  if (options.start == Start::Identity) return std::vector<Rigid<D>>(problem.poses.size());
+  const auto rotations = chordalRotations(equations, problem.poses, weights);
+  if (!rotations) return problem.poses;
+  const auto poses = translationsFor(equations, *rotations, problem.poses, weights);
+  if (!poses ||
+      equations.cost(options.objective, problem.poses, weights) <= equations.cost(options.objective, *poses, weights))
+    return problem.poses;
+  return *poses;
+}
+
+}  // namespace
+
+const char* toString(Ending ending) {
+  switch (ending) {
+    case Ending::Converged: return "converged";
+    case Ending::Iterations: return "iterations";
+    case Ending::Stopped: return "stopped";
+    case Ending::Stuck: return "stuck";
+  }
+  return "";
+}
+
+template <int D>
+double cost(const Problem<D>& problem, const std::vector<Rigid<D>>& poses, Objective objective,
+            const std::vector<double>& weights) {
+  double total = 0.0;
+  for (std::size_t e = 0; e < problem.edges.size(); ++e) {
+    const EdgeTerm<D> term = termOf(problem.edges[e]);
+    const Rigid<D>&from = poses[static_cast<std::size_t>(term.from)], &to = poses[static_cast<std::size_t>(term.to)];
+    const double one = objective == Objective::Geodesic  ? edgeCost<Objective::Geodesic, D>(term, from, to)
+                       : objective == Objective::Chordal ? edgeCost<Objective::Chordal, D>(term, from, to)
+                                                         : edgeCost<Objective::G2o, D>(term, from, to);
+    total += weights.empty() ? one : weights[e] * one;
+  }
+  return total;
+}
+
+template <int D>
+Solution<D> solve(const Problem<D>& problem, const SolveOptions& options, const std::vector<double>& weights) {
+  NormalEquations<D> equations(problem);
+  BlockCholesky<tangent_size<D>> cholesky(equations.symbolic());
+  Solution<D> made;
+  made.components = equations.unknowns().components;
+  made.cost_before = equations.cost(options.objective, problem.poses, weights);
+  made.poses = firstGuess(equations, problem, options, weights);
+  made.cost_start = equations.cost(options.objective, made.poses, weights);
+  Descent descent = minimise(equations, cholesky, options, weights, made.poses);
+  made.cost = descent.cost;
+  made.iterations = std::move(descent.iterations);
+  made.ending = descent.ending;
+  return made;
+}
+
+template double cost<2>(const Problem<2>&, const std::vector<Rigid<2>>&, Objective, const std::vector<double>&);
+template double cost<3>(const Problem<3>&, const std::vector<Rigid<3>>&, Objective, const std::vector<double>&);
+template Solution<2> solve<2>(const Problem<2>&, const SolveOptions&, const std::vector<double>&);
+template Solution<3> solve<3>(const Problem<3>&, const SolveOptions&, const std::vector<double>&);
+
+}  // namespace pose_graph

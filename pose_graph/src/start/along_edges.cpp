@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "start/along_edges.hpp"
+
+#include <cstdlib>
+
+namespace pose_graph {
+
+namespace {
+
+std::size_t sz(int i) { return static_cast<std::size_t>(i); }
+
+struct Incidence {
+  std::vector<int> first, edge;
+};
+
+template <int D>
+Incidence incidenceOf(const Problem<D>& problem) {
+  Incidence made;
+  made.first.assign(problem.poses.size() + 1, 0);
+  for (const Edge<D>& edge : problem.edges) {
+    ++made.first[sz(edge.from) + 1];
+    ++made.first[sz(edge.to) + 1];
+  }
+  for (std::size_t i = 1; i < made.first.size(); ++i) made.first[i] += made.first[i - 1];
+  made.edge.resize(sz(made.first.back()));
+  std::vector<int> next(made.first.begin(), made.first.end() - 1);
+  for (std::size_t e = 0; e < problem.edges.size(); ++e) {
+    made.edge[sz(next[sz(problem.edges[e].from)]++)] = static_cast<int>(e);
+    made.edge[sz(next[sz(problem.edges[e].to)]++)] = static_cast<int>(e);
+  }
+  return made;
+}
+
+}  // namespace
+
+template <int D>
+std::vector<Rigid<D>> posesAlongEdges(const Problem<D>& problem) {
+  const Incidence incidence = incidenceOf(problem);
+  std::vector<Rigid<D>> poses = problem.poses;
+  std::vector<char> reached(poses.size(), 0);
+  std::vector<int> chain, others;  // reached poses, to be looked at: chain edges go first and far
+  std::size_t next_other = 0;
+  const auto visit = [&](int pose, bool chain_only) {
+    for (int k = incidence.first[sz(pose)]; k < incidence.first[sz(pose) + 1]; ++k) {
+      const Edge<D>& edge = problem.edges[sz(incidence.edge[sz(k)])];
+      if (chain_only != (std::abs(edge.from - edge.to) == 1)) continue;
+      const int other = edge.from == pose ? edge.to : edge.from;
+      if (reached[sz(other)]) continue;
+      poses[sz(other)] = edge.from == pose ? poses[sz(pose)] * edge.Z : poses[sz(pose)] * edge.Z.inverse();
+      reached[sz(other)] = 1;
+      chain.push_back(other);
+    }
+  };
+  for (std::size_t root = 0; root < poses.size(); ++root) {
+    if (reached[root]) continue;
+    reached[root] = 1;
+    chain.push_back(static_cast<int>(root));
+    while (!chain.empty() || next_other < others.size()) {
+      if (!chain.empty()) {
+        const int pose = chain.back();
+        chain.pop_back();
+        visit(pose, true);
+        others.push_back(pose);
+      } else {
+        visit(others[next_other++], false);
+      }
+    }
+  }
+  return poses;
+}
+
+template std::vector<Rigid<2>> posesAlongEdges<2>(const Problem<2>&);
+template std::vector<Rigid<3>> posesAlongEdges<3>(const Problem<3>&);
+
+}  // namespace pose_graph

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "pose_graph/problem.hpp"
+
+namespace pose_graph {
+
+/// Dead reckoning: each component's first pose stays, the others follow edges from neighbour to neighbour, breadth first,
+/// edges between consecutive numbers before all others.
+template <int D>
+std::vector<Rigid<D>> posesAlongEdges(const Problem<D>& problem);
+
+}  // namespace pose_graph
