@@ -10,7 +10,7 @@ namespace {
 
 std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
-constexpr double kFirstDamping = 1e-5, kLargestDamping = 1e8;
+constexpr double kFirstDamping = 1e-10, kLargestDamping = 1e8;
 
 template <int D>
 void addDamping(BlockMatrix<tangent_size<D>>& H, const std::vector<TangentMatrix<D>>& undamped, double damping) {
@@ -97,7 +97,7 @@ Descent minimise(NormalEquations<D>& equations, BlockCholesky<tangent_size<D>>& 
           return made;
         }
       }
-      damping = std::max(8.0 * damping, kFirstDamping);
+      damping = std::max(10.0 * damping, kFirstDamping);
     }
     step.damping = damping;
     poses.swap(next);
