@@ -35,9 +35,14 @@ Incidence incidenceOf(const Problem<D>& problem) {
 
 template <int D>
 std::vector<Rigid<D>> posesAlongEdges(const Problem<D>& problem) {
+  return posesAlongEdges(problem, std::vector<char>(problem.poses.size(), 0));
+}
+
+template <int D>
+std::vector<Rigid<D>> posesAlongEdges(const Problem<D>& problem, const std::vector<char>& known) {
   const Incidence incidence = incidenceOf(problem);
   std::vector<Rigid<D>> poses = problem.poses;
-  std::vector<char> reached(poses.size(), 0);
+  std::vector<char> reached = known;
   std::vector<int> chain, others;  // reached poses, to be looked at: chain edges go first and far
   std::size_t next_other = 0;
   const auto visit = [&](int pose, bool chain_only) {
@@ -51,10 +56,7 @@ std::vector<Rigid<D>> posesAlongEdges(const Problem<D>& problem) {
       chain.push_back(other);
     }
   };
-  for (std::size_t root = 0; root < poses.size(); ++root) {
-    if (reached[root]) continue;
-    reached[root] = 1;
-    chain.push_back(static_cast<int>(root));
+  const auto spread = [&] {
     while (!chain.empty() || next_other < others.size()) {
       if (!chain.empty()) {
         const int pose = chain.back();
@@ -65,11 +67,22 @@ std::vector<Rigid<D>> posesAlongEdges(const Problem<D>& problem) {
         visit(others[next_other++], false);
       }
     }
+  };
+  for (std::size_t i = poses.size(); i-- > 0;)
+    if (known[i]) chain.push_back(static_cast<int>(i));
+  spread();
+  for (std::size_t root = 0; root < poses.size(); ++root) {
+    if (reached[root]) continue;
+    reached[root] = 1;
+    chain.push_back(static_cast<int>(root));
+    spread();
   }
   return poses;
 }
 
 template std::vector<Rigid<2>> posesAlongEdges<2>(const Problem<2>&);
 template std::vector<Rigid<3>> posesAlongEdges<3>(const Problem<3>&);
+template std::vector<Rigid<2>> posesAlongEdges<2>(const Problem<2>&, const std::vector<char>&);
+template std::vector<Rigid<3>> posesAlongEdges<3>(const Problem<3>&, const std::vector<char>&);
 
 }  // namespace pose_graph

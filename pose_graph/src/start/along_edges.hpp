@@ -11,5 +11,8 @@ namespace pose_graph {
 /// edges between consecutive numbers before all others.
 template <int D>
 std::vector<Rigid<D>> posesAlongEdges(const Problem<D>& problem);
+/// The same from all poses that are known (not 0), which stay; a component without one begins at its first pose.
+template <int D>
+std::vector<Rigid<D>> posesAlongEdges(const Problem<D>& problem, const std::vector<char>& known);
 
 }  // namespace pose_graph

@@ -3,6 +3,6 @@
 
 int main(int argc, char** argv) {
   return urban_nav::runCommandLine({urban_nav::mapCommand(), urban_nav::convertCommand(), urban_nav::evaluateCommand(),
-                                    urban_nav::infoCommand(), urban_nav::simulateCommand()},
+                                    urban_nav::infoCommand(), urban_nav::relaxCommand(), urban_nav::simulateCommand()},
                                    argc, argv);
 }

@@ -10,6 +10,7 @@ Command convertCommand();
 Command evaluateCommand();
 Command infoCommand();
 Command mapCommand();
+Command relaxCommand();
 Command simulateCommand();
 
 }  // namespace urban_nav

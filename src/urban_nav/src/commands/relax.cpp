@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <chrono>
+#include <optional>
+
+#include "command_line/console.hpp"
+#include "command_line/json.hpp"
+#include "commands/commands.hpp"
+#include "pipeline/parameters.hpp"
+#include "pose_graph/graph_file.hpp"
+#include "pose_graph/solution.hpp"
+#include "report/plot.hpp"
+#include "urban_nav_core/io/atomic_file.hpp"
+#include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/parallel/for_each.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav {
+
+using pose_graph::Objective;
+using pose_graph::Start;
+using urban_nav_core::G2oGraph;
+using urban_nav_core::UserError;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+Objective objectiveOf(const std::string& name) {
+  if (name == "chordal") return Objective::Chordal;
+  return name == "g2o" ? Objective::G2o : Objective::Geodesic;
+}
+
+Start startOf(const std::string& name) {
+  if (name == "vertices") return Start::Vertices;
+  if (name == "odometry") return Start::Odometry;
+  return name == "identity" ? Start::Identity : Start::Auto;
+}
+
+/// All three costs of some poses: the one that is minimised has a mark.
+struct Costs {
+  double geodesic = 0.0, chordal = 0.0, g2o = 0.0;
+};
+
+template <int D>
+Costs costsOf(const pose_graph::Problem<D>& problem, const std::vector<pose_graph::Rigid<D>>& poses) {
+  return {cost(problem, poses, Objective::Geodesic), cost(problem, poses, Objective::Chordal),
+          cost(problem, poses, Objective::G2o)};
+}
+
+std::string textOf(const char* when, const Costs& costs) {
+  return std::string(when) + "geodesic " + forPerson(costs.geodesic, 9) + ", chordal " + forPerson(costs.chordal, 9) +
+         ", g2o " + forPerson(costs.g2o, 9) + "\n";
+}
+
+Json jsonOf(const Costs& costs) {
+  Json json = Json::object();
+  json["geodesic"] = costs.geodesic;
+  json["chordal"] = costs.chordal;
+  json["g2o"] = costs.g2o;
+  return json;
+}
+
+/// What the command says of the run beside the files.
+struct Told {
+  Costs before, after;
+  std::size_t poses = 0, edges = 0, rejected = 0, iterations = 0;
+  int components = 0;
+  std::string ending;
+  double ms = 0.0;
+};
+
+std::string textOf(const Told& told) {
+  std::string text = std::to_string(told.poses) + " poses, " + std::to_string(told.edges) + " edges, " +
+                     std::to_string(told.rejected) + " rejected; " + std::to_string(told.iterations) + " iterations, " +
+                     told.ending + ", " + forPerson(told.ms, 3) + " ms\n";
+  return text + textOf("before: ", told.before) + textOf("after:  ", told.after);
+}
+
+Json jsonOf(const Told& told) {
+  Json json = Json::object();
+  json["poses"] = told.poses;
+  json["edges"] = told.edges;
+  json["edges_rejected"] = told.rejected;
+  json["components"] = told.components;
+  json["iterations"] = told.iterations;
+  json["ending"] = told.ending;
+  json["ms_batch"] = told.ms;
+  json["cost_before"] = jsonOf(told.before);
+  json["cost_after"] = jsonOf(told.after);
+  return json;
+}
+
+template <int D>
+Told relaxFile(const G2oGraph& graph, const std::string& name, const Arguments& arguments, Console& console) {
+  const pose_graph::FileProblem<D> file = pose_graph::problemOf<D>(graph, name);
+  for (const std::string& note : file.notes) console.warn(name + ": " + note);
+  pose_graph::SolveOptions options;
+  options.objective = objectiveOf(arguments.get("objective", "geodesic"));
+  options.start = startOf(arguments.get("start", "auto"));
+  Progress progress(console, "relax", "iterations", 0);
+  options.progress = [&](int iteration, double) {
+    progress.update(iteration);
+    return true;
+  };
+  const auto begin = Clock::now();
+  const pose_graph::Solution<D> solution = pose_graph::solve(file.problem, options);
+  Told told;
+  told.ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+  told.poses = file.problem.poses.size();
+  told.edges = file.problem.edges.size();
+  told.iterations = solution.iterations.size();
+  told.components = solution.components;
+  told.ending = toString(solution.ending);
+  told.before = costsOf(file.problem, file.problem.poses);
+  told.after = costsOf(file.problem, solution.poses);
+  if (solution.components > 1)
+    console.warn(name + ": " + std::to_string(solution.components) +
+                 " parts that no edge connects; each stays in its own frame");
+  if (arguments.has("edges")) {
+    std::string text = "from,to,weight,verdict\n";
+    for (const G2oGraph::Edge& edge : graph.edges)
+      text += std::to_string(edge.from) + "," + std::to_string(edge.to) + ",1,accepted\n";
+    urban_nav_core::writeAtomically(arguments.get("edges"), text);
+  }
+  urban_nav_core::writeG2o(arguments.get("output"), pose_graph::withPoses<D>(graph, file, solution.poses));
+  return told;
+}
+
+int run(const Arguments& arguments, Console& console) {
+  checkCommonOptions(arguments);
+  const urban_nav_core::ThreadLimit threads(static_cast<int>(arguments.integer("threads", 0, 1, 1024)));
+  const std::string name = arguments.get("IN");
+  const G2oGraph graph = urban_nav_core::readG2o(name);
+  const Told told = graph.dimension == 2 ? relaxFile<2>(graph, name, arguments, console)
+                                         : relaxFile<3>(graph, name, arguments, console);
+  console.print(textOf(told));
+  if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), jsonOf(told).print());
+  return 0;
+}
+
+}  // namespace
+
+Command relaxCommand() {
+  Command command;
+  command.name = "relax";
+  command.summary = "Optimises a pose graph: a g2o file in, the same graph with relaxed poses out.";
+  command.options = {
+      {"IN", "", "g2o file: VERTEX_SE2, VERTEX_SE3:QUAT, EDGE_SE2, EDGE_SE3:QUAT", true, false, {}},
+      {"-o,--output", "OUT", "g2o file to write: every vertex, and the edges of IN", true, false, {}},
+      {"--objective",
+       "NAME",
+       "what is minimised (default geodesic); definitions in pose_graph/README.md",
+       false,
+       false,
+       {"geodesic", "chordal", "g2o"}},
+      {"--start",
+       "NAME",
+       "first guess (default auto: the vertices, or rotations found without any guess, whichever cost less)",
+       false,
+       false,
+       {"auto", "vertices", "odometry", "identity"}},
+      {"--robust",
+       "WORD",
+       "reject false closures (default on); off takes every edge as it is",
+       false,
+       false,
+       {"on", "off"}},
+      {"--edges", "CSV", "write each edge's weight and verdict: from,to,weight,verdict", false, false, {}},
+      jsonOption(),
+      configOption(),
+      setOption(),
+      threadsOption()};
+  command.examples = {"urban_nav relax sphere2500.g2o -o relaxed.g2o",
+                      "urban_nav relax graph.g2o -o relaxed.g2o --objective chordal --robust off --edges edges.csv"};
+  command.more_help = commonHelp;
+  command.run = run;
+  return command;
+}
+
+}  // namespace urban_nav
