@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_store/store.hpp"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "file/header.hpp"
+#include "schema/schema.hpp"
+#include "store_implementation.hpp"
+#include "urban_nav_core/io/atomic_file.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav_store {
+
+namespace fs = std::filesystem;
+using urban_nav_core::UserError;
+
+namespace {
+
+/// Files up to this size are checked throughout when they are opened, some 0.3 s; in larger ones damage is found where it is read.
+constexpr std::uintmax_t kCheckedThroughout = std::uintmax_t{64} << 20;
+
+std::uintmax_t sizeOf(const std::string& path) {
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(path, error);
+  return error ? 0 : size;
+}
+
+/// What a store whose file is gone has left beside it must not be taken for a part of the next one.
+void removeBeside(const std::string& path) {
+  for (const char* suffix : {"-wal", "-shm", "-journal"}) ::unlink((path + suffix).c_str());
+}
+
+/// An empty store that is on disk under its name whole, or not at all.
+void make(const std::string& path) {
+  removeBeside(path);
+  urban_nav_core::PartialFile partial(path, ".part");
+  ::unlink(partial.path().c_str());  // of a process that was killed here
+  removeBeside(partial.path());
+  Connection connection(partial.path(), Connection::Mode::Create, path);
+  schema::create(connection);
+  connection.execute("PRAGMA journal_mode=WAL");
+  connection.close();
+  removeBeside(partial.path());
+  partial.commit();
+}
+
+Connection::Mode modeFor(const std::string& path, Access access) {
+  if (access == Access::Write) return Connection::Mode::Write;
+  // Without a log and a writer the file is all there is, and nothing needs to be made beside it to read it.
+  return sizeOf(path + "-wal") > 0 || WriterLock::isHeld(path) ? Connection::Mode::Read : Connection::Mode::ReadFrozen;
+}
+
+void checkThroughout(Connection& connection) {
+  Statement statement = connection.prepare("PRAGMA quick_check(1)");
+  if (!statement.step()) connection.damaged("it cannot be checked");
+  if (const std::string_view answer = statement.text(0); answer != "ok") connection.damaged(std::string(answer));
+}
+
+const std::string& prepared(const std::string& path, Access access, std::optional<WriterLock>& lock) {
+  if (access == Access::Write) {
+    refuseOtherFiles(path);
+    lock.emplace(path);
+    if (fileKind(path) == FileKind::Absent) make(path);
+  } else if (fileKind(path) == FileKind::Absent) {
+    throw UserError(path, fs::exists(path) ? "is empty" : "is not there", "a session store of urban_nav");
+  }
+  refuseOtherFiles(path);
+  return path;
+}
+
+}  // namespace
+
+Store::Implementation::Implementation(const std::string& path, Access access)
+    : path_(resolved(path)),
+      connection(prepared(path_, access, lock_), modeFor(path_, access)),
+      sessions(connection, [this] { settle(); }),
+      graph(connection),
+      scans(connection),
+      inputs(connection),
+      states(connection) {
+  if (access == Access::Write) {
+    Statement statement = connection.prepare("PRAGMA journal_mode=WAL");
+    statement.step();
+    statement.reset();
+    connection.execute("PRAGMA synchronous=FULL");
+    schema::migrate(connection, schema::migrationSteps());
+  }
+  schema::check(connection);
+  if (sizeOf(path_) <= kCheckedThroughout) checkThroughout(connection);
+}
+
+void Store::Implementation::settle() {
+  scans.flush();
+  inputs.flush();
+  scans.forget();
+  inputs.forget();
+}
+
+void Store::Implementation::commit() {
+  scans.flush();
+  inputs.flush();
+  connection.commit();
+}
+
+void Store::Implementation::rollback() {
+  scans.forget();
+  inputs.forget();
+  connection.rollback();
+}
+
+void Store::Implementation::close() {
+  scans.forget();
+  inputs.forget();
+  connection.close();
+  lock_.reset();
+}
+
+Store::Store(const std::string& path, Access access)
+    : implementation_(std::make_unique<Implementation>(path, access)) {}
+Store::~Store() = default;
+Store::Store(Store&&) noexcept = default;
+Store& Store::operator=(Store&&) noexcept = default;
+
+const std::string& Store::path() const { return implementation_->connection.name(); }
+SessionStore& Store::sessions() { return implementation_->sessions; }
+GraphStore& Store::graph() { return implementation_->graph; }
+ScanStore& Store::scans() { return implementation_->scans; }
+InputOrder& Store::inputs() { return implementation_->inputs; }
+StageStates& Store::states() { return implementation_->states; }
+void Store::commit() { implementation_->commit(); }
+void Store::rollback() { implementation_->rollback(); }
+void Store::close() { implementation_->close(); }
+
+bool isStore(const std::string& path) {
+  const FileKind kind = fileKind(path);
+  return kind == FileKind::Store || kind == FileKind::NewerStore;
+}
+
+void removeStore(const std::string& given) {
+  const std::string path = resolved(given);
+  if (fileKind(path) == FileKind::Absent && !fs::exists(path)) return;
+  if (fileKind(path) != FileKind::NewerStore) refuseOtherFiles(path);
+  const WriterLock lock(path);
+  if (::unlink(path.c_str()) != 0)
+    throw UserError(path, "cannot be removed", "a file and a folder that can be written");
+  removeBeside(path);
+}
+
+}  // namespace urban_nav_store

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <utility>
+
+#include "sqlite/connection.hpp"
+#include "urban_nav_store/scan_store.hpp"
+
+namespace urban_nav_store {
+
+/// The block of each laser that is being filled stays in memory until another second begins or a commit is near, and
+/// replaces the one in the file then.
+class Scans : public ScanStore {
+ public:
+  explicit Scans(Connection& connection) : connection_(connection) {}
+
+  void put(const SessionId& session, const std::string& laser, const urban_nav_core::Scan& scan) override;
+  std::vector<std::string> lasers(const SessionId& session) const override;
+  void forEach(const SessionId& session, const std::string& laser, urban_nav_core::StampNs from,
+               urban_nav_core::StampNs to, const std::function<void(const urban_nav_core::Scan&)>& take) const override;
+
+  /// Before a commit: what is in memory goes into the transaction.
+  void flush() const;
+  /// After a rollback.
+  void forget() { open_.clear(); }
+
+ private:
+  struct Block {
+    std::int64_t second = 0;
+    std::vector<urban_nav_core::Scan> scans;  // in order of time
+    bool changed = false;
+  };
+  using Key = std::pair<SessionId, std::string>;
+
+  Block load(const Key& key, std::int64_t second) const;
+  void save(const Key& key, Block& block) const;
+
+  Connection& connection_;
+  mutable std::map<Key, Block> open_;
+};
+
+}  // namespace urban_nav_store

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_store/merge.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/contents.hpp"
+#include "support/folder.hpp"
+#include "urban_nav_store/dump.hpp"
+
+namespace urban_nav_store {
+namespace {
+
+using testing::Drawn;
+using testing::expectError;
+using testing::fill;
+using testing::Folder;
+using testing::readFile;
+using testing::writeFile;
+
+class Merge : public ::testing::Test {
+ protected:
+  template <typename Write>
+  std::string make(const std::string& name, const Write& write) {
+    Store store(folder.file(name), Access::Write);
+    write(store);
+    store.commit();
+    return folder.file(name);
+  }
+  std::string dumpOf(const std::string& path) {
+    Store store(path, Access::Read);
+    return dump(store);
+  }
+  const Folder folder;
+  const std::string out = folder.file("out.db");
+};
+
+TEST_F(Merge, joinsOtherSessionsInAnyOrder) {
+  const std::string a = make("a.db", [](Store& store) { fill(store, 1, 20); });
+  const std::string b = make("b.db", [](Store& store) { fill(store, 2, 20); });
+  const std::string both = make("both.db", [](Store& store) { fill(store, 2, 20), fill(store, 1, 20); });
+  const MergeResult result = merge({a, b}, out);
+  EXPECT_TRUE(dumpOf(out) == dumpOf(both));
+  EXPECT_EQ(result.identical, 0);
+  merge({b, a}, out);
+  EXPECT_TRUE(dumpOf(out) == dumpOf(both)) << "over the one before";
+  const MergeResult again = merge({out, a}, out);
+  EXPECT_TRUE(dumpOf(out) == dumpOf(both)) << "into one of the sources";
+  EXPECT_EQ(again.rows, result.rows);
+  EXPECT_GT(again.identical, 50);
+}
+
+TEST_F(Merge, joinsThePartsOfOneSession) {
+  Drawn drawn(1);
+  Session session = drawn.session();
+  session.complete = true;
+  const Node node = drawn.node(session.start);
+  const urban_nav_core::Scan scan = drawn.scan(session.start, 30);
+  const std::string a = make("a.db", [&](Store& store) {
+    store.sessions().put(session);
+    store.graph().put(session.id, node);
+  });
+  session.complete = false;
+  const std::string b = make("b.db", [&](Store& store) {
+    store.sessions().put(session);
+    store.scans().put(session.id, "laser_left", scan);
+  });
+  merge({a, b}, out);
+  Store store(out, Access::Read);
+  ASSERT_EQ(store.sessions().all().size(), 1U);
+  EXPECT_FALSE(store.sessions().all().front().complete);
+  EXPECT_EQ(store.graph().nodes(session.id), 1);
+  EXPECT_EQ(store.scans().lasers(session.id), std::vector<std::string>{"laser_left"});
+}
+
+TEST_F(Merge, namesWhatContradicts) {
+  const std::string a = make("a.db", [](Store& store) { fill(store, 1, 20); });
+  SessionId id;
+  const std::string b = make("b.db", [&](Store& store) {
+    id = fill(store, 1, 20);
+    Drawn drawn(7);
+    for (int i = 0; i < 8; ++i) {
+      std::optional<Node> node;
+      store.graph().forEachNode(id, [&](const Node& each) {
+        if (!node) node = each;
+      });
+      Node other = *node;
+      other.stamp += 50'000'001LL * i;
+      store.graph().put(id, other);
+    }
+    store.sessions().put(id, StoredParameter{"swf_vo.window", "26", "default"});
+  });
+  writeFile(out, "");
+  expectError([&] { merge({a, b}, out); }, out, "8 rows contradict each other; parameter session=" + id);
+  EXPECT_EQ(readFile(out), "");
+  EXPECT_EQ(folder.files(), 3U);
+}
+
+TEST_F(Merge, takesTheLaterRevisionOfTheGraph) {
+  const auto with = [](std::int64_t revision, std::uint32_t seed) {
+    return [=](Store& store) {
+      Drawn drawn(seed);
+      store.sessions().put(Session{"s", "", "", "", 0, false});
+      store.graph().put("s", RelaxedPose{5, drawn.pose(), revision});
+      store.sessions().put(Anchor{"s", "s", revision, drawn.pose()});
+    };
+  };
+  const std::string a = make("a.db", with(3, 1)), b = make("b.db", with(4, 2)), c = make("c.db", with(4, 3));
+  for (const auto& sources : {std::vector<std::string>{a, b}, {b, a}}) {
+    EXPECT_EQ(merge(sources, out).outdated, 2);
+    EXPECT_TRUE(dumpOf(out) == dumpOf(b));
+  }
+  expectError([&] { merge({b, c}, out); }, out, "contradict");
+  EXPECT_TRUE(dumpOf(out) == dumpOf(b)) << "what was there stays";
+}
+
+TEST_F(Merge, refusesWhatIsNoStore) {
+  const std::string a = make("a.db", [](Store& store) { fill(store, 1, 5); });
+  writeFile(folder.file("text"), "words");
+  expectError([&] { merge({a, folder.file("text")}, out); }, folder.file("text"), "is no session store");
+  expectError([&] { merge({a, folder.file("none")}, out); }, folder.file("none"), "is not there");
+  expectError([&] { merge({a}, folder.file("text")); }, folder.file("text"), "is no session store");
+  std::string damaged = readFile(a);
+  damaged.replace(5 * 4096, 4096, 4096, '\xff');
+  writeFile(folder.file("damaged.db"), damaged);
+  expectError([&] { merge({a, folder.file("damaged.db")}, out); }, folder.file("damaged.db"), "is damaged");
+  EXPECT_EQ(readFile(folder.file("text")), "words");
+  EXPECT_EQ(folder.files(), 3U);
+}
+
+TEST_F(Merge, doesNotTakeAStoreFromItsWriter) {
+  const std::string a = make("a.db", [](Store& store) { fill(store, 1, 5); });
+  Store writer(out, Access::Write);
+  expectError([&] { merge({a}, out); }, out, "is being written by another program");
+}
+
+}  // namespace
+}  // namespace urban_nav_store

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A damaged store is named as such, or what was damaged is not in use: no crash, and never other data than was written.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "dump_tables.hpp"
+#include "schema/schema.hpp"
+#include "support/contents.hpp"
+#include "support/folder.hpp"
+#include "urban_nav_store/dump.hpp"
+#include "urban_nav_store/store.hpp"
+
+namespace urban_nav_store {
+namespace {
+
+using testing::errorOf;
+using testing::fill;
+using testing::Folder;
+using testing::readFile;
+using testing::writeFile;
+
+constexpr std::size_t kPage = 4096;
+
+class Damage : public ::testing::Test {
+ protected:
+  Damage() {
+    Store store(path, Access::Write);
+    fill(store, 1, 60);
+    fill(store, 2, 5);
+    store.commit();
+    whole = dump(store);
+    store.close();
+    bytes = readFile(path);
+  }
+
+  /// What was read of a damaged file: all, or an error that names it.
+  enum class Outcome { Same, Refused, Other };
+  template <typename Read>
+  Outcome outcomeOf(const Read& read) {
+    std::string text;
+    const std::string error = errorOf([&] { text = read(); });
+    if (error.empty()) return text == whole ? Outcome::Same : Outcome::Other;
+    return error.rfind(path, 0) == 0 ? Outcome::Refused : Outcome::Other;
+  }
+  Outcome opened() {
+    return outcomeOf([&] {
+      Store store(path, Access::Read);
+      return dump(store);
+    });
+  }
+  /// As a large store is read, which is not checked throughout when it is opened.
+  Outcome readOnly() {
+    return outcomeOf([&] {
+      Connection connection(path, Connection::Mode::ReadFrozen);
+      schema::check(connection);
+      return dumpTables(connection);
+    });
+  }
+
+  const Folder folder;
+  const std::string path = folder.file("s.db");
+  std::string bytes, whole;
+};
+
+TEST_F(Damage, ofAnyPageIsNamed) {
+  ASSERT_GT(bytes.size(), 20 * kPage);
+  for (std::size_t page = 0; page < bytes.size() / kPage; ++page) {
+    for (const char fill_with : {'\0', '\xff', '\x5a'}) {
+      std::string damaged = bytes;
+      damaged.replace(page * kPage, kPage, kPage, fill_with);
+      writeFile(path, damaged);
+      EXPECT_NE(opened(), Outcome::Other) << "page " << page;
+      EXPECT_NE(readOnly(), Outcome::Other) << "page " << page;
+    }
+    std::string exchanged = bytes;
+    exchanged.replace(page * kPage, kPage, bytes.substr((page + 1) % (bytes.size() / kPage) * kPage, kPage));
+    writeFile(path, exchanged);
+    EXPECT_NE(opened(), Outcome::Other) << "page " << page;
+    EXPECT_NE(readOnly(), Outcome::Other) << "page " << page;
+  }
+}
+
+TEST_F(Damage, ofAnyByteIsNamed) {
+  std::mt19937 random(1);
+  int same = 0, refused = 0;
+  for (int i = 0; i < 400; ++i) {
+    // Half of them where the structure of a page stands.
+    const std::size_t page = random() % (bytes.size() / kPage);
+    const std::size_t at = page * kPage + random() % (i % 2 == 0 ? 100 : kPage);
+    std::string damaged = bytes;
+    damaged[at] = static_cast<char>(damaged[at] ^ (1U << random() % 8U));
+    writeFile(path, damaged);
+    const Outcome outcome = i % 4 < 2 ? opened() : readOnly();
+    EXPECT_NE(outcome, Outcome::Other) << "byte " << at;
+    ++(outcome == Outcome::Same ? same : refused);
+  }
+  EXPECT_GT(refused, 100);
+  EXPECT_GT(same, 0) << "free space is not in use";
+}
+
+TEST_F(Damage, aFileThatIsCutOffIsNamed) {
+  for (std::size_t size = 1; size < bytes.size(); size += 3001) {
+    writeFile(path, bytes.substr(0, size));
+    EXPECT_EQ(opened(), Outcome::Refused) << size;
+  }
+}
+
+TEST_F(Damage, aDamagedStoreIsNotWrittenTo) {
+  std::string damaged = bytes;
+  damaged.replace(5 * kPage, kPage, kPage, '\xff');
+  writeFile(path, damaged);
+  EXPECT_NE(errorOf([&] { Store(path, Access::Write); }).find("is damaged"), std::string::npos);
+  EXPECT_EQ(readFile(path), damaged);
+  removeStore(path);
+  EXPECT_EQ(folder.files(), 0U);
+}
+
+}  // namespace
+}  // namespace urban_nav_store

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "schema/row.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "support/contents.hpp"
+#include "support/folder.hpp"
+
+namespace urban_nav_store {
+namespace {
+
+using testing::Drawn;
+using testing::expectError;
+using testing::Folder;
+
+class Rows : public ::testing::Test {
+ protected:
+  Rows() : connection(folder.file("s.db"), Connection::Mode::Create) {
+    schema::create(connection);
+    Drawn drawn(1);
+    for (int i = 0; i < 5; ++i) put("one", i, drawn);
+    put("two", 0, drawn);
+    connection.commit();
+  }
+  void put(const std::string& session, int stamp, Drawn& drawn) {
+    const std::string covariance = bytesOf(drawn.matrix());
+    RowWriter(connection, putSql(schema::node()))
+        .text(session)
+        .integer(stamp)
+        .pose(drawn.pose())
+        .text("OK")
+        .blob(covariance)
+        .write();
+  }
+  void readAll(const std::string& session) {
+    RowReader reader(connection, schema::node(), "WHERE session=?");
+    reader.statement().bind(0, session);
+    while (reader.next()) readRow(reader);
+    verifyTally(reader, session);
+    verifyTally(connection, schema::node(), session);
+  }
+
+  const Folder folder;
+  Connection connection;
+};
+
+TEST_F(Rows, addUp) {
+  EXPECT_NO_THROW(readAll("one"));
+  EXPECT_NO_THROW(readAll("two"));
+  EXPECT_NO_THROW(readAll("none"));
+  Drawn drawn(2);
+  put("one", 3, drawn);  // replaced
+  put("one", 9, drawn);
+  EXPECT_NO_THROW(readAll("one"));
+  connection.execute("DELETE FROM node WHERE stamp_ns=2");
+  EXPECT_NO_THROW(readAll("one"));
+}
+
+TEST_F(Rows, aChangeOfAnyColumnIsSeen) {
+  for (const Column& column : schema::node().columns) {
+    connection.beginWriting();
+    const std::string other = column.type == ColumnType::Text      ? "'one ' || stamp_ns"
+                              : column.type == ColumnType::Integer ? "stamp_ns+100"
+                              : column.type == ColumnType::Real    ? std::string(column.name) + "+1e-9"
+                                                                   : "zeroblob(288)";
+    connection.execute("UPDATE node SET " + std::string(column.name) + "=" + other +
+                       " WHERE session='one' AND stamp_ns=3");
+    RowReader reader(connection, schema::node(), "");
+    expectError(
+        [&] {
+          while (reader.next()) readRow(reader);
+        },
+        connection.name(), "is damaged: in table node");
+    connection.rollback();
+  }
+}
+
+TEST_F(Rows, anotherTypeIsSeen) {
+  connection.execute("UPDATE node SET covariance='text' WHERE stamp_ns=3");
+  expectError([&] { readAll("one"); }, connection.name(), "holds another type");
+}
+
+TEST_F(Rows, aRowThatIsGoneIsMissed) {
+  connection.execute("UPDATE tally SET count=count+1 WHERE session='one'");
+  expectError([&] { readAll("one"); }, connection.name(), "do not add up to the 6 written");
+  connection.execute("UPDATE tally SET count=count-1, sum=sum+1 WHERE session='one'");
+  expectError([&] { readAll("one"); }, connection.name(), "do not add up");
+  connection.execute("DELETE FROM tally");
+  expectError([&] { readAll("one"); }, connection.name(), "do not add up");
+}
+
+TEST(RowChecksum, bytesDoNotMoveBetweenColumns) {
+  RowChecksum one, two, blob;
+  one.text("ab"), one.text("c");
+  two.text("a"), two.text("bc");
+  blob.blob("ab"), blob.text("c");
+  EXPECT_NE(one.value(), two.value());
+  EXPECT_NE(one.value(), blob.value());
+}
+
+TEST(MatrixBytes, roundTripAndRefusal) {
+  Drawn drawn(1);
+  const urban_nav_core::Matrix6d matrix = drawn.matrix();
+  urban_nav_core::Matrix6d back;
+  ASSERT_TRUE(matrixOf(bytesOf(matrix), back));
+  EXPECT_EQ(back, matrix);
+  EXPECT_FALSE(matrixOf(bytesOf(matrix).substr(1), back));
+  urban_nav_core::Matrix6d bad = matrix;
+  bad(2, 3) = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(matrixOf(bytesOf(bad), back));
+}
+
+}  // namespace
+}  // namespace urban_nav_store

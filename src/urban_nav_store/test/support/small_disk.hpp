@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <signal.h>
+#include <sys/resource.h>
+
+#include <cstddef>
+
+namespace urban_nav_store::testing {
+
+/// While it lives no file of this process can grow beyond `bytes`: what a full disk looks like from here, without a disk
+/// to fill.
+class SmallDisk {
+ public:
+  explicit SmallDisk(std::size_t bytes) {
+    before_signal_ = ::signal(SIGXFSZ, SIG_IGN);
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    rlimit limit = before_;
+    limit.rlim_cur = bytes;
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~SmallDisk() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    ::signal(SIGXFSZ, before_signal_);
+  }
+  SmallDisk(const SmallDisk&) = delete;
+  SmallDisk& operator=(const SmallDisk&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*before_signal_)(int) = nullptr;
+};
+
+}  // namespace urban_nav_store::testing
