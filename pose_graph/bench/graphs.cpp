@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The public graphs, from what their files hold to the optimum, with each objective: how near, and how long on one core with reading left out. It is time
+// of the processor, so that what else runs does not count.
+//   pose_graph-bench-graphs [NAME...] [--peers FILE] [--runs N] [-o results/graphs.json]
+// FILE: what other programs took on the same machine, `graph,peer,options,seconds,reached` (reached 1: ends at its own optimum), as CSV.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <type_traits>
+
+#include "pose_graph/solution.hpp"
+#include "support/cholmod_once.hpp"
+#include "support/problems.hpp"
+#include "support/program.hpp"
+#include "urban_nav_core/io/csv.hpp"
+#include "urban_nav_core/parallel/for_each.hpp"
+
+namespace {
+
+using namespace pose_graph;
+using namespace pose_graph::bench;
+using urban_nav_core::CsvTable;
+using urban_nav_core::testing::cell;
+
+struct Found {
+  double seconds = 0.0, cost = 0.0;
+  std::size_t iterations = 0;
+  std::string ending;
+  double chordal = 0.0;  // cost by that objective, started from here
+};
+
+Found relaxed(const PublicGraph& graph, Objective objective, int runs) {
+  SolveOptions options;
+  options.objective = objective;
+  return std::visit(
+      [&](const auto& problem) {
+        auto solution = solve(problem, options);
+        Found found;
+        found.seconds = secondsOf(runs, [&] { solution = solve(problem, options); });
+        found.cost = solution.cost;
+        found.iterations = solution.iterations.size();
+        found.ending = toString(solution.ending);
+        auto onwards = problem;
+        onwards.poses = solution.poses;
+        SolveOptions chordal;
+        chordal.objective = Objective::Chordal;
+        chordal.start = Start::Vertices;
+        found.chordal = solve(onwards, chordal).cost;
+        return found;
+      },
+      graph.problem);
+}
+
+/// 1.2e-09: by what share a cost lies above the best one that is known.
+std::string excess(double cost, double best) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.0e", (cost - best) / best);
+  return text;
+}
+
+std::string milliseconds(double seconds) { return cell(1e3 * seconds, seconds < 0.0995 ? 1 : 0); }
+
+/// The fastest peer that reached its optimum, "0.30 s, GTSAM GN from chordal".
+struct Peer {
+  double seconds = INFINITY;
+  std::string name;
+};
+Peer bestPeer(const CsvTable& peers, const std::string& graph) {
+  Peer best;
+  for (std::size_t row = 0; row < peers.rows(); ++row) {
+    if (peers.text(row, peers.column("graph")) != graph || peers.integer(row, peers.column("reached")) != 1) continue;
+    const double seconds = peers.number(row, peers.column("seconds"));
+    if (seconds < best.seconds)
+      best = {seconds, peers.text(row, peers.column("peer")) + ", " + peers.text(row, peers.column("options"))};
+  }
+  return best;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  const Arguments asked = argumentsOf(argc, argv, {"--peers", "--runs"});
+  const int runs = asked.number("--runs", 5);
+  const std::string file = asked.text("--peers", "");
+  const CsvTable peers =
+      file.empty() ? CsvTable::parse("graph,peer,options,seconds,reached\n", "") : CsvTable::read(file);
+  const urban_nav_core::ThreadLimit one(1);
+
+  urban_nav_core::testing::BenchTable table(
+      {"graph", "poses, edges", "geodesic, ms", "steps", "best peer, ms", "best peer", "CHOLMOD once, ms",
+       "chordal, ms", "above the optimum", "g2o, ms", "above the optimum", "chordal from the geodesic"},
+      argc, argv);
+  for (const PublicGraph& graph : publicGraphs(asked.names)) {
+    const Found geodesic = relaxed(graph, Objective::Geodesic, runs);
+    const Found chordal = relaxed(graph, Objective::Chordal, runs);
+    const Found g2o = relaxed(graph, Objective::G2o, runs);
+    const double once = std::visit([&](const auto& problem) { return cholmodOnce(problem, runs); }, graph.problem);
+    const Peer peer = bestPeer(peers, graph.name);
+    const std::string size =
+        std::visit([](const auto& p) { return std::to_string(p.poses.size()) + ", " + std::to_string(p.edges.size()); },
+                   graph.problem);
+    table.add({graph.name, size, milliseconds(geodesic.seconds), std::to_string(geodesic.iterations),
+               std::isfinite(peer.seconds) ? milliseconds(peer.seconds) : "", peer.name, milliseconds(once),
+               milliseconds(chordal.seconds), excess(chordal.cost, graph.chordal), milliseconds(g2o.seconds),
+               excess(g2o.cost, graph.g2o), excess(geodesic.chordal, graph.chordal)});
+  }
+  table.note(
+      "One core, processor time, median of " + std::to_string(runs) +
+      ", reading left out. CHOLMOD once: its ordering, analysis and factorisation of the Gauss-Newton matrix, once.");
+  return show(table, asked.output);
+} catch (const std::exception& error) {
+  return pose_graph::bench::complain(error);
+}

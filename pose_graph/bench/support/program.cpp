@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "program.hpp"
+
+#include <time.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iostream>
+
+#include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace pose_graph::bench {
+
+using urban_nav_core::UserError;
+
+std::string Arguments::text(const std::string& option, const std::string& otherwise) const {
+  const auto found = options.find(option);
+  return found == options.end() ? otherwise : found->second;
+}
+
+int Arguments::number(const std::string& option, int otherwise) const {
+  const auto found = options.find(option);
+  if (found == options.end()) return otherwise;
+  const auto value = urban_nav_core::parseInteger(found->second);
+  if (!value || *value < 1 || *value > 1000000000) throw UserError(option, found->second, "a whole number above zero");
+  return static_cast<int>(*value);
+}
+
+Arguments argumentsOf(int argc, char** argv, const std::vector<std::string>& options) {
+  Arguments asked;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word.rfind('-', 0) != 0) {
+      asked.names.push_back(word);
+      continue;
+    }
+    const bool known = word == "-o" || std::find(options.begin(), options.end(), word) != options.end();
+    if (!known || i + 1 == argc) {
+      std::string allowed = "-o FILE";
+      for (const std::string& option : options) allowed += ", " + option + " VALUE";
+      throw UserError("", word, allowed);
+    }
+    (word == "-o" ? asked.output : asked.options[word]) = argv[++i];
+  }
+  return asked;
+}
+
+int show(const urban_nav_core::testing::BenchTable& table, const std::string& output) {
+  std::cout << table.text();
+  if (!output.empty()) table.write(output);
+  return 0;
+}
+
+int complain(const std::exception& error) {
+  std::cerr << error.what() << '\n';
+  return 2;
+}
+
+namespace {
+
+double processorTime() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// A line of /proc/self/status, bytes.
+double memory(const std::string& key) {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.rfind(key + ":", 0) == 0) return 1024.0 * std::stod(line.substr(key.size() + 1));
+  return 0.0;
+}
+
+}  // namespace
+
+double secondsOf(int runs, const std::function<void()>& work) {
+  std::vector<double> seconds;
+  for (int run = 0; run < runs; ++run) {
+    const double begin = processorTime();
+    work();
+    seconds.push_back(processorTime() - begin);
+  }
+  std::nth_element(seconds.begin(), seconds.begin() + runs / 2, seconds.end());
+  return seconds[static_cast<std::size_t>(runs / 2)];
+}
+
+double memoryOf(const std::function<void()>& work) {
+  std::ofstream("/proc/self/clear_refs") << "5";  // the peak begins anew (Linux, proc(5))
+  const double before = memory("VmRSS");
+  work();
+  return std::max(0.0, memory("VmHWM") - before);
+}
+
+}  // namespace pose_graph::bench
