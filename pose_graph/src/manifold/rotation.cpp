@@ -7,7 +7,7 @@ namespace pose_graph {
 
 Rotation<2> nearestRotation(const Eigen::Matrix2d& M) {
   const double c = M(0, 0) + M(1, 1), s = M(1, 0) - M(0, 1), length = std::hypot(c, s);
-  if (!(length > 0.0)) return Rotation<2>::Identity();
+  if (!(length > 0.0) || !std::isfinite(length)) return Rotation<2>::Identity();
   Rotation<2> R;
   R << c / length, -s / length, s / length, c / length;
   return R;

@@ -11,13 +11,46 @@ namespace {
 std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
 constexpr double kFirstDamping = 1e-10, kLargestDamping = 1e8;
+// Of the largest entry of the diagonal: what is less is round-off. Nothing is known of such a direction.
+constexpr double kNothing = 1e-12;
+// Of the lengths that a residual is the difference of, and of a radian: some dozens of a double's last bits.
+constexpr double kLeast = 1e-14;
+
+// What damping multiplies: the diagonal, and where that is nothing its largest entry, which holds directions without
+// information where they are.
+template <int D>
+std::vector<Tangent<D>> dampingScale(const std::vector<TangentMatrix<D>>& diagonal) {
+  double largest = 0.0;
+  for (const TangentMatrix<D>& block : diagonal) largest = std::max(largest, block.diagonal().maxCoeff());
+  std::vector<Tangent<D>> made;
+  made.reserve(diagonal.size());
+  for (const TangentMatrix<D>& block : diagonal)
+    made.push_back((block.diagonal().array() > kNothing * largest).select(block.diagonal(), largest));
+  return made;
+}
 
 template <int D>
-void addDamping(BlockMatrix<tangent_size<D>>& H, const std::vector<TangentMatrix<D>>& undamped, double damping) {
+void addDamping(BlockMatrix<tangent_size<D>>& H, const std::vector<TangentMatrix<D>>& undamped,
+                const std::vector<Tangent<D>>& scale, double damping) {
   for (std::size_t k = 0; k < undamped.size(); ++k) {
     H.diagonal[k] = undamped[k];
-    H.diagonal[k].diagonal() += damping * undamped[k].diagonal();
+    H.diagonal[k].diagonal() += damping * scale[k];
   }
+}
+
+// What the cost is where each residual is as small as the numbers allow: less is nothing.
+template <int D>
+double roundOff(const NormalEquations<D>& equations, const std::vector<Rigid<D>>& poses,
+                const std::vector<double>& weights) {
+  double sum = 0.0;
+  for (std::size_t e = 0; e < equations.terms().size(); ++e) {
+    const EdgeTerm<D>& term = equations.terms()[e];
+    const double metres = poses[sz(term.from)].t.norm() + poses[sz(term.to)].t.norm() + term.t_Z.norm();
+    Tangent<D> least = Tangent<D>::Constant(kLeast);
+    least.template head<D>() *= metres;
+    sum += (weights.empty() ? 1.0 : weights[e]) * least.cwiseAbs2().dot(term.information.diagonal());
+  }
+  return sum;
 }
 
 template <int D>
@@ -65,12 +98,13 @@ Descent minimise(NormalEquations<D>& equations, BlockCholesky<tangent_size<D>>& 
   std::vector<double> x;
   std::vector<TangentMatrix<D>> undamped;
   made.cost = equations.linearise(options.objective, poses, weights);
-  if (equations.unknowns().pose.empty()) {
+  if (equations.unknowns().pose.empty() || made.cost <= 0.0) {
     made.ending = Ending::Converged;
     return made;
   }
   while (static_cast<int>(made.iterations.size()) < options.iterations) {
     undamped = equations.H().diagonal;
+    const std::vector<Tangent<D>> scale = dampingScale<D>(undamped);
     Iteration step;
     std::vector<Rigid<D>> next;
     for (;; ++step.refused) {
@@ -78,7 +112,7 @@ Descent minimise(NormalEquations<D>& equations, BlockCholesky<tangent_size<D>>& 
         made.ending = Ending::Stuck;
         return made;
       }
-      if (damping > 0.0 || step.refused > 0) addDamping<D>(equations.H(), undamped, damping);
+      if (damping > 0.0 || step.refused > 0) addDamping<D>(equations.H(), undamped, scale, damping);
       if (cholesky.factor(equations.H(), equations.pattern())) {
         x = equations.g();
         for (double& value : x) value = -value;
@@ -86,13 +120,13 @@ Descent minimise(NormalEquations<D>& equations, BlockCholesky<tangent_size<D>>& 
         step.predicted = -dot(equations.g(), x);
         for (std::size_t k = 0; k < undamped.size() && damping > 0.0; ++k) {
           const Eigen::Map<const Tangent<D>> part(x.data() + k * N);
-          step.predicted += damping * part.dot(undamped[k].diagonal().cwiseProduct(part));
+          step.predicted += damping * part.dot(scale[k].cwiseProduct(part));
         }
         next = stepped(equations, x, poses);
         step.cost = equations.cost(options.objective, next, weights);
-        if (step.cost <= made.cost) break;
+        if (std::isfinite(step.cost) && step.cost <= made.cost) break;
         // At the minimum round-off decides: a step that promises nothing is none.
-        if (step.predicted <= options.tolerance * made.cost) {
+        if (step.predicted <= options.tolerance * made.cost || made.cost <= roundOff(equations, poses, weights)) {
           made.ending = Ending::Converged;
           return made;
         }

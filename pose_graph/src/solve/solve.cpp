@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
 #include "pose_graph/solution.hpp"
 #include "solve/minimise.hpp"
 #include "start/along_edges.hpp"
@@ -17,10 +19,17 @@ std::vector<Rigid<D>> firstGuess(const NormalEquations<D>& equations, const Prob
   const auto rotations = chordalRotations(equations, problem.poses, weights);
   if (!rotations) return problem.poses;
   const auto poses = translationsFor(equations, *rotations, problem.poses, weights);
-  if (!poses ||
-      equations.cost(options.objective, problem.poses, weights) <= equations.cost(options.objective, *poses, weights))
-    return problem.poses;
-  return *poses;
+  // Written so that poses of which the cost is no number lose.
+  if (poses &&
+      equations.cost(options.objective, *poses, weights) < equations.cost(options.objective, problem.poses, weights))
+    return *poses;
+  return problem.poses;
+}
+
+template <int D>
+bool allFinite(const std::vector<Rigid<D>>& poses) {
+  return std::all_of(poses.begin(), poses.end(),
+                     [](const Rigid<D>& pose) { return pose.R.allFinite() && pose.t.allFinite(); });
 }
 
 }  // namespace
@@ -58,6 +67,7 @@ Solution<D> solve(const Problem<D>& problem, const SolveOptions& options, const 
   made.components = equations.unknowns().components;
   made.cost_before = equations.cost(options.objective, problem.poses, weights);
   made.poses = firstGuess(equations, problem, options, weights);
+  if (!allFinite(made.poses)) made.poses = problem.poses;  // measurements that add up to infinity
   made.cost_start = equations.cost(options.objective, made.poses, weights);
   Descent descent = minimise(equations, cholesky, options, weights, made.poses);
   made.cost = descent.cost;

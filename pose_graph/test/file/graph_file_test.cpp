@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/graph_file.hpp"
+
+#include "pose_graph/solution.hpp"
+#include "support/drawn.hpp"
+#include "support/plain_costs.hpp"
+#include "urban_nav_core/testing/fuzz.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace pose_graph::test {
+namespace {
+
+using urban_nav_core::G2oGraph;
+using urban_nav_core::parseG2o;
+using urban_nav_core::UserError;
+
+const std::string kI2 = " 50 1 2 60 3 100\n";
+const std::string kI3 = " 10 0 0 1 0 0  20 0 0 2 0  30 0 0 3  40 0 0  50 0  60\n";
+
+const std::string kPlane =
+    "VERTEX_SE2 40 1 2 0.5\n"
+    "VERTEX_SE2 7 0 0 0\n"
+    "EDGE_SE2 7 40 1 2 0.5" +
+    kI2 + "EDGE_SE2 40 1000000000000 1 0 0" + kI2;
+const std::string kSpace =
+    "VERTEX_SE3:QUAT 0 0 0 0 0 0 0 1\n"
+    "VERTEX_SE3:QUAT 1 1 0 0 0 0 0.6 0.8\n"
+    "EDGE_SE3:QUAT 0 1 1 0.5 0 0 0 0.6 0.8" +
+    kI3;
+
+template <int D>
+FileProblem<D> parsed(const std::string& text) {
+  return problemOf<D>(parseG2o(text, "g.g2o"), "g.g2o");
+}
+
+std::string errorOf(const std::string& text) {
+  try {
+    const G2oGraph graph = parseG2o(text, "g.g2o");
+    if (graph.dimension == 2) problemOf<2>(graph, "g.g2o");
+    else problemOf<3>(graph, "g.g2o");
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(GraphFile, IdsWithGapsBecomeNumbersInTheirOrder) {
+  const FileProblem<2> file = parsed<2>(kPlane);
+  EXPECT_EQ(file.ids, (std::vector<G2oGraph::Id>{7, 40, 1000000000000}));
+  ASSERT_EQ(file.problem.edges.size(), 2U);
+  EXPECT_EQ(file.problem.edges[0].from, 0);
+  EXPECT_EQ(file.problem.edges[0].to, 1);
+  EXPECT_EQ(file.problem.edges[1].from, 1);
+  EXPECT_EQ(file.problem.edges[1].to, 2);
+  EXPECT_EQ(file.problem.poses[1].t, Eigen::Vector2d(1, 2));
+  TangentMatrix<2> information;
+  information << 50, 1, 2, 1, 60, 3, 2, 3, 100;
+  EXPECT_EQ(file.problem.edges[0].information, information);
+}
+
+TEST(GraphFile, VerticesThatAreNotListedFollowTheEdgesAndAreNamed) {
+  const FileProblem<2> file = parsed<2>(kPlane);
+  ASSERT_EQ(file.notes.size(), 1U);
+  EXPECT_NE(file.notes[0].find("1 vertices"), std::string::npos) << file.notes[0];
+  EXPECT_NE(file.notes[0].find("1000000000000"), std::string::npos) << file.notes[0];
+  const Rigid<2> expected = file.problem.poses[1] * file.problem.edges[1].Z;
+  EXPECT_LT((file.problem.poses[2].t - expected.t).norm(), 1e-12);
+
+  const FileProblem<2> bare = parsed<2>("EDGE_SE2 3 5 1 0 0" + kI2 + "EDGE_SE2 5 6 1 0 0" + kI2);
+  ASSERT_EQ(bare.notes.size(), 1U);
+  EXPECT_EQ(bare.problem.poses[2].t, Eigen::Vector2d(2, 0));
+}
+
+/// g2o's cost of a problem is that of the file's own numbers.
+TEST(GraphFile, InformationOfSpaceIsThatOfTheQuaternionsVector) {
+  const FileProblem<3> file = parsed<3>(kSpace);
+  const Edge<3>& edge = file.problem.edges[0];
+  EXPECT_EQ(edge.information(0, 0), 10.0);
+  EXPECT_EQ(edge.information(0, 3), 0.5);
+  EXPECT_EQ(edge.information(5, 5), 15.0);
+  const Eigen::Vector3d phi(0.3, -0.2, 0.5);
+  const Rigid<3> to = file.problem.poses[0] * edge.Z * Rigid<3>{expRotation(phi), Eigen::Vector3d(0.1, 0.2, 0.3)};
+  Eigen::Matrix<double, 6, 1> e;
+  e << 0.1, 0.2, 0.3, std::sin(0.5 * phi.norm()) * phi.normalized();
+  const Eigen::MatrixXd raw = urban_nav_core::g2oInformation(parseG2o(kSpace, "").edges[0], 3);
+  EXPECT_NEAR(cost(file.problem, {file.problem.poses[0], to}, Objective::G2o), e.dot(raw * e), 1e-10);
+}
+
+TEST(GraphFile, IndefiniteInformationIsNamed) {
+  const std::string plane = errorOf("EDGE_SE2 3 5 1 0 0 1 2 0 1 0 1\n");
+  EXPECT_NE(plane.find("g.g2o"), std::string::npos) << plane;
+  EXPECT_NE(plane.find("from 3 to 5"), std::string::npos) << plane;
+  EXPECT_NE(errorOf("EDGE_SE2 3 5 1 0 0 -1e-3 0 0 0 0 0\n"), "");
+  std::string space = kSpace;
+  space.replace(space.rfind("60"), 2, "-60");
+  EXPECT_NE(errorOf(space).find("from 0 to 1"), std::string::npos);
+}
+
+TEST(GraphFile, SemidefiniteInformationPasses) {
+  EXPECT_EQ(errorOf("EDGE_SE2 3 5 1 0 0 4 0 0 4 0 0\n"), "");
+  EXPECT_EQ(errorOf("EDGE_SE2 3 5 1 0 0 0 0 0 0 0 0\n"), "");
+  EXPECT_EQ(errorOf("EDGE_SE2 3 5 1 0 0 1 3 0 9 0 0\n"), "");
+}
+
+TEST(GraphFile, AFileWithoutEdgesIsRefused) {
+  EXPECT_NE(errorOf("VERTEX_SE2 0 0 0 0\n").find("without edges"), std::string::npos);
+  EXPECT_NE(errorOf(""), "");
+}
+
+template <int D>
+void expectRoundTrip(const std::string& text) {
+  const G2oGraph graph = parseG2o(text, "g.g2o");
+  const FileProblem<D> file = problemOf<D>(graph, "g.g2o");
+  Dice dice(3);
+  std::vector<Rigid<D>> poses;
+  for (std::size_t i = 0; i < file.ids.size(); ++i) poses.push_back(drawRigid<D>(dice, 5.0, 1.0));
+  const G2oGraph made = withPoses(graph, file, poses);
+  EXPECT_EQ(made.edges.size(), graph.edges.size());
+  EXPECT_EQ(made.vertices.size(), file.ids.size());
+  for (std::size_t i = 0; i < graph.vertices.size(); ++i) EXPECT_EQ(made.vertices[i].id, graph.vertices[i].id);
+  const FileProblem<D> again = problemOf<D>(parseG2o(urban_nav_core::printG2o(made), "again"), "again");
+  EXPECT_EQ(again.ids, file.ids);
+  EXPECT_TRUE(again.notes.empty());
+  EXPECT_LT(largestDifference(again.problem.poses, poses), 1e-14);
+}
+TEST(GraphFile, PosesGoBackToTheirVertices) {
+  expectRoundTrip<2>(kPlane);
+  expectRoundTrip<3>(kSpace);
+}
+
+TEST(GraphFile, RigidsAndPosesAreOne) {
+  Dice dice(4);
+  for (int run = 0; run < 20; ++run) {
+    const Rigid<2> plane = drawRigid<2>(dice, 5.0, 2.0);
+    const Rigid<3> space = drawRigid<3>(dice, 5.0, 2.0);
+    EXPECT_LT(largestDifference<2>({rigidOf<2>(poseOf(plane))}, {plane}), 1e-14);
+    EXPECT_LT(largestDifference<3>({rigidOf<3>(poseOf(space))}, {space}), 1e-14);
+  }
+}
+
+/// What a reader lets through is relaxed without a number that is none.
+template <int D>
+void relaxed(const G2oGraph& graph) {
+  const FileProblem<D> file = problemOf<D>(graph, "fuzz");
+  SolveOptions options;
+  options.iterations = 5;
+  const Solution<D> solution = solve(file.problem, options);
+  if (allFinite(file.problem.poses) && !allFinite(solution.poses))
+    throw std::runtime_error("poses that are not finite");
+  withPoses(graph, file, solution.poses);
+}
+
+TEST(GraphFile, DamagedFilesAreTakenOrRefused) {
+  const auto result = urban_nav_core::testing::fuzzText({kPlane, kSpace}, [](const std::string& text) {
+    const G2oGraph graph = parseG2o(text, "fuzz");
+    if (graph.dimension == 2) relaxed<2>(graph);
+    else relaxed<3>(graph);
+  });
+  EXPECT_EQ(result.failure, "");
+  EXPECT_GT(result.accepted, 0);
+  EXPECT_GT(result.refused, 0);
+}
+
+}  // namespace
+}  // namespace pose_graph::test

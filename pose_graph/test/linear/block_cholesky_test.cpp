@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linear/block_cholesky.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "support/block_systems.hpp"
+#include "support/patterns.hpp"
+#include "urban_nav_core/geometry/dense.hpp"
+
+namespace pose_graph {
+namespace {
+
+using test::BlockSystem;
+using urban_nav_core::testing::Dice;
+
+template <int B>
+Eigen::MatrixXd factorOf(const BlockCholesky<B>& cholesky) {
+  const Symbolic& shape = cholesky.symbolic();
+  const Eigen::Index n = static_cast<Eigen::Index>(shape.node.size()) * B;
+  Eigen::MatrixXd L = Eigen::MatrixXd::Zero(n, n);
+  for (int s = 0; s < shape.size(); ++s) {
+    const int first = B * shape.begin[static_cast<std::size_t>(s)], pivots = B * shape.columns(s);
+    const Eigen::Map<const Eigen::MatrixXd> panel(cholesky.panel(s), cholesky.panelRows(s), pivots);
+    for (int j = 0; j < pivots; ++j) {
+      for (int i = j; i < pivots; ++i) L(first + i, first + j) = panel(i, j);
+      for (int r = 0; r < shape.rowsBelow(s); ++r) {
+        const int row = B * shape.rows[static_cast<std::size_t>(shape.row_begin[static_cast<std::size_t>(s)] + r)];
+        for (int i = 0; i < B; ++i) L(row + i, first + j) = panel(pivots + r * B + i, j);
+      }
+    }
+  }
+  return L;
+}
+
+template <int B>
+void expectFactorsAndSolves() {
+  std::uint64_t seed = 1;
+  for (const test::NamedGraph& one : test::manyGraphs()) {
+    SCOPED_TRACE(one.name + " in blocks of " + std::to_string(B));
+    const BlockSystem<B> system(one.graph, ++seed);
+    BlockCholesky<B> cholesky(system.symbolic);
+    ASSERT_TRUE(cholesky.factor(system.A, system.pattern));
+    const Eigen::MatrixXd L = factorOf(cholesky);
+    EXPECT_LT((L * L.transpose() - system.dense).norm(), 1e-12 * (1.0 + system.dense.norm()));
+
+    const Eigen::Index n = system.dense.rows();
+    Dice dice(seed);
+    Eigen::MatrixXd x(n, 3);
+    for (Eigen::Index i = 0; i < x.size(); ++i) x(i) = dice.normal();
+    const Eigen::MatrixXd b = system.dense * x;
+    Eigen::MatrixXd solved = b, first = b.col(0);
+    cholesky.solve(solved.data(), 3);
+    cholesky.solve(first.data());
+    EXPECT_LT((system.dense * solved - b).norm(), 1e-9 * (1.0 + b.norm()));
+    EXPECT_EQ((solved.leftCols(1) - first).norm(), 0.0);
+  }
+}
+TEST(BlockCholesky, EqualsTheDenseFactor) {
+  expectFactorsAndSolves<2>();
+  expectFactorsAndSolves<3>();
+  expectFactorsAndSolves<6>();
+}
+
+TEST(BlockCholesky, LargeFrontsToo) {
+  const BlockSystem<6> system(test::cubeGraph(8), 5);
+  BlockCholesky<6> cholesky(system.symbolic);
+  ASSERT_TRUE(cholesky.factor(system.A, system.pattern));
+  Eigen::VectorXd x = Eigen::VectorXd::Ones(system.dense.rows());
+  const Eigen::VectorXd b = system.dense * x;
+  x = b;
+  cholesky.solve(x.data());
+  EXPECT_LT((system.dense * x - b).norm(), 1e-10 * b.norm());
+}
+
+TEST(BlockCholesky, MayBeFactoredAgainAfterARefusal) {
+  BlockSystem<3> system(test::chainWithClosures(50, 30, 3), 4);
+  BlockCholesky<3> cholesky(system.symbolic), fresh(system.symbolic);
+  const auto good = system.A;
+  system.A.diagonal[25](1, 1) = -1.0;
+  EXPECT_FALSE(cholesky.factor(system.A, system.pattern));
+  ASSERT_TRUE(cholesky.factor(good, system.pattern));
+  ASSERT_TRUE(fresh.factor(good, system.pattern));
+  EXPECT_EQ((factorOf(cholesky) - factorOf(fresh)).norm(), 0.0);
+}
+
+TEST(BlockCholesky, RefusesWhatIsNotPositiveDefinite) {
+  for (const std::size_t place : {0U, 17U, 49U}) {
+    for (const double value : {0.0, -1e-3, std::numeric_limits<double>::quiet_NaN(),
+                               -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}) {
+      BlockSystem<3> system(test::chainWithClosures(50, 30, 3), 4);
+      system.A.diagonal[place](2, 2) = value;
+      EXPECT_FALSE(BlockCholesky<3>(system.symbolic).factor(system.A, system.pattern)) << place << " " << value;
+    }
+  }
+  BlockSystem<3> system(test::chainWithClosures(50, 30, 3), 4);
+  system.A.lower[20](1, 2) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(BlockCholesky<3>(system.symbolic).factor(system.A, system.pattern));
+}
+
+}  // namespace
+}  // namespace pose_graph
