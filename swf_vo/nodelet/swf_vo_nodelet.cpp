@@ -12,12 +12,12 @@
 #include <thread>
 
 #include "diagnostics.hpp"
-#include "mailbox.hpp"
 #include "publisher.hpp"
 #include "session.hpp"
 #include "urban_nav_core/parameters/sources.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/camera_info.hpp"
+#include "urban_nav_ros/mailbox.hpp"
 #include "urban_nav_ros/parameters.hpp"
 #include "urban_nav_ros/stamp.hpp"
 
@@ -96,7 +96,7 @@ class SwfVoNodelet : public nodelet::Nodelet {
   ros::WallTimer timer_;
   std::unique_ptr<Publisher> publisher_;
   std::unique_ptr<Diagnostics> diagnostics_;
-  Mailbox<Input> mailbox_;
+  urban_nav_ros::Mailbox<Input> mailbox_;
   std::atomic<bool> paused_{false};
   std::atomic<std::int64_t> paused_dropped_{0};
   std::thread worker_;

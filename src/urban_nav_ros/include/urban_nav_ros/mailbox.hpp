@@ -8,9 +8,9 @@
 #include <mutex>
 #include <utility>
 
-namespace swf_vo {
+namespace urban_nav_ros {
 
-/// A bounded queue between callbacks and the worker: putting never waits. Thread-safe.
+/// A bounded queue between the callbacks of a nodelet and its worker: putting never waits. Thread-safe.
 template <typename Item>
 class Mailbox {
  public:
@@ -66,4 +66,4 @@ class Mailbox {
   bool closed_ = false;
 };
 
-}  // namespace swf_vo
+}  // namespace urban_nav_ros
