@@ -40,7 +40,7 @@ TangentMatrix<D> transposedTimes(const Eigen::Matrix<double, D, rotation_size<D>
   return made;
 }
 
-constexpr std::size_t kGrain = 256;  // edges summed by one thread at a time
+constexpr std::size_t kGrain = 4096;  // edges summed by one thread at a time: fewer are not worth waking one
 
 }  // namespace
 
@@ -86,6 +86,11 @@ NormalEquations<D>::NormalEquations(const Problem<D>& problem)
     if (from >= 0 && to >= 0) place.slot = pattern_.slot(from, to);
     places_.push_back(place);
   }
+}
+
+template <int D>
+void NormalEquations<D>::renew(const Problem<D>& problem, std::size_t first) {
+  for (std::size_t e = first; e < terms_.size(); ++e) terms_[e] = termOf(problem.edges[e]);
 }
 
 template <int D>

@@ -34,6 +34,9 @@ class NormalEquations {
   const BlockPattern& pattern() const { return pattern_; }
   const std::vector<EdgeTerm<D>>& terms() const { return terms_; }
 
+  /// Takes the measurements of the edges from `first` on anew; what they connect must be the same.
+  void renew(const Problem<D>& problem, std::size_t first);
+
   /// Linearises all edges at these poses; `weights` as in cost(). Returns the cost.
   double linearise(Objective objective, const std::vector<Rigid<D>>& poses, const std::vector<double>& weights);
   double cost(Objective objective, const std::vector<Rigid<D>>& poses, const std::vector<double>& weights) const;

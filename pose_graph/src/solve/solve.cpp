@@ -1,30 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 
+#include "condense/solve_condensed.hpp"
 #include "pose_graph/solution.hpp"
 #include "solve/minimise.hpp"
-#include "start/along_edges.hpp"
-#include "start/chordal_start.hpp"
+#include "start/first_guess.hpp"
 
 namespace pose_graph {
 
 namespace {
-
-template <int D>
-std::vector<Rigid<D>> firstGuess(const NormalEquations<D>& equations, const Problem<D>& problem,
-                                 const SolveOptions& options, const std::vector<double>& weights) {
-  if (options.start == Start::Vertices) return problem.poses;
-  if (options.start == Start::Odometry) return posesAlongEdges(problem);
-  if (options.start == Start::Identity) return std::vector<Rigid<D>>(problem.poses.size());
-  const auto rotations = chordalRotations(equations, problem.poses, weights);
-  if (!rotations) return problem.poses;
-  const auto poses = translationsFor(equations, *rotations, problem.poses, weights);
-  // Written so that poses of which the cost is no number lose.
-  if (poses &&
-      equations.cost(options.objective, *poses, weights) < equations.cost(options.objective, problem.poses, weights))
-    return *poses;
-  return problem.poses;
-}
 
 template <int D>
 bool allFinite(const std::vector<Rigid<D>>& poses) {
@@ -61,6 +45,7 @@ double cost(const Problem<D>& problem, const std::vector<Rigid<D>>& poses, Objec
 
 template <int D>
 Solution<D> solve(const Problem<D>& problem, const SolveOptions& options, const std::vector<double>& weights) {
+  if (auto condensed = solveCondensed(problem, options, weights)) return *std::move(condensed);
   NormalEquations<D> equations(problem);
   BlockCholesky<tangent_size<D>> cholesky(equations.symbolic());
   Solution<D> made;

@@ -3,6 +3,8 @@
 
 #include <cstdlib>
 
+#include "manifold/rotation.hpp"
+
 namespace pose_graph {
 
 namespace {
@@ -52,6 +54,7 @@ std::vector<Rigid<D>> posesAlongEdges(const Problem<D>& problem, const std::vect
       const int other = edge.from == pose ? edge.to : edge.from;
       if (reached[sz(other)]) continue;
       poses[sz(other)] = edge.from == pose ? poses[sz(pose)] * edge.Z : poses[sz(pose)] * edge.Z.inverse();
+      poses[sz(other)].R = renormalised<D>(poses[sz(other)].R);
       reached[sz(other)] = 1;
       chain.push_back(other);
     }

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "condense/solve_condensed.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "condense/condensed.hpp"
+#include "solve/minimise.hpp"
+#include "start/along_edges.hpp"
+#include "start/first_guess.hpp"
+
+namespace pose_graph {
+
+namespace {
+
+std::size_t sz(int i) { return static_cast<std::size_t>(i); }
+
+// Below this share of poses on chains the elimination order takes care of them as well (bench/size).
+constexpr double kLeastShare = 0.5;
+constexpr int kRounds = 30;
+// What the ends of chains may be off, in weighted squares, as a share of the cost: its root is the share by which the cost
+// may then be wrong.
+constexpr double kClosed = 1e-12;
+// A change of the cost, as a share of it, that ends the rounds; and a cost, in squares of standard deviations, that is none.
+constexpr double kSettled = 1e-9, kNothing = 1e-9;
+
+template <int D>
+std::vector<Rigid<D>> placesOf(const Chains& chains, const std::vector<Rigid<D>>& poses) {
+  std::vector<Rigid<D>> made;
+  made.reserve(chains.core.size());
+  for (const int pose : chains.core) made.push_back(poses[sz(pose)]);
+  return made;
+}
+
+/// Each component as a whole to where its first pose was given.
+template <int D>
+void moveToFirst(const Problem<D>& problem, const Unknowns& unknowns, std::vector<Rigid<D>>& poses) {
+  std::vector<Rigid<D>> T_given_made(sz(unknowns.components));
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    if (unknowns.of_pose[i] < 0) T_given_made[sz(unknowns.component[i])] = problem.poses[i] * poses[i].inverse();
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (unknowns.of_pose[i] < 0) poses[i] = problem.poses[i];
+    else poses[i] = T_given_made[sz(unknowns.component[i])] * poses[i];
+  }
+}
+
+}  // namespace
+
+template <int D>
+std::optional<Solution<D>> solveCondensed(const Problem<D>& problem, const SolveOptions& options,
+                                          const std::vector<double>& weights) {
+  if (options.objective != Objective::Geodesic || options.start == Start::Identity) return std::nullopt;
+  Condensed<D> condensed(problem, weights);
+  const Chains& chains = condensed.chains();
+  if (static_cast<double>(chains.core.size()) > (1.0 - kLeastShare) * static_cast<double>(problem.poses.size()))
+    return std::nullopt;
+
+  Solution<D> made;
+  const Unknowns unknowns = unknownsOf(problem);
+  made.components = unknowns.components;
+  made.cost_before = cost(problem, problem.poses, options.objective, weights);
+  std::vector<double> core_weights;
+  if (!weights.empty()) {
+    for (const int e : chains.core_edges) core_weights.push_back(weights[sz(e)]);
+    core_weights.resize(core_weights.size() + chains.size(), 1.0);
+  }
+  double chain_cost = condensed.relinearise();
+  Problem<D> core = condensed.core(options.start == Start::Odometry ? posesAlongEdges(problem) : problem.poses);
+  NormalEquations<D> equations(core);
+  BlockCholesky<tangent_size<D>> cholesky(equations.symbolic());
+  std::vector<Rigid<D>> poses = firstGuess(equations, core, options, core_weights);
+  made.cost_start = chain_cost + equations.cost(options.objective, poses, core_weights);
+  // A chain as odometry laid it costs nothing in itself, so that the given poses have to be good to be worth more.
+  if (options.start != Start::Odometry && made.cost_before <= made.cost_start) {
+    condensed.layBy(problem.poses);
+    chain_cost = condensed.relinearise();
+    poses = placesOf(chains, problem.poses);
+    made.cost_start = made.cost_before;
+    condensed.renew(core);
+    equations.renew(core, chains.core_edges.size());
+  }
+  double last_cost = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < kRounds; ++round) {
+    const Descent descent = minimise(equations, cholesky, options, core_weights, poses);
+    condensed.expand(poses);
+    made.iterations.insert(made.iterations.end(), descent.iterations.begin(), descent.iterations.end());
+    chain_cost = condensed.relinearise();
+    const double open = condensed.mismatch(poses);
+    if (!std::isfinite(chain_cost) || !std::isfinite(open)) return std::nullopt;
+    const bool over = descent.ending == Ending::Stopped || descent.ending == Ending::Stuck;
+    const bool closed = open <= kClosed * descent.cost || descent.cost + open <= kNothing;
+    const bool settled = std::abs(descent.cost - last_cost) <= kSettled * descent.cost || descent.cost <= kNothing;
+    last_cost = descent.cost;
+    if (!over && !(closed && settled)) {
+      condensed.renew(core);
+      equations.renew(core, chains.core_edges.size());
+      continue;
+    }
+    made.ending = descent.ending;
+    made.poses = condensed.assemble(poses);
+    moveToFirst(problem, unknowns, made.poses);
+    made.cost = cost(problem, made.poses, options.objective, weights);
+    if (!(made.cost <= made.cost_start * (1.0 + kSettled) + kNothing)) return std::nullopt;
+    return made;
+  }
+  return std::nullopt;
+}
+
+template std::optional<Solution<2>> solveCondensed<2>(const Problem<2>&, const SolveOptions&,
+                                                      const std::vector<double>&);
+template std::optional<Solution<3>> solveCondensed<3>(const Problem<3>&, const SolveOptions&,
+                                                      const std::vector<double>&);
+
+}  // namespace pose_graph
