@@ -23,7 +23,9 @@ constexpr int kRounds = 30;
 // may then be wrong.
 constexpr double kClosed = 1e-12;
 // A change of the cost, as a share of it, that ends the rounds; and a cost, in squares of standard deviations, that is none.
-constexpr double kSettled = 1e-9, kNothing = 1e-9;
+constexpr double kSettled = 1e-12, kNothing = 1e-9;
+// By how much round-off may make the end seem worse than the begin.
+constexpr double kRoundOff = 1e-9;
 
 template <int D>
 std::vector<Rigid<D>> placesOf(const Chains& chains, const std::vector<Rigid<D>>& poses) {
@@ -101,7 +103,8 @@ std::optional<Solution<D>> solveCondensed(const Problem<D>& problem, const Solve
     made.poses = condensed.assemble(poses);
     moveToFirst(problem, unknowns, made.poses);
     made.cost = cost(problem, made.poses, options.objective, weights);
-    if (!(made.cost <= made.cost_start * (1.0 + kSettled) + kNothing)) return std::nullopt;
+    if (!made.iterations.empty()) made.iterations.back().cost = made.cost;
+    if (!(made.cost <= made.cost_start * (1.0 + kRoundOff) + kNothing)) return std::nullopt;
     return made;
   }
   return std::nullopt;
