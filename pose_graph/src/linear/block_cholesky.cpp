@@ -30,7 +30,18 @@ BlockCholesky<B>::BlockCholesky(const Symbolic& symbolic) : symbolic_(&symbolic)
     next_sibling_[sz(s)] = first_child_[sz(parent)];
     first_child_[sz(parent)] = s;
   }
+  // In postorder the children's complements are the last ones: their parent's takes their place.
   update_.assign(sz(n), 0);
+  std::size_t end = 0, most = 0;
+  for (int s = 0; s < n; ++s) {
+    for (int child = first_child_[sz(s)]; child >= 0; child = next_sibling_[sz(child)])
+      end = std::min(end, update_[sz(child)]);
+    update_[sz(s)] = end;
+    const std::size_t side = sz(B * symbolic.rowsBelow(s));
+    end += side * (side + 1) / 2;
+    most = std::max(most, end);
+  }
+  pending_.resize(most);
   local_.assign(symbolic.node.size(), 0);
 }
 
@@ -57,22 +68,26 @@ void BlockCholesky<B>::assemble(int s, const BlockMatrix<B>& A, const BlockPatte
 }
 
 template <int B>
-void BlockCholesky<B>::addChild(int child, int s) {
+void BlockCholesky<B>::addChild(int child) {
   const Symbolic& shape = *symbolic_;
-  const int rows = shape.rowsBelow(child), stride = rows * B;
-  const double* update = pending_.data() + update_[sz(child)];
-  child_local_.resize(sz(rows));
-  for (int r = 0; r < rows; ++r) child_local_[sz(r)] = B * local_[sz(shape.rows[sz(shape.row_begin[sz(child)] + r)])];
-  (void)s;
-  for (int c = 0; c < rows; ++c) {
-    for (int j = 0; j < B; ++j) {
-      const double* source = update + sz(c * B + j) * sz(stride);
-      double* target = front_.column(child_local_[sz(c)] + j);
-      for (int r = c; r < rows; ++r) {
-        double* to = target + child_local_[sz(r)];
-        const double* from = source + r * B;
-        for (int i = 0; i < B; ++i) to[i] += from[i];
-      }
+  runs_.clear();
+  for (int r = shape.row_begin[sz(child)]; r < shape.row_begin[sz(child) + 1]; ++r) {
+    const int row = B * local_[sz(shape.rows[sz(r)])];
+    if (!runs_.empty() && runs_.back().row + runs_.back().length == row) runs_.back().length += B;
+    else runs_.push_back({row, B});
+  }
+  const double* source = pending_.data() + update_[sz(child)];
+  const auto add = [&source](double* target, int length) {
+    Eigen::Map<Eigen::VectorXd>(target, length) += Eigen::Map<const Eigen::VectorXd>(source, length);
+    source += length;
+  };
+  for (std::size_t run = 0; run < runs_.size(); ++run) {
+    const int end = runs_[run].row + runs_[run].length;
+    for (int j = runs_[run].row; j < end; ++j) {
+      double* column = front_.column(j);
+      add(column + j, end - j);
+      for (std::size_t below = run + 1; below < runs_.size(); ++below)
+        add(column + runs_[below].row, runs_[below].length);
     }
   }
 }
@@ -80,76 +95,81 @@ void BlockCholesky<B>::addChild(int child, int s) {
 template <int B>
 bool BlockCholesky<B>::factor(const BlockMatrix<B>& A, const BlockPattern& pattern) {
   const Symbolic& shape = *symbolic_;
-  pending_end_ = 0;
   for (int s = 0; s < shape.size(); ++s) {
     const int begin = shape.begin[sz(s)], columns = shape.columns(s), rows = shape.rowsBelow(s);
     for (int c = 0; c < columns; ++c) local_[sz(begin + c)] = c;
     for (int r = 0; r < rows; ++r) local_[sz(shape.rows[sz(shape.row_begin[sz(s)] + r)])] = columns + r;
     front_.reset(B * (columns + rows));
     assemble(s, A, pattern);
-    std::size_t free_from = pending_end_;
-    for (int child = first_child_[sz(s)]; child >= 0; child = next_sibling_[sz(child)]) {
-      addChild(child, s);
-      free_from = std::min(free_from, update_[sz(child)]);
-    }
-    pending_end_ = free_from;  // in postorder the children's complements are the last ones
+    for (int child = first_child_[sz(s)]; child >= 0; child = next_sibling_[sz(child)]) addChild(child);
     if (!front_.eliminate(B * columns)) return false;
 
     double* panel = panels_.data() + offset_[sz(s)];
-    const std::size_t height = sz(B * (columns + rows));
-    for (int j = 0; j < B * columns; ++j)
-      std::memcpy(panel + sz(j) * height, front_.column(j), height * sizeof(double));
-    const std::size_t side = sz(B * rows);
-    update_[sz(s)] = pending_end_;
-    if (pending_.size() < pending_end_ + side * side) pending_.resize(pending_end_ + side * side);
-    double* update = pending_.data() + pending_end_;
-    for (std::size_t j = 0; j < side; ++j)
-      std::memcpy(update + j * side + j, front_.column(B * columns + static_cast<int>(j)) + sz(B * columns) + j,
-                  (side - j) * sizeof(double));
-    pending_end_ += side * side;
+    const int height = panelRows(s);
+    for (int j = 0; j < B * columns; ++j, panel += height)
+      std::memcpy(panel, front_.column(j), sz(height) * sizeof(double));
+    double* update = pending_.data() + update_[sz(s)];
+    for (int j = B * columns; j < height; update += height - j, ++j)
+      std::memcpy(update, front_.column(j) + j, sz(height - j) * sizeof(double));
   }
   return true;
 }
 
 template <int B>
-void BlockCholesky<B>::solve(double* x, int columns) const {
+void BlockCholesky<B>::forward(int s, double* x) const {
   const Symbolic& shape = *symbolic_;
-  const std::size_t length = sz(B) * shape.node.size();
-  for (int right = 0; right < columns; ++right, x += length) {
-    for (int s = 0; s < shape.size(); ++s) {
-      const int pivots = B * shape.columns(s), height = panelRows(s), rows = shape.rowsBelow(s);
-      const double* L = panel(s);
-      double* y = x + sz(B * shape.begin[sz(s)]);
-      gathered_.assign(sz(height - pivots), 0.0);
-      for (int j = 0; j < pivots; ++j) {
-        const double* column = L + sz(j) * sz(height);
-        const double value = y[j] /= column[j];
-        for (int i = j + 1; i < pivots; ++i) y[i] -= column[i] * value;
-        const double* below = column + pivots;
-        for (int i = 0; i < height - pivots; ++i) gathered_[sz(i)] += below[i] * value;
-      }
-      for (int r = 0; r < rows; ++r) {
-        double* target = x + sz(B * shape.rows[sz(shape.row_begin[sz(s)] + r)]);
-        for (int i = 0; i < B; ++i) target[i] -= gathered_[sz(r * B + i)];
-      }
-    }
-    for (int s = shape.size() - 1; s >= 0; --s) {
-      const int pivots = B * shape.columns(s), height = panelRows(s), rows = shape.rowsBelow(s);
-      const double* L = panel(s);
-      double* y = x + sz(B * shape.begin[sz(s)]);
-      gathered_.resize(sz(height - pivots));
-      for (int r = 0; r < rows; ++r)
-        std::memcpy(&gathered_[sz(r * B)], x + sz(B * shape.rows[sz(shape.row_begin[sz(s)] + r)]), B * sizeof(double));
-      for (int j = pivots - 1; j >= 0; --j) {
-        const double* column = L + sz(j) * sz(height);
-        double sum = y[j];
-        for (int i = j + 1; i < pivots; ++i) sum -= column[i] * y[i];
-        const double* below = column + pivots;
-        for (int i = 0; i < height - pivots; ++i) sum -= below[i] * gathered_[sz(i)];
-        y[j] = sum / column[j];
-      }
-    }
+  const int pivots = B * shape.columns(s), height = panelRows(s), rows = height - pivots;
+  const double* L = panel(s);
+  double* y = x + sz(B * shape.begin[sz(s)]);
+  const double* column = L;
+  for (int j = 0; j < pivots; ++j, column += height) {
+    y[j] /= column[j];
+    kernels_.subtract(y + j + 1, column + j + 1, y[j], pivots - j - 1);
   }
+  gathered_.assign(sz(rows), 0.0);
+  const double* below = L + pivots;
+  int j = 0;
+  for (; j + 3 <= pivots; j += 3, below += 3 * height)
+    kernels_.subtractThree(gathered_.data(), below, below + height, below + 2 * height, y + j, rows);
+  for (; j < pivots; ++j, below += height) kernels_.subtract(gathered_.data(), below, y[j], rows);
+  const double* change = gathered_.data();
+  for (int r = shape.row_begin[sz(s)]; r < shape.row_begin[sz(s) + 1]; ++r, change += B) {
+    double* target = x + sz(B * shape.rows[sz(r)]);
+    for (int i = 0; i < B; ++i) target[i] += change[i];
+  }
+}
+
+template <int B>
+void BlockCholesky<B>::backward(int s, double* x) const {
+  const Symbolic& shape = *symbolic_;
+  const int pivots = B * shape.columns(s), height = panelRows(s), rows = height - pivots;
+  const double* L = panel(s);
+  double* y = x + sz(B * shape.begin[sz(s)]);
+  gathered_.resize(sz(rows));
+  double* gathered = gathered_.data();
+  for (int r = shape.row_begin[sz(s)]; r < shape.row_begin[sz(s) + 1]; ++r, gathered += B)
+    std::memcpy(gathered, x + sz(B * shape.rows[sz(r)]), B * sizeof(double));
+  const double* below = L + pivots;
+  int j = 0;
+  for (; j + 6 <= pivots; j += 6, below += 6 * height) {
+    double products[6];
+    kernels_.dotSix(gathered_.data(), below, height, rows, products);
+    for (int k = 0; k < 6; ++k) y[j + k] -= products[k];
+  }
+  for (; j < pivots; ++j, below += height) y[j] -= kernels_.dot(gathered_.data(), below, rows);
+  for (j = pivots - 1; j >= 0; --j) {
+    const double* column = L + sz(j) * sz(height);
+    y[j] = (y[j] - kernels_.dot(column + j + 1, y + j + 1, pivots - j - 1)) / column[j];
+  }
+}
+
+template <int B>
+void BlockCholesky<B>::solve(double* x, int columns) const {
+  const std::size_t length = sz(B) * symbolic_->node.size();
+  for (int s = 0; s < symbolic_->size(); ++s)
+    for (int right = 0; right < columns; ++right) forward(s, x + sz(right) * length);
+  for (int s = symbolic_->size() - 1; s >= 0; --s)
+    for (int right = 0; right < columns; ++right) backward(s, x + sz(right) * length);
 }
 
 template class BlockCholesky<2>;

@@ -32,19 +32,26 @@ class BlockCholesky {
 
  private:
   void assemble(int s, const BlockMatrix<B>& A, const BlockPattern& pattern);
-  void addChild(int child, int s);
+  void addChild(int child);
+  void forward(int s, double* x) const;
+  void backward(int s, double* x) const;
 
   const Symbolic* symbolic_;
   std::vector<std::size_t> offset_;
   std::vector<double> panels_;
   std::vector<int> first_child_, next_sibling_;
   std::vector<std::size_t> update_;  // of each supernode, in pending_
-  std::vector<double> pending_;      // Schur complements not yet taken by their parents
-  std::size_t pending_end_ = 0;
-  std::vector<int> local_;  // of each place in the front at work
-  std::vector<int> child_local_;
+  std::vector<double> pending_;      // Schur complements not yet taken by their parents: lower triangles, by columns
+  std::vector<int> local_;           // of each place in the front at work
+
+  /// Rows of a child that follow one another in the front too.
+  struct Run {
+    int row, length;
+  };
+  std::vector<Run> runs_;
   Front front_;
   mutable std::vector<double> gathered_;
+  urban_nav_core::kernels::InstructionSet kernels_ = urban_nav_core::kernels::instructionSets().front();
 };
 
 extern template class BlockCholesky<2>;

@@ -23,9 +23,12 @@ void Front::reset(int size) {
   stride_ = (size + strip - 1) / strip * strip + strip;
   const std::size_t room = sz(stride_) * sz(stride_);
   if (data_.size() < room) data_.resize(room);
-  // The lower triangle alone is read: a tile that crosses the diagonal, or the end, computes numbers that nobody needs, so
-  // they must be finite: all of it is cleared.
-  std::memset(data_.data(), 0, room * sizeof(double));
+  // The lower triangle alone is read. A tile that crosses the diagonal, or the end, computes numbers that nobody needs;
+  // it begins up to seven rows above the diagonal.
+  for (int j = 0; j < stride_; ++j) {
+    const int first = std::max(0, j - strip + 1);
+    std::memset(column(j) + first, 0, sz(stride_ - first) * sizeof(double));
+  }
 }
 
 bool Front::eliminateDiagonal(int start, int width) {
