@@ -78,7 +78,11 @@ void BlockCholesky<B>::addChild(int child) {
   }
   const double* source = pending_.data() + update_[sz(child)];
   const auto add = [&source](double* target, int length) {
-    Eigen::Map<Eigen::VectorXd>(target, length) += Eigen::Map<const Eigen::VectorXd>(source, length);
+    if (length < 16) {  // of most runs, where preparing for long ones would take longer than adding
+      for (int i = 0; i < length; ++i) target[i] += source[i];
+    } else {
+      Eigen::Map<Eigen::VectorXd>(target, length) += Eigen::Map<const Eigen::VectorXd>(source, length);
+    }
     source += length;
   };
   for (std::size_t run = 0; run < runs_.size(); ++run) {

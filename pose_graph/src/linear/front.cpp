@@ -32,25 +32,18 @@ void Front::reset(int size) {
 }
 
 bool Front::eliminateDiagonal(int start, int width) {
-  lower_.assign(sz(width) * sz(width), 0.0);
-  inverse_.assign(sz(width), 0.0);
+  lower_.resize(sz(width) * sz(width));
+  inverse_.resize(sz(width));
   for (int j = 0; j < width; ++j) {
     double* a = column(start + j) + start;
-    double* row_j = lower_.data() + sz(j) * sz(width);
-    double pivot = a[j];
-    for (int k = 0; k < j; ++k) pivot -= row_j[k] * row_j[k];
-    if (!(pivot > 0.0) || !std::isfinite(pivot)) return false;
-    const double root = std::sqrt(pivot);
-    row_j[j] = root;
-    inverse_[sz(j)] = 1.0 / root;
-    a[j] = root;
+    if (!(a[j] > 0.0) || !std::isfinite(a[j])) return false;
+    a[j] = std::sqrt(a[j]);
+    inverse_[sz(j)] = 1.0 / a[j];
     for (int i = j + 1; i < width; ++i) {
-      double* row_i = lower_.data() + sz(i) * sz(width);
-      double sum = a[i];
-      for (int k = 0; k < j; ++k) sum -= row_i[k] * row_j[k];
-      row_i[j] = sum * inverse_[sz(j)];
-      a[i] = row_i[j];
+      a[i] *= inverse_[sz(j)];
+      lower_[sz(i) * sz(width) + sz(j)] = a[i];
     }
+    for (int k = j + 1; k < width; ++k) kernels_.subtract(column(start + k) + start + k, a + k, a[k], width - k);
   }
   return true;
 }
