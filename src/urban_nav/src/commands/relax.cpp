@@ -8,10 +8,13 @@
 #include "commands/commands.hpp"
 #include "pipeline/parameters.hpp"
 #include "pose_graph/graph_file.hpp"
+#include "pose_graph/relative_pcg.hpp"
 #include "pose_graph/solution.hpp"
 #include "report/plot.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/io/text_file.hpp"
+#include "urban_nav_core/io/toro.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_core/types/error.hpp"
 
@@ -35,6 +38,30 @@ Start startOf(const std::string& name) {
   if (name == "vertices") return Start::Vertices;
   if (name == "odometry") return Start::Odometry;
   return name == "identity" ? Start::Identity : Start::Auto;
+}
+
+/// TORO's files have no ending of their own; these are in use.
+bool endsLikeToro(const std::string& name) {
+  const auto ends = [&name](const std::string& ending) {
+    return name.size() >= ending.size() && name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
+  };
+  return ends(".toro") || ends(".graph");
+}
+
+/// The paper's relaxation, from where the default solver would have begun.
+template <int D>
+pose_graph::Solution<D> relaxAlongChain(pose_graph::Problem<D> problem, const pose_graph::SolveOptions& options) {
+  if (options.objective != Objective::Geodesic)
+    throw UserError("", "--solver relative_pcg with another objective", "--objective geodesic");
+  pose_graph::SolveOptions start_alone = options;
+  start_alone.iterations = 0;
+  start_alone.progress = {};
+  problem.poses = pose_graph::solve(problem, start_alone).poses;
+  pose_graph::RelativePcgOptions relative;
+  relative.iterations = options.iterations;
+  relative.tolerance = options.tolerance;
+  relative.progress = options.progress;
+  return pose_graph::relaxRelative(problem, relative);
 }
 
 /// All three costs of some poses: the one that is minimised has a mark.
@@ -104,7 +131,9 @@ Told relaxFile(const G2oGraph& graph, const std::string& name, const Arguments& 
     return true;
   };
   const auto begin = Clock::now();
-  const pose_graph::Solution<D> solution = pose_graph::solve(file.problem, options);
+  const bool along_chain = arguments.get("solver", "gauss_newton") == "relative_pcg";
+  const pose_graph::Solution<D> solution =
+      along_chain ? relaxAlongChain(file.problem, options) : pose_graph::solve(file.problem, options);
   Told told;
   told.ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
   told.poses = file.problem.poses.size();
@@ -123,7 +152,10 @@ Told relaxFile(const G2oGraph& graph, const std::string& name, const Arguments& 
       text += std::to_string(edge.from) + "," + std::to_string(edge.to) + ",1,accepted\n";
     urban_nav_core::writeAtomically(arguments.get("edges"), text);
   }
-  urban_nav_core::writeG2o(arguments.get("output"), pose_graph::withPoses<D>(graph, file, solution.poses));
+  const std::string output = arguments.get("output");
+  const G2oGraph relaxed = pose_graph::withPoses<D>(graph, file, solution.poses);
+  if (endsLikeToro(output)) urban_nav_core::writeToro(output, relaxed);
+  else urban_nav_core::writeG2o(output, relaxed);
   return told;
 }
 
@@ -131,7 +163,9 @@ int run(const Arguments& arguments, Console& console) {
   checkCommonOptions(arguments);
   const urban_nav_core::ThreadLimit threads(static_cast<int>(arguments.integer("threads", 0, 1, 1024)));
   const std::string name = arguments.get("IN");
-  const G2oGraph graph = urban_nav_core::readG2o(name);
+  const std::string text = urban_nav_core::readTextFile(name);
+  const G2oGraph graph =
+      urban_nav_core::isToro(text) ? urban_nav_core::parseToro(text, name) : urban_nav_core::parseG2o(text, name);
   const Told told = graph.dimension == 2 ? relaxFile<2>(graph, name, arguments, console)
                                          : relaxFile<3>(graph, name, arguments, console);
   console.print(textOf(told));
@@ -144,16 +178,33 @@ int run(const Arguments& arguments, Console& console) {
 Command relaxCommand() {
   Command command;
   command.name = "relax";
-  command.summary = "Optimises a pose graph: a g2o file in, the same graph with relaxed poses out.";
+  command.summary = "Optimises a pose graph: a g2o or TORO file in, the same graph with relaxed poses out.";
   command.options = {
-      {"IN", "", "g2o file: VERTEX_SE2, VERTEX_SE3:QUAT, EDGE_SE2, EDGE_SE3:QUAT", true, false, {}},
-      {"-o,--output", "OUT", "g2o file to write: every vertex, and the edges of IN", true, false, {}},
+      {"IN",
+       "",
+       "g2o file (VERTEX_SE2, VERTEX_SE3:QUAT, EDGE_SE2, EDGE_SE3:QUAT) or TORO file (VERTEX2, VERTEX3, EDGE2, EDGE3)",
+       true,
+       false,
+       {}},
+      {"-o,--output",
+       "OUT",
+       "file to write: every vertex, and the edges of IN; in TORO's format if it ends in .toro or .graph, else in g2o's",
+       true,
+       false,
+       {}},
       {"--objective",
        "NAME",
        "what is minimised (default geodesic); definitions in pose_graph/README.md",
        false,
        false,
        {"geodesic", "chordal", "g2o"}},
+      {"--solver",
+       "NAME",
+       "gauss_newton (default): sparse, over the poses; relative_pcg: conjugate gradients on the transforms along the "
+       "chain (Newman et al. 2009, section 5), slow, for graphs whose consecutive poses are all joined",
+       false,
+       false,
+       {"gauss_newton", "relative_pcg"}},
       {"--start",
        "NAME",
        "first guess (default auto: the vertices, or rotations found without any guess, whichever cost less)",

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "command_line/command.hpp"
+#include "commands/commands.hpp"
+#include "support/folders.hpp"
+#include "urban_nav_core/io/atomic_file.hpp"
+#include "urban_nav_core/io/text_file.hpp"
+#include "urban_nav_core/io/toro.hpp"
+
+namespace urban_nav {
+namespace {
+
+using urban_nav_core::G2oGraph;
+using urban_nav_core::Pose;
+using urban_nav_core::readTextFile;
+using urban_nav_core::writeAtomically;
+
+class Relax : public ::testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return folder_.file(name); }
+  int relax(std::vector<std::string> words) const {
+    words.insert(words.begin(), {"urban_nav", "relax"});
+    std::vector<const char*> argv;
+    for (const std::string& word : words) argv.push_back(word.c_str());
+    return runCommandLine({relaxCommand()}, static_cast<int>(argv.size()), argv.data());
+  }
+  G2oGraph read(const std::string& name) const {
+    const std::string text = readTextFile(path(name));
+    return urban_nav_core::isToro(text) ? urban_nav_core::parseToro(text, name) : urban_nav_core::parseG2o(text, name);
+  }
+
+ private:
+  const testing::TemporaryFolder folder_;
+};
+
+// A square whose odometry turns too little, and a closure that says so.
+const char* const kSquare =
+    "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 1.5\nVERTEX_SE2 2 1 1 3\nVERTEX_SE2 3 0 1 -1.7\nVERTEX_SE2 4 0.1 0.1 0.1\n"
+    "EDGE_SE2 0 1 1 0 1.5 100 0 0 100 0 400\nEDGE_SE2 1 2 1 0 1.5 100 0 0 100 0 400\n"
+    "EDGE_SE2 2 3 1 0 1.5 100 0 0 100 0 400\nEDGE_SE2 3 4 1 0 1.5 100 0 0 100 0 400\n"
+    "EDGE_SE2 4 0 0 0 0 100 0 0 100 0 400\n";
+
+void expectSamePoses(const G2oGraph& a, const G2oGraph& b, double tolerance) {
+  ASSERT_EQ(a.vertices.size(), b.vertices.size());
+  for (std::size_t i = 0; i < a.vertices.size(); ++i)
+    EXPECT_TRUE(isApprox(a.pose(a.vertices[i]), b.pose(b.vertices[i]), tolerance)) << i;
+}
+
+TEST_F(Relax, ThePapersSolverEndsWhereTheDefaultOneDoes) {
+  writeAtomically(path("in.g2o"), kSquare);
+  ASSERT_EQ(relax({path("in.g2o"), "-o", path("a.g2o"), "--robust", "off"}), 0);
+  ASSERT_EQ(relax({path("in.g2o"), "-o", path("b.g2o"), "--robust", "off", "--solver", "relative_pcg"}), 0);
+  const G2oGraph a = read("a.g2o");
+  expectSamePoses(a, read("b.g2o"), 1e-4);
+  EXPECT_FALSE(isApprox(a.pose(a.vertices[4]), read("in.g2o").pose(a.vertices[4]).inverse(), 0.01)) << "it moved";
+  EXPECT_EQ(relax({path("in.g2o"), "-o", path("c.g2o"), "--solver", "relative_pcg", "--objective", "g2o"}), 2);
+  EXPECT_FALSE(std::filesystem::exists(path("c.g2o")));
+}
+
+TEST_F(Relax, ToroGoesInAndOut) {
+  writeAtomically(path("in.g2o"), kSquare);
+  urban_nav_core::writeToro(path("in.graph"), read("in.g2o"));
+  ASSERT_EQ(relax({path("in.g2o"), "-o", path("a.g2o")}), 0);
+  ASSERT_EQ(relax({path("in.graph"), "-o", path("b.toro")}), 0);
+  EXPECT_EQ(readTextFile(path("b.toro")).substr(0, 8), "VERTEX2 ");
+  expectSamePoses(read("a.g2o"), read("b.toro"), 1e-12);
+  ASSERT_EQ(relax({path("in.graph"), "-o", path("c.g2o")}), 0);
+  EXPECT_EQ(readTextFile(path("c.g2o")), readTextFile(path("a.g2o")));
+}
+
+TEST_F(Relax, ABrokenChainIsNamed) {
+  std::string text = kSquare;
+  text.erase(text.find("EDGE_SE2 2 3"), text.find("EDGE_SE2 3 4") - text.find("EDGE_SE2 2 3"));
+  writeAtomically(path("in.g2o"), text);
+  EXPECT_EQ(relax({path("in.g2o"), "-o", path("a.g2o"), "--solver", "relative_pcg"}), 2);
+  EXPECT_EQ(relax({path("in.g2o"), "-o", path("a.g2o")}), 0);
+}
+
+}  // namespace
+}  // namespace urban_nav
