@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "blocks/sha256.hpp"
+#include "urban_nav_store/digest.hpp"
 #include "dump_tables.hpp"
 #include "schema/row.hpp"
 #include "store_implementation.hpp"

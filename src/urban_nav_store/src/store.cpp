@@ -40,6 +40,7 @@ void make(const std::string& path) {
   ::unlink(partial.path().c_str());  // of a process that was killed here
   removeBeside(partial.path());
   Connection connection(partial.path(), Connection::Mode::Create, path);
+  connection.execute("PRAGMA auto_vacuum=INCREMENTAL");  // before there are tables, or never
   schema::create(connection);
   connection.execute("PRAGMA journal_mode=WAL");
   connection.close();
@@ -111,6 +112,12 @@ void Store::Implementation::rollback() {
   connection.rollback();
 }
 
+void Store::Implementation::shrink() {
+  commit();
+  Statement statement = connection.prepare("PRAGMA incremental_vacuum");
+  while (statement.step()) continue;  // a page each time
+}
+
 void Store::Implementation::close() {
   scans.forget();
   inputs.forget();
@@ -132,6 +139,7 @@ InputOrder& Store::inputs() { return implementation_->inputs; }
 StageStates& Store::states() { return implementation_->states; }
 void Store::commit() { implementation_->commit(); }
 void Store::rollback() { implementation_->rollback(); }
+void Store::shrink() { implementation_->shrink(); }
 void Store::close() { implementation_->close(); }
 
 bool isStore(const std::string& path) {

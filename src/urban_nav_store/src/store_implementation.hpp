@@ -21,6 +21,7 @@ class Store::Implementation {
   void close();
   void commit();
   void rollback();
+  void shrink();
   /// Writes what tables have in memory, and makes them forget it.
   void settle();
 

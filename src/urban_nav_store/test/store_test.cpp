@@ -184,6 +184,24 @@ TEST(Store, isRemovedWithAllThatBelongsToIt) {
   EXPECT_TRUE(store.sessions().all().empty());
 }
 
+TEST(Store, givesRoomBack) {
+  const Folder folder;
+  const std::string path = folder.file("s.db");
+  std::string kept;
+  {
+    Store store(path, Access::Write);
+    const SessionId id = fill(store, 1, 10);
+    kept = dump(store);
+    store.states().put(id, "large", Drawn(1).bytes(3'000'000));
+    store.commit();
+    store.states().remove(id, "large");
+    store.shrink();
+  }
+  EXPECT_LT(std::filesystem::file_size(path), 300'000U);
+  Store store(path, Access::Read);
+  EXPECT_TRUE(dump(store) == kept);
+}
+
 TEST(Store, aLinkStaysALink) {
   const Folder folder;
   std::filesystem::create_symlink("real.db", folder.file("link.db"));

@@ -8,8 +8,10 @@ namespace urban_nav {
 /// The subcommands of CONTRACT.md, each in a file of its name.
 Command convertCommand();
 Command evaluateCommand();
+Command exportCommand();
 Command infoCommand();
 Command mapCommand();
+Command mergeCommand();
 Command relaxCommand();
 Command simulateCommand();
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <filesystem>
 
 #include "command_line/console.hpp"
 #include "command_line/json.hpp"
@@ -7,9 +8,12 @@
 #include "pipeline/bag_info.hpp"
 #include "pipeline/parameters.hpp"
 #include "report/plot.hpp"
+#include "store/store_info.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 
 namespace urban_nav {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -66,6 +70,12 @@ int run(const Arguments& arguments, Console& console) {
   checkCommonOptions(arguments);
   Json all = Json::array();
   for (const std::string& input : arguments.all("INPUT")) {
+    if (urban_nav_store::isStore(input) || fs::path(input).extension() == ".db") {
+      const StoreInfo info = lookIntoStore(input);
+      console.print(textOf(info));
+      all.append(jsonOf(info));
+      continue;
+    }
     const InputInfo info = lookInto(input);
     console.print(textOf(info));
     all.append(jsonOf(info));
@@ -79,10 +89,13 @@ int run(const Arguments& arguments, Console& console) {
 Command infoCommand() {
   Command command;
   command.name = "info";
-  command.summary = "Says what is in a bag or folder: topics, rates, gaps, distance.";
-  command.options = {
-      {"INPUT", "", "bags or folders", true, true, {}}, jsonOption(), configOption(), setOption(), threadsOption()};
-  command.examples = {"urban_nav info robot.bag"};
+  command.summary = "Says what is in a bag, folder or session store: sessions, topics, rates, gaps, distance.";
+  command.options = {{"INPUT", "", "bags, folders or session stores", true, true, {}},
+                     jsonOption(),
+                     configOption(),
+                     setOption(),
+                     threadsOption()};
+  command.examples = {"urban_nav info robot.bag out/session.db"};
   command.more_help = commonHelp;
   command.run = run;
   return command;

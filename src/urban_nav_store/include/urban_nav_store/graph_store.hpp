@@ -20,6 +20,8 @@ struct Node {
   urban_nav_core::Pose T_odom_base;
   /// Of the motion since the node before (convention of UncertainPose, parent: that node); zero in the first node.
   urban_nav_core::Matrix6d covariance = urban_nav_core::Matrix6d::Zero();
+  /// The part of it that is independent of the steps before and after, and so adds up over a way of many steps.
+  urban_nav_core::Matrix6d drift_covariance = urban_nav_core::Matrix6d::Zero();
   urban_nav_core::Health status = urban_nav_core::Health::Ok;
 };
 

@@ -18,8 +18,8 @@ using SessionId = std::string;
 struct SessionOrigin {
   std::string robot;      ///< its name; may be empty
   std::string recording;  ///< live: the name of the recording; offline: may be empty, the inputs say it
-  urban_nav_core::StampNs start = 0;
-  std::string inputs;  ///< offline: a digest of the recording; live: empty
+  urban_nav_core::StampNs start = 0;  ///< live: of the session; offline: may be 0
+  std::string inputs;                 ///< offline: a digest of the recording; live: empty
 };
 
 /// The first 80 bits of SHA-256 (FIPS 180-4) of the origin. Nothing random: the computers of one robot agree on the id of a

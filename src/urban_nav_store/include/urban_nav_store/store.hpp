@@ -51,6 +51,8 @@ class Store {
   void commit();
   /// Takes back what was not committed.
   void rollback();
+  /// Gives the room that removed rows have left back to the disk. Commits.
+  void shrink();
   /// Rolls back what was not committed and closes the file. The destructor does the same.
   void close();
 

@@ -5,7 +5,7 @@
 
 #include <new>
 
-#include "blocks/bytes.hpp"
+#include "urban_nav_store/bytes.hpp"
 
 namespace urban_nav_store {
 

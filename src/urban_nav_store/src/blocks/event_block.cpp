@@ -3,8 +3,8 @@
 
 #include <map>
 
-#include "blocks/bytes.hpp"
 #include "blocks/deflate.hpp"
+#include "urban_nav_store/bytes.hpp"
 
 namespace urban_nav_store {
 

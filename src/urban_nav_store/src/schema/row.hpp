@@ -103,7 +103,8 @@ void writeRow(RowWriter& writer, const Row& row);
 /// "session=3f..., stamp_ns=12": the key of a row, for errors.
 std::string printKey(const Table& table, const Row& row);
 
-/// A symmetric matrix as 36 numbers, row by row, little-endian, and back; empty for any other number of bytes and for what is not finite.
+/// A matrix as little-endian numbers, row by row: the 21 of the upper triangle where it is symmetric to the last bit, else 36. Back: false
+/// for any other number of bytes and for what is not finite.
 std::string bytesOf(const urban_nav_core::Matrix6d& matrix);
 bool matrixOf(std::string_view bytes, urban_nav_core::Matrix6d& matrix);
 

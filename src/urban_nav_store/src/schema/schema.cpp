@@ -124,7 +124,8 @@ const Table& node() {
                             {"qz", R},
                             {"qw", R},
                             {"status", T},
-                            {"covariance", B}}};
+                            {"covariance", B},
+                            {"drift", B}}};
   return table;
 }
 const Table& relaxed() {

@@ -34,6 +34,7 @@ Node readNode(RowReader& reader) {
   if (!status) reader.damaged("a status is no such word");
   node.status = *status;
   if (!matrixOf(reader.blob(), node.covariance)) reader.damaged("a covariance is no matrix");
+  if (!matrixOf(reader.blob(), node.drift_covariance)) reader.damaged("a covariance is no matrix");
   return node;
 }
 
@@ -103,13 +104,15 @@ bool operator==(const NodeRef& a, const NodeRef& b) { return a.session == b.sess
 void Graph::put(const SessionId& session, const Node& node) {
   refuseNotFinite(connection_, nameOf(session, node.stamp), node.T_odom_base);
   refuseNotFinite(connection_, nameOf(session, node.stamp), node.covariance);
-  const std::string covariance = bytesOf(node.covariance);
+  refuseNotFinite(connection_, nameOf(session, node.stamp), node.drift_covariance);
+  const std::string covariance = bytesOf(node.covariance), drift = bytesOf(node.drift_covariance);
   RowWriter(connection_, putSql(schema::node()))
       .text(session)
       .integer(node.stamp)
       .pose(node.T_odom_base)
       .text(toString(node.status))
       .blob(covariance)
+      .blob(drift)
       .write();
 }
 

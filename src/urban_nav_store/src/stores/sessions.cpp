@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
-#include "blocks/bytes.hpp"
-#include "blocks/sha256.hpp"
 #include "schema/row.hpp"
 #include "stores/checks.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_store/bytes.hpp"
+#include "urban_nav_store/digest.hpp"
 
 namespace urban_nav_store {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "blocks/bytes.hpp"
+#include "urban_nav_store/bytes.hpp"
 
 #include <gtest/gtest.h>
 

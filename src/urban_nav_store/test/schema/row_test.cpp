@@ -25,13 +25,14 @@ class Rows : public ::testing::Test {
     connection.commit();
   }
   void put(const std::string& session, int stamp, Drawn& drawn) {
-    const std::string covariance = bytesOf(drawn.matrix());
+    const std::string covariance = bytesOf(drawn.matrix()), drift = bytesOf(drawn.matrix());
     RowWriter(connection, putSql(schema::node()))
         .text(session)
         .integer(stamp)
         .pose(drawn.pose())
         .text("OK")
         .blob(covariance)
+        .blob(drift)
         .write();
   }
   void readAll(const std::string& session) {
@@ -106,6 +107,15 @@ TEST(MatrixBytes, roundTripAndRefusal) {
   urban_nav_core::Matrix6d back;
   ASSERT_TRUE(matrixOf(bytesOf(matrix), back));
   EXPECT_EQ(back, matrix);
+  urban_nav_core::Matrix6d symmetric = matrix;  // not, as yet
+  symmetric(4, 1) = symmetric(1, 4) + 1.0;
+  ASSERT_TRUE(matrixOf(bytesOf(symmetric), back));
+  EXPECT_EQ(back, symmetric);
+  EXPECT_EQ(bytesOf(symmetric).size(), 288U);
+  symmetric = (matrix + matrix.transpose()).eval();
+  ASSERT_TRUE(matrixOf(bytesOf(symmetric), back));
+  EXPECT_EQ(back, symmetric);
+  EXPECT_EQ(bytesOf(symmetric).size(), 168U);
   EXPECT_FALSE(matrixOf(bytesOf(matrix).substr(1), back));
   urban_nav_core::Matrix6d bad = matrix;
   bad(2, 3) = std::numeric_limits<double>::infinity();

@@ -42,6 +42,7 @@ TEST_F(GraphRows, nodesComeBackBitByBitInOrder) {
     EXPECT_EQ(node.stamp, written.stamp);
     EXPECT_TRUE(sameBits(node.T_odom_base, written.T_odom_base));
     EXPECT_EQ(node.covariance, written.covariance);
+    EXPECT_EQ(node.drift_covariance, written.drift_covariance);
     EXPECT_EQ(node.status, written.status);
   });
   EXPECT_EQ(next, 0U);

@@ -30,7 +30,8 @@ Matrix6d Drawn::matrix() {
 }
 
 Node Drawn::node(StampNs stamp) {
-  return {stamp, pose(), matrix(), random_() % 3 == 0 ? urban_nav_core::Health::Lost : urban_nav_core::Health::Ok};
+  return {stamp, pose(), matrix(), matrix(),
+          random_() % 3 == 0 ? urban_nav_core::Health::Lost : urban_nav_core::Health::Ok};
 }
 
 RelaxedPose Drawn::relaxed(StampNs stamp) { return {stamp, pose(), static_cast<std::int64_t>(random_() % 100)}; }

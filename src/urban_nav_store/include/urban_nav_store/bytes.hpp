@@ -7,7 +7,7 @@
 
 namespace urban_nav_store {
 
-/// Numbers as bytes, little-endian on every machine.
+/// Numbers as bytes, little-endian on every machine: for blocks of the store and for the states of stages.
 void appendInteger(std::string& bytes, std::uint64_t value);
 void appendInteger32(std::string& bytes, std::uint32_t value);
 void appendNumber(std::string& bytes, double value);

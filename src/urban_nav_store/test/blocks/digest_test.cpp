@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "blocks/sha256.hpp"
+#include "urban_nav_store/digest.hpp"
 
 #include <gtest/gtest.h>
 
