@@ -6,6 +6,7 @@
 
 #include "pipeline/map_outcome.hpp"
 #include "pipeline/sessions.hpp"
+#include "pipeline/store_stage.hpp"
 #include "pipeline/usage.hpp"
 #include "pipeline/vo_files.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -65,8 +66,8 @@ void say(const SourceInfo& info, Console& console) {
   for (const std::string& note : info.notes) console.info("  " + note);
 }
 
-/// Frames of one session through visual odometry, with the report kept fresh.
-void runVo(Source& source, VoStage& stage, MapOutcome& outcome, Console& console) {
+/// Frames of one session through visual odometry, with the store and the report kept fresh.
+void runVo(Source& source, VoStage& stage, StoreStage& store, MapOutcome& outcome, Console& console) {
   Progress progress(console, "vo", "frames", source.info().frames);
   std::size_t faults_said = 0;
   double last_report = outcome.usage.wallSeconds();
@@ -76,6 +77,7 @@ void runVo(Source& source, VoStage& stage, MapOutcome& outcome, Console& console
       console.warn(stage.run().faults[faults_said]);
     const auto done = static_cast<std::int64_t>(stage.run().rows.size());
     progress.update(done);
+    store.keepUp(stage.run());
     if (!outcome.request.so_far && outcome.usage.wallSeconds() - last_report > kSecondsBetweenReports) {
       outcome.progress =
           source.info().frames > 0 ? static_cast<double>(done) / static_cast<double>(source.info().frames) : 0.0;
@@ -84,6 +86,7 @@ void runVo(Source& source, VoStage& stage, MapOutcome& outcome, Console& console
     }
   }
   stage.finish(source.closingFaults());
+  store.finish(stage.run());
   for (const std::string& fault : source.closingFaults()) console.warn(fault);
   progress.finish(static_cast<std::int64_t>(stage.run().rows.size()));
 }
@@ -116,16 +119,20 @@ void runMap(const MapRequest& request, Console& console) {
   if (request.stages.empty()) console.info("stages: " + joined(existingStages()) + "; left out: " + leftOut());
   const std::vector<Session> sessions = findSessions(request.inputs);
   MapOutcome outcome(request);
+  StoreStage store(request, sessions, outcome.folder.file("session.db"), console);
   for (std::size_t i = 0; i < sessions.size(); ++i) {
     const std::unique_ptr<Source> source = open(sessions[i].paths, request);
     say(source->info(), console);
-    outcome.stages.push_back(std::make_unique<VoStage>(request.parameters.swf_vo.parameters, source->info()));
+    std::optional<VoRun> finished = store.begin(i, source->info());
+    outcome.stages.push_back(finished
+                                 ? std::make_unique<VoStage>(std::move(*finished))
+                                 : std::make_unique<VoStage>(request.parameters.swf_vo.parameters, source->info()));
     outcome.infos.push_back(source->info());
     if (i == 0 && !request.so_far) {
       writeReport(outcome);
       console.info("report: " + outcome.folder.file("report.html") + " (open it now; it grows as the run goes on)");
     }
-    runVo(*source, *outcome.stages.back(), outcome, console);
+    if (!finished) runVo(*source, *outcome.stages.back(), store, outcome, console);
     checkUsable(outcome.stages.back()->run());
     writeVoFiles(outcome.folder, outcome.stages.back()->run(), i == 0 ? "" : "_" + std::to_string(i + 1));
   }
@@ -133,6 +140,7 @@ void runMap(const MapRequest& request, Console& console) {
     removeVoFiles(outcome.folder, "_" + std::to_string(i));
   }
   finishMap(outcome, sessions, console);
+  store.end();
 }
 
 }  // namespace urban_nav

@@ -61,18 +61,21 @@ class VoStage::PictureKeeper {
 };
 
 VoStage::VoStage(const swf_vo::Parameters& parameters, const SourceInfo& info)
-    : filter_(parameters, info.camera, info.T_base_camera), pictures_(std::make_unique<PictureKeeper>()) {
+    : filter_(std::in_place, parameters, info.camera, info.T_base_camera),
+      pictures_(std::make_unique<PictureKeeper>()) {
   run_.input = info.name;
   run_.camera = info.camera;
   run_.T_base_camera = info.T_base_camera;
 }
+
+VoStage::VoStage(VoRun finished) : run_(std::move(finished)), pictures_(std::make_unique<PictureKeeper>()) {}
 
 VoStage::~VoStage() = default;
 
 const VoRow& VoStage::process(const StereoInput& input) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
-  const Frame& frame = filter_.process(input.assembled.pair, input.assembled.inputs);
+  const Frame& frame = filter_->process(input.assembled.pair, input.assembled.inputs);
   const double ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 
   VoRow row;
@@ -103,7 +106,7 @@ const VoRow& VoStage::process(const StereoInput& input) {
 void VoStage::finish(const std::vector<std::string>& faults) {
   run_.faults.insert(run_.faults.begin(), faults.begin(), faults.end());
   run_.faults_total += static_cast<std::int64_t>(faults.size());
-  for (swf_vo::Settled& settled : filter_.flush()) run_.settled.push_back(std::move(settled));
+  for (swf_vo::Settled& settled : filter_->flush()) run_.settled.push_back(std::move(settled));
 }
 
 }  // namespace urban_nav

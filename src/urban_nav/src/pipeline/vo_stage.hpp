@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,8 @@ constexpr std::size_t kFaultsKept = 100;
 class VoStage {
  public:
   VoStage(const swf_vo::Parameters& parameters, const SourceInfo& info);
+  /// What another stage object has finished: run() is all there is to do with it.
+  explicit VoStage(VoRun finished);
   ~VoStage();
 
   /// The row it added to run().
@@ -69,7 +72,7 @@ class VoStage {
   class PictureKeeper;
 
   VoRun run_;
-  swf_vo::SwfVo filter_;
+  std::optional<swf_vo::SwfVo> filter_;  // none where the run came finished
   std::unique_ptr<PictureKeeper> pictures_;
 };
 

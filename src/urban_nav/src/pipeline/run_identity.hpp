@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pipeline/map_job.hpp"
+#include "pipeline/sessions.hpp"
+#include "urban_nav_store/session.hpp"
+
+namespace urban_nav {
+
+/// What the result of a session depends on, so that a run that was cut off goes on only where the result would be the same: pairs
+/// of a name for people ("parameters", "inputs", "options", "program") and a digest. Inputs are told by names, sizes, times of the last
+/// change, and the beginnings and ends of some files; the truth among them does not count. The program is told by the files it
+/// was loaded from, libraries included.
+using RunIdentity = std::vector<std::pair<std::string, std::string>>;
+RunIdentity identityOf(const MapRequest& request, const Session& session);
+
+/// What tells a session from others: by the content of its inputs, wherever they lie and whenever they were copied.
+urban_nav_store::SessionOrigin originOf(const MapRequest& request, const Session& session);
+
+/// Names of what differs: "parameters, program".
+std::string differences(const RunIdentity& a, const RunIdentity& b);
+
+}  // namespace urban_nav

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/store_stage.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "pipeline/vo_state.hpp"
+#include "urban_nav_core/geometry/dense.hpp"
+
+namespace urban_nav {
+
+using urban_nav_core::Matrix6d;
+using urban_nav_store::Access;
+using urban_nav_store::Edge;
+using urban_nav_store::EdgeKind;
+using urban_nav_store::EdgeVerdict;
+using urban_nav_store::Property;
+using urban_nav_store::SessionId;
+using urban_nav_store::Store;
+
+namespace {
+
+constexpr const char* kStage = "swf_vo";
+constexpr const char* kStream = "stereo";
+constexpr const char* kCamera = "stereo_left_optical_frame";
+constexpr std::chrono::seconds kPeriod{1};
+
+/// Sessions by the content of their inputs; the same input given twice is two sessions.
+std::vector<SessionId> idsOf(const MapRequest& request, const std::vector<Session>& sessions) {
+  std::vector<SessionId> ids;
+  for (const Session& session : sessions) {
+    urban_nav_store::SessionOrigin origin = originOf(request, session);
+    SessionId id = sessionIdOf(origin);
+    for (int again = 2; std::find(ids.begin(), ids.end(), id) != ids.end(); ++again) {
+      origin.recording = std::to_string(again);
+      id = sessionIdOf(origin);
+    }
+    ids.push_back(id);
+  }
+  return ids;
+}
+
+std::string nameOf(const Session& session) {
+  const std::filesystem::path path = std::filesystem::absolute(session.paths.front()).lexically_normal();
+  return (path.has_filename() ? path : path.parent_path()).filename().string();
+}
+
+RunIdentity storedIdentity(Store& store, const SessionId& id) {
+  RunIdentity identity;
+  for (const Property& property : store.sessions().properties(id))
+    if (property.name.rfind("run/", 0) == 0) identity.emplace_back(property.name.substr(4), property.value);
+  return identity;
+}
+
+}  // namespace
+
+StoreStage::StoreStage(const MapRequest& request, const std::vector<Session>& sessions, const std::string& path,
+                       Console& console)
+    : request_(request), path_(path), ids_(idsOf(request, sessions)) {
+  for (const Session& session : sessions) {
+    identities_.push_back(identityOf(request, session));
+    names_.push_back(nameOf(session));
+  }
+  open(console);
+}
+
+bool StoreStage::isFinished(std::size_t session) {
+  const auto known = store_->sessions().find(ids_[session]);
+  return known && known->complete && storedIdentity(*store_, ids_[session]) == identities_[session] &&
+         store_->states().get(ids_[session], kStage).has_value();
+}
+
+void StoreStage::open(Console& console) {
+  store_.emplace(path_, Access::Write);
+  bool cut_off = false;
+  std::string other;
+  std::size_t finished = 0;
+  for (const urban_nav_store::Session& known : store_->sessions().all()) {
+    cut_off = cut_off || !known.complete || !store_->states().stages(known.id).empty();
+    const auto place = std::find(ids_.begin(), ids_.end(), known.id);
+    if (place == ids_.end()) {
+      other = "other inputs";
+    } else if (isFinished(static_cast<std::size_t>(place - ids_.begin()))) {
+      ++finished;
+      continue;
+    } else if (const std::string names = differences(identities_[static_cast<std::size_t>(place - ids_.begin())],
+                                                     storedIdentity(*store_, known.id));
+               !names.empty()) {
+      other = "other " + names;
+    }
+    store_->sessions().remove(known.id);
+  }
+  if (finished > 0) {
+    console.info("an earlier run was cut off here: goes on behind " + std::to_string(finished) + " of " +
+                 std::to_string(ids_.size()) + (ids_.size() == 1 ? " session" : " sessions"));
+    store_->commit();
+    return;
+  }
+  if (cut_off)
+    console.info("an earlier run was cut off here" + (other.empty() ? " in its first session" : " with " + other) +
+                 ": begins anew");
+  store_->close();
+  urban_nav_store::removeStore(path_);
+  store_.emplace(path_, Access::Write);
+}
+
+std::optional<VoRun> StoreStage::begin(std::size_t session, const SourceInfo& info) {
+  session_ = session;
+  rows_ = nodes_ = 0;
+  committed_ = Clock::now();
+  const SessionId& id = ids_[session];
+  if (const std::optional<std::string> bytes = store_->states().get(id, kStage)) {
+    if (std::optional<VoRun> run = unpackVoRun(*bytes)) {
+      run->input = info.name;
+      run->camera = info.camera;
+      run->T_base_camera = info.T_base_camera;
+      return run;
+    }
+  }
+  store_->sessions().remove(id);
+  store_->sessions().put(urban_nav_store::Session{id, names_[session], "", "", info.first, false});
+  for (const auto& [name, digest] : identities_[session]) store_->sessions().put(id, Property{"run/" + name, digest});
+  store_->sessions().put(id, Property{"input/name", info.name});
+  store_->sessions().put(id, Property{"input/kind", info.kind});
+  store_->sessions().put(id, urban_nav_store::Extrinsic{kCamera, info.T_base_camera});
+  for (const std::vector<urban_nav_core::Setting>* settings :
+       {&request_.parameters.command.settings, &request_.parameters.swf_vo.settings}) {
+    for (const urban_nav_core::Setting& setting : *settings)
+      store_->sessions().put(
+          id, urban_nav_store::StoredParameter{urban_nav_core::fullName(setting.stage, setting.name),
+                                               urban_nav_core::printValue(setting.value), setting.origin});
+  }
+  store_->commit();
+  return std::nullopt;
+}
+
+void StoreStage::keepUp(const VoRun& run) {
+  if (Clock::now() - committed_ < kPeriod) return;
+  add(run);
+  store_->commit();
+  committed_ = Clock::now();
+}
+
+void StoreStage::add(const VoRun& run) {
+  const SessionId& id = ids_[session_];
+  for (; rows_ < run.rows.size(); ++rows_)
+    store_->inputs().append(id, {kStream, run.rows[rows_].stamp, run.rows[rows_].accepted});
+  for (; nodes_ < run.settled.size(); ++nodes_) {
+    const swf_vo::Settled& settled = run.settled[nodes_];
+    const urban_nav_core::RelativePose& step = settled.from_previous;
+    const bool first = nodes_ == 0;
+    store_->graph().put(id, urban_nav_store::Node{settled.stamp, settled.T_odom_base.pose,
+                                                  first ? Matrix6d(Matrix6d::Zero()) : step.covariance,
+                                                  first ? Matrix6d(Matrix6d::Zero()) : settled.drift_covariance,
+                                                  settled.status.health});
+    if (first) continue;
+    Edge edge{{id, step.from},      {id, step.to}, EdgeKind::Odometry,    kStage,
+              {step.T_from_to, {}}, 1.0,           EdgeVerdict::Accepted, ""};
+    edge.measured.information = urban_nav_core::invertPositiveDefinite(step.covariance).value_or(Matrix6d::Zero());
+    store_->graph().put(edge);
+  }
+}
+
+void StoreStage::finish(const VoRun& run) {
+  add(run);
+  const SessionId& id = ids_[session_];
+  store_->states().put(id, kStage, packVoRun(run));
+  urban_nav_store::Session session = *store_->sessions().find(id);
+  session.complete = true;
+  store_->sessions().put(session);
+  store_->commit();
+}
+
+void StoreStage::end() {
+  for (const SessionId& id : ids_) store_->states().remove(id, kStage);
+  store_->shrink();
+  store_->close();
+}
+
+}  // namespace urban_nav

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "command_line/console.hpp"
+#include "pipeline/run_identity.hpp"
+#include "pipeline/vo_stage.hpp"
+#include "urban_nav_store/store.hpp"
+
+namespace urban_nav {
+
+/// Keeps what a run of `map` makes in session.db of its folder, committed about once a second, and finds there what a run
+/// that was cut off had finished.
+///
+/// A session that an earlier run had finished is taken from the store where inputs, options, parameters and program
+/// (run_identity.hpp) are the same, with its own bytes; anything else is removed and made again, and the console says why. A run
+/// that has come to its end leaves no states behind: the next one in its folder begins anew.
+class StoreStage {
+ public:
+  StoreStage(const MapRequest& request, const std::vector<Session>& sessions, const std::string& path,
+             Console& console);
+
+  /// To be called for each session in their order. The finished run where there is one; else the session is begun.
+  std::optional<VoRun> begin(std::size_t session, const SourceInfo& info);
+  /// What is new in the run of the session that was begun; commits when a second has gone by.
+  void keepUp(const VoRun& run);
+  /// The run is complete.
+  void finish(const VoRun& run);
+  /// So is everything else that `map` writes.
+  void end();
+
+  urban_nav_store::Store& store() { return *store_; }
+  const urban_nav_store::SessionId& id(std::size_t session) const { return ids_[session]; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  bool isFinished(std::size_t session);
+  /// Opens the store, and leaves in it the sessions that this run can go on behind.
+  void open(Console& console);
+  void add(const VoRun& run);
+
+  const MapRequest& request_;
+  const std::string path_;
+  std::vector<urban_nav_store::SessionId> ids_;
+  std::vector<RunIdentity> identities_;
+  std::vector<std::string> names_;
+  std::optional<urban_nav_store::Store> store_;
+  std::size_t session_ = 0;           // at work
+  std::size_t rows_ = 0, nodes_ = 0;  // of it, written
+  Clock::time_point committed_;
+};
+
+}  // namespace urban_nav

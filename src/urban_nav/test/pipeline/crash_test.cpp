@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// kill -9 of the whole command at random moments: `info` opens the store each time, and the run started again ends with the bytes
+// of one that was never cut off.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <random>
+
+#include "store/store_info.hpp"
+#include "support/folders.hpp"
+
+namespace urban_nav {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::readFile;
+using testing::TemporaryFolder;
+
+/// The command beside this test, in a process of its own that can be killed.
+class Command {
+ public:
+  explicit Command(const std::vector<std::string>& words, const std::string& log) {
+    const std::string program = (fs::canonical("/proc/self/exe").parent_path() / "urban_nav").string();
+    std::vector<const char*> argv = {program.c_str()};
+    for (const std::string& word : words) argv.push_back(word.c_str());
+    argv.push_back(nullptr);
+    child_ = ::fork();
+    if (child_ == 0) {
+      const int output = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+      ::dup2(output, 1);
+      ::dup2(output, 2);
+      ::execv(program.c_str(), const_cast<char* const*>(argv.data()));
+      ::_exit(127);
+    }
+  }
+  /// Kills it if it is still there after so long. The exit status, or empty where it was killed.
+  std::optional<int> endWithin(int ms) {
+    for (int waited = 0;; ++waited) {
+      int status = 0;
+      if (::waitpid(child_, &status, WNOHANG) == child_)
+        return WIFEXITED(status) ? std::optional<int>(WEXITSTATUS(status)) : std::nullopt;
+      if (waited == ms) ::kill(child_, SIGKILL);
+      ::usleep(1000);
+    }
+  }
+
+ private:
+  pid_t child_;
+};
+
+class Killed : public ::testing::Test {
+ protected:
+  Killed() {
+    for (const int frames : {60, 25, 50}) {
+      testing::KittiStyle style;
+      style.frames = frames;
+      inputs.push_back(folder.file("in" + std::to_string(frames)));
+      testing::makeKittiFolder(inputs.back(), style);
+    }
+  }
+  std::vector<std::string> words(const std::string& out, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> all = {"map", "--stages", "vo", "--threads", "1", "--out", out};
+    all.insert(all.end(), inputs.begin(), inputs.end());
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  std::optional<int> run(const std::vector<std::string>& all, int ms = 100'000) {
+    return Command(all, folder.file("log")).endWithin(ms);
+  }
+  std::string log() const { return readFile(folder.file("log")); }
+  void expectSame(const std::string& a, const std::string& b) const {
+    int files = 0;
+    for (const auto& entry : fs::directory_iterator(a)) {
+      const std::string name = entry.path().filename().string();
+      if (name == "stats.csv" || name == "summary.json" || name == "report.html" || name == "session.db") continue;
+      EXPECT_EQ(readFile(entry.path().string()), readFile(b + "/" + name)) << name;
+      ++files;
+    }
+    EXPECT_GE(files, 18) << "six files of three sessions";
+  }
+
+  const TemporaryFolder folder;
+  std::vector<std::string> inputs;
+};
+
+TEST_F(Killed, endsWithTheBytesOfAnUnbrokenRun) {
+  const std::string whole = folder.file("whole"), cut = folder.file("cut");
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_EQ(run(words(whole)), 0) << log();
+  const auto took = static_cast<int>(
+      std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now() - begin).count());
+  std::mt19937 random(1);
+  int kills = 0, behind = 0;
+  for (int round = 0; round < 4; ++round) {
+    fs::remove_all(cut);
+    std::optional<int> status;
+    std::int64_t nodes = 0;
+    for (int patience = took / 4; !status; patience += took / 8) {  // so that it comes to its end at last
+      status = run(words(cut), patience + static_cast<int>(random() % static_cast<unsigned>(took / 2 + 1)));
+      if (log().find("goes on behind") != std::string::npos) ++behind;
+      if (status) break;
+      ++kills;
+      if (!fs::exists(cut + "/session.db")) continue;
+      const StoreInfo info = lookIntoStore(cut + "/session.db");
+      std::int64_t now = 0;
+      for (const StoredSession& session : info.sessions)
+        if (session.session.complete) now += session.nodes;
+      EXPECT_GE(now, nodes) << "a session that was complete is complete";
+      nodes = now;
+    }
+    EXPECT_EQ(status, 0) << log();
+    expectSame(whole, cut);
+    const StoreInfo a = lookIntoStore(whole + "/session.db"), b = lookIntoStore(cut + "/session.db");
+    ASSERT_EQ(a.sessions.size(), 3U);
+    ASSERT_EQ(b.sessions.size(), 3U);
+    for (std::size_t i = 0; i < a.sessions.size(); ++i) {
+      EXPECT_EQ(a.sessions[i].session, b.sessions[i].session);
+      EXPECT_EQ(a.sessions[i].nodes, b.sessions[i].nodes);
+      EXPECT_FALSE(b.sessions[i].resumable) << "a run that has ended leaves no states";
+    }
+  }
+  EXPECT_GT(kills, 4);
+  EXPECT_GT(behind, 0) << "else the test says nothing";
+}
+
+TEST_F(Killed, beginsAnewWhereTheResultWouldBeAnother) {
+  const std::string out = folder.file("out");
+  // As if it was killed when all was done but the report: the last thing that is written, into a folder that cannot be replaced.
+  fs::create_directories(out + "/summary.json/in the way");
+  const auto interrupted = [&] { ASSERT_EQ(run(words(out)), 2) << log(); };
+  interrupted();
+  interrupted();
+  EXPECT_NE(log().find("goes on behind 3 of 3 sessions"), std::string::npos) << log();
+  run(words(out, {"--set", "swf_vo.window=7"}));
+  EXPECT_NE(log().find("with other parameters: begins anew"), std::string::npos) << log();
+  interrupted();
+  EXPECT_NE(log().find("with other parameters: begins anew"), std::string::npos) << log();
+  run(words(out, {"--set", "memory_mb=1000"}));
+  EXPECT_NE(log().find("goes on behind 3"), std::string::npos) << "no result depends on it" << log();
+  fs::last_write_time(inputs[1] + "/image_0/000005.png", fs::file_time_type::clock::now());
+  interrupted();
+  EXPECT_NE(log().find("goes on behind 2 of 3"), std::string::npos) << log();
+  testing::writeFile(inputs[0] + "/poses.txt", "scrambled");
+  interrupted();
+  EXPECT_NE(log().find("goes on behind 3"), std::string::npos) << "the truth is no input" << log();
+  fs::remove_all(out + "/summary.json");
+  ASSERT_EQ(run(words(out)), 0) << log();
+  ASSERT_EQ(run(words(out)), 0) << log();
+  EXPECT_EQ(log().find("earlier run"), std::string::npos) << "it had ended: " << log();
+}
+
+}  // namespace
+}  // namespace urban_nav

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "commands/commands.hpp"
+#include "convert/convert.hpp"
+#include "store/store_export.hpp"
+#include "store/store_info.hpp"
+#include "support/folders.hpp"
+#include "urban_nav_core/io/g2o.hpp"
+#include "urban_nav_core/io/tum.hpp"
+#include "urban_nav_store/dump.hpp"
+
+namespace urban_nav {
+namespace {
+
+using testing::readFile;
+using testing::TemporaryFolder;
+using urban_nav_core::Pose;
+using urban_nav_store::Access;
+using urban_nav_store::Edge;
+using urban_nav_store::EdgeKind;
+using urban_nav_store::EdgeVerdict;
+using urban_nav_store::Store;
+
+int call(std::vector<std::string> words) {
+  std::vector<const char*> argv = {"urban_nav"};
+  for (const std::string& word : words) argv.push_back(word.c_str());
+  return runCommandLine({mapCommand(), infoCommand(), exportCommand(), mergeCommand()}, static_cast<int>(argv.size()),
+                        argv.data());
+}
+
+/// Two folders, each mapped into a store of its own, and both into one.
+class StoreCommands : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    shared_ = std::make_unique<TemporaryFolder>();
+    for (const int frames : {16, 12}) {
+      testing::KittiStyle style;
+      style.frames = frames;
+      testing::makeKittiFolder(file("in" + std::to_string(frames)), style);
+    }
+    ASSERT_EQ(call({"map", file("in16"), "--out", file("a"), "--stages", "vo"}), 0);
+    ASSERT_EQ(call({"map", file("in12"), "--out", file("b"), "--stages", "vo"}), 0);
+    ASSERT_EQ(call({"map", file("in16"), file("in12"), "--out", file("both"), "--stages", "vo"}), 0);
+  }
+  static void TearDownTestSuite() { shared_.reset(); }
+  static std::string file(const std::string& name) { return shared_->file(name); }
+  static std::string dumpOf(const std::string& path) {
+    Store store(path, Access::Read);
+    return dump(store);
+  }
+
+ private:
+  static std::unique_ptr<TemporaryFolder> shared_;
+};
+std::unique_ptr<TemporaryFolder> StoreCommands::shared_;
+
+TEST_F(StoreCommands, infoSaysWhatIsInAStore) {
+  const StoreInfo info = lookIntoStore(file("both/session.db"));
+  ASSERT_EQ(info.sessions.size(), 2U);
+  EXPECT_EQ(info.joined.size(), 2U) << "nothing joins them";
+  const StoredSession& session = info.sessions.front().nodes == 16 ? info.sessions.front() : info.sessions.back();
+  EXPECT_EQ(session.session.name, "in16");
+  EXPECT_TRUE(session.session.complete);
+  EXPECT_FALSE(session.resumable);
+  EXPECT_EQ(session.nodes, 16);
+  EXPECT_NEAR(urban_nav_core::secondsBetween(session.first, session.last), 0.75, 1e-9);
+  EXPECT_NEAR(session.length_m, urban_nav_core::readTum(file("a/trajectory.tum")).length(), 1e-9);
+  EXPECT_EQ(session.edges.at("odometry").at("accepted"), 15);
+  ASSERT_EQ(session.streams.size(), 1U);
+  EXPECT_EQ(session.streams.front().messages, 16);
+  EXPECT_NEAR(session.streams.front().rate_hz, 20.0, 1e-6);
+  EXPECT_EQ(session.frames, std::vector<std::string>{"stereo_left_optical_frame"});
+  const std::string text = textOf(info);
+  for (const char* words :
+       {"2 sessions", "in12", "nodes 16", "odometry: 15 accepted", "stream stereo: 16 at 20 Hz", "base_link"})
+    EXPECT_NE(text.find(words), std::string::npos) << words << " in " << text;
+  EXPECT_EQ(call({"info", file("both/session.db"), "--json", file("info.json")}), 0);
+  EXPECT_NE(readFile(file("info.json")).find("\"kind\": \"session store\""), std::string::npos);
+}
+
+TEST_F(StoreCommands, exportsTheBytesThatMapWrote) {
+  ASSERT_EQ(call({"export", file("a/session.db"), "--tum", file("x.tum"), "--kitti", file("x.kitti"), "--g2o",
+                  file("x.g2o"), "--json", file("x.json")}),
+            0);
+  EXPECT_EQ(readFile(file("x.tum")), readFile(file("a/trajectory.tum")));
+  EXPECT_EQ(readFile(file("x.kitti")), readFile(file("a/trajectory.kitti")));
+  EXPECT_EQ(readFile(file("x.g2o")), readFile(file("a/graph.g2o")));
+  EXPECT_NE(readFile(file("x.json")).find("x.g2o"), std::string::npos);
+  ASSERT_EQ(call({"export", file("both/session.db"), "--session", "in12", "--tum", file("y.tum")}), 0);
+  EXPECT_EQ(readFile(file("y.tum")), readFile(file("b/trajectory.tum")));
+  ASSERT_EQ(call({"export", file("both/session.db"), "--tum", file("z.tum")}), 0);
+  EXPECT_FALSE(readFile(file("z_2.tum")).empty()) << "a map of its own";
+}
+
+TEST_F(StoreCommands, exportRefusesByName) {
+  const std::string store = file("a/session.db");
+  EXPECT_EQ(call({"export", store}), 2);
+  EXPECT_EQ(call({"export", store, "--las", file("x.las")}), 2);
+  EXPECT_EQ(call({"export", store, "--tum", file("x.tum"), "--session", "nobody"}), 2);
+  EXPECT_EQ(call({"export", file("in16/times.txt"), "--tum", file("x.tum")}), 2);
+  EXPECT_EQ(call({"export", file("nothing.db"), "--tum", file("x.tum")}), 2);
+  testing::writeFile(file("damaged.db"), readFile(store).substr(0, 9000));
+  EXPECT_EQ(call({"export", file("damaged.db"), "--tum", file("x.tum")}), 1);
+  EXPECT_EQ(call({"info", file("damaged.db")}), 1);
+}
+
+TEST_F(StoreCommands, mergeGivesTheStoreOfOneRun) {
+  ASSERT_EQ(
+      call({"merge", file("a/session.db"), file("b/session.db"), "-o", file("merged.db"), "--json", file("m.json")}),
+      0);
+  const std::string whole = dumpOf(file("both/session.db")), merged = dumpOf(file("merged.db"));
+  EXPECT_TRUE(whole == merged);
+  EXPECT_NE(readFile(file("m.json")).find("\"rows\""), std::string::npos);
+  EXPECT_EQ(call({"merge", file("a/session.db"), file("in16/times.txt"), "-o", file("m2.db")}), 2);
+}
+
+TEST_F(StoreCommands, relaxedSessionsOfOneMapAreExportedTogether) {
+  Store store(file("joined.db"), Access::Write);
+  const Pose T_map_odom(urban_nav_core::Quaterniond::Identity(), {5.0, 0.0, 0.0});
+  const auto at = [](double x) { return Pose(urban_nav_core::Quaterniond::Identity(), {x, 0.0, 0.0}); };
+  for (const auto& [id, start] : {std::pair{"one", 0}, {"two", 100}}) {
+    store.sessions().put({id, std::string("day ") + id, "", "", start, true});
+    for (int i = 0; i < 3; ++i) store.graph().put(id, urban_nav_store::Node{start + i, at(i), {}, {}, {}});
+  }
+  store.graph().put("one", urban_nav_store::RelaxedPose{0, at(0.5), 1});
+  store.graph().put("one", urban_nav_store::RelaxedPose{1, at(2.0), 1});
+  store.sessions().put(urban_nav_store::Anchor{"two", "one", 1, T_map_odom});
+  Edge edge{{"one", 1},
+            {"two", 100},
+            EdgeKind::Stereo,
+            "x",
+            {at(3.0), urban_nav_core::Matrix6d::Identity()},
+            1.0,
+            EdgeVerdict::Accepted,
+            ""};
+  store.graph().put(edge);
+  edge.kind = EdgeKind::Icp;
+  edge.verdict = EdgeVerdict::Rejected;
+  store.graph().put(edge);
+  edge.kind = EdgeKind::Session;
+  edge.verdict = EdgeVerdict::Accepted;
+  store.graph().put(edge);
+  const auto maps = readMaps(store, sessionsOf(store, {}));
+  ASSERT_EQ(maps.size(), 1U);
+  const urban_nav_core::Trajectory trajectory = urban_nav_core::parseTum(exportTum(store, maps[0]), "x");
+  std::vector<double> x;
+  for (const auto& pose : trajectory) x.push_back(pose.pose.t().x());
+  EXPECT_EQ(x, (std::vector<double>{0.5, 2.0, 3.0, 5.0, 6.0, 7.0})) << "the third goes with the second";
+  const ExportedGraph graph = exportG2o(store, maps);
+  EXPECT_EQ(graph.vertices, 6);
+  EXPECT_EQ(graph.edges, 1);
+  EXPECT_EQ(graph.left_out, 1);
+  EXPECT_EQ(urban_nav_core::parseG2o(graph.text, "x").edges.front().to, 3);
+  store.commit();
+  store.close();
+  const StoreInfo info = lookIntoStore(file("joined.db"));
+  EXPECT_EQ(info.joined.size(), 1U);
+  EXPECT_NE(textOf(info).find("joined by closures"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace urban_nav
