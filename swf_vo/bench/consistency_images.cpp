@@ -54,7 +54,7 @@ struct Score {
   int runs = 0;
 };
 
-// Frames 50 to 150 from the settled relative poses alone: by their drifts and the two ends (Settled::drift_covariance).
+// Frames 50 to 150 from the settled relative poses alone: by their drifts and the two ends (RelativePose::drift_covariance).
 UncertainPose composed(const Run& run) {
   constexpr std::size_t first = 51, last = 150;
   UncertainPose sum;

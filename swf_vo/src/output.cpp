@@ -163,7 +163,7 @@ Settled Output::settle(const SettledPose& pose) {
   settled.from_previous.to = settled.stamp;
   settled.from_previous.T_from_to = any_settled_ ? outer.T_a_c : Pose();
   settled.from_previous.covariance = moved(pose.relative_covariance, outer.J1 * inner.J2);
-  settled.drift_covariance = moved(pose.drift_covariance, outer.J1 * inner.J2);
+  settled.from_previous.drift_covariance = moved(pose.drift_covariance, outer.J1 * inner.J2);
   settled.from_previous.status = settled.status;
   settled.from_previous.source = "swf_vo";
   if (any_settled_) step_covariance_ = settled.from_previous.covariance;

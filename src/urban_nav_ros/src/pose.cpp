@@ -98,6 +98,7 @@ urban_nav_msgs::RelativePose toRelativePoseMessage(const urban_nav_core::Relativ
   message.child_frame = child_frame;
   message.T_from_to = toPoseMessage(relative.T_from_to);
   message.covariance = toArray36(relative.covariance);
+  message.drift_covariance = toArray36(relative.drift_covariance);
   message.status = toMessage(relative.status.health);
   message.source = relative.source;
   return message;
@@ -112,7 +113,8 @@ std::optional<urban_nav_core::RelativePose> toRelativePose(const urban_nav_msgs:
   relative.to = toStampNs(message.to_stamp);
   relative.T_from_to = *pose;
   relative.covariance = toMatrix6(message.covariance);
-  if (!relative.covariance.allFinite()) return std::nullopt;
+  relative.drift_covariance = toMatrix6(message.drift_covariance);
+  if (!relative.covariance.allFinite() || !relative.drift_covariance.allFinite()) return std::nullopt;
   relative.status.health = *health;
   relative.source = message.source;
   return relative;

@@ -103,7 +103,7 @@ void take(const std::vector<Settled>& settled, Run& run) {
     run.settled.push_back(one.T_odom_base.pose);
     run.settled_covariance.push_back(one.T_odom_base.covariance);
     run.relative_covariance.push_back(one.from_previous.covariance);
-    run.drift_covariance.push_back(one.drift_covariance);
+    run.drift_covariance.push_back(one.from_previous.drift_covariance);
   }
 }
 

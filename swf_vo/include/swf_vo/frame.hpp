@@ -66,13 +66,10 @@ struct Statistics {
 struct Settled {
   FrameId frame = 0;
   urban_nav_core::StampNs stamp = 0;
-  urban_nav_core::UncertainPose T_odom_base;   ///< covariance: of T_first_base in the axes of the first pose
-  urban_nav_core::RelativePose from_previous;  ///< to the settled pose before; from == to for the very first frame
-  /// WARNING: covariances of from_previous are right one by one, and neighbours are correlated: composed as if independent they
-  /// are 5 to 50 times too large over 100 steps. This is the part that adds up. The covariance of a way of many steps is
-  /// that composed of their drifts, with half of from_previous.covariance added to the first and to the last. The error of the
-  /// disparity offset is one and the same in all steps, so it is not in here: T_odom_base's covariance has it.
-  urban_nav_core::Matrix6d drift_covariance = urban_nav_core::Matrix6d::Zero();
+  urban_nav_core::UncertainPose T_odom_base;  ///< covariance: of T_first_base in the axes of the first pose
+  /// To the settled pose before; from == to for the very first frame. The error of the disparity offset is one and the same in
+  /// all steps, so it is not in drift_covariance: T_odom_base's covariance has it.
+  urban_nav_core::RelativePose from_previous;
   urban_nav_core::Status status;  ///< as it was when the frame came
 };
 

@@ -25,7 +25,8 @@ bool isApprox(const UncertainPose& a, const UncertainPose& b, double tolerance) 
 
 bool isApprox(const RelativePose& a, const RelativePose& b, double tolerance) {
   return a.from == b.from && a.to == b.to && a.status == b.status && a.source == b.source &&
-         isApprox(a.T_from_to, b.T_from_to, tolerance) && closeTo(a.covariance, b.covariance, tolerance);
+         isApprox(a.T_from_to, b.T_from_to, tolerance) && closeTo(a.covariance, b.covariance, tolerance) &&
+         closeTo(a.drift_covariance, b.drift_covariance, tolerance);
 }
 
 bool isApprox(const Constraint& a, const Constraint& b, double tolerance) {

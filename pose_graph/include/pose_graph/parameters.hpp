@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "urban_nav_core/parameters/table.hpp"
+
+namespace pose_graph {
+
+/// What a user may want to change; one member per row of table().
+struct Parameters {
+  std::string solver;    // gauss_newton, relative_pcg
+  bool robust;           // reject false closures
+  int iterations;        // of one minimisation, at most
+  double jump_distance;  // m
+  double jump_angle;     // deg
+
+  Parameters();
+};
+
+/// The table: the only place where a default, a range, a unit or a sentence about a parameter stands.
+const urban_nav_core::Table<Parameters>& table();
+
+}  // namespace pose_graph

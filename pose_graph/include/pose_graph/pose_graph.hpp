@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pose_graph/parameters.hpp"
+#include "pose_graph/solution.hpp"
+#include "urban_nav_core/types/status.hpp"
+#include "urban_nav_core/types/uncertain.hpp"
+#include "urban_nav_store/graph_store.hpp"
+
+namespace pose_graph {
+
+using urban_nav_core::Pose;
+using urban_nav_core::StampNs;
+using urban_nav_store::EdgeKind;
+using urban_nav_store::EdgeVerdict;
+using urban_nav_store::NodeRef;
+using urban_nav_store::SessionId;
+using ClosureId = std::int64_t;
+
+/// Why the graph is not OK: Status::reason of this stage.
+enum class Trouble : int {
+  None = 0,
+  BrokenChain,  ///< a relative pose does not begin where the last one ended: what comes behind is a part of its own
+  Separate,     ///< sessions, or parts of one, that no accepted closure joins
+  Waiting,      ///< a closure waits for a second one that agrees
+};
+const char* toString(Trouble trouble);
+
+/// A closure, as offered and as judged.
+struct Closure {
+  ClosureId id = 0;
+  NodeRef a, b;
+  EdgeKind kind = EdgeKind::Stereo;  ///< not Odometry
+  std::string source;
+  urban_nav_core::Constraint measured;  ///< T_a_b
+  bool odometry_gate = false;           ///< its stage found that odometry allows it
+  // From here on: what the last relaxation made of it.
+  double weight = 0.0;  ///< 0 while it is not judged
+  EdgeVerdict verdict = EdgeVerdict::Waiting;
+  std::string reason;
+  double chi2 = 0.0;                       ///< against all other accepted edges
+  std::vector<ClosureId> contradicted_by;  ///< of an asserted one: what cannot be true beside it, the worst first
+};
+
+/// One session of the trajectory.
+struct Track {
+  SessionId session;
+  std::vector<StampNs> stamps;  ///< ascending
+  std::vector<Pose> odom;       ///< T_odom_base: by odometry alone, from the first pose
+  std::vector<Pose> map;        ///< T_map_base; equal to `odom` while no closure says otherwise
+  std::vector<int> part;        ///< of each pose, which map it lies in: 0 is that of the first session's first pose
+};
+
+/// What one relaxation did.
+struct Relaxed {
+  std::int64_t revision = 0;
+  std::size_t poses = 0, edges = 0, closures = 0, accepted = 0, rejected = 0, waiting = 0;
+  int parts = 0;            ///< maps that nothing joins
+  int sessions_joined = 0;  ///< sessions whose newest pose lies in map 0
+  double cost_before = 0.0, cost_after = 0.0;
+  std::vector<Iteration> iterations;
+  Ending ending = Ending::Converged;
+  /// Poses that moved by more than 1 cm or 0.02 deg, as runs [first, last] of a track's numbers.
+  struct Run {
+    std::size_t track = 0, first = 0, last = 0;
+  };
+  std::vector<Run> moved;
+  /// How the newest pose jumped, if by more than that: for graph/jump.
+  struct Jump {
+    NodeRef at;
+    Pose before, after;  ///< T_map_base
+    double distance = 0.0, angle = 0.0;
+    std::string reason;
+    std::vector<ClosureId> witnesses;  ///< accepted now and not before
+  };
+  std::optional<Jump> jump;
+};
+
+/// The pose graph of many sessions: chains of relative poses, pinched together by closures (Newman et al. 2009, sections 5 and 7).
+/// Sessions are joined by nothing but closures: two that agree fuse them, with no alignment by hand.
+///
+/// Not thread-safe; relax() may be run on a copy. The same calls give the same bits, whatever the number of threads.
+class PoseGraph {
+ public:
+  explicit PoseGraph(const Parameters& parameters);
+
+  /// A session begins; UserError where it has begun already.
+  void beginSession(const SessionId& session);
+  bool hasSession(const SessionId& session) const;
+
+  /// The next step of a session's chain. The first one makes two poses. A step that does not begin at the session's newest pose
+  /// breaks the chain (Trouble::BrokenChain); one that is not later than it, or not finite, is left out: false.
+  bool addOdometry(const SessionId& session, const urban_nav_core::RelativePose& step);
+
+  /// UserError where a pose does not exist (with the nearest one that does), where numbers are not finite or the information has a
+  /// negative eigenvalue. An edge with the same poses, kind and source is replaced. Judged by the next relax().
+  ClosureId addClosure(const Closure& offered);
+  /// False where there is none.
+  bool removeClosure(ClosureId id);
+  std::optional<ClosureId> findClosure(const NodeRef& a, const NodeRef& b, EdgeKind kind,
+                                       const std::string& source) const;
+
+  /// Relaxes all there is, from the measurements alone: what was relaxed before leaves no trace. Deterministic.
+  Relaxed relax(const SolveOptions& options = {});
+  /// The same from where the graph stands, for a closure more: faster, and equal to relax() to the solver's tolerance as long as
+  /// the verdicts are.
+  Relaxed update();
+
+  const std::vector<Track>& tracks() const { return tracks_; }
+  const Track* track(const SessionId& session) const;
+  const std::map<ClosureId, Closure>& closures() const { return closures_; }
+  std::int64_t revision() const { return revision_; }
+  urban_nav_core::Status status() const;
+
+  /// T_map_odom at a session's newest pose.
+  Pose mapFromOdom(const SessionId& session) const;
+
+  /// The graph as a problem: poses of the tracks one after another, edges: the chains, then the closures in the order of ids.
+  Problem<3> problem() const;
+  /// Number of a pose in problem().
+  std::optional<int> poseNumber(const NodeRef& ref) const;
+  /// Weights of problem()'s edges after the last relaxation: 0 for closures that are not accepted.
+  std::vector<double> weights() const;
+
+ private:
+  struct Step {
+    urban_nav_core::RelativePose measured;
+    bool joins = true;  ///< false: the chain is broken before `to`
+  };
+  Relaxed relaxFrom(const SolveOptions& options);
+  Relaxed take(const std::vector<Rigid<3>>& poses, const Solution<3>& solution,
+               const std::map<ClosureId, Closure>& before);
+
+  Parameters parameters_;
+  std::vector<Track> tracks_;
+  std::vector<std::vector<Step>> steps_;  ///< of each track: steps_[t][i] leads from pose i to pose i + 1
+  std::map<ClosureId, Closure> closures_;
+  ClosureId next_id_ = 1;
+  std::int64_t revision_ = 0;
+  int parts_ = 0;
+  bool broken_ = false;
+};
+
+/// The information of a chain's edge for relaxation, in the convention of Edge: of the part of the step's covariance that adds up
+/// from step to step. WARNING: neighbouring steps share an end, so their covariances composed as if independent are far too
+/// large; what is left over belongs to the ends of closures, see closureInformation.
+TangentMatrix<3> chainInformation(const urban_nav_core::RelativePose& step);
+/// The information of a closure between two poses whose own settled noise is half the covariance of their steps, each.
+TangentMatrix<3> closureInformation(const urban_nav_core::Constraint& measured,
+                                    const urban_nav_core::Matrix6d& covariance_a,
+                                    const urban_nav_core::Matrix6d& covariance_b);
+
+}  // namespace pose_graph

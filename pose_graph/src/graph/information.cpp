@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include "pose_graph/graph_file.hpp"
+#include "pose_graph/pose_graph.hpp"
+
+namespace pose_graph {
+
+using urban_nav_core::Matrix6d;
+
+namespace {
+
+// From (rho, phi) in the parent's axes to the error's axes, those of the child: both halves turn.
+Matrix6d seenFromChild(const Matrix6d& matrix, const Pose& T_parent_child) {
+  const Eigen::Matrix3d R = T_parent_child.R();
+  Matrix6d turned;
+  for (int i = 0; i < 2; ++i)
+    for (int j = 0; j < 2; ++j) turned.block<3, 3>(3 * i, 3 * j) = R.transpose() * matrix.block<3, 3>(3 * i, 3 * j) * R;
+  return 0.5 * (turned + turned.transpose());
+}
+
+}  // namespace
+
+TangentMatrix<3> chainInformation(const urban_nav_core::RelativePose& step) {
+  const bool told = step.drift_covariance.trace() > 0.0;
+  const Matrix6d covariance = seenFromChild(told ? step.drift_covariance : step.covariance, step.T_from_to);
+  const Matrix6d information = Eigen::LLT<Matrix6d>(covariance).solve(Matrix6d::Identity());
+  return 0.5 * (information + information.transpose());
+}
+
+// (W^-1 + N)^-1 = W - W (W + N^-1)^-1 W, which needs no inverse of W: what it leaves free stays free.
+TangentMatrix<3> closureInformation(const urban_nav_core::Constraint& measured, const Matrix6d& covariance_a,
+                                    const Matrix6d& covariance_b) {
+  const Matrix6d W = 0.5 * (measured.information + measured.information.transpose());
+  // The error of b, in b's own axes up to a step, turns into a's; the lever arm of a's turn moves b.
+  const Eigen::Matrix3d R = measured.T_a_b.R();
+  Matrix6d at_b = Matrix6d::Zero(), at_a = Matrix6d::Identity();
+  at_b.topLeftCorner<3, 3>() = at_b.bottomRightCorner<3, 3>() = R;
+  at_a.topRightCorner<3, 3>() = -urban_nav_core::skew(measured.T_a_b.t());
+  const Matrix6d N = 0.5 * (at_a * covariance_a * at_a.transpose() + at_b * covariance_b * at_b.transpose());
+  const Eigen::LLT<Matrix6d> noise(N);
+  if (!(N.trace() > 0.0) || noise.info() != Eigen::Success) return seenFromChild(W, measured.T_a_b);
+  const Matrix6d together = W + noise.solve(Matrix6d::Identity());
+  return seenFromChild(W - W * Eigen::LLT<Matrix6d>(0.5 * (together + together.transpose())).solve(W), measured.T_a_b);
+}
+
+}  // namespace pose_graph

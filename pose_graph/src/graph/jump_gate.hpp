@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "pose_graph/pose_graph.hpp"
+
+namespace pose_graph {
+
+/// Which closures are believed, and the poses that follow: robust relaxation, and then the rule that a large correction needs two
+/// witnesses (DESIGN.md, section 5; "two independent witnesses", USERS.md 17). A closure waits where odometry alone led from a to
+/// b so far, it says something further off than parameters.jump_distance or jump_angle, it is no stereo closure that odometry
+/// allows, and no other accepted closure spans a part of the same way. `closures` get their verdicts, weights and reasons; those
+/// that wait or are rejected have weight 0 in the solution.
+Solution<3> judge(const Problem<3>& problem, const Parameters& parameters, const SolveOptions& options,
+                  const std::vector<Track>& tracks, std::map<ClosureId, Closure>& closures);
+
+/// Which part each pose is in, by chains and accepted closures: numbered by their first poses.
+std::vector<int> partsOf(const std::vector<Track>& tracks, const PoseGraph& graph);
+
+}  // namespace pose_graph

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/parameters.hpp"
+
+#include <cstdint>
+
+namespace pose_graph {
+
+using urban_nav_core::Table;
+
+Parameters::Parameters() { table().setDefaults(*this); }
+
+// clang-format would give each of the columns a line.
+// clang-format off
+const Table<Parameters>& table() {
+  using P = Parameters;
+  static const Table<Parameters> rows(
+      "pose_graph",
+      {
+          {"solver", &P::solver, "", std::string("gauss_newton"), false, false, {"gauss_newton", "relative_pcg"},
+           "How the graph is relaxed: sparse Gauss-Newton over the condensed graph, or the paper's conjugate gradients over relative transforms (a reference: slower, takes every closure as it is).",
+           "section 5, eq. 8-19"},
+          {"robust", &P::robust, "", true, false, false, {},
+           "Closures that disagree with the others are rejected; without, every edge is taken as it is.", "section 5"},
+          {"iterations", &P::iterations, "", std::int64_t{100}, std::int64_t{1}, std::int64_t{10000}, {},
+           "Steps of one minimisation, at most; fewer where nothing is left to gain.", "section 5"},
+          {"jump_distance", &P::jump_distance, "m", 0.5, 0.0, 1000.0, {},
+           "A single closure that would move a pose by more than this waits for a second one that agrees, unless it is a stereo closure that odometry allows.",
+           "DESIGN.md, section 5"},
+          {"jump_angle", &P::jump_angle, "deg", 2.0, 0.0, 180.0, {},
+           "The same for a turn.", "DESIGN.md, section 5"},
+      });
+  return rows;
+}
+// clang-format on
+
+}  // namespace pose_graph

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/pose_graph.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "pose_graph/graph_file.hpp"
+#include "urban_nav_core/testing/numeric_jacobian.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace pose_graph {
+namespace {
+
+using Eigen::Vector3d;
+using urban_nav_core::expSo3;
+using urban_nav_core::Matrix6d;
+using urban_nav_core::RelativePose;
+using urban_nav_core::UserError;
+using urban_nav_core::Vector6d;
+
+constexpr StampNs kStep = 50'000'000;
+constexpr int kRound = 400;  // steps of a square of 20 m
+
+// A square: 5 cm a step, a quarter turn at each corner.
+Pose truthAt(int i) {
+  Pose T;
+  for (int k = 0; k < i; ++k)
+    T = T * Pose(expSo3(Vector3d(0.0, 0.0, (k + 1) % (kRound / 4) == 0 ? M_PI_2 : 0.0)), Vector3d(0.05, 0.0, 0.0));
+  return T;
+}
+
+RelativePose stepAt(int i, double turn_error) {
+  RelativePose step;
+  step.from = i * kStep;
+  step.to = (i + 1) * kStep;
+  step.T_from_to =
+      truthAt(i).inverse() * truthAt(i + 1) * Pose(expSo3(Vector3d(0.0, 0.0, turn_error)), Vector3d::Zero());
+  Vector6d sigma;
+  sigma << 1e-3, 1e-3, 1e-3, 5e-4, 5e-4, 5e-4;
+  step.covariance = sigma.cwiseAbs2().asDiagonal();
+  step.drift_covariance = 0.5 * step.covariance;
+  return step;
+}
+
+void drive(PoseGraph& graph, const SessionId& session, int first, int last, double turn_error) {
+  for (int i = first; i < last; ++i) ASSERT_TRUE(graph.addOdometry(session, stepAt(i, turn_error)));
+}
+
+Closure closureBetween(const SessionId& session_a, int a, const SessionId& session_b, int b) {
+  Closure closure;
+  closure.a = {session_a, a * kStep};
+  closure.b = {session_b, b * kStep};
+  closure.kind = EdgeKind::Icp;
+  closure.source = "test";
+  closure.measured.T_a_b = truthAt(a).inverse() * truthAt(b);
+  Vector6d weight;
+  weight << 1e4, 1e4, 1e4, 1e5, 1e5, 1e5;
+  closure.measured.information = weight.asDiagonal();
+  return closure;
+}
+
+double worstError(const Track& track, int first) {
+  double worst = 0.0;
+  for (std::size_t i = 0; i < track.map.size(); ++i)
+    worst = std::max(worst, distanceBetween(track.map[i], truthAt(first + static_cast<int>(i))));
+  return worst;
+}
+
+TEST(PoseGraph, closesALoop) {
+  PoseGraph graph{Parameters()};
+  drive(graph, "a", 0, 2 * kRound, 5e-4);
+  const double before = worstError(graph.tracks()[0], 0);
+  EXPECT_GT(before, 1.0);
+  for (int i = 20; i < kRound; i += 40) graph.addClosure(closureBetween("a", i, "a", i + kRound));
+  const Relaxed relaxed = graph.relax();
+  EXPECT_EQ(relaxed.accepted, 10u);
+  EXPECT_EQ(relaxed.parts, 1);
+  EXPECT_EQ(relaxed.revision, 1);
+  EXPECT_LT(relaxed.cost_after, relaxed.cost_before);
+  EXPECT_LT(worstError(graph.tracks()[0], 0), 0.7 * before);
+  EXPECT_TRUE(relaxed.jump);
+  EXPECT_EQ(relaxed.jump->witnesses.size(), 10u);
+  ASSERT_FALSE(relaxed.moved.empty());
+  EXPECT_TRUE(isApprox(graph.mapFromOdom("a") * graph.tracks()[0].odom.back(), graph.tracks()[0].map.back(), 1e-9));
+}
+
+TEST(PoseGraph, leavesNoTraceOfEarlierRelaxations) {
+  PoseGraph once{Parameters()}, often{Parameters()};
+  for (PoseGraph* graph : {&once, &often}) drive(*graph, "a", 0, 2 * kRound, 2e-4);
+  for (int i = 20; i < kRound; i += 40) {
+    once.addClosure(closureBetween("a", i, "a", i + kRound));
+    often.addClosure(closureBetween("a", i, "a", i + kRound));
+    often.relax();
+  }
+  once.relax();
+  for (std::size_t i = 0; i < once.tracks()[0].map.size(); ++i) {
+    EXPECT_EQ(once.tracks()[0].map[i].t(), often.tracks()[0].map[i].t());
+    EXPECT_EQ(once.tracks()[0].map[i].q().coeffs(), often.tracks()[0].map[i].q().coeffs());
+  }
+}
+
+TEST(PoseGraph, waitsForASecondWitnessOfALargeCorrection) {
+  PoseGraph graph{Parameters()};
+  drive(graph, "a", 0, 2 * kRound, 3e-4);
+  const ClosureId first = graph.addClosure(closureBetween("a", 100, "a", 100 + kRound));
+  EXPECT_EQ(graph.relax().waiting, 1u);
+  EXPECT_EQ(graph.closures().at(first).verdict, EdgeVerdict::Waiting);
+  EXPECT_EQ(graph.status().reason, static_cast<int>(Trouble::Waiting));
+  EXPECT_TRUE(isApprox(graph.mapFromOdom("a"), Pose(), 1e-9));
+  graph.addClosure(closureBetween("a", 140, "a", 140 + kRound));
+  EXPECT_EQ(graph.relax().accepted, 2u);
+
+  PoseGraph trusting{Parameters()};
+  drive(trusting, "a", 0, 2 * kRound, 3e-4);
+  Closure sure = closureBetween("a", 100, "a", 100 + kRound);
+  sure.kind = EdgeKind::Stereo;
+  sure.odometry_gate = true;
+  trusting.addClosure(sure);
+  EXPECT_EQ(trusting.relax().accepted, 1u);
+}
+
+TEST(PoseGraph, fusesSessionsByTwoClosures) {
+  PoseGraph graph{Parameters()};
+  drive(graph, "monday", 0, kRound, 0.0);
+  drive(graph, "tuesday", 100, 300, 0.0);  // begins elsewhere, in an odom of its own
+  EXPECT_EQ(graph.relax().parts, 2);
+  EXPECT_EQ(graph.status().reason, static_cast<int>(Trouble::Separate));
+  graph.addClosure(closureBetween("monday", 120, "tuesday", 120));
+  graph.addClosure(closureBetween("monday", 250, "tuesday", 250));
+  const Relaxed relaxed = graph.relax();
+  EXPECT_EQ(relaxed.parts, 1);
+  EXPECT_EQ(relaxed.sessions_joined, 2);
+  EXPECT_LT(worstError(graph.tracks()[1], 100), 1e-3);
+  EXPECT_EQ(graph.tracks()[1].part.back(), 0);
+}
+
+TEST(PoseGraph, saysWhatIsWrongWithAClosure) {
+  PoseGraph graph{Parameters()};
+  drive(graph, "a", 0, 100, 0.0);
+  const auto message = [&](Closure closure) {
+    try {
+      graph.addClosure(closure);
+    } catch (const UserError& error) {
+      return std::string(error.what());
+    }
+    return std::string("taken");
+  };
+  Closure closure = closureBetween("a", 10, "a", 60);
+  closure.b.stamp += 1000;
+  EXPECT_NE(message(closure).find("nearest is 3.000000000"), std::string::npos) << message(closure);
+  closure = closureBetween("a", 10, "b", 60);
+  EXPECT_NE(message(closure).find("session b"), std::string::npos);
+  closure = closureBetween("a", 10, "a", 10);
+  EXPECT_NE(message(closure).find("itself"), std::string::npos);
+  closure = closureBetween("a", 10, "a", 60);
+  closure.measured.information(0, 0) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(message(closure).find("not finite"), std::string::npos);
+  closure.measured.information = -Matrix6d::Identity();
+  EXPECT_NE(message(closure).find("negative eigenvalue"), std::string::npos);
+  EXPECT_TRUE(graph.closures().empty());
+}
+
+TEST(PoseGraph, replacesAndRemovesClosures) {
+  PoseGraph graph{Parameters()};
+  drive(graph, "a", 0, 100, 0.0);
+  const ClosureId id = graph.addClosure(closureBetween("a", 10, "a", 60));
+  EXPECT_EQ(graph.addClosure(closureBetween("a", 10, "a", 60)), id);
+  EXPECT_EQ(graph.closures().size(), 1u);
+  EXPECT_TRUE(graph.removeClosure(id));
+  EXPECT_FALSE(graph.removeClosure(id));
+}
+
+TEST(PoseGraph, takesBadOdometryForWhatItIs) {
+  PoseGraph graph{Parameters()};
+  drive(graph, "a", 0, 50, 0.0);
+  RelativePose step = stepAt(50, 0.0);
+  step.covariance(0, 0) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(graph.addOdometry("a", step));
+  EXPECT_FALSE(graph.addOdometry("a", stepAt(20, 0.0)));  // long ago
+  EXPECT_TRUE(graph.addOdometry("a", stepAt(55, 0.0)));   // after a gap
+  EXPECT_EQ(graph.status().reason, static_cast<int>(Trouble::BrokenChain));
+  EXPECT_EQ(graph.relax().parts, 2);
+  for (const Pose& pose : graph.tracks()[0].map) EXPECT_TRUE(pose.isFinite());
+}
+
+TEST(ClosureInformation, addsTheNoiseOfTheEndsAndLeavesFreeWhatIsFree) {
+  urban_nav_core::Constraint measured;
+  measured.T_a_b = Pose(expSo3(Vector3d(0.1, -0.2, 0.9)), Vector3d(3.0, -1.0, 0.5));
+  Vector6d weight;
+  weight << 1e4, 2e4, 3e4, 1e5, 2e5, 3e5;
+  measured.information = weight.asDiagonal();
+  const Matrix6d none = Matrix6d::Zero(), small = 1e-4 * Matrix6d::Identity();
+  Matrix6d turned = Matrix6d::Zero();
+  turned.topLeftCorner<3, 3>() = turned.bottomRightCorner<3, 3>() = measured.T_a_b.R();
+  EXPECT_LT((closureInformation(measured, none, none) - turned.transpose() * measured.information * turned).norm(),
+            1e-6);
+  // Covariances add up: b's noise turned, a's with its lever arm.
+  Matrix6d lever = Matrix6d::Identity();
+  lever.topRightCorner<3, 3>() = -urban_nav_core::skew(measured.T_a_b.t());
+  const Matrix6d sum = Matrix6d(measured.information.inverse() + 0.5 * small + 0.5 * lever * small * lever.transpose());
+  const Matrix6d expected = turned.transpose() * sum.inverse() * turned;
+  EXPECT_LT((closureInformation(measured, small, small) - expected).norm(), 1e-6 * expected.norm());
+  measured.information(2, 2) = 0.0;
+  const Matrix6d free = turned * closureInformation(measured, small, small) * turned.transpose();
+  EXPECT_LT(free.col(2).norm(), 1e-6);
+}
+
+}  // namespace
+}  // namespace pose_graph
