@@ -4,10 +4,11 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <filesystem>
 #include <random>
 
@@ -38,19 +39,35 @@ class Command {
       ::_exit(127);
     }
   }
-  /// Kills it if it is still there after so long. The exit status, or empty where it was killed.
-  std::optional<int> endWithin(int ms) {
-    for (int waited = 0;; ++waited) {
+  /// Kills it when it has used so much of a processor's time, which is less moved by what else is at work than a clock on the
+  /// wall. The exit status, or empty where it was killed.
+  std::optional<int> endWithin(double seconds) {
+    clockid_t clock{};
+    const bool known = ::clock_getcpuclockid(child_, &clock) == 0;
+    for (bool killed = false;;) {
       int status = 0;
-      if (::waitpid(child_, &status, WNOHANG) == child_)
+      rusage used{};
+      if (::wait4(child_, &status, WNOHANG, &used) == child_) {
+        seconds_ = secondsOf(used.ru_utime.tv_sec, 1e-6 * static_cast<double>(used.ru_utime.tv_usec)) +
+                   secondsOf(used.ru_stime.tv_sec, 1e-6 * static_cast<double>(used.ru_stime.tv_usec));
         return WIFEXITED(status) ? std::optional<int>(WEXITSTATUS(status)) : std::nullopt;
-      if (waited == ms) ::kill(child_, SIGKILL);
-      ::usleep(1000);
+      }
+      timespec now{};
+      if (!killed && known && ::clock_gettime(clock, &now) == 0 &&
+          secondsOf(now.tv_sec, 1e-9 * static_cast<double>(now.tv_nsec)) > seconds) {
+        ::kill(child_, SIGKILL);
+        killed = true;
+      }
+      ::usleep(500);
     }
   }
+  double secondsUsed() const { return seconds_; }
 
  private:
+  static double secondsOf(time_t whole, double part) { return static_cast<double>(whole) + part; }
+
   pid_t child_;
+  double seconds_ = 0.0;
 };
 
 class Killed : public ::testing::Test {
@@ -69,8 +86,11 @@ class Killed : public ::testing::Test {
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
-  std::optional<int> run(const std::vector<std::string>& all, int ms = 100'000) {
-    return Command(all, folder.file("log")).endWithin(ms);
+  std::optional<int> run(const std::vector<std::string>& all, double seconds = 1e9) {
+    Command command(all, folder.file("log"));
+    const std::optional<int> status = command.endWithin(seconds);
+    used = command.secondsUsed();
+    return status;
   }
   std::string log() const { return readFile(folder.file("log")); }
   void expectSame(const std::string& a, const std::string& b) const {
@@ -86,22 +106,21 @@ class Killed : public ::testing::Test {
 
   const TemporaryFolder folder;
   std::vector<std::string> inputs;
+  double used = 0.0;  // by the last run, s
 };
 
 TEST_F(Killed, endsWithTheBytesOfAnUnbrokenRun) {
   const std::string whole = folder.file("whole"), cut = folder.file("cut");
-  const auto begin = std::chrono::steady_clock::now();
   ASSERT_EQ(run(words(whole)), 0) << log();
-  const auto took = static_cast<int>(
-      std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now() - begin).count());
+  const double took = used;
   std::mt19937 random(1);
   int kills = 0, behind = 0;
-  for (int round = 0; round < 4; ++round) {
+  for (int round = 0; round < 3; ++round) {
     fs::remove_all(cut);
     std::optional<int> status;
     std::int64_t nodes = 0;
-    for (int patience = took / 4; !status; patience += took / 8) {  // so that it comes to its end at last
-      status = run(words(cut), patience + static_cast<int>(random() % static_cast<unsigned>(took / 2 + 1)));
+    for (double patience = 0.2 * took; !status; patience += 0.1 * took) {  // so that it comes to its end at last
+      status = run(words(cut), patience + 0.4 * took * std::uniform_real_distribution<double>()(random));
       if (log().find("goes on behind") != std::string::npos) ++behind;
       if (status) break;
       ++kills;
@@ -124,7 +143,7 @@ TEST_F(Killed, endsWithTheBytesOfAnUnbrokenRun) {
       EXPECT_FALSE(b.sessions[i].resumable) << "a run that has ended leaves no states";
     }
   }
-  EXPECT_GT(kills, 4);
+  EXPECT_GT(kills, 3);
   EXPECT_GT(behind, 0) << "else the test says nothing";
 }
 
