@@ -39,8 +39,8 @@ if(URBAN_NAV_SANITIZE)
   list(APPEND urban_nav_link_options -fsanitize=address,undefined)
 endif()
 
-# urban_nav_target(TARGET [ROS]): what all our targets have in common. Without the word ROS a target sees urban_nav_core and
-# no header of ROS, whatever else the package has found: the cores stay free of it.
+# urban_nav_target(TARGET [ROS]): what all our targets have in common. Without the word ROS a target sees urban_nav_core,
+# urban_nav_store where the package asks for it, and no header of ROS, whatever else the package has found: the cores stay free of it.
 function(urban_nav_target target)
   cmake_parse_arguments(arg "ROS" "" "" ${ARGN})
   set_target_properties(${target} PROPERTIES
@@ -60,8 +60,8 @@ function(urban_nav_target target)
       add_dependencies(${target} ${catkin_EXPORTED_TARGETS})
     endif()
   else()
-    target_include_directories(${target} SYSTEM PRIVATE ${urban_nav_core_INCLUDE_DIRS})
-    target_link_libraries(${target} ${urban_nav_core_LIBRARIES})
+    target_include_directories(${target} SYSTEM PRIVATE ${urban_nav_core_INCLUDE_DIRS} ${urban_nav_store_INCLUDE_DIRS})
+    target_link_libraries(${target} ${urban_nav_core_LIBRARIES} ${urban_nav_store_LIBRARIES})
   endif()
   target_link_libraries(${target} Eigen3::Eigen Threads::Threads ${urban_nav_link_options})
 endfunction()

@@ -149,10 +149,10 @@ void StoreStage::add(const VoRun& run) {
     const swf_vo::Settled& settled = run.settled[nodes_];
     const urban_nav_core::RelativePose& step = settled.from_previous;
     const bool first = nodes_ == 0;
-    store_->graph().put(id, urban_nav_store::Node{settled.stamp, settled.T_odom_base.pose,
-                                                  first ? Matrix6d(Matrix6d::Zero()) : step.covariance,
-                                                  first ? Matrix6d(Matrix6d::Zero()) : settled.drift_covariance,
-                                                  settled.status.health});
+    store_->graph().put(
+        id, urban_nav_store::Node{
+                settled.stamp, settled.T_odom_base.pose, first ? Matrix6d(Matrix6d::Zero()) : step.covariance,
+                first ? Matrix6d(Matrix6d::Zero()) : settled.from_previous.drift_covariance, settled.status.health});
     if (first) continue;
     Edge edge{{id, step.from},      {id, step.to}, EdgeKind::Odometry,    kStage,
               {step.T_from_to, {}}, 1.0,           EdgeVerdict::Accepted, ""};

@@ -140,7 +140,7 @@ void settled(Way& way, AnySettled& value) {
   matrix(way, value.from_previous.covariance);
   status(way, value.from_previous.status);
   way.text(value.from_previous.source);
-  matrix(way, value.drift_covariance);
+  matrix(way, value.from_previous.drift_covariance);
   status(way, value.status);
 }
 
