@@ -2,11 +2,11 @@
 // The public graphs, from what their files hold to the optimum, with each objective: how near, and how long on one core with reading left out. It is time
 // of the processor, so that what else runs does not count.
 //   pose_graph-bench-graphs [NAME...] [--peers FILE] [--runs N] [-o results/graphs.json]
-// FILE: what other programs took on the same machine, `graph,peer,options,seconds,reached` (reached 1: ends at its own optimum), as CSV.
+// FILE: what other programs took on the same machine, `graph,peer,version,options,seconds,reached` (reached 1: ends at its own optimum), as CSV.
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <type_traits>
+#include <vector>
 
 #include "pose_graph/solution.hpp"
 #include "support/cholmod_once.hpp"
@@ -76,6 +76,18 @@ Peer bestPeer(const CsvTable& peers, const std::string& graph) {
   return best;
 }
 
+/// "Peers: GTSAM 4.3a0; g2o ..." in the order of the file.
+std::string versions(const CsvTable& peers) {
+  std::vector<std::string> named;
+  for (std::size_t row = 0; row < peers.rows(); ++row) {
+    const std::string each = peers.text(row, peers.column("peer")) + " " + peers.text(row, peers.column("version"));
+    if (std::find(named.begin(), named.end(), each) == named.end()) named.push_back(each);
+  }
+  std::string text = "Peers, each with the options that served it best:";
+  for (const std::string& each : named) text += (each == named.front() ? " " : "; ") + each;
+  return text + ".";
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
@@ -83,7 +95,7 @@ int main(int argc, char** argv) try {
   const int runs = asked.number("--runs", 5);
   const std::string file = asked.text("--peers", "");
   const CsvTable peers =
-      file.empty() ? CsvTable::parse("graph,peer,options,seconds,reached\n", "") : CsvTable::read(file);
+      file.empty() ? CsvTable::parse("graph,peer,version,options,seconds,reached\n", "") : CsvTable::read(file);
   const urban_nav_core::ThreadLimit one(1);
 
   urban_nav_core::testing::BenchTable table(
@@ -107,6 +119,7 @@ int main(int argc, char** argv) try {
   table.note(
       "One core, processor time, median of " + std::to_string(runs) +
       ", reading left out. CHOLMOD once: its ordering, analysis and factorisation of the Gauss-Newton matrix, once.");
+  if (peers.rows() > 0) table.note(versions(peers));
   return show(table, asked.output);
 } catch (const std::exception& error) {
   return pose_graph::bench::complain(error);
