@@ -10,6 +10,9 @@ namespace {
 
 std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
+// What an entry of the diagonal is measured by; one where it is zero, so that any measure would do.
+double sizeOf(double entry) { return entry > 0.0 ? entry : 1.0; }
+
 }  // namespace
 
 template <int B>
@@ -98,6 +101,22 @@ void BlockCholesky<B>::addChild(int child) {
 
 template <int B>
 bool BlockCholesky<B>::factor(const BlockMatrix<B>& A, const BlockPattern& pattern) {
+  return factor(A, pattern, nullptr);
+}
+
+template <int B>
+bool BlockCholesky<B>::factorPinned(const BlockMatrix<B>& A, const BlockPattern& pattern, std::vector<int>& pinned) {
+  pinned.clear();
+  return factor(A, pattern, &pinned);
+}
+
+template <int B>
+double BlockCholesky<B>::pinOf(const BlockMatrix<B>& A, int entry) {
+  return Front::kPin * sizeOf(A.diagonal[sz(entry / B)](entry % B, entry % B));
+}
+
+template <int B>
+bool BlockCholesky<B>::factor(const BlockMatrix<B>& A, const BlockPattern& pattern, std::vector<int>* pinned) {
   const Symbolic& shape = *symbolic_;
   for (int s = 0; s < shape.size(); ++s) {
     const int begin = shape.begin[sz(s)], columns = shape.columns(s), rows = shape.rowsBelow(s);
@@ -106,7 +125,14 @@ bool BlockCholesky<B>::factor(const BlockMatrix<B>& A, const BlockPattern& patte
     front_.reset(B * (columns + rows));
     assemble(s, A, pattern);
     for (int child = first_child_[sz(s)]; child >= 0; child = next_sibling_[sz(child)]) addChild(child);
-    if (!front_.eliminate(B * columns)) return false;
+    if (pinned == nullptr) {
+      if (!front_.eliminate(B * columns)) return false;
+    } else {
+      Front::Pins pins;
+      for (int j = 0; j < B * columns; ++j) pins.size.push_back(sizeOf(A.diagonal[sz(begin + j / B)](j % B, j % B)));
+      if (!front_.eliminate(B * columns, &pins)) return false;
+      for (const int column : pins.columns) pinned->push_back(B * begin + column);
+    }
 
     double* panel = panels_.data() + offset_[sz(s)];
     const int height = panelRows(s);

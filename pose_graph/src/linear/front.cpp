@@ -12,7 +12,8 @@ namespace {
 
 using urban_nav_core::kernels::strip;
 
-constexpr int kPanel = 48;  // columns eliminated together: bench/linear
+constexpr double kNothing = 1e-12;  // beside the size of a pivot: what elimination leaves of a zero
+constexpr int kPanel = 48;          // columns eliminated together: bench/linear
 
 std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
@@ -31,11 +32,15 @@ void Front::reset(int size) {
   }
 }
 
-bool Front::eliminateDiagonal(int start, int width) {
+bool Front::eliminateDiagonal(int start, int width, Pins* pins) {
   lower_.resize(sz(width) * sz(width));
   inverse_.resize(sz(width));
   for (int j = 0; j < width; ++j) {
     double* a = column(start + j) + start;
+    if (pins != nullptr && a[j] <= kNothing * pins->size[sz(start + j)]) {
+      a[j] = std::max(a[j], 0.0) + kPin * pins->size[sz(start + j)];
+      pins->columns.push_back(start + j);
+    }
     if (!(a[j] > 0.0) || !std::isfinite(a[j])) return false;
     a[j] = std::sqrt(a[j]);
     inverse_[sz(j)] = 1.0 / a[j];
@@ -48,10 +53,12 @@ bool Front::eliminateDiagonal(int start, int width) {
   return true;
 }
 
-bool Front::eliminate(int pivots) {
+bool Front::eliminate(int pivots) { return eliminate(pivots, nullptr); }
+
+bool Front::eliminate(int pivots, Pins* pins) {
   for (int start = 0; start < pivots; start += kPanel) {
     const int width = std::min(kPanel, pivots - start), below = start + width;
-    if (!eliminateDiagonal(start, width)) return false;
+    if (!eliminateDiagonal(start, width, pins)) return false;
     const int rows = size_ - below, strips = (rows + strip - 1) / strip;
     if (strips == 0) continue;
     const std::size_t piece = sz(strip) * sz(width);

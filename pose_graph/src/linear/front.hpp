@@ -24,8 +24,17 @@ class Front {
   /// complement. False where a pivot is not positive (or NaN); the front is then spoilt.
   bool eliminate(int pivots);
 
+  /// For a matrix that may be singular: what its pivots are measured by, and which columns had to be pinned.
+  struct Pins {
+    std::vector<double> size;  ///< of each pivot in the matrix as it was given, above zero
+    std::vector<int> columns;
+  };
+  /// The same of the matrix with kPin times its size added to each pivot of which next to nothing is left.
+  bool eliminate(int pivots, Pins* pins);
+  static constexpr double kPin = 1e-6;
+
  private:
-  bool eliminateDiagonal(int start, int width);
+  bool eliminateDiagonal(int start, int width, Pins* pins);
 
   int size_ = 0, stride_ = 0;
   std::vector<double> data_, packed_, lower_, inverse_;

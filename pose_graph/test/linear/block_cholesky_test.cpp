@@ -99,5 +99,45 @@ TEST(BlockCholesky, RefusesWhatIsNotPositiveDefinite) {
   EXPECT_FALSE(BlockCholesky<3>(system.symbolic).factor(system.A, system.pattern));
 }
 
+/// Nothing tells where each part lies: as many pins as that leaves free, and with them a factor of the matrix plus pins.
+TEST(BlockCholesky, PinsWhatIsFree) {
+  const Adjacency graph = test::chainWithClosures(40, 10, 2);
+  BlockSystem<3> system(graph, 3);
+  system.A.setZero(system.pattern);
+  for (int a = 0; a < graph.size(); ++a)
+    for (int e = graph.first[static_cast<std::size_t>(a)]; e < graph.first[static_cast<std::size_t>(a) + 1]; ++e) {
+      const int b = graph.neighbours[static_cast<std::size_t>(e)];
+      const bool bridge = (a < 20) != (b < 20);
+      const Eigen::Vector3d weight(1.0 + a + b, bridge ? 0.0 : 2.0, 3.0);  // the second coordinate falls into two parts
+      system.A.diagonal[static_cast<std::size_t>(system.symbolic.place[static_cast<std::size_t>(a)])] +=
+          weight.asDiagonal();
+      if (a < b) system.A.lower[static_cast<std::size_t>(system.pattern.slot(a, b).index)] -= weight.asDiagonal();
+    }
+  BlockCholesky<3> cholesky(system.symbolic);
+  std::vector<int> pinned;
+  ASSERT_TRUE(cholesky.factorPinned(system.A, system.pattern, pinned));
+  ASSERT_EQ(pinned.size(), 4U);
+  int coordinates[3] = {0, 0, 0};
+  for (const int entry : pinned) {
+    ++coordinates[entry % 3];
+    system.A.diagonal[static_cast<std::size_t>(entry / 3)](entry % 3, entry % 3) +=
+        BlockCholesky<3>::pinOf(system.A, entry);
+  }
+  EXPECT_EQ(coordinates[1], 2);
+  system.makeDense();
+  const Eigen::MatrixXd L = factorOf(cholesky);
+  EXPECT_LT((L * L.transpose() - system.dense).norm(), 1e-12 * system.dense.norm());
+}
+
+TEST(BlockCholesky, PinsNothingOfADefiniteMatrix) {
+  const BlockSystem<6> system(test::chainWithClosures(60, 40, 3), 4);
+  BlockCholesky<6> pins(system.symbolic), plain(system.symbolic);
+  std::vector<int> pinned = {1};
+  ASSERT_TRUE(pins.factorPinned(system.A, system.pattern, pinned));
+  ASSERT_TRUE(plain.factor(system.A, system.pattern));
+  EXPECT_TRUE(pinned.empty());
+  EXPECT_EQ((factorOf(pins) - factorOf(plain)).norm(), 0.0);
+}
+
 }  // namespace
 }  // namespace pose_graph

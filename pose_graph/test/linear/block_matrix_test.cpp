@@ -31,5 +31,11 @@ TEST(BlockMatrix, EachPairOfNeighboursHasItsPlace) {
   }
 }
 
+TEST(BlockMatrix, StrangersHaveNone) {
+  const Adjacency chain = test::chainWithClosures(10, 0, 1);
+  const Symbolic symbolic = analyse(chain);
+  EXPECT_EQ(BlockPattern(chain, symbolic).slot(2, 7).index, -1);
+}
+
 }  // namespace
 }  // namespace pose_graph

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Are the covariances of relaxed poses true? Thirty simulated graphs (spheres, lattices, drives through a town) from raw odometry,
+// NEES of T_first_pose at ten poses of each; and how long all marginals take.
+//   pose_graph-bench-covariance [--graphs N] [-o results/covariance.json]
+#include <array>
+#include <string>
+#include <vector>
+
+#include "pose_graph/graph_file.hpp"
+#include "pose_graph/marginals.hpp"
+#include "pose_graph/solution.hpp"
+#include "support/problems.hpp"
+#include "support/program.hpp"
+#include "urban_nav_core/parallel/for_each.hpp"
+#include "urban_nav_core/testing/street_graph.hpp"
+#include "urban_nav_core/trajectory/nees.hpp"
+
+namespace {
+
+using namespace pose_graph;
+using namespace pose_graph::bench;
+using namespace urban_nav_core::testing;
+
+constexpr std::size_t kPlaces = 10;
+
+SimulatedGraph graphOf(int number) {
+  const auto seed = static_cast<std::uint64_t>(number);
+  switch (number % 3) {
+    case 0: return sphereGraph(20, 30, 20.0, evenNoise(0.02, 0.005), seed);
+    case 1: return gridGraph(10, 8, 6, 1.0, 0.1, evenNoise(0.02, 0.01), seed);
+    default: {
+      StreetOptions streets;
+      streets.step_m = 0.25;
+      return streetGraph(4000, 60, streetNoise(), seed, streets);
+    }
+  }
+}
+
+/// At the ends of the ten tenths of the way.
+std::array<double, kPlaces> neesOf(const SimulatedGraph& graph) {
+  const Problem<3> problem = std::get<Problem<3>>(problemOf(graph, deadReckoning(graph)));
+  const std::vector<Rigid<3>> poses = solve(problem, {}).poses;
+  const Marginals<3> marginals(problem, poses);
+  std::array<double, kPlaces> made{};
+  for (std::size_t k = 0; k < kPlaces; ++k) {
+    const std::size_t pose = (k + 1) * (poses.size() - 1) / kPlaces;
+    const urban_nav_core::UncertainPose estimate{poseOf(poses[0].inverse() * poses[pose]),
+                                                 marginals.ofPose(static_cast<int>(pose)).covariance};
+    made[k] = urban_nav_core::nees(trueRelative(graph, 0, pose), estimate).value();
+  }
+  return made;
+}
+
+std::string timed(int poses, int closures) {
+  const SimulatedGraph graph =
+      streetGraph(static_cast<std::size_t>(poses), static_cast<std::size_t>(closures), streetNoise(), 1);
+  const Problem<3> problem = std::get<Problem<3>>(problemOf(graph, deadReckoning(graph)));
+  const std::vector<Rigid<3>> relaxed = solve(problem, {}).poses;
+  double largest = 0.0;
+  const double seconds = secondsOf(3, [&] {
+    const Marginals<3> marginals(problem, relaxed);
+    for (int i = 0; i < poses; ++i) largest = std::max(largest, marginals.ofPose(i).covariance(0, 0));
+  });
+  const Marginals<3> marginals(problem, relaxed);
+  const double pair = secondsOf(3, [&] { marginals.between(poses / 3, poses / 2); });
+  return std::to_string(poses) + " poses with " + std::to_string(closures) + " closures: all marginals in " +
+         cell(seconds, 3) + " s of one core, the covariance of one pair that no edge joins in " + cell(1e3 * pair, 1) +
+         " ms.";
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  const Arguments asked = argumentsOf(argc, argv, {"--graphs"});
+  const int graphs = asked.number("--graphs", 30);
+  const urban_nav_core::ThreadLimit one(1);
+  std::array<double, kPlaces> sums{};
+  for (int number = 1; number <= graphs; ++number) {
+    const std::array<double, kPlaces> nees = neesOf(graphOf(number));
+    for (std::size_t k = 0; k < kPlaces; ++k) sums[k] += nees[k];
+  }
+  BenchTable table({"share of the way", "mean NEES of " + std::to_string(graphs), "99 % band", "inside"}, argc, argv);
+  const urban_nav_core::Band band = urban_nav_core::chiSquareMeanBand(6.0, graphs, 0.99);
+  for (std::size_t k = 0; k < kPlaces; ++k) {
+    const double mean = sums[k] / graphs;
+    table.add({cell(0.1 * static_cast<double>(k + 1), 1), cell(mean, 2), cell(band.low, 2) + "..." + cell(band.high, 2),
+               band.contains(mean) ? "yes" : "no"});
+  }
+  for (const auto& [poses, closures] : {std::pair(20000, 200), std::pair(20000, 2000), std::pair(100000, 1000)})
+    table.note(timed(poses, closures));
+  return show(table, asked.output);
+} catch (const std::exception& error) {
+  return pose_graph::bench::complain(error);
+}

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/marginals.hpp"
+
+#include "marginals/free_directions.hpp"
+#include "marginals/selected_inverse.hpp"
+#include "solve/normal_equations.hpp"
+#include "urban_nav_core/geometry/covariance_frames.hpp"
+
+namespace pose_graph {
+
+namespace {
+
+std::size_t sz(int i) { return static_cast<std::size_t>(i); }
+
+/// The edges that say something, and their weights in their information.
+template <int D>
+Problem<D> telling(const Problem<D>& problem, const std::vector<double>& weights) {
+  Problem<D> made;
+  made.poses.resize(problem.poses.size());
+  made.edges.reserve(problem.edges.size());
+  for (std::size_t e = 0; e < problem.edges.size(); ++e) {
+    Edge<D> edge = problem.edges[e];
+    if (!weights.empty()) edge.information *= weights[e];
+    if (!edge.information.isZero(0.0)) made.edges.push_back(edge);
+  }
+  return made;
+}
+
+/// A factor of the normal equations, with pins where they are singular, and the inverse on their pattern.
+template <int D>
+struct Inverse {
+  static constexpr int N = tangent_size<D>;
+  BlockCholesky<N> cholesky;
+  BlockMatrix<N> selected;
+
+  explicit Inverse(const Symbolic& symbolic) : cholesky(symbolic) {}
+
+  /// The block of two unknowns, row a and column b.
+  TangentMatrix<D> block(const BlockPattern& pattern, int a, int b) const {
+    const Symbolic& shape = *pattern.symbolic;
+    if (a == b) return selected.diagonal[sz(shape.place[sz(a)])];
+    const BlockPattern::Slot slot = pattern.slot(a, b);
+    if (slot.index < 0) return solved(sz(shape.place[sz(a)]), sz(shape.place[sz(b)]), shape.node.size());
+    const auto& block = selected.lower[sz(slot.index)];
+    if (slot.turned) return block.transpose();
+    return block;
+  }
+
+ private:
+  TangentMatrix<D> solved(std::size_t row, std::size_t column, std::size_t nodes) const {
+    std::vector<double> x(nodes * N * N, 0.0);
+    for (std::size_t k = 0; k < N; ++k) x[(k * nodes + column) * N + k] = 1.0;
+    cholesky.solve(x.data(), N);
+    TangentMatrix<D> made;
+    for (std::size_t k = 0; k < N; ++k)
+      for (std::size_t i = 0; i < N; ++i) made(static_cast<int>(i), static_cast<int>(k)) = x[(k * nodes + row) * N + i];
+    return made;
+  }
+};
+
+/// d_ab = J_a x_a + J_b x_b: how T_a_b changes, in a's axes, when both are moved in the map's.
+template <int D>
+struct Between {
+  TangentMatrix<D> J_a = TangentMatrix<D>::Zero(), J_b = TangentMatrix<D>::Zero();
+
+  Between(const Rigid<D>& a, const Rigid<D>& b) {
+    constexpr int r = rotation_size<D>;
+    J_b.template topLeftCorner<D, D>() = a.R.transpose();
+    J_b.template bottomRightCorner<r, r>().setIdentity();
+    if constexpr (D == 3) J_b.template bottomRightCorner<3, 3>() = a.R.transpose();
+    TangentMatrix<D> T = TangentMatrix<D>::Identity();
+    T.template topRightCorner<D, r>() = turned(Eigen::Matrix<double, D, 1>(b.t - a.t));
+    J_a = -J_b * T;
+  }
+};
+
+}  // namespace
+
+const char* toString(Knowledge knowledge) {
+  switch (knowledge) {
+    case Knowledge::Full: return "full";
+    case Knowledge::Partial: return "partial";
+    case Knowledge::None: return "none";
+  }
+  return "";
+}
+
+urban_nav_core::Matrix6d displayed(const Marginal<3>& marginal, double length) {
+  if (marginal.knowledge == Knowledge::Full) return marginal.covariance;
+  return urban_nav_core::covarianceForDisplay(marginal.information, length);
+}
+
+template <int D>
+struct Marginals<D>::Parts {
+  static constexpr int N = tangent_size<D>;
+
+  NormalEquations<D> equations;
+  std::vector<Rigid<D>> poses;
+  std::vector<int> first;           // of each component
+  std::vector<Inverse<D>> inverse;  // one; of singular equations a second with pins of double strength; none: overflow
+
+  Parts(const Problem<D>& problem, const std::vector<Rigid<D>>& at) : equations(problem), poses(at) {
+    const Unknowns& unknowns = equations.unknowns();
+    first.assign(sz(unknowns.components), -1);
+    for (std::size_t i = poses.size(); i-- > 0;) first[sz(unknowns.component[i])] = static_cast<int>(i);
+    equations.linearise(Objective::Geodesic, poses, {});
+    BlockMatrix<N>& H = equations.H();
+    std::vector<int> pinned;
+    inverse.emplace_back(equations.symbolic());
+    if (!inverse[0].cholesky.factorPinned(H, equations.pattern(), pinned)) {
+      inverse.clear();
+      return;
+    }
+    inverse[0].selected = selectedInverse(inverse[0].cholesky, equations.pattern());
+    if (pinned.empty()) return;
+    std::vector<double> pins;
+    for (const int entry : pinned) pins.push_back(BlockCholesky<N>::pinOf(H, entry));
+    for (std::size_t k = 0; k < pinned.size(); ++k)
+      H.diagonal[sz(pinned[k] / N)](pinned[k] % N, pinned[k] % N) += 2.0 * pins[k];
+    inverse.emplace_back(equations.symbolic());
+    if (!inverse[1].cholesky.factor(H, equations.pattern())) inverse.clear();
+    else inverse[1].selected = selectedInverse(inverse[1].cholesky, equations.pattern());
+  }
+
+  TangentMatrix<D> between(const Inverse<D>& of, int a, int b) const {
+    const Between<D> moves(poses[sz(a)], poses[sz(b)]);
+    const int unknown_a = equations.unknowns().of_pose[sz(a)], unknown_b = equations.unknowns().of_pose[sz(b)];
+    TangentMatrix<D> sum = TangentMatrix<D>::Zero();
+    const auto add = [&](int row, int column, const TangentMatrix<D>& J_row, const TangentMatrix<D>& J_column) {
+      if (row >= 0 && column >= 0) sum += J_row * of.block(equations.pattern(), row, column) * J_column.transpose();
+    };
+    add(unknown_a, unknown_b, moves.J_a, moves.J_b);
+    sum += TangentMatrix<D>(sum.transpose());
+    add(unknown_a, unknown_a, moves.J_a, moves.J_a);
+    add(unknown_b, unknown_b, moves.J_b, moves.J_b);
+    return sum;
+  }
+};
+
+template <int D>
+Marginals<D>::Marginals(const Problem<D>& problem, const std::vector<Rigid<D>>& poses,
+                        const std::vector<double>& weights)
+    : parts_(std::make_unique<Parts>(telling(problem, weights), poses)) {}
+template <int D>
+Marginals<D>::~Marginals() = default;
+template <int D>
+Marginals<D>::Marginals(Marginals&&) noexcept = default;
+template <int D>
+Marginals<D>& Marginals<D>::operator=(Marginals&&) noexcept = default;
+
+template <int D>
+int Marginals<D>::first(int pose) const {
+  return parts_->first[sz(parts_->equations.unknowns().component[sz(pose)])];
+}
+
+template <int D>
+Marginal<D> Marginals<D>::between(int a, int b) const {
+  Marginal<D> made;
+  if (first(a) != first(b) || parts_->inverse.empty()) return made;
+  made.knowledge = Knowledge::Full;
+  if (a == b) return made;
+  made.covariance = parts_->between(parts_->inverse[0], a, b);
+  if (parts_->inverse.size() == 1) return made;
+  const TangentMatrix<D> stiffer = parts_->between(parts_->inverse[1], a, b);
+  return withoutPins<D>(made.covariance, 2.0 * (made.covariance - stiffer));
+}
+
+template class Marginals<2>;
+template class Marginals<3>;
+
+}  // namespace pose_graph
