@@ -23,16 +23,19 @@ using namespace urban_nav_core::testing;
 
 constexpr std::size_t kPlaces = 10;
 
+/// A drive through a town, four poses a metre.
+SimulatedGraph drive(int poses, int closures, std::uint64_t seed) {
+  StreetOptions streets;
+  streets.step_m = 0.25;
+  return streetGraph(static_cast<std::size_t>(poses), static_cast<std::size_t>(closures), streetNoise(), seed, streets);
+}
+
 SimulatedGraph graphOf(int number) {
   const auto seed = static_cast<std::uint64_t>(number);
   switch (number % 3) {
     case 0: return sphereGraph(20, 30, 20.0, evenNoise(0.02, 0.005), seed);
     case 1: return gridGraph(10, 8, 6, 1.0, 0.1, evenNoise(0.02, 0.01), seed);
-    default: {
-      StreetOptions streets;
-      streets.step_m = 0.25;
-      return streetGraph(4000, 60, streetNoise(), seed, streets);
-    }
+    default: return drive(4000, 60, seed);
   }
 }
 
@@ -52,8 +55,7 @@ std::array<double, kPlaces> neesOf(const SimulatedGraph& graph) {
 }
 
 std::string timed(int poses, int closures) {
-  const SimulatedGraph graph =
-      streetGraph(static_cast<std::size_t>(poses), static_cast<std::size_t>(closures), streetNoise(), 1);
+  const SimulatedGraph graph = drive(poses, closures, 1);
   const Problem<3> problem = std::get<Problem<3>>(problemOf(graph, deadReckoning(graph)));
   const std::vector<Rigid<3>> relaxed = solve(problem, {}).poses;
   double largest = 0.0;
