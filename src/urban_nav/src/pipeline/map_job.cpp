@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <memory>
 
+#include "pipeline/graph_files.hpp"
 #include "pipeline/map_outcome.hpp"
 #include "pipeline/sessions.hpp"
 #include "pipeline/store_stage.hpp"
 #include "pipeline/usage.hpp"
 #include "pipeline/vo_files.hpp"
+#include "report/plot.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav {
@@ -101,6 +103,38 @@ void checkUsable(const VoRun& run) {
   throw DataError(run.input, "none of " + std::to_string(run.rows.size()) + " stereo frames could be used" + first, "");
 }
 
+bool asksFor(const MapRequest& request, const std::string& stage) {
+  return std::find(request.stages.begin(), request.stages.end(), stage) != request.stages.end();
+}
+
+/// Does the graph stage run? It needs closures, and says so where there are none.
+bool checkGraph(const MapRequest& request, Console& console) {
+  const bool asked = asksFor(request, "graph"), has_closures = !request.closures.empty();
+  if (asked && !has_closures) throw DataError("--stages graph", "no closures, and no stage that finds them", "--closures FILE");
+  if (request.stages.empty()) {
+    console.info(std::string("stages: vo") + (has_closures ? ", graph" : "") + "; left out: " +
+                 (has_closures ? "" : "graph (no closures: --closures FILE), ") + leftOut());
+  } else if (has_closures && !asked) {
+    console.warn("--closures is not used: the stage graph is not among --stages");
+  }
+  if (has_closures && (asked || request.stages.empty()))
+    console.info("closures: " + request.closures + ", with the transforms that stand in it (no stage loops)");
+  return has_closures && (asked || request.stages.empty());
+}
+
+void runGraphStage(MapOutcome& outcome, const std::vector<Session>& sessions, const std::vector<ClosureRow>& closures,
+                   Console& console) {
+  std::vector<const VoRun*> runs;
+  for (const std::unique_ptr<VoStage>& stage : outcome.stages) runs.push_back(&stage->run());
+  outcome.graph = runGraph(outcome.request.parameters.pose_graph.parameters, runs, sessionNames(sessions), closures);
+  const pose_graph::Relaxed& relaxed = outcome.graph->relaxed;
+  console.info("graph: " + std::to_string(relaxed.poses) + " poses, " + std::to_string(relaxed.closures) + " closures, " +
+               std::to_string(relaxed.accepted) + " accepted; cost " + forPerson(relaxed.cost_before, 5) + " -> " +
+               forPerson(relaxed.cost_after, 5) + " in " + forPerson(outcome.graph->ms, 3) + " ms");
+  for (const std::string& warning : outcome.graph->warnings) console.warn(warning);
+  writeGraphFiles(outcome.folder, *outcome.graph, runs);
+}
+
 }  // namespace
 
 const std::vector<std::string>& knownStages() {
@@ -109,14 +143,16 @@ const std::vector<std::string>& knownStages() {
 }
 
 const std::vector<std::string>& existingStages() {
-  static const std::vector<std::string> stages = {"vo"};
+  static const std::vector<std::string> stages = {"vo", "graph"};
   return stages;
 }
 
 void runMap(const MapRequest& request, Console& console) {
   checkStages(request.stages);
   if (!request.truth.empty()) readTrajectory(request.truth);  // a mistake in it is told now, not after the work
-  if (request.stages.empty()) console.info("stages: " + joined(existingStages()) + "; left out: " + leftOut());
+  const bool with_graph = checkGraph(request, console);
+  const std::vector<ClosureRow> closures =
+      request.closures.empty() ? std::vector<ClosureRow>() : readClosures(request.closures);
   const std::vector<Session> sessions = findSessions(request.inputs);
   MapOutcome outcome(request);
   StoreStage store(request, sessions, outcome.folder.file("session.db"), console);
@@ -139,6 +175,8 @@ void runMap(const MapRequest& request, Console& console) {
   for (std::size_t i = sessions.size() + 1; outcome.folder.has("trajectory_" + std::to_string(i) + ".tum"); ++i) {
     removeVoFiles(outcome.folder, "_" + std::to_string(i));
   }
+  if (with_graph) runGraphStage(outcome, sessions, closures, console);
+  else outcome.folder.remove("closures.csv");
   finishMap(outcome, sessions, console);
   store.end();
 }

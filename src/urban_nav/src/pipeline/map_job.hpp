@@ -16,6 +16,7 @@ struct MapRequest {
   std::string out;                  ///< folder
   std::vector<std::string> stages;  ///< asked for; empty: all whose inputs exist
   std::string truth;                ///< file; empty: what is found in the inputs
+  std::string closures;             ///< file; empty: none
   std::string json;                 ///< a copy of summary.json; empty: none
   SourceOptions source;
   AllParameters parameters;

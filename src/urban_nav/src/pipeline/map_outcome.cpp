@@ -8,6 +8,7 @@
 #include "pipeline/vo_files.hpp"
 #include "pipeline/vo_summary.hpp"
 #include "report/evaluation_report.hpp"
+#include "report/graph_report.hpp"
 #include "report/plot.hpp"
 #include "report/vo_report.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
@@ -33,6 +34,13 @@ std::vector<urban_nav_core::CovarianceRow> covariancesOf(const VoRun& run) {
   std::vector<urban_nav_core::CovarianceRow> rows;
   for (const swf_vo::Settled& settled : run.settled)
     rows.push_back({settled.stamp, settled.status.health, settled.T_odom_base.covariance});
+  return rows;
+}
+
+std::vector<urban_nav_core::CovarianceRow> covariancesOf(const VoRun& run,
+                                                         const std::vector<urban_nav_core::Matrix6d>& relaxed) {
+  std::vector<urban_nav_core::CovarianceRow> rows = covariancesOf(run);
+  for (std::size_t i = 0; i < std::min(rows.size(), relaxed.size()); ++i) rows[i].covariance = relaxed[i];
   return rows;
 }
 
@@ -66,8 +74,7 @@ std::vector<Tile> tilesOf(const MapOutcome& outcome, const VoSummary& summary) {
 
 PageTable parametersTable(const AllParameters& parameters) {
   PageTable table{"Parameters", {"parameter", "value", "from"}, {}, ""};
-  for (const std::vector<urban_nav_core::Setting>* settings :
-       {&parameters.command.settings, &parameters.swf_vo.settings}) {
+  for (const std::vector<urban_nav_core::Setting>* settings : parameters.settings()) {
     for (const urban_nav_core::Setting& setting : *settings) {
       table.rows.push_back({urban_nav_core::fullName(setting.stage, setting.name),
                             urban_nav_core::printValue(setting.value), setting.origin});
@@ -91,7 +98,7 @@ PageTable inputsTable(const MapOutcome& outcome) {
 /// The truth of each session, now that nothing can reach the estimates any more. One that cannot be read costs the
 /// comparison, not the map.
 std::vector<std::optional<Evaluation>> compare(const MapOutcome& outcome, const std::vector<Session>& sessions,
-                                               Console& console) {
+                                               bool relaxed, Console* console) {
   std::vector<std::optional<Evaluation>> evaluations;
   EvaluationOptions options;
   options.spans = {{urban_nav_core::Span::Unit::Metres, 10.0}, {urban_nav_core::Span::Unit::Metres, 100.0}};
@@ -104,13 +111,14 @@ std::vector<std::optional<Evaluation>> compare(const MapOutcome& outcome, const 
               ? findTruth(sessions[i], outcome.infos[i], outcome.request.source)
               : truthOfBase(readTrajectory(outcome.request.truth), outcome.infos[i], stampsOf(run));
       if (!truth) continue;
-      TrajectoryFile estimate{outcome.folder.file("trajectory.tum"), true, trajectoryOf(run), {}};
+      TrajectoryFile estimate{outcome.folder.file("trajectory.tum"), true,
+                              relaxed ? outcome.graph->trajectory(i) : trajectoryOf(run), {}};
       for (const urban_nav_core::StampedPose& pose : estimate.trajectory) estimate.poses.push_back(pose.pose);
-      evaluations.back() = evaluate(*truth, estimate, covariancesOf(run), options);
-      console.info("truth: " + truth->path +
+      evaluations.back() = evaluate(*truth, estimate, relaxed ? covariancesOf(run, outcome.graph->covariances(i)) : covariancesOf(run), options);
+      if (console != nullptr) console->info("truth: " + truth->path +
                    (outcome.request.truth.empty() ? " (found; it is used for the report alone)" : ""));
     } catch (const urban_nav_core::UserError& error) {
-      console.warn(std::string("the truth is left out of the report: ") + error.what());
+      if (console != nullptr) console->warn(std::string("the truth is left out of the report: ") + error.what());
     }
   }
   return evaluations;
@@ -131,6 +139,10 @@ Page pageOf(const MapOutcome& outcome, bool running) {
     for (const Verdict& verdict : evaluationVerdicts(*evaluation)) page.verdicts.push_back(verdict);
     for (const Tile& tile : evaluationTiles(*evaluation)) page.tiles.push_back(tile);
     page.sections.push_back(evaluationSection(*evaluation));
+  }
+  if (outcome.graph) {
+    for (const Verdict& verdict : graphVerdicts(*outcome.graph)) page.verdicts.push_back(verdict);
+    page.sections.insert(page.sections.begin(), graphSection(*outcome.graph, runs, outcome.before, outcome.evaluations));
   }
   for (std::size_t i = 0; i < runs.size(); ++i) {
     for (Section& section : voSections(*runs[i], i >= outcome.evaluations.size() || !outcome.evaluations[i])) {
@@ -171,6 +183,7 @@ Json summaryOf(const MapOutcome& outcome, const VoSummary& summary) {
                                       [](const auto& evaluation) { return evaluation.has_value(); });
   if (evaluated != outcome.evaluations.end()) addToJson(**evaluated, json);
   json["swf_vo"] = toJson(summary);
+  if (outcome.graph) json["pose_graph"] = toJson(*outcome.graph, outcome.before);
   json["parameters"] = parametersJson(outcome.request.parameters);
   return json;
 }
@@ -198,7 +211,8 @@ std::string troubleOf(const std::vector<const VoRun*>& runs, const VoSummary& su
 void writeReport(const MapOutcome& outcome) { outcome.folder.write("report.html", renderPage(pageOf(outcome, true))); }
 
 void finishMap(MapOutcome& outcome, const std::vector<Session>& sessions, Console& console) {
-  outcome.evaluations = compare(outcome, sessions, console);
+  if (outcome.graph) outcome.before = compare(outcome, sessions, false, nullptr);
+  outcome.evaluations = compare(outcome, sessions, outcome.graph.has_value(), &console);
   const std::vector<const VoRun*> runs = runsOf(outcome);
   const VoSummary summary = summarise(runs);
   outcome.folder.write("stats.csv", statsCsv(runs));

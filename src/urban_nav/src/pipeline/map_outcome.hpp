@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pipeline/evaluation.hpp"
+#include "pipeline/graph_stage.hpp"
 #include "pipeline/map_job.hpp"
 #include "pipeline/output_folder.hpp"
 #include "pipeline/sessions.hpp"
@@ -23,6 +24,8 @@ struct MapOutcome {
   Usage usage;
   std::vector<std::unique_ptr<VoStage>> stages;        ///< one per session
   std::vector<SourceInfo> infos;                       ///< one per session
+  std::optional<GraphRun> graph;                       ///< when it is relaxed
+  std::vector<std::optional<Evaluation>> before;       ///< as evaluations, by odometry alone; empty without a graph
   std::vector<std::optional<Evaluation>> evaluations;  ///< one per session, when all are finished; empty before
   double progress = 0.0;                               ///< of the session at work
 };

@@ -19,7 +19,7 @@ std::vector<Assignment> assignmentsOf(const Arguments& arguments) {
     assignments.insert(assignments.end(), file.begin(), file.end());
   }
   for (const std::string& setting : arguments.all("set")) assignments.push_back(urban_nav_core::parseSetting(setting));
-  urban_nav_core::refuseUnknownStages(assignments, {"", swf_vo::table().stage()});
+  urban_nav_core::refuseUnknownStages(assignments, {"", swf_vo::table().stage(), pose_graph::table().stage()});
   return assignments;
 }
 
@@ -45,9 +45,14 @@ const Table<CommandParameters>& commandTable() {
   return table;
 }
 
+std::vector<const std::vector<Setting>*> AllParameters::settings() const {
+  return {&command.settings, &swf_vo.settings, &pose_graph.settings};
+}
+
 AllParameters loadParameters(const Arguments& arguments) {
   const std::vector<Assignment> assignments = assignmentsOf(arguments);
-  return {urban_nav_core::load(commandTable(), assignments), urban_nav_core::load(swf_vo::table(), assignments)};
+  return {urban_nav_core::load(commandTable(), assignments), urban_nav_core::load(swf_vo::table(), assignments),
+          urban_nav_core::load(pose_graph::table(), assignments)};
 }
 
 void checkCommonOptions(const Arguments& arguments) {
@@ -65,12 +70,13 @@ std::string parametersHelp(const Arguments& arguments) {
   const AllParameters all = loadParameters(arguments);
   return "parameters (--config FILE, --set STAGE.KEY=VALUE):\n" +
          urban_nav_core::printHelp(commandTable().stage(), commandTable().rows(), all.command.settings) +
-         urban_nav_core::printHelp(swf_vo::table().stage(), swf_vo::table().rows(), all.swf_vo.settings);
+         urban_nav_core::printHelp(swf_vo::table().stage(), swf_vo::table().rows(), all.swf_vo.settings) +
+         urban_nav_core::printHelp(pose_graph::table().stage(), pose_graph::table().rows(), all.pose_graph.settings);
 }
 
 Json parametersJson(const AllParameters& parameters) {
   Json json = Json::object();
-  for (const std::vector<Setting>* settings : {&parameters.command.settings, &parameters.swf_vo.settings}) {
+  for (const std::vector<Setting>* settings : parameters.settings()) {
     for (const Setting& setting : *settings) {
       Json& entry = json[urban_nav_core::fullName(setting.stage, setting.name)] = Json::object();
       entry["value"] = jsonOf(setting.value);

@@ -5,6 +5,7 @@
 #include <rosbag/view.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "input/open.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -58,6 +59,19 @@ std::vector<Session> findSessions(const std::vector<std::string>& inputs) {
     first = false;
   }
   return sessions;
+}
+
+std::vector<std::string> sessionNames(const std::vector<Session>& sessions) {
+  std::vector<std::string> names;
+  for (const Session& session : sessions) {
+    std::filesystem::path path = std::filesystem::absolute(session.paths.front()).lexically_normal();
+    if (!path.has_filename()) path = path.parent_path();
+    const std::string plain = (path.extension() == ".bag" ? path.stem() : path.filename()).string();
+    std::string name = plain;
+    for (int i = 2; std::find(names.begin(), names.end(), name) != names.end(); ++i) name = plain + "_" + std::to_string(i);
+    names.push_back(name);
+  }
+  return names;
 }
 
 }  // namespace urban_nav

@@ -15,4 +15,8 @@ struct Session {
 /// that is known.
 std::vector<Session> findSessions(const std::vector<std::string>& inputs);
 
+/// What sessions are called in closures.csv: the folder's name, or the stem of the first bag; where two would be called the
+/// same, the later one gets a number ("quad", "quad_2").
+std::vector<std::string> sessionNames(const std::vector<Session>& sessions);
+
 }  // namespace urban_nav

@@ -123,8 +123,7 @@ std::optional<VoRun> StoreStage::begin(std::size_t session, const SourceInfo& in
   store_->sessions().put(id, Property{"input/name", info.name});
   store_->sessions().put(id, Property{"input/kind", info.kind});
   store_->sessions().put(id, urban_nav_store::Extrinsic{kCamera, info.T_base_camera});
-  for (const std::vector<urban_nav_core::Setting>* settings :
-       {&request_.parameters.command.settings, &request_.parameters.swf_vo.settings}) {
+  for (const std::vector<urban_nav_core::Setting>* settings : request_.parameters.settings()) {
     for (const urban_nav_core::Setting& setting : *settings)
       store_->sessions().put(
           id, urban_nav_store::StoredParameter{urban_nav_core::fullName(setting.stage, setting.name),

@@ -163,10 +163,11 @@ void writeVoFiles(const OutputFolder& folder, const VoRun& run, const std::strin
   folder.write("landmarks" + suffix + ".ply", landmarksPly(run));
 }
 
-void removeVoFiles(const OutputFolder& folder, const std::string& suffix) {
+void removeVoFiles(const OutputFolder& folder, const std::string& suffix, VoFiles which) {
   for (const char* name : {"trajectory#.tum", "trajectory#.kitti", "covariance#.csv", "relative_covariance#.csv",
                            "graph#.g2o", "landmarks#.ply"}) {
     std::string file = name;
+    if (which == VoFiles::AllButLandmarks && file == "landmarks#.ply") continue;
     folder.remove(file.replace(file.find('#'), 1, suffix));
   }
 }

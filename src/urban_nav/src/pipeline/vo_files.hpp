@@ -19,7 +19,8 @@ namespace urban_nav {
 void writeVoFiles(const OutputFolder& folder, const VoRun& run, const std::string& suffix);
 
 /// Files of the same names that an earlier run with more sessions left.
-void removeVoFiles(const OutputFolder& folder, const std::string& suffix);
+enum class VoFiles { All, AllButLandmarks };
+void removeVoFiles(const OutputFolder& folder, const std::string& suffix, VoFiles which = VoFiles::All);
 
 /// stats.csv: a row per frame of all sessions.
 std::string statsCsv(const std::vector<const VoRun*>& runs);

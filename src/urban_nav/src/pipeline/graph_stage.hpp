@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/closures_file.hpp"
+#include "pipeline/vo_stage.hpp"
+#include "pose_graph/marginals.hpp"
+#include "pose_graph/pose_graph.hpp"
+
+namespace urban_nav {
+
+/// What relaxation made of all sessions. Sessions are named as closures.csv names them.
+struct GraphRun {
+  pose_graph::PoseGraph graph{pose_graph::Parameters()};
+  pose_graph::Relaxed relaxed;
+  std::vector<std::string> sessions;   ///< names, in the order of the runs
+  std::vector<ClosureRow> closures;    ///< with their verdicts
+  std::vector<std::string> warnings;
+  double ms = 0.0;  ///< that the relaxation took
+
+  /// Does a session, as a whole, lie in the map of the first one?
+  bool joined(std::size_t session) const;
+  /// The poses of a session: in `map` where it joined, else in its own.
+  urban_nav_core::Trajectory trajectory(std::size_t session) const;
+  /// Marginal covariances of T_first_base, as far as they are known, in the order of the session's poses.
+  std::vector<urban_nav_core::Matrix6d> covariances(std::size_t session) const;
+};
+
+/// Takes the settled chains of the runs and the closures with their transforms. A closure whose moments lie between frames
+/// is carried to the nearest ones by the odometry in between. One that cannot be used is rejected with the reason, never lost.
+GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<const VoRun*>& runs,
+                  const std::vector<std::string>& sessions, std::vector<ClosureRow> closures);
+
+}  // namespace urban_nav

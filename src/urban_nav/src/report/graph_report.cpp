@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/graph_report.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "pipeline/vo_files.hpp"
+#include "report/plot.hpp"
+
+namespace urban_nav {
+
+using urban_nav_core::StampNs;
+using urban_nav_core::Trajectory;
+
+namespace {
+
+constexpr std::size_t kMostRows = 500;  // closures in the table
+constexpr std::array<const char*, 4> kColours = {"a", "c", "d", "b"};
+
+std::string count(std::size_t n, const char* noun) { return std::to_string(n) + " " + noun + (n == 1 ? "" : "s"); }
+
+std::vector<PlotPoint> seenFromAbove(const Trajectory& trajectory) {
+  std::vector<PlotPoint> points;
+  for (const auto& pose : trajectory) points.push_back({pose.pose.t().x(), pose.pose.t().y()});
+  return points;
+}
+
+/// Lines between the two ends of closures with this verdict.
+Series linksOf(const GraphRun& graph, pose_graph::EdgeVerdict verdict, const std::string& name, const std::string& colour) {
+  Series series;
+  series.name = name;
+  series.colour = colour;
+  const double gap = std::numeric_limits<double>::quiet_NaN();
+  const auto place = [&](const pose_graph::NodeRef& ref) -> PlotPoint {
+    const pose_graph::Track& track = *graph.graph.track(ref.session);
+    const auto i = std::lower_bound(track.stamps.begin(), track.stamps.end(), ref.stamp) - track.stamps.begin();
+    return {track.map[static_cast<std::size_t>(i)].t().x(), track.map[static_cast<std::size_t>(i)].t().y()};
+  };
+  for (const auto& [id, closure] : graph.graph.closures()) {
+    if (closure.verdict != verdict) continue;
+    series.points.push_back(place(closure.a));
+    series.points.push_back(place(closure.b));
+    series.points.push_back({gap, gap});
+  }
+  return series;
+}
+
+Plot pathsPlot(const GraphRun& graph, const std::vector<const VoRun*>& runs) {
+  Plot plot;
+  plot.equal_axes = true;
+  plot.height = 420;
+  plot.x_label = "x, forward at the start (m)";
+  plot.y_label = "y, left (m)";
+  for (std::size_t s = 0; s < runs.size(); ++s) {
+    Series before, after;
+    before.kind = Series::Kind::Dashed;
+    before.colour = after.colour = kColours[s % kColours.size()];
+    const std::string name = runs.size() > 1 ? ", " + graph.sessions[s] : "";
+    before.name = "odometry" + name;
+    after.name = "relaxed" + name;
+    before.points = seenFromAbove(trajectoryOf(*runs[s]));
+    after.points = seenFromAbove(graph.trajectory(s));
+    plot.series.push_back(before);
+    plot.series.push_back(after);
+  }
+  plot.series.push_back(linksOf(graph, pose_graph::EdgeVerdict::Accepted, "closures", "good"));
+  plot.series.push_back(linksOf(graph, pose_graph::EdgeVerdict::Rejected, "rejected", "bad"));
+  plot.series.push_back(linksOf(graph, pose_graph::EdgeVerdict::Waiting, "waiting", "fair"));
+  return plot;
+}
+
+Plot costPlot(const GraphRun& graph) {
+  Plot plot;
+  plot.x_label = "iteration";
+  plot.y_label = "log10 of the cost";
+  Series series;
+  series.points.push_back({0.0, std::log10(std::max(graph.relaxed.cost_before, 1e-12))});
+  for (std::size_t i = 0; i < graph.relaxed.iterations.size(); ++i)
+    series.points.push_back({static_cast<double>(i + 1), std::log10(std::max(graph.relaxed.iterations[i].cost, 1e-12))});
+  plot.series.push_back(series);
+  return plot;
+}
+
+PageTable closuresTable(const GraphRun& graph) {
+  PageTable table{"Closures",
+                  {"from", "to", "probability", "kind", "verdict", "weight", "reason"},
+                  {},
+                  graph.closures.size() > kMostRows ? "The first " + std::to_string(kMostRows) + " of " +
+                                                          std::to_string(graph.closures.size()) + "; all are in closures.csv."
+                                                    : "All of them, also in closures.csv."};
+  for (std::size_t i = 0; i < std::min(kMostRows, graph.closures.size()); ++i) {
+    const ClosureRow& row = graph.closures[i];
+    table.rows.push_back({row.session_a + " " + urban_nav_core::printStamp(row.stamp_a),
+                          row.session_b + " " + urban_nav_core::printStamp(row.stamp_b), forPerson(row.probability, 3), row.kind,
+                          row.verdict, forPerson(row.weight, 3), row.reason});
+  }
+  return table;
+}
+
+std::optional<PageTable> errorsTable(const GraphRun& graph, const std::vector<std::optional<Evaluation>>& before,
+                                     const std::vector<std::optional<Evaluation>>& after) {
+  PageTable table{"Errors against the truth",
+                  {"session", "length (m)", "odometry, first poses aligned (m)", "relaxed (m)", "odometry, aligned (m)",
+                   "relaxed (m)", "NEES before", "after"},
+                  {},
+                  "Root mean squares over all poses; NEES of 6 where covariances are right."};
+  for (std::size_t s = 0; s < std::min(before.size(), after.size()); ++s) {
+    if (!before[s] || !after[s]) continue;
+    table.rows.push_back({graph.sessions[s], forPerson(after[s]->length_m, 4), forPerson(before[s]->first.rmse, 3),
+                          forPerson(after[s]->first.rmse, 3), forPerson(before[s]->se3.rmse, 3),
+                          forPerson(after[s]->se3.rmse, 3), before[s]->nees ? forPerson(before[s]->nees->mean, 3) : "",
+                          after[s]->nees ? forPerson(after[s]->nees->mean, 3) : ""});
+  }
+  if (table.rows.empty()) return std::nullopt;
+  return table;
+}
+
+}  // namespace
+
+Section graphSection(const GraphRun& graph, const std::vector<const VoRun*>& runs,
+                     const std::vector<std::optional<Evaluation>>& before,
+                     const std::vector<std::optional<Evaluation>>& after) {
+  Section section{"graph", "Relaxation",
+                  "The chain of odometry, pinched together where a place was seen again; closures that contradict the others are "
+                  "left out.",
+                  {}, {}, {}};
+  section.figures.push_back({"From above", renderSvg(pathsPlot(graph, runs)),
+                             "Dashed: odometry alone. Lines across: closures, by verdict.", true});
+  section.figures.push_back({"Cost over iterations", renderSvg(costPlot(graph), false),
+                             "The sum of weighted squares, from the first guess on.", false});
+  if (const auto errors = errorsTable(graph, before, after)) section.tables.push_back(*errors);
+  section.tables.push_back(closuresTable(graph));
+  return section;
+}
+
+std::vector<Verdict> graphVerdicts(const GraphRun& graph) {
+  const pose_graph::Relaxed& relaxed = graph.relaxed;
+  std::vector<Verdict> made;
+  const std::string of = std::to_string(relaxed.accepted) + " of " + count(graph.closures.size(), "closure") + " accepted, " +
+                         std::to_string(relaxed.rejected) + " rejected, " + std::to_string(relaxed.waiting) +
+                         " waiting for a second one that agrees";
+  if (relaxed.accepted == 0) {
+    made.push_back({Grade::Fair, "No closure was accepted", of + "; the map is that of odometry."});
+  } else {
+    made.push_back({Grade::Good, "Relaxed over " + count(relaxed.accepted, "closure"),
+                    of + "; the cost fell from " + forPerson(relaxed.cost_before, 4) + " to " + forPerson(relaxed.cost_after, 4) + "."});
+  }
+  std::size_t joined = 0;
+  for (std::size_t s = 0; s < graph.sessions.size(); ++s) joined += graph.joined(s);
+  if (graph.sessions.size() > 1)
+    made.push_back({joined == graph.sessions.size() ? Grade::Good : Grade::Fair,
+                    joined == graph.sessions.size() ? "All sessions are one map"
+                                                    : std::to_string(graph.sessions.size() - joined) + " sessions are maps of their own",
+                    std::to_string(joined) + " of " + std::to_string(graph.sessions.size()) + " sessions lie in one frame."});
+  return made;
+}
+
+Json toJson(const GraphRun& graph, const std::vector<std::optional<Evaluation>>& before) {
+  const pose_graph::Relaxed& relaxed = graph.relaxed;
+  std::size_t joined = 0;
+  for (std::size_t s = 0; s < graph.sessions.size(); ++s) joined += graph.joined(s);
+  Json json = Json::object();
+  json["poses"] = relaxed.poses;
+  json["edges"] = relaxed.edges;
+  json["edges_rejected"] = relaxed.rejected + relaxed.waiting;
+  json["closures"] = relaxed.closures;
+  json["closures_accepted"] = relaxed.accepted;
+  json["closures_waiting"] = relaxed.waiting;
+  json["cost_before"] = relaxed.cost_before;
+  json["cost_after"] = relaxed.cost_after;
+  json["iterations"] = relaxed.iterations.size();
+  json["ending"] = toString(relaxed.ending);
+  json["ms_batch"] = graph.ms;
+  json["sessions_joined"] = joined;
+  Json& warnings = json["warnings"] = Json::array();
+  for (const std::string& warning : graph.warnings) warnings.append(warning);
+  for (const std::optional<Evaluation>& evaluation : before) {
+    if (!evaluation) continue;
+    json["ate_m_odometry"] = evaluation->first.rmse;
+    json["ate_se3_m_odometry"] = evaluation->se3.rmse;
+    break;
+  }
+  return json;
+}
+
+}  // namespace urban_nav
