@@ -27,14 +27,16 @@ std::optional<Pose> poseOf(const CsvTable& table, std::size_t row) {
   }
   const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
   if (std::abs(q.norm() - 1.0) > kUnit)
-    throw UserError(table.where(row), "a quaternion of length " + urban_nav_core::printNumber(q.norm()), "length 1 (1 %)");
+    throw UserError(table.where(row), "a quaternion of length " + urban_nav_core::printNumber(q.norm()),
+                    "length 1 (1 %)");
   return Pose(q, {v[0], v[1], v[2]});
 }
 
 double sigmaOf(const CsvTable& table, std::size_t row, const char* column) {
   if (!table.has(column) || table.text(row, table.column(column)).empty()) return 0.0;
   const double sigma = table.number(row, table.column(column));
-  if (!(sigma > 0.0)) throw UserError(table.where(row), std::string(column) + " = " + urban_nav_core::printNumber(sigma), "above 0");
+  if (!(sigma > 0.0))
+    throw UserError(table.where(row), std::string(column) + " = " + urban_nav_core::printNumber(sigma), "above 0");
   return sigma;
 }
 
@@ -56,7 +58,8 @@ std::vector<ClosureRow> readClosures(const std::string& path) {
     row.where = table.where(i);
     if (!(row.probability >= 0.0 && row.probability <= 1.0))
       throw UserError(row.where, "probability = " + table.text(i, probability), "0...1");
-    if (table.has("kind") && !table.text(i, table.column("kind")).empty()) row.kind = table.text(i, table.column("kind"));
+    if (table.has("kind") && !table.text(i, table.column("kind")).empty())
+      row.kind = table.text(i, table.column("kind"));
     if (row.kind != "stereo" && row.kind != "icp" && row.kind != "none")
       throw UserError(row.where, "kind = " + row.kind, "stereo, icp, none");
     row.T_a_b = poseOf(table, i);

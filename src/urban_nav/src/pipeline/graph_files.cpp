@@ -55,7 +55,8 @@ G2oGraph graphOf(const GraphRun& run) {
     line.to = edge.to;
     const Pose Z = poseOf(edge.Z);
     line.values = {Z.t().x(), Z.t().y(), Z.t().z(), Z.q().x(), Z.q().y(), Z.q().z(), Z.q().w()};
-    Matrix6d information = edge.information;  // of the rotation vector; the file has the quaternion's, which is half of it
+    Matrix6d information =
+        edge.information;  // of the rotation vector; the file has the quaternion's, which is half of it
     information.topRightCorner<3, 3>() *= 2.0;
     information.bottomLeftCorner<3, 3>() *= 2.0;
     information.bottomRightCorner<3, 3>() *= 4.0;
@@ -69,7 +70,8 @@ G2oGraph graphOf(const GraphRun& run) {
 }  // namespace
 
 void writeGraphFiles(const OutputFolder& folder, const GraphRun& graph, const std::vector<const VoRun*>& runs) {
-  std::string tum, covariance = urban_nav_core::covarianceHeader(), relative = urban_nav_core::relativeCovarianceHeader();
+  std::string tum, covariance = urban_nav_core::covarianceHeader(),
+                   relative = urban_nav_core::relativeCovarianceHeader();
   std::vector<Pose> kitti;
   Pose T_first_map;
   for (std::size_t s = 0; s < runs.size(); ++s) {

@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "pipeline/vo_files.hpp"
+#include "pose_graph/graph_file.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav {
@@ -55,7 +56,8 @@ class Offers {
       if (session == run_.sessions.end()) return "no session \"" + name + "\" in this map";
       const auto moment = momentOf(odometry_[static_cast<std::size_t>(session - run_.sessions.begin())],
                                    at_a ? row.stamp_a : row.stamp_b);
-      if (!moment) return "no frames around " + urban_nav_core::printStamp(at_a ? row.stamp_a : row.stamp_b) + " s in " + name;
+      if (!moment)
+        return "no frames around " + urban_nav_core::printStamp(at_a ? row.stamp_a : row.stamp_b) + " s in " + name;
       (at_a ? closure.a : closure.b) = {name, moment->node};
       T_a_b = at_a ? moment->T_node_moment * T_a_b : T_a_b * moment->T_node_moment.inverse();
     }
@@ -147,7 +149,8 @@ GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<co
   judge(made);
   for (std::size_t s = 1; s < sessions.size(); ++s)
     if (!made.joined(s))
-      made.warnings.push_back("session " + sessions[s] + " is a map of its own: no closures that agree join it to " + sessions[0]);
+      made.warnings.push_back("session " + sessions[s] + " is a map of its own: no closures that agree join it to " +
+                              sessions[0]);
   const urban_nav_core::Status status = made.graph.status();
   if (status.reason == static_cast<int>(pose_graph::Trouble::BrokenChain)) made.warnings.push_back(status.sentence);
   return made;

@@ -8,6 +8,7 @@
 #include "pipeline/vo_stage.hpp"
 #include "pose_graph/marginals.hpp"
 #include "pose_graph/pose_graph.hpp"
+#include "urban_nav_core/trajectory/trajectory.hpp"
 
 namespace urban_nav {
 
@@ -15,8 +16,8 @@ namespace urban_nav {
 struct GraphRun {
   pose_graph::PoseGraph graph{pose_graph::Parameters()};
   pose_graph::Relaxed relaxed;
-  std::vector<std::string> sessions;   ///< names, in the order of the runs
-  std::vector<ClosureRow> closures;    ///< with their verdicts
+  std::vector<std::string> sessions;  ///< names, in the order of the runs
+  std::vector<ClosureRow> closures;   ///< with their verdicts
   std::vector<std::string> warnings;
   double ms = 0.0;  ///< that the relaxation took
 

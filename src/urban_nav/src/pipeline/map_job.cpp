@@ -110,10 +110,11 @@ bool asksFor(const MapRequest& request, const std::string& stage) {
 /// Does the graph stage run? It needs closures, and says so where there are none.
 bool checkGraph(const MapRequest& request, Console& console) {
   const bool asked = asksFor(request, "graph"), has_closures = !request.closures.empty();
-  if (asked && !has_closures) throw DataError("--stages graph", "no closures, and no stage that finds them", "--closures FILE");
+  if (asked && !has_closures)
+    throw DataError("--stages graph", "no closures, and no stage that finds them", "--closures FILE");
   if (request.stages.empty()) {
-    console.info(std::string("stages: vo") + (has_closures ? ", graph" : "") + "; left out: " +
-                 (has_closures ? "" : "graph (no closures: --closures FILE), ") + leftOut());
+    console.info(std::string("stages: vo") + (has_closures ? ", graph" : "") +
+                 "; left out: " + (has_closures ? "" : "graph (no closures: --closures FILE), ") + leftOut());
   } else if (has_closures && !asked) {
     console.warn("--closures is not used: the stage graph is not among --stages");
   }
@@ -128,9 +129,10 @@ void runGraphStage(MapOutcome& outcome, const std::vector<Session>& sessions, co
   for (const std::unique_ptr<VoStage>& stage : outcome.stages) runs.push_back(&stage->run());
   outcome.graph = runGraph(outcome.request.parameters.pose_graph.parameters, runs, sessionNames(sessions), closures);
   const pose_graph::Relaxed& relaxed = outcome.graph->relaxed;
-  console.info("graph: " + std::to_string(relaxed.poses) + " poses, " + std::to_string(relaxed.closures) + " closures, " +
-               std::to_string(relaxed.accepted) + " accepted; cost " + forPerson(relaxed.cost_before, 5) + " -> " +
-               forPerson(relaxed.cost_after, 5) + " in " + forPerson(outcome.graph->ms, 3) + " ms");
+  console.info("graph: " + std::to_string(relaxed.poses) + " poses, " + std::to_string(relaxed.closures) +
+               " closures, " + std::to_string(relaxed.accepted) + " accepted; cost " +
+               forPerson(relaxed.cost_before, 5) + " -> " + forPerson(relaxed.cost_after, 5) + " in " +
+               forPerson(outcome.graph->ms, 3) + " ms");
   for (const std::string& warning : outcome.graph->warnings) console.warn(warning);
   writeGraphFiles(outcome.folder, *outcome.graph, runs);
 }

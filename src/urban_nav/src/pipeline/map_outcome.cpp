@@ -111,12 +111,14 @@ std::vector<std::optional<Evaluation>> compare(const MapOutcome& outcome, const 
               ? findTruth(sessions[i], outcome.infos[i], outcome.request.source)
               : truthOfBase(readTrajectory(outcome.request.truth), outcome.infos[i], stampsOf(run));
       if (!truth) continue;
-      TrajectoryFile estimate{outcome.folder.file("trajectory.tum"), true,
-                              relaxed ? outcome.graph->trajectory(i) : trajectoryOf(run), {}};
+      TrajectoryFile estimate{
+          outcome.folder.file("trajectory.tum"), true, relaxed ? outcome.graph->trajectory(i) : trajectoryOf(run), {}};
       for (const urban_nav_core::StampedPose& pose : estimate.trajectory) estimate.poses.push_back(pose.pose);
-      evaluations.back() = evaluate(*truth, estimate, relaxed ? covariancesOf(run, outcome.graph->covariances(i)) : covariancesOf(run), options);
-      if (console != nullptr) console->info("truth: " + truth->path +
-                   (outcome.request.truth.empty() ? " (found; it is used for the report alone)" : ""));
+      evaluations.back() = evaluate(
+          *truth, estimate, relaxed ? covariancesOf(run, outcome.graph->covariances(i)) : covariancesOf(run), options);
+      if (console != nullptr)
+        console->info("truth: " + truth->path +
+                      (outcome.request.truth.empty() ? " (found; it is used for the report alone)" : ""));
     } catch (const urban_nav_core::UserError& error) {
       if (console != nullptr) console->warn(std::string("the truth is left out of the report: ") + error.what());
     }
@@ -142,7 +144,8 @@ Page pageOf(const MapOutcome& outcome, bool running) {
   }
   if (outcome.graph) {
     for (const Verdict& verdict : graphVerdicts(*outcome.graph)) page.verdicts.push_back(verdict);
-    page.sections.insert(page.sections.begin(), graphSection(*outcome.graph, runs, outcome.before, outcome.evaluations));
+    page.sections.insert(page.sections.begin(),
+                         graphSection(*outcome.graph, runs, outcome.before, outcome.evaluations));
   }
   for (std::size_t i = 0; i < runs.size(); ++i) {
     for (Section& section : voSections(*runs[i], i >= outcome.evaluations.size() || !outcome.evaluations[i])) {

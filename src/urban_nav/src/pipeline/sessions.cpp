@@ -68,7 +68,8 @@ std::vector<std::string> sessionNames(const std::vector<Session>& sessions) {
     if (!path.has_filename()) path = path.parent_path();
     const std::string plain = (path.extension() == ".bag" ? path.stem() : path.filename()).string();
     std::string name = plain;
-    for (int i = 2; std::find(names.begin(), names.end(), name) != names.end(); ++i) name = plain + "_" + std::to_string(i);
+    for (int i = 2; std::find(names.begin(), names.end(), name) != names.end(); ++i)
+      name = plain + "_" + std::to_string(i);
     names.push_back(name);
   }
   return names;

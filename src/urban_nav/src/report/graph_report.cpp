@@ -28,7 +28,8 @@ std::vector<PlotPoint> seenFromAbove(const Trajectory& trajectory) {
 }
 
 /// Lines between the two ends of closures with this verdict.
-Series linksOf(const GraphRun& graph, pose_graph::EdgeVerdict verdict, const std::string& name, const std::string& colour) {
+Series linksOf(const GraphRun& graph, pose_graph::EdgeVerdict verdict, const std::string& name,
+               const std::string& colour) {
   Series series;
   series.name = name;
   series.colour = colour;
@@ -78,7 +79,8 @@ Plot costPlot(const GraphRun& graph) {
   Series series;
   series.points.push_back({0.0, std::log10(std::max(graph.relaxed.cost_before, 1e-12))});
   for (std::size_t i = 0; i < graph.relaxed.iterations.size(); ++i)
-    series.points.push_back({static_cast<double>(i + 1), std::log10(std::max(graph.relaxed.iterations[i].cost, 1e-12))});
+    series.points.push_back(
+        {static_cast<double>(i + 1), std::log10(std::max(graph.relaxed.iterations[i].cost, 1e-12))});
   plot.series.push_back(series);
   return plot;
 }
@@ -87,14 +89,15 @@ PageTable closuresTable(const GraphRun& graph) {
   PageTable table{"Closures",
                   {"from", "to", "probability", "kind", "verdict", "weight", "reason"},
                   {},
-                  graph.closures.size() > kMostRows ? "The first " + std::to_string(kMostRows) + " of " +
-                                                          std::to_string(graph.closures.size()) + "; all are in closures.csv."
-                                                    : "All of them, also in closures.csv."};
+                  graph.closures.size() > kMostRows
+                      ? "The first " + std::to_string(kMostRows) + " of " + std::to_string(graph.closures.size()) +
+                            "; all are in closures.csv."
+                      : "All of them, also in closures.csv."};
   for (std::size_t i = 0; i < std::min(kMostRows, graph.closures.size()); ++i) {
     const ClosureRow& row = graph.closures[i];
     table.rows.push_back({row.session_a + " " + urban_nav_core::printStamp(row.stamp_a),
-                          row.session_b + " " + urban_nav_core::printStamp(row.stamp_b), forPerson(row.probability, 3), row.kind,
-                          row.verdict, forPerson(row.weight, 3), row.reason});
+                          row.session_b + " " + urban_nav_core::printStamp(row.stamp_b), forPerson(row.probability, 3),
+                          row.kind, row.verdict, forPerson(row.weight, 3), row.reason});
   }
   return table;
 }
@@ -122,10 +125,14 @@ std::optional<PageTable> errorsTable(const GraphRun& graph, const std::vector<st
 Section graphSection(const GraphRun& graph, const std::vector<const VoRun*>& runs,
                      const std::vector<std::optional<Evaluation>>& before,
                      const std::vector<std::optional<Evaluation>>& after) {
-  Section section{"graph", "Relaxation",
-                  "The chain of odometry, pinched together where a place was seen again; closures that contradict the others are "
-                  "left out.",
-                  {}, {}, {}};
+  Section section{
+      "graph",
+      "Relaxation",
+      "The chain of odometry, pinched together where a place was seen again; closures that contradict the others are "
+      "left out.",
+      {},
+      {},
+      {}};
   section.figures.push_back({"From above", renderSvg(pathsPlot(graph, runs)),
                              "Dashed: odometry alone. Lines across: closures, by verdict.", true});
   section.figures.push_back({"Cost over iterations", renderSvg(costPlot(graph), false),
@@ -138,22 +145,25 @@ Section graphSection(const GraphRun& graph, const std::vector<const VoRun*>& run
 std::vector<Verdict> graphVerdicts(const GraphRun& graph) {
   const pose_graph::Relaxed& relaxed = graph.relaxed;
   std::vector<Verdict> made;
-  const std::string of = std::to_string(relaxed.accepted) + " of " + count(graph.closures.size(), "closure") + " accepted, " +
-                         std::to_string(relaxed.rejected) + " rejected, " + std::to_string(relaxed.waiting) +
-                         " waiting for a second one that agrees";
+  const std::string of = std::to_string(relaxed.accepted) + " of " + count(graph.closures.size(), "closure") +
+                         " accepted, " + std::to_string(relaxed.rejected) + " rejected, " +
+                         std::to_string(relaxed.waiting) + " waiting for a second one that agrees";
   if (relaxed.accepted == 0) {
     made.push_back({Grade::Fair, "No closure was accepted", of + "; the map is that of odometry."});
   } else {
     made.push_back({Grade::Good, "Relaxed over " + count(relaxed.accepted, "closure"),
-                    of + "; the cost fell from " + forPerson(relaxed.cost_before, 4) + " to " + forPerson(relaxed.cost_after, 4) + "."});
+                    of + "; the cost fell from " + forPerson(relaxed.cost_before, 4) + " to " +
+                        forPerson(relaxed.cost_after, 4) + "."});
   }
   std::size_t joined = 0;
   for (std::size_t s = 0; s < graph.sessions.size(); ++s) joined += graph.joined(s);
   if (graph.sessions.size() > 1)
-    made.push_back({joined == graph.sessions.size() ? Grade::Good : Grade::Fair,
-                    joined == graph.sessions.size() ? "All sessions are one map"
-                                                    : std::to_string(graph.sessions.size() - joined) + " sessions are maps of their own",
-                    std::to_string(joined) + " of " + std::to_string(graph.sessions.size()) + " sessions lie in one frame."});
+    made.push_back(
+        {joined == graph.sessions.size() ? Grade::Good : Grade::Fair,
+         joined == graph.sessions.size()
+             ? "All sessions are one map"
+             : std::to_string(graph.sessions.size() - joined) + " sessions are maps of their own",
+         std::to_string(joined) + " of " + std::to_string(graph.sessions.size()) + " sessions lie in one frame."});
   return made;
 }
 
