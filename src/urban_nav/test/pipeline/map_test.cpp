@@ -28,7 +28,7 @@ const std::vector<std::string> kSame = {"trajectory.tum",          "trajectory.k
 void map(const std::vector<std::string>& inputs, const std::string& out, int threads = 1,
          const std::function<void(MapRequest&)>& change = {}) {
   const Arguments none({});
-  MapRequest request{inputs, out, {"vo"}, "", "", {}, loadParameters(none), threads};
+  MapRequest request{inputs, out, {"vo"}, "", "", "", {}, loadParameters(none), threads};
   if (change) change(request);
   Console console;
   runMap(request, console);

@@ -44,7 +44,7 @@ TEST(Still, TurnsNoFurtherThanTheGyroscopeSays) {
     GTEST_SKIP() << "URBAN_NAV_DATA/stereo/euroc_still is not there";
   const testing::TemporaryFolder out;
   Console console;
-  runMap({{folder}, out.file("out"), {"vo"}, "", "", {}, loadParameters(Arguments({})), 1}, console);
+  runMap({{folder}, out.file("out"), {"vo"}, "", "", "", {}, loadParameters(Arguments({})), 1}, console);
   const urban_nav_core::Trajectory estimate = urban_nav_core::readTum(out.file("out") + "/trajectory.tum");
   const std::vector<Rate> rates = readGyroscope(folder + "/mav0/imu0/data.csv");
   ASSERT_EQ(estimate.size(), 50U);

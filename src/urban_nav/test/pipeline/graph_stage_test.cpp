@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/graph_stage.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "pipeline/graph_files.hpp"
+#include "pipeline/vo_files.hpp"
+#include "support/folders.hpp"
+#include "urban_nav_core/io/covariance_csv.hpp"
+#include "urban_nav_core/io/kitti.hpp"
+#include "urban_nav_core/io/tum.hpp"
+#include "urban_nav_core/testing/fuzz.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav {
+namespace {
+
+using Eigen::Vector3d;
+using urban_nav_core::expSo3;
+using urban_nav_core::Pose;
+using urban_nav_core::StampNs;
+using urban_nav_core::UserError;
+
+constexpr StampNs kStep = 50'000'000;
+
+// A circle of 10 m, once in 600 steps.
+Pose truthAt(double step) {
+  const double angle = 2.0 * M_PI * step / 600.0;
+  return Pose(expSo3(Vector3d(0.0, 0.0, angle)), Vector3d(10.0 * std::sin(angle), 10.0 - 10.0 * std::cos(angle), 0.0));
+}
+
+/// Odometry that turns a little too far at each step.
+VoRun drive(int first, int last, double turn) {
+  VoRun run;
+  Pose odom;
+  for (int i = first; i <= last; ++i) {
+    swf_vo::Settled settled;
+    settled.stamp = i * kStep;
+    settled.from_previous.from = (i == first ? i : i - 1) * kStep;
+    settled.from_previous.to = i * kStep;
+    settled.from_previous.covariance = 1e-6 * urban_nav_core::Matrix6d::Identity();
+    if (i > first) {
+      settled.from_previous.T_from_to =
+          truthAt(i - 1).inverse() * truthAt(i) * Pose(expSo3(Vector3d(0, 0, turn)), Vector3d::Zero());
+      odom = odom * settled.from_previous.T_from_to;
+    }
+    settled.T_odom_base.pose = odom;
+    run.settled.push_back(settled);
+    VoRow row;
+    row.stamp = settled.stamp;
+    run.rows.push_back(row);
+  }
+  return run;
+}
+
+ClosureRow closure(const std::string& a, double step_a, const std::string& b, double step_b) {
+  ClosureRow row;
+  row.session_a = a;
+  row.session_b = b;
+  row.stamp_a = static_cast<StampNs>(step_a * static_cast<double>(kStep));
+  row.stamp_b = static_cast<StampNs>(step_b * static_cast<double>(kStep));
+  row.kind = "stereo";
+  row.T_a_b = truthAt(step_a).inverse() * truthAt(step_b);
+  row.sigma_m = 0.02;
+  row.sigma_rad = 0.005;
+  row.where = a + std::to_string(step_a) + b + std::to_string(step_b);
+  return row;
+}
+
+double worstError(const urban_nav_core::Trajectory& trajectory, const Pose& T_truth_map) {
+  double worst = 0.0;
+  for (const auto& pose : trajectory)
+    worst = std::max(worst, distanceBetween(T_truth_map * pose.pose, truthAt(static_cast<double>(pose.stamp) / kStep)));
+  return worst;
+}
+
+TEST(GraphStage, relaxesSessionsIntoOneMap) {
+  const VoRun monday = drive(0, 1200, 2e-4), tuesday = drive(300, 900, -1e-4);
+  std::vector<ClosureRow> rows;
+  // Moments between frames, so that odometry has to carry them.
+  for (int i = 20; i < 600; i += 60) rows.push_back(closure("monday", i + 0.3, "monday", i + 600.6));
+  for (int i = 310; i < 600; i += 60) rows.push_back(closure("monday", i + 0.4, "tuesday", i + 0.2));
+  const GraphRun run = runGraph({}, {&monday, &tuesday}, {"monday", "tuesday"}, rows);
+  EXPECT_TRUE(run.joined(0));
+  EXPECT_TRUE(run.joined(1));
+  EXPECT_EQ(run.relaxed.accepted, rows.size());
+  EXPECT_LT(worstError(run.trajectory(0), Pose()), 0.6);
+  EXPECT_LT(worstError(run.trajectory(1), Pose()), 0.6);
+  EXPECT_GT(worstError(trajectoryOf(monday), Pose()), 1.0);
+  for (const auto& covariance : run.covariances(1)) EXPECT_TRUE(covariance.allFinite());
+  EXPECT_LT(run.covariances(0)[0].norm(), 1e-12);
+
+  const testing::TemporaryFolder folder;
+  writeGraphFiles(OutputFolder(folder.file("out")), run, {&monday, &tuesday});
+  EXPECT_EQ(urban_nav_core::readKitti(folder.file("out/trajectory.kitti")).size(), 1802U);
+  EXPECT_EQ(urban_nav_core::readCovariances(folder.file("out/covariance.csv")).size(), 1802U);
+  const std::vector<ClosureRow> written = readClosures(folder.file("out/closures.csv"));
+  ASSERT_EQ(written.size(), rows.size());
+  EXPECT_EQ(written[0].session_a, "monday");
+}
+
+TEST(GraphStage, keepsApartWhatNothingJoins) {
+  const VoRun monday = drive(0, 300, 0.0), tuesday = drive(0, 300, 0.0);
+  const GraphRun run = runGraph({}, {&monday, &tuesday}, {"monday", "tuesday"}, {});
+  EXPECT_TRUE(run.joined(0));
+  EXPECT_FALSE(run.joined(1));
+  ASSERT_FALSE(run.warnings.empty());
+  EXPECT_NE(run.warnings[0].find("tuesday"), std::string::npos);
+}
+
+TEST(GraphStage, namesClosuresThatCannotBeUsed) {
+  const VoRun monday = drive(0, 300, 0.0);
+  std::vector<ClosureRow> rows = {closure("monday", 10, "sunday", 20), closure("monday", 10, "monday", 5000),
+                                  closure("monday", 10, "monday", 10.1), closure("monday", 10, "monday", 200)};
+  rows[3].T_a_b.reset();
+  const GraphRun run = runGraph({}, {&monday}, {"monday"}, rows);
+  const char* expected[] = {"sunday", "no frames", "itself", "no transform"};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(run.closures[i].verdict, "rejected");
+    EXPECT_NE(run.closures[i].reason.find(expected[i]), std::string::npos) << run.closures[i].reason;
+  }
+  EXPECT_NE(run.warnings.at(0).find("4 closures"), std::string::npos);
+}
+
+TEST(ClosuresFile, bringsBackWhatItWrote) {
+  ClosureRow row = closure("a", 10, "b", 20);
+  row.verdict = "accepted";
+  row.reason = "agrees, with all";
+  row.weight = 0.75;
+  const testing::TemporaryFolder folder;
+  OutputFolder(folder.file("out")).write("closures.csv", printClosures({row, ClosureRow()}));
+  const std::vector<ClosureRow> read = readClosures(folder.file("out/closures.csv"));
+  ASSERT_EQ(read.size(), 2U);
+  EXPECT_EQ(read[0].stamp_b, row.stamp_b);
+  EXPECT_TRUE(isApprox(*read[0].T_a_b, *row.T_a_b, 1e-15));
+  EXPECT_FALSE(read[1].T_a_b);
+  EXPECT_EQ(printClosures({row, ClosureRow()}).substr(0, 9), "session_a");
+}
+
+TEST(ClosuresFile, standsDamage) {
+  ClosureRow row = closure("a", 10, "b", 20);
+  const auto result = urban_nav_core::testing::fuzzFile({printClosures({row, row}), printClosures({})}, "closures.csv",
+                                                        [](const std::string& path) { readClosures(path); });
+  EXPECT_EQ(result.failure, "");
+  EXPECT_GT(result.accepted, 0);
+  EXPECT_GT(result.refused, 0);
+}
+
+}  // namespace
+}  // namespace urban_nav
