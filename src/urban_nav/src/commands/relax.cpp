@@ -9,6 +9,7 @@
 #include "pipeline/parameters.hpp"
 #include "pose_graph/graph_file.hpp"
 #include "pose_graph/relative_pcg.hpp"
+#include "pose_graph/robust.hpp"
 #include "pose_graph/solution.hpp"
 #include "report/plot.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
@@ -132,14 +133,31 @@ Told relaxFile(const G2oGraph& graph, const std::string& name, const Arguments& 
   };
   const auto begin = Clock::now();
   const bool along_chain = arguments.get("solver", "gauss_newton") == "relative_pcg";
-  const pose_graph::Solution<D> solution =
-      along_chain ? relaxAlongChain(file.problem, options) : pose_graph::solve(file.problem, options);
+  pose_graph::RobustSolution<D> robust;
+  robust.edges.resize(file.problem.edges.size());
+  const bool doubted = arguments.get("robust", "on") == "on";
+  if (doubted)
+    robust = pose_graph::relaxRobust(file.problem, pose_graph::rolesByNumbers(file.problem), options);
+  if (along_chain) {
+    pose_graph::Problem<D> accepted;
+    accepted.poses = file.problem.poses;
+    for (std::size_t e = 0; e < robust.edges.size(); ++e)
+      if (robust.edges[e].verdict == pose_graph::Verdict::Accepted) accepted.edges.push_back(file.problem.edges[e]);
+    robust.solution = relaxAlongChain(accepted, options);
+  } else if (!doubted) {
+    robust.solution = pose_graph::solve(file.problem, options);
+  }
+  const pose_graph::Solution<D>& solution = robust.solution;
   Told told;
   told.ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
   told.poses = file.problem.poses.size();
   told.edges = file.problem.edges.size();
   told.iterations = solution.iterations.size();
   told.components = solution.components;
+  told.rejected = static_cast<std::size_t>(
+      std::count_if(robust.edges.begin(), robust.edges.end(), [](const pose_graph::EdgeVerdict& verdict) {
+        return verdict.verdict == pose_graph::Verdict::Rejected;
+      }));
   told.ending = toString(solution.ending);
   told.before = costsOf(file.problem, file.problem.poses);
   told.after = costsOf(file.problem, solution.poses);
@@ -148,8 +166,9 @@ Told relaxFile(const G2oGraph& graph, const std::string& name, const Arguments& 
                  " parts that no edge connects; each stays in its own frame");
   if (arguments.has("edges")) {
     std::string text = "from,to,weight,verdict\n";
-    for (const G2oGraph::Edge& edge : graph.edges)
-      text += std::to_string(edge.from) + "," + std::to_string(edge.to) + ",1,accepted\n";
+    for (std::size_t e = 0; e < graph.edges.size(); ++e)
+      text += std::to_string(graph.edges[e].from) + "," + std::to_string(graph.edges[e].to) + "," +
+              urban_nav_core::printNumber(robust.edges[e].weight) + "," + toString(robust.edges[e].verdict) + "\n";
     urban_nav_core::writeAtomically(arguments.get("edges"), text);
   }
   const std::string output = arguments.get("output");

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "pose_graph/solution.hpp"
+
+namespace pose_graph {
+
+/// What may happen to an edge.
+enum class EdgeRole {
+  Trusted,    ///< odometry: never weighted down, and yields where closures agree on something else
+  Asserted,   ///< said by a person: never weighted down
+  Candidate,  ///< a closure: accepted or rejected
+};
+
+/// Roles where nobody says which edges are odometry: the first edge between two consecutive numbers, either way, is
+/// Trusted, all others are Candidate. A graph without any edge between consecutive numbers trusts those that reach a
+/// pose for the first time, in the order of its edges.
+template <int D>
+std::vector<EdgeRole> rolesByNumbers(const Problem<D>& problem);
+
+enum class Verdict { Accepted, Rejected };
+const char* toString(Verdict verdict);
+
+enum class Reason {
+  Role,         ///< Trusted or Asserted
+  Fits,         ///< agrees with all that is accepted
+  Disagrees,    ///< with what is accepted, by more than chance and noise explain
+  Unconfirmed,  ///< could be, but so much could be there that fitting proves nothing, and no other closure supports it
+  NoWitness,    ///< would join two parts of the graph that nothing else joins
+};
+/// A sentence.
+const char* toString(Reason reason);
+
+struct EdgeVerdict {
+  double weight = 1.0;  ///< 0 where rejected
+  Verdict verdict = Verdict::Accepted;
+  Reason reason = Reason::Role;
+  double chi2 = 0.0;  ///< of a candidate against all other accepted edges together; of others, what remains of their own
+  int dof = 0;        ///< directions that the edge measures
+  std::vector<int> contradicted_by;  ///< of an asserted edge: edges that cannot be true beside it, the worst first
+};
+
+template <int D>
+struct RobustSolution {
+  Solution<D> solution;
+  std::vector<EdgeVerdict> edges;
+  /// By how much the square of the residuals differs from what the edges' information promises, at most 1: an
+  /// information that is too modest is believed as far as kModest allows, one that boasts is taken at its word.
+  double variance_factor = 1.0;
+};
+
+/// Relaxes a graph some of whose closures are false, without any setting. `roles`: one for each edge.
+///
+/// Closures grow into the graph by evidence. Against what is accepted so far each one is tested by its innovation, with
+/// the covariance that the accepted graph gives; evidence is the logarithm of how much likelier its residual is from a
+/// true closure than from one anywhere in the map. The better half of those that pass enters, the graph is relaxed, and
+/// everything is judged anew: what entered wrongly leaves again by Baarda's test of one observation, or of one common
+/// bias of a group (A testing procedure for use in geodetic networks, 1968). Covariances are those of random
+/// disturbances of all edges carried through the factor, some dozens of right-hand sides; so a thousand closures cost
+/// what one costs. Where odometry promises more than it keeps and closures are left out because of that, a second
+/// minimisation with truncated squares starts from there (Yang, Antonante, Tzoumas, Carlone, Graduated non-convexity,
+/// RA-L 2020) and is taken if its truncated cost is lower.
+///
+/// Parts that no trusted edge joins are joined where at least two closures agree with each other. The result does not
+/// depend on the number of threads. The problem must be sound (check.hpp).
+template <int D>
+RobustSolution<D> relaxRobust(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
+                              const SolveOptions& options);
+
+}  // namespace pose_graph

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "robust/accepted_graph.hpp"
+
+#include <algorithm>
+
+#include "start/chordal_start.hpp"
+
+namespace pose_graph {
+
+namespace {
+
+std::size_t sz(int i) { return static_cast<std::size_t>(i); }
+
+// Of the largest entry of the diagonal, growing until the factorisation holds.
+constexpr double kLeastDamping = 1e-12, kMostDamping = 1e-3, kGrowth = 100.0;
+
+}  // namespace
+
+template <int D>
+void AcceptedGraph<D>::take(const std::vector<char>& in, const std::vector<double>& weights) {
+  weights_.clear();
+  for (std::size_t e = 0; e < in.size() && !weights.empty(); ++e)
+    if (in[e]) weights_.push_back(weights[e]);
+  if (equations_ && in == in_) return;
+  in_ = in;
+  part_.edges.clear();
+  for (std::size_t e = 0; e < in.size(); ++e)
+    if (in[e]) part_.edges.push_back(problem_->edges[e]);
+  part_.poses = problem_->poses;
+  equations_ = std::make_unique<NormalEquations<D>>(part_);
+  cholesky_ = std::make_unique<BlockCholesky<N>>(equations_->symbolic());
+}
+
+template <int D>
+void AcceptedGraph<D>::relax(std::vector<Rigid<D>>& poses, int iterations, double share, bool afresh) {
+  if (afresh) {
+    const auto rotations = chordalRotations(*equations_, poses, weights_);
+    auto fresh = rotations ? translationsFor(*equations_, *rotations, poses, weights_) : std::nullopt;
+    if (fresh && equations_->cost(Objective::Geodesic, *fresh, weights_) <
+                     equations_->cost(Objective::Geodesic, poses, weights_))
+      poses = std::move(*fresh);
+  }
+  SolveOptions options;
+  options.iterations = iterations;
+  options.tolerance = share;
+  minimise(*equations_, *cholesky_, options, weights_, poses);
+}
+
+template <int D>
+bool AcceptedGraph<D>::factor(const std::vector<Rigid<D>>& poses) {
+  equations_->linearise(Objective::Geodesic, poses, weights_);
+  if (cholesky_->factor(equations_->H(), equations_->pattern())) return true;
+  double largest = 0.0;
+  for (const auto& block : equations_->H().diagonal) largest = std::max(largest, block.diagonal().maxCoeff());
+  for (double damping = kLeastDamping; damping < kMostDamping; damping *= kGrowth) {
+    for (auto& block : equations_->H().diagonal) block.diagonal().array() += damping * largest;
+    if (cholesky_->factor(equations_->H(), equations_->pattern())) return true;
+  }
+  return false;
+}
+
+template <int D>
+int AcceptedGraph<D>::place(int pose) const {
+  const int unknown = equations_->unknowns().of_pose[sz(pose)];
+  return unknown < 0 ? -1 : equations_->symbolic().place[sz(unknown)];
+}
+
+template class AcceptedGraph<2>;
+template class AcceptedGraph<3>;
+
+}  // namespace pose_graph

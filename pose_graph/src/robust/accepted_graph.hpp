@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "solve/minimise.hpp"
+
+namespace pose_graph {
+
+/// The part of a graph that is accepted for the moment, and its linear system. Only these edges are in the pattern:
+/// false ones between far places would make the factor dense.
+template <int D>
+class AcceptedGraph {
+ public:
+  static constexpr int N = tangent_size<D>;
+
+  /// `problem` must outlive it.
+  explicit AcceptedGraph(const Problem<D>& problem) : problem_(&problem) {}
+
+  /// Takes these edges (those not 0), with weights by edge of the whole problem, or ones if empty.
+  void take(const std::vector<char>& in, const std::vector<double>& weights = {});
+
+  /// Steps until what is left to gain is less than this share of the cost. `afresh`: from rotations found without a
+  /// guess if that costs less than `poses`.
+  void relax(std::vector<Rigid<D>>& poses, int iterations, double share, bool afresh);
+
+  /// Linearises and factors at these poses; directions without information are held by a damping that is nothing
+  /// beside the others. False where even that fails.
+  bool factor(const std::vector<Rigid<D>>& poses);
+  /// x becomes H^-1 x after factor(), N numbers a place.
+  void solve(double* x, int columns) const { cholesky_->solve(x, columns); }
+  int unknowns() const { return static_cast<int>(equations_->unknowns().pose.size()); }
+  /// Where a pose's N numbers stand; -1 for one that is held.
+  int place(int pose) const;
+  /// Poses are comparable if they are of one component.
+  int component(int pose) const { return equations_->unknowns().component[static_cast<std::size_t>(pose)]; }
+
+ private:
+  const Problem<D>* problem_;
+  Problem<D> part_;
+  std::vector<char> in_;
+  std::vector<double> weights_;
+  std::unique_ptr<NormalEquations<D>> equations_;
+  std::unique_ptr<BlockCholesky<N>> cholesky_;
+};
+
+extern template class AcceptedGraph<2>;
+extern template class AcceptedGraph<3>;
+
+}  // namespace pose_graph

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "robust/chain.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "manifold/rotation.hpp"
+
+namespace pose_graph {
+
+namespace {
+
+std::size_t sz(int i) { return static_cast<std::size_t>(i); }
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kLeastExtent = 1e-3;  // metres: a graph that does not move at all
+
+}  // namespace
+
+template <int D>
+TangentMatrix<D> adjoint(const Rigid<D>& T) {
+  constexpr int r = rotation_size<D>;
+  TangentMatrix<D> made = TangentMatrix<D>::Zero();
+  made.template topLeftCorner<D, D>() = T.R;
+  if constexpr (D == 2) {
+    made.template topRightCorner<2, 1>() = -turned(T.t);
+    made(2, 2) = 1.0;
+  } else {
+    made.template topRightCorner<D, r>() = -turned(T.t) * T.R;
+    made.template bottomRightCorner<r, r>() = T.R;
+  }
+  return made;
+}
+
+template <int D>
+TangentMatrix<D> boundedCovariance(const TangentMatrix<D>& information, double extent) {
+  TangentMatrix<D> sum = information;
+  for (int a = 0; a < tangent_size<D>; ++a) {
+    const double width = a < D ? 2.0 * extent : 2.0 * kPi;
+    sum(a, a) += 12.0 / (width * width);
+  }
+  return sum.inverse();
+}
+
+template <int D>
+Chains<D>::Chains(const Problem<D>& problem, const std::vector<EdgeRole>& roles) {
+  const std::size_t n = problem.poses.size();
+  std::vector<const Edge<D>*> step(n, nullptr);
+  for (std::size_t e = 0; e < problem.edges.size(); ++e) {
+    const Edge<D>& edge = problem.edges[e];
+    if (roles[e] != EdgeRole::Trusted || std::abs(edge.from - edge.to) != 1) continue;
+    const Edge<D>*& slot = step[sz(std::max(edge.from, edge.to))];
+    if (!slot) slot = &edge;
+  }
+  of_pose.assign(n, 0);
+  pose.resize(n);
+  way.assign(n, 0.0);
+  int chain = 0;
+  for (std::size_t i = 1; i < n; ++i) {
+    if (!step[i]) {
+      of_pose[i] = ++chain;
+      continue;
+    }
+    of_pose[i] = chain;
+    const Rigid<D> T = step[i]->from < step[i]->to ? step[i]->Z : step[i]->Z.inverse();
+    pose[i] = pose[i - 1] * T;
+    way[i] = way[i - 1] + T.t.norm();
+  }
+  double sum = 0.0;
+  for (std::size_t begin = 0; begin < n;) {
+    std::size_t end = begin;
+    Eigen::Matrix<double, D, 1> middle = Eigen::Matrix<double, D, 1>::Zero();
+    while (end < n && of_pose[end] == of_pose[begin]) middle += pose[end++].t;
+    middle /= static_cast<double>(end - begin);
+    for (; begin < end; ++begin) sum += (pose[begin].t - middle).squaredNorm();
+  }
+  extent = std::max(kLeastExtent, 2.0 * std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, n))));
+  Q.assign(n, TangentMatrix<D>::Zero());
+  for (std::size_t i = 1; i < n; ++i) {
+    if (!step[i]) continue;
+    Q[i] = boundedCovariance<D>(step[i]->information, extent);
+    if (step[i]->from > step[i]->to) {
+      const TangentMatrix<D> turn = adjoint<D>(step[i]->Z);
+      Q[i] = turn * Q[i] * turn.transpose();
+    }
+  }
+}
+
+template <int D>
+TangentMatrix<D> Chains<D>::covariance(int a, int b) const {
+  TangentMatrix<D> sum = TangentMatrix<D>::Zero();
+  const Rigid<D> T_a_0 = pose[sz(a)].inverse();
+  for (int k = std::min(a, b) + 1; k <= std::max(a, b); ++k) {
+    const TangentMatrix<D> turn = adjoint<D>(T_a_0 * pose[sz(k)]);
+    sum.noalias() += turn * Q[sz(k)] * turn.transpose();
+  }
+  return sum;
+}
+
+template TangentMatrix<2> adjoint<2>(const Rigid<2>&);
+template TangentMatrix<3> adjoint<3>(const Rigid<3>&);
+template TangentMatrix<2> boundedCovariance<2>(const TangentMatrix<2>&, double);
+template TangentMatrix<3> boundedCovariance<3>(const TangentMatrix<3>&, double);
+template struct Chains<2>;
+template struct Chains<3>;
+
+}  // namespace pose_graph

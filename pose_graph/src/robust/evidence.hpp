@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "robust/accepted_graph.hpp"
+#include "robust/chain.hpp"
+#include "robust/whitened_edge.hpp"
+
+namespace pose_graph {
+
+/// What the accepted graph says of each candidate; all by edge of the whole problem.
+struct Evidence {
+  /// Chi-square of the edge against all other accepted edges together, with `rank` degrees of freedom: of one outside
+  /// its innovation, of one inside the same without itself. Infinite where an end hangs in the air.
+  std::vector<double> chi2;
+  /// Of one inside: chi-square, of a tangent's degrees of freedom, of one bias common to its group; 0 without a group.
+  std::vector<double> group_chi2;
+  /// Logarithm of how much likelier the residual is from a true closure than from one anywhere.
+  std::vector<double> likelier;
+  bool known = true;  ///< false where the accepted graph could not be factored: nothing else is filled then
+};
+
+/// The candidates of a problem, whitened, with what their tests need that does not change.
+template <int D>
+class Witness {
+ public:
+  Witness(const Problem<D>& problem, const std::vector<int>& candidates, const Chains<D>& chains);
+
+  const WhitenedEdge<D>& edge(int e) const { return edges_[static_cast<std::size_t>(e)]; }
+  const std::vector<int>& candidates() const { return candidates_; }
+
+  /// Puts random disturbances of one standard deviation on all accepted edges, each by kDisturbances signs, and carries
+  /// them through the factor of `graph`: the spread of what comes out at an edge is its covariance (of a residual inside,
+  /// of a prediction outside), to about three tenths. `variance`: factor of all covariances. `small_group`: groups by edge,
+  /// -1 for none, as they are tested for a common bias.
+  Evidence hear(AcceptedGraph<D>& graph, const std::vector<char>& in, const std::vector<Rigid<D>>& poses,
+                double variance, const std::vector<int>& small_group) const;
+
+ private:
+  const Problem<D>* problem_;
+  std::vector<int> candidates_;
+  std::vector<WhitenedEdge<D>> edges_;
+  std::vector<double> false_log_;  ///< minus the logarithm of the density of false residuals, whitened; by candidate
+};
+
+extern template class Witness<2>;
+extern template class Witness<3>;
+
+}  // namespace pose_graph

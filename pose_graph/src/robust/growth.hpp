@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "robust/agreement.hpp"
+#include "robust/evidence.hpp"
+
+namespace pose_graph {
+
+/// Which edges are in, where they put the poses, and what was heard of the candidates last.
+template <int D>
+struct Grown {
+  std::vector<char> in;
+  std::vector<Rigid<D>> poses;
+  Evidence evidence;
+  double variance = 1.0;  ///< RobustSolution::variance_factor
+};
+
+/// Lets closures into the graph by evidence, and out again (pose_graph/robust.hpp).
+template <int D>
+Grown<D> grow(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const Witness<D>& witness,
+              const std::vector<int>& group, const Thresholds& thresholds);
+
+/// Variance of unit weight of the edges that are in, each counted no further than its limit, between kModest and 1.
+/// Starts from 1 with the weight of ten observed tangents, so that a few redundant edges do not decide.
+template <int D>
+double varianceFactor(const Witness<D>& witness, const std::vector<char>& in, const std::vector<Rigid<D>>& poses,
+                      int unknowns, const Thresholds& thresholds);
+
+/// Goes on from there with all candidates, their squares truncated, the limit falling from far too wide to the quantile of
+/// 99 %; keeps the result if its truncated cost is lower. Worth its time only where many are out that are not far off.
+template <int D>
+void takeBack(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const Witness<D>& witness,
+              Grown<D>& grown);
+
+}  // namespace pose_graph

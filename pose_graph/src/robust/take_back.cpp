@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
+#include "robust/growth.hpp"
+#include "urban_nav_core/trajectory/chi_square.hpp"
+
+namespace pose_graph {
+
+namespace {
+
+std::size_t sz(int i) { return static_cast<std::size_t>(i); }
+
+constexpr double kWide = 64.0;    // times the limit: eight standard deviations for each that will count in the end
+constexpr double kNarrower = 1.25;  // each step; at 1.6 the graph with the most doubtful closures (tuc) still ends elsewhere
+constexpr int kLast = 6;           // steps at the final limit, or until nothing changes
+constexpr double kQuantile = 0.99;
+constexpr double kWorth = 0.05;  // of the candidates: so many must be out and within the wide limit
+
+}  // namespace
+
+template <int D>
+void takeBack(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const Witness<D>& witness,
+              Grown<D>& grown) {
+  std::vector<double> limit(1, 0.0);
+  for (int dof = 1; dof <= tangent_size<D>; ++dof)
+    limit.push_back(grown.variance * urban_nav_core::chiSquareQuantile(kQuantile, dof));
+  const auto squareOf = [&](std::size_t e, const std::vector<Rigid<D>>& poses) {
+    const WhitenedEdge<D>& edge = witness.edge(static_cast<int>(e));
+    return whitenedError(edge, poses[sz(edge.from)], poses[sz(edge.to)]).squaredNorm();
+  };
+  const auto limitOf = [&](std::size_t e) { return limit[sz(witness.edge(static_cast<int>(e)).rank)]; };
+  const auto truncated = [&](const std::vector<Rigid<D>>& poses) {
+    double sum = 0.0;
+    for (std::size_t e = 0; e < roles.size(); ++e)
+      sum += roles[e] == EdgeRole::Candidate ? std::min(squareOf(e, poses), limitOf(e)) : squareOf(e, poses);
+    return sum;
+  };
+
+  std::size_t near = 0;
+  for (int e : witness.candidates())
+    if (!grown.in[sz(e)] && squareOf(sz(e), grown.poses) <= kWide * limitOf(sz(e))) ++near;
+  if (static_cast<double>(near) <= kWorth * static_cast<double>(witness.candidates().size())) return;
+
+  std::vector<char> in = grown.in;
+  std::vector<double> weights(in.size(), 1.0);
+  std::vector<Rigid<D>> poses = grown.poses;
+  AcceptedGraph<D> graph(problem);
+  for (double wide = kWide; wide > 1.0; wide /= kNarrower) {
+    for (int e : witness.candidates()) {
+      const double share = squareOf(sz(e), poses) / (wide * limitOf(sz(e)));
+      in[sz(e)] = share < 1.0;
+      weights[sz(e)] = share < 1.0 ? (1.0 - share) * (1.0 - share) : 0.0;  // Beaton, Tukey, Technometrics 1974
+    }
+    graph.take(in, weights);
+    graph.relax(poses, 1, 0.0, false);
+  }
+  for (int i = 0; i < kLast; ++i) {
+    const std::vector<char> before = in;
+    for (int e : witness.candidates()) in[sz(e)] = squareOf(sz(e), poses) <= limitOf(sz(e));
+    if (i > 0 && in == before) break;
+    graph.take(in);
+    graph.relax(poses, 2, 0.0, false);
+  }
+  if (!(truncated(poses) < truncated(grown.poses))) return;
+  grown.in = std::move(in);
+  grown.poses = std::move(poses);
+  for (int e : witness.candidates()) grown.evidence.chi2[sz(e)] = squareOf(sz(e), grown.poses) / grown.variance;
+}
+
+template void takeBack<2>(const Problem<2>&, const std::vector<EdgeRole>&, const Witness<2>&, Grown<2>&);
+template void takeBack<3>(const Problem<3>&, const std::vector<EdgeRole>&, const Witness<3>&, Grown<3>&);
+
+}  // namespace pose_graph

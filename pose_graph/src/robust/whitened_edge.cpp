@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "robust/whitened_edge.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+namespace pose_graph {
+
+namespace {
+
+// Of the largest eigenvalue: less is round-off.
+constexpr double kNothing = 1e-12;
+
+// d Log(Exp(d) R) at d = 0, R = Exp(phi): the inverse of the left Jacobian (Sola et al., A micro Lie theory, eq. 146).
+Eigen::Matrix3d logByLeft(const RotationVector<3>& phi) {
+  const double angle = phi.norm();
+  const Eigen::Matrix3d cross = -turned(phi);
+  // Near pi the second form is what (1 + cos) / sin tends to.
+  const double second = angle < 1e-4   ? 1.0 / 12.0
+                        : angle > 3.14 ? 1.0 / (angle * angle)
+                                       : 1.0 / (angle * angle) - (1.0 + std::cos(angle)) / (2.0 * angle * std::sin(angle));
+  return Eigen::Matrix3d::Identity() - 0.5 * cross + second * cross * cross;
+}
+
+}  // namespace
+
+template <int D>
+WhitenedEdge<D> whitened(const Edge<D>& edge) {
+  WhitenedEdge<D> made;
+  made.from = edge.from;
+  made.to = edge.to;
+  made.Z = edge.Z;
+  made.W.setZero();
+  const Eigen::SelfAdjointEigenSolver<TangentMatrix<D>> eigen(edge.information);
+  const Tangent<D>& values = eigen.eigenvalues();
+  for (int a = tangent_size<D> - 1; a >= 0; --a) {
+    if (!(values[a] > kNothing * values[tangent_size<D> - 1])) continue;
+    made.W.row(made.rank++) = std::sqrt(values[a]) * eigen.eigenvectors().col(a).transpose();
+  }
+  return made;
+}
+
+template <int D>
+Tangent<D> whitenedError(const WhitenedEdge<D>& edge, const Rigid<D>& from, const Rigid<D>& to) {
+  const Rotation<D> A = from.R * edge.Z.R;
+  Tangent<D> e;
+  e.template head<D>() = A.transpose() * (to.t - from.t) - edge.Z.R.transpose() * edge.Z.t;
+  e.template tail<rotation_size<D>>() = logRotation(Rotation<D>(A.transpose() * to.R));
+  return edge.W * e;
+}
+
+template <int D>
+WhitenedJacobians<D> whitenedJacobians(const WhitenedEdge<D>& edge, const Rigid<D>& from, const Rigid<D>& to) {
+  constexpr int r = rotation_size<D>;
+  const Rotation<D> A = from.R * edge.Z.R;
+  const Eigen::Matrix<double, D, 1> d = to.t - from.t;
+  Tangent<D> e;
+  e.template head<D>() = A.transpose() * d - edge.Z.R.transpose() * edge.Z.t;
+  e.template tail<r>() = logRotation(Rotation<D>(A.transpose() * to.R));
+  TangentMatrix<D> by_to = TangentMatrix<D>::Zero(), by_from;
+  by_to.template topLeftCorner<D, D>() = A.transpose();
+  if constexpr (D == 2) by_to(2, 2) = 1.0;
+  else by_to.template bottomRightCorner<r, r>() = logByLeft(RotationVector<D>(e.template tail<r>())) * A.transpose();
+  by_from = -by_to;
+  by_from.template topRightCorner<D, r>() = -A.transpose() * turned(d);
+  WhitenedJacobians<D> made;
+  made.error = edge.W * e;
+  made.by_from = edge.W * by_from;
+  made.by_to = edge.W * by_to;
+  return made;
+}
+
+template WhitenedEdge<2> whitened<2>(const Edge<2>&);
+template WhitenedEdge<3> whitened<3>(const Edge<3>&);
+template Tangent<2> whitenedError<2>(const WhitenedEdge<2>&, const Rigid<2>&, const Rigid<2>&);
+template Tangent<3> whitenedError<3>(const WhitenedEdge<3>&, const Rigid<3>&, const Rigid<3>&);
+template WhitenedJacobians<2> whitenedJacobians<2>(const WhitenedEdge<2>&, const Rigid<2>&, const Rigid<2>&);
+template WhitenedJacobians<3> whitenedJacobians<3>(const WhitenedEdge<3>&, const Rigid<3>&, const Rigid<3>&);
+
+}  // namespace pose_graph
