@@ -19,7 +19,7 @@ namespace pose_graph {
 using urban_nav_core::Pose;
 using urban_nav_core::StampNs;
 using urban_nav_store::EdgeKind;
-using urban_nav_store::EdgeVerdict;
+using ClosureVerdict = urban_nav_store::EdgeVerdict;
 using urban_nav_store::NodeRef;
 using urban_nav_store::SessionId;
 using ClosureId = std::int64_t;
@@ -43,7 +43,7 @@ struct Closure {
   bool odometry_gate = false;           ///< its stage found that odometry allows it
   // From here on: what the last relaxation made of it.
   double weight = 0.0;  ///< 0 while it is not judged
-  EdgeVerdict verdict = EdgeVerdict::Waiting;
+  ClosureVerdict verdict = ClosureVerdict::Waiting;
   std::string reason;
   double chi2 = 0.0;                       ///< against all other accepted edges
   std::vector<ClosureId> contradicted_by;  ///< of an asserted one: what cannot be true beside it, the worst first

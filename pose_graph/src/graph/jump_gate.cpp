@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "pose_graph/graph_file.hpp"
+#include "pose_graph/robust.hpp"
 #include "solve/normal_equations.hpp"
 
 namespace pose_graph {
@@ -12,8 +13,7 @@ namespace {
 
 struct Way {
   Closure* closure;
-  int first, last;  // numbers of poses
-  bool same_track;
+  int a, b;  // numbers of poses
 };
 
 // Odometry's own word for what the closure measures.
@@ -24,47 +24,84 @@ bool isLarge(const Problem<3>& problem, const Closure& closure, int a, int b, co
          angleBetween(T_a_b, closure.measured.T_a_b) > parameters.jump_angle * 3.14159265358979323846 / 180.0;
 }
 
-}  // namespace
+std::vector<EdgeRole> rolesOf(std::size_t chains, const std::map<ClosureId, Closure>& closures) {
+  std::vector<EdgeRole> roles(chains, EdgeRole::Trusted);
+  for (const auto& [id, closure] : closures)
+    roles.push_back(closure.kind == EdgeKind::Asserted ? EdgeRole::Asserted : EdgeRole::Candidate);
+  return roles;
+}
 
-Solution<3> judge(const Problem<3>& problem, const Parameters& parameters, const SolveOptions& options,
-                  const std::vector<Track>& tracks, std::map<ClosureId, Closure>& closures) {
-  const std::size_t chains = problem.edges.size() - closures.size();
-  std::vector<double> weights(problem.edges.size(), 1.0);
+void takeAll(std::map<ClosureId, Closure>& closures) {
   for (auto& [id, closure] : closures) {
-    closure.verdict = EdgeVerdict::Accepted;
+    closure.verdict = ClosureVerdict::Accepted;
     closure.weight = 1.0;
     closure.reason = "taken as it is";
   }
-  (void)tracks;
+}
+
+void take(const RobustSolution<3>& judged, std::size_t chains, std::map<ClosureId, Closure>& closures) {
+  std::vector<ClosureId> ids;
+  for (const auto& [id, closure] : closures) ids.push_back(id);
+  std::size_t e = chains;
+  for (auto& [id, closure] : closures) {
+    const EdgeVerdict& verdict = judged.edges[e++];
+    closure.verdict = verdict.verdict == Verdict::Accepted ? ClosureVerdict::Accepted : ClosureVerdict::Rejected;
+    if (verdict.verdict == Verdict::Rejected && verdict.reason == Reason::NoWitness)
+      closure.verdict = ClosureVerdict::Waiting;
+    closure.weight = verdict.weight;
+    closure.reason = toString(verdict.reason);
+    closure.chi2 = verdict.chi2;
+    closure.contradicted_by.clear();
+    for (const int other : verdict.contradicted_by)
+      if (static_cast<std::size_t>(other) >= chains)
+        closure.contradicted_by.push_back(ids[static_cast<std::size_t>(other) - chains]);
+  }
+}
+
+/// Was any accepted closure made to wait?
+bool makeWait(const Problem<3>& problem, std::size_t chains, const Parameters& parameters,
+              std::map<ClosureId, Closure>& closures) {
   std::vector<Way> ways;
   std::size_t e = chains;
   for (auto& [id, closure] : closures) {
     const int a = problem.edges[e].from, b = problem.edges[e].to;
     ++e;
-    if (closure.verdict == EdgeVerdict::Accepted)
-      ways.push_back({&closure, std::min(a, b), std::max(a, b), closure.a.session == closure.b.session});
+    if (closure.verdict == ClosureVerdict::Accepted) ways.push_back({&closure, a, b});
   }
   bool any = false;
   for (const Way& way : ways) {
     Closure& closure = *way.closure;
-    if (closure.kind == EdgeKind::Asserted || (closure.kind == EdgeKind::Stereo && closure.odometry_gate) ||
-        !way.same_track)
-      continue;
+    const bool may_act_alone =
+        closure.kind == EdgeKind::Asserted || (closure.kind == EdgeKind::Stereo && closure.odometry_gate);
+    if (may_act_alone || closure.a.session != closure.b.session) continue;
     const bool supported = std::any_of(ways.begin(), ways.end(), [&](const Way& other) {
-      return other.closure != way.closure && other.first < way.last && way.first < other.last;
+      return other.closure != way.closure && std::min(other.a, other.b) < std::max(way.a, way.b) &&
+             std::min(way.a, way.b) < std::max(other.a, other.b);
     });
-    const bool a_first = closure.a.stamp < closure.b.stamp;
-    if (supported ||
-        !isLarge(problem, closure, a_first ? way.first : way.last, a_first ? way.last : way.first, parameters))
-      continue;
-    closure.verdict = EdgeVerdict::Waiting;
+    if (supported || !isLarge(problem, closure, way.a, way.b, parameters)) continue;
+    closure.verdict = ClosureVerdict::Waiting;
     closure.weight = 0.0;
     closure.reason = "a large correction, and no second closure that agrees yet";
     any = true;
   }
-  (void)any;
-  e = chains;
-  for (const auto& [id, closure] : closures) weights[e++] = closure.weight;
+  return any;
+}
+
+}  // namespace
+
+Solution<3> judge(const Problem<3>& problem, const Parameters& parameters, const SolveOptions& options,
+                  std::map<ClosureId, Closure>& closures) {
+  const std::size_t chains = problem.edges.size() - closures.size();
+  RobustSolution<3> judged;
+  if (parameters.robust) {
+    judged = relaxRobust(problem, rolesOf(chains, closures), options);
+    take(judged, chains, closures);
+  } else {
+    takeAll(closures);
+  }
+  if (!makeWait(problem, chains, parameters, closures) && parameters.robust) return std::move(judged.solution);
+  std::vector<double> weights(chains, 1.0);
+  for (const auto& [id, closure] : closures) weights.push_back(closure.weight);
   return solve(problem, options, weights);
 }
 

@@ -14,7 +14,7 @@ namespace pose_graph {
 /// allows, and no other accepted closure spans a part of the same way. `closures` get their verdicts, weights and reasons; those
 /// that wait or are rejected have weight 0 in the solution.
 Solution<3> judge(const Problem<3>& problem, const Parameters& parameters, const SolveOptions& options,
-                  const std::vector<Track>& tracks, std::map<ClosureId, Closure>& closures);
+                  std::map<ClosureId, Closure>& closures);
 
 /// Which part each pose is in, by chains and accepted closures: numbered by their first poses.
 std::vector<int> partsOf(const std::vector<Track>& tracks, const PoseGraph& graph);

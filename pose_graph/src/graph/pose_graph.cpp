@@ -133,7 +133,7 @@ ClosureId PoseGraph::addClosure(const Closure& offered) {
   const auto same = findClosure(offered.a, offered.b, offered.kind, offered.source);
   taken.id = same ? *same : next_id_++;
   taken.weight = 0.0;
-  taken.verdict = EdgeVerdict::Waiting;
+  taken.verdict = ClosureVerdict::Waiting;
   taken.reason = "not judged yet";
   taken.contradicted_by.clear();
   closures_[taken.id] = taken;
@@ -197,7 +197,7 @@ Relaxed PoseGraph::relaxFrom(const SolveOptions& options) {
   wanted.iterations = parameters_.iterations;
   const Problem<3> problem = this->problem();
   if (problem.poses.empty()) return {};
-  Solution<3> solution = judge(problem, parameters_, wanted, tracks_, closures_);
+  Solution<3> solution = judge(problem, parameters_, wanted, closures_);
   return take(solution.poses, solution, before);
 }
 
@@ -208,9 +208,9 @@ Relaxed PoseGraph::take(const std::vector<Rigid<3>>& poses, const Solution<3>& s
   made.poses = poses.size();
   made.closures = closures_.size();
   for (const auto& [id, closure] : closures_) {
-    made.accepted += closure.verdict == EdgeVerdict::Accepted;
-    made.rejected += closure.verdict == EdgeVerdict::Rejected;
-    made.waiting += closure.verdict == EdgeVerdict::Waiting;
+    made.accepted += closure.verdict == ClosureVerdict::Accepted;
+    made.rejected += closure.verdict == ClosureVerdict::Rejected;
+    made.waiting += closure.verdict == ClosureVerdict::Waiting;
   }
   made.cost_before = solution.cost_before;
   made.cost_after = solution.cost;
@@ -245,8 +245,8 @@ Relaxed PoseGraph::take(const std::vector<Rigid<3>>& poses, const Solution<3>& s
     Relaxed::Jump jump{{track.session, track.stamps.back()}, newest_before, track.map.back(), distance, angle, "", {}};
     for (const auto& [id, closure] : closures_) {
       const auto was = before.find(id);
-      if (closure.verdict == EdgeVerdict::Accepted &&
-          (was == before.end() || was->second.verdict != EdgeVerdict::Accepted))
+      if (closure.verdict == ClosureVerdict::Accepted &&
+          (was == before.end() || was->second.verdict != ClosureVerdict::Accepted))
         jump.witnesses.push_back(id);
     }
     jump.reason = jump.witnesses.empty() ? "closures that were believed are no longer"
@@ -269,7 +269,7 @@ urban_nav_core::Status PoseGraph::status() const {
     return {Health::Degraded, static_cast<int>(Trouble::BrokenChain),
             "the odometry has gaps; what no closure joins is a map of its own"};
   std::size_t waiting = 0;
-  for (const auto& [id, closure] : closures_) waiting += closure.verdict == EdgeVerdict::Waiting;
+  for (const auto& [id, closure] : closures_) waiting += closure.verdict == ClosureVerdict::Waiting;
   if (parts_ > 1)
     return {Health::Degraded, static_cast<int>(Trouble::Separate),
             std::to_string(parts_) + " maps that no accepted closure joins"};

@@ -92,7 +92,7 @@ void judge(GraphRun& run) {
     }
     for (const auto& [id, closure] : run.graph.closures()) {
       if (closure.source != row.where) continue;
-      row.verdict = closure.verdict == pose_graph::EdgeVerdict::Accepted ? "accepted" : "rejected";
+      row.verdict = closure.verdict == pose_graph::ClosureVerdict::Accepted ? "accepted" : "rejected";
       row.reason = closure.reason;
       row.weight = closure.weight;
     }

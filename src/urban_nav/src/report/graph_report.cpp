@@ -28,7 +28,7 @@ std::vector<PlotPoint> seenFromAbove(const Trajectory& trajectory) {
 }
 
 /// Lines between the two ends of closures with this verdict.
-Series linksOf(const GraphRun& graph, pose_graph::EdgeVerdict verdict, const std::string& name,
+Series linksOf(const GraphRun& graph, pose_graph::ClosureVerdict verdict, const std::string& name,
                const std::string& colour) {
   Series series;
   series.name = name;
@@ -66,9 +66,9 @@ Plot pathsPlot(const GraphRun& graph, const std::vector<const VoRun*>& runs) {
     plot.series.push_back(before);
     plot.series.push_back(after);
   }
-  plot.series.push_back(linksOf(graph, pose_graph::EdgeVerdict::Accepted, "closures", "good"));
-  plot.series.push_back(linksOf(graph, pose_graph::EdgeVerdict::Rejected, "rejected", "bad"));
-  plot.series.push_back(linksOf(graph, pose_graph::EdgeVerdict::Waiting, "waiting", "fair"));
+  plot.series.push_back(linksOf(graph, pose_graph::ClosureVerdict::Accepted, "closures", "good"));
+  plot.series.push_back(linksOf(graph, pose_graph::ClosureVerdict::Rejected, "rejected", "bad"));
+  plot.series.push_back(linksOf(graph, pose_graph::ClosureVerdict::Waiting, "waiting", "fair"));
   return plot;
 }
 
