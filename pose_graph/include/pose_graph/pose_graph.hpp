@@ -42,7 +42,8 @@ struct Closure {
   urban_nav_core::Constraint measured;  ///< T_a_b
   bool odometry_gate = false;           ///< its stage found that odometry allows it
   // From here on: what the last relaxation made of it.
-  double weight = 0.0;  ///< 0 while it is not judged
+  bool judged = false;
+  double weight = 0.0;
   ClosureVerdict verdict = ClosureVerdict::Waiting;
   std::string reason;
   double chi2 = 0.0;                       ///< against all other accepted edges
@@ -81,6 +82,7 @@ struct Relaxed {
     std::vector<ClosureId> witnesses;  ///< accepted now and not before
   };
   std::optional<Jump> jump;
+  bool needs_batch = false;  ///< update() met a closure that disagrees
 };
 
 /// The pose graph of many sessions: chains of relative poses, pinched together by closures (Newman et al. 2009, sections 5 and 7).
@@ -109,8 +111,9 @@ class PoseGraph {
 
   /// Relaxes all there is, from the measurements alone: what was relaxed before leaves no trace. Deterministic.
   Relaxed relax(const SolveOptions& options = {});
-  /// The same from where the graph stands, for a closure more: faster, and equal to relax() to the solver's tolerance as long as
-  /// the verdicts are.
+  /// The same from where the graph stands, for some closures more: each is accepted if it raises the cost by no more than chance
+  /// and noise explain (its innovation, chi-square at 99.9 %), verdicts given earlier stay. Faster by far; where it finds
+  /// disagreement, `needs_batch` asks for relax(), which may find the others wrong.
   Relaxed update();
 
   const std::vector<Track>& tracks() const { return tracks_; }
@@ -134,9 +137,7 @@ class PoseGraph {
     urban_nav_core::RelativePose measured;
     bool joins = true;  ///< false: the chain is broken before `to`
   };
-  Relaxed relaxFrom(const SolveOptions& options);
-  Relaxed take(const std::vector<Rigid<3>>& poses, const Solution<3>& solution,
-               const std::map<ClosureId, Closure>& before);
+  Relaxed take(const Solution<3>& solution, const std::map<ClosureId, Closure>& before);
 
   Parameters parameters_;
   std::vector<Track> tracks_;

@@ -58,6 +58,21 @@ void take(const RobustSolution<3>& judged, std::size_t chains, std::map<ClosureI
   }
 }
 
+// Chi-square of six degrees of freedom at 99.9 %; of fewer where the information leaves directions free, which errs towards
+// keeping.
+constexpr double kInnovationLimit = 22.458;
+
+/// The cost of all other edges where the poses stood before: they were relaxed with them.
+double standingCost(const Solution<3>& with, const Problem<3>& problem, std::size_t edge) {
+  Problem<3> alone;
+  alone.poses = {problem.poses[static_cast<std::size_t>(problem.edges[edge].from)],
+                 problem.poses[static_cast<std::size_t>(problem.edges[edge].to)]};
+  alone.edges = {problem.edges[edge]};
+  alone.edges[0].from = 0;
+  alone.edges[0].to = 1;
+  return with.cost_before - cost(alone, alone.poses, Objective::Geodesic);
+}
+
 /// Was any accepted closure made to wait?
 bool makeWait(const Problem<3>& problem, std::size_t chains, const Parameters& parameters,
               std::map<ClosureId, Closure>& closures) {
@@ -103,6 +118,42 @@ Solution<3> judge(const Problem<3>& problem, const Parameters& parameters, const
   std::vector<double> weights(chains, 1.0);
   for (const auto& [id, closure] : closures) weights.push_back(closure.weight);
   return solve(problem, options, weights);
+}
+
+Addition judgeAddition(const Problem<3>& problem, const Parameters& parameters, const SolveOptions& options,
+                       std::map<ClosureId, Closure>& closures) {
+  const std::size_t chains = problem.edges.size() - closures.size();
+  std::vector<double> weights(chains, 1.0);
+  for (const auto& [id, closure] : closures) weights.push_back(closure.weight);
+  Addition made;
+  bool solved = false;
+  std::size_t e = chains;
+  for (auto& [id, closure] : closures) {
+    const std::size_t edge = e++;
+    if (closure.judged) continue;
+    weights[edge] = 1.0;
+    Solution<3> with = solve(problem, options, weights);
+    // What one measurement more costs is the square of its innovation.
+    const double innovation = with.cost - (solved ? made.solution.cost : standingCost(with, problem, edge));
+    closure.chi2 = std::max(innovation, 0.0);
+    const bool fits = closure.kind == EdgeKind::Asserted || !parameters.robust || closure.chi2 <= kInnovationLimit;
+    closure.verdict = fits ? ClosureVerdict::Accepted : ClosureVerdict::Rejected;
+    closure.weight = fits ? 1.0 : 0.0;
+    closure.reason = fits ? "agrees with what is accepted" : "disagrees with what is accepted";
+    if (fits && makeWait(problem, chains, parameters, closures)) {
+      for (auto& [other, one] : closures)
+        weights[chains + static_cast<std::size_t>(std::distance(closures.begin(), closures.find(other)))] = one.weight;
+    }
+    if (closure.weight > 0.0) {
+      made.solution = std::move(with);
+      solved = true;
+    } else {
+      weights[edge] = 0.0;
+      made.disagreement = true;
+    }
+  }
+  if (!solved) made.solution = solve(problem, options, weights);
+  return made;
 }
 
 std::vector<int> partsOf(const std::vector<Track>&, const PoseGraph& graph) {

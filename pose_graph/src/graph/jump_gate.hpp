@@ -16,6 +16,14 @@ namespace pose_graph {
 Solution<3> judge(const Problem<3>& problem, const Parameters& parameters, const SolveOptions& options,
                   std::map<ClosureId, Closure>& closures);
 
+/// Closures that were not judged yet, each beside what is accepted already. `problem` has the poses where they stand.
+struct Addition {
+  Solution<3> solution;
+  bool disagreement = false;  ///< one of them was left out
+};
+Addition judgeAddition(const Problem<3>& problem, const Parameters& parameters, const SolveOptions& options,
+                       std::map<ClosureId, Closure>& closures);
+
 /// Which part each pose is in, by chains and accepted closures: numbered by their first poses.
 std::vector<int> partsOf(const std::vector<Track>& tracks, const PoseGraph& graph);
 

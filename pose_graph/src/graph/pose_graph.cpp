@@ -132,6 +132,7 @@ ClosureId PoseGraph::addClosure(const Closure& offered) {
   Closure taken = offered;
   const auto same = findClosure(offered.a, offered.b, offered.kind, offered.source);
   taken.id = same ? *same : next_id_++;
+  taken.judged = false;
   taken.weight = 0.0;
   taken.verdict = ClosureVerdict::Waiting;
   taken.reason = "not judged yet";
@@ -187,22 +188,36 @@ std::vector<double> PoseGraph::weights() const {
   return made;
 }
 
-Relaxed PoseGraph::relax(const SolveOptions& options) { return relaxFrom(options); }
-
-Relaxed PoseGraph::update() { return relaxFrom({}); }
-
-Relaxed PoseGraph::relaxFrom(const SolveOptions& options) {
+Relaxed PoseGraph::relax(const SolveOptions& options) {
   const std::map<ClosureId, Closure> before = closures_;
   SolveOptions wanted = options;
   wanted.iterations = parameters_.iterations;
   const Problem<3> problem = this->problem();
   if (problem.poses.empty()) return {};
-  Solution<3> solution = judge(problem, parameters_, wanted, closures_);
-  return take(solution.poses, solution, before);
+  const Solution<3> solution = judge(problem, parameters_, wanted, closures_);
+  for (auto& [id, closure] : closures_) closure.judged = true;
+  return take(solution, before);
 }
 
-Relaxed PoseGraph::take(const std::vector<Rigid<3>>& poses, const Solution<3>& solution,
-                        const std::map<ClosureId, Closure>& before) {
+Relaxed PoseGraph::update() {
+  const std::map<ClosureId, Closure> before = closures_;
+  Problem<3> problem = this->problem();
+  if (problem.poses.empty()) return {};
+  std::size_t number = 0;
+  for (const Track& track : tracks_)
+    for (const Pose& pose : track.map) problem.poses[number++] = rigidOf<3>(pose);
+  SolveOptions options;
+  options.iterations = parameters_.iterations;
+  options.start = Start::Vertices;
+  const Addition added = judgeAddition(problem, parameters_, options, closures_);
+  for (auto& [id, closure] : closures_) closure.judged = true;
+  Relaxed made = take(added.solution, before);
+  made.needs_batch = added.disagreement;
+  return made;
+}
+
+Relaxed PoseGraph::take(const Solution<3>& solution, const std::map<ClosureId, Closure>& before) {
+  const std::vector<Rigid<3>>& poses = solution.poses;
   Relaxed made;
   made.revision = ++revision_;
   made.poses = poses.size();
