@@ -136,7 +136,10 @@ class PoseGraph {
   struct Step {
     urban_nav_core::RelativePose measured;
     bool joins = true;  ///< false: the chain is broken before `to`
+    Edge<3> edge;       ///< of problem(), but for its numbers
   };
+  /// Which part each pose is in, by chains and accepted closures: numbered by their first poses.
+  std::vector<int> partNumbers() const;
   Relaxed take(const Solution<3>& solution, const std::map<ClosureId, Closure>& before);
 
   Parameters parameters_;

@@ -79,13 +79,17 @@ TangentMatrix<D> inverseOf(const TangentMatrix<D>& M) {
 // A chain may hold edges whose information, scaled to ones on its diagonal, is far from singular.
 constexpr double kLeastPivot = 1e-10;
 
+/// The inverse of an edge's information, or none where that is near singular once it is scaled to ones on its diagonal.
 template <int D>
-bool isInvertible(const TangentMatrix<D>& information) {
+bool invert(const TangentMatrix<D>& information, TangentMatrix<D>& inverse) {
   const Tangent<D> diagonal = information.diagonal();
-  if (!(diagonal.minCoeff() > 0.0) || !information.allFinite()) return false;
+  if (!(diagonal.minCoeff() > 0.0)) return false;
   const Tangent<D> scale = diagonal.cwiseSqrt().cwiseInverse();
   const Eigen::LLT<TangentMatrix<D>> factor(TangentMatrix<D>(scale.asDiagonal() * information * scale.asDiagonal()));
-  return factor.info() == Eigen::Success && factor.matrixLLT().diagonal().cwiseAbs2().minCoeff() > kLeastPivot;
+  if (factor.info() != Eigen::Success || !(factor.matrixLLT().diagonal().cwiseAbs2().minCoeff() > kLeastPivot))
+    return false;
+  inverse = scale.asDiagonal() * factor.solve(TangentMatrix<D>(scale.asDiagonal()));
+  return inverse.allFinite();
 }
 
 constexpr std::size_t kGrain = 16;  // chains to a thread at a time
@@ -95,13 +99,14 @@ constexpr std::size_t kGrain = 16;  // chains to a thread at a time
 template <int D>
 Condensed<D>::Condensed(const Problem<D>& problem, const std::vector<double>& weights) : problem_(&problem) {
   std::vector<char> invertible(problem.edges.size());
+  std::vector<TangentMatrix<D>> inverses(problem.edges.size());
   for (std::size_t e = 0; e < invertible.size(); ++e)
-    invertible[e] = (weights.empty() || weights[e] == 1.0) && isInvertible<D>(problem.edges[e].information);
+    invertible[e] = (weights.empty() || weights[e] == 1.0) && invert<D>(problem.edges[e].information, inverses[e]);
   chains_ = findChains(problem, invertible);
   core_of_.assign(problem.poses.size(), -1);
   for (std::size_t c = 0; c < chains_.core.size(); ++c) core_of_[sz(chains_.core[c])] = static_cast<int>(c);
   covariance_.reserve(chains_.links.size());
-  for (const Link& link : chains_.links) covariance_.push_back(inverseOf<D>(problem.edges[sz(link.edge)].information));
+  for (const Link& link : chains_.links) covariance_.push_back(inverses[sz(link.edge)]);
   at_.resize(chains_.links.size());
   link_sums_.resize(chains_.links.size());
   chain_sums_.resize(chains_.size());

@@ -22,8 +22,9 @@ constexpr int kRounds = 30;
 // What the ends of chains may be off, in weighted squares, as a share of the cost: its root is the share by which the cost
 // may then be wrong.
 constexpr double kClosed = 1e-12;
-// A change of the cost, as a share of it, that ends the rounds; and a cost, in squares of standard deviations, that is none.
-constexpr double kSettled = 1e-12, kNothing = 1e-9;
+// A change of the cost from round to round ends them, as a share of what ends a minimisation; and a cost, in squares of standard
+// deviations, that is none.
+constexpr double kSettledShare = 1e-3, kSettledLeast = 1e-12, kNothing = 1e-9;
 // By how much round-off may make the end seem worse than the begin.
 constexpr double kRoundOff = 1e-9;
 
@@ -92,7 +93,8 @@ std::optional<Solution<D>> solveCondensed(const Problem<D>& problem, const Solve
     if (!std::isfinite(chain_cost) || !std::isfinite(open)) return std::nullopt;
     const bool over = descent.ending == Ending::Stopped || descent.ending == Ending::Stuck;
     const bool closed = open <= kClosed * descent.cost || descent.cost + open <= kNothing;
-    const bool settled = std::abs(descent.cost - last_cost) <= kSettled * descent.cost || descent.cost <= kNothing;
+    const bool settled = std::abs(descent.cost - last_cost) <= std::max(kSettledLeast, kSettledShare * options.tolerance) * descent.cost ||
+                         descent.cost <= kNothing;
     last_cost = descent.cost;
     if (!over && !(closed && settled)) {
       condensed.renew(core);

@@ -5,7 +5,6 @@
 
 #include "pose_graph/graph_file.hpp"
 #include "pose_graph/robust.hpp"
-#include "solve/normal_equations.hpp"
 
 namespace pose_graph {
 
@@ -154,16 +153,6 @@ Addition judgeAddition(const Problem<3>& problem, const Parameters& parameters, 
   }
   if (!solved) made.solution = solve(problem, options, weights);
   return made;
-}
-
-std::vector<int> partsOf(const std::vector<Track>&, const PoseGraph& graph) {
-  Problem<3> joined = graph.problem();
-  const std::vector<double> weights = graph.weights();
-  std::size_t kept = 0;
-  for (std::size_t e = 0; e < joined.edges.size(); ++e)
-    if (weights[e] > 0.0) joined.edges[kept++] = joined.edges[e];
-  joined.edges.resize(kept);
-  return unknownsOf(joined).component;
 }
 
 }  // namespace pose_graph

@@ -24,7 +24,4 @@ struct Addition {
 Addition judgeAddition(const Problem<3>& problem, const Parameters& parameters, const SolveOptions& options,
                        std::map<ClosureId, Closure>& closures);
 
-/// Which part each pose is in, by chains and accepted closures: numbered by their first poses.
-std::vector<int> partsOf(const std::vector<Track>& tracks, const PoseGraph& graph);
-
 }  // namespace pose_graph

@@ -6,6 +6,7 @@
 
 #include "graph/jump_gate.hpp"
 #include "pose_graph/graph_file.hpp"
+#include "solve/normal_equations.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
 #include "urban_nav_core/types/error.hpp"
 
@@ -18,6 +19,9 @@ using urban_nav_core::UserError;
 namespace {
 
 constexpr double kMovedDistance = 0.01, kMovedAngle = 0.02 * 3.14159265358979323846 / 180.0;  // DESIGN.md, section 5
+
+// Live, poses are good to a hundredth of a standard deviation and the next update goes on from there; relax() is exact.
+constexpr double kUpdateTolerance = 1e-5;
 
 std::string nameOf(const NodeRef& ref) { return ref.session + " at " + urban_nav_core::printStamp(ref.stamp) + " s"; }
 
@@ -78,14 +82,14 @@ bool PoseGraph::addOdometry(const SessionId& session, const RelativePose& step) 
   if (!joins) {
     // The chain goes on where it broke, for want of a better guess, and as a part of its own.
     if (step.from > track.stamps.back()) {
-      steps_[t].push_back({step, false});
+      steps_[t].push_back({step, false, {}});
       append(step.from, track.odom.back(), track.map.back(), parts_++);
     } else {
       return false;
     }
     broken_ = true;
   }
-  steps_[t].push_back({step, true});
+  steps_[t].push_back({step, true, {0, 0, rigidOf<3>(step.T_from_to), chainInformation(step)}});
   append(step.to, track.odom.back() * step.T_from_to, track.map.back() * step.T_from_to, track.part.back());
   return true;
 }
@@ -160,7 +164,9 @@ Problem<3> PoseGraph::problem() const {
       const Step& step = steps_[t][i];
       if (!step.joins) continue;
       const int from = first + static_cast<int>(i);
-      made.edges.push_back({from, from + 1, rigidOf<3>(step.measured.T_from_to), chainInformation(step.measured)});
+      made.edges.push_back(step.edge);
+      made.edges.back().from = from;
+      made.edges.back().to = from + 1;
     }
     first += static_cast<int>(tracks_[t].stamps.size());
   }
@@ -209,6 +215,7 @@ Relaxed PoseGraph::update() {
   SolveOptions options;
   options.iterations = parameters_.iterations;
   options.start = Start::Vertices;
+  options.tolerance = kUpdateTolerance;
   const Addition added = judgeAddition(problem, parameters_, options, closures_);
   for (auto& [id, closure] : closures_) closure.judged = true;
   Relaxed made = take(added.solution, before);
@@ -231,7 +238,7 @@ Relaxed PoseGraph::take(const Solution<3>& solution, const std::map<ClosureId, C
   made.cost_after = solution.cost;
   made.iterations = solution.iterations;
   made.ending = solution.ending;
-  const std::vector<int> parts = partsOf(tracks_, *this);
+  const std::vector<int> parts = partNumbers();
   parts_ = parts.empty() ? 0 : 1 + *std::max_element(parts.begin(), parts.end());
   made.parts = parts_;
 
@@ -270,6 +277,27 @@ Relaxed PoseGraph::take(const Solution<3>& solution, const std::map<ClosureId, C
   }
   made.edges += closures_.size();
   return made;
+}
+
+std::vector<int> PoseGraph::partNumbers() const {
+  // Runs of a chain without a gap, joined by accepted closures.
+  std::vector<int> run_of_pose;
+  int runs = 0;
+  for (std::size_t t = 0; t < tracks_.size(); ++t)
+    for (std::size_t i = 0; i < tracks_[t].stamps.size(); ++i)
+      run_of_pose.push_back(i > 0 && steps_[t][i - 1].joins ? runs - 1 : runs++);
+  Problem<3> joined;
+  joined.poses.resize(static_cast<std::size_t>(runs));
+  for (const auto& [id, closure] : closures_) {
+    if (closure.weight <= 0.0) continue;
+    Edge<3> edge;
+    edge.from = run_of_pose[static_cast<std::size_t>(*poseNumber(closure.a))];
+    edge.to = run_of_pose[static_cast<std::size_t>(*poseNumber(closure.b))];
+    joined.edges.push_back(edge);
+  }
+  const std::vector<int> parts = unknownsOf(joined).component;
+  for (int& run : run_of_pose) run = parts[static_cast<std::size_t>(run)];
+  return run_of_pose;
 }
 
 Pose PoseGraph::mapFromOdom(const SessionId& session) const {

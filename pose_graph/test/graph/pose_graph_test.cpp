@@ -102,6 +102,31 @@ TEST(PoseGraph, leavesNoTraceOfEarlierRelaxations) {
   }
 }
 
+TEST(PoseGraph, takesAddedClosuresAsTheBatchDoes) {
+  PoseGraph live{Parameters()}, batch{Parameters()};
+  for (PoseGraph* graph : {&live, &batch}) drive(*graph, "a", 0, 2 * kRound, 2e-4);
+  for (int i = 20; i < kRound; i += 40) {
+    for (PoseGraph* graph : {&live, &batch}) graph->addClosure(closureBetween("a", i, "a", i + kRound));
+    if (i == 60) live.relax();
+    if (i > 60) {
+      EXPECT_FALSE(live.update().needs_batch);
+    }
+  }
+  batch.relax();
+  for (std::size_t i = 0; i < live.tracks()[0].map.size(); i += 50)
+    EXPECT_TRUE(isApprox(live.tracks()[0].map[i], batch.tracks()[0].map[i], 1e-2)) << i;
+
+  // One that is 3 m off is left out, and asks for a batch.
+  Closure wrong = closureBetween("a", 130, "a", 130 + kRound);
+  wrong.measured.T_a_b = Pose(wrong.measured.T_a_b.q(), wrong.measured.T_a_b.t() + Vector3d(3.0, 0.0, 0.0));
+  const ClosureId id = live.addClosure(wrong);
+  const Pose before = live.tracks()[0].map.back();
+  EXPECT_TRUE(live.update().needs_batch);
+  EXPECT_EQ(live.closures().at(id).verdict, ClosureVerdict::Rejected);
+  EXPECT_GT(live.closures().at(id).chi2, 22.0);
+  EXPECT_TRUE(isApprox(live.tracks()[0].map.back(), before, 1e-2));
+}
+
 TEST(PoseGraph, waitsForASecondWitnessOfALargeCorrection) {
   PoseGraph graph{Parameters()};
   drive(graph, "a", 0, 2 * kRound, 3e-4);
