@@ -24,6 +24,7 @@ using testing::SimulatedGraph;
 using urban_nav_core::Pose;
 
 constexpr double kQuarterTurn = 1.5707963267948966;
+constexpr int kDescent = 25;    // steps of the descent from the guess alone: who is in a knot goes on for ever
 constexpr double kSame = 1e-6;  // of the cost: the same optimum
 
 struct Shape {
@@ -74,8 +75,9 @@ Costs costsOf(const SimulatedGraph& graph, const std::vector<Pose>& guess) {
   vertices.start = Start::Vertices;
   Costs costs;
   costs.seconds = secondsOf(1, [&] { costs.found = solve(problem, {}).cost; });
-  costs.descended = solve(problem, vertices).cost;
   costs.from_truth = solve(at_truth, vertices).cost;
+  vertices.iterations = kDescent;
+  costs.descended = solve(problem, vertices).cost;
   return costs;
 }
 
@@ -86,7 +88,7 @@ int main(int argc, char** argv) try {
   const int seeds = asked.number("--seeds", 20);
   const urban_nav_core::ThreadLimit one(1);
   testing::BenchTable table({"graph", "measured to, m and rad", "first guess", "at the optimum", "worst above it",
-                             "by descent from the guess alone", "ms"},
+                             "by 25 steps from the guess alone", "ms"},
                             argc, argv);
   const auto addRows = [&](double sigma, const Shape& shape) {
     for (const Guess& guess : guesses()) {
