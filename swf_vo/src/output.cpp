@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "output.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -17,6 +18,10 @@ using urban_nav_core::Status;
 using urban_nav_core::UncertainPose;
 
 namespace {
+
+bool isProper(const urban_nav_core::Matrix6d& covariance) {
+  return Eigen::LLT<urban_nav_core::Matrix6d>(covariance).info() == Eigen::Success;
+}
 
 Matrix6d moved(const Matrix6d& covariance, const Matrix6d& jacobian) {
   const Matrix6d result = jacobian * covariance * jacobian.transpose();
@@ -163,6 +168,9 @@ Settled Output::settle(const SettledPose& pose) {
   settled.from_previous.to = settled.stamp;
   settled.from_previous.T_from_to = any_settled_ ? outer.T_a_c : Pose();
   settled.from_previous.covariance = moved(pose.relative_covariance, outer.J1 * inner.J2);
+  // The difference of two poses far from the first one can lose all its digits in some direction; steps are much alike.
+  if (!step_covariance_.isZero() && !isProper(settled.from_previous.covariance))
+    settled.from_previous.covariance = step_covariance_;
   settled.from_previous.drift_covariance = moved(pose.drift_covariance, outer.J1 * inner.J2);
   settled.from_previous.status = settled.status;
   settled.from_previous.source = "swf_vo";

@@ -29,6 +29,18 @@ bool isProper(const Matrix6d& covariance) {
   return covariance.allFinite() && Eigen::LLT<Matrix6d>(covariance).info() == Eigen::Success;
 }
 
+// Round-off can make the least eigenvalues of a good covariance negative: the step counts, with those raised to what the largest
+// one's last digits are. Empty where there is nothing to raise.
+std::optional<Matrix6d> properCovariance(const Matrix6d& covariance) {
+  if (isProper(covariance)) return covariance;
+  if (!covariance.allFinite()) return std::nullopt;
+  const auto eigen = urban_nav_core::symmetricEigen(0.5 * (covariance + covariance.transpose()));
+  if (!eigen || !(eigen->values.maxCoeff() > 0.0)) return std::nullopt;
+  const Eigen::VectorXd raised = eigen->values.cwiseMax(1e-6 * eigen->values.maxCoeff());
+  const Matrix6d made = eigen->vectors * raised.asDiagonal() * eigen->vectors.transpose();
+  return Matrix6d(0.5 * (made + made.transpose()));
+}
+
 bool moved(const Pose& a, const Pose& b) {
   return distanceBetween(a, b) > kMovedDistance || angleBetween(a, b) > kMovedAngle;
 }
@@ -62,14 +74,15 @@ const Track* PoseGraph::track(const SessionId& session) const {
   return found == tracks_.end() ? nullptr : &*found;
 }
 
-bool PoseGraph::addOdometry(const SessionId& session, const RelativePose& step) {
+bool PoseGraph::addOdometry(const SessionId& session, const RelativePose& offered) {
   if (!hasSession(session)) beginSession(session);
   const std::size_t t = static_cast<std::size_t>(track(session) - tracks_.data());
   Track& track = tracks_[t];
-  if (!step.T_from_to.isFinite() || !isProper(step.covariance) || !step.drift_covariance.allFinite() ||
-      step.to <= step.from)
-    return false;
-  if (step.drift_covariance.trace() > 0.0 && !isProper(step.drift_covariance)) return false;
+  RelativePose step = offered;
+  const std::optional<Matrix6d> covariance = properCovariance(offered.covariance);
+  if (!step.T_from_to.isFinite() || !covariance || step.to <= step.from) return false;
+  step.covariance = *covariance;
+  if (!isProper(step.drift_covariance)) step.drift_covariance.setZero();
   const auto append = [&](StampNs stamp, const Pose& T_odom_base, const Pose& T_map_base, int part) {
     track.stamps.push_back(stamp);
     track.odom.push_back(T_odom_base);

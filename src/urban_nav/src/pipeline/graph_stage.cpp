@@ -104,6 +104,7 @@ void judge(GraphRun& run) {
 }  // namespace
 
 bool GraphRun::joined(std::size_t session) const {
+  if (session == 0) return true;
   const Track* track = graph.track(sessions[session]);
   return track != nullptr && !track->part.empty() &&
          std::all_of(track->part.begin(), track->part.end(), [](int part) { return part == 0; });
