@@ -37,8 +37,9 @@ struct EdgeVerdict {
   double weight = 1.0;  ///< 0 where rejected
   Verdict verdict = Verdict::Accepted;
   Reason reason = Reason::Role;
-  double chi2 = 0.0;  ///< of a candidate against all other accepted edges together; of others, what remains of their own
-  int dof = 0;        ///< directions that the edge measures
+  double chi2 =
+      0.0;      ///< of a candidate against all other accepted edges together; of others, what remains of their own
+  int dof = 0;  ///< directions that the edge measures
   std::vector<int> contradicted_by;  ///< of an asserted edge: edges that cannot be true beside it, the worst first
 };
 

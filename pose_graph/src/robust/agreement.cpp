@@ -15,7 +15,8 @@ namespace {
 
 std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
-constexpr int kNear = 10;      // poses: about the length of a visit to a place; beyond, odometry's own error hides what a pair says
+constexpr int kNear =
+    10;  // poses: about the length of a visit to a place; beyond, odometry's own error hides what a pair says
 constexpr int kPartners = 20;  // compared with each closure at most: one that agrees is enough
 const double kLogTwoPi = std::log(2.0 * 3.14159265358979323846);
 

@@ -11,11 +11,11 @@ namespace pose_graph {
 /// its own.
 template <int D>
 struct Chains {
-  std::vector<int> of_pose;        ///< which chain
-  std::vector<Rigid<D>> pose;      ///< in its chain's frame
-  std::vector<double> way;         ///< metres from its chain's first pose
-  std::vector<TangentMatrix<D>> Q; ///< covariance of the step from the pose before, in that step's child
-  double extent = 0.0;             ///< twice the radius of gyration of the chains about their middles, metres
+  std::vector<int> of_pose;         ///< which chain
+  std::vector<Rigid<D>> pose;       ///< in its chain's frame
+  std::vector<double> way;          ///< metres from its chain's first pose
+  std::vector<TangentMatrix<D>> Q;  ///< covariance of the step from the pose before, in that step's child
+  double extent = 0.0;              ///< twice the radius of gyration of the chains about their middles, metres
 
   Chains(const Problem<D>& problem, const std::vector<EdgeRole>& roles);
 

@@ -18,7 +18,7 @@ constexpr double kPi = 3.14159265358979323846;
 // A covariance from 24 samples is good to three tenths, and inverted too large by 24 / (23 - N) (the mean of an inverse
 // Wishart matrix), which is taken off. With 40 the public graphs give the same verdicts in half as much time again.
 constexpr int kDisturbances = 24;
-constexpr int kAtOnce = 8;     // right-hand sides in memory
+constexpr int kAtOnce = 8;  // right-hand sides in memory
 // Redundancy below which an edge is not controlled by the others: less of its error than that shows in its residual, and
 // what an unfinished relaxation leaves would be taken for it.
 constexpr double kUncontrolled = 0.1;
@@ -79,7 +79,8 @@ Evidence Witness<D>::hear(AcceptedGraph<D>& graph, const std::vector<char>& in, 
   std::vector<char> is_candidate(edges, 0);
   for (int e : candidates_) is_candidate[sz(e)] = 1;
   for (std::size_t e = 0; e < edges; ++e)
-    if (in[e] || is_candidate[e]) at[e] = whitenedJacobians(edges_[e], poses[sz(edges_[e].from)], poses[sz(edges_[e].to)]);
+    if (in[e] || is_candidate[e])
+      at[e] = whitenedJacobians(edges_[e], poses[sz(edges_[e].from)], poses[sz(edges_[e].to)]);
 
   // What the disturbances do to each candidate: to its residual if inside, to its prediction if outside.
   std::vector<Samples> moved(candidates_.size(), Samples::Zero(N, kDisturbances));

@@ -26,7 +26,7 @@ constexpr double kSettled = 1e-3;   // of the candidates: when fewer change, it 
 constexpr std::size_t kGroup = 20;  // larger groups are no repeated mistake but a way travelled twice
 // A chi-square from 24 samples is good to 0.29 of its value: what leaves is off by two deviations of that.
 constexpr double kDoubt = 1.58;
-constexpr int kExpelled = 2;        // times out: stays out
+constexpr int kExpelled = 2;  // times out: stays out
 
 // Groups worth a test for a common bias.
 std::vector<int> smallGroups(const std::vector<int>& group) {
@@ -69,8 +69,7 @@ class Round {
     std::size_t inside = 0;
     for (int e : witness_.candidates()) {
       inside += in_[sz(e)] ? 1 : 0;
-      if (outAndFits(e) && evidence_.likelier[sz(e)] >= least)
-        evidence.push_back(evidence_.likelier[sz(e)]);
+      if (outAndFits(e) && evidence_.likelier[sz(e)] >= least) evidence.push_back(evidence_.likelier[sz(e)]);
     }
     if (evidence.size() >= kFew && evidence.size() > inside) {
       const auto half = evidence.begin() + static_cast<std::ptrdiff_t>(evidence.size() / 2);

@@ -133,7 +133,7 @@ RobustSolution<D> relaxRobust(const Problem<D>& problem, const std::vector<EdgeR
     }
     verdict.weight = 0.0;
     verdict.verdict = Verdict::Rejected;
-    verdict.reason = !std::isfinite(heard) ? Reason::NoWitness
+    verdict.reason = !std::isfinite(heard)                                      ? Reason::NoWitness
                      : heard > grown.variance * thresholds.limit[sz(edge.rank)] ? Reason::Disagrees
                                                                                 : Reason::Unconfirmed;
   }

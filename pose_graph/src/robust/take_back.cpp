@@ -10,9 +10,10 @@ namespace {
 
 std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
-constexpr double kWide = 64.0;    // times the limit: eight standard deviations for each that will count in the end
-constexpr double kNarrower = 1.25;  // each step; at 1.6 the graph with the most doubtful closures (tuc) still ends elsewhere
-constexpr int kLast = 6;           // steps at the final limit, or until nothing changes
+constexpr double kWide = 64.0;  // times the limit: eight standard deviations for each that will count in the end
+constexpr double kNarrower =
+    1.25;                 // each step; at 1.6 the graph with the most doubtful closures (tuc) still ends elsewhere
+constexpr int kLast = 6;  // steps at the final limit, or until nothing changes
 constexpr double kQuantile = 0.99;
 constexpr double kWorth = 0.05;  // of the candidates: so many must be out and within the wide limit
 

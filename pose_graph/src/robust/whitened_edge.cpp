@@ -16,9 +16,10 @@ Eigen::Matrix3d logByLeft(const RotationVector<3>& phi) {
   const double angle = phi.norm();
   const Eigen::Matrix3d cross = -turned(phi);
   // Near pi the second form is what (1 + cos) / sin tends to.
-  const double second = angle < 1e-4   ? 1.0 / 12.0
-                        : angle > 3.14 ? 1.0 / (angle * angle)
-                                       : 1.0 / (angle * angle) - (1.0 + std::cos(angle)) / (2.0 * angle * std::sin(angle));
+  const double second = angle < 1e-4 ? 1.0 / 12.0
+                        : angle > 3.14
+                            ? 1.0 / (angle * angle)
+                            : 1.0 / (angle * angle) - (1.0 + std::cos(angle)) / (2.0 * angle * std::sin(angle));
   return Eigen::Matrix3d::Identity() - 0.5 * cross + second * cross * cross;
 }
 

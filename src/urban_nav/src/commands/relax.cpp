@@ -136,8 +136,7 @@ Told relaxFile(const G2oGraph& graph, const std::string& name, const Arguments& 
   pose_graph::RobustSolution<D> robust;
   robust.edges.resize(file.problem.edges.size());
   const bool doubted = arguments.get("robust", "on") == "on";
-  if (doubted)
-    robust = pose_graph::relaxRobust(file.problem, pose_graph::rolesByNumbers(file.problem), options);
+  if (doubted) robust = pose_graph::relaxRobust(file.problem, pose_graph::rolesByNumbers(file.problem), options);
   if (along_chain) {
     pose_graph::Problem<D> accepted;
     accepted.poses = file.problem.poses;
@@ -154,10 +153,9 @@ Told relaxFile(const G2oGraph& graph, const std::string& name, const Arguments& 
   told.edges = file.problem.edges.size();
   told.iterations = solution.iterations.size();
   told.components = solution.components;
-  told.rejected = static_cast<std::size_t>(
-      std::count_if(robust.edges.begin(), robust.edges.end(), [](const pose_graph::EdgeVerdict& verdict) {
-        return verdict.verdict == pose_graph::Verdict::Rejected;
-      }));
+  told.rejected = static_cast<std::size_t>(std::count_if(
+      robust.edges.begin(), robust.edges.end(),
+      [](const pose_graph::EdgeVerdict& verdict) { return verdict.verdict == pose_graph::Verdict::Rejected; }));
   told.ending = toString(solution.ending);
   told.before = costsOf(file.problem, file.problem.poses);
   told.after = costsOf(file.problem, solution.poses);
