@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodelet_parameters.hpp"
+
+#include <cstdint>
+
+namespace pose_graph {
+
+using urban_nav_core::Table;
+
+NodeletParameters::NodeletParameters() { nodeletTable().setDefaults(*this); }
+
+// clang-format would give each of the columns a line.
+// clang-format off
+const Table<NodeletParameters>& nodeletTable() {
+  using P = NodeletParameters;
+  static const Table<NodeletParameters> rows(
+      "",
+      {
+          {"map_frame", &P::map_frame, "", "map", false, false, {},
+           "Frame of the relaxed trajectory; its origin is the first pose of the first session.", "REP-105"},
+          {"odom_frame", &P::odom_frame, "", "odom", false, false, {},
+           "Frame of the odometry, which map_frame is tied to.", "REP-105"},
+          {"base_frame", &P::base_frame, "", "base_link", false, false, {},
+           "Frame of the robot, whose poses are the nodes of the graph.", "REP-105"},
+          {"publish_tf", &P::publish_tf, "", true, false, true, {},
+           "Whether to publish map_frame to odom_frame on /tf, with the stamp of each odometry message.", "REP-105"},
+          {"robot", &P::robot, "", "", false, false, {},
+           "Name of the robot; with the recording's name and the first stamp it makes the session's id.", "section 7"},
+          {"recording", &P::recording, "", "", false, false, {},
+           "Name of the recording, the same on all of the robot's computers.", "section 7"},
+          {"queue", &P::queue, "messages", 20000, 2, 10000000, {},
+           "Inputs that may wait while a relaxation runs; beyond that the oldest is dropped and counted.", ""},
+          {"picture_period", &P::picture_period, "s", 1.0, 0.05, 3600.0, {},
+           "Path, state and markers are published at most so often.", ""},
+          {"picture_spacing", &P::picture_spacing, "m", 1.0, 0.01, 1000.0, {},
+           "Distance between poses of the published path.", ""},
+      });
+  return rows;
+}
+// clang-format on
+
+}  // namespace pose_graph

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "urban_nav_core/parameters/table.hpp"
+
+namespace pose_graph {
+
+/// What the nodelet, and only the nodelet, must be told: names of frames, patience. One member per row of
+/// nodeletTable().
+struct NodeletParameters {
+  std::string map_frame;
+  std::string odom_frame;
+  std::string base_frame;
+  bool publish_tf;
+  std::string robot;
+  std::string recording;
+  int queue;               // messages
+  double picture_period;   // s
+  double picture_spacing;  // m
+
+  NodeletParameters();
+};
+
+const urban_nav_core::Table<NodeletParameters>& nodeletTable();
+
+}  // namespace pose_graph

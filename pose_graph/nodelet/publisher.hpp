@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <tf2_ros/transform_broadcaster.h>
+#include <urban_nav_msgs/StageStatus.h>
+
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "live_graph.hpp"
+#include "nodelet_parameters.hpp"
+
+namespace pose_graph {
+
+/// What the graph says -> messages and tf. map -> odom is thread-safe; the rest is used by the worker alone.
+class Publisher {
+ public:
+  Publisher(ros::NodeHandle& nh, const NodeletParameters& parameters);
+
+  /// From now on map -> odom is this.
+  void setMapFromOdom(const urban_nav_core::Pose& T_map_odom);
+  /// Publishes it with the stamp of an odometry message, so that every odom -> base_link has its map -> odom.
+  void sendTransform(urban_nav_core::StampNs stamp);
+
+  void publish(const urban_nav_core::GraphUpdate& update, urban_nav_core::StampNs newest);
+  void publish(const urban_nav_core::MapJump& jump);
+  void publish(const Figures& figures, urban_nav_core::StampNs newest);
+  /// When it changes.
+  void publish(const urban_nav_core::Status& status, const std::string& reason_name, urban_nav_core::StampNs newest);
+
+  /// Whether anyone would see a picture.
+  bool isWatched() const;
+  /// `runs`: the map's trajectories, the one of the running session last; it becomes graph/path.
+  void publishPicture(const std::vector<urban_nav_core::PoseRun>& runs, const std::vector<Tie>& ties,
+                      urban_nav_core::StampNs newest);
+
+ private:
+  const NodeletParameters parameters_;
+  ros::Publisher update_, jump_, path_, state_, markers_, status_;
+  std::optional<urban_nav_msgs::StageStatus> last_status_;
+  tf2_ros::TransformBroadcaster broadcaster_;
+  std::mutex mutex_;  // guards T_map_odom_ and the broadcaster
+  urban_nav_core::Pose T_map_odom_;
+};
+
+}  // namespace pose_graph

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <variant>
+
+#include "live_graph.hpp"
+#include "urban_nav_ros/mailbox.hpp"
+
+namespace pose_graph {
+
+/// One thread that hands inputs and questions to the graph in the order in which they came and relaxes when there is
+/// reason to. Nobody who puts something in waits for a relaxation. Thread-safe.
+class Worker {
+ public:
+  using Task = std::function<void(LiveGraph&)>;
+  using Input = std::variant<urban_nav_core::RelativePose, urban_nav_core::MetricClosure,
+                             urban_nav_core::RelativeConstraint, Task>;
+
+  /// Called in the worker's thread.
+  struct Listener {
+    std::function<void(const LiveGraph::Outcome& outcome, const LiveGraph& graph, double ms)> relaxed;
+    std::function<void(const LiveGraph& graph)> idle;  ///< whenever the mailbox is empty, ten times a second at least
+    std::function<void(const std::string& why)> refused;  ///< an input that the graph did not want
+  };
+  struct Counts {
+    std::int64_t dropped = 0;  ///< the mailbox was full
+    std::int64_t refused = 0;
+    std::int64_t relaxations = 0;
+  };
+
+  Worker(std::unique_ptr<LiveGraph> graph, std::size_t capacity, Listener listener);
+  /// Ends when what is under way has ended; what still waits is dropped.
+  ~Worker();
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
+
+  void put(Input input) { mailbox_.put(std::move(input)); }
+  /// A batch relaxation behind all that was put in before.
+  void optimize();
+  /// What the graph answers, when its turn comes. Throws what the question throws. Empty: not within `patience`, or
+  /// dropped; it may still be carried out.
+  template <typename Question>
+  auto ask(const Question& question, std::chrono::milliseconds patience)
+      -> std::optional<decltype(question(std::declval<LiveGraph&>()))>;
+  Counts counts() const;
+
+ private:
+  void work();
+  void take(Input& input);
+  void relax(bool batch);
+
+  std::unique_ptr<LiveGraph> graph_;  // the thread's own
+  const Listener listener_;
+  urban_nav_ros::Mailbox<Input> mailbox_;
+  bool batch_wanted_ = false;  // the thread's own
+  std::atomic<std::int64_t> refused_{0}, relaxations_{0};
+  std::thread thread_;
+};
+
+template <typename Question>
+auto Worker::ask(const Question& question, std::chrono::milliseconds patience)
+    -> std::optional<decltype(question(std::declval<LiveGraph&>()))> {
+  using Answer = decltype(question(std::declval<LiveGraph&>()));
+  auto task = std::make_shared<std::packaged_task<Answer(LiveGraph&)>>(question);
+  std::future<Answer> answer = task->get_future();
+  mailbox_.put(Task([task = std::move(task)](LiveGraph& graph) { (*task)(graph); }));
+  if (answer.wait_for(patience) != std::future_status::ready) return std::nullopt;
+  try {
+    return answer.get();
+  } catch (const std::future_error&) {
+    return std::nullopt;  // dropped: its promise went with it
+  }
+}
+
+}  // namespace pose_graph

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <urban_nav_msgs/AddEdge.h>
+#include <urban_nav_msgs/FileCommand.h>
+#include <urban_nav_msgs/GetTrajectory.h>
+#include <urban_nav_msgs/NewSession.h>
+#include <urban_nav_msgs/RemoveEdge.h>
+
+#include <cmath>
+#include <limits>
+
+#include "listener.hpp"
+#include "urban_nav_ros/closure.hpp"
+#include "urban_nav_ros/graph.hpp"
+#include "urban_nav_ros/pose.hpp"
+#include "urban_nav_ros/stamp.hpp"
+
+namespace pose_graph::test {
+namespace {
+
+using urban_nav_core::Pose;
+using urban_nav_core::StampNs;
+using urban_nav_core::Vector6d;
+
+constexpr StampNs start = 1'225'719'873'000'000'000, period = 100'000'000;
+constexpr int lap = 40;  // poses around
+
+StampNs stampOf(int i) { return start + i * period; }
+
+Pose turned(double yaw, double x) {
+  return Pose(urban_nav_core::expSo3(Eigen::Vector3d(0, 0, yaw)), Eigen::Vector3d(x, 0, 0));
+}
+// A circle of a metre a step, of which odometry sees each turn too small and each metre too long.
+Pose measuredStep() { return turned(2.0 * M_PI / lap - 0.004, 1.01); }
+Pose odomPose(int i) {
+  Pose T;
+  for (int k = 0; k < i; ++k) T = T * measuredStep();
+  return T;
+}
+
+urban_nav_core::MetricClosure closureOf(int a, int b, const Pose& T_a_b) {
+  urban_nav_core::MetricClosure closure;
+  closure.a = {"", stampOf(a)};
+  closure.b = {"", stampOf(b)};
+  closure.measured.T_a_b = T_a_b;
+  closure.measured.information = (Vector6d() << 1e4, 1e4, 1e4, 1e6, 1e6, 1e6).finished().asDiagonal();
+  closure.probability = 0.999;
+  closure.method = urban_nav_core::ClosureMethod::Stereo;
+  closure.odometry_gate = true;
+  closure.verdict = urban_nav_core::ClosureVerdict::Accepted;
+  closure.source = "loop_metric";
+  return closure;
+}
+
+class PoseGraphNodelet : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() { listener_ = new Listener; }
+  static void TearDownTestSuite() { delete listener_; }
+  void SetUp() override {
+    ASSERT_TRUE(listener().connected());
+    ASSERT_TRUE(listener().call("reset"));
+    listener().forget();
+  }
+  Listener& listener() { return *listener_; }
+
+  void drive(int from, int to) {
+    for (int i = from; i < to; ++i) {
+      urban_nav_core::RelativePose step;
+      step.from = stampOf(i);
+      step.to = stampOf(i + 1);
+      step.T_from_to = measuredStep();
+      step.covariance = (Vector6d() << 1e-3, 1e-3, 1e-3, 1e-4, 1e-4, 1e-4).finished().asDiagonal();
+      step.source = "swf_vo";
+      listener().relative.publish(urban_nav_ros::toRelativePoseMessage(step, "base_link"));
+    }
+  }
+  void close(const urban_nav_core::MetricClosure& closure) {
+    listener().closures.publish(urban_nav_ros::toMetricClosureMessage(closure, "base_link", 1.0));
+  }
+  /// The poses that the graph has, by its service.
+  urban_nav_msgs::GetTrajectory::Response trajectory(std::uint64_t since = 0, int from = -1, int to = -1) {
+    urban_nav_msgs::GetTrajectory call;
+    call.request.revision = since;
+    if (from >= 0) call.request.from_stamp = urban_nav_ros::toRosTime(stampOf(from));
+    if (to >= 0) call.request.to_stamp = urban_nav_ros::toRosTime(stampOf(to));
+    EXPECT_TRUE(ros::service::call("pose_graph/get_trajectory", call));
+    return call.response;
+  }
+  std::size_t poses(std::uint64_t since = 0) {
+    std::size_t count = 0;
+    for (const auto& run : trajectory(since).runs) count += run.stamps.size();
+    return count;
+  }
+  bool driven(int count) {
+    return Listener::until([&] { return poses() == static_cast<std::size_t>(count); });
+  }
+  /// map -> odom as it is sent with an odometry message.
+  Pose mapFromOdom(int at) {
+    listener().transforms.clear();
+    nav_msgs::Odometry odometry;
+    odometry.header.stamp = urban_nav_ros::toRosTime(stampOf(at));
+    odometry.header.frame_id = "odom";
+    listener().odometry.publish(odometry);
+    EXPECT_TRUE(Listener::until([&] { return !listener().transforms.empty(); }));
+    const auto& transform = listener().transforms.back().transforms.at(0);
+    EXPECT_EQ(transform.header.frame_id, "map");
+    EXPECT_EQ(transform.child_frame_id, "odom");
+    EXPECT_EQ(transform.header.stamp, odometry.header.stamp);
+    return *urban_nav_ros::toPose(transform.transform);
+  }
+
+  static Listener* listener_;
+};
+Listener* PoseGraphNodelet::listener_ = nullptr;
+
+TEST_F(PoseGraphNodelet, aClosureBringsTheRobotHome) {
+  drive(0, lap);
+  ASSERT_TRUE(driven(lap + 1));
+  EXPECT_TRUE(isApprox(mapFromOdom(lap), Pose(), 1e-12)) << "nothing says otherwise yet";
+  EXPECT_GT(odomPose(lap).t().norm(), 0.5) << "odometry has drifted";
+
+  close(closureOf(0, lap, Pose()));
+  ASSERT_TRUE(Listener::until([&] { return !listener().updates.empty() && !listener().states.empty(); }));
+  const auto update = urban_nav_ros::toGraphUpdate(listener().updates.back());
+  ASSERT_TRUE(update);
+  EXPECT_EQ(update->revision, static_cast<std::int64_t>(listener().states.back().revision));
+  EXPECT_EQ(listener().updates.back().header.frame_id, "map");
+  ASSERT_FALSE(update->runs.empty());
+  EXPECT_EQ(update->runs.back().poses.back().stamp, stampOf(lap));
+  EXPECT_LT(update->runs.back().poses.back().T_map_base.t().norm(), 0.1);
+  ASSERT_TRUE(Listener::until([&] { return (mapFromOdom(lap) * odomPose(lap)).t().norm() < 0.1; }));
+
+  const auto& state = listener().states.back();
+  EXPECT_EQ(state.poses, static_cast<std::uint64_t>(lap + 1));
+  EXPECT_EQ(state.closures, 1U);
+  EXPECT_EQ(state.closures_rejected, 0U);
+  EXPECT_LT(state.cost_after, state.cost_before);
+  EXPECT_GT(state.relax_ms, 0.0);
+  ASSERT_TRUE(Listener::until([&] { return !listener().jumps.empty(); }));
+  EXPECT_NEAR(listener().jumps.back().distance, odomPose(lap).t().norm(), 0.2);
+  ASSERT_EQ(listener().jumps.back().witnesses.size(), 1U);
+  EXPECT_EQ(listener().jumps.back().witnesses[0].source, "loop_metric");
+}
+
+TEST_F(PoseGraphNodelet, aClosureThatIsAheadOfOdometryWaitsForIt) {
+  drive(0, 10);
+  ASSERT_TRUE(driven(11));
+  close(closureOf(0, lap, Pose()));
+  ros::WallDuration(0.3).sleep();
+  ros::spinOnce();
+  EXPECT_TRUE(listener().updates.empty());
+  drive(10, lap);
+  ASSERT_TRUE(Listener::until([&] { return !listener().updates.empty(); }));
+  EXPECT_LT(listener().updates.back().runs.back().T_map_base.back().position.x, 0.1);
+}
+
+TEST_F(PoseGraphNodelet, aRejectedClosureIsNone) {
+  drive(0, lap);
+  auto rejected = closureOf(0, lap, Pose());
+  rejected.verdict = urban_nav_core::ClosureVerdict::Rejected;
+  close(rejected);
+  ASSERT_TRUE(driven(lap + 1));
+  ros::WallDuration(0.3).sleep();
+  ros::spinOnce();
+  EXPECT_TRUE(listener().updates.empty());
+}
+
+TEST_F(PoseGraphNodelet, givesTheTrajectoryOrWhatChangedOfIt) {
+  drive(0, lap);
+  ASSERT_TRUE(driven(lap + 1));
+  const auto before = trajectory();
+  ASSERT_EQ(before.runs.size(), 1U);
+  EXPECT_EQ(before.runs[0].stamps.front(), urban_nav_ros::toRosTime(start));
+  EXPECT_EQ(before.runs[0].session.size(), 20U);
+  const auto part = trajectory(0, 5, 9);
+  ASSERT_EQ(part.runs.size(), 1U);
+  EXPECT_EQ(part.runs[0].stamps.size(), 5U);
+
+  close(closureOf(0, lap, Pose()));
+  ASSERT_TRUE(Listener::until([&] { return !listener().updates.empty(); }));
+  const std::uint64_t now = trajectory().revision;
+  EXPECT_GT(now, before.revision);
+  EXPECT_EQ(poses(now), 0U) << "nothing moved since";
+  drive(lap, lap + 3);
+  ASSERT_TRUE(driven(lap + 4));
+  EXPECT_EQ(poses(now), 3U) << "new poses are new";
+}
+
+TEST_F(PoseGraphNodelet, edgesAreAddedAndRemovedByHand) {
+  drive(0, lap);
+  ASSERT_TRUE(driven(lap + 1));
+  urban_nav_msgs::AddEdge add;
+  add.request.a.stamp = urban_nav_ros::toRosTime(stampOf(0));
+  add.request.b.stamp = urban_nav_ros::toRosTime(stampOf(lap));
+  add.request.T_a_b = urban_nav_ros::toPoseMessage(Pose());
+  add.request.information =
+      urban_nav_ros::toArray36((Vector6d() << 1e4, 1e4, 1e4, 1e6, 1e6, 1e6).finished().asDiagonal());
+  add.request.kind = "asserted";
+  ASSERT_TRUE(ros::service::call("pose_graph/add_edge", add));
+  EXPECT_TRUE(add.response.success) << add.response.message;
+  EXPECT_TRUE(add.response.contradicting.empty());
+  ASSERT_TRUE(Listener::until([&] { return (mapFromOdom(lap) * odomPose(lap)).t().norm() < 0.1; }));
+
+  urban_nav_msgs::RemoveEdge remove;
+  remove.request.edge.a = add.request.a;
+  remove.request.edge.b = add.request.b;
+  remove.request.edge.kind = "icp";
+  ASSERT_TRUE(ros::service::call("pose_graph/remove_edge", remove));
+  EXPECT_FALSE(remove.response.success);
+  EXPECT_NE(remove.response.message.find("asserted of operator"), std::string::npos) << remove.response.message;
+  remove.request.edge.kind.clear();
+  ASSERT_TRUE(ros::service::call("pose_graph/remove_edge", remove));
+  EXPECT_TRUE(remove.response.success) << remove.response.message;
+  EXPECT_TRUE(Listener::until([&] { return (mapFromOdom(lap) * odomPose(lap)).t().norm() > 0.5; }));
+}
+
+TEST_F(PoseGraphNodelet, anEdgeThatCannotBeIsRefusedWithTheReason) {
+  drive(0, 5);
+  ASSERT_TRUE(driven(6));
+  urban_nav_msgs::AddEdge add;
+  add.request.a.stamp = urban_nav_ros::toRosTime(stampOf(0));
+  add.request.b.stamp = urban_nav_ros::toRosTime(stampOf(3) + 7);
+  add.request.T_a_b.orientation.w = 1.0;
+  add.request.kind = "asserted";
+  ASSERT_TRUE(ros::service::call("pose_graph/add_edge", add));
+  EXPECT_FALSE(add.response.success);
+  EXPECT_NE(add.response.message.find("nearest"), std::string::npos) << add.response.message;
+  add.request.b.stamp = urban_nav_ros::toRosTime(stampOf(3));
+  add.request.kind = "guess";
+  ASSERT_TRUE(ros::service::call("pose_graph/add_edge", add));
+  EXPECT_NE(add.response.message.find("asserted, stereo, icp, plane"), std::string::npos) << add.response.message;
+  add.request.kind = "asserted";
+  add.request.information[3] = std::numeric_limits<double>::quiet_NaN();
+  ASSERT_TRUE(ros::service::call("pose_graph/add_edge", add));
+  EXPECT_FALSE(add.response.success);
+}
+
+TEST_F(PoseGraphNodelet, showsPathAndClosures) {
+  drive(0, lap);
+  close(closureOf(0, lap, Pose()));
+  ASSERT_TRUE(Listener::until([&] {
+    return !listener().paths.empty() && listener().paths.back().poses.size() > lap / 2 && !listener().markers.empty() &&
+           listener().markers.back().markers.size() >= 3;
+  }));
+  EXPECT_EQ(listener().paths.back().header.frame_id, "map");
+  const auto& picture = listener().markers.back().markers;
+  EXPECT_EQ(picture[1].ns, "stereo");
+  EXPECT_EQ(picture[1].points.size(), 2U);
+  EXPECT_EQ(picture.back().ns, "trajectory");
+}
+
+TEST_F(PoseGraphNodelet, aNewSessionHasItsOwnIdAndTimeGoingBackBeginsOne) {
+  drive(0, 5);
+  ASSERT_TRUE(driven(6));
+  urban_nav_msgs::NewSession begin;
+  begin.request.name = "afternoon";
+  ASSERT_TRUE(ros::service::call("pose_graph/new_session", begin));
+  EXPECT_TRUE(begin.response.success) << begin.response.message;
+  drive(100, 103);
+  ASSERT_TRUE(driven(6 + 4));
+  const auto two = trajectory();
+  ASSERT_EQ(two.runs.size(), 2U);
+  EXPECT_NE(two.runs[0].session, two.runs[1].session);
+  EXPECT_EQ(two.runs[1].session, begin.response.session);
+  drive(0, 2);  // the bag is played again
+  ASSERT_TRUE(driven(6 + 4 + 3));
+  EXPECT_EQ(trajectory().runs.size(), 3U);
+}
+
+TEST_F(PoseGraphNodelet, pauseDropsInputsAndDiagnosticsCountWhatIsWrong) {
+  drive(0, 5);
+  ASSERT_TRUE(driven(6));
+  ASSERT_TRUE(listener().call("pause"));
+  drive(5, 8);
+  ros::WallDuration(0.3).sleep();
+  EXPECT_EQ(poses(), 6U);
+  ASSERT_TRUE(listener().call("resume"));
+  auto damaged = urban_nav_ros::toMetricClosureMessage(closureOf(0, 3, Pose()), "base_link", 1.0);
+  damaged.T_a_b.position.x = std::numeric_limits<double>::quiet_NaN();
+  listener().closures.publish(damaged);
+  const auto counted = [&](const std::string& key, const std::string& value) {
+    for (const auto& array : listener().diagnostics)
+      for (const auto& status : array.status)
+        for (const auto& entry : status.values)
+          if (entry.key == key && entry.value == value) return true;
+    return false;
+  };
+  EXPECT_TRUE(Listener::until([&] { return counted("dropped: paused", "3"); }));
+  EXPECT_TRUE(Listener::until([&] { return counted("messages damaged", "1"); }));
+}
+
+TEST_F(PoseGraphNodelet, optimizesFromTheEdgesAndTheStatusWaitsForLateSubscribers) {
+  drive(0, lap);
+  close(closureOf(0, lap, Pose()));
+  ASSERT_TRUE(Listener::until([&] { return !listener().states.empty(); }));
+  const std::uint64_t before = listener().states.back().revision;
+  ASSERT_TRUE(listener().call("optimize"));
+  ASSERT_TRUE(Listener::until([&] { return listener().states.back().revision > before; }));
+  const auto status = ros::topic::waitForMessage<urban_nav_msgs::StageStatus>("pose_graph/status", ros::Duration(5.0));
+  ASSERT_TRUE(status);
+  EXPECT_EQ(status->stage, "pose_graph");
+}
+
+}  // namespace
+}  // namespace pose_graph::test
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "pose_graph_nodelet_test");
+  ros::NodeHandle keeps_ros_alive;
+  return RUN_ALL_TESTS();
+}

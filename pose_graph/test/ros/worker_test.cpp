@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worker.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+#include "urban_nav_core/types/error.hpp"
+
+namespace pose_graph {
+namespace {
+
+using namespace std::chrono_literals;
+using urban_nav_core::UserError;
+
+/// A graph that notes what it is asked, and takes its time to relax.
+class Note : public LiveGraph {
+ public:
+  struct Book {
+    std::vector<urban_nav_core::StampNs> steps;
+    int closures = 0, batches = 0, updates = 0;
+  };
+  explicit Note(std::chrono::milliseconds relaxing) : relaxing_(relaxing) {}
+
+  void add(const urban_nav_core::RelativePose& step) override {
+    if (step.to <= step.from) throw UserError("step", "backwards", "");
+    book.steps.push_back(step.to);
+  }
+  void add(const urban_nav_core::MetricClosure&) override {
+    ++book.closures;
+    changed_ = true;
+  }
+  void add(const urban_nav_core::RelativeConstraint&) override {}
+  bool wantsRelaxation() const override { return changed_; }
+  Outcome relax(bool batch) override {
+    std::this_thread::sleep_for(relaxing_);
+    ++(batch ? book.batches : book.updates);
+    changed_ = false;
+    return {};
+  }
+  std::int64_t revision() const override { return 0; }
+  urban_nav_core::StampNs newest() const override { return book.steps.empty() ? 0 : book.steps.back(); }
+  urban_nav_core::Pose T_map_odom() const override { return {}; }
+  Picture picture() const override { return {}; }
+  Trajectory trajectory(urban_nav_core::StampNs, urban_nav_core::StampNs, std::int64_t) const override { return {}; }
+  EdgeReply addEdge(const urban_nav_core::EdgeRef&, const urban_nav_core::Constraint&) override { return {}; }
+  EdgeReply removeEdge(const urban_nav_core::EdgeRef&) override { return {}; }
+  void save(const std::string&) override {}
+  void load(const std::string&) override {}
+  std::string newSession(const std::string&) override { return {}; }
+  void reset() override { book = {}; }
+
+  Book book;
+
+ private:
+  std::chrono::milliseconds relaxing_;
+  bool changed_ = false;
+};
+
+urban_nav_core::RelativePose step(urban_nav_core::StampNs from, urban_nav_core::StampNs to) {
+  urban_nav_core::RelativePose step;
+  step.from = from;
+  step.to = to;
+  return step;
+}
+
+Note::Book bookOf(Worker& worker) {
+  return *worker.ask([](LiveGraph& graph) { return dynamic_cast<Note&>(graph).book; }, 10s);
+}
+
+TEST(Worker, KeepsTheOrderAndAnswersInTurn) {
+  Worker worker(std::make_unique<Note>(0ms), 100, {});
+  for (int i = 0; i < 20; ++i) worker.put(step(i, i + 1));
+  const Note::Book book = bookOf(worker);
+  ASSERT_EQ(book.steps.size(), 20U);
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(book.steps[static_cast<std::size_t>(i)], i + 1);
+  EXPECT_EQ(book.updates, 0) << "odometry alone gives nothing to relax";
+}
+
+TEST(Worker, NobodyWaitsForARelaxation) {
+  std::atomic<int> relaxed{0};
+  Worker::Listener listener;
+  listener.relaxed = [&](const LiveGraph::Outcome&, const LiveGraph&, double ms) {
+    EXPECT_GE(ms, 200.0);
+    ++relaxed;
+  };
+  Worker worker(std::make_unique<Note>(200ms), 1000, listener);
+  worker.put(urban_nav_core::MetricClosure());
+  std::this_thread::sleep_for(50ms);  // it is at work now
+  const auto begin = std::chrono::steady_clock::now();
+  for (int i = 0; i < 500; ++i) worker.put(step(i, i + 1));
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 100ms);
+  const Note::Book book = bookOf(worker);
+  EXPECT_EQ(book.steps.size(), 500U) << "and nothing is lost";
+  EXPECT_EQ(book.updates, 1);
+  EXPECT_EQ(relaxed, 1);
+  EXPECT_EQ(worker.counts().relaxations, 1);
+  EXPECT_EQ(worker.counts().dropped, 0);
+}
+
+TEST(Worker, ManyClosuresAtOnceAreOneRelaxation) {
+  Worker worker(std::make_unique<Note>(100ms), 1000, {});
+  for (int i = 0; i < 50; ++i) worker.put(urban_nav_core::MetricClosure());
+  while (bookOf(worker).closures < 50) std::this_thread::sleep_for(1ms);
+  std::this_thread::sleep_for(300ms);
+  EXPECT_LE(bookOf(worker).updates, 3);
+  EXPECT_GE(bookOf(worker).updates, 1);
+}
+
+TEST(Worker, OptimizeIsABatch) {
+  Worker worker(std::make_unique<Note>(0ms), 100, {});
+  worker.optimize();
+  bookOf(worker);
+  std::this_thread::sleep_for(50ms);
+  EXPECT_EQ(bookOf(worker).batches, 1);
+}
+
+TEST(Worker, WhatTheGraphRefusesIsCountedAndSaid) {
+  std::string said;
+  Worker::Listener listener;
+  listener.refused = [&](const std::string& why) { said = why; };
+  Worker worker(std::make_unique<Note>(0ms), 100, listener);
+  worker.put(step(5, 3));
+  worker.put(step(5, 7));
+  EXPECT_EQ(bookOf(worker).steps.size(), 1U);
+  EXPECT_EQ(worker.counts().refused, 1);
+  EXPECT_EQ(said, "step: backwards");
+}
+
+TEST(Worker, AQuestionThrowsWhereItWasAsked) {
+  Worker worker(std::make_unique<Note>(0ms), 100, {});
+  const auto question = [](LiveGraph&) -> int { throw UserError("edge", "no such", ""); };
+  EXPECT_THROW(worker.ask(question, 10s), UserError);
+  EXPECT_EQ(worker.counts().refused, 0);
+}
+
+TEST(Worker, APatientCallerIsNotKeptForEver) {
+  Worker worker(std::make_unique<Note>(500ms), 100, {});
+  worker.put(urban_nav_core::MetricClosure());
+  std::this_thread::sleep_for(50ms);
+  EXPECT_FALSE(worker.ask([](LiveGraph&) { return 1; }, 20ms));
+  EXPECT_EQ(worker.ask([](LiveGraph&) { return 2; }, 10s), 2);
+}
+
+TEST(Worker, ADroppedQuestionHasNoAnswer) {
+  Worker worker(std::make_unique<Note>(300ms), 2, {});
+  worker.put(urban_nav_core::MetricClosure());
+  std::this_thread::sleep_for(50ms);
+  std::thread crowd([&] {
+    std::this_thread::sleep_for(50ms);
+    for (int i = 0; i < 10; ++i) worker.put(step(i, i + 1));
+  });
+  EXPECT_FALSE(worker.ask([](LiveGraph&) { return 1; }, 10s));
+  crowd.join();
+  EXPECT_GE(worker.counts().dropped, 1);
+}
+
+TEST(Worker, EndsWithWhatIsUnderWay) {
+  const auto begin = std::chrono::steady_clock::now();
+  {
+    Worker worker(std::make_unique<Note>(100ms), 100, {});
+    worker.put(urban_nav_core::MetricClosure());
+    std::this_thread::sleep_for(20ms);
+  }
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 5s);
+}
+
+}  // namespace
+}  // namespace pose_graph
