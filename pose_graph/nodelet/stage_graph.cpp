@@ -10,7 +10,6 @@
 namespace pose_graph {
 
 using urban_nav_core::ClosureMethod;
-using urban_nav_core::ClosureVerdict;
 using urban_nav_core::EdgeRef;
 using urban_nav_core::PoseRef;
 using urban_nav_core::PoseRun;
@@ -37,8 +36,8 @@ EdgeKind kindOf(const std::string& word) {
 }
 
 Tie::Look lookOf(const Closure& closure) {
-  if (closure.verdict == EdgeVerdict::Waiting) return Tie::Look::Waiting;
-  if (closure.verdict == EdgeVerdict::Rejected) return Tie::Look::Rejected;
+  if (closure.verdict == ClosureVerdict::Waiting) return Tie::Look::Waiting;
+  if (closure.verdict == ClosureVerdict::Rejected) return Tie::Look::Rejected;
   switch (closure.kind) {
     case EdgeKind::Icp: return Tie::Look::Icp;
     case EdgeKind::Plane: return Tie::Look::Plane;
@@ -79,7 +78,7 @@ void StageGraph::add(const urban_nav_core::RelativePose& relative) {
 }
 
 void StageGraph::add(const urban_nav_core::MetricClosure& closure) {
-  if (closure.verdict != ClosureVerdict::Accepted || closure.method == ClosureMethod::None) return;
+  if (closure.verdict != urban_nav_core::ClosureVerdict::Accepted || closure.method == ClosureMethod::None) return;
   Closure offered;
   offered.a = nodeOf(closure.a);
   offered.b = nodeOf(closure.b);
