@@ -6,6 +6,7 @@
 
 #include "pipeline/vo_files.hpp"
 #include "pose_graph/graph_file.hpp"
+#include "urban_nav_core/trajectory/interpolate.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav {
@@ -20,6 +21,8 @@ using urban_nav_core::Trajectory;
 namespace {
 
 constexpr StampNs kLongestGap = 1'000'000'000;  // ns between frames that odometry bridges for a closure in between
+constexpr StampNs kOutside =
+    100'000'000;  // ns before the first and behind the last frame that their motion is good for
 // Of a transform whose file does not say how good it is: five times what loop closure by stereo reaches (paper, section 4.1).
 constexpr double kUnknownSigmaM = 0.25, kUnknownSigmaRad = 0.05;
 constexpr double kMetresPerRadian = 10.0;  // for display of free directions: a turn moves what is seen at this distance
@@ -34,7 +37,14 @@ std::optional<Moment> momentOf(const Trajectory& odometry, StampNs stamp) {
   if (odometry.empty()) return std::nullopt;
   const auto& nearest = odometry[odometry.nearest(stamp)];
   if (nearest.stamp == stamp) return Moment{stamp, Pose()};
-  const std::optional<Pose> there = odometry.at(stamp, kLongestGap);
+  std::optional<Pose> there = odometry.at(stamp, kLongestGap);
+  if (!there && odometry.size() >= 2 && std::abs(stamp - nearest.stamp) <= kOutside) {
+    const bool before = stamp < nearest.stamp;
+    const auto& a = before ? odometry[0] : odometry[odometry.size() - 2];
+    const auto& b = before ? odometry[1] : odometry[odometry.size() - 1];
+    there = urban_nav_core::interpolate(a.pose, b.pose,
+                                        static_cast<double>(stamp - a.stamp) / static_cast<double>(b.stamp - a.stamp));
+  }
   if (!there) return std::nullopt;
   return Moment{nearest.stamp, nearest.pose.inverse() * *there};
 }

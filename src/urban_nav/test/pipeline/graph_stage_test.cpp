@@ -82,6 +82,7 @@ TEST(GraphStage, relaxesSessionsIntoOneMap) {
   std::vector<ClosureRow> rows;
   // Moments between frames, so that odometry has to carry them.
   for (int i = 20; i < 600; i += 60) rows.push_back(closure("monday", i + 0.3, "monday", i + 600.6));
+  rows.push_back(closure("monday", -0.3, "monday", 600.0));  // just before the first frame
   for (int i = 310; i < 600; i += 60) rows.push_back(closure("monday", i + 0.4, "tuesday", i + 0.2));
   const GraphRun run = runGraph({}, {&monday, &tuesday}, {"monday", "tuesday"}, rows);
   EXPECT_TRUE(run.joined(0));
