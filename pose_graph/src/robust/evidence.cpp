@@ -16,7 +16,7 @@ std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
 constexpr double kPi = 3.14159265358979323846;
 // A covariance from 24 samples is good to three tenths, and inverted too large by 24 / (23 - N) (the mean of an inverse
-// Wishart matrix), which is taken off. With 40 the public graphs give the same verdicts in half as much time again.
+// Wishart matrix), which is taken off. Chosen for its time; whether more would decide better is not measured.
 constexpr int kDisturbances = 24;
 constexpr int kAtOnce = 8;  // right-hand sides in memory
 // Redundancy below which an edge is not controlled by the others: less of its error than that shows in its residual, and
