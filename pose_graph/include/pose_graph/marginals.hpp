@@ -36,7 +36,7 @@ urban_nav_core::Matrix6d displayed(const Marginal<3>& marginal, double length);
 /// zero: it then says nothing and connects nothing.
 ///
 /// One factorisation and one selected inverse, about three times what an iteration of the solver takes, for all poses and for all pairs
-/// that an edge joins; another pair costs six solutions with the factor. Keeps buffers: not thread-safe.
+/// that an edge joins; another pair costs a walk from both up the elimination tree. Keeps buffers: not thread-safe.
 template <int D>
 class Marginals {
  public:

@@ -202,6 +202,37 @@ void BlockCholesky<B>::solve(double* x, int columns) const {
     for (int right = 0; right < columns; ++right) backward(s, x + sz(right) * length);
 }
 
+// The columns of L^-1 of one place: B right-hand sides, one after another, which differ from zero along the way to the root.
+template <int B>
+void BlockCholesky<B>::halfColumns(int place, std::vector<double>& x) const {
+  const std::size_t length = sz(B) * symbolic_->node.size();
+  if (x.empty()) x.assign(B * length, 0.0);
+  for (std::size_t k = 0; k < B; ++k) x[k * length + sz(B * place) + k] = 1.0;
+  for (int s = symbolic_->supernode[sz(place)]; s >= 0; s = symbolic_->parent[sz(s)])
+    for (std::size_t k = 0; k < B; ++k) forward(s, x.data() + k * length);
+}
+
+template <int B>
+typename BlockMatrix<B>::Block BlockCholesky<B>::inverseBlock(int row, int column) const {
+  const Symbolic& shape = *symbolic_;
+  const Eigen::Index length = B * static_cast<Eigen::Index>(shape.node.size());
+  halfColumns(row, row_half_);
+  halfColumns(column, column_half_);
+  typename BlockMatrix<B>::Block made = BlockMatrix<B>::Block::Zero();
+  // A^-1 = L^-T L^-1, and the two columns meet where their ways do.
+  Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, B>> left(row_half_.data(), length, B),
+      right(column_half_.data(), length, B);
+  for (int s = shape.supernode[sz(column)]; s >= 0; s = shape.parent[sz(s)])
+    for (Eigen::Index i = B * shape.begin[sz(s)]; i < B * shape.begin[sz(s) + 1]; ++i)
+      made += left.row(i).transpose() * right.row(i);
+  for (const int place : {row, column})
+    for (int s = shape.supernode[sz(place)]; s >= 0; s = shape.parent[sz(s)]) {
+      left.middleRows(B * shape.begin[sz(s)], B * shape.columns(s)).setZero();
+      right.middleRows(B * shape.begin[sz(s)], B * shape.columns(s)).setZero();
+    }
+  return made;
+}
+
 template class BlockCholesky<2>;
 template class BlockCholesky<3>;
 template class BlockCholesky<6>;

@@ -30,6 +30,9 @@ class BlockCholesky {
   /// x becomes A^-1 x for `columns` right-hand sides, one after another, each B numbers a place.
   void solve(double* x, int columns = 1) const;
 
+  /// The block of A^-1 in the row of one place and the column of another. Costs as much as there are supernodes above them.
+  typename BlockMatrix<B>::Block inverseBlock(int row, int column) const;
+
   const Symbolic& symbolic() const { return *symbolic_; }
   /// The columns of supernode s: columnMajor, (columns + rows) * B long, columns * B of them.
   const double* panel(int s) const { return panels_.data() + offset_[static_cast<std::size_t>(s)]; }
@@ -41,6 +44,7 @@ class BlockCholesky {
   bool factor(const BlockMatrix<B>& A, const BlockPattern& pattern, std::vector<int>* pinned);
   void forward(int s, double* x) const;
   void backward(int s, double* x) const;
+  void halfColumns(int place, std::vector<double>& x) const;
 
   const Symbolic* symbolic_;
   std::vector<std::size_t> offset_;
@@ -57,6 +61,7 @@ class BlockCholesky {
   std::vector<Run> runs_;
   Front front_;
   mutable std::vector<double> gathered_;
+  mutable std::vector<double> row_half_, column_half_;  // zero but while inverseBlock() is at work
   urban_nav_core::kernels::InstructionSet kernels_ = urban_nav_core::kernels::instructionSets().front();
 };
 

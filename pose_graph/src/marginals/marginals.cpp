@@ -40,21 +40,10 @@ struct Inverse {
     const Symbolic& shape = *pattern.symbolic;
     if (a == b) return selected.diagonal[sz(shape.place[sz(a)])];
     const BlockPattern::Slot slot = pattern.slot(a, b);
-    if (slot.index < 0) return solved(sz(shape.place[sz(a)]), sz(shape.place[sz(b)]), shape.node.size());
+    if (slot.index < 0) return cholesky.inverseBlock(shape.place[sz(a)], shape.place[sz(b)]);
     const auto& block = selected.lower[sz(slot.index)];
     if (slot.turned) return block.transpose();
     return block;
-  }
-
- private:
-  TangentMatrix<D> solved(std::size_t row, std::size_t column, std::size_t nodes) const {
-    std::vector<double> x(nodes * N * N, 0.0);
-    for (std::size_t k = 0; k < N; ++k) x[(k * nodes + column) * N + k] = 1.0;
-    cholesky.solve(x.data(), N);
-    TangentMatrix<D> made;
-    for (std::size_t k = 0; k < N; ++k)
-      for (std::size_t i = 0; i < N; ++i) made(static_cast<int>(i), static_cast<int>(k)) = x[(k * nodes + row) * N + i];
-    return made;
   }
 };
 

@@ -99,6 +99,22 @@ TEST(BlockCholesky, RefusesWhatIsNotPositiveDefinite) {
   EXPECT_FALSE(BlockCholesky<3>(system.symbolic).factor(system.A, system.pattern));
 }
 
+TEST(BlockCholesky, AnyBlockOfTheInverse) {
+  for (const test::NamedGraph& one : test::manyGraphs()) {
+    if (one.graph.size() == 0) continue;
+    const BlockSystem<3> system(one.graph, 5);
+    BlockCholesky<3> cholesky(system.symbolic);
+    ASSERT_TRUE(cholesky.factor(system.A, system.pattern));
+    const auto inverse = urban_nav_core::invertPositiveDefinite(system.dense);
+    ASSERT_TRUE(inverse);
+    for (int row = 0; row < one.graph.size(); row += 3)
+      for (int column = 0; column < one.graph.size(); column += 2)
+        EXPECT_LT((cholesky.inverseBlock(row, column) - inverse->block<3, 3>(3 * row, 3 * column)).norm(),
+                  1e-9 * inverse->norm())
+            << one.name;
+  }
+}
+
 /// Nothing tells where each part lies: as many pins as that leaves free, and with them a factor of the matrix plus pins.
 TEST(BlockCholesky, PinsWhatIsFree) {
   const Adjacency graph = test::chainWithClosures(40, 10, 2);
