@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Are the covariances of relaxed poses true? Thirty simulated graphs (spheres, lattices, drives through a town) from raw odometry,
-// NEES of T_first_pose at ten poses of each; and how long all marginals take.
+// NEES of T_first_pose at ten poses of each, without false closures and with such present and rejected; and how long all marginals take.
 //   pose_graph-bench-covariance [--graphs N] [-o results/covariance.json]
 #include <array>
 #include <string>
@@ -8,10 +8,12 @@
 
 #include "pose_graph/graph_file.hpp"
 #include "pose_graph/marginals.hpp"
+#include "pose_graph/robust.hpp"
 #include "pose_graph/solution.hpp"
 #include "support/problems.hpp"
 #include "support/program.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
+#include "urban_nav_core/testing/false_closures.hpp"
 #include "urban_nav_core/testing/street_graph.hpp"
 #include "urban_nav_core/trajectory/nees.hpp"
 
@@ -39,12 +41,12 @@ SimulatedGraph graphOf(int number) {
   }
 }
 
-/// At the ends of the ten tenths of the way.
-std::array<double, kPlaces> neesOf(const SimulatedGraph& graph) {
-  const Problem<3> problem = std::get<Problem<3>>(problemOf(graph, deadReckoning(graph)));
-  const std::vector<Rigid<3>> poses = solve(problem, {}).poses;
-  const Marginals<3> marginals(problem, poses);
-  std::array<double, kPlaces> made{};
+using Nees = std::array<double, kPlaces>;  // at the ends of the ten tenths of the way
+
+Nees neesOf(const SimulatedGraph& graph, const Problem<3>& problem, const std::vector<Rigid<3>>& poses,
+            const std::vector<double>& weights) {
+  const Marginals<3> marginals(problem, poses, weights);
+  Nees made{};
   for (std::size_t k = 0; k < kPlaces; ++k) {
     const std::size_t pose = (k + 1) * (poses.size() - 1) / kPlaces;
     const urban_nav_core::UncertainPose estimate{poseOf(poses[0].inverse() * poses[pose]),
@@ -52,6 +54,39 @@ std::array<double, kPlaces> neesOf(const SimulatedGraph& graph) {
     made[k] = urban_nav_core::nees(trueRelative(graph, 0, pose), estimate).value();
   }
   return made;
+}
+
+Nees neesOf(const SimulatedGraph& graph) {
+  const Problem<3> problem = std::get<Problem<3>>(problemOf(graph, deadReckoning(graph)));
+  return neesOf(graph, problem, solve(problem, {}).poses, {});
+}
+
+/// What became of closures, over all graphs.
+struct Judged {
+  std::size_t wrong = 0, wrong_kept = 0, right = 0, right_lost = 0;
+};
+
+/// With a fifth more closures, all false.
+Nees neesAmongFalseOnes(SimulatedGraph graph, int number, Judged& judged) {
+  constexpr FalseClosures kKinds[] = {FalseClosures::Random, FalseClosures::Local, FalseClosures::RandomGrouped,
+                                      FalseClosures::LocalGrouped};
+  const std::size_t closures = graph.edges.size() - graph.truth.size() + 1;
+  addFalseClosures(graph, kKinds[number % 4], closures / 5, static_cast<std::uint64_t>(number));
+  const Problem<3> problem = std::get<Problem<3>>(problemOf(graph, deadReckoning(graph)));
+  std::vector<EdgeRole> roles;
+  for (const GraphEdge& edge : graph.edges)
+    roles.push_back(edge.kind == GraphEdgeKind::Chain ? EdgeRole::Trusted : EdgeRole::Candidate);
+  const RobustSolution<3> robust = relaxRobust(problem, roles, {});
+  std::vector<double> weights;
+  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+    weights.push_back(robust.edges[e].weight);
+    if (graph.edges[e].kind == GraphEdgeKind::Chain) continue;
+    const bool kept = robust.edges[e].verdict == Verdict::Accepted;
+    ++(graph.edges[e].wrong ? judged.wrong : judged.right);
+    if (graph.edges[e].wrong && kept) ++judged.wrong_kept;
+    if (!graph.edges[e].wrong && !kept) ++judged.right_lost;
+  }
+  return neesOf(graph, problem, robust.solution.poses, weights);
 }
 
 std::string timed(int poses, int closures) {
@@ -76,18 +111,26 @@ int main(int argc, char** argv) try {
   const Arguments asked = argumentsOf(argc, argv, {"--graphs"});
   const int graphs = asked.number("--graphs", 30);
   const urban_nav_core::ThreadLimit one(1);
-  std::array<double, kPlaces> sums{};
+  Nees plain{}, robust{};
+  Judged judged;
   for (int number = 1; number <= graphs; ++number) {
-    const std::array<double, kPlaces> nees = neesOf(graphOf(number));
-    for (std::size_t k = 0; k < kPlaces; ++k) sums[k] += nees[k];
+    const SimulatedGraph graph = graphOf(number);
+    const Nees alone = neesOf(graph), among = neesAmongFalseOnes(graph, number, judged);
+    for (std::size_t k = 0; k < kPlaces; ++k) {
+      plain[k] += alone[k] / graphs;
+      robust[k] += among[k] / graphs;
+    }
   }
-  BenchTable table({"share of the way", "mean NEES of " + std::to_string(graphs), "99 % band", "inside"}, argc, argv);
+  BenchTable table({"share of the way", "mean NEES of " + std::to_string(graphs), "with false closures", "99 % band"},
+                   argc, argv);
   const urban_nav_core::Band band = urban_nav_core::chiSquareMeanBand(6.0, graphs, 0.99);
-  for (std::size_t k = 0; k < kPlaces; ++k) {
-    const double mean = sums[k] / graphs;
-    table.add({cell(0.1 * static_cast<double>(k + 1), 1), cell(mean, 2), cell(band.low, 2) + "..." + cell(band.high, 2),
-               band.contains(mean) ? "yes" : "no"});
-  }
+  const auto marked = [&band](double mean) { return cell(mean, 2) + (band.contains(mean) ? "" : " (outside)"); };
+  for (std::size_t k = 0; k < kPlaces; ++k)
+    table.add({cell(0.1 * static_cast<double>(k + 1), 1), marked(plain[k]), marked(robust[k]),
+               cell(band.low, 2) + "..." + cell(band.high, 2)});
+  table.note("False closures: " + std::to_string(judged.wrong) + " beside " + std::to_string(judged.right) +
+             " true ones; " + std::to_string(judged.wrong_kept) + " kept, " + std::to_string(judged.right_lost) +
+             " true ones lost.");
   for (const auto& [poses, closures] : {std::pair(20000, 200), std::pair(20000, 2000), std::pair(100000, 1000)})
     table.note(timed(poses, closures));
   return show(table, asked.output);
