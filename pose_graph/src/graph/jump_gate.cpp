@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "pose_graph/graph_file.hpp"
+#include "pose_graph/relative_pcg.hpp"
 #include "pose_graph/robust.hpp"
 
 namespace pose_graph {
@@ -101,6 +102,23 @@ bool makeWait(const Problem<3>& problem, std::size_t chains, const Parameters& p
   return any;
 }
 
+/// The paper's way, over what is accepted.
+Solution<3> relaxAccepted(const Problem<3>& problem, std::size_t chains, const SolveOptions& options,
+                          const std::map<ClosureId, Closure>& closures) {
+  Problem<3> accepted;
+  accepted.poses = problem.poses;
+  accepted.edges.assign(problem.edges.begin(), problem.edges.begin() + static_cast<std::ptrdiff_t>(chains));
+  std::size_t e = chains;
+  for (const auto& [id, closure] : closures) {
+    if (closure.weight > 0.0) accepted.edges.push_back(problem.edges[e]);
+    ++e;
+  }
+  RelativePcgOptions wanted;
+  wanted.iterations = options.iterations;
+  wanted.progress = options.progress;
+  return relaxRelative<3>(accepted, wanted);
+}
+
 }  // namespace
 
 Solution<3> judge(const Problem<3>& problem, const Parameters& parameters, const SolveOptions& options,
@@ -113,7 +131,9 @@ Solution<3> judge(const Problem<3>& problem, const Parameters& parameters, const
   } else {
     takeAll(closures);
   }
-  if (!makeWait(problem, chains, parameters, closures) && parameters.robust) return std::move(judged.solution);
+  const bool waiting = makeWait(problem, chains, parameters, closures);
+  if (parameters.solver == "relative_pcg") return relaxAccepted(problem, chains, options, closures);
+  if (parameters.robust && !waiting) return std::move(judged.solution);
   std::vector<double> weights(chains, 1.0);
   for (const auto& [id, closure] : closures) weights.push_back(closure.weight);
   return solve(problem, options, weights);

@@ -87,6 +87,18 @@ TEST(PoseGraph, closesALoop) {
   EXPECT_TRUE(isApprox(graph.mapFromOdom("a") * graph.tracks()[0].odom.back(), graph.tracks()[0].map.back(), 1e-9));
 }
 
+TEST(PoseGraph, relaxesThePapersWayToo) {
+  Parameters papers;
+  papers.solver = "relative_pcg";
+  PoseGraph ours{Parameters()}, theirs{papers};
+  for (PoseGraph* graph : {&ours, &theirs}) {
+    drive(*graph, "a", 0, 2 * kRound, 2e-4);
+    for (int i = 20; i < kRound; i += 40) graph->addClosure(closureBetween("a", i, "a", i + kRound));
+  }
+  const double cost = ours.relax().cost_after;
+  EXPECT_NEAR(theirs.relax().cost_after, cost, 1e-4 * cost);
+}
+
 TEST(PoseGraph, leavesNoTraceOfEarlierRelaxations) {
   PoseGraph once{Parameters()}, often{Parameters()};
   for (PoseGraph* graph : {&once, &often}) drive(*graph, "a", 0, 2 * kRound, 2e-4);
