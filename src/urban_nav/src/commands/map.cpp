@@ -26,7 +26,8 @@ MapRequest requestOf(const Arguments& arguments) {
           source,
           std::move(parameters),
           static_cast<int>(arguments.integer("threads", 0, 1, 1024)),
-          so_far};
+          so_far,
+          arguments.get("store")};
 }
 
 }  // namespace
@@ -58,6 +59,12 @@ Command mapCommand() {
        false,
        {}},
       {"--rate", "HZ", "of an image folder without times.txt (default 10)", false, false, {}},
+      {"--store",
+       "FILE",
+       "go on from the sessions of this store: session.db of DIR holds them too (FILE is only read, but for the one of DIR itself)",
+       false,
+       false,
+       {}},
       {"--truth", "FILE", "trajectory for the report alone (default: what the input has)", false, false, {}},
       {"--so-far",
        "SHARE",

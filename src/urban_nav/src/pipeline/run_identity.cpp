@@ -132,6 +132,9 @@ std::string digestOfOptions(const MapRequest& request) {
   for (const std::string& topic : request.source.topics) appendText(bytes, topic);
   appendText(bytes, "stages");
   for (const std::string& stage : request.stages) appendText(bytes, stage);
+  std::error_code ignored;
+  if (!request.store.empty() && !fs::equivalent(request.store, fs::path(request.out) / "session.db", ignored))
+    appendText(bytes, digestOf({request.store}, request.out, true));
   urban_nav_store::appendNumber(bytes, request.source.rate);
   std::string calibration = request.source.calibration;
   appendText(bytes, calibration);

@@ -6,6 +6,7 @@
 
 #include "pipeline/vo_state.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
+#include "urban_nav_store/merge.hpp"
 
 namespace urban_nav {
 
@@ -70,38 +71,63 @@ bool StoreStage::isFinished(std::size_t session) {
          store_->states().get(ids_[session], kStage).has_value();
 }
 
-void StoreStage::open(Console& console) {
-  store_.emplace(path_, Access::Write);
-  bool cut_off = false;
-  std::string other;
-  std::size_t finished = 0;
+StoreStage::Found StoreStage::sift(bool goes_on_here) {
+  Found found;
+  std::vector<SessionId> stay;
+  if (!request_.store.empty() && !goes_on_here)
+    for (const urban_nav_store::Session& session : Store(request_.store, Access::Read).sessions().all())
+      stay.push_back(session.id);
   for (const urban_nav_store::Session& known : store_->sessions().all()) {
-    cut_off = cut_off || !known.complete || !store_->states().stages(known.id).empty();
     const auto place = std::find(ids_.begin(), ids_.end(), known.id);
-    if (place == ids_.end()) {
-      other = "other inputs";
+    const bool ours = place != ids_.end();
+    if (!ours && (goes_on_here ? known.complete : std::find(stay.begin(), stay.end(), known.id) != stay.end()))
+      continue;
+    found.cut_off = found.cut_off || !known.complete || !store_->states().stages(known.id).empty();
+    if (!ours) {
+      found.other = "other inputs";
     } else if (isFinished(static_cast<std::size_t>(place - ids_.begin()))) {
-      ++finished;
+      ++found.finished;
       continue;
     } else if (const std::string names = differences(identities_[static_cast<std::size_t>(place - ids_.begin())],
                                                      storedIdentity(*store_, known.id));
                !names.empty()) {
-      other = "other " + names;
+      found.other = "other " + names;
     }
     store_->sessions().remove(known.id);
   }
-  if (finished > 0) {
-    console.info("an earlier run was cut off here: goes on behind " + std::to_string(finished) + " of " +
-                 std::to_string(ids_.size()) + (ids_.size() == 1 ? " session" : " sessions"));
-    store_->commit();
-    return;
-  }
-  if (cut_off)
-    console.info("an earlier run was cut off here" + (other.empty() ? " in its first session" : " with " + other) +
-                 ": begins anew");
+  return found;
+}
+
+void StoreStage::beginAnew() {
   store_->close();
   urban_nav_store::removeStore(path_);
+  if (!request_.store.empty()) urban_nav_store::merge({request_.store}, path_);
   store_.emplace(path_, Access::Write);
+  for (const SessionId& id : ids_) store_->sessions().remove(id);
+  store_->commit();
+}
+
+void StoreStage::open(Console& console) {
+  std::error_code ignored;
+  const bool goes_on_here = !request_.store.empty() && std::filesystem::equivalent(request_.store, path_, ignored);
+  if (!request_.store.empty()) Store(request_.store, Access::Read);  // a mistake in it is told before anything changes
+  store_.emplace(path_, Access::Write);
+  const Found found = sift(goes_on_here);
+  if (found.finished > 0)
+    console.info("an earlier run was cut off here: goes on behind " + std::to_string(found.finished) + " of " +
+                 std::to_string(ids_.size()) + (ids_.size() == 1 ? " session" : " sessions"));
+  else if (found.cut_off)
+    console.info("an earlier run was cut off here" +
+                 (found.other.empty() ? " in its first session" : " with " + found.other) + ": begins anew");
+  if (found.finished > 0 || goes_on_here) {
+    store_->commit();
+  } else {
+    beginAnew();
+  }
+  const std::size_t earlier = store_->sessions().all().size() - found.finished;
+  if (!request_.store.empty())
+    console.info("store: goes on from " + std::to_string(earlier) + (earlier == 1 ? " session" : " sessions") + " of " +
+                 request_.store);
 }
 
 std::optional<VoRun> StoreStage::begin(std::size_t session, const SourceInfo& info) {

@@ -19,6 +19,9 @@ namespace urban_nav {
 /// A session that an earlier run had finished is taken from the store where inputs, options, parameters and program
 /// (run_identity.hpp) are the same, with its own bytes; anything else is removed and made again, and the console says why. A run
 /// that has come to its end leaves no states behind: the next one in its folder begins anew.
+///
+/// Where the request names a store to go on from, its sessions are there from the start, and stay. One that is mapped
+/// again is replaced.
 class StoreStage {
  public:
   StoreStage(const MapRequest& request, const std::vector<Session>& sessions, const std::string& path,
@@ -42,6 +45,14 @@ class StoreStage {
   bool isFinished(std::size_t session);
   /// Opens the store, and leaves in it the sessions that this run can go on behind.
   void open(Console& console);
+  /// What is in the store of an earlier run in the same folder.
+  struct Found {
+    std::size_t finished = 0;  ///< sessions to go on behind
+    bool cut_off = false;
+    std::string other;  ///< what differs, for people
+  };
+  Found sift(bool goes_on_here);
+  void beginAnew();
   void add(const VoRun& run);
 
   const MapRequest& request_;

@@ -72,8 +72,8 @@ class Command {
 
 class Killed : public ::testing::Test {
  protected:
-  Killed() {
-    for (const int frames : {60, 25, 50}) {
+  void makeInputs(const std::vector<int>& frames_of_each) {
+    for (const int frames : frames_of_each) {
       testing::KittiStyle style;
       style.frames = frames;
       inputs.push_back(folder.file("in" + std::to_string(frames)));
@@ -110,6 +110,7 @@ class Killed : public ::testing::Test {
 };
 
 TEST_F(Killed, endsWithTheBytesOfAnUnbrokenRun) {
+  makeInputs({60, 25, 50});
   const std::string whole = folder.file("whole"), cut = folder.file("cut");
   ASSERT_EQ(run(words(whole)), 0) << log();
   const double took = used;
@@ -148,6 +149,7 @@ TEST_F(Killed, endsWithTheBytesOfAnUnbrokenRun) {
 }
 
 TEST_F(Killed, beginsAnewWhereTheResultWouldBeAnother) {
+  makeInputs({8, 10, 9});
   const std::string out = folder.file("out");
   // As if it was killed when all was done but the report: the last thing that is written, into a folder that cannot be replaced.
   fs::create_directories(out + "/summary.json/in the way");

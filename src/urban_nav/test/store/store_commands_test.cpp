@@ -93,6 +93,25 @@ TEST_F(StoreCommands, exportsTheBytesThatMapWrote) {
   EXPECT_FALSE(readFile(file("z_2.tum")).empty()) << "a map of its own";
 }
 
+TEST_F(StoreCommands, mapGoesOnFromAStore) {
+  const std::string first = dumpOf(file("a/session.db"));
+  ASSERT_EQ(call({"map", file("in12"), "--out", file("on"), "--stages", "vo", "--store", file("a/session.db")}), 0);
+  const auto sessionsIn = [](const std::string& path) { return lookIntoStore(path).sessions.size(); };
+  EXPECT_EQ(sessionsIn(file("on/session.db")), 2U);
+  EXPECT_TRUE(dumpOf(file("a/session.db")) == first) << "it is only read";
+  EXPECT_EQ(readFile(file("on/trajectory.tum")), readFile(file("b/trajectory.tum")));
+  ASSERT_EQ(call({"map", file("in12"), "--out", file("on"), "--stages", "vo", "--store", file("a/session.db")}), 0);
+  EXPECT_EQ(sessionsIn(file("on/session.db")), 2U) << "again";
+  ASSERT_EQ(call({"map", file("in12"), "--out", file("on"), "--stages", "vo", "--store", file("on/session.db")}), 0);
+  EXPECT_EQ(sessionsIn(file("on/session.db")), 2U) << "its own, with the same session";
+  ASSERT_EQ(call({"export", file("on/session.db"), "--session", "in16", "--tum", file("on.tum")}), 0);
+  EXPECT_EQ(readFile(file("on.tum")), readFile(file("a/trajectory.tum")));
+  EXPECT_EQ(call({"map", file("in12"), "--out", file("on"), "--stages", "vo", "--store", file("none.db")}), 2);
+  EXPECT_EQ(sessionsIn(file("on/session.db")), 2U);
+  ASSERT_EQ(call({"map", file("in12"), "--out", file("on"), "--stages", "vo"}), 0);
+  EXPECT_EQ(sessionsIn(file("on/session.db")), 1U) << "without --store a folder's store is this run's";
+}
+
 TEST_F(StoreCommands, exportRefusesByName) {
   const std::string store = file("a/session.db");
   EXPECT_EQ(call({"export", store}), 2);
