@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "pipeline/graph_files.hpp"
+#include "pipeline/graph_rows.hpp"
 #include "pipeline/map_outcome.hpp"
 #include "pipeline/sessions.hpp"
 #include "pipeline/store_stage.hpp"
@@ -124,7 +125,7 @@ bool checkGraph(const MapRequest& request, Console& console) {
 }
 
 void runGraphStage(MapOutcome& outcome, const std::vector<Session>& sessions, const std::vector<ClosureRow>& closures,
-                   Console& console) {
+                   StoreStage& store, Console& console) {
   std::vector<const VoRun*> runs;
   for (const std::unique_ptr<VoStage>& stage : outcome.stages) runs.push_back(&stage->run());
   outcome.graph = runGraph(outcome.request.parameters.pose_graph.parameters, runs, sessionNames(sessions), closures);
@@ -134,6 +135,8 @@ void runGraphStage(MapOutcome& outcome, const std::vector<Session>& sessions, co
                forPerson(relaxed.cost_before, 5) + " -> " + forPerson(relaxed.cost_after, 5) + " in " +
                forPerson(outcome.graph->ms, 3) + " ms");
   for (const std::string& warning : outcome.graph->warnings) console.warn(warning);
+  putGraph(store.store(), store.ids(), *outcome.graph);
+  store.store().commit();
   writeGraphFiles(outcome.folder, *outcome.graph, runs);
 }
 
@@ -177,7 +180,7 @@ void runMap(const MapRequest& request, Console& console) {
   for (std::size_t i = sessions.size() + 1; outcome.folder.has("trajectory_" + std::to_string(i) + ".tum"); ++i) {
     removeVoFiles(outcome.folder, "_" + std::to_string(i));
   }
-  if (with_graph) runGraphStage(outcome, sessions, closures, console);
+  if (with_graph) runGraphStage(outcome, sessions, closures, store, console);
   else outcome.folder.remove("closures.csv");
   finishMap(outcome, sessions, console);
   store.end();

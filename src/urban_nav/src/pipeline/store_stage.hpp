@@ -37,7 +37,8 @@ class StoreStage {
   void end();
 
   urban_nav_store::Store& store() { return *store_; }
-  const urban_nav_store::SessionId& id(std::size_t session) const { return ids_[session]; }
+  /// Of the sessions of this run, in their order.
+  const std::vector<urban_nav_store::SessionId>& ids() const { return ids_; }
 
  private:
   using Clock = std::chrono::steady_clock;
