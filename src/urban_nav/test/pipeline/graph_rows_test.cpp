@@ -55,8 +55,12 @@ TEST(GraphRows, aStoreHoldsTheRelaxedMap) {
     Store store(path, Access::Write);
     for (const char* id : {"m", "t", "f"}) {
       store.sessions().put({id, id, "", "", 0, true});
-      for (const swf_vo::Settled& settled : monday.settled)
-        store.graph().put(id, urban_nav_store::Node{settled.stamp, settled.T_odom_base.pose, {}, {}, {}});
+      for (const swf_vo::Settled& settled : monday.settled) {
+        urban_nav_store::Node node;
+        node.stamp = settled.stamp;
+        node.T_odom_base = settled.T_odom_base.pose;
+        store.graph().put(id, node);
+      }
     }
     putGraph(store, {"m", "t", "f"}, run);
     putGraph(store, {"m", "t", "f"}, run);

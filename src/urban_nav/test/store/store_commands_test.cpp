@@ -140,7 +140,12 @@ TEST_F(StoreCommands, relaxedSessionsOfOneMapAreExportedTogether) {
   const auto at = [](double x) { return Pose(urban_nav_core::Quaterniond::Identity(), {x, 0.0, 0.0}); };
   for (const auto& [id, start] : {std::pair{"one", 0}, {"two", 100}}) {
     store.sessions().put({id, std::string("day ") + id, "", "", start, true});
-    for (int i = 0; i < 3; ++i) store.graph().put(id, urban_nav_store::Node{start + i, at(i), {}, {}, {}});
+    for (int i = 0; i < 3; ++i) {
+      urban_nav_store::Node node;
+      node.stamp = start + i;
+      node.T_odom_base = at(i);
+      store.graph().put(id, node);
+    }
   }
   store.graph().put("one", urban_nav_store::RelaxedPose{0, at(0.5), 1});
   store.graph().put("one", urban_nav_store::RelaxedPose{1, at(2.0), 1});
