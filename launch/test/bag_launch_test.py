@@ -17,6 +17,12 @@ TOPICS = {
     "/vo/landmarks": "sensor_msgs/PointCloud2",
     "/vo/tracks": "sensor_msgs/Image",
     "/vo/path": "nav_msgs/Path",
+    "/graph/update": "urban_nav_msgs/GraphUpdate",
+    "/graph/jump": "urban_nav_msgs/MapJump",
+    "/graph/path": "nav_msgs/Path",
+    "/graph/state": "urban_nav_msgs/GraphState",
+    "/graph/markers": "visualization_msgs/MarkerArray",
+    "/pose_graph/status": "urban_nav_msgs/StageStatus",
     "/swf_vo/status": "urban_nav_msgs/StageStatus",
     "/diagnostics": "diagnostic_msgs/DiagnosticArray",
     "/stereo/left/image_raw": "sensor_msgs/Image",
@@ -58,7 +64,7 @@ class BagLaunch(LaunchCase):
             self.assertEqual(present.get(topic), type_name, topic)
         self.expect(lambda: len(self.listener.odometry) == len(rows), lambda: f"{len(self.listener.odometry)} of {len(rows)} frames")
         for frame in SENSOR_FRAMES:
-            self.assertTrue(self.listener.connected("odom", frame), f"{frame} hangs from nothing: {self.listener.links}")
+            self.assertTrue(self.listener.connected("map", frame), f"{frame} hangs from nothing: {self.listener.links}")
 
         for row, message in zip(rows, self.listener.odometry):
             self.assertEqual(int(row["stamp_ns"]), stamp_of(message))

@@ -14,6 +14,7 @@ PATIENCE = 90.0  # seconds for what takes two on an idle machine; a test that pa
 # What a display of rviz reads, and the property that names it.
 DISPLAYS = {
     "rviz/Image": ("Image Topic", "sensor_msgs/Image"),
+    "rviz/MarkerArray": ("Marker Topic", "visualization_msgs/MarkerArray"),
     "rviz/LaserScan": ("Topic", "sensor_msgs/LaserScan"),
     "rviz/Path": ("Topic", "nav_msgs/Path"),
     "rviz/PointCloud2": ("Topic", "sensor_msgs/PointCloud2"),
