@@ -162,6 +162,12 @@ Told relaxFile(const G2oGraph& graph, const std::string& name, const Arguments& 
   if (solution.components > 1)
     console.warn(name + ": " + std::to_string(solution.components) +
                  " parts that no edge connects; each stays in its own frame");
+  // Each of a component's poses but the first hangs on one trusted edge.
+  const std::size_t trusted = told.poses - static_cast<std::size_t>(std::max(solution.components, 1));
+  if (told.edges > trusted && 2 * told.rejected > told.edges - trusted)
+    console.warn(name + ": " + std::to_string(told.rejected) + " of " + std::to_string(told.edges - trusted) +
+                 " closures rejected. Where the file's information is larger than its errors allow, true ones are too: "
+                 "--robust off takes them all");
   if (arguments.has("edges")) {
     std::string text = "from,to,weight,verdict\n";
     for (std::size_t e = 0; e < graph.edges.size(); ++e)

@@ -28,7 +28,7 @@ TEST(UncertainPose, ComparesPoseAndCovariance) {
 }
 
 TEST(RelativePose, ComparesStampsStatusAndSource) {
-  const RelativePose a{1, 2, kPose, Matrix6d::Identity(), {}, "swf_vo"};
+  const RelativePose a{1, 2, kPose, Matrix6d::Identity(), Matrix6d::Zero(), {}, "swf_vo"};
   RelativePose b = a;
   EXPECT_TRUE(isApprox(a, b, 0.0));
   b.to = 3;
@@ -54,7 +54,7 @@ TEST(Uncertain, PrintsThemselves) {
   out << UncertainPose{kPose, Matrix6d::Identity() * 4.0};
   EXPECT_EQ(out.str(), "t = (1, 2, 3) m, rotation vector = (0, 0, 0.5) rad, sigma = (2, 2, 2) m, (2, 2, 2) rad");
   out.str("");
-  out << RelativePose{0, 1000000000, Pose(), Matrix6d::Identity(), {}, "swf_vo"};
+  out << RelativePose{0, 1000000000, Pose(), Matrix6d::Identity(), Matrix6d::Zero(), {}, "swf_vo"};
   EXPECT_EQ(
       out.str(),
       "0.000000000 -> 1.000000000 s: t = (0, 0, 0) m, rotation vector = (0, 0, 0) rad, sigma = (1, 1, 1) m, (1, 1, 1) rad, OK, "
