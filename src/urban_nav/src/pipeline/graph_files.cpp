@@ -80,7 +80,7 @@ void writeGraphFiles(const OutputFolder& folder, const GraphRun& graph, const st
     if (tum.empty()) T_first_map = (trajectory.front().pose * runs[s]->T_base_camera).inverse();
     tum += urban_nav_core::printTum(trajectory);
     appendKitti(kitti, *runs[s], trajectory, T_first_map);
-    const std::vector<Matrix6d> covariances = graph.covariances(s);
+    const std::vector<Matrix6d>& covariances = graph.covariances[s];
     for (std::size_t i = 0; i < covariances.size(); ++i)
       covariance += urban_nav_core::printCovarianceRow(
           urban_nav_core::CovarianceRow{trajectory[i].stamp, runs[s]->settled[i].status.health, covariances[i]});

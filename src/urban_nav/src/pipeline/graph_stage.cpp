@@ -12,6 +12,7 @@
 namespace urban_nav {
 
 using pose_graph::Closure;
+using pose_graph::PoseGraph;
 using pose_graph::Track;
 using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
@@ -111,6 +112,23 @@ void judge(GraphRun& run) {
     run.warnings.push_back(std::to_string(refused) + " closures could not be used; the first: " + *first);
 }
 
+// All sessions from one factorisation.
+std::vector<std::vector<Matrix6d>> covariancesOf(const PoseGraph& graph, const std::vector<std::string>& sessions) {
+  std::vector<pose_graph::Rigid<3>> poses;
+  for (const Track& track : graph.tracks())
+    for (const Pose& pose : track.map) poses.push_back(pose_graph::rigidOf<3>(pose));
+  const pose_graph::Marginals<3> marginals(graph.problem(), poses, graph.weights());
+  std::vector<std::vector<Matrix6d>> made(sessions.size());
+  for (std::size_t s = 0; s < sessions.size(); ++s) {
+    const Track* track = graph.track(sessions[s]);
+    if (track == nullptr || track->stamps.empty()) continue;
+    const int first = *graph.poseNumber({track->session, track->stamps.front()});
+    for (std::size_t i = 0; i < track->stamps.size(); ++i)
+      made[s].push_back(displayed(marginals.ofPose(first + static_cast<int>(i)), kMetresPerRadian));
+  }
+  return made;
+}
+
 }  // namespace
 
 bool GraphRun::joined(std::size_t session) const {
@@ -127,24 +145,10 @@ Trajectory GraphRun::trajectory(std::size_t session) const {
   return made;
 }
 
-std::vector<Matrix6d> GraphRun::covariances(std::size_t session) const {
-  std::vector<pose_graph::Rigid<3>> poses;
-  for (const Track& track : graph.tracks())
-    for (const Pose& pose : track.map) poses.push_back(pose_graph::rigidOf<3>(pose));
-  const pose_graph::Marginals<3> marginals(graph.problem(), poses, graph.weights());
-  std::vector<Matrix6d> made;
-  const Track* track = graph.track(sessions[session]);
-  if (track == nullptr || track->stamps.empty()) return made;
-  const int first = *graph.poseNumber({track->session, track->stamps.front()});
-  for (std::size_t i = 0; i < track->stamps.size(); ++i)
-    made.push_back(displayed(marginals.ofPose(first + static_cast<int>(i)), kMetresPerRadian));
-  return made;
-}
-
 GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<const VoRun*>& runs,
                   const std::vector<std::string>& sessions, std::vector<ClosureRow> closures) {
   GraphRun made;
-  made.graph = pose_graph::PoseGraph(parameters);
+  made.graph = PoseGraph(parameters);
   made.sessions = sessions;
   made.closures = std::move(closures);
   for (std::size_t s = 0; s < runs.size(); ++s) {
@@ -158,6 +162,7 @@ GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<co
   made.relaxed = made.graph.relax();
   made.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   judge(made);
+  made.covariances = covariancesOf(made.graph, sessions);
   for (std::size_t s = 1; s < sessions.size(); ++s)
     if (!made.joined(s))
       made.warnings.push_back("session " + sessions[s] + " is a map of its own: no closures that agree join it to " +

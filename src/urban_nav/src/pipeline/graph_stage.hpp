@@ -20,13 +20,13 @@ struct GraphRun {
   std::vector<ClosureRow> closures;   ///< with their verdicts
   std::vector<std::string> warnings;
   double ms = 0.0;  ///< that the relaxation took
+  /// Marginal covariances of T_first_base of each session's poses, as far as they are known.
+  std::vector<std::vector<urban_nav_core::Matrix6d>> covariances;
 
   /// Does a session, as a whole, lie in the map of the first one?
   bool joined(std::size_t session) const;
   /// The poses of a session: in `map` where it joined, else in its own.
   urban_nav_core::Trajectory trajectory(std::size_t session) const;
-  /// Marginal covariances of T_first_base, as far as they are known, in the order of the session's poses.
-  std::vector<urban_nav_core::Matrix6d> covariances(std::size_t session) const;
 };
 
 /// Takes the settled chains of the runs and the closures with their transforms. A closure whose moments lie between frames

@@ -115,7 +115,7 @@ std::vector<std::optional<Evaluation>> compare(const MapOutcome& outcome, const 
           outcome.folder.file("trajectory.tum"), true, relaxed ? outcome.graph->trajectory(i) : trajectoryOf(run), {}};
       for (const urban_nav_core::StampedPose& pose : estimate.trajectory) estimate.poses.push_back(pose.pose);
       evaluations.back() = evaluate(
-          *truth, estimate, relaxed ? covariancesOf(run, outcome.graph->covariances(i)) : covariancesOf(run), options);
+          *truth, estimate, relaxed ? covariancesOf(run, outcome.graph->covariances[i]) : covariancesOf(run), options);
       if (console != nullptr)
         console->info("truth: " + truth->path +
                       (outcome.request.truth.empty() ? " (found; it is used for the report alone)" : ""));

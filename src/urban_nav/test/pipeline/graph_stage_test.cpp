@@ -91,8 +91,8 @@ TEST(GraphStage, relaxesSessionsIntoOneMap) {
   EXPECT_LT(worstError(run.trajectory(0), Pose()), 0.6);
   EXPECT_LT(worstError(run.trajectory(1), Pose()), 0.6);
   EXPECT_GT(worstError(trajectoryOf(monday), Pose()), 1.0);
-  for (const auto& covariance : run.covariances(1)) EXPECT_TRUE(covariance.allFinite());
-  EXPECT_LT(run.covariances(0)[0].norm(), 1e-12);
+  for (const auto& covariance : run.covariances[1]) EXPECT_TRUE(covariance.allFinite());
+  EXPECT_LT(run.covariances[0][0].norm(), 1e-12);
 
   const testing::TemporaryFolder folder;
   writeGraphFiles(OutputFolder(folder.file("out")), run, {&monday, &tuesday});
