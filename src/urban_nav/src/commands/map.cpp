@@ -61,7 +61,7 @@ Command mapCommand() {
       {"--rate", "HZ", "of an image folder without times.txt (default 10)", false, false, {}},
       {"--store",
        "FILE",
-       "go on from the sessions of this store: session.db of DIR holds them too (FILE is only read, but for the one of DIR itself)",
+       "go on from the sessions of this store: relaxed together with the new ones where there are closures, session.db of DIR holds all (FILE is only read, but for the one of DIR itself)",
        false,
        false,
        {}},

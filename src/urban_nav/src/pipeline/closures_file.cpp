@@ -40,10 +40,7 @@ double sigmaOf(const CsvTable& table, std::size_t row, const char* column) {
   return sigma;
 }
 
-}  // namespace
-
-std::vector<ClosureRow> readClosures(const std::string& path) {
-  const CsvTable table = CsvTable::read(path);
+std::vector<ClosureRow> rowsOf(const CsvTable& table) {
   const std::size_t session_a = table.column("session_a"), stamp_a = table.column("stamp_a_ns"),
                     session_b = table.column("session_b"), stamp_b = table.column("stamp_b_ns"),
                     probability = table.column("probability");
@@ -68,6 +65,14 @@ std::vector<ClosureRow> readClosures(const std::string& path) {
     rows.push_back(row);
   }
   return rows;
+}
+
+}  // namespace
+
+std::vector<ClosureRow> readClosures(const std::string& path) { return rowsOf(CsvTable::read(path)); }
+
+std::vector<ClosureRow> parseClosures(std::string_view text, const std::string& name) {
+  return rowsOf(CsvTable::parse(text, name));
 }
 
 std::string printClosures(const std::vector<ClosureRow>& rows) {

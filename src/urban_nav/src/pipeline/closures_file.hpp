@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "urban_nav_core/types/stamp.hpp"
@@ -21,11 +23,14 @@ struct ClosureRow {
   std::optional<urban_nav_core::Pose> T_a_b;
   double sigma_m = 0.0, sigma_rad = 0.0;  ///< of the transform, each axis; 0 where the file does not say
   double weight = 0.0;
-  std::string where;  ///< "closures.csv:12"
+  std::string where;    ///< "closures.csv:12"
+  std::int64_t id = 0;  ///< in the graph; 0: it did not take it
 };
 
 /// The first five columns must be there; kind, x...qw, sigma_m and sigma_rad are taken where they are. UserError with file and line.
 std::vector<ClosureRow> readClosures(const std::string& path);
+/// The same of a text; `name` stands for the path.
+std::vector<ClosureRow> parseClosures(std::string_view text, const std::string& name);
 
 /// With the header, in the order and the columns of CONTRACT.md.
 std::string printClosures(const std::vector<ClosureRow>& rows);

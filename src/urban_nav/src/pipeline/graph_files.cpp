@@ -37,11 +37,11 @@ void appendKitti(std::vector<Pose>& lines, const VoRun& run, const Trajectory& t
 G2oGraph graphOf(const GraphRun& run) {
   G2oGraph made;
   G2oGraph::Id id = 0;
-  for (const pose_graph::Track& track : run.graph.tracks()) {
-    for (const Pose& pose : track.map) {
+  for (std::size_t s = 0; s < run.sessions.size(); ++s) {
+    for (const urban_nav_core::StampedPose& pose : run.trajectory(s)) {
       G2oGraph::Vertex vertex;
       vertex.id = id++;
-      made.setPose(vertex, pose);
+      made.setPose(vertex, pose.pose);
       made.vertices.push_back(vertex);
     }
   }
@@ -67,17 +67,17 @@ G2oGraph graphOf(const GraphRun& run) {
   return made;
 }
 
-}  // namespace
-
-void writeGraphFiles(const OutputFolder& folder, const GraphRun& graph, const std::vector<const VoRun*>& runs) {
+/// Of the map that begins with session `first`.
+void writeMap(const OutputFolder& folder, const GraphRun& graph, const std::vector<const VoRun*>& runs,
+              std::size_t first) {
   std::string tum, covariance = urban_nav_core::covarianceHeader(),
                    relative = urban_nav_core::relativeCovarianceHeader();
   std::vector<Pose> kitti;
   Pose T_first_map;
-  for (std::size_t s = 0; s < runs.size(); ++s) {
-    if (!graph.joined(s) || runs[s]->settled.empty()) continue;
+  for (std::size_t s = first; s < runs.size(); ++s) {
+    if (graph.mapOf(s) != first || runs[s]->settled.empty()) continue;
     const Trajectory trajectory = graph.trajectory(s);
-    if (tum.empty()) T_first_map = (trajectory.front().pose * runs[s]->T_base_camera).inverse();
+    if (s == first) T_first_map = (trajectory.front().pose * runs[s]->T_base_camera).inverse();
     tum += urban_nav_core::printTum(trajectory);
     appendKitti(kitti, *runs[s], trajectory, T_first_map);
     const std::vector<Matrix6d>& covariances = graph.covariances[s];
@@ -89,12 +89,24 @@ void writeGraphFiles(const OutputFolder& folder, const GraphRun& graph, const st
       relative += urban_nav_core::printCovarianceRow(urban_nav_core::RelativeCovarianceRow{
           step.from, step.to, runs[s]->settled[i].status.health, step.covariance});
     }
-    if (s > 0) removeVoFiles(folder, suffixOf(s), VoFiles::AllButLandmarks);
   }
-  folder.write("trajectory.tum", tum);
-  folder.write("trajectory.kitti", urban_nav_core::printKitti(kitti));
-  folder.write("covariance.csv", covariance);
-  folder.write("relative_covariance.csv", relative);
+  folder.write("trajectory" + suffixOf(first) + ".tum", tum);
+  folder.write("trajectory" + suffixOf(first) + ".kitti", urban_nav_core::printKitti(kitti));
+  folder.write("covariance" + suffixOf(first) + ".csv", covariance);
+  folder.write("relative_covariance" + suffixOf(first) + ".csv", relative);
+}
+
+}  // namespace
+
+void writeGraphFiles(const OutputFolder& folder, const GraphRun& graph, const std::vector<const VoRun*>& runs) {
+  for (std::size_t s = 0; s < runs.size(); ++s) {
+    if (s > 0) folder.remove("graph" + suffixOf(s) + ".g2o");  // graph.g2o has all of them
+    if (graph.mapOf(s) != s) {
+      removeVoFiles(folder, suffixOf(s), VoFiles::AllButLandmarks);
+    } else if (!graph.trajectory(s).empty()) {
+      writeMap(folder, graph, runs, s);
+    }
+  }
   folder.write("graph.g2o", urban_nav_core::printG2o(graphOf(graph)));
   folder.write("closures.csv", printClosures(graph.closures));
 }

@@ -8,9 +8,10 @@
 
 namespace urban_nav {
 
-/// The files of CONTRACT.md as they are after relaxation: trajectory.tum, trajectory.kitti, covariance.csv,
-/// relative_covariance.csv, graph.g2o and closures.csv of all sessions that joined, one after another. Those that did not keep what
-/// visual odometry wrote, as trajectory_N.tum and so on; such files of sessions that joined are removed.
+/// The files of CONTRACT.md as they are after relaxation: trajectory.tum, trajectory.kitti, covariance.csv and
+/// relative_covariance.csv of all sessions that lie in one map, one after another; trajectory_2.tum and so on of a map that the
+/// second session begins. graph.g2o and closures.csv hold everything. Files that visual odometry wrote of the other sessions are
+/// removed. `runs`: one for each session of the graph.
 void writeGraphFiles(const OutputFolder& folder, const GraphRun& graph, const std::vector<const VoRun*>& runs);
 
 }  // namespace urban_nav

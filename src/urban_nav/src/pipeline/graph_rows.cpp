@@ -2,6 +2,7 @@
 #include "pipeline/graph_rows.hpp"
 
 #include <algorithm>
+#include <map>
 
 namespace urban_nav {
 
@@ -28,17 +29,20 @@ void removeClosures(Store& store, const SessionId& id) {
 
 }  // namespace
 
-void putGraph(Store& store, const std::vector<SessionId>& ids, const GraphRun& run) {
+void putGraph(Store& store, const std::vector<SessionId>& ids, const GraphRun& run, std::int64_t revision) {
+  revision += run.relaxed.revision;
   for (std::size_t s = 0; s < ids.size(); ++s) {
     removeClosures(store, ids[s]);
     const Track* track = run.graph.track(run.sessions[s]);
     if (track == nullptr || track->stamps.empty()) continue;
-    for (std::size_t i = 0; i < track->stamps.size(); ++i)
-      store.graph().put(ids[s], urban_nav_store::RelaxedPose{track->stamps[i], track->map[i], run.relaxed.revision});
-    const SessionId map = run.joined(s) ? ids.front() : ids[s];
-    store.sessions().put(
-        urban_nav_store::Anchor{ids[s], map, run.relaxed.revision, track->map.front() * track->odom.front().inverse()});
+    const urban_nav_core::Trajectory trajectory = run.trajectory(s);
+    for (const urban_nav_core::StampedPose& pose : trajectory)
+      store.graph().put(ids[s], urban_nav_store::RelaxedPose{pose.stamp, pose.pose, revision});
+    store.sessions().put(urban_nav_store::Anchor{ids[s], ids[run.mapOf(s)], revision,
+                                                 trajectory.front().pose * track->odom.front().inverse()});
   }
+  std::map<pose_graph::ClosureId, const ClosureRow*> rows;
+  for (const ClosureRow& row : run.closures) rows[row.id] = &row;
   for (const auto& [id, closure] : run.graph.closures()) {
     Edge edge;
     edge.a = {idOf(run, ids, closure.a.session), closure.a.stamp};
@@ -50,6 +54,8 @@ void putGraph(Store& store, const std::vector<SessionId>& ids, const GraphRun& r
     edge.verdict = closure.verdict;
     edge.reason = closure.reason;
     store.graph().put(edge);
+    const auto row = rows.find(id);
+    if (row != rows.end()) store.graph().putEvidence(edge, printClosures({*row->second}));
   }
 }
 

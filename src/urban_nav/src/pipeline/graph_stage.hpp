@@ -12,26 +12,38 @@
 
 namespace urban_nav {
 
+/// A closure that an earlier run offered to the graph, between poses of sessions that are here again.
+struct KnownClosure {
+  ClosureRow row;
+  pose_graph::Closure closure;  ///< sessions by their names
+};
+
 /// What relaxation made of all sessions. Sessions are named as closures.csv names them.
 struct GraphRun {
   pose_graph::PoseGraph graph{pose_graph::Parameters()};
   pose_graph::Relaxed relaxed;
   std::vector<std::string> sessions;  ///< names, in the order of the runs
-  std::vector<ClosureRow> closures;   ///< with their verdicts
+  std::vector<ClosureRow> closures;   ///< with their verdicts: the known ones, then those of the file
   std::vector<std::string> warnings;
   double ms = 0.0;  ///< that the relaxation took
   /// Marginal covariances of T_first_base of each session's poses, as far as they are known.
   std::vector<std::vector<urban_nav_core::Matrix6d>> covariances;
 
-  /// Does a session, as a whole, lie in the map of the first one?
-  bool joined(std::size_t session) const;
-  /// The poses of a session: in `map` where it joined, else in its own.
+  /// The first session in whose map this one lies as a whole: itself where it joined none before it.
+  std::size_t mapOf(std::size_t session) const;
+  /// Does it lie in the map of the first session?
+  bool joined(std::size_t session) const { return mapOf(session) == 0; }
+  std::size_t sessionsJoined() const;
+  /// The poses of a session in its map.
   urban_nav_core::Trajectory trajectory(std::size_t session) const;
 };
 
 /// Takes the settled chains of the runs and the closures with their transforms. A closure whose moments lie between frames
 /// is carried to the nearest ones by the odometry in between. One that cannot be used is rejected with the reason, never lost.
+/// A closure that is known gives way to one of the file with the same poses and kind. The order of closures is of no
+/// influence on the poses, bit by bit.
 GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<const VoRun*>& runs,
-                  const std::vector<std::string>& sessions, std::vector<ClosureRow> closures);
+                  const std::vector<std::string>& sessions, const std::vector<ClosureRow>& closures,
+                  const std::vector<KnownClosure>& known = {});
 
 }  // namespace urban_nav

@@ -108,36 +108,55 @@ bool asksFor(const MapRequest& request, const std::string& stage) {
   return std::find(request.stages.begin(), request.stages.end(), stage) != request.stages.end();
 }
 
-/// Does the graph stage run? It needs closures, and says so where there are none.
+/// Does the graph stage run? It needs closures, in a file or in the store to go on from, and says so where there are none.
 bool checkGraph(const MapRequest& request, Console& console) {
-  const bool asked = asksFor(request, "graph"), has_closures = !request.closures.empty();
+  const bool asked = asksFor(request, "graph"), file = !request.closures.empty();
+  bool has_closures = file;
+  if (!file && !request.store.empty()) {
+    urban_nav_store::Store store(request.store, urban_nav_store::Access::Read);
+    has_closures = holdsClosures(store);
+  }
   if (asked && !has_closures)
     throw DataError("--stages graph", "no closures, and no stage that finds them", "--closures FILE");
   if (request.stages.empty()) {
     console.info(std::string("stages: vo") + (has_closures ? ", graph" : "") +
                  "; left out: " + (has_closures ? "" : "graph (no closures: --closures FILE), ") + leftOut());
-  } else if (has_closures && !asked) {
+  } else if (file && !asked) {
     console.warn("--closures is not used: the stage graph is not among --stages");
   }
-  if (has_closures && (asked || request.stages.empty()))
+  const bool runs = has_closures && (asked || request.stages.empty());
+  if (runs && file)
     console.info("closures: " + request.closures + ", with the transforms that stand in it (no stage loops)");
-  return has_closures && (asked || request.stages.empty());
+  if (runs && !file) console.info("closures: those of " + request.store);
+  return runs;
 }
 
 void runGraphStage(MapOutcome& outcome, const std::vector<Session>& sessions, const std::vector<ClosureRow>& closures,
                    StoreStage& store, Console& console) {
-  std::vector<const VoRun*> runs;
-  for (const std::unique_ptr<VoStage>& stage : outcome.stages) runs.push_back(&stage->run());
-  outcome.graph = runGraph(outcome.request.parameters.pose_graph.parameters, runs, sessionNames(sessions), closures);
+  const EarlierSessions& earlier = outcome.earlier;
+  const std::vector<const VoRun*> runs = runsOfGraph(outcome);
+  outcome.graph = runGraph(outcome.request.parameters.pose_graph.parameters, runs,
+                           sessionNames(sessions, earlier.names), closures, earlier.closures);
   const pose_graph::Relaxed& relaxed = outcome.graph->relaxed;
   console.info("graph: " + std::to_string(relaxed.poses) + " poses, " + std::to_string(relaxed.closures) +
                " closures, " + std::to_string(relaxed.accepted) + " accepted; cost " +
                forPerson(relaxed.cost_before, 5) + " -> " + forPerson(relaxed.cost_after, 5) + " in " +
                forPerson(outcome.graph->ms, 3) + " ms");
   for (const std::string& warning : outcome.graph->warnings) console.warn(warning);
-  putGraph(store.store(), store.ids(), *outcome.graph);
+  std::vector<urban_nav_store::SessionId> ids = earlier.ids;
+  ids.insert(ids.end(), store.ids().begin(), store.ids().end());
+  putGraph(store.store(), ids, *outcome.graph, earlier.revision);
   store.store().commit();
   writeGraphFiles(outcome.folder, *outcome.graph, runs);
+}
+
+/// Files of sessions that an earlier run in this folder had and this one has not.
+void removeFurtherSessions(const OutputFolder& folder, std::size_t sessions) {
+  for (std::size_t i = sessions + 1;; ++i) {
+    const std::string suffix = "_" + std::to_string(i);
+    if (!folder.has("trajectory" + suffix + ".tum") && !folder.has("landmarks" + suffix + ".ply")) return;
+    removeVoFiles(folder, suffix);
+  }
 }
 
 }  // namespace
@@ -161,6 +180,7 @@ void runMap(const MapRequest& request, Console& console) {
   const std::vector<Session> sessions = findSessions(request.inputs);
   MapOutcome outcome(request);
   StoreStage store(request, sessions, outcome.folder.file("session.db"), console);
+  if (with_graph) outcome.earlier = readEarlierSessions(store.store(), store.ids());
   for (std::size_t i = 0; i < sessions.size(); ++i) {
     const std::unique_ptr<Source> source = open(sessions[i].paths, request);
     say(source->info(), console);
@@ -175,11 +195,10 @@ void runMap(const MapRequest& request, Console& console) {
     }
     if (!finished) runVo(*source, *outcome.stages.back(), store, outcome, console);
     checkUsable(outcome.stages.back()->run());
-    writeVoFiles(outcome.folder, outcome.stages.back()->run(), i == 0 ? "" : "_" + std::to_string(i + 1));
+    const std::size_t place = outcome.earlier.ids.size() + i;
+    writeVoFiles(outcome.folder, outcome.stages.back()->run(), place == 0 ? "" : "_" + std::to_string(place + 1));
   }
-  for (std::size_t i = sessions.size() + 1; outcome.folder.has("trajectory_" + std::to_string(i) + ".tum"); ++i) {
-    removeVoFiles(outcome.folder, "_" + std::to_string(i));
-  }
+  removeFurtherSessions(outcome.folder, outcome.earlier.ids.size() + sessions.size());
   if (with_graph) runGraphStage(outcome, sessions, closures, store, console);
   else outcome.folder.remove("closures.csv");
   finishMap(outcome, sessions, console);

@@ -24,6 +24,13 @@ std::vector<const VoRun*> runsOf(const MapOutcome& outcome) {
   return runs;
 }
 
+/// Nothing is known of the truth of earlier sessions.
+std::vector<std::optional<Evaluation>> behindEarlier(const MapOutcome& outcome,
+                                                     std::vector<std::optional<Evaluation>> evaluations) {
+  evaluations.insert(evaluations.begin(), outcome.earlier.runs.size(), std::nullopt);
+  return evaluations;
+}
+
 std::vector<urban_nav_core::StampNs> stampsOf(const VoRun& run) {
   std::vector<urban_nav_core::StampNs> stamps;
   for (const VoRow& row : run.rows) stamps.push_back(row.stamp);
@@ -102,6 +109,7 @@ std::vector<std::optional<Evaluation>> compare(const MapOutcome& outcome, const 
   std::vector<std::optional<Evaluation>> evaluations;
   EvaluationOptions options;
   options.spans = {{urban_nav_core::Span::Unit::Metres, 10.0}, {urban_nav_core::Span::Unit::Metres, 100.0}};
+  const std::size_t earlier = outcome.earlier.runs.size();
   for (std::size_t i = 0; i < sessions.size(); ++i) {
     const VoRun& run = outcome.stages[i]->run();
     evaluations.emplace_back();
@@ -111,11 +119,14 @@ std::vector<std::optional<Evaluation>> compare(const MapOutcome& outcome, const 
               ? findTruth(sessions[i], outcome.infos[i], outcome.request.source)
               : truthOfBase(readTrajectory(outcome.request.truth), outcome.infos[i], stampsOf(run));
       if (!truth) continue;
-      TrajectoryFile estimate{
-          outcome.folder.file("trajectory.tum"), true, relaxed ? outcome.graph->trajectory(i) : trajectoryOf(run), {}};
+      TrajectoryFile estimate{outcome.folder.file("trajectory.tum"),
+                              true,
+                              relaxed ? outcome.graph->trajectory(earlier + i) : trajectoryOf(run),
+                              {}};
       for (const urban_nav_core::StampedPose& pose : estimate.trajectory) estimate.poses.push_back(pose.pose);
-      evaluations.back() = evaluate(
-          *truth, estimate, relaxed ? covariancesOf(run, outcome.graph->covariances[i]) : covariancesOf(run), options);
+      evaluations.back() =
+          evaluate(*truth, estimate,
+                   relaxed ? covariancesOf(run, outcome.graph->covariances[earlier + i]) : covariancesOf(run), options);
       if (console != nullptr)
         console->info("truth: " + truth->path +
                       (outcome.request.truth.empty() ? " (found; it is used for the report alone)" : ""));
@@ -145,7 +156,8 @@ Page pageOf(const MapOutcome& outcome, bool running) {
   if (outcome.graph) {
     for (const Verdict& verdict : graphVerdicts(*outcome.graph)) page.verdicts.push_back(verdict);
     page.sections.insert(page.sections.begin(),
-                         graphSection(*outcome.graph, runs, outcome.before, outcome.evaluations));
+                         graphSection(*outcome.graph, runsOfGraph(outcome), behindEarlier(outcome, outcome.before),
+                                      behindEarlier(outcome, outcome.evaluations)));
   }
   for (std::size_t i = 0; i < runs.size(); ++i) {
     for (Section& section : voSections(*runs[i], i >= outcome.evaluations.size() || !outcome.evaluations[i])) {
@@ -210,6 +222,13 @@ std::string troubleOf(const std::vector<const VoRun*>& runs, const VoSummary& su
 }
 
 }  // namespace
+
+std::vector<const VoRun*> runsOfGraph(const MapOutcome& outcome) {
+  std::vector<const VoRun*> runs;
+  for (const VoRun& run : outcome.earlier.runs) runs.push_back(&run);
+  for (const VoRun* run : runsOf(outcome)) runs.push_back(run);
+  return runs;
+}
 
 void writeReport(const MapOutcome& outcome) { outcome.folder.write("report.html", renderPage(pageOf(outcome, true))); }
 

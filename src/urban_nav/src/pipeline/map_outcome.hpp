@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "pipeline/earlier_sessions.hpp"
 #include "pipeline/evaluation.hpp"
 #include "pipeline/graph_stage.hpp"
 #include "pipeline/map_job.hpp"
@@ -24,11 +25,15 @@ struct MapOutcome {
   Usage usage;
   std::vector<std::unique_ptr<VoStage>> stages;        ///< one per session
   std::vector<SourceInfo> infos;                       ///< one per session
-  std::optional<GraphRun> graph;                       ///< when it is relaxed
+  EarlierSessions earlier;                             ///< of the store that the run goes on from, where it has a graph
+  std::optional<GraphRun> graph;                       ///< when it is relaxed: of the earlier sessions, then of these
   std::vector<std::optional<Evaluation>> before;       ///< as evaluations, by odometry alone; empty without a graph
   std::vector<std::optional<Evaluation>> evaluations;  ///< one per session, when all are finished; empty before
   double progress = 0.0;                               ///< of the session at work
 };
+
+/// The runs of the graph's sessions: earlier ones, then those of this run.
+std::vector<const VoRun*> runsOfGraph(const MapOutcome& outcome);
 
 /// report.html as things stand, marked as unfinished.
 void writeReport(const MapOutcome& outcome);

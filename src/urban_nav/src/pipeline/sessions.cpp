@@ -61,17 +61,22 @@ std::vector<Session> findSessions(const std::vector<std::string>& inputs) {
   return sessions;
 }
 
-std::vector<std::string> sessionNames(const std::vector<Session>& sessions) {
-  std::vector<std::string> names;
-  for (const Session& session : sessions) {
-    std::filesystem::path path = std::filesystem::absolute(session.paths.front()).lexically_normal();
-    if (!path.has_filename()) path = path.parent_path();
-    const std::string plain = (path.extension() == ".bag" ? path.stem() : path.filename()).string();
-    std::string name = plain;
-    for (int i = 2; std::find(names.begin(), names.end(), name) != names.end(); ++i)
-      name = plain + "_" + std::to_string(i);
-    names.push_back(name);
-  }
+std::string plainName(const std::string& input) {
+  std::filesystem::path path = std::filesystem::absolute(input).lexically_normal();
+  if (!path.has_filename()) path = path.parent_path();
+  return (path.extension() == ".bag" ? path.stem() : path.filename()).string();
+}
+
+std::string uniqueName(const std::string& plain, const std::vector<std::string>& taken) {
+  std::string name = plain;
+  for (int i = 2; std::find(taken.begin(), taken.end(), name) != taken.end(); ++i)
+    name = plain + "_" + std::to_string(i);
+  return name;
+}
+
+std::vector<std::string> sessionNames(const std::vector<Session>& sessions, const std::vector<std::string>& earlier) {
+  std::vector<std::string> names = earlier;
+  for (const Session& session : sessions) names.push_back(uniqueName(plainName(session.paths.front()), names));
   return names;
 }
 

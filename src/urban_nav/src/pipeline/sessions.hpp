@@ -16,7 +16,11 @@ struct Session {
 std::vector<Session> findSessions(const std::vector<std::string>& inputs);
 
 /// What sessions are called in closures.csv: the folder's name, or the stem of the first bag; where two would be called the
-/// same, the later one gets a number ("quad", "quad_2").
-std::vector<std::string> sessionNames(const std::vector<Session>& sessions);
+/// same, the later one gets a number ("quad", "quad_2"). Behind the names of `earlier` ones, which come first in the result.
+std::vector<std::string> sessionNames(const std::vector<Session>& sessions,
+                                      const std::vector<std::string>& earlier = {});
+/// Its two halves: the name of an input, and that name or the first numbered one that is not taken.
+std::string plainName(const std::string& input);
+std::string uniqueName(const std::string& plain, const std::vector<std::string>& taken);
 
 }  // namespace urban_nav

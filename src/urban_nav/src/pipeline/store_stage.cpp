@@ -21,9 +21,6 @@ using urban_nav_store::Store;
 
 namespace {
 
-constexpr const char* kStage = "swf_vo";
-constexpr const char* kStream = "stereo";
-constexpr const char* kCamera = "stereo_left_optical_frame";
 constexpr std::chrono::seconds kPeriod{1};
 
 /// Sessions by the content of their inputs; the same input given twice is two sessions.
@@ -68,7 +65,7 @@ StoreStage::StoreStage(const MapRequest& request, const std::vector<Session>& se
 bool StoreStage::isFinished(std::size_t session) {
   const auto known = store_->sessions().find(ids_[session]);
   return known && known->complete && storedIdentity(*store_, ids_[session]) == identities_[session] &&
-         store_->states().get(ids_[session], kStage).has_value();
+         store_->states().get(ids_[session], kVoStage).has_value();
 }
 
 StoreStage::Found StoreStage::sift(bool goes_on_here) {
@@ -135,7 +132,7 @@ std::optional<VoRun> StoreStage::begin(std::size_t session, const SourceInfo& in
   rows_ = nodes_ = 0;
   committed_ = Clock::now();
   const SessionId& id = ids_[session];
-  if (const std::optional<std::string> bytes = store_->states().get(id, kStage)) {
+  if (const std::optional<std::string> bytes = store_->states().get(id, kVoStage)) {
     if (std::optional<VoRun> run = unpackVoRun(*bytes)) {
       run->input = info.name;
       run->camera = info.camera;
@@ -148,7 +145,7 @@ std::optional<VoRun> StoreStage::begin(std::size_t session, const SourceInfo& in
   for (const auto& [name, digest] : identities_[session]) store_->sessions().put(id, Property{"run/" + name, digest});
   store_->sessions().put(id, Property{"input/name", info.name});
   store_->sessions().put(id, Property{"input/kind", info.kind});
-  store_->sessions().put(id, urban_nav_store::Extrinsic{kCamera, info.T_base_camera});
+  store_->sessions().put(id, urban_nav_store::Extrinsic{kVoCamera, info.T_base_camera});
   for (const std::vector<urban_nav_core::Setting>* settings : request_.parameters.settings()) {
     for (const urban_nav_core::Setting& setting : *settings)
       store_->sessions().put(
@@ -169,7 +166,7 @@ void StoreStage::keepUp(const VoRun& run) {
 void StoreStage::add(const VoRun& run) {
   const SessionId& id = ids_[session_];
   for (; rows_ < run.rows.size(); ++rows_)
-    store_->inputs().append(id, {kStream, run.rows[rows_].stamp, run.rows[rows_].accepted});
+    store_->inputs().append(id, {kVoStream, run.rows[rows_].stamp, run.rows[rows_].accepted});
   for (; nodes_ < run.settled.size(); ++nodes_) {
     const swf_vo::Settled& settled = run.settled[nodes_];
     const urban_nav_core::RelativePose& step = settled.from_previous;
@@ -179,7 +176,7 @@ void StoreStage::add(const VoRun& run) {
                 settled.stamp, settled.T_odom_base.pose, first ? Matrix6d(Matrix6d::Zero()) : step.covariance,
                 first ? Matrix6d(Matrix6d::Zero()) : settled.from_previous.drift_covariance, settled.status.health});
     if (first) continue;
-    Edge edge{{id, step.from},      {id, step.to}, EdgeKind::Odometry,    kStage,
+    Edge edge{{id, step.from},      {id, step.to}, EdgeKind::Odometry,    kVoStage,
               {step.T_from_to, {}}, 1.0,           EdgeVerdict::Accepted, ""};
     edge.measured.information = urban_nav_core::invertPositiveDefinite(step.covariance).value_or(Matrix6d::Zero());
     store_->graph().put(edge);
@@ -189,7 +186,7 @@ void StoreStage::add(const VoRun& run) {
 void StoreStage::finish(const VoRun& run) {
   add(run);
   const SessionId& id = ids_[session_];
-  store_->states().put(id, kStage, packVoRun(run));
+  store_->states().put(id, kVoStage, packVoRun(run));
   urban_nav_store::Session session = *store_->sessions().find(id);
   session.complete = true;
   store_->sessions().put(session);
@@ -197,7 +194,7 @@ void StoreStage::finish(const VoRun& run) {
 }
 
 void StoreStage::end() {
-  for (const SessionId& id : ids_) store_->states().remove(id, kStage);
+  for (const SessionId& id : ids_) store_->states().remove(id, kVoStage);
   store_->shrink();
   store_->close();
 }

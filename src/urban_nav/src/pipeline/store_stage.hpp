@@ -13,6 +13,11 @@
 
 namespace urban_nav {
 
+/// What the store knows visual odometry, its stream and its camera by.
+constexpr const char* kVoStage = "swf_vo";
+constexpr const char* kVoStream = "stereo";
+constexpr const char* kVoCamera = "stereo_left_optical_frame";
+
 /// Keeps what a run of `map` makes in session.db of its folder, committed about once a second, and finds there what a run
 /// that was cut off had finished.
 ///

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "pipeline/vo_files.hpp"
 #include "report/plot.hpp"
@@ -34,10 +35,12 @@ Series linksOf(const GraphRun& graph, pose_graph::ClosureVerdict verdict, const 
   series.name = name;
   series.colour = colour;
   const double gap = std::numeric_limits<double>::quiet_NaN();
+  std::map<std::string, Trajectory> trajectories;
+  for (std::size_t s = 0; s < graph.sessions.size(); ++s) trajectories[graph.sessions[s]] = graph.trajectory(s);
   const auto place = [&](const pose_graph::NodeRef& ref) -> PlotPoint {
-    const pose_graph::Track& track = *graph.graph.track(ref.session);
-    const auto i = std::lower_bound(track.stamps.begin(), track.stamps.end(), ref.stamp) - track.stamps.begin();
-    return {track.map[static_cast<std::size_t>(i)].t().x(), track.map[static_cast<std::size_t>(i)].t().y()};
+    const Trajectory& trajectory = trajectories.at(ref.session);
+    const auto& t = trajectory[trajectory.nearest(ref.stamp)].pose.t();
+    return {t.x(), t.y()};
   };
   for (const auto& [id, closure] : graph.graph.closures()) {
     if (closure.verdict != verdict) continue;
@@ -155,8 +158,7 @@ std::vector<Verdict> graphVerdicts(const GraphRun& graph) {
                     of + "; the cost fell from " + forPerson(relaxed.cost_before, 4) + " to " +
                         forPerson(relaxed.cost_after, 4) + "."});
   }
-  std::size_t joined = 0;
-  for (std::size_t s = 0; s < graph.sessions.size(); ++s) joined += graph.joined(s);
+  const std::size_t joined = graph.sessionsJoined();
   if (graph.sessions.size() > 1)
     made.push_back(
         {joined == graph.sessions.size() ? Grade::Good : Grade::Fair,
@@ -169,8 +171,7 @@ std::vector<Verdict> graphVerdicts(const GraphRun& graph) {
 
 Json toJson(const GraphRun& graph, const std::vector<std::optional<Evaluation>>& before) {
   const pose_graph::Relaxed& relaxed = graph.relaxed;
-  std::size_t joined = 0;
-  for (std::size_t s = 0; s < graph.sessions.size(); ++s) joined += graph.joined(s);
+  const std::size_t joined = graph.sessionsJoined();
   Json json = Json::object();
   json["poses"] = relaxed.poses;
   json["edges"] = relaxed.edges;
@@ -183,6 +184,7 @@ Json toJson(const GraphRun& graph, const std::vector<std::optional<Evaluation>>&
   json["iterations"] = relaxed.iterations.size();
   json["ending"] = toString(relaxed.ending);
   json["ms_batch"] = graph.ms;
+  json["sessions"] = graph.sessions.size();
   json["sessions_joined"] = joined;
   Json& warnings = json["warnings"] = Json::array();
   for (const std::string& warning : graph.warnings) warnings.append(warning);

@@ -112,6 +112,57 @@ TEST(GraphStage, keepsApartWhatNothingJoins) {
   EXPECT_NE(run.warnings[0].find("tuesday"), std::string::npos);
 }
 
+TEST(GraphStage, takesClosuresInAnyOrderAndFromWhereverTheyAreKnown) {
+  const VoRun monday = drive(0, 900, 2e-4), tuesday = drive(300, 900, -1e-4);
+  std::vector<ClosureRow> rows;
+  for (int i = 20; i < 300; i += 40) rows.push_back(closure("monday", i + 0.3, "monday", i + 600.6));
+  for (int i = 310; i < 600; i += 60) rows.push_back(closure("monday", i + 0.4, "tuesday", i + 0.2));
+  const auto bytesOf = [&](const std::vector<ClosureRow>& file, const std::vector<KnownClosure>& known) {
+    const testing::TemporaryFolder folder;
+    const GraphRun run = runGraph({}, {&monday, &tuesday}, {"monday", "tuesday"}, file, known);
+    writeGraphFiles(OutputFolder(folder.file("out")), run, {&monday, &tuesday});
+    EXPECT_EQ(run.closures.size(), rows.size());
+    std::string bytes;
+    for (const char* name : {"trajectory.tum", "trajectory.kitti", "covariance.csv", "graph.g2o"})
+      bytes += testing::readFile(folder.file("out/" + std::string(name)));
+    return bytes;
+  };
+  const std::string expected = bytesOf(rows, {});
+  std::vector<ClosureRow> backwards(rows.rbegin(), rows.rend());
+  EXPECT_TRUE(bytesOf(backwards, {}) == expected);
+
+  const GraphRun whole = runGraph({}, {&monday, &tuesday}, {"monday", "tuesday"}, rows);
+  std::vector<KnownClosure> known;
+  for (const ClosureRow& row : whole.closures)
+    if (row.session_b == "monday") known.push_back({row, whole.graph.closures().at(row.id)});
+  ASSERT_EQ(known.size(), 7U);
+  EXPECT_TRUE(bytesOf({rows.begin() + 7, rows.end()}, known) == expected) << "the file has the new ones alone";
+  EXPECT_TRUE(bytesOf(rows, known) == expected) << "the file has all of them again";
+}
+
+TEST(GraphStage, sessionsThatJoinEachOtherAloneAreOneMapOfTheirOwn) {
+  const VoRun monday = drive(0, 300, 0.0), tuesday = drive(300, 900, 1e-4), friday = drive(300, 900, -1e-4);
+  std::vector<ClosureRow> rows;
+  for (int i = 310; i < 600; i += 60) rows.push_back(closure("tuesday", i, "friday", i + 0.2));
+  const GraphRun run = runGraph({}, {&monday, &tuesday, &friday}, {"monday", "tuesday", "friday"}, rows);
+  EXPECT_EQ(run.mapOf(1), 1U);
+  EXPECT_EQ(run.mapOf(2), 1U);
+  EXPECT_EQ(run.sessionsJoined(), 1U);
+  EXPECT_TRUE(isApprox(run.trajectory(1).front().pose, Pose(), 1e-12)) << "its origin is its own first pose";
+  ASSERT_EQ(run.warnings.size(), 1U) << "one map that nothing joins";
+  EXPECT_NE(run.warnings[0].find("tuesday"), std::string::npos);
+
+  const testing::TemporaryFolder folder;
+  const OutputFolder out(folder.file("out"));
+  out.write("trajectory_3.tum", "of visual odometry");
+  writeGraphFiles(out, run, {&monday, &tuesday, &friday});
+  EXPECT_EQ(urban_nav_core::readTum(out.file("trajectory.tum")).size(), 301U);
+  EXPECT_EQ(testing::readFile(out.file("trajectory_2.tum")),
+            urban_nav_core::printTum(run.trajectory(1)) + urban_nav_core::printTum(run.trajectory(2)));
+  EXPECT_EQ(urban_nav_core::readCovariances(out.file("covariance_2.csv")).size(), 1202U);
+  EXPECT_FALSE(out.has("trajectory_3.tum"));
+}
+
 TEST(GraphStage, namesClosuresThatCannotBeUsed) {
   const VoRun monday = drive(0, 300, 0.0);
   std::vector<ClosureRow> rows = {closure("monday", 10, "sunday", 20), closure("monday", 10, "monday", 5000),

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "commands/commands.hpp"
 #include "convert/convert.hpp"
+#include "pipeline/closures_file.hpp"
 #include "store/store_export.hpp"
 #include "store/store_info.hpp"
 #include "support/folders.hpp"
 #include "urban_nav_core/io/g2o.hpp"
+#include "urban_nav_core/io/kitti.hpp"
+#include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/io/tum.hpp"
+#include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_store/dump.hpp"
 
 namespace urban_nav {
@@ -110,6 +116,60 @@ TEST_F(StoreCommands, mapGoesOnFromAStore) {
   EXPECT_EQ(sessionsIn(file("on/session.db")), 2U);
   ASSERT_EQ(call({"map", file("in12"), "--out", file("on"), "--stages", "vo"}), 0);
   EXPECT_EQ(sessionsIn(file("on/session.db")), 1U) << "without --store a folder's store is this run's";
+}
+
+TEST_F(StoreCommands, mapRelaxesTheSessionsOfAStoreWithNewOnes) {
+  // Closures between frames, from the truth of rooms that both folders show.
+  const auto truth = [&](const std::string& name) { return urban_nav_core::readKitti(file(name + "/poses.txt")); };
+  const std::string header =
+      "session_a,stamp_a_ns,session_b,stamp_b_ns,probability,kind,x,y,z,qx,qy,qz,qw,sigma_m,sigma_rad\n";
+  const auto rowOf = [&](const std::string& a, int i, const std::string& b, int j) {
+    const Pose T_base_camera = urban_nav_ros::opticalInBody();
+    const Pose T = T_base_camera * truth(a).at(i).inverse() * truth(b).at(j) * T_base_camera.inverse();
+    std::string row =
+        a + "," + std::to_string(i * 50'000'000LL) + "," + b + "," + std::to_string(j * 50'000'000LL) + ",0.9,stereo";
+    for (const double v : {T.t().x(), T.t().y(), T.t().z(), T.q().x(), T.q().y(), T.q().z(), T.q().w(), 0.001, 0.001})
+      row += "," + urban_nav_core::printNumber(v);
+    return row + "\n";
+  };
+  const std::string within = rowOf("in16", 0, "in16", 12) + rowOf("in16", 2, "in16", 15) + rowOf("in16", 1, "in16", 14);
+  const std::string between = rowOf("in16", 3, "in12", 1) + rowOf("in16", 9, "in12", 7) + rowOf("in16", 14, "in12", 11);
+  testing::writeFile(file("within.csv"), header + within);
+  testing::writeFile(file("between.csv"), header + between);
+  testing::writeFile(file("all.csv"), header + between + within);
+  ASSERT_EQ(call({"map", file("in16"), file("in12"), "--out", file("at_once"), "--closures", file("all.csv")}), 0);
+  ASSERT_EQ(call({"map", file("in16"), "--out", file("day1"), "--closures", file("within.csv")}), 0);
+  const std::string day1 = dumpOf(file("day1/session.db"));
+  for (const char* closures : {"between.csv", "all.csv"}) {
+    const std::string out = file(std::string("day2") + closures);
+    ASSERT_EQ(
+        call({"map", file("in12"), "--out", out, "--closures", file(closures), "--store", file("day1/session.db")}), 0);
+    for (const char* name :
+         {"trajectory.tum", "trajectory.kitti", "covariance.csv", "relative_covariance.csv", "graph.g2o"})
+      EXPECT_TRUE(readFile(out + "/" + name) == readFile(file(std::string("at_once/") + name)))
+          << name << ", " << closures;
+    EXPECT_EQ(parseClosures(readFile(out + "/closures.csv"), "").size(), 6U);
+    EXPECT_TRUE(readFile(out + "/trajectory_2.tum").empty()) << "it joined";
+    const auto joined = [&](const std::string& db) { return lookIntoStore(db).joined; };
+    EXPECT_EQ(joined(out + "/session.db").size(), joined(file("at_once/session.db")).size());
+  }
+  EXPECT_TRUE(dumpOf(file("day1/session.db")) == day1) << "it is only read";
+  const std::string lines = readFile(file("at_once/trajectory.tum"));
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 28) << "of both";
+
+  // In the folder of the store itself; a cut-off run would find it so and go on.
+  ASSERT_EQ(call({"map", file("in12"), "--out", file("day1"), "--closures", file("between.csv"), "--store",
+                  file("day1/session.db")}),
+            0);
+  EXPECT_TRUE(readFile(file("day1/trajectory.tum")) == readFile(file("at_once/trajectory.tum")));
+  EXPECT_TRUE(readFile(file("day1/closures.csv")) == readFile(file("day2between.csv/closures.csv")));
+  // Nothing new: the closures of the store are there still.
+  ASSERT_EQ(call({"map", file("in12"), "--out", file("alone"), "--store", file("day1/session.db")}), 0);
+  const auto alone = urban_nav_core::readTum(file("alone/trajectory_2.tum")),
+             odometry = urban_nav_core::readTum(file("b/trajectory.tum"));
+  ASSERT_EQ(alone.size(), odometry.size()) << "mapped again, without what joined it";
+  for (std::size_t i = 0; i < alone.size(); ++i) EXPECT_TRUE(isApprox(alone[i].pose, odometry[i].pose, 1e-9));
+  EXPECT_EQ(urban_nav_core::readTum(file("alone/trajectory.tum")).size(), 16U);
 }
 
 TEST_F(StoreCommands, exportRefusesByName) {

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/closure_offers.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <set>
+#include <tuple>
+
+#include "pipeline/vo_files.hpp"
+#include "urban_nav_core/trajectory/interpolate.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav {
+
+using pose_graph::Closure;
+using pose_graph::EdgeKind;
+using urban_nav_core::Pose;
+using urban_nav_core::StampNs;
+using urban_nav_core::Trajectory;
+
+namespace {
+
+constexpr StampNs kLongestGap = 1'000'000'000;  // ns between frames that odometry bridges for a closure in between
+constexpr StampNs kOutside =
+    100'000'000;  // ns before the first and behind the last frame that their motion is good for
+// Of a transform whose file does not say how good it is: five times what loop closure by stereo reaches (paper, section 4.1).
+constexpr double kUnknownSigmaM = 0.25, kUnknownSigmaRad = 0.05;
+
+/// Where a moment lies beside the nearest frame.
+struct Moment {
+  StampNs node = 0;
+  Pose T_node_moment;
+};
+
+std::optional<Moment> momentOf(const Trajectory& odometry, StampNs stamp) {
+  if (odometry.empty()) return std::nullopt;
+  const auto& nearest = odometry[odometry.nearest(stamp)];
+  if (nearest.stamp == stamp) return Moment{stamp, Pose()};
+  std::optional<Pose> there = odometry.at(stamp, kLongestGap);
+  if (!there && odometry.size() >= 2 && std::abs(stamp - nearest.stamp) <= kOutside) {
+    const bool before = stamp < nearest.stamp;
+    const auto& a = before ? odometry[0] : odometry[odometry.size() - 2];
+    const auto& b = before ? odometry[1] : odometry[odometry.size() - 1];
+    there = urban_nav_core::interpolate(a.pose, b.pose,
+                                        static_cast<double>(stamp - a.stamp) / static_cast<double>(b.stamp - a.stamp));
+  }
+  if (!there) return std::nullopt;
+  return Moment{nearest.stamp, nearest.pose.inverse() * *there};
+}
+
+/// Where a closure stands in the graph, and what it says: sessions by their place.
+using Place = std::tuple<std::size_t, StampNs, std::size_t, StampNs, EdgeKind>;
+using Numbers = std::array<double, 8>;
+
+Numbers numbersOf(const Closure& closure) {
+  const Pose& T = closure.measured.T_a_b;
+  return {T.t().x(), T.t().y(), T.t().z(), T.q().x(),
+          T.q().y(), T.q().z(), T.q().w(), closure.measured.information.trace()};
+}
+
+class Offers {
+ public:
+  Offers(const std::vector<std::string>& sessions, const std::vector<const VoRun*>& runs) : sessions_(sessions) {
+    for (const VoRun* one : runs) odometry_.push_back(trajectoryOf(*one));
+  }
+
+  /// `row`: its number in GraphRun::closures. Empty where it can be used, else why not.
+  std::string add(std::size_t row, const ClosureRow& offered) {
+    if (!offered.T_a_b) return "no transform in the file, and no stage that finds one";
+    Closure closure;
+    Pose T_a_b = *offered.T_a_b;
+    for (const bool at_a : {true, false}) {
+      const std::string& name = at_a ? offered.session_a : offered.session_b;
+      const StampNs stamp = at_a ? offered.stamp_a : offered.stamp_b;
+      const std::size_t session = placeOf(name);
+      if (session == sessions_.size()) return "no session \"" + name + "\" in this map; there are: " + listing();
+      const auto moment = momentOf(odometry_[session], stamp);
+      if (!moment) return "no frames around " + urban_nav_core::printStamp(stamp) + " s in " + name;
+      (at_a ? closure.a : closure.b) = {name, moment->node};
+      T_a_b = at_a ? moment->T_node_moment * T_a_b : T_a_b * moment->T_node_moment.inverse();
+    }
+    const double sigma_m = offered.sigma_m > 0.0 ? offered.sigma_m : kUnknownSigmaM;
+    const double sigma_rad = offered.sigma_rad > 0.0 ? offered.sigma_rad : kUnknownSigmaRad;
+    closure.kind = offered.kind == "icp" ? EdgeKind::Icp : EdgeKind::Stereo;
+    closure.source = offered.where;
+    closure.measured.T_a_b = T_a_b;
+    closure.measured.information.diagonal().head<3>().setConstant(1.0 / (sigma_m * sigma_m));
+    closure.measured.information.diagonal().tail<3>().setConstant(1.0 / (sigma_rad * sigma_rad));
+    offers_.push_back({keyOf(closure), row, closure});
+    return {};
+  }
+
+  /// Rows from the first on, but for those that the file has too; what somebody asserted stays beside them.
+  void add(const std::vector<KnownClosure>& known) {
+    std::set<Place> in_file;
+    for (const Offer& offer : offers_) in_file.insert(offer.key.first);
+    for (std::size_t row = 0; row < known.size(); ++row) {
+      const Key key = keyOf(known[row].closure);
+      if (in_file.count(key.first) == 0) offers_.push_back({key, row, known[row].closure});
+    }
+  }
+
+  OfferedIds handTo(GraphRun& run) {
+    std::stable_sort(offers_.begin(), offers_.end(), [](const Offer& a, const Offer& b) { return a.key < b.key; });
+    OfferedIds ids;
+    for (const Offer& offer : offers_) {
+      try {
+        ids[offer.row] = run.graph.addClosure(offer.closure);
+      } catch (const urban_nav_core::UserError& error) {
+        run.closures[offer.row].reason = error.what();
+      }
+    }
+    return ids;
+  }
+
+ private:
+  using Key = std::pair<Place, Numbers>;
+  struct Offer {
+    Key key;
+    std::size_t row;
+    Closure closure;
+  };
+
+  std::size_t placeOf(const std::string& session) const {
+    return static_cast<std::size_t>(std::find(sessions_.begin(), sessions_.end(), session) - sessions_.begin());
+  }
+  Key keyOf(const Closure& closure) const {
+    return {{placeOf(closure.a.session), closure.a.stamp, placeOf(closure.b.session), closure.b.stamp, closure.kind},
+            numbersOf(closure)};
+  }
+  std::string listing() const {
+    std::string text;
+    for (const std::string& name : sessions_) text += (text.empty() ? "" : ", ") + name;
+    return text;
+  }
+
+  const std::vector<std::string>& sessions_;
+  std::vector<Trajectory> odometry_;
+  std::vector<Offer> offers_;
+};
+
+}  // namespace
+
+OfferedIds offerClosures(GraphRun& run, const std::vector<const VoRun*>& runs, const std::vector<ClosureRow>& rows,
+                         const std::vector<KnownClosure>& known) {
+  Offers offers(run.sessions, runs);
+  for (const KnownClosure& each : known) {
+    run.closures.push_back(each.row);
+    run.closures.back().reason.clear();
+  }
+  for (const ClosureRow& row : rows) {
+    const std::string reason = offers.add(run.closures.size(), row);
+    run.closures.push_back(row);
+    run.closures.back().reason = reason;
+  }
+  offers.add(known);
+  return offers.handTo(run);
+}
+
+}  // namespace urban_nav
