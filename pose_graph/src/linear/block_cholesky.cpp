@@ -202,6 +202,59 @@ void BlockCholesky<B>::solve(double* x, int columns) const {
     for (int right = 0; right < columns; ++right) backward(s, x + sz(right) * length);
 }
 
+template <int B>
+void BlockCholesky<B>::forwardEight(int s, double* x) const {
+  const Symbolic& shape = *symbolic_;
+  const int pivots = B * shape.columns(s), height = panelRows(s), rows = height - pivots;
+  const double* L = panel(s);
+  double* y = x + sz(8 * B * shape.begin[sz(s)]);
+  for (int begin = 0; begin < pivots; begin += B) {
+    kernels_.subtractEight(y + 8 * begin, B, L + begin, 1, height, y, begin);
+    for (int j = begin; j < begin + B; ++j) {
+      const double* column = L + sz(j) * sz(height);
+      for (int c = 0; c < 8; ++c) y[8 * j + c] /= column[j];
+      for (int i = j + 1; i < begin + B; ++i)
+        for (int c = 0; c < 8; ++c) y[8 * i + c] -= column[i] * y[8 * j + c];
+    }
+  }
+  gathered_.assign(sz(8 * rows), 0.0);
+  kernels_.subtractEight(gathered_.data(), rows, L + pivots, 1, height, y, pivots);
+  const double* change = gathered_.data();
+  for (int r = shape.row_begin[sz(s)]; r < shape.row_begin[sz(s) + 1]; ++r, change += 8 * B) {
+    double* target = x + sz(8 * B * shape.rows[sz(r)]);
+    for (int i = 0; i < 8 * B; ++i) target[i] += change[i];
+  }
+}
+
+template <int B>
+void BlockCholesky<B>::backwardEight(int s, double* x) const {
+  const Symbolic& shape = *symbolic_;
+  const int pivots = B * shape.columns(s), height = panelRows(s), rows = height - pivots;
+  const double* L = panel(s);
+  double* y = x + sz(8 * B * shape.begin[sz(s)]);
+  gathered_.resize(sz(8 * rows));
+  double* gathered = gathered_.data();
+  for (int r = shape.row_begin[sz(s)]; r < shape.row_begin[sz(s) + 1]; ++r, gathered += 8 * B)
+    std::memcpy(gathered, x + sz(8 * B * shape.rows[sz(r)]), 8 * B * sizeof(double));
+  kernels_.subtractEight(y, pivots, L + pivots, height, 1, gathered_.data(), rows);
+  for (int begin = pivots - B; begin >= 0; begin -= B) {
+    const int end = begin + B;
+    kernels_.subtractEight(y + 8 * begin, B, L + sz(begin) * sz(height) + end, height, 1, y + 8 * end, pivots - end);
+    for (int j = end - 1; j >= begin; --j) {
+      const double* column = L + sz(j) * sz(height);
+      for (int i = j + 1; i < end; ++i)
+        for (int c = 0; c < 8; ++c) y[8 * j + c] -= column[i] * y[8 * i + c];
+      for (int c = 0; c < 8; ++c) y[8 * j + c] /= column[j];
+    }
+  }
+}
+
+template <int B>
+void BlockCholesky<B>::solveEight(double* x) const {
+  for (int s = 0; s < symbolic_->size(); ++s) forwardEight(s, x);
+  for (int s = symbolic_->size() - 1; s >= 0; --s) backwardEight(s, x);
+}
+
 // The columns of L^-1 of one place: B right-hand sides, one after another, which differ from zero along the way to the root.
 template <int B>
 void BlockCholesky<B>::halfColumns(int place, std::vector<double>& x) const {

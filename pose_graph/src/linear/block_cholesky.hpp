@@ -29,6 +29,8 @@ class BlockCholesky {
 
   /// x becomes A^-1 x for `columns` right-hand sides, one after another, each B numbers a place.
   void solve(double* x, int columns = 1) const;
+  /// The same for eight right-hand sides that lie side by side, number r of side c at x[8 r + c]: several times as fast.
+  void solveEight(double* x) const;
 
   /// The block of A^-1 in the row of one place and the column of another. Costs as much as there are supernodes above them.
   typename BlockMatrix<B>::Block inverseBlock(int row, int column) const;
@@ -44,6 +46,8 @@ class BlockCholesky {
   bool factor(const BlockMatrix<B>& A, const BlockPattern& pattern, std::vector<int>* pinned);
   void forward(int s, double* x) const;
   void backward(int s, double* x) const;
+  void forwardEight(int s, double* x) const;
+  void backwardEight(int s, double* x) const;
   void halfColumns(int place, std::vector<double>& x) const;
 
   const Symbolic* symbolic_;

@@ -32,6 +32,20 @@ void AcceptedGraph<D>::take(const std::vector<char>& in, const std::vector<doubl
 }
 
 template <int D>
+double AcceptedGraph<D>::work(const std::vector<char>& in) const {
+  std::vector<std::pair<int, int>> pairs;
+  for (std::size_t e = 0; e < in.size(); ++e)
+    if (in[e]) pairs.emplace_back(problem_->edges[e].from, problem_->edges[e].to);
+  const Symbolic symbolic = analyse(adjacencyOf(static_cast<int>(problem_->poses.size()), pairs));
+  double sum = 0.0;
+  for (int s = 0; s < symbolic.size(); ++s) {
+    const double columns = symbolic.columns(s), rows = columns + symbolic.rowsBelow(s);
+    sum += columns * rows * rows;
+  }
+  return sum;
+}
+
+template <int D>
 void AcceptedGraph<D>::relax(std::vector<Rigid<D>>& poses, int iterations, double share, bool afresh) {
   if (afresh) {
     const auto rotations = chordalRotations(*equations_, poses, weights_);

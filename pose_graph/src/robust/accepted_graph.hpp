@@ -21,6 +21,9 @@ class AcceptedGraph {
   /// Takes these edges (those not 0), with weights by edge of the whole problem, or ones if empty.
   void take(const std::vector<char>& in, const std::vector<double>& weights = {});
 
+  /// What it would take to factor these edges, in multiplications of blocks.
+  double work(const std::vector<char>& in) const;
+
   /// Steps until what is left to gain is less than this share of the cost. `afresh`: from rotations found without a
   /// guess if that costs less than `poses`.
   void relax(std::vector<Rigid<D>>& poses, int iterations, double share, bool afresh);
@@ -28,8 +31,8 @@ class AcceptedGraph {
   /// Linearises and factors at these poses; directions without information are held by a damping that is nothing
   /// beside the others. False where even that fails.
   bool factor(const std::vector<Rigid<D>>& poses);
-  /// x becomes H^-1 x after factor(), N numbers a place.
-  void solve(double* x, int columns) const { cholesky_->solve(x, columns); }
+  /// X becomes H^-1 X after factor(): eight right-hand sides that lie side by side, 8 N numbers a place.
+  void solveEight(double* X) const { cholesky_->solveEight(X); }
   int unknowns() const { return static_cast<int>(equations_->unknowns().pose.size()); }
   /// Where a pose's N numbers stand; -1 for one that is held.
   int place(int pose) const;

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "robust/chain.hpp"
+#include "robust/closure_loops.hpp"
 
 namespace pose_graph {
 
@@ -23,15 +23,12 @@ struct Thresholds {
   Thresholds(std::size_t candidates, int largest_dof);
 };
 
-/// Groups of closures that support each other: two agree if the way from one pose along odometry to the next, over one
-/// closure, along odometry again and back over the other closure ends where it began (Olson, Walter, Leonard, Teller,
-/// Single-cluster graph partitioning for robotics applications, RSS 2005; Latif, Cadena, Neira, RRR, RSS 2012), with
-/// evidence as in Thresholds. Closures whose ends are both at most kNear poses apart are compared; those between two
-/// chains, which nothing else can vouch for, however far apart, with their next ones.
+/// Groups of closures that support each other: near ones whose loop closes, with evidence as in Thresholds (Latif, Cadena,
+/// Neira, RRR, RSS 2012). `variance`: factor of all covariances.
 ///
-/// Returns for each edge the number of its group (the first edge of the group), -1 for edges that are no candidates.
+/// Returns for each of so many edges the number of its group (the first edge of the group), -1 for edges that are no candidates.
 template <int D>
-std::vector<int> agreeingGroups(const Problem<D>& problem, const std::vector<int>& candidates, const Chains<D>& chains,
+std::vector<int> agreeingGroups(std::size_t edges, const ClosureLoops<D>& closures, double variance,
                                 const Thresholds& thresholds);
 
 }  // namespace pose_graph

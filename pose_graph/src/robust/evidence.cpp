@@ -8,6 +8,8 @@
 #include <limits>
 #include <map>
 
+#include "urban_nav_core/geometry/dense_kernels.hpp"
+
 namespace pose_graph {
 
 namespace {
@@ -18,12 +20,12 @@ constexpr double kPi = 3.14159265358979323846;
 // A covariance from 24 samples is good to three tenths, and inverted too large by 24 / (23 - N) (the mean of an inverse
 // Wishart matrix), which is taken off. Chosen for its time; whether more would decide better is not measured.
 constexpr int kDisturbances = 24;
-constexpr int kAtOnce = 8;  // right-hand sides in memory
+constexpr int kAtOnce = 8;
 // Redundancy below which an edge is not controlled by the others: less of its error than that shows in its residual, and
 // what an unfinished relaxation leaves would be taken for it.
 constexpr double kUncontrolled = 0.1;
 
-// One sign for each disturbance from the numbers of edge and direction alone (splitmix64, Steele, Lea, Flood 2014).
+// Signs from the number of edge and direction alone, a bit for each disturbance (splitmix64, Steele, Lea, Flood 2014).
 std::uint64_t signs(std::uint64_t number) {
   std::uint64_t z = (number + 1) * 0x9e3779b97f4a7c15u;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -32,10 +34,16 @@ std::uint64_t signs(std::uint64_t number) {
 }
 
 template <int D>
-Tangent<D> disturbance(std::size_t edge, int sample) {
-  Tangent<D> made;
-  for (int a = 0; a < tangent_size<D>; ++a)
-    made[a] = (signs(edge * sz(tangent_size<D>) + sz(a)) >> sample & 1) ? 1.0 : -1.0;
+using Eight = Eigen::Matrix<double, tangent_size<D>, kAtOnce, Eigen::RowMajor>;
+
+// Disturbances first...first + 7 of an edge.
+template <int D>
+Eight<D> disturbances(std::size_t edge, int first) {
+  Eight<D> made;
+  for (int a = 0; a < tangent_size<D>; ++a) {
+    const std::uint64_t bits = signs(edge * sz(tangent_size<D>) + sz(a)) >> first;
+    for (int c = 0; c < kAtOnce; ++c) made(a, c) = static_cast<double>(static_cast<int>(2 * (bits >> c & 1)) - 1);
+  }
   return made;
 }
 
@@ -66,7 +74,7 @@ template <int D>
 Evidence Witness<D>::hear(AcceptedGraph<D>& graph, const std::vector<char>& in, const std::vector<Rigid<D>>& poses,
                           double variance, const std::vector<int>& small_group) const {
   constexpr int N = tangent_size<D>;
-  using Samples = Eigen::Matrix<double, N, Eigen::Dynamic, Eigen::RowMajor>;
+  using Samples = Eigen::Matrix<double, N, kDisturbances, Eigen::RowMajor>;
   const std::size_t edges = problem_->edges.size();
   Evidence made;
   made.chi2.assign(edges, 0.0);
@@ -83,32 +91,28 @@ Evidence Witness<D>::hear(AcceptedGraph<D>& graph, const std::vector<char>& in, 
       at[e] = whitenedJacobians(edges_[e], poses[sz(edges_[e].from)], poses[sz(edges_[e].to)]);
 
   // What the disturbances do to each candidate: to its residual if inside, to its prediction if outside.
-  std::vector<Samples> moved(candidates_.size(), Samples::Zero(N, kDisturbances));
-  const std::size_t rows = sz(graph.unknowns()) * sz(N);
+  std::vector<Samples> moved(candidates_.size(), Samples::Zero());
   std::vector<double> x;
-  for (int first = 0; first < kDisturbances && rows > 0; first += kAtOnce) {
-    x.assign(rows * sz(kAtOnce), 0.0);
+  const auto at_place = [&x](int place) { return x.data() + sz(place * N * kAtOnce); };
+  static const auto kernels = urban_nav_core::kernels::instructionSets().front();
+  for (int first = 0; first < kDisturbances && graph.unknowns() > 0; first += kAtOnce) {
+    x.assign(sz(graph.unknowns() * N * kAtOnce), 0.0);
     for (std::size_t e = 0; e < edges; ++e) {
       if (!in[e]) continue;
       const int from = graph.place(edges_[e].from), to = graph.place(edges_[e].to);
-      for (int c = 0; c < kAtOnce; ++c) {
-        const Tangent<D> y = disturbance<D>(e, first + c);
-        double* column = x.data() + sz(c) * rows;
-        if (from >= 0) Eigen::Map<Tangent<D>>(column + sz(from * N)).noalias() += at[e].by_from.transpose() * y;
-        if (to >= 0) Eigen::Map<Tangent<D>>(column + sz(to * N)).noalias() += at[e].by_to.transpose() * y;
-      }
+      const Eight<D> y = -disturbances<D>(e, first);
+      if (from >= 0) kernels.subtractEight(at_place(from), N, at[e].by_from.data(), N, 1, y.data(), N);
+      if (to >= 0) kernels.subtractEight(at_place(to), N, at[e].by_to.data(), N, 1, y.data(), N);
     }
-    graph.solve(x.data(), kAtOnce);
+    graph.solveEight(x.data());
     for (std::size_t k = 0; k < candidates_.size(); ++k) {
       const std::size_t e = sz(candidates_[k]);
       const int from = graph.place(edges_[e].from), to = graph.place(edges_[e].to);
-      for (int c = 0; c < kAtOnce; ++c) {
-        const double* column = x.data() + sz(c) * rows;
-        Tangent<D> z = Tangent<D>::Zero();
-        if (from >= 0) z.noalias() += at[e].by_from * Eigen::Map<const Tangent<D>>(column + sz(from * N));
-        if (to >= 0) z.noalias() += at[e].by_to * Eigen::Map<const Tangent<D>>(column + sz(to * N));
-        moved[k].col(first + c) = in[e] ? Tangent<D>(disturbance<D>(e, first + c) - z) : z;
-      }
+      Eight<D> z = Eight<D>::Zero();
+      if (in[e]) z = disturbances<D>(e, first);
+      if (from >= 0) kernels.subtractEight(z.data(), N, at[e].by_from.data(), 1, N, at_place(from), N);
+      if (to >= 0) kernels.subtractEight(z.data(), N, at[e].by_to.data(), 1, N, at_place(to), N);
+      moved[k].template middleCols<kAtOnce>(first) = z;
     }
   }
 
@@ -122,11 +126,15 @@ Evidence Witness<D>::hear(AcceptedGraph<D>& graph, const std::vector<char>& in, 
       made.likelier[e] *= -1.0;
       continue;
     }
-    TangentMatrix<D> C = moved[k] * moved[k].transpose() / kDisturbances;
+    TangentMatrix<D> C = moved[k].lazyProduct(moved[k].transpose()) / kDisturbances;
     for (int a = edge.rank; a < N; ++a) C(a, a) = 1.0;  // measures nothing there: rows of W are zero, so is the error
+    const double log_at_zero = false_log_[k] - 0.5 * edge.rank * std::log(2.0 * kPi * variance);
     if (in[e]) {
+      // What is left of its own unit covariance is the inverse of that which its residual would have were it outside.
+      made.likelier[e] = log_at_zero + 0.5 * std::log(std::max(1e-300, C.determinant()));
       C.diagonal().array() += kUncontrolled;
       made.chi2[e] = at[e].error.dot(C.llt().solve(at[e].error)) * kShrink / variance;
+      made.likelier[e] -= 0.5 * made.chi2[e];
       if (small_group[e] >= 0) groups[small_group[e]].push_back(k);
       continue;
     }
@@ -134,7 +142,7 @@ Evidence Witness<D>::hear(AcceptedGraph<D>& graph, const std::vector<char>& in, 
     C.diagonal().head(edge.rank).array() += 1.0;
     const Eigen::LLT<TangentMatrix<D>> llt(C);
     made.chi2[e] = at[e].error.dot(llt.solve(at[e].error)) / variance;
-    double log = false_log_[k] - 0.5 * made.chi2[e] - 0.5 * edge.rank * std::log(2.0 * kPi * variance);
+    double log = log_at_zero - 0.5 * made.chi2[e];
     for (int a = 0; a < edge.rank; ++a) log -= std::log(llt.matrixLLT()(a, a));
     made.likelier[e] = log;
   }
@@ -142,7 +150,7 @@ Evidence Witness<D>::hear(AcceptedGraph<D>& graph, const std::vector<char>& in, 
   // One bias of a whole group: its far ends moved as one body.
   for (const auto& [name, members] : groups) {
     if (members.size() < 2) continue;
-    Samples spread = Samples::Zero(N, kDisturbances);
+    Samples spread = Samples::Zero();
     Tangent<D> sum = Tangent<D>::Zero();
     TangentMatrix<D> weight = TangentMatrix<D>::Zero();
     const WhitenedEdge<D>& head = edges_[sz(candidates_[members.front()])];
@@ -158,7 +166,7 @@ Evidence Witness<D>::hear(AcceptedGraph<D>& graph, const std::vector<char>& in, 
       sum.noalias() += bias.transpose() * at[e].error;
       weight.noalias() += bias.transpose() * bias;
     }
-    TangentMatrix<D> C = spread * spread.transpose() / kDisturbances + kUncontrolled * weight;
+    TangentMatrix<D> C = spread.lazyProduct(spread.transpose()) / kDisturbances + kUncontrolled * weight;
     C.diagonal().array() += 1e-12 * std::max(1e-300, C.diagonal().maxCoeff());
     const double chi2 = sum.dot(C.llt().solve(sum)) * kShrink / variance;
     for (std::size_t k : members) made.group_chi2[sz(candidates_[k])] = std::isfinite(chi2) ? chi2 : 0.0;

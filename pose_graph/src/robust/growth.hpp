@@ -5,6 +5,7 @@
 
 #include "robust/agreement.hpp"
 #include "robust/evidence.hpp"
+#include "robust/information_scale.hpp"
 
 namespace pose_graph {
 
@@ -20,13 +21,21 @@ struct Grown {
 /// Lets closures into the graph by evidence, and out again (pose_graph/robust.hpp).
 template <int D>
 Grown<D> grow(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const Witness<D>& witness,
-              const std::vector<int>& group, const Thresholds& thresholds);
+              const std::vector<int>& group, const Thresholds& thresholds, const InformationScale& scale);
 
-/// Variance of unit weight of the edges that are in, each counted no further than its limit, between kModest and 1.
-/// Starts from 1 with the weight of ten observed tangents, so that a few redundant edges do not decide.
+/// Takes all candidates at once, into `grown` and `graph`, if hardly any of them is contradicted then: for a graph without false
+/// closures, or with next to none, that is all there is to do. Returns whether it did. `grown` has heard what the graph without
+/// any candidate says of them; `small_group` as in Witness::hear().
+template <int D>
+bool takeAll(const Witness<D>& witness, const std::vector<int>& group, const std::vector<int>& small_group,
+             const Thresholds& thresholds, const InformationScale& scale, AcceptedGraph<D>& graph, Grown<D>& grown);
+
+/// Variance of unit weight of the edges that are in, each counted no further than its limit, between `scale`
+/// (InformationScale::factor) and 1. Starts from what is expected with the weight of ten observed tangents, so that a few
+/// redundant edges do not decide.
 template <int D>
 double varianceFactor(const Witness<D>& witness, const std::vector<char>& in, const std::vector<Rigid<D>>& poses,
-                      int unknowns, const Thresholds& thresholds);
+                      int unknowns, const Thresholds& thresholds, double scale);
 
 /// Goes on from there with all candidates, their squares truncated, the limit falling from far too wide to the quantile of
 /// 99 %; keeps the result if its truncated cost is lower. Worth its time only where many are out that are not far off.

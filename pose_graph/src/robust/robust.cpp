@@ -7,6 +7,7 @@
 #include <set>
 
 #include "robust/growth.hpp"
+#include "robust/information_scale.hpp"
 
 namespace pose_graph {
 
@@ -102,8 +103,10 @@ RobustSolution<D> relaxRobust(const Problem<D>& problem, const std::vector<EdgeR
   const Chains<D> chains(problem, roles);
   const Thresholds thresholds(candidates.size(), tangent_size<D>);
   const Witness<D> witness(problem, candidates, chains);
-  const std::vector<int> group = agreeingGroups(problem, candidates, chains, thresholds);
-  Grown<D> grown = grow(problem, roles, witness, group, thresholds);
+  const ClosureLoops<D> loops(problem, candidates, chains);
+  const InformationScale scale = informationScale(loops);
+  const std::vector<int> group = agreeingGroups(problem.edges.size(), loops, std::max(1.0, scale.factor), thresholds);
+  Grown<D> grown = grow(problem, roles, witness, group, thresholds, scale);
   if (grown.evidence.known) takeBack(problem, roles, witness, grown);
 
   // The last word has the solver of graphs without false edges, on what is left.
@@ -146,7 +149,7 @@ RobustSolution<D> relaxRobust(const Problem<D>& problem, const std::vector<EdgeR
     believed[sz(e)] = EdgeRole::Trusted;
   }
   const Witness<D> doubter(unasserted, candidates, chains);
-  Grown<D> without = grow(unasserted, believed, doubter, group, thresholds);
+  Grown<D> without = grow(unasserted, believed, doubter, group, thresholds, scale);
   for (int e : asserted) without.in[sz(e)] = 0;
   for (int e : asserted) made.edges[sz(e)].contradicted_by = contradicting(problem, e, without, witness, thresholds);
   return made;

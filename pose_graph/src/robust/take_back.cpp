@@ -62,7 +62,12 @@ void takeBack(const Problem<D>& problem, const std::vector<EdgeRole>& roles, con
     graph.take(in);
     graph.relax(poses, 2, 0.0, false);
   }
-  if (!(truncated(poses) < truncated(grown.poses))) return;
+  // A lower cost alone may come from throwing more away: there must be more that fit.
+  const auto fitting = [&](const std::vector<Rigid<D>>& at) {
+    return std::count_if(witness.candidates().begin(), witness.candidates().end(),
+                         [&](int e) { return squareOf(sz(e), at) <= limitOf(sz(e)); });
+  };
+  if (!(truncated(poses) < truncated(grown.poses)) || fitting(poses) <= fitting(grown.poses)) return;
   grown.in = std::move(in);
   grown.poses = std::move(poses);
   for (int e : witness.candidates()) grown.evidence.chi2[sz(e)] = squareOf(sz(e), grown.poses) / grown.variance;

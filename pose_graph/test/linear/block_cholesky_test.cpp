@@ -55,6 +55,14 @@ void expectFactorsAndSolves() {
     cholesky.solve(first.data());
     EXPECT_LT((system.dense * solved - b).norm(), 1e-9 * (1.0 + b.norm()));
     EXPECT_EQ((solved.leftCols(1) - first).norm(), 0.0);
+
+    Eigen::Matrix<double, Eigen::Dynamic, 8, Eigen::RowMajor> eight(n, 8);
+    for (Eigen::Index i = 0; i < eight.size(); ++i) eight.data()[i] = dice.normal();
+    const Eigen::MatrixXd right = system.dense * eight;
+    auto sides = eight;
+    sides = right;
+    cholesky.solveEight(sides.data());
+    EXPECT_LT((system.dense * sides - right).norm(), 1e-9 * (1.0 + right.norm()));
   }
 }
 TEST(BlockCholesky, EqualsTheDenseFactor) {

@@ -184,6 +184,41 @@ __attribute__((always_inline)) inline void subtractThreeAs(double* y, const doub
   for (; i < n; ++i) y[i] = y[i] - x0[i] * a - x1[i] * b - x2[i] * c;
 }
 
+template <typename Width, int rows>
+__attribute__((always_inline)) inline void subtractEightRows(double* Y, const double* L, std::ptrdiff_t row_step,
+                                                             std::ptrdiff_t column_step, const double* X, int columns) {
+  using Vector = typename Width::Vector;
+  constexpr int vectors = 8 / Width::lanes;
+  Vector sum[rows][vectors];
+#pragma GCC unroll 8
+  for (int r = 0; r < rows; ++r)
+#pragma GCC unroll 4
+    for (int v = 0; v < vectors; ++v) sum[r][v] = Vector{};
+  for (int k = 0; k < columns; ++k, X += 8, L += column_step) {
+#pragma GCC unroll 4
+    for (int v = 0; v < vectors; ++v) {
+      const Vector x = *reinterpret_cast<const Vector*>(X + v * Width::lanes);
+#pragma GCC unroll 8
+      for (int r = 0; r < rows; ++r) sum[r][v] += x * L[r * row_step];
+    }
+  }
+#pragma GCC unroll 8
+  for (int r = 0; r < rows; ++r)
+#pragma GCC unroll 4
+    for (int v = 0; v < vectors; ++v) *reinterpret_cast<Vector*>(Y + r * 8 + v * Width::lanes) -= sum[r][v];
+}
+
+template <typename Width>
+__attribute__((always_inline)) inline void subtractEightAs(double* Y, int rows, const double* L,
+                                                           std::ptrdiff_t row_step, std::ptrdiff_t column_step,
+                                                           const double* X, int columns) {
+  constexpr int together = Width::lanes;  // as many as there are registers for
+  int r = 0;
+  for (; r + together <= rows; r += together)
+    subtractEightRows<Width, together>(Y + r * 8, L + r * row_step, row_step, column_step, X, columns);
+  for (; r < rows; ++r) subtractEightRows<Width, 1>(Y + r * 8, L + r * row_step, row_step, column_step, X, columns);
+}
+
 // One function of each kind for every width; only so can a compiler be told what processor it is for.
 // NOLINTBEGIN(bugprone-macro-parentheses): names of types, and attributes, stand in none.
 #define URBAN_NAV_KERNELS(Width, target)                                                                         \
@@ -203,9 +238,16 @@ __attribute__((always_inline)) inline void subtractThreeAs(double* y, const doub
   target void subtractThree##Width(double* y, const double* x0, const double* x1, const double* x2,              \
                                    const double* factors, int n) {                                               \
     subtractThreeAs<Width>(y, x0, x1, x2, factors, n);                                                           \
+  }                                                                                                              \
+  target void subtractEight##Width(double* Y, int rows, const double* L, int row_step, int column_step,          \
+                                   const double* X, int columns) {                                               \
+    subtractEightAs<Width>(Y, rows, L, row_step, column_step, X, columns);                                       \
   }
-#define URBAN_NAV_SET(name, Width) \
-  { name, subtractStrips##Width, solveStrips##Width, dot##Width, dotSix##Width, subtract##Width, subtractThree##Width }
+#define URBAN_NAV_SET(name, Width)                                                                                     \
+  {                                                                                                                    \
+    name, subtractStrips##Width, solveStrips##Width, dot##Width, dotSix##Width, subtract##Width, subtractThree##Width, \
+        subtractEight##Width                                                                                           \
+  }
 // NOLINTEND(bugprone-macro-parentheses)
 
 URBAN_NAV_KERNELS(Narrow, )

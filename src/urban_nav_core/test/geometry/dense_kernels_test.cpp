@@ -53,6 +53,31 @@ TEST(DenseKernels, sixProductsAreThoseOfOneByOne) {
   }
 }
 
+TEST(DenseKernels, eightRightHandSidesAreThoseOfOneByOne) {
+  const auto sets = instructionSets();
+  for (const int rows : {1, 3, 8, 13})
+    for (const int columns : {0, 1, 6, 17})
+      for (const bool turned : {false, true}) {
+        const int row_step = turned ? columns + 2 : 1, column_step = turned ? 1 : rows + 2;
+        const std::vector<double> L = numbers((rows + 2) * (columns + 2), 0.7), X = numbers(8 * columns, 1.3),
+                                  before = numbers(8 * rows, 0.4);
+        std::vector<double> first = before;
+        sets.front().subtractEight(first.data(), rows, L.data(), row_step, column_step, X.data(), columns);
+        for (std::size_t i = 0; i < first.size(); ++i) {
+          double product = 0.0;
+          for (std::size_t k = 0; k < static_cast<std::size_t>(columns); ++k)
+            product += L[i / 8 * static_cast<std::size_t>(row_step) + k * static_cast<std::size_t>(column_step)] *
+                       X[8 * k + i % 8];
+          EXPECT_NEAR(first[i], before[i] - product, 1e-13);
+        }
+        for (const InstructionSet& set : sets) {
+          std::vector<double> Y = before;
+          set.subtractEight(Y.data(), rows, L.data(), row_step, column_step, X.data(), columns);
+          EXPECT_EQ(Y, first) << set.name << ' ' << rows << " x " << columns;
+        }
+      }
+}
+
 TEST(DenseKernels, giveTheSameBitsWithEveryInstructionSet) {
   const auto sets = instructionSets();
   for (int n = 0; n < 70; ++n) {

@@ -31,6 +31,11 @@ struct InstructionSet {
   void (*subtract)(double* y, const double* x, double factor, int n);
   /// y -= factors[0] x0, then factors[1] x1, then factors[2] x2.
   void (*subtractThree)(double* y, const double* x0, const double* x1, const double* x2, const double* factors, int n);
+
+  /// Y -= L X for eight right-hand sides at once, which lie side by side: row r of Y begins at Y + 8 r, row k of X at X + 8 k.
+  /// L(r, k) is L[r * row_step + k * column_step].
+  void (*subtractEight)(double* Y, int rows, const double* L, int row_step, int column_step, const double* X,
+                        int columns);
 };
 
 /// What this machine can run, fastest first. The last is always there.
