@@ -129,6 +129,12 @@ class PoseGraph {
   Problem<3> problem() const;
   /// Number of a pose in problem().
   std::optional<int> poseNumber(const NodeRef& ref) const;
+  /// By what the covariances of odometry were multiplied in the last relax(), in problem() too: 1, or more where the closures
+  /// show that it promises more than it keeps.
+  double odometryVariance() const { return odometry_variance_; }
+  /// The covariance of a pose's own settled noise, in its own axes: half that of its step, where the step tells which part of it adds
+  /// up along the way. It is in no edge of the chain, in the closures' edges, and has to be added to what Marginals tell.
+  urban_nav_core::Matrix6d ownNoise(const NodeRef& ref) const;
   /// Weights of problem()'s edges after the last relaxation: 0 for closures that are not accepted.
   std::vector<double> weights() const;
 
@@ -149,6 +155,7 @@ class PoseGraph {
   ClosureId next_id_ = 1;
   std::int64_t revision_ = 0;
   int parts_ = 0;
+  double odometry_variance_ = 1.0;
   bool broken_ = false;
 };
 
@@ -156,9 +163,11 @@ class PoseGraph {
 /// from step to step. WARNING: neighbouring steps share an end, so their covariances composed as if independent are far too
 /// large; what is left over belongs to the ends of closures, see closureInformation.
 TangentMatrix<3> chainInformation(const urban_nav_core::RelativePose& step);
-/// The information of a closure between two poses whose own settled noise is half the covariance of their steps, each.
-TangentMatrix<3> closureInformation(const urban_nav_core::Constraint& measured,
-                                    const urban_nav_core::Matrix6d& covariance_a,
-                                    const urban_nav_core::Matrix6d& covariance_b);
+/// The covariance of T_a_b (as what leaves a stage) that comes from both poses' own noise: PoseGraph::ownNoise().
+urban_nav_core::Matrix6d relativeNoise(const Pose& T_a_b, const urban_nav_core::Matrix6d& noise_a,
+                                       const urban_nav_core::Matrix6d& noise_b);
+/// The information of a closure between two poses that have noise of their own.
+TangentMatrix<3> closureInformation(const urban_nav_core::Constraint& measured, const urban_nav_core::Matrix6d& noise_a,
+                                    const urban_nav_core::Matrix6d& noise_b);
 
 }  // namespace pose_graph

@@ -29,16 +29,19 @@ TangentMatrix<3> chainInformation(const urban_nav_core::RelativePose& step) {
   return 0.5 * (information + information.transpose());
 }
 
-// (W^-1 + N)^-1 = W - W (W + N^-1)^-1 W, which needs no inverse of W: what it leaves free stays free.
-TangentMatrix<3> closureInformation(const urban_nav_core::Constraint& measured, const Matrix6d& covariance_a,
-                                    const Matrix6d& covariance_b) {
-  const Matrix6d W = 0.5 * (measured.information + measured.information.transpose());
-  // The error of b, in b's own axes up to a step, turns into a's; the lever arm of a's turn moves b.
-  const Eigen::Matrix3d R = measured.T_a_b.R();
+// The error of b, in b's own axes, turns into a's; the lever arm of a's turn moves b.
+Matrix6d relativeNoise(const Pose& T_a_b, const Matrix6d& noise_a, const Matrix6d& noise_b) {
   Matrix6d at_b = Matrix6d::Zero(), at_a = Matrix6d::Identity();
-  at_b.topLeftCorner<3, 3>() = at_b.bottomRightCorner<3, 3>() = R;
-  at_a.topRightCorner<3, 3>() = -urban_nav_core::skew(measured.T_a_b.t());
-  const Matrix6d N = 0.5 * (at_a * covariance_a * at_a.transpose() + at_b * covariance_b * at_b.transpose());
+  at_b.topLeftCorner<3, 3>() = at_b.bottomRightCorner<3, 3>() = T_a_b.R();
+  at_a.topRightCorner<3, 3>() = -urban_nav_core::skew(T_a_b.t());
+  return at_a * noise_a * at_a.transpose() + at_b * noise_b * at_b.transpose();
+}
+
+// (W^-1 + N)^-1 = W - W (W + N^-1)^-1 W, which needs no inverse of W: what it leaves free stays free.
+TangentMatrix<3> closureInformation(const urban_nav_core::Constraint& measured, const Matrix6d& noise_a,
+                                    const Matrix6d& noise_b) {
+  const Matrix6d W = 0.5 * (measured.information + measured.information.transpose());
+  const Matrix6d N = relativeNoise(measured.T_a_b, noise_a, noise_b);
   const Eigen::LLT<Matrix6d> noise(N);
   if (!(N.trace() > 0.0) || noise.info() != Eigen::Success) return seenFromChild(W, measured.T_a_b);
   const Matrix6d together = W + noise.solve(Matrix6d::Identity());

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "graph/jump_gate.hpp"
+#include "graph/odometry_variance.hpp"
 #include "pose_graph/graph_file.hpp"
 #include "solve/normal_equations.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
@@ -180,22 +181,25 @@ Problem<3> PoseGraph::problem() const {
       made.edges.push_back(step.edge);
       made.edges.back().from = from;
       made.edges.back().to = from + 1;
+      made.edges.back().information /= odometry_variance_;
     }
     first += static_cast<int>(tracks_[t].stamps.size());
   }
-  const auto stepCovariance = [&](const NodeRef& ref) -> Matrix6d {
-    const Track& track = *this->track(ref.session);
-    const auto& steps = steps_[static_cast<std::size_t>(&track - tracks_.data())];
-    const auto i = static_cast<std::size_t>(std::lower_bound(track.stamps.begin(), track.stamps.end(), ref.stamp) -
-                                            track.stamps.begin());
-    const Step& step = steps[i == 0 ? 0 : i - 1];
-    return step.measured.drift_covariance.trace() > 0.0 ? step.measured.covariance : Matrix6d(Matrix6d::Zero());
-  };
   for (const auto& [id, closure] : closures_) {
     made.edges.push_back({*poseNumber(closure.a), *poseNumber(closure.b), rigidOf<3>(closure.measured.T_a_b),
-                          closureInformation(closure.measured, stepCovariance(closure.a), stepCovariance(closure.b))});
+                          closureInformation(closure.measured, ownNoise(closure.a), ownNoise(closure.b))});
   }
   return made;
+}
+
+Matrix6d PoseGraph::ownNoise(const NodeRef& ref) const {
+  const Track& track = *this->track(ref.session);
+  const auto& steps = steps_[static_cast<std::size_t>(&track - tracks_.data())];
+  const auto i = static_cast<std::size_t>(std::lower_bound(track.stamps.begin(), track.stamps.end(), ref.stamp) -
+                                          track.stamps.begin());
+  if (steps.empty()) return Matrix6d::Zero();
+  const Step& step = steps[i == 0 ? 0 : i - 1];
+  return step.measured.drift_covariance.trace() > 0.0 ? Matrix6d(0.5 * step.measured.covariance) : Matrix6d::Zero();
 }
 
 std::vector<double> PoseGraph::weights() const {
@@ -211,9 +215,12 @@ Relaxed PoseGraph::relax(const SolveOptions& options) {
   const std::map<ClosureId, Closure> before = closures_;
   SolveOptions wanted = options;
   wanted.iterations = parameters_.iterations;
-  const Problem<3> problem = this->problem();
+  odometry_variance_ = 1.0;
+  Problem<3> problem = this->problem();
   if (problem.poses.empty()) return {};
-  const Solution<3> solution = judge(problem, parameters_, wanted, closures_);
+  Solution<3> solution = judge(problem, parameters_, wanted, closures_);
+  odometry_variance_ =
+      takeOdometryVariance(problem, problem.edges.size() - closures_.size(), weights(), wanted, solution);
   for (auto& [id, closure] : closures_) closure.judged = true;
   return take(solution, before);
 }

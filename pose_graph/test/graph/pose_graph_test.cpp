@@ -237,7 +237,7 @@ TEST(ClosureInformation, addsTheNoiseOfTheEndsAndLeavesFreeWhatIsFree) {
   // Covariances add up: b's noise turned, a's with its lever arm.
   Matrix6d lever = Matrix6d::Identity();
   lever.topRightCorner<3, 3>() = -urban_nav_core::skew(measured.T_a_b.t());
-  const Matrix6d sum = Matrix6d(measured.information.inverse() + 0.5 * small + 0.5 * lever * small * lever.transpose());
+  const Matrix6d sum = Matrix6d(measured.information.inverse() + small + lever * small * lever.transpose());
   const Matrix6d expected = turned.transpose() * sum.inverse() * turned;
   EXPECT_LT((closureInformation(measured, small, small) - expected).norm(), 1e-6 * expected.norm());
   measured.information(2, 2) = 0.0;

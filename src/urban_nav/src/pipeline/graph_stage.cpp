@@ -49,16 +49,27 @@ void judge(GraphRun& run, const OfferedIds& ids, std::size_t known) {
 // All sessions from one factorisation.
 std::vector<std::vector<Matrix6d>> covariancesOf(const PoseGraph& graph, const std::vector<std::string>& sessions) {
   std::vector<pose_graph::Rigid<3>> poses;
+  std::vector<pose_graph::NodeRef> refs;
   for (const Track& track : graph.tracks())
-    for (const Pose& pose : track.map) poses.push_back(pose_graph::rigidOf<3>(pose));
+    for (std::size_t i = 0; i < track.map.size(); ++i) {
+      poses.push_back(pose_graph::rigidOf<3>(track.map[i]));
+      refs.push_back({track.session, track.stamps[i]});
+    }
+  const auto at = [](int pose) { return static_cast<std::size_t>(pose); };
   const pose_graph::Marginals<3> marginals(graph.problem(), poses, graph.weights());
   std::vector<std::vector<Matrix6d>> made(sessions.size());
   for (std::size_t s = 0; s < sessions.size(); ++s) {
     const Track* track = graph.track(sessions[s]);
     if (track == nullptr || track->stamps.empty()) continue;
     const int first = *graph.poseNumber({track->session, track->stamps.front()});
-    for (std::size_t i = 0; i < track->stamps.size(); ++i)
-      made[s].push_back(displayed(marginals.ofPose(first + static_cast<int>(i)), kMetresPerRadian));
+    for (std::size_t i = 0; i < track->stamps.size(); ++i) {
+      const int pose = first + static_cast<int>(i), origin = marginals.first(pose);
+      Matrix6d covariance = displayed(marginals.ofPose(pose), kMetresPerRadian);
+      if (pose != origin)
+        covariance += pose_graph::relativeNoise(poseOf(poses[at(origin)]).inverse() * track->map[i],
+                                                graph.ownNoise(refs[at(origin)]), graph.ownNoise(refs[at(pose)]));
+      made[s].push_back(covariance);
+    }
   }
   return made;
 }

@@ -18,6 +18,7 @@ using urban_nav_core::Trajectory;
 namespace {
 
 constexpr std::size_t kMostRows = 500;  // closures in the table
+constexpr double kBoasts = 1.5;         // times the stated deviation: said in the report from here on
 constexpr std::array<const char*, 4> kColours = {"a", "c", "d", "b"};
 
 std::string count(std::size_t n, const char* noun) { return std::to_string(n) + " " + noun + (n == 1 ? "" : "s"); }
@@ -158,6 +159,10 @@ std::vector<Verdict> graphVerdicts(const GraphRun& graph) {
                     of + "; the cost fell from " + forPerson(relaxed.cost_before, 4) + " to " +
                         forPerson(relaxed.cost_after, 4) + "."});
   }
+  const double boast = std::sqrt(graph.graph.odometryVariance());
+  if (boast > kBoasts)
+    made.push_back({Grade::Fair, "Odometry errs " + forPerson(boast, 2) + " times as much as it states",
+                    "so the closures say; the covariances of this map are those of the larger errors."});
   const std::size_t joined = graph.sessionsJoined();
   if (graph.sessions.size() > 1)
     made.push_back(
@@ -181,6 +186,7 @@ Json toJson(const GraphRun& graph, const std::vector<std::optional<Evaluation>>&
   json["closures_waiting"] = relaxed.waiting;
   json["cost_before"] = relaxed.cost_before;
   json["cost_after"] = relaxed.cost_after;
+  json["odometry_variance"] = graph.graph.odometryVariance();
   json["iterations"] = relaxed.iterations.size();
   json["ending"] = toString(relaxed.ending);
   json["ms_batch"] = graph.ms;

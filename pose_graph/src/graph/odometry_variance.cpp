@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "graph/odometry_variance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "pose_graph/marginals.hpp"
+#include "solve/normal_equations.hpp"
+
+namespace pose_graph {
+
+namespace {
+
+constexpr int kRounds = 5;         // at the fifth it moves by a hundredth
+constexpr double kSettled = 0.02;  // of the factor
+constexpr double kPrior = 6.0;     // numbers that odometry's own word weighs
+
+// Parts that the chains alone leave, less those that are left with the closures: each one that was joined took a pose.
+int joinedParts(const Problem<3>& problem, std::size_t chains, const std::vector<double>& weights) {
+  Problem<3> joined;
+  joined.poses = problem.poses;
+  joined.edges.assign(problem.edges.begin(), problem.edges.begin() + static_cast<std::ptrdiff_t>(chains));
+  const int apart = unknownsOf(joined).components;
+  for (std::size_t e = chains; e < problem.edges.size(); ++e)
+    if (weights[e] > 0.0) joined.edges.push_back(problem.edges[e]);
+  return apart - unknownsOf(joined).components;
+}
+
+// How much of the chains' errors shows in their residuals, in numbers: what the closures take up of theirs is the chains'.
+std::optional<double> redundancyOfChains(const Problem<3>& problem, std::size_t chains,
+                                         const std::vector<double>& weights, const std::vector<Rigid<3>>& poses) {
+  const Marginals<3> marginals(problem, poses, weights);
+  double sum = -static_cast<double>(tangent_size<3>) * joinedParts(problem, chains, weights);
+  for (std::size_t e = chains; e < problem.edges.size(); ++e) {
+    if (!(weights[e] > 0.0)) continue;
+    const Edge<3>& edge = problem.edges[e];
+    const Marginal<3> known = marginals.between(edge.from, edge.to);
+    if (known.knowledge != Knowledge::Full) return std::nullopt;
+    TangentMatrix<3> turn = TangentMatrix<3>::Zero();  // from the axes of `from` to those of Z's child
+    turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = edge.Z.R.transpose();
+    sum += (edge.information * (turn * known.covariance * turn.transpose())).trace();
+  }
+  if (!std::isfinite(sum) || sum <= 0.0) return std::nullopt;
+  return sum;
+}
+
+double costOfChains(Problem<3> problem, std::size_t chains, const std::vector<Rigid<3>>& poses) {
+  problem.edges.resize(chains);
+  return cost(problem, poses, Objective::Geodesic);
+}
+
+}  // namespace
+
+double takeOdometryVariance(Problem<3>& problem, std::size_t chains, const std::vector<double>& weights,
+                            const SolveOptions& options, Solution<3>& solution) {
+  if (std::none_of(weights.begin() + static_cast<std::ptrdiff_t>(chains), weights.end(),
+                   [](double weight) { return weight > 0.0; }))
+    return 1.0;
+  SolveOptions from_here = options;
+  from_here.start = Start::Vertices;
+  double factor = 1.0;
+  for (int round = 0; round < kRounds; ++round) {
+    const auto redundancy = redundancyOfChains(problem, chains, weights, solution.poses);
+    if (!redundancy) return factor;
+    const double measured = factor * costOfChains(problem, chains, solution.poses);
+    const double next = std::max(1.0, (measured + kPrior) / (*redundancy + kPrior)), ratio = next / factor;
+    if (!std::isfinite(next) || std::abs(ratio - 1.0) <= kSettled) return factor;
+    factor = next;
+    for (std::size_t e = 0; e < chains; ++e) problem.edges[e].information /= ratio;
+    problem.poses = solution.poses;
+    Solution<3> again = solve(problem, from_here, weights);
+    again.cost_before = solution.cost_before;
+    solution = std::move(again);
+  }
+  return factor;
+}
+
+}  // namespace pose_graph

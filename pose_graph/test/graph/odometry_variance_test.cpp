@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "graph/odometry_variance.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "pose_graph/robust.hpp"
+#include "support/drawn.hpp"
+#include "urban_nav_core/testing/graphs.hpp"
+
+namespace pose_graph {
+namespace {
+
+// A sphere of which odometry errs `drawn` times as much as its information says, and closures as much as theirs.
+struct Boasting {
+  Problem<3> problem;
+  std::size_t chains = 0;
+  std::vector<double> weights;
+  Solution<3> solution;
+
+  explicit Boasting(double drawn, std::size_t closures = 1000, std::uint64_t seed = 3) {
+    auto noise = urban_nav_core::testing::evenNoise(0.02, 0.004);
+    noise.drawn = drawn;
+    const auto graph = urban_nav_core::testing::sphereGraph(12, 24, 20.0, noise, seed);
+    problem = test::simulatedProblem<3>(graph, deadReckoning(graph));
+    chains = graph.truth.size() - 1;
+    problem.edges.resize(std::min(problem.edges.size(), chains + closures));
+    for (std::size_t e = chains; e < problem.edges.size(); ++e) problem.edges[e].information /= drawn * drawn;
+    weights.assign(problem.edges.size(), 1.0);
+    solution = solve(problem, {}, weights);
+  }
+  double factor() { return takeOdometryVariance(problem, chains, weights, {}, solution); }
+};
+
+TEST(OdometryVariance, FindsHowMuchOdometryBoasts) {
+  for (const double drawn : {1.5, 3.0}) {
+    Boasting graph(drawn);
+    const double factor = graph.factor();
+    EXPECT_GT(factor, 0.8 * drawn * drawn);
+    EXPECT_LT(factor, 1.25 * drawn * drawn);
+    // What is returned is where the problem with that factor is relaxed.
+    SolveOptions from_here;
+    from_here.start = Start::Vertices;
+    graph.problem.poses = graph.solution.poses;
+    EXPECT_NEAR(solve(graph.problem, from_here, graph.weights).cost, graph.solution.cost, 1e-6 * graph.solution.cost);
+  }
+}
+
+TEST(OdometryVariance, LeavesTrueCovariancesAlone) {
+  Boasting graph(1.0);
+  EXPECT_LT(graph.factor(), 1.15);
+  EXPECT_GE(Boasting(0.5).factor(), 1.0) << "and careful ones";
+}
+
+TEST(OdometryVariance, IsNotDecidedByOneClosure) {
+  // Its six numbers weigh as much as what is stated: half way, on average.
+  double mean = 0.0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) mean += Boasting(3.0, 1, seed).factor() / 20.0;
+  EXPECT_GT(mean, 3.0);
+  EXPECT_LT(mean, 7.0);
+  Boasting none(3.0, 0);
+  const double before = none.problem.edges.front().information(0, 0);
+  EXPECT_EQ(none.factor(), 1.0);
+  EXPECT_EQ(none.problem.edges.front().information(0, 0), before);
+}
+
+TEST(OdometryVariance, DoesNothingWhereClosuresLeaveDirectionsFree) {
+  Boasting graph(3.0);
+  // Two parts, joined by planes alone.
+  graph.problem.edges[graph.chains / 2].information.setZero();
+  for (std::size_t e = graph.chains; e < graph.problem.edges.size(); ++e) {
+    graph.problem.edges[e].information.setZero();
+    graph.problem.edges[e].information(2, 2) = 100.0;
+  }
+  graph.solution = solve(graph.problem, {}, graph.weights);
+  const double factor = graph.factor();
+  EXPECT_TRUE(std::isfinite(factor));
+  EXPECT_GE(factor, 1.0);
+  EXPECT_TRUE(test::allFinite<3>(graph.solution.poses));
+}
+
+}  // namespace
+}  // namespace pose_graph
