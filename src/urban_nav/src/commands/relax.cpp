@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <optional>
 
 #include "command_line/console.hpp"
@@ -94,6 +95,8 @@ struct Told {
   Costs before, after;
   std::size_t poses = 0, edges = 0, rejected = 0, iterations = 0;
   int components = 0;
+  std::optional<double>
+      variance;  // of the residuals, in units of what the information states; where closures were judged
   std::string ending;
   double ms = 0.0;
 };
@@ -102,6 +105,9 @@ std::string textOf(const Told& told) {
   std::string text = std::to_string(told.poses) + " poses, " + std::to_string(told.edges) + " edges, " +
                      std::to_string(told.rejected) + " rejected; " + std::to_string(told.iterations) + " iterations, " +
                      told.ending + ", " + forPerson(told.ms, 3) + " ms\n";
+  if (told.variance)
+    text +=
+        "errors: " + forPerson(std::sqrt(*told.variance), 2) + " times the deviations that the information states\n";
   return text + textOf("before: ", told.before) + textOf("after:  ", told.after);
 }
 
@@ -112,6 +118,7 @@ Json jsonOf(const Told& told) {
   json["edges_rejected"] = told.rejected;
   json["components"] = told.components;
   json["iterations"] = told.iterations;
+  if (told.variance) json["variance_factor"] = *told.variance;
   json["ending"] = told.ending;
   json["ms_batch"] = told.ms;
   json["cost_before"] = jsonOf(told.before);
@@ -157,17 +164,19 @@ Told relaxFile(const G2oGraph& graph, const std::string& name, const Arguments& 
       robust.edges.begin(), robust.edges.end(),
       [](const pose_graph::EdgeVerdict& verdict) { return verdict.verdict == pose_graph::Verdict::Rejected; }));
   told.ending = toString(solution.ending);
+  // Each of a component's poses but the first hangs on one trusted edge.
+  const std::size_t trusted = told.poses - static_cast<std::size_t>(std::max(solution.components, 1));
+  if (doubted && told.edges > trusted) told.variance = robust.variance_factor;
   told.before = costsOf(file.problem, file.problem.poses);
   told.after = costsOf(file.problem, solution.poses);
   if (solution.components > 1)
     console.warn(name + ": " + std::to_string(solution.components) +
                  " parts that no edge connects; each stays in its own frame");
-  // Each of a component's poses but the first hangs on one trusted edge.
-  const std::size_t trusted = told.poses - static_cast<std::size_t>(std::max(solution.components, 1));
   if (told.edges > trusted && 2 * told.rejected > told.edges - trusted)
-    console.warn(name + ": " + std::to_string(told.rejected) + " of " + std::to_string(told.edges - trusted) +
-                 " closures rejected. Where the file's information is larger than its errors allow, true ones are too: "
-                 "--robust off takes them all");
+    console.warn(
+        name + ": " + std::to_string(told.rejected) + " of " + std::to_string(told.edges - trusted) +
+        " closures rejected. If most of them are true, the file's information is larger than its errors allow: "
+        "--robust off takes them all");
   if (arguments.has("edges")) {
     std::string text = "from,to,weight,verdict\n";
     for (std::size_t e = 0; e < graph.edges.size(); ++e)
