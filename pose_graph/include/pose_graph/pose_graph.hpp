@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <any>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "pose_graph/parameters.hpp"
+#include "pose_graph/places.hpp"
 #include "pose_graph/solution.hpp"
 #include "urban_nav_core/types/status.hpp"
 #include "urban_nav_core/types/uncertain.hpp"
@@ -139,24 +142,42 @@ class PoseGraph {
   std::vector<double> weights() const;
 
  private:
-  struct Step {
-    urban_nav_core::RelativePose measured;
-    bool joins = true;  ///< false: the chain is broken before `to`
-    Edge<3> edge;       ///< of problem(), but for its numbers
+  class Paper;  // what LiveCore reads and writes
+  std::optional<Place> placeOf(const NodeRef& ref) const;
+  /// An unbroken piece of a track's chain.
+  struct Run {
+    std::size_t track = 0, first = 0, last = 0;
+    int part = 0;
   };
-  /// Which part each pose is in, by chains and accepted closures: numbered by their first poses.
+  std::size_t runOf(const Place& place) const;
+  /// Which part each run is in, by accepted closures: numbered by their first poses.
   std::vector<int> partNumbers() const;
-  Relaxed take(const Solution<3>& solution, const std::map<ClosureId, Closure>& before);
+  urban_nav_core::Matrix6d ownNoise(const Place& place) const;
+  Edge<3> edgeOf(const Closure& closure, const Place& a, const Place& b) const;
+  std::vector<ClosureId> accepted() const;
+  /// Numbers the parts anew, counts, and says how the newest pose jumped. `moved`: poses that did.
+  void tell(Relaxed& made, std::vector<Relaxed::Run> moved, const std::vector<ClosureId>& accepted_before,
+            const std::optional<Pose>& newest_before);
+  std::optional<Pose> newest() const;
 
   Parameters parameters_;
   std::vector<Track> tracks_;
-  std::vector<std::vector<Step>> steps_;  ///< of each track: steps_[t][i] leads from pose i to pose i + 1
+  std::map<SessionId, std::size_t> track_of_;
+  std::vector<std::vector<ChainStep>> steps_;  ///< of each track: steps_[t][i] leads from pose i to pose i + 1
+  std::vector<std::vector<Run>> runs_;         ///< of each track, in order
   std::map<ClosureId, Closure> closures_;
+  std::map<ClosureId, Bond> bonds_;  ///< of each closure
+  using Name = std::tuple<SessionId, StampNs, SessionId, StampNs, EdgeKind, std::string>;
+  static Name nameOf(const NodeRef& a, const NodeRef& b, EdgeKind kind, const std::string& source) {
+    return {a.session, a.stamp, b.session, b.stamp, kind, source};
+  }
+  std::map<Name, ClosureId> by_name_;
   ClosureId next_id_ = 1;
   std::int64_t revision_ = 0;
   int parts_ = 0;
   double odometry_variance_ = 1.0;
   bool broken_ = false;
+  std::any live_;  ///< LiveCore: what update() goes on from; empty where that is not known
 };
 
 /// The information of a chain's edge for relaxation, in the convention of Edge: of the part of the step's covariance that adds up

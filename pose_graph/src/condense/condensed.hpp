@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "condense/chain_sum.hpp"
 #include "condense/chains.hpp"
-#include "objective/objective.hpp"
 #include "pose_graph/problem.hpp"
 
 namespace pose_graph {
@@ -45,12 +45,6 @@ class Condensed {
   std::vector<Rigid<D>> assemble(const std::vector<Rigid<D>>& core_poses) const;
 
  private:
-  /// What a link adds: `shift` is where its edge alone would have it, both as twists about the begin of the chain.
-  struct Sum {
-    Tangent<D> shift = Tangent<D>::Zero();
-    TangentMatrix<D> covariance = TangentMatrix<D>::Zero();
-  };
-  Sum linkSum(std::size_t link, const Rigid<D>& before, const Rigid<D>& after, double* cost) const;
   Rigid<D> measured(const Link& link) const;
 
   const Problem<D>* problem_;
@@ -58,8 +52,8 @@ class Condensed {
   std::vector<int> core_of_;                  ///< of each pose, its number in the core or -1
   std::vector<TangentMatrix<D>> covariance_;  ///< of each link's edge: the inverse of its information
   std::vector<Rigid<D>> at_;                  ///< T_begin_pose of each link's end
-  std::vector<Sum> link_sums_;
-  std::vector<Sum> chain_sums_;
+  std::vector<ChainSum<D>> link_sums_;
+  std::vector<ChainSum<D>> chain_sums_;
   std::vector<double> chain_costs_;
 };
 

@@ -2,6 +2,8 @@
 #include "graph/jump_gate.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 
 #include "pose_graph/graph_file.hpp"
 #include "pose_graph/relative_pcg.hpp"
@@ -11,15 +13,15 @@ namespace pose_graph {
 
 namespace {
 
+/// An accepted closure and where its ends are.
 struct Way {
   Closure* closure;
-  int a, b;  // numbers of poses
+  Place a, b;
 };
+/// What is known of T_a_b without it.
+using Known = std::function<Pose(const Way&)>;
 
-// Odometry's own word for what the closure measures.
-bool isLarge(const Problem<3>& problem, const Closure& closure, int a, int b, const Parameters& parameters) {
-  const Pose T_a_b =
-      poseOf(problem.poses[static_cast<std::size_t>(a)]).inverse() * poseOf(problem.poses[static_cast<std::size_t>(b)]);
+bool isLarge(const Closure& closure, const Pose& T_a_b, const Parameters& parameters) {
   return distanceBetween(T_a_b, closure.measured.T_a_b) > parameters.jump_distance ||
          angleBetween(T_a_b, closure.measured.T_a_b) > parameters.jump_angle * 3.14159265358979323846 / 180.0;
 }
@@ -62,44 +64,58 @@ void take(const RobustSolution<3>& judged, std::size_t chains, std::map<ClosureI
 // keeping.
 constexpr double kInnovationLimit = 22.458;
 
-/// The cost of all other edges where the poses stood before: they were relaxed with them.
-double standingCost(const Solution<3>& with, const Problem<3>& problem, std::size_t edge) {
-  Problem<3> alone;
-  alone.poses = {problem.poses[static_cast<std::size_t>(problem.edges[edge].from)],
-                 problem.poses[static_cast<std::size_t>(problem.edges[edge].to)]};
-  alone.edges = {problem.edges[edge]};
-  alone.edges[0].from = 0;
-  alone.edges[0].to = 1;
-  return with.cost_before - cost(alone, alone.poses, Objective::Geodesic);
+// Beyond this many times the limit, ten in standard deviations, the linear prediction of an innovation is enough: what
+// relaxation finds is within a few times of it, even where a large loop is bent.
+constexpr double kHopeless = 100.0;
+
+/// Those of the accepted closures that have to wait, and do.
+std::vector<ClosureId> makeWait(const std::vector<Way>& ways, const Known& T_a_b, const Parameters& parameters) {
+  std::vector<ClosureId> made;
+  for (const Way& way : ways) {
+    Closure& closure = *way.closure;
+    const bool may_act_alone =
+        closure.kind == EdgeKind::Asserted || (closure.kind == EdgeKind::Stereo && closure.odometry_gate);
+    if (may_act_alone || closure.a.session != closure.b.session || !isLarge(closure, T_a_b(way), parameters)) continue;
+    const bool supported = std::any_of(ways.begin(), ways.end(), [&](const Way& other) {
+      return other.closure != way.closure && std::min(other.a, other.b) < std::max(way.a, way.b) &&
+             std::min(way.a, way.b) < std::max(other.a, other.b);
+    });
+    if (supported) continue;
+    closure.verdict = ClosureVerdict::Waiting;
+    closure.weight = 0.0;
+    closure.reason = "a large correction, and no second closure that agrees yet";
+    made.push_back(closure.id);
+  }
+  return made;
 }
 
-/// Was any accepted closure made to wait?
 bool makeWait(const Problem<3>& problem, std::size_t chains, const Parameters& parameters,
               std::map<ClosureId, Closure>& closures) {
   std::vector<Way> ways;
   std::size_t e = chains;
   for (auto& [id, closure] : closures) {
-    const int a = problem.edges[e].from, b = problem.edges[e].to;
-    ++e;
-    if (closure.verdict == ClosureVerdict::Accepted) ways.push_back({&closure, a, b});
+    const Edge<3>& edge = problem.edges[e++];
+    if (closure.verdict == ClosureVerdict::Accepted)
+      ways.push_back({&closure, {0, static_cast<std::size_t>(edge.from)}, {0, static_cast<std::size_t>(edge.to)}});
   }
-  bool any = false;
-  for (const Way& way : ways) {
-    Closure& closure = *way.closure;
-    const bool may_act_alone =
-        closure.kind == EdgeKind::Asserted || (closure.kind == EdgeKind::Stereo && closure.odometry_gate);
-    if (may_act_alone || closure.a.session != closure.b.session) continue;
-    const bool supported = std::any_of(ways.begin(), ways.end(), [&](const Way& other) {
-      return other.closure != way.closure && std::min(other.a, other.b) < std::max(way.a, way.b) &&
-             std::min(way.a, way.b) < std::max(other.a, other.b);
-    });
-    if (supported || !isLarge(problem, closure, way.a, way.b, parameters)) continue;
-    closure.verdict = ClosureVerdict::Waiting;
-    closure.weight = 0.0;
-    closure.reason = "a large correction, and no second closure that agrees yet";
-    any = true;
+  const Known by_poses = [&problem](const Way& way) {
+    return poseOf(problem.poses[way.a.second]).inverse() * poseOf(problem.poses[way.b.second]);
+  };
+  return !makeWait(ways, by_poses, parameters).empty();
+}
+
+std::vector<ClosureId> makeWait(const Ground& ground, const std::map<ClosureId, Bond>& bonds,
+                                const Parameters& parameters, std::map<ClosureId, Closure>& closures) {
+  std::vector<Way> ways;
+  auto bond = bonds.begin();
+  for (auto& [id, closure] : closures) {
+    if (closure.verdict == ClosureVerdict::Accepted) ways.push_back({&closure, bond->second.a, bond->second.b});
+    ++bond;
   }
-  return any;
+  const Known by_map = [&ground](const Way& way) {
+    return poseOf(ground.pose(way.a)).inverse() * poseOf(ground.pose(way.b));
+  };
+  return makeWait(ways, by_map, parameters);
 }
 
 /// The paper's way, over what is accepted.
@@ -139,39 +155,32 @@ Solution<3> judge(const Problem<3>& problem, const Parameters& parameters, const
   return solve(problem, options, weights);
 }
 
-Addition judgeAddition(const Problem<3>& problem, const Parameters& parameters, const SolveOptions& options,
-                       std::map<ClosureId, Closure>& closures) {
-  const std::size_t chains = problem.edges.size() - closures.size();
-  std::vector<double> weights(chains, 1.0);
-  for (const auto& [id, closure] : closures) weights.push_back(closure.weight);
+Addition judgeAddition(LiveCore& core, const Ground& ground, const Parameters& parameters,
+                       const std::map<ClosureId, Bond>& bonds, std::map<ClosureId, Closure>& closures) {
   Addition made;
-  bool solved = false;
-  std::size_t e = chains;
+  made.cost_before = core.cost();
   for (auto& [id, closure] : closures) {
-    const std::size_t edge = e++;
     if (closure.judged) continue;
-    weights[edge] = 1.0;
-    Solution<3> with = solve(problem, options, weights);
+    const bool doubted = closure.kind != EdgeKind::Asserted && parameters.robust;
+    const LiveCore::Offer offer = core.offer(ground, bonds.at(id), doubted ? kHopeless * kInnovationLimit : INFINITY);
     // What one measurement more costs is the square of its innovation.
-    const double innovation = with.cost - (solved ? made.solution.cost : standingCost(with, problem, edge));
-    closure.chi2 = std::max(innovation, 0.0);
-    const bool fits = closure.kind == EdgeKind::Asserted || !parameters.robust || closure.chi2 <= kInnovationLimit;
+    closure.chi2 = std::max(offer.innovation, 0.0);
+    const bool fits = !doubted || closure.chi2 <= kInnovationLimit;
     closure.verdict = fits ? ClosureVerdict::Accepted : ClosureVerdict::Rejected;
     closure.weight = fits ? 1.0 : 0.0;
     closure.reason = fits ? "agrees with what is accepted" : "disagrees with what is accepted";
-    if (fits && makeWait(problem, chains, parameters, closures)) {
-      for (auto& [other, one] : closures)
-        weights[chains + static_cast<std::size_t>(std::distance(closures.begin(), closures.find(other)))] = one.weight;
+    if (fits) {
+      for (const ClosureId waiting : makeWait(ground, bonds, parameters, closures))
+        if (waiting != id) made.others_wait = true;
     }
     if (closure.weight > 0.0) {
-      made.solution = std::move(with);
-      solved = true;
+      made.cost_before = offer.before;
+      core.keep();
     } else {
-      weights[edge] = 0.0;
+      core.takeBack();
       made.disagreement = true;
     }
   }
-  if (!solved) made.solution = solve(problem, options, weights);
   return made;
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <vector>
 
+#include "live/live_core.hpp"
 #include "pose_graph/pose_graph.hpp"
 
 namespace pose_graph {
@@ -16,12 +17,13 @@ namespace pose_graph {
 Solution<3> judge(const Problem<3>& problem, const Parameters& parameters, const SolveOptions& options,
                   std::map<ClosureId, Closure>& closures);
 
-/// Closures that were not judged yet, each beside what is accepted already. `problem` has the poses where they stand.
+/// Closures that were not judged yet, each beside what is accepted already; those that are let in stay in `core`.
 struct Addition {
-  Solution<3> solution;
+  double cost_before = 0.0;   ///< where the poses stood, with what was let in last
   bool disagreement = false;  ///< one of them was left out
+  bool others_wait = false;   ///< one that was accepted before waits now: `core` is no longer that of the accepted ones
 };
-Addition judgeAddition(const Problem<3>& problem, const Parameters& parameters, const SolveOptions& options,
-                       std::map<ClosureId, Closure>& closures);
+Addition judgeAddition(LiveCore& core, const Ground& ground, const Parameters& parameters,
+                       const std::map<ClosureId, Bond>& bonds, std::map<ClosureId, Closure>& closures);
 
 }  // namespace pose_graph

@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "graph/jump_gate.hpp"
-#include "graph/odometry_variance.hpp"
+#include "condense/chain_sum.hpp"
 #include "pose_graph/graph_file.hpp"
-#include "solve/normal_equations.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
 #include "urban_nav_core/types/error.hpp"
 
@@ -19,12 +17,7 @@ using urban_nav_core::UserError;
 
 namespace {
 
-constexpr double kMovedDistance = 0.01, kMovedAngle = 0.02 * 3.14159265358979323846 / 180.0;  // DESIGN.md, section 5
-
-// Live, poses are good to a hundredth of a standard deviation and the next update goes on from there; relax() is exact.
-constexpr double kUpdateTolerance = 1e-5;
-
-std::string nameOf(const NodeRef& ref) { return ref.session + " at " + urban_nav_core::printStamp(ref.stamp) + " s"; }
+std::string textOf(const NodeRef& ref) { return ref.session + " at " + urban_nav_core::printStamp(ref.stamp) + " s"; }
 
 bool isProper(const Matrix6d& covariance) {
   return covariance.allFinite() && Eigen::LLT<Matrix6d>(covariance).info() == Eigen::Success;
@@ -40,10 +33,6 @@ std::optional<Matrix6d> properCovariance(const Matrix6d& covariance) {
   const Eigen::VectorXd raised = eigen->values.cwiseMax(1e-6 * eigen->values.maxCoeff());
   const Matrix6d made = eigen->vectors * raised.asDiagonal() * eigen->vectors.transpose();
   return Matrix6d(0.5 * (made + made.transpose()));
-}
-
-bool moved(const Pose& a, const Pose& b) {
-  return distanceBetween(a, b) > kMovedDistance || angleBetween(a, b) > kMovedAngle;
 }
 
 }  // namespace
@@ -62,17 +51,18 @@ PoseGraph::PoseGraph(const Parameters& parameters) : parameters_(parameters) {}
 
 void PoseGraph::beginSession(const SessionId& session) {
   if (hasSession(session)) throw UserError("pose_graph", "session " + session + " has begun already", "a new one");
+  track_of_[session] = tracks_.size();
   tracks_.emplace_back();
   tracks_.back().session = session;
   steps_.emplace_back();
+  runs_.emplace_back();
 }
 
 bool PoseGraph::hasSession(const SessionId& session) const { return track(session) != nullptr; }
 
 const Track* PoseGraph::track(const SessionId& session) const {
-  const auto found =
-      std::find_if(tracks_.begin(), tracks_.end(), [&](const Track& track) { return track.session == session; });
-  return found == tracks_.end() ? nullptr : &*found;
+  const auto found = track_of_.find(session);
+  return found == track_of_.end() ? nullptr : &tracks_[found->second];
 }
 
 bool PoseGraph::addOdometry(const SessionId& session, const RelativePose& offered) {
@@ -84,46 +74,55 @@ bool PoseGraph::addOdometry(const SessionId& session, const RelativePose& offere
   if (!step.T_from_to.isFinite() || !covariance || step.to <= step.from) return false;
   step.covariance = *covariance;
   if (!isProper(step.drift_covariance)) step.drift_covariance.setZero();
-  const auto append = [&](StampNs stamp, const Pose& T_odom_base, const Pose& T_map_base, int part) {
+  std::vector<Run>& runs = runs_[t];
+  const auto append = [&](StampNs stamp, const Pose& T_odom_base, const Pose& T_map_base, bool begins) {
+    if (begins)
+      runs.push_back({t, track.stamps.size(), track.stamps.size(), t == 0 && track.stamps.empty() ? 0 : parts_++});
+    runs.back().last = track.stamps.size();
     track.stamps.push_back(stamp);
     track.odom.push_back(T_odom_base);
     track.map.push_back(T_map_base);
-    track.part.push_back(part);
+    track.part.push_back(runs.back().part);
   };
-  if (track.stamps.empty()) append(step.from, Pose(), Pose(), t == 0 ? 0 : parts_++);
-  if (step.to <= track.stamps.back()) return false;
-  const bool joins = step.from == track.stamps.back();
-  if (!joins) {
+  if (track.stamps.empty()) append(step.from, Pose(), Pose(), true);
+  if (step.to <= track.stamps.back() || step.from < track.stamps.back()) return false;
+  if (step.from > track.stamps.back()) {
     // The chain goes on where it broke, for want of a better guess, and as a part of its own.
-    if (step.from > track.stamps.back()) {
-      steps_[t].push_back({step, false, {}});
-      append(step.from, track.odom.back(), track.map.back(), parts_++);
-    } else {
-      return false;
-    }
+    ChainStep gap;
+    gap.joins = gap.invertible = false;
+    steps_[t].push_back(gap);
+    append(step.from, track.odom.back(), track.map.back(), true);
     broken_ = true;
   }
-  steps_[t].push_back({step, true, {0, 0, rigidOf<3>(step.T_from_to), chainInformation(step)}});
-  append(step.to, track.odom.back() * step.T_from_to, track.map.back() * step.T_from_to, track.part.back());
+  ChainStep joint;
+  joint.edge = {0, 0, rigidOf<3>(step.T_from_to), chainInformation(step)};
+  joint.invertible = invert<3>(joint.edge.information, joint.covariance);
+  if (step.drift_covariance.trace() > 0.0) joint.own_noise = 0.5 * step.covariance;
+  steps_[t].push_back(joint);
+  append(step.to, track.odom.back() * step.T_from_to, track.map.back() * step.T_from_to, false);
   return true;
 }
 
+std::optional<Place> PoseGraph::placeOf(const NodeRef& ref) const {
+  const auto track = track_of_.find(ref.session);
+  if (track == track_of_.end()) return std::nullopt;
+  const std::vector<StampNs>& stamps = tracks_[track->second].stamps;
+  const auto found = std::lower_bound(stamps.begin(), stamps.end(), ref.stamp);
+  if (found == stamps.end() || *found != ref.stamp) return std::nullopt;
+  return Place{track->second, static_cast<std::size_t>(found - stamps.begin())};
+}
+
 std::optional<int> PoseGraph::poseNumber(const NodeRef& ref) const {
-  std::size_t first = 0;
-  for (const Track& track : tracks_) {
-    if (track.session == ref.session) {
-      const auto found = std::lower_bound(track.stamps.begin(), track.stamps.end(), ref.stamp);
-      if (found == track.stamps.end() || *found != ref.stamp) return std::nullopt;
-      return static_cast<int>(first + static_cast<std::size_t>(found - track.stamps.begin()));
-    }
-    first += track.stamps.size();
-  }
-  return std::nullopt;
+  const std::optional<Place> place = placeOf(ref);
+  if (!place) return std::nullopt;
+  std::size_t number = place->second;
+  for (std::size_t t = 0; t < place->first; ++t) number += tracks_[t].stamps.size();
+  return static_cast<int>(number);
 }
 
 ClosureId PoseGraph::addClosure(const Closure& offered) {
   for (const NodeRef* ref : {&offered.a, &offered.b}) {
-    if (poseNumber(*ref)) continue;
+    if (placeOf(*ref)) continue;
     const Track* track = this->track(ref->session);
     if (track == nullptr || track->stamps.empty())
       throw UserError("closure", "session " + ref->session + " has no poses", "a session of the graph");
@@ -132,20 +131,20 @@ ClosureId PoseGraph::addClosure(const Closure& offered) {
                                     (above != track->stamps.begin() && ref->stamp - *(above - 1) < *above - ref->stamp)
                                 ? *(above - 1)
                                 : *above;
-    throw UserError("closure", "no pose in session " + nameOf(*ref),
+    throw UserError("closure", "no pose in session " + textOf(*ref),
                     "stamps of poses; the nearest is " + urban_nav_core::printStamp(nearest) + " s");
   }
-  if (*poseNumber(offered.a) == *poseNumber(offered.b))
-    throw UserError("closure", "from a pose to itself: " + nameOf(offered.a), "");
+  const Place a = *placeOf(offered.a), b = *placeOf(offered.b);
+  if (a == b) throw UserError("closure", "from a pose to itself: " + textOf(offered.a), "");
   if (!offered.measured.T_a_b.isFinite() || !offered.measured.information.allFinite())
-    throw UserError("closure", "numbers that are not finite, " + nameOf(offered.a) + " to " + nameOf(offered.b), "");
+    throw UserError("closure", "numbers that are not finite, " + textOf(offered.a) + " to " + textOf(offered.b), "");
   if (offered.kind == EdgeKind::Odometry)
     throw UserError("closure", "kind odometry", "stereo, icp, plane, session, asserted");
   const Matrix6d symmetric = 0.5 * (offered.measured.information + offered.measured.information.transpose());
   const auto values = urban_nav_core::symmetricEigenvalues(symmetric);
   if (!values || (*values)[0] < -1e-9 * std::max(values->maxCoeff(), 0.0))
     throw UserError("closure",
-                    "information with a negative eigenvalue, " + nameOf(offered.a) + " to " + nameOf(offered.b),
+                    "information with a negative eigenvalue, " + textOf(offered.a) + " to " + textOf(offered.b),
                     "positive semidefinite matrices");
   Closure taken = offered;
   const auto same = findClosure(offered.a, offered.b, offered.kind, offered.source);
@@ -155,169 +154,74 @@ ClosureId PoseGraph::addClosure(const Closure& offered) {
   taken.verdict = ClosureVerdict::Waiting;
   taken.reason = "not judged yet";
   taken.contradicted_by.clear();
+  const auto earlier = closures_.find(taken.id);
+  if (earlier != closures_.end() && earlier->second.weight > 0.0) live_.reset();
   closures_[taken.id] = taken;
+  bonds_[taken.id] = {a, b, edgeOf(taken, a, b)};
+  by_name_[nameOf(taken.a, taken.b, taken.kind, taken.source)] = taken.id;
   return taken.id;
 }
 
-bool PoseGraph::removeClosure(ClosureId id) { return closures_.erase(id) > 0; }
+Edge<3> PoseGraph::edgeOf(const Closure& closure, const Place& a, const Place& b) const {
+  return {0, 0, rigidOf<3>(closure.measured.T_a_b), closureInformation(closure.measured, ownNoise(a), ownNoise(b))};
+}
+
+Matrix6d PoseGraph::ownNoise(const Place& place) const {
+  const std::vector<ChainStep>& steps = steps_[place.first];
+  return steps.empty() ? Matrix6d(Matrix6d::Zero()) : steps[place.second == 0 ? 0 : place.second - 1].own_noise;
+}
+
+Matrix6d PoseGraph::ownNoise(const NodeRef& ref) const { return ownNoise(placeOf(ref).value()); }
+
+bool PoseGraph::removeClosure(ClosureId id) {
+  const auto found = closures_.find(id);
+  if (found == closures_.end()) return false;
+  const Closure& closure = found->second;
+  if (closure.weight > 0.0) live_.reset();
+  by_name_.erase(nameOf(closure.a, closure.b, closure.kind, closure.source));
+  bonds_.erase(id);
+  closures_.erase(found);
+  return true;
+}
 
 std::optional<ClosureId> PoseGraph::findClosure(const NodeRef& a, const NodeRef& b, EdgeKind kind,
                                                 const std::string& source) const {
-  for (const auto& [id, closure] : closures_)
-    if (closure.a == a && closure.b == b && closure.kind == kind && closure.source == source) return id;
-  return std::nullopt;
+  const auto found = by_name_.find(nameOf(a, b, kind, source));
+  return found == by_name_.end() ? std::nullopt : std::optional<ClosureId>(found->second);
 }
 
 Problem<3> PoseGraph::problem() const {
   Problem<3> made;
-  for (const Track& track : tracks_)
-    for (const Pose& pose : track.odom) made.poses.push_back(rigidOf<3>(pose));
-  int first = 0;
+  std::vector<int> first;  // pose of each track
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
+    first.push_back(static_cast<int>(made.poses.size()));
+    for (const Pose& pose : tracks_[t].odom) made.poses.push_back(rigidOf<3>(pose));
+  }
+  const auto put = [&made](const Edge<3>& edge, int from, int to) {
+    made.edges.push_back(edge);
+    made.edges.back().from = from;
+    made.edges.back().to = to;
+  };
+  for (std::size_t t = 0; t < tracks_.size(); ++t)
     for (std::size_t i = 0; i < steps_[t].size(); ++i) {
-      const Step& step = steps_[t][i];
-      if (!step.joins) continue;
-      const int from = first + static_cast<int>(i);
-      made.edges.push_back(step.edge);
-      made.edges.back().from = from;
-      made.edges.back().to = from + 1;
+      const int from = first[t] + static_cast<int>(i);
+      if (!steps_[t][i].joins) continue;
+      put(steps_[t][i].edge, from, from + 1);
       made.edges.back().information /= odometry_variance_;
     }
-    first += static_cast<int>(tracks_[t].stamps.size());
-  }
-  for (const auto& [id, closure] : closures_) {
-    made.edges.push_back({*poseNumber(closure.a), *poseNumber(closure.b), rigidOf<3>(closure.measured.T_a_b),
-                          closureInformation(closure.measured, ownNoise(closure.a), ownNoise(closure.b))});
-  }
+  for (const auto& [id, bond] : bonds_)
+    put(bond.edge, first[bond.a.first] + static_cast<int>(bond.a.second),
+        first[bond.b.first] + static_cast<int>(bond.b.second));
   return made;
-}
-
-Matrix6d PoseGraph::ownNoise(const NodeRef& ref) const {
-  const Track& track = *this->track(ref.session);
-  const auto& steps = steps_[static_cast<std::size_t>(&track - tracks_.data())];
-  const auto i = static_cast<std::size_t>(std::lower_bound(track.stamps.begin(), track.stamps.end(), ref.stamp) -
-                                          track.stamps.begin());
-  if (steps.empty()) return Matrix6d::Zero();
-  const Step& step = steps[i == 0 ? 0 : i - 1];
-  return step.measured.drift_covariance.trace() > 0.0 ? Matrix6d(0.5 * step.measured.covariance) : Matrix6d::Zero();
 }
 
 std::vector<double> PoseGraph::weights() const {
   std::vector<double> made;
   for (const auto& steps : steps_)
-    for (const Step& step : steps)
+    for (const ChainStep& step : steps)
       if (step.joins) made.push_back(1.0);
   for (const auto& [id, closure] : closures_) made.push_back(closure.weight);
   return made;
-}
-
-Relaxed PoseGraph::relax(const SolveOptions& options) {
-  const std::map<ClosureId, Closure> before = closures_;
-  SolveOptions wanted = options;
-  wanted.iterations = parameters_.iterations;
-  odometry_variance_ = 1.0;
-  Problem<3> problem = this->problem();
-  if (problem.poses.empty()) return {};
-  Solution<3> solution = judge(problem, parameters_, wanted, closures_);
-  odometry_variance_ =
-      takeOdometryVariance(problem, problem.edges.size() - closures_.size(), weights(), wanted, solution);
-  for (auto& [id, closure] : closures_) closure.judged = true;
-  return take(solution, before);
-}
-
-Relaxed PoseGraph::update() {
-  const std::map<ClosureId, Closure> before = closures_;
-  Problem<3> problem = this->problem();
-  if (problem.poses.empty()) return {};
-  std::size_t number = 0;
-  for (const Track& track : tracks_)
-    for (const Pose& pose : track.map) problem.poses[number++] = rigidOf<3>(pose);
-  SolveOptions options;
-  options.iterations = parameters_.iterations;
-  options.start = Start::Vertices;
-  options.tolerance = kUpdateTolerance;
-  const Addition added = judgeAddition(problem, parameters_, options, closures_);
-  for (auto& [id, closure] : closures_) closure.judged = true;
-  Relaxed made = take(added.solution, before);
-  made.needs_batch = added.disagreement;
-  return made;
-}
-
-Relaxed PoseGraph::take(const Solution<3>& solution, const std::map<ClosureId, Closure>& before) {
-  const std::vector<Rigid<3>>& poses = solution.poses;
-  Relaxed made;
-  made.revision = ++revision_;
-  made.poses = poses.size();
-  made.closures = closures_.size();
-  for (const auto& [id, closure] : closures_) {
-    made.accepted += closure.verdict == ClosureVerdict::Accepted;
-    made.rejected += closure.verdict == ClosureVerdict::Rejected;
-    made.waiting += closure.verdict == ClosureVerdict::Waiting;
-  }
-  made.cost_before = solution.cost_before;
-  made.cost_after = solution.cost;
-  made.iterations = solution.iterations;
-  made.ending = solution.ending;
-  const std::vector<int> parts = partNumbers();
-  parts_ = parts.empty() ? 0 : 1 + *std::max_element(parts.begin(), parts.end());
-  made.parts = parts_;
-
-  std::size_t number = 0;
-  for (std::size_t t = 0; t < tracks_.size(); ++t) {
-    Track& track = tracks_[t];
-    if (track.stamps.empty()) continue;
-    const Pose newest_before = track.map.back();
-    bool in_run = false;
-    for (std::size_t i = 0; i < track.map.size(); ++i, ++number) {
-      const Pose now = poseOf(poses[number]);
-      const bool far = moved(now, track.map[i]) || parts[number] != track.part[i];
-      if (far && !in_run) made.moved.push_back({t, i, i});
-      if (far) made.moved.back().last = i;
-      in_run = far;
-      track.map[i] = now;
-      track.part[i] = parts[number];
-    }
-    made.edges += track.stamps.size() - 1;
-    made.sessions_joined += track.part.back() == 0;
-    if (t + 1 < tracks_.size()) continue;
-    const double distance = distanceBetween(newest_before, track.map.back()),
-                 angle = angleBetween(newest_before, track.map.back());
-    if (distance <= parameters_.jump_distance && angle <= parameters_.jump_angle * 3.14159265358979323846 / 180.0)
-      continue;
-    Relaxed::Jump jump{{track.session, track.stamps.back()}, newest_before, track.map.back(), distance, angle, "", {}};
-    for (const auto& [id, closure] : closures_) {
-      const auto was = before.find(id);
-      if (closure.verdict == ClosureVerdict::Accepted &&
-          (was == before.end() || was->second.verdict != ClosureVerdict::Accepted))
-        jump.witnesses.push_back(id);
-    }
-    jump.reason = jump.witnesses.empty() ? "closures that were believed are no longer"
-                                         : std::to_string(jump.witnesses.size()) + " closures that agree";
-    made.jump = std::move(jump);
-  }
-  made.edges += closures_.size();
-  return made;
-}
-
-std::vector<int> PoseGraph::partNumbers() const {
-  // Runs of a chain without a gap, joined by accepted closures.
-  std::vector<int> run_of_pose;
-  int runs = 0;
-  for (std::size_t t = 0; t < tracks_.size(); ++t)
-    for (std::size_t i = 0; i < tracks_[t].stamps.size(); ++i)
-      run_of_pose.push_back(i > 0 && steps_[t][i - 1].joins ? runs - 1 : runs++);
-  Problem<3> joined;
-  joined.poses.resize(static_cast<std::size_t>(runs));
-  for (const auto& [id, closure] : closures_) {
-    if (closure.weight <= 0.0) continue;
-    Edge<3> edge;
-    edge.from = run_of_pose[static_cast<std::size_t>(*poseNumber(closure.a))];
-    edge.to = run_of_pose[static_cast<std::size_t>(*poseNumber(closure.b))];
-    joined.edges.push_back(edge);
-  }
-  const std::vector<int> parts = unknownsOf(joined).component;
-  for (int& run : run_of_pose) run = parts[static_cast<std::size_t>(run)];
-  return run_of_pose;
 }
 
 Pose PoseGraph::mapFromOdom(const SessionId& session) const {

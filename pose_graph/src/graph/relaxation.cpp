@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
+#include "graph/jump_gate.hpp"
+#include "graph/odometry_variance.hpp"
+#include "pose_graph/graph_file.hpp"
+#include "pose_graph/pose_graph.hpp"
+#include "solve/normal_equations.hpp"
+
+namespace pose_graph {
+
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr double kMovedDistance = 0.01, kMovedAngle = 0.02 * kDegree;  // DESIGN.md, section 5
+
+/// Takes poses in ascending order, and keeps the runs of those that moved.
+class Moves {
+ public:
+  void put(std::size_t track, std::size_t index, const Pose& now, Pose& pose) {
+    const bool far = distanceBetween(now, pose) > kMovedDistance || angleBetween(now, pose) > kMovedAngle;
+    pose = now;
+    if (!far) return;
+    if (!runs.empty() && runs.back().track == track && runs.back().last + 1 == index) ++runs.back().last;
+    else runs.push_back({track, index, index});
+  }
+
+  std::vector<Relaxed::Run> runs;
+};
+
+/// The same poses in runs that do not meet.
+std::vector<Relaxed::Run> merged(std::vector<Relaxed::Run> runs) {
+  std::sort(runs.begin(), runs.end(), [](const Relaxed::Run& a, const Relaxed::Run& b) {
+    return std::tie(a.track, a.first) < std::tie(b.track, b.first);
+  });
+  std::vector<Relaxed::Run> made;
+  for (const Relaxed::Run& run : runs) {
+    if (!made.empty() && made.back().track == run.track && run.first <= made.back().last + 1)
+      made.back().last = std::max(made.back().last, run.last);
+    else made.push_back(run);
+  }
+  return made;
+}
+
+}  // namespace
+
+class PoseGraph::Paper : public Ground {
+ public:
+  explicit Paper(PoseGraph& graph) : graph_(graph) {}
+
+  std::size_t tracks() const override { return graph_.tracks_.size(); }
+  const ChainStep* steps(std::size_t track) const override { return graph_.steps_[track].data(); }
+  Rigid<3> pose(const Place& place) const override { return rigidOf<3>(graph_.tracks_[place.first].map[place.second]); }
+  std::pair<std::size_t, std::size_t> run(const Place& place) const override {
+    const Run& run = graph_.runs_[place.first][graph_.runOf(place)];
+    return {run.first, run.last};
+  }
+  void write(const Place& place, const Rigid<3>& T_map_pose) override {
+    moves.put(place.first, place.second, poseOf(T_map_pose), graph_.tracks_[place.first].map[place.second]);
+  }
+
+  Moves moves;
+
+ private:
+  PoseGraph& graph_;
+};
+
+std::size_t PoseGraph::runOf(const Place& place) const {
+  const std::vector<Run>& runs = runs_[place.first];
+  const auto behind = std::upper_bound(runs.begin(), runs.end(), place.second,
+                                       [](std::size_t index, const Run& run) { return index < run.first; });
+  return static_cast<std::size_t>(behind - runs.begin()) - 1;
+}
+
+std::vector<ClosureId> PoseGraph::accepted() const {
+  std::vector<ClosureId> made;
+  for (const auto& [id, closure] : closures_)
+    if (closure.verdict == ClosureVerdict::Accepted) made.push_back(id);
+  return made;
+}
+
+std::optional<Pose> PoseGraph::newest() const {
+  if (tracks_.empty() || tracks_.back().map.empty()) return std::nullopt;
+  return tracks_.back().map.back();
+}
+
+Relaxed PoseGraph::relax(const SolveOptions& options) {
+  const std::vector<ClosureId> before = accepted();
+  const std::optional<Pose> newest_before = newest();
+  SolveOptions wanted = options;
+  wanted.iterations = parameters_.iterations;
+  odometry_variance_ = 1.0;
+  Problem<3> problem = this->problem();
+  if (problem.poses.empty()) return {};
+  Solution<3> solution = judge(problem, parameters_, wanted, closures_);
+  odometry_variance_ =
+      takeOdometryVariance(problem, problem.edges.size() - closures_.size(), weights(), wanted, solution);
+  for (auto& [id, closure] : closures_) closure.judged = true;
+  live_.reset();
+  Relaxed made;
+  made.cost_before = solution.cost_before;
+  made.cost_after = solution.cost;
+  made.iterations = solution.iterations;
+  made.ending = solution.ending;
+  Moves moves;
+  std::size_t number = 0;
+  for (std::size_t t = 0; t < tracks_.size(); ++t)
+    for (std::size_t i = 0; i < tracks_[t].map.size(); ++i)
+      moves.put(t, i, poseOf(solution.poses[number++]), tracks_[t].map[i]);
+  tell(made, std::move(moves.runs), before, newest_before);
+  return made;
+}
+
+Relaxed PoseGraph::update() {
+  const std::vector<ClosureId> before = accepted();
+  const std::optional<Pose> newest_before = newest();
+  if (std::all_of(tracks_.begin(), tracks_.end(), [](const Track& track) { return track.map.empty(); })) return {};
+  Paper paper(*this);
+  const auto renewed = [&] {
+    std::vector<Bond> bonds;
+    for (const auto& [id, closure] : closures_)
+      if (closure.weight > 0.0) bonds.push_back(bonds_.at(id));
+    return LiveCore(paper, bonds, parameters_.iterations, odometry_variance_);
+  };
+  if (!live_.has_value()) live_ = renewed();
+  LiveCore& live = *std::any_cast<LiveCore>(&live_);
+  const Addition added = judgeAddition(live, paper, parameters_, bonds_, closures_);
+  if (added.others_wait) live = renewed();
+  for (auto& [id, closure] : closures_) closure.judged = true;
+  live.write(paper);
+  Relaxed made;
+  made.cost_before = added.cost_before;
+  made.cost_after = live.cost();
+  made.iterations = live.iterations();
+  made.ending = live.ending();
+  made.needs_batch = added.disagreement;
+  tell(made, std::move(paper.moves.runs), before, newest_before);
+  return made;
+}
+
+void PoseGraph::tell(Relaxed& made, std::vector<Relaxed::Run> moved, const std::vector<ClosureId>& accepted_before,
+                     const std::optional<Pose>& newest_before) {
+  made.revision = ++revision_;
+  made.closures = closures_.size();
+  for (const auto& [id, closure] : closures_) {
+    made.accepted += closure.verdict == ClosureVerdict::Accepted;
+    made.rejected += closure.verdict == ClosureVerdict::Rejected;
+    made.waiting += closure.verdict == ClosureVerdict::Waiting;
+  }
+  const std::vector<int> parts = partNumbers();
+  parts_ = parts.empty() ? 0 : 1 + *std::max_element(parts.begin(), parts.end());
+  made.parts = parts_;
+  std::size_t number = 0;
+  for (std::vector<Run>& runs : runs_)
+    for (Run& run : runs) {
+      const int part = parts[number++];
+      if (part == run.part) continue;
+      run.part = part;
+      std::vector<int>& of_pose = tracks_[run.track].part;
+      std::fill(of_pose.begin() + static_cast<std::ptrdiff_t>(run.first),
+                of_pose.begin() + static_cast<std::ptrdiff_t>(run.last) + 1, part);
+      moved.push_back({run.track, run.first, run.last});
+    }
+  made.moved = merged(std::move(moved));
+  made.edges = closures_.size();
+  for (const Track& track : tracks_) {
+    if (track.stamps.empty()) continue;
+    made.poses += track.stamps.size();
+    made.edges += track.stamps.size() - 1;
+    made.sessions_joined += track.part.back() == 0;
+  }
+  if (!newest_before) return;
+  const Track& track = tracks_.back();
+  const double distance = distanceBetween(*newest_before, track.map.back()),
+               angle = angleBetween(*newest_before, track.map.back());
+  if (distance <= parameters_.jump_distance && angle <= parameters_.jump_angle * kDegree) return;
+  Relaxed::Jump jump{{track.session, track.stamps.back()}, *newest_before, track.map.back(), distance, angle, "", {}};
+  for (const ClosureId id : accepted())
+    if (!std::binary_search(accepted_before.begin(), accepted_before.end(), id)) jump.witnesses.push_back(id);
+  jump.reason = jump.witnesses.empty() ? "closures that were believed are no longer"
+                                       : std::to_string(jump.witnesses.size()) + " closures that agree";
+  made.jump = std::move(jump);
+}
+
+std::vector<int> PoseGraph::partNumbers() const {
+  Problem<3> joined;  // of runs
+  std::vector<std::size_t> first;
+  for (const std::vector<Run>& runs : runs_) {
+    first.push_back(joined.poses.size());
+    joined.poses.resize(joined.poses.size() + runs.size());
+  }
+  const auto numberOf = [&](const Place& place) { return static_cast<int>(first[place.first] + runOf(place)); };
+  for (const auto& [id, closure] : closures_) {
+    if (closure.weight <= 0.0) continue;
+    const Bond& bond = bonds_.at(id);
+    const int a = numberOf(bond.a), b = numberOf(bond.b);
+    if (a == b) continue;
+    joined.edges.emplace_back();
+    joined.edges.back().from = a;
+    joined.edges.back().to = b;
+  }
+  return unknownsOf(joined).component;
+}
+
+}  // namespace pose_graph
