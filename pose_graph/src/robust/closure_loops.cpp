@@ -29,7 +29,8 @@ typename ClosureLoops<D>::Closure ClosureLoops<D>::closureOf(const Problem<D>& p
 }
 
 template <int D>
-ClosureLoops<D>::ClosureLoops(const Problem<D>& problem, const std::vector<int>& candidates, const Chains<D>& chains)
+ClosureLoops<D>::ClosureLoops(const Problem<D>& problem, const std::vector<int>& candidates,
+                              const DeadReckoning<D>& chains)
     : chains_(&chains) {
   closures_.reserve(candidates.size());
   for (int e : candidates) closures_.push_back(closureOf(problem, e, chains.extent));
@@ -43,7 +44,7 @@ template <int D>
 ClosureLoop ClosureLoops<D>::loop(std::size_t first, std::size_t second) const {
   constexpr int N = tangent_size<D>;
   const Closure &a = closures_[first], &b = closures_[second];
-  const Chains<D>& chains = *chains_;
+  const DeadReckoning<D>& chains = *chains_;
   const Rigid<D> to_b = a.Z * (chains.pose[sz(a.to)].inverse() * chains.pose[sz(b.to)]);
   const Rigid<D> back = to_b * b.Z.inverse();
   const Rigid<D> remains = back * (chains.pose[sz(b.from)].inverse() * chains.pose[sz(a.from)]);

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "robust/chain.hpp"
+#include "robust/dead_reckoning.hpp"
 
 namespace pose_graph {
 
@@ -23,7 +23,7 @@ template <int D>
 class ClosureLoops {
  public:
   /// `problem` and `chains` must outlive it.
-  ClosureLoops(const Problem<D>& problem, const std::vector<int>& candidates, const Chains<D>& chains);
+  ClosureLoops(const Problem<D>& problem, const std::vector<int>& candidates, const DeadReckoning<D>& chains);
 
   std::size_t size() const { return closures_.size(); }
   int edge(std::size_t i) const { return closures_[i].edge; }
@@ -58,7 +58,7 @@ class ClosureLoops {
     return {chains_->of_pose[static_cast<std::size_t>(c.from)], chains_->of_pose[static_cast<std::size_t>(c.to)]};
   }
 
-  const Chains<D>* chains_;
+  const DeadReckoning<D>* chains_;
   std::vector<Closure> closures_;
 };
 

@@ -50,7 +50,7 @@ Eight<D> disturbances(std::size_t edge, int first) {
 }  // namespace
 
 template <int D>
-Witness<D>::Witness(const Problem<D>& problem, const std::vector<int>& candidates, const Chains<D>& chains)
+Witness<D>::Witness(const Problem<D>& problem, const std::vector<int>& candidates, const DeadReckoning<D>& chains)
     : problem_(&problem), candidates_(candidates) {
   edges_.reserve(problem.edges.size());
   for (const Edge<D>& edge : problem.edges) edges_.push_back(whitened(edge));

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "robust/accepted_graph.hpp"
-#include "robust/chain.hpp"
+#include "robust/dead_reckoning.hpp"
 #include "robust/whitened_edge.hpp"
 
 namespace pose_graph {
@@ -25,7 +25,7 @@ struct Evidence {
 template <int D>
 class Witness {
  public:
-  Witness(const Problem<D>& problem, const std::vector<int>& candidates, const Chains<D>& chains);
+  Witness(const Problem<D>& problem, const std::vector<int>& candidates, const DeadReckoning<D>& chains);
 
   const WhitenedEdge<D>& edge(int e) const { return edges_[static_cast<std::size_t>(e)]; }
   const std::vector<int>& candidates() const { return candidates_; }

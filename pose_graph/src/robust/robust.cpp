@@ -6,6 +6,8 @@
 #include <numeric>
 #include <set>
 
+#include "objective/objective.hpp"
+#include "robust/core_graph.hpp"
 #include "robust/growth.hpp"
 #include "robust/information_scale.hpp"
 
@@ -52,6 +54,11 @@ std::vector<int> contradicting(const Problem<D>& problem, int asserted, Grown<D>
   return made;
 }
 
+template <int D>
+double costOf(const Edge<D>& edge, const std::vector<Rigid<D>>& poses) {
+  return edgeCost<Objective::Geodesic, D>(termOf(edge), poses[sz(edge.from)], poses[sz(edge.to)]);
+}
+
 }  // namespace
 
 const char* toString(Verdict verdict) { return verdict == Verdict::Accepted ? "accepted" : "rejected"; }
@@ -91,44 +98,44 @@ std::vector<EdgeRole> rolesByNumbers(const Problem<D>& problem) {
   return roles;
 }
 
+namespace {
+
+constexpr int kReadings = 3;
+
+// What is thought of the edges, and where they put the poses.
 template <int D>
-RobustSolution<D> relaxRobust(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
-                              const SolveOptions& options) {
-  RobustSolution<D> made;
+struct Judgement {
+  std::vector<EdgeVerdict> edges;  // chi2 of candidates alone
+  std::vector<Rigid<D>> poses;
+  double variance = 1.0;
+};
+
+template <int D>
+Judgement<D> judge(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const DeadReckoning<D>& reckoning) {
   std::vector<int> candidates, asserted;
   for (std::size_t e = 0; e < roles.size(); ++e) {
     if (roles[e] == EdgeRole::Candidate) candidates.push_back(static_cast<int>(e));
     if (roles[e] == EdgeRole::Asserted) asserted.push_back(static_cast<int>(e));
   }
-  const Chains<D> chains(problem, roles);
   const Thresholds thresholds(candidates.size(), tangent_size<D>);
-  const Witness<D> witness(problem, candidates, chains);
-  const ClosureLoops<D> loops(problem, candidates, chains);
+  const Witness<D> witness(problem, candidates, reckoning);
+  const ClosureLoops<D> loops(problem, candidates, reckoning);
   const InformationScale scale = informationScale(loops);
   const std::vector<int> group = agreeingGroups(problem.edges.size(), loops, std::max(1.0, scale.factor), thresholds);
   Grown<D> grown = grow(problem, roles, witness, group, thresholds, scale);
   if (grown.evidence.known) takeBack(problem, roles, witness, grown);
 
-  // The last word has the solver of graphs without false edges, on what is left.
-  const Problem<D> part = partOf(problem, grown.in, grown.poses);
-  SolveOptions last = options;
-  last.start = options.start == Start::Auto ? Start::Vertices : options.start;
-  made.solution = solve(part, last);
-  made.solution.cost_before = cost(problem, problem.poses, options.objective);
-  made.variance_factor = grown.variance;
-
+  Judgement<D> made;
+  made.variance = grown.variance;
   made.edges.resize(roles.size());
   for (std::size_t e = 0; e < roles.size(); ++e) {
     EdgeVerdict& verdict = made.edges[e];
     const WhitenedEdge<D>& edge = witness.edge(static_cast<int>(e));
     verdict.dof = edge.rank;
-    const double own =
-        whitenedError(edge, made.solution.poses[sz(edge.from)], made.solution.poses[sz(edge.to)]).squaredNorm();
-    if (roles[e] != EdgeRole::Candidate) {
-      verdict.chi2 = own;
-      continue;
-    }
-    const double heard = grown.evidence.known ? grown.evidence.chi2[e] * grown.variance : own;
+    if (roles[e] != EdgeRole::Candidate) continue;
+    const double heard = grown.evidence.known
+                             ? grown.evidence.chi2[e] * grown.variance
+                             : whitenedError(edge, grown.poses[sz(edge.from)], grown.poses[sz(edge.to)]).squaredNorm();
     verdict.chi2 = std::isfinite(heard) ? heard : 0.0;
     if (grown.in[e]) {
       verdict.reason = Reason::Fits;
@@ -140,6 +147,7 @@ RobustSolution<D> relaxRobust(const Problem<D>& problem, const std::vector<EdgeR
                      : heard > grown.variance * thresholds.limit[sz(edge.rank)] ? Reason::Disagrees
                                                                                 : Reason::Unconfirmed;
   }
+  made.poses = std::move(grown.poses);
   if (asserted.empty()) return made;
 
   std::vector<EdgeRole> believed = roles;
@@ -148,10 +156,73 @@ RobustSolution<D> relaxRobust(const Problem<D>& problem, const std::vector<EdgeR
     unasserted.edges[sz(e)].information.setZero();  // says nothing, and keeps the numbers of the others
     believed[sz(e)] = EdgeRole::Trusted;
   }
-  const Witness<D> doubter(unasserted, candidates, chains);
+  const Witness<D> doubter(unasserted, candidates, reckoning);
   Grown<D> without = grow(unasserted, believed, doubter, group, thresholds, scale);
   for (int e : asserted) without.in[sz(e)] = 0;
   for (int e : asserted) made.edges[sz(e)].contradicted_by = contradicting(problem, e, without, witness, thresholds);
+  return made;
+}
+
+bool sameVerdicts(const std::vector<EdgeVerdict>& a, const std::vector<EdgeVerdict>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const EdgeVerdict& one, const EdgeVerdict& other) { return one.verdict == other.verdict; });
+}
+
+// The same by way of the core. What a chain says of its ends was read off where odometry laid it: it is read again where the
+// accepted closures have put it, as long as that changes what is thought of any.
+template <int D>
+Judgement<D> judgeCore(CoreGraph<D>& core, const Problem<D>& problem, const std::vector<EdgeRole>& roles) {
+  const DeadReckoning<D> whole(problem, roles);
+  Judgement<D> judged;
+  for (int reading = 0; reading < kReadings; ++reading) {
+    if (reading > 0) core.relinearise();
+    DeadReckoning<D> reckoning(core.problem(), core.roles());
+    reckoning.extent = whole.extent;
+    for (std::size_t i = 0; i < reckoning.way.size(); ++i)
+      reckoning.way[i] = whole.way[sz(core.pose(static_cast<int>(i)))];
+    Judgement<D> again = judge(core.problem(), core.roles(), reckoning);
+    const bool settled = reading > 0 && sameVerdicts(judged.edges, again.edges);
+    judged = std::move(again);
+    core.expanded(judged.poses);
+    if (settled || std::none_of(judged.edges.begin(), judged.edges.end(),
+                                [](const EdgeVerdict& verdict) { return verdict.verdict == Verdict::Rejected; }))
+      break;
+  }
+  Judgement<D> made;
+  made.variance = judged.variance;
+  made.poses = core.expanded(judged.poses);
+  made.edges.resize(roles.size());
+  for (EdgeVerdict& verdict : made.edges) verdict.dof = tangent_size<D>;  // of a chain's: what is singular is in none
+  for (std::size_t e = 0; e < judged.edges.size(); ++e) {
+    EdgeVerdict& verdict = judged.edges[e];
+    for (int& other : verdict.contradicted_by) other = core.edge(other);
+    verdict.contradicted_by.erase(std::remove(verdict.contradicted_by.begin(), verdict.contradicted_by.end(), -1),
+                                  verdict.contradicted_by.end());
+    if (core.edge(static_cast<int>(e)) >= 0) made.edges[sz(core.edge(static_cast<int>(e)))] = std::move(verdict);
+  }
+  return made;
+}
+
+}  // namespace
+
+template <int D>
+RobustSolution<D> relaxRobust(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
+                              const SolveOptions& options) {
+  auto core = CoreGraph<D>::of(problem, roles);
+  Judgement<D> judged =
+      core ? judgeCore(*core, problem, roles) : judge(problem, roles, DeadReckoning<D>(problem, roles));
+  // The last word has the solver of graphs without false edges, on what is left.
+  std::vector<char> in;
+  for (const EdgeVerdict& verdict : judged.edges) in.push_back(verdict.weight > 0.0);
+  SolveOptions last = options;
+  last.start = options.start == Start::Auto ? Start::Vertices : options.start;
+  RobustSolution<D> made;
+  made.solution = solve(partOf(problem, in, std::move(judged.poses)), last);
+  made.solution.cost_before = cost(problem, problem.poses, options.objective);
+  made.variance_factor = judged.variance;
+  made.edges = std::move(judged.edges);
+  for (std::size_t e = 0; e < roles.size(); ++e)
+    if (roles[e] != EdgeRole::Candidate) made.edges[e].chi2 = costOf(problem.edges[e], made.solution.poses);
   return made;
 }
 

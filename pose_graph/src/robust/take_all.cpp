@@ -10,15 +10,15 @@ namespace {
 
 std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
-// Trying costs what a graph without false closures costs, so it is tried where there seems to be none: no more closures
-// contradict odometry than this share and one by chance, or so many loops of near closures close.
-constexpr double kContradicted = 1e-3, kClosing = 0.97;
-// Closures between any places, which no others confirm, make a factor dense: it is tried where all closures take at most
-// so much more work than those that another one confirms.
-constexpr double kWork = 4.0;
+// Trying costs what a graph without false closures costs, and far more where false ones between any places make the factor
+// dense. It is tried where odometry contradicts no more than this share of them and one by chance, or so many loops of near
+// closures close, if all take at most so much more work than those that another one confirms. Where trying is cheap, at
+// most so many multiplications of blocks a pose and an edge, it is tried anyway: over a long way odometry's covariance is that
+// of a straight line while its errors lie on an arc, so that true ones are contradicted too.
+constexpr double kContradicted = 1e-3, kClosing = 0.97, kWork = 4.0, kCheap = 30.0;
 // Baarda's test finds single outliers among many right ones. Beyond this share it starts from the wrong side.
 constexpr double kPoor = 0.02;
-constexpr int kSteps = 20;
+constexpr int kSteps = 8;
 constexpr double kShare = 0.01;  // as in growth
 
 }  // namespace
@@ -28,31 +28,39 @@ bool takeAll(const Witness<D>& witness, const std::vector<int>& group, const std
              const Thresholds& thresholds, const InformationScale& scale, AcceptedGraph<D>& graph, Grown<D>& grown) {
   const auto limit = [&](int e) { return thresholds.limit[sz(std::max(1, witness.edge(e).rank))]; };
   const double candidates = static_cast<double>(witness.candidates().size());
-  double contradicted = 0.0;
   const auto joins = [&](int e) { return !std::isfinite(grown.evidence.chi2[sz(e)]); };  // two parts: not by itself
-  for (int e : witness.candidates()) contradicted += !joins(e) && grown.evidence.chi2[sz(e)] > limit(e);
-  if (contradicted > 1.0 + kContradicted * candidates && scale.true_share < kClosing) return false;
-
-  std::vector<int> members(grown.in.size(), 0);
-  for (int e : witness.candidates()) ++members[sz(group[sz(e)])];
   Grown<D> all = grown;
-  std::vector<char> confirmed = grown.in;
-  for (int e : witness.candidates()) {
-    all.in[sz(e)] = witness.edge(e).rank > 0 && !joins(e);
-    confirmed[sz(e)] = all.in[sz(e)] && members[sz(group[sz(e)])] > 1;
+  for (int e : witness.candidates()) all.in[sz(e)] = witness.edge(e).rank > 0 && !joins(e);
+  const double work = graph.work(all.in);
+  if (work > kCheap * static_cast<double>(grown.poses.size() + grown.in.size())) {
+    double contradicted = 0.0;
+    for (int e : witness.candidates()) contradicted += !joins(e) && grown.evidence.chi2[sz(e)] > limit(e);
+    if (contradicted > 1.0 + kContradicted * candidates && scale.true_share < kClosing) return false;
+    std::vector<int> members(grown.in.size(), 0);
+    for (int e : witness.candidates()) ++members[sz(group[sz(e)])];
+    std::vector<char> confirmed = grown.in;
+    for (int e : witness.candidates()) confirmed[sz(e)] = all.in[sz(e)] && members[sz(group[sz(e)])] > 1;
+    if (work > kWork * graph.work(confirmed)) return false;
   }
-  if (all.in != confirmed && graph.work(all.in) > kWork * graph.work(confirmed)) return false;
 
   graph.take(all.in);
   graph.relax(all.poses, kSteps, kShare, true);
   all.variance = varianceFactor(witness, all.in, all.poses, graph.unknowns(), thresholds, scale.factor);
   all.evidence = witness.hear(graph, all.in, all.poses, all.variance, small_group);
-  double poor = 0.0;
+
+  // Among many that are right one more is likely to be, so that it takes less to be believed.
+  double contradicted = 0.0, confident = 0.0, poor = 0.0;
+  const auto contradicts = [&](int e) {
+    return !(all.evidence.chi2[sz(e)] <= limit(e)) || all.evidence.group_chi2[sz(e)] > thresholds.limit.back();
+  };
   for (int e : witness.candidates()) {
     if (!all.in[sz(e)]) continue;
-    poor += !(all.evidence.chi2[sz(e)] <= limit(e)) || all.evidence.group_chi2[sz(e)] > thresholds.limit.back() ||
-            !(all.evidence.likelier[sz(e)] >= Thresholds::kEvidence);
+    contradicted += contradicts(e);
+    confident += !contradicts(e) && all.evidence.likelier[sz(e)] >= Thresholds::kEvidence;
   }
+  const double enough = Thresholds::kEvidence - std::max(0.0, std::log((confident + 1.0) / (contradicted + 1.0)));
+  for (int e : witness.candidates())
+    poor += all.in[sz(e)] && (contradicts(e) || !(all.evidence.likelier[sz(e)] >= enough));
   if (!all.evidence.known || poor > kPoor * candidates) {
     graph.take(grown.in);
     return false;

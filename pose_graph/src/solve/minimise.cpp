@@ -10,7 +10,7 @@ namespace {
 
 std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
-constexpr double kFirstDamping = 1e-10, kLargestDamping = 1e8;
+constexpr double kFirstDamping = 1e-10, kLeastDamping = 1e-16, kLargestDamping = 1e8;
 // Of the largest entry of the diagonal: what is less is round-off. Nothing is known of such a direction.
 constexpr double kNothing = 1e-12;
 // Of the lengths that a residual is the difference of, and of a radian: some dozens of a double's last bits.
@@ -131,7 +131,7 @@ Descent minimise(NormalEquations<D>& equations, BlockCholesky<tangent_size<D>>& 
           return made;
         }
       }
-      damping = std::max(10.0 * damping, kFirstDamping);
+      damping = damping > 0.0 ? 10.0 * damping : kFirstDamping;
     }
     step.damping = damping;
     poses.swap(next);
@@ -147,7 +147,7 @@ Descent minimise(NormalEquations<D>& equations, BlockCholesky<tangent_size<D>>& 
       made.ending = Ending::Stopped;
       return made;
     }
-    if (ratio > 0.75) damping = damping > kFirstDamping ? damping / 10.0 : 0.0;
+    if (ratio > 0.75 && step.refused == 0) damping = damping > kLeastDamping ? damping / 10.0 : 0.0;
     else if (ratio < 0.25) damping = std::max(4.0 * damping, kFirstDamping);
     equations.linearise(options.objective, poses, weights);
   }

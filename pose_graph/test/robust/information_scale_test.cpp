@@ -36,7 +36,7 @@ struct Candidates {
 
 InformationScale scaleOf(const SimulatedGraph& graph) {
   const Candidates drawn(graph);
-  const Chains<3> chains(drawn.problem, drawn.roles);
+  const DeadReckoning<3> chains(drawn.problem, drawn.roles);
   return informationScale(ClosureLoops<3>(drawn.problem, drawn.edges, chains));
 }
 

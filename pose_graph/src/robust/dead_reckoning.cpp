@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "robust/chain.hpp"
+#include "robust/dead_reckoning.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -44,7 +44,7 @@ TangentMatrix<D> boundedCovariance(const TangentMatrix<D>& information, double e
 }
 
 template <int D>
-Chains<D>::Chains(const Problem<D>& problem, const std::vector<EdgeRole>& roles) {
+DeadReckoning<D>::DeadReckoning(const Problem<D>& problem, const std::vector<EdgeRole>& roles) {
   const std::size_t n = problem.poses.size();
   std::vector<const Edge<D>*> step(n, nullptr);
   for (std::size_t e = 0; e < problem.edges.size(); ++e) {
@@ -88,7 +88,7 @@ Chains<D>::Chains(const Problem<D>& problem, const std::vector<EdgeRole>& roles)
 }
 
 template <int D>
-TangentMatrix<D> Chains<D>::covariance(int a, int b) const {
+TangentMatrix<D> DeadReckoning<D>::covariance(int a, int b) const {
   TangentMatrix<D> sum = TangentMatrix<D>::Zero();
   const Rigid<D> T_a_0 = pose[sz(a)].inverse();
   for (int k = std::min(a, b) + 1; k <= std::max(a, b); ++k) {
@@ -102,7 +102,7 @@ template TangentMatrix<2> adjoint<2>(const Rigid<2>&);
 template TangentMatrix<3> adjoint<3>(const Rigid<3>&);
 template TangentMatrix<2> boundedCovariance<2>(const TangentMatrix<2>&, double);
 template TangentMatrix<3> boundedCovariance<3>(const TangentMatrix<3>&, double);
-template struct Chains<2>;
-template struct Chains<3>;
+template struct DeadReckoning<2>;
+template struct DeadReckoning<3>;
 
 }  // namespace pose_graph

@@ -10,14 +10,14 @@ namespace pose_graph {
 /// Dead reckoning along trusted edges between consecutive poses. Where there is none a new chain begins, in a frame of
 /// its own.
 template <int D>
-struct Chains {
+struct DeadReckoning {
   std::vector<int> of_pose;         ///< which chain
   std::vector<Rigid<D>> pose;       ///< in its chain's frame
   std::vector<double> way;          ///< metres from its chain's first pose
   std::vector<TangentMatrix<D>> Q;  ///< covariance of the step from the pose before, in that step's child
   double extent = 0.0;              ///< twice the radius of gyration of the chains about their middles, metres
 
-  Chains(const Problem<D>& problem, const std::vector<EdgeRole>& roles);
+  DeadReckoning(const Problem<D>& problem, const std::vector<EdgeRole>& roles);
 
   /// Covariance of the pose of b in the frame of a, by composition; both on one chain. Costs |a - b|.
   TangentMatrix<D> covariance(int a, int b) const;
