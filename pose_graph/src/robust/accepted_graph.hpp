@@ -28,6 +28,10 @@ class AcceptedGraph {
   /// guess if that costs less than `poses`.
   void relax(std::vector<Rigid<D>>& poses, int iterations, double share, bool afresh);
 
+  double cost(const std::vector<Rigid<D>>& poses) const {
+    return equations_->cost(Objective::Geodesic, poses, weights_);
+  }
+
   /// Linearises and factors at these poses; directions without information are held by a damping that is nothing
   /// beside the others. False where even that fails.
   bool factor(const std::vector<Rigid<D>>& poses);

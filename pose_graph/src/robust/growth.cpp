@@ -190,6 +190,7 @@ Grown<D> grow(const Problem<D>& problem, const std::vector<EdgeRole>& roles, con
   graph.relax(grown.poses, kSteps, kShare, asserted);
   const std::vector<int> small = smallGroups(group);
   std::vector<int> expelled(problem.edges.size(), 0);
+  std::set<int> tried;
   for (int round = 0; round < kRounds; ++round) {
     grown.variance = varianceFactor(witness, grown.in, grown.poses, graph.unknowns(), thresholds, scale.factor);
     grown.evidence = witness.hear(graph, grown.in, grown.poses, grown.variance, small);
@@ -204,13 +205,14 @@ Grown<D> grow(const Problem<D>& problem, const std::vector<EdgeRole>& roles, con
       now.admitGroups(expelled);
       now.join(graph, expelled);
     }
-    if (now.changes == 0) break;
+    if (now.changes == 0 && !tryGroups(witness, group, thresholds, tried, graph, grown)) break;
+    if (now.changes == 0) continue;
     grown.in = std::move(now.next);
     graph.take(grown.in);
     const bool few = static_cast<double>(now.changes) <= kSettled * static_cast<double>(witness.candidates().size());
     const bool much = static_cast<double>(now.admitted) > 0.05 * static_cast<double>(witness.candidates().size());
     graph.relax(grown.poses, kSteps, kShare, now.joined || much || round < 5);
-    if (few && !now.joined) break;
+    if (few && !now.joined && !tryGroups(witness, group, thresholds, tried, graph, grown)) break;
   }
   return grown;
 }

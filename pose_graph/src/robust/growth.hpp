@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <set>
 #include <vector>
 
 #include "robust/agreement.hpp"
@@ -29,6 +30,13 @@ Grown<D> grow(const Problem<D>& problem, const std::vector<EdgeRole>& roles, con
 template <int D>
 bool takeAll(const Witness<D>& witness, const std::vector<int>& group, const std::vector<int>& small_group,
              const Thresholds& thresholds, const InformationScale& scale, AcceptedGraph<D>& graph, Grown<D>& grown);
+
+/// Takes one group that supports itself and does not fit where the graph stands, if it fits where it would put the graph: over a
+/// long way odometry's errors lie on an arc, which linearised covariances do not see. Relaxed with the group, the graph's
+/// cost may rise by as much as chance explains for all of its members together. `tried`: groups that are not worth another try.
+template <int D>
+bool tryGroups(const Witness<D>& witness, const std::vector<int>& group, const Thresholds& thresholds,
+               std::set<int>& tried, AcceptedGraph<D>& graph, Grown<D>& grown);
 
 /// Variance of unit weight of the edges that are in, each counted no further than its limit, between `scale`
 /// (InformationScale::factor) and 1. Starts from what is expected with the weight of ten observed tangents, so that a few

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "robust/growth.hpp"
+#include "urban_nav_core/trajectory/chi_square.hpp"
+
+namespace pose_graph {
+
+namespace {
+
+std::size_t sz(int i) { return static_cast<std::size_t>(i); }
+
+constexpr std::size_t kTries = 10;  // of one graph: each costs a relaxation
+// Times the limit: what no arc explains is not tried. The true groups of MIT and kitti_02 lie at up to four times.
+constexpr double kArc = 10.0;
+constexpr int kSteps = 20;
+constexpr double kShare = 1e-6;  // of the cost: a difference of two of them has to be good to a number or so
+
+// Groups outside that are worth a try, the largest first.
+template <int D>
+std::vector<std::vector<int>> groupsToTry(const Witness<D>& witness, const std::vector<int>& group,
+                                          const Thresholds& thresholds, const std::set<int>& tried,
+                                          const Grown<D>& grown) {
+  std::map<int, std::vector<int>> outside;
+  for (int e : witness.candidates())
+    if (!grown.in[sz(e)] && witness.edge(e).rank > 0 && !tried.count(group[sz(e)])) outside[group[sz(e)]].push_back(e);
+  std::vector<std::vector<int>> made;
+  for (auto& [name, members] : outside) {
+    std::vector<double> chi2;
+    for (int e : members) chi2.push_back(grown.evidence.chi2[sz(e)]);
+    const auto middle = chi2.begin() + static_cast<std::ptrdiff_t>(chi2.size() / 2);
+    std::nth_element(chi2.begin(), middle, chi2.end());
+    if (members.size() > 1 && *middle <= kArc * thresholds.limit.back()) made.push_back(std::move(members));
+  }
+  std::stable_sort(made.begin(), made.end(), [](const auto& a, const auto& b) { return a.size() > b.size(); });
+  return made;
+}
+
+}  // namespace
+
+template <int D>
+bool tryGroups(const Witness<D>& witness, const std::vector<int>& group, const Thresholds& thresholds,
+               std::set<int>& tried, AcceptedGraph<D>& graph, Grown<D>& grown) {
+  const std::vector<std::vector<int>> groups = groupsToTry(witness, group, thresholds, tried, grown);
+  if (groups.empty() || tried.size() >= kTries) return false;
+  graph.relax(grown.poses, kSteps, kShare, false);
+  const double before = graph.cost(grown.poses);
+  for (const std::vector<int>& members : groups) {
+    if (tried.size() >= kTries) break;
+    tried.insert(group[sz(members.front())]);
+    std::vector<char> in = grown.in;
+    int dof = 0;
+    double attainable = -1e300;  // the evidence for the best known of them, were it where it is predicted
+    int rank = 0;
+    for (int e : members) {
+      in[sz(e)] = 1;
+      dof += witness.edge(e).rank;
+      const double known = grown.evidence.likelier[sz(e)] + 0.5 * grown.evidence.chi2[sz(e)];
+      if (known > attainable) {
+        attainable = known;
+        rank = witness.edge(e).rank;
+      }
+    }
+    std::vector<Rigid<D>> poses = grown.poses;
+    graph.take(in);
+    graph.relax(poses, kSteps, kShare, true);
+    const double rise = (graph.cost(poses) - before) / grown.variance;
+    const double most = urban_nav_core::chiSquareQuantile(1.0 - Thresholds::kFalseAlarms / kTries, dof);
+    // What the members differ among each other is no evidence against the place that they agree on.
+    if (!(rise <= most) || attainable - 0.5 * std::max(0.0, rise - (dof - rank)) < Thresholds::kEvidence) continue;
+    grown.in = std::move(in);
+    grown.poses = std::move(poses);
+    return true;
+  }
+  graph.take(grown.in);
+  return false;
+}
+
+template bool tryGroups<2>(const Witness<2>&, const std::vector<int>&, const Thresholds&, std::set<int>&,
+                           AcceptedGraph<2>&, Grown<2>&);
+template bool tryGroups<3>(const Witness<3>&, const std::vector<int>&, const Thresholds&, std::set<int>&,
+                           AcceptedGraph<3>&, Grown<3>&);
+
+}  // namespace pose_graph
