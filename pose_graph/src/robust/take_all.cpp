@@ -18,6 +18,9 @@ std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 constexpr double kContradicted = 1e-3, kClosing = 0.97, kWork = 4.0, kCheap = 30.0;
 // Baarda's test finds single outliers among many right ones. Beyond this share it starts from the wrong side.
 constexpr double kPoor = 0.02;
+// Of what the residuals may be together, times the variance that is believed; from so many numbers on that is a matter of chance
+// no more.
+constexpr double kBent = 1.5, kFewNumbers = 60.0;
 constexpr int kSteps = 8;
 constexpr double kShare = 0.01;  // as in growth
 
@@ -61,7 +64,11 @@ bool takeAll(const Witness<D>& witness, const std::vector<int>& group, const std
   const double enough = Thresholds::kEvidence - std::max(0.0, std::log((confident + 1.0) / (contradicted + 1.0)));
   for (int e : witness.candidates())
     poor += all.in[sz(e)] && (contradicts(e) || !(all.evidence.likelier[sz(e)] >= enough));
-  if (!all.evidence.known || poor > kPoor * candidates) {
+  // Many false ones that bend the graph a little each fit one by one, but not all together.
+  double redundancy = -static_cast<double>(graph.unknowns()) * tangent_size<D>;
+  for (std::size_t e = 0; e < all.in.size(); ++e) redundancy += all.in[e] ? witness.edge(static_cast<int>(e)).rank : 0;
+  const bool bent = graph.cost(all.poses) > kBent * all.variance * std::max(redundancy, kFewNumbers);
+  if (!all.evidence.known || bent || poor > kPoor * candidates) {
     graph.take(grown.in);
     return false;
   }
