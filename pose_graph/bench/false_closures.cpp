@@ -109,17 +109,18 @@ void addRows(const PublicGraph& graph, int percent, int seed, urban_nav_core::te
       [&](const auto& problem) {
         auto clean = solve(problem, SolveOptions());
         const double plain = secondsOf(3, [&] { clean = solve(problem, SolveOptions()); });
-        for (const bool local : {false, true}) {
-          for (const std::size_t group : {std::size_t{1}, kGroup}) {
-            const Outcome outcome =
-                outcomeOf(problem, clean.poses, local, group, percent, static_cast<std::uint64_t>(seed));
-            table.add({graph.name, std::string(local ? "local" : "random") + (group > 1 ? ", in tens" : ""),
-                       std::to_string(percent) + " %", cell(outcome.error_m, 3),
-                       std::to_string(outcome.kept) + " of " + std::to_string(outcome.wrong),
-                       std::to_string(outcome.lost) + " of " + std::to_string(outcome.closures),
-                       cell(outcome.seconds / plain, 1)});
-          }
-        }
+        const auto row = [&](const std::string& kind, bool local, std::size_t group, int share) {
+          const Outcome outcome =
+              outcomeOf(problem, clean.poses, local, group, share, static_cast<std::uint64_t>(seed));
+          table.add({graph.name, kind, std::to_string(share) + " %", cell(outcome.error_m, 3),
+                     std::to_string(outcome.kept) + " of " + std::to_string(outcome.wrong),
+                     std::to_string(outcome.lost) + " of " + std::to_string(outcome.closures),
+                     cell(outcome.seconds / plain, 1)});
+        };
+        row("none", false, 1, 0);
+        for (const bool local : {false, true})
+          for (const std::size_t group : {std::size_t{1}, kGroup})
+            row(std::string(local ? "local" : "random") + (group > 1 ? ", in tens" : ""), local, group, percent);
       },
       graph.problem);
 }
