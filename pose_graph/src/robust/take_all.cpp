@@ -16,6 +16,8 @@ std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 // most so many multiplications of blocks a pose and an edge, it is tried anyway: over a long way odometry's covariance is that
 // of a straight line while its errors lie on an arc, so that true ones are contradicted too.
 constexpr double kContradicted = 1e-3, kClosing = 0.97, kWork = 4.0, kCheap = 30.0;
+// Where so many loops are known to close and this share of all does not, there are false ones, whatever odometry says.
+constexpr double kTelling = 30.0, kOpen = 0.9;
 // Baarda's test finds single outliers among many right ones. Beyond this share it starts from the wrong side.
 constexpr double kPoor = 0.02;
 // Of what the residuals may be together, times the variance that is believed; from so many numbers on that is a matter of chance
@@ -38,7 +40,8 @@ bool takeAll(const Witness<D>& witness, const std::vector<int>& group, const std
   if (work > kCheap * static_cast<double>(grown.poses.size() + grown.in.size())) {
     double contradicted = 0.0;
     for (int e : witness.candidates()) contradicted += !joins(e) && grown.evidence.chi2[sz(e)] > limit(e);
-    if (contradicted > 1.0 + kContradicted * candidates && scale.true_share < kClosing) return false;
+    const bool many_open = scale.true_loops >= kTelling && scale.true_share < kOpen;
+    if (many_open || (contradicted > 1.0 + kContradicted * candidates && scale.true_share < kClosing)) return false;
     std::vector<int> members(grown.in.size(), 0);
     for (int e : witness.candidates()) ++members[sz(group[sz(e)])];
     std::vector<char> confirmed = grown.in;
