@@ -3,17 +3,16 @@
 
 #include <cassert>
 #include <cmath>
-#include <set>
 
+#include "io/graph_lines.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/io/text_file.hpp"
-#include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav_core {
 namespace {
 
-using Words = std::vector<std::string_view>;
+using Words = GraphLines::Words;
 
 std::size_t poseSize(int dimension) { return dimension == 2 ? 3 : 7; }
 std::size_t informationSize(int dimension) { return dimension == 2 ? 6 : 21; }
@@ -21,101 +20,52 @@ Eigen::Index tangentSize(int dimension) { return dimension == 2 ? 3 : 6; }
 
 class Parser {
  public:
-  Parser(std::string name, UnknownTags unknown) : name_(std::move(name)), unknown_(unknown) {}
+  Parser(const std::string& name, UnknownTags unknown)
+      : lines_(name, unknown, "VERTEX_SE2, VERTEX_SE3:QUAT, EDGE_SE2, EDGE_SE3:QUAT, FIX", "SE2 and SE3") {}
 
   void line(std::string_view text, int number) {
-    const Words words = splitBlanks(text);
+    const Words words = lines_.begin(text, number);
     if (words.empty()) return;
-    where_ = atLine(name_, number);
     const std::string_view tag = words[0];
     if (tag == "VERTEX_SE2") vertex(words, 2);
     else if (tag == "VERTEX_SE3:QUAT") vertex(words, 3);
     else if (tag == "EDGE_SE2") edge(words, 2);
     else if (tag == "EDGE_SE3:QUAT") edge(words, 3);
-    else if (tag == "FIX") fix(words);
-    else other(text, tag);
+    else if (tag == "FIX") lines_.fix(words);
+    else lines_.other(text, tag);
   }
 
-  G2oGraph take() { return std::move(graph_); }
+  G2oGraph take() { return lines_.take(); }
 
  private:
   void vertex(const Words& words, int dimension) {
-    demand(words, 2 + poseSize(dimension), dimension);
+    lines_.demandColumns(words, 2 + poseSize(dimension), dimension);
     G2oGraph::Vertex vertex;
-    vertex.id = id(words[1]);
+    vertex.id = lines_.id(words[1]);
     pose(words, 2, dimension, vertex.values);
-    if (!known_.insert(vertex.id).second)
-      throw UserError(where_, "vertex " + std::to_string(vertex.id) + " stands twice", "");
-    graph_.lines.push_back({G2oGraph::Kind::Vertex, graph_.vertices.size()});
-    graph_.vertices.push_back(vertex);
+    lines_.add(vertex);
   }
 
   void edge(const Words& words, int dimension) {
-    demand(words, 3 + poseSize(dimension) + informationSize(dimension), dimension);
+    lines_.demandColumns(words, 3 + poseSize(dimension) + informationSize(dimension), dimension);
     G2oGraph::Edge edge;
-    edge.from = id(words[1]);
-    edge.to = id(words[2]);
-    if (edge.from == edge.to) throw UserError(where_, "an edge from " + std::to_string(edge.from) + " to itself", "");
+    edge.from = lines_.id(words[1]);
+    edge.to = lines_.id(words[2]);
     pose(words, 3, dimension, edge.values);
     for (std::size_t i = 0; i < informationSize(dimension); ++i)
-      edge.information[i] = number(words[3 + poseSize(dimension) + i]);
-    graph_.lines.push_back({G2oGraph::Kind::Edge, graph_.edges.size()});
-    graph_.edges.push_back(edge);
-  }
-
-  void fix(const Words& words) {
-    for (std::size_t i = 1; i < words.size(); ++i) {
-      graph_.lines.push_back({G2oGraph::Kind::Fix, graph_.fixed.size()});
-      graph_.fixed.push_back(id(words[i]));
-    }
-    if (words.size() == 1) throw UserError(where_, "FIX without a vertex", "FIX id");
-  }
-
-  void other(std::string_view text, std::string_view tag) {
-    if (unknown_ == UnknownTags::Refuse && tag.front() != '#') {
-      throw UserError(where_, "unknown tag " + std::string(tag),
-                      "VERTEX_SE2, VERTEX_SE3:QUAT, EDGE_SE2, EDGE_SE3:QUAT, FIX");
-    }
-    graph_.lines.push_back({G2oGraph::Kind::Other, graph_.others.size()});
-    graph_.others.emplace_back(text);
-  }
-
-  void demand(const Words& words, std::size_t columns, int dimension) {
-    if (words.size() != columns) {
-      throw UserError(where_, std::string(words[0]) + " with " + std::to_string(words.size()) + " columns",
-                      std::to_string(columns));
-    }
-    if (has_dimension_ && graph_.dimension != dimension)
-      throw UserError(where_, "SE2 and SE3 in one file", "one of them");
-    graph_.dimension = dimension;
-    has_dimension_ = true;
-  }
-
-  G2oGraph::Id id(std::string_view word) const {
-    const auto value = parseInteger(word);
-    if (!value || *value < 0) throw UserError(where_, "vertex `" + std::string(word) + "`", "whole numbers from 0");
-    return *value;
-  }
-
-  double number(std::string_view word) const {
-    const auto value = parseNumber(word);
-    if (!value) throw UserError(where_, "`" + std::string(word) + "`", "a finite number");
-    return *value;
+      edge.information[i] = lines_.number(words[3 + poseSize(dimension) + i]);
+    lines_.add(edge);
   }
 
   void pose(const Words& words, std::size_t first, int dimension, std::array<double, 7>& values) const {
-    for (std::size_t i = 0; i < poseSize(dimension); ++i) values[i] = number(words[first + i]);
+    for (std::size_t i = 0; i < poseSize(dimension); ++i) values[i] = lines_.number(words[first + i]);
     if (dimension == 2) return;
     const double length = Quaterniond(values[6], values[3], values[4], values[5]).norm();
     if (!(std::abs(length - 1.0) <= 0.01))
-      throw UserError(where_, "a quaternion of length " + printNumber(length), "length 1 (1 %)");
+      lines_.refuse("a quaternion of length " + printNumber(length), "length 1 (1 %)");
   }
 
-  std::string name_, where_;
-  UnknownTags unknown_;
-  bool has_dimension_ = false;
-  std::set<G2oGraph::Id> known_;
-  G2oGraph graph_;
+  GraphLines lines_;
 };
 
 template <std::size_t N>

@@ -2,17 +2,16 @@
 #include "urban_nav_core/io/toro.hpp"
 
 #include <cmath>
-#include <set>
 
+#include "io/graph_lines.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/io/text_file.hpp"
-#include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav_core {
 namespace {
 
-using Words = std::vector<std::string_view>;
+using Words = GraphLines::Words;
 
 constexpr const char* known_tags = "VERTEX2, VERTEX, EDGE2, EDGE, VERTEX3, EDGE3, FIX";
 
@@ -56,94 +55,51 @@ void scaleRotation(std::array<double, 21>& information, double scale) {
 
 class Parser {
  public:
-  Parser(std::string name, UnknownTags unknown) : name_(std::move(name)), unknown_(unknown) {}
+  Parser(const std::string& name, UnknownTags unknown) : lines_(name, unknown, known_tags, "plane and space") {}
 
   void line(std::string_view text, int number) {
-    const Words words = splitBlanks(text);
+    const Words words = lines_.begin(text, number);
     if (words.empty()) return;
-    where_ = atLine(name_, number);
     const std::string_view tag = words[0];
     if (isVertex2(tag)) vertex(words, 2);
     else if (tag == "VERTEX3") vertex(words, 3);
     else if (isEdge2(tag)) edge(words, 2);
     else if (tag == "EDGE3") edge(words, 3);
-    else if (tag == "FIX") fix(words);
-    else other(text, tag);
+    else if (tag == "FIX") lines_.fix(words);
+    else lines_.other(text, tag);
   }
 
-  G2oGraph take() { return std::move(graph_); }
+  G2oGraph take() { return lines_.take(); }
 
  private:
   void vertex(const Words& words, int dimension) {
-    demand(words, 2 + poseSize(dimension), dimension);
+    lines_.demandColumns(words, 2 + poseSize(dimension), dimension);
     G2oGraph::Vertex vertex;
-    vertex.id = id(words[1]);
+    vertex.id = lines_.id(words[1]);
     vertex.values = pose(words, 2, dimension);
-    if (!known_.insert(vertex.id).second)
-      throw UserError(where_, "vertex " + std::to_string(vertex.id) + " stands twice", "");
-    graph_.lines.push_back({G2oGraph::Kind::Vertex, graph_.vertices.size()});
-    graph_.vertices.push_back(vertex);
+    lines_.add(vertex);
   }
 
   void edge(const Words& words, int dimension) {
-    demand(words, 3 + poseSize(dimension) + informationSize(dimension), dimension);
+    lines_.demandColumns(words, 3 + poseSize(dimension) + informationSize(dimension), dimension);
     G2oGraph::Edge edge;
-    edge.from = id(words[1]);
-    edge.to = id(words[2]);
-    if (edge.from == edge.to) throw UserError(where_, "an edge from " + std::to_string(edge.from) + " to itself", "");
+    edge.from = lines_.id(words[1]);
+    edge.to = lines_.id(words[2]);
     edge.values = pose(words, 3, dimension);
     for (std::size_t i = 0; i < informationSize(dimension); ++i)
-      edge.information[dimension == 2 ? upper_of_toro[i] : i] = number(words[3 + poseSize(dimension) + i]);
+      edge.information[dimension == 2 ? upper_of_toro[i] : i] = lines_.number(words[3 + poseSize(dimension) + i]);
     if (dimension == 3) scaleRotation(edge.information, 2.0);
     for (const double value : edge.information)
-      if (!std::isfinite(value)) throw UserError(where_, "information beyond a double's range", "");
-    graph_.lines.push_back({G2oGraph::Kind::Edge, graph_.edges.size()});
-    graph_.edges.push_back(edge);
-  }
-
-  void fix(const Words& words) {
-    if (words.size() == 1) throw UserError(where_, "FIX without a vertex", "FIX id");
-    for (std::size_t i = 1; i < words.size(); ++i) {
-      graph_.lines.push_back({G2oGraph::Kind::Fix, graph_.fixed.size()});
-      graph_.fixed.push_back(id(words[i]));
-    }
-  }
-
-  void other(std::string_view text, std::string_view tag) {
-    if (unknown_ == UnknownTags::Refuse && tag.front() != '#')
-      throw UserError(where_, "unknown tag " + std::string(tag), known_tags);
-    graph_.lines.push_back({G2oGraph::Kind::Other, graph_.others.size()});
-    graph_.others.emplace_back(text);
-  }
-
-  void demand(const Words& words, std::size_t columns, int dimension) {
-    if (words.size() != columns) {
-      throw UserError(where_, std::string(words[0]) + " with " + std::to_string(words.size()) + " columns",
-                      std::to_string(columns));
-    }
-    if (has_dimension_ && graph_.dimension != dimension)
-      throw UserError(where_, "plane and space in one file", "one of them");
-    graph_.dimension = dimension;
-    has_dimension_ = true;
-  }
-
-  G2oGraph::Id id(std::string_view word) const {
-    const auto value = parseInteger(word);
-    if (!value || *value < 0) throw UserError(where_, "vertex `" + std::string(word) + "`", "whole numbers from 0");
-    return *value;
-  }
-
-  double number(std::string_view word) const {
-    const auto value = parseNumber(word);
-    if (!value) throw UserError(where_, "`" + std::string(word) + "`", "a finite number");
-    return *value;
+      if (!std::isfinite(value)) lines_.refuse("information beyond a double's range", "");
+    lines_.add(edge);
   }
 
   std::array<double, 7> pose(const Words& words, std::size_t first, int dimension) const {
     std::array<double, 7> values{};
-    for (std::size_t i = 0; i < 3; ++i) values[i] = number(words[first + i]);
+    for (std::size_t i = 0; i < 3; ++i) values[i] = lines_.number(words[first + i]);
     if (dimension == 2) return values;
-    const Quaterniond q = rotationOf(number(words[first + 3]), number(words[first + 4]), number(words[first + 5]));
+    const Quaterniond q =
+        rotationOf(lines_.number(words[first + 3]), lines_.number(words[first + 4]), lines_.number(words[first + 5]));
     values[3] = q.x();
     values[4] = q.y();
     values[5] = q.z();
@@ -151,11 +107,7 @@ class Parser {
     return values;
   }
 
-  std::string name_, where_;
-  UnknownTags unknown_;
-  bool has_dimension_ = false;
-  std::set<G2oGraph::Id> known_;
-  G2oGraph graph_;
+  GraphLines lines_;
 };
 
 void appendValue(std::string& text, double value) {

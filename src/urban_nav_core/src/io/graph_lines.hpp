@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "urban_nav_core/io/g2o.hpp"
+
+namespace urban_nav_core {
+
+/// What the text formats of pose graphs have in common: lines of a tag, vertex numbers and figures. Each demand throws a UserError
+/// that names file and line.
+class GraphLines {
+ public:
+  using Words = std::vector<std::string_view>;
+
+  /// `two_kinds`: what to call a file with lines of the plane and of space.
+  GraphLines(std::string name, UnknownTags unknown, std::string known_tags, std::string two_kinds);
+
+  /// The words of the next line; empty: nothing in it.
+  Words begin(std::string_view text, int number);
+
+  void demandColumns(const Words& words, std::size_t columns, int dimension);
+  G2oGraph::Id id(std::string_view word) const;
+  double number(std::string_view word) const;
+  [[noreturn]] void refuse(const std::string& what, const std::string& allowed) const;
+
+  void add(const G2oGraph::Vertex& vertex);
+  void add(const G2oGraph::Edge& edge);
+  void fix(const Words& words);
+  /// A line that the format does not know.
+  void other(std::string_view text, std::string_view tag);
+
+  G2oGraph take() { return std::move(graph_); }
+
+ private:
+  std::string name_, where_;
+  UnknownTags unknown_;
+  std::string known_tags_, two_kinds_;
+  bool has_dimension_ = false;
+  std::set<G2oGraph::Id> known_;
+  G2oGraph graph_;
+};
+
+}  // namespace urban_nav_core
