@@ -58,6 +58,11 @@ void Diagnostics::worked(const Worker::Counts& worker, const Counts& counts) {
   counts_ = counts;
 }
 
+void Diagnostics::stored(const StoreState& state) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  store_ = state;
+}
+
 void Diagnostics::refused(const std::string& why) {
   const std::lock_guard<std::mutex> lock(mutex_);
   refusal_ = why;
@@ -86,7 +91,10 @@ void Diagnostics::report(diagnostic_updater::DiagnosticStatusWrapper& status) co
   } else {
     std::string text = status_.sentence.empty() ? toString(status_.health) : status_.sentence;
     if (!trouble.empty()) text += ": " + trouble;
-    const unsigned char at_least = trouble.empty() ? DiagnosticStatus::OK : DiagnosticStatus::WARN;
+    if (!store_.fault.empty()) text += "; not stored: " + store_.fault;
+    const unsigned char at_least = !store_.fault.empty() ? DiagnosticStatus::ERROR
+                                   : trouble.empty()     ? DiagnosticStatus::OK
+                                                         : DiagnosticStatus::WARN;
     status.summary(std::max(levelOf(status_.health), at_least), text);
   }
   status.add("status", std::string(toString(status_.health)));
@@ -105,6 +113,13 @@ void Diagnostics::report(diagnostic_updater::DiagnosticStatusWrapper& status) co
   status.add("refused", worker_.refused);
   status.add("refused last", refusal_);
   status.add("messages damaged", counts_.damaged);
+  status.add("store", store_.path);
+  if (store_.path.empty()) return;
+  status.add("store: writes committed", store_.committed);
+  status.add("store: writes that wait", store_.waiting);
+  status.add("store: writes refused", store_.refused);
+  status.add("store: evidence lost", store_.lost);
+  status.add("store: fault", store_.fault);
 }
 
 }  // namespace pose_graph

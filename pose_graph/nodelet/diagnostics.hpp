@@ -32,6 +32,7 @@ class Diagnostics {
   void received(const std::string& topic);
   void relaxed(const urban_nav_core::Status& status, const std::string& reason_name, const Figures& figures);
   void worked(const Worker::Counts& worker, const Counts& counts);
+  void stored(const StoreState& state);
   void refused(const std::string& why);
   void paused(bool paused);
   /// Publishes; to be called about once a second, by the wall clock, so that a silent graph is reported too.
@@ -51,6 +52,7 @@ class Diagnostics {
   urban_nav_core::Status status_;
   std::string reason_name_ = "None", refusal_;
   Figures figures_;
+  StoreState store_;
   Worker::Counts worker_;
   Counts counts_;
   bool paused_ = false;

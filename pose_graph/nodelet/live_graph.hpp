@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "pose_graph/stored_graph.hpp"
 #include "urban_nav_core/types/closure.hpp"
 #include "urban_nav_core/types/graph_update.hpp"
 #include "urban_nav_core/types/status.hpp"
@@ -27,6 +29,14 @@ struct Figures {
   double cost_before = 0.0, cost_after = 0.0, relax_ms = 0.0;
 };
 
+/// How it stands with the store.
+struct StoreState {
+  std::string path;   ///< empty: there is to be none
+  std::string fault;  ///< why what is taken in does not reach it; empty: it does
+  std::int64_t committed = 0, refused = 0, lost = 0;
+  std::size_t waiting = 0;
+};
+
 /// What the nodelet needs of the stage: the seam between messages and graph. Used by one thread at a time. What a user has
 /// done wrong is thrown as UserError.
 class LiveGraph {
@@ -37,6 +47,7 @@ class LiveGraph {
     Figures figures;
     urban_nav_core::Status status;
     std::string reason_name;
+    bool needs_batch = false;  ///< a closure disagrees: only the batch can tell who is wrong
   };
   struct EdgeReply {
     std::string message;
@@ -62,6 +73,12 @@ class LiveGraph {
   /// Relaxes from where the graph is; `batch`: from the edges alone, as the offline run does.
   virtual Outcome relax(bool batch) = 0;
 
+  /// Hands what is new to the store, where there is one; to be called some ten times a second. Never waits for the disk, but to
+  /// read a store that has just been opened.
+  virtual void keep() = 0;
+  virtual StoreState storeState() const = 0;
+  virtual urban_nav_core::Status status() const = 0;
+
   virtual std::int64_t revision() const = 0;
   /// Stamp of the newest pose of the running session; 0: none.
   virtual urban_nav_core::StampNs newest() const = 0;
@@ -73,8 +90,11 @@ class LiveGraph {
 
   virtual EdgeReply addEdge(const urban_nav_core::EdgeRef& edge, const urban_nav_core::Constraint& measured) = 0;
   virtual EdgeReply removeEdge(const urban_nav_core::EdgeRef& edge) = 0;
-  virtual void save(const std::string& path) = 0;
-  virtual void load(const std::string& path) = 0;
+  /// What is left to be done for it without the graph, and may take its time: to be called in any thread, and says what was done.
+  using Rest = std::function<std::string()>;
+  virtual Rest save(const std::string& path) = 0;
+  /// Takes in the sessions that are not there yet, and says so; a relaxation follows.
+  virtual std::string load(const StoredGraph& stored) = 0;
   /// The id of the session that has begun.
   virtual std::string newSession(const std::string& name) = 0;
   /// Forgets everything.

@@ -28,6 +28,9 @@ const Table<NodeletParameters>& nodeletTable() {
            "Name of the robot; with the recording's name and the first stamp it makes the session's id.", "section 7"},
           {"recording", &P::recording, "", "", false, false, {},
            "Name of the recording, the same on all of the robot's computers.", "section 7"},
+          {"store", &P::store, "", "", false, false, {},
+           "Absolute path of the session store in which the graph is kept while it grows, committed each second, and from which it goes on; empty: none. "
+           "One writer a file.", "section 7"},
           {"queue", &P::queue, "messages", 20000, 2, 10000000, {},
            "Inputs that may wait while a relaxation runs; beyond that the oldest is dropped and counted.", ""},
           {"picture_period", &P::picture_period, "s", 1.0, 0.05, 3600.0, {},

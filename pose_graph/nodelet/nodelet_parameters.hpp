@@ -16,6 +16,7 @@ struct NodeletParameters {
   bool publish_tf;
   std::string robot;
   std::string recording;
+  std::string store;
   int queue;               // messages
   double picture_period;   // s
   double picture_spacing;  // m

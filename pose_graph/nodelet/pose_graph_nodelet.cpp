@@ -50,6 +50,7 @@ class PoseGraphNodelet : public nodelet::Nodelet {
   // In the worker's thread.
   void relaxed(const LiveGraph::Outcome& outcome, const LiveGraph& graph, double ms);
   void idle(const LiveGraph& graph);
+  void publishStoreState(const LiveGraph& graph);
 
   Parameters parameters_;
   NodeletParameters nodelet_;
@@ -66,6 +67,7 @@ class PoseGraphNodelet : public nodelet::Nodelet {
   std::optional<Clock::time_point> last_picture_;
   std::int64_t drawn_revision_ = -1;
   urban_nav_core::StampNs drawn_newest_ = 0;
+  std::string store_fault_;
 };
 
 void PoseGraphNodelet::onInit() {
@@ -77,8 +79,9 @@ void PoseGraphNodelet::onInit() {
   }
   publisher_ = std::make_unique<Publisher>(getNodeHandle(), nodelet_);
   diagnostics_ = std::make_unique<Diagnostics>(getNodeHandle(), getPrivateNodeHandle(), getName());
-  worker_ = std::make_unique<Worker>(std::make_unique<StageGraph>(parameters_, nodelet_.robot, nodelet_.recording),
-                                     static_cast<std::size_t>(nodelet_.queue), listener());
+  worker_ = std::make_unique<Worker>(
+      std::make_unique<StageGraph>(parameters_, nodelet_.robot, nodelet_.recording, nodelet_.store),
+      static_cast<std::size_t>(nodelet_.queue), listener());
   services_ = std::make_unique<Services>(getMTPrivateNodeHandle(), *worker_, [this](bool paused) {
     paused_ = paused;
     diagnostics_->paused(paused);
@@ -158,8 +161,20 @@ void PoseGraphNodelet::relaxed(const LiveGraph::Outcome& outcome, const LiveGrap
   diagnostics_->relaxed(outcome.status, outcome.reason_name, figures);
 }
 
+void PoseGraphNodelet::publishStoreState(const LiveGraph& graph) {
+  const StoreState state = graph.storeState();
+  diagnostics_->stored(state);
+  if (state.fault == store_fault_) return;
+  if (state.fault.empty()) NODELET_INFO("%s: what is taken in is stored again", state.path.c_str());
+  else NODELET_ERROR("store: %s", state.fault.c_str());
+  store_fault_ = state.fault;
+  const urban_nav_core::Status status = graph.status();
+  publisher_->publish(status, toString(static_cast<Trouble>(status.reason)), graph.newest());
+}
+
 void PoseGraphNodelet::idle(const LiveGraph& graph) {
   publisher_->setMapFromOdom(graph.T_map_odom());
+  publishStoreState(graph);
   const Clock::time_point now = Clock::now();
   const bool due = !last_picture_ || now - *last_picture_ >= std::chrono::duration<double>(nodelet_.picture_period);
   const bool changed = graph.revision() != drawn_revision_ || graph.newest() != drawn_newest_;

@@ -9,7 +9,9 @@
 #include <urban_nav_msgs/RemoveEdge.h>
 
 #include <boost/function.hpp>
+#include <memory>
 #include <stdexcept>
+#include <utility>
 
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/closure.hpp"
@@ -84,17 +86,20 @@ void Services::advertiseQuestion(ros::NodeHandle& nh, const std::string& name, c
   using Response = typename Service::Response;
   advertise<Service>(nh, name, [this, question](const Request& request, Response& response) {
     // By value: the worker may get to it after the caller has given up.
-    const auto answer = worker_.ask(
-        [question, request](LiveGraph& graph) {
-          Response made;
-          made.success = true;
-          question(graph, request, made);
-          return made;
-        },
-        patience);
-    if (!answer) throw UserError("", still_at_work, "");
-    response = *answer;
+    response = answer([question, request](LiveGraph& graph) {
+      Response made;
+      made.success = true;
+      question(graph, request, made);
+      return made;
+    });
   });
+}
+
+template <typename Question>
+auto Services::answer(const Question& question) -> decltype(question(std::declval<LiveGraph&>())) {
+  auto answer = worker_.ask(question, patience);
+  if (!answer) throw UserError("", still_at_work, "");
+  return std::move(*answer);
 }
 
 Services::Services(ros::NodeHandle& nh, Worker& worker, std::function<void(bool)> pause) : worker_(worker) {
@@ -104,18 +109,17 @@ Services::Services(ros::NodeHandle& nh, Worker& worker, std::function<void(bool)
       nh, "remove_edge", [](LiveGraph& graph, const RemoveEdge::Request& request, RemoveEdge::Response& response) {
         response.message = graph.removeEdge(urban_nav_ros::toEdgeRef(request.edge)).message;
       });
-  advertiseQuestion<FileCommand>(
-      nh, "save", [](LiveGraph& graph, const FileCommand::Request& request, FileCommand::Response& response) {
-        demandPath(request.path);
-        graph.save(request.path);
-        response.message = "the graph is in " + request.path;
-      });
-  advertiseQuestion<FileCommand>(
-      nh, "load", [](LiveGraph& graph, const FileCommand::Request& request, FileCommand::Response& response) {
-        demandPath(request.path);
-        graph.load(request.path);
-        response.message = "the graph of " + request.path + " goes on";
-      });
+  advertise<FileCommand>(nh, "save", [this](const FileCommand::Request& request, FileCommand::Response& response) {
+    demandPath(request.path);
+    const LiveGraph::Rest rest = answer([path = request.path](LiveGraph& graph) { return graph.save(path); });
+    response.message = request.path + ": " + rest();
+  });
+  advertise<FileCommand>(nh, "load", [this](const FileCommand::Request& request, FileCommand::Response& response) {
+    demandPath(request.path);
+    urban_nav_store::Store store(request.path, urban_nav_store::Access::Read);
+    const auto stored = std::make_shared<const StoredGraph>(readGraph(store));
+    response.message = request.path + ": " + answer([stored](LiveGraph& graph) { return graph.load(*stored); });
+  });
   advertiseQuestion<NewSession>(
       nh, "new_session", [](LiveGraph& graph, const NewSession::Request& request, NewSession::Response& response) {
         response.session = graph.newSession(request.name);

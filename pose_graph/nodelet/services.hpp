@@ -6,14 +6,15 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "worker.hpp"
 
 namespace pose_graph {
 
-/// The services of the stage: each asks the worker and waits for its turn, but optimize, which says that it has begun. To
-/// be advertised in a queue of its own threads, so that a caller who waits keeps no message waiting.
+/// The services of the stage: each asks the worker and waits for its turn, but optimize, which says that it has begun.
+/// Files are read and copied in the caller's thread. To be advertised in a queue of its own threads, so that a caller who waits keeps no message waiting.
 class Services {
  public:
   /// `worker` must outlive it.
@@ -26,6 +27,10 @@ class Services {
   void advertise(ros::NodeHandle& nh, const std::string& name, const Action<Service>& action);
   template <typename Service, typename Question>
   void advertiseQuestion(ros::NodeHandle& nh, const std::string& name, const Question& question);
+
+  /// What the graph answers; UserError where it does not in time.
+  template <typename Question>
+  auto answer(const Question& question) -> decltype(question(std::declval<LiveGraph&>()));
 
   Worker& worker_;
   std::vector<ros::ServiceServer> servers_;

@@ -2,6 +2,7 @@
 #include "stage_graph.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include "urban_nav_core/types/error.hpp"
@@ -54,22 +55,73 @@ std::size_t numberOf(const Track& track, StampNs stamp) {
 
 }  // namespace
 
-StageGraph::StageGraph(const Parameters& parameters, std::string robot, std::string recording)
-    : parameters_(parameters), robot_(std::move(robot)), recording_(std::move(recording)), graph_(parameters) {}
+StageGraph::StageGraph(const Parameters& parameters, std::string robot, std::string recording, const std::string& store)
+    : parameters_(parameters),
+      robot_(std::move(robot)),
+      recording_(std::move(recording)),
+      graph_(parameters),
+      link_(store) {}
+
+StageGraph::~StageGraph() {
+  end();
+  if (Keeper* keeper = link_.keeper()) keeper->handOver(graph_);
+}
 
 void StageGraph::begin(const std::string& name, StampNs start) {
-  SessionId id = urban_nav_store::sessionIdOf({robot_, name, start, ""});
+  end();
+  if (!session_.empty()) waiting_.clear();
+  if (goOn(name, start)) return;
+  urban_nav_store::Session session;
+  session.name = name.empty() ? urban_nav_core::printStamp(start) : name;
+  session.robot = robot_;
+  session.recording = name;
+  session.start = start;
+  session.id = urban_nav_store::sessionIdOf({robot_, name, start, ""});
   // A bag that is played again has the name and the start of the time before.
-  for (int round = 2; graph_.hasSession(id); ++round)
-    id = urban_nav_store::sessionIdOf({robot_, name + " (" + std::to_string(round) + ")", start, ""});
-  graph_.beginSession(id);
-  session_ = id;
-  waiting_.clear();
+  for (int round = 2; sessions_.count(session.id) > 0; ++round) {
+    session.recording = name + " (" + std::to_string(round) + ")";
+    session.id = urban_nav_store::sessionIdOf({robot_, session.recording, start, ""});
+  }
+  graph_.beginSession(session.id);
+  session_ = session.id;
+  heard_ = start;
+  announce(session);
   moved_.resize(graph_.tracks().size());
 }
 
+bool StageGraph::goOn(const std::string& name, StampNs start) {
+  for (const SessionId& id : earlier_) {
+    const urban_nav_store::Session& session = sessions_.at(id);
+    const Track* track = graph_.track(id);
+    if (track == nullptr || session.robot != robot_ || session.recording != name) continue;
+    if (session.start != start && (track->stamps.empty() || track->stamps.back() != start)) continue;
+    session_ = id;
+    heard_ = start;
+    graph_.goOn(id);
+    announce(session);
+    earlier_.erase(id);
+    return true;
+  }
+  return false;
+}
+
+void StageGraph::announce(const urban_nav_store::Session& session) {
+  urban_nav_store::Session now = session;
+  now.complete = false;
+  sessions_[now.id] = now;
+  if (Keeper* keeper = link_.keeper()) keeper->put(now, parametersOf(parameters_));
+}
+
+void StageGraph::end() {
+  if (session_.empty()) return;
+  urban_nav_store::Session& session = sessions_.at(session_);
+  session.complete = true;
+  if (Keeper* keeper = link_.keeper()) keeper->put(session);
+}
+
 void StageGraph::add(const urban_nav_core::RelativePose& relative) {
-  if (session_.empty() || relative.from < newest() - back_in_time) begin(recording_, relative.from);
+  if (session_.empty() || relative.from < heard_ - back_in_time) begin(recording_, relative.from);
+  heard_ = std::max(heard_, relative.to);
   if (!graph_.addOdometry(session_, relative)) return;
   const auto& tracks = graph_.tracks();
   for (std::size_t i = 0; i < tracks.size(); ++i)
@@ -78,24 +130,28 @@ void StageGraph::add(const urban_nav_core::RelativePose& relative) {
 }
 
 void StageGraph::add(const urban_nav_core::MetricClosure& closure) {
-  if (closure.verdict != urban_nav_core::ClosureVerdict::Accepted || closure.method == ClosureMethod::None) return;
-  Closure offered;
-  offered.a = nodeOf(closure.a);
-  offered.b = nodeOf(closure.b);
-  offered.kind = closure.method == ClosureMethod::Icp ? EdgeKind::Icp : EdgeKind::Stereo;
-  offered.source = closure.source;
-  offered.measured = closure.measured;
-  offered.odometry_gate = closure.odometry_gate;
+  Offered offered;
+  offered.rejected =
+      closure.verdict != urban_nav_core::ClosureVerdict::Accepted || closure.method == ClosureMethod::None;
+  offered.evidence = evidenceOf(closure);
+  offered.closure.a = nodeOf(closure.a);
+  offered.closure.b = nodeOf(closure.b);
+  offered.closure.kind = closure.method == ClosureMethod::Icp ? EdgeKind::Icp : EdgeKind::Stereo;
+  offered.closure.source = closure.source;
+  offered.closure.measured = closure.measured;
+  offered.closure.odometry_gate = closure.odometry_gate;
+  if (offered.rejected)
+    offered.closure.reason = closure.reason_name + (closure.sentence.empty() ? "" : ": " + closure.sentence);
   offer(std::move(offered));
 }
 
 void StageGraph::add(const urban_nav_core::RelativeConstraint& constraint) {
-  Closure offered;
-  offered.a = nodeOf(constraint.a);
-  offered.b = nodeOf(constraint.b);
-  offered.kind = kindOf(constraint.kind);
-  offered.source = constraint.source;
-  offered.measured = constraint.measured;
+  Offered offered;
+  offered.closure.a = nodeOf(constraint.a);
+  offered.closure.b = nodeOf(constraint.b);
+  offered.closure.kind = kindOf(constraint.kind);
+  offered.closure.source = constraint.source;
+  offered.closure.measured = constraint.measured;
   offer(std::move(offered));
 }
 
@@ -107,30 +163,48 @@ bool StageGraph::isAhead(const NodeRef& node) const {
   return node.session.empty() || (node.session == session_ && node.stamp > newest());
 }
 
-void StageGraph::offer(Closure closure) {
-  if (isAhead(closure.a) || isAhead(closure.b)) {
+bool StageGraph::isAhead(const Offered& offered) const {
+  return isAhead(offered.closure.a) || isAhead(offered.closure.b);
+}
+
+void StageGraph::offer(Offered offered) {
+  if (isAhead(offered)) {
     if (waiting_.size() == most_waiting) waiting_.pop_front();
-    waiting_.push_back(std::move(closure));
+    waiting_.push_back(std::move(offered));
     return;
   }
-  graph_.addClosure(closure);
+  take(offered);
+}
+
+void StageGraph::take(Offered& offered) {
+  Keeper* keeper = link_.keeper();
+  if (offered.rejected) {
+    if (keeper == nullptr) return;
+    urban_nav_store::Edge edge = edgeOf(offered.closure);
+    edge.measured.information.setZero();  // says nothing, and is no part of the graph that is read again
+    edge.verdict = ClosureVerdict::Rejected;
+    edge.weight = 0.0;
+    keeper->putRejected(edge, offered.evidence);
+    return;
+  }
+  graph_.addClosure(offered.closure);
+  if (keeper != nullptr && !offered.evidence.empty()) keeper->putEvidence(edgeOf(offered.closure), offered.evidence);
   changed_ = true;
 }
 
 void StageGraph::offerWaiting() {
-  std::deque<Closure> still;
+  std::deque<Offered> still;
   std::string refusal;
-  for (Closure& closure : std::exchange(waiting_, {})) {
+  for (Offered& offered : std::exchange(waiting_, {})) {
     // One that came before the first odometry of its session.
-    if (closure.a.session.empty()) closure.a.session = session_;
-    if (closure.b.session.empty()) closure.b.session = session_;
-    if (isAhead(closure.a) || isAhead(closure.b)) {
-      still.push_back(std::move(closure));
+    if (offered.closure.a.session.empty()) offered.closure.a.session = session_;
+    if (offered.closure.b.session.empty()) offered.closure.b.session = session_;
+    if (isAhead(offered)) {
+      still.push_back(std::move(offered));
       continue;
     }
     try {
-      graph_.addClosure(closure);
-      changed_ = true;
+      take(offered);
     } catch (const UserError& error) {
       refusal = error.what();
     }
@@ -145,7 +219,67 @@ LiveGraph::Outcome StageGraph::relax(bool batch) {
     ready_.pop_front();
     return outcome;
   }
-  return absorb(batch ? graph_.relax() : graph_.update());
+  exactly_ = std::exchange(batch_due_, false) || batch;
+  return absorb(exactly_ ? graph_.relax() : graph_.update());
+}
+
+void StageGraph::keep() {
+  if (const auto stored = link_.open()) {
+    for (const auto& [id, session] : sessions_) link_.keeper()->put(session, parametersOf(parameters_));
+    takeIn(*stored, true);
+  }
+  if (Keeper* keeper = link_.keeper()) keeper->follow(graph_, exactly_);
+}
+
+std::string StageGraph::load(const StoredGraph& stored) {
+  const TakenIn taken = takeIn(stored, false);
+  return std::to_string(taken.sessions) + " sessions with " + std::to_string(taken.poses) + " poses and " +
+         std::to_string(taken.closures) + " closures are in the graph" +
+         (taken.refused > 0 ? "; " + std::to_string(taken.refused) + " closures were refused" : "") +
+         (taken.known > 0 ? "; " + std::to_string(taken.known) + " sessions were there already" : "");
+}
+
+StageGraph::TakenIn StageGraph::takeIn(const StoredGraph& stored, bool own) {
+  TakenIn taken;
+  Keeper* keeper = link_.keeper();
+  for (const StoredGraph::Chain& chain : stored.chains) {
+    const SessionId& id = chain.session.id;
+    if (graph_.hasSession(id)) {
+      ++taken.known;
+      continue;
+    }
+    graph_.beginSession(id);
+    for (const urban_nav_core::RelativePose& step : chain.steps) graph_.addOdometry(id, step);
+    const std::size_t track = graph_.tracks().size() - 1, poses = graph_.tracks().back().stamps.size();
+    sessions_[id] = chain.session;
+    if (own) earlier_.insert(id);
+    if (own) keeper->knows(graph_, track);
+    else if (keeper != nullptr) keeper->put(chain.session);
+    moved_.resize(track + 1);
+    moved_.back().grow(poses, graph_.revision());
+    ++taken.sessions;
+    taken.poses += poses;
+  }
+  for (const Closure& closure : stored.closures) {
+    try {
+      if (graph_.findClosure(closure.a, closure.b, closure.kind, closure.source)) continue;
+      const ClosureId id = graph_.addClosure(closure);
+      if (own) keeper->knows(graph_.closures().at(id));
+      else if (keeper != nullptr && closure.odometry_gate) keeper->putEvidence(edgeOf(closure), evidenceOf(true));
+      ++taken.closures;
+    } catch (const UserError&) {
+      ++taken.refused;
+    }
+  }
+  if (!session_.empty()) graph_.goOn(session_);
+  if (taken.poses > 0) changed_ = batch_due_ = true;
+  return taken;
+}
+
+urban_nav_core::Status StageGraph::status() const {
+  const std::string fault = link_.state().fault;
+  if (fault.empty()) return graph_.status();
+  return {urban_nav_core::Health::Degraded, static_cast<int>(Trouble::NotStored), "nothing is stored: " + fault};
 }
 
 LiveGraph::Outcome StageGraph::absorb(const Relaxed& relaxed) {
@@ -165,10 +299,10 @@ LiveGraph::Outcome StageGraph::absorb(const Relaxed& relaxed) {
     jump.at = refOf(relaxed.jump->at);
     jump.T_map_base_before = relaxed.jump->before;
     jump.T_map_base_after = relaxed.jump->after;
-    jump.sentence = relaxed.jump->reason;
-    for (const ClosureId id : relaxed.jump->witnesses)
-      if (const auto found = graph_.closures().find(id); found != graph_.closures().end())
-        jump.witnesses.push_back(refOf(found->second));
+    jump.reason = static_cast<int>(relaxed.jump->reason);
+    jump.reason_name = toString(relaxed.jump->reason);
+    jump.sentence = relaxed.jump->sentence;
+    for (const Closure& witness : relaxed.jump->witnesses) jump.witnesses.push_back(refOf(witness));
     outcome.jumps.push_back(std::move(jump));
   }
   outcome.figures.revision = relaxed.revision;
@@ -181,7 +315,8 @@ LiveGraph::Outcome StageGraph::absorb(const Relaxed& relaxed) {
   outcome.figures.closures_waiting = static_cast<std::int64_t>(relaxed.waiting);
   outcome.figures.cost_before = relaxed.cost_before;
   outcome.figures.cost_after = relaxed.cost_after;
-  outcome.status = graph_.status();
+  outcome.needs_batch = relaxed.needs_batch;
+  outcome.status = status();
   outcome.reason_name = toString(static_cast<Trouble>(outcome.status.reason));
   return outcome;
 }
@@ -278,8 +413,21 @@ LiveGraph::EdgeReply StageGraph::removeEdge(const EdgeRef& edge) {
   return {"removed; the graph is relaxed without it", {}};
 }
 
-void StageGraph::save(const std::string&) { throw UserError("", "no store", ""); }
-void StageGraph::load(const std::string&) { throw UserError("", "no store", ""); }
+LiveGraph::Rest StageGraph::save(const std::string& path) {
+  if (Keeper* keeper = link_.keeper()) {
+    keeper->handOver(graph_);
+    return [writer = keeper->writer(), own = link_.path(), path]() -> std::string {
+      writer->flush();
+      if (const std::string fault = writer->counts().fault; !fault.empty()) throw UserError("", fault, "");
+      std::error_code error;
+      if (std::filesystem::equivalent(own, path, error)) return "all of it is committed";
+      copyStore(own, path);
+      return "copied from " + own;
+    };
+  }
+  // Of a graph that is kept nowhere, a copy becomes a store.
+  return [graph = graph_, sessions = sessions_, path] { return writeStore(graph, sessions, path); };
+}
 
 std::string StageGraph::newSession(const std::string& name) {
   if (session_.empty()) throw UserError("", "no session is being recorded: the first odometry begins one", "");
@@ -288,12 +436,20 @@ std::string StageGraph::newSession(const std::string& name) {
 }
 
 void StageGraph::reset() {
-  graph_ = PoseGraph(parameters_);
+  end();
+  if (Keeper* keeper = link_.keeper()) {
+    keeper->handOver(graph_);
+    keeper->forget();
+  }
+  graph_ = PoseGraph(parameters_, graph_.revision() + 1);  // nobody must take it for the one before
   session_.clear();
+  heard_ = 0;
+  if (link_.keeper() == nullptr) sessions_.clear();
+  earlier_.clear();
   waiting_.clear();
   moved_.clear();
   ready_.clear();
-  changed_ = false;
+  changed_ = batch_due_ = false;
 }
 
 }  // namespace pose_graph

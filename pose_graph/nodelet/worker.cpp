@@ -8,6 +8,13 @@ namespace pose_graph {
 using Clock = std::chrono::steady_clock;
 using urban_nav_core::UserError;
 
+namespace {
+
+// Times its own duration, from one batch that a disagreement asks for to the next: they take a fifth of the thread at most.
+constexpr int kBatchesApart = 5;
+
+}  // namespace
+
 Worker::Worker(std::unique_ptr<LiveGraph> graph, std::size_t capacity, Listener listener)
     : graph_(std::move(graph)), listener_(std::move(listener)) {
   mailbox_.setCapacity(capacity);
@@ -31,7 +38,9 @@ void Worker::work() {
       take(input);
       if (mailbox_.closed()) return;
     }
-    if (batch_wanted_ || graph_->wantsRelaxation()) relax(std::exchange(batch_wanted_, false));
+    const bool batch = batch_wanted_ || (disagreement_ && Clock::now() >= batch_again_);
+    if (batch || graph_->wantsRelaxation()) relax(batch);
+    graph_->keep();
     if (listener_.idle) listener_.idle(*graph_);
   }
 }
@@ -52,10 +61,14 @@ void Worker::take(Input& input) {
 
 void Worker::relax(bool batch) {
   const Clock::time_point begin = Clock::now();
+  if (batch) batch_wanted_ = false;
   try {
     const LiveGraph::Outcome outcome = graph_->relax(batch);
     ++relaxations_;
-    const double ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+    const Clock::duration took = Clock::now() - begin;
+    const double ms = std::chrono::duration<double, std::milli>(took).count();
+    disagreement_ = outcome.needs_batch || (disagreement_ && !batch);
+    if (batch) batch_again_ = begin + kBatchesApart * took;
     if (listener_.relaxed) listener_.relaxed(outcome, *graph_, ms);
   } catch (const UserError& error) {
     ++refused_;

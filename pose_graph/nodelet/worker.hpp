@@ -17,8 +17,8 @@
 
 namespace pose_graph {
 
-/// One thread that hands inputs and questions to the graph in the order in which they came and relaxes when there is
-/// reason to. Nobody who puts something in waits for a relaxation. Thread-safe.
+/// One thread that hands inputs and questions to the graph in the order in which they came, relaxes when there is
+/// reason to, and has the graph kept. Nobody who puts something in waits for a relaxation. Thread-safe.
 class Worker {
  public:
   using Task = std::function<void(LiveGraph&)>;
@@ -61,7 +61,9 @@ class Worker {
   std::unique_ptr<LiveGraph> graph_;  // the thread's own
   const Listener listener_;
   urban_nav_ros::Mailbox<Input> mailbox_;
-  bool batch_wanted_ = false;  // the thread's own
+  bool batch_wanted_ = false;                            // the thread's own, and so are the next two
+  bool disagreement_ = false;                            // an update found closures that only a batch can judge
+  std::chrono::steady_clock::time_point batch_again_{};  // not before, for the sake of a disagreement
   std::atomic<std::int64_t> refused_{0}, relaxations_{0};
   std::thread thread_;
 };

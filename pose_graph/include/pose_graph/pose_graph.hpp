@@ -33,8 +33,20 @@ enum class Trouble : int {
   BrokenChain,  ///< a relative pose does not begin where the last one ended: what comes behind is a part of its own
   Separate,     ///< sessions, or parts of one, that no accepted closure joins
   Waiting,      ///< a closure waits for a second one that agrees
+  NotStored,    ///< live: what is taken in does not reach the store
 };
 const char* toString(Trouble trouble);
+
+/// Why the newest pose jumped: the reason on graph/jump.
+enum class JumpReason : int {
+  None = 0,
+  Believed,   ///< closures that were not believed before: the witnesses
+  Asserted,   ///< the same, and somebody asserted one of them
+  Withdrawn,  ///< closures that were believed no longer are: the witnesses
+  Removed,    ///< closures that were believed were removed by hand: the witnesses
+  Refined,    ///< none of these: relaxed from the measurements alone, the graph lies elsewhere
+};
+const char* toString(JumpReason reason);
 
 /// A closure, as offered and as judged.
 struct Closure {
@@ -76,13 +88,14 @@ struct Relaxed {
     std::size_t track = 0, first = 0, last = 0;
   };
   std::vector<Run> moved;
-  /// How the newest pose jumped, if by more than that: for graph/jump.
+  /// How the newest pose of the running session jumped, if by more than that: for graph/jump.
   struct Jump {
     NodeRef at;
     Pose before, after;  ///< T_map_base
     double distance = 0.0, angle = 0.0;
-    std::string reason;
-    std::vector<ClosureId> witnesses;  ///< accepted now and not before
+    JumpReason reason = JumpReason::None;
+    std::string sentence;
+    std::vector<Closure> witnesses;  ///< as the reason has it
   };
   std::optional<Jump> jump;
   bool needs_batch = false;  ///< update() met a closure that disagrees
@@ -94,11 +107,14 @@ struct Relaxed {
 /// Not thread-safe; relax() may be run on a copy. The same calls give the same bits, whatever the number of threads.
 class PoseGraph {
  public:
-  explicit PoseGraph(const Parameters& parameters);
+  /// `revision`: to count on from, where this graph takes the place of another.
+  explicit PoseGraph(const Parameters& parameters, std::int64_t revision = 0);
 
   /// A session begins; UserError where it has begun already.
   void beginSession(const SessionId& session);
   bool hasSession(const SessionId& session) const;
+  /// The session that is being recorded, whose jumps are told: the one that began last, unless it is said here.
+  void goOn(const SessionId& session);
 
   /// The next step of a session's chain. The first one makes two poses. A step that does not begin at the session's newest pose
   /// breaks the chain (Trouble::BrokenChain); one that is not later than it, or not finite, is left out: false.
@@ -121,6 +137,8 @@ class PoseGraph {
 
   const std::vector<Track>& tracks() const { return tracks_; }
   const Track* track(const SessionId& session) const;
+  /// The step that leads to a pose of a track, as it was measured; null at the first one, and behind a gap.
+  const urban_nav_core::RelativePose* stepTo(std::size_t track, std::size_t pose) const;
   const std::map<ClosureId, Closure>& closures() const { return closures_; }
   std::int64_t revision() const { return revision_; }
   urban_nav_core::Status status() const;
@@ -164,7 +182,9 @@ class PoseGraph {
   std::vector<Track> tracks_;
   std::map<SessionId, std::size_t> track_of_;
   std::vector<std::vector<ChainStep>> steps_;  ///< of each track: steps_[t][i] leads from pose i to pose i + 1
-  std::vector<std::vector<Run>> runs_;         ///< of each track, in order
+  /// As steps_, for the store; those that do not join are nothing.
+  std::vector<std::vector<urban_nav_core::RelativePose>> measured_;
+  std::vector<std::vector<Run>> runs_;  ///< of each track, in order
   std::map<ClosureId, Closure> closures_;
   std::map<ClosureId, Bond> bonds_;  ///< of each closure
   using Name = std::tuple<SessionId, StampNs, SessionId, StampNs, EdgeKind, std::string>;
@@ -172,7 +192,9 @@ class PoseGraph {
     return {a.session, a.stamp, b.session, b.stamp, kind, source};
   }
   std::map<Name, ClosureId> by_name_;
+  std::vector<Closure> removed_;  ///< since the last relaxation, of those that were believed
   ClosureId next_id_ = 1;
+  std::size_t running_ = 0;  ///< number of the track that is being recorded
   std::int64_t revision_ = 0;
   int parts_ = 0;
   double odometry_variance_ = 1.0;

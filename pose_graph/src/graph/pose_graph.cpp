@@ -43,11 +43,13 @@ const char* toString(Trouble trouble) {
     case Trouble::BrokenChain: return "BrokenChain";
     case Trouble::Separate: return "Separate";
     case Trouble::Waiting: return "Waiting";
+    case Trouble::NotStored: return "NotStored";
   }
   return "";
 }
 
-PoseGraph::PoseGraph(const Parameters& parameters) : parameters_(parameters) {}
+PoseGraph::PoseGraph(const Parameters& parameters, std::int64_t revision)
+    : parameters_(parameters), revision_(revision) {}
 
 void PoseGraph::beginSession(const SessionId& session) {
   if (hasSession(session)) throw UserError("pose_graph", "session " + session + " has begun already", "a new one");
@@ -55,7 +57,17 @@ void PoseGraph::beginSession(const SessionId& session) {
   tracks_.emplace_back();
   tracks_.back().session = session;
   steps_.emplace_back();
+  measured_.emplace_back();
   runs_.emplace_back();
+  running_ = tracks_.size() - 1;
+}
+
+void PoseGraph::goOn(const SessionId& session) {
+  if (hasSession(session)) running_ = track_of_.at(session);
+}
+
+const RelativePose* PoseGraph::stepTo(std::size_t track, std::size_t pose) const {
+  return pose > 0 && steps_[track][pose - 1].joins ? &measured_[track][pose - 1] : nullptr;
 }
 
 bool PoseGraph::hasSession(const SessionId& session) const { return track(session) != nullptr; }
@@ -76,8 +88,7 @@ bool PoseGraph::addOdometry(const SessionId& session, const RelativePose& offere
   if (!isProper(step.drift_covariance)) step.drift_covariance.setZero();
   std::vector<Run>& runs = runs_[t];
   const auto append = [&](StampNs stamp, const Pose& T_odom_base, const Pose& T_map_base, bool begins) {
-    if (begins)
-      runs.push_back({t, track.stamps.size(), track.stamps.size(), t == 0 && track.stamps.empty() ? 0 : parts_++});
+    if (begins) runs.push_back({t, track.stamps.size(), track.stamps.size(), parts_++});
     runs.back().last = track.stamps.size();
     track.stamps.push_back(stamp);
     track.odom.push_back(T_odom_base);
@@ -91,6 +102,7 @@ bool PoseGraph::addOdometry(const SessionId& session, const RelativePose& offere
     ChainStep gap;
     gap.joins = gap.invertible = false;
     steps_[t].push_back(gap);
+    measured_[t].emplace_back();
     append(step.from, track.odom.back(), track.map.back(), true);
     broken_ = true;
   }
@@ -99,6 +111,7 @@ bool PoseGraph::addOdometry(const SessionId& session, const RelativePose& offere
   joint.invertible = invert<3>(joint.edge.information, joint.covariance);
   if (step.drift_covariance.trace() > 0.0) joint.own_noise = 0.5 * step.covariance;
   steps_[t].push_back(joint);
+  measured_[t].push_back(step);
   append(step.to, track.odom.back() * step.T_from_to, track.map.back() * step.T_from_to, false);
   return true;
 }
@@ -178,6 +191,7 @@ bool PoseGraph::removeClosure(ClosureId id) {
   if (found == closures_.end()) return false;
   const Closure& closure = found->second;
   if (closure.weight > 0.0) live_.reset();
+  if (closure.verdict == ClosureVerdict::Accepted) removed_.push_back(closure);
   by_name_.erase(nameOf(closure.a, closure.b, closure.kind, closure.source));
   bonds_.erase(id);
   closures_.erase(found);

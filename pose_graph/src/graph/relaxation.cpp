@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "graph/jump_gate.hpp"
+#include "graph/jump_reason.hpp"
 #include "graph/odometry_variance.hpp"
 #include "pose_graph/graph_file.hpp"
 #include "pose_graph/pose_graph.hpp"
@@ -80,8 +81,8 @@ std::vector<ClosureId> PoseGraph::accepted() const {
 }
 
 std::optional<Pose> PoseGraph::newest() const {
-  if (tracks_.empty() || tracks_.back().map.empty()) return std::nullopt;
-  return tracks_.back().map.back();
+  if (tracks_.empty() || tracks_[running_].map.empty()) return std::nullopt;
+  return tracks_[running_].map.back();
 }
 
 Relaxed PoseGraph::relax(const SolveOptions& options) {
@@ -169,16 +170,19 @@ void PoseGraph::tell(Relaxed& made, std::vector<Relaxed::Run> moved, const std::
     made.edges += track.stamps.size() - 1;
     made.sessions_joined += track.part.back() == 0;
   }
+  const std::vector<Closure> removed = std::exchange(removed_, {});
   if (!newest_before) return;
-  const Track& track = tracks_.back();
+  const Track& track = tracks_[running_];
   const double distance = distanceBetween(*newest_before, track.map.back()),
                angle = angleBetween(*newest_before, track.map.back());
   if (distance <= parameters_.jump_distance && angle <= parameters_.jump_angle * kDegree) return;
-  Relaxed::Jump jump{{track.session, track.stamps.back()}, *newest_before, track.map.back(), distance, angle, "", {}};
-  for (const ClosureId id : accepted())
-    if (!std::binary_search(accepted_before.begin(), accepted_before.end(), id)) jump.witnesses.push_back(id);
-  jump.reason = jump.witnesses.empty() ? "closures that were believed are no longer"
-                                       : std::to_string(jump.witnesses.size()) + " closures that agree";
+  Relaxed::Jump jump;
+  jump.at = {track.session, track.stamps.back()};
+  jump.before = *newest_before;
+  jump.after = track.map.back();
+  jump.distance = distance;
+  jump.angle = angle;
+  explain(jump, accepted_before, removed, closures_);
   made.jump = std::move(jump);
 }
 

@@ -81,10 +81,40 @@ TEST(PoseGraph, closesALoop) {
   EXPECT_EQ(relaxed.revision, 1);
   EXPECT_LT(relaxed.cost_after, relaxed.cost_before);
   EXPECT_LT(worstError(graph.tracks()[0], 0), 0.7 * before);
-  EXPECT_TRUE(relaxed.jump);
+  ASSERT_TRUE(relaxed.jump);
+  EXPECT_EQ(relaxed.jump->reason, JumpReason::Believed);
   EXPECT_EQ(relaxed.jump->witnesses.size(), 10u);
   ASSERT_FALSE(relaxed.moved.empty());
   EXPECT_TRUE(isApprox(graph.mapFromOdom("a") * graph.tracks()[0].odom.back(), graph.tracks()[0].map.back(), 1e-9));
+}
+
+TEST(PoseGraph, saysWhyTheRobotJumped) {
+  PoseGraph graph{Parameters()};
+  drive(graph, "a", 0, 2 * kRound, 5e-4);
+  const ClosureId first = graph.addClosure(closureBetween("a", 20, "a", 20 + kRound));
+  const ClosureId second = graph.addClosure(closureBetween("a", 300, "a", 300 + kRound));
+  graph.relax();
+  graph.removeClosure(first);
+  EXPECT_TRUE(graph.removeClosure(second));
+  const Relaxed without = graph.relax();
+  ASSERT_TRUE(without.jump);
+  EXPECT_EQ(without.jump->reason, JumpReason::Removed);
+  ASSERT_EQ(without.jump->witnesses.size(), 2u);
+  EXPECT_EQ(without.jump->witnesses[1].a.stamp, 300 * kStep);
+
+  Closure asserted = closureBetween("a", 20, "a", 20 + kRound);
+  asserted.kind = EdgeKind::Asserted;
+  graph.addClosure(asserted);
+  const Relaxed by_hand = graph.relax();
+  ASSERT_TRUE(by_hand.jump);
+  EXPECT_EQ(by_hand.jump->reason, JumpReason::Asserted);
+  EXPECT_EQ(by_hand.jump->witnesses.size(), 1u);
+
+  // Whoever is not being recorded does not jump, and neither does one who stays where he is.
+  EXPECT_FALSE(graph.relax().jump);
+  graph.beginSession("b");
+  graph.removeClosure(*graph.findClosure(asserted.a, asserted.b, EdgeKind::Asserted, asserted.source));
+  EXPECT_FALSE(graph.relax().jump);
 }
 
 TEST(PoseGraph, relaxesThePapersWayToo) {

@@ -7,6 +7,7 @@
 #include <urban_nav_msgs/RemoveEdge.h>
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 #include "listener.hpp"
@@ -14,6 +15,7 @@
 #include "urban_nav_ros/graph.hpp"
 #include "urban_nav_ros/pose.hpp"
 #include "urban_nav_ros/stamp.hpp"
+#include "urban_nav_store/store.hpp"
 
 namespace pose_graph::test {
 namespace {
@@ -140,6 +142,9 @@ TEST_F(PoseGraphNodelet, aClosureBringsTheRobotHome) {
   EXPECT_NEAR(listener().jumps.back().distance, odomPose(lap).t().norm(), 0.2);
   ASSERT_EQ(listener().jumps.back().witnesses.size(), 1U);
   EXPECT_EQ(listener().jumps.back().witnesses[0].source, "loop_metric");
+  EXPECT_EQ(listener().jumps.back().reason, 1);
+  EXPECT_EQ(listener().jumps.back().reason_name, "Believed");
+  EXPECT_EQ(listener().jumps.back().text, "a closure is believed now");
 }
 
 TEST_F(PoseGraphNodelet, aClosureThatIsAheadOfOdometryWaitsForIt) {
@@ -287,6 +292,69 @@ TEST_F(PoseGraphNodelet, pauseDropsInputsAndDiagnosticsCountWhatIsWrong) {
   };
   EXPECT_TRUE(Listener::until([&] { return counted("dropped: paused", "3"); }));
   EXPECT_TRUE(Listener::until([&] { return counted("messages damaged", "1"); }));
+}
+
+/// The nodelet keeps its graph in a file of which launch has made the name.
+class Store : public PoseGraphNodelet {
+ protected:
+  static std::string path() {
+    std::string path;
+    EXPECT_TRUE(ros::param::get("pose_graph/store", path));
+    return path;
+  }
+  static void TearDownTestSuite() {
+    PoseGraphNodelet::TearDownTestSuite();
+    for (const char* suffix : {"", "-wal", "-shm", "-lock"}) std::filesystem::remove(path() + suffix);
+    std::filesystem::remove(path() + ".saved");
+  }
+  static urban_nav_msgs::FileCommand::Response command(const std::string& service, const std::string& path) {
+    urban_nav_msgs::FileCommand call;
+    call.request.path = path;
+    EXPECT_TRUE(ros::service::call("pose_graph/" + service, call));
+    return call.response;
+  }
+  /// Of the session that began last, as another process reads it while the nodelet writes.
+  static std::int64_t storedNodes() {
+    urban_nav_store::Store store(path(), urban_nav_store::Access::Read);
+    std::int64_t nodes = 0;
+    for (const auto& session : store.sessions().all())
+      if (!session.complete) nodes = store.graph().nodes(session.id);
+    return nodes;
+  }
+};
+
+TEST_F(Store, hasWhatWasTakenInASecondAgo) {
+  drive(0, lap);
+  ASSERT_TRUE(driven(lap + 1));
+  ros::WallTime begin = ros::WallTime::now();
+  ASSERT_TRUE(Listener::until([&] { return storedNodes() == lap + 1; }));
+  EXPECT_LT((ros::WallTime::now() - begin).toSec(), 4.0) << "a second, on a machine with nothing else to do";
+  EXPECT_TRUE(Listener::until([&] {
+    for (const auto& array : listener().diagnostics)
+      for (const auto& status : array.status)
+        for (const auto& entry : status.values)
+          if (entry.key == "store" && entry.value == path()) return true;
+    return false;
+  }));
+}
+
+TEST_F(Store, savesTheGraphAndGoesOnFromIt) {
+  drive(0, lap);
+  close(closureOf(0, lap, Pose()));
+  ASSERT_TRUE(Listener::until([&] { return !listener().updates.empty(); }));
+  const auto saved = command("save", path() + ".saved");
+  EXPECT_TRUE(saved.success) << saved.message;
+  EXPECT_FALSE(command("save", "relative.db").success);
+  EXPECT_FALSE(command("save", "/no/such/folder.db").success);
+  ASSERT_TRUE(listener().call("reset"));
+  ASSERT_EQ(poses(), 0U);
+  const auto loaded = command("load", path() + ".saved");
+  EXPECT_TRUE(loaded.success) << loaded.message;
+  EXPECT_NE(loaded.message.find(" closures are in the graph"), std::string::npos) << loaded.message;
+  EXPECT_GE(poses(), static_cast<std::size_t>(lap + 1));
+  const auto refused = command("load", "/nothing.db");
+  EXPECT_FALSE(refused.success);
+  EXPECT_NE(refused.message.find("/nothing.db"), std::string::npos) << refused.message;
 }
 
 TEST_F(PoseGraphNodelet, optimizesFromTheEdgesAndTheStatusWaitsForLateSubscribers) {

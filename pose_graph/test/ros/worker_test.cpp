@@ -18,7 +18,8 @@ class Note : public LiveGraph {
  public:
   struct Book {
     std::vector<urban_nav_core::StampNs> steps;
-    int closures = 0, batches = 0, updates = 0;
+    int closures = 0, batches = 0, updates = 0, kept = 0;
+    bool disagree = false;  // updates find closures that only a batch can judge
   };
   explicit Note(std::chrono::milliseconds relaxing) : relaxing_(relaxing) {}
 
@@ -36,8 +37,13 @@ class Note : public LiveGraph {
     std::this_thread::sleep_for(relaxing_);
     ++(batch ? book.batches : book.updates);
     changed_ = false;
-    return {};
+    Outcome outcome;
+    outcome.needs_batch = book.disagree && !batch;
+    return outcome;
   }
+  void keep() override { ++book.kept; }
+  StoreState storeState() const override { return {}; }
+  urban_nav_core::Status status() const override { return {}; }
   std::int64_t revision() const override { return 0; }
   urban_nav_core::StampNs newest() const override { return book.steps.empty() ? 0 : book.steps.back(); }
   urban_nav_core::Pose T_map_odom() const override { return {}; }
@@ -45,8 +51,8 @@ class Note : public LiveGraph {
   Trajectory trajectory(urban_nav_core::StampNs, urban_nav_core::StampNs, std::int64_t) const override { return {}; }
   EdgeReply addEdge(const urban_nav_core::EdgeRef&, const urban_nav_core::Constraint&) override { return {}; }
   EdgeReply removeEdge(const urban_nav_core::EdgeRef&) override { return {}; }
-  void save(const std::string&) override {}
-  void load(const std::string&) override {}
+  Rest save(const std::string&) override { return {}; }
+  std::string load(const StoredGraph&) override { return {}; }
   std::string newSession(const std::string&) override { return {}; }
   void reset() override { book = {}; }
 
@@ -113,6 +119,21 @@ TEST(Worker, OptimizeIsABatch) {
   bookOf(worker);
   std::this_thread::sleep_for(50ms);
   EXPECT_EQ(bookOf(worker).batches, 1);
+}
+
+TEST(Worker, ADisagreementIsJudgedByABatchAndNotByOneAfterTheOther) {
+  Worker worker(std::make_unique<Note>(50ms), 100, {});
+  worker.put(Worker::Task([](LiveGraph& graph) { dynamic_cast<Note&>(graph).book.disagree = true; }));
+  const auto begin = std::chrono::steady_clock::now();
+  while (std::chrono::steady_clock::now() - begin < 1s) {
+    worker.put(urban_nav_core::MetricClosure());
+    std::this_thread::sleep_for(10ms);
+  }
+  const Note::Book book = bookOf(worker);
+  EXPECT_GE(book.batches, 1);
+  EXPECT_LE(book.batches, 5) << "a fifth of the time";
+  EXPECT_GT(book.updates, book.batches);
+  EXPECT_GT(book.kept, 0);
 }
 
 TEST(Worker, WhatTheGraphRefusesIsCountedAndSaid) {

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "pose_graph/pose_graph.hpp"
+
+namespace pose_graph {
+
+/// Fills in a jump's reason, sentence and witnesses. `accepted_before`: closures believed before the relaxation, ascending;
+/// `removed`: those of them that were removed by hand since; `closures`: as they are judged now.
+void explain(Relaxed::Jump& jump, const std::vector<ClosureId>& accepted_before, const std::vector<Closure>& removed,
+             const std::map<ClosureId, Closure>& closures);
+
+}  // namespace pose_graph

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/stored_graph.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+
+namespace pose_graph {
+
+using urban_nav_core::RelativePose;
+using urban_nav_store::Node;
+using urban_nav_store::Store;
+using StoredEdge = urban_nav_store::Edge;
+
+namespace {
+
+constexpr const char* kGate = "odometry gate: passed\n";
+
+/// The steps of a session: a node's covariances are of the motion from the one before, the transform stands in the edge
+/// between the two, where one was measured.
+std::vector<RelativePose> stepsOf(Store& store, const SessionId& session, const std::map<StampNs, StoredEdge>& edges) {
+  std::vector<RelativePose> steps;
+  StampNs before = 0;
+  store.graph().forEachNode(session, [&](const Node& node) {
+    const auto edge = edges.find(before);
+    before = node.stamp;
+    if (edge == edges.end() || edge->second.b.stamp != node.stamp) return;
+    RelativePose step;
+    step.from = edge->first;
+    step.to = node.stamp;
+    step.T_from_to = edge->second.measured.T_a_b;
+    step.covariance = node.covariance;
+    step.drift_covariance = node.drift_covariance;
+    step.status.health = node.status;
+    step.source = edge->second.source;
+    steps.push_back(std::move(step));
+  });
+  return steps;
+}
+
+Closure closureOf(const StoredEdge& edge) {
+  Closure closure;
+  closure.a = edge.a;
+  closure.b = edge.b;
+  closure.kind = edge.kind;
+  closure.source = edge.source;
+  closure.measured = edge.measured;
+  return closure;
+}
+
+auto orderOf(const Closure& closure) {
+  return std::make_tuple(std::max(closure.a.stamp, closure.b.stamp), closure.a.stamp, closure.a.session,
+                         closure.b.session, closure.kind, closure.source);
+}
+
+}  // namespace
+
+StoredGraph readGraph(Store& store) {
+  StoredGraph made;
+  std::set<SessionId> known;
+  for (const urban_nav_store::Session& session : store.sessions().all()) {
+    known.insert(session.id);
+    std::map<StampNs, StoredEdge> steps;
+    store.graph().forEachEdge(session.id, [&](const StoredEdge& edge) {
+      if (edge.kind == EdgeKind::Odometry) {
+        if (edge.b.session == session.id) steps.emplace(edge.a.stamp, edge);
+        return;
+      }
+      if (edge.measured.information.isZero(0.0)) return;
+      made.closures.push_back(closureOf(edge));
+      made.closures.back().odometry_gate = passedOdometryGate(store.graph().evidence(edge).value_or(""));
+    });
+    made.chains.push_back({session, stepsOf(store, session.id, steps)});
+    store.graph().forEachRelaxed(session.id, [&](const urban_nav_store::RelaxedPose& pose) {
+      made.revision = std::max(made.revision, pose.revision);
+    });
+    if (const auto anchor = store.sessions().anchor(session.id))
+      made.revision = std::max(made.revision, anchor->revision);
+  }
+  const auto strange = [&](const Closure& closure) {
+    return known.count(closure.a.session) == 0 || known.count(closure.b.session) == 0;
+  };
+  made.closures.erase(std::remove_if(made.closures.begin(), made.closures.end(), strange), made.closures.end());
+  std::sort(made.closures.begin(), made.closures.end(),
+            [](const Closure& a, const Closure& b) { return orderOf(a) < orderOf(b); });
+  return made;
+}
+
+std::string evidenceOf(bool odometry_gate) { return odometry_gate ? kGate : ""; }
+
+std::string evidenceOf(const urban_nav_core::MetricClosure& closure) {
+  return evidenceOf(closure.odometry_gate) + "method: " + toString(closure.method) +
+         "\nprobability of the places being one: " + std::to_string(closure.probability) + "\n" + closure.evidence;
+}
+
+bool passedOdometryGate(const std::string& evidence) { return evidence.rfind(kGate, 0) == 0; }
+
+std::vector<urban_nav_store::StoredParameter> parametersOf(const Parameters& parameters) {
+  std::vector<urban_nav_store::StoredParameter> made;
+  for (const urban_nav_core::RowInfo& row : table().rows())
+    made.push_back({urban_nav_core::fullName(table().stage(), row.name),
+                    urban_nav_core::printValue(table().get(parameters, row.name)), ""});
+  return made;
+}
+
+StoredEdge edgeOf(const Closure& closure) {
+  StoredEdge edge;
+  edge.a = closure.a;
+  edge.b = closure.b;
+  edge.kind = closure.kind;
+  edge.source = closure.source;
+  edge.measured = closure.measured;
+  edge.weight = closure.weight;
+  edge.verdict = closure.verdict;
+  edge.reason = closure.reason;
+  return edge;
+}
+
+}  // namespace pose_graph
