@@ -77,8 +77,9 @@ StoreStage::Found StoreStage::sift(bool goes_on_here) {
   for (const urban_nav_store::Session& known : store_->sessions().all()) {
     const auto place = std::find(ids_.begin(), ids_.end(), known.id);
     const bool ours = place != ids_.end();
-    if (!ours && (goes_on_here ? known.complete : std::find(stay.begin(), stay.end(), known.id) != stay.end()))
-      continue;
+    if (!ours && (goes_on_here ? known.complete || storedIdentity(*store_, known.id).empty()
+                               : std::find(stay.begin(), stay.end(), known.id) != stay.end()))
+      continue;  // complete, or none that a run of map began: a live one is as complete as it will ever be
     found.cut_off = found.cut_off || !known.complete || !store_->states().stages(known.id).empty();
     if (!ours) {
       found.other = "other inputs";
