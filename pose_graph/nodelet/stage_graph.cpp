@@ -409,7 +409,7 @@ LiveGraph::EdgeReply StageGraph::removeEdge(const EdgeRef& edge) {
                     between.empty() ? "there is none between these poses, from a to b" : between);
   }
   graph_.removeClosure(meant.front());
-  changed_ = true;
+  changed_ = batch_due_ = true;  // what it has bent must come back to where the measurements alone would have it
   return {"removed; the graph is relaxed without it", {}};
 }
 

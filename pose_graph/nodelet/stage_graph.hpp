@@ -91,8 +91,8 @@ class StageGraph : public LiveGraph {
   std::vector<LastMoved> moved_;                            // of each track
   std::deque<Outcome> ready_;                               // of relaxations that a service made
   bool changed_ = false;                                    // since the last relaxation
-  bool batch_due_ = false;                                  // sessions were loaded
-  bool exactly_ = false;                                    // the last relaxation was a batch: every digit of it counts
+  bool batch_due_ = false;  // an update would not do: sessions were loaded, an edge is gone
+  bool exactly_ = false;    // the last relaxation was a batch: every digit of it counts
 };
 
 }  // namespace pose_graph
