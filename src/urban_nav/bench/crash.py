@@ -1,0 +1,312 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""kill -9 at random moments, and a full disk: is all there that was committed, and does the run started again end with the bytes of an unbroken one?
+
+    python3 crash.py FOLDER [map] [live] [disk] [--kills N] [-o crash.json]
+
+`map`: the whole process group of `urban_nav map` over two small simulated sessions with closures. `live`: the process of the nodelet pose_graph, fed with a
+recording at twenty times its speed and keeping it in its store. Both are killed, started again and killed again until a run comes to its end, which is
+compared with one that was never killed; then all begins anew. What is committed is what another process reads while they write. `disk`: both again on a
+file system that is too small for them and then grows (needs root: a tmpfs is mounted). `live` and the second half of `disk` need a sourced workspace.
+"""
+import argparse
+import os
+import random
+import shutil
+import sqlite3
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import live_graph
+from live_graph import CLOSURES, RATE, STEPS, Feeder, begin_nodelet, quietly, stop
+from support import TOP, commit, show, urban_nav
+
+COLUMNS = ("killed", "kills", "`info` opens", "less than was committed", "runs to the end", "with other bytes", "newest row older than, s (median, most)")
+SAME = ("trajectory.tum", "trajectory.kitti", "covariance.csv", "relative_covariance.csv", "closures.csv", "graph.g2o")
+PROGRAM = TOP / "build/ws/devel/lib/urban_nav/urban_nav"  # what the command at the top starts, without its look at what is to be built
+PERIOD = 0.05  # s between two looks into a store that is being written
+
+
+def rows(store):
+    """Rows of each table and session; None where there is no store yet."""
+    try:
+        with sqlite3.connect(f"file:{store}?mode=ro", uri=True, timeout=5) as file:
+            return {(table, session): count for table, session, count in file.execute("SELECT name, session, count FROM tally")}
+    except sqlite3.OperationalError:
+        return None
+
+
+class Watch:
+    """Looks at what is committed, all the time, as any reader could."""
+
+    def __init__(self, store):
+        self.store, self.seen, self.ending = store, None, threading.Event()
+        self.thread = threading.Thread(target=self.look, daemon=True)
+        self.thread.start()
+
+    def look(self):
+        while not self.ending.wait(PERIOD):
+            self.seen = rows(self.store) or self.seen
+
+    def end(self):
+        self.ending.set()
+        self.thread.join()
+        return self.seen or {}
+
+
+class Count:
+    def __init__(self, name):
+        self.name, self.kills, self.opened, self.less, self.ends, self.other, self.ages = name, 0, 0, 0, 0, 0, []
+
+    def killed(self, store, seen, age=None):
+        self.kills += 1
+        if self.kills % 10 == 0:
+            print(f"{self.name}: {self.kills} kills", file=sys.stderr)
+        if not store.exists():
+            self.opened += 1
+            self.less += bool(seen)
+            return
+        result = subprocess.run([PROGRAM, "info", store], capture_output=True, text=True)
+        self.opened += result.returncode == 0
+        if result.returncode != 0:
+            print(f"{self.name}, kill {self.kills}: {result.stderr}", file=sys.stderr)
+        there = rows(store) or {}
+        fewer = {key: (count, there.get(key, 0)) for key, count in seen.items() if there.get(key, 0) < count}
+        if fewer:
+            print(f"{self.name}, kill {self.kills}: fewer rows than were committed: {fewer}", file=sys.stderr)
+        self.less += bool(fewer)
+        if age is not None:
+            self.ages.append(age)
+
+    def ended(self, same):
+        self.ends += 1
+        self.other += not same
+
+    def row(self):
+        ages = sorted(self.ages)
+        age = f"{ages[len(ages) // 2]:.1f}, {ages[-1]:.1f}" if ages else ""
+        return [self.name, *map(str, (self.kills, self.opened, self.less, self.ends, self.other)), age]
+
+    def good(self):
+        return self.opened == self.kills and self.less == 0 and self.other == 0 and self.ends > 0
+
+
+def equal(a, b, names):
+    other = [name for name in names if (a / name).read_bytes() != (b / name).read_bytes()]
+    if other:
+        print(f"other bytes in {b}: {', '.join(other)}", file=sys.stderr)
+    return not other
+
+
+class Inputs:
+    """Two days of the same short way, with the closures between them."""
+
+    def __init__(self, folder, duration):
+        self.bags = [folder / f"crash_day{day}.bag" for day in (1, 2)]
+        for day, bag in enumerate(self.bags, 1):
+            if not bag.exists():
+                urban_nav("simulate", "--world", "quad", "--seed", 3, "--day", day, "--duration", duration, "--sensors", "stereo", "-o", bag)
+        self.closures = folder / "crash_closures.csv"
+        subprocess.run([sys.executable, Path(__file__).with_name("closures.py"), *self.bags, "-o", self.closures, "--false", "20"], check=True,
+                       stdout=subprocess.DEVNULL)
+
+    def words(self, out):
+        return [str(word) for word in (PROGRAM, "map", *self.bags, "--closures", self.closures, "--out", out)]
+
+
+def whole_map(folder, inputs):
+    whole = folder / "crash_whole"
+    shutil.rmtree(whole, ignore_errors=True)
+    begin = time.monotonic()
+    subprocess.run(inputs.words(whole), check=True, capture_output=True)
+    return whole, time.monotonic() - begin
+
+
+def kill_map(folder, inputs, kills, chance):
+    whole, took = whole_map(folder, inputs)
+    count, cut = Count("`urban_nav map`"), folder / "crash_cut"
+    while count.kills < kills:
+        shutil.rmtree(cut, ignore_errors=True)
+        ended = False
+        while not ended and count.kills < kills:
+            process, watch = quietly(*inputs.words(cut)), Watch(cut / "session.db")
+            try:
+                ended = process.wait(chance.uniform(0.0, 1.1 * took)) == 0
+            except subprocess.TimeoutExpired:
+                stop(process)
+            seen = watch.end()
+            if not ended:
+                count.killed(cut / "session.db", seen)
+        if not ended:
+            subprocess.run(inputs.words(cut), check=True, capture_output=True)
+        count.ended(equal(whole, cut, SAME))
+    return count
+
+
+def exported(store):
+    folder = store.with_suffix("")
+    folder.mkdir(exist_ok=True)
+    urban_nav("export", store, "--tum", folder / "map.tum", "--g2o", folder / "map.g2o")
+    return folder
+
+
+def nodes(store):
+    return sum(count for (table, _), count in (rows(store) or {}).items() if table == "node")
+
+
+def finish(feeder, store, folder, name):
+    """What the graph is at the end of the recording, by way of ~save, as files."""
+    if not feeder.wait(lambda: sum(count for (table, _), count in (rows(store) or {}).items() if table == "edge") == STEPS + CLOSURES):
+        sys.exit(f"{store}: not all that was fed has come")
+    feeder.optimized()
+    copy = folder / f"{name}.db"
+    copy.unlink(missing_ok=True)
+    live_graph.save(copy)
+    return exported(copy)
+
+
+def age_of(store, feeder, now):
+    """How long before `now` the first step was fed that is not in the store."""
+    stored = nodes(store) - 1 if store.exists() else -1
+    missing = feeder.fed[max(stored, 0):]
+    return now - missing[0] if missing else 0.0
+
+
+def remove(store):
+    for path in store.parent.glob(store.name + "*"):
+        path.unlink()
+
+
+def kill_live(folder, kills, chance):
+    live_graph.begin_master()
+    feeder, store = Feeder(), folder / "crash_live.db"
+    count, whole = Count("nodelet `pose_graph`"), None
+    while whole is None or count.kills < kills:
+        remove(store)
+        ended = False
+        while not ended:
+            nodelet, watch = begin_nodelet(store), Watch(store)
+            last = whole is None or count.kills >= kills
+            moment = time.monotonic() + (1e9 if last else chance.uniform(0.0, 1.5 + STEPS / RATE / live_graph.SPEED))
+            if feeder.feed(moment):
+                ended = last or not feeder.wait(lambda m=moment: time.monotonic() > m, max(0.0, moment - time.monotonic()))
+                if not ended:
+                    ended = chance.random() < 0.3  # as if it had not been killed
+            if ended:
+                files = finish(feeder, store, folder, "crash_live_whole" if whole is None else "crash_live_cut")
+            now = time.monotonic()
+            stop(nodelet)
+            seen = watch.end()
+            feeder.gone()
+            if not ended:
+                count.killed(store, seen, age_of(store, feeder, now))
+        if whole is None:
+            whole = files
+        else:
+            count.ended(equal(whole, files, ("map.tum", "map.g2o")))
+    return count
+
+
+class SmallDisk:
+    """A file system of some MB; None where it is not allowed to mount one."""
+
+    def __init__(self, folder):
+        self.folder = folder
+
+    def __enter__(self):
+        self.folder.mkdir(exist_ok=True)
+        return self if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=1m", "tmpfs", self.folder], capture_output=True).returncode == 0 else None
+
+    def size(self, megabytes):
+        subprocess.run(["mount", "-o", f"remount,size={megabytes}m", self.folder], check=True)
+
+    def __exit__(self, *_):
+        subprocess.run(["umount", "-l", self.folder], capture_output=True)
+
+
+def fill_map(folder, inputs):
+    """Rooms of several sizes, so that it is full at several moments."""
+    whole, _ = whole_map(folder, inputs)
+    notes = []
+    with SmallDisk(folder / "crash_disk") as disk:
+        if disk is None:
+            return ["Full disk: not tried, a tmpfs cannot be mounted here."], True
+        out, named, opened = disk.folder / "out", 0, 0
+        sizes = (1, 2, 3)
+        for size in sizes:
+            shutil.rmtree(out, ignore_errors=True)
+            disk.size(size)
+            result = subprocess.run(inputs.words(out), capture_output=True, text=True)
+            words = result.stderr.strip().splitlines()
+            named += result.returncode != 0 and ("full" in result.stderr or "No space" in result.stderr)
+            print(f"{size} MB: exit {result.returncode}: {words[-1] if words else ''}", file=sys.stderr)
+            store = out / "session.db"
+            opened += not store.exists() or subprocess.run([PROGRAM, "info", store], capture_output=True).returncode == 0
+        disk.size(64)
+        subprocess.run(inputs.words(out), check=True, capture_output=True)
+        good = named == len(sizes) and opened == len(sizes) and equal(whole, out, SAME)
+        notes.append(f"Full disk, `map` with {', '.join(map(str, sizes))} MB: named {named} times of {len(sizes)}, `info` opens {opened}; with room again it ends "
+                     f"with {'the same' if good else 'OTHER'} bytes.")
+    return notes, good
+
+
+def fill_live(folder):
+    if live_graph.rospy is None:
+        return ["Full disk, live: not tried without a sourced workspace."], True
+    if "ROS_MASTER_URI" not in os.environ or not live_graph.rosgraph.is_master_online():
+        live_graph.begin_master()
+    feeder = Feeder()
+    with SmallDisk(folder / "crash_disk") as disk:
+        if disk is None:
+            return [], True
+        store = disk.folder / "live.db"
+        nodelet = begin_nodelet(store)
+        feeder.feed(time.monotonic() + 1e9)
+        named = feeder.wait(lambda: feeder.status and feeder.status.reason_name == "NotStored" and "full" in feeder.status.text)
+        before = nodes(store)
+        disk.size(64)
+        whole = feeder.wait(lambda: nodes(store) == STEPS + 1)
+        healed = feeder.wait(lambda: feeder.status.reason_name != "NotStored")
+        stop(nodelet)
+        feeder.gone()
+        opened = subprocess.run([PROGRAM, "info", store], capture_output=True).returncode == 0
+    good = bool(named and whole and healed and opened)
+    return [f"Full disk, live, 1 MB: {'named in the status' if named else 'NOT named'} at {before} of {STEPS + 1} poses; with room again "
+            f"{'all are' if whole else 'NOT all are'} there without a restart."], good
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=Path, help="for what is simulated and mapped; the bags that are there already are taken")
+    parser.add_argument("part", nargs="*", help="map, live, disk; default: all")
+    parser.add_argument("--kills", type=int, default=100, help="of each (default 100)")
+    parser.add_argument("--duration", type=int, default=10, help="s, of each simulated session (default 10)")
+    parser.add_argument("--seed", type=int, default=1, help="of the moments")
+    parser.add_argument("-o", "--output", type=Path, help="the table, for a README")
+    arguments = parser.parse_args()
+    urban_nav("--help")  # builds it where it is missing
+    parts = arguments.part or ["map", "live", "disk"]
+    if set(parts) - {"map", "live", "disk"}:
+        parser.error("the parts are map, live and disk")
+    folder = arguments.folder.resolve()
+    folder.mkdir(parents=True, exist_ok=True)
+    measured, chance, counts, notes, good = commit(), random.Random(arguments.seed), [], [], True
+    inputs = Inputs(folder, arguments.duration) if {"map", "disk"} & set(parts) else None
+    if "map" in parts:
+        counts.append(kill_map(folder, inputs, arguments.kills, chance))
+        notes.append(f"`map`: two sessions of {arguments.duration} s with closures.")
+    if "live" in parts:
+        counts.append(kill_live(folder, arguments.kills, chance))
+        notes.append(f"Nodelet: {STEPS // RATE} s of odometry with a closure a second, fed {live_graph.SPEED} times as fast and again from the beginning each time.")
+    if "disk" in parts:
+        for said, fine in (fill_map(folder, inputs), fill_live(folder)):
+            notes += said
+            good = good and fine
+    show(COLUMNS, [count.row() for count in counts], notes, measured, arguments.output)
+    sys.exit(0 if good and all(count.good() for count in counts) else 1)
+
+
+if __name__ == "__main__":
+    main()
