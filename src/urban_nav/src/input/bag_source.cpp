@@ -67,6 +67,8 @@ class BagSource : public Source {
     }
   }
 
+  std::vector<pose_graph::FeltForce> forces() const override { return forces_; }
+
   std::vector<std::string> closingFaults() const override {
     std::vector<std::string> faults;
     const auto count = [&](Side side, Role role) {
@@ -181,9 +183,9 @@ class BagSource : public Source {
     const auto imu = topics_.find(Role::Imu) ? first<sensor_msgs::Imu>(topics_.find(Role::Imu)->name) : nullptr;
     const std::optional<urban_nav_core::Pose> T_base_imu =
         imu ? transforms.lookup(kBaseFrame, imu->header.frame_id) : std::nullopt;
+    if (T_base_imu) R_base_imu_ = T_base_imu->R();
     wheels_.emplace(options_.wheel_noise);
-    gyroscope_.emplace(options_.gyro_noise,
-                       T_base_imu ? T_base_imu->R() : urban_nav_core::Matrix3d(urban_nav_core::Matrix3d::Identity()));
+    gyroscope_.emplace(options_.gyro_noise, R_base_imu_.value_or(urban_nav_core::Matrix3d::Identity()));
   }
 
   void startReading() {
@@ -197,15 +199,19 @@ class BagSource : public Source {
       names.push_back(topics_.find(motion_role)->name);
       feed.motion = true;
     }
+    const std::vector<std::string> images(names.begin(), names.begin() + 2);
+    if (R_base_imu_ && options_.motion_input != "gyroscope") names.push_back(topics_.find(Role::Imu)->name);
     feed_.emplace(feed, calibration_);
     view_.emplace();
     for (rosbag::Bag& bag : bags_) {
       view_->addQuery(bag, rosbag::TopicQuery(names));
       info_.frames += rosbag::View(bag, rosbag::TopicQuery(names.front())).size();
     }
-    if (view_->size() == 0) throw DataError(name_, "holds no images", "");
-    info_.first = urban_nav_ros::toStampNs(view_->getBeginTime());
-    info_.last = urban_nav_ros::toStampNs(view_->getEndTime());
+    rosbag::View stereo;
+    for (rosbag::Bag& bag : bags_) stereo.addQuery(bag, rosbag::TopicQuery(images));
+    if (stereo.size() == 0) throw DataError(name_, "holds no images", "");
+    info_.first = urban_nav_ros::toStampNs(stereo.getBeginTime());
+    info_.last = urban_nav_ros::toStampNs(stereo.getEndTime());
     next_ = view_->begin();
   }
 
@@ -221,8 +227,18 @@ class BagSource : public Source {
     } else if (const auto odometry = instance.instantiate<nav_msgs::Odometry>()) {
       if (const auto motion = wheels_->add(*odometry)) feed_->add(*motion);
     } else if (const auto imu = instance.instantiate<sensor_msgs::Imu>()) {
-      if (const auto motion = gyroscope_->add(*imu)) feed_->add(*motion);
+      feel(*imu);
+      if (const auto motion = gyroscope_->add(*imu); motion && options_.motion_input == "gyroscope")
+        feed_->add(*motion);
     }
+  }
+
+  void feel(const sensor_msgs::Imu& imu) {
+    // sensor_msgs/Imu: element 0 is -1 where there is no accelerometer.
+    if (!R_base_imu_ || imu.linear_acceleration_covariance[0] < 0.0) return;
+    const urban_nav_core::Vector3d felt(imu.linear_acceleration.x, imu.linear_acceleration.y,
+                                        imu.linear_acceleration.z);
+    forces_.push_back({urban_nav_ros::toStampNs(imu.header.stamp), *R_base_imu_ * felt});
   }
 
   const SourceOptions options_;
@@ -234,6 +250,8 @@ class BagSource : public Source {
   std::shared_ptr<const urban_nav_ros::StereoCalibration> calibration_;
   std::optional<urban_nav_ros::WheelMotion> wheels_;
   std::optional<urban_nav_ros::GyroMotion> gyroscope_;
+  std::optional<urban_nav_core::Matrix3d> R_base_imu_;
+  std::vector<pose_graph::FeltForce> forces_;
   std::optional<StereoFeed> feed_;
   std::optional<rosbag::View> view_;
   rosbag::View::iterator next_;

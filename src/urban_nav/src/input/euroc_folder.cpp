@@ -28,11 +28,13 @@ class EurocFolder : public Source {
     if (options.motion_input == "wheels")
       throw urban_nav_core::DataError(mav0_, "has no wheel odometry for swf_vo.motion_input = wheels", "");
     if (options.motion_input == "gyroscope") readMotion(options.gyro_noise);
+    readForces();
     info_.notes.push_back("raw images, rectified on the way; base_link is at the left camera");
     if (!options.calibration.empty()) info_.notes.push_back("--calibration is left aside: sensor.yaml counts");
   }
 
   const SourceInfo& info() const override { return info_; }
+  std::vector<pose_graph::FeltForce> forces() const override { return forces_; }
 
   std::optional<StereoInput> next() override {
     if (position_ >= pairs_.size()) return std::nullopt;
@@ -57,6 +59,17 @@ class EurocFolder : public Source {
     if (motion_.empty()) throw urban_nav_core::DataError(mav0_, "has no imu0 for swf_vo.motion_input = gyroscope", "");
   }
 
+  /// They level the map; without them it is as the first pose stands, and nothing else is lost.
+  void readForces() {
+    try {
+      for (const EurocImu& row : readEurocImu(mav0_))
+        forces_.push_back({row.stamp, rig_.T_base_body.R() * row.acceleration});
+    } catch (const UserError& error) {
+      forces_.clear();
+      info_.notes.push_back(std::string("the accelerometer is left aside: ") + error.what());
+    }
+  }
+
   static cv::Mat read(const std::string& path, const char* side, urban_nav_core::StampNs stamp,
                       const urban_nav_core::RectifyMap& map, std::vector<std::string>& faults) {
     if (path.empty()) {
@@ -73,6 +86,7 @@ class EurocFolder : public Source {
   std::vector<EurocPair> pairs_;
   SourceInfo info_;
   std::vector<urban_nav_core::MotionInput> motion_;
+  std::vector<pose_graph::FeltForce> forces_;
   std::size_t position_ = 0, next_motion_ = 0;
 };
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "pose_graph/level.hpp"
 #include "urban_nav_core/camera/stereo_camera.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
 #include "urban_nav_core/types/stamp.hpp"
@@ -38,6 +39,9 @@ class Source {
   virtual std::optional<StereoInput> next() = 0;
   /// What was wrong with the input as a whole: complete when next() has come to the end.
   virtual std::vector<std::string> closingFaults() const { return {}; }
+  /// What an accelerometer of the input felt: complete when next() has come to the end. Empty where there is none, or where it is not
+  /// known how it stands on the robot.
+  virtual std::vector<pose_graph::FeltForce> forces() const { return {}; }
 };
 
 /// Reads ahead by at most `depth` pairs in a thread of its own. The pairs and their order are those of `source`.

@@ -6,6 +6,7 @@
 
 #include "pipeline/sessions.hpp"
 #include "pipeline/store_stage.hpp"
+#include "pipeline/vo_state.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav {
@@ -56,6 +57,8 @@ VoRun chainOf(Store& store, const SessionId& id) {
     }
     run.settled.push_back(settled);
   });
+  if (const std::optional<std::string> bytes = store.states().get(id, kForcesStage))
+    run.forces = unpackForces(*bytes).value_or(std::vector<pose_graph::FeltForce>());
   const auto add = [&](StampNs stamp, bool accepted) {
     VoRow row;
     row.frame = static_cast<std::int64_t>(run.rows.size());

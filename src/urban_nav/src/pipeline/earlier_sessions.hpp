@@ -13,7 +13,7 @@ namespace urban_nav {
 struct EarlierSessions {
   std::vector<urban_nav_store::SessionId> ids;
   std::vector<std::string> names;  ///< as closures.csv names them
-  /// Chains of odometry with their numbers to the last bit, rows of dropped frames, and the place of the camera; nothing else of a run.
+  /// Chains of odometry with their numbers to the last bit, rows of dropped frames, forces, and the place of the camera; nothing else of a run.
   std::vector<VoRun> runs;
   /// Between these sessions; asserted ones too.
   std::vector<KnownClosure> closures;

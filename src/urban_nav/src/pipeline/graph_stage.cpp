@@ -11,15 +11,24 @@
 namespace urban_nav {
 
 using pose_graph::Closure;
+using pose_graph::Level;
 using pose_graph::PoseGraph;
 using pose_graph::Track;
+using urban_nav_core::Matrix3d;
 using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
 using urban_nav_core::Trajectory;
+using urban_nav_core::Vector3d;
 
 namespace {
 
 constexpr double kMetresPerRadian = 10.0;  // for display of free directions: a turn moves what is seen at this distance
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
 
 void judge(GraphRun& run, const OfferedIds& ids, std::size_t known) {
   std::size_t refused = 0;
@@ -74,6 +83,31 @@ std::vector<std::vector<Matrix6d>> covariancesOf(const PoseGraph& graph, const s
   return made;
 }
 
+/// As the graph has it: the first pose of a map is the identity there.
+Trajectory relaxedTrack(const GraphRun& run, std::size_t session) {
+  Trajectory made;
+  if (const Track* track = run.graph.track(run.sessions[session]))
+    for (std::size_t i = 0; i < track->stamps.size(); ++i) made.append(track->stamps[i], track->map[i]);
+  return made;
+}
+
+std::vector<Level> levelsOf(const GraphRun& run, const std::vector<const VoRun*>& runs) {
+  std::vector<Level> levels(runs.size());
+  for (std::size_t s = 0; s < runs.size(); ++s) {
+    const std::size_t map = run.mapOf(s);
+    if (levels[map].known()) continue;
+    const Trajectory trajectory = relaxedTrack(run, s);
+    if (trajectory.empty()) continue;
+    Matrix3d rotations = Matrix3d::Zero();  // the mean: as if all of them erred alike
+    for (const Matrix6d& covariance : run.covariances[s]) rotations += covariance.bottomRightCorner<3, 3>();
+    rotations /= static_cast<double>(std::max<std::size_t>(1, run.covariances[s].size()));
+    const Level level =
+        withRotations(levelOf(trajectory, runs[s]->forces, run.graph.track(run.sessions[map])->map.front()), rotations);
+    if (s == map || level.known()) levels[map] = level;
+  }
+  return levels;
+}
+
 }  // namespace
 
 std::size_t GraphRun::mapOf(std::size_t session) const {
@@ -95,10 +129,11 @@ std::size_t GraphRun::sessionsJoined() const {
 }
 
 Trajectory GraphRun::trajectory(std::size_t session) const {
-  Trajectory made;
-  if (const Track* track = graph.track(sessions[session]))
-    for (std::size_t i = 0; i < track->stamps.size(); ++i) made.append(track->stamps[i], track->map[i]);
-  return made;
+  const Trajectory track = relaxedTrack(*this, session);
+  const std::size_t map = mapOf(session);
+  if (map >= levels.size() || !levels[map].known()) return track;
+  const Pose first = graph.track(sessions[map])->map.front();
+  return transformed(Pose(Eigen::Quaterniond(levels[map].R_map_first), Vector3d::Zero()) * first.inverse(), track);
 }
 
 GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<const VoRun*>& runs,
@@ -113,11 +148,14 @@ GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<co
       made.graph.addOdometry(sessions[s], runs[s]->settled[i].from_previous);
   }
   const OfferedIds ids = offerClosures(made, runs, closures, known);
-  const auto begin = std::chrono::steady_clock::now();
+  const auto begin = Clock::now();
   made.relaxed = made.graph.relax();
-  made.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  made.ms = millisecondsSince(begin);
   judge(made, ids, known.size());
+  const auto relaxed = Clock::now();
   made.covariances = covariancesOf(made.graph, sessions);
+  made.ms_covariances = millisecondsSince(relaxed);
+  made.levels = levelsOf(made, runs);
   for (std::size_t s = 1; s < sessions.size(); ++s)
     if (made.mapOf(s) == s)
       made.warnings.push_back("session " + sessions[s] + " is a map of its own: no closures that agree join it to " +

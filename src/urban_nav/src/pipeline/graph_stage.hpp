@@ -6,6 +6,7 @@
 
 #include "pipeline/closures_file.hpp"
 #include "pipeline/vo_stage.hpp"
+#include "pose_graph/level.hpp"
 #include "pose_graph/marginals.hpp"
 #include "pose_graph/pose_graph.hpp"
 #include "urban_nav_core/trajectory/trajectory.hpp"
@@ -25,7 +26,7 @@ struct GraphRun {
   std::vector<std::string> sessions;  ///< names, in the order of the runs
   std::vector<ClosureRow> closures;   ///< with their verdicts: the known ones, then those of the file
   std::vector<std::string> warnings;
-  double ms = 0.0;  ///< that the relaxation took
+  double ms = 0.0, ms_covariances = 0.0;  ///< that the relaxation took, and what follows from it
   /// Marginal covariances of T_first_base of each session's poses, as far as they are known.
   std::vector<std::vector<urban_nav_core::Matrix6d>> covariances;
 
@@ -34,7 +35,10 @@ struct GraphRun {
   /// Does it lie in the map of the first session?
   bool joined(std::size_t session) const { return mapOf(session) == 0; }
   std::size_t sessionsJoined() const;
-  /// The poses of a session in its map.
+  /// Which way is up in the map that begins with a session, seen from its first pose: by the first of its sessions that knows. Of sessions
+  /// that lie in the map of another, nothing.
+  std::vector<pose_graph::Level> levels;
+  /// The poses of a session in its map: origin and heading of the map's first pose, and level where that is known.
   urban_nav_core::Trajectory trajectory(std::size_t session) const;
 };
 

@@ -88,7 +88,7 @@ void runVo(Source& source, VoStage& stage, StoreStage& store, MapOutcome& outcom
       last_report = outcome.usage.wallSeconds();
     }
   }
-  stage.finish(source.closingFaults());
+  stage.finish(source.closingFaults(), source.forces());
   store.finish(stage.run());
   for (const std::string& fault : source.closingFaults()) console.warn(fault);
   progress.finish(static_cast<std::int64_t>(stage.run().rows.size()));
@@ -143,6 +143,9 @@ void runGraphStage(MapOutcome& outcome, const std::vector<Session>& sessions, co
                forPerson(relaxed.cost_before, 5) + " -> " + forPerson(relaxed.cost_after, 5) + " in " +
                forPerson(outcome.graph->ms, 3) + " ms");
   for (const std::string& warning : outcome.graph->warnings) console.warn(warning);
+  const pose_graph::Level& level = outcome.graph->levels.front();
+  console.info(level.known() ? "map is level, to " + forPerson(level.sigma * 57.29577951308232, 2) + " deg"
+                             : "map is not level: " + level.sentence);
   std::vector<urban_nav_store::SessionId> ids = earlier.ids;
   ids.insert(ids.end(), store.ids().begin(), store.ids().end());
   putGraph(store.store(), ids, *outcome.graph, earlier.revision);

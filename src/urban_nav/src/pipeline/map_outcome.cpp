@@ -137,22 +137,36 @@ std::vector<std::optional<Evaluation>> compare(const MapOutcome& outcome, const 
   return evaluations;
 }
 
+/// `session`: its number where there are several, else 0.
+void addEvaluation(Page& page, const Evaluation& evaluation, std::size_t session) {
+  const std::string of = session > 0 ? " (session " + std::to_string(session) + ")" : "";
+  for (Verdict& verdict : evaluationVerdicts(evaluation)) {
+    if (session > 0) verdict.headline = "Session " + std::to_string(session) + ": " + verdict.headline;
+    page.verdicts.push_back(verdict);
+  }
+  for (Tile& tile : evaluationTiles(evaluation)) {
+    tile.label += of;
+    page.tiles.push_back(tile);
+  }
+  Section section = evaluationSection(evaluation);
+  if (session > 0) section.id += std::to_string(session);
+  section.title += of;
+  page.sections.push_back(std::move(section));
+}
+
 Page pageOf(const MapOutcome& outcome, bool running) {
   const std::vector<const VoRun*> runs = runsOf(outcome);
   const VoSummary summary = summarise(runs);
   Page page;
   page.title = "Map of " + titleOf(outcome.request.inputs);
-  page.subtitle = "Visual odometry: where the robot went, and how far to trust it.";
+  page.subtitle = std::string(outcome.graph ? "Visual odometry, relaxed" : "Visual odometry") +
+                  ": where the robot went, and how far to trust it.";
   page.running = running;
   page.progress = outcome.progress;
   page.tiles = tilesOf(outcome, summary);
   page.verdicts = voVerdicts(summary);
-  for (const std::optional<Evaluation>& evaluation : outcome.evaluations) {
-    if (!evaluation) continue;
-    for (const Verdict& verdict : evaluationVerdicts(*evaluation)) page.verdicts.push_back(verdict);
-    for (const Tile& tile : evaluationTiles(*evaluation)) page.tiles.push_back(tile);
-    page.sections.push_back(evaluationSection(*evaluation));
-  }
+  for (std::size_t i = 0; i < outcome.evaluations.size(); ++i)
+    if (outcome.evaluations[i]) addEvaluation(page, *outcome.evaluations[i], runs.size() > 1 ? i + 1 : 0);
   if (outcome.graph) {
     for (const Verdict& verdict : graphVerdicts(*outcome.graph)) page.verdicts.push_back(verdict);
     page.sections.insert(page.sections.begin(),
@@ -198,7 +212,9 @@ Json summaryOf(const MapOutcome& outcome, const VoSummary& summary) {
                                       [](const auto& evaluation) { return evaluation.has_value(); });
   if (evaluated != outcome.evaluations.end()) addToJson(**evaluated, json);
   json["swf_vo"] = toJson(summary);
-  if (outcome.graph) json["pose_graph"] = toJson(*outcome.graph, outcome.before);
+  if (outcome.graph)
+    json["pose_graph"] =
+        toJson(*outcome.graph, behindEarlier(outcome, outcome.before), behindEarlier(outcome, outcome.evaluations));
   json["parameters"] = parametersJson(outcome.request.parameters);
   return json;
 }

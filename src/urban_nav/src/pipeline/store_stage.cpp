@@ -80,7 +80,7 @@ StoreStage::Found StoreStage::sift(bool goes_on_here) {
     if (!ours && (goes_on_here ? known.complete || storedIdentity(*store_, known.id).empty()
                                : std::find(stay.begin(), stay.end(), known.id) != stay.end()))
       continue;  // complete, or none that a run of map began: a live one is as complete as it will ever be
-    found.cut_off = found.cut_off || !known.complete || !store_->states().stages(known.id).empty();
+    found.cut_off = found.cut_off || !known.complete || store_->states().get(known.id, kVoStage).has_value();
     if (!ours) {
       found.other = "other inputs";
     } else if (isFinished(static_cast<std::size_t>(place - ids_.begin()))) {
@@ -188,6 +188,7 @@ void StoreStage::finish(const VoRun& run) {
   add(run);
   const SessionId& id = ids_[session_];
   store_->states().put(id, kVoStage, packVoRun(run));
+  if (!run.forces.empty()) store_->states().put(id, kForcesStage, packForces(run.forces));
   urban_nav_store::Session session = *store_->sessions().find(id);
   session.complete = true;
   store_->sessions().put(session);

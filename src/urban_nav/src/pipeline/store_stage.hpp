@@ -13,8 +13,10 @@
 
 namespace urban_nav {
 
-/// What the store knows visual odometry, its stream and its camera by.
+/// What the store knows visual odometry, forces at its frames, its stream and its camera by. The state of visual odometry says that a
+/// run can go on; forces stay for runs that go on from the session.
 constexpr const char* kVoStage = "swf_vo";
+constexpr const char* kForcesStage = "gravity";
 constexpr const char* kVoStream = "stereo";
 constexpr const char* kVoCamera = "stereo_left_optical_frame";
 

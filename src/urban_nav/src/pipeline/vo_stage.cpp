@@ -103,10 +103,13 @@ const VoRow& VoStage::process(const StereoInput& input) {
   return run_.rows.back();
 }
 
-void VoStage::finish(const std::vector<std::string>& faults) {
+void VoStage::finish(const std::vector<std::string>& faults, const std::vector<pose_graph::FeltForce>& forces) {
   run_.faults.insert(run_.faults.begin(), faults.begin(), faults.end());
   run_.faults_total += static_cast<std::int64_t>(faults.size());
   for (swf_vo::Settled& settled : filter_->flush()) run_.settled.push_back(std::move(settled));
+  std::vector<urban_nav_core::StampNs> stamps;
+  for (const swf_vo::Settled& settled : run_.settled) stamps.push_back(settled.stamp);
+  run_.forces = pose_graph::forcesAt(stamps, forces);
 }
 
 }  // namespace urban_nav

@@ -47,8 +47,9 @@ struct VoRun {
   std::vector<VoRow> rows;               ///< one per stereo frame
   std::vector<swf_vo::Settled> settled;  ///< one per accepted frame, as far as they have left the window
   std::map<swf_vo::LandmarkId, VoLandmark> landmarks;
-  std::vector<VoPicture> pictures;  ///< evenly spread over the session
-  std::vector<std::string> faults;  ///< of the data, each with the file or topic; at most kFaultsKept
+  std::vector<VoPicture> pictures;            ///< evenly spread over the session
+  std::vector<pose_graph::FeltForce> forces;  ///< around settled frames, as far as an accelerometer felt any
+  std::vector<std::string> faults;            ///< of the data, each with the file or topic; at most kFaultsKept
   std::int64_t faults_total = 0;
 };
 constexpr std::size_t kFaultsKept = 100;
@@ -63,8 +64,8 @@ class VoStage {
 
   /// The row it added to run().
   const VoRow& process(const StereoInput& input);
-  /// Empties the window; `faults` are those of the input as a whole. No process() after it.
-  void finish(const std::vector<std::string>& faults);
+  /// Empties the window; `faults` are those of the input as a whole, `forces` all that an accelerometer felt. No process() after it.
+  void finish(const std::vector<std::string>& faults, const std::vector<pose_graph::FeltForce>& forces = {});
 
   const VoRun& run() const { return run_; }
 

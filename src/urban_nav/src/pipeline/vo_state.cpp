@@ -21,7 +21,7 @@ using urban_nav_store::ByteReader;
 
 namespace {
 
-constexpr std::uint32_t kVersion = 1;  // of these bytes
+constexpr std::uint32_t kVersion = 2, kForcesVersion = 1;  // of these bytes
 
 /// One description of what is packed serves both ways: each field is named once, for a Packer to append or an Unpacker to
 /// read.
@@ -163,6 +163,12 @@ void landmark(Way& way, AnyLandmark& value) {
   way.integer(value.seen);
 }
 
+template <typename Way, typename AnyForce>
+void force(Way& way, AnyForce& value) {
+  way.integer(value.stamp);
+  for (int i = 0; i < 3; ++i) way.number(value.force(i));
+}
+
 template <typename Way, typename Run>
 void lists(Way& way, Run& run) {
   way.list(run.rows, [&](auto& each) { row(way, each); });
@@ -170,6 +176,7 @@ void lists(Way& way, Run& run) {
   way.list(run.pictures, [&](auto& each) { picture(way, each); });
   way.list(run.faults, [&](auto& each) { way.text(each); });
   way.integer(run.faults_total);
+  way.list(run.forces, [&](auto& each) { force(way, each); });
 }
 
 bool isHealth(Health health) { return health >= Health::Ok && health <= Health::Recovered; }
@@ -198,6 +205,22 @@ std::optional<VoRun> unpackVoRun(std::string_view bytes) {
     if (!isHealth(each.status.health) || !isHealth(each.from_previous.status.health)) return std::nullopt;
   for (const VoLandmark& each : landmarks) run.landmarks.emplace(each.landmark.id, each);
   return run;
+}
+
+std::string packForces(const std::vector<pose_graph::FeltForce>& forces) {
+  Packer packer;
+  appendInteger32(packer.bytes, kForcesVersion);
+  packer.list(forces, [&](const auto& each) { force(packer, each); });
+  return std::move(packer.bytes);
+}
+
+std::optional<std::vector<pose_graph::FeltForce>> unpackForces(std::string_view bytes) {
+  Unpacker unpacker(bytes);
+  if (unpacker.reader.integer32() != kForcesVersion) return std::nullopt;
+  std::vector<pose_graph::FeltForce> forces;
+  unpacker.list(forces, [&](pose_graph::FeltForce& each) { force(unpacker, each); });
+  if (!unpacker.fine || !unpacker.reader.complete()) return std::nullopt;
+  return forces;
 }
 
 }  // namespace urban_nav

@@ -35,6 +35,7 @@ Series linksOf(const GraphRun& graph, pose_graph::ClosureVerdict verdict, const 
   Series series;
   series.name = name;
   series.colour = colour;
+  series.kind = Series::Kind::Faint;
   const double gap = std::numeric_limits<double>::quiet_NaN();
   std::map<std::string, Trajectory> trajectories;
   for (std::size_t s = 0; s < graph.sessions.size(); ++s) trajectories[graph.sessions[s]] = graph.trajectory(s);
@@ -58,6 +59,10 @@ Plot pathsPlot(const GraphRun& graph, const std::vector<const VoRun*>& runs) {
   plot.height = 420;
   plot.x_label = "x, forward at the start (m)";
   plot.y_label = "y, left (m)";
+  // Behind the paths: there may be a thousand of them.
+  plot.series.push_back(linksOf(graph, pose_graph::ClosureVerdict::Rejected, "rejected", "bad"));
+  plot.series.push_back(linksOf(graph, pose_graph::ClosureVerdict::Waiting, "waiting", "fair"));
+  plot.series.push_back(linksOf(graph, pose_graph::ClosureVerdict::Accepted, "closures", "good"));
   for (std::size_t s = 0; s < runs.size(); ++s) {
     Series before, after;
     before.kind = Series::Kind::Dashed;
@@ -70,9 +75,6 @@ Plot pathsPlot(const GraphRun& graph, const std::vector<const VoRun*>& runs) {
     plot.series.push_back(before);
     plot.series.push_back(after);
   }
-  plot.series.push_back(linksOf(graph, pose_graph::ClosureVerdict::Accepted, "closures", "good"));
-  plot.series.push_back(linksOf(graph, pose_graph::ClosureVerdict::Rejected, "rejected", "bad"));
-  plot.series.push_back(linksOf(graph, pose_graph::ClosureVerdict::Waiting, "waiting", "fair"));
   return plot;
 }
 
@@ -89,19 +91,25 @@ Plot costPlot(const GraphRun& graph) {
   return plot;
 }
 
+/// Seconds from the first pose of a session; the stamp itself where there is no such session.
+std::string momentOf(const GraphRun& graph, const std::string& session, StampNs stamp) {
+  const pose_graph::Track* track = graph.graph.track(session);
+  if (track == nullptr || track->stamps.empty()) return session + " " + urban_nav_core::printStamp(stamp);
+  return session + " +" + forPerson(urban_nav_core::secondsBetween(track->stamps.front(), stamp), 5);
+}
+
 PageTable closuresTable(const GraphRun& graph) {
   PageTable table{"Closures",
-                  {"from", "to", "probability", "kind", "verdict", "weight", "reason"},
+                  {"from (s)", "to (s)", "probability", "kind", "verdict", "weight", "reason"},
                   {},
                   graph.closures.size() > kMostRows
                       ? "The first " + std::to_string(kMostRows) + " of " + std::to_string(graph.closures.size()) +
                             "; all are in closures.csv."
-                      : "All of them, also in closures.csv."};
+                      : "All of them, in seconds from the first pose of their session; by stamps in closures.csv."};
   for (std::size_t i = 0; i < std::min(kMostRows, graph.closures.size()); ++i) {
     const ClosureRow& row = graph.closures[i];
-    table.rows.push_back({row.session_a + " " + urban_nav_core::printStamp(row.stamp_a),
-                          row.session_b + " " + urban_nav_core::printStamp(row.stamp_b), forPerson(row.probability, 3),
-                          row.kind, row.verdict, forPerson(row.weight, 3), row.reason});
+    table.rows.push_back({momentOf(graph, row.session_a, row.stamp_a), momentOf(graph, row.session_b, row.stamp_b),
+                          forPerson(row.probability, 3), row.kind, row.verdict, forPerson(row.weight, 3), row.reason});
   }
   return table;
 }
@@ -122,6 +130,34 @@ std::optional<PageTable> errorsTable(const GraphRun& graph, const std::vector<st
   }
   if (table.rows.empty()) return std::nullopt;
   return table;
+}
+
+constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+
+/// By how much the first pose leans.
+double leanDeg(const pose_graph::Level& level) { return kDegrees * std::acos(std::min(1.0, level.up.z())); }
+
+Verdict levelVerdict(const pose_graph::Level& level) {
+  if (!level.known())
+    return {Grade::Plain, "The map is not level", "It stands as the first pose stood: " + level.sentence + "."};
+  return {Grade::Good, "The map is level",
+          "The first pose leans by " + forPerson(leanDeg(level), 2) + " deg (standard deviation " +
+              forPerson(kDegrees * level.sigma, 2) + " deg), says gravity."};
+}
+
+Json toJson(const pose_graph::Level& level) {
+  Json json = Json::object();
+  json["known"] = level.known();
+  if (level.known()) {
+    json["lean_deg"] = leanDeg(level);
+    json["sigma_deg"] = kDegrees * level.sigma;
+    json["gravity"] = level.gravity;
+    Json& up = json["up"] = Json::array();
+    for (int i = 0; i < 3; ++i) up.append(level.up(i));
+  } else {
+    json["reason"] = level.sentence;
+  }
+  return json;
 }
 
 }  // namespace
@@ -163,6 +199,7 @@ std::vector<Verdict> graphVerdicts(const GraphRun& graph) {
   if (boast > kBoasts)
     made.push_back({Grade::Fair, "Odometry errs " + forPerson(boast, 2) + " times as much as it states",
                     "so the closures say; the covariances of this map are those of the larger errors."});
+  made.push_back(levelVerdict(graph.levels.front()));
   const std::size_t joined = graph.sessionsJoined();
   if (graph.sessions.size() > 1)
     made.push_back(
@@ -174,7 +211,8 @@ std::vector<Verdict> graphVerdicts(const GraphRun& graph) {
   return made;
 }
 
-Json toJson(const GraphRun& graph, const std::vector<std::optional<Evaluation>>& before) {
+Json toJson(const GraphRun& graph, const std::vector<std::optional<Evaluation>>& before,
+            const std::vector<std::optional<Evaluation>>& after) {
   const pose_graph::Relaxed& relaxed = graph.relaxed;
   const std::size_t joined = graph.sessionsJoined();
   Json json = Json::object();
@@ -190,16 +228,35 @@ Json toJson(const GraphRun& graph, const std::vector<std::optional<Evaluation>>&
   json["iterations"] = relaxed.iterations.size();
   json["ending"] = toString(relaxed.ending);
   json["ms_batch"] = graph.ms;
+  json["ms_covariances"] = graph.ms_covariances;
   json["sessions"] = graph.sessions.size();
   json["sessions_joined"] = joined;
+  json["level"] = toJson(graph.levels.front());
   Json& warnings = json["warnings"] = Json::array();
   for (const std::string& warning : graph.warnings) warnings.append(warning);
-  for (const std::optional<Evaluation>& evaluation : before) {
-    if (!evaluation) continue;
-    json["ate_m_odometry"] = evaluation->first.rmse;
-    json["ate_se3_m_odometry"] = evaluation->se3.rmse;
-    break;
+  Json sessions = Json::array();
+  for (std::size_t i = 0; i < graph.sessions.size(); ++i) {
+    Json session = Json::object();
+    session["name"] = graph.sessions[i];
+    session["map"] = graph.sessions[graph.mapOf(i)];
+    const urban_nav_core::Trajectory trajectory = graph.trajectory(i);
+    session["frames"] = trajectory.size();
+    session["length_m"] = trajectory.length();
+    if (i < before.size() && before[i] && after[i]) {
+      session["ate_m_odometry"] = before[i]->first.rmse;
+      session["ate_m"] = after[i]->first.rmse;
+      session["ate_se3_m_odometry"] = before[i]->se3.rmse;
+      session["ate_se3_m"] = after[i]->se3.rmse;
+      if (before[i]->nees) session["nees_odometry"] = before[i]->nees->mean;
+      if (after[i]->nees) session["nees"] = after[i]->nees->mean;
+      if (!json.has("ate_m_odometry")) {
+        json["ate_m_odometry"] = before[i]->first.rmse;
+        json["ate_se3_m_odometry"] = before[i]->se3.rmse;
+      }
+    }
+    sessions.append(session);
   }
+  json["per_session"] = sessions;
   return json;
 }
 

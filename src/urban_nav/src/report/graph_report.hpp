@@ -20,7 +20,8 @@ Section graphSection(const GraphRun& graph, const std::vector<const VoRun*>& run
 /// What it says in plain words.
 std::vector<Verdict> graphVerdicts(const GraphRun& graph);
 
-/// The object "pose_graph" of summary.json.
-Json toJson(const GraphRun& graph, const std::vector<std::optional<Evaluation>>& before);
+/// The object "pose_graph" of summary.json. `before`, `after`: one per session.
+Json toJson(const GraphRun& graph, const std::vector<std::optional<Evaluation>>& before,
+            const std::vector<std::optional<Evaluation>>& after);
 
 }  // namespace urban_nav

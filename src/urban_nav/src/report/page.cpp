@@ -12,6 +12,7 @@ namespace urban_nav {
 namespace {
 
 constexpr std::size_t kMostTilesAcross = 6;
+constexpr std::size_t kLongTable = 60;  // rows: more of them scroll within their own frame
 
 const char* classOf(Grade grade) {
   switch (grade) {
@@ -76,7 +77,8 @@ std::string picturesOf(const std::vector<PagePicture>& pictures) {
 
 std::string tableOf(const PageTable& table) {
   std::string html = table.title.empty() ? "" : "<h3>" + escapeHtml(table.title) + "</h3>";
-  html += "<div class=\"scroll\"><table><thead><tr>";
+  html +=
+      std::string("<div class=\"scroll") + (table.rows.size() > kLongTable ? " long" : "") + "\"><table><thead><tr>";
   for (const std::string& cell : table.head) html += "<th>" + escapeHtml(cell) + "</th>";
   html += "</tr></thead><tbody>\n";
   for (const std::vector<std::string>& row : table.rows) {

@@ -15,7 +15,7 @@ header, main, footer { max-width: 1180px; margin: 0 auto; padding: 0 20px; }
 header { padding-top: 28px; }
 h1 { font-size: 1.9rem; margin: 0; letter-spacing: -0.01em; overflow-wrap: anywhere; }
 h2 { font-size: 1.3rem; margin: 44px 0 6px; padding-top: 14px; border-top: 1px solid var(--edge); }
-p, td, figcaption { overflow-wrap: anywhere; }
+p, figcaption { overflow-wrap: anywhere; } td { overflow-wrap: break-word; }
 h3 { font-size: 0.98rem; margin: 0 0 8px; }
 .subtitle { color: var(--soft); margin: 4px 0 10px; }
 nav { display: flex; flex-wrap: wrap; gap: 4px 18px; font-size: 0.92rem; }
@@ -44,12 +44,12 @@ img { max-width: 100%; height: auto; display: block; border-radius: 4px; }
 .key i.dash { border-top-style: dashed; } .key i.block { height: 10px; border: 0; background: currentColor; opacity: 0.35; } .key i.round { width: 9px; height: 9px; border: 0; border-radius: 50%; background: currentColor; }
 svg.plot { width: 100%; height: auto; display: block; overflow: visible; }
 .grid { stroke: var(--grid); stroke-width: 1; } .tick { fill: var(--soft); font-size: 11px; } .label { fill: var(--soft); font-size: 12px; }
-.line { fill: none; stroke: currentColor; stroke-width: 1.9; stroke-linejoin: round; stroke-linecap: round; } .dashed { stroke-dasharray: 6 4; }
+.line { fill: none; stroke: currentColor; stroke-width: 1.9; stroke-linejoin: round; stroke-linecap: round; } .dashed { stroke-dasharray: 6 4; } .faint { stroke-width: 0.8; opacity: 0.4; }
 .band { fill: currentColor; opacity: 0.18; } .bar, .dot { fill: currentColor; } .span { fill: currentColor; opacity: 0.16; }
 .c-a { color: var(--a); } .c-b { color: var(--b); } .c-c { color: var(--c); } .c-d { color: var(--d); } .c-good { color: var(--good); } .c-fair { color: var(--fair); } .c-bad { color: var(--bad); } .c-plain { color: var(--plain); }
 .cross { stroke: var(--soft); stroke-width: 1; stroke-dasharray: 3 3; pointer-events: none; }
 .read { fill: var(--ink); font-size: 12px; paint-order: stroke; stroke: var(--card); stroke-width: 4px; pointer-events: none; }
-.scroll { overflow-x: auto; margin: 8px 0; } table { border-collapse: collapse; font-size: 0.9rem; min-width: 50%; font-variant-numeric: tabular-nums; }
+.scroll { overflow-x: auto; margin: 8px 0; } .long { max-height: 480px; overflow-y: auto; } table { border-collapse: collapse; font-size: 0.9rem; min-width: 50%; font-variant-numeric: tabular-nums; }
 th, td { text-align: left; padding: 5px 14px 5px 0; border-bottom: 1px solid var(--edge); vertical-align: top; } th { color: var(--soft); font-weight: 550; }
 footer { color: var(--soft); font-size: 0.85rem; padding-top: 26px; padding-bottom: 40px; }
 @media print { :root { --paper: #fff; --card: #fff; } nav, .running { display: none; } body { font-size: 11pt; } h2 { break-after: avoid; } }

@@ -183,9 +183,12 @@ std::string draw(const Series& series, const Frame& f) {
     case Series::Kind::Bars: return barsOf(series, f);
     case Series::Kind::Dots: return dotsOf(series, f);
     case Series::Kind::Line:
-    case Series::Kind::Dashed: break;
+    case Series::Kind::Dashed:
+    case Series::Kind::Faint: break;
   }
-  const std::string dashed = series.kind == Series::Kind::Dashed ? " dashed" : "";
+  const std::string dashed = series.kind == Series::Kind::Dashed  ? " dashed"
+                             : series.kind == Series::Kind::Faint ? " faint"
+                                                                  : "";
   return "<path class=\"line c-" + series.colour + dashed + "\" data-name=\"" + escapeHtml(series.name) + "\" d=\"" +
          pathOf(series, f) + "\"/>";
 }

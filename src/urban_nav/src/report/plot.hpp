@@ -14,7 +14,7 @@ struct PlotPoint {
 /// One thing in a plot. Colours are names of the page's palette ("a" the estimate, "b" the truth, "c", "d", "good",
 /// "fair", "bad"), so that they change with the page's light.
 struct Series {
-  enum class Kind { Line, Dashed, Dots, Band, Bars };
+  enum class Kind { Line, Dashed, Faint, Dots, Band, Bars };  ///< Faint: of many lines that lie behind others
   Kind kind = Kind::Line;
   std::string name;  ///< in the legend; empty: not in it
   std::string colour = "a";

@@ -6,6 +6,7 @@
 #include <functional>
 #include <numeric>
 
+#include "pipeline/store_stage.hpp"
 #include "report/plot.hpp"
 #include "store/stored_map.hpp"
 
@@ -132,7 +133,7 @@ StoreInfo lookIntoStore(const std::string& path) {
     each.streams = streamsOf(store, session.id);
     for (const urban_nav_store::Extrinsic& extrinsic : store.sessions().extrinsics(session.id))
       each.frames.push_back(extrinsic.frame);
-    each.resumable = !store.states().stages(session.id).empty();
+    each.resumable = store.states().get(session.id, kVoStage).has_value();
   }
   Groups groups(info.sessions.size());
   for (StoredSession& each : info.sessions) {

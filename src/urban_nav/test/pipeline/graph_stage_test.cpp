@@ -163,6 +163,50 @@ TEST(GraphStage, sessionsThatJoinEachOtherAloneAreOneMapOfTheirOwn) {
   EXPECT_FALSE(out.has("trajectory_3.tum"));
 }
 
+/// What an accelerometer at rest would feel at each frame: the drive is slow.
+void feel(VoRun& run, const Pose& T_first_level) {
+  const Pose first = truthAt(static_cast<double>(run.settled.front().stamp) / kStep);
+  for (const swf_vo::Settled& settled : run.settled) {
+    const Pose T_first_now = first.inverse() * truthAt(static_cast<double>(settled.stamp) / kStep);
+    run.forces.push_back({settled.stamp, T_first_now.R().transpose() * T_first_level.R() * Vector3d(0.0, 0.0, 9.81)});
+  }
+}
+
+TEST(GraphStage, levelsTheMapWhereAnAccelerometerKnowsHow) {
+  VoRun monday = drive(0, 900, 2e-4), tuesday = drive(300, 900, -1e-4);
+  std::vector<ClosureRow> rows;
+  for (int i = 20; i < 300; i += 40) rows.push_back(closure("monday", i, "monday", i + 600));
+  for (int i = 310; i < 600; i += 60) rows.push_back(closure("monday", i, "tuesday", i));
+  const auto relaxed = [&] { return runGraph({}, {&monday, &tuesday}, {"monday", "tuesday"}, rows); };
+  const GraphRun before = relaxed();
+  EXPECT_FALSE(before.levels[0].known());
+  EXPECT_EQ(before.levels[0].trouble, pose_graph::LevelTrouble::NoForces);
+
+  // The robot's first pose leans by 0.1 rad to the side and 0.05 rad ahead.
+  const Pose T_level_first(expSo3(Vector3d(0.1, 0.05, 0.0)), Vector3d::Zero());
+  feel(monday, T_level_first.inverse());
+  const GraphRun after = relaxed();
+  ASSERT_TRUE(after.levels[0].known());
+  EXPECT_NEAR(std::acos(after.levels[0].up.z()), std::acos(T_level_first.R()(2, 2)), 2e-3);
+  EXPECT_TRUE(isApprox(after.trajectory(0).front().pose, T_level_first * Pose(), 5e-3))
+      << "its heading was zero and is";
+  EXPECT_LT(after.trajectory(0).front().pose.t().norm(), 1e-12);
+  for (std::size_t s = 0; s < 2; ++s) {
+    const auto level = after.trajectory(s), leaning = before.trajectory(s);
+    const Pose turn = after.trajectory(0).front().pose;
+    for (std::size_t i = 0; i < level.size(); i += 50)
+      EXPECT_TRUE(isApprox(level[i].pose, turn * leaning[i].pose, 1e-9));
+    EXPECT_EQ(after.covariances[s].back(), before.covariances[s].back()) << "they are of the axes of the first pose";
+  }
+
+  // Where the first session has none, the next one of the same map says it.
+  monday.forces.clear();
+  feel(tuesday, Pose());
+  const GraphRun second = relaxed();
+  ASSERT_TRUE(second.levels[0].known());
+  EXPECT_LT(std::acos(second.levels[0].up.z()), 2e-3);
+}
+
 TEST(GraphStage, namesClosuresThatCannotBeUsed) {
   const VoRun monday = drive(0, 300, 0.0);
   std::vector<ClosureRow> rows = {closure("monday", 10, "sunday", 20), closure("monday", 10, "monday", 5000),

@@ -20,7 +20,7 @@ VoRun someRun(int frames) {
   const std::unique_ptr<Source> source = openSource({folder.file("in")}, {});
   VoStage stage(swf_vo::Parameters(), source->info());
   while (const std::optional<StereoInput> input = source->next()) stage.process(*input);
-  stage.finish({"a fault"});
+  stage.finish({"a fault"}, {{0, {0.1, 0.2, 9.8}}, {50'000'000, {0.1, 0.3, 9.7}}});
   return stage.run();
 }
 
@@ -44,6 +44,20 @@ TEST(VoState, comesBackBitByBit) {
   EXPECT_FALSE(run.pictures.empty());
   EXPECT_EQ(back->pictures.front().jpeg, run.pictures.front().jpeg);
   EXPECT_EQ(back->faults, run.faults);
+  ASSERT_EQ(back->forces.size(), 2U);
+  EXPECT_EQ(back->forces[1].force, run.forces[1].force);
+}
+
+TEST(VoState, forcesComeBackByThemselves) {
+  const std::vector<pose_graph::FeltForce> forces = {{5, {0.1, 0.2, 9.8}}, {7, {-0.1, 1e-9, 9.7}}};
+  const auto back = unpackForces(packForces(forces));
+  ASSERT_TRUE(back);
+  ASSERT_EQ(back->size(), 2U);
+  EXPECT_EQ((*back)[1].stamp, 7);
+  EXPECT_EQ((*back)[1].force, forces[1].force);
+  EXPECT_FALSE(unpackForces(""));
+  EXPECT_FALSE(unpackForces(packForces(forces).substr(1)));
+  EXPECT_FALSE(unpackForces(packForces(forces) + "x"));
 }
 
 TEST(VoState, survivesAnything) {

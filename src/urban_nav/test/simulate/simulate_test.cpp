@@ -16,6 +16,7 @@
 
 #include "command_line/console.hpp"
 #include "commands/commands.hpp"
+#include "input/open.hpp"
 #include "support/folders.hpp"
 #include "urban_nav_core/io/csv.hpp"
 #include "urban_nav_core/io/kitti.hpp"
@@ -198,6 +199,27 @@ TEST(Simulate, RawPairsSayHowTheyAreRectified) {
     EXPECT_LT(info->D[0], -0.1);
     EXPECT_NE(info->R[1], 0.0);
     EXPECT_NEAR(info->P[3], -389.956085 * 0.120005, 1e-9);
+  }
+}
+
+TEST(Simulate, ABagGivesWhatItsAccelerometerFelt) {
+  const TemporaryFolder folder;
+  SimulateJob job = shortJob(folder);
+  job.session.duration = 0.2;
+  job.session.sensors = {urban_nav_sim::Sensor::Stereo, urban_nav_sim::Sensor::Imu};
+  Console console;
+  simulate(job, console);
+  for (const char* motion : {"none", "gyroscope"}) {
+    SourceOptions options;
+    options.motion_input = motion;
+    const std::unique_ptr<Source> source = openSource({job.bag}, options);
+    std::size_t inputs = 0;
+    while (const auto pair = source->next()) inputs += pair->assembled.inputs.size();
+    EXPECT_EQ(inputs > 0, std::string(motion) == "gyroscope");
+    const std::vector<pose_graph::FeltForce> forces = source->forces();
+    ASSERT_GE(forces.size(), 18U) << motion;
+    EXPECT_LT((forces[9].force - Eigen::Vector3d(0.0, 0.0, 9.81)).norm(), 2.0) << "up, in base_link";
+    EXPECT_LT(source->info().last - source->info().first, 200'000'000) << "of the stereo stream alone";
   }
 }
 

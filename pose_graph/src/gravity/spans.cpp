@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gravity/spans.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pose_graph {
+
+using Eigen::Vector3d;
+using urban_nav_core::Matrix3d;
+using urban_nav_core::Pose;
+using urban_nav_core::secondsBetween;
+using urban_nav_core::StampedPose;
+using urban_nav_core::StampNs;
+using urban_nav_core::Trajectory;
+
+namespace {
+
+constexpr double kSpan = 2.0, kLongestGap = 0.3;  // s
+constexpr StampNs kReach = 100'000'000;           // ns around a stamp
+constexpr double kMost = 1000.0;                  // m/s2: a hundred times gravity is no drive
+
+bool isUsable(const FeltForce& felt) { return felt.force.allFinite() && felt.force.norm() < kMost; }
+
+/// A pose at which something was felt, in the axes of the first pose.
+struct Place {
+  StampNs stamp;
+  Vector3d velocity, force;
+  Matrix3d rotation;
+};
+
+std::vector<Place> placesOf(const Trajectory& trajectory, const std::vector<FeltForce>& forces,
+                            const Pose& T_first_world) {
+  std::vector<Place> places;
+  for (const FeltForce& felt : forces) {
+    if (!isUsable(felt)) continue;
+    const std::size_t i = trajectory.nearest(felt.stamp);
+    // The velocity from the neighbours, which the first and the last pose do not have.
+    if (trajectory[i].stamp != felt.stamp || i == 0 || i + 1 == trajectory.size()) continue;
+    const StampedPose &before = trajectory[i - 1], &after = trajectory[i + 1];
+    const double seconds = secondsBetween(before.stamp, after.stamp);
+    if (seconds > 2.0 * kLongestGap) continue;
+    const Matrix3d R = (T_first_world * trajectory[i].pose).R();
+    const Vector3d v = T_first_world.R() * (after.pose.t() - before.pose.t()) / seconds;
+    places.push_back({felt.stamp, v, R * felt.force, R});
+  }
+  return places;
+}
+
+/// Means over places first...last by the trapezoidal rule.
+Span spanOf(const std::vector<Place>& places, std::size_t first, std::size_t last) {
+  Span span;
+  for (std::size_t i = first; i < last; ++i) {
+    const double half = 0.5 * secondsBetween(places[i].stamp, places[i + 1].stamp);
+    span.force += half * (places[i].force + places[i + 1].force);
+    span.rotation += half * (places[i].rotation + places[i + 1].rotation);
+  }
+  const double seconds = secondsBetween(places[first].stamp, places[last].stamp);
+  span.force = (span.force - (places[last].velocity - places[first].velocity)) / seconds;
+  span.rotation /= seconds;
+  return span;
+}
+
+}  // namespace
+
+std::vector<FeltForce> forcesAt(const std::vector<StampNs>& stamps, std::vector<FeltForce> samples) {
+  std::stable_sort(samples.begin(), samples.end(),
+                   [](const FeltForce& a, const FeltForce& b) { return a.stamp < b.stamp; });
+  std::vector<FeltForce> made;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < stamps.size(); ++i) {
+    const StampNs begin = std::max(stamps[i] - kReach, i > 0 ? (stamps[i - 1] + stamps[i]) / 2 : stamps[i] - kReach);
+    const StampNs end =
+        std::min(stamps[i] + kReach, i + 1 < stamps.size() ? (stamps[i] + stamps[i + 1]) / 2 : stamps[i] + kReach);
+    while (next < samples.size() && samples[next].stamp < begin) ++next;
+    Vector3d sum = Vector3d::Zero();
+    int count = 0;
+    for (; next < samples.size() && samples[next].stamp < end; ++next) {
+      if (!isUsable(samples[next])) continue;
+      sum += samples[next].force;
+      ++count;
+    }
+    if (count > 0) made.push_back({stamps[i], sum / count});
+  }
+  return made;
+}
+
+std::vector<Span> spansOf(const Trajectory& trajectory, const std::vector<FeltForce>& forces,
+                          const Pose& T_world_first) {
+  const std::vector<Place> places = placesOf(trajectory, forces, T_world_first.inverse());
+  std::vector<Span> spans;
+  std::size_t first = 0;
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    if (secondsBetween(places[i - 1].stamp, places[i].stamp) > kLongestGap || places[i].stamp <= places[i - 1].stamp) {
+      first = i;
+    } else if (secondsBetween(places[first].stamp, places[i].stamp) >= kSpan) {
+      spans.push_back(spanOf(places, first, i));
+      first = i;
+    }
+  }
+  return spans;
+}
+
+}  // namespace pose_graph

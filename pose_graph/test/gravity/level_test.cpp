@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/level.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "urban_nav_core/testing/bands.hpp"
+#include "urban_nav_core/testing/dice.hpp"
+
+namespace pose_graph {
+namespace {
+
+using Eigen::Vector3d;
+using urban_nav_core::expSo3;
+using urban_nav_core::Matrix3d;
+using urban_nav_core::Pose;
+using urban_nav_core::StampNs;
+using urban_nav_core::Trajectory;
+using urban_nav_core::testing::Dice;
+
+constexpr double kGravity = 9.81, kStep = 0.05;
+constexpr StampNs kStepNs = 50'000'000;
+
+/// A drive over hills, in a level world: it turns at a steady rate, sways and rocks.
+struct Drive {
+  double turning = 0.3;  // rad/s
+  double rocking = 1.0;
+  int frames = 2000;
+  Matrix3d lean = expSo3(Vector3d(0.1, -0.06, 0.0)).toRotationMatrix();  // of the first pose
+  Vector3d fault = Vector3d::Zero();                                     // of the accelerometer, m/s2
+  double noise = 0.0;                                                    // m/s2, of each frame's mean
+
+  Vector3d position(double t) const {
+    const Vector3d along = turning != 0.0 ? Vector3d(std::sin(turning * t), 1.0 - std::cos(turning * t), 0.0) / turning
+                                          : Vector3d(t, 0.0, 0.0);
+    return 1.2 * along + Vector3d(0.0, 0.0, 0.4 * std::sin(0.5 * t) + 0.02 * std::sin(4.0 * t));
+  }
+  Matrix3d rotation(double t) const {
+    return expSo3(Vector3d(0.0, 0.0, turning * t)).toRotationMatrix() * lean *
+           expSo3(rocking * Vector3d(0.05 * std::sin(1.1 * t), 0.08 * std::sin(0.7 * t), 0.0)).toRotationMatrix();
+  }
+  Pose pose(double t) const { return Pose(Eigen::Quaterniond(rotation(t)), position(t)); }
+  /// Relative to the first one, as odometry has it.
+  Trajectory trajectory() const {
+    Trajectory made;
+    for (int i = 0; i < frames; ++i) made.append(i * kStepNs, pose(0.0).inverse() * pose(i * kStep));
+    return made;
+  }
+  std::vector<FeltForce> forces(Dice& dice) const {
+    constexpr double h = 1e-3;
+    std::vector<FeltForce> made;
+    for (int i = 0; i < frames; ++i) {
+      const double t = i * kStep;
+      const Vector3d acceleration = (position(t + h) - 2.0 * position(t) + position(t - h)) / (h * h);
+      made.push_back({i * kStepNs, rotation(t).transpose() * (acceleration + Vector3d(0, 0, kGravity)) + fault +
+                                       noise * dice.normals<3>()});
+    }
+    return made;
+  }
+  Vector3d trueUp() const { return rotation(0.0).transpose() * Vector3d::UnitZ(); }
+  Level level(Dice& dice) const { return levelOf(trajectory(), forces(dice)); }
+};
+
+double degreesBetween(const Vector3d& a, const Vector3d& b) { return std::asin(a.cross(b).norm()) * 180.0 / M_PI; }
+
+TEST(Level, isExactWhereNothingIsWrong) {
+  Dice dice(1);
+  const Drive drive;
+  const Level level = drive.level(dice);
+  ASSERT_TRUE(level.known()) << level.sentence;
+  EXPECT_LT(degreesBetween(level.up, drive.trueUp()), 0.01) << "what sums over frames leave";
+  EXPECT_NEAR(level.gravity, kGravity, 1e-3);
+}
+
+TEST(Level, mapIsLevelWithTheHeadingOfTheFirstPose) {
+  Dice dice(1);
+  const Drive drive;
+  const Level level = drive.level(dice);
+  EXPECT_LT((level.R_map_first * level.up - Vector3d::UnitZ()).norm(), 1e-12);
+  EXPECT_LT((level.R_map_first * level.R_map_first.transpose() - Matrix3d::Identity()).norm(), 1e-12);
+  EXPECT_NEAR(level.R_map_first.determinant(), 1.0, 1e-12);
+  const Vector3d ahead = level.R_map_first * Vector3d::UnitX();
+  EXPECT_NEAR(ahead.y(), 0.0, 1e-12);
+  EXPECT_GT(ahead.x(), 0.9);
+}
+
+TEST(Level, tellsAFaultOfTheAccelerometerFromATiltWhereTheRobotTurns) {
+  Dice dice(1);
+  Drive drive;
+  drive.fault = {0.1, -0.15, 0.05};
+  drive.noise = 0.02;
+  Level level = drive.level(dice);
+  ASSERT_TRUE(level.known());
+  EXPECT_LT(degreesBetween(level.up, drive.trueUp()), 0.05);
+  EXPECT_LT(level.sigma, 0.05 * M_PI / 180.0);
+  drive.turning = drive.rocking = 0.0;
+  level = drive.level(dice);
+  ASSERT_TRUE(level.known());
+  const double error = degreesBetween(level.up, drive.trueUp());
+  EXPECT_GT(error, 0.5) << "nothing could tell";
+  EXPECT_LT(error, 3.0 * level.sigma * 180.0 / M_PI) << "and it says so";
+}
+
+TEST(Level, doesNotDependOnTheFrameOfTheTrajectory) {
+  Dice dice(1);
+  const Drive drive;
+  const std::vector<FeltForce> forces = drive.forces(dice);
+  const Pose T_elsewhere(expSo3(Vector3d(1.0, 2.0, -0.5)), Vector3d(100.0, -30.0, 7.0));
+  const Level level = levelOf(drive.trajectory(), forces),
+              same = levelOf(transformed(T_elsewhere, drive.trajectory()), forces);
+  EXPECT_LT((level.up - same.up).norm(), 1e-9);
+  const Pose later = drive.trajectory()[700].pose;
+  const Level from_later = levelOf(drive.trajectory(), forces, later);
+  EXPECT_LT((later.R().transpose() * level.up - from_later.up).norm(), 1e-9);
+}
+
+TEST(Level, standsShocksAndRubbish) {
+  Dice dice(3);
+  Drive drive;
+  drive.noise = 0.05;
+  std::vector<FeltForce> forces = drive.forces(dice);
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    if (i >= 400 && i < 600) forces[i].force += Vector3d(3.0, -2.0, 5.0);  // ten seconds of a wrong calibration
+    if (dice.chance(0.005)) forces[i].force = 40.0 * dice.normals<3>();
+    if (dice.chance(0.01)) forces[i].force.y() = std::numeric_limits<double>::quiet_NaN();
+    if (dice.chance(0.001)) forces[i].force *= 1e300;
+  }
+  const Level level = levelOf(drive.trajectory(), forces);
+  ASSERT_TRUE(level.known()) << level.sentence;
+  EXPECT_LT(degreesBetween(level.up, drive.trueUp()), 0.15);
+  EXPECT_TRUE(level.covariance.allFinite());
+}
+
+TEST(Level, itsCovarianceIsRight) {
+  Dice dice(7);
+  double sum = 0.0;
+  constexpr int kDrives = 100;
+  for (int i = 0; i < kDrives; ++i) {
+    Drive drive;
+    drive.frames = 400;
+    drive.turning = 0.05;
+    drive.noise = 0.3;
+    drive.fault = 9.81 * 0.01745 * dice.normals<3>();
+    drive.fault.z() *= 0.1;
+    const Level level = drive.level(dice);
+    ASSERT_TRUE(level.known());
+    // In the plane across `up`, where the covariance is regular.
+    const Matrix3d axes = level.R_map_first;
+    const Eigen::Vector2d error = (axes * (level.up - drive.trueUp())).head<2>();
+    const Eigen::Matrix2d covariance = (axes * level.covariance * axes.transpose()).topLeftCorner<2, 2>();
+    sum += error.dot(covariance.inverse() * error);
+  }
+  // Ten spans give the scatter of their noise to a quarter only: the band is that of 30 drives.
+  EXPECT_TRUE(urban_nav_core::testing::meanChiSquareFits(sum / kDrives, 2, 30));
+}
+
+TEST(Level, rotationsThatAreNotExactAddToItsCovariance) {
+  Dice dice(1);
+  const Level level = Drive().level(dice);
+  const Level same = withRotations(level, Matrix3d::Zero());
+  EXPECT_EQ(same.covariance, level.covariance);
+  const Matrix3d covariance = Vector3d(1e-4, 4e-4, 1.0).asDiagonal();  // the heading is known least, and does not count
+  const Level wider = withRotations(level, covariance);
+  // A turn by phi moves `up` by phi x up.
+  Matrix3d sum = level.covariance;
+  for (int i = 0; i < 3; ++i) {
+    const Vector3d moved = (Vector3d::Unit(i) * std::sqrt(covariance(i, i))).cross(level.up);
+    sum += moved * moved.transpose();
+  }
+  EXPECT_LT((wider.covariance - sum).norm(), 1e-12);
+  EXPECT_GT(wider.sigma, 0.01);
+  EXPECT_EQ(wider.up, level.up);
+  EXPECT_FALSE(withRotations(Level(), covariance).known());
+}
+
+TEST(Level, saysWhyItIsNotKnown) {
+  Dice dice(1);
+  Drive drive;
+  EXPECT_EQ(levelOf(drive.trajectory(), {}).trouble, LevelTrouble::NoForces);
+  EXPECT_EQ(levelOf({}, drive.forces(dice)).trouble, LevelTrouble::NoForces);
+  std::vector<FeltForce> forces = drive.forces(dice);
+  for (FeltForce& felt : forces) felt.stamp += 1;
+  EXPECT_EQ(levelOf(drive.trajectory(), forces).trouble, LevelTrouble::TooShort) << "of no pose";
+  forces = drive.forces(dice);
+  for (FeltForce& felt : forces) felt.force /= kGravity;
+  const Level level = levelOf(drive.trajectory(), forces);
+  EXPECT_EQ(level.trouble, LevelTrouble::NotGravity) << "in units of g";
+  EXPECT_FALSE(level.sentence.empty());
+  EXPECT_TRUE(level.R_map_first.isIdentity());
+  drive.frames = 100;
+  EXPECT_EQ(drive.level(dice).trouble, LevelTrouble::TooShort);
+  for (const LevelTrouble trouble :
+       {LevelTrouble::None, LevelTrouble::NoForces, LevelTrouble::TooShort, LevelTrouble::NotGravity})
+    EXPECT_STRNE(toString(trouble), "");
+}
+
+}  // namespace
+}  // namespace pose_graph
