@@ -16,8 +16,8 @@ const Table<Parameters>& table() {
   static const Table<Parameters> rows(
       "pose_graph",
       {
-          {"solver", &P::solver, "", std::string("gauss_newton"), false, false, {"gauss_newton", "relative_pcg"},
-           "How the graph is relaxed: sparse Gauss-Newton over the condensed graph, or the paper's conjugate gradients over relative transforms (a reference: slower, takes every closure as it is).",
+          {"solver", &P::solver, "", std::string("gauss_newton"), false, false, {"gauss_newton", "relative_pcg", "ceres"},
+           "How the graph is relaxed: sparse Gauss-Newton over the condensed graph, or, of the closures that it accepted, the paper's conjugate gradients over relative transforms or Ceres (references: slower).",
            "section 5, eq. 8-19"},
           {"robust", &P::robust, "", true, false, false, {},
            "Closures that disagree with the others are rejected; without, every edge is taken as it is.", "section 5"},

@@ -9,7 +9,7 @@ namespace pose_graph {
 
 /// What a user may want to change; one member per row of table().
 struct Parameters {
-  std::string solver;    // gauss_newton, relative_pcg
+  std::string solver;    // gauss_newton, relative_pcg, ceres
   bool robust;           // reject false closures
   int iterations;        // of one minimisation, at most
   double jump_distance;  // m

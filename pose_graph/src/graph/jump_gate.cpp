@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "pose_graph/ceres.hpp"
 #include "pose_graph/graph_file.hpp"
 #include "pose_graph/relative_pcg.hpp"
 #include "pose_graph/robust.hpp"
@@ -149,10 +150,11 @@ Solution<3> judge(const Problem<3>& problem, const Parameters& parameters, const
   }
   const bool waiting = makeWait(problem, chains, parameters, closures);
   if (parameters.solver == "relative_pcg") return relaxAccepted(problem, chains, options, closures);
-  if (parameters.robust && !waiting) return std::move(judged.solution);
+  const bool by_ceres = parameters.solver == "ceres";
+  if (parameters.robust && !waiting && !by_ceres) return std::move(judged.solution);
   std::vector<double> weights(chains, 1.0);
   for (const auto& [id, closure] : closures) weights.push_back(closure.weight);
-  return solve(problem, options, weights);
+  return by_ceres ? solveByCeres(problem, options, weights) : solve(problem, options, weights);
 }
 
 Addition judgeAddition(LiveCore& core, const Ground& ground, const Parameters& parameters,

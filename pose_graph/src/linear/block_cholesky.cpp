@@ -288,6 +288,7 @@ typename BlockMatrix<B>::Block BlockCholesky<B>::inverseBlock(int row, int colum
 
 template class BlockCholesky<2>;
 template class BlockCholesky<3>;
+template class BlockCholesky<4>;
 template class BlockCholesky<6>;
 
 }  // namespace pose_graph

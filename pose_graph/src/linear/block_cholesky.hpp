@@ -12,7 +12,7 @@ namespace pose_graph {
 /// Sparse Cholesky factorisation of a symmetric positive definite matrix of BxB blocks, supernodal and multifrontal (Duff, Reid,
 /// ACM TOMS 1983; Liu, SIAM Review 1992). Own code: it takes blocks where they are, needs one symbolic analysis for blocks of
 /// every size, gives the same bits on every machine, and lets marginal covariances be read off its supernodes. Compiled for
-/// B = 2, 3, 6. Keeps its buffers; not thread-safe.
+/// B = 2, 3, 4, 6. Keeps its buffers; not thread-safe.
 template <int B>
 class BlockCholesky {
  public:
@@ -71,6 +71,7 @@ class BlockCholesky {
 
 extern template class BlockCholesky<2>;
 extern template class BlockCholesky<3>;
+extern template class BlockCholesky<4>;
 extern template class BlockCholesky<6>;
 
 }  // namespace pose_graph

@@ -20,28 +20,30 @@ double harmonic(const Eigen::Matrix<double, N, N>& M) {
   return invertible && trace > 0.0 ? 1.0 / trace : 0.0;
 }
 
-// The error's rotation as this objective writes it, and its derivative by a turn of R_E from the left.
-struct RotationError {
-  Eigen::Vector3d e;
-  Eigen::Matrix3d J;
-};
-
-RotationError geodesicError(const Rotation<3>& R_E) {
+RotationError<3> geodesicError(const Rotation<3>& R_E) {
   const Eigen::Vector3d e = logRotation(R_E);
   return {e, urban_nav_core::leftJacobianInverseSo3(e)};
 }
 
 // Twice the quaternion's vector, so that it means the same as the rotation vector where it is small.
-RotationError quaternionError(const Rotation<3>& R_E) {
+RotationError<3> quaternionError(const Rotation<3>& R_E) {
   Eigen::Quaterniond q(R_E);
   if (q.w() < 0.0) q.coeffs() = -q.coeffs();
   return {2.0 * q.vec(), q.w() * Eigen::Matrix3d::Identity() - urban_nav_core::skew(q.vec())};
 }
 
+}  // namespace
+
 template <Objective objective>
-RotationError rotationError(const Rotation<3>& R_E) {
+RotationError<2> rotationError(const Rotation<2>& R_E) {
+  return {logRotation(R_E), Eigen::Matrix<double, 1, 1>::Ones()};
+}
+template <Objective objective>
+RotationError<3> rotationError(const Rotation<3>& R_E) {
   return objective == Objective::Geodesic ? geodesicError(R_E) : quaternionError(R_E);
 }
+
+namespace {
 
 template <Objective objective, int D>
 Tangent<D> errorOf(const Eigen::Matrix<double, D, 1>& e_t, const Rotation<D>& R_E) {
@@ -110,7 +112,7 @@ LocalQuadratic<D> localQuadratic(const EdgeTerm<D>& term, const Eigen::Matrix<do
     return made;
   } else {
     LocalQuadratic<D> made;
-    const RotationError rotation = rotationError<objective>(R_E);
+    const RotationError<3> rotation = rotationError<objective>(R_E);
     Tangent<D> e;
     e << e_t, rotation.e;
     const Tangent<D> weighted = term.information * e;
@@ -134,6 +136,11 @@ double localCost(const EdgeTerm<D>& term, const Eigen::Matrix<double, D, 1>& e_t
     return e.dot(term.information * e);
   }
 }
+
+template RotationError<2> rotationError<Objective::Geodesic>(const Rotation<2>&);
+template RotationError<2> rotationError<Objective::G2o>(const Rotation<2>&);
+template RotationError<3> rotationError<Objective::Geodesic>(const Rotation<3>&);
+template RotationError<3> rotationError<Objective::G2o>(const Rotation<3>&);
 
 #define POSE_GRAPH_OBJECTIVE(objective, D)                                                                        \
   template LocalQuadratic<D> localQuadratic<objective, D>(const EdgeTerm<D>&, const Eigen::Matrix<double, D, 1>&, \

@@ -35,6 +35,17 @@ template <Objective objective, int D>
 LocalQuadratic<D> localQuadratic(const EdgeTerm<D>& term, const Eigen::Matrix<double, D, 1>& e_t,
                                  const Rotation<D>& R_E);
 
+/// The error's rotation as an objective writes it, and its derivative by a turn of R_E from the left. Not of the chordal one.
+template <int D>
+struct RotationError {
+  RotationVector<D> e;
+  Eigen::Matrix<double, rotation_size<D>, rotation_size<D>> J;
+};
+template <Objective objective>
+RotationError<2> rotationError(const Rotation<2>& R_E);
+template <Objective objective>
+RotationError<3> rotationError(const Rotation<3>& R_E);
+
 /// The cost alone.
 template <Objective objective, int D>
 double localCost(const EdgeTerm<D>& term, const Eigen::Matrix<double, D, 1>& e_t, const Rotation<D>& R_E);

@@ -8,6 +8,8 @@
 #include "command_line/json.hpp"
 #include "commands/commands.hpp"
 #include "pipeline/parameters.hpp"
+#include "pose_graph/ceres.hpp"
+#include "pose_graph/certificate.hpp"
 #include "pose_graph/graph_file.hpp"
 #include "pose_graph/relative_pcg.hpp"
 #include "pose_graph/robust.hpp"
@@ -99,6 +101,7 @@ struct Told {
       variance;  // of the residuals, in units of what the information states; where closures were judged
   std::string ending;
   double ms = 0.0;
+  std::optional<pose_graph::Certificate> certificate;  // of the accepted edges, by the chordal objective
 };
 
 std::string textOf(const Told& told) {
@@ -108,7 +111,14 @@ std::string textOf(const Told& told) {
   if (told.variance)
     text +=
         "errors: " + forPerson(std::sqrt(*told.variance), 2) + " times the deviations that the information states\n";
-  return text + textOf("before: ", told.before) + textOf("after:  ", told.after);
+  text += textOf("before: ", told.before) + textOf("after:  ", told.after);
+  if (!told.certificate) return text;
+  const pose_graph::Certificate& certificate = *told.certificate;
+  text += certificate.certified ? "certified: the global optimum" : "not certified: there may be a better optimum";
+  if (certificate.gap)
+    text += "; no poses cost less than " + forPerson(certificate.cost, 9) + " by more than " +
+            forPerson(*certificate.gap, 2);
+  return text + "\n";
 }
 
 Json jsonOf(const Told& told) {
@@ -123,6 +133,10 @@ Json jsonOf(const Told& told) {
   json["ms_batch"] = told.ms;
   json["cost_before"] = jsonOf(told.before);
   json["cost_after"] = jsonOf(told.after);
+  if (told.certificate) {
+    json["certified"] = told.certificate->certified;
+    if (told.certificate->gap) json["certified_gap"] = *told.certificate->gap;
+  }
   return json;
 }
 
@@ -139,17 +153,18 @@ Told relaxFile(const G2oGraph& graph, const std::string& name, const Arguments& 
     return true;
   };
   const auto begin = Clock::now();
-  const bool along_chain = arguments.get("solver", "gauss_newton") == "relative_pcg";
+  const std::string solver = arguments.get("solver", "gauss_newton");
   pose_graph::RobustSolution<D> robust;
   robust.edges.resize(file.problem.edges.size());
   const bool doubted = arguments.get("robust", "on") == "on";
   if (doubted) robust = pose_graph::relaxRobust(file.problem, pose_graph::rolesByNumbers(file.problem), options);
-  if (along_chain) {
+  if (solver != "gauss_newton") {
     pose_graph::Problem<D> accepted;
     accepted.poses = file.problem.poses;
     for (std::size_t e = 0; e < robust.edges.size(); ++e)
       if (robust.edges[e].verdict == pose_graph::Verdict::Accepted) accepted.edges.push_back(file.problem.edges[e]);
-    robust.solution = relaxAlongChain(accepted, options);
+    robust.solution =
+        solver == "ceres" ? pose_graph::solveByCeres(accepted, options) : relaxAlongChain(accepted, options);
   } else if (!doubted) {
     robust.solution = pose_graph::solve(file.problem, options);
   }
@@ -169,6 +184,11 @@ Told relaxFile(const G2oGraph& graph, const std::string& name, const Arguments& 
   if (doubted && told.edges > trusted) told.variance = robust.variance_factor;
   told.before = costsOf(file.problem, file.problem.poses);
   told.after = costsOf(file.problem, solution.poses);
+  if (options.objective == Objective::Chordal) {
+    std::vector<double> weights;
+    for (const pose_graph::EdgeVerdict& edge : robust.edges) weights.push_back(edge.weight);
+    told.certificate = certify(file.problem, solution.poses, weights);
+  }
   if (solution.components > 1)
     console.warn(name + ": " + std::to_string(solution.components) +
                  " parts that no edge connects; each stays in its own frame");
@@ -233,10 +253,11 @@ Command relaxCommand() {
       {"--solver",
        "NAME",
        "gauss_newton (default): sparse, over the poses; relative_pcg: conjugate gradients on the transforms along the "
-       "chain (Newman et al. 2009, section 5), slow, for graphs whose consecutive poses are all joined",
+       "chain (Newman et al. 2009, section 5), slow, for graphs whose consecutive poses are all joined; ceres: Ceres, as a "
+       "second word on the same residuals. The last two relax the edges that --robust accepted",
        false,
        false,
-       {"gauss_newton", "relative_pcg"}},
+       {"gauss_newton", "relative_pcg", "ceres"}},
       {"--start",
        "NAME",
        "first guess (default auto: the vertices, or rotations found without any guess, whichever cost less)",

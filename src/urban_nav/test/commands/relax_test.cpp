@@ -62,6 +62,24 @@ TEST_F(Relax, ThePapersSolverEndsWhereTheDefaultOneDoes) {
   EXPECT_FALSE(std::filesystem::exists(path("c.g2o")));
 }
 
+TEST_F(Relax, CeresEndsWhereTheDefaultOneDoes) {
+  writeAtomically(path("in.g2o"), kSquare);
+  for (const char* objective : {"geodesic", "chordal", "g2o"}) {
+    ASSERT_EQ(relax({path("in.g2o"), "-o", path("a.g2o"), "--objective", objective}), 0);
+    ASSERT_EQ(relax({path("in.g2o"), "-o", path("b.g2o"), "--objective", objective, "--solver", "ceres"}), 0);
+    expectSamePoses(read("a.g2o"), read("b.g2o"), 1e-4);
+  }
+}
+
+TEST_F(Relax, ChordalOptimaAreCertified) {
+  writeAtomically(path("in.g2o"), kSquare);
+  ASSERT_EQ(relax({path("in.g2o"), "-o", path("a.g2o"), "--objective", "chordal", "--json", path("a.json")}), 0);
+  EXPECT_NE(readTextFile(path("a.json")).find("\"certified\": true"), std::string::npos)
+      << readTextFile(path("a.json"));
+  ASSERT_EQ(relax({path("in.g2o"), "-o", path("a.g2o"), "--json", path("a.json")}), 0);
+  EXPECT_EQ(readTextFile(path("a.json")).find("certified"), std::string::npos);
+}
+
 TEST_F(Relax, ToroGoesInAndOut) {
   writeAtomically(path("in.g2o"), kSquare);
   urban_nav_core::writeToro(path("in.graph"), read("in.g2o"));

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "objective/objective.hpp"
+
+namespace pose_graph {
+
+/// Rows of an edge's residual: of a chordal one all entries of a matrix and a vector.
+template <Objective objective, int D>
+constexpr int residual_size = objective == Objective::Chordal ? D* D + D : tangent_size<D>;
+
+/// An edge's cost as a sum of squares, and its derivatives when the poses are moved as EdgeQuadratic has it.
+template <Objective objective, int D>
+struct EdgeResidual {
+  Eigen::Matrix<double, residual_size<objective, D>, 1> r;
+  Eigen::Matrix<double, residual_size<objective, D>, tangent_size<D>> J_from, J_to;
+};
+
+/// `root`: of the edge's information, root^T root; the chordal objective takes its weights from `term`.
+template <Objective objective, int D>
+EdgeResidual<objective, D> edgeResidual(const EdgeTerm<D>& term, const TangentMatrix<D>& root, const Rigid<D>& from,
+                                        const Rigid<D>& to);
+
+}  // namespace pose_graph

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/certificate.hpp"
+
+#include <cmath>
+
+#include "pose_graph/solution.hpp"
+#include "support/drawn.hpp"
+
+namespace pose_graph::test {
+namespace {
+
+SolveOptions chordal(Start start = Start::Auto) {
+  SolveOptions options;
+  options.objective = Objective::Chordal;
+  options.start = start;
+  options.tolerance = 1e-12;
+  return options;
+}
+
+/// A closed ring of equal steps, all measured exactly, with poses that turn `rounds` times on their way round.
+Problem<2> ring(int poses, int rounds) {
+  Problem<2> made;
+  Edge<2> step;
+  step.Z.R = expRotation(RotationVector<2>(2.0 * M_PI / poses));
+  step.Z.t = {1.0, 0.0};
+  Rigid<2> T;
+  for (int i = 0; i < poses; ++i) {
+    made.poses.push_back(T);
+    T.t += T.R.col(0);
+    T.R = expRotation(RotationVector<2>(2.0 * M_PI * rounds * (i + 1) / poses));
+    step.from = i;
+    step.to = (i + 1) % poses;
+    made.edges.push_back(step);
+  }
+  return made;
+}
+
+template <int D>
+void expectCertifiedAtTheOptimum() {
+  Dice dice(17);
+  for (int draw = 0; draw < 5; ++draw) {
+    const Problem<D> problem = drawProblem<D>(dice, 50, 30, 0.05, 0.05);
+    const Solution<D> solution = solve(problem, chordal());
+    const Certificate certificate = certify(problem, solution.poses);
+    EXPECT_TRUE(certificate.certified);
+    ASSERT_TRUE(certificate.gap);
+    EXPECT_LT(*certificate.gap, 1e-4 * solution.cost);
+    EXPECT_DOUBLE_EQ(certificate.cost, solution.cost);
+    // The bound holds wherever it is asked, and where poses are not at a minimum they are not certified.
+    std::vector<Rigid<D>> off = solution.poses;
+    for (Rigid<D>& pose : off) pose = moved<D>(pose, drawTangent<D>(dice, 0.02, 0.01));
+    const Certificate away = certify(problem, off);
+    EXPECT_FALSE(away.certified);
+    if (away.gap) {
+      EXPECT_GE(*away.gap, away.cost - solution.cost);
+    }
+  }
+}
+
+TEST(Certificate, isGivenAtTheOptimum) {
+  expectCertifiedAtTheOptimum<2>();
+  expectCertifiedAtTheOptimum<3>();
+}
+
+TEST(Certificate, isGivenWhereEverythingFits) { EXPECT_TRUE(certify(ring(30, 1), ring(30, 1).poses).certified); }
+
+TEST(Certificate, isNotGivenToAKnot) {
+  // Turned once more than measured: no small motion undoes it, and its cost is far from the best, which is zero.
+  const Problem<2> knotted = ring(30, 2);
+  const Solution<2> solution = solve(knotted, chordal(Start::Vertices));
+  ASSERT_EQ(solution.ending, Ending::Converged);
+  ASSERT_GT(solution.cost, 0.1);
+  const Certificate certificate = certify(knotted, solution.poses);
+  EXPECT_FALSE(certificate.certified);
+  if (certificate.gap) {
+    EXPECT_GE(*certificate.gap, solution.cost);
+  }
+}
+
+TEST(Certificate, leavesOutWhatHasNoWeightAndKnowsParts) {
+  Dice dice(23);
+  Problem<3> problem = drawProblem<3>(dice, 20, 10, 0.05, 0.05);
+  const std::size_t edges = problem.edges.size();
+  for (std::size_t e = 0; e < edges; ++e) {
+    problem.edges.push_back(problem.edges[e]);
+    problem.edges.back().from += 20;
+    problem.edges.back().to += 20;
+  }
+  for (int i = 0; i < 20; ++i) problem.poses.push_back(problem.poses[static_cast<std::size_t>(i)]);
+  std::vector<double> weights(problem.edges.size(), 1.0);
+  problem.edges.push_back({0, 5, drawRigid<3>(dice, 10.0, 3.0), 1e6 * TangentMatrix<3>::Identity()});
+  weights.push_back(0.0);
+  const Solution<3> solution = solve(problem, chordal(), weights);
+  EXPECT_TRUE(certify(problem, solution.poses, weights).certified);
+  EXPECT_FALSE(certify(problem, solution.poses).certified);
+}
+
+}  // namespace
+}  // namespace pose_graph::test
