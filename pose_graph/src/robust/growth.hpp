@@ -33,7 +33,8 @@ bool takeAll(const Witness<D>& witness, const std::vector<int>& group, const std
 
 /// Takes one group that supports itself and does not fit where the graph stands, if it fits where it would put the graph: over a
 /// long way odometry's errors lie on an arc, which linearised covariances do not see. Relaxed with the group, the graph's
-/// cost may rise by as much as chance explains for all of its members together. `tried`: groups that are not worth another try.
+/// cost may rise by as much as chance explains for all of its members together; or few others leave, a false one that stands in the
+/// way of many true ones, and all that remain fit. `tried`: groups that are not worth another try.
 template <int D>
 bool tryGroups(const Witness<D>& witness, const std::vector<int>& group, const Thresholds& thresholds,
                std::set<int>& tried, AcceptedGraph<D>& graph, Grown<D>& grown);
