@@ -6,7 +6,7 @@ import sqlite3
 import unittest
 from unittest import mock
 
-from case import FolderCase
+from case import FolderCase, run
 import crash
 import live_graph
 
@@ -80,4 +80,4 @@ class Recording(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    run("bench_crash")
