@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose_graph/keeper.hpp"
 
-#include <signal.h>
-#include <sys/resource.h>
-
 #include "../support/driven.hpp"
 #include "pose_graph/stored_graph.hpp"
+#include "urban_nav_core/testing/small_disk.hpp"
 
 namespace pose_graph {
 namespace {
@@ -15,30 +13,9 @@ using testing::drive;
 using testing::expectSameMap;
 using testing::kLap;
 using testing::Place;
+using urban_nav_core::testing::SmallDisk;
 using urban_nav_store::Access;
 using urban_nav_store::Store;
-
-/// No file of this process grows beyond `bytes`: a full disk, as seen from here.
-class SmallDisk {
- public:
-  explicit SmallDisk(std::size_t bytes) {
-    signal_ = ::signal(SIGXFSZ, SIG_IGN);
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    rlimit limit = before_;
-    limit.rlim_cur = bytes;
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~SmallDisk() {
-    ::setrlimit(RLIMIT_FSIZE, &before_);
-    ::signal(SIGXFSZ, signal_);
-  }
-  SmallDisk(const SmallDisk&) = delete;
-  SmallDisk& operator=(const SmallDisk&) = delete;
-
- private:
-  rlimit before_{};
-  void (*signal_)(int) = nullptr;
-};
 
 class Kept : public ::testing::Test {
  protected:

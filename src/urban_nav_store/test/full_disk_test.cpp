@@ -3,7 +3,7 @@
 
 #include "support/contents.hpp"
 #include "support/folder.hpp"
-#include "support/small_disk.hpp"
+#include "urban_nav_core/testing/small_disk.hpp"
 #include "urban_nav_store/dump.hpp"
 #include "urban_nav_store/merge.hpp"
 #include "urban_nav_store/store.hpp"
@@ -15,7 +15,7 @@ using testing::errorOf;
 using testing::expectError;
 using testing::fill;
 using testing::Folder;
-using testing::SmallDisk;
+using urban_nav_core::testing::SmallDisk;
 
 TEST(FullDisk, isNamedAndLosesNothingThatWasCommitted) {
   const Folder folder;

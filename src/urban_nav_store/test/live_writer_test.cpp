@@ -8,7 +8,7 @@
 
 #include "support/contents.hpp"
 #include "support/folder.hpp"
-#include "support/small_disk.hpp"
+#include "urban_nav_core/testing/small_disk.hpp"
 #include "urban_nav_store/dump.hpp"
 
 namespace urban_nav_store {
@@ -17,7 +17,7 @@ namespace {
 using testing::Drawn;
 using testing::fill;
 using testing::Folder;
-using testing::SmallDisk;
+using urban_nav_core::testing::SmallDisk;
 
 constexpr std::chrono::milliseconds kNever{100'000'000};
 

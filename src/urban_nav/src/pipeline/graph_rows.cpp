@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <map>
 
+#include "pose_graph/stored_graph.hpp"
+
 namespace urban_nav {
 
 using pose_graph::Track;
@@ -44,15 +46,9 @@ void putGraph(Store& store, const std::vector<SessionId>& ids, const GraphRun& r
   std::map<pose_graph::ClosureId, const ClosureRow*> rows;
   for (const ClosureRow& row : run.closures) rows[row.id] = &row;
   for (const auto& [id, closure] : run.graph.closures()) {
-    Edge edge;
-    edge.a = {idOf(run, ids, closure.a.session), closure.a.stamp};
-    edge.b = {idOf(run, ids, closure.b.session), closure.b.stamp};
-    edge.kind = closure.kind;
-    edge.source = closure.source;
-    edge.measured = closure.measured;
-    edge.weight = closure.weight;
-    edge.verdict = closure.verdict;
-    edge.reason = closure.reason;
+    Edge edge = pose_graph::edgeOf(closure);
+    edge.a.session = idOf(run, ids, closure.a.session);
+    edge.b.session = idOf(run, ids, closure.b.session);
     store.graph().put(edge);
     const auto row = rows.find(id);
     if (row != rows.end()) store.graph().putEvidence(edge, printClosures({*row->second}));

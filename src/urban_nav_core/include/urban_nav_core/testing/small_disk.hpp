@@ -6,7 +6,7 @@
 
 #include <cstddef>
 
-namespace urban_nav_store::testing {
+namespace urban_nav_core::testing {
 
 /// While it lives no file of this process can grow beyond `bytes`: what a full disk looks like from here, without a disk
 /// to fill.
@@ -31,4 +31,4 @@ class SmallDisk {
   void (*before_signal_)(int) = nullptr;
 };
 
-}  // namespace urban_nav_store::testing
+}  // namespace urban_nav_core::testing
