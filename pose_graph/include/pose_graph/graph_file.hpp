@@ -18,11 +18,18 @@ struct FileProblem {
   std::vector<std::string> notes;                 ///< what a user should know, a sentence each
 };
 
+/// What of an edge's information must be positive semidefinite.
+enum class Semidefinite {
+  Whole,   ///< all of it
+  Blocks,  ///< its translation and its rotation block, all that the chordal objective reads: public graphs exist of which the rest is not
+};
+
 /// `graph.dimension` must be D. Information of 3D files is that of the quaternion's vector, half the rotation vector: its rotation
 /// block is divided by 4 and its cross blocks by 2. Throws UserError with `name` for information that is not positive
 /// semidefinite (to 1e-9 of its largest eigenvalue) and for a file without edges.
 template <int D>
-FileProblem<D> problemOf(const urban_nav_core::G2oGraph& graph, const std::string& name);
+FileProblem<D> problemOf(const urban_nav_core::G2oGraph& graph, const std::string& name,
+                         Semidefinite demanded = Semidefinite::Whole);
 
 /// The graph with these poses for its vertices; vertices it did not list are added at the end.
 template <int D>

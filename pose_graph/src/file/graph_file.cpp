@@ -29,12 +29,23 @@ TangentMatrix<D> informationOf(const G2oGraph::Edge& edge) {
   return information;
 }
 
-template <int D>
-void demandSemidefinite(const TangentMatrix<D>& information, const G2oGraph::Edge& edge, const std::string& name) {
+template <int N>
+bool isSemidefinite(const Eigen::Matrix<double, N, N>& information) {
   // Most matrices pass by their Cholesky factor, at a tenth of the price of eigenvalues.
-  if (Eigen::LLT<TangentMatrix<D>>(information).info() == Eigen::Success) return;
+  if (Eigen::LLT<Eigen::Matrix<double, N, N>>(information).info() == Eigen::Success) return true;
   const auto values = urban_nav_core::symmetricEigenvalues(information);
-  if (values && (*values)[0] >= -kRoundOff * std::max(0.0, values->maxCoeff())) return;
+  return values && (*values)[0] >= -kRoundOff * std::max(0.0, values->maxCoeff());
+}
+
+/// False where it is not, and need not be.
+template <int D>
+bool demand(Semidefinite demanded, const TangentMatrix<D>& information, const G2oGraph::Edge& edge,
+            const std::string& name) {
+  if (isSemidefinite<tangent_size<D>>(information)) return true;
+  constexpr int R = tangent_size<D> - D;
+  if (demanded == Semidefinite::Blocks && isSemidefinite<D>(information.template topLeftCorner<D, D>()) &&
+      isSemidefinite<R>(information.template bottomRightCorner<R, R>()))
+    return false;
   throw UserError(name,
                   "the information of the edge from " + std::to_string(edge.from) + " to " + std::to_string(edge.to) +
                       " has a negative eigenvalue",
@@ -72,17 +83,21 @@ Pose poseOf(const Rigid<2>& T) {
 Pose poseOf(const Rigid<3>& T) { return Pose(T.R, T.t); }
 
 template <int D>
-FileProblem<D> problemOf(const G2oGraph& graph, const std::string& name) {
+FileProblem<D> problemOf(const G2oGraph& graph, const std::string& name, Semidefinite demanded) {
   if (graph.edges.empty()) throw UserError(name, "a graph without edges", "EDGE_SE2 or EDGE_SE3:QUAT lines");
   FileProblem<D> made;
   made.ids = idsOf(graph);
   made.problem.edges.reserve(graph.edges.size());
+  std::size_t indefinite = 0;
   for (const G2oGraph::Edge& edge : graph.edges) {
     const TangentMatrix<D> information = informationOf<D>(edge);
-    demandSemidefinite<D>(information, edge, name);
+    indefinite += demand<D>(demanded, information, edge, name) ? 0 : 1;
     made.problem.edges.push_back(
         {numberOf(made.ids, edge.from), numberOf(made.ids, edge.to), rigidOf<D>(graph.pose(edge)), information});
   }
+  if (indefinite > 0)
+    made.notes.push_back(std::to_string(indefinite) +
+                         " edges have information with a negative eigenvalue: only its blocks are read");
   made.problem.poses.resize(made.ids.size());
   std::vector<char> listed(made.ids.size(), 0);
   for (const G2oGraph::Vertex& vertex : graph.vertices) {
@@ -127,8 +142,8 @@ G2oGraph withPoses(const G2oGraph& graph, const FileProblem<D>& file, const std:
 
 template Rigid<2> rigidOf<2>(const Pose&);
 template Rigid<3> rigidOf<3>(const Pose&);
-template FileProblem<2> problemOf<2>(const G2oGraph&, const std::string&);
-template FileProblem<3> problemOf<3>(const G2oGraph&, const std::string&);
+template FileProblem<2> problemOf<2>(const G2oGraph&, const std::string&, Semidefinite);
+template FileProblem<3> problemOf<3>(const G2oGraph&, const std::string&, Semidefinite);
 template G2oGraph withPoses<2>(const G2oGraph&, const FileProblem<2>&, const std::vector<Rigid<2>>&);
 template G2oGraph withPoses<3>(const G2oGraph&, const FileProblem<3>&, const std::vector<Rigid<3>>&);
 

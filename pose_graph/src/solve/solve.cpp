@@ -3,8 +3,8 @@
 
 #include "condense/solve_condensed.hpp"
 #include "pose_graph/solution.hpp"
+#include "semidefinite/lifted_poses.hpp"
 #include "solve/minimise.hpp"
-#include "start/chordal_start.hpp"
 #include "start/first_guess.hpp"
 
 namespace pose_graph {
@@ -19,35 +19,42 @@ bool allFinite(const std::vector<Rigid<D>>& poses) {
                      [](const Rigid<D>& pose) { return pose.R.allFinite() && pose.t.allFinite(); });
 }
 
-// Radians between what an edge measures of a rotation and where it ends up: noise seldom goes so far, knots do.
-constexpr double kTangled = 1.1;
-constexpr double kValley = 1e-4;  // of the cost: which valley it is is decided by then
+// Radians between what edges measure of rotations and where they end up: beyond, on average about an axis or of one edge alone, there may be a better valley.
+constexpr double kNoisy = 0.1, kTangled = 1.1;
 
 template <int D>
 bool isTangled(const Problem<D>& problem, const std::vector<double>& weights, const std::vector<Rigid<D>>& poses) {
+  double sum = 0.0, largest = 0.0;
+  int count = 0;
   for (std::size_t e = 0; e < problem.edges.size(); ++e) {
     const Edge<D>& edge = problem.edges[e];
     const bool measures =
         edge.information.template bottomRightCorner<rotation_size<D>, rotation_size<D>>().diagonal().minCoeff() > 0.0;
     if (!measures || (!weights.empty() && !(weights[e] > 0.0))) continue;
     const Rotation<D> off = edge.Z.R.transpose() * (poses[sz(edge.from)].R.transpose() * poses[sz(edge.to)].R);
-    if (logRotation(off).norm() > kTangled) return true;
+    const double square = logRotation(off).squaredNorm();
+    sum += square;
+    largest = std::max(largest, square);
+    ++count;
   }
-  return false;
+  return sum > kNoisy * kNoisy * count * rotation_size<D> || largest > kTangled * kTangled;
 }
 
-// The chordal objective has fewer valleys, since its rotations pull no harder the further they are off: down it first, from
-// where no guess was needed.
+// What is turned by less everywhere is in the same valley: a knot turns some poses all the way round.
+constexpr double kSameValley = 1.0;
+
+template <int D>
+bool inTheSameValley(const std::vector<Rigid<D>>& a, const std::vector<Rigid<D>>& b) {
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (logRotation(Rotation<D>(a[i].R.transpose() * b[i].R)).norm() > kSameValley) return false;
+  return true;
+}
+
 template <int D>
 void untangle(NormalEquations<D>& equations, BlockCholesky<tangent_size<D>>& cholesky, const Problem<D>& problem,
               const SolveOptions& options, const std::vector<double>& weights, Solution<D>& made) {
-  const auto rotations = chordalRotations(equations, problem.poses, weights);
-  auto poses = rotations ? translationsFor(equations, *rotations, problem.poses, weights) : std::nullopt;
-  if (!poses || !allFinite(*poses)) return;
-  SolveOptions chordal = options;
-  chordal.objective = Objective::Chordal;
-  chordal.tolerance = std::max(options.tolerance, kValley);
-  minimise(equations, cholesky, chordal, weights, *poses);
+  auto poses = liftedPoses(problem, made.poses, weights);
+  if (!poses || inTheSameValley(*poses, made.poses)) return;
   Descent descent = minimise(equations, cholesky, options, weights, *poses);
   if (!(descent.cost < made.cost)) return;
   made.poses = std::move(*poses);
@@ -86,7 +93,7 @@ double cost(const Problem<D>& problem, const std::vector<Rigid<D>>& poses, Objec
 template <int D>
 Solution<D> solve(const Problem<D>& problem, const SolveOptions& options, const std::vector<double>& weights) {
   auto condensed = solveCondensed(problem, options, weights);
-  const bool may_untangle = options.start == Start::Auto && options.objective != Objective::Chordal;
+  const bool may_untangle = options.start == Start::Auto;
   if (condensed && !(may_untangle && isTangled(problem, weights, condensed->poses))) return *std::move(condensed);
   NormalEquations<D> equations(problem);
   BlockCholesky<tangent_size<D>> cholesky(equations.symbolic());

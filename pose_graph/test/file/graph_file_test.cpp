@@ -102,6 +102,19 @@ TEST(GraphFile, SemidefiniteInformationPasses) {
   EXPECT_EQ(errorOf("EDGE_SE2 3 5 1 0 0 1 3 0 9 0 0\n"), "");
 }
 
+TEST(GraphFile, WhatIsIndefiniteBetweenItsBlocksServesTheChordalObjective) {
+  const auto blocks = [](const std::string& edge) {
+    return problemOf<2>(parseG2o("VERTEX_SE2 3 0 0 0\nVERTEX_SE2 5 1 0 0\n" + edge, "g.g2o"), "g.g2o",
+                        Semidefinite::Blocks);
+  };
+  const std::string across = "EDGE_SE2 3 5 1 0 0 4 0 9 4 9 1\n", within = "EDGE_SE2 3 5 1 0 0 4 9 0 4 0 1\n";
+  EXPECT_NE(errorOf(across), "");
+  const FileProblem<2> file = blocks(across);
+  ASSERT_EQ(file.notes.size(), 1U);
+  EXPECT_NE(file.notes[0].find("1 edges have information with a negative eigenvalue"), std::string::npos);
+  EXPECT_THROW(blocks(within), UserError);
+}
+
 TEST(GraphFile, AFileWithoutEdgesIsRefused) {
   EXPECT_NE(errorOf("VERTEX_SE2 0 0 0 0\n").find("without edges"), std::string::npos);
   EXPECT_NE(errorOf(""), "");

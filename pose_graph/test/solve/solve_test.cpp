@@ -310,17 +310,30 @@ TEST(Solve, ProgressMayEndIt) {
   EXPECT_EQ(solve(problem, options).ending, Ending::Iterations);
 }
 
-// Half a radian on every rotation: straight down from the first guess ends an eighth above the best that is known, on average.
-TEST(Solve, ComesNearTheBestValleyWhereNoiseIsLarge) {
-  double excess = 0.0;
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const SimulatedGraph graph = urban_nav_core::testing::sphereGraph(16, 40, 20.0, evenNoise(0.5, 0.5), seed);
-    SolveOptions from_truth;
-    from_truth.start = Start::Vertices;
-    const double best = solve(simulatedProblem<3>(graph, graph.truth), from_truth).cost;
-    excess += (solve(simulatedProblem<3>(graph, deadReckoning(graph)), {}).cost / best - 1.0) / 4.0;
-  }
-  EXPECT_LT(excess, 0.06);
+/// How much more than from the truth a minimisation costs that knows of no pose where it is.
+template <int D>
+double excess(const SimulatedGraph& graph) {
+  SolveOptions from_truth;
+  from_truth.start = Start::Vertices;
+  const double best = solve(simulatedProblem<D>(graph, graph.truth), from_truth).cost;
+  return solve(simulatedProblem<D>(graph, deadReckoning(graph)), {}).cost / best - 1.0;
+}
+
+// Straight down from the first guess, one in six of the grids ends in a valley 1 to 3 % above.
+TEST(Solve, FindsTheBestValleyWhereNoiseIsLarge) {
+  const auto noise = evenNoise(0.3, 0.3);
+  for (std::uint64_t seed = 1; seed <= 12; ++seed)
+    EXPECT_LT(excess<2>(urban_nav_core::testing::planarGridGraph(30, 30, 1.0, 0.5, noise, seed)), 1e-6) << seed;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed)
+    EXPECT_LT(excess<3>(urban_nav_core::testing::gridGraph(5, 5, 5, 1.0, 0.5, noise, seed)), 1e-6) << seed;
+}
+
+// Half a radian on every rotation: straight down from the first guess ends an eighth above, on average.
+TEST(Solve, ComesNearTheBestValleyWhereNoiseIsEnormous) {
+  double sum = 0.0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed)
+    sum += excess<3>(urban_nav_core::testing::sphereGraph(16, 40, 20.0, evenNoise(0.5, 0.5), seed));
+  EXPECT_LT(sum / 4.0, 0.02);
 }
 
 TEST(Solve, SameBytesWithOneThreadAndTwo) {

@@ -142,10 +142,13 @@ Json jsonOf(const Told& told) {
 
 template <int D>
 Told relaxFile(const G2oGraph& graph, const std::string& name, const Arguments& arguments, Console& console) {
-  const pose_graph::FileProblem<D> file = pose_graph::problemOf<D>(graph, name);
-  for (const std::string& note : file.notes) console.warn(name + ": " + note);
   pose_graph::SolveOptions options;
   options.objective = objectiveOf(arguments.get("objective", "geodesic"));
+  const bool doubted = arguments.get("robust", "on") == "on";
+  const bool blocks = options.objective == Objective::Chordal && !doubted;
+  const pose_graph::FileProblem<D> file = pose_graph::problemOf<D>(
+      graph, name, blocks ? pose_graph::Semidefinite::Blocks : pose_graph::Semidefinite::Whole);
+  for (const std::string& note : file.notes) console.warn(name + ": " + note);
   options.start = startOf(arguments.get("start", "auto"));
   Progress progress(console, "relax", "iterations", 0);
   options.progress = [&](int iteration, double) {
@@ -156,7 +159,6 @@ Told relaxFile(const G2oGraph& graph, const std::string& name, const Arguments& 
   const std::string solver = arguments.get("solver", "gauss_newton");
   pose_graph::RobustSolution<D> robust;
   robust.edges.resize(file.problem.edges.size());
-  const bool doubted = arguments.get("robust", "on") == "on";
   if (doubted) robust = pose_graph::relaxRobust(file.problem, pose_graph::rolesByNumbers(file.problem), options);
   if (solver != "gauss_newton") {
     pose_graph::Problem<D> accepted;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose_graph/certificate.hpp"
 
-#include <cmath>
-
 #include "pose_graph/solution.hpp"
 #include "support/drawn.hpp"
+#include "support/rings.hpp"
 
 namespace pose_graph::test {
 namespace {
@@ -15,24 +14,6 @@ SolveOptions chordal(Start start = Start::Auto) {
   options.start = start;
   options.tolerance = 1e-12;
   return options;
-}
-
-/// A closed ring of equal steps, all measured exactly, with poses that turn `rounds` times on their way round.
-Problem<2> ring(int poses, int rounds) {
-  Problem<2> made;
-  Edge<2> step;
-  step.Z.R = expRotation(RotationVector<2>(2.0 * M_PI / poses));
-  step.Z.t = {1.0, 0.0};
-  Rigid<2> T;
-  for (int i = 0; i < poses; ++i) {
-    made.poses.push_back(T);
-    T.t += T.R.col(0);
-    T.R = expRotation(RotationVector<2>(2.0 * M_PI * rounds * (i + 1) / poses));
-    step.from = i;
-    step.to = (i + 1) % poses;
-    made.edges.push_back(step);
-  }
-  return made;
 }
 
 template <int D>
