@@ -10,6 +10,13 @@ import xml.etree.ElementTree as xml
 from pathlib import Path
 
 
+def why(case):
+    """What a failed case said, a few lines of it."""
+    said = [child.text or child.get("message") or "" for child in case if child.tag in ("failure", "error")]
+    lines = [line.rstrip()[:300] for text in said[:3] for line in text.strip().splitlines()]
+    return "".join(f"\n    {line}" for line in lines[:20])
+
+
 def read(path):
     """(passed, failed, skipped, [what failed]) of one file; a file that cannot be read is a failure."""
     try:
@@ -19,7 +26,7 @@ def read(path):
     cases = list(root.iter("testcase"))
     failed = [c for c in cases if c.find("failure") is not None or c.find("error") is not None]
     skipped = [c for c in cases if c not in failed and (c.find("skipped") is not None or c.get("status") == "notrun")]
-    names = [f"{path.parent.name}: {c.get('classname', '')}.{c.get('name', '')}" for c in failed]
+    names = [f"{path.parent.name}: {c.get('classname', '')}.{c.get('name', '')}{why(c)}" for c in failed]
     passed = len(cases) - len(failed) - len(skipped)
     if path.name.startswith("rostest-"):  # it only says that a test ran, whose cases stand in a rosunit file of their own
         passed = 0

@@ -22,7 +22,7 @@ from support import commit, show, urban_nav
 
 WAYS = {"relaxed": (), "trusting": ("--set", "pose_graph.robust=false"), "apart": ()}
 COLUMNS = ("world, seed", "way", "driven, m", "true closures kept", "false ones kept", "sessions in one map", "odometry, rms, m", "relaxed, rms, m",
-           "of the way", "times better", "NEES, odometry", "NEES, relaxed", "relaxation, ms", "covariances, ms")
+           "of the way", "times better", "NEES, odometry", "NEES, relaxed", "level off, deg", "stated, deg", "relaxation, ms", "covariances, ms")
 SENSORS = "stereo,imu,wheels"
 
 
@@ -66,6 +66,18 @@ def root_mean_square(values, weights):
     return float(np.sqrt(np.average(np.square(values), weights=weights)))
 
 
+def up_of_first_pose(trajectory):
+    """The direction of z in the axes of the first pose of a file in TUM's form."""
+    line = next(line for line in Path(trajectory).read_text().splitlines() if not line.startswith("#"))
+    x, y, z, w = map(float, line.split()[4:8])
+    return np.array([2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)])
+
+
+def level_off_deg(bag, trajectory):
+    a, b = up_of_first_pose(bag.with_suffix(".truth") / "trajectory.tum"), up_of_first_pose(trajectory)
+    return float(np.degrees(np.arctan2(np.linalg.norm(np.cross(a, b)), a @ b)))
+
+
 def row_of(case, way, bags, arguments):
     name = f"{bags[0].stem.rsplit('_', 1)[0]}_{way}"
     out = arguments.folder / name
@@ -89,6 +101,7 @@ def row_of(case, way, bags, arguments):
         after = root_mean_square([day["ate_m"] for day in days], frames)
         cells += [f"{after:.3f} (two frames)", f"{100 * after / driven_m:.3f} %", f"{before / after:.1f}"]
     return [*cells, *(f"{np.average([day[key] for day in days], weights=frames):.1f}" for key in ("nees_odometry", "nees")),
+            f"{level_off_deg(bags[0], out / 'trajectory.tum'):.3f}", f"{graph['level']['sigma_deg']:.3f}" if graph["level"]["known"] else "not known",
             f"{graph['ms_batch']:.0f}", f"{graph['ms_covariances']:.0f}"]
 
 

@@ -9,6 +9,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <random>
 
@@ -113,10 +114,10 @@ TEST_F(Killed, endsWithTheBytesOfAnUnbrokenRun) {
   makeInputs({60, 25, 50});
   const std::string whole = folder.file("whole"), cut = folder.file("cut");
   ASSERT_EQ(run(words(whole)), 0) << log();
-  const double took = used;
+  double took = used;  // at first also what a cold disk costs
   std::mt19937 random(1);
   int kills = 0, behind = 0;
-  for (int round = 0; round < 3; ++round) {
+  for (int round = 0; round < 3 || (round < 12 && (kills < 4 || behind == 0)); ++round) {
     fs::remove_all(cut);
     std::optional<int> status;
     std::int64_t nodes = 0;
@@ -134,6 +135,7 @@ TEST_F(Killed, endsWithTheBytesOfAnUnbrokenRun) {
       nodes = now;
     }
     EXPECT_EQ(status, 0) << log();
+    took = std::min(took, used);
     expectSame(whole, cut);
     const StoreInfo a = lookIntoStore(whole + "/session.db"), b = lookIntoStore(cut + "/session.db");
     ASSERT_EQ(a.sessions.size(), 3U);
