@@ -69,6 +69,15 @@ constexpr double kInnovationLimit = 22.458;
 // relaxation finds is within a few times of it, even where a large loop is bent.
 constexpr double kHopeless = 100.0;
 
+/// Whether a part of the way is the same.
+bool meet(const Way& a, const Way& b) {
+  return std::min(a.a, a.b) < std::max(b.a, b.b) && std::min(b.a, b.b) < std::max(a.a, a.b);
+}
+
+// Of closures that wait, so many are tried beside a new one, the likeliest first: each costs what the new one costs. Those beyond are
+// for the batch.
+constexpr std::size_t kTried = 3;
+
 /// Those of the accepted closures that have to wait, and do.
 std::vector<ClosureId> makeWait(const std::vector<Way>& ways, const Known& T_a_b, const Parameters& parameters) {
   std::vector<ClosureId> made;
@@ -77,10 +86,8 @@ std::vector<ClosureId> makeWait(const std::vector<Way>& ways, const Known& T_a_b
     const bool may_act_alone =
         closure.kind == EdgeKind::Asserted || (closure.kind == EdgeKind::Stereo && closure.odometry_gate);
     if (may_act_alone || closure.a.session != closure.b.session || !isLarge(closure, T_a_b(way), parameters)) continue;
-    const bool supported = std::any_of(ways.begin(), ways.end(), [&](const Way& other) {
-      return other.closure != way.closure && std::min(other.a, other.b) < std::max(way.a, way.b) &&
-             std::min(way.a, way.b) < std::max(other.a, other.b);
-    });
+    const bool supported = std::any_of(
+        ways.begin(), ways.end(), [&](const Way& other) { return other.closure != way.closure && meet(other, way); });
     if (supported) continue;
     closure.verdict = ClosureVerdict::Waiting;
     closure.weight = 0.0;
@@ -157,30 +164,82 @@ Solution<3> judge(const Problem<3>& problem, const Parameters& parameters, const
   return by_ceres ? solveByCeres(problem, options, weights) : solve(problem, options, weights);
 }
 
+namespace {
+
+/// A closure beside what is in the core: does it fit? It is on trial there.
+bool fits(LiveCore& core, const Ground& ground, const Parameters& parameters, const Bond& bond, Closure& closure,
+          double& cost_before) {
+  const bool doubted = closure.kind != EdgeKind::Asserted && parameters.robust;
+  const LiveCore::Offer offer = core.offer(ground, bond, doubted ? kHopeless * kInnovationLimit : INFINITY);
+  // What one measurement more costs is the square of its innovation.
+  closure.chi2 = std::max(offer.innovation, 0.0);
+  cost_before = offer.before;
+  return !doubted || closure.chi2 <= kInnovationLimit;
+}
+
+void accept(Closure& closure) {
+  closure.verdict = ClosureVerdict::Accepted;
+  closure.weight = 1.0;
+  closure.reason = "agrees with what is accepted";
+}
+
+/// Closures that wait and could be the second witness of one that is on trial, those first that it leaves least off.
+std::vector<Way> partnersOf(const Way& tried, const LiveCore& core, const Ground& ground,
+                            const std::map<ClosureId, Bond>& bonds, std::map<ClosureId, Closure>& closures) {
+  std::vector<std::pair<double, Way>> found;
+  auto bond = bonds.begin();
+  for (auto& [id, closure] : closures) {
+    const auto& [a, b, edge] = (bond++)->second;
+    const Way way{&closure, a, b};
+    if (!closure.judged || closure.verdict != ClosureVerdict::Waiting || !meet(way, tried)) continue;
+    Problem<3> alone;
+    alone.poses = {core.pose(ground, a), core.pose(ground, b)};
+    alone.edges = {edge};
+    alone.edges.back().from = 0;
+    alone.edges.back().to = 1;
+    found.emplace_back(cost(alone, alone.poses, Objective::Geodesic), way);
+  }
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Way> partners;
+  for (const auto& [off, way] : found) partners.push_back(way);
+  return partners;
+}
+
+}  // namespace
+
 Addition judgeAddition(LiveCore& core, const Ground& ground, const Parameters& parameters,
                        const std::map<ClosureId, Bond>& bonds, std::map<ClosureId, Closure>& closures) {
   Addition made;
   made.cost_before = core.cost();
   for (auto& [id, closure] : closures) {
     if (closure.judged) continue;
-    const bool doubted = closure.kind != EdgeKind::Asserted && parameters.robust;
-    const LiveCore::Offer offer = core.offer(ground, bonds.at(id), doubted ? kHopeless * kInnovationLimit : INFINITY);
-    // What one measurement more costs is the square of its innovation.
-    closure.chi2 = std::max(offer.innovation, 0.0);
-    const bool fits = !doubted || closure.chi2 <= kInnovationLimit;
-    closure.verdict = fits ? ClosureVerdict::Accepted : ClosureVerdict::Rejected;
-    closure.weight = fits ? 1.0 : 0.0;
-    closure.reason = fits ? "agrees with what is accepted" : "disagrees with what is accepted";
-    if (fits) {
-      for (const ClosureId waiting : makeWait(ground, bonds, parameters, closures))
-        if (waiting != id) made.others_wait = true;
+    double cost_before = 0.0;
+    if (!fits(core, ground, parameters, bonds.at(id), closure, cost_before)) {
+      core.takeBack();
+      closure.verdict = ClosureVerdict::Rejected;
+      closure.weight = 0.0;
+      closure.reason = "disagrees with what is accepted";
+      made.disagreement = true;
+      continue;
     }
+    accept(closure);
+    const std::vector<Way> partners =
+        partnersOf({&closure, bonds.at(id).a, bonds.at(id).b}, core, ground, bonds, closures);
+    for (std::size_t p = 0; p < std::min(partners.size(), kTried); ++p) {
+      Closure& partner = *partners[p].closure;
+      double ignored = 0.0;
+      if (fits(core, ground, parameters, bonds.at(partner.id), partner, ignored)) accept(partner);
+      else core.takeBack();
+    }
+    for (const ClosureId waiting : makeWait(ground, bonds, parameters, closures))
+      if (waiting != id) made.others_wait = true;
     if (closure.weight > 0.0) {
-      made.cost_before = offer.before;
+      made.cost_before = cost_before;
       core.keep();
     } else {
       core.takeBack();
-      made.disagreement = true;
+      // Others that wait, and were not tried, may be its witnesses.
+      made.disagreement = made.disagreement || partners.size() > kTried;
     }
   }
   return made;

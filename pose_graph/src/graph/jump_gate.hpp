@@ -17,10 +17,11 @@ namespace pose_graph {
 Solution<3> judge(const Problem<3>& problem, const Parameters& parameters, const SolveOptions& options,
                   std::map<ClosureId, Closure>& closures);
 
-/// Closures that were not judged yet, each beside what is accepted already; those that are let in stay in `core`.
+/// Closures that were not judged yet, each beside what is accepted already, and those that waited for one like it; those that are let in
+/// stay in `core`.
 struct Addition {
   double cost_before = 0.0;   ///< where the poses stood, with what was let in last
-  bool disagreement = false;  ///< one of them was left out
+  bool disagreement = false;  ///< one of them was left out, or more wait than were tried beside it
   bool others_wait = false;   ///< one that was accepted before waits now: `core` is no longer that of the accepted ones
 };
 Addition judgeAddition(LiveCore& core, const Ground& ground, const Parameters& parameters,

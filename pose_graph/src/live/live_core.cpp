@@ -40,50 +40,70 @@ LiveCore::LiveCore(const Ground& ground, const std::vector<Bond>& bonds, int ite
 
 LiveCore::Offer LiveCore::offer(const Ground& ground, const Bond& bond, double hopeless) {
   nodes_.resize(ground.tracks());
-  undo_.emplace();
-  undo_->cost = cost_;
-  undo_->ending = ending_;
+  const double cost_without = cost_;
+  undo_.emplace_back();
+  undo_.back().cost = cost_;
+  undo_.back().ending = ending_;
   insert(ground, bond.a);
   insert(ground, bond.b);
   for (const Nodes& nodes : nodes_)
-    for (const auto& [index, node] : nodes) undo_->poses.push_back(node.pose);
+    for (const auto& [index, node] : nodes) undo_.back().poses.push_back(node.pose);
   bonds_.push_back(bond);
   bringTogether(ground, bond);
   Offer made;
-  relax(ground, undo_->cost + hopeless);
+  relax(ground, cost_without + hopeless);
   made.cost = cost_;
-  made.innovation = cost_ - undo_->cost;
+  made.innovation = cost_ - cost_without;
   made.before = cost_before_;
   return made;
 }
 
-void LiveCore::keep() { undo_.reset(); }
+void LiveCore::keep() { undo_.clear(); }
 
 void LiveCore::takeBack() {
+  Undo undo = std::move(undo_.back());
+  undo_.pop_back();
   bonds_.pop_back();
   std::size_t number = 0;
   for (Nodes& nodes : nodes_)
-    for (auto& [index, node] : nodes) node.pose = undo_->poses[number++];
-  for (auto& [place, node] : undo_->nodes) {
+    for (auto& [index, node] : nodes) node.pose = undo.poses[number++];
+  for (auto& [place, node] : undo.nodes) {
     Nodes& nodes = nodes_[place.first];
     if (node) nodes[place.second] = std::move(*node);
     else nodes.erase(place.second);
   }
-  cost_ = undo_->cost;
-  ending_ = undo_->ending;
-  undo_.reset();
+  cost_ = undo.cost;
+  ending_ = undo.ending;
 }
 
 void LiveCore::remember(const Place& place) {
-  if (!undo_ || undo_->nodes.count(place)) return;
+  if (undo_.empty() || undo_.back().nodes.count(place)) return;
   Nodes& nodes = nodes_[place.first];
   const auto found = nodes.find(place.second);
-  undo_->nodes.emplace(place, found == nodes.end() ? std::nullopt : std::optional<Node>(found->second));
+  undo_.back().nodes.emplace(place, found == nodes.end() ? std::nullopt : std::optional<Node>(found->second));
 }
 
 // Poses before the first and behind the last node of a chain hang on it as they were written.
 Rigid<3> LiveCore::hangingAt(const Ground& ground, const Place& node, const Place& place) const {
   return nodes_[node.first].at(node.second).pose * (ground.pose(node).inverse() * ground.pose(place));
+}
+
+Rigid<3> LiveCore::pose(const Ground& ground, const Place& place) const {
+  const auto& [track, index] = place;
+  if (track >= nodes_.size()) return ground.pose(place);
+  const Nodes& nodes = nodes_[track];
+  const auto next = nodes.lower_bound(index);
+  if (next != nodes.end() && next->first == index) return next->second.pose;
+  const auto [first_of_run, last_of_run] = ground.run(place);
+  const bool has_last = next != nodes.begin() && std::prev(next)->first >= first_of_run;
+  const bool has_next = next != nodes.end() && next->first <= last_of_run;
+  if (has_last && has_next) {
+    const auto last = std::prev(next);
+    return last->second.pose * last->second.onward.at(index - last->first - 1);
+  }
+  if (has_last) return hangingAt(ground, {track, std::prev(next)->first}, place);
+  if (has_next) return hangingAt(ground, {track, next->first}, place);
+  return ground.pose(place);
 }
 
 void LiveCore::insert(const Ground& ground, const Place& place) {
@@ -109,9 +129,7 @@ void LiveCore::insert(const Ground& ground, const Place& place) {
   }
   const std::size_t first = has_last ? std::prev(next)->first : index, last = has_next ? next->first : index;
   Node made;
-  if (has_last) made.pose = hangingAt(ground, {track, first}, place);
-  else if (has_next) made.pose = hangingAt(ground, {track, last}, place);
-  else made.pose = ground.pose(place);
+  made.pose = pose(ground, place);
   nodes.emplace(index, std::move(made));
   layChains(ground, track, first, last);
 }

@@ -38,11 +38,15 @@ class LiveCore {
     double innovation = 0.0;  ///< by how much the bond raises it
     double before = 0.0;      ///< the cost where the poses stood
   };
-  /// Relaxes with this bond too. Gives up where already the linear prediction of its innovation is `hopeless`. keep() or
-  /// takeBack() follows.
+  /// Relaxes with this bond too, on trial: further ones may be offered beside it. Gives up where already the linear prediction of
+  /// its innovation is `hopeless`; takeBack() follows then.
   Offer offer(const Ground& ground, const Bond& bond, double hopeless);
+  /// All that are on trial stay.
   void keep();
+  /// The last one that is on trial goes, and everything is where it was before.
   void takeBack();
+  /// T_map_pose with all that is accepted or on trial.
+  Rigid<3> pose(const Ground& ground, const Place& place) const;
 
   double cost() const { return cost_; }
   const std::vector<Iteration>& iterations() const { return iterations_; }
@@ -86,14 +90,14 @@ class LiveCore {
   std::vector<Iteration> iterations_;
   Ending ending_ = Ending::Converged;
 
-  /// How to take an offer back.
+  /// How to take an offer back: to where its predecessors on trial had brought things.
   struct Undo {
     std::map<Place, std::optional<Node>> nodes;  ///< as they were; empty: there was none
     std::vector<Rigid<3>> poses;                 ///< of the nodes in the core's order, those inserted included
     double cost = 0.0;
     Ending ending = Ending::Converged;
   };
-  std::optional<Undo> undo_;
+  std::vector<Undo> undo_;  ///< of those on trial, in the order of the offers
 };
 
 }  // namespace pose_graph

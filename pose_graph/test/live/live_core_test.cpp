@@ -171,6 +171,44 @@ TEST(LiveCore, takesBackWhatIsNotKept) {
     EXPECT_EQ(tracks.pose({0, i}).t, untouched.pose({0, i}).t) << i;
 }
 
+TEST(LiveCore, takesSeveralOnTrialBackOneByOne) {
+  Tracks tracks;
+  for (const ChainStep& step : drive().steps) tracks.add(0, step);
+  const std::vector<Bond> half(drive().bonds.begin(), drive().bonds.begin() + 15);
+  LiveCore core(tracks, half, 100);
+  const auto poses = [&] {
+    std::vector<Rigid<3>> made;
+    for (std::size_t i = 0; i <= drive().steps.size(); i += 11) made.push_back(core.pose(tracks, {0, i}));
+    return made;
+  };
+  std::vector<double> costs;
+  std::vector<std::vector<Rigid<3>>> lay;
+  for (std::size_t k = 15; k < 18; ++k) {
+    costs.push_back(core.cost());
+    lay.push_back(poses());
+    core.offer(tracks, drive().bonds[k], INFINITY);
+    EXPECT_GT(core.cost(), costs.back());
+  }
+  while (!costs.empty()) {
+    core.takeBack();
+    EXPECT_EQ(core.cost(), costs.back());
+    const std::vector<Rigid<3>> now = poses();
+    for (std::size_t i = 0; i < now.size(); ++i) EXPECT_LT((now[i].t - lay.back()[i].t).norm(), 1e-9) << i;
+    costs.pop_back();
+    lay.pop_back();
+  }
+}
+
+TEST(LiveCore, saysWhereAPoseIsBeforeItIsWritten) {
+  Tracks tracks;
+  for (const ChainStep& step : drive().steps) tracks.add(0, step);
+  LiveCore core(tracks, drive().bonds, 100);
+  std::vector<Rigid<3>> said;
+  for (std::size_t i = 0; i <= drive().steps.size(); ++i) said.push_back(core.pose(tracks, {0, i}));
+  core.write(tracks);
+  for (std::size_t i = 0; i < said.size(); ++i) EXPECT_LT((tracks.pose({0, i}).t - said[i].t).norm(), 1e-9) << i;
+}
+
 TEST(LiveCore, takesStepsForAsUncertainAsItIsTold) {
   Tracks tracks, wider;
   for (ChainStep step : drive().steps) {
