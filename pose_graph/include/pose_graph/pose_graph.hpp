@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "pose_graph/level.hpp"
 #include "pose_graph/parameters.hpp"
 #include "pose_graph/places.hpp"
 #include "pose_graph/solution.hpp"
@@ -45,6 +46,7 @@ enum class JumpReason : int {
   Withdrawn,  ///< closures that were believed no longer are: the witnesses
   Removed,    ///< closures that were believed were removed by hand: the witnesses
   Refined,    ///< none of these: relaxed from the measurements alone, the graph lies elsewhere
+  Levelled,   ///< which way is up is known now: the map was turned about its first pose
 };
 const char* toString(JumpReason reason);
 
@@ -101,10 +103,23 @@ struct Relaxed {
   bool needs_batch = false;  ///< update() met a closure that disagrees
 };
 
+/// A batch relaxation of a graph as it stood: PoseGraph::batch() makes it, run() does the work, which may be in another thread while the
+/// graph grows, and PoseGraph::take() lays the graph as it says.
+struct Batch {
+  Parameters parameters;
+  Problem<3> problem;                     ///< as PoseGraph::problem(), odometry as it promises to be
+  std::vector<std::size_t> poses;         ///< of each track
+  std::map<ClosureId, Closure> closures;  ///< judged when it has run
+  Solution<3> solution;
+  double odometry_variance = 1.0;
+};
+/// Deterministic. Who ends it by SolveOptions::progress must not take it.
+void run(Batch& batch, const SolveOptions& options = {});
+
 /// The pose graph of many sessions: chains of relative poses, pinched together by closures (Newman et al. 2009, sections 5 and 7).
 /// Sessions are joined by nothing but closures: two that agree fuse them, with no alignment by hand.
 ///
-/// Not thread-safe; relax() may be run on a copy. The same calls give the same bits, whatever the number of threads.
+/// Not thread-safe. The same calls give the same bits, whatever the number of threads.
 class PoseGraph {
  public:
   /// `revision`: to count on from, where this graph takes the place of another.
@@ -128,8 +143,20 @@ class PoseGraph {
   std::optional<ClosureId> findClosure(const NodeRef& a, const NodeRef& b, EdgeKind kind,
                                        const std::string& source) const;
 
+  /// What was felt at poses of a session, in order of time; from the first of them on it takes the place of what is known. Batches level
+  /// by it: a map of which one of the sessions knows which way is up has z up, and origin and heading of its first pose.
+  void putForces(const SessionId& session, const std::vector<FeltForce>& forces);
+  /// Levels what is not level yet where that is known by now, and tells of it as relax() does.
+  std::optional<Relaxed> level();
+  /// Whether the map that a session lies in is level.
+  bool isLevel(const SessionId& session) const;
+
   /// Relaxes all there is, from the measurements alone: what was relaxed before leaves no trace. Deterministic.
   Relaxed relax(const SolveOptions& options = {});
+  /// The same in three steps. What the graph took in since batch() follows what was there; closures that are new, or were measured anew,
+  /// are judged as by update(). Not of another graph.
+  Batch batch() const;
+  Relaxed take(const Batch& batch);
   /// The same from where the graph stands, for some closures more: each is accepted if it raises the cost by no more than chance
   /// and noise explain (its innovation, chi-square at 99.9 %), verdicts given earlier stay. Faster by far; where it finds
   /// disagreement, `needs_batch` asks for relax(), which may find the others wrong.
@@ -173,10 +200,31 @@ class PoseGraph {
   urban_nav_core::Matrix6d ownNoise(const Place& place) const;
   Edge<3> edgeOf(const Closure& closure, const Place& a, const Place& b) const;
   std::vector<ClosureId> accepted() const;
-  /// Numbers the parts anew, counts, and says how the newest pose jumped. `moved`: poses that did.
-  void tell(Relaxed& made, std::vector<Relaxed::Run> moved, const std::vector<ClosureId>& accepted_before,
-            const std::optional<Pose>& newest_before);
+  /// How things stand before a relaxation.
+  struct Before {
+    std::vector<ClosureId> accepted;
+    std::optional<Pose> newest;
+  };
+  Before before() const { return {accepted(), newest()}; }
+  /// Numbers the parts anew: the poses whose number is another one.
+  std::vector<Relaxed::Run> numberParts();
+  /// Counts, and says how the newest pose jumped. `moved`: poses that did.
+  void tell(Relaxed& made, std::vector<Relaxed::Run> moved, const Before& before, bool levelled = false);
   std::optional<Pose> newest() const;
+  Problem<3> problem(double odometry_variance) const;
+  /// Poses of all tracks as they are laid.
+  using Laid = std::vector<std::vector<Pose>>;
+  /// Where each batch pose goes, and what has come since behind them.
+  Laid laidBy(const Batch& batch) const;
+  void takeVerdicts(const Batch& batch);
+  /// Turns the maps of which it is known which way is up, but those that are level already if they are to `stay`. The maps, by their first
+  /// tracks, that were not level before.
+  std::vector<std::size_t> level(Laid& laid, bool stay);
+  bool isOfRunning(const std::vector<std::size_t>& maps) const;
+  /// The poses that moved by it.
+  std::vector<Relaxed::Run> lay(const Laid& laid);
+  /// Judges the closures that are not judged yet, and relaxes with those that are believed: the poses that moved.
+  std::vector<Relaxed::Run> judgeNew(Relaxed& made);
 
   Parameters parameters_;
   std::vector<Track> tracks_;
@@ -192,7 +240,9 @@ class PoseGraph {
     return {a.session, a.stamp, b.session, b.stamp, kind, source};
   }
   std::map<Name, ClosureId> by_name_;
-  std::vector<Closure> removed_;  ///< since the last relaxation, of those that were believed
+  std::vector<std::vector<FeltForce>> forces_;  ///< of each track
+  std::vector<bool> level_;                     ///< of each track: whether the map that begins with it is
+  std::vector<Closure> removed_;                ///< since the last relaxation, of those that were believed
   ClosureId next_id_ = 1;
   std::size_t running_ = 0;  ///< number of the track that is being recorded
   std::int64_t revision_ = 0;

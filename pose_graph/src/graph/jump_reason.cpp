@@ -15,12 +15,13 @@ const char* toString(JumpReason reason) {
     case JumpReason::Withdrawn: return "Withdrawn";
     case JumpReason::Removed: return "Removed";
     case JumpReason::Refined: return "Refined";
+    case JumpReason::Levelled: return "Levelled";
   }
   return "";
 }
 
 void explain(Relaxed::Jump& jump, const std::vector<ClosureId>& accepted_before, const std::vector<Closure>& removed,
-             const std::map<ClosureId, Closure>& closures) {
+             const std::map<ClosureId, Closure>& closures, bool levelled) {
   std::vector<Closure> believed, withdrawn;
   bool asserted = false;
   for (const auto& [id, closure] : closures) {
@@ -44,6 +45,9 @@ void explain(Relaxed::Jump& jump, const std::vector<ClosureId>& accepted_before,
     if (asserted) jump.sentence += ", one that was asserted among them";
   } else if (!withdrawn.empty()) {
     because(JumpReason::Withdrawn, std::move(withdrawn), "is no longer believed", "are no longer believed");
+  } else if (levelled) {
+    jump.reason = JumpReason::Levelled;
+    jump.sentence = "which way is up is known now: the map is level";
   } else {
     jump.reason = JumpReason::Refined;
     jump.sentence = "relaxed from the measurements alone, the same closures place it here";

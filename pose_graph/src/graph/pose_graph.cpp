@@ -59,6 +59,8 @@ void PoseGraph::beginSession(const SessionId& session) {
   steps_.emplace_back();
   measured_.emplace_back();
   runs_.emplace_back();
+  forces_.emplace_back();
+  level_.push_back(false);
   running_ = tracks_.size() - 1;
 }
 
@@ -204,7 +206,9 @@ std::optional<ClosureId> PoseGraph::findClosure(const NodeRef& a, const NodeRef&
   return found == by_name_.end() ? std::nullopt : std::optional<ClosureId>(found->second);
 }
 
-Problem<3> PoseGraph::problem() const {
+Problem<3> PoseGraph::problem() const { return problem(odometry_variance_); }
+
+Problem<3> PoseGraph::problem(double odometry_variance) const {
   Problem<3> made;
   std::vector<int> first;  // pose of each track
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
@@ -221,7 +225,7 @@ Problem<3> PoseGraph::problem() const {
       const int from = first[t] + static_cast<int>(i);
       if (!steps_[t][i].joins) continue;
       put(steps_[t][i].edge, from, from + 1);
-      made.edges.back().information /= odometry_variance_;
+      made.edges.back().information /= odometry_variance;
     }
   for (const auto& [id, bond] : bonds_)
     put(bond.edge, first[bond.a.first] + static_cast<int>(bond.a.second),

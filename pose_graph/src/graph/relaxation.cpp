@@ -3,7 +3,6 @@
 
 #include "graph/jump_gate.hpp"
 #include "graph/jump_reason.hpp"
-#include "graph/odometry_variance.hpp"
 #include "pose_graph/graph_file.hpp"
 #include "pose_graph/pose_graph.hpp"
 #include "solve/normal_equations.hpp"
@@ -86,36 +85,23 @@ std::optional<Pose> PoseGraph::newest() const {
 }
 
 Relaxed PoseGraph::relax(const SolveOptions& options) {
-  const std::vector<ClosureId> before = accepted();
-  const std::optional<Pose> newest_before = newest();
-  SolveOptions wanted = options;
-  wanted.iterations = parameters_.iterations;
-  odometry_variance_ = 1.0;
-  Problem<3> problem = this->problem();
-  if (problem.poses.empty()) return {};
-  Solution<3> solution = judge(problem, parameters_, wanted, closures_);
-  odometry_variance_ =
-      takeOdometryVariance(problem, problem.edges.size() - closures_.size(), weights(), wanted, solution);
-  for (auto& [id, closure] : closures_) closure.judged = true;
-  live_.reset();
-  Relaxed made;
-  made.cost_before = solution.cost_before;
-  made.cost_after = solution.cost;
-  made.iterations = solution.iterations;
-  made.ending = solution.ending;
-  Moves moves;
-  std::size_t number = 0;
-  for (std::size_t t = 0; t < tracks_.size(); ++t)
-    for (std::size_t i = 0; i < tracks_[t].map.size(); ++i)
-      moves.put(t, i, poseOf(solution.poses[number++]), tracks_[t].map[i]);
-  tell(made, std::move(moves.runs), before, newest_before);
-  return made;
+  Batch batch = this->batch();
+  run(batch, options);
+  return take(batch);
 }
 
 Relaxed PoseGraph::update() {
-  const std::vector<ClosureId> before = accepted();
-  const std::optional<Pose> newest_before = newest();
+  const Before before = this->before();
   if (std::all_of(tracks_.begin(), tracks_.end(), [](const Track& track) { return track.map.empty(); })) return {};
+  Relaxed made;
+  std::vector<Relaxed::Run> moved = judgeNew(made);
+  const std::vector<Relaxed::Run> renumbered = numberParts();
+  moved.insert(moved.end(), renumbered.begin(), renumbered.end());
+  tell(made, std::move(moved), before);
+  return made;
+}
+
+std::vector<Relaxed::Run> PoseGraph::judgeNew(Relaxed& made) {
   Paper paper(*this);
   const auto renewed = [&] {
     std::vector<Bond> bonds;
@@ -129,28 +115,25 @@ Relaxed PoseGraph::update() {
   if (added.others_wait) live = renewed();
   for (auto& [id, closure] : closures_) closure.judged = true;
   live.write(paper);
-  Relaxed made;
   made.cost_before = added.cost_before;
   made.cost_after = live.cost();
   made.iterations = live.iterations();
   made.ending = live.ending();
   made.needs_batch = added.disagreement;
-  tell(made, std::move(paper.moves.runs), before, newest_before);
-  return made;
+  return std::move(paper.moves.runs);
 }
 
-void PoseGraph::tell(Relaxed& made, std::vector<Relaxed::Run> moved, const std::vector<ClosureId>& accepted_before,
-                     const std::optional<Pose>& newest_before) {
-  made.revision = ++revision_;
-  made.closures = closures_.size();
-  for (const auto& [id, closure] : closures_) {
-    made.accepted += closure.verdict == ClosureVerdict::Accepted;
-    made.rejected += closure.verdict == ClosureVerdict::Rejected;
-    made.waiting += closure.verdict == ClosureVerdict::Waiting;
-  }
+std::vector<Relaxed::Run> PoseGraph::lay(const Laid& laid) {
+  Moves moves;
+  for (std::size_t t = 0; t < tracks_.size(); ++t)
+    for (std::size_t i = 0; i < laid[t].size(); ++i) moves.put(t, i, laid[t][i], tracks_[t].map[i]);
+  return std::move(moves.runs);
+}
+
+std::vector<Relaxed::Run> PoseGraph::numberParts() {
+  std::vector<Relaxed::Run> changed;
   const std::vector<int> parts = partNumbers();
   parts_ = parts.empty() ? 0 : 1 + *std::max_element(parts.begin(), parts.end());
-  made.parts = parts_;
   std::size_t number = 0;
   for (std::vector<Run>& runs : runs_)
     for (Run& run : runs) {
@@ -160,8 +143,20 @@ void PoseGraph::tell(Relaxed& made, std::vector<Relaxed::Run> moved, const std::
       std::vector<int>& of_pose = tracks_[run.track].part;
       std::fill(of_pose.begin() + static_cast<std::ptrdiff_t>(run.first),
                 of_pose.begin() + static_cast<std::ptrdiff_t>(run.last) + 1, part);
-      moved.push_back({run.track, run.first, run.last});
+      changed.push_back({run.track, run.first, run.last});
     }
+  return changed;
+}
+
+void PoseGraph::tell(Relaxed& made, std::vector<Relaxed::Run> moved, const Before& before, bool levelled) {
+  made.revision = ++revision_;
+  made.closures = closures_.size();
+  for (const auto& [id, closure] : closures_) {
+    made.accepted += closure.verdict == ClosureVerdict::Accepted;
+    made.rejected += closure.verdict == ClosureVerdict::Rejected;
+    made.waiting += closure.verdict == ClosureVerdict::Waiting;
+  }
+  made.parts = parts_;
   made.moved = merged(std::move(moved));
   made.edges = closures_.size();
   for (const Track& track : tracks_) {
@@ -171,18 +166,19 @@ void PoseGraph::tell(Relaxed& made, std::vector<Relaxed::Run> moved, const std::
     made.sessions_joined += track.part.back() == 0;
   }
   const std::vector<Closure> removed = std::exchange(removed_, {});
-  if (!newest_before) return;
+  if (!before.newest) return;
   const Track& track = tracks_[running_];
-  const double distance = distanceBetween(*newest_before, track.map.back()),
-               angle = angleBetween(*newest_before, track.map.back());
-  if (distance <= parameters_.jump_distance && angle <= parameters_.jump_angle * kDegree) return;
+  const double distance = distanceBetween(*before.newest, track.map.back()),
+               angle = angleBetween(*before.newest, track.map.back());
+  const bool is_small = distance <= parameters_.jump_distance && angle <= parameters_.jump_angle * kDegree;
+  if (is_small && !levelled) return;
   Relaxed::Jump jump;
   jump.at = {track.session, track.stamps.back()};
-  jump.before = *newest_before;
+  jump.before = *before.newest;
   jump.after = track.map.back();
   jump.distance = distance;
   jump.angle = angle;
-  explain(jump, accepted_before, removed, closures_);
+  explain(jump, before.accepted, removed, closures_, levelled);
   made.jump = std::move(jump);
 }
 

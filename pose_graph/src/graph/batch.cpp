@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
+#include "graph/jump_gate.hpp"
+#include "graph/odometry_variance.hpp"
+#include "pose_graph/graph_file.hpp"
+#include "pose_graph/pose_graph.hpp"
+
+namespace pose_graph {
+
+namespace {
+
+/// The same two poses measured to the same, bit by bit.
+bool isSame(const Closure& a, const Closure& b) {
+  return a.measured.T_a_b.t() == b.measured.T_a_b.t() &&
+         a.measured.T_a_b.q().coeffs() == b.measured.T_a_b.q().coeffs() &&
+         a.measured.information == b.measured.information && a.odometry_gate == b.odometry_gate;
+}
+
+void append(std::vector<Relaxed::Run>& runs, const std::vector<Relaxed::Run>& more) {
+  runs.insert(runs.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+Batch PoseGraph::batch() const {
+  Batch made;
+  made.parameters = parameters_;
+  made.problem = problem(1.0);
+  for (const Track& track : tracks_) made.poses.push_back(track.stamps.size());
+  made.closures = closures_;
+  return made;
+}
+
+void run(Batch& batch, const SolveOptions& options) {
+  if (batch.problem.poses.empty()) return;
+  SolveOptions wanted = options;
+  wanted.iterations = batch.parameters.iterations;
+  const std::size_t chains = batch.problem.edges.size() - batch.closures.size();
+  batch.solution = judge(batch.problem, batch.parameters, wanted, batch.closures);
+  std::vector<double> weights(chains, 1.0);
+  for (auto& [id, closure] : batch.closures) {
+    closure.judged = true;
+    weights.push_back(closure.weight);
+  }
+  batch.odometry_variance = takeOdometryVariance(batch.problem, chains, weights, wanted, batch.solution);
+}
+
+Relaxed PoseGraph::take(const Batch& batch) {
+  if (batch.solution.poses.empty()) return {};
+  const Before before = this->before();
+  takeVerdicts(batch);
+  odometry_variance_ = batch.odometry_variance;
+  live_.reset();
+  Relaxed made;
+  made.cost_before = batch.solution.cost_before;
+  made.cost_after = batch.solution.cost;
+  made.iterations = batch.solution.iterations;
+  made.ending = batch.solution.ending;
+  std::vector<Relaxed::Run> moved = numberParts();
+  Laid laid = laidBy(batch);
+  const bool levelled = isOfRunning(level(laid, false));
+  append(moved, lay(laid));
+  if (std::any_of(closures_.begin(), closures_.end(), [](const auto& each) { return !each.second.judged; })) {
+    append(moved, judgeNew(made));
+    append(moved, numberParts());
+  }
+  tell(made, std::move(moved), before, levelled);
+  return made;
+}
+
+void PoseGraph::takeVerdicts(const Batch& batch) {
+  for (auto& [id, closure] : closures_) {
+    const auto judged = batch.closures.find(id);
+    if (judged != batch.closures.end() && isSame(judged->second, closure)) {
+      closure = judged->second;
+      continue;
+    }
+    closure.judged = false;
+    closure.weight = 0.0;
+    closure.verdict = ClosureVerdict::Waiting;
+    closure.reason = "not judged yet";
+  }
+}
+
+PoseGraph::Laid PoseGraph::laidBy(const Batch& batch) const {
+  Laid laid;
+  std::size_t number = 0;
+  for (std::size_t t = 0; t < tracks_.size(); ++t) {
+    const Track& track = tracks_[t];
+    const std::size_t known = t < batch.poses.size() ? batch.poses[t] : 0;
+    laid.emplace_back();
+    for (std::size_t i = 0; i < track.map.size(); ++i) {
+      if (i < known) laid[t].push_back(poseOf(batch.solution.poses[number++]));
+      else if (i == 0) laid[t].push_back(track.map[0]);
+      else laid[t].push_back(laid[t][i - 1] * (track.odom[i - 1].inverse() * track.odom[i]));
+    }
+  }
+  return laid;
+}
+
+}  // namespace pose_graph

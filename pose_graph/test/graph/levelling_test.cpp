@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph/map_levels.hpp"
+
+#include "../support/driven.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace pose_graph {
+namespace {
+
+using testing::closureAt;
+using testing::drive;
+using testing::kLap;
+using testing::kPeriod;
+
+// The robot begins tilted: a map that begins with it has z there.
+const Pose kT_level_first(urban_nav_core::expSo3(Eigen::Vector3d(0.1, -0.2, 0.0)), Eigen::Vector3d::Zero());
+
+/// At rest all along, as far as the accelerometer can tell: a lap of 10 m in 5 s turns its axes and bends its way by little.
+std::vector<FeltForce> felt(const Track& track, std::size_t first, std::size_t end, const std::vector<Pose>& poses) {
+  std::vector<FeltForce> made;
+  for (std::size_t i = first; i < end; ++i) {
+    Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();
+    const double h = 1e-9 * static_cast<double>(kPeriod);
+    if (i > 0 && i + 1 < poses.size())
+      acceleration = (poses[i + 1].t() - 2.0 * poses[i].t() + poses[i - 1].t()) / (h * h);
+    const Eigen::Vector3d up = kT_level_first.R().transpose() * Eigen::Vector3d(0.0, 0.0, 9.81);
+    made.push_back({track.stamps[i], poses[i].R().transpose() * (acceleration + up)});
+  }
+  return made;
+}
+
+/// Of a track as odometry has it.
+std::vector<FeltForce> felt(const Track& track) { return felt(track, 0, track.stamps.size(), track.odom); }
+
+double tiltOf(const PoseGraph& graph, std::size_t track = 0) {
+  // The first pose of the map leans as the robot did: what was up there is up here.
+  const Eigen::Vector3d up =
+      graph.tracks()[track].map.front().R() * (kT_level_first.R().transpose() * Eigen::Vector3d::UnitZ());
+  return std::acos(std::min(1.0, up.z()));
+}
+
+TEST(Levelling, turnsTheMapAboutItsFirstPoseOnceItIsKnown) {
+  PoseGraph graph{Parameters()};
+  drive(graph, "a", 0, 20);
+  graph.putForces("a", felt(graph.tracks()[0]));
+  EXPECT_FALSE(graph.level()) << "a second is too short";
+  EXPECT_FALSE(graph.isLevel("a"));
+  EXPECT_EQ(graph.revision(), 0);
+  drive(graph, "a", 20, 2 * kLap);
+  graph.putForces("a", felt(graph.tracks()[0]));
+  const Pose before = graph.tracks()[0].map.back();
+  const auto levelled = graph.level();
+  ASSERT_TRUE(levelled);
+  EXPECT_TRUE(graph.isLevel("a"));
+  EXPECT_LT(tiltOf(graph), 0.01);
+  EXPECT_EQ(graph.tracks()[0].map.front().t(), Eigen::Vector3d::Zero().eval());
+  ASSERT_TRUE(levelled->jump);
+  EXPECT_EQ(levelled->jump->reason, JumpReason::Levelled);
+  EXPECT_TRUE(levelled->jump->witnesses.empty());
+  EXPECT_TRUE(isApprox(levelled->jump->before, before, 0.0));
+  ASSERT_EQ(levelled->moved.size(), 1u);
+  EXPECT_EQ(levelled->moved[0].last, 2u * kLap);
+  EXPECT_FALSE(graph.level()) << "once";
+}
+
+TEST(Levelling, theBatchLevelsByAllThatWasFelt) {
+  PoseGraph graph{Parameters()}, plain{Parameters()};
+  for (PoseGraph* each : {&graph, &plain}) {
+    drive(*each, "a", 0, 2 * kLap);
+    for (const int i : {10, 60}) each->addClosure(closureAt("a", i, "a", i + kLap));
+  }
+  graph.putForces("a", felt(graph.tracks()[0]));
+  graph.level();
+  graph.update();
+  graph.relax();
+  plain.relax();
+  urban_nav_core::Trajectory flat;
+  for (std::size_t i = 0; i < plain.tracks()[0].map.size(); ++i)
+    flat.append(plain.tracks()[0].stamps[i], plain.tracks()[0].map[i]);
+  const Level level = levelOf(flat, felt(graph.tracks()[0]));
+  ASSERT_TRUE(level.known());
+  const Pose T_level_map = levelling(level, plain.tracks()[0].map.front());
+  for (std::size_t i = 0; i < flat.size(); ++i) {
+    EXPECT_EQ(graph.tracks()[0].map[i].t(), (T_level_map * flat[i].pose).t()) << i;
+    EXPECT_EQ(graph.tracks()[0].map[i].q().coeffs(), (T_level_map * flat[i].pose).q().coeffs()) << i;
+  }
+}
+
+TEST(Levelling, closuresComeIntoTheLevelMap) {
+  PoseGraph graph{Parameters()};
+  drive(graph, "a", 0, 2 * kLap);
+  graph.putForces("a", felt(graph.tracks()[0]));
+  graph.addClosure(closureAt("a", 10, "a", 10 + kLap));
+  graph.update();
+  ASSERT_TRUE(graph.level());
+  graph.addClosure(closureAt("a", 60, "a", 60 + kLap));
+  const Relaxed relaxed = graph.update();
+  EXPECT_EQ(relaxed.accepted, 2u);
+  EXPECT_LT(tiltOf(graph), 0.02);
+  const Pose live = graph.tracks()[0].map.back();
+  graph.relax();
+  EXPECT_TRUE(isApprox(graph.tracks()[0].map.back(), live, 2e-2));
+}
+
+TEST(Levelling, oneSessionLevelsTheMapOfAllThatAreInIt) {
+  PoseGraph graph{Parameters()};
+  drive(graph, "a", 0, 2 * kLap);
+  drive(graph, "b", 0, 2 * kLap);
+  graph.putForces("b", felt(graph.tracks()[1]));
+  ASSERT_TRUE(graph.level());
+  EXPECT_FALSE(graph.isLevel("a"));
+  EXPECT_TRUE(graph.isLevel("b"));
+  for (const int i : {10, 60, 110}) graph.addClosure(closureAt("a", i, "b", i));
+  EXPECT_EQ(graph.relax().parts, 1);
+  EXPECT_TRUE(graph.isLevel("a"));
+  EXPECT_LT(tiltOf(graph, 0), 0.02);
+  EXPECT_EQ(mapOf(graph.tracks(), 1), 0u);
+}
+
+TEST(Levelling, laterForcesTakeThePlaceOfWhatWasKnownThere) {
+  PoseGraph graph{Parameters()}, whole{Parameters()};
+  for (PoseGraph* each : {&graph, &whole}) drive(*each, "a", 0, 2 * kLap);
+  const std::vector<FeltForce> all = felt(whole.tracks()[0]);
+  whole.putForces("a", all);
+  std::vector<FeltForce> early(all.begin(), all.begin() + 120);
+  early.back().force.setConstant(900.0);
+  graph.putForces("a", early);
+  graph.putForces("a", {});
+  graph.putForces("a", {all.begin() + 110, all.end()});
+  for (PoseGraph* each : {&graph, &whole}) each->relax();
+  testing::expectSameMap(graph, whole);
+  EXPECT_THROW(graph.putForces("b", all), urban_nav_core::UserError);
+}
+
+}  // namespace
+}  // namespace pose_graph
