@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "pose_graph/level.hpp"
 #include "pose_graph/stored_graph.hpp"
+#include "urban_nav_core/trajectory/trajectory.hpp"
 #include "urban_nav_core/types/closure.hpp"
 #include "urban_nav_core/types/graph_update.hpp"
 #include "urban_nav_core/types/status.hpp"
@@ -67,11 +71,27 @@ class LiveGraph {
   virtual void add(const urban_nav_core::RelativePose& relative) = 0;
   virtual void add(const urban_nav_core::MetricClosure& closure) = 0;
   virtual void add(const urban_nav_core::RelativeConstraint& constraint) = 0;
+  /// T_odom_base, as odometry gave it out.
+  virtual void add(const urban_nav_core::StampedPose& odometry) = 0;
+  virtual void add(const FeltForce& sample) = 0;
 
   /// Whether what was added asks for a relaxation.
   virtual bool wantsRelaxation() const = 0;
-  /// Relaxes from where the graph is; `batch`: from the edges alone, as the offline run does.
-  virtual Outcome relax(bool batch) = 0;
+  /// Relaxes from where the graph is.
+  virtual Outcome relax() = 0;
+
+  /// Whether only a batch would do: sessions were loaded, an edge is gone.
+  virtual bool wantsBatch() const = 0;
+  /// A batch relaxation: from the edges alone, as the offline run does.
+  class Work {
+   public:
+    virtual ~Work() = default;
+    /// To be called once, in any thread, while the graph goes on; returns early where it is to `stop`.
+    virtual void run(const std::atomic<bool>& stop) = 0;
+  };
+  virtual std::unique_ptr<Work> batch() = 0;
+  /// Lays the graph as work that has run says, and what came meanwhile behind it. Empty: what it was of is no more.
+  virtual std::optional<Outcome> take(const Work& work) = 0;
 
   /// Hands what is new to the store, where there is one; to be called some ten times a second. Never waits for the disk, but to
   /// read a store that has just been opened.
@@ -82,8 +102,8 @@ class LiveGraph {
   virtual std::int64_t revision() const = 0;
   /// Stamp of the newest pose of the running session; 0: none.
   virtual urban_nav_core::StampNs newest() const = 0;
-  /// Of the running session.
-  virtual urban_nav_core::Pose T_map_odom() const = 0;
+  /// For the odometry that came last; empty: not known yet.
+  virtual std::optional<urban_nav_core::Pose> T_map_odom() const = 0;
   virtual Picture picture() const = 0;
   /// Poses from `from` to `to` (0: no bound) that moved since that revision (0: all).
   virtual Trajectory trajectory(urban_nav_core::StampNs from, urban_nav_core::StampNs to, std::int64_t since) const = 0;

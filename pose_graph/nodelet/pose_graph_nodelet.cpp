@@ -2,6 +2,8 @@
 #include <nav_msgs/Odometry.h>
 #include <nodelet/nodelet.h>
 #include <ros/ros.h>
+#include <sensor_msgs/Imu.h>
+#include <tf2_msgs/TFMessage.h>
 #include <urban_nav_msgs/MetricClosure.h>
 #include <urban_nav_msgs/RelativeConstraint.h>
 #include <urban_nav_msgs/RelativePose.h>
@@ -10,6 +12,7 @@
 #include <atomic>
 #include <optional>
 
+#include "accelerometer.hpp"
 #include "diagnostics.hpp"
 #include "publisher.hpp"
 #include "services.hpp"
@@ -43,6 +46,8 @@ class PoseGraphNodelet : public nodelet::Nodelet {
   void onInit() override;
   void readParameters();
   void subscribe();
+  void subscribeOdometry();
+  void subscribeAccelerometer();
   template <typename Message, typename Converter>
   void subscribeInput(const std::string& name, bool steady, const Converter& convert);
   Worker::Listener listener();
@@ -58,6 +63,7 @@ class PoseGraphNodelet : public nodelet::Nodelet {
   ros::WallTimer timer_;
   std::unique_ptr<Publisher> publisher_;
   std::unique_ptr<Diagnostics> diagnostics_;
+  std::unique_ptr<Accelerometer> accelerometer_;  // of the callbacks of this node's queue, which come one after another
   std::unique_ptr<Worker> worker_;
   std::unique_ptr<Services> services_;
   std::atomic<bool> paused_{false};
@@ -79,6 +85,7 @@ void PoseGraphNodelet::onInit() {
   }
   publisher_ = std::make_unique<Publisher>(getNodeHandle(), nodelet_);
   diagnostics_ = std::make_unique<Diagnostics>(getNodeHandle(), getPrivateNodeHandle(), getName());
+  accelerometer_ = std::make_unique<Accelerometer>(nodelet_.base_frame);
   worker_ = std::make_unique<Worker>(
       std::make_unique<StageGraph>(parameters_, nodelet_.robot, nodelet_.recording, nodelet_.store),
       static_cast<std::size_t>(nodelet_.queue), listener());
@@ -131,10 +138,31 @@ void PoseGraphNodelet::subscribe() {
   subscribeInput<urban_nav_msgs::RelativePose>("vo/relative_pose", true, urban_nav_ros::toRelativePose);
   subscribeInput<urban_nav_msgs::MetricClosure>("loops/metric", false, urban_nav_ros::toMetricClosure);
   subscribeInput<urban_nav_msgs::RelativeConstraint>("map/constraints", false, urban_nav_ros::toRelativeConstraint);
+  subscribeOdometry();
+  subscribeAccelerometer();
+}
+
+void PoseGraphNodelet::subscribeOdometry() {
   subscribers_.push_back(getNodeHandle().subscribe<nav_msgs::Odometry>(
-      "vo/odometry", 100, [this](const nav_msgs::OdometryConstPtr& message) {
-        publisher_->sendTransform(urban_nav_ros::toStampNs(message->header.stamp));
+      "vo/odometry", static_cast<std::uint32_t>(nodelet_.queue), [this](const nav_msgs::OdometryConstPtr& message) {
+        const urban_nav_core::StampNs stamp = urban_nav_ros::toStampNs(message->header.stamp);
+        if (const auto T_odom_base = urban_nav_ros::toPose(message->pose.pose))
+          worker_->put(urban_nav_core::StampedPose{stamp, *T_odom_base});
+        else ++damaged_;
+        publisher_->sendTransform(stamp);
       }));
+}
+
+void PoseGraphNodelet::subscribeAccelerometer() {
+  const auto put = [this](const std::vector<FeltForce>& samples) {
+    for (const FeltForce& sample : samples) worker_->put(sample);
+  };
+  subscribers_.push_back(getNodeHandle().subscribe<tf2_msgs::TFMessage>(
+      "/tf_static", 100,
+      [this, put](const tf2_msgs::TFMessageConstPtr& message) { put(accelerometer_->add(*message)); }));
+  subscribers_.push_back(getNodeHandle().subscribe<sensor_msgs::Imu>(
+      "imu/data", static_cast<std::uint32_t>(nodelet_.queue),
+      [this, put](const sensor_msgs::ImuConstPtr& message) { put(accelerometer_->add(*message)); }));
 }
 
 Worker::Listener PoseGraphNodelet::listener() {

@@ -18,6 +18,13 @@ using urban_nav_core::PoseRun;
 using urban_nav_core::StampNs;
 using urban_nav_ros::toRosTime;
 
+namespace {
+
+// Odometry that waits for its map -> odom: what tf keeps, 10 s, at 20 Hz.
+constexpr std::size_t kMostUnsent = 200;
+
+}  // namespace
+
 Publisher::Publisher(ros::NodeHandle& nh, const NodeletParameters& parameters)
     : parameters_(parameters),
       update_(nh.advertise<urban_nav_msgs::GraphUpdate>("graph/update", 100)),
@@ -27,20 +34,30 @@ Publisher::Publisher(ros::NodeHandle& nh, const NodeletParameters& parameters)
       markers_(nh.advertise<visualization_msgs::MarkerArray>("graph/markers", 1, true)),
       status_(nh.advertise<urban_nav_msgs::StageStatus>("pose_graph/status", 10, true)) {}
 
-void Publisher::setMapFromOdom(const urban_nav_core::Pose& T_map_odom) {
+void Publisher::setMapFromOdom(const std::optional<urban_nav_core::Pose>& T_map_odom) {
   const std::lock_guard<std::mutex> lock(mutex_);
   T_map_odom_ = T_map_odom;
+  if (T_map_odom_) sendTransforms(std::exchange(unsent_, {}));
 }
 
 void Publisher::sendTransform(StampNs stamp) {
   if (!parameters_.publish_tf) return;
-  geometry_msgs::TransformStamped transform;
-  transform.header.stamp = toRosTime(stamp);
-  transform.header.frame_id = parameters_.map_frame;
-  transform.child_frame_id = parameters_.odom_frame;
   const std::lock_guard<std::mutex> lock(mutex_);
-  transform.transform = urban_nav_ros::toTransformMessage(T_map_odom_);
-  broadcaster_.sendTransform(transform);
+  if (T_map_odom_) return sendTransforms({stamp});
+  if (unsent_.size() >= kMostUnsent) unsent_.erase(unsent_.begin());
+  unsent_.push_back(stamp);
+}
+
+void Publisher::sendTransforms(const std::vector<StampNs>& stamps) {
+  if (stamps.empty()) return;
+  std::vector<geometry_msgs::TransformStamped> transforms(stamps.size());
+  for (std::size_t i = 0; i < stamps.size(); ++i) {
+    transforms[i].header.stamp = toRosTime(stamps[i]);
+    transforms[i].header.frame_id = parameters_.map_frame;
+    transforms[i].child_frame_id = parameters_.odom_frame;
+    transforms[i].transform = urban_nav_ros::toTransformMessage(*T_map_odom_);
+  }
+  broadcaster_.sendTransform(transforms);
 }
 
 void Publisher::publish(const urban_nav_core::GraphUpdate& update, StampNs newest) {

@@ -21,9 +21,10 @@ class Publisher {
  public:
   Publisher(ros::NodeHandle& nh, const NodeletParameters& parameters);
 
-  /// From now on map -> odom is this.
-  void setMapFromOdom(const urban_nav_core::Pose& T_map_odom);
-  /// Publishes it with the stamp of an odometry message, so that every odom -> base_link has its map -> odom.
+  /// From now on map -> odom is this; empty: not known yet.
+  void setMapFromOdom(const std::optional<urban_nav_core::Pose>& T_map_odom);
+  /// Publishes it with the stamp of an odometry message, so that every odom -> base_link has its map -> odom; where it is not known yet,
+  /// as soon as it is.
   void sendTransform(urban_nav_core::StampNs stamp);
 
   void publish(const urban_nav_core::GraphUpdate& update, urban_nav_core::StampNs newest);
@@ -39,12 +40,15 @@ class Publisher {
                       urban_nav_core::StampNs newest);
 
  private:
+  void sendTransforms(const std::vector<urban_nav_core::StampNs>& stamps);
+
   const NodeletParameters parameters_;
   ros::Publisher update_, jump_, path_, state_, markers_, status_;
   std::optional<urban_nav_msgs::StageStatus> last_status_;
   tf2_ros::TransformBroadcaster broadcaster_;
-  std::mutex mutex_;  // guards T_map_odom_ and the broadcaster
-  urban_nav_core::Pose T_map_odom_;
+  std::mutex mutex_;  // guards the broadcaster and what follows
+  std::vector<urban_nav_core::StampNs> unsent_;
+  std::optional<urban_nav_core::Pose> T_map_odom_;
 };
 
 }  // namespace pose_graph

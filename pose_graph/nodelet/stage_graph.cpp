@@ -20,6 +20,8 @@ namespace {
 
 // Closures that wait for odometry. It is seconds behind at most; more of them name poses that will never come.
 constexpr std::size_t most_waiting = 1000;
+// A map is levelled at the earliest by three spans of 2 s (level.hpp); where that was not enough, when twice as much has been driven.
+constexpr StampNs first_level = 6'500'000'000;
 // A stamp that lies this far back is a bag that began again or a clock that was set, not a late message.
 constexpr StampNs back_in_time = 1'000'000'000;
 
@@ -53,6 +55,22 @@ std::size_t numberOf(const Track& track, StampNs stamp) {
                                   track.stamps.begin());
 }
 
+class BatchWork : public LiveGraph::Work {
+ public:
+  BatchWork(Batch batch, int beginning) : batch_(std::move(batch)), beginning_(beginning) {}
+  void run(const std::atomic<bool>& stop) override {
+    SolveOptions options;
+    options.progress = [&stop](int, double) { return !stop; };
+    pose_graph::run(batch_, options);
+  }
+  const Batch& batch() const { return batch_; }
+  int beginning() const { return beginning_; }
+
+ private:
+  Batch batch_;
+  const int beginning_;
+};
+
 }  // namespace
 
 StageGraph::StageGraph(const Parameters& parameters, std::string robot, std::string recording, const std::string& store)
@@ -69,7 +87,13 @@ StageGraph::~StageGraph() {
 
 void StageGraph::begin(const std::string& name, StampNs start) {
   end();
-  if (!session_.empty()) waiting_.clear();
+  if (!session_.empty()) {
+    waiting_.clear();
+    session_ended_ = newest() > 0;
+  }
+  felt_.begin();
+  began_ = start;
+  level_at_ = start + first_level;
   if (goOn(name, start)) return;
   urban_nav_store::Session session;
   session.name = name.empty() ? urban_nav_core::printStamp(start) : name;
@@ -126,7 +150,25 @@ void StageGraph::add(const urban_nav_core::RelativePose& relative) {
   const auto& tracks = graph_.tracks();
   for (std::size_t i = 0; i < tracks.size(); ++i)
     if (tracks[i].session == session_) moved_[i].grow(tracks[i].stamps.size(), graph_.revision());
+  tie();
+  if (relative.to >= level_at_) level();
   offerWaiting();
+}
+
+void StageGraph::add(const urban_nav_core::StampedPose& odometry) {
+  tie_.hear(odometry);
+  tie();
+}
+
+void StageGraph::putForces() {
+  if (const Track* track = running()) graph_.putForces(session_, felt_.at(track->stamps));
+}
+
+void StageGraph::level() {
+  level_at_ = began_ + 2 * (newest() - began_);
+  if (graph_.isLevel(session_)) return;
+  putForces();
+  if (const auto levelled = graph_.level()) ready_.push_back(absorb(*levelled));
 }
 
 void StageGraph::add(const urban_nav_core::MetricClosure& closure) {
@@ -213,14 +255,30 @@ void StageGraph::offerWaiting() {
   if (!refusal.empty()) throw UserError("", refusal, "");
 }
 
-LiveGraph::Outcome StageGraph::relax(bool batch) {
-  if (!ready_.empty() && !batch) {
+LiveGraph::Outcome StageGraph::relax() {
+  if (!ready_.empty()) {
     Outcome outcome = std::move(ready_.front());
     ready_.pop_front();
     return outcome;
   }
-  exactly_ = std::exchange(batch_due_, false) || batch;
-  return absorb(exactly_ ? graph_.relax() : graph_.update());
+  changed_ = exactly_ = false;
+  return absorb(graph_.update());
+}
+
+std::unique_ptr<LiveGraph::Work> StageGraph::batch() {
+  batch_due_ = session_ended_ = false;
+  putForces();
+  return std::make_unique<BatchWork>(graph_.batch(), beginnings_);
+}
+
+std::optional<LiveGraph::Outcome> StageGraph::take(const Work& work) {
+  const auto& done = dynamic_cast<const BatchWork&>(work);
+  // Where another batch is due that an update would not do for, this one would only be corrected at once.
+  if (done.beginning() != beginnings_ || batch_due_) return std::nullopt;
+  putForces();
+  changed_ = false;
+  exactly_ = true;
+  return absorb(graph_.take(done.batch()));
 }
 
 void StageGraph::keep() {
@@ -283,7 +341,7 @@ urban_nav_core::Status StageGraph::status() const {
 }
 
 LiveGraph::Outcome StageGraph::absorb(const Relaxed& relaxed) {
-  changed_ = false;
+  tie();
   Outcome outcome;
   urban_nav_core::GraphUpdate update;
   update.revision = relaxed.revision;
@@ -324,11 +382,6 @@ LiveGraph::Outcome StageGraph::absorb(const Relaxed& relaxed) {
 StampNs StageGraph::newest() const {
   const Track* track = running();
   return track == nullptr || track->stamps.empty() ? 0 : track->stamps.back();
-}
-
-Pose StageGraph::T_map_odom() const {
-  const Track* track = running();
-  return track == nullptr || track->stamps.empty() ? Pose() : graph_.mapFromOdom(session_);
 }
 
 PoseRun StageGraph::runOf(const Track& track, const LastMoved::Range& range) const {
@@ -383,6 +436,7 @@ LiveGraph::EdgeReply StageGraph::addEdge(const EdgeRef& edge, const urban_nav_co
   offered.source = edge.source;
   offered.measured = measured;
   const ClosureId id = graph_.addClosure(offered);
+  changed_ = false;
   ready_.push_back(absorb(graph_.update()));
   const Closure& judged = graph_.closures().at(id);
   EdgeReply reply;
@@ -449,7 +503,10 @@ void StageGraph::reset() {
   waiting_.clear();
   moved_.clear();
   ready_.clear();
-  changed_ = batch_due_ = false;
+  changed_ = batch_due_ = session_ended_ = false;
+  ++beginnings_;
+  tie_.forgetSessions();
+  tie();
 }
 
 }  // namespace pose_graph

@@ -8,8 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "felt.hpp"
 #include "last_moved.hpp"
 #include "live_graph.hpp"
+#include "odom_tie.hpp"
 #include "pose_graph/pose_graph.hpp"
 #include "store_link.hpp"
 
@@ -31,8 +33,14 @@ class StageGraph : public LiveGraph {
   void add(const urban_nav_core::MetricClosure& closure) override;
   void add(const urban_nav_core::RelativeConstraint& constraint) override;
 
-  bool wantsRelaxation() const override { return changed_ || !ready_.empty(); }
-  Outcome relax(bool batch) override;
+  void add(const urban_nav_core::StampedPose& odometry) override;
+  void add(const FeltForce& sample) override { felt_.add(sample); }
+
+  bool wantsRelaxation() const override { return (changed_ && !batch_due_) || !ready_.empty(); }
+  Outcome relax() override;
+  bool wantsBatch() const override { return batch_due_ || session_ended_; }
+  std::unique_ptr<Work> batch() override;
+  std::optional<Outcome> take(const Work& work) override;
 
   void keep() override;
   StoreState storeState() const override { return link_.state(); }
@@ -40,7 +48,7 @@ class StageGraph : public LiveGraph {
 
   std::int64_t revision() const override { return graph_.revision(); }
   StampNs newest() const override;
-  Pose T_map_odom() const override;
+  std::optional<Pose> T_map_odom() const override { return T_map_odom_; }
   Picture picture() const override;
   Trajectory trajectory(StampNs from, StampNs to, std::int64_t since) const override;
 
@@ -76,6 +84,10 @@ class StageGraph : public LiveGraph {
   /// `own`: from the store that the graph is kept in.
   TakenIn takeIn(const StoredGraph& stored, bool own);
   Outcome absorb(const Relaxed& relaxed);
+  void tie() { T_map_odom_ = tie_.T_map_odom(running()); }
+  void putForces();
+  /// Levels the map, once that is worth a try.
+  void level();
   urban_nav_core::PoseRun runOf(const Track& track, const LastMoved::Range& range) const;
   const Track* running() const { return graph_.track(session_); }
 
@@ -91,8 +103,14 @@ class StageGraph : public LiveGraph {
   std::vector<LastMoved> moved_;                            // of each track
   std::deque<Outcome> ready_;                               // of relaxations that a service made
   bool changed_ = false;                                    // since the last relaxation
-  bool batch_due_ = false;  // an update would not do: sessions were loaded, an edge is gone
-  bool exactly_ = false;    // the last relaxation was a batch: every digit of it counts
+  bool batch_due_ = false;      // an update would not do: sessions were loaded, an edge is gone
+  bool exactly_ = false;        // the last relaxation was a batch: every digit of it counts
+  bool session_ended_ = false;  // its end is the batch's
+  int beginnings_ = 0;          // of the graph: work of an earlier one is not taken
+  OdomTie tie_;
+  std::optional<Pose> T_map_odom_;
+  Felt felt_;
+  StampNs began_ = 0, level_at_ = 0;  // of the running session: its begin, and when to try to level its map
 };
 
 }  // namespace pose_graph

@@ -5,12 +5,11 @@
 
 namespace pose_graph {
 
-using Clock = std::chrono::steady_clock;
 using urban_nav_core::UserError;
 
 namespace {
 
-// Times its own duration, from one batch that a disagreement asks for to the next: they take a fifth of the thread at most.
+// Times its own duration, from one batch that a disagreement asks for to the next: they take a fifth of a processor at most.
 constexpr int kBatchesApart = 5;
 
 }  // namespace
@@ -24,6 +23,9 @@ Worker::Worker(std::unique_ptr<LiveGraph> graph, std::size_t capacity, Listener 
 Worker::~Worker() {
   mailbox_.close();
   thread_.join();
+  if (!batch_) return;
+  batch_->stop = true;
+  batch_->thread.join();
 }
 
 void Worker::optimize() {
@@ -38,8 +40,9 @@ void Worker::work() {
       take(input);
       if (mailbox_.closed()) return;
     }
-    const bool batch = batch_wanted_ || (disagreement_ && Clock::now() >= batch_again_);
-    if (batch || graph_->wantsRelaxation()) relax(batch);
+    if (batch_ && batch_->ended) endBatch();
+    if (!batch_ && isBatchDue()) beginBatch();
+    if (graph_->wantsRelaxation()) relax();
     graph_->keep();
     if (listener_.idle) listener_.idle(*graph_);
   }
@@ -54,26 +57,61 @@ void Worker::take(Input& input) {
         },
         input);
   } catch (const UserError& error) {
-    ++refused_;
-    if (listener_.refused) listener_.refused(error.what());
+    refuse(error.what());
   }
 }
 
-void Worker::relax(bool batch) {
+void Worker::refuse(const std::string& why) {
+  ++refused_;
+  if (listener_.refused) listener_.refused(why);
+}
+
+void Worker::relax() {
   const Clock::time_point begin = Clock::now();
-  if (batch) batch_wanted_ = false;
   try {
-    const LiveGraph::Outcome outcome = graph_->relax(batch);
-    ++relaxations_;
-    const Clock::duration took = Clock::now() - begin;
-    const double ms = std::chrono::duration<double, std::milli>(took).count();
-    disagreement_ = outcome.needs_batch || (disagreement_ && !batch);
-    if (batch) batch_again_ = begin + kBatchesApart * took;
-    if (listener_.relaxed) listener_.relaxed(outcome, *graph_, ms);
+    const LiveGraph::Outcome outcome = graph_->relax();
+    disagreement_ = disagreement_ || outcome.needs_batch;
+    tell(outcome, std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
   } catch (const UserError& error) {
-    ++refused_;
-    if (listener_.refused) listener_.refused(error.what());
+    refuse(error.what());
   }
+}
+
+bool Worker::isBatchDue() const {
+  return batch_wanted_ || graph_->wantsBatch() || (disagreement_ && Clock::now() >= batch_again_);
+}
+
+void Worker::beginBatch() {
+  batch_wanted_ = disagreement_ = false;
+  batch_ = std::make_unique<Batch>();
+  batch_->begin = Clock::now();
+  batch_->work = graph_->batch();
+  batch_->thread = std::thread([this, batch = batch_.get()] {
+    try {
+      batch->work->run(batch->stop);
+    } catch (const std::exception& error) {
+      batch->fault = error.what();
+    }
+    batch->took = Clock::now() - batch->begin;
+    batch->ended = true;
+    mailbox_.wake();
+  });
+}
+
+void Worker::endBatch() {
+  batch_->thread.join();
+  const std::unique_ptr<Batch> batch = std::move(batch_);
+  if (!batch->fault.empty()) return refuse(batch->fault);
+  batch_again_ = batch->begin + kBatchesApart * batch->took;
+  if (const std::optional<LiveGraph::Outcome> outcome = graph_->take(*batch->work)) {
+    disagreement_ = disagreement_ || outcome->needs_batch;
+    tell(*outcome, std::chrono::duration<double, std::milli>(batch->took).count());
+  }
+}
+
+void Worker::tell(const LiveGraph::Outcome& outcome, double ms) {
+  ++relaxations_;
+  if (listener_.relaxed) listener_.relaxed(outcome, *graph_, ms);
 }
 
 }  // namespace pose_graph

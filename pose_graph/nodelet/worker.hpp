@@ -18,12 +18,12 @@
 namespace pose_graph {
 
 /// One thread that hands inputs and questions to the graph in the order in which they came, relaxes when there is
-/// reason to, and has the graph kept. Nobody who puts something in waits for a relaxation. Thread-safe.
+/// reason to, and has the graph kept; and another one for batches, for which nothing waits. Thread-safe.
 class Worker {
  public:
   using Task = std::function<void(LiveGraph&)>;
   using Input = std::variant<urban_nav_core::RelativePose, urban_nav_core::MetricClosure,
-                             urban_nav_core::RelativeConstraint, Task>;
+                             urban_nav_core::RelativeConstraint, urban_nav_core::StampedPose, FeltForce, Task>;
 
   /// Called in the worker's thread.
   struct Listener {
@@ -38,13 +38,13 @@ class Worker {
   };
 
   Worker(std::unique_ptr<LiveGraph> graph, std::size_t capacity, Listener listener);
-  /// Ends when what is under way has ended; what still waits is dropped.
+  /// Ends when the relaxation that is under way has ended, a batch at its next step; what still waits is dropped.
   ~Worker();
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
   void put(Input input) { mailbox_.put(std::move(input)); }
-  /// A batch relaxation behind all that was put in before.
+  /// A batch relaxation of all that was put in before.
   void optimize();
   /// What the graph answers, when its turn comes. Throws what the question throws. Empty: not within `patience`, or
   /// dropped; it may still be carried out.
@@ -56,14 +56,31 @@ class Worker {
  private:
   void work();
   void take(Input& input);
-  void relax(bool batch);
+  void refuse(const std::string& why);
+  void relax();
+  bool isBatchDue() const;
+  void beginBatch();
+  void endBatch();
+  void tell(const LiveGraph::Outcome& outcome, double ms);
+
+  using Clock = std::chrono::steady_clock;
+  /// A batch under way: its own thread has `work`, `took` and `fault` until it sets `ended`.
+  struct Batch {
+    std::unique_ptr<LiveGraph::Work> work;
+    Clock::time_point begin;
+    Clock::duration took{};
+    std::string fault;
+    std::atomic<bool> ended{false}, stop{false};
+    std::thread thread;
+  };
 
   std::unique_ptr<LiveGraph> graph_;  // the thread's own
   const Listener listener_;
   urban_nav_ros::Mailbox<Input> mailbox_;
-  bool batch_wanted_ = false;                            // the thread's own, and so are the next two
-  bool disagreement_ = false;                            // an update found closures that only a batch can judge
-  std::chrono::steady_clock::time_point batch_again_{};  // not before, for the sake of a disagreement
+  std::unique_ptr<Batch> batch_;  // the thread's own, and so are the next three
+  bool batch_wanted_ = false;
+  bool disagreement_ = false;        // an update found closures that only a batch can judge
+  Clock::time_point batch_again_{};  // not before, for the sake of a disagreement
   std::atomic<std::int64_t> refused_{0}, relaxations_{0};
   std::thread thread_;
 };

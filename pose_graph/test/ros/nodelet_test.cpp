@@ -96,18 +96,22 @@ class PoseGraphNodelet : public ::testing::Test {
   bool driven(int count) {
     return Listener::until([&] { return poses() == static_cast<std::size_t>(count); });
   }
-  /// map -> odom as it is sent with an odometry message.
-  Pose mapFromOdom(int at) {
-    listener().transforms.clear();
+  void hear(int at, const Pose& T_odom_base) {
     nav_msgs::Odometry odometry;
     odometry.header.stamp = urban_nav_ros::toRosTime(stampOf(at));
     odometry.header.frame_id = "odom";
+    odometry.pose.pose = urban_nav_ros::toPoseMessage(T_odom_base);
     listener().odometry.publish(odometry);
+  }
+  /// map -> odom as it is sent with an odometry message.
+  Pose mapFromOdom(int at) {
+    listener().transforms.clear();
+    hear(at, odomPose(at));
     EXPECT_TRUE(Listener::until([&] { return !listener().transforms.empty(); }));
     const auto& transform = listener().transforms.back().transforms.at(0);
     EXPECT_EQ(transform.header.frame_id, "map");
     EXPECT_EQ(transform.child_frame_id, "odom");
-    EXPECT_EQ(transform.header.stamp, odometry.header.stamp);
+    EXPECT_EQ(transform.header.stamp, urban_nav_ros::toRosTime(stampOf(at)));
     return *urban_nav_ros::toPose(transform.transform);
   }
 

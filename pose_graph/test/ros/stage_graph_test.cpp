@@ -2,6 +2,7 @@
 #include "stage_graph.hpp"
 
 #include <fstream>
+#include <thread>
 
 #include "../support/driven.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -48,9 +49,17 @@ class Stage : public ::testing::Test {
     return poses;
   }
   static void relaxAll(StageGraph& graph) {
-    while (graph.wantsRelaxation()) graph.relax(false);
-    graph.relax(true);
+    relaxNew(graph);
+    batch(graph);
     graph.keep();
+  }
+  static void relaxNew(StageGraph& graph) {
+    while (graph.wantsRelaxation()) graph.relax();
+  }
+  static std::optional<LiveGraph::Outcome> batch(StageGraph& graph) {
+    const auto work = graph.batch();
+    work->run(std::atomic<bool>{false});
+    return graph.take(*work);
   }
   StoredGraph stored(const std::string& file = "s.db") {
     Store store(place.file(file), Access::Read);
@@ -80,7 +89,7 @@ TEST_F(Stage, aRecordingThatIsPlayedAgainGoesOnWhereItWasCutOff) {
   auto cut = begin();
   drive(*cut, 0, kLap + 20);
   cut->add(seenAgain(10, 10 + kLap));
-  while (cut->wantsRelaxation()) cut->relax(false);
+  relaxNew(*cut);
   cut->keep();
   cut.reset();
   cut = begin();
@@ -108,7 +117,7 @@ TEST_F(Stage, anotherRecordingIsAnotherSessionThatJoinsTheMapByClosures) {
   const SessionId earlier = first->trajectory(0, 0, 0).runs[0].session;
   first.reset();
   auto second = begin("tuesday");
-  EXPECT_TRUE(second->wantsRelaxation());
+  EXPECT_TRUE(second->wantsBatch());
   drive(*second, 0, 2 * kLap);
   relaxAll(*second);
   EXPECT_EQ(second->trajectory(0, 0, 0).runs.size(), 2u);
@@ -198,6 +207,92 @@ TEST_F(Stage, savesWithAndWithoutAStoreAndLoadsIntoAnotherGraph) {
     EXPECT_THROW(other->save(place.file("saved.db"))(), UserError) << "it holds a session that would be lost";
     EXPECT_EQ(stored("saved.db").chains.size(), 1u);
   }
+}
+
+TEST_F(Stage, takesInWhileABatchIsAtWork) {
+  auto graph = begin("monday", ""), still = begin("monday", "");
+  for (StageGraph* each : {graph.get(), still.get()}) {
+    drive(*each, 0, 2 * kLap);
+    each->add(seenAgain(10, 10 + kLap));
+  }
+  const auto work = graph->batch();
+  std::atomic<bool> stop{false};
+  std::thread elsewhere([&] { work->run(stop); });
+  drive(*graph, 2 * kLap, 3 * kLap);
+  graph->add(seenAgain(60, 60 + 2 * kLap));
+  relaxNew(*graph);
+  elsewhere.join();
+  const auto taken = graph->take(*work);
+  ASSERT_TRUE(taken);
+  EXPECT_EQ(taken->figures.poses, 3 * kLap + 1);
+  EXPECT_FALSE(graph->wantsRelaxation()) << "what came was judged with it";
+  drive(*still, 2 * kLap, 3 * kLap);
+  still->add(seenAgain(60, 60 + 2 * kLap));
+  batch(*graph);
+  batch(*still);
+  expectSame(graph->trajectory(0, 0, 0), still->trajectory(0, 0, 0));
+}
+
+TEST_F(Stage, theBatchOfAGraphThatIsNoMoreIsNotTaken) {
+  auto graph = begin("monday", "");
+  drive(*graph, 0, 2 * kLap);
+  graph->add(seenAgain(10, 10 + kLap));
+  const auto work = graph->batch();
+  graph->reset();
+  drive(*graph, 0, 5);
+  work->run(std::atomic<bool>{false});
+  EXPECT_FALSE(graph->take(*work));
+  EXPECT_EQ(posesOf(*graph), 6u);
+}
+
+TEST_F(Stage, aSessionEndsWithABatch) {
+  auto graph = begin("monday", "");
+  drive(*graph, 0, 2 * kLap);
+  EXPECT_FALSE(graph->wantsBatch());
+  graph->newSession("");
+  EXPECT_TRUE(graph->wantsBatch());
+  batch(*graph);
+  EXPECT_FALSE(graph->wantsBatch());
+}
+
+TEST_F(Stage, levelsOnceItIsKnownWhichWayIsUp) {
+  auto graph = begin("monday", "");
+  // What an accelerometer feels that lies on its side and does not move: far from what the way shows, but gravity is more than that.
+  for (int i = -5; i < 3 * kLap + 5; ++i) {
+    FeltForce sample;
+    sample.stamp = i * kPeriod;
+    sample.force = Eigen::Vector3d(0.0, 0.5, 9.79);
+    graph->add(sample);
+  }
+  drive(*graph, 0, 100);
+  EXPECT_FALSE(graph->wantsRelaxation());
+  drive(*graph, 100, 3 * kLap);
+  ASSERT_TRUE(graph->wantsRelaxation());
+  const LiveGraph::Outcome outcome = graph->relax();
+  ASSERT_EQ(outcome.jumps.size(), 1u);
+  EXPECT_EQ(outcome.jumps[0].reason_name, "Levelled");
+  ASSERT_TRUE(outcome.update);
+  EXPECT_GT(outcome.update->runs[0].poses.size(), 100u) << "all of them";
+  EXPECT_FALSE(graph->wantsRelaxation()) << "once";
+}
+
+TEST_F(Stage, mapFromOdomIsThatOfTheStampWhereverOdomBegins) {
+  auto graph = begin("monday", "");
+  const Pose T_odom_first(urban_nav_core::expSo3(Eigen::Vector3d(0.1, 0.2, 0.9)), Eigen::Vector3d(30.0, -7.0, 1.0));
+  Pose T;
+  std::vector<Pose> odometry;
+  for (int i = 0; i < 2 * kLap; ++i) {
+    odometry.push_back(T_odom_first * T);
+    graph->add(urban_nav_core::StampedPose{i * kPeriod, odometry.back()});
+    EXPECT_EQ(graph->T_map_odom().has_value(), i > 25);
+    if (i >= 25) graph->add(stepAt(i - 25));
+    T = T * stepAt(i).T_from_to;
+  }
+  graph->add(seenAgain(10, 10 + kLap - 40));
+  relaxAll(*graph);
+  const auto newest = graph->trajectory(0, 0, 0).runs[0].poses.back();
+  EXPECT_TRUE(isApprox(*graph->T_map_odom() * odometry[static_cast<std::size_t>(newest.stamp / kPeriod)],
+                       newest.T_map_base, 1e-9));
 }
 
 }  // namespace

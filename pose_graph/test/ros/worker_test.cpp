@@ -20,6 +20,8 @@ class Note : public LiveGraph {
     std::vector<urban_nav_core::StampNs> steps;
     int closures = 0, batches = 0, updates = 0, kept = 0;
     bool disagree = false;  // updates find closures that only a batch can judge
+    bool due = false;       // only a batch would do
+    int steps_at_batch = 0, steps_at_take = 0;
   };
   explicit Note(std::chrono::milliseconds relaxing) : relaxing_(relaxing) {}
 
@@ -32,21 +34,44 @@ class Note : public LiveGraph {
     changed_ = true;
   }
   void add(const urban_nav_core::RelativeConstraint&) override {}
+  void add(const urban_nav_core::StampedPose&) override {}
+  void add(const FeltForce&) override {}
   bool wantsRelaxation() const override { return changed_; }
-  Outcome relax(bool batch) override {
+  Outcome relax() override {
     std::this_thread::sleep_for(relaxing_);
-    ++(batch ? book.batches : book.updates);
+    ++book.updates;
     changed_ = false;
     Outcome outcome;
-    outcome.needs_batch = book.disagree && !batch;
+    outcome.needs_batch = book.disagree;
     return outcome;
+  }
+  bool wantsBatch() const override { return book.due; }
+  struct Work : LiveGraph::Work {
+    explicit Work(std::chrono::milliseconds taken) : time(taken) {}
+    void run(const std::atomic<bool>& stop) override {
+      const auto end = std::chrono::steady_clock::now() + time;
+      while (!stop && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(1ms);
+      if (time == 77ms) throw std::runtime_error("out of memory");
+    }
+    const std::chrono::milliseconds time;
+  };
+  std::unique_ptr<LiveGraph::Work> batch() override {
+    book.due = false;
+    book.steps_at_batch = static_cast<int>(book.steps.size());
+    return std::make_unique<Work>(relaxing_);
+  }
+  std::optional<Outcome> take(const LiveGraph::Work&) override {
+    ++book.batches;
+    book.steps_at_take = static_cast<int>(book.steps.size());
+    if (book.due) return std::nullopt;
+    return Outcome();
   }
   void keep() override { ++book.kept; }
   StoreState storeState() const override { return {}; }
   urban_nav_core::Status status() const override { return {}; }
   std::int64_t revision() const override { return 0; }
   urban_nav_core::StampNs newest() const override { return book.steps.empty() ? 0 : book.steps.back(); }
-  urban_nav_core::Pose T_map_odom() const override { return {}; }
+  std::optional<urban_nav_core::Pose> T_map_odom() const override { return {}; }
   Picture picture() const override { return {}; }
   Trajectory trajectory(urban_nav_core::StampNs, urban_nav_core::StampNs, std::int64_t) const override { return {}; }
   EdgeReply addEdge(const urban_nav_core::EdgeRef&, const urban_nav_core::Constraint&) override { return {}; }
@@ -116,9 +141,55 @@ TEST(Worker, ManyClosuresAtOnceAreOneRelaxation) {
 TEST(Worker, OptimizeIsABatch) {
   Worker worker(std::make_unique<Note>(0ms), 100, {});
   worker.optimize();
-  bookOf(worker);
-  std::this_thread::sleep_for(50ms);
+  while (bookOf(worker).batches == 0) std::this_thread::sleep_for(1ms);
   EXPECT_EQ(bookOf(worker).batches, 1);
+}
+
+TEST(Worker, NothingWaitsForABatch) {
+  Worker worker(std::make_unique<Note>(400ms), 100, {});
+  worker.optimize();
+  for (int i = 0; i < 20; ++i) worker.put(step(i, i + 1));
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(bookOf(worker).steps.size(), 20U);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 300ms);
+  EXPECT_EQ(bookOf(worker).batches, 0) << "it is still at work";
+  while (bookOf(worker).batches == 0) std::this_thread::sleep_for(1ms);
+  EXPECT_LE(bookOf(worker).steps_at_batch, 20);
+  EXPECT_EQ(bookOf(worker).steps_at_take, 20);
+  EXPECT_EQ(worker.counts().relaxations, 1);
+}
+
+TEST(Worker, OneThatIsDueAgainBeforeItHasEndedIsBegunAnew) {
+  Worker worker(std::make_unique<Note>(50ms), 100, {});
+  const auto due = [](LiveGraph& graph) { return dynamic_cast<Note&>(graph).book.due = true; };
+  worker.ask(due, 10s);
+  std::this_thread::sleep_for(20ms);
+  worker.ask(due, 10s);
+  while (worker.counts().relaxations == 0) std::this_thread::sleep_for(1ms);
+  EXPECT_EQ(bookOf(worker).batches, 2);
+  EXPECT_EQ(worker.counts().relaxations, 1) << "of the first one nobody was told";
+}
+
+TEST(Worker, ABatchThatFailsIsSaid) {
+  std::atomic<bool> said{false};
+  Worker::Listener listener;
+  listener.refused = [&](const std::string& why) { said = why == "out of memory"; };
+  Worker worker(std::make_unique<Note>(77ms), 100, listener);
+  worker.optimize();
+  for (int i = 0; i < 1000 && !said; ++i) std::this_thread::sleep_for(5ms);
+  EXPECT_TRUE(said);
+  EXPECT_EQ(bookOf(worker).batches, 0);
+}
+
+TEST(Worker, EndsInTheMiddleOfABatch) {
+  const auto begin = std::chrono::steady_clock::now();
+  {
+    Worker worker(std::make_unique<Note>(60s), 100, {});
+    worker.optimize();
+    bookOf(worker);
+    std::this_thread::sleep_for(50ms);
+  }
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 5s);
 }
 
 TEST(Worker, ADisagreementIsJudgedByABatchAndNotByOneAfterTheOther) {

@@ -36,6 +36,18 @@ TEST(Mailbox, WakesWhoWaits) {
   EXPECT_EQ(*items[0], 7);
 }
 
+TEST(Mailbox, IsWokenWithoutAnItem) {
+  Mailbox<int> box;
+  box.setCapacity(2);
+  box.wake();
+  EXPECT_TRUE(box.takeAll(long_patience).empty());
+  std::thread waker([&box] { box.wake(); });
+  EXPECT_TRUE(box.takeAll(long_patience).empty());
+  waker.join();
+  box.put(1);
+  EXPECT_EQ(box.takeAll(long_patience).size(), 1U);
+}
+
 TEST(Mailbox, ClosedItWakesTheWorkerAndTakesNothingMore) {
   Mailbox<int> box;
   std::thread closer([&box] { box.close(); });

@@ -28,11 +28,21 @@ class Mailbox {
     arrived_.notify_one();
   }
 
-  /// All there is, oldest first; waits up to `patience` for something. Empty after that, or when the box was closed.
+  /// All there is, oldest first; waits up to `patience` for something. Empty after that, when it was woken, or when the box was closed.
   std::deque<Item> takeAll(std::chrono::milliseconds patience) {
     std::unique_lock<std::mutex> lock(mutex_);
-    arrived_.wait_for(lock, patience, [this] { return closed_ || !items_.empty(); });
+    arrived_.wait_for(lock, patience, [this] { return closed_ || woken_ || !items_.empty(); });
+    woken_ = false;
     return std::exchange(items_, {});
+  }
+
+  /// Ends a wait, or the next one: there is something to do that is no item.
+  void wake() {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      woken_ = true;
+    }
+    arrived_.notify_one();
   }
 
   /// Wakes the worker; from now on nothing is taken in.
@@ -63,7 +73,7 @@ class Mailbox {
   std::deque<Item> items_;
   std::size_t capacity_ = 1;
   std::int64_t dropped_ = 0;
-  bool closed_ = false;
+  bool closed_ = false, woken_ = false;
 };
 
 }  // namespace urban_nav_ros
