@@ -12,14 +12,14 @@ import rospy
 from nav_msgs.msg import Path as RosPath
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
-from urban_nav_msgs.msg import GraphState, MetricClosure, StageStatus
+from urban_nav_msgs.msg import GraphState, MapJump, MetricClosure, StageStatus
 from urban_nav_msgs.srv import GetTrajectory
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from graph import command, connections, services  # noqa: E402
 from launch_case import LaunchCase  # noqa: E402
 
-SECONDS = 4
+SECONDS = 8  # a map is level once three spans of 2 s have been felt
 SIGMA_M, SIGMA_RAD = 0.002, 0.0005
 TRUE = [(5, 40), (12, 55), (20, 66), (30, 70)]  # frames
 FALSE = [(8, 60), (25, 62)]
@@ -58,7 +58,7 @@ class GraphLaunch(LaunchCase):
     def record(cls, folder):
         rospy.set_param("/pose_graph/queue", 100000)
         bag = Path(folder) / "simulated.bag"
-        subprocess.run([command(), "simulate", "--seed", "5", "--duration", str(SECONDS), "--sensors", "stereo", "-o", str(bag)], check=True,
+        subprocess.run([command(), "simulate", "--seed", "5", "--duration", str(SECONDS), "--sensors", "stereo,imu", "-o", str(bag)], check=True,
                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         with rosbag.Bag(str(bag)) as opened:
             cls.stamps = [message.header.stamp for _, message, _ in opened.read_messages(["/stereo/left/image_raw"])]
@@ -119,7 +119,7 @@ class GraphLaunch(LaunchCase):
     def test_closures_pinch_the_trajectory_and_false_ones_do_not(self):
         states, paths, statuses = (self.listen("graph/state", GraphState), self.listen("graph/path", RosPath),
                                    self.listen("pose_graph/status", StageStatus))
-        ties = []
+        jumps, ties = self.listen("graph/jump", MapJump), []
         self.listener.subscribers.append(rospy.Subscriber("/tf", TFMessage, lambda message: ties.extend(
             t for t in message.transforms if t.child_frame_id == "odom" and t.header.frame_id == "map")))
         closures = rospy.Publisher("loops/metric", MetricClosure, queue_size=100)
@@ -146,6 +146,11 @@ class GraphLaunch(LaunchCase):
         self.assertEqual(verdicts, ["accepted" if (a, b) in TRUE else "rejected" for a, b, _ in self.closures])
         self.expect(lambda: states[-1].closures_rejected + states[-1].closures_waiting == len(FALSE), lambda: f"{states[-1]}")
         np.testing.assert_allclose(live, expected, rtol=0, atol=1e-9, err_msg="the batch over the same edges, live and offline")
+        self.assertTrue(any(jump.reason_name == "Levelled" for jump in jumps), str(jumps))
+        tilt = np.degrees(np.arccos(min(1.0, live[0][2, :3] @ self.truth[0][2, :3])))
+        print(f"the map is level to {tilt:.2f} deg")
+        self.assertFalse(np.allclose(live[0], np.eye(4), atol=1e-9))
+        self.assertLess(tilt, 1.0, "what an accelerometer's place on the robot is known to")
         odometry = [pose_of(message.pose.pose) for message in self.listener.odometry]
         before, after = rms(odometry, self.truth), rms(live, self.truth)
         print(f"odometry {1e3 * before:.1f} mm, relaxed {1e3 * after:.1f} mm")

@@ -16,6 +16,7 @@
 #include <urban_nav_msgs/StageStatus.h>
 #include <visualization_msgs/MarkerArray.h>
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <vector>
@@ -40,10 +41,15 @@ class Listener {
     keep("/diagnostics", diagnostics);
     connected_ = until([this] {
       return relative.getNumSubscribers() > 0 && odometry.getNumSubscribers() > 0 && closures.getNumSubscribers() > 0 &&
-             constraints.getNumSubscribers() > 0 && subscribers_[0].getNumPublishers() > 0;
+             constraints.getNumSubscribers() > 0 && hearsAll();
     });
   }
   bool connected() const { return connected_; }
+  /// All that the nodelet publishes has come through to here.
+  bool hearsAll() const {
+    return std::all_of(subscribers_.begin(), subscribers_.end(),
+                       [](const ros::Subscriber& each) { return each.getNumPublishers() > 0; });
+  }
 
   bool call(const std::string& service) {
     std_srvs::Trigger trigger;

@@ -7,6 +7,7 @@
 #include <urban_nav_msgs/RemoveEdge.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <limits>
 
@@ -107,8 +108,11 @@ class PoseGraphNodelet : public ::testing::Test {
   Pose mapFromOdom(int at) {
     listener().transforms.clear();
     hear(at, odomPose(at));
-    EXPECT_TRUE(Listener::until([&] { return !listener().transforms.empty(); }));
-    const auto& transform = listener().transforms.back().transforms.at(0);
+    if (!Listener::until([&] { return !listener().transforms.empty(); })) {
+      ADD_FAILURE() << "no map -> odom";
+      return {};
+    }
+    const auto& transform = listener().transforms.back().transforms.back();
     EXPECT_EQ(transform.header.frame_id, "map");
     EXPECT_EQ(transform.child_frame_id, "odom");
     EXPECT_EQ(transform.header.stamp, urban_nav_ros::toRosTime(stampOf(at)));
@@ -274,6 +278,46 @@ TEST_F(PoseGraphNodelet, aNewSessionHasItsOwnIdAndTimeGoingBackBeginsOne) {
   drive(0, 2);  // the bag is played again
   ASSERT_TRUE(driven(6 + 4 + 3));
   EXPECT_EQ(trajectory().runs.size(), 3U);
+}
+
+TEST_F(PoseGraphNodelet, mapToOdomTakesTheRobotToItsPoseInASessionThatBeginsOnTheWay) {
+  for (int i = 0; i <= 20; ++i) hear(i, odomPose(i));
+  drive(0, 10);
+  ASSERT_TRUE(driven(11));
+  urban_nav_msgs::NewSession begin;
+  ASSERT_TRUE(ros::service::call("pose_graph/new_session", begin));
+  drive(10, 15);
+  ASSERT_TRUE(driven(11 + 6));
+  const Pose newest = *urban_nav_ros::toPose(trajectory().runs.back().T_map_base.back());
+  EXPECT_LT(distanceBetween(newest, odomPose(15)), 20.0);
+  EXPECT_GT(distanceBetween(newest, odomPose(15)), 1.0) << "the map is that of the session";
+  EXPECT_TRUE(isApprox(mapFromOdom(21) * odomPose(15), newest, 1e-9));
+}
+
+TEST_F(PoseGraphNodelet, mapToOdomTakesTheRobotToItsPoseWhenTheNodeletIsStartedInTheMiddle) {
+  for (int i = 0; i <= 20; ++i) hear(i, odomPose(i));
+  drive(0, 18);
+  ASSERT_TRUE(driven(19));
+  ASSERT_EQ(std::system("rosnode kill /pose_graph > /dev/null 2>&1"), 0);
+  ASSERT_TRUE(Listener::until([&] { return listener().relative.getNumSubscribers() == 0; }));
+  ASSERT_TRUE(Listener::until([&] {
+    return listener().relative.getNumSubscribers() > 0 && listener().odometry.getNumSubscribers() > 0 &&
+           listener().hearsAll() && ros::service::exists("pose_graph/get_trajectory", false);
+  }));
+  listener().forget();
+  const auto session = [&] { return trajectory().runs.back(); };
+  for (int i = 30; i <= 35; ++i) hear(i, odomPose(i));
+  drive(25, 29);  // what came between is lost, and so is what odometry said of these
+  ASSERT_TRUE(Listener::until([&] { return session().stamps.back() == urban_nav_ros::toRosTime(stampOf(29)); }));
+  ros::WallDuration(0.3).sleep();
+  ros::spinOnce();
+  EXPECT_TRUE(listener().transforms.empty()) << "nothing is told that is not known";
+  drive(29, 33);
+  ASSERT_TRUE(Listener::until([&] { return session().stamps.back() == urban_nav_ros::toRosTime(stampOf(33)); }));
+  const Pose newest = *urban_nav_ros::toPose(session().T_map_base.back());
+  ASSERT_TRUE(Listener::until([&] { return !listener().transforms.empty(); }));
+  EXPECT_GE(listener().transforms.back().transforms.size(), 6U) << "of the odometry that waited, too";
+  EXPECT_TRUE(isApprox(mapFromOdom(36) * odomPose(33), newest, 1e-9));
 }
 
 TEST_F(PoseGraphNodelet, pauseDropsInputsAndDiagnosticsCountWhatIsWrong) {

@@ -67,6 +67,9 @@ class Offers {
 
   /// `row`: its number in GraphRun::closures. Empty where it can be used, else why not.
   std::string add(std::size_t row, const ClosureRow& offered) {
+    for (const std::string* name : {&offered.session_a, &offered.session_b})
+      if (placeOf(*name) == sessions_.size())
+        return "no session \"" + *name + "\" in this map; there are: " + listing();
     if (!offered.T_a_b) return "no transform in the file, and no stage that finds one";
     Closure closure;
     Pose T_a_b = *offered.T_a_b;
@@ -74,7 +77,6 @@ class Offers {
       const std::string& name = at_a ? offered.session_a : offered.session_b;
       const StampNs stamp = at_a ? offered.stamp_a : offered.stamp_b;
       const std::size_t session = placeOf(name);
-      if (session == sessions_.size()) return "no session \"" + name + "\" in this map; there are: " + listing();
       const auto moment = momentOf(odometry_[session], stamp);
       if (!moment) return "no frames around " + urban_nav_core::printStamp(stamp) + " s in " + name;
       (at_a ? closure.a : closure.b) = {name, moment->node};

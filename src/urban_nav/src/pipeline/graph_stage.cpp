@@ -7,6 +7,7 @@
 
 #include "pipeline/closure_offers.hpp"
 #include "pose_graph/graph_file.hpp"
+#include "pose_graph/map_levels.hpp"
 
 namespace urban_nav {
 
@@ -18,7 +19,6 @@ using urban_nav_core::Matrix3d;
 using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
 using urban_nav_core::Trajectory;
-using urban_nav_core::Vector3d;
 
 namespace {
 
@@ -112,14 +112,10 @@ std::vector<Level> levelsOf(const GraphRun& run, const std::vector<const VoRun*>
 
 std::size_t GraphRun::mapOf(std::size_t session) const {
   const Track* track = graph.track(sessions[session]);
-  if (track == nullptr || track->part.empty()) return session;
-  const int part = track->part.front();
-  if (std::any_of(track->part.begin(), track->part.end(), [part](int each) { return each != part; })) return session;
-  for (std::size_t other = 0; other < session; ++other) {
-    const Track* earlier = graph.track(sessions[other]);
-    if (earlier != nullptr && !earlier->part.empty() && earlier->part.front() == part) return other;
-  }
-  return session;
+  if (track == nullptr) return session;
+  const std::size_t map = pose_graph::mapOf(graph.tracks(), static_cast<std::size_t>(track - graph.tracks().data()));
+  return static_cast<std::size_t>(std::find(sessions.begin(), sessions.end(), graph.tracks()[map].session) -
+                                  sessions.begin());
 }
 
 std::size_t GraphRun::sessionsJoined() const {
@@ -132,8 +128,7 @@ Trajectory GraphRun::trajectory(std::size_t session) const {
   const Trajectory track = relaxedTrack(*this, session);
   const std::size_t map = mapOf(session);
   if (map >= levels.size() || !levels[map].known()) return track;
-  const Pose first = graph.track(sessions[map])->map.front();
-  return transformed(Pose(Eigen::Quaterniond(levels[map].R_map_first), Vector3d::Zero()) * first.inverse(), track);
+  return transformed(pose_graph::levelling(levels[map], graph.track(sessions[map])->map.front()), track);
 }
 
 GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<const VoRun*>& runs,

@@ -20,8 +20,12 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kBuffer = 1U << 16U;
 
+// A place that cannot be written is the caller's mistake; a disk without room is not, as a store has it too.
 [[noreturn]] void fail(const std::string& path) {
-  throw UserError(path, std::string("cannot be written: ") + std::strerror(errno), "");
+  const int error = errno;
+  const std::string what = std::string("cannot be written: ") + std::strerror(error);
+  if (error == ENOSPC || error == EDQUOT || error == EFBIG) throw DataError(path, what, "");
+  throw UserError(path, what, "");
 }
 
 // A device or a pipe (/dev/stdout, say): a rename would put a file in its place.

@@ -84,6 +84,8 @@ TEST_F(AtomicFileTest, AFullDiskIsAnErrorAndNoFile) {
   fs::create_symlink("/dev/full", path("a.part.txt"));
   EXPECT_EQ(errorOf([&] { writeAtomically(path("a.txt"), "x"); }),
             path("a.txt") + ": cannot be written: No space left on device");
+  fs::create_symlink("/dev/full", path("a.part.txt"));
+  EXPECT_THROW(writeAtomically(path("a.txt"), "x"), DataError) << "no mistake of the user";
   EXPECT_FALSE(fs::exists(path("a.txt")));
 }
 
