@@ -12,9 +12,9 @@ constexpr StampNs kBack = 1'000'000'000;
 // Odometry of which the graph hears nothing: 10 minutes at 20 Hz, after which it will not come any more.
 constexpr std::size_t kMost = 12'000;
 
-bool isIdentity(const Pose& pose) {
-  return pose.t().isZero(0.0) && pose.q().coeffs() == Eigen::Quaterniond::Identity().coeffs();
-}
+constexpr double kRoundOff = 1e-9;  // m, rad: noise of a robot that stands still is far above it
+
+bool isIdentity(const Pose& pose) { return isApprox(pose, Pose(), kRoundOff); }
 
 }  // namespace
 

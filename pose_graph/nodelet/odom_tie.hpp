@@ -18,7 +18,7 @@ namespace pose_graph {
 class OdomTie {
  public:
   /// Stamps rise; one that lies more than a second back is a recording that began again, and what was heard before counts no more. A pose
-  /// that is exactly the identity is an odometry that begins anew.
+  /// that is the identity, but for round-off, is an odometry that begins anew.
   void hear(const urban_nav_core::StampedPose& odometry);
   /// `running`: the session's track; null where there is none yet. Empty while nothing is known.
   std::optional<Pose> T_map_odom(const Track* running);
