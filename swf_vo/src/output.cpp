@@ -7,6 +7,7 @@
 
 #include "health/health.hpp"
 #include "urban_nav_core/geometry/compose.hpp"
+#include "urban_nav_core/io/archive_types.hpp"
 
 namespace swf_vo {
 
@@ -136,7 +137,11 @@ const Frame& Output::write(FrameId frame, StampNs stamp, const Status& status, c
   frame_.statistics.disparity_offset_sigma_px = window.disparityOffsetSigma();
   frame_.statistics.row_offset_px = row_offset;
   frame_.statistics.noise_scale = noise_scale;
-  waiting_.push_back({frame, stamp, status});
+  Waiting waiting;
+  waiting.frame = frame;
+  waiting.stamp = stamp;
+  waiting.status = status;
+  waiting_.push_back(waiting);
   frame_.settled.clear();
   for (const SettledPose& pose : window.settled()) frame_.settled.push_back(settle(pose));
   return frame_;
@@ -178,6 +183,19 @@ Settled Output::settle(const SettledPose& pose) {
   last_settled_ = settled.stamp;
   any_settled_ = true;
   return settled;
+}
+
+void Output::Waiting::archive(urban_nav_core::Archive& archive) { archive(frame, stamp, status); }
+
+void Output::archive(urban_nav_core::Archive& archive, const Window& window) {
+  archive(frame_, waiting_, last_settled_, any_settled_, last_T_odom_camera_, step_covariance_, born_);
+  archive.require(std::all_of(waiting_.begin(), waiting_.end(),
+                              [&](const Waiting& waiting) { return window.hasPose(waiting.frame); }) &&
+                      waiting_.size() == window.poses(),
+                  "the frames of the window are others");
+  const auto out_of_order =
+      std::adjacent_find(born_.begin(), born_.end(), [](const auto& a, const auto& b) { return a.first >= b.first; });
+  archive.require(out_of_order == born_.end(), "landmarks are out of order");
 }
 
 }  // namespace swf_vo

@@ -6,6 +6,7 @@
 
 #include "front_end/front_end.hpp"
 #include "swf_vo/frame.hpp"
+#include "urban_nav_core/io/archive.hpp"
 #include "window/window.hpp"
 
 namespace swf_vo {
@@ -22,12 +23,15 @@ class Output {
   /// A frame that was not accepted because of its stamp: the last pose again.
   const Frame& refused(urban_nav_core::StampNs stamp);
   Settled settle(const SettledPose& pose);
+  /// `window`: whose frames are to settle.
+  void archive(urban_nav_core::Archive& archive, const Window& window);
 
  private:
   struct Waiting {  // what a settled frame keeps from the time when it came
-    FrameId frame;
-    urban_nav_core::StampNs stamp;
+    FrameId frame = 0;
+    urban_nav_core::StampNs stamp = 0;
     urban_nav_core::Status status;
+    void archive(urban_nav_core::Archive& archive);
   };
   Velocity velocity(FrameId frame, urban_nav_core::StampNs stamp, bool lost, const Window& window,
                     const ProcessInput& u) const;

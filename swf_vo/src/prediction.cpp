@@ -105,4 +105,6 @@ void Prediction::learn(const Pose& T_last_camera, double seconds, bool measured,
   known_ = true;
 }
 
+void Prediction::archive(urban_nav_core::Archive& archive) { archive(velocity_, known_, unmeasured_); }
+
 }  // namespace swf_vo

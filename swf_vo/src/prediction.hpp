@@ -5,6 +5,7 @@
 
 #include "swf_vo/parameters.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_core/io/archive.hpp"
 #include "urban_nav_core/types/motion_input.hpp"
 #include "window/window.hpp"
 
@@ -28,6 +29,7 @@ class Prediction {
   /// step begins, too; where they had not, its length says nothing after a frame by prediction.
   void learn(const urban_nav_core::Pose& T_last_camera, double seconds, bool measured, bool blind = false,
              bool smoothed = true);
+  void archive(urban_nav_core::Archive& archive);
 
  private:
   urban_nav_core::Pose T_base_camera_;

@@ -10,6 +10,7 @@
 #include "health/image_check.hpp"
 #include "output.hpp"
 #include "prediction.hpp"
+#include "urban_nav_core/io/archive_types.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "window/window.hpp"
 
@@ -32,6 +33,9 @@ constexpr double gap_periods = 1.7;
 constexpr double astray_periods = 3.5;
 // Landmarks in the window for each that is followed: most live for a few frames, and the window for ten.
 constexpr int landmarks_per_feature = 4;
+
+constexpr const char* state_name = "swf_vo";
+constexpr std::uint32_t state_version = 1;  // one more whenever what is archived becomes other bytes
 
 WindowOptions windowOptions(const Parameters& parameters, const StereoCamera& camera) {
   WindowOptions options;
@@ -63,11 +67,31 @@ void check(const StereoCamera& camera) {
 
 }  // namespace
 
+/// A state is of use with the parameters and the calibration that it was made with, and no others.
+void agree(urban_nav_core::Archive& archive, const Parameters& parameters, const StereoCamera& camera,
+           const Pose& T_base_camera) {
+  for (const urban_nav_core::RowInfo& row : table().rows()) {
+    const std::string now = row.name + " = " + urban_nav_core::printValue(table().get(parameters, row.name));
+    std::string then = now;
+    archive(then);
+    if (then != now)
+      throw UserError("state of swf_vo", "was made with " + then + " and is to go on with " + now,
+                      "the same parameters");
+  }
+  StereoCamera camera_then = camera;
+  Pose T_then = T_base_camera;
+  archive(camera_then, T_then);
+  const bool same_place = T_then.q().coeffs() == T_base_camera.q().coeffs() && T_then.t() == T_base_camera.t();
+  if (!isApprox(camera_then, camera, 0.0) || !same_place)
+    throw UserError("state of swf_vo", "was made with another calibration", "the same camera and extrinsics");
+}
+
 /// The story of one frame; no algorithm.
 class SwfVo::Implementation {
  public:
   Implementation(const Parameters& parameters, const StereoCamera& camera, const Pose& T_base_camera)
       : parameters_(parameters),
+        camera_(camera),
         T_odom_first_camera_(T_base_camera),
         mender_(camera.left.width, camera.left.height),
         prediction_(parameters, T_base_camera),
@@ -126,6 +150,20 @@ class SwfVo::Implementation {
     std::vector<Settled> left;
     for (const SettledPose& pose : window_.flush()) left.push_back(output_.settle(pose));
     return left;
+  }
+
+  std::string state() {
+    urban_nav_core::Archive archive;
+    agree(archive, parameters_, camera_, T_odom_first_camera_);
+    this->archive(archive);
+    return urban_nav_core::seal(state_name, state_version, archive.take());
+  }
+
+  void archive(urban_nav_core::Archive& archive) {
+    archive(started_, doubtful_, frame_, newest_known_, stamp_, seconds_, period_);
+    archive(images_, prediction_, front_end_, window_, health_);
+    output_.archive(archive, window_);
+    archive.require(!started_ || window_.poses() > 0, "the window is empty");
   }
 
  private:
@@ -192,6 +230,7 @@ class SwfVo::Implementation {
   }
 
   Parameters parameters_;
+  StereoCamera camera_;
   Pose T_odom_first_camera_;
   RowMender mender_;
   ImageCheck images_;
@@ -214,6 +253,14 @@ SwfVo::SwfVo(const Parameters& parameters, const StereoCamera& camera, const Pos
   check(camera);
   implementation_ = std::make_unique<Implementation>(parameters, camera, T_base_camera);
 }
+SwfVo::SwfVo(const Parameters& parameters, const StereoCamera& camera, const Pose& T_base_camera,
+             std::string_view state)
+    : SwfVo(parameters, camera, T_base_camera) {
+  urban_nav_core::Archive archive(urban_nav_core::unseal(state_name, state_version, state), "state of swf_vo");
+  agree(archive, parameters, camera, T_base_camera);
+  implementation_->archive(archive);
+  archive.finish();
+}
 SwfVo::~SwfVo() = default;
 SwfVo::SwfVo(SwfVo&&) noexcept = default;
 SwfVo& SwfVo::operator=(SwfVo&&) noexcept = default;
@@ -222,5 +269,6 @@ const Frame& SwfVo::process(const StereoPair& pair, const std::vector<MotionInpu
   return implementation_->process(pair, inputs);
 }
 std::vector<Settled> SwfVo::flush() { return implementation_->flush(); }
+std::string SwfVo::state() const { return implementation_->state(); }
 
 }  // namespace swf_vo

@@ -7,6 +7,10 @@
 
 #include "urban_nav_core/types/uncertain.hpp"
 
+namespace urban_nav_core {
+class Archive;
+}
+
 namespace swf_vo {
 
 /// Why the filter is not OK: Status::reason of every output of this stage.
@@ -92,5 +96,12 @@ struct Frame {
   std::vector<Feature> features;
   std::vector<Landmark> landmarks;
 };
+
+/// For states (urban_nav_core/io/archive.hpp).
+void archive(urban_nav_core::Archive& archive, Feature& feature);
+void archive(urban_nav_core::Archive& archive, Landmark& landmark);
+void archive(urban_nav_core::Archive& archive, Statistics& statistics);
+void archive(urban_nav_core::Archive& archive, Settled& settled);
+void archive(urban_nav_core::Archive& archive, Frame& frame);
 
 }  // namespace swf_vo

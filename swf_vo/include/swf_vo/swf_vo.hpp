@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "swf_vo/frame.hpp"
@@ -23,6 +25,10 @@ class SwfVo {
   /// T_base_camera: the left optical frame in base_link. Throws UserError where parameters or camera contradict themselves.
   SwfVo(const Parameters& parameters, const urban_nav_core::StereoCamera& camera,
         const urban_nav_core::Pose& T_base_camera);
+  /// Goes on where another object stood when `state` was taken from it. UserError that names what differs where parameters or calibration are
+  /// others than that one had, DataError where the bytes are damaged or of another version.
+  SwfVo(const Parameters& parameters, const urban_nav_core::StereoCamera& camera,
+        const urban_nav_core::Pose& T_base_camera, std::string_view state);
   ~SwfVo();
   SwfVo(SwfVo&&) noexcept;
   SwfVo& operator=(SwfVo&&) noexcept;
@@ -33,6 +39,9 @@ class SwfVo {
 
   /// Empties the window: the frames that were still in it leave as settled, oldest first. The filter cannot go on after it.
   std::vector<Settled> flush();
+
+  /// All that the answers to further calls depend on, as bytes: an object made from it gives the same bits as this one. Not after flush().
+  std::string state() const;
 
  private:
   class Implementation;

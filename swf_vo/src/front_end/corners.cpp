@@ -50,4 +50,13 @@ void Corners::extract(const ImageView& image, Eye& eye) {
   }
 }
 
+void Corners::archive(urban_nav_core::Archive& archive) {
+  for (Eye* eye : {&left_, &right_})
+    for (int& threshold : eye->thresholds) {
+      archive(threshold);
+      archive.require(threshold >= lowest_threshold && threshold <= highest_threshold,
+                      "a threshold of corners is none");
+    }
+}
+
 }  // namespace swf_vo

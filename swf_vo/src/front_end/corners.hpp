@@ -8,6 +8,7 @@
 #include "urban_nav_core/image/corner_grid.hpp"
 #include "urban_nav_core/image/fast.hpp"
 #include "urban_nav_core/image/pyramid.hpp"
+#include "urban_nav_core/io/archive.hpp"
 #include "urban_nav_core/types/stereo_pair.hpp"
 
 namespace swf_vo {
@@ -31,6 +32,7 @@ class Corners {
     return of(side).grids[static_cast<std::size_t>(level)];
   }
   int count(Side side) const;
+  void archive(urban_nav_core::Archive& archive);
 
  private:
   struct Eye {

@@ -130,6 +130,16 @@ class FrontEnd::Implementation {
     return result_;
   }
 
+  /// What the next frame finds; everything else is made anew in each.
+  void archive(urban_nav_core::Archive& archive) {
+    archive(corners_, rotation_);
+    tracks_.archive(archive, parameters_.pyramid_levels);
+    archive(noise_, rows_, replenisher_, misfit_, result_.row_offset_px, result_.noise_scale);
+    archive(radius_, astray_, frame_, T_odom_localised_, T_window_odom_);
+    archive.require(misfit_.size() == static_cast<std::size_t>(parameters_.pyramid_levels), "levels are missing");
+    archive.require(radius_ >= 0.0 && radius_ <= first_radius * parameters_.search_radius, "a search radius is none");
+  }
+
  private:
   void clear(const Pose& predicted) {
     result_.tracked.clear();
@@ -469,5 +479,7 @@ const FrontEndResult& FrontEnd::process(FrameId frame, const StereoPair& pair, c
                                         const Edges& edges) {
   return implementation_->process(frame, pair, last, predicted, map, disparity_offset, astray, edges);
 }
+
+void FrontEnd::archive(urban_nav_core::Archive& archive) { implementation_->archive(archive); }
 
 }  // namespace swf_vo

@@ -9,6 +9,7 @@
 #include "swf_vo/parameters.hpp"
 #include "urban_nav_core/camera/stereo_camera.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_core/io/archive.hpp"
 #include "urban_nav_core/types/stereo_pair.hpp"
 
 namespace swf_vo {
@@ -47,6 +48,7 @@ class FrontEnd {
   const FrontEndResult& process(FrameId frame, const urban_nav_core::StereoPair& pair, const urban_nav_core::Pose& last,
                                 const urban_nav_core::Pose& predicted, const std::vector<MapPoint>& map,
                                 double disparity_offset, bool astray = false, const Edges& edges = Edges());
+  void archive(urban_nav_core::Archive& archive);
 
  private:
   class Implementation;

@@ -25,4 +25,6 @@ bool Misfit::isUsual(double noise) {
   return noise <= limit_;
 }
 
+void Misfit::archive(urban_nav_core::Archive& archive) { archive(recent_, count_, limit_); }
+
 }  // namespace swf_vo

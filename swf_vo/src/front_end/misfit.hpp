@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 
+#include "urban_nav_core/io/archive.hpp"
+
 namespace swf_vo {
 
 /// Tells patches that are two surfaces from those that are one. At the edge of something near, left and right image show different
@@ -13,6 +15,7 @@ class Misfit {
  public:
   /// Is a residual (standard deviation, grey levels) as it usually is? True while too few are known. Counts it.
   bool isUsual(double noise);
+  void archive(urban_nav_core::Archive& archive);
 
  private:
   static constexpr std::size_t size = 64, enough = 16;

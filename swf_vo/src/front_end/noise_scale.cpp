@@ -41,4 +41,6 @@ double NoiseScale::of(const Own& own) const {
   return std::max(1.0, (prior_coordinates * usual_ + own.squares) / (prior_coordinates + own.coordinates));
 }
 
+void NoiseScale::archive(urban_nav_core::Archive& archive) { archive(usual_, rate_); }
+
 }  // namespace swf_vo

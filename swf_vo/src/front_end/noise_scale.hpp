@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "urban_nav_core/io/archive.hpp"
+
 namespace swf_vo {
 
 /// By how much the errors of measurements are larger than their alignments say, as variance, learnt from what they leave against the window.
@@ -28,6 +30,7 @@ class NoiseScale {
   /// Of a landmark that was just born.
   double usual() const;
   double of(const Own& own) const;
+  void archive(urban_nav_core::Archive& archive);
 
  private:
   double usual_ = 1.0;

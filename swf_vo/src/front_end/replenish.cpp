@@ -170,4 +170,6 @@ void Replenisher::replenish(FrameId frame, const Corners& corners, const Pose& T
   }
 }
 
+void Replenisher::archive(urban_nav_core::Archive& archive) { archive(misfit_); }
+
 }  // namespace swf_vo

@@ -11,6 +11,7 @@
 #include "observation.hpp"
 #include "urban_nav_core/camera/stereo_camera.hpp"
 #include "urban_nav_core/image/spread.hpp"
+#include "urban_nav_core/io/archive.hpp"
 
 namespace swf_vo {
 
@@ -24,6 +25,7 @@ class Replenisher {
   /// `matches`: those that are inliers keep their place. Appends to `fresh`. `rows`: by what the images differ, and what is seen of it.
   void replenish(FrameId frame, const Corners& corners, const urban_nav_core::Pose& T_odom_camera,
                  const std::vector<Match>& matches, Tracks& tracks, std::vector<Observation>& fresh, RowOffset& rows);
+  void archive(urban_nav_core::Archive& archive);
 
  private:
   struct Candidate {

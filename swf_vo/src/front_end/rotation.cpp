@@ -163,4 +163,16 @@ RotationEstimate RotationTracker::track(const ImageView& image, int level, const
   return estimate;
 }
 
+void RotationTracker::archive(urban_nav_core::Archive& archive) {
+  // Grey levels are whole, and slopes follow from them.
+  std::vector<std::uint8_t> grey(now_.grey.begin(), now_.grey.end());
+  archive(now_.width, now_.height, grey);
+  if (!archive.isReading()) return;
+  constexpr int largest = 1 << 14;  // px
+  archive.require(now_.width >= 0 && now_.height >= 0 && now_.width < largest && now_.height < largest &&
+                      grey.size() == static_cast<std::size_t>(now_.width) * static_cast<std::size_t>(now_.height),
+                  "an image is of another size");
+  fill({grey.data(), now_.width, now_.height, now_.width}, now_);
+}
+
 }  // namespace swf_vo

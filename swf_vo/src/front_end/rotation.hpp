@@ -6,6 +6,7 @@
 #include "urban_nav_core/camera/pinhole.hpp"
 #include "urban_nav_core/geometry/so3.hpp"
 #include "urban_nav_core/image/view.hpp"
+#include "urban_nav_core/io/archive.hpp"
 
 namespace swf_vo {
 
@@ -38,6 +39,7 @@ class RotationTracker {
   /// size, gives `found` false. `known`: may be empty.
   RotationEstimate track(const urban_nav_core::ImageView& image, int level, const urban_nav_core::Quaterniond& start,
                          const std::vector<Parallax>& known);
+  void archive(urban_nav_core::Archive& archive);
 
  private:
   struct Plane {

@@ -22,4 +22,9 @@ void RowOffset::learn() {
   differences_.clear();
 }
 
+void RowOffset::archive(urban_nav_core::Archive& archive) {
+  archive(px_, frames_);
+  archive.require(frames_ >= 0 && frames_ <= memory, "more frames than are remembered");
+}
+
 }  // namespace swf_vo

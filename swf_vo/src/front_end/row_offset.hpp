@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "urban_nav_core/io/archive.hpp"
+
 namespace swf_vo {
 
 /// By how many pixels (of level 0) the right image shows everything lower than the left one. Rectification means none; real ones leave some
@@ -22,6 +24,7 @@ class RowOffset {
 
   double px() const { return px_; }
   bool isKnown() const { return frames_ > 0; }
+  void archive(urban_nav_core::Archive& archive);
 
  private:
   std::vector<double> differences_;

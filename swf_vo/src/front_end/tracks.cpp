@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "urban_nav_core/io/archive_types.hpp"
+
 namespace swf_vo {
 
 using urban_nav_core::PatchWarp;
@@ -86,6 +88,42 @@ void Tracks::end(LandmarkId id) {
   if (it == order_.end() || it->id != id) return;
   free_.push_back(it->place);
   order_.erase(it);
+}
+
+void archive(urban_nav_core::Archive& archive, Track& track) {
+  archive(track.id, track.born, track.level, track.noise.squares, track.noise.coordinates);
+  archive(track.seen, track.blurred, track.aside, track.missed, track.disagreed);
+  archive(track.T_born_odom, track.ray, track.plane, track.slant, track.slant_reach, track.seen_as, track.creep);
+  archive(track.sigma_disparity, track.z, track.information, track.measured, track.source);
+  archive(track.left_ready, track.right_ready);
+  if (track.left_ready) archive(track.in_left);
+  if (track.right_ready) archive(track.in_right);
+  archive(track.born_edges, track.blur, track.made_blur_left, track.made_blur_right, track.sharper);
+}
+
+void Tracks::archive(urban_nav_core::Archive& archive, int levels) {
+  std::size_t size = order_.size();
+  archive(next_, free_);
+  archive.count(size);
+  archive.require(size + free_.size() == places_.size(), "places of tracks are missing");
+  if (archive.isReading()) order_.assign(size, Entry());
+  std::vector<bool> taken(places_.size(), false);
+  const auto take = [&](std::size_t place) {
+    archive.require(place < places_.size() && !taken[place], "two tracks have one place");
+    taken[place] = true;
+  };
+  for (const std::size_t place : free_) take(place);
+  LandmarkId last = -1;
+  for (Entry& entry : order_) {
+    archive(entry.id, entry.place);
+    take(entry.place);
+    Track& track = places_[entry.place];
+    if (archive.isReading()) track = Track();
+    archive(track);
+    archive.require(entry.id > last && entry.id < next_ && track.id == entry.id, "tracks are out of order");
+    archive.require(track.level >= 0 && track.level < levels, "a track has no level");
+    last = entry.id;
+  }
 }
 
 }  // namespace swf_vo

@@ -10,6 +10,7 @@
 #include "urban_nav_core/camera/stereo_camera.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
 #include "urban_nav_core/image/patch.hpp"
+#include "urban_nav_core/io/archive.hpp"
 
 namespace swf_vo {
 
@@ -51,6 +52,8 @@ struct Track {
   bool sharper = false;  ///< the images of now are much sharper than that one: there is nothing to find in them
 };
 
+void archive(urban_nav_core::Archive& archive, Track& track);
+
 /// The surface through a point with slopes of disparity (d per px of u and v), in the left camera: plane . X = 1.
 Eigen::Vector3d surface(const urban_nav_core::StereoCamera& camera, const urban_nav_core::StereoCamera::Pixel& pixel,
                         const Eigen::Vector2d& slopes);
@@ -85,12 +88,14 @@ class Tracks {
   /// In order of id.
   Track& at(int i) { return places_[order_[static_cast<std::size_t>(i)].place]; }
   LandmarkId idAt(int i) const { return order_[static_cast<std::size_t>(i)].id; }
+  /// `levels`: that templates may be of.
+  void archive(urban_nav_core::Archive& archive, int levels);
 
  private:
   // A track is large; looking for one must not touch the others.
   struct Entry {
-    LandmarkId id;
-    std::size_t place;
+    LandmarkId id = 0;
+    std::size_t place = 0;
   };
   std::vector<Entry>::iterator lowerBound(LandmarkId id);
 

@@ -77,4 +77,6 @@ Status HealthMonitor::judge(const Evidence& evidence) {
   return status;
 }
 
+void HealthMonitor::archive(urban_nav_core::Archive& archive) { archive(was_lost_); }
+
 }  // namespace swf_vo

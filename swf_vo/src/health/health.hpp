@@ -7,6 +7,7 @@
 #include "health/image_check.hpp"
 #include "swf_vo/frame.hpp"
 #include "swf_vo/parameters.hpp"
+#include "urban_nav_core/io/archive.hpp"
 
 namespace swf_vo {
 
@@ -31,6 +32,7 @@ class HealthMonitor {
   /// True if the measurements of this frame are worth using.
   bool isTrusted(const Evidence& evidence) const;
   urban_nav_core::Status judge(const Evidence& evidence);
+  void archive(urban_nav_core::Archive& archive);
 
  private:
   Reason reasonFor(const Evidence& evidence) const;

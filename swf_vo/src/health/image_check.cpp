@@ -186,4 +186,8 @@ bool looksExchanged(const ImageView& left, const ImageView& right) {
   return exchanged >= 5 && exchanged > 4 * usual;
 }
 
+void ImageCheck::archive(urban_nav_core::Archive& archive) {
+  archive(last_left_, last_right_, usual_brightness_, usual_edges_.left, usual_edges_.right, blurred_);
+}
+
 }  // namespace swf_vo

@@ -7,6 +7,7 @@
 
 #include "edge_width.hpp"
 #include "swf_vo/frame.hpp"
+#include "urban_nav_core/io/archive.hpp"
 #include "urban_nav_core/types/stereo_pair.hpp"
 
 namespace swf_vo {
@@ -28,6 +29,7 @@ class ImageCheck {
   /// `doubtful`: the frame before was not OK. The test for exchanged images, the dear one, runs then, at the start, and
   /// where the images resemble each other's predecessors more than their own.
   ImageVerdict look(const urban_nav_core::StereoPair& pair, bool doubtful);
+  void archive(urban_nav_core::Archive& archive);
 
  private:
   struct Figures {

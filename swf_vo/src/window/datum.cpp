@@ -153,4 +153,8 @@ Matrix6d Datum::carried(const urban_nav_core::Pose& T_odom_camera) const {
   return symmetric(G * carried_ * G.transpose() + along * along.transpose());
 }
 
+void Datum::archive(urban_nav_core::Archive& archive) {
+  archive(active_, origin_, information_, carried_, growth_, shift_, along_offset_, strength_m_, strength_rad_);
+}
+
 }  // namespace swf_vo

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "urban_nav_core/io/archive.hpp"
 #include "window/prior.hpp"
 #include "window/state.hpp"
 
@@ -50,6 +51,7 @@ class Datum {
 
   /// What the window's own covariance of this pose does not have.
   urban_nav_core::Matrix6d carried(const urban_nav_core::Pose& T_odom_camera) const;
+  void archive(urban_nav_core::Archive& archive);
 
  private:
   void look(const State& state, const Prior& prior);

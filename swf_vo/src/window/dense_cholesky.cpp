@@ -17,6 +17,7 @@ namespace {
 constexpr double relative_limit = 1e-12;
 // Columns of a panel: a packed strip of it (3 KB) and the strip it is multiplied with stay in the first-level cache.
 constexpr int panel = 48;
+constexpr int largest_size = 1 << 14;  // rows of a matrix that is read
 
 std::size_t rounded(int n) { return static_cast<std::size_t>((n + strip - 1) / strip * strip); }
 
@@ -165,6 +166,30 @@ void DenseCholesky::release(double* x) const {
   if (held_count_ == 0) return;
   for (std::size_t j = 0; j < held_.size(); ++j)
     if (held_[j]) x[j] = 0.0;
+}
+
+void DenseMatrix::archive(urban_nav_core::Archive& archive) {
+  int size = size_;
+  archive(size);
+  if (archive.isReading()) {
+    archive.require(size >= 0 && size <= largest_size, "a matrix is too large");
+    resize(size);
+  }
+  std::vector<double> lower;
+  for (int j = 0; j < size_; ++j) {
+    lower.assign(column(j) + j, column(j) + size_);
+    archive(lower);
+    archive.require(lower.size() == static_cast<std::size_t>(size_ - j), "a column is of another size");
+    std::copy(lower.begin(), lower.end(), column(j) + j);
+  }
+}
+
+void DenseCholesky::archive(urban_nav_core::Archive& archive, DenseMatrix& A) {
+  archive(A, held_);
+  archive.require(held_.size() == static_cast<std::size_t>(A.size()), "a factor is of another size");
+  if (!archive.isReading()) return;
+  L_ = &A;
+  held_count_ = static_cast<int>(std::count_if(held_.begin(), held_.end(), [](char held) { return held != 0; }));
 }
 
 }  // namespace swf_vo

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "urban_nav_core/geometry/dense_kernels.hpp"
+#include "urban_nav_core/io/archive.hpp"
 
 namespace swf_vo {
 
@@ -27,6 +28,7 @@ class DenseMatrix {
   }
   double& operator()(int i, int j) { return column(j)[i]; }
   double operator()(int i, int j) const { return column(j)[i]; }
+  void archive(urban_nav_core::Archive& archive);
 
  private:
   int size_ = 0;
@@ -67,6 +69,9 @@ class DenseCholesky {
   void release(double* x) const;
 
   int heldCount() const { return held_count_; }
+
+  /// With the factor, which stays where it is: A as handed to factor().
+  void archive(urban_nav_core::Archive& archive, DenseMatrix& A);
 
  private:
   void factorDiagonal(DenseMatrix& A, int start, int width, const std::vector<double>& floor);

@@ -7,6 +7,7 @@
 
 #include "urban_nav_core/geometry/compose.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
+#include "urban_nav_core/io/archive_types.hpp"
 #include "window/gauge.hpp"
 #include "window/localise_newest.hpp"
 #include "window/measurements.hpp"
@@ -295,6 +296,33 @@ void Filter::flush(std::vector<SettledPose>& settled) {
     gain_valid_ = false;
     state_.poses.erase(state_.poses.begin());
     ++state_.first_step;
+  }
+}
+
+void Filter::archive(urban_nav_core::Archive& archive) {
+  archive(state_, prior_, gauss_newton_, marginaliser_.departed(), datum_);
+  archive(offset_sigma_, newest_covariance_, settled_, settled_step_, settled_in_window_, gain_valid_, settled_apart_);
+  archive(oldest_information_, has_known_, gauge_free_);
+  if (archive.isReading()) check(archive);
+}
+
+// The parts rely on each other.
+void Filter::check(const urban_nav_core::Archive& archive) const {
+  archive.require(!prior_.has_pose || !state_.poses.empty(), "the prior has no pose");
+  archive.require(!gain_valid_ || marginaliser_.departed().gain.size() / 6 <= gauss_newton_.solver().rows(),
+                  "a gain is of another size");
+  std::size_t tied = 0;
+  for (const LandmarkBlock& landmark : state_.landmarks) {
+    const auto place = static_cast<std::size_t>(landmark.prior);
+    archive.require(landmark.prior < 0 || (landmark.used && !landmark.known && place < prior_.slots.size()),
+                    "the prior has no such landmark");
+    tied += landmark.prior < 0 ? 0 : 1;
+  }
+  archive.require(tied == prior_.slots.size(), "the prior has a landmark twice");
+  for (std::size_t i = 0; i < prior_.slots.size(); ++i) {
+    const auto slot = static_cast<std::size_t>(prior_.slots[i]);
+    archive.require(slot < state_.landmarks.size() && state_.landmarks[slot].prior == static_cast<int>(i),
+                    "the prior has no such landmark");
   }
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "urban_nav_core/io/archive.hpp"
 #include "window/cost.hpp"
 #include "window/covariance.hpp"
 #include "window/datum.hpp"
@@ -66,8 +67,10 @@ class Filter {
 
   /// The next addPose will take information out of the window.
   bool isFull() const { return state_.poses.size() >= limit(); }
+  void archive(urban_nav_core::Archive& archive);
 
  private:
+  void check(const urban_nav_core::Archive& archive) const;
   std::size_t limit() const;
   void removeOldest(std::vector<SettledPose>& settled, History* history);
   SettledPose settle();

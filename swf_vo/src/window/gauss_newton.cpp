@@ -137,4 +137,6 @@ UpdateReport report(const State& state, const SensorModel& sensor) {
   return result;
 }
 
+void GaussNewton::archive(urban_nav_core::Archive& archive) { archive(solver_, factor_step_, has_factor_); }
+
 }  // namespace swf_vo

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "urban_nav_core/io/archive.hpp"
 #include "window/cost.hpp"
 #include "window/prior.hpp"
 #include "window/solve.hpp"
@@ -35,6 +36,7 @@ class GaussNewton {
   const urban_nav_core::Matrix6d& ownInformation(std::size_t place) const { return equations_.pose[place]; }
   /// The state has changed behind its back.
   void forget() { has_factor_ = false; }
+  void archive(urban_nav_core::Archive& archive);
 
  private:
   void factor(State& state, const Prior& prior, const Cost& cost, bool datum);

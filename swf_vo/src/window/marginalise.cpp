@@ -392,4 +392,9 @@ void Marginaliser::removeOldest(State& state, Prior& prior, const Cost& cost, co
   keep(state, prior);
 }
 
+void archive(urban_nav_core::Archive& archive, Departed& departed) {
+  archive(departed.gain, departed.offset_gain, departed.gauge_gain, departed.gauge_loss);
+  archive.require(departed.gain.size() % 6 == 0, "a gain has no six columns");
+}
+
 }  // namespace swf_vo

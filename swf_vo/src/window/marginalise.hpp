@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "urban_nav_core/io/archive.hpp"
 #include "window/cost.hpp"
 #include "window/history.hpp"
 #include "window/prior.hpp"
@@ -21,6 +22,8 @@ struct Departed {
   /// of the terms that went in.
   urban_nav_core::Matrix6d gauge_loss = urban_nav_core::Matrix6d::Zero();
 };
+
+void archive(urban_nav_core::Archive& archive, Departed& departed);
 
 /// The only place where information leaves x: the oldest pose, and landmarks that no active pose sees and nobody follows,
 /// go into the prior by the Schur complement Lambda_c - Lambda_b^T Lambda_a^-1 Lambda_b (Newman et al. 2009, section 2.2),

@@ -152,4 +152,20 @@ void PathOntoMap::solve(std::vector<double>& path, std::vector<double>& map, boo
   }
 }
 
+void PathOntoMap::archive(urban_nav_core::Archive& archive) {
+  std::size_t poses = links_.size();
+  archive.count(poses);
+  if (archive.isReading()) links_.resize(poses);
+  for (std::size_t j = 0; j < poses; ++j) {
+    archive(links_[j].L);
+    if (j + 1 < poses) archive(links_[j].next);
+    for (bool& held : links_[j].held) archive(held);
+  }
+  archive(map_size_, across_);
+  if (map_size_ > 0) cholesky_.archive(archive, dense_);
+  if (archive.isReading() && map_size_ == 0) dense_.reset(0);
+  stride_ = static_cast<std::size_t>(dense_.stride());
+  archive.require(map_size_ == dense_.size() && across_.size() == stride_ * 6 * poses, "a factor is of another size");
+}
+
 }  // namespace swf_vo

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "urban_nav_core/io/archive.hpp"
 #include "window/cost.hpp"
 #include "window/dense_cholesky.hpp"
 #include "window/prior.hpp"
@@ -26,6 +27,8 @@ class PathOntoMap {
   /// Row of a landmark in `map`, by slot.
   int rowOf(std::size_t slot) const { return row_[slot]; }
   int mapSize() const { return map_size_; }
+  std::size_t poses() const { return links_.size(); }
+  void archive(urban_nav_core::Archive& archive);
 
  private:
   struct Link {

@@ -99,4 +99,13 @@ void Prior::reserveLike(const Prior& other) {
     own->reserve(others->capacity());
 }
 
+void Prior::archive(urban_nav_core::Archive& archive) {
+  archive(has_pose, frozen, slots, landmark_centre, pose_centre, information, eta);
+  archive(has_offset, border, offset_information, offset_eta, calibrated_offset, calibration_information);
+  const auto rows = static_cast<std::size_t>(size());
+  archive.require(landmark_centre.size() == slots.size() && information.size() == size() && eta.size() == rows &&
+                      border.size() == rows,
+                  "the blocks of the prior do not agree");
+}
+
 }  // namespace swf_vo

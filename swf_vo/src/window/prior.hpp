@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "urban_nav_core/io/archive.hpp"
 #include "window/dense_cholesky.hpp"
 #include "window/state.hpp"
 
@@ -52,6 +53,7 @@ struct Prior {
 
   /// As much room as another has, so that copies of it allocate nothing.
   void reserveLike(const Prior& other);
+  void archive(urban_nav_core::Archive& archive);
 
  private:
   std::vector<double> d_, g_;

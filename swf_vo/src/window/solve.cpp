@@ -21,6 +21,7 @@ constexpr double relative_limit = 1e-12;
 constexpr double worth_changing = 0.7;
 // Columns of eliminated landmarks that are taken together.
 constexpr int panel = 48;
+constexpr std::size_t most_rows = 1 << 20;  // of a factor that is read
 // Any would do; this one leaves the oldest pose a variance that nobody notices.
 constexpr double datum_strength = 1e3;
 // The disparity offset is read off how disparities change as things come nearer, and so is everything that the model of camera and
@@ -337,6 +338,20 @@ const std::vector<double>& Solver::inverseColumns(std::size_t j) const {
   }
   if (!onto_map_) cholesky_.solveUpperSix(columns_of_pose_.data(), static_cast<int>(size));
   return columns_of_pose_;
+}
+
+void Solver::archive(urban_nav_core::Archive& archive) {
+  archive(poses_, offset_, onto_map_, border_.used, border_.rows, border_.pivot, border_.calibration, border_.caution);
+  const std::size_t rows = offset_ + 6 * poses_;
+  archive.require(poses_ < most_rows && offset_ < most_rows && (!border_.used || border_.rows.size() == rows),
+                  "a factor is of another size");
+  if (poses_ == 0) return;
+  if (onto_map_) archive(path_onto_map_);
+  else cholesky_.archive(archive, dense_);
+  archive.require(
+      onto_map_ ? path_onto_map_.poses() == poses_ && static_cast<std::size_t>(path_onto_map_.mapSize()) >= offset_
+                : static_cast<std::size_t>(dense_.size()) == rows,
+      "a factor is of another size");
 }
 
 }  // namespace swf_vo

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "urban_nav_core/io/archive.hpp"
 #include "window/cost.hpp"
 #include "window/dense_cholesky.hpp"
 #include "window/path_onto_map.hpp"
@@ -11,7 +12,7 @@
 namespace swf_vo {
 
 /// Solves Lambda d = g of eq. 3 (Newman et al. 2009, section 2.1) and keeps the factor for further right-hand sides and for
-/// covariances.
+/// covariances. A state has the factor, not the steps.
 ///
 /// Map-onto-path: landmarks that the prior does not touch are block-diagonal and are eliminated first, 3x3 by 3x3, onto the path; then
 /// the landmarks of the prior, then the poses, oldest first, in one dense Cholesky. Path-onto-map (path_onto_map.hpp) where that is less work.
@@ -51,6 +52,9 @@ class Solver {
   double offsetPull(const Prior& prior, double offset) const;
   double perOffset(std::size_t row) const { return border_.used ? -border_.rows[row] : 0.0; }
   std::size_t poses() const { return poses_; }
+  /// Of such a column.
+  std::size_t rows() const { return offset_ + 6 * poses_; }
+  void archive(urban_nav_core::Archive& archive);
 
  private:
   bool isCheaperOntoMap(const State& state, const Prior& prior) const;

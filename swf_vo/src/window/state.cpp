@@ -70,4 +70,57 @@ void State::remove(int slot) {
   free_.push_back(slot);
 }
 
+void archive(urban_nav_core::Archive& archive, ProcessInput& u) { archive(u.T_from_to, u.information, u.T_from_start); }
+
+void archive(urban_nav_core::Archive& archive, Anchor& anchor) { archive(anchor.R_odom_anchor, anchor.t_odom_anchor); }
+
+void archive(urban_nav_core::Archive& archive, PoseBlock& pose) {
+  archive(pose.frame, pose.estimate, pose.linearised, pose.u, pose.u_solved);
+  for (PoseMatrices* at : {&pose.at_estimate, &pose.at_linearised}) archive(at->R_camera_odom, at->t_odom_camera);
+}
+
+void archive(urban_nav_core::Archive& archive, Measurement& measurement) {
+  archive(measurement.step, measurement.z, measurement.information, measurement.wander, measurement.sigma_px);
+  archive(measurement.inflation, measurement.weight, measurement.solved);
+}
+
+void archive(urban_nav_core::Archive& archive, LandmarkBlock& landmark) {
+  archive(landmark.id, landmark.anchor, landmark.estimate, landmark.linearised, landmark.prior, landmark.wander);
+  archive(landmark.used, landmark.known, landmark.followed, landmark.seen);
+}
+
+void State::archive(urban_nav_core::Archive& archive) {
+  archive(poses, first_step, landmarks, disparity_offset, slots_, free_);
+  if (archive.isReading()) check(archive);
+}
+
+// Places are found by these numbers without asking again.
+void State::check(const urban_nav_core::Archive& archive) const {
+  archive.require(slots_.size() + free_.size() == landmarks.size(), "slots of landmarks are missing");
+  for (std::size_t j = 1; j < poses.size(); ++j)
+    archive.require(poses[j].frame > poses[j - 1].frame, "poses are out of order");
+  std::vector<bool> taken(landmarks.size(), false);
+  const auto take = [&](int slot, bool used) {
+    const auto at = static_cast<std::size_t>(slot);
+    archive.require(slot >= 0 && at < landmarks.size() && !taken[at] && landmarks[at].used == used,
+                    "two landmarks have one slot");
+    taken[at] = true;
+  };
+  for (const int slot : free_) take(slot, false);
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    const auto& [id, slot] = slots_[i];
+    take(slot, true);
+    archive.require(landmarks[static_cast<std::size_t>(slot)].id == id && (i == 0 || slots_[i - 1].first < id),
+                    "landmarks are out of order");
+  }
+  for (const LandmarkBlock& landmark : landmarks) {
+    archive.require(landmark.used || landmark.seen.empty(), "a free slot has measurements");
+    std::int64_t last = first_step - 1;
+    for (const Measurement& measurement : landmark.seen) {
+      archive.require(measurement.step > last && measurement.step <= newestStep(), "a measurement has no pose");
+      last = measurement.step;
+    }
+  }
+}
+
 }  // namespace swf_vo

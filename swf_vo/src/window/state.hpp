@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "observation.hpp"
+#include "urban_nav_core/io/archive.hpp"
 #include "window/process_model.hpp"
 #include "window/sensor_model.hpp"
 
@@ -47,6 +48,10 @@ struct LandmarkBlock {
   std::vector<Measurement> seen;
 };
 
+void archive(urban_nav_core::Archive& archive, ProcessInput& u);
+void archive(urban_nav_core::Archive& archive, PoseBlock& pose);
+void archive(urban_nav_core::Archive& archive, LandmarkBlock& landmark);
+
 /// x = (x_m, x_p): what is active, where it was linearised. Holds and does not compute. Slots of landmarks are reused,
 /// with the memory of their measurements, so that a steady state allocates nothing.
 class State {
@@ -68,8 +73,11 @@ class State {
   /// A free slot for a new landmark.
   int add(LandmarkId landmark);
   void remove(int slot);
+  void archive(urban_nav_core::Archive& archive);
 
  private:
+  void check(const urban_nav_core::Archive& archive) const;
+
   std::vector<std::pair<LandmarkId, int>> slots_;  // sorted by id
   std::vector<int> free_;
 };

@@ -2,6 +2,7 @@
 #include "window/window.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 #include "window/filter.hpp"
 #include "window/strays.hpp"
@@ -118,6 +119,7 @@ const std::vector<LandmarkId>& Window::strays() {
 }
 
 UncertainPose Window::newest() const { return implementation_->filter.newest(); }
+std::size_t Window::poses() const { return implementation_->filter.state().poses.size(); }
 bool Window::hasPose(FrameId frame) const { return implementation_->filter.state().poseOf(frame) >= 0; }
 
 Pose Window::pose(FrameId frame) const {
@@ -156,5 +158,10 @@ std::map<FrameId, Pose> Window::trajectory() const {
 }
 
 const Filter& Window::filter() const { return implementation_->filter; }
+
+void Window::archive(urban_nav_core::Archive& archive) {
+  assert(!implementation_->options.exact_undo && !implementation_->options.keep_history);
+  archive(implementation_->filter);
+}
 
 }  // namespace swf_vo

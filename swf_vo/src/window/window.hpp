@@ -8,6 +8,7 @@
 #include "observation.hpp"
 #include "urban_nav_core/camera/stereo_camera.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_core/io/archive.hpp"
 #include "window/process_model.hpp"
 
 namespace swf_vo {
@@ -112,6 +113,7 @@ class Window {
   urban_nav_core::UncertainPose newest() const;
   urban_nav_core::Pose pose(FrameId frame) const;  ///< of an active frame
   bool hasPose(FrameId frame) const;
+  std::size_t poses() const;  ///< that are active
   /// The camera's disparity offset as known now, px, and its standard deviation (0 if it is a constant).
   double disparityOffset() const;
   double disparityOffsetSigma() const;
@@ -128,6 +130,9 @@ class Window {
 
   /// The full system solved by back-substitution: every frame ever seen, given all that is known now (keep_history).
   std::map<FrameId, urban_nav_core::Pose> trajectory() const;
+
+  /// Not with exact_undo or keep_history, whose memory it does not have.
+  void archive(urban_nav_core::Archive& archive);
 
   /// What is inside, for tests and benches.
   const Filter& filter() const;

@@ -4,6 +4,8 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "urban_nav_core/io/archive.hpp"
+
 namespace urban_nav_core {
 
 namespace {
@@ -39,5 +41,7 @@ Slope Slope::scaled(double factor) const {
   made.information_ = information_ / (factor * factor);
   return made;
 }
+
+void Slope::archive(Archive& archive) { archive(moment_, information_); }
 
 }  // namespace urban_nav_core

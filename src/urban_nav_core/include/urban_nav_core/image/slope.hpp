@@ -5,6 +5,8 @@
 
 namespace urban_nav_core {
 
+class Archive;
+
 /// How a piece of surface slopes along the two axes of an image: what pixels said so far, and what that means. Surfaces may face any
 /// way: where all directions are as likely as each other, their slopes have a bivariate Cauchy distribution, whose tails leave a road or a wall
 /// alongside its slope as soon as pixels speak of it, and whose middle keeps what says little from making slopes of noise.
@@ -22,6 +24,7 @@ class Slope {
   Estimate under(double usual) const;
   /// The same, of slopes in other units: `factor` of them to one of these.
   Slope scaled(double factor) const;
+  void archive(Archive& archive);
 
  private:
   Eigen::Vector2d moment_ = Eigen::Vector2d::Zero();

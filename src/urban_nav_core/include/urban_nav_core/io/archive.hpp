@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace urban_nav_core {
+
+class Pose;
+
+/// The state of an object as bytes, and back. A class names its members once, in one function that serves both ways, so that what
+/// is written and what is read cannot differ:
+///
+///   void HealthMonitor::archive(Archive& archive) { archive(was_lost_); }
+///
+/// Takes bool, whole numbers and enumerators (8 bytes each), double, float, text, matrices of fixed size, poses; arrays, vectors, pairs and optionals of
+/// these; and whatever has such a member, or a function `archive(Archive&, T&)` beside it. Little-endian on every machine, numbers to the last bit.
+///
+/// What is read is not trusted: a number of things to come is held against the bytes that are left, a whole number against its type, numbers
+/// must be finite and rotations be rotations; `require` is for what else a class relies on. Anything else is a DataError "is damaged", and the object that
+/// was being read is then half old and half new: it must not be used. Not thread-safe.
+class Archive {
+ public:
+  /// Writes.
+  Archive() = default;
+  /// Reads bytes, which must outlive it; `what` they are ("state of swf_vo") stands in errors.
+  Archive(std::string_view bytes, std::string what) : reading_(true), what_(std::move(what)), left_(bytes) {}
+
+  bool isReading() const { return reading_; }
+  /// What was written.
+  std::string take() { return std::move(written_); }
+
+  template <typename... Values>
+  void operator()(Values&... values) {
+    (one(values), ...);
+  }
+
+  /// Reading: without it the bytes are damaged; `found` is what they say instead, for people. Writing: nothing.
+  void require(bool holds, const char* found) const {
+    if (reading_ && !holds) refuse(found);
+  }
+  /// Reading: nothing is left over.
+  void finish() const { require(left_.empty(), "more than was written"); }
+
+  /// How many things follow, each of which takes `least` bytes or more.
+  void count(std::size_t& value, std::size_t least = 1);
+
+ private:
+  template <typename T, typename = void>
+  struct HasMember : std::false_type {};
+  template <typename T>
+  struct HasMember<T, std::void_t<decltype(std::declval<T&>().archive(std::declval<Archive&>()))>> : std::true_type {};
+
+  template <typename T>
+  void one(T& value) {
+    if constexpr (std::is_same_v<T, bool>) {
+      std::int64_t number = value ? 1 : 0;
+      integer(number, 0, 1);
+      value = number != 0;
+    } else if constexpr (std::is_enum_v<T>) {
+      auto number = static_cast<std::underlying_type_t<T>>(value);
+      one(number);
+      value = static_cast<T>(number);
+    } else if constexpr (std::is_integral_v<T>) {
+      auto number = static_cast<std::int64_t>(value);
+      constexpr bool wide = sizeof(T) == sizeof(std::int64_t);
+      integer(
+          number,
+          wide && std::is_signed_v<T> ? std::numeric_limits<std::int64_t>::min()
+                                      : static_cast<std::int64_t>(std::numeric_limits<T>::min()),
+          wide ? std::numeric_limits<std::int64_t>::max() : static_cast<std::int64_t>(std::numeric_limits<T>::max()));
+      value = static_cast<T>(number);
+    } else if constexpr (std::is_floating_point_v<T>) {
+      numbers(&value, 1);
+    } else if constexpr (HasMember<T>::value) {
+      value.archive(*this);
+    } else {
+      archive(*this, value);
+    }
+  }
+  template <typename Scalar, int rows, int columns>
+  void one(Eigen::Matrix<Scalar, rows, columns>& value) {
+    static_assert(rows != Eigen::Dynamic && columns != Eigen::Dynamic);
+    numbers(value.data(), static_cast<std::size_t>(rows * columns));
+  }
+  void one(Pose& value);
+  void one(std::string& value);
+  template <typename T, std::size_t size>
+  void one(std::array<T, size>& values) {
+    all(values.data(), size);
+  }
+  template <typename T>
+  void one(std::vector<T>& values) {
+    std::size_t size = values.size();
+    count(size, std::is_same_v<T, float> ? 4 : 1);
+    if constexpr (std::is_arithmetic_v<T>) {
+      if (reading_) values.resize(size);
+      all(values.data(), size);
+    } else {
+      if (reading_) values.clear();
+      for (std::size_t i = 0; i < size; ++i) {
+        if (reading_) values.emplace_back();  // one by one: the number of them may be a lie
+        one(values[i]);
+      }
+    }
+  }
+  template <typename A, typename B>
+  void one(std::pair<A, B>& value) {
+    one(value.first);
+    one(value.second);
+  }
+  template <typename T>
+  void one(std::optional<T>& value) {
+    bool is_there = value.has_value();
+    one(is_there);
+    if (reading_ && !is_there) value.reset();
+    if (reading_ && is_there) value.emplace();
+    if (is_there) one(*value);
+  }
+  template <typename T>
+  void all(T* values, std::size_t size) {
+    if constexpr (std::is_floating_point_v<T>) numbers(values, size);
+    else if constexpr (std::is_integral_v<T> && sizeof(T) == 1) bytes(values, 1, size);
+    else
+      for (std::size_t i = 0; i < size; ++i) one(values[i]);
+  }
+
+  void integer(std::int64_t& value, std::int64_t least, std::int64_t most);
+  void numbers(double* values, std::size_t size);
+  void numbers(float* values, std::size_t size);
+  void bytes(void* data, std::size_t width, std::size_t size);
+  [[noreturn]] void refuse(const char* found) const;
+
+  bool reading_ = false;
+  std::string what_;
+  std::string_view left_;  // to read
+  std::string written_;
+};
+
+/// The bytes of a state with what they are, their version and a checksum about them.
+std::string seal(std::string_view what, std::uint32_t version, std::string_view content);
+/// The content again. DataError that says what is wrong where the bytes are something else, of another version, or damaged.
+std::string_view unseal(std::string_view what, std::uint32_t version, std::string_view sealed);
+
+}  // namespace urban_nav_core

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_core/io/archive_types.hpp"
+
+namespace urban_nav_core {
+
+void archive(Archive& archive, Status& status) {
+  archive(status.health, status.reason, status.sentence);
+  archive.require(status.health >= Health::Ok && status.health <= Health::Recovered, "a status is none");
+}
+
+void archive(Archive& archive, UncertainPose& value) { archive(value.pose, value.covariance); }
+
+void archive(Archive& archive, RelativePose& value) {
+  archive(value.from, value.to, value.T_from_to, value.covariance, value.drift_covariance, value.status, value.source);
+}
+
+void archive(Archive& archive, MotionInput& input) {
+  archive(input.from, input.to, input.T_from_to, input.information);
+}
+
+void archive(Archive& archive, Pinhole& camera) {
+  archive(camera.fx, camera.fy, camera.cx, camera.cy, camera.width, camera.height);
+}
+
+void archive(Archive& archive, StereoCamera& camera) { archive(camera.left, camera.baseline, camera.disparity_offset); }
+
+void archive(Archive& archive, PatchSource& source) { archive(source.pixels); }
+
+void archive(Archive& archive, PatchTemplate& patch) {
+  archive(patch.value, patch.filter_x, patch.filter_y, patch.filter_gain, patch.warp.A, patch.warp.bend);
+  archive(patch.inverse_hessian, patch.unit_covariance, patch.view_blur, patch.energy);
+}
+
+}  // namespace urban_nav_core

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_core/io/archive.hpp"
+
+#include <limits>
+
+#include "io/reader_check.hpp"
+#include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_core/io/archive_types.hpp"
+
+namespace urban_nav_core {
+namespace {
+
+enum class Colour : std::uint8_t { Red, Green };
+
+struct Inner {
+  std::vector<float> samples;
+  std::optional<Matrix6d> information;
+  void archive(Archive& archive) { archive(samples, information); }
+};
+
+/// One of everything.
+struct Thing {
+  bool yes = false;
+  int small = 0;
+  std::int64_t large = 0;
+  std::uint8_t byte = 0;
+  Colour colour = Colour::Red;
+  double number = 0.0;
+  std::string text;
+  Pose pose;
+  std::array<std::uint8_t, 3> pixels{};
+  std::vector<std::pair<std::int64_t, double>> pairs;
+  std::vector<Inner> inners;
+  Status status;
+};
+void archive(Archive& archive, Thing& thing) {
+  archive(thing.yes, thing.small, thing.large, thing.byte, thing.colour, thing.number, thing.text, thing.pose);
+  archive(thing.pixels, thing.pairs, thing.inners, thing.status);
+}
+
+Thing someThing() {
+  Thing thing;
+  thing.yes = true;
+  thing.small = -7;
+  thing.large = std::numeric_limits<std::int64_t>::min();
+  thing.byte = 255;
+  thing.colour = Colour::Green;
+  thing.number = -0.1;
+  thing.text = std::string("nought \0 within", 15);
+  thing.pose = expSe3((Vector6d() << 1.0, -2.0, 3.0, 0.4, 0.5, -0.6).finished());
+  thing.pixels = {1, 2, 200};
+  thing.pairs = {{4, 5.5}, {-6, 1e-300}};
+  thing.inners.resize(2);
+  thing.inners[0].samples = {1.5F, -2.25F};
+  thing.inners[1].information = 3.0 * Matrix6d::Identity();
+  thing.status = {Health::Lost, 4, "dark"};
+  return thing;
+}
+
+std::string written(Thing thing) {
+  Archive archive;
+  archive(thing);
+  return archive.take();
+}
+
+Thing read(std::string_view bytes) {
+  Thing thing = someThing();  // what is there before leaves no trace
+  Archive archive(bytes, "state of a thing");
+  archive(thing);
+  archive.finish();
+  return thing;
+}
+
+TEST(Archive, WhatIsWrittenIsRead) {
+  const std::string bytes = written(someThing());
+  const Thing thing = read(bytes);
+  EXPECT_EQ(written(thing), bytes);
+  EXPECT_EQ(thing.large, std::numeric_limits<std::int64_t>::min());
+  EXPECT_EQ(thing.text.size(), 15U);
+  EXPECT_EQ(thing.colour, Colour::Green);
+  ASSERT_EQ(thing.inners.size(), 2U);
+  EXPECT_EQ(thing.inners[0].samples, (std::vector<float>{1.5F, -2.25F}));
+  EXPECT_FALSE(thing.inners[0].information);
+  EXPECT_EQ((*thing.inners[1].information)(5, 5), 3.0);
+  EXPECT_EQ(thing.pose.q().coeffs(), someThing().pose.q().coeffs());
+  EXPECT_EQ(written(read(written(Thing()))), written(Thing()));
+}
+
+TEST(Archive, IsLittleEndian) {
+  Archive archive;
+  int number = 0x01020304;
+  double one = 1.0;
+  archive(number, one);
+  EXPECT_EQ(archive.take(), std::string("\x04\x03\x02\x01\0\0\0\0\0\0\0\0\0\0\xf0\x3f", 16));
+}
+
+TEST(Archive, NamesWhatIsWrong) {
+  const std::string bytes = written(someThing());
+  const std::string right = ": allowed the bytes as they were written";
+  EXPECT_EQ(errorOf([&] { read(bytes.substr(0, bytes.size() - 1)); }),
+            "state of a thing: is damaged: there are fewer things than it says" + right);
+  EXPECT_EQ(errorOf([&] { read(bytes.substr(0, 20)); }), "state of a thing: is damaged: it ends too early" + right);
+  EXPECT_EQ(errorOf([&] { read(bytes + "x"); }), "state of a thing: is damaged: more than was written" + right);
+  std::string other = bytes;
+  other[0] = 2;
+  EXPECT_EQ(errorOf([&] { read(other); }), "state of a thing: is damaged: a whole number is out of its range" + right);
+  other = bytes;
+  other[5 * 8 + 6] = other[5 * 8 + 7] = '\x7f';
+  other[5 * 8 + 6] = '\xf0';
+  EXPECT_EQ(errorOf([&] { read(other); }), "state of a thing: is damaged: a number is not finite" + right);
+}
+
+TEST(Archive, SealsAgainstDamage) {
+  const std::string sealed = seal("thing", 3, "content");
+  EXPECT_EQ(unseal("thing", 3, sealed), "content");
+  EXPECT_EQ(errorOf([&] { unseal("thing", 4, sealed); }), "state of thing: is of version 3: allowed version 4");
+  EXPECT_EQ(errorOf([&] { unseal("other", 3, sealed); }),
+            "state of other: is the state of thing: allowed one of other");
+  EXPECT_EQ(errorOf([&] { unseal("thing", 3, "{}"); }),
+            "state of thing: these bytes are no state: allowed the bytes as they were written");
+  for (std::size_t i = 0; i < sealed.size(); ++i) {
+    std::string damaged = sealed;
+    damaged[i] = static_cast<char>(damaged[i] ^ 0x10);
+    EXPECT_NE(errorOf([&] { unseal("thing", 3, damaged); }), "") << i;
+    EXPECT_NE(errorOf([&] { unseal("thing", 3, sealed.substr(0, i)); }), "") << i;
+  }
+}
+
+TEST(Archive, Fuzzed) {
+  expectSurvives(testing::fuzzText({written(someThing()), written(Thing())},
+                                   [](const std::string& bytes) { EXPECT_TRUE(written(read(bytes)) == bytes); }));
+}
+
+}  // namespace
+}  // namespace urban_nav_core

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A filter that is made from the state of another goes on with its bits, wherever the cut is.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "state/steps.hpp"
+#include "urban_nav_core/io/archive.hpp"
+
+namespace swf_vo {
+namespace {
+
+using urban_nav_core::Archive;
+
+std::string bytesOf(Frame frame) {
+  Archive archive;
+  archive(frame);
+  return archive.take();
+}
+
+std::string bytesOf(std::vector<Settled> settled) {
+  Archive archive;
+  archive(settled);
+  return archive.take();
+}
+
+std::string process(SwfVo& filter, const Step& step) { return bytesOf(filter.process(step.frame.pair(), step.inputs)); }
+
+/// Cuts a run everywhere in `cuts`, and has each part go on for some frames, one of them to the end.
+void expectSeamless(const std::vector<Step>& some, const std::vector<std::size_t>& cuts,
+                    const Parameters& parameters = Parameters()) {
+  constexpr std::size_t longer_than_the_window = 14;
+  SwfVo whole(parameters, stereoCamera(), kPlace);
+  std::vector<std::string> frames, states;
+  for (const Step& step : some) {
+    states.push_back(whole.state());
+    frames.push_back(process(whole, step));
+  }
+  const std::string rest = bytesOf(whole.flush());
+  SwfVo unasked(parameters, stereoCamera(), kPlace);
+  for (std::size_t i = 0; i < some.size(); ++i)
+    ASSERT_TRUE(process(unasked, some[i]) == frames[i]) << "asking for the state changed frame " << i;
+
+  for (const std::size_t cut : cuts) {
+    SCOPED_TRACE("cut before frame " + std::to_string(cut));
+    ASSERT_LT(cut, some.size());
+    SwfVo part(parameters, stereoCamera(), kPlace, states[cut]);
+    EXPECT_TRUE(part.state() == states[cut]);
+    const bool to_the_end = cut == cuts[cuts.size() / 2];
+    const std::size_t end = to_the_end ? some.size() : std::min(some.size(), cut + longer_than_the_window);
+    for (std::size_t i = cut; i < end; ++i) {
+      ASSERT_TRUE(process(part, some[i]) == frames[i]) << "frame " << i;
+      if (i + 1 < states.size()) {
+        ASSERT_TRUE(part.state() == states[i + 1]) << "behind frame " << i;
+      }
+    }
+    if (end == some.size()) {
+      EXPECT_TRUE(bytesOf(part.flush()) == rest);
+    }
+  }
+}
+
+TEST(State, GoesOnWithTheSameBits) {
+  expectSeamless(stepsOf("loop", 60, "black:1000:1"), {0, 1, 2, 3, 9, 12, 14, 30, 45});
+}
+
+TEST(State, GoesOnAtAStandstill) { expectSeamless(stepsOf("stand", 30, "black:1000:1"), {1, 8, 14, 20}); }
+
+TEST(State, GoesOnInTheDark) { expectSeamless(stepsOf("loop", 60, "black:0.7:1.5"), {14, 15, 20, 30, 44, 46}); }
+
+TEST(State, GoesOnInABlur) { expectSeamless(stepsOf("loop", 45, "blur:1:0.5"), {20, 22, 24, 30, 33}); }
+
+TEST(State, GoesOnBehindAGap) { expectSeamless(stepsOf("loop", 60, "drop:1:0.8"), {20, 21, 22, 24, 30}); }
+
+TEST(State, GoesOnWithImagesExchanged) { expectSeamless(stepsOf("loop", 45, "swap:1:0.5"), {21, 23, 26, 32}); }
+
+TEST(State, GoesOnWithWheels) {
+  Parameters parameters;
+  parameters.motion_input = "wheels";
+  expectSeamless(stepsOf("loop", 40, "black:0.5:0.3", true), {5, 12, 16, 25}, parameters);
+}
+
+TEST(State, GoesOnWithOtherParameters) {
+  const std::vector<Step> some = stepsOf("loop", 45, "black:1:0.4");
+  std::vector<Parameters> kinds(5);
+  kinds[0].window = 1;
+  kinds[1].window = 25;
+  kinds[1].features = 20;  // few landmarks and many poses: the path is eliminated first
+  kinds[2].linearise = "latest";
+  kinds[3].forget = "delete";
+  kinds[4].disparity_offset = 0.3;
+  kinds[4].subpixel = false;
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    SCOPED_TRACE("parameters " + std::to_string(i));
+    expectSeamless(some, {10, 23, 30}, kinds[i]);
+  }
+}
+
+}  // namespace
+}  // namespace swf_vo
