@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "urban_nav_ros/stereo_feed.hpp"
 
+#include <boost/make_shared.hpp>
 #include <utility>
 
+#include "urban_nav_core/io/archive_types.hpp"
 #include "urban_nav_ros/image.hpp"
 #include "urban_nav_ros/stamp.hpp"
 
@@ -25,6 +27,27 @@ struct Pixels {
 constexpr int motion_stream = 0;
 
 std::string sizeOf(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
+
+template <typename Message>
+void archiveMessage(urban_nav_core::Archive& archive, boost::shared_ptr<const Message>& message) {
+  namespace wire = ros::serialization;
+  std::vector<std::uint8_t> bytes;
+  if (!archive.isReading()) {
+    bytes.resize(wire::serializationLength(*message));
+    wire::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+    wire::serialize(stream, *message);
+  }
+  archive(bytes);
+  if (!archive.isReading()) return;
+  auto read = boost::make_shared<Message>();
+  try {
+    wire::IStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+    wire::deserialize(stream, *read);
+  } catch (const ros::Exception&) {
+    archive.require(false, "a message ends too early");
+  }
+  message = read;
+}
 
 }  // namespace
 
@@ -110,5 +133,19 @@ std::int64_t StereoFeed::missing(Side side) const {
 }
 
 std::optional<StampNs> StereoFeed::reached(Side side) const { return inbox_.reached(streamOf(side)); }
+
+void StereoFeed::archive(urban_nav_core::Archive& archive) {
+  inbox_.archive(archive, [](urban_nav_core::Archive& items, Input& input) {
+    std::size_t kind = input.index();
+    items(kind);
+    items.require(kind < std::variant_size_v<Input>, "no such message");
+    if (items.isReading() && kind == 1) input = sensor_msgs::CompressedImageConstPtr();
+    if (items.isReading() && kind == 2) input = MotionInput();
+    if (auto* raw = std::get_if<sensor_msgs::ImageConstPtr>(&input)) archiveMessage(items, *raw);
+    if (auto* packed = std::get_if<sensor_msgs::CompressedImageConstPtr>(&input)) archiveMessage(items, *packed);
+    if (auto* motion = std::get_if<MotionInput>(&input)) items(*motion);
+  });
+  archive(assembler_, left_bits_, right_bits_, faults_, finished_, drained_);
+}
 
 }  // namespace urban_nav_ros

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <boost/make_shared.hpp>
+#include <functional>
 #include <random>
 
 #include "urban_nav_core/types/error.hpp"
@@ -176,6 +177,71 @@ TEST(CameraInfo, thereAndBack) {
   EXPECT_EQ(back.K, info.K);
   EXPECT_EQ(back.R, info.R);
   EXPECT_EQ(back.P, info.P);
+}
+
+/// What came out of a feed: stamps, pixels, inputs, faults.
+std::string textOf(const std::vector<FedPair>& pairs) {
+  std::string text;
+  const auto add = [&](const urban_nav_core::ImageView& view) {
+    text += " " + (view.empty() ? std::string("none")
+                                : std::to_string(view.at(3, 3)) + "/" + std::to_string(view.at(95, 71)));
+  };
+  for (const FedPair& pair : pairs) {
+    text += std::to_string(pair.assembled.pair.stamp);
+    add(pair.assembled.pair.left);
+    add(pair.assembled.pair.right);
+    for (const urban_nav_core::MotionInput& input : pair.assembled.inputs)
+      text += " motion " + std::to_string(input.to);
+    for (const std::string& fault : pair.faults) text += " " + fault;
+    text += "\n";
+  }
+  return text;
+}
+
+// Cut between any two messages and gone on with in another object: pairs, faults and counts are those of one object.
+TEST(StereoFeed, goesOnFromItsState) {
+  StereoFeed::Options options;
+  options.motion = true;
+  std::vector<std::function<void(StereoFeed&)>> messages;
+  for (StampNs i = 0; i < 30; ++i) {
+    const StampNs stamp = (1000 + 20 * i) * ms;
+    auto left = boost::make_shared<sensor_msgs::Image>(*image(stamp, static_cast<int>(5 + i)));
+    if (i == 11) left->data.resize(100);  // damaged
+    urban_nav_core::MotionInput motion;
+    motion.from = stamp - 20 * ms;
+    motion.to = stamp - 3 * ms;
+    messages.push_back([left](StereoFeed& feed) { feed.add(Side::Left, sensor_msgs::ImageConstPtr(left)); });
+    messages.push_back([motion](StereoFeed& feed) { feed.add(motion); });
+    if (i != 7)
+      messages.push_back([i, stamp](StereoFeed& feed) { feed.add(Side::Right, image(stamp - (i % 3) * ms, 99)); });
+    if (i == 20) messages.push_back([](StereoFeed& feed) { feed.add(Side::Right, image(1000 * ms, 99)); });  // late
+  }
+  const auto play = [&](std::size_t cut) {
+    std::vector<FedPair> pairs;
+    auto feed = std::make_unique<StereoFeed>(options, calibration());
+    for (std::size_t i = 0; i <= messages.size(); ++i) {
+      for (FedPair& pair : drain(*feed)) pairs.push_back(std::move(pair));
+      if (i == cut) {
+        urban_nav_core::Archive writer;
+        feed->archive(writer);
+        const std::string state = writer.take();
+        feed = std::make_unique<StereoFeed>(options, calibration());
+        urban_nav_core::Archive reader(state, "state");
+        feed->archive(reader);
+        reader.finish();
+        EXPECT_TRUE(drain(*feed).empty());
+      }
+      if (i < messages.size()) messages[i](*feed);
+    }
+    feed->finish();
+    for (FedPair& pair : drain(*feed)) pairs.push_back(std::move(pair));
+    return textOf(pairs) + std::to_string(feed->missing(Side::Right)) + " " +
+           std::to_string(feed->counts(Side::Right).late) + " " + std::to_string(feed->counts(Side::Left).received);
+  };
+  const std::string whole = play(messages.size() + 1);
+  EXPECT_NE(whole.find("none"), std::string::npos) << "else the test says little";
+  EXPECT_NE(whole.find("motion"), std::string::npos);
+  for (std::size_t cut = 0; cut < messages.size(); ++cut) EXPECT_EQ(play(cut), whole) << "cut before message " << cut;
 }
 
 }  // namespace

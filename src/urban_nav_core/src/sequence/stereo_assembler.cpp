@@ -1,10 +1,40 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "urban_nav_core/sequence/stereo_assembler.hpp"
 
+#include <algorithm>
+#include <cassert>
 #include <cstdlib>
 #include <utility>
 
+#include "urban_nav_core/io/archive_types.hpp"
+
 namespace urban_nav_core {
+
+namespace {
+
+/// Pixels without gaps between the rows, which the image then owns.
+void archiveImage(Archive& archive, OwnedImage& image) {
+  int width = image.view.width, height = image.view.height;
+  auto pixels = std::make_shared<std::vector<std::uint8_t>>();
+  for (int v = 0; v < height && !archive.isReading(); ++v)
+    pixels->insert(pixels->end(), image.view.row(v), image.view.row(v) + width);
+  archive(image.stamp, width, height, *pixels);
+  archive.require(
+      width >= 0 && height >= 0 && pixels->size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
+      "an image is of another size");
+  if (!archive.isReading()) return;
+  image.view = pixels->empty() ? ImageView{} : ImageView{pixels->data(), width, height, width};
+  image.owner = pixels;
+}
+
+void archiveImage(Archive& archive, std::optional<OwnedImage>& image) {
+  bool is_there = image.has_value();
+  archive(is_there);
+  if (archive.isReading()) image = is_there ? std::optional(OwnedImage()) : std::nullopt;
+  if (is_there) archiveImage(archive, *image);
+}
+
+}  // namespace
 
 StereoAssembler::StereoAssembler(StampNs tolerance) : tolerance_(tolerance) {}
 
@@ -55,6 +85,15 @@ void StereoAssembler::release() {
     motion_.pop_front();
   }
   ready_.push_back(std::move(made));
+}
+
+void StereoAssembler::archive(Archive& archive) {
+  assert(ready_.empty());
+  archiveImage(archive, left_);
+  archiveImage(archive, right_);
+  std::vector<MotionInput> motion(motion_.begin(), motion_.end());
+  archive(motion, lefts_missing_, rights_missing_);
+  motion_.assign(motion.begin(), motion.end());
 }
 
 }  // namespace urban_nav_core

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_core/io/archive.hpp"
 #include "urban_nav_core/types/motion_input.hpp"
 
 namespace urban_nav_ros {
@@ -20,11 +21,13 @@ class WheelMotion {
   /// beneath.
   explicit WheelMotion(double noise) : noise_(noise) {}
   std::optional<urban_nav_core::MotionInput> add(const nav_msgs::Odometry& message);
+  void archive(urban_nav_core::Archive& archive) { archive(last_); }
 
  private:
   struct Last {
-    urban_nav_core::StampNs stamp;
-    urban_nav_core::Pose T_odom_base;
+    urban_nav_core::StampNs stamp = 0;
+    urban_nav_core::Pose T_odom_base = urban_nav_core::Pose();
+    void archive(urban_nav_core::Archive& archive) { archive(stamp, T_odom_base); }
   };
   double noise_;
   std::optional<Last> last_;
@@ -38,11 +41,13 @@ class GyroMotion {
   /// `noise`: standard deviation of the rate, bias included, rad/s. `R_base_imu`: rotation of the device in base_link.
   GyroMotion(double noise, const urban_nav_core::Matrix3d& R_base_imu) : noise_(noise), R_base_imu_(R_base_imu) {}
   std::optional<urban_nav_core::MotionInput> add(const sensor_msgs::Imu& message);
+  void archive(urban_nav_core::Archive& archive) { archive(last_); }
 
  private:
   struct Last {
-    urban_nav_core::StampNs stamp;
-    urban_nav_core::Vector3d rate;
+    urban_nav_core::StampNs stamp = 0;
+    urban_nav_core::Vector3d rate = urban_nav_core::Vector3d::Zero();
+    void archive(urban_nav_core::Archive& archive) { archive(stamp, rate); }
   };
   double noise_;
   urban_nav_core::Matrix3d R_base_imu_;

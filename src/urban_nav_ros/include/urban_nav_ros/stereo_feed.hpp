@@ -51,6 +51,9 @@ class StereoFeed {
   /// are added.
   std::optional<FedPair> take();
 
+  /// Where it stands between two messages, as take() has nothing more: what waits, as it came, and what has been counted.
+  void archive(urban_nav_core::Archive& archive);
+
   /// What came on a side, too late or twice.
   const urban_nav_core::InboxCounts& counts(Side side) const;
   /// Pairs that left without an image of this side.

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "urban_nav_core/io/archive.hpp"
 #include "urban_nav_core/types/stamp.hpp"
 
 namespace urban_nav_core {
@@ -90,8 +91,29 @@ class Inbox {
   std::optional<StampNs> reached(int stream) const { return reached_[static_cast<std::size_t>(stream)]; }
   std::size_t waiting() const { return waiting_.size(); }
 
+  /// What waits, and what has been seen and handed on; `item(Archive&, Item&)` is for what only the caller knows.
+  template <typename ArchiveItem>
+  void archive(Archive& archive, ArchiveItem item) {
+    std::size_t size = waiting_.size();
+    archive.count(size);
+    if (archive.isReading()) waiting_.clear();
+    for (std::size_t i = 0; i < size; ++i) {
+      if (archive.isReading()) waiting_.emplace_back();
+      Entry& entry = waiting_[i];
+      archive(entry.stamp, entry.stream);
+      item(archive, entry.item);
+      archive.require(entry.stream >= 0 && static_cast<std::size_t>(entry.stream) < counts_.size(), "no such stream");
+      archive.require(i == 0 || placeOf(waiting_[i - 1]) < placeOf(entry), "inputs are out of order");
+    }
+    for (InboxCounts& counts : counts_) archive(counts.received, counts.late, counts.doubled);
+    for (std::optional<StampNs>& reached : reached_) archive(reached);
+    archive(newest_, handed_on_, finished_);
+    archive.require(waiting_.empty() || newest_.has_value(), "nothing has come");
+  }
+
  private:
   using Place = std::pair<StampNs, int>;
+  static Place placeOf(const Entry& entry) { return {entry.stamp, entry.stream}; }
 
   bool mayLeave(const Entry& entry) const {
     if (finished_ || *newest_ - entry.stamp >= max_lateness_) return true;

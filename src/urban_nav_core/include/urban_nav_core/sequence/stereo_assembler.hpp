@@ -12,6 +12,8 @@
 
 namespace urban_nav_core {
 
+class Archive;
+
 /// An image and whoever keeps its pixels alive.
 struct OwnedImage {
   StampNs stamp = 0;
@@ -46,6 +48,9 @@ class StereoAssembler {
   /// Images that left without their partner so far.
   std::int64_t leftsMissing() const { return lefts_missing_; }
   std::int64_t rightsMissing() const { return rights_missing_; }
+
+  /// What waits for a partner, or for the next pair. Pairs that are ready must have been taken.
+  void archive(Archive& archive);
 
  private:
   void release();
