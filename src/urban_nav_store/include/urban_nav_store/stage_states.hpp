@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,6 +19,8 @@ class StageStates {
   virtual void put(const SessionId& session, const std::string& stage, std::string_view bytes) = 0;
   virtual std::optional<std::string> get(const SessionId& session, const std::string& stage) const = 0;
   virtual void remove(const SessionId& session, const std::string& stage) = 0;
+  /// Room that the states of a session take, compressed.
+  virtual std::int64_t bytes(const SessionId& session) const = 0;
   /// Names of stages that have a state here, sorted.
   virtual std::vector<std::string> stages(const SessionId& session) const = 0;
 };

@@ -56,6 +56,13 @@ void States::remove(const SessionId& session, const std::string& stage) {
   statement.step();
 }
 
+std::int64_t States::bytes(const SessionId& session) const {
+  Statement statement = connection_.prepare("SELECT COALESCE(SUM(LENGTH(data)), 0) FROM state WHERE session=?");
+  statement.bind(0, session);
+  statement.step();
+  return statement.integer(0);
+}
+
 std::vector<std::string> States::stages(const SessionId& session) const {
   std::vector<std::string> names;
   Statement statement = connection_.prepare("SELECT DISTINCT stage FROM state WHERE session=? ORDER BY stage");

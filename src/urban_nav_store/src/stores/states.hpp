@@ -13,6 +13,7 @@ class States : public StageStates {
   void put(const SessionId& session, const std::string& stage, std::string_view bytes) override;
   std::optional<std::string> get(const SessionId& session, const std::string& stage) const override;
   void remove(const SessionId& session, const std::string& stage) override;
+  std::int64_t bytes(const SessionId& session) const override;
   std::vector<std::string> stages(const SessionId& session) const override;
 
  private:
