@@ -5,9 +5,11 @@
 
 #include <list>
 
+#include "input/bag_groups.hpp"
 #include "input/bag_topics.hpp"
 #include "input/calibration_file.hpp"
 #include "input/open.hpp"
+#include "urban_nav_core/io/archive_types.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/camera_info.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
@@ -27,11 +29,14 @@ namespace {
 constexpr const char* kBaseFrame = "base_link";
 constexpr urban_nav_core::StampNs kMaxLateness = 200'000'000;  // ns: waiting costs nothing where nobody waits
 
+constexpr const char* kStateName = "reader of bags";
+constexpr std::uint32_t kStateVersion = 1;
+
 /// The bags of one recording, read as one stream in the order of their receipt; the feed brings it into the order of
 /// stamps.
 class BagSource : public Source {
  public:
-  BagSource(const std::vector<std::string>& paths, const SourceOptions& options)
+  BagSource(const std::vector<std::string>& paths, const SourceOptions& options, const BagEnd* behind)
       : options_(options), name_(paths.front()) {
     for (const std::string& path : paths) bags_.emplace_back(path, rosbag::bagmode::Read);
     topics_ = chooseTopics(available(), options.topics);
@@ -43,6 +48,8 @@ class BagSource : public Source {
     calibrate();
     place();
     startReading();
+    if (behind != nullptr) goOn(*behind);
+    readGroup();
   }
 
   const SourceInfo& info() const override { return info_; }
@@ -50,11 +57,14 @@ class BagSource : public Source {
   std::optional<StereoInput> next() override {
     try {
       while (true) {
-        if (std::optional<StereoInput> pair = feed_->take()) return pair;
+        if (std::optional<urban_nav_ros::FedPair> pair = feed_->take()) {
+          StereoInput input(std::move(*pair));
+          input.bag_end = std::exchange(bag_end_, nullptr);
+          return input;
+        }
         if (ended_) return std::nullopt;
         if (next_ == view_->end()) {
-          feed_->finish();
-          ended_ = true;
+          endGroup();
           continue;
         }
         add(*next_);
@@ -68,6 +78,7 @@ class BagSource : public Source {
   }
 
   std::vector<pose_graph::FeltForce> forces() const override { return forces_; }
+  std::shared_ptr<const BagEnd> bagEnd() const override { return bag_end_; }
 
   std::vector<std::string> closingFaults() const override {
     std::vector<std::string> faults;
@@ -175,6 +186,7 @@ class BagSource : public Source {
     }
     if (const std::optional<urban_nav_core::Pose> T_base_optical = transforms.lookup(kBaseFrame, camera_frame_)) {
       info_.T_base_camera = *T_base_optical * calibration_->T_optical_rectified();
+      is_placed_ = true;
     } else {
       info_.T_base_camera = urban_nav_ros::opticalInBody() * calibration_->T_optical_rectified();
       info_.notes.push_back("no static tf from base_link to \"" + camera_frame_ +
@@ -184,35 +196,99 @@ class BagSource : public Source {
     const std::optional<urban_nav_core::Pose> T_base_imu =
         imu ? transforms.lookup(kBaseFrame, imu->header.frame_id) : std::nullopt;
     if (T_base_imu) R_base_imu_ = T_base_imu->R();
+  }
+
+  /// What is read, and what becomes of it: from the topics and from where the IMU stands.
+  void listen() {
     wheels_.emplace(options_.wheel_noise);
     gyroscope_.emplace(options_.gyro_noise, R_base_imu_.value_or(urban_nav_core::Matrix3d::Identity()));
+    names_ = {topics_.find(Role::Left)->name, topics_.find(Role::Right)->name};
+    if (options_.motion_input != "none")
+      names_.push_back(topics_.find(options_.motion_input == "wheels" ? Role::Wheels : Role::Imu)->name);
+    if (R_base_imu_ && options_.motion_input != "gyroscope" && topics_.find(Role::Imu))
+      names_.push_back(topics_.find(Role::Imu)->name);
   }
 
   void startReading() {
-    std::vector<std::string> names = {topics_.find(Role::Left)->name, topics_.find(Role::Right)->name};
+    const std::vector<std::string> images = {topics_.find(Role::Left)->name, topics_.find(Role::Right)->name};
     StereoFeed::Options feed;
     feed.max_lateness = kMaxLateness;
     const Role motion_role = options_.motion_input == "wheels" ? Role::Wheels : Role::Imu;
     if (options_.motion_input != "none") {
       if (!topics_.find(motion_role))
         throw DataError(name_, "has no topic for swf_vo.motion_input = " + options_.motion_input, "");
-      names.push_back(topics_.find(motion_role)->name);
       feed.motion = true;
     }
-    const std::vector<std::string> images(names.begin(), names.begin() + 2);
-    if (R_base_imu_ && options_.motion_input != "gyroscope") names.push_back(topics_.find(Role::Imu)->name);
     feed_.emplace(feed, calibration_);
-    view_.emplace();
-    for (rosbag::Bag& bag : bags_) {
-      view_->addQuery(bag, rosbag::TopicQuery(names));
-      info_.frames += rosbag::View(bag, rosbag::TopicQuery(names.front())).size();
-    }
+    listen();
+    groups_ = groupsOf(bags_);
+    for (rosbag::Bag& bag : bags_) info_.frames += rosbag::View(bag, rosbag::TopicQuery(images.front())).size();
     rosbag::View stereo;
     for (rosbag::Bag& bag : bags_) stereo.addQuery(bag, rosbag::TopicQuery(images));
     if (stereo.size() == 0) throw DataError(name_, "holds no images", "");
     info_.first = urban_nav_ros::toStampNs(stereo.getBeginTime());
     info_.last = urban_nav_ros::toStampNs(stereo.getEndTime());
+  }
+
+  /// The messages of the next group, if there is one.
+  void readGroup() {
+    view_.emplace();
+    if (group_ < groups_.size())
+      for (rosbag::Bag* bag : groups_[group_].bags) view_->addQuery(*bag, rosbag::TopicQuery(names_));
     next_ = view_->begin();
+  }
+
+  /// Nothing more comes out of the bags so far until others follow, or it is the end.
+  void endGroup() {
+    if (group_ < groups_.size()) {
+      urban_nav_core::Archive writer;
+      archive(writer);
+      bag_end_ = std::make_shared<BagEnd>(BagEnd{groups_[group_].end, groups_[group_].receipt,
+                                                 urban_nav_core::seal(kStateName, kStateVersion, writer.take())});
+    }
+    if (++group_ < groups_.size()) {
+      readGroup();
+      return;
+    }
+    feed_->finish();
+    ended_ = true;
+  }
+
+  void archive(urban_nav_core::Archive& archive) {
+    archive(info_.camera, info_.T_base_camera, R_base_imu_, info_.first);
+    for (const Role role : {Role::Left, Role::Right}) archive(topics_.chosen[role].name, topics_.chosen[role].type);
+    if (archive.isReading()) listen();
+    std::vector<std::pair<urban_nav_core::StampNs, urban_nav_core::Vector3d>> forces;
+    for (const pose_graph::FeltForce& felt : forces_) forces.emplace_back(felt.stamp, felt.force);
+    archive(forces, *wheels_, *gyroscope_, *feed_);
+    if (!archive.isReading()) return;
+    forces_.clear();
+    for (const auto& [stamp, force] : forces) forces_.push_back({stamp, force});
+  }
+
+  /// Behind bags that need not be here any more: what stood only in them is taken from the state, and what stands in both must be the same.
+  void goOn(const BagEnd& behind) {
+    const SourceInfo here = info_;
+    const BagTopics topics = topics_;
+    const std::optional<urban_nav_core::Matrix3d> R_base_imu = R_base_imu_;
+    urban_nav_core::Archive reader(urban_nav_core::unseal(kStateName, kStateVersion, behind.reader),
+                                   std::string("state of ") + kStateName);
+    archive(reader);
+    reader.finish();
+    const auto same = [](const urban_nav_core::Pose& a, const urban_nav_core::Pose& b) {
+      return a.q().coeffs() == b.q().coeffs() && a.t() == b.t();
+    };
+    if (!isApprox(here.camera, info_.camera, 0.0) || (is_placed_ && !same(here.T_base_camera, info_.T_base_camera)) ||
+        (R_base_imu && R_base_imu != R_base_imu_))
+      throw UserError(name_, "has another calibration than the bags before it", "the same one");
+    for (const Role role : {Role::Left, Role::Right})
+      if (topics.find(role)->name != topics_.find(role)->name || topics.find(role)->type != topics_.find(role)->type)
+        throw UserError(name_, "has other topics than the bags before it", topics_.find(role)->name);
+    while (group_ < groups_.size() && groups_[group_].end <= behind.bags) ++group_;
+    const std::size_t begun = group_ == 0 ? 0 : groups_[group_ - 1].end;
+    if (begun != behind.bags) throw UserError(name_, "is no end of what was recorded at the same time", "");
+    if (behind.bags == 0) info_.frames = 0;  // nobody knows how many the bags before had
+    if (!is_placed_ && !same(here.T_base_camera, info_.T_base_camera)) info_.notes.pop_back();  // they say the place
   }
 
   void add(const rosbag::MessageInstance& instance) {
@@ -238,7 +314,7 @@ class BagSource : public Source {
     if (!R_base_imu_ || imu.linear_acceleration_covariance[0] < 0.0) return;
     const urban_nav_core::Vector3d felt(imu.linear_acceleration.x, imu.linear_acceleration.y,
                                         imu.linear_acceleration.z);
-    forces_.push_back({urban_nav_ros::toStampNs(imu.header.stamp), *R_base_imu_ * felt});
+    if (felt.allFinite()) forces_.push_back({urban_nav_ros::toStampNs(imu.header.stamp), *R_base_imu_ * felt});
   }
 
   const SourceOptions options_;
@@ -253,6 +329,11 @@ class BagSource : public Source {
   std::optional<urban_nav_core::Matrix3d> R_base_imu_;
   std::vector<pose_graph::FeltForce> forces_;
   std::optional<StereoFeed> feed_;
+  bool is_placed_ = false;          // the bags say where the camera stands
+  std::vector<std::string> names_;  // of the topics that are read
+  std::vector<BagGroup> groups_;
+  std::size_t group_ = 0;  // at work
+  std::shared_ptr<const BagEnd> bag_end_;
   std::optional<rosbag::View> view_;
   rosbag::View::iterator next_;
   bool ended_ = false;
@@ -260,9 +341,10 @@ class BagSource : public Source {
 
 }  // namespace
 
-std::unique_ptr<Source> openBags(const std::vector<std::string>& paths, const SourceOptions& options) {
+std::unique_ptr<Source> openBags(const std::vector<std::string>& paths, const SourceOptions& options,
+                                 const BagEnd* behind) {
   try {
-    return std::make_unique<BagSource>(paths, options);
+    return std::make_unique<BagSource>(paths, options, behind);
   } catch (const rosbag::BagException& error) {
     throw DataError(paths.front(), std::string("cannot be read: ") + error.what(),
                     "a whole bag (`rosbag reindex` mends one that was cut off)");

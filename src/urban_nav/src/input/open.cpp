@@ -46,7 +46,8 @@ InputKind inputKind(const std::string& path) {
   throw UserError(path, "holds nothing that is known", kKnownInputs);
 }
 
-std::unique_ptr<Source> openSource(const std::vector<std::string>& paths, const SourceOptions& options) {
+std::unique_ptr<Source> openSource(const std::vector<std::string>& paths, const SourceOptions& options,
+                                   const BagEnd* behind) {
   const InputKind kind = inputKind(paths.front());
   if (kind != InputKind::Bag && !options.topics.empty())
     throw UserError("--topic " + options.topics.front(), "names a topic, but " + paths.front() + " is a folder",
@@ -55,7 +56,7 @@ std::unique_ptr<Source> openSource(const std::vector<std::string>& paths, const 
     case InputKind::KittiFolder: return openKittiFolder(paths.front(), options);
     case InputKind::NewCollegeFolder: return openNewCollegeFolder(paths.front(), options);
     case InputKind::EurocFolder: return openEurocFolder(paths.front(), options);
-    case InputKind::Bag: return openBags(paths, options);
+    case InputKind::Bag: return openBags(paths, options, behind);
   }
   throw UserError(paths.front(), "holds nothing that is known", kKnownInputs);
 }

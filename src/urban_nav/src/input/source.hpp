@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pose_graph/level.hpp"
@@ -15,9 +16,20 @@
 
 namespace urban_nav {
 
+/// Where the reader of a recording stood when it came to the end of a bag behind which the next one may follow.
+struct BagEnd {
+  std::size_t bags = 0;                 ///< of the paths it was given, so many have been read
+  urban_nav_core::StampNs receipt = 0;  ///< of the last message
+  std::string reader;                   ///< its state: what waits, and what has been seen
+};
+
 /// A rectified grey pair with what else was measured since the pair before, and sentences that name what was wrong with
 /// its images.
-using StereoInput = urban_nav_ros::FedPair;
+struct StereoInput : urban_nav_ros::FedPair {
+  StereoInput() = default;
+  StereoInput(urban_nav_ros::FedPair pair) : FedPair(std::move(pair)) {}
+  std::shared_ptr<const BagEnd> bag_end;  ///< the last end of a bag between the pair before and this one; mostly none
+};
 
 /// What is known of an input before its first image is decoded.
 struct SourceInfo {
@@ -39,6 +51,8 @@ class Source {
   virtual std::optional<StereoInput> next() = 0;
   /// What was wrong with the input as a whole: complete when next() has come to the end.
   virtual std::vector<std::string> closingFaults() const { return {}; }
+  /// The end of a bag that no pair came behind: complete when next() has come to the end. Mostly none.
+  virtual std::shared_ptr<const BagEnd> bagEnd() const { return nullptr; }
   /// What an accelerometer of the input felt: complete when next() has come to the end. Empty where there is none, or where it is not
   /// known how it stands on the robot.
   virtual std::vector<pose_graph::FeltForce> forces() const { return {}; }

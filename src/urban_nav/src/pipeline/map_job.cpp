@@ -53,8 +53,9 @@ void checkStages(const std::vector<std::string>& stages) {
   }
 }
 
-std::unique_ptr<Source> open(const std::vector<std::string>& paths, const MapRequest& request) {
-  std::unique_ptr<Source> source = openSource(paths, request.source);
+std::unique_ptr<Source> open(const std::vector<std::string>& paths, const MapRequest& request,
+                             const BagEnd* behind = nullptr) {
+  std::unique_ptr<Source> source = openSource(paths, request.source, behind);
   if (request.threads == 1) return source;
   const urban_nav_core::Pinhole& camera = source->info().camera.left;
   const double pair_mb = std::max(0.1, 2e-6 * camera.width * camera.height);
@@ -72,9 +73,10 @@ void say(const SourceInfo& info, Console& console) {
 /// Frames of one session through visual odometry, with the store and the report kept fresh.
 void runVo(Source& source, VoStage& stage, StoreStage& store, MapOutcome& outcome, Console& console) {
   Progress progress(console, "vo", "frames", source.info().frames);
-  std::size_t faults_said = 0;
+  std::size_t faults_said = stage.run().faults.size();
   double last_report = outcome.usage.wallSeconds();
   while (const std::optional<StereoInput> input = source.next()) {
+    if (input->bag_end) store.keepBag(stage, *input->bag_end);
     stage.process(*input);
     for (; faults_said < std::min<std::size_t>(stage.run().faults.size(), 10); ++faults_said)
       console.warn(stage.run().faults[faults_said]);
@@ -88,10 +90,33 @@ void runVo(Source& source, VoStage& stage, StoreStage& store, MapOutcome& outcom
       last_report = outcome.usage.wallSeconds();
     }
   }
+  if (const auto end = source.bagEnd()) store.keepBag(stage, *end);
   stage.finish(source.closingFaults(), source.forces());
   store.finish(stage.run());
   for (const std::string& fault : source.closingFaults()) console.warn(fault);
   progress.finish(static_cast<std::int64_t>(stage.run().rows.size()));
+}
+
+/// Reader and stage of a session as they stood where it goes on.
+struct Resumed {
+  std::unique_ptr<Source> source;
+  std::unique_ptr<VoStage> stage;
+};
+
+/// Empty where the session is to be begun.
+Resumed resume(const MapRequest& request, Session& session, StoreStage& store, std::size_t i, Console& console) {
+  if (!store.behind(i)) return {};
+  const BagState& state = store.behind(i)->state;
+  const BagEnd behind{store.behind(i)->bags, state.receipt, state.reader};
+  try {
+    Resumed resumed{open(session.paths, request, &behind), nullptr};
+    resumed.stage = std::make_unique<VoStage>(request.parameters.swf_vo.parameters, resumed.source->info(), state.vo);
+    return resumed;
+  } catch (const UserError& error) {
+    console.warn(std::string("cannot go on behind the bags that were complete: ") + error.what() + ": begins anew");
+    store.giveUp(i, session);
+    return {};
+  }
 }
 
 void checkUsable(const VoRun& run) {
@@ -180,17 +205,21 @@ void runMap(const MapRequest& request, Console& console) {
   const bool with_graph = checkGraph(request, console);
   const std::vector<ClosureRow> closures =
       request.closures.empty() ? std::vector<ClosureRow>() : readClosures(request.closures);
-  const std::vector<Session> sessions = findSessions(request.inputs);
+  std::vector<Session> sessions = findSessions(request.inputs);
   MapOutcome outcome(request);
   StoreStage store(request, sessions, outcome.folder.file("session.db"), console);
+  std::vector<Resumed> resumed;
+  for (std::size_t i = 0; i < sessions.size(); ++i) resumed.push_back(resume(request, sessions[i], store, i, console));
   if (with_graph) outcome.earlier = readEarlierSessions(store.store(), store.ids());
   for (std::size_t i = 0; i < sessions.size(); ++i) {
-    const std::unique_ptr<Source> source = open(sessions[i].paths, request);
+    auto [source, stage] = std::move(resumed[i]);
+    if (!source) source = open(sessions[i].paths, request);
     say(source->info(), console);
-    std::optional<VoRun> finished = store.begin(i, source->info());
-    outcome.stages.push_back(finished
-                                 ? std::make_unique<VoStage>(std::move(*finished))
-                                 : std::make_unique<VoStage>(request.parameters.swf_vo.parameters, source->info()));
+    std::optional<VoRun> finished;
+    if (stage) store.goOn(i, source->info(), stage->run());
+    else if ((finished = store.begin(i, source->info()))) stage = std::make_unique<VoStage>(std::move(*finished));
+    else stage = std::make_unique<VoStage>(request.parameters.swf_vo.parameters, source->info());
+    outcome.stages.push_back(std::move(stage));
     outcome.infos.push_back(source->info());
     if (i == 0 && !request.so_far) {
       writeReport(outcome);

@@ -130,11 +130,6 @@ std::string digestOfParameters(const AllParameters& parameters) {
 std::string digestOfOptions(const MapRequest& request) {
   std::string bytes;
   for (const std::string& topic : request.source.topics) appendText(bytes, topic);
-  appendText(bytes, "stages");
-  for (const std::string& stage : request.stages) appendText(bytes, stage);
-  std::error_code ignored;
-  if (!request.store.empty() && !fs::equivalent(request.store, fs::path(request.out) / "session.db", ignored))
-    appendText(bytes, digestOf({request.store}, request.out, true));
   urban_nav_store::appendNumber(bytes, request.source.rate);
   std::string calibration = request.source.calibration;
   appendText(bytes, calibration);
@@ -146,22 +141,44 @@ std::string digestOfOptions(const MapRequest& request) {
   return sha256(bytes);
 }
 
+std::string digestOfStages(const MapRequest& request) {
+  std::string bytes;
+  for (const std::string& stage : request.stages) appendText(bytes, stage);
+  return sha256(bytes);
+}
+
+std::string digestOfStore(const MapRequest& request) {
+  std::error_code ignored;
+  const bool own = fs::equivalent(request.store, fs::path(request.out) / "session.db", ignored);
+  return request.store.empty() || own ? sha256("") : digestOf({request.store}, request.out, true);
+}
+
 }  // namespace
 
 RunIdentity identityOf(const MapRequest& request, const Session& session) {
   return {{"inputs", digestOf(session.paths, request.out, true)},
           {"options", digestOfOptions(request)},
           {"parameters", digestOfParameters(request.parameters)},
-          {"program", digestOfProgram()}};
+          {"program", digestOfProgram()},
+          {"stages", digestOfStages(request)},
+          {"store", digestOfStore(request)}};
 }
 
 urban_nav_store::SessionOrigin originOf(const MapRequest& request, const Session& session) {
-  return {"", "", 0, digestOf(session.paths, request.out, false)};
+  return {"", "", 0, digestOf({session.paths.front()}, request.out, false)};
 }
 
-std::string differences(const RunIdentity& a, const RunIdentity& b) {
+std::vector<std::string> bagsOf(const MapRequest& request, const Session& session) {
+  std::vector<std::string> digests;
+  if (session.begin != 0)
+    for (const std::string& path : session.paths) digests.push_back(digestOf({path}, request.out, true));
+  return digests;
+}
+
+std::string differences(const RunIdentity& a, const RunIdentity& b, const std::vector<std::string>& but) {
   std::string names;
   for (const auto& [name, digest] : a) {
+    if (std::find(but.begin(), but.end(), name) != but.end()) continue;
     const auto other =
         std::find_if(b.begin(), b.end(), [&, name = name](const auto& each) { return each.first == name; });
     if (other == b.end() || other->second != digest) names += (names.empty() ? "" : ", ") + name;

@@ -9,6 +9,7 @@
 
 #include "input/open.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_ros/stamp.hpp"
 
 namespace urban_nav {
 
@@ -16,11 +17,10 @@ using urban_nav_core::DataError;
 
 namespace {
 
-constexpr double kLongestSplit = 5.0;  // s between the parts of one recording
-
 struct Extent {
   std::string path;
   double begin = 0.0, end = 0.0;  // s
+  urban_nav_core::StampNs first = 0;
 };
 
 Extent extentOf(const std::string& path) {
@@ -28,7 +28,8 @@ Extent extentOf(const std::string& path) {
     rosbag::Bag bag(path, rosbag::bagmode::Read);
     rosbag::View view(bag);
     if (view.size() == 0) throw DataError(path, "holds no messages", "");
-    return {path, view.getBeginTime().toSec(), view.getEndTime().toSec()};
+    return {path, view.getBeginTime().toSec(), view.getEndTime().toSec(),
+            urban_nav_ros::toStampNs(view.getBeginTime())};
   } catch (const rosbag::BagUnindexedException&) {
     throw DataError(path, "has no index: the recording was cut off (rosbag reindex " + path + " repairs that)", "");
   } catch (const rosbag::BagException& error) {
@@ -46,14 +47,14 @@ std::vector<Session> findSessions(const std::vector<std::string>& inputs) {
     if (inputKind(input) == InputKind::Bag) {
       bags.push_back(extentOf(input));
     } else {
-      sessions.push_back({{input}});
+      sessions.push_back({{input}, 0});
     }
   }
   std::stable_sort(bags.begin(), bags.end(), [](const Extent& a, const Extent& b) { return a.begin < b.begin; });
   double end = 0.0;
   bool first = true;
   for (const Extent& bag : bags) {
-    if (first || bag.begin - end >= kLongestSplit) sessions.push_back({});
+    if (first || bag.begin - end >= kLongestSplit) sessions.push_back({{}, bag.first});
     sessions.back().paths.push_back(bag.path);
     end = first ? bag.end : std::max(end, bag.end);
     first = false;
@@ -76,7 +77,8 @@ std::string uniqueName(const std::string& plain, const std::vector<std::string>&
 
 std::vector<std::string> sessionNames(const std::vector<Session>& sessions, const std::vector<std::string>& earlier) {
   std::vector<std::string> names = earlier;
-  for (const Session& session : sessions) names.push_back(uniqueName(plainName(session.paths.front()), names));
+  for (const Session& session : sessions)
+    names.push_back(uniqueName(plainName(session.name.empty() ? session.paths.front() : session.name), names));
   return names;
 }
 

@@ -4,12 +4,18 @@
 #include <string>
 #include <vector>
 
+#include "urban_nav_core/types/stamp.hpp"
+
 namespace urban_nav {
 
 /// What belongs to one session: one folder, or the bags of a recording in the order of time.
 struct Session {
   std::vector<std::string> paths;
+  urban_nav_core::StampNs begin = 0;  ///< of the first bag: when its first message was received; 0 for a folder
+  std::string name = {};  ///< as a store calls the session that these bags go on in; empty: by the first path
 };
+/// Parts of one recording are less than this apart.
+constexpr double kLongestSplit = 5.0;  // s
 
 /// Each folder is a session; bags less than 5 s apart are one (a split recording). UserError where there is nothing
 /// that is known.

@@ -6,6 +6,7 @@
 
 #include "pipeline/vo_state.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
+#include "urban_nav_core/types/error.hpp"
 #include "urban_nav_store/merge.hpp"
 
 namespace urban_nav {
@@ -52,14 +53,80 @@ RunIdentity storedIdentity(Store& store, const SessionId& id) {
 
 }  // namespace
 
-StoreStage::StoreStage(const MapRequest& request, const std::vector<Session>& sessions, const std::string& path,
+StoreStage::StoreStage(const MapRequest& request, std::vector<Session>& sessions, const std::string& path,
                        Console& console)
-    : request_(request), path_(path), ids_(idsOf(request, sessions)) {
+    : request_(request),
+      path_(path),
+      ids_(idsOf(request, sessions)),
+      own_ids_(ids_),
+      continued_(sessions.size(), false),
+      behind_(sessions.size()) {
   for (const Session& session : sessions) {
     identities_.push_back(identityOf(request, session));
     names_.push_back(nameOf(session));
+    bags_.push_back(bagsOf(request, session));
+    begins_.push_back(session.begin);
   }
+  if (!request_.store.empty()) findContinued(sessions, console);
   open(console);
+  for (std::size_t i = 0; i < ids_.size(); ++i)
+    if (!isFinished(i)) behind_[i] = look(*store_, ids_[i], i);
+}
+
+std::optional<StoreStage::Behind> StoreStage::follow(Store& store, const SessionId& id, std::size_t session) {
+  const std::optional<std::string> bytes = store.states().get(id, kBagStage);
+  if (!bytes) return std::nullopt;
+  try {
+    Behind behind{unpackBagState(*bytes), 0};
+    const std::optional<std::size_t> bags = bagsBehind(behind.state, bags_[session], begins_[session]);
+    const bool all_given = bags && *bags == behind.state.bags.size();
+    if (!bags || (!continued_[session] && !all_given)) return std::nullopt;
+    behind.bags = *bags;
+    return behind;
+  } catch (const urban_nav_core::UserError&) {
+    return std::nullopt;  // of another version
+  }
+}
+
+std::string StoreStage::otherThan(Store& store, const SessionId& id, std::size_t session) const {
+  return differences(identities_[session], storedIdentity(store, id), {"inputs", "stages", "store"});
+}
+
+std::optional<StoreStage::Behind> StoreStage::look(Store& store, const SessionId& id, std::size_t session) {
+  return otherThan(store, id, session).empty() ? follow(store, id, session) : std::nullopt;
+}
+
+void StoreStage::giveUp(std::size_t session, Session& inputs) {
+  behind_[session].reset();
+  continued_[session] = false;
+  ids_[session] = own_ids_[session];
+  inputs.name.clear();
+  names_[session] = nameOf(inputs);
+}
+
+void StoreStage::findContinued(std::vector<Session>& sessions, Console& console) {
+  Store store(request_.store, Access::Read);
+  for (std::size_t i = 0; i < ids_.size(); ++i) {
+    for (const urban_nav_store::Session& known : store.sessions().all()) {
+      if (std::find(ids_.begin(), ids_.end(), known.id) != ids_.end() && known.id != ids_[i]) continue;
+      continued_[i] = true;
+      const std::optional<Behind> behind = follow(store, known.id, i);
+      // Nothing new, and all of it is here: that is mapped again.
+      continued_[i] = behind && (behind->bags < bags_[i].size() || behind->bags < behind->state.bags.size());
+      if (!continued_[i]) continue;
+      if (const std::string other = otherThan(store, known.id, i); !other.empty()) {
+        continued_[i] = false;
+        console.info("store: " + nameOf(sessions[i]) + " does not go on in session " + known.name + ": other " + other);
+        continue;
+      }
+      ids_[i] = known.id;
+      names_[i] = sessions[i].name = known.name;
+      console.info("store: " + nameOf(sessions[i]) + " goes on in session " + known.name + ", behind " +
+                   std::to_string(behind->state.bags.size()) + (behind->state.bags.size() == 1 ? " bag" : " bags") +
+                   " of it");
+      break;
+    }
+  }
 }
 
 bool StoreStage::isFinished(std::size_t session) {
@@ -80,11 +147,16 @@ StoreStage::Found StoreStage::sift(bool goes_on_here) {
     if (!ours && (goes_on_here ? known.complete || storedIdentity(*store_, known.id).empty()
                                : std::find(stay.begin(), stay.end(), known.id) != stay.end()))
       continue;  // complete, or none that a run of map began: a live one is as complete as it will ever be
-    found.cut_off = found.cut_off || !known.complete || store_->states().get(known.id, kVoStage).has_value();
+    const bool cut_off = !known.complete || store_->states().get(known.id, kVoStage).has_value();
+    found.cut_off = found.cut_off || cut_off;
+    const auto at = static_cast<std::size_t>(place - ids_.begin());
     if (!ours) {
       found.other = "other inputs";
-    } else if (isFinished(static_cast<std::size_t>(place - ids_.begin()))) {
+    } else if (isFinished(at)) {
       ++found.finished;
+      continue;
+    } else if ((cut_off || (continued_[at] && goes_on_here)) && look(*store_, known.id, at)) {
+      if (cut_off) ++found.begun;
       continue;
     } else if (const std::string names = differences(identities_[static_cast<std::size_t>(place - ids_.begin())],
                                                      storedIdentity(*store_, known.id));
@@ -101,7 +173,8 @@ void StoreStage::beginAnew() {
   urban_nav_store::removeStore(path_);
   if (!request_.store.empty()) urban_nav_store::merge({request_.store}, path_);
   store_.emplace(path_, Access::Write);
-  for (const SessionId& id : ids_) store_->sessions().remove(id);
+  for (std::size_t i = 0; i < ids_.size(); ++i)
+    if (!continued_[i]) store_->sessions().remove(ids_[i]);
   store_->commit();
 }
 
@@ -111,13 +184,14 @@ void StoreStage::open(Console& console) {
   if (!request_.store.empty()) Store(request_.store, Access::Read);  // a mistake in it is told before anything changes
   store_.emplace(path_, Access::Write);
   const Found found = sift(goes_on_here);
-  if (found.finished > 0)
+  if (found.finished > 0 || found.begun > 0)
     console.info("an earlier run was cut off here: goes on behind " + std::to_string(found.finished) + " of " +
-                 std::to_string(ids_.size()) + (ids_.size() == 1 ? " session" : " sessions"));
+                 std::to_string(ids_.size()) + (ids_.size() == 1 ? " session" : " sessions") +
+                 (found.begun > 0 ? ", and behind the bags that were complete" : ""));
   else if (found.cut_off)
     console.info("an earlier run was cut off here" +
                  (found.other.empty() ? " in its first session" : " with " + found.other) + ": begins anew");
-  if (found.finished > 0 || goes_on_here) {
+  if (found.finished > 0 || found.begun > 0 || goes_on_here) {
     store_->commit();
   } else {
     beginAnew();
@@ -141,6 +215,13 @@ std::optional<VoRun> StoreStage::begin(std::size_t session, const SourceInfo& in
       return run;
     }
   }
+  put(session, info);
+  store_->commit();
+  return std::nullopt;
+}
+
+void StoreStage::put(std::size_t session, const SourceInfo& info) {
+  const SessionId& id = ids_[session];
   store_->sessions().remove(id);
   store_->sessions().put(urban_nav_store::Session{id, names_[session], "", "", info.first, false});
   for (const auto& [name, digest] : identities_[session]) store_->sessions().put(id, Property{"run/" + name, digest});
@@ -153,8 +234,29 @@ std::optional<VoRun> StoreStage::begin(std::size_t session, const SourceInfo& in
           id, urban_nav_store::StoredParameter{urban_nav_core::fullName(setting.stage, setting.name),
                                                urban_nav_core::printValue(setting.value), setting.origin});
   }
+}
+
+void StoreStage::goOn(std::size_t session, const SourceInfo& info, const VoRun& run) {
+  session_ = session;
+  rows_ = nodes_ = 0;
+  committed_ = Clock::now();
+  put(session, info);
+  store_->states().put(ids_[session], kBagStage, packBagState(behind_[session]->state));
+  add(run);
   store_->commit();
-  return std::nullopt;
+}
+
+void StoreStage::keepBag(const VoStage& stage, const BagEnd& end) {
+  add(stage.run());
+  const std::optional<Behind>& behind = behind_[session_];
+  BagState state{{}, end.receipt, end.reader, stage.state()};
+  if (behind)
+    state.bags.assign(behind->state.bags.begin(), behind->state.bags.end() - static_cast<std::ptrdiff_t>(behind->bags));
+  const std::vector<std::string>& bags = bags_[session_];
+  state.bags.insert(state.bags.end(), bags.begin(), bags.begin() + static_cast<std::ptrdiff_t>(end.bags));
+  store_->states().put(ids_[session_], kBagStage, packBagState(std::move(state)));
+  store_->commit();
+  committed_ = Clock::now();
 }
 
 void StoreStage::keepUp(const VoRun& run) {
@@ -196,7 +298,10 @@ void StoreStage::finish(const VoRun& run) {
 }
 
 void StoreStage::end() {
+  const auto last = std::max_element(begins_.begin(), begins_.end()) - begins_.begin();
   for (const SessionId& id : ids_) store_->states().remove(id, kVoStage);
+  for (const urban_nav_store::Session& session : store_->sessions().all())
+    if (session.id != ids_[static_cast<std::size_t>(last)]) store_->states().remove(session.id, kBagStage);
   store_->shrink();
   store_->close();
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "command_line/console.hpp"
+#include "pipeline/bag_state.hpp"
 #include "pipeline/run_identity.hpp"
 #include "pipeline/vo_stage.hpp"
 #include "urban_nav_store/store.hpp"
@@ -17,6 +18,7 @@ namespace urban_nav {
 /// run can go on; forces stay for runs that go on from the session.
 constexpr const char* kVoStage = "swf_vo";
 constexpr const char* kForcesStage = "gravity";
+constexpr const char* kBagStage = "bag";  ///< packBagState: the next bag of the recording can go on
 constexpr const char* kVoStream = "stereo";
 constexpr const char* kVoCamera = "stereo_left_optical_frame";
 
@@ -28,14 +30,28 @@ constexpr const char* kVoCamera = "stereo_left_optical_frame";
 /// that has come to its end leaves no states behind: the next one in its folder begins anew.
 ///
 /// Where the request names a store to go on from, its sessions are there from the start, and stay. One that is mapped
-/// again is replaced.
+/// again is replaced; one whose recording the bags go on with is gone on in, behind the last bag that is known (bag_state.hpp). That state stays in
+/// the store for the session that ends last.
 class StoreStage {
  public:
-  StoreStage(const MapRequest& request, const std::vector<Session>& sessions, const std::string& path,
-             Console& console);
+  /// Sessions that are gone on in get their names.
+  StoreStage(const MapRequest& request, std::vector<Session>& sessions, const std::string& path, Console& console);
+
+  /// Where a session that is not finished goes on, and how many of its bags are behind that.
+  struct Behind {
+    BagState state;
+    std::size_t bags = 0;
+  };
+  const std::optional<Behind>& behind(std::size_t session) const { return behind_[session]; }
+  /// It cannot be gone on there: the session is one of its own.
+  void giveUp(std::size_t session, Session& inputs);
 
   /// To be called for each session in their order. The finished run where there is one; else the session is begun.
   std::optional<VoRun> begin(std::size_t session, const SourceInfo& info);
+  /// Instead, with the run as it was behind(): the session is begun, and has what it had there.
+  void goOn(std::size_t session, const SourceInfo& info, const VoRun& run);
+  /// A bag of the session has come to its end. Commits; the state of the bag before goes.
+  void keepBag(const VoStage& stage, const BagEnd& end);
   /// What is new in the run of the session that was begun; commits when a second has gone by.
   void keepUp(const VoRun& run);
   /// The run is complete.
@@ -56,18 +72,33 @@ class StoreStage {
   /// What is in the store of an earlier run in the same folder.
   struct Found {
     std::size_t finished = 0;  ///< sessions to go on behind
+    std::size_t begun = 0;     ///< and to go on in, behind a bag
     bool cut_off = false;
     std::string other;  ///< what differs, for people
   };
   Found sift(bool goes_on_here);
+  /// The state of a stored session that the bags of this one follow.
+  std::optional<Behind> follow(urban_nav_store::Store& store, const urban_nav_store::SessionId& id,
+                               std::size_t session);
+  /// What of program, options and parameters is not as it was then; empty: nothing.
+  std::string otherThan(urban_nav_store::Store& store, const urban_nav_store::SessionId& id, std::size_t session) const;
+  /// follow() where nothing is other.
+  std::optional<Behind> look(urban_nav_store::Store& store, const urban_nav_store::SessionId& id, std::size_t session);
+  /// Bags that go on with a recording of the store that the request names: their sessions are those.
+  void findContinued(std::vector<Session>& sessions, Console& console);
+  void put(std::size_t session, const SourceInfo& info);
   void beginAnew();
   void add(const VoRun& run);
 
   const MapRequest& request_;
   const std::string path_;
-  std::vector<urban_nav_store::SessionId> ids_;
+  std::vector<urban_nav_store::SessionId> ids_, own_ids_;  // own: were none gone on in
   std::vector<RunIdentity> identities_;
   std::vector<std::string> names_;
+  std::vector<std::vector<std::string>> bags_;   // of each session
+  std::vector<urban_nav_core::StampNs> begins_;  // likewise
+  std::vector<bool> continued_;                  // likewise: of the store that the request names
+  std::vector<std::optional<Behind>> behind_;    // likewise
   std::optional<urban_nav_store::Store> store_;
   std::size_t session_ = 0;           // at work
   std::size_t rows_ = 0, nodes_ = 0;  // of it, written

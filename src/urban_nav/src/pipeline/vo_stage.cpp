@@ -6,6 +6,9 @@
 #include <cmath>
 
 #include "pipeline/track_picture.hpp"
+#include "pipeline/vo_state.hpp"
+#include "urban_nav_core/io/archive.hpp"
+#include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav {
 
@@ -18,6 +21,9 @@ namespace {
 
 constexpr std::size_t kPictures = 8;
 constexpr std::size_t kTail = 6;  // frames that the track of a feature reaches back
+
+constexpr const char* kStateName = "visual odometry of a session";
+constexpr std::uint32_t kStateVersion = 1;
 
 std::uint8_t greyAt(const ImageView& image, const Eigen::Vector3d& pixel) {
   const int u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
@@ -55,6 +61,11 @@ class VoStage::PictureKeeper {
         pictures.end());
   }
 
+  void archive(urban_nav_core::Archive& archive) {
+    archive(step_, tails_);
+    archive.require(step_ > 0, "no step between pictures");
+  }
+
  private:
   std::int64_t step_ = 4;
   std::vector<std::vector<Feature>> tails_;  // the newest last
@@ -66,6 +77,22 @@ VoStage::VoStage(const swf_vo::Parameters& parameters, const SourceInfo& info)
   run_.input = info.name;
   run_.camera = info.camera;
   run_.T_base_camera = info.T_base_camera;
+}
+
+VoStage::VoStage(const swf_vo::Parameters& parameters, const SourceInfo& info, std::string_view state)
+    : VoStage(parameters, info) {
+  const std::string where = std::string("state of ") + kStateName;
+  urban_nav_core::Archive archive(urban_nav_core::unseal(kStateName, kStateVersion, state), where);
+  std::string run, filter;
+  archive(run, filter, *pictures_);
+  archive.finish();
+  std::optional<VoRun> found = unpackVoRun(run);
+  if (!found) throw urban_nav_core::DataError(where, "is damaged: its frames cannot be read", "");
+  run_ = std::move(*found);
+  run_.input = info.name;
+  run_.camera = info.camera;
+  run_.T_base_camera = info.T_base_camera;
+  filter_.emplace(parameters, info.camera, info.T_base_camera, filter);
 }
 
 VoStage::VoStage(VoRun finished) : run_(std::move(finished)), pictures_(std::make_unique<PictureKeeper>()) {}
@@ -101,6 +128,13 @@ const VoRow& VoStage::process(const StereoInput& input) {
   pictures_->add(row, input.assembled.pair.left, frame.features, run_.pictures);
   run_.rows.push_back(std::move(row));
   return run_.rows.back();
+}
+
+std::string VoStage::state() const {
+  urban_nav_core::Archive archive;
+  std::string run = packVoRun(run_), filter = filter_->state();
+  archive(run, filter, *pictures_);
+  return urban_nav_core::seal(kStateName, kStateVersion, archive.take());
 }
 
 void VoStage::finish(const std::vector<std::string>& faults, const std::vector<pose_graph::FeltForce>& forces) {

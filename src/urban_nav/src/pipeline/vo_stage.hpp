@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "input/source.hpp"
@@ -58,6 +59,9 @@ constexpr std::size_t kFaultsKept = 100;
 class VoStage {
  public:
   VoStage(const swf_vo::Parameters& parameters, const SourceInfo& info);
+  /// Goes on where another object stood when `state` was taken from it. UserError where that was made with other parameters or another
+  /// calibration, or is damaged.
+  VoStage(const swf_vo::Parameters& parameters, const SourceInfo& info, std::string_view state);
   /// What another stage object has finished: run() is all there is to do with it.
   explicit VoStage(VoRun finished);
   ~VoStage();
@@ -66,6 +70,9 @@ class VoStage {
   const VoRow& process(const StereoInput& input);
   /// Empties the window; `faults` are those of the input as a whole, `forces` all that an accelerometer felt. No process() after it.
   void finish(const std::vector<std::string>& faults, const std::vector<pose_graph::FeltForce>& forces = {});
+
+  /// Not after finish(). In it are the run so far and the filter.
+  std::string state() const;
 
   const VoRun& run() const { return run_; }
 

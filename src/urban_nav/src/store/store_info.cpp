@@ -100,6 +100,9 @@ std::string textOf(const StoredSession& each) {
     text += "\n";
   }
   if (each.resumable) text += "    a run of map can go on from here\n";
+  if (each.next_bag)
+    text += "    state at the end of its last bag, " + printBytes(each.state_bytes) +
+            ": the next bag can go on from here\n";
   return text;
 }
 
@@ -133,7 +136,10 @@ StoreInfo lookIntoStore(const std::string& path) {
     each.streams = streamsOf(store, session.id);
     for (const urban_nav_store::Extrinsic& extrinsic : store.sessions().extrinsics(session.id))
       each.frames.push_back(extrinsic.frame);
-    each.resumable = store.states().get(session.id, kVoStage).has_value();
+    const std::vector<std::string> stages = store.states().stages(session.id);
+    each.resumable = std::find(stages.begin(), stages.end(), kVoStage) != stages.end();
+    each.next_bag = std::find(stages.begin(), stages.end(), kBagStage) != stages.end();
+    each.state_bytes = store.states().bytes(session.id);
   }
   Groups groups(info.sessions.size());
   for (StoredSession& each : info.sessions) {
@@ -204,6 +210,8 @@ Json jsonOf(const StoreInfo& info) {
     for (const std::string& frame : each.frames) frames.append(frame);
     entry["map"] = each.map;
     entry["resumable"] = each.resumable;
+    entry["next_bag"] = each.next_bag;
+    entry["state_bytes"] = each.state_bytes;
     sessions.append(entry);
   }
   Json& maps = json["maps"] = Json::array();

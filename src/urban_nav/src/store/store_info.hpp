@@ -24,7 +24,9 @@ struct StoredSession {
   std::vector<std::string> frames;  ///< sensors whose place on the robot is known
   std::string map;                  ///< id of the session that gives its map the frame
   bool relaxed = false;
-  bool resumable = false;  ///< holds the state of a run that was cut off
+  bool resumable = false;        ///< holds the state of a run that was cut off
+  bool next_bag = false;         ///< holds the state at the end of a bag, from which the next one goes on
+  std::int64_t state_bytes = 0;  ///< room that these states take
 };
 
 struct StoreInfo {

@@ -1,75 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // kill -9 of the whole command at random moments: `info` opens the store each time, and the run started again ends with the bytes
 // of one that was never cut off.
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <time.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <random>
 
 #include "store/store_info.hpp"
+#include "support/child.hpp"
 #include "support/folders.hpp"
 
 namespace urban_nav {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::Child;
 using testing::readFile;
 using testing::TemporaryFolder;
-
-/// The command beside this test, in a process of its own that can be killed.
-class Command {
- public:
-  explicit Command(const std::vector<std::string>& words, const std::string& log) {
-    const std::string program = (fs::canonical("/proc/self/exe").parent_path() / "urban_nav").string();
-    std::vector<const char*> argv = {program.c_str()};
-    for (const std::string& word : words) argv.push_back(word.c_str());
-    argv.push_back(nullptr);
-    child_ = ::fork();
-    if (child_ == 0) {
-      const int output = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
-      ::dup2(output, 1);
-      ::dup2(output, 2);
-      ::execv(program.c_str(), const_cast<char* const*>(argv.data()));
-      ::_exit(127);
-    }
-  }
-  /// Kills it when it has used so much of a processor's time, which is less moved by what else is at work than a clock on the
-  /// wall. The exit status, or empty where it was killed.
-  std::optional<int> endWithin(double seconds) {
-    clockid_t clock{};
-    const bool known = ::clock_getcpuclockid(child_, &clock) == 0;
-    for (bool killed = false;;) {
-      int status = 0;
-      rusage used{};
-      if (::wait4(child_, &status, WNOHANG, &used) == child_) {
-        seconds_ = secondsOf(used.ru_utime.tv_sec, 1e-6 * static_cast<double>(used.ru_utime.tv_usec)) +
-                   secondsOf(used.ru_stime.tv_sec, 1e-6 * static_cast<double>(used.ru_stime.tv_usec));
-        return WIFEXITED(status) ? std::optional<int>(WEXITSTATUS(status)) : std::nullopt;
-      }
-      timespec now{};
-      if (!killed && known && ::clock_gettime(clock, &now) == 0 &&
-          secondsOf(now.tv_sec, 1e-9 * static_cast<double>(now.tv_nsec)) > seconds) {
-        ::kill(child_, SIGKILL);
-        killed = true;
-      }
-      ::usleep(500);
-    }
-  }
-  double secondsUsed() const { return seconds_; }
-
- private:
-  static double secondsOf(time_t whole, double part) { return static_cast<double>(whole) + part; }
-
-  pid_t child_;
-  double seconds_ = 0.0;
-};
 
 class Killed : public ::testing::Test {
  protected:
@@ -88,7 +36,7 @@ class Killed : public ::testing::Test {
     return all;
   }
   std::optional<int> run(const std::vector<std::string>& all, double seconds = 1e9) {
-    Command command(all, folder.file("log"));
+    Child command(all, folder.file("log"));
     const std::optional<int> status = command.endWithin(seconds);
     used = command.secondsUsed();
     return status;

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/bags.hpp"
 
+#include <nav_msgs/Odometry.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
+#include <sensor_msgs/Imu.h>
+#include <tf2_msgs/TFMessage.h>
 
+#include <list>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <random>
@@ -67,6 +71,47 @@ void rewriteBag(const std::string& from, const std::string& to, Rewrite how) {
         break;
       case Rewrite::CompressedColourUnderOtherNames: writeCompressed(instance, out); break;
     }
+  }
+}
+
+void splitBag(const std::string& from, const std::vector<std::string>& parts) {
+  rosbag::Bag in(from, rosbag::bagmode::Read);
+  std::list<rosbag::Bag> out;
+  for (const std::string& part : parts) out.emplace_back(part, rosbag::bagmode::Write);
+  rosbag::View view(in);
+  const double span = (view.getEndTime() - view.getBeginTime()).toSec() + 0.05;
+  std::mt19937 random(7);
+  const auto partOf = [&](const ros::Time& time) -> rosbag::Bag& {
+    const double share = (time - view.getBeginTime()).toSec() / span;
+    return *std::next(out.begin(), static_cast<int>(share * static_cast<double>(parts.size())));
+  };
+  for (const rosbag::MessageInstance& instance : view) {
+    if (const auto transforms = instance.instantiate<tf2_msgs::TFMessage>()) {
+      geometry_msgs::TransformStamped imu = transforms->transforms.front();
+      imu.header.frame_id = "base_link";
+      imu.child_frame_id = "imu_link";
+      imu.transform = geometry_msgs::Transform();
+      imu.transform.rotation.x = 0.6;
+      imu.transform.rotation.w = 0.8;
+      transforms->transforms.push_back(imu);
+      out.front().write(instance.getTopic(), instance.getTime(), *transforms);
+      continue;
+    }
+    const ros::Time time = instance.getTime() + ros::Duration(0.04 * static_cast<double>(random()) / 4294967296.0);
+    partOf(time).write(instance.getTopic(), time, instance);
+    if (instance.getTopic() != "/stereo/left/image_raw") continue;
+    sensor_msgs::Imu imu;
+    imu.header.stamp = time;
+    imu.header.frame_id = "imu_link";
+    imu.linear_acceleration.y = 9.4;
+    imu.linear_acceleration.z = 2.8;
+    imu.angular_velocity.z = 0.1;
+    partOf(time).write("/imu/data", time, imu);
+    nav_msgs::Odometry wheels;
+    wheels.header.stamp = time;
+    wheels.pose.pose.position.x = (time - view.getBeginTime()).toSec();
+    wheels.pose.pose.orientation.w = 1.0;
+    partOf(time).write("/wheel_odom", time, wheels);
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace urban_nav::testing {
 
@@ -14,5 +15,9 @@ enum class Rewrite {
   CompressedColourUnderOtherNames,  ///< PNG in colour on /cam0/..., no camera_info, no tf
 };
 void rewriteBag(const std::string& from, const std::string& to, Rewrite how);
+
+/// The same bag in parts of equal length by times of receipt, with an IMU that lies askew and wheels that turn. What is said once
+/// (/tf_static) is in the first part alone; images come up to 40 ms late, so that pairs are cut in two.
+void splitBag(const std::string& from, const std::vector<std::string>& parts);
 
 }  // namespace urban_nav::testing

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "input/bag_groups.hpp"
+
+#include <rosbag/view.h>
+
+#include <algorithm>
+
+#include "urban_nav_ros/stamp.hpp"
+
+namespace urban_nav {
+
+std::vector<BagGroup> groupsOf(std::list<rosbag::Bag>& bags) {
+  std::vector<BagGroup> groups;
+  std::size_t count = 0;
+  for (rosbag::Bag& bag : bags) {
+    rosbag::View all(bag);
+    const bool empty = all.size() == 0;
+    if (groups.empty() || (!empty && urban_nav_ros::toStampNs(all.getBeginTime()) > groups.back().receipt))
+      groups.emplace_back();
+    BagGroup& group = groups.back();
+    group.bags.push_back(&bag);
+    group.end = ++count;
+    if (!empty) group.receipt = std::max(group.receipt, urban_nav_ros::toStampNs(all.getEndTime()));
+  }
+  return groups;
+}
+
+}  // namespace urban_nav
