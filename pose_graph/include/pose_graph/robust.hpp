@@ -60,6 +60,8 @@ struct RobustSolution {
 /// logarithm of how much likelier its residual is from a true closure than from one anywhere in the map. The better half of
 /// those that pass enters, the graph is relaxed, and everything is judged anew: what entered wrongly leaves again by Baarda's
 /// test of one observation, or of one common bias of a group (A testing procedure for use in geodetic networks, 1968).
+/// At the end all are judged once more where the graph is settled, so that a group which bends a long way until it fits shows too.
+/// Where information is too modest, a closure that fits by what it states and is far likelier true than anywhere stays.
 /// Covariances are those of random disturbances of all edges carried through the factor, some dozens of right-hand sides; so a
 /// thousand closures cost what one costs. Where odometry promises more than it keeps and closures are left out because of that,
 /// a second minimisation with truncated squares starts from there (Yang, Antonante, Tzoumas, Carlone, Graduated

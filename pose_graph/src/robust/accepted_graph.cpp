@@ -14,6 +14,8 @@ std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 // Of the largest entry of the diagonal, growing until the factorisation holds.
 constexpr double kLeastDamping = 1e-12, kMostDamping = 1e-3, kGrowth = 100.0;
 
+constexpr int kNear = 10;  // steps: on public graphs a way that leads there has taken six at most
+
 }  // namespace
 
 template <int D>
@@ -58,6 +60,19 @@ void AcceptedGraph<D>::relax(std::vector<Rigid<D>>& poses, int iterations, doubl
   options.iterations = iterations;
   options.tolerance = share;
   minimise(*equations_, *cholesky_, options, weights_, poses);
+}
+
+template <int D>
+void AcceptedGraph<D>::settle(std::vector<Rigid<D>>& poses) {
+  SolveOptions options;
+  options.iterations = kNear;
+  if (minimise(*equations_, *cholesky_, options, weights_, poses).ending != Ending::Iterations) return;
+  const auto rotations = chordalRotations(*equations_, poses, weights_);
+  auto fresh = rotations ? translationsFor(*equations_, *rotations, poses, weights_) : std::nullopt;
+  if (!fresh) return;
+  options.iterations = 2 * kNear;
+  minimise(*equations_, *cholesky_, options, weights_, *fresh);
+  if (cost(*fresh) < cost(poses)) poses = std::move(*fresh);
 }
 
 template <int D>

@@ -28,6 +28,10 @@ class AcceptedGraph {
   /// guess if that costs less than `poses`.
   void relax(std::vector<Rigid<D>>& poses, int iterations, double share, bool afresh);
 
+  /// To where nothing worth the name is left to gain. From where these poses are, or, where that is a long way, from no first
+  /// guess, if that ends lower.
+  void settle(std::vector<Rigid<D>>& poses);
+
   double cost(const std::vector<Rigid<D>>& poses) const {
     return equations_->cost(Objective::Geodesic, poses, weights_);
   }

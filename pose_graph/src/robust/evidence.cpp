@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 
+#include "robust/true_residual.hpp"
 #include "urban_nav_core/geometry/dense_kernels.hpp"
 
 namespace pose_graph {
@@ -21,9 +22,6 @@ constexpr double kPi = 3.14159265358979323846;
 // Wishart matrix), which is taken off. Chosen for its time; whether more would decide better is not measured.
 constexpr int kDisturbances = 24;
 constexpr int kAtOnce = 8;
-// Redundancy below which an edge is not controlled by the others: less of its error than that shows in its residual, and
-// what an unfinished relaxation leaves would be taken for it.
-constexpr double kUncontrolled = 0.1;
 
 // Signs from the number of edge and direction alone, a bit for each disturbance (splitmix64, Steele, Lea, Flood 2014).
 std::uint64_t signs(std::uint64_t number) {
@@ -67,12 +65,13 @@ Witness<D>::Witness(const Problem<D>& problem, const std::vector<int>& candidate
       log += 0.5 * std::log(edge.W.row(a).template head<D>().squaredNorm() * width * width +
                             edge.W.row(a).template tail<rotation_size<D>>().squaredNorm() * 4.0 * kPi * kPi);
     false_log_.push_back(log);
+    width_log_.push_back(D * std::log(width) + rotation_size<D> * std::log(2.0 * kPi));
   }
 }
 
 template <int D>
 Evidence Witness<D>::hear(AcceptedGraph<D>& graph, const std::vector<char>& in, const std::vector<Rigid<D>>& poses,
-                          double variance, const std::vector<int>& small_group) const {
+                          double variance, const std::vector<int>& small_group, double uncontrolled) const {
   constexpr int N = tangent_size<D>;
   using Samples = Eigen::Matrix<double, N, kDisturbances, Eigen::RowMajor>;
   const std::size_t edges = problem_->edges.size();
@@ -80,6 +79,8 @@ Evidence Witness<D>::hear(AcceptedGraph<D>& graph, const std::vector<char>& in, 
   made.chi2.assign(edges, 0.0);
   made.group_chi2.assign(edges, 0.0);
   made.likelier.assign(edges, 0.0);
+  made.group_likelier.assign(edges, 0.0);
+  made.variance = variance;
   made.known = graph.factor(poses);
   if (!made.known) return made;
 
@@ -128,13 +129,13 @@ Evidence Witness<D>::hear(AcceptedGraph<D>& graph, const std::vector<char>& in, 
     }
     TangentMatrix<D> C = moved[k].lazyProduct(moved[k].transpose()) / kDisturbances;
     for (int a = edge.rank; a < N; ++a) C(a, a) = 1.0;  // measures nothing there: rows of W are zero, so is the error
-    const double log_at_zero = false_log_[k] - 0.5 * edge.rank * std::log(2.0 * kPi * variance);
+    const double log_at_zero = false_log_[k] - 0.5 * edge.rank * std::log(2.0 * kPi);
     if (in[e]) {
       // What is left of its own unit covariance is the inverse of that which its residual would have were it outside.
-      made.likelier[e] = log_at_zero + 0.5 * std::log(std::max(1e-300, C.determinant()));
-      C.diagonal().array() += kUncontrolled;
+      const double log = log_at_zero + 0.5 * std::log(std::max(1e-300, C.determinant()));
+      C.diagonal().array() += uncontrolled;
       made.chi2[e] = at[e].error.dot(C.llt().solve(at[e].error)) * kShrink / variance;
-      made.likelier[e] -= 0.5 * made.chi2[e];
+      made.likelier[e] = logOfTrueResidual(log, edge.rank, made.chi2[e] * variance, variance);
       if (small_group[e] >= 0) groups[small_group[e]].push_back(k);
       continue;
     }
@@ -142,9 +143,9 @@ Evidence Witness<D>::hear(AcceptedGraph<D>& graph, const std::vector<char>& in, 
     C.diagonal().head(edge.rank).array() += 1.0;
     const Eigen::LLT<TangentMatrix<D>> llt(C);
     made.chi2[e] = at[e].error.dot(llt.solve(at[e].error)) / variance;
-    double log = log_at_zero - 0.5 * made.chi2[e];
+    double log = log_at_zero;
     for (int a = 0; a < edge.rank; ++a) log -= std::log(llt.matrixLLT()(a, a));
-    made.likelier[e] = log;
+    made.likelier[e] = logOfTrueResidual(log, edge.rank, made.chi2[e] * variance, variance);
   }
 
   // One bias of a whole group: its far ends moved as one body.
@@ -166,10 +167,16 @@ Evidence Witness<D>::hear(AcceptedGraph<D>& graph, const std::vector<char>& in, 
       sum.noalias() += bias.transpose() * at[e].error;
       weight.noalias() += bias.transpose() * bias;
     }
-    TangentMatrix<D> C = spread.lazyProduct(spread.transpose()) / kDisturbances + kUncontrolled * weight;
+    TangentMatrix<D> C = spread.lazyProduct(spread.transpose()) / kDisturbances + uncontrolled * weight;
     C.diagonal().array() += 1e-12 * std::max(1e-300, C.diagonal().maxCoeff());
     const double chi2 = sum.dot(C.llt().solve(sum)) * kShrink / variance;
-    for (std::size_t k : members) made.group_chi2[sz(candidates_[k])] = std::isfinite(chi2) ? chi2 : 0.0;
+    double width = 0.0;
+    for (std::size_t k : members) width = std::max(width, width_log_[k]);
+    const double log = width - 0.5 * N * std::log(2.0 * kPi) + 0.5 * std::log(std::max(1e-300, C.determinant()));
+    for (std::size_t k : members) {
+      made.group_chi2[sz(candidates_[k])] = std::isfinite(chi2) ? chi2 : 0.0;
+      made.group_likelier[sz(candidates_[k])] = logOfTrueResidual(log, N, chi2 * variance, variance);
+    }
   }
   return made;
 }

@@ -18,6 +18,8 @@ struct Evidence {
   std::vector<double> group_chi2;
   /// Logarithm of how much likelier the residual is from a true closure than from one anywhere.
   std::vector<double> likelier;
+  std::vector<double> group_likelier;  ///< the same of a group's bias; 0 without a group
+  double variance = 1.0;               ///< as they were heard with
   bool known = true;  ///< false where the accepted graph could not be factored: nothing else is filled then
 };
 
@@ -33,14 +35,15 @@ class Witness {
   /// Puts random disturbances of one standard deviation on all accepted edges, each by kDisturbances signs, and carries
   /// them through the factor of `graph`: the spread of what comes out at an edge is its covariance (of a residual inside,
   /// of a prediction outside), to about three tenths. `variance`: factor of all covariances. `small_group`: groups by edge,
-  /// -1 for none, as they are tested for a common bias.
+  /// -1 for none, as they are tested for a common bias. `uncontrolled`: redundancy below which a residual tells nothing (judging.hpp).
   Evidence hear(AcceptedGraph<D>& graph, const std::vector<char>& in, const std::vector<Rigid<D>>& poses,
-                double variance, const std::vector<int>& small_group) const;
+                double variance, const std::vector<int>& small_group, double uncontrolled) const;
 
  private:
   const Problem<D>* problem_;
   std::vector<int> candidates_;
   std::vector<WhitenedEdge<D>> edges_;
+  std::vector<double> width_log_;  ///< minus the logarithm of the density of false places (m, rad); by candidate
   std::vector<double> false_log_;  ///< minus the logarithm of the density of false residuals, whitened; by candidate
 };
 

@@ -101,6 +101,7 @@ std::vector<EdgeRole> rolesByNumbers(const Problem<D>& problem) {
 namespace {
 
 constexpr int kReadings = 3;
+constexpr int kNear = 10;  // steps, as in AcceptedGraph::settle
 
 // What is thought of the edges, and where they put the poses.
 template <int D>
@@ -203,6 +204,22 @@ Judgement<D> judgeCore(CoreGraph<D>& core, const Problem<D>& problem, const std:
   return made;
 }
 
+// From where the growth left off, which is near as a rule. Where it is at the far end of a long flat valley (over a long way that few
+// closures tie, the cost hardly tells hundreds of metres) the way from no first guess is the shorter one.
+template <int D>
+Solution<D> relaxed(const Problem<D>& part, const std::vector<Rigid<D>>& given, const SolveOptions& options) {
+  if (options.start != Start::Auto) return solve(part, options);
+  SolveOptions near = options;
+  near.start = Start::Vertices;
+  near.iterations = std::min(options.iterations, kNear);
+  Solution<D> made = solve(part, near);
+  if (made.ending != Ending::Iterations || options.iterations <= kNear) return made;
+  Solution<D> afresh = solve(Problem<D>{given, part.edges}, options);
+  if (afresh.cost <= made.cost) return afresh;
+  near.iterations = options.iterations - kNear;
+  return solve(Problem<D>{std::move(made.poses), part.edges}, near);
+}
+
 }  // namespace
 
 template <int D>
@@ -214,10 +231,8 @@ RobustSolution<D> relaxRobust(const Problem<D>& problem, const std::vector<EdgeR
   // The last word has the solver of graphs without false edges, on what is left.
   std::vector<char> in;
   for (const EdgeVerdict& verdict : judged.edges) in.push_back(verdict.weight > 0.0);
-  SolveOptions last = options;
-  last.start = options.start == Start::Auto ? Start::Vertices : options.start;
   RobustSolution<D> made;
-  made.solution = solve(partOf(problem, in, std::move(judged.poses)), last);
+  made.solution = relaxed(partOf(problem, in, std::move(judged.poses)), problem.poses, options);
   made.solution.cost_before = cost(problem, problem.poses, options.objective);
   made.variance_factor = judged.variance;
   made.edges = std::move(judged.edges);

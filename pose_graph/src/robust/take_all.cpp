@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "robust/growth.hpp"
+#include "robust/judging.hpp"
+#include "robust/variance_factor.hpp"
 
 namespace pose_graph {
 
@@ -23,15 +25,13 @@ constexpr double kPoor = 0.02;
 // Of what the residuals may be together, times the variance that is believed; from so many numbers on that is a matter of chance
 // no more.
 constexpr double kBent = 1.5, kFewNumbers = 60.0;
-constexpr int kSteps = 8;
-constexpr double kShare = 0.01;  // as in growth
 
 }  // namespace
 
 template <int D>
 bool takeAll(const Witness<D>& witness, const std::vector<int>& group, const std::vector<int>& small_group,
              const Thresholds& thresholds, const InformationScale& scale, AcceptedGraph<D>& graph, Grown<D>& grown) {
-  const auto limit = [&](int e) { return thresholds.limit[sz(std::max(1, witness.edge(e).rank))]; };
+  const auto limit = [&](int e) { return limitOf(thresholds, witness.edge(e)); };
   const double candidates = static_cast<double>(witness.candidates().size());
   const auto joins = [&](int e) { return !std::isfinite(grown.evidence.chi2[sz(e)]); };  // two parts: not by itself
   Grown<D> all = grown;
@@ -50,9 +50,9 @@ bool takeAll(const Witness<D>& witness, const std::vector<int>& group, const std
   }
 
   graph.take(all.in);
-  graph.relax(all.poses, kSteps, kShare, true);
+  graph.relax(all.poses, kRoundSteps, kRoundShare, true);
   all.variance = varianceFactor(witness, all.in, all.poses, graph.unknowns(), thresholds, scale.factor);
-  all.evidence = witness.hear(graph, all.in, all.poses, all.variance, small_group);
+  all.evidence = witness.hear(graph, all.in, all.poses, all.variance, small_group, kUncontrolled);
 
   // Among many that are right one more is likely to be, so that it takes less to be believed.
   double contradicted = 0.0, confident = 0.0, poor = 0.0;

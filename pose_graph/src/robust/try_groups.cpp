@@ -4,6 +4,7 @@
 #include <map>
 
 #include "robust/growth.hpp"
+#include "robust/make_room.hpp"
 #include "urban_nav_core/trajectory/chi_square.hpp"
 
 namespace pose_graph {
@@ -11,16 +12,6 @@ namespace pose_graph {
 namespace {
 
 std::size_t sz(int i) { return static_cast<std::size_t>(i); }
-
-constexpr std::size_t kTries = 10;  // of one graph: each costs a relaxation
-// Times the limit: what no arc explains is not tried. The true groups of MIT and kitti_02 lie at up to four times.
-constexpr double kArc = 10.0;
-constexpr double kDoubt = 1.58;  // as in growth
-// So many true ones stand against one false one that is in their way; a false group meets as many true ones as it has members.
-constexpr std::size_t kForOne = 8;
-constexpr int kRounds = 4;
-constexpr int kSteps = 20;
-constexpr double kShare = 1e-6;  // of the cost: a difference of two of them has to be good to a number or so
 
 // Groups outside that are worth a try, the largest first.
 template <int D>
@@ -42,36 +33,6 @@ std::vector<std::vector<int>> groupsToTry(const Witness<D>& witness, const std::
   return made;
 }
 
-// Goes on from a graph with a group that the others do not let be: who is contradicted beside it leaves, the worst ones first.
-// True if all that remain fit, and the group drove out but few for what it is itself.
-template <int D>
-bool settle(const Witness<D>& witness, const Thresholds& thresholds, const std::vector<int>& members, double variance,
-            AcceptedGraph<D>& graph, std::vector<char>& in, std::vector<Rigid<D>>& poses) {
-  const std::vector<int> no_groups(in.size(), -1);
-  std::size_t gone = 0;
-  for (int round = 0; round < kRounds; ++round) {
-    const Evidence evidence = witness.hear(graph, in, poses, variance, no_groups);
-    if (!evidence.known) return false;
-    double worst = 0.0;
-    for (int e : witness.candidates())
-      if (in[sz(e)]) worst = std::max(worst, evidence.chi2[sz(e)]);
-    const double least = std::sqrt(thresholds.limit.back() * worst);
-    bool all_fit = true;
-    for (int e : witness.candidates()) {
-      const double limit = kDoubt * thresholds.limit[sz(std::max(1, witness.edge(e).rank))];
-      if (!in[sz(e)] || evidence.chi2[sz(e)] <= std::max(limit, least)) continue;
-      in[sz(e)] = 0;
-      all_fit = false;
-      ++gone;
-    }
-    if (gone * kForOne > members.size()) return false;
-    if (all_fit) return members.size() >= kForOne;
-    graph.take(in);
-    graph.relax(poses, kSteps, kShare, false);
-  }
-  return false;
-}
-
 }  // namespace
 
 template <int D>
@@ -79,7 +40,7 @@ bool tryGroups(const Witness<D>& witness, const std::vector<int>& group, const T
                std::set<int>& tried, AcceptedGraph<D>& graph, Grown<D>& grown) {
   const std::vector<std::vector<int>> groups = groupsToTry(witness, group, thresholds, tried, grown);
   if (groups.empty() || tried.size() >= kTries) return false;
-  graph.relax(grown.poses, kSteps, kShare, false);
+  graph.relax(grown.poses, kGroupSteps, kGroupShare, false);
   const double before = graph.cost(grown.poses);
   for (const std::vector<int>& members : groups) {
     if (tried.size() >= kTries) break;
@@ -99,14 +60,14 @@ bool tryGroups(const Witness<D>& witness, const std::vector<int>& group, const T
     }
     std::vector<Rigid<D>> poses = grown.poses;
     graph.take(in);
-    graph.relax(poses, kSteps, kShare, true);
+    graph.relax(poses, kGroupSteps, kGroupShare, true);
     const double rise = (graph.cost(poses) - before) / grown.variance;
     const double most = urban_nav_core::chiSquareQuantile(1.0 - Thresholds::kFalseAlarms / kTries, dof);
     // What the members differ among each other is no evidence against the place that they agree on.
     const double against = std::max(0.0, rise - (dof - rank));
     if (rise <= most ? attainable - 0.5 * against < Thresholds::kEvidence
                      : attainable < Thresholds::kEvidence ||
-                           !settle(witness, thresholds, members, grown.variance, graph, in, poses))
+                           !makeRoom(witness, thresholds, members, grown.variance, graph, in, poses))
       continue;
     grown.in = std::move(in);
     grown.poses = std::move(poses);

@@ -94,6 +94,28 @@ TEST(Robust, ExactMeasurementsStayExact) {
     EXPECT_LT((robust.solution.poses[i].t - rigidOf<2>(graph.truth[i]).t).norm(), 1e-6);
 }
 
+// Most residuals are a fifth of what the information promises, one is three times what it promises.
+TEST(Robust, WhatModestInformationStatesIsBelieved) {
+  SimulatedGraph graph = urban_nav_core::testing::manhattanGraph(
+      600, 12, 0.5,
+      [] {
+        auto noise = urban_nav_core::testing::evenNoise(0.05, 0.01);
+        noise.drawn = 0.2;
+        return noise;
+      }(),
+      7);
+  const std::size_t chain = graph.truth.size() - 1, odd = chain + closuresOf(graph) / 2, closures = closuresOf(graph);
+  addFalseClosures(graph, FalseClosures::Random, closures / 4, 11);
+  Problem<2> problem = simulatedProblem<2>(graph, deadReckoning(graph));
+  problem.edges[odd].Z.t[0] += 3.0 / std::sqrt(problem.edges[odd].information(0, 0));
+  const RobustSolution<2> robust = relaxRobust(problem, rolesByNumbers(problem), {});
+  const Count seen = count(graph, robust);
+  EXPECT_LT(robust.variance_factor, 0.1);
+  EXPECT_EQ(robust.edges[odd].verdict, Verdict::Accepted) << robust.edges[odd].chi2;
+  EXPECT_LE(seen.true_lost, static_cast<int>(closures / 50));
+  EXPECT_EQ(seen.wrong_kept, 0);
+}
+
 TEST(Robust, PlacesWithoutHeadingsAreEnough) {
   SimulatedGraph graph = town(9);
   const std::size_t chain = graph.truth.size() - 1;

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "robust/make_room.hpp"
+
+#include <algorithm>
+
+namespace pose_graph {
+
+namespace {
+
+std::size_t sz(int i) { return static_cast<std::size_t>(i); }
+
+// So many true ones stand against one false one that is in their way; a false group meets as many true ones as it has members.
+constexpr std::size_t kForOne = 8;
+constexpr int kRounds = 4;
+
+}  // namespace
+
+template <int D>
+bool makeRoom(const Witness<D>& witness, const Thresholds& thresholds, const std::vector<int>& members, double variance,
+              AcceptedGraph<D>& graph, std::vector<char>& in, std::vector<Rigid<D>>& poses) {
+  const std::vector<int> no_groups(in.size(), -1);
+  std::size_t gone = 0;
+  for (int round = 0; round < kRounds; ++round) {
+    const Evidence evidence = witness.hear(graph, in, poses, variance, no_groups, kUncontrolled);
+    if (!evidence.known) return false;
+    double worst = 0.0;
+    for (int e : witness.candidates())
+      if (in[sz(e)]) worst = std::max(worst, evidence.chi2[sz(e)]);
+    bool all_fit = true;
+    for (int e : witness.candidates()) {
+      if (!in[sz(e)] || evidence.chi2[sz(e)] <= leavesBeyond(thresholds, limitOf(thresholds, witness.edge(e)), worst))
+        continue;
+      in[sz(e)] = 0;
+      all_fit = false;
+      ++gone;
+    }
+    if (gone * kForOne > members.size()) return false;
+    if (all_fit) return members.size() >= kForOne;
+    graph.take(in);
+    graph.relax(poses, kGroupSteps, kGroupShare, false);
+  }
+  return false;
+}
+
+template bool makeRoom<2>(const Witness<2>&, const Thresholds&, const std::vector<int>&, double, AcceptedGraph<2>&,
+                          std::vector<char>&, std::vector<Rigid<2>>&);
+template bool makeRoom<3>(const Witness<3>&, const Thresholds&, const std::vector<int>&, double, AcceptedGraph<3>&,
+                          std::vector<char>&, std::vector<Rigid<3>>&);
+
+}  // namespace pose_graph

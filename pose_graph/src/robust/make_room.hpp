@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "robust/evidence.hpp"
+#include "robust/judging.hpp"
+
+namespace pose_graph {
+
+/// A relaxation that decides on one group: a difference of two costs has to be good to a number or so.
+constexpr int kGroupSteps = 20;
+constexpr double kGroupShare = 1e-6;
+
+/// Goes on from a graph with a group that the others do not let be: who is contradicted beside it leaves, the worst ones first.
+/// True if all that remain fit, and the group drove out but few for what it is itself. `in`, `poses`: with the group, and after.
+template <int D>
+bool makeRoom(const Witness<D>& witness, const Thresholds& thresholds, const std::vector<int>& members, double variance,
+              AcceptedGraph<D>& graph, std::vector<char>& in, std::vector<Rigid<D>>& poses);
+
+}  // namespace pose_graph
