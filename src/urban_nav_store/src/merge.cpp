@@ -41,6 +41,7 @@ class Merger {
                       "is not made: " + std::to_string(contradictions_) + " rows contradict each other; " + named_,
                       "stores of other sessions, or of other parts of the same one");
     }
+    for (const auto& [session, stage] : other_states_) dropState(session, stage);
     return result_;
   }
 
@@ -69,8 +70,20 @@ class Merger {
                revision && (*there)[*revision].integer != row[*revision].integer) {
       ++result_.outdated;
       if ((*there)[*revision].integer < row[*revision].integer) write(table, row);
+    } else if (&table == &schema::state()) {
+      other_states_.emplace(row[0].bytes, row[1].bytes);
     } else {
       contradict(table, row);
+    }
+  }
+
+  /// Of two runs over one session: what one of them could go on from is no state of the other.
+  void dropState(const std::string& session, const std::string& stage) {
+    for (const char* what : {"SELECT COUNT(*)", "DELETE"}) {
+      Statement statement = target_.prepare(std::string(what) + " FROM state WHERE session=? AND stage=?");
+      statement.bind(0, session);
+      statement.bind(1, stage);
+      if (statement.step()) result_.rows -= statement.integer(0);
     }
   }
 
@@ -121,6 +134,7 @@ class Merger {
   Connection& target_;
   std::string source_, named_;
   std::int64_t contradictions_ = 0;
+  std::set<std::pair<std::string, std::string>> other_states_;  // session and stage
   MergeResult result_;
 };
 

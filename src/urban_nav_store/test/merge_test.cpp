@@ -49,6 +49,31 @@ TEST_F(Merge, joinsOtherSessionsInAnyOrder) {
   EXPECT_GT(again.identical, 50);
 }
 
+TEST_F(Merge, keepsNoStateThatTwoRunsDisagreeOn) {
+  const std::string long_state = Drawn(3).bytes(2'500'000);
+  const auto with = [&](const std::string& name, const std::string& state) {
+    return make(name, [&](Store& store) {
+      fill(store, 1, 5);
+      const SessionId id = store.sessions().all().front().id;
+      store.states().put(id, "bag", state);
+      store.states().put(id, "same", "bytes");
+    });
+  };
+  const std::string a = with("a.db", long_state), b = with("b.db", "short"), c = with("c.db", "short");
+  for (const auto& sources : {std::vector<std::string>{a, b}, {b, a}, {a, b, a}}) {
+    const MergeResult result = merge(sources, out);
+    Store store(out, Access::Read);
+    const SessionId id = store.sessions().all().front().id;
+    EXPECT_FALSE(store.states().get(id, "bag"));
+    EXPECT_EQ(store.states().get(id, "same"), "bytes");
+    store.close();
+    EXPECT_EQ(merge({out}, folder.file("copy.db")).rows, result.rows);
+  }
+  merge({b, c}, out);
+  Store store(out, Access::Read);
+  EXPECT_EQ(store.states().get(store.sessions().all().front().id, "bag"), "short");
+}
+
 TEST_F(Merge, joinsThePartsOfOneSession) {
   Drawn drawn(1);
   Session session = drawn.session();
