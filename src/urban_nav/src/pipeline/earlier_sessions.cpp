@@ -99,7 +99,6 @@ ClosureRow rowOf(Store& store, const Edge& edge, const pose_graph::Closure& clos
 
 EarlierSessions readEarlierSessions(Store& store, const std::vector<SessionId>& without) {
   EarlierSessions made;
-  std::map<SessionId, std::string> names;
   for (const urban_nav_store::Session& session : store.sessions().all()) {
     if (std::find(without.begin(), without.end(), session.id) != without.end()) continue;
     VoRun run = chainOf(store, session.id);
@@ -108,23 +107,30 @@ EarlierSessions readEarlierSessions(Store& store, const std::vector<SessionId>& 
     made.ids.push_back(session.id);
     made.names.push_back(uniqueName(session.name.empty() ? session.id : plainName(session.name), made.names));
     made.runs.push_back(std::move(run));
-    names[session.id] = made.names.back();
     if (const auto anchor = store.sessions().anchor(session.id))
       made.revision = std::max(made.revision, anchor->revision);
   }
-  for (const SessionId& id : made.ids) {
+  return made;
+}
+
+std::vector<KnownClosure> closuresBetween(Store& store, const std::vector<SessionId>& ids,
+                                          const std::vector<std::string>& names) {
+  std::vector<KnownClosure> made;
+  std::map<SessionId, std::string> name;
+  for (std::size_t i = 0; i < ids.size(); ++i) name[ids[i]] = names[i];
+  for (const SessionId& id : ids) {
     std::vector<Edge> edges;
     store.graph().forEachEdge(id, [&](const Edge& edge) {
-      if (edge.kind != EdgeKind::Odometry && names.count(edge.b.session) > 0) edges.push_back(edge);
+      if (edge.kind != EdgeKind::Odometry && name.count(edge.b.session) > 0) edges.push_back(edge);
     });
     for (const Edge& edge : edges) {
       pose_graph::Closure closure;
-      closure.a = {names.at(edge.a.session), edge.a.stamp};
-      closure.b = {names.at(edge.b.session), edge.b.stamp};
+      closure.a = {name.at(edge.a.session), edge.a.stamp};
+      closure.b = {name.at(edge.b.session), edge.b.stamp};
       closure.kind = edge.kind;
       closure.source = edge.source;
       closure.measured = edge.measured;
-      made.closures.push_back({rowOf(store, edge, closure), closure});
+      made.push_back({rowOf(store, edge, closure), closure});
     }
   }
   return made;

@@ -160,8 +160,17 @@ void runGraphStage(MapOutcome& outcome, const std::vector<Session>& sessions, co
                    StoreStage& store, Console& console) {
   const EarlierSessions& earlier = outcome.earlier;
   const std::vector<const VoRun*> runs = runsOfGraph(outcome);
-  outcome.graph = runGraph(outcome.request.parameters.pose_graph.parameters, runs,
-                           sessionNames(sessions, earlier.names), closures, earlier.closures);
+  const std::vector<std::string> names = sessionNames(sessions, earlier.names);
+  std::vector<urban_nav_store::SessionId> ids = earlier.ids, of_before = earlier.ids;
+  std::vector<std::string> names_of_before = earlier.names;
+  for (std::size_t i = 0; i < sessions.size(); ++i) {
+    ids.push_back(store.ids()[i]);
+    if (!store.isContinued(i)) continue;
+    of_before.push_back(store.ids()[i]);
+    names_of_before.push_back(names[earlier.names.size() + i]);
+  }
+  outcome.graph = runGraph(outcome.request.parameters.pose_graph.parameters, runs, names, closures,
+                           closuresBetween(store.store(), of_before, names_of_before));
   const pose_graph::Relaxed& relaxed = outcome.graph->relaxed;
   console.info("graph: " + std::to_string(relaxed.poses) + " poses, " + std::to_string(relaxed.closures) +
                " closures, " + std::to_string(relaxed.accepted) + " accepted; cost " +
@@ -171,8 +180,6 @@ void runGraphStage(MapOutcome& outcome, const std::vector<Session>& sessions, co
   const pose_graph::Level& level = outcome.graph->levels.front();
   console.info(level.known() ? "map is level, to " + forPerson(level.sigma * 57.29577951308232, 2) + " deg"
                              : "map is not level: " + level.sentence);
-  std::vector<urban_nav_store::SessionId> ids = earlier.ids;
-  ids.insert(ids.end(), store.ids().begin(), store.ids().end());
   putGraph(store.store(), ids, *outcome.graph, earlier.revision);
   store.store().commit();
   writeGraphFiles(outcome.folder, *outcome.graph, runs);

@@ -51,6 +51,22 @@ RunIdentity storedIdentity(Store& store, const SessionId& id) {
   return identity;
 }
 
+struct StoredClosure {
+  Edge edge;
+  std::optional<std::string> evidence;
+};
+
+std::vector<StoredClosure> closuresOf(Store& store, const SessionId& id) {
+  std::vector<StoredClosure> closures;
+  for (const urban_nav_store::Session& session : store.sessions().all())
+    store.graph().forEachEdge(session.id, [&](const Edge& edge) {
+      if (edge.kind != EdgeKind::Odometry && (edge.a.session == id || edge.b.session == id))
+        closures.push_back({edge, std::nullopt});
+    });
+  for (StoredClosure& closure : closures) closure.evidence = store.graph().evidence(closure.edge);
+  return closures;
+}
+
 }  // namespace
 
 StoreStage::StoreStage(const MapRequest& request, std::vector<Session>& sessions, const std::string& path,
@@ -222,6 +238,8 @@ std::optional<VoRun> StoreStage::begin(std::size_t session, const SourceInfo& in
 
 void StoreStage::put(std::size_t session, const SourceInfo& info) {
   const SessionId& id = ids_[session];
+  const std::vector<StoredClosure> closures =
+      continued_[session] ? closuresOf(*store_, id) : std::vector<StoredClosure>();
   store_->sessions().remove(id);
   store_->sessions().put(urban_nav_store::Session{id, names_[session], "", "", info.first, false});
   for (const auto& [name, digest] : identities_[session]) store_->sessions().put(id, Property{"run/" + name, digest});
@@ -233,6 +251,10 @@ void StoreStage::put(std::size_t session, const SourceInfo& info) {
       store_->sessions().put(
           id, urban_nav_store::StoredParameter{urban_nav_core::fullName(setting.stage, setting.name),
                                                urban_nav_core::printValue(setting.value), setting.origin});
+  }
+  for (const StoredClosure& closure : closures) {
+    store_->graph().put(closure.edge);
+    if (closure.evidence) store_->graph().putEvidence(closure.edge, *closure.evidence);
   }
 }
 

@@ -60,6 +60,8 @@ class StoreStage {
   void end();
 
   urban_nav_store::Store& store() { return *store_; }
+  /// Is a session of this run one of the store that was gone on from? Its closures are there still.
+  bool isContinued(std::size_t session) const { return continued_[session]; }
   /// Of the sessions of this run, in their order.
   const std::vector<urban_nav_store::SessionId>& ids() const { return ids_; }
 

@@ -88,12 +88,13 @@ TEST_F(EarlierSessionsTest, bringsClosuresBetweenTheSessionsThatStay) {
   EXPECT_TRUE(holdsClosures(store));
   const EarlierSessions earlier = readEarlierSessions(store, {"w"});
   EXPECT_EQ(earlier.names, (std::vector<std::string>{"monday", "monday_2"}));
-  ASSERT_EQ(earlier.closures.size(), 2U);
-  EXPECT_EQ(earlier.closures[0].closure.b.session, "monday_2");
-  EXPECT_EQ(earlier.closures[0].row.kind, "stereo");
-  EXPECT_EQ(earlier.closures[0].row.T_a_b->t().x(), 2.0);
-  EXPECT_EQ(earlier.closures[0].closure.measured.information, 4.0 * Matrix6d::Identity());
-  EXPECT_EQ(earlier.closures[1].closure.kind, EdgeKind::Asserted);
+  const std::vector<KnownClosure> closures = closuresBetween(store, earlier.ids, earlier.names);
+  ASSERT_EQ(closures.size(), 2U);
+  EXPECT_EQ(closures[0].closure.b.session, "monday_2");
+  EXPECT_EQ(closures[0].row.kind, "stereo");
+  EXPECT_EQ(closures[0].row.T_a_b->t().x(), 2.0);
+  EXPECT_EQ(closures[0].closure.measured.information, 4.0 * Matrix6d::Identity());
+  EXPECT_EQ(closures[1].closure.kind, EdgeKind::Asserted);
   EXPECT_EQ(readEarlierSessions(store, {}).names.back(), "w") << "a session without a name is called by its id";
   EXPECT_TRUE(readEarlierSessions(store, {"m", "t", "w"}).runs.empty());
 }

@@ -7,6 +7,7 @@
 #include <regex>
 
 #include "convert/convert.hpp"
+#include "pipeline/closures_file.hpp"
 #include "pipeline/map_job.hpp"
 #include "pipeline/store_stage.hpp"
 #include "store/store_info.hpp"
@@ -128,6 +129,32 @@ TEST_F(Split, goesOnWithWheels) {
   for (int i = 0; i < 3; ++i) map({part(i)}, folder.file("out"), i > 0 ? folder.file("out") : "", with_wheels);
   EXPECT_TRUE(readFile(folder.file("once/covariance.csv")) == readFile(folder.file("out/covariance.csv")));
   EXPECT_FALSE(readFile(whole() + "/covariance.csv") == readFile(folder.file("out/covariance.csv")));
+}
+
+// What ties moments of the first bag together still does when the others have come.
+TEST_F(Split, keepsTheClosuresOfTheBagsBefore) {
+  const urban_nav_core::Trajectory way = urban_nav_core::readTum(whole() + "/trajectory.tum");
+  ClosureRow row;
+  row.session_a = row.session_b = "part_0";
+  row.stamp_a = way[2].stamp;
+  row.stamp_b = way[12].stamp;
+  row.kind = "stereo";
+  row.T_a_b = way[2].pose.inverse() * way[12].pose *
+              urban_nav_core::Pose(urban_nav_core::Quaterniond::Identity(), {0.002, 0.001, 0.0});
+  testing::writeFile(folder.file("closures.csv"), printClosures({row}));
+  const auto with_graph = [](MapRequest& request) { request.stages = {"vo", "graph"}; };
+  const auto with_closures = [&](MapRequest& request) {
+    with_graph(request);
+    request.closures = folder.file("closures.csv");
+  };
+  map(parts(), folder.file("once"), {}, with_closures);
+  map({part(0)}, folder.file("out"), {}, with_closures);
+  map({part(1)}, folder.file("out"), folder.file("out"), with_graph);
+  map({part(2)}, folder.file("out"), folder.file("out"), with_graph);
+  EXPECT_NE(readFile(folder.file("once/closures.csv")).find("accepted"), std::string::npos);
+  for (const char* name : {"closures.csv", "trajectory.tum", "covariance.csv"})
+    EXPECT_EQ(readFile(folder.file("once/") + name), readFile(folder.file("out/") + name)) << name;
+  EXPECT_FALSE(readFile(folder.file("out/trajectory.tum")) == readFile(whole() + "/trajectory.tum"));
 }
 
 TEST_F(Split, isAnotherSessionWhereItCannotGoOn) {
