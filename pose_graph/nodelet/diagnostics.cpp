@@ -2,27 +2,15 @@
 #include "diagnostics.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace pose_graph {
 
 using diagnostic_msgs::DiagnosticStatus;
-using urban_nav_core::Health;
 
 namespace {
 
 // s; a filter with a window gives its first settled pose so late, and later ones at the rate of its images.
 constexpr double silent_after = 5.0;
-
-unsigned char levelOf(Health health) {
-  switch (health) {
-    case Health::Ok:
-    case Health::Recovered: return DiagnosticStatus::OK;
-    case Health::Degraded: return DiagnosticStatus::WARN;
-    case Health::Lost: return DiagnosticStatus::ERROR;
-  }
-  return DiagnosticStatus::ERROR;
-}
 
 }  // namespace
 
@@ -34,14 +22,12 @@ Diagnostics::Diagnostics(ros::NodeHandle& nh, ros::NodeHandle& private_nh, const
 
 void Diagnostics::expect(const std::string& topic, bool steady) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  arrivals_[topic].steady = steady;
+  if (steady) arrivals_.emplace(topic, urban_nav_ros::Arrival(topic));
 }
 
 void Diagnostics::received(const std::string& topic) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  Arrival& arrival = arrivals_[topic];
-  arrival.any = true;
-  arrival.when = Clock::now();
+  if (const auto found = arrivals_.find(topic); found != arrivals_.end()) found->second.happen();
 }
 
 void Diagnostics::relaxed(const urban_nav_core::Status& status, const std::string& reason_name,
@@ -74,12 +60,9 @@ void Diagnostics::paused(bool paused) {
 }
 
 std::string Diagnostics::topicTrouble() const {
-  for (const auto& [name, arrival] : arrivals_) {
-    if (!arrival.steady) continue;
-    if (!arrival.any) return name + " has not come yet";
-    const double age = std::chrono::duration<double>(Clock::now() - arrival.when).count();
-    if (age > silent_after) return name + " has been silent for " + std::to_string(std::lround(age)) + " s";
-  }
+  for (const auto& [name, arrival] : arrivals_)
+    for (const std::string& trouble : {arrival.absence(), arrival.silence(silent_after)})
+      if (!trouble.empty()) return trouble;
   return {};
 }
 
@@ -95,7 +78,7 @@ void Diagnostics::report(diagnostic_updater::DiagnosticStatusWrapper& status) co
     const unsigned char at_least = !store_.fault.empty() ? DiagnosticStatus::ERROR
                                    : trouble.empty()     ? DiagnosticStatus::OK
                                                          : DiagnosticStatus::WARN;
-    status.summary(std::max(levelOf(status_.health), at_least), text);
+    status.summary(std::max(urban_nav_ros::diagnosticLevelOf(status_.health), at_least), text);
   }
   status.add("status", std::string(toString(status_.health)));
   status.add("reason", reason_name_);

@@ -4,13 +4,13 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
 
-#include <chrono>
 #include <cstdint>
 #include <map>
 #include <mutex>
 #include <string>
 
 #include "publisher.hpp"
+#include "urban_nav_ros/diagnostics.hpp"
 #include "worker.hpp"
 
 namespace pose_graph {
@@ -39,16 +39,11 @@ class Diagnostics {
   void update() { updater_.force_update(); }
 
  private:
-  using Clock = std::chrono::steady_clock;
-  struct Arrival {
-    bool steady = false, any = false;
-    Clock::time_point when;
-  };
   void report(diagnostic_updater::DiagnosticStatusWrapper& status) const;
   std::string topicTrouble() const;
 
-  mutable std::mutex mutex_;  // guards everything below but updater_
-  std::map<std::string, Arrival> arrivals_;
+  mutable std::mutex mutex_;                                // guards everything below but updater_
+  std::map<std::string, urban_nav_ros::Arrival> arrivals_;  // of steady topics
   urban_nav_core::Status status_;
   std::string reason_name_ = "None", refusal_;
   Figures figures_;

@@ -7,22 +7,11 @@
 namespace swf_vo {
 
 using diagnostic_msgs::DiagnosticStatus;
-using urban_nav_core::Health;
 using urban_nav_core::StampNs;
 
 namespace {
 
 constexpr double silent_after = 1.0;  // s; the slowest cameras that odometry can use have 5 Hz
-
-unsigned char levelOf(Health health) {
-  switch (health) {
-    case Health::Ok:
-    case Health::Recovered: return DiagnosticStatus::OK;
-    case Health::Degraded: return DiagnosticStatus::WARN;
-    case Health::Lost: return DiagnosticStatus::ERROR;
-  }
-  return DiagnosticStatus::ERROR;
-}
 
 std::string milliseconds(double ms) { return std::to_string(std::lround(ms)) + " ms"; }
 
@@ -36,15 +25,13 @@ Diagnostics::Diagnostics(ros::NodeHandle& nh, ros::NodeHandle& private_nh, const
 
 void Diagnostics::expect(Topic topic, const std::string& name) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  arrivals_[topic].name = name;
+  arrivals_[topic] = urban_nav_ros::Arrival(name);
 }
 
 void Diagnostics::received(Topic topic, StampNs stamp) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  Arrival& arrival = arrivals_[topic];
-  arrival.any = true;
-  arrival.when = Clock::now();
-  arrival.stamp = stamp;
+  arrivals_[topic].happen();
+  stamps_[topic] = stamp;
 }
 
 void Diagnostics::worked(const Frame& frame, double process_ms, const Counts& counts) {
@@ -65,27 +52,20 @@ void Diagnostics::paused(bool paused) {
   paused_ = paused;
 }
 
-double Diagnostics::ageOf(const Arrival& arrival) {
-  return std::chrono::duration<double>(Clock::now() - arrival.when).count();
-}
-
 std::string Diagnostics::topicTrouble() const {
-  for (const Arrival& arrival : arrivals_)
-    if (!arrival.name.empty() && !arrival.any) return arrival.name + " has not come yet";
-  const bool left_leads = arrivals_[LeftImage].stamp > arrivals_[RightImage].stamp;
-  const Arrival& leader = arrivals_[left_leads ? LeftImage : RightImage];
-  const Arrival& partner = arrivals_[left_leads ? RightImage : LeftImage];
+  for (const urban_nav_ros::Arrival& arrival : arrivals_)
+    if (const std::string absence = arrival.absence(); !absence.empty()) return absence;
+  const bool left_leads = stamps_[LeftImage] > stamps_[RightImage];
+  const Topic leader = left_leads ? LeftImage : RightImage, partner = left_leads ? RightImage : LeftImage;
   // Between two messages one side is ahead of the other in good health too; only a pair that was incomplete makes it a
   // fault.
-  const double behind_ms = 1e-6 * static_cast<double>(leader.stamp - partner.stamp);
-  const bool incomplete = status_.reason == static_cast<int>(Reason::ImageMissing) || ageOf(partner) > silent_after;
-  if (incomplete && behind_ms > 0.0 && ageOf(leader) < silent_after)
-    return partner.name + " is " + milliseconds(behind_ms) + " behind " + leader.name;
-  for (const Topic topic : {LeftImage, RightImage, Motion}) {
-    const Arrival& arrival = arrivals_[topic];
-    if (!arrival.name.empty() && ageOf(arrival) > silent_after)
-      return arrival.name + " has been silent for " + milliseconds(1e3 * ageOf(arrival));
-  }
+  const double behind_ms = 1e-6 * static_cast<double>(stamps_[leader] - stamps_[partner]);
+  const bool incomplete =
+      status_.reason == static_cast<int>(Reason::ImageMissing) || arrivals_[partner].age() > silent_after;
+  if (incomplete && behind_ms > 0.0 && arrivals_[leader].age() < silent_after)
+    return arrivals_[partner].name() + " is " + milliseconds(behind_ms) + " behind " + arrivals_[leader].name();
+  for (const Topic topic : {LeftImage, RightImage, Motion})
+    if (const std::string silence = arrivals_[topic].silence(silent_after); !silence.empty()) return silence;
   return {};
 }
 
@@ -100,7 +80,7 @@ void Diagnostics::report(diagnostic_updater::DiagnosticStatusWrapper& status) co
     std::string text = status_.sentence.empty() ? toString(status_.health) : status_.sentence;
     if (!trouble.empty()) text += ": " + trouble;
     const unsigned char at_least = trouble.empty() ? DiagnosticStatus::OK : DiagnosticStatus::WARN;
-    status.summary(std::max(levelOf(status_.health), at_least), text);
+    status.summary(std::max(urban_nav_ros::diagnosticLevelOf(status_.health), at_least), text);
   }
   status.add("status", std::string(toString(status_.health)));
   status.add("reason", std::string(toString(static_cast<Reason>(status_.reason))));

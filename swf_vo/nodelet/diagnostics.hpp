@@ -5,12 +5,12 @@
 #include <ros/node_handle.h>
 
 #include <array>
-#include <chrono>
 #include <cstdint>
 #include <mutex>
 #include <string>
 
 #include "swf_vo/frame.hpp"
+#include "urban_nav_ros/diagnostics.hpp"
 
 namespace swf_vo {
 
@@ -44,19 +44,12 @@ class Diagnostics {
   void update() { updater_.force_update(); }
 
  private:
-  using Clock = std::chrono::steady_clock;
-  struct Arrival {
-    std::string name;  // empty: not listened to
-    bool any = false;
-    Clock::time_point when;
-    urban_nav_core::StampNs stamp = 0;
-  };
   void report(diagnostic_updater::DiagnosticStatusWrapper& status) const;
   std::string topicTrouble() const;
-  static double ageOf(const Arrival& arrival);  // s
 
   mutable std::mutex mutex_;  // guards everything below but updater_
-  std::array<Arrival, topic_count> arrivals_;
+  std::array<urban_nav_ros::Arrival, topic_count> arrivals_;
+  std::array<urban_nav_core::StampNs, topic_count> stamps_{};  // of the last ones
   Counts counts_;
   urban_nav_core::Status status_;
   Statistics statistics_;

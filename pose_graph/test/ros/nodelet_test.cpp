@@ -300,10 +300,8 @@ TEST_F(PoseGraphNodelet, mapToOdomTakesTheRobotToItsPoseWhenTheNodeletIsStartedI
   ASSERT_TRUE(driven(19));
   ASSERT_EQ(std::system("rosnode kill /pose_graph > /dev/null 2>&1"), 0);
   ASSERT_TRUE(Listener::until([&] { return listener().relative.getNumSubscribers() == 0; }));
-  ASSERT_TRUE(Listener::until([&] {
-    return listener().relative.getNumSubscribers() > 0 && listener().odometry.getNumSubscribers() > 0 &&
-           listener().hearsAll() && ros::service::exists("pose_graph/get_trajectory", false);
-  }));
+  ASSERT_TRUE(Listener::until(
+      [&] { return listener().isConnected() && ros::service::exists("pose_graph/get_trajectory", false); }));
   listener().forget();
   const auto session = [&] { return trajectory().runs.back(); };
   for (int i = 30; i <= 35; ++i) hear(i, odomPose(i));
@@ -331,15 +329,8 @@ TEST_F(PoseGraphNodelet, pauseDropsInputsAndDiagnosticsCountWhatIsWrong) {
   auto damaged = urban_nav_ros::toMetricClosureMessage(closureOf(0, 3, Pose()), "base_link", 1.0);
   damaged.T_a_b.position.x = std::numeric_limits<double>::quiet_NaN();
   listener().closures.publish(damaged);
-  const auto counted = [&](const std::string& key, const std::string& value) {
-    for (const auto& array : listener().diagnostics)
-      for (const auto& status : array.status)
-        for (const auto& entry : status.values)
-          if (entry.key == key && entry.value == value) return true;
-    return false;
-  };
-  EXPECT_TRUE(Listener::until([&] { return counted("dropped: paused", "3"); }));
-  EXPECT_TRUE(Listener::until([&] { return counted("messages damaged", "1"); }));
+  EXPECT_TRUE(Listener::until([&] { return listener().diagnosed("dropped: paused", "3"); }));
+  EXPECT_TRUE(Listener::until([&] { return listener().diagnosed("messages damaged", "1"); }));
 }
 
 /// The nodelet keeps its graph in a file of which launch has made the name.
@@ -377,13 +368,7 @@ TEST_F(Store, hasWhatWasTakenInASecondAgo) {
   ros::WallTime begin = ros::WallTime::now();
   ASSERT_TRUE(Listener::until([&] { return storedNodes() == lap + 1; }));
   EXPECT_LT((ros::WallTime::now() - begin).toSec(), 4.0) << "a second, on a machine with nothing else to do";
-  EXPECT_TRUE(Listener::until([&] {
-    for (const auto& array : listener().diagnostics)
-      for (const auto& status : array.status)
-        for (const auto& entry : status.values)
-          if (entry.key == "store" && entry.value == path()) return true;
-    return false;
-  }));
+  EXPECT_TRUE(Listener::until([&] { return listener().diagnosed("store", path()); }));
 }
 
 TEST_F(Store, savesTheGraphAndGoesOnFromIt) {

@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <diagnostic_msgs/DiagnosticArray.h>
 #include <nav_msgs/Odometry.h>
-#include <ros/ros.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
-#include <std_srvs/Trigger.h>
 #include <tf2_msgs/TFMessage.h>
 #include <urban_nav_msgs/RelativePose.h>
 #include <urban_nav_msgs/StageStatus.h>
 #include <urban_nav_msgs/VoFrame.h>
 
-#include <functional>
-#include <string>
 #include <vector>
 
 #include "urban_nav_core/testing/motion.hpp"
@@ -23,6 +18,7 @@
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/image.hpp"
 #include "urban_nav_ros/stamp.hpp"
+#include "urban_nav_ros/testing/listener.hpp"
 
 namespace swf_vo::test {
 
@@ -47,14 +43,9 @@ inline urban_nav_core::StereoCamera cameraOf(const urban_nav_core::testing::Rend
 }
 
 /// The ROS graph as the nodelet sees it: a robot that publishes, and a listener who keeps everything.
-class Graph {
+class Graph : public urban_nav_ros::testing::Listener {
  public:
-  Graph() {
-    left_ = nh_.advertise<sensor_msgs::Image>("stereo/left/image_raw", 1000);
-    right_ = nh_.advertise<sensor_msgs::Image>("stereo/right/image_raw", 1000);
-    left_info_ = nh_.advertise<sensor_msgs::CameraInfo>("stereo/left/camera_info", 1000);
-    right_info_ = nh_.advertise<sensor_msgs::CameraInfo>("stereo/right/camera_info", 1000);
-    tf_static_ = nh_.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
+  Graph() : urban_nav_ros::testing::Listener("swf_vo") {
     keep("vo/odometry", odometry);
     keep("vo/relative_pose", relative);
     keep("vo/frame", frames);
@@ -62,11 +53,7 @@ class Graph {
     keep("vo/tracks", tracks);
     keep("swf_vo/status", statuses);
     keep("/tf", transforms);
-    keep("/diagnostics", diagnostics);
-    connected_ = until([this] {
-      return left_.getNumSubscribers() > 0 && right_.getNumSubscribers() > 0 && left_info_.getNumSubscribers() > 0 &&
-             tf_static_.getNumSubscribers() > 0 && subscribers_[0].getNumPublishers() > 0;
-    });
+    connected_ = until([this] { return isConnected(); });
   }
   bool connected() const { return connected_; }
 
@@ -81,21 +68,6 @@ class Graph {
                bool left = true, bool right = true) {
     if (left) publish(left_, left_info_, frame.left, leftInfo(camera), frame.stamp, "stereo_left_optical_frame");
     if (right) publish(right_, right_info_, frame.right, rightInfo(camera), frame.stamp, "stereo_right_optical_frame");
-  }
-
-  bool call(const std::string& service) {
-    std_srvs::Trigger trigger;
-    return ros::service::call("swf_vo/" + service, trigger) && trigger.response.success;
-  }
-
-  /// Spins until it is so; false after ten seconds.
-  static bool until(const std::function<bool()>& so) {
-    for (int i = 0; i < 1000 && ros::ok(); ++i) {
-      ros::spinOnce();
-      if (so()) return true;
-      ros::WallDuration(0.01).sleep();
-    }
-    return false;
   }
 
   void forget() {
@@ -116,16 +88,8 @@ class Graph {
   std::vector<sensor_msgs::Image> tracks;
   std::vector<urban_nav_msgs::StageStatus> statuses;
   std::vector<tf2_msgs::TFMessage> transforms;
-  std::vector<diagnostic_msgs::DiagnosticArray> diagnostics;
 
  private:
-  template <typename Message>
-  void keep(const std::string& topic, std::vector<Message>& into) {
-    const boost::function<void(const boost::shared_ptr<const Message>&)> callback =
-        [&into](const boost::shared_ptr<const Message>& message) { into.push_back(*message); };
-    subscribers_.push_back(nh_.subscribe<Message>(topic, 1000, callback));
-  }
-
   static void publish(ros::Publisher& images, ros::Publisher& infos, const urban_nav_core::testing::GreyImage& image,
                       const urban_nav_core::CameraInfo& info, urban_nav_core::StampNs stamp, const std::string& frame) {
     auto pixels = image.pixels;
@@ -138,9 +102,11 @@ class Graph {
     images.publish(message);
   }
 
-  ros::NodeHandle nh_;
-  ros::Publisher left_, right_, left_info_, right_info_, tf_static_;
-  std::vector<ros::Subscriber> subscribers_;
+  ros::Publisher left_ = advertise<sensor_msgs::Image>("stereo/left/image_raw");
+  ros::Publisher right_ = advertise<sensor_msgs::Image>("stereo/right/image_raw");
+  ros::Publisher left_info_ = advertise<sensor_msgs::CameraInfo>("stereo/left/camera_info");
+  ros::Publisher right_info_ = advertise<sensor_msgs::CameraInfo>("stereo/right/camera_info");
+  ros::Publisher tf_static_ = advertise<tf2_msgs::TFMessage>("/tf_static", true);
   bool connected_ = false;
 };
 

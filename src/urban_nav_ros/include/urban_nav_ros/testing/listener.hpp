@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <ros/ros.h>
+#include <std_srvs/Trigger.h>
+
+#include <algorithm>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace urban_nav_ros::testing {
+
+/// What listens in the rostest of a nodelet: it keeps all that comes on the topics it is told, in the thread of the test.
+class Listener {
+ public:
+  /// `node`: the nodelet's name, under which its services are.
+  explicit Listener(std::string node) : node_(std::move(node)) { keep("/diagnostics", diagnostics); }
+
+  /// Spins until it is so; false after ten seconds.
+  static bool until(const std::function<bool()>& so) {
+    for (int i = 0; i < 1000 && ros::ok(); ++i) {
+      ros::spinOnce();
+      if (so()) return true;
+      ros::WallDuration(0.01).sleep();
+    }
+    return false;
+  }
+
+  /// Each topic that is kept has somebody who publishes it, and each of the test's own somebody who listens.
+  bool isConnected() const {
+    return std::all_of(subscribers_.begin(), subscribers_.end(),
+                       [](const ros::Subscriber& each) { return each.getNumPublishers() > 0; }) &&
+           std::all_of(publishers_.begin(), publishers_.end(),
+                       [](const ros::Publisher& each) { return each.getNumSubscribers() > 0; });
+  }
+
+  /// A service without arguments, which says whether it did what it was asked.
+  bool call(const std::string& service) {
+    std_srvs::Trigger trigger;
+    return ros::service::call(node_ + "/" + service, trigger) && trigger.response.success;
+  }
+
+  /// Whether some status has had this entry.
+  bool diagnosed(const std::string& key, const std::string& value) const {
+    for (const auto& array : diagnostics)
+      for (const auto& status : array.status)
+        for (const auto& entry : status.values)
+          if (entry.key == key && entry.value == value) return true;
+    return false;
+  }
+
+  std::vector<diagnostic_msgs::DiagnosticArray> diagnostics;
+
+ protected:
+  template <typename Message>
+  void keep(const std::string& topic, std::vector<Message>& into) {
+    const boost::function<void(const boost::shared_ptr<const Message>&)> callback =
+        [&into](const boost::shared_ptr<const Message>& message) { into.push_back(*message); };
+    subscribers_.push_back(nh_.subscribe<Message>(topic, 1000, callback));
+  }
+  template <typename Message>
+  ros::Publisher advertise(const std::string& topic, bool latched = false) {
+    publishers_.push_back(nh_.advertise<Message>(topic, 1000, latched));
+    return publishers_.back();
+  }
+
+ private:
+  const std::string node_;
+  ros::NodeHandle nh_;
+  std::vector<ros::Subscriber> subscribers_;
+  std::vector<ros::Publisher> publishers_;
+};
+
+}  // namespace urban_nav_ros::testing
