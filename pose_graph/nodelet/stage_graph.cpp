@@ -22,6 +22,8 @@ namespace {
 constexpr std::size_t most_waiting = 1000;
 // A map is levelled at the earliest by three spans of 2 s (level.hpp); where that was not enough, when twice as much has been driven.
 constexpr StampNs first_level = 6'500'000'000;
+// What was felt comes into the graph at least so often, and from there into the store.
+constexpr StampNs forces_every = 10'000'000'000;
 // A stamp that lies this far back is a bag that began again or a clock that was set, not a late message.
 constexpr StampNs back_in_time = 1'000'000'000;
 
@@ -94,6 +96,7 @@ void StageGraph::begin(const std::string& name, StampNs start) {
   felt_.begin();
   began_ = start;
   level_at_ = start + first_level;
+  forces_at_ = start + forces_every;
   if (goOn(name, start)) return;
   urban_nav_store::Session session;
   session.name = name.empty() ? urban_nav_core::printStamp(start) : name;
@@ -151,6 +154,7 @@ void StageGraph::add(const urban_nav_core::RelativePose& relative) {
   for (std::size_t i = 0; i < tracks.size(); ++i)
     if (tracks[i].session == session_) moved_[i].grow(tracks[i].stamps.size(), graph_.revision());
   tie();
+  if (relative.to >= forces_at_) putForces();
   if (relative.to >= level_at_) level();
   offerWaiting();
 }
@@ -161,6 +165,7 @@ void StageGraph::add(const urban_nav_core::StampedPose& odometry) {
 }
 
 void StageGraph::putForces() {
+  forces_at_ = newest() + forces_every;
   if (const Track* track = running()) graph_.putForces(session_, felt_.at(track->stamps));
 }
 
@@ -308,6 +313,7 @@ StageGraph::TakenIn StageGraph::takeIn(const StoredGraph& stored, bool own) {
     }
     graph_.beginSession(id);
     for (const urban_nav_core::RelativePose& step : chain.steps) graph_.addOdometry(id, step);
+    graph_.putForces(id, chain.forces);
     const std::size_t track = graph_.tracks().size() - 1, poses = graph_.tracks().back().stamps.size();
     sessions_[id] = chain.session;
     if (own) earlier_.insert(id);

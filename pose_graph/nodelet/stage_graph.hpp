@@ -110,7 +110,8 @@ class StageGraph : public LiveGraph {
   OdomTie tie_;
   std::optional<Pose> T_map_odom_;
   Felt felt_;
-  StampNs began_ = 0, level_at_ = 0;  // of the running session: its begin, and when to try to level its map
+  StampNs began_ = 0, level_at_ = 0,
+          forces_at_ = 0;  // of the running session: its begin, when to level its map, and to take what was felt
 };
 
 }  // namespace pose_graph

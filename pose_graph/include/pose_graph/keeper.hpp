@@ -14,7 +14,7 @@
 
 namespace pose_graph {
 
-/// Keeps a graph that grows in a store: hands what is new to a LiveWriter, which commits it once a second. Never waits for the
+/// Keeps a graph that grows in a store, and what was felt at its poses: hands what is new to a LiveWriter, which commits it once a second. Never waits for the
 /// disk. What the disk does not take (it is full, say) stays in the graph, which has it anyway, and is handed over when there is
 /// room: nothing is lost while the process lives, and no second copy grows.
 ///
@@ -57,7 +57,7 @@ class Keeper {
  private:
   using Write = urban_nav_store::LiveWriter::Write;
   struct Kept {
-    std::size_t nodes = 0;
+    std::size_t nodes = 0, forces = 0;
     std::vector<Pose> map;  // where the store has the first poses; what follows follows odometry
   };
   struct Batch;
@@ -65,6 +65,7 @@ class Keeper {
   void postLater(Write write);
   bool followPending();
   bool followNodes(const PoseGraph& graph);
+  bool followForces(const PoseGraph& graph, bool at_once);
   void followRelaxation(const PoseGraph& graph, bool exactly, bool at_once);
   void takePoses(const PoseGraph& graph, bool exactly, Batch& batch);
   void takeClosures(const PoseGraph& graph, Batch& batch);

@@ -146,6 +146,7 @@ class PoseGraph {
   /// What was felt at poses of a session, in order of time; from the first of them on it takes the place of what is known. Batches level
   /// by it: a map of which one of the sessions knows which way is up has z up, and origin and heading of its first pose.
   void putForces(const SessionId& session, const std::vector<FeltForce>& forces);
+  const std::vector<FeltForce>& forces(std::size_t track) const { return forces_[track]; }
   /// Levels what is not level yet where that is known by now, and tells of it as relax() does.
   std::optional<Relaxed> level();
   /// Whether the map that a session lies in is level.

@@ -15,7 +15,8 @@ struct StoredGraph {
   struct Chain {
     urban_nav_store::Session session;
     std::vector<urban_nav_core::RelativePose>
-        steps;  ///< in order of time; one that does not begin where the last ended: a gap
+        steps;                      ///< in order of time; one that does not begin where the last ended: a gap
+    std::vector<FeltForce> forces;  ///< at its poses
   };
   std::vector<Chain> chains;      ///< in the order in which the sessions began
   std::vector<Closure> closures;  ///< in the order of the later of their two poses; as offered, not judged

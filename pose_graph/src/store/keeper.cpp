@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "pose_graph/forces_state.hpp"
 #include "pose_graph/stored_graph.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
 
@@ -147,6 +148,7 @@ void Keeper::putRejected(const StoredEdge& edge, const std::string& evidence) {
 void Keeper::knows(const PoseGraph& graph, std::size_t track) {
   if (tracks_.size() <= track) tracks_.resize(track + 1);
   tracks_[track].nodes = graph.tracks()[track].stamps.size();
+  tracks_[track].forces = graph.forces(track).size();
 }
 
 void Keeper::knows(const Closure& closure) {
@@ -162,12 +164,12 @@ void Keeper::forget() {
 
 void Keeper::follow(const PoseGraph& graph, bool exactly) {
   tracks_.resize(graph.tracks().size());
-  if (followPending() && followNodes(graph)) followRelaxation(graph, exactly, false);
+  if (followPending() && followNodes(graph) && followForces(graph, false)) followRelaxation(graph, exactly, false);
 }
 
 void Keeper::handOver(const PoseGraph& graph) {
   tracks_.resize(graph.tracks().size());
-  if (followPending() && followNodes(graph)) followRelaxation(graph, true, true);
+  if (followPending() && followNodes(graph) && followForces(graph, true)) followRelaxation(graph, true, true);
 }
 
 bool Keeper::followPending() {
@@ -186,6 +188,20 @@ bool Keeper::followNodes(const PoseGraph& graph) {
       if (!post(nodesOf(graph, t, tracks_[t].nodes, end))) return false;
       tracks_[t].nodes = end;
     }
+  }
+  return true;
+}
+
+// All of a session's forces are one value: it is written when it has grown by a fifth, so that its bytes are written five times at most.
+bool Keeper::followForces(const PoseGraph& graph, bool at_once) {
+  for (std::size_t t = 0; t < tracks_.size(); ++t) {
+    const std::vector<FeltForce>& forces = graph.forces(t);
+    const std::size_t known = tracks_[t].forces;
+    if (forces.size() <= known || (!at_once && 5 * forces.size() < 6 * known)) continue;
+    const SessionId& session = graph.tracks()[t].session;
+    if (!post([session, forces](Store& store) { store.states().put(session, kForcesStage, packForces(forces)); }))
+      return false;
+    tracks_[t].forces = forces.size();
   }
   return true;
 }

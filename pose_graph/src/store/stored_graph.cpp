@@ -6,6 +6,8 @@
 #include <set>
 #include <tuple>
 
+#include "pose_graph/forces_state.hpp"
+
 namespace pose_graph {
 
 using urban_nav_core::RelativePose;
@@ -71,7 +73,9 @@ StoredGraph readGraph(Store& store) {
       made.closures.push_back(closureOf(edge));
       made.closures.back().odometry_gate = passedOdometryGate(store.graph().evidence(edge).value_or(""));
     });
-    made.chains.push_back({session, stepsOf(store, session.id, steps)});
+    made.chains.push_back({session, stepsOf(store, session.id, steps), {}});
+    if (const auto forces = store.states().get(session.id, kForcesStage))
+      made.chains.back().forces = unpackForces(*forces).value_or(std::vector<FeltForce>());
     store.graph().forEachRelaxed(session.id, [&](const urban_nav_store::RelaxedPose& pose) {
       made.revision = std::max(made.revision, pose.revision);
     });

@@ -43,6 +43,10 @@ class Stage : public ::testing::Test {
     for (int i = first; i < end; ++i) graph.add(stepAt(i));
     graph.keep();
   }
+  /// What an accelerometer feels that lies on its side and does not move: far from what the way shows, but gravity is more than that.
+  static void feel(StageGraph& graph, int end) {
+    for (int i = -5; i < end + 5; ++i) graph.add(FeltForce{i * kPeriod, Eigen::Vector3d(0.0, 0.5, 9.79)});
+  }
   static std::size_t posesOf(const StageGraph& graph) {
     std::size_t poses = 0;
     for (const auto& run : graph.trajectory(0, 0, 0).runs) poses += run.poses.size();
@@ -257,13 +261,7 @@ TEST_F(Stage, aSessionEndsWithABatch) {
 
 TEST_F(Stage, levelsOnceItIsKnownWhichWayIsUp) {
   auto graph = begin("monday", "");
-  // What an accelerometer feels that lies on its side and does not move: far from what the way shows, but gravity is more than that.
-  for (int i = -5; i < 3 * kLap + 5; ++i) {
-    FeltForce sample;
-    sample.stamp = i * kPeriod;
-    sample.force = Eigen::Vector3d(0.0, 0.5, 9.79);
-    graph->add(sample);
-  }
+  feel(*graph, 3 * kLap);
   drive(*graph, 0, 100);
   EXPECT_FALSE(graph->wantsRelaxation());
   drive(*graph, 100, 3 * kLap);
@@ -274,6 +272,22 @@ TEST_F(Stage, levelsOnceItIsKnownWhichWayIsUp) {
   ASSERT_TRUE(outcome.update);
   EXPECT_GT(outcome.update->runs[0].poses.size(), 100u) << "all of them";
   EXPECT_FALSE(graph->wantsRelaxation()) << "once";
+}
+
+TEST_F(Stage, whatWasFeltLevelsTheMapAfterARestartToo) {
+  auto graph = begin();
+  feel(*graph, 4 * kLap);
+  drive(*graph, 0, 3 * kLap);
+  relaxAll(*graph);
+  const LiveGraph::Trajectory before = graph->trajectory(0, 0, 0);
+  EXPECT_FALSE(isApprox(before.runs[0].poses[0].T_map_base, Pose(), 1e-3));
+  graph.reset();
+  ASSERT_EQ(stored().chains.size(), 1u);
+  EXPECT_EQ(stored().chains[0].forces.size(), 3u * kLap + 1);
+  graph = begin();
+  EXPECT_TRUE(graph->wantsBatch());
+  relaxAll(*graph);
+  expectSame(graph->trajectory(0, 0, 0), before);
 }
 
 TEST_F(Stage, mapFromOdomIsThatOfTheStampWhereverOdomBegins) {

@@ -10,6 +10,7 @@
 #include "pipeline/bag_state.hpp"
 #include "pipeline/run_identity.hpp"
 #include "pipeline/vo_stage.hpp"
+#include "pose_graph/forces_state.hpp"
 #include "urban_nav_store/store.hpp"
 
 namespace urban_nav {
@@ -17,10 +18,12 @@ namespace urban_nav {
 /// What the store knows visual odometry, forces at its frames, its stream and its camera by. The state of visual odometry says that a
 /// run can go on; forces stay for runs that go on from the session.
 constexpr const char* kVoStage = "swf_vo";
-constexpr const char* kForcesStage = "gravity";
 constexpr const char* kBagStage = "bag";  ///< packBagState: the next bag of the recording can go on
 constexpr const char* kVoStream = "stereo";
 constexpr const char* kVoCamera = "stereo_left_optical_frame";
+using pose_graph::kForcesStage;
+using pose_graph::packForces;
+using pose_graph::unpackForces;
 
 /// Keeps what a run of `map` makes in session.db of its folder, committed about once a second, and finds there what a run
 /// that was cut off had finished.

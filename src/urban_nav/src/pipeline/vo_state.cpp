@@ -21,7 +21,7 @@ using urban_nav_store::ByteReader;
 
 namespace {
 
-constexpr std::uint32_t kVersion = 2, kForcesVersion = 1;  // of these bytes
+constexpr std::uint32_t kVersion = 2;  // of these bytes
 
 /// One description of what is packed serves both ways: each field is named once, for a Packer to append or an Unpacker to
 /// read.
@@ -205,22 +205,6 @@ std::optional<VoRun> unpackVoRun(std::string_view bytes) {
     if (!isHealth(each.status.health) || !isHealth(each.from_previous.status.health)) return std::nullopt;
   for (const VoLandmark& each : landmarks) run.landmarks.emplace(each.landmark.id, each);
   return run;
-}
-
-std::string packForces(const std::vector<pose_graph::FeltForce>& forces) {
-  Packer packer;
-  appendInteger32(packer.bytes, kForcesVersion);
-  packer.list(forces, [&](const auto& each) { force(packer, each); });
-  return std::move(packer.bytes);
-}
-
-std::optional<std::vector<pose_graph::FeltForce>> unpackForces(std::string_view bytes) {
-  Unpacker unpacker(bytes);
-  if (unpacker.reader.integer32() != kForcesVersion) return std::nullopt;
-  std::vector<pose_graph::FeltForce> forces;
-  unpacker.list(forces, [&](pose_graph::FeltForce& each) { force(unpacker, each); });
-  if (!unpacker.fine || !unpacker.reader.complete()) return std::nullopt;
-  return forces;
 }
 
 }  // namespace urban_nav

@@ -15,8 +15,4 @@ std::string packVoRun(const VoRun& run);
 /// Empty where the bytes are no such thing.
 std::optional<VoRun> unpackVoRun(std::string_view bytes);
 
-/// What of a run outlives it in a store beside its nodes and edges: the forces that level a map.
-std::string packForces(const std::vector<pose_graph::FeltForce>& forces);
-std::optional<std::vector<pose_graph::FeltForce>> unpackForces(std::string_view bytes);
-
 }  // namespace urban_nav

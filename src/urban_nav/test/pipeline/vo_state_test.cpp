@@ -48,18 +48,6 @@ TEST(VoState, comesBackBitByBit) {
   EXPECT_EQ(back->forces[1].force, run.forces[1].force);
 }
 
-TEST(VoState, forcesComeBackByThemselves) {
-  const std::vector<pose_graph::FeltForce> forces = {{5, {0.1, 0.2, 9.8}}, {7, {-0.1, 1e-9, 9.7}}};
-  const auto back = unpackForces(packForces(forces));
-  ASSERT_TRUE(back);
-  ASSERT_EQ(back->size(), 2U);
-  EXPECT_EQ((*back)[1].stamp, 7);
-  EXPECT_EQ((*back)[1].force, forces[1].force);
-  EXPECT_FALSE(unpackForces(""));
-  EXPECT_FALSE(unpackForces(packForces(forces).substr(1)));
-  EXPECT_FALSE(unpackForces(packForces(forces) + "x"));
-}
-
 TEST(VoState, survivesAnything) {
   VoRun run = someRun(3);
   run.landmarks.erase(std::next(run.landmarks.begin(), 3), run.landmarks.end());
