@@ -10,7 +10,6 @@
 
 namespace pose_graph {
 
-using urban_nav_core::ClosureMethod;
 using urban_nav_core::EdgeRef;
 using urban_nav_core::PoseRef;
 using urban_nav_core::PoseRun;
@@ -31,13 +30,6 @@ PoseRef refOf(const NodeRef& node) { return {node.session, node.stamp}; }
 
 EdgeRef refOf(const Closure& closure) {
   return {refOf(closure.a), refOf(closure.b), toString(closure.kind), closure.source};
-}
-
-EdgeKind kindOf(const std::string& word) {
-  const auto kind = urban_nav_store::parseEdgeKind(word);
-  if (!kind || *kind == EdgeKind::Odometry || *kind == EdgeKind::Session)
-    throw UserError("kind", "`" + word + "`", "stereo, icp, plane, asserted");
-  return *kind;
 }
 
 Tie::Look lookOf(const Closure& closure) {
@@ -176,31 +168,9 @@ void StageGraph::level() {
   if (const auto levelled = graph_.level()) ready_.push_back(absorb(*levelled));
 }
 
-void StageGraph::add(const urban_nav_core::MetricClosure& closure) {
-  Offered offered;
-  offered.rejected =
-      closure.verdict != urban_nav_core::ClosureVerdict::Accepted || closure.method == ClosureMethod::None;
-  offered.evidence = evidenceOf(closure);
-  offered.closure.a = nodeOf(closure.a);
-  offered.closure.b = nodeOf(closure.b);
-  offered.closure.kind = closure.method == ClosureMethod::Icp ? EdgeKind::Icp : EdgeKind::Stereo;
-  offered.closure.source = closure.source;
-  offered.closure.measured = closure.measured;
-  offered.closure.odometry_gate = closure.odometry_gate;
-  if (offered.rejected)
-    offered.closure.reason = closure.reason_name + (closure.sentence.empty() ? "" : ": " + closure.sentence);
-  offer(std::move(offered));
-}
+void StageGraph::add(const urban_nav_core::MetricClosure& closure) { offer(offeredOf(closure)); }
 
-void StageGraph::add(const urban_nav_core::RelativeConstraint& constraint) {
-  Offered offered;
-  offered.closure.a = nodeOf(constraint.a);
-  offered.closure.b = nodeOf(constraint.b);
-  offered.closure.kind = kindOf(constraint.kind);
-  offered.closure.source = constraint.source;
-  offered.closure.measured = constraint.measured;
-  offer(std::move(offered));
-}
+void StageGraph::add(const urban_nav_core::RelativeConstraint& constraint) { offer(offeredOf(constraint)); }
 
 NodeRef StageGraph::nodeOf(const PoseRef& ref) const {
   return {ref.session.empty() ? session_ : ref.session, ref.stamp};
@@ -214,7 +184,13 @@ bool StageGraph::isAhead(const Offered& offered) const {
   return isAhead(offered.closure.a) || isAhead(offered.closure.b);
 }
 
+void StageGraph::nameSessions(Offered& offered) const {
+  if (offered.closure.a.session.empty()) offered.closure.a.session = session_;
+  if (offered.closure.b.session.empty()) offered.closure.b.session = session_;
+}
+
 void StageGraph::offer(Offered offered) {
+  nameSessions(offered);
   if (isAhead(offered)) {
     if (waiting_.size() == most_waiting) waiting_.pop_front();
     waiting_.push_back(std::move(offered));
@@ -243,9 +219,7 @@ void StageGraph::offerWaiting() {
   std::deque<Offered> still;
   std::string refusal;
   for (Offered& offered : std::exchange(waiting_, {})) {
-    // One that came before the first odometry of its session.
-    if (offered.closure.a.session.empty()) offered.closure.a.session = session_;
-    if (offered.closure.b.session.empty()) offered.closure.b.session = session_;
+    nameSessions(offered);  // of one that came before the first odometry of its session
     if (isAhead(offered)) {
       still.push_back(std::move(offered));
       continue;

@@ -12,6 +12,7 @@
 #include "last_moved.hpp"
 #include "live_graph.hpp"
 #include "odom_tie.hpp"
+#include "offered.hpp"
 #include "pose_graph/pose_graph.hpp"
 #include "store_link.hpp"
 
@@ -60,12 +61,6 @@ class StageGraph : public LiveGraph {
   void reset() override;
 
  private:
-  /// A closure on its way into the graph, or past it.
-  struct Offered {
-    Closure closure;
-    bool rejected = false;
-    std::string evidence;
-  };
   struct TakenIn {
     std::size_t sessions = 0, known = 0, poses = 0, closures = 0, refused = 0;
   };
@@ -78,6 +73,8 @@ class StageGraph : public LiveGraph {
   /// Odometry has not come so far yet.
   bool isAhead(const NodeRef& node) const;
   bool isAhead(const Offered& offered) const;
+  /// A pose that names no session is of the one that is running.
+  void nameSessions(Offered& offered) const;
   void offer(Offered offered);
   void take(Offered& offered);
   void offerWaiting();
