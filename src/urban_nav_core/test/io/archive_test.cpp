@@ -42,7 +42,7 @@ Thing someThing() {
   Thing thing;
   thing.yes = true;
   thing.small = -7;
-  thing.large = std::numeric_limits<std::int64_t>::min();
+  thing.large = std::numeric_limits<std::int64_t>::min() / 2;
   thing.byte = 255;
   thing.colour = Colour::Green;
   thing.number = -0.1;
@@ -75,7 +75,7 @@ TEST(Archive, WhatIsWrittenIsRead) {
   const std::string bytes = written(someThing());
   const Thing thing = read(bytes);
   EXPECT_EQ(written(thing), bytes);
-  EXPECT_EQ(thing.large, std::numeric_limits<std::int64_t>::min());
+  EXPECT_EQ(thing.large, std::numeric_limits<std::int64_t>::min() / 2);
   EXPECT_EQ(thing.text.size(), 15U);
   EXPECT_EQ(thing.colour, Colour::Green);
   ASSERT_EQ(thing.inners.size(), 2U);
@@ -104,6 +104,10 @@ TEST(Archive, NamesWhatIsWrong) {
   std::string other = bytes;
   other[0] = 2;
   EXPECT_EQ(errorOf([&] { read(other); }), "state of a thing: is damaged: a whole number is out of its range" + right);
+  Thing thing;
+  thing.small = std::numeric_limits<int>::max();
+  EXPECT_EQ(errorOf([&] { read(written(thing)); }),
+            "state of a thing: is damaged: a whole number is out of its range" + right);
   other = bytes;
   other[5 * 8 + 6] = other[5 * 8 + 7] = '\x7f';
   other[5 * 8 + 6] = '\xf0';

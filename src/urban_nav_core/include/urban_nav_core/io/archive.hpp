@@ -25,8 +25,8 @@ class Pose;
 /// Takes bool, whole numbers and enumerators (8 bytes each), double, float, text, matrices of fixed size, poses; arrays, vectors, pairs and optionals of
 /// these; and whatever has such a member, or a function `archive(Archive&, T&)` beside it. Little-endian on every machine, numbers to the last bit.
 ///
-/// What is read is not trusted: a number of things to come is held against the bytes that are left, a whole number against its type, numbers
-/// must be finite and rotations be rotations; `require` is for what else a class relies on. Anything else is a DataError "is damaged", and the object that
+/// What is read is not trusted: a number of things to come is held against the bytes that are left, a whole number against half the range of its type
+/// (so that what counts on from there does not run over), numbers must be finite and rotations be rotations; `require` is for what else a class relies on. Anything else is a DataError "is damaged", and the object that
 /// was being read is then half old and half new: it must not be used. Not thread-safe.
 class Archive {
  public:
@@ -72,12 +72,11 @@ class Archive {
       value = static_cast<T>(number);
     } else if constexpr (std::is_integral_v<T>) {
       auto number = static_cast<std::int64_t>(value);
-      constexpr bool wide = sizeof(T) == sizeof(std::int64_t);
-      integer(
-          number,
-          wide && std::is_signed_v<T> ? std::numeric_limits<std::int64_t>::min()
-                                      : static_cast<std::int64_t>(std::numeric_limits<T>::min()),
-          wide ? std::numeric_limits<std::int64_t>::max() : static_cast<std::int64_t>(std::numeric_limits<T>::max()));
+      using Limits = std::numeric_limits<T>;
+      constexpr T part = sizeof(T) < 4 ? 1 : 2;
+      constexpr bool wide = sizeof(T) == sizeof(std::int64_t) && !std::is_signed_v<T>;
+      integer(number, static_cast<std::int64_t>(Limits::min() / part),
+              static_cast<std::int64_t>(Limits::max() / (wide ? 2 * part : part)));
       value = static_cast<T>(number);
     } else if constexpr (std::is_floating_point_v<T>) {
       numbers(&value, 1);
