@@ -74,6 +74,7 @@ TEST(State, GoesOnInABlur) { expectSeamless(stepsOf("loop", 45, "blur:1:0.5"), {
 TEST(State, GoesOnBehindAGap) { expectSeamless(stepsOf("loop", 60, "drop:1:0.8"), {20, 21, 22, 24, 30}); }
 
 TEST(State, GoesOnWithImagesExchanged) { expectSeamless(stepsOf("loop", 45, "swap:1:0.5"), {21, 23, 26, 32}); }
+TEST(State, GoesOnInFrozenImages) { expectSeamless(stepsOf("loop", 45, "freeze:1:0.5"), {20, 21, 22, 25, 29, 32}); }
 
 TEST(State, GoesOnWithWheels) {
   Parameters parameters;
