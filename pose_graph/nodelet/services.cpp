@@ -9,7 +9,9 @@
 #include <urban_nav_msgs/RemoveEdge.h>
 
 #include <boost/function.hpp>
+#include <iomanip>
 #include <memory>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -52,6 +54,20 @@ void addEdge(LiveGraph& graph, const AddEdge::Request& request, AddEdge::Respons
       {urban_nav_ros::toPoseRef(request.a), urban_nav_ros::toPoseRef(request.b), request.kind, source}, *measured);
   response.message = reply.message;
   for (const auto& edge : reply.contradicting) response.contradicting.push_back(urban_nav_ros::toEdgeRefMessage(edge));
+}
+
+std::string sentenceOf(std::future<Figures>& ended) {
+  try {
+    const Figures figures = ended.get();
+    std::ostringstream text;
+    text << figures.poses << " poses, " << figures.closures << " closures, " << figures.closures_rejected
+         << " rejected, " << figures.closures_waiting << " waiting; cost " << std::setprecision(5)
+         << figures.cost_before << " -> " << figures.cost_after << " in " << std::setprecision(3) << figures.relax_ms
+         << " ms";
+    return text.str();
+  } catch (const std::future_error&) {
+    throw UserError("", "the batch relaxation was dropped: too many inputs wait, or the nodelet ends", "");
+  }
 }
 
 void getTrajectory(LiveGraph& graph, const GetTrajectory::Request& request, GetTrajectory::Response& response) {
@@ -130,8 +146,10 @@ Services::Services(ros::NodeHandle& nh, Worker& worker, std::function<void(bool)
     response.message = "the graph is empty";
   });
   advertise<Trigger>(nh, "optimize", [this](const Trigger::Request&, Trigger::Response& response) {
-    worker_.optimize();
-    response.message = "the batch relaxation has begun; graph/state says when it has ended";
+    std::future<Figures> ended = worker_.optimize();
+    if (ended.wait_for(patience) != std::future_status::ready)
+      throw UserError("", "the batch relaxation is still under way; graph/state says when it has ended", "");
+    response.message = sentenceOf(ended);
   });
   advertise<Trigger>(nh, "pause", [pause](const Trigger::Request&, Trigger::Response& response) {
     pause(true);

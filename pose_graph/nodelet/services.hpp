@@ -13,7 +13,7 @@
 
 namespace pose_graph {
 
-/// The services of the stage: each asks the worker and waits for its turn, but optimize, which says that it has begun.
+/// The services of the stage: each asks the worker and waits for its turn, optimize for the end of the batch.
 /// Files are read and copied in the caller's thread. To be advertised in a queue of its own threads, so that a caller who waits keeps no message waiting.
 class Services {
  public:

@@ -28,8 +28,14 @@ Worker::~Worker() {
   batch_->thread.join();
 }
 
-void Worker::optimize() {
-  mailbox_.put(Task([this](LiveGraph&) { batch_wanted_ = true; }));
+std::future<Figures> Worker::optimize() {
+  auto waiter = std::make_shared<std::promise<Figures>>();
+  std::future<Figures> ended = waiter->get_future();
+  mailbox_.put(Task([this, waiter = std::move(waiter)](LiveGraph&) {
+    batch_wanted_ = true;
+    waiters_.push_back(waiter);
+  }));
+  return ended;
 }
 
 Worker::Counts Worker::counts() const { return {mailbox_.dropped(), refused_, relaxations_}; }
@@ -85,6 +91,8 @@ void Worker::beginBatch() {
   batch_wanted_ = disagreement_ = false;
   batch_ = std::make_unique<Batch>();
   batch_->begin = Clock::now();
+  batch_->waiters = std::move(waiters_);
+  waiters_.clear();
   batch_->work = graph_->batch();
   batch_->thread = std::thread([this, batch = batch_.get()] {
     try {
@@ -101,17 +109,28 @@ void Worker::beginBatch() {
 void Worker::endBatch() {
   batch_->thread.join();
   const std::unique_ptr<Batch> batch = std::move(batch_);
-  if (!batch->fault.empty()) return refuse(batch->fault);
+  if (!batch->fault.empty()) {
+    for (const auto& waiter : batch->waiters)
+      waiter->set_exception(std::make_exception_ptr(UserError("", "the batch relaxation failed: " + batch->fault, "")));
+    return refuse(batch->fault);
+  }
   batch_again_ = batch->begin + kBatchesApart * batch->took;
   if (const std::optional<LiveGraph::Outcome> outcome = graph_->take(*batch->work)) {
     disagreement_ = disagreement_ || outcome->needs_batch;
-    tell(*outcome, std::chrono::duration<double, std::milli>(batch->took).count());
+    const Figures figures = tell(*outcome, std::chrono::duration<double, std::milli>(batch->took).count());
+    for (const auto& waiter : batch->waiters) waiter->set_value(figures);
+  } else if (!batch->waiters.empty()) {  // the graph has become another one meanwhile: they wait for that one's
+    waiters_.insert(waiters_.begin(), batch->waiters.begin(), batch->waiters.end());
+    batch_wanted_ = true;
   }
 }
 
-void Worker::tell(const LiveGraph::Outcome& outcome, double ms) {
+Figures Worker::tell(const LiveGraph::Outcome& outcome, double ms) {
   ++relaxations_;
   if (listener_.relaxed) listener_.relaxed(outcome, *graph_, ms);
+  Figures figures = outcome.figures;
+  figures.relax_ms = ms;
+  return figures;
 }
 
 }  // namespace pose_graph

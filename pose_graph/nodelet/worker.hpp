@@ -11,6 +11,7 @@
 #include <thread>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "live_graph.hpp"
 #include "urban_nav_ros/mailbox.hpp"
@@ -44,8 +45,9 @@ class Worker {
   Worker& operator=(const Worker&) = delete;
 
   void put(Input input) { mailbox_.put(std::move(input)); }
-  /// A batch relaxation of all that was put in before.
-  void optimize();
+  /// A batch relaxation of all that was put in before: the graph's figures when it has ended and the listener has been told.
+  /// UserError where it failed, std::future_error where it was dropped.
+  std::future<Figures> optimize();
   /// What the graph answers, when its turn comes. Throws what the question throws. Empty: not within `patience`, or
   /// dropped; it may still be carried out.
   template <typename Question>
@@ -61,15 +63,18 @@ class Worker {
   bool isBatchDue() const;
   void beginBatch();
   void endBatch();
-  void tell(const LiveGraph::Outcome& outcome, double ms);
+  /// The graph's figures, with the time that it took.
+  Figures tell(const LiveGraph::Outcome& outcome, double ms);
 
   using Clock = std::chrono::steady_clock;
+  using Waiters = std::vector<std::shared_ptr<std::promise<Figures>>>;
   /// A batch under way: its own thread has `work`, `took` and `fault` until it sets `ended`.
   struct Batch {
     std::unique_ptr<LiveGraph::Work> work;
     Clock::time_point begin;
     Clock::duration took{};
     std::string fault;
+    Waiters waiters;
     std::atomic<bool> ended{false}, stop{false};
     std::thread thread;
   };
@@ -77,8 +82,9 @@ class Worker {
   std::unique_ptr<LiveGraph> graph_;  // the thread's own
   const Listener listener_;
   urban_nav_ros::Mailbox<Input> mailbox_;
-  std::unique_ptr<Batch> batch_;  // the thread's own, and so are the next three
+  std::unique_ptr<Batch> batch_;  // the thread's own, and so are the next four
   bool batch_wanted_ = false;
+  Waiters waiters_;                  // for the batch that is wanted
   bool disagreement_ = false;        // an update found closures that only a batch can judge
   Clock::time_point batch_again_{};  // not before, for the sake of a disagreement
   std::atomic<std::int64_t> refused_{0}, relaxations_{0};

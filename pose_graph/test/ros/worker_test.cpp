@@ -64,7 +64,9 @@ class Note : public LiveGraph {
     ++book.batches;
     book.steps_at_take = static_cast<int>(book.steps.size());
     if (book.due) return std::nullopt;
-    return Outcome();
+    Outcome outcome;
+    outcome.figures.poses = book.steps_at_batch;
+    return outcome;
   }
   void keep() override { ++book.kept; }
   StoreState storeState() const override { return {}; }
@@ -139,10 +141,40 @@ TEST(Worker, ManyClosuresAtOnceAreOneRelaxation) {
 }
 
 TEST(Worker, OptimizeIsABatch) {
-  Worker worker(std::make_unique<Note>(0ms), 100, {});
-  worker.optimize();
-  while (bookOf(worker).batches == 0) std::this_thread::sleep_for(1ms);
+  bool told = false;
+  Worker::Listener listener;
+  listener.relaxed = [&](const LiveGraph::Outcome&, const LiveGraph&, double) { told = true; };
+  Worker worker(std::make_unique<Note>(20ms), 100, listener);
+  worker.put(step(0, 1));
+  const Figures figures = worker.optimize().get();
+  EXPECT_TRUE(told) << "who asked for it can rely on the topics";
+  EXPECT_EQ(figures.poses, 1);
+  EXPECT_GE(figures.relax_ms, 20.0);
   EXPECT_EQ(bookOf(worker).batches, 1);
+}
+
+TEST(Worker, WhoWaitsForABatchIsToldHowItEnds) {
+  std::future<Figures> dropped;
+  {
+    Worker worker(std::make_unique<Note>(77ms), 100, {});
+    EXPECT_THROW(worker.optimize().get(), UserError) << "out of memory";
+  }
+  {
+    Worker worker(std::make_unique<Note>(50ms), 100, {});
+    std::future<Figures> anew = worker.optimize();
+    std::future<Figures> next = worker.optimize();
+    std::this_thread::sleep_for(20ms);
+    worker.put(Worker::Task([](LiveGraph& graph) { dynamic_cast<Note&>(graph).book.due = true; }));
+    EXPECT_NO_THROW(anew.get());
+    EXPECT_NO_THROW(next.get());
+    EXPECT_EQ(bookOf(worker).batches, 2) << "the first was of a graph that is gone";
+  }
+  {
+    Worker worker(std::make_unique<Note>(60s), 100, {});
+    dropped = worker.optimize();
+    std::this_thread::sleep_for(20ms);
+  }
+  EXPECT_THROW(dropped.get(), std::future_error);
 }
 
 TEST(Worker, NothingWaitsForABatch) {
