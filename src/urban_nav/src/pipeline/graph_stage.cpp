@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <set>
 
 #include "pipeline/closure_offers.hpp"
 #include "pose_graph/graph_file.hpp"
@@ -83,6 +84,19 @@ std::vector<std::vector<Matrix6d>> covariancesOf(const PoseGraph& graph, const s
   return made;
 }
 
+/// A session that no closure touches lies where odometry has it, and as surely: what is common to all its steps, a scale, is in odometry's
+/// own covariance alone.
+void leaveToOdometry(GraphRun& run, const std::vector<const VoRun*>& runs) {
+  std::set<std::string> touched;
+  for (const auto& [id, closure] : run.graph.closures())
+    if (closure.verdict == pose_graph::ClosureVerdict::Accepted) touched.insert({closure.a.session, closure.b.session});
+  for (std::size_t s = 0; s < runs.size(); ++s) {
+    if (touched.count(run.sessions[s]) != 0 || run.covariances[s].size() != runs[s]->settled.size()) continue;
+    for (std::size_t i = 0; i < runs[s]->settled.size(); ++i)
+      run.covariances[s][i] = runs[s]->settled[i].T_odom_base.covariance;
+  }
+}
+
 /// As the graph has it: the first pose of a map is the identity there.
 Trajectory relaxedTrack(const GraphRun& run, std::size_t session) {
   Trajectory made;
@@ -97,7 +111,10 @@ std::vector<Level> levelsOf(const GraphRun& run, const std::vector<const VoRun*>
     const std::size_t map = run.mapOf(s);
     if (levels[map].known()) continue;
     const Trajectory trajectory = relaxedTrack(run, s);
-    if (trajectory.empty()) continue;
+    if (trajectory.empty()) {
+      levels[s].sentence = "the session has no two poses";
+      continue;
+    }
     Matrix3d rotations = Matrix3d::Zero();  // the mean: as if all of them erred alike
     for (const Matrix6d& covariance : run.covariances[s]) rotations += covariance.bottomRightCorner<3, 3>();
     rotations /= static_cast<double>(std::max<std::size_t>(1, run.covariances[s].size()));
@@ -149,6 +166,7 @@ GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<co
   judge(made, ids, known.size());
   const auto relaxed = Clock::now();
   made.covariances = covariancesOf(made.graph, sessions);
+  leaveToOdometry(made, runs);
   made.ms_covariances = millisecondsSince(relaxed);
   made.levels = levelsOf(made, runs);
   for (std::size_t s = 1; s < sessions.size(); ++s)

@@ -27,7 +27,7 @@ struct GraphRun {
   std::vector<ClosureRow> closures;   ///< with their verdicts: the known ones, then those of the file
   std::vector<std::string> warnings;
   double ms = 0.0, ms_covariances = 0.0;  ///< that the relaxation took, and what follows from it
-  /// Marginal covariances of T_first_base of each session's poses, as far as they are known.
+  /// Marginal covariances of T_first_base of each session's poses, as far as they are known; odometry's own where no closure was accepted.
   std::vector<std::vector<urban_nav_core::Matrix6d>> covariances;
 
   /// The first session in whose map this one lies as a whole: itself where it joined none before it.

@@ -133,27 +133,23 @@ bool asksFor(const MapRequest& request, const std::string& stage) {
   return std::find(request.stages.begin(), request.stages.end(), stage) != request.stages.end();
 }
 
-/// Does the graph stage run? It needs closures, in a file or in the store to go on from, and says so where there are none.
+/// Does the graph stage run? It is there wherever odometry is; closures are in a file or in the store to go on from, if anywhere.
 bool checkGraph(const MapRequest& request, Console& console) {
-  const bool asked = asksFor(request, "graph"), file = !request.closures.empty();
-  bool has_closures = file;
-  if (!file && !request.store.empty()) {
-    urban_nav_store::Store store(request.store, urban_nav_store::Access::Read);
-    has_closures = holdsClosures(store);
+  const bool runs = request.stages.empty() || asksFor(request, "graph"), file = !request.closures.empty();
+  if (request.stages.empty()) console.info("stages: vo, graph; left out: " + leftOut());
+  if (!runs) {
+    if (file) console.warn("--closures is not used: the stage graph is not among --stages");
+    return false;
   }
-  if (asked && !has_closures)
-    throw DataError("--stages graph", "no closures, and no stage that finds them", "--closures FILE");
-  if (request.stages.empty()) {
-    console.info(std::string("stages: vo") + (has_closures ? ", graph" : "") +
-                 "; left out: " + (has_closures ? "" : "graph (no closures: --closures FILE), ") + leftOut());
-  } else if (file && !asked) {
-    console.warn("--closures is not used: the stage graph is not among --stages");
-  }
-  const bool runs = has_closures && (asked || request.stages.empty());
-  if (runs && file)
+  if (file) {
     console.info("closures: " + request.closures + ", with the transforms that stand in it (no stage loops)");
-  if (runs && !file) console.info("closures: those of " + request.store);
-  return runs;
+  } else if (!request.store.empty()) {
+    urban_nav_store::Store store(request.store, urban_nav_store::Access::Read);
+    if (holdsClosures(store)) console.info("closures: those of " + request.store);
+  } else {
+    console.info("closures: none (--closures FILE); the map is that of odometry");
+  }
+  return true;
 }
 
 void runGraphStage(MapOutcome& outcome, const std::vector<Session>& sessions, const std::vector<ClosureRow>& closures,

@@ -112,6 +112,8 @@ std::vector<std::optional<Evaluation>> compare(const MapOutcome& outcome, const 
   const std::size_t earlier = outcome.earlier.runs.size();
   for (std::size_t i = 0; i < sessions.size(); ++i) {
     const VoRun& run = outcome.stages[i]->run();
+    // The graph has no pose of a session without a single step.
+    const bool by_graph = relaxed && !outcome.graph->trajectory(earlier + i).empty();
     evaluations.emplace_back();
     try {
       const std::optional<TrajectoryFile> truth =
@@ -121,12 +123,12 @@ std::vector<std::optional<Evaluation>> compare(const MapOutcome& outcome, const 
       if (!truth) continue;
       TrajectoryFile estimate{outcome.folder.file("trajectory.tum"),
                               true,
-                              relaxed ? outcome.graph->trajectory(earlier + i) : trajectoryOf(run),
+                              by_graph ? outcome.graph->trajectory(earlier + i) : trajectoryOf(run),
                               {}};
       for (const urban_nav_core::StampedPose& pose : estimate.trajectory) estimate.poses.push_back(pose.pose);
-      evaluations.back() =
-          evaluate(*truth, estimate,
-                   relaxed ? covariancesOf(run, outcome.graph->covariances[earlier + i]) : covariancesOf(run), options);
+      evaluations.back() = evaluate(
+          *truth, estimate, by_graph ? covariancesOf(run, outcome.graph->covariances[earlier + i]) : covariancesOf(run),
+          options);
       if (console != nullptr)
         console->info("truth: " + truth->path +
                       (outcome.request.truth.empty() ? " (found; it is used for the report alone)" : ""));
@@ -159,7 +161,8 @@ Page pageOf(const MapOutcome& outcome, bool running) {
   const VoSummary summary = summarise(runs);
   Page page;
   page.title = "Map of " + titleOf(outcome.request.inputs);
-  page.subtitle = std::string(outcome.graph ? "Visual odometry, relaxed" : "Visual odometry") +
+  page.subtitle = std::string(outcome.graph && outcome.graph->relaxed.accepted > 0 ? "Visual odometry, relaxed"
+                                                                                   : "Visual odometry") +
                   ": where the robot went, and how far to trust it.";
   page.running = running;
   page.progress = outcome.progress;

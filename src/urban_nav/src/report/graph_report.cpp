@@ -175,10 +175,11 @@ Section graphSection(const GraphRun& graph, const std::vector<const VoRun*>& run
       {}};
   section.figures.push_back({"From above", renderSvg(pathsPlot(graph, runs)),
                              "Dashed: odometry alone. Lines across: closures, by verdict.", true});
-  section.figures.push_back({"Cost over iterations", renderSvg(costPlot(graph), false),
-                             "The sum of weighted squares, from the first guess on.", false});
+  if (graph.relaxed.accepted > 0)
+    section.figures.push_back({"Cost over iterations", renderSvg(costPlot(graph), false),
+                               "The sum of weighted squares, from the first guess on.", false});
   if (const auto errors = errorsTable(graph, before, after)) section.tables.push_back(*errors);
-  section.tables.push_back(closuresTable(graph));
+  if (!graph.closures.empty()) section.tables.push_back(closuresTable(graph));
   return section;
 }
 
@@ -188,7 +189,9 @@ std::vector<Verdict> graphVerdicts(const GraphRun& graph) {
   const std::string of = std::to_string(relaxed.accepted) + " of " + count(graph.closures.size(), "closure") +
                          " accepted, " + std::to_string(relaxed.rejected) + " rejected, " +
                          std::to_string(relaxed.waiting) + " waiting for a second one that agrees";
-  if (relaxed.accepted == 0) {
+  if (graph.closures.empty()) {
+    made.push_back({Grade::Plain, "No closures", "The map is that of odometry."});
+  } else if (relaxed.accepted == 0) {
     made.push_back({Grade::Fair, "No closure was accepted", of + "; the map is that of odometry."});
   } else {
     made.push_back({Grade::Good, "Relaxed over " + count(relaxed.accepted, "closure"),

@@ -48,6 +48,7 @@ VoRun drive(int first, int last, double turn) {
       odom = odom * settled.from_previous.T_from_to;
     }
     settled.T_odom_base.pose = odom;
+    settled.T_odom_base.covariance = 1e-5 * (i - first) * urban_nav_core::Matrix6d::Identity();
     run.settled.push_back(settled);
     VoRow row;
     row.stamp = settled.stamp;
@@ -110,6 +111,21 @@ TEST(GraphStage, keepsApartWhatNothingJoins) {
   EXPECT_FALSE(run.joined(1));
   ASSERT_FALSE(run.warnings.empty());
   EXPECT_NE(run.warnings[0].find("tuesday"), std::string::npos);
+}
+
+TEST(GraphStage, leavesASessionWithoutClosuresAsOdometryHasIt) {
+  const VoRun monday = drive(0, 700, 0.0), tuesday = drive(0, 300, 0.0);
+  ClosureRow wrong = closure("tuesday", 10.0, "tuesday", 290.0);
+  wrong.T_a_b = Pose(Eigen::Quaterniond::Identity(), Vector3d(30.0, 0.0, 0.0)) * *wrong.T_a_b;
+  const GraphRun run =
+      runGraph({}, {&monday, &tuesday}, {"monday", "tuesday"},
+               {closure("monday", 20.0, "monday", 620.0), closure("monday", 40.0, "monday", 640.0), wrong});
+  ASSERT_EQ(run.relaxed.accepted, 2U);
+  for (std::size_t i = 0; i < tuesday.settled.size(); ++i) {
+    EXPECT_EQ(run.covariances[1][i], tuesday.settled[i].T_odom_base.covariance);
+    EXPECT_TRUE(isApprox(run.trajectory(1)[i].pose, tuesday.settled[i].T_odom_base.pose, 1e-9));
+  }
+  EXPECT_NE(run.covariances[0].back(), monday.settled.back().T_odom_base.covariance);
 }
 
 TEST(GraphStage, takesClosuresInAnyOrderAndFromWhereverTheyAreKnown) {

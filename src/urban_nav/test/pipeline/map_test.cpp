@@ -84,6 +84,26 @@ TEST_F(Map, saysWhatTheContractAsksFor) {
     EXPECT_EQ(report.find(word), std::string::npos) << word;
 }
 
+TEST_F(Map, runsTheGraphWhereNobodyGaveClosures) {
+  const TemporaryFolder folder;
+  const auto all = [](MapRequest& request) { request.stages.clear(); };
+  map({in()}, folder.file("out"), 1, all);
+  const std::string summary = readFile(folder.file("out/summary.json"));
+  for (const char* key :
+       {"pose_graph", "poses", "edges", "edges_rejected", "cost_before", "cost_after", "ms_batch", "sessions_joined"})
+    EXPECT_NE(summary.find("\"" + std::string(key) + "\":"), std::string::npos) << key;
+  for (const char* name : {"covariance.csv", "relative_covariance.csv", "landmarks.ply"})
+    EXPECT_EQ(readFile(folder.file("out/") + name), readFile(out() + "/" + name)) << name;
+  EXPECT_TRUE(isApprox(urban_nav_core::readTum(folder.file("out/trajectory.tum")),
+                       urban_nav_core::readTum(out() + "/trajectory.tum"), 1e-9));
+
+  testing::KittiStyle one;
+  one.frames = 1;
+  testing::makeKittiFolder(folder.file("one"), one);
+  map({folder.file("one")}, folder.file("short"), 1, all);
+  EXPECT_EQ(urban_nav_core::readTum(folder.file("short/trajectory.tum")).size(), 1U);
+}
+
 TEST_F(Map, theReportOfARecordingThatGoesOnRefreshesItself) {
   const TemporaryFolder folder;
   const auto refreshes = [&](double so_far) {
