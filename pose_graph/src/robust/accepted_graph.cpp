@@ -2,6 +2,7 @@
 #include "robust/accepted_graph.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "start/chordal_start.hpp"
 
@@ -48,7 +49,7 @@ double AcceptedGraph<D>::work(const std::vector<char>& in) const {
 }
 
 template <int D>
-void AcceptedGraph<D>::relax(std::vector<Rigid<D>>& poses, int iterations, double share, bool afresh) {
+void AcceptedGraph<D>::relax(std::vector<Rigid<D>>& poses, int iterations, double share, bool afresh, double most) {
   if (afresh) {
     const auto rotations = chordalRotations(*equations_, poses, weights_);
     auto fresh = rotations ? translationsFor(*equations_, *rotations, poses, weights_) : std::nullopt;
@@ -59,6 +60,12 @@ void AcceptedGraph<D>::relax(std::vector<Rigid<D>>& poses, int iterations, doubl
   SolveOptions options;
   options.iterations = iterations;
   options.tolerance = share;
+  if (std::isfinite(most))
+    options.progress = [most, last = cost(poses)](int, double now) mutable {
+      const bool in_reach = now - (last - now) <= most;
+      last = now;
+      return in_reach;
+    };
   minimise(*equations_, *cholesky_, options, weights_, poses);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -25,8 +26,10 @@ class AcceptedGraph {
   double work(const std::vector<char>& in) const;
 
   /// Steps until what is left to gain is less than this share of the cost. `afresh`: from rotations found without a
-  /// guess if that costs less than `poses`.
-  void relax(std::vector<Rigid<D>>& poses, int iterations, double share, bool afresh);
+  /// guess if that costs less than `poses`. Ends too where the cost will stay above `most`: were the next steps to gain as much as the
+  /// last one.
+  void relax(std::vector<Rigid<D>>& poses, int iterations, double share, bool afresh,
+             double most = std::numeric_limits<double>::infinity());
 
   /// To where nothing worth the name is left to gain. From where these poses are, or, where that is a long way, from no first
   /// guess, if that ends lower.

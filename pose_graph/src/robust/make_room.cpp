@@ -9,8 +9,6 @@ namespace {
 
 std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
-// So many true ones stand against one false one that is in their way; a false group meets as many true ones as it has members.
-constexpr std::size_t kForOne = 8;
 constexpr int kRounds = 4;
 
 }  // namespace
@@ -18,6 +16,7 @@ constexpr int kRounds = 4;
 template <int D>
 bool makeRoom(const Witness<D>& witness, const Thresholds& thresholds, const std::vector<int>& members, double variance,
               AcceptedGraph<D>& graph, std::vector<char>& in, std::vector<Rigid<D>>& poses) {
+  if (members.size() < kForOne) return false;
   const std::vector<int> no_groups(in.size(), -1);
   std::size_t gone = 0;
   for (int round = 0; round < kRounds; ++round) {
@@ -35,7 +34,7 @@ bool makeRoom(const Witness<D>& witness, const Thresholds& thresholds, const std
       ++gone;
     }
     if (gone * kForOne > members.size()) return false;
-    if (all_fit) return members.size() >= kForOne;
+    if (all_fit) return true;
     graph.take(in);
     graph.relax(poses, kGroupSteps, kGroupShare, false);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "robust/growth.hpp"
@@ -58,16 +59,20 @@ bool tryGroups(const Witness<D>& witness, const std::vector<int>& group, const T
         rank = witness.edge(e).rank;
       }
     }
+    // Nothing is likelier than the prediction itself: no relaxation will find enough.
+    if (attainable < Thresholds::kEvidence) continue;
     std::vector<Rigid<D>> poses = grown.poses;
     graph.take(in);
-    graph.relax(poses, kGroupSteps, kGroupShare, true);
-    const double rise = (graph.cost(poses) - before) / grown.variance;
     const double most = urban_nav_core::chiSquareQuantile(1.0 - Thresholds::kFalseAlarms / kTries, dof);
+    // Of what costs more than that it only matters by how much if room could be made.
+    const double far =
+        members.size() < kForOne ? before + grown.variance * most : std::numeric_limits<double>::infinity();
+    graph.relax(poses, kGroupSteps, kGroupShare, true, far);
+    const double rise = (graph.cost(poses) - before) / grown.variance;
     // What the members differ among each other is no evidence against the place that they agree on.
     const double against = std::max(0.0, rise - (dof - rank));
     if (rise <= most ? attainable - 0.5 * against < Thresholds::kEvidence
-                     : attainable < Thresholds::kEvidence ||
-                           !makeRoom(witness, thresholds, members, grown.variance, graph, in, poses))
+                     : !makeRoom(witness, thresholds, members, grown.variance, graph, in, poses))
       continue;
     grown.in = std::move(in);
     grown.poses = std::move(poses);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "support/drawn.hpp"
 
 namespace pose_graph {
@@ -32,6 +34,27 @@ void settlesWhereTheSolverDoes() {
 }
 TEST(AcceptedGraph, SettlesWhereTheSolverDoesInThePlane) { settlesWhereTheSolverDoes<2>(); }
 TEST(AcceptedGraph, SettlesWhereTheSolverDoesInSpace) { settlesWhereTheSolverDoes<3>(); }
+
+TEST(AcceptedGraph, GoesOnOnlyWhereTheCostIsInReach) {
+  const auto graph =
+      urban_nav_core::testing::sphereGraph(6, 12, 10.0, urban_nav_core::testing::evenNoise(0.05, 0.02), 3);
+  const Problem<3> problem = test::simulatedProblem<3>(graph, graph.truth);
+  Dice dice(7);
+  std::vector<Rigid<3>> begin = solve(problem, {}).poses;
+  for (std::size_t i = 1; i < begin.size(); ++i) begin[i] = moved(begin[i], test::drawTangent<3>(dice, 0.5, 0.1));
+  AcceptedGraph<3> accepted(problem);
+  accepted.take(std::vector<char>(problem.edges.size(), 1));
+  const auto costWithin = [&](double most) {
+    std::vector<Rigid<3>> poses = begin;
+    accepted.relax(poses, 50, 1e-9, false, most);
+    return accepted.cost(poses);
+  };
+  const double least = costWithin(std::numeric_limits<double>::infinity());
+  EXPECT_EQ(costWithin(1.001 * least), least);
+  // Half of it cannot be reached, which shows before the last digit of the cost does.
+  EXPECT_GT(costWithin(0.5 * least), least);
+  EXPECT_LT(costWithin(0.5 * least), 1.5 * least);
+}
 
 }  // namespace
 }  // namespace pose_graph
