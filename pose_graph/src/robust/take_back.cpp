@@ -15,7 +15,8 @@ constexpr double kNarrower =
     1.25;                 // each step; at 1.6 the graph with the most doubtful closures (tuc) still ends elsewhere
 constexpr int kLast = 6;  // steps at the final limit, or until nothing changes
 constexpr double kQuantile = 0.99;
-constexpr double kWorth = 0.05;  // of the candidates: so many must be out and within the wide limit
+constexpr double kWorth =
+    0.05;  // of the candidates: so many must be out and within the wide limit, and stay so while it falls
 
 }  // namespace
 
@@ -37,16 +38,19 @@ void takeBack(const Problem<D>& problem, const std::vector<EdgeRole>& roles, con
     return sum;
   };
 
-  std::size_t near = 0;
-  for (int e : witness.candidates())
-    if (!grown.in[sz(e)] && squareOf(sz(e), grown.poses) <= kWide * limitOf(sz(e))) ++near;
-  if (static_cast<double>(near) <= kWorth * static_cast<double>(witness.candidates().size())) return;
+  const auto worthIt = [&](const std::vector<Rigid<D>>& poses, double wide) {
+    std::size_t near = 0;
+    for (int e : witness.candidates()) near += !grown.in[sz(e)] && squareOf(sz(e), poses) <= wide * limitOf(sz(e));
+    return static_cast<double>(near) > kWorth * static_cast<double>(witness.candidates().size());
+  };
+  if (!worthIt(grown.poses, kWide)) return;
 
   std::vector<char> in = grown.in;
   std::vector<double> weights(in.size(), 1.0);
   std::vector<Rigid<D>> poses = grown.poses;
   AcceptedGraph<D> graph(problem);
   for (double wide = kWide; wide > 1.0; wide /= kNarrower) {
+    if (!worthIt(poses, wide)) return;
     for (int e : witness.candidates()) {
       const double share = squareOf(sz(e), poses) / (wide * limitOf(sz(e)));
       in[sz(e)] = share < 1.0;
