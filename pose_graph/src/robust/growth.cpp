@@ -16,7 +16,9 @@ namespace {
 std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
 constexpr int kRounds = 30;
-constexpr double kSettled = 1e-3;   // of the candidates: when fewer change, it is done
+// Of the candidates: when fewer change, it is done; when fewer enter, groups may; when more do, the graph is still in the making, and
+// only what is beyond doubt enters.
+constexpr double kSettled = 1e-3, kLittle = 0.01, kMuch = 0.05;
 constexpr std::size_t kGroup = 20;  // larger groups are no repeated mistake but a way travelled twice
 
 // Groups worth a test for a common bias.
@@ -54,6 +56,8 @@ Grown<D> grow(const Problem<D>& problem, const std::vector<EdgeRole>& roles, con
   std::vector<int> expelled(problem.edges.size(), 0);
   std::set<int> tried;
   bool all = false;
+  const double candidates = static_cast<double>(witness.candidates().size());
+  const auto isFew = [&](std::size_t changes) { return static_cast<double>(changes) <= kSettled * candidates; };
   for (int round = 0; round < kRounds; ++round) {
     grown.variance = varianceFactor(witness, grown.in, grown.poses, graph.unknowns(), thresholds, scale.factor);
     grown.evidence = witness.hear(graph, grown.in, grown.poses, grown.variance, small, kUncontrolled);
@@ -62,22 +66,27 @@ Grown<D> grow(const Problem<D>& problem, const std::vector<EdgeRole>& roles, con
     Round<D> now(witness, group, thresholds, grown.evidence, grown.in);
     now.expel(expelled);
     now.admit(expelled, thresholds.early_evidence);
-    const double few_admitted = 0.01 * static_cast<double>(witness.candidates().size());
-    if (static_cast<double>(now.admitted) < few_admitted) now.admit(expelled, Thresholds::kEvidence);
-    if (static_cast<double>(now.admitted) < few_admitted) {
+    const auto much = [&] { return static_cast<double>(now.admitted) > kMuch * candidates; };
+    if (!much()) now.admit(expelled, Thresholds::kEvidence);
+    if (static_cast<double>(now.admitted) < kLittle * candidates) {
       now.admitGroups(expelled);
       now.join(graph, expelled);
     }
-    const bool few = static_cast<double>(now.changes) <= kSettled * static_cast<double>(witness.candidates().size());
+    const bool few = isFew(now.changes);
     if (now.changes > 0) {
       grown.in = std::move(now.next);
       graph.take(grown.in);
-      const bool much = static_cast<double>(now.admitted) > 0.05 * static_cast<double>(witness.candidates().size());
-      graph.relax(grown.poses, kRoundSteps, kRoundShare, now.joined || much || round < 5);
+      graph.relax(grown.poses, kRoundSteps, kRoundShare, now.joined || much() || round < 5);
     }
     if (!few || now.joined || tryGroups(witness, group, thresholds, tried, graph, grown)) continue;
     const bool unquestioned = all && std::count(grown.in.begin(), grown.in.end(), 0) == 0;
-    if (unquestioned || !lastWord(witness, group, small, thresholds, scale, expelled, graph, grown)) break;
+    if (unquestioned) break;
+    // So few changes that a round would end there are judged where they are settled, and by no round before.
+    std::size_t changes = 0;
+    do {
+      changes = lastWord(witness, group, small, thresholds, scale, expelled, graph, grown);
+    } while (changes > 0 && isFew(changes) && ++round < kRounds);
+    if (changes == 0) break;
   }
   return grown;
 }

@@ -41,11 +41,11 @@ bool tryGroups(const Witness<D>& witness, const std::vector<int>& group, const T
 
 /// Judges all once more where the graph is settled, so that what hardly anything controls shows too: a group over a long way that
 /// bends the graph until it fits. What is far off leaves, a group only if the graph costs more with it than chance explains;
-/// where none leaves, what is likely enters. Returns whether anything changed. `expelled`: times each edge has left.
+/// where none leaves, what is likely enters. Returns how many changed. `expelled`: times each edge has left.
 template <int D>
-bool lastWord(const Witness<D>& witness, const std::vector<int>& group, const std::vector<int>& small_group,
-              const Thresholds& thresholds, const InformationScale& scale, std::vector<int>& expelled,
-              AcceptedGraph<D>& graph, Grown<D>& grown);
+std::size_t lastWord(const Witness<D>& witness, const std::vector<int>& group, const std::vector<int>& small_group,
+                     const Thresholds& thresholds, const InformationScale& scale, std::vector<int>& expelled,
+                     AcceptedGraph<D>& graph, Grown<D>& grown);
 
 /// Goes on from there with all candidates, their squares truncated, the limit falling from far too wide to the quantile of
 /// 99 %; keeps the result if its truncated cost is lower. Worth its time only where many are out that are not far off.

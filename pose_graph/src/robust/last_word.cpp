@@ -58,27 +58,27 @@ void reprieve(const Witness<D>& witness, const std::vector<int>& group, const Th
 }  // namespace
 
 template <int D>
-bool lastWord(const Witness<D>& witness, const std::vector<int>& group, const std::vector<int>& small_group,
-              const Thresholds& thresholds, const InformationScale& scale, std::vector<int>& expelled,
-              AcceptedGraph<D>& graph, Grown<D>& grown) {
+std::size_t lastWord(const Witness<D>& witness, const std::vector<int>& group, const std::vector<int>& small_group,
+                     const Thresholds& thresholds, const InformationScale& scale, std::vector<int>& expelled,
+                     AcceptedGraph<D>& graph, Grown<D>& grown) {
   graph.settle(grown.poses);
   grown.variance = varianceFactor(witness, grown.in, grown.poses, graph.unknowns(), thresholds, scale.factor);
   grown.evidence = witness.hear(graph, grown.in, grown.poses, grown.variance, small_group, kUncontrolledSettled);
-  if (!grown.evidence.known) return false;
+  if (!grown.evidence.known) return 0;
   Round<D> round(witness, group, thresholds, grown.evidence, grown.in);
   round.expel(expelled);
   if (round.changes > 0) reprieve(witness, group, thresholds, grown, graph, round, expelled);
   if (round.changes == 0) round.admitLikely(expelled);
-  if (round.changes == 0) return false;
+  if (round.changes == 0) return 0;
   grown.in = std::move(round.next);
   graph.take(grown.in);
   graph.relax(grown.poses, kRoundSteps, kRoundShare, true);
-  return true;
+  return round.changes;
 }
 
-template bool lastWord<2>(const Witness<2>&, const std::vector<int>&, const std::vector<int>&, const Thresholds&,
-                          const InformationScale&, std::vector<int>&, AcceptedGraph<2>&, Grown<2>&);
-template bool lastWord<3>(const Witness<3>&, const std::vector<int>&, const std::vector<int>&, const Thresholds&,
-                          const InformationScale&, std::vector<int>&, AcceptedGraph<3>&, Grown<3>&);
+template std::size_t lastWord<2>(const Witness<2>&, const std::vector<int>&, const std::vector<int>&, const Thresholds&,
+                                 const InformationScale&, std::vector<int>&, AcceptedGraph<2>&, Grown<2>&);
+template std::size_t lastWord<3>(const Witness<3>&, const std::vector<int>&, const std::vector<int>&, const Thresholds&,
+                                 const InformationScale&, std::vector<int>&, AcceptedGraph<3>&, Grown<3>&);
 
 }  // namespace pose_graph
