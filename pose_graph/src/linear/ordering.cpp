@@ -13,17 +13,6 @@ namespace pose_graph {
 
 namespace {
 
-std::vector<int> byMinimumDegree(const Adjacency& graph) {
-  std::vector<int> order(static_cast<std::size_t>(graph.size()));
-  double control[AMD_CONTROL];
-  amd_defaults(control);
-  control[AMD_AGGRESSIVE] = 1;
-  const int status =
-      amd_order(graph.size(), graph.first.data(), graph.neighbours.data(), order.data(), control, nullptr);
-  if (status != AMD_OK && status != AMD_OK_BUT_JUMBLED) std::iota(order.begin(), order.end(), 0);
-  return order;
-}
-
 std::vector<int> byNestedDissection(const Adjacency& graph) {
   cholmod_common common;
   cholmod_start(&common);
@@ -66,9 +55,21 @@ constexpr double kWorkWorthDissecting = 400.0;
 
 }  // namespace
 
+std::vector<int> minimumDegreeOrder(const Adjacency& graph) {
+  if (graph.size() == 0) return {};
+  std::vector<int> order(static_cast<std::size_t>(graph.size()));
+  double control[AMD_CONTROL];
+  amd_defaults(control);
+  control[AMD_AGGRESSIVE] = 1;
+  const int status =
+      amd_order(graph.size(), graph.first.data(), graph.neighbours.data(), order.data(), control, nullptr);
+  if (status != AMD_OK && status != AMD_OK_BUT_JUMBLED) std::iota(order.begin(), order.end(), 0);
+  return order;
+}
+
 std::vector<int> eliminationOrder(const Adjacency& graph) {
   if (graph.size() == 0) return {};
-  std::vector<int> order = byMinimumDegree(graph);
+  std::vector<int> order = minimumDegreeOrder(graph);
   const double expected = work(eliminationTree(graph, order));
   if (expected < kWorkWorthDissecting * graph.size()) return order;
   std::vector<int> dissected = byNestedDissection(graph);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linear/ordering.hpp"
 #include "start/chordal_start.hpp"
 
 namespace pose_graph {
@@ -35,11 +36,12 @@ void AcceptedGraph<D>::take(const std::vector<char>& in, const std::vector<doubl
 }
 
 template <int D>
-double AcceptedGraph<D>::work(const std::vector<char>& in) const {
+double AcceptedGraph<D>::work(const std::vector<char>& in, bool soon) const {
   std::vector<std::pair<int, int>> pairs;
   for (std::size_t e = 0; e < in.size(); ++e)
     if (in[e]) pairs.emplace_back(problem_->edges[e].from, problem_->edges[e].to);
-  const Symbolic symbolic = analyse(adjacencyOf(static_cast<int>(problem_->poses.size()), pairs));
+  const Adjacency graph = adjacencyOf(static_cast<int>(problem_->poses.size()), pairs);
+  const Symbolic symbolic = analyse(graph, soon ? minimumDegreeOrder(graph) : eliminationOrder(graph));
   double sum = 0.0;
   for (int s = 0; s < symbolic.size(); ++s) {
     const double columns = symbolic.columns(s), rows = columns + symbolic.rowsBelow(s);

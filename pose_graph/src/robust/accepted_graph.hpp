@@ -22,8 +22,9 @@ class AcceptedGraph {
   /// Takes these edges (those not 0), with weights by edge of the whole problem, or ones if empty.
   void take(const std::vector<char>& in, const std::vector<double>& weights = {});
 
-  /// What it would take to factor these edges, in multiplications of blocks.
-  double work(const std::vector<char>& in) const;
+  /// What it would take to factor these edges, in multiplications of blocks. `soon`: in the order that is found soonest, where it may
+  /// be more.
+  double work(const std::vector<char>& in, bool soon = false) const;
 
   /// Steps until what is left to gain is less than this share of the cost. `afresh`: from rotations found without a
   /// guess if that costs less than `poses`. Ends too where the cost will stay above `most`: were the next steps to gain as much as the

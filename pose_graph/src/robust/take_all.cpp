@@ -36,8 +36,8 @@ bool takeAll(const Witness<D>& witness, const std::vector<int>& group, const std
   const auto joins = [&](int e) { return !std::isfinite(grown.evidence.chi2[sz(e)]); };  // two parts: not by itself
   Grown<D> all = grown;
   for (int e : witness.candidates()) all.in[sz(e)] = witness.edge(e).rank > 0 && !joins(e);
-  const double work = graph.work(all.in);
-  if (work > kCheap * static_cast<double>(grown.poses.size() + grown.in.size())) {
+  // Who looks for a better order of something cheap finds none.
+  if (graph.work(all.in, true) > kCheap * static_cast<double>(grown.poses.size() + grown.in.size())) {
     double contradicted = 0.0;
     for (int e : witness.candidates()) contradicted += !joins(e) && grown.evidence.chi2[sz(e)] > limit(e);
     const bool many_open = scale.true_loops >= kTelling && scale.true_share < kOpen;
@@ -46,7 +46,7 @@ bool takeAll(const Witness<D>& witness, const std::vector<int>& group, const std
     for (int e : witness.candidates()) ++members[sz(group[sz(e)])];
     std::vector<char> confirmed = grown.in;
     for (int e : witness.candidates()) confirmed[sz(e)] = all.in[sz(e)] && members[sz(group[sz(e)])] > 1;
-    if (work > kWork * graph.work(confirmed)) return false;
+    if (graph.work(all.in) > kWork * graph.work(confirmed)) return false;
   }
 
   graph.take(all.in);
