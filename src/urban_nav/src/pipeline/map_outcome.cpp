@@ -172,9 +172,10 @@ Page pageOf(const MapOutcome& outcome, bool running) {
     if (outcome.evaluations[i]) addEvaluation(page, *outcome.evaluations[i], runs.size() > 1 ? i + 1 : 0);
   if (outcome.graph) {
     for (const Verdict& verdict : graphVerdicts(*outcome.graph)) page.verdicts.push_back(verdict);
-    page.sections.insert(page.sections.begin(),
-                         graphSection(*outcome.graph, runsOfGraph(outcome), behindEarlier(outcome, outcome.before),
-                                      behindEarlier(outcome, outcome.evaluations)));
+    if (!outcome.graph->closures.empty() || outcome.graph->sessions.size() > 1)  // else it is odometry's own picture
+      page.sections.insert(page.sections.begin(),
+                           graphSection(*outcome.graph, runsOfGraph(outcome), behindEarlier(outcome, outcome.before),
+                                        behindEarlier(outcome, outcome.evaluations)));
   }
   for (std::size_t i = 0; i < runs.size(); ++i) {
     for (Section& section : voSections(*runs[i], i >= outcome.evaluations.size() || !outcome.evaluations[i])) {

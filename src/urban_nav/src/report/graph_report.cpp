@@ -139,8 +139,8 @@ double leanDeg(const pose_graph::Level& level) { return kDegrees * std::acos(std
 
 Verdict levelVerdict(const pose_graph::Level& level) {
   if (!level.known())
-    return {Grade::Plain, "The map is not level", "It stands as the first pose stood: " + level.sentence + "."};
-  return {Grade::Good, "The map is level",
+    return {Grade::Plain, "The map is not level.", "It stands as the first pose stood: " + level.sentence + "."};
+  return {Grade::Good, "The map is level.",
           "The first pose leans by " + forPerson(leanDeg(level), 2) + " deg (standard deviation " +
               forPerson(kDegrees * level.sigma, 2) + " deg), says gravity."};
 }
@@ -190,17 +190,17 @@ std::vector<Verdict> graphVerdicts(const GraphRun& graph) {
                          " accepted, " + std::to_string(relaxed.rejected) + " rejected, " +
                          std::to_string(relaxed.waiting) + " waiting for a second one that agrees";
   if (graph.closures.empty()) {
-    made.push_back({Grade::Plain, "No closures", "The map is that of odometry."});
+    made.push_back({Grade::Plain, "No closures.", "The map is that of odometry."});
   } else if (relaxed.accepted == 0) {
-    made.push_back({Grade::Fair, "No closure was accepted", of + "; the map is that of odometry."});
+    made.push_back({Grade::Fair, "No closure was accepted.", of + "; the map is that of odometry."});
   } else {
-    made.push_back({Grade::Good, "Relaxed over " + count(relaxed.accepted, "closure"),
+    made.push_back({Grade::Good, "Relaxed over " + count(relaxed.accepted, "closure") + ".",
                     of + "; the cost fell from " + forPerson(relaxed.cost_before, 4) + " to " +
                         forPerson(relaxed.cost_after, 4) + "."});
   }
   const double boast = std::sqrt(graph.graph.odometryVariance());
   if (boast > kBoasts)
-    made.push_back({Grade::Fair, "Odometry errs " + forPerson(boast, 2) + " times as much as it states",
+    made.push_back({Grade::Fair, "Odometry errs " + forPerson(boast, 2) + " times as much as it states,",
                     "so the closures say; the covariances of this map are those of the larger errors."});
   made.push_back(levelVerdict(graph.levels.front()));
   const std::size_t joined = graph.sessionsJoined();
@@ -208,8 +208,8 @@ std::vector<Verdict> graphVerdicts(const GraphRun& graph) {
     made.push_back(
         {joined == graph.sessions.size() ? Grade::Good : Grade::Fair,
          joined == graph.sessions.size()
-             ? "All sessions are one map"
-             : std::to_string(graph.sessions.size() - joined) + " sessions are maps of their own",
+             ? "All sessions are one map."
+             : std::to_string(graph.sessions.size() - joined) + " sessions are maps of their own.",
          std::to_string(joined) + " of " + std::to_string(graph.sessions.size()) + " sessions lie in one frame."});
   return made;
 }
