@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "urban_nav_ros/laser_scan.hpp"
 
+#include <cmath>
+
 #include "urban_nav_ros/stamp.hpp"
 
 namespace urban_nav_ros {
@@ -20,6 +22,24 @@ sensor_msgs::LaserScan toLaserScanMessage(const urban_nav_core::PlanarScan& scan
   message.ranges = scan.ranges;
   message.intensities = scan.intensities;
   return message;
+}
+
+std::optional<urban_nav_core::PlanarScan> toPlanarScan(const sensor_msgs::LaserScan& message) {
+  for (const float number : {message.angle_min, message.angle_increment, message.time_increment, message.scan_time,
+                             message.range_min, message.range_max})
+    if (!std::isfinite(number)) return std::nullopt;
+  if (message.header.stamp.isZero()) return std::nullopt;
+  urban_nav_core::PlanarScan scan;
+  scan.stamp = toStampNs(message.header.stamp);
+  scan.angle_first = message.angle_min;
+  scan.angle_step = message.angle_increment;
+  scan.time_step = message.time_increment;
+  scan.period = message.scan_time;
+  scan.range_min = message.range_min;
+  scan.range_max = message.range_max;
+  scan.ranges = message.ranges;
+  if (message.intensities.size() == message.ranges.size()) scan.intensities = message.intensities;
+  return scan;
 }
 
 }  // namespace urban_nav_ros

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "urban_nav_ros/stamp.hpp"
 
 namespace urban_nav_ros {
@@ -31,6 +33,31 @@ TEST(LaserScan, SaysAllThatATurnSays) {
   EXPECT_FLOAT_EQ(message.range_max, 81.0F);
   EXPECT_EQ(message.ranges, scan.ranges);
   EXPECT_EQ(message.intensities, scan.intensities);
+  const auto back = toPlanarScan(message);
+  ASSERT_TRUE(back);
+  EXPECT_TRUE(isApprox(*back, scan, 1e-6));
+}
+
+TEST(LaserScan, WhoseBeamsCannotBePlacedIsNone) {
+  sensor_msgs::LaserScan good;
+  good.header.stamp = ros::Time(5.0);
+  good.angle_increment = 0.01F;
+  good.range_max = 80.0F;
+  good.ranges = {1.0F, std::numeric_limits<float>::quiet_NaN(), 3.0F};
+  good.intensities = {1.0F};
+  ASSERT_TRUE(toPlanarScan(good));
+  EXPECT_TRUE(toPlanarScan(good)->intensities.empty()) << "not as many as the ranges";
+  EXPECT_EQ(urban_nav_core::toScan(*toPlanarScan(good)).beams.size(), 2U);
+  for (float sensor_msgs::LaserScan::*number :
+       {&sensor_msgs::LaserScan::angle_min, &sensor_msgs::LaserScan::angle_increment,
+        &sensor_msgs::LaserScan::time_increment, &sensor_msgs::LaserScan::scan_time, &sensor_msgs::LaserScan::range_min,
+        &sensor_msgs::LaserScan::range_max}) {
+    sensor_msgs::LaserScan bad = good;
+    bad.*number = std::numeric_limits<float>::infinity();
+    EXPECT_FALSE(toPlanarScan(bad));
+  }
+  good.header.stamp = ros::Time();
+  EXPECT_FALSE(toPlanarScan(good));
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "urban_nav_ros/camera_info.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/image.hpp"
+#include "urban_nav_ros/laser_scan.hpp"
 #include "urban_nav_ros/stamp.hpp"
 
 namespace urban_nav {
@@ -30,7 +31,7 @@ constexpr const char* kBaseFrame = "base_link";
 constexpr urban_nav_core::StampNs kMaxLateness = 200'000'000;  // ns: waiting costs nothing where nobody waits
 
 constexpr const char* kStateName = "reader of bags";
-constexpr std::uint32_t kStateVersion = 1;
+constexpr std::uint32_t kStateVersion = 2;
 
 /// The bags of one recording, read as one stream in the order of their receipt; the feed brings it into the order of
 /// stamps.
@@ -60,6 +61,7 @@ class BagSource : public Source {
         if (std::optional<urban_nav_ros::FedPair> pair = feed_->take()) {
           StereoInput input(std::move(*pair));
           input.bag_end = std::exchange(bag_end_, nullptr);
+          input.scans = std::exchange(scans_, {});
           return input;
         }
         if (ended_) return std::nullopt;
@@ -77,6 +79,7 @@ class BagSource : public Source {
     }
   }
 
+  std::vector<LaserInput> scans() const override { return scans_; }
   std::vector<pose_graph::FeltForce> forces() const override { return forces_; }
   std::shared_ptr<const BagEnd> bagEnd() const override { return bag_end_; }
 
@@ -97,6 +100,10 @@ class BagSource : public Source {
     };
     count(Side::Left, Role::Left);
     count(Side::Right, Role::Right);
+    for (std::size_t i = 0; i < laser_topics_.size(); ++i)
+      if (refused_scans_[i] > 0)
+        faults.push_back(laser_topics_[i] + ": " + std::to_string(refused_scans_[i]) +
+                         " scans have no stamp, or angles or times that are not finite, and were dropped");
     return faults;
   }
 
@@ -196,6 +203,19 @@ class BagSource : public Source {
     const std::optional<urban_nav_core::Pose> T_base_imu =
         imu ? transforms.lookup(kBaseFrame, imu->header.frame_id) : std::nullopt;
     if (T_base_imu) R_base_imu_ = T_base_imu->R();
+    for (const Role role : {Role::LaserLeft, Role::LaserRight}) {
+      const std::optional<ChosenTopic> topic = topics_.find(role);
+      const auto scan = topic ? first<sensor_msgs::LaserScan>(topic->name) : nullptr;
+      if (!scan) continue;
+      if (const auto T_base_laser = transforms.lookup(kBaseFrame, scan->header.frame_id)) {
+        info_.lasers.push_back({scan->header.frame_id, *T_base_laser});
+        laser_topics_.push_back(topic->name);
+      } else {
+        info_.notes.push_back("no static tf from base_link to \"" + scan->header.frame_id + "\": " + topic->name +
+                              " is not used");
+      }
+    }
+    refused_scans_.resize(laser_topics_.size(), 0);
   }
 
   /// What is read, and what becomes of it: from the topics and from where the IMU stands.
@@ -207,6 +227,7 @@ class BagSource : public Source {
       names_.push_back(topics_.find(options_.motion_input == "wheels" ? Role::Wheels : Role::Imu)->name);
     if (R_base_imu_ && options_.motion_input != "gyroscope" && topics_.find(Role::Imu))
       names_.push_back(topics_.find(Role::Imu)->name);
+    names_.insert(names_.end(), laser_topics_.begin(), laser_topics_.end());
   }
 
   void startReading() {
@@ -244,7 +265,8 @@ class BagSource : public Source {
       urban_nav_core::Archive writer;
       archive(writer);
       bag_end_ = std::make_shared<BagEnd>(BagEnd{groups_[group_].end, groups_[group_].receipt,
-                                                 urban_nav_core::seal(kStateName, kStateVersion, writer.take())});
+                                                 urban_nav_core::seal(kStateName, kStateVersion, writer.take()),
+                                                 std::exchange(scans_, {})});
     }
     if (++group_ < groups_.size()) {
       readGroup();
@@ -257,6 +279,17 @@ class BagSource : public Source {
   void archive(urban_nav_core::Archive& archive) {
     archive(info_.camera, info_.T_base_camera, R_base_imu_, info_.first);
     for (const Role role : {Role::Left, Role::Right}) archive(topics_.chosen[role].name, topics_.chosen[role].type);
+    std::vector<std::pair<std::string, std::pair<std::string, urban_nav_core::Pose>>> lasers;
+    for (std::size_t i = 0; i < laser_topics_.size(); ++i)
+      lasers.push_back({laser_topics_[i], {info_.lasers[i].frame, info_.lasers[i].T_base_laser}});
+    archive(lasers);
+    if (archive.isReading() && laser_topics_.empty()) {  // these bags do not say where they stand
+      for (const auto& [topic, place] : lasers) {
+        laser_topics_.push_back(topic);
+        info_.lasers.push_back({place.first, place.second});
+      }
+      refused_scans_.resize(laser_topics_.size(), 0);
+    }
     if (archive.isReading()) listen();
     std::vector<std::pair<urban_nav_core::StampNs, urban_nav_core::Vector3d>> forces;
     for (const pose_graph::FeltForce& felt : forces_) forces.emplace_back(felt.stamp, felt.force);
@@ -306,7 +339,17 @@ class BagSource : public Source {
       feel(*imu);
       if (const auto motion = gyroscope_->add(*imu); motion && options_.motion_input == "gyroscope")
         feed_->add(*motion);
+    } else if (const auto scan = instance.instantiate<sensor_msgs::LaserScan>()) {
+      add(topic, *scan);
     }
+  }
+
+  void add(const std::string& topic, const sensor_msgs::LaserScan& message) {
+    const auto laser =
+        static_cast<std::size_t>(std::find(laser_topics_.begin(), laser_topics_.end(), topic) - laser_topics_.begin());
+    if (const auto planar = urban_nav_ros::toPlanarScan(message))
+      scans_.push_back({laser, urban_nav_core::toScan(*planar)});
+    else ++refused_scans_[laser];
   }
 
   void feel(const sensor_msgs::Imu& imu) {
@@ -328,6 +371,9 @@ class BagSource : public Source {
   std::optional<urban_nav_ros::GyroMotion> gyroscope_;
   std::optional<urban_nav_core::Matrix3d> R_base_imu_;
   std::vector<pose_graph::FeltForce> forces_;
+  std::vector<std::string> laser_topics_;    // of info_.lasers
+  std::vector<std::int64_t> refused_scans_;  // likewise
+  std::vector<LaserInput> scans_;            // since the pair or end of a bag before
   std::optional<StereoFeed> feed_;
   bool is_placed_ = false;          // the bags say where the camera stands
   std::vector<std::string> names_;  // of the topics that are read

@@ -17,12 +17,14 @@ struct RoleNames {
   const char* word;
   const char* topic;  // of DESIGN.md, section 5
 };
-constexpr std::array<RoleNames, 7> kRoles = {{{Role::Left, "left", "stereo/left/image_raw"},
+constexpr std::array<RoleNames, 9> kRoles = {{{Role::Left, "left", "stereo/left/image_raw"},
                                               {Role::Right, "right", "stereo/right/image_raw"},
                                               {Role::LeftInfo, "left_info", "stereo/left/camera_info"},
                                               {Role::RightInfo, "right_info", "stereo/right/camera_info"},
                                               {Role::Imu, "imu", "imu/data"},
                                               {Role::Wheels, "wheels", "wheel_odom"},
+                                              {Role::LaserLeft, "laser_left", "laser_left/scan"},
+                                              {Role::LaserRight, "laser_right", "laser_right/scan"},
                                               {Role::Truth, "truth", "ground_truth/pose"}}};
 
 constexpr std::array<std::array<const char*, 2>, 7> kSides = {{{"left", "right"},
@@ -45,6 +47,8 @@ bool fits(Role role, const std::string& type) {
     case Role::RightInfo: return type == "sensor_msgs/CameraInfo";
     case Role::Imu: return type == "sensor_msgs/Imu";
     case Role::Wheels: return type == "nav_msgs/Odometry";
+    case Role::LaserLeft:
+    case Role::LaserRight: return type == "sensor_msgs/LaserScan";
     case Role::Truth: return type == "geometry_msgs/PoseStamped";
   }
   return false;
@@ -214,7 +218,9 @@ BagTopics chooseTopics(const std::map<std::string, std::string>& available, cons
   guessOtherInfos(available, topics);
   guessOther(available, kRoles[4], {"imu"}, topics);
   guessOther(available, kRoles[5], {"wheel"}, topics);
-  guessOther(available, kRoles[6], {"ground_truth", "groundtruth"}, topics);
+  guessOther(available, kRoles[6], {"left"}, topics);
+  guessOther(available, kRoles[7], {"right"}, topics);
+  guessOther(available, kRoles[8], {"ground_truth", "groundtruth"}, topics);
   for (const auto& [role, topic] : topics.chosen) {
     topics.notes.push_back(std::string(toString(role)) + ": " + topic.name +
                            (wished.count(role) != 0 ? "" : " (guessed)"));

@@ -55,6 +55,11 @@ class ReadAhead : public Source {
     return ended_ ? source_->bagEnd() : nullptr;
   }
 
+  std::vector<LaserInput> scans() const override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return ended_ ? source_->scans() : std::vector<LaserInput>();
+  }
+
   std::vector<pose_graph::FeltForce> forces() const override {
     const std::lock_guard<std::mutex> lock(mutex_);
     return ended_ ? source_->forces() : std::vector<pose_graph::FeltForce>();

@@ -11,16 +11,24 @@
 #include "pose_graph/level.hpp"
 #include "urban_nav_core/camera/stereo_camera.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_core/laser/scan.hpp"
 #include "urban_nav_core/types/stamp.hpp"
 #include "urban_nav_ros/stereo_feed.hpp"
 
 namespace urban_nav {
+
+/// A turn of one of the robot's lasers.
+struct LaserInput {
+  std::size_t laser = 0;  ///< of SourceInfo::lasers
+  urban_nav_core::Scan scan;
+};
 
 /// Where the reader of a recording stood when it came to the end of a bag behind which the next one may follow.
 struct BagEnd {
   std::size_t bags = 0;                 ///< of the paths it was given, so many have been read
   urban_nav_core::StampNs receipt = 0;  ///< of the last message
   std::string reader;                   ///< its state: what waits, and what has been seen
+  std::vector<LaserInput> scans;        ///< read behind the pair before, up to here
 };
 
 /// A rectified grey pair with what else was measured since the pair before, and sentences that name what was wrong with
@@ -29,6 +37,13 @@ struct StereoInput : urban_nav_ros::FedPair {
   StereoInput() = default;
   StereoInput(urban_nav_ros::FedPair pair) : FedPair(std::move(pair)) {}
   std::shared_ptr<const BagEnd> bag_end;  ///< the last end of a bag between the pair before and this one; mostly none
+  std::vector<LaserInput>
+      scans;  ///< read since then, or since the end of that bag; only whoever reads knows in which order
+};
+
+struct LaserInfo {
+  std::string frame;
+  urban_nav_core::Pose T_base_laser;
 };
 
 /// What is known of an input before its first image is decoded.
@@ -39,6 +54,7 @@ struct SourceInfo {
   urban_nav_core::Pose T_base_camera;           ///< left optical frame in base_link
   std::int64_t frames = 0;                      ///< stereo frames expected; 0: unknown
   urban_nav_core::StampNs first = 0, last = 0;  ///< of the stereo stream, as far as it is known beforehand
+  std::vector<LaserInfo> lasers;                ///< whose place on the robot is known
   std::vector<std::string> notes;               ///< what was guessed or assumed, for the user
 };
 
@@ -53,6 +69,8 @@ class Source {
   virtual std::vector<std::string> closingFaults() const { return {}; }
   /// The end of a bag that no pair came behind: complete when next() has come to the end. Mostly none.
   virtual std::shared_ptr<const BagEnd> bagEnd() const { return nullptr; }
+  /// Scans that no pair and no end of a bag came behind: complete when next() has come to the end.
+  virtual std::vector<LaserInput> scans() const { return {}; }
   /// What an accelerometer of the input felt: complete when next() has come to the end. Empty where there is none, or where it is not
   /// known how it stands on the robot.
   virtual std::vector<pose_graph::FeltForce> forces() const { return {}; }

@@ -76,7 +76,11 @@ void runVo(Source& source, VoStage& stage, StoreStage& store, MapOutcome& outcom
   std::size_t faults_said = stage.run().faults.size();
   double last_report = outcome.usage.wallSeconds();
   while (const std::optional<StereoInput> input = source.next()) {
-    if (input->bag_end) store.keepBag(stage, *input->bag_end);
+    if (input->bag_end) {
+      store.keep(source.info(), input->bag_end->scans);
+      store.keepBag(stage, *input->bag_end);
+    }
+    store.keep(source.info(), input->scans);
     stage.process(*input);
     for (; faults_said < std::min<std::size_t>(stage.run().faults.size(), 10); ++faults_said)
       console.warn(stage.run().faults[faults_said]);
@@ -90,7 +94,11 @@ void runVo(Source& source, VoStage& stage, StoreStage& store, MapOutcome& outcom
       last_report = outcome.usage.wallSeconds();
     }
   }
-  if (const auto end = source.bagEnd()) store.keepBag(stage, *end);
+  if (const auto end = source.bagEnd()) {
+    store.keep(source.info(), end->scans);
+    store.keepBag(stage, *end);
+  }
+  store.keep(source.info(), source.scans());
   stage.finish(source.closingFaults(), source.forces());
   store.finish(stage.run());
   for (const std::string& fault : source.closingFaults()) console.warn(fault);
@@ -107,7 +115,7 @@ struct Resumed {
 Resumed resume(const MapRequest& request, Session& session, StoreStage& store, std::size_t i, Console& console) {
   if (!store.behind(i)) return {};
   const BagState& state = store.behind(i)->state;
-  const BagEnd behind{store.behind(i)->bags, state.receipt, state.reader};
+  const BagEnd behind{store.behind(i)->bags, state.receipt, state.reader, {}};
   try {
     Resumed resumed{open(session.paths, request, &behind), nullptr};
     resumed.stage = std::make_unique<VoStage>(request.parameters.swf_vo.parameters, resumed.source->info(), state.vo);

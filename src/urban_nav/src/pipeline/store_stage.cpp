@@ -240,12 +240,15 @@ void StoreStage::put(std::size_t session, const SourceInfo& info) {
   const SessionId& id = ids_[session];
   const std::vector<StoredClosure> closures =
       continued_[session] ? closuresOf(*store_, id) : std::vector<StoredClosure>();
-  store_->sessions().remove(id);
+  if (behind_[session]) store_->sessions().clear(id);
+  else store_->sessions().remove(id);
   store_->sessions().put(urban_nav_store::Session{id, names_[session], "", "", info.first, false});
   for (const auto& [name, digest] : identities_[session]) store_->sessions().put(id, Property{"run/" + name, digest});
   store_->sessions().put(id, Property{"input/name", info.name});
   store_->sessions().put(id, Property{"input/kind", info.kind});
   store_->sessions().put(id, urban_nav_store::Extrinsic{kVoCamera, info.T_base_camera});
+  for (const LaserInfo& laser : info.lasers)
+    store_->sessions().put(id, urban_nav_store::Extrinsic{laser.frame, laser.T_base_laser});
   for (const std::vector<urban_nav_core::Setting>* settings : request_.parameters.settings()) {
     for (const urban_nav_core::Setting& setting : *settings)
       store_->sessions().put(
@@ -266,6 +269,10 @@ void StoreStage::goOn(std::size_t session, const SourceInfo& info, const VoRun& 
   store_->states().put(ids_[session], kBagStage, packBagState(behind_[session]->state));
   add(run);
   store_->commit();
+}
+
+void StoreStage::keep(const SourceInfo& info, const std::vector<LaserInput>& scans) {
+  for (const LaserInput& each : scans) store_->scans().put(ids_[session_], info.lasers[each.laser].frame, each.scan);
 }
 
 void StoreStage::keepBag(const VoStage& stage, const BagEnd& end) {

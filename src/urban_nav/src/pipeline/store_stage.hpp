@@ -53,6 +53,8 @@ class StoreStage {
   std::optional<VoRun> begin(std::size_t session, const SourceInfo& info);
   /// Instead, with the run as it was behind(): the session is begun, and has what it had there.
   void goOn(std::size_t session, const SourceInfo& info, const VoRun& run);
+  /// Scans of the session that was begun, in the lasers' frames.
+  void keep(const SourceInfo& info, const std::vector<LaserInput>& scans);
   /// A bag of the session has come to its end. Commits; the state of the bag before goes.
   void keepBag(const VoStage& stage, const BagEnd& end);
   /// What is new in the run of the session that was begun; commits when a second has gone by.

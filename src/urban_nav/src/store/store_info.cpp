@@ -94,6 +94,7 @@ std::string textOf(const StoredSession& each) {
     text += "    stream " + stream.name + ": " + std::to_string(stream.messages) + " at " +
             forPerson(stream.rate_hz, 4) + " Hz, longest gap " + forPerson(stream.longest_gap_s, 3) + " s" +
             (stream.type.empty() ? "" : ", " + stream.type) + "\n";
+  for (const auto& [laser, scans] : each.scans) text += "    scans of " + laser + ": " + std::to_string(scans) + "\n";
   if (!each.frames.empty()) {
     text += "    frames base_link";
     for (const std::string& frame : each.frames) text += ", " + frame;
@@ -134,6 +135,8 @@ StoreInfo lookIntoStore(const std::string& path) {
     store.graph().forEachNode(session.id,
                               [&](const urban_nav_store::Node& node) { ++each.status_counts[toString(node.status)]; });
     each.streams = streamsOf(store, session.id);
+    for (const std::string& laser : store.scans().lasers(session.id))
+      each.scans[laser] = store.scans().count(session.id, laser);
     for (const urban_nav_store::Extrinsic& extrinsic : store.sessions().extrinsics(session.id))
       each.frames.push_back(extrinsic.frame);
     const std::vector<std::string> stages = store.states().stages(session.id);
@@ -206,6 +209,8 @@ Json jsonOf(const StoreInfo& info) {
       of_stream["longest_gap_s"] = stream.longest_gap_s;
       streams.append(of_stream);
     }
+    Json& scans = entry["scans"] = Json::object();
+    for (const auto& [laser, count] : each.scans) scans[laser] = count;
     Json& frames = entry["frames"] = Json::array();
     for (const std::string& frame : each.frames) frames.append(frame);
     entry["map"] = each.map;

@@ -31,7 +31,7 @@ Scan toScan(const PlanarScan& scan) {
     beam.stamp = scan.stamp + static_cast<StampNs>(std::llround(k * scan.time_step * 1e9));
     beam.direction = Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0).cast<float>();
     beam.range = scan.ranges[i];
-    beam.intensity = scan.intensities.empty() ? 0.0F : scan.intensities[i];
+    beam.intensity = scan.intensities.empty() || !std::isfinite(scan.intensities[i]) ? 0.0F : scan.intensities[i];
     out.beams.push_back(beam);
   }
   return out;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@ class ScanStore {
 
   /// Frame names, sorted.
   virtual std::vector<std::string> lasers(const SessionId& session) const = 0;
+  virtual std::int64_t count(const SessionId& session, const std::string& laser) const = 0;
   /// Scans with from <= stamp <= to in order of time, one block in memory at a time.
   virtual void forEach(const SessionId& session, const std::string& laser, urban_nav_core::StampNs from,
                        urban_nav_core::StampNs to,

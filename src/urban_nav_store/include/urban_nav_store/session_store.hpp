@@ -40,6 +40,8 @@ class SessionStore {
   virtual std::vector<Session> all() const = 0;
   /// Removes a session with every row that names it, edges from other sessions to it included.
   virtual void remove(const SessionId& id) = 0;
+  /// Likewise, but what was measured in it stays: its scans.
+  virtual void clear(const SessionId& id) = 0;
 
   virtual void put(const Anchor& anchor) = 0;
   virtual std::optional<Anchor> anchor(const SessionId& id) const = 0;

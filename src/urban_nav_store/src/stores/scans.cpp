@@ -85,6 +85,7 @@ void Scans::save(const Key& key, Block& block) const {
       .blob(bytes)
       .write();
   block.changed = false;
+  whole_.erase(key.first);
 }
 
 void Scans::flush() const {
@@ -100,10 +101,19 @@ std::vector<std::string> Scans::lasers(const SessionId& session) const {
   return names;
 }
 
+std::int64_t Scans::count(const SessionId& session, const std::string& laser) const {
+  flush();
+  Statement statement = connection_.prepare("SELECT COALESCE(SUM(scans),0) FROM scan WHERE session=? AND laser=?");
+  statement.bind(0, session);
+  statement.bind(1, laser);
+  return statement.step() ? statement.integer(0) : 0;
+}
+
 void Scans::forEach(const SessionId& session, const std::string& laser, StampNs from, StampNs to,
                     const std::function<void(const Scan&)>& take) const {
   flush();
-  verifyTally(connection_, schema::scan(), session);
+  if (whole_.count(session) == 0) verifyTally(connection_, schema::scan(), session);
+  whole_.insert(session);
   RowReader reader(connection_, schema::scan(), "WHERE session=? AND laser=? AND second>=? AND second<=?");
   reader.statement().bind(0, session);
   reader.statement().bind(1, laser);

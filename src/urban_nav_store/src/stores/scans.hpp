@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <utility>
 
 #include "sqlite/connection.hpp"
@@ -17,6 +18,7 @@ class Scans : public ScanStore {
 
   void put(const SessionId& session, const std::string& laser, const urban_nav_core::Scan& scan) override;
   std::vector<std::string> lasers(const SessionId& session) const override;
+  std::int64_t count(const SessionId& session, const std::string& laser) const override;
   void forEach(const SessionId& session, const std::string& laser, urban_nav_core::StampNs from,
                urban_nav_core::StampNs to, const std::function<void(const urban_nav_core::Scan&)>& take) const override;
 
@@ -38,6 +40,8 @@ class Scans : public ScanStore {
 
   Connection& connection_;
   mutable std::map<Key, Block> open_;
+  mutable std::set<SessionId>
+      whole_;  // found so since the last block was written: not looked at for each short stretch again
 };
 
 }  // namespace urban_nav_store

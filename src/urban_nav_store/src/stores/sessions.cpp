@@ -95,7 +95,9 @@ std::vector<Session> Sessions::all() const {
   return sessions;
 }
 
-void Sessions::remove(const SessionId& id) {
+void Sessions::clear(const SessionId& id) { remove(id, {&schema::scan()}); }
+
+void Sessions::remove(const SessionId& id, const std::vector<const Table*>& but) {
   connection_.beginWriting();
   settle_();
   const auto clear = [&](const std::string& sql) {
@@ -104,7 +106,8 @@ void Sessions::remove(const SessionId& id) {
     statement.step();
   };
   for (const Table* table : schema::tables())
-    clear("DELETE FROM " + std::string(table->name) + " WHERE " + table->columns.front().name + "=?");
+    if (std::find(but.begin(), but.end(), table) == but.end())
+      clear("DELETE FROM " + std::string(table->name) + " WHERE " + table->columns.front().name + "=?");
   clear("DELETE FROM edge WHERE session_b=?");
   clear("DELETE FROM evidence WHERE session_b=?");
   clear("DELETE FROM anchor WHERE map=?");

@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "schema/schema.hpp"
 #include "sqlite/connection.hpp"
 #include "urban_nav_store/session_store.hpp"
 
@@ -17,7 +18,8 @@ class Sessions : public SessionStore {
   void put(const Session& session) override;
   std::optional<Session> find(const SessionId& id) const override;
   std::vector<Session> all() const override;
-  void remove(const SessionId& id) override;
+  void remove(const SessionId& id) override { remove(id, {}); }
+  void clear(const SessionId& id) override;
   void put(const Anchor& anchor) override;
   std::optional<Anchor> anchor(const SessionId& id) const override;
   void put(const SessionId& id, const StoredParameter& parameter) override;
@@ -28,6 +30,8 @@ class Sessions : public SessionStore {
   std::vector<Extrinsic> extrinsics(const SessionId& id) const override;
 
  private:
+  void remove(const SessionId& id, const std::vector<const Table*>& but);
+
   Connection& connection_;
   std::function<void()> settle_;
 };

@@ -42,6 +42,8 @@ TEST(Scans, comeBackInOrderWhateverTheOrderTheyCameIn) {
   }
   Store store(path, Access::Read);
   EXPECT_EQ(store.scans().lasers("s"), (std::vector<std::string>{"left", "right"}));
+  EXPECT_EQ(store.scans().count("s", "left"), 400);
+  EXPECT_EQ(store.scans().count("s", "middle"), 0);
   for (const char* laser : {"left", "right"}) {
     std::size_t next = 0;
     store.scans().forEach("s", laser, scans.front().stamp, scans.back().stamp, [&](const Scan& scan) {

@@ -37,6 +37,7 @@ struct PlanarScan {
   std::vector<float> intensities;
 };
 
+/// The valid beams; an intensity that is not finite is 0.
 Scan toScan(const PlanarScan& scan);
 
 /// Same stamps and numbers of beams, and every number within `tolerance`; ranges that are not valid equal each other.
