@@ -3,11 +3,11 @@
 
 #include <set>
 
-#include "urban_nav_store/digest.hpp"
 #include "dump_tables.hpp"
 #include "schema/row.hpp"
 #include "store_implementation.hpp"
 #include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_store/digest.hpp"
 
 namespace urban_nav_store {
 
@@ -46,7 +46,8 @@ void dumpTable(Connection& connection, const Table& table, std::string& text) {
 
 std::string dumpTables(Connection& connection) {
   std::string text;
-  for (const Table* table : schema::tables()) dumpTable(connection, *table, text);
+  for (const Table* table : schema::tables())
+    if (schema::has(connection, *table)) dumpTable(connection, *table, text);
   return text;
 }
 

@@ -31,7 +31,8 @@ class Merger {
 
   void add(Connection& source) {
     source_ = source.name();
-    for (const Table* table : schema::tables()) addTable(source, *table);
+    for (const Table* table : schema::tables())
+      if (schema::has(source, *table)) addTable(source, *table);
   }
 
   /// DataError where rows contradict each other.

@@ -80,6 +80,7 @@ Store::Implementation::Implementation(const std::string& path, Access access)
       sessions(connection, [this] { settle(); }),
       graph(connection),
       scans(connection),
+      keyframes(connection),
       inputs(connection),
       states(connection) {
   if (access == Access::Write) {
@@ -134,6 +135,7 @@ Store& Store::operator=(Store&&) noexcept = default;
 const std::string& Store::path() const { return implementation_->connection.name(); }
 SessionStore& Store::sessions() { return implementation_->sessions; }
 GraphStore& Store::graph() { return implementation_->graph; }
+KeyframeStore& Store::keyframes() { return implementation_->keyframes; }
 ScanStore& Store::scans() { return implementation_->scans; }
 InputOrder& Store::inputs() { return implementation_->inputs; }
 StageStates& Store::states() { return implementation_->states; }

@@ -6,6 +6,7 @@
 #include "file/writer_lock.hpp"
 #include "stores/graph.hpp"
 #include "stores/inputs.hpp"
+#include "stores/keyframes.hpp"
 #include "stores/scans.hpp"
 #include "stores/sessions.hpp"
 #include "stores/states.hpp"
@@ -34,6 +35,7 @@ class Store::Implementation {
   Sessions sessions;
   Graph graph;
   Scans scans;
+  Keyframes keyframes;
   Inputs inputs;
   States states;
 };

@@ -40,7 +40,7 @@ class SessionStore {
   virtual std::vector<Session> all() const = 0;
   /// Removes a session with every row that names it, edges from other sessions to it included.
   virtual void remove(const SessionId& id) = 0;
-  /// Likewise, but what was measured in it stays: its scans.
+  /// Likewise, but what was measured in it stays: its scans and keyframes.
   virtual void clear(const SessionId& id) = 0;
 
   virtual void put(const Anchor& anchor) = 0;

@@ -6,6 +6,7 @@
 
 #include "urban_nav_store/graph_store.hpp"
 #include "urban_nav_store/input_order.hpp"
+#include "urban_nav_store/keyframe_store.hpp"
 #include "urban_nav_store/scan_store.hpp"
 #include "urban_nav_store/session_store.hpp"
 #include "urban_nav_store/stage_states.hpp"
@@ -45,6 +46,7 @@ class Store {
   SessionStore& sessions();
   GraphStore& graph();
   ScanStore& scans();
+  KeyframeStore& keyframes();
   InputOrder& inputs();
   StageStates& states();
 
@@ -71,6 +73,6 @@ bool isStore(const std::string& path);
 void removeStore(const std::string& path);
 
 /// Version of the schema that this library writes.
-constexpr int kSchemaVersion = 1;
+constexpr int kSchemaVersion = 2;
 
 }  // namespace urban_nav_store

@@ -26,8 +26,8 @@ const char* sqlOf(ColumnType type) {
 
 /// Wide rows live by row number with an index, narrow ones in the index itself: SQLite's own advice for tables without row numbers.
 bool isWide(const Table& table) {
-  return &table == &schema::evidence() || &table == &schema::scan() || &table == &schema::input() ||
-         &table == &schema::state();
+  return &table == &schema::evidence() || &table == &schema::scan() || &table == &schema::keyframe() ||
+         &table == &schema::input() || &table == &schema::state();
 }
 
 std::string columnNames(const Table& table) {
@@ -62,13 +62,14 @@ std::vector<std::pair<std::string, std::string>> objectsOf(const Table& table) {
                           " BEGIN UPDATE tally SET sum=sum-old.crc+new.crc" + mine + "new." + session + "; END"}};
 }
 
-std::vector<std::pair<std::string, std::string>> allObjects() {
+std::vector<std::pair<std::string, std::string>> allObjects(std::int64_t version) {
   std::vector<std::pair<std::string, std::string>> objects = {
       {"tally",
        "CREATE TABLE tally(name TEXT NOT NULL,session TEXT NOT NULL,count INTEGER NOT NULL,sum INTEGER NOT NULL,"
        "PRIMARY KEY(name,session)) WITHOUT ROWID"}};
   for (const Table* table : schema::tables())
-    for (auto& object : objectsOf(*table)) objects.push_back(std::move(object));
+    if (table->since <= version)
+      for (auto& object : objectsOf(*table)) objects.push_back(std::move(object));
   return objects;
 }
 
@@ -181,6 +182,11 @@ const Table& scan() {
   static const Table table{"scan", 3, {{"session", T}, {"laser", T}, {"second", I}, {"scans", I}, {"data", B}}};
   return table;
 }
+const Table& keyframe() {
+  static const Table table{
+      "keyframe", 3, {{"session", T}, {"camera", T}, {"stamp_ns", I}, {"image", B}, {"features", B}}, 2};
+  return table;
+}
 const Table& input() {
   static const Table table{"input", 2, {{"session", T}, {"block", I}, {"events", I}, {"data", B}}};
   return table;
@@ -191,22 +197,30 @@ const Table& state() {
 }
 
 const std::vector<const Table*>& tables() {
-  static const std::vector<const Table*> all = {&session(),   &anchor(), &parameter(), &property(),
-                                                &extrinsic(), &node(),   &relaxed(),   &edge(),
-                                                &evidence(),  &scan(),   &input(),     &state()};
+  static const std::vector<const Table*> all = {&session(),  &anchor(),  &parameter(), &property(), &extrinsic(),
+                                                &node(),     &relaxed(), &edge(),      &evidence(), &scan(),
+                                                &keyframe(), &input(),   &state()};
   return all;
+}
+
+bool has(Connection& connection, const Table& table) {
+  return connection.integer("PRAGMA user_version") >= table.since;
 }
 
 void create(Connection& connection) {
   std::string sql = "BEGIN IMMEDIATE;";
-  for (const auto& [name, text] : allObjects()) sql += text + ";";
+  for (const auto& [name, text] : allObjects(kSchemaVersion)) sql += text + ";";
   sql += "PRAGMA application_id=" + std::to_string(kApplicationId) +
          ";PRAGMA user_version=" + std::to_string(kSchemaVersion) + ";COMMIT";
   connection.execute(sql);
 }
 
 const std::vector<std::string>& migrationSteps() {
-  static const std::vector<std::string> steps = {""};  // there was no version 0
+  static const std::vector<std::string> steps = [] {
+    std::string keyframes;
+    for (const auto& [name, text] : objectsOf(keyframe())) keyframes += text + ";";
+    return std::vector<std::string>{"", keyframes};  // there was no version 0
+  }();
   return steps;
 }
 
@@ -229,11 +243,11 @@ void check(Connection& connection) {
     throw UserError(connection.name(),
                     "was written by a newer urban_nav (schema " + std::to_string(version) + "), and was left as it is",
                     "schema " + std::to_string(kSchemaVersion) + " or older; or a newer urban_nav");
-  if (version < kSchemaVersion) connection.damaged("schema " + std::to_string(version) + " has never been written");
+  if (version < 1) connection.damaged("schema " + std::to_string(version) + " has never been written");
   std::map<std::string, std::string> found;
   Statement statement = connection.prepare("SELECT name,sql FROM sqlite_master WHERE sql IS NOT NULL");
   while (statement.step()) found[std::string(statement.text(0))] = statement.text(1);
-  for (const auto& [name, text] : allObjects()) {
+  for (const auto& [name, text] : allObjects(version)) {
     const auto object = found.find(name);
     if (object == found.end() || object->second != text) connection.damaged("table " + name + " is not as it was made");
   }

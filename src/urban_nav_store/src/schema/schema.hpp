@@ -21,6 +21,7 @@ struct Table {
   const char* name;
   int keys;
   std::vector<Column> columns;
+  int since = 1;  ///< version of the schema that had it first
 };
 
 namespace schema {
@@ -35,11 +36,15 @@ const Table& relaxed();
 const Table& edge();
 const Table& evidence();
 const Table& scan();
+const Table& keyframe();
 const Table& input();
 const Table& state();
 
 /// In the order in which they are written, merged and dumped.
 const std::vector<const Table*>& tables();
+
+/// False in a file of a version that had no such table yet; one that is only read stays of that version.
+bool has(Connection& connection, const Table& table);
 
 /// "UNav": what the header of the file has as SQLite's application id.
 constexpr int kApplicationId = 0x554e6176;

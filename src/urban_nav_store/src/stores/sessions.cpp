@@ -95,7 +95,7 @@ std::vector<Session> Sessions::all() const {
   return sessions;
 }
 
-void Sessions::clear(const SessionId& id) { remove(id, {&schema::scan()}); }
+void Sessions::clear(const SessionId& id) { remove(id, {&schema::scan(), &schema::keyframe()}); }
 
 void Sessions::remove(const SessionId& id, const std::vector<const Table*>& but) {
   connection_.beginWriting();

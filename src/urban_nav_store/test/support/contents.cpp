@@ -73,6 +73,7 @@ SessionId fill(Store& store, std::uint32_t seed, int nodes) {
     store.graph().put(session.id, drawn.relaxed(stamp));
     store.inputs().append(session.id, {i % 3 == 0 ? "laser_left" : "stereo", stamp, i % 7 != 0});
     store.scans().put(session.id, "laser_left", drawn.scan(stamp, 20));
+    if (i % 5 == 0) store.keyframes().put(session.id, "left", {stamp, drawn.bytes(200), drawn.bytes(50)});
     if (i > 0) store.graph().put(drawn.edge({session.id, last}, {session.id, stamp}, EdgeKind::Odometry));
     last = stamp;
   }
