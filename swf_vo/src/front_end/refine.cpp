@@ -5,6 +5,8 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "urban_nav_core/camera/surface.hpp"
+
 namespace swf_vo {
 
 using urban_nav_core::Alignment;
@@ -103,7 +105,7 @@ void learnSurface(const Corners& corners, const StereoCamera& camera, const Pose
   const Eigen::Vector2d mean = slant.under(inverse_depth).mean;
   if (!((mean - assumed).norm() < steepest * std::max(inverse_depth, 1e-3))) return;
   track.slant = slant;
-  track.plane = leaning(camera, track.ray, inverse_depth, mean);
+  track.plane = urban_nav_core::leaning(camera, track.ray, inverse_depth, mean);
 }
 
 Eigen::Matrix2d creep(const StereoCamera& camera, const Pose& T_camera_odom, Match& match) {

@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "front_end/across.hpp"
 #include "front_end/refine.hpp"
+#include "urban_nav_core/camera/surface.hpp"
 #include "urban_nav_core/image/harris.hpp"
+#include "urban_nav_core/image/row_match.hpp"
 
 namespace swf_vo {
 
@@ -92,9 +93,9 @@ bool Replenisher::start(const Candidate& candidate, FrameId frame, const Corners
   const ImageView& right = corners.image(Side::Right, candidate.level);
   const int offset = static_cast<int>(std::lround(camera_.disparity_offset * Pyramid::scale(candidate.level)));
   const double row_offset = rows.px() * Pyramid::scale(candidate.level);
-  const auto disparity = findDisparity(left, right, candidate.u, candidate.v, lowest_disparity + offset,
-                                       static_cast<int>(largest_disparity * left.width) + offset,
-                                       static_cast<int>(std::lround(row_offset)));
+  const auto disparity = urban_nav_core::findDisparity(left, right, candidate.u, candidate.v, lowest_disparity + offset,
+                                                       static_cast<int>(largest_disparity * left.width) + offset,
+                                                       static_cast<int>(std::lround(row_offset)));
   if (!disparity) return false;
   const auto source = cutSource(left, candidate.u, candidate.v);
   if (!source) return false;
@@ -135,7 +136,8 @@ bool Replenisher::start(const Candidate& candidate, FrameId frame, const Corners
   track->born = frame;
   track->T_born_odom = T_odom_camera.inverse();
   track->ray = camera_.left.ray(match.left.pixel);
-  track->plane = surface(camera_, {match.left.pixel.x(), match.left.pixel.y(), match.right.pixel.x()}, found.slopes);
+  track->plane = urban_nav_core::surfaceThrough(
+      camera_, {match.left.pixel.x(), match.left.pixel.y(), match.right.pixel.x()}, found.slopes);
   track->slant = found.seen.scaled(1.0 / camera_.baseline);
   track->slant_reach = camera_.baseline;
   track->creep = creep_per_change * (match.left.covariance + creep_px * creep_px * Eigen::Matrix2d::Identity());

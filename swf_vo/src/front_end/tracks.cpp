@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "urban_nav_core/camera/surface.hpp"
 #include "urban_nav_core/io/archive_types.hpp"
 
 namespace swf_vo {
@@ -12,40 +13,15 @@ using urban_nav_core::PatchWarp;
 using urban_nav_core::Pose;
 using urban_nav_core::StereoCamera;
 
-Eigen::Vector3d surface(const StereoCamera& camera, const StereoCamera::Pixel& pixel, const Eigen::Vector2d& slopes) {
-  // d(u, v) = fx B / z and 1 / z = plane . (x, y, 1), so the slopes are B (plane_x, plane_y fx / fy).
-  const auto& c = camera.left;
-  const double inverse_depth = (pixel.x() - pixel.z() - camera.disparity_offset) / (c.fx * camera.baseline);
-  const double x = (pixel.x() - c.cx) / c.fx, y = (pixel.y() - c.cy) / c.fy;
-  return leaning(camera, {x, y, 1.0}, inverse_depth, slopes / camera.baseline);
-}
-
-Eigen::Vector3d leaning(const StereoCamera& camera, const Eigen::Vector3d& ray, double inverse_depth,
-                        const Eigen::Vector2d& slant) {
-  const Eigen::Vector2d plane(slant.x(), slant.y() * camera.left.fy / camera.left.fx);
-  return {plane.x(), plane.y(), inverse_depth - plane.dot(ray.head<2>())};
-}
-
 Eigen::Vector3d surfaceAt(const Track& track, double inverse_depth) {
-  const double at_ray = track.plane.dot(track.ray);
-  if (at_ray > 1e-9 && inverse_depth > 0.0 && inverse_depth < 4.0 * at_ray) return inverse_depth / at_ray * track.plane;
-  return {0.0, 0.0, std::max(inverse_depth, 0.0)};
+  return urban_nav_core::surfaceAt(track.plane, track.ray, inverse_depth);
 }
 
 std::optional<PatchWarp> warpInto(Side side, const StereoCamera& camera, const Track& track, const Pose& T_camera_born,
                                   double inverse_depth) {
-  const Eigen::Vector3d plane = surfaceAt(track, inverse_depth);
   Eigen::Vector3d t = T_camera_born.t();
   if (side == Side::Right) t.x() -= camera.baseline;
-  const Eigen::Matrix3d H = T_camera_born.R() + t * plane.transpose();
-  const Eigen::Vector3d p = H * track.ray;
-  if (!(p.z() > 0.05)) return std::nullopt;
-  const double x = p.x() / p.z(), y = p.y() / p.z();
-  const double aspect = camera.left.fx / camera.left.fy;
-  Eigen::Matrix2d A;
-  A << H(0, 0) - x * H(2, 0), (H(0, 1) - x * H(2, 1)) * aspect, (H(1, 0) - y * H(2, 0)) / aspect, H(1, 1) - y * H(2, 1);
-  const Eigen::Vector2d bend(H(2, 0) / camera.left.fx, H(2, 1) / camera.left.fy);
-  return PatchWarp(A / p.z(), bend / p.z());
+  return urban_nav_core::warpOfSurface(camera, surfaceAt(track, inverse_depth), track.ray, {T_camera_born.q(), t});
 }
 
 Eigen::Vector2d slantDirection(const StereoCamera& camera, const Track& track, const Pose& T_camera_born,

@@ -54,14 +54,6 @@ struct Track {
 
 void archive(urban_nav_core::Archive& archive, Track& track);
 
-/// The surface through a point with slopes of disparity (d per px of u and v), in the left camera: plane . X = 1.
-Eigen::Vector3d surface(const urban_nav_core::StereoCamera& camera, const urban_nav_core::StereoCamera::Pixel& pixel,
-                        const Eigen::Vector2d& slopes);
-
-/// The surface through the point at `inverse_depth` (1/z) on `ray` with the slant (1/m) that plane.x and plane.y fx / fy are.
-Eigen::Vector3d leaning(const urban_nav_core::StereoCamera& camera, const Eigen::Vector3d& ray, double inverse_depth,
-                        const Eigen::Vector2d& slant);
-
 /// The landmark's surface, if 1/z of the landmark in the first camera is `inverse_depth`.
 Eigen::Vector3d surfaceAt(const Track& track, double inverse_depth);
 

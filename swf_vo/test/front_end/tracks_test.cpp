@@ -5,6 +5,8 @@
 
 #include <Eigen/LU>
 
+#include "urban_nav_core/camera/surface.hpp"
+
 namespace swf_vo {
 namespace {
 
@@ -34,20 +36,6 @@ TEST(Tracks, IdsAreNeverReusedAndPlacesAre) {
   EXPECT_EQ(tracks.find(12345), nullptr);
 }
 
-TEST(Tracks, SurfaceHasTheSlopesOfItsDisparity) {
-  const StereoCamera c = camera();
-  const StereoCamera::Pixel pixel(300.0, 250.0, 290.0);
-  const Eigen::Vector2d slopes(0.1, 0.3);
-  const Eigen::Vector3d plane = surface(c, pixel, slopes);
-  for (const Eigen::Vector2d& d :
-       {Eigen::Vector2d(0, 0), Eigen::Vector2d(5, 0), Eigen::Vector2d(0, 5), Eigen::Vector2d(-3, 4)}) {
-    const double disparity = 10.0 + slopes.dot(d);
-    const auto p = c.triangulate({300.0 + d.x(), 250.0 + d.y(), 300.0 + d.x() - disparity});
-    ASSERT_TRUE(p);
-    EXPECT_NEAR(plane.dot(*p), 1.0, 1e-9);
-  }
-}
-
 /// Where a point of the surface seen at `pixel` in the first view lies in another.
 Eigen::Vector2d through(Side side, const StereoCamera& c, const Eigen::Vector3d& plane, const Pose& T,
                         const Eigen::Vector2d& pixel) {
@@ -62,7 +50,7 @@ TEST(Tracks, WarpIsTheHomographyOfTheSurface) {
   Track track;
   const Eigen::Vector2d pixel(300.0, 250.0);
   track.ray = c.left.ray(pixel);
-  track.plane = surface(c, {300.0, 250.0, 290.0}, {0.05, 0.25});
+  track.plane = urban_nav_core::surfaceThrough(c, {300.0, 250.0, 290.0}, {0.05, 0.25});
   const Pose T(expSo3({0.03, -0.1, 0.2}), Eigen::Vector3d(0.3, -0.1, -2.0));
   for (const Side side : {Side::Left, Side::Right}) {
     const auto warp = warpInto(side, c, track, T, track.plane.dot(track.ray));
@@ -86,7 +74,7 @@ TEST(Tracks, SlantDirectionIsTheDerivativeOfTheWarp) {
   const StereoCamera c = camera();
   Track track;
   track.ray = c.left.ray({300.0, 250.0});
-  track.plane = surface(c, {300.0, 250.0, 290.0}, {0.05, 0.25});
+  track.plane = urban_nav_core::surfaceThrough(c, {300.0, 250.0, 290.0}, {0.05, 0.25});
   const Pose T(expSo3({0.03, -0.1, 0.2}), Eigen::Vector3d(0.3, -0.1, -2.0));
   const double inverse_depth = track.plane.dot(track.ray);
   const Eigen::Vector2d direction = slantDirection(c, track, T, inverse_depth);

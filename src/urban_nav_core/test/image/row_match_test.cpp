@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "front_end/across.hpp"
+#include "urban_nav_core/image/row_match.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,8 @@
 #include <random>
 #include <vector>
 
-namespace swf_vo {
+namespace urban_nav_core {
 namespace {
-
-using urban_nav_core::ImageView;
 
 struct Picture {
   int width = 160, height = 40;
@@ -78,4 +76,4 @@ TEST(FindDisparity, StaysWithinTheRangeItWasGiven) {
 }
 
 }  // namespace
-}  // namespace swf_vo
+}  // namespace urban_nav_core
