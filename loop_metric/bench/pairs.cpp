@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which pairs of views are upgraded to a transform, by how far apart they were taken; how wrong those are, how far their information is to be believed (NEES: 6 is
+// right), and what it takes; beside what OpenCV has for the purpose on the same pairs. And what is made of pairs of different places.
+//   loop_metric-bench-pairs FOLDER... [--false N] [--no-peers] [--draw DIR] [--list] [--set loop_metric.NAME=VALUE]... [-o results/pairs.json]
+// FOLDER: frames in KITTI's layout with poses.txt, in any order, of as many days as there are.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "loop_metric/stereo_closure.hpp"
+#include "support/draw.hpp"
+#include "support/opencv_pnp.hpp"
+#include "urban_nav_core/geometry/dense.hpp"
+#include "urban_nav_core/parameters/sources.hpp"
+#include "urban_nav_core/testing/bench_table.hpp"
+#include "urban_nav_core/testing/dice.hpp"
+#include "urban_nav_core/testing/sequence_folder.hpp"
+#include "urban_nav_core/trajectory/nees.hpp"
+
+namespace {
+
+using namespace loop_metric;
+using urban_nav_core::Pose;
+using urban_nav_core::testing::BenchTable;
+using urban_nav_core::testing::cell;
+using urban_nav_core::testing::Recording;
+
+struct Options {
+  std::vector<std::string> folders, sets;
+  std::string draw, output;
+  std::size_t false_pairs = 500;
+  bool peers = true, list = false;
+};
+
+Options parse(int argc, char** argv) {
+  Options options;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--false" && i + 1 < argc) options.false_pairs = static_cast<std::size_t>(std::stoi(argv[++i]));
+    else if (word == "--draw" && i + 1 < argc) options.draw = argv[++i];
+    else if (word == "--set" && i + 1 < argc) options.sets.push_back(argv[++i]);
+    else if (word == "-o" && i + 1 < argc) options.output = argv[++i];
+    else if (word == "--no-peers") options.peers = false;
+    else if (word == "--list") options.list = true;
+    else options.folders.push_back(word);
+  }
+  return options;
+}
+
+double processorMs() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+constexpr double farthest_m = 4.0, farthest_deg = 25.0;  // of a closure that stereo should make
+constexpr double elsewhere_m = 40.0;                     // from here on it is another place
+constexpr double degrees = 57.29577951308232;
+
+struct Outcome {
+  double metres = 0.0, deg = 0.0, nees = 0.0;
+  bool has_nees = false;
+};
+
+struct Tally {
+  std::size_t pairs = 0;
+  std::vector<Outcome> upgraded;
+  std::vector<double> ms;
+
+  void see(const std::optional<Pose>& T_a_b, const urban_nav_core::Matrix6d* information, const Pose& truth,
+           double taken) {
+    ++pairs;
+    ms.push_back(taken);
+    if (!T_a_b) return;
+    Outcome outcome{urban_nav_core::distanceBetween(*T_a_b, truth),
+                    degrees * urban_nav_core::angleBetween(*T_a_b, truth), 0.0, false};
+    if (information != nullptr) {
+      const urban_nav_core::Vector6d d = urban_nav_core::boxMinus(truth, *T_a_b);
+      outcome.nees = d.dot(*information * d);
+      outcome.has_nees = true;
+    }
+    upgraded.push_back(outcome);
+  }
+  std::vector<double> of(double Outcome::*member) const {
+    std::vector<double> values;
+    for (const Outcome& outcome : upgraded) values.push_back(outcome.*member);
+    return values;
+  }
+  void addTo(BenchTable& table, const std::string& where, const std::string& which, const std::string& how) const {
+    if (pairs == 0) return;
+    const auto metres = of(&Outcome::metres), deg = of(&Outcome::deg), nees = of(&Outcome::nees);
+    double mean = 0.0;
+    for (const double value : nees) mean += value / static_cast<double>(nees.size());
+    const bool known = !upgraded.empty() && upgraded.front().has_nees;
+    table.add({where, which, how, std::to_string(pairs),
+               cell(100.0 * static_cast<double>(upgraded.size()) / static_cast<double>(pairs), 0) + " %",
+               cell(100.0 * quantile(metres, 0.5), 2) + " (" + cell(100.0 * quantile(metres, 0.95), 1) + ")",
+               cell(quantile(deg, 0.5), 3) + " (" + cell(quantile(deg, 0.95), 3) + ")",
+               known ? cell(mean, 1) + " (" + cell(quantile(nees, 0.5), 1) + ")" : "-", cell(quantile(ms, 0.5), 1)});
+  }
+};
+
+struct Class {
+  const char* name;
+  double least_m, most_m, most_deg;
+};
+constexpr Class classes[] = {{"up to 1 m", 0.0, 1.0, 10.0},
+                             {"1 to 2 m", 1.0, 2.0, 20.0},
+                             {"2 to 4 m", 2.0, 4.0, 25.0},
+                             {"turned by 10 deg and more, up to 2 m", 0.0, 2.0, 25.0}};
+
+const Class* classOf(double metres, double deg) {
+  if (metres < 2.0 && deg >= 10.0) return &classes[3];
+  for (const Class& one : classes)
+    if (metres >= one.least_m && metres < one.most_m && deg < one.most_deg) return &one;
+  return nullptr;
+}
+
+class Program {
+ public:
+  explicit Program(const Options& options) : options_(options) {
+    std::vector<urban_nav_core::Assignment> assignments;
+    for (const std::string& set : options.sets) assignments.push_back(urban_nav_core::parseSetting(set));
+    urban_nav_core::refuseUnknownStages(assignments, {table().stage()});
+    parameters_ = urban_nav_core::load(table(), assignments).parameters;
+  }
+
+  void run(const std::string& folder, BenchTable& table) {
+    const std::string name = folder.substr(folder.find_last_of('/') + 1);
+    const Recording recording = urban_nav_core::testing::readSequenceFolder(folder);
+    const KeyframeMaker maker(recording.camera, parameters_.points);
+    std::vector<Keyframe> keyframes;
+    std::vector<double> ms, sizes, points;
+    for (std::size_t i = 0; i < recording.frames.size(); ++i) {
+      const double before = processorMs();
+      keyframes.push_back(maker.make({"", static_cast<urban_nav_core::StampNs>(i)}, recording.frames[i].pair()));
+      ms.push_back(processorMs() - before);
+      sizes.push_back(static_cast<double>(keyframes.back().image.size()) / 1000.0);
+      points.push_back(static_cast<double>(keyframes.back().points.size()));
+    }
+    std::cout << name << ": keyframes " << cell(quantile(ms, 0.5), 1) << " ms, " << cell(quantile(sizes, 0.5), 0)
+              << " kB (95 %: " << cell(quantile(sizes, 0.95), 0) << "), " << quantile(points, 0.5)
+              << " points (5 %: " << quantile(points, 0.05) << ")\n";
+    Tally ours[4], sift[4], orb[4];
+    for (std::size_t i = 0; i < keyframes.size(); ++i)
+      for (std::size_t j = i + 1; j < keyframes.size(); ++j) {
+        const Pose truth = recording.truth[i].inverse() * recording.truth[j];
+        const double metres = truth.t().norm(), deg = degrees * urban_nav_core::angleBetween(truth, Pose());
+        if (metres > farthest_m || deg > farthest_deg) continue;
+        const Class* kind = classOf(metres, deg);
+        if (kind == nullptr) continue;
+        const auto k = static_cast<std::size_t>(kind - classes);
+        StereoMatcher matcher(recording.camera, parameters_);  // nothing kept from before: all in
+        const double before = processorMs();
+        const StereoClosure closure = matcher.match(keyframes[i], keyframes[j]);
+        const double taken = processorMs() - before + ms[i] + ms[j];
+        const bool accepted = closure.verdict == urban_nav_core::ClosureVerdict::Accepted;
+        std::optional<Pose> T_a_b;
+        if (accepted) T_a_b = closure.lefts.T_a_b;
+        ours[k].see(T_a_b, &closure.lefts.information, truth, taken);
+        if (options_.list) list(name, i, j, truth, closure);
+        if (!options_.draw.empty())
+          bench::drawMatches(keyframes[i], keyframes[j], closure,
+                             options_.draw + "/" + name + "_" + std::to_string(i) + "_" + std::to_string(j) + ".png");
+        if (!options_.peers) continue;
+        for (const bench::Feature feature : {bench::Feature::Sift, bench::Feature::Orb}) {
+          const double start = processorMs();
+          const auto pose =
+              bench::poseByOpenCv(feature, recording.camera, recording.frames[i].pair(), recording.frames[j].pair());
+          (feature == bench::Feature::Sift ? sift : orb)[k].see(pose, nullptr, truth, processorMs() - start);
+        }
+      }
+    for (std::size_t k = 0; k < 4; ++k) {
+      ours[k].addTo(table, name, classes[k].name, "loop_metric");
+      sift[k].addTo(table, name, classes[k].name, "OpenCV, SIFT and PnP");
+      orb[k].addTo(table, name, classes[k].name, "OpenCV, ORB and PnP");
+    }
+    falsePairs(name, recording, keyframes, table);
+  }
+
+ private:
+  /// Each coordinate's error over its standard deviation.
+  static std::string whitened(const StereoClosure& closure, const urban_nav_core::Vector6d& d) {
+    const auto covariance = urban_nav_core::invertPositiveDefinite(closure.lefts.information);
+    std::string text;
+    for (int i = 0; covariance && i < 6; ++i) text += cell(d[i] / std::sqrt((*covariance)(i, i)), 1) + " ";
+    return text;
+  }
+
+  static void list(const std::string& name, std::size_t i, std::size_t j, const Pose& truth,
+                   const StereoClosure& closure) {
+    const urban_nav_core::Vector6d d = urban_nav_core::boxMinus(truth, closure.lefts.T_a_b);
+    std::printf(
+        "%s %zu %zu: %.2f m %.1f deg | put %d con %d vis %d match %d err %.3f px noise %.2f | %s | %.1f cm %.3f deg nees %.1f | %s\n",
+        name.c_str(), i, j, truth.t().norm(), degrees * urban_nav_core::angleBetween(truth, Pose()), closure.putative,
+        closure.consensus, closure.visible, closure.matches, closure.reprojection_px, closure.noise_factor,
+        toString(closure.reason), 100.0 * d.head<3>().norm(), degrees * d.tail<3>().norm(),
+        d.dot(closure.lefts.information * d), whitened(closure, d).c_str());
+  }
+
+  void falsePairs(const std::string& name, const Recording& recording, const std::vector<Keyframe>& keyframes,
+                  BenchTable& table) const {
+    urban_nav_core::testing::Dice dice(1);
+    std::vector<std::pair<std::size_t, std::size_t>> pairs;
+    for (std::size_t tried = 0; tried < 50 * options_.false_pairs && pairs.size() < options_.false_pairs; ++tried) {
+      const std::size_t i = dice.below(keyframes.size()), j = dice.below(keyframes.size());
+      if (urban_nav_core::distanceBetween(recording.truth[i], recording.truth[j]) > elsewhere_m)
+        pairs.emplace_back(i, j);
+    }
+    if (pairs.empty()) return;
+    Tally tally;
+    double largest_share = 0.0;
+    int most_matches = 0;
+    StereoMatcher matcher(recording.camera, parameters_);
+    for (const auto& [i, j] : pairs) {
+      const double before = processorMs();
+      const StereoClosure closure = matcher.match(keyframes[i], keyframes[j]);
+      const bool accepted = closure.verdict == urban_nav_core::ClosureVerdict::Accepted;
+      const Pose truth = recording.truth[i].inverse() * recording.truth[j];
+      std::optional<Pose> T_a_b;
+      if (accepted) T_a_b = closure.lefts.T_a_b;
+      tally.see(T_a_b, nullptr, truth, processorMs() - before);
+      if (closure.visible > 0)
+        largest_share = std::max(largest_share, static_cast<double>(closure.matches) / closure.visible);
+      most_matches = std::max(most_matches, closure.matches);
+      if (options_.list && (accepted || closure.matches > 20)) list(name + " FALSE", i, j, truth, closure);
+      if (accepted && !options_.draw.empty())
+        bench::drawMatches(
+            keyframes[i], keyframes[j], closure,
+            options_.draw + "/" + name + "_false_" + std::to_string(i) + "_" + std::to_string(j) + ".png");
+    }
+    std::cout << name << ": of " << pairs.size() << " false pairs " << tally.upgraded.size()
+              << " accepted; most matches " << most_matches << ", largest share " << cell(largest_share, 2) << "\n";
+    tally.addTo(table, name, "another place", "loop_metric");
+  }
+
+  Options options_;
+  Parameters parameters_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  const Options options = parse(argc, argv);
+  BenchTable table({"frames", "pairs", "system", "count", "upgraded", "error, cm: median (95 %)", "deg",
+                    "NEES: mean (median)", "ms"},
+                   argc, argv);
+  Program program(options);
+  for (const std::string& folder : options.folders) program.run(folder, table);
+  std::cout << table.text();
+  if (!options.output.empty()) table.write(options.output);
+  return 0;
+} catch (const std::exception& error) {
+  std::cerr << error.what() << "\n";
+  return 1;
+}

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "urban_nav_core/parameters/table.hpp"
+
+namespace loop_metric {
+
+/// What a user may want to change; one member per row of table().
+struct Parameters {
+  // stereo
+  int points;                     // of a keyframe
+  int min_matches;                // to accept
+  double max_reprojection_error;  // px, mean
+  double min_share;               // of the points that should be seen in the other view
+  double disparity_offset;        // px
+  double pixel_noise_floor;       // px
+
+  Parameters();
+};
+
+/// The table: the only place where a default, a range, a unit or a sentence about a parameter stands.
+const urban_nav_core::Table<Parameters>& table();
+
+}  // namespace loop_metric

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "loop_metric/keyframe.hpp"
+#include "urban_nav_core/camera/stereo_camera.hpp"
+#include "urban_nav_core/testing/rendered_sequence.hpp"
+
+namespace loop_metric::testing {
+
+using urban_nav_core::Pose;
+
+/// The renderer's camera as the stage knows it.
+inline urban_nav_core::StereoCamera cameraOf(const urban_nav_core::testing::RenderCamera& rendered) {
+  urban_nav_core::StereoCamera camera;
+  camera.left = {rendered.fx, rendered.fy, rendered.cx, rendered.cy, rendered.width, rendered.height};
+  camera.baseline = rendered.baseline;
+  return camera;
+}
+
+/// Takes stereo pairs of a scene from wherever it is told to.
+class Photographer {
+ public:
+  explicit Photographer(urban_nav_core::testing::Scene scene, double noise = 1.0) : scene_(std::move(scene)) {
+    options_.noise = noise;
+  }
+
+  urban_nav_core::StereoCamera camera() const { return cameraOf(options_.camera); }
+  /// `gain`: of the exposure. Each picture has noise of its own.
+  urban_nav_core::testing::StereoFrame take(const Pose& T_world_left, double gain = 1.0) {
+    options_.seed = ++taken_;
+    options_.gain = [gain](double) { return gain; };
+    urban_nav_core::testing::RenderedSequence sequence(scene_, urban_nav_core::testing::standing(T_world_left),
+                                                       options_);
+    return sequence.frame(0);
+  }
+  Keyframe keyframe(const Pose& T_world_left, double gain = 1.0, int points = 500) {
+    const auto frame = take(T_world_left, gain);
+    return KeyframeMaker(camera(), points).make({"", static_cast<urban_nav_core::StampNs>(taken_)}, frame.pair());
+  }
+
+ private:
+  urban_nav_core::testing::Scene scene_;
+  urban_nav_core::testing::SequenceOptions options_;
+  std::uint32_t taken_ = 0;
+};
+
+}  // namespace loop_metric::testing
