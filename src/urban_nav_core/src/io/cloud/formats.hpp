@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "urban_nav_core/types/point_cloud.hpp"
+
+/// The formats behind readCloud(), each in a file of its name.
+namespace urban_nav_core::cloud_formats {
+
+PointCloud parsePly(std::string_view content, const std::string& name);
+PointCloud parsePcd(std::string_view content, const std::string& name);
+PointCloud parsePoints(std::string_view content, const std::string& name);  // CSV
+
+bool isGzip(std::string_view content);
+/// What was compressed; UserError where the stream is damaged, ends early, or holds more than `limit` bytes.
+std::string gunzip(std::string_view content, const std::string& name, std::size_t limit);
+
+/// LZF (Lehmann 2000, the compression of PCD files): a control byte below 32 is followed by so many literal bytes and one
+/// more; else its top three bits (7: and another byte) are the length less two of a copy, the other thirteen bits how far back it
+/// begins, less one. Empty where the input is damaged or does not give `size` bytes.
+std::optional<std::string> decompressLzf(std::string_view packed, std::size_t size);
+
+/// A number of these formats; unlike parseNumber it takes "nan", "inf" and their like, which a cloud may hold. Empty for anything else.
+std::optional<float> parseCoordinate(std::string_view text);
+
+/// The bytes of a number in a binary file.
+struct BinaryNumber {
+  std::size_t size = 0;  ///< 1, 2, 4, 8
+  char kind = 'F';       ///< F: floating, I: signed, U: unsigned
+};
+/// `bytes` points at as many as its size; `swap`: of the other byte order.
+double readBinary(const char* bytes, BinaryNumber number, bool swap);
+
+/// Lines one after another, each with its number, and what is behind them: headers of text before bytes.
+class HeaderLines {
+ public:
+  explicit HeaderLines(std::string_view content) : content_(content) {}
+  /// The next line without its end; empty at the end of the content.
+  std::optional<std::string_view> next();
+  /// Of the line that came last, from 1.
+  int number() const { return number_; }
+  std::string_view rest() const { return content_.substr(position_); }
+
+ private:
+  std::string_view content_;
+  std::size_t position_ = 0;
+  int number_ = 0;
+};
+
+}  // namespace urban_nav_core::cloud_formats

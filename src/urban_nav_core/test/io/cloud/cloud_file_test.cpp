@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_core/io/cloud/cloud_file.hpp"
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "../reader_check.hpp"
+
+namespace urban_nav_core {
+namespace {
+
+const std::vector<Eigen::Vector3f> kPoints = {
+    {1.5F, -2.25F, 0.0F}, {1e-3F, 4e4F, -7.0F}, {0.0F, 0.0F, 3.0F}, {8.0F, 9.0F, 10.0F}};
+
+void expectPoints(const PointCloud& cloud) {
+  ASSERT_EQ(cloud.points.size(), kPoints.size());
+  for (std::size_t i = 0; i < kPoints.size(); ++i) EXPECT_EQ(cloud.points[i], kPoints[i]) << i;
+}
+
+template <typename Number>
+void append(std::string& bytes, Number value, bool swap = false) {
+  char raw[sizeof(value)];
+  std::memcpy(raw, &value, sizeof(value));
+  if (swap) std::reverse(raw, raw + sizeof(value));
+  bytes.append(raw, sizeof(value));
+}
+
+std::string asText(const std::string& separator) {
+  std::string text;
+  for (const Eigen::Vector3f& p : kPoints)
+    text += std::to_string(p.x()) + separator + std::to_string(p.y()) + separator + std::to_string(p.z()) + "\n";
+  return text;
+}
+
+std::string plyAscii() {
+  return "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nend_header\n" +
+         asText(" ");
+}
+
+/// With an element of lists before the points, one behind, and other properties between.
+std::string plyBinary(bool big) {
+  std::string bytes =
+      std::string("ply\nformat ") + (big ? "binary_big_endian" : "binary_little_endian") +
+      " 1.0\ncomment of two kinds\nelement face 2\nproperty list uchar int corners\nelement vertex 4\nproperty double z\n"
+      "property uchar colour\nproperty float x\nproperty float y\nelement edge 1\nproperty int a\nend_header\n";
+  for (int face = 0; face < 2; ++face) {
+    append<std::uint8_t>(bytes, static_cast<std::uint8_t>(face + 1));
+    for (int i = 0; i <= face; ++i) append<std::int32_t>(bytes, i, big);
+  }
+  for (const Eigen::Vector3f& p : kPoints) {
+    append<double>(bytes, static_cast<double>(p.z()), big);
+    append<std::uint8_t>(bytes, 7);
+    append<float>(bytes, p.x(), big);
+    append<float>(bytes, p.y(), big);
+  }
+  append<std::int32_t>(bytes, 5, big);
+  return bytes;
+}
+
+std::string pcdHeader(const std::string& data) {
+  return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS ring x y z\nSIZE 2 4 4 4\nTYPE U F F F\nCOUNT 2 1 1 1\nWIDTH 4\nHEIGHT 1\n"
+         "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 4\nDATA " +
+         data + "\n";
+}
+
+std::string pcdAscii() {
+  std::string text = pcdHeader("ascii");
+  for (const Eigen::Vector3f& p : kPoints)
+    text += "1 2 " + std::to_string(p.x()) + " " + std::to_string(p.y()) + " " + std::to_string(p.z()) + "\n";
+  return text;
+}
+
+std::string pcdBinary() {
+  std::string bytes = pcdHeader("binary");
+  for (const Eigen::Vector3f& p : kPoints) {
+    append<std::uint32_t>(bytes, 3);
+    for (int axis = 0; axis < 3; ++axis) append<float>(bytes, p[axis]);
+  }
+  return bytes;
+}
+
+std::string withSizes(const std::string& packed, std::size_t plain) {
+  std::string bytes = pcdHeader("binary_compressed");
+  append<std::uint32_t>(bytes, static_cast<std::uint32_t>(packed.size()));
+  append<std::uint32_t>(bytes, static_cast<std::uint32_t>(plain));
+  return bytes + packed;
+}
+
+/// Field by field; the rings, all zero, as one byte and a copy of itself.
+std::string pcdCompressed() {
+  std::string coordinates;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const Eigen::Vector3f& p : kPoints) append<float>(coordinates, p[axis]);
+  std::string packed = {'\0', '\0', static_cast<char>(7U << 5U), static_cast<char>(15 - 7 - 2), '\0'};
+  for (std::size_t at = 0; at < coordinates.size(); at += 32) {
+    const std::string piece = coordinates.substr(at, 32);
+    packed += static_cast<char>(piece.size() - 1);
+    packed += piece;
+  }
+  return withSizes(packed, 16 + coordinates.size());
+}
+
+std::string gzipped(const std::string& plain) {
+  z_stream stream{};
+  EXPECT_EQ(deflateInit2(&stream, 6, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY), Z_OK);
+  std::string packed(deflateBound(&stream, static_cast<uLong>(plain.size())), '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(plain.data()));
+  stream.avail_in = static_cast<uInt>(plain.size());
+  stream.next_out = reinterpret_cast<Bytef*>(&packed[0]);
+  stream.avail_out = static_cast<uInt>(packed.size());
+  EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
+  packed.resize(stream.total_out);
+  deflateEnd(&stream);
+  return packed;
+}
+
+std::string refusal(const std::string& content) {
+  return errorOf([&] { parseCloud(content, "c"); });
+}
+
+TEST(CloudFile, everyFormatGivesThePoints) {
+  for (const std::string& content :
+       {plyAscii(), plyBinary(false), plyBinary(true), pcdAscii(), pcdBinary(), pcdCompressed(), asText(","),
+        asText(" ; "), asText("\t"), "x, y ,\"Z\"\n" + asText(","), "# of a laser\n" + asText("  ")}) {
+    expectPoints(parseCloud(content, "c"));
+    expectPoints(parseCloud(gzipped(content), "c.gz"));
+  }
+  expectPoints(parseCloud(gzipped(asText(",").substr(0, 40)) + gzipped(asText(",").substr(40)), "two members"));
+}
+
+TEST(CloudFile, columnsOfAHeaderComeInAnyOrder) {
+  const PointCloud cloud = parseCloud("nx;z;x;y\n9;3;1;2\n", "c");
+  ASSERT_EQ(cloud.points.size(), 1U);
+  EXPECT_EQ(cloud.points[0], Eigen::Vector3f(1.0F, 2.0F, 3.0F));
+}
+
+TEST(CloudFile, beamsWithoutReturnAreKept) {
+  const PointCloud cloud = parseCloud("1,2,3\nnan,NaN,-inf\n1e300,0,0\n", "c");
+  ASSERT_EQ(cloud.points.size(), 3U);
+  EXPECT_TRUE(std::isnan(cloud.points[1].x()));
+  EXPECT_TRUE(std::isinf(cloud.points[1].z()));
+  EXPECT_FALSE(cloud.points[2].allFinite());
+}
+
+TEST(CloudFile, anEmptyFileIsAnEmptyCloud) { EXPECT_TRUE(parseCloud("", "c").points.empty()); }
+
+TEST(CloudFile, mistakesAreNamedWithTheirLine) {
+  EXPECT_EQ(refusal("1,2,3\n1,2\n"), "c:2: 2 columns: allowed at least 3");
+  EXPECT_EQ(refusal("1,2,3\n1,b,3\n"), "c:2: `b`: allowed a number");
+  EXPECT_EQ(refusal("a,b,c\n1,2,3\n"), "c:1: no column x: allowed PLY, PCD, or CSV with the columns x, y, z");
+  EXPECT_EQ(refusal("ply\nformat ascii 1.0\nelement vertex 1\nproperty real x\nend_header\n"),
+            "c:4: property type real: allowed a type of PLY, such as float");
+  EXPECT_EQ(refusal(plyAscii().substr(0, plyAscii().size() - 12)).substr(0, 5), "c:11:");
+  EXPECT_EQ(refusal(plyBinary(false).substr(0, 300)), "c: ends before its 4 of element vertex: allowed a whole file");
+  EXPECT_EQ(refusal(pcdBinary().substr(0, pcdBinary().size() - 1)),
+            "c: ends before its 4 points: allowed a whole file");
+  EXPECT_EQ(refusal(gzipped(plyAscii()).substr(0, 60)), "c: the gzip stream ends too early: allowed a whole file");
+  EXPECT_EQ(refusal("VERSION 0.7\nFIELDS x y\nSIZE 4 4 4\n"),
+            "c:3: 3 words for 2 fields: allowed one for each, behind the line FIELDS");
+  EXPECT_EQ(refusal(withSizes("\xff\xff", 64)), "c: the compressed points are damaged: allowed a whole file");
+  EXPECT_EQ(refusal(withSizes("\xff\xff", 4000000000U)), "c: ends before its 4 points: allowed a whole file");
+}
+
+TEST(CloudFile, survivesDamage) {
+  const std::vector<std::vector<std::string>> formats = {{plyAscii()},
+                                                         {plyBinary(false), plyBinary(true)},
+                                                         {pcdAscii()},
+                                                         {pcdBinary(), pcdCompressed()},
+                                                         {asText(","), "x y z\n" + asText(" ")},
+                                                         {gzipped(asText(","))}};
+  for (const auto& seeds : formats)
+    expectSurvives(testing::fuzzText(seeds, [](const std::string& text) { parseCloud(text, "c"); }));
+}
+
+}  // namespace
+}  // namespace urban_nav_core
