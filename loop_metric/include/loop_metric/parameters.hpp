@@ -14,6 +14,19 @@ struct Parameters {
   double min_share;               // of the points that should be seen in the other view
   double disparity_offset;        // px
   double pixel_noise_floor;       // px
+  // clouds
+  double voxel;                // m
+  double reach;                // m
+  int iterations;              // of one step from coarse to fine
+  double laser_bias;           // m
+  double free_deviation;       // m
+  double max_residual;         // m
+  double inlier_distance;      // m
+  double min_inliers;          // share
+  double min_upright_inliers;  // share
+  int min_surfels;             // with a counterpart
+  double search_radius;        // m
+  double max_second;           // share
 
   Parameters();
 };

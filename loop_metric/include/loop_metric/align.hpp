@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "loop_metric/parameters.hpp"
+#include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_core/types/point_cloud.hpp"
+
+namespace loop_metric {
+
+enum class Verdict {
+  Accepted,    ///< the pose is right in all six directions, to its covariance
+  Degenerate,  ///< right but for the directions that are named free
+  Rejected,    ///< no pose: what T_target_source holds is the best try, without information
+};
+/// "accepted", "degenerate", "rejected".
+const char* toString(Verdict verdict);
+
+enum class Reason {
+  None,
+  TooFewPoints,   ///< one of the clouds holds too few that are finite
+  NoSurfaces,     ///< too few pieces of surface: all points equal, on a line, or another scale
+  TooFewMatches,  ///< the two hardly meet
+  ResidualTooLarge,
+  TooFewInliers,
+  NotConverged,    ///< it still moved at the end
+  Ambiguous,       ///< another, different pose fits as well
+  FreeDirections,  ///< of a degenerate answer
+};
+/// "" for None, else the enumerator's name in small letters and underscores.
+const char* toString(Reason reason);
+
+/// One test of the classifier (Newman et al. 2009, section 4.2): what was measured, and what was asked for.
+struct Test {
+  std::string name;
+  double value = 0.0, threshold = 0.0;
+  bool at_least = false;  ///< the value has to be at least the threshold; else at most
+  bool passed = false;
+};
+
+/// What came of an alignment.
+///
+/// WARNING: `information` is singular where directions are free, and must not be inverted. Convention of everything that leaves a
+/// stage (DESIGN.md, section 4): tangent (rho, phi), T = [Exp(phi) R, t + rho], both in the target frame.
+struct Alignment {
+  urban_nav_core::Pose T_target_source;
+  urban_nav_core::Matrix6d information = urban_nav_core::Matrix6d::Zero();
+  urban_nav_core::Matrix6d covariance =
+      urban_nav_core::Matrix6d::Zero();                   ///< for display: 1e6 m^2 and 10 rad^2 along what is free
+  std::vector<urban_nav_core::Vector6d> free_directions;  ///< unit vectors; information along them is zero
+  Verdict verdict = Verdict::Rejected;
+  Reason reason = Reason::None;
+  std::string sentence;  ///< the reason for a person
+  std::vector<Test> tests;
+  std::size_t source_points = 0, target_points = 0;      ///< that were used
+  std::size_t source_left_out = 0, target_left_out = 0;  ///< NaN, infinite, or absurdly far
+  std::size_t matches = 0;
+  int iterations = 0;
+  bool searched = false;  ///< the pose comes from the global search
+};
+
+enum class Search {
+  IfRejected,  ///< from the guess; a global search where that is rejected (a degenerate answer stands)
+  AtOnce,
+  Never,
+};
+
+/// T_target_source of two clouds from their surfaces: point-to-plane ICP from coarse to fine, from `guess`, with a classifier that knows
+/// which directions nothing holds (Newman et al. 2009, section 4.2). The sensors stand roughly upright (z up, within 35 deg) where the search is
+/// global. Any clouds may come, empty ones too: the answer is finite and says what is wrong. No state: thread-safe; the same bits whatever
+/// the number of threads.
+Alignment align(const urban_nav_core::PointCloud& source, const urban_nav_core::PointCloud& target,
+                const Parameters& parameters, const urban_nav_core::Pose& guess = {},
+                Search search = Search::IfRejected);
+
+}  // namespace loop_metric

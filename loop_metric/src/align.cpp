@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loop_metric/align.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "global/search.hpp"
+#include "icp/judge.hpp"
+#include "urban_nav_core/parallel/for_each.hpp"
+
+namespace loop_metric {
+
+using urban_nav_core::PointCloud;
+
+namespace {
+
+constexpr std::size_t kFewPoints = 30;  // less is no cloud: a plane of 25 pieces cannot come of it
+constexpr std::size_t kFewSurfaces = 25;
+
+/// Everything about the two clouds that does not depend on the pose.
+struct Pair {
+  const Surfels& source_surfels;
+  const Surfels& target_surfels;
+  Target target;
+  Source source;
+  const Parameters& parameters;
+};
+
+struct Try {
+  Refined refined;
+  Fit fit;
+};
+
+Try tryFrom(const Pair& pair, const Pose& start, std::size_t first_step) {
+  Try made;
+  made.refined = refine(pair.source, pair.target, start, first_step, pair.parameters.iterations);
+  made.fit = fitOf(pair.source.steps().back(), made.refined, pair.parameters);
+  return made;
+}
+
+Alignment judged(const Try& made, const Pair& pair, Alignment alignment) {
+  alignment.T_target_source = made.refined.T_target_source;
+  alignment.iterations += made.refined.iterations;
+  judge(made.fit, made.refined, static_cast<double>(pair.source_surfels.voxel), pair.parameters, alignment);
+  return alignment;
+}
+
+void reject(Alignment& alignment, Reason reason, const std::string& sentence) {
+  alignment.verdict = Verdict::Rejected;
+  alignment.reason = reason;
+  alignment.sentence = sentence;
+  alignment.information.setZero();
+  alignment.free_directions.clear();
+  for (int i = 0; i < 6; ++i) alignment.free_directions.push_back(Vector6d::Unit(i));
+  Vector6d unlimited;
+  unlimited << Vector3d::Constant(1e6), Vector3d::Constant(10.0);
+  alignment.covariance = unlimited.asDiagonal();
+}
+
+std::size_t surfacesOf(const Surfels& surfels) {
+  return static_cast<std::size_t>(std::count_if(surfels.all.begin(), surfels.all.end(),
+                                                [](const Surfel& surfel) { return surfel.planarity > 0.0F; }));
+}
+
+/// False, and the alignment rejected, where the clouds cannot be aligned at all.
+bool checkClouds(const Surfels& source, const Surfels& target, Alignment& alignment) {
+  const auto check = [&](const Surfels& surfels, const char* which) {
+    if (surfels.points < kFewPoints) {
+      reject(alignment, Reason::TooFewPoints,
+             std::string("the ") + which + " holds " + std::to_string(surfels.points) + " points, at least " +
+                 std::to_string(kFewPoints) + " are needed");
+      return false;
+    }
+    const std::size_t surfaces = surfacesOf(surfels);
+    if (surfaces < kFewSurfaces) {
+      reject(alignment, Reason::NoSurfaces,
+             std::string("the ") + which + " shows " + std::to_string(surfaces) + " pieces of surface, at least " +
+                 std::to_string(kFewSurfaces) + " are needed");
+      return false;
+    }
+    return true;
+  };
+  return check(source, "source") && check(target, "target");
+}
+
+/// Another place, not the same one further along a free direction.
+bool isAnother(const Pose& pose, const Alignment& best) {
+  constexpr double kFar = 50.0;  // squared deviations: six would be usual
+  if (distanceBetween(pose, best.T_target_source) < 0.5 && angleBetween(pose, best.T_target_source) < 0.09)
+    return false;
+  if (best.verdict != Verdict::Degenerate) return true;
+  const Vector6d d = boxMinus(pose, best.T_target_source);
+  return d.dot(best.information * d) > kFar;
+}
+
+/// The best of the global candidates, and how the best different one compares with it.
+Alignment searched(const Pair& pair, const Pose& guess, Alignment alignment, const Try* first) {
+  const std::vector<Candidate> candidates =
+      searchGlobally(pair.source_surfels, pair.target_surfels, guess.t(), pair.parameters.search_radius);
+  const std::size_t steps = pair.target.steps().size(), from = steps > 2 ? 1 : 0;
+  std::vector<Try> tries;
+  if (first != nullptr) tries.push_back(*first);
+  for (const Candidate& candidate : candidates) tries.push_back(tryFrom(pair, candidate.T_target_source, from));
+  if (tries.empty()) tries.push_back(tryFrom(pair, guess, 0));
+  std::stable_sort(tries.begin(), tries.end(),
+                   [](const Try& a, const Try& b) { return a.fit.score() > b.fit.score(); });
+  const Try& best = tries.front();
+  alignment = judged(best, pair, alignment);
+  alignment.searched = true;
+  double second = 0.0;
+  for (const Try& other : tries)
+    if (isAnother(other.refined.T_target_source, alignment)) second = std::max(second, other.fit.score());
+  const double share = second / std::max(best.fit.score(), 1e-9);
+  alignment.tests.push_back(
+      {"second_pose", share, pair.parameters.max_second, false, share <= pair.parameters.max_second});
+  if (alignment.verdict != Verdict::Rejected && share > pair.parameters.max_second)
+    reject(alignment, Reason::Ambiguous, "another, different pose fits as well");
+  return alignment;
+}
+
+}  // namespace
+
+Alignment align(const PointCloud& source, const PointCloud& target, const Parameters& parameters, const Pose& guess,
+                Search search) {
+  std::array<Surfels, 2> surfels;
+  urban_nav_core::forEach(2, 1, [&](std::size_t i) {
+    surfels[i] = makeSurfels(i == 0 ? source : target, static_cast<float>(parameters.voxel));
+  });
+  Alignment alignment;
+  alignment.T_target_source = guess;
+  alignment.source_points = surfels[0].points;
+  alignment.source_left_out = surfels[0].left_out;
+  alignment.target_points = surfels[1].points;
+  alignment.target_left_out = surfels[1].left_out;
+  if (!checkClouds(surfels[0], surfels[1], alignment)) return alignment;
+  Target index(surfels[1], parameters.reach);
+  Source steps(surfels[0], index);
+  const Pair pair{surfels[0], surfels[1], std::move(index), std::move(steps), parameters};
+  if (search == Search::AtOnce) return searched(pair, guess, alignment, nullptr);
+  const Try first = tryFrom(pair, guess, 0);
+  const Alignment local = judged(first, pair, alignment);
+  if (local.verdict != Verdict::Rejected || search == Search::Never) return local;
+  return searched(pair, guess, alignment, &first);
+}
+
+const char* toString(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::Accepted: return "accepted";
+    case Verdict::Degenerate: return "degenerate";
+    case Verdict::Rejected: break;
+  }
+  return "rejected";
+}
+
+const char* toString(Reason reason) {
+  switch (reason) {
+    case Reason::None: return "";
+    case Reason::TooFewPoints: return "too_few_points";
+    case Reason::NoSurfaces: return "no_surfaces";
+    case Reason::TooFewMatches: return "too_few_matches";
+    case Reason::ResidualTooLarge: return "residual_too_large";
+    case Reason::TooFewInliers: return "too_few_inliers";
+    case Reason::NotConverged: return "not_converged";
+    case Reason::Ambiguous: return "ambiguous";
+    case Reason::FreeDirections: break;
+  }
+  return "free_directions";
+}
+
+}  // namespace loop_metric

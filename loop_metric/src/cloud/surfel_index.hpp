@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cloud/cell_table.hpp"
+#include "cloud/surfels.hpp"
+
+namespace loop_metric {
+
+/// Finds the piece of surface next to a point, out to a fixed distance. Made from the surfels of planarity above 0 alone; the
+/// surfels are copied, so that a look-up reads neighbours in one go. Immutable, so thread-safe.
+class SurfelIndex {
+ public:
+  /// `reach`: how far a surfel may be away, m.
+  SurfelIndex(const std::vector<Surfel>& surfels, float reach);
+
+  float reach() const { return reach_; }
+  /// The nearest surfel within reach whose normal is within 45 deg of `normal`, either way round; null where there is none. Of
+  /// equally near ones the first.
+  const Surfel* nearest(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) const;
+
+ private:
+  float reach_, per_m_;
+  CellTable table_;
+  std::vector<std::uint32_t> begins_;  // of each cell in sorted_; one more at the end
+  std::vector<Surfel> sorted_;
+};
+
+}  // namespace loop_metric

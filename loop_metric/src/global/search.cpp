@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "global/search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "cloud/cell_table.hpp"
+#include "global/upright.hpp"
+#include "urban_nav_core/parallel/for_each.hpp"
+
+namespace loop_metric {
+
+using urban_nav_core::Pose;
+using urban_nav_core::Quaterniond;
+using urban_nav_core::Vector3d;
+
+namespace {
+
+constexpr double kPi = 3.14159265358979;
+constexpr double kCell = 0.5;        // m: what the alignment that follows mends, with room to spare
+constexpr int kHeadings = 180;       // 2 deg: half a metre at 15 m, where half of a scan's surfaces are
+constexpr int kBearings = 12;        // of walls, 15 deg each
+constexpr double kFarthest = 50.0;   // m from the sensor: beyond, headings are too coarse
+constexpr std::size_t kMost = 1200;  // pieces of the source
+constexpr std::size_t kKept = 10;    // candidates
+
+/// A piece of something upright, seen from above.
+struct Piece {
+  double x, y, bearing;  // m, m, rad of its normal
+};
+
+std::vector<Piece> piecesOf(const Surfels& surfels, const Upright& upright, const Eigen::Matrix3f& level) {
+  CellTable cells(1024);
+  std::vector<Piece> pieces;
+  for (const Surfel& surfel : surfels.all) {
+    if (!(surfel.planarity > 0.3F) || std::abs(surfel.normal.dot(upright.up)) > 0.5F) continue;
+    const Eigen::Vector3f p = level * surfel.mean, n = level * surfel.normal;
+    if (p.head<2>().norm() > static_cast<float>(kFarthest)) continue;
+    const std::uint32_t number = cells.insert(keyOf(cellOf({p.x(), p.y(), 0.0F}, static_cast<float>(1.0 / kCell))));
+    if (number == pieces.size())
+      pieces.push_back({static_cast<double>(p.x()), static_cast<double>(p.y()),
+                        std::atan2(static_cast<double>(n.y()), static_cast<double>(n.x()))});
+  }
+  return pieces;
+}
+
+int bearingOf(double angle) {
+  const double turns = angle / kPi;  // walls are the same from both sides
+  return static_cast<int>((turns - std::floor(turns)) * kBearings) % kBearings;
+}
+
+/// One picture from above for each bearing: 2 where a piece lies, 1 next to it (in place or bearing).
+struct Pictures {
+  double x0 = 0.0, y0 = 0.0;
+  int width = 0;
+  std::vector<std::uint8_t> pixels;
+
+  std::uint8_t* at(int bearing, int x, int y) {
+    return &pixels[(static_cast<std::size_t>(bearing) * static_cast<std::size_t>(width) + static_cast<std::size_t>(y)) *
+                       static_cast<std::size_t>(width) +
+                   static_cast<std::size_t>(x)];
+  }
+};
+
+Pictures picturesOf(const std::vector<Piece>& pieces) {
+  Pictures pictures;
+  pictures.x0 = pictures.y0 = -kFarthest - kCell;
+  pictures.width = static_cast<int>(2.0 * kFarthest / kCell) + 4;
+  pictures.pixels.assign(static_cast<std::size_t>(kBearings) * static_cast<std::size_t>(pictures.width) *
+                             static_cast<std::size_t>(pictures.width),
+                         0);
+  for (const Piece& piece : pieces) {
+    const int x = static_cast<int>((piece.x - pictures.x0) / kCell),
+              y = static_cast<int>((piece.y - pictures.y0) / kCell), b = bearingOf(piece.bearing);
+    for (int db = -1; db <= 1; ++db)
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) {
+          if (x + dx < 0 || y + dy < 0 || x + dx >= pictures.width || y + dy >= pictures.width) continue;
+          std::uint8_t& pixel = *pictures.at((b + db + kBearings) % kBearings, x + dx, y + dy);
+          const bool middle = db == 0 && dx == 0 && dy == 0;
+          pixel = std::max<std::uint8_t>(pixel, middle ? 2 : 1);
+        }
+  }
+  return pictures;
+}
+
+struct Peak {
+  int heading = 0, x = 0, y = 0;
+  int score = 0;
+};
+
+/// The best shifts of one heading.
+std::vector<Peak> peaksOf(Pictures& pictures, const std::vector<Piece>& pieces, int heading, const Vector3d& centre,
+                          int half) {
+  const double angle = 2.0 * kPi * heading / kHeadings, c = std::cos(angle), s = std::sin(angle);
+  const int side = 2 * half + 1;
+  std::vector<std::uint16_t> scores(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), 0);
+  for (const Piece& piece : pieces) {
+    const double x = c * piece.x - s * piece.y + centre.x(), y = s * piece.x + c * piece.y + centre.y();
+    const int left = static_cast<int>(std::floor((x - pictures.x0) / kCell)) - half,
+              top = static_cast<int>(std::floor((y - pictures.y0) / kCell)) - half;
+    const int bearing = bearingOf(piece.bearing + angle);
+    const int from = std::max(0, -left), to = std::min(side, pictures.width - left);
+    if (from >= to) continue;
+    for (int row = std::max(0, -top); row < std::min(side, pictures.width - top); ++row) {
+      const std::uint8_t* in = pictures.at(bearing, left + from, top + row);
+      std::uint16_t* out = &scores[static_cast<std::size_t>(row * side + from)];
+      for (int i = 0; i < to - from; ++i) out[i] = static_cast<std::uint16_t>(out[i] + in[i]);
+    }
+  }
+  std::vector<Peak> peaks;
+  for (int n = 0; n < 3; ++n) {
+    const auto best = std::max_element(scores.begin(), scores.end());
+    if (*best == 0) break;
+    const int at = static_cast<int>(best - scores.begin()), px = at % side, py = at / side;
+    peaks.push_back({heading, px - half, py - half, *best});
+    for (int y = std::max(0, py - 4); y < std::min(side, py + 5); ++y)
+      for (int x = std::max(0, px - 4); x < std::min(side, px + 5); ++x)
+        scores[static_cast<std::size_t>(y * side + x)] = 0;
+  }
+  return peaks;
+}
+
+Eigen::Matrix3f levelling(const Eigen::Vector3f& up) {
+  return Eigen::Quaternionf::FromTwoVectors(up, Eigen::Vector3f::UnitZ()).toRotationMatrix();
+}
+
+bool areNear(const Peak& a, const Peak& b) {
+  const int turn = std::abs(a.heading - b.heading), around = std::min(turn, kHeadings - turn);
+  return around <= 4 && std::abs(a.x - b.x) <= 3 && std::abs(a.y - b.y) <= 3;
+}
+
+}  // namespace
+
+std::vector<Candidate> searchGlobally(const Surfels& source, const Surfels& target, const Vector3d& centre,
+                                      double radius) {
+  const Upright from = uprightOf(source), to = uprightOf(target);
+  const Eigen::Matrix3f level_source = levelling(from.up), level_target = levelling(to.up);
+  std::vector<Piece> pieces = piecesOf(source, from, level_source);
+  if (pieces.empty()) return {};
+  if (pieces.size() > kMost) {  // evenly over the list
+    std::vector<Piece> some;
+    for (std::size_t i = 0; i < kMost; ++i) some.push_back(pieces[i * pieces.size() / kMost]);
+    pieces = some;
+  }
+  Pictures pictures = picturesOf(piecesOf(target, to, level_target));
+  const int half = std::max(1, static_cast<int>(radius / kCell));
+  const Vector3d middle = level_target.cast<double>() * centre;
+  std::vector<std::vector<Peak>> by_heading(kHeadings);
+  urban_nav_core::forEach(kHeadings, 6, [&](std::size_t heading) {
+    by_heading[heading] = peaksOf(pictures, pieces, static_cast<int>(heading), middle, half);
+  });
+  std::vector<Peak> peaks;
+  for (const auto& some : by_heading) peaks.insert(peaks.end(), some.begin(), some.end());
+  std::stable_sort(peaks.begin(), peaks.end(), [](const Peak& a, const Peak& b) { return a.score > b.score; });
+  std::vector<Peak> kept;
+  for (const Peak& peak : peaks) {
+    if (kept.size() == kKept) break;
+    if (std::none_of(kept.begin(), kept.end(), [&](const Peak& other) { return areNear(peak, other); }))
+      kept.push_back(peak);
+  }
+  std::vector<Candidate> candidates;
+  for (const Peak& peak : kept) {
+    const Pose turned(Quaterniond(Eigen::AngleAxisd(2.0 * kPi * peak.heading / kHeadings, Vector3d::UnitZ())),
+                      {middle.x() + kCell * peak.x, middle.y() + kCell * peak.y,
+                       from.has_ground && to.has_ground ? static_cast<double>(to.ground - from.ground) : middle.z()});
+    const Pose T_level_source(urban_nav_core::Matrix3d(level_source.cast<double>()), Vector3d::Zero());
+    const Pose T_level_target(urban_nav_core::Matrix3d(level_target.cast<double>()), Vector3d::Zero());
+    candidates.push_back(
+        {T_level_target.inverse() * turned * T_level_source, peak.score / (2.0 * static_cast<double>(pieces.size()))});
+  }
+  return candidates;
+}
+
+}  // namespace loop_metric

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "icp/judge.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace loop_metric {
+
+namespace {
+
+constexpr double kFewUpright = 20.0;    // pieces: fewer say nothing
+constexpr double kStillMoving = 0.005;  // m in the last step
+constexpr double kPatchVoxels = 8.0;    // 2 m of 0.25 m: neighbours whose normals have no beam in common
+
+struct Failure {
+  Reason reason;
+  const char* sentence;
+};
+
+}  // namespace
+
+double Fit::score() const { return upright >= kFewUpright ? std::sqrt(inliers * upright_inliers) : inliers; }
+
+Fit fitOf(const std::vector<Surfel>& source, const Refined& refined, const Parameters& parameters) {
+  Fit fit;
+  const Eigen::Vector3f level = (refined.T_target_source.R().transpose() * Vector3d::UnitZ()).cast<float>();
+  double all = 0.0, upright_all = 0.0;
+  for (std::size_t i = 0; i < source.size() && i < refined.matches.size(); ++i) {
+    const Match& match = refined.matches[i];
+    const double weight = static_cast<double>(source[i].planarity);
+    const bool inlier = match.weight > 0.0 && std::abs(match.residual) < parameters.inlier_distance;
+    const bool upright = std::abs(source[i].normal.dot(level)) < 0.5F;
+    if (match.weight > 0.0) fit.matches += 1.0;
+    all += weight;
+    if (inlier) fit.inliers += weight;
+    if (upright) {
+      fit.upright += 1.0;
+      upright_all += weight;
+      if (inlier) fit.upright_inliers += weight;
+    }
+  }
+  fit.inliers /= std::max(all, 1e-9);
+  fit.upright_inliers /= std::max(upright_all, 1e-9);
+  return fit;
+}
+
+void judge(const Fit& fit, const Refined& refined, double voxel, const Parameters& parameters, Alignment& alignment) {
+  Failure failure{Reason::None, ""};
+  const auto test = [&](const char* name, double value, double threshold, bool at_least, Reason reason,
+                        const char* sentence) {
+    const bool passed = at_least ? value >= threshold : value <= threshold;
+    alignment.tests.push_back({name, value, threshold, at_least, passed});
+    if (!passed && failure.reason == Reason::None) failure = {reason, sentence};
+  };
+  alignment.tests.clear();
+  alignment.matches = static_cast<std::size_t>(fit.matches);
+  test("matches", fit.matches, parameters.min_surfels, true, Reason::TooFewMatches, "the clouds hardly meet");
+  test("residual_m", refined.sigma, parameters.max_residual, false, Reason::ResidualTooLarge,
+       "the surfaces do not fall upon each other");
+  test("inliers", fit.inliers, parameters.min_inliers, true, Reason::TooFewInliers,
+       "too few of the surfaces fall upon each other");
+  if (fit.upright >= kFewUpright)
+    test("upright_inliers", fit.upright_inliers, parameters.min_upright_inliers, true, Reason::TooFewInliers,
+         "too few of the upright surfaces fall upon each other");
+  test("last_step_m", refined.usable ? refined.last_step : 1e3, kStillMoving, false, Reason::NotConverged,
+       "the alignment did not come to rest");
+  const Observability observed = observe(refined.matches, std::max(refined.sigma, 1e-4), parameters.laser_bias,
+                                         parameters.free_deviation, kPatchVoxels * voxel);
+  alignment.tests.push_back(
+      {"weakest_direction_m", observed.weakest, parameters.free_deviation, false, observed.free_directions.empty()});
+  if (failure.reason == Reason::None && observed.free_directions.size() > 4)
+    failure = {Reason::TooFewMatches, "hardly any direction is held"};
+  if (failure.reason != Reason::None) {
+    alignment.verdict = Verdict::Rejected;
+    alignment.reason = failure.reason;
+    alignment.sentence = failure.sentence;
+    alignment.information.setZero();
+    alignment.free_directions.clear();
+    for (int i = 0; i < 6; ++i) alignment.free_directions.push_back(Vector6d::Unit(i));
+    Vector6d unlimited;
+    unlimited << Vector3d::Constant(1e6), Vector3d::Constant(10.0);
+    alignment.covariance = unlimited.asDiagonal();
+    return;
+  }
+  alignment.information = observed.information;
+  alignment.covariance = observed.covariance;
+  alignment.free_directions = observed.free_directions;
+  const bool free = !observed.free_directions.empty();
+  alignment.verdict = free ? Verdict::Degenerate : Verdict::Accepted;
+  alignment.reason = free ? Reason::FreeDirections : Reason::None;
+  alignment.sentence =
+      free ? std::to_string(observed.free_directions.size()) + " of six directions are held by nothing in the clouds"
+           : "";
+}
+
+}  // namespace loop_metric

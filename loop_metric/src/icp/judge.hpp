@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "icp/observability.hpp"
+#include "icp/refine.hpp"
+#include "loop_metric/align.hpp"
+
+namespace loop_metric {
+
+/// How well an alignment fits: what the classifier looks at.
+struct Fit {
+  double matches = 0.0;  ///< pieces of the source with a counterpart
+  double inliers =
+      0.0;  ///< share, by planarity, of the source's pieces within the inlier distance of their counterpart's plane
+  double upright_inliers = 0.0;  ///< the same among those whose normals are level
+  double upright = 0.0;          ///< the number of those
+  double score() const;          ///< to compare alignments of the same clouds by
+};
+Fit fitOf(const std::vector<Surfel>& source, const Refined& refined, const Parameters& parameters);
+
+/// Fills in the verdict, its reason, the tests, information and covariance.
+void judge(const Fit& fit, const Refined& refined, double voxel, const Parameters& parameters, Alignment& alignment);
+
+}  // namespace loop_metric

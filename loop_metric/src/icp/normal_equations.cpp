@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "icp/normal_equations.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "urban_nav_core/parallel/for_each.hpp"
+
+namespace loop_metric {
+
+namespace {
+constexpr std::size_t kGrain = 512;  // fixed: the partition is part of the result
+}
+
+void findMatches(const std::vector<Surfel>& source, const SurfelIndex& target, const Pose& T_target_source,
+                 std::vector<Match>& matches) {
+  matches.assign(source.size(), Match{});
+  const Eigen::Matrix3f R = T_target_source.R().cast<float>();
+  const Eigen::Vector3f t = T_target_source.t().cast<float>();
+  urban_nav_core::forEach(source.size(), kGrain, [&](std::size_t i) {
+    const Surfel& surfel = source[i];
+    if (!(surfel.planarity > 0.0F)) return;
+    const Eigen::Vector3f lever = R * surfel.mean, normal = R * surfel.normal, point = lever + t;
+    const Surfel* plane = target.nearest(point, normal);
+    if (plane == nullptr) return;
+    Match& match = matches[i];
+    match.lever = lever.cast<double>();
+    match.target_normal = plane->normal.cast<double>();
+    match.source_normal = (plane->normal.dot(normal) < 0.0F ? Eigen::Vector3f(-normal) : normal).cast<double>();
+    match.residual = static_cast<double>(plane->normal.dot(point - plane->mean));
+    match.weight = static_cast<double>(surfel.planarity * plane->planarity);
+  });
+}
+
+NormalEquations& NormalEquations::operator+=(const NormalEquations& other) {
+  H += other.H;
+  b += other.b;
+  cost += other.cost;
+  weight += other.weight;
+  return *this;
+}
+
+namespace {
+struct Term {
+  const Match& match;
+  double sigma;
+};
+NormalEquations& operator+=(NormalEquations& sum, const Term& term) {
+  const Match& match = term.match;
+  if (!(match.weight > 0.0)) return sum;
+  const double ratio = match.residual / term.sigma, square = 1.0 + ratio * ratio;
+  const Vector6d row = planeJacobian(match.lever, match.target_normal);
+  const double weight = match.weight / square;
+  const Vector6d weighted = weight * row;
+  for (int c = 0; c < 6; ++c)
+    for (int r = c; r < 6; ++r) sum.H(r, c) += weighted[r] * row[c];
+  sum.b += weighted * match.residual;
+  sum.cost += match.weight * term.sigma * term.sigma * std::log(square);
+  sum.weight += match.weight;
+  return sum;
+}
+}  // namespace
+
+NormalEquations sumUp(const std::vector<Match>& matches, double sigma) {
+  NormalEquations total = urban_nav_core::sumInOrder(matches.size(), kGrain, NormalEquations{}, [&](std::size_t i) {
+    return Term{matches[i], sigma};
+  });
+  total.H.triangularView<Eigen::StrictlyUpper>() = total.H.transpose();
+  return total;
+}
+
+double spreadOf(const std::vector<Match>& matches) {
+  std::vector<std::pair<double, double>> sizes;
+  sizes.reserve(matches.size());
+  double sum = 0.0;
+  for (const Match& match : matches) {
+    if (!(match.weight > 0.0)) continue;
+    sizes.emplace_back(std::abs(match.residual), match.weight);
+    sum += match.weight;
+  }
+  std::sort(sizes.begin(), sizes.end());
+  double below = 0.0;
+  for (const auto& [size, weight] : sizes) {
+    below += weight;
+    if (2.0 * below >= sum) return 1.4826 * size;
+  }
+  return 0.0;
+}
+
+}  // namespace loop_metric

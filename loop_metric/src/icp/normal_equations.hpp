@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "cloud/surfel_index.hpp"
+#include "urban_nav_core/geometry/se3.hpp"
+
+namespace loop_metric {
+
+using urban_nav_core::Matrix6d;
+using urban_nav_core::Pose;
+using urban_nav_core::Vector3d;
+using urban_nav_core::Vector6d;
+
+/// A source surfel beside the target surfel it fell on, in the target frame.
+struct Match {
+  Vector3d lever = Vector3d::Zero();          ///< R p_source: from the source's origin
+  Vector3d source_normal = Vector3d::Zero();  ///< turned to the target frame, on the target normal's side
+  Vector3d target_normal = Vector3d::Zero();
+  double residual = 0.0;  ///< target_normal . (T p_source - p_target), m: how far before the plane
+  double weight = 0.0;    ///< planarity of both; 0: no match
+};
+
+/// d residual / d (rho, phi) of T_target_source = [Exp(phi) R, t + rho] for a plane of this normal: (n, lever x n).
+inline Vector6d planeJacobian(const Vector3d& lever, const Vector3d& normal) {
+  Vector6d row;
+  row << normal, lever.cross(normal);
+  return row;
+}
+
+/// Every source surfel of planarity above 0 against the index, in the order of the source; those without a counterpart have weight 0.
+void findMatches(const std::vector<Surfel>& source, const SurfelIndex& target, const Pose& T_target_source,
+                 std::vector<Match>& matches);
+
+/// Sums of the robust normal equations H d = -b: Cauchy's weight 1 / (1 + (r / sigma)^2).
+struct NormalEquations {
+  Matrix6d H = Matrix6d::Zero();
+  Vector6d b = Vector6d::Zero();
+  double cost = 0.0;    ///< sum of weight * sigma^2 log(1 + (r / sigma)^2)
+  double weight = 0.0;  ///< sum of weights, before the robust ones
+
+  NormalEquations& operator+=(const NormalEquations& other);
+};
+NormalEquations sumUp(const std::vector<Match>& matches, double sigma);
+
+/// 1.4826 times the weighted median of the absolute residuals: the deviation of a Gaussian, m. 0 without matches.
+double spreadOf(const std::vector<Match>& matches);
+
+}  // namespace loop_metric

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "icp/observability.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cloud/cell_table.hpp"
+#include "urban_nav_core/geometry/dense.hpp"
+#include "urban_nav_core/geometry/so3.hpp"
+
+namespace loop_metric {
+
+namespace {
+
+constexpr double kFreeTranslation = 1e6, kFreeRotation = 10.0;  // m^2, rad^2: DESIGN.md, section 4
+
+double robustWeight(const Match& match, double sigma) {
+  const double ratio = match.residual / sigma;
+  return match.weight / (1.0 + ratio * ratio);
+}
+
+/// The tangent about the matches' centre in units of length: u = S (rho, phi), so that the six directions compare.
+struct Scaled {
+  Vector3d centre = Vector3d::Zero();
+  double length = 1.0, weight = 0.0;
+  Matrix6d S = Matrix6d::Identity(), S_inverse = Matrix6d::Identity();
+
+  Vector6d row(const Match& match, const Vector3d& normal) const {
+    Vector6d row;
+    row << normal, (match.lever - centre).cross(normal) / length;
+    return row;
+  }
+};
+
+Scaled scaledOf(const std::vector<Match>& matches, double sigma) {
+  Scaled scaled;
+  for (const Match& match : matches) {
+    const double weight = robustWeight(match, sigma);
+    scaled.centre += weight * match.lever;
+    scaled.weight += weight;
+  }
+  if (!(scaled.weight > 0.0)) return scaled;
+  scaled.centre /= scaled.weight;
+  double squares = 0.0;
+  for (const Match& match : matches)
+    squares += robustWeight(match, sigma) * (match.lever - scaled.centre).squaredNorm();
+  scaled.length = std::max(std::sqrt(squares / scaled.weight), 1e-3);
+  // A point moves by rho + phi x lever = (rho + phi x centre) + phi x (lever - centre).
+  scaled.S.block<3, 3>(0, 3) = -urban_nav_core::skew(scaled.centre);
+  scaled.S.bottomRows<3>() *= scaled.length;
+  scaled.S_inverse.bottomRightCorner<3, 3>() /= scaled.length;
+  scaled.S_inverse.block<3, 3>(0, 3) = urban_nav_core::skew(scaled.centre) / scaled.length;
+  return scaled;
+}
+
+/// Means over the matches, and sums over each patch of surface, whose errors go together.
+struct Sums {
+  Matrix6d agreed = Matrix6d::Zero();   // mean of J_source J_target^T, symmetric part
+  Matrix6d normal = Matrix6d::Zero();   // mean of J_target J_target^T
+  std::vector<std::uint32_t> patches;   // of each match of weight, in order
+  std::vector<Vector6d> pull_by_patch;  // sum of weight J_target: what an error of the whole patch pulls by
+};
+
+Sums sumsOf(const std::vector<Match>& matches, const Scaled& scaled, double sigma, double patch) {
+  Sums sums;
+  CellTable patches(matches.size() / 4 + 16);
+  for (const Match& match : matches) {
+    const double weight = robustWeight(match, sigma) / scaled.weight;
+    if (!(weight > 0.0)) continue;
+    const std::uint32_t number =
+        patches.insert(keyOf(cellOf(match.lever.cast<float>(), static_cast<float>(1.0 / patch))));
+    if (number == sums.pull_by_patch.size()) sums.pull_by_patch.push_back(Vector6d::Zero());
+    sums.patches.push_back(number);
+    const Vector6d from_target = scaled.row(match, match.target_normal),
+                   from_source = scaled.row(match, match.source_normal);
+    sums.agreed += 0.5 * weight * (from_source * from_target.transpose() + from_target * from_source.transpose());
+    sums.normal += weight * from_target * from_target.transpose();
+    sums.pull_by_patch[number] += weight * from_target;
+  }
+  return sums;
+}
+
+/// Deviation of u^T agreed u by the noise of the normals, which is what the two differ by: of the product (a + e1)(a + e2) it is
+/// sqrt(a^2 e^2 + e^4 / 4) with e = e1 - e2. Neighbours share their noise, so it adds up within a patch.
+double noiseOf(const std::vector<Match>& matches, const Scaled& scaled, const Sums& sums, double sigma,
+               const Vector6d& u) {
+  std::vector<double> by_patch(sums.pull_by_patch.size(), 0.0);
+  std::size_t at = 0;
+  for (const Match& match : matches) {
+    const double weight = robustWeight(match, sigma) / scaled.weight;
+    if (!(weight > 0.0)) continue;
+    const double a = u.dot(scaled.row(match, match.target_normal)), b = u.dot(scaled.row(match, match.source_normal));
+    const double e2 = (a - b) * (a - b);
+    by_patch[sums.patches[at++]] += weight * std::sqrt(e2 * (std::abs(a * b) + 0.25 * e2));
+  }
+  double squares = 0.0;
+  for (const double noise : by_patch) squares += noise * noise;
+  return std::sqrt(squares);
+}
+
+}  // namespace
+
+Observability observe(const std::vector<Match>& matches, double sigma, double laser_bias, double free_deviation,
+                      double patch) {
+  Observability observed;
+  const Scaled scaled = scaledOf(matches, sigma);
+  const Sums sums = sumsOf(matches, scaled, sigma, patch);
+  const auto eigen = urban_nav_core::symmetricEigen(Eigen::MatrixXd(sums.agreed));
+  const double bias = std::max(laser_bias, 1e-4);
+  const double least = std::pow(bias / free_deviation, 2);
+  Matrix6d held = Matrix6d::Zero();  // projector, in scaled coordinates
+  Matrix6d free = Matrix6d::Zero();
+  std::vector<Vector6d> held_directions;
+  for (int i = 0; i < 6; ++i) {
+    const Vector6d u = eigen ? Vector6d(eigen->vectors.col(i)) : Vector6d(Vector6d::Unit(i));
+    const double mean = eigen ? eigen->values[i] : 0.0;
+    const double sure = mean - 2.0 * noiseOf(matches, scaled, sums, sigma, u);
+    if (i == 0) observed.weakest = mean > 0.0 ? bias / std::sqrt(mean) : 1e3;
+    if (sure > least) {
+      held += u * u.transpose();
+      held_directions.push_back(u);
+    } else {
+      free += u * u.transpose();
+      observed.free_directions.push_back((scaled.S_inverse * u).normalized());
+    }
+  }
+  Vector6d unlimited;
+  unlimited << Vector3d::Constant(kFreeTranslation), Vector3d::Constant(kFreeRotation * scaled.length * scaled.length);
+  Matrix6d covariance = free * unlimited.asDiagonal() * free;
+  if (!held_directions.empty()) {
+    // Within the held directions: the patches' own errors through the normal equations (cluster-robust, Liang and Zeger 1986), and what all share.
+    const auto count = static_cast<Eigen::Index>(held_directions.size());
+    Eigen::MatrixXd basis(6, count);
+    for (Eigen::Index i = 0; i < count; ++i) basis.col(i) = held_directions[static_cast<std::size_t>(i)];
+    const double patch_sigma = std::max(sigma, bias);
+    Matrix6d spread = Matrix6d::Zero();
+    for (const Vector6d& pull : sums.pull_by_patch) spread += patch_sigma * patch_sigma * pull * pull.transpose();
+    const auto normal_inverse =
+        urban_nav_core::invertPositiveDefinite(Eigen::MatrixXd(basis.transpose() * sums.normal * basis));
+    const auto agreed_inverse =
+        urban_nav_core::invertPositiveDefinite(Eigen::MatrixXd(basis.transpose() * sums.agreed * basis));
+    if (normal_inverse && agreed_inverse) {
+      const Eigen::MatrixXd inner =
+          *normal_inverse * (basis.transpose() * spread * basis) * *normal_inverse + bias * bias * *agreed_inverse;
+      covariance += basis * inner * basis.transpose();
+      if (const auto information = urban_nav_core::invertPositiveDefinite(inner))
+        observed.information = scaled.S.transpose() * (basis * *information * basis.transpose()) * scaled.S;
+    }
+  }
+  observed.information = (0.5 * (observed.information + observed.information.transpose())).eval();
+  const Matrix6d turned = scaled.S_inverse * covariance * scaled.S_inverse.transpose();
+  observed.covariance = 0.5 * (turned + turned.transpose());
+  return observed;
+}
+
+}  // namespace loop_metric

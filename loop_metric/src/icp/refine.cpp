@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "icp/refine.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace loop_metric {
+
+namespace {
+
+constexpr double kLeastSigmaShare =
+    0.04;  // of the voxel: 1 cm of 0.25 m, which no outdoor laser measures better (LMS 291: 1 cm)
+
+constexpr double kDamping =
+    5e-4;  // of the sum over the three directions; a direction counts as held above 1e-2 (observability.hpp)
+constexpr double kRest = 2e-4;        // m that the planes' distances still change by
+constexpr double kCoarseRest = 5e-3;  // of the reach, before the last step
+
+std::vector<Surfel> thinned(const Surfels& surfels, float edge) {
+  CellTable table(surfels.all.size() / 4 + 16);
+  std::vector<Surfel> chosen;
+  for (const Surfel& surfel : surfels.all) {
+    if (!(surfel.planarity > 0.0F)) continue;
+    const std::uint32_t cell = table.insert(keyOf(cellOf(surfel.mean, 1.0F / edge)));
+    if (cell == chosen.size()) chosen.push_back(surfel);
+    else if (surfel.planarity > chosen[cell].planarity) chosen[cell] = surfel;
+  }
+  return chosen;
+}
+
+}  // namespace
+
+Target::Target(const Surfels& surfels, double coarsest) {
+  const double finest = 2.0 * static_cast<double>(surfels.voxel);
+  for (double reach = std::max(coarsest, finest); reach > 1.4 * finest; reach *= 0.5)
+    steps_.emplace_back(surfels.all, static_cast<float>(reach));
+  steps_.emplace_back(surfels.all, static_cast<float>(finest));
+}
+
+Source::Source(const Surfels& surfels, const Target& target) {
+  for (std::size_t step = 0; step + 1 < target.steps().size(); ++step)
+    steps_.push_back(thinned(surfels, 0.5F * target.steps()[step].reach()));
+  steps_.push_back({});
+  for (const Surfel& surfel : surfels.all)
+    if (surfel.planarity > 0.0F) steps_.back().push_back(surfel);
+}
+
+Refined refine(const Source& source, const Target& target, const Pose& start, std::size_t first_step, int iterations) {
+  Refined refined;
+  refined.T_target_source = start;
+  const std::size_t steps = target.steps().size();
+  const double finest = static_cast<double>(target.steps().back().reach());
+  for (std::size_t step = std::min(first_step, steps - 1); step < steps; ++step) {
+    const bool last = step + 1 == steps;
+    const SurfelIndex& index = target.steps()[step];
+    const double reach = static_cast<double>(index.reach());
+    for (int i = 0; i < iterations; ++i) {
+      findMatches(source.steps()[step], index, refined.T_target_source, refined.matches);
+      refined.sigma = std::max(spreadOf(refined.matches), 0.5 * kLeastSigmaShare * finest);
+      const NormalEquations equations = sumUp(refined.matches, refined.sigma);
+      ++refined.iterations;
+      const double mean = equations.weight > 0.0 ? equations.cost / equations.weight : 0.0;
+      if (i == 0) refined.first_cost = mean;
+      refined.last_cost = mean;
+      // What nothing holds would wander with the noise of the normals: damped, it stays; what counts is twenty times stiffer.
+      Matrix6d H = equations.H;
+      const double scale = std::max(H(0, 0) + H(1, 1) + H(2, 2), 1e-12);
+      const double turn = std::max(H(3, 3) + H(4, 4) + H(5, 5), 1e-12);
+      H.diagonal().head<3>().array() += kDamping * scale;
+      H.diagonal().tail<3>().array() += kDamping * turn;
+      const Vector6d d = -H.ldlt().solve(equations.b);
+      refined.usable = equations.weight > 5.0 && d.allFinite();
+      if (!refined.usable) break;
+      refined.T_target_source = boxPlus(refined.T_target_source, d);
+      refined.last_step = std::sqrt(std::max(0.0, d.dot(equations.H * d)) / scale);
+      if (refined.last_step < (last ? kRest : kCoarseRest * reach)) break;
+    }
+  }
+  return refined;
+}
+
+}  // namespace loop_metric

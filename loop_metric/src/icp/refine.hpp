@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "icp/normal_equations.hpp"
+
+namespace loop_metric {
+
+/// A target with its index for each step from coarse to fine, made once for any number of starts.
+class Target {
+ public:
+  /// `coarsest`: how far a counterpart may be away in the first step, m; halved down to twice the voxel.
+  Target(const Surfels& surfels, double coarsest);
+  const std::vector<SurfelIndex>& steps() const { return steps_; }
+
+ private:
+  std::vector<SurfelIndex> steps_;
+};
+
+/// A source with one surfel (the most planar) per cube for each step of a Target; all of them for the last.
+class Source {
+ public:
+  Source(const Surfels& surfels, const Target& target);
+  const std::vector<std::vector<Surfel>>& steps() const { return steps_; }
+
+ private:
+  std::vector<std::vector<Surfel>> steps_;
+};
+
+struct Refined {
+  Pose T_target_source;
+  std::vector<Match> matches;  ///< at that pose
+  double sigma = 0.0;          ///< robust deviation of the residuals, m
+  double first_cost = 0.0;     ///< mean cost of a match at the start of the last step and at its end, m^2
+  double last_cost = 0.0;
+  double last_step = 0.0;  ///< by how much the last change moved the planes' distances, root mean square, m
+  int iterations = 0;
+  bool usable = false;  ///< false: too few matches to solve for a pose
+};
+
+/// Gauss-Newton of point-to-plane distances (Chen and Medioni 1992) on SE(3), from coarse to fine, with Cauchy's weight at the spread that
+/// the residuals show. `first_step`: 0 to begin with the coarsest.
+Refined refine(const Source& source, const Target& target, const Pose& start, std::size_t first_step, int iterations);
+
+}  // namespace loop_metric

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loop_metric/align.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "support/scanner.hpp"
+#include "urban_nav_core/parallel/for_each.hpp"
+#include "urban_nav_core/testing/dice.hpp"
+
+namespace loop_metric {
+namespace {
+
+using testing::courtyard;
+using testing::scan;
+using testing::Scanner;
+using testing::stand;
+using testing::World;
+using urban_nav_core::Matrix6d;
+using urban_nav_core::PointCloud;
+using urban_nav_core::Pose;
+using urban_nav_core::Vector6d;
+using urban_nav_core::testing::Dice;
+
+constexpr double kDeg = 57.29577951308232;
+
+void expectFinite(const Alignment& alignment) {
+  EXPECT_TRUE(alignment.T_target_source.isFinite());
+  EXPECT_TRUE(alignment.information.allFinite());
+  EXPECT_TRUE(alignment.covariance.allFinite());
+  for (const Vector6d& direction : alignment.free_directions) EXPECT_NEAR(direction.norm(), 1.0, 1e-9);
+  for (const Test& test : alignment.tests) EXPECT_TRUE(std::isfinite(test.value)) << test.name;
+}
+
+/// The error where there is information, in squared deviations: six would be usual for six held directions.
+double squaredDeviations(const Alignment& alignment, const Pose& truth) {
+  const Vector6d d = boxMinus(truth, alignment.T_target_source);
+  return d.dot(alignment.information * d);
+}
+
+struct Pair {
+  PointCloud source, target;
+  Pose truth;
+};
+
+Pair pairOf(const World& world, const Pose& T_world_source, const Pose& T_world_target, std::uint64_t seed) {
+  return {scan(world, T_world_source, Scanner{}, 2 * seed + 1), scan(world, T_world_target, Scanner{}, 2 * seed + 2),
+          T_world_target.inverse() * T_world_source};
+}
+
+TEST(Align, findsSmallMotionsFromTheIdentity) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const Pair pair = pairOf(courtyard(seed), stand(1.0, 0.5, 5.0, 1.0, -2.0), stand(0.3, 0.1, 0.0), seed);
+    const Alignment alignment = align(pair.source, pair.target, {});
+    EXPECT_EQ(alignment.verdict, Verdict::Accepted) << seed << ": " << alignment.sentence;
+    EXPECT_LT(distanceBetween(alignment.T_target_source, pair.truth), 0.02) << seed;
+    EXPECT_LT(angleBetween(alignment.T_target_source, pair.truth) * kDeg, 0.1) << seed;
+    EXPECT_LT(squaredDeviations(alignment, pair.truth), 22.5) << seed;
+    expectFinite(alignment);
+  }
+}
+
+TEST(Align, needsNoGuessWhateverTheHeading) {
+  Dice dice(5);
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const Pose there = stand(dice.uniform(-3.0, 3.0), dice.uniform(-3.0, 3.0), dice.uniform(90.0, 270.0),
+                             dice.uniform(-4.0, 4.0), dice.uniform(-4.0, 4.0));
+    const Pair pair = pairOf(courtyard(seed), there, stand(0.5, -0.5, 20.0), seed);
+    for (const Search search : {Search::AtOnce}) {
+      const Alignment alignment = align(pair.source, pair.target, {}, {}, search);
+      EXPECT_EQ(alignment.verdict, Verdict::Accepted) << seed << ": " << alignment.sentence;
+      EXPECT_LT(distanceBetween(alignment.T_target_source, pair.truth), 0.03) << seed;
+      EXPECT_LT(angleBetween(alignment.T_target_source, pair.truth) * kDeg, 0.2) << seed;
+    }
+  }
+}
+
+TEST(Align, neverTakesOnePlaceForAnother) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const PointCloud source = scan(courtyard(seed), stand(0.0, 0.0, 0.0), {}, 1),
+                     target = scan(courtyard(seed + 100), stand(0.0, 0.0, 0.0), {}, 2);
+    EXPECT_EQ(align(source, target, {}).verdict, Verdict::Rejected) << seed;
+  }
+}
+
+TEST(Align, aFacadeLeavesItsDirectionFree) {
+  const Pair pair = pairOf(testing::facade(), stand(3.0, 0.2, 2.0), stand(0.0, 0.0, 0.0), 1);
+  const Alignment alignment = align(pair.source, pair.target, {});
+  EXPECT_EQ(alignment.verdict, Verdict::Degenerate);
+  EXPECT_EQ(alignment.reason, Reason::FreeDirections);
+  ASSERT_EQ(alignment.free_directions.size(), 1U);
+  EXPECT_GT(std::abs(alignment.free_directions[0][0]), 0.99);
+  EXPECT_LT((alignment.information * alignment.free_directions[0]).norm(), 1e-9 * alignment.information.norm());
+  EXPECT_NEAR(alignment.covariance(0, 0), 1e6, 1e5);
+  EXPECT_LT(squaredDeviations(alignment, pair.truth), 22.5);
+  EXPECT_GT(alignment.information(1, 1), 100.0) << "10 cm across the front";
+  expectFinite(alignment);
+}
+
+TEST(Align, groundHoldsHeightRollAndPitchAlone) {
+  const Pair pair = pairOf(testing::plain(), stand(1.0, 0.7, 10.0, 1.0), stand(0.0, 0.0, 0.0), 1);
+  const Alignment alignment = align(pair.source, pair.target, {});
+  EXPECT_EQ(alignment.verdict, Verdict::Degenerate);
+  EXPECT_EQ(alignment.free_directions.size(), 3U);
+  for (const int i : {0, 1, 5}) EXPECT_LT(alignment.information(i, i), 1e-6 * alignment.information(2, 2)) << i;
+  EXPECT_LT(squaredDeviations(alignment, pair.truth), 22.5);
+}
+
+TEST(Align, givesTheSameBitsWhateverTheThreads) {
+  const Pair pair = pairOf(courtyard(9), stand(2.0, 1.0, 170.0), stand(0.0, 0.0, 0.0), 3);
+  std::vector<Alignment> alignments;
+  for (const int threads : {1, 2, 5}) {
+    const urban_nav_core::ThreadLimit limit(threads);
+    alignments.push_back(align(pair.source, pair.target, {}));
+  }
+  for (const Alignment& other : alignments) {
+    EXPECT_EQ(other.T_target_source.matrix(), alignments[0].T_target_source.matrix());
+    EXPECT_EQ(other.information, alignments[0].information);
+    EXPECT_EQ(other.covariance, alignments[0].covariance);
+  }
+}
+
+TEST(Align, badCloudsAreNamed) {
+  const PointCloud good = scan(courtyard(2), stand(0.0, 0.0, 0.0), {}, 1);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const PointCloud empty, ten{std::vector<Eigen::Vector3f>(good.points.begin(), good.points.begin() + 10)};
+  const PointCloud nothing{std::vector<Eigen::Vector3f>(1000, Eigen::Vector3f::Constant(nan))};
+  const PointCloud same{std::vector<Eigen::Vector3f>(1000, Eigen::Vector3f(1.0F, 2.0F, 3.0F))};
+  const PointCloud absurd{std::vector<Eigen::Vector3f>(1000, Eigen::Vector3f::Constant(1e30F))};
+  PointCloud line;
+  for (int i = 0; i < 1000; ++i) line.points.emplace_back(0.1F * static_cast<float>(i), 0.0F, 0.0F);
+  struct Case {
+    const PointCloud* cloud;
+    Reason reason;
+  };
+  for (const Case& each :
+       {Case{&empty, Reason::TooFewPoints}, Case{&ten, Reason::TooFewPoints}, Case{&nothing, Reason::TooFewPoints},
+        Case{&absurd, Reason::TooFewPoints}, Case{&same, Reason::NoSurfaces}, Case{&line, Reason::NoSurfaces}}) {
+    for (const bool swapped : {false, true}) {
+      const Alignment alignment = swapped ? align(good, *each.cloud, {}) : align(*each.cloud, good, {});
+      EXPECT_EQ(alignment.verdict, Verdict::Rejected);
+      EXPECT_EQ(alignment.reason, each.reason) << alignment.sentence;
+      EXPECT_FALSE(alignment.sentence.empty());
+      EXPECT_EQ(alignment.information, Matrix6d::Zero());
+      expectFinite(alignment);
+    }
+  }
+}
+
+TEST(Align, anotherScaleIsRejected) {
+  const PointCloud good = scan(courtyard(2), stand(0.0, 0.0, 0.0), {}, 1);
+  for (const float scale : {0.001F, 0.3F, 2.0F, 1000.0F}) {
+    PointCloud scaled = good;
+    for (Eigen::Vector3f& point : scaled.points) point *= scale;
+    const Alignment alignment = align(scaled, good, {});
+    EXPECT_EQ(alignment.verdict, Verdict::Rejected) << scale;
+    expectFinite(alignment);
+  }
+}
+
+TEST(Align, beamsWithoutReturnDoNotMatter) {
+  const Pair pair = pairOf(courtyard(3), stand(1.0, 0.5, 5.0), stand(0.0, 0.0, 0.0), 4);
+  PointCloud source;
+  for (const Eigen::Vector3f& point : pair.source.points) {
+    source.points.push_back(point);
+    source.points.push_back({point.x(), std::numeric_limits<float>::quiet_NaN(), 0.0F});
+  }
+  const Alignment with = align(source, pair.target, {}), without = align(pair.source, pair.target, {});
+  EXPECT_EQ(with.T_target_source.matrix(), without.T_target_source.matrix());
+  EXPECT_EQ(with.source_left_out, pair.source.points.size());
+}
+
+TEST(Align, aThirdOfOutliersIsBorne) {
+  Dice dice(8);
+  Pair pair = pairOf(courtyard(4), stand(1.0, 0.5, 5.0), stand(0.0, 0.0, 0.0), 5);
+  for (Eigen::Vector3f& point : pair.source.points)
+    if (dice.chance(0.3))
+      point += Eigen::Vector3f(static_cast<float>(dice.uniform(-5, 5)), static_cast<float>(dice.uniform(-5, 5)),
+                               static_cast<float>(dice.uniform(-2, 5)));
+  const Alignment alignment = align(pair.source, pair.target, {});
+  EXPECT_LT(distanceBetween(alignment.T_target_source, pair.truth), 0.05);
+  EXPECT_LT(angleBetween(alignment.T_target_source, pair.truth) * kDeg, 0.3);
+}
+
+}  // namespace
+}  // namespace loop_metric
