@@ -9,6 +9,7 @@ namespace urban_nav {
 Command convertCommand();
 Command evaluateCommand();
 Command exportCommand();
+Command icpCommand();
 Command infoCommand();
 Command mapCommand();
 Command mergeCommand();

@@ -19,7 +19,8 @@ std::vector<Assignment> assignmentsOf(const Arguments& arguments) {
     assignments.insert(assignments.end(), file.begin(), file.end());
   }
   for (const std::string& setting : arguments.all("set")) assignments.push_back(urban_nav_core::parseSetting(setting));
-  urban_nav_core::refuseUnknownStages(assignments, {"", swf_vo::table().stage(), pose_graph::table().stage()});
+  urban_nav_core::refuseUnknownStages(
+      assignments, {"", swf_vo::table().stage(), pose_graph::table().stage(), loop_metric::table().stage()});
   return assignments;
 }
 
@@ -46,13 +47,14 @@ const Table<CommandParameters>& commandTable() {
 }
 
 std::vector<const std::vector<Setting>*> AllParameters::settings() const {
-  return {&command.settings, &swf_vo.settings, &pose_graph.settings};
+  return {&command.settings, &swf_vo.settings, &pose_graph.settings, &loop_metric.settings};
 }
 
 AllParameters loadParameters(const Arguments& arguments) {
   const std::vector<Assignment> assignments = assignmentsOf(arguments);
   return {urban_nav_core::load(commandTable(), assignments), urban_nav_core::load(swf_vo::table(), assignments),
-          urban_nav_core::load(pose_graph::table(), assignments)};
+          urban_nav_core::load(pose_graph::table(), assignments),
+          urban_nav_core::load(loop_metric::table(), assignments)};
 }
 
 void checkCommonOptions(const Arguments& arguments) {

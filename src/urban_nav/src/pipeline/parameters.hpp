@@ -6,6 +6,7 @@
 
 #include "command_line/command.hpp"
 #include "command_line/json.hpp"
+#include "loop_metric/parameters.hpp"
 #include "pose_graph/parameters.hpp"
 #include "swf_vo/parameters.hpp"
 #include "urban_nav_core/parameters/sources.hpp"
@@ -24,6 +25,7 @@ struct AllParameters {
   urban_nav_core::Loaded<CommandParameters> command;
   urban_nav_core::Loaded<swf_vo::Parameters> swf_vo;
   urban_nav_core::Loaded<pose_graph::Parameters> pose_graph;
+  urban_nav_core::Loaded<loop_metric::Parameters> loop_metric;
 
   /// Of all of them, each with its value and where that came from.
   std::vector<const std::vector<urban_nav_core::Setting>*> settings() const;
