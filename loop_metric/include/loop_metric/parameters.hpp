@@ -7,6 +7,16 @@ namespace loop_metric {
 
 /// What a user may want to change; one member per row of table().
 struct Parameters {
+  // candidates
+  double keyframe_way;    // m
+  double keyframe_turn;   // rad
+  bool stereo;            // try it
+  bool icp;               // try it where stereo fails
+  int stereo_tries;       // pairs of views
+  double view_way;        // m
+  double cloud_way;       // m
+  double gate;            // standard deviations
+  double odometry_scale;  // share
   // stereo
   int points;                     // of a keyframe
   int min_matches;                // to accept

@@ -8,46 +8,22 @@
 #include <tuple>
 
 #include "pipeline/vo_files.hpp"
-#include "urban_nav_core/trajectory/interpolate.hpp"
+#include "urban_nav_core/geometry/compose.hpp"
+#include "urban_nav_core/geometry/covariance_frames.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav {
 
 using pose_graph::Closure;
 using pose_graph::EdgeKind;
+using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
 using urban_nav_core::StampNs;
-using urban_nav_core::Trajectory;
 
 namespace {
 
-constexpr StampNs kLongestGap = 1'000'000'000;  // ns between frames that odometry bridges for a closure in between
-constexpr StampNs kOutside =
-    100'000'000;  // ns before the first and behind the last frame that their motion is good for
 // Of a transform whose file does not say how good it is: five times what loop closure by stereo reaches (paper, section 4.1).
 constexpr double kUnknownSigmaM = 0.25, kUnknownSigmaRad = 0.05;
-
-/// Where a moment lies beside the nearest frame.
-struct Moment {
-  StampNs node = 0;
-  Pose T_node_moment;
-};
-
-std::optional<Moment> momentOf(const Trajectory& odometry, StampNs stamp) {
-  if (odometry.empty()) return std::nullopt;
-  const auto& nearest = odometry[odometry.nearest(stamp)];
-  if (nearest.stamp == stamp) return Moment{stamp, Pose()};
-  std::optional<Pose> there = odometry.at(stamp, kLongestGap);
-  if (!there && odometry.size() >= 2 && std::abs(stamp - nearest.stamp) <= kOutside) {
-    const bool before = stamp < nearest.stamp;
-    const auto& a = before ? odometry[0] : odometry[odometry.size() - 2];
-    const auto& b = before ? odometry[1] : odometry[odometry.size() - 1];
-    there = urban_nav_core::interpolate(a.pose, b.pose,
-                                        static_cast<double>(stamp - a.stamp) / static_cast<double>(b.stamp - a.stamp));
-  }
-  if (!there) return std::nullopt;
-  return Moment{nearest.stamp, nearest.pose.inverse() * *there};
-}
 
 /// Where a closure stands in the graph, and what it says: sessions by their place.
 using Place = std::tuple<std::size_t, StampNs, std::size_t, StampNs, EdgeKind>;
@@ -62,7 +38,7 @@ Numbers numbersOf(const Closure& closure) {
 class Offers {
  public:
   Offers(const std::vector<std::string>& sessions, const std::vector<const VoRun*>& runs) : sessions_(sessions) {
-    for (const VoRun* one : runs) odometry_.push_back(trajectoryOf(*one));
+    for (const VoRun* one : runs) odometry_.push_back(odometryOf(*one));
   }
 
   /// `row`: its number in GraphRun::closures. Empty where it can be used, else why not.
@@ -70,25 +46,38 @@ class Offers {
     for (const std::string* name : {&offered.session_a, &offered.session_b})
       if (placeOf(*name) == sessions_.size())
         return "no session \"" + *name + "\" in this map; there are: " + listing();
+    if (offered.measured && offered.measured->verdict != urban_nav_core::ClosureVerdict::Accepted)
+      return offered.measured->reason_name + ": " + offered.measured->sentence;
     if (!offered.T_a_b) return "no transform in the file, and no stage that finds one";
     Closure closure;
+    Matrix6d from_offered = Matrix6d::Identity();  // d_offered = from_offered d, of perturbations of T_a_b
     Pose T_a_b = *offered.T_a_b;
     for (const bool at_a : {true, false}) {
       const std::string& name = at_a ? offered.session_a : offered.session_b;
       const StampNs stamp = at_a ? offered.stamp_a : offered.stamp_b;
       const std::size_t session = placeOf(name);
-      const auto moment = momentOf(odometry_[session], stamp);
+      const auto moment = odometry_[session].momentOf(stamp);
       if (!moment) return "no frames around " + urban_nav_core::printStamp(stamp) + " s in " + name;
-      (at_a ? closure.a : closure.b) = {name, moment->node};
-      T_a_b = at_a ? moment->T_node_moment * T_a_b : T_a_b * moment->T_node_moment.inverse();
+      (at_a ? closure.a : closure.b) = {name, moment->frame};
+      const Pose& T_frame_moment = moment->T_frame_moment;
+      const Pose T_moment_frame = T_frame_moment.inverse();
+      from_offered *= at_a ? compose(T_moment_frame, T_frame_moment * T_a_b).J2
+                           : Matrix6d(2.0 * Matrix6d::Identity() - compose(T_a_b, T_moment_frame).J1);
+      T_a_b = at_a ? T_frame_moment * T_a_b : T_a_b * T_moment_frame;
     }
-    const double sigma_m = offered.sigma_m > 0.0 ? offered.sigma_m : kUnknownSigmaM;
-    const double sigma_rad = offered.sigma_rad > 0.0 ? offered.sigma_rad : kUnknownSigmaRad;
     closure.kind = offered.kind == "icp" ? EdgeKind::Icp : EdgeKind::Stereo;
     closure.source = offered.where;
     closure.measured.T_a_b = T_a_b;
-    closure.measured.information.diagonal().head<3>().setConstant(1.0 / (sigma_m * sigma_m));
-    closure.measured.information.diagonal().tail<3>().setConstant(1.0 / (sigma_rad * sigma_rad));
+    if (offered.measured) {
+      closure.odometry_gate = offered.measured->odometry_gate;
+      closure.measured.information =
+          urban_nav_core::transformInformation(from_offered, offered.measured->measured.information);
+    } else {
+      const double sigma_m = offered.sigma_m > 0.0 ? offered.sigma_m : kUnknownSigmaM;
+      const double sigma_rad = offered.sigma_rad > 0.0 ? offered.sigma_rad : kUnknownSigmaRad;
+      closure.measured.information.diagonal().head<3>().setConstant(1.0 / (sigma_m * sigma_m));
+      closure.measured.information.diagonal().tail<3>().setConstant(1.0 / (sigma_rad * sigma_rad));
+    }
     offers_.push_back({keyOf(closure), row, closure});
     return {};
   }
@@ -138,7 +127,7 @@ class Offers {
   }
 
   const std::vector<std::string>& sessions_;
-  std::vector<Trajectory> odometry_;
+  std::vector<urban_nav_core::OdometryChain> odometry_;
   std::vector<Offer> offers_;
 };
 

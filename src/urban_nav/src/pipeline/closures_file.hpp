@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "urban_nav_core/types/closure.hpp"
 #include "urban_nav_core/types/stamp.hpp"
 #include "urban_nav_core/types/uncertain.hpp"
 
@@ -25,6 +26,8 @@ struct ClosureRow {
   double weight = 0.0;
   std::string where;    ///< "closures.csv:12"
   std::int64_t id = 0;  ///< in the graph; 0: it did not take it
+  /// What the stage loops found; none where a file or a store says it.
+  std::optional<urban_nav_core::MetricClosure> measured;
 };
 
 /// The first five columns must be there; kind, x...qw, sigma_m and sigma_rad are taken where they are. UserError with file and line.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "loop_metric/evidence.hpp"
 #include "pipeline/sessions.hpp"
 #include "pipeline/store_stage.hpp"
 #include "pipeline/vo_state.hpp"
@@ -74,6 +75,10 @@ VoRun chainOf(Store& store, const SessionId& id) {
   return run;
 }
 
+std::string_view offerIn(std::string_view evidence) {
+  return evidence.substr(0, evidence.size() - loop_metric::evidenceIn(evidence).size());
+}
+
 /// As it was offered where the store knows; else as it stands in the graph.
 ClosureRow rowOf(Store& store, const Edge& edge, const pose_graph::Closure& closure) {
   ClosureRow row;
@@ -83,7 +88,7 @@ ClosureRow rowOf(Store& store, const Edge& edge, const pose_graph::Closure& clos
   row.T_a_b = edge.measured.T_a_b;
   if (const std::optional<std::string> evidence = store.graph().evidence(edge)) {
     try {
-      const std::vector<ClosureRow> rows = parseClosures(*evidence, edge.source);
+      const std::vector<ClosureRow> rows = parseClosures(offerIn(*evidence), edge.source);
       if (rows.size() == 1) row = rows.front();
     } catch (const urban_nav_core::UserError&) {
       // evidence of another stage, in its own words
@@ -121,7 +126,9 @@ std::vector<KnownClosure> closuresBetween(Store& store, const std::vector<Sessio
   for (const SessionId& id : ids) {
     std::vector<Edge> edges;
     store.graph().forEachEdge(id, [&](const Edge& edge) {
-      if (edge.kind != EdgeKind::Odometry && name.count(edge.b.session) > 0) edges.push_back(edge);
+      if (edge.kind != EdgeKind::Odometry && name.count(edge.b.session) > 0 &&
+          !edge.measured.information.isZero(0.0))  // what was never measured is there for its evidence alone
+        edges.push_back(edge);
     });
     for (const Edge& edge : edges) {
       pose_graph::Closure closure;

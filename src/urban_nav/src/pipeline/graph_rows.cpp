@@ -21,6 +21,30 @@ SessionId idOf(const GraphRun& run, const std::vector<SessionId>& ids, const std
   return ids[static_cast<std::size_t>(place - run.sessions.begin())];
 }
 
+/// The row as it was offered, and what its stage says of it.
+std::string evidenceOf(const ClosureRow& row) {
+  return printClosures({row}) + (row.measured ? row.measured->evidence : "");
+}
+
+/// A candidate without a transform: there for its evidence alone.
+void putRejected(Store& store, const GraphRun& run, const std::vector<SessionId>& ids, const ClosureRow& row) {
+  const auto known = [&](const std::string& name) {
+    return std::find(run.sessions.begin(), run.sessions.end(), name) != run.sessions.end();
+  };
+  if (!known(row.session_a) || !known(row.session_b)) return;
+  Edge edge;
+  edge.a = {idOf(run, ids, row.session_a), row.stamp_a};
+  edge.b = {idOf(run, ids, row.session_b), row.stamp_b};
+  edge.kind = row.measured->method == urban_nav_core::ClosureMethod::Icp ? EdgeKind::Icp : EdgeKind::Stereo;
+  edge.source = row.where;
+  edge.measured.T_a_b = row.measured->measured.T_a_b;
+  edge.weight = 0.0;
+  edge.verdict = urban_nav_store::EdgeVerdict::Rejected;
+  edge.reason = row.reason;
+  store.graph().put(edge);
+  store.graph().putEvidence(edge, evidenceOf(row));
+}
+
 void removeClosures(Store& store, const SessionId& id) {
   std::vector<Edge> earlier;
   store.graph().forEachEdge(id, [&](const Edge& edge) {
@@ -51,8 +75,10 @@ void putGraph(Store& store, const std::vector<SessionId>& ids, const GraphRun& r
     edge.b.session = idOf(run, ids, closure.b.session);
     store.graph().put(edge);
     const auto row = rows.find(id);
-    if (row != rows.end()) store.graph().putEvidence(edge, printClosures({*row->second}));
+    if (row != rows.end()) store.graph().putEvidence(edge, evidenceOf(*row->second));
   }
+  for (const ClosureRow& row : run.closures)
+    if (row.id == 0 && row.measured) putRejected(store, run, ids, row);
 }
 
 }  // namespace urban_nav

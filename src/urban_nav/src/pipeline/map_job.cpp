@@ -6,6 +6,7 @@
 
 #include "pipeline/graph_files.hpp"
 #include "pipeline/graph_rows.hpp"
+#include "pipeline/keyframe_keeper.hpp"
 #include "pipeline/map_outcome.hpp"
 #include "pipeline/sessions.hpp"
 #include "pipeline/store_stage.hpp"
@@ -72,6 +73,11 @@ void say(const SourceInfo& info, Console& console) {
 
 /// Frames of one session through visual odometry, with the store and the report kept fresh.
 void runVo(Source& source, VoStage& stage, StoreStage& store, MapOutcome& outcome, Console& console) {
+  std::optional<KeyframeKeeper> views;
+  if (keepsViews(outcome.request)) {
+    views.emplace(outcome.request.parameters.loop_metric.parameters, source.info().camera);
+    views->goOn(stage.run(), store.viewsKept());
+  }
   Progress progress(console, "vo", "frames", source.info().frames);
   std::size_t faults_said = stage.run().faults.size();
   double last_report = outcome.usage.wallSeconds();
@@ -81,7 +87,8 @@ void runVo(Source& source, VoStage& stage, StoreStage& store, MapOutcome& outcom
       store.keepBag(stage, *input->bag_end);
     }
     store.keep(source.info(), input->scans);
-    stage.process(*input);
+    const VoRow& row = stage.process(*input);
+    if (const auto view = views ? views->process(input->assembled.pair, row) : std::nullopt) store.keep(*view);
     for (; faults_said < std::min<std::size_t>(stage.run().faults.size(), 10); ++faults_said)
       console.warn(stage.run().faults[faults_said]);
     const auto done = static_cast<std::int64_t>(stage.run().rows.size());
@@ -141,23 +148,50 @@ bool asksFor(const MapRequest& request, const std::string& stage) {
   return std::find(request.stages.begin(), request.stages.end(), stage) != request.stages.end();
 }
 
-/// Does the graph stage run? It is there wherever odometry is; closures are in a file or in the store to go on from, if anywhere.
-bool checkGraph(const MapRequest& request, Console& console) {
-  const bool runs = request.stages.empty() || asksFor(request, "graph"), file = !request.closures.empty();
-  if (request.stages.empty()) console.info("stages: vo, graph; left out: " + leftOut());
-  if (!runs) {
-    if (file) console.warn("--closures is not used: the stage graph is not among --stages");
-    return false;
+/// Which stages behind odometry run, said for people. They are there wherever odometry is; closures are in a file or in the store to go on from,
+/// if anywhere.
+struct Running {
+  bool loops = false, graph = false;
+};
+Running checkClosures(const MapRequest& request, Console& console) {
+  const bool all = request.stages.empty(), file = !request.closures.empty();
+  const Running runs{all || asksFor(request, "loops"), all || asksFor(request, "graph")};
+  if (all) console.info("stages: vo, loops, graph; left out: " + leftOut());
+  if (!runs.loops && !runs.graph) {
+    if (file) console.warn("--closures is not used: neither loops nor graph is among --stages");
+    return runs;
   }
   if (file) {
-    console.info("closures: " + request.closures + ", with the transforms that stand in it (no stage loops)");
+    console.info("closures: " + request.closures +
+                 (runs.loops ? "; the stage loops finds their transforms, those in the file are not used"
+                             : ", with the transforms that stand in it (no stage loops)"));
   } else if (!request.store.empty()) {
     urban_nav_store::Store store(request.store, urban_nav_store::Access::Read);
     if (holdsClosures(store)) console.info("closures: those of " + request.store);
   } else {
     console.info("closures: none (--closures FILE); the map is that of odometry");
   }
-  return true;
+  return runs;
+}
+
+void runLoopsStage(MapOutcome& outcome, const std::vector<Session>& sessions, std::vector<ClosureRow>& closures,
+                   StoreStage& store, Console& console) {
+  const EarlierSessions& earlier = outcome.earlier;
+  const std::vector<const VoRun*> runs = runsOfGraph(outcome);
+  const std::vector<std::string> names = sessionNames(sessions, earlier.names);
+  std::vector<LoopsSession> known;
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    known.push_back({names[i], i < earlier.ids.size() ? earlier.ids[i] : store.ids()[i - earlier.ids.size()], runs[i]});
+  store.store().commit();
+  const SourceInfo& info = outcome.infos.back();
+  outcome.loops = runLoops(outcome.request.parameters.loop_metric.parameters, info.camera, info.T_base_camera, known,
+                           store.store(), closures, console);
+  const LoopsRun& loops = *outcome.loops;
+  if (loops.candidates == 0) return;
+  console.info("loops: " + std::to_string(loops.candidates) + " candidates, " + std::to_string(loops.accepted_stereo) +
+               " accepted by stereo, " + std::to_string(loops.accepted_icp) + " by ICP, " +
+               std::to_string(loops.rejected) + " rejected; " + forPerson(loops.ms_median, 3) + " ms each");
+  for (const std::string& warning : loops.warnings) console.warn(warning);
 }
 
 void runGraphStage(MapOutcome& outcome, const std::vector<Session>& sessions, const std::vector<ClosureRow>& closures,
@@ -206,22 +240,26 @@ const std::vector<std::string>& knownStages() {
 }
 
 const std::vector<std::string>& existingStages() {
-  static const std::vector<std::string> stages = {"vo", "graph"};
+  static const std::vector<std::string> stages = {"vo", "loops", "graph"};
   return stages;
+}
+
+bool keepsViews(const MapRequest& request) {
+  return asksFor(request, "loops") || (request.stages.empty() && !request.closures.empty());
 }
 
 void runMap(const MapRequest& request, Console& console) {
   checkStages(request.stages);
   if (!request.truth.empty()) readTrajectory(request.truth);  // a mistake in it is told now, not after the work
-  const bool with_graph = checkGraph(request, console);
-  const std::vector<ClosureRow> closures =
+  const Running with = checkClosures(request, console);
+  std::vector<ClosureRow> closures =
       request.closures.empty() ? std::vector<ClosureRow>() : readClosures(request.closures);
   std::vector<Session> sessions = findSessions(request.inputs);
   MapOutcome outcome(request);
   StoreStage store(request, sessions, outcome.folder.file("session.db"), console);
   std::vector<Resumed> resumed;
   for (std::size_t i = 0; i < sessions.size(); ++i) resumed.push_back(resume(request, sessions[i], store, i, console));
-  if (with_graph) outcome.earlier = readEarlierSessions(store.store(), store.ids());
+  if (with.loops || with.graph) outcome.earlier = readEarlierSessions(store.store(), store.ids());
   for (std::size_t i = 0; i < sessions.size(); ++i) {
     auto [source, stage] = std::move(resumed[i]);
     if (!source) source = open(sessions[i].paths, request);
@@ -242,7 +280,9 @@ void runMap(const MapRequest& request, Console& console) {
     writeVoFiles(outcome.folder, outcome.stages.back()->run(), place == 0 ? "" : "_" + std::to_string(place + 1));
   }
   removeFurtherSessions(outcome.folder, outcome.earlier.ids.size() + sessions.size());
-  if (with_graph) runGraphStage(outcome, sessions, closures, store, console);
+  if (with.loops) runLoopsStage(outcome, sessions, closures, store, console);
+  if (with.graph) runGraphStage(outcome, sessions, closures, store, console);
+  else if (with.loops) outcome.folder.write("closures.csv", printClosures(closures));
   else outcome.folder.remove("closures.csv");
   finishMap(outcome, sessions, console);
   store.end();

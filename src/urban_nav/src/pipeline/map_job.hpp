@@ -31,6 +31,9 @@ struct MapRequest {
 const std::vector<std::string>& knownStages();
 const std::vector<std::string>& existingStages();
 
+/// Are views of the sessions kept for the stage loops? Where it was asked for, or has candidates.
+bool keepsViews(const MapRequest& request);
+
 /// Runs the stages over the inputs and writes the files of CONTRACT.md. UserError for mistakes of the request,
 /// DataError where the inputs do not allow it.
 void runMap(const MapRequest& request, Console& console);

@@ -216,6 +216,7 @@ Json summaryOf(const MapOutcome& outcome, const VoSummary& summary) {
                                       [](const auto& evaluation) { return evaluation.has_value(); });
   if (evaluated != outcome.evaluations.end()) addToJson(**evaluated, json);
   json["swf_vo"] = toJson(summary);
+  if (outcome.loops) json["loop_metric"] = toJson(*outcome.loops);
   if (outcome.graph)
     json["pose_graph"] =
         toJson(*outcome.graph, behindEarlier(outcome, outcome.before), behindEarlier(outcome, outcome.evaluations));

@@ -8,6 +8,7 @@
 #include "pipeline/earlier_sessions.hpp"
 #include "pipeline/evaluation.hpp"
 #include "pipeline/graph_stage.hpp"
+#include "pipeline/loops_stage.hpp"
 #include "pipeline/map_job.hpp"
 #include "pipeline/output_folder.hpp"
 #include "pipeline/sessions.hpp"
@@ -26,6 +27,7 @@ struct MapOutcome {
   std::vector<std::unique_ptr<VoStage>> stages;        ///< one per session
   std::vector<SourceInfo> infos;                       ///< one per session
   EarlierSessions earlier;                             ///< of the store that the run goes on from, where it has a graph
+  std::optional<LoopsRun> loops;                       ///< when transforms of closures have been looked for
   std::optional<GraphRun> graph;                       ///< when it is relaxed: of the earlier sessions, then of these
   std::vector<std::optional<Evaluation>> before;       ///< as evaluations, by odometry alone; empty without a graph
   std::vector<std::optional<Evaluation>> evaluations;  ///< one per session, when all are finished; empty before

@@ -73,6 +73,8 @@ std::string parametersHelp(const Arguments& arguments) {
   return "parameters (--config FILE, --set STAGE.KEY=VALUE):\n" +
          urban_nav_core::printHelp(commandTable().stage(), commandTable().rows(), all.command.settings) +
          urban_nav_core::printHelp(swf_vo::table().stage(), swf_vo::table().rows(), all.swf_vo.settings) +
+         urban_nav_core::printHelp(loop_metric::table().stage(), loop_metric::table().rows(),
+                                   all.loop_metric.settings) +
          urban_nav_core::printHelp(pose_graph::table().stage(), pose_graph::table().rows(), all.pose_graph.settings);
 }
 

@@ -114,10 +114,19 @@ std::string digestOfProgram() {
   return sha256(bytes);
 }
 
+/// Those of loop_metric that its views depend on.
+std::vector<urban_nav_core::Setting> settingsOfViews(const AllParameters& parameters) {
+  std::vector<urban_nav_core::Setting> made;
+  for (const urban_nav_core::Setting& setting : parameters.loop_metric.settings)
+    if (setting.name == "points" || setting.name == "keyframe_way" || setting.name == "keyframe_turn")
+      made.push_back(setting);
+  return made;
+}
+
 std::string digestOfParameters(const AllParameters& parameters) {
   std::string bytes;
   for (const std::vector<urban_nav_core::Setting>& settings :
-       {parameters.command.settings, parameters.swf_vo.settings}) {
+       {parameters.command.settings, parameters.swf_vo.settings, settingsOfViews(parameters)}) {
     for (const urban_nav_core::Setting& setting : settings) {
       if (setting.name == "memory_mb") continue;  // no result depends on it
       appendText(bytes, urban_nav_core::fullName(setting.stage, setting.name));
@@ -131,6 +140,7 @@ std::string digestOfOptions(const MapRequest& request) {
   std::string bytes;
   for (const std::string& topic : request.source.topics) appendText(bytes, topic);
   urban_nav_store::appendNumber(bytes, request.source.rate);
+  urban_nav_store::appendNumber(bytes, keepsViews(request) ? 1.0 : 0.0);
   std::string calibration = request.source.calibration;
   appendText(bytes, calibration);
   for (std::size_t comma = 0; !calibration.empty();

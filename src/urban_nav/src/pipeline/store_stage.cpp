@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "pipeline/loops_stage.hpp"
 #include "pipeline/vo_state.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -247,6 +248,7 @@ void StoreStage::put(std::size_t session, const SourceInfo& info) {
   store_->sessions().put(id, Property{"input/name", info.name});
   store_->sessions().put(id, Property{"input/kind", info.kind});
   store_->sessions().put(id, urban_nav_store::Extrinsic{kVoCamera, info.T_base_camera});
+  store_->sessions().put(id, Property{kCameraProperty, cameraWords(info.camera, info.T_base_camera)});
   for (const LaserInfo& laser : info.lasers)
     store_->sessions().put(id, urban_nav_store::Extrinsic{laser.frame, laser.T_base_laser});
   for (const std::vector<urban_nav_core::Setting>* settings : request_.parameters.settings()) {
@@ -273,6 +275,14 @@ void StoreStage::goOn(std::size_t session, const SourceInfo& info, const VoRun& 
 
 void StoreStage::keep(const SourceInfo& info, const std::vector<LaserInput>& scans) {
   for (const LaserInput& each : scans) store_->scans().put(ids_[session_], info.lasers[each.laser].frame, each.scan);
+}
+
+void StoreStage::keep(const urban_nav_store::StoredKeyframe& view) {
+  store_->keyframes().put(ids_[session_], kVoCamera, view);
+}
+
+std::vector<urban_nav_core::StampNs> StoreStage::viewsKept() {
+  return store_->keyframes().stamps(ids_[session_], kVoCamera);
 }
 
 void StoreStage::keepBag(const VoStage& stage, const BagEnd& end) {

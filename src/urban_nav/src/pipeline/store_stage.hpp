@@ -55,6 +55,10 @@ class StoreStage {
   void goOn(std::size_t session, const SourceInfo& info, const VoRun& run);
   /// Scans of the session that was begun, in the lasers' frames.
   void keep(const SourceInfo& info, const std::vector<LaserInput>& scans);
+  /// A view of the session that was begun.
+  void keep(const urban_nav_store::StoredKeyframe& view);
+  /// The views of it that were kept before it was begun or gone on in.
+  std::vector<urban_nav_core::StampNs> viewsKept();
   /// A bag of the session has come to its end. Commits; the state of the bag before goes.
   void keepBag(const VoStage& stage, const BagEnd& end);
   /// What is new in the run of the session that was begun; commits when a second has gone by.

@@ -71,6 +71,12 @@ urban_nav_core::Trajectory trajectoryOf(const VoRun& run) {
   return trajectory;
 }
 
+urban_nav_core::OdometryChain odometryOf(const VoRun& run) {
+  urban_nav_core::OdometryChain odometry;
+  for (std::size_t i = 1; i < run.settled.size(); ++i) odometry.append(run.settled[i].from_previous);
+  return odometry;
+}
+
 std::string trajectoryKitti(const VoRun& run) {
   std::vector<Pose> poses;
   std::size_t next = 0;

@@ -6,6 +6,7 @@
 
 #include "pipeline/output_folder.hpp"
 #include "pipeline/vo_stage.hpp"
+#include "urban_nav_core/trajectory/odometry_chain.hpp"
 #include "urban_nav_core/trajectory/trajectory.hpp"
 
 namespace urban_nav {
@@ -27,6 +28,8 @@ std::string statsCsv(const std::vector<const VoRun*>& runs);
 
 /// The settled poses of base_link.
 urban_nav_core::Trajectory trajectoryOf(const VoRun& run);
+/// The settled steps between them.
+urban_nav_core::OdometryChain odometryOf(const VoRun& run);
 
 std::string trajectoryTum(const VoRun& run);
 std::string trajectoryKitti(const VoRun& run);

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loop_metric/consistency.hpp"
+
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "candidate/odometry_gate.hpp"
+#include "loop_metric/loop_metric.hpp"
+#include "urban_nav_core/geometry/compose.hpp"
+#include "urban_nav_core/geometry/covariance_frames.hpp"
+#include "urban_nav_core/trajectory/nees.hpp"
+
+namespace loop_metric {
+
+using urban_nav_core::ClosureVerdict;
+using urban_nav_core::MetricClosure;
+using urban_nav_core::UncertainPose;
+
+namespace {
+
+constexpr double near_way = 30.0;           // m: over which odometry is good to some centimetres
+constexpr double metres_per_radian = 10.0;  // for directions of which a closure knows nothing
+constexpr double near_time = 120.0;         // s: nor does it take longer
+
+UncertainPose measuredOf(const MetricClosure& closure) {
+  return {closure.measured.T_a_b,
+          urban_nav_core::covarianceForDisplay(closure.measured.information, metres_per_radian)};
+}
+
+/// Empty where the two are no neighbours; else root mean square deviations of their ring.
+std::optional<double> ringOf(const MetricClosure& i, const MetricClosure& j, const Surroundings& surroundings,
+                             const Parameters& parameters) {
+  const auto apart = [](const urban_nav_core::PoseRef& x, const urban_nav_core::PoseRef& y) {
+    return x.session != y.session || std::abs(urban_nav_core::secondsBetween(x.stamp, y.stamp)) > near_time;
+  };
+  if (apart(i.a, j.a) || apart(i.b, j.b)) return std::nullopt;
+  const auto along_a = surroundings.between(i.a, j.a), along_b = surroundings.between(i.b, j.b);
+  if (!along_a || !along_b || along_a->length > near_way || along_b->length > near_way) return std::nullopt;
+  const UncertainPose T_ai_aj = OdometryGate(*along_a, parameters.odometry_scale).T_a_b(),
+                      T_bi_bj = OdometryGate(*along_b, parameters.odometry_scale).T_a_b();
+  const UncertainPose one = urban_nav_core::compose(measuredOf(i), T_bi_bj),
+                      other = urban_nav_core::compose(T_ai_aj, measuredOf(j));
+  const auto squares = urban_nav_core::nees(other.pose, {one.pose, one.covariance + other.covariance});
+  return squares ? std::optional<double>(std::sqrt(*squares / 6.0)) : std::nullopt;
+}
+
+}  // namespace
+
+std::vector<Neighbours> holdAgainstEachOther(std::vector<MetricClosure>& closures, const Surroundings& surroundings,
+                                             const Parameters& parameters) {
+  std::vector<Neighbours> counts(closures.size());
+  std::map<std::pair<std::size_t, std::size_t>, bool> agree;
+  for (std::size_t i = 0; i < closures.size(); ++i) {
+    if (closures[i].verdict != ClosureVerdict::Accepted) continue;
+    for (std::size_t j = i + 1; j < closures.size(); ++j) {
+      if (closures[j].verdict != ClosureVerdict::Accepted) continue;
+      const auto deviation = ringOf(closures[i], closures[j], surroundings, parameters);
+      if (!deviation) continue;
+      const bool agrees = *deviation <= parameters.gate;
+      agree[{i, j}] = agrees;
+      for (const std::size_t k : {i, j}) ++(agrees ? counts[k].agreeing : counts[k].contradicting);
+    }
+  }
+  for (;;) {
+    std::size_t worst = closures.size();
+    for (std::size_t i = 0; i < closures.size(); ++i) {
+      if (closures[i].verdict != ClosureVerdict::Accepted || counts[i].contradicting < 2 ||
+          counts[i].contradicting <= counts[i].agreeing)
+        continue;
+      const auto excess = [&](std::size_t k) { return counts[k].contradicting - counts[k].agreeing; };
+      if (worst == closures.size() || excess(i) > excess(worst)) worst = i;
+    }
+    if (worst == closures.size()) return counts;
+    MetricClosure& closure = closures[worst];
+    closure.verdict = ClosureVerdict::Rejected;
+    closure.reason = static_cast<int>(LoopReason::Contradicted);
+    closure.reason_name = toString(LoopReason::Contradicted);
+    closure.sentence = std::to_string(counts[worst].contradicting) + " closures beside it say something else, " +
+                       std::to_string(counts[worst].agreeing) + " agree";
+    closure.measured.information.setZero();
+    for (const auto& [pair, agrees] : agree)
+      for (const auto& [one, other] : {pair, std::make_pair(pair.second, pair.first)})
+        if (one == worst) --(agrees ? counts[other].agreeing : counts[other].contradicting);
+  }
+}
+
+}  // namespace loop_metric

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "candidate/odometry_gate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "urban_nav_core/geometry/dense.hpp"
+
+namespace loop_metric {
+
+using urban_nav_core::Matrix6d;
+using urban_nav_core::Pose;
+using urban_nav_core::Vector6d;
+
+namespace {
+
+constexpr double least_sigma = 1e-4;        // m, rad: between moments of one frame odometry claims to know all
+constexpr double metres_per_radian = 10.0;  // what tells known directions from free ones must not depend on units
+constexpr double known = 1e-9;              // of the best known direction
+
+int directionsKnown(const Matrix6d& information) {
+  Vector6d units;
+  units << Eigen::Vector3d::Ones(), Eigen::Vector3d::Constant(1.0 / metres_per_radian);
+  const auto values =
+      urban_nav_core::symmetricEigenvalues(Eigen::MatrixXd(units.asDiagonal() * information * units.asDiagonal()));
+  if (!values || !((*values)[5] > 0.0)) return 0;
+  return static_cast<int>((values->array() > known * (*values)[5]).count());
+}
+
+}  // namespace
+
+double rootMeanDeviation(const Vector6d& d, const Matrix6d& covariance, const Matrix6d& information) {
+  const int directions = directionsKnown(information);
+  if (directions == 0) return 0.0;
+  // (C + W^-1)^-1 = W - W (W + C^-1)^-1 W also where W is singular.
+  const auto prior = urban_nav_core::invertPositiveDefinite(covariance);
+  if (!prior) return 0.0;
+  const auto both = urban_nav_core::invertPositiveDefinite(Matrix6d(information + *prior));
+  if (!both) return 0.0;
+  const Vector6d w = information * d;
+  return std::sqrt(std::max(0.0, d.dot(w) - w.dot(*both * w)) / directions);
+}
+
+OdometryGate::OdometryGate(const Surroundings::Way& way, double scale) : T_a_b_(way.T_a_b) {
+  const double common = scale * way.length;
+  T_a_b_.covariance.diagonal().head<3>().array() += common * common + least_sigma * least_sigma;
+  T_a_b_.covariance.diagonal().tail<3>().array() += least_sigma * least_sigma;
+}
+
+double OdometryGate::deviations(const urban_nav_core::Constraint& measured) const {
+  return rootMeanDeviation(urban_nav_core::boxMinus(measured.T_a_b, T_a_b_.pose), T_a_b_.covariance,
+                           measured.information);
+}
+
+double OdometryGate::deviations(const Pose& T_a_b, double sigma_m, double sigma_rad) const {
+  urban_nav_core::Constraint guess;
+  guess.T_a_b = T_a_b;
+  guess.information.diagonal() << Eigen::Vector3d::Constant(1.0 / (sigma_m * sigma_m)),
+      Eigen::Vector3d::Constant(1.0 / (sigma_rad * sigma_rad));
+  return deviations(guess);
+}
+
+double OdometryGate::leastDistance(double deviations) const {
+  const double sigma = std::sqrt(T_a_b_.covariance.topLeftCorner<3, 3>().trace());
+  return std::max(0.0, T_a_b_.pose.t().norm() - deviations * sigma);
+}
+
+}  // namespace loop_metric

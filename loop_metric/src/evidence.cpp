@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loop_metric/evidence.hpp"
+
+#include <algorithm>
+
+#include "urban_nav_core/io/csv.hpp"
+#include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace loop_metric {
+
+using urban_nav_core::CsvTable;
+using urban_nav_core::printNumber;
+
+namespace {
+
+constexpr std::size_t most_pixels = 100;
+// One header for all kinds of lines, so that any program reads the table: what a kind has no use for is empty.
+constexpr const char* header =
+    "kind,name,value,threshold,at_least,passed,session_a,stamp_a_ns,session_b,stamp_b_ns,text\n";
+constexpr std::size_t columns = 11;
+
+using Cells = std::vector<std::string>;
+
+/// Infinite and undefined numbers have no place in a table.
+std::string cell(double value) { return printNumber(std::clamp(value == value ? value : 1e300, -1e300, 1e300)); }
+
+void print(std::string& text, Cells cells) {
+  cells.resize(columns);
+  text += urban_nav_core::printCsvRow(cells);
+}
+
+void print(std::string& text, const ClosureTest& test, const char* kind) {
+  print(text,
+        {kind, test.name, cell(test.value), cell(test.threshold), test.at_least ? "1" : "0", test.passed ? "1" : "0"});
+}
+
+Evidence::Try tryOf(const StereoTry& made) {
+  const StereoClosure& result = made.result;
+  Evidence::Try its{"stereo",
+                    made.view_a.at,
+                    made.view_b.at,
+                    toString(result.verdict),
+                    toString(result.reason),
+                    result.sentence,
+                    result.tests,
+                    {}};
+  const std::size_t step = 1 + result.pixels.size() / most_pixels;
+  for (std::size_t i = 0; i < result.pixels.size(); i += step) its.pixels.push_back(result.pixels[i]);
+  return its;
+}
+
+Evidence::Try tryOf(const Alignment& alignment, const urban_nav_core::MetricClosure& metric) {
+  Evidence::Try its{
+      "icp", metric.a, metric.b, toString(alignment.verdict), toString(alignment.reason), alignment.sentence, {}, {}};
+  for (const Test& test : alignment.tests)
+    its.tests.push_back({test.name, test.value, test.threshold, test.at_least, test.passed});
+  return its;
+}
+
+class Reader {
+ public:
+  explicit Reader(std::string_view text) : table_(CsvTable::parse(text, "evidence")) {
+    if (table_.header().size() != columns) refuse(0, "has other columns");
+  }
+
+  Evidence read() {
+    Evidence evidence;
+    for (std::size_t row = 0; row < table_.rows(); ++row) {
+      const std::string& kind = table_.text(row, 0);
+      if (kind == "try") {
+        evidence.tries.push_back({table_.text(row, 1),
+                                  {table_.text(row, 6), table_.integer(row, 7)},
+                                  {table_.text(row, 8), table_.integer(row, 9)},
+                                  "",
+                                  "",
+                                  "",
+                                  {},
+                                  {}});
+      } else if (kind == "gate") {
+        evidence.gate.push_back(testAt(row));
+      } else if (evidence.tries.empty()) {
+        refuse(row, "a line that belongs to a try before the first");
+      } else if (kind == "verdict") {
+        Evidence::Try& last = evidence.tries.back();
+        last.verdict = table_.text(row, 1);
+        last.reason = table_.text(row, 6);
+        last.sentence = table_.text(row, 10);
+      } else if (kind == "test") {
+        evidence.tries.back().tests.push_back(testAt(row));
+      } else if (kind == "pixels") {
+        evidence.tries.back().pixels.push_back(pixelsAt(row));
+      } else {
+        refuse(row, "no kind of line");
+      }
+    }
+    return evidence;
+  }
+
+ private:
+  bool yes(std::size_t row, std::size_t column) const {
+    const std::int64_t value = table_.integer(row, column);
+    if (value != 0 && value != 1) refuse(row, "neither 0 nor 1");
+    return value == 1;
+  }
+  ClosureTest testAt(std::size_t row) const {
+    return {table_.text(row, 1), table_.number(row, 2), table_.number(row, 3), yes(row, 4), yes(row, 5)};
+  }
+  MatchedPixels pixelsAt(std::size_t row) const {
+    MatchedPixels pixels;
+    pixels.in_a = {table_.number(row, 2), table_.number(row, 3)};
+    pixels.in_b = {table_.number(row, 6), table_.number(row, 8)};
+    pixels.residual_px = table_.number(row, 10);
+    pixels.inlier = yes(row, 5);
+    return pixels;
+  }
+  [[noreturn]] void refuse(std::size_t row, const char* found) const {
+    throw urban_nav_core::DataError(table_.rows() > row ? table_.where(row) : "evidence", found, "");
+  }
+
+  CsvTable table_;
+};
+
+}  // namespace
+
+Evidence evidenceOf(const LoopClosure& closure) {
+  Evidence evidence;
+  for (const StereoTry& made : closure.stereo) evidence.tries.push_back(tryOf(made));
+  if (closure.icp) evidence.tries.push_back(tryOf(*closure.icp, closure.metric));
+  evidence.gate = closure.tests;
+  return evidence;
+}
+
+std::string printEvidence(const Evidence& evidence) {
+  std::string text = header;
+  for (const Evidence::Try& each : evidence.tries) {
+    print(text, {"try", each.method, "", "", "", "", each.view_a.session, std::to_string(each.view_a.stamp),
+                 each.view_b.session, std::to_string(each.view_b.stamp)});
+    print(text, {"verdict", each.verdict, "", "", "", "", each.reason, "", "", "", each.sentence});
+    for (const ClosureTest& test : each.tests) print(text, test, "test");
+    for (const MatchedPixels& pixels : each.pixels)
+      print(text, {"pixels", "", cell(pixels.in_a.x()), cell(pixels.in_a.y()), "", pixels.inlier ? "1" : "0",
+                   cell(pixels.in_b.x()), "", cell(pixels.in_b.y()), "", cell(pixels.residual_px)});
+  }
+  for (const ClosureTest& test : evidence.gate) print(text, test, "gate");
+  return text;
+}
+
+Evidence parseEvidence(std::string_view text) {
+  try {
+    return Reader(text).read();
+  } catch (const urban_nav_core::DataError&) {
+    throw;
+  } catch (const urban_nav_core::UserError& error) {  // what a program wrote is data
+    throw urban_nav_core::DataError(error.parts());
+  }
+}
+
+std::string_view evidenceIn(std::string_view text) {
+  const std::string_view begin = header;
+  if (text.substr(0, begin.size()) == begin) return text;
+  const std::size_t place = text.find("\n" + std::string(begin));
+  return place == std::string_view::npos ? std::string_view() : text.substr(place + 1);
+}
+
+}  // namespace loop_metric

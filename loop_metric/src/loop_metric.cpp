@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loop_metric/loop_metric.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include "candidate/odometry_gate.hpp"
+#include "candidate/view_pairs.hpp"
+#include "loop_metric/evidence.hpp"
+#include "urban_nav_core/geometry/compose.hpp"
+#include "urban_nav_core/geometry/covariance_frames.hpp"
+#include "urban_nav_core/geometry/dense.hpp"
+
+namespace loop_metric {
+
+using urban_nav_core::ClosureMethod;
+using urban_nav_core::ClosureVerdict;
+using urban_nav_core::Constraint;
+using urban_nav_core::Matrix6d;
+using urban_nav_core::MetricClosure;
+using urban_nav_core::Pose;
+using urban_nav_core::TopologicalClosure;
+using urban_nav_core::UncertainPose;
+
+namespace {
+
+constexpr double place_apart = 15.0;  // m: places are recognised within 7.5 m (section 3); twice that is no place
+// What a starting pose may be wrong and still end where it should: the reach of the coarsest step of an alignment.
+constexpr double start_sigma_m = 1.0, start_sigma_rad = 0.2;
+
+std::string words(const char* format, double value, double threshold) {
+  std::array<char, 200> text{};
+  std::snprintf(text.data(), text.size(), format, value, threshold);
+  return text.data();
+}
+
+/// T_a_b of the moments from that of two views beside them. No information where it cannot be had.
+Constraint atMoments(const Constraint& views, const NearbyView& a, const NearbyView& b) {
+  Constraint made;
+  const auto covariance = urban_nav_core::invertPositiveDefinite(views.information);
+  made.T_a_b = a.T_moment_view.pose * views.T_a_b * b.T_moment_view.pose.inverse();
+  if (!covariance) return made;
+  const UncertainPose moments = urban_nav_core::compose(
+      urban_nav_core::compose(a.T_moment_view, UncertainPose{views.T_a_b, Matrix6d(*covariance)}),
+      urban_nav_core::invert(b.T_moment_view));
+  made.T_a_b = moments.pose;
+  if (const auto information = urban_nav_core::invertPositiveDefinite(moments.covariance))
+    made.information = Matrix6d(*information);
+  return made;
+}
+
+/// One candidate on its way to a verdict.
+class Measuring {
+ public:
+  Measuring(const Parameters& parameters, const Pose& T_base_left, StereoMatcher& matcher,
+            const TopologicalClosure& candidate, const Surroundings& surroundings)
+      : parameters_(parameters), T_base_left_(T_base_left), matcher_(matcher), surroundings_(surroundings) {
+    closure_.metric.a = candidate.a;
+    closure_.metric.b = candidate.b;
+    closure_.metric.probability = candidate.probability;
+    closure_.metric.source = "loop_metric";
+    if (const auto way = surroundings.between(candidate.a, candidate.b)) gate_.emplace(*way, parameters.odometry_scale);
+  }
+
+  LoopClosure run() {
+    judge();
+    closure_.metric.reason_name = toString(static_cast<LoopReason>(closure_.metric.reason));
+    closure_.metric.evidence = printEvidence(evidenceOf(closure_));
+    return std::move(closure_);
+  }
+
+ private:
+  void judge() {
+    MetricClosure& metric = closure_.metric;
+    for (const urban_nav_core::PoseRef* at : {&metric.a, &metric.b}) {
+      std::string why;
+      if (!surroundings_.knows(*at, why)) return refuse(LoopReason::UnknownMoment, why);
+    }
+    if (gate_) {
+      const double apart = gate_->leastDistance(parameters_.gate);
+      if (!test("least_distance_m", apart, place_apart))
+        return refuse(LoopReason::Odometry,
+                      words("by odometry the places are %.0f m apart at least: more than %.0f m are not one place",
+                            apart, place_apart));
+    }
+    if (parameters_.stereo && byStereo()) return;
+    if (parameters_.icp && byClouds()) return;
+    if (metric.reason != 0) return;  // a transform was found, and odometry does not allow it
+    if (closure_.stereo.empty() && !closure_.icp)
+      return refuse(LoopReason::NothingKept, "neither two views that may show the same nor clouds of both moments");
+    std::string sentence;
+    if (!closure_.stereo.empty()) sentence = "stereo: " + closure_.stereo.front().result.sentence;
+    if (closure_.icp) sentence += (sentence.empty() ? "icp: " : "; icp: ") + closure_.icp->sentence;
+    refuse(LoopReason::NotRegistered, sentence);
+  }
+
+  bool byStereo() {
+    const double way = parameters_.view_way;
+    std::optional<UncertainPose> T_a_b;
+    if (gate_) T_a_b = gate_->T_a_b();
+    for (const ViewPair& pair :
+         pairsOf(surroundings_.views(closure_.metric.a, way), surroundings_.views(closure_.metric.b, way), T_a_b, way,
+                 static_cast<std::size_t>(parameters_.stereo_tries))) {
+      StereoTry made{pair.a, pair.b,
+                     matcher_.match(surroundings_.keyframe(pair.a.at), surroundings_.keyframe(pair.b.at))};
+      closure_.stereo.push_back(made);
+      if (made.result.verdict != ClosureVerdict::Accepted) continue;
+      const Constraint measured = atMoments(betweenBases(made.result.lefts, T_base_left_), made.view_a, made.view_b);
+      if (accept(ClosureMethod::Stereo, measured, {}, made.result.sentence)) return true;
+    }
+    return false;
+  }
+
+  bool byClouds() {
+    const auto target = surroundings_.cloud(closure_.metric.a, parameters_.cloud_way),
+               source = surroundings_.cloud(closure_.metric.b, parameters_.cloud_way);
+    if (target.points.empty() || source.points.empty()) return false;
+    Pose guess;
+    Search search = Search::AtOnce;
+    if (gate_) {
+      guess = gate_->T_a_b().pose;
+      search = Search::IfRejected;
+    }
+    closure_.icp = align(source, target, parameters_, guess, search);
+    const Alignment& found = *closure_.icp;
+    if (found.verdict == Verdict::Rejected) return false;
+    return accept(ClosureMethod::Icp, {found.T_target_source, found.information}, found.free_directions,
+                  found.sentence);
+  }
+
+  /// False, with the reason, where odometry does not allow it.
+  bool accept(ClosureMethod method, const Constraint& measured,
+              const std::vector<urban_nav_core::Vector6d>& free_directions, const std::string& sentence) {
+    MetricClosure& metric = closure_.metric;
+    metric.method = method;
+    metric.measured.T_a_b = measured.T_a_b;
+    metric.free_directions = free_directions;
+    if (gate_) {
+      const double deviations = gate_->deviations(measured);
+      if (!test(method == ClosureMethod::Stereo ? "stereo_against_odometry" : "icp_against_odometry", deviations,
+                parameters_.gate)) {
+        refuse(LoopReason::Odometry,
+               words("the transform is %.1f standard deviations off what odometry says, at most %.1f allowed",
+                     deviations, parameters_.gate));
+        return false;
+      }
+      metric.odometry_gate = true;
+    }
+    metric.measured.information = measured.information;
+    metric.verdict = ClosureVerdict::Accepted;
+    metric.reason = static_cast<int>(LoopReason::None);
+    metric.sentence = sentence;
+    return true;
+  }
+
+  bool test(const char* name, double value, double threshold) {
+    closure_.tests.push_back({name, value, threshold, false, value <= threshold});
+    return value <= threshold;
+  }
+
+  void refuse(LoopReason reason, const std::string& sentence) {
+    closure_.metric.verdict = ClosureVerdict::Rejected;
+    closure_.metric.reason = static_cast<int>(reason);
+    closure_.metric.sentence = sentence;
+    closure_.metric.measured.information.setZero();
+  }
+
+  const Parameters& parameters_;
+  const Pose& T_base_left_;
+  StereoMatcher& matcher_;
+  const Surroundings& surroundings_;
+  std::optional<OdometryGate> gate_;
+  LoopClosure closure_;
+};
+
+}  // namespace
+
+const char* toString(LoopReason reason) {
+  switch (reason) {
+    case LoopReason::None: return "";
+    case LoopReason::UnknownMoment: return "unknown_moment";
+    case LoopReason::NothingKept: return "nothing_kept";
+    case LoopReason::NotRegistered: return "not_registered";
+    case LoopReason::Odometry: return "odometry";
+    case LoopReason::Contradicted: break;
+  }
+  return "contradicted";
+}
+
+LoopMetric::LoopMetric(const Parameters& parameters, const urban_nav_core::StereoCamera& camera,
+                       const Pose& T_base_left)
+    : parameters_(parameters), T_base_left_(T_base_left), matcher_(camera, parameters) {}
+
+LoopClosure LoopMetric::measure(const TopologicalClosure& candidate, const Surroundings& surroundings) {
+  return Measuring(parameters_, T_base_left_, matcher_, candidate, surroundings).run();
+}
+
+}  // namespace loop_metric
