@@ -2,10 +2,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "loop_metric/keyframe.hpp"
+#include "stereo/jpeg.hpp"
 #include "urban_nav_core/image/fast.hpp"
 #include "urban_nav_core/image/harris.hpp"
 #include "urban_nav_core/image/patch.hpp"
@@ -104,14 +103,6 @@ bool measureDepth(const StereoCamera& camera, const ImageView& left, const Image
   return std::isfinite(point.slope_u) && std::isfinite(point.slope_v);
 }
 
-std::vector<std::uint8_t> encode(const ImageView& image) {
-  const cv::Mat pixels(image.height, image.width, CV_8U, const_cast<std::uint8_t*>(image.data),
-                       static_cast<std::size_t>(image.stride));
-  std::vector<std::uint8_t> bytes;
-  cv::imencode(".jpg", pixels, bytes, {cv::IMWRITE_JPEG_QUALITY, jpeg_quality});
-  return bytes;
-}
-
 }  // namespace
 
 KeyframeMaker::KeyframeMaker(const StereoCamera& camera, int points) : camera_(camera), points_(points) {}
@@ -125,7 +116,7 @@ Keyframe KeyframeMaker::make(const urban_nav_core::PoseRef& at, const urban_nav_
   if (!fits(pair.left)) return keyframe;
   keyframe.width = pair.left.width;
   keyframe.height = pair.left.height;
-  keyframe.image = encode(pair.left);
+  keyframe.image = encodeJpeg(pair.left, jpeg_quality);
   if (!fits(pair.right)) return keyframe;
 
   Pyramid left(levels), right(levels);

@@ -2,9 +2,8 @@
 #include "stereo/view.hpp"
 
 #include <algorithm>
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
+#include "stereo/jpeg.hpp"
 #include "urban_nav_core/camera/surface.hpp"
 
 namespace loop_metric {
@@ -20,14 +19,8 @@ constexpr double largest_window = 0.35;  // of the image's height
 }  // namespace
 
 View::View(const Keyframe& keyframe, const StereoCamera& camera) : at(keyframe.at), pyramid(levels) {
-  if (keyframe.image.empty()) return;
-  cv::Mat pixels;
-  try {
-    pixels = cv::imdecode(keyframe.image, cv::IMREAD_GRAYSCALE);
-  } catch (const cv::Exception&) {
-    return;  // damaged bytes are an image that is missing
-  }
-  if (pixels.empty() || pixels.cols != camera.left.width || pixels.rows != camera.left.height) return;
+  const cv::Mat pixels = decodeJpeg(keyframe.image, {camera.left.width, camera.left.height});
+  if (pixels.empty()) return;
   pyramid.build({pixels.data, pixels.cols, pixels.rows, static_cast<std::ptrdiff_t>(pixels.step)});
   points.reserve(keyframe.points.size());
   for (const KeyframePoint& from : keyframe.points) {
