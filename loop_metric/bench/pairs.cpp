@@ -12,10 +12,11 @@
 #include <string>
 #include <vector>
 
+#include "loop_metric/match_picture.hpp"
 #include "loop_metric/stereo_closure.hpp"
-#include "support/draw.hpp"
 #include "support/opencv_pnp.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
+#include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/parameters/sources.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
 #include "urban_nav_core/testing/dice.hpp"
@@ -170,9 +171,7 @@ class Program {
         if (accepted) T_a_b = closure.lefts.T_a_b;
         ours[k].see(T_a_b, &closure.lefts.information, truth, taken);
         if (options_.list) list(name, i, j, truth, closure);
-        if (!options_.draw.empty())
-          bench::drawMatches(keyframes[i], keyframes[j], closure,
-                             options_.draw + "/" + name + "_" + std::to_string(i) + "_" + std::to_string(j) + ".png");
+        draw(name, keyframes[i], keyframes[j], closure);
         if (!options_.peers) continue;
         for (const bench::Feature feature : {bench::Feature::Sift, bench::Feature::Orb}) {
           const double start = processorMs();
@@ -190,6 +189,17 @@ class Program {
   }
 
  private:
+  void draw(const std::string& name, const Keyframe& a, const Keyframe& b, const StereoClosure& closure) const {
+    if (options_.draw.empty()) return;
+    MatchPictureOptions options;
+    options.title_a = std::to_string(a.at.stamp);
+    options.title_b = std::to_string(b.at.stamp);
+    options.caption = std::string(toString(closure.verdict)) + ": " + closure.sentence;
+    const std::vector<std::uint8_t> bytes = jpegOf(drawMatches(a, b, closure.pixels, options));
+    urban_nav_core::writeAtomically(options_.draw + "/" + name + "_" + options.title_a + "_" + options.title_b + ".jpg",
+                                    std::string(bytes.begin(), bytes.end()));
+  }
+
   /// Each coordinate's error over its standard deviation.
   static std::string whitened(const StereoClosure& closure, const urban_nav_core::Vector6d& d) {
     const auto covariance = urban_nav_core::invertPositiveDefinite(closure.lefts.information);
@@ -235,10 +245,7 @@ class Program {
         largest_share = std::max(largest_share, static_cast<double>(closure.matches) / closure.visible);
       most_matches = std::max(most_matches, closure.matches);
       if (options_.list && (accepted || closure.matches > 20)) list(name + " FALSE", i, j, truth, closure);
-      if (accepted && !options_.draw.empty())
-        bench::drawMatches(
-            keyframes[i], keyframes[j], closure,
-            options_.draw + "/" + name + "_false_" + std::to_string(i) + "_" + std::to_string(j) + ".png");
+      if (accepted) draw(name + "_false", keyframes[i], keyframes[j], closure);
     }
     std::cout << name << ": of " << pairs.size() << " false pairs " << tally.upgraded.size()
               << " accepted; most matches " << most_matches << ", largest share " << cell(largest_share, 2) << "\n";

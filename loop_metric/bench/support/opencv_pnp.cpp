@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "support/opencv_pnp.hpp"
+#include "opencv_pnp.hpp"
 
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
