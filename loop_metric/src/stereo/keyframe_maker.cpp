@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "loop_metric/keyframe.hpp"
-#include "stereo/jpeg.hpp"
+#include "io/jpeg.hpp"
 #include "urban_nav_core/image/fast.hpp"
 #include "urban_nav_core/image/harris.hpp"
 #include "urban_nav_core/image/patch.hpp"
@@ -149,21 +149,6 @@ Keyframe KeyframeMaker::make(const urban_nav_core::PoseRef& at, const urban_nav_
     keyframe.points.push_back(point);
   }
   return keyframe;
-}
-
-void archive(urban_nav_core::Archive& archive, KeyframePoint& point) {
-  archive(point.u, point.v, point.level, point.disparity, point.sigma_disparity, point.slope_u, point.slope_v);
-}
-
-void archive(urban_nav_core::Archive& archive, Keyframe& keyframe) {
-  archive(keyframe.at.session, keyframe.at.stamp, keyframe.width, keyframe.height, keyframe.image, keyframe.points);
-  for (const KeyframePoint& point : keyframe.points) {
-    archive.require(point.level < levels, "a point of no level");
-    archive.require(point.u >= 0 && point.v >= 0 && point.u << point.level < keyframe.width + (1 << point.level) &&
-                        point.v << point.level < keyframe.height + (1 << point.level),
-                    "a point outside its image");
-    archive.require(point.sigma_disparity > 0.0F, "a disparity without a deviation");
-  }
 }
 
 }  // namespace loop_metric

@@ -8,7 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "stereo/jpeg.hpp"
+#include "io/jpeg.hpp"
 
 namespace loop_metric {
 

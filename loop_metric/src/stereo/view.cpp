@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "stereo/jpeg.hpp"
+#include "io/jpeg.hpp"
 #include "urban_nav_core/camera/surface.hpp"
 
 namespace loop_metric {

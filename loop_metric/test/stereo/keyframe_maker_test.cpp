@@ -9,7 +9,6 @@
 #include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_core/testing/motion.hpp"
 #include "urban_nav_core/testing/textured_room.hpp"
-#include "urban_nav_core/types/error.hpp"
 
 namespace loop_metric {
 namespace {
@@ -59,22 +58,6 @@ TEST(KeyframeMaker, GivesTheSameBytesWhateverTheThreads) {
     const std::string bytes = bytesOf(maker.make({"s", 5}, frame.pair()));
     if (first.empty()) first = bytes;
     EXPECT_EQ(bytes, first);
-  }
-}
-
-TEST(KeyframeMaker, ComesBackFromItsBytesAndDamageIsRefused) {
-  Photographer photographer(texturedRoom());
-  const Keyframe keyframe = photographer.keyframe(lookingAlong({0.0, 0.0, 1.0}, 1.0), 1.0, 100);
-  const std::string bytes = bytesOf(keyframe);
-  urban_nav_core::Archive reading(bytes, "keyframe");
-  Keyframe again;
-  reading(again);
-  reading.finish();
-  EXPECT_EQ(bytesOf(again), bytes);
-  for (const std::size_t length : {std::size_t{0}, std::size_t{7}, bytes.size() / 2, bytes.size() - 1}) {
-    urban_nav_core::Archive cut(std::string_view(bytes).substr(0, length), "keyframe");
-    Keyframe spoilt;
-    EXPECT_THROW(cut(spoilt), urban_nav_core::DataError) << length;
   }
 }
 

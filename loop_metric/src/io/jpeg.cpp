@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "stereo/jpeg.hpp"
+#include "io/jpeg.hpp"
 
 #include <opencv2/imgcodecs.hpp>
 
