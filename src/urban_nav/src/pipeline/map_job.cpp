@@ -260,6 +260,10 @@ void runMap(const MapRequest& request, Console& console) {
   std::vector<Resumed> resumed;
   for (std::size_t i = 0; i < sessions.size(); ++i) resumed.push_back(resume(request, sessions[i], store, i, console));
   if (with.loops || with.graph) outcome.earlier = readEarlierSessions(store.store(), store.ids());
+  const std::vector<std::string> names = sessionNames(sessions, outcome.earlier.names);
+  for (ClosureRow& row : closures)
+    for (std::string* session : {&row.session_a, &row.session_b})
+      *session = sessionMeant(*session, names, outcome.earlier.names.size());
   for (std::size_t i = 0; i < sessions.size(); ++i) {
     auto [source, stage] = std::move(resumed[i]);
     if (!source) source = open(sessions[i].paths, request);

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "input/open.hpp"
+#include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/stamp.hpp"
 
@@ -80,6 +81,13 @@ std::vector<std::string> sessionNames(const std::vector<Session>& sessions, cons
   for (const Session& session : sessions)
     names.push_back(uniqueName(plainName(session.name.empty() ? session.paths.front() : session.name), names));
   return names;
+}
+
+std::string sessionMeant(const std::string& word, const std::vector<std::string>& names, std::size_t earlier) {
+  if (std::find(names.begin(), names.end(), word) != names.end()) return word;
+  const std::optional<std::int64_t> number = urban_nav_core::parseInteger(word);
+  if (!number || *number < 0 || *number >= static_cast<std::int64_t>(names.size() - earlier)) return word;
+  return names[earlier + static_cast<std::size_t>(*number)];
 }
 
 }  // namespace urban_nav

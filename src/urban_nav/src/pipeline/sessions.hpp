@@ -25,7 +25,10 @@ std::vector<Session> findSessions(const std::vector<std::string>& inputs);
 /// same, the later one gets a number ("quad", "quad_2"). Behind the names of `earlier` ones, which come first in the result.
 std::vector<std::string> sessionNames(const std::vector<Session>& sessions,
                                       const std::vector<std::string>& earlier = {});
-/// Its two halves: the name of an input, and that name or the first numbered one that is not taken.
+/// The name that a file of closures means: its own where there is a session of this name, else that of the session with this number, from 0, among
+/// those behind the first `earlier` names; the word itself where there is neither.
+std::string sessionMeant(const std::string& word, const std::vector<std::string>& names, std::size_t earlier);
+/// The two halves of sessionNames(): the name of an input, and that name or the first numbered one that is not taken.
 std::string plainName(const std::string& input);
 std::string uniqueName(const std::string& plain, const std::vector<std::string>& taken);
 
