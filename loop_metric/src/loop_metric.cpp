@@ -25,10 +25,6 @@ using urban_nav_core::UncertainPose;
 
 namespace {
 
-constexpr double place_apart = 15.0;  // m: places are recognised within 7.5 m (section 3); twice that is no place
-// What a starting pose may be wrong and still end where it should: the reach of the coarsest step of an alignment.
-constexpr double start_sigma_m = 1.0, start_sigma_rad = 0.2;
-
 std::string words(const char* format, double value, double threshold) {
   std::array<char, 200> text{};
   std::snprintf(text.data(), text.size(), format, value, threshold);
@@ -79,14 +75,14 @@ class Measuring {
     }
     if (gate_) {
       const double apart = gate_->leastDistance(parameters_.gate);
-      if (!test("least_distance_m", apart, place_apart))
+      if (!test("least_distance_m", apart, parameters_.place_radius))
         return refuse(LoopReason::Odometry,
                       words("by odometry the places are %.0f m apart at least: more than %.0f m are not one place",
-                            apart, place_apart));
+                            apart, parameters_.place_radius));
     }
     if (parameters_.stereo && byStereo()) return;
     if (parameters_.icp && byClouds()) return;
-    if (metric.reason != 0) return;  // a transform was found, and odometry does not allow it
+    if (metric.reason != 0) return;  // a transform was found, and is not allowed
     if (closure_.stereo.empty() && !closure_.icp)
       return refuse(LoopReason::NothingKept, "neither two views that may show the same nor clouds of both moments");
     std::string sentence;
@@ -136,6 +132,12 @@ class Measuring {
     metric.method = method;
     metric.measured.T_a_b = measured.T_a_b;
     metric.free_directions = free_directions;
+    const double apart = measured.T_a_b.t().norm();
+    if (!test("distance_m", apart, parameters_.place_radius)) {
+      refuse(LoopReason::OtherPlace, words("the moments are %.1f m apart: more than %.1f m are not one place", apart,
+                                           parameters_.place_radius));
+      return false;
+    }
     if (gate_) {
       const double deviations = gate_->deviations(measured);
       if (!test(method == ClosureMethod::Stereo ? "stereo_against_odometry" : "icp_against_odometry", deviations,
@@ -183,9 +185,10 @@ const char* toString(LoopReason reason) {
     case LoopReason::NothingKept: return "nothing_kept";
     case LoopReason::NotRegistered: return "not_registered";
     case LoopReason::Odometry: return "odometry";
-    case LoopReason::Contradicted: break;
+    case LoopReason::Contradicted: return "contradicted";
+    case LoopReason::OtherPlace: break;
   }
-  return "contradicted";
+  return "other_place";
 }
 
 LoopMetric::LoopMetric(const Parameters& parameters, const urban_nav_core::StereoCamera& camera,

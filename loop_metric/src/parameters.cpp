@@ -30,6 +30,8 @@ const Table<Parameters>& table() {
            "How far from a moment along the way a view may be to stand for it.", "section 3: places within 7.5 m"},
           {"cloud_way", &P::cloud_way, "m", 10.0, 1.0, 100.0, {},
            "A local cloud is what the lasers saw from so far before a moment to so far behind it.", "section 4.2: a few seconds"},
+          {"place_radius", &P::place_radius, "m", 9.0, 1.0, 100.0, {},
+           "Moments whose transform puts them further apart than this are not the one place that the candidate says, however right it is.", "section 3: places within 7.5 m, and a fifth for doubt"},
           {"gate", &P::gate, "", 5.0, 1.0, 1000.0, {},
            "By how many standard deviations (root mean square) a transform may differ from odometry and from its neighbours.", "section 4"},
           {"odometry_scale", &P::odometry_scale, "", 0.01, 0.0, 1.0, {},

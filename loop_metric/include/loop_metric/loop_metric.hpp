@@ -20,8 +20,9 @@ enum class LoopReason {
   NotRegistered = 3,  ///< neither views nor clouds gave a transform
   Odometry = 4,       ///< odometry does not allow the transform
   Contradicted = 5,   ///< closures beside it say something else
+  OtherPlace = 6,     ///< the transform is right, and says that the moments are too far apart to be one place
 };
-/// "", "unknown_moment", "nothing_kept", "not_registered", "odometry", "contradicted".
+/// "", "unknown_moment", "nothing_kept", "not_registered", "odometry", "contradicted", "other_place".
 const char* toString(LoopReason reason);
 
 /// One try to register two views.

@@ -15,6 +15,7 @@ struct Parameters {
   int stereo_tries;       // pairs of views
   double view_way;        // m
   double cloud_way;       // m
+  double place_radius;    // m
   double gate;            // standard deviations
   double odometry_scale;  // share
   // stereo

@@ -9,6 +9,7 @@
 #include "loop_metric/consistency.hpp"
 #include "loop_metric/loop_metric.hpp"
 #include "loop_metric/stored_surroundings.hpp"
+#include "pipeline/closure_picture.hpp"
 #include "pipeline/vo_files.hpp"
 #include "pipeline/vo_summary.hpp"
 #include "urban_nav_core/io/numbers.hpp"
@@ -29,7 +30,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kRound = 32;  // candidates between two steps of the progress bar
+constexpr std::size_t kRound = 32;                                   // candidates between two steps of the progress bar
+constexpr std::size_t kAcceptedPictures = 6, kRejectedPictures = 3;  // in the report: some 60 kB each
 
 double millisecondsSince(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
@@ -119,21 +121,27 @@ void put(ClosureRow& row, MetricClosure closure) {
   row.measured = std::move(closure);
 }
 
-}  // namespace
-
-Json toJson(const LoopsRun& run) {
-  Json json = Json::object();
-  json["candidates"] = run.candidates;
-  json["accepted_stereo"] = run.accepted_stereo;
-  json["accepted_icp"] = run.accepted_icp;
-  json["rejected"] = run.rejected;
-  json["ms_median"] = run.ms_median;
-  json["ms_p99"] = run.ms_p99;
-  json["ms_all"] = run.ms;
-  Json& warnings = json["warnings"] = Json::array();
-  for (const std::string& warning : run.warnings) warnings.append(warning);
-  return json;
+/// Accepted and rejected ones in turn, spread over all.
+std::vector<PagePicture> picturesOf(const std::vector<ClosureRow>& rows, const StoredSurroundings& surroundings) {
+  std::vector<PagePicture> pictures;
+  for (const bool accepted : {true, false}) {
+    std::vector<const ClosureRow*> drawable;
+    for (const ClosureRow& row : rows)
+      if (row.measured && (row.measured->verdict == ClosureVerdict::Accepted) == accepted && hasViews(*row.measured))
+        drawable.push_back(&row);
+    const std::size_t most = accepted ? kAcceptedPictures : kRejectedPictures;
+    for (std::size_t i = 0; i < std::min(most, drawable.size()); ++i) {
+      const ClosureRow& row = *drawable[drawable.size() <= most ? i : i * (drawable.size() - 1) / (most - 1)];
+      if (auto picture = pictureOf(*row.measured, surroundings)) {
+        picture->caption = (accepted ? "Accepted: " : "Rejected: ") + row.measured->sentence;
+        pictures.push_back(std::move(*picture));
+      }
+    }
+  }
+  return pictures;
 }
+
+}  // namespace
 
 std::string cameraWords(const StereoCamera& camera, const Pose& T_base_camera) {
   std::string words = std::to_string(camera.left.width) + "x" + std::to_string(camera.left.height);
@@ -145,7 +153,7 @@ std::string cameraWords(const StereoCamera& camera, const Pose& T_base_camera) {
 }
 
 LoopsRun runLoops(const loop_metric::Parameters& parameters, const StereoCamera& camera, const Pose& T_base_camera,
-                  const std::vector<LoopsSession>& sessions, Store& store, std::vector<ClosureRow>& rows,
+                  const std::vector<LoopsSession>& sessions, Store& store, std::vector<ClosureRow> rows,
                   Console& console) {
   LoopsRun run;
   run.candidates = rows.size();
@@ -179,10 +187,12 @@ LoopsRun runLoops(const loop_metric::Parameters& parameters, const StereoCamera&
   run.ms_median = quantile(ms, 0.5);
   run.ms_p99 = quantile(ms, 0.99);
   run.ms = millisecondsSince(begin);
+  run.pictures = picturesOf(rows, workers.take(make)->surroundings);
   for (const LoopsSession& session : sessions)
     if (!known.at(session.name).has_camera)
       run.warnings.push_back("views of session " + session.name +
                              " are not matched: it has another camera, or kept no views");
+  run.closures = std::move(rows);
   return run;
 }
 

@@ -5,24 +5,23 @@
 #include <vector>
 
 #include "command_line/console.hpp"
-#include "command_line/json.hpp"
 #include "loop_metric/parameters.hpp"
 #include "pipeline/closures_file.hpp"
 #include "pipeline/vo_stage.hpp"
+#include "report/page.hpp"
 #include "urban_nav_store/store.hpp"
 
 namespace urban_nav {
 
-/// What the stage loops made of its candidates; the closures themselves are in their rows.
+/// What the stage loops made of its candidates.
 struct LoopsRun {
+  std::vector<ClosureRow> closures;   ///< each with what was measured
+  std::vector<PagePicture> pictures;  ///< of a few of them: two views with their matches
   std::size_t candidates = 0, accepted_stereo = 0, accepted_icp = 0, rejected = 0;
   double ms_median = 0.0, ms_p99 = 0.0;  ///< of a candidate
   double ms = 0.0;                       ///< of all of them
   std::vector<std::string> warnings;
 };
-
-/// The object "loop_metric" of summary.json.
-Json toJson(const LoopsRun& run);
 
 /// A session whose moments candidates may name.
 struct LoopsSession {
@@ -40,6 +39,6 @@ constexpr const char* kCameraProperty = "camera";
 /// committed; on several threads, with results that do not depend on their number. `camera` is that of the last session.
 LoopsRun runLoops(const loop_metric::Parameters& parameters, const urban_nav_core::StereoCamera& camera,
                   const urban_nav_core::Pose& T_base_camera, const std::vector<LoopsSession>& sessions,
-                  urban_nav_store::Store& store, std::vector<ClosureRow>& rows, Console& console);
+                  urban_nav_store::Store& store, std::vector<ClosureRow> rows, Console& console);
 
 }  // namespace urban_nav

@@ -174,7 +174,7 @@ Running checkClosures(const MapRequest& request, Console& console) {
   return runs;
 }
 
-void runLoopsStage(MapOutcome& outcome, const std::vector<Session>& sessions, std::vector<ClosureRow>& closures,
+void runLoopsStage(MapOutcome& outcome, const std::vector<Session>& sessions, const std::vector<ClosureRow>& closures,
                    StoreStage& store, Console& console) {
   const EarlierSessions& earlier = outcome.earlier;
   const std::vector<const VoRun*> runs = runsOfGraph(outcome);
@@ -207,8 +207,15 @@ void runGraphStage(MapOutcome& outcome, const std::vector<Session>& sessions, co
     of_before.push_back(store.ids()[i]);
     names_of_before.push_back(names[earlier.names.size() + i]);
   }
-  outcome.graph = runGraph(outcome.request.parameters.pose_graph.parameters, runs, names, closures,
-                           closuresBetween(store.store(), of_before, names_of_before));
+  const pose_graph::Parameters& parameters = outcome.request.parameters.pose_graph.parameters;
+  const std::vector<KnownClosure> known = closuresBetween(store.store(), of_before, names_of_before);
+  outcome.graph = runGraph(parameters, runs, names, closures, known);
+  if (outcome.loops && outcome.loops->accepted_icp > 0) {
+    std::vector<ClosureRow> by_stereo;
+    for (const ClosureRow& row : closures)
+      if (row.kind != "icp") by_stereo.push_back(row);
+    outcome.without_icp = runGraph(parameters, runs, names, by_stereo, known);
+  }
   const pose_graph::Relaxed& relaxed = outcome.graph->relaxed;
   console.info("graph: " + std::to_string(relaxed.poses) + " poses, " + std::to_string(relaxed.closures) +
                " closures, " + std::to_string(relaxed.accepted) + " accepted; cost " +
@@ -260,7 +267,7 @@ void runMap(const MapRequest& request, Console& console) {
   std::vector<Resumed> resumed;
   for (std::size_t i = 0; i < sessions.size(); ++i) resumed.push_back(resume(request, sessions[i], store, i, console));
   if (with.loops || with.graph) outcome.earlier = readEarlierSessions(store.store(), store.ids());
-  const std::vector<std::string> names = sessionNames(sessions, outcome.earlier.names);
+  const std::vector<std::string> names = outcome.session_names = sessionNames(sessions, outcome.earlier.names);
   for (ClosureRow& row : closures)
     for (std::string* session : {&row.session_a, &row.session_b})
       *session = sessionMeant(*session, names, outcome.earlier.names.size());
@@ -285,6 +292,7 @@ void runMap(const MapRequest& request, Console& console) {
   }
   removeFurtherSessions(outcome.folder, outcome.earlier.ids.size() + sessions.size());
   if (with.loops) runLoopsStage(outcome, sessions, closures, store, console);
+  if (outcome.loops) closures = outcome.loops->closures;
   if (with.graph) runGraphStage(outcome, sessions, closures, store, console);
   else if (with.loops) outcome.folder.write("closures.csv", printClosures(closures));
   else outcome.folder.remove("closures.csv");

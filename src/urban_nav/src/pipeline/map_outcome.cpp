@@ -9,6 +9,7 @@
 #include "pipeline/vo_summary.hpp"
 #include "report/evaluation_report.hpp"
 #include "report/graph_report.hpp"
+#include "report/loops_report.hpp"
 #include "report/plot.hpp"
 #include "report/vo_report.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
@@ -170,6 +171,13 @@ Page pageOf(const MapOutcome& outcome, bool running) {
   page.verdicts = voVerdicts(summary);
   for (std::size_t i = 0; i < outcome.evaluations.size(); ++i)
     if (outcome.evaluations[i]) addEvaluation(page, *outcome.evaluations[i], runs.size() > 1 ? i + 1 : 0);
+  if (outcome.loops && outcome.loops->candidates > 0) {
+    for (const Verdict& verdict : loopsVerdicts(*outcome.loops)) page.verdicts.push_back(verdict);
+    const GraphRun* without_icp = outcome.without_icp ? &*outcome.without_icp : nullptr;
+    page.sections.insert(page.sections.begin(),
+                         loopsSection(*outcome.loops, runsOfGraph(outcome), outcome.session_names,
+                                      outcome.graph ? &*outcome.graph : nullptr, without_icp));
+  }
   if (outcome.graph) {
     for (const Verdict& verdict : graphVerdicts(*outcome.graph)) page.verdicts.push_back(verdict);
     if (!outcome.graph->closures.empty() || outcome.graph->sessions.size() > 1)  // else it is odometry's own picture

@@ -24,12 +24,14 @@ struct MapOutcome {
   const MapRequest& request;
   OutputFolder folder;
   Usage usage;
-  std::vector<std::unique_ptr<VoStage>> stages;        ///< one per session
-  std::vector<SourceInfo> infos;                       ///< one per session
-  EarlierSessions earlier;                             ///< of the store that the run goes on from, where it has a graph
-  std::optional<LoopsRun> loops;                       ///< when transforms of closures have been looked for
-  std::optional<GraphRun> graph;                       ///< when it is relaxed: of the earlier sessions, then of these
-  std::vector<std::optional<Evaluation>> before;       ///< as evaluations, by odometry alone; empty without a graph
+  std::vector<std::unique_ptr<VoStage>> stages;   ///< one per session
+  std::vector<SourceInfo> infos;                  ///< one per session
+  EarlierSessions earlier;                        ///< of the store that the run goes on from, where it has a graph
+  std::vector<std::string> session_names;         ///< as closures.csv has them: earlier ones, then those of this run
+  std::optional<LoopsRun> loops;                  ///< when transforms of closures have been looked for
+  std::optional<GraphRun> graph;                  ///< when it is relaxed: of the earlier sessions, then of these
+  std::optional<GraphRun> without_icp;            ///< relaxed over the closures by stereo alone, where there are others
+  std::vector<std::optional<Evaluation>> before;  ///< as evaluations, by odometry alone; empty without a graph
   std::vector<std::optional<Evaluation>> evaluations;  ///< one per session, when all are finished; empty before
   double progress = 0.0;                               ///< of the session at work
 };
