@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "candidate/view_pairs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace loop_metric {
+namespace {
+
+using urban_nav_core::Pose;
+using urban_nav_core::UncertainPose;
+
+/// Views each metre along x, `behind` m before the moment to `ahead` m behind it.
+std::vector<NearbyView> row(const char* session, int behind, int ahead) {
+  std::vector<NearbyView> views;
+  for (int i = -behind; i <= ahead; ++i) {
+    NearbyView view;
+    view.at = {session, 1000 + i};
+    view.T_moment_view.pose = Pose(urban_nav_core::Quaterniond::Identity(), {static_cast<double>(i), 0.0, 0.0});
+    view.T_moment_view.covariance.setZero();
+    view.way = i;
+    views.push_back(view);
+  }
+  return views;
+}
+
+UncertainPose odometry(double x, double heading, double sigma_m, double sigma_rad) {
+  UncertainPose T_a_b;
+  T_a_b.pose = Pose(urban_nav_core::expSo3({0.0, 0.0, heading}), {x, 0.0, 0.0});
+  T_a_b.covariance.setZero();
+  T_a_b.covariance.diagonal() << Eigen::Vector3d::Constant(sigma_m * sigma_m),
+      Eigen::Vector3d::Constant(sigma_rad * sigma_rad);
+  return T_a_b;
+}
+
+TEST(ViewPairs, WithoutOdometryTheViewsNearestToTheMomentsComeFirst) {
+  const auto pairs = pairsOf(row("a", 6, 6), row("b", 6, 6), std::nullopt, 6.0, 5);
+  ASSERT_EQ(pairs.size(), 3U);
+  EXPECT_EQ(pairs[0].a.at.stamp, 1000);
+  EXPECT_EQ(pairs[0].b.at.stamp, 1000);
+  EXPECT_EQ(pairs[1].a.at.stamp, 997);
+  EXPECT_EQ(pairs[2].a.at.stamp, 1003);
+}
+
+TEST(ViewPairs, WhatOdometryPutsNearestComesFirst) {
+  const auto pairs = pairsOf(row("a", 6, 6), row("b", 6, 6), odometry(5.0, 0.0, 0.1, 0.01), 6.0, 5);
+  ASSERT_FALSE(pairs.empty());
+  const Pose T =
+      pairs[0].a.T_moment_view.pose.inverse() * odometry(5.0, 0.0, 0.1, 0.01).pose * pairs[0].b.T_moment_view.pose;
+  EXPECT_LT(T.t().norm(), 1e-9);
+}
+
+TEST(ViewPairs, VagueOdometryDoesNotChooseThePlace) {
+  const auto pairs = pairsOf(row("a", 6, 6), row("b", 6, 6), odometry(5.0, 0.0, 3.0, 0.01), 6.0, 5);
+  ASSERT_FALSE(pairs.empty());
+  EXPECT_EQ(pairs[0].a.at.stamp, 1000);
+  EXPECT_EQ(pairs[0].b.at.stamp, 1000);
+}
+
+TEST(ViewPairs, OppositeDirectionsAreNotTriedWhereOdometryIsSure) {
+  EXPECT_TRUE(pairsOf(row("a", 6, 6), row("b", 6, 6), odometry(0.0, 3.1, 0.1, 0.01), 6.0, 5).empty());
+  EXPECT_FALSE(pairsOf(row("a", 6, 6), row("b", 6, 6), odometry(0.0, 3.1, 0.1, 1.0), 6.0, 5).empty());
+}
+
+TEST(ViewPairs, NoViewsNoPairsAndNeverMoreThanAsked) {
+  EXPECT_TRUE(pairsOf({}, row("b", 6, 6), std::nullopt, 6.0, 5).empty());
+  EXPECT_TRUE(pairsOf(row("a", 6, 6), {}, std::nullopt, 6.0, 5).empty());
+  EXPECT_EQ(pairsOf(row("a", 6, 6), row("b", 6, 6), std::nullopt, 6.0, 2).size(), 2U);
+  EXPECT_EQ(pairsOf(row("a", 0, 0), row("b", 0, 0), std::nullopt, 6.0, 5).size(), 1U);  // none twice
+}
+
+}  // namespace
+}  // namespace loop_metric

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loop_metric/evidence.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "urban_nav_core/testing/fuzz.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace loop_metric {
+namespace {
+
+Evidence someEvidence() {
+  Evidence evidence;
+  Evidence::Try views{
+      "stereo", {"monday", 12}, {"tuesday, the \"second\"", 34}, "rejected", "small_share", "alike, in parts", {}, {}};
+  views.tests.push_back({"matches", 51.0, 50.0, true, true});
+  views.tests.push_back({"share", 0.1, 0.3, true, false});
+  MatchedPixels pixels;
+  pixels.in_a = {1.5, 2.25};
+  pixels.in_b = {300.125, 17.0};
+  pixels.residual_px = 0.07;
+  pixels.inlier = true;
+  views.pixels.push_back(pixels);
+  evidence.tries.push_back(views);
+  evidence.tries.push_back({"icp", {"monday", 12}, {"tuesday", 34}, "accepted", "", "", {}, {}});
+  evidence.gate.push_back({"distance_m", 3.0, 9.0, false, true});
+  return evidence;
+}
+
+TEST(Evidence, ReadsBackAsItWasWritten) {
+  const Evidence evidence = someEvidence();
+  const std::string text = printEvidence(evidence);
+  const Evidence again = parseEvidence(text);
+  ASSERT_EQ(again.tries.size(), 2U);
+  EXPECT_EQ(again.tries[0].view_b, evidence.tries[0].view_b);
+  EXPECT_EQ(again.tries[0].sentence, evidence.tries[0].sentence);
+  EXPECT_EQ(again.tries[0].pixels.at(0).in_b, evidence.tries[0].pixels[0].in_b);
+  EXPECT_EQ(printEvidence(again), text);
+  EXPECT_EQ(parseEvidence(printEvidence({})).tries.size(), 0U);
+}
+
+TEST(Evidence, NothingThatIsNoNumberIsWritten) {
+  Evidence evidence = someEvidence();
+  evidence.gate[0].value = std::numeric_limits<double>::quiet_NaN();
+  evidence.tries[0].tests[0].value = std::numeric_limits<double>::infinity();
+  EXPECT_NO_THROW(parseEvidence(printEvidence(evidence)));
+}
+
+TEST(Evidence, IsFoundBehindOtherText) {
+  const std::string text = printEvidence(someEvidence());
+  EXPECT_EQ(evidenceIn("session_a,stamp\n0,1\n" + text), text);
+  EXPECT_EQ(evidenceIn(text), text);
+  EXPECT_EQ(evidenceIn("something else\n"), "");
+  EXPECT_EQ(evidenceIn(""), "");
+}
+
+TEST(Evidence, DamageIsDataAndNamesItsLine) {
+  for (const char* line :
+       {"pixels,,1,2,,1,3,,4,,5\n", "judge,,,,,,,,,,\n", "gate,x,1,2,7,1,,,,,\n", "gate,x,one,2,1,1,,,,,\n"}) {
+    std::string text = printEvidence({});
+    text += line;
+    try {
+      parseEvidence(text);
+      ADD_FAILURE() << line;
+    } catch (const urban_nav_core::DataError& error) {
+      EXPECT_NE(std::string(error.what()).find("evidence:2"), std::string::npos) << error.what();
+    }
+  }
+  EXPECT_THROW(parseEvidence(""), urban_nav_core::DataError);
+}
+
+TEST(Evidence, FuzzedTextIsReadOrRefused) {
+  const urban_nav_core::testing::FuzzResult result = urban_nav_core::testing::fuzzText(
+      {printEvidence(someEvidence()), printEvidence({})}, [](const std::string& text) { parseEvidence(text); });
+  EXPECT_EQ(result.failure, "");
+  EXPECT_GT(result.refused, 0);
+}
+
+}  // namespace
+}  // namespace loop_metric

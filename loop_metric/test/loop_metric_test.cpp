@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loop_metric/loop_metric.hpp"
+
+#include <gtest/gtest.h>
+
+#include "loop_metric/evidence.hpp"
+#include "support/line_surroundings.hpp"
+#include "support/scanner.hpp"
+#include "support/views.hpp"
+#include "urban_nav_core/testing/motion.hpp"
+#include "urban_nav_core/testing/textured_street.hpp"
+
+namespace loop_metric {
+namespace {
+
+using testing::LineSurroundings;
+using testing::Photographer;
+using urban_nav_core::ClosureMethod;
+using urban_nav_core::ClosureVerdict;
+using urban_nav_core::Pose;
+using urban_nav_core::PoseRef;
+using urban_nav_core::StampNs;
+using urban_nav_core::TopologicalClosure;
+using urban_nav_core::testing::lookingAlong;
+
+constexpr StampNs kSecond = 1'000'000'000;
+
+/// A drive down a street, a metre a second, a view each metre. base_link is the left camera here.
+struct Drive {
+  std::vector<Pose> poses;
+};
+Drive drive(LineSurroundings& around, Photographer& photographer, const std::string& session, double from, double to,
+            double y) {
+  Drive made;
+  for (double x = from; x <= to; x += 1.0) made.poses.push_back(lookingAlong({x, y, 1.2}, 0.02 * y));
+  around.drive(session, made.poses, 0.002, 0.0002);
+  for (std::size_t i = 0; i < made.poses.size(); ++i) {
+    const PoseRef at{session, static_cast<StampNs>(i) * kSecond};
+    Keyframe keyframe = photographer.keyframe(made.poses[i]);
+    keyframe.at = at;
+    around.keyframes[at] = keyframe;
+  }
+  return made;
+}
+
+/// Two drives down one street. Rendered once: each test has a copy to spoil.
+struct Rendered {
+  Photographer photographer{urban_nav_core::testing::texturedStreet()};
+  LineSurroundings around;
+  Drive a = drive(around, photographer, "monday", 4.0, 16.0, 0.0),
+        b = drive(around, photographer, "tuesday", 4.0, 16.0, 0.7);
+};
+const Rendered& rendered() {
+  static const Rendered made;
+  return made;
+}
+
+struct Street {
+  LineSurroundings around = rendered().around;
+  LoopMetric stage{Parameters(), rendered().photographer.camera(), Pose()};
+
+  TopologicalClosure candidate(double at_a, double at_b) const {
+    const auto stamp = [](double s) { return static_cast<StampNs>(s * 1e9); };
+    return {{"monday", stamp(at_a)}, {"tuesday", stamp(at_b)}, 0.9};
+  }
+};
+
+std::string reasonOf(const LoopClosure& closure) {
+  EXPECT_EQ(closure.metric.verdict, ClosureVerdict::Rejected);
+  EXPECT_TRUE(closure.metric.measured.information.isZero(0.0));
+  EXPECT_FALSE(closure.metric.sentence.empty());
+  EXPECT_TRUE(closure.metric.measured.T_a_b.isFinite());
+  return closure.metric.reason_name;
+}
+
+TEST(LoopMetric, TwoViewsOfAPlaceAreATransformBetweenTheMomentsThemselves) {
+  Street street;
+  const LoopClosure closure = street.stage.measure(street.candidate(3.4, 4.3), street.around);
+  ASSERT_EQ(closure.metric.verdict, ClosureVerdict::Accepted) << closure.metric.sentence;
+  EXPECT_EQ(closure.metric.method, ClosureMethod::Stereo);
+  const Pose truth = lookingAlong({7.4, 0.0, 1.2}, 0.0).inverse() * lookingAlong({8.3, 0.7, 1.2}, 0.014);
+  EXPECT_LT(urban_nav_core::distanceBetween(closure.metric.measured.T_a_b, truth), 0.03);
+  EXPECT_LT(urban_nav_core::angleBetween(closure.metric.measured.T_a_b, truth), 0.0035);
+  EXPECT_FALSE(closure.metric.odometry_gate);  // nothing says how the two days lie to each other
+}
+
+TEST(LoopMetric, MomentsThatAreTooFarApartAreNotOnePlaceHoweverRightTheTransform) {
+  Street street;
+  EXPECT_EQ(reasonOf(street.stage.measure(street.candidate(1.0, 11.0), street.around)), "other_place");
+}
+
+TEST(LoopMetric, OdometryOfOneSessionRulesOutWhatItDoesNotAllow) {
+  Street street;
+  LineSurroundings& around = street.around;
+  // One session now, whose odometry says that the second pass was four metres further on.
+  std::vector<Pose> poses = rendered().a.poses;
+  for (const Pose& pose : rendered().b.poses)
+    poses.push_back(Pose(pose.q(), pose.t() + Eigen::Vector3d(4.0, 0.0, 0.0)));
+  around.drive("both", poses, 0.002, 0.0002);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const PoseRef at{"both", static_cast<StampNs>(i) * kSecond};
+    const std::size_t of_b = i - rendered().a.poses.size();
+    around.keyframes[at] = i < rendered().a.poses.size()
+                               ? around.keyframe({"monday", at.stamp})
+                               : around.keyframe({"tuesday", static_cast<StampNs>(of_b) * kSecond});
+    around.keyframes[at].at = at;
+  }
+  const auto second = static_cast<StampNs>(rendered().a.poses.size()) * kSecond;
+  const TopologicalClosure candidate{{"both", 4 * kSecond}, {"both", second + 4 * kSecond}, 0.9};
+  EXPECT_EQ(reasonOf(street.stage.measure(candidate, around)), "odometry");
+  const TopologicalClosure far{{"both", 0}, {"both", second + 12 * kSecond}, 0.9};
+  const LoopClosure closure = street.stage.measure(far, around);
+  EXPECT_EQ(reasonOf(closure), "odometry");
+  EXPECT_TRUE(closure.stereo.empty());  // sixteen metres apart by odometry: no view is looked at
+}
+
+TEST(LoopMetric, CloudsServeWhereThereAreNoViews) {
+  const testing::World world = testing::courtyard(5);
+  const std::vector<Pose> poses = {testing::stand(0, 0, 0), testing::stand(1, 0, 0)},
+                          others = {testing::stand(1.5, 1.0, 175.0), testing::stand(0.5, 1.0, 175.0)};
+  LineSurroundings around;
+  around.drive("there", poses, 0.01, 0.001);
+  around.drive("back", others, 0.01, 0.001);
+  around.clouds = [&](const PoseRef& at) {
+    const auto& its = at.session == "there" ? poses : others;
+    return testing::scan(world, its[static_cast<std::size_t>(at.stamp / kSecond)], {}, at.session == "there" ? 1U : 2U);
+  };
+  LoopMetric stage(Parameters(), {}, Pose());
+  const LoopClosure closure = stage.measure({{"there", 0}, {"back", 0}, 0.9}, around);
+  ASSERT_EQ(closure.metric.verdict, ClosureVerdict::Accepted) << closure.metric.sentence;
+  EXPECT_EQ(closure.metric.method, ClosureMethod::Icp);
+  EXPECT_LT(urban_nav_core::distanceBetween(closure.metric.measured.T_a_b, poses[0].inverse() * others[0]), 0.1);
+  Parameters without;
+  without.icp = false;
+  EXPECT_EQ(reasonOf(LoopMetric(without, {}, Pose()).measure({{"there", 0}, {"back", 0}, 0.9}, around)),
+            "nothing_kept");
+}
+
+TEST(LoopMetric, UnknownMomentsAndEmptyPlacesAreNamed) {
+  Street street;
+  EXPECT_EQ(reasonOf(street.stage.measure(street.candidate(3.0, 500.0), street.around)), "unknown_moment");
+  EXPECT_EQ(reasonOf(street.stage.measure({{"monday", 0}, {"sunday", 0}, 0.5}, street.around)), "unknown_moment");
+  street.around.keyframes.clear();
+  EXPECT_EQ(reasonOf(street.stage.measure(street.candidate(3.0, 3.0), street.around)), "nothing_kept");
+}
+
+TEST(LoopMetric, TheSameBitsWhateverCameBefore) {
+  Street street;
+  const LoopClosure first = street.stage.measure(street.candidate(3.4, 4.3), street.around);
+  street.stage.measure(street.candidate(9.0, 10.0), street.around);
+  const LoopClosure again = street.stage.measure(street.candidate(3.4, 4.3), street.around);
+  EXPECT_EQ(first.metric.measured.T_a_b.matrix(), again.metric.measured.T_a_b.matrix());
+  EXPECT_EQ(first.metric.measured.information, again.metric.measured.information);
+  EXPECT_EQ(first.metric.evidence, again.metric.evidence);
+}
+
+TEST(LoopMetric, EvidenceHoldsTheTestsTheViewsAndTheMatches) {
+  Street street;
+  const LoopClosure closure = street.stage.measure(street.candidate(3.4, 4.3), street.around);
+  const Evidence evidence = parseEvidence(closure.metric.evidence);
+  ASSERT_FALSE(evidence.tries.empty());
+  const Evidence::Try& last = evidence.tries.back();
+  EXPECT_EQ(last.method, "stereo");
+  EXPECT_EQ(last.verdict, "accepted");
+  EXPECT_EQ(last.view_a, closure.stereo.back().view_a.at);
+  EXPECT_EQ(last.view_b, closure.stereo.back().view_b.at);
+  ASSERT_EQ(last.tests.size(), closure.stereo.back().result.tests.size());
+  for (std::size_t i = 0; i < last.tests.size(); ++i) {
+    EXPECT_EQ(last.tests[i].name, closure.stereo.back().result.tests[i].name);
+    EXPECT_EQ(last.tests[i].value, closure.stereo.back().result.tests[i].value);
+  }
+  EXPECT_GE(last.pixels.size(), 20U);
+  EXPECT_EQ(evidence.gate.size(), closure.tests.size());
+}
+
+}  // namespace
+}  // namespace loop_metric

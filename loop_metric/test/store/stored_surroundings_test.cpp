@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loop_metric/stored_surroundings.hpp"
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "urban_nav_core/types/error.hpp"
+#include "urban_nav_store/store.hpp"
+
+namespace loop_metric {
+namespace {
+
+using urban_nav_core::OdometryChain;
+using urban_nav_core::Pose;
+using urban_nav_core::StampNs;
+using urban_nav_store::Access;
+using urban_nav_store::Store;
+
+constexpr StampNs kSecond = 1'000'000'000;
+
+Keyframe someKeyframe(StampNs stamp) {
+  Keyframe keyframe;
+  keyframe.at = {"day", stamp};
+  keyframe.image = {1, 2, 3, 4};
+  keyframe.width = 64;
+  keyframe.height = 48;
+  KeyframePoint point;
+  point.u = 5;
+  point.v = 7;
+  point.disparity = 3.5F;
+  keyframe.points = {point};
+  return keyframe;
+}
+
+/// 40 s straight ahead at 1 m/s, a view each 2 m, and a laser 1 m above base_link that sees one thing 2 m to its left all the time.
+class StoredSurroundingsTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() / ("loop_metric_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder_);
+    store_.emplace((folder_ / "store.db").string(), Access::Write);
+    store_->sessions().put(urban_nav_store::Session{id_, "day", "", "", 0, true});
+    auto odometry = std::make_shared<OdometryChain>();
+    for (int i = 0; i < 40; ++i) {
+      urban_nav_core::RelativePose step;
+      step.from = i * kSecond;
+      step.to = (i + 1) * kSecond;
+      step.T_from_to = Pose(urban_nav_core::Quaterniond::Identity(), {1.0, 0.0, 0.0});
+      step.covariance *= 1e-6;
+      odometry->append(step);
+      if (i % 2 == 0) store_->keyframes().put(id_, keyframe_camera, storedKeyframe(someKeyframe(step.from)));
+      urban_nav_core::Scan scan;
+      scan.stamp = step.from;
+      scan.beams.push_back({step.from, Eigen::Vector3f::UnitY(), 2.0F, 10.0F});
+      store_->scans().put(id_, "laser_left", scan);
+    }
+    store_->commit();
+    SessionOfStore session;
+    session.id = id_;
+    session.odometry = odometry;
+    session.lasers.push_back({"laser_left", Pose(urban_nav_core::Quaterniond::Identity(), {0.0, 0.0, 1.0})});
+    surroundings_.emplace(StoredSurroundings::Sessions{{"day", session}}, store_->keyframes(), store_->scans());
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  const urban_nav_store::SessionId id_ = "00112233445566778899";
+  std::filesystem::path folder_;
+  std::optional<Store> store_;
+  std::optional<StoredSurroundings> surroundings_;
+};
+
+TEST_F(StoredSurroundingsTest, ViewsOfTheWayAroundAMomentInOrder) {
+  const auto views = surroundings_->views({"day", 10 * kSecond + kSecond / 2}, 4.0);
+  ASSERT_EQ(views.size(), 4U);  // at 8, 10, 12 and 14 m: 6 is 4.5 m off
+  EXPECT_EQ(views.front().at.stamp, 8 * kSecond);
+  EXPECT_NEAR(views.front().way, -2.5, 1e-9);
+  EXPECT_NEAR(views.back().T_moment_view.pose.t().x(), 3.5, 1e-9);
+  EXPECT_TRUE(surroundings_->views({"another", 0}, 4.0).empty());
+}
+
+TEST_F(StoredSurroundingsTest, KeyframesComeBackAsTheyWere) {
+  const Keyframe keyframe = surroundings_->keyframe({"day", 4 * kSecond});
+  EXPECT_EQ(keyframe.image, someKeyframe(0).image);
+  EXPECT_EQ(keyframe.width, 64);
+  EXPECT_EQ(keyframe.at, (urban_nav_core::PoseRef{"day", 4 * kSecond}));
+  ASSERT_EQ(keyframe.points.size(), 1U);
+  EXPECT_EQ(keyframe.points[0].disparity, 3.5F);
+  EXPECT_TRUE(surroundings_->keyframe({"day", 5 * kSecond}).points.empty());  // none was kept there
+}
+
+TEST_F(StoredSurroundingsTest, ADamagedKeyframeIsNamed) {
+  urban_nav_store::StoredKeyframe stored = storedKeyframe(someKeyframe(8 * kSecond));
+  stored.features[stored.features.size() / 2] ^= 1;
+  store_->keyframes().put(id_, keyframe_camera, stored);
+  EXPECT_THROW(surroundings_->keyframe({"day", 8 * kSecond}), urban_nav_core::DataError);
+}
+
+TEST_F(StoredSurroundingsTest, ACloudIsWhatTheLasersSawAroundTheMomentInItsFrame) {
+  const auto cloud = surroundings_->cloud({"day", 20 * kSecond}, 3.0);
+  ASSERT_EQ(cloud.points.size(), 7U);
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    EXPECT_NEAR(cloud.points[i].x(), static_cast<float>(i) - 3.0F, 1e-5F);
+    EXPECT_NEAR(cloud.points[i].y(), 2.0F, 1e-5F);
+    EXPECT_NEAR(cloud.points[i].z(), 1.0F, 1e-5F);
+  }
+  EXPECT_TRUE(surroundings_->cloud({"day", 900 * kSecond}, 3.0).points.empty());
+}
+
+TEST_F(StoredSurroundingsTest, KnowsItsMomentsAndTheWayBetweenThem) {
+  std::string why;
+  EXPECT_TRUE(surroundings_->knows({"day", kSecond / 2}, why));
+  EXPECT_FALSE(surroundings_->knows({"day", 90 * kSecond}, why));
+  EXPECT_NE(why.find("no frames around"), std::string::npos);
+  EXPECT_FALSE(surroundings_->knows({"night", 0}, why));
+  EXPECT_NE(why.find("there are: day"), std::string::npos);
+  const auto way = surroundings_->between({"day", 30 * kSecond}, {"day", 10 * kSecond});
+  ASSERT_TRUE(way);
+  EXPECT_NEAR(way->T_a_b.pose.t().x(), -20.0, 1e-9);
+  EXPECT_NEAR(way->length, 20.0, 1e-9);
+  EXPECT_FALSE(surroundings_->between({"day", 0}, {"night", 0}));
+}
+
+}  // namespace
+}  // namespace loop_metric
