@@ -24,6 +24,7 @@ struct Pair {
   Target target;
   Source source;
   const Parameters& parameters;
+  const Possible& possible;
 };
 
 struct Try {
@@ -38,23 +39,23 @@ Try tryFrom(const Pair& pair, const Pose& start, std::size_t first_step) {
   return made;
 }
 
+Observability observedOf(const Try& made, const Pair& pair) {
+  return observedOf(made.refined, static_cast<double>(pair.source_surfels.voxel), pair.parameters);
+}
+
+bool isPossible(const Try& made, const Pair& pair) {
+  return !pair.possible || pair.possible({made.refined.T_target_source, observedOf(made, pair).information});
+}
+
 Alignment judged(const Try& made, const Pair& pair, Alignment alignment) {
   alignment.T_target_source = made.refined.T_target_source;
   alignment.iterations += made.refined.iterations;
-  judge(made.fit, made.refined, static_cast<double>(pair.source_surfels.voxel), pair.parameters, alignment);
+  const Observability observed = observedOf(made, pair);
+  judge(made.fit, made.refined, observed, pair.parameters, alignment);
+  if (alignment.verdict != Verdict::Rejected && pair.possible &&
+      !pair.possible({made.refined.T_target_source, observed.information}))
+    reject(alignment, Reason::Impossible, "the surfaces fit, but at a pose that is known to be wrong");
   return alignment;
-}
-
-void reject(Alignment& alignment, Reason reason, const std::string& sentence) {
-  alignment.verdict = Verdict::Rejected;
-  alignment.reason = reason;
-  alignment.sentence = sentence;
-  alignment.information.setZero();
-  alignment.free_directions.clear();
-  for (int i = 0; i < 6; ++i) alignment.free_directions.push_back(Vector6d::Unit(i));
-  Vector6d unlimited;
-  unlimited << Vector3d::Constant(1e6), Vector3d::Constant(10.0);
-  alignment.covariance = unlimited.asDiagonal();
 }
 
 std::size_t surfacesOf(const Surfels& surfels) {
@@ -104,13 +105,21 @@ Alignment searched(const Pair& pair, const Pose& guess, Alignment alignment, con
   if (tries.empty()) tries.push_back(tryFrom(pair, guess, 0));
   std::stable_sort(tries.begin(), tries.end(),
                    [](const Try& a, const Try& b) { return a.fit.score() > b.fit.score(); });
-  const Try& best = tries.front();
-  alignment = judged(best, pair, alignment);
+  const auto possible = [&](const Try& made) { return isPossible(made, pair); };
+  const auto found = std::find_if(tries.begin(), tries.end(), possible);
+  if (found == tries.end()) {
+    alignment = judged(tries.front(), pair, alignment);
+    alignment.searched = true;
+    reject(alignment, Reason::Impossible, "no pose that can be was found");
+    return alignment;
+  }
+  alignment = judged(*found, pair, alignment);
   alignment.searched = true;
-  double second = 0.0;
-  for (const Try& other : tries)
-    if (isAnother(other.refined.T_target_source, alignment)) second = std::max(second, other.fit.score());
-  const double share = second / std::max(best.fit.score(), 1e-9);
+  const auto second = std::find_if(found + 1, tries.end(), [&](const Try& made) {
+    return isAnother(made.refined.T_target_source, alignment) && possible(made);
+  });
+  const double share = second == tries.end() ? 0.0 : second->fit.score() / std::max(found->fit.score(), 1e-9);
+  if (second != tries.end()) alignment.rival = Rival{second->refined.T_target_source, share};
   alignment.tests.push_back(
       {"second_pose", share, pair.parameters.max_second, false, share <= pair.parameters.max_second});
   if (alignment.verdict != Verdict::Rejected && share > pair.parameters.max_second)
@@ -121,7 +130,7 @@ Alignment searched(const Pair& pair, const Pose& guess, Alignment alignment, con
 }  // namespace
 
 Alignment align(const PointCloud& source, const PointCloud& target, const Parameters& parameters, const Pose& guess,
-                Search search) {
+                Search search, const Possible& possible) {
   std::array<Surfels, 2> surfels;
   urban_nav_core::forEach(2, 1, [&](std::size_t i) {
     surfels[i] = makeSurfels(i == 0 ? source : target, static_cast<float>(parameters.voxel));
@@ -135,7 +144,7 @@ Alignment align(const PointCloud& source, const PointCloud& target, const Parame
   if (!checkClouds(surfels[0], surfels[1], alignment)) return alignment;
   Target index(surfels[1], parameters.reach);
   Source steps(surfels[0], index);
-  const Pair pair{surfels[0], surfels[1], std::move(index), std::move(steps), parameters};
+  const Pair pair{surfels[0], surfels[1], std::move(index), std::move(steps), parameters, possible};
   if (search == Search::AtOnce) return searched(pair, guess, alignment, nullptr);
   const Try first = tryFrom(pair, guess, 0);
   const Alignment local = judged(first, pair, alignment);
@@ -162,6 +171,7 @@ const char* toString(Reason reason) {
     case Reason::TooFewInliers: return "too_few_inliers";
     case Reason::NotConverged: return "not_converged";
     case Reason::Ambiguous: return "ambiguous";
+    case Reason::Impossible: return "impossible";
     case Reason::FreeDirections: break;
   }
   return "free_directions";

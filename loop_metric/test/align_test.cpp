@@ -77,6 +77,53 @@ TEST(Align, needsNoGuessWhateverTheHeading) {
   }
 }
 
+TEST(Align, whatIsKnownOfTheHeadingDecidesBetweenTwoThatFit) {
+  // A closed box looks the same both ways.
+  World box;
+  for (int side = 0; side < 4; ++side) {
+    const double heading = 0.5 * M_PI * side, away = side % 2 == 0 ? 8.0 : 12.0;
+    box.blocks.push_back(
+        {-away * std::sin(heading), away * std::cos(heading), side % 2 == 0 ? 24.0 : 16.0, 1.0, 0.0, 6.0, heading});
+  }
+  const Pair pair = pairOf(box, stand(1.0, 0.5, 175.0), stand(-0.5, 0.3, 0.0), 1);
+  const Alignment without = align(pair.source, pair.target, {}, {}, Search::AtOnce);
+  EXPECT_EQ(without.reason, Reason::Ambiguous) << without.sentence;
+  ASSERT_TRUE(without.rival);
+  EXPECT_GT(without.rival->share, 0.85);
+  EXPECT_NEAR(angleBetween(without.rival->T_target_source, without.T_target_source) * kDeg, 180.0, 2.0);
+  int asked = 0;
+  const auto near = [&](const Pose& pose) {
+    return [&asked, pose](const urban_nav_core::Constraint& T) {
+      ++asked;
+      return angleBetween(T.T_a_b, pose) * kDeg < 30.0;
+    };
+  };
+  const Pose turned = pair.truth * Pose(Eigen::Quaterniond(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitZ())), {});
+  for (const Search search : {Search::AtOnce, Search::IfRejected}) {
+    const Alignment with = align(pair.source, pair.target, {}, {}, search, near(pair.truth));
+    EXPECT_EQ(with.verdict, Verdict::Accepted) << with.sentence;
+    EXPECT_LT(distanceBetween(with.T_target_source, pair.truth), 0.03);
+    EXPECT_LT(angleBetween(with.T_target_source, pair.truth) * kDeg, 0.2);
+    if (with.rival) {
+      EXPECT_LT(angleBetween(with.rival->T_target_source, pair.truth) * kDeg, 30.0);
+    }
+    const Alignment other = align(pair.source, pair.target, {}, {}, search, near(turned));
+    EXPECT_LT(angleBetween(other.T_target_source, turned) * kDeg, 2.0) << "it believes what it is told";
+  }
+  EXPECT_GT(asked, 0);
+}
+
+TEST(Align, whereNothingIsPossibleItSaysSo) {
+  const Pair pair = pairOf(courtyard(1), stand(1.0, 0.5, 5.0), stand(0.3, 0.1, 0.0), 1);
+  const auto never = [](const urban_nav_core::Constraint&) { return false; };
+  for (const Search search : {Search::Never, Search::IfRejected, Search::AtOnce}) {
+    const Alignment alignment = align(pair.source, pair.target, {}, {}, search, never);
+    EXPECT_EQ(alignment.reason, Reason::Impossible);
+    EXPECT_EQ(alignment.information, Matrix6d::Zero());
+    expectFinite(alignment);
+  }
+}
+
 TEST(Align, neverTakesOnePlaceForAnother) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     const PointCloud source = scan(courtyard(seed), stand(0.0, 0.0, 0.0), {}, 1),

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "loop_metric/parameters.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
 #include "urban_nav_core/types/point_cloud.hpp"
+#include "urban_nav_core/types/uncertain.hpp"
 
 namespace loop_metric {
 
@@ -27,6 +30,7 @@ enum class Reason {
   TooFewInliers,
   NotConverged,    ///< it still moved at the end
   Ambiguous,       ///< another, different pose fits as well
+  Impossible,      ///< the surfaces fit, but the caller knows that the pose cannot be
   FreeDirections,  ///< of a degenerate answer
 };
 /// "" for None, else the enumerator's name in small letters and underscores.
@@ -38,6 +42,13 @@ struct Test {
   double value = 0.0, threshold = 0.0;
   bool at_least = false;  ///< the value has to be at least the threshold; else at most
   bool passed = false;
+};
+
+/// The next best pose that a search found and that is a different one.
+struct Rival {
+  urban_nav_core::Pose T_target_source;
+  double share =
+      0.0;  ///< how well it fits, as a share of how well the answer does; above `max_second` the place is ambiguous
 };
 
 /// What came of an alignment.
@@ -58,7 +69,8 @@ struct Alignment {
   std::size_t source_left_out = 0, target_left_out = 0;  ///< NaN, infinite, or absurdly far
   std::size_t matches = 0;
   int iterations = 0;
-  bool searched = false;  ///< the pose comes from the global search
+  bool searched = false;       ///< the pose comes from the global search
+  std::optional<Rival> rival;  ///< of a global search that found more than one pose; only among those that are possible
 };
 
 enum class Search {
@@ -67,12 +79,18 @@ enum class Search {
   Never,
 };
 
+/// What the caller knows of the pose from elsewhere, odometry above all: can T_target_source be this? The information is what the clouds say of
+/// it, zero along what they leave free, so that a pose which may slide along a wall is not refused for where it happens to lie there.
+/// Called from the calling thread alone.
+using Possible = std::function<bool(const urban_nav_core::Constraint& T_target_source)>;
+
 /// T_target_source of two clouds from their surfaces: point-to-plane ICP from coarse to fine, from `guess`, with a classifier that knows
 /// which directions nothing holds (Newman et al. 2009, section 4.2). The sensors stand roughly upright (z up, within 35 deg) where the search is
-/// global. Any clouds may come, empty ones too: the answer is finite and says what is wrong. No state: thread-safe; the same bits whatever
+/// global. What is not `possible` is neither an answer nor a rival that makes the place ambiguous: a caller who knows the heading to a
+/// few degrees gets an answer in a street that looks the same both ways. Any clouds may come, empty ones too: the answer is finite and says what is wrong. No state: thread-safe; the same bits whatever
 /// the number of threads.
 Alignment align(const urban_nav_core::PointCloud& source, const urban_nav_core::PointCloud& target,
                 const Parameters& parameters, const urban_nav_core::Pose& guess = {},
-                Search search = Search::IfRejected);
+                Search search = Search::IfRejected, const Possible& possible = {});
 
 }  // namespace loop_metric

@@ -44,7 +44,25 @@ Fit fitOf(const std::vector<Surfel>& source, const Refined& refined, const Param
   return fit;
 }
 
-void judge(const Fit& fit, const Refined& refined, double voxel, const Parameters& parameters, Alignment& alignment) {
+Observability observedOf(const Refined& refined, double voxel, const Parameters& parameters) {
+  return observe(refined.matches, std::max(refined.sigma, 1e-4), parameters.laser_bias, parameters.free_deviation,
+                 kPatchVoxels * voxel);
+}
+
+void reject(Alignment& alignment, Reason reason, const std::string& sentence) {
+  alignment.verdict = Verdict::Rejected;
+  alignment.reason = reason;
+  alignment.sentence = sentence;
+  alignment.information.setZero();
+  alignment.free_directions.clear();
+  for (int i = 0; i < 6; ++i) alignment.free_directions.push_back(Vector6d::Unit(i));
+  Vector6d unlimited;
+  unlimited << Vector3d::Constant(1e6), Vector3d::Constant(10.0);
+  alignment.covariance = unlimited.asDiagonal();
+}
+
+void judge(const Fit& fit, const Refined& refined, const Observability& observed, const Parameters& parameters,
+           Alignment& alignment) {
   Failure failure{Reason::None, ""};
   const auto test = [&](const char* name, double value, double threshold, bool at_least, Reason reason,
                         const char* sentence) {
@@ -64,22 +82,12 @@ void judge(const Fit& fit, const Refined& refined, double voxel, const Parameter
          "too few of the upright surfaces fall upon each other");
   test("last_step_m", refined.usable ? refined.last_step : 1e3, kStillMoving, false, Reason::NotConverged,
        "the alignment did not come to rest");
-  const Observability observed = observe(refined.matches, std::max(refined.sigma, 1e-4), parameters.laser_bias,
-                                         parameters.free_deviation, kPatchVoxels * voxel);
   alignment.tests.push_back(
       {"weakest_direction_m", observed.weakest, parameters.free_deviation, false, observed.free_directions.empty()});
   if (failure.reason == Reason::None && observed.free_directions.size() > 4)
     failure = {Reason::TooFewMatches, "hardly any direction is held"};
   if (failure.reason != Reason::None) {
-    alignment.verdict = Verdict::Rejected;
-    alignment.reason = failure.reason;
-    alignment.sentence = failure.sentence;
-    alignment.information.setZero();
-    alignment.free_directions.clear();
-    for (int i = 0; i < 6; ++i) alignment.free_directions.push_back(Vector6d::Unit(i));
-    Vector6d unlimited;
-    unlimited << Vector3d::Constant(1e6), Vector3d::Constant(10.0);
-    alignment.covariance = unlimited.asDiagonal();
+    reject(alignment, failure.reason, failure.sentence);
     return;
   }
   alignment.information = observed.information;

@@ -18,7 +18,14 @@ struct Fit {
 };
 Fit fitOf(const std::vector<Surfel>& source, const Refined& refined, const Parameters& parameters);
 
+/// What the matches of an alignment hold.
+Observability observedOf(const Refined& refined, double voxel, const Parameters& parameters);
+
 /// Fills in the verdict, its reason, the tests, information and covariance.
-void judge(const Fit& fit, const Refined& refined, double voxel, const Parameters& parameters, Alignment& alignment);
+void judge(const Fit& fit, const Refined& refined, const Observability& observed, const Parameters& parameters,
+           Alignment& alignment);
+
+/// No pose: nothing is known of any direction.
+void reject(Alignment& alignment, Reason reason, const std::string& sentence);
 
 }  // namespace loop_metric
