@@ -2,8 +2,9 @@
 #include "commands/commands.hpp"
 
 int main(int argc, char** argv) {
-  return urban_nav::runCommandLine({urban_nav::mapCommand(), urban_nav::convertCommand(), urban_nav::evaluateCommand(),
-                                    urban_nav::infoCommand(), urban_nav::exportCommand(), urban_nav::mergeCommand(),
-                                    urban_nav::relaxCommand(), urban_nav::icpCommand(), urban_nav::simulateCommand()},
-                                   argc, argv);
+  return urban_nav::runCommandLine(
+      {urban_nav::mapCommand(), urban_nav::convertCommand(), urban_nav::evaluateCommand(), urban_nav::infoCommand(),
+       urban_nav::exportCommand(), urban_nav::mergeCommand(), urban_nav::relaxCommand(), urban_nav::icpCommand(),
+       urban_nav::simulateCommand(), urban_nav::whyCommand()},
+      argc, argv);
 }

@@ -15,5 +15,6 @@ Command mapCommand();
 Command mergeCommand();
 Command relaxCommand();
 Command simulateCommand();
+Command whyCommand();
 
 }  // namespace urban_nav

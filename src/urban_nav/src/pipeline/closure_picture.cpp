@@ -41,12 +41,17 @@ std::optional<PagePicture> pictureOf(const urban_nav_core::MetricClosure& closur
                                      const loop_metric::Surroundings& surroundings) {
   const std::optional<Evidence::Try> views = viewsOf(closure);
   if (!views) return std::nullopt;
+  return pictureOf(*views, [&](bool of_a) { return surroundings.keyframe(of_a ? views->view_a : views->view_b); });
+}
+
+std::optional<PagePicture> pictureOf(const Evidence::Try& views,
+                                     const std::function<loop_metric::Keyframe(bool of_a)>& keyframe) {
   loop_metric::MatchPictureOptions options;
-  options.title_a = titleOf(views->view_a);
-  options.title_b = titleOf(views->view_b);
+  options.title_a = titleOf(views.view_a);
+  options.title_b = titleOf(views.view_b);
   try {
-    const loop_metric::MatchPicture drawn = loop_metric::drawMatches(
-        surroundings.keyframe(views->view_a), surroundings.keyframe(views->view_b), views->pixels, options);
+    const loop_metric::MatchPicture drawn =
+        loop_metric::drawMatches(keyframe(true), keyframe(false), views.pixels, options);
     PagePicture picture;
     picture.jpeg = loop_metric::jpegOf(drawn);
     picture.width = drawn.width;

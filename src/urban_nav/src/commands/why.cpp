@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+
+#include "command_line/console.hpp"
+#include "commands/commands.hpp"
+#include "pipeline/parameters.hpp"
+#include "report/plot.hpp"
+#include "urban_nav_core/io/atomic_file.hpp"
+#include "urban_nav_core/types/error.hpp"
+#include "why/explanation.hpp"
+
+namespace urban_nav {
+
+using urban_nav_core::DataError;
+using urban_nav_core::UserError;
+
+namespace {
+
+constexpr double kNear = 1.0;  // s: panoramas come twice a second
+
+const StoredClosure& byNumber(const std::vector<StoredClosure>& closures, std::int64_t id) {
+  if (id < 1 || id > static_cast<std::int64_t>(closures.size()))
+    throw UserError("--closure", std::to_string(id) + ": there is none",
+                    closures.empty() ? "none: the store holds no closures" : "1..." + std::to_string(closures.size()));
+  return closures[static_cast<std::size_t>(id - 1)];
+}
+
+const StoredClosure& byMoments(const std::vector<StoredClosure>& closures, const std::string& path, const Moment& one,
+                               const Moment& other) {
+  if (closures.empty()) throw DataError(path, "holds no closures", "");
+  const auto nearest = std::min_element(closures.begin(), closures.end(), [&](const auto& x, const auto& y) {
+    return distanceOf(x, one, other) < distanceOf(y, one, other);
+  });
+  if (const double distance = distanceOf(*nearest, one, other); !(distance <= kNear))
+    throw DataError(path,
+                    "no candidate lies within 1 s of these moments: nobody said that they are one place" +
+                        (std::isfinite(distance) ? "; the nearest is " + std::to_string(nearest->id) + ", " +
+                                                       forPerson(distance, 3) + " s off"
+                                                 : std::string()),
+                    "");
+  return *nearest;
+}
+
+int run(const Arguments& arguments, Console& console) {
+  checkCommonOptions(arguments);
+  const bool moments = arguments.has("T1") || arguments.has("T2");
+  if (arguments.has("jump"))
+    throw UserError("--jump", "is not in this version: jumps are told on graph/jump when they happen",
+                    "T1 T2, --closure ID");
+  if (arguments.has("T1") != arguments.has("T2"))
+    throw UserError("urban_nav why", "one moment alone", "STORE T1 T2, or STORE --closure ID");
+  if (moments && arguments.has("closure")) throw UserError("urban_nav why", "moments and --closure", "one of them");
+  urban_nav_store::Store store(arguments.get("STORE"), urban_nav_store::Access::Read);
+  const std::vector<StoredClosure> closures = closuresOf(store);
+  if (!moments && !arguments.has("closure")) {
+    console.print(listOf(closures));
+    return 0;
+  }
+  const StoredClosure& closure = moments ? byMoments(closures, store.path(), parseMoment(arguments.get("T1"), "T1"),
+                                                     parseMoment(arguments.get("T2"), "T2"))
+                                         : byNumber(closures, arguments.integer("closure", 0, 1, 1'000'000'000));
+  console.print(explain(closure));
+  if (arguments.has("output")) {
+    urban_nav_core::writeAtomically(arguments.get("output"), renderPage(explainOnPage(closure, store)));
+    console.print(arguments.get("output") + "\n");
+  }
+  if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), explainAsJson(closure).print());
+  return 0;
+}
+
+}  // namespace
+
+Command whyCommand() {
+  Command command;
+  command.name = "why";
+  command.summary = "Says why a loop closure was accepted or rejected, from the evidence in a session store.";
+  command.options = {
+      {"STORE", "", "session.db of a map; it is only read", true, false, {}},
+      {"T1",
+       "",
+       "a moment: s since 1970, or +S since the beginning of a session (NAME+S of that one)",
+       false,
+       false,
+       {}},
+      {"T2", "", "the other moment; without both, and without --closure, all closures are listed", false, false, {}},
+      {"--closure", "ID", "the closure with this number in that list", false, false, {}},
+      {"--jump", "T", "not in this version", false, false, {}},
+      {"-o,--output", "FILE.html", "the same as a page, with the two views and their matches", false, false, {}},
+      jsonOption(),
+      configOption(),
+      setOption(),
+      threadsOption()};
+  command.examples = {"urban_nav why out/session.db", "urban_nav why out/session.db +3.5 +92.1 -o why.html",
+                      "urban_nav why out/session.db --closure 12"};
+  command.more_help = commonHelp;
+  command.run = run;
+  return command;
+}
+
+}  // namespace urban_nav

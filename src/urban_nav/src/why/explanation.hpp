@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "command_line/json.hpp"
+#include "report/page.hpp"
+#include "urban_nav_store/store.hpp"
+#include "why/stored_closure.hpp"
+
+namespace urban_nav {
+
+/// Why a closure has its verdict, from what the store holds: all tests with value and limit, and what would have been needed.
+std::string explain(const StoredClosure& closure);
+/// The same as a page, with the two views and their matches where the store has them.
+Page explainOnPage(const StoredClosure& closure, urban_nav_store::Store& store);
+Json explainAsJson(const StoredClosure& closure);
+
+/// A line for each closure: what `why` says where none is asked for.
+std::string listOf(const std::vector<StoredClosure>& closures);
+
+}  // namespace urban_nav

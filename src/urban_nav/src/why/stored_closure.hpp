@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "loop_metric/evidence.hpp"
+#include "urban_nav_store/store.hpp"
+
+namespace urban_nav {
+
+/// A closure of a store with all that is known of it.
+struct StoredClosure {
+  std::int64_t id = 0;  ///< its place, from 1, among the closures of the store in the order of their later moments
+  urban_nav_store::Edge edge;
+  std::string name_a, name_b;           ///< of the sessions, for people
+  double since_a = 0.0, since_b = 0.0;  ///< s from the first node of each session
+  std::optional<double> probability;    ///< of the places being one, where it is known
+  loop_metric::Evidence evidence;       ///< empty where there is none
+};
+
+/// All closures of a store: measured, asserted and rejected ones. DataError where evidence is damaged.
+std::vector<StoredClosure> closuresOf(urban_nav_store::Store& store);
+
+/// A moment as a person gives it: seconds since 1970 ("1225719873.5"), or since the beginning of a session ("+12.5", "quad+12.5").
+struct Moment {
+  std::string session;  ///< name or beginning of an id; empty: any
+  bool since_begin = false;
+  double seconds = 0.0;
+  std::int64_t stamp = 0;  ///< ns, where not since the beginning
+};
+/// UserError naming `what` where it is none.
+Moment parseMoment(const std::string& text, const std::string& what);
+
+/// How far a closure is from these two moments, the larger of both, s; the moments may come in either order. Infinite where a session is another one.
+double distanceOf(const StoredClosure& closure, const Moment& one, const Moment& other);
+
+}  // namespace urban_nav
