@@ -4,6 +4,7 @@
 //   loop_metric-bench-pairs FOLDER... [--false N] [--no-peers] [--draw DIR] [--list] [--set loop_metric.NAME=VALUE]... [-o results/pairs.json]
 // FOLDER: frames in KITTI's layout with poses.txt, in any order, of as many days as there are.
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -65,8 +66,7 @@ double quantile(std::vector<double> values, double share) {
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
-constexpr double farthest_m = 4.0, farthest_deg = 25.0;  // of a closure that stereo should make
-constexpr double elsewhere_m = 40.0;                     // from here on it is another place
+constexpr double elsewhere_m = 40.0;  // from here on it is another place
 constexpr double degrees = 57.29577951308232;
 
 struct Outcome {
@@ -114,17 +114,18 @@ struct Tally {
 
 struct Class {
   const char* name;
-  double least_m, most_m, most_deg;
+  double least_m, most_m, least_deg, most_deg;
 };
-constexpr Class classes[] = {{"up to 1 m", 0.0, 1.0, 10.0},
-                             {"1 to 2 m", 1.0, 2.0, 20.0},
-                             {"2 to 4 m", 2.0, 4.0, 25.0},
-                             {"turned by 10 deg and more, up to 2 m", 0.0, 2.0, 25.0}};
+constexpr std::array<Class, 6> classes = {{{"up to 1 m, turned by less than 20 deg", 0.0, 1.0, 0.0, 20.0},
+                                           {"1 to 2 m", 1.0, 2.0, 0.0, 20.0},
+                                           {"2 to 4 m", 2.0, 4.0, 0.0, 20.0},
+                                           {"4 to 7.5 m", 4.0, 7.5, 0.0, 20.0},
+                                           {"up to 4 m, turned by 20 to 30 deg", 0.0, 4.0, 20.0, 30.0},
+                                           {"up to 4 m, turned by 30 to 40 deg", 0.0, 4.0, 30.0, 40.0}}};
 
 const Class* classOf(double metres, double deg) {
-  if (metres < 2.0 && deg >= 10.0) return &classes[3];
   for (const Class& one : classes)
-    if (metres >= one.least_m && metres < one.most_m && deg < one.most_deg) return &one;
+    if (metres >= one.least_m && metres < one.most_m && deg >= one.least_deg && deg < one.most_deg) return &one;
   return nullptr;
 }
 
@@ -153,15 +154,14 @@ class Program {
     std::cout << name << ": keyframes " << cell(quantile(ms, 0.5), 1) << " ms, " << cell(quantile(sizes, 0.5), 0)
               << " kB (95 %: " << cell(quantile(sizes, 0.95), 0) << "), " << quantile(points, 0.5)
               << " points (5 %: " << quantile(points, 0.05) << ")\n";
-    Tally ours[4], sift[4], orb[4];
+    std::array<Tally, classes.size()> ours, sift, orb;
     for (std::size_t i = 0; i < keyframes.size(); ++i)
       for (std::size_t j = i + 1; j < keyframes.size(); ++j) {
         const Pose truth = recording.truth[i].inverse() * recording.truth[j];
         const double metres = truth.t().norm(), deg = degrees * urban_nav_core::angleBetween(truth, Pose());
-        if (metres > farthest_m || deg > farthest_deg) continue;
         const Class* kind = classOf(metres, deg);
         if (kind == nullptr) continue;
-        const auto k = static_cast<std::size_t>(kind - classes);
+        const auto k = static_cast<std::size_t>(kind - classes.data());
         StereoMatcher matcher(recording.camera, parameters_);  // nothing kept from before: all in
         const double before = processorMs();
         const StereoClosure closure = matcher.match(keyframes[i], keyframes[j]);
@@ -180,7 +180,7 @@ class Program {
           (feature == bench::Feature::Sift ? sift : orb)[k].see(pose, nullptr, truth, processorMs() - start);
         }
       }
-    for (std::size_t k = 0; k < 4; ++k) {
+    for (std::size_t k = 0; k < classes.size(); ++k) {
       ours[k].addTo(table, name, classes[k].name, "loop_metric");
       sift[k].addTo(table, name, classes[k].name, "OpenCV, SIFT and PnP");
       orb[k].addTo(table, name, classes[k].name, "OpenCV, ORB and PnP");
