@@ -293,11 +293,15 @@ Reading measure(const PatchGrid& pixels, const PatchTemplate& patch) {
 
 namespace {
 
+double correlationOf(const Reading& reading, const PatchTemplate& patch) {
+  return reading.gain * std::sqrt(patch.energy / std::max(reading.variance, 1e-9));
+}
+
 /// Noise of a pixel, correlation and covariance from the residual that is left at the minimum.
 void judge(const Reading& reading, const PatchTemplate& patch, Alignment& alignment) {
   const double g = reading.gain, explained = g * g * patch.energy;
   alignment.gain = g;
-  alignment.correlation = g * std::sqrt(patch.energy / std::max(reading.variance, 1e-9));
+  alignment.correlation = correlationOf(reading, patch);
   // 4 of about 57 / 2 independent weighted values were spent on position, offset and gain
   const double residual = std::max(reading.variance - explained, 0.0) * 1.15;
   // (b, 1 - 2 b, b) leaves 1 - 4 b + 6 b^2 of white noise; of noise that is smooth already, about the root of that
@@ -358,6 +362,13 @@ Alignment alignPatch(const ImageView& image, const PatchTemplate& patch, const E
     if ((alignment.position - start).norm() > reach) return alignment;
   }
   return alignment;
+}
+
+double correlationAt(const ImageView& image, const PatchTemplate& patch, const Eigen::Vector2d& at) {
+  if (!at.allFinite() || !fits(image, at.x(), at.y())) return 0.0;
+  PatchGrid pixels;
+  readWindow(image, at.x(), at.y(), patch.view_blur, pixels);
+  return std::clamp(correlationOf(measure(pixels, patch), patch), -1.0, 1.0);
 }
 
 }  // namespace urban_nav_core

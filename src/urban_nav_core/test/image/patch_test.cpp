@@ -125,6 +125,24 @@ TEST(Patch, GainNoiseAndCorrelationAreMeasured) {
   EXPECT_GT(a.correlation, 0.97);
 }
 
+TEST(Patch, CorrelationAtAPlaceIsThatOfTheAlignmentAndFallsAsideOfIt) {
+  const Texture texture(3), other(4);
+  const Picture first = render(41, 41, 1.0, 1, [&](double x, double y) { return texture.at(x, y); });
+  const Picture second = render(41, 41, 1.0, 2, [&](double x, double y) { return 60.0 + 0.5 * texture.at(x, y); });
+  const Picture negative = render(41, 41, 1.0, 3, [&](double x, double y) { return 250.0 - texture.at(x, y); });
+  const Picture unlike = render(41, 41, 1.0, 4, [&](double x, double y) { return other.at(x, y); });
+  PatchTemplate made;
+  ASSERT_TRUE(warpTemplate(*cutSource(first.view(), 20, 20), {}, made));
+  const Alignment a = alignPatch(second.view(), made, {20.0, 20.0});
+  ASSERT_TRUE(a.converged);
+  EXPECT_NEAR(correlationAt(second.view(), made, a.position), a.correlation, 1e-3);
+  EXPECT_LT(correlationAt(second.view(), made, {24.0, 20.0}), a.correlation - 0.2);
+  EXPECT_LT(correlationAt(negative.view(), made, {20.0, 20.0}), -0.9);
+  EXPECT_LT(std::abs(correlationAt(unlike.view(), made, {20.0, 20.0})), 0.6);
+  EXPECT_EQ(correlationAt(second.view(), made, {2.0, 20.0}), 0.0);
+  EXPECT_EQ(correlationAt(second.view(), made, {std::nan(""), 20.0}), 0.0);
+}
+
 TEST(Patch, WarpFollowsScaleAndTurn) {
   Eigen::Vector2d bias = Eigen::Vector2d::Zero();
   int count = 0;

@@ -89,6 +89,10 @@ struct Alignment {
 Alignment alignPatch(const ImageView& image, const PatchTemplate& patch, const Eigen::Vector2d& start,
                      double reach = 3.0);
 
+/// How alike the image is to the template with its middle at `at`, without looking for a better place: weighted correlation, -1 ... 1; zero where the window
+/// leaves the image.
+double correlationAt(const ImageView& image, const PatchTemplate& patch, const Eigen::Vector2d& at);
+
 /// Alignment across a rectified pair: also how the disparity varies over the window.
 struct SlopedAlignment {
   Alignment alignment;  ///< covariance with the slopes marginalised
