@@ -22,9 +22,8 @@ constexpr double huber = 2.5;                               // standard deviatio
 constexpr double gate_two = 13.8, gate_three = 16.3;        // chi-square, 99.9 %
 constexpr double median_two = 1.386, median_three = 2.366;  // of chi-square
 constexpr double exact_offset = 1e6;                        // 1/px: what weighs an offset that is not allowed for
-constexpr int parts_across = 8, parts_down = 6;             // of the image, within which errors may be alike
+constexpr int parts_across = 4, parts_down = 3;             // of the image, within which errors may be alike
 constexpr double least_depth_sigmas = 3.0;
-constexpr double common_px = 0.04;  // bench, pairs: between days
 constexpr double settled_m = 1e-6, settled_rad = 1e-7;
 // Keeps the pose where matches leave it open; far below what any match says.
 constexpr double anchor = 1e-6;
@@ -92,10 +91,14 @@ double scaleOf(const std::vector<Sight>& sights, const std::vector<Reduced>& red
 }
 
 /// How much larger the covariance is than independent errors would have it: errors of neighbours are alike, since they lie on one surface, under one
-/// light, so the scores of each part of the image are summed before they are squared (Liang and Zeger 1986). The mean over all directions: from some tens of
-/// parts each alone would be known to no better than a factor of two.
-double inflation(const StereoCamera& camera, const std::vector<Sight>& sights, const std::vector<Reduced>& reduced,
-                 double scale2, const Matrix7d& H) {
+/// light, so the scores of each part of the image are summed before they are squared (Liang and Zeger 1986). One mean over the directions of the translation and
+/// one over those of the rotation: from some ten parts each direction alone would be known to no better than a factor of two.
+struct Inflation {
+  double translation = 1.0, rotation = 1.0;
+};
+
+Inflation inflation(const StereoCamera& camera, const std::vector<Sight>& sights, const std::vector<Reduced>& reduced,
+                    double scale2, const Matrix7d& H) {
   std::array<Vector7d, 2 * parts_across * parts_down> scores;
   std::array<bool, 2 * parts_across * parts_down> used{};
   scores.fill(Vector7d::Zero());
@@ -117,19 +120,28 @@ double inflation(const StereoCamera& camera, const std::vector<Sight>& sights, c
     S += scores[part] * scores[part].transpose();
     ++count;
   }
-  if (count <= 7) return 1.0;
-  const double mean = H.ldlt().solve(S).topLeftCorner<6, 6>().trace() / 6.0 * count / (count - 7.0);
-  return std::isfinite(mean) ? std::max(1.0, mean) : 1.0;
+  if (count <= 7) return {};
+  Matrix7d held = H;
+  held.diagonal().array() += anchor;
+  const Matrix7d C = held.ldlt().solve(Matrix7d::Identity()), V = C * S * C;
+  const auto mean = [&](int first) {
+    const Eigen::Matrix3d promised = C.block<3, 3>(first, first), found = V.block<3, 3>(first, first);
+    const double ratio = promised.ldlt().solve(found).trace() / 3.0 * count / (count - 7.0);
+    return std::isfinite(ratio) ? std::max(1.0, ratio) : 1.0;
+  };
+  return {mean(0), mean(3)};
 }
 
-/// Light moves all edges alike by some hundredths of a pixel (shadows under ledges; what a camera blurs): as if the other camera were turned, which no residual shows.
-Matrix6d withCommonError(const StereoCamera& camera, const Pose& T_a_b, const Matrix6d& information) {
-  Eigen::Matrix<double, 6, 3> turn = Eigen::Matrix<double, 6, 3>::Zero();
-  turn.bottomRows<3>() = T_a_b.R() * (common_px / camera.left.fx);
-  // (C + turn turn^T)^-1, without inverting the information, which may be singular
-  const Eigen::Matrix<double, 6, 3> seen = information * turn;
-  const Eigen::Matrix3d inner = Eigen::Matrix3d::Identity() + turn.transpose() * seen;
-  const Matrix6d made = information - seen * inner.inverse() * seen.transpose();
+/// With errors of all sights in common: as if the other camera were turned, and as if it stood elsewhere.
+Matrix6d withCommonError(const StereoCamera& camera, const Pose& T_a_b, const EstimateOptions& options,
+                         const Matrix6d& information) {
+  Matrix6d spread = Matrix6d::Zero();
+  spread.topLeftCorner<3, 3>() = options.common_m * Eigen::Matrix3d::Identity();
+  spread.bottomRightCorner<3, 3>() = T_a_b.R() * (options.common_px / camera.left.fx);
+  // (C + spread spread^T)^-1, without inverting the information, which may be singular
+  const Matrix6d seen = information * spread;
+  const Matrix6d inner = Matrix6d::Identity() + spread.transpose() * seen;
+  const Matrix6d made = information - seen * inner.ldlt().solve(seen.transpose());
   return 0.5 * (made + made.transpose());
 }
 
@@ -176,11 +188,17 @@ Estimate estimate(const StereoCamera& camera, const std::vector<Sight>& sights, 
   }
   scale2 = linearise();
   sum(scale2, H, b);
-  if (options.scaled) H /= inflation(camera, sights, reduced, scale2, H);
+  if (options.scaled) {
+    const Inflation larger = inflation(camera, sights, reduced, scale2, H);
+    Vector7d by = Vector7d::Ones();
+    by.head<3>().setConstant(1.0 / std::sqrt(larger.translation));
+    by.segment<3>(3).setConstant(1.0 / std::sqrt(larger.rotation));
+    H = (by.asDiagonal() * H * by.asDiagonal()).eval();
+  }
   made.noise_factor = std::sqrt(scale2);
   const Eigen::Matrix<double, 6, 1> cross = H.block<6, 1>(0, of_offset);
   made.information = H.topLeftCorner<6, 6>() - cross * cross.transpose() / H(of_offset, of_offset);
-  made.information = withCommonError(camera, made.T_a_b, made.information);
+  made.information = withCommonError(camera, made.T_a_b, options, made.information);
   made.sights.resize(sights.size());
   double total = 0.0;
   for (std::size_t i = 0; i < sights.size(); ++i) {

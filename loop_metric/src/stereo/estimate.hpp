@@ -13,7 +13,9 @@ struct EstimateOptions {
   int steps = 10;                    ///< at most
   double sigma_offset = 0.1;         ///< px, of the error of all disparities; 0: there is none
   double largest_residual_px = 1e9;  ///< of an inlier, px of the level where it was measured
-  bool scaled = true;                ///< the noise follows the residuals where they are larger than promised
+  /// Standard deviations of what no residual shows: the other camera seems turned (px at the centre of the image), and to stand elsewhere (m).
+  double common_px = 0.0, common_m = 0.0;
+  bool scaled = true;  ///< the noise follows the residuals where they are larger than promised
 };
 
 /// What one sight says at the end.

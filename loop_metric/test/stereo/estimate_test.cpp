@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <cmath>
 #include <vector>
 
@@ -100,6 +101,21 @@ TEST(Estimate, NoiseThatIsLargerThanPromisedIsSeen) {
   const Estimate larger = estimate(camera(), sights(T, 3.0, 0.0, 300, dice), T, {});
   EXPECT_NEAR(larger.noise_factor, 3.0, 0.4);
   EXPECT_LT(larger.information(1, 1), 0.3 * as_promised.information(1, 1));
+}
+
+TEST(Estimate, ErrorsInCommonAreAddedToTheCovariance) {
+  Dice dice(7);
+  const Pose T = motion(dice);
+  const auto seen = sights(T, 1.0, 0.0, 100, dice);
+  EstimateOptions options;
+  const Estimate without = estimate(camera(), seen, T, options);
+  options.common_px = 0.5;
+  options.common_m = 0.02;
+  const Estimate with = estimate(camera(), seen, T, options);
+  urban_nav_core::Matrix6d expected = without.information.inverse();
+  expected.topLeftCorner<3, 3>() += 0.02 * 0.02 * Eigen::Matrix3d::Identity();
+  expected.bottomRightCorner<3, 3>() += std::pow(0.5 / camera().left.fx, 2) * Eigen::Matrix3d::Identity();
+  EXPECT_LT((with.information * expected - urban_nav_core::Matrix6d::Identity()).cwiseAbs().maxCoeff(), 1e-6);
 }
 
 TEST(Estimate, FarPointsAloneLeaveTheTranslationOpen) {
