@@ -208,15 +208,21 @@ class Program {
     return text;
   }
 
+  static std::string raw(const urban_nav_core::Vector6d& d) {
+    std::string text;
+    for (int i = 0; i < 6; ++i) text += cell(1e3 * d[i], 3) + " ";
+    return text;
+  }
+
   static void list(const std::string& name, std::size_t i, std::size_t j, const Pose& truth,
                    const StereoClosure& closure) {
     const urban_nav_core::Vector6d d = urban_nav_core::boxMinus(truth, closure.lefts.T_a_b);
     std::printf(
-        "%s %zu %zu: %.2f m %.1f deg | put %d con %d vis %d match %d err %.3f px noise %.2f | %s | %.1f cm %.3f deg nees %.1f | %s\n",
+        "%s %zu %zu: %.2f m %.1f deg | put %d con %d vis %d match %d like %.3f err %.3f px noise %.2f | %s | %.1f cm %.3f deg nees %.1f | %s\n",
         name.c_str(), i, j, truth.t().norm(), degrees * urban_nav_core::angleBetween(truth, Pose()), closure.putative,
-        closure.consensus, closure.visible, closure.matches, closure.reprojection_px, closure.noise_factor,
-        toString(closure.reason), 100.0 * d.head<3>().norm(), degrees * d.tail<3>().norm(),
-        d.dot(closure.lefts.information * d), whitened(closure, d).c_str());
+        closure.consensus, closure.visible, closure.matches, closure.likeness, closure.reprojection_px,
+        closure.noise_factor, toString(closure.reason), 100.0 * d.head<3>().norm(), degrees * d.tail<3>().norm(),
+        d.dot(closure.lefts.information * d), (whitened(closure, d) + "# " + raw(d)).c_str());
   }
 
   void falsePairs(const std::string& name, const Recording& recording, const std::vector<Keyframe>& keyframes,
@@ -230,7 +236,7 @@ class Program {
     }
     if (pairs.empty()) return;
     Tally tally;
-    double largest_share = 0.0;
+    double largest_likeness = 0.0;
     int most_matches = 0;
     StereoMatcher matcher(recording.camera, parameters_);
     for (const auto& [i, j] : pairs) {
@@ -241,14 +247,14 @@ class Program {
       std::optional<Pose> T_a_b;
       if (accepted) T_a_b = closure.lefts.T_a_b;
       tally.see(T_a_b, nullptr, truth, processorMs() - before);
-      if (closure.visible > 0)
-        largest_share = std::max(largest_share, static_cast<double>(closure.matches) / closure.visible);
+      if (closure.matches >= parameters_.min_matches) largest_likeness = std::max(largest_likeness, closure.likeness);
       most_matches = std::max(most_matches, closure.matches);
       if (options_.list && (accepted || closure.matches > 20)) list(name + " FALSE", i, j, truth, closure);
       if (accepted) draw(name + "_false", keyframes[i], keyframes[j], closure);
     }
     std::cout << name << ": of " << pairs.size() << " false pairs " << tally.upgraded.size()
-              << " accepted; most matches " << most_matches << ", largest share " << cell(largest_share, 2) << "\n";
+              << " accepted; most matches " << most_matches << ", largest likeness of those with enough "
+              << cell(largest_likeness, 2) << "\n";
     tally.addTo(table, name, "another place", "loop_metric");
   }
 

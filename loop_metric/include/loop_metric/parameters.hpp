@@ -22,7 +22,7 @@ struct Parameters {
   int points;                     // of a keyframe
   int min_matches;                // to accept
   double max_reprojection_error;  // px, mean
-  double min_share;               // of the points that should be seen in the other view
+  double min_likeness;            // mean correlation
   double disparity_offset;        // px
   double pixel_noise_floor;       // px
   // clouds

@@ -22,10 +22,10 @@ enum class StereoReason {
   NoConsensus = 3,   ///< no motion through three pairs of points explains enough of the others
   TooFewMatches = 4,
   LargeError = 5,     ///< mean reprojection error
-  SmallShare = 6,     ///< too few of the points that the other view should show are there
+  Unlike = 6,         ///< where points should be, the other view looks otherwise: places that are alike in parts
   NotDetermined = 7,  ///< matches leave a direction open beyond use
 };
-/// "none", "no_image", "too_few_points", "no_consensus", "too_few_matches", "large_error", "small_share", "not_determined".
+/// "none", "no_image", "too_few_points", "no_consensus", "too_few_matches", "large_error", "unlike", "not_determined".
 const char* toString(StereoReason reason);
 
 /// One condition of a verdict, with what was found.
@@ -56,6 +56,7 @@ struct StereoClosure {
   int consensus = 0;             ///< of these, those that the best motion explains
   int visible = 0;               ///< points that the other view should show, by the transform
   int matches = 0;               ///< of these, those that were found by alignment and agree
+  double likeness = 0.0;         ///< mean correlation of visible points' patches with what the other view shows there
   double reprojection_px = 0.0;  ///< mean over the matches
   double noise_factor = 1.0;     ///< of standard deviations: how much larger residuals are than alignments promise
   std::vector<ClosureTest> tests;

@@ -33,6 +33,7 @@ constexpr std::size_t grain = 32;
 
 struct Found {
   bool visible = false, found = false;
+  double likeness = 0.0;
   double size = 1.0;  // px of level 0 in one of the level it was found at
   Sight sight;
 };
@@ -98,11 +99,12 @@ Found look(const StereoCamera& camera, const View& from, const View& to, const V
   if (!(start.x() >= margin && start.y() >= margin && start.x() < image.width - margin &&
         start.y() < image.height - margin))
     return made;
-  made.visible = true;
   PatchWarp warp(of_middle->warp.A * (to_scale / from_scale), of_middle->warp.bend / from_scale);
   warp.bend *= std::min(1.0, urban_nav_core::largest_bend / std::max(warp.bend.norm(), 1e-9));
   PatchTemplate patch;
   if (!urban_nav_core::warpTemplate(*source, warp, patch)) return made;
+  made.visible = true;
+  made.likeness = urban_nav_core::correlationAt(image, patch, start);
   const auto aligned = urban_nav_core::alignPatch(image, patch, start, options.reach);
   if (!aligned.converged || aligned.correlation < least_correlation || aligned.gain < least_gain ||
       aligned.gain > largest_gain || !aligned.covariance.allFinite())
@@ -139,9 +141,14 @@ Aligned alignViews(const StereoCamera& camera, const View& a, const View& b, con
   Aligned made;
   std::vector<Found> of_a = lookForAll(camera, a, b, T_a_b.inverse(), offset, options);
   const std::vector<Found> of_b = lookForAll(camera, b, a, T_a_b, offset, options);
+  const auto see = [&made](const Found& found) {
+    if (!found.visible) return;
+    ++made.visible;
+    made.likeness += found.likeness;
+  };
   std::vector<bool> taken(b.points.size(), false);
   for (Found& found : of_a) {
-    if (found.visible) ++made.visible;
+    see(found);
     if (!found.found) continue;
     Sight& sight = found.sight;
     double nearest = same_point_px * same_point_px;
@@ -165,11 +172,12 @@ Aligned alignViews(const StereoCamera& camera, const View& a, const View& b, con
   }
   for (std::size_t j = 0; j < of_b.size(); ++j) {
     if (taken[j]) continue;
-    if (of_b[j].visible) ++made.visible;
+    see(of_b[j]);
     if (!of_b[j].found) continue;
     made.sights.push_back(of_b[j].sight);
     made.sights.back().of_a = false;
   }
+  if (made.visible > 0) made.likeness /= made.visible;
   return made;
 }
 

@@ -18,7 +18,8 @@ struct AligningOptions {
 
 struct Aligned {
   std::vector<Sight> sights;
-  int visible = 0;  ///< points that the other view should show, and large enough
+  int visible = 0;        ///< points that the other view should show, and large enough
+  double likeness = 0.0;  ///< mean correlation of their patches with what it shows there
 };
 
 /// Looks for every point of one view in the other, at its place by T_a_b: the patch is warped by its surface and aligned at the pyramid level where both views show it

@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include "loop_metric/keyframe.hpp"
 #include "io/jpeg.hpp"
+#include "loop_metric/keyframe.hpp"
 #include "urban_nav_core/image/fast.hpp"
 #include "urban_nav_core/image/harris.hpp"
 #include "urban_nav_core/image/patch.hpp"
