@@ -25,6 +25,8 @@ using urban_nav_core::UncertainPose;
 
 namespace {
 
+constexpr std::size_t kept_matches = 8;  // some 50 kB each
+
 std::string words(const char* format, double value, double threshold) {
   std::array<char, 200> text{};
   std::snprintf(text.data(), text.size(), format, value, threshold);
@@ -46,17 +48,19 @@ Constraint atMoments(const Constraint& views, const NearbyView& a, const NearbyV
   return made;
 }
 
+}  // namespace
+
 /// One candidate on its way to a verdict.
 class Measuring {
  public:
-  Measuring(const Parameters& parameters, const Pose& T_base_left, StereoMatcher& matcher,
-            const TopologicalClosure& candidate, const Surroundings& surroundings)
-      : parameters_(parameters), T_base_left_(T_base_left), matcher_(matcher), surroundings_(surroundings) {
+  Measuring(LoopMetric& stage, const TopologicalClosure& candidate, const Surroundings& surroundings)
+      : stage_(stage), parameters_(stage.parameters_), surroundings_(surroundings) {
     closure_.metric.a = candidate.a;
     closure_.metric.b = candidate.b;
     closure_.metric.probability = candidate.probability;
     closure_.metric.source = "loop_metric";
-    if (const auto way = surroundings.between(candidate.a, candidate.b)) gate_.emplace(*way, parameters.odometry_scale);
+    if (const auto way = surroundings.between(candidate.a, candidate.b))
+      gate_.emplace(*way, parameters_.odometry_scale);
   }
 
   LoopClosure run() {
@@ -98,11 +102,11 @@ class Measuring {
     for (const ViewPair& pair :
          pairsOf(surroundings_.views(closure_.metric.a, way), surroundings_.views(closure_.metric.b, way), T_a_b, way,
                  static_cast<std::size_t>(parameters_.stereo_tries))) {
-      StereoTry made{pair.a, pair.b,
-                     matcher_.match(surroundings_.keyframe(pair.a.at), surroundings_.keyframe(pair.b.at))};
+      StereoTry made{pair.a, pair.b, stage_.match(pair.a, pair.b, surroundings_)};
       closure_.stereo.push_back(made);
       if (made.result.verdict != ClosureVerdict::Accepted) continue;
-      const Constraint measured = atMoments(betweenBases(made.result.lefts, T_base_left_), made.view_a, made.view_b);
+      const Constraint measured =
+          atMoments(betweenBases(made.result.lefts, stage_.T_base_left_), made.view_a, made.view_b);
       if (accept(ClosureMethod::Stereo, measured, {}, made.result.sentence)) return true;
     }
     return false;
@@ -114,11 +118,13 @@ class Measuring {
     if (target.points.empty() || source.points.empty()) return false;
     Pose guess;
     Search search = Search::AtOnce;
+    Possible possible;
     if (gate_) {
       guess = gate_->T_a_b().pose;
       search = Search::IfRejected;
+      possible = [this](const Constraint& T_a_b) { return gate_->deviations(T_a_b) <= parameters_.gate; };
     }
-    closure_.icp = align(source, target, parameters_, guess, search);
+    closure_.icp = align(source, target, parameters_, guess, search, possible);
     const Alignment& found = *closure_.icp;
     if (found.verdict == Verdict::Rejected) return false;
     return accept(ClosureMethod::Icp, {found.T_target_source, found.information}, found.free_directions,
@@ -168,15 +174,12 @@ class Measuring {
     closure_.metric.measured.information.setZero();
   }
 
+  LoopMetric& stage_;
   const Parameters& parameters_;
-  const Pose& T_base_left_;
-  StereoMatcher& matcher_;
   const Surroundings& surroundings_;
   std::optional<OdometryGate> gate_;
   LoopClosure closure_;
 };
-
-}  // namespace
 
 const char* toString(LoopReason reason) {
   switch (reason) {
@@ -195,8 +198,16 @@ LoopMetric::LoopMetric(const Parameters& parameters, const urban_nav_core::Stere
                        const Pose& T_base_left)
     : parameters_(parameters), T_base_left_(T_base_left), matcher_(camera, parameters) {}
 
+const StereoClosure& LoopMetric::match(const NearbyView& a, const NearbyView& b, const Surroundings& surroundings) {
+  for (const StereoTry& known : matched_)
+    if (known.view_a.at == a.at && known.view_b.at == b.at) return known.result;
+  matched_.push_front({a, b, matcher_.match(surroundings.keyframe(a.at), surroundings.keyframe(b.at))});
+  if (matched_.size() > kept_matches) matched_.pop_back();
+  return matched_.front().result;
+}
+
 LoopClosure LoopMetric::measure(const TopologicalClosure& candidate, const Surroundings& surroundings) {
-  return Measuring(parameters_, T_base_left_, matcher_, candidate, surroundings).run();
+  return Measuring(*this, candidate, surroundings).run();
 }
 
 }  // namespace loop_metric

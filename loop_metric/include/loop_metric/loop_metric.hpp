@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <list>
 #include <string>
 #include <vector>
 
@@ -54,9 +55,13 @@ class LoopMetric {
   LoopClosure measure(const urban_nav_core::TopologicalClosure& candidate, const Surroundings& surroundings);
 
  private:
+  friend class Measuring;  // one candidate on its way to a verdict
+  const StereoClosure& match(const NearbyView& a, const NearbyView& b, const Surroundings& surroundings);
+
   Parameters parameters_;
   urban_nav_core::Pose T_base_left_;
   StereoMatcher matcher_;
+  std::list<StereoTry> matched_;  // the last ones: candidates half a second apart choose the same views
 };
 
 }  // namespace loop_metric

@@ -10,7 +10,6 @@
 namespace loop_metric {
 
 using urban_nav_core::Matrix6d;
-using urban_nav_core::Pose;
 using urban_nav_core::Vector6d;
 
 namespace {
@@ -51,14 +50,6 @@ OdometryGate::OdometryGate(const Surroundings::Way& way, double scale) : T_a_b_(
 double OdometryGate::deviations(const urban_nav_core::Constraint& measured) const {
   return rootMeanDeviation(urban_nav_core::boxMinus(measured.T_a_b, T_a_b_.pose), T_a_b_.covariance,
                            measured.information);
-}
-
-double OdometryGate::deviations(const Pose& T_a_b, double sigma_m, double sigma_rad) const {
-  urban_nav_core::Constraint guess;
-  guess.T_a_b = T_a_b;
-  guess.information.diagonal() << Eigen::Vector3d::Constant(1.0 / (sigma_m * sigma_m)),
-      Eigen::Vector3d::Constant(1.0 / (sigma_rad * sigma_rad));
-  return deviations(guess);
 }
 
 double OdometryGate::leastDistance(double deviations) const {

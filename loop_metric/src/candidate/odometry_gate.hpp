@@ -17,8 +17,6 @@ class OdometryGate {
   /// Root mean square of the difference between `measured` and odometry, in standard deviations, over the directions that `measured` knows
   /// anything of: 1 is usual. 0 where it knows nothing.
   double deviations(const urban_nav_core::Constraint& measured) const;
-  /// The same of a guess that is good to `sigma_m` and `sigma_rad`.
-  double deviations(const urban_nav_core::Pose& T_a_b, double sigma_m, double sigma_rad) const;
   /// m by which the moments are apart at least, if odometry is wrong by at most so many standard deviations.
   double leastDistance(double deviations) const;
 
