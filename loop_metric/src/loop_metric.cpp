@@ -125,8 +125,13 @@ class Measuring {
       possible = [this](const Constraint& T_a_b) { return gate_->deviations(T_a_b) <= parameters_.gate; };
     }
     closure_.icp = align(source, target, parameters_, guess, search, possible);
-    const Alignment& found = *closure_.icp;
+    Alignment& found = *closure_.icp;
     if (found.verdict == Verdict::Rejected) return false;
+    if (found.verdict == Verdict::Degenerate && !gate_) {
+      // One flat facade lies on any other: what slides tells no place from another, unless odometry has said that it is this one.
+      found.sentence += "; without odometry between the moments that is no proof of a place";
+      return false;
+    }
     return accept(ClosureMethod::Icp, {found.T_target_source, found.information}, found.free_directions,
                   found.sentence);
   }

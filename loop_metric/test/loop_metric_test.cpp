@@ -136,6 +136,27 @@ TEST(LoopMetric, CloudsServeWhereThereAreNoViews) {
             "nothing_kept");
 }
 
+TEST(LoopMetric, AFacadeIsNoProofOfAPlaceUnlessOdometryHasBroughtUsThere) {
+  const testing::World world = testing::facade();
+  const std::vector<Pose> poses = {testing::stand(0, 0, 0), testing::stand(1, 0, 0), testing::stand(1.5, 0.2, 3.0)};
+  LineSurroundings around;
+  around.drive("there", poses, 0.02, 0.001);
+  around.drive("another day", {poses[2], poses[1]}, 0.02, 0.001);
+  around.clouds = [&](const PoseRef& at) {
+    const bool later = at.session == "another day";
+    return testing::scan(world, later ? poses[2] : poses[static_cast<std::size_t>(at.stamp / kSecond)], {},
+                         later ? 2U : 1U);
+  };
+  LoopMetric stage(Parameters(), {}, Pose());
+  const LoopClosure slid = stage.measure({{"there", 0}, {"another day", 0}, 0.9}, around);
+  EXPECT_EQ(reasonOf(slid), "not_registered");
+  const LoopClosure held = stage.measure({{"there", 0}, {"there", 2 * kSecond}, 0.9}, around);
+  ASSERT_EQ(held.metric.verdict, ClosureVerdict::Accepted) << held.metric.sentence;
+  EXPECT_FALSE(held.metric.free_directions.empty());
+  const auto d = urban_nav_core::boxMinus(poses[0].inverse() * poses[2], held.metric.measured.T_a_b);
+  EXPECT_LT(d.dot(held.metric.measured.information * d), 22.5);  // chi-square of six at 0.999: right where it says so
+}
+
 TEST(LoopMetric, UnknownMomentsAndEmptyPlacesAreNamed) {
   Street street;
   EXPECT_EQ(reasonOf(street.stage.measure(street.candidate(3.0, 500.0), street.around)), "unknown_moment");
