@@ -18,6 +18,7 @@ void archive(urban_nav_core::Archive& archive, KeyframePoint& point) {
 
 void archive(urban_nav_core::Archive& archive, Keyframe& keyframe) {
   archive(keyframe.at.session, keyframe.at.stamp, keyframe.width, keyframe.height, keyframe.image, keyframe.points);
+  if (!archive.isReading()) return;
   archive.require(
       keyframe.width >= 0 && keyframe.height >= 0 && keyframe.width <= largest_size && keyframe.height <= largest_size,
       "an image of no size");
