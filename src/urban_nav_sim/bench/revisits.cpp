@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Views of places that are seen again, for loop_metric/bench/pairs.cpp: a folder in KITTI's layout with the true poses. Three times along one way: as it is; some
+// metres before or behind, up to 1.6 m and 20 deg aside; and so once more on another day.
+//   revisits [--world W] [--seed N] [--places 36] [--step 2] [--folder DIR]
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "camera/heads.hpp"
+#include "camera/sky.hpp"
+#include "ride/make_ride.hpp"
+#include "rig/places.hpp"
+#include "support/program.hpp"
+#include "trace/tracer.hpp"
+#include "urban_nav_core/io/calibration.hpp"
+#include "urban_nav_core/io/kitti.hpp"
+
+namespace {
+
+using namespace urban_nav_sim;
+using namespace urban_nav_sim::bench;
+using urban_nav_core::Pose;
+
+constexpr double kStart = 6.0;  // s: the robot has begun to move
+constexpr double kMostBefore = 2.5, kMostAside = 1.6, kMostTurned = 0.35, kMostTilted = 0.02,
+                 kMostLifted = 0.02;        // s, m, rad, rad, m
+constexpr int kPictures = 10;               // until the exposure has settled
+constexpr double kBetweenPictures = 0.001;  // s
+
+/// Another ride, at another time and from aside.
+struct Aside : Ride {
+  explicit Aside(const Ride& ride) : way(ride) {}
+  double duration() const override { return way.duration(); }
+  Moment at(double t) const override {
+    Moment moment = way.at(t + later);
+    moment.T_world_base = moment.T_world_base * T_way_base;
+    return moment;
+  }
+
+  const Ride& way;
+  double later = 0.0;
+  Pose T_way_base;
+};
+
+void goAside(const Noise& noise, Aside& ride) {
+  const auto draw = [&noise](std::uint64_t counter, double most) { return noise.uniform(counter, -most, most); };
+  ride.later = draw(0, kMostBefore);
+  ride.T_way_base = Pose(urban_nav_core::expSo3({draw(1, kMostTilted), draw(2, kMostTilted), draw(3, kMostTurned)}),
+                         {0.0, draw(4, kMostAside), draw(5, kMostLifted)});
+}
+
+class Folder {
+ public:
+  explicit Folder(std::string path) : path_(std::move(path)) {
+    for (const char* side : {"/image_0", "/image_1"}) std::filesystem::create_directories(path_ + side);
+  }
+
+  void add(const std::array<cv::Mat, 2>& images, const Pose& T_world_left) {
+    std::string name = std::to_string(poses_.size());
+    name.insert(0, 6 - name.size(), '0');
+    for (std::size_t side = 0; side < 2; ++side) {
+      const std::string path = path_ + "/image_" + std::to_string(side) + "/" + name + ".png";
+      if (!cv::imwrite(path, images[side])) throw std::runtime_error(path + ": not written");
+    }
+    poses_.push_back(T_world_left);
+  }
+
+  void finish(const std::array<Camera, 2>& cameras) const {
+    std::ofstream times(path_ + "/times.txt");
+    for (std::size_t i = 0; i < poses_.size(); ++i) times << i << "\n";
+    std::ofstream(path_ + "/calib.txt") << urban_nav_core::printKittiCalibration(
+        urban_nav_core::stereoCamera(cameras[0].info, cameras[1].info, "revisits"));
+    urban_nav_core::writeKitti(path_ + "/poses.txt", poses_);
+  }
+
+ private:
+  std::string path_;
+  std::vector<Pose> poses_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  const Options options(argc, argv);
+  const std::string world = options.text("--world", "quad");
+  const auto seed = static_cast<std::uint32_t>(options.number("--seed", 1.0));
+  const int places = static_cast<int>(options.number("--places", 36.0));
+  const double step = options.number("--step", 2.0);  // s of the ride
+  const Pose T_base_left = placeOf("stereo_left_optical_frame");
+  const Noise noise(seed, "revisits");
+  Folder folder(options.text("--folder", world));
+  RideOptions ride_options;
+  ride_options.duration = kStart + kMostBefore + step * places + 1.0;
+  const std::array<Camera, 2> cameras = bumblebee(StereoImages::Rectified);
+  for (const int pass : {0, 1, 2}) {
+    const World on_day = buildWorld(world, seed, pass == 2 ? 2 : 1);
+    const auto way = makeRide(on_day, routeOf(world, seed, "loops"), ride_options);
+    const Tracer tracer(on_day);
+    const Sky sky(on_day.day, noise.of("sky").bits(0));
+    const Noise here = noise.of(static_cast<std::uint64_t>(pass));
+    StereoHead head(tracer, sky, StereoImages::Rectified, T_base_left, here.bits(0));
+    Aside ride(*way);
+    for (int place = 0; place < places; ++place) {
+      if (pass > 0) goAside(here.of(static_cast<std::uint64_t>(place)), ride);
+      double t = kStart + step * place;
+      std::array<cv::Mat, 2> images = head.take(ride, t);
+      for (int again = 1; place == 0 && again < kPictures; ++again) images = head.take(ride, t += kBetweenPictures);
+      folder.add(images, ride.at(t).T_world_base * T_base_left);
+    }
+  }
+  folder.finish(cameras);
+  return 0;
+} catch (const std::exception& error) {
+  return urban_nav_sim::bench::complain(error);
+}
