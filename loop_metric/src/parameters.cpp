@@ -34,6 +34,8 @@ const Table<Parameters>& table() {
            "Moments whose transform puts them further apart than this are not the one place that the candidate says, however right it is.", "section 3: places within 7.5 m, and a fifth for doubt"},
           {"gate", &P::gate, "", 5.0, 1.0, 1000.0, {},
            "By how many standard deviations (root mean square) a transform may differ from odometry and from its neighbours.", "section 4"},
+          {"map_sigma", &P::map_sigma, "m", 0.05, 0.0, 10.0, {},
+           "How far the poses of a map that one localises in may be off.", "pose_graph/README.md, end to end"},
           {"odometry_scale", &P::odometry_scale, "", 0.01, 0.0, 1.0, {},
            "Error that all of odometry's steps may have in common, as a share of the way driven between the moments: its covariance does not tell.", "swf_vo.disparity_offset"},
           {"points", &P::points, "", std::int64_t{500}, std::int64_t{50}, std::int64_t{5000}, {},

@@ -17,6 +17,7 @@ struct Parameters {
   double cloud_way;       // m
   double place_radius;    // m
   double gate;            // standard deviations
+  double map_sigma;       // m
   double odometry_scale;  // share
   // stereo
   int points;                     // of a keyframe

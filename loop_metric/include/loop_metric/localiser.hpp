@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "loop_metric/parameters.hpp"
+#include "urban_nav_core/trajectory/odometry_chain.hpp"
+#include "urban_nav_core/types/closure.hpp"
+#include "urban_nav_core/types/uncertain.hpp"
+
+namespace loop_metric {
+
+/// Does the robot know where in a map it is?
+enum class Knowledge {
+  Unsure,  ///< it may be in the map: nothing says where, what says so has no second witness, or it was too long ago
+  Known,   ///< witnesses that agree say where, and odometry since then is good enough
+  New,     ///< it looks around and knows nothing of what it sees
+};
+/// "UNSURE", "KNOWN", "NEW".
+const char* toString(Knowledge knowledge);
+
+/// Where the robot is, and how that is known.
+struct Located {
+  urban_nav_core::StampNs stamp = 0;
+  Knowledge knowledge = Knowledge::Unsure;
+  /// The best guess there is, UNSURE ones too; empty where there is none.
+  std::optional<urban_nav_core::UncertainPose> T_map_base;
+  int witnesses = 0;     ///< sightings that agree with it
+  std::string sentence;  ///< for a person
+};
+
+/// Finds a robot in a map that stays as it is: from closures between a place of the map and a moment of its drive, and from odometry in between.
+///
+/// Sightings that agree with each other along odometry are one hypothesis. KNOWN takes two of one hypothesis at places half a metre apart or more, and none that has as many
+/// witnesses beside it: one false sighting never moves the robot, two that agree against it take the hypothesis over. The map's own poses are taken as exact to
+/// Parameters::map_sigma. Not thread-safe. The same calls give the same bits.
+class Localiser {
+ public:
+  explicit Localiser(const Parameters& parameters);
+
+  /// Steps in order, as OdometryChain has them.
+  bool addOdometry(const urban_nav_core::RelativePose& step);
+  /// `measured`: T_a_b from a place of the map, at T_map_a, to the robot at `b`. Directions without information count for nothing; a closure that leaves
+  /// some free is a witness, but no hypothesis begins with it.
+  void addSighting(urban_nav_core::StampNs b, const urban_nav_core::Pose& T_map_a,
+                   const urban_nav_core::Constraint& measured);
+  /// What somebody believes (initialpose): a hypothesis like any other, which needs a sighting to be KNOWN.
+  void addBelief(urban_nav_core::StampNs at, const urban_nav_core::UncertainPose& T_map_base);
+  /// At this moment the robot looked for the place in the map and found nothing like it.
+  void addNothing(urban_nav_core::StampNs at);
+
+  /// At the newest frame of odometry.
+  Located now() const;
+  /// At any moment, with what is known by now.
+  Located at(urban_nav_core::StampNs stamp) const;
+
+ private:
+  struct Sighting {
+    urban_nav_core::StampNs stamp = 0;
+    urban_nav_core::UncertainPose T_map_base;
+    bool begins = true;  ///< a hypothesis may begin with it
+    bool sees = true;    ///< else somebody's belief
+  };
+  /// Sightings that agree with one of them, and what they say together.
+  struct Hypothesis {
+    std::vector<std::size_t> members;  // ascending in time
+    int witnesses = 0;                 // places of members that see, half a metre apart
+  };
+  bool agree(const Sighting& one, const Sighting& other) const;
+  Hypothesis around(std::size_t sighting) const;
+  urban_nav_core::UncertainPose fuse(const Hypothesis& hypothesis, urban_nav_core::StampNs stamp) const;
+  void add(const Sighting& sighting);
+  void choose();
+
+  Parameters parameters_;
+  urban_nav_core::OdometryChain odometry_;
+  std::vector<Sighting> sightings_;  // the latest, in order of time
+  std::vector<urban_nav_core::StampNs> nothing_;
+  Hypothesis best_, second_;
+};
+
+}  // namespace loop_metric

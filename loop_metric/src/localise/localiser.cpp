@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loop_metric/localiser.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "urban_nav_core/geometry/compose.hpp"
+#include "urban_nav_core/geometry/covariance_frames.hpp"
+#include "urban_nav_core/geometry/dense.hpp"
+#include "urban_nav_core/trajectory/nees.hpp"
+
+namespace loop_metric {
+
+using urban_nav_core::Constraint;
+using urban_nav_core::Matrix6d;
+using urban_nav_core::Pose;
+using urban_nav_core::StampNs;
+using urban_nav_core::UncertainPose;
+using urban_nav_core::Vector6d;
+
+namespace {
+
+constexpr std::size_t most_sightings = 40;  // that are compared, pair by pair
+constexpr int enough = 2;                   // witnesses: one may be false
+constexpr double apart = 0.5;               // m: closer than this, a second look is the first one again
+constexpr double metres_per_radian = 10.0;  // for directions of which a sighting knows nothing
+constexpr double known_sigma = 0.33;        // m: three of them are the metre that KNOWN promises
+constexpr int looks_for_new = 3;            // in a row without anything like it
+
+double positionSigma(const UncertainPose& pose) {
+  const auto values = urban_nav_core::symmetricEigenvalues(pose.covariance.topLeftCorner<3, 3>());
+  return values ? std::sqrt(std::max(0.0, (*values)[2])) : 1e6;
+}
+
+std::string metres(double value) {
+  const int centimetres = static_cast<int>(std::lround(std::min(value, 1e4) * 100.0));
+  return std::to_string(centimetres / 100) + "." + std::to_string(centimetres / 10 % 10) +
+         std::to_string(centimetres % 10) + " m";
+}
+
+}  // namespace
+
+const char* toString(Knowledge knowledge) {
+  switch (knowledge) {
+    case Knowledge::Unsure: return "UNSURE";
+    case Knowledge::Known: return "KNOWN";
+    case Knowledge::New: break;
+  }
+  return "NEW";
+}
+
+Localiser::Localiser(const Parameters& parameters) : parameters_(parameters) {}
+
+bool Localiser::addOdometry(const urban_nav_core::RelativePose& step) { return odometry_.append(step); }
+
+void Localiser::addSighting(StampNs b, const Pose& T_map_a, const Constraint& measured) {
+  Sighting sighting;
+  sighting.stamp = b;
+  Constraint measured_exact = measured;
+  const Matrix6d covariance = urban_nav_core::covarianceForDisplay(measured.information, metres_per_radian);
+  const double sigma = parameters_.map_sigma;
+  Matrix6d of_map = Matrix6d::Zero();
+  of_map.diagonal() << Eigen::Vector3d::Constant(sigma * sigma),
+      Eigen::Vector3d::Constant(sigma * sigma / (metres_per_radian * metres_per_radian));
+  sighting.T_map_base = compose(UncertainPose{T_map_a, of_map}, UncertainPose{measured_exact.T_a_b, covariance});
+  sighting.begins = positionSigma(sighting.T_map_base) < 1.0;
+  if (sighting.T_map_base.pose.isFinite() && sighting.T_map_base.covariance.allFinite()) add(sighting);
+}
+
+void Localiser::addBelief(StampNs at, const UncertainPose& T_map_base) {
+  Sighting belief;
+  belief.stamp = at;
+  belief.T_map_base = T_map_base;
+  belief.sees = false;
+  if (T_map_base.pose.isFinite() && T_map_base.covariance.allFinite()) add(belief);
+}
+
+void Localiser::addNothing(StampNs at) { nothing_.push_back(at); }
+
+void Localiser::add(const Sighting& sighting) {
+  if (!odometry_.momentOf(sighting.stamp)) return;  // nobody knows where the robot was then
+  nothing_.clear();
+  const auto place = std::upper_bound(sightings_.begin(), sightings_.end(), sighting,
+                                      [](const Sighting& a, const Sighting& b) { return a.stamp < b.stamp; });
+  sightings_.insert(place, sighting);
+  if (sightings_.size() > most_sightings) sightings_.erase(sightings_.begin());
+  choose();
+}
+
+bool Localiser::agree(const Sighting& one, const Sighting& other) const {
+  const auto way = odometry_.between(one.stamp, other.stamp);
+  if (!way) return false;
+  UncertainPose expected = compose(one.T_map_base, *way);
+  const double common =
+      parameters_.odometry_scale * std::abs(odometry_.distance(one.stamp) - odometry_.distance(other.stamp));
+  expected.covariance.diagonal().head<3>().array() += common * common;
+  expected.covariance += other.T_map_base.covariance;
+  const auto squares = urban_nav_core::nees(other.T_map_base.pose, expected);
+  return squares && std::sqrt(*squares / 6.0) <= parameters_.gate;
+}
+
+Localiser::Hypothesis Localiser::around(std::size_t sighting) const {
+  Hypothesis made;
+  double last = -1e9;
+  for (std::size_t i = 0; i < sightings_.size(); ++i) {
+    if (i != sighting && !agree(sightings_[sighting], sightings_[i])) continue;
+    made.members.push_back(i);
+    const double here = odometry_.distance(sightings_[i].stamp);
+    if (!sightings_[i].sees || here - last < apart) continue;
+    ++made.witnesses;
+    last = here;
+  }
+  return made;
+}
+
+void Localiser::choose() {
+  std::vector<Hypothesis> all;
+  for (std::size_t i = 0; i < sightings_.size(); ++i)
+    if (sightings_[i].begins) all.push_back(around(i));
+  // The most witnesses; of equally many the one that saw last.
+  const auto better = [&](const Hypothesis& x, const Hypothesis& y) {
+    return x.witnesses != y.witnesses ? x.witnesses > y.witnesses : x.members.back() > y.members.back();
+  };
+  best_ = second_ = Hypothesis();
+  for (const Hypothesis& each : all)
+    if (best_.members.empty() || better(each, best_)) best_ = each;
+  for (const Hypothesis& each : all) {
+    const bool shares = std::any_of(each.members.begin(), each.members.end(), [&](std::size_t member) {
+      return std::find(best_.members.begin(), best_.members.end(), member) != best_.members.end();
+    });
+    if (!shares && (second_.members.empty() || better(each, second_))) second_ = each;
+  }
+}
+
+UncertainPose Localiser::fuse(const Hypothesis& hypothesis, StampNs stamp) const {
+  // All of them brought to the last one, and from there on by odometry: its errors are in common to all.
+  const Sighting& last = sightings_[hypothesis.members.back()];
+  UncertainPose sum = last.T_map_base;
+  for (auto member = hypothesis.members.rbegin() + 1; member != hypothesis.members.rend(); ++member) {
+    const Sighting& sighting = sightings_[*member];
+    const auto way = odometry_.between(sighting.stamp, last.stamp);
+    if (!way) continue;
+    UncertainPose there = compose(sighting.T_map_base, *way);
+    const double common =
+        parameters_.odometry_scale * std::abs(odometry_.distance(last.stamp) - odometry_.distance(sighting.stamp));
+    there.covariance.diagonal().head<3>().array() += common * common;
+    // Kalman's update with one more measurement of the whole pose.
+    const auto inverse = urban_nav_core::invertPositiveDefinite(Matrix6d(sum.covariance + there.covariance));
+    if (!inverse) continue;
+    const Matrix6d gain = sum.covariance * *inverse;
+    const Vector6d d = boxMinus(there.pose, sum.pose);
+    sum.pose = boxPlus(sum.pose, gain * d);
+    const Matrix6d covariance = sum.covariance - gain * sum.covariance;
+    sum.covariance = 0.5 * (covariance + covariance.transpose());
+  }
+  // What the map itself may be wrong is in common to all of them.
+  const double sigma = parameters_.map_sigma;
+  sum.covariance.diagonal().head<3>().array() += sigma * sigma;
+  const auto way = odometry_.between(last.stamp, stamp);
+  if (!way) return sum;
+  UncertainPose now = compose(sum, *way);
+  const double common =
+      parameters_.odometry_scale * std::abs(odometry_.distance(stamp) - odometry_.distance(last.stamp));
+  now.covariance.diagonal().head<3>().array() += common * common;
+  return now;
+}
+
+Located Localiser::now() const { return odometry_.empty() ? Located() : at(odometry_.trajectory().back().stamp); }
+
+Located Localiser::at(StampNs stamp) const {
+  Located located;
+  located.stamp = stamp;
+  const bool looks_in_vain = nothing_.size() >= static_cast<std::size_t>(looks_for_new);
+  if (best_.members.empty() || !odometry_.momentOf(stamp)) {
+    located.knowledge = looks_in_vain ? Knowledge::New : Knowledge::Unsure;
+    located.sentence = looks_in_vain ? "nothing here looks like the map" : "nothing in the map was recognised yet";
+    return located;
+  }
+  located.T_map_base = fuse(best_, stamp);
+  located.witnesses = best_.witnesses;
+  const double sigma = positionSigma(*located.T_map_base);
+  if (best_.witnesses < enough) {
+    located.sentence = best_.witnesses == 0 ? "somebody says so, and nothing was seen of it"
+                                            : "one sighting, and no second one that agrees";
+  } else if (second_.witnesses >= best_.witnesses) {
+    located.sentence = "as many sightings say that it is elsewhere";
+  } else if (sigma > known_sigma) {
+    located.knowledge = looks_in_vain ? Knowledge::New : Knowledge::Unsure;
+    located.sentence = "the last sighting is too long ago: odometry is good to " + metres(sigma);
+    return located;
+  } else {
+    located.knowledge = Knowledge::Known;
+    located.sentence = std::to_string(best_.witnesses) + " sightings agree, to " + metres(sigma);
+  }
+  return located;
+}
+
+}  // namespace loop_metric

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loop_metric/localiser.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "urban_nav_core/testing/dice.hpp"
+
+namespace loop_metric {
+namespace {
+
+using urban_nav_core::Constraint;
+using urban_nav_core::Pose;
+using urban_nav_core::StampNs;
+
+constexpr StampNs kSecond = 1'000'000'000;
+
+Pose at(double x, double y = 0.0, double heading = 0.0) {
+  return Pose(urban_nav_core::expSo3({0.0, 0.0, heading}), {x, y, 0.0});
+}
+
+/// A robot that drives a metre a second along x of the map from (10, 5).
+class LocaliserTest : public ::testing::Test {
+ protected:
+  void drive(int seconds, double sigma_m = 0.01) {
+    for (int i = 0; i < seconds; ++i) {
+      urban_nav_core::RelativePose step;
+      step.from = now_ * kSecond;
+      step.to = ++now_ * kSecond;
+      step.T_from_to = at(1.0);
+      step.covariance.setZero();
+      step.covariance.diagonal() << Eigen::Vector3d::Constant(sigma_m * sigma_m), Eigen::Vector3d::Constant(1e-6);
+      ASSERT_TRUE(localiser_.addOdometry(step));
+    }
+  }
+  static Pose truth(double seconds) { return at(10.0 + seconds, 5.0); }
+  /// A sighting of a place of the map 2 m beside, wrong by `error` in the map.
+  void see(int second, const Pose& error = Pose(), double sigma_m = 0.02) {
+    const Pose T_map_a = at(11.0 + second, 7.0, 1.0);
+    Constraint measured;
+    measured.T_a_b = T_map_a.inverse() * error * truth(second);
+    measured.information.diagonal() << Eigen::Vector3d::Constant(1.0 / (sigma_m * sigma_m)),
+        Eigen::Vector3d::Constant(1e6);
+    localiser_.addSighting(second * kSecond, T_map_a, measured);
+  }
+  void expectRight(double metres) const {
+    const Located located = localiser_.now();
+    EXPECT_EQ(located.knowledge, Knowledge::Known) << located.sentence;
+    ASSERT_TRUE(located.T_map_base);
+    EXPECT_LT(distanceBetween(located.T_map_base->pose, truth(static_cast<double>(now_))), metres);
+  }
+
+  Localiser localiser_{Parameters()};
+  StampNs now_ = 0;
+};
+
+TEST_F(LocaliserTest, KnowsNothingAtFirst) {
+  EXPECT_EQ(localiser_.now().knowledge, Knowledge::Unsure);
+  drive(3);
+  EXPECT_EQ(localiser_.now().knowledge, Knowledge::Unsure);
+  EXPECT_FALSE(localiser_.now().T_map_base);
+}
+
+TEST_F(LocaliserTest, OneSightingIsAGuessAndTwoThatAgreeAreKnown) {
+  drive(3);
+  see(1);
+  EXPECT_EQ(localiser_.now().knowledge, Knowledge::Unsure);
+  EXPECT_TRUE(localiser_.now().T_map_base);
+  see(3);
+  expectRight(0.01);
+  drive(5);
+  expectRight(0.01);
+}
+
+TEST_F(LocaliserTest, TheSamePlaceTwiceIsOneWitness) {
+  drive(3);
+  see(3);
+  see(3);
+  EXPECT_EQ(localiser_.now().knowledge, Knowledge::Unsure);
+}
+
+TEST_F(LocaliserTest, OneFalseSightingMovesNothing) {
+  drive(8);
+  for (const int second : {1, 3, 5}) see(second);
+  see(7, at(20.0, -3.0));
+  expectRight(0.01);
+}
+
+TEST_F(LocaliserTest, FalseOnesThatDisagreeWithEachOtherAreNeverKnown) {
+  urban_nav_core::testing::Dice dice(4);
+  drive(20);
+  for (int second = 1; second < 20; second += 2)
+    see(second, at(dice.uniform(-30.0, 30.0), dice.uniform(-30.0, 30.0), dice.uniform(-3.0, 3.0)));
+  EXPECT_NE(localiser_.now().knowledge, Knowledge::Known);
+}
+
+TEST_F(LocaliserTest, TwoHypothesesWithAsManyWitnessesAreUnsure) {
+  drive(8);
+  see(1);
+  see(3);
+  see(5, at(20.0));
+  see(7, at(20.0));
+  EXPECT_EQ(localiser_.now().knowledge, Knowledge::Unsure);
+  drive(2);
+  see(9);
+  expectRight(0.02);
+}
+
+TEST_F(LocaliserTest, OdometryWearsOut) {
+  drive(3);
+  see(1);
+  see(3);
+  drive(400, 0.03);
+  EXPECT_EQ(localiser_.now().knowledge, Knowledge::Unsure);
+  ASSERT_TRUE(localiser_.now().T_map_base);
+  const Located before = localiser_.at(4 * kSecond);
+  EXPECT_EQ(before.knowledge, Knowledge::Known);
+}
+
+TEST_F(LocaliserTest, SightingsOverManyPlacesAreFusedAndTheCovarianceHolds) {
+  urban_nav_core::testing::Dice dice(9);
+  drive(20);
+  for (int second = 1; second <= 20; ++second) see(second, at(0.05 * dice.normal(), 0.05 * dice.normal()), 0.05);
+  expectRight(0.05);
+  EXPECT_LT(std::sqrt(localiser_.now().T_map_base->covariance(0, 0)), 0.08);
+  EXPECT_GT(std::sqrt(localiser_.now().T_map_base->covariance(0, 0)), 0.01);
+}
+
+TEST_F(LocaliserTest, LooksInVainAreANewPlace) {
+  drive(5);
+  for (const int second : {1, 2, 3}) localiser_.addNothing(second * kSecond);
+  EXPECT_EQ(localiser_.now().knowledge, Knowledge::New);
+  see(4);
+  EXPECT_EQ(localiser_.now().knowledge, Knowledge::Unsure);
+}
+
+TEST_F(LocaliserTest, ABeliefAloneIsNotKnownAndOneSightingIsNotEnoughForItEither) {
+  drive(4);
+  localiser_.addBelief(1 * kSecond, {truth(1), 0.01 * urban_nav_core::Matrix6d::Identity()});
+  EXPECT_EQ(localiser_.now().knowledge, Knowledge::Unsure);
+  ASSERT_TRUE(localiser_.now().T_map_base);
+  EXPECT_LT(distanceBetween(localiser_.now().T_map_base->pose, truth(4)), 0.01);
+  see(3);
+  EXPECT_EQ(localiser_.now().knowledge, Knowledge::Unsure);
+  see(4);
+  expectRight(0.02);
+}
+
+TEST_F(LocaliserTest, AWallAloneIsNoHypothesis) {
+  drive(6);
+  for (const int second : {1, 3, 5}) {
+    const Pose T_map_a = at(11.0 + second, 7.0);
+    Constraint measured;
+    measured.T_a_b = T_map_a.inverse() * truth(second) * at(4.0);  // slid along it
+    measured.information.diagonal() << 0.0, Eigen::Vector2d::Constant(1e4), Eigen::Vector3d::Constant(1e6);
+    localiser_.addSighting(second * kSecond, T_map_a, measured);
+  }
+  EXPECT_EQ(localiser_.now().knowledge, Knowledge::Unsure);
+  see(4);
+  see(6);
+  expectRight(0.02);
+}
+
+TEST_F(LocaliserTest, WhatIsNoNumberOrOfNoMomentIsLeftOut) {
+  drive(3);
+  Constraint broken;
+  broken.information(0, 0) = std::numeric_limits<double>::quiet_NaN();
+  localiser_.addSighting(1 * kSecond, Pose(), broken);
+  see(100);
+  EXPECT_FALSE(localiser_.now().T_map_base);
+}
+
+}  // namespace
+}  // namespace loop_metric
