@@ -43,6 +43,9 @@ class StoredSurroundings : public Surroundings {
   StoredSurroundings(Sessions sessions, const urban_nav_store::KeyframeStore& keyframes,
                      const urban_nav_store::ScanStore& scans);
 
+  /// A view of a session that is being recorded has been stored, later than those before; its odometry may grow likewise.
+  void add(const urban_nav_core::PoseRef& view);
+
   bool knows(const urban_nav_core::PoseRef& at, std::string& why) const override;
   std::vector<NearbyView> views(const urban_nav_core::PoseRef& at, double way) const override;
   Keyframe keyframe(const urban_nav_core::PoseRef& at) const override;

@@ -53,6 +53,13 @@ StoredSurroundings::StoredSurroundings(Sessions sessions, const urban_nav_store:
     if (session.has_camera) stamps_[name] = keyframes_.stamps(session.id, keyframe_camera);
 }
 
+void StoredSurroundings::add(const PoseRef& view) {
+  const SessionOfStore* session = find(view);
+  if (session == nullptr || !session->has_camera) return;
+  std::vector<StampNs>& stamps = stamps_[view.session];
+  if (stamps.empty() || stamps.back() < view.stamp) stamps.push_back(view.stamp);
+}
+
 const SessionOfStore* StoredSurroundings::find(const PoseRef& at) const {
   const auto session = sessions_.find(at.session);
   return session == sessions_.end() ? nullptr : &session->second;

@@ -8,19 +8,17 @@
 namespace urban_nav {
 
 KeyframeKeeper::KeyframeKeeper(const loop_metric::Parameters& parameters, const urban_nav_core::StereoCamera& camera)
-    : way_(parameters.keyframe_way), turn_(parameters.keyframe_turn), maker_(camera, parameters.points) {}
+    : choice_(parameters), maker_(camera, parameters.points) {}
 
 void KeyframeKeeper::goOn(const VoRun& run, const std::vector<urban_nav_core::StampNs>& kept) {
   for (const VoRow& row : run.rows)
-    if (std::binary_search(kept.begin(), kept.end(), row.stamp)) last_ = row.T_odom_base;
+    if (std::binary_search(kept.begin(), kept.end(), row.stamp)) choice_.keep(row.T_odom_base);
 }
 
 std::optional<urban_nav_store::StoredKeyframe> KeyframeKeeper::process(const urban_nav_core::StereoPair& pair,
                                                                        const VoRow& row) {
   if (!row.accepted || pair.left.empty() || pair.right.empty()) return std::nullopt;
-  const urban_nav_core::Pose& here = row.T_odom_base;
-  if (last_ && distanceBetween(*last_, here) < way_ && angleBetween(*last_, here) < turn_) return std::nullopt;
-  last_ = here;
+  if (!choice_.choose(row.T_odom_base)) return std::nullopt;
   return loop_metric::storedKeyframe(maker_.make({"", row.stamp}, pair));
 }
 

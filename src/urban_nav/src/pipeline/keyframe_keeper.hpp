@@ -5,14 +5,15 @@
 #include <vector>
 
 #include "loop_metric/keyframe.hpp"
+#include "loop_metric/keyframe_choice.hpp"
 #include "loop_metric/parameters.hpp"
 #include "pipeline/vo_stage.hpp"
 #include "urban_nav_store/keyframe_store.hpp"
 
 namespace urban_nav {
 
-/// Chooses the views of a session that are kept for the stage loops: the first, and each one behind so much way or so much of a turn, by odometry as
-/// it was at the moment. The same run gives the same views, also where it goes on behind a bag.
+/// The views of a session that are kept for the stage loops, as KeyframeChoice has it. The same run gives the same views, also where it goes on
+/// behind a bag.
 class KeyframeKeeper {
  public:
   KeyframeKeeper(const loop_metric::Parameters& parameters, const urban_nav_core::StereoCamera& camera);
@@ -24,9 +25,8 @@ class KeyframeKeeper {
   std::optional<urban_nav_store::StoredKeyframe> process(const urban_nav_core::StereoPair& pair, const VoRow& row);
 
  private:
-  const double way_, turn_;
+  loop_metric::KeyframeChoice choice_;
   loop_metric::KeyframeMaker maker_;
-  std::optional<urban_nav_core::Pose> last_;  // T_odom_base of the last view that was kept
 };
 
 }  // namespace urban_nav

@@ -6,13 +6,13 @@
 #include <memory>
 #include <mutex>
 
+#include "loop_metric/camera_words.hpp"
 #include "loop_metric/consistency.hpp"
 #include "loop_metric/loop_metric.hpp"
 #include "loop_metric/stored_surroundings.hpp"
 #include "pipeline/closure_picture.hpp"
 #include "pipeline/vo_files.hpp"
 #include "pipeline/vo_summary.hpp"
-#include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_core/types/error.hpp"
 
@@ -46,7 +46,7 @@ StoredSurroundings::Sessions sessionsOf(const std::vector<LoopsSession>& session
     its.odometry = std::make_shared<urban_nav_core::OdometryChain>(odometryOf(*session.run));
     its.has_camera = false;
     for (const urban_nav_store::Property& property : store.sessions().properties(session.id))
-      if (property.name == kCameraProperty) its.has_camera = property.value == camera;
+      if (property.name == loop_metric::camera_property) its.has_camera = property.value == camera;
     const std::vector<std::string> lasers = store.scans().lasers(session.id);
     for (const urban_nav_store::Extrinsic& extrinsic : store.sessions().extrinsics(session.id))
       if (std::find(lasers.begin(), lasers.end(), extrinsic.frame) != lasers.end())
@@ -143,15 +143,6 @@ std::vector<PagePicture> picturesOf(const std::vector<ClosureRow>& rows, const S
 
 }  // namespace
 
-std::string cameraWords(const StereoCamera& camera, const Pose& T_base_camera) {
-  std::string words = std::to_string(camera.left.width) + "x" + std::to_string(camera.left.height);
-  for (const double value : {camera.left.fx, camera.left.fy, camera.left.cx, camera.left.cy, camera.baseline,
-                             T_base_camera.t().x(), T_base_camera.t().y(), T_base_camera.t().z(), T_base_camera.q().x(),
-                             T_base_camera.q().y(), T_base_camera.q().z(), T_base_camera.q().w()})
-    words += " " + urban_nav_core::printNumber(value);
-  return words;
-}
-
 LoopsRun runLoops(const loop_metric::Parameters& parameters, const StereoCamera& camera, const Pose& T_base_camera,
                   const std::vector<LoopsSession>& sessions, Store& store, std::vector<ClosureRow> rows,
                   Console& console) {
@@ -159,7 +150,8 @@ LoopsRun runLoops(const loop_metric::Parameters& parameters, const StereoCamera&
   run.candidates = rows.size();
   if (rows.empty()) return run;
   const Clock::time_point begin = Clock::now();
-  const StoredSurroundings::Sessions known = sessionsOf(sessions, store, cameraWords(camera, T_base_camera));
+  const StoredSurroundings::Sessions known =
+      sessionsOf(sessions, store, loop_metric::cameraWords(camera, T_base_camera));
   const auto make = [&] { return std::make_unique<Worker>(store.path(), known, parameters, camera, T_base_camera); };
   Workers workers;
   std::vector<MetricClosure> closures(rows.size());

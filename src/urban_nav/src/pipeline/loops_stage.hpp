@@ -30,11 +30,6 @@ struct LoopsSession {
   const VoRun* run = nullptr;
 };
 
-/// What tells the camera of a session, with its place on the robot, from another: two sessions with equal words can be matched view by view.
-std::string cameraWords(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_base_camera);
-/// The property of a session that holds them.
-constexpr const char* kCameraProperty = "camera";
-
 /// Finds the transform of each row (a moment pair; what else stands in it is replaced) from the keyframes and scans that `store` holds, which must be
 /// committed; on several threads, with results that do not depend on their number. `camera` is that of the last session.
 LoopsRun runLoops(const loop_metric::Parameters& parameters, const urban_nav_core::StereoCamera& camera,

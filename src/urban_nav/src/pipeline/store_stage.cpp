@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "pipeline/loops_stage.hpp"
+#include "loop_metric/camera_words.hpp"
 #include "pipeline/vo_state.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -248,7 +248,8 @@ void StoreStage::put(std::size_t session, const SourceInfo& info) {
   store_->sessions().put(id, Property{"input/name", info.name});
   store_->sessions().put(id, Property{"input/kind", info.kind});
   store_->sessions().put(id, urban_nav_store::Extrinsic{kVoCamera, info.T_base_camera});
-  store_->sessions().put(id, Property{kCameraProperty, cameraWords(info.camera, info.T_base_camera)});
+  store_->sessions().put(
+      id, Property{loop_metric::camera_property, loop_metric::cameraWords(info.camera, info.T_base_camera)});
   for (const LaserInfo& laser : info.lasers)
     store_->sessions().put(id, urban_nav_store::Extrinsic{laser.frame, laser.T_base_laser});
   for (const std::vector<urban_nav_core::Setting>* settings : request_.parameters.settings()) {

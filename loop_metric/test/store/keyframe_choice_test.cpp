@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loop_metric/keyframe_choice.hpp"
+
+#include <gtest/gtest.h>
+
+namespace loop_metric {
+namespace {
+
+using urban_nav_core::Pose;
+
+Pose at(double x, double yaw = 0.0) {
+  return Pose(urban_nav_core::expSo3(Eigen::Vector3d(0, 0, yaw)), Eigen::Vector3d(x, 0, 0));
+}
+
+class Choice : public ::testing::Test {
+ protected:
+  static Parameters parameters() {
+    Parameters made;
+    made.keyframe_way = 1.0;
+    made.keyframe_turn = 0.25;
+    return made;
+  }
+  KeyframeChoice choice_{parameters()};
+};
+
+TEST_F(Choice, theFirstViewIsKept) { EXPECT_TRUE(choice_.choose(at(7.0))); }
+
+TEST_F(Choice, wayIsMeasuredFromTheLastOneThatWasKept) {
+  EXPECT_TRUE(choice_.choose(at(0.0)));
+  EXPECT_FALSE(choice_.choose(at(0.6)));
+  EXPECT_FALSE(choice_.choose(at(0.99)));
+  EXPECT_TRUE(choice_.choose(at(1.0)));
+  EXPECT_FALSE(choice_.choose(at(1.9)));
+  EXPECT_TRUE(choice_.choose(at(2.1)));
+}
+
+TEST_F(Choice, aTurnOnTheSpotIsEnough) {
+  EXPECT_TRUE(choice_.choose(at(0.0)));
+  EXPECT_FALSE(choice_.choose(at(0.0, 0.24)));
+  EXPECT_TRUE(choice_.choose(at(0.0, -0.26)));
+}
+
+TEST_F(Choice, goesOnBehindAViewThatWasKept) {
+  choice_.keep(at(5.0));
+  EXPECT_FALSE(choice_.choose(at(5.5)));
+  EXPECT_TRUE(choice_.choose(at(6.5)));
+}
+
+}  // namespace
+}  // namespace loop_metric
