@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What README.md and config/loop_metric.yaml say of the parameters; test/parameters_test.cpp holds them equal to the table.
 #include "loop_metric/parameters.hpp"
+#include "nodelet_parameters.hpp"
 #include "urban_nav_core/parameters/documents.hpp"
 
 int main(int argc, char** argv) {
   const auto& stage = loop_metric::table();
-  return urban_nav_core::documentParameters(argc, argv, {{stage.stage(), stage.rows()}});
+  const auto& nodelet = loop_metric::nodeletTable();
+  return urban_nav_core::documentParameters(argc, argv,
+                                            {{stage.stage(), stage.rows()}, {nodelet.stage(), nodelet.rows()}});
 }

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodelet_parameters.hpp"
+
+#include <cstdint>
+
+namespace loop_metric {
+
+using urban_nav_core::Table;
+
+NodeletParameters::NodeletParameters() { nodeletTable().setDefaults(*this); }
+
+// clang-format would give each of the columns a line.
+// clang-format off
+const Table<NodeletParameters>& nodeletTable() {
+  using P = NodeletParameters;
+  static const Table<NodeletParameters> rows(
+      "",
+      {
+          {"base_frame", &P::base_frame, "", "base_link", false, false, {},
+           "Frame of the robot, between whose poses closures are.", "REP-105"},
+          {"images", &P::images, "", "auto", false, false, {"auto", "raw", "rectified"},
+           "Whether the images are rectified inside by camera_info, or were before they came; auto: rectified where the topic's name has `rect` in it.",
+           "image_proc"},
+          {"compressed", &P::compressed, "", false, false, true, {},
+           "Whether the image topics are sensor_msgs/CompressedImage.", ""},
+          {"robot", &P::robot, "", "", false, false, {},
+           "Name of the robot; with the recording's name and the first stamp it makes the session's id.", "section 7"},
+          {"recording", &P::recording, "", "", false, false, {},
+           "Name of the recording, the same on all of the robot's computers.", "section 7"},
+          {"store", &P::store, "", "", false, false, {},
+           "Absolute path of the session store in which views, scans and odometry are kept, committed each second, and whose earlier sessions candidates may name; "
+           "empty: a file in the folder for temporary ones, which goes with the nodelet. One writer a file.", "section 7"},
+          {"queue", &P::queue, "messages", 2000, 2, 1000000, {},
+           "Images, scans and poses that may wait to be kept; beyond that the oldest is dropped and counted.", ""},
+          {"max_lateness", &P::max_lateness, "s", 0.1, 0.0, 10.0, {},
+           "How long, by stamps, an image waits for its partner.", ""},
+          {"pairing", &P::pairing, "s", 0.005, 0.0, 1.0, {},
+           "Largest difference between the stamps of left and right image.", ""},
+          {"tf_wait", &P::tf_wait, "s", 1.0, 0.0, 3600.0, {},
+           "How long the first images wait for the place of the camera on /tf_static; after that base_frame is taken to be at the left camera.", "REP-103"},
+          {"patience", &P::patience, "s", 10.0, 0.0, 3600.0, {},
+           "How long, by stamps, a candidate waits at most until the robot has driven on by what it may need (cloud_way, or view_way); and by the clock where no odometry comes.", "section 4.2"},
+      });
+  return rows;
+}
+// clang-format on
+
+}  // namespace loop_metric

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "loop_metric/evidence.hpp"
+#include "loop_metric/keyframe_choice.hpp"
+#include "loop_metric/stored_surroundings.hpp"
+#include "robot.hpp"
+#include "urban_nav_store/store.hpp"
+
+namespace loop_metric::test {
+namespace {
+
+using urban_nav_msgs::MetricClosure;
+using urban_nav_store::Access;
+using urban_nav_store::Store;
+
+class LoopMetricNodelet : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() { robot_ = new Robot; }
+  static void TearDownTestSuite() { delete robot_; }
+  void SetUp() override {
+    ASSERT_TRUE(robot().connected());
+    ASSERT_TRUE(robot().call("reset"));
+    robot().beginSession();
+    robot().forget();
+  }
+  Robot& robot() { return *robot_; }
+
+  std::string storePath() {
+    std::string path;
+    EXPECT_TRUE(ros::param::get("/loop_metric/store", path));
+    return path;
+  }
+  std::string idOf(StampNs first) { return urban_nav_store::sessionIdOf({"lisa", "", first, ""}); }
+  void expectTrue(const MetricClosure& closure, int a, int b) {
+    EXPECT_EQ(closure.verdict, MetricClosure::ACCEPTED) << closure.reason_name << ": " << closure.text;
+    EXPECT_EQ(closure.method, MetricClosure::STEREO);
+    EXPECT_EQ(closure.source, "loop_metric");
+    const Pose T_a_b = *urban_nav_ros::toPose(closure.T_a_b);
+    const Pose truth = robot().T_world_base(a).inverse() * robot().T_world_base(b);
+    EXPECT_LT(urban_nav_core::distanceBetween(T_a_b, truth), 0.03);
+    EXPECT_LT(urban_nav_core::angleBetween(T_a_b, truth), 0.005);
+    EXPECT_FALSE(parseEvidence(closure.evidence).tries.empty());
+  }
+  void expectRejected(const MetricClosure& closure, const std::string& reason) {
+    EXPECT_EQ(closure.verdict, MetricClosure::REJECTED);
+    EXPECT_EQ(closure.reason_name, reason) << closure.text;
+    EXPECT_FALSE(closure.text.empty());
+    for (const double each : closure.information) EXPECT_EQ(each, 0.0);
+  }
+
+  static Robot* robot_;
+};
+Robot* LoopMetricNodelet::robot_ = nullptr;
+
+TEST_F(LoopMetricNodelet, aRevisitIsUpgradedAndAFalsePairIsNot) {
+  robot().drive(0, lap + 7);
+  robot().recognise(3, lap + 3);
+  robot().recognise(3, 15);  // the other side of the room
+  ASSERT_TRUE(robot().judged(2));
+  const bool in_order = robot().closures[0].b.stamp == urban_nav_ros::toRosTime(robot().stampOf(lap + 3));
+  const MetricClosure &right = robot().closures[in_order ? 0 : 1], &wrong = robot().closures[in_order ? 1 : 0];
+  expectTrue(right, 3, lap + 3);
+  EXPECT_TRUE(right.odometry_gate);
+  EXPECT_EQ(right.a.session, "") << "who names no session means the running one";
+  EXPECT_EQ(right.a.stamp, urban_nav_ros::toRosTime(robot().stampOf(3)));
+  EXPECT_DOUBLE_EQ(right.probability, 0.99);
+  expectRejected(wrong, "nothing_kept");  // no two views look the same way, by odometry
+  ASSERT_TRUE(Robot::until([&] { return !robot().pictures.empty(); }));
+  EXPECT_EQ(robot().pictures.front().encoding, "bgr8");
+  EXPECT_GE(robot().pictures.front().width, 2U * 512U);
+  EXPECT_EQ(robot().pictures.front().data.size(), robot().pictures.front().step * robot().pictures.front().height);
+  EXPECT_TRUE(Robot::until([&] { return robot().diagnosed("accepted by stereo", "1"); }));
+}
+
+TEST_F(LoopMetricNodelet, theViewsThatAreKeptAreThoseOfTheSameFramesOffline) {
+  constexpr int count = 12;
+  robot().drive(0, count);
+  KeyframeChoice choice((Parameters()));
+  const KeyframeMaker maker(robot().camera(), Parameters().points);
+  std::vector<urban_nav_store::StoredKeyframe> expected;
+  for (int i = 0; i < count; ++i) {
+    if (!choice.choose(robot().T_world_base(0).inverse() * robot().T_world_base(i))) continue;
+    urban_nav_core::testing::StereoFrame frame = robot().frame(i);
+    frame.stamp = robot().stampOf(i);
+    expected.push_back(storedKeyframe(maker.make({"", frame.stamp}, frame.pair())));
+  }
+  ASSERT_TRUE(Robot::until([&] { return robot().diagnosis("session") == idOf(robot().stampOf(0)); }));
+  const auto stored = [&] {
+    Store store(storePath(), Access::Read);
+    return store.keyframes().stamps(idOf(robot().stampOf(0)), keyframe_camera);
+  };
+  ASSERT_TRUE(Robot::until([&] { return stored().size() >= expected.size(); })) << stored().size();
+  Store store(storePath(), Access::Read);
+  EXPECT_EQ(stored().size(), expected.size());
+  for (const urban_nav_store::StoredKeyframe& view : expected)
+    EXPECT_TRUE(store.keyframes().get(idOf(robot().stampOf(0)), keyframe_camera, view.stamp) == view) << view.stamp;
+}
+
+TEST_F(LoopMetricNodelet, momentsThatAreNotKnownAreNamed) {
+  robot().recognise(0, 5);  // no odometry yet: it waits for the patience by the clock
+  ASSERT_TRUE(robot().judged(1));
+  expectRejected(robot().closures[0], "unknown_moment");
+  robot().drive(0, 8);
+  robot().recognise({"", robot().stampOf(0) - 500 * 1'000'000'000LL}, {"", robot().stampOf(2)});
+  ASSERT_TRUE(robot().judged(2));
+  expectRejected(robot().closures[1], "unknown_moment");
+  robot().recognise({"0123456789abcdef0123", robot().stampOf(0)}, {"", robot().stampOf(2)});
+  ASSERT_TRUE(robot().judged(3));
+  expectRejected(robot().closures[2], "unknown_moment");
+  EXPECT_EQ(robot().closures[2].a.session, "0123456789abcdef0123");
+}
+
+TEST_F(LoopMetricNodelet, withoutImagesThereIsNothingToGoBy) {
+  robot().drive(0, lap + 8, false);
+  robot().recognise(2, lap + 2);
+  ASSERT_TRUE(robot().judged(1));
+  expectRejected(robot().closures[0], "nothing_kept");
+}
+
+TEST_F(LoopMetricNodelet, behindAGapInOdometryViewsAloneDecide) {
+  robot().drive(0, lap + 7, true, 12);
+  robot().recognise(3, lap + 3);
+  ASSERT_TRUE(robot().judged(1));
+  expectTrue(robot().closures[0], 3, lap + 3);
+  EXPECT_FALSE(robot().closures[0].odometry_gate);
+  robot().recognise(3, 15);
+  ASSERT_TRUE(robot().judged(2));
+  expectRejected(robot().closures[1], "not_registered");
+  for (const auto& each : parseEvidence(robot().closures[0].evidence).tries) EXPECT_EQ(each.view_a.session, "");
+}
+
+TEST_F(LoopMetricNodelet, aResetJudgesWhatWaits) {
+  robot().drive(0, 4);
+  robot().recognise(0, 3);
+  ASSERT_TRUE(robot().call("reset"));
+  ASSERT_TRUE(robot().judged(1));
+  EXPECT_EQ(robot().closures[0].b.stamp, urban_nav_ros::toRosTime(robot().stampOf(3)));
+}
+
+TEST_F(LoopMetricNodelet, aPauseDropsCandidatesAndCountsThem) {
+  robot().drive(0, 4);
+  ASSERT_TRUE(robot().call("pause"));
+  ASSERT_TRUE(Robot::until([&] { return robot().diagnosis("reason") == "None"; }));
+  const long before = std::atol(robot().diagnosis("dropped: paused").c_str());
+  robot().recognise(0, 3);
+  EXPECT_TRUE(Robot::until([&] { return std::atol(robot().diagnosis("dropped: paused").c_str()) == before + 1; }));
+  ASSERT_TRUE(robot().call("resume"));
+  EXPECT_TRUE(robot().closures.empty());
+}
+
+TEST_F(LoopMetricNodelet, lasersThatDoNotComeAreNamed) {
+  robot().drive(0, 4);
+  ASSERT_TRUE(Robot::until([&] { return robot().diagnosis("reason") == "NoLasers"; }));
+  const auto& status = robot().statuses.back();
+  EXPECT_EQ(status.stage, "loop_metric");
+  EXPECT_EQ(status.status, urban_nav_msgs::StageStatus::DEGRADED);
+  EXPECT_NE(status.text.find("/laser_left/scan has not come"), std::string::npos) << status.text;
+}
+
+TEST_F(LoopMetricNodelet, anEarlierSessionOfTheStoreIsKnownAgain) {
+  robot().drive(0, lap / 3);
+  const std::string earlier = idOf(robot().stampOf(0));
+  const StampNs there = robot().stampOf(5);
+  ASSERT_TRUE(Robot::until([&] { return robot().diagnosis("session") == earlier; }));
+  ASSERT_TRUE(robot().call("reset"));
+  ASSERT_EQ(std::system("rosnode kill /loop_metric > /dev/null 2>&1"), 0);
+  ASSERT_TRUE(Robot::until([&] { return !robot().isConnected(); }));
+  ASSERT_TRUE(Robot::until([&] { return robot().isConnected() && ros::service::exists("loop_metric/reset", false); }));
+  robot().forget();
+  robot().beginSession();
+  robot().drive(0, lap / 3);
+  ASSERT_TRUE(Robot::until([&] { return robot().diagnosis("session") == idOf(robot().stampOf(0)); }));
+  robot().recognise({earlier, there}, {"", robot().stampOf(5)});
+  ASSERT_TRUE(robot().judged(1));
+  expectTrue(robot().closures[0], 5, 5);
+  EXPECT_EQ(robot().closures[0].a.session, earlier);
+  EXPECT_FALSE(robot().closures[0].odometry_gate) << "odometry says nothing between sessions";
+}
+
+}  // namespace
+}  // namespace loop_metric::test
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "loop_metric_nodelet_test");
+  ros::NodeHandle keeps_ros_alive;
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nav_msgs/Odometry.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/LaserScan.h>
+#include <tf2_msgs/TFMessage.h>
+#include <urban_nav_msgs/MetricClosure.h>
+#include <urban_nav_msgs/RelativePose.h>
+#include <urban_nav_msgs/StageStatus.h>
+#include <urban_nav_msgs/TopologicalClosure.h>
+
+#include <string>
+#include <vector>
+
+#include "urban_nav_core/testing/motion.hpp"
+#include "urban_nav_core/testing/rendered_sequence.hpp"
+#include "urban_nav_core/testing/textured_room.hpp"
+#include "urban_nav_ros/camera_info.hpp"
+#include "urban_nav_ros/closure.hpp"
+#include "urban_nav_ros/extrinsics.hpp"
+#include "urban_nav_ros/image.hpp"
+#include "urban_nav_ros/pose.hpp"
+#include "urban_nav_ros/stamp.hpp"
+#include "urban_nav_ros/testing/listener.hpp"
+
+namespace loop_metric::test {
+
+using urban_nav_core::Pose;
+using urban_nav_core::StampNs;
+
+constexpr StampNs start = 1'225'719'873'000'000'000, epoch = 1'000'000'000'000;
+constexpr int lap = 24;  // frames around the room
+
+/// Around a textured room, with a frame each 0.8 s and 0.6 m.
+inline urban_nav_core::testing::RenderedSequence room() {
+  using namespace urban_nav_core::testing;
+  SequenceOptions options;
+  options.rate = 1.25;
+  options.first_stamp = start;
+  return RenderedSequence(texturedRoom(), loop(3.0, 1.5, 1.2, lap / options.rate), options);
+}
+
+inline urban_nav_core::StereoCamera cameraOf(const urban_nav_core::testing::RenderCamera& rendered) {
+  urban_nav_core::StereoCamera camera;
+  camera.left = {rendered.fx, rendered.fy, rendered.cx, rendered.cy, rendered.width, rendered.height};
+  camera.baseline = rendered.baseline;
+  return camera;
+}
+
+inline Pose T_base_left() { return Pose(urban_nav_ros::opticalInBody().q(), Eigen::Vector3d(0.1, 0.06, 1.1)); }
+
+/// The ROS graph as the nodelet sees it: a robot with odometry and recognition of places, and a listener who keeps what comes.
+class Robot : public urban_nav_ros::testing::Listener {
+ public:
+  Robot() : urban_nav_ros::testing::Listener("loop_metric"), sequence_(room()) {
+    keep("loops/metric", closures);
+    keep("loops/matches", pictures);
+    keep("loop_metric/status", statuses);
+    connected_ = until([this] { return isConnected(); });
+    tf2_msgs::TFMessage places;
+    places.transforms.push_back(
+        urban_nav_ros::toStaticTransform("base_link", "stereo_left_optical_frame", T_base_left()));
+    tf_static_.publish(places);
+  }
+  bool connected() const { return connected_; }
+
+  /// Each is later than the one before.
+  void beginSession() { ++session_; }
+  StampNs stampOf(int frame) const { return sequence_.stamp(frame) + session_ * epoch; }
+  Pose T_world_base(int frame) const { return sequence_.T_world_camera(frame) * T_base_left().inverse(); }
+  urban_nav_core::StereoCamera camera() const { return cameraOf(sequence_.options().camera); }
+  const urban_nav_core::testing::StereoFrame& frame(int i) { return sequence_.frame(i); }
+
+  /// Frames from ... to - 1 and the odometry between them; without the step that leads to frame `lost`.
+  void drive(int from, int to, bool images = true, int lost = -1) {
+    for (int i = from; i < to; ++i) {
+      if (images) show(i);
+      nav_msgs::Odometry odometry;
+      odometry.header.stamp = urban_nav_ros::toRosTime(stampOf(i));
+      odometry.pose.pose = urban_nav_ros::toPoseMessage(T_world_base(0).inverse() * T_world_base(i));
+      odometry_.publish(odometry);
+      if (i == 0 || i == lost) continue;
+      urban_nav_core::RelativePose step;
+      step.from = stampOf(i - 1);
+      step.to = stampOf(i);
+      step.T_from_to = T_world_base(i - 1).inverse() * T_world_base(i);
+      step.covariance = 1e-6 * urban_nav_core::Matrix6d::Identity();
+      step.drift_covariance = 0.5 * step.covariance;
+      step.source = "swf_vo";
+      relative_.publish(urban_nav_ros::toRelativePoseMessage(step, "base_link"));
+    }
+  }
+  void show(int i) {
+    const auto& frame = sequence_.frame(i);
+    publish(left_, left_info_, frame.left, leftInfo(camera()), stampOf(i), "stereo_left_optical_frame");
+    publish(right_, right_info_, frame.right, rightInfo(camera()), stampOf(i), "stereo_right_optical_frame");
+  }
+  void recognise(const urban_nav_core::PoseRef& a, const urban_nav_core::PoseRef& b) {
+    places_.publish(urban_nav_ros::toTopologicalClosureMessage({a, b, 0.99}));
+  }
+  void recognise(int a, int b) { recognise({"", stampOf(a)}, {"", stampOf(b)}); }
+  /// The verdict that comes next.
+  bool judged(std::size_t count) {
+    return until([&] { return closures.size() >= count; });
+  }
+  /// The last value of an entry of the diagnostics.
+  std::string diagnosis(const std::string& key) const {
+    std::string value;
+    for (const auto& array : diagnostics)
+      for (const auto& status : array.status)
+        for (const auto& entry : status.values)
+          if (entry.key == key) value = entry.value;
+    return value;
+  }
+  void forget() {
+    ros::spinOnce();
+    closures.clear();
+    pictures.clear();
+    diagnostics.clear();
+  }
+
+  std::vector<urban_nav_msgs::MetricClosure> closures;
+  std::vector<sensor_msgs::Image> pictures;
+  std::vector<urban_nav_msgs::StageStatus> statuses;
+
+ private:
+  static void publish(ros::Publisher& images, ros::Publisher& infos, const urban_nav_core::testing::GreyImage& image,
+                      const urban_nav_core::CameraInfo& info, StampNs stamp, const std::string& frame) {
+    auto pixels = image.pixels;
+    sensor_msgs::Image message =
+        urban_nav_ros::toImageMessage(cv::Mat(image.height, image.width, CV_8UC1, pixels.data()));
+    sensor_msgs::CameraInfo calibration = urban_nav_ros::toCameraInfoMessage(info);
+    message.header.stamp = calibration.header.stamp = urban_nav_ros::toRosTime(stamp);
+    message.header.frame_id = calibration.header.frame_id = frame;
+    infos.publish(calibration);
+    images.publish(message);
+  }
+
+  ros::Publisher left_ = advertise<sensor_msgs::Image>("stereo/left/image_raw");
+  ros::Publisher right_ = advertise<sensor_msgs::Image>("stereo/right/image_raw");
+  ros::Publisher left_info_ = advertise<sensor_msgs::CameraInfo>("stereo/left/camera_info");
+  ros::Publisher right_info_ = advertise<sensor_msgs::CameraInfo>("stereo/right/camera_info");
+  ros::Publisher odometry_ = advertise<nav_msgs::Odometry>("vo/odometry");
+  ros::Publisher relative_ = advertise<urban_nav_msgs::RelativePose>("vo/relative_pose");
+  ros::Publisher places_ = advertise<urban_nav_msgs::TopologicalClosure>("places/closure");
+  ros::Publisher tf_static_ = advertise<tf2_msgs::TFMessage>("/tf_static", true);
+  urban_nav_core::testing::RenderedSequence sequence_;
+  int session_ = 0;
+  bool connected_ = false;
+};
+
+}  // namespace loop_metric::test
