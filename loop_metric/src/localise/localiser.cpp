@@ -56,13 +56,12 @@ bool Localiser::addOdometry(const urban_nav_core::RelativePose& step) { return o
 void Localiser::addSighting(StampNs b, const Pose& T_map_a, const Constraint& measured) {
   Sighting sighting;
   sighting.stamp = b;
-  Constraint measured_exact = measured;
   const Matrix6d covariance = urban_nav_core::covarianceForDisplay(measured.information, metres_per_radian);
   const double sigma = parameters_.map_sigma;
   Matrix6d of_map = Matrix6d::Zero();
   of_map.diagonal() << Eigen::Vector3d::Constant(sigma * sigma),
       Eigen::Vector3d::Constant(sigma * sigma / (metres_per_radian * metres_per_radian));
-  sighting.T_map_base = compose(UncertainPose{T_map_a, of_map}, UncertainPose{measured_exact.T_a_b, covariance});
+  sighting.T_map_base = compose(UncertainPose{T_map_a, of_map}, UncertainPose{measured.T_a_b, covariance});
   sighting.begins = positionSigma(sighting.T_map_base) < 1.0;
   if (sighting.T_map_base.pose.isFinite() && sighting.T_map_base.covariance.allFinite()) add(sighting);
 }

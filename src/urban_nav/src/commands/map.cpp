@@ -27,7 +27,8 @@ MapRequest requestOf(const Arguments& arguments) {
           std::move(parameters),
           static_cast<int>(arguments.integer("threads", 0, 1, 1024)),
           so_far,
-          arguments.get("store")};
+          arguments.get("store"),
+          arguments.get("localise")};
 }
 
 }  // namespace
@@ -39,10 +40,10 @@ Command mapCommand() {
   command.options = {
       {"INPUT", "", "bags, or folders of KITTI, EuRoC or New College", true, true, {}},
       {"-o,--out", "DIR", "folder to write into (made if need be)", true, false, {}},
-      {"--stages", "LIST", "of vo, graph (default: all whose inputs exist)", false, true, {}},
+      {"--stages", "LIST", "of vo, loops, graph (default: all whose inputs exist)", false, true, {}},
       {"--closures",
        "FILE",
-       "closures.csv: moments that are one place; its transforms are used where no stage finds them",
+       "closures.csv: moments that are one place; the stage loops finds their transforms (without it, those in the file count)",
        false,
        false,
        {}},
@@ -62,6 +63,12 @@ Command mapCommand() {
       {"--store",
        "FILE",
        "go on from the sessions of this store: relaxed together with the new ones where there are closures, session.db of DIR holds all (FILE is only read, but for the one of DIR itself)",
+       false,
+       false,
+       {}},
+      {"--localise",
+       "FILE",
+       "find the inputs in the map of this store, which stays as it is: localisation.csv says where, and whether that is KNOWN",
        false,
        false,
        {}},

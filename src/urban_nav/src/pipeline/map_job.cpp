@@ -13,6 +13,7 @@
 #include "pipeline/usage.hpp"
 #include "pipeline/vo_files.hpp"
 #include "report/plot.hpp"
+#include "urban_nav_core/io/tum.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav {
@@ -155,6 +156,12 @@ struct Running {
 };
 Running checkClosures(const MapRequest& request, Console& console) {
   const bool all = request.stages.empty(), file = !request.closures.empty();
+  if (!request.localise.empty()) {
+    console.info("stages: vo; then each session is looked for in the map of " + request.localise +
+                 ", which is only read");
+    if (file) console.warn("--closures is not used: views are looked for in the whole map");
+    return {};
+  }
   const Running runs{all || asksFor(request, "loops"), all || asksFor(request, "graph")};
   if (all) console.info("stages: vo, loops, graph; left out: " + leftOut());
   if (!runs.loops && !runs.graph) {
@@ -230,6 +237,25 @@ void runGraphStage(MapOutcome& outcome, const std::vector<Session>& sessions, co
   writeGraphFiles(outcome.folder, *outcome.graph, runs);
 }
 
+void runLocalisation(MapOutcome& outcome, StoreStage& store, Console& console) {
+  urban_nav_store::Store frozen(outcome.request.localise, urban_nav_store::Access::Read);
+  store.store().commit();
+  for (std::size_t i = 0; i < outcome.stages.size(); ++i) {
+    const VoRun& run = outcome.stages[i]->run();
+    LocaliseRun made = localise(outcome.request.parameters.loop_metric.parameters, frozen, store.store(),
+                                store.ids()[i], run, console);
+    console.info("localised: KNOWN in " + forPerson(100.0 * made.known_share, 3) + " % of the frames" +
+                 (made.first_known_s < 0.0 ? "" : ", first after " + forPerson(made.first_known_s, 3) + " s") + "; " +
+                 std::to_string(made.sightings) + " sightings in " + std::to_string(made.looks) + " looks");
+    for (const std::string& warning : made.warnings) console.warn(warning);
+    const std::string suffix = i == 0 ? "" : "_" + std::to_string(i + 1);
+    outcome.folder.write("localisation" + suffix + ".csv", localisationCsv(made));
+    if (!made.T_map_base.empty())
+      outcome.folder.write("trajectory" + suffix + ".tum", urban_nav_core::printTum(made.T_map_base));
+    outcome.localised.push_back(std::move(made));
+  }
+}
+
 /// Files of sessions that an earlier run in this folder had and this one has not.
 void removeFurtherSessions(const OutputFolder& folder, std::size_t sessions) {
   for (std::size_t i = sessions + 1;; ++i) {
@@ -252,7 +278,8 @@ const std::vector<std::string>& existingStages() {
 }
 
 bool keepsViews(const MapRequest& request) {
-  return asksFor(request, "loops") || (request.stages.empty() && !request.closures.empty());
+  return asksFor(request, "loops") || !request.localise.empty() ||
+         (request.stages.empty() && !request.closures.empty());
 }
 
 void runMap(const MapRequest& request, Console& console) {
@@ -261,6 +288,10 @@ void runMap(const MapRequest& request, Console& console) {
   const Running with = checkClosures(request, console);
   std::vector<ClosureRow> closures =
       request.closures.empty() ? std::vector<ClosureRow>() : readClosures(request.closures);
+  if (!request.localise.empty() && !request.store.empty())
+    throw UserError("--localise", "the map stays as it is, and --store goes on in one", "one of them");
+  if (!request.localise.empty())  // a mistake in it is told before the work
+    urban_nav_store::Store(request.localise, urban_nav_store::Access::Read).close();
   std::vector<Session> sessions = findSessions(request.inputs);
   MapOutcome outcome(request);
   StoreStage store(request, sessions, outcome.folder.file("session.db"), console);
@@ -296,6 +327,8 @@ void runMap(const MapRequest& request, Console& console) {
   if (with.graph) runGraphStage(outcome, sessions, closures, store, console);
   else if (with.loops) outcome.folder.write("closures.csv", printClosures(closures));
   else outcome.folder.remove("closures.csv");
+  if (!request.localise.empty()) runLocalisation(outcome, store, console);
+  else outcome.folder.remove("localisation.csv");
   finishMap(outcome, sessions, console);
   store.end();
 }

@@ -24,7 +24,8 @@ struct MapRequest {
   /// The share, 0...1, of a recording that the inputs are so far. Below 1 the report stays marked as unfinished, and with any value it is written once, at the
   /// end: what it shows from the run before is better than a run that has just begun.
   std::optional<double> so_far = std::nullopt;
-  std::string store = {};  ///< session store to go on from; empty: none
+  std::string store = {};     ///< session store to go on from; empty: none
+  std::string localise = {};  ///< session store whose map stays as it is; empty: none
 };
 
 /// The stages that CONTRACT.md knows, in their order, and those of them that this suite has.

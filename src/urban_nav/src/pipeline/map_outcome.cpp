@@ -224,6 +224,7 @@ Json summaryOf(const MapOutcome& outcome, const VoSummary& summary) {
                                       [](const auto& evaluation) { return evaluation.has_value(); });
   if (evaluated != outcome.evaluations.end()) addToJson(**evaluated, json);
   json["swf_vo"] = toJson(summary);
+  if (!outcome.localised.empty()) json["localisation"] = toJson(outcome.localised.front());
   if (outcome.loops) json["loop_metric"] = toJson(*outcome.loops);
   if (outcome.graph)
     json["pose_graph"] =

@@ -8,6 +8,7 @@
 #include "pipeline/earlier_sessions.hpp"
 #include "pipeline/evaluation.hpp"
 #include "pipeline/graph_stage.hpp"
+#include "pipeline/localise_stage.hpp"
 #include "pipeline/loops_stage.hpp"
 #include "pipeline/map_job.hpp"
 #include "pipeline/output_folder.hpp"
@@ -29,6 +30,7 @@ struct MapOutcome {
   EarlierSessions earlier;                        ///< of the store that the run goes on from, where it has a graph
   std::vector<std::string> session_names;         ///< as closures.csv has them: earlier ones, then those of this run
   std::optional<LoopsRun> loops;                  ///< when transforms of closures have been looked for
+  std::vector<LocaliseRun> localised;             ///< one per session, where a map was given to find them in
   std::optional<GraphRun> graph;                  ///< when it is relaxed: of the earlier sessions, then of these
   std::optional<GraphRun> without_icp;            ///< relaxed over the closures by stereo alone, where there are others
   std::vector<std::optional<Evaluation>> before;  ///< as evaluations, by odometry alone; empty without a graph

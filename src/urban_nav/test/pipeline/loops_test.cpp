@@ -7,7 +7,10 @@
 #include "pipeline/map_job.hpp"
 #include "support/folders.hpp"
 #include "urban_nav_core/geometry/covariance_frames.hpp"
+#include "urban_nav_core/io/csv.hpp"
 #include "urban_nav_core/io/kitti.hpp"
+#include "urban_nav_core/io/tum.hpp"
+#include "urban_nav_core/types/error.hpp"
 #include "urban_nav_store/store.hpp"
 #include "why/explanation.hpp"
 
@@ -111,6 +114,29 @@ TEST_F(Loops, whySaysWhatTheStoreKnows) {
   const Page page = explainOnPage(closures[0], store);
   ASSERT_FALSE(page.sections.empty());
   EXPECT_EQ(page.sections[0].pictures.size(), 1U);
+}
+
+TEST_F(Loops, anotherDayIsFoundInAMapThatStaysAsItIs) {
+  map({file("monday")}, file("frozen"), "");
+  const std::string before = readFile(file("frozen") + "/session.db");
+  map({file("tuesday")}, file("found"), "", [](MapRequest& request) {
+    request.stages.clear();
+    request.localise = file("frozen") + "/session.db";
+  });
+  EXPECT_EQ(readFile(file("frozen") + "/session.db"), before);
+  EXPECT_EQ(std::filesystem::exists(file("frozen") + "/session.db-wal"), false);
+  const urban_nav_core::CsvTable table = urban_nav_core::CsvTable::read(file("found") + "/localisation.csv");
+  ASSERT_EQ(table.rows(), 15U);
+  // The same way through the same room, so that map and odometry of the second day are one. Less than half a metre of it: one place, one
+  // witness, and so a right guess that is not KNOWN.
+  const urban_nav_core::Trajectory truth = urban_nav_core::readTum(file("frozen") + "/trajectory.tum");
+  EXPECT_EQ(table.text(14, table.column("knowledge")), "UNSURE");
+  EXPECT_EQ(table.integer(14, table.column("witnesses")), 1);
+  const auto number = [&](const char* name) { return table.number(14, table.column(name)); };
+  EXPECT_LT((urban_nav_core::Vector3d(number("x"), number("y"), number("z")) - truth[14].pose.t()).norm(), 0.03);
+  EXPECT_THROW(
+      map({file("tuesday")}, file("nowhere"), "", [](MapRequest& request) { request.localise = file("closures.csv"); }),
+      urban_nav_core::UserError);
 }
 
 TEST_F(Loops, withoutTheStageTheTransformsOfTheFileCount) {
