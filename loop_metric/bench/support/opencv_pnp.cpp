@@ -16,7 +16,7 @@ using urban_nav_core::StereoPair;
 namespace {
 
 constexpr int features = 500, least_inliers = 50;
-constexpr float ratio = 0.8F;
+constexpr float ratio = 0.8F, inlier_px = 2.0F;
 constexpr int disparities = 64;
 
 cv::Mat matOf(const ImageView& image) {
@@ -64,9 +64,22 @@ std::optional<Pose> poseByOpenCv(Feature feature, const StereoCamera& camera, co
   cv::Vec3d turn, t;
   std::vector<int> inliers;
   cv::setRNGSeed(1);
-  if (!cv::solvePnPRansac(points, pixels, K, cv::noArray(), turn, t, false, 500, 2.0F, 0.999, inliers) ||
+  if (!cv::solvePnPRansac(points, pixels, K, cv::noArray(), turn, t, false, 500, inlier_px, 0.999, inliers,
+                          cv::SOLVEPNP_P3P) ||
       static_cast<int>(inliers.size()) < least_inliers)
     return std::nullopt;
+  std::vector<cv::Point3d> kept_points;
+  std::vector<cv::Point2d> kept_pixels, projected;
+  for (const int i : inliers) {
+    kept_points.push_back(points[static_cast<std::size_t>(i)]);
+    kept_pixels.push_back(pixels[static_cast<std::size_t>(i)]);
+  }
+  cv::solvePnPRefineLM(kept_points, kept_pixels, K, cv::noArray(), turn, t);
+  cv::projectPoints(kept_points, turn, t, K, cv::noArray(), projected);
+  int agreeing = 0;
+  for (std::size_t i = 0; i < projected.size(); ++i)
+    if (cv::norm(projected[i] - kept_pixels[i]) < static_cast<double>(inlier_px)) ++agreeing;
+  if (agreeing < least_inliers) return std::nullopt;
   const Pose T_b_a(urban_nav_core::expSo3({turn[0], turn[1], turn[2]}), {t[0], t[1], t[2]});
   return T_b_a.inverse();
 }
