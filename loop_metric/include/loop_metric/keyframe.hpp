@@ -25,7 +25,7 @@ struct KeyframePoint {
 };
 void archive(urban_nav_core::Archive& archive, KeyframePoint& point);
 
-/// What is kept of a stereo pair so that a later view can be registered to it (Newman et al. 2009, section 4.1): some 60 kB at 512x384, most of it the
+/// What is kept of a stereo pair so that a later view can be registered to it (Newman et al. 2009, section 4.1): some 70 kB at 512x384, most of it the
 /// picture. Plain data.
 struct Keyframe {
   urban_nav_core::PoseRef at;

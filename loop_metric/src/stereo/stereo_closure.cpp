@@ -27,10 +27,11 @@ namespace {
 
 constexpr int fewest_agreeing = 8;  // pairs; false pairs have fewer as a rule, and the others fail at the patches
 constexpr std::size_t most_motions = 4;
-constexpr double convincing_likeness = 0.65;  // bench, pairs: no wrong motion has it; no other is looked for then
-constexpr double match_gate = 1.75;           // times the mean error that is allowed: what is further off is no match
-constexpr std::size_t kept_views = 8;         // some 1 MB each at 512x384
-constexpr int least_points = 20;              // with depth, in either view
+constexpr double convincing_likeness =
+    0.65;                              // bench, pairs: no wrong motion had it in the end; no other is looked for then
+constexpr double match_gate = 1.75;    // times the mean error that is allowed: what is further off is no match
+constexpr std::size_t kept_views = 8;  // some 1 MB each at 512x384
+constexpr int least_points = 20;       // with depth, in either view
 // A transform that is known to a metre and half a degree at the worst: what is worse pinches nothing.
 constexpr double largest_sigma_m = 1.0, largest_sigma_rad = 0.1;
 
