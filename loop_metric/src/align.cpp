@@ -32,10 +32,10 @@ struct Try {
   Fit fit;
 };
 
-Try tryFrom(const Pair& pair, const Pose& start, std::size_t first_step) {
+Try tryFrom(const Pair& pair, const Pose& start, std::size_t first, std::size_t end) {
   Try made;
-  made.refined = refine(pair.source, pair.target, start, first_step, pair.parameters.iterations);
-  made.fit = fitOf(pair.source.steps().back(), made.refined, pair.parameters);
+  made.refined = refine(pair.source, pair.target, start, first, end, pair.parameters.iterations);
+  made.fit = fitOf(pair.source.steps()[end - 1], made.refined, pair.parameters);
   return made;
 }
 
@@ -45,6 +45,15 @@ Observability observedOf(const Try& made, const Pair& pair) {
 
 bool isPossible(const Try& made, const Pair& pair) {
   return !pair.possible || pair.possible({made.refined.T_target_source, observedOf(made, pair).information});
+}
+
+/// Can it be, give or take what a candidate may be off?
+bool mayBe(const Pose& candidate, const Pair& pair) {
+  if (!pair.possible) return true;
+  urban_nav_core::Constraint rough;
+  rough.T_a_b = candidate;
+  rough.information.diagonal() << Vector3d::Constant(1.0), Vector3d::Constant(100.0);  // 1 m, 6 deg
+  return pair.possible(rough);
 }
 
 Alignment judged(const Try& made, const Pair& pair, Alignment alignment) {
@@ -84,25 +93,63 @@ bool checkClouds(const Surfels& source, const Surfels& target, Alignment& alignm
   return check(source, "source") && check(target, "target");
 }
 
+bool areOne(const Pose& a, const Pose& b) { return distanceBetween(a, b) < 0.5 && angleBetween(a, b) < 0.09; }
+
 /// Another place, not the same one further along a free direction.
 bool isAnother(const Pose& pose, const Alignment& best) {
   constexpr double kFar = 50.0;  // squared deviations: six would be usual
-  if (distanceBetween(pose, best.T_target_source) < 0.5 && angleBetween(pose, best.T_target_source) < 0.09)
-    return false;
+  if (areOne(pose, best.T_target_source)) return false;
   if (best.verdict != Verdict::Degenerate) return true;
   const Vector6d d = boxMinus(pose, best.T_target_source);
   return d.dot(best.information * d) > kFar;
 }
 
-/// The best of the global candidates, and how the best different one compares with it.
-Alignment searched(const Pair& pair, const Pose& guess, Alignment alignment, const Try* first) {
-  const std::vector<Candidate> candidates =
-      searchGlobally(pair.source_surfels, pair.target_surfels, guess.t(), pair.parameters.search_radius);
-  const std::size_t steps = pair.target.steps().size(), from = steps > 2 ? 1 : 0;
+/// What a glance around found that might be as good as an answer that was found near the guess: usually nothing.
+std::vector<Candidate> rivalsOf(const Alignment& local, const std::vector<Candidate>& candidates) {
+  constexpr double kFar = 2.5, kTurned = 0.26;  // m, rad: what a coarse candidate may be off
+  constexpr double kClearly = 0.85;             // of the answer's own score: below, it is not as good
+  const auto isOwn = [&](const Candidate& candidate) {
+    return distanceBetween(candidate.T_target_source, local.T_target_source) < kFar &&
+           angleBetween(candidate.T_target_source, local.T_target_source) < kTurned;
+  };
+  double own = 0.0;
+  for (const Candidate& candidate : candidates)
+    if (isOwn(candidate)) own = std::max(own, candidate.score);
+  std::vector<Candidate> others;
+  for (const Candidate& candidate : candidates)
+    if (!isOwn(candidate) && candidate.score > kClearly * own) others.push_back(candidate);
+  return others;
+}
+
+/// The candidates that a coarse alignment leaves, aligned to the end: different from each other, none of them far behind the best.
+std::vector<Try> triesOf(const Pair& pair, const std::vector<Candidate>& candidates) {
+  constexpr double kFarBehind = 0.6;  // of the best score; max_second asks for more
+  const std::size_t end = pair.source.steps().size(), from = end > 3 ? 1 : 0;
+  std::vector<Try> coarse;
+  for (const Candidate& candidate : candidates) {
+    if (!mayBe(candidate.T_target_source, pair)) continue;
+    coarse.push_back(tryFrom(pair, candidate.T_target_source, from, from + 1));
+  }
+  const auto better = [](const Try& a, const Try& b) { return a.fit.score() > b.fit.score(); };
+  std::stable_sort(coarse.begin(), coarse.end(), better);
   std::vector<Try> tries;
-  if (first != nullptr) tries.push_back(*first);
-  for (const Candidate& candidate : candidates) tries.push_back(tryFrom(pair, candidate.T_target_source, from));
-  if (tries.empty()) tries.push_back(tryFrom(pair, guess, 0));
+  for (auto made = coarse.begin(); made != coarse.end(); ++made) {
+    if (made->fit.score() < kFarBehind * coarse.front().fit.score()) break;
+    const auto isSame = [&](const Try& other) {
+      return areOne(made->refined.T_target_source, other.refined.T_target_source);
+    };
+    if (std::none_of(coarse.begin(), made, isSame))
+      tries.push_back(tryFrom(pair, made->refined.T_target_source, from + 1, end));
+  }
+  return tries;
+}
+
+/// The best of the candidates, and how the best different one compares with it.
+Alignment searched(const Pair& pair, const Pose& guess, Alignment alignment, const Try* first,
+                   const std::vector<Candidate>& candidates) {
+  std::vector<Try> tries = triesOf(pair, candidates);
+  if (first != nullptr) tries.insert(tries.begin(), *first);
+  if (tries.empty()) tries.push_back(tryFrom(pair, guess, 0, pair.source.steps().size()));
   std::stable_sort(tries.begin(), tries.end(),
                    [](const Try& a, const Try& b) { return a.fit.score() > b.fit.score(); });
   const auto possible = [&](const Try& made) { return isPossible(made, pair); };
@@ -145,11 +192,16 @@ Alignment align(const PointCloud& source, const PointCloud& target, const Parame
   Target index(surfels[1], parameters.reach);
   Source steps(surfels[0], index);
   const Pair pair{surfels[0], surfels[1], std::move(index), std::move(steps), parameters, possible};
-  if (search == Search::AtOnce) return searched(pair, guess, alignment, nullptr);
-  const Try first = tryFrom(pair, guess, 0);
+  const auto look = [&](const Vector3d& centre, const Grain& grain) {
+    return searchGlobally(surfels[0], surfels[1], centre, parameters.search_radius, grain);
+  };
+  if (search == Search::AtOnce) return searched(pair, guess, alignment, nullptr, look(guess.t(), kFine));
+  const Try first = tryFrom(pair, guess, 0, pair.source.steps().size());
   const Alignment local = judged(first, pair, alignment);
-  if (local.verdict != Verdict::Rejected || search == Search::Never) return local;
-  return searched(pair, guess, alignment, &first);
+  if (search == Search::Never || local.verdict == Verdict::Degenerate) return local;
+  if (local.verdict == Verdict::Rejected) return searched(pair, guess, alignment, &first, look(guess.t(), kFine));
+  const std::vector<Candidate> others = rivalsOf(local, look(guess.t(), kCoarse));
+  return others.empty() ? local : searched(pair, guess, alignment, &first, others);
 }
 
 const char* toString(Verdict verdict) {

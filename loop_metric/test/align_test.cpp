@@ -68,7 +68,7 @@ TEST(Align, needsNoGuessWhateverTheHeading) {
     const Pose there = stand(dice.uniform(-3.0, 3.0), dice.uniform(-3.0, 3.0), dice.uniform(90.0, 270.0),
                              dice.uniform(-4.0, 4.0), dice.uniform(-4.0, 4.0));
     const Pair pair = pairOf(courtyard(seed), there, stand(0.5, -0.5, 20.0), seed);
-    for (const Search search : {Search::AtOnce}) {
+    for (const Search search : {Search::IfRejected, Search::AtOnce}) {
       const Alignment alignment = align(pair.source, pair.target, {}, {}, search);
       EXPECT_EQ(alignment.verdict, Verdict::Accepted) << seed << ": " << alignment.sentence;
       EXPECT_LT(distanceBetween(alignment.T_target_source, pair.truth), 0.03) << seed;

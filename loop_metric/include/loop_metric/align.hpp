@@ -74,7 +74,9 @@ struct Alignment {
 };
 
 enum class Search {
-  IfRejected,  ///< from the guess; a global search where that is rejected (a degenerate answer stands)
+  /// From the guess; a global search where that is rejected. An accepted answer is held against what a glance around finds elsewhere; a
+  /// degenerate one stands.
+  IfRejected,
   AtOnce,
   Never,
 };

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cloud/surfel_index.hpp"
 
+#include <array>
+
 namespace loop_metric {
 
 namespace {
 constexpr float kAlike = 0.70710678F;  // cosine of 45 deg: nearer to this surface than to one across it
-}
 
-// Cells of twice the reach: the eight around the corner next to a point hold all that is within reach.
+/// The eight cells around the corner next to a point, nearest first: bit 0, 1, 2 set means over the nearest face in x, y, z.
+constexpr std::array<int, 8> kNearestFirst = {0, 1, 2, 4, 3, 5, 6, 7};
+}  // namespace
+
+// Cells of twice the reach: the eight around the corner next to a point hold all that is within reach, and once something near was found in
+// its own, the others are too far away mostly.
 SurfelIndex::SurfelIndex(const std::vector<Surfel>& surfels, float reach)
     : reach_(reach), per_m_(0.5F / reach), table_(surfels.size() / 4 + 16) {
   std::vector<std::uint32_t> cells(surfels.size(), CellTable::none);
@@ -27,25 +33,31 @@ SurfelIndex::SurfelIndex(const std::vector<Surfel>& surfels, float reach)
 }
 
 const Surfel* SurfelIndex::nearest(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) const {
-  const Eigen::Vector3f shifted = point - Eigen::Vector3f::Constant(reach_);
-  const float limit = static_cast<float>(kFarthestCell);
-  if (!((shifted * per_m_).cwiseAbs().maxCoeff() < limit)) return nullptr;
-  const Cell corner = cellOf(shifted, per_m_);
+  const Eigen::Vector3f at = point * per_m_;
+  if (!(at.cwiseAbs().maxCoeff() < static_cast<float>(kFarthestCell - 1))) return nullptr;
+  const Cell own = cellOf(point, per_m_);
+  const Eigen::Vector3f within =
+      at - Eigen::Vector3f(static_cast<float>(own.x), static_cast<float>(own.y), static_cast<float>(own.z));
+  const Eigen::Vector3f gap = within.cwiseMin(Eigen::Vector3f::Ones() - within) / per_m_;  // m to the nearest faces
+  const auto side = [](float inside) { return inside < 0.5F ? -1 : 1; };
+  const Cell over{side(within.x()), side(within.y()), side(within.z())};
   const Surfel* best = nullptr;
   float least = reach_ * reach_;
-  for (int k = 0; k < 2; ++k)
-    for (int j = 0; j < 2; ++j)
-      for (int i = 0; i < 2; ++i) {
-        const std::uint32_t cell = table_.find(keyOf({corner.x + i, corner.y + j, corner.z + k}));
-        if (cell == CellTable::none) continue;
-        for (std::uint32_t at = begins_[cell]; at < begins_[cell + 1]; ++at) {
-          const float distance = (sorted_[at].mean - point).squaredNorm();
-          if (distance < least && std::abs(sorted_[at].normal.dot(normal)) > kAlike) {
-            least = distance;
-            best = &sorted_[at];
-          }
-        }
+  for (const int bits : kNearestFirst) {
+    const bool x = (bits & 1) != 0, y = (bits & 2) != 0, z = (bits & 4) != 0;
+    const Eigen::Vector3f away(x ? gap.x() : 0.0F, y ? gap.y() : 0.0F, z ? gap.z() : 0.0F);
+    if (away.squaredNorm() > least) continue;
+    const std::uint32_t cell =
+        table_.find(keyOf({own.x + (x ? over.x : 0), own.y + (y ? over.y : 0), own.z + (z ? over.z : 0)}));
+    if (cell == CellTable::none) continue;
+    for (std::uint32_t i = begins_[cell]; i < begins_[cell + 1]; ++i) {
+      const float distance = (sorted_[i].mean - point).squaredNorm();
+      if (distance < least && std::abs(sorted_[i].normal.dot(normal)) > kAlike) {
+        least = distance;
+        best = &sorted_[i];
       }
+    }
+  }
   return best;
 }
 

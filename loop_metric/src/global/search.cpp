@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <opencv2/core/hal/intrin.hpp>
 
 #include "cloud/cell_table.hpp"
 #include "global/upright.hpp"
@@ -18,26 +19,24 @@ using urban_nav_core::Vector3d;
 namespace {
 
 constexpr double kPi = 3.14159265358979;
-constexpr double kCell = 0.5;        // m: what the alignment that follows mends, with room to spare
-constexpr int kHeadings = 180;       // 2 deg: half a metre at 15 m, where half of a scan's surfaces are
-constexpr int kBearings = 12;        // of walls, 15 deg each
-constexpr double kFarthest = 50.0;   // m from the sensor: beyond, headings are too coarse
-constexpr std::size_t kMost = 1200;  // pieces of the source
-constexpr std::size_t kKept = 10;    // candidates
+constexpr int kBearings = 12;       // of walls, 15 deg each
+constexpr double kFarthest = 50.0;  // m from the sensor: beyond, headings are too coarse
+constexpr std::size_t kKept = 10;   // candidates
+constexpr int kLanes = 8;           // shifts that are summed up at once
 
 /// A piece of something upright, seen from above.
 struct Piece {
   double x, y, bearing;  // m, m, rad of its normal
 };
 
-std::vector<Piece> piecesOf(const Surfels& surfels, const Upright& upright, const Eigen::Matrix3f& level) {
+std::vector<Piece> piecesOf(const Surfels& surfels, const Upright& upright, const Eigen::Matrix3f& level, double cell) {
   CellTable cells(1024);
   std::vector<Piece> pieces;
   for (const Surfel& surfel : surfels.all) {
     if (!(surfel.planarity > 0.3F) || std::abs(surfel.normal.dot(upright.up)) > 0.5F) continue;
     const Eigen::Vector3f p = level * surfel.mean, n = level * surfel.normal;
     if (p.head<2>().norm() > static_cast<float>(kFarthest)) continue;
-    const std::uint32_t number = cells.insert(keyOf(cellOf({p.x(), p.y(), 0.0F}, static_cast<float>(1.0 / kCell))));
+    const std::uint32_t number = cells.insert(keyOf(cellOf({p.x(), p.y(), 0.0F}, static_cast<float>(1.0 / cell))));
     if (number == pieces.size())
       pieces.push_back({static_cast<double>(p.x()), static_cast<double>(p.y()),
                         std::atan2(static_cast<double>(n.y()), static_cast<double>(n.x()))});
@@ -50,9 +49,10 @@ int bearingOf(double angle) {
   return static_cast<int>((turns - std::floor(turns)) * kBearings) % kBearings;
 }
 
-/// One picture from above for each bearing: 2 where a piece lies, 1 next to it (in place or bearing).
+/// One picture from above for each bearing: 2 where a piece lies, 1 next to it (in place or bearing). Around what may hold pieces there is
+/// a margin of two windows, so that a window which reaches beyond the margin holds nothing.
 struct Pictures {
-  double x0 = 0.0, y0 = 0.0;
+  double x0 = 0.0, y0 = 0.0, cell = 1.0;
   int width = 0;
   std::vector<std::uint8_t> pixels;
 
@@ -63,16 +63,18 @@ struct Pictures {
   }
 };
 
-Pictures picturesOf(const std::vector<Piece>& pieces) {
+Pictures picturesOf(const std::vector<Piece>& pieces, double cell, int half) {
   Pictures pictures;
-  pictures.x0 = pictures.y0 = -kFarthest - kCell;
-  pictures.width = static_cast<int>(2.0 * kFarthest / kCell) + 4;
+  const int margin = 2 * half + kLanes + 2;
+  pictures.cell = cell;
+  pictures.x0 = pictures.y0 = -kFarthest - margin * cell;
+  pictures.width = static_cast<int>(2.0 * kFarthest / cell) + 2 * margin;
   pictures.pixels.assign(static_cast<std::size_t>(kBearings) * static_cast<std::size_t>(pictures.width) *
                              static_cast<std::size_t>(pictures.width),
                          0);
   for (const Piece& piece : pieces) {
-    const int x = static_cast<int>((piece.x - pictures.x0) / kCell),
-              y = static_cast<int>((piece.y - pictures.y0) / kCell), b = bearingOf(piece.bearing);
+    const int x = static_cast<int>((piece.x - pictures.x0) / cell),
+              y = static_cast<int>((piece.y - pictures.y0) / cell), b = bearingOf(piece.bearing);
     for (int db = -1; db <= 1; ++db)
       for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx) {
@@ -90,25 +92,30 @@ struct Peak {
   int score = 0;
 };
 
+/// sums[i] += counts[i], for a whole number of lanes.
+void addRow(const std::uint8_t* counts, std::uint16_t* sums, int length) {
+  for (int i = 0; i < length; i += kLanes)
+    cv::v_store(sums + i, cv::v_add_wrap(cv::v_load(sums + i), cv::v_load_expand(counts + i)));
+}
+
 /// The best shifts of one heading.
-std::vector<Peak> peaksOf(Pictures& pictures, const std::vector<Piece>& pieces, int heading, const Vector3d& centre,
-                          int half) {
-  const double angle = 2.0 * kPi * heading / kHeadings, c = std::cos(angle), s = std::sin(angle);
-  const int side = 2 * half + 1;
-  std::vector<std::uint16_t> scores(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), 0);
+std::vector<Peak> peaksOf(Pictures& pictures, const std::vector<Piece>& pieces, int heading, int headings,
+                          const Vector3d& centre, int half) {
+  const double angle = 2.0 * kPi * heading / headings, c = std::cos(angle), s = std::sin(angle);
+  const int side = 2 * half + 1, stride = (side + kLanes - 1) / kLanes * kLanes;
+  std::vector<std::uint16_t> wide(static_cast<std::size_t>(side) * static_cast<std::size_t>(stride), 0);
   for (const Piece& piece : pieces) {
     const double x = c * piece.x - s * piece.y + centre.x(), y = s * piece.x + c * piece.y + centre.y();
-    const int left = static_cast<int>(std::floor((x - pictures.x0) / kCell)) - half,
-              top = static_cast<int>(std::floor((y - pictures.y0) / kCell)) - half;
+    const int left = static_cast<int>(std::floor((x - pictures.x0) / pictures.cell)) - half,
+              top = static_cast<int>(std::floor((y - pictures.y0) / pictures.cell)) - half;
+    if (left < 0 || top < 0 || left + stride > pictures.width || top + side > pictures.width) continue;
     const int bearing = bearingOf(piece.bearing + angle);
-    const int from = std::max(0, -left), to = std::min(side, pictures.width - left);
-    if (from >= to) continue;
-    for (int row = std::max(0, -top); row < std::min(side, pictures.width - top); ++row) {
-      const std::uint8_t* in = pictures.at(bearing, left + from, top + row);
-      std::uint16_t* out = &scores[static_cast<std::size_t>(row * side + from)];
-      for (int i = 0; i < to - from; ++i) out[i] = static_cast<std::uint16_t>(out[i] + in[i]);
-    }
+    for (int row = 0; row < side; ++row)
+      addRow(pictures.at(bearing, left, top + row), &wide[static_cast<std::size_t>(row * stride)], stride);
   }
+  std::vector<std::uint16_t> scores;
+  for (int row = 0; row < side; ++row)
+    scores.insert(scores.end(), wide.begin() + row * stride, wide.begin() + row * stride + side);
   std::vector<Peak> peaks;
   for (int n = 0; n < 3; ++n) {
     const auto best = std::max_element(scores.begin(), scores.end());
@@ -126,30 +133,30 @@ Eigen::Matrix3f levelling(const Eigen::Vector3f& up) {
   return Eigen::Quaternionf::FromTwoVectors(up, Eigen::Vector3f::UnitZ()).toRotationMatrix();
 }
 
-bool areNear(const Peak& a, const Peak& b) {
-  const int turn = std::abs(a.heading - b.heading), around = std::min(turn, kHeadings - turn);
-  return around <= 4 && std::abs(a.x - b.x) <= 3 && std::abs(a.y - b.y) <= 3;
+bool areNear(const Peak& a, const Peak& b, const Grain& grain) {
+  const int turn = std::abs(a.heading - b.heading), around = std::min(turn, grain.headings - turn);
+  return around * 360.0 / grain.headings <= 10.0 && std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)) <= 3;
 }
 
 }  // namespace
 
 std::vector<Candidate> searchGlobally(const Surfels& source, const Surfels& target, const Vector3d& centre,
-                                      double radius) {
+                                      double radius, const Grain& grain) {
   const Upright from = uprightOf(source), to = uprightOf(target);
   const Eigen::Matrix3f level_source = levelling(from.up), level_target = levelling(to.up);
-  std::vector<Piece> pieces = piecesOf(source, from, level_source);
+  std::vector<Piece> pieces = piecesOf(source, from, level_source, grain.cell);
   if (pieces.empty()) return {};
-  if (pieces.size() > kMost) {  // evenly over the list
+  if (pieces.size() > grain.most) {  // evenly over the list
     std::vector<Piece> some;
-    for (std::size_t i = 0; i < kMost; ++i) some.push_back(pieces[i * pieces.size() / kMost]);
+    for (std::size_t i = 0; i < grain.most; ++i) some.push_back(pieces[i * pieces.size() / grain.most]);
     pieces = some;
   }
-  Pictures pictures = picturesOf(piecesOf(target, to, level_target));
-  const int half = std::max(1, static_cast<int>(radius / kCell));
+  const int half = std::max(1, static_cast<int>(radius / grain.cell));
+  Pictures pictures = picturesOf(piecesOf(target, to, level_target, grain.cell), grain.cell, half);
   const Vector3d middle = level_target.cast<double>() * centre;
-  std::vector<std::vector<Peak>> by_heading(kHeadings);
-  urban_nav_core::forEach(kHeadings, 6, [&](std::size_t heading) {
-    by_heading[heading] = peaksOf(pictures, pieces, static_cast<int>(heading), middle, half);
+  std::vector<std::vector<Peak>> by_heading(static_cast<std::size_t>(grain.headings));
+  urban_nav_core::forEach(by_heading.size(), 6, [&](std::size_t heading) {
+    by_heading[heading] = peaksOf(pictures, pieces, static_cast<int>(heading), grain.headings, middle, half);
   });
   std::vector<Peak> peaks;
   for (const auto& some : by_heading) peaks.insert(peaks.end(), some.begin(), some.end());
@@ -157,13 +164,13 @@ std::vector<Candidate> searchGlobally(const Surfels& source, const Surfels& targ
   std::vector<Peak> kept;
   for (const Peak& peak : peaks) {
     if (kept.size() == kKept) break;
-    if (std::none_of(kept.begin(), kept.end(), [&](const Peak& other) { return areNear(peak, other); }))
+    if (std::none_of(kept.begin(), kept.end(), [&](const Peak& other) { return areNear(peak, other, grain); }))
       kept.push_back(peak);
   }
   std::vector<Candidate> candidates;
   for (const Peak& peak : kept) {
-    const Pose turned(Quaterniond(Eigen::AngleAxisd(2.0 * kPi * peak.heading / kHeadings, Vector3d::UnitZ())),
-                      {middle.x() + kCell * peak.x, middle.y() + kCell * peak.y,
+    const Pose turned(Quaterniond(Eigen::AngleAxisd(2.0 * kPi * peak.heading / grain.headings, Vector3d::UnitZ())),
+                      {middle.x() + grain.cell * peak.x, middle.y() + grain.cell * peak.y,
                        from.has_ground && to.has_ground ? static_cast<double>(to.ground - from.ground) : middle.z()});
     const Pose T_level_source(urban_nav_core::Matrix3d(level_source.cast<double>()), Vector3d::Zero());
     const Pose T_level_target(urban_nav_core::Matrix3d(level_target.cast<double>()), Vector3d::Zero());

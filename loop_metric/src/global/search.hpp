@@ -14,11 +14,22 @@ struct Candidate {
   double score = 0.0;  ///< 0...1, the share of the source's upright pieces that fall on one of the target's, roughly
 };
 
+/// How closely a search looks.
+struct Grain {
+  double cell;       ///< m of the pictures from above
+  int headings;      ///< all around
+  std::size_t most;  ///< pieces of the source
+};
+/// What the alignment that follows mends, with room to spare: 2 deg are half a metre at 15 m, where half of a scan's surfaces are.
+constexpr Grain kFine{0.5, 180, 1200};
+/// A look around that costs a thirtieth: is there anything else at all?
+constexpr Grain kCoarse{1.0, 72, 300};
+
 /// Poses from which an alignment is worth a try, best first, different from each other: any heading, the source's origin within `radius` (m) of
 /// `centre`. What stands upright in the source (walls, trunks, cars: pieces whose normals are level), seen from above and turned to each
 /// heading, is laid over that of the target at every shift; pieces count where the direction of their walls agrees. Whole numbers
 /// throughout: the result does not depend on the order of work.
 std::vector<Candidate> searchGlobally(const Surfels& source, const Surfels& target, const Eigen::Vector3d& centre,
-                                      double radius);
+                                      double radius, const Grain& grain = kFine);
 
 }  // namespace loop_metric

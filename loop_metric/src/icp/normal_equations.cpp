@@ -78,13 +78,23 @@ double spreadOf(const std::vector<Match>& matches) {
     sizes.emplace_back(std::abs(match.residual), match.weight);
     sum += match.weight;
   }
-  std::sort(sizes.begin(), sizes.end());
-  double below = 0.0;
-  for (const auto& [size, weight] : sizes) {
-    below += weight;
-    if (2.0 * below >= sum) return 1.4826 * size;
+  // Weighted median by halving what it may be in; a tie of sizes has equal values, so the order within the halves does not matter but for
+  // the rounding of their sums, and nth_element is a function of its input.
+  auto begin = sizes.begin(), end = sizes.end();
+  double below = 0.0;  // weight before `begin`
+  while (end - begin > 1) {
+    const auto middle = begin + (end - begin) / 2;
+    std::nth_element(begin, middle, end, [](const auto& a, const auto& b) { return a.first < b.first; });
+    double first = 0.0;
+    for (auto it = begin; it != middle; ++it) first += it->second;
+    if (2.0 * (below + first) >= sum) {
+      end = middle;
+    } else {
+      below += first;
+      begin = middle;
+    }
   }
-  return 0.0;
+  return begin == sizes.end() ? 0.0 : 1.4826 * begin->first;
 }
 
 }  // namespace loop_metric

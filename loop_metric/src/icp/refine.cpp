@@ -17,10 +17,13 @@ constexpr double kDamping =
 constexpr double kRest = 2e-4;        // m that the planes' distances still change by
 constexpr double kCoarseRest = 5e-3;  // of the reach, before the last step
 
-std::vector<Surfel> thinned(const Surfels& surfels, float edge) {
-  CellTable table(surfels.all.size() / 4 + 16);
+constexpr std::size_t kEnough =
+    3000;  // pieces for a step that another one follows: five times the voxels of a scan in a street
+
+std::vector<Surfel> thinned(const std::vector<Surfel>& surfels, float edge) {
+  CellTable table(surfels.size() / 4 + 16);
   std::vector<Surfel> chosen;
-  for (const Surfel& surfel : surfels.all) {
+  for (const Surfel& surfel : surfels) {
     if (!(surfel.planarity > 0.0F)) continue;
     const std::uint32_t cell = table.insert(keyOf(cellOf(surfel.mean, 1.0F / edge)));
     if (cell == chosen.size()) chosen.push_back(surfel);
@@ -39,21 +42,25 @@ Target::Target(const Surfels& surfels, double coarsest) {
 }
 
 Source::Source(const Surfels& surfels, const Target& target) {
-  for (std::size_t step = 0; step + 1 < target.steps().size(); ++step)
-    steps_.push_back(thinned(surfels, 0.5F * target.steps()[step].reach()));
+  for (const SurfelIndex& index : target.steps()) {
+    float edge = 0.5F * index.reach();
+    steps_.push_back(thinned(surfels.all, edge));
+    while (steps_.back().size() > kEnough) steps_.back() = thinned(steps_.back(), edge *= 1.5F);
+  }
   steps_.push_back({});
   for (const Surfel& surfel : surfels.all)
     if (surfel.planarity > 0.0F) steps_.back().push_back(surfel);
 }
 
-Refined refine(const Source& source, const Target& target, const Pose& start, std::size_t first_step, int iterations) {
+Refined refine(const Source& source, const Target& target, const Pose& start, std::size_t first, std::size_t end,
+               int iterations) {
   Refined refined;
   refined.T_target_source = start;
-  const std::size_t steps = target.steps().size();
+  const std::size_t steps = source.steps().size();
   const double finest = static_cast<double>(target.steps().back().reach());
-  for (std::size_t step = std::min(first_step, steps - 1); step < steps; ++step) {
+  for (std::size_t step = std::min(first, steps - 1); step < std::min(end, steps); ++step) {
     const bool last = step + 1 == steps;
-    const SurfelIndex& index = target.steps()[step];
+    const SurfelIndex& index = target.steps()[std::min(step, target.steps().size() - 1)];
     const double reach = static_cast<double>(index.reach());
     for (int i = 0; i < iterations; ++i) {
       findMatches(source.steps()[step], index, refined.T_target_source, refined.matches);

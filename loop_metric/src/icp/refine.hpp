@@ -18,7 +18,8 @@ class Target {
   std::vector<SurfelIndex> steps_;
 };
 
-/// A source with one surfel (the most planar) per cube for each step of a Target; all of them for the last.
+/// A source thinned for each step of a Target, to one surfel (the most planar) per cube of half the reach or more, and a last step with all of
+/// them against the finest.
 class Source {
  public:
   Source(const Surfels& surfels, const Target& target);
@@ -40,7 +41,8 @@ struct Refined {
 };
 
 /// Gauss-Newton of point-to-plane distances (Chen and Medioni 1992) on SE(3), from coarse to fine, with Cauchy's weight at the spread that
-/// the residuals show. `first_step`: 0 to begin with the coarsest.
-Refined refine(const Source& source, const Target& target, const Pose& start, std::size_t first_step, int iterations);
+/// the residuals show. The steps of the source from `first` (0: the coarsest) to before `end`, at least one.
+Refined refine(const Source& source, const Target& target, const Pose& start, std::size_t first, std::size_t end,
+               int iterations);
 
 }  // namespace loop_metric

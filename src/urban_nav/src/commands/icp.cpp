@@ -95,6 +95,11 @@ Json jsonOf(const Alignment& alignment, double ms) {
   json["reason"] = reasonOf(alignment);
   json["tests"] = testsJson(alignment);
   json["global_search"] = alignment.searched;
+  if (alignment.rival) {
+    json["rival"] = Json::object();
+    json["rival"]["T_target_source"] = rowMajor(alignment.rival->T_target_source.matrix());
+    json["rival"]["share"] = alignment.rival->share;
+  }
   json["matches"] = alignment.matches;
   json["iterations"] = alignment.iterations;
   json["source_points"] = alignment.source_points;

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cloud/surfel_index.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "urban_nav_core/testing/dice.hpp"
+
+namespace loop_metric {
+namespace {
+
+using urban_nav_core::testing::Dice;
+
+Eigen::Vector3f somewhere(Dice& dice, double size) {
+  return {static_cast<float>(dice.uniform(-size, size)), static_cast<float>(dice.uniform(-size, size)),
+          static_cast<float>(dice.uniform(-size, size))};
+}
+
+TEST(SurfelIndex, findsWhatALookAtAllOfThemFinds) {
+  Dice dice(3);
+  std::vector<Surfel> surfels;
+  for (int i = 0; i < 8000; ++i)
+    surfels.push_back({somewhere(dice, 4.0), somewhere(dice, 1.0).normalized(), dice.chance(0.9) ? 0.5F : 0.0F});
+  for (const float reach : {0.3F, 1.0F, 2.0F}) {
+    const SurfelIndex index(surfels, reach);
+    int found = 0;
+    for (int query = 0; query < 1000; ++query) {
+      const Eigen::Vector3f point = somewhere(dice, 5.0), normal = somewhere(dice, 1.0).normalized();
+      float least = std::numeric_limits<float>::infinity();
+      for (const Surfel& surfel : surfels)
+        if (surfel.planarity > 0.0F && std::abs(surfel.normal.dot(normal)) > 0.70710678F)
+          least = std::min(least, (surfel.mean - point).norm());
+      const Surfel* nearest = index.nearest(point, normal);
+      ASSERT_EQ(nearest != nullptr, least < reach) << least;
+      if (nearest == nullptr) continue;
+      EXPECT_EQ((nearest->mean - point).norm(), least);
+      ++found;
+    }
+    EXPECT_GT(found, 100) << reach;
+  }
+}
+
+TEST(SurfelIndex, nothingIsNearWhatIsNoPlace) {
+  const SurfelIndex index({{Eigen::Vector3f::Zero(), Eigen::Vector3f::UnitZ(), 1.0F}}, 1.0F);
+  const Eigen::Vector3f up = Eigen::Vector3f::UnitZ();
+  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), 1e30F})
+    EXPECT_EQ(index.nearest(Eigen::Vector3f(bad, 0.0F, 0.0F), up), nullptr);
+  EXPECT_EQ(SurfelIndex({}, 1.0F).nearest(Eigen::Vector3f::Zero(), up), nullptr);
+  EXPECT_NE(index.nearest(Eigen::Vector3f(0.5F, 0.5F, 0.0F), up), nullptr);
+}
+
+}  // namespace
+}  // namespace loop_metric
