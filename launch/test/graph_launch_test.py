@@ -105,7 +105,7 @@ class GraphLaunch(LaunchCase):
             for a, b, numbers in self.closures:
                 writer.writerow(["simulated", self.stamps[a].to_nsec(), "simulated", self.stamps[b].to_nsec(), 0.99, "stereo",
                                  *(repr(float(x)) for x in numbers), SIGMA_M, SIGMA_RAD])
-        subprocess.run([command(), "map", str(self.bag), "--closures", str(file), "--out", str(out)], check=True, stdout=subprocess.DEVNULL,
+        subprocess.run([command(), "map", str(self.bag), "--stages", "vo,graph", "--closures", str(file), "--out", str(out)], check=True, stdout=subprocess.DEVNULL,
                        stderr=subprocess.DEVNULL)
         with open(out / "closures.csv") as opened:
             verdicts = [row["verdict"] for row in csv.DictReader(opened)]

@@ -113,7 +113,7 @@ class Inputs:
                        stdout=subprocess.DEVNULL)
 
     def words(self, out):
-        return [str(word) for word in (PROGRAM, "map", *self.bags, "--closures", self.closures, "--out", out)]
+        return [str(word) for word in (PROGRAM, "map", *self.bags, "--stages", "vo,graph", "--closures", self.closures, "--out", out)]
 
 
 def whole_map(folder, inputs):

@@ -82,7 +82,7 @@ def row_of(case, way, bags, arguments):
     name = f"{bags[0].stem.rsplit('_', 1)[0]}_{way}"
     out = arguments.folder / name
     true = offered(bags, way, arguments, arguments.folder / f"{name}.csv")
-    urban_nav("map", *bags, "--closures", arguments.folder / f"{name}.csv", "--out", out, *WAYS[way])
+    urban_nav("map", *bags, "--stages", "vo,graph", "--closures", arguments.folder / f"{name}.csv", "--out", out, *WAYS[way])
     summary = json.loads((out / "summary.json").read_text())
     urban_nav("evaluate", "--truth", both_truths(bags, arguments.folder / "truth.tum"), "--estimate", out / "trajectory.tum", "--json", out / "errors.json")
     errors, graph = json.loads((out / "errors.json").read_text()), summary["pose_graph"]

@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Random starts on another day, in a map that stays as it is: `urban_nav map --localise`, as a user would.
+
+The first day of a simulated world is mapped; from the second one pieces are cut at random, each its own recording, and looked for in the map of the first.
+Counted: how many are KNOWN and right (within 1 m) inside 10 s of driving, whether one is ever wrong by more than 1 m while it says KNOWN, and how far off it is. The
+map is laid upon the truth by one rigid motion of the whole first day; the truth reaches nothing else.
+"""
+import argparse
+import csv
+import json
+from pathlib import Path
+
+import numpy as np
+import rosbag
+
+from end_to_end import driven
+from support import commit, show, urban_nav
+
+COLUMNS = ("world, seed", "starts", "known and right within 10 s", "median time to KNOWN, s", "wrong by over 1 m while KNOWN", "KNOWN frames", "error, median, m", "95 %", "largest",
+           "NEES of position (3 is right)", "a look, ms")
+SECONDS = 15.0  # of a piece: 10 s of driving and the window of odometry
+RIGHT_M = 1.0
+
+
+def trajectory(path):
+    rows = [line.split() for line in Path(path).read_text().splitlines() if not line.startswith("#")]
+    whole = [row[0].partition(".") for row in rows]
+    stamps = np.array([int(seconds) * 10**9 + int((rest + "0" * 9)[:9]) for seconds, _, rest in whole])
+    return stamps, np.array([[float(value) for value in row[1:4]] for row in rows])
+
+
+def places_at(track, stamps):
+    return np.stack([np.interp(np.asarray(stamps, float) - track[0][0], (track[0] - track[0][0]).astype(float), track[1][:, i]) for i in range(3)], axis=1)
+
+
+def onto(points, places):
+    """The rigid motion that lays `points` upon `places` best (Umeyama 1991)."""
+    a, b = points.mean(axis=0), places.mean(axis=0)
+    u, _, vt = np.linalg.svd((places - b).T @ (points - a))
+    turn = u @ np.diag([1.0, 1.0, np.sign(np.linalg.det(u @ vt))]) @ vt
+    return turn, b - turn @ a
+
+
+def cut(bag, begin, seconds, path):
+    with rosbag.Bag(str(bag)) as source, rosbag.Bag(str(path), "w") as piece:
+        start = source.get_start_time() + begin
+        for topic, message, stamp in source.read_messages(topics=["/tf_static"], raw=True):
+            piece.write(topic, message, type(stamp).from_sec(start), raw=True)
+        topics = [topic for topic in source.get_type_and_topic_info().topics if topic.startswith(("/stereo", "/imu"))]
+        for topic, message, stamp in source.read_messages(topics=topics, start_time=type(stamp).from_sec(start), end_time=type(stamp).from_sec(start + seconds), raw=True):
+            piece.write(topic, message, stamp, raw=True)
+
+
+def start(bag, begin, map_folder, motion, truth, folder):
+    """Of one piece: time to KNOWN (s, None: never), errors (m) and squared normalised errors of KNOWN frames, ms of a look."""
+    piece, out = folder / "piece.bag", folder / "piece"
+    cut(bag, begin, SECONDS, piece)
+    urban_nav("map", piece, "--localise", map_folder / "session.db", "--out", out)
+    turn, shift = motion
+    errors, squares, first, begun = [], [], None, None
+    with (out / "localisation.csv").open() as file:
+        for row in csv.DictReader(file):
+            stamp = int(row["stamp_ns"])
+            begun = stamp if begun is None else begun
+            if row["knowledge"] != "KNOWN":
+                continue
+            first = (stamp - begun) * 1e-9 if first is None else first
+            place = turn @ np.array([float(row[axis]) for axis in "xyz"]) + shift
+            d = place - places_at(truth, [stamp])[0]
+            covariance = turn @ np.array([[float(row[f"c{i}{j}"]) for j in range(3)] for i in range(3)]) @ turn.T
+            errors.append(np.linalg.norm(d))
+            squares.append(d @ np.linalg.solve(covariance, d))
+    piece.unlink()
+    return first, errors, squares, json.loads((out / "summary.json").read_text())["localisation"]["ms_median"]
+
+
+def row_of(case, arguments):
+    bags = driven(arguments.folder, case)
+    out = arguments.folder / f"{bags[0].stem}_frozen"
+    if not (out / "summary.json").exists():
+        urban_nav("map", bags[0], "--stages", "vo,loops,graph", "--closures", bags[0].with_suffix(".truth") / "closures_true.csv", "--out", out)
+    mapped, truths = trajectory(out / "trajectory.tum"), [trajectory(bag.with_suffix(".truth") / "trajectory.tum") for bag in bags]
+    motion = onto(mapped[1], places_at(truths[0], mapped[0]))
+    dice = np.random.default_rng(arguments.seed)
+    length = (truths[1][0][-1] - truths[1][0][0]) * 1e-9 - SECONDS - 1.0
+    made = [start(bags[1], begin, out, motion, truths[1], arguments.folder) for begin in np.sort(dice.uniform(0.0, length, arguments.starts))]
+    errors = np.array([error for _, each, _, _ in made for error in each])
+    squares = np.array([square for _, _, each, _ in made for square in each])
+    times = [first for first, *_ in made if first is not None]
+    right = sum(first is not None and first <= 10.0 and max(each) <= RIGHT_M for first, each, *_ in made)
+    wrong = sum(bool(each) and max(each) > RIGHT_M for _, each, *_ in made)
+    return [case.split(":")[0] + " " + case.split(":")[1], str(len(made)), str(right), f"{np.median(times):.1f}" if times else "", str(wrong), str(len(errors)),
+            *(f"{value:.3f}" for value in (np.median(errors), np.quantile(errors, 0.95), errors.max())), f"{squares.mean():.2f}",
+            f"{np.median([ms for *_, ms in made]):.0f}"]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=Path, help="for what is simulated and mapped; sessions and maps that are there already are taken")
+    parser.add_argument("--case", action="append", help="WORLD:SEED:SECONDS:SECONDS, repeatable (default quad:7:300:300)")
+    parser.add_argument("--starts", type=int, default=50)
+    parser.add_argument("--seed", type=int, default=1, help="of the starts")
+    parser.add_argument("-o", "--output", type=Path, help="the table, for a README")
+    arguments = parser.parse_args()
+    measured = commit()
+    arguments.folder.mkdir(parents=True, exist_ok=True)
+    rows = [row_of(case, arguments) for case in arguments.case or ["quad:7:300:300"]]
+    show(COLUMNS, rows, ["Another day of the same world, views alone; one rigid motion lays the first day's map upon its truth."], measured, arguments.output)
+
+
+if __name__ == "__main__":
+    main()
