@@ -5,10 +5,10 @@
 #include <chrono>
 #include <map>
 
+#include "loop_metric/camera_words.hpp"
 #include "loop_metric/stereo_closure.hpp"
 #include "loop_metric/stored_surroundings.hpp"
 #include "loop_metric/view_finder.hpp"
-#include "pipeline/loops_stage.hpp"
 #include "pipeline/store_stage.hpp"
 #include "pipeline/vo_summary.hpp"
 #include "store/stored_map.hpp"
@@ -58,7 +58,7 @@ std::vector<MapView> viewsOf(Store& frozen, const std::string& words) {
   for (const StoredTrajectory& each : maps.front()) {
     const std::vector<StampNs> stamps = frozen.keyframes().stamps(each.session.id, kVoCamera);
     if (stamps.empty()) continue;
-    if (propertyOf(frozen, each.session.id, kCameraProperty) != words) {
+    if (propertyOf(frozen, each.session.id, loop_metric::camera_property) != words) {
       other_camera = true;
       continue;
     }
@@ -79,7 +79,7 @@ class Search {
  public:
   Search(const loop_metric::Parameters& parameters, Store& frozen, const VoRun& run, Console& console)
       : frozen_(frozen),
-        views_(viewsOf(frozen, cameraWords(run.camera, run.T_base_camera))),
+        views_(viewsOf(frozen, loop_metric::cameraWords(run.camera, run.T_base_camera))),
         finder_(run.camera),
         matcher_(run.camera, parameters),
         T_base_camera_(run.T_base_camera) {
