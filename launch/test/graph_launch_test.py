@@ -18,27 +18,12 @@ from urban_nav_msgs.srv import GetTrajectory
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from graph import command, connections, services  # noqa: E402
 from launch_case import LaunchCase  # noqa: E402
+from truth import matrix, pose_of, true_poses  # noqa: E402
 
 SECONDS = 7  # a map is level once three spans of 2 s have been felt
 SIGMA_M, SIGMA_RAD = 0.002, 0.0005
 TRUE = [(5, 70), (21, 96), (35, 115), (52, 135)]  # frames
 FALSE = [(14, 105), (44, 109)]
-
-
-def matrix(p, q):
-    """4x4 of a translation and a quaternion x, y, z, w."""
-    x, y, z, w = np.array(q) / np.linalg.norm(q)
-    result = np.eye(4)
-    result[:3, :3] = [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                      [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                      [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]
-    result[:3, 3] = p
-    return result
-
-
-def pose_of(message):
-    p, q = message.position, message.orientation
-    return matrix((p.x, p.y, p.z), (q.x, q.y, q.z, q.w))
 
 
 def quaternion(turn):
@@ -62,21 +47,9 @@ class GraphLaunch(LaunchCase):
                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         with rosbag.Bag(str(bag)) as opened:
             cls.stamps = [message.header.stamp for _, message, _ in opened.read_messages(["/stereo/left/image_raw"])]
-        cls.truth = cls.true_poses(bag.with_suffix(".truth") / "trajectory.tum")
+        cls.truth = true_poses(bag.with_suffix(".truth") / "trajectory.tum", cls.stamps)
         cls.closures = [(a, b, cls.measured(a, b, wrong)) for a, b, wrong in sorted([(*p, 0.0) for p in TRUE] + [(*p, 1.5) for p in FALSE])]
         return bag
-
-    @classmethod
-    def true_poses(cls, path):
-        """At the frames: from the nearest of 200 a second, 2 ms or less away, carried on at the speed there."""
-        rows = np.loadtxt(path)
-        found = []
-        for stamp in cls.stamps:
-            i = min(max(1, np.abs(rows[:, 0] - stamp.to_sec()).argmin()), len(rows) - 2)
-            share = (stamp.to_sec() - rows[i - 1, 0]) / (rows[i + 1, 0] - rows[i - 1, 0])
-            between = (1 - share) * rows[i - 1, 1:] + share * rows[i + 1, 1:]  # neighbours in a file have quaternions of one sign
-            found.append(matrix(between[:3], between[3:]))
-        return found
 
     @classmethod
     def measured(cls, a, b, sideways):
