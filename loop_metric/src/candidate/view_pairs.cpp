@@ -38,6 +38,7 @@ double turn(const Pose& T) {
 }
 
 void add(std::vector<ViewPair>& pairs, const NearbyView& a, const NearbyView& b) {
+  if (a.at == b.at) return;  // beside both moments: what it says of itself is odometry's, and looks sure
   for (const ViewPair& pair : pairs)
     if (pair.a.at == a.at && pair.b.at == b.at) return;
   pairs.push_back({a, b});
@@ -57,6 +58,7 @@ std::vector<ViewPair> pairsOf(const std::vector<NearbyView>& views_a, const std:
     std::vector<double> costs;
     for (const NearbyView& each_a : views_a)
       for (const NearbyView& each_b : views_b) {
+        if (each_a.at == each_b.at) continue;
         const Pose T = between(T_a_b->pose, each_a, each_b);
         if (turn(T) > widest_turn + doubt) continue;
         all.push_back({each_a, each_b});

@@ -34,6 +34,19 @@ UncertainPose odometry(double x, double heading, double sigma_m, double sigma_ra
   return T_a_b;
 }
 
+TEST(ViewPairs, AViewBesideBothMomentsIsNotMatchedWithItself) {
+  // To and fro within seven metres: the same views lie around both moments.
+  auto back = row("a", 6, 6);
+  for (NearbyView& view : back)
+    view.T_moment_view.pose = Pose(urban_nav_core::Quaterniond::Identity(), {view.way + 0.3, 0.0, 0.0});
+  for (const auto& T_a_b :
+       {std::optional<UncertainPose>(odometry(0.0, 0.0, 0.01, 0.001)), std::optional<UncertainPose>()}) {
+    const auto pairs = pairsOf(row("a", 6, 6), back, T_a_b, 6.0, 5);
+    EXPECT_FALSE(pairs.empty());
+    for (const ViewPair& pair : pairs) EXPECT_FALSE(pair.a.at == pair.b.at);
+  }
+}
+
 TEST(ViewPairs, WithoutOdometryTheViewsNearestToTheMomentsComeFirst) {
   const auto pairs = pairsOf(row("a", 6, 6), row("b", 6, 6), std::nullopt, 6.0, 5);
   ASSERT_EQ(pairs.size(), 3U);
