@@ -137,13 +137,17 @@ TEST_F(StoreCommands, mapRelaxesTheSessionsOfAStoreWithNewOnes) {
   testing::writeFile(file("within.csv"), header + within);
   testing::writeFile(file("between.csv"), header + between);
   testing::writeFile(file("all.csv"), header + between + within);
-  ASSERT_EQ(call({"map", file("in16"), file("in12"), "--out", file("at_once"), "--closures", file("all.csv")}), 0);
-  ASSERT_EQ(call({"map", file("in16"), "--out", file("day1"), "--closures", file("within.csv")}), 0);
+  ASSERT_EQ(call({"map", file("in16"), file("in12"), "--out", file("at_once"), "--stages", "vo,graph", "--closures",
+                  file("all.csv")}),
+            0);
+  ASSERT_EQ(
+      call({"map", file("in16"), "--out", file("day1"), "--stages", "vo,graph", "--closures", file("within.csv")}), 0);
   const std::string day1 = dumpOf(file("day1/session.db"));
   for (const char* closures : {"between.csv", "all.csv"}) {
     const std::string out = file(std::string("day2") + closures);
-    ASSERT_EQ(
-        call({"map", file("in12"), "--out", out, "--closures", file(closures), "--store", file("day1/session.db")}), 0);
+    ASSERT_EQ(call({"map", file("in12"), "--out", out, "--stages", "vo,graph", "--closures", file(closures), "--store",
+                    file("day1/session.db")}),
+              0);
     for (const char* name :
          {"trajectory.tum", "trajectory.kitti", "covariance.csv", "relative_covariance.csv", "graph.g2o"})
       EXPECT_TRUE(readFile(out + "/" + name) == readFile(file(std::string("at_once/") + name)))
@@ -158,8 +162,8 @@ TEST_F(StoreCommands, mapRelaxesTheSessionsOfAStoreWithNewOnes) {
   EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 28) << "of both";
 
   // In the folder of the store itself; a cut-off run would find it so and go on.
-  ASSERT_EQ(call({"map", file("in12"), "--out", file("day1"), "--closures", file("between.csv"), "--store",
-                  file("day1/session.db")}),
+  ASSERT_EQ(call({"map", file("in12"), "--out", file("day1"), "--stages", "vo,graph", "--closures", file("between.csv"),
+                  "--store", file("day1/session.db")}),
             0);
   EXPECT_TRUE(readFile(file("day1/trajectory.tum")) == readFile(file("at_once/trajectory.tum")));
   EXPECT_TRUE(readFile(file("day1/closures.csv")) == readFile(file("day2between.csv/closures.csv")));
