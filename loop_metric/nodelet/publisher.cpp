@@ -56,7 +56,7 @@ void Publisher::publishPicture(const Judge::Verdict& verdict) {
   options.title_b = titleOf(shown.view_b.at);
   options.caption = std::string(urban_nav_core::toString(verdict.metric.verdict)) + " (" +
                     urban_nav_core::toString(verdict.metric.method) + "): " + verdict.metric.sentence;
-  MatchPicture picture;
+  Picture picture;
   try {
     picture =
         drawMatches(verdict.keyframe(shown.view_a.at), verdict.keyframe(shown.view_b.at), shown.result.pixels, options);

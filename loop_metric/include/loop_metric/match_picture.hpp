@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "loop_metric/keyframe.hpp"
+#include "loop_metric/picture.hpp"
 #include "loop_metric/stereo_closure.hpp"
 
 namespace loop_metric {
-
-/// A picture in colour: blue, green, red in a byte each ("bgr8" in ROS), rows from the top without gaps.
-struct MatchPicture {
-  int width = 0, height = 0;  ///< px
-  std::vector<std::uint8_t> bgr;
-};
 
 struct MatchPictureOptions {
   bool stacked = false;          ///< b below a; else to its right
@@ -28,10 +22,7 @@ struct MatchPictureOptions {
 /// The two views with what was found in both (Newman et al. 2009, Figs. 12 and 13): matches as lines from green (residual zero) over yellow to red (`worst_px`
 /// and more), what was looked for and did not agree as thin grey ones beneath. `pixels` as StereoMatcher gives them; those that are not finite or outside
 /// their view are left out. A view whose image is missing or unreadable is a grey panel that says so. Thread-safe.
-MatchPicture drawMatches(const Keyframe& a, const Keyframe& b, const std::vector<MatchedPixels>& pixels,
-                         const MatchPictureOptions& options = {});
-
-/// As JPEG; empty for an empty picture. `quality`: 1...100.
-std::vector<std::uint8_t> jpegOf(const MatchPicture& picture, int quality = 85);
+Picture drawMatches(const Keyframe& a, const Keyframe& b, const std::vector<MatchedPixels>& pixels,
+                    const MatchPictureOptions& options = {});
 
 }  // namespace loop_metric

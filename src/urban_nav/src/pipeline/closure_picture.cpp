@@ -50,8 +50,7 @@ std::optional<PagePicture> pictureOf(const Evidence::Try& views,
   options.title_a = titleOf(views.view_a);
   options.title_b = titleOf(views.view_b);
   try {
-    const loop_metric::MatchPicture drawn =
-        loop_metric::drawMatches(keyframe(true), keyframe(false), views.pixels, options);
+    const loop_metric::Picture drawn = loop_metric::drawMatches(keyframe(true), keyframe(false), views.pixels, options);
     PagePicture picture;
     picture.jpeg = loop_metric::jpegOf(drawn);
     picture.width = drawn.width;

@@ -5,23 +5,21 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "io/jpeg.hpp"
+#include "pictures/canvas.hpp"
 
 namespace loop_metric {
 
 namespace {
 
 constexpr int subpixel_bits = 4;  // of OpenCV's drawing coordinates
-constexpr int gap = 4;            // px between the views
-constexpr int strip = 24;         // px, below: caption and colours
 constexpr int usual_width = 512, usual_height = 384;
 constexpr int largest_size = 16384;  // px: beyond, a size is not believed
 constexpr int narrowest = 64;
 constexpr double opacity = 0.5;  // of the lines, so that the views stay to be seen
-const cv::Scalar paper(245, 245, 245), grey(150, 150, 150), panel(110, 110, 110), ink(30, 30, 30);
+const cv::Scalar grey(150, 150, 150), panel(110, 110, 110);
 
 /// Green over yellow to red, in BGR; `share` of the worst.
 cv::Scalar colourOf(double share) {
@@ -66,10 +64,6 @@ Panel panelOf(const Keyframe& keyframe, const Keyframe& other, int widest) {
   return made;
 }
 
-void write(cv::Mat& canvas, const std::string& text, cv::Point at, const cv::Scalar& colour) {
-  if (!text.empty()) cv::putText(canvas, text, at, cv::FONT_HERSHEY_SIMPLEX, 0.42, colour, 1, cv::LINE_AA);
-}
-
 void drawView(cv::Mat canvas, const Keyframe& keyframe, const std::string& title) {
   const cv::Mat picture =
       isPlausible(keyframe) ? decodeJpeg(keyframe.image, {keyframe.width, keyframe.height}) : cv::Mat();
@@ -81,10 +75,7 @@ void drawView(cv::Mat canvas, const Keyframe& keyframe, const std::string& title
     cv::resize(picture, reduced, canvas.size(), 0.0, 0.0, cv::INTER_AREA);
     cv::cvtColor(reduced, canvas, cv::COLOR_GRAY2BGR);
   }
-  if (title.empty()) return;
-  const cv::Size size = cv::getTextSize(title, cv::FONT_HERSHEY_SIMPLEX, 0.42, 1, nullptr);
-  cv::rectangle(canvas, {0, 0, size.width + 10, 18}, ink, cv::FILLED);
-  write(canvas, title, {5, 13}, paper);
+  writeTitle(canvas, title);
 }
 
 void drawMatchesOn(cv::Mat& canvas, const Panel& a, const Panel& b, const std::vector<MatchedPixels>& pixels,
@@ -129,35 +120,20 @@ void drawStrip(cv::Mat canvas, const MatchPictureOptions& options) {
 
 }  // namespace
 
-MatchPicture drawMatches(const Keyframe& a, const Keyframe& b, const std::vector<MatchedPixels>& pixels,
-                         const MatchPictureOptions& options) {
+Picture drawMatches(const Keyframe& a, const Keyframe& b, const std::vector<MatchedPixels>& pixels,
+                    const MatchPictureOptions& options) {
   const int widest = std::clamp(options.widest, narrowest, largest_size);
   Panel of_a = panelOf(a, b, widest), of_b = panelOf(b, a, widest);
-  if (options.stacked) of_b.area.y = of_a.area.height + gap;
-  else of_b.area.x = of_a.area.width + gap;
+  if (options.stacked) of_b.area.y = of_a.area.height + panel_gap;
+  else of_b.area.x = of_a.area.width + panel_gap;
   const cv::Rect both = of_a.area | of_b.area;
-  cv::Mat canvas(both.height + strip, both.width, CV_8UC3, paper);
+  cv::Mat canvas(both.height + caption_height, both.width, CV_8UC3, paper);
   drawView(canvas(of_a.area), a, options.title_a);
   drawView(canvas(of_b.area), b, options.title_b);
   cv::Mat views = canvas(both);
   drawMatchesOn(views, of_a, of_b, pixels, options);
-  drawStrip(canvas(cv::Rect(0, both.height, both.width, strip)), options);
-  MatchPicture made;
-  made.width = canvas.cols;
-  made.height = canvas.rows;
-  made.bgr.assign(canvas.datastart, canvas.dataend);
-  return made;
-}
-
-std::vector<std::uint8_t> jpegOf(const MatchPicture& picture, int quality) {
-  std::vector<std::uint8_t> bytes;
-  if (picture.width <= 0 || picture.height <= 0 ||
-      picture.bgr.size() != 3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height))
-    return bytes;
-  // cv::Mat has no const view; it is only read
-  const cv::Mat pixels(picture.height, picture.width, CV_8UC3, const_cast<std::uint8_t*>(picture.bgr.data()));
-  cv::imencode(".jpg", pixels, bytes, {cv::IMWRITE_JPEG_QUALITY, std::clamp(quality, 1, 100)});
-  return bytes;
+  drawStrip(canvas(cv::Rect(0, both.height, both.width, caption_height)), options);
+  return pictureOf(canvas);
 }
 
 }  // namespace loop_metric

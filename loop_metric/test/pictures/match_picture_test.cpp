@@ -23,12 +23,12 @@ struct Colour {
   bool isGrey() const { return blue == green && green == red; }
 };
 
-Colour at(const MatchPicture& picture, int u, int v) {
+Colour at(const Picture& picture, int u, int v) {
   const std::uint8_t* p = &picture.bgr[3 * static_cast<std::size_t>(v * picture.width + u)];
   return {p[0], p[1], p[2]};
 }
 
-int coloured(const MatchPicture& picture, int from_row, int to_row) {
+int coloured(const Picture& picture, int from_row, int to_row) {
   int count = 0;
   for (int v = from_row; v < to_row; ++v)
     for (int u = 0; u < picture.width; ++u)
@@ -51,7 +51,7 @@ Keyframe emptyView(int width, int height) {
 
 TEST(MatchPicture, ShowsTheViewsBesideOrAboveEachOther) {
   const Keyframe a = someView(0.1), b = someView(0.4);
-  const MatchPicture beside = drawMatches(a, b, {});
+  const Picture beside = drawMatches(a, b, {});
   EXPECT_EQ(beside.width, 2 * 512 + 4);
   EXPECT_GT(beside.height, 384);
   ASSERT_EQ(beside.bgr.size(), static_cast<std::size_t>(3 * beside.width * beside.height));
@@ -60,7 +60,7 @@ TEST(MatchPicture, ShowsTheViewsBesideOrAboveEachOther) {
                 view_b = cv::imdecode(b.image, cv::IMREAD_GRAYSCALE);
   MatchPictureOptions options;
   options.stacked = true;
-  const MatchPicture above = drawMatches(a, b, {}, options);
+  const Picture above = drawMatches(a, b, {}, options);
   EXPECT_EQ(above.width, 512);
   for (const cv::Point& p : {cv::Point(0, 0), cv::Point(100, 50), cv::Point(511, 383)}) {
     EXPECT_EQ(at(beside, p.x, p.y).green, view_a.at<std::uint8_t>(p));
@@ -73,7 +73,7 @@ TEST(MatchPicture, ShowsTheViewsBesideOrAboveEachOther) {
 TEST(MatchPicture, MatchesAreLinesWhoseColourIsTheResidual) {
   const Keyframe a = emptyView(200, 100), b = emptyView(200, 100);
   const auto middleOf = [&](double residual, bool inlier) {
-    const MatchPicture picture = drawMatches(a, b, {{{20.0, 30.0}, {160.0, 30.0}, residual, inlier}});
+    const Picture picture = drawMatches(a, b, {{{20.0, 30.0}, {160.0, 30.0}, residual, inlier}});
     return at(picture, 190, 30);
   };
   const Colour good = middleOf(0.0, true), bad = middleOf(0.5, true), worse = middleOf(50.0, true),
@@ -89,7 +89,7 @@ TEST(MatchPicture, LargeViewsAreReducedWithTheirMatches) {
   const Keyframe a = emptyView(1280, 960), b = emptyView(1280, 960);
   MatchPictureOptions options;
   options.widest = 320;
-  const MatchPicture picture = drawMatches(a, b, {{{400.0, 400.0}, {400.0, 400.0}, 0.0, true}}, options);
+  const Picture picture = drawMatches(a, b, {{{400.0, 400.0}, {400.0, 400.0}, 0.0, true}}, options);
   EXPECT_EQ(picture.width, 2 * 320 + 4);
   EXPECT_FALSE(at(picture, 100, 100).isGrey());
   EXPECT_FALSE(at(picture, 424, 100).isGrey());
@@ -105,7 +105,7 @@ TEST(MatchPicture, AMissingOrDamagedViewIsAPanelThatSaysSo) {
   const std::vector<MatchedPixels> pixels = {{{10.0, 10.0}, {20.0, 20.0}, 0.1, true}};
   for (const Keyframe& bad : {Keyframe(), cut, noise, lying, emptyView(-5, 7), emptyView(1 << 29, 1 << 29)}) {
     for (const bool first : {true, false}) {
-      const MatchPicture picture = drawMatches(first ? bad : good, first ? good : bad, pixels);
+      const Picture picture = drawMatches(first ? bad : good, first ? good : bad, pixels);
       ASSERT_LE(picture.width, 2000);
       ASSERT_EQ(picture.bgr.size(), static_cast<std::size_t>(3 * picture.width * picture.height));
       EXPECT_EQ(at(picture, first ? 2 : picture.width - 3, 2).blue, 110);
@@ -118,18 +118,18 @@ TEST(MatchPicture, AMissingOrDamagedViewIsAPanelThatSaysSo) {
 TEST(MatchPicture, PlacesThatAreNoneAreLeftOut) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
   const Keyframe a = emptyView(200, 100), b = emptyView(200, 100);
-  const MatchPicture picture = drawMatches(a, b,
-                                           {{{nan, 3.0}, {4.0, 4.0}, 0.1, true},
-                                            {{3.0, 3.0}, {4.0, inf}, 0.1, true},
-                                            {{3.0, 3.0}, {1e300, 4.0}, 0.1, true},
-                                            {{-3.0, 3.0}, {4.0, 4.0}, 0.1, true}});
+  const Picture picture = drawMatches(a, b,
+                                      {{{nan, 3.0}, {4.0, 4.0}, 0.1, true},
+                                       {{3.0, 3.0}, {4.0, inf}, 0.1, true},
+                                       {{3.0, 3.0}, {1e300, 4.0}, 0.1, true},
+                                       {{-3.0, 3.0}, {4.0, 4.0}, 0.1, true}});
   EXPECT_EQ(coloured(picture, 0, 100), 0);
-  const MatchPicture doubtful = drawMatches(a, b, {{{3.0, 60.0}, {4.0, 60.0}, nan, true}});
+  const Picture doubtful = drawMatches(a, b, {{{3.0, 60.0}, {4.0, 60.0}, nan, true}});
   EXPECT_GT(coloured(doubtful, 0, 100), 0);
 }
 
 TEST(MatchPicture, ComesAsJpegToo) {
-  const MatchPicture picture = drawMatches(someView(0.1), someView(0.4), {});
+  const Picture picture = drawMatches(someView(0.1), someView(0.4), {});
   const cv::Mat back = cv::imdecode(jpegOf(picture), cv::IMREAD_COLOR);
   EXPECT_EQ(back.cols, picture.width);
   EXPECT_EQ(back.rows, picture.height);
