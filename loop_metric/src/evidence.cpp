@@ -2,6 +2,8 @@
 #include "loop_metric/evidence.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "urban_nav_core/io/csv.hpp"
 #include "urban_nav_core/io/numbers.hpp"
@@ -10,6 +12,7 @@
 namespace loop_metric {
 
 using urban_nav_core::CsvTable;
+using urban_nav_core::Pose;
 using urban_nav_core::printNumber;
 
 namespace {
@@ -35,24 +38,38 @@ void print(std::string& text, const ClosureTest& test, const char* kind) {
         {kind, test.name, cell(test.value), cell(test.threshold), test.at_least ? "1" : "0", test.passed ? "1" : "0"});
 }
 
+void print(std::string& text, const char* name, const Pose& T) {
+  std::string words;
+  for (const double number : {T.t().x(), T.t().y(), T.t().z(), T.q().x(), T.q().y(), T.q().z(), T.q().w()})
+    words += (words.empty() ? "" : " ") + printNumber(number);
+  print(text, {"transform", name, "", "", "", "", "", "", "", "", words});
+}
+
 Evidence::Try tryOf(const StereoTry& made) {
   const StereoClosure& result = made.result;
-  Evidence::Try its{"stereo",
-                    made.view_a.at,
-                    made.view_b.at,
-                    toString(result.verdict),
-                    toString(result.reason),
-                    result.sentence,
-                    result.tests,
-                    {}};
+  Evidence::Try its;
+  its.method = "stereo";
+  its.view_a = made.view_a.at;
+  its.view_b = made.view_b.at;
+  its.verdict = toString(result.verdict);
+  its.reason = toString(result.reason);
+  its.sentence = result.sentence;
+  its.tests = result.tests;
   const std::size_t step = 1 + result.pixels.size() / most_pixels;
   for (std::size_t i = 0; i < result.pixels.size(); i += step) its.pixels.push_back(result.pixels[i]);
   return its;
 }
 
-Evidence::Try tryOf(const Alignment& alignment, const urban_nav_core::MetricClosure& metric) {
-  Evidence::Try its{
-      "icp", metric.a, metric.b, toString(alignment.verdict), toString(alignment.reason), alignment.sentence, {}, {}};
+Evidence::Try tryOf(const Alignment& alignment, const LoopClosure& closure) {
+  Evidence::Try its;
+  its.method = "icp";
+  its.view_a = closure.metric.a;
+  its.view_b = closure.metric.b;
+  its.verdict = toString(alignment.verdict);
+  its.reason = toString(alignment.reason);
+  its.sentence = alignment.sentence;
+  its.guess = closure.icp_guess;
+  its.T_a_b = alignment.T_target_source;
   for (const Test& test : alignment.tests)
     its.tests.push_back({test.name, test.value, test.threshold, test.at_least, test.passed});
   return its;
@@ -69,14 +86,11 @@ class Reader {
     for (std::size_t row = 0; row < table_.rows(); ++row) {
       const std::string& kind = table_.text(row, 0);
       if (kind == "try") {
-        evidence.tries.push_back({table_.text(row, 1),
-                                  {table_.text(row, 6), table_.integer(row, 7)},
-                                  {table_.text(row, 8), table_.integer(row, 9)},
-                                  "",
-                                  "",
-                                  "",
-                                  {},
-                                  {}});
+        Evidence::Try begun;
+        begun.method = table_.text(row, 1);
+        begun.view_a = {table_.text(row, 6), table_.integer(row, 7)};
+        begun.view_b = {table_.text(row, 8), table_.integer(row, 9)};
+        evidence.tries.push_back(begun);
       } else if (kind == "gate") {
         evidence.gate.push_back(testAt(row));
       } else if (evidence.tries.empty()) {
@@ -88,6 +102,9 @@ class Reader {
         last.sentence = table_.text(row, 10);
       } else if (kind == "test") {
         evidence.tries.back().tests.push_back(testAt(row));
+      } else if (kind == "transform") {
+        Evidence::Try& last = evidence.tries.back();
+        (table_.text(row, 1) == "guess" ? last.guess : last.T_a_b) = poseAt(row);
       } else if (kind == "pixels") {
         evidence.tries.back().pixels.push_back(pixelsAt(row));
       } else {
@@ -105,6 +122,18 @@ class Reader {
   }
   ClosureTest testAt(std::size_t row) const {
     return {table_.text(row, 1), table_.number(row, 2), table_.number(row, 3), yes(row, 4), yes(row, 5)};
+  }
+  Pose poseAt(std::size_t row) const {
+    std::array<double, 7> numbers{};  // x y z, qx qy qz qw
+    std::size_t count = 0;
+    for (const std::string_view word : urban_nav_core::splitBlanks(table_.text(row, 10))) {
+      const auto number = urban_nav_core::parseNumber(word);
+      if (!number || count == numbers.size()) refuse(row, "no transform");
+      numbers[count++] = *number;
+    }
+    const Eigen::Quaterniond q(numbers[6], numbers[3], numbers[4], numbers[5]);
+    if (count != numbers.size() || !(std::abs(q.norm() - 1.0) < 1e-6)) refuse(row, "no transform");
+    return Pose(q.normalized(), {numbers[0], numbers[1], numbers[2]});
   }
   MatchedPixels pixelsAt(std::size_t row) const {
     MatchedPixels pixels;
@@ -126,7 +155,7 @@ class Reader {
 Evidence evidenceOf(const LoopClosure& closure) {
   Evidence evidence;
   for (const StereoTry& made : closure.stereo) evidence.tries.push_back(tryOf(made));
-  if (closure.icp) evidence.tries.push_back(tryOf(*closure.icp, closure.metric));
+  if (closure.icp) evidence.tries.push_back(tryOf(*closure.icp, closure));
   evidence.gate = closure.tests;
   return evidence;
 }
@@ -138,6 +167,8 @@ std::string printEvidence(const Evidence& evidence) {
                  each.view_b.session, std::to_string(each.view_b.stamp)});
     print(text, {"verdict", each.verdict, "", "", "", "", each.reason, "", "", "", each.sentence});
     for (const ClosureTest& test : each.tests) print(text, test, "test");
+    if (each.guess) print(text, "guess", *each.guess);
+    if (each.T_a_b) print(text, "T_a_b", *each.T_a_b);
     for (const MatchedPixels& pixels : each.pixels)
       print(text, {"pixels", "", cell(pixels.in_a.x()), cell(pixels.in_a.y()), "", pixels.inlier ? "1" : "0",
                    cell(pixels.in_b.x()), "", cell(pixels.in_b.y()), "", cell(pixels.residual_px)});

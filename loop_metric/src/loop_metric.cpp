@@ -124,6 +124,7 @@ class Measuring {
       search = Search::IfRejected;
       possible = [this](const Constraint& T_a_b) { return gate_->deviations(T_a_b) <= parameters_.gate; };
     }
+    closure_.icp_guess = guess;
     closure_.icp = align(source, target, parameters_, guess, search, possible);
     Alignment& found = *closure_.icp;
     if (found.verdict == Verdict::Rejected) return false;

@@ -13,8 +13,13 @@ namespace {
 
 Evidence someEvidence() {
   Evidence evidence;
-  Evidence::Try views{
-      "stereo", {"monday", 12}, {"tuesday, the \"second\"", 34}, "rejected", "small_share", "alike, in parts", {}, {}};
+  Evidence::Try views;
+  views.method = "stereo";
+  views.view_a = {"monday", 12};
+  views.view_b = {"tuesday, the \"second\"", 34};
+  views.verdict = "rejected";
+  views.reason = "small_share";
+  views.sentence = "alike, in parts";
   views.tests.push_back({"matches", 51.0, 50.0, true, true});
   views.tests.push_back({"share", 0.1, 0.3, true, false});
   MatchedPixels pixels;
@@ -24,7 +29,14 @@ Evidence someEvidence() {
   pixels.inlier = true;
   views.pixels.push_back(pixels);
   evidence.tries.push_back(views);
-  evidence.tries.push_back({"icp", {"monday", 12}, {"tuesday", 34}, "accepted", "", "", {}, {}});
+  Evidence::Try clouds;
+  clouds.method = "icp";
+  clouds.view_a = {"monday", 12};
+  clouds.view_b = {"tuesday", 34};
+  clouds.verdict = "accepted";
+  clouds.guess = urban_nav_core::Pose();
+  clouds.T_a_b = urban_nav_core::expSe3((urban_nav_core::Vector6d() << 1.0, -2.5, 0.1, 0.02, -0.3, 3.0).finished());
+  evidence.tries.push_back(clouds);
   evidence.gate.push_back({"distance_m", 3.0, 9.0, false, true});
   return evidence;
 }
@@ -37,6 +49,10 @@ TEST(Evidence, ReadsBackAsItWasWritten) {
   EXPECT_EQ(again.tries[0].view_b, evidence.tries[0].view_b);
   EXPECT_EQ(again.tries[0].sentence, evidence.tries[0].sentence);
   EXPECT_EQ(again.tries[0].pixels.at(0).in_b, evidence.tries[0].pixels[0].in_b);
+  EXPECT_FALSE(again.tries[0].T_a_b.has_value());
+  EXPECT_EQ(again.tries[1].guess.value().matrix(), evidence.tries[1].guess->matrix());
+  EXPECT_LT(distanceBetween(again.tries[1].T_a_b.value(), *evidence.tries[1].T_a_b), 1e-12);
+  EXPECT_LT(angleBetween(again.tries[1].T_a_b.value(), *evidence.tries[1].T_a_b), 1e-12);
   EXPECT_EQ(printEvidence(again), text);
   EXPECT_EQ(parseEvidence(printEvidence({})).tries.size(), 0U);
 }
@@ -68,6 +84,10 @@ TEST(Evidence, DamageIsDataAndNamesItsLine) {
       EXPECT_NE(std::string(error.what()).find("evidence:2"), std::string::npos) << error.what();
     }
   }
+  const std::string begun = printEvidence({}) + "try,icp,,,,,monday,1,tuesday,2,\n";
+  for (const char* numbers : {"", "1 2 3", "1 2 3 0 0 0 2", "1 2 3 0 0 0 1 0", "1 2 3 0 0 0 nan", "1 2 x 0 0 0 1"})
+    EXPECT_THROW(parseEvidence(begun + "transform,T_a_b,,,,,,,,," + numbers + "\n"), urban_nav_core::DataError)
+        << numbers;
   EXPECT_THROW(parseEvidence(""), urban_nav_core::DataError);
 }
 

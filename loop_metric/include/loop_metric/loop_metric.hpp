@@ -38,6 +38,7 @@ struct LoopClosure {
   urban_nav_core::MetricClosure metric;
   std::vector<StereoTry> stereo;   ///< in the order in which they were made; the last is the accepted one, if any is
   std::optional<Alignment> icp;    ///< where clouds were aligned: source b, target a
+  urban_nav_core::Pose icp_guess;  ///< T_a_b from which it began
   std::vector<ClosureTest> tests;  ///< of the transform against odometry
 };
 

@@ -6,6 +6,7 @@
 #include "command_line/json.hpp"
 #include "commands/commands.hpp"
 #include "loop_metric/align.hpp"
+#include "loop_metric/cloud_picture.hpp"
 #include "pipeline/parameters.hpp"
 #include "report/plot.hpp"
 #include "urban_nav_core/geometry/so3.hpp"
@@ -152,6 +153,15 @@ int run(const Arguments& arguments, Console& console) {
   const double ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
   console.print(textOf(alignment, ms));
   if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), jsonOf(alignment, ms).print());
+  if (arguments.has("picture")) {
+    loop_metric::CloudPictureOptions options;
+    options.free_directions = alignment.free_directions;
+    options.caption = "red: target, blue: source; " + std::string(toString(alignment.verdict)) +
+                      (alignment.sentence.empty() ? "" : ": " + alignment.sentence);
+    const auto jpeg =
+        loop_metric::jpegOf(loop_metric::drawClouds(source, target, guess, alignment.T_target_source, options));
+    urban_nav_core::writeAtomically(arguments.get("picture"), std::string(jpeg.begin(), jpeg.end()));
+  }
   return alignment.verdict == loop_metric::Verdict::Rejected ? 1 : 0;
 }
 
@@ -183,6 +193,7 @@ Command icpCommand() {
        false,
        false,
        {}},
+      {"--picture", "FILE.jpg", "both clouds, from above and from the side, before and after", false, false, {}},
       jsonOption(),
       configOption(),
       setOption(),

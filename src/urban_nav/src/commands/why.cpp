@@ -43,7 +43,7 @@ const StoredClosure& byMoments(const std::vector<StoredClosure>& closures, const
 }
 
 int run(const Arguments& arguments, Console& console) {
-  checkCommonOptions(arguments);
+  const double cloud_way = loadParameters(arguments).loop_metric.parameters.cloud_way;
   const bool moments = arguments.has("T1") || arguments.has("T2");
   if (arguments.has("jump"))
     throw UserError("--jump", "is not in this version: jumps are told on graph/jump when they happen",
@@ -62,7 +62,7 @@ int run(const Arguments& arguments, Console& console) {
                                          : byNumber(closures, arguments.integer("closure", 0, 1, 1'000'000'000));
   console.print(explain(closure));
   if (arguments.has("output")) {
-    urban_nav_core::writeAtomically(arguments.get("output"), renderPage(explainOnPage(closure, store)));
+    urban_nav_core::writeAtomically(arguments.get("output"), renderPage(explainOnPage(closure, store, cloud_way)));
     console.print(arguments.get("output") + "\n");
   }
   if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), explainAsJson(closure).print());
@@ -86,7 +86,12 @@ Command whyCommand() {
       {"T2", "", "the other moment; without both, and without --closure, all closures are listed", false, false, {}},
       {"--closure", "ID", "the closure with this number in that list", false, false, {}},
       {"--jump", "T", "not in this version", false, false, {}},
-      {"-o,--output", "FILE.html", "the same as a page, with the two views and their matches", false, false, {}},
+      {"-o,--output",
+       "FILE.html",
+       "the same as a page, with the two views and their matches, and the clouds",
+       false,
+       false,
+       {}},
       jsonOption(),
       configOption(),
       setOption(),

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/closure_picture.hpp"
 
-#include <algorithm>
-
+#include "loop_metric/cloud_picture.hpp"
 #include "loop_metric/evidence.hpp"
 #include "loop_metric/match_picture.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -13,20 +12,24 @@ using loop_metric::Evidence;
 
 namespace {
 
-std::optional<Evidence::Try> viewsOf(const urban_nav_core::MetricClosure& closure) {
+bool isShown(const Evidence::Try& tried) { return tried.method == "stereo" || (tried.guess && tried.T_a_b); }
+
+std::optional<Evidence::Try> shownOf(const urban_nav_core::MetricClosure& closure) {
   Evidence evidence;
   try {
     evidence = loop_metric::parseEvidence(loop_metric::evidenceIn(closure.evidence));
   } catch (const urban_nav_core::UserError&) {
     return std::nullopt;
   }
-  const auto decided = [](const Evidence::Try& each) { return each.method == "stereo" && each.verdict == "accepted"; };
-  auto views = std::find_if(evidence.tries.begin(), evidence.tries.end(), decided);
-  if (views == evidence.tries.end())
-    views = std::find_if(evidence.tries.begin(), evidence.tries.end(),
-                         [](const Evidence::Try& each) { return each.method == "stereo"; });
-  if (views == evidence.tries.end()) return std::nullopt;
-  return *views;
+  const Evidence::Try* shown = nullptr;
+  for (const Evidence::Try& tried : evidence.tries) {
+    if (!isShown(tried)) continue;
+    if (shown == nullptr) shown = &tried;
+    if (tried.verdict == "accepted" || tried.verdict == "degenerate")
+      shown = &tried;  // later ones are had only without
+  }
+  if (shown == nullptr) return std::nullopt;
+  return *shown;
 }
 
 std::string titleOf(const urban_nav_core::PoseRef& view) {
@@ -35,29 +38,39 @@ std::string titleOf(const urban_nav_core::PoseRef& view) {
 
 }  // namespace
 
-bool hasViews(const urban_nav_core::MetricClosure& closure) { return viewsOf(closure).has_value(); }
+bool hasPicture(const urban_nav_core::MetricClosure& closure) { return shownOf(closure).has_value(); }
 
 std::optional<PagePicture> pictureOf(const urban_nav_core::MetricClosure& closure,
-                                     const loop_metric::Surroundings& surroundings) {
-  const std::optional<Evidence::Try> views = viewsOf(closure);
-  if (!views) return std::nullopt;
-  return pictureOf(*views, [&](bool of_a) { return surroundings.keyframe(of_a ? views->view_a : views->view_b); });
+                                     const loop_metric::Surroundings& surroundings, double way) {
+  const std::optional<Evidence::Try> shown = shownOf(closure);
+  if (!shown) return std::nullopt;
+  return pictureOf(*shown, surroundings, way);
 }
 
-std::optional<PagePicture> pictureOf(const Evidence::Try& views,
-                                     const std::function<loop_metric::Keyframe(bool of_a)>& keyframe) {
-  loop_metric::MatchPictureOptions options;
-  options.title_a = titleOf(views.view_a);
-  options.title_b = titleOf(views.view_b);
+std::optional<PagePicture> pictureOf(const Evidence::Try& tried, const loop_metric::Surroundings& surroundings,
+                                     double way) {
+  if (!isShown(tried)) return std::nullopt;
   try {
-    const loop_metric::Picture drawn = loop_metric::drawMatches(keyframe(true), keyframe(false), views.pixels, options);
+    loop_metric::Picture drawn;
+    if (tried.method == "stereo") {
+      loop_metric::MatchPictureOptions options;
+      options.title_a = titleOf(tried.view_a);
+      options.title_b = titleOf(tried.view_b);
+      drawn = loop_metric::drawMatches(surroundings.keyframe(tried.view_a), surroundings.keyframe(tried.view_b),
+                                       tried.pixels, options);
+    } else {
+      loop_metric::CloudPictureOptions options;
+      options.caption = "red: " + titleOf(tried.view_a) + "; blue: " + titleOf(tried.view_b);
+      drawn = loop_metric::drawClouds(surroundings.cloud(tried.view_b, way), surroundings.cloud(tried.view_a, way),
+                                      *tried.guess, *tried.T_a_b, options);
+    }
     PagePicture picture;
     picture.jpeg = loop_metric::jpegOf(drawn);
     picture.width = drawn.width;
     picture.height = drawn.height;
     if (picture.jpeg.empty()) return std::nullopt;
     return picture;
-  } catch (const urban_nav_core::UserError&) {  // a view that the store holds damaged
+  } catch (const urban_nav_core::UserError&) {  // what the store holds is damaged
     return std::nullopt;
   }
 }

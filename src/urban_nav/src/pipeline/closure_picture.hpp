@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <functional>
 #include <optional>
 
 #include "loop_metric/evidence.hpp"
@@ -11,15 +10,15 @@
 
 namespace urban_nav {
 
-/// Were two views matched for this closure?
-bool hasViews(const urban_nav_core::MetricClosure& closure);
+/// Is there a try of this closure that can be shown?
+bool hasPicture(const urban_nav_core::MetricClosure& closure);
 
-/// The two views that decided, or that were tried first where none did, with their matches, from the evidence of the closure. Empty where no views were
-/// matched, or what is known of them is damaged.
+/// The try that decided, or the first where none did, from the evidence of the closure: two views with their matches, or two clouds before and after their
+/// alignment. `way`: loop_metric's cloud_way. Empty where nothing was tried, or what is known of it is damaged.
 std::optional<PagePicture> pictureOf(const urban_nav_core::MetricClosure& closure,
-                                     const loop_metric::Surroundings& surroundings);
-/// The same of one try; `keyframe` gives the views, of a and of b.
-std::optional<PagePicture> pictureOf(const loop_metric::Evidence::Try& views,
-                                     const std::function<loop_metric::Keyframe(bool of_a)>& keyframe);
+                                     const loop_metric::Surroundings& surroundings, double way);
+/// The same of one try.
+std::optional<PagePicture> pictureOf(const loop_metric::Evidence::Try& tried,
+                                     const loop_metric::Surroundings& surroundings, double way);
 
 }  // namespace urban_nav

@@ -11,7 +11,6 @@
 #include "loop_metric/loop_metric.hpp"
 #include "loop_metric/stored_surroundings.hpp"
 #include "pipeline/closure_picture.hpp"
-#include "pipeline/vo_files.hpp"
 #include "pipeline/vo_summary.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -30,29 +29,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kRound = 32;                                   // candidates between two steps of the progress bar
-constexpr std::size_t kAcceptedPictures = 6, kRejectedPictures = 3;  // in the report: some 60 kB each
+constexpr std::size_t kRound = 32;  // candidates between two steps of the progress bar
+constexpr std::size_t kStereoPictures = 4, kIcpPictures = 3, kRejectedPictures = 3;  // in the report: some 60 kB each
 
 double millisecondsSince(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-}
-
-StoredSurroundings::Sessions sessionsOf(const std::vector<LoopsSession>& sessions, Store& store,
-                                        const std::string& camera) {
-  StoredSurroundings::Sessions made;
-  for (const LoopsSession& session : sessions) {
-    loop_metric::SessionOfStore& its = made[session.name];
-    its.id = session.id;
-    its.odometry = std::make_shared<urban_nav_core::OdometryChain>(odometryOf(*session.run));
-    its.has_camera = false;
-    for (const urban_nav_store::Property& property : store.sessions().properties(session.id))
-      if (property.name == loop_metric::camera_property) its.has_camera = property.value == camera;
-    const std::vector<std::string> lasers = store.scans().lasers(session.id);
-    for (const urban_nav_store::Extrinsic& extrinsic : store.sessions().extrinsics(session.id))
-      if (std::find(lasers.begin(), lasers.end(), extrinsic.frame) != lasers.end())
-        its.lasers.push_back({extrinsic.frame, extrinsic.T_base_frame});
-  }
-  return made;
 }
 
 /// What one thread works with: a reader of the store is nobody else's.
@@ -121,23 +102,32 @@ void put(ClosureRow& row, MetricClosure closure) {
   row.measured = std::move(closure);
 }
 
-/// Accepted and rejected ones in turn, spread over all.
-std::vector<PagePicture> picturesOf(const std::vector<ClosureRow>& rows, const StoredSurroundings& surroundings) {
+/// Every so many of them, at most `most`.
+std::vector<const ClosureRow*> spread(const std::vector<const ClosureRow*>& rows, std::size_t most) {
+  if (rows.size() <= most) return rows;
+  std::vector<const ClosureRow*> some;
+  for (std::size_t i = 0; i < most; ++i) some.push_back(rows[i * (rows.size() - 1) / (most - 1)]);
+  return some;
+}
+
+/// Those accepted by views, those by clouds, then rejected ones, each spread over all.
+std::vector<PagePicture> picturesOf(const std::vector<ClosureRow>& rows, const StoredSurroundings& surroundings,
+                                    double way) {
+  std::vector<const ClosureRow*> stereo, icp, rejected;
+  for (const ClosureRow& row : rows) {
+    if (!row.measured || !hasPicture(*row.measured)) continue;
+    if (row.measured->verdict != ClosureVerdict::Accepted) rejected.push_back(&row);
+    else (row.measured->method == ClosureMethod::Icp ? icp : stereo).push_back(&row);
+  }
   std::vector<PagePicture> pictures;
-  for (const bool accepted : {true, false}) {
-    std::vector<const ClosureRow*> drawable;
-    for (const ClosureRow& row : rows)
-      if (row.measured && (row.measured->verdict == ClosureVerdict::Accepted) == accepted && hasViews(*row.measured))
-        drawable.push_back(&row);
-    const std::size_t most = accepted ? kAcceptedPictures : kRejectedPictures;
-    for (std::size_t i = 0; i < std::min(most, drawable.size()); ++i) {
-      const ClosureRow& row = *drawable[drawable.size() <= most ? i : i * (drawable.size() - 1) / (most - 1)];
-      if (auto picture = pictureOf(*row.measured, surroundings)) {
-        picture->caption = (accepted ? "Accepted: " : "Rejected: ") + row.measured->sentence;
+  for (const auto& some :
+       {spread(stereo, kStereoPictures), spread(icp, kIcpPictures), spread(rejected, kRejectedPictures)})
+    for (const ClosureRow* row : some)
+      if (auto picture = pictureOf(*row->measured, surroundings, way)) {
+        picture->caption = (row->measured->verdict == ClosureVerdict::Accepted ? "Accepted: " : "Rejected: ") +
+                           row->measured->sentence;
         pictures.push_back(std::move(*picture));
       }
-    }
-  }
   return pictures;
 }
 
@@ -151,7 +141,7 @@ LoopsRun runLoops(const loop_metric::Parameters& parameters, const StereoCamera&
   if (rows.empty()) return run;
   const Clock::time_point begin = Clock::now();
   const StoredSurroundings::Sessions known =
-      sessionsOf(sessions, store, loop_metric::cameraWords(camera, T_base_camera));
+      storedSessions(sessions, store, loop_metric::cameraWords(camera, T_base_camera));
   const auto make = [&] { return std::make_unique<Worker>(store.path(), known, parameters, camera, T_base_camera); };
   Workers workers;
   std::vector<MetricClosure> closures(rows.size());
@@ -179,7 +169,7 @@ LoopsRun runLoops(const loop_metric::Parameters& parameters, const StereoCamera&
   run.ms_median = quantile(ms, 0.5);
   run.ms_p99 = quantile(ms, 0.99);
   run.ms = millisecondsSince(begin);
-  run.pictures = picturesOf(rows, workers.take(make)->surroundings);
+  run.pictures = picturesOf(rows, workers.take(make)->surroundings, parameters.cloud_way);
   for (const LoopsSession& session : sessions)
     if (!known.at(session.name).has_camera)
       run.warnings.push_back("views of session " + session.name +

@@ -7,6 +7,7 @@
 #include "command_line/console.hpp"
 #include "loop_metric/parameters.hpp"
 #include "pipeline/closures_file.hpp"
+#include "pipeline/stored_sessions.hpp"
 #include "pipeline/vo_stage.hpp"
 #include "report/page.hpp"
 #include "urban_nav_store/store.hpp"
@@ -21,13 +22,6 @@ struct LoopsRun {
   double ms_median = 0.0, ms_p99 = 0.0;  ///< of a candidate
   double ms = 0.0;                       ///< of all of them
   std::vector<std::string> warnings;
-};
-
-/// A session whose moments candidates may name.
-struct LoopsSession {
-  std::string name;  ///< as closures.csv has it
-  urban_nav_store::SessionId id;
-  const VoRun* run = nullptr;
 };
 
 /// Finds the transform of each row (a moment pair; what else stands in it is replaced) from the keyframes and scans that `store` holds, which must be

@@ -2,9 +2,12 @@
 #include "why/explanation.hpp"
 
 #include <cmath>
+#include <map>
 
 #include "loop_metric/stored_surroundings.hpp"
 #include "pipeline/closure_picture.hpp"
+#include "pipeline/earlier_sessions.hpp"
+#include "pipeline/stored_sessions.hpp"
 #include "report/plot.hpp"
 #include "urban_nav_core/geometry/covariance_frames.hpp"
 
@@ -85,8 +88,27 @@ std::string linesOf(const std::vector<ClosureTest>& tests) {
   return text;
 }
 
+constexpr const char* kHowToReadViews =
+    "Lines: matches, green where they fit and red where they do not; grey: looked for and not found there.";
+constexpr const char* kHowToReadClouds =
+    "What the lasers saw around the first moment (red) and the second (blue): as odometry lays them, or one upon the other where it "
+    "says nothing, and as they were aligned. Purple: they agree. Dots: where the robot was.";
 constexpr const char* kGate = "Against odometry and its neighbours";
 constexpr const char* kNoEvidence = "The store holds no evidence of it: it was given, or measured by another program.";
+
+/// The sessions of both moments under the names that the evidence has for them.
+std::vector<LoopsSession> namedIn(const StoredClosure& closure, const EarlierSessions& kept) {
+  std::map<std::string, urban_nav_store::SessionId> ids;
+  for (const Evidence::Try& each : closure.evidence.tries) {
+    ids.emplace(each.view_a.session, closure.edge.a.session);
+    ids.emplace(each.view_b.session, closure.edge.b.session);
+  }
+  std::vector<LoopsSession> sessions;
+  for (const auto& [name, id] : ids)
+    for (std::size_t i = 0; i < kept.ids.size(); ++i)
+      if (kept.ids[i] == id) sessions.push_back({name, id, &kept.runs[i]});
+  return sessions;
+}
 
 }  // namespace
 
@@ -106,7 +128,10 @@ std::string explain(const StoredClosure& closure) {
   return text;
 }
 
-Page explainOnPage(const StoredClosure& closure, urban_nav_store::Store& store) {
+Page explainOnPage(const StoredClosure& closure, urban_nav_store::Store& store, double cloud_way) {
+  const EarlierSessions kept = readEarlierSessions(store, {});
+  const loop_metric::StoredSurroundings surroundings(storedSessions(namedIn(closure, kept), store, ""),
+                                                     store.keyframes(), store.scans());
   Page page;
   page.title = "Why: closure " + std::to_string(closure.id);
   page.subtitle = headlineOf(closure);
@@ -124,18 +149,9 @@ Page explainOnPage(const StoredClosure& closure, urban_nav_store::Store& store) 
                     {},
                     {},
                     {tableOf("Tests", each.tests)}};
-    if (each.method == "stereo") {
-      const auto keyframe = [&](bool of_a) {
-        const urban_nav_core::PoseRef& at = of_a ? each.view_a : each.view_b;
-        const auto stored = store.keyframes().get(of_a ? closure.edge.a.session : closure.edge.b.session,
-                                                  loop_metric::keyframe_camera, at.stamp);
-        return stored ? loop_metric::keyframeOf(*stored, at.session) : loop_metric::Keyframe();
-      };
-      if (auto picture = pictureOf(each, keyframe)) {
-        picture->caption =
-            "Lines: matches, green where they fit and red where they do not; grey: looked for and not found there.";
-        section.pictures.push_back(std::move(*picture));
-      }
+    if (auto picture = pictureOf(each, surroundings, cloud_way)) {
+      picture->caption = each.method == "stereo" ? kHowToReadViews : kHowToReadClouds;
+      section.pictures.push_back(std::move(*picture));
     }
     page.sections.push_back(std::move(section));
   }

@@ -111,7 +111,7 @@ TEST_F(Loops, whySaysWhatTheStoreKnows) {
   const std::string text = explain(closures[0]);
   for (const char* part : {"accepted, by stereo", "passed  matches", "Two views: accepted", "distance_m"})
     EXPECT_NE(text.find(part), std::string::npos) << text;
-  const Page page = explainOnPage(closures[0], store);
+  const Page page = explainOnPage(closures[0], store, loop_metric::Parameters().cloud_way);
   ASSERT_FALSE(page.sections.empty());
   EXPECT_EQ(page.sections[0].pictures.size(), 1U);
 }
