@@ -76,20 +76,25 @@ void say(const SourceInfo& info, Console& console) {
 void runVo(Source& source, VoStage& stage, StoreStage& store, MapOutcome& outcome, Console& console) {
   std::optional<KeyframeKeeper> views;
   if (keepsViews(outcome.request)) {
-    views.emplace(outcome.request.parameters.loop_metric.parameters, source.info().camera);
+    views.emplace(outcome.request.parameters.loop_metric.parameters, source.info().camera,
+                  outcome.request.threads == 1);
     views->goOn(stage.run(), store.viewsKept());
   }
+  const auto keepViews = [&views, &store] {
+    while (const auto view = views ? views->next() : std::nullopt) store.keep(*view);
+  };
   Progress progress(console, "vo", "frames", source.info().frames);
   std::size_t faults_said = stage.run().faults.size();
   double last_report = outcome.usage.wallSeconds();
   while (const std::optional<StereoInput> input = source.next()) {
     if (input->bag_end) {
+      keepViews();
       store.keep(source.info(), input->bag_end->scans);
       store.keepBag(stage, *input->bag_end);
     }
     store.keep(source.info(), input->scans);
     const VoRow& row = stage.process(*input);
-    if (const auto view = views ? views->process(input->assembled.pair, row) : std::nullopt) store.keep(*view);
+    if (const auto view = views ? views->process(input->assembled, row) : std::nullopt) store.keep(*view);
     for (; faults_said < std::min<std::size_t>(stage.run().faults.size(), 10); ++faults_said)
       console.warn(stage.run().faults[faults_said]);
     const auto done = static_cast<std::int64_t>(stage.run().rows.size());
@@ -102,6 +107,7 @@ void runVo(Source& source, VoStage& stage, StoreStage& store, MapOutcome& outcom
       last_report = outcome.usage.wallSeconds();
     }
   }
+  keepViews();
   if (const auto end = source.bagEnd()) {
     store.keep(source.info(), end->scans);
     store.keepBag(stage, *end);
@@ -278,8 +284,7 @@ const std::vector<std::string>& existingStages() {
 }
 
 bool keepsViews(const MapRequest& request) {
-  return asksFor(request, "loops") || !request.localise.empty() ||
-         (request.stages.empty() && !request.closures.empty());
+  return request.stages.empty() || asksFor(request, "loops") || !request.localise.empty();
 }
 
 void runMap(const MapRequest& request, Console& console) {

@@ -32,7 +32,7 @@ struct MapRequest {
 const std::vector<std::string>& knownStages();
 const std::vector<std::string>& existingStages();
 
-/// Are views of the sessions kept for the stage loops? Where it was asked for, or has candidates.
+/// Are views of the sessions kept, for the stage loops of this run or another one, and to be localised in? Unless stages were asked for and it is not among them.
 bool keepsViews(const MapRequest& request);
 
 /// Runs the stages over the inputs and writes the files of CONTRACT.md. UserError for mistakes of the request,
