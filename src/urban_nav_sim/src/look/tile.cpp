@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#ifdef __SSE4_1__
-#include <smmintrin.h>
-#endif
+#include <opencv2/core/hal/intrin.hpp>
 
 #include "noise/hash.hpp"
 
@@ -17,6 +15,12 @@ namespace {
 // Imager::Settings it has about the variance of a camera's pixel with its lens.
 constexpr float kTexelsOverWidth = 0.7F;
 
+// Texels lie in strips so wide, each with the first column of the next one, so that what a pixel reads lies together: in rows as long as a tile, each row
+// of it would be in a page of memory of its own.
+constexpr unsigned kStrip = 4, kStride = kStrip + 1;
+
+using Four = cv::v_float32x4;
+
 /// log2, linear between powers of two: continuous and increasing is all that choosing a level needs.
 float roughLog2(float x) {
   std::uint32_t bits = 0;
@@ -25,12 +29,6 @@ float roughLog2(float x) {
   float fraction = 0.0F;
   std::memcpy(&fraction, &mantissa, sizeof fraction);
   return static_cast<float>(static_cast<int>(bits >> 23) - 127) + fraction - 1.0F;
-}
-
-/// floor as an int; |x| < 2^31. Without SSE4's rounding mode, the library's floor is a call.
-int floorOf(float x) {
-  const int i = static_cast<int>(x);
-  return i - static_cast<int>(static_cast<float>(i) > x);
 }
 
 std::uint16_t packed(float share) {
@@ -85,10 +83,12 @@ Tile::Tile(int size, float period, const std::vector<float>& mix, const std::vec
   for (int n = size; n >= 1; n /= 2) {
     first_.push_back(static_cast<std::uint32_t>(texels_.size()));
     scales_.push_back(static_cast<float>(n) / period);
-    for (int y = 0; y < n; ++y) {
-      for (int x = 0; x <= n; ++x) {
-        const Value& v = level[static_cast<std::size_t>(y * n + x % n)];
-        texels_.push_back({packed(v.mix), packed(0.5F + 0.5F * v.tone)});
+    for (unsigned strip = 0; strip < static_cast<unsigned>(n); strip += kStrip) {
+      for (int y = 0; y < n; ++y) {
+        for (unsigned x = strip; x < strip + kStride; ++x) {
+          const Value& v = level[static_cast<std::size_t>(y * n) + x % static_cast<unsigned>(n)];
+          texels_.push_back({packed(v.mix), packed(0.5F + 0.5F * v.tone)});
+        }
       }
     }
     if (n == 1) mean_ = level[0];
@@ -107,33 +107,19 @@ Eigen::Vector2f Tile::shuffled(const Eigen::Vector2f& at) const {
          Eigen::Vector2f(step_.x() * static_cast<float>(bits & 63U), step_.y() * static_cast<float>((bits >> 8) & 63U));
 }
 
-/// Between two rows that lie side by side: `mix` and `tone` of a texel and of the next one, in one register where there is one.
-inline Tile::Value Tile::bilinear(const Eigen::Vector2f& at, int level) const {
+/// Between two rows that lie side by side, `mix` and `tone` of a texel and of the next one in one register; then between these.
+template <typename Lanes>
+inline Lanes Tile::bilinear(int level, const int* cell, const float* part) const {
   const int n = size_ >> level, mask = n - 1;
-  const float scale = scales_[static_cast<std::size_t>(level)];
-  const float x = at.x() * scale - 0.5F, y = at.y() * scale - 0.5F;
-  const int x0 = floorOf(x), y0 = floorOf(y);
-  const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
-  const Texel* texels = texels_.data() + first_[static_cast<std::size_t>(level)] + (x0 & mask);
-  const Texel* above = texels + static_cast<std::ptrdiff_t>(y0 & mask) * (n + 1);
-  const Texel* below = texels + static_cast<std::ptrdiff_t>((y0 + 1) & mask) * (n + 1);
-#ifdef __SSE4_1__
-  const auto four = [](const Texel* two) {
-    return _mm_cvtepi32_ps(_mm_cvtepu16_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(two))));
+  const auto column = static_cast<unsigned>(cell[0] & mask);
+  const Texel* first = texels_.data() + first_[static_cast<std::size_t>(level)] +
+                       column / kStrip * static_cast<unsigned>(n) * kStride + column % kStrip;
+  const auto row = [&](int y) {
+    const Texel* two = first + static_cast<unsigned>(y & mask) * kStride;
+    return cv::v_cvt_f32(cv::v_reinterpret_as_s32(cv::v_load_expand(&two->mix)));
   };
-  const __m128 top = four(above);
-  const __m128 both = _mm_add_ps(top, _mm_mul_ps(_mm_set1_ps(fy), _mm_sub_ps(four(below), top)));
-  const __m128 value = _mm_add_ps(both, _mm_mul_ps(_mm_set1_ps(fx), _mm_sub_ps(_mm_movehl_ps(both, both), both)));
-  return {_mm_cvtss_f32(value), _mm_cvtss_f32(_mm_shuffle_ps(value, value, 1))};
-#else
-  const auto between = [&](std::uint16_t a, std::uint16_t b, std::uint16_t c, std::uint16_t d) {
-    const float left = static_cast<float>(a) + fy * (static_cast<float>(c) - static_cast<float>(a));
-    const float right = static_cast<float>(b) + fy * (static_cast<float>(d) - static_cast<float>(b));
-    return left + fx * (right - left);
-  };
-  return {between(above[0].mix, above[1].mix, below[0].mix, below[1].mix),
-          between(above[0].tone, above[1].tone, below[0].tone, below[1].tone)};
-#endif
+  const Four above = row(cell[1]), left = above + cv::v_setall_f32(part[1]) * (row(cell[1] + 1) - above);
+  return left + cv::v_setall_f32(part[0]) * (cv::v_combine_high(left, left) - left);
 }
 
 Tile::Value Tile::read(const Eigen::Vector2f& at, const Footprint& footprint) const {
@@ -141,23 +127,29 @@ Tile::Value Tile::read(const Eigen::Vector2f& at, const Footprint& footprint) co
   const float level = std::min(roughLog2(texels), static_cast<float>(levels_ - 1));
   const int fine = static_cast<int>(level), coarse = std::min(fine + 1, levels_ - 1);
   const float to_coarse = level - static_cast<float>(fine);
+  const float fine_scale = scales_[static_cast<std::size_t>(fine)], scale = scales_[static_cast<std::size_t>(coarse)];
+  const Four scales(fine_scale, fine_scale, scale, scale), half = cv::v_setall_f32(0.5F);
   const bool moves = step_.x() > 0.0F;
-  Value sum;
+  Four sum = cv::v_setzero_f32();
   for (int i = 0; i < footprint.taps; ++i) {
     const float along = (static_cast<float>(i) + 0.5F) / static_cast<float>(footprint.taps) - 0.5F;
     Eigen::Vector2f place = at + footprint.length * along;
     if (moves) place = shuffled(place);
-    Value v = bilinear(place, fine);
-    if (to_coarse > 0.0F) {
-      const Value w = bilinear(place, coarse);
-      v.mix += to_coarse * (w.mix - v.mix);
-      v.tone += to_coarse * (w.tone - v.tone);
-    }
-    sum.mix += v.mix;
-    sum.tone += v.tone;
+    // Both levels at once: x and y in texels of the fine one, x and y in those of the coarse one.
+    const Four in_texels = Four(place.x(), place.y(), place.x(), place.y()) * scales - half;
+    const cv::v_int32x4 whole = cv::v_floor(in_texels);
+    alignas(16) int cell[4];
+    alignas(16) float part[4];
+    cv::v_store_aligned(cell, whole);
+    cv::v_store_aligned(part, in_texels - cv::v_cvt_f32(whole));
+    Four value = bilinear<Four>(fine, cell, part);
+    if (to_coarse > 0.0F) value += cv::v_setall_f32(to_coarse) * (bilinear<Four>(coarse, cell + 2, part + 2) - value);
+    sum += value;
   }
-  const float scale = 1.0F / (65535.0F * static_cast<float>(footprint.taps));
-  return {sum.mix * scale, 2.0F * sum.tone * scale - 1.0F};
+  alignas(16) float sums[4];
+  cv::v_store_aligned(sums, sum);
+  const float share = 1.0F / (65535.0F * static_cast<float>(footprint.taps));
+  return {sums[0] * share, 2.0F * sums[1] * share - 1.0F};
 }
 
 Tile::Value Tile::read(const Eigen::Vector2f& at, float width) const {

@@ -45,14 +45,16 @@ class Tile {
   struct Texel {
     std::uint16_t mix, tone;
   };
-  Value bilinear(const Eigen::Vector2f& at, int level) const;
+  /// In units of texels and of 65535: `mix` and `tone` in lanes 0 and 1, the latter from 0 on. `cell`, `part`: x and y.
+  template <typename Lanes>
+  Lanes bilinear(int level, const int* cell, const float* part) const;
   Eigen::Vector2f shuffled(const Eigen::Vector2f& at) const;
 
   int size_ = 0, levels_ = 0;
   float period_ = 1.0F, texels_per_metre_ = 1.0F;
   Eigen::Vector2f step_ = Eigen::Vector2f::Zero();
   Value mean_;
-  std::vector<Texel> texels_;         ///< level after level, rows within, each with its first texel again at its end
+  std::vector<Texel> texels_;         ///< level after level, strips within, rows within these (tile.cpp)
   std::vector<std::uint32_t> first_;  ///< where a level begins
   std::vector<float> scales_;         ///< texels a metre, of each level
 };
