@@ -2,13 +2,13 @@
 #include <nav_msgs/Odometry.h>
 #include <nodelet/nodelet.h>
 #include <ros/ros.h>
-#include <std_srvs/Trigger.h>
 #include <urban_nav_msgs/RelativePose.h>
 #include <urban_nav_msgs/TopologicalClosure.h>
 #include <pluginlib/class_list_macros.hpp>
 
-#include <algorithm>
 #include <atomic>
+#include <functional>
+#include <tuple>
 #include <vector>
 
 #include "diagnostics.hpp"
@@ -16,12 +16,12 @@
 #include "publisher.hpp"
 #include "recorder.hpp"
 #include "stage_store.hpp"
-#include "urban_nav_core/parameters/sources.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/closure.hpp"
 #include "urban_nav_ros/parameters.hpp"
 #include "urban_nav_ros/pose.hpp"
 #include "urban_nav_ros/stamp.hpp"
+#include "urban_nav_ros/trigger.hpp"
 
 namespace loop_metric {
 
@@ -51,7 +51,6 @@ class LoopMetricNodelet : public nodelet::Nodelet {
 
  private:
   void onInit() override;
-  void readParameters();
   void subscribe();
   void advertiseServices();
   template <typename Message, typename Take>
@@ -77,7 +76,7 @@ class LoopMetricNodelet : public nodelet::Nodelet {
 
 void LoopMetricNodelet::onInit() {
   try {
-    readParameters();
+    std::tie(nodelet_, parameters_) = urban_nav_ros::readParameters(getPrivateNodeHandle(), nodeletTable(), table());
   } catch (const UserError& error) {
     NODELET_FATAL("%s", error.what());
     throw;
@@ -91,26 +90,11 @@ void LoopMetricNodelet::onInit() {
     publisher_->publish(verdict);
     diagnostics_->judged(verdict.metric, verdict.ms);
   });
-  const std::string images = nh.resolveName("stereo/left/image_raw");
-  const bool rectified =
-      nodelet_.images == "rectified" || (nodelet_.images == "auto" && images.find("rect") != std::string::npos);
+  const bool rectified = urban_nav_ros::areRectified(nodelet_.images, nh.resolveName("stereo/left/image_raw"));
   recorder_ = std::make_unique<Recorder>(parameters_, nodelet_, rectified, nh.resolveName("stereo"), *store_, *judge_);
   subscribe();
   advertiseServices();
   timer_ = nh.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { tell(); });
-}
-
-void LoopMetricNodelet::readParameters() {
-  const std::string where = getPrivateNodeHandle().getNamespace();
-  std::map<std::string, urban_nav_core::ParameterValue> own, stages;
-  for (const auto& [name, value] : urban_nav_ros::serverValues(getPrivateNodeHandle())) {
-    const auto& rows = nodeletTable().rows();
-    const bool is_own =
-        std::any_of(rows.begin(), rows.end(), [&, &key = name](const auto& row) { return row.name == key; });
-    (is_own ? own : stages)[name] = value;
-  }
-  nodelet_ = load(nodeletTable(), serverParameters(nodeletTable().stage(), own, where)).parameters;
-  parameters_ = load(table(), serverParameters(table().stage(), stages, where)).parameters;
 }
 
 template <typename Message, typename Take>
@@ -178,15 +162,8 @@ void LoopMetricNodelet::subscribe() {
 }
 
 void LoopMetricNodelet::advertiseServices() {
-  using Request = std_srvs::Trigger::Request;
-  using Response = std_srvs::Trigger::Response;
-  const auto advertise = [this](const char* name, const auto& action) {
-    const boost::function<bool(Request&, Response&)> callback = [action](Request&, Response& response) {
-      response.message = action();
-      response.success = !response.message.empty();
-      return true;
-    };
-    services_.push_back(getMTPrivateNodeHandle().advertiseService(name, callback));
+  const auto advertise = [this](const char* name, const std::function<std::string()>& action) {
+    services_.push_back(urban_nav_ros::advertiseTrigger(getMTPrivateNodeHandle(), name, action));
   };
   advertise("reset", [this] {
     const auto done = std::make_shared<std::promise<void>>();

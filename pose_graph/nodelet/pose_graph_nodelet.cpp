@@ -11,13 +11,13 @@
 
 #include <atomic>
 #include <optional>
+#include <tuple>
 
 #include "accelerometer.hpp"
 #include "diagnostics.hpp"
 #include "publisher.hpp"
 #include "services.hpp"
 #include "stage_graph.hpp"
-#include "urban_nav_core/parameters/sources.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/closure.hpp"
 #include "urban_nav_ros/parameters.hpp"
@@ -44,7 +44,6 @@ class PoseGraphNodelet : public nodelet::Nodelet {
 
  private:
   void onInit() override;
-  void readParameters();
   void subscribe();
   void subscribeOdometry();
   void subscribeAccelerometer();
@@ -78,7 +77,7 @@ class PoseGraphNodelet : public nodelet::Nodelet {
 
 void PoseGraphNodelet::onInit() {
   try {
-    readParameters();
+    std::tie(nodelet_, parameters_) = urban_nav_ros::readParameters(getPrivateNodeHandle(), nodeletTable(), table());
   } catch (const UserError& error) {
     NODELET_FATAL("%s", error.what());
     throw;
@@ -98,19 +97,6 @@ void PoseGraphNodelet::onInit() {
     diagnostics_->worked(worker_->counts(), {paused_dropped_, damaged_});
     diagnostics_->update();
   });
-}
-
-void PoseGraphNodelet::readParameters() {
-  const std::string where = getPrivateNodeHandle().getNamespace();
-  std::map<std::string, urban_nav_core::ParameterValue> own, stages;
-  for (const auto& [name, value] : urban_nav_ros::serverValues(getPrivateNodeHandle())) {
-    const auto& rows = nodeletTable().rows();
-    const bool is_own =
-        std::any_of(rows.begin(), rows.end(), [&, &key = name](const auto& row) { return row.name == key; });
-    (is_own ? own : stages)[name] = value;
-  }
-  nodelet_ = load(nodeletTable(), serverParameters(nodeletTable().stage(), own, where)).parameters;
-  parameters_ = load(table(), serverParameters(table().stage(), stages, where)).parameters;
 }
 
 template <typename Message, typename Converter>

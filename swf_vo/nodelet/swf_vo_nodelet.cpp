@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <nodelet/nodelet.h>
 #include <ros/ros.h>
-#include <std_srvs/Trigger.h>
 #include <tf2_msgs/TFMessage.h>
 #include <pluginlib/class_list_macros.hpp>
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <future>
 #include <thread>
+#include <tuple>
 
 #include "diagnostics.hpp"
 #include "publisher.hpp"
 #include "session.hpp"
-#include "urban_nav_core/parameters/sources.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/camera_info.hpp"
 #include "urban_nav_ros/mailbox.hpp"
 #include "urban_nav_ros/parameters.hpp"
 #include "urban_nav_ros/stamp.hpp"
+#include "urban_nav_ros/trigger.hpp"
 
 namespace swf_vo {
 
@@ -68,7 +69,6 @@ class SwfVoNodelet : public nodelet::Nodelet {
 
  private:
   void onInit() override;
-  void readParameters();
   void subscribe();
   void advertiseServices();
 
@@ -116,7 +116,7 @@ class SwfVoNodelet : public nodelet::Nodelet {
 
 void SwfVoNodelet::onInit() {
   try {
-    readParameters();
+    std::tie(nodelet_, parameters_) = urban_nav_ros::readParameters(getPrivateNodeHandle(), nodeletTable(), table());
   } catch (const UserError& error) {
     NODELET_FATAL("%s", error.what());
     throw;
@@ -131,24 +131,10 @@ void SwfVoNodelet::onInit() {
                                            [this](const ros::WallTimerEvent&) { diagnostics_->update(); });
 }
 
-void SwfVoNodelet::readParameters() {
-  const std::string where = getPrivateNodeHandle().getNamespace();
-  std::map<std::string, urban_nav_core::ParameterValue> own, filters;
-  for (const auto& [name, value] : urban_nav_ros::serverValues(getPrivateNodeHandle())) {
-    const auto& rows = nodeletTable().rows();
-    const bool is_own =
-        std::any_of(rows.begin(), rows.end(), [&, &key = name](const auto& row) { return row.name == key; });
-    (is_own ? own : filters)[name] = value;
-  }
-  nodelet_ = load(nodeletTable(), serverParameters(nodeletTable().stage(), own, where)).parameters;
-  parameters_ = load(table(), serverParameters(table().stage(), filters, where)).parameters;
-}
-
 void SwfVoNodelet::subscribe() {
   ros::NodeHandle& nh = getNodeHandle();
   const std::string left = "stereo/left/image_raw", right = "stereo/right/image_raw";
-  const std::string name = nh.resolveName(left);
-  rectified_ = nodelet_.images == "rectified" || (nodelet_.images == "auto" && name.find("rect") != std::string::npos);
+  rectified_ = urban_nav_ros::areRectified(nodelet_.images, nh.resolveName(left));
   subscribers_.push_back(nh.subscribe<tf2_msgs::TFMessage>(
       "/tf_static", 100, [this](const tf2_msgs::TFMessageConstPtr& message) { mailbox_.put(message); }));
   subscribeInfo("stereo/left/camera_info", Side::Left, Diagnostics::LeftInfo);
@@ -196,15 +182,8 @@ void SwfVoNodelet::subscribeInfo(const std::string& name, Side side, Diagnostics
 }
 
 void SwfVoNodelet::advertiseServices() {
-  using Request = std_srvs::Trigger::Request;
-  using Response = std_srvs::Trigger::Response;
-  const auto advertise = [this](const char* name, const auto& action) {
-    const boost::function<bool(Request&, Response&)> callback = [action](Request&, Response& response) {
-      response.message = action();
-      response.success = !response.message.empty();
-      return true;
-    };
-    services_.push_back(getPrivateNodeHandle().advertiseService(name, callback));
+  const auto advertise = [this](const char* name, const std::function<std::string()>& action) {
+    services_.push_back(urban_nav_ros::advertiseTrigger(getPrivateNodeHandle(), name, action));
   };
   advertise("reset", [this] {
     const auto done = std::make_shared<std::promise<void>>();

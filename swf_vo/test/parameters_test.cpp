@@ -4,28 +4,17 @@
 #include <gtest/gtest.h>
 
 #include "../nodelet/nodelet_parameters.hpp"
-#include "urban_nav_core/io/text_file.hpp"
-#include "urban_nav_core/parameters/print.hpp"
 #include "urban_nav_core/parameters/sources.hpp"
+#include "urban_nav_core/testing/parameter_tables.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace swf_vo {
 namespace {
 
-using urban_nav_core::insertMarkdown;
 using urban_nav_core::parseSetting;
-using urban_nav_core::readTextFile;
 
-// Tests run in the folder of the package. What differs is written anew by the build target swf_vo_documents.
-
-TEST(Parameters, theYamlFileIsTheTable) {
-  EXPECT_EQ(readTextFile("config/swf_vo.yaml"), printYaml(table().stage(), table().rows()));
-}
-
-TEST(Parameters, theReadmeShowsTheTables) {
-  const std::string readme = readTextFile("README.md");
-  EXPECT_EQ(readme, insertMarkdown(readme, "README.md", table().stage(), table().rows()));
-  EXPECT_EQ(readme, insertMarkdown(readme, "README.md", nodeletTable().stage(), nodeletTable().rows()));
+TEST(Parameters, yamlAndReadmeAreAsTheTablesSay) {
+  EXPECT_EQ(urban_nav_core::testing::faultsOf(table().stage(), table().rows(), nodeletTable().rows()), "");
 }
 
 TEST(Parameters, theYamlFileGivesTheDefaults) {
@@ -34,20 +23,6 @@ TEST(Parameters, theYamlFileGivesTheDefaults) {
   for (const auto& row : table().rows())
     EXPECT_EQ(printValue(table().get(loaded.parameters, row.name)), printValue(table().get(defaults, row.name)))
         << row.name;
-}
-
-TEST(Parameters, everyRowSaysWhatItDoesAndWhereItComesFrom) {
-  for (const auto& row : table().rows()) {
-    EXPECT_FALSE(row.sentence.empty()) << row.name;
-    EXPECT_FALSE(row.source.empty()) << row.name;
-    EXPECT_TRUE(isAllowed(row, row.standard)) << row.name;
-  }
-  for (const auto& row : nodeletTable().rows()) EXPECT_TRUE(isAllowed(row, row.standard)) << row.name;
-}
-
-TEST(Parameters, noRowOfTheNodeletHidesOneOfTheFilter) {
-  for (const auto& own : nodeletTable().rows())
-    for (const auto& row : table().rows()) EXPECT_NE(own.name, row.name);
 }
 
 TEST(Parameters, aValueOutOfRangeIsNamedWithWhatIsAllowed) {

@@ -16,13 +16,11 @@
 #include "urban_nav_core/testing/motion.hpp"
 #include "urban_nav_core/testing/rendered_sequence.hpp"
 #include "urban_nav_core/testing/textured_room.hpp"
-#include "urban_nav_ros/camera_info.hpp"
 #include "urban_nav_ros/closure.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
-#include "urban_nav_ros/image.hpp"
 #include "urban_nav_ros/pose.hpp"
 #include "urban_nav_ros/stamp.hpp"
-#include "urban_nav_ros/testing/listener.hpp"
+#include "urban_nav_ros/testing/stereo_listener.hpp"
 
 namespace loop_metric::test {
 
@@ -41,27 +39,17 @@ inline urban_nav_core::testing::RenderedSequence room() {
   return RenderedSequence(texturedRoom(), loop(3.0, 1.5, 1.2, lap / options.rate), options);
 }
 
-inline urban_nav_core::StereoCamera cameraOf(const urban_nav_core::testing::RenderCamera& rendered) {
-  urban_nav_core::StereoCamera camera;
-  camera.left = {rendered.fx, rendered.fy, rendered.cx, rendered.cy, rendered.width, rendered.height};
-  camera.baseline = rendered.baseline;
-  return camera;
-}
-
 inline Pose T_base_left() { return Pose(urban_nav_ros::opticalInBody().q(), Eigen::Vector3d(0.1, 0.06, 1.1)); }
 
 /// The ROS graph as the nodelet sees it: a robot with odometry and recognition of places, and a listener who keeps what comes.
-class Robot : public urban_nav_ros::testing::Listener {
+class Robot : public urban_nav_ros::testing::StereoListener {
  public:
-  Robot() : urban_nav_ros::testing::Listener("loop_metric"), sequence_(room()) {
+  Robot() : urban_nav_ros::testing::StereoListener("loop_metric"), sequence_(room()) {
     keep("loops/metric", closures);
     keep("loops/matches", pictures);
     keep("loop_metric/status", statuses);
     connected_ = until([this] { return isConnected(); });
-    tf2_msgs::TFMessage places;
-    places.transforms.push_back(
-        urban_nav_ros::toStaticTransform("base_link", "stereo_left_optical_frame", T_base_left()));
-    tf_static_.publish(places);
+    place(T_base_left());
   }
   bool connected() const { return connected_; }
 
@@ -91,11 +79,7 @@ class Robot : public urban_nav_ros::testing::Listener {
       relative_.publish(urban_nav_ros::toRelativePoseMessage(step, "base_link"));
     }
   }
-  void show(int i) {
-    const auto& frame = sequence_.frame(i);
-    publish(left_, left_info_, frame.left, leftInfo(camera()), stampOf(i), "stereo_left_optical_frame");
-    publish(right_, right_info_, frame.right, rightInfo(camera()), stampOf(i), "stereo_right_optical_frame");
-  }
+  void show(int i) { StereoListener::show(sequence_.frame(i), camera(), stampOf(i)); }
   void recognise(const urban_nav_core::PoseRef& a, const urban_nav_core::PoseRef& b) {
     places_.publish(urban_nav_ros::toTopologicalClosureMessage({a, b, 0.99}));
   }
@@ -125,26 +109,9 @@ class Robot : public urban_nav_ros::testing::Listener {
   std::vector<urban_nav_msgs::StageStatus> statuses;
 
  private:
-  static void publish(ros::Publisher& images, ros::Publisher& infos, const urban_nav_core::testing::GreyImage& image,
-                      const urban_nav_core::CameraInfo& info, StampNs stamp, const std::string& frame) {
-    auto pixels = image.pixels;
-    sensor_msgs::Image message =
-        urban_nav_ros::toImageMessage(cv::Mat(image.height, image.width, CV_8UC1, pixels.data()));
-    sensor_msgs::CameraInfo calibration = urban_nav_ros::toCameraInfoMessage(info);
-    message.header.stamp = calibration.header.stamp = urban_nav_ros::toRosTime(stamp);
-    message.header.frame_id = calibration.header.frame_id = frame;
-    infos.publish(calibration);
-    images.publish(message);
-  }
-
-  ros::Publisher left_ = advertise<sensor_msgs::Image>("stereo/left/image_raw");
-  ros::Publisher right_ = advertise<sensor_msgs::Image>("stereo/right/image_raw");
-  ros::Publisher left_info_ = advertise<sensor_msgs::CameraInfo>("stereo/left/camera_info");
-  ros::Publisher right_info_ = advertise<sensor_msgs::CameraInfo>("stereo/right/camera_info");
   ros::Publisher odometry_ = advertise<nav_msgs::Odometry>("vo/odometry");
   ros::Publisher relative_ = advertise<urban_nav_msgs::RelativePose>("vo/relative_pose");
   ros::Publisher places_ = advertise<urban_nav_msgs::TopologicalClosure>("places/closure");
-  ros::Publisher tf_static_ = advertise<tf2_msgs::TFMessage>("/tf_static", true);
   urban_nav_core::testing::RenderedSequence sequence_;
   int session_ = 0;
   bool connected_ = false;

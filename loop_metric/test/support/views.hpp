@@ -4,20 +4,13 @@
 #include <string>
 
 #include "loop_metric/keyframe.hpp"
-#include "urban_nav_core/camera/stereo_camera.hpp"
 #include "urban_nav_core/testing/rendered_sequence.hpp"
 
 namespace loop_metric::testing {
 
 using urban_nav_core::Pose;
 
-/// The renderer's camera as the stage knows it.
-inline urban_nav_core::StereoCamera cameraOf(const urban_nav_core::testing::RenderCamera& rendered) {
-  urban_nav_core::StereoCamera camera;
-  camera.left = {rendered.fx, rendered.fy, rendered.cx, rendered.cy, rendered.width, rendered.height};
-  camera.baseline = rendered.baseline;
-  return camera;
-}
+using urban_nav_core::testing::cameraOf;
 
 /// Takes stereo pairs of a scene from wherever it is told to.
 class Photographer {

@@ -37,6 +37,13 @@ std::uint64_t bitsOf(std::uint64_t count) {
 
 }  // namespace
 
+StereoCamera cameraOf(const RenderCamera& rendered) {
+  StereoCamera camera;
+  camera.left = {rendered.fx, rendered.fy, rendered.cx, rendered.cy, rendered.width, rendered.height};
+  camera.baseline = rendered.baseline;
+  return camera;
+}
+
 RenderedSequence::RenderedSequence(std::function<Scene(double)> scene, Motion motion, const SequenceOptions& options)
     : scene_(std::move(scene)), motion_(std::move(motion)), options_(options), renderer_(options.camera) {}
 

@@ -21,6 +21,10 @@ RectifyMap mapOf(const CameraInfo& info, const std::string& where) {
 
 }  // namespace
 
+bool areRectified(const std::string& images, const std::string& topic) {
+  return images == "rectified" || (images == "auto" && topic.find("rect") != std::string::npos);
+}
+
 StereoCalibration::StereoCalibration(const CameraInfo& left, const CameraInfo& right, bool images_are_rectified,
                                      const std::string& where)
     : camera_(stereoCamera(left, right, where)),

@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "urban_nav_core/camera/stereo_camera.hpp"
 #include "urban_nav_core/testing/motion.hpp"
 #include "urban_nav_core/testing/render.hpp"
 #include "urban_nav_core/types/stereo_pair.hpp"
@@ -26,6 +27,9 @@ struct StereoFrame {
 
   StereoPair pair() const { return {stamp, left.view(), right.view()}; }
 };
+
+/// The renderer's camera as a stage knows it.
+StereoCamera cameraOf(const RenderCamera& rendered);
 
 /// How the sequence is taken.
 struct SequenceOptions {

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_core/testing/parameter_tables.hpp"
+
+#include <algorithm>
+
+#include "urban_nav_core/io/text_file.hpp"
+#include "urban_nav_core/parameters/print.hpp"
+
+namespace urban_nav_core::testing {
+
+std::string faultsOf(const std::string& stage, const std::vector<RowInfo>& of_stage,
+                     const std::vector<RowInfo>& of_nodelet) {
+  std::string faults;
+  const auto demand = [&](bool so, const std::string& fault) {
+    if (!so) faults += fault + "\n";
+  };
+  const std::string yaml = "config/" + stage + ".yaml", readme = readTextFile("README.md");
+  const std::string anew = ": write it anew by the target " + stage + "_documents";
+  demand(readTextFile(yaml) == printYaml(stage, of_stage), yaml + anew);
+  demand(readme == insertMarkdown(readme, "README.md", stage, of_stage), "README.md, the stage" + anew);
+  demand(readme == insertMarkdown(readme, "README.md", "", of_nodelet), "README.md, the nodelet" + anew);
+  for (const RowInfo& row : of_stage) {
+    demand(!row.source.empty(), row.name + " does not say where it comes from");
+    demand(std::none_of(of_nodelet.begin(), of_nodelet.end(), [&](const RowInfo& own) { return own.name == row.name; }),
+           row.name + " is hidden by one of the nodelet");
+  }
+  for (const auto* rows : {&of_stage, &of_nodelet})
+    for (const RowInfo& row : *rows) {
+      demand(!row.sentence.empty(), row.name + " does not say what it does");
+      demand(isAllowed(row, row.standard), row.name + " has a default that is not allowed");
+    }
+  return faults;
+}
+
+}  // namespace urban_nav_core::testing

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <string>
+
+#include "urban_nav_core/testing/rendered_sequence.hpp"
+#include "urban_nav_ros/camera_info.hpp"
+#include "urban_nav_ros/extrinsics.hpp"
+#include "urban_nav_ros/image.hpp"
+#include "urban_nav_ros/stamp.hpp"
+#include "urban_nav_ros/testing/listener.hpp"
+
+namespace urban_nav_ros::testing {
+
+/// A listener that is the robot's stereo camera too: its four topics, and its place on /tf_static.
+class StereoListener : public Listener {
+ public:
+  using Listener::Listener;
+
+  /// The place of the left optical frame in base_link.
+  void place(const urban_nav_core::Pose& T_base_left) {
+    tf2_msgs::TFMessage message;
+    message.transforms.push_back(toStaticTransform("base_link", "stereo_left_optical_frame", T_base_left));
+    tf_static_.publish(message);
+  }
+
+  /// The pair, or one side of it, with its camera_info. `stamp`: instead of the frame's own.
+  void show(const urban_nav_core::testing::StereoFrame& frame, const urban_nav_core::StereoCamera& camera,
+            urban_nav_core::StampNs stamp, bool left = true, bool right = true) {
+    if (left) publish(left_, left_info_, frame.left, leftInfo(camera), stamp, "stereo_left_optical_frame");
+    if (right) publish(right_, right_info_, frame.right, rightInfo(camera), stamp, "stereo_right_optical_frame");
+  }
+
+ private:
+  static void publish(ros::Publisher& images, ros::Publisher& infos, const urban_nav_core::testing::GreyImage& image,
+                      const urban_nav_core::CameraInfo& info, urban_nav_core::StampNs stamp, const std::string& frame) {
+    auto pixels = image.pixels;
+    sensor_msgs::Image message = toImageMessage(cv::Mat(image.height, image.width, CV_8UC1, pixels.data()));
+    sensor_msgs::CameraInfo calibration = toCameraInfoMessage(info);
+    message.header.stamp = calibration.header.stamp = toRosTime(stamp);
+    message.header.frame_id = calibration.header.frame_id = frame;
+    infos.publish(calibration);
+    images.publish(message);
+  }
+
+  ros::Publisher left_ = advertise<sensor_msgs::Image>("stereo/left/image_raw");
+  ros::Publisher right_ = advertise<sensor_msgs::Image>("stereo/right/image_raw");
+  ros::Publisher left_info_ = advertise<sensor_msgs::CameraInfo>("stereo/left/camera_info");
+  ros::Publisher right_info_ = advertise<sensor_msgs::CameraInfo>("stereo/right/camera_info");
+  ros::Publisher tf_static_ = advertise<tf2_msgs::TFMessage>("/tf_static", true);
+};
+
+}  // namespace urban_nav_ros::testing
