@@ -103,6 +103,15 @@ function(urban_nav_program target)
   endif()
 endfunction()
 
+# urban_nav_parameters(): PACKAGE_parameters, and the target PACKAGE_documents by which it writes the texts that are made from the tables of parameters:
+# config/PACKAGE.yaml and two tables of README.md.
+function(urban_nav_parameters)
+  urban_nav_program(${PROJECT_NAME}_parameters tools/${PROJECT_NAME}_parameters.cpp nodelet/nodelet_parameters.cpp)
+  target_include_directories(${PROJECT_NAME}_parameters PRIVATE nodelet)
+  target_link_libraries(${PROJECT_NAME}_parameters ${PROJECT_NAME})
+  add_custom_target(${PROJECT_NAME}_documents COMMAND ${PROJECT_NAME}_parameters --write ${PROJECT_SOURCE_DIR} VERBATIM)
+endfunction()
+
 # The library of testing/ for tests, benches and the demo: a target in one workspace, a file when built package by package.
 #catkin_lint: ignore literal_project_name
 if(TARGET urban_nav_core_testing OR PROJECT_NAME STREQUAL "urban_nav_core")
@@ -137,6 +146,9 @@ function(urban_nav_test)
     return()
   endif()
   urban_nav_pass_ros(${PROJECT_NAME}-test)
+  if(EXISTS ${PROJECT_SOURCE_DIR}/nodelet/nodelet_parameters.cpp)
+    target_sources(${PROJECT_NAME}-test PRIVATE nodelet/nodelet_parameters.cpp)
+  endif()
   target_include_directories(${PROJECT_NAME}-test PRIVATE ${PROJECT_SOURCE_DIR}/test)
   target_link_libraries(${PROJECT_NAME}-test ${arg_UNPARSED_ARGUMENTS} ${urban_nav_testing_library})
   if(TARGET GTest::gtest_main)
@@ -144,6 +156,26 @@ function(urban_nav_test)
   else()
     target_link_libraries(${PROJECT_NAME}-test ${GTEST_MAIN_LIBRARIES})
   endif()
+endfunction()
+
+# urban_nav_nodelet(): nodelet/*.cpp becomes PACKAGE_nodelet, which is what ROS sees of the package's library; test/ros/*.cpp becomes PACKAGE-rostest, which
+# test/ros/nodelet.test runs beside it. Nothing where the cores alone are built.
+function(urban_nav_nodelet)
+  if(URBAN_NAV_CORES_ONLY)
+    return()
+  endif()
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/nodelet/*.cpp)
+  urban_nav_library(${PROJECT_NAME}_nodelet ${sources} ROS)
+  target_link_libraries(${PROJECT_NAME}_nodelet ${PROJECT_NAME})
+  if(NOT CATKIN_ENABLE_TESTING)
+    return()
+  endif()
+  find_package(rostest REQUIRED)
+  file(GLOB test_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/ros/*.cpp)
+  add_rostest_gtest(${PROJECT_NAME}-rostest test/ros/nodelet.test ${test_sources})
+  urban_nav_target(${PROJECT_NAME}-rostest ROS)
+  target_include_directories(${PROJECT_NAME}-rostest PRIVATE ${PROJECT_SOURCE_DIR}/nodelet)
+  target_link_libraries(${PROJECT_NAME}-rostest ${PROJECT_NAME}_nodelet ${PROJECT_NAME} ${urban_nav_testing_library} ${GTEST_LIBRARIES})
 endfunction()
 
 # urban_nav_python_tests(): each test/FOLDER/NAME_test.py of this package, run by the python3 of the workspace. It ends with
