@@ -11,6 +11,7 @@ namespace pose_graph {
 struct Parameters {
   std::string solver;    // gauss_newton, relative_pcg, ceres
   bool robust;           // reject false closures
+  bool gravity;          // takes the drift of roll and pitch out of odometry
   int iterations;        // of one minimisation, at most
   double jump_distance;  // m
   double jump_angle;     // deg

@@ -107,9 +107,11 @@ struct Relaxed {
 /// graph grows, and PoseGraph::take() lays the graph as it says.
 struct Batch {
   Parameters parameters;
-  Problem<3> problem;                     ///< as PoseGraph::problem(), odometry as it promises to be
-  std::vector<std::size_t> poses;         ///< of each track
-  std::map<ClosureId, Closure> closures;  ///< judged when it has run
+  Problem<3>
+      problem;  ///< as PoseGraph::problem(), odometry as it was measured; levelled, with covariances as found, when it has run
+  std::vector<std::vector<StampNs>> stamps;    ///< of each track
+  std::vector<std::vector<FeltForce>> forces;  ///< of each track
+  std::map<ClosureId, Closure> closures;       ///< judged when it has run
   Solution<3> solution;
   double odometry_variance = 1.0;
 };
@@ -218,6 +220,8 @@ class PoseGraph {
   /// Where each batch pose goes, and what has come since behind them.
   Laid laidBy(const Batch& batch) const;
   void takeVerdicts(const Batch& batch);
+  /// Steps as they were levelled.
+  void takeSteps(const Batch& batch);
   /// Turns the maps of which it is known which way is up, but those that are level already if they are to `stay`. The maps, by their first
   /// tracks, that were not level before.
   std::vector<std::size_t> level(Laid& laid, bool stay);

@@ -3,6 +3,7 @@
 
 #include "graph/jump_gate.hpp"
 #include "graph/odometry_variance.hpp"
+#include "gravity/level_odometry.hpp"
 #include "pose_graph/graph_file.hpp"
 #include "pose_graph/pose_graph.hpp"
 
@@ -27,7 +28,12 @@ Batch PoseGraph::batch() const {
   Batch made;
   made.parameters = parameters_;
   made.problem = problem(1.0);
-  for (const Track& track : tracks_) made.poses.push_back(track.stamps.size());
+  auto edge = made.problem.edges.begin();
+  for (std::size_t t = 0; t < tracks_.size(); ++t)
+    for (std::size_t i = 0; i < steps_[t].size(); ++i)
+      if (steps_[t][i].joins) (edge++)->Z = rigidOf<3>(measured_[t][i].T_from_to);
+  for (const Track& track : tracks_) made.stamps.push_back(track.stamps);
+  made.forces = forces_;
   made.closures = closures_;
   return made;
 }
@@ -37,6 +43,7 @@ void run(Batch& batch, const SolveOptions& options) {
   SolveOptions wanted = options;
   wanted.iterations = batch.parameters.iterations;
   const std::size_t chains = batch.problem.edges.size() - batch.closures.size();
+  if (batch.parameters.gravity) levelOdometry(batch.problem, chains, batch.stamps, batch.forces);
   batch.solution = judge(batch.problem, batch.parameters, wanted, batch.closures);
   std::vector<double> weights(chains, 1.0);
   for (auto& [id, closure] : batch.closures) {
@@ -51,6 +58,7 @@ Relaxed PoseGraph::take(const Batch& batch) {
   const Before before = this->before();
   takeVerdicts(batch);
   odometry_variance_ = batch.odometry_variance;
+  takeSteps(batch);
   live_.reset();
   Relaxed made;
   made.cost_before = batch.solution.cost_before;
@@ -83,12 +91,19 @@ void PoseGraph::takeVerdicts(const Batch& batch) {
   }
 }
 
+void PoseGraph::takeSteps(const Batch& batch) {
+  auto edge = batch.problem.edges.begin();
+  for (std::size_t t = 0; t < batch.stamps.size(); ++t)
+    for (std::size_t i = 0; i + 1 < batch.stamps[t].size(); ++i)
+      if (steps_[t][i].joins) steps_[t][i].edge.Z = (edge++)->Z;
+}
+
 PoseGraph::Laid PoseGraph::laidBy(const Batch& batch) const {
   Laid laid;
   std::size_t number = 0;
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     const Track& track = tracks_[t];
-    const std::size_t known = t < batch.poses.size() ? batch.poses[t] : 0;
+    const std::size_t known = t < batch.stamps.size() ? batch.stamps[t].size() : 0;
     laid.emplace_back();
     for (std::size_t i = 0; i < track.map.size(); ++i) {
       if (i < known) laid[t].push_back(poseOf(batch.solution.poses[number++]));

@@ -26,7 +26,7 @@ bool isUsable(const FeltForce& felt) { return felt.force.allFinite() && felt.for
 struct Place {
   StampNs stamp;
   Vector3d velocity, force;
-  Matrix3d rotation;
+  Matrix3d rotation, turning;
 };
 
 std::vector<Place> placesOf(const Trajectory& trajectory, const std::vector<FeltForce>& forces,
@@ -42,7 +42,8 @@ std::vector<Place> placesOf(const Trajectory& trajectory, const std::vector<Felt
     if (seconds > 2.0 * kLongestGap) continue;
     const Matrix3d R = (T_first_world * trajectory[i].pose).R();
     const Vector3d v = T_first_world.R() * (after.pose.t() - before.pose.t()) / seconds;
-    places.push_back({felt.stamp, v, R * felt.force, R});
+    const Vector3d rate = urban_nav_core::logSo3(before.pose.q().inverse() * after.pose.q()) / seconds;
+    places.push_back({felt.stamp, v, R * felt.force, R, R * urban_nav_core::skew(rate)});
   }
   return places;
 }
@@ -50,6 +51,8 @@ std::vector<Place> placesOf(const Trajectory& trajectory, const std::vector<Felt
 /// Means over places first...last by the trapezoidal rule.
 Span spanOf(const std::vector<Place>& places, std::size_t first, std::size_t last) {
   Span span;
+  span.begin = places[first].stamp;
+  span.end = places[last].stamp;
   for (std::size_t i = first; i < last; ++i) {
     const double half = 0.5 * secondsBetween(places[i].stamp, places[i + 1].stamp);
     span.force += half * (places[i].force + places[i + 1].force);
@@ -58,6 +61,7 @@ Span spanOf(const std::vector<Place>& places, std::size_t first, std::size_t las
   const double seconds = secondsBetween(places[first].stamp, places[last].stamp);
   span.force = (span.force - (places[last].velocity - places[first].velocity)) / seconds;
   span.rotation /= seconds;
+  span.lever = (places[last].turning - places[first].turning) / seconds;
   return span;
 }
 

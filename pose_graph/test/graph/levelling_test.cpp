@@ -2,6 +2,7 @@
 #include "pose_graph/map_levels.hpp"
 
 #include "../support/driven.hpp"
+#include "../support/felt_drive.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace pose_graph {
@@ -130,6 +131,83 @@ TEST(Levelling, laterForcesTakeThePlaceOfWhatWasKnownThere) {
   for (PoseGraph* each : {&graph, &whole}) each->relax();
   testing::expectSameMap(graph, whole);
   EXPECT_THROW(graph.putForces("b", all), urban_nav_core::UserError);
+}
+
+/// Odometry whose rotation walks away, and what is felt on the way that was driven.
+struct Leaning {
+  testing::Drive drive;
+  std::vector<urban_nav_core::RelativePose> steps;
+  std::vector<FeltForce> forces;
+
+  Leaning() {
+    urban_nav_core::testing::Dice dice(5);
+    drive.frames = 3000;
+    drive.noise = 0.01;
+    forces = drive.forces(dice);
+    const auto truth = drive.trajectory();
+    for (std::size_t i = 0; i + 1 < truth.size(); ++i) {
+      urban_nav_core::RelativePose step;
+      step.from = truth[i].stamp;
+      step.to = truth[i + 1].stamp;
+      const Pose right = truth[i].pose.inverse() * truth[i + 1].pose;
+      step.T_from_to = Pose(right.q() * urban_nav_core::expSo3(2e-4 * dice.normals<3>()), right.t());
+      step.covariance = 4e-8 * urban_nav_core::Matrix6d::Identity();
+      steps.push_back(step);
+    }
+  }
+  void into(PoseGraph& graph) const {
+    for (const auto& step : steps) graph.addOdometry("a", step);
+    graph.putForces("a", forces);
+  }
+  /// The largest tilt of a pose against the first one.
+  double lost(const PoseGraph& graph) const {
+    const auto truth = drive.trajectory();
+    const Eigen::Vector3d up = drive.trueUp();
+    const std::vector<Pose>& map = graph.tracks()[0].map;
+    double most = 0.0;
+    for (std::size_t i = 0; i < truth.size(); ++i)
+      most = std::max(most, (truth[i].pose.R().transpose() * up - map[i].R().transpose() * (map[0].R() * up)).norm());
+    return most;
+  }
+};
+
+TEST(Levelling, takesTheDriftOfRollAndPitchOutOfOdometry) {
+  const Leaning drive;
+  Parameters without;
+  without.gravity = false;
+  PoseGraph graph{Parameters()}, plain{without};
+  for (PoseGraph* each : {&graph, &plain}) {
+    drive.into(*each);
+    each->relax();
+  }
+  EXPECT_GT(drive.lost(plain), 5e-3);
+  EXPECT_LT(drive.lost(graph), 0.3 * drive.lost(plain));
+  EXPECT_TRUE(isApprox(graph.tracks()[0].odom.back(), plain.tracks()[0].odom.back(), 0.0)) << "odometry is what it was";
+}
+
+TEST(Levelling, aBatchLeavesNoTraceInTheNextOne) {
+  const Leaning drive;
+  PoseGraph graph{Parameters()}, once{Parameters()};
+  for (PoseGraph* each : {&graph, &once}) {
+    drive.into(*each);
+    each->relax();
+  }
+  graph.relax();
+  testing::expectSameMap(graph, once);
+}
+
+TEST(Levelling, anUpdateGoesOnFromTheLevelledSteps) {
+  const Leaning drive;
+  PoseGraph graph{Parameters()};
+  drive.into(graph);
+  graph.relax();
+  Closure closure = closureAt("a", 300, "a", 2700);
+  closure.measured.T_a_b = graph.tracks()[0].map[300].inverse() * graph.tracks()[0].map[2700];
+  graph.addClosure(closure);
+  const double lost = drive.lost(graph);
+  graph.update();
+  EXPECT_EQ(graph.closures().begin()->second.verdict, ClosureVerdict::Accepted);
+  EXPECT_LT(drive.lost(graph), 1.1 * lost) << "it agrees with how the poses lie";
 }
 
 }  // namespace

@@ -6,62 +6,21 @@
 #include <cmath>
 #include <limits>
 
+#include "../support/felt_drive.hpp"
 #include "urban_nav_core/testing/bands.hpp"
-#include "urban_nav_core/testing/dice.hpp"
 
 namespace pose_graph {
 namespace {
 
 using Eigen::Vector3d;
+using testing::Drive;
+using testing::kGravity;
+using testing::kStepNs;
 using urban_nav_core::expSo3;
 using urban_nav_core::Matrix3d;
 using urban_nav_core::Pose;
-using urban_nav_core::StampNs;
 using urban_nav_core::Trajectory;
 using urban_nav_core::testing::Dice;
-
-constexpr double kGravity = 9.81, kStep = 0.05;
-constexpr StampNs kStepNs = 50'000'000;
-
-/// A drive over hills, in a level world: it turns at a steady rate, sways and rocks.
-struct Drive {
-  double turning = 0.3;  // rad/s
-  double rocking = 1.0;
-  int frames = 2000;
-  Matrix3d lean = expSo3(Vector3d(0.1, -0.06, 0.0)).toRotationMatrix();  // of the first pose
-  Vector3d fault = Vector3d::Zero();                                     // of the accelerometer, m/s2
-  double noise = 0.0;                                                    // m/s2, of each frame's mean
-
-  Vector3d position(double t) const {
-    const Vector3d along = turning != 0.0 ? Vector3d(std::sin(turning * t), 1.0 - std::cos(turning * t), 0.0) / turning
-                                          : Vector3d(t, 0.0, 0.0);
-    return 1.2 * along + Vector3d(0.0, 0.0, 0.4 * std::sin(0.5 * t) + 0.02 * std::sin(4.0 * t));
-  }
-  Matrix3d rotation(double t) const {
-    return expSo3(Vector3d(0.0, 0.0, turning * t)).toRotationMatrix() * lean *
-           expSo3(rocking * Vector3d(0.05 * std::sin(1.1 * t), 0.08 * std::sin(0.7 * t), 0.0)).toRotationMatrix();
-  }
-  Pose pose(double t) const { return Pose(Eigen::Quaterniond(rotation(t)), position(t)); }
-  /// Relative to the first one, as odometry has it.
-  Trajectory trajectory() const {
-    Trajectory made;
-    for (int i = 0; i < frames; ++i) made.append(i * kStepNs, pose(0.0).inverse() * pose(i * kStep));
-    return made;
-  }
-  std::vector<FeltForce> forces(Dice& dice) const {
-    constexpr double h = 1e-3;
-    std::vector<FeltForce> made;
-    for (int i = 0; i < frames; ++i) {
-      const double t = i * kStep;
-      const Vector3d acceleration = (position(t + h) - 2.0 * position(t) + position(t - h)) / (h * h);
-      made.push_back({i * kStepNs, rotation(t).transpose() * (acceleration + Vector3d(0, 0, kGravity)) + fault +
-                                       noise * dice.normals<3>()});
-    }
-    return made;
-  }
-  Vector3d trueUp() const { return rotation(0.0).transpose() * Vector3d::UnitZ(); }
-  Level level(Dice& dice) const { return levelOf(trajectory(), forces(dice)); }
-};
 
 double degreesBetween(const Vector3d& a, const Vector3d& b) { return std::asin(a.cross(b).norm()) * 180.0 / M_PI; }
 

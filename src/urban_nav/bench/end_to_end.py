@@ -2,8 +2,9 @@
 """From two days in a simulated world to one map: odometry, closures of which some are false, and relaxation, through `urban_nav map` as a user would.
 
 Each case is WORLD:SEED:SECONDS of the first day:SECONDS of the second one. The closures come from the truth (closures.py): 0.05 m and 0.5 deg of noise about
-each axis, and false ones that say that two places are nearly one. Three ways to map them:
+each axis, and false ones that say that two places are nearly one. Four ways to map them:
   relaxed    as shipped
+  leaning    pose_graph.gravity=false: roll and pitch are those of odometry and closures
   trusting   pose_graph.robust=false: every closure is believed
   apart      none of the true closures between the days, but all false ones: there are two maps, and nothing may say otherwise
 
@@ -20,7 +21,7 @@ import numpy as np
 import closures
 from support import commit, show, urban_nav
 
-WAYS = {"relaxed": (), "trusting": ("--set", "pose_graph.robust=false"), "apart": ()}
+WAYS = {"relaxed": (), "leaning": ("--set", "pose_graph.gravity=false"), "trusting": ("--set", "pose_graph.robust=false"), "apart": ()}
 COLUMNS = ("world, seed", "way", "driven, m", "true closures kept", "false ones kept", "sessions in one map", "odometry, rms, m", "relaxed, rms, m",
            "of the way", "times better", "NEES, odometry", "NEES, relaxed", "level off, deg", "stated, deg", "relaxation, ms", "covariances, ms")
 SENSORS = "stereo,imu,wheels"

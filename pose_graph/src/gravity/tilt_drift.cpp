@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gravity/tilt_drift.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "gravity/gravity_fit.hpp"
+#include "gravity/spans.hpp"
+
+namespace pose_graph {
+
+using Eigen::Vector3d;
+using urban_nav_core::secondsBetween;
+using urban_nav_core::StampNs;
+using urban_nav_core::Trajectory;
+
+namespace {
+
+// What is sought: gravity's error and the accelerometer's fault (m/s2), its lever arm (m), the tilt about two axes across gravity (rad).
+constexpr int kStates = 11, kFault = 3, kTilt = 9;
+using State = Eigen::Matrix<double, kStates, 1>;
+using StateMatrix = Eigen::Matrix<double, kStates, kStates>;
+using Seen = Eigen::Matrix<double, 3, kStates>;
+
+constexpr std::size_t kLeastSpans = 5;
+constexpr double kUnknown = 1e3;  // in noises of a force: as good as unknown
+constexpr double kPrior = 6.0;    // numbers that what is known beforehand weighs
+// m/s2 in the root of a second: a bias that keeps within 0.02 m/s2 over ten minutes (XSens MTi).
+constexpr double kFaultWalk = 1e-3;
+constexpr double kHuber = 1.345;   // Huber 1964
+constexpr double kShock = 6.0;     // scatters: no drift within them
+constexpr double kMiddle = 0.888;  // median of the root of a mean of three squares, of normal numbers
+constexpr int kRounds = 3;         // of weights
+constexpr double kMostTurn = 0.3;  // rad: sines are theirs to 1.5 %
+
+/// A span as the filter sees it.
+struct Sight {
+  StampNs stamp = 0;
+  double seconds = 0.0;  ///< since the one before
+  double growth = 0.0;   ///< of odometry's variance since then, rad2
+  Vector3d force;        ///< less gravity, m/s2
+  Seen H;
+};
+
+/// How the tilt and the fault walk, in noises of a force, as squares: the factor on odometry's variance, and the variance a second. Logarithms.
+struct Walks {
+  double tilt = 0.0, fault = 0.0;
+};
+
+struct Passed {
+  State x, x_predicted;
+  StateMatrix P, P_predicted;
+};
+
+struct Filtered {
+  std::vector<Passed> states;
+  std::vector<double> innovations;  ///< in their standard deviations, of one number
+  double noise2 = 1.0;              ///< of a force, (m/s2)^2
+  double cost = 0.0;                ///< -2 log of the likelihood
+};
+
+/// -2 log of a prior for a variance, `ratio` times what it should be, that weighs as many numbers seen.
+double priorCost(double ratio) { return kPrior * (std::log(ratio) + 1.0 / ratio); }
+
+/// All covariances are in units of the noise of a force, which comes out at the end.
+Filtered filter(const std::vector<Sight>& sights, const std::vector<double>& weights, const Walks& walks,
+                bool cost_alone) {
+  Filtered made;
+  const double tilt = std::exp(walks.tilt), fault = std::exp(walks.fault);
+  State x = State::Zero();
+  StateMatrix P = StateMatrix::Zero();
+  P.diagonal().head<kTilt>().setConstant(kUnknown * kUnknown);
+  double sum = 0.0, log_volume = 0.0;
+  for (std::size_t k = 0; k < sights.size(); ++k) {
+    const Sight& sight = sights[k];
+    P.diagonal().segment<3>(kFault).array() += fault * sight.seconds;
+    P.diagonal().tail<2>().array() += tilt * sight.growth;
+    if (!cost_alone) made.states.push_back({x, x, P, P});
+    const Eigen::Matrix<double, kStates, 3> PH = P * sight.H.transpose();
+    const Eigen::Matrix3d S = sight.H * PH + Eigen::Matrix3d::Identity() / weights[k];
+    const Eigen::LLT<Eigen::Matrix3d> llt(S);
+    const Vector3d innovation = sight.force - sight.H * x, whitened = llt.matrixL().solve(innovation);
+    x += PH * llt.solve(innovation);
+    P -= PH * llt.solve(PH.transpose());
+    P = (0.5 * (P + P.transpose())).eval();
+    sum += whitened.squaredNorm();
+    for (int i = 0; i < 3; ++i) log_volume += 2.0 * std::log(llt.matrixLLT()(i, i));
+    if (cost_alone) continue;
+    made.states.back().x = x;
+    made.states.back().P = P;
+    made.innovations.push_back(whitened.norm() / std::sqrt(3.0));
+  }
+  const double numbers = 3.0 * static_cast<double>(sights.size());
+  made.noise2 = std::max(sum / numbers, 1e-12);
+  made.cost = log_volume + numbers * std::log(made.noise2) + priorCost(tilt * made.noise2) +
+              priorCost(fault * made.noise2 / (kFaultWalk * kFaultWalk));
+  if (!std::isfinite(made.cost)) made.cost = std::numeric_limits<double>::infinity();
+  return made;
+}
+
+/// The walks under which the innovations are most likely: steps along one or the other, ever smaller ones.
+Walks likeliest(const std::vector<Sight>& sights, const std::vector<double>& weights, Walks best, double step) {
+  const auto costAt = [&](const Walks& walks) { return filter(sights, weights, walks, true).cost; };
+  double best_cost = costAt(best);
+  for (; step > 0.1; step *= 0.5)
+    for (double Walks::*which : {&Walks::tilt, &Walks::fault})
+      for (const double sign : {1.0, -1.0}) {
+        bool better = false;
+        for (int i = 0; i < 10; ++i) {
+          Walks tried = best;
+          tried.*which += sign * step;
+          const double cost = costAt(tried);
+          if (!(cost < best_cost)) break;
+          best = tried;
+          best_cost = cost;
+          better = true;
+        }
+        if (better) break;
+      }
+  return best;
+}
+
+/// Shocks hardly count: one would turn the states behind it.
+std::vector<double> calmOf(const std::vector<Span>& spans, const GravityFit& fit) {
+  std::vector<double> made;
+  for (const Span& span : spans) {
+    const double size = fit.residual(span).norm() / (kShock * fit.scatter);
+    made.push_back(size <= 1.0 ? 1.0 : 1.0 / (size * size));
+  }
+  return made;
+}
+
+/// Huber's, for the innovations as they were under these weights.
+std::vector<double> weightsFor(std::vector<double> innovations, const std::vector<double>& weights) {
+  // As unlikely as they were at full weight.
+  for (std::size_t k = 0; k < weights.size(); ++k) innovations[k] /= std::sqrt(weights[k]);
+  std::vector<double> sorted = innovations;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  const double usual = std::max(*middle / kMiddle, 1e-12);
+  std::vector<double> made;
+  for (const double innovation : innovations) made.push_back(1.0 / std::max(1.0, innovation / (kHuber * usual)));
+  return made;
+}
+
+/// The states by all forces, those behind them too (Rauch, Tung and Striebel 1965).
+std::vector<State> smoothed(const std::vector<Passed>& states) {
+  std::vector<State> made(states.size());
+  made.back() = states.back().x;
+  for (std::size_t k = states.size() - 1; k-- > 0;) {
+    const StateMatrix gain = states[k + 1].P_predicted.ldlt().solve(states[k].P).transpose();
+    made[k] = states[k].x + gain * (made[k + 1] - states[k + 1].x_predicted);
+  }
+  return made;
+}
+
+std::vector<Sight> sightsOf(const std::vector<Span>& spans, const Trajectory& odometry,
+                            const std::vector<double>& variance, const Vector3d& gravity,
+                            const Eigen::Matrix<double, 3, 2>& across) {
+  std::vector<Sight> made;
+  double before = 0.0;
+  StampNs last = odometry.front().stamp;
+  for (const Span& span : spans) {
+    Sight sight;
+    sight.stamp = span.begin + (span.end - span.begin) / 2;
+    sight.seconds = secondsBetween(last, sight.stamp);
+    last = sight.stamp;
+    const double now = variance[odometry.nearest(sight.stamp)];
+    sight.growth = now - before;
+    before = now;
+    sight.force = span.force - gravity;
+    sight.H << Eigen::Matrix3d::Identity(), span.rotation, span.lever, urban_nav_core::skew(gravity) * across;
+    made.push_back(sight);
+  }
+  return made;
+}
+
+}  // namespace
+
+std::vector<Tilt> tiltDrift(const Trajectory& odometry, const std::vector<double>& variance,
+                            const std::vector<FeltForce>& forces) {
+  const Level level = levelOf(odometry, forces);
+  if (!level.known()) return {};
+  const std::vector<Span> spans = spansOf(odometry, forces, odometry.front().pose);
+  if (spans.size() < kLeastSpans) return {};
+  Eigen::Matrix<double, 3, 2> across;
+  across.col(0) = level.up.unitOrthogonal();
+  across.col(1) = level.up.cross(across.col(0));
+  const std::vector<Sight> sights = sightsOf(spans, odometry, variance, level.gravity * level.up, across);
+  const std::optional<GravityFit> fit = fitGravity(spans);
+  if (!fit) return {};
+  const std::vector<double> calm = calmOf(spans, *fit);
+  std::vector<double> weights = calm;
+  // A force good to 0.01 m/s2, odometry as it promises, a fault as the data sheet has it.
+  Walks walks{std::log(1e4), std::log(1e4 * kFaultWalk * kFaultWalk)};
+  Filtered filtered;
+  for (int round = 0; round < kRounds; ++round) {
+    walks = likeliest(sights, weights, walks, round == 0 ? 2.0 : 0.5);
+    filtered = filter(sights, weights, walks, false);
+    if (!std::isfinite(filtered.cost)) return {};
+    weights = weightsFor(filtered.innovations, weights);
+    std::transform(weights.begin(), weights.end(), calm.begin(), weights.begin(), std::multiplies<double>());
+  }
+  std::vector<Tilt> made;
+  const std::vector<State> states = smoothed(filtered.states);
+  for (std::size_t k = 0; k < sights.size(); ++k) {
+    made.push_back({sights[k].stamp, across * states[k].tail<2>()});
+    if (!(made.back().turn.norm() < kMostTurn)) return {};
+  }
+  return made;
+}
+
+Vector3d tiltAt(const std::vector<Tilt>& tilts, StampNs first, StampNs stamp) {
+  const auto after =
+      std::lower_bound(tilts.begin(), tilts.end(), stamp, [](const Tilt& tilt, StampNs at) { return tilt.stamp < at; });
+  if (tilts.empty() || stamp <= first) return Vector3d::Zero();
+  if (after == tilts.end()) return tilts.back().turn;
+  const Tilt before = after == tilts.begin() ? Tilt{first, Vector3d::Zero()} : *(after - 1);
+  const double part = secondsBetween(before.stamp, stamp) / secondsBetween(before.stamp, after->stamp);
+  return before.turn + part * (after->turn - before.turn);
+}
+
+}  // namespace pose_graph
