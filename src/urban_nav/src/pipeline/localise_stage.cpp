@@ -72,7 +72,7 @@ std::vector<MapView> viewsOf(Store& frozen, const std::string& words) {
   if (other_camera)
     throw urban_nav_core::DataError(frozen.path(), "its views are of another camera than those of this input", "");
   throw urban_nav_core::DataError(frozen.path(),
-                                  "holds no views to recognise: map with --stages vo,loops,graph keeps them", "");
+                                  "holds no views to recognise: map keeps them where --stages does not leave loops out", "");
 }
 
 class Search {
