@@ -110,10 +110,11 @@ struct Batch {
   Problem<3>
       problem;  ///< as PoseGraph::problem(), odometry as it was measured; levelled, with covariances as found, when it has run
   std::vector<std::vector<StampNs>> stamps;    ///< of each track
-  std::vector<std::vector<FeltForce>> forces;  ///< of each track
+  std::vector<std::vector<FeltForce>> forces;  ///< of each track; who knows more than the graph may put it in
   std::map<ClosureId, Closure> closures;       ///< judged when it has run
   Solution<3> solution;
   double odometry_variance = 1.0;
+  double odometry_lean = 0.0;
 };
 /// Deterministic. Who ends it by SolveOptions::progress must not take it.
 void run(Batch& batch, const SolveOptions& options = {});
@@ -183,6 +184,8 @@ class PoseGraph {
   /// By what the covariances of odometry were multiplied in the last relax(), in problem() too: 1, or more where the closures
   /// show that it promises more than it keeps.
   double odometryVariance() const { return odometry_variance_; }
+  /// How far a pose of odometry leant at most against its first one, rad, as the accelerometer says: taken out in the last relax().
+  double odometryLean() const { return odometry_lean_; }
   /// The covariance of a pose's own settled noise, in its own axes: half that of its step, where the step tells which part of it adds
   /// up along the way. It is in no edge of the chain, in the closures' edges, and has to be added to what Marginals tell.
   urban_nav_core::Matrix6d ownNoise(const NodeRef& ref) const;
@@ -253,6 +256,7 @@ class PoseGraph {
   std::int64_t revision_ = 0;
   int parts_ = 0;
   double odometry_variance_ = 1.0;
+  double odometry_lean_ = 0.0;
   bool broken_ = false;
   std::any live_;  ///< LiveCore: what update() goes on from; empty where that is not known
 };

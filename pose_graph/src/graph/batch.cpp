@@ -43,7 +43,7 @@ void run(Batch& batch, const SolveOptions& options) {
   SolveOptions wanted = options;
   wanted.iterations = batch.parameters.iterations;
   const std::size_t chains = batch.problem.edges.size() - batch.closures.size();
-  if (batch.parameters.gravity) levelOdometry(batch.problem, chains, batch.stamps, batch.forces);
+  if (batch.parameters.gravity) batch.odometry_lean = levelOdometry(batch.problem, chains, batch.stamps, batch.forces);
   batch.solution = judge(batch.problem, batch.parameters, wanted, batch.closures);
   std::vector<double> weights(chains, 1.0);
   for (auto& [id, closure] : batch.closures) {
@@ -58,6 +58,7 @@ Relaxed PoseGraph::take(const Batch& batch) {
   const Before before = this->before();
   takeVerdicts(batch);
   odometry_variance_ = batch.odometry_variance;
+  odometry_lean_ = batch.odometry_lean;
   takeSteps(batch);
   live_.reset();
   Relaxed made;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gravity/level_odometry.hpp"
 
+#include <algorithm>
+
 #include "condense/chain_sum.hpp"
 #include "gravity/tilt_drift.hpp"
 #include "pose_graph/graph_file.hpp"
@@ -12,9 +14,9 @@ using urban_nav_core::Trajectory;
 
 namespace {
 
-/// An unbroken run: its steps are edges [first_edge, first_edge + stamps.size() - 1), its poses begin with first_pose.
-void levelRun(Problem<3>& problem, std::size_t first_edge, std::size_t first_pose, const std::vector<StampNs>& stamps,
-              const std::vector<FeltForce>& forces) {
+/// Of an unbroken run. Its steps are edges [first_edge, first_edge + stamps.size() - 1), its poses begin with first_pose.
+double levelRun(Problem<3>& problem, std::size_t first_edge, std::size_t first_pose, const std::vector<StampNs>& stamps,
+                const std::vector<FeltForce>& forces) {
   Trajectory odometry;
   std::vector<double> variance{0.0};
   Rigid<3> T_first_pose;
@@ -22,13 +24,13 @@ void levelRun(Problem<3>& problem, std::size_t first_edge, std::size_t first_pos
   for (std::size_t i = 0; i + 1 < stamps.size(); ++i) {
     const Edge<3>& step = problem.edges[first_edge + i];
     TangentMatrix<3> covariance;
-    if (!invert<3>(step.information, covariance)) return;
+    if (!invert<3>(step.information, covariance)) return 0.0;
     T_first_pose = T_first_pose * step.Z;
     odometry.append(stamps[i + 1], poseOf(T_first_pose));
     variance.push_back(variance.back() + covariance.bottomRightCorner<3, 3>().trace() / 3.0);
   }
   const std::vector<Tilt> tilts = tiltDrift(odometry, variance, forces);
-  if (tilts.empty()) return;
+  if (tilts.empty()) return 0.0;
   const auto leaning = [&](std::size_t i) {
     const Eigen::Vector3d turn = tiltAt(tilts, stamps.front(), stamps[i]);
     return Eigen::Quaterniond(urban_nav_core::expSo3(turn) * odometry[i].pose.q());
@@ -41,12 +43,16 @@ void levelRun(Problem<3>& problem, std::size_t first_edge, std::size_t first_pos
     problem.poses[first_pose + i + 1] = problem.poses[first_pose + i] * step.Z;
     before = after;
   }
+  double most = 0.0;
+  for (const Tilt& tilt : tilts) most = std::max(most, tilt.turn.norm());
+  return most;
 }
 
 }  // namespace
 
-void levelOdometry(Problem<3>& problem, std::size_t chains, const std::vector<std::vector<StampNs>>& stamps,
-                   const std::vector<std::vector<FeltForce>>& forces) {
+double levelOdometry(Problem<3>& problem, std::size_t chains, const std::vector<std::vector<StampNs>>& stamps,
+                     const std::vector<std::vector<FeltForce>>& forces) {
+  double most = 0.0;
   std::size_t edge = 0, pose = 0;
   for (std::size_t t = 0; t < stamps.size(); ++t) {
     const std::size_t end = pose + stamps[t].size();
@@ -59,9 +65,11 @@ void levelOdometry(Problem<3>& problem, std::size_t chains, const std::vector<st
       ++pose;
       if (forces[t].empty()) continue;
       const auto begin = stamps[t].end() - static_cast<std::ptrdiff_t>(end - first);
-      levelRun(problem, first_edge, first, {begin, begin + static_cast<std::ptrdiff_t>(pose - first)}, forces[t]);
+      const std::vector<StampNs> of_run(begin, begin + static_cast<std::ptrdiff_t>(pose - first));
+      most = std::max(most, levelRun(problem, first_edge, first, of_run, forces[t]));
     }
   }
+  return most;
 }
 
 }  // namespace pose_graph

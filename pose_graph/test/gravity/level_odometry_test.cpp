@@ -56,7 +56,7 @@ TEST(LevelOdometry, turnsStepsAndLaysPosesAlongThem) {
   Chains chains;
   chains.add(drive, dice);
   const Problem<3> before = chains.problem;
-  levelOdometry(chains.problem, before.edges.size(), chains.stamps, chains.forces);
+  const double lean = levelOdometry(chains.problem, before.edges.size(), chains.stamps, chains.forces);
   const auto truth = drive.trajectory();
   double lost_before = 0.0, lost_after = 0.0;
   for (std::size_t i = 0; i < truth.size(); ++i) {
@@ -71,6 +71,7 @@ TEST(LevelOdometry, turnsStepsAndLaysPosesAlongThem) {
     EXPECT_LT((laid.R - chains.problem.poses[i].R).norm() + (laid.t - chains.problem.poses[i].t).norm(), 1e-9);
   }
   EXPECT_GT(lost_before, 0.008);
+  EXPECT_NEAR(lean, lost_before, 0.3 * lost_before);
   EXPECT_LT(lost_after, 0.3 * lost_before);
 }
 

@@ -56,6 +56,14 @@ void judge(GraphRun& run, const OfferedIds& ids, std::size_t known) {
   if (refused > 0) run.warnings.push_back(std::to_string(refused) + " closures could not be used; the first: " + first);
 }
 
+/// With what was felt. The maps of the graph stay as their first poses stood: which way is up is told beside them.
+pose_graph::Relaxed relax(PoseGraph& graph, const std::vector<const VoRun*>& runs) {
+  pose_graph::Batch batch = graph.batch();
+  for (std::size_t s = 0; s < runs.size(); ++s) batch.forces[s] = runs[s]->forces;
+  pose_graph::run(batch);
+  return graph.take(batch);
+}
+
 // All sessions from one factorisation.
 std::vector<std::vector<Matrix6d>> covariancesOf(const PoseGraph& graph, const std::vector<std::string>& sessions) {
   std::vector<pose_graph::Rigid<3>> poses;
@@ -161,7 +169,7 @@ GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<co
   }
   const OfferedIds ids = offerClosures(made, runs, closures, known);
   const auto begin = Clock::now();
-  made.relaxed = made.graph.relax();
+  made.relaxed = relax(made.graph, runs);
   made.ms = millisecondsSince(begin);
   judge(made, ids, known.size());
   const auto relaxed = Clock::now();

@@ -203,6 +203,9 @@ std::vector<Verdict> graphVerdicts(const GraphRun& graph) {
     made.push_back({Grade::Fair, "Odometry errs " + forPerson(boast, 2) + " times as much as it states,",
                     "so the closures say; the covariances of this map are those of the larger errors."});
   made.push_back(levelVerdict(graph.levels.front()));
+  if (const double lean = kDegrees * graph.graph.odometryLean(); lean > 0.0)
+    made.push_back({Grade::Good, "Roll and pitch are held by the accelerometer.",
+                    "Odometry came to lean by up to " + forPerson(lean, 2) + " deg, which is taken out."});
   const std::size_t joined = graph.sessionsJoined();
   if (graph.sessions.size() > 1)
     made.push_back(
@@ -228,6 +231,7 @@ Json toJson(const GraphRun& graph, const std::vector<std::optional<Evaluation>>&
   json["cost_before"] = relaxed.cost_before;
   json["cost_after"] = relaxed.cost_after;
   json["odometry_variance"] = graph.graph.odometryVariance();
+  json["odometry_lean_deg"] = kDegrees * graph.graph.odometryLean();
   json["iterations"] = relaxed.iterations.size();
   json["ending"] = toString(relaxed.ending);
   json["ms_batch"] = graph.ms;
