@@ -60,7 +60,7 @@ const Table<Parameters>& table() {
           {"iterations", &P::iterations, "", std::int64_t{30}, std::int64_t{1}, std::int64_t{1000}, {},
            "Gauss-Newton steps at one scale, at most; fewer where nothing changes any more.", "section 4.2"},
           {"laser_bias", &P::laser_bias, "m", 0.02, 0.0, 1.0, {},
-           "What a whole cloud may be off with all of its points together; information never says more than this allows.", "data sheets: HDL-32E 2 cm, LMS 291 3.5 cm"},
+           "What a whole cloud may be off with all of its points together; what directions are free is judged by it, information by residuals up to it.", "data sheets: HDL-32E 2 cm, LMS 291 3.5 cm"},
           {"free_deviation", &P::free_deviation, "m", 0.2, 0.001, 100.0, {},
            "A direction that laser_bias alone could move by more than this, at the matches' mean distance, counts as free: no information.", "section 4.2, Fig. 15b; measured"},
           {"max_residual", &P::max_residual, "m", 0.12, 0.001, 10.0, {},

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cloud/cell_table.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
@@ -12,6 +13,7 @@ namespace loop_metric {
 
 namespace {
 
+constexpr double kLeastError = 0.002;                           // m: no laser is better
 constexpr double kFreeTranslation = 1e6, kFreeRotation = 10.0;  // m^2, rad^2: DESIGN.md, section 4
 
 double robustWeight(const Match& match, double sigma) {
@@ -59,6 +61,10 @@ struct Sums {
   Matrix6d normal = Matrix6d::Zero();   // mean of J_target J_target^T
   std::vector<std::uint32_t> patches;   // of each match of weight, in order
   std::vector<Vector6d> pull_by_patch;  // sum of weight J_target: what an error of the whole patch pulls by
+  std::vector<double> weight_by_patch, residual_by_patch;  // the latter a weighted mean, m
+
+  /// By how much patches err as wholes, m: of their mean residuals. Infinite where they are too few to tell.
+  double errorOfPatches() const;
 };
 
 Sums sumsOf(const std::vector<Match>& matches, const Scaled& scaled, double sigma, double patch) {
@@ -69,15 +75,34 @@ Sums sumsOf(const std::vector<Match>& matches, const Scaled& scaled, double sigm
     if (!(weight > 0.0)) continue;
     const std::uint32_t number =
         patches.insert(keyOf(cellOf(match.lever.cast<float>(), static_cast<float>(1.0 / patch))));
-    if (number == sums.pull_by_patch.size()) sums.pull_by_patch.push_back(Vector6d::Zero());
+    if (number == sums.pull_by_patch.size()) {
+      sums.pull_by_patch.push_back(Vector6d::Zero());
+      sums.weight_by_patch.push_back(0.0);
+      sums.residual_by_patch.push_back(0.0);
+    }
     sums.patches.push_back(number);
     const Vector6d from_target = scaled.row(match, match.target_normal),
                    from_source = scaled.row(match, match.source_normal);
     sums.agreed += 0.5 * weight * (from_source * from_target.transpose() + from_target * from_source.transpose());
     sums.normal += weight * from_target * from_target.transpose();
     sums.pull_by_patch[number] += weight * from_target;
+    sums.weight_by_patch[number] += weight;
+    sums.residual_by_patch[number] += weight * match.residual;
   }
+  for (std::size_t p = 0; p < sums.weight_by_patch.size(); ++p) sums.residual_by_patch[p] /= sums.weight_by_patch[p];
   return sums;
+}
+
+// The alignment has taken six numbers from them.
+double Sums::errorOfPatches() const {
+  double squares = 0.0, weights = 0.0, weights2 = 0.0;
+  for (std::size_t p = 0; p < weight_by_patch.size(); ++p) {
+    squares += weight_by_patch[p] * residual_by_patch[p] * residual_by_patch[p];
+    weights += weight_by_patch[p];
+    weights2 += weight_by_patch[p] * weight_by_patch[p];
+  }
+  const double count = weights * weights / std::max(weights2, 1e-300);
+  return count > 7.0 ? std::sqrt(squares / weights * count / (count - 6.0)) : std::numeric_limits<double>::infinity();
 }
 
 /// Deviation of u^T agreed u by the noise of the normals, which is what the two differ by: of the product (a + e1)(a + e2) it is
@@ -128,20 +153,21 @@ Observability observe(const std::vector<Match>& matches, double sigma, double la
   unlimited << Vector3d::Constant(kFreeTranslation), Vector3d::Constant(kFreeRotation * scaled.length * scaled.length);
   Matrix6d covariance = free * unlimited.asDiagonal() * free;
   if (!held_directions.empty()) {
-    // Within the held directions: the patches' own errors through the normal equations (cluster-robust, Liang and Zeger 1986), and what all share.
+    // Within the held directions: the patches' own errors through the normal equations (cluster-robust, Liang and Zeger 1986), and what all share,
+    // which no residual shows: as much as that which differs.
     const auto count = static_cast<Eigen::Index>(held_directions.size());
     Eigen::MatrixXd basis(6, count);
     for (Eigen::Index i = 0; i < count; ++i) basis.col(i) = held_directions[static_cast<std::size_t>(i)];
-    const double patch_sigma = std::max(sigma, bias);
+    const double error = std::clamp(sums.errorOfPatches(), kLeastError, std::max(bias, kLeastError));
     Matrix6d spread = Matrix6d::Zero();
-    for (const Vector6d& pull : sums.pull_by_patch) spread += patch_sigma * patch_sigma * pull * pull.transpose();
+    for (const Vector6d& pull : sums.pull_by_patch) spread += error * error * pull * pull.transpose();
     const auto normal_inverse =
         urban_nav_core::invertPositiveDefinite(Eigen::MatrixXd(basis.transpose() * sums.normal * basis));
     const auto agreed_inverse =
         urban_nav_core::invertPositiveDefinite(Eigen::MatrixXd(basis.transpose() * sums.agreed * basis));
     if (normal_inverse && agreed_inverse) {
       const Eigen::MatrixXd inner =
-          *normal_inverse * (basis.transpose() * spread * basis) * *normal_inverse + bias * bias * *agreed_inverse;
+          *normal_inverse * (basis.transpose() * spread * basis) * *normal_inverse + error * error * *agreed_inverse;
       covariance += basis * inner * basis.transpose();
       if (const auto information = urban_nav_core::invertPositiveDefinite(inner))
         observed.information = scaled.S.transpose() * (basis * *information * basis.transpose()) * scaled.S;

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What two lasers saw around places along a ride, for loop_metric/bench/clouds.cpp: a PLY for each place, as from a recording whose odometry drifts, and places.csv with
+// the day, the way driven (m) and the true pose of each. The same route on two days.
+//   local_clouds [--world W] [--seed N] [--route loops] [--duration 300] [--step 4] [--folder DIR]
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "laser/lms291.hpp"
+#include "ride/make_ride.hpp"
+#include "rig/places.hpp"
+#include "support/program.hpp"
+#include "trace/tracer.hpp"
+#include "urban_nav_core/laser/beam_renderer.hpp"
+
+namespace {
+
+using namespace urban_nav_sim;
+using namespace urban_nav_sim::bench;
+using urban_nav_core::Pose;
+using urban_nav_core::StampNs;
+using urban_nav_core::Trajectory;
+
+constexpr double kBeside = 10.0;            // m before and behind a place: loop_metric.cloud_way
+constexpr double kStart = 6.0;              // s: the robot has begun to move
+constexpr double kFrame = 0.05;             // s from pose to pose of odometry
+constexpr std::uint64_t kTurns = 10000000;  // of a day, so that no two share their noise
+constexpr StampNs kLongestGap = 500000000;
+
+// What swf_vo drifts per root of a metre in `quad` (two days of 300 m, ways of 10 m): m, rad.
+const Eigen::Vector3d kDriftAlong(2.2e-3, 2.0e-3, 1.0e-3), kDriftTurned(0.16e-3, 0.16e-3, 0.22e-3);
+
+StampNs stampOf(double t) { return static_cast<StampNs>(std::llround(1e9 * t)); }
+
+/// The true way and what odometry makes of it, frame by frame.
+struct Driven {
+  std::vector<double> t, way;  // s, m
+  std::vector<Pose> T_world_base;
+  Trajectory odometry;
+
+  Driven(const Ride& ride, const Noise& noise) {
+    Pose T_first_base;
+    for (double now = kStart; now < ride.duration(); now += kFrame) {
+      const Pose pose = ride.at(now).T_world_base;
+      double length = 0.0;
+      if (!t.empty()) {
+        const Pose step = T_world_base.back().inverse() * pose;
+        length = step.t().norm();
+        const double root = std::sqrt(length);
+        const Eigen::Vector3d off = root * kDriftAlong.cwiseProduct(noise.of("along").normal3(t.size())),
+                              turn = root * kDriftTurned.cwiseProduct(noise.of("turned").normal3(t.size()));
+        T_first_base = T_first_base * step * Pose(urban_nav_core::expSo3(turn), off);
+      }
+      way.push_back(way.empty() ? 0.0 : way.back() + length);
+      t.push_back(now);
+      T_world_base.push_back(pose);
+      odometry.append(stampOf(now), T_first_base);
+    }
+  }
+};
+
+struct Turn {
+  double t = 0.0;
+  urban_nav_core::Scan scan;
+};
+
+void write(const std::string& path, const std::vector<urban_nav_core::LaserPoint>& points) {
+  std::ofstream file(path, std::ios::binary);
+  file << "ply\nformat binary_little_endian 1.0\nelement vertex " << points.size()
+       << "\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+  for (const urban_nav_core::LaserPoint& point : points)
+    file.write(reinterpret_cast<const char*>(point.p.data()), 3 * sizeof(float));
+  if (!file) throw std::runtime_error(path + ": not written");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  const Options options(argc, argv);
+  const std::string world = options.text("--world", "quad"), folder = options.text("--folder", world);
+  const auto seed = static_cast<std::uint32_t>(options.number("--seed", 1.0));
+  const double step = options.number("--step", 4.0);  // m
+  RideOptions ride_options;
+  ride_options.duration = options.number("--duration", 300.0);
+  std::filesystem::create_directories(folder);
+  std::ofstream places(folder + "/places.csv");
+  places.precision(17);
+  places << "cloud,day,way,x,y,z,qx,qy,qz,qw\n";
+  int count = 0;
+  for (const int day : {1, 2}) {
+    const World on_day = buildWorld(world, seed, day);
+    ride_options.seed = seed + 1000U * static_cast<std::uint32_t>(day);
+    const auto ride = makeRide(on_day, routeOf(world, seed, options.text("--route", "loops")), ride_options);
+    const Tracer tracer(on_day);
+    const Driven driven(*ride, Noise(seed, "local clouds").of(static_cast<std::uint64_t>(day)));
+    const std::vector<std::string> frames = {"laser_left", "laser_right"};
+    std::vector<std::vector<Turn>> turns(frames.size());
+    for (std::size_t laser = 0; laser < frames.size(); ++laser) {
+      const Lms291::Settings settings;
+      const Lms291 device(tracer, placeOf(frames[laser]), seed, frames[laser], settings);
+      std::uint64_t number = kTurns * static_cast<std::uint64_t>(day);
+      for (double t = kStart; t < driven.t.back() - settings.period; t += settings.period)
+        turns[laser].push_back({t, toScan(device.scan(*ride, t, stampOf(t), number++))});
+    }
+    double next = kBeside;
+    for (std::size_t at = 0; at < driven.t.size() && driven.way[at] + kBeside < driven.way.back(); ++at) {
+      if (driven.way[at] < next) continue;
+      next += step;
+      std::size_t first = at, last = at;
+      while (first > 0 && driven.way[at] - driven.way[first - 1] <= kBeside) --first;
+      while (driven.way[last + 1] - driven.way[at] <= kBeside) ++last;
+      std::vector<urban_nav_core::LaserPoint> points;
+      for (std::size_t laser = 0; laser < frames.size(); ++laser) {
+        urban_nav_core::BeamRenderer renderer(driven.odometry, placeOf(frames[laser]),
+                                              driven.odometry[at].pose.inverse(), kLongestGap);
+        for (const Turn& turn : turns[laser])
+          if (turn.t >= driven.t[first] && turn.t <= driven.t[last]) renderer.render(turn.scan, points);
+      }
+      std::string name = std::to_string(count++) + ".ply";
+      write(folder + "/" + name, points);
+      const Pose& pose = driven.T_world_base[at];
+      places << name << "," << day << "," << driven.way[at];
+      for (const double value :
+           {pose.t().x(), pose.t().y(), pose.t().z(), pose.q().x(), pose.q().y(), pose.q().z(), pose.q().w()})
+        places << "," << value;
+      places << "\n";
+    }
+  }
+  return 0;
+} catch (const std::exception& error) {
+  return urban_nav_sim::bench::complain(error);
+}
