@@ -179,33 +179,49 @@ TEST(GraphStage, sessionsThatJoinEachOtherAloneAreOneMapOfTheirOwn) {
   EXPECT_FALSE(out.has("trajectory_3.tum"));
 }
 
-/// What an accelerometer at rest would feel at each frame: the drive is slow.
+/// What an accelerometer feels on the circle at each frame.
 void feel(VoRun& run, const Pose& T_first_level) {
+  constexpr double kTurnRate = 2.0 * M_PI / (600.0 * 0.05);
   const Pose first = truthAt(static_cast<double>(run.settled.front().stamp) / kStep);
   for (const swf_vo::Settled& settled : run.settled) {
-    const Pose T_first_now = first.inverse() * truthAt(static_cast<double>(settled.stamp) / kStep);
-    run.forces.push_back({settled.stamp, T_first_now.R().transpose() * T_first_level.R() * Vector3d(0.0, 0.0, 9.81)});
+    const Pose now = truthAt(static_cast<double>(settled.stamp) / kStep);
+    const Vector3d to_centre = Vector3d(0.0, 10.0, 0.0) - now.t();
+    const Vector3d up = first.R() * T_first_level.R() * Vector3d(0.0, 0.0, 9.81);
+    run.forces.push_back({settled.stamp, now.R().transpose() * (up + kTurnRate * kTurnRate * to_centre)});
   }
 }
 
-TEST(GraphStage, levelsTheMapWhereAnAccelerometerKnowsHow) {
+/// Two days on the circle and closures between and within them.
+struct TwoDays {
   VoRun monday = drive(0, 900, 2e-4), tuesday = drive(300, 900, -1e-4);
   std::vector<ClosureRow> rows;
-  for (int i = 20; i < 300; i += 40) rows.push_back(closure("monday", i, "monday", i + 600));
-  for (int i = 310; i < 600; i += 60) rows.push_back(closure("monday", i, "tuesday", i));
-  const auto relaxed = [&] { return runGraph({}, {&monday, &tuesday}, {"monday", "tuesday"}, rows); };
-  const GraphRun before = relaxed();
+
+  TwoDays() {
+    for (int i = 20; i < 300; i += 40) rows.push_back(closure("monday", i, "monday", i + 600));
+    for (int i = 310; i < 600; i += 60) rows.push_back(closure("monday", i, "tuesday", i));
+  }
+
+  GraphRun relaxed(bool gravity) const {
+    pose_graph::Parameters parameters;
+    parameters.gravity = gravity;
+    return runGraph(parameters, {&monday, &tuesday}, {"monday", "tuesday"}, rows);
+  }
+};
+
+// The robot's first pose leans by 0.1 rad to the side and 0.05 rad ahead.
+const Pose kLeaning(expSo3(Vector3d(0.1, 0.05, 0.0)), Vector3d::Zero());
+
+TEST(GraphStage, levelsTheMapWhereAnAccelerometerKnowsHow) {
+  TwoDays days;
+  const GraphRun before = days.relaxed(false);
   EXPECT_FALSE(before.levels[0].known());
   EXPECT_EQ(before.levels[0].trouble, pose_graph::LevelTrouble::NoForces);
 
-  // The robot's first pose leans by 0.1 rad to the side and 0.05 rad ahead.
-  const Pose T_level_first(expSo3(Vector3d(0.1, 0.05, 0.0)), Vector3d::Zero());
-  feel(monday, T_level_first.inverse());
-  const GraphRun after = relaxed();
+  feel(days.monday, kLeaning.inverse());
+  const GraphRun after = days.relaxed(false);
   ASSERT_TRUE(after.levels[0].known());
-  EXPECT_NEAR(std::acos(after.levels[0].up.z()), std::acos(T_level_first.R()(2, 2)), 2e-3);
-  EXPECT_TRUE(isApprox(after.trajectory(0).front().pose, T_level_first * Pose(), 5e-3))
-      << "its heading was zero and is";
+  EXPECT_NEAR(std::acos(after.levels[0].up.z()), std::acos(kLeaning.R()(2, 2)), 2e-3);
+  EXPECT_TRUE(isApprox(after.trajectory(0).front().pose, kLeaning * Pose(), 5e-3)) << "its heading was zero and is";
   EXPECT_LT(after.trajectory(0).front().pose.t().norm(), 1e-12);
   for (std::size_t s = 0; s < 2; ++s) {
     const auto level = after.trajectory(s), leaning = before.trajectory(s);
@@ -216,11 +232,40 @@ TEST(GraphStage, levelsTheMapWhereAnAccelerometerKnowsHow) {
   }
 
   // Where the first session has none, the next one of the same map says it.
-  monday.forces.clear();
-  feel(tuesday, Pose());
-  const GraphRun second = relaxed();
-  ASSERT_TRUE(second.levels[0].known());
-  EXPECT_LT(std::acos(second.levels[0].up.z()), 2e-3);
+  days.monday.forces.clear();
+  feel(days.tuesday, Pose());
+  for (const bool gravity : {false, true}) {
+    const GraphRun second = days.relaxed(gravity);
+    ASSERT_TRUE(second.levels[0].known());
+    EXPECT_LT(std::acos(second.levels[0].up.z()), 2e-3);
+  }
+}
+
+TEST(GraphStage, holdsRollAndPitchByWhatTheAccelerometerFelt) {
+  // Odometry that leans ever more to one side, by 0.05 rad in 45 s, from a start that leans; closures would see that.
+  TwoDays days;
+  days.rows.clear();
+  Pose odom;
+  for (std::size_t i = 1; i < days.monday.settled.size(); ++i) {
+    urban_nav_core::RelativePose& step = days.monday.settled[i].from_previous;
+    const Vector3d lean = truthAt(static_cast<double>(i)).R().transpose() * Vector3d(0.0, 0.05 / 900.0, 0.0);
+    step.T_from_to = step.T_from_to * Pose(expSo3(lean), Vector3d::Zero());
+    odom = odom * step.T_from_to;
+    days.monday.settled[i].T_odom_base.pose = odom;
+  }
+  feel(days.monday, kLeaning.inverse());
+  const auto worstLean = [](const GraphRun& run) {
+    double worst = 0.0;
+    for (const auto& pose : run.trajectory(0)) {
+      const Vector3d up = truthAt(static_cast<double>(pose.stamp) / kStep).R().transpose() *
+                          (kLeaning.inverse().R() * Vector3d::UnitZ());
+      worst = std::max(worst, (pose.pose.R().transpose() * Vector3d::UnitZ() - up).norm());
+    }
+    return worst;
+  };
+  const double leant = worstLean(days.relaxed(false)), held = worstLean(days.relaxed(true));
+  EXPECT_GT(leant, 0.01);
+  EXPECT_LT(held, 0.3 * leant);
 }
 
 TEST(GraphStage, namesClosuresThatCannotBeUsed) {
