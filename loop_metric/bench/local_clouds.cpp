@@ -72,6 +72,7 @@ struct Place {
   double way = 0.0;
   Pose T_world_base;
   PointCloud cloud;
+  double bend = 0.0;  // m
 };
 
 std::vector<Place> readPlaces(const std::string& folder) {
@@ -82,7 +83,7 @@ std::vector<Place> readPlaces(const std::string& folder) {
     places.push_back({static_cast<int>(number("day")), number("way"),
                       Pose(Eigen::Quaterniond(number("qw"), number("qx"), number("qy"), number("qz")),
                            {number("x"), number("y"), number("z")}),
-                      urban_nav_core::readCloud(folder + "/" + csv.text(row, csv.column("cloud")))});
+                      urban_nav_core::readCloud(folder + "/" + csv.text(row, csv.column("cloud"))), number("bend")});
   }
   return places;
 }
@@ -142,7 +143,9 @@ class Program {
            Tally& tally) const {
     const Pose truth = places[i].T_world_base.inverse() * places[j].T_world_base;
     const double before = processorMs();
-    const Alignment alignment = align(places[j].cloud, places[i].cloud, parameters_, {}, Search::AtOnce);
+    Known known;
+    known.bend = std::hypot(places[i].bend, places[j].bend);
+    const Alignment alignment = align(places[j].cloud, places[i].cloud, parameters_, {}, Search::AtOnce, known);
     tally.ms.push_back(processorMs() - before);
     ++tally.pairs;
     const double metres = urban_nav_core::distanceBetween(alignment.T_target_source, truth),

@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
+#include "cloud/free_space.hpp"
 #include "global/search.hpp"
 #include "icp/judge.hpp"
+#include "icp/misfit.hpp"
+#include "icp/seen_through.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 
 namespace loop_metric {
@@ -16,6 +20,20 @@ namespace {
 
 constexpr std::size_t kFewPoints = 30;  // less is no cloud: a plane of 25 pieces cannot come of it
 constexpr std::size_t kFewSurfaces = 25;
+constexpr float kFreeCube = 2.0F;  // voxels: a beam's neighbours in the next scans go through the same cube
+
+/// What clouds that were gathered by odometry tell beyond their surfaces.
+struct Gatherings {
+  FreeSpace of_source, of_target;
+  Spread explained;  ///< m: residuals that noise and bend make
+
+  Gatherings(const PointCloud& source, const PointCloud& target, double bend, float voxel)
+      : of_source(source, kFreeCube * voxel), of_target(target, kFreeCube * voxel) {
+    const Spread a = noiseOf(source, voxel), b = noiseOf(target, voxel);
+    explained = {std::max(std::hypot(a.all, b.all, bend), 1e-9),
+                 std::max(std::hypot(a.upright, b.upright, bend), 1e-9)};
+  }
+};
 
 /// Everything about the two clouds that does not depend on the pose.
 struct Pair {
@@ -25,6 +43,7 @@ struct Pair {
   Source source;
   const Parameters& parameters;
   const Possible& possible;
+  std::optional<Gatherings> gatherings;
 };
 
 struct Try {
@@ -40,10 +59,23 @@ Try tryFrom(const Pair& pair, const Pose& start, std::size_t first, std::size_t 
 }
 
 Observability observedOf(const Try& made, const Pair& pair) {
-  return observedOf(made.refined, static_cast<double>(pair.source_surfels.voxel), pair.parameters);
+  const double bias = pair.gatherings ? pair.gatherings->explained.all : pair.parameters.laser_bias;
+  return observedOf(made.refined, bias, static_cast<double>(pair.source_surfels.voxel), pair.parameters);
+}
+
+std::optional<Gathered> gatheredOf(const Try& made, const Pair& pair) {
+  if (!pair.gatherings) return std::nullopt;
+  const Gatherings& known = *pair.gatherings;
+  const Spread spread = spreadsOf(made.refined.matches);
+  return Gathered{spread.all / known.explained.all, spread.upright / known.explained.upright,
+                  seenThrough(pair.source_surfels.all, pair.target_surfels.all, known.of_source, known.of_target,
+                              made.refined, pair.parameters.inlier_distance)
+                      .share()};
 }
 
 bool isPossible(const Try& made, const Pair& pair) {
+  const std::optional<Gathered> gathered = gatheredOf(made, pair);
+  if (gathered && !isPlausible(*gathered, pair.parameters)) return false;
   return !pair.possible || pair.possible({made.refined.T_target_source, observedOf(made, pair).information});
 }
 
@@ -60,7 +92,7 @@ Alignment judged(const Try& made, const Pair& pair, Alignment alignment) {
   alignment.T_target_source = made.refined.T_target_source;
   alignment.iterations += made.refined.iterations;
   const Observability observed = observedOf(made, pair);
-  judge(made.fit, made.refined, observed, pair.parameters, alignment);
+  judge(made.fit, gatheredOf(made, pair), made.refined, observed, pair.parameters, alignment);
   if (alignment.verdict != Verdict::Rejected && pair.possible &&
       !pair.possible({made.refined.T_target_source, observed.information}))
     reject(alignment, Reason::Impossible, "the surfaces fit, but at a pose that is known to be wrong");
@@ -157,7 +189,7 @@ Alignment searched(const Pair& pair, const Pose& guess, Alignment alignment, con
   if (found == tries.end()) {
     alignment = judged(tries.front(), pair, alignment);
     alignment.searched = true;
-    reject(alignment, Reason::Impossible, "no pose that can be was found");
+    if (alignment.verdict != Verdict::Rejected) reject(alignment, Reason::Impossible, "no pose that can be was found");
     return alignment;
   }
   alignment = judged(*found, pair, alignment);
@@ -177,7 +209,7 @@ Alignment searched(const Pair& pair, const Pose& guess, Alignment alignment, con
 }  // namespace
 
 Alignment align(const PointCloud& source, const PointCloud& target, const Parameters& parameters, const Pose& guess,
-                Search search, const Possible& possible) {
+                Search search, const Known& known) {
   std::array<Surfels, 2> surfels;
   urban_nav_core::forEach(2, 1, [&](std::size_t i) {
     surfels[i] = makeSurfels(i == 0 ? source : target, static_cast<float>(parameters.voxel));
@@ -191,7 +223,9 @@ Alignment align(const PointCloud& source, const PointCloud& target, const Parame
   if (!checkClouds(surfels[0], surfels[1], alignment)) return alignment;
   Target index(surfels[1], parameters.reach);
   Source steps(surfels[0], index);
-  const Pair pair{surfels[0], surfels[1], std::move(index), std::move(steps), parameters, possible};
+  Pair pair{surfels[0], surfels[1], std::move(index), std::move(steps), parameters, known.possible, {}};
+  if (known.bend && !source.origins.empty() && !target.origins.empty())
+    pair.gatherings.emplace(source, target, *known.bend, static_cast<float>(parameters.voxel));
   const auto look = [&](const Vector3d& centre, const Grain& grain) {
     return searchGlobally(surfels[0], surfels[1], centre, parameters.search_radius, grain);
   };
@@ -224,6 +258,8 @@ const char* toString(Reason reason) {
     case Reason::NotConverged: return "not_converged";
     case Reason::Ambiguous: return "ambiguous";
     case Reason::Impossible: return "impossible";
+    case Reason::Misfit: return "misfit";
+    case Reason::SeenThrough: return "seen_through";
     case Reason::FreeDirections: break;
   }
   return "free_directions";

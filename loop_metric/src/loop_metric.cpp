@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 
 #include "candidate/odometry_gate.hpp"
@@ -118,14 +119,16 @@ class Measuring {
     if (target.points.empty() || source.points.empty()) return false;
     Pose guess;
     Search search = Search::AtOnce;
-    Possible possible;
+    Known known;
+    known.bend = std::hypot(surroundings_.bend(closure_.metric.a, parameters_.cloud_way),
+                            surroundings_.bend(closure_.metric.b, parameters_.cloud_way));
     if (gate_) {
       guess = gate_->T_a_b().pose;
       search = Search::IfRejected;
-      possible = [this](const Constraint& T_a_b) { return gate_->deviations(T_a_b) <= parameters_.gate; };
+      known.possible = [this](const Constraint& T_a_b) { return gate_->deviations(T_a_b) <= parameters_.gate; };
     }
     closure_.icp_guess = guess;
-    closure_.icp = align(source, target, parameters_, guess, search, possible);
+    closure_.icp = align(source, target, parameters_, guess, search, known);
     Alignment& found = *closure_.icp;
     if (found.verdict == Verdict::Rejected) return false;
     if (found.verdict == Verdict::Degenerate && !gate_) {

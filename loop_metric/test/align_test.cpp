@@ -100,24 +100,87 @@ TEST(Align, whatIsKnownOfTheHeadingDecidesBetweenTwoThatFit) {
   };
   const Pose turned = pair.truth * Pose(Eigen::Quaterniond(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitZ())), {});
   for (const Search search : {Search::AtOnce, Search::IfRejected}) {
-    const Alignment with = align(pair.source, pair.target, {}, {}, search, near(pair.truth));
+    const Alignment with = align(pair.source, pair.target, {}, {}, search, {near(pair.truth), {}});
     EXPECT_EQ(with.verdict, Verdict::Accepted) << with.sentence;
     EXPECT_LT(distanceBetween(with.T_target_source, pair.truth), 0.03);
     EXPECT_LT(angleBetween(with.T_target_source, pair.truth) * kDeg, 0.2);
     if (with.rival) {
       EXPECT_LT(angleBetween(with.rival->T_target_source, pair.truth) * kDeg, 30.0);
     }
-    const Alignment other = align(pair.source, pair.target, {}, {}, search, near(turned));
+    const Alignment other = align(pair.source, pair.target, {}, {}, search, {near(turned), {}});
     EXPECT_LT(angleBetween(other.T_target_source, turned) * kDeg, 2.0) << "it believes what it is told";
   }
   EXPECT_GT(asked, 0);
+}
+
+/// A court of 24 m by 20 m whose fronts have panels that stand out by up to half a metre: a court of another seed differs in those alone.
+World panelledCourt(std::uint64_t seed, double nearer = 0.0) {
+  Dice dice(seed);
+  World court;
+  for (int side = 0; side < 4; ++side) {
+    const double heading = 0.5 * M_PI * side, away = (side % 2 == 0 ? 10.0 : 12.0) - (side < 2 ? nearer : 0.0);
+    const auto front = [&](double along, double out, double length, double top) {
+      court.blocks.push_back({along * std::cos(heading) - out * std::sin(heading),
+                              along * std::sin(heading) + out * std::cos(heading), length, 2.0, 0.0, top, heading});
+    };
+    front(0.0, away + 1.0, side % 2 == 0 ? 24.0 : 20.0, 6.0);
+    if (side < 2) front(side == 0 ? 7.0 : -5.0, away - 1.5, 5.0, 6.0);  // so that it looks the same from no two sides
+    for (double along = -9.0, step = 0.0; along < 9.0; along += step) {
+      step = dice.uniform(1.0, 2.5);
+      front(along + 0.5 * step, away + 1.0 - dice.uniform(0.05, 0.5), step, dice.uniform(5.0, 6.0));
+    }
+  }
+  return court;
+}
+
+/// As pairOf, with the origins of the beams: the sensor.
+Pair gatheredPair(const World& source, const World& target, std::uint64_t seed) {
+  Pair pair = pairOf(source, stand(1.0, 0.5, 5.0), stand(-0.5, 0.3, 0.0), seed);
+  pair.target = pairOf(target, stand(1.0, 0.5, 5.0), stand(-0.5, 0.3, 0.0), seed).target;
+  for (PointCloud* cloud : {&pair.source, &pair.target})
+    cloud->origins.assign(cloud->points.size(), Eigen::Vector3f::Zero());
+  return pair;
+}
+
+TEST(Align, gatheredCloudsFitAsWellAsNoiseLetsThem) {
+  Known known;
+  known.bend = 0.005;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const Pair right = gatheredPair(panelledCourt(seed), panelledCourt(seed), seed),
+               alike = gatheredPair(panelledCourt(seed), panelledCourt(seed + 50), seed);
+    for (const Search search : {Search::IfRejected, Search::AtOnce}) {
+      const Alignment found = align(right.source, right.target, {}, {}, search, known);
+      EXPECT_EQ(found.verdict, Verdict::Accepted) << found.sentence;
+      EXPECT_LT(distanceBetween(found.T_target_source, right.truth), 0.02);
+      EXPECT_LT(squaredDeviations(found, right.truth), 22.5);
+      EXPECT_EQ(align(alike.source, alike.target, {}, {}, search).verdict, Verdict::Accepted) << "it tests nothing";
+      const Alignment other = align(alike.source, alike.target, {}, {}, search, known);
+      EXPECT_EQ(other.verdict, Verdict::Rejected);
+      EXPECT_EQ(other.reason, Reason::Misfit) << other.sentence;
+      expectFinite(other);
+    }
+  }
+}
+
+TEST(Align, whatBeamsWentThroughIsNoWall) {
+  Known known;
+  known.bend = 0.005;
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+    const Pair pair = gatheredPair(panelledCourt(seed, 4.0), panelledCourt(seed), seed);
+    for (const bool swapped : {false, true}) {
+      const Alignment alignment = swapped ? align(pair.target, pair.source, {}, {}, Search::IfRejected, known)
+                                          : align(pair.source, pair.target, {}, {}, Search::IfRejected, known);
+      EXPECT_EQ(alignment.verdict, Verdict::Rejected);
+      EXPECT_EQ(alignment.reason, Reason::SeenThrough) << alignment.sentence;
+    }
+  }
 }
 
 TEST(Align, whereNothingIsPossibleItSaysSo) {
   const Pair pair = pairOf(courtyard(1), stand(1.0, 0.5, 5.0), stand(0.3, 0.1, 0.0), 1);
   const auto never = [](const urban_nav_core::Constraint&) { return false; };
   for (const Search search : {Search::Never, Search::IfRejected, Search::AtOnce}) {
-    const Alignment alignment = align(pair.source, pair.target, {}, {}, search, never);
+    const Alignment alignment = align(pair.source, pair.target, {}, {}, search, {never, {}});
     EXPECT_EQ(alignment.reason, Reason::Impossible);
     EXPECT_EQ(alignment.information, Matrix6d::Zero());
     expectFinite(alignment);
@@ -172,10 +235,11 @@ TEST(Align, givesTheSameBitsWhateverTheThreads) {
 TEST(Align, badCloudsAreNamed) {
   const PointCloud good = scan(courtyard(2), stand(0.0, 0.0, 0.0), {}, 1);
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  const PointCloud empty, ten{std::vector<Eigen::Vector3f>(good.points.begin(), good.points.begin() + 10)};
-  const PointCloud nothing{std::vector<Eigen::Vector3f>(1000, Eigen::Vector3f::Constant(nan))};
-  const PointCloud same{std::vector<Eigen::Vector3f>(1000, Eigen::Vector3f(1.0F, 2.0F, 3.0F))};
-  const PointCloud absurd{std::vector<Eigen::Vector3f>(1000, Eigen::Vector3f::Constant(1e30F))};
+  const auto all = [](float x, float y, float z) {
+    return PointCloud{std::vector<Eigen::Vector3f>(1000, Eigen::Vector3f(x, y, z)), {}};
+  };
+  const PointCloud empty, ten{{good.points.begin(), good.points.begin() + 10}, {}};
+  const PointCloud nothing = all(nan, nan, nan), same = all(1.0F, 2.0F, 3.0F), absurd = all(1e30F, 1e30F, 1e30F);
   PointCloud line;
   for (int i = 0; i < 1000; ++i) line.points.emplace_back(0.1F * static_cast<float>(i), 0.0F, 0.0F);
   struct Case {

@@ -31,6 +31,8 @@ enum class Reason {
   NotConverged,    ///< it still moved at the end
   Ambiguous,       ///< another, different pose fits as well
   Impossible,      ///< the surfaces fit, but the caller knows that the pose cannot be
+  Misfit,          ///< the surfaces lie further apart than their noise explains
+  SeenThrough,     ///< beams of one cloud went through surfaces of the other
   FreeDirections,  ///< of a degenerate answer
 };
 /// "" for None, else the enumerator's name in small letters and underscores.
@@ -86,6 +88,15 @@ enum class Search {
 /// Called from the calling thread alone.
 using Possible = std::function<bool(const urban_nav_core::Constraint& T_target_source)>;
 
+/// What the caller knows beside the clouds.
+struct Known {
+  Possible possible;
+  /// By how much the two clouds may be bent, m, as those are that were gathered along a way by odometry. With it, and where both clouds know the origins of their
+  /// beams, the classifier asks what it cannot ask of clouds out of files: whether residuals are no larger than noise and bend explain, and whether
+  /// one cloud saw through the surfaces of the other; and surfaces that only one of them saw count no more against a pose.
+  std::optional<double> bend;
+};
+
 /// T_target_source of two clouds from their surfaces: point-to-plane ICP from coarse to fine, from `guess`, with a classifier that knows
 /// which directions nothing holds (Newman et al. 2009, section 4.2). The sensors stand roughly upright (z up, within 35 deg) where the search is
 /// global. What is not `possible` is neither an answer nor a rival that makes the place ambiguous: a caller who knows the heading to a
@@ -93,6 +104,6 @@ using Possible = std::function<bool(const urban_nav_core::Constraint& T_target_s
 /// the number of threads.
 Alignment align(const urban_nav_core::PointCloud& source, const urban_nav_core::PointCloud& target,
                 const Parameters& parameters, const urban_nav_core::Pose& guess = {},
-                Search search = Search::IfRejected, const Possible& possible = {});
+                Search search = Search::IfRejected, const Known& known = {});
 
 }  // namespace loop_metric

@@ -36,6 +36,9 @@ struct Parameters {
   double inlier_distance;      // m
   double min_inliers;          // share
   double min_upright_inliers;  // share
+  double max_misfit;           // of what noise explains
+  double min_shared;           // share
+  double max_seen_through;     // share
   int min_surfels;             // with a counterpart
   double search_radius;        // m
   double max_second;           // share

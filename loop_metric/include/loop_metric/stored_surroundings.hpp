@@ -50,6 +50,7 @@ class StoredSurroundings : public Surroundings {
   std::vector<NearbyView> views(const urban_nav_core::PoseRef& at, double way) const override;
   Keyframe keyframe(const urban_nav_core::PoseRef& at) const override;
   urban_nav_core::PointCloud cloud(const urban_nav_core::PoseRef& at, double way) const override;
+  double bend(const urban_nav_core::PoseRef& at, double way) const override;
   std::optional<Way> between(const urban_nav_core::PoseRef& a, const urban_nav_core::PoseRef& b) const override;
 
  private:

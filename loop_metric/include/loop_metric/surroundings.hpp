@@ -33,6 +33,8 @@ class Surroundings {
   /// What the lasers saw from `way` m before the moment to `way` m behind it, in base_link's frame at the moment; empty where no laser saw
   /// anything.
   virtual urban_nav_core::PointCloud cloud(const urban_nav_core::PoseRef& at, double way) const = 0;
+  /// By how much odometry's drift bends that cloud, m: the deviation of its points from where they would lie beside the others.
+  virtual double bend(const urban_nav_core::PoseRef& at, double way) const = 0;
   /// T_a_b as odometry has it, and how far the robot drove in between; empty between sessions.
   struct Way {
     urban_nav_core::UncertainPose T_a_b;

@@ -8,7 +8,9 @@ namespace loop_metric {
 
 namespace {
 
-constexpr double kFewUpright = 20.0;    // pieces: fewer say nothing
+constexpr double kFewUpright = 20.0;  // pieces: fewer say nothing
+constexpr double kUprightMisfit =
+    2.5;  // times max_misfit: cubes blur the edges of fronts, otherwise from each viewpoint
 constexpr double kStillMoving = 0.005;  // m in the last step
 constexpr double kPatchVoxels = 8.0;    // 2 m of 0.25 m: neighbours whose normals have no beam in common
 
@@ -44,9 +46,9 @@ Fit fitOf(const std::vector<Surfel>& source, const Refined& refined, const Param
   return fit;
 }
 
-Observability observedOf(const Refined& refined, double voxel, const Parameters& parameters) {
-  return observe(refined.matches, std::max(refined.sigma, 1e-4), parameters.laser_bias, parameters.free_deviation,
-                 kPatchVoxels * voxel);
+Observability observedOf(const Refined& refined, double bias, double voxel, const Parameters& parameters) {
+  const Doubt doubt{bias, std::max(bias, parameters.laser_bias), parameters.free_deviation};
+  return observe(refined.matches, std::max(refined.sigma, 1e-4), doubt, kPatchVoxels * voxel);
 }
 
 void reject(Alignment& alignment, Reason reason, const std::string& sentence) {
@@ -61,8 +63,14 @@ void reject(Alignment& alignment, Reason reason, const std::string& sentence) {
   alignment.covariance = unlimited.asDiagonal();
 }
 
-void judge(const Fit& fit, const Refined& refined, const Observability& observed, const Parameters& parameters,
-           Alignment& alignment) {
+bool isPlausible(const Gathered& gathered, const Parameters& parameters) {
+  return gathered.misfit <= parameters.max_misfit &&
+         gathered.upright_misfit <= kUprightMisfit * parameters.max_misfit &&
+         gathered.seen_through <= parameters.max_seen_through;
+}
+
+void judge(const Fit& fit, const std::optional<Gathered>& gathered, const Refined& refined,
+           const Observability& observed, const Parameters& parameters, Alignment& alignment) {
   Failure failure{Reason::None, ""};
   const auto test = [&](const char* name, double value, double threshold, bool at_least, Reason reason,
                         const char* sentence) {
@@ -75,11 +83,23 @@ void judge(const Fit& fit, const Refined& refined, const Observability& observed
   test("matches", fit.matches, parameters.min_surfels, true, Reason::TooFewMatches, "the clouds hardly meet");
   test("residual_m", refined.sigma, parameters.max_residual, false, Reason::ResidualTooLarge,
        "the surfaces do not fall upon each other");
-  test("inliers", fit.inliers, parameters.min_inliers, true, Reason::TooFewInliers,
-       "too few of the surfaces fall upon each other");
-  if (fit.upright >= kFewUpright)
-    test("upright_inliers", fit.upright_inliers, parameters.min_upright_inliers, true, Reason::TooFewInliers,
-         "too few of the upright surfaces fall upon each other");
+  const bool upright = fit.upright >= kFewUpright;
+  if (gathered) {
+    test("misfit", gathered->misfit, parameters.max_misfit, false, Reason::Misfit,
+         "the surfaces lie further apart than noise and odometry explain");
+    test("upright_misfit", gathered->upright_misfit, kUprightMisfit * parameters.max_misfit, false, Reason::Misfit,
+         "the upright surfaces lie further apart than noise and odometry explain");
+    test("seen_through", gathered->seen_through, parameters.max_seen_through, false, Reason::SeenThrough,
+         "beams of one cloud went through surfaces of the other");
+    test("shared", upright ? fit.upright_inliers : fit.inliers, parameters.min_shared, true, Reason::TooFewInliers,
+         "too few of the surfaces fall upon each other");
+  } else {
+    test("inliers", fit.inliers, parameters.min_inliers, true, Reason::TooFewInliers,
+         "too few of the surfaces fall upon each other");
+    if (upright)
+      test("upright_inliers", fit.upright_inliers, parameters.min_upright_inliers, true, Reason::TooFewInliers,
+           "too few of the upright surfaces fall upon each other");
+  }
   test("last_step_m", refined.usable ? refined.last_step : 1e3, kStillMoving, false, Reason::NotConverged,
        "the alignment did not come to rest");
   alignment.tests.push_back(

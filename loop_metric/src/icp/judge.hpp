@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+
 #include "icp/observability.hpp"
 #include "icp/refine.hpp"
 #include "loop_metric/align.hpp"
@@ -18,12 +20,20 @@ struct Fit {
 };
 Fit fitOf(const std::vector<Surfel>& source, const Refined& refined, const Parameters& parameters);
 
-/// What the matches of an alignment hold.
-Observability observedOf(const Refined& refined, double voxel, const Parameters& parameters);
+/// What the matches of an alignment hold. `bias`: what all of a cloud's points may be off together, m.
+Observability observedOf(const Refined& refined, double bias, double voxel, const Parameters& parameters);
+
+/// What is known of an alignment of clouds that were gathered by odometry, with the origins of their beams.
+struct Gathered {
+  double misfit = 0.0;          ///< residual, as a multiple of what noise and bend explain
+  double upright_misfit = 0.0;  ///< the same of upright surfaces
+  double seen_through = 0.0;    ///< share of upright surfaces that beams of the other cloud went through
+};
+bool isPlausible(const Gathered& gathered, const Parameters& parameters);
 
 /// Fills in the verdict, its reason, the tests, information and covariance.
-void judge(const Fit& fit, const Refined& refined, const Observability& observed, const Parameters& parameters,
-           Alignment& alignment);
+void judge(const Fit& fit, const std::optional<Gathered>& gathered, const Refined& refined,
+           const Observability& observed, const Parameters& parameters, Alignment& alignment);
 
 /// No pose: nothing is known of any direction.
 void reject(Alignment& alignment, Reason reason, const std::string& sentence);

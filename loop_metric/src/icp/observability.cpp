@@ -125,14 +125,13 @@ double noiseOf(const std::vector<Match>& matches, const Scaled& scaled, const Su
 
 }  // namespace
 
-Observability observe(const std::vector<Match>& matches, double sigma, double laser_bias, double free_deviation,
-                      double patch) {
+Observability observe(const std::vector<Match>& matches, double sigma, const Doubt& doubt, double patch) {
   Observability observed;
   const Scaled scaled = scaledOf(matches, sigma);
   const Sums sums = sumsOf(matches, scaled, sigma, patch);
   const auto eigen = urban_nav_core::symmetricEigen(Eigen::MatrixXd(sums.agreed));
-  const double bias = std::max(laser_bias, 1e-4);
-  const double least = std::pow(bias / free_deviation, 2);
+  const double bias = std::max(doubt.bias, 1e-4);
+  const double least = std::pow(bias / doubt.free_deviation, 2);
   Matrix6d held = Matrix6d::Zero();  // projector, in scaled coordinates
   Matrix6d free = Matrix6d::Zero();
   std::vector<Vector6d> held_directions;
@@ -158,7 +157,7 @@ Observability observe(const std::vector<Match>& matches, double sigma, double la
     const auto count = static_cast<Eigen::Index>(held_directions.size());
     Eigen::MatrixXd basis(6, count);
     for (Eigen::Index i = 0; i < count; ++i) basis.col(i) = held_directions[static_cast<std::size_t>(i)];
-    const double error = std::clamp(sums.errorOfPatches(), kLeastError, std::max(bias, kLeastError));
+    const double error = std::clamp(sums.errorOfPatches(), kLeastError, std::max(doubt.most, kLeastError));
     Matrix6d spread = Matrix6d::Zero();
     for (const Vector6d& pull : sums.pull_by_patch) spread += error * error * pull * pull.transpose();
     const auto normal_inverse =

@@ -18,6 +18,7 @@ namespace {
 
 constexpr StampNs longest_stay = 20'000'000'000;  // ns: before and behind a moment, however little the robot moved
 constexpr StampNs longest_gap = 500'000'000;      // ns without a pose in which beams have no place
+constexpr double usual_range = 10.0;              // m: of surfaces beside a street
 constexpr std::size_t most_points = 400'000;      // of a cloud: two lasers of 75 Hz and 181 beams over 15 s
 
 /// The first and the last moment of the way around `at`, by odometry's frames.
@@ -36,12 +37,16 @@ std::pair<StampNs, StampNs> stretchAround(const OdometryChain& odometry, StampNs
 }
 
 /// Evenly, so that dense clouds stay bounded.
-void thin(std::vector<Eigen::Vector3f>& points) {
-  if (points.size() <= most_points) return;
-  const std::size_t step = (points.size() + most_points - 1) / most_points;
+void thin(PointCloud& cloud) {
+  if (cloud.points.size() <= most_points) return;
+  const std::size_t step = (cloud.points.size() + most_points - 1) / most_points;
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < points.size(); i += step) points[kept++] = points[i];
-  points.resize(kept);
+  for (std::size_t i = 0; i < cloud.points.size(); i += step, ++kept) {
+    cloud.points[kept] = cloud.points[i];
+    cloud.origins[kept] = cloud.origins[i];
+  }
+  cloud.points.resize(kept);
+  cloud.origins.resize(kept);
 }
 
 }  // namespace
@@ -118,11 +123,30 @@ PointCloud StoredSurroundings::cloud(const PoseRef& at, double way) const {
     scans_.forEach(session->id, laser.frame, first, last, [&](const urban_nav_core::Scan& scan) {
       points.clear();
       renderer.render(scan, points);
-      for (const urban_nav_core::LaserPoint& point : points) cloud.points.push_back(point.p);
+      for (const urban_nav_core::LaserPoint& point : points) {
+        cloud.points.push_back(point.p);
+        cloud.origins.push_back(point.origin);
+      }
     });
   }
-  thin(cloud.points);
+  thin(cloud);
   return cloud;
+}
+
+// Of a random walk from end to end, laid upon another by its mean: a sixth of its variance over the whole way, which is a third of that over a half.
+double StoredSurroundings::bend(const PoseRef& at, double way) const {
+  const SessionOfStore* session = find(at);
+  if (session == nullptr || !session->odometry->momentOf(at.stamp)) return 0.0;
+  const auto [first, last] = stretchAround(*session->odometry, at.stamp, way);
+  double variance = 0.0;
+  for (const StampNs end : {first, last})
+    if (const auto T_moment_end = session->odometry->between(at.stamp, end)) {
+      const auto& covariance = T_moment_end->covariance;
+      variance = std::max(variance, (covariance.topLeftCorner<3, 3>().trace() +
+                                     usual_range * usual_range * covariance.bottomRightCorner<3, 3>().trace()) /
+                                        3.0);
+    }
+  return std::sqrt(variance / 3.0);
 }
 
 std::optional<Surroundings::Way> StoredSurroundings::between(const PoseRef& a, const PoseRef& b) const {

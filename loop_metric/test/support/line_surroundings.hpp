@@ -55,6 +55,7 @@ class LineSurroundings : public Surroundings {
     made.at = at;
     return made;
   }
+  double bend(const urban_nav_core::PoseRef&, double) const override { return 0.0; }
   urban_nav_core::PointCloud cloud(const urban_nav_core::PoseRef& at, double) const override {
     return clouds ? clouds(at) : urban_nav_core::PointCloud();
   }

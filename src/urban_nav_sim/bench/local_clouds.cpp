@@ -32,6 +32,10 @@ constexpr StampNs kLongestGap = 500000000;
 // What swf_vo drifts per root of a metre in `quad` (two days of 300 m, ways of 10 m): m, rad.
 const Eigen::Vector3d kDriftAlong(2.2e-3, 2.0e-3, 1.0e-3), kDriftTurned(0.16e-3, 0.16e-3, 0.22e-3);
 
+// By how much that bends a cloud, m: the mean variance along the way of a random walk whose mean is taken out, with turns at 10 m.
+const double kBend =
+    std::sqrt(2.0 * kBeside / 6.0 * (kDriftAlong.squaredNorm() + 100.0 * kDriftTurned.squaredNorm()) / 3.0);
+
 StampNs stampOf(double t) { return static_cast<StampNs>(std::llround(1e9 * t)); }
 
 /// The true way and what odometry makes of it, frame by frame.
@@ -68,10 +72,13 @@ struct Turn {
 
 void write(const std::string& path, const std::vector<urban_nav_core::LaserPoint>& points) {
   std::ofstream file(path, std::ios::binary);
-  file << "ply\nformat binary_little_endian 1.0\nelement vertex " << points.size()
-       << "\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+  file
+      << "ply\nformat binary_little_endian 1.0\nelement vertex " << points.size()
+      << "\nproperty float x\nproperty float y\nproperty float z\nproperty float origin_x\nproperty float origin_y\nproperty float origin_z"
+      << "\nend_header\n";
   for (const urban_nav_core::LaserPoint& point : points)
-    file.write(reinterpret_cast<const char*>(point.p.data()), 3 * sizeof(float));
+    for (const Eigen::Vector3f* part : {&point.p, &point.origin})
+      file.write(reinterpret_cast<const char*>(part->data()), 3 * sizeof(float));
   if (!file) throw std::runtime_error(path + ": not written");
 }
 
@@ -87,7 +94,7 @@ int main(int argc, char** argv) try {
   std::filesystem::create_directories(folder);
   std::ofstream places(folder + "/places.csv");
   places.precision(17);
-  places << "cloud,day,way,x,y,z,qx,qy,qz,qw\n";
+  places << "cloud,day,way,x,y,z,qx,qy,qz,qw,bend\n";
   int count = 0;
   for (const int day : {1, 2}) {
     const World on_day = buildWorld(world, seed, day);
@@ -125,7 +132,7 @@ int main(int argc, char** argv) try {
       for (const double value :
            {pose.t().x(), pose.t().y(), pose.t().z(), pose.q().x(), pose.q().y(), pose.q().z(), pose.q().w()})
         places << "," << value;
-      places << "\n";
+      places << "," << kBend << "\n";
     }
   }
   return 0;

@@ -45,6 +45,13 @@ void setTransform(RTCGeometry instance, unsigned step, const urban_nav_core::Pos
   rtcSetGeometryTransform(instance, step, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, matrix.data());
 }
 
+/// Where a mover has gone to, for Embree: it mixes the matrices of both ends, and those of a walker who turns on the spot cancel each other. Such a
+/// one keeps facing as it did.
+urban_nav_core::Pose endOf(const urban_nav_core::Pose& begin, const urban_nav_core::Pose& end) {
+  constexpr double kAbout = 1.0;  // rad: a car in a bend turns by a hundredth of it
+  return angleBetween(begin, end) > kAbout ? urban_nav_core::Pose(begin.q(), end.t()) : end;
+}
+
 }  // namespace
 
 Snapshot::Snapshot(const Tracer& tracer, double t_begin, double t_end)
@@ -62,7 +69,7 @@ Snapshot::Snapshot(const Tracer& tracer, double t_begin, double t_end)
     rtcSetGeometryInstancedScene(instance, tracer.movers_[i].scene.get());
     rtcSetGeometryTimeStepCount(instance, lasts ? 2 : 1);
     setTransform(instance, 0, T_world_mover_.back());
-    if (lasts) setTransform(instance, 1, movers[i].T_world_mover(t_end));
+    if (lasts) setTransform(instance, 1, endOf(T_world_mover_.back(), movers[i].T_world_mover(t_end)));
     rtcCommitGeometry(instance);
     rtcAttachGeometry(scene_.get(), instance);
   }

@@ -56,6 +56,27 @@ TEST(Tracer, TextureChangesAsNeighbouringRaysTellOnSlantedSurfaces) {
   EXPECT_LT((0.5F * (at(direction + down).at - at(direction - down).at) - spot.per_v).norm(), 1e-4F * 5);
 }
 
+TEST(Tracer, AMoverMayTurnAboutOnTheSpot) {
+  World world = yard();
+  world.movers.resize(1);
+  for (int axis = 0; axis < 3; ++axis) {
+    world.movers[0].T_world_mover = [axis](double t) {
+      const Eigen::Vector3d half_turn = M_PI * Eigen::Vector3d::Unit(axis);
+      return Pose(t > 0.4 ? urban_nav_core::expSo3(half_turn) : Eigen::Quaterniond::Identity(), {3.0, 0.0, 0.0});
+    };
+    const Tracer tracer(world);
+    const Snapshot snapshot(tracer, 0.0, 1.0);
+    for (const float time : {0.0F, 0.25F, 0.5F, 0.75F, 1.0F}) {
+      const Packet packet = one({0, 0, 1}, {1, 0, 0}, time);
+      Hits hits;
+      snapshot.closest(packet, hits);
+      EXPECT_EQ(hits.mover[0], 0U);
+      EXPECT_NEAR(hits.distance[0], 3.0F, 1e-5F);
+      EXPECT_EQ(snapshot.occluded(packet), 1U);
+    }
+  }
+}
+
 TEST(Tracer, MoversAreWhereTheyAreAtTheTimeOfTheRay) {
   const World world = yard();
   const Tracer tracer(world);

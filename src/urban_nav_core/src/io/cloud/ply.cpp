@@ -79,17 +79,35 @@ Header readHeader(HeaderLines& lines, const std::string& name) {
   throw UserError(name, "the header does not end", "a line end_header");
 }
 
-std::array<std::size_t, 3> coordinatesOf(const Element& vertex, const std::string& name) {
-  std::array<std::size_t, 3> columns{};
-  const std::array<const char*, 3> names = {"x", "y", "z"};
+/// The columns of three properties; empty where one is missing or a list.
+using Columns = std::array<std::size_t, 3>;
+std::optional<Columns> columnsOf(const Element& vertex, const std::array<const char*, 3>& names) {
+  Columns columns{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     std::size_t at = 0;
     while (at < vertex.properties.size() && vertex.properties[at].name != names[axis]) ++at;
-    if (at == vertex.properties.size() || vertex.properties[at].length)
-      throw UserError(name, std::string("element vertex has no property ") + names[axis], "x, y, z");
+    if (at == vertex.properties.size() || vertex.properties[at].length) return std::nullopt;
     columns[axis] = at;
   }
   return columns;
+}
+
+/// Where the numbers of a vertex stand.
+struct Vertex {
+  Columns point{};
+  std::optional<Columns> origin;
+};
+
+Vertex vertexOf(const Element& element, const std::string& name) {
+  const auto point = columnsOf(element, {"x", "y", "z"});
+  if (!point) throw UserError(name, "element vertex lacks x, y or z", "x, y, z, each a number");
+  return {*point, columnsOf(element, {"origin_x", "origin_y", "origin_z"})};
+}
+
+/// `number(column)`: of the row that is read.
+template <class Number>
+Eigen::Vector3f pick(const Columns& columns, const Number& number) {
+  return {number(columns[0]), number(columns[1]), number(columns[2])};
 }
 
 /// Bytes of a row; empty where it has lists.
@@ -143,19 +161,19 @@ PointCloud binaryVertices(const Header& header, std::string_view bytes, const st
     }
     if (*size > 0 && element.count > (bytes.size() - at) / *size) throw tooShort(name, element);
     if (vertices) {
-      const auto columns = coordinatesOf(element, name);
-      std::array<std::size_t, 3> offsets{};
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        for (std::size_t i = 0; i < columns[axis]; ++i) offsets[axis] += element.properties[i].number.size;
+      const Vertex vertex = vertexOf(element, name);
+      std::vector<std::size_t> offsets{0};
+      for (const Property& property : element.properties) offsets.push_back(offsets.back() + property.number.size);
       PointCloud cloud;
       cloud.points.reserve(element.count);
+      if (vertex.origin) cloud.origins.reserve(element.count);
       for (std::size_t row = 0; row < element.count; ++row) {
         const char* begin = bytes.data() + at + row * *size;
-        Eigen::Vector3f point;
-        for (std::size_t axis = 0; axis < 3; ++axis)
-          point[static_cast<Eigen::Index>(axis)] =
-              static_cast<float>(readBinary(begin + offsets[axis], element.properties[columns[axis]].number, swap));
-        cloud.points.push_back(point);
+        const auto number = [&](std::size_t column) {
+          return static_cast<float>(readBinary(begin + offsets[column], element.properties[column].number, swap));
+        };
+        cloud.points.push_back(pick(vertex.point, number));
+        if (vertex.origin) cloud.origins.push_back(pick(*vertex.origin, number));
       }
       return cloud;
     }
@@ -167,8 +185,8 @@ PointCloud binaryVertices(const Header& header, std::string_view bytes, const st
 PointCloud asciiVertices(const Header& header, HeaderLines& lines, const std::string& name) {
   for (const Element& element : header.elements) {
     const bool vertices = element.name == "vertex";
-    std::array<std::size_t, 3> columns{};
-    if (vertices) columns = coordinatesOf(element, name);
+    Vertex vertex;
+    if (vertices) vertex = vertexOf(element, name);
     PointCloud cloud;
     for (std::size_t row = 0; row < element.count;) {
       const auto line = lines.next();
@@ -180,13 +198,13 @@ PointCloud asciiVertices(const Header& header, HeaderLines& lines, const std::st
       const std::string where = atLine(name, lines.number());
       if (words.size() != element.properties.size())
         throw UserError(where, std::to_string(words.size()) + " numbers", std::to_string(element.properties.size()));
-      Eigen::Vector3f point;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto value = parseCoordinate(words[columns[axis]]);
-        if (!value) throw UserError(where, "`" + std::string(words[columns[axis]].substr(0, 40)) + "`", "a number");
-        point[static_cast<Eigen::Index>(axis)] = *value;
-      }
-      cloud.points.push_back(point);
+      const auto number = [&](std::size_t column) {
+        const auto value = parseCoordinate(words[column]);
+        if (!value) throw UserError(where, "`" + std::string(words[column].substr(0, 40)) + "`", "a number");
+        return *value;
+      };
+      cloud.points.push_back(pick(vertex.point, number));
+      if (vertex.origin) cloud.origins.push_back(pick(*vertex.origin, number));
     }
     if (vertices) return cloud;
   }

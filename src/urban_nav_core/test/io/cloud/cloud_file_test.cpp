@@ -140,6 +140,24 @@ TEST(CloudFile, columnsOfAHeaderComeInAnyOrder) {
   EXPECT_EQ(cloud.points[0], Eigen::Vector3f(1.0F, 2.0F, 3.0F));
 }
 
+TEST(CloudFile, originsOfBeamsComeWithThePoints) {
+  std::string header = "1.0\nelement vertex 2\n", bytes;
+  for (const char* name : {"origin_z", "x", "y", "z", "origin_x", "origin_y"})
+    header += std::string("property float ") + name + "\n";
+  for (const float value : {6.0F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F, 12.0F, 7.0F, 8.0F, 9.0F, 10.0F, 11.0F})
+    append<float>(bytes, value);
+  for (const std::string& file : {"ply\nformat binary_little_endian " + header + "end_header\n" + bytes,
+                                  "ply\nformat ascii " + header + "end_header\n6 1 2 3 4 5\n12 7 8 9 10 11\n"}) {
+    const PointCloud cloud = parseCloud(file, "c");
+    ASSERT_EQ(cloud.points.size(), 2U);
+    ASSERT_EQ(cloud.origins.size(), 2U);
+    EXPECT_EQ(cloud.points[1], Eigen::Vector3f(7.0F, 8.0F, 9.0F));
+    EXPECT_EQ(cloud.origins[0], Eigen::Vector3f(4.0F, 5.0F, 6.0F));
+    EXPECT_EQ(cloud.origins[1], Eigen::Vector3f(10.0F, 11.0F, 12.0F));
+  }
+  EXPECT_TRUE(parseCloud(plyAscii(), "c").origins.empty());
+}
+
 TEST(CloudFile, beamsWithoutReturnAreKept) {
   const PointCloud cloud = parseCloud("1,2,3\nnan,NaN,-inf\n1e300,0,0\n", "c");
   ASSERT_EQ(cloud.points.size(), 3U);

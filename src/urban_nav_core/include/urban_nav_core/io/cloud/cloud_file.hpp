@@ -9,7 +9,8 @@
 namespace urban_nav_core {
 
 /// The points of a file, whatever it is called: its first bytes say which kind it is, and the name only tells CSV from text that is none.
-///   PLY: ascii and binary of both byte orders; the element `vertex`, any further elements and properties are skipped;
+///   PLY: ascii and binary of both byte orders; the element `vertex`, with origin_x, origin_y, origin_z the origins of the beams as
+///     well; any further elements and properties are skipped;
 ///   PCD: ascii, binary, binary_compressed; the fields x, y, z among any others;
 ///   CSV: one point a line, columns between commas, semicolons, tabs or blanks; with a header the columns x, y, z, without one the first three; lines
 ///   that begin with # are skipped;
