@@ -62,7 +62,8 @@ TEST(Tracer, AMoverMayTurnAboutOnTheSpot) {
   for (int axis = 0; axis < 3; ++axis) {
     world.movers[0].T_world_mover = [axis](double t) {
       const Eigen::Vector3d half_turn = M_PI * Eigen::Vector3d::Unit(axis);
-      return Pose(t > 0.4 ? urban_nav_core::expSo3(half_turn) : Eigen::Quaterniond::Identity(), {3.0, 0.0, 0.0});
+      return urban_nav_core::Pose(t > 0.4 ? urban_nav_core::expSo3(half_turn) : Eigen::Quaterniond::Identity(),
+                                  {3.0, 0.0, 0.0});
     };
     const Tracer tracer(world);
     const Snapshot snapshot(tracer, 0.0, 1.0);
