@@ -19,6 +19,7 @@ namespace {
 constexpr StampNs longest_stay = 20'000'000'000;  // ns: before and behind a moment, however little the robot moved
 constexpr StampNs longest_gap = 500'000'000;      // ns without a pose in which beams have no place
 constexpr double usual_range = 10.0;              // m: of surfaces beside a street
+constexpr double least_bend = 0.005;              // m: a millisecond of the lasers' clocks in a turn of 0.5 rad/s
 constexpr std::size_t most_points = 400'000;      // of a cloud: two lasers of 75 Hz and 181 beams over 15 s
 
 /// The first and the last moment of the way around `at`, by odometry's frames.
@@ -146,7 +147,7 @@ double StoredSurroundings::bend(const PoseRef& at, double way) const {
                                      usual_range * usual_range * covariance.bottomRightCorner<3, 3>().trace()) /
                                         3.0);
     }
-  return std::sqrt(variance / 3.0);
+  return std::max(std::sqrt(variance / 3.0), least_bend);
 }
 
 std::optional<Surroundings::Way> StoredSurroundings::between(const PoseRef& a, const PoseRef& b) const {

@@ -101,12 +101,23 @@ TEST_F(StoredSurroundingsTest, ADamagedKeyframeIsNamed) {
 TEST_F(StoredSurroundingsTest, ACloudIsWhatTheLasersSawAroundTheMomentInItsFrame) {
   const auto cloud = surroundings_->cloud({"day", 20 * kSecond}, 3.0);
   ASSERT_EQ(cloud.points.size(), 7U);
+  ASSERT_EQ(cloud.origins.size(), 7U);
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    EXPECT_TRUE(cloud.origins[i].isApprox(Eigen::Vector3f(static_cast<float>(i) - 3.0F, 0.0F, 1.0F), 1e-5F));
     EXPECT_NEAR(cloud.points[i].x(), static_cast<float>(i) - 3.0F, 1e-5F);
     EXPECT_NEAR(cloud.points[i].y(), 2.0F, 1e-5F);
     EXPECT_NEAR(cloud.points[i].z(), 1.0F, 1e-5F);
   }
   EXPECT_TRUE(surroundings_->cloud({"day", 900 * kSecond}, 3.0).points.empty());
+}
+
+// Nine steps of 1 mm and 1 mrad to each side of the middle: 9 mm2 along and 9 mrad2 about each axis, the latter at 10 m and across the way driven; a third of the
+// sum of the three axes, and of that a third.
+TEST_F(StoredSurroundingsTest, OdometrysDriftBendsACloud) {
+  EXPECT_NEAR(surroundings_->bend({"day", 20 * kSecond}, 9.0), 0.019, 0.0015);
+  EXPECT_LT(surroundings_->bend({"day", 20 * kSecond}, 4.0), 0.014);
+  EXPECT_EQ(surroundings_->bend({"day", 900 * kSecond}, 4.0), 0.0);
+  EXPECT_EQ(surroundings_->bend({"night", 0}, 4.0), 0.0);
 }
 
 TEST_F(StoredSurroundingsTest, KnowsItsMomentsAndTheWayBetweenThem) {
