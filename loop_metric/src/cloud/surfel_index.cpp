@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cloud/surfel_index.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace loop_metric {
 
@@ -32,9 +34,9 @@ SurfelIndex::SurfelIndex(const std::vector<Surfel>& surfels, float reach)
     if (cells[i] != CellTable::none) sorted_[next[cells[i]]++] = surfels[i];
 }
 
-const Surfel* SurfelIndex::nearest(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) const {
+SurfelIndex::Nearest SurfelIndex::nearest(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) const {
   const Eigen::Vector3f at = point * per_m_;
-  if (!(at.cwiseAbs().maxCoeff() < static_cast<float>(kFarthestCell - 1))) return nullptr;
+  if (!(at.cwiseAbs().maxCoeff() < static_cast<float>(kFarthestCell - 1))) return {};
   const Cell own = cellOf(point, per_m_);
   const Eigen::Vector3f within =
       at - Eigen::Vector3f(static_cast<float>(own.x), static_cast<float>(own.y), static_cast<float>(own.z));
@@ -42,23 +44,31 @@ const Surfel* SurfelIndex::nearest(const Eigen::Vector3f& point, const Eigen::Ve
   const auto side = [](float inside) { return inside < 0.5F ? -1 : 1; };
   const Cell over{side(within.x()), side(within.y()), side(within.z())};
   const Surfel* best = nullptr;
-  float least = reach_ * reach_;
+  float least = reach_ * reach_, second = least;
   for (const int bits : kNearestFirst) {
     const bool x = (bits & 1) != 0, y = (bits & 2) != 0, z = (bits & 4) != 0;
     const Eigen::Vector3f away(x ? gap.x() : 0.0F, y ? gap.y() : 0.0F, z ? gap.z() : 0.0F);
-    if (away.squaredNorm() > least) continue;
+    if (const float nearer = away.squaredNorm(); nearer > least) {
+      second = std::min(second, nearer);
+      continue;
+    }
     const std::uint32_t cell =
         table_.find(keyOf({own.x + (x ? over.x : 0), own.y + (y ? over.y : 0), own.z + (z ? over.z : 0)}));
     if (cell == CellTable::none) continue;
     for (std::uint32_t i = begins_[cell]; i < begins_[cell + 1]; ++i) {
       const float distance = (sorted_[i].mean - point).squaredNorm();
-      if (distance < least && std::abs(sorted_[i].normal.dot(normal)) > kAlike) {
+      if (!(distance < second) || !(std::abs(sorted_[i].normal.dot(normal)) > kAlike)) continue;
+      if (distance < least) {
+        second = least;
         least = distance;
         best = &sorted_[i];
+      } else {
+        second = distance;
       }
     }
   }
-  return best;
+  if (best == nullptr) return {};
+  return {best, 0.5F * (std::sqrt(second) - std::sqrt(least))};
 }
 
 }  // namespace loop_metric

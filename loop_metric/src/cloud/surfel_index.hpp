@@ -17,9 +17,13 @@ class SurfelIndex {
   SurfelIndex(const std::vector<Surfel>& surfels, float reach);
 
   float reach() const { return reach_; }
+  struct Nearest {
+    const Surfel* surfel = nullptr;
+    float margin = 0.0F;  ///< m that the point may move, the normal kept, and this one stays the nearest within reach
+  };
   /// The nearest surfel within reach whose normal is within 45 deg of `normal`, either way round; null where there is none. Of
   /// equally near ones the first.
-  const Surfel* nearest(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) const;
+  Nearest nearest(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) const;
 
  private:
   float reach_, per_m_;

@@ -26,7 +26,8 @@ Spread noiseOf(const PointCloud& cloud, float voxel) {
     halves[half] = makeSurfels(points, voxel);
   });
   std::vector<Match> matches;
-  findMatches(halves[0].all, SurfelIndex(halves[1].all, 2.0F * voxel), {}, matches);
+  const SurfelIndex index(halves[1].all, 2.0F * voxel);
+  Matcher(halves[0].all, index).match({}, matches);
   return spreadsOf(matches);
 }
 

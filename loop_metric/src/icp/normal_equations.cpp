@@ -12,16 +12,20 @@ namespace {
 constexpr std::size_t kGrain = 512;  // fixed: the partition is part of the result
 }
 
-void findMatches(const std::vector<Surfel>& source, const SurfelIndex& target, const Pose& T_target_source,
-                 std::vector<Match>& matches) {
-  matches.assign(source.size(), Match{});
+void Matcher::match(const Pose& T_target_source, std::vector<Match>& matches) {
+  matches.assign(source_.size(), Match{});
+  held_.resize(source_.size());
   const Eigen::Matrix3f R = T_target_source.R().cast<float>();
   const Eigen::Vector3f t = T_target_source.t().cast<float>();
-  urban_nav_core::forEach(source.size(), kGrain, [&](std::size_t i) {
-    const Surfel& surfel = source[i];
+  urban_nav_core::forEach(source_.size(), kGrain, [&](std::size_t i) {
+    const Surfel& surfel = source_[i];
     if (!(surfel.planarity > 0.0F)) return;
     const Eigen::Vector3f lever = R * surfel.mean, normal = R * surfel.normal, point = lever + t;
-    const Surfel* plane = target.nearest(point, normal);
+    Held& held = held_[i];
+    if (held.nearest.surfel == nullptr ||
+        !((point - held.point).squaredNorm() < held.nearest.margin * held.nearest.margin))
+      held = {target_.nearest(point, normal), point};
+    const Surfel* plane = held.nearest.surfel;
     if (plane == nullptr) return;
     Match& match = matches[i];
     match.lever = lever.cast<double>();

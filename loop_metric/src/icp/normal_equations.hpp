@@ -29,9 +29,24 @@ inline Vector6d planeJacobian(const Vector3d& lever, const Vector3d& normal) {
   return row;
 }
 
-/// Every source surfel of planarity above 0 against the index, in the order of the source; those without a counterpart have weight 0.
-void findMatches(const std::vector<Surfel>& source, const SurfelIndex& target, const Pose& T_target_source,
-                 std::vector<Match>& matches);
+/// Source surfels beside their counterparts, pose after pose: a counterpart is looked for anew only where the surfel has moved by more than leaves
+/// it the nearest one, which near the end of an alignment is hardly anywhere (Greenspan and Godin 2001). Source and target must outlive it.
+class Matcher {
+ public:
+  Matcher(const std::vector<Surfel>& source, const SurfelIndex& target) : source_(source), target_(target) {}
+
+  /// In the order of the source; those of planarity 0 and those without a counterpart have weight 0.
+  void match(const Pose& T_target_source, std::vector<Match>& matches);
+
+ private:
+  struct Held {
+    SurfelIndex::Nearest nearest;
+    Eigen::Vector3f point = Eigen::Vector3f::Zero();  ///< for which it was found
+  };
+  const std::vector<Surfel>& source_;
+  const SurfelIndex& target_;
+  std::vector<Held> held_;
+};
 
 /// Sums of the robust normal equations H d = -b: Cauchy's weight 1 / (1 + (r / sigma)^2).
 struct NormalEquations {

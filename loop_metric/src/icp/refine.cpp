@@ -62,8 +62,9 @@ Refined refine(const Source& source, const Target& target, const Pose& start, st
     const bool last = step + 1 == steps;
     const SurfelIndex& index = target.steps()[std::min(step, target.steps().size() - 1)];
     const double reach = static_cast<double>(index.reach());
+    Matcher matcher(source.steps()[step], index);
     for (int i = 0; i < iterations; ++i) {
-      findMatches(source.steps()[step], index, refined.T_target_source, refined.matches);
+      matcher.match(refined.T_target_source, refined.matches);
       refined.sigma = std::max(spreadOf(refined.matches), 0.5 * kLeastSigmaShare * finest);
       const NormalEquations equations = sumUp(refined.matches, refined.sigma);
       ++refined.iterations;
