@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace loop_metric {
 
@@ -16,8 +17,8 @@ constexpr std::array<int, 8> kNearestFirst = {0, 1, 2, 4, 3, 5, 6, 7};
 
 // Cells of twice the reach: the eight around the corner next to a point hold all that is within reach, and once something near was found in
 // its own, the others are too far away mostly.
-SurfelIndex::SurfelIndex(const std::vector<Surfel>& surfels, float reach)
-    : reach_(reach), per_m_(0.5F / reach), table_(surfels.size() / 4 + 16) {
+SurfelIndex::SurfelIndex(const std::vector<Surfel>& surfels, float reach, std::shared_ptr<const SurfelIndex> finer)
+    : finer_(std::move(finer)), reach_(reach), per_m_(0.5F / reach), table_(surfels.size() / 4 + 16) {
   std::vector<std::uint32_t> cells(surfels.size(), CellTable::none);
   std::vector<std::uint32_t> counts;
   for (std::size_t i = 0; i < surfels.size(); ++i) {
@@ -35,6 +36,8 @@ SurfelIndex::SurfelIndex(const std::vector<Surfel>& surfels, float reach)
 }
 
 SurfelIndex::Nearest SurfelIndex::nearest(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) const {
+  if (finer_ != nullptr)
+    if (const Nearest near = finer_->nearest(point, normal); near.surfel != nullptr) return near;
   const Eigen::Vector3f at = point * per_m_;
   if (!(at.cwiseAbs().maxCoeff() < static_cast<float>(kFarthestCell - 1))) return {};
   const Cell own = cellOf(point, per_m_);

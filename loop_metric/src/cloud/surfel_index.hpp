@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "cloud/cell_table.hpp"
@@ -13,8 +14,8 @@ namespace loop_metric {
 /// surfels are copied, so that a look-up reads neighbours in one go. Immutable, so thread-safe.
 class SurfelIndex {
  public:
-  /// `reach`: how far a surfel may be away, m.
-  SurfelIndex(const std::vector<Surfel>& surfels, float reach);
+  /// `reach`: how far a surfel may be away, m. `finer`: an index of the same surfels with a smaller reach, which is asked first: most have something near.
+  SurfelIndex(const std::vector<Surfel>& surfels, float reach, std::shared_ptr<const SurfelIndex> finer = nullptr);
 
   float reach() const { return reach_; }
   struct Nearest {
@@ -26,6 +27,7 @@ class SurfelIndex {
   Nearest nearest(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) const;
 
  private:
+  std::shared_ptr<const SurfelIndex> finer_;
   float reach_, per_m_;
   CellTable table_;
   std::vector<std::uint32_t> begins_;  // of each cell in sorted_; one more at the end

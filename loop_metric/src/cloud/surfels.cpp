@@ -59,8 +59,8 @@ struct Grid {
 };
 
 Grid gridOf(const PointCloud& cloud, float voxel) {
-  Grid grid{CellTable(cloud.points.size() / 4 + 16), {}, 0};
-  grid.cubes.reserve(cloud.points.size() / 4 + 16);
+  Grid grid{CellTable(cloud.points.size() / 32 + 16), {}, 0};  // small: neighbours are looked up 27 at a time
+  grid.cubes.reserve(cloud.points.size() / 8 + 16);
   const float per_m = 1.0F / voxel, limit = voxel * static_cast<float>(kFarthestCell);
   for (const Eigen::Vector3f& point : cloud.points) {
     if (!isWithin(point, limit)) continue;
@@ -94,7 +94,7 @@ Grid gridOf(const PointCloud& cloud, float voxel) {
 
 /// The same points in cubes of twice the edge: each of the eight within counts as much as it has beams' cubes in it.
 Grid coarser(const Grid& fine, float voxel) {
-  Grid grid{CellTable(fine.cubes.size() / 2 + 16), {}, fine.used};
+  Grid grid{CellTable(fine.cubes.size() / 4 + 16), {}, fine.used};
   grid.cubes.reserve(fine.cubes.size() / 2 + 16);
   for (const Moments& cube : fine.cubes) {
     const Cell cell{cube.cell.x >> 1, cube.cell.y >> 1, cube.cell.z >> 1};

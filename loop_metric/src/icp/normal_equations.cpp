@@ -13,12 +13,14 @@ constexpr std::size_t kGrain = 512;  // fixed: the partition is part of the resu
 }
 
 void Matcher::match(const Pose& T_target_source, std::vector<Match>& matches) {
-  matches.assign(source_.size(), Match{});
+  matches.resize(source_.size());
   held_.resize(source_.size());
   const Eigen::Matrix3f R = T_target_source.R().cast<float>();
   const Eigen::Vector3f t = T_target_source.t().cast<float>();
   urban_nav_core::forEach(source_.size(), kGrain, [&](std::size_t i) {
     const Surfel& surfel = source_[i];
+    Match& match = matches[i];
+    match.weight = 0.0;
     if (!(surfel.planarity > 0.0F)) return;
     const Eigen::Vector3f lever = R * surfel.mean, normal = R * surfel.normal, point = lever + t;
     Held& held = held_[i];
@@ -27,7 +29,6 @@ void Matcher::match(const Pose& T_target_source, std::vector<Match>& matches) {
       held = {target_.nearest(point, normal), point};
     const Surfel* plane = held.nearest.surfel;
     if (plane == nullptr) return;
-    Match& match = matches[i];
     match.lever = lever.cast<double>();
     match.target_normal = plane->normal.cast<double>();
     match.source_normal = (plane->normal.dot(normal) < 0.0F ? Eigen::Vector3f(-normal) : normal).cast<double>();
@@ -39,7 +40,6 @@ void Matcher::match(const Pose& T_target_source, std::vector<Match>& matches) {
 NormalEquations& NormalEquations::operator+=(const NormalEquations& other) {
   H += other.H;
   b += other.b;
-  cost += other.cost;
   weight += other.weight;
   return *this;
 }
@@ -59,7 +59,6 @@ NormalEquations& operator+=(NormalEquations& sum, const Term& term) {
   for (int c = 0; c < 6; ++c)
     for (int r = c; r < 6; ++r) sum.H(r, c) += weighted[r] * row[c];
   sum.b += weighted * match.residual;
-  sum.cost += match.weight * term.sigma * term.sigma * std::log(square);
   sum.weight += match.weight;
   return sum;
 }

@@ -19,7 +19,7 @@ struct Match {
   Vector3d source_normal = Vector3d::Zero();  ///< turned to the target frame, on the target normal's side
   Vector3d target_normal = Vector3d::Zero();
   double residual = 0.0;  ///< target_normal . (T p_source - p_target), m: how far before the plane
-  double weight = 0.0;    ///< planarity of both; 0: no match
+  double weight = 0.0;    ///< planarity of both; 0: no match, and nothing else means anything
 };
 
 /// d residual / d (rho, phi) of T_target_source = [Exp(phi) R, t + rho] for a plane of this normal: (n, lever x n).
@@ -48,11 +48,10 @@ class Matcher {
   std::vector<Held> held_;
 };
 
-/// Sums of the robust normal equations H d = -b: Cauchy's weight 1 / (1 + (r / sigma)^2).
+/// Sums of the robust normal equations H d = -b of the cost weight * sigma^2 log(1 + (r / sigma)^2): Cauchy's weight 1 / (1 + (r / sigma)^2).
 struct NormalEquations {
   Matrix6d H = Matrix6d::Zero();
   Vector6d b = Vector6d::Zero();
-  double cost = 0.0;    ///< sum of weight * sigma^2 log(1 + (r / sigma)^2)
   double weight = 0.0;  ///< sum of weights, before the robust ones
 
   NormalEquations& operator+=(const NormalEquations& other);

@@ -36,14 +36,19 @@ std::vector<Surfel> thinned(const std::vector<Surfel>& surfels, float edge) {
 
 Target::Target(const Surfels& surfels, double coarsest) {
   const double finest = 2.0 * static_cast<double>(surfels.voxel);
-  for (double reach = std::max(coarsest, finest); reach > 1.4 * finest; reach *= 0.5)
-    steps_.emplace_back(surfels.all, static_cast<float>(reach));
-  steps_.emplace_back(surfels.all, static_cast<float>(finest));
+  std::vector<double> reaches;
+  for (double reach = std::max(coarsest, finest); reach > 1.4 * finest; reach *= 0.5) reaches.push_back(reach);
+  reaches.push_back(finest);
+  std::shared_ptr<const SurfelIndex> finer;
+  for (auto reach = reaches.rbegin(); reach != reaches.rend(); ++reach) {
+    finer = std::make_shared<const SurfelIndex>(surfels.all, static_cast<float>(*reach), finer);
+    steps_.insert(steps_.begin(), finer);
+  }
 }
 
 Source::Source(const Surfels& surfels, const Target& target) {
-  for (const SurfelIndex& index : target.steps()) {
-    float edge = 0.5F * index.reach();
+  for (const auto& index : target.steps()) {
+    float edge = 0.5F * index->reach();
     steps_.push_back(thinned(surfels.all, edge));
     while (steps_.back().size() > kEnough) steps_.back() = thinned(steps_.back(), edge *= 1.5F);
   }
@@ -57,10 +62,10 @@ Refined refine(const Source& source, const Target& target, const Pose& start, st
   Refined refined;
   refined.T_target_source = start;
   const std::size_t steps = source.steps().size();
-  const double finest = static_cast<double>(target.steps().back().reach());
+  const double finest = static_cast<double>(target.steps().back()->reach());
   for (std::size_t step = std::min(first, steps - 1); step < std::min(end, steps); ++step) {
     const bool last = step + 1 == steps;
-    const SurfelIndex& index = target.steps()[std::min(step, target.steps().size() - 1)];
+    const SurfelIndex& index = *target.steps()[std::min(step, target.steps().size() - 1)];
     const double reach = static_cast<double>(index.reach());
     Matcher matcher(source.steps()[step], index);
     for (int i = 0; i < iterations; ++i) {
@@ -68,9 +73,6 @@ Refined refine(const Source& source, const Target& target, const Pose& start, st
       refined.sigma = std::max(spreadOf(refined.matches), 0.5 * kLeastSigmaShare * finest);
       const NormalEquations equations = sumUp(refined.matches, refined.sigma);
       ++refined.iterations;
-      const double mean = equations.weight > 0.0 ? equations.cost / equations.weight : 0.0;
-      if (i == 0) refined.first_cost = mean;
-      refined.last_cost = mean;
       // What nothing holds would wander with the noise of the normals: damped, it stays; what counts is twenty times stiffer.
       Matrix6d H = equations.H;
       const double scale = std::max(H(0, 0) + H(1, 1) + H(2, 2), 1e-12);

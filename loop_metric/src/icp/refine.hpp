@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "icp/normal_equations.hpp"
@@ -12,10 +13,10 @@ class Target {
  public:
   /// `coarsest`: how far a counterpart may be away in the first step, m; halved down to twice the voxel.
   Target(const Surfels& surfels, double coarsest);
-  const std::vector<SurfelIndex>& steps() const { return steps_; }
+  const std::vector<std::shared_ptr<const SurfelIndex>>& steps() const { return steps_; }
 
  private:
-  std::vector<SurfelIndex> steps_;
+  std::vector<std::shared_ptr<const SurfelIndex>> steps_;  // each asks the next one first
 };
 
 /// A source thinned for each step of a Target, to one surfel (the most planar) per cube of half the reach or more, and a last step with all of
@@ -33,9 +34,7 @@ struct Refined {
   Pose T_target_source;
   std::vector<Match> matches;  ///< at that pose
   double sigma = 0.0;          ///< robust deviation of the residuals, m
-  double first_cost = 0.0;     ///< mean cost of a match at the start of the last step and at its end, m^2
-  double last_cost = 0.0;
-  double last_step = 0.0;  ///< by how much the last change moved the planes' distances, root mean square, m
+  double last_step = 0.0;      ///< by how much the last change moved the planes' distances, root mean square, m
   int iterations = 0;
   bool usable = false;  ///< false: too few matches to solve for a pose
 };

@@ -48,6 +48,25 @@ TEST(SurfelIndex, findsWhatALookAtAllOfThemFinds) {
   }
 }
 
+TEST(SurfelIndex, aFinerOneAnswersForWhatIsNear) {
+  Dice dice(4);
+  std::vector<Surfel> surfels;
+  for (int i = 0; i < 3000; ++i) surfels.push_back({somewhere(dice, 4.0), somewhere(dice, 1.0).normalized(), 0.5F});
+  const auto finer = std::make_shared<const SurfelIndex>(surfels, 0.4F);
+  const SurfelIndex alone(surfels, 1.5F), index(surfels, 1.5F, finer);
+  int near = 0, far = 0;
+  for (int query = 0; query < 2000; ++query) {
+    const Eigen::Vector3f point = somewhere(dice, 5.0), normal = somewhere(dice, 1.0).normalized();
+    const auto expected = alone.nearest(point, normal), found = index.nearest(point, normal);
+    ASSERT_EQ(found.surfel == nullptr, expected.surfel == nullptr);
+    if (found.surfel == nullptr) continue;
+    EXPECT_EQ(found.surfel->mean, expected.surfel->mean);
+    ++((found.surfel->mean - point).norm() < 0.4F ? near : far);
+  }
+  EXPECT_GT(near, 300);
+  EXPECT_GT(far, 300);
+}
+
 TEST(SurfelIndex, nothingIsNearWhatIsNoPlace) {
   const SurfelIndex index({{Eigen::Vector3f::Zero(), Eigen::Vector3f::UnitZ(), 1.0F}}, 1.0F);
   const Eigen::Vector3f up = Eigen::Vector3f::UnitZ();

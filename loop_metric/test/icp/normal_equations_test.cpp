@@ -63,10 +63,12 @@ TEST(NormalEquations, theRightHandSideIsHalfTheGradientOfTheCost) {
   const std::vector<Match> matches = randomMatches(50);
   const double sigma = 0.05;
   const auto cost = [&](const Pose& T) {
-    std::vector<Match> moved = matches;
-    for (std::size_t i = 0; i < moved.size(); ++i)
-      moved[i].residual += matches[i].target_normal.dot(T * matches[i].lever - matches[i].lever);
-    return sumUp(moved, sigma).cost;
+    double sum = 0.0;
+    for (const Match& match : matches) {
+      const double residual = match.residual + match.target_normal.dot(T * match.lever - match.lever);
+      sum += match.weight * sigma * sigma * std::log1p(residual * residual / (sigma * sigma));
+    }
+    return sum;
   };
   const auto gradient = numericJacobian<1, 6>(cost, Pose(), 1e-4);
   EXPECT_LT((0.5 * gradient.transpose() - sumUp(matches, sigma).b).norm(), 1e-6);
