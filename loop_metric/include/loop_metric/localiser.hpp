@@ -21,13 +21,30 @@ enum class Knowledge {
 /// "UNSURE", "KNOWN", "NEW".
 const char* toString(Knowledge knowledge);
 
+/// Why the robot is not KNOWN. Numbers are part of messages: new ones go to the end.
+enum class LocatedReason {
+  None = 0,          ///< it is
+  NothingSeen = 1,   ///< nothing of the map was recognised yet
+  NothingAlike = 2,  ///< it was looked for, and nothing here looks like the map
+  BeliefAlone = 3,   ///< somebody says so, and nothing was seen of it
+  OneSighting = 4,   ///< and no second one that agrees
+  Contested = 5,     ///< as many sightings say that it is elsewhere
+  TooLongAgo = 6,    ///< odometry since the last sighting is not good enough
+};
+/// "None", "NothingSeen", ...
+const char* toString(LocatedReason reason);
+
 /// Where the robot is, and how that is known.
 struct Located {
   urban_nav_core::StampNs stamp = 0;
   Knowledge knowledge = Knowledge::Unsure;
+  LocatedReason reason = LocatedReason::NothingSeen;
   /// The best guess there is, UNSURE ones too; empty where there is none.
   std::optional<urban_nav_core::UncertainPose> T_map_base;
-  int witnesses = 0;     ///< sightings that agree with it
+  int witnesses = 0;  ///< sightings that agree with it
+  /// That it is the right place of the map, in the light of the sightings that agree and of those of the best other guess; 0 without a guess. It says nothing of how
+  /// well the pose is known: the covariance does.
+  double probability = 0.0;
   std::string sentence;  ///< for a person
 };
 

@@ -25,11 +25,19 @@ constexpr int enough = 2;                   // witnesses: one may be false
 constexpr double apart = 0.5;               // m: closer than this, a second look is the first one again
 constexpr double metres_per_radian = 10.0;  // for directions of which a sighting knows nothing
 constexpr double known_sigma = 0.33;        // m: three of them are the metre that KNOWN promises
+constexpr double false_share = 0.02;        // FALSE_SHARE
 constexpr int looks_for_new = 3;            // in a row without anything like it
 
 double positionSigma(const UncertainPose& pose) {
   const auto values = urban_nav_core::symmetricEigenvalues(pose.covariance.topLeftCorner<3, 3>());
   return values ? std::sqrt(std::max(0.0, (*values)[2])) : 1e6;
+}
+
+/// Of three possibilities: the best guess is right and what says otherwise is false, the other way round, or all of it is false; equally likely before anything was seen.
+double probabilityOf(int witnesses, int against) {
+  const double odds_best = std::pow((1.0 - false_share) / false_share, witnesses);
+  const double odds_other = std::pow((1.0 - false_share) / false_share, against);
+  return odds_best / (odds_best + odds_other + 1.0);
 }
 
 std::string metres(double value) {
@@ -47,6 +55,19 @@ const char* toString(Knowledge knowledge) {
     case Knowledge::New: break;
   }
   return "NEW";
+}
+
+const char* toString(LocatedReason reason) {
+  switch (reason) {
+    case LocatedReason::None: return "None";
+    case LocatedReason::NothingSeen: return "NothingSeen";
+    case LocatedReason::NothingAlike: return "NothingAlike";
+    case LocatedReason::BeliefAlone: return "BeliefAlone";
+    case LocatedReason::OneSighting: return "OneSighting";
+    case LocatedReason::Contested: return "Contested";
+    case LocatedReason::TooLongAgo: break;
+  }
+  return "TooLongAgo";
 }
 
 Localiser::Localiser(const Parameters& parameters) : parameters_(parameters) {}
@@ -169,29 +190,32 @@ Located Localiser::now() const { return odometry_.empty() ? Located() : at(odome
 Located Localiser::at(StampNs stamp) const {
   Located located;
   located.stamp = stamp;
-  const bool looks_in_vain = nothing_.size() >= static_cast<std::size_t>(looks_for_new);
-  if (best_.members.empty() || !odometry_.momentOf(stamp)) {
-    located.knowledge = looks_in_vain ? Knowledge::New : Knowledge::Unsure;
-    located.sentence = looks_in_vain ? "nothing here looks like the map" : "nothing in the map was recognised yet";
+  const auto because = [&](Knowledge knowledge, LocatedReason reason, const std::string& sentence) {
+    located.knowledge = knowledge;
+    located.reason = reason;
+    located.sentence = sentence;
     return located;
-  }
+  };
+  const bool looks_in_vain = nothing_.size() >= static_cast<std::size_t>(looks_for_new);
+  if (best_.members.empty() || !odometry_.momentOf(stamp))
+    return looks_in_vain
+               ? because(Knowledge::New, LocatedReason::NothingAlike, "nothing here looks like the map")
+               : because(Knowledge::Unsure, LocatedReason::NothingSeen, "nothing in the map was recognised yet");
   located.T_map_base = fuse(best_, stamp);
   located.witnesses = best_.witnesses;
+  located.probability = probabilityOf(best_.witnesses, second_.witnesses);
   const double sigma = positionSigma(*located.T_map_base);
-  if (best_.witnesses < enough) {
-    located.sentence = best_.witnesses == 0 ? "somebody says so, and nothing was seen of it"
-                                            : "one sighting, and no second one that agrees";
-  } else if (second_.witnesses >= best_.witnesses) {
-    located.sentence = "as many sightings say that it is elsewhere";
-  } else if (sigma > known_sigma) {
-    located.knowledge = looks_in_vain ? Knowledge::New : Knowledge::Unsure;
-    located.sentence = "the last sighting is too long ago: odometry is good to " + metres(sigma);
-    return located;
-  } else {
-    located.knowledge = Knowledge::Known;
-    located.sentence = std::to_string(best_.witnesses) + " sightings agree, to " + metres(sigma);
-  }
-  return located;
+  if (best_.witnesses == 0)
+    return because(Knowledge::Unsure, LocatedReason::BeliefAlone, "somebody says so, and nothing was seen of it");
+  if (best_.witnesses < enough)
+    return because(Knowledge::Unsure, LocatedReason::OneSighting, "one sighting, and no second one that agrees");
+  if (second_.witnesses >= best_.witnesses)
+    return because(Knowledge::Unsure, LocatedReason::Contested, "as many sightings say that it is elsewhere");
+  if (sigma > known_sigma)
+    return because(looks_in_vain ? Knowledge::New : Knowledge::Unsure, LocatedReason::TooLongAgo,
+                   "the last sighting is too long ago: odometry is good to " + metres(sigma));
+  return because(Knowledge::Known, LocatedReason::None,
+                 std::to_string(best_.witnesses) + " sightings agree, to " + metres(sigma));
 }
 
 }  // namespace loop_metric

@@ -14,6 +14,7 @@ namespace urban_nav {
 using urban_nav_core::UserError;
 using urban_nav_store::Access;
 using urban_nav_store::Store;
+using urban_nav_store::StoredTrajectory;
 
 namespace {
 

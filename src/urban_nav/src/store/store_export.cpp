@@ -21,6 +21,7 @@ using urban_nav_store::Edge;
 using urban_nav_store::EdgeKind;
 using urban_nav_store::EdgeVerdict;
 using urban_nav_store::Store;
+using urban_nav_store::StoredTrajectory;
 
 namespace {
 

@@ -8,7 +8,7 @@
 
 #include "pipeline/store_stage.hpp"
 #include "report/plot.hpp"
-#include "store/stored_map.hpp"
+#include "urban_nav_store/stored_map.hpp"
 
 namespace urban_nav {
 
@@ -17,6 +17,7 @@ using urban_nav_store::Edge;
 using urban_nav_store::EdgeKind;
 using urban_nav_store::EdgeVerdict;
 using urban_nav_store::Store;
+using urban_nav_store::StoredTrajectory;
 
 namespace {
 

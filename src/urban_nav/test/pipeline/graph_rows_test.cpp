@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "store/store_info.hpp"
-#include "store/stored_map.hpp"
+#include "urban_nav_store/stored_map.hpp"
 #include "support/folders.hpp"
 
 namespace urban_nav {
@@ -14,6 +14,7 @@ using testing::TemporaryFolder;
 using urban_nav_core::Pose;
 using urban_nav_store::Access;
 using urban_nav_store::Store;
+using urban_nav_store::StoredTrajectory;
 
 /// Steps of 1 m along x.
 VoRun straight(int frames) {

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "store/stored_map.hpp"
+#include "urban_nav_store/stored_map.hpp"
 
 #include <algorithm>
 #include <map>
 
 #include "urban_nav_core/types/error.hpp"
 
-namespace urban_nav {
+namespace urban_nav_store {
 
 using urban_nav_core::Pose;
 using urban_nav_core::StampNs;
 using urban_nav_core::UserError;
-using urban_nav_store::Session;
-using urban_nav_store::Store;
 
 StoredTrajectory readTrajectory(Store& store, const Session& session) {
   StoredTrajectory trajectory{session, session.id, {}, false};
@@ -22,11 +20,10 @@ StoredTrajectory readTrajectory(Store& store, const Session& session) {
     T_map_odom = anchor->T_map_odom;
   }
   std::map<StampNs, Pose> relaxed;
-  store.graph().forEachRelaxed(session.id, [&](const urban_nav_store::RelaxedPose& pose) {
-    relaxed.emplace_hint(relaxed.end(), pose.stamp, pose.T_map_base);
-  });
+  store.graph().forEachRelaxed(
+      session.id, [&](const RelaxedPose& pose) { relaxed.emplace_hint(relaxed.end(), pose.stamp, pose.T_map_base); });
   trajectory.relaxed = !relaxed.empty();
-  store.graph().forEachNode(session.id, [&](const urban_nav_store::Node& node) {
+  store.graph().forEachNode(session.id, [&](const Node& node) {
     const auto found = relaxed.find(node.stamp);
     if (found != relaxed.end()) {
       trajectory.T_map_base.push_back({node.stamp, found->second});
@@ -76,4 +73,4 @@ std::vector<std::vector<StoredTrajectory>> readMaps(Store& store, const std::vec
   return maps;
 }
 
-}  // namespace urban_nav
+}  // namespace urban_nav_store
