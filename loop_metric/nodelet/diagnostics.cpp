@@ -1,34 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "diagnostics.hpp"
 
+#include "urban_nav_ros/diagnostics.hpp"
+
 namespace loop_metric {
 
 using diagnostic_msgs::DiagnosticStatus;
 using urban_nav_core::Health;
 using urban_nav_core::Status;
 
-namespace {
-
-// s; a filter with a window gives its first settled pose so late, and later ones at the rate of its images.
-constexpr double silent_after = 5.0;
-
-}  // namespace
-
-Diagnostics::Diagnostics(ros::NodeHandle& nh, ros::NodeHandle& private_nh, const std::string& name, bool views,
-                         bool clouds)
-    : views_(views), clouds_(clouds), updater_(nh, private_nh, name) {
+Diagnostics::Diagnostics(ros::NodeHandle& nh, ros::NodeHandle& private_nh, const std::string& name,
+                         const HeardTopics& topics, bool views, bool clouds)
+    : topics_(topics), views_(views), clouds_(clouds), updater_(nh, private_nh, name) {
   updater_.setHardwareID("none");
   updater_.add("loop closures", [this](diagnostic_updater::DiagnosticStatusWrapper& status) { report(status); });
-}
-
-void Diagnostics::expect(const std::string& topic, Kind kind) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  topics_.insert_or_assign(topic, Listened{kind, urban_nav_ros::Arrival(topic)});
-}
-
-void Diagnostics::received(const std::string& topic) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (const auto found = topics_.find(topic); found != topics_.end()) found->second.arrival.happen();
 }
 
 void Diagnostics::judged(const urban_nav_core::MetricClosure& closure, double ms) {
@@ -53,17 +38,6 @@ void Diagnostics::paused(bool paused) {
   paused_ = paused;
 }
 
-std::string Diagnostics::silenceOf(Kind kind) const {
-  std::string words;
-  for (const auto& [name, topic] : topics_) {
-    if (topic.kind != kind) continue;
-    std::string silence = topic.arrival.absence();
-    if (silence.empty()) silence = topic.arrival.silence(silent_after);
-    if (!silence.empty()) words += (words.empty() ? "" : ", ") + silence;
-  }
-  return words;
-}
-
 Status Diagnostics::status() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return trouble();
@@ -75,13 +49,13 @@ Status Diagnostics::trouble() const {
   };
   if (paused_) return {};
   if (!store_.fault.empty()) return degraded(Trouble::NotStored, "nothing is stored: " + store_.fault);
-  if (const std::string silence = silenceOf(Kind::Odometry); !silence.empty())
+  if (const std::string silence = topics_.silenceOf(HeardTopics::Kind::Odometry); !silence.empty())
     return degraded(Trouble::NoOdometry, silence);
   if (views_ && !recorder_.camera_fault.empty()) return degraded(Trouble::NoCamera, recorder_.camera_fault);
-  if (const std::string silence = silenceOf(Kind::Images); views_ && !silence.empty())
+  if (const std::string silence = topics_.silenceOf(HeardTopics::Kind::Images); views_ && !silence.empty())
     return degraded(Trouble::NoImages, "no views are kept: " + silence);
   if (!clouds_) return {};
-  if (const std::string silence = silenceOf(Kind::Lasers); !silence.empty())
+  if (const std::string silence = topics_.silenceOf(HeardTopics::Kind::Lasers); !silence.empty())
     return degraded(Trouble::NoLasers, "no whole clouds: " + silence);
   if (!recorder_.laser_fault.empty()) return degraded(Trouble::NoLaserPlace, recorder_.laser_fault);
   return {};

@@ -5,13 +5,12 @@
 #include <ros/node_handle.h>
 
 #include <cstdint>
-#include <map>
 #include <mutex>
 #include <string>
 
+#include "heard_topics.hpp"
 #include "publisher.hpp"
 #include "recorder.hpp"
-#include "urban_nav_ros/diagnostics.hpp"
 
 namespace loop_metric {
 
@@ -19,19 +18,16 @@ namespace loop_metric {
 /// Thread-safe.
 class Diagnostics {
  public:
-  enum class Kind { Odometry, Images, Lasers, Closures };
   struct Counts {
     std::int64_t candidates = 0;
     std::int64_t paused_dropped = 0;
     std::int64_t damaged = 0;  ///< not finite, no pose, a probability outside 0...1
   };
 
-  /// `clouds`: lasers are wanted.
-  Diagnostics(ros::NodeHandle& nh, ros::NodeHandle& private_nh, const std::string& name, bool views, bool clouds);
+  /// `clouds`: lasers are wanted. `topics` must outlive it.
+  Diagnostics(ros::NodeHandle& nh, ros::NodeHandle& private_nh, const std::string& name, const HeardTopics& topics,
+              bool views, bool clouds);
 
-  /// A topic that is listened to, by its full name.
-  void expect(const std::string& topic, Kind kind);
-  void received(const std::string& topic);
   void judged(const urban_nav_core::MetricClosure& closure, double ms);
   void worked(const Recorder::State& recorder, const Judge::Counts& judge, const StoreState& store,
               const Counts& counts);
@@ -41,17 +37,12 @@ class Diagnostics {
   void update() { updater_.force_update(); }
 
  private:
-  struct Listened {
-    Kind kind;
-    urban_nav_ros::Arrival arrival;
-  };
   void report(diagnostic_updater::DiagnosticStatusWrapper& status) const;
   urban_nav_core::Status trouble() const;
-  std::string silenceOf(Kind kind) const;
 
+  const HeardTopics& topics_;
   const bool views_, clouds_;
   mutable std::mutex mutex_;  // guards everything below but updater_
-  std::map<std::string, Listened> topics_;
   Recorder::State recorder_;
   Judge::Counts judge_;
   StoreState store_;

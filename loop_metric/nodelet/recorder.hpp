@@ -30,10 +30,6 @@ namespace loop_metric {
 /// session, as pose_graph does, and tells the judge of it. Thread-safe.
 class Recorder {
  public:
-  struct InfoInput {
-    urban_nav_ros::Side side;
-    sensor_msgs::CameraInfoConstPtr message;
-  };
   struct Reset {
     std::shared_ptr<std::promise<void>> done;
   };

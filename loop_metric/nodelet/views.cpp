@@ -31,10 +31,10 @@ bool sameCalibration(const sensor_msgs::CameraInfo& a, const sensor_msgs::Camera
 
 }  // namespace
 
-Views::Views(const Parameters& parameters, const NodeletParameters& nodelet, bool rectified, std::string where,
+Views::Views(const Parameters& parameters, const ListeningParameters& listening, bool rectified, std::string where,
              const urban_nav_ros::StaticTransforms& transforms)
     : parameters_(parameters),
-      nodelet_(nodelet),
+      listening_(listening),
       rectified_(rectified),
       where_(std::move(where)),
       transforms_(transforms),
@@ -81,8 +81,8 @@ void Views::forgetTime() {
 void Views::tryToStart() {
   if (!left_info_ || !right_info_ || !fault_.empty()) return;
   const std::string& frame = left_info_->header.frame_id;
-  const auto T_base_camera = transforms_.lookup(nodelet_.base_frame, frame);
-  if (!T_base_camera && Clock::now() - *first_image_ < std::chrono::duration<double>(nodelet_.tf_wait)) return;
+  const auto T_base_camera = transforms_.lookup(listening_.base_frame, frame);
+  if (!T_base_camera && Clock::now() - *first_image_ < std::chrono::duration<double>(listening_.tf_wait)) return;
   try {
     calibration_ = std::make_shared<urban_nav_ros::StereoCalibration>(
         urban_nav_ros::toCameraInfo(*left_info_), urban_nav_ros::toCameraInfo(*right_info_), rectified_, where_);
@@ -93,7 +93,7 @@ void Views::tryToStart() {
   camera_ = {calibration_->camera(),
              T_base_camera.value_or(urban_nav_ros::opticalInBody()) * calibration_->T_optical_rectified()};
   note_ = T_base_camera ? ""
-                        : "no static tf from " + nodelet_.base_frame + " to " + frame + ": " + nodelet_.base_frame +
+                        : "no static tf from " + listening_.base_frame + " to " + frame + ": " + listening_.base_frame +
                               " is taken to be at the left camera (REP-103 axes)";
   maker_.emplace(camera_->camera, parameters_.points);
   begin();
@@ -101,8 +101,8 @@ void Views::tryToStart() {
 
 void Views::begin() {
   StereoFeed::Options options;
-  options.max_lateness = nanoseconds(nodelet_.max_lateness);
-  options.pairing_tolerance = nanoseconds(nodelet_.pairing);
+  options.max_lateness = nanoseconds(listening_.max_lateness);
+  options.pairing_tolerance = nanoseconds(listening_.pairing);
   options.arrival = StereoFeed::Arrival::OrderedStreams;
   feed_.emplace(options, calibration_);
 }

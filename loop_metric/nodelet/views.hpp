@@ -29,6 +29,12 @@ struct ImageInput {
   urban_nav_core::StampNs stamp;
 };
 
+/// The calibration of one side.
+struct InfoInput {
+  urban_nav_ros::Side side;
+  sensor_msgs::CameraInfoConstPtr message;
+};
+
 /// A stereo camera and its left side's place on the robot.
 struct CameraAt {
   urban_nav_core::StereoCamera camera;
@@ -46,7 +52,7 @@ class Views {
   };
 
   /// `where`: what an error about the calibration begins with. `transforms` must outlive it.
-  Views(const Parameters& parameters, const NodeletParameters& nodelet, bool rectified, std::string where,
+  Views(const Parameters& parameters, const ListeningParameters& listening, bool rectified, std::string where,
         const urban_nav_ros::StaticTransforms& transforms);
 
   void add(urban_nav_ros::Side side, const sensor_msgs::CameraInfoConstPtr& info);
@@ -70,7 +76,7 @@ class Views {
   void forgetTime();
 
   const Parameters parameters_;
-  const NodeletParameters nodelet_;
+  const ListeningParameters listening_;
   const bool rectified_;
   const std::string where_;
   const urban_nav_ros::StaticTransforms& transforms_;

@@ -11,6 +11,7 @@ namespace {
 
 TEST(Parameters, yamlAndReadmeAreAsTheTablesSay) {
   EXPECT_EQ(urban_nav_core::testing::faultsOf(table().stage(), table().rows(), nodeletTable().rows()), "");
+  EXPECT_EQ(urban_nav_core::testing::faultsOf(localisationTable().stage(), localisationTable().rows()), "");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What README.md and config/loop_metric.yaml say of the parameters; test/parameters_test.cpp holds them equal to the table.
+// What README.md and config/*.yaml say of the parameters; test/parameters_test.cpp holds them equal to the table.
 #include "loop_metric/parameters.hpp"
 #include "nodelet_parameters.hpp"
 #include "urban_nav_core/parameters/documents.hpp"
@@ -7,6 +7,8 @@
 int main(int argc, char** argv) {
   const auto& stage = loop_metric::table();
   const auto& nodelet = loop_metric::nodeletTable();
-  return urban_nav_core::documentParameters(argc, argv,
-                                            {{stage.stage(), stage.rows()}, {nodelet.stage(), nodelet.rows()}});
+  const auto& localisation = loop_metric::localisationTable();
+  return urban_nav_core::documentParameters(
+      argc, argv,
+      {{stage.stage(), stage.rows()}, {nodelet.stage(), nodelet.rows()}, {localisation.stage(), localisation.rows()}});
 }

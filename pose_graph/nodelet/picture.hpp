@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <nav_msgs/Path.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <string>
@@ -10,11 +9,6 @@
 #include "live_graph.hpp"
 
 namespace pose_graph {
-
-/// What of a long run is drawn: its first pose, those at least `spacing` m from the last one drawn, and its last.
-urban_nav_core::PoseRun thinned(const urban_nav_core::PoseRun& run, double spacing);
-
-nav_msgs::Path toPathMessage(const urban_nav_core::PoseRun& run, const std::string& map_frame);
 
 /// One line list for each look, in the colours of Newman et al. 2009, figure 16, where it has them: stereo green, ICP
 /// purple; and a line strip for each run. What of an earlier picture is not in this one is deleted.

@@ -8,7 +8,7 @@
 
 #include "picture.hpp"
 #include "urban_nav_ros/graph.hpp"
-#include "urban_nav_ros/pose.hpp"
+#include "urban_nav_ros/path.hpp"
 #include "urban_nav_ros/stamp.hpp"
 #include "urban_nav_ros/status.hpp"
 
@@ -18,13 +18,6 @@ using urban_nav_core::PoseRun;
 using urban_nav_core::StampNs;
 using urban_nav_ros::toRosTime;
 
-namespace {
-
-// Odometry that waits for its map -> odom: what tf keeps, 10 s, at 20 Hz.
-constexpr std::size_t kMostUnsent = 200;
-
-}  // namespace
-
 Publisher::Publisher(ros::NodeHandle& nh, const NodeletParameters& parameters)
     : parameters_(parameters),
       update_(nh.advertise<urban_nav_msgs::GraphUpdate>("graph/update", 100)),
@@ -32,32 +25,11 @@ Publisher::Publisher(ros::NodeHandle& nh, const NodeletParameters& parameters)
       path_(nh.advertise<nav_msgs::Path>("graph/path", 1, true)),
       state_(nh.advertise<urban_nav_msgs::GraphState>("graph/state", 1, true)),
       markers_(nh.advertise<visualization_msgs::MarkerArray>("graph/markers", 1, true)),
-      status_(nh.advertise<urban_nav_msgs::StageStatus>("pose_graph/status", 10, true)) {}
-
-void Publisher::setMapFromOdom(const std::optional<urban_nav_core::Pose>& T_map_odom) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  T_map_odom_ = T_map_odom;
-  if (T_map_odom_) sendTransforms(std::exchange(unsent_, {}));
-}
+      status_(nh.advertise<urban_nav_msgs::StageStatus>("pose_graph/status", 10, true)),
+      map_from_odom_(parameters.map_frame, parameters.odom_frame) {}
 
 void Publisher::sendTransform(StampNs stamp) {
-  if (!parameters_.publish_tf) return;
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (T_map_odom_) return sendTransforms({stamp});
-  if (unsent_.size() >= kMostUnsent) unsent_.erase(unsent_.begin());
-  unsent_.push_back(stamp);
-}
-
-void Publisher::sendTransforms(const std::vector<StampNs>& stamps) {
-  if (stamps.empty()) return;
-  std::vector<geometry_msgs::TransformStamped> transforms(stamps.size());
-  for (std::size_t i = 0; i < stamps.size(); ++i) {
-    transforms[i].header.stamp = toRosTime(stamps[i]);
-    transforms[i].header.frame_id = parameters_.map_frame;
-    transforms[i].child_frame_id = parameters_.odom_frame;
-    transforms[i].transform = urban_nav_ros::toTransformMessage(*T_map_odom_);
-  }
-  broadcaster_.sendTransform(transforms);
+  if (parameters_.publish_tf) map_from_odom_.send(stamp);
 }
 
 void Publisher::publish(const urban_nav_core::GraphUpdate& update, StampNs newest) {
@@ -98,8 +70,8 @@ bool Publisher::isWatched() const { return path_.getNumSubscribers() > 0 || mark
 void Publisher::publishPicture(const std::vector<PoseRun>& runs, const std::vector<Tie>& ties, StampNs newest) {
   std::vector<PoseRun> drawn;
   drawn.reserve(runs.size());
-  for (const PoseRun& run : runs) drawn.push_back(thinned(run, parameters_.picture_spacing));
-  if (!drawn.empty()) path_.publish(toPathMessage(drawn.back(), parameters_.map_frame));
+  for (const PoseRun& run : runs) drawn.push_back(urban_nav_ros::thinned(run, parameters_.picture_spacing));
+  if (!drawn.empty()) path_.publish(urban_nav_ros::toPathMessage(drawn.back(), parameters_.map_frame));
   markers_.publish(toMarkers(ties, drawn, newest, parameters_.map_frame));
 }
 

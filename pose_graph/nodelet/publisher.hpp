@@ -3,16 +3,14 @@
 
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
-#include <tf2_ros/transform_broadcaster.h>
 #include <urban_nav_msgs/StageStatus.h>
 
-#include <cstdint>
-#include <mutex>
 #include <optional>
 #include <vector>
 
 #include "live_graph.hpp"
 #include "nodelet_parameters.hpp"
+#include "urban_nav_ros/map_from_odom.hpp"
 
 namespace pose_graph {
 
@@ -22,9 +20,8 @@ class Publisher {
   Publisher(ros::NodeHandle& nh, const NodeletParameters& parameters);
 
   /// From now on map -> odom is this; empty: not known yet.
-  void setMapFromOdom(const std::optional<urban_nav_core::Pose>& T_map_odom);
-  /// Publishes it with the stamp of an odometry message, so that every odom -> base_link has its map -> odom; where it is not known yet,
-  /// as soon as it is.
+  void setMapFromOdom(const std::optional<urban_nav_core::Pose>& T_map_odom) { map_from_odom_.set(T_map_odom); }
+  /// Publishes it with the stamp of an odometry message, where tf is wanted.
   void sendTransform(urban_nav_core::StampNs stamp);
 
   void publish(const urban_nav_core::GraphUpdate& update, urban_nav_core::StampNs newest);
@@ -40,15 +37,10 @@ class Publisher {
                       urban_nav_core::StampNs newest);
 
  private:
-  void sendTransforms(const std::vector<urban_nav_core::StampNs>& stamps);
-
   const NodeletParameters parameters_;
   ros::Publisher update_, jump_, path_, state_, markers_, status_;
   std::optional<urban_nav_msgs::StageStatus> last_status_;
-  tf2_ros::TransformBroadcaster broadcaster_;
-  std::mutex mutex_;  // guards the broadcaster and what follows
-  std::vector<urban_nav_core::StampNs> unsent_;
-  std::optional<urban_nav_core::Pose> T_map_odom_;
+  urban_nav_ros::MapFromOdom map_from_odom_;
 };
 
 }  // namespace pose_graph

@@ -63,7 +63,8 @@ class Localiser {
   /// some free is a witness, but no hypothesis begins with it.
   void addSighting(urban_nav_core::StampNs b, const urban_nav_core::Pose& T_map_a,
                    const urban_nav_core::Constraint& measured);
-  /// What somebody believes (initialpose): a hypothesis like any other, which needs a sighting to be KNOWN.
+  /// What somebody believes (initialpose): the best guess until something is seen, and where to look first. It is no evidence: it makes nothing KNOWN, and adds nothing to
+  /// the pose.
   void addBelief(urban_nav_core::StampNs at, const urban_nav_core::UncertainPose& T_map_base);
   /// At this moment the robot looked for the place in the map and found nothing like it.
   void addNothing(urban_nav_core::StampNs at);

@@ -48,7 +48,7 @@ FrozenMap::FrozenMap(Store& store) : path_(store.path()) {
 std::vector<MapView> FrozenMap::viewsOf(const std::string& camera_words) const {
   std::vector<MapView> views;
   for (const Views& each : views_)
-    if (each.camera == camera_words) views.insert(views.end(), each.views.begin(), each.views.end());
+    if (areOfOneCamera(each.camera, camera_words)) views.insert(views.end(), each.views.begin(), each.views.end());
   if (views.empty()) throw DataError(path_, "its views are of another camera than those of this input", "");
   return views;
 }

@@ -1,9 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "loop_metric/camera_words.hpp"
 
+#include <cmath>
+#include <sstream>
+
 #include "urban_nav_core/io/numbers.hpp"
 
 namespace loop_metric {
+
+namespace {
+
+constexpr double rounding = 1e-6;  // px, m; of a quaternion
+
+}  // namespace
 
 std::string cameraWords(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_base_left) {
   std::string words = std::to_string(camera.left.width) + "x" + std::to_string(camera.left.height);
@@ -12,6 +21,19 @@ std::string cameraWords(const urban_nav_core::StereoCamera& camera, const urban_
                              T_base_left.q().y(), T_base_left.q().z(), T_base_left.q().w()})
     words += " " + urban_nav_core::printNumber(value);
   return words;
+}
+
+bool areOfOneCamera(const std::string& words, const std::string& others) {
+  if (words == others) return true;
+  std::istringstream a(words), b(others);
+  std::string of_a, of_b;
+  for (;;) {
+    const bool more_a = static_cast<bool>(a >> of_a), more_b = static_cast<bool>(b >> of_b);
+    if (!more_a || !more_b) return more_a == more_b;
+    if (of_a == of_b) continue;
+    const auto number_a = urban_nav_core::parseNumber(of_a), number_b = urban_nav_core::parseNumber(of_b);
+    if (!number_a || !number_b || !(std::abs(*number_a - *number_b) <= rounding)) return false;
+  }
 }
 
 }  // namespace loop_metric

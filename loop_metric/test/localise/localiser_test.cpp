@@ -147,6 +147,52 @@ TEST_F(LocaliserTest, ABeliefAloneIsNotKnownAndOneSightingIsNotEnoughForItEither
   expectRight(0.02);
 }
 
+TEST_F(LocaliserTest, AVagueBeliefThatAgreesWithSightingsThatDisagreeMakesNothingKnown) {
+  drive(8);
+  see(2, at(1.0, 1.0));
+  see(6, at(-1.0, -1.0));
+  localiser_.addBelief(4 * kSecond, {truth(4), 9.0 * urban_nav_core::Matrix6d::Identity()});
+  EXPECT_EQ(localiser_.now().knowledge, Knowledge::Unsure) << localiser_.now().sentence;
+}
+
+TEST_F(LocaliserTest, ABeliefMovesNothingThatWasSeen) {
+  drive(8);
+  for (const int second : {1, 3, 5}) see(second);
+  const Located before = localiser_.now();
+  localiser_.addBelief(7 * kSecond, {truth(7) * at(0.3), 0.01 * urban_nav_core::Matrix6d::Identity()});
+  localiser_.addBelief(8 * kSecond, {at(-40.0, 3.0), 1e-4 * urban_nav_core::Matrix6d::Identity()});
+  EXPECT_TRUE(isApprox(*localiser_.now().T_map_base, *before.T_map_base, 0.0));
+  expectRight(0.01);
+}
+
+TEST_F(LocaliserTest, ReasonAndProbabilityFollowWhatWasSeen) {
+  drive(10);
+  EXPECT_EQ(localiser_.now().reason, LocatedReason::NothingSeen);
+  EXPECT_EQ(localiser_.now().probability, 0.0);
+  localiser_.addBelief(0, {truth(0), 0.01 * urban_nav_core::Matrix6d::Identity()});
+  EXPECT_EQ(localiser_.now().reason, LocatedReason::BeliefAlone);
+  const double believed = localiser_.now().probability;
+  EXPECT_LT(believed, 0.5) << "nobody knows how often people are right";
+  see(1);
+  EXPECT_EQ(localiser_.now().reason, LocatedReason::OneSighting);
+  const double one = localiser_.now().probability;
+  EXPECT_GT(one, believed);
+  see(4, at(20.0));
+  EXPECT_EQ(localiser_.now().reason, LocatedReason::OneSighting);
+  EXPECT_LT(localiser_.now().probability, 0.5) << "one against one";
+  see(6);
+  EXPECT_EQ(localiser_.now().reason, LocatedReason::None);
+  const double against_one = localiser_.now().probability;
+  EXPECT_GT(against_one, 0.9);
+  see(8);
+  EXPECT_GT(localiser_.now().probability, against_one);
+  EXPECT_LE(localiser_.now().probability, 1.0);
+  see(9, at(20.0));
+  see(10, at(20.0));
+  EXPECT_EQ(localiser_.now().reason, LocatedReason::Contested);
+  EXPECT_STREQ(toString(localiser_.now().reason), "Contested");
+}
+
 TEST_F(LocaliserTest, AWallAloneIsNoHypothesis) {
   drive(6);
   for (const int second : {1, 3, 5}) {

@@ -16,6 +16,7 @@
 #include "urban_nav_core/testing/motion.hpp"
 #include "urban_nav_core/testing/rendered_sequence.hpp"
 #include "urban_nav_core/testing/textured_room.hpp"
+#include "urban_nav_core/testing/textured_street.hpp"
 #include "urban_nav_ros/closure.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/pose.hpp"
@@ -38,13 +39,32 @@ inline urban_nav_core::testing::RenderedSequence room() {
   options.first_stamp = start;
   return RenderedSequence(texturedRoom(), loop(3.0, 1.5, 1.2, lap / options.rate), options);
 }
+/// The same on another day: a little beside, in dimmer light.
+inline urban_nav_core::testing::RenderedSequence roomOfAnotherDay() {
+  using namespace urban_nav_core::testing;
+  SequenceOptions options;
+  options.rate = 1.25;
+  options.first_stamp = start + 86'400'000'000'000;
+  options.seed = 2;
+  options.gain = [](double) { return 0.8; };
+  return RenderedSequence(texturedRoom(), loop(2.9, 1.4, 1.15, lap / options.rate), options);
+}
+/// Somewhere else.
+inline urban_nav_core::testing::RenderedSequence street() {
+  using namespace urban_nav_core::testing;
+  SequenceOptions options;
+  options.rate = 1.25;
+  options.first_stamp = start + 86'400'000'000'000;
+  return RenderedSequence(texturedStreet(), drive(0.75, 1.2), options);
+}
 
 inline Pose T_base_left() { return Pose(urban_nav_ros::opticalInBody().q(), Eigen::Vector3d(0.1, 0.06, 1.1)); }
 
 /// The ROS graph as the nodelet sees it: a robot with odometry and recognition of places, and a listener who keeps what comes.
 class Robot : public urban_nav_ros::testing::StereoListener {
  public:
-  Robot() : urban_nav_ros::testing::StereoListener("loop_metric"), sequence_(room()) {
+  explicit Robot(urban_nav_core::testing::RenderedSequence sequence = room())
+      : urban_nav_ros::testing::StereoListener("loop_metric"), sequence_(std::move(sequence)) {
     keep("loops/metric", closures);
     keep("loops/matches", pictures);
     keep("loop_metric/status", statuses);

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "urban_nav_ros/stamp.hpp"
-
 namespace pose_graph {
 namespace {
 
@@ -17,27 +15,6 @@ PoseRun straight(int poses, double step) {
   run.session = "s";
   for (int i = 0; i < poses; ++i) run.poses.push_back({i, Pose(Quaterniond::Identity(), {step * i, 0, 0})});
   return run;
-}
-
-TEST(Picture, ThinsToTheSpacingAndKeepsTheEnds) {
-  const PoseRun thin = thinned(straight(101, 0.1), 1.0);
-  EXPECT_EQ(thin.session, "s");
-  EXPECT_NEAR(static_cast<double>(thin.poses.size()), 11.0, 1.0);
-  EXPECT_EQ(thin.poses.front().stamp, 0);
-  EXPECT_EQ(thin.poses.back().stamp, 100);
-  for (std::size_t i = 1; i + 1 < thin.poses.size(); ++i)
-    EXPECT_GE(distanceBetween(thin.poses[i - 1].T_map_base, thin.poses[i].T_map_base), 1.0);
-  EXPECT_EQ(thinned(straight(1, 0.1), 1.0).poses.size(), 1U);
-  EXPECT_TRUE(thinned(PoseRun(), 1.0).poses.empty());
-}
-
-TEST(Picture, ThePathHasTheStampsOfItsPoses) {
-  const nav_msgs::Path path = toPathMessage(straight(3, 2.0), "map");
-  ASSERT_EQ(path.poses.size(), 3U);
-  EXPECT_EQ(path.header.frame_id, "map");
-  EXPECT_EQ(path.header.stamp, urban_nav_ros::toRosTime(2));
-  EXPECT_EQ(path.poses[1].header.stamp, urban_nav_ros::toRosTime(1));
-  EXPECT_EQ(path.poses[1].pose.position.x, 2.0);
 }
 
 TEST(Picture, ClosuresAreDrawnByWhatBecameOfThem) {

@@ -15,10 +15,11 @@ std::string faultsOf(const std::string& stage, const std::vector<RowInfo>& of_st
     if (!so) faults += fault + "\n";
   };
   const std::string yaml = "config/" + stage + ".yaml", readme = readTextFile("README.md");
-  const std::string anew = ": write it anew by the target " + stage + "_documents";
+  const std::string anew = ": write it anew by the package's target *_documents";
   demand(readTextFile(yaml) == printYaml(stage, of_stage), yaml + anew);
   demand(readme == insertMarkdown(readme, "README.md", stage, of_stage), "README.md, the stage" + anew);
-  demand(readme == insertMarkdown(readme, "README.md", "", of_nodelet), "README.md, the nodelet" + anew);
+  demand(of_nodelet.empty() || readme == insertMarkdown(readme, "README.md", "", of_nodelet),
+         "README.md, the nodelet" + anew);
   for (const RowInfo& row : of_stage) {
     demand(!row.source.empty(), row.name + " does not say where it comes from");
     demand(std::none_of(of_nodelet.begin(), of_nodelet.end(), [&](const RowInfo& own) { return own.name == row.name; }),
