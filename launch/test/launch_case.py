@@ -20,6 +20,7 @@ DISPLAYS = {
     "rviz/PointCloud2": ("Topic", "sensor_msgs/PointCloud2"),
     "rviz/Odometry": ("Topic", "nav_msgs/Odometry"),
     "rviz/Pose": ("Topic", "geometry_msgs/PoseStamped"),
+    "rviz/PoseWithCovariance": ("Topic", "geometry_msgs/PoseWithCovarianceStamped"),
 }
 WITHOUT_TOPIC = {"rviz/Grid", "rviz/TF", "rviz/Axes"}
 

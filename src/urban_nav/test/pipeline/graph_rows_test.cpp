@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "store/store_info.hpp"
-#include "urban_nav_store/stored_map.hpp"
 #include "support/folders.hpp"
+#include "urban_nav_store/stored_map.hpp"
 
 namespace urban_nav {
 namespace {
