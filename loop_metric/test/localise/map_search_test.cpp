@@ -99,7 +99,7 @@ TEST_F(MapSearchTest, FindsTheRobotWhateverSomebodyBelieves) {
 }
 
 TEST_F(MapSearchTest, WhatIsNoViewIsALookInVain) {
-  drive(3);
+  drive(1);
   const FrozenMap map(*store_);
   MapSearch search(Parameters(), map, store_->keyframes(), street_.camera(), Pose());
   while (search.readNext()) {
