@@ -9,6 +9,7 @@
 #include "loop_metric/camera_words.hpp"
 #include "loop_metric/consistency.hpp"
 #include "loop_metric/loop_metric.hpp"
+#include "loop_metric/shared_clouds.hpp"
 #include "loop_metric/stored_surroundings.hpp"
 #include "pipeline/closure_picture.hpp"
 #include "pipeline/vo_summary.hpp"
@@ -159,7 +160,11 @@ LoopsRun runLoops(const loop_metric::Parameters& parameters, const StereoCamera&
     progress.update(static_cast<std::int64_t>(first + count));
   }
   progress.finish(static_cast<std::int64_t>(rows.size()));
-  loop_metric::holdAgainstEachOther(closures, workers.take(make)->surroundings, parameters);
+  {
+    const std::unique_ptr<Worker> worker = workers.take(make);
+    loop_metric::holdAgainstEachOther(closures, worker->surroundings, parameters);
+    loop_metric::shareClouds(closures, worker->surroundings, parameters);
+  }
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const bool accepted = closures[i].verdict == ClosureVerdict::Accepted;
     if (!accepted) ++run.rejected;
