@@ -13,13 +13,12 @@ day from its own first pose, which flatters it.
 """
 import argparse
 import json
-import sys
 from pathlib import Path
 
 import numpy as np
 
 import closures
-from support import commit, show, urban_nav
+from support import commit, show, simulated_bag, urban_nav
 
 WAYS = {"relaxed": (), "leaning": ("--set", "pose_graph.gravity=false"), "trusting": ("--set", "pose_graph.robust=false"), "apart": ()}
 COLUMNS = ("world, seed", "way", "driven, m", "true closures kept", "false ones kept", "sessions in one map", "odometry, rms, m", "relaxed, rms, m",
@@ -32,11 +31,7 @@ def driven(folder, case):
     world, seed, *durations = case.split(":")
     bags = []
     for day, duration in enumerate(durations, 1):
-        bag = folder / f"{world}{seed}_day{day}.bag"
-        if not bag.exists():
-            print(f"drives {bag.stem} for {duration} s", file=sys.stderr)
-            urban_nav("simulate", "--world", world, "--seed", seed, "--duration", duration, "--day", day, "--sensors", SENSORS, "-o", bag)
-        bags.append(bag)
+        bags.append(simulated_bag(folder / f"{world}{seed}_day{day}.bag", world, seed, duration, "--day", day, "--sensors", SENSORS))
     return bags
 
 

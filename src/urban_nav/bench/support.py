@@ -17,6 +17,14 @@ def urban_nav(*arguments):
         sys.exit(f"urban_nav {' '.join(map(str, arguments))}:\n{result.stderr[-2000:]}")
 
 
+def simulated_bag(bag, world, seed, duration, *options):
+    """A session as a bag; what is there already is taken."""
+    if not bag.exists():
+        print(f"drives {bag.stem} for {duration} s", file=sys.stderr)
+        urban_nav("simulate", "--world", world, "--seed", seed, "--duration", duration, *options, "-o", bag)
+    return bag
+
+
 def simulated(folder, world, seed, duration, *options):
     """The stereo stream of a session as a KITTI folder; what is there already is taken."""
     if not (folder / "poses.txt").exists():

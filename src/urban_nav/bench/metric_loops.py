@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""From "the same place" to one map: two days in a simulated world with all of `urban_nav map` between odometry and graph, as a user would run it.
+
+Each case is WORLD:SEED and then the days, each SECONDS or SECONDS/ROUTE. The candidates are pairs of moments alone, true ones from the truth (closures.py) and
+false ones; every transform is the stage's own. Two ways to map them:
+  both     as shipped: two views, and clouds where views do not do
+  views    loop_metric.icp=false: two views alone (Figs. 19 and 20 of the paper)
+
+Two tables. KINDS: the true candidates by how the robot came by the second time, what became of them, and how far off the accepted ones are. MAPS: the trajectory of
+all days after relaxation, in one frame with the first pose of the first day upon its truth. Odometry has no such frame: its error is that of each day from its own
+first pose, which flatters it.
+"""
+import argparse
+import csv
+import json
+import sqlite3
+from pathlib import Path
+
+import numpy as np
+
+import bags as bag_reader
+import closures
+from end_to_end import both_truths, root_mean_square
+from support import commit, show, simulated_bag, urban_nav
+from truth import angle, inverse
+
+WAYS = {"both": (), "views": ("--set", "loop_metric.icp=false")}
+KINDS = ("world, seed", "way", "candidates", "count", "by views", "by clouds", "accepted", "wrong", "error, cm: median (95 %)", "deg: median (95 %)",
+         "NEES: mean (median)")
+MAPS = ("world, seed", "way", "driven, m", "false ones in the map", "days in one map", "odometry, rms, m", "mapped, rms, m", "of the way", "times better",
+        "each day rigidly laid upon its truth, m", "between days, m: median (largest)", "NEES of poses", "ms a candidate", "real time, times")
+SENSORS = "stereo,lasers,imu,wheels"
+WRONG_M, WRONG_DEG = 0.5, 3.0
+DIRECTIONS = ("same direction", "across", "opposite direction", "another place")
+
+
+def driven(folder, case):
+    """The bags of all days; what is there already is taken."""
+    world, seed, *days = case.split(":")
+    bags = []
+    for day, (duration, _, route) in enumerate((each.partition("/") for each in days), 1):
+        options = ("--day", day, "--sensors", SENSORS, *(("--route", route) if route else ()))
+        bags.append(simulated_bag(folder / f"{world}{seed}_day{day}.bag", world, seed, duration, *options))
+    return bags
+
+
+def candidates(bags, percent, seed, path):
+    """Writes pairs of moments and nothing else; which of them are true."""
+    sessions = [closures.Session(bag) for bag in bags]
+    rows, true = closures.rows_of(sessions, percent, 0.0, 0.0, seed)
+    path.write_text("".join(",".join(map(str, row[:5])) + "\n" for row in (closures.COLUMNS, *rows)))
+    return true
+
+
+def direction_of(pose, true):
+    if not true:
+        return DIRECTIONS[3]
+    turn = abs(np.degrees(np.arctan2(pose[1, 0], pose[0, 0])))
+    return DIRECTIONS[0] if turn < 45 else DIRECTIONS[2] if turn > 135 else DIRECTIONS[1]
+
+
+def information(store):
+    """Of the closures in a store, by (session a, stamp a, session b, stamp b)."""
+    names = dict(store.execute("SELECT id, name FROM session"))
+    rows = store.execute("SELECT session_a, stamp_a_ns, session_b, stamp_b_ns, information FROM edge WHERE kind IN ('stereo', 'icp')")
+    return {(names[a], i, names[b], j): np.frombuffer(blob, "<f8").reshape(6, 6) for a, i, b, j, blob in rows}
+
+
+def judged(bags, true, out):
+    """Of each candidate: direction, kind, accepted, error in m and deg, squared error by its information over what it knows (None where rejected)."""
+    truths = {bag.stem: closures.Session(bag).truth for bag in bags}
+    with sqlite3.connect(f"file:{out / 'session.db'}?mode=ro", uri=True) as store:
+        known = information(store)
+    result = []
+    with (out / "closures.csv").open() as file:
+        for row, right in zip(csv.DictReader(file), true):
+            key = (row["session_a"], int(row["stamp_a_ns"]), row["session_b"], int(row["stamp_b_ns"]))
+            ends = [truths[key[2 * i]].at([key[2 * i + 1] * 1e-9])[0] for i in range(2)]
+            between = inverse(ends[0]) @ ends[1]
+            accepted = row["verdict"] == "accepted"
+            found = {"direction": direction_of(between, right), "kind": row["kind"], "accepted": accepted}
+            if accepted:
+                pose = np.eye(4)
+                pose[:3, :3] = bag_reader.rotation(np.array([[float(row[name]) for name in ("qx", "qy", "qz", "qw")]]))[0]
+                pose[:3, 3] = [float(row[name]) for name in "xyz"]
+                error = np.r_[pose[:3, 3] - between[:3, 3], closures.cv2.Rodrigues(pose[:3, :3] @ between[:3, :3].T)[0].ravel()]
+                # No weight along what is free: as many directions as the information has, scaled to six.
+                rank = np.linalg.matrix_rank(known[key], hermitian=True)
+                found |= {"m": np.linalg.norm(error[:3]), "deg": np.degrees(np.linalg.norm(error[3:])), "nees": 6 / max(rank, 1) * error @ known[key] @ error}
+            result.append(found)
+    return result
+
+
+def spread(values, scale, digits):
+    return f"{scale * np.median(values):.{digits}f} ({scale * np.quantile(values, 0.95):.{digits}f})"
+
+
+def kinds_of(label, way, judgements):
+    rows = []
+    for direction in DIRECTIONS:
+        these = [each for each in judgements if each["direction"] == direction]
+        taken = [each for each in these if each["accepted"]]
+        if not these:
+            continue
+        row = [label, way, direction, str(len(these)), *(str(sum(each["kind"] == kind for each in taken)) for kind in ("stereo", "icp"))]
+        if direction == DIRECTIONS[3]:
+            rows.append([*row, str(len(taken)), str(len(taken)), "-", "-", "-"])
+            continue
+        wrong = sum(each["m"] > WRONG_M or each["deg"] > WRONG_DEG for each in taken)
+        row += [f"{100 * len(taken) / len(these):.0f} %", str(wrong)]
+        nees = [each["nees"] for each in taken]
+        rows.append([*row, *((spread([each["m"] for each in taken], 100, 1), spread([each["deg"] for each in taken], 1, 2),
+                              f"{np.mean(nees):.1f} ({np.median(nees):.1f})") if taken else ("-", "-", "-"))])
+    return rows
+
+
+def trajectory(path):
+    rows = np.loadtxt(path)
+    return rows[:, 0], rows[:, 1:4]
+
+
+def between_days(bags, out):
+    """How far apart the map puts the days, beside the truth, where both were: (m) of each look of a later day at a place of the first one."""
+    sessions = [closures.Session(bag) for bag in bags]
+    stamps, places = trajectory(out / "trajectory.tum")
+
+    def mapped(stamp):
+        return np.array([np.interp(stamp * 1e-9, stamps, places[:, i]) for i in range(3)])
+    gaps = []
+    for later in sessions[1:]:
+        for a, b in closures.in_common(sessions[0], later):
+            truth = [session.at([stamp])[0][:3, 3] for session, stamp in ((sessions[0], a), (later, b))]
+            gaps.append(abs(np.linalg.norm(mapped(b) - mapped(a)) - np.linalg.norm(truth[1] - truth[0])))
+    return gaps
+
+
+def map_of(label, way, bags, judgements, out, folder):
+    summary = json.loads((out / "summary.json").read_text())
+    urban_nav("evaluate", "--truth", both_truths(bags, folder / "truth.tum"), "--estimate", out / "trajectory.tum", "--json", out / "errors.json")
+    errors, graph = json.loads((out / "errors.json").read_text()), summary["pose_graph"]
+    days = graph["per_session"]
+    frames = [day["frames"] for day in days]
+    before, after = root_mean_square([day["ate_m_odometry"] for day in days], frames), errors["ate_m"]
+    lengths = [np.linalg.norm(np.diff(closures.Session(bag).places, axis=0), axis=1).sum() for bag in bags]
+    false = [each["accepted"] for each in judgements if each["direction"] == DIRECTIONS[3]]
+    gaps = between_days(bags, out)
+    return [label, way, " + ".join(f"{length:.0f}" for length in lengths), f"{sum(false)} of {len(false)}", f"{graph['sessions_joined']} of {len(days)}", f"{before:.3f}",
+            f"{after:.3f}", f"{100 * after / sum(lengths):.3f} %", f"{before / after:.1f}", ", ".join(f"{day['ate_se3_m']:.3f}" for day in days),
+            f"{np.median(gaps):.3f} ({max(gaps):.3f})" if gaps else "-", f"{np.average([day['nees'] for day in days], weights=frames):.1f}",
+            f"{summary['loop_metric']['ms_median']:.0f}", f"{summary['realtime_factor']:.1f}"]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=Path, help="for what is simulated and mapped; sessions that are there already are taken")
+    parser.add_argument("--case", action="append", help="WORLD:SEED:SECONDS[/ROUTE]:..., repeatable (default quad:7:300:300/reversed)")
+    parser.add_argument("--way", action="append", choices=WAYS, help="repeatable (default: all)")
+    parser.add_argument("--false", type=float, default=20.0, metavar="PERCENT", help="false candidates, of the number of true ones (default 20)")
+    parser.add_argument("--seed", type=int, default=1, help="of the false ones")
+    parser.add_argument("--kinds", type=Path, help="the table of candidates, for a README")
+    parser.add_argument("--maps", type=Path, help="the table of maps, for a README")
+    arguments = parser.parse_args()
+    measured = commit()
+    arguments.folder.mkdir(parents=True, exist_ok=True)
+    kinds, maps = [], []
+    for case in arguments.case or ["quad:7:300:300/reversed"]:
+        bags, label = driven(arguments.folder, case), " ".join(case.split(":")[:2])
+        for way in arguments.way or WAYS:
+            out = arguments.folder / f"{bags[0].stem.rsplit('_', 1)[0]}_{way}"
+            true = candidates(bags, arguments.false, arguments.seed, arguments.folder / f"{out.name}.csv")
+            urban_nav("map", *bags, "--closures", arguments.folder / f"{out.name}.csv", "--truth", both_truths(bags, arguments.folder / "truth.tum"), "--out", out, *WAYS[way])
+            judgements = judged(bags, true, out)
+            kinds += kinds_of(label, way, judgements)
+            maps.append(map_of(label, way, bags, judgements, out, arguments.folder))
+    notes = [f"{arguments.false:.0f} % as many false candidates as true ones, seed {arguments.seed}. Wrong: off by more than {WRONG_M} m or {WRONG_DEG:.0f} deg. NEES: 6 is right, 5.3 its median."]
+    show(KINDS, kinds, notes, measured, arguments.kinds)
+    show(MAPS, maps, ["Between days: how much further apart or nearer the map puts two days than the truth, where both were. NEES: 6 is right."], measured, arguments.maps)
+
+
+if __name__ == "__main__":
+    main()
