@@ -29,6 +29,12 @@ inline std::uint64_t keyOf(const Cell& cell) {
   return part(cell.x) | part(cell.y) << 21U | part(cell.z) << 42U;
 }
 
+/// The key of the cell that lies by `offset` beside that of `key`.
+inline std::uint64_t keyBeside(std::uint64_t key, const Cell& offset) {
+  const auto part = [](int i) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(i)); };
+  return key + part(offset.x) + (part(offset.y) << 21U) + (part(offset.z) << 42U);
+}
+
 /// From cells to numbers 0, 1, 2, ... in the order in which they came: open addressing, so that a look-up is one or two reads.
 class CellTable {
  public:

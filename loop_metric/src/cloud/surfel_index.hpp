@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -32,6 +33,8 @@ class SurfelIndex {
   CellTable table_;
   std::vector<std::uint32_t> begins_;  // of each cell in sorted_; one more at the end
   std::vector<Surfel> sorted_;
+  std::array<std::vector<float>, 6>
+      lanes_;  // x, y, z of the means and of the normals in that order, and a few more at the end
 };
 
 }  // namespace loop_metric

@@ -24,9 +24,8 @@ struct Match {
 
 /// d residual / d (rho, phi) of T_target_source = [Exp(phi) R, t + rho] for a plane of this normal: (n, lever x n).
 inline Vector6d planeJacobian(const Vector3d& lever, const Vector3d& normal) {
-  Vector6d row;
-  row << normal, lever.cross(normal);
-  return row;
+  const Vector3d turn = lever.cross(normal);
+  return (Vector6d() << normal.x(), normal.y(), normal.z(), turn.x(), turn.y(), turn.z()).finished();
 }
 
 /// Source surfels beside their counterparts, pose after pose: a counterpart is looked for anew only where the surfel has moved by more than leaves

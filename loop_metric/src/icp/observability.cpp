@@ -28,9 +28,8 @@ struct Scaled {
   Matrix6d S = Matrix6d::Identity(), S_inverse = Matrix6d::Identity();
 
   Vector6d row(const Match& match, const Vector3d& normal) const {
-    Vector6d row;
-    row << normal, (match.lever - centre).cross(normal) / length;
-    return row;
+    const Vector3d turn = (match.lever - centre).cross(normal) / length;
+    return (Vector6d() << normal.x(), normal.y(), normal.z(), turn.x(), turn.y(), turn.z()).finished();
   }
 };
 
@@ -55,11 +54,18 @@ Scaled scaledOf(const std::vector<Match>& matches, double sigma) {
   return scaled;
 }
 
+/// A match of weight as all that follows sees it.
+struct Row {
+  Vector6d from_target, from_source;
+  double weight;            ///< share of all
+  std::uint32_t patch = 0;  ///< of surface, that it belongs to
+};
+
 /// Means over the matches, and sums over each patch of surface, whose errors go together.
 struct Sums {
   Matrix6d agreed = Matrix6d::Zero();   // mean of J_source J_target^T, symmetric part
   Matrix6d normal = Matrix6d::Zero();   // mean of J_target J_target^T
-  std::vector<std::uint32_t> patches;   // of each match of weight, in order
+  std::vector<Row> rows;                // of each match of weight, in order
   std::vector<Vector6d> pull_by_patch;  // sum of weight J_target: what an error of the whole patch pulls by
   std::vector<double> weight_by_patch, residual_by_patch;  // the latter a weighted mean, m
 
@@ -70,6 +76,7 @@ struct Sums {
 Sums sumsOf(const std::vector<Match>& matches, const Scaled& scaled, double sigma, double patch) {
   Sums sums;
   CellTable patches(matches.size() / 4 + 16);
+  sums.rows.reserve(matches.size());
   for (const Match& match : matches) {
     const double weight = robustWeight(match, sigma) / scaled.weight;
     if (!(weight > 0.0)) continue;
@@ -80,9 +87,9 @@ Sums sumsOf(const std::vector<Match>& matches, const Scaled& scaled, double sigm
       sums.weight_by_patch.push_back(0.0);
       sums.residual_by_patch.push_back(0.0);
     }
-    sums.patches.push_back(number);
     const Vector6d from_target = scaled.row(match, match.target_normal),
                    from_source = scaled.row(match, match.source_normal);
+    sums.rows.push_back({from_target, from_source, weight, number});
     sums.agreed += 0.5 * weight * (from_source * from_target.transpose() + from_target * from_source.transpose());
     sums.normal += weight * from_target * from_target.transpose();
     sums.pull_by_patch[number] += weight * from_target;
@@ -107,16 +114,12 @@ double Sums::errorOfPatches() const {
 
 /// Deviation of u^T agreed u by the noise of the normals, which is what the two differ by: of the product (a + e1)(a + e2) it is
 /// sqrt(a^2 e^2 + e^4 / 4) with e = e1 - e2. Neighbours share their noise, so it adds up within a patch.
-double noiseOf(const std::vector<Match>& matches, const Scaled& scaled, const Sums& sums, double sigma,
-               const Vector6d& u) {
+double noiseOf(const Sums& sums, const Vector6d& u) {
   std::vector<double> by_patch(sums.pull_by_patch.size(), 0.0);
-  std::size_t at = 0;
-  for (const Match& match : matches) {
-    const double weight = robustWeight(match, sigma) / scaled.weight;
-    if (!(weight > 0.0)) continue;
-    const double a = u.dot(scaled.row(match, match.target_normal)), b = u.dot(scaled.row(match, match.source_normal));
+  for (const Row& row : sums.rows) {
+    const double a = u.dot(row.from_target), b = u.dot(row.from_source);
     const double e2 = (a - b) * (a - b);
-    by_patch[sums.patches[at++]] += weight * std::sqrt(e2 * (std::abs(a * b) + 0.25 * e2));
+    by_patch[row.patch] += row.weight * std::sqrt(e2 * (std::abs(a * b) + 0.25 * e2));
   }
   double squares = 0.0;
   for (const double noise : by_patch) squares += noise * noise;
@@ -138,7 +141,7 @@ Observability observe(const std::vector<Match>& matches, double sigma, const Dou
   for (int i = 0; i < 6; ++i) {
     const Vector6d u = eigen ? Vector6d(eigen->vectors.col(i)) : Vector6d(Vector6d::Unit(i));
     const double mean = eigen ? eigen->values[i] : 0.0;
-    const double sure = mean - 2.0 * noiseOf(matches, scaled, sums, sigma, u);
+    const double sure = mean - 2.0 * noiseOf(sums, u);
     if (i == 0) observed.weakest = mean > 0.0 ? bias / std::sqrt(mean) : 1e3;
     if (sure > least) {
       held += u * u.transpose();
