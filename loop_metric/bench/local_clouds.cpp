@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What becomes of pairs of local clouds without a guess: how many are aligned by how far apart and how turned the robot was, how wrong those are, how far their
 // information is to be believed (NEES: as many as directions are held), and what is made of pairs of different places.
-//   loop_metric-bench-local_clouds FOLDER... [--true N] [--false N] [--list] [--set loop_metric.NAME=VALUE]... [-o results/local_clouds.json]
-// FOLDER: clouds with places.csv, such as urban_nav_sim-bench-local_clouds makes.
+//   loop_metric-bench-local_clouds FOLDER... [--true N] [--false N] [--list] [--unknown] [--set loop_metric.NAME=VALUE]... [-o results/local_clouds.json]
+// FOLDER: clouds with places.csv, such as urban_nav_sim-bench-local_clouds makes. --unknown: as `urban_nav icp` has clouds out of files, without what odometry says of their bend.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -33,7 +33,7 @@ struct Options {
   std::vector<std::string> folders, sets;
   std::string output;
   std::size_t true_pairs = 100, false_pairs = 500;
-  bool list = false;
+  bool list = false, unknown = false;
 };
 
 Options parse(int argc, char** argv) {
@@ -45,6 +45,7 @@ Options parse(int argc, char** argv) {
     else if (word == "--set" && i + 1 < argc) options.sets.push_back(argv[++i]);
     else if (word == "-o" && i + 1 < argc) options.output = argv[++i];
     else if (word == "--list") options.list = true;
+    else if (word == "--unknown") options.unknown = true;
     else options.folders.push_back(word);
   }
   return options;
@@ -144,7 +145,7 @@ class Program {
     const Pose truth = places[i].T_world_base.inverse() * places[j].T_world_base;
     const double before = processorMs();
     Known known;
-    known.bend = std::hypot(places[i].bend, places[j].bend);
+    if (!options_.unknown) known.bend = std::hypot(places[i].bend, places[j].bend);
     const Alignment alignment = align(places[j].cloud, places[i].cloud, parameters_, {}, Search::AtOnce, known);
     tally.ms.push_back(processorMs() - before);
     ++tally.pairs;

@@ -23,17 +23,18 @@ constexpr std::size_t kFewSurfaces = 25;
 constexpr float kFreeCube = 2.0F;  // voxels: a beam's neighbours in the next scans go through the same cube
 
 /// What clouds that were gathered by odometry tell beyond their surfaces.
-struct Gatherings {
+struct Spaces {
   FreeSpace of_source, of_target;
-  Spread explained;  ///< m: residuals that noise and bend make
 
-  Gatherings(const PointCloud& source, const PointCloud& target, double bend, float voxel)
-      : of_source(source, kFreeCube * voxel), of_target(target, kFreeCube * voxel) {
-    const Spread a = noiseOf(source, voxel), b = noiseOf(target, voxel);
-    explained = {std::max(std::hypot(a.all, b.all, bend), 1e-9),
-                 std::max(std::hypot(a.upright, b.upright, bend), 1e-9)};
-  }
+  Spaces(const PointCloud& source, const PointCloud& target, float voxel)
+      : of_source(source, kFreeCube * voxel), of_target(target, kFreeCube * voxel) {}
 };
+
+/// m: residuals that noise and bend make.
+Spread explainedBy(const PointCloud& source, const PointCloud& target, double bend, float voxel) {
+  const Spread a = noiseOf(source, voxel), b = noiseOf(target, voxel);
+  return {std::max(std::hypot(a.all, b.all, bend), 1e-9), std::max(std::hypot(a.upright, b.upright, bend), 1e-9)};
+}
 
 /// Everything about the two clouds that does not depend on the pose.
 struct Pair {
@@ -43,7 +44,8 @@ struct Pair {
   Source source;
   const Parameters& parameters;
   const Possible& possible;
-  std::optional<Gatherings> gatherings;
+  std::optional<Spread> explained;  ///< where it is asked for
+  std::optional<Spaces> spaces;     ///< of gathered clouds
 };
 
 struct Try {
@@ -59,23 +61,26 @@ Try tryFrom(const Pair& pair, const Pose& start, std::size_t first, std::size_t 
 }
 
 Observability observedOf(const Try& made, const Pair& pair) {
-  const double bias = pair.gatherings ? pair.gatherings->explained.all : pair.parameters.laser_bias;
+  const double bias = pair.spaces ? pair.explained->all : pair.parameters.laser_bias;
   return observedOf(made.refined, bias, static_cast<double>(pair.source_surfels.voxel), pair.parameters);
 }
 
-std::optional<Gathered> gatheredOf(const Try& made, const Pair& pair) {
-  if (!pair.gatherings) return std::nullopt;
-  const Gatherings& known = *pair.gatherings;
+std::optional<Plausibility> plausibilityOf(const Try& made, const Pair& pair) {
+  if (!pair.explained) return std::nullopt;
   const Spread spread = spreadsOf(made.refined.matches);
-  return Gathered{spread.all / known.explained.all, spread.upright / known.explained.upright,
-                  seenThrough(pair.source_surfels.all, pair.target_surfels.all, known.of_source, known.of_target,
-                              made.refined, pair.parameters.inlier_distance)
-                      .share()};
+  Plausibility plausibility;
+  plausibility.misfit = spread.all / pair.explained->all;
+  plausibility.upright_misfit = spread.upright / pair.explained->upright;
+  if (pair.spaces)
+    plausibility.seen_through = seenThrough(pair.source_surfels.all, pair.target_surfels.all, pair.spaces->of_source,
+                                            pair.spaces->of_target, made.refined, pair.parameters.inlier_distance)
+                                    .share();
+  return plausibility;
 }
 
 bool isPossible(const Try& made, const Pair& pair) {
-  const std::optional<Gathered> gathered = gatheredOf(made, pair);
-  if (gathered && !isPlausible(*gathered, pair.parameters)) return false;
+  const std::optional<Plausibility> plausibility = plausibilityOf(made, pair);
+  if (plausibility && !isPlausible(*plausibility, pair.parameters)) return false;
   return !pair.possible || pair.possible({made.refined.T_target_source, observedOf(made, pair).information});
 }
 
@@ -88,11 +93,13 @@ bool mayBe(const Pose& candidate, const Pair& pair) {
   return pair.possible(rough);
 }
 
-Alignment judged(const Try& made, const Pair& pair, Alignment alignment) {
+Alignment judged(const Try& made, const Pair& pair, Alignment alignment, bool is_alone = false) {
   alignment.T_target_source = made.refined.T_target_source;
   alignment.iterations += made.refined.iterations;
   const Observability observed = observedOf(made, pair);
-  judge(made.fit, gatheredOf(made, pair), made.refined, observed, pair.parameters, alignment);
+  std::optional<Plausibility> plausibility = plausibilityOf(made, pair);
+  if (plausibility) plausibility->is_alone = is_alone;
+  judge(made.fit, plausibility, made.refined, observed, pair.parameters, alignment);
   if (alignment.verdict != Verdict::Rejected && pair.possible &&
       !pair.possible({made.refined.T_target_source, observed.information}))
     reject(alignment, Reason::Impossible, "the surfaces fit, but at a pose that is known to be wrong");
@@ -179,6 +186,7 @@ std::vector<Try> triesOf(const Pair& pair, const std::vector<Candidate>& candida
 /// The best of the candidates, and how the best different one compares with it.
 Alignment searched(const Pair& pair, const Pose& guess, Alignment alignment, const Try* first,
                    const std::vector<Candidate>& candidates) {
+  constexpr double kNear = 0.7;  // of the answer's score: below, a rival is none, which allows for less to be shared
   std::vector<Try> tries = triesOf(pair, candidates);
   if (first != nullptr) tries.insert(tries.begin(), *first);
   if (tries.empty()) tries.push_back(tryFrom(pair, guess, 0, pair.source.steps().size()));
@@ -192,12 +200,13 @@ Alignment searched(const Pair& pair, const Pose& guess, Alignment alignment, con
     if (alignment.verdict != Verdict::Rejected) reject(alignment, Reason::Impossible, "no pose that can be was found");
     return alignment;
   }
-  alignment = judged(*found, pair, alignment);
-  alignment.searched = true;
+  const Alignment first_judged = judged(*found, pair, alignment);
   const auto second = std::find_if(found + 1, tries.end(), [&](const Try& made) {
-    return isAnother(made.refined.T_target_source, alignment) && possible(made);
+    return isAnother(made.refined.T_target_source, first_judged) && possible(made);
   });
   const double share = second == tries.end() ? 0.0 : second->fit.score() / std::max(found->fit.score(), 1e-9);
+  alignment = share < kNear ? judged(*found, pair, alignment, true) : first_judged;
+  alignment.searched = true;
   if (second != tries.end()) alignment.rival = Rival{second->refined.T_target_source, share};
   alignment.tests.push_back(
       {"second_pose", share, pair.parameters.max_second, false, share <= pair.parameters.max_second});
@@ -223,19 +232,30 @@ Alignment align(const PointCloud& source, const PointCloud& target, const Parame
   if (!checkClouds(surfels[0], surfels[1], alignment)) return alignment;
   Target index(surfels[1], parameters.reach);
   Source steps(surfels[0], index);
-  Pair pair{surfels[0], surfels[1], std::move(index), std::move(steps), parameters, known.possible, {}};
-  if (known.bend && !source.origins.empty() && !target.origins.empty())
-    pair.gatherings.emplace(source, target, *known.bend, static_cast<float>(parameters.voxel));
+  Pair pair{surfels[0], surfels[1], std::move(index), std::move(steps), parameters, known.possible, {}, {}};
+  const auto voxel = static_cast<float>(parameters.voxel);
+  if (known.bend && !source.origins.empty() && !target.origins.empty()) {
+    pair.explained = explainedBy(source, target, *known.bend, voxel);
+    pair.spaces.emplace(source, target, voxel);
+  }
+  const auto explain = [&] {
+    if (!pair.explained) pair.explained = explainedBy(source, target, parameters.laser_bias, voxel);
+  };
   const auto look = [&](const Vector3d& centre, const Grain& grain) {
     return searchGlobally(surfels[0], surfels[1], centre, parameters.search_radius, grain);
   };
-  if (search == Search::AtOnce) return searched(pair, guess, alignment, nullptr, look(guess.t(), kFine));
+  if (search == Search::AtOnce) {
+    explain();
+    return searched(pair, guess, alignment, nullptr, look(guess.t(), kFine));
+  }
   const Try first = tryFrom(pair, guess, 0, pair.source.steps().size());
   const Alignment local = judged(first, pair, alignment);
   if (search == Search::Never || local.verdict == Verdict::Degenerate) return local;
-  if (local.verdict == Verdict::Rejected) return searched(pair, guess, alignment, &first, look(guess.t(), kFine));
-  const std::vector<Candidate> others = rivalsOf(local, look(guess.t(), kCoarse));
-  return others.empty() ? local : searched(pair, guess, alignment, &first, others);
+  const bool failed = local.verdict == Verdict::Rejected;
+  const std::vector<Candidate> others = failed ? look(guess.t(), kFine) : rivalsOf(local, look(guess.t(), kCoarse));
+  if (!failed && others.empty()) return local;
+  explain();
+  return searched(pair, guess, alignment, &first, others);
 }
 
 const char* toString(Verdict verdict) {

@@ -73,6 +73,8 @@ const Table<Parameters>& table() {
            "The same among those that stand upright, since ground falls upon ground anywhere; not tested where there are few.", "section 4.2; measured"},
           {"max_misfit", &P::max_misfit, "", 1.25, 1.0, 100.0, {},
            "Clouds that were gathered by odometry: largest residual, as a multiple of what their own noise and odometry's drift explain.", "section 4.2: final residual norm; 99 of 100 right ones in loop_metric/bench, local_clouds"},
+          {"max_unknown_misfit", &P::max_unknown_misfit, "", 2.0, 1.0, 100.0, {},
+           "Clouds out of files, which may be bent by more than is known: the same of what a search finds, with laser_bias for the bend.", "section 4.2: final residual norm; measured"},
           {"min_shared", &P::min_shared, "", 0.15, 0.0, 1.0, {},
            "And smallest share of inliers among the source's upright surfaces: takes the place of min_inliers and min_upright_inliers there.", "loop_metric/bench, local_clouds"},
           {"max_seen_through", &P::max_seen_through, "", 0.12, 0.0, 1.0, {},

@@ -176,6 +176,50 @@ TEST(Align, whatBeamsWentThroughIsNoWall) {
   }
 }
 
+/// What is seen by a sensor that looks ahead alone, to `half_deg` on both sides.
+PointCloud ahead(const PointCloud& cloud, double half_deg) {
+  PointCloud kept;
+  for (const Eigen::Vector3f& point : cloud.points)
+    if (std::abs(std::atan2(point.y(), point.x())) < half_deg / kDeg) kept.points.push_back(point);
+  return kept;
+}
+
+TEST(Align, whereNothingElseComesNearLessOfTheSurfacesWillDo) {
+  int alone = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    Pair pair = pairOf(courtyard(seed), stand(1.0, 0.5, 5.0), stand(0.3, 0.1, 0.0), seed);
+    pair.target = ahead(pair.target, 70.0);
+    EXPECT_EQ(align(pair.source, pair.target, {}, {}, Search::Never).reason, Reason::TooFewInliers)
+        << "it tests nothing";
+    const Alignment alignment = align(pair.source, pair.target, {});
+    EXPECT_TRUE(alignment.searched);
+    if (alignment.rival && alignment.rival->share > 0.7) {
+      EXPECT_EQ(alignment.verdict, Verdict::Rejected);
+      continue;
+    }
+    ++alone;
+    EXPECT_EQ(alignment.verdict, Verdict::Accepted) << alignment.sentence;
+    EXPECT_LT(distanceBetween(alignment.T_target_source, pair.truth), 0.02);
+    EXPECT_LT(squaredDeviations(alignment, pair.truth), 22.5);
+  }
+  EXPECT_GE(alone, 2);
+}
+
+TEST(Align, whatASearchFindsIsNoBetterThanNoiseLetsIt) {
+  const PointCloud court = scan(panelledCourt(1), stand(1.0, 0.5, 5.0), {}, 1),
+                   again = scan(panelledCourt(1), stand(-0.5, 0.3, 95.0), {}, 2),
+                   alike = scan(panelledCourt(51), stand(-0.5, 0.3, 95.0), {}, 2);
+  Parameters strict;  // the fronts differ by centimetres
+  strict.laser_bias = 0.001;
+  strict.max_unknown_misfit = 1.25;
+  EXPECT_EQ(align(court, again, strict, {}, Search::AtOnce).verdict, Verdict::Accepted);
+  EXPECT_EQ(align(court, alike, {}, {}, Search::AtOnce).verdict, Verdict::Accepted) << "it tests nothing";
+  const Alignment alignment = align(court, alike, strict, {}, Search::AtOnce);
+  EXPECT_EQ(alignment.verdict, Verdict::Rejected);
+  EXPECT_EQ(alignment.reason, Reason::Misfit) << alignment.sentence;
+  expectFinite(alignment);
+}
+
 TEST(Align, whereNothingIsPossibleItSaysSo) {
   const Pair pair = pairOf(courtyard(1), stand(1.0, 0.5, 5.0), stand(0.3, 0.1, 0.0), 1);
   const auto never = [](const urban_nav_core::Constraint&) { return false; };

@@ -37,6 +37,7 @@ struct Parameters {
   double min_inliers;          // share
   double min_upright_inliers;  // share
   double max_misfit;           // of what noise explains
+  double max_unknown_misfit;   // the same
   double min_shared;           // share
   double max_seen_through;     // share
   int min_surfels;             // with a counterpart

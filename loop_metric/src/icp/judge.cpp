@@ -11,6 +11,8 @@ namespace {
 constexpr double kFewUpright = 20.0;  // pieces: fewer say nothing
 constexpr double kUprightMisfit =
     2.5;  // times max_misfit: cubes blur the edges of fronts, otherwise from each viewpoint
+constexpr double kEnoughAlone =
+    0.67;  // of min_upright_inliers, where nothing else comes near: leaves and crowds fall upon themselves by a third
 constexpr double kStillMoving = 0.005;  // m in the last step
 constexpr double kPatchVoxels = 8.0;    // 2 m of 0.25 m: neighbours whose normals have no beam in common
 
@@ -63,13 +65,14 @@ void reject(Alignment& alignment, Reason reason, const std::string& sentence) {
   alignment.covariance = unlimited.asDiagonal();
 }
 
-bool isPlausible(const Gathered& gathered, const Parameters& parameters) {
-  return gathered.misfit <= parameters.max_misfit &&
-         gathered.upright_misfit <= kUprightMisfit * parameters.max_misfit &&
-         gathered.seen_through <= parameters.max_seen_through;
+bool isPlausible(const Plausibility& plausibility, const Parameters& parameters) {
+  if (!plausibility.seen_through) return plausibility.misfit <= parameters.max_unknown_misfit;
+  return plausibility.misfit <= parameters.max_misfit &&
+         plausibility.upright_misfit <= kUprightMisfit * parameters.max_misfit &&
+         *plausibility.seen_through <= parameters.max_seen_through;
 }
 
-void judge(const Fit& fit, const std::optional<Gathered>& gathered, const Refined& refined,
+void judge(const Fit& fit, const std::optional<Plausibility>& plausibility, const Refined& refined,
            const Observability& observed, const Parameters& parameters, Alignment& alignment) {
   Failure failure{Reason::None, ""};
   const auto test = [&](const char* name, double value, double threshold, bool at_least, Reason reason,
@@ -84,20 +87,24 @@ void judge(const Fit& fit, const std::optional<Gathered>& gathered, const Refine
   test("residual_m", refined.sigma, parameters.max_residual, false, Reason::ResidualTooLarge,
        "the surfaces do not fall upon each other");
   const bool upright = fit.upright >= kFewUpright;
-  if (gathered) {
-    test("misfit", gathered->misfit, parameters.max_misfit, false, Reason::Misfit,
+  if (plausibility && plausibility->seen_through) {
+    test("misfit", plausibility->misfit, parameters.max_misfit, false, Reason::Misfit,
          "the surfaces lie further apart than noise and odometry explain");
-    test("upright_misfit", gathered->upright_misfit, kUprightMisfit * parameters.max_misfit, false, Reason::Misfit,
+    test("upright_misfit", plausibility->upright_misfit, kUprightMisfit * parameters.max_misfit, false, Reason::Misfit,
          "the upright surfaces lie further apart than noise and odometry explain");
-    test("seen_through", gathered->seen_through, parameters.max_seen_through, false, Reason::SeenThrough,
+    test("seen_through", *plausibility->seen_through, parameters.max_seen_through, false, Reason::SeenThrough,
          "beams of one cloud went through surfaces of the other");
     test("shared", upright ? fit.upright_inliers : fit.inliers, parameters.min_shared, true, Reason::TooFewInliers,
          "too few of the surfaces fall upon each other");
   } else {
+    if (plausibility)
+      test("misfit", plausibility->misfit, parameters.max_unknown_misfit, false, Reason::Misfit,
+           "the surfaces lie further apart than noise explains");
+    const double enough = plausibility && plausibility->is_alone ? kEnoughAlone : 1.0;
     test("inliers", fit.inliers, parameters.min_inliers, true, Reason::TooFewInliers,
          "too few of the surfaces fall upon each other");
     if (upright)
-      test("upright_inliers", fit.upright_inliers, parameters.min_upright_inliers, true, Reason::TooFewInliers,
+      test("upright_inliers", fit.upright_inliers, enough * parameters.min_upright_inliers, true, Reason::TooFewInliers,
            "too few of the upright surfaces fall upon each other");
   }
   test("last_step_m", refined.usable ? refined.last_step : 1e3, kStillMoving, false, Reason::NotConverged,

@@ -23,16 +23,20 @@ Fit fitOf(const std::vector<Surfel>& source, const Refined& refined, const Param
 /// What the matches of an alignment hold. `bias`: what all of a cloud's points may be off together, m.
 Observability observedOf(const Refined& refined, double bias, double voxel, const Parameters& parameters);
 
-/// What is known of an alignment of clouds that were gathered by odometry, with the origins of their beams.
-struct Gathered {
+/// What is known of an alignment beside how its surfaces fall upon each other.
+struct Plausibility {
   double misfit = 0.0;          ///< residual, as a multiple of what noise and bend explain
   double upright_misfit = 0.0;  ///< the same of upright surfaces
-  double seen_through = 0.0;    ///< share of upright surfaces that beams of the other cloud went through
+  /// Share of upright surfaces that beams of the other cloud went through; only of clouds that were gathered by odometry and know the origins of
+  /// their beams and by how much they may be bent.
+  std::optional<double> seen_through;
+  /// Of clouds that know neither: a search found no other pose that fits nearly as well.
+  bool is_alone = false;
 };
-bool isPlausible(const Gathered& gathered, const Parameters& parameters);
+bool isPlausible(const Plausibility& plausibility, const Parameters& parameters);
 
-/// Fills in the verdict, its reason, the tests, information and covariance.
-void judge(const Fit& fit, const std::optional<Gathered>& gathered, const Refined& refined,
+/// `plausibility`: none where only the surfaces are to be judged. Fills in the verdict, its reason, the tests, information and covariance.
+void judge(const Fit& fit, const std::optional<Plausibility>& plausibility, const Refined& refined,
            const Observability& observed, const Parameters& parameters, Alignment& alignment);
 
 /// No pose: nothing is known of any direction.

@@ -15,7 +15,7 @@ constexpr double kLeastSigmaShare =
 constexpr double kDamping =
     5e-4;  // of the sum over the three directions; a direction counts as held above 1e-2 (observability.hpp)
 constexpr double kRelaxation =
-    1.8;  // of a step: Cauchy's weights are twice as stiff as his cost (1.9 times at Gaussian residuals of its scale), and any factor below 2 takes the cost down (Ortega and Rheinboldt 1970)
+    1.8;  // of a step: Cauchy's weights are twice as stiff as his cost (1.9 times at Gaussian residuals of its scale), and what they stand for is a bound from above, which any factor below 2 takes down
 constexpr double kRest = 2e-4;        // m that the planes' distances still change by
 constexpr double kCoarseRest = 5e-3;  // of the reach, before the last step
 
