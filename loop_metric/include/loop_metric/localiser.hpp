@@ -30,6 +30,7 @@ enum class LocatedReason {
   OneSighting = 4,   ///< and no second one that agrees
   Contested = 5,     ///< as many sightings say that it is elsewhere
   TooLongAgo = 6,    ///< odometry since the last sighting is not good enough
+  NotSeenAgain = 7,  ///< the map has views of where it should be, and what it sees is something else
 };
 /// "None", "NothingSeen", ...
 const char* toString(LocatedReason reason);
@@ -51,8 +52,9 @@ struct Located {
 /// Finds a robot in a map that stays as it is: from closures between a place of the map and a moment of its drive, and from odometry in between.
 ///
 /// Sightings that agree with each other along odometry are one hypothesis. KNOWN takes two of one hypothesis at places half a metre apart or more, and none that has as many
-/// witnesses beside it: one false sighting never moves the robot, two that agree against it take the hypothesis over. The map's own poses are taken as exact to
-/// Parameters::map_sigma. Not thread-safe. The same calls give the same bits.
+/// witnesses beside it: one false sighting never moves the robot. A robot that was carried elsewhere is found again: two sightings in a row that agree against all before them end KNOWN,
+/// a third one makes them the truth, and what was seen before them is forgotten. The map's own poses are taken as exact to Parameters::map_sigma. Memory is bounded: what lies
+/// more than some thousand steps of odometry back is forgotten. Not thread-safe. The same calls give the same bits.
 class Localiser {
  public:
   explicit Localiser(const Parameters& parameters);
@@ -66,8 +68,9 @@ class Localiser {
   /// What somebody believes (initialpose): the best guess until something is seen, and where to look first. It is no evidence: it makes nothing KNOWN, and adds nothing to
   /// the pose.
   void addBelief(urban_nav_core::StampNs at, const urban_nav_core::UncertainPose& T_map_base);
-  /// At this moment the robot looked for the place in the map and found nothing like it.
-  void addNothing(urban_nav_core::StampNs at);
+  /// At this moment the robot looked for the place in the map and found nothing like it. `expected`: the map has a view of where it believes to be that it should have
+  /// recognised; three of them in a row end KNOWN.
+  void addNothing(urban_nav_core::StampNs at, bool expected);
 
   /// At the newest frame of odometry.
   Located now() const;
@@ -91,11 +94,16 @@ class Localiser {
   urban_nav_core::UncertainPose fuse(const Hypothesis& hypothesis, urban_nav_core::StampNs stamp) const;
   void add(const Sighting& sighting);
   void choose();
+  /// Witnesses of the newest sighting's hypothesis, where all of the best one's saw before them.
+  int against() const;
+  void forgetOldSteps();
 
   Parameters parameters_;
+  std::vector<urban_nav_core::RelativePose> steps_;  // of odometry_
   urban_nav_core::OdometryChain odometry_;
   std::vector<Sighting> sightings_;  // the latest, in order of time
-  std::vector<urban_nav_core::StampNs> nothing_;
+  int nothing_ = 0;                  // looks in a row that showed nothing
+  int missed_ = 0;                   // looks that should have shown the best hypothesis' place, since the last that did
   Hypothesis best_, second_;
 };
 

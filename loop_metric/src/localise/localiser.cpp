@@ -28,7 +28,9 @@ constexpr double known_sigma = 0.33;        // m: three of them are the metre th
 // Looks that a place which is not the robot's answers: three candidates each, of which 3 of 2100 may be accepted when of 2100 pairs of other places none was (README, with
 // 95 %).
 constexpr double false_share = 3.0 * 3.0 / 2100.0;
-constexpr int looks_for_new = 3;  // in a row without anything like it
+constexpr int looks_for_new = 3;           // in a row without anything like it
+constexpr int carried = 3;                 // witnesses in a row that agree against all before them
+constexpr std::size_t most_steps = 20000;  // of odometry: 10 to 30 minutes, 1.1 kB each
 
 double positionSigma(const UncertainPose& pose) {
   const auto values = urban_nav_core::symmetricEigenvalues(pose.covariance.topLeftCorner<3, 3>());
@@ -67,14 +69,32 @@ const char* toString(LocatedReason reason) {
     case LocatedReason::BeliefAlone: return "BeliefAlone";
     case LocatedReason::OneSighting: return "OneSighting";
     case LocatedReason::Contested: return "Contested";
-    case LocatedReason::TooLongAgo: break;
+    case LocatedReason::TooLongAgo: return "TooLongAgo";
+    case LocatedReason::NotSeenAgain: break;
   }
-  return "TooLongAgo";
+  return "NotSeenAgain";
 }
 
 Localiser::Localiser(const Parameters& parameters) : parameters_(parameters) {}
 
-bool Localiser::addOdometry(const urban_nav_core::RelativePose& step) { return odometry_.append(step); }
+bool Localiser::addOdometry(const urban_nav_core::RelativePose& step) {
+  if (!odometry_.append(step)) return false;
+  steps_.push_back(step);
+  if (steps_.size() >= most_steps) forgetOldSteps();
+  return true;
+}
+
+void Localiser::forgetOldSteps() {
+  steps_.erase(steps_.begin(), steps_.begin() + static_cast<std::ptrdiff_t>(most_steps / 2));
+  odometry_ = urban_nav_core::OdometryChain();
+  for (const urban_nav_core::RelativePose& step : steps_) odometry_.append(step);
+  const StampNs begin = steps_.front().from;
+  const auto first = std::find_if(sightings_.begin(), sightings_.end(),
+                                  [begin](const Sighting& sighting) { return sighting.stamp >= begin; });
+  if (first == sightings_.begin()) return;
+  sightings_.erase(sightings_.begin(), first);
+  choose();
+}
 
 void Localiser::addSighting(StampNs b, const Pose& T_map_a, const Constraint& measured) {
   Sighting sighting;
@@ -97,16 +117,33 @@ void Localiser::addBelief(StampNs at, const UncertainPose& T_map_base) {
   if (T_map_base.pose.isFinite() && T_map_base.covariance.allFinite()) add(belief);
 }
 
-void Localiser::addNothing(StampNs at) { nothing_.push_back(at); }
+void Localiser::addNothing(StampNs, bool expected) {
+  ++nothing_;
+  if (expected) ++missed_;
+}
 
 void Localiser::add(const Sighting& sighting) {
   if (!odometry_.momentOf(sighting.stamp)) return;  // nobody knows where the robot was then
-  nothing_.clear();
+  nothing_ = 0;
   const auto place = std::upper_bound(sightings_.begin(), sightings_.end(), sighting,
                                       [](const Sighting& a, const Sighting& b) { return a.stamp < b.stamp; });
   sightings_.insert(place, sighting);
   if (sightings_.size() > most_sightings) sightings_.erase(sightings_.begin());
   choose();
+  if (against() >= carried) {
+    sightings_.erase(sightings_.begin(), sightings_.begin() + static_cast<std::ptrdiff_t>(best_.members.back()) + 1);
+    choose();
+  }
+  if (!best_.members.empty() && sightings_[best_.members.back()].stamp == sighting.stamp) missed_ = 0;
+}
+
+int Localiser::against() const {
+  const auto newest = std::find_if(sightings_.rbegin(), sightings_.rend(),
+                                   [](const Sighting& each) { return each.sees && each.begins; });
+  if (newest == sightings_.rend() || best_.witnesses == 0) return 0;
+  const auto last = best_.members.back();
+  const Hypothesis other = around(static_cast<std::size_t>(sightings_.rend() - newest) - 1);
+  return other.members.front() > last ? other.witnesses : 0;
 }
 
 bool Localiser::agree(const Sighting& one, const Sighting& other) const {
@@ -202,7 +239,7 @@ Located Localiser::at(StampNs stamp) const {
     located.sentence = sentence;
     return located;
   };
-  const bool looks_in_vain = nothing_.size() >= static_cast<std::size_t>(looks_for_new);
+  const bool looks_in_vain = nothing_ >= looks_for_new;
   if (best_.members.empty() || !odometry_.momentOf(stamp))
     return looks_in_vain
                ? because(Knowledge::New, LocatedReason::NothingAlike, "nothing here looks like the map")
@@ -215,8 +252,10 @@ Located Localiser::at(StampNs stamp) const {
     return because(Knowledge::Unsure, LocatedReason::BeliefAlone, "somebody says so, and nothing was seen of it");
   if (best_.witnesses < enough)
     return because(Knowledge::Unsure, LocatedReason::OneSighting, "one sighting, and no second one that agrees");
-  if (second_.witnesses >= best_.witnesses)
+  if (second_.witnesses >= best_.witnesses || against() >= enough)
     return because(Knowledge::Unsure, LocatedReason::Contested, "as many sightings say that it is elsewhere");
+  if (missed_ >= looks_for_new)
+    return because(Knowledge::Unsure, LocatedReason::NotSeenAgain, "the map's views of this place show something else");
   if (sigma > known_sigma)
     return because(looks_in_vain ? Knowledge::New : Knowledge::Unsure, LocatedReason::TooLongAgo,
                    "the last sighting is too long ago: odometry is good to " + metres(sigma));

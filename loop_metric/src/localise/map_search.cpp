@@ -20,6 +20,8 @@ constexpr double views_apart = 1.5;        // m between views of the map that ar
 constexpr std::size_t candidates = 3;      // of a search, that are registered
 constexpr double near_way = 6.0;           // m, and
 constexpr double near_turn = 0.9;          // rad: what is further from where the robot believes to be is not near
+constexpr double sure_way = 2.0;           // m, and
+constexpr double sure_turn = 0.35;         // rad: nearer, 92 to 100 of 100 are recognised (README, stereo)
 constexpr double metres_per_radian = 4.0;  // a turn costs as many matches as this way
 constexpr double useful_belief = 2.0;      // m: a belief that is vaguer says nothing about which views are near
 
@@ -54,14 +56,15 @@ class MapSearch::Implementation {
 
   bool look(const Keyframe& view, Localiser& localiser) {
     const Located believed = localiser.at(view.at.stamp);
-    bool seen = see(near(believed), view, localiser);
-    // A belief may be wrong: what shows nothing of it is no reason not to look elsewhere.
-    if (!seen && believed.knowledge != Knowledge::Known) {
+    const std::vector<std::size_t> nearest = near(believed);
+    bool seen = see(nearest, view, localiser);
+    // A belief may be wrong, and a robot may have been carried elsewhere: what shows nothing of it is no reason not to look there.
+    if (!seen) {
       std::vector<std::size_t> found;
       for (const ViewFinder::Found& each : finder_.find(view, candidates)) found.push_back(searched_[each.view]);
       seen = see(found, view, localiser);
     }
-    if (!seen) localiser.addNothing(view.at.stamp);
+    if (!seen) localiser.addNothing(view.at.stamp, !nearest.empty() && shows(views_[nearest.front()], believed));
     return seen;
   }
 
@@ -71,6 +74,13 @@ class MapSearch::Implementation {
     Keyframe made;
     made.at = {view.session, view.stamp};
     return stored ? keyframeOf(*stored, view.session) : made;
+  }
+
+  /// Should a robot there recognise the view?
+  static bool shows(const MapView& view, const Located& believed) {
+    return believed.knowledge == Knowledge::Known &&
+           distanceBetween(view.T_map_base, believed.T_map_base->pose) <= sure_way &&
+           angleBetween(view.T_map_base, believed.T_map_base->pose) <= sure_turn;
   }
 
   /// The first of them that can be registered: a second one of the same place is no second witness.

@@ -129,10 +129,58 @@ TEST_F(LocaliserTest, SightingsOverManyPlacesAreFusedAndTheCovarianceHolds) {
 
 TEST_F(LocaliserTest, LooksInVainAreANewPlace) {
   drive(5);
-  for (const int second : {1, 2, 3}) localiser_.addNothing(second * kSecond);
+  for (const int second : {1, 2, 3}) localiser_.addNothing(second * kSecond, false);
   EXPECT_EQ(localiser_.now().knowledge, Knowledge::New);
   see(4);
   EXPECT_EQ(localiser_.now().knowledge, Knowledge::Unsure);
+}
+
+TEST_F(LocaliserTest, ARobotThatWasCarriedElsewhereIsFoundAgain) {
+  drive(40);
+  for (int second = 1; second <= 30; ++second) see(second);
+  expectRight(0.02);
+  const Pose elsewhere = at(35.0, -12.0);
+  see(32, elsewhere);
+  expectRight(0.3);  // one may be false
+  see(34, elsewhere);
+  EXPECT_EQ(localiser_.now().reason, LocatedReason::Contested);
+  see(36, elsewhere);
+  EXPECT_EQ(localiser_.now().knowledge, Knowledge::Known) << localiser_.now().sentence;
+  ASSERT_TRUE(localiser_.now().T_map_base);
+  EXPECT_LT(distanceBetween(localiser_.now().T_map_base->pose, elsewhere * truth(40)), 0.05);
+  see(38);  // and what was forgotten does not come back with one
+  EXPECT_LT(distanceBetween(localiser_.now().T_map_base->pose, elsewhere * truth(40)), 0.05);
+}
+
+TEST_F(LocaliserTest, FalseSightingsBetweenTrueOnesCarryNobody) {
+  drive(40);
+  for (int second = 1; second <= 40; ++second) see(second, second > 30 && second % 3 != 0 ? at(35.0, -12.0) : Pose());
+  see(40);
+  EXPECT_LT(distanceBetween(localiser_.now().T_map_base->pose, truth(40)), 0.05);
+}
+
+TEST_F(LocaliserTest, WhatShouldBeSeenAndIsNotEndsKnown) {
+  drive(12);
+  for (const int second : {1, 3, 5}) see(second);
+  for (const int second : {6, 7, 8, 9}) localiser_.addNothing(second * kSecond, false);
+  expectRight(0.02);  // the map may show nothing of this place
+  for (const int second : {10, 11}) localiser_.addNothing(second * kSecond, true);
+  expectRight(0.02);
+  localiser_.addNothing(12 * kSecond, true);
+  EXPECT_EQ(localiser_.now().knowledge, Knowledge::Unsure);
+  EXPECT_EQ(localiser_.now().reason, LocatedReason::NotSeenAgain);
+  see(12);
+  expectRight(0.02);
+}
+
+TEST_F(LocaliserTest, WhatLiesFarBackIsForgotten) {
+  drive(10);
+  for (const int second : {1, 3, 5}) see(second);
+  drive(30000, 1e-4);
+  EXPECT_EQ(localiser_.at(5 * kSecond).reason, LocatedReason::NothingSeen);
+  see(30005);
+  see(30009);
+  expectRight(0.02);
 }
 
 TEST_F(LocaliserTest, ABeliefAloneIsNotKnownAndOneSightingIsNotEnoughForItEither) {

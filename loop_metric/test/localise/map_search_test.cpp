@@ -53,7 +53,7 @@ class MapSearchTest : public ::testing::Test {
     store_->commit();
   }
   /// The other day, 0.3 m beside: the view, and the odometry up to it.
-  Keyframe visit(int i) {
+  Keyframe visit(int i, double carried = 0.0) {
     if (i > 0) {
       urban_nav_core::RelativePose step;
       step.from = (i - 1) * second;
@@ -62,7 +62,7 @@ class MapSearchTest : public ::testing::Test {
       step.covariance *= 1e-6;
       EXPECT_TRUE(localiser_.addOdometry(step));
     }
-    Keyframe view = street_.keyframe(place(i, 0.3), 0.8);
+    Keyframe view = street_.keyframe(place(i + carried, 0.3), 0.8);
     view.at.stamp = i * second;
     return view;
   }
@@ -96,6 +96,20 @@ TEST_F(MapSearchTest, FindsTheRobotWhateverSomebodyBelieves) {
   EXPECT_TRUE(search.look(visit(3), localiser_));
   ASSERT_TRUE(localiser_.now().T_map_base);
   EXPECT_LT(distanceBetween(localiser_.now().T_map_base->pose, place(3, 0.3)), 0.05);
+}
+
+TEST_F(MapSearchTest, FindsARobotThatWasCarriedWhileItWasKnown) {
+  drive(20);
+  const FrozenMap map(*store_);
+  MapSearch search(Parameters(), map, store_->keyframes(), street_.camera(), Pose());
+  while (search.readNext()) {
+  }
+  visit(0);
+  for (int i = 1; i <= 4; ++i) EXPECT_TRUE(search.look(visit(i), localiser_));
+  ASSERT_EQ(localiser_.now().knowledge, Knowledge::Known);
+  for (int i = 5; i <= 7; ++i) EXPECT_TRUE(search.look(visit(i, 10.0), localiser_)) << i;
+  EXPECT_EQ(localiser_.now().knowledge, Knowledge::Known) << localiser_.now().sentence;
+  EXPECT_LT(distanceBetween(localiser_.now().T_map_base->pose, place(17, 0.3)), 0.05);
 }
 
 TEST_F(MapSearchTest, WhatIsNoViewIsALookInVain) {
