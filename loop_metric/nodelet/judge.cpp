@@ -8,6 +8,7 @@
 #include "loop_metric/camera_words.hpp"
 #include "loop_metric/consistency.hpp"
 #include "loop_metric/evidence.hpp"
+#include "loop_metric/shared_clouds.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace loop_metric {
@@ -187,9 +188,14 @@ void Judge::judge(const Candidate& candidate, bool by_id) {
   if (!told.evidence.empty()) told.evidence = printEvidence(evidenceOf(closure));
   if (told.verdict == ClosureVerdict::Rejected) ++rejected_;
   else ++(told.method == ClosureMethod::Stereo ? stereo_ : icp_);
-  const auto keyframe = [this](const PoseRef& at) { return surroundings_ ? surroundings_->keyframe(at) : Keyframe(); };
-  listener_(
-      {std::move(told), closure, keyframe, std::chrono::duration<double, std::milli>(Clock::now() - begin).count()});
+  const auto keyframe = [this](const PoseRef& at) {
+    return surroundings_ ? surroundings_->keyframe(resolved(at)) : Keyframe();
+  };
+  const auto cloud = [this](const PoseRef& at) {
+    return surroundings_ ? surroundings_->cloud(resolved(at), parameters_.cloud_way) : urban_nav_core::PointCloud();
+  };
+  listener_({std::move(told), closure, keyframe, cloud,
+             std::chrono::duration<double, std::milli>(Clock::now() - begin).count()});
 }
 
 LoopClosure Judge::measure(const TopologicalClosure& closure) {
@@ -274,8 +280,10 @@ void Judge::holdAgainstEarlier(MetricClosure& metric) {
   holdAgainstEachOther(beside, *surroundings_, parameters_);
   metric = beside.back();
   if (metric.verdict != ClosureVerdict::Accepted) return;
-  accepted_.push_back(metric);
-  accepted_.back().evidence.clear();
+  MetricClosure whole = metric;
+  whole.evidence.clear();
+  keepWhatIsNew(metric, accepted_, *surroundings_, parameters_);
+  accepted_.push_back(std::move(whole));
 }
 
 }  // namespace loop_metric

@@ -51,6 +51,8 @@ class Judge {
     urban_nav_core::MetricClosure metric;
     const LoopClosure& closure;
     std::function<Keyframe(const urban_nav_core::PoseRef&)> keyframe;  ///< by the references that `closure.stereo` has
+    /// What was aligned, by the moments of `closure.metric`.
+    std::function<urban_nav_core::PointCloud(const urban_nav_core::PoseRef&)> cloud;
     double ms = 0.0;
   };
   /// Called in the judge's thread.
@@ -113,7 +115,7 @@ class Judge {
   std::unique_ptr<StoredSurroundings> surroundings_;
   bool outdated_ = true;  // surroundings_ does not know all of sessions_
   std::deque<Candidate> waiting_;
-  std::vector<urban_nav_core::MetricClosure> accepted_;
+  std::vector<urban_nav_core::MetricClosure> accepted_;  // with all that each one knows
   Clock::time_point last_step_ = Clock::now();
 
   std::atomic<std::int64_t> waits_{0}, stereo_{0}, icp_{0}, rejected_{0}, parts_{0};

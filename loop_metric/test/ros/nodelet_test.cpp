@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <set>
 
 #include "loop_metric/evidence.hpp"
 #include "loop_metric/keyframe_choice.hpp"
@@ -51,6 +52,15 @@ class LoopMetricNodelet : public ::testing::Test {
     for (const double each : closure.information) EXPECT_EQ(each, 0.0);
   }
 
+  /// How many different levels of grey there are.
+  static std::size_t levelsOf(const sensor_msgs::Image& picture) {
+    std::set<std::uint8_t> levels;
+    for (std::size_t i = 0; i + 2 < picture.data.size(); i += 3)
+      if (picture.data[i] == picture.data[i + 1] && picture.data[i] == picture.data[i + 2])
+        levels.insert(picture.data[i]);
+    return levels.size();
+  }
+
   static Robot* robot_;
 };
 Robot* LoopMetricNodelet::robot_ = nullptr;
@@ -72,6 +82,7 @@ TEST_F(LoopMetricNodelet, aRevisitIsUpgradedAndAFalsePairIsNot) {
   EXPECT_EQ(robot().pictures.front().encoding, "bgr8");
   EXPECT_GE(robot().pictures.front().width, 2U * 512U);
   EXPECT_EQ(robot().pictures.front().data.size(), robot().pictures.front().step * robot().pictures.front().height);
+  EXPECT_GT(levelsOf(robot().pictures.front()), 100U) << "views, and no panels that say that there are none";
   EXPECT_TRUE(Robot::until([&] { return robot().diagnosed("accepted by stereo", "1"); }));
 }
 
