@@ -198,8 +198,20 @@ void Judge::judge(const Candidate& candidate, bool by_id) {
              std::chrono::duration<double, std::milli>(Clock::now() - begin).count()});
 }
 
-LoopClosure Judge::measure(const TopologicalClosure& closure) {
+/// While writes wait for the disk, views have been told of that cannot be read: what the store holds is looked up anew then, and once more when it is
+/// in order again, and what came of views that were not there is forgotten.
+void Judge::followStore() {
   store_.flush();
+  std::string fault = store_.state().fault;
+  if (!fault.empty() || !store_fault_.empty()) {
+    stage_.reset();
+    outdated_ = true;
+  }
+  store_fault_ = std::move(fault);
+}
+
+LoopClosure Judge::measure(const TopologicalClosure& closure) {
+  followStore();
   TopologicalClosure candidate{resolved(closure.a), resolved(closure.b), closure.probability};
   LoopClosure made;
   made.metric.a = candidate.a;
@@ -207,8 +219,8 @@ LoopClosure Judge::measure(const TopologicalClosure& closure) {
   made.metric.probability = candidate.probability;
   made.metric.source = "loop_metric";
   if (!reader_) {
-    const std::string fault = store_.state().fault;
-    refuse(made.metric, LoopReason::NothingKept, "nothing is kept: " + (fault.empty() ? "no store yet" : fault));
+    refuse(made.metric, LoopReason::NothingKept,
+           "nothing is kept: " + (store_fault_.empty() ? "no store yet" : store_fault_));
     return made;
   }
   if (running_.empty() && (closure.a.session.empty() || closure.b.session.empty())) {
@@ -216,7 +228,10 @@ LoopClosure Judge::measure(const TopologicalClosure& closure) {
     return made;
   }
   if (outdated_) renew();
-  return stage_->measure(candidate, *surroundings_);
+  made = stage_->measure(candidate, *surroundings_);
+  if (!store_fault_.empty() && made.metric.verdict == ClosureVerdict::Rejected)
+    made.metric.sentence += "; what came last is not in the store: " + store_fault_;
+  return made;
 }
 
 PoseRef Judge::resolved(const PoseRef& at) {
