@@ -8,6 +8,7 @@
 #include "loop_metric/camera_words.hpp"
 #include "loop_metric/consistency.hpp"
 #include "loop_metric/evidence.hpp"
+#include "loop_metric/shared_clouds.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace loop_metric {
@@ -187,13 +188,30 @@ void Judge::judge(const Candidate& candidate, bool by_id) {
   if (!told.evidence.empty()) told.evidence = printEvidence(evidenceOf(closure));
   if (told.verdict == ClosureVerdict::Rejected) ++rejected_;
   else ++(told.method == ClosureMethod::Stereo ? stereo_ : icp_);
-  const auto keyframe = [this](const PoseRef& at) { return surroundings_ ? surroundings_->keyframe(at) : Keyframe(); };
-  listener_(
-      {std::move(told), closure, keyframe, std::chrono::duration<double, std::milli>(Clock::now() - begin).count()});
+  const auto keyframe = [this](const PoseRef& at) {
+    return surroundings_ ? surroundings_->keyframe(resolved(at)) : Keyframe();
+  };
+  const auto cloud = [this](const PoseRef& at) {
+    return surroundings_ ? surroundings_->cloud(resolved(at), parameters_.cloud_way) : urban_nav_core::PointCloud();
+  };
+  listener_({std::move(told), closure, keyframe, cloud,
+             std::chrono::duration<double, std::milli>(Clock::now() - begin).count()});
+}
+
+/// While writes wait for the disk, views have been told of that cannot be read: what the store holds is looked up anew then, and once more when it is
+/// in order again, and what came of views that were not there is forgotten.
+void Judge::followStore() {
+  store_.flush();
+  std::string fault = store_.state().fault;
+  if (!fault.empty() || !store_fault_.empty()) {
+    stage_.reset();
+    outdated_ = true;
+  }
+  store_fault_ = std::move(fault);
 }
 
 LoopClosure Judge::measure(const TopologicalClosure& closure) {
-  store_.flush();
+  followStore();
   TopologicalClosure candidate{resolved(closure.a), resolved(closure.b), closure.probability};
   LoopClosure made;
   made.metric.a = candidate.a;
@@ -201,8 +219,8 @@ LoopClosure Judge::measure(const TopologicalClosure& closure) {
   made.metric.probability = candidate.probability;
   made.metric.source = "loop_metric";
   if (!reader_) {
-    const std::string fault = store_.state().fault;
-    refuse(made.metric, LoopReason::NothingKept, "nothing is kept: " + (fault.empty() ? "no store yet" : fault));
+    refuse(made.metric, LoopReason::NothingKept,
+           "nothing is kept: " + (store_fault_.empty() ? "no store yet" : store_fault_));
     return made;
   }
   if (running_.empty() && (closure.a.session.empty() || closure.b.session.empty())) {
@@ -210,7 +228,10 @@ LoopClosure Judge::measure(const TopologicalClosure& closure) {
     return made;
   }
   if (outdated_) renew();
-  return stage_->measure(candidate, *surroundings_);
+  made = stage_->measure(candidate, *surroundings_);
+  if (!store_fault_.empty() && made.metric.verdict == ClosureVerdict::Rejected)
+    made.metric.sentence += "; what came last is not in the store: " + store_fault_;
+  return made;
 }
 
 PoseRef Judge::resolved(const PoseRef& at) {
@@ -274,8 +295,10 @@ void Judge::holdAgainstEarlier(MetricClosure& metric) {
   holdAgainstEachOther(beside, *surroundings_, parameters_);
   metric = beside.back();
   if (metric.verdict != ClosureVerdict::Accepted) return;
-  accepted_.push_back(metric);
-  accepted_.back().evidence.clear();
+  MetricClosure whole = metric;
+  whole.evidence.clear();
+  keepWhatIsNew(metric, accepted_, *surroundings_, parameters_);
+  accepted_.push_back(std::move(whole));
 }
 
 }  // namespace loop_metric

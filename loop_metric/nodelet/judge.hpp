@@ -51,6 +51,8 @@ class Judge {
     urban_nav_core::MetricClosure metric;
     const LoopClosure& closure;
     std::function<Keyframe(const urban_nav_core::PoseRef&)> keyframe;  ///< by the references that `closure.stereo` has
+    /// What was aligned, by the moments of `closure.metric`.
+    std::function<urban_nav_core::PointCloud(const urban_nav_core::PoseRef&)> cloud;
     double ms = 0.0;
   };
   /// Called in the judge's thread.
@@ -91,6 +93,7 @@ class Judge {
   /// `by_id`: the running session is called by its id, since another one is about to run.
   void judge(const Candidate& candidate, bool by_id);
   LoopClosure measure(const urban_nav_core::TopologicalClosure& closure);
+  void followStore();
   /// The moment as Surroundings call it, at the frame nearest to it.
   urban_nav_core::PoseRef resolved(const urban_nav_core::PoseRef& at);
   void name(urban_nav_core::PoseRef& at) const;
@@ -111,9 +114,10 @@ class Judge {
   std::map<urban_nav_store::SessionId, Known> sessions_;
   urban_nav_store::SessionId running_;  // empty: none yet
   std::unique_ptr<StoredSurroundings> surroundings_;
-  bool outdated_ = true;  // surroundings_ does not know all of sessions_
+  bool outdated_ = true;     // surroundings_ does not know all of sessions_
+  std::string store_fault_;  // when the last candidate was measured: what waits for the disk cannot be seen
   std::deque<Candidate> waiting_;
-  std::vector<urban_nav_core::MetricClosure> accepted_;
+  std::vector<urban_nav_core::MetricClosure> accepted_;  // with all that each one knows
   Clock::time_point last_step_ = Clock::now();
 
   std::atomic<std::int64_t> waits_{0}, stereo_{0}, icp_{0}, rejected_{0}, parts_{0};

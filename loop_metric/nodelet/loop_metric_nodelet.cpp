@@ -62,7 +62,8 @@ class LoopMetricNodelet : public nodelet::Nodelet {
   std::unique_ptr<Judge> judge_;
   std::unique_ptr<Recorder> recorder_;
   std::atomic<std::int64_t> candidates_{0};
-  std::string store_fault_;  // the timer's
+  std::string store_fault_;      // the timer's, as what follows
+  std::int64_t store_lost_ = 0;  // writes
 };
 
 void LoopMetricNodelet::onInit() {
@@ -136,6 +137,10 @@ void LoopMetricNodelet::tell() {
                        {candidates_, subscriptions_->pausedDropped(), subscriptions_->damaged()});
   publisher_->publish(diagnostics_->status());
   diagnostics_->update();
+  if (store.lost + store.refused > store_lost_)
+    NODELET_ERROR_THROTTLE(10.0, "store: %ld views, scans or steps of odometry are lost by now, and %ld were refused",
+                           static_cast<long>(store.lost), static_cast<long>(store.refused));
+  store_lost_ = store.lost + store.refused;
   if (store.fault == store_fault_) return;
   if (store.fault.empty()) NODELET_INFO("%s: what comes is stored again", store.path.c_str());
   else NODELET_ERROR("store: %s", store.fault.c_str());

@@ -7,6 +7,7 @@
 
 #include <utility>
 
+#include "loop_metric/cloud_picture.hpp"
 #include "loop_metric/match_picture.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/closure.hpp"
@@ -21,6 +22,29 @@ constexpr double metres_per_radian = 10.0;  // of the covariance for display: wh
 
 std::string titleOf(const urban_nav_core::PoseRef& at) {
   return (at.session.empty() ? "" : at.session + " ") + urban_nav_core::printStamp(at.stamp) + " s";
+}
+
+std::string sentenceOf(const urban_nav_core::MetricClosure& closure) {
+  return std::string(toString(closure.verdict)) + " (" + toString(closure.method) + "): " + closure.sentence;
+}
+
+Picture drawViews(const Judge::Verdict& verdict) {
+  const StereoTry& shown = verdict.closure.stereo.back();
+  MatchPictureOptions options;
+  options.title_a = titleOf(shown.view_a.at);
+  options.title_b = titleOf(shown.view_b.at);
+  options.caption = sentenceOf(verdict.metric);
+  return drawMatches(verdict.keyframe(shown.view_a.at), verdict.keyframe(shown.view_b.at), shown.result.pixels,
+                     options);
+}
+
+Picture drawAlignment(const Judge::Verdict& verdict) {
+  const urban_nav_core::PoseRef &a = verdict.closure.metric.a, &b = verdict.closure.metric.b;
+  CloudPictureOptions options;
+  options.free_directions = verdict.closure.icp->free_directions;
+  options.caption = "red: " + titleOf(a) + "; blue: " + titleOf(b) + "; " + sentenceOf(verdict.metric);
+  return drawClouds(verdict.cloud(b), verdict.cloud(a), verdict.closure.icp_guess, verdict.closure.icp->T_target_source,
+                    options);
 }
 
 }  // namespace
@@ -46,26 +70,20 @@ Publisher::Publisher(ros::NodeHandle& nh, std::string base_frame)
 
 void Publisher::publish(const Judge::Verdict& verdict) {
   metric_.publish(urban_nav_ros::toMetricClosureMessage(verdict.metric, base_frame_, metres_per_radian));
-  if (matches_.getNumSubscribers() > 0 && !verdict.closure.stereo.empty()) publishPicture(verdict);
+  if (matches_.getNumSubscribers() > 0 && (verdict.closure.icp || !verdict.closure.stereo.empty()))
+    publishPicture(verdict);
 }
 
 void Publisher::publishPicture(const Judge::Verdict& verdict) {
-  const StereoTry& shown = verdict.closure.stereo.back();
-  MatchPictureOptions options;
-  options.title_a = titleOf(shown.view_a.at);
-  options.title_b = titleOf(shown.view_b.at);
-  options.caption = std::string(urban_nav_core::toString(verdict.metric.verdict)) + " (" +
-                    urban_nav_core::toString(verdict.metric.method) + "): " + verdict.metric.sentence;
   Picture picture;
   try {
-    picture =
-        drawMatches(verdict.keyframe(shown.view_a.at), verdict.keyframe(shown.view_b.at), shown.result.pixels, options);
+    picture = verdict.closure.icp ? drawAlignment(verdict) : drawViews(verdict);
   } catch (const urban_nav_core::UserError&) {
     return;  // damaged in the store: the verdict says so
   }
   sensor_msgs::Image message;
   message.header.stamp = urban_nav_ros::toRosTime(verdict.metric.b.stamp);
-  message.header.frame_id = keyframe_camera;
+  message.header.frame_id = verdict.closure.icp ? base_frame_ : keyframe_camera;
   message.width = static_cast<std::uint32_t>(picture.width);
   message.height = static_cast<std::uint32_t>(picture.height);
   message.encoding = sensor_msgs::image_encodings::BGR8;

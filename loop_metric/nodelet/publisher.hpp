@@ -31,7 +31,7 @@ class Publisher {
  public:
   Publisher(ros::NodeHandle& nh, std::string base_frame);
 
-  /// The verdict, and its picture where somebody looks.
+  /// The verdict, and its picture where somebody looks: the clouds where it rests on them, else the two views.
   void publish(const Judge::Verdict& verdict);
   /// Where it is another one than the last.
   void publish(const urban_nav_core::Status& status);

@@ -2,6 +2,9 @@
 #include "loop_metric/shared_clouds.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
 
 namespace loop_metric {
 
@@ -10,17 +13,58 @@ using urban_nav_core::ClosureVerdict;
 using urban_nav_core::MetricClosure;
 using urban_nav_core::PoseRef;
 
+namespace {
+
+constexpr double least_share = 1e-3;  // too little for a robot that stands for minutes to tell the same twice
+
+bool isOfClouds(const MetricClosure& closure) {
+  return closure.verdict == ClosureVerdict::Accepted && closure.method == ClosureMethod::Icp;
+}
+
+/// How far behind the cloud around `x` that around `y` lies along the way, in lengths of a cloud; empty where they have nothing in common.
+std::optional<double> shift(const PoseRef& x, const PoseRef& y, const Surroundings& surroundings, double length) {
+  const auto way = surroundings.between(x, y);
+  if (!way || !(way->length < length)) return std::nullopt;
+  return (y.stamp < x.stamp ? -1.0 : 1.0) * way->length / length;
+}
+
+/// By how much a unit square is shifted against another one, which it overlaps.
+struct Shift {
+  double at_a, at_b;
+};
+
+/// Share of the unit square that none of the shifted ones covers.
+double uncovered(const std::vector<Shift>& others) {
+  std::vector<double> edges{0.0, 1.0};
+  for (const Shift& other : others) edges.push_back(other.at_a < 0.0 ? 1.0 + other.at_a : other.at_a);
+  std::sort(edges.begin(), edges.end());
+  double area = 0.0;
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+    const double middle = 0.5 * (edges[i] + edges[i + 1]);
+    double below = 0.0,
+           above = 0.0;  // all that is covered of this strip hangs on one of its ends: the squares are equal
+    for (const Shift& other : others) {
+      if (std::abs(middle - 0.5 - other.at_a) > 0.5) continue;
+      if (other.at_b <= 0.0) below = std::max(below, 1.0 + other.at_b);
+      if (other.at_b >= 0.0) above = std::max(above, 1.0 - other.at_b);
+    }
+    area += (edges[i + 1] - edges[i]) * std::max(0.0, 1.0 - below - above);
+  }
+  return area;
+}
+
+}  // namespace
+
 void shareClouds(std::vector<MetricClosure>& closures, const Surroundings& surroundings, const Parameters& parameters) {
   const double length = 2.0 * parameters.cloud_way;
   // Share of the cloud around one moment that is in the cloud around the other.
   const auto common = [&](const PoseRef& x, const PoseRef& y) {
-    const auto way = surroundings.between(x, y);
-    return way ? std::max(0.0, 1.0 - way->length / length) : 0.0;
+    const auto shifted = shift(x, y, surroundings, length);
+    return shifted ? 1.0 - std::abs(*shifted) : 0.0;
   };
   std::vector<std::size_t> of_clouds;
   for (std::size_t i = 0; i < closures.size(); ++i)
-    if (closures[i].verdict == ClosureVerdict::Accepted && closures[i].method == ClosureMethod::Icp)
-      of_clouds.push_back(i);
+    if (isOfClouds(closures[i])) of_clouds.push_back(i);
   std::vector<double> sharing(of_clouds.size(), 1.0);
   for (std::size_t i = 0; i < of_clouds.size(); ++i)
     for (std::size_t j = i + 1; j < of_clouds.size(); ++j) {
@@ -31,6 +75,21 @@ void shareClouds(std::vector<MetricClosure>& closures, const Surroundings& surro
       sharing[j] += both;
     }
   for (std::size_t i = 0; i < of_clouds.size(); ++i) closures[of_clouds[i]].measured.information /= sharing[i];
+}
+
+void keepWhatIsNew(MetricClosure& closure, const std::vector<MetricClosure>& earlier, const Surroundings& surroundings,
+                   const Parameters& parameters) {
+  if (!isOfClouds(closure)) return;
+  const double length = 2.0 * parameters.cloud_way;
+  std::vector<Shift> told;
+  for (const MetricClosure& each : earlier) {
+    if (!isOfClouds(each)) continue;
+    for (const auto& [a, b] : {std::pair(&each.a, &each.b), std::pair(&each.b, &each.a)}) {
+      const auto at_a = shift(closure.a, *a, surroundings, length), at_b = shift(closure.b, *b, surroundings, length);
+      if (at_a && at_b) told.push_back({*at_a, *at_b});
+    }
+  }
+  closure.measured.information *= std::max(uncovered(told), least_share);
 }
 
 }  // namespace loop_metric

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numeric>
+
 #include "support/line_surroundings.hpp"
 
 namespace loop_metric {
@@ -44,6 +47,23 @@ class SharedClouds : public ::testing::Test {
     return made;
   }
 
+  /// What each one keeps where they come one after another, in the order of adding.
+  std::vector<double> kept() {
+    std::vector<double> made;
+    for (std::size_t i = 0; i < closures_.size(); ++i) {
+      MetricClosure told = closures_[i];
+      keepWhatIsNew(told, {closures_.begin(), closures_.begin() + static_cast<std::ptrdiff_t>(i)}, around_,
+                    parameters_);
+      EXPECT_TRUE(told.measured.information.isApprox(told.measured.information(0, 0) * Matrix6d::Identity()));
+      made.push_back(told.measured.information(0, 0));
+    }
+    return made;
+  }
+  double keptTogether() {
+    const std::vector<double> each = kept();
+    return std::accumulate(each.begin(), each.end(), 0.0);
+  }
+
   testing::LineSurroundings around_;
   Parameters parameters_;
   std::vector<MetricClosure> closures_;
@@ -74,6 +94,49 @@ TEST_F(SharedClouds, viewsAndWhatWasRejectedHaveNoPartInIt) {
   add(20, 120, ClosureMethod::Stereo);
   add(20, 120, ClosureMethod::Icp, ClosureVerdict::Rejected);
   EXPECT_EQ(sharing(), std::vector<double>(3, 1.0));
+}
+
+TEST_F(SharedClouds, oneAfterAnotherTheFirstTellsAllAndTheSameAgainNothing) {
+  for (int i = 0; i < 100; ++i) add(20, 120);
+  add(120, 20);  // the other way about
+  add(20, 160);  // one cloud alone is the same
+  const std::vector<double> each = kept();
+  EXPECT_EQ(each[0], 1.0);
+  for (std::size_t i = 1; i <= 100; ++i) EXPECT_NEAR(each[i], 0.0, 0.0011);
+  EXPECT_GT(each[1], 0.0) << "it is a witness, and no closure that knows nothing";
+  EXPECT_EQ(each[101], 1.0);
+  EXPECT_LT(keptTogether(), 2.2);
+}
+
+TEST_F(SharedClouds, oneAfterAnotherPartsCountAsParts) {
+  add(20, 120);
+  add(25, 110);  // 15 m and 10 m of 20 m are told
+  add(35,
+      120);  // 5 m and 20 m by the first, 10 m and 10 m by the second, which have a quarter of 20 m times 10 m in common
+  const std::vector<double> each = kept();
+  EXPECT_EQ(each[0], 1.0);
+  EXPECT_NEAR(each[1], 1.0 - 0.75 * 0.5, 1e-9);
+  EXPECT_NEAR(each[2], 1.0 - 0.25 - 0.5 * 0.5 + 0.25 * 0.5, 1e-9);
+}
+
+TEST_F(SharedClouds, allTogetherTellTheSameInAnyOrder) {
+  for (int i = 0; i < 60; ++i) add(20 + i, 160 - i + (i * 7) % 5);
+  const double in_order = keptTogether();
+  EXPECT_GT(in_order, 4.0);  // 60 m of both ways, of which a cloud has 20 m
+  EXPECT_LT(in_order, 12.0);
+  std::reverse(closures_.begin(), closures_.end());
+  EXPECT_NEAR(keptTogether(), in_order, 0.05);
+  std::sort(closures_.begin(), closures_.end(),
+            [](const MetricClosure& x, const MetricClosure& y) { return x.a.stamp * 37 % 61 < y.a.stamp * 37 % 61; });
+  EXPECT_NEAR(keptTogether(), in_order, 0.05);
+}
+
+TEST_F(SharedClouds, oneAfterAnotherViewsAndWhatWasRejectedHaveNoPartInIt) {
+  add(20, 120, ClosureMethod::Stereo);
+  add(20, 120, ClosureMethod::Icp, ClosureVerdict::Rejected);
+  add(20, 120);
+  add(20, 120, ClosureMethod::Stereo);
+  EXPECT_EQ(kept(), std::vector<double>(4, 1.0));
 }
 
 }  // namespace

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
+#include <ros/master.h>
+#include <ros/network.h>
+#include <sys/resource.h>
+#include <xmlrpcpp/XmlRpc.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <map>
 
 #include "loop_metric/evidence.hpp"
 #include "loop_metric/keyframe_choice.hpp"
@@ -15,6 +21,40 @@ namespace {
 using urban_nav_msgs::MetricClosure;
 using urban_nav_store::Access;
 using urban_nav_store::Store;
+
+pid_t processOf(const std::string& node) {
+  const auto ask = [](const std::string& host, std::uint32_t port, const char* method, const char* argument) {
+    XmlRpc::XmlRpcValue question, answer;
+    question[0] = "test";
+    if (argument != nullptr) question[1] = argument;
+    XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port));
+    EXPECT_TRUE(client.execute(method, question, answer)) << method;
+    return answer;
+  };
+  XmlRpc::XmlRpcValue uri = ask(ros::master::getHost(), ros::master::getPort(), "lookupNode", node.c_str());
+  std::string host;
+  std::uint32_t port = 0;
+  EXPECT_TRUE(ros::network::splitURI(static_cast<std::string>(uri[2]), host, port));
+  return static_cast<int>(ask(host, port, "getPid", nullptr)[2]);
+}
+
+/// While it lives no file of that process can grow.
+class FullDisk {
+ public:
+  explicit FullDisk(pid_t process) : process_(process) {
+    EXPECT_EQ(::prlimit(process_, RLIMIT_FSIZE, nullptr, &before_), 0);
+    rlimit limit = before_;
+    limit.rlim_cur = 50'000;
+    EXPECT_EQ(::prlimit(process_, RLIMIT_FSIZE, &limit, nullptr), 0);
+  }
+  ~FullDisk() { ::prlimit(process_, RLIMIT_FSIZE, &before_, nullptr); }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  const pid_t process_;
+  rlimit before_{};
+};
 
 class LoopMetricNodelet : public ::testing::Test {
  protected:
@@ -51,6 +91,15 @@ class LoopMetricNodelet : public ::testing::Test {
     for (const double each : closure.information) EXPECT_EQ(each, 0.0);
   }
 
+  /// Share of the pixels that have the blue which most of them have.
+  static double plainShareOf(const sensor_msgs::Image& picture) {
+    std::map<std::uint8_t, double> levels;
+    for (std::size_t i = 0; i < picture.data.size(); i += 3) levels[picture.data[i]] += 1.0;
+    double most = 0.0;
+    for (const auto& [level, count] : levels) most = std::max(most, count);
+    return 3.0 * most / static_cast<double>(picture.data.size());
+  }
+
   static Robot* robot_;
 };
 Robot* LoopMetricNodelet::robot_ = nullptr;
@@ -72,6 +121,7 @@ TEST_F(LoopMetricNodelet, aRevisitIsUpgradedAndAFalsePairIsNot) {
   EXPECT_EQ(robot().pictures.front().encoding, "bgr8");
   EXPECT_GE(robot().pictures.front().width, 2U * 512U);
   EXPECT_EQ(robot().pictures.front().data.size(), robot().pictures.front().step * robot().pictures.front().height);
+  EXPECT_LT(plainShareOf(robot().pictures.front()), 0.3) << "views, and no panels that say that there are none";
   EXPECT_TRUE(Robot::until([&] { return robot().diagnosed("accepted by stereo", "1"); }));
 }
 
@@ -158,6 +208,29 @@ TEST_F(LoopMetricNodelet, lasersThatDoNotComeAreNamed) {
   EXPECT_EQ(status.stage, "loop_metric");
   EXPECT_EQ(status.status, urban_nav_msgs::StageStatus::DEGRADED);
   EXPECT_NE(status.text.find("/laser_left/scan has not come"), std::string::npos) << status.text;
+}
+
+TEST_F(LoopMetricNodelet, aFullDiskIsNamedAndWhatWaitedForItIsNotLost) {
+  {
+    const FullDisk disk(processOf("/loop_metric"));
+    robot().drive(0, lap + 7);
+    ASSERT_TRUE(Robot::until([&] { return robot().diagnosis("reason") == "NotStored"; }));
+    robot().recognise(3, lap + 3);
+    ASSERT_TRUE(robot().judged(1));
+    EXPECT_EQ(robot().closures[0].verdict, MetricClosure::REJECTED);
+    EXPECT_NE(robot().closures[0].text.find("the disk is full"), std::string::npos) << robot().closures[0].text;
+    const auto& status = robot().statuses.back();
+    EXPECT_EQ(status.status, urban_nav_msgs::StageStatus::DEGRADED);
+    EXPECT_NE(status.text.find("the disk is full"), std::string::npos) << status.text;
+    EXPECT_TRUE(
+        Robot::until([&] { return std::atol(robot().diagnosis("store: writes that wait").c_str()) > lap / 2; }));
+    EXPECT_EQ(robot().diagnosis("store: writes lost"), "0");
+  }
+  ASSERT_TRUE(Robot::until([&] { return robot().diagnosis("reason") != "NotStored"; }));
+  EXPECT_EQ(robot().diagnosis("store: fault"), "");
+  robot().recognise(3, lap + 3);
+  ASSERT_TRUE(robot().judged(2));
+  expectTrue(robot().closures[1], 3, lap + 3);
 }
 
 TEST_F(LoopMetricNodelet, anEarlierSessionOfTheStoreIsKnownAgain) {

@@ -84,20 +84,26 @@ class Robot : public urban_nav_ros::testing::StereoListener {
   void drive(int from, int to, bool images = true, int lost = -1) {
     for (int i = from; i < to; ++i) {
       if (images) show(i);
-      nav_msgs::Odometry odometry;
-      odometry.header.stamp = urban_nav_ros::toRosTime(stampOf(i));
-      odometry.pose.pose = urban_nav_ros::toPoseMessage(T_world_base(0).inverse() * T_world_base(i));
-      odometry_.publish(odometry);
-      if (i == 0 || i == lost) continue;
-      urban_nav_core::RelativePose step;
-      step.from = stampOf(i - 1);
-      step.to = stampOf(i);
-      step.T_from_to = T_world_base(i - 1).inverse() * T_world_base(i);
-      step.covariance = 1e-6 * urban_nav_core::Matrix6d::Identity();
-      step.drift_covariance = 0.5 * step.covariance;
-      step.source = "swf_vo";
-      relative_.publish(urban_nav_ros::toRelativePoseMessage(step, "base_link"));
+      beAt(stampOf(i), T_world_base(0).inverse() * T_world_base(i));
+      if (i > 0 && i != lost) step(stampOf(i - 1), stampOf(i), T_world_base(i - 1).inverse() * T_world_base(i), 1e-3);
     }
+  }
+  void beAt(StampNs stamp, const Pose& T_odom_base) {
+    nav_msgs::Odometry odometry;
+    odometry.header.stamp = urban_nav_ros::toRosTime(stamp);
+    odometry.pose.pose = urban_nav_ros::toPoseMessage(T_odom_base);
+    odometry_.publish(odometry);
+  }
+  /// `sigma`: m and rad.
+  void step(StampNs from, StampNs to, const Pose& T_from_to, double sigma) {
+    urban_nav_core::RelativePose step;
+    step.from = from;
+    step.to = to;
+    step.T_from_to = T_from_to;
+    step.covariance = sigma * sigma * urban_nav_core::Matrix6d::Identity();
+    step.drift_covariance = 0.5 * step.covariance;
+    step.source = "swf_vo";
+    relative_.publish(urban_nav_ros::toRelativePoseMessage(step, "base_link"));
   }
   void show(int i) { StereoListener::show(sequence_.frame(i), camera(), stampOf(i)); }
   void recognise(const urban_nav_core::PoseRef& a, const urban_nav_core::PoseRef& b) {

@@ -5,6 +5,8 @@
 
 #include <filesystem>
 
+#include "urban_nav_core/testing/small_disk.hpp"
+
 namespace loop_metric::test {
 namespace {
 
@@ -41,6 +43,33 @@ TEST(StageStore, aPathThatCannotBeIsNamedAndNothingIsLostInSilence) {
     EXPECT_EQ(store.state().lost, 1);
     store.flush();
   }
+}
+
+TEST(StageStore, onAFullDiskWritesWaitAndWhatHasNoRoomIsCounted) {
+  StageStore store("");
+  ASSERT_TRUE(store.open());
+  const auto write = [](Store& each) {
+    each.sessions().put(Session{"0123456789abcdef0123", std::string(500'000, 'a'), "", "", 1, false});
+  };
+  std::int64_t posted = 1;
+  {
+    const urban_nav_core::testing::SmallDisk disk(100'000);
+    store.post(write);
+    store.flush();
+    EXPECT_NE(store.state().fault.find("the disk is full"), std::string::npos) << store.state().fault;
+    EXPECT_EQ(store.state().committed, 0);
+    EXPECT_EQ(store.state().waiting, 1U);
+    for (; store.state().lost < 3; ++posted) {
+      store.post([](Store&) {});
+      ASSERT_LT(posted, 100'000) << "some room, and not more";
+    }
+    EXPECT_EQ(store.state().waiting, static_cast<std::size_t>(posted - 3));
+  }
+  store.flush();
+  EXPECT_EQ(store.state().fault, "");
+  EXPECT_EQ(store.state().committed, posted - 3) << "what waited is not lost";
+  EXPECT_EQ(store.state().lost, 3);
+  EXPECT_EQ(Store(store.state().path, Access::Read).sessions().all().size(), 1U);
 }
 
 TEST(StageStore, oneWriterAFile) {
