@@ -29,6 +29,7 @@ KINDS = ("world, seed", "way", "candidates", "count", "by views", "by clouds", "
          "NEES: mean (median)")
 MAPS = ("world, seed", "way", "driven, m", "false ones in the map", "days in one map", "odometry, rms, m", "mapped, rms, m", "of the way", "times better",
         "each day rigidly laid upon its truth, m", "between days, m: median (largest)", "NEES of poses", "ms a candidate", "real time, times")
+POSE = ("x", "y", "z", "qx", "qy", "qz", "qw")
 SENSORS = "stereo,lasers,imu,wheels"
 WRONG_M, WRONG_DEG = 0.5, 3.0
 DIRECTIONS = ("same direction", "across", "opposite direction", "another place")
@@ -59,43 +60,90 @@ def direction_of(pose, true):
     return DIRECTIONS[0] if turn < 45 else DIRECTIONS[2] if turn > 135 else DIRECTIONS[1]
 
 
+def matrix(blob):
+    """Of the store's bytes: 36 numbers, or the 21 of the upper triangle."""
+    numbers = np.frombuffer(blob, "<f8")
+    if len(numbers) == 36:
+        return numbers.reshape(6, 6)
+    result = np.zeros((6, 6))
+    result[np.triu_indices(6)] = numbers
+    return result + np.triu(result, 1).T
+
+
+def direction_of(pose, true):
+    if not true:
+        return DIRECTIONS[3]
+    turn = abs(np.degrees(np.arctan2(pose[1, 0], pose[0, 0])))
+    return DIRECTIONS[0] if turn < 45 else DIRECTIONS[2] if turn > 135 else DIRECTIONS[1]
+
+
+def matrix(blob):
+    """Of the store's bytes: 36 numbers, or the 21 of the upper triangle."""
+    numbers = np.frombuffer(blob, "<f8")
+    if len(numbers) == 36:
+        return numbers.reshape(6, 6)
+    result = np.zeros((6, 6))
+    result[np.triu_indices(6)] = numbers
+    return result + np.triu(result, 1).T
+
+
 def information(store):
     """Of the closures in a store, by (session a, stamp a, session b, stamp b)."""
-    names = dict(store.execute("SELECT id, name FROM session"))
+    names = {key: Path(name).stem for key, name in store.execute("SELECT id, name FROM session")}
     rows = store.execute("SELECT session_a, stamp_a_ns, session_b, stamp_b_ns, information FROM edge WHERE kind IN ('stereo', 'icp')")
-    return {(names[a], i, names[b], j): np.frombuffer(blob, "<f8").reshape(6, 6) for a, i, b, j, blob in rows}
+    return {(names[a], i, names[b], j): matrix(blob) for a, i, b, j, blob in rows}
+
+
+def pose_of(numbers):
+    """From x, y, z, qx, qy, qz, qw."""
+    pose = np.eye(4)
+    pose[:3, :3] = bag_reader.rotation(np.array([numbers[3:]], float))[0]
+    pose[:3, 3] = numbers[:3]
+    return pose
+
+
+def error_of(pose, truth):
+    """[Exp(phi) R, t + rho], both in the frame of a."""
+    return np.r_[pose[:3, 3] - truth[:3, 3], closures.cv2.Rodrigues(pose[:3, :3] @ truth[:3, :3].T)[0].ravel()]
 
 
 def judged(bags, true, out):
-    """Of each candidate: direction, kind, accepted, error in m and deg, squared error by its information over what it knows (None where rejected)."""
+    """Of each candidate: direction, kind, accepted, error in m and deg (accepted ones)."""
     truths = {bag.stem: closures.Session(bag).truth for bag in bags}
-    with sqlite3.connect(f"file:{out / 'session.db'}?mode=ro", uri=True) as store:
-        known = information(store)
     result = []
     with (out / "closures.csv").open() as file:
         for row, right in zip(csv.DictReader(file), true):
-            key = (row["session_a"], int(row["stamp_a_ns"]), row["session_b"], int(row["stamp_b_ns"]))
-            ends = [truths[key[2 * i]].at([key[2 * i + 1] * 1e-9])[0] for i in range(2)]
-            between = inverse(ends[0]) @ ends[1]
-            accepted = row["verdict"] == "accepted"
-            found = {"direction": direction_of(between, right), "kind": row["kind"], "accepted": accepted}
-            if accepted:
-                pose = np.eye(4)
-                pose[:3, :3] = bag_reader.rotation(np.array([[float(row[name]) for name in ("qx", "qy", "qz", "qw")]]))[0]
-                pose[:3, 3] = [float(row[name]) for name in "xyz"]
-                error = np.r_[pose[:3, 3] - between[:3, 3], closures.cv2.Rodrigues(pose[:3, :3] @ between[:3, :3].T)[0].ravel()]
-                # No weight along what is free: as many directions as the information has, scaled to six.
-                rank = np.linalg.matrix_rank(known[key], hermitian=True)
-                found |= {"m": np.linalg.norm(error[:3]), "deg": np.degrees(np.linalg.norm(error[3:])), "nees": 6 / max(rank, 1) * error @ known[key] @ error}
+            ends = [truths[row[f"session_{end}"]].at([int(row[f"stamp_{end}_ns"]) * 1e-9])[0] for end in "ab"]
+            truth = inverse(ends[0]) @ ends[1]
+            found = {"direction": direction_of(truth, right), "kind": row["kind"], "accepted": row["verdict"] == "accepted"}
+            if found["accepted"]:
+                error = error_of(pose_of([float(row[name]) for name in POSE]), truth)
+                found |= {"m": np.linalg.norm(error[:3]), "deg": np.degrees(np.linalg.norm(error[3:]))}
             result.append(found)
     return result
+
+
+def consistency(bags, out):
+    """Of the accepted closures as they stand in the store, by direction: squared errors by their information; where directions are free, scaled to six."""
+    truths = {bag.stem: closures.Session(bag).truth for bag in bags}
+    squares = {direction: [] for direction in DIRECTIONS}
+    with sqlite3.connect(f"file:{out / 'session.db'}?mode=ro", uri=True) as store:
+        names = {key: Path(name).stem for key, name in store.execute("SELECT id, name FROM session")}
+        rows = store.execute(f"SELECT session_a, stamp_a_ns, session_b, stamp_b_ns, information, {', '.join(POSE)} FROM edge "
+                             "WHERE kind IN ('stereo', 'icp') AND verdict = 'accepted'").fetchall()
+    for a, stamp_a, b, stamp_b, blob, *numbers in rows:
+        truth = inverse(truths[names[a]].at([stamp_a * 1e-9])[0]) @ truths[names[b]].at([stamp_b * 1e-9])[0]
+        error, information = error_of(pose_of(numbers), truth), matrix(blob)
+        rank = np.linalg.matrix_rank(information, hermitian=True)
+        squares[direction_of(truth, np.linalg.norm(truth[:3, 3]) < closures.OTHER_PLACE)].append(6 / max(rank, 1) * error @ information @ error)
+    return squares
 
 
 def spread(values, scale, digits):
     return f"{scale * np.median(values):.{digits}f} ({scale * np.quantile(values, 0.95):.{digits}f})"
 
 
-def kinds_of(label, way, judgements):
+def kinds_of(label, way, judgements, squares):
     rows = []
     for direction in DIRECTIONS:
         these = [each for each in judgements if each["direction"] == direction]
@@ -108,9 +156,9 @@ def kinds_of(label, way, judgements):
             continue
         wrong = sum(each["m"] > WRONG_M or each["deg"] > WRONG_DEG for each in taken)
         row += [f"{100 * len(taken) / len(these):.0f} %", str(wrong)]
-        nees = [each["nees"] for each in taken]
+        nees = squares[direction]
         rows.append([*row, *((spread([each["m"] for each in taken], 100, 1), spread([each["deg"] for each in taken], 1, 2),
-                              f"{np.mean(nees):.1f} ({np.median(nees):.1f})") if taken else ("-", "-", "-"))])
+                              f"{np.mean(nees):.1f} ({np.median(nees):.1f})") if taken and nees else ("-", "-", "-"))])
     return rows
 
 
@@ -170,7 +218,7 @@ def main():
             true = candidates(bags, arguments.false, arguments.seed, arguments.folder / f"{out.name}.csv")
             urban_nav("map", *bags, "--closures", arguments.folder / f"{out.name}.csv", "--truth", both_truths(bags, arguments.folder / "truth.tum"), "--out", out, *WAYS[way])
             judgements = judged(bags, true, out)
-            kinds += kinds_of(label, way, judgements)
+            kinds += kinds_of(label, way, judgements, consistency(bags, out))
             maps.append(map_of(label, way, bags, judgements, out, arguments.folder))
     notes = [f"{arguments.false:.0f} % as many false candidates as true ones, seed {arguments.seed}. Wrong: off by more than {WRONG_M} m or {WRONG_DEG:.0f} deg. NEES: 6 is right, 5.3 its median."]
     show(KINDS, kinds, notes, measured, arguments.kinds)
