@@ -25,7 +25,7 @@ from support import commit, show, simulated_bag, urban_nav
 from truth import angle, inverse
 
 WAYS = {"both": (), "views": ("--set", "loop_metric.icp=false")}
-KINDS = ("world, seed", "way", "candidates", "count", "by views", "by clouds", "accepted", "wrong", "error, cm: median (95 %)", "deg: median (95 %)",
+KINDS = ("world, seed", "way", "candidates", "count", "by views", "by clouds", "accepted", "wrong", "with free directions", "error, cm: median (95 %)", "deg: median (95 %)",
          "NEES: mean (median)")
 MAPS = ("world, seed", "way", "driven, m", "false ones in the map", "days in one map", "odometry, rms, m", "mapped, rms, m", "of the way", "times better",
         "each day rigidly laid upon its truth, m", "between days, m: median (largest)", "NEES of poses", "ms a candidate", "real time, times")
@@ -107,26 +107,22 @@ def error_of(pose, truth):
     return np.r_[pose[:3, 3] - truth[:3, 3], closures.cv2.Rodrigues(pose[:3, :3] @ truth[:3, :3].T)[0].ravel()]
 
 
-def judged(bags, true, out):
-    """Of each candidate: direction, kind, accepted, error in m and deg (accepted ones)."""
+def candidates_of(bags, true, out):
+    """Of each candidate: direction, kind, accepted."""
     truths = {bag.stem: closures.Session(bag).truth for bag in bags}
     result = []
     with (out / "closures.csv").open() as file:
         for row, right in zip(csv.DictReader(file), true):
             ends = [truths[row[f"session_{end}"]].at([int(row[f"stamp_{end}_ns"]) * 1e-9])[0] for end in "ab"]
-            truth = inverse(ends[0]) @ ends[1]
-            found = {"direction": direction_of(truth, right), "kind": row["kind"], "accepted": row["verdict"] == "accepted"}
-            if found["accepted"]:
-                error = error_of(pose_of([float(row[name]) for name in POSE]), truth)
-                found |= {"m": np.linalg.norm(error[:3]), "deg": np.degrees(np.linalg.norm(error[3:]))}
-            result.append(found)
+            result.append((direction_of(inverse(ends[0]) @ ends[1], right), row["kind"], row["verdict"] == "accepted"))
     return result
 
 
-def consistency(bags, out):
-    """Of the accepted closures as they stand in the store, by direction: squared errors by their information; where directions are free, scaled to six."""
+def accepted_of(bags, out):
+    """The accepted closures as the store has them, with their information, by direction: error along what they hold in m and deg, whether something is free, and the
+    squared error by the information (scaled to six directions)."""
     truths = {bag.stem: closures.Session(bag).truth for bag in bags}
-    squares = {direction: [] for direction in DIRECTIONS}
+    found = {direction: [] for direction in DIRECTIONS}
     with sqlite3.connect(f"file:{out / 'session.db'}?mode=ro", uri=True) as store:
         names = {key: Path(name).stem for key, name in store.execute("SELECT id, name FROM session")}
         rows = store.execute(f"SELECT session_a, stamp_a_ns, session_b, stamp_b_ns, information, {', '.join(POSE)} FROM edge "
@@ -134,31 +130,35 @@ def consistency(bags, out):
     for a, stamp_a, b, stamp_b, blob, *numbers in rows:
         truth = inverse(truths[names[a]].at([stamp_a * 1e-9])[0]) @ truths[names[b]].at([stamp_b * 1e-9])[0]
         error, information = error_of(pose_of(numbers), truth), matrix(blob)
-        rank = np.linalg.matrix_rank(information, hermitian=True)
-        squares[direction_of(truth, np.linalg.norm(truth[:3, 3]) < closures.OTHER_PLACE)].append(6 / max(rank, 1) * error @ information @ error)
-    return squares
+        values, vectors = np.linalg.eigh(information)
+        held = vectors[:, values > 1e-9 * values[-1]]
+        along = held @ (held.T @ error)
+        found[direction_of(truth, np.linalg.norm(truth[:3, 3]) < closures.OTHER_PLACE)].append(
+            {"m": np.linalg.norm(along[:3]), "deg": np.degrees(np.linalg.norm(along[3:])), "free": held.shape[1] < 6,
+             "nees": 6 / held.shape[1] * error @ information @ error})
+    return found
 
 
 def spread(values, scale, digits):
     return f"{scale * np.median(values):.{digits}f} ({scale * np.quantile(values, 0.95):.{digits}f})"
 
 
-def kinds_of(label, way, judgements, squares):
+def kinds_of(label, way, judged, accepted):
     rows = []
     for direction in DIRECTIONS:
-        these = [each for each in judgements if each["direction"] == direction]
-        taken = [each for each in these if each["accepted"]]
-        if not these:
+        kinds = [kind for place, kind, taken in judged if place == direction and taken]
+        count = sum(place == direction for place, _, _ in judged)
+        if not count:
             continue
-        row = [label, way, direction, str(len(these)), *(str(sum(each["kind"] == kind for each in taken)) for kind in ("stereo", "icp"))]
+        row = [label, way, direction, str(count), *(str(kinds.count(kind)) for kind in ("stereo", "icp"))]
         if direction == DIRECTIONS[3]:
-            rows.append([*row, str(len(taken)), str(len(taken)), "-", "-", "-"])
+            rows.append([*row, str(len(kinds)), str(len(kinds)), "0", "-", "-", "-"])
             continue
-        wrong = sum(each["m"] > WRONG_M or each["deg"] > WRONG_DEG for each in taken)
-        row += [f"{100 * len(taken) / len(these):.0f} %", str(wrong)]
-        nees = squares[direction]
-        rows.append([*row, *((spread([each["m"] for each in taken], 100, 1), spread([each["deg"] for each in taken], 1, 2),
-                              f"{np.mean(nees):.1f} ({np.median(nees):.1f})") if taken and nees else ("-", "-", "-"))])
+        these = accepted[direction]
+        row += [f"{100 * len(kinds) / count:.0f} %", str(sum(each["m"] > WRONG_M or each["deg"] > WRONG_DEG for each in these)), str(sum(each["free"] for each in these))]
+        nees = [each["nees"] for each in these]
+        rows.append([*row, *((spread([each["m"] for each in these], 100, 1), spread([each["deg"] for each in these], 1, 2),
+                              f"{np.mean(nees):.1f} ({np.median(nees):.1f})") if these else ("-", "-", "-"))])
     return rows
 
 
@@ -182,7 +182,7 @@ def between_days(bags, out):
     return gaps
 
 
-def map_of(label, way, bags, judgements, out, folder):
+def map_of(label, way, bags, judged, out, folder):
     summary = json.loads((out / "summary.json").read_text())
     urban_nav("evaluate", "--truth", both_truths(bags, folder / "truth.tum"), "--estimate", out / "trajectory.tum", "--json", out / "errors.json")
     errors, graph = json.loads((out / "errors.json").read_text()), summary["pose_graph"]
@@ -190,7 +190,7 @@ def map_of(label, way, bags, judgements, out, folder):
     frames = [day["frames"] for day in days]
     before, after = root_mean_square([day["ate_m_odometry"] for day in days], frames), errors["ate_m"]
     lengths = [np.linalg.norm(np.diff(closures.Session(bag).places, axis=0), axis=1).sum() for bag in bags]
-    false = [each["accepted"] for each in judgements if each["direction"] == DIRECTIONS[3]]
+    false = [taken for place, _, taken in judged if place == DIRECTIONS[3]]
     gaps = between_days(bags, out)
     return [label, way, " + ".join(f"{length:.0f}" for length in lengths), f"{sum(false)} of {len(false)}", f"{graph['sessions_joined']} of {len(days)}", f"{before:.3f}",
             f"{after:.3f}", f"{100 * after / sum(lengths):.3f} %", f"{before / after:.1f}", ", ".join(f"{day['ate_se3_m']:.3f}" for day in days),
@@ -200,7 +200,7 @@ def map_of(label, way, bags, judgements, out, folder):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=Path, help="for what is simulated and mapped; sessions that are there already are taken")
+    parser.add_argument("folder", type=Path, help="for what is simulated and mapped; sessions and maps that are there already are taken")
     parser.add_argument("--case", action="append", help="WORLD:SEED:SECONDS[/ROUTE]:..., repeatable (default quad:7:300:300/reversed)")
     parser.add_argument("--way", action="append", choices=WAYS, help="repeatable (default: all)")
     parser.add_argument("--false", type=float, default=20.0, metavar="PERCENT", help="false candidates, of the number of true ones (default 20)")
@@ -216,11 +216,12 @@ def main():
         for way in arguments.way or WAYS:
             out = arguments.folder / f"{bags[0].stem.rsplit('_', 1)[0]}_{way}"
             true = candidates(bags, arguments.false, arguments.seed, arguments.folder / f"{out.name}.csv")
-            urban_nav("map", *bags, "--closures", arguments.folder / f"{out.name}.csv", "--truth", both_truths(bags, arguments.folder / "truth.tum"), "--out", out, *WAYS[way])
-            judgements = judged(bags, true, out)
-            kinds += kinds_of(label, way, judgements, consistency(bags, out))
-            maps.append(map_of(label, way, bags, judgements, out, arguments.folder))
-    notes = [f"{arguments.false:.0f} % as many false candidates as true ones, seed {arguments.seed}. Wrong: off by more than {WRONG_M} m or {WRONG_DEG:.0f} deg. NEES: 6 is right, 5.3 its median."]
+            if not (out / "summary.json").exists():
+                urban_nav("map", *bags, "--closures", arguments.folder / f"{out.name}.csv", "--truth", both_truths(bags, arguments.folder / "truth.tum"), "--out", out, *WAYS[way])
+            judged = candidates_of(bags, true, out)
+            kinds += kinds_of(label, way, judged, accepted_of(bags, out))
+            maps.append(map_of(label, way, bags, judged, out, arguments.folder))
+    notes = [f"{arguments.false:.0f} % as many false candidates as true ones, seed {arguments.seed}. Wrong: off by more than {WRONG_M} m or {WRONG_DEG:.0f} deg along what the closure holds; errors likewise. NEES: 6 is right, 5.3 its median."]
     show(KINDS, kinds, notes, measured, arguments.kinds)
     show(MAPS, maps, ["Between days: how much further apart or nearer the map puts two days than the truth, where both were. NEES: 6 is right."], measured, arguments.maps)
 
