@@ -298,6 +298,7 @@ void Judge::holdAgainstEarlier(MetricClosure& metric) {
   MetricClosure whole = metric;
   whole.evidence.clear();
   keepWhatIsNew(metric, accepted_, *surroundings_, parameters_);
+  told_views_.keepWhatIsNew(metric);
   accepted_.push_back(std::move(whole));
 }
 

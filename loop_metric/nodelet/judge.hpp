@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "loop_metric/loop_metric.hpp"
+#include "loop_metric/shared_views.hpp"
 #include "loop_metric/stored_surroundings.hpp"
 #include "session_odometry.hpp"
 #include "stage_store.hpp"
@@ -118,6 +119,7 @@ class Judge {
   std::string store_fault_;  // when the last candidate was measured: what waits for the disk cannot be seen
   std::deque<Candidate> waiting_;
   std::vector<urban_nav_core::MetricClosure> accepted_;  // with all that each one knows
+  ToldViews told_views_;
   Clock::time_point last_step_ = Clock::now();
 
   std::atomic<std::int64_t> waits_{0}, stereo_{0}, icp_{0}, rejected_{0}, parts_{0};

@@ -10,6 +10,7 @@
 #include "loop_metric/consistency.hpp"
 #include "loop_metric/loop_metric.hpp"
 #include "loop_metric/shared_clouds.hpp"
+#include "loop_metric/shared_views.hpp"
 #include "loop_metric/stored_surroundings.hpp"
 #include "pipeline/closure_picture.hpp"
 #include "pipeline/vo_summary.hpp"
@@ -164,6 +165,7 @@ LoopsRun runLoops(const loop_metric::Parameters& parameters, const StereoCamera&
     const std::unique_ptr<Worker> worker = workers.take(make);
     loop_metric::holdAgainstEachOther(closures, worker->surroundings, parameters);
     loop_metric::shareClouds(closures, worker->surroundings, parameters);
+    loop_metric::shareViews(closures);
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const bool accepted = closures[i].verdict == ClosureVerdict::Accepted;
