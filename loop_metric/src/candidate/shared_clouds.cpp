@@ -33,6 +33,14 @@ struct Shift {
   double at_a, at_b;
 };
 
+/// Of a robot that stands for an hour all squares are one.
+bool isAmong(const std::vector<Shift>& told, const Shift& shift) {
+  constexpr double kSame = 1e-3;
+  return std::any_of(told.begin(), told.end(), [&](const Shift& other) {
+    return std::abs(other.at_a - shift.at_a) < kSame && std::abs(other.at_b - shift.at_b) < kSame;
+  });
+}
+
 /// Share of the unit square that none of the shifted ones covers.
 double uncovered(const std::vector<Shift>& others) {
   std::vector<double> edges{0.0, 1.0};
@@ -86,7 +94,7 @@ void keepWhatIsNew(MetricClosure& closure, const std::vector<MetricClosure>& ear
     if (!isOfClouds(each)) continue;
     for (const auto& [a, b] : {std::pair(&each.a, &each.b), std::pair(&each.b, &each.a)}) {
       const auto at_a = shift(closure.a, *a, surroundings, length), at_b = shift(closure.b, *b, surroundings, length);
-      if (at_a && at_b) told.push_back({*at_a, *at_b});
+      if (at_a && at_b && !isAmong(told, {*at_a, *at_b})) told.push_back({*at_a, *at_b});
     }
   }
   closure.measured.information *= std::max(uncovered(told), least_share);
