@@ -70,30 +70,6 @@ def matrix(blob):
     return result + np.triu(result, 1).T
 
 
-def direction_of(pose, true):
-    if not true:
-        return DIRECTIONS[3]
-    turn = abs(np.degrees(np.arctan2(pose[1, 0], pose[0, 0])))
-    return DIRECTIONS[0] if turn < 45 else DIRECTIONS[2] if turn > 135 else DIRECTIONS[1]
-
-
-def matrix(blob):
-    """Of the store's bytes: 36 numbers, or the 21 of the upper triangle."""
-    numbers = np.frombuffer(blob, "<f8")
-    if len(numbers) == 36:
-        return numbers.reshape(6, 6)
-    result = np.zeros((6, 6))
-    result[np.triu_indices(6)] = numbers
-    return result + np.triu(result, 1).T
-
-
-def information(store):
-    """Of the closures in a store, by (session a, stamp a, session b, stamp b)."""
-    names = {key: Path(name).stem for key, name in store.execute("SELECT id, name FROM session")}
-    rows = store.execute("SELECT session_a, stamp_a_ns, session_b, stamp_b_ns, information FROM edge WHERE kind IN ('stereo', 'icp')")
-    return {(names[a], i, names[b], j): matrix(blob) for a, i, b, j, blob in rows}
-
-
 def pose_of(numbers):
     """From x, y, z, qx, qy, qz, qw."""
     pose = np.eye(4)
