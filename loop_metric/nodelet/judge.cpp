@@ -260,10 +260,7 @@ void Judge::load(const SessionId& id) {
   const std::string words = camera_ ? cameraWords(camera_->camera, camera_->T_base_left) : "";
   for (const urban_nav_store::Property& property : reader_->sessions().properties(id))
     if (property.name == camera_property) session.has_camera = property.value == words;
-  const std::vector<std::string> lasers = reader_->scans().lasers(id);
-  for (const urban_nav_store::Extrinsic& extrinsic : reader_->sessions().extrinsics(id))
-    if (std::find(lasers.begin(), lasers.end(), extrinsic.frame) != lasers.end())
-      session.lasers.push_back({extrinsic.frame, extrinsic.T_base_frame});
+  session.lasers = storedLasers(*reader_, id);
   sessions_[id] = std::move(session);
   outdated_ = true;
 }

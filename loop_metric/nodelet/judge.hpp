@@ -16,9 +16,9 @@
 #include <vector>
 
 #include "loop_metric/loop_metric.hpp"
+#include "loop_metric/session_odometry.hpp"
 #include "loop_metric/shared_views.hpp"
 #include "loop_metric/stored_surroundings.hpp"
-#include "session_odometry.hpp"
 #include "stage_store.hpp"
 #include "urban_nav_ros/mailbox.hpp"
 #include "views.hpp"

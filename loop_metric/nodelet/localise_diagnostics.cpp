@@ -73,6 +73,14 @@ void LocaliseDiagnostics::report(diagnostic_updater::DiagnosticStatusWrapper& st
   status.add("looks", worker_.looks);
   status.add("sightings", worker_.sightings);
   status.add("time of the last look (ms)", worker_.look_ms);
+  status.add("places of the map", worker_.map_places);
+  status.add("places of the map read", worker_.map_places_read);
+  status.add("looks at clouds", worker_.cloud_looks);
+  status.add("sightings of clouds", worker_.cloud_sightings);
+  status.add("time of the last look at a cloud (ms)", worker_.cloud_look_ms);
+  status.add("scans", worker_.scans);
+  status.add("lasers",
+             worker_.laser_fault.empty() ? std::string(worker_.scans > 0 ? "ok" : "none") : worker_.laser_fault);
   status.add("stereo pairs", worker_.views.pairs);
   status.add("stereo pairs without odometry", worker_.views.unplaced);
   status.add("initial poses taken", worker_.beliefs);
@@ -82,7 +90,7 @@ void LocaliseDiagnostics::report(diagnostic_updater::DiagnosticStatusWrapper& st
   status.add("dropped: views that waited", worker_.dropped_views);
   status.add("dropped: paused", counts_.paused_dropped);
   status.add("steps of odometry refused", worker_.refused_steps);
-  status.add("messages damaged", counts_.damaged + worker_.views.damaged);
+  status.add("messages damaged", counts_.damaged + worker_.views.damaged + worker_.damaged_scans);
   status.add("camera", worker_.camera_note);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <nodelet/nodelet.h>
 #include <ros/ros.h>
+#include <sensor_msgs/LaserScan.h>
 #include <pluginlib/class_list_macros.hpp>
 
 #include <atomic>
@@ -104,6 +105,10 @@ void LocaliseNodelet::subscribe() {
   using Kind = HeardTopics::Kind;
   subscriptions_ = std::make_unique<Subscriptions>(getNodeHandle(), nodelet_.queue, topics_);
   subscriptions_->listenToRobot(true, nodelet_.compressed, *worker_);
+  if (parameters_.icp)
+    for (const char* name : {"laser_left/scan", "laser_right/scan"})
+      subscriptions_->listen<sensor_msgs::LaserScan>(
+          name, Kind::Lasers, [this](const sensor_msgs::LaserScanConstPtr& message) { worker_->put(message); });
   subscriptions_->listen<nav_msgs::Odometry>(
       "vo/odometry", Kind::Odometry, [this](const nav_msgs::OdometryConstPtr& message) {
         publisher_->sendTransform(urban_nav_ros::toStampNs(message->header.stamp));
@@ -131,12 +136,12 @@ void LocaliseNodelet::advertiseServices() {
   advertise("pause", [this] {
     paused_ = true;
     subscriptions_->pause(true);
-    return "images are dropped until resume; odometry is followed";
+    return "images and scans are dropped until resume; odometry is followed";
   });
   advertise("resume", [this] {
     paused_ = false;
     subscriptions_->pause(false);
-    return "views are looked for again";
+    return "views and clouds are looked for again";
   });
 }
 

@@ -26,6 +26,10 @@ constexpr std::size_t most_poses = 1000;
 // Views that wait for odometry to settle, or for the map to be read: a hundred metres of driving, 7 MB.
 constexpr std::size_t most_waiting = 100;
 
+double millisecondsSince(Clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
 }  // namespace
 
 LocaliseWorker::LocaliseWorker(const Parameters& parameters, const LocalisationParameters& nodelet, bool rectified,
@@ -35,6 +39,7 @@ LocaliseWorker::LocaliseWorker(const Parameters& parameters, const LocalisationP
       map_(std::move(map)),
       listener_(std::move(listener)),
       views_(parameters, nodelet, rectified, where, transforms_),
+      scans_(nodelet.base_frame, transforms_),
       localiser_(parameters) {
   mailbox_.setCapacity(static_cast<std::size_t>(nodelet.queue));
   thread_ = std::thread([this] { work(); });
@@ -58,12 +63,21 @@ void LocaliseWorker::tell() {
   now_.camera_note = views_.note();
   now_.map_views = search_ ? search_->views() : 0;
   now_.map_views_read = search_ ? search_->read() : 0;
+  now_.map_places = clouds_ ? clouds_->places() : 0;
+  now_.map_places_read = clouds_ ? clouds_->read() : 0;
+  const std::string unplaced = scans_.unplaced();
+  now_.laser_fault = unplaced.empty() ? "" : "no static tf from the robot to " + unplaced;
   const std::lock_guard<std::mutex> lock(mutex_);
   state_ = now_;
 }
 
 void LocaliseWorker::work() {
   bool busy = false;
+  try {
+    if (parameters_.icp) clouds_ = std::make_unique<CloudSearch>(parameters_, map_, store_);
+  } catch (const UserError& error) {
+    now_.map_fault = error.what();
+  }
   while (!mailbox_.closed()) {
     for (Input& input : mailbox_.takeAll(std::chrono::milliseconds(busy ? 0 : 100))) {
       take(input);
@@ -83,6 +97,8 @@ void LocaliseWorker::take(Input& input) {
     if (!views_.camera()) camera_seen_ = false;
   } else if (const auto* transforms = std::get_if<tf2_msgs::TFMessageConstPtr>(&input)) {
     transforms_.add(**transforms);
+  } else if (const auto* scan = std::get_if<sensor_msgs::LaserScanConstPtr>(&input)) {
+    ++(scans_.add(**scan) ? now_.scans : now_.damaged_scans);
   } else if (const auto* odometry = std::get_if<StampedPose>(&input)) {
     hear(*odometry);
     takeViews();
@@ -162,25 +178,47 @@ void LocaliseWorker::takeViews() {
 }
 
 bool LocaliseWorker::searchOn() {
-  if (!search_) return false;
   try {
-    if (search_->read() < search_->views()) {
+    if (search_ && search_->read() < search_->views()) {
       search_->readNext();
       return true;
     }
-    if (waiting_.empty() || !reached_ || waiting_.front().at.stamp > *reached_) return false;
-    const Keyframe view = std::move(waiting_.front());
-    waiting_.pop_front();
-    const Clock::time_point begin = Clock::now();
-    ++now_.looks;
-    if (search_->look(view, localiser_)) ++now_.sightings;
-    now_.look_ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-    return true;
+    if (lookForView()) return true;
+    if (clouds_ && now_.scans > 0 && clouds_->read() < clouds_->places()) {
+      clouds_->readNext();
+      return true;
+    }
+    return lookForCloud();
   } catch (const UserError& error) {  // what the store holds is damaged
     now_.map_fault = error.what();
     search_.reset();
+    clouds_.reset();
     return false;
   }
+}
+
+bool LocaliseWorker::lookForView() {
+  if (!search_ || waiting_.empty() || !reached_ || waiting_.front().at.stamp > *reached_) return false;
+  const Keyframe view = std::move(waiting_.front());
+  waiting_.pop_front();
+  const Clock::time_point begin = Clock::now();
+  ++now_.looks;
+  if (search_->look(view, localiser_)) ++now_.sightings;
+  now_.look_ms = millisecondsSince(begin);
+  return true;
+}
+
+bool LocaliseWorker::lookForCloud() {
+  if (!clouds_ || now_.scans == 0) return false;
+  const auto stretch = clouds_->due(localiser_);
+  if (!stretch) return false;
+  const Clock::time_point begin = Clock::now();
+  const urban_nav_core::OdometryChain& odometry = localiser_.odometry();
+  const auto cloud = localCloud(odometry, stretch->at, stretch->way, scans_.lasers());
+  ++now_.cloud_looks;
+  if (clouds_->look(*stretch, cloud, bendOf(odometry, stretch->at, stretch->way), localiser_)) ++now_.cloud_sightings;
+  now_.cloud_look_ms = millisecondsSince(begin);
+  return true;
 }
 
 }  // namespace loop_metric

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <sensor_msgs/LaserScan.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <cstdint>
@@ -13,8 +14,10 @@
 #include <thread>
 #include <variant>
 
+#include "loop_metric/cloud_search.hpp"
 #include "loop_metric/localiser.hpp"
 #include "loop_metric/map_search.hpp"
+#include "recent_scans.hpp"
 #include "urban_nav_ros/mailbox.hpp"
 #include "urban_nav_store/store.hpp"
 #include "views.hpp"
@@ -22,7 +25,7 @@
 namespace loop_metric {
 
 /// Looks for the robot in a frozen map, in a thread of its own: views as they are kept of any drive, each looked for in the map once settled odometry
-/// has reached it. Thread-safe.
+/// has reached it, and what the lasers saw on the last metres. Thread-safe.
 class LocaliseWorker {
  public:
   /// What somebody believes (initialpose). Stamp 0, or one that odometry has not come to: now.
@@ -32,8 +35,8 @@ class LocaliseWorker {
   };
   /// Where the robot is, is not known any more.
   struct Reset {};
-  using Input = std::variant<ImageInput, InfoInput, tf2_msgs::TFMessageConstPtr, urban_nav_core::StampedPose,
-                             urban_nav_core::RelativePose, Belief, Reset>;
+  using Input = std::variant<ImageInput, InfoInput, tf2_msgs::TFMessageConstPtr, sensor_msgs::LaserScanConstPtr,
+                             urban_nav_core::StampedPose, urban_nav_core::RelativePose, Belief, Reset>;
 
   /// After each step of odometry, in the worker's thread. `T_map_odom`: of the last time that the robot was KNOWN; empty: it never was.
   using Listener = std::function<void(const Located& located, const std::optional<urban_nav_core::Pose>& T_map_odom)>;
@@ -44,10 +47,14 @@ class LocaliseWorker {
     Views::Counts views;
     std::size_t map_views = 0, map_views_read = 0;
     std::int64_t looks = 0, sightings = 0, beliefs = 0;
+    std::size_t map_places = 0, map_places_read = 0;    ///< whose clouds are looked for
+    std::int64_t cloud_looks = 0, cloud_sightings = 0;  ///< likewise of clouds
+    std::int64_t scans = 0, damaged_scans = 0;
+    std::string laser_fault;         ///< which laser's place is not known
     std::int64_t dropped = 0;        ///< inputs, the mailbox was full
     std::int64_t dropped_views = 0;  ///< that would have been looked for, had there been time
     std::int64_t refused_steps = 0, begun_anew = 0;
-    double look_ms = 0.0;  ///< of the last look
+    double look_ms = 0.0, cloud_look_ms = 0.0;  ///< of the last look
     std::string camera_fault, camera_note;
     std::string map_fault;  ///< why this camera's views cannot be looked for in the map
   };
@@ -72,8 +79,10 @@ class LocaliseWorker {
   void believe();
   void beginAnew();
   void makeSearch();
-  /// A view of the map is read, or one of the drive looked for; false where there is nothing to do.
+  /// A view or place of the map is read, or one of the drive looked for; false where there is nothing to do.
   bool searchOn();
+  bool lookForView();
+  bool lookForCloud();
   void tell();
 
   const Parameters parameters_;
@@ -86,6 +95,8 @@ class LocaliseWorker {
   urban_nav_ros::StaticTransforms transforms_;
   Views views_;
   std::unique_ptr<MapSearch> search_;
+  RecentScans scans_;
+  std::unique_ptr<CloudSearch> clouds_;
   Localiser localiser_;
   std::optional<urban_nav_core::StampNs> reached_;    // by settled odometry
   std::deque<urban_nav_core::StampedPose> odometry_;  // as it was at the moment, later than reached_

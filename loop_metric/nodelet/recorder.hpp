@@ -19,7 +19,7 @@
 #include <variant>
 
 #include "judge.hpp"
-#include "session_odometry.hpp"
+#include "odometry_rows.hpp"
 #include "stage_store.hpp"
 #include "urban_nav_ros/mailbox.hpp"
 #include "views.hpp"

@@ -242,7 +242,8 @@ Alignment align(const PointCloud& source, const PointCloud& target, const Parame
     if (!pair.explained) pair.explained = explainedBy(source, target, parameters.laser_bias, voxel);
   };
   const auto look = [&](const Vector3d& centre, const Grain& grain) {
-    return searchGlobally(surfels[0], surfels[1], centre, parameters.search_radius, grain);
+    return searchGlobally(outlineOf(surfels[0], grain), outlineOf(surfels[1], grain), centre, parameters.search_radius,
+                          grain);
   };
   if (search == Search::AtOnce) {
     explain();

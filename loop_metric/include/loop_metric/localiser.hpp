@@ -62,15 +62,20 @@ class Localiser {
   /// Steps in order, as OdometryChain has them.
   bool addOdometry(const urban_nav_core::RelativePose& step);
   /// `measured`: T_a_b from a place of the map, at T_map_a, to the robot at `b`. Directions without information count for nothing; a closure that leaves
-  /// some free is a witness, but no hypothesis begins with it.
+  /// some free, or is not firm, is a witness, but no hypothesis begins with it.
   void addSighting(urban_nav_core::StampNs b, const urban_nav_core::Pose& T_map_a,
-                   const urban_nav_core::Constraint& measured);
+                   const urban_nav_core::Constraint& measured, bool is_firm = true);
   /// What somebody believes (initialpose): the best guess until something is seen, and where to look first. It is no evidence: it makes nothing KNOWN, and adds nothing to
   /// the pose.
   void addBelief(urban_nav_core::StampNs at, const urban_nav_core::UncertainPose& T_map_base);
   /// At this moment the robot looked for the place in the map and found nothing like it. `expected`: the map has a view of where it believes to be that it should have
   /// recognised; three of them in a row end KNOWN.
   void addNothing(urban_nav_core::StampNs at, bool expected);
+
+  /// What odometry is known, from the oldest step that is not forgotten.
+  const urban_nav_core::OdometryChain& odometry() const { return odometry_; }
+  /// m driven since the robot was seen last; without any sighting, from the beginning.
+  double unseen() const;
 
   /// At the newest frame of odometry.
   Located now() const;

@@ -10,6 +10,7 @@
 #include "urban_nav_core/trajectory/odometry_chain.hpp"
 #include "urban_nav_store/keyframe_store.hpp"
 #include "urban_nav_store/scan_store.hpp"
+#include "urban_nav_store/store.hpp"
 
 namespace loop_metric {
 
@@ -25,6 +26,9 @@ struct LaserAt {
   std::string frame;  ///< under which its scans are stored
   urban_nav_core::Pose T_base_laser;
 };
+
+/// Those of a session that have scans in the store, and a place on the robot.
+std::vector<LaserAt> storedLasers(urban_nav_store::Store& store, const urban_nav_store::SessionId& session);
 
 /// A session whose moments candidates name.
 struct SessionOfStore {

@@ -24,10 +24,7 @@ constexpr double kFarthest = 50.0;  // m from the sensor: beyond, headings are t
 constexpr std::size_t kKept = 10;   // candidates
 constexpr int kLanes = 8;           // shifts that are summed up at once
 
-/// A piece of something upright, seen from above.
-struct Piece {
-  double x, y, bearing;  // m, m, rad of its normal
-};
+using Piece = Outline::Piece;
 
 std::vector<Piece> piecesOf(const Surfels& surfels, const Upright& upright, const Eigen::Matrix3f& level, double cell) {
   CellTable cells(1024);
@@ -140,11 +137,19 @@ bool areNear(const Peak& a, const Peak& b, const Grain& grain) {
 
 }  // namespace
 
-std::vector<Candidate> searchGlobally(const Surfels& source, const Surfels& target, const Vector3d& centre,
+Outline outlineOf(const Surfels& surfels, const Grain& grain) {
+  const Upright upright = uprightOf(surfels);
+  Outline outline;
+  outline.level = levelling(upright.up);
+  outline.ground = upright.ground;
+  outline.has_ground = upright.has_ground;
+  outline.pieces = piecesOf(surfels, upright, outline.level, grain.cell);
+  return outline;
+}
+
+std::vector<Candidate> searchGlobally(const Outline& source, const Outline& target, const Vector3d& centre,
                                       double radius, const Grain& grain) {
-  const Upright from = uprightOf(source), to = uprightOf(target);
-  const Eigen::Matrix3f level_source = levelling(from.up), level_target = levelling(to.up);
-  std::vector<Piece> pieces = piecesOf(source, from, level_source, grain.cell);
+  std::vector<Piece> pieces = source.pieces;
   if (pieces.empty()) return {};
   if (pieces.size() > grain.most) {  // evenly over the list
     std::vector<Piece> some;
@@ -152,8 +157,8 @@ std::vector<Candidate> searchGlobally(const Surfels& source, const Surfels& targ
     pieces = some;
   }
   const int half = std::max(1, static_cast<int>(radius / grain.cell));
-  Pictures pictures = picturesOf(piecesOf(target, to, level_target, grain.cell), grain.cell, half);
-  const Vector3d middle = level_target.cast<double>() * centre;
+  Pictures pictures = picturesOf(target.pieces, grain.cell, half);
+  const Vector3d middle = target.level.cast<double>() * centre;
   std::vector<std::vector<Peak>> by_heading(static_cast<std::size_t>(grain.headings));
   urban_nav_core::forEach(by_heading.size(), 6, [&](std::size_t heading) {
     by_heading[heading] = peaksOf(pictures, pieces, static_cast<int>(heading), grain.headings, middle, half);
@@ -171,9 +176,10 @@ std::vector<Candidate> searchGlobally(const Surfels& source, const Surfels& targ
   for (const Peak& peak : kept) {
     const Pose turned(Quaterniond(Eigen::AngleAxisd(2.0 * kPi * peak.heading / grain.headings, Vector3d::UnitZ())),
                       {middle.x() + grain.cell * peak.x, middle.y() + grain.cell * peak.y,
-                       from.has_ground && to.has_ground ? static_cast<double>(to.ground - from.ground) : middle.z()});
-    const Pose T_level_source(urban_nav_core::Matrix3d(level_source.cast<double>()), Vector3d::Zero());
-    const Pose T_level_target(urban_nav_core::Matrix3d(level_target.cast<double>()), Vector3d::Zero());
+                       source.has_ground && target.has_ground ? static_cast<double>(target.ground - source.ground)
+                                                             : middle.z()});
+    const Pose T_level_source(urban_nav_core::Matrix3d(source.level.cast<double>()), Vector3d::Zero());
+    const Pose T_level_target(urban_nav_core::Matrix3d(target.level.cast<double>()), Vector3d::Zero());
     candidates.push_back(
         {T_level_target.inverse() * turned * T_level_source, peak.score / (2.0 * static_cast<double>(pieces.size()))});
   }

@@ -96,7 +96,7 @@ void Localiser::forgetOldSteps() {
   choose();
 }
 
-void Localiser::addSighting(StampNs b, const Pose& T_map_a, const Constraint& measured) {
+void Localiser::addSighting(StampNs b, const Pose& T_map_a, const Constraint& measured, bool is_firm) {
   Sighting sighting;
   sighting.stamp = b;
   const Matrix6d covariance = urban_nav_core::covarianceForDisplay(measured.information, metres_per_radian);
@@ -105,7 +105,7 @@ void Localiser::addSighting(StampNs b, const Pose& T_map_a, const Constraint& me
   of_map.diagonal() << Eigen::Vector3d::Constant(sigma * sigma),
       Eigen::Vector3d::Constant(sigma * sigma / (metres_per_radian * metres_per_radian));
   sighting.T_map_base = compose(UncertainPose{T_map_a, of_map}, UncertainPose{measured.T_a_b, covariance});
-  sighting.begins = positionSigma(sighting.T_map_base) < 1.0;
+  sighting.begins = is_firm && positionSigma(sighting.T_map_base) < 1.0;
   if (sighting.T_map_base.pose.isFinite() && sighting.T_map_base.covariance.allFinite()) add(sighting);
 }
 
@@ -226,6 +226,14 @@ UncertainPose Localiser::fuse(const Hypothesis& hypothesis, StampNs stamp) const
       parameters_.odometry_scale * std::abs(odometry_.distance(stamp) - odometry_.distance(last.stamp));
   now.covariance.diagonal().head<3>().array() += common * common;
   return now;
+}
+
+double Localiser::unseen() const {
+  if (odometry_.empty()) return 0.0;
+  const double driven = odometry_.distance(odometry_.trajectory().back().stamp);
+  const auto last =
+      std::find_if(sightings_.rbegin(), sightings_.rend(), [](const Sighting& sighting) { return sighting.sees; });
+  return last == sightings_.rend() ? driven : driven - odometry_.distance(last->stamp);
 }
 
 Located Localiser::now() const { return odometry_.empty() ? Located() : at(odometry_.trajectory().back().stamp); }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "session_odometry.hpp"
+#include "loop_metric/session_odometry.hpp"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
+
+#include "odometry_rows.hpp"
 
 namespace loop_metric::test {
 namespace {

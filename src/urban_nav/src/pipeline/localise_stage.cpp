@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
 
+#include "loop_metric/cloud_search.hpp"
 #include "loop_metric/map_search.hpp"
 #include "loop_metric/stored_surroundings.hpp"
 #include "pipeline/store_stage.hpp"
+#include "pipeline/stored_sessions.hpp"
 #include "pipeline/vo_summary.hpp"
 #include "urban_nav_core/io/csv.hpp"
 #include "urban_nav_core/io/numbers.hpp"
@@ -24,6 +27,37 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// What the lasers of a run saw, looked for in the map; nothing where there are none.
+class CloudLooks {
+ public:
+  CloudLooks(const loop_metric::Parameters& parameters, const loop_metric::FrozenMap& map, Store& frozen, Store& own,
+             const urban_nav_store::SessionId& id, const VoRun& run, Console& console) {
+    if (!parameters.icp || own.scans().lasers(id).empty()) return;
+    surroundings_ = std::make_unique<loop_metric::StoredSurroundings>(storedSessions({{"", id, &run}}, own, ""),
+                                                                      own.keyframes(), own.scans());
+    search_ = std::make_unique<loop_metric::CloudSearch>(parameters, map, frozen);
+    if (search_->places() == 0) return;
+    Progress progress(console, "clouds of the map", "places", static_cast<std::int64_t>(search_->places()));
+    while (search_->readNext()) progress.update(static_cast<std::int64_t>(search_->read()));
+    progress.finish(static_cast<std::int64_t>(search_->places()));
+  }
+
+  void lookOn(loop_metric::Localiser& localiser, LocaliseRun& made) {
+    const auto stretch = search_ ? search_->due(localiser) : std::nullopt;
+    if (!stretch) return;
+    const urban_nav_core::PoseRef at{"", stretch->at};
+    ++made.cloud_looks;
+    made.cloud_sightings += search_->look(*stretch, surroundings_->cloud(at, stretch->way),
+                                          surroundings_->bend(at, stretch->way), localiser)
+                                ? 1
+                                : 0;
+  }
+
+ private:
+  std::unique_ptr<loop_metric::StoredSurroundings> surroundings_;
+  std::unique_ptr<loop_metric::CloudSearch> search_;
+};
+
 }  // namespace
 
 LocaliseRun localise(const loop_metric::Parameters& parameters, Store& frozen, Store& own,
@@ -35,6 +69,7 @@ LocaliseRun localise(const loop_metric::Parameters& parameters, Store& frozen, S
   while (search.readNext()) reading.update(static_cast<std::int64_t>(search.read()));
   reading.finish(static_cast<std::int64_t>(search.views()));
   loop_metric::Localiser localiser(parameters);
+  CloudLooks clouds(parameters, map, frozen, own, id, run, console);
   const std::vector<StampNs> views = own.keyframes().stamps(id, kVoCamera);
   Progress progress(console, "localise", "frames", static_cast<std::int64_t>(run.settled.size()));
   std::vector<double> ms;
@@ -49,6 +84,7 @@ LocaliseRun localise(const loop_metric::Parameters& parameters, Store& frozen, S
         made.sightings += search.look(loop_metric::keyframeOf(*stored, ""), localiser) ? 1 : 0;
       ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
     }
+    clouds.lookOn(localiser, made);
     Located located = localiser.at(frame.stamp);
     located.stamp = frame.stamp;
     if (located.knowledge == Knowledge::Known) {
@@ -109,6 +145,8 @@ Json toJson(const LocaliseRun& run) {
   json["looks"] = run.looks;
   json["sightings"] = run.sightings;
   json["ms_median"] = run.ms_median;
+  json["cloud_looks"] = run.cloud_looks;
+  json["cloud_sightings"] = run.cloud_sightings;
   Json& warnings = json["warnings"] = Json::array();
   for (const std::string& warning : run.warnings) warnings.append(warning);
   return json;

@@ -19,14 +19,15 @@ struct LocaliseRun {
   urban_nav_core::Trajectory
       T_map_base;                        ///< of all frames, by what is known in the end; empty where it was never known
   std::size_t looks = 0, sightings = 0;  ///< views that were looked for in the map, and transforms that came of it
-  double first_known_s = -1.0;           ///< from the first frame; negative: never
-  double known_share = 0.0;              ///< of the frames
-  double ms_median = 0.0;                ///< of a look
+  std::size_t cloud_looks = 0, cloud_sightings = 0;  ///< likewise of local clouds
+  double first_known_s = -1.0;                       ///< from the first frame; negative: never
+  double known_share = 0.0;                          ///< of the frames
+  double ms_median = 0.0;                            ///< of a look
   std::vector<std::string> warnings;
 };
 
 /// The views that `own` holds of the run are looked for among those of the map of `frozen`'s first session, and registered. Views near to where it believes to be where it
-/// believes so, else all. Throws UserError where the map holds no views, or those of another camera.
+/// believes so, else all. Where no view was seen for some metres, what the lasers saw on them is looked for likewise, if both have scans. Throws UserError where the map holds no views, or those of another camera.
 LocaliseRun localise(const loop_metric::Parameters& parameters, urban_nav_store::Store& frozen,
                      urban_nav_store::Store& own, const urban_nav_store::SessionId& id, const VoRun& run,
                      Console& console);

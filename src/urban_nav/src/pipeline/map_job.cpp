@@ -252,7 +252,10 @@ void runLocalisation(MapOutcome& outcome, StoreStage& store, Console& console) {
                                 store.ids()[i], run, console);
     console.info("localised: KNOWN in " + forPerson(100.0 * made.known_share, 3) + " % of the frames" +
                  (made.first_known_s < 0.0 ? "" : ", first after " + forPerson(made.first_known_s, 3) + " s") + "; " +
-                 std::to_string(made.sightings) + " sightings in " + std::to_string(made.looks) + " looks");
+                 std::to_string(made.sightings) + " sightings in " + std::to_string(made.looks) + " looks" +
+                 (made.cloud_looks == 0 ? ""
+                                        : ", " + std::to_string(made.cloud_sightings) + " in " +
+                                              std::to_string(made.cloud_looks) + " at clouds"));
     for (const std::string& warning : made.warnings) console.warn(warning);
     const std::string suffix = i == 0 ? "" : "_" + std::to_string(i + 1);
     outcome.folder.write("localisation" + suffix + ".csv", localisationCsv(made));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/stored_sessions.hpp"
 
-#include <algorithm>
 #include <memory>
 
 #include "loop_metric/camera_words.hpp"
@@ -19,10 +18,7 @@ loop_metric::StoredSurroundings::Sessions storedSessions(const std::vector<Loops
     its.has_camera = false;
     for (const urban_nav_store::Property& property : store.sessions().properties(session.id))
       if (property.name == loop_metric::camera_property) its.has_camera = property.value == camera;
-    const std::vector<std::string> lasers = store.scans().lasers(session.id);
-    for (const urban_nav_store::Extrinsic& extrinsic : store.sessions().extrinsics(session.id))
-      if (std::find(lasers.begin(), lasers.end(), extrinsic.frame) != lasers.end())
-        its.lasers.push_back({extrinsic.frame, extrinsic.T_base_frame});
+    its.lasers = loop_metric::storedLasers(store, session.id);
   }
   return made;
 }

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "session_odometry.hpp"
+#include "loop_metric/session_odometry.hpp"
 
 #include <map>
 
-#include "urban_nav_core/geometry/dense.hpp"
-
 namespace loop_metric {
 
-using urban_nav_core::Matrix6d;
 using urban_nav_core::OdometryChain;
 using urban_nav_core::RelativePose;
 using urban_nav_core::StampNs;
@@ -16,14 +13,10 @@ using urban_nav_store::EdgeKind;
 using urban_nav_store::Node;
 using urban_nav_store::SessionId;
 
-namespace {
-
 bool isUsable(const RelativePose& step) {
   return step.T_from_to.isFinite() && step.covariance.allFinite() && step.drift_covariance.allFinite() &&
          step.to > step.from;
 }
-
-}  // namespace
 
 bool SessionOdometry::add(const RelativePose& step) {
   if (!isUsable(step) || (!empty() && step.from < newest())) return false;
@@ -63,35 +56,6 @@ SessionOdometry readOdometry(urban_nav_store::Store& store, const SessionId& ses
     last = node;
   });
   return odometry;
-}
-
-bool OdometryRows::write(const SessionId& session, const RelativePose& step, std::vector<Node>& nodes,
-                         std::optional<Edge>& edge) {
-  if (!isUsable(step) || (newest_ && step.from < newest_->stamp)) return false;
-  if (!newest_ || step.from > newest_->stamp) {
-    Node first;
-    first.stamp = step.from;
-    // Behind a gap the chain goes on where it broke, for want of a better guess.
-    if (newest_) first.T_odom_base = newest_->T_odom_base;
-    newest_ = first;
-    nodes.push_back(first);
-  }
-  Node node;
-  node.stamp = step.to;
-  node.T_odom_base = newest_->T_odom_base * step.T_from_to;
-  node.covariance = step.covariance;
-  node.drift_covariance = step.drift_covariance;
-  node.status = step.status.health;
-  nodes.push_back(node);
-  newest_ = node;
-  edge.emplace();
-  edge->a = {session, step.from};
-  edge->b = {session, step.to};
-  edge->kind = EdgeKind::Odometry;
-  edge->source = step.source;
-  edge->measured.T_a_b = step.T_from_to;
-  edge->measured.information = urban_nav_core::invertPositiveDefinite(step.covariance).value_or(Matrix6d::Zero());
-  return true;
 }
 
 }  // namespace loop_metric

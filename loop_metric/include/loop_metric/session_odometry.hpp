@@ -2,15 +2,16 @@
 #pragma once
 
 #include <memory>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "urban_nav_core/trajectory/odometry_chain.hpp"
-#include "urban_nav_core/types/closure.hpp"
+#include "urban_nav_core/types/uncertain.hpp"
 #include "urban_nav_store/store.hpp"
 
 namespace loop_metric {
+
+/// Finite, and forward in time.
+bool isUsable(const urban_nav_core::RelativePose& step);
 
 /// A session's odometry. Where a step does not begin at the end of the one before, what follows is a part of its own, of which nothing is
 /// known beside the parts before it.
@@ -33,18 +34,5 @@ class SessionOdometry {
 
 /// As it is stored with the nodes of a session; no parts where there are none. DataError where the store is damaged.
 SessionOdometry readOdometry(urban_nav_store::Store& store, const urban_nav_store::SessionId& session);
-
-/// A step as rows of the graph, in the way that pose_graph has them, so that files of one session can be joined.
-class OdometryRows {
- public:
-  /// Goes on from a pose that is in the store.
-  void goOn(const urban_nav_store::Node& newest) { newest_ = newest; }
-  /// False, and nothing is written, where add() would be false.
-  bool write(const urban_nav_store::SessionId& session, const urban_nav_core::RelativePose& step,
-             std::vector<urban_nav_store::Node>& nodes, std::optional<urban_nav_store::Edge>& edge);
-
- private:
-  std::optional<urban_nav_store::Node> newest_;
-};
 
 }  // namespace loop_metric

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loop_metric/cloud_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "cloud/surfels.hpp"
+#include "global/search.hpp"
+#include "localise/near.hpp"
+#include "loop_metric/align.hpp"
+#include "loop_metric/session_odometry.hpp"
+#include "loop_metric/stored_surroundings.hpp"
+#include "urban_nav_core/geometry/compose.hpp"
+#include "urban_nav_core/geometry/covariance_frames.hpp"
+#include "urban_nav_core/geometry/dense.hpp"
+
+namespace loop_metric {
+
+using urban_nav_core::Constraint;
+using urban_nav_core::OdometryChain;
+using urban_nav_core::PointCloud;
+using urban_nav_core::Pose;
+using urban_nav_core::PoseRef;
+using urban_nav_core::StampNs;
+using urban_nav_core::UncertainPose;
+
+namespace {
+
+constexpr double places_apart = 5.0;  // m between places of the map: a cloud reaches twice as far to both sides
+constexpr double least_way = 3.0;     // m to both sides of a stretch that may be recognised
+constexpr double step = 3.0;          // m between looks
+constexpr std::size_t candidates = 3;
+constexpr double one_place = 1.0;  // m: answers further apart contradict each other
+constexpr double near_way = 8.0;   // m: places further from where the robot believes to be are not near
+
+/// A place of the map that was driven through, and what stands around it.
+struct Place {
+  PoseRef at;
+  Pose T_map_base;
+  Outline outline;
+};
+
+/// T_a_b with odometry from b on: next to no information where there was none.
+Constraint carried(const Constraint& measured, const UncertainPose& T_b_end) {
+  constexpr double metres_per_radian = 10.0;
+  const UncertainPose end = compose(
+      UncertainPose{measured.T_a_b, urban_nav_core::covarianceForDisplay(measured.information, metres_per_radian)},
+      T_b_end);
+  Constraint made;
+  made.T_a_b = end.pose;
+  if (const auto information = urban_nav_core::invertPositiveDefinite(end.covariance)) made.information = *information;
+  return made;
+}
+
+}  // namespace
+
+class CloudSearch::Implementation {
+ public:
+  Implementation(const Parameters& parameters, const FrozenMap& map, urban_nav_store::Store& store)
+      : parameters_(parameters) {
+    StoredSurroundings::Sessions sessions;
+    for (const urban_nav_store::StoredTrajectory& session : map.sessions()) {
+      const std::vector<LaserAt> lasers = storedLasers(store, session.session.id);
+      if (lasers.empty()) continue;
+      const SessionOdometry odometry = readOdometry(store, session.session.id);
+      for (std::size_t part = 0; part < odometry.parts().size(); ++part)
+        sessions[session.session.id + "/" + std::to_string(part)] = {session.session.id, odometry.parts()[part], lasers,
+                                                                     false};
+      addPlaces(session, odometry);
+    }
+    surroundings_ = std::make_unique<StoredSurroundings>(std::move(sessions), store.keyframes(), store.scans());
+  }
+
+  std::size_t places() const { return places_.size(); }
+  std::size_t read() const { return read_; }
+  bool readNext() {
+    if (read_ < places_.size()) {
+      Place& place = places_[read_++];
+      const PointCloud cloud = surroundings_->cloud(place.at, parameters_.cloud_way);
+      place.outline = outlineOf(makeSurfels(cloud, static_cast<float>(parameters_.voxel)), kCoarse);
+    }
+    return read_ < places_.size();
+  }
+
+  std::optional<Stretch> due(const Localiser& localiser) const {
+    const OdometryChain& odometry = localiser.odometry();
+    if (odometry.empty() || places_.empty()) return std::nullopt;
+    const StampNs newest = odometry.trajectory().back().stamp;
+    const double driven = odometry.distance(newest);
+    const bool looked = looked_ && odometry.momentOf(*looked_);
+    if (looked && driven - odometry.distance(*looked_) < step) return std::nullopt;
+    const double way = std::min(parameters_.cloud_way, driven / 2.0);
+    if (way < least_way) return std::nullopt;
+    if (localiser.now().knowledge == Knowledge::Known && localiser.unseen() < step) return std::nullopt;
+    Stretch stretch;
+    stretch.way = way;
+    stretch.at = frameAt(odometry, driven - way);
+    return stretch;
+  }
+
+  bool look(const Stretch& stretch, const PointCloud& cloud, double bend, Localiser& localiser) {
+    const StampNs end = localiser.odometry().trajectory().back().stamp;
+    looked_ = end;
+    const auto T_middle_end = localiser.odometry().between(stretch.at, end);
+    if (cloud.points.empty() || !T_middle_end) return false;
+    const Looked looked{cloud, bend, localiser.at(stretch.at)};
+    std::optional<Sighting> seen;
+    if (const auto place = near(looked.believed)) seen = at(places_[*place], looked);
+    if (!seen) seen = among(alike(cloud), looked);
+    if (!seen) return false;
+    // At its end: the whole stretch has been recognised, and what was seen on it is no older.
+    localiser.addSighting(end, seen->T_map_place, carried(seen->measured, *T_middle_end));
+    return true;
+  }
+
+ private:
+  struct Looked {
+    const PointCloud& cloud;
+    double bend;
+    Located believed;
+  };
+  struct Sighting {
+    Pose T_map_place;
+    Constraint measured;
+  };
+
+  void addPlaces(const urban_nav_store::StoredTrajectory& session, const SessionOdometry& odometry) {
+    const Pose* last = nullptr;
+    for (const urban_nav_core::StampedPose& pose : session.T_map_base) {
+      if (last != nullptr && distanceBetween(*last, pose.pose) < places_apart) continue;
+      const std::size_t part = odometry.partAt(pose.stamp);
+      if (odometry.empty() || !odometry.parts()[part]->momentOf(pose.stamp)) continue;
+      last = &pose.pose;
+      places_.push_back({{session.session.id + "/" + std::to_string(part), pose.stamp}, pose.pose, {}});
+    }
+  }
+
+  /// The first frame that lies so far along the way.
+  static StampNs frameAt(const OdometryChain& odometry, double way) {
+    const auto& frames = odometry.trajectory();
+    std::size_t first = 0, last = frames.size() - 1;
+    while (first < last) {
+      const std::size_t middle = (first + last) / 2;
+      if (odometry.distance(frames[middle].stamp) < way) first = middle + 1;
+      else last = middle;
+    }
+    return frames[first].stamp;
+  }
+
+  /// The nearest place to where the robot believes to be; none where it knows too little.
+  std::optional<std::size_t> near(const Located& believed) const {
+    std::optional<std::size_t> nearest;
+    if (!tellsWhatIsNear(believed)) return nearest;
+    double least = near_way;
+    for (std::size_t i = 0; i < read_; ++i) {
+      const double way = distanceBetween(places_[i].T_map_base, believed.T_map_base->pose);
+      if (way > least) continue;
+      least = way;
+      nearest = i;
+    }
+    return nearest;
+  }
+
+  /// The places whose outlines the cloud's can be laid upon best, at places_apart or more from each other.
+  std::vector<std::size_t> alike(const PointCloud& cloud) const {
+    const Outline outline = outlineOf(makeSurfels(cloud, static_cast<float>(parameters_.voxel)), kCoarse);
+    std::vector<std::pair<double, std::size_t>> scores;
+    for (std::size_t i = 0; i < read_; ++i) {
+      const std::vector<Candidate> found = searchGlobally(outline, places_[i].outline, urban_nav_core::Vector3d::Zero(),
+                                                          parameters_.search_radius, kCoarse);
+      if (!found.empty()) scores.emplace_back(-found.front().score, i);
+    }
+    std::sort(scores.begin(), scores.end());
+    std::vector<std::size_t> best;
+    for (const auto& [score, i] : scores) {
+      if (best.size() == candidates) break;
+      const auto isBeside = [&, i = i](std::size_t other) {
+        return distanceBetween(places_[i].T_map_base, places_[other].T_map_base) < 0.9 * places_apart;
+      };
+      if (std::none_of(best.begin(), best.end(), isBeside)) best.push_back(i);
+    }
+    return best;
+  }
+
+  /// At a place that is near to where the robot believes to be, or at any heading.
+  std::optional<Sighting> at(const Place& place, const Looked& looked, bool is_near = true) const {
+    const PointCloud target = surroundings_->cloud(place.at, parameters_.cloud_way);
+    Known known;
+    known.bend = std::hypot(looked.bend, surroundings_->bend(place.at, parameters_.cloud_way));
+    const Pose guess = is_near ? place.T_map_base.inverse() * looked.believed.T_map_base->pose : Pose();
+    const Alignment found =
+        align(looked.cloud, target, parameters_, guess, is_near ? Search::IfRejected : Search::AtOnce, known);
+    if (found.verdict == Verdict::Rejected) return std::nullopt;
+    // One flat facade lies on any other: what slides tells no place from another, unless it is known which one it is.
+    if (found.verdict == Verdict::Degenerate && !(is_near && looked.believed.knowledge == Knowledge::Known))
+      return std::nullopt;
+    return Sighting{place.T_map_base, {found.T_target_source, found.information}};
+  }
+
+  /// Where all of them that fit say the same: else the map has more than one place like this.
+  std::optional<Sighting> among(const std::vector<std::size_t>& places, const Looked& looked) const {
+    std::optional<Sighting> seen;
+    for (const std::size_t place : places) {
+      const std::optional<Sighting> found = at(places_[place], looked, false);
+      if (!found) continue;
+      if (!seen) seen = found;
+      else if (distanceBetween(seen->T_map_place * seen->measured.T_a_b, found->T_map_place * found->measured.T_a_b) >
+               one_place)
+        return std::nullopt;
+    }
+    return seen;
+  }
+
+  Parameters parameters_;
+  std::unique_ptr<StoredSurroundings> surroundings_;
+  std::vector<Place> places_;
+  std::size_t read_ = 0;
+  std::optional<StampNs> looked_;  // the newest frame then
+};
+
+CloudSearch::CloudSearch(const Parameters& parameters, const FrozenMap& map, urban_nav_store::Store& store)
+    : implementation_(std::make_unique<Implementation>(parameters, map, store)) {}
+CloudSearch::~CloudSearch() = default;
+
+std::size_t CloudSearch::places() const { return implementation_->places(); }
+std::size_t CloudSearch::read() const { return implementation_->read(); }
+bool CloudSearch::readNext() { return implementation_->readNext(); }
+std::optional<CloudSearch::Stretch> CloudSearch::due(const Localiser& localiser) const {
+  return implementation_->due(localiser);
+}
+bool CloudSearch::look(const Stretch& stretch, const PointCloud& cloud, double bend, Localiser& localiser) {
+  return implementation_->look(stretch, cloud, bend, localiser);
+}
+
+}  // namespace loop_metric
