@@ -256,6 +256,36 @@ TEST_F(LocaliserTest, AWallAloneIsNoHypothesis) {
   expectRight(0.02);
 }
 
+TEST_F(LocaliserTest, WhatIsNotFirmBeginsNothingAndCarriesNobody) {
+  const Pose elsewhere = at(20.0, 3.0);
+  drive(4);
+  const auto seeFromAfar = [&](int second, const Pose& error) {
+    Constraint measured;
+    measured.T_a_b = error * truth(second);
+    measured.information.diagonal() << Eigen::Vector3d::Constant(1e4), Eigen::Vector3d::Constant(1e6);
+    localiser_.addSighting(second * kSecond, Pose(), measured, false);
+  };
+  for (const int second : {1, 2, 3}) seeFromAfar(second, elsewhere);
+  EXPECT_FALSE(localiser_.now().T_map_base) << localiser_.now().sentence;
+  see(4);
+  EXPECT_EQ(localiser_.now().reason, LocatedReason::OneSighting);
+  drive(4);
+  seeFromAfar(6, Pose());
+  expectRight(0.02);
+  for (const int second : {6, 7, 8}) seeFromAfar(second, elsewhere);
+  expectRight(0.02);
+}
+
+TEST_F(LocaliserTest, AStretchWithoutSightingsIsMeasured) {
+  EXPECT_EQ(localiser_.unseen(), 0.0);
+  drive(5);
+  EXPECT_NEAR(localiser_.unseen(), 5.0, 1e-9);
+  localiser_.addBelief(4 * kSecond, {truth(4), urban_nav_core::Matrix6d::Identity()});
+  EXPECT_NEAR(localiser_.unseen(), 5.0, 1e-9) << "nothing was seen of it";
+  see(3);
+  EXPECT_NEAR(localiser_.unseen(), 2.0, 1e-9);
+}
+
 TEST_F(LocaliserTest, WhatIsNoNumberOrOfNoMomentIsLeftOut) {
   drive(3);
   Constraint broken;
