@@ -174,10 +174,10 @@ std::vector<Candidate> searchGlobally(const Outline& source, const Outline& targ
   }
   std::vector<Candidate> candidates;
   for (const Peak& peak : kept) {
-    const Pose turned(Quaterniond(Eigen::AngleAxisd(2.0 * kPi * peak.heading / grain.headings, Vector3d::UnitZ())),
-                      {middle.x() + grain.cell * peak.x, middle.y() + grain.cell * peak.y,
-                       source.has_ground && target.has_ground ? static_cast<double>(target.ground - source.ground)
-                                                             : middle.z()});
+    const Pose turned(
+        Quaterniond(Eigen::AngleAxisd(2.0 * kPi * peak.heading / grain.headings, Vector3d::UnitZ())),
+        {middle.x() + grain.cell * peak.x, middle.y() + grain.cell * peak.y,
+         source.has_ground && target.has_ground ? static_cast<double>(target.ground - source.ground) : middle.z()});
     const Pose T_level_source(urban_nav_core::Matrix3d(source.level.cast<double>()), Vector3d::Zero());
     const Pose T_level_target(urban_nav_core::Matrix3d(target.level.cast<double>()), Vector3d::Zero());
     candidates.push_back(
