@@ -31,20 +31,18 @@ using Clock = std::chrono::steady_clock;
 class CloudLooks {
  public:
   CloudLooks(const loop_metric::Parameters& parameters, const loop_metric::FrozenMap& map, Store& frozen, Store& own,
-             const urban_nav_store::SessionId& id, const VoRun& run, Console& console) {
+             const urban_nav_store::SessionId& id, const VoRun& run, Console& console)
+      : console_(console) {
     if (!parameters.icp || own.scans().lasers(id).empty()) return;
     surroundings_ = std::make_unique<loop_metric::StoredSurroundings>(storedSessions({{"", id, &run}}, own, ""),
                                                                       own.keyframes(), own.scans());
     search_ = std::make_unique<loop_metric::CloudSearch>(parameters, map, frozen);
-    if (search_->places() == 0) return;
-    Progress progress(console, "clouds of the map", "places", static_cast<std::int64_t>(search_->places()));
-    while (search_->readNext()) progress.update(static_cast<std::int64_t>(search_->read()));
-    progress.finish(static_cast<std::int64_t>(search_->places()));
   }
 
   void lookOn(loop_metric::Localiser& localiser, LocaliseRun& made) {
     const auto stretch = search_ ? search_->due(localiser) : std::nullopt;
     if (!stretch) return;
+    if (search_->read() == 0) readMap();
     const urban_nav_core::PoseRef at{"", stretch->at};
     ++made.cloud_looks;
     made.cloud_sightings += search_->look(*stretch, surroundings_->cloud(at, stretch->way),
@@ -54,6 +52,14 @@ class CloudLooks {
   }
 
  private:
+  /// Whoever is seen by other means all along needs none of it.
+  void readMap() {
+    Progress progress(console_, "clouds of the map", "places", static_cast<std::int64_t>(search_->places()));
+    while (search_->readNext()) progress.update(static_cast<std::int64_t>(search_->read()));
+    progress.finish(static_cast<std::int64_t>(search_->places()));
+  }
+
+  Console& console_;
   std::unique_ptr<loop_metric::StoredSurroundings> surroundings_;
   std::unique_ptr<loop_metric::CloudSearch> search_;
 };
