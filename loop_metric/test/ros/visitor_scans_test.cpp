@@ -59,8 +59,8 @@ TEST(LocaliseNodeletScans, whoDrivesTheOtherWayIsFoundByItsLasers) {
   ScanningVisitor robot;
   ASSERT_TRUE(robot.scanning());
   const auto count = [&](const char* key) { return std::atoi(robot.diagnosis(key).c_str()); };
-  // Piece by piece, with a look each: the first where six metres were driven, then each three.
-  for (int from = frames - half, to = from + 65; to <= frames; from = to, to += 32) {
+  // Piece by piece, with a look each, or two: the first where six metres were driven, then each two, or five while it is KNOWN.
+  for (int from = frames - half, to = from + 65; to <= frames; from = to, to += 52) {
     const int scans = count("scans"), looks = count("looks at clouds");
     robot.scan(from, to);
     ASSERT_TRUE(Robot::until([&] { return count("scans") >= scans + 2 * (to - from); })) << robot.diagnosis("scans");
@@ -70,7 +70,7 @@ TEST(LocaliseNodeletScans, whoDrivesTheOtherWayIsFoundByItsLasers) {
   EXPECT_EQ(robot.diagnosis("lasers"), "ok");
   EXPECT_GE(count("sightings of clouds"), 2);
   ASSERT_TRUE(Robot::until([&] { return robot.diagnosed("knowledge", "KNOWN"); }));
-  const int last = frames - half + 65 + 5 * 32;
+  const int last = frames - half + 65 + 3 * 52;
   robot.drive(last, last + 1);
   ASSERT_TRUE(Robot::until([&] {
     return !robot.states.empty() &&
