@@ -41,7 +41,8 @@ def driven(folder, case):
     bags = []
     for day, (duration, _, route) in enumerate((each.partition("/") for each in days), 1):
         options = ("--day", day, "--sensors", SENSORS, *(("--route", route) if route else ()))
-        bags.append(simulated_bag(folder / f"{world}{seed}_day{day}.bag", world, seed, duration, *options))
+        name = "_".join((f"{world}{seed}_day{day}", *((route,) if route else ())))
+        bags.append(simulated_bag(folder / f"{name}.bag", world, seed, duration, *options))
     return bags
 
 
