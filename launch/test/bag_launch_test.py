@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from graph import command, connections, published, rviz_file, services  # noqa: E402
+from graph import command, connections, rviz_file, services  # noqa: E402
 from launch_case import PATIENCE, LaunchCase  # noqa: E402
 
 TOPICS = {
@@ -59,9 +59,8 @@ class BagLaunch(LaunchCase):
         self.play(rate=3, paused="true")
         self.play_on()
         self.expect(lambda: len(self.listener.odometry) >= 5, "five frames")
-        present = published()
         for topic, type_name in TOPICS.items():
-            self.assertEqual(present.get(topic), type_name, topic)
+            self.expect_topic(topic, type_name)
         self.expect(lambda: len(self.listener.odometry) == len(rows), lambda: f"{len(self.listener.odometry)} of {len(rows)} frames")
         for frame in SENSOR_FRAMES:
             self.assertTrue(self.listener.connected("map", frame), f"{frame} hangs from nothing: {self.listener.links}")

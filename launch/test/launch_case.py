@@ -58,17 +58,21 @@ class LaunchCase(unittest.TestCase):
         if not until(so, seconds):
             self.fail(f"{what() if callable(what) else what}\n{self.launched.output() if self.launched else ''}")
 
+    def expect_topic(self, topic, type_name, what=""):
+        """Waits for it: each node comes when it comes, and what is there first says nothing about the others."""
+        self.expect(lambda: published().get(topic) == type_name, lambda: f"{topic} is {published().get(topic)}, not {type_name}. {what}")
+
     def look_at(self, path):
         """Every display of an rviz file reads a topic that is there, in frames that are."""
         config = yaml.safe_load(path.read_text())["Visualization Manager"]
         root = config["Global Options"]["Fixed Frame"]
         self.expect(lambda: root in self.listener.links.values(), lambda: f"nothing in {root}: {self.listener.links}")
-        present = published()
         for display in config["Displays"]:
             kind = display["Class"]
             if kind in WITHOUT_TOPIC:
                 continue
             key, type_name = DISPLAYS[kind]
-            self.assertEqual(present.get(display[key]), type_name, f"{display['Name']} reads {display[key]}")
+            self.expect_topic(display[key], type_name, f"{display['Name']} reads it")
         for view in [config["Views"]["Current"]] + (config["Views"]["Saved"] or []):
-            self.assertTrue(self.listener.connected(root, view["Target Frame"]), view["Name"])
+            frame = view["Target Frame"]
+            self.expect(lambda: self.listener.connected(root, frame), lambda: f"{view['Name']} follows {frame}: {self.listener.links}")
