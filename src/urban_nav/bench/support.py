@@ -8,6 +8,7 @@ from pathlib import Path
 
 TOP = Path(__file__).resolve().parents[3]
 WORLDS = ("quad", "begbroke", "street")
+IS_CASE = re.compile(r"\w+:\d")  # of a world, which may name a route behind a stroke
 
 
 def urban_nav(*arguments):
@@ -63,6 +64,6 @@ def show(columns, rows, notes, measured, output):
     for note in notes:
         print(note)
     if output:
-        command = " ".join(re.sub(r"[^=]*/", "", word) for word in sys.argv)
+        command = " ".join(word if IS_CASE.match(word) else re.sub(r"[^=]*/", "", word) for word in sys.argv)
         table = {"machine": machine(), "commit": measured, "command": command, "columns": list(columns), "rows": rows, "notes": notes}
         output.write_text(json.dumps(table, indent=1, ensure_ascii=False) + "\n")
