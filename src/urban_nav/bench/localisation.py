@@ -18,7 +18,7 @@ from metric_loops import driven
 from support import commit, show, urban_nav
 
 COLUMNS = ("world, seed", "the other day's route", "starts in the map", "known and right within 10 s", "median time to KNOWN, s", "starts that leave it", "KNOWN", "of all, wrong by over 1 m while KNOWN", "KNOWN frames", "error, median, m", "95 %", "largest",
-           "NEES of position (3 is right)", "sightings: views", "clouds", "a look, ms")
+           "NEES of position (3 is right)", "sightings: views", "clouds")
 SECONDS = 15.0  # of a piece: 10 s of driving and the window of odometry
 RIGHT_S = 10.0
 RIGHT_M = 1.0
@@ -108,8 +108,7 @@ def row_of(case, arguments):
     return [case.split(":")[0] + " " + case.split(":")[1], case.split(":")[3].partition("/")[2] or "the same", str(len(inside)), str(right), f"{np.median(times):.1f}" if times else "", str(len(outside)),
             str(sum(first is not None for first, *_ in outside)), str(wrong), str(len(errors)),
             *(f"{value:.3f}" for value in (np.median(errors), np.quantile(errors, 0.95), errors.max())), f"{squares.mean():.2f}",
-            *(f"{sum(each[done] for each in said)} of {sum(each[looks] for each in said)}" for done, looks in (("sightings", "looks"), ("cloud_sightings", "cloud_looks"))),
-            f"{np.median([each['ms_median'] for each in said]):.0f}"]
+            *(f"{sum(each[done] for each in said)} of {sum(each[looks] for each in said)}" for done, looks in (("sightings", "looks"), ("cloud_sightings", "cloud_looks")))]
 
 
 def main():
