@@ -4,7 +4,7 @@
 The first day of a simulated world is mapped; from the second one pieces are cut at random, each its own recording, and looked for in the map of the first.
 Counted: how many are KNOWN and right (within 1 m) inside 10 s of driving, whether one is ever wrong by more than 1 m while it says KNOWN, and how far off it is. Starts that drive
 where the first day never was (further than 3 m from its way within the 10 s) are looked for too, and counted apart: nothing of them need be in the map. The map is laid upon the truth by one rigid motion of the whole first
-day; the truth reaches nothing else.
+day; the truth reaches nothing else. A stranger drives in another world: KNOWN is wrong wherever it says it is.
 """
 import argparse
 import csv
@@ -17,7 +17,7 @@ import rosbag
 from metric_loops import driven
 from support import commit, show, urban_nav
 
-COLUMNS = ("world, seed", "the other day's route", "starts in the map", "known and right within 10 s", "median time to KNOWN, s", "starts that leave it", "KNOWN", "of all, wrong by over 1 m while KNOWN", "KNOWN frames", "error, median, m", "95 %", "largest",
+COLUMNS = ("world, seed", "visitor", "starts in the map", "known and right within 10 s", "median time to KNOWN, s", "starts that leave it", "KNOWN", "of all, KNOWN and wrong", "KNOWN frames", "error, median, m", "95 %", "largest",
            "NEES of position (3 is right)", "sightings: views", "clouds")
 SECONDS = 15.0  # of a piece: 10 s of driving and the window of odometry
 RIGHT_S = 10.0
@@ -83,8 +83,14 @@ def stays_near(truth, begin, places):
     return all(np.linalg.norm(places - place, axis=1).min() <= IN_MAP_M for place in places_at(truth, stamps))
 
 
+def error_columns(errors, squares):
+    return [*(f"{value:.3f}" for value in (np.median(errors), np.quantile(errors, 0.95), errors.max())), f"{squares.mean():.2f}"]
+
+
 def row_of(case, arguments):
-    bags = driven(arguments.folder, case)
+    own, _, strange = case.partition("@")
+    bags = driven(arguments.folder, own)
+    bags[1:] = driven(arguments.folder, strange) if strange else bags[1:]
     out = arguments.folder / f"{bags[0].stem}_frozen"
     if not (out / "summary.json").exists():
         urban_nav("map", bags[0], "--stages", "vo,loops,graph", "--closures", bags[0].with_suffix(".truth") / "closures_true.csv", "--out", out)
@@ -94,27 +100,29 @@ def row_of(case, arguments):
     length = (truths[1][0][-1] - truths[1][0][0]) * 1e-9 - SECONDS - 1.0
     driven_first = places_at(truths[0], mapped[0])
     inside, outside = [], []
-    while len(inside) < arguments.starts and len(outside) < 10 * arguments.starts:
+    counted = outside if strange else inside
+    while len(counted) < arguments.starts and len(outside) < 10 * arguments.starts:
         begin = dice.uniform(0.0, length)
         made = start(bags[1], begin, out, motion, truths[1], arguments.folder)
-        (inside if stays_near(truths[1], begin, driven_first) else outside).append(made)
+        (inside if not strange and stays_near(truths[1], begin, driven_first) else outside).append(made)
     made = inside + outside
     errors = np.array([error for _, each, _, _ in made for error in each])
     squares = np.array([square for _, _, each, _ in made for square in each])
     times = [first for first, *_ in inside if first is not None]
     right = sum(first is not None and first <= RIGHT_S and max(each) <= RIGHT_M for first, each, *_ in inside)
-    wrong = sum(bool(each) and max(each) > RIGHT_M for _, each, *_ in made)
+    wrong = sum(bool(each) and (bool(strange) or max(each) > RIGHT_M) for _, each, *_ in made)
     said = [summary for *_, summary in made]
-    return [case.split(":")[0] + " " + case.split(":")[1], case.split(":")[3].partition("/")[2] or "the same", str(len(inside)), str(right), f"{np.median(times):.1f}" if times else "", str(len(outside)),
-            str(sum(first is not None for first, *_ in outside)), str(wrong), str(len(errors)),
-            *(f"{value:.3f}" for value in (np.median(errors), np.quantile(errors, 0.95), errors.max())), f"{squares.mean():.2f}",
+    world, seed, *days = own.split(":")
+    visitor = "{} {}".format(*strange.split(":")) if strange else days[1].partition("/")[2] or "the same way"
+    return [f"{world} {seed}", visitor, str(len(inside)), str(right), f"{np.median(times):.1f}" if times else "", str(len(outside)), str(sum(first is not None for first, *_ in outside)), str(wrong),
+            str(len(errors)), *(error_columns(errors, squares) if len(errors) and not strange else [""] * 4),
             *(f"{sum(each[done] for each in said)} of {sum(each[looks] for each in said)}" for done, looks in (("sightings", "looks"), ("cloud_sightings", "cloud_looks")))]
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path, help="for what is simulated and mapped; sessions and maps that are there already are taken")
-    parser.add_argument("--case", action="append", help="WORLD:SEED:SECONDS[/ROUTE]:SECONDS[/ROUTE], repeatable (default quad:7:300:300)")
+    parser.add_argument("--case", action="append", help="WORLD:SEED:SECONDS[/ROUTE]:SECONDS[/ROUTE], or WORLD:SEED:SECONDS@WORLD:SEED:SECONDS with a stranger, repeatable (default quad:7:300:300)")
     parser.add_argument("--starts", type=int, default=50, help="that stay in the map (default 50)")
     parser.add_argument("--seed", type=int, default=1, help="of the starts")
     parser.add_argument("-o", "--output", type=Path, help="the table, for a README")
@@ -122,7 +130,7 @@ def main():
     measured = commit()
     arguments.folder.mkdir(parents=True, exist_ok=True)
     rows = [row_of(case, arguments) for case in arguments.case or ["quad:7:300:300"]]
-    show(COLUMNS, rows, ["Another day of the same world, by views, and by clouds where those do not do; reversed: the other way. Starts that leave the map drive further than 3 m from where it was driven. One rigid motion lays the first day's map upon its truth."], measured, arguments.output)
+    show(COLUMNS, rows, ["Another day of the same world, by views, and by clouds where those do not do; reversed: the other way. Starts that leave the map drive further than 3 m from where it was driven; those of a stranger, who drives in another world, all do. One rigid motion lays the first day's map upon its truth."], measured, arguments.output)
 
 
 if __name__ == "__main__":
