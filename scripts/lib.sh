@@ -71,7 +71,8 @@ configure() {
   # catkin notes once, while it configures, which of these folders exist, and tests see no others in their environment.
   mkdir -p "$folder/build" "$folder/devel/bin" "$folder/devel/lib/pkgconfig" "$folder/devel/lib/python3/dist-packages"
   rm -f "$folder/configured"
-  if command -v ccache >/dev/null; then set -- "$@" -DCMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
+  # ccache knows files by their whole text, which precompiled headers hide from it: where it is absent they save a third of the time.
+  if command -v ccache >/dev/null; then set -- "$@" -DCMAKE_CXX_COMPILER_LAUNCHER=ccache; else set -- "$@" -DURBAN_NAV_PRECOMPILE=ON; fi
   if ! cmake -S "$ws/src" -B "$folder/build" -G Ninja -DPYTHON_EXECUTABLE=/usr/bin/python3 \
       -DCMAKE_EXPORT_COMPILE_COMMANDS=ON \
       -DCATKIN_DEVEL_PREFIX="$folder/devel" -DCMAKE_INSTALL_PREFIX="$folder/install" "$@" >"$folder/configure.log" 2>&1; then
