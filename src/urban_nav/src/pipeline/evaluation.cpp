@@ -118,7 +118,7 @@ TrajectoryFile readTrajectory(const std::string& path) {
 
 Evaluation evaluate(const TrajectoryFile& truth, const TrajectoryFile& estimate,
                     const std::vector<urban_nav_core::CovarianceRow>& covariances, const EvaluationOptions& options) {
-  using urban_nav_core::Alignment;
+  using urban_nav_core::TrajectoryAlignment;
   Evaluation evaluation;
   evaluation.truth = truth.path;
   evaluation.frames_truth = truth.poses.size();
@@ -126,9 +126,9 @@ Evaluation evaluate(const TrajectoryFile& truth, const TrajectoryFile& estimate,
   evaluation.matched = match(truth, estimate, evaluation, options.find_offset);
   const Matched& m = evaluation.matched;
   evaluation.length_m = urban_nav_core::pathLength(m.truth);
-  evaluation.first = urban_nav_core::absoluteError(m.truth, m.estimate, Alignment::First);
-  evaluation.se3 = urban_nav_core::absoluteError(m.truth, m.estimate, Alignment::Se3);
-  evaluation.sim3 = urban_nav_core::absoluteError(m.truth, m.estimate, Alignment::Sim3);
+  evaluation.first = urban_nav_core::absoluteError(m.truth, m.estimate, TrajectoryAlignment::First);
+  evaluation.se3 = urban_nav_core::absoluteError(m.truth, m.estimate, TrajectoryAlignment::Se3);
+  evaluation.sim3 = urban_nav_core::absoluteError(m.truth, m.estimate, TrajectoryAlignment::Sim3);
   evaluation.ten_frames = urban_nav_core::relativeError(m.truth, m.estimate, {Span::Unit::Frames, 10.0});
   for (const Span& span : options.spans) {
     if (const auto error = urban_nav_core::relativeError(m.truth, m.estimate, span))

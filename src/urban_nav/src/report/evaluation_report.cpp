@@ -120,7 +120,7 @@ Plot pathPlot(const Evaluation& evaluation, int a, int b) {
 Plot errorPlot(const Evaluation& evaluation) {
   const std::vector<double> way = distances(evaluation.matched.truth);
   const std::vector<double> errors = urban_nav_core::absoluteErrors(
-      evaluation.matched.truth, evaluation.matched.estimate, urban_nav_core::Alignment::First);
+      evaluation.matched.truth, evaluation.matched.estimate, urban_nav_core::TrajectoryAlignment::First);
   std::vector<PlotPoint> points, percent;
   for (std::size_t i = 0; i < way.size(); ++i) {
     points.push_back({way[i], errors[i]});

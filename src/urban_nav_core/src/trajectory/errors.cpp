@@ -33,12 +33,12 @@ Pose spanError(const std::vector<Pose>& truth, const std::vector<Pose>& estimate
 
 double turnOf(const Pose& T) { return logSo3(T.q()).norm() / kDegree; }
 
-Similarity align(const std::vector<Pose>& truth, const std::vector<Pose>& estimate, Alignment alignment) {
+Similarity align(const std::vector<Pose>& truth, const std::vector<Pose>& estimate, TrajectoryAlignment alignment) {
   switch (alignment) {
-    case Alignment::None: return {};
-    case Alignment::First: return alignFirst(truth, estimate);
-    case Alignment::Se3: return alignSe3(truth, estimate);
-    case Alignment::Sim3: return alignSim3(truth, estimate);
+    case TrajectoryAlignment::None: return {};
+    case TrajectoryAlignment::First: return alignFirst(truth, estimate);
+    case TrajectoryAlignment::Se3: return alignSe3(truth, estimate);
+    case TrajectoryAlignment::Sim3: return alignSim3(truth, estimate);
   }
   return {};
 }
@@ -48,7 +48,7 @@ Similarity align(const std::vector<Pose>& truth, const std::vector<Pose>& estima
 double pathLength(const std::vector<Pose>& poses) { return poses.empty() ? 0.0 : distances(poses).back(); }
 
 std::vector<double> absoluteErrors(const std::vector<Pose>& truth, const std::vector<Pose>& estimate,
-                                   Alignment alignment) {
+                                   TrajectoryAlignment alignment) {
   assert(truth.size() == estimate.size());
   std::vector<double> errors;
   if (truth.empty()) return errors;
@@ -58,7 +58,7 @@ std::vector<double> absoluteErrors(const std::vector<Pose>& truth, const std::ve
   return errors;
 }
 
-ErrorStatistics absoluteError(const std::vector<Pose>& truth, const std::vector<Pose>& estimate, Alignment alignment) {
+ErrorStatistics absoluteError(const std::vector<Pose>& truth, const std::vector<Pose>& estimate, TrajectoryAlignment alignment) {
   std::vector<double> errors = absoluteErrors(truth, estimate, alignment);
   ErrorStatistics statistics;
   statistics.count = errors.size();

@@ -28,25 +28,25 @@ TEST(AbsoluteError, OfHandMadeDistances) {
   const std::vector<Pose> truth(4);
   std::vector<Pose> estimate;
   for (const double x : {0.0, 1.0, 2.0, 5.0}) estimate.emplace_back(Quaterniond::Identity(), Vector3d(0, x, 0));
-  const ErrorStatistics e = absoluteError(truth, estimate, Alignment::None);
+  const ErrorStatistics e = absoluteError(truth, estimate, TrajectoryAlignment::None);
   EXPECT_NEAR(e.rmse, std::sqrt(30.0 / 4.0), 1e-15);
   EXPECT_EQ(e.mean, 2.0);
   EXPECT_EQ(e.median, 1.5);
   EXPECT_EQ(e.max, 5.0);
   EXPECT_EQ(e.count, 4U);
-  EXPECT_EQ(absoluteErrors(truth, estimate, Alignment::None), (std::vector<double>{0, 1, 2, 5}));
-  EXPECT_EQ(absoluteError({}, {}, Alignment::Se3).count, 0U);
+  EXPECT_EQ(absoluteErrors(truth, estimate, TrajectoryAlignment::None), (std::vector<double>{0, 1, 2, 5}));
+  EXPECT_EQ(absoluteError({}, {}, TrajectoryAlignment::Se3).count, 0U);
 }
 
 TEST(AbsoluteError, AlignmentsTakeAwayWhatTheyMay) {
   const auto truth = drive(50, 1.0, 0.05);
   const auto elsewhere = moved(kElsewhere, truth);
-  EXPECT_GT(absoluteError(truth, elsewhere, Alignment::None).rmse, 1.0);
-  EXPECT_LT(absoluteError(truth, elsewhere, Alignment::First).rmse, 1e-12);
-  EXPECT_LT(absoluteError(truth, elsewhere, Alignment::Se3).rmse, 1e-12);
+  EXPECT_GT(absoluteError(truth, elsewhere, TrajectoryAlignment::None).rmse, 1.0);
+  EXPECT_LT(absoluteError(truth, elsewhere, TrajectoryAlignment::First).rmse, 1e-12);
+  EXPECT_LT(absoluteError(truth, elsewhere, TrajectoryAlignment::Se3).rmse, 1e-12);
   const auto longer = drive(50, 1.1, 0.05);
-  EXPECT_GT(absoluteError(truth, longer, Alignment::Se3).rmse, 0.1);
-  EXPECT_LT(absoluteError(truth, longer, Alignment::Sim3).rmse, 1e-12);
+  EXPECT_GT(absoluteError(truth, longer, TrajectoryAlignment::Se3).rmse, 0.1);
+  EXPECT_LT(absoluteError(truth, longer, TrajectoryAlignment::Sim3).rmse, 1e-12);
 }
 
 TEST(RelativeError, OfAScaleIsItsPercentage) {

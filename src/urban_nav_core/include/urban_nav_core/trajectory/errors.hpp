@@ -19,11 +19,11 @@ struct ErrorStatistics {
 
 /// Absolute trajectory error: distances between true and estimated positions after an alignment. Both vectors equally
 /// long.
-enum class Alignment { None, First, Se3, Sim3 };
-ErrorStatistics absoluteError(const std::vector<Pose>& truth, const std::vector<Pose>& estimate, Alignment alignment);
+enum class TrajectoryAlignment { None, First, Se3, Sim3 };
+ErrorStatistics absoluteError(const std::vector<Pose>& truth, const std::vector<Pose>& estimate, TrajectoryAlignment alignment);
 /// The distances themselves, m, by pose.
 std::vector<double> absoluteErrors(const std::vector<Pose>& truth, const std::vector<Pose>& estimate,
-                                   Alignment alignment);
+                                   TrajectoryAlignment alignment);
 
 /// How long a piece of the way is over which relative errors are taken.
 struct Span {
