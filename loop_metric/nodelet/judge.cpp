@@ -19,7 +19,6 @@ using urban_nav_core::MetricClosure;
 using urban_nav_core::PoseRef;
 using urban_nav_core::StampNs;
 using urban_nav_core::TopologicalClosure;
-using urban_nav_core::UserError;
 using urban_nav_store::Access;
 using urban_nav_store::SessionId;
 using urban_nav_store::Store;
@@ -167,7 +166,7 @@ void Judge::judge(const Candidate& candidate, bool by_id) {
   try {
     closure = measure(candidate.closure);
     holdAgainstEarlier(closure.metric);
-  } catch (const UserError& error) {  // what the store holds of this place is damaged, or it cannot be read
+  } catch (const urban_nav_core::Error& error) {  // what the store holds of this place is damaged, or it cannot be read
     closure.metric = {};
     closure.metric.probability = candidate.closure.probability;
     closure.metric.source = "loop_metric";

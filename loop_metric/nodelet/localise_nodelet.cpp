@@ -62,7 +62,7 @@ void LocaliseNodelet::onInit() {
     std::tie(nodelet_, parameters_) =
         urban_nav_ros::readParameters(getPrivateNodeHandle(), localisationTable(), table());
     begin(openStore());
-  } catch (const UserError& error) {
+  } catch (const urban_nav_core::Error& error) {
     NODELET_FATAL("%s", error.what());
     throw;
   }
@@ -74,7 +74,7 @@ Store LocaliseNodelet::openStore() const {
     throw UserError(parameter, "`" + nodelet_.store + "`", "the absolute path of a session store");
   try {
     return Store(nodelet_.store, Access::Read);
-  } catch (const UserError& error) {
+  } catch (const urban_nav_core::Error& error) {
     throw UserError(parameter, error.what(), "");
   }
 }
@@ -83,7 +83,7 @@ void LocaliseNodelet::begin(Store store) {
   std::optional<FrozenMap> map;
   try {
     map.emplace(store);
-  } catch (const UserError& error) {
+  } catch (const urban_nav_core::Error& error) {
     throw UserError(getPrivateNodeHandle().resolveName("store"), error.what(), "");
   }
   ros::NodeHandle& nh = getNodeHandle();

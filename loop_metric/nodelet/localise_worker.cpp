@@ -14,7 +14,6 @@ using urban_nav_core::Pose;
 using urban_nav_core::RelativePose;
 using urban_nav_core::StampedPose;
 using urban_nav_core::StampNs;
-using urban_nav_core::UserError;
 
 namespace {
 
@@ -75,7 +74,7 @@ void LocaliseWorker::work() {
   bool busy = false;
   try {
     if (parameters_.icp) clouds_ = std::make_unique<CloudSearch>(parameters_, map_, store_);
-  } catch (const UserError& error) {
+  } catch (const urban_nav_core::Error& error) {
     now_.map_fault = error.what();
   }
   while (!mailbox_.closed()) {
@@ -162,7 +161,7 @@ void LocaliseWorker::makeSearch() {
   try {
     search_ = std::make_unique<MapSearch>(parameters_, map_, store_.keyframes(), views_.camera()->camera,
                                           views_.camera()->T_base_left);
-  } catch (const UserError& error) {
+  } catch (const urban_nav_core::Error& error) {
     now_.map_fault = error.what();
   }
 }
@@ -189,7 +188,7 @@ bool LocaliseWorker::searchOn() {
       return true;
     }
     return lookForCloud();
-  } catch (const UserError& error) {  // what the store holds is damaged
+  } catch (const urban_nav_core::Error& error) {  // what the store holds is damaged
     now_.map_fault = error.what();
     search_.reset();
     clouds_.reset();

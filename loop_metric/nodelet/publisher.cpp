@@ -78,7 +78,7 @@ void Publisher::publishPicture(const Judge::Verdict& verdict) {
   Picture picture;
   try {
     picture = verdict.closure.icp ? drawAlignment(verdict) : drawViews(verdict);
-  } catch (const urban_nav_core::UserError&) {
+  } catch (const urban_nav_core::Error&) {
     return;  // damaged in the store: the verdict says so
   }
   sensor_msgs::Image message;

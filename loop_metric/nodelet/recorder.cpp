@@ -172,7 +172,7 @@ std::optional<urban_nav_store::Session> Recorder::goesOn(StampNs start) {
       odometry_.goOn(behind.front());
       return session;
     }
-  } catch (const urban_nav_core::UserError&) {
+  } catch (const urban_nav_core::Error&) {
     // a store that cannot be read is named when it is written
   }
   return std::nullopt;

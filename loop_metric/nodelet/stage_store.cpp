@@ -53,7 +53,7 @@ bool StageStore::open() {
     writer_ = std::make_shared<LiveWriter>(Store(path_, Access::Write), LiveWriter::Options());
     fault_.clear();
     return true;
-  } catch (const UserError& error) {
+  } catch (const urban_nav_core::Error& error) {
     fault_ = error.what();
     return false;
   }

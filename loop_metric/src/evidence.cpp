@@ -180,8 +180,6 @@ std::string printEvidence(const Evidence& evidence) {
 Evidence parseEvidence(std::string_view text) {
   try {
     return Reader(text).read();
-  } catch (const urban_nav_core::DataError&) {
-    throw;
   } catch (const urban_nav_core::UserError& error) {  // what a program wrote is data
     throw urban_nav_core::DataError(error.parts());
   }

@@ -87,7 +87,7 @@ void Services::advertise(ros::NodeHandle& nh, const std::string& name, const Act
     try {
       response.success = true;
       action(request, response);
-    } catch (const UserError& error) {
+    } catch (const urban_nav_core::Error& error) {
       response = Response();
       response.message = error.what();
     }

@@ -30,7 +30,7 @@ std::optional<StoredGraph> StoreLink::open() {
     keeper_ = std::make_unique<Keeper>(std::move(store), stored.revision);
     fault_.clear();
     return stored;
-  } catch (const UserError& error) {
+  } catch (const urban_nav_core::Error& error) {
     fault_ = error.what();
     return std::nullopt;
   }
@@ -67,7 +67,7 @@ std::string writeStore(const PoseGraph& graph, const std::map<SessionId, urban_n
       }
     }
     copyStore(beside, path);
-  } catch (const UserError&) {
+  } catch (const urban_nav_core::Error&) {
     urban_nav_store::removeStore(beside);
     throw;
   }

@@ -62,7 +62,7 @@ void Worker::take(Input& input) {
           else graph_->add(item);
         },
         input);
-  } catch (const UserError& error) {
+  } catch (const urban_nav_core::Error& error) {
     refuse(error.what());
   }
 }
@@ -78,7 +78,7 @@ void Worker::relax() {
     const LiveGraph::Outcome outcome = graph_->relax();
     disagreement_ = disagreement_ || outcome.needs_batch;
     tell(outcome, std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
-  } catch (const UserError& error) {
+  } catch (const urban_nav_core::Error& error) {
     refuse(error.what());
   }
 }

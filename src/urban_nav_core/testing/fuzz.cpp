@@ -88,7 +88,7 @@ FuzzResult fuzzText(const std::vector<std::string>& seeds, const std::function<v
     try {
       read(text);
       ++result.accepted;
-    } catch (const UserError&) {
+    } catch (const Error&) {
       ++result.refused;
     } catch (const std::exception& error) {
       result.failure = describe(error, text);

@@ -132,7 +132,7 @@ void SimulatorNodelet::work() try {
     if (!hold("over", [end] { return end; })) continue;
     return ros::requestShutdown();
   }
-} catch (const UserError& error) {
+} catch (const urban_nav_core::Error& error) {
   NODELET_FATAL("%s", error.what());
   ros::requestShutdown();
 }

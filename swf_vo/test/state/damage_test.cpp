@@ -17,7 +17,7 @@ std::string errorOf(const Parameters& parameters, const urban_nav_core::StereoCa
                     const std::string& state) {
   try {
     SwfVo(parameters, camera, kPlace, state);
-  } catch (const urban_nav_core::UserError& error) {
+  } catch (const urban_nav_core::Error& error) {
     return error.what();
   }
   return "";

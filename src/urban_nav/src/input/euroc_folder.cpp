@@ -64,7 +64,7 @@ class EurocFolder : public Source {
     try {
       for (const EurocImu& row : readEurocImu(mav0_))
         forces_.push_back({row.stamp, rig_.T_base_body.R() * row.acceleration});
-    } catch (const UserError& error) {
+    } catch (const urban_nav_core::Error& error) {
       forces_.clear();
       info_.notes.push_back(std::string("the accelerometer is left aside: ") + error.what());
     }

@@ -18,7 +18,7 @@ std::optional<Evidence::Try> shownOf(const urban_nav_core::MetricClosure& closur
   Evidence evidence;
   try {
     evidence = loop_metric::parseEvidence(loop_metric::evidenceIn(closure.evidence));
-  } catch (const urban_nav_core::UserError&) {
+  } catch (const urban_nav_core::DataError&) {
     return std::nullopt;
   }
   const Evidence::Try* shown = nullptr;
@@ -70,7 +70,7 @@ std::optional<PagePicture> pictureOf(const Evidence::Try& tried, const loop_metr
     picture.height = drawn.height;
     if (picture.jpeg.empty()) return std::nullopt;
     return picture;
-  } catch (const urban_nav_core::UserError&) {  // what the store holds is damaged
+  } catch (const urban_nav_core::Error&) {  // what the store holds is damaged
     return std::nullopt;
   }
 }

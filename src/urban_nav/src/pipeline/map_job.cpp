@@ -134,7 +134,7 @@ Resumed resume(const MapRequest& request, Session& session, StoreStage& store, s
     Resumed resumed{open(session.paths, request, &behind), nullptr};
     resumed.stage = std::make_unique<VoStage>(request.parameters.swf_vo.parameters, resumed.source->info(), state.vo);
     return resumed;
-  } catch (const UserError& error) {
+  } catch (const urban_nav_core::Error& error) {
     console.warn(std::string("cannot go on behind the bags that were complete: ") + error.what() + ": begins anew");
     store.giveUp(i, session);
     return {};

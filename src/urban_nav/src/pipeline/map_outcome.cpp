@@ -133,7 +133,7 @@ std::vector<std::optional<Evaluation>> compare(const MapOutcome& outcome, const 
       if (console != nullptr)
         console->info("truth: " + truth->path +
                       (outcome.request.truth.empty() ? " (found; it is used for the report alone)" : ""));
-    } catch (const urban_nav_core::UserError& error) {
+    } catch (const urban_nav_core::Error& error) {
       if (console != nullptr) console->warn(std::string("the truth is left out of the report: ") + error.what());
     }
   }

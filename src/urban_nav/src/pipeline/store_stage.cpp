@@ -100,7 +100,7 @@ std::optional<StoreStage::Behind> StoreStage::follow(Store& store, const Session
     if (!bags || (!continued_[session] && !all_given)) return std::nullopt;
     behind.bags = *bags;
     return behind;
-  } catch (const urban_nav_core::UserError&) {
+  } catch (const urban_nav_core::DataError&) {
     return std::nullopt;  // of another version
   }
 }

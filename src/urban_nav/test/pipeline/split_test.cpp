@@ -211,7 +211,7 @@ TEST_F(Split, goesOnBehindItsLastBagAfterAKill) {
         const auto sessions = store.sessions().all();
         const auto state = sessions.empty() ? std::nullopt : store.states().get(sessions.front().id, kBagStage);
         bags = state ? unpackBagState(*state).bags.size() : 0;
-      } catch (const urban_nav_core::UserError&) {
+      } catch (const urban_nav_core::Error&) {
         return false;  // not there yet
       }
       return bags >= wanted;

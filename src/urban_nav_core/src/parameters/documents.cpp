@@ -37,6 +37,9 @@ int documentParameters(int argc, char** argv, const std::vector<DocumentedTable>
   } catch (const UserError& error) {
     std::cerr << error.what() << "\n";
     return 2;
+  } catch (const DataError& error) {
+    std::cerr << error.what() << "\n";
+    return 1;
   }
   return 0;
 }

@@ -6,7 +6,7 @@
 namespace urban_nav_core {
 namespace {
 
-std::string join(const UserError::Parts& parts) {
+std::string join(const Error::Parts& parts) {
   std::string text;
   const auto append = [&text](const std::string& part, const char* before) {
     if (part.empty()) return;
@@ -21,10 +21,20 @@ std::string join(const UserError::Parts& parts) {
 
 }  // namespace
 
-UserError::UserError(Parts parts) : std::runtime_error(join(parts)), parts_(std::move(parts)) {}
+Error::Error(Parts parts) : std::runtime_error(join(parts)), parts_(std::move(parts)) {}
+
+Error::Error(std::string where, std::string found, std::string allowed)
+    : Error(Parts{std::move(where), std::move(found), std::move(allowed)}) {}
+
+UserError::UserError(Parts parts) : Error(std::move(parts)) {}
 
 UserError::UserError(std::string where, std::string found, std::string allowed)
-    : UserError(Parts{std::move(where), std::move(found), std::move(allowed)}) {}
+    : Error(std::move(where), std::move(found), std::move(allowed)) {}
+
+DataError::DataError(Parts parts) : Error(std::move(parts)) {}
+
+DataError::DataError(std::string where, std::string found, std::string allowed)
+    : Error(std::move(where), std::move(found), std::move(allowed)) {}
 
 std::string atLine(const std::string& path, int line) { return line > 0 ? path + ":" + std::to_string(line) : path; }
 

@@ -15,7 +15,7 @@ template <typename Call>
 std::string errorOf(const Call& call) {
   try {
     call();
-  } catch (const UserError& error) {
+  } catch (const Error& error) {
     return error.what();
   }
   return "";

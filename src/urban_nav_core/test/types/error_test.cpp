@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <type_traits>
+
 namespace urban_nav_core {
 namespace {
 
@@ -18,12 +21,29 @@ TEST(UserError, LeavesEmptyPartsOut) {
   EXPECT_STREQ(UserError("", "no input", "bags or folders").what(), "no input: allowed bags or folders");
 }
 
-TEST(DataError, IsAUserErrorThatCanBeToldApart) {
-  try {
-    throw DataError("a.bag", "no stereo images", "");
-  } catch (const UserError& error) {
-    EXPECT_NE(dynamic_cast<const DataError*>(&error), nullptr);
-  }
+TEST(Error, KindsAreSiblings) {
+  static_assert(std::is_base_of_v<Error, UserError> && std::is_base_of_v<Error, DataError>);
+  static_assert(!std::is_convertible_v<DataError*, UserError*> && !std::is_convertible_v<UserError*, DataError*>);
+  static_assert(!std::is_constructible_v<Error, std::string, std::string, std::string>, "one of its kinds is thrown");
+  EXPECT_THROW(throw DataError("a.bag", "no stereo images", ""), DataError);
+  EXPECT_THROW(throw UserError("a.bag", "is no bag", ""), UserError);
+}
+
+TEST(Error, CatchesEitherKindWithItsParts) {
+  const auto partsOf = [](const auto& error) {
+    try {
+      throw error;
+    } catch (const Error& caught) {
+      return std::string(caught.what()) + "|" + caught.parts().where + "|" + caught.parts().found;
+    }
+  };
+  EXPECT_EQ(partsOf(DataError("a.bag", "no stereo images", "")), "a.bag: no stereo images|a.bag|no stereo images");
+  EXPECT_EQ(partsOf(UserError("a.bag", "is no bag", "")), "a.bag: is no bag|a.bag|is no bag");
+}
+
+TEST(Error, BecomesTheOtherKindByItsParts) {
+  const UserError user("evidence:2", "one cell", "three");
+  EXPECT_STREQ(DataError(user.parts()).what(), user.what());
 }
 
 TEST(UserError, PlaceWithoutALine) { EXPECT_EQ(atLine("a.txt", 0), "a.txt"); }

@@ -33,7 +33,7 @@ template <typename Call>
 std::string errorOf(const Call& call) {
   try {
     call();
-  } catch (const urban_nav_core::UserError& error) {
+  } catch (const urban_nav_core::Error& error) {
     return error.what();
   }
   return "";

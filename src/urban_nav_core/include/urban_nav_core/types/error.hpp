@@ -6,34 +6,44 @@
 
 namespace urban_nav_core {
 
-/// A mistake that its user can mend: the one exception of the project. Thrown where the mistake is found, caught
-/// at the edge (the command, the nodelet) and printed as `where: found: allowed ...`, for example
+/// Root of the project's exceptions; only its two kinds are thrown. Code that handles both kinds alike catches Error.
+/// The edges (the command, the nodelets) print it as `where: found: allowed ...`, for example
 /// `config.yaml:12: swf_vo.window = 0: allowed 1...100000 (frames)`; empty parts are left out.
-/// Faults of the data are never thrown: they are a Status in the output of a stage.
-class UserError : public std::runtime_error {
+/// Faults of single measurements are not thrown: they are a Status in the output of a stage.
+class Error : public std::runtime_error {
  public:
   struct Parts {
-    std::string where;    ///< file, or file:line, or the option; empty if there is none
+    std::string where;    ///< file, file:line or option; may be empty
     std::string found;    ///< key and value, or what is wrong
-    std::string allowed;  ///< what would be right, as it reads behind the word "allowed"; empty if it is obvious
+    std::string allowed;  ///< what would be valid, as it reads after the word "allowed"; may be empty
   };
 
-  explicit UserError(Parts parts);
-  UserError(std::string where, std::string found, std::string allowed);
-
   const Parts& parts() const { return parts_; }
+
+ protected:
+  explicit Error(Parts parts);
+  Error(std::string where, std::string found, std::string allowed);
 
  private:
   Parts parts_;
 };
 
-/// The data did not allow what was asked (exit status 1 of the command), as opposed to a mistake in the call (2).
-class DataError : public UserError {
+/// An error that the user can fix: a bad option, parameter or file. Exit status 2 of the command.
+class UserError final : public Error {
  public:
-  using UserError::UserError;
+  explicit UserError(Parts parts);
+  UserError(std::string where, std::string found, std::string allowed);
 };
 
-/// `path:line` for Parts::where; lines count from 1, 0 gives the path alone.
+/// The call is valid, but the data do not allow it: a damaged store, an empty recording, a full disk. Exit status 1 of
+/// the command.
+class DataError final : public Error {
+ public:
+  explicit DataError(Parts parts);
+  DataError(std::string where, std::string found, std::string allowed);
+};
+
+/// Returns `path:line` for Error::Parts::where, or the path alone if `line` is 0; lines count from 1.
 std::string atLine(const std::string& path, int line);
 
 }  // namespace urban_nav_core
