@@ -3,9 +3,9 @@
 
 #include "command_line/console.hpp"
 #include "commands/commands.hpp"
-#include "pipeline/evaluation.hpp"
+#include "evaluation/evaluation.hpp"
+#include "evaluation/evaluation_report.hpp"
 #include "pipeline/parameters.hpp"
-#include "report/evaluation_report.hpp"
 #include "report/raster_plot.hpp"
 #include "report/standalone_svg.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"

@@ -4,8 +4,8 @@
 #include "command_line/console.hpp"
 #include "command_line/json.hpp"
 #include "commands/commands.hpp"
+#include "inspect/store_export.hpp"
 #include "pipeline/parameters.hpp"
-#include "store/store_export.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/types/error.hpp"
 

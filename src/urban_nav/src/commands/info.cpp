@@ -5,10 +5,10 @@
 #include "command_line/console.hpp"
 #include "command_line/json.hpp"
 #include "commands/commands.hpp"
-#include "pipeline/bag_info.hpp"
+#include "inspect/input_info.hpp"
+#include "inspect/store_info.hpp"
 #include "pipeline/parameters.hpp"
 #include "report/plot.hpp"
-#include "store/store_info.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 
 namespace urban_nav {

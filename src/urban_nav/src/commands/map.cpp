@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "commands/commands.hpp"
-#include "pipeline/map_job.hpp"
+#include "pipeline/map_pipeline.hpp"
 
 namespace urban_nav {
 

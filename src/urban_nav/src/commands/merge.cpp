@@ -4,8 +4,8 @@
 #include "command_line/console.hpp"
 #include "command_line/json.hpp"
 #include "commands/commands.hpp"
+#include "inspect/store_info.hpp"
 #include "pipeline/parameters.hpp"
-#include "store/store_info.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 
 namespace urban_nav {

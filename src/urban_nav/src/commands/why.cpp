@@ -4,11 +4,11 @@
 
 #include "command_line/console.hpp"
 #include "commands/commands.hpp"
+#include "explain/explanation.hpp"
 #include "pipeline/parameters.hpp"
 #include "report/plot.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/types/error.hpp"
-#include "why/explanation.hpp"
 
 namespace urban_nav {
 

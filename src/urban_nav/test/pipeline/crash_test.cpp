@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <random>
 
-#include "store/store_info.hpp"
+#include "inspect/store_info.hpp"
 #include "support/child.hpp"
 #include "support/folders.hpp"
 

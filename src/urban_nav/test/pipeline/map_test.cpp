@@ -5,7 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "convert/convert.hpp"
-#include "pipeline/map_job.hpp"
+#include "pipeline/map_pipeline.hpp"
 #include "support/bags.hpp"
 #include "support/folders.hpp"
 #include "urban_nav_core/io/kitti.hpp"

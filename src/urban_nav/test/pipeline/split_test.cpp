@@ -7,10 +7,10 @@
 #include <regex>
 
 #include "convert/convert.hpp"
-#include "pipeline/closures_file.hpp"
-#include "pipeline/map_job.hpp"
-#include "pipeline/store_stage.hpp"
-#include "store/store_info.hpp"
+#include "stage/closures_file.hpp"
+#include "pipeline/map_pipeline.hpp"
+#include "pipeline/run_checkpoint.hpp"
+#include "inspect/store_info.hpp"
 #include "support/bags.hpp"
 #include "support/child.hpp"
 #include "support/folders.hpp"

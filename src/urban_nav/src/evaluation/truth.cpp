@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evaluation/truth.hpp"
+
+#include <geometry_msgs/PoseStamped.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include <filesystem>
+#include <list>
+
+#include "input/bag_topics.hpp"
+#include "input/euroc_layout.hpp"
+#include "input/kitti_layout.hpp"
+#include "urban_nav_core/io/kitti.hpp"
+#include "urban_nav_core/types/error.hpp"
+#include "urban_nav_ros/extrinsics.hpp"
+#include "urban_nav_ros/pose.hpp"
+#include "urban_nav_ros/stamp.hpp"
+
+namespace urban_nav {
+
+namespace fs = std::filesystem;
+using urban_nav_core::Pose;
+using urban_nav_core::StampNs;
+using urban_nav_core::Trajectory;
+using urban_nav_core::UserError;
+
+namespace {
+
+TrajectoryFile stamped(const std::string& path, const Trajectory& trajectory) {
+  TrajectoryFile file{path, true, trajectory, {}};
+  for (const urban_nav_core::StampedPose& pose : trajectory) file.poses.push_back(pose.pose);
+  return file;
+}
+
+/// Poses of the left camera relative to its first, line by line, as poses of base_link.
+Trajectory baseOfCamera(const std::vector<Pose>& poses, const std::vector<StampNs>& stamps, const Pose& T_base_camera,
+                        const std::string& path) {
+  if (poses.size() != stamps.size())
+    throw UserError(path, std::to_string(poses.size()) + " poses for " + std::to_string(stamps.size()) + " frames",
+                    "one line a frame");
+  Trajectory trajectory;
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    trajectory.append(stamps[i], T_base_camera * poses[i] * T_base_camera.inverse());
+  return trajectory;
+}
+
+std::optional<TrajectoryFile> kittiTruth(const std::string& folder, const SourceInfo& info,
+                                         const SourceOptions& options) {
+  const std::string path = (fs::path(folder) / "poses.txt").string();
+  if (!fs::exists(path)) return std::nullopt;
+  std::vector<Pose> poses = urban_nav_core::readKitti(path);
+  const KittiFrames frames = listKittiFrames(*findKittiLayout(folder), options.rate);
+  if (poses.size() != frames.stamps.size() && frames.numbers.back() < static_cast<std::int64_t>(poses.size())) {
+    poses = {poses.begin() + frames.numbers.front(), poses.begin() + frames.numbers.back() + 1};
+  }
+  return stamped(path, baseOfCamera(poses, frames.stamps, info.T_base_camera, path));
+}
+
+std::optional<TrajectoryFile> bagTruth(const Session& session, const SourceOptions& options) {
+  std::list<rosbag::Bag> bags;
+  std::map<std::string, std::string> available;
+  for (const std::string& path : session.paths) {
+    bags.emplace_back(path, rosbag::bagmode::Read);
+    rosbag::View view(bags.back());
+    for (const rosbag::ConnectionInfo* connection : view.getConnections())
+      available[connection->topic] = connection->datatype;
+  }
+  const std::optional<ChosenTopic> topic = chooseTopics(available, options.topics).find(Role::Truth);
+  if (!topic) return std::nullopt;
+  Trajectory trajectory;
+  for (rosbag::Bag& bag : bags) {
+    rosbag::View view(bag, rosbag::TopicQuery(topic->name));
+    for (const rosbag::MessageInstance& instance : view) {
+      const auto message = instance.instantiate<geometry_msgs::PoseStamped>();
+      if (!message) continue;
+      if (const std::optional<Pose> pose = urban_nav_ros::toPose(message->pose))
+        trajectory.append(urban_nav_ros::toStampNs(message->header.stamp), *pose);
+    }
+  }
+  const std::string where = session.paths.front() + ", topic " + topic->name;
+  if (trajectory.size() < 2) throw UserError(where, "holds no two poses", "");
+  return stamped(where, trajectory);
+}
+
+}  // namespace
+
+std::optional<TrajectoryFile> findTruth(const Session& session, const SourceInfo& info, const SourceOptions& options) {
+  const std::string& path = session.paths.front();
+  switch (inputKind(path)) {
+    case InputKind::KittiFolder: return kittiTruth(path, info, options);
+    case InputKind::EurocFolder: {
+      const std::string mav0 = eurocFolder(path);
+      const std::optional<Trajectory> truth = readEurocTruth(mav0, readEurocRig(mav0).T_base_body);
+      return truth && truth->size() > 1
+                 ? std::optional<TrajectoryFile>(stamped(mav0 + "/state_groundtruth_estimate0", *truth))
+                 : std::nullopt;
+    }
+    case InputKind::Bag: return bagTruth(session, options);
+    case InputKind::NewCollegeFolder: break;
+  }
+  return std::nullopt;
+}
+
+TrajectoryFile truthOfBase(const TrajectoryFile& file, const SourceInfo& info, const std::vector<StampNs>& stamps) {
+  if (file.stamped) return file;
+  const Pose T_body_optical = urban_nav_ros::opticalInBody();
+  std::vector<Pose> camera;
+  for (const Pose& pose : file.poses) camera.push_back(T_body_optical.inverse() * pose * T_body_optical);
+  return stamped(file.path, baseOfCamera(camera, stamps, info.T_base_camera, file.path));
+}
+
+}  // namespace urban_nav

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "explain/explanation.hpp"
+
+#include <cmath>
+#include <map>
+
+#include "loop_metric/stored_surroundings.hpp"
+#include "report/plot.hpp"
+#include "stage/previous_sessions.hpp"
+#include "stage/stored_sessions.hpp"
+#include "stages/loops/closure_picture.hpp"
+#include "urban_nav_core/geometry/covariance_frames.hpp"
+
+namespace urban_nav {
+
+using loop_metric::ClosureTest;
+using loop_metric::Evidence;
+using urban_nav_store::EdgeKind;
+
+namespace {
+
+constexpr double kDegrees = 57.29577951308232;
+constexpr double kMetresPerRadian = 10.0;  // for display of free directions
+
+std::string momentOf(const std::string& name, double since, urban_nav_core::StampNs stamp) {
+  return name + " +" + forPerson(since, 6) + " s (" + urban_nav_core::printStamp(stamp) + ")";
+}
+
+std::string headlineOf(const StoredClosure& closure) {
+  const urban_nav_store::Edge& edge = closure.edge;
+  return "closure " + std::to_string(closure.id) + ": " + momentOf(closure.name_a, closure.since_a, edge.a.stamp) +
+         " and " + momentOf(closure.name_b, closure.since_b, edge.b.stamp);
+}
+
+std::string verdictOf(const StoredClosure& closure) {
+  const urban_nav_store::Edge& edge = closure.edge;
+  std::string text = std::string(toString(edge.verdict));
+  if (edge.verdict == urban_nav_store::EdgeVerdict::Accepted)
+    text += ", by " + std::string(toString(edge.kind)) + ", weight " + forPerson(edge.weight, 3);
+  return edge.reason.empty() ? text : text + ": " + edge.reason;
+}
+
+/// Empty where nothing was measured.
+std::string transformOf(const StoredClosure& closure) {
+  const urban_nav_core::Constraint& measured = closure.edge.measured;
+  if (measured.information.isZero(0.0)) return {};
+  const urban_nav_core::Matrix6d covariance =
+      urban_nav_core::covarianceForDisplay(measured.information, kMetresPerRadian);
+  const auto sigma = [&](int i) { return std::sqrt(covariance(i, i)); };
+  const auto part = [&](int i, double value, double unit) {
+    return forPerson(unit * value, 4) + (sigma(i) > 1.0 ? " (free)" : " +- " + forPerson(unit * sigma(i), 2));
+  };
+  const auto& t = measured.T_a_b.t();
+  const urban_nav_core::Vector3d r = urban_nav_core::logSo3(measured.T_a_b.q());
+  return "T_a_b: " + part(0, t.x(), 1) + ", " + part(1, t.y(), 1) + ", " + part(2, t.z(), 1) + " m; rotation vector " +
+         part(3, r.x(), kDegrees) + ", " + part(4, r.y(), kDegrees) + ", " + part(5, r.z(), kDegrees) + " deg";
+}
+
+/// What a failed test would have needed.
+std::string neededOf(const ClosureTest& test) {
+  if (test.passed) return {};
+  return std::string(test.at_least ? "at least " : "at most ") + forPerson(test.threshold, 4);
+}
+
+std::vector<std::string> rowOf(const ClosureTest& test) {
+  return {test.name, forPerson(test.value, 4), (test.at_least ? ">= " : "<= ") + forPerson(test.threshold, 4),
+          test.passed ? "passed" : "failed", neededOf(test)};
+}
+
+PageTable tableOf(const std::string& title, const std::vector<ClosureTest>& tests) {
+  PageTable table{title, {"test", "value", "limit", "", "would have been needed"}, {}, ""};
+  for (const ClosureTest& test : tests) table.rows.push_back(rowOf(test));
+  return table;
+}
+
+std::string titleOf(const Evidence::Try& each, std::size_t number, std::size_t of) {
+  std::string title = each.method == "icp" ? "Clouds of the lasers" : "Two views";
+  if (of > 1) title += " (" + std::to_string(number + 1) + " of " + std::to_string(of) + " tries)";
+  return title;
+}
+
+std::string linesOf(const std::vector<ClosureTest>& tests) {
+  std::string text;
+  for (const ClosureTest& test : tests) {
+    const std::vector<std::string> row = rowOf(test);
+    text += "    " + row[3] + "  " + row[0] + " = " + row[1] + " (" + row[2] + ")\n";
+  }
+  return text;
+}
+
+constexpr const char* kHowToReadViews =
+    "Lines: matches, green where they fit and red where they do not; grey: looked for and not found there.";
+constexpr const char* kHowToReadClouds =
+    "What the lasers saw around the first moment (red) and the second (blue): as odometry lays them, or one upon the other where it "
+    "says nothing, and as they were aligned. Purple: they agree. Dots: where the robot was.";
+constexpr const char* kGate = "Against odometry and its neighbours";
+constexpr const char* kNoEvidence = "The store holds no evidence of it: it was given, or measured by another program.";
+
+/// The sessions of both moments under the names that the evidence has for them.
+std::vector<LoopsSession> namedIn(const StoredClosure& closure, const EarlierSessions& kept) {
+  std::map<std::string, urban_nav_store::SessionId> ids;
+  for (const Evidence::Try& each : closure.evidence.tries) {
+    ids.emplace(each.view_a.session, closure.edge.a.session);
+    ids.emplace(each.view_b.session, closure.edge.b.session);
+  }
+  std::vector<LoopsSession> sessions;
+  for (const auto& [name, id] : ids)
+    for (std::size_t i = 0; i < kept.ids.size(); ++i)
+      if (kept.ids[i] == id) sessions.push_back({name, id, &kept.runs[i]});
+  return sessions;
+}
+
+}  // namespace
+
+std::string explain(const StoredClosure& closure) {
+  std::string text = headlineOf(closure) + "\n  " + verdictOf(closure) + "\n";
+  if (closure.probability)
+    text += "  probability of the places being one: " + forPerson(*closure.probability, 4) + "\n";
+  if (const std::string transform = transformOf(closure); !transform.empty()) text += "  " + transform + "\n";
+  const Evidence& evidence = closure.evidence;
+  for (std::size_t i = 0; i < evidence.tries.size(); ++i) {
+    const Evidence::Try& each = evidence.tries[i];
+    text += "  " + titleOf(each, i, evidence.tries.size()) + ": " + each.verdict +
+            (each.sentence.empty() ? "" : ": " + each.sentence) + "\n" + linesOf(each.tests);
+  }
+  if (!evidence.gate.empty()) text += "  " + std::string(kGate) + ":\n" + linesOf(evidence.gate);
+  if (evidence.tries.empty() && evidence.gate.empty()) text += "  " + std::string(kNoEvidence) + "\n";
+  return text;
+}
+
+Page explainOnPage(const StoredClosure& closure, urban_nav_store::Store& store, double cloud_way) {
+  const EarlierSessions kept = readEarlierSessions(store, {});
+  const loop_metric::StoredSurroundings surroundings(storedSessions(namedIn(closure, kept), store, ""),
+                                                     store.keyframes(), store.scans());
+  Page page;
+  page.title = "Why: closure " + std::to_string(closure.id);
+  page.subtitle = headlineOf(closure);
+  const bool accepted = closure.edge.verdict == urban_nav_store::EdgeVerdict::Accepted;
+  page.verdicts.push_back({accepted ? Grade::Good : Grade::Bad, accepted ? "Accepted." : "Not accepted.",
+                           verdictOf(closure) + ". " + transformOf(closure)});
+  if (closure.probability)
+    page.tiles.push_back({forPerson(*closure.probability, 4), "", "probability of one place", Grade::Plain});
+  const Evidence& evidence = closure.evidence;
+  for (std::size_t i = 0; i < evidence.tries.size(); ++i) {
+    const Evidence::Try& each = evidence.tries[i];
+    Section section{"try" + std::to_string(i + 1),
+                    titleOf(each, i, evidence.tries.size()),
+                    each.verdict + (each.sentence.empty() ? "" : ": " + each.sentence),
+                    {},
+                    {},
+                    {tableOf("Tests", each.tests)}};
+    if (auto picture = pictureOf(each, surroundings, cloud_way)) {
+      picture->caption = each.method == "stereo" ? kHowToReadViews : kHowToReadClouds;
+      section.pictures.push_back(std::move(*picture));
+    }
+    page.sections.push_back(std::move(section));
+  }
+  if (!evidence.gate.empty()) page.sections.push_back({"gate", kGate, "", {}, {}, {tableOf("Tests", evidence.gate)}});
+  if (evidence.tries.empty() && evidence.gate.empty())
+    page.sections.push_back({"none", "Evidence", kNoEvidence, {}, {}, {}});
+  page.footer = "urban_nav why, from the evidence in " + store.path() + ".";
+  return page;
+}
+
+Json explainAsJson(const StoredClosure& closure) {
+  Json json = Json::object();
+  json["id"] = closure.id;
+  json["session_a"] = closure.name_a;
+  json["stamp_a_ns"] = closure.edge.a.stamp;
+  json["session_b"] = closure.name_b;
+  json["stamp_b_ns"] = closure.edge.b.stamp;
+  json["kind"] = toString(closure.edge.kind);
+  json["verdict"] = toString(closure.edge.verdict);
+  json["reason"] = closure.edge.reason;
+  json["weight"] = closure.edge.weight;
+  const auto testsOf = [](const std::vector<ClosureTest>& tests) {
+    Json list = Json::array();
+    for (const ClosureTest& test : tests) {
+      Json one = Json::object();
+      one["name"] = test.name;
+      one["value"] = test.value;
+      one["threshold"] = test.threshold;
+      one["at_least"] = test.at_least;
+      one["passed"] = test.passed;
+      list.append(one);
+    }
+    return list;
+  };
+  Json& tries = json["tries"] = Json::array();
+  for (const Evidence::Try& each : closure.evidence.tries) {
+    Json one = Json::object();
+    one["method"] = each.method;
+    one["verdict"] = each.verdict;
+    one["reason"] = each.reason;
+    one["sentence"] = each.sentence;
+    one["tests"] = testsOf(each.tests);
+    tries.append(one);
+  }
+  json["gate"] = testsOf(closure.evidence.gate);
+  return json;
+}
+
+std::string listOf(const std::vector<StoredClosure>& closures) {
+  std::string text;
+  for (const StoredClosure& closure : closures)
+    text += std::to_string(closure.id) + "  " + closure.name_a + " +" + forPerson(closure.since_a, 6) + "  " +
+            closure.name_b + " +" + forPerson(closure.since_b, 6) + "  " + verdictOf(closure) + "\n";
+  return text.empty() ? "no closures\n" : text;
+}
+
+}  // namespace urban_nav

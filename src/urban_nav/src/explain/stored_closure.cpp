@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "explain/stored_closure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <tuple>
+
+#include "stage/closures_file.hpp"
+#include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav {
+
+using urban_nav_core::StampNs;
+using urban_nav_core::UserError;
+using urban_nav_store::Edge;
+using urban_nav_store::EdgeKind;
+
+namespace {
+
+struct Beginning {
+  std::string name;
+  StampNs first = 0;
+};
+
+std::map<std::string, Beginning> beginningsOf(urban_nav_store::Store& store) {
+  std::map<std::string, Beginning> made;
+  for (const urban_nav_store::Session& session : store.sessions().all()) {
+    Beginning& its = made[session.id];
+    its.name = session.name.empty() ? session.id : session.name;
+    bool any = false;
+    store.graph().forEachNode(session.id, [&](const urban_nav_store::Node& node) {
+      if (!any) its.first = node.stamp;
+      any = true;
+    });
+  }
+  return made;
+}
+
+/// The probability in the row as it was offered, where the evidence begins with one.
+std::optional<double> probabilityIn(const std::string& evidence) {
+  const std::string_view row =
+      std::string_view(evidence).substr(0, evidence.size() - loop_metric::evidenceIn(evidence).size());
+  try {
+    const std::vector<ClosureRow> rows = parseClosures(row, "evidence");
+    if (rows.size() == 1) return rows.front().probability;
+  } catch (const UserError&) {
+    // in the words of another stage
+  }
+  return std::nullopt;
+}
+
+auto orderOf(const Edge& edge) {
+  return std::make_tuple(std::max(edge.a.stamp, edge.b.stamp), std::min(edge.a.stamp, edge.b.stamp), edge.a.session,
+                         edge.b.session, edge.kind, edge.source);
+}
+
+double distanceOf(const std::string& name, const std::string& id, StampNs stamp, double since, const Moment& moment) {
+  if (!moment.session.empty() && name.rfind(moment.session, 0) != 0 && id.rfind(moment.session, 0) != 0)
+    return std::numeric_limits<double>::infinity();
+  return moment.since_begin ? std::abs(since - moment.seconds)
+                            : std::abs(urban_nav_core::secondsBetween(moment.stamp, stamp));
+}
+
+}  // namespace
+
+std::vector<StoredClosure> closuresOf(urban_nav_store::Store& store) {
+  std::vector<Edge> edges;
+  const std::map<std::string, Beginning> beginnings = beginningsOf(store);
+  for (const auto& [id, beginning] : beginnings)
+    store.graph().forEachEdge(id, [&](const Edge& edge) {
+      if (edge.kind != EdgeKind::Odometry && beginnings.count(edge.b.session) > 0) edges.push_back(edge);
+    });
+  std::sort(edges.begin(), edges.end(), [](const Edge& x, const Edge& y) { return orderOf(x) < orderOf(y); });
+  std::vector<StoredClosure> closures;
+  for (const Edge& edge : edges) {
+    StoredClosure closure;
+    closure.id = static_cast<std::int64_t>(closures.size()) + 1;
+    closure.edge = edge;
+    const Beginning &a = beginnings.at(edge.a.session), &b = beginnings.at(edge.b.session);
+    closure.name_a = a.name;
+    closure.name_b = b.name;
+    closure.since_a = urban_nav_core::secondsBetween(a.first, edge.a.stamp);
+    closure.since_b = urban_nav_core::secondsBetween(b.first, edge.b.stamp);
+    if (const std::optional<std::string> evidence = store.graph().evidence(edge)) {
+      closure.probability = probabilityIn(*evidence);
+      const std::string_view its = loop_metric::evidenceIn(*evidence);
+      if (!its.empty()) closure.evidence = loop_metric::parseEvidence(its);
+    }
+    closures.push_back(std::move(closure));
+  }
+  return closures;
+}
+
+Moment parseMoment(const std::string& text, const std::string& what) {
+  Moment moment;
+  const std::size_t plus = text.rfind('+');
+  const std::string number = plus == std::string::npos ? text : text.substr(plus + 1);
+  const std::optional<double> seconds = urban_nav_core::parseNumber(number);
+  if (!seconds || std::abs(*seconds) > 9e9 || (plus == std::string::npos && *seconds < 0.0))
+    throw UserError(what, "\"" + text + "\" is no time",
+                    "seconds since 1970 (1225719873.5), since the beginning of a session (+12.5, or NAME+12.5)");
+  moment.seconds = *seconds;
+  moment.since_begin = plus != std::string::npos;
+  if (moment.since_begin) moment.session = text.substr(0, plus);
+  // A double holds seconds since 1970 to a quarter of a microsecond: enough to find a closure by.
+  else moment.stamp = static_cast<StampNs>(std::llround(*seconds * 1e9));
+  return moment;
+}
+
+double distanceOf(const StoredClosure& closure, const Moment& one, const Moment& other) {
+  const auto at = [&](bool a, const Moment& moment) {
+    const Edge& edge = closure.edge;
+    return a ? distanceOf(closure.name_a, edge.a.session, edge.a.stamp, closure.since_a, moment)
+             : distanceOf(closure.name_b, edge.b.session, edge.b.stamp, closure.since_b, moment);
+  };
+  return std::min(std::max(at(true, one), at(false, other)), std::max(at(true, other), at(false, one)));
+}
+
+}  // namespace urban_nav

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/run_fingerprint.hpp"
+
+#include <link.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "urban_nav_core/parameters/print.hpp"
+#include "urban_nav_store/bytes.hpp"
+#include "urban_nav_store/digest.hpp"
+
+namespace urban_nav {
+
+namespace fs = std::filesystem;
+using urban_nav_store::appendInteger;
+using urban_nav_store::appendText;
+using urban_nav_store::sha256;
+
+namespace {
+
+constexpr std::streamoff kPiece = 1 << 16;  // bytes of a beginning and of an end
+constexpr std::size_t kLookedInto = 16;     // files of a folder
+constexpr int kDeepest = 4;                 // folders within a folder: no input has more, and links may go in a circle
+
+struct InputFile {
+  std::string name;  ///< within the folder; of a bag: its own
+  std::string path;
+  std::uintmax_t size = 0;
+  std::int64_t changed = 0;
+};
+
+/// The truth never reaches an estimate, and whether it is there must not tell two runs apart.
+bool isTruth(const fs::path& path) {
+  const std::string name = path.filename().string();
+  return name == "poses.txt" || name == "state_groundtruth_estimate0";
+}
+
+InputFile look(const fs::path& path, const std::string& name) {
+  std::error_code error;
+  InputFile file{name, path.string(), fs::file_size(path, error), 0};
+  if (error) file.size = 0;
+  file.changed = static_cast<std::int64_t>(fs::last_write_time(path, error).time_since_epoch().count());
+  return file;
+}
+
+/// The files that an input consists of, by name; what this run writes is not among them.
+std::vector<InputFile> filesOf(const std::string& input, const std::string& out) {
+  std::vector<InputFile> files;
+  const fs::path root(input);
+  if (!fs::is_directory(root)) return {look(root, root.filename().string())};
+  std::error_code ignored;
+  const fs::path written = fs::weakly_canonical(out, ignored);
+  const auto options = fs::directory_options::follow_directory_symlink | fs::directory_options::skip_permission_denied;
+  for (fs::recursive_directory_iterator entry(root, options, ignored), end; entry != end; entry.increment(ignored)) {
+    if (entry.depth() >= kDeepest) entry.disable_recursion_pending();
+    if (isTruth(entry->path()) || fs::weakly_canonical(entry->path(), ignored) == written) {
+      entry.disable_recursion_pending();
+    } else if (entry->is_regular_file(ignored)) {
+      files.push_back(look(entry->path(), entry->path().lexically_relative(root).generic_string()));
+    }
+  }
+  std::sort(files.begin(), files.end(), [](const InputFile& a, const InputFile& b) { return a.name < b.name; });
+  return files;
+}
+
+/// Beginning and end.
+std::string piecesOf(const InputFile& file) {
+  std::ifstream stream(file.path, std::ios::binary);
+  std::string bytes(static_cast<std::size_t>(kPiece), '\0');
+  stream.read(bytes.data(), kPiece);
+  bytes.resize(static_cast<std::size_t>(stream.gcount()));
+  const auto size = static_cast<std::streamoff>(file.size);
+  if (size > kPiece && stream) {
+    std::string end(static_cast<std::size_t>(kPiece), '\0');
+    stream.seekg(std::max(kPiece, size - kPiece));
+    stream.read(end.data(), kPiece);
+    bytes.append(end, 0, static_cast<std::size_t>(stream.gcount()));
+  }
+  return bytes;
+}
+
+std::string digestOf(const std::vector<std::string>& inputs, const std::string& out, bool with_time) {
+  std::string bytes;
+  for (const std::string& input : inputs) {
+    const std::vector<InputFile> files = filesOf(input, out);
+    const std::size_t step = std::max<std::size_t>(1, files.size() / kLookedInto);
+    appendInteger(bytes, files.size());
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      if (fs::is_directory(input)) appendText(bytes, files[i].name);  // a bag may be renamed
+      appendInteger(bytes, files[i].size);
+      if (with_time) appendInteger(bytes, static_cast<std::uint64_t>(files[i].changed));
+      if (i % step == 0) appendText(bytes, piecesOf(files[i]));
+    }
+  }
+  return sha256(bytes);
+}
+
+int addObject(dl_phdr_info* object, std::size_t, void* bytes) {
+  const std::string path = object->dlpi_name[0] == '\0' ? "/proc/self/exe" : object->dlpi_name;
+  std::error_code error;
+  if (!fs::exists(path, error)) return 0;  // the kernel's own
+  const InputFile file = look(fs::canonical(path, error), "");
+  appendText(*static_cast<std::string*>(bytes), file.path);
+  appendInteger(*static_cast<std::string*>(bytes), file.size);
+  appendInteger(*static_cast<std::string*>(bytes), static_cast<std::uint64_t>(file.changed));
+  return 0;
+}
+
+std::string digestOfProgram() {
+  std::string bytes;
+  dl_iterate_phdr(addObject, &bytes);
+  return sha256(bytes);
+}
+
+/// Those of loop_metric that its views depend on.
+std::vector<urban_nav_core::Setting> settingsOfViews(const AllParameters& parameters) {
+  std::vector<urban_nav_core::Setting> made;
+  for (const urban_nav_core::Setting& setting : parameters.loop_metric.settings)
+    if (setting.name == "points" || setting.name == "keyframe_way" || setting.name == "keyframe_turn")
+      made.push_back(setting);
+  return made;
+}
+
+std::string digestOfParameters(const AllParameters& parameters) {
+  std::string bytes;
+  for (const std::vector<urban_nav_core::Setting>& settings :
+       {parameters.command.settings, parameters.swf_vo.settings, settingsOfViews(parameters)}) {
+    for (const urban_nav_core::Setting& setting : settings) {
+      if (setting.name == "memory_mb") continue;  // no result depends on it
+      appendText(bytes, urban_nav_core::fullName(setting.stage, setting.name));
+      appendText(bytes, urban_nav_core::printValue(setting.value));
+    }
+  }
+  return sha256(bytes);
+}
+
+std::string digestOfOptions(const MapRequest& request) {
+  std::string bytes;
+  for (const std::string& topic : request.source.topics) appendText(bytes, topic);
+  urban_nav_store::appendNumber(bytes, request.source.rate);
+  urban_nav_store::appendNumber(bytes, keepsViews(request) ? 1.0 : 0.0);
+  std::string calibration = request.source.calibration;
+  appendText(bytes, calibration);
+  for (std::size_t comma = 0; !calibration.empty();
+       calibration.erase(0, comma == std::string::npos ? comma : comma + 1)) {
+    comma = calibration.find(',');
+    appendText(bytes, digestOf({calibration.substr(0, comma)}, request.out, true));
+  }
+  return sha256(bytes);
+}
+
+std::string digestOfStages(const MapRequest& request) {
+  std::string bytes;
+  for (const std::string& stage : request.stages) appendText(bytes, stage);
+  return sha256(bytes);
+}
+
+std::string digestOfStore(const MapRequest& request) {
+  std::error_code ignored;
+  const bool own = fs::equivalent(request.store, fs::path(request.out) / "session.db", ignored);
+  return request.store.empty() || own ? sha256("") : digestOf({request.store}, request.out, true);
+}
+
+}  // namespace
+
+RunIdentity identityOf(const MapRequest& request, const Session& session) {
+  return {{"inputs", digestOf(session.paths, request.out, true)},
+          {"options", digestOfOptions(request)},
+          {"parameters", digestOfParameters(request.parameters)},
+          {"program", digestOfProgram()},
+          {"stages", digestOfStages(request)},
+          {"store", digestOfStore(request)}};
+}
+
+urban_nav_store::SessionOrigin originOf(const MapRequest& request, const Session& session) {
+  return {"", "", 0, digestOf({session.paths.front()}, request.out, false)};
+}
+
+std::vector<std::string> bagsOf(const MapRequest& request, const Session& session) {
+  std::vector<std::string> digests;
+  if (session.begin != 0)
+    for (const std::string& path : session.paths) digests.push_back(digestOf({path}, request.out, true));
+  return digests;
+}
+
+std::string differences(const RunIdentity& a, const RunIdentity& b, const std::vector<std::string>& but) {
+  std::string names;
+  for (const auto& [name, digest] : a) {
+    if (std::find(but.begin(), but.end(), name) != but.end()) continue;
+    const auto other =
+        std::find_if(b.begin(), b.end(), [&, name = name](const auto& each) { return each.first == name; });
+    if (other == b.end() || other->second != digest) names += (names.empty() ? "" : ", ") + name;
+  }
+  return names;
+}
+
+}  // namespace urban_nav

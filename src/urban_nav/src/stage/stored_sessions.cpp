@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stage/stored_sessions.hpp"
+
+#include <memory>
+
+#include "loop_metric/camera_words.hpp"
+#include "stages/vo/vo_files.hpp"
+
+namespace urban_nav {
+
+loop_metric::StoredSurroundings::Sessions storedSessions(const std::vector<LoopsSession>& sessions,
+                                                         urban_nav_store::Store& store, const std::string& camera) {
+  loop_metric::StoredSurroundings::Sessions made;
+  for (const LoopsSession& session : sessions) {
+    loop_metric::SessionOfStore& its = made[session.name];
+    its.id = session.id;
+    its.odometry = std::make_shared<urban_nav_core::OdometryChain>(odometryOf(*session.run));
+    its.has_camera = false;
+    for (const urban_nav_store::Property& property : store.sessions().properties(session.id))
+      if (property.name == loop_metric::camera_property) its.has_camera = property.value == camera;
+    its.lasers = loop_metric::storedLasers(store, session.id);
+  }
+  return made;
+}
+
+}  // namespace urban_nav

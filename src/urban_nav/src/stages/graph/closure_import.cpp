@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stages/graph/closure_import.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <set>
+#include <tuple>
+
+#include "stages/vo/vo_files.hpp"
+#include "urban_nav_core/geometry/compose.hpp"
+#include "urban_nav_core/geometry/covariance_frames.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav {
+
+using pose_graph::Closure;
+using pose_graph::EdgeKind;
+using urban_nav_core::Matrix6d;
+using urban_nav_core::Pose;
+using urban_nav_core::StampNs;
+
+namespace {
+
+// Of a transform whose file does not say how good it is: five times what loop closure by stereo reaches (paper, section 4.1).
+constexpr double kUnknownSigmaM = 0.25, kUnknownSigmaRad = 0.05;
+
+/// Where a closure stands in the graph, and what it says: sessions by their place.
+using Place = std::tuple<std::size_t, StampNs, std::size_t, StampNs, EdgeKind>;
+using Numbers = std::array<double, 8>;
+
+Numbers numbersOf(const Closure& closure) {
+  const Pose& T = closure.measured.T_a_b;
+  return {T.t().x(), T.t().y(), T.t().z(), T.q().x(),
+          T.q().y(), T.q().z(), T.q().w(), closure.measured.information.trace()};
+}
+
+class Offers {
+ public:
+  Offers(const std::vector<std::string>& sessions, const std::vector<const VoRun*>& runs) : sessions_(sessions) {
+    for (const VoRun* one : runs) odometry_.push_back(odometryOf(*one));
+  }
+
+  /// `row`: its number in GraphRun::closures. Empty where it can be used, else why not.
+  std::string add(std::size_t row, const ClosureRow& offered) {
+    for (const std::string* name : {&offered.session_a, &offered.session_b})
+      if (placeOf(*name) == sessions_.size())
+        return "no session \"" + *name + "\" in this map; there are: " + listing();
+    if (offered.measured && offered.measured->verdict != urban_nav_core::ClosureVerdict::Accepted)
+      return offered.measured->reason_name + ": " + offered.measured->sentence;
+    if (!offered.T_a_b) return "no transform in the file, and no stage that finds one";
+    Closure closure;
+    Matrix6d from_offered = Matrix6d::Identity();  // d_offered = from_offered d, of perturbations of T_a_b
+    Pose T_a_b = *offered.T_a_b;
+    for (const bool at_a : {true, false}) {
+      const std::string& name = at_a ? offered.session_a : offered.session_b;
+      const StampNs stamp = at_a ? offered.stamp_a : offered.stamp_b;
+      const std::size_t session = placeOf(name);
+      const auto moment = odometry_[session].momentOf(stamp);
+      if (!moment) return "no frames around " + urban_nav_core::printStamp(stamp) + " s in " + name;
+      (at_a ? closure.a : closure.b) = {name, moment->frame};
+      const Pose& T_frame_moment = moment->T_frame_moment;
+      const Pose T_moment_frame = T_frame_moment.inverse();
+      from_offered *= at_a ? compose(T_moment_frame, T_frame_moment * T_a_b).J2
+                           : Matrix6d(2.0 * Matrix6d::Identity() - compose(T_a_b, T_moment_frame).J1);
+      T_a_b = at_a ? T_frame_moment * T_a_b : T_a_b * T_moment_frame;
+    }
+    closure.kind = offered.kind == "icp" ? EdgeKind::Icp : EdgeKind::Stereo;
+    closure.source = offered.where;
+    closure.measured.T_a_b = T_a_b;
+    if (offered.measured) {
+      closure.odometry_gate = offered.measured->odometry_gate;
+      closure.measured.information =
+          urban_nav_core::transformInformation(from_offered, offered.measured->measured.information);
+    } else {
+      const double sigma_m = offered.sigma_m > 0.0 ? offered.sigma_m : kUnknownSigmaM;
+      const double sigma_rad = offered.sigma_rad > 0.0 ? offered.sigma_rad : kUnknownSigmaRad;
+      closure.measured.information.diagonal().head<3>().setConstant(1.0 / (sigma_m * sigma_m));
+      closure.measured.information.diagonal().tail<3>().setConstant(1.0 / (sigma_rad * sigma_rad));
+    }
+    offers_.push_back({keyOf(closure), row, closure});
+    return {};
+  }
+
+  /// Rows from the first on, but for those that the file has too; what somebody asserted stays beside them.
+  void add(const std::vector<KnownClosure>& known) {
+    std::set<Place> in_file;
+    for (const Offer& offer : offers_) in_file.insert(offer.key.first);
+    for (std::size_t row = 0; row < known.size(); ++row) {
+      const Key key = keyOf(known[row].closure);
+      if (in_file.count(key.first) == 0) offers_.push_back({key, row, known[row].closure});
+    }
+  }
+
+  OfferedIds handTo(GraphRun& run) {
+    std::stable_sort(offers_.begin(), offers_.end(), [](const Offer& a, const Offer& b) { return a.key < b.key; });
+    OfferedIds ids;
+    for (const Offer& offer : offers_) {
+      try {
+        ids[offer.row] = run.graph.addClosure(offer.closure);
+      } catch (const urban_nav_core::UserError& error) {
+        run.closures[offer.row].reason = error.what();
+      }
+    }
+    return ids;
+  }
+
+ private:
+  using Key = std::pair<Place, Numbers>;
+  struct Offer {
+    Key key;
+    std::size_t row;
+    Closure closure;
+  };
+
+  std::size_t placeOf(const std::string& session) const {
+    return static_cast<std::size_t>(std::find(sessions_.begin(), sessions_.end(), session) - sessions_.begin());
+  }
+  Key keyOf(const Closure& closure) const {
+    return {{placeOf(closure.a.session), closure.a.stamp, placeOf(closure.b.session), closure.b.stamp, closure.kind},
+            numbersOf(closure)};
+  }
+  std::string listing() const {
+    std::string text;
+    for (const std::string& name : sessions_) text += (text.empty() ? "" : ", ") + name;
+    return text;
+  }
+
+  const std::vector<std::string>& sessions_;
+  std::vector<urban_nav_core::OdometryChain> odometry_;
+  std::vector<Offer> offers_;
+};
+
+}  // namespace
+
+OfferedIds offerClosures(GraphRun& run, const std::vector<const VoRun*>& runs, const std::vector<ClosureRow>& rows,
+                         const std::vector<KnownClosure>& known) {
+  Offers offers(run.sessions, runs);
+  for (const KnownClosure& each : known) {
+    run.closures.push_back(each.row);
+    run.closures.back().reason.clear();
+  }
+  for (const ClosureRow& row : rows) {
+    const std::string reason = offers.add(run.closures.size(), row);
+    run.closures.push_back(row);
+    run.closures.back().reason = reason;
+  }
+  offers.add(known);
+  return offers.handTo(run);
+}
+
+}  // namespace urban_nav

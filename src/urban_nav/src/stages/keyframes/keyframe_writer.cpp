@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stages/keyframes/keyframe_writer.hpp"
+
+#include <algorithm>
+
+#include "loop_metric/stored_surroundings.hpp"
+
+namespace urban_nav {
+
+using urban_nav_store::StoredKeyframe;
+
+namespace {
+
+constexpr std::size_t kAtOnce = 2;
+
+}  // namespace
+
+KeyframeKeeper::KeyframeKeeper(const loop_metric::Parameters& parameters, const urban_nav_core::StereoCamera& camera,
+                               bool one_thread)
+    : choice_(parameters),
+      maker_(std::make_shared<loop_metric::KeyframeMaker>(camera, parameters.points)),
+      launch_(one_thread ? std::launch::deferred : std::launch::async) {}
+
+void KeyframeKeeper::goOn(const VoRun& run, const std::vector<urban_nav_core::StampNs>& kept) {
+  for (const VoRow& row : run.rows)
+    if (std::binary_search(kept.begin(), kept.end(), row.stamp)) choice_.keep(row.T_odom_base);
+}
+
+std::optional<StoredKeyframe> KeyframeKeeper::process(const urban_nav_core::AssembledPair& frame, const VoRow& row) {
+  if (!row.accepted || frame.pair.left.empty() || frame.pair.right.empty()) return std::nullopt;
+  if (!choice_.choose(row.T_odom_base)) return std::nullopt;
+  std::optional<StoredKeyframe> done;
+  if (made_.size() == kAtOnce) done = next();
+  // the owners keep the pixels alive
+  made_.push_back(std::async(launch_, [maker = maker_, pair = frame.pair, left = frame.left_owner,
+                                       right = frame.right_owner, stamp = row.stamp] {
+    return loop_metric::storedKeyframe(maker->make({"", stamp}, pair));
+  }));
+  return done;
+}
+
+std::optional<StoredKeyframe> KeyframeKeeper::next() {
+  if (made_.empty()) return std::nullopt;
+  StoredKeyframe first = made_.front().get();
+  made_.pop_front();
+  return first;
+}
+
+}  // namespace urban_nav

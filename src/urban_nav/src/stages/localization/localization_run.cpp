@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stages/localization/localization_run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+#include "loop_metric/cloud_search.hpp"
+#include "loop_metric/map_search.hpp"
+#include "loop_metric/stored_surroundings.hpp"
+#include "stage/store_keys.hpp"
+#include "stage/stored_sessions.hpp"
+#include "stages/vo/vo_summary.hpp"
+#include "urban_nav_core/io/csv.hpp"
+#include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav {
+
+using loop_metric::Knowledge;
+using loop_metric::Located;
+using urban_nav_core::Pose;
+using urban_nav_core::StampNs;
+using urban_nav_store::Store;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// What the lasers of a run saw, looked for in the map; nothing where there are none.
+class CloudLooks {
+ public:
+  CloudLooks(const loop_metric::Parameters& parameters, const loop_metric::FrozenMap& map, Store& frozen, Store& own,
+             const urban_nav_store::SessionId& id, const VoRun& run, Console& console)
+      : console_(console) {
+    if (!parameters.icp || own.scans().lasers(id).empty()) return;
+    surroundings_ = std::make_unique<loop_metric::StoredSurroundings>(storedSessions({{"", id, &run}}, own, ""),
+                                                                      own.keyframes(), own.scans());
+    search_ = std::make_unique<loop_metric::CloudSearch>(parameters, map, frozen);
+  }
+
+  void lookOn(loop_metric::Localiser& localiser, LocaliseRun& made) {
+    const auto stretch = search_ ? search_->due(localiser) : std::nullopt;
+    if (!stretch) return;
+    if (search_->read() == 0) readMap();
+    const urban_nav_core::PoseRef at{"", stretch->at};
+    ++made.cloud_looks;
+    made.cloud_sightings += search_->look(*stretch, surroundings_->cloud(at, stretch->way),
+                                          surroundings_->bend(at, stretch->way), localiser)
+                                ? 1
+                                : 0;
+  }
+
+ private:
+  /// Whoever is seen by other means all along needs none of it.
+  void readMap() {
+    Progress progress(console_, "clouds of the map", "places", static_cast<std::int64_t>(search_->places()));
+    while (search_->readNext()) progress.update(static_cast<std::int64_t>(search_->read()));
+    progress.finish(static_cast<std::int64_t>(search_->places()));
+  }
+
+  Console& console_;
+  std::unique_ptr<loop_metric::StoredSurroundings> surroundings_;
+  std::unique_ptr<loop_metric::CloudSearch> search_;
+};
+
+}  // namespace
+
+LocaliseRun localise(const loop_metric::Parameters& parameters, Store& frozen, Store& own,
+                     const urban_nav_store::SessionId& id, const VoRun& run, Console& console) {
+  LocaliseRun made;
+  const loop_metric::FrozenMap map(frozen);
+  loop_metric::MapSearch search(parameters, map, frozen.keyframes(), run.camera, run.T_base_camera);
+  Progress reading(console, "views of the map", "views", static_cast<std::int64_t>(search.views()));
+  while (search.readNext()) reading.update(static_cast<std::int64_t>(search.read()));
+  reading.finish(static_cast<std::int64_t>(search.views()));
+  loop_metric::Localiser localiser(parameters);
+  CloudLooks clouds(parameters, map, frozen, own, id, run, console);
+  const std::vector<StampNs> views = own.keyframes().stamps(id, kVoCamera);
+  Progress progress(console, "localise", "frames", static_cast<std::int64_t>(run.settled.size()));
+  std::vector<double> ms;
+  std::size_t known = 0;
+  for (std::size_t i = 0; i < run.settled.size(); ++i) {
+    const swf_vo::Settled& frame = run.settled[i];
+    if (i > 0) localiser.addOdometry(frame.from_previous);
+    if (i > 0 && std::binary_search(views.begin(), views.end(), frame.stamp)) {
+      const Clock::time_point begin = Clock::now();
+      ++made.looks;
+      if (const auto stored = own.keyframes().get(id, kVoCamera, frame.stamp))
+        made.sightings += search.look(loop_metric::keyframeOf(*stored, ""), localiser) ? 1 : 0;
+      ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
+    }
+    clouds.lookOn(localiser, made);
+    Located located = localiser.at(frame.stamp);
+    located.stamp = frame.stamp;
+    if (located.knowledge == Knowledge::Known) {
+      ++known;
+      if (made.first_known_s < 0.0)
+        made.first_known_s = urban_nav_core::secondsBetween(run.settled.front().stamp, frame.stamp);
+    }
+    made.frames.push_back(std::move(located));
+    progress.update(static_cast<std::int64_t>(i + 1));
+  }
+  progress.finish(static_cast<std::int64_t>(run.settled.size()));
+  made.known_share = made.frames.empty() ? 0.0 : static_cast<double>(known) / static_cast<double>(made.frames.size());
+  made.ms_median = quantile(ms, 0.5);
+  // Frames before the first that is known lie where odometry puts them, seen from there; so do those that are not known later.
+  std::optional<Pose> T_map_odom;
+  for (std::size_t i = 0; i < made.frames.size() && !T_map_odom; ++i)
+    if (made.frames[i].knowledge == Knowledge::Known)
+      T_map_odom = made.frames[i].T_map_base->pose * run.settled[i].T_odom_base.pose.inverse();
+  if (!T_map_odom) {
+    made.warnings.push_back("the session was never found in the map: trajectory.tum is that of odometry");
+    return made;
+  }
+  for (std::size_t i = 0; i < made.frames.size(); ++i) {
+    if (made.frames[i].knowledge == Knowledge::Known)
+      T_map_odom = made.frames[i].T_map_base->pose * run.settled[i].T_odom_base.pose.inverse();
+    made.T_map_base.append(run.settled[i].stamp, *T_map_odom * run.settled[i].T_odom_base.pose);
+  }
+  return made;
+}
+
+std::string localisationCsv(const LocaliseRun& run) {
+  using urban_nav_core::printNumber;
+  std::vector<std::string> header = {"stamp_ns", "knowledge", "witnesses", "x", "y", "z", "qx", "qy", "qz", "qw"};
+  for (int i = 0; i < 36; ++i) header.push_back("c" + std::to_string(i / 6) + std::to_string(i % 6));
+  header.emplace_back("sentence");
+  std::string text = urban_nav_core::printCsvRow(header);
+  for (const Located& frame : run.frames) {
+    std::vector<std::string> cells = {std::to_string(frame.stamp), toString(frame.knowledge),
+                                      std::to_string(frame.witnesses)};
+    if (frame.T_map_base) {
+      const Pose& T = frame.T_map_base->pose;
+      for (const double value : {T.t().x(), T.t().y(), T.t().z(), T.q().x(), T.q().y(), T.q().z(), T.q().w()})
+        cells.push_back(printNumber(value));
+      for (int i = 0; i < 36; ++i) cells.push_back(printNumber(frame.T_map_base->covariance(i / 6, i % 6)));
+    }
+    cells.resize(header.size() - 1);
+    cells.push_back(frame.sentence);
+    text += urban_nav_core::printCsvRow(cells);
+  }
+  return text;
+}
+
+Json toJson(const LocaliseRun& run) {
+  Json json = Json::object();
+  json["frames"] = run.frames.size();
+  json["known_share"] = run.known_share;
+  json["first_known_s"] = run.first_known_s;
+  json["looks"] = run.looks;
+  json["sightings"] = run.sightings;
+  json["ms_median"] = run.ms_median;
+  json["cloud_looks"] = run.cloud_looks;
+  json["cloud_sightings"] = run.cloud_sightings;
+  Json& warnings = json["warnings"] = Json::array();
+  for (const std::string& warning : run.warnings) warnings.append(warning);
+  return json;
+}
+
+}  // namespace urban_nav

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stages/vo/vo_files.hpp"
+
+#include <array>
+#include <cstring>
+
+#include "urban_nav_core/geometry/dense.hpp"
+#include "urban_nav_core/io/covariance_csv.hpp"
+#include "urban_nav_core/io/g2o.hpp"
+#include "urban_nav_core/io/kitti.hpp"
+#include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/io/tum.hpp"
+
+namespace urban_nav {
+
+using swf_vo::Settled;
+using urban_nav_core::appendNumber;
+using urban_nav_core::G2oGraph;
+using urban_nav_core::Matrix6d;
+using urban_nav_core::Pose;
+
+namespace {
+
+constexpr int kLeastSeen = 3;  // frames: what was seen less is as likely a wrong match as a point
+
+std::array<double, 7> valuesOf(const Pose& pose) {
+  return {pose.t().x(), pose.t().y(), pose.t().z(), pose.q().x(), pose.q().y(), pose.q().z(), pose.q().w()};
+}
+
+void appendPose(std::string& text, const Pose& pose, char separator) {
+  for (const double value : valuesOf(pose)) {
+    text += separator;
+    appendNumber(text, value);
+  }
+}
+
+void appendFloat(std::string& bytes, float value) {
+  char raw[sizeof value];
+  std::memcpy(raw, &value, sizeof value);
+  bytes.append(raw, sizeof value);
+}
+
+/// A pose per frame and an edge per step; information in g2o's own tangent.
+G2oGraph chainOf(const VoRun& run) {
+  G2oGraph graph;
+  for (std::size_t i = 0; i < run.settled.size(); ++i) {
+    const auto id = static_cast<G2oGraph::Id>(i);
+    graph.vertices.push_back({id, {}});
+    graph.setPose(graph.vertices.back(), run.settled[i].T_odom_base.pose);
+    if (i == 0) continue;
+    const urban_nav_core::RelativePose& step = run.settled[i].from_previous;
+    G2oGraph::Edge edge;
+    edge.from = id - 1;
+    edge.to = id;
+    edge.values = valuesOf(step.T_from_to);
+    const Matrix6d information = urban_nav_core::invertPositiveDefinite(step.covariance).value_or(Matrix6d::Zero());
+    urban_nav_core::setG2oInformation(edge, urban_nav_core::g2oFromBoxInformation(information, step.T_from_to));
+    graph.edges.push_back(edge);
+  }
+  if (!run.settled.empty()) graph.fixed.push_back(0);
+  return graph;
+}
+
+}  // namespace
+
+std::string trajectoryTum(const VoRun& run) { return urban_nav_core::printTum(trajectoryOf(run)); }
+
+urban_nav_core::Trajectory trajectoryOf(const VoRun& run) {
+  urban_nav_core::Trajectory trajectory;
+  for (const Settled& settled : run.settled) trajectory.append(settled.stamp, settled.T_odom_base.pose);
+  return trajectory;
+}
+
+urban_nav_core::OdometryChain odometryOf(const VoRun& run) {
+  urban_nav_core::OdometryChain odometry;
+  for (std::size_t i = 1; i < run.settled.size(); ++i) odometry.append(run.settled[i].from_previous);
+  return odometry;
+}
+
+std::string trajectoryKitti(const VoRun& run) {
+  std::vector<Pose> poses;
+  std::size_t next = 0;
+  for (const VoRow& row : run.rows) {
+    if (row.accepted || poses.empty()) {
+      if (next >= run.settled.size()) break;
+      const Pose T_first_camera = (run.settled.front().T_odom_base.pose * run.T_base_camera).inverse() *
+                                  run.settled[next++].T_odom_base.pose * run.T_base_camera;
+      poses.push_back(T_first_camera);
+    } else {
+      poses.push_back(poses.back());
+    }
+  }
+  return urban_nav_core::printKitti(poses);
+}
+
+std::string covarianceCsv(const VoRun& run) {
+  std::string text = urban_nav_core::covarianceHeader();
+  for (const Settled& settled : run.settled) {
+    text += urban_nav_core::printCovarianceRow(
+        urban_nav_core::CovarianceRow{settled.stamp, settled.status.health, settled.T_odom_base.covariance});
+  }
+  return text;
+}
+
+std::string relativeCovarianceCsv(const VoRun& run) {
+  std::string text = urban_nav_core::relativeCovarianceHeader();
+  for (std::size_t i = 1; i < run.settled.size(); ++i) {
+    const urban_nav_core::RelativePose& step = run.settled[i].from_previous;
+    text += urban_nav_core::printCovarianceRow(
+        urban_nav_core::RelativeCovarianceRow{step.from, step.to, run.settled[i].status.health, step.covariance});
+  }
+  return text;
+}
+
+std::string graphG2o(const VoRun& run) { return urban_nav_core::printG2o(chainOf(run)); }
+
+std::string landmarksPly(const VoRun& run) {
+  std::string bytes;
+  std::int64_t count = 0;
+  for (const auto& [id, landmark] : run.landmarks) {
+    if (landmark.seen < kLeastSeen || !landmark.landmark.p_odom.allFinite()) continue;
+    for (int i = 0; i < 3; ++i) appendFloat(bytes, static_cast<float>(landmark.landmark.p_odom(i)));
+    appendFloat(bytes, landmark.landmark.sigma);
+    bytes.append(3, static_cast<char>(landmark.grey));
+    ++count;
+  }
+  return "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(count) +
+         "\nproperty float x\nproperty float y\nproperty float z\nproperty float sigma\nproperty uchar red\nproperty "
+         "uchar green\nproperty uchar blue\nend_header\n" +
+         bytes;
+}
+
+std::string statsCsv(const std::vector<const VoRun*>& runs) {
+  std::string text =
+      "session,frame,stamp_ns,accepted,status,reason,corners,features,tracked,track_length_mean,reprojection_px,"
+      "iterations,landmarks,landmarks_in_prior,disparity_offset_px,disparity_offset_sigma_px,row_offset_px,noise_scale,"
+      "now_x,now_y,now_z,now_qx,now_qy,now_qz,now_qw,swf_vo_ms\n";
+  for (std::size_t session = 0; session < runs.size(); ++session) {
+    for (const VoRow& row : runs[session]->rows) {
+      const swf_vo::Statistics& s = row.statistics;
+      text += std::to_string(session + 1) + "," + std::to_string(row.frame) + "," + std::to_string(row.stamp) +
+              (row.accepted ? ",1," : ",0,") + toString(row.status.health) + "," +
+              swf_vo::toString(static_cast<swf_vo::Reason>(row.status.reason));
+      for (const int value : {s.corners, s.features, s.tracked}) text += "," + std::to_string(value);
+      for (const double value : {s.track_length_mean, s.reprojection_px}) {
+        text += ',';
+        appendNumber(text, value);
+      }
+      for (const int value : {s.iterations, s.landmarks, s.landmarks_in_prior}) text += "," + std::to_string(value);
+      for (const double value : {s.disparity_offset_px, s.disparity_offset_sigma_px, s.row_offset_px, s.noise_scale}) {
+        text += ',';
+        appendNumber(text, value);
+      }
+      appendPose(text, row.T_odom_base, ',');
+      text += ',';
+      appendNumber(text, row.process_ms);
+      text += '\n';
+    }
+  }
+  return text;
+}
+
+void writeVoFiles(const OutputFolder& folder, const VoRun& run, const std::string& suffix) {
+  folder.write("trajectory" + suffix + ".tum", trajectoryTum(run));
+  folder.write("trajectory" + suffix + ".kitti", trajectoryKitti(run));
+  folder.write("covariance" + suffix + ".csv", covarianceCsv(run));
+  folder.write("relative_covariance" + suffix + ".csv", relativeCovarianceCsv(run));
+  folder.write("graph" + suffix + ".g2o", graphG2o(run));
+  folder.write("landmarks" + suffix + ".ply", landmarksPly(run));
+}
+
+void removeVoFiles(const OutputFolder& folder, const std::string& suffix, VoFiles which) {
+  for (const char* name : {"trajectory#.tum", "trajectory#.kitti", "covariance#.csv", "relative_covariance#.csv",
+                           "graph#.g2o", "landmarks#.ply"}) {
+    std::string file = name;
+    if (which == VoFiles::AllButLandmarks && file == "landmarks#.ply") continue;
+    folder.remove(file.replace(file.find('#'), 1, suffix));
+  }
+}
+
+}  // namespace urban_nav

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stages/vo/vo_summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace urban_nav {
+
+using urban_nav_core::Vector3d;
+
+namespace {
+
+constexpr std::size_t kWarningsShown = 20;
+
+void addWarnings(const VoRun& run, std::int64_t dropped, std::vector<std::string>& warnings) {
+  const std::string where = run.input + ": ";
+  if (dropped > 0)
+    warnings.push_back(where + std::to_string(dropped) +
+                       " frames dropped: their stamps are not later than those before");
+  for (std::size_t i = 0; i < std::min(run.faults.size(), kWarningsShown); ++i) warnings.push_back(run.faults[i]);
+  const auto more = run.faults_total - static_cast<std::int64_t>(std::min(run.faults.size(), kWarningsShown));
+  if (more > 0) warnings.push_back(where + std::to_string(more) + " more faults of this kind");
+}
+
+}  // namespace
+
+VoSummary summarise(const VoRun& run) { return summarise(std::vector<const VoRun*>{&run}); }
+
+VoSummary summarise(const std::vector<const VoRun*>& runs) {
+  VoSummary summary;
+  summary.status_counts = {{"OK", 0}, {"DEGRADED", 0}, {"LOST", 0}, {"RECOVERED", 0}};
+  std::vector<double> ms;
+  double features = 0.0, lengths = 0.0, reprojection = 0.0;
+  std::int64_t accepted = 0, observed = 0;
+  for (const VoRun* run : runs) {
+    std::int64_t dropped = 0;
+    for (const VoRow& row : run->rows) {
+      ++summary.frames;
+      ++summary.status_counts[toString(row.status.health)];
+      if (const auto reason = static_cast<swf_vo::Reason>(row.status.reason); reason != swf_vo::Reason::None)
+        ++summary.reason_counts[swf_vo::toString(reason)];
+      if (!row.accepted) {
+        ++dropped;
+        continue;
+      }
+      ++accepted;
+      summary.disparity_offset_px = row.statistics.disparity_offset_px;
+      summary.disparity_offset_sigma_px = row.statistics.disparity_offset_sigma_px;
+      ms.push_back(row.process_ms);
+      features += row.statistics.features;
+      lengths += row.statistics.track_length_mean;
+      if (row.statistics.tracked > 0) {
+        reprojection += row.statistics.reprojection_px;
+        ++observed;
+      }
+    }
+    summary.dropped += dropped;
+    std::vector<Vector3d> positions;
+    for (const swf_vo::Settled& settled : run->settled) positions.push_back(settled.T_odom_base.pose.t());
+    summary.distance_m += pathLength(positions);
+    if (run->settled.size() > 1)
+      summary.seconds += urban_nav_core::secondsBetween(run->settled.front().stamp, run->settled.back().stamp);
+    addWarnings(*run, dropped, summary.warnings);
+  }
+  const auto mean = [](double sum, std::int64_t count) { return count > 0 ? sum / static_cast<double>(count) : 0.0; };
+  summary.features_mean = mean(features, accepted);
+  summary.track_length_mean = mean(lengths, accepted);
+  summary.reprojection_px_mean = mean(reprojection, observed);
+  summary.ms_median = quantile(ms, 0.5);
+  summary.ms_p99 = quantile(std::move(ms), 0.99);
+  return summary;
+}
+
+Json toJson(const VoSummary& summary) {
+  Json json = Json::object();
+  json["frames"] = summary.frames;
+  json["frames_dropped"] = summary.dropped;
+  json["ms_median"] = summary.ms_median;
+  json["ms_p99"] = summary.ms_p99;
+  json["features_mean"] = summary.features_mean;
+  json["track_length_mean"] = summary.track_length_mean;
+  json["reprojection_px_mean"] = summary.reprojection_px_mean;
+  json["disparity_offset_px"] = summary.disparity_offset_px;
+  json["disparity_offset_sigma_px"] = summary.disparity_offset_sigma_px;
+  Json& statuses = json["status_counts"] = Json::object();
+  for (const char* name : {"OK", "DEGRADED", "LOST", "RECOVERED"}) statuses[name] = summary.status_counts.at(name);
+  Json& reasons = json["reason_counts"] = Json::object();
+  for (const auto& [reason, count] : summary.reason_counts) reasons[reason] = count;
+  Json& warnings = json["warnings"] = Json::array();
+  for (const std::string& warning : summary.warnings) warnings.append(warning);
+  return json;
+}
+
+double pathLength(const std::vector<Vector3d>& positions, double step) {
+  if (positions.empty()) return 0.0;
+  double length = 0.0;
+  Vector3d last = positions.front();
+  for (const Vector3d& position : positions) {
+    const double moved = (position - last).norm();
+    if (moved < step) continue;
+    length += moved;
+    last = position;
+  }
+  return length;
+}
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  const auto at = static_cast<std::ptrdiff_t>(
+      std::min(static_cast<double>(values.size() - 1), std::floor(share * static_cast<double>(values.size()))));
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[static_cast<std::size_t>(at)];
+}
+
+}  // namespace urban_nav

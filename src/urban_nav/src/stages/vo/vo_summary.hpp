@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "command_line/json.hpp"
+#include "stages/vo/vo_stage.hpp"
+
+namespace urban_nav {
+
+/// The figures of a run of visual odometry that summary.json and the report show.
+struct VoSummary {
+  std::int64_t frames = 0;
+  std::int64_t dropped = 0;  ///< because of their stamps
+  double seconds = 0.0;      ///< from the first stamp to the last
+  double distance_m = 0.0;   ///< along the settled trajectory, standing still left out
+  double ms_median = 0.0, ms_p99 = 0.0;
+  double features_mean = 0.0, track_length_mean = 0.0, reprojection_px_mean = 0.0;
+  double disparity_offset_px = 0.0, disparity_offset_sigma_px = 0.0;  ///< of the camera, as known in the end
+  std::map<std::string, std::int64_t> status_counts;                  ///< OK, DEGRADED, LOST, RECOVERED: all four
+  std::map<std::string, std::int64_t> reason_counts;                  ///< of frames that have one
+  std::vector<std::string> warnings;
+};
+VoSummary summarise(const VoRun& run);
+
+/// Over several sessions: counts and distances add up, medians are of all frames together.
+VoSummary summarise(const std::vector<const VoRun*>& runs);
+
+/// The object "swf_vo" of summary.json.
+Json toJson(const VoSummary& summary);
+
+/// The length of a path in which steps below the noise of standing still do not add up: positions count once they are
+/// `step` m from the last that counted.
+double pathLength(const std::vector<urban_nav_core::Vector3d>& positions, double step = 0.05);
+
+/// The value below which `share` of the values lie; 0 for none.
+double quantile(std::vector<double> values, double share);
+
+}  // namespace urban_nav

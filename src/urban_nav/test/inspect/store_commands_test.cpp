@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "commands/commands.hpp"
+#include "convert/convert.hpp"
+#include "inspect/store_export.hpp"
+#include "inspect/store_info.hpp"
+#include "stage/closures_file.hpp"
+#include "support/folders.hpp"
+#include "urban_nav_core/io/g2o.hpp"
+#include "urban_nav_core/io/kitti.hpp"
+#include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/io/tum.hpp"
+#include "urban_nav_ros/extrinsics.hpp"
+#include "urban_nav_store/dump.hpp"
+
+namespace urban_nav {
+namespace {
+
+using testing::readFile;
+using testing::TemporaryFolder;
+using urban_nav_core::Pose;
+using urban_nav_store::Access;
+using urban_nav_store::Edge;
+using urban_nav_store::EdgeKind;
+using urban_nav_store::EdgeVerdict;
+using urban_nav_store::Store;
+
+int call(std::vector<std::string> words) {
+  std::vector<const char*> argv = {"urban_nav"};
+  for (const std::string& word : words) argv.push_back(word.c_str());
+  return runCommandLine({mapCommand(), infoCommand(), exportCommand(), mergeCommand()}, static_cast<int>(argv.size()),
+                        argv.data());
+}
+
+/// Two folders, each mapped into a store of its own, and both into one.
+class StoreCommands : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    shared_ = std::make_unique<TemporaryFolder>();
+    for (const int frames : {16, 12}) {
+      testing::KittiStyle style;
+      style.frames = frames;
+      testing::makeKittiFolder(file("in" + std::to_string(frames)), style);
+    }
+    ASSERT_EQ(call({"map", file("in16"), "--out", file("a"), "--stages", "vo"}), 0);
+    ASSERT_EQ(call({"map", file("in12"), "--out", file("b"), "--stages", "vo"}), 0);
+    ASSERT_EQ(call({"map", file("in16"), file("in12"), "--out", file("both"), "--stages", "vo"}), 0);
+  }
+  static void TearDownTestSuite() { shared_.reset(); }
+  static std::string file(const std::string& name) { return shared_->file(name); }
+  static std::string dumpOf(const std::string& path) {
+    Store store(path, Access::Read);
+    return dump(store);
+  }
+
+ private:
+  static std::unique_ptr<TemporaryFolder> shared_;
+};
+std::unique_ptr<TemporaryFolder> StoreCommands::shared_;
+
+TEST_F(StoreCommands, infoSaysWhatIsInAStore) {
+  const StoreInfo info = lookIntoStore(file("both/session.db"));
+  ASSERT_EQ(info.sessions.size(), 2U);
+  EXPECT_EQ(info.joined.size(), 2U) << "nothing joins them";
+  const StoredSession& session = info.sessions.front().nodes == 16 ? info.sessions.front() : info.sessions.back();
+  EXPECT_EQ(session.session.name, "in16");
+  EXPECT_TRUE(session.session.complete);
+  EXPECT_FALSE(session.resumable);
+  EXPECT_EQ(session.nodes, 16);
+  EXPECT_NEAR(urban_nav_core::secondsBetween(session.first, session.last), 0.75, 1e-9);
+  EXPECT_NEAR(session.length_m, urban_nav_core::readTum(file("a/trajectory.tum")).length(), 1e-9);
+  EXPECT_EQ(session.edges.at("odometry").at("accepted"), 15);
+  ASSERT_EQ(session.streams.size(), 1U);
+  EXPECT_EQ(session.streams.front().messages, 16);
+  EXPECT_NEAR(session.streams.front().rate_hz, 20.0, 1e-6);
+  EXPECT_EQ(session.frames, std::vector<std::string>{"stereo_left_optical_frame"});
+  const std::string text = textOf(info);
+  for (const char* words :
+       {"2 sessions", "in12", "nodes 16", "odometry: 15 accepted", "stream stereo: 16 at 20 Hz", "base_link"})
+    EXPECT_NE(text.find(words), std::string::npos) << words << " in " << text;
+  EXPECT_EQ(call({"info", file("both/session.db"), "--json", file("info.json")}), 0);
+  EXPECT_NE(readFile(file("info.json")).find("\"kind\": \"session store\""), std::string::npos);
+}
+
+TEST_F(StoreCommands, exportsTheBytesThatMapWrote) {
+  ASSERT_EQ(call({"export", file("a/session.db"), "--tum", file("x.tum"), "--kitti", file("x.kitti"), "--g2o",
+                  file("x.g2o"), "--json", file("x.json")}),
+            0);
+  EXPECT_EQ(readFile(file("x.tum")), readFile(file("a/trajectory.tum")));
+  EXPECT_EQ(readFile(file("x.kitti")), readFile(file("a/trajectory.kitti")));
+  EXPECT_EQ(readFile(file("x.g2o")), readFile(file("a/graph.g2o")));
+  EXPECT_NE(readFile(file("x.json")).find("x.g2o"), std::string::npos);
+  ASSERT_EQ(call({"export", file("both/session.db"), "--session", "in12", "--tum", file("y.tum")}), 0);
+  EXPECT_EQ(readFile(file("y.tum")), readFile(file("b/trajectory.tum")));
+  ASSERT_EQ(call({"export", file("both/session.db"), "--tum", file("z.tum")}), 0);
+  EXPECT_FALSE(readFile(file("z_2.tum")).empty()) << "a map of its own";
+}
+
+TEST_F(StoreCommands, mapGoesOnFromAStore) {
+  const std::string first = dumpOf(file("a/session.db"));
+  ASSERT_EQ(call({"map", file("in12"), "--out", file("on"), "--stages", "vo", "--store", file("a/session.db")}), 0);
+  const auto sessionsIn = [](const std::string& path) { return lookIntoStore(path).sessions.size(); };
+  EXPECT_EQ(sessionsIn(file("on/session.db")), 2U);
+  EXPECT_TRUE(dumpOf(file("a/session.db")) == first) << "it is only read";
+  EXPECT_EQ(readFile(file("on/trajectory.tum")), readFile(file("b/trajectory.tum")));
+  ASSERT_EQ(call({"map", file("in12"), "--out", file("on"), "--stages", "vo", "--store", file("a/session.db")}), 0);
+  EXPECT_EQ(sessionsIn(file("on/session.db")), 2U) << "again";
+  ASSERT_EQ(call({"map", file("in12"), "--out", file("on"), "--stages", "vo", "--store", file("on/session.db")}), 0);
+  EXPECT_EQ(sessionsIn(file("on/session.db")), 2U) << "its own, with the same session";
+  ASSERT_EQ(call({"export", file("on/session.db"), "--session", "in16", "--tum", file("on.tum")}), 0);
+  EXPECT_EQ(readFile(file("on.tum")), readFile(file("a/trajectory.tum")));
+  EXPECT_EQ(call({"map", file("in12"), "--out", file("on"), "--stages", "vo", "--store", file("none.db")}), 2);
+  EXPECT_EQ(sessionsIn(file("on/session.db")), 2U);
+  ASSERT_EQ(call({"map", file("in12"), "--out", file("on"), "--stages", "vo"}), 0);
+  EXPECT_EQ(sessionsIn(file("on/session.db")), 1U) << "without --store a folder's store is this run's";
+}
+
+TEST_F(StoreCommands, mapRelaxesTheSessionsOfAStoreWithNewOnes) {
+  // Closures between frames, from the truth of rooms that both folders show.
+  const auto truth = [&](const std::string& name) { return urban_nav_core::readKitti(file(name + "/poses.txt")); };
+  const std::string header =
+      "session_a,stamp_a_ns,session_b,stamp_b_ns,probability,kind,x,y,z,qx,qy,qz,qw,sigma_m,sigma_rad\n";
+  const auto rowOf = [&](const std::string& a, int i, const std::string& b, int j) {
+    const Pose T_base_camera = urban_nav_ros::opticalInBody();
+    const Pose T = T_base_camera * truth(a).at(i).inverse() * truth(b).at(j) * T_base_camera.inverse();
+    std::string row =
+        a + "," + std::to_string(i * 50'000'000LL) + "," + b + "," + std::to_string(j * 50'000'000LL) + ",0.9,stereo";
+    for (const double v : {T.t().x(), T.t().y(), T.t().z(), T.q().x(), T.q().y(), T.q().z(), T.q().w(), 0.001, 0.001})
+      row += "," + urban_nav_core::printNumber(v);
+    return row + "\n";
+  };
+  const std::string within = rowOf("in16", 0, "in16", 12) + rowOf("in16", 2, "in16", 15) + rowOf("in16", 1, "in16", 14);
+  const std::string between = rowOf("in16", 3, "in12", 1) + rowOf("in16", 9, "in12", 7) + rowOf("in16", 14, "in12", 11);
+  testing::writeFile(file("within.csv"), header + within);
+  testing::writeFile(file("between.csv"), header + between);
+  testing::writeFile(file("all.csv"), header + between + within);
+  ASSERT_EQ(call({"map", file("in16"), file("in12"), "--out", file("at_once"), "--stages", "vo,graph", "--closures",
+                  file("all.csv")}),
+            0);
+  ASSERT_EQ(
+      call({"map", file("in16"), "--out", file("day1"), "--stages", "vo,graph", "--closures", file("within.csv")}), 0);
+  const std::string day1 = dumpOf(file("day1/session.db"));
+  for (const char* closures : {"between.csv", "all.csv"}) {
+    const std::string out = file(std::string("day2") + closures);
+    ASSERT_EQ(call({"map", file("in12"), "--out", out, "--stages", "vo,graph", "--closures", file(closures), "--store",
+                    file("day1/session.db")}),
+              0);
+    for (const char* name :
+         {"trajectory.tum", "trajectory.kitti", "covariance.csv", "relative_covariance.csv", "graph.g2o"})
+      EXPECT_TRUE(readFile(out + "/" + name) == readFile(file(std::string("at_once/") + name)))
+          << name << ", " << closures;
+    EXPECT_EQ(parseClosures(readFile(out + "/closures.csv"), "").size(), 6U);
+    EXPECT_TRUE(readFile(out + "/trajectory_2.tum").empty()) << "it joined";
+    const auto joined = [&](const std::string& db) { return lookIntoStore(db).joined; };
+    EXPECT_EQ(joined(out + "/session.db").size(), joined(file("at_once/session.db")).size());
+  }
+  EXPECT_TRUE(dumpOf(file("day1/session.db")) == day1) << "it is only read";
+  const std::string lines = readFile(file("at_once/trajectory.tum"));
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 28) << "of both";
+
+  // In the folder of the store itself; a cut-off run would find it so and go on.
+  ASSERT_EQ(call({"map", file("in12"), "--out", file("day1"), "--stages", "vo,graph", "--closures", file("between.csv"),
+                  "--store", file("day1/session.db")}),
+            0);
+  EXPECT_TRUE(readFile(file("day1/trajectory.tum")) == readFile(file("at_once/trajectory.tum")));
+  EXPECT_TRUE(readFile(file("day1/closures.csv")) == readFile(file("day2between.csv/closures.csv")));
+  // Nothing new: the closures of the store are there still.
+  ASSERT_EQ(call({"map", file("in12"), "--out", file("alone"), "--store", file("day1/session.db")}), 0);
+  const auto alone = urban_nav_core::readTum(file("alone/trajectory_2.tum")),
+             odometry = urban_nav_core::readTum(file("b/trajectory.tum"));
+  ASSERT_EQ(alone.size(), odometry.size()) << "mapped again, without what joined it";
+  for (std::size_t i = 0; i < alone.size(); ++i) EXPECT_TRUE(isApprox(alone[i].pose, odometry[i].pose, 1e-9));
+  EXPECT_EQ(urban_nav_core::readTum(file("alone/trajectory.tum")).size(), 16U);
+}
+
+TEST_F(StoreCommands, exportRefusesByName) {
+  const std::string store = file("a/session.db");
+  EXPECT_EQ(call({"export", store}), 2);
+  EXPECT_EQ(call({"export", store, "--las", file("x.las")}), 2);
+  EXPECT_EQ(call({"export", store, "--tum", file("x.tum"), "--session", "nobody"}), 2);
+  EXPECT_EQ(call({"export", file("in16/times.txt"), "--tum", file("x.tum")}), 2);
+  EXPECT_EQ(call({"export", file("nothing.db"), "--tum", file("x.tum")}), 2);
+  testing::writeFile(file("damaged.db"), readFile(store).substr(0, 9000));
+  EXPECT_EQ(call({"export", file("damaged.db"), "--tum", file("x.tum")}), 1);
+  EXPECT_EQ(call({"info", file("damaged.db")}), 1);
+}
+
+TEST_F(StoreCommands, mergeGivesTheStoreOfOneRun) {
+  ASSERT_EQ(
+      call({"merge", file("a/session.db"), file("b/session.db"), "-o", file("merged.db"), "--json", file("m.json")}),
+      0);
+  const std::string whole = dumpOf(file("both/session.db")), merged = dumpOf(file("merged.db"));
+  EXPECT_TRUE(whole == merged);
+  EXPECT_NE(readFile(file("m.json")).find("\"rows\""), std::string::npos);
+  EXPECT_EQ(call({"merge", file("a/session.db"), file("in16/times.txt"), "-o", file("m2.db")}), 2);
+}
+
+TEST_F(StoreCommands, relaxedSessionsOfOneMapAreExportedTogether) {
+  Store store(file("joined.db"), Access::Write);
+  const Pose T_map_odom(urban_nav_core::Quaterniond::Identity(), {5.0, 0.0, 0.0});
+  const auto at = [](double x) { return Pose(urban_nav_core::Quaterniond::Identity(), {x, 0.0, 0.0}); };
+  for (const auto& [id, start] : {std::pair{"one", 0}, {"two", 100}}) {
+    store.sessions().put({id, std::string("day ") + id, "", "", start, true});
+    for (int i = 0; i < 3; ++i) {
+      urban_nav_store::Node node;
+      node.stamp = start + i;
+      node.T_odom_base = at(i);
+      store.graph().put(id, node);
+    }
+  }
+  store.graph().put("one", urban_nav_store::RelaxedPose{0, at(0.5), 1});
+  store.graph().put("one", urban_nav_store::RelaxedPose{1, at(2.0), 1});
+  store.sessions().put(urban_nav_store::Anchor{"two", "one", 1, T_map_odom});
+  Edge edge{{"one", 1},
+            {"two", 100},
+            EdgeKind::Stereo,
+            "x",
+            {at(3.0), urban_nav_core::Matrix6d::Identity()},
+            1.0,
+            EdgeVerdict::Accepted,
+            ""};
+  store.graph().put(edge);
+  edge.kind = EdgeKind::Icp;
+  edge.verdict = EdgeVerdict::Rejected;
+  store.graph().put(edge);
+  edge.kind = EdgeKind::Session;
+  edge.verdict = EdgeVerdict::Accepted;
+  store.graph().put(edge);
+  const auto maps = readMaps(store, sessionsOf(store, {}));
+  ASSERT_EQ(maps.size(), 1U);
+  const urban_nav_core::Trajectory trajectory = urban_nav_core::parseTum(exportTum(store, maps[0]), "x");
+  std::vector<double> x;
+  for (const auto& pose : trajectory) x.push_back(pose.pose.t().x());
+  EXPECT_EQ(x, (std::vector<double>{0.5, 2.0, 3.0, 5.0, 6.0, 7.0})) << "the third goes with the second";
+  const ExportedGraph graph = exportG2o(store, maps);
+  EXPECT_EQ(graph.vertices, 6);
+  EXPECT_EQ(graph.edges, 1);
+  EXPECT_EQ(graph.left_out, 1);
+  EXPECT_EQ(urban_nav_core::parseG2o(graph.text, "x").edges.front().to, 3);
+  store.commit();
+  store.close();
+  const StoreInfo info = lookIntoStore(file("joined.db"));
+  EXPECT_EQ(info.joined.size(), 1U);
+  EXPECT_NE(textOf(info).find("joined by closures"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace urban_nav
