@@ -23,6 +23,7 @@
 namespace {
 
 using namespace loop_metric;
+using urban_nav_core::ClosureVerdict;
 using urban_nav_core::PointCloud;
 using urban_nav_core::Pose;
 using urban_nav_core::testing::BenchTable;
@@ -96,7 +97,7 @@ std::size_t startsRight(const Pair& pair, std::size_t starts) {
         Pose(urban_nav_core::expSo3({0.0, 0.0, heading}), {away * std::cos(towards), away * std::sin(towards), 0.0}) *
         pair.T_target_source;
     const Alignment found = align(pair.source, pair.target, {}, start);
-    right += found.verdict == Verdict::Accepted &&
+    right += found.verdict == ClosureVerdict::Accepted &&
              distanceBetween(found.T_target_source, pair.T_target_source) < right_m &&
              degrees * angleBetween(found.T_target_source, pair.T_target_source) < right_deg;
   }

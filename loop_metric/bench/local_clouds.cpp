@@ -24,6 +24,7 @@
 namespace {
 
 using namespace loop_metric;
+using urban_nav_core::ClosureVerdict;
 using urban_nav_core::PointCloud;
 using urban_nav_core::Pose;
 using urban_nav_core::testing::BenchTable;
@@ -154,8 +155,8 @@ class Program {
     const urban_nav_core::Vector6d d = urban_nav_core::boxMinus(truth, alignment.T_target_source);
     const double nees = d.dot(alignment.information * d);
     if (options_.list) list(name, i, j, kind, alignment, truth, d);
-    if (alignment.verdict == Verdict::Rejected) return;
-    if (alignment.verdict == Verdict::Degenerate) {
+    if (alignment.verdict == ClosureVerdict::Rejected) return;
+    if (alignment.verdict == ClosureVerdict::Degenerate) {
       ++tally.degenerate;
       return;
     }

@@ -14,6 +14,7 @@
 
 namespace loop_metric {
 
+using urban_nav_core::ClosureVerdict;
 using urban_nav_core::PointCloud;
 
 namespace {
@@ -100,7 +101,7 @@ Alignment judged(const Try& made, const Pair& pair, Alignment alignment, bool is
   std::optional<Plausibility> plausibility = plausibilityOf(made, pair);
   if (plausibility) plausibility->is_alone = is_alone;
   judge(made.fit, plausibility, made.refined, observed, pair.parameters, alignment);
-  if (alignment.verdict != Verdict::Rejected && pair.possible &&
+  if (alignment.verdict != ClosureVerdict::Rejected && pair.possible &&
       !pair.possible({made.refined.T_target_source, observed.information}))
     reject(alignment, Reason::Impossible, "the surfaces fit, but at a pose that is known to be wrong");
   return alignment;
@@ -138,7 +139,7 @@ bool areOne(const Pose& a, const Pose& b) { return distanceBetween(a, b) < 0.5 &
 bool isAnother(const Pose& pose, const Alignment& best) {
   constexpr double kFar = 50.0;  // squared deviations: six would be usual
   if (areOne(pose, best.T_target_source)) return false;
-  if (best.verdict != Verdict::Degenerate) return true;
+  if (best.verdict != ClosureVerdict::Degenerate) return true;
   const Vector6d d = boxMinus(pose, best.T_target_source);
   return d.dot(best.information * d) > kFar;
 }
@@ -197,7 +198,8 @@ Alignment searched(const Pair& pair, const Pose& guess, Alignment alignment, con
   if (found == tries.end()) {
     alignment = judged(tries.front(), pair, alignment);
     alignment.searched = true;
-    if (alignment.verdict != Verdict::Rejected) reject(alignment, Reason::Impossible, "no pose that can be was found");
+    if (alignment.verdict != ClosureVerdict::Rejected)
+      reject(alignment, Reason::Impossible, "no pose that can be was found");
     return alignment;
   }
   const Alignment first_judged = judged(*found, pair, alignment);
@@ -210,7 +212,7 @@ Alignment searched(const Pair& pair, const Pose& guess, Alignment alignment, con
   if (second != tries.end()) alignment.rival = Rival{second->refined.T_target_source, share};
   alignment.tests.push_back(
       {"second_pose", share, pair.parameters.max_second, false, share <= pair.parameters.max_second});
-  if (alignment.verdict != Verdict::Rejected && share > pair.parameters.max_second)
+  if (alignment.verdict != ClosureVerdict::Rejected && share > pair.parameters.max_second)
     reject(alignment, Reason::Ambiguous, "another, different pose fits as well");
   return alignment;
 }
@@ -251,21 +253,12 @@ Alignment align(const PointCloud& source, const PointCloud& target, const Parame
   }
   const Try first = tryFrom(pair, guess, 0, pair.source.steps().size());
   const Alignment local = judged(first, pair, alignment);
-  if (search == Search::Never || local.verdict == Verdict::Degenerate) return local;
-  const bool failed = local.verdict == Verdict::Rejected;
+  if (search == Search::Never || local.verdict == ClosureVerdict::Degenerate) return local;
+  const bool failed = local.verdict == ClosureVerdict::Rejected;
   const std::vector<Candidate> others = failed ? look(guess.t(), kFine) : rivalsOf(local, look(guess.t(), kCoarse));
   if (!failed && others.empty()) return local;
   explain();
   return searched(pair, guess, alignment, &first, others);
-}
-
-const char* toString(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::Accepted: return "accepted";
-    case Verdict::Degenerate: return "degenerate";
-    case Verdict::Rejected: break;
-  }
-  return "rejected";
 }
 
 const char* toString(Reason reason) {

@@ -130,8 +130,8 @@ class Measuring {
     closure_.icp_guess = guess;
     closure_.icp = align(source, target, parameters_, guess, search, known);
     Alignment& found = *closure_.icp;
-    if (found.verdict == Verdict::Rejected) return false;
-    if (found.verdict == Verdict::Degenerate && !gate_) {
+    if (found.verdict == ClosureVerdict::Rejected) return false;
+    if (found.verdict == ClosureVerdict::Degenerate && !gate_) {
       // One flat facade lies on any other: what slides tells no place from another, unless odometry has said that it is this one.
       found.sentence += "; without odometry between the moments that is no proof of a place";
       return false;

@@ -18,6 +18,7 @@ using testing::scan;
 using testing::Scanner;
 using testing::stand;
 using testing::World;
+using urban_nav_core::ClosureVerdict;
 using urban_nav_core::Matrix6d;
 using urban_nav_core::PointCloud;
 using urban_nav_core::Pose;
@@ -54,7 +55,7 @@ TEST(Align, findsSmallMotionsFromTheIdentity) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const Pair pair = pairOf(courtyard(seed), stand(1.0, 0.5, 5.0, 1.0, -2.0), stand(0.3, 0.1, 0.0), seed);
     const Alignment alignment = align(pair.source, pair.target, {});
-    EXPECT_EQ(alignment.verdict, Verdict::Accepted) << seed << ": " << alignment.sentence;
+    EXPECT_EQ(alignment.verdict, ClosureVerdict::Accepted) << seed << ": " << alignment.sentence;
     EXPECT_LT(distanceBetween(alignment.T_target_source, pair.truth), 0.02) << seed;
     EXPECT_LT(angleBetween(alignment.T_target_source, pair.truth) * kDeg, 0.1) << seed;
     EXPECT_LT(squaredDeviations(alignment, pair.truth), 22.5) << seed;
@@ -70,7 +71,7 @@ TEST(Align, needsNoGuessWhateverTheHeading) {
     const Pair pair = pairOf(courtyard(seed), there, stand(0.5, -0.5, 20.0), seed);
     for (const Search search : {Search::IfRejected, Search::AtOnce}) {
       const Alignment alignment = align(pair.source, pair.target, {}, {}, search);
-      EXPECT_EQ(alignment.verdict, Verdict::Accepted) << seed << ": " << alignment.sentence;
+      EXPECT_EQ(alignment.verdict, ClosureVerdict::Accepted) << seed << ": " << alignment.sentence;
       EXPECT_LT(distanceBetween(alignment.T_target_source, pair.truth), 0.03) << seed;
       EXPECT_LT(angleBetween(alignment.T_target_source, pair.truth) * kDeg, 0.2) << seed;
     }
@@ -101,7 +102,7 @@ TEST(Align, whatIsKnownOfTheHeadingDecidesBetweenTwoThatFit) {
   const Pose turned = pair.truth * Pose(Eigen::Quaterniond(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitZ())), {});
   for (const Search search : {Search::AtOnce, Search::IfRejected}) {
     const Alignment with = align(pair.source, pair.target, {}, {}, search, {near(pair.truth), {}});
-    EXPECT_EQ(with.verdict, Verdict::Accepted) << with.sentence;
+    EXPECT_EQ(with.verdict, ClosureVerdict::Accepted) << with.sentence;
     EXPECT_LT(distanceBetween(with.T_target_source, pair.truth), 0.03);
     EXPECT_LT(angleBetween(with.T_target_source, pair.truth) * kDeg, 0.2);
     if (with.rival) {
@@ -150,12 +151,13 @@ TEST(Align, gatheredCloudsFitAsWellAsNoiseLetsThem) {
                alike = gatheredPair(panelledCourt(seed), panelledCourt(seed + 50), seed);
     for (const Search search : {Search::IfRejected, Search::AtOnce}) {
       const Alignment found = align(right.source, right.target, {}, {}, search, known);
-      EXPECT_EQ(found.verdict, Verdict::Accepted) << found.sentence;
+      EXPECT_EQ(found.verdict, ClosureVerdict::Accepted) << found.sentence;
       EXPECT_LT(distanceBetween(found.T_target_source, right.truth), 0.02);
       EXPECT_LT(squaredDeviations(found, right.truth), 22.5);
-      EXPECT_EQ(align(alike.source, alike.target, {}, {}, search).verdict, Verdict::Accepted) << "it tests nothing";
+      EXPECT_EQ(align(alike.source, alike.target, {}, {}, search).verdict, ClosureVerdict::Accepted)
+          << "it tests nothing";
       const Alignment other = align(alike.source, alike.target, {}, {}, search, known);
-      EXPECT_EQ(other.verdict, Verdict::Rejected);
+      EXPECT_EQ(other.verdict, ClosureVerdict::Rejected);
       EXPECT_EQ(other.reason, Reason::Misfit) << other.sentence;
       expectFinite(other);
     }
@@ -170,7 +172,7 @@ TEST(Align, whatBeamsWentThroughIsNoWall) {
     for (const bool swapped : {false, true}) {
       const Alignment alignment = swapped ? align(pair.target, pair.source, {}, {}, Search::IfRejected, known)
                                           : align(pair.source, pair.target, {}, {}, Search::IfRejected, known);
-      EXPECT_EQ(alignment.verdict, Verdict::Rejected);
+      EXPECT_EQ(alignment.verdict, ClosureVerdict::Rejected);
       EXPECT_EQ(alignment.reason, Reason::SeenThrough) << alignment.sentence;
     }
   }
@@ -194,11 +196,11 @@ TEST(Align, whereNothingElseComesNearLessOfTheSurfacesWillDo) {
     const Alignment alignment = align(pair.source, pair.target, {});
     EXPECT_TRUE(alignment.searched);
     if (alignment.rival && alignment.rival->share > 0.7) {
-      EXPECT_EQ(alignment.verdict, Verdict::Rejected);
+      EXPECT_EQ(alignment.verdict, ClosureVerdict::Rejected);
       continue;
     }
     ++alone;
-    EXPECT_EQ(alignment.verdict, Verdict::Accepted) << alignment.sentence;
+    EXPECT_EQ(alignment.verdict, ClosureVerdict::Accepted) << alignment.sentence;
     EXPECT_LT(distanceBetween(alignment.T_target_source, pair.truth), 0.02);
     EXPECT_LT(squaredDeviations(alignment, pair.truth), 22.5);
   }
@@ -212,10 +214,10 @@ TEST(Align, whatASearchFindsIsNoBetterThanNoiseLetsIt) {
   Parameters strict;  // the fronts differ by centimetres
   strict.laser_bias = 0.001;
   strict.max_unknown_misfit = 1.25;
-  EXPECT_EQ(align(court, again, strict, {}, Search::AtOnce).verdict, Verdict::Accepted);
-  EXPECT_EQ(align(court, alike, {}, {}, Search::AtOnce).verdict, Verdict::Accepted) << "it tests nothing";
+  EXPECT_EQ(align(court, again, strict, {}, Search::AtOnce).verdict, ClosureVerdict::Accepted);
+  EXPECT_EQ(align(court, alike, {}, {}, Search::AtOnce).verdict, ClosureVerdict::Accepted) << "it tests nothing";
   const Alignment alignment = align(court, alike, strict, {}, Search::AtOnce);
-  EXPECT_EQ(alignment.verdict, Verdict::Rejected);
+  EXPECT_EQ(alignment.verdict, ClosureVerdict::Rejected);
   EXPECT_EQ(alignment.reason, Reason::Misfit) << alignment.sentence;
   expectFinite(alignment);
 }
@@ -235,14 +237,14 @@ TEST(Align, neverTakesOnePlaceForAnother) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     const PointCloud source = scan(courtyard(seed), stand(0.0, 0.0, 0.0), {}, 1),
                      target = scan(courtyard(seed + 100), stand(0.0, 0.0, 0.0), {}, 2);
-    EXPECT_EQ(align(source, target, {}).verdict, Verdict::Rejected) << seed;
+    EXPECT_EQ(align(source, target, {}).verdict, ClosureVerdict::Rejected) << seed;
   }
 }
 
 TEST(Align, aFacadeLeavesItsDirectionFree) {
   const Pair pair = pairOf(testing::facade(), stand(3.0, 0.2, 2.0), stand(0.0, 0.0, 0.0), 1);
   const Alignment alignment = align(pair.source, pair.target, {});
-  EXPECT_EQ(alignment.verdict, Verdict::Degenerate);
+  EXPECT_EQ(alignment.verdict, ClosureVerdict::Degenerate);
   EXPECT_EQ(alignment.reason, Reason::FreeDirections);
   ASSERT_EQ(alignment.free_directions.size(), 1U);
   EXPECT_GT(std::abs(alignment.free_directions[0][0]), 0.99);
@@ -256,7 +258,7 @@ TEST(Align, aFacadeLeavesItsDirectionFree) {
 TEST(Align, groundHoldsHeightRollAndPitchAlone) {
   const Pair pair = pairOf(testing::plain(), stand(1.0, 0.7, 10.0, 1.0), stand(0.0, 0.0, 0.0), 1);
   const Alignment alignment = align(pair.source, pair.target, {});
-  EXPECT_EQ(alignment.verdict, Verdict::Degenerate);
+  EXPECT_EQ(alignment.verdict, ClosureVerdict::Degenerate);
   EXPECT_EQ(alignment.free_directions.size(), 3U);
   for (const int i : {0, 1, 5}) EXPECT_LT(alignment.information(i, i), 1e-6 * alignment.information(2, 2)) << i;
   EXPECT_LT(squaredDeviations(alignment, pair.truth), 22.5);
@@ -295,7 +297,7 @@ TEST(Align, badCloudsAreNamed) {
         Case{&absurd, Reason::TooFewPoints}, Case{&same, Reason::NoSurfaces}, Case{&line, Reason::NoSurfaces}}) {
     for (const bool swapped : {false, true}) {
       const Alignment alignment = swapped ? align(good, *each.cloud, {}) : align(*each.cloud, good, {});
-      EXPECT_EQ(alignment.verdict, Verdict::Rejected);
+      EXPECT_EQ(alignment.verdict, ClosureVerdict::Rejected);
       EXPECT_EQ(alignment.reason, each.reason) << alignment.sentence;
       EXPECT_FALSE(alignment.sentence.empty());
       EXPECT_EQ(alignment.information, Matrix6d::Zero());
@@ -310,7 +312,7 @@ TEST(Align, anotherScaleIsRejected) {
     PointCloud scaled = good;
     for (Eigen::Vector3f& point : scaled.points) point *= scale;
     const Alignment alignment = align(scaled, good, {});
-    EXPECT_EQ(alignment.verdict, Verdict::Rejected) << scale;
+    EXPECT_EQ(alignment.verdict, ClosureVerdict::Rejected) << scale;
     expectFinite(alignment);
   }
 }

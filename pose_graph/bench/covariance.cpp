@@ -81,7 +81,7 @@ Nees neesAmongFalseOnes(SimulatedGraph graph, int number, Judged& judged) {
   for (std::size_t e = 0; e < graph.edges.size(); ++e) {
     weights.push_back(robust.edges[e].weight);
     if (graph.edges[e].kind == GraphEdgeKind::Chain) continue;
-    const bool kept = robust.edges[e].verdict == Verdict::Accepted;
+    const bool kept = robust.edges[e].verdict == urban_nav_core::ClosureVerdict::Accepted;
     ++(graph.edges[e].wrong ? judged.wrong : judged.right);
     if (graph.edges[e].wrong && kept) ++judged.wrong_kept;
     if (!graph.edges[e].wrong && !kept) ++judged.right_lost;

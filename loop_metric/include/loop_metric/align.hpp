@@ -8,18 +8,11 @@
 
 #include "loop_metric/parameters.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_core/types/closure.hpp"
 #include "urban_nav_core/types/point_cloud.hpp"
 #include "urban_nav_core/types/uncertain.hpp"
 
 namespace loop_metric {
-
-enum class Verdict {
-  Accepted,    ///< the pose is right in all six directions, to its covariance
-  Degenerate,  ///< right but for the directions that are named free
-  Rejected,    ///< no pose: what T_target_source holds is the best try, without information
-};
-/// "accepted", "degenerate", "rejected".
-const char* toString(Verdict verdict);
 
 enum class Reason {
   None,
@@ -63,7 +56,7 @@ struct Alignment {
   urban_nav_core::Matrix6d covariance =
       urban_nav_core::Matrix6d::Zero();                   ///< for display: 1e6 m^2 and 10 rad^2 along what is free
   std::vector<urban_nav_core::Vector6d> free_directions;  ///< unit vectors; information along them is zero
-  Verdict verdict = Verdict::Rejected;
+  urban_nav_core::ClosureVerdict verdict = urban_nav_core::ClosureVerdict::Rejected;
   Reason reason = Reason::None;
   std::string sentence;  ///< the reason for a person
   std::vector<Test> tests;

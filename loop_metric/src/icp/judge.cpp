@@ -5,6 +5,7 @@
 #include <cmath>
 
 namespace loop_metric {
+using urban_nav_core::ClosureVerdict;
 
 namespace {
 
@@ -54,7 +55,7 @@ Observability observedOf(const Refined& refined, double bias, double voxel, cons
 }
 
 void reject(Alignment& alignment, Reason reason, const std::string& sentence) {
-  alignment.verdict = Verdict::Rejected;
+  alignment.verdict = ClosureVerdict::Rejected;
   alignment.reason = reason;
   alignment.sentence = sentence;
   alignment.information.setZero();
@@ -121,7 +122,7 @@ void judge(const Fit& fit, const std::optional<Plausibility>& plausibility, cons
   alignment.covariance = observed.covariance;
   alignment.free_directions = observed.free_directions;
   const bool free = !observed.free_directions.empty();
-  alignment.verdict = free ? Verdict::Degenerate : Verdict::Accepted;
+  alignment.verdict = free ? ClosureVerdict::Degenerate : ClosureVerdict::Accepted;
   alignment.reason = free ? Reason::FreeDirections : Reason::None;
   alignment.sentence =
       free ? std::to_string(observed.free_directions.size()) + " of six directions are held by nothing in the clouds"

@@ -17,6 +17,7 @@
 
 namespace loop_metric {
 
+using urban_nav_core::ClosureVerdict;
 using urban_nav_core::Constraint;
 using urban_nav_core::OdometryChain;
 using urban_nav_core::PointCloud;
@@ -213,9 +214,9 @@ class CloudSearch::Implementation {
     known.bend = std::hypot(looked.bend, surroundings_->bend(moment, parameters_.cloud_way));
     const Alignment found = align(looked.cloud, target, start.is_known ? parameters_ : demanding_,
                                   T_map_place.inverse() * start.T_map_base, start.search, known);
-    if (found.verdict == Verdict::Rejected) return std::nullopt;
+    if (found.verdict == ClosureVerdict::Rejected) return std::nullopt;
     // One flat facade lies on any other: what slides tells no place from another, unless it is known which one it is.
-    if (found.verdict == Verdict::Degenerate && !start.is_known) return std::nullopt;
+    if (found.verdict == ClosureVerdict::Degenerate && !start.is_known) return std::nullopt;
     return Sighting{place, T_map_place, {found.T_target_source, found.information}};
   }
 

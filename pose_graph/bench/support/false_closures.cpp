@@ -87,7 +87,7 @@ FalseOutcome outcomeOf(const Problem<D>& clean, const std::vector<Rigid<D>>& opt
   made.error_m = apart<D>(robust.solution.poses, optimum);
   for (std::size_t e = 0; e < problem.edges.size(); ++e) {
     const Edge<D>& edge = problem.edges[e];
-    const bool rejected = robust.edges[e].verdict == Verdict::Rejected;
+    const bool rejected = robust.edges[e].verdict == urban_nav_core::ClosureVerdict::Rejected;
     if (e < clean.edges.size()) {
       made.lost += rejected && isClosure<D>(edge);
       continue;

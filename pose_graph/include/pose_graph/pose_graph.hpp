@@ -20,10 +20,10 @@
 
 namespace pose_graph {
 
+using urban_nav_core::ClosureVerdict;
 using urban_nav_core::Pose;
 using urban_nav_core::StampNs;
 using urban_nav_store::EdgeKind;
-using ClosureVerdict = urban_nav_store::EdgeVerdict;
 using urban_nav_store::NodeRef;
 using urban_nav_store::SessionId;
 using ClosureId = std::int64_t;

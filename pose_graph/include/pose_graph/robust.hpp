@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "pose_graph/solution.hpp"
+#include "urban_nav_core/types/closure.hpp"
 
 namespace pose_graph {
 
@@ -20,9 +21,6 @@ enum class EdgeRole {
 template <int D>
 std::vector<EdgeRole> rolesByNumbers(const Problem<D>& problem);
 
-enum class Verdict { Accepted, Rejected };
-const char* toString(Verdict verdict);
-
 enum class Reason {
   Role,         ///< Trusted or Asserted
   Fits,         ///< agrees with all that is accepted
@@ -33,9 +31,10 @@ enum class Reason {
 /// A sentence.
 const char* toString(Reason reason);
 
-struct EdgeVerdict {
+/// What robust selection makes of one edge.
+struct EdgeAssessment {
   double weight = 1.0;  ///< 0 where rejected
-  Verdict verdict = Verdict::Accepted;
+  urban_nav_core::ClosureVerdict verdict = urban_nav_core::ClosureVerdict::Accepted;
   Reason reason = Reason::Role;
   double chi2 =
       0.0;      ///< of a candidate against all other accepted edges together; of others, what remains of their own
@@ -46,7 +45,7 @@ struct EdgeVerdict {
 template <int D>
 struct RobustSolution {
   Solution<D> solution;
-  std::vector<EdgeVerdict> edges;
+  std::vector<EdgeAssessment> edges;
   /// By how much the squares of the residuals differ from what the edges' information promises: below 1 it is too modest. Above
   /// 1 it boasts, and many loops of near closures say so; where there are none, it is taken at its word.
   double variance_factor = 1.0;

@@ -47,9 +47,9 @@ void take(const RobustSolution<3>& judged, std::size_t chains, std::map<ClosureI
   for (const auto& [id, closure] : closures) ids.push_back(id);
   std::size_t e = chains;
   for (auto& [id, closure] : closures) {
-    const EdgeVerdict& verdict = judged.edges[e++];
-    closure.verdict = verdict.verdict == Verdict::Accepted ? ClosureVerdict::Accepted : ClosureVerdict::Rejected;
-    if (verdict.verdict == Verdict::Rejected && verdict.reason == Reason::NoWitness)
+    const EdgeAssessment& verdict = judged.edges[e++];
+    closure.verdict = verdict.verdict == ClosureVerdict::Accepted ? ClosureVerdict::Accepted : ClosureVerdict::Rejected;
+    if (verdict.verdict == ClosureVerdict::Rejected && verdict.reason == Reason::NoWitness)
       closure.verdict = ClosureVerdict::Waiting;
     closure.weight = verdict.weight;
     closure.reason = toString(verdict.reason);

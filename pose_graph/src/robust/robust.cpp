@@ -12,6 +12,7 @@
 #include "robust/information_scale.hpp"
 
 namespace pose_graph {
+using urban_nav_core::ClosureVerdict;
 
 namespace {
 
@@ -61,8 +62,6 @@ double costOf(const Edge<D>& edge, const std::vector<Rigid<D>>& poses) {
 
 }  // namespace
 
-const char* toString(Verdict verdict) { return verdict == Verdict::Accepted ? "accepted" : "rejected"; }
-
 const char* toString(Reason reason) {
   switch (reason) {
     case Reason::Role: return "not in question";
@@ -106,7 +105,7 @@ constexpr int kNear = 10;  // steps, as in AcceptedGraph::settle
 // What is thought of the edges, and where they put the poses.
 template <int D>
 struct Judgement {
-  std::vector<EdgeVerdict> edges;  // chi2 of candidates alone
+  std::vector<EdgeAssessment> edges;  // chi2 of candidates alone
   std::vector<Rigid<D>> poses;
   double variance = 1.0;
 };
@@ -130,7 +129,7 @@ Judgement<D> judge(const Problem<D>& problem, const std::vector<EdgeRole>& roles
   made.variance = grown.variance;
   made.edges.resize(roles.size());
   for (std::size_t e = 0; e < roles.size(); ++e) {
-    EdgeVerdict& verdict = made.edges[e];
+    EdgeAssessment& verdict = made.edges[e];
     const WhitenedEdge<D>& edge = witness.edge(static_cast<int>(e));
     verdict.dof = edge.rank;
     if (roles[e] != EdgeRole::Candidate) continue;
@@ -143,7 +142,7 @@ Judgement<D> judge(const Problem<D>& problem, const std::vector<EdgeRole>& roles
       continue;
     }
     verdict.weight = 0.0;
-    verdict.verdict = Verdict::Rejected;
+    verdict.verdict = ClosureVerdict::Rejected;
     verdict.reason = !std::isfinite(heard)                                      ? Reason::NoWitness
                      : heard > grown.variance * thresholds.limit[sz(edge.rank)] ? Reason::Disagrees
                                                                                 : Reason::Unconfirmed;
@@ -164,9 +163,10 @@ Judgement<D> judge(const Problem<D>& problem, const std::vector<EdgeRole>& roles
   return made;
 }
 
-bool sameVerdicts(const std::vector<EdgeVerdict>& a, const std::vector<EdgeVerdict>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const EdgeVerdict& one, const EdgeVerdict& other) { return one.verdict == other.verdict; });
+bool sameVerdicts(const std::vector<EdgeAssessment>& a, const std::vector<EdgeAssessment>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const EdgeAssessment& one, const EdgeAssessment& other) {
+    return one.verdict == other.verdict;
+  });
 }
 
 // The same by way of the core. What a chain says of its ends was read off where odometry laid it: it is read again where the
@@ -185,17 +185,19 @@ Judgement<D> judgeCore(CoreGraph<D>& core, const Problem<D>& problem, const std:
     const bool settled = reading > 0 && sameVerdicts(judged.edges, again.edges);
     judged = std::move(again);
     core.expanded(judged.poses);
-    if (settled || std::none_of(judged.edges.begin(), judged.edges.end(),
-                                [](const EdgeVerdict& verdict) { return verdict.verdict == Verdict::Rejected; }))
+    if (settled || std::none_of(judged.edges.begin(), judged.edges.end(), [](const EdgeAssessment& verdict) {
+          return verdict.verdict == ClosureVerdict::Rejected;
+        }))
       break;
   }
   Judgement<D> made;
   made.variance = judged.variance;
   made.poses = core.expanded(judged.poses);
   made.edges.resize(roles.size());
-  for (EdgeVerdict& verdict : made.edges) verdict.dof = tangent_size<D>;  // of a chain's: what is singular is in none
+  for (EdgeAssessment& verdict : made.edges)
+    verdict.dof = tangent_size<D>;  // of a chain's: what is singular is in none
   for (std::size_t e = 0; e < judged.edges.size(); ++e) {
-    EdgeVerdict& verdict = judged.edges[e];
+    EdgeAssessment& verdict = judged.edges[e];
     for (int& other : verdict.contradicted_by) other = core.edge(other);
     verdict.contradicted_by.erase(std::remove(verdict.contradicted_by.begin(), verdict.contradicted_by.end(), -1),
                                   verdict.contradicted_by.end());
@@ -230,7 +232,7 @@ RobustSolution<D> relaxRobust(const Problem<D>& problem, const std::vector<EdgeR
       core ? judgeCore(*core, problem, roles) : judge(problem, roles, DeadReckoning<D>(problem, roles));
   // The last word has the solver of graphs without false edges, on what is left.
   std::vector<char> in;
-  for (const EdgeVerdict& verdict : judged.edges) in.push_back(verdict.weight > 0.0);
+  for (const EdgeAssessment& verdict : judged.edges) in.push_back(verdict.weight > 0.0);
   RobustSolution<D> made;
   made.solution = relaxed(partOf(problem, in, std::move(judged.poses)), problem.poses, options);
   made.solution.cost_before = cost(problem, problem.poses, options.objective);

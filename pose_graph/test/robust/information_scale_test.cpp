@@ -9,6 +9,9 @@
 #include "urban_nav_core/testing/graphs.hpp"
 
 namespace pose_graph {
+
+using urban_nav_core::ClosureVerdict;
+
 namespace {
 
 using test::simulatedProblem;
@@ -83,7 +86,7 @@ TEST(InformationScale, KeepsTrueClosuresOfInformationThatBoasts) {
     const RobustSolution<3> robust = relaxRobust(drawn.problem, drawn.roles, {});
     std::size_t lost = 0, kept = 0;
     for (std::size_t e = 0; e < graph.edges.size(); ++e) {
-      const bool accepted = robust.edges[e].verdict == Verdict::Accepted;
+      const bool accepted = robust.edges[e].verdict == ClosureVerdict::Accepted;
       lost += !graph.edges[e].wrong && !accepted;
       kept += graph.edges[e].wrong && accepted;
     }

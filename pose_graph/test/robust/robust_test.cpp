@@ -11,6 +11,9 @@
 #include "urban_nav_core/testing/graphs.hpp"
 
 namespace pose_graph {
+
+using urban_nav_core::ClosureVerdict;
+
 namespace {
 
 using test::simulatedProblem;
@@ -37,7 +40,7 @@ template <int D>
 Count count(const SimulatedGraph& graph, const RobustSolution<D>& robust) {
   Count made;
   for (std::size_t e = 0; e < graph.edges.size(); ++e) {
-    const bool accepted = robust.edges[e].verdict == Verdict::Accepted;
+    const bool accepted = robust.edges[e].verdict == ClosureVerdict::Accepted;
     if (graph.edges[e].wrong) {
       ++made.wrong;
       made.wrong_kept += accepted;
@@ -111,7 +114,7 @@ TEST(Robust, WhatModestInformationStatesIsBelieved) {
   const RobustSolution<2> robust = relaxRobust(problem, rolesByNumbers(problem), {});
   const Count seen = count(graph, robust);
   EXPECT_LT(robust.variance_factor, 0.1);
-  EXPECT_EQ(robust.edges[odd].verdict, Verdict::Accepted) << robust.edges[odd].chi2;
+  EXPECT_EQ(robust.edges[odd].verdict, ClosureVerdict::Accepted) << robust.edges[odd].chi2;
   EXPECT_LE(seen.true_lost, static_cast<int>(closures / 50));
   EXPECT_EQ(seen.wrong_kept, 0);
 }
@@ -168,7 +171,7 @@ TEST(Robust, OneClosureAloneJoinsNothing) {
   const RobustSolution<2> robust = relaxRobust(drives.problem, drives.roles, {});
   EXPECT_EQ(robust.solution.components, 2);
   int without_witness = 0;
-  for (const EdgeVerdict& edge : robust.edges) without_witness += edge.reason == Reason::NoWitness;
+  for (const EdgeAssessment& edge : robust.edges) without_witness += edge.reason == Reason::NoWitness;
   EXPECT_EQ(without_witness, 1);
 }
 
@@ -183,12 +186,12 @@ TEST(Robust, AnAssertedEdgeStaysAndNamesWhatContradictsIt) {
   problem.edges.push_back(lie);
   roles.push_back(EdgeRole::Asserted);
   const RobustSolution<2> robust = relaxRobust(problem, roles, {});
-  EXPECT_EQ(robust.edges.back().verdict, Verdict::Accepted);
+  EXPECT_EQ(robust.edges.back().verdict, ClosureVerdict::Accepted);
   EXPECT_EQ(robust.edges.back().weight, 1.0);
   const std::vector<int>& against = robust.edges.back().contradicted_by;
   EXPECT_NE(std::find(against.begin(), against.end(), static_cast<int>(truth)), against.end());
   EXPECT_LT(against.size(), problem.edges.size() / 4);
-  EXPECT_EQ(robust.edges[truth].verdict, Verdict::Rejected);
+  EXPECT_EQ(robust.edges[truth].verdict, ClosureVerdict::Rejected);
 
   problem.edges.back() = problem.edges[truth];
   EXPECT_TRUE(relaxRobust(problem, roles, {}).edges.back().contradicted_by.empty())
@@ -225,7 +228,7 @@ TEST(Robust, NothingToDecideIsNoTrouble) {
   problem.poses.resize(3);
   problem.edges = {{0, 1, {}, TangentMatrix<3>::Identity()}, {1, 2, {}, TangentMatrix<3>::Zero()}};
   const RobustSolution<3> robust = relaxRobust(problem, rolesByNumbers(problem), {});
-  EXPECT_EQ(robust.edges[1].verdict, Verdict::Accepted);
+  EXPECT_EQ(robust.edges[1].verdict, ClosureVerdict::Accepted);
   EXPECT_TRUE(test::allFinite<3>(robust.solution.poses));
 }
 

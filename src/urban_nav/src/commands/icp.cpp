@@ -162,7 +162,7 @@ int run(const Arguments& arguments, Console& console) {
         loop_metric::jpegOf(loop_metric::drawClouds(source, target, guess, alignment.T_target_source, options));
     urban_nav_core::writeAtomically(arguments.get("picture"), std::string(jpeg.begin(), jpeg.end()));
   }
-  return alignment.verdict == loop_metric::Verdict::Rejected ? 1 : 0;
+  return alignment.verdict == urban_nav_core::ClosureVerdict::Rejected ? 1 : 0;
 }
 
 std::string help(const Arguments& arguments) {

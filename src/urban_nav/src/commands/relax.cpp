@@ -164,7 +164,8 @@ Told relaxFile(const G2oGraph& graph, const std::string& name, const Arguments& 
     pose_graph::Problem<D> accepted;
     accepted.poses = file.problem.poses;
     for (std::size_t e = 0; e < robust.edges.size(); ++e)
-      if (robust.edges[e].verdict == pose_graph::Verdict::Accepted) accepted.edges.push_back(file.problem.edges[e]);
+      if (robust.edges[e].verdict == urban_nav_core::ClosureVerdict::Accepted)
+        accepted.edges.push_back(file.problem.edges[e]);
     robust.solution =
         solver == "ceres" ? pose_graph::solveByCeres(accepted, options) : relaxAlongChain(accepted, options);
   } else if (!doubted) {
@@ -177,9 +178,10 @@ Told relaxFile(const G2oGraph& graph, const std::string& name, const Arguments& 
   told.edges = file.problem.edges.size();
   told.iterations = solution.iterations.size();
   told.components = solution.components;
-  told.rejected = static_cast<std::size_t>(std::count_if(
-      robust.edges.begin(), robust.edges.end(),
-      [](const pose_graph::EdgeVerdict& verdict) { return verdict.verdict == pose_graph::Verdict::Rejected; }));
+  told.rejected = static_cast<std::size_t>(
+      std::count_if(robust.edges.begin(), robust.edges.end(), [](const pose_graph::EdgeAssessment& verdict) {
+        return verdict.verdict == urban_nav_core::ClosureVerdict::Rejected;
+      }));
   told.ending = toString(solution.ending);
   // Each of a component's poses but the first hangs on one trusted edge.
   const std::size_t trusted = told.poses - static_cast<std::size_t>(std::max(solution.components, 1));
@@ -188,7 +190,7 @@ Told relaxFile(const G2oGraph& graph, const std::string& name, const Arguments& 
   told.after = costsOf(file.problem, solution.poses);
   if (options.objective == Objective::Chordal) {
     std::vector<double> weights;
-    for (const pose_graph::EdgeVerdict& edge : robust.edges) weights.push_back(edge.weight);
+    for (const pose_graph::EdgeAssessment& edge : robust.edges) weights.push_back(edge.weight);
     told.certificate = certify(file.problem, solution.poses, weights);
   }
   if (solution.components > 1)

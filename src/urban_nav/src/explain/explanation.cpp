@@ -35,7 +35,7 @@ std::string headlineOf(const StoredClosure& closure) {
 std::string verdictOf(const StoredClosure& closure) {
   const urban_nav_store::Edge& edge = closure.edge;
   std::string text = std::string(toString(edge.verdict));
-  if (edge.verdict == urban_nav_store::EdgeVerdict::Accepted)
+  if (edge.verdict == urban_nav_core::ClosureVerdict::Accepted)
     text += ", by " + std::string(toString(edge.kind)) + ", weight " + forPerson(edge.weight, 3);
   return edge.reason.empty() ? text : text + ": " + edge.reason;
 }
@@ -135,7 +135,7 @@ Page explainOnPage(const StoredClosure& closure, urban_nav_store::Store& store, 
   Page page;
   page.title = "Why: closure " + std::to_string(closure.id);
   page.subtitle = headlineOf(closure);
-  const bool accepted = closure.edge.verdict == urban_nav_store::EdgeVerdict::Accepted;
+  const bool accepted = closure.edge.verdict == urban_nav_core::ClosureVerdict::Accepted;
   page.verdicts.push_back({accepted ? Grade::Good : Grade::Bad, accepted ? "Accepted." : "Not accepted.",
                            verdictOf(closure) + ". " + transformOf(closure)});
   if (closure.probability)

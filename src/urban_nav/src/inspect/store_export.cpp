@@ -12,6 +12,7 @@
 
 namespace urban_nav {
 
+using urban_nav_core::ClosureVerdict;
 using urban_nav_core::G2oGraph;
 using urban_nav_core::Pose;
 using urban_nav_core::StampedPose;
@@ -19,7 +20,6 @@ using urban_nav_core::StampNs;
 using urban_nav_core::UserError;
 using urban_nav_store::Edge;
 using urban_nav_store::EdgeKind;
-using urban_nav_store::EdgeVerdict;
 using urban_nav_store::Store;
 using urban_nav_store::StoredTrajectory;
 
@@ -96,7 +96,7 @@ ExportedGraph exportG2o(Store& store, const std::vector<std::vector<StoredTrajec
       store.graph().forEachEdge(each.session.id, [&](const Edge& edge) {
         const auto a = ids.find({edge.a.session, edge.a.stamp}), b = ids.find({edge.b.session, edge.b.stamp});
         if (a == ids.end() || b == ids.end() || edge.kind == EdgeKind::Session) return;
-        if (edge.verdict != EdgeVerdict::Accepted) {
+        if (edge.verdict != ClosureVerdict::Accepted) {
           ++exported.left_out;
           return;
         }

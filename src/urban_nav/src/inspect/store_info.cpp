@@ -12,10 +12,10 @@
 
 namespace urban_nav {
 
+using urban_nav_core::ClosureVerdict;
 using urban_nav_core::StampNs;
 using urban_nav_store::Edge;
 using urban_nav_store::EdgeKind;
-using urban_nav_store::EdgeVerdict;
 using urban_nav_store::Store;
 using urban_nav_store::StoredTrajectory;
 
@@ -150,7 +150,7 @@ StoreInfo lookIntoStore(const std::string& path) {
     store.graph().forEachEdge(each.session.id, [&](const Edge& edge) {
       ++each.edges[toString(edge.kind)][toString(edge.verdict)];
       const auto b = places.find(edge.b.session);
-      if (edge.verdict == EdgeVerdict::Accepted && edge.kind != EdgeKind::Session && b != places.end())
+      if (edge.verdict == ClosureVerdict::Accepted && edge.kind != EdgeKind::Session && b != places.end())
         groups.join(places.at(edge.a.session), b->second);
     });
   }

@@ -12,11 +12,11 @@
 
 namespace urban_nav {
 
+using urban_nav_core::ClosureVerdict;
 using urban_nav_core::Matrix6d;
 using urban_nav_store::Access;
 using urban_nav_store::Edge;
 using urban_nav_store::EdgeKind;
-using urban_nav_store::EdgeVerdict;
 using urban_nav_store::Property;
 using urban_nav_store::SessionId;
 using urban_nav_store::Store;
@@ -319,8 +319,8 @@ void StoreStage::add(const VoRun& run) {
                 settled.stamp, settled.T_odom_base.pose, first ? Matrix6d(Matrix6d::Zero()) : step.covariance,
                 first ? Matrix6d(Matrix6d::Zero()) : settled.from_previous.drift_covariance, settled.status.health});
     if (first) continue;
-    Edge edge{{id, step.from},      {id, step.to}, EdgeKind::Odometry,    kVoStage,
-              {step.T_from_to, {}}, 1.0,           EdgeVerdict::Accepted, ""};
+    Edge edge{{id, step.from},      {id, step.to}, EdgeKind::Odometry,       kVoStage,
+              {step.T_from_to, {}}, 1.0,           ClosureVerdict::Accepted, ""};
     edge.measured.information = urban_nav_core::invertPositiveDefinite(step.covariance).value_or(Matrix6d::Zero());
     store_->graph().put(edge);
   }

@@ -21,11 +21,11 @@ namespace {
 
 using testing::readFile;
 using testing::TemporaryFolder;
+using urban_nav_core::ClosureVerdict;
 using urban_nav_core::Pose;
 using urban_nav_store::Access;
 using urban_nav_store::Edge;
 using urban_nav_store::EdgeKind;
-using urban_nav_store::EdgeVerdict;
 using urban_nav_store::Store;
 
 int call(std::vector<std::string> words) {
@@ -220,14 +220,14 @@ TEST_F(StoreCommands, relaxedSessionsOfOneMapAreExportedTogether) {
             "x",
             {at(3.0), urban_nav_core::Matrix6d::Identity()},
             1.0,
-            EdgeVerdict::Accepted,
+            ClosureVerdict::Accepted,
             ""};
   store.graph().put(edge);
   edge.kind = EdgeKind::Icp;
-  edge.verdict = EdgeVerdict::Rejected;
+  edge.verdict = ClosureVerdict::Rejected;
   store.graph().put(edge);
   edge.kind = EdgeKind::Session;
-  edge.verdict = EdgeVerdict::Accepted;
+  edge.verdict = ClosureVerdict::Accepted;
   store.graph().put(edge);
   const auto maps = readMaps(store, sessionsOf(store, {}));
   ASSERT_EQ(maps.size(), 1U);

@@ -10,12 +10,12 @@
 namespace urban_nav {
 namespace {
 
+using urban_nav_core::ClosureVerdict;
 using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
 using urban_nav_store::Access;
 using urban_nav_store::Edge;
 using urban_nav_store::EdgeKind;
-using urban_nav_store::EdgeVerdict;
 using urban_nav_store::Store;
 
 Pose at(double x) { return Pose(urban_nav_core::Quaterniond::Identity(), {x, 0.0, 0.0}); }
@@ -43,7 +43,7 @@ class EarlierSessionsTest : public ::testing::Test {
               kind == EdgeKind::Odometry ? kVoStage : "closures.csv:7",
               {at(x), 4.0 * Matrix6d::Identity()},
               1.0,
-              EdgeVerdict::Accepted,
+              ClosureVerdict::Accepted,
               ""};
     store.graph().put(edge);
   }

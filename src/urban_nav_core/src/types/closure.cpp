@@ -46,12 +46,15 @@ const char* toString(ClosureVerdict verdict) {
   switch (verdict) {
     case ClosureVerdict::Accepted: return "accepted";
     case ClosureVerdict::Rejected: return "rejected";
+    case ClosureVerdict::Waiting: return "waiting";
+    case ClosureVerdict::Degenerate: return "degenerate";
   }
   assert(false && "a ClosureVerdict outside its enumeration");
   return "unknown";
 }
 std::optional<ClosureVerdict> parseClosureVerdict(std::string_view word) {
-  return parse(word, {ClosureVerdict::Accepted, ClosureVerdict::Rejected});
+  return parse(
+      word, {ClosureVerdict::Accepted, ClosureVerdict::Rejected, ClosureVerdict::Waiting, ClosureVerdict::Degenerate});
 }
 
 bool operator==(const EdgeRef& a, const EdgeRef& b) {

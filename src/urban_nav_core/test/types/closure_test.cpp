@@ -32,7 +32,8 @@ TEST(Closure, MethodAndVerdictPrintAndReadBack) {
     EXPECT_EQ(parseClosureMethod(toString(method)), method);
   EXPECT_STREQ(toString(ClosureMethod::Icp), "icp");
   EXPECT_FALSE(parseClosureMethod("ICP"));
-  for (const ClosureVerdict verdict : {ClosureVerdict::Accepted, ClosureVerdict::Rejected})
+  for (const ClosureVerdict verdict :
+       {ClosureVerdict::Accepted, ClosureVerdict::Rejected, ClosureVerdict::Waiting, ClosureVerdict::Degenerate})
     EXPECT_EQ(parseClosureVerdict(toString(verdict)), verdict);
   EXPECT_FALSE(parseClosureVerdict(""));
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "urban_nav_core/types/closure.hpp"
 #include "urban_nav_core/types/status.hpp"
 #include "urban_nav_core/types/uncertain.hpp"
 #include "urban_nav_store/session.hpp"
@@ -39,12 +40,9 @@ struct NodeRef {
 bool operator==(const NodeRef& a, const NodeRef& b);
 
 enum class EdgeKind { Odometry, Stereo, Icp, Plane, Session, Asserted };
-enum class EdgeVerdict { Accepted, Rejected, Waiting };  ///< Waiting: for a second witness
-/// "odometry", "stereo", "icp", "plane", "session", "asserted"; "accepted", "rejected", "waiting".
+/// "odometry", "stereo", "icp", "plane", "session", "asserted".
 const char* toString(EdgeKind kind);
-const char* toString(EdgeVerdict verdict);
 std::optional<EdgeKind> parseEdgeKind(std::string_view word);
-std::optional<EdgeVerdict> parseEdgeVerdict(std::string_view word);
 
 /// A measured T_a_b. Edges of one kind between the same two nodes differ in their source.
 struct Edge {
@@ -53,7 +51,7 @@ struct Edge {
   std::string source;  ///< who says so: "swf_vo", "loop_metric"
   urban_nav_core::Constraint measured;
   double weight = 1.0;  ///< that relaxation gave it, 0...1
-  EdgeVerdict verdict = EdgeVerdict::Accepted;
+  urban_nav_core::ClosureVerdict verdict = urban_nav_core::ClosureVerdict::Accepted;  ///< not Degenerate
   std::string reason;
 };
 

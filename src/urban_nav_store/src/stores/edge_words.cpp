@@ -15,25 +15,10 @@ const char* toString(EdgeKind kind) {
   return "asserted";
 }
 
-const char* toString(EdgeVerdict verdict) {
-  switch (verdict) {
-    case EdgeVerdict::Accepted: return "accepted";
-    case EdgeVerdict::Rejected: return "rejected";
-    case EdgeVerdict::Waiting: break;
-  }
-  return "waiting";
-}
-
 std::optional<EdgeKind> parseEdgeKind(std::string_view word) {
   for (const EdgeKind kind :
        {EdgeKind::Odometry, EdgeKind::Stereo, EdgeKind::Icp, EdgeKind::Plane, EdgeKind::Session, EdgeKind::Asserted})
     if (word == toString(kind)) return kind;
-  return std::nullopt;
-}
-
-std::optional<EdgeVerdict> parseEdgeVerdict(std::string_view word) {
-  for (const EdgeVerdict verdict : {EdgeVerdict::Accepted, EdgeVerdict::Rejected, EdgeVerdict::Waiting})
-    if (word == toString(verdict)) return verdict;
   return std::nullopt;
 }
 

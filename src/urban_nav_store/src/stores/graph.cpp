@@ -60,8 +60,8 @@ Edge readEdge(RowReader& reader) {
   edge.measured.T_a_b = reader.pose();
   if (!matrixOf(reader.blob(), edge.measured.information)) reader.damaged("an information is no matrix");
   edge.weight = reader.real();
-  const auto verdict = parseEdgeVerdict(reader.text());
-  if (!verdict) reader.damaged("a verdict is no such word");
+  const auto verdict = urban_nav_core::parseClosureVerdict(reader.text());
+  if (!verdict || *verdict == urban_nav_core::ClosureVerdict::Degenerate) reader.damaged("a verdict is no such word");
   edge.verdict = *verdict;
   edge.reason = reader.text();
   return edge;

@@ -11,6 +11,9 @@
 #include "urban_nav_store/store.hpp"
 
 namespace urban_nav_store {
+
+using urban_nav_core::ClosureVerdict;
+
 namespace {
 
 using testing::Drawn;
@@ -62,7 +65,7 @@ TEST_F(GraphRows, edgesComeBackAndAreTheirKey) {
        {EdgeKind::Odometry, EdgeKind::Stereo, EdgeKind::Icp, EdgeKind::Plane, EdgeKind::Session, EdgeKind::Asserted}) {
     Edge edge = drawn.edge(a, b, kind);
     graph.put(edge);
-    edge.verdict = EdgeVerdict::Waiting;
+    edge.verdict = ClosureVerdict::Waiting;
     edge.measured.information.setZero();  // singular is allowed
     graph.put(edge);
     edge.source = "another";
@@ -75,7 +78,7 @@ TEST_F(GraphRows, edgesComeBackAndAreTheirKey) {
   for (const Edge& edge : edges) {
     EXPECT_EQ(edge.a, a);
     EXPECT_EQ(edge.b, b);
-    EXPECT_EQ(edge.verdict, EdgeVerdict::Waiting);
+    EXPECT_EQ(edge.verdict, ClosureVerdict::Waiting);
     EXPECT_TRUE(edge.measured.information.isZero());
     EXPECT_EQ(edge.reason, "too far, \"perhaps\"");
     graph.putEvidence(edge, edge.source + toString(edge.kind));

@@ -5,6 +5,7 @@
 
 namespace urban_nav_store::testing {
 
+using urban_nav_core::ClosureVerdict;
 using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
 using urban_nav_core::StampNs;
@@ -37,7 +38,7 @@ Node Drawn::node(StampNs stamp) {
 RelaxedPose Drawn::relaxed(StampNs stamp) { return {stamp, pose(), static_cast<std::int64_t>(random_() % 100)}; }
 
 Edge Drawn::edge(const NodeRef& a, const NodeRef& b, EdgeKind kind) {
-  Edge edge{a, b, kind, "drawn", {pose(), matrix()}, 0.25, EdgeVerdict::Rejected, "too far, \"perhaps\""};
+  Edge edge{a, b, kind, "drawn", {pose(), matrix()}, 0.25, ClosureVerdict::Rejected, "too far, \"perhaps\""};
   return edge;
 }
 

@@ -30,7 +30,7 @@ std::vector<PlotPoint> seenFromAbove(const Trajectory& trajectory) {
 }
 
 /// Lines between the two ends of closures with this verdict.
-Series linksOf(const GraphRun& graph, pose_graph::ClosureVerdict verdict, const std::string& name,
+Series linksOf(const GraphRun& graph, urban_nav_core::ClosureVerdict verdict, const std::string& name,
                const std::string& colour) {
   Series series;
   series.name = name;
@@ -60,9 +60,9 @@ Plot pathsPlot(const GraphRun& graph, const std::vector<const VoRun*>& runs) {
   plot.x_label = "x, forward at the start (m)";
   plot.y_label = "y, left (m)";
   // Behind the paths: there may be a thousand of them.
-  plot.series.push_back(linksOf(graph, pose_graph::ClosureVerdict::Rejected, "rejected", "bad"));
-  plot.series.push_back(linksOf(graph, pose_graph::ClosureVerdict::Waiting, "waiting", "fair"));
-  plot.series.push_back(linksOf(graph, pose_graph::ClosureVerdict::Accepted, "closures", "good"));
+  plot.series.push_back(linksOf(graph, urban_nav_core::ClosureVerdict::Rejected, "rejected", "bad"));
+  plot.series.push_back(linksOf(graph, urban_nav_core::ClosureVerdict::Waiting, "waiting", "fair"));
+  plot.series.push_back(linksOf(graph, urban_nav_core::ClosureVerdict::Accepted, "closures", "good"));
   for (std::size_t s = 0; s < runs.size(); ++s) {
     Series before, after;
     before.kind = Series::Kind::Dashed;

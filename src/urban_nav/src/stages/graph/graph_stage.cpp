@@ -40,7 +40,7 @@ void judge(GraphRun& run, const OfferedIds& ids, std::size_t known) {
     const auto id = ids.find(i);
     if (id != ids.end()) {
       const Closure& closure = run.graph.closures().at(id->second);
-      row.verdict = closure.verdict == pose_graph::ClosureVerdict::Accepted ? "accepted" : "rejected";
+      row.verdict = closure.verdict == urban_nav_core::ClosureVerdict::Accepted ? "accepted" : "rejected";
       row.reason = closure.reason;
       row.weight = closure.weight;
       row.id = id->second;
@@ -97,7 +97,8 @@ std::vector<std::vector<Matrix6d>> covariancesOf(const PoseGraph& graph, const s
 void leaveToOdometry(GraphRun& run, const std::vector<const VoRun*>& runs) {
   std::set<std::string> touched;
   for (const auto& [id, closure] : run.graph.closures())
-    if (closure.verdict == pose_graph::ClosureVerdict::Accepted) touched.insert({closure.a.session, closure.b.session});
+    if (closure.verdict == urban_nav_core::ClosureVerdict::Accepted)
+      touched.insert({closure.a.session, closure.b.session});
   for (std::size_t s = 0; s < runs.size(); ++s) {
     if (touched.count(run.sessions[s]) != 0 || run.covariances[s].size() != runs[s]->settled.size()) continue;
     for (std::size_t i = 0; i < runs[s]->settled.size(); ++i)

@@ -39,7 +39,7 @@ void putRejected(Store& store, const GraphRun& run, const std::vector<SessionId>
   edge.source = row.where;
   edge.measured.T_a_b = row.measured->measured.T_a_b;
   edge.weight = 0.0;
-  edge.verdict = urban_nav_store::EdgeVerdict::Rejected;
+  edge.verdict = urban_nav_core::ClosureVerdict::Rejected;
   edge.reason = row.reason;
   store.graph().put(edge);
   store.graph().putEvidence(edge, evidenceOf(row));

@@ -33,8 +33,14 @@ enum class ClosureMethod { None, Stereo, Icp };
 const char* toString(ClosureMethod method);
 std::optional<ClosureMethod> parseClosureMethod(std::string_view word);
 
-enum class ClosureVerdict { Accepted, Rejected };
-/// "accepted", "rejected".
+/// The state of a closure, from its measurement to the pose graph.
+enum class ClosureVerdict {
+  Accepted,    ///< the transform is right in all its directions, to its covariance
+  Rejected,    ///< an outlier, or there is no transform
+  Waiting,     ///< of the pose graph alone: not decided, for lack of a second closure that supports it
+  Degenerate,  ///< of an alignment alone: right but for the directions that it names free
+};
+/// "accepted", "rejected", "waiting", "degenerate".
 const char* toString(ClosureVerdict verdict);
 std::optional<ClosureVerdict> parseClosureVerdict(std::string_view word);
 
