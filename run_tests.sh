@@ -107,7 +107,7 @@ if [ $sanitize = no ]; then
   fi
 fi
 
-rooms='io;parameters;window;state;blocks;schema;stores;support' packages='urban_nav_core;urban_nav_store;swf_vo;loop_metric;urban_nav' seconds=${URBAN_NAV_FUZZ_SECONDS:-20}
+rooms='io;parameters;window;state;blocks;schema;stores;support' packages='urban_nav_core;urban_nav_store;urban_nav_live;swf_vo;loop_metric;urban_nav' seconds=${URBAN_NAV_FUZZ_SECONDS:-20}
 if [ $sanitize = yes ]; then rooms='' packages+=';urban_nav_sim' seconds=${URBAN_NAV_FUZZ_SECONDS:-60}; fi
 export URBAN_NAV_FUZZ_SECONDS=$seconds
 if step "build under the sanitizers" build_cores "$rooms" "$packages"; then

@@ -49,8 +49,8 @@ function(urban_nav_precompile target)
   endif()
 endfunction()
 
-# urban_nav_target(TARGET [ROS]): what all our targets have in common. Without the word ROS a target sees urban_nav_core,
-# urban_nav_store where the package asks for it, and no header of ROS, whatever else the package has found: the cores stay free of it.
+# urban_nav_target(TARGET [ROS]): properties of all our targets. Without the word ROS a target sees urban_nav_core, those
+# of the other ROS-free packages of src/ that the package has found, and no header of ROS: the cores stay free of it.
 function(urban_nav_target target)
   cmake_parse_arguments(arg "ROS" "" "" ${ARGN})
   set_target_properties(${target} PROPERTIES
@@ -71,8 +71,11 @@ function(urban_nav_target target)
       add_dependencies(${target} ${catkin_EXPORTED_TARGETS})
     endif()
   else()
-    target_include_directories(${target} SYSTEM PRIVATE ${urban_nav_core_INCLUDE_DIRS} ${urban_nav_store_INCLUDE_DIRS})
-    target_link_libraries(${target} ${urban_nav_core_LIBRARIES} ${urban_nav_store_LIBRARIES})
+    # The ROS-free packages of src/ that this package has found.
+    foreach(package urban_nav_core urban_nav_store urban_nav_live)
+      target_include_directories(${target} SYSTEM PRIVATE ${${package}_INCLUDE_DIRS})
+      target_link_libraries(${target} ${${package}_LIBRARIES})
+    endforeach()
   endif()
   target_link_libraries(${target} Eigen3::Eigen Threads::Threads ${urban_nav_link_options})
   urban_nav_precompile(${target} <algorithm> <array> <cmath> <cstdint> <filesystem> <fstream> <functional> <iostream> <limits> <map>

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+namespace urban_nav_live {
+
+/// Pause state of a stage, and counters of the messages that do not reach its worker. Thread-safe.
+class InputGate {
+ public:
+  struct Counts {
+    std::int64_t paused_dropped = 0;  ///< messages that arrived during a pause
+    std::int64_t invalid = 0;         ///< messages that could not be converted: not finite, unknown enumerators, ...
+  };
+
+  void pause() { paused_ = true; }
+  void resume() { paused_ = false; }
+  bool isPaused() const { return paused_; }
+
+  /// Returns true if a message may pass; otherwise it is counted as dropped.
+  bool pass() {
+    if (!paused_) return true;
+    ++paused_dropped_;
+    return false;
+  }
+  void countInvalid() { ++invalid_; }
+  Counts counts() const { return {paused_dropped_, invalid_}; }
+
+ private:
+  std::atomic<bool> paused_{false};
+  std::atomic<std::int64_t> paused_dropped_{0}, invalid_{0};
+};
+
+}  // namespace urban_nav_live

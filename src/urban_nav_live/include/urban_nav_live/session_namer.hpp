@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "urban_nav_core/types/stamp.hpp"
+#include "urban_nav_store/session.hpp"
+
+namespace urban_nav_live {
+
+/// Names the live sessions of one robot and decides which stored session is resumed. All stages of a robot name by this
+/// rule, each without knowledge of the others: stores of one robot merge only if the ids agree. Not thread-safe.
+///
+/// A stored session with the same robot and recording is resumed if it begins at the same time (the recording is played
+/// again) or if its newest pose is at the start (odometry continues). Otherwise a new session begins. A recording that is
+/// played again within one process becomes "name (2)", "name (3)", ...
+class SessionNamer {
+ public:
+  using Session = urban_nav_store::Session;
+  using SessionId = urban_nav_store::SessionId;
+  /// Returns true if the newest pose of a stored session is at the given stamp.
+  using EndsAt = std::function<bool(const Session&, urban_nav_core::StampNs)>;
+
+  struct Named {
+    Session session;
+    bool resumed = false;    ///< it is one of the stored sessions
+    bool continues = false;  ///< resumed at its newest pose, not from its start
+  };
+
+  explicit SessionNamer(std::string robot) : robot_(std::move(robot)) {}
+
+  /// Returns the session that begins at `start`, not complete. `recording`: its name, may be empty. `stored`: sessions
+  /// that an earlier process left in the store.
+  Named begin(const std::string& recording, urban_nav_core::StampNs start, const std::vector<Session>& stored = {},
+              const EndsAt& endsAt = {});
+  /// An id that no session that begins may have: used, or of a session that came by other means.
+  void reserve(const SessionId& id) { used_.insert(id); }
+  bool isReserved(const SessionId& id) const { return used_.count(id) > 0; }
+  /// Releases all ids.
+  void clear() { used_.clear(); }
+
+ private:
+  const std::string robot_;
+  std::set<SessionId> used_;
+};
+
+}  // namespace urban_nav_live

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <optional>
+
+#include "urban_nav_core/types/stamp.hpp"
+
+namespace urban_nav_live {
+
+/// Step back in time from which on a stamp means a restarted recording or a clock that was set, not a late message. ns
+constexpr urban_nav_core::StampNs max_step_back = 1'000'000'000;
+
+/// Detects stamps that jump back by more than max_step_back. Not thread-safe.
+class TimeJumpDetector {
+ public:
+  /// Returns true if `stamp` lies more than max_step_back before the newest one.
+  bool jumpsBack(urban_nav_core::StampNs stamp) const { return newest_ && stamp < *newest_ - max_step_back; }
+  /// Raises the newest stamp; an earlier one has no effect.
+  void advance(urban_nav_core::StampNs stamp) { newest_ = std::max(newest_.value_or(stamp), stamp); }
+  /// Returns jumpsBack(stamp). After a jump `stamp` is the newest one, otherwise advance(stamp) applies.
+  bool add(urban_nav_core::StampNs stamp) {
+    const bool jumps = jumpsBack(stamp);
+    if (jumps) newest_.reset();
+    advance(stamp);
+    return jumps;
+  }
+  void reset() { newest_.reset(); }
+  const std::optional<urban_nav_core::StampNs>& newest() const { return newest_; }
+
+ private:
+  std::optional<urban_nav_core::StampNs> newest_;
+};
+
+}  // namespace urban_nav_live

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_live/session_namer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+
+namespace urban_nav_live {
+namespace {
+
+using urban_nav_core::StampNs;
+using urban_nav_store::Session;
+using urban_nav_store::sessionIdOf;
+
+constexpr StampNs start = 1'225'719'873'501'685'000, end = start + 60'000'000'000;
+
+SessionNamer::EndsAt endsAt(StampNs newest) {
+  return [newest](const Session&, StampNs stamp) { return stamp == newest; };
+}
+
+TEST(SessionNamer, IdDependsOnRobotRecordingAndStartAlone) {
+  SessionNamer one("lisa"), other("lisa");
+  const auto named = one.begin("monday", start);
+  EXPECT_FALSE(named.resumed);
+  EXPECT_EQ(named.session.id, sessionIdOf({"lisa", "monday", start, ""}));
+  EXPECT_EQ(named.session.name, "monday");
+  EXPECT_EQ(named.session.recording, "monday");
+  EXPECT_EQ(named.session.robot, "lisa");
+  EXPECT_EQ(named.session.start, start);
+  EXPECT_FALSE(named.session.complete);
+  EXPECT_EQ(other.begin("monday", start).session.id, named.session.id);
+}
+
+TEST(SessionNamer, WithoutARecordingTheStartIsTheName) {
+  SessionNamer namer("");
+  const auto named = namer.begin("", start);
+  EXPECT_EQ(named.session.name, "1225719873.501685000");
+  EXPECT_EQ(named.session.recording, "");
+}
+
+TEST(SessionNamer, ARecordingPlayedAgainGetsANumber) {
+  SessionNamer namer("lisa");
+  const auto first = namer.begin("monday", start), second = namer.begin("monday", start),
+             third = namer.begin("monday", start);
+  EXPECT_EQ(second.session.recording, "monday (2)");
+  EXPECT_EQ(third.session.recording, "monday (3)");
+  EXPECT_NE(first.session.id, second.session.id);
+  EXPECT_NE(second.session.id, third.session.id);
+  EXPECT_EQ(second.session.name, "monday");
+}
+
+TEST(SessionNamer, ResumesAStoredRecordingThatIsPlayedAgain) {
+  SessionNamer before("lisa");
+  Session stored = before.begin("monday", start).session;
+  stored.complete = true;
+  SessionNamer namer("lisa");
+  const auto named = namer.begin("monday", start, {stored}, endsAt(end));
+  EXPECT_TRUE(named.resumed);
+  EXPECT_FALSE(named.continues);
+  EXPECT_EQ(named.session.id, stored.id);
+  EXPECT_FALSE(named.session.complete);
+}
+
+TEST(SessionNamer, ResumesEachRoundOfAStoredRecording) {
+  SessionNamer before("lisa");
+  const Session first = before.begin("monday", start).session, second = before.begin("monday", start).session;
+  SessionNamer namer("lisa");
+  EXPECT_EQ(namer.begin("monday", start, {second, first}).session.id, first.id);
+  const auto again = namer.begin("monday", start, {second, first});
+  EXPECT_EQ(again.session.id, second.id);
+  EXPECT_TRUE(again.resumed);
+  const auto third = namer.begin("monday", start, {second, first});
+  EXPECT_FALSE(third.resumed);
+  EXPECT_EQ(third.session.recording, "monday (3)");
+}
+
+TEST(SessionNamer, ContinuesAStoredSessionAtItsNewestPose) {
+  SessionNamer before("lisa");
+  const Session stored = before.begin("monday", start).session;
+  SessionNamer namer("lisa");
+  const auto named = namer.begin("monday", end, {stored}, endsAt(end));
+  EXPECT_TRUE(named.resumed);
+  EXPECT_TRUE(named.continues);
+  EXPECT_EQ(named.session.id, stored.id);
+  EXPECT_EQ(named.session.start, start);
+}
+
+TEST(SessionNamer, ResumesNoOtherRobotRecordingOrTime) {
+  SessionNamer before("lisa"), other_robot("marge");
+  const Session stored = before.begin("monday", start).session;
+  EXPECT_FALSE(other_robot.begin("monday", start, {stored}, endsAt(start)).resumed);
+  SessionNamer namer("lisa");
+  EXPECT_FALSE(namer.begin("tuesday", start, {stored}, endsAt(start)).resumed);
+  EXPECT_FALSE(namer.begin("monday", start + 1, {stored}, endsAt(end)).resumed);
+}
+
+TEST(SessionNamer, ResumesASessionOnce) {
+  SessionNamer before("lisa");
+  const Session stored = before.begin("monday", start).session;
+  SessionNamer namer("lisa");
+  EXPECT_TRUE(namer.begin("monday", end, {stored}, endsAt(end)).resumed);
+  EXPECT_FALSE(namer.begin("monday", end, {stored}, endsAt(end)).resumed);
+}
+
+TEST(SessionNamer, ReservedIdsAreNotUsed) {
+  SessionNamer namer("lisa");
+  const auto id = sessionIdOf({"lisa", "monday", start, ""});
+  namer.reserve(id);
+  EXPECT_TRUE(namer.isReserved(id));
+  EXPECT_EQ(namer.begin("monday", start).session.recording, "monday (2)");
+  namer.clear();
+  EXPECT_EQ(namer.begin("monday", start).session.id, id);
+}
+
+}  // namespace
+}  // namespace urban_nav_live

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_live/worker_loop.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace urban_nav_live {
+namespace {
+
+constexpr std::chrono::milliseconds long_wait{10000};
+
+using Loop = WorkerLoop<int>;
+
+Loop::Steps stepsWith(const std::function<void(int&)>& handle) {
+  Loop::Steps steps;
+  steps.handle = handle;
+  return steps;
+}
+
+TEST(WorkerLoop, BeginsHandlesInputsInOrderAndEnds) {
+  std::vector<std::string> events;  // of the worker's thread; read after it has ended
+  Loop loop(10);
+  loop.push(1);
+  Loop::Steps steps = stepsWith([&](int& input) { events.push_back(std::to_string(input)); });
+  steps.begin = [&] { events.push_back("begin"); };
+  steps.end = [&] { events.push_back("end"); };
+  loop.start(steps);
+  loop.push(2);
+  EXPECT_EQ(loop.ask([] { return 7; }, long_wait), 7);
+  loop.stop();
+  EXPECT_EQ(events, (std::vector<std::string>{"begin", "1", "2", "end"}));
+}
+
+TEST(WorkerLoop, AQuestionIsAnsweredAfterTheInputsBeforeIt) {
+  int sum = 0;
+  Loop loop(100);
+  for (int i = 1; i <= 10; ++i) loop.push(i);
+  loop.start(stepsWith([&](int& input) { sum += input; }));
+  EXPECT_EQ(loop.ask([&] { return sum; }, long_wait), 55);
+}
+
+TEST(WorkerLoop, AQuestionThrowsInTheCaller) {
+  Loop loop(10);
+  loop.start(stepsWith([](int&) {}));
+  const auto question = []() -> int { throw std::runtime_error("no"); };
+  EXPECT_THROW(loop.ask(question, long_wait), std::runtime_error);
+  EXPECT_EQ(loop.ask([] { return 1; }, long_wait), 1);
+}
+
+TEST(WorkerLoop, AQuestionThatIsDroppedHasNoAnswer) {
+  std::atomic<bool> busy{false}, done{false};
+  Loop loop(1, long_wait);
+  loop.start(stepsWith([&](int&) {
+    busy = true;
+    while (!done) std::this_thread::yield();
+  }));
+  loop.push(1);
+  while (!busy) std::this_thread::yield();
+  std::thread asker([&] {
+    EXPECT_FALSE(loop.ask([] { return 1; }, long_wait).has_value());
+    done = true;
+  });
+  while (!done) {  // each displaces what waits, the question at some time
+    loop.push(2);
+    std::this_thread::yield();
+  }
+  asker.join();
+}
+
+TEST(WorkerLoop, AQuestionAfterTheEndHasNoAnswer) {
+  Loop loop(1);
+  loop.start(stepsWith([](int&) {}));
+  loop.stop();
+  EXPECT_FALSE(loop.ask([] { return 1; }, long_wait).has_value());
+}
+
+TEST(WorkerLoop, IdlesWithoutInputsAndAtOnceWhenWoken) {
+  std::atomic<int> idles{0};
+  Loop loop(1, long_wait);
+  Loop::Steps steps = stepsWith([](int&) {});
+  steps.idle = [&] { return ++idles < 3; };  // busy twice: these rounds do not wait
+  loop.wake();
+  loop.start(steps);
+  while (idles < 3) std::this_thread::yield();
+  loop.wake();
+  while (idles < 4) std::this_thread::yield();
+  loop.stop();
+  EXPECT_EQ(idles, 4);
+}
+
+TEST(WorkerLoop, StopsAfterTheInputAtHand) {
+  std::atomic<int> handled{0};
+  Loop loop(10);
+  Loop::Steps steps = stepsWith([&](int&) {
+    ++handled;
+    while (!loop.isStopping()) std::this_thread::yield();
+  });
+  bool ended = false;
+  steps.end = [&] { ended = true; };
+  for (int i = 0; i < 5; ++i) loop.push(i);
+  loop.start(steps);
+  while (handled == 0) std::this_thread::yield();
+  loop.stop();
+  EXPECT_EQ(handled, 1);
+  EXPECT_TRUE(ended);
+}
+
+}  // namespace
+}  // namespace urban_nav_live
