@@ -7,6 +7,7 @@ namespace urban_nav {
 
 /// The subcommands of CONTRACT.md, each in a file of its name.
 Command convertCommand();
+Command deviceCommand();
 Command evaluateCommand();
 Command exportCommand();
 Command icpCommand();

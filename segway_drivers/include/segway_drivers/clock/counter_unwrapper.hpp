@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "segway_drivers/stream/bytes.hpp"
+
+namespace segway_drivers {
+
+/// Position of a measurement in the sequence of its device.
+struct UnwrappedCount {
+  std::int64_t count = 0;    ///< measurements since the first, losses included
+  std::int64_t missing = 0;  ///< measurements lost since the one before
+  bool repeated = false;     ///< the counter has not changed
+  bool restarted = false;    ///< the counter contradicts the arrival times: the device began again
+};
+
+/// Extends a counter of few bits to one that does not wrap, by rounding against the elapsed arrival time. Deterministic. Not thread-safe.
+class CounterUnwrapper {
+ public:
+  /// `modulus`: values of the counter, 0: the device has none, and measurements are counted by arrival time alone. `period`: s between measurements.
+  CounterUnwrapper(std::uint32_t modulus, double period) : modulus_(modulus), period_(period) {}
+
+  /// `arrival` in ns; 0: unknown, and a gap is less than one wrap.
+  UnwrappedCount add(std::uint32_t counter, TimeNs arrival);
+  void setPeriod(double period) { period_ = period; }
+  void reset() { last_.reset(); }
+
+ private:
+  std::uint32_t modulus_;
+  double period_;
+  std::optional<std::uint32_t> last_;
+  TimeNs last_arrival_ = 0;
+  std::int64_t count_ = 0;
+};
+
+}  // namespace segway_drivers

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "segway_drivers/stream/bytes.hpp"
+
+namespace segway_drivers {
+
+/// What the words of a range mean, from the configuration of the device.
+struct LmsRangeFormat {
+  int bits = 15;            ///< 13...16 bits of range; the bits above are flags
+  bool millimetres = true;  ///< otherwise centimetres
+
+  /// Format of a measuring mode (byte 5 of the configuration) and a unit (byte 6). Returns nullopt for modes that do not send ranges.
+  static std::optional<LmsRangeFormat> fromConfiguration(std::uint8_t measuring_mode, std::uint8_t unit);
+  /// Largest range that is no code, m.
+  double maxRange() const;
+};
+
+/// One revolution of the mirror. Beams are counter-clockwise seen from above.
+struct LmsScan {
+  std::vector<float> ranges;                 ///< m; +inf for open air (codes -1, -6, -9), NaN for the other codes
+  std::vector<int> codes;                    ///< counts by code -1...-9 at [1]...[9]; [0] counts ranges
+  std::vector<std::uint8_t> reflectivities;  ///< 0...255, not calibrated; as many as ranges, or none
+  std::optional<std::uint8_t> index;         ///< telegram index modulo 256
+  std::uint8_t status = 0;                   ///< status byte of the telegram
+
+  bool polluted() const { return (status & 0x80) != 0; }
+};
+
+/// Decodes the payload of a scan (B0h or C4h) as mode 24h, 30h or 50h sends it. The unit comes from the telegram; `format` supplies the bits of a range.
+/// Returns nullopt for other telegrams, partial scans, and counts that do not fit the length.
+std::optional<LmsScan> decodeLmsScan(ByteView payload, const LmsRangeFormat& format);
+
+}  // namespace segway_drivers

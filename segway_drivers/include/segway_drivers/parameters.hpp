@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "urban_nav_core/parameters/table.hpp"
+
+namespace segway_drivers {
+
+/// Parameters of all drivers; one member per row of table(), which documents each. A row is named DEVICE.KEY.
+struct Parameters {
+  double lms291_latency_ms;
+  int lms291_measuring_mode;
+  bool lms291_configure;
+  double xsens_mti_latency_ms;
+  int xsens_mti_mode;
+  int xsens_mti_settings;
+  int xsens_mti_rate;
+  double segway_rmp_latency_ms;
+  double segway_rmp_max_velocity;
+  double segway_rmp_max_turn_rate;
+  double segway_rmp_acceleration;
+  double segway_rmp_angular_acceleration;
+  double segway_rmp_command_timeout;
+  double gps_latency_ms;
+  double gps_uere;
+  double bumblebee2_latency_ms;
+  std::string bumblebee2_pattern;
+  std::string bumblebee2_rectify;
+  std::string bumblebee2_calibration;
+  bool bumblebee2_swap_images;
+  double ladybug2_latency_ms;
+  std::string ladybug2_camera_order;
+  std::string ladybug2_pattern;
+
+  Parameters();
+};
+
+/// The table: the only place where a default, a range, a unit or a sentence about a parameter stands.
+const urban_nav_core::Table<Parameters>& table();
+
+}  // namespace segway_drivers

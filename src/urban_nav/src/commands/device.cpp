@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <functional>
+#include <map>
+
+#include "command_line/console.hpp"
+#include "command_line/json.hpp"
+#include "commands/commands.hpp"
+#include "segway_drivers/clock/clock_filter.hpp"
+#include "segway_drivers/parameters.hpp"
+#include "segway_drivers/table/decode_file.hpp"
+#include "segway_drivers/table/encode_command.hpp"
+#include "segway_drivers/table/row_decoder.hpp"
+#include "segway_drivers/table/stamp_file.hpp"
+#include "urban_nav_core/io/atomic_file.hpp"
+#include "urban_nav_core/parameters/print.hpp"
+#include "urban_nav_core/parameters/sources.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav {
+
+using urban_nav_core::UserError;
+
+namespace {
+
+urban_nav_core::Loaded<segway_drivers::Parameters> loadDriverParameters(const Arguments& arguments) {
+  std::vector<urban_nav_core::Assignment> assignments;
+  for (const std::string& path : arguments.all("config")) {
+    const std::vector<urban_nav_core::Assignment> file = urban_nav_core::readParameters(path);
+    assignments.insert(assignments.end(), file.begin(), file.end());
+  }
+  for (const std::string& setting : arguments.all("set")) {
+    assignments.push_back(urban_nav_core::parseSetting(setting));
+    urban_nav_core::refuseUnknownStages({assignments.back()}, {segway_drivers::table().stage()});
+  }
+  return urban_nav_core::load(segway_drivers::table(), assignments);
+}
+
+std::string requiredValue(const Arguments& arguments, const std::string& option) {
+  if (!arguments.has(option)) throw UserError("urban_nav device", "--" + option + " is missing", "");
+  return arguments.get(option);
+}
+
+/// The words after the action, of which there must be `count`, or at least as many.
+std::vector<std::string> deviceWords(const Arguments& arguments, std::size_t count, bool more,
+                                     const std::string& usage) {
+  std::vector<std::string> words = arguments.all("ARGUMENT");
+  if (words.size() < count || (!more && words.size() > count))
+    throw UserError("urban_nav device", std::to_string(words.size()) + " words after the action", usage);
+  return words;
+}
+
+Json jsonOfCounters(const segway_drivers::DeviceCounters& counters, const std::string& state) {
+  Json json = Json::object();
+  json["bytes"] = counters.bytes;
+  json["frames"] = counters.frames;
+  json["bad_checksums"] = counters.bad_checksums;
+  json["bytes_skipped"] = counters.bytes_skipped;
+  json["gaps"] = counters.gaps;
+  json["unexpected"] = counters.unexpected;
+  json["timeouts"] = counters.timeouts;
+  json["reconnections"] = counters.reconnections;
+  json["epochs"] = counters.epochs;
+  json["state"] = state;
+  return json;
+}
+
+int runDecode(const Arguments& arguments, Console& console) {
+  const auto words = deviceWords(arguments, 2, false, "decode KIND FILE -o OUT.csv");
+  segway_drivers::DecodeJob job;
+  job.kind = words[0];
+  job.input = words[1];
+  job.output = requiredValue(arguments, "output");
+  job.arrivals = arguments.get("arrivals");
+  job.chunk = static_cast<int>(arguments.integer("chunk", 4096, 0, 1 << 24));
+  job.seed = static_cast<std::uint64_t>(arguments.integer("seed", 1, 0, 4294967295));
+  const auto counters = segway_drivers::decodeFile(job, loadDriverParameters(arguments).parameters);
+  console.info(std::to_string(counters.frames) + " frames, " + std::to_string(counters.bad_checksums) +
+               " bad checksums, " + std::to_string(counters.bytes_skipped) + " of " + std::to_string(counters.bytes) +
+               " bytes skipped");
+  if (arguments.has("json"))
+    urban_nav_core::writeAtomically(arguments.get("json"), jsonOfCounters(counters, "decoded").print());
+  return 0;
+}
+
+int runEncode(const Arguments& arguments, Console& console) {
+  const auto words = deviceWords(arguments, 1, true, "encode KIND COMMAND [ARGUMENT...]");
+  loadDriverParameters(arguments);
+  console.print(segway_drivers::printHex(segway_drivers::encodeCommand(words[0], {words.begin() + 1, words.end()})) +
+                "\n");
+  return 0;
+}
+
+int runStamp(const Arguments& arguments, Console& console) {
+  const auto words = deviceWords(arguments, 1, false, "stamp IN.csv -o OUT.csv");
+  loadDriverParameters(arguments);
+  segway_drivers::StampJob job;
+  job.input = words[0];
+  job.output = requiredValue(arguments, "output");
+  job.period = arguments.number("period", 0.01, 1e-6, 1e4);
+  job.tolerance = 1e-6 * arguments.number("tolerance-ppm", 200.0, 0.1, 50000.0);
+  job.latency = 1e-3 * arguments.number("latency-ms", 0.0, 0.0, 1e5);
+  const segway_drivers::StampResult result = segway_drivers::stampFile(job);
+  console.info(std::to_string(result.rows) + " rows, " + std::to_string(result.epochs) + " new epochs");
+  if (arguments.has("json")) {
+    Json json = Json::object();
+    json["rows"] = result.rows;
+    json["epochs"] = result.epochs;
+    json["skew_ppm"] = result.skew_ppm;
+    json["sigma_us"] = result.sigma_us;
+    urban_nav_core::writeAtomically(arguments.get("json"), json.print());
+  }
+  return 0;
+}
+
+const std::map<std::string, std::function<int(const Arguments&, Console&)>>& deviceActions() {
+  static const std::map<std::string, std::function<int(const Arguments&, Console&)>> actions = {
+      {"decode", runDecode}, {"encode", runEncode}, {"stamp", runStamp}};
+  return actions;
+}
+
+int runDevice(const Arguments& arguments, Console& console) {
+  arguments.integer("threads", 0, 1, 1024);
+  return deviceActions().at(arguments.get("ACTION"))(arguments, console);
+}
+
+std::string deviceHelp(const Arguments& arguments) {
+  std::string kinds;
+  for (const std::string& kind : segway_drivers::deviceKinds()) kinds += (kinds.empty() ? "" : ", ") + kind;
+  return "actions:\n"
+         "  decode KIND FILE -o OUT.csv          bytes as a device sent them, as a table\n"
+         "  encode KIND COMMAND [ARGUMENT...]    the bytes of a command, in hexadecimal\n"
+         "  stamp IN.csv -o OUT.csv              device_s,arrival_ns through the clock filter\n"
+         "kinds: " +
+         kinds + "\n\nparameters (--config FILE, --set segway_drivers.KEY=VALUE):\n" +
+         urban_nav_core::printHelp(segway_drivers::table().stage(), segway_drivers::table().rows(),
+                                   loadDriverParameters(arguments).settings);
+}
+
+}  // namespace
+
+Command deviceCommand() {
+  Command command;
+  command.name = "device";
+  command.summary = "Runs, decodes and simulates the robot's devices without ROS.";
+  std::vector<std::string> actions;
+  for (const auto& action : deviceActions()) actions.push_back(action.first);
+  command.options = {
+      {"ACTION", "", "what to do", true, false, actions},
+      {"ARGUMENT", "", "words of the action, see below", false, true, {}},
+      {"-o,--output", "OUT.csv", "table to write", false, false, {}},
+      {"--chunk",
+       "N",
+       "decode: bytes per call, 0 for random lengths; without effect on the result (default 4096)",
+       false,
+       false,
+       {}},
+      {"--arrivals", "FILE", "decode: offset,arrival_ns of each read; adds stamps", false, false, {}},
+      {"--period", "S", "stamp: nominal spacing of the device times, s (default 0.01)", false, false, {}},
+      {"--tolerance-ppm", "P", "stamp: largest skew of the device clock, ppm (default 200)", false, false, {}},
+      {"--latency-ms", "L", "stamp: delay to subtract, ms (default 0)", false, false, {}},
+      {"--seed", "N", "seed of random lengths and of simulated noise (default 1)", false, false, {}},
+      jsonOption(),
+      configOption(),
+      setOption(),
+      threadsOption()};
+  command.examples = {"urban_nav device decode lms291 laser.bin -o scans.csv",
+                      "urban_nav device encode segway_rmp velocity 0.5 0"};
+  command.more_help = deviceHelp;
+  command.run = runDevice;
+  return command;
+}
+
+}  // namespace urban_nav
