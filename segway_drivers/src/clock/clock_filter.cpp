@@ -99,7 +99,8 @@ bool ClockFilter::isDisproved(double residual, double age) const {
   return age > acquisition && residual < -std::max(disproof, (age < 20.0 ? 8.0 : 5.0) * sigma_);
 }
 
-/// Late by several periods for a second while arrivals keep the pace of the device: not a backlog, which arrives faster than it was measured.
+/// Late by several periods for a second while arrivals keep the pace of the device: not a backlog, which arrives faster
+/// than it was measured.
 bool ClockFilter::isPersistentlyLate(const Point& point, double residual) {
   if (residual < std::max(late_limit, 3.0 * options_.period)) {
     late_since_.reset();
@@ -193,9 +194,11 @@ void ClockFilter::updateSigma(double x) {
   sigma_ = std::max(least_sigma, std::sqrt(of_floor * of_floor + of_skew * of_skew));
 }
 
-/// Time on the line less the expected bias of its height, slewed after acquisition, later than the one before in the same epoch.
+/// Time on the line less the expected bias of its height, slewed after acquisition, later than the one before in the
+/// same epoch.
 TimeNs ClockFilter::toStamp(double x) {
-  // The least of n delays exceeds the floor by their mean excess over n (exactly so for exponential delays): matters while n is small.
+  // The least of n delays exceeds the floor by their mean excess over n (exactly so for exponential delays): matters
+  // while n is small.
   const double bias = std::max(0.0, 1.0 - (x - begin_x_) / 20.0) * std::min(mean_excess_, most_bias) /
                       static_cast<double>(points_.size() - first_);
   double host = x + line_ - bias + skew_ * (x - begin_x_);

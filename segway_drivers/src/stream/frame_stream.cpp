@@ -43,7 +43,8 @@ void FrameStream::append(ByteView chunk) {
   counters_.bytes += static_cast<std::int64_t>(chunk.size);
 }
 
-/// Remembers when the bytes came. Where the record is full every other entry is dropped: what remains still bounds the arrival from above.
+/// Remembers when the bytes came. Where the record is full every other entry is dropped: what remains still bounds the
+/// arrival from above.
 void FrameStream::note(const Read& read) {
   if (read_count_ > 0) {
     Read& last = reads_[read_count_ - 1];

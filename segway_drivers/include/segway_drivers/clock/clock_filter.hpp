@@ -26,16 +26,19 @@ struct ClockEstimate {
   int epoch = 0;               ///< increases when the estimate began again; times increase within an epoch
 };
 
-/// Estimates the host time of device times from late arrivals: arrival = offset + (1 + skew) device time + least delay + queueing, where queueing is
-/// random and never negative. The line lies below all arrivals of the window and is as high as possible over their mean (lower convex hull; Moon, Skelly and
-/// Towsley, INFOCOM 1999; Zhang, Liu and Xia, INFOCOM 2002). The skew of a settled line changes slowly only, so that a temporary rise of the least delay does
-/// not tilt it. An arrival clearly below the line disproves the line and begins a new epoch, and so do device times that step back and arrivals that stay late by
-/// several periods. The least delay itself cannot be observed. Deterministic. Not thread-safe.
+/// Estimates the host time of device times from late arrivals: arrival = offset + (1 + skew) device time + least delay
+/// + queueing, where queueing is random and never negative. The line lies below all arrivals of the window and is as
+/// high as possible over their mean (lower convex hull; Moon, Skelly and Towsley, INFOCOM 1999; Zhang, Liu and Xia,
+/// INFOCOM 2002). The skew of a settled line changes slowly only, so that a temporary rise of the least delay does not
+/// tilt it. An arrival clearly below the line disproves the line and begins a new epoch, and so do device times that
+/// step back and arrivals that stay late by several periods. The least delay itself cannot be observed. Deterministic.
+/// Not thread-safe.
 class ClockFilter {
  public:
   explicit ClockFilter(const ClockOptions& options);
 
-  /// Adds a device time, s, and its arrival, ns, in order of arrival. A repeated device time gives its estimate and is not used.
+  /// Adds a device time, s, and its arrival, ns, in order of arrival. A repeated device time gives its estimate and is
+  /// not used.
   ClockEstimate add(double device_s, TimeNs arrival);
   /// Begins a new epoch in which the offset is unknown, as after a restart of the device.
   void restart();

@@ -16,10 +16,12 @@ struct UnwrappedCount {
   bool restarted = false;    ///< the counter contradicts the arrival times: the device began again
 };
 
-/// Extends a counter of few bits to one that does not wrap, by rounding against the elapsed arrival time. Deterministic. Not thread-safe.
+/// Extends a counter of few bits to one that does not wrap, by rounding against the elapsed arrival time.
+/// Deterministic. Not thread-safe.
 class CounterUnwrapper {
  public:
-  /// `modulus`: values of the counter, 0: the device has none, and measurements are counted by arrival time alone. `period`: s between measurements.
+  /// `modulus`: values of the counter, 0: the device has none, and measurements are counted by arrival time alone.
+  /// `period`: s between measurements.
   CounterUnwrapper(std::uint32_t modulus, double period) : modulus_(modulus), period_(period) {}
 
   /// `arrival` in ns; 0: unknown, and a gap is less than one wrap.

@@ -13,7 +13,8 @@ struct LmsRangeFormat {
   int bits = 15;            ///< 13...16 bits of range; the bits above are flags
   bool millimetres = true;  ///< otherwise centimetres
 
-  /// Format of a measuring mode (byte 5 of the configuration) and a unit (byte 6). Returns nullopt for modes that do not send ranges.
+  /// Format of a measuring mode (byte 5 of the configuration) and a unit (byte 6). Returns nullopt for modes that do
+  /// not send ranges.
   static std::optional<LmsRangeFormat> fromConfiguration(std::uint8_t measuring_mode, std::uint8_t unit);
   /// Largest range that is no code, m.
   double maxRange() const;
@@ -30,8 +31,9 @@ struct LmsScan {
   bool polluted() const { return (status & 0x80) != 0; }
 };
 
-/// Decodes the payload of a scan (B0h or C4h) as mode 24h, 30h or 50h sends it. The unit comes from the telegram; `format` supplies the bits of a range.
-/// Returns nullopt for other telegrams, partial scans, and counts that do not fit the length.
+/// Decodes the payload of a scan (B0h or C4h) as mode 24h, 30h or 50h sends it. The unit comes from the telegram;
+/// `format` supplies the bits of a range. Returns nullopt for other telegrams, partial scans, and counts that do not
+/// fit the length.
 std::optional<LmsScan> decodeLmsScan(ByteView payload, const LmsRangeFormat& format);
 
 }  // namespace segway_drivers

@@ -8,7 +8,8 @@ namespace segway_drivers {
 
 constexpr std::size_t lms_max_telegram = 812;  // bytes
 
-/// CRC of SICK LMS telegrams over all bytes from STX on: 16 bits, polynomial 0x8005, with the previous byte in the high half.
+/// CRC of SICK LMS telegrams over all bytes from STX on: 16 bits, polynomial 0x8005, with the previous byte in the high
+/// half.
 std::uint16_t computeLmsCrc(ByteView bytes);
 
 /// Telegram from the host to the address 0 (broadcast): STX, address, length, `payload`, CRC.

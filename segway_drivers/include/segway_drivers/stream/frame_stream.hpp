@@ -35,12 +35,14 @@ struct StreamFrame {
   TimeNs arrival = 0;        ///< earliest possible arrival of the first byte, ns; 0: unknown
 };
 
-/// Splits a byte stream into frames, for chunks of any size. Owns one buffer of fixed size; never blocks, throws, allocates after construction, or reads a
-/// clock. After a wrong checksum or an impossible length the search resumes one byte further, so that a false start in garbage does not swallow the frame
-/// after it. The frames found depend on the bytes alone, unless expire() is called. Not thread-safe.
+/// Splits a byte stream into frames, for chunks of any size. Owns one buffer of fixed size; never blocks, throws,
+/// allocates after construction, or reads a clock. After a wrong checksum or an impossible length the search resumes
+/// one byte further, so that a false start in garbage does not swallow the frame after it. The frames found depend on
+/// the bytes alone, unless expire() is called. Not thread-safe.
 class FrameStream {
  public:
-  /// Rule for the bytes at the head: `bytes` holds all that have arrived, at least one. Must not report Incomplete for `max_frame` bytes.
+  /// Rule for the bytes at the head: `bytes` holds all that have arrived, at least one. Must not report Incomplete for
+  /// `max_frame` bytes.
   using Rule = std::function<FrameProbe(ByteView bytes)>;
   using Sink = std::function<void(const StreamFrame& frame)>;
 
@@ -51,7 +53,8 @@ class FrameStream {
   void setBaud(double baud);
   /// Adds a chunk and calls `sink` for each frame that it completes.
   void feed(ByteView chunk, const ChunkArrival& arrival, const Sink& sink);
-  /// Gives up a frame that has been incomplete since before twice its transfer time plus 50 ms, and searches what follows its first byte.
+  /// Gives up a frame that has been incomplete since before twice its transfer time plus 50 ms, and searches what
+  /// follows its first byte.
   void expire(TimeNs now, const Sink& sink);
   /// Searches what is left at the end of the stream: an incomplete frame is no frame.
   void finish(const Sink& sink);
