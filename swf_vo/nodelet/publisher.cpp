@@ -2,57 +2,56 @@
 #include "publisher.hpp"
 
 #include <nav_msgs/Odometry.h>
-#include <sensor_msgs/Image.h>
-#include <sensor_msgs/PointCloud2.h>
-#include <sensor_msgs/point_cloud2_iterator.h>
 #include <urban_nav_msgs/RelativePose.h>
 #include <urban_nav_msgs/VoFrame.h>
 
+#include "urban_nav_ros/image.hpp"
+#include "urban_nav_ros/path.hpp"
+#include "urban_nav_ros/point_cloud.hpp"
 #include "urban_nav_ros/pose.hpp"
-#include "urban_nav_ros/stamp.hpp"
 #include "urban_nav_ros/status.hpp"
+#include "urban_nav_ros/topics.hpp"
 
 namespace swf_vo {
 
+namespace topics = urban_nav_ros::topics;
 using urban_nav_ros::toRosTime;
 
 namespace {
 
-// The path is for pictures: a point where the robot has moved on this far, and not more of them than a viewer draws
-// with ease.
-constexpr double path_step = 0.5;  // m
+// For display: a point per half metre, and no more of them than a viewer draws with ease.
+constexpr double path_spacing = 0.5;  // m
 constexpr std::size_t path_points = 4000;
-
-const char* reasonName(const urban_nav_core::Status& status) { return toString(static_cast<Reason>(status.reason)); }
 
 }  // namespace
 
-Publisher::Publisher(ros::NodeHandle& nh)
-    : odometry_(nh.advertise<nav_msgs::Odometry>("vo/odometry", 50)),
-      relative_(nh.advertise<urban_nav_msgs::RelativePose>("vo/relative_pose", 200)),
-      frame_(nh.advertise<urban_nav_msgs::VoFrame>("vo/frame", 50)),
-      landmarks_(nh.advertise<sensor_msgs::PointCloud2>("vo/landmarks", 5)),
-      tracks_(nh.advertise<sensor_msgs::Image>("vo/tracks", 2)),
-      path_(nh.advertise<nav_msgs::Path>("vo/path", 1, true)),
-      status_(nh.advertise<urban_nav_msgs::StageStatus>("swf_vo/status", 10, true)) {}
+Publisher::Publisher(urban_nav_ros::StageNode& node)
+    : node_(node),
+      odometry_(node.nh().advertise<nav_msgs::Odometry>(topics::vo_odometry, 50)),
+      relative_(node.nh().advertise<urban_nav_msgs::RelativePose>(topics::vo_relative_pose, 200)),
+      frame_(node.nh().advertise<urban_nav_msgs::VoFrame>(topics::vo_frame, 50)),
+      landmarks_(node.nh().advertise<sensor_msgs::PointCloud2>(topics::vo_landmarks, 5)),
+      tracks_(node.nh().advertise<sensor_msgs::Image>(topics::vo_tracks, 2)),
+      path_(node.nh().advertise<nav_msgs::Path>(topics::vo_path, 1, true)) {}
 
 void Publisher::startSession(const Frames& frames, double near_disparity_px) {
   frames_ = frames;
-  way_.header.frame_id = frames.odom;
-  way_.poses.clear();
-  last_status_ = {};
+  drawn_path_.header.frame_id = frames.odom;
+  drawn_path_.poses.clear();
+  node_.restartStatus();
   picture_ = std::make_unique<TracksPicture>(near_disparity_px);
 }
 
 void Publisher::publish(const Frame& frame, const urban_nav_core::StereoPair& pair, double process_ms) {
   if (frame.accepted) {
     publishOdometry(frame);
-    publishPath(frame);
+    if (urban_nav_ros::appendToPath(frame.stamp, frame.T_odom_base.pose, path_spacing, path_points, drawn_path_))
+      path_.publish(drawn_path_);
     publishLandmarks(frame);
     publishTracks(frame, pair.left);
   }
   publishFrame(frame, process_ms);
-  publishStatus(frame);
+  node_.publishStatus(frame.status, toString(static_cast<Reason>(frame.status.reason)), frame.stamp);
   for (const Settled& settled : frame.settled) publish(settled);
 }
 
@@ -83,7 +82,7 @@ void Publisher::publishFrame(const Frame& frame, double process_ms) {
   message.accepted = frame.accepted;
   message.status = urban_nav_ros::toMessage(frame.status.health);
   message.reason = frame.status.reason;
-  message.reason_name = reasonName(frame.status);
+  message.reason_name = toString(static_cast<Reason>(frame.status.reason));
   message.text = frame.status.sentence;
   const Statistics& figures = frame.statistics;
   message.corners = static_cast<std::uint32_t>(figures.corners);
@@ -101,48 +100,17 @@ void Publisher::publishFrame(const Frame& frame, double process_ms) {
   frame_.publish(message);
 }
 
-void Publisher::publishStatus(const Frame& frame) {
-  const urban_nav_msgs::StageStatus status =
-      urban_nav_ros::toStatusMessage(frame.stamp, "swf_vo", frame.status, reasonName(frame.status));
-  if (!last_status_.stage.empty() && status.status == last_status_.status && status.reason == last_status_.reason)
-    return;
-  last_status_ = status;
-  status_.publish(status);
-}
-
-void Publisher::publishPath(const Frame& frame) {
-  geometry_msgs::PoseStamped pose;
-  pose.header.stamp = toRosTime(frame.stamp);
-  pose.header.frame_id = frames_.odom;
-  pose.pose = urban_nav_ros::toPoseMessage(frame.T_odom_base.pose);
-  if (!way_.poses.empty()) {
-    const auto last = urban_nav_ros::toPose(way_.poses.back().pose);
-    if (last && urban_nav_core::distanceBetween(*last, frame.T_odom_base.pose) < path_step) return;
-  }
-  if (way_.poses.size() >= path_points) way_.poses.erase(way_.poses.begin(), way_.poses.begin() + path_points / 10);
-  way_.poses.push_back(pose);
-  way_.header.stamp = pose.header.stamp;
-  path_.publish(way_);
-}
-
 void Publisher::publishLandmarks(const Frame& frame) {
   if (landmarks_.getNumSubscribers() == 0) return;
-  sensor_msgs::PointCloud2 cloud;
+  std::vector<Eigen::Vector4f> points;
+  points.reserve(frame.landmarks.size());
+  for (const Landmark& landmark : frame.landmarks) {
+    const Eigen::Vector3f p = landmark.p_odom.cast<float>();
+    points.emplace_back(p.x(), p.y(), p.z(), landmark.sigma);
+  }
+  sensor_msgs::PointCloud2 cloud = urban_nav_ros::toPointCloudMessage(points, "sigma");
   cloud.header.stamp = toRosTime(frame.stamp);
   cloud.header.frame_id = frames_.odom;
-  sensor_msgs::PointCloud2Modifier fields(cloud);
-  using sensor_msgs::PointField;
-  fields.setPointCloud2Fields(4, "x", 1, PointField::FLOAT32, "y", 1, PointField::FLOAT32, "z", 1, PointField::FLOAT32,
-                              "sigma", 1, PointField::FLOAT32);
-  fields.resize(frame.landmarks.size());
-  sensor_msgs::PointCloud2Iterator<float> at(cloud, "x");
-  for (const Landmark& landmark : frame.landmarks) {
-    at[0] = static_cast<float>(landmark.p_odom.x());
-    at[1] = static_cast<float>(landmark.p_odom.y());
-    at[2] = static_cast<float>(landmark.p_odom.z());
-    at[3] = landmark.sigma;
-    ++at;
-  }
   landmarks_.publish(cloud);
 }
 
@@ -150,14 +118,9 @@ void Publisher::publishTracks(const Frame& frame, const urban_nav_core::ImageVie
   if (tracks_.getNumSubscribers() == 0) return;
   const cv::Mat& picture = picture_->draw(left, frame);
   if (picture.empty()) return;
-  sensor_msgs::Image message;
+  sensor_msgs::Image message = urban_nav_ros::toColourImageMessage(picture);
   message.header.stamp = toRosTime(frame.stamp);
   message.header.frame_id = frames_.camera;
-  message.encoding = "bgr8";
-  message.width = static_cast<std::uint32_t>(picture.cols);
-  message.height = static_cast<std::uint32_t>(picture.rows);
-  message.step = static_cast<std::uint32_t>(picture.cols * picture.elemSize());
-  message.data.assign(picture.datastart, picture.dataend);
   tracks_.publish(message);
 }
 

@@ -2,30 +2,29 @@
 #pragma once
 
 #include <nav_msgs/Path.h>
-#include <ros/node_handle.h>
-#include <ros/publisher.h>
 #include <tf2_ros/transform_broadcaster.h>
-#include <urban_nav_msgs/StageStatus.h>
 
 #include <memory>
 #include <string>
 
+#include "live/tracks_picture.hpp"
 #include "swf_vo/frame.hpp"
-#include "tracks_picture.hpp"
 #include "urban_nav_core/types/stereo_pair.hpp"
+#include "urban_nav_ros/stage_node.hpp"
 
 namespace swf_vo {
 
-/// Frame -> messages and tf. Used by the worker alone.
+/// Converts frames to messages and tf. Used by one thread.
 class Publisher {
  public:
   struct Frames {
     std::string odom, base, camera;
     bool publish_tf = true;
   };
-  explicit Publisher(ros::NodeHandle& nh);
+  /// `node` must outlive it.
+  explicit Publisher(urban_nav_ros::StageNode& node);
 
-  /// Forgets the path and the tracks of the session before.
+  /// Begins a session: path and tracks start anew. `near_disparity_px`: drawn in the warmest colour.
   void startSession(const Frames& frames, double near_disparity_px);
   void publish(const Frame& frame, const urban_nav_core::StereoPair& pair, double process_ms);
   void publish(const Settled& settled);
@@ -33,16 +32,14 @@ class Publisher {
  private:
   void publishOdometry(const Frame& frame);
   void publishFrame(const Frame& frame, double process_ms);
-  void publishStatus(const Frame& frame);
-  void publishPath(const Frame& frame);
   void publishLandmarks(const Frame& frame);
   void publishTracks(const Frame& frame, const urban_nav_core::ImageView& left);
 
-  ros::Publisher odometry_, relative_, frame_, landmarks_, tracks_, path_, status_;
+  urban_nav_ros::StageNode& node_;
+  ros::Publisher odometry_, relative_, frame_, landmarks_, tracks_, path_;
   tf2_ros::TransformBroadcaster broadcaster_;
   Frames frames_;
-  nav_msgs::Path way_;
-  urban_nav_msgs::StageStatus last_status_;
+  nav_msgs::Path drawn_path_;
   std::unique_ptr<TracksPicture> picture_;
 };
 

@@ -122,7 +122,11 @@ endfunction()
 # urban_nav_parameters(): PACKAGE_parameters, and the target PACKAGE_documents by which it writes the texts that are made from the tables of parameters:
 # config/PACKAGE.yaml and two tables of README.md.
 function(urban_nav_parameters)
-  urban_nav_program(${PROJECT_NAME}_parameters tools/${PROJECT_NAME}_parameters.cpp nodelet/nodelet_parameters.cpp)
+  set(sources tools/${PROJECT_NAME}_parameters.cpp)
+  if(EXISTS ${PROJECT_SOURCE_DIR}/nodelet/nodelet_parameters.cpp)
+    list(APPEND sources nodelet/nodelet_parameters.cpp)
+  endif()
+  urban_nav_program(${PROJECT_NAME}_parameters ${sources})
   target_include_directories(${PROJECT_NAME}_parameters PRIVATE nodelet)
   target_link_libraries(${PROJECT_NAME}_parameters ${PROJECT_NAME})
   add_custom_target(${PROJECT_NAME}_documents COMMAND ${PROJECT_NAME}_parameters --write ${PROJECT_SOURCE_DIR} VERBATIM)

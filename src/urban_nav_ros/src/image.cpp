@@ -170,6 +170,19 @@ sensor_msgs::Image toImageMessage(const cv::Mat& grey) {
   return message;
 }
 
+sensor_msgs::Image toColourImageMessage(const cv::Mat& bgr) {
+  CV_Assert(bgr.empty() || bgr.type() == CV_8UC3);
+  sensor_msgs::Image message;
+  message.encoding = enc::BGR8;
+  message.width = static_cast<std::uint32_t>(bgr.cols);
+  message.height = static_cast<std::uint32_t>(bgr.rows);
+  message.step = 3 * message.width;
+  message.data.reserve(static_cast<std::size_t>(message.step) * message.height);
+  for (int v = 0; v < bgr.rows; ++v)
+    message.data.insert(message.data.end(), bgr.ptr(v), bgr.ptr(v) + static_cast<std::ptrdiff_t>(message.step));
+  return message;
+}
+
 ImageView viewOf(const cv::Mat& grey) {
   if (grey.empty()) return {};
   CV_Assert(grey.type() == CV_8UC1);

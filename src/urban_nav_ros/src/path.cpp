@@ -35,4 +35,20 @@ nav_msgs::Path toPathMessage(const PoseRun& run, const std::string& map_frame) {
   return path;
 }
 
+bool appendToPath(urban_nav_core::StampNs stamp, const urban_nav_core::Pose& pose, double spacing,
+                  std::size_t max_points, nav_msgs::Path& path) {
+  if (!path.poses.empty()) {
+    const auto last = toPose(path.poses.back().pose);
+    if (last && urban_nav_core::distanceBetween(*last, pose) < spacing) return false;
+  }
+  if (path.poses.size() >= max_points)
+    path.poses.erase(path.poses.begin(), path.poses.begin() + static_cast<std::ptrdiff_t>(max_points / 10));
+  path.header.stamp = toRosTime(stamp);
+  geometry_msgs::PoseStamped message;
+  message.header = path.header;
+  message.pose = toPoseMessage(pose);
+  path.poses.push_back(message);
+  return true;
+}
+
 }  // namespace urban_nav_ros

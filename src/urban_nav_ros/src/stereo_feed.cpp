@@ -100,6 +100,7 @@ OwnedImage StereoFeed::decode(Side side, StampNs stamp, const Input& input) {
     return {stamp, {}, nullptr};
   }
   if (view.data != pixels->grey.data) {
+    ++rectified_;
     pixels->grey.release();
     pixels->message.reset();
   }

@@ -93,9 +93,9 @@ TEST_F(SwfVoNodelet, aPartnerThatDoesNotComeIsNamedWithItsDelay) {
   const auto named = [&] {
     for (const auto& array : graph().diagnostics)
       for (const auto& status : array.status) {
-        const bool behind = status.message.find("/stereo/right/image_raw is ") != std::string::npos &&
-                            status.message.find(" ms behind /stereo/left/image_raw") != std::string::npos;
-        if (behind && status.level != diagnostic_msgs::DiagnosticStatus::OK) return true;
+        const bool lags =
+            status.message.find("/stereo/right/image_raw lags /stereo/left/image_raw by ") != std::string::npos;
+        if (lags && status.level != diagnostic_msgs::DiagnosticStatus::OK) return true;
       }
     return false;
   };

@@ -35,6 +35,8 @@ int significantBits(const cv::Mat& pixels);
 
 /// Grey 8-bit pixels as mono8. The header is the caller's business.
 sensor_msgs::Image toImageMessage(const cv::Mat& grey);
+/// Converts 8-bit BGR pixels to a message of encoding bgr8. Sets no header.
+sensor_msgs::Image toColourImageMessage(const cv::Mat& bgr);
 
 /// A look at pixels of type CV_8UC1 that somebody else keeps alive; empty for an empty matrix.
 urban_nav_core::ImageView viewOf(const cv::Mat& grey);

@@ -3,6 +3,7 @@
 
 #include <nav_msgs/Path.h>
 
+#include <cstddef>
 #include <string>
 
 #include "urban_nav_core/types/graph_update.hpp"
@@ -13,5 +14,10 @@ namespace urban_nav_ros {
 urban_nav_core::PoseRun thinned(const urban_nav_core::PoseRun& run, double spacing);
 
 nav_msgs::Path toPathMessage(const urban_nav_core::PoseRun& run, const std::string& map_frame);
+
+/// Appends a pose to a growing path for display. Returns false for a pose closer than `spacing` (m) to the last one, which
+/// is left out. At `max_points` the oldest tenth is removed.
+bool appendToPath(urban_nav_core::StampNs stamp, const urban_nav_core::Pose& pose, double spacing,
+                  std::size_t max_points, nav_msgs::Path& path);
 
 }  // namespace urban_nav_ros

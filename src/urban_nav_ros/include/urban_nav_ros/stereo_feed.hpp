@@ -58,6 +58,8 @@ class StereoFeed {
   const urban_nav_core::InboxCounts& counts(Side side) const;
   /// Pairs that left without an image of this side.
   std::int64_t missing(Side side) const;
+  /// Number of images rectified by this object.
+  std::int64_t rectified() const { return rectified_; }
   /// The latest stamp of a side so far.
   std::optional<urban_nav_core::StampNs> reached(Side side) const;
 
@@ -74,6 +76,7 @@ class StereoFeed {
   int left_bits_ = 0, right_bits_ = 0;  // depth of 16-bit pixels, from the first image
   std::vector<std::string> faults_;
   bool finished_ = false, drained_ = false;
+  std::int64_t rectified_ = 0;  // images; no part of the archived state
 };
 
 }  // namespace urban_nav_ros

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tracks_picture.hpp"
+#include "live/tracks_picture.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <ros/service_server.h>
+#include <ros/subscriber.h>
+#include <urban_nav_msgs/StageStatus.h>
+
+#include <boost/function.hpp>
+#include <chrono>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "urban_nav_core/types/error.hpp"
+#include "urban_nav_core/types/status.hpp"
+#include "urban_nav_live/input_gate.hpp"
+#include "urban_nav_live/stage_report.hpp"
+#include "urban_nav_live/topic_monitor.hpp"
+#include "urban_nav_live/worker_loop.hpp"
+#include "urban_nav_ros/parameters.hpp"
+#include "urban_nav_ros/stamp.hpp"
+
+namespace urban_nav_ros {
+
+/// Subscription of a stage.
+struct TopicOptions {
+  double timeout = urban_nav_live::TopicMonitor::no_timeout;  ///< s without a message until the topic is silent
+  std::string group;                                          ///< of urban_nav_live::TopicMonitor
+  bool is_monitored = true;                                   ///< a topic on which nothing need arrive is not
+  bool is_paused = true;  ///< messages are dropped in a pause; odometry must not have a gap
+  int queue = 100;        ///< messages
+};
+
+/// ROS side of a live stage apart from its topics: handles, monitored subscriptions, services, the latched status topic,
+/// /diagnostics and the log. Thread-safe after the stage's constructor.
+class StageNode {
+ public:
+  struct Handles {
+    ros::NodeHandle nh, private_nh;
+    ros::NodeHandle service_nh;  ///< private, served by several threads: a service that waits delays no message
+    std::string name;            ///< of the nodelet
+  };
+  /// `stage`: its name, before "/status". `topic`: what the stage makes, the title of its diagnostics.
+  StageNode(Handles handles, const std::string& stage, const std::string& topic);
+  StageNode(const StageNode&) = delete;
+  StageNode& operator=(const StageNode&) = delete;
+
+  ros::NodeHandle& nh() { return handles_.nh; }
+  ros::NodeHandle& privateHandle() { return handles_.private_nh; }
+  const std::string& name() const { return handles_.name; }
+  urban_nav_live::TopicMonitor& monitor() { return monitor_; }
+  urban_nav_live::InputGate& gate() { return gate_; }
+
+  /// Returns the parameters of the nodelet and of its stage from the private namespace. Throws UserError.
+  template <typename Own, typename Stage>
+  std::pair<Own, Stage> parameters(const urban_nav_core::Table<Own>& own, const urban_nav_core::Table<Stage>& stage) {
+    return readParameters(handles_.private_nh, own, stage);
+  }
+
+  /// Subscribes. `callback`: called with each message that is not dropped by a pause, in a thread of ROS.
+  template <typename Message>
+  void subscribe(const std::string& topic, const TopicOptions& options,
+                 const std::function<void(const boost::shared_ptr<const Message>&)>& callback);
+
+  /// Advertises a private service whose response has `success` and `message`. `action` fills in the response in a thread
+  /// of ROS; an Error that it throws becomes the message of a failure.
+  template <typename Service>
+  void advertiseService(
+      const std::string& name,
+      const std::function<void(const typename Service::Request&, typename Service::Response&)>& action);
+
+  /// Publishes <stage>/status, latched, if health or reason has changed.
+  void publishStatus(const urban_nav_core::Status& status, const std::string& reason_name,
+                     urban_nav_core::StampNs stamp);
+  /// Publishes the next status even if it has not changed.
+  void restartStatus();
+  /// Sets what update() publishes. `dropped`: inputs for which the queue had no room.
+  void setReport(urban_nav_live::StageReport report, std::int64_t dropped);
+  /// Publishes /diagnostics.
+  void update() { updater_.force_update(); }
+
+  void logInfo(const std::string& text) const;
+  void logError(const std::string& text) const;
+  /// Logs a warning, at most one in five seconds for each `key`.
+  void logWarning(const std::string& key, const std::string& text);
+
+  /// Ends subscriptions and services: no callback runs after it.
+  void shutDown();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void fill(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+
+  Handles handles_;
+  const std::string stage_;
+  urban_nav_live::TopicMonitor monitor_;
+  urban_nav_live::InputGate gate_;
+  std::vector<ros::Subscriber> subscribers_;
+  std::vector<ros::ServiceServer> services_;
+  ros::Publisher status_publisher_;
+
+  mutable std::mutex mutex_;  // guards what follows but updater_
+  std::optional<urban_nav_msgs::StageStatus> last_status_;
+  urban_nav_live::StageReport report_;
+  std::int64_t dropped_ = 0;
+  std::map<std::string, Clock::time_point> warned_;
+  diagnostic_updater::Updater updater_;
+};
+
+/// StageNode together with the queue of the stage's worker. Thread-safe after the stage's constructor.
+template <typename Input>
+class StageNodeWith : public StageNode {
+ public:
+  using StageNode::StageNode;
+
+  /// Sets the number of inputs that may wait for the worker.
+  void setQueueSize(int inputs) { loop_.setCapacity(static_cast<std::size_t>(inputs)); }
+  void push(Input input) { loop_.push(std::move(input)); }
+  /// Subscribes, and queues what `convert` makes of each message: an Input, or an optional one. A message for which it is
+  /// empty is counted as invalid, with a warning.
+  template <typename Message, typename Convert>
+  void subscribeInput(const std::string& topic, const TopicOptions& options, const Convert& convert);
+
+  /// Returns the answer of `question`, evaluated in the worker's thread after all earlier inputs. Throws what it throws,
+  /// and UserError if it is not answered within `timeout`. Requires that the caller is not the worker.
+  template <typename Question>
+  auto ask(const Question& question, std::chrono::milliseconds timeout = std::chrono::seconds(30))
+      -> decltype(question()) {
+    auto answer = loop_.ask(question, timeout);
+    if (!answer) throw urban_nav_core::UserError("", "still at work on what came before; ask again", "");
+    return std::move(*answer);
+  }
+  urban_nav_live::WorkerLoop<Input>& loop() { return loop_; }
+
+ private:
+  template <typename Value>
+  static std::optional<Input> toInput(std::optional<Value> value) {
+    if (!value) return std::nullopt;
+    return Input(std::move(*value));
+  }
+  template <typename Value>
+  static std::optional<Input> toInput(Value value) {
+    return Input(std::move(value));
+  }
+
+  urban_nav_live::WorkerLoop<Input> loop_;
+};
+
+template <typename Message>
+void StageNode::subscribe(const std::string& topic, const TopicOptions& options,
+                          const std::function<void(const boost::shared_ptr<const Message>&)>& callback) {
+  const std::string name = handles_.nh.resolveName(topic);
+  if (options.is_monitored) monitor_.expect(name, options.timeout, options.group);
+  const boost::function<void(const boost::shared_ptr<const Message>&)> received =
+      [this, name, callback, is_paused = options.is_paused](const boost::shared_ptr<const Message>& message) {
+        urban_nav_core::StampNs stamp = 0;
+        if constexpr (ros::message_traits::HasHeader<Message>::value) stamp = toStampNs(message->header.stamp);
+        monitor_.received(name, stamp);
+        if (!is_paused || gate_.pass()) callback(message);
+      };
+  subscribers_.push_back(handles_.nh.subscribe<Message>(topic, static_cast<std::uint32_t>(options.queue), received));
+}
+
+template <typename Service>
+void StageNode::advertiseService(
+    const std::string& name,
+    const std::function<void(const typename Service::Request&, typename Service::Response&)>& action) {
+  using Request = typename Service::Request;
+  using Response = typename Service::Response;
+  const boost::function<bool(Request&, Response&)> callback = [action](Request& request, Response& response) {
+    try {
+      response.success = true;
+      action(request, response);
+    } catch (const urban_nav_core::Error& error) {
+      response = Response();
+      response.message = error.what();
+    }
+    return true;
+  };
+  services_.push_back(handles_.service_nh.advertiseService(name, callback));
+}
+
+template <typename Input>
+template <typename Message, typename Convert>
+void StageNodeWith<Input>::subscribeInput(const std::string& topic, const TopicOptions& options,
+                                          const Convert& convert) {
+  subscribe<Message>(topic, options, [this, topic, convert](const boost::shared_ptr<const Message>& message) {
+    if (std::optional<Input> input = toInput(convert(message))) return push(std::move(*input));
+    gate().countInvalid();
+    logWarning(topic, topic + ": an invalid message: not finite, no pose, or an unknown kind");
+  });
+}
+
+}  // namespace urban_nav_ros

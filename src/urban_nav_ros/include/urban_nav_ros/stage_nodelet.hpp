@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nodelet/nodelet.h>
+#include <ros/this_node.h>
+#include <std_srvs/Trigger.h>
+
+#include <memory>
+#include <string>
+
+#include "urban_nav_ros/stage_node.hpp"
+
+namespace urban_nav_ros {
+
+/// Nodelet of a live stage. Callbacks convert and enqueue; one worker hands the inputs to the stage, which publishes.
+/// Provides: fatal errors of parameters; ~reset, ~pause and ~resume; <stage>/status; /diagnostics each second.
+///
+/// A stage is a class that has its topics and converters, and an algorithm that is free of ROS:
+///
+///     class FrameCounter {
+///      public:
+///       static constexpr const char* name = "frame_counter";   // of <name>/status
+///       static constexpr const char* topic = "frames";         // title of the diagnostics
+///       using Input = urban_nav_core::StampNs;
+///       using Node = urban_nav_ros::StageNodeWith<Input>;
+///
+///       // Reads parameters (Errors are fatal), subscribes, advertises.
+///       explicit FrameCounter(Node& node) : node_(node) {
+///         std::tie(nodelet_, parameters_) = node.parameters(nodeletTable(), table());
+///         node.setQueueSize(nodelet_.queue);
+///         count_ = node.nh().advertise<std_msgs::UInt64>("frame_counter/count", 10);
+///         node.subscribeInput<sensor_msgs::Image>(topics::left_image, {1.0}, [](const sensor_msgs::ImageConstPtr& image) {
+///           return toStampNs(image->header.stamp);
+///         });
+///       }
+///       // What follows is called by the worker.
+///       void handle(Input& stamp);
+///       // Before the first input, and after each round of inputs. Returns true to be called again without a wait.
+///       bool idle() { return false; }
+///       std::string reset() { counter_ = {}; return "the count is 0"; }
+///       void close() {}                                      // before the nodelet ends
+///       urban_nav_live::StageReport report() const;          // after each idle()
+///      private:
+///       ...
+///     };
+///     class FrameCounterNodelet : public urban_nav_ros::StageNodelet<FrameCounter> {};
+///     PLUGINLIB_EXPORT_CLASS(frame_counter::FrameCounterNodelet, nodelet::Nodelet)
+///
+/// Order of destruction: subscriptions and services end, the worker closes the stage and ends, the stage is destroyed.
+template <typename Stage>
+class StageNodelet : public nodelet::Nodelet {
+ public:
+  ~StageNodelet() override {
+    if (!node_) return;
+    timer_.stop();
+    node_->shutDown();
+    node_->loop().stop();
+    stage_.reset();
+  }
+
+ private:
+  using Node = StageNodeWith<typename Stage::Input>;
+
+  void onInit() override {
+    try {
+      node_ = std::make_unique<Node>(
+          StageNode::Handles{getNodeHandle(), getPrivateNodeHandle(), getMTPrivateNodeHandle(), getName()}, Stage::name,
+          Stage::topic);
+      stage_ = std::make_unique<Stage>(*node_);
+    } catch (const urban_nav_core::Error& error) {
+      NODELET_FATAL("%s", error.what());
+      throw;
+    }
+    start();
+    advertiseServices();
+    timer_ = getNodeHandle().createWallTimer(ros::WallDuration(1.0),
+                                             [this](const ros::WallTimerEvent&) { node_->update(); });
+  }
+
+  void start() {
+    typename urban_nav_live::WorkerLoop<typename Stage::Input>::Steps steps;
+    steps.begin = [this] { idle(); };
+    steps.handle = [this](typename Stage::Input& input) { stage_->handle(input); };
+    steps.idle = [this] { return idle(); };
+    steps.end = [this] { stage_->close(); };
+    node_->loop().start(std::move(steps));
+  }
+
+  bool idle() {
+    const bool busy = stage_->idle();
+    node_->setReport(stage_->report(), node_->loop().dropped());
+    return busy;
+  }
+
+  void advertiseServices() {
+    using std_srvs::Trigger;
+    node_->template advertiseService<Trigger>("reset", [this](const Trigger::Request&, Trigger::Response& response) {
+      response.message = node_->ask([this] { return stage_->reset(); });
+    });
+    node_->template advertiseService<Trigger>("pause", [this](const Trigger::Request&, Trigger::Response& response) {
+      node_->gate().pause();
+      response.message = "inputs are dropped until resume; odometry is followed";
+    });
+    node_->template advertiseService<Trigger>("resume", [this](const Trigger::Request&, Trigger::Response& response) {
+      node_->gate().resume();
+      response.message = "the session continues";
+    });
+  }
+
+  std::unique_ptr<Node> node_;
+  std::unique_ptr<Stage> stage_;  // uses the node
+  ros::WallTimer timer_;
+};
+
+}  // namespace urban_nav_ros

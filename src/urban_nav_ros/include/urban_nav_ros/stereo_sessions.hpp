@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <sensor_msgs/CameraInfo.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "urban_nav_live/stage_report.hpp"
+#include "urban_nav_live/time_jump.hpp"
+#include "urban_nav_ros/extrinsics.hpp"
+#include "urban_nav_ros/stereo_feed.hpp"
+
+namespace urban_nav_ros {
+
+/// Image of one side as it arrived, raw or compressed.
+struct ImageInput {
+  Side side;
+  std::variant<sensor_msgs::ImageConstPtr, sensor_msgs::CompressedImageConstPtr> message;
+  urban_nav_core::StampNs stamp;
+};
+
+/// Calibration of one side.
+struct InfoInput {
+  Side side;
+  sensor_msgs::CameraInfoConstPtr message;
+};
+
+/// Returns true if two messages describe the same camera, whatever their headers.
+bool isSameCalibration(const sensor_msgs::CameraInfo& a, const sensor_msgs::CameraInfo& b);
+
+/// Divides the messages of a stereo camera, and of a motion sensor, into sessions: each has one calibration, one mounting
+/// and stamps that do not jump back. Pairs are the same as offline. Used by one thread.
+///
+/// A session begins when both camera_info have arrived and /tf_static connects base and camera, at the latest `tf_wait`
+/// after the first image; earlier images are kept. Without the transform the left camera is taken to be at the base, with
+/// axes as in REP 103.
+class StereoSessions {
+ public:
+  using Message = std::variant<ImageInput, InfoInput, tf2_msgs::TFMessageConstPtr, nav_msgs::OdometryConstPtr,
+                               sensor_msgs::ImuConstPtr>;
+
+  struct Options {
+    std::string base_frame = "base_link";
+    bool rectified = false;        ///< the images are rectified already
+    int queue = 200;               ///< messages kept before a session begins
+    double max_lateness = 0.1;     ///< s, by stamps, that an image waits for its partner and for motion inputs
+    double pairing = 0.005;        ///< s between the stamps of left and right image
+    double tf_wait = 1.0;          ///< s
+    bool motion = false;           ///< nav_msgs/Odometry or sensor_msgs/Imu are motion inputs
+    double wheel_noise = 0.0;      ///< of WheelMotion
+    double gyro_noise = 0.0;       ///< of GyroMotion, rad/s
+    std::string where = "stereo";  ///< what an error of the calibration begins with
+  };
+  struct Camera {
+    urban_nav_core::StereoCamera camera;
+    urban_nav_core::Pose T_base_left;  ///< of the rectified left camera
+    std::string frame;                 ///< of the left camera
+    bool rectifies = false;            ///< images are rectified here
+    std::string mounting;              ///< sentence on how T_base_left is known
+    bool is_mounting_known = false;
+    /// Returns "512x384 px, rectified here; camera at tf base_link -> left".
+    std::string sentence() const;
+  };
+  struct Listener {
+    std::function<void(const Camera&)> began;
+    std::function<void(FedPair&)> pair;
+    std::function<void(const std::string& why)> ended;  ///< after the last pair of the session
+    /// The calibration makes no session, for this reason; empty: another calibration has arrived.
+    std::function<void(const std::string& fault)> refused;
+  };
+  struct Counts {
+    std::int64_t late = 0, duplicate = 0;  ///< images refused by the queue
+    std::int64_t left_missing = 0, right_missing = 0;
+    std::int64_t damaged = 0;    ///< images that do not decode or have a wrong size
+    std::int64_t dropped = 0;    ///< messages before a session began
+    std::int64_t rectified = 0;  ///< images
+    std::int64_t pairs = 0, sessions = 0;
+    void addTo(urban_nav_live::StageReport& report) const;
+  };
+
+  StereoSessions(Options options, Listener listener) : options_(std::move(options)), listener_(std::move(listener)) {}
+
+  /// Handles a message; calls the listener.
+  void handle(const Message& message);
+  /// Begins a session whose wait for /tf_static is over. To be called some ten times a second.
+  void idle();
+  /// Ends the session, if there is one, and forgets messages that wait for one. `deliver`: pairs that still wait are
+  /// handed to the listener first.
+  void end(const std::string& why, bool deliver = true);
+
+  bool isRunning() const { return feed_.has_value(); }
+  /// Returns why the calibration makes no session; empty: nothing is wrong with it.
+  const std::string& fault() const { return fault_; }
+  const StaticTransforms& transforms() const { return transforms_; }
+  Counts counts() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void handleInfo(const InfoInput& info);
+  void handleSensor(const Message& message);
+  void feed(const Message& message);
+  void setFault(const std::string& fault);
+  void tryToBegin();
+  void begin();
+  void deliverPairs();
+
+  const Options options_;
+  const Listener listener_;
+  StaticTransforms transforms_;
+  sensor_msgs::CameraInfoConstPtr left_info_, right_info_;
+  std::string imu_frame_ = "imu_link";
+  std::deque<Message> waiting_;  // for a session
+  std::optional<Clock::time_point> first_image_;
+  urban_nav_live::TimeJumpDetector images_;
+  std::string fault_;
+  std::optional<StereoFeed> feed_;
+  std::optional<WheelMotion> wheels_;
+  std::optional<GyroMotion> gyroscope_;
+  Counts finished_;  // of the sessions that have ended, and what no feed counts
+};
+
+}  // namespace urban_nav_ros

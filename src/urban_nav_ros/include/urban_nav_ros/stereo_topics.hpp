@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "urban_nav_ros/stage_node.hpp"
+#include "urban_nav_ros/stereo_sessions.hpp"
+#include "urban_nav_ros/topics.hpp"
+
+namespace urban_nav_ros {
+
+/// Motion sensor that a stage listens to beside the stereo camera.
+enum class MotionTopic { None, Wheels, Imu };
+
+/// Returns the motion sensor of a parameter `motion_input`: none, wheels, gyroscope.
+inline MotionTopic toMotionTopic(const std::string& motion_input) {
+  if (motion_input == "wheels") return MotionTopic::Wheels;
+  return motion_input == "gyroscope" ? MotionTopic::Imu : MotionTopic::None;
+}
+
+/// Returns the options of a stage whose parameters have base_frame, images, queue, max_lateness, pairing and tf_wait.
+template <typename NodeletParameters>
+StereoSessions::Options toStereoOptions(const NodeletParameters& parameters, const ros::NodeHandle& nh) {
+  StereoSessions::Options options;
+  options.base_frame = parameters.base_frame;
+  options.rectified = areRectified(parameters.images, nh.resolveName(topics::left_image));
+  options.queue = parameters.queue;
+  options.max_lateness = parameters.max_lateness;
+  options.pairing = parameters.pairing;
+  options.tf_wait = parameters.tf_wait;
+  options.where = nh.resolveName("stereo");
+  return options;
+}
+
+/// Subscribes to the images and camera_info of both sides, to /tf_static and to the motion sensor, as inputs of a stage.
+/// Requires that Input can be made from each alternative of StereoSessions::Message. `options` apply to images and motion;
+/// camera_info need arrive only once.
+template <typename Input>
+void subscribeStereo(StageNodeWith<Input>& node, const TopicOptions& options, bool compressed, MotionTopic motion) {
+  const auto forward = [](const auto& message) { return Input(message); };
+  TopicOptions unmonitored;
+  unmonitored.is_monitored = unmonitored.is_paused = false;
+  node.template subscribeInput<tf2_msgs::TFMessage>(topics::static_transforms, unmonitored, forward);
+  for (const Side side : {Side::Left, Side::Right}) {
+    const bool is_left = side == Side::Left;
+    TopicOptions once = options;
+    once.timeout = urban_nav_live::TopicMonitor::no_timeout;
+    once.queue = 10;
+    node.template subscribeInput<sensor_msgs::CameraInfo>(is_left ? topics::left_info : topics::right_info, once,
+                                                          [side](const sensor_msgs::CameraInfoConstPtr& message) {
+                                                            return Input(InfoInput{side, message});
+                                                          });
+    const char* images = is_left ? topics::left_image : topics::right_image;
+    const auto toInput = [side](const auto& message) {
+      return Input(ImageInput{side, message, toStampNs(message->header.stamp)});
+    };
+    if (compressed) node.template subscribeInput<sensor_msgs::CompressedImage>(images, options, toInput);
+    else node.template subscribeInput<sensor_msgs::Image>(images, options, toInput);
+  }
+  node.monitor().expectPairs(node.nh().resolveName(topics::left_image), node.nh().resolveName(topics::right_image));
+  if (motion == MotionTopic::Wheels)
+    node.template subscribeInput<nav_msgs::Odometry>(topics::wheel_odometry, options, forward);
+  if (motion == MotionTopic::Imu) node.template subscribeInput<sensor_msgs::Imu>(topics::imu, options, forward);
+}
+
+}  // namespace urban_nav_ros

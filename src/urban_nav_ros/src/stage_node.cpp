@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_ros/stage_node.hpp"
+
+#include <ros/console.h>
+
+#include "urban_nav_ros/status.hpp"
+
+namespace urban_nav_ros {
+
+namespace {
+
+constexpr std::chrono::seconds warning_period{5};
+
+}  // namespace
+
+StageNode::StageNode(Handles handles, const std::string& stage, const std::string& topic)
+    : handles_(std::move(handles)),
+      stage_(stage),
+      status_publisher_(handles_.nh.advertise<urban_nav_msgs::StageStatus>(stage + "/status", 10, true)),
+      updater_(handles_.nh, handles_.private_nh, handles_.name) {
+  updater_.setHardwareID("none");
+  updater_.add(topic, [this](diagnostic_updater::DiagnosticStatusWrapper& status) { fill(status); });
+}
+
+void StageNode::publishStatus(const urban_nav_core::Status& status, const std::string& reason_name,
+                              urban_nav_core::StampNs stamp) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const urban_nav_msgs::StageStatus message = toStatusMessage(stamp, stage_, status, reason_name);
+  if (last_status_ && last_status_->status == message.status && last_status_->reason == message.reason) return;
+  last_status_ = message;
+  status_publisher_.publish(message);
+}
+
+void StageNode::restartStatus() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  last_status_.reset();
+}
+
+void StageNode::setReport(urban_nav_live::StageReport report, std::int64_t dropped) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  report_ = std::move(report);
+  dropped_ = dropped;
+}
+
+void StageNode::fill(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto [level, summary] = urban_nav_live::summarise(report_, gate_.isPaused(), monitor_.fault());
+  const urban_nav_live::InputGate::Counts counts = gate_.counts();
+  status.summary(static_cast<unsigned char>(level), summary);
+  status.add("status", std::string(toString(report_.status.health)));
+  status.add("reason", report_.reason_name);
+  for (const auto& figure : report_.figures) status.add(figure.name, figure.value);
+  status.add("dropped: queue full", dropped_);
+  status.add("dropped: paused", counts.paused_dropped);
+  status.add("messages damaged", counts.invalid);
+}
+
+void StageNode::logInfo(const std::string& text) const { ROS_INFO("%s: %s", handles_.name.c_str(), text.c_str()); }
+
+void StageNode::logError(const std::string& text) const { ROS_ERROR("%s: %s", handles_.name.c_str(), text.c_str()); }
+
+void StageNode::logWarning(const std::string& key, const std::string& text) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto [entry, is_new] = warned_.emplace(key, Clock::now());
+    if (!is_new && Clock::now() - entry->second < warning_period) return;
+    entry->second = Clock::now();
+  }
+  ROS_WARN("%s: %s", handles_.name.c_str(), text.c_str());
+}
+
+void StageNode::shutDown() {
+  subscribers_.clear();
+  services_.clear();
+}
+
+}  // namespace urban_nav_ros

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_ros/stereo_sessions.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "urban_nav_core/types/error.hpp"
+#include "urban_nav_ros/camera_info.hpp"
+
+namespace urban_nav_ros {
+
+using urban_nav_core::StampNs;
+
+namespace {
+
+StampNs toNanoseconds(double seconds) { return static_cast<StampNs>(std::llround(seconds * 1e9)); }
+
+}  // namespace
+
+bool isSameCalibration(const sensor_msgs::CameraInfo& a, const sensor_msgs::CameraInfo& b) {
+  return a.width == b.width && a.height == b.height && a.D == b.D && a.K == b.K && a.R == b.R && a.P == b.P;
+}
+
+std::string StereoSessions::Camera::sentence() const {
+  return std::to_string(camera.left.width) + "x" + std::to_string(camera.left.height) + " px, " +
+         (rectifies ? "rectified here" : "rectified already") + "; " + mounting;
+}
+
+void StereoSessions::Counts::addTo(urban_nav_live::StageReport& report) const {
+  report.add("stereo pairs", pairs);
+  report.add("dropped: before a session", dropped);
+  report.add("dropped: too late", late);
+  report.add("dropped: duplicate", duplicate);
+  report.add("left images missing", left_missing);
+  report.add("right images missing", right_missing);
+  report.add("images damaged", damaged);
+  report.add("images rectified", rectified);
+}
+
+void StereoSessions::handle(const Message& message) {
+  if (const auto* info = std::get_if<InfoInput>(&message)) handleInfo(*info);
+  else if (const auto* transforms = std::get_if<tf2_msgs::TFMessageConstPtr>(&message)) transforms_.add(**transforms);
+  else handleSensor(message);
+  if (!feed_) tryToBegin();
+  if (feed_) deliverPairs();
+}
+
+void StereoSessions::idle() {
+  if (!feed_) tryToBegin();
+}
+
+void StereoSessions::handleInfo(const InfoInput& info) {
+  sensor_msgs::CameraInfoConstPtr& known = info.side == Side::Left ? left_info_ : right_info_;
+  if (known && isSameCalibration(*known, *info.message)) return;
+  if (feed_) end("the calibration changed");
+  // A new left camera does not match the old right one: its camera_info must arrive again.
+  if (known) (info.side == Side::Left ? right_info_ : left_info_).reset();
+  known = info.message;
+  setFault("");
+}
+
+void StereoSessions::setFault(const std::string& fault) {
+  if (fault == fault_) return;
+  fault_ = fault;
+  if (listener_.refused) listener_.refused(fault);
+}
+
+void StereoSessions::handleSensor(const Message& message) {
+  if (const auto* image = std::get_if<ImageInput>(&message)) {
+    if (images_.jumpsBack(image->stamp)) end("time went back");
+    images_.advance(image->stamp);
+    if (!first_image_) first_image_ = Clock::now();
+  }
+  if (const auto* imu = std::get_if<sensor_msgs::ImuConstPtr>(&message)) imu_frame_ = (*imu)->header.frame_id;
+  if (feed_) return feed(message);
+  waiting_.push_back(message);
+  if (waiting_.size() <= static_cast<std::size_t>(options_.queue)) return;
+  waiting_.pop_front();
+  ++finished_.dropped;
+}
+
+void StereoSessions::feed(const Message& message) {
+  if (const auto* image = std::get_if<ImageInput>(&message)) {
+    std::visit([&](const auto& pixels) { feed_->add(image->side, pixels); }, image->message);
+  } else if (const auto* odometry = std::get_if<nav_msgs::OdometryConstPtr>(&message)) {
+    if (const auto motion = wheels_->add(**odometry)) feed_->add(*motion);
+  } else if (const auto motion = gyroscope_->add(*std::get<sensor_msgs::ImuConstPtr>(message))) {
+    feed_->add(*motion);
+  }
+}
+
+void StereoSessions::tryToBegin() {
+  if (!first_image_ || !left_info_ || !right_info_ || !fault_.empty()) return;
+  const bool placed = transforms_.lookup(options_.base_frame, left_info_->header.frame_id).has_value();
+  if (!placed && Clock::now() - *first_image_ < std::chrono::duration<double>(options_.tf_wait)) return;
+  try {
+    begin();
+  } catch (const urban_nav_core::Error& error) {
+    setFault(error.what());
+  }
+}
+
+void StereoSessions::begin() {
+  const auto calibration = std::make_shared<StereoCalibration>(toCameraInfo(*left_info_), toCameraInfo(*right_info_),
+                                                               options_.rectified, options_.where);
+  StereoFeed::Options options;
+  options.max_lateness = toNanoseconds(options_.max_lateness);
+  options.pairing_tolerance = toNanoseconds(options_.pairing);
+  options.arrival = StereoFeed::Arrival::OrderedStreams;
+  options.motion = options_.motion;
+
+  Camera camera;
+  camera.camera = calibration->camera();
+  camera.frame = left_info_->header.frame_id;
+  camera.rectifies = calibration->rectifies();
+  const auto T_base_camera = transforms_.lookup(options_.base_frame, camera.frame);
+  camera.is_mounting_known = T_base_camera.has_value();
+  camera.T_base_left = T_base_camera.value_or(opticalInBody()) * calibration->T_optical_rectified();
+  camera.mounting = T_base_camera ? "camera at tf " + options_.base_frame + " -> " + camera.frame
+                                  : "no static tf from " + options_.base_frame + " to " + camera.frame + ": " +
+                                        options_.base_frame + " is taken to be at the left camera (REP-103 axes)";
+  const auto T_base_imu = transforms_.lookup(options_.base_frame, imu_frame_);
+  if (listener_.began) listener_.began(camera);
+  wheels_.emplace(options_.wheel_noise);
+  gyroscope_.emplace(options_.gyro_noise, T_base_imu ? T_base_imu->R() : urban_nav_core::Matrix3d::Identity());
+  feed_.emplace(options, calibration);
+  ++finished_.sessions;
+  for (const Message& message : std::exchange(waiting_, {})) feed(message);
+}
+
+void StereoSessions::deliverPairs() {
+  while (auto pair = feed_->take()) {
+    ++finished_.pairs;
+    finished_.damaged += static_cast<std::int64_t>(pair->faults.size());
+    listener_.pair(*pair);
+  }
+}
+
+void StereoSessions::end(const std::string& why, bool deliver) {
+  images_.reset();
+  first_image_.reset();
+  waiting_.clear();
+  if (!feed_) return;
+  if (deliver) {
+    feed_->finish();
+    deliverPairs();
+  }
+  finished_ = counts();
+  feed_.reset();
+  if (listener_.ended) listener_.ended(why);
+}
+
+StereoSessions::Counts StereoSessions::counts() const {
+  Counts counts = finished_;
+  if (!feed_) return counts;
+  for (const Side side : {Side::Left, Side::Right}) {
+    counts.late += feed_->counts(side).late;
+    counts.duplicate += feed_->counts(side).doubled;
+  }
+  counts.left_missing += feed_->missing(Side::Left);
+  counts.right_missing += feed_->missing(Side::Right);
+  counts.rectified += feed_->rectified();
+  return counts;
+}
+
+}  // namespace urban_nav_ros

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_ros/stereo_sessions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <boost/make_shared.hpp>
+#include <vector>
+
+#include "urban_nav_ros/camera_info.hpp"
+#include "urban_nav_ros/image.hpp"
+#include "urban_nav_ros/stamp.hpp"
+
+namespace urban_nav_ros {
+namespace {
+
+using urban_nav_core::StampNs;
+
+constexpr StampNs session_ms = 1'000'000, session_start = 1'600'000'000'000'000'000;
+
+urban_nav_core::StereoCamera sessionCamera(double baseline = 0.12) {
+  urban_nav_core::StereoCamera camera;
+  const double focal_length = 80.0 + baseline;  // in both camera_info, whereas the baseline is in the right one alone
+  camera.left = {focal_length, focal_length, 47.5, 35.5, 96, 72};
+  camera.baseline = baseline;
+  return camera;
+}
+
+InfoInput infoOf(Side side, const urban_nav_core::CameraInfo& info) {
+  auto message = boost::make_shared<sensor_msgs::CameraInfo>(toCameraInfoMessage(info));
+  message->header.frame_id = side == Side::Left ? "left" : "right";
+  return {side, message};
+}
+
+ImageInput imageOf(Side side, StampNs stamp, int width = 96) {
+  auto message = boost::make_shared<sensor_msgs::Image>(toImageMessage(cv::Mat(72, width, CV_8UC1, cv::Scalar(9))));
+  message->header.stamp = toRosTime(stamp);
+  return {side, sensor_msgs::ImageConstPtr(message), stamp};
+}
+
+tf2_msgs::TFMessageConstPtr mountingAt(double height) {
+  auto message = boost::make_shared<tf2_msgs::TFMessage>();
+  message->transforms.push_back(toStaticTransform(
+      "base_link", "left", urban_nav_core::Pose(opticalInBody().q(), urban_nav_core::Vector3d(0.0, 0.0, height))));
+  return message;
+}
+
+/// Sessions that keep their events.
+struct Kept {
+  explicit Kept(double tf_wait = 0.0) {
+    options.tf_wait = tf_wait;
+    sessions = std::make_unique<StereoSessions>(
+        options, StereoSessions::Listener{[this](const StereoSessions::Camera& camera) { cameras.push_back(camera); },
+                                          [this](FedPair& pair) { stamps.push_back(pair.assembled.pair.stamp); },
+                                          [this](const std::string& why) { ends.push_back(why); },
+                                          [this](const std::string& fault) { faults.push_back(fault); }});
+  }
+  void calibrate(double baseline = 0.12) {
+    sessions->handle(infoOf(Side::Left, leftInfo(sessionCamera(baseline))));
+    sessions->handle(infoOf(Side::Right, rightInfo(sessionCamera(baseline))));
+  }
+  void show(StampNs stamp) {
+    sessions->handle(imageOf(Side::Left, stamp));
+    sessions->handle(imageOf(Side::Right, stamp));
+  }
+  StereoSessions::Options options;
+  std::unique_ptr<StereoSessions> sessions;
+  std::vector<StereoSessions::Camera> cameras;
+  std::vector<StampNs> stamps;
+  std::vector<std::string> ends, faults;
+};
+
+TEST(StereoSessions, KeepImagesUntilTheCalibrationIsKnown) {
+  Kept kept;
+  kept.show(session_start);
+  kept.show(session_start + 50 * session_ms);
+  EXPECT_TRUE(kept.stamps.empty());
+  EXPECT_FALSE(kept.sessions->isRunning());
+  kept.calibrate();
+  EXPECT_TRUE(kept.sessions->isRunning());
+  EXPECT_EQ(kept.stamps, (std::vector<StampNs>{session_start, session_start + 50 * session_ms}));
+  EXPECT_EQ(kept.sessions->counts().pairs, 2);
+}
+
+TEST(StereoSessions, WaitForTheMounting) {
+  Kept kept(3600.0);
+  kept.calibrate();
+  kept.show(session_start);
+  kept.sessions->idle();
+  EXPECT_TRUE(kept.cameras.empty());
+  kept.sessions->handle(mountingAt(1.5));
+  ASSERT_EQ(kept.cameras.size(), 1U);
+  EXPECT_TRUE(kept.cameras[0].is_mounting_known);
+  EXPECT_EQ(kept.cameras[0].T_base_left.t().z(), 1.5);
+  EXPECT_EQ(kept.stamps.size(), 1U);
+}
+
+TEST(StereoSessions, WithoutAMountingTheCameraIsAtTheBase) {
+  Kept kept;
+  kept.calibrate();
+  kept.show(session_start);
+  ASSERT_EQ(kept.cameras.size(), 1U);
+  EXPECT_FALSE(kept.cameras[0].is_mounting_known);
+  EXPECT_EQ(kept.cameras[0].T_base_left.t(), urban_nav_core::Vector3d::Zero());
+  EXPECT_NE(kept.cameras[0].sentence().find("96x72 px, rectified already; no static tf"), std::string::npos);
+}
+
+TEST(StereoSessions, AJumpBackInTimeEndsTheSession) {
+  Kept kept;
+  kept.calibrate();
+  kept.show(session_start);
+  kept.sessions->handle(imageOf(Side::Left, session_start + 50 * session_ms));
+  kept.show(session_start - 2000 * session_ms);
+  EXPECT_EQ(kept.ends, std::vector<std::string>{"time went back"});
+  EXPECT_EQ(kept.cameras.size(), 2U);
+  const std::vector<StampNs> expected{session_start, session_start + 50 * session_ms,
+                                      session_start - 2000 * session_ms};
+  EXPECT_EQ(kept.stamps, expected) << "what waited was delivered first";
+  EXPECT_EQ(kept.sessions->counts().right_missing, 1);
+}
+
+TEST(StereoSessions, AnotherCalibrationEndsTheSessionUntilBothSidesHaveIt) {
+  Kept kept;
+  kept.calibrate();
+  kept.show(session_start);
+  kept.calibrate();
+  EXPECT_TRUE(kept.ends.empty()) << "the same calibration";
+  kept.sessions->handle(infoOf(Side::Left, leftInfo(sessionCamera(0.2))));
+  EXPECT_EQ(kept.ends, std::vector<std::string>{"the calibration changed"});
+  kept.show(session_start + 50 * session_ms);
+  EXPECT_EQ(kept.cameras.size(), 1U);
+  kept.sessions->handle(infoOf(Side::Right, rightInfo(sessionCamera(0.2))));
+  ASSERT_EQ(kept.cameras.size(), 2U);
+  EXPECT_NEAR(kept.cameras[1].camera.baseline, 0.2, 1e-9);
+  EXPECT_EQ(kept.stamps.size(), 2U);
+}
+
+TEST(StereoSessions, ACalibrationThatIsNoStereoPairIsRefusedOnce) {
+  Kept kept;
+  kept.show(session_start);
+  kept.sessions->handle(infoOf(Side::Left, leftInfo(sessionCamera())));
+  kept.sessions->handle(infoOf(Side::Right, leftInfo(sessionCamera())));
+  kept.sessions->idle();
+  ASSERT_EQ(kept.faults.size(), 1U);
+  EXPECT_FALSE(kept.sessions->fault().empty());
+  kept.sessions->handle(infoOf(Side::Right, rightInfo(sessionCamera())));
+  kept.sessions->handle(infoOf(Side::Left, leftInfo(sessionCamera())));
+  EXPECT_EQ(kept.sessions->fault(), "");
+  EXPECT_EQ(kept.stamps.size(), 1U);
+}
+
+TEST(StereoSessions, CountDamagedImages) {
+  Kept kept;
+  kept.calibrate();
+  kept.sessions->handle(imageOf(Side::Left, session_start, 50));
+  kept.sessions->handle(imageOf(Side::Right, session_start));
+  EXPECT_EQ(kept.stamps.size(), 1U);
+  EXPECT_EQ(kept.sessions->counts().damaged, 1);
+  urban_nav_live::StageReport report;
+  kept.sessions->counts().addTo(report);
+  EXPECT_FALSE(report.figures.empty());
+}
+
+TEST(StereoSessions, AnEndWithoutDeliveryForgetsWhatWaits) {
+  Kept kept;
+  kept.calibrate();
+  kept.show(session_start);
+  kept.sessions->handle(imageOf(Side::Left, session_start + 50 * session_ms));
+  kept.sessions->end("shutdown", false);
+  EXPECT_EQ(kept.stamps.size(), 1U);
+  EXPECT_EQ(kept.ends, std::vector<std::string>{"shutdown"});
+  kept.sessions->end("shutdown");
+  EXPECT_EQ(kept.ends.size(), 1U);
+}
+
+}  // namespace
+}  // namespace urban_nav_ros

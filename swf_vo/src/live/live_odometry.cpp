@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "live/live_odometry.hpp"
+
+#include <chrono>
+
+namespace swf_vo {
+
+void LiveOdometry::begin(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_base_left) {
+  filter_ = std::make_unique<SwfVo>(parameters_, camera, T_base_left);
+  fault_.clear();
+  ++sessions_;
+}
+
+void LiveOdometry::process(const urban_nav_core::AssembledPair& pair) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  const Frame& frame = filter_->process(pair.pair, pair.inputs);
+  process_ms_ = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  ++frames_;
+  status_ = frame.status;
+  statistics_ = frame.statistics;
+  if (listener_.frame) listener_.frame(frame, pair.pair, process_ms_);
+}
+
+void LiveOdometry::end(const std::string& why) {
+  if (!filter_) return;
+  for (const Settled& settled : filter_->flush())
+    if (listener_.settled) listener_.settled(settled);
+  filter_.reset();
+  waiting_ = "no session (" + why + ")";
+}
+
+urban_nav_live::StageReport LiveOdometry::report() const {
+  urban_nav_live::StageReport report;
+  report.status = status_;
+  report.reason_name = toString(static_cast<Reason>(status_.reason));
+  if (!filter_) {
+    report.status.health = urban_nav_core::Health::Ok;  // of no frame; the warning counts
+    report.summary = fault_.empty() ? waiting_ : fault_;
+    report.is_warning = true;
+  }
+  report.add("features", statistics_.features);
+  report.add("tracked", statistics_.tracked);
+  report.add("reprojection error (px)", statistics_.reprojection_px);
+  report.add("disparity offset (px)", statistics_.disparity_offset_px);
+  report.add("row offset (px)", statistics_.row_offset_px);
+  report.add("ratio of observed to predicted noise", statistics_.noise_scale);
+  report.add("time of the last frame (ms)", process_ms_);
+  report.add("frames", frames_);
+  report.add("sessions", sessions_);
+  return report;
+}
+
+}  // namespace swf_vo

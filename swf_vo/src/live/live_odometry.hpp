@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "swf_vo/swf_vo.hpp"
+#include "urban_nav_core/sequence/stereo_assembler.hpp"
+#include "urban_nav_live/stage_report.hpp"
+
+namespace swf_vo {
+
+/// Visual odometry of a live robot: one filter for each session, and figures for the operator. Used by one thread.
+class LiveOdometry {
+ public:
+  struct Listener {
+    std::function<void(const Frame& frame, const urban_nav_core::StereoPair& pair, double process_ms)> frame;
+    /// Smoothed poses that leave the window when a session ends.
+    std::function<void(const Settled& settled)> settled;
+  };
+
+  LiveOdometry(const Parameters& parameters, Listener listener)
+      : parameters_(parameters), listener_(std::move(listener)) {}
+
+  /// Begins a session. `T_base_left`: pose of the rectified left camera. Throws UserError if the calibration is invalid.
+  void begin(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_base_left);
+  /// Processes a pair. Requires a running session.
+  void process(const urban_nav_core::AssembledPair& pair);
+  /// Ends the session: smoothed poses are flushed to the listener. `why`: for the report.
+  void end(const std::string& why);
+  /// Sets the reason for which no session can begin; empty: none.
+  void setFault(const std::string& fault) { fault_ = fault; }
+
+  bool isRunning() const { return filter_ != nullptr; }
+  std::int64_t sessions() const { return sessions_; }
+  /// Status of the newest frame.
+  const urban_nav_core::Status& status() const { return status_; }
+  /// Returns the state for the operator: a warning while there is no session.
+  urban_nav_live::StageReport report() const;
+
+ private:
+  const Parameters parameters_;
+  const Listener listener_;
+  std::unique_ptr<SwfVo> filter_;
+  urban_nav_core::Status status_;
+  Statistics statistics_;
+  double process_ms_ = 0.0;
+  std::int64_t frames_ = 0, sessions_ = 0;
+  std::string waiting_ = "no images yet", fault_;
+};
+
+}  // namespace swf_vo

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "live/live_odometry.hpp"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "live/tracks_picture.hpp"
+#include "urban_nav_core/testing/rendered_sequence.hpp"
+#include "urban_nav_core/testing/textured_room.hpp"
+
+namespace swf_vo {
+namespace {
+
+using urban_nav_core::AssembledPair;
+using urban_nav_core::Pose;
+using urban_nav_core::testing::RenderedSequence;
+
+RenderedSequence liveRoom() {
+  urban_nav_core::testing::SequenceOptions options;
+  options.camera.fx = options.camera.fy = 260.0;
+  options.camera.width = 320;
+  options.camera.height = 240;
+  options.camera.cx = 159.5;
+  options.camera.cy = 119.5;
+  return {urban_nav_core::testing::texturedRoom(), urban_nav_core::testing::loop(3.0, 1.5, 1.2, 25.0), options};
+}
+
+std::string figureOf(const urban_nav_live::StageReport& report, const std::string& name) {
+  for (const auto& figure : report.figures)
+    if (figure.name == name) return figure.value;
+  return "absent";
+}
+
+/// A stage that keeps what it publishes.
+struct Recorded {
+  std::vector<Frame> frames;
+  std::vector<Settled> settled;
+  LiveOdometry odometry{Parameters(),
+                        {[this](const Frame& frame, const urban_nav_core::StereoPair&, double process_ms) {
+                           frames.push_back(frame);
+                           EXPECT_GE(process_ms, 0.0);
+                         },
+                         [this](const Settled& each) { settled.push_back(each); }}};
+
+  void play(RenderedSequence& sequence, int first, int count) {
+    for (int i = first; i < first + count; ++i) {
+      AssembledPair pair;
+      pair.pair = sequence.frame(i).pair();
+      odometry.process(pair);
+    }
+  }
+};
+
+TEST(LiveOdometry, EqualsTheFilterToTheLastBit) {
+  RenderedSequence sequence = liveRoom();
+  const auto camera = cameraOf(sequence.options().camera);
+  Recorded live;
+  live.odometry.begin(camera, Pose());
+  live.play(sequence, 0, 6);
+  live.odometry.end("test");
+  SwfVo filter(Parameters(), camera, Pose());
+  for (int i = 0; i < 6; ++i) {
+    const Frame& frame = filter.process(sequence.frame(i).pair());
+    ASSERT_LT(static_cast<std::size_t>(i), live.frames.size());
+    const Frame& same = live.frames[static_cast<std::size_t>(i)];
+    EXPECT_EQ(same.T_odom_base.pose.t(), frame.T_odom_base.pose.t());
+    EXPECT_EQ(same.T_odom_base.covariance, frame.T_odom_base.covariance);
+  }
+  EXPECT_EQ(live.settled.size(), filter.flush().size());
+}
+
+TEST(LiveOdometry, EachSessionStartsAtTheOrigin) {
+  RenderedSequence sequence = liveRoom();
+  Recorded live;
+  live.odometry.begin(cameraOf(sequence.options().camera), Pose());
+  live.play(sequence, 20, 3);
+  live.odometry.end("the calibration changed");
+  EXPECT_FALSE(live.odometry.isRunning());
+  live.odometry.begin(cameraOf(sequence.options().camera), Pose());
+  live.play(sequence, 0, 2);
+  EXPECT_EQ(live.odometry.sessions(), 2);
+  EXPECT_EQ(live.frames.back().frame, 1);
+  EXPECT_LT(live.frames[3].T_odom_base.pose.t().norm(), 1e-12) << "m; but for rounding";
+}
+
+TEST(LiveOdometry, ReportsWhyThereIsNoSession) {
+  RenderedSequence sequence = liveRoom();
+  Recorded live;
+  EXPECT_EQ(live.odometry.report().summary, "no images yet");
+  EXPECT_TRUE(live.odometry.report().is_warning);
+  live.odometry.setFault("stereo: no baseline");
+  EXPECT_EQ(live.odometry.report().summary, "stereo: no baseline");
+  live.odometry.begin(cameraOf(sequence.options().camera), Pose());
+  live.play(sequence, 0, 2);
+  const auto running = live.odometry.report();
+  EXPECT_EQ(running.summary, "");
+  EXPECT_FALSE(running.is_warning);
+  EXPECT_EQ(figureOf(running, "frames"), "2");
+  EXPECT_EQ(figureOf(running, "sessions"), "1");
+  live.odometry.end("reset");
+  EXPECT_EQ(live.odometry.report().summary, "no session (reset)");
+  live.odometry.end("again");
+  EXPECT_EQ(live.odometry.report().summary, "no session (reset)") << "there was none to end";
+}
+
+TEST(TracksPicture, DrawsTheImageAndItsFeatures) {
+  RenderedSequence sequence = liveRoom();
+  SwfVo filter(Parameters(), cameraOf(sequence.options().camera), Pose());
+  TracksPicture picture(32.0);
+  for (int i = 0; i < 2; ++i) {
+    const auto& pair = sequence.frame(i);
+    const cv::Mat& drawn = picture.draw(pair.left.view(), filter.process(pair.pair()));
+    ASSERT_EQ(drawn.type(), CV_8UC3);
+    EXPECT_EQ(drawn.cols, 320);
+    EXPECT_EQ(drawn.rows, 240);
+    std::vector<cv::Mat> channels;
+    cv::split(drawn, channels);
+    EXPECT_GT(cv::countNonZero(channels[0] != channels[2]), 100) << "something is coloured";
+  }
+  EXPECT_TRUE(picture.draw({}, Frame()).empty());
+}
+
+}  // namespace
+}  // namespace swf_vo
