@@ -1,44 +1,46 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose_graph/forces_state.hpp"
 
-#include "urban_nav_store/bytes.hpp"
+#include "urban_nav_core/io/archive.hpp"
+#include "urban_nav_core/types/error.hpp"
 
 namespace pose_graph {
 
-using urban_nav_store::appendInteger;
-using urban_nav_store::appendInteger32;
-using urban_nav_store::appendNumber;
+using urban_nav_core::Archive;
 
 namespace {
 
-constexpr std::uint32_t kVersion = 1;  // of these bytes
-constexpr std::size_t kBytes = 32;     // of a force: its stamp and three numbers
+constexpr const char* kForcesName = "specific forces of a session";
+constexpr std::uint32_t kForcesVersion = 2;
+/// Version 1 was not sealed: its number in four bytes, then the content as it is in version 2.
+constexpr std::string_view kForcesHead1("\1\0\0\0", 4);
+
+/// Returns the content of the bytes of any version. Throws DataError if they are damaged.
+std::string_view forcesContent(std::string_view bytes) {
+  if (bytes.substr(0, kForcesHead1.size()) == kForcesHead1) return bytes.substr(kForcesHead1.size());
+  return urban_nav_core::unseal(kForcesName, kForcesVersion, bytes);
+}
 
 }  // namespace
 
-std::string packForces(const std::vector<FeltForce>& forces) {
-  std::string bytes;
-  appendInteger32(bytes, kVersion);
-  appendInteger(bytes, forces.size());
-  for (const FeltForce& each : forces) {
-    appendInteger(bytes, static_cast<std::uint64_t>(each.stamp));
-    for (int i = 0; i < 3; ++i) appendNumber(bytes, each.force(i));
-  }
-  return bytes;
+void archive(Archive& archive, FeltForce& value) { archive(value.stamp, value.force); }
+
+std::string packForces(std::vector<FeltForce> forces) {
+  Archive writer;
+  writer(forces);
+  return urban_nav_core::seal(kForcesName, kForcesVersion, writer.take());
 }
 
 std::optional<std::vector<FeltForce>> unpackForces(std::string_view bytes) {
-  urban_nav_store::ByteReader reader(bytes);
-  if (reader.integer32() != kVersion) return std::nullopt;
-  const std::uint64_t count = reader.integer();
-  if (!reader.ok() || count > reader.left() / kBytes) return std::nullopt;
-  std::vector<FeltForce> forces(count);
-  for (FeltForce& each : forces) {
-    each.stamp = static_cast<urban_nav_core::StampNs>(reader.integer());
-    for (int i = 0; i < 3; ++i) each.force(i) = reader.number();
+  try {
+    Archive reader(forcesContent(bytes), kForcesName);
+    std::vector<FeltForce> forces;
+    reader(forces);
+    reader.finish();
+    return forces;
+  } catch (const urban_nav_core::DataError&) {
+    return std::nullopt;
   }
-  if (!reader.complete()) return std::nullopt;
-  return forces;
 }
 
 }  // namespace pose_graph

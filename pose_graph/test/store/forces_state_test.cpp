@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "urban_nav_core/testing/fuzz.hpp"
+#include <cstring>
+
+#include "urban_nav_store/digest.hpp"
 
 namespace pose_graph {
 namespace {
@@ -23,9 +25,47 @@ TEST(ForcesState, whatIsNotWholeIsNothing) {
   for (std::size_t size = 0; size < whole.size(); ++size) EXPECT_FALSE(unpackForces(whole.substr(0, size))) << size;
   EXPECT_FALSE(unpackForces(whole.substr(1)));
   EXPECT_FALSE(unpackForces(whole + "x"));
-  std::string many = whole;
+}
+
+/// The bytes of version 1: its number (4 bytes), how many forces (8), then stamp and three numbers of each (8 bytes each); little-endian.
+std::string versionOne() {
+  std::string bytes;
+  const auto integer = [&](std::uint64_t value, std::size_t size) {
+    for (std::size_t i = 0; i < size; ++i) bytes += static_cast<char>(value >> (8 * i) & 0xffU);
+  };
+  const auto number = [&](double value) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    integer(bits, 8);
+  };
+  integer(1, 4);
+  integer(2, 8);
+  integer(5, 8);
+  for (const double value : {0.5, -0.25, 9.75}) number(value);
+  integer(7, 8);
+  for (const double value : {-0.5, 1e-9, 9.5}) number(value);
+  return bytes;
+}
+
+TEST(ForcesState, version1IsRead) {
+  const std::string bytes = versionOne();
+  ASSERT_EQ(urban_nav_store::sha256(bytes), "3a27bd5842754495ee2b45b9671d56787bb2d3a26e083080e9424f4ff3e78d40")
+      << "as the program of that version wrote them";
+  const auto forces = unpackForces(bytes);
+  ASSERT_TRUE(forces);
+  ASSERT_EQ(forces->size(), 2u);
+  EXPECT_EQ((*forces)[0].stamp, 5);
+  EXPECT_EQ((*forces)[0].force, Eigen::Vector3d(0.5, -0.25, 9.75));
+  EXPECT_EQ((*forces)[1].stamp, 7);
+  EXPECT_EQ((*forces)[1].force, Eigen::Vector3d(-0.5, 1e-9, 9.5));
+  for (std::size_t size = 0; size < bytes.size(); ++size) EXPECT_FALSE(unpackForces(bytes.substr(0, size))) << size;
+  EXPECT_FALSE(unpackForces(bytes + "x"));
+  std::string many = bytes;
   many[10] = '\x7f';  // of a number of forces that no memory holds
   EXPECT_FALSE(unpackForces(many));
+  std::string newer = bytes;
+  newer[0] = '\2';
+  EXPECT_FALSE(unpackForces(newer));
 }
 
 }  // namespace

@@ -105,10 +105,11 @@ std::string seal(std::string_view what, std::uint32_t version, std::string_view 
   return sealed + checksum(sealed);
 }
 
-std::string_view unseal(std::string_view what, std::uint32_t version, std::string_view sealed) {
+bool isSealed(std::string_view bytes) { return bytes.substr(0, kMagicSize) == kMagic; }
+
+UnsealedState unseal(std::string_view what, std::uint32_t oldest, std::uint32_t newest, std::string_view sealed) {
   const std::string where = "state of " + std::string(what);
-  if (sealed.substr(0, kMagicSize) != kMagic)
-    throw DataError(where, "these bytes are no state", "the bytes as they were written");
+  if (!isSealed(sealed)) throw DataError(where, "these bytes are no state", "the bytes as they were written");
   if (sealed.size() < kMagicSize + kChecksumSize ||
       checksum(sealed.substr(0, sealed.size() - kChecksumSize)) != sealed.substr(sealed.size() - kChecksumSize))
     throw DataError(where, "is damaged: its checksum does not agree", "the bytes as they were written");
@@ -118,11 +119,16 @@ std::string_view unseal(std::string_view what, std::uint32_t version, std::strin
   std::uint32_t found = 0;
   head(name, found);
   if (name != what) throw DataError(where, "is the state of " + name, "one of " + std::string(what));
-  if (found != version)
-    throw DataError(where, "is of version " + std::to_string(found), "version " + std::to_string(version));
+  if (found < oldest || found > newest)
+    throw DataError(where, "is of version " + std::to_string(found),
+                    "version " + (oldest < newest ? std::to_string(oldest) + "..." : "") + std::to_string(newest));
   Archive again;
   again(name, found);
-  return body.substr(again.take().size());
+  return {found, body.substr(again.take().size())};
+}
+
+std::string_view unseal(std::string_view what, std::uint32_t version, std::string_view sealed) {
+  return unseal(what, version, version, sealed).content;
 }
 
 }  // namespace urban_nav_core

@@ -130,6 +130,20 @@ TEST(Archive, SealsAgainstDamage) {
   }
 }
 
+TEST(Archive, UnsealsARangeOfVersions) {
+  const std::string sealed = seal("thing", 3, "content");
+  for (const auto& [oldest, newest] : {std::pair<std::uint32_t, std::uint32_t>{1, 3}, {3, 5}, {3, 3}}) {
+    const UnsealedState state = unseal("thing", oldest, newest, sealed);
+    EXPECT_EQ(state.version, 3U);
+    EXPECT_EQ(state.content, "content");
+  }
+  EXPECT_EQ(errorOf([&] { unseal("thing", 1, 2, sealed); }), "state of thing: is of version 3: allowed version 1...2");
+  EXPECT_EQ(errorOf([&] { unseal("thing", 4, 6, sealed); }), "state of thing: is of version 3: allowed version 4...6");
+  EXPECT_TRUE(isSealed(sealed));
+  EXPECT_FALSE(isSealed(sealed.substr(1)));
+  EXPECT_FALSE(isSealed(""));
+}
+
 TEST(Archive, Fuzzed) {
   expectSurvives(testing::fuzzText({written(someThing()), written(Thing())},
                                    [](const std::string& bytes) { EXPECT_TRUE(written(read(bytes)) == bytes); }));

@@ -7,12 +7,21 @@
 
 #include "stages/vo/vo_stage.hpp"
 
+namespace urban_nav_core {
+class Archive;
+}
+
 namespace urban_nav {
 
-/// All that a finished VoRun holds but its camera, which comes with the input: bit by bit, so that files made of it afterwards
-/// have the bytes of a run that was not cut off.
-std::string packVoRun(const VoRun& run);
-/// Empty where the bytes are no such thing.
+/// Read or write parts of a state (urban_nav_core/io/archive.hpp).
+void archive(urban_nav_core::Archive& archive, VoRow& row);
+void archive(urban_nav_core::Archive& archive, VoPicture& picture);
+void archive(urban_nav_core::Archive& archive, VoLandmark& landmark);
+
+/// Returns a finished VoRun as the bytes of a stored state, exact to the last bit. Leaves out the camera and the name of the input, which
+/// the input supplies again.
+std::string packVoRun(VoRun run);
+/// Inverse of packVoRun, for the bytes of version 2 too. Returns nullopt for damaged bytes and for those of other versions.
 std::optional<VoRun> unpackVoRun(std::string_view bytes);
 
 }  // namespace urban_nav

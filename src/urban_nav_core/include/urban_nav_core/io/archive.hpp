@@ -145,9 +145,21 @@ class Archive {
   std::string written_;
 };
 
-/// The bytes of a state with what they are, their version and a checksum about them.
+/// Returns the bytes of a state with its name, its version and a checksum.
 std::string seal(std::string_view what, std::uint32_t version, std::string_view content);
-/// The content again. DataError that says what is wrong where the bytes are something else, of another version, or damaged.
+
+/// A state whose name and checksum are verified.
+struct UnsealedState {
+  std::uint32_t version = 0;
+  std::string_view content;  ///< a part of the bytes given to unseal
+};
+/// Reads a sealed state of any version from `oldest` to `newest`. Throws DataError that names the fault if the bytes are damaged, belong
+/// to another state or have another version.
+UnsealedState unseal(std::string_view what, std::uint32_t oldest, std::uint32_t newest, std::string_view sealed);
+/// Returns the content of a sealed state of exactly this version. Throws DataError if the bytes are damaged, belong to another state or have
+/// another version.
 std::string_view unseal(std::string_view what, std::uint32_t version, std::string_view sealed);
+/// Returns whether the bytes begin as those of seal() do: states from before it have formats of their own.
+bool isSealed(std::string_view bytes);
 
 }  // namespace urban_nav_core
