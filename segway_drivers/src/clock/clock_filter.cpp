@@ -95,6 +95,16 @@ ClockEstimate ClockFilter::add(double device_s, TimeNs arrival) {
   return estimate;
 }
 
+ClockEstimate ClockFilter::estimate(double device_s) const {
+  ClockEstimate estimate;
+  estimate.epoch = epoch_;
+  estimate.sigma = sigma_;
+  if (!started_ || !offset_known_ || !published_) return estimate;
+  const double step = device_s - origin_x_ - published_x_;
+  estimate.time = origin_y_ + static_cast<TimeNs>(std::llround(1e9 * (*published_ + step * (1.0 + skew_))));
+  return estimate;
+}
+
 bool ClockFilter::isDisproved(double residual, double age) const {
   return age > acquisition && residual < -std::max(disproof, (age < 20.0 ? 8.0 : 5.0) * sigma_);
 }

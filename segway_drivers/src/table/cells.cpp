@@ -19,8 +19,4 @@ void appendCell(std::string& cells, float value) {
   appendCell(cells, std::isfinite(value) ? urban_nav_core::printNumber(value) : std::string());
 }
 
-void appendCell(std::string& cells, std::optional<double> value) {
-  appendCell(cells, value && std::isfinite(*value) ? urban_nav_core::printNumber(*value) : std::string());
-}
-
 }  // namespace segway_drivers

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "segway_drivers/table/encode_command.hpp"
 
+#include <array>
 #include <functional>
 
+#include "segway_drivers/gps/nmea.hpp"
 #include "segway_drivers/lms291/commands.hpp"
+#include "segway_drivers/segway_rmp/units.hpp"
+#include "segway_drivers/xsens_mti/message.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/types/error.hpp"
 
@@ -47,10 +51,86 @@ std::vector<CommandEncoder> lmsEncoders() {
       plain("reset", lmsResetCommand)};
 }
 
+std::int64_t integerArgument(const std::string& name, const std::string& text, std::int64_t high) {
+  const bool hexadecimal = text.size() > 2 && text[0] == '0' && (text[1] == 'x' || text[1] == 'X');
+  std::optional<std::int64_t> value;
+  if (hexadecimal && text.size() <= 10) {
+    const auto bytes = parseHex(std::string(10 - text.size(), '0') + text.substr(2));
+    if (bytes) value = bigWord32(bytes->data());
+  } else {
+    value = urban_nav_core::parseInteger(text);
+  }
+  if (!value || *value < 0 || *value > high) throw UserError(name, text, "0..." + std::to_string(high) + ", or 0x...");
+  return *value;
+}
+
+std::vector<CommandEncoder> mtiEncoders() {
+  const auto plain = [](const std::string& name, Bytes (*command)()) {
+    return CommandEncoder{"xsens_mti", name, "", 0, [command](const Words&) { return command(); }};
+  };
+  return {plain("go_to_config", mtiGoToConfigCommand),
+          plain("go_to_measurement", mtiGoToMeasurementCommand),
+          plain("device_id", mtiDeviceIdCommand),
+          {"xsens_mti", "output_mode", " WORD", 1,
+           [](const Words& words) {
+             return mtiOutputModeCommand(static_cast<std::uint16_t>(integerArgument("output_mode", words[0], 0xFFFF)));
+           }},
+          {"xsens_mti", "output_settings", " WORD", 1,
+           [](const Words& words) {
+             return mtiOutputSettingsCommand(
+                 static_cast<std::uint32_t>(integerArgument("output_settings", words[0], 0xFFFFFFFF)));
+           }},
+          {"xsens_mti", "period", " COUNTS", 1,
+           [](const Words& words) {
+             return mtiPeriodCommand(static_cast<std::uint16_t>(integerArgument("period", words[0], 0xFFFF)));
+           }},
+          plain("reset", mtiResetCommand)};
+}
+
+Bytes encodeRmpVelocity(const Words& words) {
+  const auto velocity = urban_nav_core::parseNumber(words[0]), turn_rate = urban_nav_core::parseNumber(words[1]);
+  if (!velocity || !turn_rate) throw UserError("velocity", words[0] + " " + words[1], "two numbers, m/s and rad/s");
+  return makeRmpPacket(makeRmpVelocity(*velocity, *turn_rate));
+}
+
+Bytes encodeRmpMode(const Words& words) {
+  if (words[0] != "tractor" && words[0] != "balance") throw UserError("mode", words[0], "tractor, balance");
+  const std::uint16_t mode = words[0] == "tractor" ? 1 : 2;
+  return makeRmpPacket(makeRmpConfiguration(makeRmpVelocity(0, 0), RmpConfiguration::OperatingMode, mode));
+}
+
+/// One packet for each integrator: together they are not accepted.
+Bytes encodeRmpReset(const Words&) {
+  Bytes all;
+  for (const std::uint16_t integrator : std::array<std::uint16_t, 4>{1, 2, 4, 8}) {
+    const Bytes packet =
+        makeRmpPacket(makeRmpConfiguration(makeRmpVelocity(0, 0), RmpConfiguration::ResetIntegrators, integrator));
+    all.insert(all.end(), packet.begin(), packet.end());
+  }
+  return all;
+}
+
+std::vector<CommandEncoder> rmpEncoders() {
+  return {{"segway_rmp", "velocity", " MPS RADPS", 2, encodeRmpVelocity},
+          {"segway_rmp", "mode", " tractor|balance", 1, encodeRmpMode},
+          {"segway_rmp", "reset_integrators", "", 0, encodeRmpReset}};
+}
+
+std::vector<CommandEncoder> gpsEncoders() {
+  return {{"gps", "garmin_off", "", 0, [](const Words&) { return makeNmeaSentence("PGRMO,,2"); }},
+          {"gps", "garmin_on", " SENTENCE", 1, [](const Words& words) {
+             const bool plain =
+                 words[0].size() == 5 && words[0].find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ") == std::string::npos;
+             if (!plain) throw UserError("garmin_on", words[0], "a sentence such as GPGGA");
+             return makeNmeaSentence("PGRMO," + words[0] + ",1");
+           }}};
+}
+
 const std::vector<CommandEncoder>& commandEncoders() {
   static const std::vector<CommandEncoder> encoders = [] {
     std::vector<CommandEncoder> all;
-    for (const auto& of_kind : {lmsEncoders()}) all.insert(all.end(), of_kind.begin(), of_kind.end());
+    for (const auto& of_kind : {lmsEncoders(), mtiEncoders(), rmpEncoders(), gpsEncoders()})
+      all.insert(all.end(), of_kind.begin(), of_kind.end());
     return all;
   }();
   return encoders;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "segway_drivers/lms291/stream.hpp"
 #include "table/rows.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 

@@ -3,8 +3,11 @@
 
 #include <string>
 
-#include "segway_drivers/lms291/stream.hpp"
+#include "segway_drivers/gps/fix.hpp"
+#include "segway_drivers/lms291/scan.hpp"
+#include "segway_drivers/segway_rmp/can_frame.hpp"
 #include "segway_drivers/table/row_decoder.hpp"
+#include "segway_drivers/xsens_mti/sample.hpp"
 
 namespace segway_drivers {
 
@@ -12,12 +15,21 @@ namespace segway_drivers {
 void appendCell(std::string& cells, const std::string& text);
 void appendCell(std::string& cells, double value);
 void appendCell(std::string& cells, float value);
-void appendCell(std::string& cells, std::optional<double> value);
 
 /// Cells of one message, in the order of rowColumns().
 std::string lmsCells(const LmsScan& scan);
+std::string mtiCells(const MtiSample& sample);
+std::string rmpCells(const CanFrame& frame);
+std::string gpsCells(const GpsFix& fix);
 
 /// Decoders of rowColumns()' kinds.
 std::unique_ptr<RowDecoder> makeLmsRows(const Parameters& parameters, RowDecoder::Sink sink);
+std::unique_ptr<RowDecoder> makeMtiRows(const Parameters& parameters, RowDecoder::Sink sink);
+std::unique_ptr<RowDecoder> makeRmpRows(const Parameters& parameters, RowDecoder::Sink sink);
+std::unique_ptr<RowDecoder> makeCandumpRows(const Parameters& parameters, RowDecoder::Sink sink);
+std::unique_ptr<RowDecoder> makeGpsRows(const Parameters& parameters, RowDecoder::Sink sink);
+std::unique_ptr<RowDecoder> makeBb2Rows(const Parameters& parameters, const ImageFolder& images, RowDecoder::Sink sink);
+std::unique_ptr<RowDecoder> makeLadybugRows(const Parameters& parameters, const ImageFolder& images,
+                                            RowDecoder::Sink sink);
 
 }  // namespace segway_drivers

@@ -40,6 +40,8 @@ class ClockFilter {
   /// Adds a device time, s, and its arrival, ns, in order of arrival. A repeated device time gives its estimate and is
   /// not used.
   ClockEstimate add(double device_s, TimeNs arrival);
+  /// Estimate for a device time on the present line, without adding it; not slewed. Empty before the first estimate.
+  ClockEstimate estimate(double device_s) const;
   /// Begins a new epoch in which the offset is unknown, as after a restart of the device.
   void restart();
 

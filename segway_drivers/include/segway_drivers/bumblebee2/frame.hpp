@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "segway_drivers/stream/bytes.hpp"
+#include "segway_drivers/stream/frame_stream.hpp"
+
+namespace segway_drivers {
+
+constexpr int bb2_width = 640, bb2_height = 480;
+constexpr std::size_t bb2_frame_size = 2UL * bb2_width * bb2_height;  // bytes
+
+/// Where the embedded image information lies.
+enum class Bb2Embedding {
+  Raw,     ///< in the first raw bytes
+  Imager,  ///< in the first pixels of each imager
+};
+
+/// One picture of both imagers.
+struct Bb2Frame {
+  cv::Mat left, right;                  ///< 8 bits, as the imagers sent them (a mosaic for colour cameras)
+  std::optional<double> bus_time;       ///< s modulo 128
+  std::uint32_t sequence = 0;           ///< frame counter
+  std::uint16_t gain = 0, shutter = 0;  ///< counts
+};
+
+/// Separates the imagers and reads time, gain, shutter and frame counter (mask 0x47); their pixels are replaced by the
+/// row two below. `swap`: even bytes belong to the left imager. Requires bb2_frame_size bytes.
+Bb2Frame splitBb2Frame(ByteView raw, bool swap, Bb2Embedding embedding);
+
+/// Framing rule of recorded raw frames, which have a fixed size.
+FrameProbe probeBb2Frame(ByteView bytes);
+
+/// Median disparity of matched corners, px: positive if left and right are not exchanged. Returns nullopt if fewer than
+/// 20 corners match.
+std::optional<double> medianDisparity(const cv::Mat& left, const cv::Mat& right);
+
+}  // namespace segway_drivers

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+
+namespace segway_drivers {
+
+/// Colours of a 2x2 tile row by row; None is a monochrome imager.
+enum class MosaicPattern { None, Rggb, Gbrg, Grbg, Bggr };
+
+/// "RGGB" ... "YYYY". Returns nullopt for other text.
+std::optional<MosaicPattern> parseMosaicPattern(const std::string& text);
+
+/// BGR image of a mosaic of 8 bits; the image itself if the pattern is None.
+cv::Mat demosaic(const cv::Mat& mosaic, MosaicPattern pattern);
+
+/// BGR image of half the size from the four planes of a mosaic, in the order of the tile: no interpolation, greens
+/// averaged.
+cv::Mat combinePlanes(const cv::Mat planes[4], MosaicPattern pattern);
+
+}  // namespace segway_drivers

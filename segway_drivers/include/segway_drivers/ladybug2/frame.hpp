@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "segway_drivers/camera/mosaic.hpp"
+#include "segway_drivers/stream/bytes.hpp"
+#include "segway_drivers/stream/frame_stream.hpp"
+
+namespace segway_drivers {
+
+constexpr std::size_t ladybug_cameras = 6, ladybug_planes = 4;
+constexpr std::size_t ladybug_max_frame = 2'022'400;  // bytes, the largest container
+
+/// Header of a frame and its directory of grey JPEGs. Views into the bytes of the frame.
+struct LadybugFrame {
+  std::optional<double> bus_time;  ///< s modulo 128
+  std::uint32_t sequence = 0;      ///< frames since the head was switched on
+  std::optional<MosaicPattern> pattern;
+  std::array<std::array<ByteView, ladybug_planes>, ladybug_cameras> planes;  ///< empty: bad or missing
+  int bad_channels = 0;
+};
+
+/// Reads a frame as it arrives from the bus. `backward`: the directory lists camera 5 first. Returns nullopt without
+/// the header's mark, or if the size it states exceeds the bytes. A bad channel costs nothing but itself.
+std::optional<LadybugFrame> splitLadybugFrame(ByteView bytes, bool backward);
+
+/// Framing rule of containers one after another; .pgr files are found by it too, since their frames have the same form.
+FrameProbe probeLadybugFrame(ByteView bytes);
+
+/// Upright colour image of half resolution (384x512). Returns an empty image if a channel of the camera is bad or
+/// cannot be decoded.
+cv::Mat decodeLadybugCamera(const LadybugFrame& frame, std::size_t camera, MosaicPattern pattern);
+
+}  // namespace segway_drivers

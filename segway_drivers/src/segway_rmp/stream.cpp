@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "segway_drivers/segway_rmp/stream.hpp"
+
+#include <cmath>
+
+#include "segway_drivers/segway_rmp/units.hpp"
+
+namespace segway_drivers {
+
+namespace {
+
+constexpr double rmp_period = 0.01;  // s
+constexpr double rmp_usb_baud = 460800.0;
+
+ClockOptions rmpClockOptions() {
+  ClockOptions options;
+  options.period = rmp_period;
+  options.tolerance = 200e-6;
+  options.hard_tolerance = 1000e-6;
+  return options;
+}
+
+}  // namespace
+
+RmpStream::RmpStream(double latency)
+    : latency_(latency),
+      packets_(rmp_packet_size, probeRmpPacket),
+      sink_([this](const StreamFrame& packet) {
+        const auto frame = splitRmpPacket(packet.bytes);
+        if (frame) add(*frame, packet.offset, packet.arrival);
+      }),
+      clock_(rmpClockOptions()),
+      counter_(65536, rmp_period) {
+  packets_.setBaud(rmp_usb_baud);
+}
+
+void RmpStream::add(const CanFrame& frame, std::uint64_t offset, TimeNs arrival) {
+  ++frames_;
+  if (!decodeRmpValues(frame)) {
+    ++unexpected_;
+    return;
+  }
+  placeCycle(frame, arrival);
+  if (on_frame) on_frame({frame, offset, arrival, cycle_stamp_});
+}
+
+void RmpStream::placeCycle(const CanFrame& frame, TimeNs arrival) {
+  if (arrival == 0) return;
+  const auto latency = static_cast<TimeNs>(std::llround(1e9 * latency_));
+  if (frame.id == 0x400) {
+    cycle_arrival_ = arrival;
+    const ClockEstimate estimate = clock_.estimate(cycle_time_ + rmp_period);
+    cycle_stamp_.reset();
+    if (estimate.time) cycle_stamp_ = *estimate.time - latency;
+  }
+  if (frame.id != 0x402) return;
+  const TimeNs begin = cycle_arrival_.value_or(arrival);
+  cycle_arrival_.reset();
+  const UnwrappedCount position = counter_.add(frame.word(3), begin);
+  gaps_ += position.missing;
+  if (position.restarted) clock_.restart();
+  if (position.repeated) return;
+  cycle_time_ = static_cast<double>(position.count) * rmp_period;
+  const ClockEstimate estimate = clock_.add(cycle_time_, begin);
+  cycle_stamp_.reset();
+  if (estimate.time) cycle_stamp_ = *estimate.time - latency;
+}
+
+DeviceCounters RmpStream::counters() const {
+  DeviceCounters counters = packets_.counters();
+  if (counters.frames == 0) counters.frames = frames_;
+  counters.gaps = gaps_;
+  counters.unexpected = unexpected_;
+  counters.epochs = clock_.epoch();
+  return counters;
+}
+
+}  // namespace segway_drivers
