@@ -5,7 +5,7 @@
 #include "command_line/console.hpp"
 #include "command_line/json.hpp"
 #include "commands/commands.hpp"
-#include "segway_drivers/clock/clock_filter.hpp"
+#include "segway_drivers/driver/run_device.hpp"
 #include "segway_drivers/parameters.hpp"
 #include "segway_drivers/table/decode_file.hpp"
 #include "segway_drivers/table/encode_command.hpp"
@@ -112,9 +112,36 @@ int runStamp(const Arguments& arguments, Console& console) {
   return 0;
 }
 
+int runRun(const Arguments& arguments, Console& console) {
+  const auto words = deviceWords(arguments, 1, false, "run KIND --port PATH --duration S -o OUT.csv");
+  const segway_drivers::Parameters parameters = loadDriverParameters(arguments).parameters;
+  segway_drivers::RunJob job;
+  job.kind = words[0];
+  segway_drivers::rowColumns(job.kind);  // refuses an unknown kind
+  job.port = requiredValue(arguments, "port");
+  requiredValue(arguments, "duration");
+  job.duration = arguments.number("duration", 0.0, 0.0, 1e7);
+  job.output = requiredValue(arguments, "output");
+  job.drive = arguments.get("drive");
+  const auto report = [&](const segway_drivers::DriverEvent& event) {
+    if (event.warning) console.warn(job.kind + ": " + event.text);
+    else console.info(job.kind + ": " + event.text);
+  };
+  const segway_drivers::RunResult result = segway_drivers::runDevice(job, parameters, report);
+  if (arguments.has("json")) {
+    Json json = jsonOfCounters(result.counters, result.state);
+    json["identity"] = result.identity;
+    json["offset_s"] = result.offset_s;
+    json["skew_ppm"] = result.skew_ppm;
+    json["sigma_us"] = result.sigma_us;
+    urban_nav_core::writeAtomically(arguments.get("json"), json.print());
+  }
+  return 0;
+}
+
 const std::map<std::string, std::function<int(const Arguments&, Console&)>>& deviceActions() {
   static const std::map<std::string, std::function<int(const Arguments&, Console&)>> actions = {
-      {"decode", runDecode}, {"encode", runEncode}, {"stamp", runStamp}};
+      {"decode", runDecode}, {"encode", runEncode}, {"run", runRun}, {"stamp", runStamp}};
   return actions;
 }
 
@@ -129,6 +156,7 @@ std::string deviceHelp(const Arguments& arguments) {
   return "actions:\n"
          "  decode KIND FILE -o OUT.csv          bytes as a device sent them, as a table\n"
          "  encode KIND COMMAND [ARGUMENT...]    the bytes of a command, in hexadecimal\n"
+         "  run KIND --port PATH --duration S -o OUT.csv  a device at a serial port, or gpsd at HOST:PORT\n"
          "  stamp IN.csv -o OUT.csv              device_s,arrival_ns through the clock filter\n"
          "kinds: " +
          kinds + "\n\nparameters (--config FILE, --set segway_drivers.KEY=VALUE):\n" +
@@ -155,6 +183,9 @@ Command deviceCommand() {
        false,
        {}},
       {"--arrivals", "FILE", "decode: offset,arrival_ns of each read; adds stamps", false, false, {}},
+      {"--port", "PATH", "run: serial port, best by /dev/serial/by-id; HOST:PORT of gpsd", false, false, {}},
+      {"--duration", "S", "run: s to run", false, false, {}},
+      {"--drive", "FILE", "run segway_rmp: t_s,linear_mps,angular_radps since the port was opened", false, false, {}},
       {"--period", "S", "stamp: nominal spacing of the device times, s (default 0.01)", false, false, {}},
       {"--tolerance-ppm", "P", "stamp: largest skew of the device clock, ppm (default 200)", false, false, {}},
       {"--latency-ms", "L", "stamp: delay to subtract, ms (default 0)", false, false, {}},

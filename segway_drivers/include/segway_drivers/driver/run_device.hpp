@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "segway_drivers/driver/driver_core.hpp"
+#include "segway_drivers/parameters.hpp"
+#include "segway_drivers/segway_rmp/command_guard.hpp"
+#include "segway_drivers/transport/port.hpp"
+
+namespace segway_drivers {
+
+/// Opens a device: a path, or HOST:PORT for a TCP server.
+std::unique_ptr<Port> openPort(const std::string& name, std::string& error);
+
+/// Drives a DriverCore from a port: reads, ticks, writes, opens again with growing pauses. One call of step() takes at
+/// most `wait`. Not thread-safe.
+class DriverLoop {
+ public:
+  DriverLoop(DriverCore& core, std::string port);
+
+  /// Opens the port for the first time. Throws DataError naming it if that fails.
+  void open();
+  /// Waits up to `wait` ns for bytes and does what is due.
+  void step(TimeNs wait);
+  bool isOpen() const { return port_ != nullptr; }
+  const std::string& remark() const { return remark_; }
+
+ private:
+  void act();
+  void lose(TimeNs now);
+  void tryOpen(TimeNs now);
+
+  DriverCore& core_;
+  std::string name_, remark_;
+  std::unique_ptr<Port> port_;
+  TimeNs pause_ = 0, next_try_ = 0;
+};
+
+/// A velocity wish of a drive file.
+struct DriveWish {
+  TimeNs time = 0;  ///< ns since the port was opened
+  RmpCommand wish;
+};
+/// Reads `t_s,linear_mps,angular_radps`. Throws UserError with file and line.
+std::vector<DriveWish> readDriveFile(const std::string& path);
+
+struct RunJob {
+  std::string kind;  ///< lms291, xsens_mti, segway_rmp, gps
+  std::string port;
+  double duration = 0;  ///< s
+  std::string output;   ///< CSV as of decode
+  std::string drive;    ///< file of wishes for segway_rmp, or empty
+};
+
+struct RunResult {
+  DeviceCounters counters;
+  std::string state, identity;
+  double offset_s = 0.0, skew_ppm = 0.0, sigma_us = 0.0;
+};
+
+/// Runs a driver without ROS and writes its messages, stamped in real time; messages before the first estimate of the
+/// clock are left out. `report` receives events. Throws UserError, and DataError if the port is missing at the start.
+RunResult runDevice(const RunJob& job, const Parameters& parameters,
+                    const std::function<void(const DriverEvent&)>& report);
+
+}  // namespace segway_drivers

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "segway_drivers/segway_rmp/driver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "segway_drivers/segway_rmp/units.hpp"
+
+namespace segway_drivers {
+
+namespace {
+
+constexpr TimeNs rmp_command_period = 20'000'000, rmp_stalled = 200'000'000, rmp_lost = 1'000'000'000;  // ns
+constexpr TimeNs rmp_unheeded = 500'000'000;
+constexpr int rmp_baud = 460800;
+
+}  // namespace
+
+RmpDriver::RmpDriver(const Options& options) : stream_(options.latency), guard_(options.limits) {
+  stream_.on_frame = [this](const RmpStampedFrame& frame) { takeFrame(frame); };
+}
+
+void RmpDriver::begin(TimeNs now) {
+  setBaud(rmp_baud);
+  stream_.clear();
+  odometry_.restart();
+  now_ = last_frame_ = now;
+  next_command_ = now;
+  setState(DriverState::Identifying);
+}
+
+void RmpDriver::feed(ByteView chunk, const ChunkArrival& arrival) {
+  now_ = std::max(now_, arrival.time);
+  stream_.feed(chunk, arrival);
+}
+
+void RmpDriver::takeFrame(const RmpStampedFrame& frame) {
+  last_frame_ = now_;
+  guard_.reportBase(now_);
+  setState(DriverState::Streaming);
+  if (frame.frame.id == 0x404) odometry_.add(frame.frame, frame.arrival);
+  if (frame.frame.id == 0x406 && identity().empty()) setIdentity("RMP, mode " + std::to_string(frame.frame.word(0)));
+  if (frame.frame.id == 0x407) {
+    const double in_force = *(*decodeRmpValues(frame.frame))[0];
+    if (std::abs(commanded_) < 0.05 || in_force != 0.0) unheeded_since_ = now_;
+    if (now_ - unheeded_since_ > rmp_unheeded) {
+      report(true, "commands are not taken: was the base switched on before the computer?");
+      unheeded_since_ = now_;
+    }
+  }
+  if (on_frame) on_frame(frame);
+}
+
+void RmpDriver::tick(TimeNs now) {
+  now_ = now;
+  stream_.expire(now);
+  if (now >= next_command_) {
+    const RmpCommand command = guard_.step(now);
+    commanded_ = command.velocity;
+    write(makeRmpPacket(makeRmpVelocity(command.velocity, command.turn_rate)));
+    next_command_ = std::max(next_command_ + rmp_command_period, now - rmp_command_period);
+  }
+  const TimeNs silent = now - last_frame_;
+  if (silent > rmp_stalled && state() == DriverState::Streaming) setState(DriverState::Stalled, "no message for 0.2 s");
+  if (silent > rmp_lost && state() == DriverState::Stalled) odometry_.restart();
+}
+
+}  // namespace segway_drivers
