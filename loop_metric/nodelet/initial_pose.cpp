@@ -25,14 +25,14 @@ std::string withoutSlash(const std::string& frame) { return frame.rfind('/', 0) 
 
 }  // namespace
 
-urban_nav_core::UncertainPose toBelief(const geometry_msgs::PoseWithCovarianceStamped& message,
-                                       const std::string& map_frame, const std::string& where,
-                                       const std::vector<urban_nav_store::StoredTrajectory>& map) {
+urban_nav_core::PoseWithCovariance toBelief(const geometry_msgs::PoseWithCovarianceStamped& message,
+                                            const std::string& map_frame, const std::string& where,
+                                            const std::vector<urban_nav_store::StoredTrajectory>& map) {
   if (withoutSlash(message.header.frame_id) != withoutSlash(map_frame))
     throw UserError(where, "frame_id `" + message.header.frame_id + "`", map_frame);
   const auto pose = urban_nav_ros::toPose(message.pose.pose);
   if (!pose) throw UserError(where, "the pose is not finite, or its quaternion is none", "");
-  urban_nav_core::UncertainPose belief{*pose, urban_nav_ros::toMatrix6(message.pose.covariance)};
+  urban_nav_core::PoseWithCovariance belief{*pose, urban_nav_ros::toMatrix6(message.pose.covariance)};
   Matrix6d& covariance = belief.covariance;
   const auto values = covariance.allFinite() ? urban_nav_core::symmetricEigenvalues(covariance) : std::nullopt;
   const double scale = values ? std::max(1.0, covariance.cwiseAbs().maxCoeff()) : 1.0;

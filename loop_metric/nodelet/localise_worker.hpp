@@ -31,7 +31,7 @@ class LocaliseWorker {
   /// What somebody believes (initialpose). Stamp 0, or one that odometry has not come to: now.
   struct Belief {
     urban_nav_core::StampNs stamp = 0;
-    urban_nav_core::UncertainPose T_map_base;
+    urban_nav_core::PoseWithCovariance T_map_base;
   };
   /// Where the robot is, is not known any more.
   struct Reset {};

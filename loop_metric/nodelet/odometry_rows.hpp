@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "urban_nav_core/types/uncertain.hpp"
+#include "urban_nav_core/types/pose_with_covariance.hpp"
 #include "urban_nav_store/store.hpp"
 
 namespace loop_metric {

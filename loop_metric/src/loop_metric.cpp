@@ -21,8 +21,8 @@ using urban_nav_core::Constraint;
 using urban_nav_core::Matrix6d;
 using urban_nav_core::MetricClosure;
 using urban_nav_core::Pose;
+using urban_nav_core::PoseWithCovariance;
 using urban_nav_core::TopologicalClosure;
-using urban_nav_core::UncertainPose;
 
 namespace {
 
@@ -40,8 +40,8 @@ Constraint atMoments(const Constraint& views, const NearbyView& a, const NearbyV
   const auto covariance = urban_nav_core::invertPositiveDefinite(views.information);
   made.T_a_b = a.T_moment_view.pose * views.T_a_b * b.T_moment_view.pose.inverse();
   if (!covariance) return made;
-  const UncertainPose moments = urban_nav_core::compose(
-      urban_nav_core::compose(a.T_moment_view, UncertainPose{views.T_a_b, Matrix6d(*covariance)}),
+  const PoseWithCovariance moments = urban_nav_core::compose(
+      urban_nav_core::compose(a.T_moment_view, PoseWithCovariance{views.T_a_b, Matrix6d(*covariance)}),
       urban_nav_core::invert(b.T_moment_view));
   made.T_a_b = moments.pose;
   if (const auto information = urban_nav_core::invertPositiveDefinite(moments.covariance))
@@ -98,7 +98,7 @@ class Measuring {
 
   bool byStereo() {
     const double way = parameters_.view_way;
-    std::optional<UncertainPose> T_a_b;
+    std::optional<PoseWithCovariance> T_a_b;
     if (gate_) T_a_b = gate_->T_a_b();
     for (const ViewPair& pair :
          pairsOf(surroundings_.views(closure_.metric.a, way), surroundings_.views(closure_.metric.b, way), T_a_b, way,

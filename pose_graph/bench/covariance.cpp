@@ -49,8 +49,8 @@ Nees neesOf(const SimulatedGraph& graph, const Problem<3>& problem, const std::v
   Nees made{};
   for (std::size_t k = 0; k < kPlaces; ++k) {
     const std::size_t pose = (k + 1) * (poses.size() - 1) / kPlaces;
-    const urban_nav_core::UncertainPose estimate{poseOf(poses[0].inverse() * poses[pose]),
-                                                 marginals.ofPose(static_cast<int>(pose)).covariance};
+    const urban_nav_core::PoseWithCovariance estimate{poseOf(poses[0].inverse() * poses[pose]),
+                                                      marginals.ofPose(static_cast<int>(pose)).covariance};
     made[k] = urban_nav_core::nees(trueRelative(graph, 0, pose), estimate).value();
   }
   return made;

@@ -22,7 +22,7 @@ namespace {
 using namespace swf_vo::bench;
 using swf_vo::Parameters;
 using urban_nav_core::Pose;
-using urban_nav_core::UncertainPose;
+using urban_nav_core::PoseWithCovariance;
 using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
 
@@ -32,7 +32,7 @@ const std::array<const char*, 3> motions = {"wander", "turns", "loop"};
 struct Mean {
   double sum = 0.0, translation = 0.0, rotation = 0.0;
   int count = 0;
-  void add(const Pose& truth, const UncertainPose& estimate) {
+  void add(const Pose& truth, const PoseWithCovariance& estimate) {
     const auto all = urban_nav_core::nees(truth, estimate);
     if (!all) return;
     sum += *all;
@@ -55,14 +55,14 @@ struct Score {
 };
 
 // Frames 50 to 150 from the settled relative poses alone: by their drifts and the two ends (RelativePose::drift_covariance).
-UncertainPose composed(const Run& run) {
+PoseWithCovariance composed(const Run& run) {
   constexpr std::size_t first = 51, last = 150;
-  UncertainPose sum;
+  PoseWithCovariance sum;
   sum.covariance.setZero();
   for (std::size_t i = first; i <= last; ++i) {
     urban_nav_core::Matrix6d covariance = run.drift_covariance[i];
     if (i == first || i == last) covariance += 0.5 * run.relative_covariance[i];
-    sum = compose(sum, UncertainPose{run.settled[i - 1].inverse() * run.settled[i], covariance});
+    sum = compose(sum, PoseWithCovariance{run.settled[i - 1].inverse() * run.settled[i], covariance});
   }
   return sum;
 }

@@ -17,7 +17,7 @@ namespace {
 using namespace swf_vo;
 using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
-using urban_nav_core::UncertainPose;
+using urban_nav_core::PoseWithCovariance;
 using urban_nav_core::testing::cell;
 using urban_nav_core::testing::TrackMotion;
 using urban_nav_core::testing::Tracks;
@@ -25,7 +25,7 @@ using urban_nav_core::testing::Tracks;
 constexpr std::array<std::size_t, 3> checkpoints = {50, 100, 200};
 constexpr std::array<std::size_t, 5> lengths = {1, 10, 50, 100, 300};
 
-double nees(const Pose& truth, const UncertainPose& estimate) {
+double nees(const Pose& truth, const PoseWithCovariance& estimate) {
   const urban_nav_core::Vector6d e = urban_nav_core::boxMinus(truth, estimate.pose);
   return e.dot(estimate.covariance.ldlt().solve(e));
 }
@@ -60,15 +60,16 @@ void addWays(const Tracks& tracks, const std::vector<SettledPose>& settled, Mean
     for (std::size_t first = 50; first + lengths[l] + 10 < settled.size();
          first += std::max<std::size_t>(10, lengths[l])) {
       const std::size_t last = first + lengths[l];
-      UncertainPose way{Pose(), Matrix6d::Zero()}, composed = way;
+      PoseWithCovariance way{Pose(), Matrix6d::Zero()}, composed = way;
       for (std::size_t i = first + 1; i <= last; ++i) {
         const SettledPose& step = settled[i];
         const double ends = (i == first + 1 ? 0.5 : 0.0) + (i == last ? 0.5 : 0.0);
         const Matrix6d covariance = last == first + 1
                                         ? step.relative_covariance
                                         : Matrix6d(step.drift_covariance + ends * step.relative_covariance);
-        way = urban_nav_core::compose(way, UncertainPose{step.T_previous_camera, covariance});
-        composed = urban_nav_core::compose(composed, UncertainPose{step.T_previous_camera, step.relative_covariance});
+        way = urban_nav_core::compose(way, PoseWithCovariance{step.T_previous_camera, covariance});
+        composed =
+            urban_nav_core::compose(composed, PoseWithCovariance{step.T_previous_camera, step.relative_covariance});
       }
       const Pose truth = tracks.frames[first].T_world_camera.inverse() * tracks.frames[last].T_world_camera;
       means.way[l].add(nees(truth, way));

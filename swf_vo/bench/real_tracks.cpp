@@ -29,8 +29,8 @@ using Eigen::Vector3d;
 using urban_nav_core::CsvTable;
 using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
+using urban_nav_core::PoseWithCovariance;
 using urban_nav_core::StereoCamera;
-using urban_nav_core::UncertainPose;
 using urban_nav_core::Vector6d;
 using urban_nav_core::testing::cell;
 
@@ -53,7 +53,7 @@ struct Shares {
   double rmse_m = 0.0, rmse_deg = 0.0;
   std::array<double, 6> inside{};
 };
-Shares compare(const std::vector<Pose>& truth, const std::vector<UncertainPose>& estimate) {
+Shares compare(const std::vector<Pose>& truth, const std::vector<PoseWithCovariance>& estimate) {
   Shares shares;
   const double n = static_cast<double>(truth.size());
   for (std::size_t i = 0; i < truth.size(); ++i) {
@@ -129,8 +129,8 @@ struct Starry {
     }
   }
 
-  UncertainPose vehicle(const UncertainPose& camera_pose) const {
-    UncertainPose result;
+  PoseWithCovariance vehicle(const PoseWithCovariance& camera_pose) const {
+    PoseWithCovariance result;
     const Pose T_camera_vehicle = T_vehicle_camera.inverse();
     result.pose = camera_pose.pose * T_camera_vehicle;
     Matrix6d A = Matrix6d::Identity();
@@ -156,7 +156,7 @@ void starry(const std::string& folder, urban_nav_core::testing::BenchTable& tabl
     options.exact_undo = false;
     options.keep_history = true;
     Window window(options, data.camera);
-    std::vector<UncertainPose> settled, now;
+    std::vector<PoseWithCovariance> settled, now;
     const auto keep = [&](const SettledPose& pose) { settled.push_back(data.vehicle(pose.T_odom_camera)); };
     for (std::size_t i = 0; i < data.truth.size(); ++i) {
       if (i == 0) {
@@ -172,12 +172,12 @@ void starry(const std::string& folder, urban_nav_core::testing::BenchTable& tabl
       window.update();
       now.push_back(data.vehicle(window.newest()));
     }
-    std::vector<UncertainPose> full;
+    std::vector<PoseWithCovariance> full;
     for (const auto& [frame, pose] : window.trajectory()) full.push_back(data.vehicle({pose, Matrix6d::Identity()}));
     for (const SettledPose& pose : window.flush()) keep(pose);
     if (batch.poses.empty())
-      for (const UncertainPose& pose : settled) batch.poses.push_back(pose.pose * data.T_vehicle_camera);
-    const auto add = [&](const char* what, const std::vector<UncertainPose>& estimate, bool covariances) {
+      for (const PoseWithCovariance& pose : settled) batch.poses.push_back(pose.pose * data.T_vehicle_camera);
+    const auto add = [&](const char* what, const std::vector<PoseWithCovariance>& estimate, bool covariances) {
       const Shares shares = compare(data.truth, estimate);
       std::string inside;
       for (const double share : shares.inside) inside += cell(share, 1) + " ";
@@ -192,7 +192,7 @@ void starry(const std::string& folder, urban_nav_core::testing::BenchTable& tabl
   for (const double huber : {0.0, WindowOptions().huber}) {
     batch.huber = huber;
     solveBatch(batch);
-    std::vector<UncertainPose> estimate;
+    std::vector<PoseWithCovariance> estimate;
     for (const Pose& pose : batch.poses) estimate.push_back(data.vehicle({pose, Matrix6d::Identity()}));
     const Shares shares = compare(data.truth, estimate);
     table.add({"starry_night", huber > 0.0 ? "batch (Ceres, Huber)" : "batch (Ceres)",

@@ -14,9 +14,9 @@ namespace swf_vo {
 using urban_nav_core::compose;
 using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
+using urban_nav_core::PoseWithCovariance;
 using urban_nav_core::StampNs;
 using urban_nav_core::Status;
-using urban_nav_core::UncertainPose;
 
 namespace {
 
@@ -124,7 +124,7 @@ const Frame& Output::write(FrameId frame, StampNs stamp, const Status& status, c
   const double row_offset = seen != nullptr ? seen->row_offset_px : frame_.statistics.row_offset_px;
   const double noise_scale = seen != nullptr ? seen->noise_scale : frame_.statistics.noise_scale;
   frame_.statistics = {};
-  const UncertainPose newest = window.newest();
+  const PoseWithCovariance newest = window.newest();
   last_T_odom_camera_ = newest.pose;
   const auto base = compose(newest.pose, T_camera_base_);
   frame_.T_odom_base = {base.T_a_c, moved(newest.covariance, base.J1)};

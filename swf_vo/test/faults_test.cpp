@@ -17,7 +17,7 @@ using urban_nav_core::chiSquareQuantile;
 using urban_nav_core::distanceBetween;
 using urban_nav_core::Health;
 using urban_nav_core::Pose;
-using urban_nav_core::UncertainPose;
+using urban_nav_core::PoseWithCovariance;
 using urban_nav_core::Vector6d;
 using urban_nav_core::testing::dataFolder;
 using urban_nav_core::testing::readSequenceFolder;
@@ -197,7 +197,7 @@ const Street* street() {
 // README), so the distance has that as its own error. Nothing is stated of its headings, and the undisturbed run is 0.2 deg from them where the
 // filter, which takes the calibration as exact, says 0.02: of those the test says nothing.
 bool isWithinWhatIsStated(const Outcome& outcome, double length) {
-  UncertainPose end = outcome.last.T_odom_base;
+  PoseWithCovariance end = outcome.last.T_odom_base;
   end.covariance.topLeftCorner<3, 3>() += std::pow(0.005 * length, 2) * Eigen::Matrix3d::Identity();
   return urban_nav_core::neesTranslation(outcome.truth, end).value() < chiSquareQuantile(0.99, 3.0);
 }

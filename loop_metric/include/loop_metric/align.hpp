@@ -10,7 +10,7 @@
 #include "urban_nav_core/geometry/se3.hpp"
 #include "urban_nav_core/types/closure.hpp"
 #include "urban_nav_core/types/point_cloud.hpp"
-#include "urban_nav_core/types/uncertain.hpp"
+#include "urban_nav_core/types/pose_with_covariance.hpp"
 
 namespace loop_metric {
 

@@ -8,7 +8,7 @@
 #include "loop_metric/parameters.hpp"
 #include "urban_nav_core/trajectory/odometry_chain.hpp"
 #include "urban_nav_core/types/closure.hpp"
-#include "urban_nav_core/types/uncertain.hpp"
+#include "urban_nav_core/types/pose_with_covariance.hpp"
 
 namespace loop_metric {
 
@@ -41,7 +41,7 @@ struct Located {
   Knowledge knowledge = Knowledge::Unsure;
   LocatedReason reason = LocatedReason::NothingSeen;
   /// The best guess there is, UNSURE ones too; empty where there is none.
-  std::optional<urban_nav_core::UncertainPose> T_map_base;
+  std::optional<urban_nav_core::PoseWithCovariance> T_map_base;
   int witnesses = 0;  ///< sightings that agree with it
   /// That it is the right place of the map, in the light of the sightings that agree and of those of the best other guess; 0 without a guess. It says nothing of how
   /// well the pose is known: the covariance does.
@@ -67,7 +67,7 @@ class Localiser {
                    const urban_nav_core::Constraint& measured, bool is_firm = true);
   /// What somebody believes (initialpose): the best guess until something is seen, and where to look first. It is no evidence: it makes nothing KNOWN, and adds nothing to
   /// the pose.
-  void addBelief(urban_nav_core::StampNs at, const urban_nav_core::UncertainPose& T_map_base);
+  void addBelief(urban_nav_core::StampNs at, const urban_nav_core::PoseWithCovariance& T_map_base);
   /// At this moment the robot looked for the place in the map and found nothing like it. `expected`: the map has a view of where it believes to be that it should have
   /// recognised; three of them in a row end KNOWN.
   void addNothing(urban_nav_core::StampNs at, bool expected);
@@ -85,7 +85,7 @@ class Localiser {
  private:
   struct Sighting {
     urban_nav_core::StampNs stamp = 0;
-    urban_nav_core::UncertainPose T_map_base;
+    urban_nav_core::PoseWithCovariance T_map_base;
     bool begins = true;  ///< a hypothesis may begin with it
     bool sees = true;    ///< else somebody's belief
   };
@@ -96,7 +96,7 @@ class Localiser {
   };
   bool agree(const Sighting& one, const Sighting& other) const;
   Hypothesis around(std::size_t sighting) const;
-  urban_nav_core::UncertainPose fuse(const Hypothesis& hypothesis, urban_nav_core::StampNs stamp) const;
+  urban_nav_core::PoseWithCovariance fuse(const Hypothesis& hypothesis, urban_nav_core::StampNs stamp) const;
   void add(const Sighting& sighting);
   void choose();
   /// Witnesses of the newest sighting's hypothesis, where all of the best one's saw before them.

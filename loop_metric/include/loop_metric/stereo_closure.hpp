@@ -10,7 +10,7 @@
 #include "loop_metric/parameters.hpp"
 #include "urban_nav_core/camera/stereo_camera.hpp"
 #include "urban_nav_core/types/closure.hpp"
-#include "urban_nav_core/types/uncertain.hpp"
+#include "urban_nav_core/types/pose_with_covariance.hpp"
 
 namespace loop_metric {
 

@@ -7,14 +7,14 @@
 #include "loop_metric/keyframe.hpp"
 #include "urban_nav_core/types/closure.hpp"
 #include "urban_nav_core/types/point_cloud.hpp"
-#include "urban_nav_core/types/uncertain.hpp"
+#include "urban_nav_core/types/pose_with_covariance.hpp"
 
 namespace loop_metric {
 
 /// A moment of a session whose view was kept, and where it lies beside another moment.
 struct NearbyView {
   urban_nav_core::PoseRef at;
-  urban_nav_core::UncertainPose T_moment_view;  ///< between base_links; the covariance may be zero
+  urban_nav_core::PoseWithCovariance T_moment_view;  ///< between base_links; the covariance may be zero
   double way = 0.0;                             ///< m driven from the moment to the view; negative: before it
 };
 
@@ -37,7 +37,7 @@ class Surroundings {
   virtual double bend(const urban_nav_core::PoseRef& at, double way) const = 0;
   /// T_a_b as odometry has it, and how far the robot drove in between; empty between sessions.
   struct Way {
-    urban_nav_core::UncertainPose T_a_b;
+    urban_nav_core::PoseWithCovariance T_a_b;
     double length = 0.0;  ///< m
   };
   virtual std::optional<Way> between(const urban_nav_core::PoseRef& a, const urban_nav_core::PoseRef& b) const = 0;

@@ -15,7 +15,7 @@ namespace loop_metric {
 
 using urban_nav_core::ClosureVerdict;
 using urban_nav_core::MetricClosure;
-using urban_nav_core::UncertainPose;
+using urban_nav_core::PoseWithCovariance;
 
 namespace {
 
@@ -23,7 +23,7 @@ constexpr double near_way = 30.0;           // m: over which odometry is good to
 constexpr double metres_per_radian = 10.0;  // for directions of which a closure knows nothing
 constexpr double near_time = 120.0;         // s: nor does it take longer
 
-UncertainPose measuredOf(const MetricClosure& closure) {
+PoseWithCovariance measuredOf(const MetricClosure& closure) {
   return {closure.measured.T_a_b,
           urban_nav_core::covarianceForDisplay(closure.measured.information, metres_per_radian)};
 }
@@ -37,10 +37,10 @@ std::optional<double> ringOf(const MetricClosure& i, const MetricClosure& j, con
   if (apart(i.a, j.a) || apart(i.b, j.b)) return std::nullopt;
   const auto along_a = surroundings.between(i.a, j.a), along_b = surroundings.between(i.b, j.b);
   if (!along_a || !along_b || along_a->length > near_way || along_b->length > near_way) return std::nullopt;
-  const UncertainPose T_ai_aj = OdometryGate(*along_a, parameters.odometry_scale).T_a_b(),
-                      T_bi_bj = OdometryGate(*along_b, parameters.odometry_scale).T_a_b();
-  const UncertainPose one = urban_nav_core::compose(measuredOf(i), T_bi_bj),
-                      other = urban_nav_core::compose(T_ai_aj, measuredOf(j));
+  const PoseWithCovariance T_ai_aj = OdometryGate(*along_a, parameters.odometry_scale).T_a_b(),
+                           T_bi_bj = OdometryGate(*along_b, parameters.odometry_scale).T_a_b();
+  const PoseWithCovariance one = urban_nav_core::compose(measuredOf(i), T_bi_bj),
+                           other = urban_nav_core::compose(T_ai_aj, measuredOf(j));
   const auto squares = urban_nav_core::nees(other.pose, {one.pose, one.covariance + other.covariance});
   return squares ? std::optional<double>(std::sqrt(*squares / 6.0)) : std::nullopt;
 }

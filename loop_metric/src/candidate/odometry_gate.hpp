@@ -12,7 +12,7 @@ class OdometryGate {
   OdometryGate(const Surroundings::Way& way, double scale);
 
   /// The same with that error in it.
-  const urban_nav_core::UncertainPose& T_a_b() const { return T_a_b_; }
+  const urban_nav_core::PoseWithCovariance& T_a_b() const { return T_a_b_; }
 
   /// Root mean square of the difference between `measured` and odometry, in standard deviations, over the directions that `measured` knows
   /// anything of: 1 is usual. 0 where it knows nothing.
@@ -21,7 +21,7 @@ class OdometryGate {
   double leastDistance(double deviations) const;
 
  private:
-  urban_nav_core::UncertainPose T_a_b_;
+  urban_nav_core::PoseWithCovariance T_a_b_;
 };
 
 /// Mean of d^T (covariance + information^-1)^-1 d over the directions with information, its root. `information` may be singular.

@@ -7,7 +7,7 @@
 namespace loop_metric {
 
 using urban_nav_core::Pose;
-using urban_nav_core::UncertainPose;
+using urban_nav_core::PoseWithCovariance;
 
 namespace {
 
@@ -24,7 +24,7 @@ const NearbyView& nearest(const std::vector<NearbyView>& views, double way) {
   });
 }
 
-double largestSigma(const UncertainPose& pose, int half) {
+double largestSigma(const PoseWithCovariance& pose, int half) {
   return std::sqrt(pose.covariance.diagonal().segment<3>(3 * half).maxCoeff());
 }
 
@@ -47,7 +47,7 @@ void add(std::vector<ViewPair>& pairs, const NearbyView& a, const NearbyView& b)
 }  // namespace
 
 std::vector<ViewPair> pairsOf(const std::vector<NearbyView>& views_a, const std::vector<NearbyView>& views_b,
-                              const std::optional<UncertainPose>& T_a_b, double way, std::size_t most) {
+                              const std::optional<PoseWithCovariance>& T_a_b, double way, std::size_t most) {
   std::vector<ViewPair> pairs;
   if (views_a.empty() || views_b.empty()) return pairs;
   const NearbyView &a = nearest(views_a, 0.0), &b = nearest(views_b, 0.0);

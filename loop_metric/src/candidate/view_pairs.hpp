@@ -17,6 +17,7 @@ struct ViewPair {
   NearbyView a, b;
 };
 std::vector<ViewPair> pairsOf(const std::vector<NearbyView>& views_a, const std::vector<NearbyView>& views_b,
-                              const std::optional<urban_nav_core::UncertainPose>& T_a_b, double way, std::size_t most);
+                              const std::optional<urban_nav_core::PoseWithCovariance>& T_a_b, double way,
+                              std::size_t most);
 
 }  // namespace loop_metric

@@ -23,8 +23,8 @@ using urban_nav_core::OdometryChain;
 using urban_nav_core::PointCloud;
 using urban_nav_core::Pose;
 using urban_nav_core::PoseRef;
+using urban_nav_core::PoseWithCovariance;
 using urban_nav_core::StampNs;
-using urban_nav_core::UncertainPose;
 
 namespace {
 
@@ -48,10 +48,10 @@ struct Place {
 };
 
 /// T_a_b with odometry from b on: next to no information where there was none.
-Constraint carried(const Constraint& measured, const UncertainPose& T_b_end) {
+Constraint carried(const Constraint& measured, const PoseWithCovariance& T_b_end) {
   constexpr double metres_per_radian = 10.0;
-  const UncertainPose end = compose(
-      UncertainPose{measured.T_a_b, urban_nav_core::covarianceForDisplay(measured.information, metres_per_radian)},
+  const PoseWithCovariance end = compose(
+      PoseWithCovariance{measured.T_a_b, urban_nav_core::covarianceForDisplay(measured.information, metres_per_radian)},
       T_b_end);
   Constraint made;
   made.T_a_b = end.pose;

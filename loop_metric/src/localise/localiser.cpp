@@ -14,8 +14,8 @@ namespace loop_metric {
 using urban_nav_core::Constraint;
 using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
+using urban_nav_core::PoseWithCovariance;
 using urban_nav_core::StampNs;
-using urban_nav_core::UncertainPose;
 using urban_nav_core::Vector6d;
 
 namespace {
@@ -32,7 +32,7 @@ constexpr int looks_for_new = 3;           // in a row without anything like it
 constexpr int carried = 3;                 // witnesses in a row that agree against all before them
 constexpr std::size_t most_steps = 20000;  // of odometry: 10 to 30 minutes, 1.1 kB each
 
-double positionSigma(const UncertainPose& pose) {
+double positionSigma(const PoseWithCovariance& pose) {
   const auto values = urban_nav_core::symmetricEigenvalues(pose.covariance.topLeftCorner<3, 3>());
   return values ? std::sqrt(std::max(0.0, (*values)[2])) : 1e6;
 }
@@ -104,12 +104,12 @@ void Localiser::addSighting(StampNs b, const Pose& T_map_a, const Constraint& me
   Matrix6d of_map = Matrix6d::Zero();
   of_map.diagonal() << Eigen::Vector3d::Constant(sigma * sigma),
       Eigen::Vector3d::Constant(sigma * sigma / (metres_per_radian * metres_per_radian));
-  sighting.T_map_base = compose(UncertainPose{T_map_a, of_map}, UncertainPose{measured.T_a_b, covariance});
+  sighting.T_map_base = compose(PoseWithCovariance{T_map_a, of_map}, PoseWithCovariance{measured.T_a_b, covariance});
   sighting.begins = is_firm && positionSigma(sighting.T_map_base) < 1.0;
   if (sighting.T_map_base.pose.isFinite() && sighting.T_map_base.covariance.allFinite()) add(sighting);
 }
 
-void Localiser::addBelief(StampNs at, const UncertainPose& T_map_base) {
+void Localiser::addBelief(StampNs at, const PoseWithCovariance& T_map_base) {
   Sighting belief;
   belief.stamp = at;
   belief.T_map_base = T_map_base;
@@ -149,7 +149,7 @@ int Localiser::against() const {
 bool Localiser::agree(const Sighting& one, const Sighting& other) const {
   const auto way = odometry_.between(one.stamp, other.stamp);
   if (!way) return false;
-  UncertainPose expected = compose(one.T_map_base, *way);
+  PoseWithCovariance expected = compose(one.T_map_base, *way);
   const double common =
       parameters_.odometry_scale * std::abs(odometry_.distance(one.stamp) - odometry_.distance(other.stamp));
   expected.covariance.diagonal().head<3>().array() += common * common;
@@ -195,15 +195,15 @@ void Localiser::choose() {
   }
 }
 
-UncertainPose Localiser::fuse(const Hypothesis& hypothesis, StampNs stamp) const {
+PoseWithCovariance Localiser::fuse(const Hypothesis& hypothesis, StampNs stamp) const {
   // All of them brought to the last one, and from there on by odometry: its errors are in common to all.
   const Sighting& last = sightings_[hypothesis.members.back()];
-  UncertainPose sum = last.T_map_base;
+  PoseWithCovariance sum = last.T_map_base;
   for (auto member = hypothesis.members.rbegin() + 1; member != hypothesis.members.rend(); ++member) {
     const Sighting& sighting = sightings_[*member];
     const auto way = odometry_.between(sighting.stamp, last.stamp);
     if (!way) continue;
-    UncertainPose there = compose(sighting.T_map_base, *way);
+    PoseWithCovariance there = compose(sighting.T_map_base, *way);
     const double common =
         parameters_.odometry_scale * std::abs(odometry_.distance(last.stamp) - odometry_.distance(sighting.stamp));
     there.covariance.diagonal().head<3>().array() += common * common;
@@ -221,7 +221,7 @@ UncertainPose Localiser::fuse(const Hypothesis& hypothesis, StampNs stamp) const
   sum.covariance.diagonal().head<3>().array() += sigma * sigma;
   const auto way = odometry_.between(last.stamp, stamp);
   if (!way) return sum;
-  UncertainPose now = compose(sum, *way);
+  PoseWithCovariance now = compose(sum, *way);
   const double common =
       parameters_.odometry_scale * std::abs(odometry_.distance(stamp) - odometry_.distance(last.stamp));
   now.covariance.diagonal().head<3>().array() += common * common;

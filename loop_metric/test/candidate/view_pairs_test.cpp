@@ -9,7 +9,7 @@ namespace loop_metric {
 namespace {
 
 using urban_nav_core::Pose;
-using urban_nav_core::UncertainPose;
+using urban_nav_core::PoseWithCovariance;
 
 /// Views each metre along x, `behind` m before the moment to `ahead` m behind it.
 std::vector<NearbyView> row(const char* session, int behind, int ahead) {
@@ -25,8 +25,8 @@ std::vector<NearbyView> row(const char* session, int behind, int ahead) {
   return views;
 }
 
-UncertainPose odometry(double x, double heading, double sigma_m, double sigma_rad) {
-  UncertainPose T_a_b;
+PoseWithCovariance odometry(double x, double heading, double sigma_m, double sigma_rad) {
+  PoseWithCovariance T_a_b;
   T_a_b.pose = Pose(urban_nav_core::expSo3({0.0, 0.0, heading}), {x, 0.0, 0.0});
   T_a_b.covariance.setZero();
   T_a_b.covariance.diagonal() << Eigen::Vector3d::Constant(sigma_m * sigma_m),
@@ -40,7 +40,7 @@ TEST(ViewPairs, AViewBesideBothMomentsIsNotMatchedWithItself) {
   for (NearbyView& view : back)
     view.T_moment_view.pose = Pose(urban_nav_core::Quaterniond::Identity(), {view.way + 0.3, 0.0, 0.0});
   for (const auto& T_a_b :
-       {std::optional<UncertainPose>(odometry(0.0, 0.0, 0.01, 0.001)), std::optional<UncertainPose>()}) {
+       {std::optional<PoseWithCovariance>(odometry(0.0, 0.0, 0.01, 0.001)), std::optional<PoseWithCovariance>()}) {
     const auto pairs = pairsOf(row("a", 6, 6), back, T_a_b, 6.0, 5);
     EXPECT_FALSE(pairs.empty());
     for (const ViewPair& pair : pairs) EXPECT_FALSE(pair.a.at == pair.b.at);

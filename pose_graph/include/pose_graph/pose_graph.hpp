@@ -14,8 +14,8 @@
 #include "pose_graph/parameters.hpp"
 #include "pose_graph/places.hpp"
 #include "pose_graph/solution.hpp"
+#include "urban_nav_core/types/pose_with_covariance.hpp"
 #include "urban_nav_core/types/status.hpp"
-#include "urban_nav_core/types/uncertain.hpp"
 #include "urban_nav_store/graph_store.hpp"
 
 namespace pose_graph {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "gravity/spans.hpp"
-#include "urban_nav_core/types/uncertain.hpp"
+#include "urban_nav_core/types/pose_with_covariance.hpp"
 
 namespace pose_graph {
 

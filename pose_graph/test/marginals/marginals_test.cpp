@@ -16,12 +16,12 @@ namespace pose_graph::test {
 namespace {
 
 using urban_nav_core::Matrix6d;
-using urban_nav_core::UncertainPose;
+using urban_nav_core::PoseWithCovariance;
 
 std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
 /// The edge as everything outside has it: its covariance seen from the parent.
-UncertainPose uncertain(const Edge<3>& edge) {
+PoseWithCovariance withCovariance(const Edge<3>& edge) {
   Matrix6d turn = Matrix6d::Zero();
   turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = edge.Z.R;
   return {poseOf(edge.Z), turn * *urban_nav_core::invertPositiveDefinite(edge.information) * turn.transpose()};
@@ -108,10 +108,11 @@ TEST(Marginals, AChainIsItsPropagatedCovariance) {
   for (Edge<3>& edge : problem.edges) edge.information += Matrix6d::Identity();
   problem.poses = solve(problem, {}).poses;
   const Marginals<3> marginals(problem, problem.poses);
-  UncertainPose from_first{urban_nav_core::Pose(), Matrix6d::Zero()};
+  PoseWithCovariance from_first{urban_nav_core::Pose(), Matrix6d::Zero()};
   for (int i = 1; i < 40; ++i) {
     const Edge<3>& edge = problem.edges[sz(i - 1)];
-    const UncertainPose step = edge.from < edge.to ? uncertain(edge) : urban_nav_core::invert(uncertain(edge));
+    const PoseWithCovariance step =
+        edge.from < edge.to ? withCovariance(edge) : urban_nav_core::invert(withCovariance(edge));
     from_first = urban_nav_core::compose(from_first, step);
     const Matrix6d covariance = marginals.ofPose(i).covariance;
     EXPECT_LT((covariance - from_first.covariance).norm(), 1e-7 * from_first.covariance.norm()) << i;

@@ -10,9 +10,9 @@ namespace urban_nav_ros {
 
 using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
+using urban_nav_core::PoseWithCovariance;
 using urban_nav_core::Quaterniond;
 using urban_nav_core::StampNs;
-using urban_nav_core::UncertainPose;
 using urban_nav_core::Vector3d;
 
 namespace {
@@ -66,7 +66,7 @@ boost::array<double, 36> toArray36(const Matrix6d& matrix) {
   return values;
 }
 
-nav_msgs::Odometry toOdometryMessage(StampNs stamp, const UncertainPose& T_frame_child, const std::string& frame,
+nav_msgs::Odometry toOdometryMessage(StampNs stamp, const PoseWithCovariance& T_frame_child, const std::string& frame,
                                      const std::string& child) {
   nav_msgs::Odometry message;
   message.header.stamp = toRosTime(stamp);

@@ -17,7 +17,7 @@ namespace swf_vo {
 using Eigen::Vector3d;
 using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
-using urban_nav_core::UncertainPose;
+using urban_nav_core::PoseWithCovariance;
 using urban_nav_core::Vector6d;
 
 namespace {
@@ -77,7 +77,7 @@ void Filter::addPose(FrameId frame, const ProcessInput& u) {
 
 void Filter::restart(FrameId frame, const ProcessInput& u, std::vector<SettledPose>& settled) {
   const Pose& last = state_.poses.back().estimate;
-  const UncertainPose next{process_model::predict(last, u), covariance::propagate(last, newest_covariance_, u)};
+  const PoseWithCovariance next{process_model::predict(last, u), covariance::propagate(last, newest_covariance_, u)};
   // What is known of the disparity offset, with all else marginalised.
   const double information = prior_.has_offset ? gauss_newton_.solver().offsetInformation() : 0.0,
                offset = state_.disparity_offset;
@@ -288,7 +288,7 @@ Matrix6d Filter::covarianceOf(std::int64_t step) const {
          datum_.carried(state_.poses[static_cast<std::size_t>(step - state_.first_step)].linearised);
 }
 
-UncertainPose Filter::newest() const { return {state_.poses.back().estimate, newest_covariance_}; }
+PoseWithCovariance Filter::newest() const { return {state_.poses.back().estimate, newest_covariance_}; }
 
 void Filter::flush(std::vector<SettledPose>& settled) {
   while (!state_.poses.empty()) {

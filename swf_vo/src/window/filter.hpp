@@ -38,7 +38,7 @@ class Filter {
   void setMeasurements(FrameId frame, const std::vector<Observation>& observations);
   void flush(std::vector<SettledPose>& settled);
 
-  urban_nav_core::UncertainPose newest() const;
+  urban_nav_core::PoseWithCovariance newest() const;
   double disparityOffsetSigma() const { return offset_sigma_; }
   const State& state() const { return state_; }
   const Prior& prior() const { return prior_; }
@@ -59,7 +59,7 @@ class Filter {
 
   /// What was handed out as settled, and stays whatever is undone.
   struct Published {
-    urban_nav_core::UncertainPose settled;
+    urban_nav_core::PoseWithCovariance settled;
     std::int64_t step = -1;
   };
   Published published() const { return {settled_, settled_step_}; }
@@ -92,7 +92,7 @@ class Filter {
   std::vector<double> directions_;  // of the gauge, of the prior
   double offset_sigma_ = 0.0;
   urban_nav_core::Matrix6d newest_covariance_ = urban_nav_core::Matrix6d::Zero();
-  urban_nav_core::UncertainPose settled_;  // the last that left
+  urban_nav_core::PoseWithCovariance settled_;  // the last that left
   std::int64_t settled_step_ = -1;
   urban_nav_core::Matrix6d settled_in_window_ =
       urban_nav_core::Matrix6d::Zero();  // its covariance without what is carried

@@ -12,8 +12,8 @@ namespace swf_vo {
 
 using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
+using urban_nav_core::PoseWithCovariance;
 using urban_nav_core::StereoCamera;
-using urban_nav_core::UncertainPose;
 
 class Window::Implementation {
  public:
@@ -118,7 +118,7 @@ const std::vector<LandmarkId>& Window::strays() {
   return implementation_->strays.find(implementation_->filter.state(), implementation_->filter.cost().sensor());
 }
 
-UncertainPose Window::newest() const { return implementation_->filter.newest(); }
+PoseWithCovariance Window::newest() const { return implementation_->filter.newest(); }
 std::size_t Window::poses() const { return implementation_->filter.state().poses.size(); }
 bool Window::hasPose(FrameId frame) const { return implementation_->filter.state().poseOf(frame) >= 0; }
 

@@ -49,7 +49,7 @@ struct WindowOptions {
 /// the same in all steps and not in the drift: the covariance of T_odom_camera has it.
 struct SettledPose {
   FrameId frame = 0;
-  urban_nav_core::UncertainPose T_odom_camera;  ///< previous pose times T_previous_camera, to the last bit
+  urban_nav_core::PoseWithCovariance T_odom_camera;  ///< previous pose times T_previous_camera, to the last bit
   urban_nav_core::Pose T_previous_camera;       ///< from the settled pose before; identity for the first
   urban_nav_core::Matrix6d relative_covariance =
       urban_nav_core::Matrix6d::Zero();  ///< of T_previous_camera, in `previous`: between both as they settled
@@ -110,7 +110,7 @@ class Window {
   UpdateReport update();
 
   /// Before update(): the prediction, or where the process input has the estimate begin. The window must have been started.
-  urban_nav_core::UncertainPose newest() const;
+  urban_nav_core::PoseWithCovariance newest() const;
   urban_nav_core::Pose pose(FrameId frame) const;  ///< of an active frame
   bool hasPose(FrameId frame) const;
   std::size_t poses() const;  ///< that are active

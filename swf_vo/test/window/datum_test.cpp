@@ -14,7 +14,7 @@ namespace {
 
 using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
-using urban_nav_core::UncertainPose;
+using urban_nav_core::PoseWithCovariance;
 using urban_nav_core::Vector6d;
 
 urban_nav_core::testing::Tracks turning(int frames, double sigma_px, std::uint64_t seed = 8) {
@@ -88,14 +88,14 @@ double meanNees(std::size_t length, urban_nav_core::testing::TrackMotion kind) {
     while (!run.done()) run.step();
     for (std::size_t first = 2; first + length < run.settled.size();
          first += std::max<std::size_t>(1, length / 2), ++ways) {
-      UncertainPose way{Pose(), Matrix6d::Zero()};
+      PoseWithCovariance way{Pose(), Matrix6d::Zero()};
       for (std::size_t i = first + 1; i <= first + length; ++i) {
         const SettledPose& step = run.settled[i];
         const double ends = (i == first + 1 ? 0.5 : 0.0) + (i == first + length ? 0.5 : 0.0);
         way = urban_nav_core::compose(
-            way, UncertainPose{step.T_previous_camera,
-                               length == 1 ? step.relative_covariance
-                                           : Matrix6d(step.drift_covariance + ends * step.relative_covariance)});
+            way, PoseWithCovariance{step.T_previous_camera,
+                                    length == 1 ? step.relative_covariance
+                                                : Matrix6d(step.drift_covariance + ends * step.relative_covariance)});
       }
       const Vector6d e = urban_nav_core::boxMinus(
           tracks.frames[first].T_world_camera.inverse() * tracks.frames[first + length].T_world_camera, way.pose);

@@ -21,7 +21,7 @@ urban_nav_core::testing::TrackOptions tracksOf(int frames, double sigma_px, std:
   return mixedMotion(frames, sigma_px, seed);
 }
 
-double nees(const Pose& truth, const urban_nav_core::UncertainPose& estimate) {
+double nees(const Pose& truth, const urban_nav_core::PoseWithCovariance& estimate) {
   const Vector6d e = urban_nav_core::boxMinus(truth, estimate.pose);
   return e.dot(estimate.covariance.ldlt().solve(e));
 }

@@ -65,7 +65,7 @@ class NewCollegeFolder : public Source {
     while (const std::optional<NewCollegeEvent> event = log_->next()) {
       const auto* odometry = std::get_if<NewCollegeOdometry>(&*event);
       if (odometry == nullptr) continue;
-      const urban_nav_core::UncertainPose pose{odometry->T_odom_base, urban_nav_core::Matrix6d::Zero()};
+      const urban_nav_core::PoseWithCovariance pose{odometry->T_odom_base, urban_nav_core::Matrix6d::Zero()};
       motion_ = wheels_->add(urban_nav_ros::toOdometryMessage(odometry->stamp, pose, "odom", "base_link"));
       if (motion_) return;
     }

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "urban_nav_core/types/closure.hpp"
+#include "urban_nav_core/types/pose_with_covariance.hpp"
 #include "urban_nav_core/types/stamp.hpp"
-#include "urban_nav_core/types/uncertain.hpp"
 
 namespace urban_nav {
 

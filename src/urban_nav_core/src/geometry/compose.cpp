@@ -35,12 +35,12 @@ Between between(const Pose& T_a_b, const Pose& T_a_c) {
           blocks(R_b_a, Matrix3d::Zero(), R_b_a)};
 }
 
-UncertainPose compose(const UncertainPose& T_a_b, const UncertainPose& T_b_c) {
+PoseWithCovariance compose(const PoseWithCovariance& T_a_b, const PoseWithCovariance& T_b_c) {
   const Composition c = compose(T_a_b.pose, T_b_c.pose);
   return {c.T_a_c, moved(c.J1, T_a_b.covariance) + moved(c.J2, T_b_c.covariance)};
 }
 
-UncertainPose invert(const UncertainPose& T_a_b) {
+PoseWithCovariance invert(const PoseWithCovariance& T_a_b) {
   const Inversion inversion = invert(T_a_b.pose);
   return {inversion.T_b_a, moved(inversion.J, T_a_b.covariance)};
 }

@@ -45,18 +45,18 @@ Matrix6d swapHalves(const Matrix6d& matrix) {
   return M;
 }
 
-UncertainPose baseFromCamera(const UncertainPose& T_odom_camera, const Pose& T_base_camera) {
+PoseWithCovariance baseFromCamera(const PoseWithCovariance& T_odom_camera, const Pose& T_base_camera) {
   const Composition c = compose(T_odom_camera.pose, T_base_camera.inverse());
   return {c.T_a_c, transformCovariance(c.J1, T_odom_camera.covariance)};
 }
 
-UncertainPose baseMotionFromCameraMotion(const UncertainPose& T_camera1_camera2, const Pose& T_base_camera) {
+PoseWithCovariance baseMotionFromCameraMotion(const PoseWithCovariance& T_camera1_camera2, const Pose& T_base_camera) {
   const Composition inner = compose(T_base_camera, T_camera1_camera2.pose);
   const Composition outer = compose(inner.T_a_c, T_base_camera.inverse());
   return {outer.T_a_c, transformCovariance(outer.J1 * inner.J2, T_camera1_camera2.covariance)};
 }
 
-UncertainPose relativeToFirst(const UncertainPose& T_odom_base, const Pose& T_odom_first) {
+PoseWithCovariance relativeToFirst(const PoseWithCovariance& T_odom_base, const Pose& T_odom_first) {
   const Between b = between(T_odom_first, T_odom_base.pose);
   return {b.T_b_c, transformCovariance(b.J2, T_odom_base.covariance)};
 }

@@ -8,7 +8,7 @@ void archive(Archive& archive, Status& status) {
   archive.require(status.health >= Health::Ok && status.health <= Health::Recovered, "a status is none");
 }
 
-void archive(Archive& archive, UncertainPose& value) { archive(value.pose, value.covariance); }
+void archive(Archive& archive, PoseWithCovariance& value) { archive(value.pose, value.covariance); }
 
 void archive(Archive& archive, RelativePose& value) {
   archive(value.from, value.to, value.T_from_to, value.covariance, value.drift_covariance, value.status, value.source);

@@ -16,15 +16,15 @@ std::optional<double> normalised(const Eigen::Matrix<double, N, 1>& d, const Eig
 
 }  // namespace
 
-std::optional<double> nees(const Pose& truth, const UncertainPose& estimate) {
+std::optional<double> nees(const Pose& truth, const PoseWithCovariance& estimate) {
   return normalised<6>(boxMinus(truth, estimate.pose), estimate.covariance);
 }
 
-std::optional<double> neesTranslation(const Pose& truth, const UncertainPose& estimate) {
+std::optional<double> neesTranslation(const Pose& truth, const PoseWithCovariance& estimate) {
   return normalised<3>(boxMinus(truth, estimate.pose).head<3>(), estimate.covariance.topLeftCorner<3, 3>());
 }
 
-std::optional<double> neesRotation(const Pose& truth, const UncertainPose& estimate) {
+std::optional<double> neesRotation(const Pose& truth, const PoseWithCovariance& estimate) {
   return normalised<3>(boxMinus(truth, estimate.pose).tail<3>(), estimate.covariance.bottomRightCorner<3, 3>());
 }
 
@@ -34,7 +34,7 @@ NeesSummary neesOfTrajectory(const std::vector<Pose>& truth, const std::vector<P
   NeesSummary summary;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const Pose relative_truth = truth.front().inverse() * truth[i];
-    const UncertainPose relative{estimate.front().inverse() * estimate[i], covariances[i]};
+    const PoseWithCovariance relative{estimate.front().inverse() * estimate[i], covariances[i]};
     const auto all = nees(relative_truth, relative);
     const auto translation = neesTranslation(relative_truth, relative),
                rotation = neesRotation(relative_truth, relative);

@@ -87,16 +87,16 @@ Matrix6d OdometryChain::drift(std::size_t from, std::size_t to) const {
   return sum;
 }
 
-std::optional<UncertainPose> OdometryChain::between(StampNs a, StampNs b) const {
+std::optional<PoseWithCovariance> OdometryChain::between(StampNs a, StampNs b) const {
   const std::optional<Moment> at_a = momentOf(a), at_b = momentOf(b);
   if (!at_a || !at_b) return std::nullopt;
   const std::size_t from = indexOf(at_a->frame), to = indexOf(at_b->frame);
   if (from > to) {
-    const std::optional<UncertainPose> back = between(b, a);
-    return back ? std::optional<UncertainPose>(invert(*back)) : std::nullopt;
+    const std::optional<PoseWithCovariance> back = between(b, a);
+    return back ? std::optional<PoseWithCovariance>(invert(*back)) : std::nullopt;
   }
   const Pose T_first_from = trajectory_[from].pose;
-  UncertainPose way;
+  PoseWithCovariance way;
   way.pose = T_first_from.inverse() * trajectory_[to].pose;
   way.covariance.setZero();
   if (from < to) {
@@ -109,7 +109,7 @@ std::optional<UncertainPose> OdometryChain::between(StampNs a, StampNs b) const 
     way.covariance = transformCovariance(boxFromLeft(way.pose), left);
   }
   const Matrix6d none = Matrix6d::Zero();
-  const UncertainPose before{at_a->T_frame_moment, none}, behind{at_b->T_frame_moment, none};
+  const PoseWithCovariance before{at_a->T_frame_moment, none}, behind{at_b->T_frame_moment, none};
   return compose(invert(before), compose(way, behind));
 }
 

@@ -49,12 +49,12 @@ TEST_P(ComposeAt, JacobiansOfTheDifferenceAreNumericDerivatives) {
 }
 
 TEST_P(ComposeAt, InvertingTwiceIsNothing) {
-  const UncertainPose A{pose(0.5), Matrix6d::Identity() + Matrix6d::Constant(0.3)};
+  const PoseWithCovariance A{pose(0.5), Matrix6d::Identity() + Matrix6d::Constant(0.3)};
   EXPECT_TRUE(isApprox(invert(invert(A)), A, 1e-13));
 }
 
 TEST_P(ComposeAt, CovarianceOfAChainDoesNotDependOnTheBrackets) {
-  const UncertainPose A{pose(0.5), Matrix6d::Identity() * 0.1}, B{pose(1.0), Matrix6d::Identity() * 0.2},
+  const PoseWithCovariance A{pose(0.5), Matrix6d::Identity() * 0.1}, B{pose(1.0), Matrix6d::Identity() * 0.2},
       C{pose(2.0), Matrix6d::Identity() * 0.3 + Matrix6d::Constant(0.05)};
   EXPECT_TRUE(isApprox(compose(compose(A, B), C), compose(A, compose(B, C)), 1e-12));
 }
@@ -63,11 +63,11 @@ INSTANTIATE_TEST_SUITE_P(Angles, ComposeAt,
                          ::testing::Values(0.0, 1e-7, 0.1, 40.0 * M_PI / 180.0, 2.0, M_PI - 1e-3, M_PI));
 
 TEST(Compose, CovarianceAgreesWithSamples) {
-  const UncertainPose A{Pose(expSo3({0.1, 0.7, -0.3}), {1.0, 2.0, 0.5}),
-                        Vector6d(Vector6d::Constant(1e-6)).asDiagonal()};
-  const UncertainPose B{Pose(expSo3({-0.4, 0.2, 0.6}), {3.0, -1.0, 2.0}),
-                        Vector6d(Vector6d::Constant(4e-6)).asDiagonal()};
-  const UncertainPose C = compose(A, B);
+  const PoseWithCovariance A{Pose(expSo3({0.1, 0.7, -0.3}), {1.0, 2.0, 0.5}),
+                             Vector6d(Vector6d::Constant(1e-6)).asDiagonal()};
+  const PoseWithCovariance B{Pose(expSo3({-0.4, 0.2, 0.6}), {3.0, -1.0, 2.0}),
+                             Vector6d(Vector6d::Constant(4e-6)).asDiagonal()};
+  const PoseWithCovariance C = compose(A, B);
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
   const auto draw = [&](double sigma) {

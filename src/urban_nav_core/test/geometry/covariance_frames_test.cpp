@@ -40,8 +40,8 @@ TEST(CovarianceFrames, LeftAndRightDifferByTheAdjoint) {
 }
 
 TEST(CovarianceFrames, PoseOfTheCameraMovesToTheBase) {
-  const UncertainPose camera{kT, someCovariance()};
-  const UncertainPose base = baseFromCamera(camera, kT_base_camera);
+  const PoseWithCovariance camera{kT, someCovariance()};
+  const PoseWithCovariance base = baseFromCamera(camera, kT_base_camera);
   EXPECT_TRUE(isApprox(base.pose * kT_base_camera, kT, 1e-14));
   const auto f = [](const Pose& X) { return X * kT_base_camera.inverse(); };
   const Matrix6d J = numericJacobian<6, 6>(f, kT);
@@ -50,8 +50,8 @@ TEST(CovarianceFrames, PoseOfTheCameraMovesToTheBase) {
 }
 
 TEST(CovarianceFrames, MotionOfTheCameraMovesToTheBase) {
-  const UncertainPose motion{Pose(expSo3({0.0, 0.6, 0.1}), {0.2, 0.0, 0.9}), someCovariance()};
-  const UncertainPose base = baseMotionFromCameraMotion(motion, kT_base_camera);
+  const PoseWithCovariance motion{Pose(expSo3({0.0, 0.6, 0.1}), {0.2, 0.0, 0.9}), someCovariance()};
+  const PoseWithCovariance base = baseMotionFromCameraMotion(motion, kT_base_camera);
   const auto f = [](const Pose& X) { return kT_base_camera * X * kT_base_camera.inverse(); };
   EXPECT_TRUE(isApprox(base.pose, f(motion.pose), 1e-14));
   const Matrix6d J = numericJacobian<6, 6>(f, motion.pose);
@@ -59,15 +59,15 @@ TEST(CovarianceFrames, MotionOfTheCameraMovesToTheBase) {
 }
 
 TEST(CovarianceFrames, MotionsOfTheBaseMultiplyUpLikeThoseOfTheCamera) {
-  const UncertainPose step{Pose(expSo3({0.0, 0.2, 0.0}), {0.0, 0.0, 1.0}), someCovariance()};
-  const UncertainPose by_camera = baseMotionFromCameraMotion(compose(step, step), kT_base_camera);
-  const UncertainPose base_step = baseMotionFromCameraMotion(step, kT_base_camera);
+  const PoseWithCovariance step{Pose(expSo3({0.0, 0.2, 0.0}), {0.0, 0.0, 1.0}), someCovariance()};
+  const PoseWithCovariance by_camera = baseMotionFromCameraMotion(compose(step, step), kT_base_camera);
+  const PoseWithCovariance base_step = baseMotionFromCameraMotion(step, kT_base_camera);
   EXPECT_TRUE(isApprox(by_camera, compose(base_step, base_step), 1e-12));
 }
 
 TEST(CovarianceFrames, RelativeToTheFirstTurnsTheAxes) {
-  const UncertainPose base{kT, someCovariance()};
-  const UncertainPose relative = relativeToFirst(base, kT_base_camera);
+  const PoseWithCovariance base{kT, someCovariance()};
+  const PoseWithCovariance relative = relativeToFirst(base, kT_base_camera);
   EXPECT_TRUE(isApprox(kT_base_camera * relative.pose, kT, 1e-14));
   const auto f = [](const Pose& X) { return kT_base_camera.inverse() * X; };
   const Matrix6d J = numericJacobian<6, 6>(f, kT);

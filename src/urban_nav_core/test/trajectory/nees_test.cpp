@@ -20,7 +20,7 @@ Matrix6d someCovariance() {
 
 TEST(Nees, OfOneSigmaAlongEachAxisIsSix) {
   const Vector6d sigma = (Vector6d() << 0.1, 0.2, 0.3, 0.01, 0.02, 0.0).finished() + Vector6d::Unit(5) * 1e-9;
-  const UncertainPose estimate{Pose(expSo3({0, 0, 1}), {1, 2, 3}), Matrix6d(sigma.cwiseAbs2().asDiagonal())};
+  const PoseWithCovariance estimate{Pose(expSo3({0, 0, 1}), {1, 2, 3}), Matrix6d(sigma.cwiseAbs2().asDiagonal())};
   Vector6d d = Vector6d::Zero();
   d[0] = 0.1;
   EXPECT_NEAR(*nees(boxPlus(estimate.pose, d), estimate), 1.0, 1e-9);
@@ -32,7 +32,7 @@ TEST(Nees, OfOneSigmaAlongEachAxisIsSix) {
 }
 
 TEST(Nees, HasTheMeanOfItsDimension) {
-  const UncertainPose estimate{Pose(expSo3({0.3, 0.2, 1}), {1, 2, 3}), someCovariance()};
+  const PoseWithCovariance estimate{Pose(expSo3({0.3, 0.2, 1}), {1, 2, 3}), someCovariance()};
   const Matrix6d L = estimate.covariance.llt().matrixL();
   std::mt19937 random(1);
   std::normal_distribution<double> n;

@@ -44,18 +44,18 @@ OdometryChain chainOf(const std::vector<RelativePose>& steps) {
 }
 
 /// One step after the other.
-UncertainPose composed(const std::vector<RelativePose>& steps, std::size_t from, std::size_t to) {
-  UncertainPose way{Pose(), Matrix6d::Zero()};
+PoseWithCovariance composed(const std::vector<RelativePose>& steps, std::size_t from, std::size_t to) {
+  PoseWithCovariance way{Pose(), Matrix6d::Zero()};
   for (std::size_t i = from; i < to; ++i) {
     Matrix6d covariance = steps[i].drift_covariance.isZero(0.0) ? steps[i].covariance : steps[i].drift_covariance;
     if (!steps[i].drift_covariance.isZero(0.0))
       covariance += (i == from ? 0.5 : 0.0) * steps[i].covariance + (i + 1 == to ? 0.5 : 0.0) * steps[i].covariance;
-    way = compose(way, UncertainPose{steps[i].T_from_to, covariance});
+    way = compose(way, PoseWithCovariance{steps[i].T_from_to, covariance});
   }
   return way;
 }
 
-void expectSame(const UncertainPose& a, const UncertainPose& b) {
+void expectSame(const PoseWithCovariance& a, const PoseWithCovariance& b) {
   EXPECT_LT(distanceBetween(a.pose, b.pose), 1e-9);
   EXPECT_LT(angleBetween(a.pose, b.pose), 1e-9);
   EXPECT_LT((a.covariance - b.covariance).norm(), 1e-7 * b.covariance.norm());

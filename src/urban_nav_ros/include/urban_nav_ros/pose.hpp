@@ -12,7 +12,7 @@
 #include <string>
 
 #include "urban_nav_core/geometry/se3.hpp"
-#include "urban_nav_core/types/uncertain.hpp"
+#include "urban_nav_core/types/pose_with_covariance.hpp"
 
 namespace urban_nav_ros {
 
@@ -29,8 +29,9 @@ boost::array<double, 36> toArray36(const urban_nav_core::Matrix6d& matrix);
 
 /// Pose of child_frame in frame_id with its covariance (in frame_id, DESIGN section 4). The twist is left at zero:
 /// setTwist.
-nav_msgs::Odometry toOdometryMessage(urban_nav_core::StampNs stamp, const urban_nav_core::UncertainPose& T_frame_child,
-                                     const std::string& frame, const std::string& child);
+nav_msgs::Odometry toOdometryMessage(urban_nav_core::StampNs stamp,
+                                     const urban_nav_core::PoseWithCovariance& T_frame_child, const std::string& frame,
+                                     const std::string& child);
 
 /// Velocity of child_frame in its own axes (m/s, rad/s), as nav_msgs/Odometry wants it.
 void setTwist(const urban_nav_core::Vector6d& twist, const urban_nav_core::Matrix6d& covariance,

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "urban_nav_core/types/closure.hpp"
+#include "urban_nav_core/types/pose_with_covariance.hpp"
 #include "urban_nav_core/types/status.hpp"
-#include "urban_nav_core/types/uncertain.hpp"
 #include "urban_nav_store/session.hpp"
 
 namespace urban_nav_store {
@@ -19,7 +19,7 @@ namespace urban_nav_store {
 struct Node {
   urban_nav_core::StampNs stamp = 0;
   urban_nav_core::Pose T_odom_base;
-  /// Of the motion since the node before (convention of UncertainPose, parent: that node); zero in the first node.
+  /// Of the motion since the node before (convention of PoseWithCovariance, parent: that node); zero in the first node.
   urban_nav_core::Matrix6d covariance = urban_nav_core::Matrix6d::Zero();
   /// The part of it that is independent of the steps before and after, and so adds up over a way of many steps.
   urban_nav_core::Matrix6d drift_covariance = urban_nav_core::Matrix6d::Zero();

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "urban_nav_core/geometry/se3.hpp"
-#include "urban_nav_core/types/uncertain.hpp"
+#include "urban_nav_core/types/pose_with_covariance.hpp"
 
 namespace urban_nav_core {
 
@@ -31,7 +31,7 @@ struct Between {
 Between between(const Pose& T_a_b, const Pose& T_a_c);
 
 /// Composition, inverse and difference with covariances; errors of the two arguments are taken as independent.
-UncertainPose compose(const UncertainPose& T_a_b, const UncertainPose& T_b_c);
-UncertainPose invert(const UncertainPose& T_a_b);
+PoseWithCovariance compose(const PoseWithCovariance& T_a_b, const PoseWithCovariance& T_b_c);
+PoseWithCovariance invert(const PoseWithCovariance& T_a_b);
 
 }  // namespace urban_nav_core

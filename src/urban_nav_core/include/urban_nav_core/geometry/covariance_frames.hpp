@@ -24,11 +24,11 @@ Matrix6d transformInformation(const Matrix6d& J_inverse, const Matrix6d& informa
 Matrix6d swapHalves(const Matrix6d& matrix);
 
 /// T_odom_base for a measured T_odom_camera and a fixed T_base_camera that is known exactly.
-UncertainPose baseFromCamera(const UncertainPose& T_odom_camera, const Pose& T_base_camera);
+PoseWithCovariance baseFromCamera(const PoseWithCovariance& T_odom_camera, const Pose& T_base_camera);
 /// T_base1_base2 for a measured T_camera1_camera2.
-UncertainPose baseMotionFromCameraMotion(const UncertainPose& T_camera1_camera2, const Pose& T_base_camera);
+PoseWithCovariance baseMotionFromCameraMotion(const PoseWithCovariance& T_camera1_camera2, const Pose& T_base_camera);
 /// T_first_base in the axes of the first base_link, where `odom` is any frame in which the first pose is known exactly.
-UncertainPose relativeToFirst(const UncertainPose& T_odom_base, const Pose& T_odom_first);
+PoseWithCovariance relativeToFirst(const PoseWithCovariance& T_odom_base, const Pose& T_odom_first);
 
 /// A covariance for display of a constraint that leaves directions free: the inverse where there is information, 1e6
 /// m^2 and 10 rad^2 along the free directions. Translation and rotation are told apart by `length`, the m that weigh as

@@ -5,14 +5,14 @@
 #include "urban_nav_core/image/patch.hpp"
 #include "urban_nav_core/io/archive.hpp"
 #include "urban_nav_core/types/motion_input.hpp"
-#include "urban_nav_core/types/uncertain.hpp"
+#include "urban_nav_core/types/pose_with_covariance.hpp"
 
 namespace urban_nav_core {
 
 /// The plain structs that states are made of, for Archive. They stand here and not beside each struct, so that what only hands structs on
 /// needs no archive.
 void archive(Archive& archive, Status& status);
-void archive(Archive& archive, UncertainPose& value);
+void archive(Archive& archive, PoseWithCovariance& value);
 void archive(Archive& archive, RelativePose& value);
 void archive(Archive& archive, MotionInput& input);
 void archive(Archive& archive, Pinhole& camera);

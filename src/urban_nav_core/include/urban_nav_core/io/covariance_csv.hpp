@@ -5,11 +5,11 @@
 #include <string_view>
 #include <vector>
 
-#include "urban_nav_core/types/uncertain.hpp"
+#include "urban_nav_core/types/pose_with_covariance.hpp"
 
 namespace urban_nav_core {
 
-/// A row of covariance.csv: covariance of T_first_base in the axes of the first pose (convention of UncertainPose).
+/// A row of covariance.csv: covariance of T_first_base in the axes of the first pose (convention of PoseWithCovariance).
 struct CovarianceRow {
   StampNs stamp = 0;
   Health status = Health::Ok;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "urban_nav_core/trajectory/trajectory.hpp"
-#include "urban_nav_core/types/uncertain.hpp"
+#include "urban_nav_core/types/pose_with_covariance.hpp"
 
 namespace urban_nav_core {
 
@@ -35,7 +35,7 @@ class OdometryChain {
 
   /// T_a_b, b before or behind a; empty where one of them is not known. Moments beside their frames are taken as surely known there. A
   /// proper covariance, but for zero between moments of one frame.
-  std::optional<UncertainPose> between(StampNs a, StampNs b) const;
+  std::optional<PoseWithCovariance> between(StampNs a, StampNs b) const;
   /// m driven up to a frame or moment, from the first; of moments outside, that of the nearest end.
   double distance(StampNs stamp) const;
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "urban_nav_core/types/uncertain.hpp"
+#include "urban_nav_core/types/pose_with_covariance.hpp"
 
 namespace urban_nav_core {
 

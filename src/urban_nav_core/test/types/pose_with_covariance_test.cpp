@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "urban_nav_core/types/uncertain.hpp"
+#include "urban_nav_core/types/pose_with_covariance.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,9 +13,9 @@ namespace {
 
 const Pose kPose(expSo3({0.0, 0.0, 0.5}), {1.0, 2.0, 3.0});
 
-TEST(UncertainPose, ComparesPoseAndCovariance) {
-  const UncertainPose a{kPose, Matrix6d::Identity()};
-  UncertainPose b = a;
+TEST(PoseWithCovariance, ComparesPoseAndCovariance) {
+  const PoseWithCovariance a{kPose, Matrix6d::Identity()};
+  PoseWithCovariance b = a;
   EXPECT_TRUE(isApprox(a, b, 0.0));
   b.covariance(2, 5) += 1e-3;
   EXPECT_FALSE(isApprox(a, b, 0.9e-3));
@@ -51,7 +51,7 @@ TEST(Constraint, ComparesInformation) {
 
 TEST(Uncertain, PrintsThemselves) {
   std::ostringstream out;
-  out << UncertainPose{kPose, Matrix6d::Identity() * 4.0};
+  out << PoseWithCovariance{kPose, Matrix6d::Identity() * 4.0};
   EXPECT_EQ(out.str(), "t = (1, 2, 3) m, rotation vector = (0, 0, 0.5) rad, sigma = (2, 2, 2) m, (2, 2, 2) rad");
   out.str("");
   out << RelativePose{0, 1000000000, Pose(), Matrix6d::Identity(), Matrix6d::Zero(), {}, "swf_vo"};

@@ -15,7 +15,7 @@ namespace urban_nav_core {
 /// WARNING, the convention of everything that leaves a stage: tangent (rho, phi), translation first, both in the
 /// parent frame a: T_a_b = [Exp(phi) R, t + rho]. It is ROS's convention to first order. Proper (positive definite):
 /// a direction that is not observed belongs into a Constraint, as zero information.
-struct UncertainPose {
+struct PoseWithCovariance {
   Pose pose;
   Matrix6d covariance = Matrix6d::Identity();
 };
@@ -26,7 +26,7 @@ struct RelativePose {
   StampNs from = 0;
   StampNs to = 0;
   Pose T_from_to;
-  Matrix6d covariance = Matrix6d::Identity();  ///< as in UncertainPose, parent frame: `from`
+  Matrix6d covariance = Matrix6d::Identity();  ///< as in PoseWithCovariance, parent frame: `from`
   /// WARNING: covariances of an odometry's steps are right one by one, but neighbours share an end: composed as if independent
   /// they may be 5 to 50 times too large over 100 steps. This is the part that adds up. The covariance of a way of many
   /// steps is that composed of their drifts, with half of `covariance` added to the first and to the last. Zero where the
@@ -38,7 +38,7 @@ struct RelativePose {
 
 /// A measured T_a_b that may leave directions free: what a closure or a plane seen again says.
 ///
-/// WARNING: `information` may be singular and must never be inverted. Tangent and frame as in UncertainPose; a
+/// WARNING: `information` may be singular and must never be inverted. Tangent and frame as in PoseWithCovariance; a
 /// direction that is not observed has zero information, not a small one.
 struct Constraint {
   Pose T_a_b;
@@ -47,11 +47,11 @@ struct Constraint {
 
 /// Poses equal within `tolerance` (m, rad), every element of the matrices within `tolerance`; stamps, status and source
 /// exactly.
-bool isApprox(const UncertainPose& a, const UncertainPose& b, double tolerance);
+bool isApprox(const PoseWithCovariance& a, const PoseWithCovariance& b, double tolerance);
 bool isApprox(const RelativePose& a, const RelativePose& b, double tolerance);
 bool isApprox(const Constraint& a, const Constraint& b, double tolerance);
 /// The pose with the standard deviations of its six coordinates.
-std::ostream& operator<<(std::ostream& out, const UncertainPose& value);
+std::ostream& operator<<(std::ostream& out, const PoseWithCovariance& value);
 std::ostream& operator<<(std::ostream& out, const RelativePose& value);
 std::ostream& operator<<(std::ostream& out, const Constraint& value);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "urban_nav_core/types/uncertain.hpp"
+#include "urban_nav_core/types/pose_with_covariance.hpp"
 
 #include <ostream>
 
@@ -19,7 +19,7 @@ void printSigmas(std::ostream& out, const Matrix6d& covariance) {
 
 }  // namespace
 
-bool isApprox(const UncertainPose& a, const UncertainPose& b, double tolerance) {
+bool isApprox(const PoseWithCovariance& a, const PoseWithCovariance& b, double tolerance) {
   return isApprox(a.pose, b.pose, tolerance) && closeTo(a.covariance, b.covariance, tolerance);
 }
 
@@ -33,7 +33,7 @@ bool isApprox(const Constraint& a, const Constraint& b, double tolerance) {
   return isApprox(a.T_a_b, b.T_a_b, tolerance) && closeTo(a.information, b.information, tolerance);
 }
 
-std::ostream& operator<<(std::ostream& out, const UncertainPose& value) {
+std::ostream& operator<<(std::ostream& out, const PoseWithCovariance& value) {
   out << value.pose;
   printSigmas(out, value.covariance);
   return out;
