@@ -103,7 +103,7 @@ void Views::begin() {
   StereoFeed::Options options;
   options.max_lateness = nanoseconds(listening_.max_lateness);
   options.pairing_tolerance = nanoseconds(listening_.pairing);
-  options.arrival = StereoFeed::Arrival::OrderedStreams;
+  options.delivery = urban_nav_core::DeliveryOrder::OrderedStreams;
   feed_.emplace(options, calibration_);
 }
 

@@ -54,25 +54,25 @@ void archiveMessage(urban_nav_core::Archive& archive, boost::shared_ptr<const Me
 StereoFeed::StereoFeed(const Options& options, std::shared_ptr<const StereoCalibration> calibration)
     : calibration_(std::move(calibration)),
       first_image_stream_(options.motion ? motion_stream + 1 : 0),
-      inbox_(first_image_stream_ + 2, options.max_lateness, options.arrival),
+      queue_(first_image_stream_ + 2, options.max_lateness, options.delivery),
       assembler_(options.pairing_tolerance) {}
 
 int StereoFeed::streamOf(Side side) const { return first_image_stream_ + (side == Side::Left ? 0 : 1); }
 
 void StereoFeed::add(Side side, const sensor_msgs::ImageConstPtr& image) {
-  inbox_.put(streamOf(side), toStampNs(image->header.stamp), image);
+  queue_.put(streamOf(side), toStampNs(image->header.stamp), image);
 }
 
 void StereoFeed::add(Side side, const sensor_msgs::CompressedImageConstPtr& image) {
-  inbox_.put(streamOf(side), toStampNs(image->header.stamp), image);
+  queue_.put(streamOf(side), toStampNs(image->header.stamp), image);
 }
 
 void StereoFeed::add(const MotionInput& input) {
-  if (first_image_stream_ > motion_stream) inbox_.put(motion_stream, input.to, input);
+  if (first_image_stream_ > motion_stream) queue_.put(motion_stream, input.to, input);
 }
 
 void StereoFeed::finish() {
-  inbox_.finish();
+  queue_.finish();
   finished_ = true;
 }
 
@@ -110,7 +110,7 @@ OwnedImage StereoFeed::decode(Side side, StampNs stamp, const Input& input) {
 std::optional<FedPair> StereoFeed::take() {
   for (;;) {
     if (auto ready = assembler_.take()) return FedPair{std::move(*ready), std::exchange(faults_, {})};
-    auto entry = inbox_.take();
+    auto entry = queue_.take();
     if (!entry) {
       if (!finished_ || drained_) return std::nullopt;
       drained_ = true;
@@ -127,16 +127,18 @@ std::optional<FedPair> StereoFeed::take() {
   }
 }
 
-const urban_nav_core::InboxCounts& StereoFeed::counts(Side side) const { return inbox_.counts(streamOf(side)); }
+const urban_nav_core::TimeOrderedQueueCounts& StereoFeed::counts(Side side) const {
+  return queue_.counts(streamOf(side));
+}
 
 std::int64_t StereoFeed::missing(Side side) const {
   return side == Side::Left ? assembler_.leftsMissing() : assembler_.rightsMissing();
 }
 
-std::optional<StampNs> StereoFeed::reached(Side side) const { return inbox_.reached(streamOf(side)); }
+std::optional<StampNs> StereoFeed::reached(Side side) const { return queue_.reached(streamOf(side)); }
 
 void StereoFeed::archive(urban_nav_core::Archive& archive) {
-  inbox_.archive(archive, [](urban_nav_core::Archive& items, Input& input) {
+  queue_.archive(archive, [](urban_nav_core::Archive& items, Input& input) {
     std::size_t kind = input.index();
     items(kind);
     items.require(kind < std::variant_size_v<Input>, "no such message");

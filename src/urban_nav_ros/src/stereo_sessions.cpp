@@ -106,7 +106,7 @@ void StereoSessions::begin() {
   StereoFeed::Options options;
   options.max_lateness = toNanoseconds(options_.max_lateness);
   options.pairing_tolerance = toNanoseconds(options_.pairing);
-  options.arrival = StereoFeed::Arrival::OrderedStreams;
+  options.delivery = urban_nav_core::DeliveryOrder::OrderedStreams;
   options.motion = options_.motion;
 
   Camera camera;
@@ -155,7 +155,7 @@ StereoSessions::Counts StereoSessions::counts() const {
   if (!feed_) return counts;
   for (const Side side : {Side::Left, Side::Right}) {
     counts.late += feed_->counts(side).late;
-    counts.duplicate += feed_->counts(side).doubled;
+    counts.duplicate += feed_->counts(side).duplicate;
   }
   counts.left_missing += feed_->missing(Side::Left);
   counts.right_missing += feed_->missing(Side::Right);

@@ -82,7 +82,7 @@ TEST(StereoFeed, aBagShuffledWithinTheLatenessGivesTheSamePairs) {
 
 TEST(StereoFeed, liveAPairLeavesWithItsSecondImage) {
   StereoFeed::Options options;
-  options.arrival = StereoFeed::Arrival::OrderedStreams;
+  options.delivery = urban_nav_core::DeliveryOrder::OrderedStreams;
   StereoFeed feed(options, calibration());
   feed.add(Side::Left, image(1000 * ms, 1));
   EXPECT_TRUE(drain(feed).empty());

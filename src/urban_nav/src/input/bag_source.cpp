@@ -86,13 +86,13 @@ class BagSource : public Source {
   std::vector<std::string> closingFaults() const override {
     std::vector<std::string> faults;
     const auto count = [&](Side side, Role role) {
-      const urban_nav_core::InboxCounts& counts = feed_->counts(side);
+      const urban_nav_core::TimeOrderedQueueCounts& counts = feed_->counts(side);
       const std::string topic = topics_.find(role)->name;
       if (counts.late > 0)
         faults.push_back(topic + ": " + std::to_string(counts.late) +
                          " images came too late by their stamps and were dropped");
-      if (counts.doubled > 0)
-        faults.push_back(topic + ": " + std::to_string(counts.doubled) +
+      if (counts.duplicate > 0)
+        faults.push_back(topic + ": " + std::to_string(counts.duplicate) +
                          " images have the stamp of another and were dropped");
       if (feed_->missing(side) > 0)
         faults.push_back(topic + ": " + std::to_string(feed_->missing(side)) +

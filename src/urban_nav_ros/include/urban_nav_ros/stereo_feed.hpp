@@ -13,8 +13,8 @@
 #include <variant>
 #include <vector>
 
-#include "urban_nav_core/sequence/inbox.hpp"
 #include "urban_nav_core/sequence/stereo_assembler.hpp"
+#include "urban_nav_core/sequence/time_ordered_queue.hpp"
 #include "urban_nav_ros/motion.hpp"
 #include "urban_nav_ros/stereo_calibration.hpp"
 
@@ -27,15 +27,14 @@ struct FedPair {
   std::vector<std::string> faults;
 };
 
-/// Messages in, stereo pairs out: converters, Inbox, pairing and rectification in the one way that nodelet and bag
+/// Messages in, stereo pairs out: converters, TimeOrderedQueue, pairing and rectification in the one way that nodelet and bag
 /// reader share, so that both hand a stage the same bytes. One session and one calibration: begin the next with a new
 /// object. Not thread-safe.
 class StereoFeed {
  public:
-  using Arrival = urban_nav_core::InboxArrival;
   struct Options {
     urban_nav_core::StampNs max_lateness = 50'000'000;
-    Arrival arrival = Arrival::Shuffled;
+    urban_nav_core::DeliveryOrder delivery = urban_nav_core::DeliveryOrder::Shuffled;
     urban_nav_core::StampNs pairing_tolerance = 5'000'000;
     bool motion = false;  ///< motion inputs will come: in live order the feed waits for them as for an image
   };
@@ -55,7 +54,7 @@ class StereoFeed {
   void archive(urban_nav_core::Archive& archive);
 
   /// What came on a side, too late or twice.
-  const urban_nav_core::InboxCounts& counts(Side side) const;
+  const urban_nav_core::TimeOrderedQueueCounts& counts(Side side) const;
   /// Pairs that left without an image of this side.
   std::int64_t missing(Side side) const;
   /// Number of images rectified by this object.
@@ -71,7 +70,7 @@ class StereoFeed {
 
   std::shared_ptr<const StereoCalibration> calibration_;
   int first_image_stream_;
-  urban_nav_core::Inbox<Input> inbox_;
+  urban_nav_core::TimeOrderedQueue<Input> queue_;
   urban_nav_core::StereoAssembler assembler_;
   int left_bits_ = 0, right_bits_ = 0;  // depth of 16-bit pixels, from the first image
   std::vector<std::string> faults_;

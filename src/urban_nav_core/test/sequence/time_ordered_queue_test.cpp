@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_core/sequence/time_ordered_queue.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace urban_nav_core {
+namespace {
+
+constexpr StampNs ms = 1'000'000;
+using TestQueue = TimeOrderedQueue<int>;
+using Place = std::pair<StampNs, int>;
+
+std::vector<Place> drain(TestQueue& queue) {
+  std::vector<Place> out;
+  while (const auto entry = queue.take()) out.emplace_back(entry->stamp, entry->stream);
+  return out;
+}
+
+std::vector<Place> threeStreams() {
+  std::vector<Place> inputs;
+  for (StampNs t = 0; t < 2000; t += 50) {
+    inputs.emplace_back(t * ms, 1);
+    inputs.emplace_back(t * ms, 2);
+  }
+  for (StampNs t = 7; t < 2000; t += 36) inputs.emplace_back(t * ms, 0);
+  std::sort(inputs.begin(), inputs.end());
+  return inputs;
+}
+
+TEST(TimeOrderedQueue, whateverIsShuffledWithinTheLatenessLeavesInOrder) {
+  const std::vector<Place> inputs = threeStreams();
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> delay(0.0, 50.0);
+  for (int run = 0; run < 20; ++run) {
+    std::vector<std::pair<double, Place>> arrivals;
+    for (const Place& input : inputs)
+      arrivals.emplace_back(static_cast<double>(input.first) / ms + delay(random), input);
+    std::sort(arrivals.begin(), arrivals.end());
+    TestQueue queue(3, 50 * ms);
+    std::vector<Place> out;
+    for (const auto& [when, input] : arrivals) {
+      ASSERT_TRUE(queue.put(input.second, input.first, 0));
+      for (const Place& place : drain(queue)) out.push_back(place);
+    }
+    queue.finish();
+    for (const Place& place : drain(queue)) out.push_back(place);
+    ASSERT_EQ(out, inputs);
+  }
+}
+
+TEST(TimeOrderedQueue, theSameOrderWhetherStreamsAreTakenAsOrderedOrNot) {
+  TestQueue live(3, 100 * ms, DeliveryOrder::OrderedStreams), offline(3, 50 * ms);
+  std::vector<Place> live_out, offline_out;
+  for (const Place& input : threeStreams()) {
+    live.put(input.second, input.first, 0);
+    offline.put(input.second, input.first, 0);
+    for (const Place& place : drain(live)) live_out.push_back(place);
+    for (const Place& place : drain(offline)) offline_out.push_back(place);
+  }
+  live.finish();
+  offline.finish();
+  for (const Place& place : drain(live)) live_out.push_back(place);
+  for (const Place& place : drain(offline)) offline_out.push_back(place);
+  EXPECT_EQ(live_out, offline_out);
+  EXPECT_EQ(live_out, threeStreams());
+}
+
+TEST(TimeOrderedQueue, orderedStreamsLeaveAsSoonAsAllHaveComeThatFar) {
+  TestQueue queue(2, 100 * ms, DeliveryOrder::OrderedStreams);
+  queue.put(0, 50 * ms, 0);
+  EXPECT_TRUE(drain(queue).empty());
+  queue.put(1, 50 * ms, 0);
+  EXPECT_EQ(drain(queue), (std::vector<Place>{{50 * ms, 0}, {50 * ms, 1}}));
+}
+
+TEST(TimeOrderedQueue, aSilentStreamIsWaitedForNoLongerThanTheLateness) {
+  TestQueue queue(2, 100 * ms, DeliveryOrder::OrderedStreams);
+  queue.put(0, 0, 0);
+  queue.put(0, 99 * ms, 0);
+  EXPECT_TRUE(drain(queue).empty());
+  queue.put(0, 100 * ms, 0);
+  EXPECT_EQ(drain(queue), (std::vector<Place>{{0, 0}}));
+  EXPECT_FALSE(queue.reached(1));
+  EXPECT_EQ(*queue.reached(0), 100 * ms);
+}
+
+TEST(TimeOrderedQueue, lateAndDoubledInputsAreCountedAndDropped) {
+  TestQueue queue(2, 10 * ms);
+  queue.put(0, 100 * ms, 0);
+  queue.put(0, 120 * ms, 0);
+  EXPECT_FALSE(queue.put(0, 120 * ms, 1)) << "the same again, still waiting";
+  EXPECT_EQ(drain(queue).size(), 1U);
+  EXPECT_FALSE(queue.put(0, 100 * ms, 1)) << "the same again, handed on";
+  EXPECT_FALSE(queue.put(1, 90 * ms, 1));
+  EXPECT_TRUE(queue.put(1, 100 * ms, 1)) << "behind it in the order (stamp, stream)";
+  EXPECT_EQ(queue.counts(0).received, 4);
+  EXPECT_EQ(queue.counts(0).duplicate, 2);
+  EXPECT_EQ(queue.counts(0).late, 0);
+  EXPECT_EQ(queue.counts(1).late, 1);
+}
+
+TEST(TimeOrderedQueue, oneStampFarAheadHoldsNothingUp) {
+  TestQueue queue(1, 10 * ms);
+  queue.put(0, 100 * ms, 0);
+  queue.put(0, 100'000'000 * ms, 0);
+  EXPECT_EQ(drain(queue), (std::vector<Place>{{100 * ms, 0}}));
+  queue.put(0, 150 * ms, 0);
+  EXPECT_EQ(drain(queue), (std::vector<Place>{{150 * ms, 0}}));
+  EXPECT_EQ(queue.waiting(), 1U);
+}
+
+}  // namespace
+}  // namespace urban_nav_core
