@@ -89,7 +89,7 @@ class Views {
   std::optional<KeyframeMaker> maker_;
   std::optional<urban_nav_ros::StereoFeed> feed_;
   KeyframeChoice choice_;
-  std::deque<urban_nav_ros::FedPair> pairs_;          // for odometry
+  std::deque<urban_nav_ros::DecodedPair> pairs_;      // for odometry
   std::deque<urban_nav_core::StampedPose> odometry_;  // for pairs
   std::string fault_, note_;
   Counts counts_;

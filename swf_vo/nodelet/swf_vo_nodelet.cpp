@@ -44,7 +44,7 @@ class SwfVoStage {
 
  private:
   void begin(const StereoSessions::Camera& camera);
-  void process(urban_nav_ros::FedPair& pair);
+  void process(urban_nav_ros::DecodedPair& pair);
   void end(const std::string& why);
   void refuse(const std::string& fault);
 
@@ -93,7 +93,7 @@ void SwfVoStage::begin(const StereoSessions::Camera& camera) {
   node_.logInfo("session " + std::to_string(odometry_->sessions()) + ": " + camera.sentence());
 }
 
-void SwfVoStage::process(urban_nav_ros::FedPair& pair) {
+void SwfVoStage::process(urban_nav_ros::DecodedPair& pair) {
   for (const std::string& fault : pair.faults) node_.logWarning("image", fault);
   odometry_->process(pair.assembled);
 }

@@ -107,9 +107,9 @@ OwnedImage StereoFeed::decode(Side side, StampNs stamp, const Input& input) {
   return {stamp, view, pixels};
 }
 
-std::optional<FedPair> StereoFeed::take() {
+std::optional<DecodedPair> StereoFeed::take() {
   for (;;) {
-    if (auto ready = assembler_.take()) return FedPair{std::move(*ready), std::exchange(faults_, {})};
+    if (auto ready = assembler_.take()) return DecodedPair{std::move(*ready), std::exchange(faults_, {})};
     auto entry = queue_.take();
     if (!entry) {
       if (!finished_ || drained_) return std::nullopt;

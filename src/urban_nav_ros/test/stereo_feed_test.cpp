@@ -40,8 +40,8 @@ sensor_msgs::ImageConstPtr image(StampNs stamp, int value, int w = width, int h 
   return message;
 }
 
-std::vector<FedPair> drain(StereoFeed& feed) {
-  std::vector<FedPair> pairs;
+std::vector<DecodedPair> drain(StereoFeed& feed) {
+  std::vector<DecodedPair> pairs;
   while (auto pair = feed.take()) pairs.push_back(std::move(*pair));
   return pairs;
 }
@@ -63,13 +63,13 @@ TEST(StereoFeed, aBagShuffledWithinTheLatenessGivesTheSamePairs) {
     std::stable_sort(messages.begin(), messages.end(),
                      [](const Message& a, const Message& b) { return a.arrival < b.arrival; });
     StereoFeed feed(StereoFeed::Options(), calibration());
-    std::vector<FedPair> pairs;
+    std::vector<DecodedPair> pairs;
     for (const Message& message : messages) {
       feed.add(message.side, image(message.stamp, message.side == Side::Left ? 10 : 20));
-      for (FedPair& pair : drain(feed)) pairs.push_back(std::move(pair));
+      for (DecodedPair& pair : drain(feed)) pairs.push_back(std::move(pair));
     }
     feed.finish();
-    for (FedPair& pair : drain(feed)) pairs.push_back(std::move(pair));
+    for (DecodedPair& pair : drain(feed)) pairs.push_back(std::move(pair));
     ASSERT_EQ(pairs.size(), 50U) << (shuffled ? "shuffled" : "in order");
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       EXPECT_EQ(pairs[i].assembled.pair.stamp, (1000 + 40 * static_cast<StampNs>(i)) * ms);
@@ -100,9 +100,9 @@ TEST(StereoFeed, anImageThatIsMissingOrDamagedLeavesAPairThatSaysSo) {
   feed.add(Side::Left, image(1200 * ms, 1));
   feed.add(Side::Right, sensor_msgs::ImageConstPtr(damaged));
   feed.finish();
-  const std::vector<FedPair> pairs = drain(feed);
+  const std::vector<DecodedPair> pairs = drain(feed);
   ASSERT_EQ(pairs.size(), 3U);
-  for (const FedPair& pair : pairs) {
+  for (const DecodedPair& pair : pairs) {
     EXPECT_FALSE(pair.assembled.pair.left.empty());
     EXPECT_TRUE(pair.assembled.pair.right.empty());
   }
@@ -128,7 +128,7 @@ TEST(StereoFeed, rawImagesAreRectified) {
     feed.add(Side::Left, sensor_msgs::ImageConstPtr(message));
     feed.add(Side::Right, sensor_msgs::ImageConstPtr(message));
     feed.finish();
-    const std::vector<FedPair> pairs = drain(feed);
+    const std::vector<DecodedPair> pairs = drain(feed);
     ASSERT_EQ(pairs.size(), 1U);
     const int seen = pairs[0].assembled.pair.left.at(87, 35);
     // A ray at x = (87 - 47.5) / 80 is seen at x (1 - 0.2 x^2) in the raw image.
@@ -152,7 +152,7 @@ TEST(StereoFeed, motionComesWithThePairThatItLeadsTo) {
     feed.add(Side::Left, image(t * ms, 1));
   }
   feed.finish();
-  const std::vector<FedPair> pairs = drain(feed);
+  const std::vector<DecodedPair> pairs = drain(feed);
   ASSERT_EQ(pairs.size(), 4U);
   EXPECT_EQ(pairs[0].assembled.inputs.size(), 0U);
   EXPECT_EQ(pairs[1].assembled.inputs.size(), 2U);
@@ -180,13 +180,13 @@ TEST(CameraInfo, thereAndBack) {
 }
 
 /// What came out of a feed: stamps, pixels, inputs, faults.
-std::string textOf(const std::vector<FedPair>& pairs) {
+std::string textOf(const std::vector<DecodedPair>& pairs) {
   std::string text;
   const auto add = [&](const urban_nav_core::ImageView& view) {
     text += " " + (view.empty() ? std::string("none")
                                 : std::to_string(view.at(3, 3)) + "/" + std::to_string(view.at(95, 71)));
   };
-  for (const FedPair& pair : pairs) {
+  for (const DecodedPair& pair : pairs) {
     text += std::to_string(pair.assembled.pair.stamp);
     add(pair.assembled.pair.left);
     add(pair.assembled.pair.right);
@@ -217,10 +217,10 @@ TEST(StereoFeed, goesOnFromItsState) {
     if (i == 20) messages.push_back([](StereoFeed& feed) { feed.add(Side::Right, image(1000 * ms, 99)); });  // late
   }
   const auto play = [&](std::size_t cut) {
-    std::vector<FedPair> pairs;
+    std::vector<DecodedPair> pairs;
     auto feed = std::make_unique<StereoFeed>(options, calibration());
     for (std::size_t i = 0; i <= messages.size(); ++i) {
-      for (FedPair& pair : drain(*feed)) pairs.push_back(std::move(pair));
+      for (DecodedPair& pair : drain(*feed)) pairs.push_back(std::move(pair));
       if (i == cut) {
         urban_nav_core::Archive writer;
         feed->archive(writer);
@@ -234,7 +234,7 @@ TEST(StereoFeed, goesOnFromItsState) {
       if (i < messages.size()) messages[i](*feed);
     }
     feed->finish();
-    for (FedPair& pair : drain(*feed)) pairs.push_back(std::move(pair));
+    for (DecodedPair& pair : drain(*feed)) pairs.push_back(std::move(pair));
     return textOf(pairs) + std::to_string(feed->missing(Side::Right)) + " " +
            std::to_string(feed->counts(Side::Right).late) + " " + std::to_string(feed->counts(Side::Left).received);
   };

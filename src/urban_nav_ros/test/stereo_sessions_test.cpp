@@ -50,7 +50,7 @@ struct Kept {
     options.tf_wait = tf_wait;
     sessions = std::make_unique<StereoSessions>(
         options, StereoSessions::Listener{[this](const StereoSessions::Camera& camera) { cameras.push_back(camera); },
-                                          [this](FedPair& pair) { stamps.push_back(pair.assembled.pair.stamp); },
+                                          [this](DecodedPair& pair) { stamps.push_back(pair.assembled.pair.stamp); },
                                           [this](const std::string& why) { ends.push_back(why); },
                                           [this](const std::string& fault) { faults.push_back(fault); }});
   }

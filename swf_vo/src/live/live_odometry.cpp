@@ -11,7 +11,7 @@ void LiveOdometry::begin(const urban_nav_core::StereoCamera& camera, const urban
   ++sessions_;
 }
 
-void LiveOdometry::process(const urban_nav_core::AssembledPair& pair) {
+void LiveOdometry::process(const urban_nav_core::StereoPairWithMotion& pair) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
   const Frame& frame = filter_->process(pair.pair, pair.inputs);

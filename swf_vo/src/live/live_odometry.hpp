@@ -27,7 +27,7 @@ class LiveOdometry {
   /// Begins a session. `T_base_left`: pose of the rectified left camera. Throws UserError if the calibration is invalid.
   void begin(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_base_left);
   /// Processes a pair. Requires a running session.
-  void process(const urban_nav_core::AssembledPair& pair);
+  void process(const urban_nav_core::StereoPairWithMotion& pair);
   /// Ends the session: smoothed poses are flushed to the listener. `why`: for the report.
   void end(const std::string& why);
   /// Sets the reason for which no session can begin; empty: none.

@@ -13,8 +13,8 @@
 namespace swf_vo {
 namespace {
 
-using urban_nav_core::AssembledPair;
 using urban_nav_core::Pose;
+using urban_nav_core::StereoPairWithMotion;
 using urban_nav_core::testing::RenderedSequence;
 
 RenderedSequence liveRoom() {
@@ -46,7 +46,7 @@ struct Recorded {
 
   void play(RenderedSequence& sequence, int first, int count) {
     for (int i = first; i < first + count; ++i) {
-      AssembledPair pair;
+      StereoPairWithMotion pair;
       pair.pair = sequence.frame(i).pair();
       odometry.process(pair);
     }

@@ -61,7 +61,7 @@ class Companions {
   std::size_t next_imu_ = 0, next_truth_ = 0;
 };
 
-void refuseFaults(const StereoInput& input) {
+void refuseFaults(const SourceItem& input) {
   if (!input.faults.empty()) throw DataError("", input.faults.front(), "");
 }
 
@@ -92,7 +92,7 @@ Converted convertStereoFolder(const std::string& folder, const std::string& path
   bag.writeStaticTransforms(info.first + shift, transforms);
   Progress progress(console, "convert", "frames", info.frames);
   std::int64_t frames = 0;
-  while (const std::optional<StereoInput> input = source->next()) {
+  while (const std::optional<SourceItem> input = source->next()) {
     refuseFaults(*input);
     const urban_nav_core::StereoPair& pair = input->assembled.pair;
     companions.writeUntil(pair.stamp, bag);

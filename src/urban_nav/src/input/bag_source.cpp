@@ -55,11 +55,11 @@ class BagSource : public Source {
 
   const SourceInfo& info() const override { return info_; }
 
-  std::optional<StereoInput> next() override {
+  std::optional<SourceItem> next() override {
     try {
       while (true) {
-        if (std::optional<urban_nav_ros::FedPair> pair = feed_->take()) {
-          StereoInput input(std::move(*pair));
+        if (std::optional<urban_nav_ros::DecodedPair> pair = feed_->take()) {
+          SourceItem input(std::move(*pair));
           input.bag_end = std::exchange(bag_end_, nullptr);
           input.scans = std::exchange(scans_, {});
           return input;

@@ -36,10 +36,10 @@ class EurocFolder : public Source {
   const SourceInfo& info() const override { return info_; }
   std::vector<pose_graph::FeltForce> forces() const override { return forces_; }
 
-  std::optional<StereoInput> next() override {
+  std::optional<SourceItem> next() override {
     if (position_ >= pairs_.size()) return std::nullopt;
     const EurocPair& pair = pairs_[position_++];
-    StereoInput input;
+    SourceItem input;
     input.assembled.pair.stamp = pair.stamp;
     std::tie(input.assembled.pair.left, input.assembled.left_owner) =
         keep(read(pair.left, "left", pair.stamp, rig_.left_map, input.faults));

@@ -13,7 +13,7 @@
 
 namespace urban_nav {
 
-using urban_nav_core::AssembledPair;
+using urban_nav_core::StereoPairWithMotion;
 using urban_nav_ros::GreyImage;
 using urban_nav_ros::Side;
 
@@ -38,11 +38,11 @@ class KittiFolder : public Source {
 
   const SourceInfo& info() const override { return info_; }
 
-  std::optional<StereoInput> next() override {
+  std::optional<SourceItem> next() override {
     if (position_ >= frames_.numbers.size()) return std::nullopt;
     const std::int64_t number = frames_.numbers[position_];
-    StereoInput input;
-    AssembledPair& assembled = input.assembled;
+    SourceItem input;
+    StereoPairWithMotion& assembled = input.assembled;
     assembled.pair.stamp = frames_.stamps[position_];
     std::tie(assembled.pair.left, assembled.left_owner) = keep(read(Side::Left, number, input.faults));
     std::tie(assembled.pair.right, assembled.right_owner) = keep(read(Side::Right, number, input.faults));

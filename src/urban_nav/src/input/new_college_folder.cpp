@@ -40,11 +40,11 @@ class NewCollegeFolder : public Source {
 
   const SourceInfo& info() const override { return info_; }
 
-  std::optional<StereoInput> next() override {
+  std::optional<SourceItem> next() override {
     if (position_ >= files_.stereo.size()) return std::nullopt;
     const NewCollegeFiles::Pair& files = files_.stereo[position_++];
-    StereoInput input;
-    urban_nav_core::AssembledPair& assembled = input.assembled;
+    SourceItem input;
+    urban_nav_core::StereoPairWithMotion& assembled = input.assembled;
     assembled.pair.stamp = files.stamp;
     std::tie(assembled.pair.left, assembled.left_owner) = keep(read(files.left, files.stamp, input.faults));
     std::tie(assembled.pair.right, assembled.right_owner) = keep(read(files.right, files.stamp, input.faults));

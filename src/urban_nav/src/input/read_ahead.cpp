@@ -31,14 +31,14 @@ class ReadAhead : public Source {
 
   const SourceInfo& info() const override { return info_; }
 
-  std::optional<StereoInput> next() override {
+  std::optional<SourceItem> next() override {
     std::unique_lock<std::mutex> lock(mutex_);
     changed_.wait(lock, [this] { return ended_ || !queue_.empty(); });
     if (queue_.empty()) {
       if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
       return std::nullopt;
     }
-    StereoInput input = std::move(queue_.front());
+    SourceItem input = std::move(queue_.front());
     queue_.pop_front();
     lock.unlock();
     changed_.notify_all();
@@ -68,7 +68,7 @@ class ReadAhead : public Source {
  private:
   void run() {
     try {
-      while (std::optional<StereoInput> input = source_->next()) {
+      while (std::optional<SourceItem> input = source_->next()) {
         std::unique_lock<std::mutex> lock(mutex_);
         changed_.wait(lock, [this] { return stop_ || queue_.size() < depth_; });
         if (stop_) return;
@@ -91,7 +91,7 @@ class ReadAhead : public Source {
   const SourceInfo info_;
   const std::size_t depth_;
   mutable std::mutex mutex_;  // guards the four below
-  std::deque<StereoInput> queue_;
+  std::deque<SourceItem> queue_;
   std::exception_ptr error_;
   bool ended_ = false;
   bool stop_ = false;

@@ -31,11 +31,10 @@ struct BagEnd {
   std::vector<LaserInput> scans;        ///< read behind the pair before, up to here
 };
 
-/// A rectified grey pair with what else was measured since the pair before, and sentences that name what was wrong with
-/// its images.
-struct StereoInput : urban_nav_ros::FedPair {
-  StereoInput() = default;
-  StereoInput(urban_nav_ros::FedPair pair) : FedPair(std::move(pair)) {}
+/// What a Source returns at a time: a decoded pair, and what else was recorded since the previous one.
+struct SourceItem : urban_nav_ros::DecodedPair {
+  SourceItem() = default;
+  SourceItem(urban_nav_ros::DecodedPair pair) : DecodedPair(std::move(pair)) {}
   std::shared_ptr<const BagEnd> bag_end;  ///< the last end of a bag between the pair before and this one; mostly none
   std::vector<LaserInput>
       scans;  ///< read since then, or since the end of that bag; only whoever reads knows in which order
@@ -64,7 +63,7 @@ class Source {
   virtual ~Source() = default;
   virtual const SourceInfo& info() const = 0;
   /// The next pair; empty at the end. DataError where the input cannot be read on.
-  virtual std::optional<StereoInput> next() = 0;
+  virtual std::optional<SourceItem> next() = 0;
   /// What was wrong with the input as a whole: complete when next() has come to the end.
   virtual std::vector<std::string> closingFaults() const { return {}; }
   /// The end of a bag that no pair came behind: complete when next() has come to the end. Mostly none.

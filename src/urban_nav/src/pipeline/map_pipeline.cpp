@@ -86,7 +86,7 @@ void runVo(Source& source, VoStage& stage, StoreStage& store, MapOutcome& outcom
   Progress progress(console, "vo", "frames", source.info().frames);
   std::size_t faults_said = stage.run().faults.size();
   double last_report = outcome.usage.wallSeconds();
-  while (const std::optional<StereoInput> input = source.next()) {
+  while (const std::optional<SourceItem> input = source.next()) {
     if (input->bag_end) {
       keepViews();
       store.keep(source.info(), input->bag_end->scans);

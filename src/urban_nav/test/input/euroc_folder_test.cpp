@@ -48,7 +48,7 @@ TEST(EurocFolder, isRectifiedOnTheWay) {
   const auto source = openEurocFolder(folder.file("in"), {});
   EXPECT_EQ(source->info().frames, 2);
   EXPECT_NEAR(source->info().camera.baseline, 0.2, 1e-9);
-  const std::optional<StereoInput> input = source->next();
+  const std::optional<SourceItem> input = source->next();
   ASSERT_TRUE(input);
   EXPECT_TRUE(input->faults.empty());
   EXPECT_EQ(input->assembled.pair.stamp, 1403715273262142976);
@@ -63,7 +63,7 @@ TEST(EurocFolder, namesAnImageThatIsNotThere) {
   std::filesystem::remove(folder.file("in/mav0/cam1/data/1403715273312143104.png"));
   const auto source = openEurocFolder(folder.file("in"), {});
   source->next();
-  const std::optional<StereoInput> second = source->next();
+  const std::optional<SourceItem> second = source->next();
   ASSERT_EQ(second->faults.size(), 1U);
   EXPECT_NE(second->faults[0].find("cam1/data/1403715273312143104.png"), std::string::npos);
   EXPECT_TRUE(second->assembled.pair.right.empty());

@@ -18,9 +18,9 @@ using testing::TemporaryFolder;
 using testing::writeFile;
 using urban_nav_core::UserError;
 
-std::vector<StereoInput> all(Source& source) {
-  std::vector<StereoInput> inputs;
-  while (std::optional<StereoInput> input = source.next()) inputs.push_back(std::move(*input));
+std::vector<SourceItem> all(Source& source) {
+  std::vector<SourceItem> inputs;
+  while (std::optional<SourceItem> input = source.next()) inputs.push_back(std::move(*input));
   return inputs;
 }
 
@@ -47,10 +47,10 @@ TEST(KittiFolder, readsEachLayout) {
     EXPECT_EQ(source->info().frames, 3) << left;
     EXPECT_EQ(source->info().camera.left.width, 240);
     EXPECT_NEAR(source->info().camera.baseline, 0.12, 1e-9);
-    const std::vector<StereoInput> inputs = all(*source);
+    const std::vector<SourceItem> inputs = all(*source);
     ASSERT_EQ(inputs.size(), 3U) << left;
     EXPECT_EQ(inputs[1].assembled.pair.stamp, 50'000'000);
-    for (const StereoInput& input : inputs) {
+    for (const SourceItem& input : inputs) {
       EXPECT_TRUE(input.faults.empty());
       EXPECT_EQ(input.assembled.pair.left.width, 240);
       EXPECT_EQ(input.assembled.pair.right.height, 180);
@@ -83,7 +83,7 @@ TEST(KittiFolder, namesAnImageThatIsTruncatedMissingOrOfAnotherSize) {
   const std::string whole = readFile(folder.file("in/image_0/000001.png"));
   writeFile(folder.file("in/image_0/000001.png"), whole.substr(0, whole.size() / 2));
   std::filesystem::remove(folder.file("in/image_1/000002.png"));
-  const std::vector<StereoInput> inputs = all(*openKittiFolder(folder.file("in"), {}));
+  const std::vector<SourceItem> inputs = all(*openKittiFolder(folder.file("in"), {}));
   ASSERT_EQ(inputs.size(), 4U);
   ASSERT_EQ(inputs[1].faults.size(), 1U);
   EXPECT_NE(inputs[1].faults[0].find("image_0/000001.png"), std::string::npos);
@@ -172,7 +172,7 @@ TEST(KittiFolder, rectifiesByTheCalibrationOfTheUser) {
     writeFile(folder.file("right.yaml"), cameraYaml(-24.0, distortion));
     return all(*openKittiFolder(folder.file("in"), options)).front();
   };
-  const StereoInput plain = firstOf(0.0), bent = firstOf(-0.2);
+  const SourceItem plain = firstOf(0.0), bent = firstOf(-0.2);
   ASSERT_FALSE(plain.assembled.pair.left.empty());
   ASSERT_FALSE(bent.assembled.pair.left.empty());
   int centre = 0, corner = 0;

@@ -12,10 +12,10 @@ class Counting : public Source {
  public:
   Counting(int count, bool fails) : count_(count), fails_(fails) {}
   const SourceInfo& info() const override { return info_; }
-  std::optional<StereoInput> next() override {
+  std::optional<SourceItem> next() override {
     if (next_ == count_ && fails_) throw std::runtime_error("the disk is gone");
     if (next_ == count_) return std::nullopt;
-    StereoInput input;
+    SourceItem input;
     input.assembled.pair.stamp = next_++;
     return input;
   }

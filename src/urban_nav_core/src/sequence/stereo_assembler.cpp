@@ -56,15 +56,15 @@ void StereoAssembler::finish() {
   if (left_ || right_) release();
 }
 
-std::optional<AssembledPair> StereoAssembler::take() {
+std::optional<StereoPairWithMotion> StereoAssembler::take() {
   if (ready_.empty()) return std::nullopt;
-  AssembledPair pair = std::move(ready_.front());
+  StereoPairWithMotion pair = std::move(ready_.front());
   ready_.pop_front();
   return pair;
 }
 
 void StereoAssembler::release() {
-  AssembledPair made;
+  StereoPairWithMotion made;
   made.pair.stamp = left_ ? left_->stamp : right_->stamp;
   if (left_) {
     made.pair.left = left_->view;

@@ -20,10 +20,10 @@
 
 namespace urban_nav_ros {
 
-/// A rectified grey pair, ready for a stereo stage. An image that did not come or does not decode is an empty view, and
-/// a sentence in `faults` names it.
-struct FedPair {
-  urban_nav_core::AssembledPair assembled;
+/// A rectified grey pair with its motion inputs, and the faults of its images. An image that is missing or cannot be
+/// decoded is an empty view, and a sentence in `faults` names it.
+struct DecodedPair {
+  urban_nav_core::StereoPairWithMotion assembled;
   std::vector<std::string> faults;
 };
 
@@ -48,7 +48,7 @@ class StereoFeed {
 
   /// The next pair that is complete, or known to stay incomplete. Images are decoded and rectified here, not when they
   /// are added.
-  std::optional<FedPair> take();
+  std::optional<DecodedPair> take();
 
   /// Where it stands between two messages, as take() has nothing more: what waits, as it came, and what has been counted.
   void archive(urban_nav_core::Archive& archive);

@@ -71,7 +71,7 @@ class StereoSessions {
   };
   struct Listener {
     std::function<void(const Camera&)> began;
-    std::function<void(FedPair&)> pair;
+    std::function<void(DecodedPair&)> pair;
     std::function<void(const std::string& why)> ended;  ///< after the last pair of the session
     /// The calibration makes no session, for this reason; empty: another calibration has arrived.
     std::function<void(const std::string& fault)> refused;

@@ -26,7 +26,8 @@ void KeyframeKeeper::goOn(const VoRun& run, const std::vector<urban_nav_core::St
     if (std::binary_search(kept.begin(), kept.end(), row.stamp)) choice_.keep(row.T_odom_base);
 }
 
-std::optional<StoredKeyframe> KeyframeKeeper::process(const urban_nav_core::AssembledPair& frame, const VoRow& row) {
+std::optional<StoredKeyframe> KeyframeKeeper::process(const urban_nav_core::StereoPairWithMotion& frame,
+                                                      const VoRow& row) {
   if (!row.accepted || frame.pair.left.empty() || frame.pair.right.empty()) return std::nullopt;
   if (!choice_.choose(row.T_odom_base)) return std::nullopt;
   std::optional<StoredKeyframe> done;

@@ -28,7 +28,8 @@ class KeyframeKeeper {
   void goOn(const VoRun& run, const std::vector<urban_nav_core::StampNs>& kept);
 
   /// To be called for each frame with its row. A view that is done, of an earlier frame.
-  std::optional<urban_nav_store::StoredKeyframe> process(const urban_nav_core::AssembledPair& frame, const VoRow& row);
+  std::optional<urban_nav_store::StoredKeyframe> process(const urban_nav_core::StereoPairWithMotion& frame,
+                                                         const VoRow& row);
   /// The next one that was not handed out; empty where none is left.
   std::optional<urban_nav_store::StoredKeyframe> next();
 

@@ -99,7 +99,7 @@ VoStage::VoStage(VoRun finished) : run_(std::move(finished)), pictures_(std::mak
 
 VoStage::~VoStage() = default;
 
-const VoRow& VoStage::process(const StereoInput& input) {
+const VoRow& VoStage::process(const SourceItem& input) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
   const Frame& frame = filter_->process(input.assembled.pair, input.assembled.inputs);

@@ -67,7 +67,7 @@ class VoStage {
   ~VoStage();
 
   /// The row it added to run().
-  const VoRow& process(const StereoInput& input);
+  const VoRow& process(const SourceItem& input);
   /// Empties the window; `faults` are those of the input as a whole, `forces` all that an accelerometer felt. No process() after it.
   void finish(const std::vector<std::string>& faults, const std::vector<pose_graph::FeltForce>& forces = {});
 

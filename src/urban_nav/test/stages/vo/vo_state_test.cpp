@@ -22,7 +22,7 @@ VoRun someRun(int frames) {
   testing::makeKittiFolder(folder.file("in"), style);
   const std::unique_ptr<Source> source = openSource({folder.file("in")}, {});
   VoStage stage(swf_vo::Parameters(), source->info());
-  while (const std::optional<StereoInput> input = source->next()) stage.process(*input);
+  while (const std::optional<SourceItem> input = source->next()) stage.process(*input);
   stage.finish({"a fault"}, {{0, {0.1, 0.2, 9.8}}, {50'000'000, {0.1, 0.3, 9.7}}});
   return stage.run();
 }

@@ -14,21 +14,21 @@ namespace urban_nav_core {
 
 class Archive;
 
-/// An image and whoever keeps its pixels alive.
+/// An image with shared ownership of its pixels.
 struct OwnedImage {
   StampNs stamp = 0;
   ImageView view;  ///< empty: the image came, but cannot be read
   std::shared_ptr<const void> owner;
 };
 
-/// A pair as a stereo stage eats it, with the motion inputs that ended behind the pair before and up to this one.
-struct AssembledPair {
+/// A stereo pair with the motion inputs that ended after the previous pair, up to and including its stamp.
+struct StereoPairWithMotion {
   StereoPair pair;                  ///< stamp: the left image's; the right one's where there is no left
   std::vector<MotionInput> inputs;  ///< in the order of time
   std::shared_ptr<const void> left_owner, right_owner;
 };
 
-/// Left and right images and motion inputs, in the order in which an TimeOrderedQueue hands them on, become stereo pairs. An image
+/// Left and right images and motion inputs, in the order in which a TimeOrderedQueue hands them on, become stereo pairs. An image
 /// whose partner did not come leaves as a pair with an empty view as soon as a later image shows that: by stamps alone,
 /// so the same inputs give the same pairs whether live or from a file. Not thread-safe.
 class StereoAssembler {
@@ -43,7 +43,7 @@ class StereoAssembler {
   void finish();
 
   /// The next pair that is complete, or known to stay incomplete.
-  std::optional<AssembledPair> take();
+  std::optional<StereoPairWithMotion> take();
 
   /// Images that left without their partner so far.
   std::int64_t leftsMissing() const { return lefts_missing_; }
@@ -58,7 +58,7 @@ class StereoAssembler {
   StampNs tolerance_;
   std::optional<OwnedImage> left_, right_;  // at most one of them waits
   std::deque<MotionInput> motion_;
-  std::deque<AssembledPair> ready_;
+  std::deque<StereoPairWithMotion> ready_;
   std::int64_t lefts_missing_ = 0, rights_missing_ = 0;
 };
 
