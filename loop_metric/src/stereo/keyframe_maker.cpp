@@ -6,11 +6,11 @@
 #include "io/jpeg.hpp"
 #include "loop_metric/keyframe.hpp"
 #include "urban_nav_core/image/fast.hpp"
+#include "urban_nav_core/image/feature_quadtree.hpp"
 #include "urban_nav_core/image/harris.hpp"
 #include "urban_nav_core/image/patch.hpp"
 #include "urban_nav_core/image/pyramid.hpp"
 #include "urban_nav_core/image/row_match.hpp"
-#include "urban_nav_core/image/spread.hpp"
 
 namespace loop_metric {
 
@@ -133,21 +133,21 @@ Keyframe KeyframeMaker::make(const urban_nav_core::PoseRef& at, const urban_nav_
     if (a.level != b.level) return a.level < b.level;
     return a.v != b.v ? a.v < b.v : a.u < b.u;
   });
-  urban_nav_core::Spread spread(keyframe.width, keyframe.height, points_, depthFor(points_), slack);
+  urban_nav_core::FeatureQuadtree quadtree(keyframe.width, keyframe.height, points_, depthFor(points_), slack);
   int attempts = attempts_per_point * points_;
   for (const Candidate& candidate : candidates) {
-    if (spread.count() >= points_ || attempts <= 0) break;
+    if (quadtree.count() >= points_ || attempts <= 0) break;
     // where there is little else, better than nothing
-    if (candidate.of_clipped && 2 * spread.count() >= points_) break;
+    if (candidate.of_clipped && 2 * quadtree.count() >= points_) break;
     const double u = candidate.u << candidate.level, v = candidate.v << candidate.level;
-    if (!spread.mayAdd(u, v)) continue;
+    if (!quadtree.mayAdd(u, v)) continue;
     --attempts;
     KeyframePoint point;
     point.u = static_cast<std::int16_t>(candidate.u);
     point.v = static_cast<std::int16_t>(candidate.v);
     point.level = static_cast<std::uint8_t>(candidate.level);
     if (!measureDepth(camera_, left.level(candidate.level), right.level(candidate.level), point)) continue;
-    spread.add(u, v);
+    quadtree.add(u, v);
     keyframe.points.push_back(point);
   }
   return keyframe;

@@ -60,7 +60,7 @@ Replenisher::Replenisher(const StereoCamera& camera, int features, double floor_
       features_(features),
       floor_px_(floor_px),
       subpixel_(subpixel),
-      spread_(camera.left.width, camera.left.height, features, depthFor(features), slack) {}
+      quadtree_(camera.left.width, camera.left.height, features, depthFor(features), slack) {}
 
 void Replenisher::gather(const Corners& corners) {
   candidates_.clear();
@@ -69,7 +69,7 @@ void Replenisher::gather(const Corners& corners) {
   for (int level = 0; level < corners.levels(); ++level, weight *= level_preference) {
     const ImageView& image = corners.image(Side::Left, level);
     for (const auto& corner : corners.at(Side::Left, level).corners()) {
-      if (!spread_.mayAdd(corner.u << level, corner.v << level)) continue;
+      if (!quadtree_.mayAdd(corner.u << level, corner.v << level)) continue;
       if (corner.u < kHarrisMargin || corner.v < kHarrisMargin || corner.u >= image.width - kHarrisMargin ||
           corner.v >= image.height - kHarrisMargin)
         continue;
@@ -154,21 +154,21 @@ bool Replenisher::start(const Candidate& candidate, FrameId frame, const Corners
 void Replenisher::replenish(FrameId frame, const Corners& corners, const Pose& T_odom_camera,
                             const std::vector<Match>& matches, Tracks& tracks, std::vector<Observation>& fresh,
                             RowOffset& rows) {
-  spread_.clear();
+  quadtree_.clear();
   for (const Match& match : matches)
-    if (match.inlier && match.left.found) spread_.add(match.left.pixel.x(), match.left.pixel.y());
-  const int missing = features_ - spread_.count();
+    if (match.inlier && match.left.found) quadtree_.add(match.left.pixel.x(), match.left.pixel.y());
+  const int missing = features_ - quadtree_.count();
   if (missing <= 0) return;
   gather(corners);
   int attempts = std::max(attempts_at_least, attempts_per_feature * missing);
   for (const Candidate& candidate : candidates_) {
-    if (spread_.count() >= features_ || attempts <= 0) return;
-    if (candidate.of_clipped && 2 * spread_.count() >= features_)
+    if (quadtree_.count() >= features_ || attempts <= 0) return;
+    if (candidate.of_clipped && 2 * quadtree_.count() >= features_)
       return;  // where there is little else, better than nothing
     const double u = candidate.u << candidate.level, v = candidate.v << candidate.level;
-    if (!spread_.mayAdd(u, v)) continue;
+    if (!quadtree_.mayAdd(u, v)) continue;
     --attempts;
-    if (start(candidate, frame, corners, T_odom_camera, tracks, fresh, rows)) spread_.add(u, v);
+    if (start(candidate, frame, corners, T_odom_camera, tracks, fresh, rows)) quadtree_.add(u, v);
   }
 }
 

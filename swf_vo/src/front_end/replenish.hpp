@@ -10,7 +10,7 @@
 #include "front_end/tracks.hpp"
 #include "observation.hpp"
 #include "urban_nav_core/camera/stereo_camera.hpp"
-#include "urban_nav_core/image/spread.hpp"
+#include "urban_nav_core/image/feature_quadtree.hpp"
 #include "urban_nav_core/io/archive.hpp"
 
 namespace swf_vo {
@@ -42,7 +42,7 @@ class Replenisher {
   int features_;
   double floor_px_;
   bool subpixel_;
-  urban_nav_core::Spread spread_;
+  urban_nav_core::FeatureQuadtree quadtree_;
   std::vector<Candidate> candidates_;
   std::vector<Misfit> misfit_;  // by level: noise is less further up
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "urban_nav_core/image/spread.hpp"
+#include "urban_nav_core/image/feature_quadtree.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -7,7 +7,7 @@
 
 namespace urban_nav_core {
 
-Spread::Spread(int width, int height, int most, int deepest, double slack)
+FeatureQuadtree::FeatureQuadtree(int width, int height, int most, int deepest, double slack)
     : width_(width), height_(height), deepest_(deepest) {
   assert(width > 0 && height > 0 && most >= 1 && deepest >= 0 && deepest <= 10 && slack >= 1.0);
   std::size_t nodes = 0;
@@ -19,13 +19,13 @@ Spread::Spread(int width, int height, int most, int deepest, double slack)
   counts_.assign(nodes, 0);
 }
 
-void Spread::clear() { std::fill(counts_.begin(), counts_.end(), 0); }
+void FeatureQuadtree::clear() { std::fill(counts_.begin(), counts_.end(), 0); }
 
-bool Spread::isInside(double u, double v) const {
+bool FeatureQuadtree::isInside(double u, double v) const {
   return u >= -0.5 && v >= -0.5 && u < width_ - 0.5 && v < height_ - 0.5;
 }
 
-std::size_t Spread::index(double u, double v, int depth) const {
+std::size_t FeatureQuadtree::index(double u, double v, int depth) const {
   const int parts = 1 << depth;
   const auto part = [parts](double x, int size) {
     return std::clamp(static_cast<int>((x + 0.5) / size * parts), 0, parts - 1);
@@ -34,7 +34,7 @@ std::size_t Spread::index(double u, double v, int depth) const {
   return static_cast<std::size_t>(before + part(v, height_) * parts + part(u, width_));
 }
 
-bool Spread::mayAdd(double u, double v) const {
+bool FeatureQuadtree::mayAdd(double u, double v) const {
   if (!isInside(u, v)) return false;
   for (int depth = 0; depth <= deepest_; ++depth) {
     if (countAt(u, v, depth) >= allowedAt(depth)) return false;
@@ -42,12 +42,12 @@ bool Spread::mayAdd(double u, double v) const {
   return true;
 }
 
-void Spread::add(double u, double v) {
+void FeatureQuadtree::add(double u, double v) {
   if (!isInside(u, v)) return;
   for (int depth = 0; depth <= deepest_; ++depth) ++counts_[index(u, v, depth)];
 }
 
-void Spread::remove(double u, double v) {
+void FeatureQuadtree::remove(double u, double v) {
   if (!isInside(u, v)) return;
   for (int depth = 0; depth <= deepest_; ++depth) {
     int& count = counts_[index(u, v, depth)];

@@ -6,16 +6,16 @@
 
 namespace urban_nav_core {
 
-/// The quadtree that spreads features over the image (Newman et al. 2009, section 2.4 (v)): each node holds how many
-/// measurements lie in its part of the image and how many may. A place has room if every node above it has.
+/// Quadtree that distributes features over the image (Newman et al. 2009, section 2.4 (v)): each node counts the
+/// measurements in its part of the image, up to a limit. A pixel has room if every node that contains it has.
 ///
 /// Depth 0 is the whole image; depth d has 2^d x 2^d equal parts, each allowed min(most, ceil(slack most / 4^d))
 /// measurements: slack 1 forces an even spread, larger values let one part have more than its share. All memory is
 /// taken by the constructor. Not thread-safe.
-class Spread {
+class FeatureQuadtree {
  public:
   /// An image of width x height px, at most `most` >= 1 measurements, depths 0...deepest (0...10), slack >= 1.
-  Spread(int width, int height, int most, int deepest, double slack);
+  FeatureQuadtree(int width, int height, int most, int deepest, double slack);
 
   void clear();
 
