@@ -32,8 +32,8 @@ struct Spaces {
 };
 
 /// m: residuals that noise and bend make.
-Spread explainedBy(const PointCloud& source, const PointCloud& target, double bend, float voxel) {
-  const Spread a = noiseOf(source, voxel), b = noiseOf(target, voxel);
+RobustScale explainedBy(const PointCloud& source, const PointCloud& target, double bend, float voxel) {
+  const RobustScale a = noiseOf(source, voxel), b = noiseOf(target, voxel);
   return {std::max(std::hypot(a.all, b.all, bend), 1e-9), std::max(std::hypot(a.upright, b.upright, bend), 1e-9)};
 }
 
@@ -45,7 +45,7 @@ struct Pair {
   Source source;
   const Parameters& parameters;
   const Possible& possible;
-  std::optional<Spread> explained;  ///< where it is asked for
+  std::optional<RobustScale> explained;  ///< where it is asked for
   std::optional<Spaces> spaces;     ///< of gathered clouds
 };
 
@@ -68,7 +68,7 @@ Observability observedOf(const Try& made, const Pair& pair) {
 
 std::optional<Plausibility> plausibilityOf(const Try& made, const Pair& pair) {
   if (!pair.explained) return std::nullopt;
-  const Spread spread = spreadsOf(made.refined.matches);
+  const RobustScale spread = robustScaleOf(made.refined.matches);
   Plausibility plausibility;
   plausibility.misfit = spread.all / pair.explained->all;
   plausibility.upright_misfit = spread.upright / pair.explained->upright;

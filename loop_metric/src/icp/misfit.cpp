@@ -10,14 +10,14 @@ namespace loop_metric {
 
 using urban_nav_core::PointCloud;
 
-Spread spreadsOf(const std::vector<Match>& matches) {
+RobustScale robustScaleOf(const std::vector<Match>& matches) {
   std::vector<Match> upright = matches;
   for (Match& match : upright)
     if (std::abs(match.target_normal.z()) >= 0.5) match.weight = 0.0;
   return {spreadOf(matches), spreadOf(upright)};
 }
 
-Spread noiseOf(const PointCloud& cloud, float voxel) {
+RobustScale noiseOf(const PointCloud& cloud, float voxel) {
   std::array<Surfels, 2> halves;
   urban_nav_core::forEach(2, 1, [&](std::size_t half) {
     PointCloud points;
@@ -28,7 +28,7 @@ Spread noiseOf(const PointCloud& cloud, float voxel) {
   std::vector<Match> matches;
   const SurfelIndex index(halves[1].all, 2.0F * voxel);
   Matcher(halves[0].all, index).match({}, matches);
-  return spreadsOf(matches);
+  return robustScaleOf(matches);
 }
 
 }  // namespace loop_metric
