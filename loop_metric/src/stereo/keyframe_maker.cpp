@@ -73,7 +73,7 @@ void gather(const Pyramid& pyramid, int level, int wanted, std::vector<Candidate
         corner.v >= image.height - kHarrisMargin)
       continue;
     candidates.push_back(
-        {level, corner.u, corner.v, weight * urban_nav_core::gradientMatrix(image, corner.u, corner.v).harris(),
+        {level, corner.u, corner.v, weight * urban_nav_core::structureTensor(image, corner.u, corner.v).harris(),
          isOfClipped(pyramid.level(0), corner.u << level, corner.v << level, clipping_reach << level)});
   }
 }

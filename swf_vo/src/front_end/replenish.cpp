@@ -76,7 +76,7 @@ void Replenisher::gather(const Corners& corners) {
       const bool of_clipped =
           isOfClipped(corners.image(Side::Left, 0), corner.u << level, corner.v << level, clipping_reach << level);
       candidates_.push_back({level, corner.u, corner.v,
-                             weight * urban_nav_core::gradientMatrix(image, corner.u, corner.v).harris(), of_clipped});
+                             weight * urban_nav_core::structureTensor(image, corner.u, corner.v).harris(), of_clipped});
     }
   }
   std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {

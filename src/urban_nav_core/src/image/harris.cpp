@@ -64,7 +64,7 @@ Sums sumProducts(const ImageView& image, int u, int v) {
 
 }  // namespace
 
-GradientMatrix gradientMatrix(const ImageView& image, int u, int v) {
+StructureTensor structureTensor(const ImageView& image, int u, int v) {
   assert(u >= kHarrisMargin && v >= kHarrisMargin && u < image.width - kHarrisMargin &&
          v < image.height - kHarrisMargin);
   constexpr float kPixels = (2 * kHarrisRadius + 1) * (2 * kHarrisRadius + 1);
@@ -81,7 +81,7 @@ void scoreByHarris(const ImageView& image, std::vector<Corner>& corners) {
     const bool has_window = corner.u >= kHarrisMargin && corner.v >= kHarrisMargin &&
                             corner.u < image.width - kHarrisMargin && corner.v < image.height - kHarrisMargin;
     if (!has_window) continue;
-    corner.harris = gradientMatrix(image, corner.u, corner.v).harris();
+    corner.harris = structureTensor(image, corner.u, corner.v).harris();
     corners[out++] = corner;
   }
   corners.resize(out);

@@ -24,7 +24,7 @@ ImageView view(const cv::Mat& image) {
   return {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)};
 }
 
-GradientMatrix plain(const cv::Mat& image, int u, int v) {
+StructureTensor plain(const cv::Mat& image, int u, int v) {
   double uu = 0.0, uv = 0.0, vv = 0.0;
   for (int i = v - 3; i <= v + 3; ++i) {
     for (int k = u - 3; k <= u + 3; ++k) {
@@ -46,7 +46,7 @@ TEST(Harris, IsThePlainSumEverywhereUpToTheMargin) {
   const ImageView tight{exact.data(), 29, 21, 29};
   for (int v = kHarrisMargin; v < 21 - kHarrisMargin; ++v) {
     for (int u = kHarrisMargin; u < 29 - kHarrisMargin; ++u) {
-      const GradientMatrix expected = plain(image, u, v), actual = gradientMatrix(tight, u, v);
+      const StructureTensor expected = plain(image, u, v), actual = structureTensor(tight, u, v);
       ASSERT_NEAR(actual.uu, expected.uu, 1e-5F * expected.uu);
       ASSERT_NEAR(actual.uv, expected.uv, 1e-5F * expected.uu);
       ASSERT_NEAR(actual.vv, expected.vv, 1e-5F * expected.vv);
@@ -63,7 +63,7 @@ TEST(Harris, AgreesWithOpenCv) {
   for (int v = 10; v < 80; v += 7) {
     for (int u = 10; u < 110; u += 7) {
       const double reference = expected.at<float>(v, u) * scale;
-      EXPECT_NEAR(gradientMatrix(view(image), u, v).harris(), reference, 1e-3 * std::abs(reference) + 1e-2);
+      EXPECT_NEAR(structureTensor(view(image), u, v).harris(), reference, 1e-3 * std::abs(reference) + 1e-2);
     }
   }
 }
@@ -71,9 +71,9 @@ TEST(Harris, AgreesWithOpenCv) {
 TEST(Harris, CornersArePositiveEdgesNegativeNothingIsZero) {
   cv::Mat image(40, 40, CV_8U, cv::Scalar(40));
   image(cv::Rect(20, 20, 20, 20)).setTo(200);
-  EXPECT_GT(gradientMatrix(view(image), 20, 20).harris(), 1e3F);
-  EXPECT_LT(gradientMatrix(view(image), 20, 33).harris(), -1e3F);
-  EXPECT_EQ(gradientMatrix(view(image), 8, 8).harris(), 0.0F);
+  EXPECT_GT(structureTensor(view(image), 20, 20).harris(), 1e3F);
+  EXPECT_LT(structureTensor(view(image), 20, 33).harris(), -1e3F);
+  EXPECT_EQ(structureTensor(view(image), 8, 8).harris(), 0.0F);
 }
 
 TEST(Harris, ScoresCornersInTheirOrderAndDropsThoseAtTheBorder) {
@@ -82,7 +82,7 @@ TEST(Harris, ScoresCornersInTheirOrderAndDropsThoseAtTheBorder) {
       {3, 10, 7, 0.0F}, {20, 20, 8, 0.0F}, {4, 4, 9, 0.0F}, {20, 26, 10, 0.0F}, {35, 25, 11, 0.0F}};
   scoreByHarris(view(image), corners);
   ASSERT_EQ(corners.size(), 3U);
-  EXPECT_EQ(corners[0], (Corner{20, 20, 8, gradientMatrix(view(image), 20, 20).harris()}));
+  EXPECT_EQ(corners[0], (Corner{20, 20, 8, structureTensor(view(image), 20, 20).harris()}));
   EXPECT_EQ(corners[1].fast, 9);
   EXPECT_EQ(corners[2].fast, 11);
 }
@@ -92,7 +92,7 @@ TEST(Harris, HoldsTheSteepestContrast) {
   for (int v = 0; v < 16; ++v) {
     for (int u = 0; u < 16; ++u) image.at<std::uint8_t>(v, u) = ((u / 2 + v / 2) % 2) != 0 ? 255 : 0;
   }
-  const GradientMatrix expected = plain(image, 8, 8), actual = gradientMatrix(view(image), 8, 8);
+  const StructureTensor expected = plain(image, 8, 8), actual = structureTensor(view(image), 8, 8);
   EXPECT_NEAR(actual.uu, expected.uu, 1e-5F * expected.uu);
   EXPECT_NEAR(actual.vv, expected.vv, 1e-5F * expected.vv);
 }

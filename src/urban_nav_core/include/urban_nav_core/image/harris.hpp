@@ -15,15 +15,16 @@ constexpr int kHarrisRadius = 3;   ///< px, half-width of the window
 constexpr int kHarrisMargin = 4;   ///< px, that the window and its gradients reach from the pixel
 constexpr float kHarrisK = 0.04F;  ///< Harris and Stephens (1988)
 
-/// M itself, for who wants its eigenvalues.
-struct GradientMatrix {
+/// The structure tensor M of a window.
+struct StructureTensor {
   float uu = 0.0F, uv = 0.0F, vv = 0.0F;  ///< (grey levels / px)^2
 
   float harris() const { return uu * vv - uv * uv - kHarrisK * (uu + vv) * (uu + vv); }
 };
 
-/// Of the window about pixel (u, v), at least kHarrisMargin from every border. Integer sums: the same on every machine.
-GradientMatrix gradientMatrix(const ImageView& image, int u, int v);
+/// Returns the structure tensor of the window centred at (u, v), which must be at least kHarrisMargin from every border.
+/// Sums are of integers and so are the same on every machine.
+StructureTensor structureTensor(const ImageView& image, int u, int v);
 
 /// Fills Corner::harris; drops corners nearer to a border than kHarrisMargin. Keeps the order.
 void scoreByHarris(const ImageView& image, std::vector<Corner>& corners);
