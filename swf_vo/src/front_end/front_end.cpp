@@ -119,11 +119,11 @@ class FrontEnd::Implementation {
     for (Match& match : matches_) follow(frame, match);
     replenish(frame);
     for (Observation& observation : result_.fresh) {
-      observation.inflation = noise_.usual();
+      observation.inflation = noise_.typical();
       observation.information /= observation.inflation;
     }
     result_.row_offset_px = rows_.px();
-    result_.noise_scale = std::sqrt(noise_.usual());
+    result_.noise_scale = std::sqrt(noise_.typical());
     astray_ = !result_.localised && !matches_.empty();
     frame_ = frame;
     T_odom_localised_ = result_.T_odom_camera;

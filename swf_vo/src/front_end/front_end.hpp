@@ -28,7 +28,7 @@ struct FrontEndResult {
   double inlier_share = 0.0;
   double reprojection_px = 0.0;  ///< of the inliers, root mean square in the left image
   double row_offset_px = 0.0;    ///< RowOffset, as known by now
-  double noise_scale = 1.0;      ///< NoiseScale::usual(), in standard deviations
+  double noise_scale = 1.0;      ///< NoiseScale::typical(), in standard deviations
 };
 
 /// How many landmarks are followed at a time in images of this size, of the parameter `features`.

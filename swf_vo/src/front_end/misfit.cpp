@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "usual.hpp"
+#include "robust_threshold.hpp"
 
 namespace swf_vo {
 
@@ -20,7 +20,7 @@ bool Misfit::isUsual(double noise) {
   if (limit_ == 0.0 || count_ % renewal == 0) {
     const std::size_t known = std::min(count_, size);
     std::copy_n(recent_.begin(), known, sorted_.begin());
-    limit_ = usualLimit(sorted_.begin(), sorted_.begin() + static_cast<std::ptrdiff_t>(known));
+    limit_ = robustThreshold(sorted_.begin(), sorted_.begin() + static_cast<std::ptrdiff_t>(known));
   }
   return noise <= limit_;
 }

@@ -19,7 +19,7 @@ constexpr double largest = 65.0;
 
 void NoiseScale::see(double squared, double coordinates, Own& own) {
   if (!(coordinates > 0.0)) return;
-  const double counted = std::min(squared, largest * usual());
+  const double counted = std::min(squared, largest * typical());
   own.squares = memory * own.squares + counted;
   own.coordinates = memory * own.coordinates + coordinates;
   scales_.push_back(counted / coordinates);
@@ -30,17 +30,17 @@ void NoiseScale::learn() {
     const auto middle = scales_.begin() + static_cast<std::ptrdiff_t>(scales_.size() / 2);
     std::nth_element(scales_.begin(), middle, scales_.end());
     rate_ = std::max(slowest, rate_ / (1.0 + rate_));
-    usual_ += rate_ * (*middle / chi_square_median - usual_);
+    typical_ += rate_ * (*middle / chi_square_median - typical_);
   }
   scales_.clear();
 }
 
-double NoiseScale::usual() const { return std::max(1.0, usual_); }
+double NoiseScale::typical() const { return std::max(1.0, typical_); }
 
 double NoiseScale::of(const Own& own) const {
-  return std::max(1.0, (prior_coordinates * usual_ + own.squares) / (prior_coordinates + own.coordinates));
+  return std::max(1.0, (prior_coordinates * typical_ + own.squares) / (prior_coordinates + own.coordinates));
 }
 
-void NoiseScale::archive(urban_nav_core::Archive& archive) { archive(usual_, rate_); }
+void NoiseScale::archive(urban_nav_core::Archive& archive) { archive(typical_, rate_); }
 
 }  // namespace swf_vo

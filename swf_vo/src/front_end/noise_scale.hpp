@@ -28,12 +28,12 @@ class NoiseScale {
   /// After all landmarks of a frame.
   void learn();
   /// Of a landmark that was just born.
-  double usual() const;
+  double typical() const;
   double of(const Own& own) const;
   void archive(urban_nav_core::Archive& archive);
 
  private:
-  double usual_ = 1.0;
+  double typical_ = 1.0;
   double rate_ = 1.0;           // of the mean over the first frames, then of one that forgets
   std::vector<double> scales_;  // of this frame, each of one measurement
 };

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "usual.hpp"
+#include "robust_threshold.hpp"
 #include "window/make_room.hpp"
 #include "window/measurements.hpp"
 
@@ -49,7 +49,7 @@ const std::vector<LandmarkId>& Strays::find(const State& state, const SensorMode
     if (landmark.used && !landmark.known && landmark.followed && score(state, sensor, landmark))
       sorted_.push_back(scores_.back().residual);
   if (scores_.size() < fewest_landmarks) return strays_;
-  const double limit = usualLimit(sorted_.begin(), sorted_.end());
+  const double limit = robustThreshold(sorted_.begin(), sorted_.end());
   for (const Score& score : scores_)
     if (score.residual > limit) strays_.push_back(score.landmark);
   return strays_;

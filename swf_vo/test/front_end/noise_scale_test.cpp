@@ -34,7 +34,7 @@ struct Seen {
 
 TEST(NoiseScale, findsWhatAllAreOffBy) {
   const Seen seen(100, [](int) { return 2.0; });
-  EXPECT_NEAR(seen.scale.usual(), 4.0, 0.6);
+  EXPECT_NEAR(seen.scale.typical(), 4.0, 0.6);
   double mean = 0.0;
   for (const auto& own : seen.own) mean += seen.scale.of(own) / landmarks;
   EXPECT_NEAR(mean, 4.0, 0.2);
@@ -42,7 +42,7 @@ TEST(NoiseScale, findsWhatAllAreOffBy) {
 
 TEST(NoiseScale, tellsThemApart) {
   const Seen seen(60, [](int i) { return i % 3 == 0 ? 4.0 : 1.2; });
-  EXPECT_LT(seen.scale.usual(), 4.0) << "most are good";
+  EXPECT_LT(seen.scale.typical(), 4.0) << "most are good";
   for (int i = 0; i < landmarks; ++i) {
     const double scale = seen.scale.of(seen.own[static_cast<std::size_t>(i)]);
     if (i % 3 == 0) EXPECT_GT(scale, 8.0) << i;
@@ -52,25 +52,25 @@ TEST(NoiseScale, tellsThemApart) {
 
 TEST(NoiseScale, believesNoMoreThanWasClaimed) {
   const Seen seen(100, [](int) { return 0.5; });
-  EXPECT_EQ(seen.scale.usual(), 1.0);
+  EXPECT_EQ(seen.scale.typical(), 1.0);
   for (const auto& own : seen.own) EXPECT_EQ(seen.scale.of(own), 1.0);
 }
 
 TEST(NoiseScale, isNotMovedByOneThatIsFarOff) {
   Seen seen(60, [](int) { return 1.0; });
-  const double before = seen.scale.usual();
+  const double before = seen.scale.typical();
   for (int frame = 0; frame < 5; ++frame) {
     seen.scale.see(1e9, 3.0, seen.own[0]);
     for (std::size_t i = 1; i < landmarks; ++i) seen.scale.see(3.0, 3.0, seen.own[i]);
     seen.scale.learn();
   }
-  EXPECT_NEAR(seen.scale.usual(), before, 0.2);
+  EXPECT_NEAR(seen.scale.typical(), before, 0.2);
   EXPECT_LT(seen.scale.of(seen.own[0]), 20.0);
 }
 
 TEST(NoiseScale, goesByTheOthersAtFirst) {
   const Seen seen(100, [](int) { return 2.0; });
-  EXPECT_EQ(seen.scale.of({}), seen.scale.usual());
+  EXPECT_EQ(seen.scale.of({}), seen.scale.typical());
 }
 
 }  // namespace

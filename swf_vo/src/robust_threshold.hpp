@@ -6,10 +6,10 @@
 
 namespace swf_vo {
 
-/// Up to where values are as they usually are: the median, and four standard deviations by the median deviation. There must be one
-/// at least; their order, and then the values themselves, are lost.
+/// Returns median + 4 sigma of the values, with sigma = 1.4826 times the median absolute deviation. Requires at least one
+/// value. Overwrites the values.
 template <typename Iterator>
-double usualLimit(Iterator begin, Iterator end) {
+double robustThreshold(Iterator begin, Iterator end) {
   constexpr double gate = 4.0;
   constexpr double deviation = 1.4826;  // standard deviation of a Gaussian over its median deviation
   const Iterator middle = begin + (end - begin) / 2;
