@@ -241,7 +241,7 @@ PoseRef Judge::resolved(const PoseRef& at) {
   if (found == sessions_.end() || found->second.odometry.empty()) return {id, at.stamp};
   const SessionOdometry& odometry = found->second.odometry;
   const std::size_t part = odometry.partAt(at.stamp);
-  const auto moment = odometry.parts()[part]->momentOf(at.stamp);
+  const auto moment = odometry.parts()[part]->nearestFrame(at.stamp);
   return {nameOf(id, part), moment ? moment->frame : at.stamp};
 }
 

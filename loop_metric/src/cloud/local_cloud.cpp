@@ -75,7 +75,7 @@ PointCloud localCloud(const OdometryChain& odometry, StampNs at, double way, con
 
 // Of a random walk from end to end, laid upon another by its mean: a sixth of its variance over the whole way, which is a third of that over a half.
 double bendOf(const OdometryChain& odometry, StampNs at, double way) {
-  if (!odometry.momentOf(at)) return 0.0;
+  if (!odometry.nearestFrame(at)) return 0.0;
   const auto [first, last] = stretchAround(odometry, at, way);
   double variance = 0.0;
   for (const StampNs end : {first, last})

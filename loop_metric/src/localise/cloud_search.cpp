@@ -99,7 +99,7 @@ class CloudSearch::Implementation {
     if (way < least_way) return std::nullopt;
     const bool is_known = localiser.now().knowledge == Knowledge::Known;
     const double pause = is_known ? known_step : step;
-    if (looked_ && odometry.momentOf(*looked_) && driven - odometry.distance(*looked_) < pause) return std::nullopt;
+    if (looked_ && odometry.nearestFrame(*looked_) && driven - odometry.distance(*looked_) < pause) return std::nullopt;
     if (is_known && localiser.unseen() < pause) return std::nullopt;
     Stretch stretch;
     stretch.way = way;
@@ -151,7 +151,7 @@ class CloudSearch::Implementation {
     for (const urban_nav_core::StampedPose& pose : session.T_map_base) {
       if (last != nullptr && distanceBetween(*last, pose.pose) < places_apart) continue;
       const std::size_t part = odometry.partAt(pose.stamp);
-      if (odometry.empty() || !odometry.parts()[part]->momentOf(pose.stamp)) continue;
+      if (odometry.empty() || !odometry.parts()[part]->nearestFrame(pose.stamp)) continue;
       last = &pose.pose;
       places_.push_back({{session.session.id + "/" + std::to_string(part), pose.stamp}, pose.pose, {}});
     }

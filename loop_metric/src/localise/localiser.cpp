@@ -123,7 +123,7 @@ void Localiser::addNothing(StampNs, bool expected) {
 }
 
 void Localiser::add(const Sighting& sighting) {
-  if (!odometry_.momentOf(sighting.stamp)) return;  // nobody knows where the robot was then
+  if (!odometry_.nearestFrame(sighting.stamp)) return;  // nobody knows where the robot was then
   nothing_ = 0;
   const auto place = std::upper_bound(sightings_.begin(), sightings_.end(), sighting,
                                       [](const Sighting& a, const Sighting& b) { return a.stamp < b.stamp; });
@@ -248,7 +248,7 @@ Located Localiser::at(StampNs stamp) const {
     return located;
   };
   const bool looks_in_vain = nothing_ >= looks_for_new;
-  if (best_.members.empty() || !odometry_.momentOf(stamp))
+  if (best_.members.empty() || !odometry_.nearestFrame(stamp))
     return looks_in_vain
                ? because(Knowledge::New, LocatedReason::NothingAlike, "nothing here looks like the map")
                : because(Knowledge::Unsure, LocatedReason::NothingSeen, "nothing in the map was recognised yet");

@@ -26,7 +26,7 @@ bool SessionOdometry::add(const RelativePose& step) {
 
 std::size_t SessionOdometry::partAt(StampNs stamp) const {
   for (std::size_t i = 0; i < parts_.size(); ++i)
-    if (parts_[i]->momentOf(stamp)) return i;
+    if (parts_[i]->nearestFrame(stamp)) return i;
   return parts_.empty() ? 0 : parts_.size() - 1;
 }
 

@@ -34,7 +34,7 @@ const SessionOfStore* StoredSurroundings::find(const PoseRef& at) const {
 
 bool StoredSurroundings::knows(const PoseRef& at, std::string& why) const {
   const SessionOfStore* session = find(at);
-  if (session != nullptr && session->odometry->momentOf(at.stamp)) return true;
+  if (session != nullptr && session->odometry->nearestFrame(at.stamp)) return true;
   if (session != nullptr) {
     why = "no frames around " + urban_nav_core::printStamp(at.stamp) + " s in " + at.session;
     return false;
@@ -49,7 +49,7 @@ std::vector<NearbyView> StoredSurroundings::views(const PoseRef& at, double way)
   std::vector<NearbyView> views;
   const SessionOfStore* session = find(at);
   const auto stamps = stamps_.find(at.session);
-  if (session == nullptr || stamps == stamps_.end() || !session->odometry->momentOf(at.stamp)) return views;
+  if (session == nullptr || stamps == stamps_.end() || !session->odometry->nearestFrame(at.stamp)) return views;
   const OdometryChain& odometry = *session->odometry;
   const double here = odometry.distance(at.stamp);
   const auto [first, last] = stretchAround(odometry, at.stamp, way);

@@ -33,7 +33,7 @@ class LineSurroundings : public Surroundings {
 
   bool knows(const urban_nav_core::PoseRef& at, std::string& why) const override {
     const auto its = odometry.find(at.session);
-    if (its != odometry.end() && its->second.momentOf(at.stamp)) return true;
+    if (its != odometry.end() && its->second.nearestFrame(at.stamp)) return true;
     why = "nobody was there";
     return false;
   }

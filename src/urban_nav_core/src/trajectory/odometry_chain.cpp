@@ -44,10 +44,10 @@ bool OdometryChain::append(const RelativePose& step) {
   return true;
 }
 
-std::optional<OdometryChain::Moment> OdometryChain::momentOf(StampNs stamp) const {
+std::optional<OdometryChain::NearestFrame> OdometryChain::nearestFrame(StampNs stamp) const {
   if (empty()) return std::nullopt;
   const StampedPose& nearest = trajectory_[indexOf(stamp)];
-  if (nearest.stamp == stamp) return Moment{stamp, Pose()};
+  if (nearest.stamp == stamp) return NearestFrame{stamp, Pose()};
   std::optional<Pose> there = trajectory_.at(stamp, kLongestGap);
   const std::size_t size = trajectory_.size();
   if (!there && size >= 2 && (stamp < trajectory_.front().stamp || stamp > trajectory_.back().stamp) &&
@@ -55,22 +55,22 @@ std::optional<OdometryChain::Moment> OdometryChain::momentOf(StampNs stamp) cons
     there = stamp < nearest.stamp ? along(trajectory_[0], trajectory_[1], stamp)
                                   : along(trajectory_[size - 2], trajectory_[size - 1], stamp);
   if (!there) return std::nullopt;
-  return Moment{nearest.stamp, nearest.pose.inverse() * *there};
+  return NearestFrame{nearest.stamp, nearest.pose.inverse() * *there};
 }
 
 std::optional<Pose> OdometryChain::at(StampNs stamp) const {
-  const std::optional<Moment> moment = momentOf(stamp);
+  const std::optional<NearestFrame> nearest = nearestFrame(stamp);
   if (!moment) return std::nullopt;
-  return trajectory_[indexOf(moment->frame)].pose * moment->T_frame_moment;
+  return trajectory_[indexOf(nearest->frame)].pose * nearest->T_frame_pose;
 }
 
 double OdometryChain::distance(StampNs stamp) const {
   if (empty()) return 0.0;
   const std::size_t nearest = indexOf(stamp);
-  const std::optional<Moment> moment = momentOf(stamp);
+  const std::optional<NearestFrame> nearest = nearestFrame(stamp);
   if (!moment) return distances_[nearest];
-  const double beside = moment->T_frame_moment.t().norm();
-  return distances_[nearest] + (stamp < moment->frame ? -beside : beside);
+  const double beside = nearest->T_frame_pose.t().norm();
+  return distances_[nearest] + (stamp < nearest->frame ? -beside : beside);
 }
 
 Matrix6d OdometryChain::drift(std::size_t from, std::size_t to) const {
@@ -88,7 +88,7 @@ Matrix6d OdometryChain::drift(std::size_t from, std::size_t to) const {
 }
 
 std::optional<PoseWithCovariance> OdometryChain::between(StampNs a, StampNs b) const {
-  const std::optional<Moment> at_a = momentOf(a), at_b = momentOf(b);
+  const std::optional<NearestFrame> at_a = nearestFrame(a), at_b = nearestFrame(b);
   if (!at_a || !at_b) return std::nullopt;
   const std::size_t from = indexOf(at_a->frame), to = indexOf(at_b->frame);
   if (from > to) {
@@ -109,7 +109,7 @@ std::optional<PoseWithCovariance> OdometryChain::between(StampNs a, StampNs b) c
     way.covariance = transformCovariance(boxFromLeft(way.pose), left);
   }
   const Matrix6d none = Matrix6d::Zero();
-  const PoseWithCovariance before{at_a->T_frame_moment, none}, behind{at_b->T_frame_moment, none};
+  const PoseWithCovariance before{at_a->T_frame_pose, none}, behind{at_b->T_frame_pose, none};
   return compose(invert(before), compose(way, behind));
 }
 

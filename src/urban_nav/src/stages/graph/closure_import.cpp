@@ -56,14 +56,14 @@ class Offers {
       const std::string& name = at_a ? offered.session_a : offered.session_b;
       const StampNs stamp = at_a ? offered.stamp_a : offered.stamp_b;
       const std::size_t session = placeOf(name);
-      const auto moment = odometry_[session].momentOf(stamp);
+      const auto moment = odometry_[session].nearestFrame(stamp);
       if (!moment) return "no frames around " + urban_nav_core::printStamp(stamp) + " s in " + name;
       (at_a ? closure.a : closure.b) = {name, moment->frame};
-      const Pose& T_frame_moment = moment->T_frame_moment;
-      const Pose T_moment_frame = T_frame_moment.inverse();
-      from_offered *= at_a ? compose(T_moment_frame, T_frame_moment * T_a_b).J2
-                           : Matrix6d(2.0 * Matrix6d::Identity() - compose(T_a_b, T_moment_frame).J1);
-      T_a_b = at_a ? T_frame_moment * T_a_b : T_a_b * T_moment_frame;
+      const Pose& T_frame_pose = moment->T_frame_pose;
+      const Pose T_pose_frame = T_frame_pose.inverse();
+      from_offered *= at_a ? compose(T_pose_frame, T_frame_pose * T_a_b).J2
+                           : Matrix6d(2.0 * Matrix6d::Identity() - compose(T_a_b, T_pose_frame).J1);
+      T_a_b = at_a ? T_frame_pose * T_a_b : T_a_b * T_pose_frame;
     }
     closure.kind = offered.kind == "icp" ? EdgeKind::Icp : EdgeKind::Stereo;
     closure.source = offered.where;

@@ -9,34 +9,37 @@
 
 namespace urban_nav_core {
 
-/// The steps of one session's odometry, and what it says of the way between any two moments of it, however many steps that has.
+/// Odometry of one session: poses and covariances of the relative pose between any two of its times.
 ///
-/// A moment between two frames is interpolated, and one just outside the chain is where the nearest step leads: odometry is good for that. The
-/// covariance of a way is that of its steps' drifts, with half of the covariance of the first and of the last step (see RelativePose); what all
-/// steps have in common, a scale, is not in it. Not thread-safe while it grows.
+/// A time between two frames is interpolated; a time just outside the chain is extrapolated with the nearest step. The
+/// covariance of a relative pose is the sum of the drifts of its steps, with half of the covariance of the first and of
+/// the last step (see RelativePose). It does not contain what all steps have in common, a scale error. Not thread-safe
+/// while it grows.
 class OdometryChain {
  public:
-  /// False, and left out, where the step does not begin at the newest frame, goes back in time or is not finite.
+  /// Appends a step. Returns false, and ignores it, if it does not begin at the newest frame, goes back in time or is not
+  /// finite.
   bool append(const RelativePose& step);
 
   bool empty() const { return trajectory_.empty(); }
   /// T_first_base.
   const Trajectory& trajectory() const { return trajectory_; }
 
-  /// Where a moment lies beside the frame nearest to it in time.
-  struct Moment {
+  /// The pose at some time, relative to the frame that is nearest in time.
+  struct NearestFrame {
     StampNs frame = 0;
-    Pose T_frame_moment;
+    Pose T_frame_pose;
   };
-  /// Empty more than 0.1 s outside the chain, and between frames that are more than 1 s apart.
-  std::optional<Moment> momentOf(StampNs stamp) const;
-  /// T_first_base at a moment; empty where momentOf() is.
+  /// Returns nullopt more than 0.1 s outside the chain, and between frames that are more than 1 s apart.
+  std::optional<NearestFrame> nearestFrame(StampNs stamp) const;
+  /// Returns T_first_base at a time, or nullopt where nearestFrame() does.
   std::optional<Pose> at(StampNs stamp) const;
 
-  /// T_a_b, b before or behind a; empty where one of them is not known. Moments beside their frames are taken as surely known there. A
-  /// proper covariance, but for zero between moments of one frame.
+  /// Returns T_a_b, in either order of time, or nullopt if the pose at a or b is not known. Poses relative to their
+  /// nearest frames are taken as exact. The covariance is positive definite, except zero between times with the same
+  /// nearest frame.
   std::optional<PoseWithCovariance> between(StampNs a, StampNs b) const;
-  /// m driven up to a frame or moment, from the first; of moments outside, that of the nearest end.
+  /// Returns the path length from the first frame to a time, m; outside the chain, that of the nearest end.
   double distance(StampNs stamp) const;
 
  private:
