@@ -26,8 +26,8 @@ const StoredClosure& byNumber(const std::vector<StoredClosure>& closures, std::i
   return closures[static_cast<std::size_t>(id - 1)];
 }
 
-const StoredClosure& byMoments(const std::vector<StoredClosure>& closures, const std::string& path, const Moment& one,
-                               const Moment& other) {
+const StoredClosure& byTimes(const std::vector<StoredClosure>& closures, const std::string& path, const TimeQuery& one,
+                             const TimeQuery& other) {
   if (closures.empty()) throw DataError(path, "holds no closures", "");
   const auto nearest = std::min_element(closures.begin(), closures.end(), [&](const auto& x, const auto& y) {
     return distanceOf(x, one, other) < distanceOf(y, one, other);
@@ -57,8 +57,8 @@ int run(const Arguments& arguments, Console& console) {
     console.print(listOf(closures));
     return 0;
   }
-  const StoredClosure& closure = moments ? byMoments(closures, store.path(), parseMoment(arguments.get("T1"), "T1"),
-                                                     parseMoment(arguments.get("T2"), "T2"))
+  const StoredClosure& closure = moments ? byTimes(closures, store.path(), parseTimeQuery(arguments.get("T1"), "T1"),
+                                                   parseTimeQuery(arguments.get("T2"), "T2"))
                                          : byNumber(closures, arguments.integer("closure", 0, 1, 1'000'000'000));
   console.print(explain(closure));
   if (arguments.has("output")) {

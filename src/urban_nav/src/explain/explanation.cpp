@@ -22,14 +22,14 @@ namespace {
 constexpr double kDegrees = 57.29577951308232;
 constexpr double kMetresPerRadian = 10.0;  // for display of free directions
 
-std::string momentOf(const std::string& name, double since, urban_nav_core::StampNs stamp) {
+std::string timeText(const std::string& name, double since, urban_nav_core::StampNs stamp) {
   return name + " +" + forPerson(since, 6) + " s (" + urban_nav_core::printStamp(stamp) + ")";
 }
 
 std::string headlineOf(const StoredClosure& closure) {
   const urban_nav_store::Edge& edge = closure.edge;
-  return "closure " + std::to_string(closure.id) + ": " + momentOf(closure.name_a, closure.since_a, edge.a.stamp) +
-         " and " + momentOf(closure.name_b, closure.since_b, edge.b.stamp);
+  return "closure " + std::to_string(closure.id) + ": " + timeText(closure.name_a, closure.since_a, edge.a.stamp) +
+         " and " + timeText(closure.name_b, closure.since_b, edge.b.stamp);
 }
 
 std::string verdictOf(const StoredClosure& closure) {

@@ -57,7 +57,8 @@ auto orderOf(const Edge& edge) {
                          edge.b.session, edge.kind, edge.source);
 }
 
-double distanceOf(const std::string& name, const std::string& id, StampNs stamp, double since, const Moment& moment) {
+double distanceOf(const std::string& name, const std::string& id, StampNs stamp, double since,
+                  const TimeQuery& moment) {
   if (!moment.session.empty() && name.rfind(moment.session, 0) != 0 && id.rfind(moment.session, 0) != 0)
     return std::numeric_limits<double>::infinity();
   return moment.since_begin ? std::abs(since - moment.seconds)
@@ -94,8 +95,8 @@ std::vector<StoredClosure> closuresOf(urban_nav_store::Store& store) {
   return closures;
 }
 
-Moment parseMoment(const std::string& text, const std::string& what) {
-  Moment moment;
+TimeQuery parseTimeQuery(const std::string& text, const std::string& what) {
+  TimeQuery moment;
   const std::size_t plus = text.rfind('+');
   const std::string number = plus == std::string::npos ? text : text.substr(plus + 1);
   const std::optional<double> seconds = urban_nav_core::parseNumber(number);
@@ -110,8 +111,8 @@ Moment parseMoment(const std::string& text, const std::string& what) {
   return moment;
 }
 
-double distanceOf(const StoredClosure& closure, const Moment& one, const Moment& other) {
-  const auto at = [&](bool a, const Moment& moment) {
+double distanceOf(const StoredClosure& closure, const TimeQuery& one, const TimeQuery& other) {
+  const auto at = [&](bool a, const TimeQuery& moment) {
     const Edge& edge = closure.edge;
     return a ? distanceOf(closure.name_a, edge.a.session, edge.a.stamp, closure.since_a, moment)
              : distanceOf(closure.name_b, edge.b.session, edge.b.stamp, closure.since_b, moment);

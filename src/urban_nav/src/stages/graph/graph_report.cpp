@@ -92,7 +92,7 @@ Plot costPlot(const GraphRun& graph) {
 }
 
 /// Seconds from the first pose of a session; the stamp itself where there is no such session.
-std::string momentOf(const GraphRun& graph, const std::string& session, StampNs stamp) {
+std::string timeText(const GraphRun& graph, const std::string& session, StampNs stamp) {
   const pose_graph::Track* track = graph.graph.track(session);
   if (track == nullptr || track->stamps.empty()) return session + " " + urban_nav_core::printStamp(stamp);
   return session + " +" + forPerson(urban_nav_core::secondsBetween(track->stamps.front(), stamp), 5);
@@ -108,7 +108,7 @@ PageTable closuresTable(const GraphRun& graph) {
                       : "All of them, in seconds from the first pose of their session; by stamps in closures.csv."};
   for (std::size_t i = 0; i < std::min(kMostRows, graph.closures.size()); ++i) {
     const ClosureRow& row = graph.closures[i];
-    table.rows.push_back({momentOf(graph, row.session_a, row.stamp_a), momentOf(graph, row.session_b, row.stamp_b),
+    table.rows.push_back({timeText(graph, row.session_a, row.stamp_a), timeText(graph, row.session_b, row.stamp_b),
                           forPerson(row.probability, 3), row.kind, row.verdict, forPerson(row.weight, 3), row.reason});
   }
   return table;
