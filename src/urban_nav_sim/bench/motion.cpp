@@ -32,7 +32,7 @@ struct Motion {
 Motion motionOf(const Ride& ride) {
   Motion motion;
   for (double t = 0.0; t < ride.duration(); t += kPeriod) {
-    const Moment moment = ride.at(t);
+    const MotionState moment = ride.at(t);
     const Eigen::Matrix3d R = moment.T_world_base.R();
     motion.speed.push_back(moment.velocity_world.norm());
     motion.turn.push_back(std::abs(moment.rate_base.z()) / kDegree);

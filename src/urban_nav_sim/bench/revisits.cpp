@@ -36,8 +36,8 @@ constexpr double kBetweenPictures = 0.001;  // s
 struct Aside : Ride {
   explicit Aside(const Ride& ride) : way(ride) {}
   double duration() const override { return way.duration(); }
-  Moment at(double t) const override {
-    Moment moment = way.at(t + later);
+  MotionState at(double t) const override {
+    MotionState moment = way.at(t + later);
     moment.T_world_base = moment.T_world_base * T_way_base;
     return moment;
   }

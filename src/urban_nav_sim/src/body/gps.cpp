@@ -48,7 +48,7 @@ bool Gps::hasFix(double t) const { return !options_.gaps || hiddenSky(t) < kNoFi
 GpsMeasurement Gps::fix(std::int64_t k) const {
   const double t = schedule_.at(k);
   const auto counter = static_cast<std::uint64_t>(k);
-  const Moment moment = ride_.at(t);
+  const MotionState moment = ride_.at(t);
   const double reflected = 2.0 * hiddenSky(t) * options_.multipath_sigma;
   Vector3d multipath;
   for (std::uint64_t i = 0; i < 3; ++i) {

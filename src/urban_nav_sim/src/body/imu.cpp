@@ -38,7 +38,7 @@ Imu::Imu(const Ride& ride, const urban_nav_core::Pose& T_base_imu, const ImuOpti
       field_bias_(options.field_bias * noise.of("field bias").normal3(0)) {}
 
 ImuMeasurement Imu::truth(double t) const {
-  const Moment moment = ride_.at(t);
+  const MotionState moment = ride_.at(t);
   const Eigen::Quaterniond& R_world_base = moment.T_world_base.q();
   const Eigen::Quaterniond R_imu_base = T_base_imu_.q().conjugate();
   const Vector3d& arm = T_base_imu_.t();

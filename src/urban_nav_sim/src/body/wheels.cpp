@@ -17,7 +17,7 @@ struct Rolling {
   double speed = 0.0, turn = 0.0;  // of the axle along the ground, m/s; rad/s
 };
 
-Rolling rollingOf(const Moment& moment) {
+Rolling rollingOf(const MotionState& moment) {
   const Eigen::Vector3d axle(0.0, 0.0, kWheelRadius);
   const Eigen::Quaterniond& R = moment.T_world_base.q();
   const Eigen::Vector3d velocity = moment.velocity_world + R * moment.rate_base.cross(axle);

@@ -51,7 +51,7 @@ StereoHead::StereoHead(const Tracer& tracer, const Sky& sky, StereoImages images
 
 std::array<cv::Mat, 2> StereoHead::take(const Ride& ride, double t) {
   const Snapshot snapshot(tracer_, t, t);
-  const Moment moment = ride.at(t);
+  const MotionState moment = ride.at(t);
   std::array<cv::Mat, 2> images;
   Exposure exposure;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -77,7 +77,7 @@ LadybugHead::LadybugHead(const Tracer& tracer, const Sky& sky, const Pose& T_bas
 
 std::array<cv::Mat, 5> LadybugHead::take(const Ride& ride, double t) {
   const Snapshot snapshot(tracer_, t, t);
-  const Moment moment = ride.at(t);
+  const MotionState moment = ride.at(t);
   std::array<cv::Mat, 5> images;
   for (std::size_t i = 0; i < 5; ++i) {
     const Pose T_base_camera = T_base_head_ * cameras_[i].T_head_camera;

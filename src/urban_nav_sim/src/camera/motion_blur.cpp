@@ -32,7 +32,7 @@ void addSample(const Picture& picture, float u, float v, float weight, std::arra
 
 }  // namespace
 
-CameraMotion motionOf(const Moment& moment, const urban_nav_core::Pose& T_base_camera) {
+CameraMotion motionOf(const MotionState& moment, const urban_nav_core::Pose& T_base_camera) {
   const Eigen::Vector3d velocity_base = moment.T_world_base.q().conjugate() * moment.velocity_world;
   const Eigen::Quaterniond R_camera_base = T_base_camera.q().conjugate();
   return {R_camera_base * (velocity_base + moment.rate_base.cross(T_base_camera.t())),

@@ -15,7 +15,7 @@ struct CameraMotion {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< m/s
   Eigen::Vector3d rate = Eigen::Vector3d::Zero();      ///< rad/s
 };
-CameraMotion motionOf(const Moment& moment, const urban_nav_core::Pose& T_base_camera);
+CameraMotion motionOf(const MotionState& moment, const urban_nav_core::Pose& T_base_camera);
 
 /// How fast what a pixel sees goes over the image, px/s. `depth`: m, may be infinite.
 Eigen::Vector2f flowAt(const RayTable& rays, int u, int v, float depth, const CameraMotion& motion);

@@ -9,7 +9,7 @@
 namespace urban_nav_sim {
 
 /// How the robot moves at one time. All from one twice differentiable function of time, so they agree exactly.
-struct Moment {
+struct MotionState {
   urban_nav_core::Pose T_world_base;   ///< base_link: on the ground between the wheels, x forward, y left
   Eigen::Vector3d velocity_world;      ///< of base_link, m/s
   Eigen::Vector3d acceleration_world;  ///< m/s^2, gravity not included
@@ -23,7 +23,7 @@ class Ride {
   virtual ~Ride() = default;
   virtual double duration() const = 0;  ///< s
   /// `t`: 0 ... duration(), s; a little outside (0.1 s) is allowed.
-  virtual Moment at(double t) const = 0;
+  virtual MotionState at(double t) const = 0;
 };
 
 }  // namespace urban_nav_sim

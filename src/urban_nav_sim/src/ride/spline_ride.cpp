@@ -36,7 +36,7 @@ RateMap rateMap(const Vector3d& angles, const Vector3d& rates) {
 SplineRide::SplineRide(TimeSpline coordinates, double duration)
     : coordinates_(std::move(coordinates)), duration_(duration) {}
 
-Moment SplineRide::at(double t) const {
+MotionState SplineRide::at(double t) const {
   const TimeSpline::Value c = coordinates_.at(t);
   const Vector3d angles = c.value.tail<3>(), rates = c.rate.tail<3>();
   const Eigen::Quaterniond R_world_base = Eigen::AngleAxisd(angles[0], Vector3d::UnitZ()) *
@@ -45,7 +45,7 @@ Moment SplineRide::at(double t) const {
   const RateMap m = rateMap(angles, rates);
   const Vector3d from_axle(0.0, 0.0, -kWheelRadius);
 
-  Moment moment;
+  MotionState moment;
   moment.rate_base = m.map * rates;
   moment.rate_change_base = m.map * c.change.tail<3>() + m.change * rates;
   const Vector3d& w = moment.rate_base;

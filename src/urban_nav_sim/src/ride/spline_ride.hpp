@@ -8,13 +8,13 @@ namespace urban_nav_sim {
 
 /// A ride whose six coordinates are one spline of time: place of the axle's middle (x, y, z, m), then yaw, pitch and
 /// roll (rad) of the body, R = Rz(yaw) Ry(pitch) Rx(roll). base_link is fixed to the body, a wheel's radius below the
-/// axle: it leaves the ground by under 2 mm while the body leans by 7 deg. Everything in Moment is an exact derivative.
+/// axle: it leaves the ground by under 2 mm while the body leans by 7 deg. Everything in MotionState is an exact derivative.
 class SplineRide final : public Ride {
  public:
   SplineRide(TimeSpline coordinates, double duration);
 
   double duration() const override { return duration_; }
-  Moment at(double t) const override;
+  MotionState at(double t) const override;
 
  private:
   TimeSpline coordinates_;

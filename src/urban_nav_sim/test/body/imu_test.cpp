@@ -47,7 +47,7 @@ State rungeKutta(const State& s, const ImuMeasurement& begin, const ImuMeasureme
 Pose imuPose(const Ride& ride, double t) { return ride.at(t).T_world_base * kPlace; }
 
 State trueState(const Ride& ride, double t) {
-  const Moment moment = ride.at(t);
+  const MotionState moment = ride.at(t);
   const Pose pose = moment.T_world_base * kPlace;
   return {pose.q(), moment.velocity_world + moment.T_world_base.q() * moment.rate_base.cross(kPlace.t()), pose.t()};
 }

@@ -32,7 +32,7 @@ TEST(Wheels, SpeedsAreThoseOfTheAxle) {
   const auto ride = testRide(60.0, true);
   const Wheels wheels(*ride, perfectWheels(), kClock, Noise(7, "wheels"));
   for (std::int64_t k = 0; k < wheels.count(); k += 20) {
-    const Moment moment = ride->at(kSchedule.at(k));
+    const MotionState moment = ride->at(kSchedule.at(k));
     EXPECT_NEAR(wheels.at(k).speed, moment.velocity_world.dot(moment.T_world_base.R().col(0)), 0.08);
     EXPECT_NEAR(wheels.at(k).yaw_rate, moment.rate_base.z(), 0.05);
   }

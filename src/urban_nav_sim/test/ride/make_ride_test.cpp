@@ -58,7 +58,7 @@ RideOptions optionsFor(double duration, std::uint64_t seed = 1) {
 }
 
 Vector2d placeOf(const Ride& ride, double t) { return ride.at(t).T_world_base.t().head<2>(); }
-Vector3d axisOf(const Moment& moment, int axis) { return moment.T_world_base.R().col(axis); }
+Vector3d axisOf(const MotionState& moment, int axis) { return moment.T_world_base.R().col(axis); }
 
 double distanceToLine(const Vector2d& p, const Route& route) {
   double least = 1e9;
@@ -74,7 +74,7 @@ TEST(MakeRide, VelocitiesAndAccelerationsAreThoseOfThePose) {
   const auto ride = makeRide(hillyWorld(), loop(), optionsFor(40.0));
   constexpr double h = 1e-4;
   for (double t = -0.05; t < 40.05; t += 0.0917) {
-    const Moment before = ride->at(t - h), now = ride->at(t), after = ride->at(t + h);
+    const MotionState before = ride->at(t - h), now = ride->at(t), after = ride->at(t + h);
     const Vector3d velocity = (after.T_world_base.t() - before.T_world_base.t()) / (2 * h);
     EXPECT_LT((velocity - now.velocity_world).norm(), 1e-5) << t;
     const Vector3d acceleration = (after.velocity_world - before.velocity_world) / (2 * h);
@@ -106,7 +106,7 @@ TEST(MakeRide, WheelsStayOnSlopedGround) {
     const auto ride = makeRide(world, loop(), options);
     double most = 0.0;
     for (double t = 0.0; t < 60.0; t += 0.5) {
-      const Moment moment = ride->at(t);
+      const MotionState moment = ride->at(t);
       for (const double side : {-0.5, 0.5}) {
         const Vector3d on_body(0.0, side * kTrack, kWheelRadius);
         most = std::max(most, std::abs(gapOf(world, moment.T_world_base * on_body)));
@@ -143,7 +143,7 @@ TEST(MakeRide, LeansIntoItsAcceleration) {
   const auto ride = makeRide(levelWorld(), loop(), options);
   double both = 0.0, leans = 0.0, pushes = 0.0;
   for (double t = 0.0; t < 60.0; t += 0.05) {
-    const Moment moment = ride->at(t);
+    const MotionState moment = ride->at(t);
     const double pitch = std::asin(-axisOf(moment, 0).z());
     const double push = moment.acceleration_world.dot(axisOf(moment, 0)) / 9.81;
     both += pitch * push;
@@ -172,7 +172,7 @@ TEST(MakeRide, MovesAsTheRobotCan) {
       const auto ride = makeRide(hillyWorld(), route, optionsFor(duration, seed));
       double fastest = 0.0, turns = 0.0, stands = 0.0, mean = 0.0, square = 0.0, count = 0.0, slips = 0.0;
       for (double t = 0.0; t < duration - 0.1; t += 0.1, ++count) {
-        const Moment from = ride->at(t), to = ride->at(t + 0.1);
+        const MotionState from = ride->at(t), to = ride->at(t + 0.1);
         const double speed = (to.T_world_base.t() - from.T_world_base.t()).norm() / 0.1;
         fastest = std::max(fastest, speed);
         stands += speed < 0.1 ? 1.0 : 0.0;
@@ -236,7 +236,7 @@ TEST(MakeRide, StandsWhereItIsToldToPause) {
   const auto ride = makeRide(levelWorld(), route, optionsFor(24.0));
   double stands = 0.0, away = 0.0;
   for (double t = 4.0; t < 24.0; t += 0.05) {
-    const Moment moment = ride->at(t);
+    const MotionState moment = ride->at(t);
     if (moment.velocity_world.norm() < 0.1) {
       stands += 0.05;
       away = std::max(away, (moment.T_world_base.t().head<2>() - route.waypoints[1].position).norm());
@@ -249,7 +249,7 @@ TEST(MakeRide, StandsWhereItIsToldToPause) {
 
 TEST(MakeRide, StandsAtTheStartInTheDirectionOfTheRoute) {
   const auto ride = makeRide(levelWorld(), routeOf({{3, 4}, {3, 30}}), optionsFor(10.0));
-  const Moment start = ride->at(0.0);
+  const MotionState start = ride->at(0.0);
   EXPECT_LT((start.T_world_base.t().head<2>() - Vector2d(3, 4)).norm(), 0.02);
   EXPECT_LT((axisOf(start, 0) - Vector3d::UnitY()).norm(), 0.03);
   EXPECT_LT(start.velocity_world.norm(), 0.05);

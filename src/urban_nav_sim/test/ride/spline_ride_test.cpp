@@ -28,7 +28,7 @@ TEST(SplineRide, DerivativesAreThoseOfThePose) {
   const SplineRide ride = tumbling();
   constexpr double h = 1e-5;
   for (double t = 0.0; t < 4.0; t += 0.0531) {
-    const Moment before = ride.at(t - h), now = ride.at(t), after = ride.at(t + h);
+    const MotionState before = ride.at(t - h), now = ride.at(t), after = ride.at(t + h);
     const auto near = [&](const Vector3d& low, const Vector3d& high, const Vector3d& rate) {
       return ((high - low) / (2 * h) - rate).norm() < 1e-5 * (10.0 + rate.norm());
     };

@@ -69,12 +69,12 @@ class SteadyRide : public Ride {
  public:
   explicit SteadyRide(double speed = 0.0, double rate = 0.0) : speed_(speed), rate_(rate) {}
   double duration() const override { return 100.0; }
-  Moment at(double t) const override {
+  MotionState at(double t) const override {
     const double yaw = rate_ * t, straight = std::abs(rate_) < 1e-9;
     const Eigen::Vector3d place = straight != 0.0
                                       ? Eigen::Vector3d(speed_ * t, 0.0, 0.0)
                                       : Eigen::Vector3d(std::sin(yaw), 1.0 - std::cos(yaw), 0.0) * speed_ / rate_;
-    Moment moment;
+    MotionState moment;
     moment.T_world_base =
         urban_nav_core::Pose(Eigen::Quaterniond(std::cos(yaw / 2), 0.0, 0.0, std::sin(yaw / 2)), place);
     moment.velocity_world = speed_ * Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0.0);

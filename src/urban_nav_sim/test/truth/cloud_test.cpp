@@ -19,8 +19,8 @@ using Eigen::Vector3f;
 class Straight : public Ride {
  public:
   double duration() const override { return 10.0; }
-  Moment at(double t) const override {
-    Moment moment;
+  MotionState at(double t) const override {
+    MotionState moment;
     moment.T_world_base = urban_nav_core::Pose(urban_nav_core::Quaterniond::Identity(), {t, 0.0, 0.0});
     return moment;
   }
