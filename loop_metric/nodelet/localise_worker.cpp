@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "loop_metric/stored_surroundings.hpp"
+#include "urban_nav_core/sequence/time_jump.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace loop_metric {
@@ -19,8 +20,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// A stamp that lies this far back is a bag that began again or a clock that was set, not a late message.
-constexpr StampNs back_in_time = 1'000'000'000;
 constexpr std::size_t most_poses = 1000;
 // Views that wait for odometry to settle, or for the map to be read: a hundred metres of driving, 7 MB.
 constexpr std::size_t most_waiting = 100;
@@ -114,7 +113,7 @@ void LocaliseWorker::take(Input& input) {
 
 void LocaliseWorker::hear(const StampedPose& odometry) {
   views_.hear(odometry);
-  if (!odometry_.empty() && odometry.stamp < odometry_.back().stamp - back_in_time) odometry_.clear();
+  if (!odometry_.empty() && urban_nav_core::jumpsBack(odometry.stamp, odometry_.back().stamp)) odometry_.clear();
   odometry_.push_back(odometry);
   if (odometry_.size() > most_poses) odometry_.pop_front();
 }
@@ -131,7 +130,7 @@ void LocaliseWorker::beginAnew() {
 
 void LocaliseWorker::takeStep(const RelativePose& step) {
   // Without the steps in between, nobody knows how the robot came from one to the other.
-  if (reached_ && (step.from > *reached_ || step.to < *reached_ - back_in_time)) beginAnew();
+  if (reached_ && (step.from > *reached_ || urban_nav_core::jumpsBack(step.to, *reached_))) beginAnew();
   if (!localiser_.addOdometry(step)) {
     ++now_.refused_steps;
     return;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "urban_nav_core/sequence/time_jump.hpp"
 #include "urban_nav_ros/laser_scan.hpp"
 
 namespace loop_metric {
@@ -13,7 +14,6 @@ using urban_nav_core::StampNs;
 namespace {
 
 constexpr StampNs longest = 60'000'000'000;
-constexpr StampNs back_in_time = 1'000'000'000;
 constexpr std::size_t most = 10000;
 
 }  // namespace
@@ -22,7 +22,7 @@ bool RecentScans::add(const sensor_msgs::LaserScan& message) {
   const auto planar = urban_nav_ros::toPlanarScan(message);
   if (!planar) return false;
   Scans& scans = scans_[message.header.frame_id];
-  if (!scans.empty() && planar->stamp < scans.back().stamp - back_in_time) scans.clear();
+  if (!scans.empty() && urban_nav_core::jumpsBack(planar->stamp, scans.back().stamp)) scans.clear();
   if (!scans.empty() && planar->stamp <= scans.back().stamp) return true;  // twice, or late: one among thousands
   scans.push_back(urban_nav_core::toScan(*planar));
   while (scans.size() > most || scans.back().stamp - scans.front().stamp > longest) scans.pop_front();

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "loop_metric/camera_words.hpp"
+#include "urban_nav_core/sequence/time_jump.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/laser_scan.hpp"
 
@@ -18,8 +19,6 @@ using urban_nav_store::Store;
 
 namespace {
 
-// A stamp that lies this far back is a bag that began again or a clock that was set, not a late message.
-constexpr StampNs back_in_time = 1'000'000'000;
 // What comes before odometry has a first step, which is a window of its frames later: 25 s of two lasers at 75 Hz.
 constexpr std::size_t most_before = 4000;
 
@@ -120,7 +119,7 @@ void Recorder::takeScan(const sensor_msgs::LaserScan& message) {
   const bool is_new = lasers_.count(message.header.frame_id) == 0;
   Laser& laser = lasers_[message.header.frame_id];
   if (is_new) placeLasers();
-  if (laser.newest && planar->stamp < *laser.newest - back_in_time) {
+  if (laser.newest && urban_nav_core::jumpsBack(planar->stamp, *laser.newest)) {
     laser.is_next = session_.has_value();
     laser.newest.reset();
   }
@@ -141,7 +140,7 @@ void Recorder::placeLasers() {
 }
 
 void Recorder::takeStep(const RelativePose& step) {
-  if (!session_ || step.from < heard_ - back_in_time) begin(step.from);
+  if (!session_ || urban_nav_core::jumpsBack(step.from, heard_)) begin(step.from);
   std::vector<urban_nav_store::Node> nodes;
   std::optional<urban_nav_store::Edge> edge;
   if (!odometry_.write(session_->id, step, nodes, edge)) {

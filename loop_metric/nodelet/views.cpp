@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "loop_metric/stored_surroundings.hpp"
+#include "urban_nav_core/sequence/time_jump.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/camera_info.hpp"
 
@@ -17,8 +18,6 @@ using urban_nav_ros::StereoFeed;
 
 namespace {
 
-// A stamp that lies this far back is a bag that began again or a clock that was set, not a late message.
-constexpr StampNs back_in_time = 1'000'000'000;
 // Five seconds at 20 Hz: odometry that is further behind has dropped frames. 40 MB at 512x384.
 constexpr std::size_t most_pairs = 100;
 constexpr std::size_t most_poses = 1000;
@@ -53,7 +52,7 @@ void Views::add(Side side, const sensor_msgs::CameraInfoConstPtr& info) {
 }
 
 bool Views::add(const ImageInput& image) {
-  const bool back = newest_image_ && image.stamp < *newest_image_ - back_in_time;
+  const bool back = newest_image_ && urban_nav_core::jumpsBack(image.stamp, *newest_image_);
   if (back) forgetTime();
   newest_image_ = back || !newest_image_ ? image.stamp : std::max(*newest_image_, image.stamp);
   if (!first_image_) first_image_ = Clock::now();
@@ -109,7 +108,7 @@ void Views::begin() {
 
 void Views::hear(const urban_nav_core::StampedPose& odometry) {
   if (newest_pose_ && odometry.stamp <= *newest_pose_) {
-    if (odometry.stamp >= *newest_pose_ - back_in_time) return;
+    if (!urban_nav_core::jumpsBack(odometry.stamp, *newest_pose_)) return;
     odometry_.clear();
   }
   newest_pose_ = odometry.stamp;

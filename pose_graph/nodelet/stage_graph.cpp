@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "urban_nav_core/sequence/time_jump.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_store/session.hpp"
 
@@ -23,8 +24,6 @@ constexpr std::size_t most_waiting = 1000;
 constexpr StampNs first_level = 6'500'000'000;
 // What was felt comes into the graph at least so often, and from there into the store.
 constexpr StampNs forces_every = 10'000'000'000;
-// A stamp that lies this far back is a bag that began again or a clock that was set, not a late message.
-constexpr StampNs back_in_time = 1'000'000'000;
 
 PoseRef refOf(const NodeRef& node) { return {node.session, node.stamp}; }
 
@@ -139,7 +138,7 @@ void StageGraph::end() {
 }
 
 void StageGraph::add(const urban_nav_core::RelativePose& relative) {
-  if (session_.empty() || relative.from < heard_ - back_in_time) begin(recording_, relative.from);
+  if (session_.empty() || urban_nav_core::jumpsBack(relative.from, heard_)) begin(recording_, relative.from);
   heard_ = std::max(heard_, relative.to);
   if (!graph_.addOdometry(session_, relative)) return;
   const auto& tracks = graph_.tracks();
