@@ -14,7 +14,7 @@ constexpr std::size_t kMostWaiting = 60'000;
 
 }  // namespace
 
-std::vector<FeltForce> Accelerometer::add(const sensor_msgs::Imu& message) {
+std::vector<SpecificForce> Accelerometer::add(const sensor_msgs::Imu& message) {
   if (!frame_) frame_ = message.header.frame_id;
   // sensor_msgs/Imu: element 0 is -1 where there is no accelerometer.
   if (message.linear_acceleration_covariance[0] < 0.0 || waiting_.size() >= kMostWaiting) return {};
@@ -23,17 +23,17 @@ std::vector<FeltForce> Accelerometer::add(const sensor_msgs::Imu& message) {
   return turned();
 }
 
-std::vector<FeltForce> Accelerometer::add(const tf2_msgs::TFMessage& message) {
+std::vector<SpecificForce> Accelerometer::add(const tf2_msgs::TFMessage& message) {
   transforms_.add(message);
   return turned();
 }
 
-std::vector<FeltForce> Accelerometer::turned() {
+std::vector<SpecificForce> Accelerometer::turned() {
   if (!R_base_imu_ && frame_)
     if (const auto T_base_imu = transforms_.lookup(base_frame_, *frame_)) R_base_imu_ = T_base_imu->R();
   if (!R_base_imu_) return {};
-  std::vector<FeltForce> made = std::exchange(waiting_, {});
-  for (FeltForce& sample : made) sample.force = *R_base_imu_ * sample.force;
+  std::vector<SpecificForce> made = std::exchange(waiting_, {});
+  for (SpecificForce& sample : made) sample.force = *R_base_imu_ * sample.force;
   return made;
 }
 

@@ -19,17 +19,17 @@ class Accelerometer {
  public:
   explicit Accelerometer(std::string base_frame) : base_frame_(std::move(base_frame)) {}
   /// What can be told from now on, in the order in which it came.
-  std::vector<FeltForce> add(const sensor_msgs::Imu& message);
-  std::vector<FeltForce> add(const tf2_msgs::TFMessage& message);
+  std::vector<SpecificForce> add(const sensor_msgs::Imu& message);
+  std::vector<SpecificForce> add(const tf2_msgs::TFMessage& message);
 
  private:
-  std::vector<FeltForce> turned();
+  std::vector<SpecificForce> turned();
 
   const std::string base_frame_;
   urban_nav_ros::StaticTransforms transforms_;
   std::optional<std::string> frame_;
   std::optional<urban_nav_core::Matrix3d> R_base_imu_;
-  std::vector<FeltForce> waiting_;  ///< in the axes of the device
+  std::vector<SpecificForce> waiting_;  ///< in the axes of the device
 };
 
 }  // namespace pose_graph

@@ -13,18 +13,18 @@ namespace {
 constexpr StampNs kSecond = 1'000'000'000;
 constexpr StampNs kBack = kSecond, kFinal = 10 * kSecond, kKept = 600 * kSecond;
 
-void keep(const FeltForce& sample, std::vector<FeltForce>& samples) {
+void keep(const SpecificForce& sample, std::vector<SpecificForce>& samples) {
   samples.push_back(sample);
   // Twice what is kept, then half of it goes at once.
   if (samples.front().stamp > sample.stamp - 2 * kKept) return;
-  samples.erase(samples.begin(), std::find_if(samples.begin(), samples.end(), [&](const FeltForce& each) {
+  samples.erase(samples.begin(), std::find_if(samples.begin(), samples.end(), [&](const SpecificForce& each) {
                   return each.stamp > sample.stamp - kKept;
                 }));
 }
 
 }  // namespace
 
-void Felt::add(const FeltForce& sample) {
+void Felt::add(const SpecificForce& sample) {
   const bool back = !samples_.empty() && sample.stamp < samples_.back().stamp - kBack;
   keep(sample, back || !next_session_.empty() ? next_session_ : samples_);
 }
@@ -34,15 +34,15 @@ void Felt::begin() {
   if (!next_session_.empty()) samples_ = std::exchange(next_session_, {});
 }
 
-std::vector<FeltForce> Felt::at(const std::vector<StampNs>& stamps) {
+std::vector<SpecificForce> Felt::at(const std::vector<StampNs>& stamps) {
   if (samples_.empty() || stamps.empty()) return {};
   open_ = std::min(open_, stamps.size());
   const std::size_t before = open_ > 0 ? open_ - 1 : 0;  // its neighbour has a part of the samples between them
   const StampNs from = stamps[before] - kBack;
-  std::vector<FeltForce> near;
+  std::vector<SpecificForce> near;
   std::copy_if(samples_.begin(), samples_.end(), std::back_inserter(near),
-               [&](const FeltForce& sample) { return sample.stamp >= from; });
-  std::vector<FeltForce> made =
+               [&](const SpecificForce& sample) { return sample.stamp >= from; });
+  std::vector<SpecificForce> made =
       forcesAt({stamps.begin() + static_cast<std::ptrdiff_t>(before), stamps.end()}, std::move(near));
   if (open_ > 0 && !made.empty() && made.front().stamp == stamps[before]) made.erase(made.begin());
   const auto first_open = std::upper_bound(stamps.begin() + static_cast<std::ptrdiff_t>(open_), stamps.end(),

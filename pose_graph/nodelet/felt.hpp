@@ -12,14 +12,14 @@ namespace pose_graph {
 class Felt {
  public:
   /// One that lies more than a second back is of a recording that began again: it is for the session that begins next.
-  void add(const FeltForce& sample);
+  void add(const SpecificForce& sample);
   /// A session begins, of which no pose has been seen.
   void begin();
   /// At poses of the session, from the first one on whose mean was not final yet (forcesAt). `stamps`: all of its poses.
-  std::vector<FeltForce> at(const std::vector<urban_nav_core::StampNs>& stamps);
+  std::vector<SpecificForce> at(const std::vector<urban_nav_core::StampNs>& stamps);
 
  private:
-  std::vector<FeltForce> samples_, next_session_;
+  std::vector<SpecificForce> samples_, next_session_;
   std::size_t open_ = 0;  ///< the first pose whose mean is not final
 };
 

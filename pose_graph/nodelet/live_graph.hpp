@@ -73,7 +73,7 @@ class LiveGraph {
   virtual void add(const urban_nav_core::RelativeConstraint& constraint) = 0;
   /// T_odom_base, as odometry gave it out.
   virtual void add(const urban_nav_core::StampedPose& odometry) = 0;
-  virtual void add(const FeltForce& sample) = 0;
+  virtual void add(const SpecificForce& sample) = 0;
 
   /// Whether what was added asks for a relaxation.
   virtual bool wantsRelaxation() const = 0;

@@ -140,8 +140,8 @@ void PoseGraphNodelet::subscribeOdometry() {
 }
 
 void PoseGraphNodelet::subscribeAccelerometer() {
-  const auto put = [this](const std::vector<FeltForce>& samples) {
-    for (const FeltForce& sample : samples) worker_->put(sample);
+  const auto put = [this](const std::vector<SpecificForce>& samples) {
+    for (const SpecificForce& sample : samples) worker_->put(sample);
   };
   subscribers_.push_back(getNodeHandle().subscribe<tf2_msgs::TFMessage>(
       "/tf_static", 100,

@@ -35,7 +35,7 @@ class StageGraph : public LiveGraph {
   void add(const urban_nav_core::RelativeConstraint& constraint) override;
 
   void add(const urban_nav_core::StampedPose& odometry) override;
-  void add(const FeltForce& sample) override { felt_.add(sample); }
+  void add(const SpecificForce& sample) override { felt_.add(sample); }
 
   bool wantsRelaxation() const override { return (changed_ && !batch_due_) || !ready_.empty(); }
   Outcome relax() override;

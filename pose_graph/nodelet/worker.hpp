@@ -24,7 +24,7 @@ class Worker {
  public:
   using Task = std::function<void(LiveGraph&)>;
   using Input = std::variant<urban_nav_core::RelativePose, urban_nav_core::MetricClosure,
-                             urban_nav_core::RelativeConstraint, urban_nav_core::StampedPose, FeltForce, Task>;
+                             urban_nav_core::RelativeConstraint, urban_nav_core::StampedPose, SpecificForce, Task>;
 
   /// Called in the worker's thread.
   struct Listener {

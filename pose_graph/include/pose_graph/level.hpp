@@ -5,18 +5,16 @@
 #include <vector>
 
 #include "urban_nav_core/trajectory/trajectory.hpp"
+#include "urban_nav_core/types/specific_force.hpp"
 
 namespace pose_graph {
 
-/// What an accelerometer felt at a time, in the axes of base_link, m/s2: at rest 9.8 upwards (sensor_msgs/Imu has it so).
-struct FeltForce {
-  urban_nav_core::StampNs stamp = 0;
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();
-};
+using urban_nav_core::SpecificForce;
 
 /// The mean of the samples around each stamp, from half-way to the stamp before to half-way to the next one, no further than 0.1 s.
 /// Stamps without any are left out, and so are samples that are not finite or above 1000 m/s2. `stamps` ascend; samples may come in any order.
-std::vector<FeltForce> forcesAt(const std::vector<urban_nav_core::StampNs>& stamps, std::vector<FeltForce> samples);
+std::vector<SpecificForce> forcesAt(const std::vector<urban_nav_core::StampNs>& stamps,
+                                    std::vector<SpecificForce> samples);
 
 /// Why it is not known which way is up.
 enum class LevelTrouble {
@@ -50,9 +48,9 @@ struct Level {
 /// Each force's stamp must be that of a pose to count. The origin of the accelerometer's frame is taken to be base_link's: its lever arm moves
 /// in the robot's turns, which adds up to nothing over the spans. An orientation that an IMU makes of the same forces in a filter of
 /// its own is not used: it knows less of the drive.
-Level levelOf(const urban_nav_core::Trajectory& trajectory, const std::vector<FeltForce>& forces);
+Level levelOf(const urban_nav_core::Trajectory& trajectory, const std::vector<SpecificForce>& forces);
 /// Seen from another pose of the trajectory's world than its first: T_world_first.
-Level levelOf(const urban_nav_core::Trajectory& trajectory, const std::vector<FeltForce>& forces,
+Level levelOf(const urban_nav_core::Trajectory& trajectory, const std::vector<SpecificForce>& forces,
               const urban_nav_core::Pose& T_world_first);
 
 /// The rotations of a trajectory are themselves not exact, and what all of them have in common looks like a tilt of the first pose:

@@ -110,7 +110,7 @@ struct Batch {
   Problem<3>
       problem;  ///< as PoseGraph::problem(), odometry as it was measured; levelled, with covariances as found, when it has run
   std::vector<std::vector<StampNs>> stamps;    ///< of each track
-  std::vector<std::vector<FeltForce>> forces;  ///< of each track; who knows more than the graph may put it in
+  std::vector<std::vector<SpecificForce>> forces;  ///< of each track; who knows more than the graph may put it in
   std::map<ClosureId, Closure> closures;       ///< judged when it has run
   Solution<3> solution;
   double odometry_variance = 1.0;
@@ -148,8 +148,8 @@ class PoseGraph {
 
   /// What was felt at poses of a session, in order of time; from the first of them on it takes the place of what is known. Batches level
   /// by it: a map of which one of the sessions knows which way is up has z up, and origin and heading of its first pose.
-  void putForces(const SessionId& session, const std::vector<FeltForce>& forces);
-  const std::vector<FeltForce>& forces(std::size_t track) const { return forces_[track]; }
+  void putForces(const SessionId& session, const std::vector<SpecificForce>& forces);
+  const std::vector<SpecificForce>& forces(std::size_t track) const { return forces_[track]; }
   /// Levels what is not level yet where that is known by now, and tells of it as relax() does.
   std::optional<Relaxed> level();
   /// Whether the map that a session lies in is level.
@@ -248,7 +248,7 @@ class PoseGraph {
     return {a.session, a.stamp, b.session, b.stamp, kind, source};
   }
   std::map<Name, ClosureId> by_name_;
-  std::vector<std::vector<FeltForce>> forces_;  ///< of each track
+  std::vector<std::vector<SpecificForce>> forces_;  ///< of each track
   std::vector<bool> level_;                     ///< of each track: whether the map that begins with it is
   std::vector<Closure> removed_;                ///< since the last relaxation, of those that were believed
   ClosureId next_id_ = 1;

@@ -34,11 +34,11 @@ Pose levelling(const Level& level, const Pose& T_map_first) {
   return Pose(Eigen::Quaterniond(level.R_map_first), Eigen::Vector3d::Zero()) * T_map_first.inverse();
 }
 
-void PoseGraph::putForces(const SessionId& session, const std::vector<FeltForce>& forces) {
+void PoseGraph::putForces(const SessionId& session, const std::vector<SpecificForce>& forces) {
   const auto found = track_of_.find(session);
   if (found == track_of_.end()) throw UserError("pose_graph", "no session " + session, "a session of the graph");
   if (forces.empty()) return;
-  std::vector<FeltForce>& known = forces_[found->second];
+  std::vector<SpecificForce>& known = forces_[found->second];
   while (!known.empty() && known.back().stamp >= forces.front().stamp) known.pop_back();
   known.insert(known.end(), forces.begin(), forces.end());
 }

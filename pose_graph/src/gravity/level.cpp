@@ -52,11 +52,11 @@ const char* toString(LevelTrouble trouble) {
   return "";
 }
 
-Level levelOf(const Trajectory& trajectory, const std::vector<FeltForce>& forces) {
+Level levelOf(const Trajectory& trajectory, const std::vector<SpecificForce>& forces) {
   return levelOf(trajectory, forces, trajectory.empty() ? urban_nav_core::Pose() : trajectory.front().pose);
 }
 
-Level levelOf(const Trajectory& trajectory, const std::vector<FeltForce>& forces,
+Level levelOf(const Trajectory& trajectory, const std::vector<SpecificForce>& forces,
               const urban_nav_core::Pose& T_world_first) {
   if (forces.empty() || trajectory.empty()) return unknown(LevelTrouble::NoForces, "no accelerometer was recorded");
   const std::vector<Span> spans = spansOf(trajectory, forces, T_world_first);

@@ -16,7 +16,7 @@ namespace {
 
 /// Of an unbroken run. Its steps are edges [first_edge, first_edge + stamps.size() - 1), its poses begin with first_pose.
 double levelRun(Problem<3>& problem, std::size_t first_edge, std::size_t first_pose, const std::vector<StampNs>& stamps,
-                const std::vector<FeltForce>& forces) {
+                const std::vector<SpecificForce>& forces) {
   Trajectory odometry;
   std::vector<double> variance{0.0};
   Rigid<3> T_first_pose;
@@ -51,7 +51,7 @@ double levelRun(Problem<3>& problem, std::size_t first_edge, std::size_t first_p
 }  // namespace
 
 double levelOdometry(Problem<3>& problem, std::size_t chains, const std::vector<std::vector<StampNs>>& stamps,
-                     const std::vector<std::vector<FeltForce>>& forces) {
+                     const std::vector<std::vector<SpecificForce>>& forces) {
   double most = 0.0;
   std::size_t edge = 0, pose = 0;
   for (std::size_t t = 0; t < stamps.size(); ++t) {

@@ -15,6 +15,6 @@ namespace pose_graph {
 /// The most that a pose leant, rad.
 double levelOdometry(Problem<3>& problem, std::size_t chains,
                      const std::vector<std::vector<urban_nav_core::StampNs>>& stamps,
-                     const std::vector<std::vector<FeltForce>>& forces);
+                     const std::vector<std::vector<SpecificForce>>& forces);
 
 }  // namespace pose_graph

@@ -20,7 +20,7 @@ constexpr double kSpan = 2.0, kLongestGap = 0.3;  // s
 constexpr StampNs kReach = 100'000'000;           // ns around a stamp
 constexpr double kMost = 1000.0;                  // m/s2: a hundred times gravity is no drive
 
-bool isUsable(const FeltForce& felt) { return felt.force.allFinite() && felt.force.norm() < kMost; }
+bool isUsable(const SpecificForce& felt) { return felt.force.allFinite() && felt.force.norm() < kMost; }
 
 /// A pose at which something was felt, in the axes of the first pose.
 struct Place {
@@ -29,10 +29,10 @@ struct Place {
   Matrix3d rotation, turning;
 };
 
-std::vector<Place> placesOf(const Trajectory& trajectory, const std::vector<FeltForce>& forces,
+std::vector<Place> placesOf(const Trajectory& trajectory, const std::vector<SpecificForce>& forces,
                             const Pose& T_first_world) {
   std::vector<Place> places;
-  for (const FeltForce& felt : forces) {
+  for (const SpecificForce& felt : forces) {
     if (!isUsable(felt)) continue;
     const std::size_t i = trajectory.nearest(felt.stamp);
     // The velocity from the neighbours, which the first and the last pose do not have.
@@ -67,10 +67,10 @@ Span spanOf(const std::vector<Place>& places, std::size_t first, std::size_t las
 
 }  // namespace
 
-std::vector<FeltForce> forcesAt(const std::vector<StampNs>& stamps, std::vector<FeltForce> samples) {
+std::vector<SpecificForce> forcesAt(const std::vector<StampNs>& stamps, std::vector<SpecificForce> samples) {
   std::stable_sort(samples.begin(), samples.end(),
-                   [](const FeltForce& a, const FeltForce& b) { return a.stamp < b.stamp; });
-  std::vector<FeltForce> made;
+                   [](const SpecificForce& a, const SpecificForce& b) { return a.stamp < b.stamp; });
+  std::vector<SpecificForce> made;
   std::size_t next = 0;
   for (std::size_t i = 0; i < stamps.size(); ++i) {
     const StampNs begin = std::max(stamps[i] - kReach, i > 0 ? (stamps[i - 1] + stamps[i]) / 2 : stamps[i] - kReach);
@@ -89,7 +89,7 @@ std::vector<FeltForce> forcesAt(const std::vector<StampNs>& stamps, std::vector<
   return made;
 }
 
-std::vector<Span> spansOf(const Trajectory& trajectory, const std::vector<FeltForce>& forces,
+std::vector<Span> spansOf(const Trajectory& trajectory, const std::vector<SpecificForce>& forces,
                           const Pose& T_world_first) {
   const std::vector<Place> places = placesOf(trajectory, forces, T_world_first.inverse());
   std::vector<Span> spans;

@@ -181,7 +181,7 @@ std::vector<Sight> sightsOf(const std::vector<Span>& spans, const Trajectory& od
 }  // namespace
 
 std::vector<Tilt> tiltDrift(const Trajectory& odometry, const std::vector<double>& variance,
-                            const std::vector<FeltForce>& forces) {
+                            const std::vector<SpecificForce>& forces) {
   const Level level = levelOf(odometry, forces);
   if (!level.known()) return {};
   const std::vector<Span> spans = spansOf(odometry, forces, odometry.front().pose);

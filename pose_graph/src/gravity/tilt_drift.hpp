@@ -19,7 +19,7 @@ struct Tilt {
 /// it. By how much it promises too much, and what a force is worth, is as the drive shows it (largest likelihood, with odometry's word as six observations);
 /// shocks weigh less. Empty where gravity is not known, as levelOf, or the drift is more than this can tell, 0.3 rad.
 std::vector<Tilt> tiltDrift(const urban_nav_core::Trajectory& odometry, const std::vector<double>& variance,
-                            const std::vector<FeltForce>& forces);
+                            const std::vector<SpecificForce>& forces);
 
 /// Between two of them as time goes, beyond the last as that one; at `first`, and before it, none.
 Eigen::Vector3d tiltAt(const std::vector<Tilt>& tilts, urban_nav_core::StampNs first, urban_nav_core::StampNs stamp);

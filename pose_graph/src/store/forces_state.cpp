@@ -2,11 +2,13 @@
 #include "pose_graph/forces_state.hpp"
 
 #include "urban_nav_core/io/archive.hpp"
+#include "urban_nav_core/io/archive_types.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace pose_graph {
 
 using urban_nav_core::Archive;
+using urban_nav_core::SpecificForce;
 
 namespace {
 
@@ -23,18 +25,16 @@ std::string_view forcesContent(std::string_view bytes) {
 
 }  // namespace
 
-void archive(Archive& archive, FeltForce& value) { archive(value.stamp, value.force); }
-
-std::string packForces(std::vector<FeltForce> forces) {
+std::string packForces(std::vector<SpecificForce> forces) {
   Archive writer;
   writer(forces);
   return urban_nav_core::seal(kForcesName, kForcesVersion, writer.take());
 }
 
-std::optional<std::vector<FeltForce>> unpackForces(std::string_view bytes) {
+std::optional<std::vector<SpecificForce>> unpackForces(std::string_view bytes) {
   try {
     Archive reader(forcesContent(bytes), kForcesName);
-    std::vector<FeltForce> forces;
+    std::vector<SpecificForce> forces;
     reader(forces);
     reader.finish();
     return forces;

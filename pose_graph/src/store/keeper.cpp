@@ -195,7 +195,7 @@ bool Keeper::followNodes(const PoseGraph& graph) {
 // All of a session's forces are one value: it is written when it has grown by a fifth, so that its bytes are written five times at most.
 bool Keeper::followForces(const PoseGraph& graph, bool at_once) {
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
-    const std::vector<FeltForce>& forces = graph.forces(t);
+    const std::vector<SpecificForce>& forces = graph.forces(t);
     const std::size_t known = tracks_[t].forces;
     if (forces.size() <= known || (!at_once && 5 * forces.size() < 6 * known)) continue;
     const SessionId& session = graph.tracks()[t].session;

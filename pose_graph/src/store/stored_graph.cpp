@@ -75,7 +75,7 @@ StoredGraph readGraph(Store& store) {
     });
     made.chains.push_back({session, stepsOf(store, session.id, steps), {}});
     if (const auto forces = store.states().get(session.id, kForcesStage))
-      made.chains.back().forces = unpackForces(*forces).value_or(std::vector<FeltForce>());
+      made.chains.back().forces = unpackForces(*forces).value_or(std::vector<SpecificForce>());
     store.graph().forEachRelaxed(session.id, [&](const urban_nav_store::RelaxedPose& pose) {
       made.revision = std::max(made.revision, pose.revision);
     });

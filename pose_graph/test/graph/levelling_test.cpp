@@ -17,8 +17,9 @@ using testing::kPeriod;
 const Pose kT_level_first(urban_nav_core::expSo3(Eigen::Vector3d(0.1, -0.2, 0.0)), Eigen::Vector3d::Zero());
 
 /// At rest all along, as far as the accelerometer can tell: a lap of 10 m in 5 s turns its axes and bends its way by little.
-std::vector<FeltForce> felt(const Track& track, std::size_t first, std::size_t end, const std::vector<Pose>& poses) {
-  std::vector<FeltForce> made;
+std::vector<SpecificForce> felt(const Track& track, std::size_t first, std::size_t end,
+                                const std::vector<Pose>& poses) {
+  std::vector<SpecificForce> made;
   for (std::size_t i = first; i < end; ++i) {
     Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();
     const double h = 1e-9 * static_cast<double>(kPeriod);
@@ -31,7 +32,7 @@ std::vector<FeltForce> felt(const Track& track, std::size_t first, std::size_t e
 }
 
 /// Of a track as odometry has it.
-std::vector<FeltForce> felt(const Track& track) { return felt(track, 0, track.stamps.size(), track.odom); }
+std::vector<SpecificForce> felt(const Track& track) { return felt(track, 0, track.stamps.size(), track.odom); }
 
 double tiltOf(const PoseGraph& graph, std::size_t track = 0) {
   // The first pose of the map leans as the robot did: what was up there is up here.
@@ -121,9 +122,9 @@ TEST(Levelling, oneSessionLevelsTheMapOfAllThatAreInIt) {
 TEST(Levelling, laterForcesTakeThePlaceOfWhatWasKnownThere) {
   PoseGraph graph{Parameters()}, whole{Parameters()};
   for (PoseGraph* each : {&graph, &whole}) drive(*each, "a", 0, 2 * kLap);
-  const std::vector<FeltForce> all = felt(whole.tracks()[0]);
+  const std::vector<SpecificForce> all = felt(whole.tracks()[0]);
   whole.putForces("a", all);
-  std::vector<FeltForce> early(all.begin(), all.begin() + 120);
+  std::vector<SpecificForce> early(all.begin(), all.begin() + 120);
   early.back().force.setConstant(900.0);
   graph.putForces("a", early);
   graph.putForces("a", {});
@@ -137,7 +138,7 @@ TEST(Levelling, laterForcesTakeThePlaceOfWhatWasKnownThere) {
 struct Leaning {
   testing::Drive drive;
   std::vector<urban_nav_core::RelativePose> steps;
-  std::vector<FeltForce> forces;
+  std::vector<SpecificForce> forces;
 
   Leaning() {
     urban_nav_core::testing::Dice dice(5);

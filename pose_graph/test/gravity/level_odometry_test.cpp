@@ -20,7 +20,7 @@ using urban_nav_core::testing::Dice;
 struct Chains {
   Problem<3> problem;
   std::vector<std::vector<StampNs>> stamps;
-  std::vector<std::vector<FeltForce>> forces;
+  std::vector<std::vector<SpecificForce>> forces;
 
   void add(const Drive& drive, Dice& dice, std::size_t broken_at = 0) {
     const auto truth = drive.trajectory();

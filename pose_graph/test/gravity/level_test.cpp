@@ -65,7 +65,7 @@ TEST(Level, tellsAFaultOfTheAccelerometerFromATiltWhereTheRobotTurns) {
 TEST(Level, doesNotDependOnTheFrameOfTheTrajectory) {
   Dice dice(1);
   const Drive drive;
-  const std::vector<FeltForce> forces = drive.forces(dice);
+  const std::vector<SpecificForce> forces = drive.forces(dice);
   const Pose T_elsewhere(expSo3(Vector3d(1.0, 2.0, -0.5)), Vector3d(100.0, -30.0, 7.0));
   const Level level = levelOf(drive.trajectory(), forces),
               same = levelOf(transformed(T_elsewhere, drive.trajectory()), forces);
@@ -79,7 +79,7 @@ TEST(Level, standsShocksAndRubbish) {
   Dice dice(3);
   Drive drive;
   drive.noise = 0.05;
-  std::vector<FeltForce> forces = drive.forces(dice);
+  std::vector<SpecificForce> forces = drive.forces(dice);
   for (std::size_t i = 0; i < forces.size(); ++i) {
     if (i >= 400 && i < 600) forces[i].force += Vector3d(3.0, -2.0, 5.0);  // ten seconds of a wrong calibration
     if (dice.chance(0.005)) forces[i].force = 40.0 * dice.normals<3>();
@@ -139,11 +139,11 @@ TEST(Level, saysWhyItIsNotKnown) {
   Drive drive;
   EXPECT_EQ(levelOf(drive.trajectory(), {}).trouble, LevelTrouble::NoForces);
   EXPECT_EQ(levelOf({}, drive.forces(dice)).trouble, LevelTrouble::NoForces);
-  std::vector<FeltForce> forces = drive.forces(dice);
-  for (FeltForce& felt : forces) felt.stamp += 1;
+  std::vector<SpecificForce> forces = drive.forces(dice);
+  for (SpecificForce& felt : forces) felt.stamp += 1;
   EXPECT_EQ(levelOf(drive.trajectory(), forces).trouble, LevelTrouble::TooShort) << "of no pose";
   forces = drive.forces(dice);
-  for (FeltForce& felt : forces) felt.force /= kGravity;
+  for (SpecificForce& felt : forces) felt.force /= kGravity;
   const Level level = levelOf(drive.trajectory(), forces);
   EXPECT_EQ(level.trouble, LevelTrouble::NotGravity) << "in units of g";
   EXPECT_FALSE(level.sentence.empty());

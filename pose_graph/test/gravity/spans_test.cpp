@@ -17,10 +17,10 @@ using urban_nav_core::Trajectory;
 constexpr StampNs kMs = 1'000'000;
 
 TEST(ForcesAt, areMeansOfWhatWasFeltAroundEachStamp) {
-  std::vector<FeltForce> samples;
+  std::vector<SpecificForce> samples;
   for (StampNs t = 0; t < 400; t += 10) samples.push_back({t * kMs, {static_cast<double>(t), 0.0, 1.0}});
   const std::vector<StampNs> stamps = {100 * kMs, 150 * kMs, 200 * kMs, 2000 * kMs};
-  const std::vector<FeltForce> forces = forcesAt(stamps, samples);
+  const std::vector<SpecificForce> forces = forcesAt(stamps, samples);
   ASSERT_EQ(forces.size(), 3U) << "nothing around the last one";
   EXPECT_EQ(forces[1].stamp, 150 * kMs);
   EXPECT_NEAR(forces[1].force.x(), 150.0, 1e-9) << "130...170";
@@ -28,7 +28,7 @@ TEST(ForcesAt, areMeansOfWhatWasFeltAroundEachStamp) {
   std::reverse(samples.begin(), samples.end());
   samples.push_back({155 * kMs, Vector3d::Constant(std::numeric_limits<double>::quiet_NaN())});
   samples.push_back({155 * kMs, Vector3d::Constant(1e6)});
-  const std::vector<FeltForce> same = forcesAt(stamps, samples);
+  const std::vector<SpecificForce> same = forcesAt(stamps, samples);
   for (std::size_t i = 0; i < forces.size(); ++i) EXPECT_EQ(same[i].force, forces[i].force);
   EXPECT_TRUE(forcesAt({}, samples).empty());
   EXPECT_TRUE(forcesAt(stamps, {}).empty());
@@ -36,7 +36,7 @@ TEST(ForcesAt, areMeansOfWhatWasFeltAroundEachStamp) {
 
 TEST(Spans, takeTheAccelerationOfTheTrajectoryAway) {
   Trajectory trajectory;
-  std::vector<FeltForce> forces;
+  std::vector<SpecificForce> forces;
   for (int i = 0; i <= 100; ++i) {
     const double t = 0.05 * i;
     trajectory.append(50 * kMs * i, Pose(Eigen::Quaterniond::Identity(), {0.35 * t * t, 0.0, 0.0}));

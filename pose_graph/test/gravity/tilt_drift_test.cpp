@@ -97,7 +97,7 @@ TEST(TiltDrift, doesNotBelieveOdometryThatPromisesTooMuch) {
     Dice dice(seed);
     const Drive drive = felt(0.02);
     Odometry odometry = drifting(drive, 3e-4, dice);
-    const std::vector<FeltForce> forces = drive.forces(dice);
+    const std::vector<SpecificForce> forces = drive.forces(dice);
     const Lost honest = lostOf(drive, odometry, tiltDrift(odometry.trajectory, odometry.variance, forces));
     for (double& variance : odometry.variance) variance /= 100.0;
     const Lost boasting = lostOf(drive, odometry, tiltDrift(odometry.trajectory, odometry.variance, forces));
@@ -117,15 +117,15 @@ TEST(TiltDrift, findsTheLeverArmOfAnAccelerometerThatIsNotAtBaseLink) {
   Dice dice(2);
   const Drive drive = felt(0.005);
   const Odometry odometry = drifting(drive, 3e-4, dice);
-  std::vector<FeltForce> near = drive.forces(dice), far = near;
+  std::vector<SpecificForce> near = drive.forces(dice), far = near;
   const Vector3d arm(0.2, -0.1, 0.8);
   constexpr double h = 1e-3;
-  for (FeltForce& felt : far) {
+  for (SpecificForce& felt : far) {
     const double t = 1e-9 * static_cast<double>(felt.stamp);
     const Eigen::Matrix3d R = drive.rotation(t);
     felt.force += R.transpose() * ((drive.rotation(t + h) - 2.0 * R + drive.rotation(t - h)) / (h * h) * arm);
   }
-  const auto lost = [&](const std::vector<FeltForce>& forces) {
+  const auto lost = [&](const std::vector<SpecificForce>& forces) {
     return lostOf(drive, odometry, tiltDrift(odometry.trajectory, odometry.variance, forces)).after;
   };
   EXPECT_LT(lost(far), 1.2 * lost(near));
@@ -135,7 +135,7 @@ TEST(TiltDrift, standsAFaultThatWanders) {
   Dice dice(4);
   const Drive drive = felt(0.02);
   const Odometry odometry = drifting(drive, 3e-4, dice);
-  std::vector<FeltForce> forces = drive.forces(dice);
+  std::vector<SpecificForce> forces = drive.forces(dice);
   for (std::size_t i = 0; i < forces.size(); ++i)
     forces[i].force +=
         0.02 * Vector3d(std::sin(2e-3 * static_cast<double>(i)), std::cos(1e-3 * static_cast<double>(i)), 0.0);
@@ -147,8 +147,8 @@ TEST(TiltDrift, standsShocks) {
   Dice dice(3);
   const Drive drive = felt(0.02);
   const Odometry odometry = drifting(drive, 3e-4, dice);
-  std::vector<FeltForce> forces = drive.forces(dice);
-  for (FeltForce& felt : forces)
+  std::vector<SpecificForce> forces = drive.forces(dice);
+  for (SpecificForce& felt : forces)
     if (dice.chance(0.002)) felt.force += 30.0 * dice.normals<3>();
   const Lost lost = lostOf(drive, odometry, tiltDrift(odometry.trajectory, odometry.variance, forces));
   EXPECT_LT(lost.after, 1.0 * kMilli);
@@ -158,11 +158,11 @@ TEST(TiltDrift, saysNothingWhereNothingIsKnown) {
   Dice dice(1);
   Drive drive = felt(0.02);
   const Odometry odometry = drifting(drive, 3e-4, dice);
-  std::vector<FeltForce> forces = drive.forces(dice);
+  std::vector<SpecificForce> forces = drive.forces(dice);
   EXPECT_TRUE(tiltDrift(odometry.trajectory, odometry.variance, {}).empty());
   EXPECT_TRUE(tiltDrift(odometry.trajectory, odometry.variance, {forces.begin(), forces.begin() + 100}).empty())
       << "5 s";
-  for (FeltForce& felt : forces) felt.force /= 9.81;
+  for (SpecificForce& felt : forces) felt.force /= 9.81;
   EXPECT_TRUE(tiltDrift(odometry.trajectory, odometry.variance, forces).empty()) << "in other units";
 }
 

@@ -32,7 +32,7 @@ TEST(Accelerometer, turnsIntoTheAxesOfTheRobotAndWaitsForItsPlace) {
   EXPECT_TRUE(accelerometer.add(imu(1)).empty());
   EXPECT_TRUE(accelerometer.add(imu(2)).empty());
   EXPECT_TRUE(accelerometer.add(tf2_msgs::TFMessage()).empty());
-  const std::vector<FeltForce> waited = accelerometer.add(place());
+  const std::vector<SpecificForce> waited = accelerometer.add(place());
   ASSERT_EQ(waited.size(), 2u);
   EXPECT_EQ(waited[1].stamp, 20'000'000);
   EXPECT_TRUE(waited[1].force.isApprox(Eigen::Vector3d(0.0, 2.0, 9.8), 1e-12)) << waited[1].force.transpose();

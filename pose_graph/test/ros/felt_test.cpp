@@ -10,7 +10,7 @@ using urban_nav_core::StampNs;
 
 constexpr StampNs kPose = 50'000'000, kSample = 9'700'000;
 
-FeltForce sampleAt(StampNs stamp) {
+SpecificForce sampleAt(StampNs stamp) {
   const double s = 1e-9 * static_cast<double>(stamp);
   return {stamp, {std::sin(s), std::cos(3.0 * s), 9.81 + 0.1 * std::sin(7.0 * s)}};
 }
@@ -22,13 +22,13 @@ std::vector<StampNs> posesUpTo(int end) {
 }
 
 /// What becomes of it in a graph: each answer takes the place of what was known from its begin on.
-void put(const std::vector<FeltForce>& forces, std::vector<FeltForce>& known) {
+void put(const std::vector<SpecificForce>& forces, std::vector<SpecificForce>& known) {
   if (forces.empty()) return;
   while (!known.empty() && known.back().stamp >= forces.front().stamp) known.pop_back();
   known.insert(known.end(), forces.begin(), forces.end());
 }
 
-void expectSame(const std::vector<FeltForce>& a, const std::vector<FeltForce>& b) {
+void expectSame(const std::vector<SpecificForce>& a, const std::vector<SpecificForce>& b) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
     EXPECT_EQ(a[i].stamp, b[i].stamp);
@@ -38,7 +38,7 @@ void expectSame(const std::vector<FeltForce>& a, const std::vector<FeltForce>& b
 
 TEST(Felt, endsWithTheBitsOfAllAtOnce) {
   Felt felt;
-  std::vector<FeltForce> all, known;
+  std::vector<SpecificForce> all, known;
   int poses = 0;
   for (StampNs stamp = -200'000'000; stamp < 60'000'000'000; stamp += kSample) {
     if (stamp > 30'000'000'000 && stamp < 31'000'000'000) continue;  // it was silent
@@ -56,11 +56,11 @@ TEST(Felt, endsWithTheBitsOfAllAtOnce) {
 
 TEST(Felt, aRecordingThatBeginsAgainIsForTheNextSession) {
   Felt felt;
-  std::vector<FeltForce> first, second;
+  std::vector<SpecificForce> first, second;
   for (int i = 0; i < 500; ++i) first.push_back(sampleAt(i * kSample));
   for (int i = 0; i < 500; ++i) second.push_back({i * kSample, Eigen::Vector3d(1.0, 0.0, 9.7)});
-  for (const FeltForce& each : first) felt.add(each);
-  for (const FeltForce& each : second) felt.add(each);
+  for (const SpecificForce& each : first) felt.add(each);
+  for (const SpecificForce& each : second) felt.add(each);
   expectSame(felt.at(posesUpTo(80)), forcesAt(posesUpTo(80), first));
   felt.begin();
   expectSame(felt.at(posesUpTo(80)), forcesAt(posesUpTo(80), second));

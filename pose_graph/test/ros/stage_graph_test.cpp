@@ -45,7 +45,7 @@ class Stage : public ::testing::Test {
   }
   /// What an accelerometer feels that lies on its side and does not move: far from what the way shows, but gravity is more than that.
   static void feel(StageGraph& graph, int end) {
-    for (int i = -5; i < end + 5; ++i) graph.add(FeltForce{i * kPeriod, Eigen::Vector3d(0.0, 0.5, 9.79)});
+    for (int i = -5; i < end + 5; ++i) graph.add(SpecificForce{i * kPeriod, Eigen::Vector3d(0.0, 0.5, 9.79)});
   }
   static std::size_t posesOf(const StageGraph& graph) {
     std::size_t poses = 0;

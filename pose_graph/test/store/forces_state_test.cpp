@@ -11,7 +11,7 @@ namespace pose_graph {
 namespace {
 
 TEST(ForcesState, comeBackToTheLastBit) {
-  const std::vector<FeltForce> forces = {{5, {0.1, 0.2, 9.8}}, {7, {-0.1, 1e-9, 9.7}}};
+  const std::vector<urban_nav_core::SpecificForce> forces = {{5, {0.1, 0.2, 9.8}}, {7, {-0.1, 1e-9, 9.7}}};
   const auto back = unpackForces(packForces(forces));
   ASSERT_TRUE(back);
   ASSERT_EQ(back->size(), 2u);

@@ -42,9 +42,9 @@ struct Drive {
     for (int i = 0; i < frames; ++i) made.append(i * kStepNs, pose(0.0).inverse() * pose(i * kStep));
     return made;
   }
-  std::vector<FeltForce> forces(urban_nav_core::testing::Dice& dice) const {
+  std::vector<SpecificForce> forces(urban_nav_core::testing::Dice& dice) const {
     constexpr double h = 1e-3;
-    std::vector<FeltForce> made;
+    std::vector<SpecificForce> made;
     for (int i = 0; i < frames; ++i) {
       const double t = i * kStep;
       const Eigen::Vector3d acceleration = (position(t + h) - 2.0 * position(t) + position(t - h)) / (h * h);

@@ -11,6 +11,7 @@
 #include "input/open.hpp"
 #include "urban_nav_core/io/archive_types.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_ros/camera_info.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/image.hpp"
@@ -18,6 +19,8 @@
 #include "urban_nav_ros/stamp.hpp"
 
 namespace urban_nav {
+
+namespace frames = urban_nav_core::frames;
 
 using urban_nav_core::CameraInfo;
 using urban_nav_core::DataError;
@@ -27,7 +30,6 @@ using urban_nav_ros::StereoFeed;
 
 namespace {
 
-constexpr const char* kBaseFrame = "base_link";
 constexpr urban_nav_core::StampNs kMaxLateness = 200'000'000;  // ns: waiting costs nothing where nobody waits
 
 constexpr const char* kStateName = "reader of bags";
@@ -80,7 +82,7 @@ class BagSource : public Source {
   }
 
   std::vector<LaserInput> scans() const override { return scans_; }
-  std::vector<pose_graph::FeltForce> forces() const override { return forces_; }
+  std::vector<urban_nav_core::SpecificForce> forces() const override { return forces_; }
   std::shared_ptr<const BagEnd> bagEnd() const override { return bag_end_; }
 
   std::vector<std::string> closingFaults() const override {
@@ -191,7 +193,8 @@ class BagSource : public Source {
         if (const auto message = instance.instantiate<tf2_msgs::TFMessage>()) transforms.add(*message);
       }
     }
-    if (const std::optional<urban_nav_core::Pose> T_base_optical = transforms.lookup(kBaseFrame, camera_frame_)) {
+    if (const std::optional<urban_nav_core::Pose> T_base_optical =
+            transforms.lookup(frames::base_link, camera_frame_)) {
       info_.T_base_camera = *T_base_optical * calibration_->T_optical_rectified();
       is_placed_ = true;
     } else {
@@ -201,13 +204,13 @@ class BagSource : public Source {
     }
     const auto imu = topics_.find(Role::Imu) ? first<sensor_msgs::Imu>(topics_.find(Role::Imu)->name) : nullptr;
     const std::optional<urban_nav_core::Pose> T_base_imu =
-        imu ? transforms.lookup(kBaseFrame, imu->header.frame_id) : std::nullopt;
+        imu ? transforms.lookup(frames::base_link, imu->header.frame_id) : std::nullopt;
     if (T_base_imu) R_base_imu_ = T_base_imu->R();
     for (const Role role : {Role::LaserLeft, Role::LaserRight}) {
       const std::optional<ChosenTopic> topic = topics_.find(role);
       const auto scan = topic ? first<sensor_msgs::LaserScan>(topic->name) : nullptr;
       if (!scan) continue;
-      if (const auto T_base_laser = transforms.lookup(kBaseFrame, scan->header.frame_id)) {
+      if (const auto T_base_laser = transforms.lookup(frames::base_link, scan->header.frame_id)) {
         info_.lasers.push_back({scan->header.frame_id, *T_base_laser});
         laser_topics_.push_back(topic->name);
       } else {
@@ -292,7 +295,7 @@ class BagSource : public Source {
     }
     if (archive.isReading()) listen();
     std::vector<std::pair<urban_nav_core::StampNs, urban_nav_core::Vector3d>> forces;
-    for (const pose_graph::FeltForce& felt : forces_) forces.emplace_back(felt.stamp, felt.force);
+    for (const urban_nav_core::SpecificForce& felt : forces_) forces.emplace_back(felt.stamp, felt.force);
     archive(forces, *wheels_, *gyroscope_, *feed_);
     if (!archive.isReading()) return;
     forces_.clear();
@@ -370,7 +373,7 @@ class BagSource : public Source {
   std::optional<urban_nav_ros::WheelMotion> wheels_;
   std::optional<urban_nav_ros::GyroMotion> gyroscope_;
   std::optional<urban_nav_core::Matrix3d> R_base_imu_;
-  std::vector<pose_graph::FeltForce> forces_;
+  std::vector<urban_nav_core::SpecificForce> forces_;
   std::vector<std::string> laser_topics_;    // of info_.lasers
   std::vector<std::int64_t> refused_scans_;  // likewise
   std::vector<LaserInput> scans_;            // since the pair or end of a bag before

@@ -34,7 +34,7 @@ class EurocFolder : public Source {
   }
 
   const SourceInfo& info() const override { return info_; }
-  std::vector<pose_graph::FeltForce> forces() const override { return forces_; }
+  std::vector<urban_nav_core::SpecificForce> forces() const override { return forces_; }
 
   std::optional<SourceItem> next() override {
     if (position_ >= pairs_.size()) return std::nullopt;
@@ -86,7 +86,7 @@ class EurocFolder : public Source {
   std::vector<EurocPair> pairs_;
   SourceInfo info_;
   std::vector<urban_nav_core::MotionInput> motion_;
-  std::vector<pose_graph::FeltForce> forces_;
+  std::vector<urban_nav_core::SpecificForce> forces_;
   std::size_t position_ = 0, next_motion_ = 0;
 };
 

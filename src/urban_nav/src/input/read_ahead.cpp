@@ -60,9 +60,9 @@ class ReadAhead : public Source {
     return ended_ ? source_->scans() : std::vector<LaserInput>();
   }
 
-  std::vector<pose_graph::FeltForce> forces() const override {
+  std::vector<urban_nav_core::SpecificForce> forces() const override {
     const std::lock_guard<std::mutex> lock(mutex_);
-    return ended_ ? source_->forces() : std::vector<pose_graph::FeltForce>();
+    return ended_ ? source_->forces() : std::vector<urban_nav_core::SpecificForce>();
   }
 
  private:

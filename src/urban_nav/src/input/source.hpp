@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "pose_graph/level.hpp"
 #include "urban_nav_core/camera/stereo_camera.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
 #include "urban_nav_core/laser/scan.hpp"
+#include "urban_nav_core/types/specific_force.hpp"
 #include "urban_nav_core/types/stamp.hpp"
 #include "urban_nav_ros/stereo_feed.hpp"
 
@@ -70,9 +70,9 @@ class Source {
   virtual std::shared_ptr<const BagEnd> bagEnd() const { return nullptr; }
   /// Scans that no pair and no end of a bag came behind: complete when next() has come to the end.
   virtual std::vector<LaserInput> scans() const { return {}; }
-  /// What an accelerometer of the input felt: complete when next() has come to the end. Empty where there is none, or where it is not
-  /// known how it stands on the robot.
-  virtual std::vector<pose_graph::FeltForce> forces() const { return {}; }
+  /// Returns the specific forces of the input's accelerometer; complete once next() has returned nullopt. Empty without an
+  /// accelerometer, or if its extrinsics are not known.
+  virtual std::vector<urban_nav_core::SpecificForce> forces() const { return {}; }
 };
 
 /// Reads ahead by at most `depth` pairs in a thread of its own. The pairs and their order are those of `source`.

@@ -216,7 +216,7 @@ TEST(Simulate, ABagGivesWhatItsAccelerometerFelt) {
     std::size_t inputs = 0;
     while (const auto pair = source->next()) inputs += pair->assembled.inputs.size();
     EXPECT_EQ(inputs > 0, std::string(motion) == "gyroscope");
-    const std::vector<pose_graph::FeltForce> forces = source->forces();
+    const std::vector<urban_nav_core::SpecificForce> forces = source->forces();
     ASSERT_GE(forces.size(), 18U) << motion;
     EXPECT_LT((forces[9].force - Eigen::Vector3d(0.0, 0.0, 9.81)).norm(), 2.0) << "up, in base_link";
     EXPECT_LT(source->info().last - source->info().first, 200'000'000) << "of the stereo stream alone";

@@ -18,6 +18,8 @@ void archive(Archive& archive, MotionInput& input) {
   archive(input.from, input.to, input.T_from_to, input.information);
 }
 
+void archive(Archive& archive, SpecificForce& value) { archive(value.stamp, value.force); }
+
 void archive(Archive& archive, Pinhole& camera) {
   archive(camera.fx, camera.fy, camera.cx, camera.cy, camera.width, camera.height);
 }

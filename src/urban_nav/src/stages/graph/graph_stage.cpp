@@ -127,8 +127,8 @@ std::vector<Level> levelsOf(const GraphRun& run, const std::vector<const VoRun*>
     Matrix3d rotations = Matrix3d::Zero();  // the mean: as if all of them erred alike
     for (const Matrix6d& covariance : run.covariances[s]) rotations += covariance.bottomRightCorner<3, 3>();
     rotations /= static_cast<double>(std::max<std::size_t>(1, run.covariances[s].size()));
-    const Level level =
-        withRotations(levelOf(trajectory, runs[s]->forces, run.graph.track(run.sessions[map])->map.front()), rotations);
+    const Level level = pose_graph::withRotations(
+        pose_graph::levelOf(trajectory, runs[s]->forces, run.graph.track(run.sessions[map])->map.front()), rotations);
     if (s == map || level.known()) levels[map] = level;
   }
   return levels;

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "pose_graph/level.hpp"
 #include "stages/vo/track_picture.hpp"
 #include "stages/vo/vo_state.hpp"
 #include "urban_nav_core/io/archive.hpp"
@@ -137,7 +138,7 @@ std::string VoStage::state() const {
   return urban_nav_core::seal(kStateName, kStateVersion, archive.take());
 }
 
-void VoStage::finish(const std::vector<std::string>& faults, const std::vector<pose_graph::FeltForce>& forces) {
+void VoStage::finish(const std::vector<std::string>& faults, const std::vector<urban_nav_core::SpecificForce>& forces) {
   run_.faults.insert(run_.faults.begin(), faults.begin(), faults.end());
   run_.faults_total += static_cast<std::int64_t>(faults.size());
   for (swf_vo::Settled& settled : filter_->flush()) run_.settled.push_back(std::move(settled));

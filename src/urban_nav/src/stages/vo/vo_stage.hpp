@@ -49,7 +49,7 @@ struct VoRun {
   std::vector<swf_vo::Settled> settled;  ///< one per accepted frame, as far as they have left the window
   std::map<swf_vo::LandmarkId, VoLandmark> landmarks;
   std::vector<VoPicture> pictures;            ///< evenly spread over the session
-  std::vector<pose_graph::FeltForce> forces;  ///< around settled frames, as far as an accelerometer felt any
+  std::vector<urban_nav_core::SpecificForce> forces;  ///< around settled frames, as far as an accelerometer felt any
   std::vector<std::string> faults;            ///< of the data, each with the file or topic; at most kFaultsKept
   std::int64_t faults_total = 0;
 };
@@ -69,7 +69,7 @@ class VoStage {
   /// The row it added to run().
   const VoRow& process(const SourceItem& input);
   /// Empties the window; `faults` are those of the input as a whole, `forces` all that an accelerometer felt. No process() after it.
-  void finish(const std::vector<std::string>& faults, const std::vector<pose_graph::FeltForce>& forces = {});
+  void finish(const std::vector<std::string>& faults, const std::vector<urban_nav_core::SpecificForce>& forces = {});
 
   /// Not after finish(). In it are the run so far and the filter.
   std::string state() const;

@@ -6,6 +6,7 @@
 #include "urban_nav_core/io/archive.hpp"
 #include "urban_nav_core/types/motion_input.hpp"
 #include "urban_nav_core/types/pose_with_covariance.hpp"
+#include "urban_nav_core/types/specific_force.hpp"
 
 namespace urban_nav_core {
 
@@ -15,6 +16,7 @@ void archive(Archive& archive, Status& status);
 void archive(Archive& archive, PoseWithCovariance& value);
 void archive(Archive& archive, RelativePose& value);
 void archive(Archive& archive, MotionInput& input);
+void archive(Archive& archive, SpecificForce& value);
 void archive(Archive& archive, Pinhole& camera);
 void archive(Archive& archive, StereoCamera& camera);
 void archive(Archive& archive, PatchSource& source);
