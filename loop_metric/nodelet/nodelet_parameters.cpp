@@ -4,7 +4,11 @@
 #include <utility>
 #include <vector>
 
+#include "urban_nav_core/types/frames.hpp"
+
 namespace loop_metric {
+
+namespace frames = urban_nav_core::frames;
 
 using urban_nav_core::Row;
 using urban_nav_core::Table;
@@ -20,7 +24,7 @@ namespace {
 template <typename P>
 std::vector<Row<P>> withListening(std::vector<Row<P>> own) {
   const std::vector<Row<P>> listening = {
-          {"base_frame", &P::base_frame, "", "base_link", false, false, {},
+          {"base_frame", &P::base_frame, "", frames::base_link, false, false, {},
            "Frame of the robot, whose poses are meant.", "REP-105"},
           {"images", &P::images, "", "auto", false, false, {"auto", "raw", "rectified"},
            "Whether the images are rectified inside by camera_info, or were before they came; auto: rectified where the topic's name has `rect` in it.",
@@ -69,9 +73,9 @@ const Table<LocalisationParameters>& localisationTable() {
       withListening<P>({
           {"store", &P::store, "", "", false, false, {},
            "Absolute path of the session store in whose first map the robot is looked for; it is read, and never changed.", "section 7"},
-          {"map_frame", &P::map_frame, "", "map", false, false, {},
+          {"map_frame", &P::map_frame, "", frames::map, false, false, {},
            "Frame of that map; its origin is the first pose of its first session.", "REP-105"},
-          {"odom_frame", &P::odom_frame, "", "odom", false, false, {},
+          {"odom_frame", &P::odom_frame, "", frames::odom, false, false, {},
            "Frame of the odometry, which map_frame is tied to.", "REP-105"},
           {"publish_tf", &P::publish_tf, "", true, false, true, {},
            "Whether to publish map_frame to odom_frame on /tf, with the stamp of each odometry message, from the first time on that the robot is KNOWN.", "REP-105"},

@@ -8,6 +8,7 @@
 
 #include "loop_metric/surroundings.hpp"
 #include "urban_nav_core/trajectory/odometry_chain.hpp"
+#include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_store/keyframe_store.hpp"
 #include "urban_nav_store/scan_store.hpp"
 #include "urban_nav_store/store.hpp"
@@ -15,7 +16,7 @@
 namespace loop_metric {
 
 /// Name under which the left camera's keyframes stand in a store.
-constexpr const char* keyframe_camera = "stereo_left_optical_frame";
+constexpr const char* keyframe_camera = urban_nav_core::frames::stereo_left;
 
 /// A keyframe as a store keeps it, and back. DataError where the features are damaged or of another version.
 urban_nav_store::StoredKeyframe storedKeyframe(const Keyframe& keyframe);

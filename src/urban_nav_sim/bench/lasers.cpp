@@ -15,6 +15,7 @@
 #include "support/program.hpp"
 #include "trace/tracer.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
+#include "urban_nav_core/types/frames.hpp"
 
 namespace {
 
@@ -114,7 +115,7 @@ Simulated simulated(const Options& options, const std::string& name) {
   const int places = static_cast<int>(options.number("--places", 100));
   Simulated result;
   std::size_t device = 0;
-  for (const char* frame : {"laser_left", "laser_right"}) {
+  for (const char* frame : {urban_nav_core::frames::laser_left, urban_nav_core::frames::laser_right}) {
     const Lms291 laser(tracer, placeOf(frame), seed, frame, settings);
     result.bias[device++] = laser.bias();
     for (int place = 0; place < places; ++place) {

@@ -14,6 +14,7 @@
 #include "support/program.hpp"
 #include "trace/tracer.hpp"
 #include "urban_nav_core/laser/beam_renderer.hpp"
+#include "urban_nav_core/types/frames.hpp"
 
 namespace {
 
@@ -102,7 +103,7 @@ int main(int argc, char** argv) try {
     const auto ride = makeRide(on_day, routeOf(world, seed, options.text("--route", "loops")), ride_options);
     const Tracer tracer(on_day);
     const Driven driven(*ride, Noise(seed, "local clouds").of(static_cast<std::uint64_t>(day)));
-    const std::vector<std::string> frames = {"laser_left", "laser_right"};
+    const std::vector<std::string> frames = {urban_nav_core::frames::laser_left, urban_nav_core::frames::laser_right};
     std::vector<std::vector<Turn>> turns(frames.size());
     for (std::size_t laser = 0; laser < frames.size(); ++laser) {
       const Lms291::Settings settings;

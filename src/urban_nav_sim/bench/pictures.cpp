@@ -20,6 +20,7 @@
 #include "support/point_view.hpp"
 #include "support/program.hpp"
 #include "trace/tracer.hpp"
+#include "urban_nav_core/types/frames.hpp"
 
 namespace {
 
@@ -78,7 +79,7 @@ cv::Mat above(const std::vector<cv::Mat>& rows) {
 std::vector<Return> cloudOf(const Scene& scene) {
   std::vector<Return> cloud;
   const Lms291::Settings settings;
-  for (const char* frame : {"laser_left", "laser_right"}) {
+  for (const char* frame : {urban_nav_core::frames::laser_left, urban_nav_core::frames::laser_right}) {
     const urban_nav_core::Pose T_base_laser = placeOf(frame);
     const Lms291 laser(scene.tracer, T_base_laser, kSeed, frame, settings);
     const auto turns = static_cast<std::uint64_t>(scene.ride->duration() / settings.period);
@@ -96,7 +97,8 @@ std::vector<Return> cloudOf(const Scene& scene) {
 }
 
 std::array<cv::Mat, 2> stereoOf(const Scene& scene, double t) {
-  return StereoHead(scene.tracer, scene.sky, StereoImages::Rectified, placeOf("stereo_left_optical_frame"), kSeed)
+  return StereoHead(scene.tracer, scene.sky, StereoImages::Rectified, placeOf(urban_nav_core::frames::stereo_left),
+                    kSeed)
       .take(*scene.ride, t);
 }
 

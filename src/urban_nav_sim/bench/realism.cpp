@@ -19,6 +19,7 @@
 #include "support/texture.hpp"
 #include "trace/tracer.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
+#include "urban_nav_core/types/frames.hpp"
 
 namespace {
 
@@ -88,7 +89,7 @@ Textures simulatedTextures(const std::string& name, const Options& options) {
   Textures textures;
   for (int i = 0; i < frames; ++i) {
     // A head for each frame: its exposure has settled, as after many frames there.
-    StereoHead head(tracer, sky, StereoImages::Rectified, placeOf("stereo_left_optical_frame"),
+    StereoHead head(tracer, sky, StereoImages::Rectified, placeOf(urban_nav_core::frames::stereo_left),
                     seed + static_cast<std::uint64_t>(i));
     const cv::Mat image = head.take(*ride, (i + 0.5) * ride->duration() / frames)[0];
     textures.add(textureOf(asTheRealOnes(image, head.cameras()[0].lens)));

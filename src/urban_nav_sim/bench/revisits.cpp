@@ -19,6 +19,7 @@
 #include "trace/tracer.hpp"
 #include "urban_nav_core/io/calibration.hpp"
 #include "urban_nav_core/io/kitti.hpp"
+#include "urban_nav_core/types/frames.hpp"
 
 namespace {
 
@@ -91,7 +92,7 @@ int main(int argc, char** argv) try {
   const auto seed = static_cast<std::uint32_t>(options.number("--seed", 1.0));
   const int places = static_cast<int>(options.number("--places", 36.0));
   const double step = options.number("--step", 2.0);  // s of the ride
-  const Pose T_base_left = placeOf("stereo_left_optical_frame");
+  const Pose T_base_left = placeOf(urban_nav_core::frames::stereo_left);
   const Noise noise(seed, "revisits");
   Folder folder(options.text("--folder", world));
   RideOptions ride_options;

@@ -18,6 +18,7 @@
 #include "support/vocabulary.hpp"
 #include "trace/tracer.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
+#include "urban_nav_core/types/frames.hpp"
 
 namespace {
 
@@ -41,7 +42,7 @@ class Scene {
   const World& world() const { return world_; }
   /// Descriptors of what the left camera sees. A head for each frame: its exposure has settled; `chance` is that of its noise.
   cv::Mat describe(const Ride& ride, double t, std::uint64_t chance) const {
-    StereoHead head(tracer_, sky_, StereoImages::Rectified, placeOf("stereo_left_optical_frame"), chance);
+    StereoHead head(tracer_, sky_, StereoImages::Rectified, placeOf(urban_nav_core::frames::stereo_left), chance);
     return Vocabulary::describe(head.take(ride, t)[0]);
   }
 

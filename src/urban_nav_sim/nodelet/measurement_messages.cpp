@@ -5,6 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <utility>
 
+#include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_ros/camera_info.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/image.hpp"
@@ -13,6 +14,8 @@
 #include "urban_nav_ros/stamp.hpp"
 
 namespace urban_nav_sim {
+
+namespace frames = urban_nav_core::frames;
 
 using urban_nav_core::StampNs;
 
@@ -46,7 +49,7 @@ void addImage(Side side, const cv::Mat& pixels, sensor_msgs::CameraInfo camera, 
               std::vector<TopicMessage>& messages) {
   if (pixels.empty()) return;
   sensor_msgs::Image image = urban_nav_ros::toImageMessage(pixels);
-  image.header = camera.header = header(stamp, "stereo_" + nameOf(side) + "_optical_frame");
+  image.header = camera.header = header(stamp, side == Side::Left ? frames::stereo_left : frames::stereo_right);
   messages.push_back(onTopic("stereo/" + nameOf(side) + "/image_raw", std::move(image)));
   messages.push_back(onTopic("stereo/" + nameOf(side) + "/camera_info", std::move(camera)));
 }
@@ -98,7 +101,7 @@ std::vector<TopicMessage> topicsOf(const std::set<Sensor>& sensors) {
 std::vector<geometry_msgs::TransformStamped> staticTransforms(const Session& session) {
   std::vector<geometry_msgs::TransformStamped> transforms;
   for (const auto& [frame, T_base_sensor] : session.places()) {
-    transforms.push_back(urban_nav_ros::toStaticTransform("base_link", frame, T_base_sensor));
+    transforms.push_back(urban_nav_ros::toStaticTransform(frames::base_link, frame, T_base_sensor));
     transforms.back().header.stamp = urban_nav_ros::toRosTime(session.begin());
   }
   return transforms;
@@ -126,7 +129,7 @@ std::vector<TopicMessage> MeasurementMessages::from(const LadybugMeasurement& pa
   const std::string name = ladybugName(panorama.camera);
   sensor_msgs::CameraInfo info = ladybug_[static_cast<std::size_t>(panorama.camera)];
   sensor_msgs::CompressedImage image;
-  image.header = info.header = header(panorama.stamp, "ladybug_" + name + "_optical_frame");
+  image.header = info.header = header(panorama.stamp, frames::ladybugCamera(panorama.camera));
   image.format = "jpeg";
   cv::imencode(".jpg", panorama.image, image.data, {cv::IMWRITE_JPEG_QUALITY, jpeg_quality});
   return {onTopic("ladybug/" + name + "/image_raw/compressed", std::move(image)),
@@ -142,7 +145,7 @@ std::vector<TopicMessage> MeasurementMessages::from(const LaserMeasurement& turn
 
 std::vector<TopicMessage> MeasurementMessages::from(const ImuMeasurement& imu) const {
   sensor_msgs::Imu motion;
-  motion.header = header(imu.stamp, "imu_link");
+  motion.header = header(imu.stamp, frames::imu);
   motion.orientation.w = 1.0;
   motion.orientation_covariance[0] = unknown;
   set(imu.rate, motion.angular_velocity);
@@ -155,8 +158,8 @@ std::vector<TopicMessage> MeasurementMessages::from(const ImuMeasurement& imu) c
 
 std::vector<TopicMessage> MeasurementMessages::from(const WheelMeasurement& wheels) const {
   nav_msgs::Odometry odometry;
-  odometry.header = header(wheels.stamp, "odom");
-  odometry.child_frame_id = "base_link";
+  odometry.header = header(wheels.stamp, frames::odom);
+  odometry.child_frame_id = frames::base_link;
   odometry.pose.pose = urban_nav_ros::toPoseMessage(wheels.T_odom_base);
   odometry.twist.twist.linear.x = wheels.speed;
   odometry.twist.twist.angular.z = wheels.yaw_rate;
@@ -165,7 +168,7 @@ std::vector<TopicMessage> MeasurementMessages::from(const WheelMeasurement& whee
 
 std::vector<TopicMessage> MeasurementMessages::from(const GpsMeasurement& gps) const {
   sensor_msgs::NavSatFix fix;
-  fix.header = header(gps.stamp, "gps_link");
+  fix.header = header(gps.stamp, frames::gps);
   fix.status.status = gps.has_fix ? sensor_msgs::NavSatStatus::STATUS_FIX : sensor_msgs::NavSatStatus::STATUS_NO_FIX;
   fix.status.service = sensor_msgs::NavSatStatus::SERVICE_GPS;
   fix.latitude = gps.latitude;

@@ -6,6 +6,7 @@
 
 #include <utility>
 
+#include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_ros/stamp.hpp"
 
 namespace urban_nav_sim {
@@ -19,7 +20,7 @@ constexpr StampNs clock_step = 5'000'000;  // ns, that of the truth
 tf2_msgs::TFMessage asTransform(const geometry_msgs::PoseStamped& pose) {
   geometry_msgs::TransformStamped transform;
   transform.header = pose.header;
-  transform.child_frame_id = "base_link";
+  transform.child_frame_id = urban_nav_core::frames::base_link;
   transform.transform.translation.x = pose.pose.position.x;
   transform.transform.translation.y = pose.pose.position.y;
   transform.transform.translation.z = pose.pose.position.z;

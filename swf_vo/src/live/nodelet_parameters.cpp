@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "urban_nav_core/types/frames.hpp"
+
 namespace swf_vo {
 
 using urban_nav_core::Table;
@@ -16,9 +18,9 @@ const Table<NodeletParameters>& nodeletTable() {
   static const Table<NodeletParameters> rows(
       "",
       {
-          {"odom_frame", &P::odom_frame, "", "odom", false, false, {},
+          {"odom_frame", &P::odom_frame, "", urban_nav_core::frames::odom, false, false, {},
            "Frame in which the odometry is given; its origin is the first base_link.", "REP-105"},
-          {"base_frame", &P::base_frame, "", "base_link", false, false, {},
+          {"base_frame", &P::base_frame, "", urban_nav_core::frames::base_link, false, false, {},
            "Frame of the robot, whose motion is estimated.", "REP-105"},
           {"publish_tf", &P::publish_tf, "", true, false, true, {},
            "Whether to publish odom_frame to base_frame on /tf.", "REP-105"},

@@ -16,11 +16,14 @@
 #include "input/new_college_log.hpp"
 #include "input/new_college_rig.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/pose.hpp"
 #include "urban_nav_ros/stamp.hpp"
 
 namespace urban_nav {
+
+namespace frames = urban_nav_core::frames;
 
 using urban_nav_core::DataError;
 using urban_nav_core::StampNs;
@@ -32,8 +35,8 @@ constexpr std::size_t kPairsChecked = 3;
 
 std::vector<geometry_msgs::TransformStamped> transforms() {
   std::vector<geometry_msgs::TransformStamped> all = stereoTransforms(newCollegeCamera(), newCollegeLeftCamera());
-  all.push_back(urban_nav_ros::toStaticTransform("base_link", "laser_left", newCollegeLeftLaser()));
-  all.push_back(urban_nav_ros::toStaticTransform("base_link", "laser_right", newCollegeRightLaser()));
+  all.push_back(urban_nav_ros::toStaticTransform(frames::base_link, frames::laser_left, newCollegeLeftLaser()));
+  all.push_back(urban_nav_ros::toStaticTransform(frames::base_link, frames::laser_right, newCollegeRightLaser()));
   return all;
 }
 
@@ -46,8 +49,8 @@ void write(const NewCollegeScan& event, BagWriter& bag) {
 void write(const NewCollegeOdometry& event, BagWriter& bag) {
   nav_msgs::Odometry message;
   message.header.stamp = urban_nav_ros::toRosTime(event.stamp);
-  message.header.frame_id = "odom";
-  message.child_frame_id = "base_link";
+  message.header.frame_id = frames::odom;
+  message.child_frame_id = frames::base_link;
   message.pose.pose = urban_nav_ros::toPoseMessage(event.T_odom_base);
   message.twist.twist.linear.x = event.speed;
   message.twist.twist.angular.y = event.pitch_rate;
@@ -64,7 +67,7 @@ void write(const NewCollegeFiles::Image& image, BagWriter& bag) {
   std::ifstream file(image.path, std::ios::binary);
   sensor_msgs::CompressedImage message;
   message.header.stamp = urban_nav_ros::toRosTime(image.stamp);
-  message.header.frame_id = "ladybug_camera" + std::to_string(image.camera) + "_optical_frame";
+  message.header.frame_id = frames::ladybugCamera(image.camera);
   message.format = "jpeg";
   message.data.assign(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
   bag.write("/ladybug/camera" + std::to_string(image.camera) + "/image_raw/compressed", image.stamp, message);

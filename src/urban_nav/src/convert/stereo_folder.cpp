@@ -10,6 +10,7 @@
 #include "evaluation/truth.hpp"
 #include "input/euroc_layout.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/pose.hpp"
 #include "urban_nav_ros/stamp.hpp"
@@ -83,8 +84,9 @@ Converted convertStereoFolder(const std::string& folder, const std::string& path
   if (inputKind(folder) == InputKind::EurocFolder) {
     for (const EurocImu& row : readEurocImu(eurocFolder(folder))) imu.push_back(toImuMessage(row));
     if (!imu.empty())
-      transforms.push_back(
-          urban_nav_ros::toStaticTransform("base_link", "imu_link", readEurocRig(eurocFolder(folder)).T_base_body));
+      transforms.push_back(urban_nav_ros::toStaticTransform(urban_nav_core::frames::base_link,
+                                                            urban_nav_core::frames::imu,
+                                                            readEurocRig(eurocFolder(folder)).T_base_body));
   }
   Companions companions(std::move(imu), findTruth({{folder}}, info, options), shift);
 

@@ -9,6 +9,7 @@
 #include "urban_nav_core/io/calibration.hpp"
 #include "urban_nav_core/io/csv.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/stamp.hpp"
 
@@ -105,7 +106,7 @@ std::vector<EurocImu> readEurocImu(const std::string& mav0) {
 sensor_msgs::Imu toImuMessage(const EurocImu& row) {
   sensor_msgs::Imu message;
   message.header.stamp = urban_nav_ros::toRosTime(row.stamp);
-  message.header.frame_id = "imu_link";
+  message.header.frame_id = urban_nav_core::frames::imu;
   message.angular_velocity.x = row.rate.x();
   message.angular_velocity.y = row.rate.y();
   message.angular_velocity.z = row.rate.z();

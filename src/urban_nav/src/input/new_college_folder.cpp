@@ -8,6 +8,7 @@
 #include "input/new_college_rig.hpp"
 #include "input/open.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_ros/pose.hpp"
 #include "urban_nav_ros/stamp.hpp"
 
@@ -66,7 +67,8 @@ class NewCollegeFolder : public Source {
       const auto* odometry = std::get_if<NewCollegeOdometry>(&*event);
       if (odometry == nullptr) continue;
       const urban_nav_core::PoseWithCovariance pose{odometry->T_odom_base, urban_nav_core::Matrix6d::Zero()};
-      motion_ = wheels_->add(urban_nav_ros::toOdometryMessage(odometry->stamp, pose, "odom", "base_link"));
+      motion_ = wheels_->add(urban_nav_ros::toOdometryMessage(odometry->stamp, pose, urban_nav_core::frames::odom,
+                                                              urban_nav_core::frames::base_link));
       if (motion_) return;
     }
   }

@@ -9,6 +9,7 @@
 #include "urban_nav_core/io/kitti.hpp"
 #include "urban_nav_core/io/tum.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_core/types/frames.hpp"
 
 namespace urban_nav {
 
@@ -25,14 +26,15 @@ using urban_nav_store::StoredTrajectory;
 
 namespace {
 
-constexpr const char* kLeftCamera = "stereo_left_optical_frame";
 constexpr const char* kStereo = "stereo";
 
 Pose cameraOf(Store& store, const urban_nav_store::Session& session) {
   for (const urban_nav_store::Extrinsic& extrinsic : store.sessions().extrinsics(session.id))
-    if (extrinsic.frame == kLeftCamera) return extrinsic.T_base_frame;
-  throw UserError(store.path(), "does not say where " + std::string(kLeftCamera) + " stands in session " + session.id,
-                  "--tum, which needs no camera");
+    if (extrinsic.frame == urban_nav_core::frames::stereo_left) return extrinsic.T_base_frame;
+  throw UserError(
+      store.path(),
+      "does not say where " + std::string(urban_nav_core::frames::stereo_left) + " stands in session " + session.id,
+      "--tum, which needs no camera");
 }
 
 std::array<double, 7> valuesOf(const Pose& pose) {

@@ -8,9 +8,12 @@
 #include "stages/vo/vo_state.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_store/merge.hpp"
 
 namespace urban_nav {
+
+namespace frames = urban_nav_core::frames;
 
 using urban_nav_core::ClosureVerdict;
 using urban_nav_core::Matrix6d;
@@ -247,7 +250,7 @@ void StoreStage::put(std::size_t session, const SourceInfo& info) {
   for (const auto& [name, digest] : identities_[session]) store_->sessions().put(id, Property{"run/" + name, digest});
   store_->sessions().put(id, Property{"input/name", info.name});
   store_->sessions().put(id, Property{"input/kind", info.kind});
-  store_->sessions().put(id, urban_nav_store::Extrinsic{kVoCamera, info.T_base_camera});
+  store_->sessions().put(id, urban_nav_store::Extrinsic{frames::stereo_left, info.T_base_camera});
   store_->sessions().put(
       id, Property{loop_metric::camera_property, loop_metric::cameraWords(info.camera, info.T_base_camera)});
   for (const LaserInfo& laser : info.lasers)
@@ -279,11 +282,11 @@ void StoreStage::keep(const SourceInfo& info, const std::vector<LaserInput>& sca
 }
 
 void StoreStage::keep(const urban_nav_store::StoredKeyframe& view) {
-  store_->keyframes().put(ids_[session_], kVoCamera, view);
+  store_->keyframes().put(ids_[session_], frames::stereo_left, view);
 }
 
 std::vector<urban_nav_core::StampNs> StoreStage::viewsKept() {
-  return store_->keyframes().stamps(ids_[session_], kVoCamera);
+  return store_->keyframes().stamps(ids_[session_], frames::stereo_left);
 }
 
 void StoreStage::keepBag(const VoStage& stage, const BagEnd& end) {

@@ -10,6 +10,7 @@
 #include "simulate/stereo_folder_writer.hpp"
 #include "simulate/view_writer.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_core/types/frames.hpp"
 
 namespace urban_nav {
 
@@ -32,7 +33,7 @@ void makeFolder(const std::string& path) {
 Simulated simulate(const SimulateJob& job, Console& console) {
   const HeldSignals signals;
   urban_nav_sim::Session session(job.session);
-  const urban_nav_core::Pose T_base_left = session.places().at("stereo_left_optical_frame");
+  const urban_nav_core::Pose T_base_left = session.places().at(urban_nav_core::frames::stereo_left);
   SessionBags bags(job.bag, job.part, session);
   std::optional<StereoFolderWriter> folder;
   if (!job.folder.empty()) folder.emplace(job.folder, session);

@@ -9,6 +9,7 @@
 #include "stage/store_keys.hpp"
 #include "stages/vo/vo_state.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_core/types/frames.hpp"
 
 namespace urban_nav {
 
@@ -37,7 +38,7 @@ std::map<StampNs, Edge> stepsOf(Store& store, const SessionId& id) {
 VoRun chainOf(Store& store, const SessionId& id) {
   VoRun run;
   for (const urban_nav_store::Extrinsic& extrinsic : store.sessions().extrinsics(id))
-    if (extrinsic.frame == kVoCamera) run.T_base_camera = extrinsic.T_base_frame;
+    if (extrinsic.frame == urban_nav_core::frames::stereo_left) run.T_base_camera = extrinsic.T_base_frame;
   const std::map<StampNs, Edge> steps = stepsOf(store, id);
   store.graph().forEachNode(id, [&](const urban_nav_store::Node& node) {
     swf_vo::Settled settled;
@@ -59,7 +60,7 @@ VoRun chainOf(Store& store, const SessionId& id) {
     run.settled.push_back(settled);
   });
   if (const std::optional<std::string> bytes = store.states().get(id, kForcesStage))
-    run.forces = unpackForces(*bytes).value_or(std::vector<pose_graph::FeltForce>());
+    run.forces = unpackForces(*bytes).value_or(std::vector<urban_nav_core::SpecificForce>());
   const auto add = [&](StampNs stamp, bool accepted) {
     VoRow row;
     row.frame = static_cast<std::int64_t>(run.rows.size());

@@ -5,10 +5,9 @@
 
 namespace urban_nav {
 
-/// Keys of visual odometry in a session store: the source of its edges and of its finished state, its stream, its camera.
+/// Keys of visual odometry in a session store: the source of its edges and of its finished state, its stream.
 constexpr const char* kVoStage = "swf_vo";
 constexpr const char* kVoStream = "stereo";
-constexpr const char* kVoCamera = "stereo_left_optical_frame";
 /// Key of the state at the end of a bag (bag_checkpoint.hpp).
 constexpr const char* kBagStage = "bag";
 using pose_graph::kForcesStage;

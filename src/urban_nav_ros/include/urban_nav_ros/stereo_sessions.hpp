@@ -15,6 +15,7 @@
 
 #include "urban_nav_live/stage_report.hpp"
 #include "urban_nav_live/time_jump.hpp"
+#include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/stereo_feed.hpp"
 
@@ -48,7 +49,7 @@ class StereoSessions {
                                sensor_msgs::ImuConstPtr>;
 
   struct Options {
-    std::string base_frame = "base_link";
+    std::string base_frame = urban_nav_core::frames::base_link;
     bool rectified = false;        ///< the images are rectified already
     int queue = 200;               ///< messages kept before a session begins
     double max_lateness = 0.1;     ///< s, by stamps, that an image waits for its partner and for motion inputs
@@ -116,7 +117,7 @@ class StereoSessions {
   const Listener listener_;
   StaticTransforms transforms_;
   sensor_msgs::CameraInfoConstPtr left_info_, right_info_;
-  std::string imu_frame_ = "imu_link";
+  std::string imu_frame_ = urban_nav_core::frames::imu;
   std::deque<Message> waiting_;  // for a session
   std::optional<Clock::time_point> first_image_;
   urban_nav_live::TimeJumpDetector images_;

@@ -3,7 +3,11 @@
 
 #include <cmath>
 
+#include "urban_nav_core/types/frames.hpp"
+
 namespace urban_nav_sim {
+
+namespace frames = urban_nav_core::frames;
 
 using urban_nav_core::Matrix3d;
 using urban_nav_core::Pose;
@@ -27,21 +31,21 @@ Matrix3d looking(double yaw) {
 
 std::map<std::string, Pose> sensorPlaces() {
   std::map<std::string, Pose> places;
-  places["stereo_left_optical_frame"] = Pose(looking(0.0), Vector3d(0.1, half_baseline, 1.1));
-  places["stereo_right_optical_frame"] = Pose(looking(0.0), Vector3d(0.1, -half_baseline, 1.1));
+  places[frames::stereo_left] = Pose(looking(0.0), Vector3d(0.1, half_baseline, 1.1));
+  places[frames::stereo_right] = Pose(looking(0.0), Vector3d(0.1, -half_baseline, 1.1));
   for (int i = 0; i < 5; ++i) {
     const double yaw = -i * between_lenses;
-    places["ladybug_camera" + std::to_string(i) + "_optical_frame"] =
+    places[frames::ladybugCamera(i)] =
         Pose(looking(yaw), Vector3d(ladybug_radius * std::cos(yaw), ladybug_radius * std::sin(yaw), ladybug_height));
   }
   // x along the middle beam, z forward: the scan planes stand upright and across the direction of travel.
   Matrix3d left, right;
   left << 0, 0, 1, 1, 0, 0, 0, 1, 0;
   right << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  places["laser_left"] = Pose(left, Vector3d(-0.030, 0.270, 0.75));
-  places["laser_right"] = Pose(right, Vector3d(-0.030, -0.270, 0.75));
-  places["imu_link"] = Pose(Matrix3d(Matrix3d::Identity()), Vector3d(0.0, 0.0, 0.50));
-  places["gps_link"] = Pose(Matrix3d(Matrix3d::Identity()), Vector3d(-0.15, 0.0, 1.30));
+  places[frames::laser_left] = Pose(left, Vector3d(-0.030, 0.270, 0.75));
+  places[frames::laser_right] = Pose(right, Vector3d(-0.030, -0.270, 0.75));
+  places[frames::imu] = Pose(Matrix3d(Matrix3d::Identity()), Vector3d(0.0, 0.0, 0.50));
+  places[frames::gps] = Pose(Matrix3d(Matrix3d::Identity()), Vector3d(-0.15, 0.0, 1.30));
   return places;
 }
 

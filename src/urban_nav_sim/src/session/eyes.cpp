@@ -13,8 +13,11 @@
 #include "rig/places.hpp"
 #include "session/settings.hpp"
 #include "trace/tracer.hpp"
+#include "urban_nav_core/types/frames.hpp"
 
 namespace urban_nav_sim {
+
+namespace frames = urban_nav_core::frames;
 
 using urban_nav_core::StampNs;
 
@@ -49,11 +52,12 @@ class Eyes::Implementation {
         views_(views),
         tracer_(world),
         sky_(world.day, noise.of("sky").bits(0)),
-        stereo_(tracer_, sky_, stereoImages(defects), placeOf("stereo_left_optical_frame"), noise.of("stereo").bits(0),
+        stereo_(tracer_, sky_, stereoImages(defects), placeOf(frames::stereo_left), noise.of("stereo").bits(0),
                 cameraDefects(defects, Sensor::Stereo)),
         ladybug_(tracer_, sky_, ladybugPlace(), noise.of("ladybug").bits(0), cameraDefects(defects, Sensor::Ladybug)),
-        left_laser_(tracer_, placeOf("laser_left"), noise.of("lasers").bits(0), "laser_left", laserSettings(defects)),
-        right_laser_(tracer_, placeOf("laser_right"), noise.of("lasers").bits(0), "laser_right",
+        left_laser_(tracer_, placeOf(frames::laser_left), noise.of("lasers").bits(0), frames::laser_left,
+                    laserSettings(defects)),
+        right_laser_(tracer_, placeOf(frames::laser_right), noise.of("lasers").bits(0), frames::laser_right,
                      laserSettings(defects)) {}
 
   std::vector<Measurement> stereo(std::int64_t k, const Clock& clock) {
@@ -62,8 +66,8 @@ class Eyes::Implementation {
     auto [left, right] = stereo_.take(ride_, t);
     std::vector<Measurement> measurements = {StereoMeasurement{stamp, std::move(left), std::move(right)}};
     if (views_.count(Sensor::Stereo) != 0) {
-      measurements.emplace_back(viewOf(stereo_.pictures()[0], "stereo_left_optical_frame", stamp));
-      measurements.emplace_back(viewOf(stereo_.pictures()[1], "stereo_right_optical_frame", stamp));
+      measurements.emplace_back(viewOf(stereo_.pictures()[0], frames::stereo_left, stamp));
+      measurements.emplace_back(viewOf(stereo_.pictures()[1], frames::stereo_right, stamp));
     }
     return measurements;
   }
@@ -76,8 +80,7 @@ class Eyes::Implementation {
     for (std::size_t i = 0; i < taken.size(); ++i) {
       measurements.emplace_back(LadybugMeasurement{stamp, static_cast<int>(i), std::move(taken[i])});
       if (views_.count(Sensor::Ladybug) != 0)
-        measurements.emplace_back(
-            viewOf(ladybug_.pictures()[i], "ladybug_camera" + std::to_string(i) + "_optical_frame", stamp));
+        measurements.emplace_back(viewOf(ladybug_.pictures()[i], frames::ladybugCamera(static_cast<int>(i)), stamp));
     }
     return measurements;
   }
@@ -90,7 +93,8 @@ class Eyes::Implementation {
     std::vector<BeamTruth> beams;
     std::vector<Measurement> measurements = {LaserMeasurement{
         side, device.scan(ride_, t, stamp, static_cast<std::uint64_t>(k), is_viewed ? &beams : nullptr)}};
-    if (is_viewed) measurements.emplace_back(viewOf(beams, side == Side::Left ? "laser_left" : "laser_right", stamp));
+    if (is_viewed)
+      measurements.emplace_back(viewOf(beams, side == Side::Left ? frames::laser_left : frames::laser_right, stamp));
     return measurements;
   }
 

@@ -13,6 +13,7 @@
 #include "truth/cloud.hpp"
 #include "truth/truth_files.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_core/types/frames.hpp"
 #include "world/world.hpp"
 
 namespace urban_nav_sim {
@@ -120,7 +121,7 @@ class Session::Implementation {
   }
 
   void addImu() {
-    imu_.emplace(*ride_, placeOf("imu_link"), imuOptions(options_.defects), clockOf(Sensor::Imu),
+    imu_.emplace(*ride_, placeOf(urban_nav_core::frames::imu), imuOptions(options_.defects), clockOf(Sensor::Imu),
                  noise_.of("imu errors"));
     timeline_.add(scheduleOf(Sensor::Imu), [this](std::int64_t k) { return std::vector<Measurement>{imu_->at(k)}; });
   }
@@ -133,7 +134,7 @@ class Session::Implementation {
   }
 
   void addGps() {
-    gps_.emplace(*ride_, placeOf("gps_link"), gpsOptions(options_.defects), clockOf(Sensor::Gps),
+    gps_.emplace(*ride_, placeOf(urban_nav_core::frames::gps), gpsOptions(options_.defects), clockOf(Sensor::Gps),
                  noise_.of("gps errors"));
     timeline_.add(scheduleOf(Sensor::Gps), [this](std::int64_t k) { return std::vector<Measurement>{gps_->at(k)}; });
   }

@@ -14,6 +14,7 @@
 #include "urban_nav_core/io/csv.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_core/types/frames.hpp"
 
 namespace urban_nav {
 
@@ -76,7 +77,7 @@ LocaliseRun localise(const loop_metric::Parameters& parameters, Store& frozen, S
   reading.finish(static_cast<std::int64_t>(search.views()));
   loop_metric::Localiser localiser(parameters);
   CloudLooks clouds(parameters, map, frozen, own, id, run, console);
-  const std::vector<StampNs> views = own.keyframes().stamps(id, kVoCamera);
+  const std::vector<StampNs> views = own.keyframes().stamps(id, urban_nav_core::frames::stereo_left);
   Progress progress(console, "localise", "frames", static_cast<std::int64_t>(run.settled.size()));
   std::vector<double> ms;
   std::size_t known = 0;
@@ -86,7 +87,7 @@ LocaliseRun localise(const loop_metric::Parameters& parameters, Store& frozen, S
     if (i > 0 && std::binary_search(views.begin(), views.end(), frame.stamp)) {
       const Clock::time_point begin = Clock::now();
       ++made.looks;
-      if (const auto stored = own.keyframes().get(id, kVoCamera, frame.stamp))
+      if (const auto stored = own.keyframes().get(id, urban_nav_core::frames::stereo_left, frame.stamp))
         made.sightings += search.look(loop_metric::keyframeOf(*stored, ""), localiser) ? 1 : 0;
       ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
     }

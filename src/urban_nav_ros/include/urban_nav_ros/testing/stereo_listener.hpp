@@ -8,6 +8,7 @@
 #include <string>
 
 #include "urban_nav_core/testing/rendered_sequence.hpp"
+#include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_ros/camera_info.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/image.hpp"
@@ -24,15 +25,17 @@ class StereoListener : public Listener {
   /// The place of the left optical frame in base_link.
   void place(const urban_nav_core::Pose& T_base_left) {
     tf2_msgs::TFMessage message;
-    message.transforms.push_back(toStaticTransform("base_link", "stereo_left_optical_frame", T_base_left));
+    message.transforms.push_back(
+        toStaticTransform(urban_nav_core::frames::base_link, urban_nav_core::frames::stereo_left, T_base_left));
     tf_static_.publish(message);
   }
 
   /// The pair, or one side of it, with its camera_info. `stamp`: instead of the frame's own.
   void show(const urban_nav_core::testing::StereoFrame& frame, const urban_nav_core::StereoCamera& camera,
             urban_nav_core::StampNs stamp, bool left = true, bool right = true) {
-    if (left) publish(left_, left_info_, frame.left, leftInfo(camera), stamp, "stereo_left_optical_frame");
-    if (right) publish(right_, right_info_, frame.right, rightInfo(camera), stamp, "stereo_right_optical_frame");
+    if (left) publish(left_, left_info_, frame.left, leftInfo(camera), stamp, urban_nav_core::frames::stereo_left);
+    if (right)
+      publish(right_, right_info_, frame.right, rightInfo(camera), stamp, urban_nav_core::frames::stereo_right);
   }
 
  private:
