@@ -42,7 +42,7 @@ Options parse(int argc, char** argv) {
 }
 
 std::string positionError(const std::vector<Pose>& truth, const std::vector<Pose>& estimate) {
-  const double rmse = absoluteError(truth, estimate, urban_nav_core::Alignment::First).rmse;
+  const double rmse = absoluteError(truth, estimate, urban_nav_core::TrajectoryAlignment::First).rmse;
   return rmse < 0.1 ? cell(1000.0 * rmse, 1) + " mm" : cell(rmse, 3) + " m";
 }
 

@@ -283,7 +283,8 @@ void kitti(const std::string& name, const KittiTracks& data, std::size_t first, 
   for (const bool causal : {true, false}) {
     const std::vector<Pose>& all = causal ? now : settled;
     const std::vector<Pose> estimate(all.begin() + from, all.begin() + to);
-    const double off = urban_nav_core::absoluteErrors(truth, estimate, urban_nav_core::Alignment::First).back();
+    const double off =
+        urban_nav_core::absoluteErrors(truth, estimate, urban_nav_core::TrajectoryAlignment::First).back();
     const auto relative = urban_nav_core::relativeError(truth, estimate, {urban_nav_core::Span::Unit::Frames, 10.0});
     table.add({name, "k = " + std::to_string(size) + (causal ? ", now" : ", settled"),
                cell(off, 2) + " m of " + cell(length, 0) + " m: " + cell(100.0 * off / length, 2) + " %",
