@@ -4,18 +4,18 @@
 #include <algorithm>
 #include <optional>
 
+#include "urban_nav_core/sequence/time_jump.hpp"
 #include "urban_nav_core/types/stamp.hpp"
 
 namespace urban_nav_live {
 
-/// Step back in time from which on a stamp means a restarted recording or a clock that was set, not a late message. ns
-constexpr urban_nav_core::StampNs max_step_back = 1'000'000'000;
+using urban_nav_core::max_step_back;
 
 /// Detects stamps that jump back by more than max_step_back. Not thread-safe.
 class TimeJumpDetector {
  public:
   /// Returns true if `stamp` lies more than max_step_back before the newest one.
-  bool jumpsBack(urban_nav_core::StampNs stamp) const { return newest_ && stamp < *newest_ - max_step_back; }
+  bool jumpsBack(urban_nav_core::StampNs stamp) const { return newest_ && urban_nav_core::jumpsBack(stamp, *newest_); }
   /// Raises the newest stamp; an earlier one has no effect.
   void advance(urban_nav_core::StampNs stamp) { newest_ = std::max(newest_.value_or(stamp), stamp); }
   /// Returns jumpsBack(stamp). After a jump `stamp` is the newest one, otherwise advance(stamp) applies.

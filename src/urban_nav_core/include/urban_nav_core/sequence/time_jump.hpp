@@ -5,11 +5,11 @@
 
 namespace urban_nav_core {
 
-/// A stamp that precedes the newest one by more than this starts a new session: the recording is played again, or the
-/// clock of the robot was set back. Smaller steps back are inputs that overtook each other. ns.
-constexpr StampNs back_in_time = 1'000'000'000;
+/// Largest step back in time, ns, that is a late message. A larger one starts a new session: the recording was restarted
+/// or the clock was set.
+constexpr StampNs max_step_back = 1'000'000'000;
 
-/// Returns whether `stamp` starts a new session after `newest`.
-constexpr bool jumpsBack(StampNs stamp, StampNs newest) { return stamp < newest - back_in_time; }
+/// Returns whether `stamp` is more than max_step_back before `newest`.
+constexpr bool jumpsBack(StampNs stamp, StampNs newest) { return stamp < newest - max_step_back; }
 
 }  // namespace urban_nav_core
