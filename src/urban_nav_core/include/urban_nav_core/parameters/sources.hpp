@@ -6,19 +6,11 @@
 #include <string_view>
 #include <vector>
 
+#include "urban_nav_core/parameters/assignment.hpp"
+#include "urban_nav_core/parameters/old_names.hpp"
 #include "urban_nav_core/parameters/table.hpp"
 
 namespace urban_nav_core {
-
-/// One wish of the user: this key shall have this value. Text (YAML, --set) takes the type of its row; values of the
-/// parameter server come typed.
-struct Assignment {
-  std::string stage;  ///< "swf_vo"; "" for keys without a stage
-  std::string name;   ///< "window"
-  ParameterValue value;
-  bool is_text = true;  ///< `value` is a string that has still to be read by the row's type
-  std::string where;    ///< "config.yaml:12", "--set swf_vo.window=25", "/swf_vo/window"
-};
 
 /// A YAML file: a map of stages, each a map of rows; rows without a stage stand at the top level. Throws UserError with
 /// file and line for what is no such map and for a key that stands twice.
@@ -53,12 +45,14 @@ void refuseUnknownStages(const std::vector<Assignment>& assignments, const std::
 template <typename Parameters>
 struct Loaded {
   Parameters parameters;
-  std::vector<Setting> settings;  ///< in the order of the table
+  std::vector<Setting> settings;      ///< in the order of the table
+  std::vector<std::string> warnings;  ///< of old names, for the user
 };
 
 template <typename Parameters>
 Loaded<Parameters> load(const Table<Parameters>& table, const std::vector<Assignment>& assignments) {
-  Loaded<Parameters> loaded{Parameters(), resolve(table.stage(), table.rows(), assignments)};
+  const RenamedAssignments renamed = replaceOldNames(assignments, {{table.stage(), table.rows()}});
+  Loaded<Parameters> loaded{Parameters(), resolve(table.stage(), table.rows(), renamed.assignments), renamed.warnings};
   for (const Setting& setting : loaded.settings) table.set(loaded.parameters, setting.name, setting.value);
   return loaded;
 }

@@ -34,7 +34,8 @@ struct Row {
   ParameterValue low = false, high = false;  ///< allowed range, ends included (numbers only)
   std::vector<std::string> words;            ///< allowed words (words only; empty: any text)
   std::string sentence;                      ///< what it does
-  std::string source;                        ///< section of the paper, publication, or measurement
+  std::string source;                        ///< `paper 2.4`, publication, `docs/...` or bench that measured it
+  std::vector<std::string> old_names = {};   ///< still understood, see old_names.hpp: "queue", or "loop_metric.queue"
 };
 
 enum class ParameterType { Bool, Integer, Number, Word };
@@ -45,6 +46,7 @@ struct RowInfo {
   ParameterType type = ParameterType::Bool;
   ParameterValue standard, low, high;
   std::vector<std::string> words;
+  std::vector<std::string> old_names = {};
 };
 
 /// "1...100000 (frames)" or "numbers 0...1 (px)" or "schur, delete" or "true, false".

@@ -39,7 +39,8 @@ Table<Parameters>::Table(std::string stage, std::vector<Row<Parameters>> rows)
     : stage_(std::move(stage)), rows_(std::move(rows)) {
   for (const Row<Parameters>& row : rows_) {
     const ParameterType type = std::visit([](auto member) { return detail::typeOfMember(member); }, row.member);
-    infos_.push_back({row.name, row.unit, row.sentence, row.source, type, row.standard, row.low, row.high, row.words});
+    infos_.push_back({row.name, row.unit, row.sentence, row.source, type, row.standard, row.low, row.high, row.words,
+                      row.old_names});
   }
   assertSound(stage_, infos_);
 }
