@@ -49,7 +49,7 @@ struct Rival {
 /// What came of an alignment.
 ///
 /// WARNING: `information` is singular where directions are free, and must not be inverted. Convention of everything that leaves a
-/// stage (DESIGN.md, section 4): tangent (rho, phi), T = [Exp(phi) R, t + rho], both in the target frame.
+/// stage (docs/conventions.md): tangent (rho, phi), T = [Exp(phi) R, t + rho], both in the target frame.
 struct Alignment {
   urban_nav_core::Pose T_target_source;
   urban_nav_core::Matrix6d information = urban_nav_core::Matrix6d::Zero();

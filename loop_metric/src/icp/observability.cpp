@@ -14,7 +14,7 @@ namespace loop_metric {
 namespace {
 
 constexpr double kLeastError = 0.002;                           // m: no laser is better
-constexpr double kFreeTranslation = 1e6, kFreeRotation = 10.0;  // m^2, rad^2: DESIGN.md, section 4
+constexpr double kFreeTranslation = 1e6, kFreeRotation = 10.0;  // m^2, rad^2: docs/conventions.md
 
 double robustWeight(const Match& match, double sigma) {
   const double ratio = match.residual / sigma;

@@ -12,7 +12,7 @@ namespace pose_graph {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
-constexpr double kMovedDistance = 0.01, kMovedAngle = 0.02 * kDegree;  // DESIGN.md, section 5
+constexpr double kMovedDistance = 0.01, kMovedAngle = 0.02 * kDegree;  // docs/architecture.md
 
 /// Takes poses in ascending order, and keeps the runs of those that moved.
 class Moves {

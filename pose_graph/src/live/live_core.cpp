@@ -18,7 +18,7 @@ constexpr double kEnough = 1e-4;
 // And of a chain's, by which its end may be off before it is laid anew. At 1e-2 poses end 1.7 mm from the batch's, at 1e-3 0.3 mm, at 1e-4
 // 0.1 mm, and an update takes 5, 6 and 9 ms (20 000 poses, bench/update).
 constexpr double kBent = 1e-3;
-// A tenth of what graph/update tells of (DESIGN.md, section 5).
+// A tenth of what graph/update tells of (docs/architecture.md).
 constexpr double kWrittenDistance = 1e-3, kWrittenAngle = 0.002 * 3.14159265358979323846 / 180.0;
 
 constexpr double kRoundOff = 1e-9;  // m, rad: a pose that moved by less has not moved

@@ -24,7 +24,7 @@ namespace {
 constexpr std::size_t kWaiting = 100;
 constexpr std::size_t kNodesAtOnce = 200;
 constexpr std::size_t kPending = 1000;  // of rejected closures and evidence
-constexpr double kMovedDistance = 0.01, kMovedAngle = 0.02 * 3.14159265358979323846 / 180.0;  // DESIGN.md, section 5
+constexpr double kMovedDistance = 0.01, kMovedAngle = 0.02 * 3.14159265358979323846 / 180.0;  // docs/architecture.md
 
 LiveWriter::Options optionsOf(std::chrono::milliseconds period) {
   LiveWriter::Options options;

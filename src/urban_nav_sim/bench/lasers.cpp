@@ -147,7 +147,7 @@ Turning realTurns() {
   return look;
 }
 
-/// "fifth ... ninety-fifth percentile", as NEW_COLLEGE.md states them.
+/// "fifth ... ninety-fifth percentile", as they are stated of the New College data set (Smith et al. 2009).
 std::string band(const Values& values) {
   return cell(quantileOf(values, 0.05), 0) + " ... " + cell(quantileOf(values, 0.95), 0);
 }

@@ -21,7 +21,7 @@ struct ProcessInput {
 /// else holds still has a proper covariance.
 namespace process_model {
 
-/// 1e-6 m^-2 and 0.1 rad^-2: a kilometre and three radians, the variances that stand for "free" (DESIGN.md, section 4).
+/// 1e-6 m^-2 and 0.1 rad^-2: a kilometre and three radians, the variances that stand for "free" (docs/conventions.md).
 urban_nav_core::Matrix6d floor();
 
 urban_nav_core::Pose predict(const urban_nav_core::Pose& T_odom_last, const ProcessInput& u);

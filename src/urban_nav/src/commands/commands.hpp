@@ -5,7 +5,7 @@
 
 namespace urban_nav {
 
-/// The subcommands of CONTRACT.md, each in a file of its name.
+/// The subcommands (docs/files.md), each in a file of its name.
 Command convertCommand();
 Command deviceCommand();
 Command evaluateCommand();

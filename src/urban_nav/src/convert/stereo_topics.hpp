@@ -10,7 +10,7 @@
 
 namespace urban_nav {
 
-/// A rectified pair with its camera_info on the topics of DESIGN.md section 5; an empty view is left out, with its
+/// A rectified pair with its camera_info on the topics of docs/architecture.md; an empty view is left out, with its
 /// camera_info.
 void writeStereo(const urban_nav_core::StereoPair& pair, urban_nav_core::StampNs stamp,
                  const urban_nav_core::StereoCamera& camera, BagWriter& bag);

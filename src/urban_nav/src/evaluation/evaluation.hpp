@@ -58,7 +58,7 @@ struct EvaluationOptions {
 Evaluation evaluate(const TrajectoryFile& truth, const TrajectoryFile& estimate,
                     const std::vector<urban_nav_core::CovarianceRow>& covariances, const EvaluationOptions& options);
 
-/// The keys of CONTRACT.md, and a few more, into an object.
+/// The keys of docs/files.md, and a few more, into an object.
 void addToJson(const Evaluation& evaluation, Json& json);
 
 /// "10f", "100m" and so on; UserError for anything else.

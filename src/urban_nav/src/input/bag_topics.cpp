@@ -15,7 +15,7 @@ namespace {
 struct RoleNames {
   Role role;
   const char* word;
-  const char* topic;  // of DESIGN.md, section 5
+  const char* topic;  // of docs/architecture.md
 };
 constexpr std::array<RoleNames, 9> kRoles = {{{Role::Left, "left", "stereo/left/image_raw"},
                                               {Role::Right, "right", "stereo/right/image_raw"},

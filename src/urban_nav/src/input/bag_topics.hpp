@@ -8,7 +8,7 @@
 
 namespace urban_nav {
 
-/// What a topic is to `map`. The words are those of --topic ROLE:=NAME; the topics of DESIGN.md section 5 stand for
+/// What a topic is to `map`. The words are those of --topic ROLE:=NAME; the topics of docs/architecture.md stand for
 /// their roles too (stereo/left/image_raw:=/cam0/image_raw).
 enum class Role { Left, Right, LeftInfo, RightInfo, Imu, Wheels, LaserLeft, LaserRight, Truth };
 const char* toString(Role role);

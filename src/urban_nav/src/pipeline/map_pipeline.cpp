@@ -32,7 +32,7 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-/// The stages that CONTRACT.md knows and this version has not, with the reason.
+/// The stages that docs/files.md names and this version has not, with the reason.
 std::string leftOut() {
   std::vector<std::string> absent;
   for (const std::string& stage : knownStages()) {

@@ -28,14 +28,14 @@ struct MapRequest {
   std::string localise = {};  ///< session store whose map stays as it is; empty: none
 };
 
-/// The stages that CONTRACT.md knows, in their order, and those of them that this suite has.
+/// The stages that docs/files.md names, in their order, and those of them that this suite has.
 const std::vector<std::string>& knownStages();
 const std::vector<std::string>& existingStages();
 
 /// Are views of the sessions kept, for the stage loops of this run or another one, and to be localised in? Unless stages were asked for and it is not among them.
 bool keepsViews(const MapRequest& request);
 
-/// Runs the stages over the inputs and writes the files of CONTRACT.md. UserError for mistakes of the request,
+/// Runs the stages over the inputs and writes the files of docs/files.md. UserError for mistakes of the request,
 /// DataError where the inputs do not allow it.
 void runMap(const MapRequest& request, Console& console);
 

@@ -13,7 +13,7 @@
 
 namespace urban_nav {
 
-/// A row of closures.csv (CONTRACT.md): two moments that are one place, and what became of it.
+/// A row of closures.csv (docs/files.md): two moments that are one place, and what became of it.
 struct ClosureRow {
   std::string session_a, session_b;
   urban_nav_core::StampNs stamp_a = 0, stamp_b = 0;
@@ -35,7 +35,7 @@ std::vector<ClosureRow> readClosures(const std::string& path);
 /// The same of a text; `name` stands for the path.
 std::vector<ClosureRow> parseClosures(std::string_view text, const std::string& name);
 
-/// With the header, in the order and the columns of CONTRACT.md.
+/// With the header, in the order and the columns of docs/files.md.
 std::string printClosures(const std::vector<ClosureRow>& rows);
 
 }  // namespace urban_nav

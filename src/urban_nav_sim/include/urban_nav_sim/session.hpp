@@ -63,7 +63,7 @@ class Session {
   urban_nav_core::CameraInfo ladybugInfo(int camera) const;  ///< 0 ... 4
 
   /// trajectory.tum, revisits.csv, closures_true.csv, closures_false.csv (if `false_closures` is not zero: their per cent of the true ones), cloud.ply
-  /// (CONTRACT.md), clocks.csv (`sensor,offset_s,skew,jitter_s`: by how much stamps are off) into a folder that exists. What sensors there are does not matter.
+  /// (docs/files.md), clocks.csv (`sensor,offset_s,skew,jitter_s`: by how much stamps are off) into a folder that exists. What sensors there are does not matter.
   void writeTruth(const std::string& folder, double false_closures) const;
 
  private:

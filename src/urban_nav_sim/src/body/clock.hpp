@@ -31,11 +31,11 @@ class Clock {
   Noise noise_;
 };
 
-/// What drivers leave when they have corrected offset and skew of the device (DESIGN.md section 4): the jitter that the
+/// What drivers leave when they have corrected offset and skew of the device (docs/conventions.md): the jitter that the
 /// New College log shows for its lasers, more where a device has no clock of its own.
 ClockOptions correctedClock(Sensor sensor);
 /// What they had to correct: offsets of up to half a second, skews within the 30 ppm of a crystal (360 ppm for the
-/// mirror of a laser, section 1 of DEVICE_PROTOCOLS.md), arrival over USB or a serial line. Drawn from `seed`.
+/// mirror of a laser), arrival over USB or a serial line. Drawn from `seed`.
 ClockOptions uncorrectedClock(Sensor sensor, std::uint64_t seed);
 
 }  // namespace urban_nav_sim

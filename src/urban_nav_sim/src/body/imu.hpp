@@ -12,7 +12,7 @@ namespace urban_nav_sim {
 
 constexpr double kGravity = 9.81;  ///< m/s^2, along -z of `world`
 
-/// Errors of an XSens MTi (DEVICE_PROTOCOLS.md section 2.4). All zero: it measures the truth.
+/// Errors of an XSens MTi (its data sheet). All zero: it measures the truth.
 struct ImuOptions {
   double rate_density = 0.1 * M_PI / 180.0;                ///< rad/s/sqrt(Hz)
   double rate_bias = 0.2 * M_PI / 180.0;                   ///< rad/s, standard deviation at the start

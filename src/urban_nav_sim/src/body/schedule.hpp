@@ -17,7 +17,7 @@ struct Schedule {
   std::int64_t count(double duration) const;
 };
 
-/// The rates of the paper's robot (NEW_COLLEGE.md section 3, DEVICE_PROTOCOLS.md): stereo 20 Hz, Ladybug 2 Hz, lasers
+/// The rates of the paper's robot (Smith et al. 2009): stereo 20 Hz, Ladybug 2 Hz, lasers
 /// one turn of the mirror in 13.3381 ms (the time is that of the first beam; the right one 5.54 ms after the left one),
 /// IMU 100 Hz, wheels every 36 ms, GPS 1 Hz.
 Schedule scheduleOf(Sensor sensor);

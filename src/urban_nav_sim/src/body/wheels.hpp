@@ -15,7 +15,7 @@ struct WheelOptions {
   double difference_sigma = 0.0005;  ///< of that of one wheel beside the other's: 0.1 deg of heading a metre
   double track = 1.02;               ///< effective over nominal track: tyres scrub as they turn
   double slip_sigma = 0.003;         ///< share of the way of each wheel that is lost or won within some half a second
-  bool counts = true;                ///< in the steps of the base's counters (DEVICE_PROTOCOLS.md section 3.1)
+  bool counts = true;                ///< in the steps of the base's counters (Segway RMP interface guide)
 };
 WheelOptions perfectWheels();
 

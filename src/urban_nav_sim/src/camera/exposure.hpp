@@ -13,7 +13,7 @@ struct Exposure {
   double gain = 1.0;
 };
 
-/// Automatic exposure as a Bumblebee2 has it (DEVICE_PROTOCOLS.md, 4.4): mean grey of the lower two thirds of the image
+/// Automatic exposure as a Bumblebee2 has it (its reference manual): mean grey of the lower two thirds of the image
 /// towards 110, shutter first, up to 10 ms, then gain; a picture bears on the second one after it, and no step is larger
 /// than a tenth. Judges the light alone, not its noise.
 class AutoExposure {

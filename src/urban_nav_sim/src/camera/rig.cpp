@@ -10,7 +10,7 @@ namespace {
 using urban_nav_core::CameraInfo;
 using urban_nav_core::Pose;
 
-// NEW_COLLEGE.md, section 6.
+// Of the New College data set (Smith et al. 2009).
 constexpr double kFocal = 389.956085, kCentreU = 254.903519, kCentreV = 201.899490, kBaseline = 0.120005;
 
 CameraInfo infoOf(const Lens& lens) {
@@ -60,7 +60,7 @@ std::array<Camera, 2> bumblebee(StereoImages images) {
 }
 
 std::array<Camera, 5> ladybug() {
-  constexpr double kRadius = 0.040;  // m: DEVICE_PROTOCOLS.md, 5.3
+  constexpr double kRadius = 0.040;  // m: reference manual of the Ladybug2
   Eigen::Matrix3d R_forward_optical;
   R_forward_optical << 0, 0, 1, -1, 0, 0, 0, -1, 0;
   std::array<Camera, 5> cameras;

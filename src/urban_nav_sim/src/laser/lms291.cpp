@@ -40,7 +40,7 @@ Vector3d rayOf(int beam, int ray) {
 }
 
 /// The echo's value as the log has it: path at 1-1.5 m 37-54, walls at 3.5-5.5 m 53-80; the optics lose light near by,
-/// distance takes it from 8 m on (NEW_COLLEGE.md, section 4; DEVICE_PROTOCOLS.md, 1.6).
+/// distance takes it from 8 m on (Smith et al. 2009; data sheet of the LMS291).
 double intensityOf(double strength, double range) {
   const double optics = range / (range + 0.5), distance = range > 8.0 ? 8.0 / range : 1.0;
   return 190.0 * std::pow(std::max(strength, 0.0), 0.85) * optics * distance;

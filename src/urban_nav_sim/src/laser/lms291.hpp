@@ -19,14 +19,14 @@ struct BeamTruth {
   SurfaceClass surface_class = SurfaceClass::Other;
 };
 
-/// A SICK LMS291-S14 (DEVICE_PROTOCOLS.md, section 1): 181 beams of 0.5 deg in one turn of 13.338 ms, each at its own time.
+/// A SICK LMS291-S14 (Telegram listing and data sheet of SICK): 181 beams of 0.5 deg in one turn of 13.338 ms, each at its own time.
 /// Frame: x along beam 90 (the middle one), scan plane x-y, beams from -45 to 45 deg. Immutable, so thread-safe; the tracer
 /// must outlive it.
 class Lms291 {
  public:
   static constexpr int kBeams = 181;
   struct Settings {
-    double period = 13.3381e-3;     ///< s of a turn (NEW_COLLEGE.md, section 3)
+    double period = 13.3381e-3;     ///< s of a turn (Smith et al. 2009)
     double sigma = 5e-3;            ///< m to 20 m; twice that beyond; 0: intensities have no noise either
     double largest_bias = 5e-3;     ///< m; the constant bias of a device is even within it
     double systematic_error = 0.0;  ///< m, added to every range; the data sheet's fault: 0.035

@@ -8,7 +8,7 @@
 
 namespace urban_nav_sim {
 
-/// Where the sensors are on base_link, by the names of their frames (DESIGN.md section 4): the paper's robot, as launch/urdf/lisa.urdf describes
+/// Where the sensors are on base_link, by the names of their frames (docs/conventions.md): the paper's robot, as launch/urdf/lisa.urdf describes
 /// it. The lasers' places are those of the New College set, the others plausible.
 std::map<std::string, urban_nav_core::Pose> sensorPlaces();
 urban_nav_core::Pose placeOf(const std::string& frame);

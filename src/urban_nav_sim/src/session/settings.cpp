@@ -5,7 +5,7 @@ namespace urban_nav_sim {
 
 namespace {
 
-constexpr double data_sheet_error = 0.035;  // m: DEVICE_PROTOCOLS.md, section 1.6
+constexpr double data_sheet_error = 0.035;  // m: data sheet of the LMS291
 
 }  // namespace
 

@@ -15,7 +15,7 @@ namespace urban_nav_sim {
 void sampleTriangle(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c, float spacing,
                     const std::function<void(const Eigen::Vector3f& weights)>& place);
 
-/// cloud.ply of the truth (CONTRACT.md, "Others"): everything that stands still within 30 m of the way, at most 0.05 m apart, x, y, z (float, m,
+/// cloud.ply of the truth (docs/files.md): everything that stands still within 30 m of the way, at most 0.05 m apart, x, y, z (float, m,
 /// `world`) and class (uchar, SurfaceClass), binary. Nothing that lies over 0.3 m below the ground. Leaves where there are leaves. In the order of the world's parts; memory does not grow with
 /// the number of points. Throws UserError naming the file if it cannot be written.
 void writeCloud(const std::string& path, const World& world, const Ride& ride);

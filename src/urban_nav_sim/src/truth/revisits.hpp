@@ -9,7 +9,7 @@
 
 namespace urban_nav_sim {
 
-constexpr double kSamePlace = 7.5;    ///< m in space: nearer panoramas show one place (CONTRACT.md)
+constexpr double kSamePlace = 7.5;    ///< m in space: nearer panoramas show one place (docs/files.md)
 constexpr double kRevisitGap = 30.0;  ///< s: nearer in time it is not coming back
 
 /// Two panoramas taken at one place; by index, `a` the earlier.

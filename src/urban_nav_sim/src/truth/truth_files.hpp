@@ -26,7 +26,7 @@ void writeClosures(const std::string& path, const urban_nav_core::Trajectory& pa
 /// `sensor,offset_s,skew,jitter_s`: by how much the stamps of each are off.
 void writeClocks(const std::string& path, const std::map<Sensor, ClockOptions>& clocks);
 
-/// The truth folder of CONTRACT.md ("Others") but for cloud.ply, into a folder that exists: trajectory.tum, revisits.csv,
+/// The truth folder of docs/files.md but for cloud.ply, into a folder that exists: trajectory.tum, revisits.csv,
 /// closures_true.csv and, if `false_percent` is above zero, closures_false.csv with so many per cent of the number of true
 /// ones. `ladybug`: the clock that stamps panoramas. Throws UserError naming the file that cannot be written.
 void writeTruthFiles(const std::string& folder, const Ride& ride, const Clock& truth, const Clock& ladybug,

@@ -18,7 +18,7 @@ enum class Access {
   Write,  ///< goes on in the file, or makes it; one writer at a time
 };
 
-/// One session store (DESIGN.md section 7): an SQLite file in WAL mode with any number of sessions.
+/// One session store (docs/architecture.md): an SQLite file in WAL mode with any number of sessions.
 ///
 /// What is written gathers in a transaction that the first write opens; commit() makes it last, and what was not
 /// committed when the store is closed, or the process ends, has never been there. Once commit() has returned, its content is

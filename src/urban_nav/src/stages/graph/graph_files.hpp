@@ -8,7 +8,7 @@
 
 namespace urban_nav {
 
-/// The files of CONTRACT.md as they are after relaxation: trajectory.tum, trajectory.kitti, covariance.csv and
+/// The files of docs/files.md as they are after relaxation: trajectory.tum, trajectory.kitti, covariance.csv and
 /// relative_covariance.csv of all sessions that lie in one map, one after another; trajectory_2.tum and so on of a map that the
 /// second session begins. graph.g2o and closures.csv hold everything. Files that visual odometry wrote of the other sessions are
 /// removed. `runs`: one for each session of the graph.

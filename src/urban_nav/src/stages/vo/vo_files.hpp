@@ -11,7 +11,7 @@
 
 namespace urban_nav {
 
-/// The files of CONTRACT.md that visual odometry makes: trajectory.tum, trajectory.kitti, covariance.csv,
+/// The files of docs/files.md that visual odometry makes: trajectory.tum, trajectory.kitti, covariance.csv,
 /// relative_covariance.csv, graph.g2o, landmarks.ply. All hold settled poses. `suffix` ("", "_2") stands before the
 /// extension.
 ///

@@ -6,7 +6,7 @@
 namespace urban_nav_core {
 
 /// From one convention of a pose's tangent to another, and from one body frame to another. "Box" is the convention of
-/// everything that leaves a stage (DESIGN.md section 4): T_a_b = [Exp(phi) R, t + rho], both in the parent frame,
+/// everything that leaves a stage (docs/conventions.md): T_a_b = [Exp(phi) R, t + rho], both in the parent frame,
 /// translation first.
 ///
 /// d_box = boxFromLeft(T) d_left for T = Exp(d_left) T_mean, the tangent of SE(3) in the parent frame.

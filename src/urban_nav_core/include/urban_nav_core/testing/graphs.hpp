@@ -15,7 +15,7 @@ enum class GraphEdgeKind {
 };
 
 /// T_a_b = [Exp(phi) R, t + rho] of the true relative pose, (rho, phi) drawn in the parent frame a with the covariance
-/// whose inverse is `information` (DESIGN.md, section 4).
+/// whose inverse is `information` (docs/conventions.md).
 struct GraphEdge {
   std::size_t a = 0, b = 0;
   Pose T_a_b;

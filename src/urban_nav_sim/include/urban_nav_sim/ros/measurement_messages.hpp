@@ -25,7 +25,7 @@
 /// What of urban_nav_sim knows of ROS: the bag of the command and the live node get their messages here, so that equal sessions are equal bytes in both.
 namespace urban_nav_sim {
 
-/// A message (never null) and the topic of DESIGN.md section 5 where it belongs, without a slash in front: a name space may come there.
+/// A message (never null) and the topic of docs/architecture.md where it belongs, without a slash in front: a name space may come there.
 struct TopicMessage {
   using Message =
       std::variant<sensor_msgs::ImagePtr, sensor_msgs::CameraInfoPtr, sensor_msgs::CompressedImagePtr,
