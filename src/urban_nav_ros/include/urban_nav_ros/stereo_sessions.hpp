@@ -13,9 +13,9 @@
 #include <string>
 #include <variant>
 
+#include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_live/stage_report.hpp"
 #include "urban_nav_live/time_jump.hpp"
-#include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/stereo_feed.hpp"
 
