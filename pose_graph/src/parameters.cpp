@@ -18,18 +18,18 @@ const Table<Parameters>& table() {
       {
           {"solver", &P::solver, "", std::string("gauss_newton"), false, false, {"gauss_newton", "relative_pcg", "ceres"},
            "How the graph is relaxed: sparse Gauss-Newton over the condensed graph, or, of the closures that it accepted, the paper's conjugate gradients over relative transforms or Ceres (references: slower).",
-           "section 5, eq. 8-19"},
+           "paper 5, eq. 8-19"},
           {"robust", &P::robust, "", true, false, false, {},
-           "Closures that disagree with the others are rejected; without, every edge is taken as it is.", "section 5"},
+           "Closures that disagree with the others are rejected; without, every edge is taken as it is.", "paper 5"},
           {"gravity", &P::gravity, "", true, false, false, {},
-           "What an accelerometer felt takes the drift of roll and pitch out of odometry; without, it says which way is up and no more.", "section 5; measured"},
+           "What an accelerometer felt takes the drift of roll and pitch out of odometry; without, it says which way is up and no more.", "paper 5; measured"},
           {"iterations", &P::iterations, "", std::int64_t{100}, std::int64_t{1}, std::int64_t{10000}, {},
-           "Steps of one minimisation, at most; fewer where nothing is left to gain.", "section 5"},
+           "Steps of one minimisation, at most; fewer where nothing is left to gain.", "paper 5"},
           {"jump_distance", &P::jump_distance, "m", 0.5, 0.0, 1000.0, {},
            "A single closure that would move a pose by more than this waits for a second one that agrees, unless it is a stereo closure that odometry allows.",
-           "DESIGN.md, section 5"},
+           "docs/derivations/pose_graph.md"},
           {"jump_angle", &P::jump_angle, "deg", 2.0, 0.0, 180.0, {},
-           "The same for a turn.", "DESIGN.md, section 5"},
+           "The same for a turn.", "docs/derivations/pose_graph.md"},
       });
   return rows;
 }
