@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <functional>
 #include <map>
+#include <stdexcept>
 
 #include "command_line/console.hpp"
+#include "command_line/held_signals.hpp"
 #include "command_line/json.hpp"
 #include "commands/commands.hpp"
+#include "device/simulate_device.hpp"
 #include "segway_drivers/driver/run_device.hpp"
 #include "segway_drivers/parameters.hpp"
 #include "segway_drivers/table/decode_file.hpp"
@@ -15,6 +18,7 @@
 #include "urban_nav_core/parameters/print.hpp"
 #include "urban_nav_core/parameters/sources.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_sim/device/device_fault.hpp"
 
 namespace urban_nav {
 
@@ -139,9 +143,40 @@ int runRun(const Arguments& arguments, Console& console) {
   return 0;
 }
 
+int runSimulate(const Arguments& arguments, Console& console) {
+  const auto words = deviceWords(arguments, 1, false, "simulate KIND --link PATH --bag BAG");
+  loadDriverParameters(arguments);
+  SimulateDeviceJob job;
+  job.kind = words[0];
+  segway_drivers::rowColumns(job.kind);  // refuses an unknown kind
+  job.tcp = static_cast<int>(arguments.integer("tcp", 0, 1, 65535));
+  if (job.tcp > 0 && job.kind != "gps") throw UserError("--tcp", job.kind, "gps");
+  if (job.tcp == 0) job.link = requiredValue(arguments, "link");
+  job.bag = requiredValue(arguments, "bag");
+  job.side = arguments.get("side", "left");
+  job.truth = arguments.get("truth");
+  job.options.seed = static_cast<std::uint64_t>(arguments.integer("seed", 1, 0, 4294967295));
+  for (const std::string& fault : arguments.all("fault"))
+    job.options.faults.push_back(urban_nav_sim::parseDeviceFault(fault));
+  if (arguments.has("clock")) job.options.clock = urban_nav_sim::DeviceClock::parse(arguments.get("clock"));
+  if (arguments.has("delay")) job.options.delay = urban_nav_sim::DelayModel::parse(arguments.get("delay"), 1.0);
+  const HeldSignals signals;
+  const auto stop = [&signals] {
+    try {
+      signals.check();
+      return false;
+    } catch (const std::runtime_error&) {
+      return true;
+    }
+  };
+  const std::int64_t measurements = simulateDevice(job, stop);
+  console.info(std::to_string(measurements) + " measurements");
+  return 0;
+}
+
 const std::map<std::string, std::function<int(const Arguments&, Console&)>>& deviceActions() {
   static const std::map<std::string, std::function<int(const Arguments&, Console&)>> actions = {
-      {"decode", runDecode}, {"encode", runEncode}, {"run", runRun}, {"stamp", runStamp}};
+      {"decode", runDecode}, {"encode", runEncode}, {"run", runRun}, {"simulate", runSimulate}, {"stamp", runStamp}};
   return actions;
 }
 
@@ -157,6 +192,7 @@ std::string deviceHelp(const Arguments& arguments) {
          "  decode KIND FILE -o OUT.csv          bytes as a device sent them, as a table\n"
          "  encode KIND COMMAND [ARGUMENT...]    the bytes of a command, in hexadecimal\n"
          "  run KIND --port PATH --duration S -o OUT.csv  a device at a serial port, or gpsd at HOST:PORT\n"
+         "  simulate KIND --link PATH --bag BAG  a device behind a pseudo-terminal, fed by a bag of simulate\n"
          "  stamp IN.csv -o OUT.csv              device_s,arrival_ns through the clock filter\n"
          "kinds: " +
          kinds + "\n\nparameters (--config FILE, --set segway_drivers.KEY=VALUE):\n" +
@@ -186,6 +222,14 @@ Command deviceCommand() {
       {"--port", "PATH", "run: serial port, best by /dev/serial/by-id; HOST:PORT of gpsd", false, false, {}},
       {"--duration", "S", "run: s to run", false, false, {}},
       {"--drive", "FILE", "run segway_rmp: t_s,linear_mps,angular_radps since the port was opened", false, false, {}},
+      {"--link", "PATH", "simulate: link to make to the pseudo-terminal", false, false, {}},
+      {"--tcp", "PORT", "simulate gps: serve gpsd's protocol at this port instead", false, false, {}},
+      {"--bag", "BAG", "simulate: recorded session", false, false, {}},
+      {"--side", "SIDE", "simulate lms291: which laser (default left)", false, false, {"left", "right"}},
+      {"--fault", "KIND:START_S:DURATION_S[:VALUE]", "simulate: " + urban_nav_sim::deviceFaultList(), false, true, {}},
+      {"--clock", "OFFSET_S:PPM", "simulate: clock of the device against the host's", false, false, {}},
+      {"--delay", "MODEL", "simulate: exponential:MIN:MEAN:MAX, uniform:MIN:MAX or batch:MS, in ms", false, false, {}},
+      {"--truth", "FILE", "simulate: write sequence,true_ns of each measurement", false, false, {}},
       {"--period", "S", "stamp: nominal spacing of the device times, s (default 0.01)", false, false, {}},
       {"--tolerance-ppm", "P", "stamp: largest skew of the device clock, ppm (default 200)", false, false, {}},
       {"--latency-ms", "L", "stamp: delay to subtract, ms (default 0)", false, false, {}},
