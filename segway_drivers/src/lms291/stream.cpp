@@ -53,6 +53,7 @@ void LmsStream::take(const StreamFrame& frame) {
     if (frame.arrival != 0) {
       const ClockEstimate estimate = clock_.add(static_cast<double>(position.count) * lms_period, frame.arrival);
       stamped.sigma = estimate.sigma;
+      stamped.epoch = estimate.epoch;
       if (estimate.time) stamped.stamp = *estimate.time - static_cast<TimeNs>(std::llround(1e9 * options_.latency));
     }
   }

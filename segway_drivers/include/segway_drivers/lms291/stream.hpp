@@ -23,6 +23,7 @@ struct LmsStampedScan {
   TimeNs arrival = 0;           ///< of the first byte, ns; 0: unknown
   std::optional<TimeNs> stamp;  ///< of the first beam, ns; empty while the clock settles
   double sigma = 0.0;           ///< s
+  int epoch = 0;                ///< of the clock; stamps rise within one
 };
 
 /// Stream of an LMS291: bytes with arrival times in, stamped scans and replies out. Reads no clock. Not thread-safe.

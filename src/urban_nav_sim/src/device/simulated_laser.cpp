@@ -104,6 +104,7 @@ void SimulatedLaser::skipGap() {
 
 bool SimulatedLaser::measure(double t) {
   const double rate = 1.0 + clock().skew;
+  skipGap();
   while (next_ < readings_.size() && readings_[next_].time / rate <= t) {
     const LaserReading& reading = readings_[next_++];
     if (fault(DeviceFaultKind::Clock) == nullptr) {
@@ -112,7 +113,6 @@ bool SimulatedLaser::measure(double t) {
       restarted_ = true;
       counter_ = 0;
     }
-    skipGap();
     if (streams_ && baud() == fast_baud)
       sendMeasurement(sickTelegram(scanPayload(reading, with_reflectivities_, counter_)), reading.time / rate,
                       sequence_);
