@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "urban_nav_store/dump.hpp"
 
-#include <set>
-
 #include "dump_tables.hpp"
 #include "schema/row.hpp"
 #include "store_implementation.hpp"
@@ -26,28 +24,22 @@ std::string print(const Value& value) {
 }
 
 void dumpTable(Connection& connection, const Table& table, std::string& text) {
-  std::set<std::string> sessions;
   RowReader reader(connection, table, "");
   while (reader.next()) {
-    const Row row = readRow(reader);
-    sessions.insert(row.front().bytes);
     text += table.name;
-    for (const Value& value : row) text += " " + print(value);
+    for (const Value& value : readRow(reader)) text += " " + print(value);
     text += "\n";
   }
-  // Of each session that has rows here by the tally, all must be there.
-  Statement statement = connection.prepare("SELECT session FROM tally WHERE name=? AND count<>0");
-  statement.bind(0, std::string_view(table.name));
-  while (statement.step()) sessions.insert(std::string(statement.text(0)));
-  for (const std::string& session : sessions) verifyTally(connection, table, session);
+  verifyTally(connection, table);
 }
 
 }  // namespace
 
 std::string dumpTables(Connection& connection) {
   std::string text;
+  const int version = schema::version(connection);
   for (const Table* table : schema::tables())
-    if (schema::has(connection, *table)) dumpTable(connection, *table, text);
+    if (table->since <= version) dumpTable(connection, schema::atVersion(*table, version), text);
   return text;
 }
 

@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "file/header.hpp"
 #include "schema/row.hpp"
@@ -24,6 +25,18 @@ namespace {
 
 constexpr std::size_t kNamed = 5;  // contradictions that an error spells out
 
+/// Orders the keys of rows that are to be dropped.
+struct LessByText {
+  bool operator()(const std::pair<const Table*, Row>& a, const std::pair<const Table*, Row>& b) const {
+    return text(a) < text(b);
+  }
+  static std::vector<std::string> text(const std::pair<const Table*, Row>& keys) {
+    std::vector<std::string> all = {keys.first->name};
+    for (const Value& value : keys.second) all.push_back(value.bytes + "," + std::to_string(value.integer));
+    return all;
+  }
+};
+
 /// Puts the rows of one source after the other into a target.
 class Merger {
  public:
@@ -31,8 +44,9 @@ class Merger {
 
   void add(Connection& source) {
     source_ = source.name();
+    const int version = schema::version(source);
     for (const Table* table : schema::tables())
-      if (schema::has(source, *table)) addTable(source, *table);
+      if (table->since <= version) addTable(source, schema::atVersion(*table, version), *table);
   }
 
   /// DataError where rows contradict each other.
@@ -42,20 +56,16 @@ class Merger {
                       "is not made: " + std::to_string(contradictions_) + " rows contradict each other; " + named_,
                       "stores of other sessions, or of other parts of the same one");
     }
-    for (const auto& [session, stage] : other_states_) dropState(session, stage);
+    for (const auto& [table, keys] : dropped_) drop(*table, keys);
     return result_;
   }
 
  private:
-  void addTable(Connection& source, const Table& table) {
-    std::set<std::string> sessions;
-    RowReader reader(source, table, "");
-    while (reader.next()) {
-      const Row row = readRow(reader);
-      sessions.insert(row.front().bytes);
-      addRow(table, row);
-    }
-    for (const std::string& session : sessions) verifyTally(source, table, session);
+  /// `stored`: the table as the source has it.
+  void addTable(Connection& source, const Table& stored, const Table& table) {
+    RowReader reader(source, stored, "");
+    while (reader.next()) addRow(table, completed(readRow(reader), stored, table));
+    verifyTally(source, stored);
   }
 
   void addRow(const Table& table, const Row& row) {
@@ -65,57 +75,69 @@ class Merger {
       ++result_.rows;
     } else if (*there == row) {
       ++result_.identical;
-    } else if (&table == &schema::session()) {
-      addSession(*there, row);
-    } else if (const std::optional<std::size_t> revision = revisionOf(table);
-               revision && (*there)[*revision].integer != row[*revision].integer) {
-      ++result_.outdated;
-      if ((*there)[*revision].integer < row[*revision].integer) write(table, row);
-    } else if (&table == &schema::state()) {
-      other_states_.emplace(row[0].bytes, row[1].bytes);
     } else {
-      contradict(table, row);
+      addDifferent(table, *there, row);
     }
   }
 
-  /// Of two runs over one session: what one of them could go on from is no state of the other.
-  void dropState(const std::string& session, const std::string& stage) {
-    for (const char* what : {"SELECT COUNT(*)", "DELETE"}) {
-      Statement statement = target_.prepare(std::string(what) + " FROM state WHERE session=? AND stage=?");
-      statement.bind(0, session);
-      statement.bind(1, stage);
-      if (statement.step()) result_.rows -= statement.integer(0);
+  void addDifferent(const Table& table, const Row& there, const Row& row) {
+    switch (table.merge) {
+      case MergeRule::Contradiction: return contradict(table, row);
+      case MergeRule::LatestRevision: return addRevision(table, there, row);
+      case MergeRule::CompleteInAll: return addPart(table, there, row);
+      case MergeRule::DropDifferent: break;
     }
+    dropped_.emplace(&table, Row(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(table.keys) - 1));
   }
 
-  /// One computer's part of a session may be complete and another's not.
-  void addSession(const Row& there, const Row& row) {
+  void addRevision(const Table& table, const Row& there, const Row& row) {
+    const std::size_t revision = indexOfRevision(table);
+    if (there[revision].integer == row[revision].integer) return contradict(table, row);
+    ++result_.outdated;
+    if (there[revision].integer < row[revision].integer) write(table, row);
+  }
+
+  /// The last column is a flag: one computer's part of a session may be complete and another's not.
+  void addPart(const Table& table, const Row& there, const Row& row) {
     Row both = row;
     both.back().integer = std::min(there.back().integer, row.back().integer);
     Row known = there;
     known.back() = both.back();
-    if (!(known == both)) return contradict(schema::session(), row);
-    write(schema::session(), both);
+    if (!(known == both)) return contradict(table, row);
+    write(table, both);
     ++result_.identical;
   }
 
-  static std::optional<std::size_t> revisionOf(const Table& table) {
-    if (&table != &schema::relaxed() && &table != &schema::anchor()) return std::nullopt;
-    for (std::size_t i = 0; i < table.columns.size(); ++i)
-      if (std::string_view(table.columns[i].name) == "revision") return i;
-    return std::nullopt;
+  /// Removes the rows with these first keys.
+  void drop(const Table& table, const Row& keys) {
+    for (const char* what : {"SELECT COUNT(*)", "DELETE"}) {
+      Statement statement =
+          target_.prepare(std::string(what) + " FROM " + table.name + " WHERE " + keySql(table, keys.size()));
+      bindKey(statement, keys, keys.size());
+      if (statement.step()) result_.rows -= statement.integer(0);
+    }
+  }
+
+  static std::size_t indexOfRevision(const Table& table) {
+    const auto found = std::find_if(table.columns.begin(), table.columns.end(),
+                                    [](const Column& column) { return column.name == "revision"; });
+    return static_cast<std::size_t>(found - table.columns.begin());
+  }
+
+  static void bindKey(Statement& statement, const Row& row, std::size_t keys) {
+    for (std::size_t i = 0; i < keys; ++i) {
+      const int parameter = static_cast<int>(i);
+      if (row[i].type == ColumnType::Integer) {
+        statement.bind(parameter, row[i].integer);
+      } else {
+        statement.bind(parameter, std::string_view(row[i].bytes));
+      }
+    }
   }
 
   std::optional<Row> find(const Table& table, const Row& row) {
-    RowReader reader(target_, table, "WHERE " + keySql(table));
-    for (int i = 0; i < table.keys; ++i) {
-      const Value& value = row[static_cast<std::size_t>(i)];
-      if (value.type == ColumnType::Integer) {
-        reader.statement().bind(i, value.integer);
-      } else {
-        reader.statement().bind(i, std::string_view(value.bytes));
-      }
-    }
+    RowReader reader(target_, table, "WHERE " + keySql(table, table.keys));
+    bindKey(reader.statement(), row, table.keys);
     std::optional<Row> found;
     while (reader.next()) found = readRow(reader);
     return found;
@@ -128,14 +150,15 @@ class Merger {
 
   void contradict(const Table& table, const Row& row) {
     if (++contradictions_ > static_cast<std::int64_t>(kNamed)) return;
-    named_ += (named_.empty() ? "" : "; ") + std::string(table.name) + " " + printKey(table, row) + " in " + source_ +
-              " and before it";
+    named_ +=
+        (named_.empty() ? "" : "; ") + table.name + " " + printKey(table, row) + " in " + source_ + " and before it";
   }
 
   Connection& target_;
   std::string source_, named_;
   std::int64_t contradictions_ = 0;
-  std::set<std::pair<std::string, std::string>> other_states_;  // session and stage
+  /// Rows of which different ones were found: the table, and all keys but the last.
+  std::set<std::pair<const Table*, Row>, LessByText> dropped_;
   MergeResult result_;
 };
 

@@ -77,18 +77,19 @@ const std::string& prepared(const std::string& path, Access access, std::optiona
 Store::Implementation::Implementation(const std::string& path, Access access)
     : path_(resolved(path)),
       connection(prepared(path_, access, lock_), modeFor(path_, access)),
-      sessions(connection, [this] { settle(); }),
-      graph(connection),
-      scans(connection),
-      keyframes(connection),
-      inputs(connection),
-      states(connection) {
+      tables(connection),
+      sessions(tables, [this] { settle(); }),
+      graph(tables),
+      scans(tables),
+      keyframes(tables),
+      inputs(tables),
+      states(tables) {
   if (access == Access::Write) {
     Statement statement = connection.prepare("PRAGMA journal_mode=WAL");
     statement.step();
     statement.reset();
     connection.execute("PRAGMA synchronous=FULL");
-    schema::migrate(connection, schema::migrationSteps());
+    schema::migrate(connection, schema::tables());
   }
   schema::check(connection);
   if (sizeOf(path_) <= kCheckedThroughout) checkThroughout(connection);
@@ -143,6 +144,8 @@ void Store::commit() { implementation_->commit(); }
 void Store::rollback() { implementation_->rollback(); }
 void Store::shrink() { implementation_->shrink(); }
 void Store::close() { implementation_->close(); }
+
+int schemaVersion() { return schema::latestVersion(schema::tables()); }
 
 bool isStore(const std::string& path) {
   const FileKind kind = fileKind(path);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "file/writer_lock.hpp"
+#include "schema/table_access.hpp"
 #include "stores/graph.hpp"
 #include "stores/inputs.hpp"
 #include "stores/keyframes.hpp"
@@ -14,7 +15,7 @@
 
 namespace urban_nav_store {
 
-/// What a Store is made of: the connection, and the tables behind their interfaces.
+/// The parts of a Store: the connection, and the tables by their interfaces.
 class Store::Implementation {
  public:
   Implementation(const std::string& path, Access access);
@@ -23,7 +24,7 @@ class Store::Implementation {
   void commit();
   void rollback();
   void shrink();
-  /// Writes what tables have in memory, and makes them forget it.
+  /// Writes the rows that stores hold in memory, and releases them.
   void settle();
 
  private:
@@ -32,12 +33,13 @@ class Store::Implementation {
 
  public:
   Connection connection;
-  Sessions sessions;
-  Graph graph;
-  Scans scans;
-  Keyframes keyframes;
-  Inputs inputs;
-  States states;
+  TableAccess tables;
+  SqliteSessionStore sessions;
+  SqliteGraphStore graph;
+  SqliteScanStore scans;
+  SqliteKeyframeStore keyframes;
+  SqliteInputOrder inputs;
+  SqliteStageStates states;
 };
 
 }  // namespace urban_nav_store

@@ -138,7 +138,7 @@ TEST(Store, leavesOtherFilesAlone) {
     Store store(newer, Access::Write);
     store.close();
     Connection version(newer, Connection::Mode::Write);
-    version.execute("PRAGMA user_version=" + std::to_string(kSchemaVersion + 1));
+    version.execute("PRAGMA user_version=" + std::to_string(schemaVersion() + 1));
     version.close();
   }
   for (const Access access : {Access::Read, Access::Write}) {

@@ -72,7 +72,7 @@ bool isStore(const std::string& path);
 /// store: another program's file is not touched. Nothing happens where there is none. A damaged store is removed.
 void removeStore(const std::string& path);
 
-/// Version of the schema that this library writes.
-constexpr int kSchemaVersion = 2;
+/// Returns the version of the schema that this library writes.
+int schemaVersion();
 
 }  // namespace urban_nav_store

@@ -43,8 +43,8 @@ FileKind fileKind(const std::string& path) {
     return FileKind::Other;
   if (bigEndian(bytes, kApplication) != static_cast<std::uint32_t>(schema::kApplicationId))
     return FileKind::OtherSqlite;
-  return bigEndian(bytes, kUserVersion) > static_cast<std::uint32_t>(kSchemaVersion) ? FileKind::NewerStore
-                                                                                     : FileKind::Store;
+  return bigEndian(bytes, kUserVersion) > static_cast<std::uint32_t>(schemaVersion()) ? FileKind::NewerStore
+                                                                                      : FileKind::Store;
 }
 
 std::string resolved(const std::string& path) {
@@ -60,7 +60,7 @@ void refuseOtherFiles(const std::string& path) {
     case FileKind::Store: return;
     case FileKind::NewerStore:
       throw UserError(path, "was written by a newer urban_nav, and was left as it is",
-                      "schema " + std::to_string(kSchemaVersion) + " or older; or a newer urban_nav");
+                      "schema " + std::to_string(schemaVersion()) + " or older; or a newer urban_nav");
     case FileKind::OtherSqlite:
       throw UserError(path, "is another program's SQLite file, and was left as it is",
                       "a session store of urban_nav, or a name where there is no file yet");

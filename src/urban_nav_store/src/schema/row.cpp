@@ -9,9 +9,6 @@
 
 namespace urban_nav_store {
 
-using urban_nav_core::Matrix6d;
-using urban_nav_core::Pose;
-
 void RowChecksum::text(std::string_view value) {
   bytes_ += 't';
   appendInteger(bytes_, static_cast<std::uint64_t>(value.size()));
@@ -58,17 +55,13 @@ RowWriter& RowWriter::blob(std::string_view value) {
   checksum_.blob(value);
   return *this;
 }
-RowWriter& RowWriter::pose(const Pose& value) {
-  for (int i = 0; i < 3; ++i) real(value.t()(i));
-  return real(value.q().x()).real(value.q().y()).real(value.q().z()).real(value.q().w());
-}
 void RowWriter::write() {
   statement_.bind(column_, checksum_.value());
   statement_.step();
 }
 
-RowReader::RowReader(Connection& connection, const Table& table, const std::string& rest)
-    : table_(table), statement_(connection.prepare(selectSql(table, rest))) {}
+RowReader::RowReader(Connection& connection, const Table& table, const std::string& condition)
+    : table_(table), statement_(connection.prepare(selectSql(table, condition))) {}
 
 void RowReader::verify() {
   if (column_ == 0) return;
@@ -106,16 +99,8 @@ std::string_view RowReader::blob() {
   checksum_.blob(value);
   return value;
 }
-Pose RowReader::pose() {
-  double v[7];
-  for (double& value : v) value = real();
-  const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
-  if (!(std::abs(q.norm() - 1.0) <= 0.01)) damaged("a quaternion is not of length one");
-  return {q, {v[0], v[1], v[2]}};
-}
-
 void RowReader::damaged(const std::string& what) const {
-  statement_.connection().damaged("in table " + std::string(table_.name) + ", " + what);
+  statement_.connection().damaged("in table " + table_.name + ", " + what);
 }
 
 namespace {
@@ -124,12 +109,12 @@ void compareWithTally(Connection& connection, const Table& table, const std::str
                       std::int64_t sum) {
   Statement& statement = connection.cached("SELECT count,sum FROM tally WHERE name=? AND session=?");
   const ResetAtEnd reset(statement);
-  statement.bind(0, std::string_view(table.name));
+  statement.bind(0, table.name);
   statement.bind(1, session);
   const bool known = statement.step();
   const std::int64_t count = known ? statement.integer(0) : 0;
   if (count != rows || (known ? statement.integer(1) : 0) != sum)
-    connection.damaged("in table " + std::string(table.name) + ", session " + session + " has " + std::to_string(rows) +
+    connection.damaged("in table " + table.name + ", session " + session + " has " + std::to_string(rows) +
                        " rows that do not add up to the " + std::to_string(count) + " written");
 }
 
@@ -140,14 +125,25 @@ void verifyTally(const RowReader& reader, const std::string& session) {
 }
 
 void verifyTally(Connection& connection, const Table& table, const std::string& session) {
-  Statement statement = connection.prepare("SELECT count(*),ifnull(sum(crc),0) FROM " + std::string(table.name) +
-                                           " WHERE " + table.columns.front().name + "=?");
+  Statement statement = connection.prepare("SELECT count(*),ifnull(sum(crc),0) FROM " + table.name + " WHERE " +
+                                           table.columns.front().name + "=?");
   statement.bind(0, session);
   if (statement.step()) compareWithTally(connection, table, session, statement.integer(0), statement.integer(1));
 }
 
 bool operator==(const Value& a, const Value& b) {
   return a.type == b.type && a.integer == b.integer && a.real == b.real && a.bytes == b.bytes;
+}
+
+void verifyTally(Connection& connection, const Table& table) {
+  std::vector<std::string> sessions;
+  {
+    Statement statement = connection.prepare("SELECT session FROM tally WHERE name=? AND count<>0 UNION SELECT " +
+                                             table.columns.front().name + " FROM " + table.name);
+    statement.bind(0, table.name);
+    while (statement.step()) sessions.emplace_back(statement.text(0));
+  }
+  for (const std::string& session : sessions) verifyTally(connection, table, session);
 }
 
 Row readRow(RowReader& reader) {
@@ -178,36 +174,24 @@ void writeRow(RowWriter& writer, const Row& row) {
   writer.write();
 }
 
+Row completed(const Row& row, const Table& before, const Table& after) {
+  Row complete;
+  std::size_t next = 0;
+  for (const Column& column : after.columns) {
+    const bool is_old = next < before.columns.size() && before.columns[next].name == column.name;
+    complete.push_back(is_old ? row[next++] : column.initial);
+  }
+  return complete;
+}
+
 std::string printKey(const Table& table, const Row& row) {
   std::string text;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(table.keys); ++i) {
+  for (std::size_t i = 0; i < table.keys; ++i) {
     const Value& value = row[i];
-    text += (i > 0 ? ", " : "") + std::string(table.columns[i].name) + "=" +
+    text += (i > 0 ? ", " : "") + table.columns[i].name + "=" +
             (value.type == ColumnType::Integer ? std::to_string(value.integer) : value.bytes);
   }
   return text;
-}
-
-std::string bytesOf(const Matrix6d& matrix) {
-  const bool symmetric = matrix == matrix.transpose();
-  std::string bytes;
-  bytes.reserve(36 * sizeof(double));
-  for (int row = 0; row < 6; ++row)
-    for (int column = symmetric ? row : 0; column < 6; ++column) appendNumber(bytes, matrix(row, column));
-  return bytes;
-}
-
-bool matrixOf(std::string_view bytes, Matrix6d& matrix) {
-  const bool symmetric = bytes.size() == 21 * sizeof(double);
-  if (!symmetric && bytes.size() != 36 * sizeof(double)) return false;
-  ByteReader reader(bytes);
-  for (int row = 0; row < 6; ++row) {
-    for (int column = symmetric ? row : 0; column < 6; ++column) {
-      matrix(row, column) = reader.number();
-      if (symmetric) matrix(column, row) = matrix(row, column);
-    }
-  }
-  return matrix.allFinite();
 }
 
 }  // namespace urban_nav_store

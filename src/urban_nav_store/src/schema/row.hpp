@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "schema/schema.hpp"
-#include "urban_nav_core/geometry/se3.hpp"
 
 namespace urban_nav_store {
 
@@ -39,7 +38,6 @@ class RowWriter {
   RowWriter& integer(std::int64_t value);
   RowWriter& real(double value);  ///< -0 becomes 0, which is how SQLite keeps it
   RowWriter& blob(std::string_view value);
-  RowWriter& pose(const urban_nav_core::Pose& value);  ///< seven columns: x y z qx qy qz qw
   void write();
 
  private:
@@ -51,9 +49,10 @@ class RowWriter {
 /// Reads the rows of selectSql column by column, verifying the checksum of each.
 class RowReader {
  public:
-  RowReader(Connection& connection, const Table& table, const std::string& rest);
+  /// `condition`: empty or "WHERE ...". The table must outlive the reader.
+  RowReader(Connection& connection, const Table& table, const std::string& condition);
 
-  /// For the parameters of `rest`.
+  /// For the parameters of the condition.
   Statement& statement() { return statement_; }
   /// False at the end. Every column of the row before must have been read: its checksum is compared here.
   bool next();
@@ -63,9 +62,8 @@ class RowReader {
   std::int64_t integer();
   double real();
   std::string_view blob();
-  urban_nav_core::Pose pose();
 
-  /// DataError: what was read so far of this row is no such thing.
+  /// Throws DataError: the values read so far of this row are invalid.
   [[noreturn]] void damaged(const std::string& what) const;
 
   std::int64_t rows() const { return rows_; }
@@ -83,29 +81,23 @@ class RowReader {
   std::int64_t rows_ = 0, sum_ = 0;
 };
 
-/// DataError where `reader`, at its end, has not seen the rows that the tally counts for this session: some are missing.
+/// Throws DataError if `reader`, at its end, has not seen exactly the rows that the tally counts for this session.
 void verifyTally(const RowReader& reader, const std::string& session);
-/// The same for all rows of a session, by their stored checksums alone: for tables that are read row by row.
+/// Throws DataError if the rows of a session are not those that the tally counts, by their stored checksums alone: for tables that are read
+/// row by row.
 void verifyTally(Connection& connection, const Table& table, const std::string& session);
 
-/// A value of any column, for code that treats all tables alike.
-struct Value {
-  ColumnType type = ColumnType::Integer;
-  std::int64_t integer = 0;
-  double real = 0.0;
-  std::string bytes;  ///< text or blob
-};
-bool operator==(const Value& a, const Value& b);
+/// Throws DataError if the rows of any session are not those that the tally counts.
+void verifyTally(Connection& connection, const Table& table);
+
+/// A row of any table, for code that treats all tables alike.
 using Row = std::vector<Value>;
-/// The row that `reader` stands at.
+/// Reads the current row of `reader`.
 Row readRow(RowReader& reader);
 void writeRow(RowWriter& writer, const Row& row);
-/// "session=3f..., stamp_ns=12": the key of a row, for errors.
+/// Returns a row of a table as it was with fewer columns with the initial values of the others.
+Row completed(const Row& row, const Table& before, const Table& after);
+/// Returns the key of a row for errors: "session=3f..., stamp_ns=12".
 std::string printKey(const Table& table, const Row& row);
-
-/// A matrix as little-endian numbers, row by row: the 21 of the upper triangle where it is symmetric to the last bit, else 36. Back: false
-/// for any other number of bytes and for what is not finite.
-std::string bytesOf(const urban_nav_core::Matrix6d& matrix);
-bool matrixOf(std::string_view bytes, urban_nav_core::Matrix6d& matrix);
 
 }  // namespace urban_nav_store

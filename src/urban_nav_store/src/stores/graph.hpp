@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "sqlite/connection.hpp"
+#include "schema/table_access.hpp"
 #include "urban_nav_store/graph_store.hpp"
 
 namespace urban_nav_store {
 
-class Graph : public GraphStore {
+class SqliteGraphStore : public GraphStore {
  public:
-  explicit Graph(Connection& connection) : connection_(connection) {}
+  explicit SqliteGraphStore(TableAccess& tables) : tables_(tables) {}
 
   void put(const SessionId& session, const Node& node) override;
   std::optional<Node> node(const NodeRef& ref) const override;
@@ -25,7 +25,7 @@ class Graph : public GraphStore {
   std::optional<std::string> evidence(const Edge& edge) const override;
 
  private:
-  Connection& connection_;
+  TableAccess& tables_;
 };
 
 }  // namespace urban_nav_store

@@ -4,16 +4,16 @@
 #include <map>
 #include <vector>
 
-#include "sqlite/connection.hpp"
+#include "schema/table_access.hpp"
 #include "urban_nav_store/input_order.hpp"
 
 namespace urban_nav_store {
 
 /// Events in blocks of a fixed number; the last block of a session stays in memory and replaces the one in the file when a
 /// commit is near.
-class Inputs : public InputOrder {
+class SqliteInputOrder : public InputOrder {
  public:
-  explicit Inputs(Connection& connection) : connection_(connection) {}
+  explicit SqliteInputOrder(TableAccess& tables) : tables_(tables) {}
 
   void append(const SessionId& session, const InputEvent& event) override;
   void forEach(const SessionId& session, const std::function<void(const InputEvent&)>& take) const override;
@@ -30,7 +30,7 @@ class Inputs : public InputOrder {
   Block last(const SessionId& session) const;
   void save(const SessionId& session, Block& block) const;
 
-  Connection& connection_;
+  TableAccess& tables_;
   mutable std::map<SessionId, Block> open_;
 };
 

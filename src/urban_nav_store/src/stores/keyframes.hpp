@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <set>
-
-#include "sqlite/connection.hpp"
+#include "schema/table_access.hpp"
 #include "urban_nav_store/keyframe_store.hpp"
 
 namespace urban_nav_store {
 
-class Keyframes : public KeyframeStore {
+class SqliteKeyframeStore : public KeyframeStore {
  public:
-  explicit Keyframes(Connection& connection) : connection_(connection) {}
+  explicit SqliteKeyframeStore(TableAccess& tables) : tables_(tables) {}
 
   void put(const SessionId& session, const std::string& camera, const StoredKeyframe& keyframe) override;
   std::optional<StoredKeyframe> get(const SessionId& session, const std::string& camera,
@@ -19,10 +17,7 @@ class Keyframes : public KeyframeStore {
   std::vector<std::string> cameras(const SessionId& session) const override;
 
  private:
-  bool isThere() const;
-
-  Connection& connection_;
-  mutable std::set<SessionId> whole_;  // found so since the last one was written
+  TableAccess& tables_;
 };
 
 }  // namespace urban_nav_store

@@ -5,8 +5,7 @@
 #include <cmath>
 
 #include "blocks/scan_block.hpp"
-#include "schema/row.hpp"
-#include "stores/checks.hpp"
+#include "tables/measurement_tables.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav_store {
@@ -20,32 +19,28 @@ namespace {
 constexpr StampNs kSecond = 1'000'000'000;
 
 /// The second that a stamp is in, also before 1970.
-std::int64_t secondOf(StampNs stamp) { return stamp / kSecond - (stamp % kSecond < 0 ? 1 : 0); }
+std::int64_t wholeSecond(StampNs stamp) { return stamp / kSecond - (stamp % kSecond < 0 ? 1 : 0); }
 
-std::vector<Scan> readBlock(RowReader& reader, std::int64_t& second) {
-  reader.text();
-  reader.text();
-  second = reader.integer();
-  const std::int64_t count = reader.integer();
-  std::optional<std::vector<Scan>> scans = unpackScans(reader.blob());
-  if (!scans || static_cast<std::int64_t>(scans->size()) != count)
-    reader.damaged("a block of scans cannot be unpacked");
+std::vector<Scan> unpackScanBlock(const ScanBlockRow& row, const Connection& connection) {
+  std::optional<std::vector<Scan>> scans = unpackScans(row.data);
+  if (!scans || static_cast<std::int64_t>(scans->size()) != row.scans)
+    connection.damaged("in table scan, a block of scans cannot be unpacked");
   return std::move(*scans);
 }
 
 }  // namespace
 
-void Scans::put(const SessionId& session, const std::string& laser, const Scan& scan) {
+void SqliteScanStore::put(const SessionId& session, const std::string& laser, const Scan& scan) {
   for (const Beam& beam : scan.beams) {
     if (beam.direction.allFinite() && std::isfinite(beam.range) && std::isfinite(beam.intensity)) continue;
     throw urban_nav_core::UserError(
-        connection_.name(),
+        tables_.connection().name(),
         "scan " + urban_nav_core::printStamp(scan.stamp) + " of " + laser + " has a beam that is not finite",
         "finite numbers");
   }
-  connection_.beginWriting();
+  tables_.connection().beginWriting();
   const Key key(session, laser);
-  const std::int64_t second = secondOf(scan.stamp);
+  const std::int64_t second = wholeSecond(scan.stamp);
   const auto known = open_.find(key);
   if (known == open_.end() || known->second.second != second) {
     if (known != open_.end()) save(key, known->second);
@@ -62,68 +57,50 @@ void Scans::put(const SessionId& session, const std::string& laser, const Scan& 
   block.changed = true;
 }
 
-Scans::Block Scans::load(const Key& key, std::int64_t second) const {
+SqliteScanStore::Block SqliteScanStore::load(const Key& key, std::int64_t second) const {
   Block block;
   block.second = second;
-  RowReader reader(connection_, schema::scan(), "WHERE " + keySql(schema::scan()));
-  reader.statement().bind(0, key.first);
-  reader.statement().bind(1, key.second);
-  reader.statement().bind(2, second);
-  std::int64_t ignored = 0;
-  while (reader.next()) block.scans = readBlock(reader, ignored);
+  ScanBlockRow row{key.first, key.second, second, 0, ""};
+  if (tables_.find(declaredTable<ScanBlockRow>(), AnyRow(row)))
+    block.scans = unpackScanBlock(row, tables_.connection());
   return block;
 }
 
-void Scans::save(const Key& key, Block& block) const {
+void SqliteScanStore::save(const Key& key, Block& block) const {
   if (!block.changed) return;
-  const std::string bytes = packScans(block.scans);
-  RowWriter(connection_, putSql(schema::scan()))
-      .text(key.first)
-      .text(key.second)
-      .integer(block.second)
-      .integer(static_cast<std::int64_t>(block.scans.size()))
-      .blob(bytes)
-      .write();
+  tables_.put(declaredTable<ScanBlockRow>(),
+              unchanged(ScanBlockRow{key.first, key.second, block.second, static_cast<std::int64_t>(block.scans.size()),
+                                     packScans(block.scans)}));
   block.changed = false;
-  whole_.erase(key.first);
 }
 
-void Scans::flush() const {
+void SqliteScanStore::flush() const {
   for (auto& [key, block] : open_) save(key, block);
 }
 
-std::vector<std::string> Scans::lasers(const SessionId& session) const {
+std::vector<std::string> SqliteScanStore::lasers(const SessionId& session) const {
   flush();
-  std::vector<std::string> names;
-  Statement statement = connection_.prepare("SELECT DISTINCT laser FROM scan WHERE session=? ORDER BY laser");
-  statement.bind(0, session);
-  while (statement.step()) names.emplace_back(statement.text(0));
-  return names;
+  return tables_.secondKeys(declaredTable<ScanBlockRow>(), session);
 }
 
-std::int64_t Scans::count(const SessionId& session, const std::string& laser) const {
+std::int64_t SqliteScanStore::count(const SessionId& session, const std::string& laser) const {
   flush();
-  Statement statement = connection_.prepare("SELECT COALESCE(SUM(scans),0) FROM scan WHERE session=? AND laser=?");
+  Statement statement =
+      tables_.connection().prepare("SELECT COALESCE(SUM(scans),0) FROM scan WHERE session=? AND laser=?");
   statement.bind(0, session);
   statement.bind(1, laser);
   return statement.step() ? statement.integer(0) : 0;
 }
 
-void Scans::forEach(const SessionId& session, const std::string& laser, StampNs from, StampNs to,
-                    const std::function<void(const Scan&)>& take) const {
+void SqliteScanStore::forEach(const SessionId& session, const std::string& laser, StampNs from, StampNs to,
+                              const std::function<void(const Scan&)>& take) const {
   flush();
-  if (whole_.count(session) == 0) verifyTally(connection_, schema::scan(), session);
-  whole_.insert(session);
-  RowReader reader(connection_, schema::scan(), "WHERE session=? AND laser=? AND second>=? AND second<=?");
-  reader.statement().bind(0, session);
-  reader.statement().bind(1, laser);
-  reader.statement().bind(2, secondOf(from));
-  reader.statement().bind(3, secondOf(to));
-  while (reader.next()) {
-    std::int64_t second = 0;
-    for (const Scan& scan : readBlock(reader, second))
+  tables_.verifyOnce(declaredTable<ScanBlockRow>(), session);
+  ScanBlockRow row{session, laser, 0, 0, ""};
+  tables_.forEachBetween(declaredTable<ScanBlockRow>(), AnyRow(row), wholeSecond(from), wholeSecond(to), [&] {
+    for (const Scan& scan : unpackScanBlock(row, tables_.connection()))
       if (scan.stamp >= from && scan.stamp <= to) take(scan);
-  }
+  });
 }
 
 }  // namespace urban_nav_store

@@ -2,19 +2,18 @@
 #pragma once
 
 #include <map>
-#include <set>
 #include <utility>
 
-#include "sqlite/connection.hpp"
+#include "schema/table_access.hpp"
 #include "urban_nav_store/scan_store.hpp"
 
 namespace urban_nav_store {
 
 /// The block of each laser that is being filled stays in memory until another second begins or a commit is near, and
 /// replaces the one in the file then.
-class Scans : public ScanStore {
+class SqliteScanStore : public ScanStore {
  public:
-  explicit Scans(Connection& connection) : connection_(connection) {}
+  explicit SqliteScanStore(TableAccess& tables) : tables_(tables) {}
 
   void put(const SessionId& session, const std::string& laser, const urban_nav_core::Scan& scan) override;
   std::vector<std::string> lasers(const SessionId& session) const override;
@@ -38,10 +37,8 @@ class Scans : public ScanStore {
   Block load(const Key& key, std::int64_t second) const;
   void save(const Key& key, Block& block) const;
 
-  Connection& connection_;
+  TableAccess& tables_;
   mutable std::map<Key, Block> open_;
-  mutable std::set<SessionId>
-      whole_;  // found so since the last block was written: not looked at for each short stretch again
 };
 
 }  // namespace urban_nav_store

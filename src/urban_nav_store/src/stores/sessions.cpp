@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "schema/row.hpp"
-#include "stores/checks.hpp"
+#include "schema/schema.hpp"
+#include "tables/session_tables.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_store/bytes.hpp"
 #include "urban_nav_store/digest.hpp"
@@ -16,31 +16,14 @@ using urban_nav_core::UserError;
 namespace {
 
 constexpr std::size_t kIdDigits = 20;
-constexpr const char* kOfSession = "WHERE session=?";
 
-Session readSession(RowReader& reader) {
-  Session session;
-  session.id = reader.text();
-  session.name = reader.text();
-  session.robot = reader.text();
-  session.recording = reader.text();
-  session.start = reader.integer();
-  const std::int64_t complete = reader.integer();
-  if (complete != 0 && complete != 1) reader.damaged("a session is neither complete nor not");
-  session.complete = complete == 1;
-  return session;
-}
-
-/// All rows of a session in a table, verified as a whole.
-template <typename Read>
-void readAll(Connection& connection, const Table& table, const SessionId& id, const Read& read) {
-  RowReader reader(connection, table, kOfSession);
-  reader.statement().bind(0, id);
-  while (reader.next()) {
-    reader.text();  // the session
-    read(reader);
-  }
-  verifyTally(reader, id);
+/// Returns the member `part` of all rows of a session.
+template <typename Row, typename Part>
+std::vector<Part> sessionRows(TableAccess& tables, const SessionId& id, Part Row::*part) {
+  std::vector<Part> all;
+  Row row;
+  tables.forEach(declaredTable<Row>(), id, AnyRow(row), [&] { all.push_back(row.*part); });
+  return all;
 }
 
 }  // namespace
@@ -59,137 +42,80 @@ bool operator==(const Session& a, const Session& b) {
          a.complete == b.complete;
 }
 
-void Sessions::put(const Session& session) {
+void SqliteSessionStore::put(const Session& session) {
   if (const std::optional<Session> there = find(session.id)) {
     if (there->robot != session.robot || there->recording != session.recording || there->start != session.start)
-      throw UserError(connection_.name(), "session " + session.id + " is another one already (" + there->name + ")",
-                      "");
+      throw UserError(tables_.connection().name(),
+                      "session " + session.id + " is another one already (" + there->name + ")", "");
   }
-  RowWriter(connection_, putSql(schema::session()))
-      .text(session.id)
-      .text(session.name)
-      .text(session.robot)
-      .text(session.recording)
-      .integer(session.start)
-      .integer(session.complete ? 1 : 0)
-      .write();
+  tables_.put(declaredTable<SessionRow>(), unchanged(SessionRow{session}));
 }
 
-std::optional<Session> Sessions::find(const SessionId& id) const {
-  RowReader reader(connection_, schema::session(), "WHERE id=?");
-  reader.statement().bind(0, id);
-  std::optional<Session> session;
-  while (reader.next()) session = readSession(reader);
-  verifyTally(reader, id);
-  return session;
+std::optional<Session> SqliteSessionStore::find(const SessionId& id) const {
+  const std::vector<Session> found = sessionRows(tables_, id, &SessionRow::session);
+  return found.empty() ? std::nullopt : std::optional<Session>(found.front());
 }
 
-std::vector<Session> Sessions::all() const {
+std::vector<Session> SqliteSessionStore::all() const {
   std::vector<Session> sessions;
-  RowReader reader(connection_, schema::session(), "");
-  while (reader.next()) sessions.push_back(readSession(reader));
-  Statement count = connection_.prepare("SELECT count(*) FROM tally WHERE name='session' AND count>0");
-  if (!count.step() || count.integer(0) != reader.rows()) reader.damaged("there are fewer sessions than were written");
+  SessionRow row;
+  tables_.forEachRow(declaredTable<SessionRow>(), AnyRow(row), [&] { sessions.push_back(row.session); });
+  if (tables_.sessions(declaredTable<SessionRow>()) != sessions.size())
+    tables_.connection().damaged("in table session, there are fewer sessions than were written");
   std::sort(sessions.begin(), sessions.end(),
             [](const Session& a, const Session& b) { return a.start != b.start ? a.start < b.start : a.id < b.id; });
   return sessions;
 }
 
-void Sessions::clear(const SessionId& id) { remove(id, {&schema::scan(), &schema::keyframe()}); }
+void SqliteSessionStore::remove(const SessionId& id) {
+  removeRows(id, [](const Table&) { return true; });
+}
 
-void Sessions::remove(const SessionId& id, const std::vector<const Table*>& but) {
-  connection_.beginWriting();
+void SqliteSessionStore::clear(const SessionId& id) {
+  removeRows(id, [](const Table& table) { return !table.kept_by_clear; });
+}
+
+void SqliteSessionStore::removeRows(const SessionId& id, const std::function<bool(const Table&)>& goes) {
+  tables_.connection().beginWriting();
   settle_();
-  const auto clear = [&](const std::string& sql) {
-    Statement statement = connection_.prepare(sql);
-    statement.bind(0, id);
-    statement.step();
-  };
-  for (const Table* table : schema::tables())
-    if (std::find(but.begin(), but.end(), table) == but.end())
-      clear("DELETE FROM " + std::string(table->name) + " WHERE " + table->columns.front().name + "=?");
-  clear("DELETE FROM edge WHERE session_b=?");
-  clear("DELETE FROM evidence WHERE session_b=?");
-  clear("DELETE FROM anchor WHERE map=?");
-  clear("DELETE FROM tally WHERE session=? AND count=0");
+  for (const Table* table : schema::tables()) {
+    if (goes(*table)) tables_.removeSession(*table, table->columns.front().name, id);
+    if (!table->other_session.empty()) tables_.removeSession(*table, table->other_session, id);
+  }
+  tables_.forgetEmpty(id);
 }
 
-void Sessions::put(const Anchor& anchor) {
-  refuseNotFinite(connection_, "the anchor of session " + anchor.session, anchor.T_map_odom);
-  RowWriter(connection_, putSql(schema::anchor()))
-      .text(anchor.session)
-      .text(anchor.map)
-      .integer(anchor.revision)
-      .pose(anchor.T_map_odom)
-      .write();
+void SqliteSessionStore::put(const Anchor& anchor) {
+  tables_.put(declaredTable<AnchorRow>(), unchanged(AnchorRow{anchor}));
 }
 
-std::optional<Anchor> Sessions::anchor(const SessionId& id) const {
-  std::optional<Anchor> anchor;
-  readAll(connection_, schema::anchor(), id, [&](RowReader& reader) {
-    anchor.emplace();
-    anchor->session = id;
-    anchor->map = reader.text();
-    anchor->revision = reader.integer();
-    anchor->T_map_odom = reader.pose();
-  });
-  return anchor;
+std::optional<Anchor> SqliteSessionStore::anchor(const SessionId& id) const {
+  const std::vector<Anchor> found = sessionRows(tables_, id, &AnchorRow::anchor);
+  return found.empty() ? std::nullopt : std::optional<Anchor>(found.front());
 }
 
-void Sessions::put(const SessionId& id, const StoredParameter& parameter) {
-  RowWriter(connection_, putSql(schema::parameter()))
-      .text(id)
-      .text(parameter.name)
-      .text(parameter.value)
-      .text(parameter.origin)
-      .write();
+void SqliteSessionStore::put(const SessionId& id, const StoredParameter& parameter) {
+  tables_.put(declaredTable<ParameterRow>(), unchanged(ParameterRow{id, parameter}));
 }
 
-std::vector<StoredParameter> Sessions::parameters(const SessionId& id) const {
-  std::vector<StoredParameter> all;
-  readAll(connection_, schema::parameter(), id, [&](RowReader& reader) {
-    StoredParameter parameter;
-    parameter.name = reader.text();
-    parameter.value = reader.text();
-    parameter.origin = reader.text();
-    all.push_back(std::move(parameter));
-  });
-  return all;
+std::vector<StoredParameter> SqliteSessionStore::parameters(const SessionId& id) const {
+  return sessionRows(tables_, id, &ParameterRow::parameter);
 }
 
-void Sessions::put(const SessionId& id, const Property& property) {
-  RowWriter(connection_, putSql(schema::property())).text(id).text(property.name).text(property.value).write();
+void SqliteSessionStore::put(const SessionId& id, const Property& property) {
+  tables_.put(declaredTable<PropertyRow>(), unchanged(PropertyRow{id, property}));
 }
 
-std::vector<Property> Sessions::properties(const SessionId& id) const {
-  std::vector<Property> all;
-  readAll(connection_, schema::property(), id, [&](RowReader& reader) {
-    Property property;
-    property.name = reader.text();
-    property.value = reader.text();
-    all.push_back(std::move(property));
-  });
-  return all;
+std::vector<Property> SqliteSessionStore::properties(const SessionId& id) const {
+  return sessionRows(tables_, id, &PropertyRow::property);
 }
 
-void Sessions::put(const SessionId& id, const Extrinsic& extrinsic) {
-  refuseNotFinite(connection_, "the frame " + extrinsic.frame + " of session " + id, extrinsic.T_base_frame);
-  RowWriter(connection_, putSql(schema::extrinsic()))
-      .text(id)
-      .text(extrinsic.frame)
-      .pose(extrinsic.T_base_frame)
-      .write();
+void SqliteSessionStore::put(const SessionId& id, const Extrinsic& extrinsic) {
+  tables_.put(declaredTable<ExtrinsicRow>(), unchanged(ExtrinsicRow{id, extrinsic}));
 }
 
-std::vector<Extrinsic> Sessions::extrinsics(const SessionId& id) const {
-  std::vector<Extrinsic> all;
-  readAll(connection_, schema::extrinsic(), id, [&](RowReader& reader) {
-    Extrinsic extrinsic;
-    extrinsic.frame = reader.text();
-    extrinsic.T_base_frame = reader.pose();
-    all.push_back(std::move(extrinsic));
-  });
-  return all;
+std::vector<Extrinsic> SqliteSessionStore::extrinsics(const SessionId& id) const {
+  return sessionRows(tables_, id, &ExtrinsicRow::extrinsic);
 }
 
 }  // namespace urban_nav_store

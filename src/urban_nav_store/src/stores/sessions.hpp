@@ -3,22 +3,20 @@
 
 #include <functional>
 
-#include "schema/schema.hpp"
-#include "sqlite/connection.hpp"
+#include "schema/table_access.hpp"
 #include "urban_nav_store/session_store.hpp"
 
 namespace urban_nav_store {
 
-class Sessions : public SessionStore {
+class SqliteSessionStore : public SessionStore {
  public:
-  /// `settle` writes what other tables still have in memory, and makes them forget it: called before rows of theirs are removed.
-  Sessions(Connection& connection, std::function<void()> settle)
-      : connection_(connection), settle_(std::move(settle)) {}
+  /// `settle` writes and releases the rows that other stores hold in memory; called before rows are removed.
+  SqliteSessionStore(TableAccess& tables, std::function<void()> settle) : tables_(tables), settle_(std::move(settle)) {}
 
   void put(const Session& session) override;
   std::optional<Session> find(const SessionId& id) const override;
   std::vector<Session> all() const override;
-  void remove(const SessionId& id) override { remove(id, {}); }
+  void remove(const SessionId& id) override;
   void clear(const SessionId& id) override;
   void put(const Anchor& anchor) override;
   std::optional<Anchor> anchor(const SessionId& id) const override;
@@ -30,9 +28,10 @@ class Sessions : public SessionStore {
   std::vector<Extrinsic> extrinsics(const SessionId& id) const override;
 
  private:
-  void remove(const SessionId& id, const std::vector<const Table*>& but);
+  /// Removes the rows of a session from the tables that `goes` selects, and the rows of other sessions that refer to it.
+  void removeRows(const SessionId& id, const std::function<bool(const Table&)>& goes);
 
-  Connection& connection_;
+  TableAccess& tables_;
   std::function<void()> settle_;
 };
 

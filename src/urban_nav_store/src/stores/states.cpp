@@ -2,9 +2,11 @@
 #include "stores/states.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "blocks/deflate.hpp"
 #include "schema/row.hpp"
+#include "tables/measurement_tables.hpp"
 
 namespace urban_nav_store {
 
@@ -12,63 +14,49 @@ namespace {
 constexpr std::size_t kPart = std::size_t{1} << 20;
 }
 
-void States::put(const SessionId& session, const std::string& stage, std::string_view bytes) {
+void SqliteStageStates::put(const SessionId& session, const std::string& stage, std::string_view bytes) {
   remove(session, stage);
   const std::size_t parts = std::max<std::size_t>(1, (bytes.size() + kPart - 1) / kPart);
-  for (std::size_t part = 0; part < parts; ++part) {
-    const std::string packed = deflated(bytes.substr(part * kPart, kPart));
-    RowWriter(connection_, insertSql(schema::state()))
-        .text(session)
-        .text(stage)
-        .integer(static_cast<std::int64_t>(part))
-        .integer(static_cast<std::int64_t>(parts))
-        .blob(packed)
-        .write();
+  StatePartRow row{session, stage, 0, static_cast<std::int64_t>(parts), ""};
+  for (; row.part < row.parts; ++row.part) {
+    row.data = deflated(bytes.substr(static_cast<std::size_t>(row.part) * kPart, kPart));
+    tables_.put(declaredTable<StatePartRow>(), AnyRow(row));
   }
 }
 
-std::optional<std::string> States::get(const SessionId& session, const std::string& stage) const {
-  verifyTally(connection_, schema::state(), session);
-  RowReader reader(connection_, schema::state(), "WHERE session=? AND stage=?");
-  reader.statement().bind(0, session);
-  reader.statement().bind(1, stage);
+std::optional<std::string> SqliteStageStates::get(const SessionId& session, const std::string& stage) const {
+  verifyTally(tables_.connection(), declaredTable<StatePartRow>(), session);
+  StatePartRow row{session, stage, 0, 0, ""};
   std::string bytes;
-  std::int64_t next = 0, parts = 0;
-  while (reader.next()) {
-    reader.text();
-    reader.text();
-    const std::int64_t part = reader.integer();
-    parts = reader.integer();
-    const std::optional<std::string> unpacked = inflated(reader.blob(), kPart);
-    if (part != next++ || !unpacked) reader.damaged("the state of stage " + stage + " cannot be unpacked");
-    bytes += *unpacked;
-  }
-  if (next != parts) reader.damaged("the state of stage " + stage + " has lost a part");
+  std::int64_t next = 0;
+  const auto damaged = [&](const std::string& what) {
+    tables_.connection().damaged("in table state, the state of stage " + stage + " " + what);
+  };
+  tables_.forEachBetween(declaredTable<StatePartRow>(), AnyRow(row), std::numeric_limits<std::int64_t>::min(),
+                         std::numeric_limits<std::int64_t>::max(), [&] {
+                           const std::optional<std::string> unpacked = inflated(row.data, kPart);
+                           if (row.part != next++ || !unpacked) damaged("cannot be unpacked");
+                           bytes += *unpacked;
+                         });
+  if (next != row.parts) damaged("has lost a part");
   if (next == 0) return std::nullopt;
   return bytes;
 }
 
-void States::remove(const SessionId& session, const std::string& stage) {
-  connection_.beginWriting();
-  Statement statement = connection_.prepare("DELETE FROM state WHERE session=? AND stage=?");
-  statement.bind(0, session);
-  statement.bind(1, stage);
-  statement.step();
+void SqliteStageStates::remove(const SessionId& session, const std::string& stage) {
+  tables_.remove(declaredTable<StatePartRow>(), unchanged(StatePartRow{session, stage, 0, 0, ""}), 2);
 }
 
-std::int64_t States::bytes(const SessionId& session) const {
-  Statement statement = connection_.prepare("SELECT COALESCE(SUM(LENGTH(data)), 0) FROM state WHERE session=?");
+std::int64_t SqliteStageStates::bytes(const SessionId& session) const {
+  Statement statement =
+      tables_.connection().prepare("SELECT COALESCE(SUM(LENGTH(data)), 0) FROM state WHERE session=?");
   statement.bind(0, session);
   statement.step();
   return statement.integer(0);
 }
 
-std::vector<std::string> States::stages(const SessionId& session) const {
-  std::vector<std::string> names;
-  Statement statement = connection_.prepare("SELECT DISTINCT stage FROM state WHERE session=? ORDER BY stage");
-  statement.bind(0, session);
-  while (statement.step()) names.emplace_back(statement.text(0));
-  return names;
+std::vector<std::string> SqliteStageStates::stages(const SessionId& session) const {
+  return tables_.secondKeys(declaredTable<StatePartRow>(), session);
 }
 
 }  // namespace urban_nav_store

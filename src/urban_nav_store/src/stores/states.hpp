@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "sqlite/connection.hpp"
+#include "schema/table_access.hpp"
 #include "urban_nav_store/stage_states.hpp"
 
 namespace urban_nav_store {
 
-class States : public StageStates {
+class SqliteStageStates : public StageStates {
  public:
-  explicit States(Connection& connection) : connection_(connection) {}
+  explicit SqliteStageStates(TableAccess& tables) : tables_(tables) {}
 
   void put(const SessionId& session, const std::string& stage, std::string_view bytes) override;
   std::optional<std::string> get(const SessionId& session, const std::string& stage) const override;
@@ -17,7 +17,7 @@ class States : public StageStates {
   std::vector<std::string> stages(const SessionId& session) const override;
 
  private:
-  Connection& connection_;
+  TableAccess& tables_;
 };
 
 }  // namespace urban_nav_store

@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
+#include "schema/table_access.hpp"
 #include "support/contents.hpp"
 #include "support/folder.hpp"
+#include "tables/graph_tables.hpp"
 
 namespace urban_nav_store {
 namespace {
@@ -25,26 +25,19 @@ class Rows : public ::testing::Test {
     connection.commit();
   }
   void put(const std::string& session, int stamp, Drawn& drawn) {
-    const std::string covariance = bytesOf(drawn.matrix()), drift = bytesOf(drawn.matrix());
-    RowWriter(connection, putSql(schema::node()))
-        .text(session)
-        .integer(stamp)
-        .pose(drawn.pose())
-        .text("OK")
-        .blob(covariance)
-        .blob(drift)
-        .write();
+    TableAccess(connection).put(table, unchanged(NodeRow{session, drawn.node(stamp)}));
   }
   void readAll(const std::string& session) {
-    RowReader reader(connection, schema::node(), "WHERE session=?");
+    RowReader reader(connection, table, "WHERE session=?");
     reader.statement().bind(0, session);
     while (reader.next()) readRow(reader);
     verifyTally(reader, session);
-    verifyTally(connection, schema::node(), session);
+    verifyTally(connection, table, session);
   }
 
   const Folder folder;
   Connection connection;
+  const Table& table = declaredTable<NodeRow>();
 };
 
 TEST_F(Rows, addUp) {
@@ -60,15 +53,14 @@ TEST_F(Rows, addUp) {
 }
 
 TEST_F(Rows, aChangeOfAnyColumnIsSeen) {
-  for (const Column& column : schema::node().columns) {
+  for (const Column& column : table.columns) {
     connection.beginWriting();
     const std::string other = column.type == ColumnType::Text      ? "'one ' || stamp_ns"
                               : column.type == ColumnType::Integer ? "stamp_ns+100"
-                              : column.type == ColumnType::Real    ? std::string(column.name) + "+1e-9"
+                              : column.type == ColumnType::Real    ? column.name + "+1e-9"
                                                                    : "zeroblob(288)";
-    connection.execute("UPDATE node SET " + std::string(column.name) + "=" + other +
-                       " WHERE session='one' AND stamp_ns=3");
-    RowReader reader(connection, schema::node(), "");
+    connection.execute("UPDATE node SET " + column.name + "=" + other + " WHERE session='one' AND stamp_ns=3");
+    RowReader reader(connection, table, "");
     expectError(
         [&] {
           while (reader.next()) readRow(reader);
@@ -99,27 +91,6 @@ TEST(RowChecksum, bytesDoNotMoveBetweenColumns) {
   blob.blob("ab"), blob.text("c");
   EXPECT_NE(one.value(), two.value());
   EXPECT_NE(one.value(), blob.value());
-}
-
-TEST(MatrixBytes, roundTripAndRefusal) {
-  Drawn drawn(1);
-  const urban_nav_core::Matrix6d matrix = drawn.matrix();
-  urban_nav_core::Matrix6d back;
-  ASSERT_TRUE(matrixOf(bytesOf(matrix), back));
-  EXPECT_EQ(back, matrix);
-  urban_nav_core::Matrix6d symmetric = matrix;  // not, as yet
-  symmetric(4, 1) = symmetric(1, 4) + 1.0;
-  ASSERT_TRUE(matrixOf(bytesOf(symmetric), back));
-  EXPECT_EQ(back, symmetric);
-  EXPECT_EQ(bytesOf(symmetric).size(), 288U);
-  symmetric = (matrix + matrix.transpose()).eval();
-  ASSERT_TRUE(matrixOf(bytesOf(symmetric), back));
-  EXPECT_EQ(back, symmetric);
-  EXPECT_EQ(bytesOf(symmetric).size(), 168U);
-  EXPECT_FALSE(matrixOf(bytesOf(matrix).substr(1), back));
-  urban_nav_core::Matrix6d bad = matrix;
-  bad(2, 3) = std::numeric_limits<double>::infinity();
-  EXPECT_FALSE(matrixOf(bytesOf(bad), back));
 }
 
 }  // namespace

@@ -17,26 +17,7 @@ TEST(Schema, isThatOfItsVersion) {
   Connection connection(folder.file("s.db"), Connection::Mode::Create);
   schema::create(connection);
   EXPECT_NO_THROW(schema::check(connection));
-  EXPECT_EQ(schema::migrationSteps().size(), static_cast<std::size_t>(kSchemaVersion));
-}
-
-TEST(Schema, migratesStepByStepOrNotAtAll) {
-  const Folder folder;
-  Connection connection(folder.file("s.db"), Connection::Mode::Create);
-  connection.execute("CREATE TABLE t(a); PRAGMA user_version=1");
-  const std::vector<std::string> steps = {"this is never run", "ALTER TABLE t ADD COLUMN b",
-                                          "ALTER TABLE t ADD COLUMN c"};
-  expectError(
-      [&] {
-        schema::migrate(connection, {steps[0], steps[1], "ALTER TABLE nothing ADD COLUMN c"});
-      },
-      connection.name(), "SQLite says");
-  EXPECT_EQ(connection.integer("PRAGMA user_version"), 1);
-  schema::migrate(connection, steps);
-  EXPECT_EQ(connection.integer("PRAGMA user_version"), 3);
-  EXPECT_NO_THROW(connection.execute("SELECT a, b, c FROM t"));
-  schema::migrate(connection, steps);
-  EXPECT_EQ(connection.integer("PRAGMA user_version"), 3) << "nothing is left to do";
+  EXPECT_EQ(schema::version(connection), schemaVersion());
 }
 
 TEST(Schema, aTableThatWasChangedByHandIsNamed) {

@@ -112,16 +112,17 @@ TEST_F(GraphRows, noNumberThatIsNoneGetsIn) {
   for (const double bad : {nan, inf, -inf}) {
     Node node = drawn.node(1'500'000'000);
     node.T_odom_base = urban_nav_core::Pose(node.T_odom_base.q(), {1.0, bad, 2.0});
-    expectError([&] { graph.put("a", node); }, path, "node 1.500000000 of session a has a pose that is none");
+    expectError([&] { graph.put("a", node); }, path,
+                "the row of node with session=a, stamp_ns=1500000000 is invalid: y is not finite");
     node = drawn.node(1);
     node.covariance(3, 4) = bad;
     expectError([&] { graph.put("a", node); }, path, "not finite");
     RelaxedPose relaxed = drawn.relaxed(1);
     relaxed.T_map_base = urban_nav_core::Pose(relaxed.T_map_base.q(), {bad, 0, 0});
-    expectError([&] { graph.put("a", relaxed); }, path, "relaxed node");
+    expectError([&] { graph.put("a", relaxed); }, path, "the row of relaxed with session=a");
     Edge edge = drawn.edge({"a", 1}, {"a", 2}, EdgeKind::Icp);
     edge.weight = bad;
-    expectError([&] { graph.put(edge); }, path, "icp edge from node");
+    expectError([&] { graph.put(edge); }, path, "the row of edge with session_a=");
     edge = drawn.edge({"a", 1}, {"a", 2}, EdgeKind::Icp);
     edge.measured.information(0, 0) = bad;
     expectError([&] { graph.put(edge); }, path, "not finite");

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "urban_nav_core/geometry/se3.hpp"
+
+namespace urban_nav_store {
+
+/// Visitor of the columns of a row. A row names its columns once, in the order of the table, in one function that declares, writes and reads:
+///
+///   void Panorama::columns(Columns& columns) {
+///     columns.text("session", session);
+///     columns.integer("stamp_ns", stamp);
+///     columns.blob("image", image);
+///   }
+///
+/// Reading sets the values, writing and declaring leave them as they are. Values passed by reference must live until the visit of the whole row
+/// has been used; scratch() holds converted ones.
+class Columns {
+ public:
+  virtual ~Columns() = default;
+
+  virtual bool isReading() const { return false; }
+  /// Returns whether invalid values are to be refused: while reading, and before writing.
+  virtual bool isValidating() const { return false; }
+  /// The columns named after this call were added to their table with this version of the schema. Older files have their default values.
+  virtual void since(int /*version*/) {}
+
+  virtual void text(const char* name, std::string& value) = 0;
+  virtual void integer(const char* name, std::int64_t& value) = 0;
+  /// Finite. -0 is stored as 0.
+  virtual void real(const char* name, double& value) = 0;
+  virtual void blob(const char* name, std::string& value) = 0;
+
+  /// Whole numbers 0 and 1.
+  void flag(const char* name, bool& value);
+  /// Seven columns: x y z (m) qx qy qz qw.
+  void pose(urban_nav_core::Pose& value);
+  /// A blob of little-endian numbers, row by row: 36, or the 21 of the upper triangle if the matrix is symmetric to the last bit.
+  void matrix6(const char* name, urban_nav_core::Matrix6d& value);
+  /// An enumerator as the word of its toString().
+  template <typename Word>
+  void word(const char* name, Word& value, std::optional<Word> (*parse)(std::string_view)) {
+    std::string& spelt = scratch();
+    spelt = toString(value);
+    text(name, spelt);
+    if (!isReading()) return;
+    const std::optional<Word> parsed = parse(spelt);
+    if (!parsed) refuse(std::string(name) + " is an unknown word");
+    value = *parsed;
+  }
+
+  /// Reports an invalid row. Throws UserError if it was to be written, DataError if it was read. Requires isValidating().
+  [[noreturn]] virtual void refuse(const std::string& what) const;
+
+ protected:
+  /// An empty string that lives as long as the visitor.
+  std::string& scratch() { return scratch_.emplace_back(); }
+
+ private:
+  std::deque<std::string> scratch_;
+};
+
+}  // namespace urban_nav_store

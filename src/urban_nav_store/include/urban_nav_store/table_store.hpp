@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "urban_nav_store/session.hpp"
+#include "urban_nav_store/table.hpp"
+
+namespace urban_nav_store {
+
+class Store;
+class TableAccess;
+
+/// Reads and writes the rows of one table, whatever their type: what TableStore is made of.
+class AnyTableStore {
+ public:
+  AnyTableStore(Store& store, const Table& table);
+
+ protected:
+  void putRow(const AnyRow& row);
+  bool getRow(const AnyRow& row) const;
+  void removeRow(const AnyRow& key);
+  void forEachRow(const SessionId& session, const AnyRow& row, const std::function<void()>& visit) const;
+  void forEachRowBetween(const AnyRow& row, std::int64_t from, std::int64_t to,
+                         const std::function<void()>& visit) const;
+
+ private:
+  TableAccess* access_;
+  const Table* table_;
+};
+
+/// The rows of one table of a store. A file that is older than the table has no rows; opening it for writing adds the table. The store must
+/// outlive this object. Throws UserError for values that are not finite, DataError for damaged files.
+template <typename Row>
+class TableStore : private AnyTableStore {
+ public:
+  explicit TableStore(Store& store) : AnyTableStore(store, declaredTable<Row>()) {}
+
+  /// Writes a row; one with the same key is replaced.
+  void put(const Row& row) { putRow(unchanged(row)); }
+
+  /// Returns the row with the key columns of `key`.
+  std::optional<Row> get(Row key) const {
+    if (!getRow(AnyRow(key))) return std::nullopt;
+    return key;
+  }
+
+  /// Removes the row with the key columns of `key`, if there is one.
+  void remove(const Row& key) { removeRow(unchanged(key)); }
+
+  /// Calls `visit` for all rows of a session in the order of their keys. Throws DataError at the end if a row is missing.
+  void forEach(const SessionId& session, const std::function<void(const Row&)>& visit) const {
+    Row row;
+    forEachRow(session, AnyRow(row), [&] { visit(row); });
+  }
+
+  /// Calls `visit` for the rows whose last key, a whole number, is in from...to, and whose other keys are those of `key`, in ascending order.
+  void forEachBetween(Row key, std::int64_t from, std::int64_t to, const std::function<void(const Row&)>& visit) const {
+    forEachRowBetween(AnyRow(key), from, to, [&] { visit(key); });
+  }
+};
+
+}  // namespace urban_nav_store

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Files of schema 2, made by the SQL of the programs that wrote them, and later schemas derived from declarations.
+#include <gtest/gtest.h>
+
+#include "schema/schema.hpp"
+#include "schema/table_access.hpp"
+#include "support/contents.hpp"
+#include "support/folder.hpp"
+#include "tables/session_tables.hpp"
+#include "urban_nav_store/dump.hpp"
+#include "urban_nav_store/store.hpp"
+
+namespace urban_nav_store {
+namespace {
+
+using testing::expectError;
+using testing::Folder;
+
+struct TableOfVersion2 {
+  std::string name;
+  bool is_narrow;
+  std::string keys, columns;
+};
+
+const std::vector<TableOfVersion2> kVersion2 = {
+    {"session", true, "id", "id TEXT,name TEXT,robot TEXT,recording TEXT,start_ns INTEGER,complete INTEGER"},
+    {"anchor", true, "session",
+     "session TEXT,map TEXT,revision INTEGER,x REAL,y REAL,z REAL,qx REAL,qy REAL,qz REAL,qw REAL"},
+    {"parameter", true, "session,name", "session TEXT,name TEXT,value TEXT,origin TEXT"},
+    {"property", true, "session,name", "session TEXT,name TEXT,value TEXT"},
+    {"extrinsic", true, "session,frame",
+     "session TEXT,frame TEXT,x REAL,y REAL,z REAL,qx REAL,qy REAL,qz REAL,qw REAL"},
+    {"node", true, "session,stamp_ns",
+     "session TEXT,stamp_ns INTEGER,x REAL,y REAL,z REAL,qx REAL,qy REAL,qz REAL,qw REAL,status TEXT,"
+     "covariance BLOB,drift BLOB"},
+    {"relaxed", true, "session,stamp_ns",
+     "session TEXT,stamp_ns INTEGER,x REAL,y REAL,z REAL,qx REAL,qy REAL,qz REAL,qw REAL,"
+     "revision INTEGER"},
+    {"edge", true, "session_a,stamp_a_ns,session_b,stamp_b_ns,kind,source",
+     "session_a TEXT,stamp_a_ns INTEGER,session_b TEXT,stamp_b_ns INTEGER,kind TEXT,source TEXT,"
+     "x REAL,y REAL,z REAL,qx REAL,qy REAL,qz REAL,qw REAL,information BLOB,weight REAL,verdict TEXT,"
+     "reason TEXT"},
+    {"evidence", false, "session_a,stamp_a_ns,session_b,stamp_b_ns,kind,source",
+     "session_a TEXT,stamp_a_ns INTEGER,session_b TEXT,stamp_b_ns INTEGER,kind TEXT,source TEXT,"
+     "data BLOB"},
+    {"scan", false, "session,laser,second", "session TEXT,laser TEXT,second INTEGER,scans INTEGER,data BLOB"},
+    {"keyframe", false, "session,camera,stamp_ns",
+     "session TEXT,camera TEXT,stamp_ns INTEGER,image BLOB,features BLOB"},
+    {"input", false, "session,block", "session TEXT,block INTEGER,events INTEGER,data BLOB"},
+    {"state", false, "session,stage,part", "session TEXT,stage TEXT,part INTEGER,parts INTEGER,data BLOB"},
+};
+
+/// Creates an empty store as programs of schema 2 did.
+void createVersion2(const std::string& path) {
+  Connection connection(path, Connection::Mode::Create);
+  connection.execute("PRAGMA auto_vacuum=INCREMENTAL");
+  connection.execute(
+      "CREATE TABLE tally(name TEXT NOT NULL,session TEXT NOT NULL,count INTEGER NOT NULL,sum INTEGER NOT NULL,"
+      "PRIMARY KEY(name,session)) WITHOUT ROWID");
+  for (const TableOfVersion2& table : kVersion2) {
+    std::string columns = table.columns + ",";
+    for (std::size_t at = 0; (at = columns.find(',', at)) != std::string::npos; at += 10)
+      columns.insert(at, " NOT NULL");
+    const std::string session = table.columns.substr(0, table.columns.find(' '));
+    const std::string& name = table.name;
+    const std::string of_session = " WHERE name='" + name + "' AND session=";
+    connection.execute("CREATE TABLE " + name + "(crc INTEGER NOT NULL," + columns + "PRIMARY KEY(" + table.keys +
+                       "))" + (table.is_narrow ? " WITHOUT ROWID" : ""));
+    connection.execute("CREATE TRIGGER " + name + "_in AFTER INSERT ON " + name + " BEGIN INSERT INTO tally VALUES('" +
+                       name + "',new." + session +
+                       ",1,new.crc) ON CONFLICT(name,session) DO UPDATE SET count=count+1,sum=sum+excluded.sum; END");
+    connection.execute("CREATE TRIGGER " + name + "_out AFTER DELETE ON " + name +
+                       " BEGIN UPDATE tally SET count=count-1,sum=sum-old.crc" + of_session + "old." + session +
+                       "; END");
+    connection.execute("CREATE TRIGGER " + name + "_new AFTER UPDATE ON " + name +
+                       " BEGIN UPDATE tally SET sum=sum-old.crc+new.crc" + of_session + "new." + session + "; END");
+  }
+  connection.execute("PRAGMA application_id=1431200118; PRAGMA user_version=2");
+}
+
+constexpr int kLater = 1000;  // a version that no release has
+
+struct Place {
+  SessionId session;
+  std::int64_t number = 0;
+  urban_nav_core::Pose T_map_place;
+  static Table table() {
+    Table table{"place", 2};
+    table.since = kLater;
+    return table;
+  }
+  void columns(Columns& columns) {
+    columns.text("session", session);
+    columns.integer("number", number);
+    columns.pose(T_map_place);
+  }
+};
+
+/// The table `property` with two columns more.
+struct PropertyWithUnit {
+  SessionId session;
+  Property property;
+  std::string unit = "m";
+  double sigma = 0.5;
+  static Table table() { return PropertyRow::table(); }
+  void columns(Columns& columns) {
+    columns.text("session", session);
+    columns.text("name", property.name);
+    columns.since(kLater);
+    columns.text("unit", unit);
+    columns.real("sigma", sigma);
+    columns.since(1);
+    columns.text("value", property.value);
+  }
+};
+
+/// All tables as a later version could have them.
+Tables laterTables() {
+  Tables tables = schema::tables();
+  for (const Table*& table : tables)
+    if (table->name == "property") table = &declaredTable<PropertyWithUnit>();
+  tables.push_back(&declaredTable<Place>());
+  return tables;
+}
+
+class Migration : public ::testing::Test {
+ protected:
+  Migration() {
+    createVersion2(path);
+    Store store(path, Access::Write);
+    id = testing::fill(store, 1, 12);
+    store.sessions().put(id, Property{"length", "7"});
+    store.commit();
+    before = dump(store);
+  }
+  std::vector<PropertyWithUnit> properties(Connection& connection) {
+    std::vector<PropertyWithUnit> all;
+    PropertyWithUnit row;
+    TableAccess(connection).forEach(declaredTable<PropertyWithUnit>(), id, AnyRow(row), [&] { all.push_back(row); });
+    return all;
+  }
+
+  const Folder folder;
+  const std::string path = folder.file("s.db");
+  SessionId id;
+  std::string before;
+};
+
+TEST_F(Migration, aFileOfSchema2IsAsThisProgramWouldMakeIt) {
+  createVersion2(folder.file("old.db"));
+  Connection old(folder.file("old.db"), Connection::Mode::Read);
+  Connection created(folder.file("new.db"), Connection::Mode::Create);
+  schema::create(created, schema::tables(), 2);
+  for (const char* sql : {"SELECT count(*) FROM sqlite_master", "SELECT sum(length(sql)) FROM sqlite_master"})
+    EXPECT_EQ(old.integer(sql), created.integer(sql));
+  EXPECT_NO_THROW(schema::check(old));
+  EXPECT_NO_THROW(schema::check(created));
+}
+
+TEST_F(Migration, addsTablesAndColumnsAndKeepsAllRows) {
+  Connection connection(path, Connection::Mode::Write);
+  schema::migrate(connection, laterTables());
+  EXPECT_EQ(schema::version(connection), kLater);
+  EXPECT_NO_THROW(schema::check(connection, laterTables()));
+  const std::vector<PropertyWithUnit> rows = properties(connection);
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0].property.name, "length");
+  EXPECT_EQ(rows[0].property.value, "7");
+  EXPECT_EQ(rows[0].unit, "m");
+  EXPECT_EQ(rows[0].sigma, 0.5);
+  TableAccess tables(connection);
+  tables.put(declaredTable<PropertyWithUnit>(), unchanged(PropertyWithUnit{id, {"length", "8"}, "mm", 0.25}));
+  tables.put(declaredTable<Place>(), unchanged(Place{id, 4, testing::Drawn(1).pose()}));
+  connection.commit();
+  EXPECT_EQ(properties(connection)[0].unit, "mm");
+  Place place{id, 4, {}};
+  ASSERT_TRUE(tables.find(declaredTable<Place>(), AnyRow(place)));
+  EXPECT_TRUE(urban_nav_core::isApprox(place.T_map_place, testing::Drawn(1).pose(), 1e-15));
+  EXPECT_EQ(connection.integer("SELECT sum(count) FROM tally WHERE name='node'"), 12);
+  schema::migrate(connection, laterTables());
+  EXPECT_EQ(properties(connection).size(), 2U) << "nothing is left to do";
+}
+
+TEST_F(Migration, anOlderFileIsReadAsItIs) {
+  Connection connection(path, Connection::Mode::Read);
+  const std::vector<PropertyWithUnit> rows = properties(connection);
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0].property.value, "7");
+  EXPECT_EQ(rows[0].unit, "m");
+  Place place;
+  TableAccess tables(connection);
+  EXPECT_FALSE(tables.has(declaredTable<Place>()));
+  EXPECT_FALSE(tables.find(declaredTable<Place>(), AnyRow(place)));
+  tables.forEach(declaredTable<Place>(), id, AnyRow(place), [] { FAIL(); });
+  connection.close();
+  EXPECT_TRUE(Store(path, Access::Read).sessions().find(id));
+}
+
+TEST_F(Migration, happensAsAWholeOrNotAtAll) {
+  {
+    Connection connection(path, Connection::Mode::Write);
+    connection.execute("CREATE TABLE place(a)");
+    expectError([&] { schema::migrate(connection, laterTables()); }, path, "SQLite says");
+    EXPECT_LT(schema::version(connection), kLater);
+    connection.execute("DROP TABLE place");
+  }
+  Store store(path, Access::Read);
+  EXPECT_EQ(dump(store), before);
+}
+
+TEST_F(Migration, aLostRowIsNamedBeforeItsTableIsWrittenAnew) {
+  Connection connection(path, Connection::Mode::Write);
+  connection.execute("UPDATE tally SET count=count+1 WHERE name='property'");
+  expectError([&] { schema::migrate(connection, laterTables()); }, path, "do not add up to the 3 written");
+}
+
+}  // namespace
+}  // namespace urban_nav_store
