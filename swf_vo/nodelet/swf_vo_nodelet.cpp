@@ -58,7 +58,7 @@ class SwfVoStage {
 
 SwfVoStage::SwfVoStage(Node& node) : node_(node) {
   std::tie(nodelet_, parameters_) = node.parameters(nodeletTable(), table());
-  node.setQueueSize(nodelet_.queue);
+  node.setQueueSize(nodelet_.queue_size);
   publisher_ = std::make_unique<Publisher>(node);
   LiveOdometry::Listener listener;
   listener.frame = [this](const Frame& frame, const urban_nav_core::StereoPair& pair, double process_ms) {
@@ -77,7 +77,7 @@ SwfVoStage::SwfVoStage(Node& node) : node_(node) {
                                [this](const auto& why) { end(why); }, [this](const auto& fault) { refuse(fault); }});
   urban_nav_ros::TopicOptions options;
   options.timeout = image_timeout;
-  options.queue = nodelet_.queue;
+  options.queue = nodelet_.queue_size;
   subscribeStereo(node, options, nodelet_.compressed, urban_nav_ros::toMotionTopic(parameters_.motion_input));
 }
 

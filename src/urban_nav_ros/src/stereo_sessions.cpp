@@ -74,7 +74,7 @@ void StereoSessions::handleSensor(const Message& message) {
   if (const auto* imu = std::get_if<sensor_msgs::ImuConstPtr>(&message)) imu_frame_ = (*imu)->header.frame_id;
   if (feed_) return feed(message);
   waiting_.push_back(message);
-  if (waiting_.size() <= static_cast<std::size_t>(options_.queue)) return;
+  if (waiting_.size() <= static_cast<std::size_t>(options_.queue_size)) return;
   waiting_.pop_front();
   ++finished_.dropped;
 }
@@ -92,7 +92,7 @@ void StereoSessions::feed(const Message& message) {
 void StereoSessions::tryToBegin() {
   if (!first_image_ || !left_info_ || !right_info_ || !fault_.empty()) return;
   const bool placed = transforms_.lookup(options_.base_frame, left_info_->header.frame_id).has_value();
-  if (!placed && Clock::now() - *first_image_ < std::chrono::duration<double>(options_.tf_wait)) return;
+  if (!placed && Clock::now() - *first_image_ < std::chrono::duration<double>(options_.tf_timeout)) return;
   try {
     begin();
   } catch (const urban_nav_core::Error& error) {
@@ -105,7 +105,7 @@ void StereoSessions::begin() {
                                                                options_.rectified, options_.where);
   StereoFeed::Options options;
   options.max_lateness = toNanoseconds(options_.max_lateness);
-  options.pairing_tolerance = toNanoseconds(options_.pairing);
+  options.pairing_tolerance = toNanoseconds(options_.sync_tolerance);
   options.delivery = urban_nav_core::DeliveryOrder::OrderedStreams;
   options.motion = options_.motion;
 

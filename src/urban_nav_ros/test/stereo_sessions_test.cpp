@@ -46,8 +46,8 @@ tf2_msgs::TFMessageConstPtr mountingAt(double height) {
 
 /// Sessions that keep their events.
 struct Kept {
-  explicit Kept(double tf_wait = 0.0) {
-    options.tf_wait = tf_wait;
+  explicit Kept(double tf_timeout = 0.0) {
+    options.tf_timeout = tf_timeout;
     sessions = std::make_unique<StereoSessions>(
         options, StereoSessions::Listener{[this](const StereoSessions::Camera& camera) { cameras.push_back(camera); },
                                           [this](DecodedPair& pair) { stamps.push_back(pair.assembled.pair.stamp); },

@@ -4,21 +4,15 @@
 #include <string>
 
 #include "urban_nav_core/parameters/table.hpp"
+#include "urban_nav_live/stereo_input_parameters.hpp"
 
 namespace swf_vo {
 
-/// What the nodelet, and only the nodelet, must be told: names of frames, transport, patience. One member per row of
-/// nodeletTable(); what the filter does is in swf_vo/parameters.hpp.
-struct NodeletParameters {
+/// Parameters of the nodelet apart from those of the filter (swf_vo/parameters.hpp): frames and transport. One member per
+/// row of nodeletTable().
+struct NodeletParameters : urban_nav_live::StereoInputParameters {
   std::string odom_frame;
-  std::string base_frame;
   bool publish_tf;
-  std::string images;  // auto, raw, rectified
-  bool compressed;
-  int queue;            // messages
-  double max_lateness;  // s
-  double pairing;       // s
-  double tf_wait;       // s
 
   NodeletParameters();
 };

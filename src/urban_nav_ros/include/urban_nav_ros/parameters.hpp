@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <ros/console.h>
 #include <ros/node_handle.h>
 
 #include <algorithm>
@@ -17,8 +18,9 @@ namespace urban_nav_ros {
 /// urban_nav_core::serverParameters. Throws UserError for one that is neither bool, number nor text, naming it.
 std::map<std::string, urban_nav_core::ParameterValue> serverValues(const ros::NodeHandle& nh);
 
-/// A nodelet's own parameters and those of its stage, which share the nodelet's private name space. Throws UserError, naming the parameter, for one that
-/// neither table has and for a value that is not allowed.
+/// Returns the parameters of a nodelet and of its stage, which share the nodelet's private name space. Warns on the console
+/// of parameters under an old name, which override those under a present one. Throws UserError, naming the parameter, for one that neither table has and for a value
+/// that is not allowed.
 template <typename Own, typename Stage>
 std::pair<Own, Stage> readParameters(const ros::NodeHandle& private_nh, const urban_nav_core::Table<Own>& own,
                                      const urban_nav_core::Table<Stage>& stage) {
@@ -26,11 +28,21 @@ std::pair<Own, Stage> readParameters(const ros::NodeHandle& private_nh, const ur
   std::map<std::string, urban_nav_core::ParameterValue> of_own, of_stage;
   for (const auto& [name, value] : serverValues(private_nh)) {
     const bool is_own = std::any_of(own.rows().begin(), own.rows().end(),
-                                    [&, &key = name](const auto& row) { return row.name == key; });
+                                    [&, &key = name](const auto& row) { return urban_nav_core::isCalled(row, key); });
     (is_own ? of_own : of_stage)[name] = value;
   }
-  return {load(own, urban_nav_core::serverParameters(own.stage(), of_own, where)).parameters,
-          load(stage, urban_nav_core::serverParameters(stage.stage(), of_stage, where)).parameters};
+  const auto loaded = [&where](const auto& table, const auto& values) {
+    auto assignments = urban_nav_core::serverParameters(table.stage(), values, where);
+    // Default files set all present names, so that an old one, which was set on purpose, has to come after them.
+    std::stable_partition(assignments.begin(), assignments.end(), [&table](const auto& assignment) {
+      return std::any_of(table.rows().begin(), table.rows().end(),
+                         [&](const auto& row) { return row.name == assignment.name; });
+    });
+    auto made = load(table, assignments);
+    for (const std::string& warning : made.warnings) ROS_WARN("%s", warning.c_str());
+    return made.parameters;
+  };
+  return {loaded(own, of_own), loaded(stage, of_stage)};
 }
 
 }  // namespace urban_nav_ros

@@ -40,7 +40,7 @@ bool isSameCalibration(const sensor_msgs::CameraInfo& a, const sensor_msgs::Came
 /// Divides the messages of a stereo camera, and of a motion sensor, into sessions: each has one calibration, one mounting
 /// and stamps that do not jump back. Pairs are the same as offline. Used by one thread.
 ///
-/// A session begins when both camera_info have arrived and /tf_static connects base and camera, at the latest `tf_wait`
+/// A session begins when both camera_info have arrived and /tf_static connects base and camera, at the latest `tf_timeout`
 /// after the first image; earlier images are kept. Without the transform the left camera is taken to be at the base, with
 /// axes as in REP 103.
 class StereoSessions {
@@ -51,10 +51,10 @@ class StereoSessions {
   struct Options {
     std::string base_frame = urban_nav_core::frames::base_link;
     bool rectified = false;        ///< the images are rectified already
-    int queue = 200;               ///< messages kept before a session begins
+    int queue_size = 200;          ///< messages kept before a session begins
     double max_lateness = 0.1;     ///< s, by stamps, that an image waits for its partner and for motion inputs
-    double pairing = 0.005;        ///< s between the stamps of left and right image
-    double tf_wait = 1.0;          ///< s
+    double sync_tolerance = 0.005;  ///< s between the stamps of left and right image
+    double tf_timeout = 1.0;        ///< s
     bool motion = false;           ///< nav_msgs/Odometry or sensor_msgs/Imu are motion inputs
     double wheel_noise = 0.0;      ///< of WheelMotion
     double gyro_noise = 0.0;       ///< of GyroMotion, rad/s

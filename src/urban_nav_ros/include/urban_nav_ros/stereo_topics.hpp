@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "urban_nav_live/stereo_input_parameters.hpp"
 #include "urban_nav_ros/stage_node.hpp"
 #include "urban_nav_ros/stereo_sessions.hpp"
 #include "urban_nav_ros/topics.hpp"
@@ -18,16 +19,16 @@ inline MotionTopic toMotionTopic(const std::string& motion_input) {
   return motion_input == "gyroscope" ? MotionTopic::Imu : MotionTopic::None;
 }
 
-/// Returns the options of a stage whose parameters have base_frame, images, queue, max_lateness, pairing and tf_wait.
-template <typename NodeletParameters>
-StereoSessions::Options toStereoOptions(const NodeletParameters& parameters, const ros::NodeHandle& nh) {
+/// Returns the options of a stage with these parameters.
+inline StereoSessions::Options toStereoOptions(const urban_nav_live::StereoInputParameters& parameters,
+                                               const ros::NodeHandle& nh) {
   StereoSessions::Options options;
   options.base_frame = parameters.base_frame;
-  options.rectified = areRectified(parameters.images, nh.resolveName(topics::left_image));
-  options.queue = parameters.queue;
+  options.rectified = areRectified(parameters.image_type, nh.resolveName(topics::left_image));
+  options.queue_size = parameters.queue_size;
   options.max_lateness = parameters.max_lateness;
-  options.pairing = parameters.pairing;
-  options.tf_wait = parameters.tf_wait;
+  options.sync_tolerance = parameters.sync_tolerance;
+  options.tf_timeout = parameters.tf_timeout;
   options.where = nh.resolveName("stereo");
   return options;
 }
