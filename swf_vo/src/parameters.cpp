@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "urban_nav_core/camera/camera_noise.hpp"
+
 namespace swf_vo {
 
 using urban_nav_core::Table;
@@ -27,14 +29,10 @@ const Table<Parameters>& table() {
            "Huang, Mourikis, Roumeliotis, IJRR 2010"},
           {"features", &P::features, "at 512x384 px", std::int64_t{100}, std::int64_t{20}, std::int64_t{2000}, {},
            "Features followed at a time; in images of another size they follow the area to the power of 2/3.", "paper 2.4 (v)"},
-          {"pixel_noise_floor", &P::pixel_noise_floor, "px", 0.03, 0.001, 5.0, {},
-           "Standard deviation added to that of every measured pixel: what the patch alignment cannot know of.",
-           "swf_vo/bench, consistency"},
+          urban_nav_core::pixelNoiseFloorRow<P>(),
           {"subpixel", &P::subpixel, "", true, false, false, {},
            "Places corners to a hundredth of a pixel; without, to the next whole one (for comparison).", "paper 2.4"},
-          {"disparity_offset", &P::disparity_offset, "px", 0.1, 0.0, 5.0, {},
-           "Standard deviation of a constant error of the disparity, left by calibration and rectification and estimated with the motion; 0 takes the calibration as exact.",
-           "swf_vo/bench, accuracy"},
+          urban_nav_core::disparityOffsetRow<P>(),
           {"huber", &P::huber, "standard deviations", 2.5, 0.0, 100.0, {},
            "Residuals beyond this count linearly instead of squared; 0 switches the robust kernel off.", "paper 2.2"},
           {"iterations", &P::iterations, "", std::int64_t{3}, std::int64_t{1}, std::int64_t{100}, {},

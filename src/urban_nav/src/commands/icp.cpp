@@ -142,6 +142,7 @@ PointCloud readNamed(const std::string& path, Console& console) {
 
 int run(const Arguments& arguments, Console& console) {
   const AllParameters parameters = loadParameters(arguments);
+  for (const std::string& warning : parameters.warnings) console.warn(warning);
   const urban_nav_core::ThreadLimit threads(static_cast<int>(arguments.integer("threads", 0, 1, 1024)));
   const Pose guess = arguments.has("initial") ? readInitial(arguments.get("initial")) : Pose();
   const PointCloud source = readNamed(arguments.get("SOURCE"), console),

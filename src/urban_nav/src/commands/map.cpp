@@ -87,7 +87,9 @@ Command mapCommand() {
                       "urban_nav map robot.bag --topic left:=/cam0/image_raw --set swf_vo.window=25 --out out"};
   command.more_help = parametersHelp;
   command.run = [](const Arguments& arguments, Console& console) {
-    runMap(requestOf(arguments), console);
+    const MapRequest request = requestOf(arguments);
+    for (const std::string& warning : request.parameters.warnings) console.warn(warning);
+    runMap(request, console);
     return 0;
   };
   return command;

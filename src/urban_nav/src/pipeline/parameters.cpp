@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/parameters.hpp"
 
+#include "urban_nav_core/camera/camera_noise.hpp"
 #include "urban_nav_core/parameters/print.hpp"
+#include "urban_nav_core/parameters/shared_settings.hpp"
 
 namespace urban_nav {
 
@@ -12,16 +14,22 @@ using urban_nav_core::Table;
 
 namespace {
 
-std::vector<Assignment> assignmentsOf(const Arguments& arguments) {
+/// Throws UserError for keys of unknown stages.
+urban_nav_core::RenamedAssignments assignmentsOf(const Arguments& arguments) {
   std::vector<Assignment> assignments;
   for (const std::string& path : arguments.all("config")) {
     const std::vector<Assignment> file = urban_nav_core::readParameters(path);
     assignments.insert(assignments.end(), file.begin(), file.end());
   }
   for (const std::string& setting : arguments.all("set")) assignments.push_back(urban_nav_core::parseSetting(setting));
+  urban_nav_core::RenamedAssignments renamed = urban_nav_core::replaceOldNames(
+      std::move(assignments), {{commandTable().stage(), commandTable().rows()},
+                               {swf_vo::table().stage(), swf_vo::table().rows()},
+                               {pose_graph::table().stage(), pose_graph::table().rows()},
+                               {loop_metric::table().stage(), loop_metric::table().rows()}});
   urban_nav_core::refuseUnknownStages(
-      assignments, {"", swf_vo::table().stage(), pose_graph::table().stage(), loop_metric::table().stage()});
-  return assignments;
+      renamed.assignments, {"", swf_vo::table().stage(), pose_graph::table().stage(), loop_metric::table().stage()});
+  return renamed;
 }
 
 Json jsonOf(const ParameterValue& value) {
@@ -51,10 +59,14 @@ std::vector<const std::vector<Setting>*> AllParameters::settings() const {
 }
 
 AllParameters loadParameters(const Arguments& arguments) {
-  const std::vector<Assignment> assignments = assignmentsOf(arguments);
-  return {urban_nav_core::load(commandTable(), assignments), urban_nav_core::load(swf_vo::table(), assignments),
-          urban_nav_core::load(pose_graph::table(), assignments),
-          urban_nav_core::load(loop_metric::table(), assignments)};
+  const urban_nav_core::RenamedAssignments renamed = assignmentsOf(arguments);
+  AllParameters all{urban_nav_core::load(commandTable(), renamed.assignments),
+                    urban_nav_core::load(swf_vo::table(), renamed.assignments),
+                    urban_nav_core::load(pose_graph::table(), renamed.assignments),
+                    urban_nav_core::load(loop_metric::table(), renamed.assignments), renamed.warnings};
+  for (std::string& warning : urban_nav_core::differingValues(all.settings(), urban_nav_core::cameraNoiseNames()))
+    all.warnings.push_back(std::move(warning));
+  return all;
 }
 
 void checkCommonOptions(const Arguments& arguments) {

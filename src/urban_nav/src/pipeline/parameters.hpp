@@ -27,6 +27,9 @@ struct AllParameters {
   urban_nav_core::Loaded<pose_graph::Parameters> pose_graph;
   urban_nav_core::Loaded<loop_metric::Parameters> loop_metric;
 
+  /// Old names that were used, and parameters to which two stages are given different values: for the user.
+  std::vector<std::string> warnings;
+
   /// Of all of them, each with its value and where that came from.
   std::vector<const std::vector<urban_nav_core::Setting>*> settings() const;
 };
