@@ -40,6 +40,8 @@ struct Level {
   Eigen::Matrix3d R_map_first = Eigen::Matrix3d::Identity();
 };
 
+/// Derivation: docs/derivations/gravity_alignment.md.
+///
 /// Which way is up, from all forces of a drive: turned into the axes of the first pose by the trajectory's rotations, less the change of
 /// velocity that the trajectory shows, they are gravity and what is wrong with the accelerometer. The latter turns with the robot, so the
 /// two are told apart where it has turned; where it has not, the covariance says so (linear least squares in both, over spans of 2 s,

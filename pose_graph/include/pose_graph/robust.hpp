@@ -51,7 +51,8 @@ struct RobustSolution {
   double variance_factor = 1.0;
 };
 
-/// Relaxes a graph some of whose closures are false, without any setting. `roles`: one for each edge.
+/// Relaxes a graph some of whose closures are false, without any setting. `roles`: one for each edge. Derivation:
+/// docs/derivations/pose_graph.md.
 ///
 /// What the information is worth is read off loops of two near closures first. Where next to nothing speaks against odometry
 /// all closures are taken at once, and that is the answer if they fit. Else they grow into the graph by evidence: against what is

@@ -9,7 +9,8 @@
 
 namespace pose_graph {
 
-/// A pose graph whose chains are each replaced by one edge, and brought back again. Geodesic objective.
+/// A pose graph whose chains are each replaced by one edge, and brought back again. Geodesic objective. Derivation:
+/// docs/derivations/pose_graph.md.
 ///
 /// The poses between the ends of a chain see nothing but the chain: for given ends they are where the chain's cost is least, and
 /// that cost, as a function of the ends, is to second order an edge with the chain's composed transform and the sum of its

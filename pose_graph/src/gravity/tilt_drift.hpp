@@ -14,6 +14,8 @@ struct Tilt {
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();
 };
 
+/// Derivation: docs/derivations/gravity_alignment.md.
+///
 /// The drift of roll and pitch, once each 2 s: a random walk that forces see through noise, beside a gravity and a lever arm of the accelerometer that are the same
 /// all along, and a fault of it that walks too (Rauch, Tung and Striebel 1965). `variance`: of odometry's rotation about an axis, rad2, added up from the first pose to each, as odometry promises
 /// it. By how much it promises too much, and what a force is worth, is as the drive shows it (largest likelihood, with odometry's word as six observations);

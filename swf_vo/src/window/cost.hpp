@@ -18,7 +18,8 @@ struct Border {
   double information = 0.0, gradient = 0.0;
 };
 
-/// Lambda and g of eq. 3 without the prior, block by block: Lambda d = g (Newman et al. 2009, section 2.1).
+/// Lambda and g of eq. 3 without the prior, block by block: Lambda d = g (Newman et al. 2009, section 2.1). Derivation:
+/// docs/derivations/sliding_window_filter.md.
 struct NormalEquations {
   std::vector<urban_nav_core::Matrix6d> pose;           ///< Lambda_p(j, j)
   std::vector<urban_nav_core::Matrix6d> next;           ///< Lambda_p(j + 1, j)

@@ -20,6 +20,8 @@ namespace swf_vo {
 /// * marginalising can only lower M, and what M^-1 grows by is the drift of this step: the part of the error that never comes back
 ///   (growth). It is positive semidefinite, and the drift from one pose to another is the sum of the steps'.
 ///
+/// Derivation: docs/derivations/sliding_window_filter.md.
+///
 /// Not for the textbook's linearisation, which puts information into G, nor where places of landmarks are known.
 class Datum {
  public:

@@ -12,6 +12,7 @@ namespace swf_vo {
 /// what old frames said of the landmark is worth less today. In information form,
 ///   Pi' = (Pi^-1 + Q)^-1 = Pi - Pi E (E^T Pi E + Q^-1)^-1 E^T Pi
 /// with E picking the bearings of the landmarks that have moved. Centres stay, so what is empty in Pi stays empty.
+/// Derivation: docs/derivations/landmark_process_noise.md.
 class Wander {
  public:
   struct Step {

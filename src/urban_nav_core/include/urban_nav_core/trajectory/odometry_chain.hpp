@@ -13,7 +13,8 @@ namespace urban_nav_core {
 ///
 /// A time between two frames is interpolated; a time just outside the chain is extrapolated with the nearest step. The
 /// covariance of a relative pose is the sum of the drifts of its steps, with half of the covariance of the first and of
-/// the last step (see RelativePose). It does not contain what all steps have in common, a scale error. Not thread-safe
+/// the last step (see RelativePose). It does not contain what all steps have in common, a scale error
+/// (docs/derivations/sliding_window_filter.md). Not thread-safe
 /// while it grows.
 class OdometryChain {
  public:
