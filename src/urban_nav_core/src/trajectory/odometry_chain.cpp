@@ -60,17 +60,17 @@ std::optional<OdometryChain::NearestFrame> OdometryChain::nearestFrame(StampNs s
 
 std::optional<Pose> OdometryChain::at(StampNs stamp) const {
   const std::optional<NearestFrame> nearest = nearestFrame(stamp);
-  if (!moment) return std::nullopt;
+  if (!nearest) return std::nullopt;
   return trajectory_[indexOf(nearest->frame)].pose * nearest->T_frame_pose;
 }
 
 double OdometryChain::distance(StampNs stamp) const {
   if (empty()) return 0.0;
-  const std::size_t nearest = indexOf(stamp);
+  const std::size_t frame = indexOf(stamp);
   const std::optional<NearestFrame> nearest = nearestFrame(stamp);
-  if (!moment) return distances_[nearest];
+  if (!nearest) return distances_[frame];
   const double beside = nearest->T_frame_pose.t().norm();
-  return distances_[nearest] + (stamp < nearest->frame ? -beside : beside);
+  return distances_[frame] + (stamp < nearest->frame ? -beside : beside);
 }
 
 Matrix6d OdometryChain::drift(std::size_t from, std::size_t to) const {
