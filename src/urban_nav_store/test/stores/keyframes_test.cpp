@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "schema/schema.hpp"
 #include "sqlite/connection.hpp"
 #include "support/contents.hpp"
 #include "support/folder.hpp"
@@ -63,7 +64,10 @@ TEST(Keyframes, aStoreFromBeforeThemIsReadAsItIsAndGetsThemWhenItIsWritten) {
   }
   {
     Connection old(path, Connection::Mode::Write);
-    old.execute("DROP TABLE keyframe; DELETE FROM tally WHERE name='keyframe'; PRAGMA user_version=1");
+    for (const Table* table : schema::tables())
+      if (table->since > 1)
+        old.execute("DROP TABLE " + table->name + "; DELETE FROM tally WHERE name='" + table->name + "'");
+    old.execute("PRAGMA user_version=1");
     old.close();
   }
   {
