@@ -80,8 +80,8 @@ class LiveWriter::Implementation {
     }
   }
 
-  /// Carries out a batch and commits it. What the store refuses is taken out of the batch, and the rest begun anew. Says
-  /// what went wrong; kept_ tells whether the batch has still to be committed.
+  /// Carries out a batch and commits it. What the store refuses is taken out of the batch, and the rest begun anew.
+  /// Says what went wrong; kept_ tells whether the batch has still to be committed.
   std::string commit(std::deque<Write>& batch, std::int64_t& refused) {
     std::string fault;
     while (true) {

@@ -162,15 +162,15 @@ class Merger {
   MergeResult result_;
 };
 
-/// Gives a finished file the name of the target. A store that stands there gives way: its log must be in it before another
-/// file takes its name, or it would be taken for that one's.
+/// Gives a finished file the name of the target. A store that stands there gives way: its log must be in it before
+/// another file takes its name, or it would be taken for that one's.
 void replace(const std::string& path, urban_nav_core::PartialFile& partial) {
   if (fileKind(path) == FileKind::Store) Store(path, Access::Write).close();
   const WriterLock lock(path);
   refuseOtherFiles(path);
   std::error_code error;
   if (fs::file_size(path + "-wal", error) > 0 && !error)
-    throw UserError(path, "is being used by another program", "to be replaced when nobody uses it");
+    throw UserError(path, "is being used by another program", "to replace it when no program uses it");
   partial.commit();
 }
 

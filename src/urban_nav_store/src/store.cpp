@@ -19,7 +19,8 @@ using urban_nav_core::UserError;
 
 namespace {
 
-/// Files up to this size are checked throughout when they are opened, some 0.3 s; in larger ones damage is found where it is read.
+/// Files up to this size are checked throughout when they are opened, some 0.3 s; in larger ones damage is found where
+/// it is read.
 constexpr std::uintmax_t kCheckedThroughout = std::uintmax_t{64} << 20;
 
 std::uintmax_t sizeOf(const std::string& path) {

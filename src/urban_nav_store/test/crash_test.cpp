@@ -38,7 +38,7 @@ int batchesIn(Store& store) {
   return static_cast<int>(nodes / 10);
 }
 
-/// In another process: goes on behind what is there, and says after each commit how far it is.
+/// Runs in another process: continues after the stored rows, and reports its progress after each commit.
 [[noreturn]] void writeUntilKilled(const std::string& path, int tell) {
   Store store(path, Access::Write);
   for (int batch = batchesIn(store);; ++batch) {
@@ -64,17 +64,17 @@ TEST(Crash, whatWasCommittedIsThere) {
       writeUntilKilled(path, pipes[1]);
     }
     ::close(pipes[1]);
-    int told = 0, number = 0;
+    int reported = 0, number = 0;
     if (round % 3 != 0) {  // in one of three rounds it may be killed before it has opened the file
       ASSERT_EQ(::read(pipes[0], &number, sizeof number), static_cast<ssize_t>(sizeof number));
-      told = number;
+      reported = number;
     }
     ::usleep(static_cast<useconds_t>(random() % 30000));
     ::kill(child, SIGKILL);
     int status = 0;
     ::waitpid(child, &status, 0);
     EXPECT_TRUE(WIFSIGNALED(status));
-    while (::read(pipes[0], &number, sizeof number) == static_cast<ssize_t>(sizeof number)) told = number;
+    while (::read(pipes[0], &number, sizeof number) == static_cast<ssize_t>(sizeof number)) reported = number;
     ::close(pipes[0]);
     if (!std::filesystem::exists(path)) continue;  // killed before the file had its name
     int there = 0;
@@ -84,8 +84,8 @@ TEST(Crash, whatWasCommittedIsThere) {
       there = batchesIn(store);
       read = dump(store);
     }
-    EXPECT_GE(there, told);
-    EXPECT_LE(there, std::max(told, written) + 1);
+    EXPECT_GE(there, reported);
+    EXPECT_LE(there, std::max(reported, written) + 1);
     EXPECT_GE(there, written) << "what an earlier round had committed";
     for (; written < there; ++written) writeBatch(expected, written);
     expected.commit();

@@ -7,16 +7,17 @@
 
 namespace urban_nav_store {
 
-/// Numbers as bytes, little-endian on every machine: for blocks of the store and for the states of stages.
+/// Append numbers as little-endian bytes, for digests and for blocks of the store. States use
+/// urban_nav_core/io/archive.hpp.
 void appendInteger(std::string& bytes, std::uint64_t value);
 void appendInteger32(std::string& bytes, std::uint32_t value);
 void appendNumber(std::string& bytes, double value);
 void appendFloat(std::string& bytes, float value);
-/// With its length in front.
+/// Appends the length of the text, then the text.
 void appendText(std::string& bytes, std::string_view text);
 
-/// Reads them again. What is asked for behind the end is zero or empty, and ok() is false from then on: a reader of damaged
-/// bytes asks at its end, and before it trusts a number of things to come.
+/// Reads bytes of the functions above. Values past the end are zero or empty, and ok() is false from then on: check it
+/// at the end, and before using a count of items that follow.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
@@ -28,7 +29,7 @@ class ByteReader {
   std::string_view text();
 
   bool ok() const { return ok_; }
-  /// All is read, and nothing was missing.
+  /// Returns whether all bytes were read and none was missing.
   bool complete() const { return ok_ && bytes_.empty(); }
   std::size_t left() const { return bytes_.size(); }
 

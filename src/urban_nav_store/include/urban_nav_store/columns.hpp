@@ -11,7 +11,8 @@
 
 namespace urban_nav_store {
 
-/// Visitor of the columns of a row. A row names its columns once, in the order of the table, in one function that declares, writes and reads:
+/// Visitor of the columns of a row. A row names its columns once, in the order of the table, in one function that
+/// declares, writes and reads:
 ///
 ///   void Panorama::columns(Columns& columns) {
 ///     columns.text("session", session);
@@ -19,8 +20,8 @@ namespace urban_nav_store {
 ///     columns.blob("image", image);
 ///   }
 ///
-/// Reading sets the values, writing and declaring leave them as they are. Values passed by reference must live until the visit of the whole row
-/// has been used; scratch() holds converted ones.
+/// Reading sets the values, writing and declaring leave them as they are. Values passed by reference must live until
+/// the visit of the whole row has been used; scratch() holds converted ones.
 class Columns {
  public:
   virtual ~Columns() = default;
@@ -28,7 +29,8 @@ class Columns {
   virtual bool isReading() const { return false; }
   /// Returns whether invalid values are to be refused: while reading, and before writing.
   virtual bool isValidating() const { return false; }
-  /// The columns named after this call were added to their table with this version of the schema. Older files have their default values.
+  /// The columns named after this call were added to their table with this version of the schema. Older files have
+  /// their default values.
   virtual void since(int /*version*/) {}
 
   virtual void text(const char* name, std::string& value) = 0;
@@ -41,7 +43,8 @@ class Columns {
   void flag(const char* name, bool& value);
   /// Seven columns: x y z (m) qx qy qz qw.
   void pose(urban_nav_core::Pose& value);
-  /// A blob of little-endian numbers, row by row: 36, or the 21 of the upper triangle if the matrix is symmetric to the last bit.
+  /// A blob of little-endian numbers, row by row: 36, or the 21 of the upper triangle if the matrix is symmetric to the
+  /// last bit.
   void matrix6(const char* name, urban_nav_core::Matrix6d& value);
   /// An enumerator as the word of its toString().
   template <typename Word>
@@ -55,7 +58,8 @@ class Columns {
     value = *parsed;
   }
 
-  /// Reports an invalid row. Throws UserError if it was to be written, DataError if it was read. Requires isValidating().
+  /// Reports an invalid row. Throws UserError if it was to be written, DataError if it was read. Requires
+  /// isValidating().
   [[noreturn]] virtual void refuse(const std::string& what) const;
 
  protected:

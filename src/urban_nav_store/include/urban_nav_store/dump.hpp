@@ -7,8 +7,8 @@
 
 namespace urban_nav_store {
 
-/// All rows of all tables as text, in the order of their keys, binary columns by digest: two stores hold the same if and only
-/// if their dumps are equal, whatever the bytes of their files. Reads and verifies the whole file: DataError where it is
+/// Returns all rows of all tables as text, in the order of their keys, binary columns by digest. Two stores have the
+/// same content if and only if their dumps are equal. Reads and verifies the whole file. Throws DataError if it is
 /// damaged.
 std::string dump(Store& store);
 

@@ -15,22 +15,22 @@
 
 namespace urban_nav_store {
 
-/// Where the robot was at a time, as odometry says: settled, final.
+/// Final pose of the robot at a time according to odometry.
 struct Node {
   urban_nav_core::StampNs stamp = 0;
   urban_nav_core::Pose T_odom_base;
-  /// Of the motion since the node before (convention of PoseWithCovariance, parent: that node); zero in the first node.
+  /// Covariance of the motion since the previous node, its parent frame (PoseWithCovariance); zero in the first.
   urban_nav_core::Matrix6d covariance = urban_nav_core::Matrix6d::Zero();
-  /// The part of it that is independent of the steps before and after, and so adds up over a way of many steps.
+  /// The part of the covariance that is independent of the neighbouring steps, and hence accumulates along the path.
   urban_nav_core::Matrix6d drift_covariance = urban_nav_core::Matrix6d::Zero();
   urban_nav_core::Health status = urban_nav_core::Health::Ok;
 };
 
-/// Where a node is after relaxation.
+/// Optimised pose of a node.
 struct RelaxedPose {
   urban_nav_core::StampNs stamp = 0;
   urban_nav_core::Pose T_map_base;
-  std::int64_t revision = 0;  ///< of the graph, when the pose last moved
+  std::int64_t revision = 0;  ///< of the graph when the pose last changed
 };
 
 struct NodeRef {
@@ -48,17 +48,17 @@ std::optional<EdgeKind> parseEdgeKind(std::string_view word);
 struct Edge {
   NodeRef a, b;
   EdgeKind kind = EdgeKind::Odometry;
-  std::string source;  ///< who says so: "swf_vo", "loop_metric"
+  std::string source;  ///< stage that measured it: "swf_vo", "loop_metric"
   urban_nav_core::Constraint measured;
-  double weight = 1.0;  ///< that relaxation gave it, 0...1
+  double weight = 1.0;  ///< assigned by the optimisation, 0...1
   urban_nav_core::ClosureVerdict verdict = urban_nav_core::ClosureVerdict::Accepted;  ///< not Degenerate
   std::string reason;
 };
 
-/// The pose graph: nodes of each session in order of time, edges in order of (a, b, kind, source), a and b by session id and
-/// stamp. What has the same key is replaced. Poses, matrices and weights that are not finite are refused (UserError that
-/// names the row), and so are quaternions not of length one: nothing that is not a number is ever in the file. A
-/// number -0 comes back as 0 in poses; everything else bit by bit.
+/// The pose graph: nodes of each session in order of time, edges in order of (a, b, kind, source), a and b by session
+/// id and stamp. A row with the same key is replaced. Values come back exact to the last bit, except that -0 becomes 0
+/// in poses. Throws UserError that names the row for poses, matrices and weights that are not finite and for
+/// quaternions not of length 1.
 class GraphStore {
  public:
   using Stamp = urban_nav_core::StampNs;
@@ -68,7 +68,8 @@ class GraphStore {
   virtual void put(const SessionId& session, const Node& node) = 0;
   virtual std::optional<Node> node(const NodeRef& ref) const = 0;
   virtual std::int64_t nodes(const SessionId& session) const = 0;  ///< how many
-  /// The nodes with from <= stamp <= to. Whether none is missing is known only at the end of a whole session: DataError then.
+  /// Calls `take` for nodes with from <= stamp <= to in order of time. Over a whole session, throws DataError at the
+  /// end if a node is missing.
   virtual void forEachNode(const SessionId& session, const std::function<void(const Node&)>& take, Stamp from = kFirst,
                            Stamp to = kLast) const = 0;
 
@@ -77,12 +78,13 @@ class GraphStore {
                               Stamp from = kFirst, Stamp to = kLast) const = 0;
 
   virtual void put(const Edge& edge) = 0;
-  /// Does nothing where there is none with the key of `edge`.
+  /// Removes the edge with the key of `edge` and its evidence, if it exists.
   virtual void remove(const Edge& edge) = 0;
-  /// All edges whose node a is in this session.
+  /// Calls `take` for all edges whose node a is in this session.
   virtual void forEachEdge(const SessionId& session_a, const std::function<void(const Edge&)>& take) const = 0;
 
-  /// What the verdict on an edge rests on, in the words of the stage that made it. The edge need not be there.
+  /// Stores the evidence for the verdict on an edge, in the encoding of the stage that made it. The edge need not
+  /// exist.
   virtual void putEvidence(const Edge& edge, const std::string& bytes) = 0;
   virtual std::optional<std::string> evidence(const Edge& edge) const = 0;
 };

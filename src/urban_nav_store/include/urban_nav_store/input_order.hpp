@@ -8,7 +8,7 @@
 
 namespace urban_nav_store {
 
-/// One measurement as it was handed to the stages.
+/// One measurement as passed to the stages.
 struct InputEvent {
   std::string stream;  ///< "stereo", a topic
   urban_nav_core::StampNs stamp = 0;
@@ -16,7 +16,7 @@ struct InputEvent {
 };
 bool operator==(const InputEvent& a, const InputEvent& b);
 
-/// The order in which the stages of a session saw its measurements: what a second run needs to give the same bytes.
+/// Order in which the stages of a session processed its measurements; with it a second run reproduces the same bytes.
 class InputOrder {
  public:
   virtual ~InputOrder() = default;

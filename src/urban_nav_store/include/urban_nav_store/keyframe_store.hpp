@@ -9,12 +9,12 @@
 
 namespace urban_nav_store {
 
-/// What is kept of a frame so that the place can be known again, and shown: its picture, and its features in the bytes of the stage that
-/// made them.
+/// A frame for place recognition and display: its image, and its features in the encoding of the stage that computed
+/// them.
 struct StoredKeyframe {
   urban_nav_core::StampNs stamp = 0;
-  std::string image;     ///< as a file of pictures has it (JPEG, PNG): also the thumbnail
-  std::string features;  ///< packed; the stage's business
+  std::string image;     ///< encoded (JPEG, PNG); also the thumbnail
+  std::string features;  ///< in the stage's own encoding
 };
 bool operator==(const StoredKeyframe& a, const StoredKeyframe& b);
 
@@ -22,14 +22,14 @@ class KeyframeStore {
  public:
   virtual ~KeyframeStore() = default;
 
-  /// One with the stamp of another of this camera replaces it.
+  /// Adds a keyframe. One of this camera with the same stamp is replaced.
   virtual void put(const SessionId& session, const std::string& camera, const StoredKeyframe& keyframe) = 0;
 
   virtual std::optional<StoredKeyframe> get(const SessionId& session, const std::string& camera,
                                             urban_nav_core::StampNs stamp) const = 0;
-  /// In order of time. None where the store is of a version that had no keyframes.
+  /// Returns stamps in order of time. Empty if the store is older than schema 2.
   virtual std::vector<urban_nav_core::StampNs> stamps(const SessionId& session, const std::string& camera) const = 0;
-  /// Frame names, sorted.
+  /// Returns frame names, sorted.
   virtual std::vector<std::string> cameras(const SessionId& session) const = 0;
 };
 

@@ -11,34 +11,34 @@
 
 namespace urban_nav_store {
 
-/// Keeps a store off the hot path of a live robot: writes are posted, a thread of its own carries them out in the
-/// order of posting and commits once a period. Thread-safe.
+/// Writes to a store from a thread of its own: posted writes are executed in order and committed once per period.
+/// Thread-safe.
 class LiveWriter {
  public:
   using Write = std::function<void(Store&)>;
   struct Options {
-    std::size_t capacity = 20000;  ///< writes that wait or are not yet committed; more are dropped and counted
+    std::size_t capacity = 20000;  ///< writes queued or not yet committed; further ones are dropped and counted
     std::chrono::milliseconds period{1000};  ///< between commits
   };
   struct Counts {
     std::int64_t committed = 0;  ///< writes
-    std::int64_t dropped = 0;    ///< for want of room in the queue
-    std::int64_t refused = 0;    ///< by the store: what is not finite, say
+    std::int64_t dropped = 0;    ///< because the queue was full
+    std::int64_t refused = 0;    ///< rejected by the store, for example non-finite values
     std::size_t waiting = 0;     ///< not yet committed
-    /// Why the last attempt to commit failed, or the last write was refused; empty when all is well. On a full disk the writes stay in
-    /// the queue and are tried again each period.
+    /// Reason why the last commit failed or the last write was refused; empty otherwise. On a full disk the writes stay
+    /// in the queue and are tried again each period.
     std::string fault;
   };
 
-  /// `store` must have no other user from now on.
+  /// Requires exclusive use of `store`.
   LiveWriter(Store store, const Options& options);
-  /// Commits what can be committed and closes the store.
+  /// Commits queued writes if possible and closes the store.
   ~LiveWriter();
 
-  /// Never blocks for the disk. False where the queue is full. A write that throws is taken back and counted as refused; it
-  /// may be called a second time where a commit failed.
+  /// Queues a write. Never blocks for the disk. Returns false if the queue is full. A write that throws is rolled back
+  /// and counted as refused; a write may be called again after a failed commit.
   bool post(Write write);
-  /// Returns when all that was posted before is committed, or could not be.
+  /// Blocks until all writes posted before are committed or have failed.
   void flush();
   Counts counts() const;
 

@@ -11,15 +11,15 @@ namespace urban_nav_store {
 
 struct MergeResult {
   std::int64_t rows = 0;       ///< in the merged store
-  std::int64_t identical = 0;  ///< that a second file held as well
-  std::int64_t outdated = 0;   ///< relaxed poses and anchors of an older revision of the graph, left out
+  std::int64_t identical = 0;  ///< to rows of another source
+  std::int64_t outdated = 0;   ///< poses and anchors of an older revision of the graph, left out
 };
 
-/// One store out of several: rows that are identical become one. Rows that contradict each other are named, all
-/// of them counted, and no file is made (DataError). The same session in several files, as the computers of one robot
-/// write it, is one session, complete if it is in every file. The sources are only read; `path` appears whole, or not at
-/// all, and may be one of them. The order of the sources does not matter. States of a stage in one session that are not the same are of different runs: none of them
-/// stays.
+/// Merges stores into one. Identical rows become one. A session in several files, as written by the computers of one
+/// robot, becomes one session, complete if it is complete in every file. States of a stage that differ belong to
+/// different runs: none is kept. The result does not depend on the order of the sources, which are only read; `path`
+/// may be one of them. It is written completely or not at all. Throws DataError that names and counts the rows that
+/// contradict each other.
 MergeResult merge(const std::vector<std::string>& sources, const std::string& path);
 
 }  // namespace urban_nav_store

@@ -11,20 +11,20 @@
 
 namespace urban_nav_store {
 
-/// Raw laser scans, so that a map can be made again without the recording: in compressed blocks of one second of stamps,
-/// lossless. The blocks do not depend on when commits came between.
+/// Raw laser scans, from which a map can be rebuilt without the recording. Lossless, in compressed blocks of one second
+/// of stamps. The blocks do not depend on the times of commits.
 class ScanStore {
  public:
   virtual ~ScanStore() = default;
 
-  /// In the order of time, for the sake of speed alone: one from an earlier second makes its block be read and written
-  /// again. UserError for numbers that are not finite. A scan with the stamp of another of this laser replaces it.
+  /// Adds a scan. One of this laser with the same stamp is replaced. Fastest in order of time: a scan from an earlier
+  /// second rewrites its block. Throws UserError for numbers that are not finite.
   virtual void put(const SessionId& session, const std::string& laser, const urban_nav_core::Scan& scan) = 0;
 
-  /// Frame names, sorted.
+  /// Returns frame names, sorted.
   virtual std::vector<std::string> lasers(const SessionId& session) const = 0;
   virtual std::int64_t count(const SessionId& session, const std::string& laser) const = 0;
-  /// Scans with from <= stamp <= to in order of time, one block in memory at a time.
+  /// Calls `take` for scans with from <= stamp <= to in order of time, with one block in memory at a time.
   virtual void forEach(const SessionId& session, const std::string& laser, urban_nav_core::StampNs from,
                        urban_nav_core::StampNs to,
                        const std::function<void(const urban_nav_core::Scan&)>& take) const = 0;

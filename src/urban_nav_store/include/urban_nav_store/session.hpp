@@ -9,41 +9,41 @@
 
 namespace urban_nav_store {
 
-/// 20 hexadecimal digits. Rows of all tables refer to each other by it and a stamp, never by a row's number, so that files
-/// of several computers can be joined.
+/// 20 hexadecimal digits. Rows of all tables refer to each other by session and stamp, never by row number: files of
+/// several computers can be merged.
 using SessionId = std::string;
 
-/// What tells a session from every other: known before its first measurement is processed, and the same whenever, wherever
-/// and however often the recording is mapped.
+/// Identity of a session: known before its first measurement is processed, and equal each time and wherever the
+/// recording is mapped.
 struct SessionOrigin {
-  std::string robot;      ///< its name; may be empty
-  std::string recording;  ///< live: the name of the recording; offline: may be empty, the inputs say it
+  std::string robot;                  ///< name; may be empty
+  std::string recording;              ///< live: name of the recording; offline: may be empty, the inputs identify it
   urban_nav_core::StampNs start = 0;  ///< live: of the session; offline: may be 0
   std::string inputs;                 ///< offline: a digest of the recording; live: empty
 };
 
-/// The first 80 bits of SHA-256 (FIPS 180-4) of the origin. Nothing random: the computers of one robot agree on the id of a
-/// live session by its name and start, a recording mapped twice has one id, and two others share one by accident once in
-/// 10^12 stores of a million sessions.
+/// Returns the first 80 bits of SHA-256 (FIPS 180-4) of the origin. Deterministic: all computers of one robot compute
+/// the same id of a live session from its name and start, and a recording mapped twice has one id. Probability that any
+/// two of a million sessions collide: 10^-12.
 SessionId sessionIdOf(const SessionOrigin& origin);
 
 struct Session {
   SessionId id;
-  std::string name;  ///< for people
+  std::string name;  ///< for display
   std::string robot;
   std::string recording;
   urban_nav_core::StampNs start = 0;
-  bool complete = false;  ///< all that was measured in it has been processed
+  bool complete = false;  ///< all its measurements have been processed
 };
 
 bool operator==(const Session& a, const Session& b);
 
-/// Which map a session is part of. A map has the name of the session at whose first pose it has its origin; a session
-/// without an anchor is a map of its own, in which `map` and `odom` are one.
+/// Relates a session to a map. A map is named after the session whose first pose is its origin. A session without an
+/// anchor is a map of its own, in which `map` and `odom` coincide.
 struct Anchor {
   SessionId session;
   SessionId map;
-  std::int64_t revision = 0;  ///< of the graph; the higher one holds where files are joined
+  std::int64_t revision = 0;  ///< of the graph; a merge keeps the highest
   urban_nav_core::Pose T_map_odom;
 };
 

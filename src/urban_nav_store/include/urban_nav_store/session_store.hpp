@@ -9,38 +9,38 @@
 
 namespace urban_nav_store {
 
-/// A parameter of a stage as it was in force, and where it came from.
+/// Effective value of a stage's parameter, and its origin.
 struct StoredParameter {
   std::string name;  ///< "swf_vo.window"
   std::string value;
   std::string origin;
 };
 
-/// Anything else that is known of a session, by name: "version", "input/0/path". Sorted by name.
+/// Other named property of a session: "version", "input/0/path". Sorted by name.
 struct Property {
   std::string name, value;
 };
 
-/// Where a sensor's frame stands on the robot.
+/// Pose of a sensor's frame on the robot.
 struct Extrinsic {
   std::string frame;
   urban_nav_core::Pose T_base_frame;
 };
 
-/// Sessions and where they came from. What stands under a name is replaced by what is put there later.
+/// Sessions with their parameters, properties and sensors. An entry with the same name is replaced.
 class SessionStore {
  public:
   virtual ~SessionStore() = default;
 
-  /// A session that is there already keeps its rows; only `complete` and the words for people are replaced. UserError where
-  /// robot, recording or start contradict the ones that are there.
+  /// Adds a session. One that exists keeps its rows; only `complete` and `name` are replaced. Throws UserError if
+  /// robot, recording or start differ from the stored ones.
   virtual void put(const Session& session) = 0;
   virtual std::optional<Session> find(const SessionId& id) const = 0;
-  /// In order of start, then id.
+  /// Returns all sessions in order of start, then id.
   virtual std::vector<Session> all() const = 0;
-  /// Removes a session with every row that names it, edges from other sessions to it included.
+  /// Removes a session with every row that refers to it, including edges from other sessions to it.
   virtual void remove(const SessionId& id) = 0;
-  /// Likewise, but what was measured in it stays: its scans and keyframes.
+  /// Removes a session except for its measurements: scans, keyframes and other tables that are declared kept_by_clear.
   virtual void clear(const SessionId& id) = 0;
 
   virtual void put(const Anchor& anchor) = 0;

@@ -11,17 +11,17 @@
 
 namespace urban_nav_store {
 
-/// What a stage needs to go on behind a session or a bag: its state() as bytes of its own making, compressed here. Of any
-/// length; kept in parts of 1 MB.
+/// State from which a stage resumes after a session or a bag: bytes of any length in the stage's own encoding,
+/// compressed and stored in parts of 1 MB.
 class StageStates {
  public:
   virtual ~StageStates() = default;
   virtual void put(const SessionId& session, const std::string& stage, std::string_view bytes) = 0;
   virtual std::optional<std::string> get(const SessionId& session, const std::string& stage) const = 0;
   virtual void remove(const SessionId& session, const std::string& stage) = 0;
-  /// Room that the states of a session take, compressed.
+  /// Returns the compressed size of all states of a session.
   virtual std::int64_t bytes(const SessionId& session) const = 0;
-  /// Names of stages that have a state here, sorted.
+  /// Returns the names of stages that have a state in this session, sorted.
   virtual std::vector<std::string> stages(const SessionId& session) const = 0;
 };
 

@@ -14,25 +14,25 @@
 namespace urban_nav_store {
 
 enum class Access {
-  Read,   ///< changes no byte of the file; a writer may be at work at the same time
-  Write,  ///< goes on in the file, or makes it; one writer at a time
+  Read,   ///< changes no byte of the file; another program may write at the same time
+  Write,  ///< opens the file or creates it; one writer at a time
 };
 
-/// One session store (docs/architecture.md): an SQLite file in WAL mode with any number of sessions.
+/// One session store: an SQLite file in WAL mode with any number of sessions.
 ///
-/// What is written gathers in a transaction that the first write opens; commit() makes it last, and what was not
-/// committed when the store is closed, or the process ends, has never been there. Once commit() has returned, its content is
-/// there after kill -9 and after a power cut: the log is flushed to disk at each commit (synchronous = FULL; NORMAL would keep
-/// it after kill -9 but could lose what came after the last checkpoint when the power fails). A commit costs one flush, some
-/// milliseconds: call it at known points or once a second, not for each row. Any error while writing takes back all that was not
-/// committed.
+/// Writes collect in a transaction that the first of them opens. commit() makes it durable, also across kill -9 and
+/// power loss: the log is flushed to disk at each commit (synchronous = FULL; NORMAL could lose the commits since the
+/// last checkpoint in a power cut). A commit costs one flush, some milliseconds: call it at known points or once a
+/// second, not per row. Closing the store or ending the process discards uncommitted writes, and so does any error
+/// while writing.
 ///
-/// Damage is never passed on in silence: every row carries a checksum, every table counts its rows and sums their checksums by
-/// session, compared wherever a session's rows are read as a whole; small files are checked throughout when they are opened.
+/// Damage is always reported: every row has a checksum, every table counts its rows and sums their checksums by
+/// session, compared when the rows of a session are read as a whole; small files are checked completely when they are
+/// opened.
 ///
-/// Errors are UserError or DataError (types/error.hpp) that name the file and what to do: a damaged file, one of a newer
-/// version or of another program (left as it is), a full disk, a place that cannot be written, a second writer, a
-/// closed store. Not thread-safe: one caller at a time, or LiveWriter.
+/// Throws UserError or DataError that name the file and the remedy: a damaged file, one of a newer version or of
+/// another program (not changed), a full disk, a path that cannot be written, a second writer, a closed store. Not
+/// thread-safe: use LiveWriter from several threads.
 class Store {
  public:
   Store(const std::string& path, Access access);
@@ -42,7 +42,8 @@ class Store {
 
   const std::string& path() const;
 
-  /// The narrow interfaces that stages see. They live as long as the store; once it is closed each call is a UserError.
+  /// The narrow interfaces for stages; see also table_store.hpp. They live as long as the store; after close() each
+  /// call throws UserError.
   SessionStore& sessions();
   GraphStore& graph();
   ScanStore& scans();
@@ -51,11 +52,11 @@ class Store {
   StageStates& states();
 
   void commit();
-  /// Takes back what was not committed.
+  /// Discards uncommitted writes.
   void rollback();
-  /// Gives the room that removed rows have left back to the disk. Commits.
+  /// Commits, and returns the space of removed rows to the file system.
   void shrink();
-  /// Rolls back what was not committed and closes the file. The destructor does the same.
+  /// Discards uncommitted writes and closes the file, as the destructor does.
   void close();
 
   class Implementation;
@@ -65,11 +66,11 @@ class Store {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// Does a file at `path` begin as a session store of any version does? False for everything else, also where there is nothing.
+/// Returns whether a file exists at `path` and begins as a session store of any version does.
 bool isStore(const std::string& path);
 
-/// Removes a store with the files beside it, so that a new one can be made in its place. UserError where it is in use, or is no
-/// store: another program's file is not touched. Nothing happens where there is none. A damaged store is removed.
+/// Removes a store, damaged or not, with the files beside it. Does nothing if there is none. Throws UserError if it is
+/// in use or is not a store.
 void removeStore(const std::string& path);
 
 /// Returns the version of the schema that this library writes.

@@ -14,17 +14,19 @@ struct StoredTrajectory {
   Session session;
   std::string map;  ///< id of the session at whose first pose the map has its origin
   std::vector<urban_nav_core::StampedPose> T_map_base;
-  bool relaxed = false;  ///< else as odometry says
+  bool relaxed = false;  ///< false: odometry alone
 };
 
-/// A node that was not relaxed itself goes with the one before it; without any, `map` is where the session's anchor says,
-/// and `odom` where there is none.
+/// Returns the trajectory of a session in its map. A node without an optimised pose moves rigidly with the previous
+/// node that has one; without any, the anchor of the session relates `map` to `odom`, and without an anchor both
+/// coincide.
 StoredTrajectory readTrajectory(Store& store, const Session& session);
 
-/// The sessions of a store whose id or name begins with one of `wanted`, all if that is empty; UserError where none does.
+/// Returns the sessions whose id or name begins with one of `wanted`, or all if it is empty. Throws UserError for an
+/// entry without a session.
 std::vector<Session> sessionsOf(Store& store, const std::vector<std::string>& wanted);
 
-/// Trajectories by map, the maps in the order of their first session.
+/// Returns trajectories grouped by map, in the order of each map's first session.
 std::vector<std::vector<StoredTrajectory>> readMaps(Store& store, const std::vector<Session>& sessions);
 
 }  // namespace urban_nav_store

@@ -35,7 +35,8 @@ enum class MergeRule {
   CompleteInAll,   ///< an error, unless the rows differ in the last column alone, a flag: it holds if it holds in both
 };
 
-/// Declaration of a table of the store. The schema, migration, checks, merge, dump, clear and remove are derived from it.
+/// Declaration of a table of the store. The schema, migration, checks, merge, dump, clear and remove are derived from
+/// it.
 ///
 /// A row type declares its table:
 ///
@@ -52,8 +53,8 @@ enum class MergeRule {
 ///     void columns(Columns& columns);  // see Columns
 ///   };
 ///
-/// A header of such a type in include/urban_nav_store/tables/, named after it (panorama.hpp: struct Panorama), is all that a new table takes.
-/// `since` is the next version of the schema that no release has written.
+/// A header of such a type in include/urban_nav_store/tables/, named after it (panorama.hpp: struct Panorama), is all
+/// that a new table takes. `since` is the next version of the schema that no release has written.
 struct Table {
   std::string name;
   std::size_t keys = 1;  ///< the first columns are the primary key; the very first is the session that a row belongs to
@@ -89,7 +90,8 @@ class AnyRow {
   void (*visit_)(void*, Columns&);
 };
 
-/// Returns a row for writing. One function of the row both reads and writes, and hence takes it as mutable; writing does not change it.
+/// Returns a row for writing. One function of the row both reads and writes, and hence takes it as mutable; writing
+/// does not change it.
 template <typename Row>
 AnyRow unchanged(const Row& row) {
   return AnyRow(const_cast<Row&>(row));

@@ -33,8 +33,9 @@ class AnyTableStore {
   const Table* table_;
 };
 
-/// The rows of one table of a store. A file that is older than the table has no rows; opening it for writing adds the table. The store must
-/// outlive this object. Throws UserError for values that are not finite, DataError for damaged files.
+/// The rows of one table of a store. A file that is older than the table has no rows; opening it for writing adds the
+/// table. The store must outlive this object. Throws UserError for values that are not finite, DataError for damaged
+/// files.
 template <typename Row>
 class TableStore : private AnyTableStore {
  public:
@@ -52,13 +53,15 @@ class TableStore : private AnyTableStore {
   /// Removes the row with the key columns of `key`, if there is one.
   void remove(const Row& key) { removeRow(unchanged(key)); }
 
-  /// Calls `visit` for all rows of a session in the order of their keys. Throws DataError at the end if a row is missing.
+  /// Calls `visit` for all rows of a session in the order of their keys. Throws DataError at the end if a row is
+  /// missing.
   void forEach(const SessionId& session, const std::function<void(const Row&)>& visit) const {
     Row row;
     forEachRow(session, AnyRow(row), [&] { visit(row); });
   }
 
-  /// Calls `visit` for the rows whose last key, a whole number, is in from...to, and whose other keys are those of `key`, in ascending order.
+  /// Calls `visit` for the rows whose last key, a whole number, is in from...to, and whose other keys are those of
+  /// `key`, in ascending order.
   void forEachBetween(Row key, std::int64_t from, std::int64_t to, const std::function<void(const Row&)>& visit) const {
     forEachRowBetween(AnyRow(key), from, to, [&] { visit(key); });
   }

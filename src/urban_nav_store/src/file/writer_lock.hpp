@@ -5,8 +5,8 @@
 
 namespace urban_nav_store {
 
-/// The right to write a store: one holder in all processes and within each, told by a lock on FILE-lock. Ends with the process, however
-/// that ends. SQLite's own locks would keep readers out for as long.
+/// The right to write a store: one holder in all processes and within each, by a lock on FILE-lock. Ends with the
+/// process, however that ends. SQLite's own locks would keep readers out for as long.
 class WriterLock {
  public:
   /// UserError where another holds it.

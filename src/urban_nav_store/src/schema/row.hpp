@@ -10,8 +10,8 @@
 
 namespace urban_nav_store {
 
-/// The checksum of a row: CRC-32 (ISO 3309) of its columns in their order, each with its type and length, so that no byte can move from
-/// one column to the next unseen.
+/// The checksum of a row: CRC-32 (ISO 3309) of its columns in their order, each with its type and length, so that no
+/// byte can move from one column to the next unseen.
 class RowChecksum {
  public:
   void text(std::string_view value);
@@ -25,7 +25,8 @@ class RowChecksum {
   std::string bytes_;
 };
 
-/// Fills the parameters of putSql or insertSql column by column, then writes the row. Blobs and texts must live until write().
+/// Fills the parameters of putSql or insertSql column by column, then writes the row. Blobs and texts must live until
+/// write().
 class RowWriter {
  public:
   /// Opens a transaction if none is open.
@@ -83,8 +84,8 @@ class RowReader {
 
 /// Throws DataError if `reader`, at its end, has not seen exactly the rows that the tally counts for this session.
 void verifyTally(const RowReader& reader, const std::string& session);
-/// Throws DataError if the rows of a session are not those that the tally counts, by their stored checksums alone: for tables that are read
-/// row by row.
+/// Throws DataError if the rows of a session are not those that the tally counts, by their stored checksums alone: for
+/// tables that are read row by row.
 void verifyTally(Connection& connection, const Table& table, const std::string& session);
 
 /// Throws DataError if the rows of any session are not those that the tally counts.

@@ -60,7 +60,8 @@ class ReadingColumns : public Columns {
   std::size_t next_ = 0;
 };
 
-/// Binds copies of the first key columns of a row to the parameters of a statement. Must live until the statement is done.
+/// Binds copies of the first key columns of a row to the parameters of a statement. Must live until the statement is
+/// done.
 class KeyColumns : public Columns {
  public:
   KeyColumns(Statement& statement, std::size_t keys) : statement_(statement), keys_(keys) {}

@@ -39,8 +39,9 @@ std::string keyNames(const Table& table) {
   return text;
 }
 
-/// Triggers keep rows and the sum of checksums of each session, so that a page that was lost with its rows is missed. Wide rows are stored by
-/// row number with an index, narrow ones in the index itself: SQLite's own advice for tables without row numbers.
+/// Triggers keep rows and the sum of checksums of each session, so that a page that was lost with its rows is missed.
+/// Wide rows are stored by row number with an index, narrow ones in the index itself: SQLite's own advice for tables
+/// without row numbers.
 SqlObjects sqlObjects(const Table& table) {
   const std::string name = table.name, session = table.columns.front().name;
   std::string columns;

@@ -32,11 +32,13 @@ Table atVersion(const Table& table, int version);
 void create(Connection& connection, const Tables& tables, int version);
 inline void create(Connection& connection) { create(connection, tables(), latestVersion(tables())); }
 
-/// Brings a file of an earlier version to the latest one in one transaction: tables that came later are created, and tables with columns
-/// that came later are written anew with the initial values of these. Does nothing in a file of the latest version.
+/// Brings a file of an earlier version to the latest one in one transaction: tables that came later are created, and
+/// tables with columns that came later are written anew with the initial values of these. Does nothing in a file of the
+/// latest version.
 void migrate(Connection& connection, const Tables& tables);
 
-/// Throws an error that names the file if it is another program's, of a newer version, or damaged (tables differ from their declaration).
+/// Throws an error that names the file if it is another program's, of a newer version, or damaged (tables differ from
+/// their declaration).
 void check(Connection& connection, const Tables& tables);
 inline void check(Connection& connection) { check(connection, tables()); }
 

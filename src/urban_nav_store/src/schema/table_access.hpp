@@ -14,8 +14,8 @@
 
 namespace urban_nav_store {
 
-/// Reads and writes rows of all tables of one connection. A file that is older than a table has no rows of it; columns that are younger than
-/// the file have their initial values. Not thread-safe.
+/// Reads and writes rows of all tables of one connection. A file that is older than a table has no rows of it; columns
+/// that are younger than the file have their initial values. Not thread-safe.
 class TableAccess {
  public:
   /// The connection must outlive this object.
@@ -34,9 +34,11 @@ class TableAccess {
   /// Removes the rows whose first `keys` key columns are those of `key`.
   void remove(const Table& table, const AnyRow& key, std::size_t keys);
 
-  /// Calls `visit` after reading each row of a session into `row`, in the order of the keys. Throws DataError at the end if a row is missing.
+  /// Calls `visit` after reading each row of a session into `row`, in the order of the keys. Throws DataError at the
+  /// end if a row is missing.
   void forEach(const Table& table, const SessionId& session, const AnyRow& row, const std::function<void()>& visit);
-  /// Calls `visit` after reading each row whose last key, a whole number, is in from...to, and whose other keys are those of `row`.
+  /// Calls `visit` after reading each row whose last key, a whole number, is in from...to, and whose other keys are
+  /// those of `row`.
   void forEachBetween(const Table& table, const AnyRow& row, std::int64_t from, std::int64_t to,
                       const std::function<void()>& visit);
   /// Calls `visit` after reading each row of the table.
@@ -44,7 +46,8 @@ class TableAccess {
 
   /// Returns the different values of the second key column, a text, in a session; sorted.
   std::vector<std::string> secondKeys(const Table& table, const SessionId& session);
-  /// Returns the values of the last key column, a whole number, of the rows with the other key columns of `row`; ascending.
+  /// Returns the values of the last key column, a whole number, of the rows with the other key columns of `row`;
+  /// ascending.
   std::vector<std::int64_t> lastKeys(const Table& table, const AnyRow& row);
   /// Returns the number of rows that a session has according to the tally.
   std::int64_t count(const Table& table, const SessionId& session);
@@ -56,8 +59,8 @@ class TableAccess {
   /// Removes the entries of the tally that count no rows of a session.
   void forgetEmpty(const SessionId& session);
 
-  /// Throws DataError if a session's rows are not those that were written. Looks once for each session: what is written through this
-  /// object later cannot be lost unseen.
+  /// Throws DataError if a session's rows are not those that were written. Looks once for each session: what is written
+  /// through this object later cannot be lost unseen.
   void verifyOnce(const Table& table, const SessionId& session);
 
  private:

@@ -11,8 +11,8 @@ struct sqlite3;
 
 namespace urban_nav_store {
 
-/// One connection to one SQLite file. Whatever SQLite reports becomes a UserError or DataError that names the file (errors.hpp). Not
-/// thread-safe.
+/// One connection to one SQLite file. Whatever SQLite reports becomes a UserError or DataError that names the file
+/// (errors.hpp). Not thread-safe.
 class Connection {
  public:
   enum class Mode {

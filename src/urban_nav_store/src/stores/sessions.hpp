@@ -28,7 +28,8 @@ class SqliteSessionStore : public SessionStore {
   std::vector<Extrinsic> extrinsics(const SessionId& id) const override;
 
  private:
-  /// Removes the rows of a session from the tables that `goes` selects, and the rows of other sessions that refer to it.
+  /// Removes the rows of a session from the tables that `goes` selects, and the rows of other sessions that refer to
+  /// it.
   void removeRows(const SessionId& id, const std::function<bool(const Table&)>& goes);
 
   TableAccess& tables_;

@@ -49,7 +49,7 @@ TEST(ScanBlock, refusesWhatIsNotFinite) {
 TEST(ScanBlock, survivesAnything) {
   std::vector<Scan> few = someScans();
   few.resize(2);
-  // What is damaged behind the compression too.
+  // Damage inside the compressed data too.
   const std::string plain = *inflated(packScans(few), 1 << 20);
   for (const bool inside : {false, true}) {
     const auto result =

@@ -88,7 +88,7 @@ TEST_F(SessionRows, areRemovedWithAllThatNamesThem) {
   EXPECT_TRUE(dump(store) == before);
   store.commit();
   EXPECT_TRUE(dump(store) == before);
-  sessions.remove("nobody");
+  sessions.remove("unknown");
 }
 
 }  // namespace
