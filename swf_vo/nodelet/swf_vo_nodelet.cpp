@@ -68,9 +68,9 @@ SwfVoStage::SwfVoStage(Node& node) : node_(node) {
   listener.settled = [this](const Settled& settled) { publisher_->publish(settled); };
   odometry_ = std::make_unique<LiveOdometry>(parameters_, listener);
   StereoSessions::Options sessions = urban_nav_ros::toStereoOptions(nodelet_, node.nh());
-  sessions.motion = parameters_.motion_input != "none";
-  sessions.wheel_noise = parameters_.wheel_noise;
-  sessions.gyro_noise = parameters_.gyro_noise;
+  sessions.motion = nodelet_.motion_input != "none";
+  sessions.wheel_noise = nodelet_.wheel_noise;
+  sessions.gyro_noise = nodelet_.gyro_noise;
   sessions_ = std::make_unique<StereoSessions>(
       sessions,
       StereoSessions::Listener{[this](const auto& camera) { begin(camera); }, [this](auto& pair) { process(pair); },  //
@@ -78,7 +78,7 @@ SwfVoStage::SwfVoStage(Node& node) : node_(node) {
   urban_nav_ros::TopicOptions options;
   options.timeout = image_timeout;
   options.queue = nodelet_.queue_size;
-  subscribeStereo(node, options, nodelet_.compressed, urban_nav_ros::toMotionTopic(parameters_.motion_input));
+  subscribeStereo(node, options, nodelet_.compressed, urban_nav_ros::toMotionTopic(nodelet_.motion_input));
 }
 
 void SwfVoStage::refuse(const std::string& fault) {

@@ -52,13 +52,6 @@ const Table<Parameters>& table() {
            "With fewer trusted matches than this the frame is LOST: the pose goes on by prediction.", "docs/conventions.md"},
           {"degraded_features", &P::degraded_features, "", std::int64_t{20}, std::int64_t{4}, std::int64_t{1000}, {},
            "With fewer trusted matches than this the frame is DEGRADED.", "Tables 2 and 3: at least 37"},
-          {"motion_input", &P::motion_input, "", std::string("none"), false, false, {"none", "wheels", "gyroscope"},
-           "What else tells how the robot moved between two frames: nothing (constant velocity), wheel odometry, or the rates of an IMU.",
-           "paper 2.1, eq. 1"},
-          {"wheel_noise", &P::wheel_noise, "m/m, rad/rad", 0.05, 0.0001, 10.0, {},
-           "Standard deviation of what the wheels measured, in proportion to the distance and to the angle.", "paper 2.1, eq. 1"},
-          {"gyro_noise", &P::gyro_noise, "rad/s", 0.1, 0.00001, 10.0, {},
-           "Standard deviation of the rates of the IMU, its bias included, since no bias is estimated.", "paper 2.1, eq. 1"},
       });
   return rows;
 }

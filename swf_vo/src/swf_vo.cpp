@@ -78,6 +78,8 @@ void agree(urban_nav_core::Archive& archive, const Parameters& parameters, const
       throw UserError("state of swf_vo", "was made with " + then + " and is to go on with " + now,
                       "the same parameters");
   }
+  // Parameters that the input has now; what they were does not matter to a filter that goes on.
+  for (std::string moved : {"motion_input = none", "wheel_noise = 0.05", "gyro_noise = 0.1"}) archive(moved);
   StereoCamera camera_then = camera;
   Pose T_then = T_base_camera;
   archive(camera_then, T_then);

@@ -77,9 +77,7 @@ TEST(State, GoesOnWithImagesExchanged) { expectSeamless(stepsOf("loop", 45, "swa
 TEST(State, GoesOnInFrozenImages) { expectSeamless(stepsOf("loop", 45, "freeze:1:0.5"), {20, 21, 22, 25, 29, 32}); }
 
 TEST(State, GoesOnWithWheels) {
-  Parameters parameters;
-  parameters.motion_input = "wheels";
-  expectSeamless(stepsOf("loop", 40, "black:0.5:0.3", true), {5, 12, 16, 25}, parameters);
+  expectSeamless(stepsOf("loop", 40, "black:0.5:0.3", true), {5, 12, 16, 25});
 }
 
 TEST(State, GoesOnWithOtherParameters) {

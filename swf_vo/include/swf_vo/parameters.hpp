@@ -26,9 +26,6 @@ struct Parameters {
   int fast_threshold;  // grey levels
   int lost_features;   // fewer inliers than this: prediction only
   int degraded_features;
-  std::string motion_input;  // none, wheels, gyroscope: the input u
-  double wheel_noise;        // m/m and rad/rad
-  double gyro_noise;         // rad/s
 
   Parameters();
 };

@@ -15,14 +15,14 @@ const Table<NodeletParameters>& nodeletTable() {
   using P = NodeletParameters;
   static const Table<NodeletParameters> rows(
       "",
-      urban_nav_live::withStereoInput<P>(
+      urban_nav_core::withMotionInput(urban_nav_live::withStereoInput<P>(
           {
               {"odom_frame", &P::odom_frame, "", urban_nav_core::frames::odom, false, false, {},
                "Frame in which the odometry is given; its origin is the first base_link.", "REP-105"},
               {"publish_tf", &P::publish_tf, "", true, false, true, {},
                "Whether to publish odom_frame to base_frame on /tf.", "REP-105"},
           },
-          200));
+          200)));
   return rows;
 }
 // clang-format on

@@ -4,13 +4,14 @@
 #include <string>
 
 #include "urban_nav_core/parameters/table.hpp"
+#include "urban_nav_core/sequence/motion_input_parameters.hpp"
 #include "urban_nav_live/stereo_input_parameters.hpp"
 
 namespace swf_vo {
 
 /// Parameters of the nodelet apart from those of the filter (swf_vo/parameters.hpp): frames and transport. One member per
 /// row of nodeletTable().
-struct NodeletParameters : urban_nav_live::StereoInputParameters {
+struct NodeletParameters : urban_nav_live::StereoInputParameters, urban_nav_core::MotionInputParameters {
   std::string odom_frame;
   bool publish_tf;
 

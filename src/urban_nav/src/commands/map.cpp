@@ -8,13 +8,13 @@ namespace {
 
 MapRequest requestOf(const Arguments& arguments) {
   AllParameters parameters = loadParameters(arguments);
-  const swf_vo::Parameters& vo = parameters.swf_vo.parameters;
+  const InputParameters& input = parameters.input.parameters;
   const SourceOptions source{arguments.all("topic"),
                              arguments.get("calibration"),
                              arguments.number("rate", 0.0, 0.01, 10000.0),
-                             vo.motion_input,
-                             vo.wheel_noise,
-                             vo.gyro_noise};
+                             input.motion_input,
+                             input.wheel_noise,
+                             input.gyro_noise};
   const std::optional<double> so_far =
       arguments.has("so-far") ? std::optional(arguments.number("so-far", 1.0, 0.0, 1.0)) : std::nullopt;
   return {arguments.all("INPUT"),

@@ -240,7 +240,7 @@ class BagSource : public Source {
     const Role motion_role = options_.motion_input == "wheels" ? Role::Wheels : Role::Imu;
     if (options_.motion_input != "none") {
       if (!topics_.find(motion_role))
-        throw DataError(name_, "has no topic for swf_vo.motion_input = " + options_.motion_input, "");
+        throw DataError(name_, "has no topic for input.motion_input = " + options_.motion_input, "");
       feed.motion = true;
     }
     feed_.emplace(feed, calibration_);

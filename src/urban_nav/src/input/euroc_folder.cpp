@@ -26,7 +26,7 @@ class EurocFolder : public Source {
     info_.first = pairs_.front().stamp;
     info_.last = pairs_.back().stamp;
     if (options.motion_input == "wheels")
-      throw urban_nav_core::DataError(mav0_, "has no wheel odometry for swf_vo.motion_input = wheels", "");
+      throw urban_nav_core::DataError(mav0_, "has no wheel odometry for input.motion_input = wheels", "");
     if (options.motion_input == "gyroscope") readMotion(options.gyro_noise);
     readForces();
     info_.notes.push_back("raw images, rectified on the way; base_link is at the left camera");
@@ -56,7 +56,7 @@ class EurocFolder : public Source {
     for (const EurocImu& row : readEurocImu(mav0_)) {
       if (const auto motion = gyroscope.add(toImuMessage(row))) motion_.push_back(*motion);
     }
-    if (motion_.empty()) throw urban_nav_core::DataError(mav0_, "has no imu0 for swf_vo.motion_input = gyroscope", "");
+    if (motion_.empty()) throw urban_nav_core::DataError(mav0_, "has no imu0 for input.motion_input = gyroscope", "");
   }
 
   /// They level the map; without them it is as the first pose stands, and nothing else is lost.

@@ -32,7 +32,7 @@ class KittiFolder : public Source {
     info_.notes = frames_.notes;
     if (options.motion_input != "none")
       throw urban_nav_core::DataError(
-          folder, "holds images alone, nothing for swf_vo.motion_input = " + options.motion_input, "");
+          folder, "holds images alone, nothing for input.motion_input = " + options.motion_input, "");
     look(options.calibration);
   }
 

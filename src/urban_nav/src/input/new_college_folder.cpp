@@ -35,7 +35,7 @@ class NewCollegeFolder : public Source {
         "m ahead, 1.1 m up");
     if (!options.calibration.empty()) info_.notes.push_back("--calibration is left aside: the data set's counts");
     if (options.motion_input == "gyroscope")
-      throw DataError(folder, "has no IMU for swf_vo.motion_input = gyroscope", "");
+      throw DataError(folder, "has no IMU for input.motion_input = gyroscope", "");
     if (options.motion_input == "wheels") openLog(folder, options.wheel_noise);
   }
 
@@ -55,7 +55,7 @@ class NewCollegeFolder : public Source {
 
  private:
   void openLog(const std::string& folder, double noise) {
-    if (files_.alog.empty()) throw DataError(folder, "has no .alog for swf_vo.motion_input = wheels", "");
+    if (files_.alog.empty()) throw DataError(folder, "has no .alog for input.motion_input = wheels", "");
     log_.emplace(files_.alog);
     wheels_.emplace(noise);
     nextMotion();

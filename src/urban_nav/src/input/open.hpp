@@ -14,9 +14,9 @@ struct SourceOptions {
   std::vector<std::string> topics;    ///< ROLE:=NAME, for bags
   std::string calibration;            ///< file for bags and KITTI folders; empty: their own
   double rate = 0.0;                  ///< Hz of an image folder without stamps; 0: 10 Hz
-  std::string motion_input = "none";  ///< as swf_vo.motion_input: what else is read for the process model
-  double wheel_noise = 0.0;           ///< as swf_vo.wheel_noise
-  double gyro_noise = 0.0;            ///< as swf_vo.gyro_noise
+  std::string motion_input = "none";  ///< as input.motion_input
+  double wheel_noise = 0.0;           ///< as input.wheel_noise
+  double gyro_noise = 0.0;            ///< as input.gyro_noise
 };
 
 enum class InputKind { KittiFolder, EurocFolder, NewCollegeFolder, Bag };

@@ -24,11 +24,12 @@ urban_nav_core::RenamedAssignments assignmentsOf(const Arguments& arguments) {
   for (const std::string& setting : arguments.all("set")) assignments.push_back(urban_nav_core::parseSetting(setting));
   urban_nav_core::RenamedAssignments renamed = urban_nav_core::replaceOldNames(
       std::move(assignments), {{commandTable().stage(), commandTable().rows()},
+                               {inputTable().stage(), inputTable().rows()},
                                {swf_vo::table().stage(), swf_vo::table().rows()},
                                {pose_graph::table().stage(), pose_graph::table().rows()},
                                {loop_metric::table().stage(), loop_metric::table().rows()}});
-  urban_nav_core::refuseUnknownStages(
-      renamed.assignments, {"", swf_vo::table().stage(), pose_graph::table().stage(), loop_metric::table().stage()});
+  urban_nav_core::refuseUnknownStages(renamed.assignments, {"", inputTable().stage(), swf_vo::table().stage(),
+                                                            pose_graph::table().stage(), loop_metric::table().stage()});
   return renamed;
 }
 
@@ -55,15 +56,17 @@ const Table<CommandParameters>& commandTable() {
 }
 
 std::vector<const std::vector<Setting>*> AllParameters::settings() const {
-  return {&command.settings, &swf_vo.settings, &pose_graph.settings, &loop_metric.settings};
+  return {&command.settings, &input.settings, &swf_vo.settings, &pose_graph.settings, &loop_metric.settings};
 }
 
 AllParameters loadParameters(const Arguments& arguments) {
   const urban_nav_core::RenamedAssignments renamed = assignmentsOf(arguments);
   AllParameters all{urban_nav_core::load(commandTable(), renamed.assignments),
+                    urban_nav_core::load(inputTable(), renamed.assignments),
                     urban_nav_core::load(swf_vo::table(), renamed.assignments),
                     urban_nav_core::load(pose_graph::table(), renamed.assignments),
-                    urban_nav_core::load(loop_metric::table(), renamed.assignments), renamed.warnings};
+                    urban_nav_core::load(loop_metric::table(), renamed.assignments),
+                    renamed.warnings};
   for (std::string& warning : urban_nav_core::differingValues(all.settings(), urban_nav_core::cameraNoiseNames()))
     all.warnings.push_back(std::move(warning));
   return all;
@@ -84,6 +87,7 @@ std::string parametersHelp(const Arguments& arguments) {
   const AllParameters all = loadParameters(arguments);
   return "parameters (--config FILE, --set STAGE.KEY=VALUE):\n" +
          urban_nav_core::printHelp(commandTable().stage(), commandTable().rows(), all.command.settings) +
+         urban_nav_core::printHelp(inputTable().stage(), inputTable().rows(), all.input.settings) +
          urban_nav_core::printHelp(swf_vo::table().stage(), swf_vo::table().rows(), all.swf_vo.settings) +
          urban_nav_core::printHelp(loop_metric::table().stage(), loop_metric::table().rows(),
                                    all.loop_metric.settings) +

@@ -6,6 +6,7 @@
 
 #include "command_line/command.hpp"
 #include "command_line/json.hpp"
+#include "input/input_parameters.hpp"
 #include "loop_metric/parameters.hpp"
 #include "pose_graph/parameters.hpp"
 #include "swf_vo/parameters.hpp"
@@ -23,6 +24,7 @@ const urban_nav_core::Table<CommandParameters>& commandTable();
 /// The parameters of all stages, from --config and --set.
 struct AllParameters {
   urban_nav_core::Loaded<CommandParameters> command;
+  urban_nav_core::Loaded<InputParameters> input;
   urban_nav_core::Loaded<swf_vo::Parameters> swf_vo;
   urban_nav_core::Loaded<pose_graph::Parameters> pose_graph;
   urban_nav_core::Loaded<loop_metric::Parameters> loop_metric;

@@ -21,5 +21,13 @@ TEST(Parameters, StagesThatAreToldDifferentCamerasAreNamed) {
   EXPECT_TRUE(loaded({"swf_vo.iterations=5"}).warnings.empty()) << "the same word for another thing";
 }
 
+TEST(Parameters, MotionInputIsUnderstoodUnderTheNameOfTheStageThatHadIt) {
+  const AllParameters old = loaded({"swf_vo.motion_input=wheels"});
+  EXPECT_EQ(old.input.parameters.motion_input, "wheels");
+  ASSERT_EQ(old.warnings.size(), 1U);
+  EXPECT_NE(old.warnings[0].find("input.motion_input"), std::string::npos) << old.warnings[0];
+  EXPECT_TRUE(loaded({"input.motion_input=wheels"}).warnings.empty());
+}
+
 }  // namespace
 }  // namespace urban_nav

@@ -122,7 +122,7 @@ TEST_F(Split, goesOnInAnotherFolder) {
 
 TEST_F(Split, goesOnWithWheels) {
   const auto with_wheels = [](MapRequest& request) {
-    request.source.motion_input = request.parameters.swf_vo.parameters.motion_input = "wheels";
+    request.source.motion_input = request.parameters.input.parameters.motion_input = "wheels";
     request.source.wheel_noise = 0.05;
   };
   map(parts(), folder.file("once"), {}, with_wheels);

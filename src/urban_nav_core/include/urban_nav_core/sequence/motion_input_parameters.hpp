@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "urban_nav_core/parameters/table.hpp"
+
+namespace urban_nav_core {
+
+/// Which motion sensor accompanies the images, and its noise: parameters of readers and nodelets, which turn its messages
+/// into MotionInput. Base of their parameters; the rows are those of withMotionInput().
+struct MotionInputParameters {
+  std::string motion_input;  // none, wheels, gyroscope
+  double wheel_noise;        // m/m and rad/rad
+  double gyro_noise;         // rad/s
+};
+
+/// Returns `own` rows followed by those of MotionInputParameters.
+template <typename P>
+std::vector<Row<P>> withMotionInput(std::vector<Row<P>> own) {
+  const std::vector<Row<P>> rows = {
+      {"motion_input",
+       &P::motion_input,
+       "",
+       "none",
+       false,
+       false,
+       {"none", "wheels", "gyroscope"},
+       "Input u of the process model: constant velocity, wheel odometry, or the rates of an IMU.",
+       "paper 2.1, eq. 1",
+       {"swf_vo.motion_input"}},
+      {"wheel_noise",
+       &P::wheel_noise,
+       "m/m, rad/rad",
+       0.05,
+       0.0001,
+       10.0,
+       {},
+       "Standard deviation of wheel odometry, in proportion to distance and angle.",
+       "paper 2.1, eq. 1",
+       {"swf_vo.wheel_noise"}},
+      {"gyro_noise",
+       &P::gyro_noise,
+       "rad/s",
+       0.1,
+       0.00001,
+       10.0,
+       {},
+       "Standard deviation of the rates of the IMU, its bias included, since no bias is estimated.",
+       "paper 2.1, eq. 1",
+       {"swf_vo.gyro_noise"}}};
+  own.insert(own.end(), rows.begin(), rows.end());
+  return own;
+}
+
+}  // namespace urban_nav_core
