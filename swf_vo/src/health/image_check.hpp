@@ -46,8 +46,4 @@ class ImageCheck {
   int blurred_ = 0;  // frames in a row whose edges are wider than usual
 };
 
-/// Does the scene lie behind the cameras? Compares textured blocks along the rows at a quarter of the resolution; true where by far most
-/// disparities that are not about zero have the wrong sign. Needs some ten blocks that differ, else false.
-bool looksExchanged(const urban_nav_core::ImageView& left, const urban_nav_core::ImageView& right);
-
 }  // namespace swf_vo

@@ -163,14 +163,5 @@ TEST(ImageCheck, findsExchangedImagesAtTheStartAndLater) {
   EXPECT_EQ(verdict.reason, Reason::Swapped);
 }
 
-TEST(LooksExchanged, asksForEvidence) {
-  EXPECT_FALSE(looksExchanged(Scene(1, 0.0).pair().left, Scene(1, 0.0).pair().right)) << "everything far away";
-  const std::vector<std::uint8_t> flat(width * height, 90);
-  const ImageView view{flat.data(), width, height, width};
-  EXPECT_FALSE(looksExchanged(view, view));
-  const ImageView tiny{flat.data(), 20, 20, width};
-  EXPECT_FALSE(looksExchanged(tiny, tiny));
-}
-
 }  // namespace
 }  // namespace swf_vo

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_core/image/exchanged.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace urban_nav_core {
+
+namespace {
+
+constexpr int shrink = 4;  // columns
+constexpr int block = 12;  // shrunk columns
+constexpr int block_rows = 4;
+constexpr int longest_reach = 200;  // shrunk columns
+
+// Sums over `shrink` neighbours of a row, from a shrunk column on: a cheap low-pass filter along the row.
+void shrinkRows(const ImageView& image, int v, int column, int count, int* out) {
+  for (int r = 0; r < block_rows; ++r) {
+    const std::uint8_t* p = image.row(v + 2 * r) + column * shrink;
+    for (int c = 0; c < count; ++c, p += shrink) *out++ = p[0] + p[1] + p[2] + p[3];
+  }
+}
+
+// Cost of a block beside another, whose rows are `stride` apart; the mean is removed, so exposure does not matter.
+int difference(const int* a, const int* b, int stride) {
+  constexpr int count = block * block_rows;
+  int values[count];
+  int sum = 0;
+  for (int r = 0; r < block_rows; ++r)
+    for (int c = 0; c < block; ++c) {
+      const int d = a[r * block + c] - b[r * stride + c];
+      values[r * block + c] = d;
+      sum += d;
+    }
+  const int mean = sum / count;
+  int cost = 0;
+  for (const int value : values) cost += std::abs(value - mean);
+  return cost;
+}
+
+}  // namespace
+
+bool looksExchanged(const ImageView& left, const ImageView& right) {
+  const int columns = left.width / shrink;
+  const int reach = std::min(columns / 6, longest_reach);
+  if (columns < 4 * block || left.height < 64) return false;
+  int usual = 0, exchanged = 0;
+  for (int i = 0; i < 6; ++i) {
+    const int v = left.height / 8 + i * (left.height * 3 / 4) / 6;
+    for (int j = 0; j < 6; ++j) {
+      const int column = reach + j * (columns - 2 * reach - block) / 5;
+      const int stride = block + 2 * reach;
+      int here[block * block_rows], there[(block + 2 * longest_reach) * block_rows], costs[2 * longest_reach + 1] = {};
+      shrinkRows(left, v, column, block, here);
+      shrinkRows(right, v, column - reach, stride, there);
+      for (int shift = -reach; shift <= reach; ++shift)
+        costs[shift + reach] = difference(here, there + reach - shift, stride);
+      int* const end = costs + 2 * reach + 1;
+      const int* best = std::min_element(costs, end);
+      const int found = static_cast<int>(best - costs) - reach;
+      const int opposite =
+          found > 0 ? *std::min_element(costs, costs + reach + 1) : *std::min_element(costs + reach, end);
+      const int worst = *std::max_element(costs, end);
+      // Only blocks with texture, whose best shift is clear of zero and clearly better than any of the other sign.
+      if (worst < 40 * block * block_rows || found == 0 || 3 * *best > 2 * opposite) continue;
+      (found > 0 ? usual : exchanged)++;
+    }
+  }
+  return exchanged >= 5 && exchanged > 4 * usual;
+}
+
+}  // namespace urban_nav_core

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_core/image/exchanged.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+namespace urban_nav_core {
+namespace {
+
+constexpr int exchanged_width = 512, exchanged_height = 384;
+
+/// Random blobs of 8x3 px, `shift` px further to the left.
+std::vector<std::uint8_t> blobs(int shift) {
+  std::vector<std::uint8_t> pixels;
+  for (int v = 0; v < exchanged_height; ++v)
+    for (int u = 0; u < exchanged_width; ++u) {
+      std::mt19937 level(static_cast<unsigned>((u + shift + 800) / 8 + 1000 * (v / 3)));
+      pixels.push_back(static_cast<std::uint8_t>(level() % 200 + 20));
+    }
+  return pixels;
+}
+
+ImageView view(const std::vector<std::uint8_t>& pixels) {
+  return {pixels.data(), exchanged_width, exchanged_height, exchanged_width};
+}
+
+TEST(LooksExchanged, IsTrueForNegativeDisparitiesOnly) {
+  const std::vector<std::uint8_t> left = blobs(0), right = blobs(24);
+  EXPECT_FALSE(looksExchanged(view(left), view(right)));
+  EXPECT_TRUE(looksExchanged(view(right), view(left)));
+}
+
+TEST(LooksExchanged, IsFalseWithoutEvidence) {
+  const std::vector<std::uint8_t> far = blobs(0), flat(exchanged_width * exchanged_height, 90);
+  EXPECT_FALSE(looksExchanged(view(far), view(far))) << "all disparities are zero";
+  EXPECT_FALSE(looksExchanged(view(flat), view(flat)));
+  const ImageView tiny{flat.data(), 20, 20, exchanged_width};
+  EXPECT_FALSE(looksExchanged(tiny, tiny));
+}
+
+}  // namespace
+}  // namespace urban_nav_core
