@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include "dense_stereo/disparity_image.hpp"
+#include "dense_stereo/parameters.hpp"
+#include "urban_nav_core/types/status.hpp"
+#include "urban_nav_core/types/stereo_pair.hpp"
+
+namespace dense_stereo {
+
+/// Why a result is not OK: Status::reason of this stage.
+enum class Reason : int {
+  None = 0,
+  ImageMissing,     ///< left, right or both are empty
+  SizesDiffer,      ///< left and right have different sizes
+  NoContrast,       ///< an image without light or texture
+  Swapped,          ///< left and right are exchanged
+  RowsDisagree,     ///< the right image shows everything higher or lower than the left one
+  ExposureDiffers,  ///< the brightness of the two images differs by more than a quarter; compensated
+  LittleMatched,    ///< fewer than a tenth of the pixels have an answer
+};
+const char* toString(Reason reason);
+
+/// What one pair gave.
+struct StereoResult {
+  DisparityImage image;
+  urban_nav_core::Status status;
+  double answered = 0.0;    ///< share of the pixels with a disparity
+  double exposure = 1.0;    ///< brightness contrast of the left image divided by that of the right one
+  double row_offset = 0.0;  ///< px by which the right image shows everything lower than the left one; 0 if unknown
+};
+
+/// Dense disparities of rectified pairs (Newman et al. 2009, section 6.2). Deterministic; the result of a pair does
+/// not depend on earlier pairs, nor on the number of threads. Allocates only when the size of the images changes. Not
+/// thread-safe; different objects are independent.
+class DenseStereo {
+ public:
+  explicit DenseStereo(const Parameters& parameters);
+  ~DenseStereo();
+  DenseStereo(DenseStereo&&) noexcept;
+  DenseStereo& operator=(DenseStereo&&) noexcept;
+
+  /// Returns the disparities of the left image and their variances. Pairs that show nothing, or the wrong thing, are
+  /// answered with a status that says why, and invalid pixels. The result lives until the next call.
+  const StereoResult& process(const urban_nav_core::StereoPair& pair);
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace dense_stereo

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "urban_nav_core/parameters/table.hpp"
+
+namespace dense_stereo {
+
+/// What a user may want to change, one member per row of table().
+struct Parameters {
+  std::string method;  // sgm, paper
+  int disparities;     // px
+  int min_component;   // px
+  double max_sigma;    // px
+
+  Parameters();
+};
+
+/// The only place where a default, a range, a unit or a sentence about a parameter is written.
+const urban_nav_core::Table<Parameters>& table();
+
+}  // namespace dense_stereo

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dense_stereo/dense_stereo.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+
+#include "matcher.hpp"
+#include "pair_check.hpp"
+#include "sgm/descriptors.hpp"
+#include "sgm/sgm_matcher.hpp"
+
+namespace dense_stereo {
+
+using urban_nav_core::Health;
+using urban_nav_core::ImageView;
+
+namespace {
+
+constexpr double little = 0.1;           // share of the pixels
+constexpr double equal_exposure = 0.05;  // relative: no more than scenes differ by between two views
+
+std::unique_ptr<Matcher> makeMatcher(const Parameters& parameters) { return std::make_unique<SgmMatcher>(parameters); }
+
+}  // namespace
+
+const char* toString(Reason reason) {
+  static constexpr const char* names[] = {"none",    "image_missing", "sizes_differ",     "no_contrast",
+                                          "swapped", "rows_disagree", "exposure_differs", "little_matched"};
+  return names[static_cast<std::size_t>(reason)];
+}
+
+class DenseStereo::Implementation {
+ public:
+  explicit Implementation(const Parameters& parameters) : matcher_(makeMatcher(parameters)) {}
+
+  const StereoResult& process(const urban_nav_core::StereoPair& pair) {
+    const PairCheck check = checkPair(pair);
+    begin(pair.left, check);
+    if (!check.usable) return result_;
+    copy(pair.left, 1.0, 0.0, left_);
+    const bool compensate = std::abs(check.exposure - 1.0) > equal_exposure;
+    copy(pair.right, compensate ? check.exposure : 1.0, compensate ? check.offset : 0.0, right_);
+    matcher_->match({left_, right_}, result_.image);
+    count();
+    return result_;
+  }
+
+ private:
+  void begin(const ImageView& left, const PairCheck& check) {
+    DisparityImage& image = result_.image;
+    image.width = std::max(left.width, 0);
+    image.height = std::max(left.height, 0);
+    const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+    image.disparity.assign(pixels, DisparityImage::invalid);
+    image.variance.assign(pixels, 0.0F);
+    result_.status.health = check.usable ? check.reason == Reason::None ? Health::Ok : Health::Degraded : Health::Lost;
+    result_.status.reason = static_cast<int>(check.reason);
+    result_.status.sentence = check.sentence;
+    result_.answered = 0.0;
+    result_.exposure = check.exposure;
+    result_.row_offset = 0.0;
+  }
+
+  void copy(const ImageView& from, double gain, double offset, Padded<std::uint8_t>& to) const {
+    to.resize(from.width, from.height);
+    std::array<std::uint8_t, 256> levels{};
+    for (std::size_t i = 0; i < levels.size(); ++i)
+      levels[i] = static_cast<std::uint8_t>(std::clamp(std::lround(gain * static_cast<double>(i) + offset), 0L, 255L));
+    const bool same = gain == 1.0 && offset == 0.0;
+    for (int v = 0; v < from.height; ++v) {
+      const std::uint8_t* in = from.row(v);
+      if (same) std::memcpy(to.row(v), in, static_cast<std::size_t>(from.width));
+      else std::transform(in, in + from.width, to.row(v), [&levels](std::uint8_t p) { return levels[p]; });
+    }
+    extendRows(to);
+  }
+
+  void count() {
+    const DisparityImage& image = result_.image;
+    const auto valid = std::count_if(image.disparity.begin(), image.disparity.end(), [](float d) { return d >= 0.0F; });
+    result_.answered = static_cast<double>(valid) / static_cast<double>(image.disparity.size());
+    if (result_.answered >= little || result_.status.health != Health::Ok) return;
+    char text[80];
+    std::snprintf(text, sizeof text, "%.1f %% of the pixels matched", 100.0 * result_.answered);
+    result_.status = {Health::Degraded, static_cast<int>(Reason::LittleMatched), text};
+  }
+
+  std::unique_ptr<Matcher> matcher_;
+  Padded<std::uint8_t> left_, right_;
+  StereoResult result_;
+};
+
+DenseStereo::DenseStereo(const Parameters& parameters)
+    : implementation_(std::make_unique<Implementation>(parameters)) {}
+DenseStereo::~DenseStereo() = default;
+DenseStereo::DenseStereo(DenseStereo&&) noexcept = default;
+DenseStereo& DenseStereo::operator=(DenseStereo&&) noexcept = default;
+
+const StereoResult& DenseStereo::process(const urban_nav_core::StereoPair& pair) {
+  return implementation_->process(pair);
+}
+
+}  // namespace dense_stereo

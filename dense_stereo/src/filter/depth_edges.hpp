@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "padded.hpp"
+
+namespace dense_stereo {
+
+/// Marks the pixels within a window of 9x9 of an edge of depth: of two neighbours in a row or column, with at most
+/// eight invalid pixels between them, whose disparities differ by more than a slanted surface explains. Keeps its
+/// memory. Not thread-safe.
+class DepthEdges {
+ public:
+  static constexpr int radius = 4;  ///< px
+  /// `disparity`: px, 255 for invalid. `edges`: 255 near an edge, else 0.
+  void mark(const Padded<std::uint8_t>& disparity, Padded<std::uint8_t>& edges);
+
+ private:
+  std::vector<std::uint8_t> last_, age_;  ///< of each column: the last valid disparity, and rows since
+  Padded<std::uint8_t> wide_;             ///< marks, widened along the rows
+};
+
+}  // namespace dense_stereo
