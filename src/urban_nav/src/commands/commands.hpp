@@ -8,6 +8,7 @@ namespace urban_nav {
 /// The subcommands (docs/files.md), each in a file of its name.
 Command convertCommand();
 Command deviceCommand();
+Command disparityCommand();
 Command evaluateCommand();
 Command exportCommand();
 Command icpCommand();

@@ -27,9 +27,11 @@ urban_nav_core::RenamedAssignments assignmentsOf(const Arguments& arguments) {
                                {inputTable().stage(), inputTable().rows()},
                                {swf_vo::table().stage(), swf_vo::table().rows()},
                                {pose_graph::table().stage(), pose_graph::table().rows()},
-                               {loop_metric::table().stage(), loop_metric::table().rows()}});
-  urban_nav_core::refuseUnknownStages(renamed.assignments, {"", inputTable().stage(), swf_vo::table().stage(),
-                                                            pose_graph::table().stage(), loop_metric::table().stage()});
+                               {loop_metric::table().stage(), loop_metric::table().rows()},
+                               {dense_stereo::table().stage(), dense_stereo::table().rows()}});
+  urban_nav_core::refuseUnknownStages(renamed.assignments,
+                                      {"", inputTable().stage(), swf_vo::table().stage(), pose_graph::table().stage(),
+                                       loop_metric::table().stage(), dense_stereo::table().stage()});
   return renamed;
 }
 
@@ -66,6 +68,7 @@ AllParameters loadParameters(const Arguments& arguments) {
                     urban_nav_core::load(swf_vo::table(), renamed.assignments),
                     urban_nav_core::load(pose_graph::table(), renamed.assignments),
                     urban_nav_core::load(loop_metric::table(), renamed.assignments),
+                    urban_nav_core::load(dense_stereo::table(), renamed.assignments),
                     renamed.warnings};
   for (std::string& warning : urban_nav_core::differingValues(all.settings(), urban_nav_core::cameraNoiseNames()))
     all.warnings.push_back(std::move(warning));

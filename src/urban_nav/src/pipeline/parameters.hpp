@@ -6,6 +6,7 @@
 
 #include "command_line/command.hpp"
 #include "command_line/json.hpp"
+#include "dense_stereo/parameters.hpp"
 #include "input/input_parameters.hpp"
 #include "loop_metric/parameters.hpp"
 #include "pose_graph/parameters.hpp"
@@ -28,6 +29,7 @@ struct AllParameters {
   urban_nav_core::Loaded<swf_vo::Parameters> swf_vo;
   urban_nav_core::Loaded<pose_graph::Parameters> pose_graph;
   urban_nav_core::Loaded<loop_metric::Parameters> loop_metric;
+  urban_nav_core::Loaded<dense_stereo::Parameters> dense_stereo;
 
   /// Old names that were used, and parameters to which two stages are given different values: for the user.
   std::vector<std::string> warnings;

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disparity/disparity_files.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "urban_nav_core/io/atomic_file.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav {
+
+using dense_stereo::DisparityImage;
+using urban_nav_core::StereoCamera;
+using urban_nav_core::UserError;
+
+namespace {
+
+std::string endingOf(const std::string& path) { return std::filesystem::path(path).extension().string(); }
+
+/// Portable float map: rows from the bottom up, little endian.
+void writePfm(const std::string& path, const DisparityImage& image, const std::vector<float>& values) {
+  std::string content = "Pf\n" + std::to_string(image.width) + " " + std::to_string(image.height) + "\n-1.0\n";
+  std::vector<float> row(static_cast<std::size_t>(image.width));
+  for (int v = image.height - 1; v >= 0; --v) {
+    for (int u = 0; u < image.width; ++u)
+      row[static_cast<std::size_t>(u)] =
+          image.isValid(u, v) ? values[image.index(u, v)] : std::numeric_limits<float>::quiet_NaN();
+    content.append(reinterpret_cast<const char*>(row.data()), row.size() * sizeof(float));
+  }
+  urban_nav_core::writeAtomically(path, content);
+}
+
+void writeColours(const std::string& path, const DisparityImage& image) {
+  const float most = *std::max_element(image.disparity.begin(), image.disparity.end());
+  cv::Mat levels(image.height, image.width, CV_8UC1), colours;
+  for (int v = 0; v < image.height; ++v)
+    for (int u = 0; u < image.width; ++u)
+      levels.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(
+          std::clamp(255.0F * image.disparity[image.index(u, v)] / std::max(most, 1.0F), 0.0F, 255.0F));
+  cv::applyColorMap(levels, colours, cv::COLORMAP_JET);
+  for (int v = 0; v < image.height; ++v)
+    for (int u = 0; u < image.width; ++u)
+      if (!image.isValid(u, v)) colours.at<cv::Vec3b>(v, u) = {0, 0, 0};
+  std::vector<std::uint8_t> bytes;
+  if (!cv::imencode(".png", colours, bytes)) throw UserError(path, "cannot be encoded", "");
+  urban_nav_core::writeAtomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+struct PlyVertex {
+  float xyz[3];
+  float sigma_z;
+  std::uint8_t grey;
+};
+
+void writePoints(const std::string& path, const DisparityImage& image, const urban_nav_core::ImageView& left,
+                 const StereoCamera& camera) {
+  std::string body;
+  std::size_t count = 0;
+  for (int v = 0; v < image.height; ++v)
+    for (int u = 0; u < image.width; ++u) {
+      if (!image.isValid(u, v)) continue;
+      const double d = static_cast<double>(image.disparity[image.index(u, v)]);
+      const StereoCamera::Pixel pixel(u, v, u - d);
+      const auto point = camera.triangulate(pixel);
+      if (!point || !point->allFinite()) continue;
+      const double sigma_d = std::sqrt(static_cast<double>(image.variance[image.index(u, v)]));
+      const double sigma_z = sigma_d * point->z() / (d - camera.disparity_offset);
+      const PlyVertex vertex{
+          {static_cast<float>(point->x()), static_cast<float>(point->y()), static_cast<float>(point->z())},
+          static_cast<float>(sigma_z),
+          left.at(u, v)};
+      body.append(reinterpret_cast<const char*>(vertex.xyz), sizeof vertex.xyz);
+      body.append(reinterpret_cast<const char*>(&vertex.sigma_z), sizeof vertex.sigma_z);
+      body.push_back(static_cast<char>(vertex.grey));
+      ++count;
+    }
+  urban_nav_core::writeAtomically(
+      path, "ply\nformat binary_little_endian 1.0\ncomment left optical frame, m\nelement vertex " +
+                std::to_string(count) +
+                "\nproperty float x\nproperty float y\nproperty float z\nproperty float sigma_z\n"
+                "property uchar intensity\nend_header\n" +
+                body);
+}
+
+}  // namespace
+
+void checkDisparityName(const std::string& path, const std::string& option) {
+  const std::string ending = endingOf(path);
+  if (ending != ".pfm" && ending != ".png" && ending != ".ply")
+    throw UserError(option, path, "a name that ends in .pfm, .png or .ply");
+}
+
+void writeDisparity(const std::string& path, const DisparityImage& image, const urban_nav_core::ImageView& left,
+                    const StereoCamera& camera) {
+  const std::string ending = endingOf(path);
+  if (ending == ".pfm") writePfm(path, image, image.disparity);
+  else if (ending == ".png") writeColours(path, image);
+  else writePoints(path, image, left, camera);
+}
+
+void writeVariance(const std::string& path, const DisparityImage& image) { writePfm(path, image, image.variance); }
+
+}  // namespace urban_nav
