@@ -13,7 +13,6 @@
 #include "report/plot.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
-#include "urban_nav_core/parameters/print.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/stereo_calibration.hpp"
 
@@ -77,14 +76,15 @@ Json jsonOf(const StereoResult& result, double ms) {
 }
 
 int run(const Arguments& arguments, Console& console) {
-  AllParameters parameters = loadParameters(arguments);
+  ParameterSet parameters = loadParameters(arguments);
+  for (const std::string& warning : parameterWarnings(parameters)) console.warn(warning);
   const urban_nav_core::ThreadLimit threads(static_cast<int>(arguments.integer("threads", 0, 1, 1024)));
-  if (arguments.has("method")) parameters.dense_stereo.parameters.method = arguments.get("method");
+  if (arguments.has("method")) parameters.set("dense_stereo.method=" + arguments.get("method"));
   const std::string output = arguments.get("output");
   checkDisparityName(output, "--output");
   RectifiedImages images;
   readPair(arguments, images);
-  dense_stereo::DenseStereo stereo(parameters.dense_stereo.parameters);
+  dense_stereo::DenseStereo stereo(parameters.get(dense_stereo::table()));
   const auto begin = DisparityClock::now();
   const StereoResult& result = stereo.process(images.pair);
   const double ms = std::chrono::duration<double, std::milli>(DisparityClock::now() - begin).count();
@@ -97,11 +97,7 @@ int run(const Arguments& arguments, Console& console) {
   return 0;
 }
 
-std::string help(const Arguments& arguments) {
-  return "parameters (--config FILE, --set dense_stereo.KEY=VALUE):\n" +
-         urban_nav_core::printHelp(dense_stereo::table().stage(), dense_stereo::table().rows(),
-                                   loadParameters(arguments).dense_stereo.settings);
-}
+std::string help(const Arguments& arguments) { return stageHelp(arguments, dense_stereo::table().stage()); }
 
 }  // namespace
 

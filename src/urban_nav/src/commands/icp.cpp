@@ -15,7 +15,6 @@
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/io/text_file.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
-#include "urban_nav_core/parameters/print.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav {
@@ -141,15 +140,15 @@ PointCloud readNamed(const std::string& path, Console& console) {
 }
 
 int run(const Arguments& arguments, Console& console) {
-  const AllParameters parameters = loadParameters(arguments);
-  for (const std::string& warning : parameters.warnings) console.warn(warning);
+  const ParameterSet parameters = loadParameters(arguments);
+  for (const std::string& warning : parameterWarnings(parameters)) console.warn(warning);
   const urban_nav_core::ThreadLimit threads(static_cast<int>(arguments.integer("threads", 0, 1, 1024)));
   const Pose guess = arguments.has("initial") ? readInitial(arguments.get("initial")) : Pose();
   const PointCloud source = readNamed(arguments.get("SOURCE"), console),
                    target = readNamed(arguments.get("TARGET"), console);
   const auto begin = Clock::now();
   const Alignment alignment =
-      loop_metric::align(source, target, parameters.loop_metric.parameters, guess,
+      loop_metric::align(source, target, parameters.get(loop_metric::table()), guess,
                          arguments.has("global") ? loop_metric::Search::AtOnce : loop_metric::Search::IfRejected);
   const double ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
   console.print(textOf(alignment, ms));
@@ -166,11 +165,7 @@ int run(const Arguments& arguments, Console& console) {
   return alignment.verdict == urban_nav_core::ClosureVerdict::Rejected ? 1 : 0;
 }
 
-std::string help(const Arguments& arguments) {
-  return "parameters (--config FILE, --set loop_metric.KEY=VALUE):\n" +
-         urban_nav_core::printHelp(loop_metric::table().stage(), loop_metric::table().rows(),
-                                   loadParameters(arguments).loop_metric.settings);
-}
+std::string help(const Arguments& arguments) { return stageHelp(arguments, loop_metric::table().stage()); }
 
 }  // namespace
 

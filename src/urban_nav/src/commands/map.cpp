@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "commands/commands.hpp"
+#include "input/input_parameters.hpp"
 #include "pipeline/map_pipeline.hpp"
+#include "pipeline/parameters.hpp"
+#include "pipeline/stage_list.hpp"
 
 namespace urban_nav {
 
 namespace {
 
-MapRequest requestOf(const Arguments& arguments) {
-  AllParameters parameters = loadParameters(arguments);
-  const InputParameters& input = parameters.input.parameters;
+MapOptions readOptions(const Arguments& arguments) {
+  ParameterSet parameters = loadParameters(arguments);
+  const InputParameters& input = parameters.get(inputTable());
   const SourceOptions source{arguments.all("topic"),
                              arguments.get("calibration"),
                              arguments.number("rate", 0.0, 0.01, 10000.0),
@@ -31,6 +34,12 @@ MapRequest requestOf(const Arguments& arguments) {
           arguments.get("localise")};
 }
 
+std::string stagesSentence() {
+  std::string names;
+  for (const std::string& name : stageNames()) names += (names.empty() ? "" : ", ") + name;
+  return "of " + names + " (default: all whose inputs exist)";
+}
+
 }  // namespace
 
 Command mapCommand() {
@@ -40,42 +49,45 @@ Command mapCommand() {
   command.options = {
       {"INPUT", "", "bags, or folders of KITTI, EuRoC or New College", true, true, {}},
       {"-o,--out", "DIR", "folder to write into (made if need be)", true, false, {}},
-      {"--stages", "LIST", "of vo, loops, graph (default: all whose inputs exist)", false, true, {}},
+      {"--stages", "LIST", stagesSentence(), false, true, {}},
       {"--closures",
        "FILE",
-       "closures.csv: moments that are one place; the stage loops finds their transforms (without it, those in the file count)",
+       "closures.csv: pairs of stamps at one place; the stage loops measures their transforms (without it, those in the "
+       "file are used)",
        false,
        false,
        {}},
       {"--topic",
        "ROLE:=NAME",
-       "topic of a bag: left, right, left_info, right_info, imu, wheels, truth (default: guessed and said)",
+       "topic of a bag: left, right, left_info, right_info, imu, wheels, truth (default: guessed and printed)",
        false,
        true,
        {}},
       {"--calibration",
        "FILE",
-       "where the input has none: KITTI's calib.txt, or LEFT.yaml,RIGHT.yaml (camera_info)",
+       "if the input has none: KITTI's calib.txt, or LEFT.yaml,RIGHT.yaml (camera_info)",
        false,
        false,
        {}},
-      {"--rate", "HZ", "of an image folder without times.txt (default 10)", false, false, {}},
+      {"--rate", "HZ", "frame rate of an image folder without times.txt (default 10)", false, false, {}},
       {"--store",
        "FILE",
-       "go on from the sessions of this store: relaxed together with the new ones where there are closures, session.db of DIR holds all (FILE is only read, but for the one of DIR itself)",
+       "continue from the sessions of this store: session.db of DIR holds all of them, relaxed together with the new ones "
+       "if there are closures (FILE is only read, unless it is that of DIR)",
        false,
        false,
        {}},
       {"--localise",
        "FILE",
-       "find the inputs in the map of this store, which stays as it is: localisation.csv says where, and whether that is KNOWN",
+       "localise the inputs in the map of this store, which is only read: localisation.csv holds poses, and whether they "
+       "are KNOWN",
        false,
        false,
        {}},
       {"--truth", "FILE", "trajectory for the report alone (default: what the input has)", false, false, {}},
       {"--so-far",
        "SHARE",
-       "of a recording that goes on, 0...1, these inputs are this share: until 1 the report says so and refreshes itself",
+       "share of an unfinished recording that the inputs cover, 0...1: below 1 the report is marked so and refreshes itself",
        false,
        false,
        {}},
@@ -87,9 +99,9 @@ Command mapCommand() {
                       "urban_nav map robot.bag --topic left:=/cam0/image_raw --set swf_vo.window=25 --out out"};
   command.more_help = parametersHelp;
   command.run = [](const Arguments& arguments, Console& console) {
-    const MapRequest request = requestOf(arguments);
-    for (const std::string& warning : request.parameters.warnings) console.warn(warning);
-    runMap(request, console);
+    const MapOptions options = readOptions(arguments);
+    for (const std::string& warning : parameterWarnings(options.parameters)) console.warn(warning);
+    runMap(options, console);
     return 0;
   };
   return command;

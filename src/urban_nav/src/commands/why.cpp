@@ -43,7 +43,7 @@ const StoredClosure& byTimes(const std::vector<StoredClosure>& closures, const s
 }
 
 int run(const Arguments& arguments, Console& console) {
-  const double cloud_way = loadParameters(arguments).loop_metric.parameters.cloud_way;
+  const double cloud_way = loadParameters(arguments).get(loop_metric::table()).cloud_way;
   const bool moments = arguments.has("T1") || arguments.has("T2");
   if (arguments.has("jump"))
     throw UserError("--jump", "is not in this version: jumps are told on graph/jump when they happen",

@@ -57,7 +57,7 @@ std::optional<TrajectoryFile> kittiTruth(const std::string& folder, const Source
   return stamped(path, baseOfCamera(poses, frames.stamps, info.T_base_camera, path));
 }
 
-std::optional<TrajectoryFile> bagTruth(const Session& session, const SourceOptions& options) {
+std::optional<TrajectoryFile> bagTruth(const InputSession& session, const SourceOptions& options) {
   std::list<rosbag::Bag> bags;
   std::map<std::string, std::string> available;
   for (const std::string& path : session.paths) {
@@ -85,7 +85,8 @@ std::optional<TrajectoryFile> bagTruth(const Session& session, const SourceOptio
 
 }  // namespace
 
-std::optional<TrajectoryFile> findTruth(const Session& session, const SourceInfo& info, const SourceOptions& options) {
+std::optional<TrajectoryFile> findTruth(const InputSession& session, const SourceInfo& info,
+                                        const SourceOptions& options) {
   const std::string& path = session.paths.front();
   switch (inputKind(path)) {
     case InputKind::KittiFolder: return kittiTruth(path, info, options);

@@ -13,7 +13,8 @@ namespace urban_nav {
 /// The truth that lies in an input (poses.txt, state_groundtruth_estimate0, ground_truth/pose), as poses of base_link;
 /// read when the estimate is finished, so that it cannot reach it. Empty where there is none. UserError where it cannot
 /// be read.
-std::optional<TrajectoryFile> findTruth(const Session& session, const SourceInfo& info, const SourceOptions& options);
+std::optional<TrajectoryFile> findTruth(const InputSession& session, const SourceInfo& info,
+                                        const SourceOptions& options);
 
 /// A truth given as a file, as poses of base_link: lines without stamps are those of the left camera, frame by frame at
 /// `stamps`.

@@ -97,13 +97,13 @@ constexpr const char* kGate = "Against odometry and its neighbours";
 constexpr const char* kNoEvidence = "The store holds no evidence of it: it was given, or measured by another program.";
 
 /// The sessions of both moments under the names that the evidence has for them.
-std::vector<LoopsSession> namedIn(const StoredClosure& closure, const EarlierSessions& kept) {
+std::vector<CandidateSession> namedIn(const StoredClosure& closure, const PreviousSessions& kept) {
   std::map<std::string, urban_nav_store::SessionId> ids;
   for (const Evidence::Try& each : closure.evidence.tries) {
     ids.emplace(each.view_a.session, closure.edge.a.session);
     ids.emplace(each.view_b.session, closure.edge.b.session);
   }
-  std::vector<LoopsSession> sessions;
+  std::vector<CandidateSession> sessions;
   for (const auto& [name, id] : ids)
     for (std::size_t i = 0; i < kept.ids.size(); ++i)
       if (kept.ids[i] == id) sessions.push_back({name, id, &kept.runs[i]});
@@ -129,7 +129,7 @@ std::string explain(const StoredClosure& closure) {
 }
 
 Page explainOnPage(const StoredClosure& closure, urban_nav_store::Store& store, double cloud_way) {
-  const EarlierSessions kept = readEarlierSessions(store, {});
+  const PreviousSessions kept = readPreviousSessions(store, {});
   const loop_metric::StoredSurroundings surroundings(storedSessions(namedIn(closure, kept), store, ""),
                                                      store.keyframes(), store.scans());
   Page page;

@@ -41,8 +41,8 @@ Extent extentOf(const std::string& path) {
 
 }  // namespace
 
-std::vector<Session> findSessions(const std::vector<std::string>& inputs) {
-  std::vector<Session> sessions;
+std::vector<InputSession> findSessions(const std::vector<std::string>& inputs) {
+  std::vector<InputSession> sessions;
   std::vector<Extent> bags;
   for (const std::string& input : inputs) {
     if (inputKind(input) == InputKind::Bag) {
@@ -76,9 +76,10 @@ std::string uniqueName(const std::string& plain, const std::vector<std::string>&
   return name;
 }
 
-std::vector<std::string> sessionNames(const std::vector<Session>& sessions, const std::vector<std::string>& earlier) {
+std::vector<std::string> sessionNames(const std::vector<InputSession>& sessions,
+                                      const std::vector<std::string>& earlier) {
   std::vector<std::string> names = earlier;
-  for (const Session& session : sessions)
+  for (const InputSession& session : sessions)
     names.push_back(uniqueName(plainName(session.name.empty() ? session.paths.front() : session.name), names));
   return names;
 }

@@ -9,13 +9,13 @@
 #include <algorithm>
 #include <map>
 
+#include "evaluation/statistics.hpp"
 #include "evaluation/truth.hpp"
 #include "input/euroc_layout.hpp"
 #include "input/kitti_layout.hpp"
 #include "input/new_college_files.hpp"
 #include "input/new_college_log.hpp"
 #include "input/open.hpp"
-#include "stages/vo/vo_summary.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/pose.hpp"
 #include "urban_nav_ros/stamp.hpp"

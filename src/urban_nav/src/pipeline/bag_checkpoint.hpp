@@ -4,26 +4,33 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "input/sessions.hpp"
 
 namespace urban_nav {
 
-/// Where `map` stood at the end of a bag: what the store keeps, so that the next bag of the recording goes on without a seam.
-struct BagState {
-  std::vector<std::string> bags;        ///< all that are behind it (bagsOf), from the first of the session on
+/// State of `map` at the end of a bag, stored so that the next bag of the recording continues seamlessly.
+struct BagCheckpoint {
+  using StageState = std::pair<std::string, std::string>;  ///< Stage::Description::key, SessionPass::checkpoint()
+
+  std::vector<std::string> bags;        ///< fingerprints of all bags up to here, from the first of the session on
   urban_nav_core::StampNs receipt = 0;  ///< of the last message
-  std::string reader, vo;               ///< states of the reader and of VoStage
+  std::string reader;
+  std::vector<StageState> stages;
+
+  /// Returns the state of a stage; empty if it had none.
+  std::string_view state(const std::string& key) const;
 };
 
-std::string packBagState(BagState state);
-/// DataError where the bytes are something else, of another version, or damaged.
-BagState unpackBagState(std::string_view bytes);
+std::string packBagCheckpoint(BagCheckpoint checkpoint);
+/// Reads this version and version 1, which knew visual odometry alone. Throws DataError for anything else.
+BagCheckpoint unpackBagCheckpoint(std::string_view bytes);
 
-/// How many of a session's bags are behind the state: those that its last ones are, or none where the first was received less than kLongestSplit
-/// behind the end. Empty where they do not follow it.
-std::optional<std::size_t> bagsBehind(const BagState& state, const std::vector<std::string>& bags,
-                                      urban_nav_core::StampNs begin);
+/// Returns how many of a session's bags the checkpoint covers: those that are its last ones, or none if the first begins
+/// less than kLongestSplit after its end. nullopt if they do not follow it.
+std::optional<std::size_t> coveredBags(const BagCheckpoint& checkpoint, const std::vector<std::string>& bags,
+                                       urban_nav_core::StampNs begin);
 
 }  // namespace urban_nav

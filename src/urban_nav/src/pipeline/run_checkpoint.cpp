@@ -5,346 +5,270 @@
 #include <filesystem>
 
 #include "loop_metric/camera_words.hpp"
-#include "stages/vo/vo_state.hpp"
-#include "urban_nav_core/geometry/dense.hpp"
+#include "pipeline/stored_run.hpp"
+#include "stage/store_keys.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_store/merge.hpp"
 
 namespace urban_nav {
 
-namespace frames = urban_nav_core::frames;
-
-using urban_nav_core::ClosureVerdict;
-using urban_nav_core::Matrix6d;
 using urban_nav_store::Access;
-using urban_nav_store::Edge;
-using urban_nav_store::EdgeKind;
 using urban_nav_store::Property;
 using urban_nav_store::SessionId;
 using urban_nav_store::Store;
 
 namespace {
 
-constexpr std::chrono::seconds kPeriod{1};
+constexpr std::chrono::seconds kCommitPeriod{1};
 
-/// Sessions by the content of their inputs; the same input given twice is two sessions.
-std::vector<SessionId> idsOf(const MapRequest& request, const std::vector<Session>& sessions) {
-  std::vector<SessionId> ids;
-  for (const Session& session : sessions) {
-    urban_nav_store::SessionOrigin origin = originOf(request, session);
-    SessionId id = sessionIdOf(origin);
-    for (int again = 2; std::find(ids.begin(), ids.end(), id) != ids.end(); ++again) {
-      origin.recording = std::to_string(again);
-      id = sessionIdOf(origin);
-    }
-    ids.push_back(id);
-  }
-  return ids;
-}
-
-std::string nameOf(const Session& session) {
-  const std::filesystem::path path = std::filesystem::absolute(session.paths.front()).lexically_normal();
-  return (path.has_filename() ? path : path.parent_path()).filename().string();
-}
-
-RunIdentity storedIdentity(Store& store, const SessionId& id) {
-  RunIdentity identity;
-  for (const Property& property : store.sessions().properties(id))
-    if (property.name.rfind("run/", 0) == 0) identity.emplace_back(property.name.substr(4), property.value);
-  return identity;
-}
-
-struct StoredClosure {
-  Edge edge;
-  std::optional<std::string> evidence;
-};
-
-std::vector<StoredClosure> closuresOf(Store& store, const SessionId& id) {
-  std::vector<StoredClosure> closures;
-  for (const urban_nav_store::Session& session : store.sessions().all())
-    store.graph().forEachEdge(session.id, [&](const Edge& edge) {
-      if (edge.kind != EdgeKind::Odometry && (edge.a.session == id || edge.b.session == id))
-        closures.push_back({edge, std::nullopt});
-    });
-  for (StoredClosure& closure : closures) closure.evidence = store.graph().evidence(closure.edge);
-  return closures;
+std::string counted(std::size_t number, const char* noun) {
+  return std::to_string(number) + " " + noun + (number == 1 ? "" : "s");
 }
 
 }  // namespace
 
-StoreStage::StoreStage(const MapRequest& request, std::vector<Session>& sessions, const std::string& path,
-                       Console& console)
-    : request_(request),
-      path_(path),
-      ids_(idsOf(request, sessions)),
-      own_ids_(ids_),
-      continued_(sessions.size(), false),
-      behind_(sessions.size()) {
-  for (const Session& session : sessions) {
-    identities_.push_back(identityOf(request, session));
-    names_.push_back(nameOf(session));
-    bags_.push_back(bagsOf(request, session));
-    begins_.push_back(session.begin);
+RunCheckpoint::RunCheckpoint(const MapOptions& options, const StageList& stages, std::vector<MapSession>& sessions,
+                             std::string path, Console& console)
+    : options_(options), path_(std::move(path)), sessions_(sessions), plans_(sessions.size()) {
+  for (const Stage* stage : stages) keys_.push_back(stage->describe().key);
+  const std::vector<SessionId> ids = sessionIds(options, sessions);
+  for (std::size_t i = 0; i < sessions_.size(); ++i) {
+    sessions_[i].id = ids[i];
+    plans_[i] = {ids[i], fingerprint(options, stages, sessions_[i].input), inputName(sessions_[i].input),
+                 bagFingerprints(options, sessions_[i].input), std::nullopt};
   }
-  if (!request_.store.empty()) findContinued(sessions, console);
+  if (!options_.store.empty()) findContinuedSessions(console);
   open(console);
-  for (std::size_t i = 0; i < ids_.size(); ++i)
-    if (!isFinished(i)) behind_[i] = look(*store_, ids_[i], i);
+  for (std::size_t i = 0; i < plans_.size(); ++i)
+    if (!isFinished(i)) plans_[i].resume_point = findResumePoint(*store_, sessions_[i].id, i);
 }
 
-std::optional<StoreStage::Behind> StoreStage::follow(Store& store, const SessionId& id, std::size_t session) {
+std::optional<RunCheckpoint::ResumePoint> RunCheckpoint::readResumePoint(Store& store, const SessionId& id,
+                                                                         std::size_t session) {
   const std::optional<std::string> bytes = store.states().get(id, kBagStage);
   if (!bytes) return std::nullopt;
   try {
-    Behind behind{unpackBagState(*bytes), 0};
-    const std::optional<std::size_t> bags = bagsBehind(behind.state, bags_[session], begins_[session]);
-    const bool all_given = bags && *bags == behind.state.bags.size();
-    if (!bags || (!continued_[session] && !all_given)) return std::nullopt;
-    behind.bags = *bags;
-    return behind;
+    ResumePoint point{unpackBagCheckpoint(*bytes), 0};
+    const std::optional<std::size_t> bags =
+        coveredBags(point.checkpoint, plans_[session].bags, sessions_[session].input.begin);
+    const bool all_given = bags && *bags == point.checkpoint.bags.size();
+    if (!bags || (!sessions_[session].continued && !all_given)) return std::nullopt;
+    point.bags = *bags;
+    return point;
   } catch (const urban_nav_core::DataError&) {
     return std::nullopt;  // of another version
   }
 }
 
-std::string StoreStage::otherThan(Store& store, const SessionId& id, std::size_t session) const {
-  return differences(identities_[session], storedIdentity(store, id), {"inputs", "stages", "store"});
+std::string RunCheckpoint::configurationDifferences(Store& store, const SessionId& id, std::size_t session) const {
+  return differences(plans_[session].fingerprint, storedFingerprint(store, id), {"inputs", "stages", "store"});
 }
 
-std::optional<StoreStage::Behind> StoreStage::look(Store& store, const SessionId& id, std::size_t session) {
-  return otherThan(store, id, session).empty() ? follow(store, id, session) : std::nullopt;
+std::optional<RunCheckpoint::ResumePoint> RunCheckpoint::findResumePoint(Store& store, const SessionId& id,
+                                                                         std::size_t session) {
+  return configurationDifferences(store, id, session).empty() ? readResumePoint(store, id, session) : std::nullopt;
 }
 
-void StoreStage::giveUp(std::size_t session, Session& inputs) {
-  behind_[session].reset();
-  continued_[session] = false;
-  ids_[session] = own_ids_[session];
-  inputs.name.clear();
-  names_[session] = nameOf(inputs);
+void RunCheckpoint::startNewSession(std::size_t session) {
+  plans_[session].resume_point.reset();
+  sessions_[session].continued = false;
+  sessions_[session].id = plans_[session].own_id;
+  sessions_[session].input.name.clear();
+  plans_[session].name = inputName(sessions_[session].input);
 }
 
-void StoreStage::findContinued(std::vector<Session>& sessions, Console& console) {
-  Store store(request_.store, Access::Read);
-  for (std::size_t i = 0; i < ids_.size(); ++i) {
+void RunCheckpoint::findContinuedSessions(Console& console) {
+  Store store(options_.store, Access::Read);
+  const auto isTaken = [&](const SessionId& id) {
+    return std::any_of(sessions_.begin(), sessions_.end(), [&](const MapSession& each) { return each.id == id; });
+  };
+  for (std::size_t i = 0; i < sessions_.size(); ++i) {
+    const std::string name = inputName(sessions_[i].input);
     for (const urban_nav_store::Session& known : store.sessions().all()) {
-      if (std::find(ids_.begin(), ids_.end(), known.id) != ids_.end() && known.id != ids_[i]) continue;
-      continued_[i] = true;
-      const std::optional<Behind> behind = follow(store, known.id, i);
-      // Nothing new, and all of it is here: that is mapped again.
-      continued_[i] = behind && (behind->bags < bags_[i].size() || behind->bags < behind->state.bags.size());
-      if (!continued_[i]) continue;
-      if (const std::string other = otherThan(store, known.id, i); !other.empty()) {
-        continued_[i] = false;
-        console.info("store: " + nameOf(sessions[i]) + " does not go on in session " + known.name + ": other " + other);
+      if (isTaken(known.id) && known.id != sessions_[i].id) continue;
+      sessions_[i].continued = true;
+      const std::optional<ResumePoint> point = readResumePoint(store, known.id, i);
+      // A session without new bags, all of whose bags are given, is mapped again.
+      sessions_[i].continued =
+          point && (point->bags < plans_[i].bags.size() || point->bags < point->checkpoint.bags.size());
+      if (!sessions_[i].continued) continue;
+      if (const std::string difference = configurationDifferences(store, known.id, i); !difference.empty()) {
+        sessions_[i].continued = false;
+        console.info("store: " + name + " does not continue session " + known.name + ": other " + difference);
         continue;
       }
-      ids_[i] = known.id;
-      names_[i] = sessions[i].name = known.name;
-      console.info("store: " + nameOf(sessions[i]) + " goes on in session " + known.name + ", behind " +
-                   std::to_string(behind->state.bags.size()) + (behind->state.bags.size() == 1 ? " bag" : " bags") +
-                   " of it");
+      sessions_[i].id = known.id;
+      plans_[i].name = sessions_[i].input.name = known.name;
+      console.info("store: " + name + " continues session " + known.name + ", after " +
+                   counted(point->checkpoint.bags.size(), "bag") + " of it");
       break;
     }
   }
 }
 
-bool StoreStage::isFinished(std::size_t session) {
-  const auto known = store_->sessions().find(ids_[session]);
-  return known && known->complete && storedIdentity(*store_, ids_[session]) == identities_[session] &&
-         store_->states().get(ids_[session], kVoStage).has_value();
+bool RunCheckpoint::isFinished(std::size_t session) {
+  const SessionId& id = sessions_[session].id;
+  const auto known = store_->sessions().find(id);
+  return known && known->complete && storedFingerprint(*store_, id) == plans_[session].fingerprint &&
+         store_->states().get(id, keys_.front()).has_value();
 }
 
-StoreStage::Found StoreStage::sift(bool goes_on_here) {
-  Found found;
+RunCheckpoint::PruneResult RunCheckpoint::pruneSessions(bool in_place) {
+  PruneResult found;
   std::vector<SessionId> stay;
-  if (!request_.store.empty() && !goes_on_here)
-    for (const urban_nav_store::Session& session : Store(request_.store, Access::Read).sessions().all())
+  if (!options_.store.empty() && !in_place)
+    for (const urban_nav_store::Session& session : Store(options_.store, Access::Read).sessions().all())
       stay.push_back(session.id);
   for (const urban_nav_store::Session& known : store_->sessions().all()) {
-    const auto place = std::find(ids_.begin(), ids_.end(), known.id);
-    const bool ours = place != ids_.end();
-    if (!ours && (goes_on_here ? known.complete || storedIdentity(*store_, known.id).empty()
-                               : std::find(stay.begin(), stay.end(), known.id) != stay.end()))
-      continue;  // complete, or none that a run of map began: a live one is as complete as it will ever be
-    const bool cut_off = !known.complete || store_->states().get(known.id, kVoStage).has_value();
-    found.cut_off = found.cut_off || cut_off;
-    const auto at = static_cast<std::size_t>(place - ids_.begin());
+    const auto place = std::find_if(sessions_.begin(), sessions_.end(),
+                                    [&](const MapSession& session) { return session.id == known.id; });
+    const bool ours = place != sessions_.end();
+    const auto at = static_cast<std::size_t>(place - sessions_.begin());
+    // Complete, or not begun by a run of map: a session recorded live is as complete as it will ever be.
+    if (!ours && (in_place ? known.complete || storedFingerprint(*store_, known.id).empty()
+                           : std::find(stay.begin(), stay.end(), known.id) != stay.end()))
+      continue;
+    const bool interrupted = !known.complete || store_->states().get(known.id, keys_.front()).has_value();
+    found.interrupted = found.interrupted || interrupted;
     if (!ours) {
-      found.other = "other inputs";
+      found.difference = "other inputs";
     } else if (isFinished(at)) {
       ++found.finished;
       continue;
-    } else if ((cut_off || (continued_[at] && goes_on_here)) && look(*store_, known.id, at)) {
-      if (cut_off) ++found.begun;
+    } else if ((interrupted || (sessions_[at].continued && in_place)) && findResumePoint(*store_, known.id, at)) {
+      if (interrupted) ++found.begun;
       continue;
-    } else if (const std::string names = differences(identities_[static_cast<std::size_t>(place - ids_.begin())],
-                                                     storedIdentity(*store_, known.id));
+    } else if (const std::string names = differences(plans_[at].fingerprint, storedFingerprint(*store_, known.id));
                !names.empty()) {
-      found.other = "other " + names;
+      found.difference = "other " + names;
     }
     store_->sessions().remove(known.id);
   }
   return found;
 }
 
-void StoreStage::beginAnew() {
+void RunCheckpoint::startNewStore() {
   store_->close();
   urban_nav_store::removeStore(path_);
-  if (!request_.store.empty()) urban_nav_store::merge({request_.store}, path_);
+  if (!options_.store.empty()) urban_nav_store::merge({options_.store}, path_);
   store_.emplace(path_, Access::Write);
-  for (std::size_t i = 0; i < ids_.size(); ++i)
-    if (!continued_[i]) store_->sessions().remove(ids_[i]);
+  for (const MapSession& session : sessions_)
+    if (!session.continued) store_->sessions().remove(session.id);
   store_->commit();
 }
 
-void StoreStage::open(Console& console) {
+void RunCheckpoint::open(Console& console) {
   std::error_code ignored;
-  const bool goes_on_here = !request_.store.empty() && std::filesystem::equivalent(request_.store, path_, ignored);
-  if (!request_.store.empty()) Store(request_.store, Access::Read);  // a mistake in it is told before anything changes
+  const bool in_place = !options_.store.empty() && std::filesystem::equivalent(options_.store, path_, ignored);
+  if (!options_.store.empty()) Store(options_.store, Access::Read);  // reports an unusable file before any change
   store_.emplace(path_, Access::Write);
-  const Found found = sift(goes_on_here);
-  if (found.finished > 0 || found.begun > 0)
-    console.info("an earlier run was cut off here: goes on behind " + std::to_string(found.finished) + " of " +
-                 std::to_string(ids_.size()) + (ids_.size() == 1 ? " session" : " sessions") +
-                 (found.begun > 0 ? ", and behind the bags that were complete" : ""));
-  else if (found.cut_off)
-    console.info("an earlier run was cut off here" +
-                 (found.other.empty() ? " in its first session" : " with " + found.other) + ": begins anew");
-  if (found.finished > 0 || found.begun > 0 || goes_on_here) {
+  const PruneResult found = pruneSessions(in_place);
+  const bool resumes = found.finished > 0 || found.begun > 0;
+  if (resumes)
+    console.info("resuming an interrupted run: " + std::to_string(found.finished) + " of " +
+                 counted(sessions_.size(), "session") + " complete" +
+                 (found.begun > 0 ? ", continuing after the last complete bag" : ""));
+  else if (found.interrupted)
+    console.info("an earlier run was interrupted" +
+                 (found.difference.empty() ? " in its first session" : ", with " + found.difference) +
+                 ": starting from the beginning");
+  if (resumes || in_place) {
     store_->commit();
   } else {
-    beginAnew();
+    startNewStore();
   }
-  const std::size_t earlier = store_->sessions().all().size() - found.finished;
-  if (!request_.store.empty())
-    console.info("store: goes on from " + std::to_string(earlier) + (earlier == 1 ? " session" : " sessions") + " of " +
-                 request_.store);
+  if (!options_.store.empty())
+    console.info("store: continues from " + counted(store_->sessions().all().size() - found.finished, "session") +
+                 " of " + options_.store);
 }
 
-std::optional<VoRun> StoreStage::begin(std::size_t session, const SourceInfo& info) {
-  session_ = session;
-  rows_ = nodes_ = 0;
-  committed_ = Clock::now();
-  const SessionId& id = ids_[session];
-  if (const std::optional<std::string> bytes = store_->states().get(id, kVoStage)) {
-    if (std::optional<VoRun> run = unpackVoRun(*bytes)) {
-      run->input = info.name;
-      run->camera = info.camera;
-      run->T_base_camera = info.T_base_camera;
-      return run;
-    }
-  }
-  put(session, info);
-  store_->commit();
-  return std::nullopt;
+std::vector<BagCheckpoint::StageState> RunCheckpoint::finishedStates(std::size_t session) {
+  std::vector<BagCheckpoint::StageState> states;
+  if (!isFinished(session)) return states;
+  for (const std::string& key : keys_)
+    if (std::optional<std::string> state = store_->states().get(sessions_[session].id, key))
+      states.emplace_back(key, std::move(*state));
+  return states;
 }
 
-void StoreStage::put(std::size_t session, const SourceInfo& info) {
-  const SessionId& id = ids_[session];
-  const std::vector<StoredClosure> closures =
-      continued_[session] ? closuresOf(*store_, id) : std::vector<StoredClosure>();
-  if (behind_[session]) store_->sessions().clear(id);
+void RunCheckpoint::begin(std::size_t session) {
+  current_ = session;
+  writeSession(session);
+  commit();
+}
+
+void RunCheckpoint::resume(std::size_t session) {
+  current_ = session;
+  writeSession(session);
+  store_->states().put(sessions_[session].id, kBagStage, packBagCheckpoint(plans_[session].resume_point->checkpoint));
+}
+
+void RunCheckpoint::writeSession(std::size_t session) {
+  const SessionPlan& plan = plans_[session];
+  const SessionId& id = sessions_[session].id;
+  const SourceInfo& info = sessions_[session].info;
+  std::vector<EdgeWithEvidence> closures;
+  if (sessions_[session].continued) closures = readClosureEdges(*store_, id);
+  if (plan.resume_point) store_->sessions().clear(id);
   else store_->sessions().remove(id);
-  store_->sessions().put(urban_nav_store::Session{id, names_[session], "", "", info.first, false});
-  for (const auto& [name, digest] : identities_[session]) store_->sessions().put(id, Property{"run/" + name, digest});
+  store_->sessions().put(urban_nav_store::Session{id, plan.name, "", "", info.first, false});
+  for (const auto& [name, digest] : plan.fingerprint) store_->sessions().put(id, Property{"run/" + name, digest});
   store_->sessions().put(id, Property{"input/name", info.name});
   store_->sessions().put(id, Property{"input/kind", info.kind});
-  store_->sessions().put(id, urban_nav_store::Extrinsic{frames::stereo_left, info.T_base_camera});
+  store_->sessions().put(id, urban_nav_store::Extrinsic{urban_nav_core::frames::stereo_left, info.T_base_camera});
   store_->sessions().put(
       id, Property{loop_metric::camera_property, loop_metric::cameraWords(info.camera, info.T_base_camera)});
   for (const LaserInfo& laser : info.lasers)
     store_->sessions().put(id, urban_nav_store::Extrinsic{laser.frame, laser.T_base_laser});
-  for (const std::vector<urban_nav_core::Setting>* settings : request_.parameters.settings()) {
-    for (const urban_nav_core::Setting& setting : *settings)
-      store_->sessions().put(
-          id, urban_nav_store::StoredParameter{urban_nav_core::fullName(setting.stage, setting.name),
-                                               urban_nav_core::printValue(setting.value), setting.origin});
-  }
-  for (const StoredClosure& closure : closures) {
-    store_->graph().put(closure.edge);
-    if (closure.evidence) store_->graph().putEvidence(closure.edge, *closure.evidence);
-  }
+  for (const urban_nav_core::Setting& setting : options_.parameters.settings())
+    store_->sessions().put(id,
+                           urban_nav_store::StoredParameter{urban_nav_core::fullName(setting.stage, setting.name),
+                                                            urban_nav_core::printValue(setting.value), setting.origin});
+  writeEdges(*store_, closures);
 }
 
-void StoreStage::goOn(std::size_t session, const SourceInfo& info, const VoRun& run) {
-  session_ = session;
-  rows_ = nodes_ = 0;
-  committed_ = Clock::now();
-  put(session, info);
-  store_->states().put(ids_[session], kBagStage, packBagState(behind_[session]->state));
-  add(run);
-  store_->commit();
+void RunCheckpoint::writeScans(const std::vector<LaserInput>& scans) {
+  const std::vector<LaserInfo>& lasers = sessions_[current_].info.lasers;
+  for (const LaserInput& each : scans) store_->scans().put(sessions_[current_].id, lasers[each.laser].frame, each.scan);
 }
 
-void StoreStage::keep(const SourceInfo& info, const std::vector<LaserInput>& scans) {
-  for (const LaserInput& each : scans) store_->scans().put(ids_[session_], info.lasers[each.laser].frame, each.scan);
+void RunCheckpoint::saveBagEnd(std::vector<BagCheckpoint::StageState> states, const BagEnd& end) {
+  const std::optional<ResumePoint>& point = plans_[current_].resume_point;
+  BagCheckpoint checkpoint{{}, end.receipt, end.reader, std::move(states)};
+  if (point)  // bags before the given ones
+    checkpoint.bags.assign(point->checkpoint.bags.begin(),
+                           point->checkpoint.bags.end() - static_cast<std::ptrdiff_t>(point->bags));
+  const std::vector<std::string>& bags = plans_[current_].bags;
+  checkpoint.bags.insert(checkpoint.bags.end(), bags.begin(), bags.begin() + static_cast<std::ptrdiff_t>(end.bags));
+  store_->states().put(sessions_[current_].id, kBagStage, packBagCheckpoint(std::move(checkpoint)));
+  commit();
 }
 
-void StoreStage::keep(const urban_nav_store::StoredKeyframe& view) {
-  store_->keyframes().put(ids_[session_], frames::stereo_left, view);
-}
+bool RunCheckpoint::isCommitDue() const { return Clock::now() - committed_ >= kCommitPeriod; }
 
-std::vector<urban_nav_core::StampNs> StoreStage::viewsKept() {
-  return store_->keyframes().stamps(ids_[session_], frames::stereo_left);
-}
-
-void StoreStage::keepBag(const VoStage& stage, const BagEnd& end) {
-  add(stage.run());
-  const std::optional<Behind>& behind = behind_[session_];
-  BagState state{{}, end.receipt, end.reader, stage.state()};
-  if (behind)
-    state.bags.assign(behind->state.bags.begin(), behind->state.bags.end() - static_cast<std::ptrdiff_t>(behind->bags));
-  const std::vector<std::string>& bags = bags_[session_];
-  state.bags.insert(state.bags.end(), bags.begin(), bags.begin() + static_cast<std::ptrdiff_t>(end.bags));
-  store_->states().put(ids_[session_], kBagStage, packBagState(std::move(state)));
+void RunCheckpoint::commit() {
   store_->commit();
   committed_ = Clock::now();
 }
 
-void StoreStage::keepUp(const VoRun& run) {
-  if (Clock::now() - committed_ < kPeriod) return;
-  add(run);
-  store_->commit();
-  committed_ = Clock::now();
-}
-
-void StoreStage::add(const VoRun& run) {
-  const SessionId& id = ids_[session_];
-  for (; rows_ < run.rows.size(); ++rows_)
-    store_->inputs().append(id, {kVoStream, run.rows[rows_].stamp, run.rows[rows_].accepted});
-  for (; nodes_ < run.settled.size(); ++nodes_) {
-    const swf_vo::Settled& settled = run.settled[nodes_];
-    const urban_nav_core::RelativePose& step = settled.from_previous;
-    const bool first = nodes_ == 0;
-    store_->graph().put(
-        id, urban_nav_store::Node{
-                settled.stamp, settled.T_odom_base.pose, first ? Matrix6d(Matrix6d::Zero()) : step.covariance,
-                first ? Matrix6d(Matrix6d::Zero()) : settled.from_previous.drift_covariance, settled.status.health});
-    if (first) continue;
-    Edge edge{{id, step.from},      {id, step.to}, EdgeKind::Odometry,       kVoStage,
-              {step.T_from_to, {}}, 1.0,           ClosureVerdict::Accepted, ""};
-    edge.measured.information = urban_nav_core::invertPositiveDefinite(step.covariance).value_or(Matrix6d::Zero());
-    store_->graph().put(edge);
-  }
-}
-
-void StoreStage::finish(const VoRun& run) {
-  add(run);
-  const SessionId& id = ids_[session_];
-  store_->states().put(id, kVoStage, packVoRun(run));
-  if (!run.forces.empty()) store_->states().put(id, kForcesStage, packForces(run.forces));
+void RunCheckpoint::finishSession(const std::vector<BagCheckpoint::StageState>& states) {
+  const SessionId& id = sessions_[current_].id;
+  for (const auto& [key, state] : states) store_->states().put(id, key, state);
   urban_nav_store::Session session = *store_->sessions().find(id);
   session.complete = true;
   store_->sessions().put(session);
-  store_->commit();
+  commit();
 }
 
-void StoreStage::end() {
-  const auto last = std::max_element(begins_.begin(), begins_.end()) - begins_.begin();
-  for (const SessionId& id : ids_) store_->states().remove(id, kVoStage);
+void RunCheckpoint::endRun() {
+  const auto last = std::max_element(sessions_.begin(), sessions_.end(), [](const MapSession& a, const MapSession& b) {
+    return a.input.begin < b.input.begin;
+  });
+  for (const MapSession& session : sessions_)
+    for (const std::string& key : keys_) store_->states().remove(session.id, key);
   for (const urban_nav_store::Session& session : store_->sessions().all())
-    if (session.id != ids_[static_cast<std::size_t>(last)]) store_->states().remove(session.id, kBagStage);
+    if (session.id != last->id) store_->states().remove(session.id, kBagStage);
   store_->shrink();
   store_->close();
 }

@@ -6,103 +6,97 @@
 #include <string>
 #include <vector>
 
-#include "command_line/console.hpp"
 #include "pipeline/bag_checkpoint.hpp"
 #include "pipeline/run_fingerprint.hpp"
-#include "stage/store_keys.hpp"
-#include "stages/vo/vo_stage.hpp"
-#include "urban_nav_store/store.hpp"
 
 namespace urban_nav {
 
-/// Keeps what a run of `map` makes in session.db of its folder, committed about once a second, and finds there what a run
-/// that was cut off had finished.
+/// Stores the progress of a run of `map` in session.db of its output folder, committed about once a second, and finds
+/// there what an interrupted run has finished.
 ///
-/// A session that an earlier run had finished is taken from the store where inputs, options, parameters and program
-/// (run_identity.hpp) are the same, with its own bytes; anything else is removed and made again, and the console says why. A run
-/// that has come to its end leaves no states behind: the next one in its folder begins anew.
+/// A session that an earlier run has finished is restored from the store, bit-exactly, if its fingerprint
+/// (run_fingerprint.hpp) is the same; anything else is removed and made again, and the console reports the difference. A
+/// run that ends leaves no states: the next one in its folder starts from the beginning.
 ///
-/// Where the request names a store to go on from, its sessions are there from the start, and stay. One that is mapped
-/// again is replaced; one whose recording the bags go on with is gone on in, behind the last bag that is known (bag_state.hpp). That state stays in
-/// the store for the session that ends last.
-class StoreStage {
+/// If --store names a store to continue from, its sessions are in session.db from the start, and stay. One that is
+/// mapped again is replaced; one whose recording the bags continue is continued after its last known bag
+/// (bag_checkpoint.hpp). That checkpoint stays in the store for the session that ends last.
+class RunCheckpoint {
  public:
-  /// Sessions that are gone on in get their names.
-  StoreStage(const MapRequest& request, std::vector<Session>& sessions, const std::string& path, Console& console);
+  /// Sets id and `continued` of each session, and the name of continued ones. `sessions` must outlive the object.
+  RunCheckpoint(const MapOptions& options, const StageList& stages, std::vector<MapSession>& sessions, std::string path,
+                Console& console);
 
-  /// Where a session that is not finished goes on, and how many of its bags are behind that.
-  struct Behind {
-    BagState state;
+  /// Where an unfinished session continues: after `bags` of its bags.
+  struct ResumePoint {
+    BagCheckpoint checkpoint;
     std::size_t bags = 0;
   };
-  const std::optional<Behind>& behind(std::size_t session) const { return behind_[session]; }
-  /// It cannot be gone on there: the session is one of its own.
-  void giveUp(std::size_t session, Session& inputs);
+  const std::optional<ResumePoint>& resumePoint(std::size_t session) const { return plans_[session].resume_point; }
+  /// Makes it a session of its own, if resuming has failed.
+  void startNewSession(std::size_t session);
 
-  /// To be called for each session in their order. The finished run where there is one; else the session is begun.
-  std::optional<VoRun> begin(std::size_t session, const SourceInfo& info);
-  /// Instead, with the run as it was behind(): the session is begun, and has what it had there.
-  void goOn(std::size_t session, const SourceInfo& info, const VoRun& run);
-  /// Scans of the session that was begun, in the lasers' frames.
-  void keep(const SourceInfo& info, const std::vector<LaserInput>& scans);
-  /// A view of the session that was begun.
-  void keep(const urban_nav_store::StoredKeyframe& view);
-  /// The views of it that were kept before it was begun or gone on in.
-  std::vector<urban_nav_core::StampNs> viewsKept();
-  /// A bag of the session has come to its end. Commits; the state of the bag before goes.
-  void keepBag(const VoStage& stage, const BagEnd& end);
-  /// What is new in the run of the session that was begun; commits when a second has gone by.
-  void keepUp(const VoRun& run);
-  /// The run is complete.
-  void finish(const VoRun& run);
-  /// So is everything else that `map` writes.
-  void end();
+  /// Returns the states with which an earlier run finished the session (SessionPass::finished()); empty if it is not
+  /// finished.
+  std::vector<BagCheckpoint::StageState> finishedStates(std::size_t session);
+  /// Starts writing a session from its beginning, or from its resume point. The other calls are about this session.
+  void begin(std::size_t session);
+  void resume(std::size_t session);
+  /// Writes scans, in the frames of the lasers.
+  void writeScans(const std::vector<LaserInput>& scans);
+  /// Writes and commits the checkpoint at the end of a bag; replaces that of the bag before.
+  void saveBagEnd(std::vector<BagCheckpoint::StageState> states, const BagEnd& end);
+  bool isCommitDue() const;
+  void commit();
+  /// Marks the session as complete, with the states from which it can be restored. Commits.
+  void finishSession(const std::vector<BagCheckpoint::StageState>& states);
+  /// Ends a run whose files are written: removes all states that are no longer needed, and closes the store.
+  void endRun();
 
   urban_nav_store::Store& store() { return *store_; }
-  /// Is a session of this run one of the store that was gone on from? Its closures are there still.
-  bool isContinued(std::size_t session) const { return continued_[session]; }
-  /// Of the sessions of this run, in their order.
-  const std::vector<urban_nav_store::SessionId>& ids() const { return ids_; }
 
  private:
   using Clock = std::chrono::steady_clock;
+  using SessionId = urban_nav_store::SessionId;
 
-  bool isFinished(std::size_t session);
-  /// Opens the store, and leaves in it the sessions that this run can go on behind.
-  void open(Console& console);
-  /// What is in the store of an earlier run in the same folder.
-  struct Found {
-    std::size_t finished = 0;  ///< sessions to go on behind
-    std::size_t begun = 0;     ///< and to go on in, behind a bag
-    bool cut_off = false;
-    std::string other;  ///< what differs, for people
+  /// What is known of a session before it is read.
+  struct SessionPlan {
+    SessionId own_id;  ///< unless it continues another one
+    RunFingerprint fingerprint;
+    std::string name;
+    std::vector<std::string> bags;  ///< their fingerprints
+    std::optional<ResumePoint> resume_point;
   };
-  Found sift(bool goes_on_here);
-  /// The state of a stored session that the bags of this one follow.
-  std::optional<Behind> follow(urban_nav_store::Store& store, const urban_nav_store::SessionId& id,
-                               std::size_t session);
-  /// What of program, options and parameters is not as it was then; empty: nothing.
-  std::string otherThan(urban_nav_store::Store& store, const urban_nav_store::SessionId& id, std::size_t session) const;
-  /// follow() where nothing is other.
-  std::optional<Behind> look(urban_nav_store::Store& store, const urban_nav_store::SessionId& id, std::size_t session);
-  /// Bags that go on with a recording of the store that the request names: their sessions are those.
-  void findContinued(std::vector<Session>& sessions, Console& console);
-  void put(std::size_t session, const SourceInfo& info);
-  void beginAnew();
-  void add(const VoRun& run);
+  /// Content of the store of an earlier run in the same folder.
+  struct PruneResult {
+    std::size_t finished = 0;  ///< sessions that are restored
+    std::size_t begun = 0;     ///< sessions that are resumed after a bag
+    bool interrupted = false;
+    std::string difference;  ///< why sessions were removed, for the user
+  };
 
-  const MapRequest& request_;
+  /// Matches sessions to those of --store.
+  void findContinuedSessions(Console& console);
+  /// Opens the store and prints how it is used.
+  void open(Console& console);
+  /// Removes sessions that this run can neither restore nor resume.
+  PruneResult pruneSessions(bool in_place);
+  void startNewStore();
+  bool isFinished(std::size_t session);
+  /// Returns the checkpoint of a stored session if the bags of this one follow it.
+  std::optional<ResumePoint> readResumePoint(urban_nav_store::Store& store, const SessionId& id, std::size_t session);
+  /// Returns the checkpoint if, besides, program, options and parameters are the same.
+  std::optional<ResumePoint> findResumePoint(urban_nav_store::Store& store, const SessionId& id, std::size_t session);
+  std::string configurationDifferences(urban_nav_store::Store& store, const SessionId& id, std::size_t session) const;
+  void writeSession(std::size_t session);
+
+  const MapOptions& options_;
   const std::string path_;
-  std::vector<urban_nav_store::SessionId> ids_, own_ids_;  // own: were none gone on in
-  std::vector<RunIdentity> identities_;
-  std::vector<std::string> names_;
-  std::vector<std::vector<std::string>> bags_;   // of each session
-  std::vector<urban_nav_core::StampNs> begins_;  // likewise
-  std::vector<bool> continued_;                  // likewise: of the store that the request names
-  std::vector<std::optional<Behind>> behind_;    // likewise
+  std::vector<MapSession>& sessions_;
+  std::vector<SessionPlan> plans_;  // one per session
+  std::vector<std::string> keys_;   // of the stages; a state of the first one marks a session that can be restored
   std::optional<urban_nav_store::Store> store_;
-  std::size_t session_ = 0;           // at work
-  std::size_t rows_ = 0, nodes_ = 0;  // of it, written
+  std::size_t current_ = 0;
   Clock::time_point committed_;
 };
 

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "command_line/command_parameters.hpp"
+#include "input/input_parameters.hpp"
 #include "urban_nav_core/parameters/print.hpp"
 #include "urban_nav_store/bytes.hpp"
 #include "urban_nav_store/digest.hpp"
@@ -21,7 +23,7 @@ using urban_nav_store::sha256;
 namespace {
 
 constexpr std::streamoff kPiece = 1 << 16;  // bytes of a beginning and of an end
-constexpr std::size_t kLookedInto = 16;     // files of a folder
+constexpr std::size_t kSampledFiles = 16;   // files of a folder
 constexpr int kDeepest = 4;                 // folders within a folder: no input has more, and links may go in a circle
 
 struct InputFile {
@@ -31,13 +33,13 @@ struct InputFile {
   std::int64_t changed = 0;
 };
 
-/// The truth never reaches an estimate, and whether it is there must not tell two runs apart.
+/// Ground truth never reaches an estimate; its presence must not distinguish two runs.
 bool isTruth(const fs::path& path) {
   const std::string name = path.filename().string();
   return name == "poses.txt" || name == "state_groundtruth_estimate0";
 }
 
-InputFile look(const fs::path& path, const std::string& name) {
+InputFile describeFile(const fs::path& path, const std::string& name) {
   std::error_code error;
   InputFile file{name, path.string(), fs::file_size(path, error), 0};
   if (error) file.size = 0;
@@ -45,11 +47,11 @@ InputFile look(const fs::path& path, const std::string& name) {
   return file;
 }
 
-/// The files that an input consists of, by name; what this run writes is not among them.
-std::vector<InputFile> filesOf(const std::string& input, const std::string& out) {
+/// Returns the files of an input, sorted by name, without those that this run writes.
+std::vector<InputFile> listFiles(const std::string& input, const std::string& out) {
   std::vector<InputFile> files;
   const fs::path root(input);
-  if (!fs::is_directory(root)) return {look(root, root.filename().string())};
+  if (!fs::is_directory(root)) return {describeFile(root, root.filename().string())};
   std::error_code ignored;
   const fs::path written = fs::weakly_canonical(out, ignored);
   const auto options = fs::directory_options::follow_directory_symlink | fs::directory_options::skip_permission_denied;
@@ -58,15 +60,14 @@ std::vector<InputFile> filesOf(const std::string& input, const std::string& out)
     if (isTruth(entry->path()) || fs::weakly_canonical(entry->path(), ignored) == written) {
       entry.disable_recursion_pending();
     } else if (entry->is_regular_file(ignored)) {
-      files.push_back(look(entry->path(), entry->path().lexically_relative(root).generic_string()));
+      files.push_back(describeFile(entry->path(), entry->path().lexically_relative(root).generic_string()));
     }
   }
   std::sort(files.begin(), files.end(), [](const InputFile& a, const InputFile& b) { return a.name < b.name; });
   return files;
 }
 
-/// Beginning and end.
-std::string piecesOf(const InputFile& file) {
+std::string firstAndLastBytes(const InputFile& file) {
   std::ifstream stream(file.path, std::ios::binary);
   std::string bytes(static_cast<std::size_t>(kPiece), '\0');
   stream.read(bytes.data(), kPiece);
@@ -84,14 +85,14 @@ std::string piecesOf(const InputFile& file) {
 std::string digestOf(const std::vector<std::string>& inputs, const std::string& out, bool with_time) {
   std::string bytes;
   for (const std::string& input : inputs) {
-    const std::vector<InputFile> files = filesOf(input, out);
-    const std::size_t step = std::max<std::size_t>(1, files.size() / kLookedInto);
+    const std::vector<InputFile> files = listFiles(input, out);
+    const std::size_t step = std::max<std::size_t>(1, files.size() / kSampledFiles);
     appendInteger(bytes, files.size());
     for (std::size_t i = 0; i < files.size(); ++i) {
       if (fs::is_directory(input)) appendText(bytes, files[i].name);  // a bag may be renamed
       appendInteger(bytes, files[i].size);
       if (with_time) appendInteger(bytes, static_cast<std::uint64_t>(files[i].changed));
-      if (i % step == 0) appendText(bytes, piecesOf(files[i]));
+      if (i % step == 0) appendText(bytes, firstAndLastBytes(files[i]));
     }
   }
   return sha256(bytes);
@@ -101,7 +102,7 @@ int addObject(dl_phdr_info* object, std::size_t, void* bytes) {
   const std::string path = object->dlpi_name[0] == '\0' ? "/proc/self/exe" : object->dlpi_name;
   std::error_code error;
   if (!fs::exists(path, error)) return 0;  // the kernel's own
-  const InputFile file = look(fs::canonical(path, error), "");
+  const InputFile file = describeFile(fs::canonical(path, error), "");
   appendText(*static_cast<std::string*>(bytes), file.path);
   appendInteger(*static_cast<std::string*>(bytes), file.size);
   appendInteger(*static_cast<std::string*>(bytes), static_cast<std::uint64_t>(file.changed));
@@ -114,78 +115,74 @@ std::string digestOfProgram() {
   return sha256(bytes);
 }
 
-/// Those of loop_metric that its views depend on.
-std::vector<urban_nav_core::Setting> settingsOfViews(const AllParameters& parameters) {
-  std::vector<urban_nav_core::Setting> made;
-  for (const urban_nav_core::Setting& setting : parameters.loop_metric.settings)
-    if (setting.name == "points" || setting.name == "keyframe_way" || setting.name == "keyframe_turn")
-      made.push_back(setting);
-  return made;
-}
-
-std::string digestOfParameters(const AllParameters& parameters) {
+std::string digestOfParameters(const MapOptions& options, const StageList& stages) {
+  std::vector<urban_nav_core::Setting> settings = options.parameters.settings(commandTable().stage());
+  const std::vector<urban_nav_core::Setting> of_input = options.parameters.settings(inputTable().stage());
+  settings.insert(settings.end(), of_input.begin(), of_input.end());
+  for (const Stage* stage : stages) {
+    const std::vector<urban_nav_core::Setting> used = stage->passSettings(options.parameters);
+    settings.insert(settings.end(), used.begin(), used.end());
+  }
   std::string bytes;
-  for (const std::vector<urban_nav_core::Setting>& settings :
-       {parameters.command.settings, parameters.swf_vo.settings, settingsOfViews(parameters)}) {
-    for (const urban_nav_core::Setting& setting : settings) {
-      if (setting.name == "memory_mb") continue;  // no result depends on it
-      appendText(bytes, urban_nav_core::fullName(setting.stage, setting.name));
-      appendText(bytes, urban_nav_core::printValue(setting.value));
-    }
+  for (const urban_nav_core::Setting& setting : settings) {
+    if (setting.name == "memory_mb") continue;  // no result depends on it
+    appendText(bytes, urban_nav_core::fullName(setting.stage, setting.name));
+    appendText(bytes, urban_nav_core::printValue(setting.value));
   }
   return sha256(bytes);
 }
 
-std::string digestOfOptions(const MapRequest& request) {
+std::string digestOfOptions(const MapOptions& options, const StageList& stages) {
   std::string bytes;
-  for (const std::string& topic : request.source.topics) appendText(bytes, topic);
-  urban_nav_store::appendNumber(bytes, request.source.rate);
-  urban_nav_store::appendNumber(bytes, keepsViews(request) ? 1.0 : 0.0);
-  std::string calibration = request.source.calibration;
+  for (const std::string& topic : options.source.topics) appendText(bytes, topic);
+  urban_nav_store::appendNumber(bytes, options.source.rate);
+  for (const Stage* stage : stages)
+    if (!stage->passSettings(options.parameters).empty()) appendText(bytes, stage->describe().key);
+  std::string calibration = options.source.calibration;
   appendText(bytes, calibration);
   for (std::size_t comma = 0; !calibration.empty();
        calibration.erase(0, comma == std::string::npos ? comma : comma + 1)) {
     comma = calibration.find(',');
-    appendText(bytes, digestOf({calibration.substr(0, comma)}, request.out, true));
+    appendText(bytes, digestOf({calibration.substr(0, comma)}, options.out, true));
   }
   return sha256(bytes);
 }
 
-std::string digestOfStages(const MapRequest& request) {
+std::string digestOfStages(const MapOptions& options) {
   std::string bytes;
-  for (const std::string& stage : request.stages) appendText(bytes, stage);
+  for (const std::string& stage : options.stages) appendText(bytes, stage);
   return sha256(bytes);
 }
 
-std::string digestOfStore(const MapRequest& request) {
+std::string digestOfStore(const MapOptions& options) {
   std::error_code ignored;
-  const bool own = fs::equivalent(request.store, fs::path(request.out) / "session.db", ignored);
-  return request.store.empty() || own ? sha256("") : digestOf({request.store}, request.out, true);
+  const bool own = fs::equivalent(options.store, fs::path(options.out) / "session.db", ignored);
+  return options.store.empty() || own ? sha256("") : digestOf({options.store}, options.out, true);
 }
 
 }  // namespace
 
-RunIdentity identityOf(const MapRequest& request, const Session& session) {
-  return {{"inputs", digestOf(session.paths, request.out, true)},
-          {"options", digestOfOptions(request)},
-          {"parameters", digestOfParameters(request.parameters)},
+RunFingerprint fingerprint(const MapOptions& options, const StageList& stages, const InputSession& session) {
+  return {{"inputs", digestOf(session.paths, options.out, true)},
+          {"options", digestOfOptions(options, stages)},
+          {"parameters", digestOfParameters(options, stages)},
           {"program", digestOfProgram()},
-          {"stages", digestOfStages(request)},
-          {"store", digestOfStore(request)}};
+          {"stages", digestOfStages(options)},
+          {"store", digestOfStore(options)}};
 }
 
-urban_nav_store::SessionOrigin originOf(const MapRequest& request, const Session& session) {
-  return {"", "", 0, digestOf({session.paths.front()}, request.out, false)};
+urban_nav_store::SessionOrigin origin(const MapOptions& options, const InputSession& session) {
+  return {"", "", 0, digestOf({session.paths.front()}, options.out, false)};
 }
 
-std::vector<std::string> bagsOf(const MapRequest& request, const Session& session) {
+std::vector<std::string> bagFingerprints(const MapOptions& options, const InputSession& session) {
   std::vector<std::string> digests;
   if (session.begin != 0)
-    for (const std::string& path : session.paths) digests.push_back(digestOf({path}, request.out, true));
+    for (const std::string& path : session.paths) digests.push_back(digestOf({path}, options.out, true));
   return digests;
 }
 
-std::string differences(const RunIdentity& a, const RunIdentity& b, const std::vector<std::string>& but) {
+std::string differences(const RunFingerprint& a, const RunFingerprint& b, const std::vector<std::string>& but) {
   std::string names;
   for (const auto& [name, digest] : a) {
     if (std::find(but.begin(), but.end(), name) != but.end()) continue;

@@ -6,26 +6,27 @@
 #include <vector>
 
 #include "input/sessions.hpp"
-#include "pipeline/map_pipeline.hpp"
+#include "pipeline/stage_list.hpp"
+#include "stage/map_options.hpp"
 #include "urban_nav_store/session.hpp"
 
 namespace urban_nav {
 
-/// What the result of a session depends on, so that a run that was cut off goes on only where the result would be the same: pairs
-/// of a name for people ("parameters", "inputs", "options", "program", "stages", "store") and a digest. Inputs are told by names, sizes, times of the last
-/// change, and the beginnings and ends of some files; the truth among them does not count. The program is told by the files it
-/// was loaded from, libraries included.
-using RunIdentity = std::vector<std::pair<std::string, std::string>>;
-RunIdentity identityOf(const MapRequest& request, const Session& session);
+/// Everything on which the stored result of a session depends, so that an interrupted run resumes only if the result
+/// would be the same: pairs of a name for the user ("inputs", "options", "parameters", "program", "stages", "store") and a
+/// digest. Inputs are identified by names, sizes, times of the last change, and the first and last bytes of some files,
+/// without ground truth; the program by the files it was loaded from, libraries included.
+using RunFingerprint = std::vector<std::pair<std::string, std::string>>;
+RunFingerprint fingerprint(const MapOptions& options, const StageList& stages, const InputSession& session);
 
-/// What tells a session from others: by the content of its folder or its first bag, wherever it lies and whenever it was copied. More bags make
-/// the same session longer.
-urban_nav_store::SessionOrigin originOf(const MapRequest& request, const Session& session);
+/// Returns the identity of a session: the content of its folder or first bag, independent of its path and of when it was
+/// copied. Further bags make the same session longer.
+urban_nav_store::SessionOrigin origin(const MapOptions& options, const InputSession& session);
 
-/// Of each of the session's bags, as the identity tells inputs. None of a folder.
-std::vector<std::string> bagsOf(const MapRequest& request, const Session& session);
+/// Returns the fingerprint of each bag of the session; empty for a folder.
+std::vector<std::string> bagFingerprints(const MapOptions& options, const InputSession& session);
 
-/// Names of what differs: "parameters, program". `but`: names that do not count.
-std::string differences(const RunIdentity& a, const RunIdentity& b, const std::vector<std::string>& but = {});
+/// Returns the names of the digests that differ: "parameters, program". `but`: names that are ignored.
+std::string differences(const RunFingerprint& a, const RunFingerprint& b, const std::vector<std::string>& but = {});
 
 }  // namespace urban_nav

@@ -7,7 +7,6 @@
 #include "input/sessions.hpp"
 #include "loop_metric/evidence.hpp"
 #include "stage/store_keys.hpp"
-#include "stages/vo/vo_state.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_core/types/frames.hpp"
 
@@ -103,8 +102,8 @@ ClosureRow rowOf(Store& store, const Edge& edge, const pose_graph::Closure& clos
 
 }  // namespace
 
-EarlierSessions readEarlierSessions(Store& store, const std::vector<SessionId>& without) {
-  EarlierSessions made;
+PreviousSessions readPreviousSessions(Store& store, const std::vector<SessionId>& without) {
+  PreviousSessions made;
   for (const urban_nav_store::Session& session : store.sessions().all()) {
     if (std::find(without.begin(), without.end(), session.id) != without.end()) continue;
     VoRun run = chainOf(store, session.id);
@@ -119,9 +118,9 @@ EarlierSessions readEarlierSessions(Store& store, const std::vector<SessionId>& 
   return made;
 }
 
-std::vector<KnownClosure> closuresBetween(Store& store, const std::vector<SessionId>& ids,
-                                          const std::vector<std::string>& names) {
-  std::vector<KnownClosure> made;
+std::vector<PreviousClosure> closuresBetween(Store& store, const std::vector<SessionId>& ids,
+                                             const std::vector<std::string>& names) {
+  std::vector<PreviousClosure> made;
   std::map<SessionId, std::string> name;
   for (std::size_t i = 0; i < ids.size(); ++i) name[ids[i]] = names[i];
   for (const SessionId& id : ids) {

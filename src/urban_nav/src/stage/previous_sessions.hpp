@@ -4,30 +4,39 @@
 #include <string>
 #include <vector>
 
-#include "stages/graph/graph_stage.hpp"
+#include "pose_graph/pose_graph.hpp"
+#include "stage/closures_file.hpp"
+#include "stage/vo_run.hpp"
 #include "urban_nav_store/store.hpp"
 
 namespace urban_nav {
 
-/// Sessions that a store holds from earlier runs, as far as the graph stage needs them.
-struct EarlierSessions {
+/// Sessions that earlier runs have left in a store, as far as later stages need them.
+struct PreviousSessions {
   std::vector<urban_nav_store::SessionId> ids;
   std::vector<std::string> names;  ///< as closures.csv names them
-  /// Chains of odometry with their numbers to the last bit, rows of dropped frames, forces, and the place of the camera; nothing else of a run.
+  /// Odometry chains with bit-exact numbers, rows of dropped frames, specific forces and the camera's extrinsics; other
+  /// members are empty.
   std::vector<VoRun> runs;
-  std::int64_t revision = 0;  ///< the highest of their anchors
+  std::int64_t revision = 0;  ///< highest revision of their anchors
 };
 
-/// All but those in `without`, in the order of their beginnings. Errors as urban_nav_store has them.
-EarlierSessions readEarlierSessions(urban_nav_store::Store& store,
-                                    const std::vector<urban_nav_store::SessionId>& without);
+/// A closure between stored sessions that an earlier run has added to the graph.
+struct PreviousClosure {
+  ClosureRow row;
+  pose_graph::Closure closure;  ///< sessions by their names
+};
 
-/// What the store holds between these sessions, which are called by `names`; asserted ones too.
-std::vector<KnownClosure> closuresBetween(urban_nav_store::Store& store,
-                                          const std::vector<urban_nav_store::SessionId>& ids,
-                                          const std::vector<std::string>& names);
+/// Returns all sessions but those in `without`, in the order of their start. Throws the errors of urban_nav_store.
+PreviousSessions readPreviousSessions(urban_nav_store::Store& store,
+                                      const std::vector<urban_nav_store::SessionId>& without);
 
-/// Does it hold closures of any kind? Then its sessions have been relaxed, or can be.
+/// Returns the closures that the store holds between these sessions, asserted ones included. `names`: one per id.
+std::vector<PreviousClosure> closuresBetween(urban_nav_store::Store& store,
+                                             const std::vector<urban_nav_store::SessionId>& ids,
+                                             const std::vector<std::string>& names);
+
+/// Returns whether the store holds a closure of any kind. Its sessions can then be relaxed.
 bool holdsClosures(urban_nav_store::Store& store);
 
 }  // namespace urban_nav

@@ -4,17 +4,17 @@
 #include <memory>
 
 #include "loop_metric/camera_words.hpp"
-#include "stages/vo/vo_files.hpp"
+#include "stage/vo_run.hpp"
 
 namespace urban_nav {
 
-loop_metric::StoredSurroundings::Sessions storedSessions(const std::vector<LoopsSession>& sessions,
+loop_metric::StoredSurroundings::Sessions storedSessions(const std::vector<CandidateSession>& sessions,
                                                          urban_nav_store::Store& store, const std::string& camera) {
   loop_metric::StoredSurroundings::Sessions made;
-  for (const LoopsSession& session : sessions) {
+  for (const CandidateSession& session : sessions) {
     loop_metric::SessionOfStore& its = made[session.name];
     its.id = session.id;
-    its.odometry = std::make_shared<urban_nav_core::OdometryChain>(odometryOf(*session.run));
+    its.odometry = std::make_shared<urban_nav_core::OdometryChain>(odometryChain(*session.run));
     its.has_camera = false;
     for (const urban_nav_store::Property& property : store.sessions().properties(session.id))
       if (property.name == loop_metric::camera_property) its.has_camera = property.value == camera;

@@ -64,14 +64,14 @@ TEST_F(Killed, endsWithTheBytesOfAnUnbrokenRun) {
   ASSERT_EQ(run(words(whole)), 0) << log();
   double took = used;  // at first also what a cold disk costs
   std::mt19937 random(1);
-  int kills = 0, behind = 0;
-  for (int round = 0; round < 3 || (round < 12 && (kills < 4 || behind == 0)); ++round) {
+  int kills = 0, resumed = 0;
+  for (int round = 0; round < 3 || (round < 12 && (kills < 4 || resumed == 0)); ++round) {
     fs::remove_all(cut);
     std::optional<int> status;
     std::int64_t nodes = 0;
     for (double patience = 0.2 * took; !status; patience += 0.1 * took) {  // so that it comes to its end at last
       status = run(words(cut), patience + 0.4 * took * std::uniform_real_distribution<double>()(random));
-      if (log().find("goes on behind") != std::string::npos) ++behind;
+      if (log().find("resuming an interrupted run") != std::string::npos) ++resumed;
       if (status) break;
       ++kills;
       if (!fs::exists(cut + "/session.db")) continue;
@@ -98,7 +98,7 @@ TEST_F(Killed, endsWithTheBytesOfAnUnbrokenRun) {
     }
   }
   EXPECT_GT(kills, 3);
-  EXPECT_GT(behind, 0) << "else the test says nothing";
+  EXPECT_GT(resumed, 0) << "else the test says nothing";
 }
 
 TEST_F(Killed, beginsAnewWhereTheResultWouldBeAnother) {
@@ -109,19 +109,19 @@ TEST_F(Killed, beginsAnewWhereTheResultWouldBeAnother) {
   const auto interrupted = [&] { ASSERT_EQ(run(words(out)), 2) << log(); };
   interrupted();
   interrupted();
-  EXPECT_NE(log().find("goes on behind 3 of 3 sessions"), std::string::npos) << log();
+  EXPECT_NE(log().find("3 of 3 sessions complete"), std::string::npos) << log();
   run(words(out, {"--set", "swf_vo.window=7"}));
-  EXPECT_NE(log().find("with other parameters: begins anew"), std::string::npos) << log();
+  EXPECT_NE(log().find("with other parameters: starting from the beginning"), std::string::npos) << log();
   interrupted();
-  EXPECT_NE(log().find("with other parameters: begins anew"), std::string::npos) << log();
+  EXPECT_NE(log().find("with other parameters: starting from the beginning"), std::string::npos) << log();
   run(words(out, {"--set", "memory_mb=1000"}));
-  EXPECT_NE(log().find("goes on behind 3"), std::string::npos) << "no result depends on it" << log();
+  EXPECT_NE(log().find("3 of 3 sessions complete"), std::string::npos) << "no result depends on it" << log();
   fs::last_write_time(inputs[1] + "/image_0/000005.png", fs::file_time_type::clock::now());
   interrupted();
-  EXPECT_NE(log().find("goes on behind 2 of 3"), std::string::npos) << log();
+  EXPECT_NE(log().find("2 of 3 sessions complete"), std::string::npos) << log();
   testing::writeFile(inputs[0] + "/poses.txt", "scrambled");
   interrupted();
-  EXPECT_NE(log().find("goes on behind 3"), std::string::npos) << "the truth is no input" << log();
+  EXPECT_NE(log().find("3 of 3 sessions complete"), std::string::npos) << "the truth is no input" << log();
   fs::remove_all(out + "/summary.json");
   ASSERT_EQ(run(words(out)), 0) << log();
   ASSERT_EQ(run(words(out)), 0) << log();

@@ -6,6 +6,7 @@
 
 #include "convert/convert.hpp"
 #include "pipeline/map_pipeline.hpp"
+#include "pipeline/parameters.hpp"
 #include "support/bags.hpp"
 #include "support/folders.hpp"
 #include "urban_nav_core/io/kitti.hpp"
@@ -26,9 +27,9 @@ const std::vector<std::string> kSame = {"trajectory.tum",          "trajectory.k
                                         "relative_covariance.csv", "graph.g2o",        "landmarks.ply"};
 
 void map(const std::vector<std::string>& inputs, const std::string& out, int threads = 1,
-         const std::function<void(MapRequest&)>& change = {}) {
+         const std::function<void(MapOptions&)>& change = {}) {
   const Arguments none({});
-  MapRequest request{inputs, out, {"vo"}, "", "", "", {}, loadParameters(none), threads};
+  MapOptions request{inputs, out, {"vo"}, "", "", "", {}, loadParameters(none), threads};
   if (change) change(request);
   Console console;
   runMap(request, console);
@@ -86,7 +87,7 @@ TEST_F(Map, saysWhatTheContractAsksFor) {
 
 TEST_F(Map, runsTheGraphWhereNobodyGaveClosures) {
   const TemporaryFolder folder;
-  const auto all = [](MapRequest& request) { request.stages.clear(); };
+  const auto all = [](MapOptions& request) { request.stages.clear(); };
   map({in()}, folder.file("out"), 1, all);
   const std::string summary = readFile(folder.file("out/summary.json"));
   for (const char* key :
@@ -107,7 +108,7 @@ TEST_F(Map, runsTheGraphWhereNobodyGaveClosures) {
 TEST_F(Map, theReportOfARecordingThatGoesOnRefreshesItself) {
   const TemporaryFolder folder;
   const auto refreshes = [&](double so_far) {
-    map({in()}, folder.file("out"), 1, [&](MapRequest& request) { request.so_far = so_far; });
+    map({in()}, folder.file("out"), 1, [&](MapOptions& request) { request.so_far = so_far; });
     const std::string report = readFile(folder.file("out/report.html"));
     EXPECT_NE(report.find("href=\"#truth\""), std::string::npos) << "what there is, is compared with the truth";
     EXPECT_EQ(report.find("still at work, 25 %") != std::string::npos, so_far < 1.0);
@@ -164,10 +165,10 @@ TEST_F(Map, saysThatTheCamerasAreExchanged) {
 
 TEST_F(Map, refusesWhatNobodyCanMap) {
   const TemporaryFolder folder;
-  const auto with_stage = [](const char* stage) { return [stage](MapRequest& request) { request.stages = {stage}; }; };
+  const auto with_stage = [](const char* stage) { return [stage](MapOptions& request) { request.stages = {stage}; }; };
   EXPECT_THROW(map({in()}, folder.file("out"), 1, with_stage("places")), UserError);
   EXPECT_THROW(map({in()}, folder.file("out"), 1, with_stage("vision")), UserError);
-  EXPECT_THROW(map({in()}, folder.file("out"), 1, [](MapRequest& request) { request.truth = "/nowhere.tum"; }),
+  EXPECT_THROW(map({in()}, folder.file("out"), 1, [](MapOptions& request) { request.truth = "/nowhere.tum"; }),
                UserError);
   fs::copy(in(), folder.file("in"), fs::copy_options::recursive);
   for (const char* side : {"image_0", "image_1"}) {
@@ -215,7 +216,7 @@ TEST_F(Map, readsItsOwnBagsLikeTheFolder) {
   testing::rewriteBag(folder.file("in.bag"), folder.file("other.bag"),
                       testing::Rewrite::CompressedColourUnderOtherNames);
   map({folder.file("other.bag")}, folder.file("other"), 1,
-      [&](MapRequest& request) { request.source.calibration = in() + "/calib.txt"; });
+      [&](MapOptions& request) { request.source.calibration = in() + "/calib.txt"; });
   EXPECT_EQ(readFile(out() + "/trajectory.kitti"), readFile(folder.file("other/trajectory.kitti")))
       << "PNG in colour holds the same grey";
 }

@@ -3,30 +3,34 @@
 
 #include <gtest/gtest.h>
 
+#include "input/input_parameters.hpp"
+
 namespace urban_nav {
 namespace {
 
-AllParameters loaded(const std::vector<std::string>& settings) {
-  return loadParameters(Arguments({{"set", settings}}));
+ParameterSet loaded(const std::vector<std::string>& settings) { return loadParameters(Arguments({{"set", settings}})); }
+
+std::vector<std::string> warningsOn(const std::vector<std::string>& settings) {
+  return parameterWarnings(loaded(settings));
 }
 
-TEST(Parameters, DefaultsNeedNoWarning) { EXPECT_TRUE(loaded({}).warnings.empty()); }
+TEST(Parameters, DefaultsNeedNoWarning) { EXPECT_TRUE(warningsOn({}).empty()); }
 
-TEST(Parameters, StagesThatAreToldDifferentCamerasAreNamed) {
-  const AllParameters differ = loaded({"swf_vo.disparity_offset=0.3"});
-  ASSERT_EQ(differ.warnings.size(), 1U);
+TEST(Parameters, StagesWithDifferentCamerasAreNamed) {
+  const std::vector<std::string> differ = warningsOn({"swf_vo.disparity_offset=0.3"});
+  ASSERT_EQ(differ.size(), 1U);
   for (const char* part : {"swf_vo.disparity_offset = 0.3", "loop_metric.disparity_offset = 0.1"})
-    EXPECT_NE(differ.warnings[0].find(part), std::string::npos) << differ.warnings[0];
-  EXPECT_TRUE(loaded({"swf_vo.disparity_offset=0.3", "loop_metric.disparity_offset=0.3"}).warnings.empty());
-  EXPECT_TRUE(loaded({"swf_vo.iterations=5"}).warnings.empty()) << "the same word for another thing";
+    EXPECT_NE(differ[0].find(part), std::string::npos) << differ[0];
+  EXPECT_TRUE(warningsOn({"swf_vo.disparity_offset=0.3", "loop_metric.disparity_offset=0.3"}).empty());
+  EXPECT_TRUE(warningsOn({"swf_vo.iterations=5"}).empty()) << "the same word for another thing";
 }
 
 TEST(Parameters, MotionInputIsUnderstoodUnderTheNameOfTheStageThatHadIt) {
-  const AllParameters old = loaded({"swf_vo.motion_input=wheels"});
-  EXPECT_EQ(old.input.parameters.motion_input, "wheels");
-  ASSERT_EQ(old.warnings.size(), 1U);
-  EXPECT_NE(old.warnings[0].find("input.motion_input"), std::string::npos) << old.warnings[0];
-  EXPECT_TRUE(loaded({"input.motion_input=wheels"}).warnings.empty());
+  const ParameterSet old = loaded({"swf_vo.motion_input=wheels"});
+  EXPECT_EQ(old.get(inputTable()).motion_input, "wheels");
+  ASSERT_EQ(parameterWarnings(old).size(), 1U);
+  EXPECT_NE(parameterWarnings(old)[0].find("input.motion_input"), std::string::npos) << parameterWarnings(old)[0];
+  EXPECT_TRUE(warningsOn({"input.motion_input=wheels"}).empty());
 }
 
 }  // namespace

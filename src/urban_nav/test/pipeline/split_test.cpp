@@ -7,10 +7,12 @@
 #include <regex>
 
 #include "convert/convert.hpp"
-#include "stage/closures_file.hpp"
-#include "pipeline/map_pipeline.hpp"
-#include "pipeline/run_checkpoint.hpp"
 #include "inspect/store_info.hpp"
+#include "pipeline/bag_checkpoint.hpp"
+#include "pipeline/map_pipeline.hpp"
+#include "pipeline/parameters.hpp"
+#include "stage/closures_file.hpp"
+#include "stage/store_keys.hpp"
 #include "support/bags.hpp"
 #include "support/child.hpp"
 #include "support/folders.hpp"
@@ -56,9 +58,9 @@ class Split : public ::testing::Test {
   static std::string whole() { return shared_->file("whole"); }
 
   static std::string map(const std::vector<std::string>& inputs, const std::string& out,
-                         const std::string& store_of = {}, const std::function<void(MapRequest&)>& change = {}) {
+                         const std::string& store_of = {}, const std::function<void(MapOptions&)>& change = {}) {
     const Arguments none({});
-    MapRequest request{inputs, out, {"vo"}, "", "", "", {}, loadParameters(none), 1};
+    MapOptions request{inputs, out, {"vo"}, "", "", "", {}, loadParameters(none), 1};
     if (!store_of.empty()) request.store = store_of + "/session.db";
     if (change) change(request);
     Console console;
@@ -100,7 +102,7 @@ TEST_F(Split, goesOnBagByBagInOneFolder) {
   map({part(0)}, out);
   EXPECT_LT(urban_nav_core::readTum(out + "/trajectory.tum").size(), static_cast<std::size_t>(kFrames) / 2);
   const std::string said = map({part(1)}, out, out);
-  EXPECT_NE(said.find("part_1.bag goes on in session part_0.bag, behind 1 bag of it"), std::string::npos) << said;
+  EXPECT_NE(said.find("part_1.bag continues session part_0.bag, after 1 bag of it"), std::string::npos) << said;
   map({part(2)}, out, out);
   expectWhole(out);
   map({part(2)}, out, out);
@@ -115,14 +117,15 @@ TEST_F(Split, goesOnInAnotherFolder) {
             static_cast<std::int64_t>(urban_nav_core::readTum(folder.file("first/trajectory.tum")).size()))
       << "a store to go on from is only read";
   const std::string said =
-      map(parts(), folder.file("all"), folder.file("first"), [](MapRequest& request) { request.threads = 2; });
-  EXPECT_NE(said.find("goes on in session"), std::string::npos) << said;
+      map(parts(), folder.file("all"), folder.file("first"), [](MapOptions& request) { request.threads = 2; });
+  EXPECT_NE(said.find("continues session"), std::string::npos) << said;
   expectWhole(folder.file("all"));
 }
 
 TEST_F(Split, goesOnWithWheels) {
-  const auto with_wheels = [](MapRequest& request) {
-    request.source.motion_input = request.parameters.input.parameters.motion_input = "wheels";
+  const auto with_wheels = [](MapOptions& request) {
+    request.parameters.set("input.motion_input=wheels");
+    request.source.motion_input = "wheels";
     request.source.wheel_noise = 0.05;
   };
   map(parts(), folder.file("once"), {}, with_wheels);
@@ -142,8 +145,8 @@ TEST_F(Split, keepsTheClosuresOfTheBagsBefore) {
   row.T_a_b = way[2].pose.inverse() * way[12].pose *
               urban_nav_core::Pose(urban_nav_core::Quaterniond::Identity(), {0.002, 0.001, 0.0});
   testing::writeFile(folder.file("closures.csv"), printClosures({row}));
-  const auto with_graph = [](MapRequest& request) { request.stages = {"vo", "graph"}; };
-  const auto with_closures = [&](MapRequest& request) {
+  const auto with_graph = [](MapOptions& request) { request.stages = {"vo", "graph"}; };
+  const auto with_closures = [&](MapOptions& request) {
     with_graph(request);
     request.closures = folder.file("closures.csv");
   };
@@ -161,13 +164,9 @@ TEST_F(Split, isAnotherSessionWhereItCannotGoOn) {
   const std::string out = folder.file("out");
   map({part(0)}, out);
   const std::string first = readFile(out + "/trajectory.tum");
-  const auto other_window = [](MapRequest& request) {
-    request.parameters.swf_vo.parameters.window = 7;
-    for (urban_nav_core::Setting& setting : request.parameters.swf_vo.settings)
-      if (setting.name == "window") setting.value = 7;
-  };
+  const auto other_window = [](MapOptions& request) { request.parameters.set("swf_vo.window=7"); };
   const std::string said = map({part(1)}, folder.file("other"), out, other_window);
-  EXPECT_NE(said.find("does not go on in session part_0.bag: other parameters"), std::string::npos) << said;
+  EXPECT_NE(said.find("does not continue session part_0.bag: other parameters"), std::string::npos) << said;
   EXPECT_EQ(lookIntoStore(folder.file("other/session.db")).sessions.size(), 2U);
   testing::delayBag(part(1), folder.file("late.bag"), 100.0);
   map({folder.file("late.bag")}, folder.file("late"), out);
@@ -210,7 +209,7 @@ TEST_F(Split, goesOnBehindItsLastBagAfterAKill) {
         urban_nav_store::Store store(folder.file("cut/session.db"), urban_nav_store::Access::Read);
         const auto sessions = store.sessions().all();
         const auto state = sessions.empty() ? std::nullopt : store.states().get(sessions.front().id, kBagStage);
-        bags = state ? unpackBagState(*state).bags.size() : 0;
+        bags = state ? unpackBagCheckpoint(*state).bags.size() : 0;
       } catch (const urban_nav_core::Error&) {
         return false;  // not there yet
       }
@@ -221,8 +220,8 @@ TEST_F(Split, goesOnBehindItsLastBagAfterAKill) {
     testing::Child again(words, folder.file("log"));
     EXPECT_EQ(again.endOr([] { return false; }), 0) << readFile(folder.file("log"));
     const std::string log = readFile(folder.file("log"));
-    const bool finished = log.find("goes on behind 1 of 1 session") != std::string::npos;
-    EXPECT_TRUE(finished || log.find("behind the bags that were complete") != std::string::npos) << log;
+    const bool finished = log.find("1 of 1 session complete") != std::string::npos;
+    EXPECT_TRUE(finished || log.find("continuing after the last complete bag") != std::string::npos) << log;
     expectWhole(folder.file("cut"));
     for (const char* name : {"stats.csv", "summary.json"}) {
       std::string there = timeless(whole() + "/" + name), here = timeless(folder.file("cut/") + name);

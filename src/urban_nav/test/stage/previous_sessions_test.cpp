@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "stage/store_keys.hpp"
-#include "stages/vo/vo_state.hpp"
 #include "support/folders.hpp"
 #include "urban_nav_core/types/frames.hpp"
 
@@ -21,7 +20,7 @@ using urban_nav_store::Store;
 
 Pose at(double x) { return Pose(urban_nav_core::Quaterniond::Identity(), {x, 0.0, 0.0}); }
 
-class EarlierSessionsTest : public ::testing::Test {
+class PreviousSessionsTest : public ::testing::Test {
  protected:
   void put(const std::string& id, const std::string& name, std::int64_t start, int nodes) {
     store.sessions().put({id, name, "", "", start, true});
@@ -53,14 +52,14 @@ class EarlierSessionsTest : public ::testing::Test {
   Store store{folder.file("s.db"), Access::Write};
 };
 
-TEST_F(EarlierSessionsTest, bringsChainsBackToTheLastBit) {
+TEST_F(PreviousSessionsTest, bringsChainsBackToTheLastBit) {
   put("m", "monday.bag", 100, 3);
   tie("m", 100, "m", 101, EdgeKind::Odometry, 1.0 / 3.0);  // what was measured, not the difference of rounded poses
   store.inputs().append("m", {kVoStream, 104, false});
   store.sessions().put("m", urban_nav_store::Extrinsic{urban_nav_core::frames::stereo_left, at(0.3)});
   store.states().put("m", kForcesStage, packForces({{100, {0.0, 0.0, 9.8}}}));
   store.sessions().put(urban_nav_store::Anchor{"m", "m", 4, Pose()});
-  const EarlierSessions earlier = readEarlierSessions(store, {});
+  const PreviousSessions earlier = readPreviousSessions(store, {});
   ASSERT_EQ(earlier.runs.size(), 1U);
   EXPECT_EQ(earlier.names.front(), "monday");
   EXPECT_EQ(earlier.revision, 4);
@@ -79,7 +78,7 @@ TEST_F(EarlierSessionsTest, bringsChainsBackToTheLastBit) {
   EXPECT_FALSE(holdsClosures(store));
 }
 
-TEST_F(EarlierSessionsTest, bringsClosuresBetweenTheSessionsThatStay) {
+TEST_F(PreviousSessionsTest, bringsClosuresBetweenTheSessionsThatStay) {
   put("m", "monday.bag", 100, 3);
   put("t", "monday", 200, 3);
   put("w", "", 300, 3);
@@ -87,17 +86,17 @@ TEST_F(EarlierSessionsTest, bringsClosuresBetweenTheSessionsThatStay) {
   tie("t", 200, "t", 202, EdgeKind::Asserted, 3.0);
   tie("m", 100, "w", 300, EdgeKind::Icp, 4.0);
   EXPECT_TRUE(holdsClosures(store));
-  const EarlierSessions earlier = readEarlierSessions(store, {"w"});
+  const PreviousSessions earlier = readPreviousSessions(store, {"w"});
   EXPECT_EQ(earlier.names, (std::vector<std::string>{"monday", "monday_2"}));
-  const std::vector<KnownClosure> closures = closuresBetween(store, earlier.ids, earlier.names);
+  const std::vector<PreviousClosure> closures = closuresBetween(store, earlier.ids, earlier.names);
   ASSERT_EQ(closures.size(), 2U);
   EXPECT_EQ(closures[0].closure.b.session, "monday_2");
   EXPECT_EQ(closures[0].row.kind, "stereo");
   EXPECT_EQ(closures[0].row.T_a_b->t().x(), 2.0);
   EXPECT_EQ(closures[0].closure.measured.information, 4.0 * Matrix6d::Identity());
   EXPECT_EQ(closures[1].closure.kind, EdgeKind::Asserted);
-  EXPECT_EQ(readEarlierSessions(store, {}).names.back(), "w") << "a session without a name is called by its id";
-  EXPECT_TRUE(readEarlierSessions(store, {"m", "t", "w"}).runs.empty());
+  EXPECT_EQ(readPreviousSessions(store, {}).names.back(), "w") << "a session without a name is called by its id";
+  EXPECT_TRUE(readPreviousSessions(store, {"m", "t", "w"}).runs.empty());
 }
 
 }  // namespace

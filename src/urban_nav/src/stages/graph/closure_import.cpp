@@ -7,7 +7,6 @@
 #include <set>
 #include <tuple>
 
-#include "stages/vo/vo_files.hpp"
 #include "urban_nav_core/geometry/compose.hpp"
 #include "urban_nav_core/geometry/covariance_frames.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -22,10 +21,10 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-// Of a transform whose file does not say how good it is: five times what loop closure by stereo reaches (paper, section 4.1).
+// Of a transform whose file has no sigma: five times what loop closure by stereo reaches (paper, section 4.1).
 constexpr double kUnknownSigmaM = 0.25, kUnknownSigmaRad = 0.05;
 
-/// Where a closure stands in the graph, and what it says: sessions by their place.
+/// Identity of a closure in the graph, and its numbers; sessions by their index.
 using Place = std::tuple<std::size_t, StampNs, std::size_t, StampNs, EdgeKind>;
 using Numbers = std::array<double, 8>;
 
@@ -35,13 +34,13 @@ Numbers numbersOf(const Closure& closure) {
           T.q().y(), T.q().z(), T.q().w(), closure.measured.information.trace()};
 }
 
-class Offers {
+class ClosureImport {
  public:
-  Offers(const std::vector<std::string>& sessions, const std::vector<const VoRun*>& runs) : sessions_(sessions) {
-    for (const VoRun* one : runs) odometry_.push_back(odometryOf(*one));
+  ClosureImport(const std::vector<std::string>& sessions, const std::vector<const VoRun*>& runs) : sessions_(sessions) {
+    for (const VoRun* one : runs) odometry_.push_back(odometryChain(*one));
   }
 
-  /// `row`: its number in GraphRun::closures. Empty where it can be used, else why not.
+  /// Adds a row of the file. `row`: its index in GraphRun::closures. Returns why it cannot be used; empty if it can.
   std::string add(std::size_t row, const ClosureRow& offered) {
     for (const std::string* name : {&offered.session_a, &offered.session_b})
       if (placeOf(*name) == sessions_.size())
@@ -82,19 +81,19 @@ class Offers {
     return {};
   }
 
-  /// Rows from the first on, but for those that the file has too; what somebody asserted stays beside them.
-  void add(const std::vector<KnownClosure>& known) {
+  /// Adds previous closures but those that a row of the file replaces. Asserted ones are of another kind and stay.
+  void add(const std::vector<PreviousClosure>& previous) {
     std::set<Place> in_file;
     for (const Offer& offer : offers_) in_file.insert(offer.key.first);
-    for (std::size_t row = 0; row < known.size(); ++row) {
-      const Key key = keyOf(known[row].closure);
-      if (in_file.count(key.first) == 0) offers_.push_back({key, row, known[row].closure});
+    for (std::size_t row = 0; row < previous.size(); ++row) {
+      const Key key = keyOf(previous[row].closure);
+      if (in_file.count(key.first) == 0) offers_.push_back({key, row, previous[row].closure});
     }
   }
 
-  OfferedIds handTo(GraphRun& run) {
+  ClosureIds addTo(GraphRun& run) {
     std::stable_sort(offers_.begin(), offers_.end(), [](const Offer& a, const Offer& b) { return a.key < b.key; });
-    OfferedIds ids;
+    ClosureIds ids;
     for (const Offer& offer : offers_) {
       try {
         ids[offer.row] = run.graph.addClosure(offer.closure);
@@ -133,20 +132,20 @@ class Offers {
 
 }  // namespace
 
-OfferedIds offerClosures(GraphRun& run, const std::vector<const VoRun*>& runs, const std::vector<ClosureRow>& rows,
-                         const std::vector<KnownClosure>& known) {
-  Offers offers(run.sessions, runs);
-  for (const KnownClosure& each : known) {
+ClosureIds importClosures(GraphRun& run, const std::vector<const VoRun*>& runs, const std::vector<ClosureRow>& rows,
+                          const std::vector<PreviousClosure>& previous) {
+  ClosureImport import(run.sessions, runs);
+  for (const PreviousClosure& each : previous) {
     run.closures.push_back(each.row);
     run.closures.back().reason.clear();
   }
   for (const ClosureRow& row : rows) {
-    const std::string reason = offers.add(run.closures.size(), row);
+    const std::string reason = import.add(run.closures.size(), row);
     run.closures.push_back(row);
     run.closures.back().reason = reason;
   }
-  offers.add(known);
-  return offers.handTo(run);
+  import.add(previous);
+  return import.addTo(run);
 }
 
 }  // namespace urban_nav

@@ -8,7 +8,6 @@
 #include <map>
 
 #include "report/plot.hpp"
-#include "stages/vo/vo_files.hpp"
 
 namespace urban_nav {
 
@@ -70,7 +69,7 @@ Plot pathsPlot(const GraphRun& graph, const std::vector<const VoRun*>& runs) {
     const std::string name = runs.size() > 1 ? ", " + graph.sessions[s] : "";
     before.name = "odometry" + name;
     after.name = "relaxed" + name;
-    before.points = seenFromAbove(trajectoryOf(*runs[s]));
+    before.points = seenFromAbove(smoothedTrajectory(*runs[s]));
     after.points = seenFromAbove(graph.trajectory(s));
     plot.series.push_back(before);
     plot.series.push_back(after);
@@ -114,19 +113,19 @@ PageTable closuresTable(const GraphRun& graph) {
   return table;
 }
 
-std::optional<PageTable> errorsTable(const GraphRun& graph, const std::vector<std::optional<Evaluation>>& before,
-                                     const std::vector<std::optional<Evaluation>>& after) {
+std::optional<PageTable> errorsTable(const GraphRun& graph, const std::vector<SessionEvaluations>& evaluations) {
   PageTable table{"Errors against the truth",
                   {"session", "length (m)", "odometry, first poses aligned (m)", "relaxed (m)", "odometry, aligned (m)",
                    "relaxed (m)", "NEES before", "after"},
                   {},
                   "Root mean squares over all poses; NEES of 6 where covariances are right."};
-  for (std::size_t s = 0; s < std::min(before.size(), after.size()); ++s) {
-    if (!before[s] || !after[s]) continue;
-    table.rows.push_back({graph.sessions[s], forPerson(after[s]->length_m, 4), forPerson(before[s]->first.rmse, 3),
-                          forPerson(after[s]->first.rmse, 3), forPerson(before[s]->se3.rmse, 3),
-                          forPerson(after[s]->se3.rmse, 3), before[s]->nees ? forPerson(before[s]->nees->mean, 3) : "",
-                          after[s]->nees ? forPerson(after[s]->nees->mean, 3) : ""});
+  for (std::size_t s = 0; s < evaluations.size(); ++s) {
+    const std::optional<Evaluation>&before = evaluations[s].odometry, &after = evaluations[s].map;
+    if (!before || !after) continue;
+    table.rows.push_back({graph.sessions[s], forPerson(after->length_m, 4), forPerson(before->first.rmse, 3),
+                          forPerson(after->first.rmse, 3), forPerson(before->se3.rmse, 3),
+                          forPerson(after->se3.rmse, 3), before->nees ? forPerson(before->nees->mean, 3) : "",
+                          after->nees ? forPerson(after->nees->mean, 3) : ""});
   }
   if (table.rows.empty()) return std::nullopt;
   return table;
@@ -163,8 +162,7 @@ Json toJson(const pose_graph::Level& level) {
 }  // namespace
 
 Section graphSection(const GraphRun& graph, const std::vector<const VoRun*>& runs,
-                     const std::vector<std::optional<Evaluation>>& before,
-                     const std::vector<std::optional<Evaluation>>& after) {
+                     const std::vector<SessionEvaluations>& evaluations) {
   Section section{
       "graph",
       "Relaxation",
@@ -178,7 +176,7 @@ Section graphSection(const GraphRun& graph, const std::vector<const VoRun*>& run
   if (graph.relaxed.accepted > 0)
     section.figures.push_back({"Cost over iterations", renderSvg(costPlot(graph), false),
                                "The sum of weighted squares, from the first guess on.", false});
-  if (const auto errors = errorsTable(graph, before, after)) section.tables.push_back(*errors);
+  if (const auto errors = errorsTable(graph, evaluations)) section.tables.push_back(*errors);
   if (!graph.closures.empty()) section.tables.push_back(closuresTable(graph));
   return section;
 }
@@ -217,8 +215,7 @@ std::vector<Verdict> graphVerdicts(const GraphRun& graph) {
   return made;
 }
 
-Json toJson(const GraphRun& graph, const std::vector<std::optional<Evaluation>>& before,
-            const std::vector<std::optional<Evaluation>>& after) {
+Json toJson(const GraphRun& graph, const std::vector<SessionEvaluations>& evaluations) {
   const pose_graph::Relaxed& relaxed = graph.relaxed;
   const std::size_t joined = graph.sessionsJoined();
   Json json = Json::object();
@@ -249,16 +246,18 @@ Json toJson(const GraphRun& graph, const std::vector<std::optional<Evaluation>>&
     const urban_nav_core::Trajectory trajectory = graph.trajectory(i);
     session["frames"] = trajectory.size();
     session["length_m"] = trajectory.length();
-    if (i < before.size() && before[i] && after[i]) {
-      session["ate_m_odometry"] = before[i]->first.rmse;
-      session["ate_m"] = after[i]->first.rmse;
-      session["ate_se3_m_odometry"] = before[i]->se3.rmse;
-      session["ate_se3_m"] = after[i]->se3.rmse;
-      if (before[i]->nees) session["nees_odometry"] = before[i]->nees->mean;
-      if (after[i]->nees) session["nees"] = after[i]->nees->mean;
+    const SessionEvaluations compared = i < evaluations.size() ? evaluations[i] : SessionEvaluations();
+    if (compared.odometry && compared.map) {
+      const Evaluation &before = *compared.odometry, &after = *compared.map;
+      session["ate_m_odometry"] = before.first.rmse;
+      session["ate_m"] = after.first.rmse;
+      session["ate_se3_m_odometry"] = before.se3.rmse;
+      session["ate_se3_m"] = after.se3.rmse;
+      if (before.nees) session["nees_odometry"] = before.nees->mean;
+      if (after.nees) session["nees"] = after.nees->mean;
       if (!json.has("ate_m_odometry")) {
-        json["ate_m_odometry"] = before[i]->first.rmse;
-        json["ate_se3_m_odometry"] = before[i]->se3.rmse;
+        json["ate_m_odometry"] = before.first.rmse;
+        json["ate_se3_m_odometry"] = before.se3.rmse;
       }
     }
     sessions.append(session);

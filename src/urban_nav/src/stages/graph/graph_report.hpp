@@ -1,27 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "command_line/json.hpp"
-#include "evaluation/evaluation.hpp"
 #include "report/page.hpp"
-#include "stages/graph/graph_stage.hpp"
+#include "stage/context.hpp"
+#include "stages/graph/graph_run.hpp"
 
 namespace urban_nav {
 
-/// Before and after relaxation: paths with the closures between them, every closure with its verdict, cost over iterations, and
-/// errors against the truth where there is one. `before`, `after`: one per session.
+/// Returns the section on relaxation: paths before and after with the closures between them, every closure with its
+/// verdict, cost over iterations, and errors against ground truth. `evaluations`: one per session, or empty.
 Section graphSection(const GraphRun& graph, const std::vector<const VoRun*>& runs,
-                     const std::vector<std::optional<Evaluation>>& before,
-                     const std::vector<std::optional<Evaluation>>& after);
+                     const std::vector<SessionEvaluations>& evaluations);
 
-/// What it says in plain words.
+/// Returns the main findings in plain words.
 std::vector<Verdict> graphVerdicts(const GraphRun& graph);
 
-/// The object "pose_graph" of summary.json. `before`, `after`: one per session.
-Json toJson(const GraphRun& graph, const std::vector<std::optional<Evaluation>>& before,
-            const std::vector<std::optional<Evaluation>>& after);
+/// Returns the object "pose_graph" of summary.json. `evaluations`: one per session, or empty.
+Json toJson(const GraphRun& graph, const std::vector<SessionEvaluations>& evaluations);
 
 }  // namespace urban_nav

@@ -2,189 +2,98 @@
 #include "stages/graph/graph_stage.hpp"
 
 #include <algorithm>
-#include <chrono>
-#include <map>
-#include <set>
 
-#include "pose_graph/graph_file.hpp"
-#include "pose_graph/map_levels.hpp"
-#include "stages/graph/closure_import.hpp"
+#include "report/plot.hpp"
+#include "stage/closure_notes.hpp"
+#include "stages/graph/graph_g2o.hpp"
+#include "stages/graph/graph_report.hpp"
+#include "stages/graph/graph_run.hpp"
+#include "stages/graph/graph_store_export.hpp"
+#include "stages/graph/graph_trajectories.hpp"
 
 namespace urban_nav {
 
-using pose_graph::Closure;
-using pose_graph::Level;
-using pose_graph::PoseGraph;
-using pose_graph::Track;
-using urban_nav_core::Matrix3d;
-using urban_nav_core::Matrix6d;
-using urban_nav_core::Pose;
-using urban_nav_core::Trajectory;
-
 namespace {
 
-constexpr double kMetresPerRadian = 10.0;  // for display of free directions: a turn moves what is seen at this distance
+constexpr double kDegreesPerRadian = 57.29577951308232;
 
-using Clock = std::chrono::steady_clock;
-
-double millisecondsSince(Clock::time_point begin) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-}
-
-void judge(GraphRun& run, const OfferedIds& ids, std::size_t known) {
-  std::size_t refused = 0;
-  std::string first;
-  std::vector<ClosureRow> judged;
-  for (std::size_t i = 0; i < run.closures.size(); ++i) {
-    ClosureRow row = run.closures[i];
-    const auto id = ids.find(i);
-    if (id != ids.end()) {
-      const Closure& closure = run.graph.closures().at(id->second);
-      row.verdict = closure.verdict == urban_nav_core::ClosureVerdict::Accepted ? "accepted" : "rejected";
-      row.reason = closure.reason;
-      row.weight = closure.weight;
-      row.id = id->second;
-    } else if (row.reason.empty() && i < known) {
-      continue;  // the file has it too
-    } else {
-      row.verdict = "rejected";
-      if (refused++ == 0) first = row.reason;
-    }
-    judged.push_back(row);
+/// Returns the closures that the store holds between previous sessions and continued ones.
+std::vector<PreviousClosure> previousClosures(const MapContext& context) {
+  std::vector<urban_nav_store::SessionId> ids = context.previous.ids;
+  std::vector<std::string> names = context.previous.names;
+  for (std::size_t i = 0; i < context.sessions.size(); ++i) {
+    if (!context.sessions[i].continued) continue;
+    ids.push_back(context.sessions[i].id);
+    names.push_back(context.names[context.previous.names.size() + i]);
   }
-  run.closures = std::move(judged);
-  if (refused > 0) run.warnings.push_back(std::to_string(refused) + " closures could not be used; the first: " + first);
+  return closuresBetween(*context.store, ids, names);
 }
 
-/// With what was felt. The maps of the graph stay as their first poses stood: which way is up is told beside them.
-pose_graph::Relaxed relax(PoseGraph& graph, const std::vector<const VoRun*>& runs) {
-  pose_graph::Batch batch = graph.batch();
-  for (std::size_t s = 0; s < runs.size(); ++s) batch.forces[s] = runs[s]->forces;
-  pose_graph::run(batch);
-  return graph.take(batch);
+/// Returns whether the stage loops has accepted a closure by ICP.
+bool anyMeasuredByIcp(const std::vector<ClosureRow>& closures) {
+  return std::any_of(closures.begin(), closures.end(),
+                     [](const ClosureRow& row) { return row.measured && row.kind == "icp"; });
 }
 
-// All sessions from one factorisation.
-std::vector<std::vector<Matrix6d>> covariancesOf(const PoseGraph& graph, const std::vector<std::string>& sessions) {
-  std::vector<pose_graph::Rigid<3>> poses;
-  std::vector<pose_graph::NodeRef> refs;
-  for (const Track& track : graph.tracks())
-    for (std::size_t i = 0; i < track.map.size(); ++i) {
-      poses.push_back(pose_graph::rigidOf<3>(track.map[i]));
-      refs.push_back({track.session, track.stamps[i]});
-    }
-  const auto at = [](int pose) { return static_cast<std::size_t>(pose); };
-  const pose_graph::Marginals<3> marginals(graph.problem(), poses, graph.weights());
-  std::vector<std::vector<Matrix6d>> made(sessions.size());
-  for (std::size_t s = 0; s < sessions.size(); ++s) {
-    const Track* track = graph.track(sessions[s]);
-    if (track == nullptr || track->stamps.empty()) continue;
-    const int first = *graph.poseNumber({track->session, track->stamps.front()});
-    for (std::size_t i = 0; i < track->stamps.size(); ++i) {
-      const int pose = first + static_cast<int>(i), origin = marginals.first(pose);
-      Matrix6d covariance = displayed(marginals.ofPose(pose), kMetresPerRadian);
-      if (pose != origin)
-        covariance += pose_graph::relativeNoise(poseOf(poses[at(origin)]).inverse() * track->map[i],
-                                                graph.ownNoise(refs[at(origin)]), graph.ownNoise(refs[at(pose)]));
-      made[s].push_back(covariance);
-    }
+class GraphStage final : public Stage {
+ public:
+  Description describe() const override { return {"graph", "pose_graph", true, true, true, {"graph#.g2o"}}; }
+  void addTables(ParameterSet& parameters) const override { parameters.add(pose_graph::table()); }
+  Selection select(const MapOptions& options) const override {
+    if (!options.localise.empty()) return {false, "not with --localise", {}};
+    if (!isRequested(options, "graph")) return {false, "not in --stages", {}};
+    const bool measured = isRequested(options, "loops");  // which then describes them
+    return {true, "", measured ? std::vector<std::string>() : closureNotes(options, false)};
   }
-  return made;
-}
 
-/// A session that no closure touches lies where odometry has it, and as surely: what is common to all its steps, a scale, is in odometry's
-/// own covariance alone.
-void leaveToOdometry(GraphRun& run, const std::vector<const VoRun*>& runs) {
-  std::set<std::string> touched;
-  for (const auto& [id, closure] : run.graph.closures())
-    if (closure.verdict == urban_nav_core::ClosureVerdict::Accepted)
-      touched.insert({closure.a.session, closure.b.session});
-  for (std::size_t s = 0; s < runs.size(); ++s) {
-    if (touched.count(run.sessions[s]) != 0 || run.covariances[s].size() != runs[s]->settled.size()) continue;
-    for (std::size_t i = 0; i < runs[s]->settled.size(); ++i)
-      run.covariances[s][i] = runs[s]->settled[i].T_odom_base.covariance;
-  }
-}
-
-/// As the graph has it: the first pose of a map is the identity there.
-Trajectory relaxedTrack(const GraphRun& run, std::size_t session) {
-  Trajectory made;
-  if (const Track* track = run.graph.track(run.sessions[session]))
-    for (std::size_t i = 0; i < track->stamps.size(); ++i) made.append(track->stamps[i], track->map[i]);
-  return made;
-}
-
-std::vector<Level> levelsOf(const GraphRun& run, const std::vector<const VoRun*>& runs) {
-  std::vector<Level> levels(runs.size());
-  for (std::size_t s = 0; s < runs.size(); ++s) {
-    const std::size_t map = run.mapOf(s);
-    if (levels[map].known()) continue;
-    const Trajectory trajectory = relaxedTrack(run, s);
-    if (trajectory.empty()) {
-      levels[s].sentence = "the session has no two poses";
-      continue;
+  Messages run(MapContext& context) override {
+    const pose_graph::Parameters& parameters = context.options.parameters.get(pose_graph::table());
+    const std::vector<const VoRun*> runs = context.runs();
+    const std::vector<PreviousClosure> previous = previousClosures(context);
+    run_ = runGraph(parameters, runs, context.names, context.closures, previous);
+    if (anyMeasuredByIcp(context.closures)) {
+      std::vector<ClosureRow> by_stereo;
+      for (const ClosureRow& row : context.closures)
+        if (row.kind != "icp") by_stereo.push_back(row);
+      const GraphRun without_icp = runGraph(parameters, runs, context.names, by_stereo, previous);
+      for (std::size_t s = 0; s < runs.size(); ++s) context.stereo_only.push_back(without_icp.trajectory(s));
     }
-    Matrix3d rotations = Matrix3d::Zero();  // the mean: as if all of them erred alike
-    for (const Matrix6d& covariance : run.covariances[s]) rotations += covariance.bottomRightCorner<3, 3>();
-    rotations /= static_cast<double>(std::max<std::size_t>(1, run.covariances[s].size()));
-    const Level level = pose_graph::withRotations(
-        pose_graph::levelOf(trajectory, runs[s]->forces, run.graph.track(run.sessions[map])->map.front()), rotations);
-    if (s == map || level.known()) levels[map] = level;
+    exportGraph(*context.store, context.ids(), *run_, context.previous.revision);
+    context.closures = run_->closures;
+    context.trajectories = relaxedTrajectories(*run_, std::move(context.trajectories));
+    context.relaxed = true;
+    return {describeRun(), run_->warnings};
   }
-  return levels;
-}
+
+  StageResult result(const MapContext& context) const override {
+    StageResult made;
+    if (!run_) return made;
+    if (run_->relaxed.accepted > 0) made.method = "relaxed";
+    made.verdicts = graphVerdicts(*run_);
+    if (!run_->closures.empty() || run_->sessions.size() > 1)  // else the section repeats that of odometry
+      made.sections.push_back({report_place::map, graphSection(*run_, context.runs(), context.evaluations)});
+    made.files.push_back({"graph.g2o", [this] { return graphG2o(*run_); }});
+    for (std::size_t s = 1; s < context.names.size(); ++s) made.files.push_back({"graph" + fileSuffix(s) + ".g2o", {}});
+    made.summary = toJson(*run_, context.evaluations);
+    return made;
+  }
+
+ private:
+  std::vector<std::string> describeRun() const {
+    const pose_graph::Relaxed& relaxed = run_->relaxed;
+    const pose_graph::Level& level = run_->levels.front();
+    return {"graph: " + std::to_string(relaxed.poses) + " poses, " + std::to_string(relaxed.closures) + " closures, " +
+                std::to_string(relaxed.accepted) + " accepted; cost " + forPerson(relaxed.cost_before, 5) + " -> " +
+                forPerson(relaxed.cost_after, 5) + " in " + forPerson(run_->ms, 3) + " ms",
+            level.known() ? "map aligned with gravity (sigma " + forPerson(kDegreesPerRadian * level.sigma, 2) + " deg)"
+                          : "map not aligned with gravity: " + level.sentence};
+  }
+
+  std::optional<GraphRun> run_;
+};
 
 }  // namespace
 
-std::size_t GraphRun::mapOf(std::size_t session) const {
-  const Track* track = graph.track(sessions[session]);
-  if (track == nullptr) return session;
-  const std::size_t map = pose_graph::mapOf(graph.tracks(), static_cast<std::size_t>(track - graph.tracks().data()));
-  return static_cast<std::size_t>(std::find(sessions.begin(), sessions.end(), graph.tracks()[map].session) -
-                                  sessions.begin());
-}
-
-std::size_t GraphRun::sessionsJoined() const {
-  std::size_t count = 0;
-  for (std::size_t s = 0; s < sessions.size(); ++s) count += joined(s) ? 1 : 0;
-  return count;
-}
-
-Trajectory GraphRun::trajectory(std::size_t session) const {
-  const Trajectory track = relaxedTrack(*this, session);
-  const std::size_t map = mapOf(session);
-  if (map >= levels.size() || !levels[map].known()) return track;
-  return transformed(pose_graph::levelling(levels[map], graph.track(sessions[map])->map.front()), track);
-}
-
-GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<const VoRun*>& runs,
-                  const std::vector<std::string>& sessions, const std::vector<ClosureRow>& closures,
-                  const std::vector<KnownClosure>& known) {
-  GraphRun made;
-  made.graph = PoseGraph(parameters);
-  made.sessions = sessions;
-  for (std::size_t s = 0; s < runs.size(); ++s) {
-    made.graph.beginSession(sessions[s]);
-    for (std::size_t i = 1; i < runs[s]->settled.size(); ++i)
-      made.graph.addOdometry(sessions[s], runs[s]->settled[i].from_previous);
-  }
-  const OfferedIds ids = offerClosures(made, runs, closures, known);
-  const auto begin = Clock::now();
-  made.relaxed = relax(made.graph, runs);
-  made.ms = millisecondsSince(begin);
-  judge(made, ids, known.size());
-  const auto relaxed = Clock::now();
-  made.covariances = covariancesOf(made.graph, sessions);
-  leaveToOdometry(made, runs);
-  made.ms_covariances = millisecondsSince(relaxed);
-  made.levels = levelsOf(made, runs);
-  for (std::size_t s = 1; s < sessions.size(); ++s)
-    if (made.mapOf(s) == s)
-      made.warnings.push_back("session " + sessions[s] + " is a map of its own: no closures that agree join it to " +
-                              (s == 1 ? sessions[0] : "one before it"));
-  const urban_nav_core::Status status = made.graph.status();
-  if (status.reason == static_cast<int>(pose_graph::Trouble::BrokenChain)) made.warnings.push_back(status.sentence);
-  return made;
-}
+std::unique_ptr<Stage> makeGraphStage() { return std::make_unique<GraphStage>(); }
 
 }  // namespace urban_nav

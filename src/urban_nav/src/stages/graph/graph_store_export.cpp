@@ -55,7 +55,7 @@ void removeClosures(Store& store, const SessionId& id) {
 
 }  // namespace
 
-void putGraph(Store& store, const std::vector<SessionId>& ids, const GraphRun& run, std::int64_t revision) {
+void exportGraph(Store& store, const std::vector<SessionId>& ids, const GraphRun& run, std::int64_t revision) {
   revision += run.relaxed.revision;
   for (std::size_t s = 0; s < ids.size(); ++s) {
     removeClosures(store, ids[s]);

@@ -11,27 +11,27 @@ using urban_nav_store::StoredKeyframe;
 
 namespace {
 
-constexpr std::size_t kAtOnce = 2;
+constexpr std::size_t kMaxPending = 2;
 
 }  // namespace
 
-KeyframeKeeper::KeyframeKeeper(const loop_metric::Parameters& parameters, const urban_nav_core::StereoCamera& camera,
+KeyframeWriter::KeyframeWriter(const loop_metric::Parameters& parameters, const urban_nav_core::StereoCamera& camera,
                                bool one_thread)
     : choice_(parameters),
       maker_(std::make_shared<loop_metric::KeyframeMaker>(camera, parameters.points)),
       launch_(one_thread ? std::launch::deferred : std::launch::async) {}
 
-void KeyframeKeeper::goOn(const VoRun& run, const std::vector<urban_nav_core::StampNs>& kept) {
+void KeyframeWriter::resume(const VoRun& run, const std::vector<urban_nav_core::StampNs>& stored) {
   for (const VoRow& row : run.rows)
-    if (std::binary_search(kept.begin(), kept.end(), row.stamp)) choice_.keep(row.T_odom_base);
+    if (std::binary_search(stored.begin(), stored.end(), row.stamp)) choice_.keep(row.T_odom_base);
 }
 
-std::optional<StoredKeyframe> KeyframeKeeper::process(const urban_nav_core::StereoPairWithMotion& frame,
+std::optional<StoredKeyframe> KeyframeWriter::process(const urban_nav_core::StereoPairWithMotion& frame,
                                                       const VoRow& row) {
   if (!row.accepted || frame.pair.left.empty() || frame.pair.right.empty()) return std::nullopt;
   if (!choice_.choose(row.T_odom_base)) return std::nullopt;
   std::optional<StoredKeyframe> done;
-  if (made_.size() == kAtOnce) done = next();
+  if (made_.size() == kMaxPending) done = next();
   // the owners keep the pixels alive
   made_.push_back(std::async(launch_, [maker = maker_, pair = frame.pair, left = frame.left_owner,
                                        right = frame.right_owner, stamp = row.stamp] {
@@ -40,7 +40,7 @@ std::optional<StoredKeyframe> KeyframeKeeper::process(const urban_nav_core::Ster
   return done;
 }
 
-std::optional<StoredKeyframe> KeyframeKeeper::next() {
+std::optional<StoredKeyframe> KeyframeWriter::next() {
   if (made_.empty()) return std::nullopt;
   StoredKeyframe first = made_.front().get();
   made_.pop_front();

@@ -10,27 +10,27 @@
 #include "loop_metric/keyframe.hpp"
 #include "loop_metric/keyframe_choice.hpp"
 #include "loop_metric/parameters.hpp"
-#include "stages/vo/vo_stage.hpp"
+#include "stage/vo_run.hpp"
 #include "urban_nav_core/sequence/stereo_assembler.hpp"
 #include "urban_nav_store/keyframe_store.hpp"
 
 namespace urban_nav {
 
-/// The views of a session that are kept for closures and localisation, as KeyframeChoice has it. They are made beside the caller's work, and handed out in
-/// order, each when the second one behind it is chosen, so that what is written does not depend on how fast they were. The same run gives the same views, also where
-/// it goes on behind a bag.
-class KeyframeKeeper {
+/// Extracts the keyframes of a session that loops and localization use, as selected by KeyframeChoice. Extraction runs
+/// concurrently to the caller; keyframes are returned in order, each when the second one after it is selected, so the
+/// output does not depend on timing. Equal runs give equal keyframes, also if resumed after a bag.
+class KeyframeWriter {
  public:
-  KeyframeKeeper(const loop_metric::Parameters& parameters, const urban_nav_core::StereoCamera& camera,
+  KeyframeWriter(const loop_metric::Parameters& parameters, const urban_nav_core::StereoCamera& camera,
                  bool one_thread);
 
-  /// Goes on behind `run`, of which the views at `kept` (ascending) were kept.
-  void goOn(const VoRun& run, const std::vector<urban_nav_core::StampNs>& kept);
+  /// Continues after `run`, of which the keyframes at `stored` (ascending) are in the store.
+  void resume(const VoRun& run, const std::vector<urban_nav_core::StampNs>& stored);
 
-  /// To be called for each frame with its row. A view that is done, of an earlier frame.
+  /// Adds a frame with its row. Returns a finished keyframe of an earlier frame, if there is one.
   std::optional<urban_nav_store::StoredKeyframe> process(const urban_nav_core::StereoPairWithMotion& frame,
                                                          const VoRow& row);
-  /// The next one that was not handed out; empty where none is left.
+  /// Returns the next keyframe that process() has not returned; blocks until it is extracted. nullopt: no more.
   std::optional<urban_nav_store::StoredKeyframe> next();
 
  private:

@@ -5,12 +5,12 @@
 #include <chrono>
 #include <memory>
 
+#include "evaluation/statistics.hpp"
 #include "loop_metric/cloud_search.hpp"
 #include "loop_metric/map_search.hpp"
 #include "loop_metric/stored_surroundings.hpp"
 #include "stage/store_keys.hpp"
 #include "stage/stored_sessions.hpp"
-#include "stages/vo/vo_summary.hpp"
 #include "urban_nav_core/io/csv.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -28,7 +28,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// What the lasers of a run saw, looked for in the map; nothing where there are none.
+/// Registers local clouds of a run to the map; does nothing without scans.
 class CloudLooks {
  public:
   CloudLooks(const loop_metric::Parameters& parameters, const loop_metric::FrozenMap& map, Store& frozen, Store& own,
@@ -40,7 +40,7 @@ class CloudLooks {
     search_ = std::make_unique<loop_metric::CloudSearch>(parameters, map, frozen);
   }
 
-  void lookOn(loop_metric::Localiser& localiser, LocaliseRun& made) {
+  void lookOn(loop_metric::Localiser& localiser, LocalizationRun& made) {
     const auto stretch = search_ ? search_->due(localiser) : std::nullopt;
     if (!stretch) return;
     if (search_->read() == 0) readMap();
@@ -53,7 +53,7 @@ class CloudLooks {
   }
 
  private:
-  /// Whoever is seen by other means all along needs none of it.
+  /// Called only when a cloud is needed: keyframes may suffice all along.
   void readMap() {
     Progress progress(console_, "clouds of the map", "places", static_cast<std::int64_t>(search_->places()));
     while (search_->readNext()) progress.update(static_cast<std::int64_t>(search_->read()));
@@ -67,9 +67,9 @@ class CloudLooks {
 
 }  // namespace
 
-LocaliseRun localise(const loop_metric::Parameters& parameters, Store& frozen, Store& own,
-                     const urban_nav_store::SessionId& id, const VoRun& run, Console& console) {
-  LocaliseRun made;
+LocalizationRun runLocalization(const loop_metric::Parameters& parameters, Store& frozen, Store& own,
+                                const urban_nav_store::SessionId& id, const VoRun& run, Console& console) {
+  LocalizationRun made;
   const loop_metric::FrozenMap map(frozen);
   loop_metric::MapSearch search(parameters, map, frozen.keyframes(), run.camera, run.T_base_camera);
   Progress reading(console, "views of the map", "views", static_cast<std::int64_t>(search.views()));
@@ -105,7 +105,7 @@ LocaliseRun localise(const loop_metric::Parameters& parameters, Store& frozen, S
   progress.finish(static_cast<std::int64_t>(run.settled.size()));
   made.known_share = made.frames.empty() ? 0.0 : static_cast<double>(known) / static_cast<double>(made.frames.size());
   made.ms_median = quantile(ms, 0.5);
-  // Frames before the first that is known lie where odometry puts them, seen from there; so do those that are not known later.
+  // Frames before the first known one, and later unknown ones, are placed by odometry relative to the nearest known one.
   std::optional<Pose> T_map_odom;
   for (std::size_t i = 0; i < made.frames.size() && !T_map_odom; ++i)
     if (made.frames[i].knowledge == Knowledge::Known)
@@ -122,7 +122,7 @@ LocaliseRun localise(const loop_metric::Parameters& parameters, Store& frozen, S
   return made;
 }
 
-std::string localisationCsv(const LocaliseRun& run) {
+std::string localizationCsv(const LocalizationRun& run) {
   using urban_nav_core::printNumber;
   std::vector<std::string> header = {"stamp_ns", "knowledge", "witnesses", "x", "y", "z", "qx", "qy", "qz", "qw"};
   for (int i = 0; i < 36; ++i) header.push_back("c" + std::to_string(i / 6) + std::to_string(i % 6));
@@ -144,7 +144,7 @@ std::string localisationCsv(const LocaliseRun& run) {
   return text;
 }
 
-Json toJson(const LocaliseRun& run) {
+Json toJson(const LocalizationRun& run) {
   Json json = Json::object();
   json["frames"] = run.frames.size();
   json["known_share"] = run.known_share;

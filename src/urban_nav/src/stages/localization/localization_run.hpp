@@ -7,36 +7,36 @@
 #include "command_line/console.hpp"
 #include "command_line/json.hpp"
 #include "loop_metric/localiser.hpp"
-#include "pipeline/output_folder.hpp"
-#include "stages/vo/vo_stage.hpp"
+#include "stage/vo_run.hpp"
 #include "urban_nav_store/store.hpp"
 
 namespace urban_nav {
 
-/// Where a session was in a map that stays as it is.
-struct LocaliseRun {
-  std::vector<loop_metric::Located> frames;  ///< as known at each settled frame, from what had been seen by then
-  urban_nav_core::Trajectory
-      T_map_base;                        ///< of all frames, by what is known in the end; empty where it was never known
-  std::size_t looks = 0, sightings = 0;  ///< views that were looked for in the map, and transforms that came of it
-  std::size_t cloud_looks = 0, cloud_sightings = 0;  ///< likewise of local clouds
-  double first_known_s = -1.0;                       ///< from the first frame; negative: never
+/// Localization of a session in a map that is only read.
+struct LocalizationRun {
+  std::vector<loop_metric::Located> frames;  ///< one per smoothed frame, from what was observed by then
+  /// All frames, from what is known at the end; empty if the session was never localized.
+  urban_nav_core::Trajectory T_map_base;
+  std::size_t looks = 0, sightings = 0;              ///< keyframes that were matched, and transforms from them
+  std::size_t cloud_looks = 0, cloud_sightings = 0;  ///< local clouds that were matched, and transforms from them
+  double first_known_s = -1.0;                       ///< from the first frame to the first known one; negative: never
   double known_share = 0.0;                          ///< of the frames
-  double ms_median = 0.0;                            ///< of a look
+  double ms_median = 0.0;                            ///< per keyframe
   std::vector<std::string> warnings;
 };
 
-/// The views that `own` holds of the run are looked for among those of the map of `frozen`'s first session, and registered. Views near to where it believes to be where it
-/// believes so, else all. Where no view was seen for some metres, what the lasers saw on them is looked for likewise, if both have scans. Throws UserError where the map holds no views, or those of another camera.
-LocaliseRun localise(const loop_metric::Parameters& parameters, urban_nav_store::Store& frozen,
-                     urban_nav_store::Store& own, const urban_nav_store::SessionId& id, const VoRun& run,
-                     Console& console);
+/// Registers the keyframes that `own` holds of the run to those of the map of `frozen`'s first session: those near its
+/// estimated pose if there is one, else all. After some metres without a match, local clouds are registered instead, if
+/// both stores have scans. Throws UserError if the map has no keyframes, or those of another camera.
+LocalizationRun runLocalization(const loop_metric::Parameters& parameters, urban_nav_store::Store& frozen,
+                                urban_nav_store::Store& own, const urban_nav_store::SessionId& id, const VoRun& run,
+                                Console& console);
 
-/// localisation.csv: a row per settled frame: stamp_ns, knowledge (KNOWN, NEW, UNSURE), witnesses, x...qw of T_map_base and 36 numbers of its
-/// covariance (empty where nothing is known), sentence.
-std::string localisationCsv(const LocaliseRun& run);
+/// Returns localisation.csv, a row per smoothed frame: stamp_ns, knowledge (KNOWN, NEW, UNSURE), witnesses, x...qw of
+/// T_map_base and 36 numbers of its covariance (empty if unknown), sentence.
+std::string localizationCsv(const LocalizationRun& run);
 
-/// The object "localisation" of summary.json.
-Json toJson(const LocaliseRun& run);
+/// Returns the object "localisation" of summary.json.
+Json toJson(const LocalizationRun& run);
 
 }  // namespace urban_nav

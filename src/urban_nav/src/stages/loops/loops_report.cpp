@@ -7,7 +7,7 @@
 #include <map>
 
 #include "report/plot.hpp"
-#include "stages/vo/vo_files.hpp"
+#include "stage/vo_run.hpp"
 
 namespace urban_nav {
 
@@ -42,11 +42,9 @@ std::optional<PlotPoint> placeOf(const Trajectories& trajectories, const urban_n
   return PlotPoint{t.x(), t.y()};
 }
 
-Trajectories placesOf(const std::vector<const VoRun*>& runs, const std::vector<std::string>& sessions,
-                      const GraphRun* graph) {
+Trajectories byName(const std::vector<std::string>& names, const std::vector<Trajectory>& trajectories) {
   Trajectories made;
-  for (std::size_t s = 0; s < runs.size(); ++s)
-    made[sessions[s]] = graph != nullptr ? graph->trajectory(s) : trajectoryOf(*runs[s]);
+  for (std::size_t s = 0; s < names.size(); ++s) made[names[s]] = trajectories[s];
   return made;
 }
 
@@ -121,8 +119,7 @@ PageTable kindsTable(const LoopsRun& run) {
 
 }  // namespace
 
-Section loopsSection(const LoopsRun& run, const std::vector<const VoRun*>& runs,
-                     const std::vector<std::string>& sessions, const GraphRun* graph, const GraphRun* without_icp) {
+Section loopsSection(const LoopsRun& run, const MapContext& context) {
   Section section{"loops",
                   "Loop closures",
                   "Places that were said to be the same, and the motion between them: from two views where they can be "
@@ -130,12 +127,14 @@ Section loopsSection(const LoopsRun& run, const std::vector<const VoRun*>& runs,
                   {},
                   run.pictures,
                   {kindsTable(run)}};
-  const Trajectories trajectories = placesOf(runs, sessions, graph);
+  std::vector<Trajectory> in_map;
+  for (const SessionTrajectory& session : context.trajectories) in_map.push_back(session.T_map_base);
+  const Trajectories trajectories = byName(context.names, in_map);
   section.figures.push_back({"By kind and direction of travel", renderSvg(closuresPlot(run, trajectories)),
                              "A dot where each candidate's later moment lies, a line to the earlier one.", true});
-  if (graph != nullptr && without_icp != nullptr) {
+  if (!context.stereo_only.empty()) {
     Plot plot = emptyMap();
-    addPaths(plot, placesOf(runs, sessions, without_icp), "stereo alone", "c", Series::Kind::Dashed);
+    addPaths(plot, byName(context.names, context.stereo_only), "stereo alone", "c", Series::Kind::Dashed);
     addPaths(plot, trajectories, "stereo and ICP", "a", Series::Kind::Line);
     section.figures.push_back({"Without and with ICP", renderSvg(plot),
                                "Dashed: relaxed over the closures by stereo alone. Line: over those by ICP too.",

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "stages/vo/vo_stage.hpp"
+#include "stage/vo_run.hpp"
 #include "urban_nav_core/image/view.hpp"
 
 namespace urban_nav {

@@ -5,11 +5,8 @@
 #include <cstring>
 
 #include "urban_nav_core/geometry/dense.hpp"
-#include "urban_nav_core/io/covariance_csv.hpp"
 #include "urban_nav_core/io/g2o.hpp"
-#include "urban_nav_core/io/kitti.hpp"
 #include "urban_nav_core/io/numbers.hpp"
-#include "urban_nav_core/io/tum.hpp"
 
 namespace urban_nav {
 
@@ -21,14 +18,14 @@ using urban_nav_core::Pose;
 
 namespace {
 
-constexpr int kLeastSeen = 3;  // frames: what was seen less is as likely a wrong match as a point
+constexpr int kMinObservations = 3;  // frames: with fewer a landmark is as likely a wrong match
 
-std::array<double, 7> valuesOf(const Pose& pose) {
+std::array<double, 7> poseValues(const Pose& pose) {
   return {pose.t().x(), pose.t().y(), pose.t().z(), pose.q().x(), pose.q().y(), pose.q().z(), pose.q().w()};
 }
 
 void appendPose(std::string& text, const Pose& pose, char separator) {
-  for (const double value : valuesOf(pose)) {
+  for (const double value : poseValues(pose)) {
     text += separator;
     appendNumber(text, value);
   }
@@ -41,7 +38,7 @@ void appendFloat(std::string& bytes, float value) {
 }
 
 /// A pose per frame and an edge per step; information in g2o's own tangent.
-G2oGraph chainOf(const VoRun& run) {
+G2oGraph chain(const VoRun& run) {
   G2oGraph graph;
   for (std::size_t i = 0; i < run.settled.size(); ++i) {
     const auto id = static_cast<G2oGraph::Id>(i);
@@ -52,7 +49,7 @@ G2oGraph chainOf(const VoRun& run) {
     G2oGraph::Edge edge;
     edge.from = id - 1;
     edge.to = id;
-    edge.values = valuesOf(step.T_from_to);
+    edge.values = poseValues(step.T_from_to);
     const Matrix6d information = urban_nav_core::invertPositiveDefinite(step.covariance).value_or(Matrix6d::Zero());
     urban_nav_core::setG2oInformation(edge, urban_nav_core::g2oFromBoxInformation(information, step.T_from_to));
     graph.edges.push_back(edge);
@@ -63,62 +60,13 @@ G2oGraph chainOf(const VoRun& run) {
 
 }  // namespace
 
-std::string trajectoryTum(const VoRun& run) { return urban_nav_core::printTum(trajectoryOf(run)); }
-
-urban_nav_core::Trajectory trajectoryOf(const VoRun& run) {
-  urban_nav_core::Trajectory trajectory;
-  for (const Settled& settled : run.settled) trajectory.append(settled.stamp, settled.T_odom_base.pose);
-  return trajectory;
-}
-
-urban_nav_core::OdometryChain odometryOf(const VoRun& run) {
-  urban_nav_core::OdometryChain odometry;
-  for (std::size_t i = 1; i < run.settled.size(); ++i) odometry.append(run.settled[i].from_previous);
-  return odometry;
-}
-
-std::string trajectoryKitti(const VoRun& run) {
-  std::vector<Pose> poses;
-  std::size_t next = 0;
-  for (const VoRow& row : run.rows) {
-    if (row.accepted || poses.empty()) {
-      if (next >= run.settled.size()) break;
-      const Pose T_first_camera = (run.settled.front().T_odom_base.pose * run.T_base_camera).inverse() *
-                                  run.settled[next++].T_odom_base.pose * run.T_base_camera;
-      poses.push_back(T_first_camera);
-    } else {
-      poses.push_back(poses.back());
-    }
-  }
-  return urban_nav_core::printKitti(poses);
-}
-
-std::string covarianceCsv(const VoRun& run) {
-  std::string text = urban_nav_core::covarianceHeader();
-  for (const Settled& settled : run.settled) {
-    text += urban_nav_core::printCovarianceRow(
-        urban_nav_core::CovarianceRow{settled.stamp, settled.status.health, settled.T_odom_base.covariance});
-  }
-  return text;
-}
-
-std::string relativeCovarianceCsv(const VoRun& run) {
-  std::string text = urban_nav_core::relativeCovarianceHeader();
-  for (std::size_t i = 1; i < run.settled.size(); ++i) {
-    const urban_nav_core::RelativePose& step = run.settled[i].from_previous;
-    text += urban_nav_core::printCovarianceRow(
-        urban_nav_core::RelativeCovarianceRow{step.from, step.to, run.settled[i].status.health, step.covariance});
-  }
-  return text;
-}
-
-std::string graphG2o(const VoRun& run) { return urban_nav_core::printG2o(chainOf(run)); }
+std::string chainG2o(const VoRun& run) { return urban_nav_core::printG2o(chain(run)); }
 
 std::string landmarksPly(const VoRun& run) {
   std::string bytes;
   std::int64_t count = 0;
   for (const auto& [id, landmark] : run.landmarks) {
-    if (landmark.seen < kLeastSeen || !landmark.landmark.p_odom.allFinite()) continue;
+    if (landmark.seen < kMinObservations || !landmark.landmark.p_odom.allFinite()) continue;
     for (int i = 0; i < 3; ++i) appendFloat(bytes, static_cast<float>(landmark.landmark.p_odom(i)));
     appendFloat(bytes, landmark.landmark.sigma);
     bytes.append(3, static_cast<char>(landmark.grey));
@@ -158,24 +106,6 @@ std::string statsCsv(const std::vector<const VoRun*>& runs) {
     }
   }
   return text;
-}
-
-void writeVoFiles(const OutputFolder& folder, const VoRun& run, const std::string& suffix) {
-  folder.write("trajectory" + suffix + ".tum", trajectoryTum(run));
-  folder.write("trajectory" + suffix + ".kitti", trajectoryKitti(run));
-  folder.write("covariance" + suffix + ".csv", covarianceCsv(run));
-  folder.write("relative_covariance" + suffix + ".csv", relativeCovarianceCsv(run));
-  folder.write("graph" + suffix + ".g2o", graphG2o(run));
-  folder.write("landmarks" + suffix + ".ply", landmarksPly(run));
-}
-
-void removeVoFiles(const OutputFolder& folder, const std::string& suffix, VoFiles which) {
-  for (const char* name : {"trajectory#.tum", "trajectory#.kitti", "covariance#.csv", "relative_covariance#.csv",
-                           "graph#.g2o", "landmarks#.ply"}) {
-    std::string file = name;
-    if (which == VoFiles::AllButLandmarks && file == "landmarks#.ply") continue;
-    folder.remove(file.replace(file.find('#'), 1, suffix));
-  }
 }
 
 }  // namespace urban_nav

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "evaluation/statistics.hpp"
 #include "report/plot.hpp"
 
 namespace urban_nav {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "report/page.hpp"
-#include "stages/vo/vo_stage.hpp"
+#include "stage/vo_run.hpp"
 #include "stages/vo/vo_summary.hpp"
 
 namespace urban_nav {

@@ -2,149 +2,162 @@
 #include "stages/vo/vo_stage.hpp"
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 
-#include "pose_graph/level.hpp"
-#include "stages/vo/track_picture.hpp"
-#include "stages/vo/vo_state.hpp"
-#include "urban_nav_core/io/archive.hpp"
+#include "report/plot.hpp"
+#include "stage/store_keys.hpp"
+#include "stages/vo/vo_files.hpp"
+#include "stages/vo/vo_recorder.hpp"
+#include "stages/vo/vo_report.hpp"
+#include "stages/vo/vo_run_state.hpp"
+#include "stages/vo/vo_store_writer.hpp"
+#include "stages/vo/vo_summary.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav {
 
-using swf_vo::Feature;
-using swf_vo::Frame;
-using urban_nav_core::Health;
-using urban_nav_core::ImageView;
+using urban_nav_core::DataError;
 
 namespace {
 
-constexpr std::size_t kPictures = 8;
-constexpr std::size_t kTail = 6;  // frames that the track of a feature reaches back
+constexpr std::size_t kFaultsOnConsole = 10;  // while a session is read
 
-constexpr const char* kStateName = "visual odometry of a session";
-constexpr std::uint32_t kStateVersion = 1;
-
-std::uint8_t greyAt(const ImageView& image, const Eigen::Vector3d& pixel) {
-  const int u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
-  return image.empty() || u < 0 || v < 0 || u >= image.width || v >= image.height ? std::uint8_t{0} : image.at(u, v);
+void checkUsable(const VoRun& run) {
+  const bool any =
+      std::any_of(run.rows.begin(), run.rows.end(), [](const VoRow& row) { return row.statistics.features > 0; });
+  if (any) return;
+  const std::string first = !run.faults.empty() ? "; the first fault: " + run.faults.front()
+                            : !run.rows.empty() ? "; the first: " + run.rows.front().status.sentence
+                                                : "";
+  throw DataError(run.input, "none of " + std::to_string(run.rows.size()) + " stereo frames could be used" + first, "");
 }
 
-std::string captionOf(const VoRow& row) {
-  std::string text =
-      std::to_string(row.statistics.features) + " features, " + std::to_string(row.statistics.tracked) + " tracked";
-  if (row.status.health != Health::Ok)
-    text += ", " + std::string(toString(row.status.health)) + ": " + row.status.sentence;
-  return text;
+class VoPass final : public SessionPass {
+ public:
+  VoPass(MapContext& context, const Stage::SessionStart& start)
+      : console_(context.console),
+        run_(*context.sessions[start.session].vo),
+        recorder_(makeRecorder(context, start)),
+        writer_(*context.store, context.sessions[start.session].id),
+        faults_reported_(run_.faults.size()) {}
+
+  void process(PassItem& item) override {
+    item.odometry = &recorder_.process(item.input);
+    for (; faults_reported_ < std::min(run_.faults.size(), kFaultsOnConsole); ++faults_reported_)
+      console_.warn(run_.faults[faults_reported_]);
+  }
+  void flush() override { writer_.write(run_); }
+  std::string checkpoint() override { return recorder_.state(); }
+  void finish(const PassEnd& end) override {
+    recorder_.finish(end);
+    checkUsable(run_);
+    writer_.write(run_);
+    writer_.writeForces(run_);
+    for (const std::string& fault : end.faults) console_.warn(fault);
+  }
+  std::string finished() override { return packVoRun(run_); }
+
+ private:
+  VoRecorder makeRecorder(MapContext& context, const Stage::SessionStart& start) {
+    const swf_vo::Parameters& parameters = context.options.parameters.get(swf_vo::table());
+    const SourceInfo& info = context.sessions[start.session].info;
+    if (start.checkpoint) return VoRecorder(parameters, info, run_, *start.checkpoint);
+    return VoRecorder(parameters, info, run_);
+  }
+
+  Console& console_;
+  VoRun& run_;
+  VoRecorder recorder_;
+  VoStoreWriter writer_;
+  std::size_t faults_reported_;
+};
+
+/// Returns the most frequent problem of the run, in the words of the first frame that had it; empty if none had one.
+std::string mostFrequentProblem(const std::vector<const VoRun*>& runs, const VoSummary& summary) {
+  if (summary.reason_counts.empty()) return {};
+  const auto most = std::max_element(summary.reason_counts.begin(), summary.reason_counts.end(),
+                                     [](const auto& a, const auto& b) { return a.second < b.second; });
+  std::string counts, sentence;
+  for (const char* name : {"DEGRADED", "LOST", "RECOVERED"}) {
+    const std::int64_t count = summary.status_counts.at(name);
+    if (count > 0) counts += (counts.empty() ? "" : ", ") + std::to_string(count) + " " + name;
+  }
+  for (const VoRun* run : runs)
+    for (const VoRow& row : run->rows)
+      if (sentence.empty() && swf_vo::toString(static_cast<swf_vo::Reason>(row.status.reason)) == most->first)
+        sentence = row.status.sentence;
+  return counts + " of " + std::to_string(summary.frames) +
+         " frames; most often: " + (sentence.empty() ? most->first : sentence);
 }
+
+/// Returns the runs of this run's sessions, without previous ones.
+std::vector<const VoRun*> ownRuns(const MapContext& context) {
+  std::vector<const VoRun*> runs;
+  for (const MapSession& session : context.sessions) runs.push_back(session.vo.get());
+  return runs;
+}
+
+class VoStage final : public Stage {
+ public:
+  Description describe() const override {
+    return {"vo", kVoStage, true, false, false, {"graph#.g2o", "landmarks#.ply", "stats.csv"}};
+  }
+  void addTables(ParameterSet& parameters) const override { parameters.add(swf_vo::table()); }
+  std::vector<urban_nav_core::Setting> passSettings(const ParameterSet& parameters) const override {
+    return parameters.settings(swf_vo::table().stage());
+  }
+  Selection select(const MapOptions&) const override { return {true, "", {}}; }
+
+  std::unique_ptr<SessionPass> beginSession(MapContext& context, const SessionStart& start) override {
+    return std::make_unique<VoPass>(context, start);
+  }
+  bool restoreSession(MapContext& context, std::size_t session, std::string_view finished) override {
+    std::optional<VoRun> run = unpackVoRun(finished);
+    if (!run) return false;
+    const SourceInfo& info = context.sessions[session].info;
+    run->input = info.name;
+    run->camera = info.camera;
+    run->T_base_camera = info.T_base_camera;
+    *context.sessions[session].vo = std::move(*run);
+    return true;
+  }
+
+  Messages run(MapContext& context) override {
+    context.trajectories = odometryTrajectories(context.runs(), context.previous.runs.size());
+    const std::string problem = mostFrequentProblem(ownRuns(context), summarise(ownRuns(context)));
+    return {{}, problem.empty() ? std::vector<std::string>() : std::vector<std::string>{problem}};
+  }
+
+  StageResult result(const MapContext& context) const override {
+    StageResult made;
+    const std::vector<const VoRun*> runs = ownRuns(context);
+    const VoSummary summary = summarise(runs);
+    made.method = "Visual odometry";
+    made.tiles = {{forPerson(summary.ms_median, 3), "ms", "median time in the filter", Grade::Plain}};
+    made.verdicts = voVerdicts(summary);
+    const std::size_t previous = context.previous.runs.size();
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      const bool compared = previous + i < context.evaluations.size() && context.evaluations[previous + i].map;
+      for (Section& section : voSections(*runs[i], !compared)) {
+        if (context.sessions.size() > 1) {
+          section.id += std::to_string(i + 1);
+          section.title += " (session " + std::to_string(i + 1) + ")";
+        }
+        made.sections.push_back({report_place::odometry, std::move(section)});
+      }
+      const std::string suffix = fileSuffix(previous + i);
+      const VoRun& run = *runs[i];
+      if (!context.relaxed) made.files.push_back({"graph" + suffix + ".g2o", [&run] { return chainG2o(run); }});
+      made.files.push_back({"landmarks" + suffix + ".ply", [&run] { return landmarksPly(run); }});
+    }
+    made.data_faults = summary.warnings;
+    made.files.push_back({"stats.csv", [runs] { return statsCsv(runs); }});
+    made.summary = toJson(summary);
+    return made;
+  }
+};
 
 }  // namespace
 
-/// Keeps a few pictures evenly spread over a session whose length is not known: each time there are too many, the step
-/// between them doubles.
-class VoStage::PictureKeeper {
- public:
-  void add(const VoRow& row, const ImageView& image, const std::vector<Feature>& features,
-           std::vector<VoPicture>& pictures) {
-    tails_.push_back(features);
-    if (tails_.size() > kTail) tails_.erase(tails_.begin());
-    if (row.frame == 0 || row.frame % step_ != 0 || image.empty()) return;
-    VoPicture picture = drawTracks(image, tails_);
-    picture.frame = row.frame;
-    picture.stamp = row.stamp;
-    picture.caption = captionOf(row);
-    pictures.push_back(std::move(picture));
-    if (pictures.size() <= kPictures) return;
-    step_ *= 2;
-    pictures.erase(
-        std::remove_if(pictures.begin(), pictures.end(), [this](const VoPicture& p) { return p.frame % step_ != 0; }),
-        pictures.end());
-  }
-
-  void archive(urban_nav_core::Archive& archive) {
-    archive(step_, tails_);
-    archive.require(step_ > 0, "no step between pictures");
-  }
-
- private:
-  std::int64_t step_ = 4;
-  std::vector<std::vector<Feature>> tails_;  // the newest last
-};
-
-VoStage::VoStage(const swf_vo::Parameters& parameters, const SourceInfo& info)
-    : filter_(std::in_place, parameters, info.camera, info.T_base_camera),
-      pictures_(std::make_unique<PictureKeeper>()) {
-  run_.input = info.name;
-  run_.camera = info.camera;
-  run_.T_base_camera = info.T_base_camera;
-}
-
-VoStage::VoStage(const swf_vo::Parameters& parameters, const SourceInfo& info, std::string_view state)
-    : VoStage(parameters, info) {
-  const std::string where = std::string("state of ") + kStateName;
-  urban_nav_core::Archive archive(urban_nav_core::unseal(kStateName, kStateVersion, state), where);
-  std::string run, filter;
-  archive(run, filter, *pictures_);
-  archive.finish();
-  std::optional<VoRun> found = unpackVoRun(run);
-  if (!found) throw urban_nav_core::DataError(where, "is damaged: its frames cannot be read", "");
-  run_ = std::move(*found);
-  run_.input = info.name;
-  run_.camera = info.camera;
-  run_.T_base_camera = info.T_base_camera;
-  filter_.emplace(parameters, info.camera, info.T_base_camera, filter);
-}
-
-VoStage::VoStage(VoRun finished) : run_(std::move(finished)), pictures_(std::make_unique<PictureKeeper>()) {}
-
-VoStage::~VoStage() = default;
-
-const VoRow& VoStage::process(const SourceItem& input) {
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point begin = Clock::now();
-  const Frame& frame = filter_->process(input.assembled.pair, input.assembled.inputs);
-  const double ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-
-  VoRow row;
-  row.frame = static_cast<std::int64_t>(run_.rows.size());
-  row.stamp = input.assembled.pair.stamp;
-  row.accepted = frame.accepted;
-  row.status = frame.status;
-  row.statistics = frame.statistics;
-  row.T_odom_base = frame.T_odom_base.pose;
-  row.process_ms = ms;
-  run_.faults_total += static_cast<std::int64_t>(input.faults.size());
-  for (const std::string& fault : input.faults) {
-    if (run_.faults.size() < kFaultsKept) run_.faults.push_back(fault);
-  }
-  run_.settled.insert(run_.settled.end(), frame.settled.begin(), frame.settled.end());
-  for (const swf_vo::Landmark& landmark : frame.landmarks) run_.landmarks[landmark.id].landmark = landmark;
-  for (const Feature& feature : frame.features) {
-    const auto known = run_.landmarks.find(feature.landmark);
-    if (known == run_.landmarks.end()) continue;
-    known->second.seen = feature.age + 1;
-    known->second.grey = greyAt(input.assembled.pair.left, feature.pixel);
-  }
-  pictures_->add(row, input.assembled.pair.left, frame.features, run_.pictures);
-  run_.rows.push_back(std::move(row));
-  return run_.rows.back();
-}
-
-std::string VoStage::state() const {
-  urban_nav_core::Archive archive;
-  std::string run = packVoRun(run_), filter = filter_->state();
-  archive(run, filter, *pictures_);
-  return urban_nav_core::seal(kStateName, kStateVersion, archive.take());
-}
-
-void VoStage::finish(const std::vector<std::string>& faults, const std::vector<urban_nav_core::SpecificForce>& forces) {
-  run_.faults.insert(run_.faults.begin(), faults.begin(), faults.end());
-  run_.faults_total += static_cast<std::int64_t>(faults.size());
-  for (swf_vo::Settled& settled : filter_->flush()) run_.settled.push_back(std::move(settled));
-  std::vector<urban_nav_core::StampNs> stamps;
-  for (const swf_vo::Settled& settled : run_.settled) stamps.push_back(settled.stamp);
-  run_.forces = pose_graph::forcesAt(stamps, forces);
-}
+std::unique_ptr<Stage> makeVoStage() { return std::make_unique<VoStage>(); }
 
 }  // namespace urban_nav

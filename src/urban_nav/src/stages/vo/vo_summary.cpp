@@ -2,11 +2,11 @@
 #include "stages/vo/vo_summary.hpp"
 
 #include <algorithm>
-#include <cmath>
+
+#include "evaluation/statistics.hpp"
+#include "stage/run_totals.hpp"
 
 namespace urban_nav {
-
-using urban_nav_core::Vector3d;
 
 namespace {
 
@@ -28,6 +28,7 @@ VoSummary summarise(const VoRun& run) { return summarise(std::vector<const VoRun
 
 VoSummary summarise(const std::vector<const VoRun*>& runs) {
   VoSummary summary;
+  summary.frames = totals(runs).frames;
   summary.status_counts = {{"OK", 0}, {"DEGRADED", 0}, {"LOST", 0}, {"RECOVERED", 0}};
   std::vector<double> ms;
   double features = 0.0, lengths = 0.0, reprojection = 0.0;
@@ -35,7 +36,6 @@ VoSummary summarise(const std::vector<const VoRun*>& runs) {
   for (const VoRun* run : runs) {
     std::int64_t dropped = 0;
     for (const VoRow& row : run->rows) {
-      ++summary.frames;
       ++summary.status_counts[toString(row.status.health)];
       if (const auto reason = static_cast<swf_vo::Reason>(row.status.reason); reason != swf_vo::Reason::None)
         ++summary.reason_counts[swf_vo::toString(reason)];
@@ -55,11 +55,6 @@ VoSummary summarise(const std::vector<const VoRun*>& runs) {
       }
     }
     summary.dropped += dropped;
-    std::vector<Vector3d> positions;
-    for (const swf_vo::Settled& settled : run->settled) positions.push_back(settled.T_odom_base.pose.t());
-    summary.distance_m += pathLength(positions);
-    if (run->settled.size() > 1)
-      summary.seconds += urban_nav_core::secondsBetween(run->settled.front().stamp, run->settled.back().stamp);
     addWarnings(*run, dropped, summary.warnings);
   }
   const auto mean = [](double sum, std::int64_t count) { return count > 0 ? sum / static_cast<double>(count) : 0.0; };
@@ -89,27 +84,6 @@ Json toJson(const VoSummary& summary) {
   Json& warnings = json["warnings"] = Json::array();
   for (const std::string& warning : summary.warnings) warnings.append(warning);
   return json;
-}
-
-double pathLength(const std::vector<Vector3d>& positions, double step) {
-  if (positions.empty()) return 0.0;
-  double length = 0.0;
-  Vector3d last = positions.front();
-  for (const Vector3d& position : positions) {
-    const double moved = (position - last).norm();
-    if (moved < step) continue;
-    length += moved;
-    last = position;
-  }
-  return length;
-}
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  const auto at = static_cast<std::ptrdiff_t>(
-      std::min(static_cast<double>(values.size() - 1), std::floor(share * static_cast<double>(values.size()))));
-  std::nth_element(values.begin(), values.begin() + at, values.end());
-  return values[static_cast<std::size_t>(at)];
 }
 
 }  // namespace urban_nav

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "command_line/json.hpp"
-#include "stages/vo/vo_stage.hpp"
+#include "stage/vo_run.hpp"
 
 namespace urban_nav {
 
@@ -14,8 +14,6 @@ namespace urban_nav {
 struct VoSummary {
   std::int64_t frames = 0;
   std::int64_t dropped = 0;  ///< because of their stamps
-  double seconds = 0.0;      ///< from the first stamp to the last
-  double distance_m = 0.0;   ///< along the settled trajectory, standing still left out
   double ms_median = 0.0, ms_p99 = 0.0;
   double features_mean = 0.0, track_length_mean = 0.0, reprojection_px_mean = 0.0;
   double disparity_offset_px = 0.0, disparity_offset_sigma_px = 0.0;  ///< of the camera, as known in the end
@@ -30,12 +28,5 @@ VoSummary summarise(const std::vector<const VoRun*>& runs);
 
 /// The object "swf_vo" of summary.json.
 Json toJson(const VoSummary& summary);
-
-/// The length of a path in which steps below the noise of standing still do not add up: positions count once they are
-/// `step` m from the last that counted.
-double pathLength(const std::vector<urban_nav_core::Vector3d>& positions, double step = 0.05);
-
-/// The value below which `share` of the values lie; 0 for none.
-double quantile(std::vector<double> values, double share);
 
 }  // namespace urban_nav

@@ -63,8 +63,8 @@ TEST(GraphRows, aStoreHoldsTheRelaxedMap) {
         store.graph().put(id, node);
       }
     }
-    putGraph(store, {"m", "t", "f"}, run);
-    putGraph(store, {"m", "t", "f"}, run);
+    exportGraph(store, {"m", "t", "f"}, run);
+    exportGraph(store, {"m", "t", "f"}, run);
     store.commit();
     std::size_t session = 0;
     for (const char* id : {"m", "t", "f"}) {

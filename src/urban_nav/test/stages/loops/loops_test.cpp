@@ -5,6 +5,7 @@
 
 #include "explain/explanation.hpp"
 #include "pipeline/map_pipeline.hpp"
+#include "pipeline/parameters.hpp"
 #include "stage/closures_file.hpp"
 #include "support/folders.hpp"
 #include "urban_nav_core/geometry/covariance_frames.hpp"
@@ -25,9 +26,9 @@ using urban_nav_core::Pose;
 constexpr const char* kHeader = "session_a,stamp_a_ns,session_b,stamp_b_ns,probability\n";
 
 void map(const std::vector<std::string>& inputs, const std::string& out, const std::string& closures,
-         const std::function<void(MapRequest&)>& change = {}) {
-  MapRequest request{inputs, out, {"vo", "loops", "graph"}, "", closures, "", {}, loadParameters(Arguments({})), 1};
-  request.parameters.loop_metric.parameters.keyframe_way = 0.05;  // the robot of the room drives a few decimetres
+         const std::function<void(MapOptions&)>& change = {}) {
+  MapOptions request{inputs, out, {"vo", "loops", "graph"}, "", closures, "", {}, loadParameters(Arguments({})), 1};
+  request.parameters.set("loop_metric.keyframe_way=0.05");  // the robot of the room drives a few decimetres
   if (change) change(request);
   Console console;
   runMap(request, console);
@@ -86,7 +87,7 @@ TEST_F(Loops, namesWhyTheOthersHaveNone) {
 
 TEST_F(Loops, givesTheSameBytesWithTwoThreads) {
   map({file("monday"), file("tuesday")}, file("threads"), file("closures.csv"),
-      [](MapRequest& request) { request.threads = 2; });
+      [](MapOptions& request) { request.threads = 2; });
   for (const char* name : {"trajectory.tum", "covariance.csv", "closures.csv", "graph.g2o"})
     EXPECT_EQ(readFile(file("out") + "/" + name), readFile(file("threads") + "/" + name)) << name;
 }
@@ -94,7 +95,7 @@ TEST_F(Loops, givesTheSameBytesWithTwoThreads) {
 TEST_F(Loops, laterDaysFindTheViewsOfEarlierOnesInTheStore) {
   map({file("monday")}, file("first"), "");
   map({file("tuesday")}, file("second"), file("closures.csv"),
-      [](MapRequest& request) { request.store = file("first") + "/session.db"; });
+      [](MapOptions& request) { request.store = file("first") + "/session.db"; });
   const std::vector<ClosureRow> rows = rowsOf("second");
   ASSERT_EQ(rows.size(), 4U);
   EXPECT_EQ(rows[1].kind, "stereo") << readFile(file("second") + "/closures.csv");
@@ -105,9 +106,9 @@ TEST_F(Loops, whySaysWhatTheStoreKnows) {
   urban_nav_store::Store store(file("out") + "/session.db", urban_nav_store::Access::Read);
   const std::vector<StoredClosure> closures = closuresOf(store);
   ASSERT_EQ(closures.size(), 3U) << "the one with an unknown session has no place in a store";
-  EXPECT_LT(distanceOf(closures[0], parseMoment("monday+0.2", ""), parseMoment("tuesday+0.4", "")), 1e-6);
-  EXPECT_LT(distanceOf(closures[0], parseMoment("0.4", ""), parseMoment("0.2", "")), 1e-6);
-  EXPECT_GT(distanceOf(closures[0], parseMoment("tuesday+0.2", ""), parseMoment("tuesday+0.4", "")), 1e6);
+  EXPECT_LT(distanceOf(closures[0], parseTimeQuery("monday+0.2", ""), parseTimeQuery("tuesday+0.4", "")), 1e-6);
+  EXPECT_LT(distanceOf(closures[0], parseTimeQuery("0.4", ""), parseTimeQuery("0.2", "")), 1e-6);
+  EXPECT_GT(distanceOf(closures[0], parseTimeQuery("tuesday+0.2", ""), parseTimeQuery("tuesday+0.4", "")), 1e6);
   const std::string text = explain(closures[0]);
   for (const char* part : {"accepted, by stereo", "passed  matches", "Two views: accepted", "distance_m"})
     EXPECT_NE(text.find(part), std::string::npos) << text;
@@ -119,7 +120,7 @@ TEST_F(Loops, whySaysWhatTheStoreKnows) {
 TEST_F(Loops, anotherDayIsFoundInAMapThatStaysAsItIs) {
   map({file("monday")}, file("frozen"), "");
   const std::string before = readFile(file("frozen") + "/session.db");
-  map({file("tuesday")}, file("found"), "", [](MapRequest& request) {
+  map({file("tuesday")}, file("found"), "", [](MapOptions& request) {
     request.stages.clear();
     request.localise = file("frozen") + "/session.db";
   });
@@ -135,7 +136,7 @@ TEST_F(Loops, anotherDayIsFoundInAMapThatStaysAsItIs) {
   const auto number = [&](const char* name) { return table.number(14, table.column(name)); };
   EXPECT_LT((urban_nav_core::Vector3d(number("x"), number("y"), number("z")) - truth[14].pose.t()).norm(), 0.03);
   EXPECT_THROW(
-      map({file("tuesday")}, file("nowhere"), "", [](MapRequest& request) { request.localise = file("closures.csv"); }),
+      map({file("tuesday")}, file("nowhere"), "", [](MapOptions& request) { request.localise = file("closures.csv"); }),
       urban_nav_core::UserError);
 }
 
@@ -143,7 +144,7 @@ TEST_F(Loops, withoutTheStageTheTransformsOfTheFileCount) {
   writeFile(file("measured.csv"),
             "session_a,stamp_a_ns,session_b,stamp_b_ns,probability,x,y,z,qx,qy,qz,qw\n"
             "monday,200000000,tuesday,200000000,0.9,0,0,0,0,0,0,1\n");
-  map({file("monday"), file("tuesday")}, file("given"), file("measured.csv"), [](MapRequest& request) {
+  map({file("monday"), file("tuesday")}, file("given"), file("measured.csv"), [](MapOptions& request) {
     request.stages = {"vo", "graph"};
   });
   const std::vector<ClosureRow> rows = rowsOf("given");

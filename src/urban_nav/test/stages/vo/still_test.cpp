@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "pipeline/map_pipeline.hpp"
+#include "pipeline/parameters.hpp"
 #include "support/folders.hpp"
 #include "urban_nav_core/io/tum.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "stages/vo/vo_state.hpp"
+#include "stages/vo/vo_run_state.hpp"
 
 #include "urban_nav_core/io/archive_types.hpp"
 #include "urban_nav_core/types/error.hpp"

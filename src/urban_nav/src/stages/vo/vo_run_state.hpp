@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "stages/vo/vo_stage.hpp"
+#include "stage/vo_run.hpp"
 
 namespace urban_nav_core {
 class Archive;

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/session_reader.hpp"
+
+#include <algorithm>
+
+#include "command_line/command_parameters.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav {
+
+namespace {
+
+constexpr int kMaxReadAhead = 16;        // pairs: decoding is so even that more would only cost memory
+constexpr double kReadAheadShare = 0.1;  // of memory_mb
+
+}  // namespace
+
+SessionReader::SessionReader(MapContext& context, const StageList& stages, RunCheckpoint& checkpoint,
+                             std::size_t session)
+    : context_(context), stages_(stages), checkpoint_(checkpoint), session_(session) {}
+
+std::unique_ptr<Source> SessionReader::openSource(const BagEnd* after) {
+  const MapOptions& options = context_.options;
+  std::unique_ptr<Source> source =
+      urban_nav::openSource(context_.sessions[session_].input.paths, options.source, after);
+  context_.sessions[session_].info = source->info();
+  if (options.threads == 1) return source;
+  const urban_nav_core::Pinhole& camera = source->info().camera.left;
+  const double pair_mb = std::max(0.1, 2e-6 * camera.width * camera.height);
+  const int fits = static_cast<int>(kReadAheadShare * options.parameters.get(commandTable()).memory_mb / pair_mb);
+  return readAhead(std::move(source), std::clamp(fits, 2, kMaxReadAhead));
+}
+
+void SessionReader::openPasses(const BagCheckpoint* checkpoint) {
+  for (Stage* stage : stages_) {
+    const std::string key = stage->describe().key;
+    Stage::SessionStart start{session_, std::nullopt};
+    if (checkpoint != nullptr) start.checkpoint = checkpoint->state(key);
+    if (auto pass = stage->beginSession(context_, start)) passes_.emplace_back(key, std::move(pass));
+  }
+}
+
+void SessionReader::openResumed() {
+  const std::optional<RunCheckpoint::ResumePoint>& point = checkpoint_.resumePoint(session_);
+  if (!point) return;
+  const BagEnd after{point->bags, point->checkpoint.receipt, point->checkpoint.reader, {}};
+  try {
+    source_ = openSource(&after);
+    openPasses(&point->checkpoint);
+  } catch (const urban_nav_core::Error& error) {
+    context_.console.warn(std::string("cannot continue after the complete bags: ") + error.what() +
+                          ": starting from the beginning");
+    source_.reset();
+    passes_.clear();
+    *context_.sessions[session_].vo = VoRun();
+    checkpoint_.startNewSession(session_);
+  }
+}
+
+void SessionReader::open() {
+  if (source_) {
+    checkpoint_.resume(session_);
+    flush();
+    checkpoint_.commit();
+    return;
+  }
+  source_ = openSource();
+  finished_ = restoreFinished();
+  if (finished_) return;
+  checkpoint_.begin(session_);
+  openPasses(nullptr);
+}
+
+bool SessionReader::restoreFinished() {
+  const std::vector<BagCheckpoint::StageState> states = checkpoint_.finishedStates(session_);
+  for (const auto& [key, state] : states)
+    for (Stage* stage : stages_)
+      if (stage->describe().key == key && !stage->restoreSession(context_, session_, state)) {
+        *context_.sessions[session_].vo = VoRun();
+        return false;
+      }
+  return !states.empty();
+}
+
+void SessionReader::flush() {
+  for (const auto& [key, pass] : passes_) pass->flush();
+}
+
+void SessionReader::saveBagEnd(const BagEnd& end) {
+  flush();
+  std::vector<BagCheckpoint::StageState> states;
+  for (const auto& [key, pass] : passes_) states.emplace_back(key, pass->checkpoint());
+  checkpoint_.writeScans(end.scans);
+  checkpoint_.saveBagEnd(std::move(states), end);
+}
+
+void SessionReader::read(const ProgressCallback& progress) {
+  if (finished_) return;
+  const std::int64_t frames = source_->info().frames;
+  const std::vector<VoRow>& rows = context_.sessions[session_].vo->rows;
+  Progress bar(context_.console, "vo", "frames", frames);
+  while (const std::optional<SourceItem> input = source_->next()) {
+    if (input->bag_end) saveBagEnd(*input->bag_end);
+    checkpoint_.writeScans(input->scans);
+    PassItem item{*input};
+    for (const auto& [key, pass] : passes_) pass->process(item);
+    bar.update(static_cast<std::int64_t>(rows.size()));
+    if (checkpoint_.isCommitDue()) {
+      flush();
+      checkpoint_.commit();
+    }
+    progress(frames > 0 ? static_cast<double>(rows.size()) / static_cast<double>(frames) : 0.0);
+  }
+  if (const auto end = source_->bagEnd()) saveBagEnd(*end);
+  checkpoint_.writeScans(source_->scans());
+  const PassEnd end{source_->closingFaults(), source_->forces()};
+  std::vector<BagCheckpoint::StageState> states;
+  for (const auto& [key, pass] : passes_) {
+    pass->finish(end);
+    states.emplace_back(key, pass->finished());
+  }
+  checkpoint_.finishSession(states);
+  bar.finish(static_cast<std::int64_t>(rows.size()));
+  passes_.clear();
+}
+
+}  // namespace urban_nav

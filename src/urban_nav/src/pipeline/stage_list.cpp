@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/stage_list.hpp"
+
+#include <algorithm>
+
+#include "stages/graph/graph_stage.hpp"
+#include "stages/keyframes/keyframes_stage.hpp"
+#include "stages/localization/localization_stage.hpp"
+#include "stages/loops/loops_stage.hpp"
+#include "stages/vo/vo_stage.hpp"
+
+namespace urban_nav {
+
+std::vector<std::unique_ptr<Stage>> makeStages() {
+  std::vector<std::unique_ptr<Stage>> stages;
+  stages.push_back(makeVoStage());
+  stages.push_back(makeKeyframesStage());
+  stages.push_back(makeLoopsStage());
+  stages.push_back(makeGraphStage());
+  stages.push_back(makeLocalizationStage());
+  return stages;
+}
+
+std::vector<std::string> stageNames() {
+  std::vector<std::string> names;
+  for (const std::unique_ptr<Stage>& stage : makeStages())
+    if (stage->describe().listed) names.push_back(stage->describe().name);
+  return names;
+}
+
+std::vector<std::string> plannedStageNames() {
+  const std::vector<std::string> existing = stageNames();
+  std::vector<std::string> names = {"places", "lasers", "stereo", "labels"};
+  names.erase(std::remove_if(names.begin(), names.end(),
+                             [&](const std::string& name) {
+                               return std::find(existing.begin(), existing.end(), name) != existing.end();
+                             }),
+              names.end());
+  return names;
+}
+
+}  // namespace urban_nav

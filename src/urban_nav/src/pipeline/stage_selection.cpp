@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/stage_selection.hpp"
+
+#include <algorithm>
+
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav {
+
+using urban_nav_core::UserError;
+
+namespace {
+
+bool contains(const std::vector<std::string>& list, const std::string& word) {
+  return std::find(list.begin(), list.end(), word) != list.end();
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+void checkWords(const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
+    if (contains(stageNames(), word)) continue;
+    const std::string found =
+        contains(plannedStageNames(), word) ? "stage " + word + " is not in this version" : "no stage \"" + word + "\"";
+    throw UserError("--stages", found, joined(stageNames()));
+  }
+}
+
+}  // namespace
+
+StageList selectStages(const std::vector<std::unique_ptr<Stage>>& stages, const MapOptions& options, Console& console) {
+  checkWords(options.stages);
+  StageList selected;
+  std::vector<std::string> names, left_out, notes;
+  for (const std::unique_ptr<Stage>& stage : stages) {
+    const Stage::Description description = stage->describe();
+    const Stage::Selection selection = stage->select(options);
+    if (selection.enabled) {
+      selected.push_back(stage.get());
+      names.push_back(description.name);
+      notes.insert(notes.end(), selection.notes.begin(), selection.notes.end());
+    } else if (description.listed && isRequested(options, description.name)) {
+      left_out.push_back(description.name + " (" + selection.reason + ")");
+    }
+  }
+  if (options.stages.empty() && !plannedStageNames().empty())
+    left_out.push_back(joined(plannedStageNames()) + " (not in this version)");
+  console.info("stages: " + joined(names) + (left_out.empty() ? "" : "; left out: " + joined(left_out)));
+  for (const std::string& note : notes) console.info(note);
+  const bool uses_closures =
+      std::any_of(selected.begin(), selected.end(), [](const Stage* stage) { return stage->describe().uses_closures; });
+  if (!options.closures.empty() && !uses_closures)
+    console.warn("--closures is not used: none of the stages of this run reads closures");
+  return selected;
+}
+
+}  // namespace urban_nav

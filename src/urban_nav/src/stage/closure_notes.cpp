@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stage/closure_notes.hpp"
+
+#include "stage/previous_sessions.hpp"
+
+namespace urban_nav {
+
+std::vector<std::string> closureNotes(const MapOptions& options, bool measured) {
+  if (!options.closures.empty())
+    return {"closures: " + options.closures +
+            (measured ? "; the stage loops measures their transforms, those in the file are not used"
+                      : ", with the transforms in the file (no stage loops)")};
+  if (options.store.empty()) return {"closures: none (--closures FILE); the map is that of odometry"};
+  urban_nav_store::Store store(options.store, urban_nav_store::Access::Read);
+  if (holdsClosures(store)) return {"closures: those of " + options.store};
+  return {};
+}
+
+}  // namespace urban_nav

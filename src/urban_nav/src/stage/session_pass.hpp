@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "stage/vo_run.hpp"
+
+namespace urban_nav {
+
+/// One item of the reading pass.
+struct PassItem {
+  const SourceItem& input;         ///< rectified pair, motion, scans, faults of its data
+  const VoRow* odometry = nullptr;  ///< row of this frame, set by stage vo, which comes first
+};
+
+/// What the end of an input says about it as a whole.
+struct PassEnd {
+  std::vector<std::string> faults;
+  std::vector<urban_nav_core::SpecificForce> forces;  ///< specific forces; empty without an accelerometer
+};
+
+/// A stage's part of the single pass in which all images of a session are read. Calls come from one thread.
+class SessionPass {
+ public:
+  virtual ~SessionPass() = default;
+  /// Observes the next item.
+  virtual void process(PassItem& item) = 0;
+  /// Writes what is new to the store. Called before each commit, about once a second.
+  virtual void flush() {}
+  /// Returns the state at the end of a bag, from which a new object continues bit-exactly. Everything up to here must be
+  /// in the store.
+  virtual std::string checkpoint() { return {}; }
+  /// Called once, after the last item. Throws DataError if nothing of the session is usable.
+  virtual void finish(const PassEnd&) {}
+  /// Returns the finished pass for Stage::restoreSession(), after finish().
+  virtual std::string finished() { return {}; }
+};
+
+}  // namespace urban_nav

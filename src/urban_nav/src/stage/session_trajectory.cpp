@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stage/session_trajectory.hpp"
+
+namespace urban_nav {
+
+std::vector<SessionTrajectory> odometryTrajectories(const std::vector<const VoRun*>& runs, std::size_t previous) {
+  std::vector<SessionTrajectory> made;
+  for (std::size_t s = 0; s < runs.size(); ++s) {
+    std::vector<urban_nav_core::Matrix6d> covariances;
+    for (const swf_vo::Settled& settled : runs[s]->settled) covariances.push_back(settled.T_odom_base.covariance);
+    made.push_back({smoothedTrajectory(*runs[s]), std::move(covariances), s, s >= previous, std::nullopt});
+  }
+  return made;
+}
+
+}  // namespace urban_nav

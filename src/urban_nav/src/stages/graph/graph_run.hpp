@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pose_graph/level.hpp"
+#include "pose_graph/marginals.hpp"
+#include "pose_graph/pose_graph.hpp"
+#include "stage/closures_file.hpp"
+#include "stage/previous_sessions.hpp"
+#include "stage/vo_run.hpp"
+#include "urban_nav_core/trajectory/trajectory.hpp"
+
+namespace urban_nav {
+
+/// Result of relaxing all sessions. Sessions are named as closures.csv names them.
+struct GraphRun {
+  pose_graph::PoseGraph graph{pose_graph::Parameters()};
+  pose_graph::Relaxed relaxed;
+  std::vector<std::string> sessions;  ///< names, in the order of the runs
+  std::vector<ClosureRow> closures;   ///< with their verdicts: those of previous runs, then those of the file
+  std::vector<std::string> warnings;
+  double ms = 0.0, ms_covariances = 0.0;  ///< durations of the relaxation and of the marginal covariances
+  /// Marginal covariances of T_first_base of each session's poses, as far as they are known; those of odometry where no
+  /// closure was accepted.
+  std::vector<std::vector<urban_nav_core::Matrix6d>> covariances;
+
+  /// Returns the first session in whose map a whole session lies; the session itself if it is joined to none before it.
+  std::size_t mapOf(std::size_t session) const;
+  /// Returns whether a session lies in the map of the first session.
+  bool joined(std::size_t session) const { return mapOf(session) == 0; }
+  std::size_t sessionsJoined() const;
+  /// Gravity direction of the map that starts with a session, in the frame of its first pose, by the first of its
+  /// sessions that knows it. Default values for sessions in the map of another one.
+  std::vector<pose_graph::Level> levels;
+  /// Returns the poses of a session in its map: origin and heading of the map's first pose, aligned with gravity where
+  /// its direction is known.
+  urban_nav_core::Trajectory trajectory(std::size_t session) const;
+};
+
+/// Relaxes the smoothed odometry chains of the runs with the closures. A closure between two frames is carried to the
+/// nearest ones by the odometry in between. One that cannot be used is rejected with a reason, never lost. A closure in
+/// the file replaces a previous one between the same poses and of the same kind. The poses do not depend on the order of
+/// the closures, bit by bit.
+GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<const VoRun*>& runs,
+                  const std::vector<std::string>& sessions, const std::vector<ClosureRow>& closures,
+                  const std::vector<PreviousClosure>& previous = {});
+
+}  // namespace urban_nav

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stages/vo/vo_recorder.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "pose_graph/level.hpp"
+#include "stages/vo/track_picture.hpp"
+#include "stages/vo/vo_run_state.hpp"
+#include "urban_nav_core/io/archive.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav {
+
+using swf_vo::Feature;
+using swf_vo::Frame;
+using urban_nav_core::Health;
+using urban_nav_core::ImageView;
+
+namespace {
+
+constexpr std::size_t kPictures = 8;
+constexpr std::size_t kTail = 6;  // frames that the track of a feature reaches back
+
+constexpr const char* kStateName = "visual odometry of a session";
+constexpr std::uint32_t kStateVersion = 1;
+
+std::uint8_t greyAt(const ImageView& image, const Eigen::Vector3d& pixel) {
+  const int u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
+  return image.empty() || u < 0 || v < 0 || u >= image.width || v >= image.height ? std::uint8_t{0} : image.at(u, v);
+}
+
+/// Describes the run by its input, which is not part of any state.
+VoRun& describeInput(VoRun& run, const SourceInfo& info) {
+  run.input = info.name;
+  run.camera = info.camera;
+  run.T_base_camera = info.T_base_camera;
+  return run;
+}
+
+std::string caption(const VoRow& row) {
+  std::string text =
+      std::to_string(row.statistics.features) + " features, " + std::to_string(row.statistics.tracked) + " tracked";
+  if (row.status.health != Health::Ok)
+    text += ", " + std::string(toString(row.status.health)) + ": " + row.status.sentence;
+  return text;
+}
+
+}  // namespace
+
+/// Keeps a few pictures evenly spread over a session whose length is not known: each time there are too many, the step
+/// between them doubles.
+class VoRecorder::PictureKeeper {
+ public:
+  void add(const VoRow& row, const ImageView& image, const std::vector<Feature>& features,
+           std::vector<VoPicture>& pictures) {
+    tails_.push_back(features);
+    if (tails_.size() > kTail) tails_.erase(tails_.begin());
+    if (row.frame == 0 || row.frame % step_ != 0 || image.empty()) return;
+    VoPicture picture = drawTracks(image, tails_);
+    picture.frame = row.frame;
+    picture.stamp = row.stamp;
+    picture.caption = caption(row);
+    pictures.push_back(std::move(picture));
+    if (pictures.size() <= kPictures) return;
+    step_ *= 2;
+    pictures.erase(
+        std::remove_if(pictures.begin(), pictures.end(), [this](const VoPicture& p) { return p.frame % step_ != 0; }),
+        pictures.end());
+  }
+
+  void archive(urban_nav_core::Archive& archive) {
+    archive(step_, tails_);
+    archive.require(step_ > 0, "no step between pictures");
+  }
+
+ private:
+  std::int64_t step_ = 4;
+  std::vector<std::vector<Feature>> tails_;  // the newest last
+};
+
+VoRecorder::VoRecorder(const swf_vo::Parameters& parameters, const SourceInfo& info, VoRun& run)
+    : run_(describeInput(run, info)),
+      filter_(std::in_place, parameters, info.camera, info.T_base_camera),
+      pictures_(std::make_unique<PictureKeeper>()) {}
+
+VoRecorder::VoRecorder(const swf_vo::Parameters& parameters, const SourceInfo& info, VoRun& run, std::string_view state)
+    : VoRecorder(parameters, info, run) {
+  const std::string where = std::string("state of ") + kStateName;
+  urban_nav_core::Archive archive(urban_nav_core::unseal(kStateName, kStateVersion, state), where);
+  std::string packed_run, filter;
+  archive(packed_run, filter, *pictures_);
+  archive.finish();
+  std::optional<VoRun> found = unpackVoRun(packed_run);
+  if (!found) throw urban_nav_core::DataError(where, "is damaged: its frames cannot be read", "");
+  run_ = std::move(*found);
+  describeInput(run_, info);
+  filter_.emplace(parameters, info.camera, info.T_base_camera, filter);
+}
+
+VoRecorder::~VoRecorder() = default;
+
+const VoRow& VoRecorder::process(const SourceItem& input) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin = Clock::now();
+  const Frame& frame = filter_->process(input.assembled.pair, input.assembled.inputs);
+  const double ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+
+  VoRow row;
+  row.frame = static_cast<std::int64_t>(run_.rows.size());
+  row.stamp = input.assembled.pair.stamp;
+  row.accepted = frame.accepted;
+  row.status = frame.status;
+  row.statistics = frame.statistics;
+  row.T_odom_base = frame.T_odom_base.pose;
+  row.process_ms = ms;
+  run_.faults_total += static_cast<std::int64_t>(input.faults.size());
+  for (const std::string& fault : input.faults) {
+    if (run_.faults.size() < kMaxFaults) run_.faults.push_back(fault);
+  }
+  run_.settled.insert(run_.settled.end(), frame.settled.begin(), frame.settled.end());
+  for (const swf_vo::Landmark& landmark : frame.landmarks) run_.landmarks[landmark.id].landmark = landmark;
+  for (const Feature& feature : frame.features) {
+    const auto known = run_.landmarks.find(feature.landmark);
+    if (known == run_.landmarks.end()) continue;
+    known->second.seen = feature.age + 1;
+    known->second.grey = greyAt(input.assembled.pair.left, feature.pixel);
+  }
+  pictures_->add(row, input.assembled.pair.left, frame.features, run_.pictures);
+  run_.rows.push_back(std::move(row));
+  return run_.rows.back();
+}
+
+std::string VoRecorder::state() const {
+  urban_nav_core::Archive archive;
+  std::string run = packVoRun(run_), filter = filter_->state();
+  archive(run, filter, *pictures_);
+  return urban_nav_core::seal(kStateName, kStateVersion, archive.take());
+}
+
+void VoRecorder::finish(const PassEnd& end) {
+  run_.faults.insert(run_.faults.begin(), end.faults.begin(), end.faults.end());
+  run_.faults_total += static_cast<std::int64_t>(end.faults.size());
+  for (swf_vo::Settled& settled : filter_->flush()) run_.settled.push_back(std::move(settled));
+  std::vector<urban_nav_core::StampNs> stamps;
+  for (const swf_vo::Settled& settled : run_.settled) stamps.push_back(settled.stamp);
+  run_.forces = pose_graph::forcesAt(stamps, end.forces);
+}
+
+}  // namespace urban_nav
