@@ -33,6 +33,12 @@ Json Json::object() {
   return json;
 }
 
+Json Json::object(std::vector<std::pair<std::string, Json>> members) {
+  Json json;
+  json.value_ = std::move(members);
+  return json;
+}
+
 Json Json::array() {
   Json json;
   json.value_ = Elements();

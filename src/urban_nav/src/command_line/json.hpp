@@ -24,6 +24,8 @@ class Json {
   Json(std::string value) : value_(std::move(value)) {}                  // NOLINT
 
   static Json object();
+  /// With these members, in this order.
+  static Json object(std::vector<std::pair<std::string, Json>> members);
   static Json array();
 
   /// The value of a key, made null if it was not there; turns null into an object.
