@@ -18,31 +18,42 @@ namespace urban_nav_ros {
 /// urban_nav_core::serverParameters. Throws UserError for one that is neither bool, number nor text, naming it.
 std::map<std::string, urban_nav_core::ParameterValue> serverValues(const ros::NodeHandle& nh);
 
-/// Returns the parameters of a nodelet and of its stage, which share the nodelet's private name space. Warns on the console
-/// of parameters under an old name, which override those under a present one. Throws UserError, naming the parameter, for one that neither table has and for a value
-/// that is not allowed.
+/// Returns the parameters of `table` from values of the parameter server in the namespace `where`. Warns on the console of
+/// old names, which override present ones. Throws UserError, naming the parameter, for one that the table does not have and
+/// for a value that is not allowed.
+template <typename Parameters>
+Parameters toParameters(const urban_nav_core::Table<Parameters>& table,
+                        const std::map<std::string, urban_nav_core::ParameterValue>& values, const std::string& where) {
+  auto assignments = urban_nav_core::serverParameters(table.stage(), values, where);
+  // Default files set all present names, so that an old one, which was set on purpose, has to come after them.
+  std::stable_partition(assignments.begin(), assignments.end(), [&table](const auto& assignment) {
+    return std::any_of(table.rows().begin(), table.rows().end(),
+                       [&](const auto& row) { return row.name == assignment.name; });
+  });
+  auto made = load(table, assignments);
+  for (const std::string& warning : made.warnings) ROS_WARN("%s", warning.c_str());
+  return made.parameters;
+}
+
+/// Returns the parameters of a stage from its nodelet's private namespace. Warns and throws like toParameters().
+template <typename Stage>
+Stage readParameters(const ros::NodeHandle& private_nh, const urban_nav_core::Table<Stage>& stage) {
+  return toParameters(stage, serverValues(private_nh), private_nh.getNamespace());
+}
+
+/// Returns the parameters of a nodelet and of its stage, which share the nodelet's private namespace. Warns and throws
+/// like toParameters().
 template <typename Own, typename Stage>
 std::pair<Own, Stage> readParameters(const ros::NodeHandle& private_nh, const urban_nav_core::Table<Own>& own,
                                      const urban_nav_core::Table<Stage>& stage) {
-  const std::string where = private_nh.getNamespace();
   std::map<std::string, urban_nav_core::ParameterValue> of_own, of_stage;
   for (const auto& [name, value] : serverValues(private_nh)) {
     const bool is_own = std::any_of(own.rows().begin(), own.rows().end(),
                                     [&, &key = name](const auto& row) { return urban_nav_core::isCalled(row, key); });
     (is_own ? of_own : of_stage)[name] = value;
   }
-  const auto loaded = [&where](const auto& table, const auto& values) {
-    auto assignments = urban_nav_core::serverParameters(table.stage(), values, where);
-    // Default files set all present names, so that an old one, which was set on purpose, has to come after them.
-    std::stable_partition(assignments.begin(), assignments.end(), [&table](const auto& assignment) {
-      return std::any_of(table.rows().begin(), table.rows().end(),
-                         [&](const auto& row) { return row.name == assignment.name; });
-    });
-    auto made = load(table, assignments);
-    for (const std::string& warning : made.warnings) ROS_WARN("%s", warning.c_str());
-    return made.parameters;
-  };
-  return {loaded(own, of_own), loaded(stage, of_stage)};
+  const std::string where = private_nh.getNamespace();
+  return {toParameters(own, of_own, where), toParameters(stage, of_stage, where)};
 }
 
 }  // namespace urban_nav_ros
