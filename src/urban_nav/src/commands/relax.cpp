@@ -93,7 +93,7 @@ Json jsonOf(const Costs& costs) {
 }
 
 /// What the command says of the run beside the files.
-struct Told {
+struct RelaxReport {
   Costs before, after;
   std::size_t poses = 0, edges = 0, rejected = 0, iterations = 0;
   int components = 0;
@@ -104,16 +104,16 @@ struct Told {
   std::optional<pose_graph::Certificate> certificate;  // of the accepted edges, by the chordal objective
 };
 
-std::string textOf(const Told& told) {
-  std::string text = std::to_string(told.poses) + " poses, " + std::to_string(told.edges) + " edges, " +
-                     std::to_string(told.rejected) + " rejected; " + std::to_string(told.iterations) + " iterations, " +
-                     told.ending + ", " + forPerson(told.ms, 3) + " ms\n";
-  if (told.variance)
+std::string textOf(const RelaxReport& report) {
+  std::string text = std::to_string(report.poses) + " poses, " + std::to_string(report.edges) + " edges, " +
+                     std::to_string(report.rejected) + " rejected; " + std::to_string(report.iterations) +
+                     " iterations, " + report.ending + ", " + forPerson(report.ms, 3) + " ms\n";
+  if (report.variance)
     text +=
-        "errors: " + forPerson(std::sqrt(*told.variance), 2) + " times the deviations that the information states\n";
-  text += textOf("before: ", told.before) + textOf("after:  ", told.after);
-  if (!told.certificate) return text;
-  const pose_graph::Certificate& certificate = *told.certificate;
+        "errors: " + forPerson(std::sqrt(*report.variance), 2) + " times the deviations that the information states\n";
+  text += textOf("before: ", report.before) + textOf("after:  ", report.after);
+  if (!report.certificate) return text;
+  const pose_graph::Certificate& certificate = *report.certificate;
   text += certificate.certified ? "certified: the global optimum" : "not certified: there may be a better optimum";
   if (certificate.gap)
     text += "; no poses cost less than " + forPerson(certificate.cost, 9) + " by more than " +
@@ -121,27 +121,27 @@ std::string textOf(const Told& told) {
   return text + "\n";
 }
 
-Json jsonOf(const Told& told) {
+Json jsonOf(const RelaxReport& report) {
   Json json = Json::object();
-  json["poses"] = told.poses;
-  json["edges"] = told.edges;
-  json["edges_rejected"] = told.rejected;
-  json["components"] = told.components;
-  json["iterations"] = told.iterations;
-  if (told.variance) json["variance_factor"] = *told.variance;
-  json["ending"] = told.ending;
-  json["ms_batch"] = told.ms;
-  json["cost_before"] = jsonOf(told.before);
-  json["cost_after"] = jsonOf(told.after);
-  if (told.certificate) {
-    json["certified"] = told.certificate->certified;
-    if (told.certificate->gap) json["certified_gap"] = *told.certificate->gap;
+  json["poses"] = report.poses;
+  json["edges"] = report.edges;
+  json["edges_rejected"] = report.rejected;
+  json["components"] = report.components;
+  json["iterations"] = report.iterations;
+  if (report.variance) json["variance_factor"] = *report.variance;
+  json["ending"] = report.ending;
+  json["ms_batch"] = report.ms;
+  json["cost_before"] = jsonOf(report.before);
+  json["cost_after"] = jsonOf(report.after);
+  if (report.certificate) {
+    json["certified"] = report.certificate->certified;
+    if (report.certificate->gap) json["certified_gap"] = *report.certificate->gap;
   }
   return json;
 }
 
 template <int D>
-Told relaxFile(const G2oGraph& graph, const std::string& name, const Arguments& arguments, Console& console) {
+RelaxReport relaxFile(const G2oGraph& graph, const std::string& name, const Arguments& arguments, Console& console) {
   pose_graph::SolveOptions options;
   options.objective = objectiveOf(arguments.get("objective", "geodesic"));
   const bool doubted = arguments.get("robust", "on") == "on";
@@ -172,33 +172,33 @@ Told relaxFile(const G2oGraph& graph, const std::string& name, const Arguments& 
     robust.solution = pose_graph::solve(file.problem, options);
   }
   const pose_graph::Solution<D>& solution = robust.solution;
-  Told told;
-  told.ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-  told.poses = file.problem.poses.size();
-  told.edges = file.problem.edges.size();
-  told.iterations = solution.iterations.size();
-  told.components = solution.components;
-  told.rejected = static_cast<std::size_t>(
+  RelaxReport report;
+  report.ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+  report.poses = file.problem.poses.size();
+  report.edges = file.problem.edges.size();
+  report.iterations = solution.iterations.size();
+  report.components = solution.components;
+  report.rejected = static_cast<std::size_t>(
       std::count_if(robust.edges.begin(), robust.edges.end(), [](const pose_graph::EdgeAssessment& verdict) {
         return verdict.verdict == urban_nav_core::ClosureVerdict::Rejected;
       }));
-  told.ending = toString(solution.ending);
+  report.ending = toString(solution.ending);
   // Each of a component's poses but the first hangs on one trusted edge.
-  const std::size_t trusted = told.poses - static_cast<std::size_t>(std::max(solution.components, 1));
-  if (doubted && told.edges > trusted) told.variance = robust.variance_factor;
-  told.before = costsOf(file.problem, file.problem.poses);
-  told.after = costsOf(file.problem, solution.poses);
+  const std::size_t trusted = report.poses - static_cast<std::size_t>(std::max(solution.components, 1));
+  if (doubted && report.edges > trusted) report.variance = robust.variance_factor;
+  report.before = costsOf(file.problem, file.problem.poses);
+  report.after = costsOf(file.problem, solution.poses);
   if (options.objective == Objective::Chordal) {
     std::vector<double> weights;
     for (const pose_graph::EdgeAssessment& edge : robust.edges) weights.push_back(edge.weight);
-    told.certificate = certify(file.problem, solution.poses, weights);
+    report.certificate = certify(file.problem, solution.poses, weights);
   }
   if (solution.components > 1)
     console.warn(name + ": " + std::to_string(solution.components) +
                  " parts that no edge connects; each stays in its own frame");
-  if (told.edges > trusted && 2 * told.rejected > told.edges - trusted)
+  if (report.edges > trusted && 2 * report.rejected > report.edges - trusted)
     console.warn(
-        name + ": " + std::to_string(told.rejected) + " of " + std::to_string(told.edges - trusted) +
+        name + ": " + std::to_string(report.rejected) + " of " + std::to_string(report.edges - trusted) +
         " closures rejected. If most of them are true, the file's information is larger than its errors allow: "
         "--robust off takes them all");
   if (arguments.has("edges")) {
@@ -212,7 +212,7 @@ Told relaxFile(const G2oGraph& graph, const std::string& name, const Arguments& 
   const G2oGraph relaxed = pose_graph::withPoses<D>(graph, file, solution.poses);
   if (endsLikeToro(output)) urban_nav_core::writeToro(output, relaxed);
   else urban_nav_core::writeG2o(output, relaxed);
-  return told;
+  return report;
 }
 
 int run(const Arguments& arguments, Console& console) {
@@ -222,10 +222,10 @@ int run(const Arguments& arguments, Console& console) {
   const std::string text = urban_nav_core::readTextFile(name);
   const G2oGraph graph =
       urban_nav_core::isToro(text) ? urban_nav_core::parseToro(text, name) : urban_nav_core::parseG2o(text, name);
-  const Told told = graph.dimension == 2 ? relaxFile<2>(graph, name, arguments, console)
-                                         : relaxFile<3>(graph, name, arguments, console);
-  console.print(textOf(told));
-  if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), jsonOf(told).print());
+  const RelaxReport report = graph.dimension == 2 ? relaxFile<2>(graph, name, arguments, console)
+                                                  : relaxFile<3>(graph, name, arguments, console);
+  console.print(textOf(report));
+  if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), jsonOf(report).print());
   return 0;
 }
 

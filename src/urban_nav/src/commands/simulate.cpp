@@ -62,7 +62,7 @@ SimulateJob jobOf(const Arguments& arguments) {
 
 int run(const Arguments& arguments, Console& console) {
   const urban_nav_core::ThreadLimit threads(static_cast<int>(arguments.integer("threads", 0, 0, 1024)));
-  loadParameters(arguments);  // none is the simulator's own: a mistake in them is told all the same
+  loadParameters(arguments);  // none is the simulator's own, but errors in them are reported
   const SimulateJob job = jobOf(arguments);
   const Simulated made = simulate(job, console);
   Json json = Json::object();

@@ -34,7 +34,7 @@ const StoredClosure& byTimes(const std::vector<StoredClosure>& closures, const s
   });
   if (const double distance = distanceOf(*nearest, one, other); !(distance <= kNear))
     throw DataError(path,
-                    "no candidate lies within 1 s of these moments: nobody said that they are one place" +
+                    "no candidate lies within 1 s of these moments: closures.csv does not pair them" +
                         (std::isfinite(distance) ? "; the nearest is " + std::to_string(nearest->id) + ", " +
                                                        forPerson(distance, 3) + " s off"
                                                  : std::string()),
@@ -46,8 +46,7 @@ int run(const Arguments& arguments, Console& console) {
   const double cloud_way = loadParameters(arguments).get(loop_metric::table()).cloud_way;
   const bool moments = arguments.has("T1") || arguments.has("T2");
   if (arguments.has("jump"))
-    throw UserError("--jump", "is not in this version: jumps are told on graph/jump when they happen",
-                    "T1 T2, --closure ID");
+    throw UserError("--jump", "is not in this version: jumps are published on graph/jump", "T1 T2, --closure ID");
   if (arguments.has("T1") != arguments.has("T2"))
     throw UserError("urban_nav why", "one moment alone", "STORE T1 T2, or STORE --closure ID");
   if (moments && arguments.has("closure")) throw UserError("urban_nav why", "moments and --closure", "one of them");

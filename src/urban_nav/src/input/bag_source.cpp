@@ -30,7 +30,7 @@ using urban_nav_ros::StereoFeed;
 
 namespace {
 
-constexpr urban_nav_core::StampNs kMaxLateness = 200'000'000;  // ns: waiting costs nothing where nobody waits
+constexpr urban_nav_core::StampNs kMaxLateness = 200'000'000;  // ns: offline, waiting costs nothing
 
 constexpr const char* kStateName = "reader of bags";
 constexpr std::uint32_t kStateVersion = 2;
@@ -39,7 +39,7 @@ constexpr std::uint32_t kStateVersion = 2;
 /// stamps.
 class BagSource : public Source {
  public:
-  BagSource(const std::vector<std::string>& paths, const SourceOptions& options, const BagEnd* behind)
+  BagSource(const std::vector<std::string>& paths, const SourceOptions& options, const BagEnd* after)
       : options_(options), name_(paths.front()) {
     for (const std::string& path : paths) bags_.emplace_back(path, rosbag::bagmode::Read);
     topics_ = chooseTopics(available(), options.topics);
@@ -51,7 +51,7 @@ class BagSource : public Source {
     calibrate();
     place();
     startReading();
-    if (behind != nullptr) goOn(*behind);
+    if (after != nullptr) resume(*after);
     readGroup();
   }
 
@@ -295,7 +295,7 @@ class BagSource : public Source {
     }
     if (archive.isReading()) listen();
     std::vector<std::pair<urban_nav_core::StampNs, urban_nav_core::Vector3d>> forces;
-    for (const urban_nav_core::SpecificForce& felt : forces_) forces.emplace_back(felt.stamp, felt.force);
+    for (const urban_nav_core::SpecificForce& sample : forces_) forces.emplace_back(sample.stamp, sample.force);
     archive(forces, *wheels_, *gyroscope_, *feed_);
     if (!archive.isReading()) return;
     forces_.clear();
@@ -303,11 +303,11 @@ class BagSource : public Source {
   }
 
   /// Behind bags that need not be here any more: what stood only in them is taken from the state, and what stands in both must be the same.
-  void goOn(const BagEnd& behind) {
+  void resume(const BagEnd& after) {
     const SourceInfo here = info_;
     const BagTopics topics = topics_;
     const std::optional<urban_nav_core::Matrix3d> R_base_imu = R_base_imu_;
-    urban_nav_core::Archive reader(urban_nav_core::unseal(kStateName, kStateVersion, behind.reader),
+    urban_nav_core::Archive reader(urban_nav_core::unseal(kStateName, kStateVersion, after.reader),
                                    std::string("state of ") + kStateName);
     archive(reader);
     reader.finish();
@@ -320,10 +320,10 @@ class BagSource : public Source {
     for (const Role role : {Role::Left, Role::Right})
       if (topics.find(role)->name != topics_.find(role)->name || topics.find(role)->type != topics_.find(role)->type)
         throw UserError(name_, "has other topics than the bags before it", topics_.find(role)->name);
-    while (group_ < groups_.size() && groups_[group_].end <= behind.bags) ++group_;
+    while (group_ < groups_.size() && groups_[group_].end <= after.bags) ++group_;
     const std::size_t begun = group_ == 0 ? 0 : groups_[group_ - 1].end;
-    if (begun != behind.bags) throw UserError(name_, "is no end of what was recorded at the same time", "");
-    if (behind.bags == 0) info_.frames = 0;  // nobody knows how many the bags before had
+    if (begun != after.bags) throw UserError(name_, "is no end of what was recorded at the same time", "");
+    if (after.bags == 0) info_.frames = 0;  // the number in the bags before is unknown
     if (!is_placed_ && !same(here.T_base_camera, info_.T_base_camera)) info_.notes.pop_back();  // they say the place
   }
 
@@ -358,9 +358,9 @@ class BagSource : public Source {
   void feel(const sensor_msgs::Imu& imu) {
     // sensor_msgs/Imu: element 0 is -1 where there is no accelerometer.
     if (!R_base_imu_ || imu.linear_acceleration_covariance[0] < 0.0) return;
-    const urban_nav_core::Vector3d felt(imu.linear_acceleration.x, imu.linear_acceleration.y,
-                                        imu.linear_acceleration.z);
-    if (felt.allFinite()) forces_.push_back({urban_nav_ros::toStampNs(imu.header.stamp), *R_base_imu_ * felt});
+    const urban_nav_core::Vector3d force(imu.linear_acceleration.x, imu.linear_acceleration.y,
+                                         imu.linear_acceleration.z);
+    if (force.allFinite()) forces_.push_back({urban_nav_ros::toStampNs(imu.header.stamp), *R_base_imu_ * force});
   }
 
   const SourceOptions options_;
@@ -391,9 +391,9 @@ class BagSource : public Source {
 }  // namespace
 
 std::unique_ptr<Source> openBags(const std::vector<std::string>& paths, const SourceOptions& options,
-                                 const BagEnd* behind) {
+                                 const BagEnd* after) {
   try {
-    return std::make_unique<BagSource>(paths, options, behind);
+    return std::make_unique<BagSource>(paths, options, after);
   } catch (const rosbag::BagException& error) {
     throw DataError(paths.front(), std::string("cannot be read: ") + error.what(),
                     "a whole bag (`rosbag reindex` mends one that was cut off)");

@@ -47,7 +47,7 @@ InputKind inputKind(const std::string& path) {
 }
 
 std::unique_ptr<Source> openSource(const std::vector<std::string>& paths, const SourceOptions& options,
-                                   const BagEnd* behind) {
+                                   const BagEnd* after) {
   const InputKind kind = inputKind(paths.front());
   if (kind != InputKind::Bag && !options.topics.empty())
     throw UserError("--topic " + options.topics.front(), "names a topic, but " + paths.front() + " is a folder",
@@ -56,7 +56,7 @@ std::unique_ptr<Source> openSource(const std::vector<std::string>& paths, const 
     case InputKind::KittiFolder: return openKittiFolder(paths.front(), options);
     case InputKind::NewCollegeFolder: return openNewCollegeFolder(paths.front(), options);
     case InputKind::EurocFolder: return openEurocFolder(paths.front(), options);
-    case InputKind::Bag: return openBags(paths, options, behind);
+    case InputKind::Bag: return openBags(paths, options, after);
   }
   throw UserError(paths.front(), "holds nothing that is known", kKnownInputs);
 }

@@ -23,12 +23,12 @@ struct LaserInput {
   urban_nav_core::Scan scan;
 };
 
-/// Where the reader of a recording stood when it came to the end of a bag behind which the next one may follow.
+/// State of the reader of a recording at the end of a bag, which the next bag may follow.
 struct BagEnd {
   std::size_t bags = 0;                 ///< of the paths it was given, so many have been read
   urban_nav_core::StampNs receipt = 0;  ///< of the last message
   std::string reader;                   ///< its state: what waits, and what has been seen
-  std::vector<LaserInput> scans;        ///< read behind the pair before, up to here
+  std::vector<LaserInput> scans;        ///< read after the pair before, up to here
 };
 
 /// What a Source returns at a time: a decoded pair, and what else was recorded since the previous one.
@@ -66,9 +66,9 @@ class Source {
   virtual std::optional<SourceItem> next() = 0;
   /// What was wrong with the input as a whole: complete when next() has come to the end.
   virtual std::vector<std::string> closingFaults() const { return {}; }
-  /// The end of a bag that no pair came behind: complete when next() has come to the end. Mostly none.
+  /// Returns the end of a bag that no pair follows; null if there is none. Valid after next() has returned nullopt.
   virtual std::shared_ptr<const BagEnd> bagEnd() const { return nullptr; }
-  /// Scans that no pair and no end of a bag came behind: complete when next() has come to the end.
+  /// Returns scans that no pair and no end of a bag follow. Valid after next() has returned nullopt.
   virtual std::vector<LaserInput> scans() const { return {}; }
   /// Returns the specific forces of the input's accelerometer; complete once next() has returned nullopt. Empty without an
   /// accelerometer, or if its extrinsics are not known.

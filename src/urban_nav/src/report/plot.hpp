@@ -14,7 +14,7 @@ struct PlotPoint {
 /// One thing in a plot. Colours are names of the page's palette ("a" the estimate, "b" the truth, "c", "d", "good",
 /// "fair", "bad"), so that they change with the page's light.
 struct Series {
-  enum class Kind { Line, Dashed, Faint, Dots, Band, Bars };  ///< Faint: of many lines that lie behind others
+  enum class Kind { Line, Dashed, Faint, Dots, Band, Bars };  ///< Faint: of many lines, drawn below others
   Kind kind = Kind::Line;
   std::string name;  ///< in the legend; empty: not in it
   std::string colour = "a";
@@ -23,7 +23,7 @@ struct Series {
   double bar_width = 0.0;         ///< Bars: in units of x
 };
 
-/// A stretch of x in another colour behind everything else.
+/// A stretch of x in another colour, drawn below everything else.
 struct Span {
   double from = 0.0, to = 0.0;
   std::string colour;
@@ -39,7 +39,7 @@ struct Plot {
   int width = 600, height = 280;  ///< px at the plot's own size; it scales with the page
 };
 
-/// The plot as an SVG element without fixed colours or fonts, behind a legend in HTML if wanted; empty where there is
+/// The plot as an SVG element without fixed colours or fonts, after a legend in HTML if wanted; empty if there is
 /// nothing finite to draw. Long series are thinned so that extremes stay.
 std::string renderSvg(const Plot& plot, bool with_legend = true);
 

@@ -56,7 +56,8 @@ void judge(GraphRun& run, const ClosureIds& ids, std::size_t known) {
   if (refused > 0) run.warnings.push_back(std::to_string(refused) + " closures could not be used; the first: " + first);
 }
 
-/// With what was felt. The maps of the graph stay as their first poses stood: which way is up is told beside them.
+/// Relaxes with the measured specific forces. The maps stay in the frame of their first poses; GraphRun::levels has the
+/// direction of gravity.
 pose_graph::Relaxed relax(PoseGraph& graph, const std::vector<const VoRun*>& runs) {
   pose_graph::Batch batch = graph.batch();
   for (std::size_t s = 0; s < runs.size(); ++s) batch.forces[s] = runs[s]->forces;

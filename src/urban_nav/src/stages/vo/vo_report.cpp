@@ -220,7 +220,7 @@ std::vector<Section> voSections(const VoRun& run, bool with_path) {
                   timingFigure(run, summary)};
   Section views{"views",
                 "What it saw",
-                "Left images; the line behind a feature is where it was in the frames before. Red is near, blue is "
+                "Left images; the line at a feature is its track over the frames before. Red is near, blue is "
                 "far, grey is not trusted, a ring is new.",
                 {},
                 {},
