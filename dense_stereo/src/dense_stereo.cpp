@@ -9,6 +9,7 @@
 
 #include "matcher.hpp"
 #include "pair_check.hpp"
+#include "paper/paper_matcher.hpp"
 #include "sgm/descriptors.hpp"
 #include "sgm/sgm_matcher.hpp"
 
@@ -22,7 +23,10 @@ namespace {
 constexpr double little = 0.1;           // share of the pixels
 constexpr double equal_exposure = 0.05;  // relative: no more than scenes differ by between two views
 
-std::unique_ptr<Matcher> makeMatcher(const Parameters& parameters) { return std::make_unique<SgmMatcher>(parameters); }
+std::unique_ptr<Matcher> makeMatcher(const Parameters& parameters) {
+  if (parameters.method == "paper") return std::make_unique<PaperMatcher>(parameters);
+  return std::make_unique<SgmMatcher>(parameters);
+}
 
 }  // namespace
 

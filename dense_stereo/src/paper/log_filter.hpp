@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "padded.hpp"
+
+namespace dense_stereo {
+
+/// Laplacian of Gaussian (Marr and Hildreth 1980): binomial smoothing over 5x5 pixels, then the sum of the four
+/// neighbours less four times the pixel. It takes away what differs between the exposures of two images. Result: 128
+/// plus four times that, limited to 65...191. Keeps its memory.
+class LogFilter {
+ public:
+  /// Both images have rows extended by extendRows; so has the result.
+  void apply(const Padded<std::uint8_t>& image, Padded<std::uint8_t>& filtered);
+
+ private:
+  Padded<std::uint16_t> smooth_;       ///< 256 times a grey level
+  std::vector<std::uint16_t> column_;  ///< one row, smoothed down the columns
+};
+
+}  // namespace dense_stereo

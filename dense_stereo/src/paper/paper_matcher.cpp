@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "paper/paper_matcher.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "sgm/semi_global.hpp"
+
+namespace dense_stereo {
+
+namespace {
+
+constexpr int lanes_of_words = 8;
+constexpr double least_rise = 0.06;  // of the second minimum above the first, relative: flatter curves are ambiguous
+constexpr float least_sigma_px = 0.12F;  // what parabolas through sums of absolute differences lock to whole pixels
+constexpr float sigma_per_flatness = 0.06F;
+
+struct CurveMinimum {
+  int disparity = 0, score = 0;
+  int rival = 65535;  ///< the least score at disparities that differ by more than one
+};
+
+CurveMinimum minimumOf(const std::uint16_t* scores, int disparities) {
+  CurveMinimum minimum;
+  minimum.score = 65536;
+  for (int d = 0; d < disparities; d += lanes_of_words) {
+    const auto [score, at] = leastOf(Words::load(scores + d));
+    if (score >= minimum.score) continue;
+    minimum.score = score;
+    minimum.disparity = d + at;
+  }
+  for (int d = 0; d < disparities; ++d)
+    if (std::abs(d - minimum.disparity) > 1) minimum.rival = std::min<int>(minimum.rival, scores[d]);
+  return minimum;
+}
+
+}  // namespace
+
+void PaperMatcher::match(const MatcherInput& input, DisparityImage& image) {
+  const int disparities = std::min((parameters_.disparities + 15) / 16 * 16, 240);
+  filter_.apply(input.left, left_);
+  filter_.apply(input.right, right_);
+  whole_.resize(image.width, image.height);
+  windows_.begin(left_, right_, disparities);
+  for (int v = 0; v < image.height; ++v) matchRow(windows_.next(), v, disparities, image);
+  components_.remove(whole_, parameters_.min_component);
+  for (int v = 0; v < image.height; ++v)
+    for (int u = 0; u < image.width; ++u) {
+      if (whole_.row(v)[u] != Winners::invalid) continue;
+      image.disparity[image.index(u, v)] = DisparityImage::invalid;
+      image.variance[image.index(u, v)] = 0.0F;
+    }
+}
+
+void PaperMatcher::matchRow(const ScoreRow& row, int v, int disparities, DisparityImage& image) {
+  std::uint8_t* whole = whole_.row(v);
+  const auto largest = static_cast<float>(parameters_.max_sigma * parameters_.max_sigma);
+  for (int u = 0; u < image.width; ++u) {
+    whole[u] = Winners::invalid;
+    const std::uint16_t* scores = row.scores + static_cast<std::ptrdiff_t>(u) * disparities;
+    const CurveMinimum minimum = minimumOf(scores, disparities);
+    const int d = minimum.disparity;
+    if (d > u || std::abs(row.right_disparity[u - d] - d) > 1) continue;
+    if (minimum.rival < (1.0 + least_rise) * minimum.score) continue;
+    const bool is_inside = d > 0 && d + 1 < disparities && d + 1 <= u;
+    const int before = is_inside ? scores[d - 1] : 0, after = is_inside ? scores[d + 1] : 0;
+    const auto curvature = static_cast<float>(is_inside ? before + after - 2 * minimum.score : 0);
+    if (curvature <= 0.0F) continue;
+    const float flatness = static_cast<float>(minimum.score) / curvature;
+    const float sigma = sigma_per_flatness * flatness;
+    const float variance = least_sigma_px * least_sigma_px + sigma * sigma;
+    if (variance > largest) continue;
+    whole[u] = static_cast<std::uint8_t>(d);
+    const std::size_t at = image.index(u, v);
+    image.disparity[at] = static_cast<float>(d) + 0.5F * static_cast<float>(before - after) / curvature;
+    image.variance[at] = variance;
+  }
+}
+
+}  // namespace dense_stereo

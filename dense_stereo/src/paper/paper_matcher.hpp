@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "dense_stereo/parameters.hpp"
+#include "filter/components.hpp"
+#include "matcher.hpp"
+#include "paper/log_filter.hpp"
+#include "paper/supporting_windows.hpp"
+#include "paper/words.hpp"
+
+namespace dense_stereo {
+
+/// The method `paper` (Newman et al. 2009, section 6.2): Laplacian of Gaussian, supporting windows, left/right check,
+/// flat correlation curves rejected, parabola through the minimum, small components removed. The variance follows
+/// from the parabola's curvature.
+class PaperMatcher final : public Matcher {
+ public:
+  explicit PaperMatcher(const Parameters& parameters) : parameters_(parameters) {}
+  void match(const MatcherInput& input, DisparityImage& image) override;
+
+ private:
+  void matchRow(const ScoreRow& row, int v, int disparities, DisparityImage& image);
+
+  Parameters parameters_;
+  LogFilter filter_;
+  Padded<std::uint8_t> left_, right_;
+  SupportingWindows<Words> windows_;
+  Padded<std::uint8_t> whole_;  ///< rounded disparities, 255 for invalid
+  SmallComponents components_;
+};
+
+}  // namespace dense_stereo
