@@ -10,6 +10,7 @@
 #include "matcher.hpp"
 #include "pair_check.hpp"
 #include "paper/paper_matcher.hpp"
+#include "row_offset.hpp"
 #include "sgm/descriptors.hpp"
 #include "sgm/sgm_matcher.hpp"
 
@@ -20,8 +21,10 @@ using urban_nav_core::ImageView;
 
 namespace {
 
-constexpr double little = 0.1;           // share of the pixels
-constexpr double equal_exposure = 0.05;  // relative: no more than scenes differ by between two views
+constexpr double little = 0.1;              // share of the pixels
+constexpr double well_matched = 0.5;        // share of the pixels
+constexpr double largest_row_offset = 0.5;  // px
+constexpr double equal_exposure = 0.05;     // relative: no more than scenes differ by between two views
 
 std::unique_ptr<Matcher> makeMatcher(const Parameters& parameters) {
   if (parameters.method == "paper") return std::make_unique<PaperMatcher>(parameters);
@@ -38,7 +41,8 @@ const char* toString(Reason reason) {
 
 class DenseStereo::Implementation {
  public:
-  explicit Implementation(const Parameters& parameters) : matcher_(makeMatcher(parameters)) {}
+  explicit Implementation(const Parameters& parameters)
+      : disparities_(parameters.disparities), matcher_(makeMatcher(parameters)) {}
 
   const StereoResult& process(const urban_nav_core::StereoPair& pair) {
     const PairCheck check = checkPair(pair);
@@ -49,6 +53,7 @@ class DenseStereo::Implementation {
     copy(pair.right, compensate ? check.exposure : 1.0, compensate ? check.offset : 0.0, right_);
     matcher_->match({left_, right_}, result_.image);
     count();
+    checkRows();
     return result_;
   }
 
@@ -92,6 +97,22 @@ class DenseStereo::Implementation {
     result_.status = {Health::Degraded, static_cast<int>(Reason::LittleMatched), text};
   }
 
+  /// Rectified images agree to a few tenths of a row; beyond half a row disparities are wrong at slanted edges,
+  /// beyond two little is matched.
+  void checkRows() {
+    if (result_.answered > well_matched) {
+      result_.row_offset = matchedRowOffset(left_, right_, result_.image).value_or(0.0);
+    } else {
+      result_.row_offset = searchedRowOffset(left_, right_, disparities_).value_or(0);
+    }
+    if (std::abs(result_.row_offset) < largest_row_offset) return;
+    char text[100];
+    std::snprintf(text, sizeof text, "rows disagree: the right image shows everything %.1f px %s than the left one",
+                  std::abs(result_.row_offset), result_.row_offset > 0.0 ? "lower" : "higher");
+    result_.status = {Health::Degraded, static_cast<int>(Reason::RowsDisagree), text};
+  }
+
+  int disparities_;
   std::unique_ptr<Matcher> matcher_;
   Padded<std::uint8_t> left_, right_;
   StereoResult result_;

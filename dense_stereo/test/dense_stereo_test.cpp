@@ -67,6 +67,22 @@ TEST(DenseStereo, AnswersMissingAndUnequalImagesWithAStatus) {
   EXPECT_NE(result.status.sentence.find("272x192"), std::string::npos) << result.status.sentence;
 }
 
+TEST(DenseStereo, ReportsByHowMuchRowsDisagree) {
+  const SlantedPair scene(256, 192, 20.3, 0.0, 0.0, 1.0);
+  DenseStereo stereo{Parameters()};
+  EXPECT_NEAR(stereo.process(scene.pair()).row_offset, 0.0, 0.1);
+  for (const int rows : {1, 3, 5}) {
+    urban_nav_core::StereoPair pair =
+        scene.pair();  // the right image starts above the left one: it shows everything lower
+    pair.left.data += rows * pair.left.stride;
+    pair.left.height -= rows;
+    pair.right.height -= rows;
+    const StereoResult& result = stereo.process(pair);
+    EXPECT_EQ(result.status.reason, static_cast<int>(Reason::RowsDisagree)) << rows << ": " << result.status.sentence;
+    EXPECT_NEAR(result.row_offset, rows, 0.5) << result.status.sentence;
+  }
+}
+
 TEST(DenseStereo, EveryAnswerIsFiniteAndHasAPositiveVariance) {
   const SlantedPair scene(250, 190, 20.3, 0.04, 0.09, 1.0);
   DenseStereo stereo{Parameters()};
