@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Keeps the tables of the READMEs equal to the measurements they show.
+"""Keeps the tables of the documents equal to the measurements they show.
 
-`<!-- table: swf_vo/bench/accuracy -->` ... `<!-- end -->` in any README.md holds the rendering of
+`<!-- table: swf_vo/bench/accuracy -->` ... `<!-- end -->` in any README.md or file of docs/ holds the rendering of
 swf_vo/bench/results/accuracy.json: {"columns": [...], "rows": [[...], ...], "machine": ..., "commit": ..., "command": ..., "notes": [...]}.
 Without an option the texts are compared and a difference is an error; --write renders them anew.
 """
@@ -18,8 +18,9 @@ TABLE = re.compile(r"(<!-- table: (\S+) -->\n)(.*?)(<!-- end -->)", re.S)
 START = re.compile(r"<!-- table:")
 
 
-def readmes():
-    return sorted(p for p in ROOT.rglob("README.md") if p.relative_to(ROOT).parts[0] not in ("build", "out", ".git"))
+def documents():
+    found = [*ROOT.rglob("README.md"), *(ROOT / "docs").rglob("*.md")]
+    return sorted({p for p in found if p.relative_to(ROOT).parts[0] not in ("build", "out", ".git")})
 
 
 def render(name):
@@ -42,10 +43,10 @@ def render(name):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--write", action="store_true", help="render the tables into the READMEs")
+    parser.add_argument("--write", action="store_true", help="render the tables into the documents")
     write = parser.parse_args().write
     errors = 0
-    for path in readmes():
+    for path in documents():
         old = path.read_text()
         try:
             if len(START.findall(old)) != len(TABLE.findall(old)):
