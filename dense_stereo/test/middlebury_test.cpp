@@ -12,7 +12,7 @@ namespace dense_stereo {
 namespace {
 
 /// A Middlebury pair with truth; skipped where the data are absent.
-class MiddleburyPair : public testing::TestWithParam<const char*> {
+class MiddleburyPair : public ::testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
     const char* data = std::getenv("URBAN_NAV_DATA");
@@ -58,7 +58,7 @@ TEST_P(MiddleburyPair, IsReportedWhenSwapped) {
   EXPECT_EQ(stereo.process({0, view(right), view(left)}).status.reason, static_cast<int>(Reason::Swapped));
 }
 
-INSTANTIATE_TEST_SUITE_P(QuarterSize, MiddleburyPair, testing::Values("teddy", "cones"));
+INSTANTIATE_TEST_SUITE_P(QuarterSize, MiddleburyPair, ::testing::Values("teddy", "cones"));
 
 TEST(Unmatched, ImagesOfNoiseAreLeftEmpty) {
   cv::Mat left(240, 320, CV_8UC1), right(240, 320, CV_8UC1);

@@ -20,7 +20,7 @@ namespace {
 
 // Five seconds at 20 Hz: odometry that is further behind has dropped frames. 40 MB at 512x384.
 constexpr std::size_t most_pairs = 100;
-constexpr std::size_t most_poses = 1000;
+constexpr std::size_t most_view_poses = 1000;
 
 StampNs nanoseconds(double seconds) { return static_cast<StampNs>(std::llround(seconds * 1e9)); }
 
@@ -113,7 +113,7 @@ void Views::hear(const urban_nav_core::StampedPose& odometry) {
   }
   newest_pose_ = odometry.stamp;
   odometry_.push_back(odometry);
-  if (odometry_.size() > most_poses) odometry_.pop_front();
+  if (odometry_.size() > most_view_poses) odometry_.pop_front();
 }
 
 std::vector<urban_nav_store::StoredKeyframe> Views::take() {

@@ -28,7 +28,7 @@ namespace {
 
 constexpr std::size_t kept_matches = 8;  // some 50 kB each
 
-std::string words(const char* format, double value, double threshold) {
+std::string closureReason(const char* format, double value, double threshold) {
   std::array<char, 200> text{};
   std::snprintf(text.data(), text.size(), format, value, threshold);
   return text.data();
@@ -81,9 +81,10 @@ class Measuring {
     if (gate_) {
       const double apart = gate_->leastDistance(parameters_.gate);
       if (!test("least_distance_m", apart, parameters_.place_radius))
-        return refuse(LoopReason::Odometry,
-                      words("by odometry the places are %.0f m apart at least: more than %.0f m are not one place",
-                            apart, parameters_.place_radius));
+        return refuse(
+            LoopReason::Odometry,
+            closureReason("by odometry the places are %.0f m apart at least: more than %.0f m are not one place", apart,
+                          parameters_.place_radius));
     }
     if (parameters_.stereo && byStereo()) return;
     if (parameters_.icp && byClouds()) return;
@@ -149,8 +150,8 @@ class Measuring {
     metric.free_directions = free_directions;
     const double apart = measured.T_a_b.t().norm();
     if (!test("distance_m", apart, parameters_.place_radius)) {
-      refuse(LoopReason::OtherPlace, words("the moments are %.1f m apart: more than %.1f m are not one place", apart,
-                                           parameters_.place_radius));
+      refuse(LoopReason::OtherPlace, closureReason("the moments are %.1f m apart: more than %.1f m are not one place",
+                                                   apart, parameters_.place_radius));
       return false;
     }
     if (gate_) {
@@ -158,8 +159,8 @@ class Measuring {
       if (!test(method == ClosureMethod::Stereo ? "stereo_against_odometry" : "icp_against_odometry", deviations,
                 parameters_.gate)) {
         refuse(LoopReason::Odometry,
-               words("the transform is %.1f standard deviations off what odometry says, at most %.1f allowed",
-                     deviations, parameters_.gate));
+               closureReason("the transform is %.1f standard deviations off what odometry says, at most %.1f allowed",
+                             deviations, parameters_.gate));
         return false;
       }
       metric.odometry_gate = true;

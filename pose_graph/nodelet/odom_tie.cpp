@@ -8,7 +8,7 @@ namespace pose_graph {
 namespace {
 
 // A stamp that lies this far back is a bag that began again or a clock that was set, not a late message.
-constexpr StampNs kBack = 1'000'000'000;
+constexpr StampNs kTieBack = 1'000'000'000;
 // Odometry of which the graph hears nothing: 10 minutes at 20 Hz, after which it will not come any more.
 constexpr std::size_t kMost = 12'000;
 
@@ -19,7 +19,7 @@ bool isIdentity(const Pose& pose) { return isApprox(pose, Pose(), kRoundOff); }
 }  // namespace
 
 void OdomTie::hear(const urban_nav_core::StampedPose& odometry) {
-  const bool back = !heard_.empty() && odometry.stamp < heard_.rbegin()->first - kBack;
+  const bool back = !heard_.empty() && odometry.stamp < heard_.rbegin()->first - kTieBack;
   const bool anew = isIdentity(odometry.pose) && (heard_.empty() || !isIdentity(heard_.rbegin()->second));
   if (back || anew) {
     heard_.clear();

@@ -12,8 +12,8 @@ using urban_nav_core::ImageView;
 
 namespace {
 
-constexpr int column_step = 4, row_step = 4;
-constexpr int reach = 3;           // px: over which the slope of an edge is taken
+constexpr int edge_column_step = 4, edge_row_step = 4;
+constexpr int edge_reach = 3;      // px: over which the slope of an edge is taken
 constexpr int steepest_part = 50;  // one in so many places: edges, even where most of the scene is smooth
 
 /// Places by how much the image rises over `reach` pixels there, and the squared change of its slope.
@@ -32,7 +32,7 @@ struct Rises {
     std::int64_t wanted = places / steepest_part + 1;
     double slopes = 0.0, curved = 0.0;
     for (std::size_t rise = count.size() - 1; rise > 0 && wanted > 0; --rise) {
-      const double r = static_cast<double>(rise) / reach;
+      const double r = static_cast<double>(rise) / edge_reach;
       slopes += static_cast<double>(count[rise]) * r * r;
       curved += static_cast<double>(bends[rise]);
       wanted -= count[rise];
@@ -49,9 +49,9 @@ constexpr double scenes_differ = 2.0;  // times
 Eigen::Vector2d edgeVariance(const ImageView& image) {
   Rises across, down;
   std::int64_t places = 0;
-  for (int v = 0; v + reach < image.height; v += row_step) {
+  for (int v = 0; v + edge_reach < image.height; v += edge_row_step) {
     const std::uint8_t *p = image.row(v), *q = image.row(v + 1), *r = image.row(v + 2), *s = image.row(v + 3);
-    for (int u = 0; u + reach < image.width; u += column_step, ++places) {
+    for (int u = 0; u + edge_reach < image.width; u += edge_column_step, ++places) {
       across.add(p[u], p[u + 1], p[u + 2], p[u + 3]);
       down.add(p[u], q[u], r[u], s[u]);
     }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "output.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "health/health.hpp"
+#include "prediction.hpp"
 #include "urban_nav_core/geometry/compose.hpp"
+#include "urban_nav_core/geometry/small_matrices.hpp"
 #include "urban_nav_core/io/archive_types.hpp"
 
 namespace swf_vo {
@@ -21,7 +22,7 @@ using urban_nav_core::Status;
 namespace {
 
 bool isProper(const urban_nav_core::Matrix6d& covariance) {
-  return Eigen::LLT<urban_nav_core::Matrix6d>(covariance).info() == Eigen::Success;
+  return urban_nav_core::SmallCholesky<6>(covariance).succeeded();
 }
 
 Matrix6d moved(const Matrix6d& covariance, const Matrix6d& jacobian) {
@@ -31,10 +32,6 @@ Matrix6d moved(const Matrix6d& covariance, const Matrix6d& jacobian) {
 
 // Pictures and clouds show what is near enough to mean something.
 constexpr double far_away = 200.0;  // m
-
-// What is said of the velocity in the first frame of a session.
-constexpr double unknown_speed = 10.0;         // m/s
-constexpr double unknown_angular_speed = 1.0;  // rad/s
 
 // Landmarks whose first frame is remembered, before those that have left are forgotten.
 constexpr std::size_t largest_memory = 16384;
@@ -109,7 +106,8 @@ Velocity Output::velocity(FrameId frame, StampNs stamp, bool lost, const Window&
   // Steps that follow one another are known about equally well, so the last settled one speaks for this one, unless nothing was
   // measured: then the process model alone does.
   const bool settled = !lost && !step_covariance_.isZero();
-  const Matrix6d covariance = settled ? step_covariance_ : moved(u.information.inverse(), outer.J1 * inner.J2);
+  const Matrix6d covariance =
+      settled ? step_covariance_ : moved(urban_nav_core::inverseByLu<6>(u.information), outer.J1 * inner.J2);
   velocity.covariance = covariance / (seconds * seconds);
   return velocity;
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "prediction.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "urban_nav_core/geometry/small_matrices.hpp"
 #include "urban_nav_core/types/stamp.hpp"
 
 namespace swf_vo {
@@ -21,9 +21,6 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
-// Before the first step nothing is known of the velocity: a walking or slowly driving robot, or a car at 15 m/s.
-constexpr double unknown_speed = 10.0;         // m/s
-constexpr double unknown_angular_speed = 1.0;  // rad/s
 // Good images in which nothing is found where the velocity says, so many times in a row: the velocity is wrong.
 constexpr int patience = 3;
 
@@ -91,7 +88,7 @@ ProcessInput Prediction::step(double seconds, const std::vector<MotionInput>& in
   // Two measurements of one step, fused in the tangent at the prediction.
   const Vector6d offset = boxMinus(camera, u.T_from_to);
   const Matrix6d sum = u.information + information;
-  u.T_from_to = boxPlus(u.T_from_to, sum.ldlt().solve(information * offset));
+  u.T_from_to = boxPlus(u.T_from_to, urban_nav_core::solveByLdlt<6, 1>(sum, information * offset));
   u.information = sum;
   return u;
 }

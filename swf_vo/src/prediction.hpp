@@ -11,6 +11,10 @@
 
 namespace swf_vo {
 
+/// Standard deviation of a velocity of which nothing is known: a walking or slowly driving robot, or a car at 15 m/s.
+constexpr double unknown_speed = 10.0;         // m/s
+constexpr double unknown_angular_speed = 1.0;  // rad/s
+
 /// The input of the process model (eq. 1) from what is known: constant velocity, and where there is one, a measured u.
 ///
 /// Without u: the motion of the last step goes on at the same velocity, with white noise on the acceleration: sigma = a dt^2. It is weak on

@@ -15,8 +15,8 @@ using urban_nav_core::testing::lookingAlong;
 using urban_nav_core::testing::Motion;
 using urban_nav_core::testing::RoomSize;
 
-constexpr int standing = 10, creeping = 50;  // frames at 20 Hz
-constexpr double speed = 0.02;               // m/s
+constexpr int standing_frames = 10, creeping_frames = 50;  // frames at 20 Hz
+constexpr double speed = 0.02;                             // m/s
 
 struct Start {
   const char* name;
@@ -26,24 +26,24 @@ struct Start {
 };
 void PrintTo(const Start& start, std::ostream* out) { *out << start.name << ", noise " << start.noise; }
 
-class Creep : public testing::TestWithParam<Start> {};
+class Creep : public ::testing::TestWithParam<Start> {};
 
 TEST_P(Creep, theFirstFiveCentimetresAreRightToATenth) {
   const Start& start = GetParam();
   const Pose first = lookingAlong({-RoomSize().freeX(), 0.3, 1.1}, start.yaw);
   const Motion motion = [&](double t) {
-    const double way = speed * std::max(0.0, t - standing / 20.0);
+    const double way = speed * std::max(0.0, t - standing_frames / 20.0);
     return first * Pose(Eigen::Quaterniond::Identity(), way * start.direction);
   };
-  const Recording room = inTheRoom(motion, start.noise, standing + creeping + 1);
+  const Recording room = inTheRoom(motion, start.noise, standing_frames + creeping_frames + 1);
   SwfVo filter(Parameters(), room.camera, Pose());
   double last = 0.0;
   Vector3d stood = Vector3d::Zero(), went = Vector3d::Zero();
-  for (int i = 0; i <= standing + creeping; ++i) {
+  for (int i = 0; i <= standing_frames + creeping_frames; ++i) {
     const Pose now = filter.process(room.frames[static_cast<std::size_t>(i)].pair()).T_odom_base.pose;
-    if (i == standing) stood = now.t();
+    if (i == standing_frames) stood = now.t();
     went = now.t() - stood;
-    if (i > standing) {
+    if (i > standing_frames) {
       EXPECT_NEAR(went.dot(start.direction) - last, 0.001, 0.002) << "a jump at " << i;
     }
     last = went.dot(start.direction);
@@ -53,9 +53,9 @@ TEST_P(Creep, theFirstFiveCentimetresAreRightToATenth) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, Creep,
-                         testing::Values(Start{"forward", Vector3d::UnitZ(), 0.0, 1.0},
-                                         Start{"sideways", Vector3d::UnitX(), 0.4, 2.0},
-                                         Start{"backward, slantwise", Vector3d(0.6, 0.0, -0.8), -0.5, 3.0}));
+                         ::testing::Values(Start{"forward", Vector3d::UnitZ(), 0.0, 1.0},
+                                           Start{"sideways", Vector3d::UnitX(), 0.4, 2.0},
+                                           Start{"backward, slantwise", Vector3d(0.6, 0.0, -0.8), -0.5, 3.0}));
 
 }  // namespace
 }  // namespace swf_vo

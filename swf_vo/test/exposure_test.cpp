@@ -15,16 +15,16 @@ using urban_nav_core::distanceBetween;
 using urban_nav_core::Pose;
 using urban_nav_core::testing::GreyImage;
 
-struct Outcome {
+struct ExposureOutcome {
   double squares = 0.0;  ///< of the position's error, m^2, mean
   double nees = 0.0;     ///< mean
 };
 
 /// `gain`: of the light, by the number of the frame.
 template <typename Gain>
-Outcome follow(const Recording& room, const Gain& gain) {
+ExposureOutcome follow(const Recording& room, const Gain& gain) {
   SwfVo filter(Parameters(), room.camera, Pose());
-  Outcome outcome;
+  ExposureOutcome outcome;
   int count = 0;
   for (std::size_t i = 0; i < room.frames.size(); ++i) {
     auto frame = room.frames[i];
@@ -48,7 +48,7 @@ TEST(ChangingExposure, isNotTakenForMotion) {
   for (const char* motion : {"loop", "turns"}) {
     const Recording& room = inTheRoom(motion, 1.0, 80);
     usual += follow(room, [](double) { return 1.0; }).squares;
-    const Outcome outcome = follow(room, [](double i) { return 1.6 + 0.4 * std::sin(0.25 * i); });
+    const ExposureOutcome outcome = follow(room, [](double i) { return 1.6 + 0.4 * std::sin(0.25 * i); });
     changing += outcome.squares;
     nees += outcome.nees / 2.0;
   }

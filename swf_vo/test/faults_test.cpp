@@ -29,15 +29,15 @@ struct Trouble {
 void PrintTo(const Trouble& trouble, std::ostream* out) { *out << trouble.fault; }
 
 /// What became of a recording.
-struct Outcome {
+struct FaultOutcome {
   int named = -1;  ///< frames that arrived from the first of the fault until it was called by its name
   Frame last;      ///< the last that was accepted
   Pose truth;      ///< of that
   double error() const { return distanceBetween(truth, last.T_odom_base.pose); }
 };
 
-Outcome play(const Recording& recording, const Trouble& trouble) {
-  Outcome outcome;
+FaultOutcome play(const Recording& recording, const Trouble& trouble) {
+  FaultOutcome outcome;
   playWithFault(recording, trouble.fault, [&](const Played& played) {
     const Frame& now = played.frame;
     expectProper(now);
@@ -53,7 +53,7 @@ Outcome play(const Recording& recording, const Trouble& trouble) {
 }
 
 // The fault after all frames is none.
-Outcome undisturbed(const Recording& recording) { return play(recording, {"black:1000:1", {}}); }
+FaultOutcome undisturbed(const Recording& recording) { return play(recording, {"black:1000:1", {}}); }
 
 double lengthOf(const Recording& recording) {
   double sum = 0.0;
@@ -62,7 +62,7 @@ double lengthOf(const Recording& recording) {
   return sum;
 }
 
-void expectNamedAndOvercome(const Outcome& outcome) {
+void expectNamedAndOvercome(const FaultOutcome& outcome) {
   EXPECT_GE(outcome.named, 0) << "never named";
   EXPECT_LE(outcome.named, 2) << "named late";
   EXPECT_NE(outcome.last.status.health, Health::Lost) << "did not recover: " << outcome.last.status;
@@ -131,7 +131,7 @@ TEST(GapOnWheels, isCrossed) {
   }
 }
 
-class FaultsInTheRoom : public testing::TestWithParam<Trouble> {};
+class FaultsInTheRoom : public ::testing::TestWithParam<Trouble> {};
 
 // One end point is a throw of dice: three of them, root mean square.
 TEST_P(FaultsInTheRoom, areNamedWithinTwoFramesAndOvercome) {
@@ -140,7 +140,7 @@ TEST_P(FaultsInTheRoom, areNamedWithinTwoFramesAndOvercome) {
   for (const char* motion : {"loop", "wander", "turns"}) {
     SCOPED_TRACE(motion);
     const Recording& room = inTheRoom(motion, 1.0, 80);
-    const Outcome outcome = play(room, GetParam());
+    const FaultOutcome outcome = play(room, GetParam());
     expectNamedAndOvercome(outcome);
     squares += std::pow(outcome.error(), 2);
     usual += std::pow(undisturbedError(motion), 2);
@@ -152,15 +152,15 @@ TEST_P(FaultsInTheRoom, areNamedWithinTwoFramesAndOvercome) {
 
 INSTANTIATE_TEST_SUITE_P(
     Each, FaultsInTheRoom,
-    testing::Values(Trouble{"black:1.5:1", {Reason::Dark}}, Trouble{"freeze:1.5:1", {Reason::Frozen}},
-                    Trouble{"swap:1.5:1", {Reason::Swapped}}, Trouble{"drop:1.5:1", {Reason::Gap}},
-                    Trouble{"drop:1:10:0.3", {Reason::Gap}}, Trouble{"noleft:1.5:1", {Reason::ImageMissing}},
-                    Trouble{"noright:1.5:1", {Reason::ImageMissing}}, Trouble{"equal:1.5:0.5", {Reason::BadStamp}},
-                    Trouble{"backward:1.5:0.5", {Reason::BadStamp}},
-                    Trouble{"overexpose:1.5:1", {Reason::ExposureJump, Reason::Dark}},
-                    Trouble{"blur:1.5:1", {Reason::Blurred}}, Trouble{"blur:1.5:1:2", {Reason::Blurred}},
-                    Trouble{"corrupt:1.5:1", {Reason::Corrupted}}, Trouble{"corrupt:1.5:1:0.1", {Reason::Corrupted}},
-                    Trouble{"corrupt:1.5:1:0.6", {Reason::Corrupted}}));
+    ::testing::Values(Trouble{"black:1.5:1", {Reason::Dark}}, Trouble{"freeze:1.5:1", {Reason::Frozen}},
+                      Trouble{"swap:1.5:1", {Reason::Swapped}}, Trouble{"drop:1.5:1", {Reason::Gap}},
+                      Trouble{"drop:1:10:0.3", {Reason::Gap}}, Trouble{"noleft:1.5:1", {Reason::ImageMissing}},
+                      Trouble{"noright:1.5:1", {Reason::ImageMissing}}, Trouble{"equal:1.5:0.5", {Reason::BadStamp}},
+                      Trouble{"backward:1.5:0.5", {Reason::BadStamp}},
+                      Trouble{"overexpose:1.5:1", {Reason::ExposureJump, Reason::Dark}},
+                      Trouble{"blur:1.5:1", {Reason::Blurred}}, Trouble{"blur:1.5:1:2", {Reason::Blurred}},
+                      Trouble{"corrupt:1.5:1", {Reason::Corrupted}}, Trouble{"corrupt:1.5:1:0.1", {Reason::Corrupted}},
+                      Trouble{"corrupt:1.5:1:0.6", {Reason::Corrupted}}));
 
 // kitti_raw_0926_0005: a car in a bend, with a van ahead. Frames 20 to 90 (28 m) for the faults, 46 to 146 for turning fast.
 struct Street {
@@ -196,17 +196,17 @@ const Street* street() {
 // The truth is from a laser: a common scale of half a per cent is within what the calibrations of laser and camera can differ by (the folder's
 // README), so the distance has that as its own error. Nothing is stated of its headings, and the undisturbed run is 0.2 deg from them where the
 // filter, which takes the calibration as exact, says 0.02: of those the test says nothing.
-bool isWithinWhatIsStated(const Outcome& outcome, double length) {
+bool isWithinWhatIsStated(const FaultOutcome& outcome, double length) {
   PoseWithCovariance end = outcome.last.T_odom_base;
   end.covariance.topLeftCorner<3, 3>() += std::pow(0.005 * length, 2) * Eigen::Matrix3d::Identity();
   return urban_nav_core::neesTranslation(outcome.truth, end).value() < chiSquareQuantile(0.99, 3.0);
 }
 
-class FaultsInTheStreet : public testing::TestWithParam<Trouble> {};
+class FaultsInTheStreet : public ::testing::TestWithParam<Trouble> {};
 
 TEST_P(FaultsInTheStreet, areNamedWithinTwoFramesAndOvercome) {
   if (street() == nullptr) GTEST_SKIP() << "URBAN_NAV_DATA names no folder with stereo/kitti_raw_0926_0005";
-  const Outcome outcome = play(street()->faults, GetParam());
+  const FaultOutcome outcome = play(street()->faults, GetParam());
   expectNamedAndOvercome(outcome);
   EXPECT_LT(outcome.error(), 2.0 * street()->usual);
   EXPECT_TRUE(isWithinWhatIsStated(outcome, lengthOf(street()->faults))) << "off by " << outcome.error() << " m";
@@ -214,14 +214,14 @@ TEST_P(FaultsInTheStreet, areNamedWithinTwoFramesAndOvercome) {
 
 INSTANTIATE_TEST_SUITE_P(
     Each, FaultsInTheStreet,
-    testing::Values(Trouble{"black:1.5:1", {Reason::Dark}}, Trouble{"freeze:1.5:1", {Reason::Frozen}},
-                    Trouble{"swap:1.5:1", {Reason::Swapped}}, Trouble{"drop:1.5:1", {Reason::Gap}},
-                    Trouble{"drop:1:10:0.3", {Reason::Gap}},
-                    Trouble{"overexpose:1.5:1", {Reason::ExposureJump, Reason::Dark}},
-                    Trouble{"blur:1.5:1", {Reason::Blurred}}, Trouble{"blur:1.5:1:2", {Reason::Blurred}},
-                    Trouble{"corrupt:1.5:1", {Reason::Corrupted}}, Trouble{"corrupt:1.5:1:0.1", {Reason::Corrupted}},
-                    Trouble{"corrupt:1.5:1:0.6", {Reason::Corrupted}},
-                    Trouble{"backward:1.5:0.5", {Reason::BadStamp}}));
+    ::testing::Values(Trouble{"black:1.5:1", {Reason::Dark}}, Trouble{"freeze:1.5:1", {Reason::Frozen}},
+                      Trouble{"swap:1.5:1", {Reason::Swapped}}, Trouble{"drop:1.5:1", {Reason::Gap}},
+                      Trouble{"drop:1:10:0.3", {Reason::Gap}},
+                      Trouble{"overexpose:1.5:1", {Reason::ExposureJump, Reason::Dark}},
+                      Trouble{"blur:1.5:1", {Reason::Blurred}}, Trouble{"blur:1.5:1:2", {Reason::Blurred}},
+                      Trouble{"corrupt:1.5:1", {Reason::Corrupted}}, Trouble{"corrupt:1.5:1:0.1", {Reason::Corrupted}},
+                      Trouble{"corrupt:1.5:1:0.6", {Reason::Corrupted}},
+                      Trouble{"backward:1.5:0.5", {Reason::BadStamp}}));
 
 // A fault of the motion, not of the images: followed, it needs no name. Of real frames every fourth, at the pace of all, turns through the bend at
 // 59 deg/s, and goes at 20 m/s. From each of the first four frames, root mean square, since one end point is a throw of dice.
@@ -237,7 +237,7 @@ TEST(Turning, sixtyDegreesASecondAreFollowedInTheStreet) {
       most = std::max(most, angleBetween(fast.truth[i - 1], fast.truth[i]) /
                                 urban_nav_core::secondsBetween(fast.frames[i - 1].stamp, fast.frames[i].stamp));
     EXPECT_GT(most, 57.0 * M_PI / 180.0);
-    const Outcome outcome = undisturbed(fast);
+    const FaultOutcome outcome = undisturbed(fast);
     EXPECT_EQ(outcome.last.status.health, Health::Ok) << first << ": " << outcome.last.status;
     EXPECT_TRUE(isWithinWhatIsStated(outcome, lengthOf(fast))) << first << ": off by " << outcome.error() << " m";
     squares += std::pow(outcome.error(), 2);
@@ -248,7 +248,7 @@ TEST(Turning, sixtyDegreesASecondAreFollowedInTheStreet) {
 
 TEST(Turning, sixtyDegreesASecondAreFollowedInTheRoom) {
   const Recording& room = inTheRoom("spin", 1.0, 70);
-  const Outcome outcome = undisturbed(room);
+  const FaultOutcome outcome = undisturbed(room);
   EXPECT_EQ(outcome.last.status.health, Health::Ok) << outcome.last.status;
   EXPECT_GT(angleBetween(room.truth[68], room.truth[69]), 0.05);
   EXPECT_LT(urban_nav_core::nees(outcome.truth, outcome.last.T_odom_base).value(), chiSquareQuantile(0.99, 6.0));

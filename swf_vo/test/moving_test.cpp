@@ -21,9 +21,9 @@ using urban_nav_core::testing::SequenceOptions;
 using urban_nav_core::testing::straight;
 using urban_nav_core::testing::texturedRoom;
 
-constexpr double ahead = 2.5, width = 1.5, height = 1.7,
+constexpr double ahead = 2.5, van_width = 1.5, van_height = 1.7,
                  depth = 1.0;  // m, of the van's rear from the camera at the start
-constexpr int frames = 45;
+constexpr int moving_frames = 45;
 
 struct Drive {
   const char* name;
@@ -31,12 +31,13 @@ struct Drive {
 };
 void PrintTo(const Drive& drive, std::ostream* out) { *out << drive.name; }
 
-class Van : public testing::TestWithParam<Drive> {};
+class Van : public ::testing::TestWithParam<Drive> {};
 
 // Features on the van's rear, as a share of all.
 double shareOnTheVan(const Frame& frame, double distance) {
-  const auto camera = smallCamera();
-  const double half = camera.fx * 0.5 * width / distance, top = camera.cy - camera.fy * (height - 1.1) / distance;
+  const auto camera = roomCamera();
+  const double half = camera.fx * 0.5 * van_width / distance,
+               top = camera.cy - camera.fy * (van_height - 1.1) / distance;
   const auto on = std::count_if(frame.features.begin(), frame.features.end(), [&](const Feature& feature) {
     return std::abs(feature.pixel.x() - camera.cx) < half && feature.pixel.y() > top;
   });
@@ -51,15 +52,16 @@ TEST_P(Van, doesNotCarryTheEstimateAway) {
   const auto scene = [&](double t) {
     Scene now = room;
     const Vector3d rear = start.t() + Vector3d(ahead + 0.5 * depth + GetParam().way(t, own(t)), 0.0, -1.1);
-    now.addBox(Pose(Eigen::Quaterniond::Identity(), rear), {depth, width, height}, room.rectangles.back().texture, 1.0);
+    now.addBox(Pose(Eigen::Quaterniond::Identity(), rear), {depth, van_width, van_height},
+               room.rectangles.back().texture, 1.0);
     return now;
   };
   SequenceOptions options;
-  options.camera = smallCamera();
+  options.camera = roomCamera();
   options.noise = 2.0;
   RenderedSequence sequence(scene, motion, options);
   SwfVo filter(Parameters(), stereoCamera(), Pose());
-  for (int i = 0; i < frames; ++i) {
+  for (int i = 0; i < moving_frames; ++i) {
     const Frame& now = filter.process(sequence.frame(i).pair());
     expectProper(now);
     const double t = sequence.time(i), gone = own(t);
@@ -73,10 +75,10 @@ TEST_P(Van, doesNotCarryTheEstimateAway) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, Van,
-                         testing::Values(Drive{"drives off",
-                                               [](double s, double) { return 0.8 * std::max(0.0, s - 1.0); }},
-                                         Drive{"keeps its distance from then on",
-                                               [](double s, double own) { return s < 1.0 ? 0.0 : own - 0.5; }}));
+                         ::testing::Values(Drive{"drives off",
+                                                 [](double s, double) { return 0.8 * std::max(0.0, s - 1.0); }},
+                                           Drive{"keeps its distance from then on",
+                                                 [](double s, double own) { return s < 1.0 ? 0.0 : own - 0.5; }}));
 
 }  // namespace
 }  // namespace swf_vo

@@ -16,17 +16,17 @@ namespace swf_vo {
 
 using urban_nav_core::testing::Recording;
 
-inline urban_nav_core::testing::RenderCamera smallCamera() { return {300.0, 300.0, 191.5, 143.5, 384, 288, 0.12, 0.5}; }
+inline urban_nav_core::testing::RenderCamera roomCamera() { return {300.0, 300.0, 191.5, 143.5, 384, 288, 0.12, 0.5}; }
 
 inline urban_nav_core::StereoCamera stereoCamera() {
-  const auto c = smallCamera();
+  const auto c = roomCamera();
   return {{c.fx, c.fy, c.cx, c.cy, c.width, c.height}, c.baseline};
 }
 
 /// The room along any motion, at 20 Hz.
 inline Recording inTheRoom(const urban_nav_core::testing::Motion& motion, double noise, int count) {
   urban_nav_core::testing::SequenceOptions options;
-  options.camera = smallCamera();
+  options.camera = roomCamera();
   options.noise = noise;
   urban_nav_core::testing::RenderedSequence sequence(urban_nav_core::testing::texturedRoom(), motion, options);
   return record(sequence, count);

@@ -19,8 +19,8 @@ using urban_nav_core::testing::RenderedSequence;
 using urban_nav_core::testing::SequenceOptions;
 using urban_nav_core::testing::texturedRoom;
 
-constexpr int frames = 60, cell = 12;  // px
-constexpr double amplitude = 0.2;      // px, standard deviation
+constexpr int shimmer_frames = 60, cell = 12;  // px
+constexpr double amplitude = 0.2;              // px, standard deviation
 
 /// A field of displacements that are alike within a patch, and not further away.
 void shimmer(const ImageView& image, cv::RNG& random, cv::Mat& moved) {
@@ -42,14 +42,14 @@ TEST(Shimmer, isInTheCovariance) {
     const auto seed = static_cast<std::uint32_t>(room);
     const auto motion = namedMotion("wander", "room", seed);
     SequenceOptions options;
-    options.camera = smallCamera();
+    options.camera = roomCamera();
     options.seed = seed;
     RenderedSequence sequence(texturedRoom({}, seed), motion, options);
     SwfVo filter(Parameters(), stereoCamera(), Pose());
     cv::RNG random(seed);
     cv::Mat left, right;
     double sum = 0.0;
-    for (int i = 0; i < frames; ++i) {
+    for (int i = 0; i < shimmer_frames; ++i) {
       const StereoPair pair = sequence.frame(i).pair();
       shimmer(pair.left, random, left);
       shimmer(pair.right, random, right);
@@ -61,7 +61,7 @@ TEST(Shimmer, isInTheCovariance) {
       if (i < 20) continue;
       sum += urban_nav_core::nees(motion(0.0).inverse() * motion(sequence.time(i)), frame.T_odom_base).value_or(1e9);
     }
-    nees += sum / (frames - 20) / rooms;
+    nees += sum / (shimmer_frames - 20) / rooms;
   }
   EXPECT_LT(nees, 10.0) << "6 were right";
 }

@@ -123,7 +123,7 @@ void PrintTo(const Effort& effort, std::ostream* out) {
   *out << effort.window << " poses, " << effort.iterations << " steps";
 }
 
-class SwfVoEfforts : public testing::TestWithParam<Effort> {};
+class SwfVoEfforts : public ::testing::TestWithParam<Effort> {};
 
 // For a while the window holds nothing but poses that only the process model ties together.
 TEST_P(SwfVoEfforts, overcomeAPauseInTheMeasurements) {
@@ -148,8 +148,8 @@ TEST_P(SwfVoEfforts, overcomeAPauseInTheMeasurements) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, SwfVoEfforts,
-                         testing::Values(Effort{1, 1}, Effort{1, 3}, Effort{1, 20}, Effort{10, 1}, Effort{10, 3},
-                                         Effort{10, 20}, Effort{25, 1}, Effort{25, 3}, Effort{25, 20}));
+                         ::testing::Values(Effort{1, 1}, Effort{1, 3}, Effort{1, 20}, Effort{10, 1}, Effort{10, 3},
+                                           Effort{10, 20}, Effort{25, 1}, Effort{25, 3}, Effort{25, 20}));
 
 }  // namespace
 }  // namespace swf_vo

@@ -19,13 +19,13 @@ using urban_nav_core::PoseWithCovariance;
 
 namespace {
 
-constexpr double near_way = 30.0;           // m: over which odometry is good to some centimetres
-constexpr double metres_per_radian = 10.0;  // for directions of which a closure knows nothing
-constexpr double near_time = 120.0;         // s: nor does it take longer
+constexpr double near_closure_way = 30.0;           // m: over which odometry is good to some centimetres
+constexpr double closure_metres_per_radian = 10.0;  // for directions of which a closure knows nothing
+constexpr double near_time = 120.0;                 // s: nor does it take longer
 
 PoseWithCovariance measuredOf(const MetricClosure& closure) {
   return {closure.measured.T_a_b,
-          urban_nav_core::covarianceForDisplay(closure.measured.information, metres_per_radian)};
+          urban_nav_core::covarianceForDisplay(closure.measured.information, closure_metres_per_radian)};
 }
 
 /// Empty where the two are no neighbours; else root mean square deviations of their ring.
@@ -36,7 +36,8 @@ std::optional<double> ringOf(const MetricClosure& i, const MetricClosure& j, con
   };
   if (apart(i.a, j.a) || apart(i.b, j.b)) return std::nullopt;
   const auto along_a = surroundings.between(i.a, j.a), along_b = surroundings.between(i.b, j.b);
-  if (!along_a || !along_b || along_a->length > near_way || along_b->length > near_way) return std::nullopt;
+  if (!along_a || !along_b || along_a->length > near_closure_way || along_b->length > near_closure_way)
+    return std::nullopt;
   const PoseWithCovariance T_ai_aj = OdometryGate(*along_a, parameters.odometry_scale).T_a_b(),
                            T_bi_bj = OdometryGate(*along_b, parameters.odometry_scale).T_a_b();
   const PoseWithCovariance one = urban_nav_core::compose(measuredOf(i), T_bi_bj),

@@ -14,13 +14,13 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
-constexpr double least_sigma = 1e-4;        // m, rad: between moments of one frame odometry claims to know all
-constexpr double metres_per_radian = 10.0;  // what tells known directions from free ones must not depend on units
-constexpr double known = 1e-9;              // of the best known direction
+constexpr double least_sigma = 1e-4;             // m, rad: between moments of one frame odometry claims to know all
+constexpr double gate_metres_per_radian = 10.0;  // what tells known directions from free ones must not depend on units
+constexpr double known = 1e-9;                   // of the best known direction
 
 int directionsKnown(const Matrix6d& information) {
   Vector6d units;
-  units << Eigen::Vector3d::Ones(), Eigen::Vector3d::Constant(1.0 / metres_per_radian);
+  units << Eigen::Vector3d::Ones(), Eigen::Vector3d::Constant(1.0 / gate_metres_per_radian);
   const auto values =
       urban_nav_core::symmetricEigenvalues(Eigen::MatrixXd(units.asDiagonal() * information * units.asDiagonal()));
   if (!values || !((*values)[5] > 0.0)) return 0;

@@ -15,7 +15,7 @@ using urban_nav_core::PoseRef;
 
 namespace {
 
-constexpr double least_share = 1e-3;  // too little for a robot that stands for minutes to tell the same twice
+constexpr double least_cloud_share = 1e-3;  // too little for a robot that stands for minutes to tell the same twice
 
 bool isOfClouds(const MetricClosure& closure) {
   return closure.verdict == ClosureVerdict::Accepted && closure.method == ClosureMethod::Icp;
@@ -97,7 +97,7 @@ void keepWhatIsNew(MetricClosure& closure, const std::vector<MetricClosure>& ear
       if (at_a && at_b && !isAmong(told, {*at_a, *at_b})) told.push_back({*at_a, *at_b});
     }
   }
-  closure.measured.information *= std::max(uncovered(told), least_share);
+  closure.measured.information *= std::max(uncovered(told), least_cloud_share);
 }
 
 }  // namespace loop_metric

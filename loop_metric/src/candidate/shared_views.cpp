@@ -16,7 +16,7 @@ using urban_nav_core::PoseRef;
 
 namespace {
 
-constexpr double least_share = 1e-3;  // not nothing: information that is zero says that nothing was measured
+constexpr double least_view_share = 1e-3;  // not nothing: information that is zero says that nothing was measured
 
 auto orderOf(const PoseRef& at) { return std::tie(at.session, at.stamp); }
 
@@ -50,7 +50,7 @@ void shareViews(std::vector<MetricClosure>& closures) {
 
 void ToldViews::keepWhatIsNew(MetricClosure& closure) {
   const auto views = viewsOf(closure);
-  if (views && !told_.insert(*views).second) closure.measured.information *= least_share;
+  if (views && !told_.insert(*views).second) closure.measured.information *= least_view_share;
 }
 
 }  // namespace loop_metric

@@ -13,12 +13,12 @@ namespace {
 
 constexpr double widest_turn =
     1.05;  // rad, 60 deg: two views with less than a third of the image in common are not matched
-constexpr double metres_per_radian =
+constexpr double pair_metres_per_radian =
     4.0;                              // a turn costs as many matches as this way, at a field of view of some 65 deg
 constexpr double useful_sigma = 2.0;  // m: odometry that knows less does not tell which views are near each other
 constexpr double doubts = 3.0;        // standard deviations
 
-const NearbyView& nearest(const std::vector<NearbyView>& views, double way) {
+const NearbyView& nearestView(const std::vector<NearbyView>& views, double way) {
   return *std::min_element(views.begin(), views.end(), [way](const NearbyView& x, const NearbyView& y) {
     return std::abs(x.way - way) < std::abs(y.way - way);
   });
@@ -50,7 +50,7 @@ std::vector<ViewPair> pairsOf(const std::vector<NearbyView>& views_a, const std:
                               const std::optional<PoseWithCovariance>& T_a_b, double way, std::size_t most) {
   std::vector<ViewPair> pairs;
   if (views_a.empty() || views_b.empty()) return pairs;
-  const NearbyView &a = nearest(views_a, 0.0), &b = nearest(views_b, 0.0);
+  const NearbyView &a = nearestView(views_a, 0.0), &b = nearestView(views_b, 0.0);
   if (T_a_b) {
     const double doubt = doubts * largestSigma(*T_a_b, 1);
     const ViewPair* best = nullptr;
@@ -62,14 +62,14 @@ std::vector<ViewPair> pairsOf(const std::vector<NearbyView>& views_a, const std:
         const Pose T = between(T_a_b->pose, each_a, each_b);
         if (turn(T) > widest_turn + doubt) continue;
         all.push_back({each_a, each_b});
-        costs.push_back(T.t().norm() + metres_per_radian * turn(T));
+        costs.push_back(T.t().norm() + pair_metres_per_radian * turn(T));
       }
     if (all.empty()) return pairs;
     best = &all[static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) - costs.begin())];
     if (largestSigma(*T_a_b, 0) < useful_sigma) pairs.push_back(*best);
   }
   add(pairs, a, b);
-  for (const double along : {-0.5 * way, 0.5 * way}) add(pairs, nearest(views_a, along), b);
+  for (const double along : {-0.5 * way, 0.5 * way}) add(pairs, nearestView(views_a, along), b);
   if (pairs.size() > most) pairs.resize(most);
   return pairs;
 }

@@ -10,9 +10,9 @@
 namespace loop_metric {
 
 namespace {
-constexpr float kAlike = 0.70710678F;  // cosine of 45 deg: nearer to this surface than to one across it
+constexpr float kAlikeSurface = 0.70710678F;  // cosine of 45 deg: nearer to this surface than to one across it
 
-constexpr std::uint32_t kLanes = 4;  // surfels that are looked at at once
+constexpr std::uint32_t kSurfelLanes = 4;  // surfels that are looked at at once
 
 /// The eight cells around the corner next to a point, nearest first: bit 0, 1, 2 set means over the nearest face in x, y, z.
 constexpr std::array<int, 8> kNearestFirst = {0, 1, 2, 4, 3, 5, 6, 7};
@@ -37,7 +37,7 @@ SurfelIndex::SurfelIndex(const std::vector<Surfel>& surfels, float reach, std::s
   for (std::size_t i = 0; i < surfels.size(); ++i)
     if (cells[i] != CellTable::none) sorted_[next[cells[i]]++] = surfels[i];
   for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
-    lanes_[lane].resize(sorted_.size() + kLanes - 1, 0.0F);
+    lanes_[lane].resize(sorted_.size() + kSurfelLanes - 1, 0.0F);
     const auto axis = static_cast<Eigen::Index>(lane % 3);
     for (std::size_t i = 0; i < sorted_.size(); ++i)
       lanes_[lane][i] = lane < 3 ? sorted_[i].mean[axis] : sorted_[i].normal[axis];
@@ -58,7 +58,7 @@ SurfelIndex::Nearest SurfelIndex::nearest(const Eigen::Vector3f& point, const Ei
   const cv::v_float32x4 x0 = cv::v_setall_f32(point.x()), y0 = cv::v_setall_f32(point.y()),
                         z0 = cv::v_setall_f32(point.z()), nx = cv::v_setall_f32(normal.x()),
                         ny = cv::v_setall_f32(normal.y()), nz = cv::v_setall_f32(normal.z()),
-                        least_alike = cv::v_setall_f32(kAlike);
+                        least_alike = cv::v_setall_f32(kAlikeSurface);
   const Surfel* best = nullptr;
   float least = reach_ * reach_, second = least;
   for (const int bits : kNearestFirst) {
@@ -71,16 +71,16 @@ SurfelIndex::Nearest SurfelIndex::nearest(const Eigen::Vector3f& point, const Ei
     const std::uint32_t cell =
         table_.find(keyOf({own.x + (x ? over.x : 0), own.y + (y ? over.y : 0), own.z + (z ? over.z : 0)}));
     if (cell == CellTable::none) continue;
-    for (std::uint32_t i = begins_[cell]; i < begins_[cell + 1]; i += kLanes) {
+    for (std::uint32_t i = begins_[cell]; i < begins_[cell + 1]; i += kSurfelLanes) {
       const auto lane = [&](std::size_t which) { return cv::v_load(&lanes_[which][i]); };
       const cv::v_float32x4 dx = lane(0) - x0, dy = lane(1) - y0, dz = lane(2) - z0;
       const cv::v_float32x4 squares = dx * dx + dy * dy + dz * dz;
       const cv::v_float32x4 alike = cv::v_abs(lane(3) * nx + lane(4) * ny + lane(5) * nz);
       const int near = cv::v_signmask((squares < cv::v_setall_f32(second)) & (alike > least_alike));
       if (near == 0) continue;
-      std::array<float, kLanes> distances;
+      std::array<float, kSurfelLanes> distances;
       cv::v_store(distances.data(), squares);
-      for (std::uint32_t k = 0; k < std::min(kLanes, begins_[cell + 1] - i); ++k) {
+      for (std::uint32_t k = 0; k < std::min(kSurfelLanes, begins_[cell + 1] - i); ++k) {
         const float distance = distances[k];
         if ((near >> k & 1) == 0 || !(distance < second)) continue;
         if (distance < least) {

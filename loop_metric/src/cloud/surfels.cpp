@@ -56,14 +56,14 @@ bool isWithin(const Eigen::Vector3f& point, float limit) {
   return std::abs(point.x()) < limit && std::abs(point.y()) < limit && std::abs(point.z()) < limit;  // false for NaN
 }
 
-struct Grid {
+struct SurfelGrid {
   CellTable table;
   std::vector<Moments> cubes;
   std::size_t used = 0;
 };
 
-Grid gridOf(const PointCloud& cloud, float voxel) {
-  Grid grid{CellTable(cloud.points.size() / 32 + 16), {}, 0};  // small: neighbours are looked up 27 at a time
+SurfelGrid gridOf(const PointCloud& cloud, float voxel) {
+  SurfelGrid grid{CellTable(cloud.points.size() / 32 + 16), {}, 0};  // small: neighbours are looked up 27 at a time
   grid.cubes.reserve(cloud.points.size() / 8 + 16);
   const float per_m = 1.0F / voxel, limit = voxel * static_cast<float>(kFarthestCell);
   std::uint64_t last = 0;
@@ -102,14 +102,14 @@ Grid gridOf(const PointCloud& cloud, float voxel) {
 }
 
 struct Coarser {
-  Grid grid;
+  SurfelGrid grid;
   std::vector<std::uint32_t> cube_of;  // of each cube of the finer grid
 };
 
 /// The same points in cubes of twice the edge: each of the eight within counts as much as it has beams' cubes in it.
-Coarser coarserOf(const Grid& fine, float edge) {
+Coarser coarserOf(const SurfelGrid& fine, float edge) {
   Coarser coarser{{CellTable(fine.cubes.size() / 4 + 16), {}, fine.used}, {}};
-  Grid& grid = coarser.grid;
+  SurfelGrid& grid = coarser.grid;
   grid.cubes.reserve(fine.cubes.size() / 2 + 16);
   coarser.cube_of.reserve(fine.cubes.size());
   for (const Moments& cube : fine.cubes) {
@@ -133,7 +133,7 @@ struct Placed {
   std::uint32_t number;
 };
 
-std::vector<Placed> inOrder(const Grid& grid) {
+std::vector<Placed> inOrder(const SurfelGrid& grid) {
   std::vector<Placed> placed(grid.cubes.size());
   for (std::uint32_t i = 0; i < placed.size(); ++i) placed[i] = {keyOf(grid.cubes[i].cell), i};
   std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) { return a.key < b.key; });
@@ -141,9 +141,9 @@ std::vector<Placed> inOrder(const Grid& grid) {
 }
 
 /// Walks along cubes in the order of their keys, and beside them along the nine rows of neighbours: a cube and its 26 neighbours are found without looking anything up.
-class Neighbours {
+class VoxelNeighbours {
  public:
-  Neighbours(const Grid& grid, const std::vector<Placed>& placed, float edge)
+  VoxelNeighbours(const SurfelGrid& grid, const std::vector<Placed>& placed, float edge)
       : grid_(grid), placed_(placed), edge_(edge) {}
 
   /// Moments of the cube and its neighbours from the cube's corner. Keys must come in growing order.
@@ -173,7 +173,7 @@ class Neighbours {
     return static_cast<std::size_t>(std::lower_bound(placed_.begin(), placed_.end(), key, isBefore) - placed_.begin());
   }
 
-  const Grid& grid_;
+  const SurfelGrid& grid_;
   const std::vector<Placed>& placed_;
   float edge_;
   bool begun_ = false;
@@ -202,13 +202,13 @@ Lie lieOf(const Moments& all, float edge, const Eigen::Matrix3f& flat) {
 }
 
 /// Of all cubes of a grid that are wanted, in the order of the grid.
-std::vector<Lie> liesOf(const Grid& grid, const std::vector<std::uint8_t>& wanted, float edge,
+std::vector<Lie> liesOf(const SurfelGrid& grid, const std::vector<std::uint8_t>& wanted, float edge,
                         const Eigen::Matrix3f& flat) {
   constexpr std::size_t kRun = 512;
   const std::vector<Placed> placed = inOrder(grid);
   std::vector<Lie> lies(placed.size());
   urban_nav_core::forEach((placed.size() + kRun - 1) / kRun, 1, [&](std::size_t run) {
-    Neighbours neighbours(grid, placed, edge);
+    VoxelNeighbours neighbours(grid, placed, edge);
     for (std::size_t i = run * kRun; i < std::min(placed.size(), (run + 1) * kRun); ++i)
       if (wanted[placed[i].number] != 0) lies[placed[i].number] = lieOf(neighbours.around(placed[i].key), edge, flat);
   });
@@ -219,7 +219,7 @@ constexpr int kScales = 4;  // cubes of 1, 2, 4, 8 voxels: far from the sensor i
 
 /// n n^T of the plane in which all points lie, to a hundredth of the voxel, and the sensor with them; zero where they don't. A plane
 /// that the sensor looks down upon is ground.
-Eigen::Matrix3f flatnessOf(const Grid& grid, float voxel) {
+Eigen::Matrix3f flatnessOf(const SurfelGrid& grid, float voxel) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d outer = Eigen::Matrix3d::Zero();
   for (const Moments& cube : grid.cubes) {
@@ -241,7 +241,7 @@ Eigen::Matrix3f flatnessOf(const Grid& grid, float voxel) {
 }  // namespace
 
 Surfels makeSurfels(const PointCloud& cloud, float voxel) {
-  Grid grid = gridOf(cloud, voxel);
+  SurfelGrid grid = gridOf(cloud, voxel);
   const Eigen::Matrix3f flat =
       flatnessOf(grid, voxel);  // added to covariances: what a scan of one plane does not see of its walls
   Surfels surfels;

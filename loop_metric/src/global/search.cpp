@@ -18,11 +18,11 @@ using urban_nav_core::Vector3d;
 
 namespace {
 
-constexpr double kPi = 3.14159265358979;
+constexpr double kHalfTurn = 3.14159265358979;
 constexpr int kBearings = 12;       // of walls, 15 deg each
 constexpr double kFarthest = 50.0;  // m from the sensor: beyond, headings are too coarse
 constexpr std::size_t kKept = 10;   // candidates
-constexpr int kLanes = 8;           // shifts that are summed up at once
+constexpr int kShiftLanes = 8;      // shifts that are summed up at once
 
 using Piece = Outline::Piece;
 
@@ -42,7 +42,7 @@ std::vector<Piece> piecesOf(const Surfels& surfels, const Upright& upright, cons
 }
 
 int bearingOf(double angle) {
-  const double turns = angle / kPi;  // walls are the same from both sides
+  const double turns = angle / kHalfTurn;  // walls are the same from both sides
   return static_cast<int>((turns - std::floor(turns)) * kBearings) % kBearings;
 }
 
@@ -62,7 +62,7 @@ struct Pictures {
 
 Pictures picturesOf(const std::vector<Piece>& pieces, double cell, int half) {
   Pictures pictures;
-  const int margin = 2 * half + kLanes + 2;
+  const int margin = 2 * half + kShiftLanes + 2;
   pictures.cell = cell;
   pictures.x0 = pictures.y0 = -kFarthest - margin * cell;
   pictures.width = static_cast<int>(2.0 * kFarthest / cell) + 2 * margin;
@@ -91,15 +91,15 @@ struct Peak {
 
 /// sums[i] += counts[i], for a whole number of lanes.
 void addRow(const std::uint8_t* counts, std::uint16_t* sums, int length) {
-  for (int i = 0; i < length; i += kLanes)
+  for (int i = 0; i < length; i += kShiftLanes)
     cv::v_store(sums + i, cv::v_add_wrap(cv::v_load(sums + i), cv::v_load_expand(counts + i)));
 }
 
 /// The best shifts of one heading.
 std::vector<Peak> peaksOf(Pictures& pictures, const std::vector<Piece>& pieces, int heading, int headings,
                           const Vector3d& centre, int half) {
-  const double angle = 2.0 * kPi * heading / headings, c = std::cos(angle), s = std::sin(angle);
-  const int side = 2 * half + 1, stride = (side + kLanes - 1) / kLanes * kLanes;
+  const double angle = 2.0 * kHalfTurn * heading / headings, c = std::cos(angle), s = std::sin(angle);
+  const int side = 2 * half + 1, stride = (side + kShiftLanes - 1) / kShiftLanes * kShiftLanes;
   std::vector<std::uint16_t> wide(static_cast<std::size_t>(side) * static_cast<std::size_t>(stride), 0);
   for (const Piece& piece : pieces) {
     const double x = c * piece.x - s * piece.y + centre.x(), y = s * piece.x + c * piece.y + centre.y();
@@ -175,7 +175,7 @@ std::vector<Candidate> searchGlobally(const Outline& source, const Outline& targ
   std::vector<Candidate> candidates;
   for (const Peak& peak : kept) {
     const Pose turned(
-        Quaterniond(Eigen::AngleAxisd(2.0 * kPi * peak.heading / grain.headings, Vector3d::UnitZ())),
+        Quaterniond(Eigen::AngleAxisd(2.0 * kHalfTurn * peak.heading / grain.headings, Vector3d::UnitZ())),
         {middle.x() + grain.cell * peak.x, middle.y() + grain.cell * peak.y,
          source.has_ground && target.has_ground ? static_cast<double>(target.ground - source.ground) : middle.z()});
     const Pose T_level_source(urban_nav_core::Matrix3d(source.level.cast<double>()), Vector3d::Zero());

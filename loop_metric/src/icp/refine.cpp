@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "icp/refine.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+
+#include "urban_nav_core/geometry/small_matrices.hpp"
 
 namespace loop_metric {
 
@@ -81,7 +82,7 @@ Refined refine(const Source& source, const Target& target, const Pose& start, st
       const double turn = std::max(H(3, 3) + H(4, 4) + H(5, 5), 1e-12);
       H.diagonal().head<3>().array() += kDamping * scale;
       H.diagonal().tail<3>().array() += kDamping * turn;
-      const Vector6d d = -H.ldlt().solve(equations.b);
+      const Vector6d d = -urban_nav_core::solveByLdlt<6, 1>(H, equations.b);
       refined.usable = equations.weight > 5.0 && d.allFinite();
       if (!refined.usable) break;
       refined.T_target_source = boxPlus(refined.T_target_source, kRelaxation * d);

@@ -28,27 +28,27 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr double places_apart = 5.0;  // m between places of the map: a cloud reaches twice as far to both sides
-constexpr double least_way = 3.0;     // m to both sides of a stretch that may be recognised
-constexpr double firm_way = 5.0;      // m: what is seen of less is no beginning of a hypothesis
-constexpr double step = 2.0;          // m between looks, and
-constexpr double known_step = 5.0;    // m while it is KNOWN where the robot is
-constexpr std::size_t candidates = 3;
+constexpr double places_apart = 5.0;    // m between places of the map: a cloud reaches twice as far to both sides
+constexpr double least_way = 3.0;       // m to both sides of a stretch that may be recognised
+constexpr double firm_cloud_way = 5.0;  // m: what is seen of less is no beginning of a hypothesis
+constexpr double step = 2.0;            // m between looks, and
+constexpr double known_step = 5.0;      // m while it is KNOWN where the robot is
+constexpr std::size_t cloud_candidates = 3;
 // Share of the drive's upright surfaces that the map must have where nobody knows where the robot is: it saw what there was. Of a firm stretch, 95 of 100 right answers share 0.77 and
 // more, and those of other quads that fit in all else 0.62 to 0.66; of shorter ones up to 0.88.
 constexpr double enough_shared = 0.7;
-constexpr double one_place = 1.0;  // m: answers further apart contradict each other
-constexpr double near_way = 8.0;   // m: places further from where the robot believes to be are not near
+constexpr double one_place = 1.0;       // m: answers further apart contradict each other
+constexpr double near_cloud_way = 8.0;  // m: places further from where the robot believes to be are not near
 
 /// A place of the map that was driven through, and what stands around it.
-struct Place {
+struct MapPlace {
   PoseRef at;
   Pose T_map_base;
   Outline outline;
 };
 
 /// T_a_b with odometry from b on: next to no information where there was none.
-Constraint carried(const Constraint& measured, const PoseWithCovariance& T_b_end) {
+Constraint withOdometry(const Constraint& measured, const PoseWithCovariance& T_b_end) {
   constexpr double metres_per_radian = 10.0;
   const PoseWithCovariance end = compose(
       PoseWithCovariance{measured.T_a_b, urban_nav_core::covarianceForDisplay(measured.information, metres_per_radian)},
@@ -83,7 +83,7 @@ class CloudSearch::Implementation {
   std::size_t read() const { return read_; }
   bool readNext() {
     if (read_ < places_.size()) {
-      Place& place = places_[read_++];
+      MapPlace& place = places_[read_++];
       const PointCloud cloud = surroundings_->cloud(place.at, parameters_.cloud_way);
       place.outline = outlineOf(makeSurfels(cloud, static_cast<float>(parameters_.voxel)), kCoarse);
     }
@@ -122,7 +122,8 @@ class CloudSearch::Implementation {
     if (!seen) seen = among(alike(cloud), looked);
     if (!seen) return false;
     // At its end: the whole stretch has been recognised, and what was seen on it is no older.
-    localiser.addSighting(end, seen->T_map_place, carried(seen->measured, *T_middle_end), stretch.way >= firm_way);
+    localiser.addSighting(end, seen->T_map_place, withOdometry(seen->measured, *T_middle_end),
+                          stretch.way >= firm_cloud_way);
     return true;
   }
 
@@ -173,7 +174,7 @@ class CloudSearch::Implementation {
   std::optional<std::size_t> near(const Located& believed) const {
     if (read_ == 0 || !tellsWhatIsNear(believed)) return std::nullopt;
     const std::size_t nearest = nearestTo(believed.T_map_base->pose);
-    if (distanceBetween(places_[nearest].T_map_base, believed.T_map_base->pose) > near_way) return std::nullopt;
+    if (distanceBetween(places_[nearest].T_map_base, believed.T_map_base->pose) > near_cloud_way) return std::nullopt;
     return nearest;
   }
 
@@ -197,7 +198,7 @@ class CloudSearch::Implementation {
     std::sort(scores.begin(), scores.end());
     std::vector<std::size_t> best;
     for (const auto& [score, i] : scores) {
-      if (best.size() == candidates) break;
+      if (best.size() == cloud_candidates) break;
       const auto isBeside = [&, i = i](std::size_t other) {
         return distanceBetween(places_[i].T_map_base, places_[other].T_map_base) < 0.9 * places_apart;
       };
@@ -240,7 +241,7 @@ class CloudSearch::Implementation {
 
   Parameters parameters_, demanding_;
   std::unique_ptr<StoredSurroundings> surroundings_;
-  std::vector<Place> places_;
+  std::vector<MapPlace> places_;
   std::size_t read_ = 0;
   std::optional<StampNs> looked_;  // the newest frame then
 };

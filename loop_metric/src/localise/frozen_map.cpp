@@ -20,7 +20,7 @@ std::string propertyOf(Store& store, const urban_nav_store::SessionId& id, const
 }
 
 /// Those of its keyframes that have a pose.
-std::vector<MapView> viewsOf(Store& store, const StoredTrajectory& session) {
+std::vector<MapView> storedViews(Store& store, const StoredTrajectory& session) {
   std::vector<MapView> views;
   const std::vector<StampNs> stamps = store.keyframes().stamps(session.session.id, keyframe_camera);
   auto stamp = stamps.begin();
@@ -38,7 +38,7 @@ FrozenMap::FrozenMap(Store& store) : path_(store.path()) {
   if (maps.empty()) throw DataError(path_, "holds no session", "");
   sessions_ = std::move(maps.front());
   for (const StoredTrajectory& session : sessions_) {
-    Views made{propertyOf(store, session.session.id, camera_property), loop_metric::viewsOf(store, session)};
+    Views made{propertyOf(store, session.session.id, camera_property), storedViews(store, session)};
     if (!made.views.empty()) views_.push_back(std::move(made));
   }
   if (views_.empty())

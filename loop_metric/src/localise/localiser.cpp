@@ -20,16 +20,16 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
-constexpr std::size_t most_sightings = 40;  // that are compared, pair by pair
-constexpr int enough = 2;                   // witnesses: one may be false
-constexpr double apart = 0.5;               // m: closer than this, a second look is the first one again
-constexpr double metres_per_radian = 10.0;  // for directions of which a sighting knows nothing
-constexpr double known_sigma = 0.33;        // m: three of them are the metre that KNOWN promises
+constexpr std::size_t most_sightings = 40;           // that are compared, pair by pair
+constexpr int enough = 2;                            // witnesses: one may be false
+constexpr double apart = 0.5;                        // m: closer than this, a second look is the first one again
+constexpr double sighting_metres_per_radian = 10.0;  // for directions of which a sighting knows nothing
+constexpr double known_sigma = 0.33;                 // m: three of them are the metre that KNOWN promises
 // Looks that a place which is not the robot's answers: three candidates each, of which 3 of 2100 may be accepted when of 2100 pairs of other places none was (README, with
 // 95 %).
 constexpr double false_share = 3.0 * 3.0 / 2100.0;
 constexpr int looks_for_new = 3;           // in a row without anything like it
-constexpr int carried = 3;                 // witnesses in a row that agree against all before them
+constexpr int outvoting_witnesses = 3;     // witnesses in a row that agree against all before them
 constexpr std::size_t most_steps = 20000;  // of odometry: 10 to 30 minutes, 1.1 kB each
 
 double positionSigma(const PoseWithCovariance& pose) {
@@ -99,11 +99,11 @@ void Localiser::forgetOldSteps() {
 void Localiser::addSighting(StampNs b, const Pose& T_map_a, const Constraint& measured, bool is_firm) {
   Sighting sighting;
   sighting.stamp = b;
-  const Matrix6d covariance = urban_nav_core::covarianceForDisplay(measured.information, metres_per_radian);
+  const Matrix6d covariance = urban_nav_core::covarianceForDisplay(measured.information, sighting_metres_per_radian);
   const double sigma = parameters_.map_sigma;
   Matrix6d of_map = Matrix6d::Zero();
   of_map.diagonal() << Eigen::Vector3d::Constant(sigma * sigma),
-      Eigen::Vector3d::Constant(sigma * sigma / (metres_per_radian * metres_per_radian));
+      Eigen::Vector3d::Constant(sigma * sigma / (sighting_metres_per_radian * sighting_metres_per_radian));
   sighting.T_map_base = compose(PoseWithCovariance{T_map_a, of_map}, PoseWithCovariance{measured.T_a_b, covariance});
   sighting.begins = is_firm && positionSigma(sighting.T_map_base) < 1.0;
   if (sighting.T_map_base.pose.isFinite() && sighting.T_map_base.covariance.allFinite()) add(sighting);
@@ -130,7 +130,7 @@ void Localiser::add(const Sighting& sighting) {
   sightings_.insert(place, sighting);
   if (sightings_.size() > most_sightings) sightings_.erase(sightings_.begin());
   choose();
-  if (against() >= carried) {
+  if (against() >= outvoting_witnesses) {
     sightings_.erase(sightings_.begin(), sightings_.begin() + static_cast<std::ptrdiff_t>(best_.members.back()) + 1);
     choose();
   }

@@ -20,20 +20,20 @@ using urban_nav_core::Pose;
 
 namespace {
 
-constexpr double views_apart = 1.5;    // m between views of the map that are kept in memory for the search
-constexpr std::size_t candidates = 3;  // of a search, that are registered
-constexpr double near_way = 6.0;       // m, and
-constexpr double near_turn = 0.9;      // rad: what is further from where the robot believes to be is not near
-constexpr double sure_way = 2.0;       // m, and
-constexpr double sure_turn = 0.35;     // rad: nearer, 92 to 100 of 100 are recognised (README, stereo)
+constexpr double views_apart = 1.5;         // m between views of the map that are kept in memory for the search
+constexpr std::size_t view_candidates = 3;  // of a search, that are registered
+constexpr double near_view_way = 6.0;       // m, and
+constexpr double near_turn = 0.9;           // rad: what is further from where the robot believes to be is not near
+constexpr double sure_way = 2.0;            // m, and
+constexpr double sure_turn = 0.35;          // rad: nearer, 92 to 100 of 100 are recognised (README, stereo)
 // Two views from further apart share a wall far away rather than what lies around the robot, and walls have patterns that come again: no hypothesis begins with them, unless they tell
 // the position so well that much of it was near. Of 134 right sightings along one drive the other way 98 % are firm, of 12 false ones none (README, localisation).
-constexpr double firm_way = 2.5;           // m, or
-constexpr double firm_sigma = 0.03;        // m
-constexpr double metres_per_radian = 4.0;  // a turn costs as many matches as this way
+constexpr double firm_view_way = 2.5;             // m, or
+constexpr double firm_sigma = 0.03;               // m
+constexpr double search_metres_per_radian = 4.0;  // a turn costs as many matches as this way
 
 bool isFirm(const Constraint& measured) {
-  if (measured.T_a_b.t().norm() <= firm_way) return true;
+  if (measured.T_a_b.t().norm() <= firm_view_way) return true;
   const auto covariance = urban_nav_core::invertPositiveDefinite(measured.information);
   return covariance && covariance->topLeftCorner<3, 3>().trace() <= firm_sigma * firm_sigma;
 }
@@ -69,13 +69,14 @@ class MapSearch::Implementation {
 
   bool look(const Keyframe& view, Localiser& localiser) {
     const Located believed = localiser.at(view.at.stamp);
-    const std::vector<std::size_t> nearest =
-        tellsWhatIsNear(believed) ? near(believed.T_map_base->pose, near_way, near_turn) : std::vector<std::size_t>();
+    const std::vector<std::size_t> nearest = tellsWhatIsNear(believed)
+                                                 ? near(believed.T_map_base->pose, near_view_way, near_turn)
+                                                 : std::vector<std::size_t>();
     std::optional<Sighting> seen = firstOf(nearest, view);
     // A belief may be wrong, and a robot may have been carried elsewhere: what shows nothing of it is no reason not to look there.
     if (!seen) {
       std::vector<std::size_t> found;
-      for (const ViewFinder::Found& each : finder_.find(view, candidates)) found.push_back(searched_[each.view]);
+      for (const ViewFinder::Found& each : finder_.find(view, view_candidates)) found.push_back(searched_[each.view]);
       seen = firstOf(found, view);
     }
     if (seen)
@@ -127,11 +128,11 @@ class MapSearch::Implementation {
     std::vector<std::pair<double, std::size_t>> costs;
     for (std::size_t i = 0; i < views_.size(); ++i) {
       const double way = distanceBetween(views_[i].T_map_base, here), turn = angleBetween(views_[i].T_map_base, here);
-      if (way <= most_way && turn <= most_turn) costs.emplace_back(way + metres_per_radian * turn, i);
+      if (way <= most_way && turn <= most_turn) costs.emplace_back(way + search_metres_per_radian * turn, i);
     }
     std::sort(costs.begin(), costs.end());
     std::vector<std::size_t> nearest;
-    for (std::size_t i = 0; i < std::min(costs.size(), candidates); ++i) nearest.push_back(costs[i].second);
+    for (std::size_t i = 0; i < std::min(costs.size(), view_candidates); ++i) nearest.push_back(costs[i].second);
     return nearest;
   }
 

@@ -20,8 +20,8 @@ using Points = std::vector<Eigen::Vector3d>;
 
 constexpr double shown_share = 0.97;  // of the points, along each axis: few of the far ones are left out
 constexpr double farthest = 1e4;      // m: beyond, a point is not believed
-constexpr double smallest_half = 0.1, margin = 1.05;
-constexpr int narrowest = 100, widest = 4000;  // px
+constexpr double smallest_half = 0.1, cloud_margin = 1.05;
+constexpr int narrowest_cloud = 100, widest = 4000;  // px
 const cv::Scalar red(60, 60, 220), blue(220, 60, 60), green(60, 150, 60);
 
 Points finite(const PointCloud& cloud) {
@@ -61,15 +61,15 @@ Extent extentOf(const Points& target, const Points& source) {
       for (const Eigen::Vector3d& point : *points) values.push_back(point[axis]);
     const double low = quantile(values, 1.0 - shown_share), high = quantile(values, shown_share);
     extent.centre[axis] = 0.5 * (low + high);
-    extent.half = std::max(extent.half, 0.5 * margin * (high - low));
+    extent.half = std::max(extent.half, 0.5 * cloud_margin * (high - low));
   }
   return extent;
 }
 
 /// One look at the cube: the axis that points to the right, and the one that points up.
-class Panel {
+class CloudPanel {
  public:
-  Panel(cv::Mat canvas, const Extent& extent, int right, int up)
+  CloudPanel(cv::Mat canvas, const Extent& extent, int right, int up)
       : canvas_(std::move(canvas)),
         extent_(extent),
         right_(right),
@@ -151,7 +151,7 @@ class Panel {
 
 Picture drawClouds(const PointCloud& source, const PointCloud& target, const Pose& T_guess, const Pose& T_target_source,
                    const CloudPictureOptions& options) {
-  const int size = std::clamp(options.panel, narrowest, widest);
+  const int size = std::clamp(options.panel, narrowest_cloud, widest);
   const Points of_target = finite(target), of_source = finite(source);
   cv::Mat canvas(size + caption_height, 3 * size + 2 * panel_gap, CV_8UC3, paper);
   const Extent extent = extentOf(of_target, moved(of_source, T_target_source));
@@ -166,7 +166,7 @@ Picture drawClouds(const PointCloud& source, const PointCloud& target, const Pos
   int left = 0;
   for (const Look& look : looks) {
     cv::Mat area = canvas(cv::Rect(left, 0, size, size));
-    Panel panel(area, extent, 0, look.up);
+    CloudPanel panel(area, extent, 0, look.up);
     panel.draw(of_target, moved(of_source, look.T));
     panel.drawOrigin(Eigen::Vector3d::Zero(), red);
     panel.drawOrigin(look.T.t(), blue);

@@ -16,8 +16,8 @@ namespace {
 
 constexpr int subpixel_bits = 4;  // of OpenCV's drawing coordinates
 constexpr int usual_width = 512, usual_height = 384;
-constexpr int largest_size = 16384;  // px: beyond, a size is not believed
-constexpr int narrowest = 64;
+constexpr int largest_picture = 16384;  // px: beyond, a size is not believed
+constexpr int narrowest_view = 64;
 constexpr double opacity = 0.5;  // of the lines, so that the views stay to be seen
 const cv::Scalar grey(150, 150, 150), panel(110, 110, 110);
 
@@ -32,12 +32,12 @@ double worstOf(const MatchPictureOptions& options) {
 }
 
 bool isPlausible(const Keyframe& keyframe) {
-  return keyframe.width > 0 && keyframe.height > 0 && keyframe.width <= largest_size &&
-         keyframe.height <= largest_size && keyframe.height <= 4 * keyframe.width;
+  return keyframe.width > 0 && keyframe.height > 0 && keyframe.width <= largest_picture &&
+         keyframe.height <= largest_picture && keyframe.height <= 4 * keyframe.width;
 }
 
 /// A view's place in the picture.
-struct Panel {
+struct ViewPanel {
   cv::Rect area;
   double scale = 1.0;
   int width = 0, height = 0;  // of the view
@@ -53,8 +53,8 @@ struct Panel {
 };
 
 /// `other` lends its size to a view that has none.
-Panel panelOf(const Keyframe& keyframe, const Keyframe& other, int widest) {
-  Panel made;
+ViewPanel panelOf(const Keyframe& keyframe, const Keyframe& other, int widest) {
+  ViewPanel made;
   const Keyframe* sized = isPlausible(keyframe) ? &keyframe : isPlausible(other) ? &other : nullptr;
   made.width = sized != nullptr ? sized->width : usual_width;
   made.height = sized != nullptr ? sized->height : usual_height;
@@ -78,7 +78,7 @@ void drawView(cv::Mat canvas, const Keyframe& keyframe, const std::string& title
   writeTitle(canvas, title);
 }
 
-void drawMatchesOn(cv::Mat& canvas, const Panel& a, const Panel& b, const std::vector<MatchedPixels>& pixels,
+void drawMatchesOn(cv::Mat& canvas, const ViewPanel& a, const ViewPanel& b, const std::vector<MatchedPixels>& pixels,
                    const MatchPictureOptions& options) {
   std::vector<const MatchedPixels*> shown, others;
   for (const MatchedPixels& match : pixels)
@@ -108,7 +108,7 @@ void drawStrip(cv::Mat canvas, const MatchPictureOptions& options) {
   constexpr int bar = 60, words = 100;
   write(canvas, options.caption, {6, 16}, ink);
   const int from = canvas.cols - bar - words;
-  if (from < narrowest) return;
+  if (from < narrowest_view) return;
   cv::rectangle(canvas, {from - 60, 0, canvas.cols - from + 60, canvas.rows}, paper, cv::FILLED);
   write(canvas, "residual", {from - 58, 16}, ink);
   for (int i = 0; i < bar; ++i)
@@ -122,8 +122,8 @@ void drawStrip(cv::Mat canvas, const MatchPictureOptions& options) {
 
 Picture drawMatches(const Keyframe& a, const Keyframe& b, const std::vector<MatchedPixels>& pixels,
                     const MatchPictureOptions& options) {
-  const int widest = std::clamp(options.widest, narrowest, largest_size);
-  Panel of_a = panelOf(a, b, widest), of_b = panelOf(b, a, widest);
+  const int widest = std::clamp(options.widest, narrowest_view, largest_picture);
+  ViewPanel of_a = panelOf(a, b, widest), of_b = panelOf(b, a, widest);
   if (options.stacked) of_b.area.y = of_a.area.height + panel_gap;
   else of_b.area.x = of_a.area.width + panel_gap;
   const cv::Rect both = of_a.area | of_b.area;

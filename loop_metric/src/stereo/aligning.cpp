@@ -20,11 +20,11 @@ using urban_nav_core::StereoCamera;
 
 namespace {
 
-constexpr double least_correlation = 0.8;  // as swf_vo's
+constexpr double least_view_correlation = 0.8;  // as swf_vo's
 constexpr double least_gain = 0.2, largest_gain = 5.0;
 constexpr double smallest_scale = 0.3, largest_scale = 3.5;  // of a patch from view to view: beyond, nothing is alike
 constexpr double most_stretch = 2.5;                         // of one axis over the other: a wall seen edge-on
-constexpr int margin = urban_nav_core::patch_radius + 3;
+constexpr int view_margin = urban_nav_core::patch_radius + 3;
 constexpr double same_point_px = 3.0;  // of the level: a corner that the other view chose as well
 constexpr double own_window_px = 6.0;  // of the level: nearer patches share their pixels
 constexpr double least_depth_share =
@@ -39,20 +39,20 @@ struct Found {
 };
 
 /// Where a point lies and how it looks from the other view.
-struct Place {
+struct PointView {
   PatchWarp warp;
   Eigen::Vector2d pixel;
 };
 
-std::optional<Place> placeOf(const StereoCamera& camera, const Eigen::Vector3d& plane, const Eigen::Vector3d& ray,
-                             const Pose& T_to_from) {
+std::optional<PointView> placeOf(const StereoCamera& camera, const Eigen::Vector3d& plane, const Eigen::Vector3d& ray,
+                                 const Pose& T_to_from) {
   const double rho = std::max(plane.dot(ray), 0.0);
   const auto warp = urban_nav_core::warpOfSurface(camera, plane, ray, T_to_from);
   if (!warp || !warp->A.allFinite() || !warp->bend.allFinite()) return std::nullopt;
   const Eigen::Vector3d p = T_to_from.q() * ray + T_to_from.t() * rho;
   if (!(p.z() > 0.05)) return std::nullopt;
-  return Place{*warp,
-               {camera.left.fx * p.x() / p.z() + camera.left.cx, camera.left.fy * p.y() / p.z() + camera.left.cy}};
+  return PointView{*warp,
+                   {camera.left.fx * p.x() / p.z() + camera.left.cx, camera.left.fy * p.y() / p.z() + camera.left.cy}};
 }
 
 /// By how much a warp enlarges; empty where it does so too much or too unevenly.
@@ -96,8 +96,8 @@ Found look(const StereoCamera& camera, const View& from, const View& to, const V
   if (!of_middle) return made;
   const auto& image = to.pyramid.level(t);
   const Eigen::Vector2d start = of_middle->pixel * to_scale;
-  if (!(start.x() >= margin && start.y() >= margin && start.x() < image.width - margin &&
-        start.y() < image.height - margin))
+  if (!(start.x() >= view_margin && start.y() >= view_margin && start.x() < image.width - view_margin &&
+        start.y() < image.height - view_margin))
     return made;
   PatchWarp warp(of_middle->warp.A * (to_scale / from_scale), of_middle->warp.bend / from_scale);
   warp.bend *= std::min(1.0, urban_nav_core::largest_bend / std::max(warp.bend.norm(), 1e-9));
@@ -106,7 +106,7 @@ Found look(const StereoCamera& camera, const View& from, const View& to, const V
   made.visible = true;
   made.likeness = urban_nav_core::correlationAt(image, patch, start);
   const auto aligned = urban_nav_core::alignPatch(image, patch, start, options.reach);
-  if (!aligned.converged || aligned.correlation < least_correlation || aligned.gain < least_gain ||
+  if (!aligned.converged || aligned.correlation < least_view_correlation || aligned.gain < least_gain ||
       aligned.gain > largest_gain || !aligned.covariance.allFinite())
     return made;
   made.found = true;

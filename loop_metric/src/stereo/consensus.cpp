@@ -29,11 +29,12 @@ struct Item {
   double rho = 0.0, sigma_rho = 0.0, sigma_px = 1.0;
 };
 
-std::vector<Item> itemsOf(const StereoCamera& camera, const View& a, const View& b, const std::vector<Pair>& pairs) {
+std::vector<Item> itemsOf(const StereoCamera& camera, const View& a, const View& b,
+                          const std::vector<DescriptorMatch>& pairs) {
   std::vector<Item> items;
   items.reserve(pairs.size());
   const double per_depth = camera.left.fx * camera.baseline;
-  for (const Pair& pair : pairs) {
+  for (const DescriptorMatch& pair : pairs) {
     const ViewPoint &in_a = a.points[static_cast<std::size_t>(pair.a)],
                     &in_b = b.points[static_cast<std::size_t>(pair.b)];
     Item item;
@@ -164,7 +165,8 @@ int samplesFor(int inliers, std::size_t count) {
 
 }  // namespace
 
-Consensus findConsensus(const StereoCamera& camera, const View& a, const View& b, const std::vector<Pair>& pairs) {
+Consensus findConsensus(const StereoCamera& camera, const View& a, const View& b,
+                        const std::vector<DescriptorMatch>& pairs) {
   Consensus made;
   const std::vector<Item> items = itemsOf(camera, a, b, pairs);
   std::vector<const Item*> deep;

@@ -32,11 +32,11 @@ struct Places {
   }
 };
 
-using Grid = std::array<float, grid * grid>;
+using DescriptorGrid = std::array<float, grid * grid>;
 
 /// Directions of gradients as places among the bins, 0 ... `directions`, to 1e-4 of a bin (Abramowitz and Stegun 1964, 4.4.49): the library's own takes a third of
 /// a descriptor's time.
-void directionsOf(const Grid& dx, const Grid& dy, Grid& place) {
+void directionsOf(const DescriptorGrid& dx, const DescriptorGrid& dy, DescriptorGrid& place) {
   for (std::size_t i = 0; i < place.size(); ++i) {
     const float x = std::abs(dx[i]), y = std::abs(dy[i]);
     const float large = std::max(x, y), small = std::min(x, y);
@@ -65,7 +65,7 @@ struct Shares {
 };
 
 struct Weights {
-  Grid value{};
+  DescriptorGrid value{};
   Weights() {
     for (int j = 0; j < grid; ++j)
       for (int i = 0; i < grid; ++i) {
@@ -100,7 +100,7 @@ Eigen::Matrix<float, descriptor_size, 1> describe(const Pyramid& pyramid, const 
       grey[j * wide + i] = top + rows.share[j] * (bottom - top);
     }
   }
-  Grid dx, dy, size, place;
+  DescriptorGrid dx, dy, size, place;
   float contrast = 0.0F;
   for (std::size_t j = 0; j < grid; ++j)
     for (std::size_t i = 0; i < grid; ++i) {
@@ -164,8 +164,8 @@ struct Nearest {
 
 }  // namespace
 
-std::vector<Pair> mutualNearest(const Descriptors& a, const Descriptors& b) {
-  std::vector<Pair> pairs;
+std::vector<DescriptorMatch> mutualNearest(const Descriptors& a, const Descriptors& b) {
+  std::vector<DescriptorMatch> pairs;
   if (a.cols() == 0 || b.cols() == 0) return pairs;
   const Eigen::MatrixXf products = a.transpose() * b;
   std::vector<Nearest> of_a(static_cast<std::size_t>(a.cols())), of_b(static_cast<std::size_t>(b.cols()));

@@ -23,9 +23,9 @@ Eigen::Matrix<float, descriptor_size, 1> describe(const urban_nav_core::Pyramid&
                                                   double window);
 
 /// Columns of `a` and `b` that are each other's nearest, clearly nearer than the second nearest on both sides. In the order of a.
-struct Pair {
+struct DescriptorMatch {
   int a = 0, b = 0;
 };
-std::vector<Pair> mutualNearest(const Descriptors& a, const Descriptors& b);
+std::vector<DescriptorMatch> mutualNearest(const Descriptors& a, const Descriptors& b);
 
 }  // namespace loop_metric

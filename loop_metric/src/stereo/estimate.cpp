@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "urban_nav_core/geometry/small_matrices.hpp"
+
 namespace loop_metric {
 
 using urban_nav_core::Matrix6d;
@@ -123,7 +125,7 @@ Inflation inflation(const StereoCamera& camera, const std::vector<Sight>& sights
   if (count <= 7) return {};
   Matrix7d held = H;
   held.diagonal().array() += anchor;
-  const Matrix7d C = held.ldlt().solve(Matrix7d::Identity()), V = C * S * C;
+  const Matrix7d C = urban_nav_core::solveByLdlt<7, 7>(held, Matrix7d::Identity()), V = C * S * C;
   const auto mean = [&](int first) {
     const Eigen::Matrix3d promised = C.block<3, 3>(first, first), found = V.block<3, 3>(first, first);
     const double ratio = promised.ldlt().solve(found).trace() / 3.0 * count / (count - 7.0);
@@ -141,7 +143,7 @@ Matrix6d withCommonError(const StereoCamera& camera, const Pose& T_a_b, const Es
   // (C + spread spread^T)^-1, without inverting the information, which may be singular
   const Matrix6d seen = information * spread;
   const Matrix6d inner = Matrix6d::Identity() + spread.transpose() * seen;
-  const Matrix6d made = information - seen * inner.ldlt().solve(seen.transpose());
+  const Matrix6d made = information - seen * urban_nav_core::solveByLdlt<6, 6>(inner, seen.transpose());
   return 0.5 * (made + made.transpose());
 }
 
@@ -180,7 +182,7 @@ Estimate estimate(const StereoCamera& camera, const std::vector<Sight>& sights, 
     scale2 = linearise();
     sum(scale2, H, b);
     H.diagonal().array() += anchor;
-    const Vector7d d = H.ldlt().solve(b);
+    const Vector7d d = urban_nav_core::solveByLdlt<7, 1>(H, b);
     if (!d.allFinite()) return made;
     made.T_a_b = urban_nav_core::boxPlus(made.T_a_b, d.head<6>());
     made.offset += d[of_offset];

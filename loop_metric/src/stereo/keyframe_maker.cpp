@@ -22,14 +22,14 @@ using urban_nav_core::StereoCamera;
 namespace {
 
 // As swf_vo's front end has them, which says where they come from.
-constexpr int levels = 3;
+constexpr int stereo_levels = 3;
 constexpr double slack = 2.0;
 constexpr double largest_disparity = 0.16;
 constexpr int lowest_disparity = -2;
 constexpr double least_disparity_px = -1.0;
 constexpr float level_preference = 0.3F;
 constexpr double same_row = 1.5;
-constexpr double least_correlation = 0.85;
+constexpr double least_stereo_correlation = 0.85;
 constexpr std::uint8_t clipped_from = 254;
 constexpr int clipping_reach = 2;
 constexpr int attempts_per_point = 3;
@@ -39,7 +39,7 @@ constexpr int wanted_per_point = 6;                     // corners, so that the 
 // not told apart.
 constexpr int jpeg_quality = 95;
 
-struct Candidate {
+struct CornerCandidate {
   int level = 0, u = 0, v = 0;
   float score = 0.0F;
   bool of_clipped = false;
@@ -58,7 +58,7 @@ int depthFor(int points) {
   return depth;
 }
 
-void gather(const Pyramid& pyramid, int level, int wanted, std::vector<Candidate>& candidates) {
+void gather(const Pyramid& pyramid, int level, int wanted, std::vector<CornerCandidate>& candidates) {
   const ImageView& image = pyramid.level(level);
   urban_nav_core::Fast fast;
   const std::vector<urban_nav_core::Corner>* found = nullptr;
@@ -92,7 +92,7 @@ bool measureDepth(const StereoCamera& camera, const ImageView& left, const Image
   const auto found =
       urban_nav_core::alignAcross(right, *source, Eigen::Vector2d(point.u - *whole, point.v), usual_slope, made);
   const auto& alignment = found.alignment;
-  if (!alignment.converged || alignment.correlation < least_correlation ||
+  if (!alignment.converged || alignment.correlation < least_stereo_correlation ||
       std::abs(alignment.position.y() - point.v) > same_row)
     return false;
   const double disparity = (point.u - alignment.position.x()) * size;
@@ -121,13 +121,13 @@ Keyframe KeyframeMaker::make(const urban_nav_core::PoseRef& at, const urban_nav_
   keyframe.image = encodeJpeg(pair.left, jpeg_quality);
   if (!fits(pair.right)) return keyframe;
 
-  Pyramid left(levels), right(levels);
+  Pyramid left(stereo_levels), right(stereo_levels);
   left.build(pair.left);
   right.build(pair.right);
-  std::vector<Candidate> candidates;
+  std::vector<CornerCandidate> candidates;
   for (int level = 0; level < left.levels(); ++level)
     gather(left, level, (wanted_per_point * points_) >> (2 * level), candidates);
-  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+  std::sort(candidates.begin(), candidates.end(), [](const CornerCandidate& a, const CornerCandidate& b) {
     if (a.of_clipped != b.of_clipped) return b.of_clipped;
     if (a.score != b.score) return a.score > b.score;
     if (a.level != b.level) return a.level < b.level;
@@ -135,7 +135,7 @@ Keyframe KeyframeMaker::make(const urban_nav_core::PoseRef& at, const urban_nav_
   });
   urban_nav_core::FeatureQuadtree quadtree(keyframe.width, keyframe.height, points_, depthFor(points_), slack);
   int attempts = attempts_per_point * points_;
-  for (const Candidate& candidate : candidates) {
+  for (const CornerCandidate& candidate : candidates) {
     if (quadtree.count() >= points_ || attempts <= 0) break;
     // where there is little else, better than nothing
     if (candidate.of_clipped && 2 * quadtree.count() >= points_) break;

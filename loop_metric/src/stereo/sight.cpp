@@ -9,7 +9,7 @@ using urban_nav_core::StereoCamera;
 
 namespace {
 
-constexpr double nearest = 1e-3;  // of z over the depth in its own view
+constexpr double least_depth = 1e-3;  // of z over the depth in its own view
 
 }  // namespace
 
@@ -40,7 +40,7 @@ SightResidual residualOf(const Sight& sight, const StereoCamera& camera, const P
     p_by_pose.leftCols<3>() = rho * Eigen::Matrix3d::Identity();
     p_by_pose.rightCols<3>() = -skew(turned);
   }
-  if (!(p.z() > nearest)) return made;
+  if (!(p.z() > least_depth)) return made;
   made.visible = true;
   const double iz = 1.0 / p.z(), x = p.x() * iz, y = p.y() * iz;
   Eigen::Matrix<double, 2, 3> pixel_by_p;

@@ -44,7 +44,7 @@ constexpr std::size_t coarse_rounds = 2;
 constexpr std::array<AligningOptions, 4> rounds = {AligningOptions{2, 3.0, 0.1}, AligningOptions{1, 3.0, 0.1},
                                                    AligningOptions{0, 2.0, 0.0}, AligningOptions{0, 1.5, 0.0}};
 
-std::string words(const char* format, double value, double threshold) {
+std::string stereoReason(const char* format, double value, double threshold) {
   std::array<char, 160> text{};
   std::snprintf(text.data(), text.size(), format, value, threshold);
   return text.data();
@@ -106,16 +106,16 @@ class StereoMatcher::Implementation {
                      std::string("the image of ") + (a->isReadable() ? "the later" : "the earlier") +
                          " view is missing, unreadable or of another size");
     if (!test(closure, "points", std::min(closure.points_a, closure.points_b), least_points, true))
-      return refused(
-          closure, StereoReason::TooFewPoints,
-          words("%.0f points with depth in one of the views, %.0f wanted", closure.tests.back().value, least_points));
-    const std::vector<Pair> pairs = mutualNearest(a->descriptors, b->descriptors);
+      return refused(closure, StereoReason::TooFewPoints,
+                     stereoReason("%.0f points with depth in one of the views, %.0f wanted", closure.tests.back().value,
+                                  least_points));
+    const std::vector<DescriptorMatch> pairs = mutualNearest(a->descriptors, b->descriptors);
     closure.putative = static_cast<int>(pairs.size());
     Refined best = findMotion(*a, *b, pairs, closure);
     if (!test(closure, "consensus", closure.consensus, fewest_agreeing, true) || !best.found.found)
-      return refused(
-          closure, StereoReason::NoConsensus,
-          words("no motion explains more than %.0f of %.0f pairs of points", closure.consensus, closure.putative));
+      return refused(closure, StereoReason::NoConsensus,
+                     stereoReason("no motion explains more than %.0f of %.0f pairs of points", closure.consensus,
+                                  closure.putative));
     return refine(*a, *b, std::move(best), closure);
   }
 
@@ -169,7 +169,7 @@ class StereoMatcher::Implementation {
   }
 
   /// Several are tried where facades repeat themselves: which is meant, patches decide.
-  Refined findMotion(const View& a, const View& b, std::vector<Pair> pairs, StereoClosure& closure) const {
+  Refined findMotion(const View& a, const View& b, std::vector<DescriptorMatch> pairs, StereoClosure& closure) const {
     Refined best;
     for (std::size_t tried = 0; tried < most_motions; ++tried) {
       Consensus motion = findConsensus(camera_, a, b, pairs);
@@ -218,24 +218,24 @@ class StereoMatcher::Implementation {
     const bool turned = test(closure, "sigma_rad", sigma_rad, largest_sigma_rad, false);
     if (!enough)
       return refused(closure, StereoReason::TooFewMatches,
-                     words("%.0f points of one view are where the other puts them, %.0f wanted", closure.matches,
-                           parameters_.min_matches));
+                     stereoReason("%.0f points of one view are where the other puts them, %.0f wanted", closure.matches,
+                                  parameters_.min_matches));
     if (!small)
       return refused(closure, StereoReason::LargeError,
-                     words("a mean reprojection error of %.2f px, at most %.2f allowed", closure.reprojection_px,
-                           parameters_.max_reprojection_error));
+                     stereoReason("a mean reprojection error of %.2f px, at most %.2f allowed", closure.reprojection_px,
+                                  parameters_.max_reprojection_error));
     if (!alike)
       return refused(
           closure, StereoReason::Unlike,
-          words("where points should be the other view looks otherwise: a mean correlation of %.2f, %.2f wanted",
-                closure.likeness, parameters_.min_likeness));
+          stereoReason("where points should be the other view looks otherwise: a mean correlation of %.2f, %.2f wanted",
+                       closure.likeness, parameters_.min_likeness));
     if (!firm || !turned)
       return refused(closure, StereoReason::NotDetermined,
-                     words("the matches leave it open by %.2f m or %.3f rad", sigma_m, sigma_rad));
+                     stereoReason("the matches leave it open by %.2f m or %.3f rad", sigma_m, sigma_rad));
     closure.verdict = ClosureVerdict::Accepted;
     closure.reason = StereoReason::None;
-    closure.sentence =
-        words("%.0f matches with a mean reprojection error of %.3f px", closure.matches, closure.reprojection_px);
+    closure.sentence = stereoReason("%.0f matches with a mean reprojection error of %.3f px", closure.matches,
+                                    closure.reprojection_px);
     closure.lefts.information = found.information;
     return closure;
   }

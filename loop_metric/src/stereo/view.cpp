@@ -12,7 +12,7 @@ using urban_nav_core::StereoCamera;
 
 namespace {
 
-constexpr int levels = 6;  // of the pyramid: alignment goes to 4, descriptors of near things further
+constexpr int view_levels = 6;  // of the pyramid: alignment goes to 4, descriptors of near things further
 // Side of a descriptor's window on the thing seen. Bench, pairs, a street: with 0.6, 0.9, 1.2, 1.8, 2.4 m, of pairs 4 to 7.5 m apart 72, 75, 78, 77, 75 % are
 // upgraded.
 constexpr double window_m = 1.2;
@@ -20,7 +20,7 @@ constexpr double largest_window = 0.35;  // of the image's height
 
 }  // namespace
 
-View::View(const Keyframe& keyframe, const StereoCamera& camera) : at(keyframe.at), pyramid(levels) {
+View::View(const Keyframe& keyframe, const StereoCamera& camera) : at(keyframe.at), pyramid(view_levels) {
   const cv::Mat pixels = decodeJpeg(keyframe.image, {camera.left.width, camera.left.height});
   if (pixels.empty()) return;
   pyramid.build({pixels.data, pixels.cols, pixels.rows, static_cast<std::ptrdiff_t>(pixels.step)});

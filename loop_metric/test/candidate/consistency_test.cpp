@@ -13,9 +13,9 @@ using urban_nav_core::MetricClosure;
 using urban_nav_core::Pose;
 using urban_nav_core::StampNs;
 
-constexpr StampNs kSecond = 1'000'000'000;
+constexpr StampNs kClosureSecond = 1'000'000'000;
 
-Pose at(double x, double y) { return Pose(urban_nav_core::Quaterniond::Identity(), {x, y, 0.0}); }
+Pose closurePose(double x, double y) { return Pose(urban_nav_core::Quaterniond::Identity(), {x, y, 0.0}); }
 
 /// Twice along the same metres, and the closures between each metre of one pass and the same of the other.
 struct TwoPasses {
@@ -23,16 +23,16 @@ struct TwoPasses {
   std::vector<MetricClosure> closures;
   TwoPasses() {
     std::vector<Pose> poses;
-    for (int i = 0; i < 20; ++i) poses.push_back(at(i, 0.0));
-    for (int i = 0; i < 20; ++i) poses.push_back(at(i, 0.5));
+    for (int i = 0; i < 20; ++i) poses.push_back(closurePose(i, 0.0));
+    for (int i = 0; i < 20; ++i) poses.push_back(closurePose(i, 0.5));
     around.drive("day", poses, 0.01, 0.001);
     for (int i = 0; i < 10; ++i)
       closures.push_back(closure(i, 20 + i, Pose(urban_nav_core::Quaterniond::Identity(), {0, 0.5, 0})));
   }
   static MetricClosure closure(StampNs a, StampNs b, const Pose& T_a_b) {
     MetricClosure made;
-    made.a = {"day", a * kSecond};
-    made.b = {"day", b * kSecond};
+    made.a = {"day", a * kClosureSecond};
+    made.b = {"day", b * kClosureSecond};
     made.measured.T_a_b = T_a_b;
     made.measured.information.diagonal() << Eigen::Vector3d::Constant(1e4), Eigen::Vector3d::Constant(1e6);
     made.verdict = ClosureVerdict::Accepted;
@@ -52,8 +52,8 @@ TEST(Consistency, ClosuresThatAgreeStay) {
 
 TEST(Consistency, WhatItsNeighboursContradictIsRejectedAndTheyStay) {
   TwoPasses passes;
-  passes.closures[4].measured.T_a_b = at(2.0, 0.5);
-  passes.closures[7].measured.T_a_b = at(0.0, -3.0);
+  passes.closures[4].measured.T_a_b = closurePose(2.0, 0.5);
+  passes.closures[7].measured.T_a_b = closurePose(0.0, -3.0);
   holdAgainstEachOther(passes.closures, passes.around, {});
   for (std::size_t i = 0; i < passes.closures.size(); ++i) {
     const bool wrong = i == 4 || i == 7;
@@ -66,7 +66,7 @@ TEST(Consistency, WhatItsNeighboursContradictIsRejectedAndTheyStay) {
 TEST(Consistency, TwoWithoutAWitnessBothStay) {
   TwoPasses passes;
   passes.closures.resize(2);
-  passes.closures[1].measured.T_a_b = at(2.0, 0.5);
+  passes.closures[1].measured.T_a_b = closurePose(2.0, 0.5);
   holdAgainstEachOther(passes.closures, passes.around, {});
   EXPECT_EQ(passes.closures[0].verdict, ClosureVerdict::Accepted);
   EXPECT_EQ(passes.closures[1].verdict, ClosureVerdict::Accepted);
@@ -74,7 +74,7 @@ TEST(Consistency, TwoWithoutAWitnessBothStay) {
 
 TEST(Consistency, AFreeDirectionContradictsNobody) {
   TwoPasses passes;
-  passes.closures[4].measured.T_a_b = at(2.0, 0.5);
+  passes.closures[4].measured.T_a_b = closurePose(2.0, 0.5);
   passes.closures[4].measured.information.row(0).setZero();
   passes.closures[4].measured.information.col(0).setZero();
   holdAgainstEachOther(passes.closures, passes.around, {});
@@ -84,7 +84,7 @@ TEST(Consistency, AFreeDirectionContradictsNobody) {
 TEST(Consistency, OtherSessionsAndFarWaysAreNoNeighbours) {
   TwoPasses passes;
   passes.closures[3].b.session = "another";
-  passes.closures[3].measured.T_a_b = at(9.0, 9.0);
+  passes.closures[3].measured.T_a_b = closurePose(9.0, 9.0);
   const auto counts = holdAgainstEachOther(passes.closures, passes.around, {});
   EXPECT_EQ(counts[3].agreeing + counts[3].contradicting, 0);
   EXPECT_TRUE(holdAgainstEachOther(passes.closures = {}, passes.around, {}).empty());

@@ -18,7 +18,7 @@ using testing::Photographer;
 using urban_nav_core::testing::lookingAlong;
 using urban_nav_core::testing::texturedRoom;
 
-std::string bytesOf(Keyframe keyframe) {
+std::string packed(Keyframe keyframe) {
   urban_nav_core::Archive archive;
   archive(keyframe);
   return archive.take();
@@ -34,7 +34,7 @@ Keyframe keyframeOf(const std::string& bytes) {
 
 bool isRefused(const Keyframe& keyframe) {
   try {
-    keyframeOf(bytesOf(keyframe));
+    keyframeOf(packed(keyframe));
   } catch (const urban_nav_core::DataError&) {
     return true;
   }
@@ -47,9 +47,9 @@ Keyframe someKeyframe() {
 }
 
 TEST(KeyframeArchive, ComesBackFromItsBytesAndDamageIsRefused) {
-  const std::string bytes = bytesOf(someKeyframe());
-  EXPECT_EQ(bytesOf(keyframeOf(bytes)), bytes);
-  EXPECT_EQ(bytesOf(keyframeOf(bytesOf({}))), bytesOf({}));
+  const std::string bytes = packed(someKeyframe());
+  EXPECT_EQ(packed(keyframeOf(bytes)), bytes);
+  EXPECT_EQ(packed(keyframeOf(packed({}))), packed({}));
   for (const std::size_t length : {std::size_t{0}, std::size_t{7}, bytes.size() / 2, bytes.size() - 1})
     EXPECT_THROW(keyframeOf(bytes.substr(0, length)), urban_nav_core::DataError) << length;
   EXPECT_THROW(keyframeOf(bytes + "x"), urban_nav_core::DataError);
@@ -85,7 +85,7 @@ TEST(KeyframeArchive, Fuzzed) {
   seed.image.clear();  // the points' bytes, not those of the picture
   StereoMatcher matcher(photographer.camera(), {});
   int matched = 0;
-  const auto result = urban_nav_core::testing::fuzzText({bytesOf(seed)}, [&](const std::string& text) {
+  const auto result = urban_nav_core::testing::fuzzText({packed(seed)}, [&](const std::string& text) {
     Keyframe damaged = keyframeOf(text);
     if (++matched > 20) return;
     damaged.image = image;

@@ -14,9 +14,9 @@ using urban_nav_core::Constraint;
 using urban_nav_core::Pose;
 using urban_nav_core::StampNs;
 
-constexpr StampNs kSecond = 1'000'000'000;
+constexpr StampNs kSightingSecond = 1'000'000'000;
 
-Pose at(double x, double y = 0.0, double heading = 0.0) {
+Pose poseAt(double x, double y = 0.0, double heading = 0.0) {
   return Pose(urban_nav_core::expSo3({0.0, 0.0, heading}), {x, y, 0.0});
 }
 
@@ -26,23 +26,23 @@ class LocaliserTest : public ::testing::Test {
   void drive(int seconds, double sigma_m = 0.01) {
     for (int i = 0; i < seconds; ++i) {
       urban_nav_core::RelativePose step;
-      step.from = now_ * kSecond;
-      step.to = ++now_ * kSecond;
-      step.T_from_to = at(1.0);
+      step.from = now_ * kSightingSecond;
+      step.to = ++now_ * kSightingSecond;
+      step.T_from_to = poseAt(1.0);
       step.covariance.setZero();
       step.covariance.diagonal() << Eigen::Vector3d::Constant(sigma_m * sigma_m), Eigen::Vector3d::Constant(1e-6);
       ASSERT_TRUE(localiser_.addOdometry(step));
     }
   }
-  static Pose truth(double seconds) { return at(10.0 + seconds, 5.0); }
+  static Pose truth(double seconds) { return poseAt(10.0 + seconds, 5.0); }
   /// A sighting of a place of the map 2 m beside, wrong by `error` in the map.
   void see(int second, const Pose& error = Pose(), double sigma_m = 0.02) {
-    const Pose T_map_a = at(11.0 + second, 7.0, 1.0);
+    const Pose T_map_a = poseAt(11.0 + second, 7.0, 1.0);
     Constraint measured;
     measured.T_a_b = T_map_a.inverse() * error * truth(second);
     measured.information.diagonal() << Eigen::Vector3d::Constant(1.0 / (sigma_m * sigma_m)),
         Eigen::Vector3d::Constant(1e6);
-    localiser_.addSighting(second * kSecond, T_map_a, measured);
+    localiser_.addSighting(second * kSightingSecond, T_map_a, measured);
   }
   void expectRight(double metres) const {
     const Located located = localiser_.now();
@@ -83,7 +83,7 @@ TEST_F(LocaliserTest, TheSamePlaceTwiceIsOneWitness) {
 TEST_F(LocaliserTest, OneFalseSightingMovesNothing) {
   drive(8);
   for (const int second : {1, 3, 5}) see(second);
-  see(7, at(20.0, -3.0));
+  see(7, poseAt(20.0, -3.0));
   expectRight(0.01);
 }
 
@@ -91,7 +91,7 @@ TEST_F(LocaliserTest, FalseOnesThatDisagreeWithEachOtherAreNeverKnown) {
   urban_nav_core::testing::Dice dice(4);
   drive(20);
   for (int second = 1; second < 20; second += 2)
-    see(second, at(dice.uniform(-30.0, 30.0), dice.uniform(-30.0, 30.0), dice.uniform(-3.0, 3.0)));
+    see(second, poseAt(dice.uniform(-30.0, 30.0), dice.uniform(-30.0, 30.0), dice.uniform(-3.0, 3.0)));
   EXPECT_NE(localiser_.now().knowledge, Knowledge::Known);
 }
 
@@ -99,8 +99,8 @@ TEST_F(LocaliserTest, TwoHypothesesWithAsManyWitnessesAreUnsure) {
   drive(8);
   see(1);
   see(3);
-  see(5, at(20.0));
-  see(7, at(20.0));
+  see(5, poseAt(20.0));
+  see(7, poseAt(20.0));
   EXPECT_EQ(localiser_.now().knowledge, Knowledge::Unsure);
   drive(2);
   see(9);
@@ -114,14 +114,14 @@ TEST_F(LocaliserTest, OdometryWearsOut) {
   drive(400, 0.03);
   EXPECT_EQ(localiser_.now().knowledge, Knowledge::Unsure);
   ASSERT_TRUE(localiser_.now().T_map_base);
-  const Located before = localiser_.at(4 * kSecond);
+  const Located before = localiser_.at(4 * kSightingSecond);
   EXPECT_EQ(before.knowledge, Knowledge::Known);
 }
 
 TEST_F(LocaliserTest, SightingsOverManyPlacesAreFusedAndTheCovarianceHolds) {
   urban_nav_core::testing::Dice dice(9);
   drive(20);
-  for (int second = 1; second <= 20; ++second) see(second, at(0.05 * dice.normal(), 0.05 * dice.normal()), 0.05);
+  for (int second = 1; second <= 20; ++second) see(second, poseAt(0.05 * dice.normal(), 0.05 * dice.normal()), 0.05);
   expectRight(0.05);
   EXPECT_LT(std::sqrt(localiser_.now().T_map_base->covariance(0, 0)), 0.08);
   EXPECT_GT(std::sqrt(localiser_.now().T_map_base->covariance(0, 0)), 0.01);
@@ -129,7 +129,7 @@ TEST_F(LocaliserTest, SightingsOverManyPlacesAreFusedAndTheCovarianceHolds) {
 
 TEST_F(LocaliserTest, LooksInVainAreANewPlace) {
   drive(5);
-  for (const int second : {1, 2, 3}) localiser_.addNothing(second * kSecond, false);
+  for (const int second : {1, 2, 3}) localiser_.addNothing(second * kSightingSecond, false);
   EXPECT_EQ(localiser_.now().knowledge, Knowledge::New);
   see(4);
   EXPECT_EQ(localiser_.now().knowledge, Knowledge::Unsure);
@@ -139,7 +139,7 @@ TEST_F(LocaliserTest, ARobotThatWasCarriedElsewhereIsFoundAgain) {
   drive(40);
   for (int second = 1; second <= 30; ++second) see(second);
   expectRight(0.02);
-  const Pose elsewhere = at(35.0, -12.0);
+  const Pose elsewhere = poseAt(35.0, -12.0);
   see(32, elsewhere);
   expectRight(0.3);  // one may be false
   see(34, elsewhere);
@@ -154,7 +154,8 @@ TEST_F(LocaliserTest, ARobotThatWasCarriedElsewhereIsFoundAgain) {
 
 TEST_F(LocaliserTest, FalseSightingsBetweenTrueOnesCarryNobody) {
   drive(40);
-  for (int second = 1; second <= 40; ++second) see(second, second > 30 && second % 3 != 0 ? at(35.0, -12.0) : Pose());
+  for (int second = 1; second <= 40; ++second)
+    see(second, second > 30 && second % 3 != 0 ? poseAt(35.0, -12.0) : Pose());
   see(40);
   EXPECT_LT(distanceBetween(localiser_.now().T_map_base->pose, truth(40)), 0.05);
 }
@@ -162,11 +163,11 @@ TEST_F(LocaliserTest, FalseSightingsBetweenTrueOnesCarryNobody) {
 TEST_F(LocaliserTest, WhatShouldBeSeenAndIsNotEndsKnown) {
   drive(12);
   for (const int second : {1, 3, 5}) see(second);
-  for (const int second : {6, 7, 8, 9}) localiser_.addNothing(second * kSecond, false);
+  for (const int second : {6, 7, 8, 9}) localiser_.addNothing(second * kSightingSecond, false);
   expectRight(0.02);  // the map may show nothing of this place
-  for (const int second : {10, 11}) localiser_.addNothing(second * kSecond, true);
+  for (const int second : {10, 11}) localiser_.addNothing(second * kSightingSecond, true);
   expectRight(0.02);
-  localiser_.addNothing(12 * kSecond, true);
+  localiser_.addNothing(12 * kSightingSecond, true);
   EXPECT_EQ(localiser_.now().knowledge, Knowledge::Unsure);
   EXPECT_EQ(localiser_.now().reason, LocatedReason::NotSeenAgain);
   see(12);
@@ -177,7 +178,7 @@ TEST_F(LocaliserTest, WhatLiesFarBackIsForgotten) {
   drive(10);
   for (const int second : {1, 3, 5}) see(second);
   drive(30000, 1e-4);
-  EXPECT_EQ(localiser_.at(5 * kSecond).reason, LocatedReason::NothingSeen);
+  EXPECT_EQ(localiser_.at(5 * kSightingSecond).reason, LocatedReason::NothingSeen);
   see(30005);
   see(30009);
   expectRight(0.02);
@@ -185,7 +186,7 @@ TEST_F(LocaliserTest, WhatLiesFarBackIsForgotten) {
 
 TEST_F(LocaliserTest, ABeliefAloneIsNotKnownAndOneSightingIsNotEnoughForItEither) {
   drive(4);
-  localiser_.addBelief(1 * kSecond, {truth(1), 0.01 * urban_nav_core::Matrix6d::Identity()});
+  localiser_.addBelief(1 * kSightingSecond, {truth(1), 0.01 * urban_nav_core::Matrix6d::Identity()});
   EXPECT_EQ(localiser_.now().knowledge, Knowledge::Unsure);
   ASSERT_TRUE(localiser_.now().T_map_base);
   EXPECT_LT(distanceBetween(localiser_.now().T_map_base->pose, truth(4)), 0.01);
@@ -197,9 +198,9 @@ TEST_F(LocaliserTest, ABeliefAloneIsNotKnownAndOneSightingIsNotEnoughForItEither
 
 TEST_F(LocaliserTest, AVagueBeliefThatAgreesWithSightingsThatDisagreeMakesNothingKnown) {
   drive(8);
-  see(2, at(1.0, 1.0));
-  see(6, at(-1.0, -1.0));
-  localiser_.addBelief(4 * kSecond, {truth(4), 9.0 * urban_nav_core::Matrix6d::Identity()});
+  see(2, poseAt(1.0, 1.0));
+  see(6, poseAt(-1.0, -1.0));
+  localiser_.addBelief(4 * kSightingSecond, {truth(4), 9.0 * urban_nav_core::Matrix6d::Identity()});
   EXPECT_EQ(localiser_.now().knowledge, Knowledge::Unsure) << localiser_.now().sentence;
 }
 
@@ -207,8 +208,8 @@ TEST_F(LocaliserTest, ABeliefMovesNothingThatWasSeen) {
   drive(8);
   for (const int second : {1, 3, 5}) see(second);
   const Located before = localiser_.now();
-  localiser_.addBelief(7 * kSecond, {truth(7) * at(0.3), 0.01 * urban_nav_core::Matrix6d::Identity()});
-  localiser_.addBelief(8 * kSecond, {at(-40.0, 3.0), 1e-4 * urban_nav_core::Matrix6d::Identity()});
+  localiser_.addBelief(7 * kSightingSecond, {truth(7) * poseAt(0.3), 0.01 * urban_nav_core::Matrix6d::Identity()});
+  localiser_.addBelief(8 * kSightingSecond, {poseAt(-40.0, 3.0), 1e-4 * urban_nav_core::Matrix6d::Identity()});
   EXPECT_TRUE(isApprox(*localiser_.now().T_map_base, *before.T_map_base, 0.0));
   expectRight(0.01);
 }
@@ -225,7 +226,7 @@ TEST_F(LocaliserTest, ReasonAndProbabilityFollowWhatWasSeen) {
   EXPECT_EQ(localiser_.now().reason, LocatedReason::OneSighting);
   const double one = localiser_.now().probability;
   EXPECT_GT(one, believed);
-  see(4, at(20.0));
+  see(4, poseAt(20.0));
   EXPECT_EQ(localiser_.now().reason, LocatedReason::OneSighting);
   EXPECT_LT(localiser_.now().probability, 0.5) << "one against one";
   see(6);
@@ -235,8 +236,8 @@ TEST_F(LocaliserTest, ReasonAndProbabilityFollowWhatWasSeen) {
   see(8);
   EXPECT_GT(localiser_.now().probability, against_one);
   EXPECT_LE(localiser_.now().probability, 1.0);
-  see(9, at(20.0));
-  see(10, at(20.0));
+  see(9, poseAt(20.0));
+  see(10, poseAt(20.0));
   EXPECT_EQ(localiser_.now().reason, LocatedReason::Contested);
   EXPECT_STREQ(toString(localiser_.now().reason), "Contested");
 }
@@ -244,11 +245,11 @@ TEST_F(LocaliserTest, ReasonAndProbabilityFollowWhatWasSeen) {
 TEST_F(LocaliserTest, AWallAloneIsNoHypothesis) {
   drive(6);
   for (const int second : {1, 3, 5}) {
-    const Pose T_map_a = at(11.0 + second, 7.0);
+    const Pose T_map_a = poseAt(11.0 + second, 7.0);
     Constraint measured;
-    measured.T_a_b = T_map_a.inverse() * truth(second) * at(4.0);  // slid along it
+    measured.T_a_b = T_map_a.inverse() * truth(second) * poseAt(4.0);  // slid along it
     measured.information.diagonal() << 0.0, Eigen::Vector2d::Constant(1e4), Eigen::Vector3d::Constant(1e6);
-    localiser_.addSighting(second * kSecond, T_map_a, measured);
+    localiser_.addSighting(second * kSightingSecond, T_map_a, measured);
   }
   EXPECT_EQ(localiser_.now().knowledge, Knowledge::Unsure);
   see(4);
@@ -257,13 +258,13 @@ TEST_F(LocaliserTest, AWallAloneIsNoHypothesis) {
 }
 
 TEST_F(LocaliserTest, WhatIsNotFirmBeginsNothingAndCarriesNobody) {
-  const Pose elsewhere = at(20.0, 3.0);
+  const Pose elsewhere = poseAt(20.0, 3.0);
   drive(4);
   const auto seeFromAfar = [&](int second, const Pose& error) {
     Constraint measured;
     measured.T_a_b = error * truth(second);
     measured.information.diagonal() << Eigen::Vector3d::Constant(1e4), Eigen::Vector3d::Constant(1e6);
-    localiser_.addSighting(second * kSecond, Pose(), measured, false);
+    localiser_.addSighting(second * kSightingSecond, Pose(), measured, false);
   };
   for (const int second : {1, 2, 3}) seeFromAfar(second, elsewhere);
   EXPECT_FALSE(localiser_.now().T_map_base) << localiser_.now().sentence;
@@ -280,7 +281,7 @@ TEST_F(LocaliserTest, AStretchWithoutSightingsIsMeasured) {
   EXPECT_EQ(localiser_.unseen(), 0.0);
   drive(5);
   EXPECT_NEAR(localiser_.unseen(), 5.0, 1e-9);
-  localiser_.addBelief(4 * kSecond, {truth(4), urban_nav_core::Matrix6d::Identity()});
+  localiser_.addBelief(4 * kSightingSecond, {truth(4), urban_nav_core::Matrix6d::Identity()});
   EXPECT_NEAR(localiser_.unseen(), 5.0, 1e-9) << "nothing was seen of it";
   see(3);
   EXPECT_NEAR(localiser_.unseen(), 2.0, 1e-9);
@@ -290,7 +291,7 @@ TEST_F(LocaliserTest, WhatIsNoNumberOrOfNoMomentIsLeftOut) {
   drive(3);
   Constraint broken;
   broken.information(0, 0) = std::numeric_limits<double>::quiet_NaN();
-  localiser_.addSighting(1 * kSecond, Pose(), broken);
+  localiser_.addSighting(1 * kSightingSecond, Pose(), broken);
   see(100);
   EXPECT_FALSE(localiser_.now().T_map_base);
 }

@@ -13,7 +13,7 @@ using urban_nav_core::Pose;
 
 constexpr int panel = 200, gap = 4;
 
-struct Colour {
+struct CloudColour {
   int blue = 0, green = 0, red = 0;
   bool isRed() const { return red > blue + 60; }
   bool isBlue() const { return blue > red + 60; }
@@ -29,7 +29,7 @@ Counts countsOf(const Picture& picture, int which) {
   for (int v = 20; v < panel - 30; ++v)  // without title and bar
     for (int u = which * (panel + gap); u < which * (panel + gap) + panel; ++u) {
       const std::uint8_t* p = &picture.bgr[3 * static_cast<std::size_t>(v * picture.width + u)];
-      const Colour colour{p[0], p[1], p[2]};
+      const CloudColour colour{p[0], p[1], p[2]};
       counts.red += colour.isRed() ? 1 : 0;
       counts.blue += colour.isBlue() ? 1 : 0;
       counts.purple += colour.isPurple() ? 1 : 0;

@@ -18,12 +18,12 @@ using testing::Photographer;
 using urban_nav_core::testing::lookingAlong;
 using urban_nav_core::testing::texturedRoom;
 
-struct Colour {
+struct ViewColour {
   int blue = 0, green = 0, red = 0;
   bool isGrey() const { return blue == green && green == red; }
 };
 
-Colour at(const Picture& picture, int u, int v) {
+ViewColour colourAt(const Picture& picture, int u, int v) {
   const std::uint8_t* p = &picture.bgr[3 * static_cast<std::size_t>(v * picture.width + u)];
   return {p[0], p[1], p[2]};
 }
@@ -32,7 +32,7 @@ int coloured(const Picture& picture, int from_row, int to_row) {
   int count = 0;
   for (int v = from_row; v < to_row; ++v)
     for (int u = 0; u < picture.width; ++u)
-      if (!at(picture, u, v).isGrey()) ++count;
+      if (!colourAt(picture, u, v).isGrey()) ++count;
   return count;
 }
 
@@ -63,10 +63,10 @@ TEST(MatchPicture, ShowsTheViewsBesideOrAboveEachOther) {
   const Picture above = drawMatches(a, b, {}, options);
   EXPECT_EQ(above.width, 512);
   for (const cv::Point& p : {cv::Point(0, 0), cv::Point(100, 50), cv::Point(511, 383)}) {
-    EXPECT_EQ(at(beside, p.x, p.y).green, view_a.at<std::uint8_t>(p));
-    EXPECT_EQ(at(beside, 516 + p.x, p.y).green, view_b.at<std::uint8_t>(p));
-    EXPECT_EQ(at(above, p.x, p.y).green, view_a.at<std::uint8_t>(p));
-    EXPECT_EQ(at(above, p.x, 388 + p.y).green, view_b.at<std::uint8_t>(p));
+    EXPECT_EQ(colourAt(beside, p.x, p.y).green, view_a.at<std::uint8_t>(p));
+    EXPECT_EQ(colourAt(beside, 516 + p.x, p.y).green, view_b.at<std::uint8_t>(p));
+    EXPECT_EQ(colourAt(above, p.x, p.y).green, view_a.at<std::uint8_t>(p));
+    EXPECT_EQ(colourAt(above, p.x, 388 + p.y).green, view_b.at<std::uint8_t>(p));
   }
 }
 
@@ -74,15 +74,15 @@ TEST(MatchPicture, MatchesAreLinesWhoseColourIsTheResidual) {
   const Keyframe a = emptyView(200, 100), b = emptyView(200, 100);
   const auto middleOf = [&](double residual, bool inlier) {
     const Picture picture = drawMatches(a, b, {{{20.0, 30.0}, {160.0, 30.0}, residual, inlier}});
-    return at(picture, 190, 30);
+    return colourAt(picture, 190, 30);
   };
-  const Colour good = middleOf(0.0, true), bad = middleOf(0.5, true), worse = middleOf(50.0, true),
-               other = middleOf(0.0, false);
+  const ViewColour good = middleOf(0.0, true), bad = middleOf(0.5, true), worse = middleOf(50.0, true),
+                   other = middleOf(0.0, false);
   EXPECT_GT(good.green, good.red + 50);
   EXPECT_GT(bad.red, bad.green + 50);
   EXPECT_EQ(worse.red, bad.red);
   EXPECT_TRUE(other.isGrey());
-  EXPECT_NE(other.green, at(drawMatches(a, b, {}), 190, 30).green) << "the line is there";
+  EXPECT_NE(other.green, colourAt(drawMatches(a, b, {}), 190, 30).green) << "the line is there";
 }
 
 TEST(MatchPicture, LargeViewsAreReducedWithTheirMatches) {
@@ -91,9 +91,9 @@ TEST(MatchPicture, LargeViewsAreReducedWithTheirMatches) {
   options.widest = 320;
   const Picture picture = drawMatches(a, b, {{{400.0, 400.0}, {400.0, 400.0}, 0.0, true}}, options);
   EXPECT_EQ(picture.width, 2 * 320 + 4);
-  EXPECT_FALSE(at(picture, 100, 100).isGrey());
-  EXPECT_FALSE(at(picture, 424, 100).isGrey());
-  EXPECT_TRUE(at(picture, 200, 120).isGrey());
+  EXPECT_FALSE(colourAt(picture, 100, 100).isGrey());
+  EXPECT_FALSE(colourAt(picture, 424, 100).isGrey());
+  EXPECT_TRUE(colourAt(picture, 200, 120).isGrey());
 }
 
 TEST(MatchPicture, AMissingOrDamagedViewIsAPanelThatSaysSo) {
@@ -108,7 +108,7 @@ TEST(MatchPicture, AMissingOrDamagedViewIsAPanelThatSaysSo) {
       const Picture picture = drawMatches(first ? bad : good, first ? good : bad, pixels);
       ASSERT_LE(picture.width, 2000);
       ASSERT_EQ(picture.bgr.size(), static_cast<std::size_t>(3 * picture.width * picture.height));
-      EXPECT_EQ(at(picture, first ? 2 : picture.width - 3, 2).blue, 110);
+      EXPECT_EQ(colourAt(picture, first ? 2 : picture.width - 3, 2).blue, 110);
       EXPECT_FALSE(jpegOf(picture).empty());
     }
   }
@@ -133,7 +133,7 @@ TEST(MatchPicture, ComesAsJpegToo) {
   const cv::Mat back = cv::imdecode(jpegOf(picture), cv::IMREAD_COLOR);
   EXPECT_EQ(back.cols, picture.width);
   EXPECT_EQ(back.rows, picture.height);
-  EXPECT_NEAR(back.at<cv::Vec3b>(100, 100)[1], at(picture, 100, 100).green, 25);
+  EXPECT_NEAR(back.at<cv::Vec3b>(100, 100)[1], colourAt(picture, 100, 100).green, 25);
   EXPECT_TRUE(jpegOf({}).empty());
   EXPECT_TRUE(jpegOf({4, 4, {1, 2, 3}}).empty());
 }

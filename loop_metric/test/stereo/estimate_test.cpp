@@ -19,11 +19,11 @@ using urban_nav_core::Vector3d;
 using urban_nav_core::Vector6d;
 using urban_nav_core::testing::Dice;
 
-StereoCamera camera() { return {{390.0, 390.0, 255.0, 195.0, 512, 384}, 0.12}; }
+StereoCamera estimateCamera() { return {{390.0, 390.0, 255.0, 195.0, 512, 384}, 0.12}; }
 
 /// Points from 3 to 60 m, seen in both views with noise; the disparities have `offset` in common.
 std::vector<Sight> sights(const Pose& T_a_b, double noise, double offset, int count, Dice& dice) {
-  const StereoCamera c = camera();
+  const StereoCamera c = estimateCamera();
   std::vector<Sight> made;
   while (static_cast<int>(made.size()) < count) {
     const double z = std::exp(dice.uniform(std::log(3.0), std::log(60.0)));
@@ -56,7 +56,7 @@ TEST(Estimate, IsExactWithoutNoise) {
   const Pose T = motion(dice);
   EstimateOptions options;
   options.sigma_offset = 0.0;
-  const Estimate found = estimate(camera(), sights(T, 0.0, 0.0, 60, dice), Pose(), options);
+  const Estimate found = estimate(estimateCamera(), sights(T, 0.0, 0.0, 60, dice), Pose(), options);
   ASSERT_TRUE(found.found);
   EXPECT_TRUE(urban_nav_core::isApprox(found.T_a_b, T, 1e-7)) << found.T_a_b;
   EXPECT_EQ(found.inliers, 60);
@@ -70,7 +70,7 @@ TEST(Estimate, InformationIsRightWithAnErrorOfAllDisparities) {
   for (int run = 0; run < runs; ++run) {
     const Pose T = motion(dice);
     const auto seen = sights(T, 1.0, 0.1 * dice.normal(), 150, dice);
-    const Estimate found = estimate(camera(), seen, Pose(), {});
+    const Estimate found = estimate(estimateCamera(), seen, Pose(), {});
     ASSERT_TRUE(found.found);
     const Vector6d d = urban_nav_core::boxMinus(T, found.T_a_b);
     mean += d.dot(found.information * d) / runs;
@@ -87,7 +87,7 @@ TEST(Estimate, OutliersDoNotMoveIt) {
   auto seen = sights(T, 1.0, 0.0, 200, dice);
   for (std::size_t i = 0; i < 60; ++i)
     seen[i].pixel += Eigen::Vector2d(dice.uniform(5.0, 40.0), dice.uniform(-30.0, 30.0));
-  const Estimate found = estimate(camera(), seen, T, {});
+  const Estimate found = estimate(estimateCamera(), seen, T, {});
   ASSERT_TRUE(found.found);
   EXPECT_LT(urban_nav_core::distanceBetween(found.T_a_b, T), 0.05);
   for (std::size_t i = 0; i < 60; ++i) EXPECT_FALSE(found.sights[i].inlier) << i;
@@ -97,8 +97,8 @@ TEST(Estimate, OutliersDoNotMoveIt) {
 TEST(Estimate, NoiseThatIsLargerThanPromisedIsSeen) {
   Dice dice(4);
   const Pose T = motion(dice);
-  const Estimate as_promised = estimate(camera(), sights(T, 1.0, 0.0, 300, dice), T, {});
-  const Estimate larger = estimate(camera(), sights(T, 3.0, 0.0, 300, dice), T, {});
+  const Estimate as_promised = estimate(estimateCamera(), sights(T, 1.0, 0.0, 300, dice), T, {});
+  const Estimate larger = estimate(estimateCamera(), sights(T, 3.0, 0.0, 300, dice), T, {});
   EXPECT_NEAR(larger.noise_factor, 3.0, 0.4);
   EXPECT_LT(larger.information(1, 1), 0.3 * as_promised.information(1, 1));
 }
@@ -108,13 +108,13 @@ TEST(Estimate, ErrorsInCommonAreAddedToTheCovariance) {
   const Pose T = motion(dice);
   const auto seen = sights(T, 1.0, 0.0, 100, dice);
   EstimateOptions options;
-  const Estimate without = estimate(camera(), seen, T, options);
+  const Estimate without = estimate(estimateCamera(), seen, T, options);
   options.common_px = 0.5;
   options.common_m = 0.02;
-  const Estimate with = estimate(camera(), seen, T, options);
+  const Estimate with = estimate(estimateCamera(), seen, T, options);
   urban_nav_core::Matrix6d expected = without.information.inverse();
   expected.topLeftCorner<3, 3>() += 0.02 * 0.02 * Eigen::Matrix3d::Identity();
-  expected.bottomRightCorner<3, 3>() += std::pow(0.5 / camera().left.fx, 2) * Eigen::Matrix3d::Identity();
+  expected.bottomRightCorner<3, 3>() += std::pow(0.5 / estimateCamera().left.fx, 2) * Eigen::Matrix3d::Identity();
   EXPECT_LT((with.information * expected - urban_nav_core::Matrix6d::Identity()).cwiseAbs().maxCoeff(), 1e-6);
 }
 
@@ -125,7 +125,7 @@ TEST(Estimate, FarPointsAloneLeaveTheTranslationOpen) {
     sight.disparity = 0.02;  // 2 km
     sight.other_sigma = 0.0;
   }
-  const Estimate found = estimate(camera(), seen, Pose(), {});
+  const Estimate found = estimate(estimateCamera(), seen, Pose(), {});
   ASSERT_TRUE(found.information.allFinite());
   EXPECT_LT(found.information(0, 0), 1.0) << "1/m^2";
   EXPECT_LT(found.information(2, 2), 1.0);
@@ -133,10 +133,10 @@ TEST(Estimate, FarPointsAloneLeaveTheTranslationOpen) {
 }
 
 TEST(Estimate, NothingOrNonsenseIsNotFound) {
-  EXPECT_FALSE(estimate(camera(), {}, Pose(), {}).found);
+  EXPECT_FALSE(estimate(estimateCamera(), {}, Pose(), {}).found);
   Dice dice(6);
   auto seen = sights(Pose(), 1.0, 0.0, 2, dice);
-  const Estimate of_two = estimate(camera(), seen, Pose(), {});
+  const Estimate of_two = estimate(estimateCamera(), seen, Pose(), {});
   EXPECT_FALSE(of_two.found);
   EXPECT_TRUE(of_two.T_a_b.isFinite());
 }

@@ -12,7 +12,7 @@ using urban_nav_core::Pose;
 using urban_nav_core::StereoCamera;
 using urban_nav_core::Vector6d;
 
-StereoCamera camera() { return {{400.0, 410.0, 250.0, 190.0, 512, 384}, 0.12, 0.3}; }
+StereoCamera sightCamera() { return {{400.0, 410.0, 250.0, 190.0, 512, 384}, 0.12, 0.3}; }
 
 Sight sightOf(bool of_a) {
   Sight sight;
@@ -33,10 +33,10 @@ TEST(Sight, JacobianIsThatOfThePredictionAtLargeMotionsToo) {
       const Pose T(urban_nav_core::expSo3(size * urban_nav_core::Vector3d(0.2, -0.5, 0.3)),
                    size * urban_nav_core::Vector3d(0.5, -0.3, 0.8));
       const double offset = 0.2, rho = 0.11;
-      const SightResidual r = residualOf(sight, camera(), T, offset, rho);
+      const SightResidual r = residualOf(sight, sightCamera(), T, offset, rho);
       ASSERT_TRUE(r.visible);
       const auto predicted = [&](const Pose& pose, double o, double depth) {
-        return Eigen::Vector4d(-residualOf(sight, camera(), pose, o, depth).e);
+        return Eigen::Vector4d(-residualOf(sight, sightCamera(), pose, o, depth).e);
       };
       const Eigen::Matrix<double, 4, 6> by_pose = urban_nav_core::testing::numericJacobian<4, 6>(
           [&](const Pose& pose) { return predicted(pose, offset, rho); }, T);
@@ -51,7 +51,7 @@ TEST(Sight, JacobianIsThatOfThePredictionAtLargeMotionsToo) {
 }
 
 TEST(Sight, AgreesWithTheCameraOnAPoint) {
-  const StereoCamera c = camera();
+  const StereoCamera c = sightCamera();
   const Pose T_a_b(urban_nav_core::expSo3({0.05, 0.2, -0.1}), {0.4, 0.1, 1.0});
   const urban_nav_core::Vector3d p_a(1.0, -0.5, 8.0), p_b = T_a_b.inverse() * p_a;
   for (const bool of_a : {true, false}) {
@@ -68,7 +68,7 @@ TEST(Sight, AgreesWithTheCameraOnAPoint) {
 TEST(Sight, WhatLiesBehindIsNotVisible) {
   Sight sight = sightOf(true);
   const Pose beyond(urban_nav_core::Quaterniond::Identity(), {0.0, 0.0, 100.0});
-  EXPECT_FALSE(residualOf(sight, camera(), beyond, 0.0, inverseDepth(sight, camera())).visible);
+  EXPECT_FALSE(residualOf(sight, sightCamera(), beyond, 0.0, inverseDepth(sight, sightCamera())).visible);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace {
 
 using urban_nav_core::Pose;
 
-Pose at(double x, double yaw = 0.0) {
+Pose keyframePose(double x, double yaw = 0.0) {
   return Pose(urban_nav_core::expSo3(Eigen::Vector3d(0, 0, yaw)), Eigen::Vector3d(x, 0, 0));
 }
 
@@ -23,27 +23,27 @@ class Choice : public ::testing::Test {
   KeyframeChoice choice_{parameters()};
 };
 
-TEST_F(Choice, theFirstViewIsKept) { EXPECT_TRUE(choice_.choose(at(7.0))); }
+TEST_F(Choice, theFirstViewIsKept) { EXPECT_TRUE(choice_.choose(keyframePose(7.0))); }
 
 TEST_F(Choice, wayIsMeasuredFromTheLastOneThatWasKept) {
-  EXPECT_TRUE(choice_.choose(at(0.0)));
-  EXPECT_FALSE(choice_.choose(at(0.6)));
-  EXPECT_FALSE(choice_.choose(at(0.99)));
-  EXPECT_TRUE(choice_.choose(at(1.0)));
-  EXPECT_FALSE(choice_.choose(at(1.9)));
-  EXPECT_TRUE(choice_.choose(at(2.1)));
+  EXPECT_TRUE(choice_.choose(keyframePose(0.0)));
+  EXPECT_FALSE(choice_.choose(keyframePose(0.6)));
+  EXPECT_FALSE(choice_.choose(keyframePose(0.99)));
+  EXPECT_TRUE(choice_.choose(keyframePose(1.0)));
+  EXPECT_FALSE(choice_.choose(keyframePose(1.9)));
+  EXPECT_TRUE(choice_.choose(keyframePose(2.1)));
 }
 
 TEST_F(Choice, aTurnOnTheSpotIsEnough) {
-  EXPECT_TRUE(choice_.choose(at(0.0)));
-  EXPECT_FALSE(choice_.choose(at(0.0, 0.24)));
-  EXPECT_TRUE(choice_.choose(at(0.0, -0.26)));
+  EXPECT_TRUE(choice_.choose(keyframePose(0.0)));
+  EXPECT_FALSE(choice_.choose(keyframePose(0.0, 0.24)));
+  EXPECT_TRUE(choice_.choose(keyframePose(0.0, -0.26)));
 }
 
 TEST_F(Choice, goesOnBehindAViewThatWasKept) {
-  choice_.keep(at(5.0));
-  EXPECT_FALSE(choice_.choose(at(5.5)));
-  EXPECT_TRUE(choice_.choose(at(6.5)));
+  choice_.keep(keyframePose(5.0));
+  EXPECT_FALSE(choice_.choose(keyframePose(5.5)));
+  EXPECT_TRUE(choice_.choose(keyframePose(6.5)));
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ using urban_nav_core::StampNs;
 using urban_nav_store::Access;
 using urban_nav_store::Store;
 
-constexpr StampNs kSecond = 1'000'000'000;
+constexpr StampNs kRowSecond = 1'000'000'000;
 
 Keyframe someKeyframe(StampNs stamp) {
   Keyframe keyframe;
@@ -46,8 +46,8 @@ class StoredSurroundingsTest : public ::testing::Test {
     auto odometry = std::make_shared<OdometryChain>();
     for (int i = 0; i < 40; ++i) {
       urban_nav_core::RelativePose step;
-      step.from = i * kSecond;
-      step.to = (i + 1) * kSecond;
+      step.from = i * kRowSecond;
+      step.to = (i + 1) * kRowSecond;
       step.T_from_to = Pose(urban_nav_core::Quaterniond::Identity(), {1.0, 0.0, 0.0});
       step.covariance *= 1e-6;
       odometry->append(step);
@@ -73,33 +73,33 @@ class StoredSurroundingsTest : public ::testing::Test {
 };
 
 TEST_F(StoredSurroundingsTest, ViewsOfTheWayAroundAMomentInOrder) {
-  const auto views = surroundings_->views({"day", 10 * kSecond + kSecond / 2}, 4.0);
+  const auto views = surroundings_->views({"day", 10 * kRowSecond + kRowSecond / 2}, 4.0);
   ASSERT_EQ(views.size(), 4U);  // at 8, 10, 12 and 14 m: 6 is 4.5 m off
-  EXPECT_EQ(views.front().at.stamp, 8 * kSecond);
+  EXPECT_EQ(views.front().at.stamp, 8 * kRowSecond);
   EXPECT_NEAR(views.front().way, -2.5, 1e-9);
   EXPECT_NEAR(views.back().T_moment_view.pose.t().x(), 3.5, 1e-9);
   EXPECT_TRUE(surroundings_->views({"another", 0}, 4.0).empty());
 }
 
 TEST_F(StoredSurroundingsTest, KeyframesComeBackAsTheyWere) {
-  const Keyframe keyframe = surroundings_->keyframe({"day", 4 * kSecond});
+  const Keyframe keyframe = surroundings_->keyframe({"day", 4 * kRowSecond});
   EXPECT_EQ(keyframe.image, someKeyframe(0).image);
   EXPECT_EQ(keyframe.width, 64);
-  EXPECT_EQ(keyframe.at, (urban_nav_core::PoseRef{"day", 4 * kSecond}));
+  EXPECT_EQ(keyframe.at, (urban_nav_core::PoseRef{"day", 4 * kRowSecond}));
   ASSERT_EQ(keyframe.points.size(), 1U);
   EXPECT_EQ(keyframe.points[0].disparity, 3.5F);
-  EXPECT_TRUE(surroundings_->keyframe({"day", 5 * kSecond}).points.empty());  // none was kept there
+  EXPECT_TRUE(surroundings_->keyframe({"day", 5 * kRowSecond}).points.empty());  // none was kept there
 }
 
 TEST_F(StoredSurroundingsTest, ADamagedKeyframeIsNamed) {
-  urban_nav_store::StoredKeyframe stored = storedKeyframe(someKeyframe(8 * kSecond));
+  urban_nav_store::StoredKeyframe stored = storedKeyframe(someKeyframe(8 * kRowSecond));
   stored.features[stored.features.size() / 2] ^= 1;
   store_->keyframes().put(id_, keyframe_camera, stored);
-  EXPECT_THROW(surroundings_->keyframe({"day", 8 * kSecond}), urban_nav_core::DataError);
+  EXPECT_THROW(surroundings_->keyframe({"day", 8 * kRowSecond}), urban_nav_core::DataError);
 }
 
 TEST_F(StoredSurroundingsTest, ACloudIsWhatTheLasersSawAroundTheMomentInItsFrame) {
-  const auto cloud = surroundings_->cloud({"day", 20 * kSecond}, 3.0);
+  const auto cloud = surroundings_->cloud({"day", 20 * kRowSecond}, 3.0);
   ASSERT_EQ(cloud.points.size(), 7U);
   ASSERT_EQ(cloud.origins.size(), 7U);
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
@@ -108,26 +108,26 @@ TEST_F(StoredSurroundingsTest, ACloudIsWhatTheLasersSawAroundTheMomentInItsFrame
     EXPECT_NEAR(cloud.points[i].y(), 2.0F, 1e-5F);
     EXPECT_NEAR(cloud.points[i].z(), 1.0F, 1e-5F);
   }
-  EXPECT_TRUE(surroundings_->cloud({"day", 900 * kSecond}, 3.0).points.empty());
+  EXPECT_TRUE(surroundings_->cloud({"day", 900 * kRowSecond}, 3.0).points.empty());
 }
 
 // Nine steps of 1 mm and 1 mrad to each side of the middle: 9 mm2 along and 9 mrad2 about each axis, the latter at 10 m and across the way driven; a third of the
 // sum of the three axes, and of that a third.
 TEST_F(StoredSurroundingsTest, OdometrysDriftBendsACloud) {
-  EXPECT_NEAR(surroundings_->bend({"day", 20 * kSecond}, 9.0), 0.019, 0.0015);
-  EXPECT_LT(surroundings_->bend({"day", 20 * kSecond}, 4.0), 0.014);
-  EXPECT_EQ(surroundings_->bend({"day", 900 * kSecond}, 4.0), 0.0);
+  EXPECT_NEAR(surroundings_->bend({"day", 20 * kRowSecond}, 9.0), 0.019, 0.0015);
+  EXPECT_LT(surroundings_->bend({"day", 20 * kRowSecond}, 4.0), 0.014);
+  EXPECT_EQ(surroundings_->bend({"day", 900 * kRowSecond}, 4.0), 0.0);
   EXPECT_EQ(surroundings_->bend({"night", 0}, 4.0), 0.0);
 }
 
 TEST_F(StoredSurroundingsTest, KnowsItsMomentsAndTheWayBetweenThem) {
   std::string why;
-  EXPECT_TRUE(surroundings_->knows({"day", kSecond / 2}, why));
-  EXPECT_FALSE(surroundings_->knows({"day", 90 * kSecond}, why));
+  EXPECT_TRUE(surroundings_->knows({"day", kRowSecond / 2}, why));
+  EXPECT_FALSE(surroundings_->knows({"day", 90 * kRowSecond}, why));
   EXPECT_NE(why.find("no frames around"), std::string::npos);
   EXPECT_FALSE(surroundings_->knows({"night", 0}, why));
   EXPECT_NE(why.find("there are: day"), std::string::npos);
-  const auto way = surroundings_->between({"day", 30 * kSecond}, {"day", 10 * kSecond});
+  const auto way = surroundings_->between({"day", 30 * kRowSecond}, {"day", 10 * kRowSecond});
   ASSERT_TRUE(way);
   EXPECT_NEAR(way->T_a_b.pose.t().x(), -20.0, 1e-9);
   EXPECT_NEAR(way->length, 20.0, 1e-9);

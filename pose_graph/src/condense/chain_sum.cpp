@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 
 #include "manifold/rotation.hpp"
+#include "urban_nav_core/geometry/small_matrices.hpp"
 
 namespace pose_graph {
 
@@ -113,7 +114,7 @@ Edge<D> composedEdge(const ChainSum<D>& sum, const Rigid<D>& end) {
     P.template bottomRows<3>() = (J * P.template bottomRows<3>()).eval();
     P.template rightCols<3>() = (P.template rightCols<3>() * J.transpose()).eval();
   }
-  edge.information = Eigen::LLT<TangentMatrix<D>>(P).solve(TangentMatrix<D>::Identity());
+  edge.information = urban_nav_core::SmallCholesky<tangent_size<D>>(P).inverse();
   edge.information = (0.5 * (edge.information + edge.information.transpose())).eval();
   return edge;
 }
@@ -125,7 +126,7 @@ Tangent<D> twistBetween(const Rigid<D>& wanted, const Rigid<D>& lies) {
 
 template <int D>
 Tangent<D> solvedWith(const TangentMatrix<D>& covariance, const Tangent<D>& x) {
-  return Eigen::LLT<TangentMatrix<D>>(covariance).solve(x);
+  return urban_nav_core::SmallCholesky<tangent_size<D>>(covariance).solve(x);
 }
 
 template <int D>
@@ -139,10 +140,9 @@ bool invert(const TangentMatrix<D>& information, TangentMatrix<D>& inverse) {
   const Tangent<D> diagonal = information.diagonal();
   if (!(diagonal.minCoeff() > 0.0)) return false;
   const Tangent<D> scale = diagonal.cwiseSqrt().cwiseInverse();
-  const Eigen::LLT<TangentMatrix<D>> factor(TangentMatrix<D>(scale.asDiagonal() * information * scale.asDiagonal()));
-  if (factor.info() != Eigen::Success || !(factor.matrixLLT().diagonal().cwiseAbs2().minCoeff() > kLeastPivot))
-    return false;
-  inverse = scale.asDiagonal() * factor.solve(TangentMatrix<D>(scale.asDiagonal()));
+  const urban_nav_core::SmallCholesky<tangent_size<D>> factored(scale.asDiagonal() * information * scale.asDiagonal());
+  if (!factored.succeeded() || !(factored.factor().diagonal().cwiseAbs2().minCoeff() > kLeastPivot)) return false;
+  inverse = scale.asDiagonal() * factored.solve(TangentMatrix<D>(scale.asDiagonal()));
   return inverse.allFinite();
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "condense/chains.hpp"
 
+#include "linear/index.hpp"
+
 namespace pose_graph {
 
 namespace {
-
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
 /// The edges of each pose, and which of them still count.
 template <int D>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "condense/condensed.hpp"
 
+#include "linear/index.hpp"
 #include "manifold/rotation.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 
@@ -8,9 +9,7 @@ namespace pose_graph {
 
 namespace {
 
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
-
-constexpr std::size_t kGrain = 16;  // chains to a thread at a time
+constexpr std::size_t kChainGrain = 16;  // chains to a thread at a time
 
 }  // namespace
 
@@ -61,7 +60,7 @@ void Condensed<D>::layBy(const std::vector<Rigid<D>>& poses) {
 
 template <int D>
 double Condensed<D>::relinearise() {
-  urban_nav_core::forEach(chains_.size(), kGrain, [&](std::size_t s) {
+  urban_nav_core::forEach(chains_.size(), kChainGrain, [&](std::size_t s) {
     ChainSum<D> total;
     double cost = 0.0;
     Rigid<D> before;
@@ -111,7 +110,7 @@ void Condensed<D>::renew(Problem<D>& core) const {
 
 template <int D>
 void Condensed<D>::expand(const std::vector<Rigid<D>>& core_poses) {
-  urban_nav_core::forEach(chains_.size(), kGrain, [&](std::size_t s) {
+  urban_nav_core::forEach(chains_.size(), kChainGrain, [&](std::size_t s) {
     const Rigid<D> wanted =
         core_poses[sz(core_of_[sz(chains_.begin[s])])].inverse() * core_poses[sz(core_of_[sz(chains_.end(s))])];
     const std::size_t last = sz(chains_.first[s + 1]) - 1;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "condense/condensed.hpp"
+#include "linear/index.hpp"
 #include "solve/minimise.hpp"
 #include "start/along_edges.hpp"
 #include "start/first_guess.hpp"
@@ -14,11 +15,9 @@ namespace pose_graph {
 
 namespace {
 
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
-
 // Below this share of poses on chains the elimination order takes care of them as well (bench/size).
-constexpr double kLeastShare = 0.5;
-constexpr int kRounds = 30;
+constexpr double kLeastChainShare = 0.5;
+constexpr int kCondensedRounds = 30;
 // The edge that stands for a long chain bends more than any of its links. Where the core takes more steps than this, or rounds no
 // longer halve what the ends are off, the whole graph is the easier one (ais2klinik: 70 steps a round and no end, the whole graph 6).
 constexpr int kCoreSteps = 12, kFreeRounds = 3;
@@ -30,7 +29,7 @@ constexpr double kClosed = 1e-12;
 // deviations, that is none.
 constexpr double kSettledShare = 1e-3, kSettledLeast = 1e-12, kNothing = 1e-9;
 // By how much round-off may make the end seem worse than the begin.
-constexpr double kRoundOff = 1e-9;
+constexpr double kCostRoundOff = 1e-9;
 
 template <int D>
 std::vector<Rigid<D>> placesOf(const Chains& chains, const std::vector<Rigid<D>>& poses) {
@@ -60,7 +59,7 @@ std::optional<Solution<D>> solveCondensed(const Problem<D>& problem, const Solve
   if (options.objective != Objective::Geodesic || options.start == Start::Identity) return std::nullopt;
   Condensed<D> condensed(problem, weights);
   const Chains& chains = condensed.chains();
-  if (static_cast<double>(chains.core.size()) > (1.0 - kLeastShare) * static_cast<double>(problem.poses.size()))
+  if (static_cast<double>(chains.core.size()) > (1.0 - kLeastChainShare) * static_cast<double>(problem.poses.size()))
     return std::nullopt;
 
   Solution<D> made;
@@ -90,7 +89,7 @@ std::optional<Solution<D>> solveCondensed(const Problem<D>& problem, const Solve
   SolveOptions in_core = options;
   in_core.iterations = std::min(options.iterations, kCoreSteps);
   double last_cost = std::numeric_limits<double>::infinity(), last_open = last_cost;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kCondensedRounds; ++round) {
     const Descent descent = minimise(equations, cholesky, in_core, core_weights, poses);
     condensed.expand(poses);
     made.iterations.insert(made.iterations.end(), descent.iterations.begin(), descent.iterations.end());
@@ -117,7 +116,7 @@ std::optional<Solution<D>> solveCondensed(const Problem<D>& problem, const Solve
     moveToFirst(problem, unknowns, made.poses);
     made.cost = cost(problem, made.poses, options.objective, weights);
     if (!made.iterations.empty()) made.iterations.back().cost = made.cost;
-    if (!(made.cost <= made.cost_start * (1.0 + kRoundOff) + kNothing)) return std::nullopt;
+    if (!(made.cost <= made.cost_start * (1.0 + kCostRoundOff) + kNothing)) return std::nullopt;
     return made;
   }
   return std::nullopt;

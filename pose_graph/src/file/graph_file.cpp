@@ -6,6 +6,7 @@
 
 #include "start/along_edges.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
+#include "urban_nav_core/geometry/small_matrices.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace pose_graph {
@@ -16,7 +17,8 @@ using urban_nav_core::UserError;
 
 namespace {
 
-constexpr double kRoundOff = 1e-9;  // of the largest eigenvalue: what printing information with few digits may cost
+constexpr double kPrintedRoundOff =
+    1e-9;  // of the largest eigenvalue: what printing information with few digits may cost
 
 template <int D>
 TangentMatrix<D> informationOf(const G2oGraph::Edge& edge) {
@@ -32,9 +34,9 @@ TangentMatrix<D> informationOf(const G2oGraph::Edge& edge) {
 template <int N>
 bool isSemidefinite(const Eigen::Matrix<double, N, N>& information) {
   // Most matrices pass by their Cholesky factor, at a tenth of the price of eigenvalues.
-  if (Eigen::LLT<Eigen::Matrix<double, N, N>>(information).info() == Eigen::Success) return true;
+  if (urban_nav_core::SmallCholesky<N>(information).succeeded()) return true;
   const auto values = urban_nav_core::symmetricEigenvalues(information);
-  return values && (*values)[0] >= -kRoundOff * std::max(0.0, values->maxCoeff());
+  return values && (*values)[0] >= -kPrintedRoundOff * std::max(0.0, values->maxCoeff());
 }
 
 /// False where it is not, and need not be.

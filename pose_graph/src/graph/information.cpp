@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include "pose_graph/graph_file.hpp"
 #include "pose_graph/pose_graph.hpp"
+#include "urban_nav_core/geometry/small_matrices.hpp"
 
 namespace pose_graph {
 
@@ -25,7 +25,7 @@ Matrix6d seenFromChild(const Matrix6d& matrix, const Pose& T_parent_child) {
 TangentMatrix<3> chainInformation(const urban_nav_core::RelativePose& step) {
   const bool told = step.drift_covariance.trace() > 0.0;
   const Matrix6d covariance = seenFromChild(told ? step.drift_covariance : step.covariance, step.T_from_to);
-  const Matrix6d information = Eigen::LLT<Matrix6d>(covariance).solve(Matrix6d::Identity());
+  const Matrix6d information = urban_nav_core::SmallCholesky<6>(covariance).inverse();
   return 0.5 * (information + information.transpose());
 }
 
@@ -42,10 +42,11 @@ TangentMatrix<3> closureInformation(const urban_nav_core::Constraint& measured, 
                                     const Matrix6d& noise_b) {
   const Matrix6d W = 0.5 * (measured.information + measured.information.transpose());
   const Matrix6d N = relativeNoise(measured.T_a_b, noise_a, noise_b);
-  const Eigen::LLT<Matrix6d> noise(N);
-  if (!(N.trace() > 0.0) || noise.info() != Eigen::Success) return seenFromChild(W, measured.T_a_b);
-  const Matrix6d together = W + noise.solve(Matrix6d::Identity());
-  return seenFromChild(W - W * Eigen::LLT<Matrix6d>(0.5 * (together + together.transpose())).solve(W), measured.T_a_b);
+  const urban_nav_core::SmallCholesky<6> noise(N);
+  if (!(N.trace() > 0.0) || !noise.succeeded()) return seenFromChild(W, measured.T_a_b);
+  const Matrix6d together = W + noise.inverse();
+  return seenFromChild(W - W * urban_nav_core::SmallCholesky<6>(0.5 * (together + together.transpose())).solve(W),
+                       measured.T_a_b);
 }
 
 }  // namespace pose_graph

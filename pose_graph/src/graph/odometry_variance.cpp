@@ -12,9 +12,9 @@ namespace pose_graph {
 
 namespace {
 
-constexpr int kRounds = 5;         // at the fifth it moves by a hundredth
-constexpr double kSettled = 0.02;  // of the factor
-constexpr double kPrior = 6.0;     // numbers that odometry's own word weighs
+constexpr int kVarianceRounds = 5;         // at the fifth it moves by a hundredth
+constexpr double kVarianceSettled = 0.02;  // of the factor
+constexpr double kVariancePrior = 6.0;     // numbers that odometry's own word weighs
 
 // Parts that the chains alone leave, less those that are left with the closures: each one that was joined took a pose.
 int joinedParts(const Problem<3>& problem, std::size_t chains, const std::vector<double>& weights) {
@@ -60,12 +60,13 @@ double takeOdometryVariance(Problem<3>& problem, std::size_t chains, const std::
   SolveOptions from_here = options;
   from_here.start = Start::Vertices;
   double factor = 1.0;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kVarianceRounds; ++round) {
     const auto redundancy = redundancyOfChains(problem, chains, weights, solution.poses);
     if (!redundancy) return factor;
     const double measured = factor * costOfChains(problem, chains, solution.poses);
-    const double next = std::max(1.0, (measured + kPrior) / (*redundancy + kPrior)), ratio = next / factor;
-    if (!std::isfinite(next) || std::abs(ratio - 1.0) <= kSettled) return factor;
+    const double next = std::max(1.0, (measured + kVariancePrior) / (*redundancy + kVariancePrior)),
+                 ratio = next / factor;
+    if (!std::isfinite(next) || std::abs(ratio - 1.0) <= kVarianceSettled) return factor;
     factor = next;
     for (std::size_t e = 0; e < chains; ++e) problem.edges[e].information /= ratio;
     problem.poses = solution.poses;

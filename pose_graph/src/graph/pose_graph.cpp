@@ -7,6 +7,7 @@
 #include "condense/chain_sum.hpp"
 #include "pose_graph/graph_file.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
+#include "urban_nav_core/geometry/small_matrices.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace pose_graph {
@@ -20,7 +21,7 @@ namespace {
 std::string textOf(const NodeRef& ref) { return ref.session + " at " + urban_nav_core::printStamp(ref.stamp) + " s"; }
 
 bool isProper(const Matrix6d& covariance) {
-  return covariance.allFinite() && Eigen::LLT<Matrix6d>(covariance).info() == Eigen::Success;
+  return covariance.allFinite() && urban_nav_core::SmallCholesky<6>(covariance).succeeded();
 }
 
 // Round-off can make the least eigenvalues of a good covariance negative: the step counts, with those raised to what the largest

@@ -17,10 +17,10 @@ namespace {
 
 // What is wrong with an accelerometer, m/s2: across gravity 1 deg of its place on the robot, along it the bias of a calibrated one (XSens MTi).
 constexpr double kFaultAcross = 9.81 * 0.01745, kFaultAlong = 0.02;
-constexpr double kHuber = 1.345;         // Huber 1964: 95 % as good as least squares where nothing is wrong
+constexpr double kGravityHuber = 1.345;  // Huber 1964: 95 % as good as least squares where nothing is wrong
 constexpr double kMadToSigma = 1.4826;   // of a Gaussian
 constexpr double kLeastScatter = 0.002;  // m/s2: a span's mean is not better than its velocities
-constexpr int kRounds = 20;
+constexpr int kGravityRounds = 20;
 
 /// What is known of the fault beforehand.
 Matrix3d faultInformation(const std::vector<Span>& spans) {
@@ -67,12 +67,12 @@ std::optional<GravityFit> fitGravity(const std::vector<Span>& spans) {
     std::nth_element(values.begin(), middle, values.end());
     fit.x(axis) = *middle;
   }
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kGravityRounds; ++round) {
     const double scatter = scatterOf(spans, fit);
     std::vector<double> weights;
     for (const Span& span : spans) {
       const double size = fit.residual(span).norm() / (scatter * std::sqrt(3.0));
-      weights.push_back(size <= kHuber ? 1.0 : kHuber / size);
+      weights.push_back(size <= kGravityHuber ? 1.0 : kGravityHuber / size);
     }
     const std::optional<GravityFit> next = solve(spans, weights, scatter);
     if (!next) return std::nullopt;

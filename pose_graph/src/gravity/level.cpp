@@ -15,7 +15,7 @@ using urban_nav_core::Trajectory;
 
 namespace {
 
-constexpr std::size_t kLeastSpans = 3;
+constexpr std::size_t kLeastLevelSpans = 3;
 // Gravity is 9.78...9.83 on the ground; a scale of 2 % and that fault are allowed for.
 constexpr double kLeastGravity = 9.4, kMostGravity = 10.2;
 
@@ -60,7 +60,7 @@ Level levelOf(const Trajectory& trajectory, const std::vector<SpecificForce>& fo
               const urban_nav_core::Pose& T_world_first) {
   if (forces.empty() || trajectory.empty()) return unknown(LevelTrouble::NoForces, "no accelerometer was recorded");
   const std::vector<Span> spans = spansOf(trajectory, forces, T_world_first);
-  if (spans.size() < kLeastSpans)
+  if (spans.size() < kLeastLevelSpans)
     return unknown(LevelTrouble::TooShort, "the accelerometer was recorded for too short a time");
   const std::optional<GravityFit> fit = fitGravity(spans);
   const double gravity = fit ? fit->gravity().norm() : 0.0;

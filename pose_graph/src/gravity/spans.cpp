@@ -23,15 +23,15 @@ constexpr double kMost = 1000.0;                  // m/s2: a hundred times gravi
 bool isUsable(const SpecificForce& felt) { return felt.force.allFinite() && felt.force.norm() < kMost; }
 
 /// A pose at which something was felt, in the axes of the first pose.
-struct Place {
+struct SpanPlace {
   StampNs stamp;
   Vector3d velocity, force;
   Matrix3d rotation, turning;
 };
 
-std::vector<Place> placesOf(const Trajectory& trajectory, const std::vector<SpecificForce>& forces,
-                            const Pose& T_first_world) {
-  std::vector<Place> places;
+std::vector<SpanPlace> placesOf(const Trajectory& trajectory, const std::vector<SpecificForce>& forces,
+                                const Pose& T_first_world) {
+  std::vector<SpanPlace> places;
   for (const SpecificForce& felt : forces) {
     if (!isUsable(felt)) continue;
     const std::size_t i = trajectory.nearest(felt.stamp);
@@ -49,7 +49,7 @@ std::vector<Place> placesOf(const Trajectory& trajectory, const std::vector<Spec
 }
 
 /// Means over places first...last by the trapezoidal rule.
-Span spanOf(const std::vector<Place>& places, std::size_t first, std::size_t last) {
+Span spanOf(const std::vector<SpanPlace>& places, std::size_t first, std::size_t last) {
   Span span;
   span.begin = places[first].stamp;
   span.end = places[last].stamp;
@@ -91,7 +91,7 @@ std::vector<SpecificForce> forcesAt(const std::vector<StampNs>& stamps, std::vec
 
 std::vector<Span> spansOf(const Trajectory& trajectory, const std::vector<SpecificForce>& forces,
                           const Pose& T_world_first) {
-  const std::vector<Place> places = placesOf(trajectory, forces, T_world_first.inverse());
+  const std::vector<SpanPlace> places = placesOf(trajectory, forces, T_world_first.inverse());
   std::vector<Span> spans;
   std::size_t first = 0;
   for (std::size_t i = 1; i < places.size(); ++i) {

@@ -25,16 +25,16 @@ using State = Eigen::Matrix<double, kStates, 1>;
 using StateMatrix = Eigen::Matrix<double, kStates, kStates>;
 using Seen = Eigen::Matrix<double, 3, kStates>;
 
-constexpr std::size_t kLeastSpans = 5;
-constexpr double kUnknown = 1e3;  // in noises of a force: as good as unknown
-constexpr double kPrior = 6.0;    // numbers that what is known beforehand weighs
+constexpr std::size_t kLeastTiltSpans = 5;
+constexpr double kUnknown = 1e3;    // in noises of a force: as good as unknown
+constexpr double kTiltPrior = 6.0;  // numbers that what is known beforehand weighs
 // m/s2 in the root of a second: a bias that keeps within 0.02 m/s2 over ten minutes (XSens MTi).
 constexpr double kFaultWalk = 1e-3;
-constexpr double kHuber = 1.345;   // Huber 1964
-constexpr double kShock = 6.0;     // scatters: no drift within them
-constexpr double kMiddle = 0.888;  // median of the root of a mean of three squares, of normal numbers
-constexpr int kRounds = 3;         // of weights
-constexpr double kMostTurn = 0.3;  // rad: sines are theirs to 1.5 %
+constexpr double kTiltHuber = 1.345;  // Huber 1964
+constexpr double kShock = 6.0;        // scatters: no drift within them
+constexpr double kMiddle = 0.888;     // median of the root of a mean of three squares, of normal numbers
+constexpr int kTiltRounds = 3;        // of weights
+constexpr double kMostTurn = 0.3;     // rad: sines are theirs to 1.5 %
 
 /// A span as the filter sees it.
 struct Sight {
@@ -63,7 +63,7 @@ struct Filtered {
 };
 
 /// -2 log of a prior for a variance, `ratio` times what it should be, that weighs as many numbers seen.
-double priorCost(double ratio) { return kPrior * (std::log(ratio) + 1.0 / ratio); }
+double priorCost(double ratio) { return kTiltPrior * (std::log(ratio) + 1.0 / ratio); }
 
 /// All covariances are in units of the noise of a force, which comes out at the end.
 Filtered filter(const std::vector<Sight>& sights, const std::vector<double>& weights, const Walks& walks,
@@ -142,7 +142,7 @@ std::vector<double> weightsFor(std::vector<double> innovations, const std::vecto
   std::nth_element(sorted.begin(), middle, sorted.end());
   const double usual = std::max(*middle / kMiddle, 1e-12);
   std::vector<double> made;
-  for (const double innovation : innovations) made.push_back(1.0 / std::max(1.0, innovation / (kHuber * usual)));
+  for (const double innovation : innovations) made.push_back(1.0 / std::max(1.0, innovation / (kTiltHuber * usual)));
   return made;
 }
 
@@ -185,7 +185,7 @@ std::vector<Tilt> tiltDrift(const Trajectory& odometry, const std::vector<double
   const Level level = levelOf(odometry, forces);
   if (!level.known()) return {};
   const std::vector<Span> spans = spansOf(odometry, forces, odometry.front().pose);
-  if (spans.size() < kLeastSpans) return {};
+  if (spans.size() < kLeastTiltSpans) return {};
   Eigen::Matrix<double, 3, 2> across;
   across.col(0) = level.up.unitOrthogonal();
   across.col(1) = level.up.cross(across.col(0));
@@ -197,7 +197,7 @@ std::vector<Tilt> tiltDrift(const Trajectory& odometry, const std::vector<double
   // A force good to 0.01 m/s2, odometry as it promises, a fault as the data sheet has it.
   Walks walks{std::log(1e4), std::log(1e4 * kFaultWalk * kFaultWalk)};
   Filtered filtered;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kTiltRounds; ++round) {
     walks = likeliest(sights, weights, walks, round == 0 ? 2.0 : 0.5);
     filtered = filter(sights, weights, walks, false);
     if (!std::isfinite(filtered.cost)) return {};

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cstring>
 
+#include "linear/index.hpp"
+
 namespace pose_graph {
 
 namespace {
-
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
 // What an entry of the diagonal is measured by; one where it is zero, so that any measure would do.
 double sizeOf(double entry) { return entry > 0.0 ? entry : 1.0; }

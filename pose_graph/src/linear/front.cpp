@@ -6,16 +6,16 @@
 #include <cstddef>
 #include <cstring>
 
+#include "linear/index.hpp"
+
 namespace pose_graph {
 
 namespace {
 
 using urban_nav_core::kernels::strip;
 
-constexpr double kNothing = 1e-12;  // beside the size of a pivot: what elimination leaves of a zero
-constexpr int kPanel = 48;          // columns eliminated together: bench/linear
-
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
+constexpr double kZeroPivot = 1e-12;  // beside the size of a pivot: what elimination leaves of a zero
+constexpr int kPanel = 48;            // columns eliminated together: bench/linear
 
 }  // namespace
 
@@ -37,7 +37,7 @@ bool Front::eliminateDiagonal(int start, int width, Pins* pins) {
   inverse_.resize(sz(width));
   for (int j = 0; j < width; ++j) {
     double* a = column(start + j) + start;
-    if (pins != nullptr && a[j] <= kNothing * pins->size[sz(start + j)]) {
+    if (pins != nullptr && a[j] <= kZeroPivot * pins->size[sz(start + j)]) {
       a[j] = std::max(a[j], 0.0) + kPin * pins->size[sz(start + j)];
       pins->columns.push_back(start + j);
     }

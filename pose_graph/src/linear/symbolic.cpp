@@ -10,21 +10,21 @@ namespace pose_graph {
 
 namespace {
 
-using Index = std::size_t;
+using Unsigned = std::size_t;
 
-Index at(int i) { return static_cast<Index>(i); }
+Unsigned at(int i) { return static_cast<Unsigned>(i); }
 
 // Children directly before their parents, the deepest subtree last so that a chain is one run.
 std::vector<int> postorder(const std::vector<int>& parent) {
-  const Index n = parent.size();
+  const Unsigned n = parent.size();
   std::vector<int> head(n, -1), next(n, -1), stack, order;
   order.reserve(n);
-  for (Index i = n; i-- > 0;) {
+  for (Unsigned i = n; i-- > 0;) {
     if (parent[i] < 0) continue;
     next[i] = head[at(parent[i])];
     head[at(parent[i])] = static_cast<int>(i);
   }
-  for (Index root = 0; root < n; ++root) {
+  for (Unsigned root = 0; root < n; ++root) {
     if (parent[root] >= 0) continue;
     stack.push_back(static_cast<int>(root));
     while (!stack.empty()) {
@@ -61,7 +61,7 @@ bool worthJoining(const Run& child, const Run& parent, double zeros) {
 
 std::vector<Run> findRuns(const EliminationTree& tree) {
   std::vector<Run> runs;
-  for (Index j = 0; j < tree.parent.size(); ++j) {
+  for (Unsigned j = 0; j < tree.parent.size(); ++j) {
     Run run{static_cast<int>(j), static_cast<int>(j) + 1, tree.count[j], 0.0};
     while (!runs.empty()) {
       const Run& last = runs.back();
@@ -84,20 +84,20 @@ std::vector<Run> findRuns(const EliminationTree& tree) {
 Symbolic analyse(const Adjacency& graph) { return analyse(graph, eliminationOrder(graph)); }
 
 Symbolic analyse(const Adjacency& graph, const std::vector<int>& order) {
-  const Index n = order.size();
+  const Unsigned n = order.size();
   EliminationTree tree = eliminationTree(graph, order);
   const std::vector<int> post = postorder(tree.parent);
   Symbolic made;
   made.node.resize(n);
   made.place.resize(n);
   std::vector<int> renamed(n);
-  for (Index k = 0; k < n; ++k) {
+  for (Unsigned k = 0; k < n; ++k) {
     made.node[k] = order[at(post[k])];
     made.place[at(made.node[k])] = static_cast<int>(k);
     renamed[at(post[k])] = static_cast<int>(k);
   }
   EliminationTree posted{std::vector<int>(n), std::vector<int>(n)};
-  for (Index k = 0; k < n; ++k) {
+  for (Unsigned k = 0; k < n; ++k) {
     const int above = tree.parent[at(post[k])];
     posted.parent[k] = above < 0 ? -1 : renamed[at(above)];
     posted.count[k] = tree.count[at(post[k])];
@@ -105,7 +105,7 @@ Symbolic analyse(const Adjacency& graph, const std::vector<int>& order) {
 
   const std::vector<Run> runs = findRuns(posted);
   made.supernode.resize(n);
-  for (Index s = 0; s < runs.size(); ++s) {
+  for (Unsigned s = 0; s < runs.size(); ++s) {
     made.begin.push_back(runs[s].end);
     for (int k = runs[s].begin; k < runs[s].end; ++k) made.supernode[at(k)] = static_cast<int>(s);
     const int above = posted.parent[at(runs[s].end - 1)];
@@ -115,17 +115,17 @@ Symbolic analyse(const Adjacency& graph, const std::vector<int>& order) {
 
   std::vector<int> mark(n, -1);
   std::vector<std::vector<int>> children(runs.size());
-  for (Index s = 0; s < runs.size(); ++s)
+  for (Unsigned s = 0; s < runs.size(); ++s)
     if (made.parent[s] >= 0) children[at(made.parent[s])].push_back(static_cast<int>(s));
-  for (Index s = 0; s < runs.size(); ++s) {
-    const Index start = made.rows.size();
+  for (Unsigned s = 0; s < runs.size(); ++s) {
+    const Unsigned start = made.rows.size();
     const auto note = [&](int row) {
       if (row < runs[s].end || mark[at(row)] == static_cast<int>(s)) return;
       mark[at(row)] = static_cast<int>(s);
       made.rows.push_back(row);
     };
     for (int k = runs[s].begin; k < runs[s].end; ++k) {
-      const Index node = at(made.node[at(k)]);
+      const Unsigned node = at(made.node[at(k)]);
       for (int e = graph.first[node]; e < graph.first[node + 1]; ++e) note(made.place[at(graph.neighbours[at(e)])]);
     }
     for (const int child : children[s])

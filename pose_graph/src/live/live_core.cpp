@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linear/index.hpp"
 #include "manifold/rotation.hpp"
 #include "solve/minimise.hpp"
 
@@ -11,17 +12,15 @@ namespace pose_graph {
 
 namespace {
 
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
-
 // Squares of standard deviations: what is left to gain is a hundredth of one, and the next update goes on from there; relax() is exact.
-constexpr double kEnough = 1e-4;
+constexpr double kLiveEnough = 1e-4;
 // And of a chain's, by which its end may be off before it is laid anew. At 1e-2 poses end 1.7 mm from the batch's, at 1e-3 0.3 mm, at 1e-4
 // 0.1 mm, and an update takes 5, 6 and 9 ms (20 000 poses, bench/update).
-constexpr double kBent = 1e-3;
+constexpr double kLiveBent = 1e-3;
 // A tenth of what graph/update tells of (docs/architecture.md).
 constexpr double kWrittenDistance = 1e-3, kWrittenAngle = 0.002 * 3.14159265358979323846 / 180.0;
 
-constexpr double kRoundOff = 1e-9;  // m, rad: a pose that moved by less has not moved
+constexpr double kStillRoundOff = 1e-9;  // m, rad: a pose that moved by less has not moved
 
 double angleOf(const Eigen::Matrix3d& R) { return logRotation(R).norm(); }
 
@@ -249,7 +248,7 @@ bool LiveCore::layBent(const Ground& ground, Core& core) {
     const auto& [begin, node] = core.chains[c];
     const std::size_t n = sz(node->number);
     const Rigid<3> wanted = core.problem.poses[n].inverse() * core.problem.poses[n + 1];
-    if (node->onward.bend(wanted) <= kBent * variance_) continue;
+    if (node->onward.bend(wanted) <= kLiveBent * variance_) continue;
     remember(begin);
     const Rigid<3> by = wanted * node->onward.at(node->onward.size() - 1).inverse();
     node->bent_m += by.t.norm();
@@ -294,7 +293,7 @@ void LiveCore::relax(const Ground& ground, double hopeless) {
             moved<3>(poses[sz(unknowns.pose[u])],
                      Eigen::Map<const Tangent<3>>(x.data() + 6 * sz(equations.symbolic().place[u])));
       step.cost = equations.cost(Objective::Geodesic, next, {});
-      sound = std::isfinite(step.cost) && step.cost <= cost_ + kEnough;
+      sound = std::isfinite(step.cost) && step.cost <= cost_ + kLiveEnough;
     }
     if (sound) {
       poses.swap(next);
@@ -303,7 +302,7 @@ void LiveCore::relax(const Ground& ground, double hopeless) {
       // Damped, where a plain step does not lower the cost.
       SolveOptions options;
       options.iterations = steps_at_most_ - static_cast<int>(iterations_.size());
-      options.tolerance = kEnough / std::max(cost_, kEnough);
+      options.tolerance = kLiveEnough / std::max(cost_, kLiveEnough);
       const Descent descent = minimise(equations, cholesky, options, {}, poses);
       iterations_.insert(iterations_.end(), descent.iterations.begin(), descent.iterations.end());
       step.cost = descent.cost;
@@ -316,7 +315,7 @@ void LiveCore::relax(const Ground& ground, double hopeless) {
     // What further steps will still gain, by how much less each gains than the one before.
     const double rate = last_gain > 0.0 ? std::min(gain / last_gain, 0.999) : 0.1;
     last_gain = gain;
-    if (!(gain * rate / (1.0 - rate) > kEnough) || ending_ != Ending::Converged) {
+    if (!(gain * rate / (1.0 - rate) > kLiveEnough) || ending_ != Ending::Converged) {
       if (laid) cost_ = equations.cost(Objective::Geodesic, poses, {});
       break;
     }
@@ -350,7 +349,7 @@ void LiveCore::writeFrom(Ground& ground, std::size_t track, Nodes::iterator at) 
   const auto [first, last] = ground.run(here);
   const Rigid<3> T = node.pose * ground.pose(here).inverse();
   const bool is_first = at == nodes_[track].begin() || std::prev(at)->first < first;
-  const bool moves = T.t.norm() > kRoundOff || angleOf(T.R) > kRoundOff;
+  const bool moves = T.t.norm() > kStillRoundOff || angleOf(T.R) > kStillRoundOff;
   for (std::size_t i = first; i < index && is_first && moves; ++i)
     ground.write({track, i}, T * ground.pose({track, i}));
   ground.write(here, node.pose);

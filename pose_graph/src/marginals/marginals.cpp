@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose_graph/marginals.hpp"
 
+#include "linear/index.hpp"
 #include "marginals/free_directions.hpp"
 #include "marginals/selected_inverse.hpp"
 #include "solve/normal_equations.hpp"
@@ -9,8 +10,6 @@
 namespace pose_graph {
 
 namespace {
-
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
 /// The edges that say something, and their weights in their information.
 template <int D>

@@ -3,6 +3,7 @@
 
 #include <cassert>
 
+#include "linear/index.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
 
 namespace pose_graph {
@@ -11,8 +12,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
 /// The inverse on the columns and rows of the supernodes above the one at work, as long as one below needs it.
 class Ancestors {

@@ -7,6 +7,7 @@
 
 #include <memory>
 
+#include "linear/index.hpp"
 #include "peer/edge_residual.hpp"
 #include "pose_graph/ceres.hpp"
 #include "solve/normal_equations.hpp"
@@ -15,8 +16,6 @@
 namespace pose_graph {
 
 namespace {
-
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
 // Where the increment x takes a pose, and how a further small turn in the map's axes follows from a change of x.
 template <int D>
@@ -60,7 +59,7 @@ class EdgeCost final : public ceres::SizedCostFunction<residual_size<objective, 
 
 // root^T root = information, which may be singular.
 template <int D>
-TangentMatrix<D> rootOf(const TangentMatrix<D>& information) {
+TangentMatrix<D> informationRoot(const TangentMatrix<D>& information) {
   const auto eigen = urban_nav_core::symmetricEigen(information);
   if (!eigen) return TangentMatrix<D>::Zero();
   return eigen->values.cwiseMax(0.0).cwiseSqrt().asDiagonal() * eigen->vectors.transpose();
@@ -106,9 +105,10 @@ void descend(const Problem<D>& problem, const SolveOptions& options, const std::
     Edge<D> edge = problem.edges[e];
     if (!weights.empty()) edge.information *= weights[e];
     const EdgeTerm<D> term = termOf(edge);
-    all.AddResidualBlock(new EdgeCost<objective, D>(term, rootOf<D>(edge.information), made.poses[sz(edge.from)],
-                                                    made.poses[sz(edge.to)]),  // Ceres owns it
-                         nullptr, x[sz(edge.from)].data(), x[sz(edge.to)].data());
+    all.AddResidualBlock(
+        new EdgeCost<objective, D>(term, informationRoot<D>(edge.information), made.poses[sz(edge.from)],
+                                   made.poses[sz(edge.to)]),  // Ceres owns it
+        nullptr, x[sz(edge.from)].data(), x[sz(edge.to)].data());
   }
   Told told(options, made.iterations);
   ceres::Solver::Options wanted;

@@ -32,7 +32,7 @@ constexpr double rounding = 1e-6;
 
 // root^T root = information; empty rows where there is none.
 template <int D>
-TangentMatrix<D> rootOf(const Problem<D>& problem, std::size_t i) {
+TangentMatrix<D> chainRoot(const Problem<D>& problem, std::size_t i) {
   const TangentMatrix<D>& information = problem.edges[i].information;
   const auto eigen = urban_nav_core::symmetricEigen(information);
   const double least = eigen->values.minCoeff(), most = eigen->values.maxCoeff();
@@ -85,7 +85,7 @@ Chain<D> chainOf(const Problem<D>& problem) {
   std::vector<TangentMatrix<D>> held(static_cast<std::size_t>(chain.links), TangentMatrix<D>::Zero());
   for (std::size_t i = 0; i < problem.edges.size(); ++i) {
     const Edge<D>& edge = problem.edges[i];
-    const TangentMatrix<D> root = rootOf(problem, i);
+    const TangentMatrix<D> root = chainRoot(problem, i);
     if (std::abs(edge.from - edge.to) != 1) {
       chain.closures.push_back({i, root});
       continue;

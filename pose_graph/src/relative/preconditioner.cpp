@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "preconditioner.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <numeric>
 
 #include "urban_nav_core/geometry/dense.hpp"
+#include "urban_nav_core/geometry/small_matrices.hpp"
 
 namespace pose_graph {
 
@@ -17,7 +17,7 @@ Preconditioner<D>::Preconditioner(const LinearSystem<D>& system, double damping,
   spread_.push_back(TangentMatrix<D>::Zero());
   for (std::size_t i = 0; i < links; ++i) {
     const TangentMatrix<D> N = (1.0 + damping) * system.blocks()[i];
-    inverses_.push_back(N.llt().solve(TangentMatrix<D>::Identity()));
+    inverses_.push_back(urban_nav_core::SmallCholesky<tangent_size<D>>(N).inverse());
     const TangentMatrix<D> U = system.linkMatrix(static_cast<int>(i));
     spread_.push_back(spread_.back() + U * inverses_.back() * U.transpose());
   }

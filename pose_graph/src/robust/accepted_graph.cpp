@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linear/index.hpp"
 #include "linear/ordering.hpp"
 #include "start/chordal_start.hpp"
 
@@ -11,12 +12,10 @@ namespace pose_graph {
 
 namespace {
 
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
-
 // Of the largest entry of the diagonal, growing until the factorisation holds.
-constexpr double kLeastDamping = 1e-12, kMostDamping = 1e-3, kGrowth = 100.0;
+constexpr double kSettleDamping = 1e-12, kMostDamping = 1e-3, kGrowth = 100.0;
 
-constexpr int kNear = 10;  // steps: on public graphs a way that leads there has taken six at most
+constexpr int kSettleSteps = 10;  // steps: on public graphs a way that leads there has taken six at most
 
 }  // namespace
 
@@ -74,12 +73,12 @@ void AcceptedGraph<D>::relax(std::vector<Rigid<D>>& poses, int iterations, doubl
 template <int D>
 void AcceptedGraph<D>::settle(std::vector<Rigid<D>>& poses) {
   SolveOptions options;
-  options.iterations = kNear;
+  options.iterations = kSettleSteps;
   if (minimise(*equations_, *cholesky_, options, weights_, poses).ending != Ending::Iterations) return;
   const auto rotations = chordalRotations(*equations_, poses, weights_);
   auto fresh = rotations ? translationsFor(*equations_, *rotations, poses, weights_) : std::nullopt;
   if (!fresh) return;
-  options.iterations = 2 * kNear;
+  options.iterations = 2 * kSettleSteps;
   minimise(*equations_, *cholesky_, options, weights_, *fresh);
   if (cost(*fresh) < cost(poses)) poses = std::move(*fresh);
 }
@@ -90,7 +89,7 @@ bool AcceptedGraph<D>::factor(const std::vector<Rigid<D>>& poses) {
   if (cholesky_->factor(equations_->H(), equations_->pattern())) return true;
   double largest = 0.0;
   for (const auto& block : equations_->H().diagonal) largest = std::max(largest, block.diagonal().maxCoeff());
-  for (double damping = kLeastDamping; damping < kMostDamping; damping *= kGrowth) {
+  for (double damping = kSettleDamping; damping < kMostDamping; damping *= kGrowth) {
     for (auto& block : equations_->H().diagonal) block.diagonal().array() += damping * largest;
     if (cholesky_->factor(equations_->H(), equations_->pattern())) return true;
   }

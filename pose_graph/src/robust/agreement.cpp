@@ -5,13 +5,13 @@
 #include <cmath>
 #include <numeric>
 
+#include "linear/disjoint_sets.hpp"
+#include "linear/index.hpp"
 #include "urban_nav_core/trajectory/chi_square.hpp"
 
 namespace pose_graph {
 
 namespace {
-
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
 constexpr int kPartners = 20;  // compared with each closure at most: one that agrees is enough
 
@@ -21,11 +21,6 @@ bool agree(const ClosureLoop& loop, double variance, const Thresholds& threshold
   if (!(loop.chi2 <= variance * thresholds.limit[N])) return false;
   const double log_true = loop.log_true - 0.5 * N * std::log(variance) - 0.5 * loop.chi2 / variance;
   return log_true - loop.log_false >= Thresholds::kEvidence;
-}
-
-int rootOf(std::vector<int>& above, int i) {
-  while (above[sz(i)] != i) i = above[sz(i)] = above[sz(above[sz(i)])];
-  return i;
 }
 
 }  // namespace

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "robust/closure_loops.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "linear/index.hpp"
 #include "manifold/rotation.hpp"
+#include "urban_nav_core/geometry/small_matrices.hpp"
 
 namespace pose_graph {
 
 namespace {
-
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
 const double kLogTwoPi = std::log(2.0 * 3.14159265358979323846);
 
@@ -54,14 +53,14 @@ ClosureLoop ClosureLoops<D>::loop(std::size_t first, std::size_t second) const {
   const TangentMatrix<D> over_a = adjoint<D>(a.Z), over_b = adjoint<D>(back);
   const TangentMatrix<D> S = a.covariance + over_a * chains.covariance(a.to, b.to) * over_a.transpose() +
                              over_b * (b.covariance + chains.covariance(b.from, a.from)) * over_b.transpose();
-  const Eigen::LLT<TangentMatrix<D>> llt(S);
+  const urban_nav_core::SmallCholesky<N> factored(S);
   const double span = chains.of_pose[sz(a.from)] == chains.of_pose[sz(a.to)]
                           ? std::min(chains.extent, std::abs(chains.way[sz(a.to)] - chains.way[sz(a.from)]))
                           : chains.extent;
   ClosureLoop made;
-  made.chi2 = d.dot(llt.solve(d));
+  made.chi2 = d.dot(factored.solve(d));
   made.log_true = -0.5 * N * kLogTwoPi;
-  for (int i = 0; i < N; ++i) made.log_true -= std::log(llt.matrixLLT()(i, i));
+  for (int i = 0; i < N; ++i) made.log_true -= std::log(factored.factor()(i, i));
   made.log_false = -rotation_size<D> * kLogTwoPi - D * std::log(2.0 * std::max(span, 1e-3));
   return made;
 }

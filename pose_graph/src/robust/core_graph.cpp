@@ -8,7 +8,7 @@ namespace pose_graph {
 namespace {
 
 // As in solve_condensed.cpp.
-constexpr double kLeastShare = 0.5;
+constexpr double kLeastCoreShare = 0.5;
 
 }  // namespace
 
@@ -24,7 +24,7 @@ std::optional<CoreGraph<D>> CoreGraph<D>::of(const Problem<D>& problem, const st
   }
   CoreGraph made{Condensed<D>(problem, weights)};
   const Chains& chains = made.condensed_.chains();
-  if (static_cast<double>(chains.core.size()) > (1.0 - kLeastShare) * static_cast<double>(problem.poses.size()))
+  if (static_cast<double>(chains.core.size()) > (1.0 - kLeastCoreShare) * static_cast<double>(problem.poses.size()))
     return std::nullopt;
   made.condensed_.relinearise();
   made.core_ = made.condensed_.core(problem.poses);

@@ -5,15 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linear/index.hpp"
 #include "manifold/rotation.hpp"
 
 namespace pose_graph {
 
 namespace {
 
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
-
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kLeastExtent = 1e-3;  // metres: a graph that does not move at all
 
 }  // namespace
@@ -37,7 +35,7 @@ template <int D>
 TangentMatrix<D> boundedCovariance(const TangentMatrix<D>& information, double extent) {
   TangentMatrix<D> sum = information;
   for (int a = 0; a < tangent_size<D>; ++a) {
-    const double width = a < D ? 2.0 * extent : 2.0 * kPi;
+    const double width = a < D ? 2.0 * extent : 2.0 * M_PI;
     sum(a, a) += 12.0 / (width * width);
   }
   return sum.inverse();

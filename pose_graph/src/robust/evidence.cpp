@@ -1,23 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "robust/evidence.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <map>
 
+#include "linear/index.hpp"
 #include "robust/true_residual.hpp"
 #include "urban_nav_core/geometry/dense_kernels.hpp"
+#include "urban_nav_core/geometry/small_matrices.hpp"
 
 namespace pose_graph {
 
 namespace {
 
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
-
-constexpr double kPi = 3.14159265358979323846;
 // A covariance from 24 samples is good to three tenths, and inverted too large by 24 / (23 - N) (the mean of an inverse
 // Wishart matrix), which is taken off. Chosen for its time; whether more would decide better is not measured.
 constexpr int kDisturbances = 24;
@@ -63,9 +61,9 @@ Witness<D>::Witness(const Problem<D>& problem, const std::vector<int>& candidate
     double log = 0.0;
     for (int a = 0; a < edge.rank; ++a)
       log += 0.5 * std::log(edge.W.row(a).template head<D>().squaredNorm() * width * width +
-                            edge.W.row(a).template tail<rotation_size<D>>().squaredNorm() * 4.0 * kPi * kPi);
+                            edge.W.row(a).template tail<rotation_size<D>>().squaredNorm() * 4.0 * M_PI * M_PI);
     false_log_.push_back(log);
-    width_log_.push_back(D * std::log(width) + rotation_size<D> * std::log(2.0 * kPi));
+    width_log_.push_back(D * std::log(width) + rotation_size<D> * std::log(2.0 * M_PI));
   }
 }
 
@@ -129,22 +127,22 @@ Evidence Witness<D>::hear(AcceptedGraph<D>& graph, const std::vector<char>& in, 
     }
     TangentMatrix<D> C = moved[k].lazyProduct(moved[k].transpose()) / kDisturbances;
     for (int a = edge.rank; a < N; ++a) C(a, a) = 1.0;  // measures nothing there: rows of W are zero, so is the error
-    const double log_at_zero = false_log_[k] - 0.5 * edge.rank * std::log(2.0 * kPi);
+    const double log_at_zero = false_log_[k] - 0.5 * edge.rank * std::log(2.0 * M_PI);
     if (in[e]) {
       // What is left of its own unit covariance is the inverse of that which its residual would have were it outside.
       const double log = log_at_zero + 0.5 * std::log(std::max(1e-300, C.determinant()));
       C.diagonal().array() += uncontrolled;
-      made.chi2[e] = at[e].error.dot(C.llt().solve(at[e].error)) * kShrink / variance;
+      made.chi2[e] = at[e].error.dot(urban_nav_core::SmallCholesky<N>(C).solve(at[e].error)) * kShrink / variance;
       made.likelier[e] = logOfTrueResidual(log, edge.rank, made.chi2[e] * variance, variance);
       if (small_group[e] >= 0) groups[small_group[e]].push_back(k);
       continue;
     }
     C.topLeftCorner(edge.rank, edge.rank) /= kShrink;
     C.diagonal().head(edge.rank).array() += 1.0;
-    const Eigen::LLT<TangentMatrix<D>> llt(C);
-    made.chi2[e] = at[e].error.dot(llt.solve(at[e].error)) / variance;
+    const urban_nav_core::SmallCholesky<N> factored(C);
+    made.chi2[e] = at[e].error.dot(factored.solve(at[e].error)) / variance;
     double log = log_at_zero;
-    for (int a = 0; a < edge.rank; ++a) log -= std::log(llt.matrixLLT()(a, a));
+    for (int a = 0; a < edge.rank; ++a) log -= std::log(factored.factor()(a, a));
     made.likelier[e] = logOfTrueResidual(log, edge.rank, made.chi2[e] * variance, variance);
   }
 
@@ -169,10 +167,10 @@ Evidence Witness<D>::hear(AcceptedGraph<D>& graph, const std::vector<char>& in, 
     }
     TangentMatrix<D> C = spread.lazyProduct(spread.transpose()) / kDisturbances + uncontrolled * weight;
     C.diagonal().array() += 1e-12 * std::max(1e-300, C.diagonal().maxCoeff());
-    const double chi2 = sum.dot(C.llt().solve(sum)) * kShrink / variance;
+    const double chi2 = sum.dot(urban_nav_core::SmallCholesky<N>(C).solve(sum)) * kShrink / variance;
     double width = 0.0;
     for (std::size_t k : members) width = std::max(width, width_log_[k]);
-    const double log = width - 0.5 * N * std::log(2.0 * kPi) + 0.5 * std::log(std::max(1e-300, C.determinant()));
+    const double log = width - 0.5 * N * std::log(2.0 * M_PI) + 0.5 * std::log(std::max(1e-300, C.determinant()));
     for (std::size_t k : members) {
       made.group_chi2[sz(candidates_[k])] = std::isfinite(chi2) ? chi2 : 0.0;
       made.group_likelier[sz(candidates_[k])] = logOfTrueResidual(log, N, chi2 * variance, variance);

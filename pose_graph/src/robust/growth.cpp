@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "linear/index.hpp"
 #include "robust/round.hpp"
 #include "robust/variance_factor.hpp"
 #include "start/along_edges.hpp"
@@ -13,12 +14,10 @@ namespace pose_graph {
 
 namespace {
 
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
-
-constexpr int kRounds = 30;
+constexpr int kGrowthRounds = 30;
 // Of the candidates: when fewer change, it is done; when fewer enter, groups may; when more do, the graph is still in the making, and
 // only what is beyond doubt enters.
-constexpr double kSettled = 1e-3, kLittle = 0.01, kMuch = 0.05;
+constexpr double kGrowthSettled = 1e-3, kLittle = 0.01, kMuch = 0.05;
 constexpr std::size_t kGroup = 20;  // larger groups are no repeated mistake but a way travelled twice
 
 // Groups worth a test for a common bias.
@@ -57,8 +56,8 @@ Grown<D> grow(const Problem<D>& problem, const std::vector<EdgeRole>& roles, con
   std::set<int> tried;
   bool all = false;
   const double candidates = static_cast<double>(witness.candidates().size());
-  const auto isFew = [&](std::size_t changes) { return static_cast<double>(changes) <= kSettled * candidates; };
-  for (int round = 0; round < kRounds; ++round) {
+  const auto isFew = [&](std::size_t changes) { return static_cast<double>(changes) <= kGrowthSettled * candidates; };
+  for (int round = 0; round < kGrowthRounds; ++round) {
     grown.variance = varianceFactor(witness, grown.in, grown.poses, graph.unknowns(), thresholds, scale.factor);
     grown.evidence = witness.hear(graph, grown.in, grown.poses, grown.variance, small, kUncontrolled);
     if (!grown.evidence.known) break;
@@ -85,7 +84,7 @@ Grown<D> grow(const Problem<D>& problem, const std::vector<EdgeRole>& roles, con
     std::size_t changes = 0;
     do {
       changes = lastWord(witness, group, small, thresholds, scale, expelled, graph, grown);
-    } while (changes > 0 && isFew(changes) && ++round < kRounds);
+    } while (changes > 0 && isFew(changes) && ++round < kGrowthRounds);
     if (changes == 0) break;
   }
   return grown;

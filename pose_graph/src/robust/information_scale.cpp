@@ -10,13 +10,13 @@ namespace pose_graph {
 namespace {
 
 constexpr std::size_t kLoops = 500;  // looked at: the factor of so many is good to some hundredths
-constexpr int kSteps = 20;
+constexpr int kScaleSteps = 20;
 // False closures that were found in a row err alike, and nearly agree: loops whose deviations are at least five times those of
 // true ones are taken for theirs.
 constexpr double kLoose = 25.0;
-constexpr double kLeastShare = 1e-3;
-constexpr double kPrior = 1.0;     // loops of unit variance
-constexpr double kToDoubt = 30.0;  // so many true ones it takes to say that information boasts
+constexpr double kLeastScaleShare = 1e-3;
+constexpr double kScalePrior = 1.0;  // loops of unit variance
+constexpr double kToDoubt = 30.0;    // so many true ones it takes to say that information boasts
 
 // A mixture of loops of true closures, of false ones that agree with each other more or less, and of others.
 struct Mixture {
@@ -32,8 +32,9 @@ Mixture mixtureFrom(const std::vector<ClosureLoop>& loops, int dof, double facto
   if (!rows) made.shares[1] = 0.0;
   made.factor = factor;
   made.loose = kLoose * factor;
-  for (int i = 0; i < kSteps; ++i) {
-    double squares[2] = {kPrior * dof, kPrior * dof * made.loose}, numbers[2] = {kPrior * dof, kPrior * dof};
+  for (int i = 0; i < kScaleSteps; ++i) {
+    double squares[2] = {kScalePrior * dof, kScalePrior * dof * made.loose},
+           numbers[2] = {kScalePrior * dof, kScalePrior * dof};
     double sum[3] = {0.0, 0.0, 0.0};
     made.log_likelihood = 0.0;
     for (const ClosureLoop& loop : loops) {
@@ -57,7 +58,7 @@ Mixture mixtureFrom(const std::vector<ClosureLoop>& loops, int dof, double facto
     made.factor = squares[0] / numbers[0];
     made.loose = std::max(squares[1] / numbers[1], kLoose * made.factor);
     for (int k = 0; k < 3; ++k)
-      if (made.shares[k] > 0.0) made.shares[k] = std::max(kLeastShare, sum[k] / static_cast<double>(loops.size()));
+      if (made.shares[k] > 0.0) made.shares[k] = std::max(kLeastScaleShare, sum[k] / static_cast<double>(loops.size()));
   }
   return made;
 }

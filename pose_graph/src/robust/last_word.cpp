@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <map>
 
+#include "linear/index.hpp"
 #include "robust/growth.hpp"
 #include "robust/round.hpp"
 #include "robust/variance_factor.hpp"
@@ -9,8 +10,6 @@
 namespace pose_graph {
 
 namespace {
-
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
 // Whether the settled graph costs no more with a group than chance explains for all its members together: where it closes a long way
 // its linearised test sees a straight line, and finds true ones too far off.

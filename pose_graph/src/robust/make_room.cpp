@@ -3,13 +3,13 @@
 
 #include <algorithm>
 
+#include "linear/index.hpp"
+
 namespace pose_graph {
 
 namespace {
 
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
-
-constexpr int kRounds = 4;
+constexpr int kRoomRounds = 4;
 
 }  // namespace
 
@@ -19,7 +19,7 @@ bool makeRoom(const Witness<D>& witness, const Thresholds& thresholds, const std
   if (members.size() < kForOne) return false;
   const std::vector<int> no_groups(in.size(), -1);
   std::size_t gone = 0;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kRoomRounds; ++round) {
     const Evidence evidence = witness.hear(graph, in, poses, variance, no_groups, kUncontrolled);
     if (!evidence.known) return false;
     double worst = 0.0;

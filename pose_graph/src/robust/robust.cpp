@@ -6,6 +6,8 @@
 #include <numeric>
 #include <set>
 
+#include "linear/disjoint_sets.hpp"
+#include "linear/index.hpp"
 #include "objective/objective.hpp"
 #include "robust/core_graph.hpp"
 #include "robust/growth.hpp"
@@ -15,13 +17,6 @@ namespace pose_graph {
 using urban_nav_core::ClosureVerdict;
 
 namespace {
-
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
-
-int rootOf(std::vector<int>& above, int i) {
-  while (above[sz(i)] != i) i = above[sz(i)] = above[sz(above[sz(i)])];
-  return i;
-}
 
 template <int D>
 Problem<D> partOf(const Problem<D>& problem, const std::vector<char>& in, std::vector<Rigid<D>> poses) {
@@ -100,7 +95,7 @@ std::vector<EdgeRole> rolesByNumbers(const Problem<D>& problem) {
 namespace {
 
 constexpr int kReadings = 3;
-constexpr int kNear = 10;  // steps, as in AcceptedGraph::settle
+constexpr int kNearSteps = 10;  // steps, as in AcceptedGraph::settle
 
 // What is thought of the edges, and where they put the poses.
 template <int D>
@@ -213,12 +208,12 @@ Solution<D> relaxed(const Problem<D>& part, const std::vector<Rigid<D>>& given, 
   if (options.start != Start::Auto) return solve(part, options);
   SolveOptions near = options;
   near.start = Start::Vertices;
-  near.iterations = std::min(options.iterations, kNear);
+  near.iterations = std::min(options.iterations, kNearSteps);
   Solution<D> made = solve(part, near);
-  if (made.ending != Ending::Iterations || options.iterations <= kNear) return made;
+  if (made.ending != Ending::Iterations || options.iterations <= kNearSteps) return made;
   Solution<D> afresh = solve(Problem<D>{given, part.edges}, options);
   if (afresh.cost <= made.cost) return afresh;
-  near.iterations = options.iterations - kNear;
+  near.iterations = options.iterations - kNearSteps;
   return solve(Problem<D>{std::move(made.poses), part.edges}, near);
 }
 

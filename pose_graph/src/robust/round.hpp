@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "linear/index.hpp"
 #include "robust/accepted_graph.hpp"
 #include "robust/evidence.hpp"
 #include "robust/judging.hpp"
@@ -37,7 +38,6 @@ class Round {
   bool joined = false;
 
  private:
-  static std::size_t sz(int i) { return static_cast<std::size_t>(i); }
   double limit(int e) const { return limitOf(thresholds_, witness_.edge(e)); }
   double asStated() const { return std::min(1.0, evidence_.variance); }
   bool outAndFits(int e) const { return !in_[sz(e)] && evidence_.chi2[sz(e)] * asStated() <= limit(e); }

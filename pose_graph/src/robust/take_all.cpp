@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linear/index.hpp"
 #include "robust/growth.hpp"
 #include "robust/judging.hpp"
 #include "robust/variance_factor.hpp"
@@ -9,8 +10,6 @@
 namespace pose_graph {
 
 namespace {
-
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
 // Trying costs what a graph without false closures costs, and far more where false ones between any places make the factor
 // dense. It is tried where odometry contradicts no more than this share of them and one by chance, or so many loops of near
@@ -24,7 +23,7 @@ constexpr double kTelling = 30.0, kOpen = 0.9;
 constexpr double kPoor = 0.02;
 // Of what the residuals may be together, times the variance that is believed; from so many numbers on that is a matter of chance
 // no more.
-constexpr double kBent = 1.5, kFewNumbers = 60.0;
+constexpr double kBentFactor = 1.5, kFewNumbers = 60.0;
 
 }  // namespace
 
@@ -70,7 +69,7 @@ bool takeAll(const Witness<D>& witness, const std::vector<int>& group, const std
   // Many false ones that bend the graph a little each fit one by one, but not all together.
   double redundancy = -static_cast<double>(graph.unknowns()) * tangent_size<D>;
   for (std::size_t e = 0; e < all.in.size(); ++e) redundancy += all.in[e] ? witness.edge(static_cast<int>(e)).rank : 0;
-  const bool bent = graph.cost(all.poses) > kBent * all.variance * std::max(redundancy, kFewNumbers);
+  const bool bent = graph.cost(all.poses) > kBentFactor * all.variance * std::max(redundancy, kFewNumbers);
   if (!all.evidence.known || bent || poor > kPoor * candidates) {
     graph.take(grown.in);
     return false;

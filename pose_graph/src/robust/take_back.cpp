@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 
+#include "linear/index.hpp"
 #include "robust/growth.hpp"
 #include "urban_nav_core/trajectory/chi_square.hpp"
 
@@ -8,9 +9,7 @@ namespace pose_graph {
 
 namespace {
 
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
-
-constexpr double kWide = 64.0;  // times the limit: eight standard deviations for each that will count in the end
+constexpr double kWideFactor = 64.0;  // times the limit: eight standard deviations for each that will count in the end
 constexpr double kNarrower =
     1.25;                 // each step; at 1.6 the graph with the most doubtful closures (tuc) still ends elsewhere
 constexpr int kLast = 6;  // steps at the final limit, or until nothing changes
@@ -43,13 +42,13 @@ void takeBack(const Problem<D>& problem, const std::vector<EdgeRole>& roles, con
     for (int e : witness.candidates()) near += !grown.in[sz(e)] && squareOf(sz(e), poses) <= wide * limitOf(sz(e));
     return static_cast<double>(near) > kWorth * static_cast<double>(witness.candidates().size());
   };
-  if (!worthIt(grown.poses, kWide)) return;
+  if (!worthIt(grown.poses, kWideFactor)) return;
 
   std::vector<char> in = grown.in;
   std::vector<double> weights(in.size(), 1.0);
   std::vector<Rigid<D>> poses = grown.poses;
   AcceptedGraph<D> graph(problem);
-  for (double wide = kWide; wide > 1.0; wide /= kNarrower) {
+  for (double wide = kWideFactor; wide > 1.0; wide /= kNarrower) {
     if (!worthIt(poses, wide)) return;
     for (int e : witness.candidates()) {
       const double share = squareOf(sz(e), poses) / (wide * limitOf(sz(e)));

@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 
+#include "linear/index.hpp"
 #include "robust/growth.hpp"
 #include "robust/make_room.hpp"
 #include "urban_nav_core/trajectory/chi_square.hpp"
@@ -11,8 +12,6 @@
 namespace pose_graph {
 
 namespace {
-
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
 // Groups outside that are worth a try, the largest first.
 template <int D>

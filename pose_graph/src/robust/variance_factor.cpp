@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
+#include "linear/index.hpp"
+
 namespace pose_graph {
 
 namespace {
-
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
 // Loops of near closures (information_scale.hpp) may hide what only long ways show: twice their deviations are allowed for
 // until there are closures to tell. 1 loses more true ones (manhattan: 25 of 1954 for 12), 2 does as well.

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "robust/whitened_edge.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
+
+#include "urban_nav_core/geometry/small_matrices.hpp"
 
 namespace pose_graph {
 
 namespace {
 
 // Of the largest eigenvalue: less is round-off.
-constexpr double kNothing = 1e-12;
+constexpr double kZeroEigenvalue = 1e-12;
 
 // d Log(Exp(d) R) at d = 0, R = Exp(phi): the inverse of the left Jacobian (Sola et al., A micro Lie theory, eq. 146).
 Eigen::Matrix3d logByLeft(const RotationVector<3>& phi) {
@@ -32,11 +33,11 @@ WhitenedEdge<D> whitened(const Edge<D>& edge) {
   made.to = edge.to;
   made.Z = edge.Z;
   made.W.setZero();
-  const Eigen::SelfAdjointEigenSolver<TangentMatrix<D>> eigen(edge.information);
-  const Tangent<D>& values = eigen.eigenvalues();
+  const auto eigen = urban_nav_core::smallEigen<tangent_size<D>>(edge.information);
+  const Tangent<D>& values = eigen.values;
   for (int a = tangent_size<D> - 1; a >= 0; --a) {
-    if (!(values[a] > kNothing * values[tangent_size<D> - 1])) continue;
-    made.W.row(made.rank++) = std::sqrt(values[a]) * eigen.eigenvectors().col(a).transpose();
+    if (!(values[a] > kZeroEigenvalue * values[tangent_size<D> - 1])) continue;
+    made.W.row(made.rank++) = std::sqrt(values[a]) * eigen.vectors.col(a).transpose();
   }
   return made;
 }

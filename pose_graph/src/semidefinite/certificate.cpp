@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linear/index.hpp"
 #include "pose_graph/solution.hpp"
 #include "semidefinite/quadratic_form.hpp"
 
@@ -11,14 +12,12 @@ namespace pose_graph {
 
 namespace {
 
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
-
 // The shift is tried from a gap of this share of the cost on, ten times as large each time, and then between the last two, by halves of the exponent. What is less
 // drowns in round-off.
-constexpr double kLeastShare = 1e-9, kCertified = 1e-4;
+constexpr double kLeastEigenvalueShare = 1e-9, kCertified = 1e-4;
 constexpr int kHalvings = 4;
 // Of the largest entry: as much as a factorisation of some thousand poses may err.
-constexpr double kRoundOff = 1e-13;
+constexpr double kFactorRoundOff = 1e-13;
 
 /// Half the gradient by each rotation, (X M)_i, seen from it and symmetric.
 template <int D>
@@ -64,7 +63,7 @@ Certificate certify(const Problem<D>& problem, const std::vector<Rigid<D>>& pose
     shifted = eta;
     return cholesky.factor(S, form.pattern);
   };
-  double eta = std::max(kLeastShare * made.cost / numbers, kRoundOff * largest), too_small = 0.0;
+  double eta = std::max(kLeastEigenvalueShare * made.cost / numbers, kFactorRoundOff * largest), too_small = 0.0;
   for (; eta < largest && !isPositive(eta); eta *= 10.0) too_small = eta;
   if (eta < largest) {
     for (int halving = 0; halving < kHalvings && too_small > 0.0; ++halving) {
@@ -74,7 +73,7 @@ Certificate certify(const Problem<D>& problem, const std::vector<Rigid<D>>& pose
     made.gap = std::max(made.cost - dual, 0.0) + eta * numbers;
   }
   // Where measurements fit to the last digit, the cost is nothing and any share of it less.
-  const double nothing = 1e3 * kRoundOff * largest * numbers;
+  const double nothing = 1e3 * kFactorRoundOff * largest * numbers;
   made.certified = made.gap && *made.gap <= std::max(kCertified * made.cost, nothing);
   return made;
 }

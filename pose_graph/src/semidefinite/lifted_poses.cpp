@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "linear/index.hpp"
 #include "manifold/rotation.hpp"
 #include "semidefinite/quadratic_form.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
@@ -13,14 +14,12 @@ namespace pose_graph {
 
 namespace {
 
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
-
-constexpr int kWide = 8;  // dimensions, as many as BlockCholesky solves for side by side
+constexpr int kSideBySide = 8;  // dimensions, as many as BlockCholesky solves for side by side
 constexpr double kNoise =
     0.3;  // of each number of the start: leaves the rotations what they are, and every way out open
-constexpr int kSteps = 60, kInner = 60;
-constexpr double kEnough = 1e-5;  // of the cost, as what a step promises
-constexpr double kForcing = 0.1;  // of the gradient, where a step is exact enough
+constexpr int kLiftedSteps = 60, kInner = 60;
+constexpr double kEnoughOfCost = 1e-5;  // of the cost, as what a step promises
+constexpr double kForcing = 0.1;        // of the gradient, where a step is exact enough
 
 using Numbers = std::vector<double>;  // X^T by places: D + 1 rows of kWide numbers each
 
@@ -37,8 +36,8 @@ void add(Numbers& a, double factor, const Numbers& b) {
 template <int D>
 class Lifted {
   static constexpr int B = D + 1;
-  using Rows = Eigen::Matrix<double, D, kWide, Eigen::RowMajor>;
-  using All = Eigen::Matrix<double, B, kWide, Eigen::RowMajor>;
+  using Rows = Eigen::Matrix<double, D, kSideBySide, Eigen::RowMajor>;
+  using All = Eigen::Matrix<double, B, kSideBySide, Eigen::RowMajor>;
 
  public:
   Lifted(const QuadraticForm<D>& form, Numbers x)
@@ -62,7 +61,7 @@ class Lifted {
   bool step() {
     double predicted = 0.0;
     const Numbers s = truncated(predicted);
-    if (!(predicted > kEnough * cost_)) return false;
+    if (!(predicted > kEnoughOfCost * cost_)) return false;
     Numbers kept = x_;
     const double before = cost_;
     add(x_, 1.0, s);
@@ -78,15 +77,17 @@ class Lifted {
   }
 
  private:
-  Eigen::Map<Rows> rows(Numbers& v, std::size_t k) const { return Eigen::Map<Rows>(v.data() + (k * B + 1) * kWide); }
+  Eigen::Map<Rows> rows(Numbers& v, std::size_t k) const {
+    return Eigen::Map<Rows>(v.data() + (k * B + 1) * kSideBySide);
+  }
   Eigen::Map<const Rows> rows(const Numbers& v, std::size_t k) const {
-    return Eigen::Map<const Rows>(v.data() + (k * B + 1) * kWide);
+    return Eigen::Map<const Rows>(v.data() + (k * B + 1) * kSideBySide);
   }
 
   void multiply(const Numbers& v, Numbers& made) const {
     made.resize(v.size());
-    const auto part = [&](std::size_t k) { return Eigen::Map<const All>(v.data() + k * B * kWide); };
-    const auto target = [&](std::size_t k) { return Eigen::Map<All>(made.data() + k * B * kWide); };
+    const auto part = [&](std::size_t k) { return Eigen::Map<const All>(v.data() + k * B * kSideBySide); };
+    const auto target = [&](std::size_t k) { return Eigen::Map<All>(made.data() + k * B * kSideBySide); };
     for (std::size_t k = 0; k < lambda_.size(); ++k) target(k).noalias() = form_.M.diagonal[k] * part(k);
     for (std::size_t k = 0; k < lambda_.size(); ++k)
       for (int e = form_.pattern.first[k]; e < form_.pattern.first[k + 1]; ++e) {
@@ -100,7 +101,7 @@ class Lifted {
   void project(Numbers& v) const {
     for (std::size_t k = 0; k < lambda_.size(); ++k) {
       if (form_.holdsTranslation(static_cast<int>(k)))
-        for (int c = 0; c < kWide; ++c) v[k * B * kWide + sz(c)] = 0.0;
+        for (int c = 0; c < kSideBySide; ++c) v[k * B * kSideBySide + sz(c)] = 0.0;
       const Eigen::Matrix<double, D, D> across = rows(v, k) * rows(x_, k).transpose();
       rows(v, k) -= (0.5 * (across + across.transpose())).eval() * rows(x_, k);
     }
@@ -187,19 +188,19 @@ class Lifted {
 template <int D>
 Numbers lift(const QuadraticForm<D>& form, const std::vector<Rigid<D>>& poses) {
   std::mt19937_64 sequence;  // NOLINT(cert-msc51-cpp): the same numbers each time
-  Numbers x(poses.size() * (D + 1) * kWide, 0.0);
+  Numbers x(poses.size() * (D + 1) * kSideBySide, 0.0);
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    double* at = x.data() + sz(form.symbolic.place[i]) * (D + 1) * kWide;
+    double* at = x.data() + sz(form.symbolic.place[i]) * (D + 1) * kSideBySide;
     for (int d = 0; d < D; ++d) at[d] = poses[i].t[d];
     for (int a = 0; a < D; ++a)
-      for (int c = 0; c < kWide; ++c) {
+      for (int c = 0; c < kSideBySide; ++c) {
         const double uniform = 2.0 * std::ldexp(static_cast<double>(sequence() >> 11U), -53) - 1.0;
-        at[(a + 1) * kWide + c] = (c < D ? poses[i].R(c, a) : 0.0) + kNoise * uniform;
+        at[(a + 1) * kSideBySide + c] = (c < D ? poses[i].R(c, a) : 0.0) + kNoise * uniform;
       }
     for (int a = 1; a <= D; ++a) {
-      Eigen::Map<Eigen::Matrix<double, kWide, 1>> row(at + a * kWide);
+      Eigen::Map<Eigen::Matrix<double, kSideBySide, 1>> row(at + a * kSideBySide);
       for (int b = 1; b < a; ++b) {
-        const Eigen::Map<const Eigen::Matrix<double, kWide, 1>> other(at + b * kWide);
+        const Eigen::Map<const Eigen::Matrix<double, kSideBySide, 1>> other(at + b * kSideBySide);
         row -= row.dot(other) * other;
       }
       row.normalize();
@@ -212,16 +213,16 @@ Numbers lift(const QuadraticForm<D>& form, const std::vector<Rigid<D>>& poses) {
 template <int D>
 std::optional<std::vector<Rigid<D>>> laidBack(const QuadraticForm<D>& form, const Numbers& x,
                                               const std::vector<Rigid<D>>& start) {
-  using Wide = Eigen::Matrix<double, kWide, kWide>;
-  using Block = Eigen::Matrix<double, D + 1, kWide, Eigen::RowMajor>;
+  using Wide = Eigen::Matrix<double, kSideBySide, kSideBySide>;
+  using Block = Eigen::Matrix<double, D + 1, kSideBySide, Eigen::RowMajor>;
   const auto block = [&](std::size_t i) {
-    return Eigen::Map<const Block>(x.data() + sz(form.symbolic.place[i]) * (D + 1) * kWide);
+    return Eigen::Map<const Block>(x.data() + sz(form.symbolic.place[i]) * (D + 1) * kSideBySide);
   };
   std::vector<Wide> sums(sz(form.unknowns.components), Wide::Zero());
   for (std::size_t i = 0; i < start.size(); ++i)
     sums[sz(form.unknowns.component[i])] +=
         block(i).template bottomRows<D>().transpose() * block(i).template bottomRows<D>();
-  std::vector<Eigen::Matrix<double, kWide, D>> kept(sums.size());
+  std::vector<Eigen::Matrix<double, kSideBySide, D>> kept(sums.size());
   for (std::size_t c = 0; c < sums.size(); ++c) {
     const auto eigen = urban_nav_core::symmetricEigen(sums[c]);
     if (!eigen) return std::nullopt;
@@ -258,7 +259,7 @@ std::optional<std::vector<Rigid<D>>> liftedPoses(const Problem<D>& problem, cons
   const QuadraticForm<D> form(problem, weights);
   Lifted<D> lifted(form, lift<D>(form, start));
   if (!lifted.prepare()) return std::nullopt;
-  for (int i = 0; i < kSteps && lifted.step(); ++i) {
+  for (int i = 0; i < kLiftedSteps && lifted.step(); ++i) {
   }
   return laidBack<D>(form, lifted.x(), start);
 }

@@ -3,11 +3,11 @@
 
 #include <utility>
 
+#include "linear/index.hpp"
+
 namespace pose_graph {
 
 namespace {
-
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
 /// The edges that count, with their weights in their information.
 template <int D>

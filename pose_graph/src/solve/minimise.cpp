@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linear/index.hpp"
+
 namespace pose_graph {
 
 namespace {
 
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
-
 constexpr double kFirstDamping = 1e-10, kLeastDamping = 1e-16, kLargestDamping = 1e8;
 // Of the largest entry of the diagonal: what is less is round-off. Nothing is known of such a direction.
-constexpr double kNothing = 1e-12;
+constexpr double kZeroDiagonal = 1e-12;
 // Of the lengths that a residual is the difference of, and of a radian: some dozens of a double's last bits.
 constexpr double kLeast = 1e-14;
 
@@ -25,7 +25,7 @@ std::vector<Tangent<D>> dampingScale(const std::vector<TangentMatrix<D>>& diagon
   std::vector<Tangent<D>> made;
   made.reserve(diagonal.size());
   for (const TangentMatrix<D>& block : diagonal)
-    made.push_back((block.diagonal().array() > kNothing * largest).select(block.diagonal(), largest));
+    made.push_back((block.diagonal().array() > kZeroDiagonal * largest).select(block.diagonal(), largest));
   return made;
 }
 
@@ -66,7 +66,7 @@ std::vector<Rigid<D>> stepped(const NormalEquations<D>& equations, const std::ve
   return made;
 }
 
-double dot(const std::vector<double>& a, const std::vector<double>& b) {
+double dotProduct(const std::vector<double>& a, const std::vector<double>& b) {
   double sum = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
   return sum;
@@ -117,7 +117,7 @@ Descent minimise(NormalEquations<D>& equations, BlockCholesky<tangent_size<D>>& 
         x = equations.g();
         for (double& value : x) value = -value;
         cholesky.solve(x.data());
-        step.predicted = -dot(equations.g(), x);
+        step.predicted = -dotProduct(equations.g(), x);
         for (std::size_t k = 0; k < undamped.size() && damping > 0.0; ++k) {
           const Eigen::Map<const Tangent<D>> part(x.data() + k * N);
           step.predicted += damping * part.dot(scale[k].cwiseProduct(part));

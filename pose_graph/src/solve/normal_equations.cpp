@@ -4,18 +4,13 @@
 #include <Eigen/Core>
 #include <numeric>
 
+#include "linear/disjoint_sets.hpp"
+#include "linear/index.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 
 namespace pose_graph {
 
 namespace {
-
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
-
-int rootOf(std::vector<int>& above, int i) {
-  while (above[sz(i)] != i) i = above[sz(i)] = above[sz(above[sz(i)])];
-  return i;
-}
 
 template <int D>
 Adjacency adjacencyOfUnknowns(const Problem<D>& problem, const Unknowns& unknowns) {
@@ -40,7 +35,7 @@ TangentMatrix<D> transposedTimes(const Eigen::Matrix<double, D, rotation_size<D>
   return made;
 }
 
-constexpr std::size_t kGrain = 4096;  // edges summed by one thread at a time: fewer are not worth waking one
+constexpr std::size_t kEdgeGrain = 4096;  // edges summed by one thread at a time: fewer are not worth waking one
 
 }  // namespace
 
@@ -136,7 +131,7 @@ double NormalEquations<D>::lineariseAs(const std::vector<Rigid<D>>& poses, const
 template <int D>
 template <Objective objective>
 double NormalEquations<D>::costAs(const std::vector<Rigid<D>>& poses, const std::vector<double>& weights) const {
-  return urban_nav_core::sumInOrder(terms_.size(), kGrain, 0.0, [&](std::size_t e) {
+  return urban_nav_core::sumInOrder(terms_.size(), kEdgeGrain, 0.0, [&](std::size_t e) {
     const double weight = weights.empty() ? 1.0 : weights[e];
     const EdgeTerm<D>& term = terms_[e];
     return weight == 0.0 ? 0.0 : weight * edgeCost<objective, D>(term, poses[sz(term.from)], poses[sz(term.to)]);

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "condense/solve_condensed.hpp"
+#include "linear/index.hpp"
 #include "pose_graph/solution.hpp"
 #include "semidefinite/lifted_poses.hpp"
 #include "solve/minimise.hpp"
@@ -10,8 +11,6 @@
 namespace pose_graph {
 
 namespace {
-
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
 template <int D>
 bool allFinite(const std::vector<Rigid<D>>& poses) {

@@ -3,13 +3,12 @@
 
 #include <cstdlib>
 
+#include "linear/index.hpp"
 #include "manifold/rotation.hpp"
 
 namespace pose_graph {
 
 namespace {
-
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
 struct Incidence {
   std::vector<int> first, edge;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "start/chordal_start.hpp"
 
+#include "linear/index.hpp"
+
 namespace pose_graph {
 
 namespace {
-
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
 // In the plane a rotation commutes with a quarter turn, so one column of it says all.
 template <int D>

@@ -24,7 +24,7 @@ namespace {
 constexpr std::size_t kWaiting = 100;
 constexpr std::size_t kNodesAtOnce = 200;
 constexpr std::size_t kPending = 1000;  // of rejected closures and evidence
-constexpr double kMovedDistance = 0.01, kMovedAngle = 0.02 * 3.14159265358979323846 / 180.0;  // docs/architecture.md
+constexpr double kStoredDistance = 0.01, kStoredAngle = 0.02 * 3.14159265358979323846 / 180.0;  // docs/architecture.md
 
 LiveWriter::Options optionsOf(std::chrono::milliseconds period) {
   LiveWriter::Options options;
@@ -239,8 +239,8 @@ void Keeper::takePoses(const PoseGraph& graph, bool exactly, Batch& batch) {
     for (std::size_t i = 0; i < track.map.size(); ++i) {
       const Pose& now = track.map[i];
       const bool moved = i >= kept.size() || (exactly ? !isSame(now, kept[i])
-                                                      : distanceBetween(now, kept[i]) > kMovedDistance ||
-                                                            angleBetween(now, kept[i]) > kMovedAngle);
+                                                      : distanceBetween(now, kept[i]) > kStoredDistance ||
+                                                            angleBetween(now, kept[i]) > kStoredAngle);
       if (!moved) continue;
       batch.poses.push_back({track.session, {track.stamps[i], now, revision}});
       if (i < kept.size()) kept[i] = now;

@@ -45,7 +45,7 @@ Problem<2> flattened(const Problem<3>& problem) {
   return made;
 }
 
-const SimulatedGraph& drive() {
+const SimulatedGraph& condensedDrive() {
   static const SimulatedGraph graph =
       urban_nav_core::testing::streetGraph(12000, 40, urban_nav_core::testing::streetNoise(), 3);
   return graph;
@@ -81,13 +81,13 @@ void expectWhatTheWholeGraphGives(const Problem<D>& problem, Start start) {
 }
 
 TEST(Condensed, isTheWholeGraphsOptimum) {
-  expectWhatTheWholeGraphGives<3>(problemFrom(drive()), Start::Auto);
-  expectWhatTheWholeGraphGives<3>(problemFrom(drive()), Start::Vertices);
-  expectWhatTheWholeGraphGives<2>(flattened(problemFrom(drive())), Start::Auto);
+  expectWhatTheWholeGraphGives<3>(problemFrom(condensedDrive()), Start::Auto);
+  expectWhatTheWholeGraphGives<3>(problemFrom(condensedDrive()), Start::Vertices);
+  expectWhatTheWholeGraphGives<2>(flattened(problemFrom(condensedDrive())), Start::Auto);
 }
 
 TEST(Condensed, takesEdgesThatRunBackwards) {
-  Problem<3> problem = problemFrom(drive());
+  Problem<3> problem = problemFrom(condensedDrive());
   const Problem<3> forwards = problem;
   for (std::size_t e = 0; e < problem.edges.size(); e += 3) {
     Edge<3>& edge = problem.edges[e];
@@ -112,7 +112,7 @@ TEST(Condensed, hasNoErrorWithoutNoise) {
 }
 
 TEST(Condensed, comesBackFromABendOfTheStart) {
-  Problem<3> problem = problemFrom(drive());
+  Problem<3> problem = problemFrom(condensedDrive());
   const auto straight = solveCondensed(problem, {}, {});
   // The odometry turns 60 deg too far in the middle: the first guess is far off.
   Eigen::AngleAxisd turn(1.05, Eigen::Vector3d::UnitZ());
@@ -128,7 +128,7 @@ TEST(Condensed, comesBackFromABendOfTheStart) {
 }
 
 TEST(Chains, holdEveryPoseAndEdgeOnce) {
-  const Problem<3> problem = problemFrom(drive());
+  const Problem<3> problem = problemFrom(condensedDrive());
   std::vector<char> invertible(problem.edges.size(), 1);
   invertible[5000] = 0;
   const Chains chains = findChains(problem, invertible);

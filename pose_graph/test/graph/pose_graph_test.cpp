@@ -20,7 +20,7 @@ using urban_nav_core::RelativePose;
 using urban_nav_core::UserError;
 using urban_nav_core::Vector6d;
 
-constexpr StampNs kStep = 50'000'000;
+constexpr StampNs kNodeStep = 50'000'000;
 constexpr int kRound = 400;  // steps of a square of 20 m
 
 // A square: 5 cm a step, a quarter turn at each corner.
@@ -33,8 +33,8 @@ Pose truthAt(int i) {
 
 RelativePose stepAt(int i, double turn_error) {
   RelativePose step;
-  step.from = i * kStep;
-  step.to = (i + 1) * kStep;
+  step.from = i * kNodeStep;
+  step.to = (i + 1) * kNodeStep;
   step.T_from_to =
       truthAt(i).inverse() * truthAt(i + 1) * Pose(expSo3(Vector3d(0.0, 0.0, turn_error)), Vector3d::Zero());
   Vector6d sigma;
@@ -45,14 +45,14 @@ RelativePose stepAt(int i, double turn_error) {
   return step;
 }
 
-void drive(PoseGraph& graph, const SessionId& session, int first, int last, double turn_error) {
+void driveRounds(PoseGraph& graph, const SessionId& session, int first, int last, double turn_error) {
   for (int i = first; i < last; ++i) ASSERT_TRUE(graph.addOdometry(session, stepAt(i, turn_error)));
 }
 
 Closure closureBetween(const SessionId& session_a, int a, const SessionId& session_b, int b) {
   Closure closure;
-  closure.a = {session_a, a * kStep};
-  closure.b = {session_b, b * kStep};
+  closure.a = {session_a, a * kNodeStep};
+  closure.b = {session_b, b * kNodeStep};
   closure.kind = EdgeKind::Icp;
   closure.source = "test";
   closure.measured.T_a_b = truthAt(a).inverse() * truthAt(b);
@@ -71,7 +71,7 @@ double worstError(const Track& track, int first) {
 
 TEST(PoseGraph, closesALoop) {
   PoseGraph graph{Parameters()};
-  drive(graph, "a", 0, 2 * kRound, 5e-4);
+  driveRounds(graph, "a", 0, 2 * kRound, 5e-4);
   const double before = worstError(graph.tracks()[0], 0);
   EXPECT_GT(before, 1.0);
   for (int i = 20; i < kRound; i += 40) graph.addClosure(closureBetween("a", i, "a", i + kRound));
@@ -90,7 +90,7 @@ TEST(PoseGraph, closesALoop) {
 
 TEST(PoseGraph, saysWhyTheRobotJumped) {
   PoseGraph graph{Parameters()};
-  drive(graph, "a", 0, 2 * kRound, 5e-4);
+  driveRounds(graph, "a", 0, 2 * kRound, 5e-4);
   const ClosureId first = graph.addClosure(closureBetween("a", 20, "a", 20 + kRound));
   const ClosureId second = graph.addClosure(closureBetween("a", 300, "a", 300 + kRound));
   graph.relax();
@@ -100,7 +100,7 @@ TEST(PoseGraph, saysWhyTheRobotJumped) {
   ASSERT_TRUE(without.jump);
   EXPECT_EQ(without.jump->reason, JumpReason::Removed);
   ASSERT_EQ(without.jump->witnesses.size(), 2u);
-  EXPECT_EQ(without.jump->witnesses[1].a.stamp, 300 * kStep);
+  EXPECT_EQ(without.jump->witnesses[1].a.stamp, 300 * kNodeStep);
 
   Closure asserted = closureBetween("a", 20, "a", 20 + kRound);
   asserted.kind = EdgeKind::Asserted;
@@ -122,7 +122,7 @@ TEST(PoseGraph, relaxesThePapersWayAndByCeresToo) {
     Parameters parameters;
     parameters.solver = solver;
     PoseGraph graph{parameters};
-    drive(graph, "a", 0, 2 * kRound, 2e-4);
+    driveRounds(graph, "a", 0, 2 * kRound, 2e-4);
     for (int i = 20; i < kRound; i += 40) graph.addClosure(closureBetween("a", i, "a", i + kRound));
     return graph.relax().cost_after;
   };
@@ -133,7 +133,7 @@ TEST(PoseGraph, relaxesThePapersWayAndByCeresToo) {
 
 TEST(PoseGraph, leavesNoTraceOfEarlierRelaxations) {
   PoseGraph once{Parameters()}, often{Parameters()};
-  for (PoseGraph* graph : {&once, &often}) drive(*graph, "a", 0, 2 * kRound, 2e-4);
+  for (PoseGraph* graph : {&once, &often}) driveRounds(*graph, "a", 0, 2 * kRound, 2e-4);
   for (int i = 20; i < kRound; i += 40) {
     once.addClosure(closureBetween("a", i, "a", i + kRound));
     often.addClosure(closureBetween("a", i, "a", i + kRound));
@@ -148,7 +148,7 @@ TEST(PoseGraph, leavesNoTraceOfEarlierRelaxations) {
 
 TEST(PoseGraph, takesAddedClosuresAsTheBatchDoes) {
   PoseGraph live{Parameters()}, batch{Parameters()};
-  for (PoseGraph* graph : {&live, &batch}) drive(*graph, "a", 0, 2 * kRound, 2e-4);
+  for (PoseGraph* graph : {&live, &batch}) driveRounds(*graph, "a", 0, 2 * kRound, 2e-4);
   for (int i = 20; i < kRound; i += 40) {
     for (PoseGraph* graph : {&live, &batch}) graph->addClosure(closureBetween("a", i, "a", i + kRound));
     if (i == 60) live.relax();
@@ -173,7 +173,7 @@ TEST(PoseGraph, takesAddedClosuresAsTheBatchDoes) {
 
 TEST(PoseGraph, waitsForASecondWitnessOfALargeCorrection) {
   PoseGraph graph{Parameters()};
-  drive(graph, "a", 0, 2 * kRound, 3e-4);
+  driveRounds(graph, "a", 0, 2 * kRound, 3e-4);
   const ClosureId first = graph.addClosure(closureBetween("a", 100, "a", 100 + kRound));
   EXPECT_EQ(graph.relax().waiting, 1u);
   EXPECT_EQ(graph.closures().at(first).verdict, ClosureVerdict::Waiting);
@@ -183,7 +183,7 @@ TEST(PoseGraph, waitsForASecondWitnessOfALargeCorrection) {
   EXPECT_EQ(graph.relax().accepted, 2u);
 
   PoseGraph trusting{Parameters()};
-  drive(trusting, "a", 0, 2 * kRound, 3e-4);
+  driveRounds(trusting, "a", 0, 2 * kRound, 3e-4);
   Closure sure = closureBetween("a", 100, "a", 100 + kRound);
   sure.kind = EdgeKind::Stereo;
   sure.odometry_gate = true;
@@ -193,8 +193,8 @@ TEST(PoseGraph, waitsForASecondWitnessOfALargeCorrection) {
 
 TEST(PoseGraph, fusesSessionsByTwoClosures) {
   PoseGraph graph{Parameters()};
-  drive(graph, "monday", 0, kRound, 0.0);
-  drive(graph, "tuesday", 100, 300, 0.0);  // begins elsewhere, in an odom of its own
+  driveRounds(graph, "monday", 0, kRound, 0.0);
+  driveRounds(graph, "tuesday", 100, 300, 0.0);  // begins elsewhere, in an odom of its own
   EXPECT_EQ(graph.relax().parts, 2);
   EXPECT_EQ(graph.status().reason, static_cast<int>(Trouble::Separate));
   graph.addClosure(closureBetween("monday", 120, "tuesday", 120));
@@ -208,7 +208,7 @@ TEST(PoseGraph, fusesSessionsByTwoClosures) {
 
 TEST(PoseGraph, saysWhatIsWrongWithAClosure) {
   PoseGraph graph{Parameters()};
-  drive(graph, "a", 0, 100, 0.0);
+  driveRounds(graph, "a", 0, 100, 0.0);
   const auto message = [&](Closure closure) {
     try {
       graph.addClosure(closure);
@@ -234,7 +234,7 @@ TEST(PoseGraph, saysWhatIsWrongWithAClosure) {
 
 TEST(PoseGraph, replacesAndRemovesClosures) {
   PoseGraph graph{Parameters()};
-  drive(graph, "a", 0, 100, 0.0);
+  driveRounds(graph, "a", 0, 100, 0.0);
   const ClosureId id = graph.addClosure(closureBetween("a", 10, "a", 60));
   EXPECT_EQ(graph.addClosure(closureBetween("a", 10, "a", 60)), id);
   EXPECT_EQ(graph.closures().size(), 1u);
@@ -244,7 +244,7 @@ TEST(PoseGraph, replacesAndRemovesClosures) {
 
 TEST(PoseGraph, takesBadOdometryForWhatItIs) {
   PoseGraph graph{Parameters()};
-  drive(graph, "a", 0, 50, 0.0);
+  driveRounds(graph, "a", 0, 50, 0.0);
   RelativePose step = stepAt(50, 0.0);
   step.covariance(0, 0) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(graph.addOdometry("a", step));

@@ -17,7 +17,7 @@ using urban_nav_core::StampNs;
 using urban_nav_core::testing::Dice;
 
 /// Tracks one after another, each a drive whose rotation walks away; a track may be broken.
-struct Chains {
+struct TiltedChains {
   Problem<3> problem;
   std::vector<std::vector<StampNs>> stamps;
   std::vector<std::vector<SpecificForce>> forces;
@@ -53,7 +53,7 @@ TEST(LevelOdometry, turnsStepsAndLaysPosesAlongThem) {
   Drive drive;
   drive.frames = 4000;
   drive.noise = 0.01;
-  Chains chains;
+  TiltedChains chains;
   chains.add(drive, dice);
   const Problem<3> before = chains.problem;
   const double lean = levelOdometry(chains.problem, before.edges.size(), chains.stamps, chains.forces);
@@ -80,7 +80,7 @@ TEST(LevelOdometry, takesTracksAndTheirPiecesEachForItself) {
   Drive drive;
   drive.frames = 1500;
   drive.noise = 0.01;
-  Chains chains;
+  TiltedChains chains;
   chains.add(drive, dice);
   chains.forces.back().clear();
   chains.add(drive, dice, 700);

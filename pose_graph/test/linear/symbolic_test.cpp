@@ -7,12 +7,11 @@
 #include <numeric>
 #include <set>
 
+#include "linear/index.hpp"
 #include "support/patterns.hpp"
 
 namespace pose_graph {
 namespace {
-
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
 std::set<int> rowsOf(const Symbolic& shape, int s) {
   return {shape.rows.begin() + shape.row_begin[sz(s)], shape.rows.begin() + shape.row_begin[sz(s) + 1]};

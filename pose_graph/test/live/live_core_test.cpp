@@ -83,18 +83,18 @@ ChainStep stepOf(const Edge<3>& edge) {
   return step;
 }
 
-struct Drive {
+struct LiveDrive {
   std::vector<ChainStep> steps;
   std::vector<Bond> bonds;  // by the later of their two places
 };
 
-const Drive& drive() {
-  static const Drive made = [] {
+const LiveDrive& liveDrive() {
+  static const LiveDrive made = [] {
     urban_nav_core::testing::StreetOptions streets;
     streets.step_m = 0.25;
     const SimulatedGraph graph =
         urban_nav_core::testing::streetGraph(3000, 30, urban_nav_core::testing::streetNoise(), 5, streets);
-    Drive drive;
+    LiveDrive drive;
     for (const GraphEdge& edge : graph.edges) {
       if (edge.kind == GraphEdgeKind::Chain) drive.steps.push_back(stepOf(edgeOf(edge)));
       else drive.bonds.push_back({{0, edge.a}, {0, edge.b}, edgeOf(edge)});
@@ -126,8 +126,8 @@ TEST(LiveCore, isTheBatchAfterEachClosure) {
   std::size_t next = 0;
   std::optional<LiveCore> core;
   double last_cost = 0.0;
-  for (const Bond& bond : drive().bonds) {
-    for (; next < std::max(bond.a, bond.b).second; ++next) tracks.add(0, drive().steps[next]);
+  for (const Bond& bond : liveDrive().bonds) {
+    for (; next < std::max(bond.a, bond.b).second; ++next) tracks.add(0, liveDrive().steps[next]);
     if (!core) core.emplace(tracks, bonds, 100);
     const LiveCore::Offer offer = core->offer(tracks, bond, INFINITY);
     core->keep();
@@ -144,12 +144,12 @@ TEST(LiveCore, isTheBatchAfterEachClosure) {
 
 TEST(LiveCore, takesBackWhatIsNotKept) {
   Tracks tracks, untouched;
-  for (const ChainStep& step : drive().steps)
+  for (const ChainStep& step : liveDrive().steps)
     for (Tracks* each : {&tracks, &untouched}) each->add(0, step);
-  const std::vector<Bond> half(drive().bonds.begin(), drive().bonds.begin() + 15);
+  const std::vector<Bond> half(liveDrive().bonds.begin(), liveDrive().bonds.begin() + 15);
   LiveCore core(tracks, half, 100), other(untouched, half, 100);
-  for (std::size_t k = 15; k < drive().bonds.size(); ++k) {
-    Bond wrong = drive().bonds[k];
+  for (std::size_t k = 15; k < liveDrive().bonds.size(); ++k) {
+    Bond wrong = liveDrive().bonds[k];
     wrong.edge.Z.t += Eigen::Vector3d(0.2, 0.1, 0.0);
     const double before = core.cost();
     core.offer(tracks, wrong, INFINITY);
@@ -162,23 +162,23 @@ TEST(LiveCore, takesBackWhatIsNotKept) {
   }
   for (LiveCore* each : {&core, &other}) {
     Tracks& on = each == &core ? tracks : untouched;
-    each->offer(on, drive().bonds[20], INFINITY);
+    each->offer(on, liveDrive().bonds[20], INFINITY);
     each->keep();
     each->write(on);
   }
   EXPECT_EQ(core.cost(), other.cost());
-  for (std::size_t i = 0; i <= drive().steps.size(); i += 7)
+  for (std::size_t i = 0; i <= liveDrive().steps.size(); i += 7)
     EXPECT_EQ(tracks.pose({0, i}).t, untouched.pose({0, i}).t) << i;
 }
 
 TEST(LiveCore, takesSeveralOnTrialBackOneByOne) {
   Tracks tracks;
-  for (const ChainStep& step : drive().steps) tracks.add(0, step);
-  const std::vector<Bond> half(drive().bonds.begin(), drive().bonds.begin() + 15);
+  for (const ChainStep& step : liveDrive().steps) tracks.add(0, step);
+  const std::vector<Bond> half(liveDrive().bonds.begin(), liveDrive().bonds.begin() + 15);
   LiveCore core(tracks, half, 100);
   const auto poses = [&] {
     std::vector<Rigid<3>> made;
-    for (std::size_t i = 0; i <= drive().steps.size(); i += 11) made.push_back(core.pose(tracks, {0, i}));
+    for (std::size_t i = 0; i <= liveDrive().steps.size(); i += 11) made.push_back(core.pose(tracks, {0, i}));
     return made;
   };
   std::vector<double> costs;
@@ -186,7 +186,7 @@ TEST(LiveCore, takesSeveralOnTrialBackOneByOne) {
   for (std::size_t k = 15; k < 18; ++k) {
     costs.push_back(core.cost());
     lay.push_back(poses());
-    core.offer(tracks, drive().bonds[k], INFINITY);
+    core.offer(tracks, liveDrive().bonds[k], INFINITY);
     EXPECT_GT(core.cost(), costs.back());
   }
   while (!costs.empty()) {
@@ -201,38 +201,39 @@ TEST(LiveCore, takesSeveralOnTrialBackOneByOne) {
 
 TEST(LiveCore, saysWhereAPoseIsBeforeItIsWritten) {
   Tracks tracks;
-  for (const ChainStep& step : drive().steps) tracks.add(0, step);
-  LiveCore core(tracks, drive().bonds, 100);
+  for (const ChainStep& step : liveDrive().steps) tracks.add(0, step);
+  LiveCore core(tracks, liveDrive().bonds, 100);
   std::vector<Rigid<3>> said;
-  for (std::size_t i = 0; i <= drive().steps.size(); ++i) said.push_back(core.pose(tracks, {0, i}));
+  for (std::size_t i = 0; i <= liveDrive().steps.size(); ++i) said.push_back(core.pose(tracks, {0, i}));
   core.write(tracks);
   for (std::size_t i = 0; i < said.size(); ++i) EXPECT_LT((tracks.pose({0, i}).t - said[i].t).norm(), 1e-9) << i;
 }
 
 TEST(LiveCore, takesStepsForAsUncertainAsItIsTold) {
   Tracks tracks, wider;
-  for (ChainStep step : drive().steps) {
+  for (ChainStep step : liveDrive().steps) {
     tracks.add(0, step);
     step.edge.information /= 4.0;
     step.covariance *= 4.0;
     wider.add(0, step);
   }
-  EXPECT_NEAR(LiveCore(tracks, drive().bonds, 100, 4.0).cost(), LiveCore(wider, drive().bonds, 100).cost(), 1e-6);
+  EXPECT_NEAR(LiveCore(tracks, liveDrive().bonds, 100, 4.0).cost(), LiveCore(wider, liveDrive().bonds, 100).cost(),
+              1e-6);
 }
 
 // The second half of the drive as a session of its own, begun where its odometry has its origin: one closure puts it in its place.
 TEST(LiveCore, bringsPartsTogether) {
-  const std::size_t half = drive().steps.size() / 2;
+  const std::size_t half = liveDrive().steps.size() / 2;
   Tracks tracks;
-  for (std::size_t i = 0; i < drive().steps.size(); ++i)
-    if (i != half) tracks.add(i < half ? 0 : 1, drive().steps[i]);
+  for (std::size_t i = 0; i < liveDrive().steps.size(); ++i)
+    if (i != half) tracks.add(i < half ? 0 : 1, liveDrive().steps[i]);
   std::vector<Bond> bonds;
   std::optional<LiveCore> core;
   const auto placed = [half](const Place& place) {
     return place.second <= half ? place : Place{1, place.second - half - 1};
   };
   double cost = 0.0;
-  for (Bond bond : drive().bonds) {
+  for (Bond bond : liveDrive().bonds) {
     bond.a = placed(bond.a);
     bond.b = placed(bond.b);
     if (!core) core.emplace(tracks, bonds, 100);
@@ -247,8 +248,8 @@ TEST(LiveCore, bringsPartsTogether) {
 
 TEST(LiveCore, goesRoundGapsAndStepsWithoutInformation) {
   Tracks tracks;
-  for (std::size_t i = 0; i < drive().steps.size(); ++i) {
-    ChainStep step = drive().steps[i];
+  for (std::size_t i = 0; i < liveDrive().steps.size(); ++i) {
+    ChainStep step = liveDrive().steps[i];
     if (i == 1500) step.joins = false;
     if (i % 400 == 7) {
       step.edge.information.row(2).setZero();
@@ -260,7 +261,7 @@ TEST(LiveCore, goesRoundGapsAndStepsWithoutInformation) {
   std::optional<LiveCore> core;
   std::vector<Bond> bonds;
   double cost = 0.0;
-  for (const Bond& bond : drive().bonds) {
+  for (const Bond& bond : liveDrive().bonds) {
     if (!core) core.emplace(tracks, bonds, 100);
     bonds.push_back(bond);
     cost = core->offer(tracks, bond, INFINITY).cost;
@@ -271,7 +272,7 @@ TEST(LiveCore, goesRoundGapsAndStepsWithoutInformation) {
   SolveOptions options;
   options.start = Start::Vertices;
   EXPECT_NEAR(solve(tracks.problem(bonds), options).cost, cost, 0.05 + 1e-3 * cost);
-  for (std::size_t i = 0; i <= drive().steps.size(); ++i) ASSERT_TRUE(tracks.pose({0, i}).t.allFinite());
+  for (std::size_t i = 0; i <= liveDrive().steps.size(); ++i) ASSERT_TRUE(tracks.pose({0, i}).t.allFinite());
 }
 
 }  // namespace

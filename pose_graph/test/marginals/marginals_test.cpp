@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "linear/index.hpp"
 #include "pose_graph/solution.hpp"
 #include "solve/normal_equations.hpp"
 #include "support/drawn.hpp"
@@ -17,8 +18,6 @@ namespace {
 
 using urban_nav_core::Matrix6d;
 using urban_nav_core::PoseWithCovariance;
-
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
 /// The edge as everything outside has it: its covariance seen from the parent.
 PoseWithCovariance withCovariance(const Edge<3>& edge) {
@@ -177,7 +176,7 @@ TEST(Marginals, WeightsAreFactorsOfTheInformation) {
 /// A pose that hangs on by an edge of less than full rank: what the edge tells is known, along what it does not tell the information is
 /// zero, and all others are as if it were not there.
 template <int D>
-void expectFreeDirections() {
+void expectFreeMarginals() {
   constexpr int N = tangent_size<D>;
   for (int rank = 1; rank < N; ++rank) {
     Dice dice(static_cast<std::uint64_t>(6 + rank));
@@ -205,8 +204,8 @@ void expectFreeDirections() {
   }
 }
 TEST(Marginals, FreeDirectionsHaveZeroInformation) {
-  expectFreeDirections<2>();
-  expectFreeDirections<3>();
+  expectFreeMarginals<2>();
+  expectFreeMarginals<3>();
 }
 
 /// Many links that leave the heading free, after which the graph goes on.

@@ -13,7 +13,7 @@ using test::Draw;
 using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
 
-Pose poseOf(const Rigid<3>& T) { return Pose(T.R, T.t); }
+Pose corePose(const Rigid<3>& T) { return Pose(T.R, T.t); }
 
 // de / d(link) of an edge from m to q along a chain, by the two factors.
 template <int D>
@@ -66,7 +66,7 @@ TEST(Twist, TheTwoFactorsAreTheProductOfEquation13) {
   const Rigid<3> T_m_q = poses[1].inverse() * poses[5];
   const Matrix6d by_prediction = edgeRow(edge, Rigid<3>(), T_m_q).K * linkMatrix<3>(Rigid<3>(), T_m_q.t);
   for (int r = 2; r <= 5; ++r) {
-    const auto at = [&poses](int i) { return poseOf(poses[static_cast<std::size_t>(i)]); };
+    const auto at = [&poses](int i) { return corePose(poses[static_cast<std::size_t>(i)]); };
     const Pose T_m_before = at(1).inverse() * at(r - 1), v = at(r - 1).inverse() * at(r),
                T_r_q = at(r).inverse() * at(5);
     const Matrix6d J1 = urban_nav_core::compose(T_m_before * v, T_r_q).J1;

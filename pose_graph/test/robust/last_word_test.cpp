@@ -12,14 +12,14 @@ namespace {
 
 using test::Dice;
 
-constexpr int kLap = 100;               // poses of a circle
-constexpr double kStep = 0.5;           // metres
+constexpr int kCirclePoses = 100;       // poses of a circle
+constexpr double kOdometryStep = 0.5;   // metres
 constexpr std::size_t kFirstFalse = 8;  // candidates: so many true ones, then ten false ones
 
 Rigid<2> step() {
   Rigid<2> made;
-  made.R = expRotation(RotationVector<2>(2.0 * M_PI / kLap));
-  made.t = {kStep, 0.0};
+  made.R = expRotation(RotationVector<2>(2.0 * M_PI / kCirclePoses));
+  made.t = {kOdometryStep, 0.0};
   return made;
 }
 
@@ -34,15 +34,15 @@ struct Laps {
     Dice dice(5);
     const TangentMatrix<2> vague = Eigen::Vector3d(400.0, 400.0, 4000.0).asDiagonal();
     const TangentMatrix<2> sharp = Eigen::Vector3d(1e6, 1e6, 1e7).asDiagonal();
-    problem.poses.resize(3 * kLap);
+    problem.poses.resize(3 * kCirclePoses);
     for (std::size_t i = 1; i < problem.poses.size(); ++i) problem.poses[i] = problem.poses[i - 1] * step();
-    for (int i = 1; i < 3 * kLap; ++i) problem.edges.push_back({i - 1, i, noisy(step(), vague, dice), vague});
+    for (int i = 1; i < 3 * kCirclePoses; ++i) problem.edges.push_back({i - 1, i, noisy(step(), vague, dice), vague});
     roles.assign(problem.edges.size(), EdgeRole::Trusted);
     group.assign(problem.edges.size(), -1);
     for (int i = 0; i < static_cast<int>(kFirstFalse); ++i)
-      add(i < 4 ? i : 50 + i, kLap + (i < 4 ? i : 50 + i), {}, sharp, dice);
-    const int quarter = static_cast<int>(off_rad / (2.0 * M_PI) * kLap);
-    for (int i = 0; i < 10; ++i) add(20 + i, 2 * kLap + 20 + i + quarter, {}, sharp, dice);
+      add(i < 4 ? i : 50 + i, kCirclePoses + (i < 4 ? i : 50 + i), {}, sharp, dice);
+    const int quarter = static_cast<int>(off_rad / (2.0 * M_PI) * kCirclePoses);
+    for (int i = 0; i < 10; ++i) add(20 + i, 2 * kCirclePoses + 20 + i + quarter, {}, sharp, dice);
     for (std::size_t k = 0; k < candidates.size(); ++k)
       group.push_back(candidates[k < 4 ? 0 : k < kFirstFalse ? 4 : kFirstFalse]);
   }

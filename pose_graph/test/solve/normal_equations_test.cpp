@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solve/normal_equations.hpp"
 
+#include "linear/index.hpp"
 #include "support/drawn.hpp"
 #include "support/plain_costs.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 
 namespace pose_graph::test {
 namespace {
-
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
 TEST(Unknowns, FirstPosesOfComponentsAreHeld) {
   Problem<2> problem;

@@ -11,8 +11,6 @@ namespace urban_nav_core::testing {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// x along `forward`, z as near to `up` as that allows. Neither is zero, nor are they parallel.
 Pose headingAlong(const Vector3d& position, const Vector3d& forward, const Vector3d& up) {
   const Vector3d x = forward.normalized(), y = up.cross(x).normalized();
@@ -69,7 +67,8 @@ SimulatedGraph latticeGraph(const Lattice& size, double spacing_m, double densit
   for (std::size_t i = 0; i < count; ++i) {
     const Vector3d forward = i + 1 < count ? Vector3d(place(i + 1) - place(i)) : Vector3d::UnitX();
     const bool upwards = std::abs(forward.z()) > 0.5 * spacing_m;
-    graph.truth.push_back(headingAlong(place(i), forward, upwards ? Vector3d(-1.0, 0.0, 0.0) : Vector3d(0.0, 0.0, 1.0)));
+    graph.truth.push_back(
+        headingAlong(place(i), forward, upwards ? Vector3d(-1.0, 0.0, 0.0) : Vector3d(0.0, 0.0, 1.0)));
   }
   chainUp(graph, noise, dice);
   for (std::size_t i = 0; i < count; ++i) {
@@ -100,8 +99,8 @@ SimulatedGraph sphereGraph(std::size_t rounds, std::size_t around, double radius
   Dice dice(seed);
   const double count = static_cast<double>(rounds * around);
   for (std::size_t i = 0; i < rounds * around; ++i) {
-    const double polar = kPi * (static_cast<double>(i) + 0.5) / count;
-    const double azimuth = 2.0 * kPi * static_cast<double>(i) / static_cast<double>(around);
+    const double polar = M_PI * (static_cast<double>(i) + 0.5) / count;
+    const double azimuth = 2.0 * M_PI * static_cast<double>(i) / static_cast<double>(around);
     const Vector3d out(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), -std::cos(polar));
     graph.truth.push_back(headingAlong(radius_m * out, Vector3d(-std::sin(azimuth), std::cos(azimuth), 0.0), out));
   }
@@ -132,7 +131,7 @@ SimulatedGraph manhattanGraph(std::size_t poses, std::size_t side, double densit
   std::size_t heading = 0;
   std::vector<std::vector<std::size_t>> visits(side * side);
   for (std::size_t i = 0; i < poses; ++i) {
-    const double yaw = 0.5 * kPi * static_cast<double>(heading);
+    const double yaw = 0.5 * M_PI * static_cast<double>(heading);
     graph.truth.emplace_back(Quaterniond(Eigen::AngleAxisd(yaw, Vector3d::UnitZ())),
                              Vector3d(static_cast<double>(x), static_cast<double>(y), 0.0));
     visits[static_cast<std::size_t>(y) * side + static_cast<std::size_t>(x)].push_back(i);

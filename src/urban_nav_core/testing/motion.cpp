@@ -12,7 +12,6 @@
 namespace urban_nav_core::testing {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kHeight = 1.1;  // m, of the camera above the floor
 
 /// 0 before 0, 1 behind 1, with two continuous derivatives.
@@ -52,7 +51,7 @@ Motion straight(const Pose& T_world_camera, double speed, double start_s, double
 
 Motion loop(double a, double b, double height, double round_s) {
   return [=](double t) {
-    const double theta = 2.0 * kPi * t / round_s;
+    const double theta = 2.0 * M_PI * t / round_s;
     const Vector3d position(a * std::sin(theta), -b * std::cos(theta), height + 0.015 * std::sin(5.3 * theta));
     // atan2 jumps at +-pi, the quaternion made of it does not.
     const double yaw = std::atan2(b * std::sin(theta), a * std::cos(theta));
@@ -65,7 +64,7 @@ Motion turnsWithStops(const Vector3d& position, int turns, double turn_s, double
   return [=](double t) {
     const double cycle = turn_s + stop_s;
     const double done = std::floor(t / cycle);
-    const double yaw = 2.0 * kPi / turns * (done + smoothStep((t - done * cycle) / turn_s));
+    const double yaw = 2.0 * M_PI / turns * (done + smoothStep((t - done * cycle) / turn_s));
     return lookingAlong(position + lever * Vector3d(std::cos(yaw), std::sin(yaw), 0.0), yaw);
   };
 }
@@ -91,7 +90,7 @@ Motion wander(const Vector3d& position, const Vector3d& reach, double yaw, doubl
   const std::array<double, 3> shares{0.6, 0.28, 0.12}, periods{22.0, 10.0, 5.0};
   for (std::size_t i = 0; i < 6; ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
-      waves[i][k] = {reaches[i] * shares[k], 2.0 * kPi / (periods[k] * between(0.8, 1.3)), between(0.0, 2.0 * kPi)};
+      waves[i][k] = {reaches[i] * shares[k], 2.0 * M_PI / (periods[k] * between(0.8, 1.3)), between(0.0, 2.0 * M_PI)};
     }
   }
   return [=](double t) {
@@ -126,7 +125,7 @@ Motion namedMotion(const std::string& name, const std::string& scene, std::uint3
   if (name == "loop")
     return loop(in_room ? 0.75 * room.freeX() : 15.0, in_room ? 0.75 * room.freeY() : 2.0, kHeight, 24.0);
   if (name == "turns") return turnsWithStops(middle, 8, 1.5, 0.75, 0.3);
-  if (name == "spin") return spin(middle, kPi / 3.0, 1.0, 0.2);
+  if (name == "spin") return spin(middle, M_PI / 3.0, 1.0, 0.2);
   if (name == "wander") return wander(middle, {0.7 * room.freeX(), 0.7 * room.freeY(), 0.15}, 1.2, 0.08, seed);
   std::string allowed;
   for (const std::string& known : motionNames()) allowed += (allowed.empty() ? "" : ", ") + known;

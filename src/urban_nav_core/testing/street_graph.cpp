@@ -16,7 +16,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kHillsApart = 150.0;  // m
 
 constexpr std::array<std::array<int, 2>, 4> kDirections = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
@@ -38,7 +37,7 @@ struct Piece {
 
 std::pair<Vector2d, Vector2d> placeAndHeading(const Piece& piece, double s) {
   if (piece.turn == 0) return {piece.start + s * piece.forward, piece.forward};
-  const double radius = 2.0 * piece.length / kPi, angle = s / radius;
+  const double radius = 2.0 * piece.length / M_PI, angle = s / radius;
   const Vector2d inward = static_cast<double>(piece.turn) * leftOf(piece.forward);
   return {piece.start + radius * (std::sin(angle) * piece.forward + (1.0 - std::cos(angle)) * inward),
           std::cos(angle) * piece.forward + std::sin(angle) * inward};
@@ -69,7 +68,7 @@ class Walk {
       piece.start = crossing - radius * forward + lane;
       const std::size_t way = choose();
       piece.turn = way == direction_ ? 0 : way == (direction_ + 1) % 4 ? 1 : -1;
-      piece.length = piece.turn == 0 ? 2.0 * radius : 0.5 * kPi * (radius + piece.turn * options_.lane_m);
+      piece.length = piece.turn == 0 ? 2.0 * radius : 0.5 * M_PI * (radius + piece.turn * options_.lane_m);
       direction_ = way;
     }
     atCrossing_ = !atCrossing_;
@@ -94,7 +93,7 @@ class Walk {
 };
 
 Pose onTheHills(const Vector2d& place, const Vector2d& heading, double height) {
-  const double rate = 2.0 * kPi / kHillsApart;
+  const double rate = 2.0 * M_PI / kHillsApart;
   const Vector2d slope(height * rate * std::cos(rate * place.x()), -height * rate * std::sin(rate * place.y()));
   const Vector3d forward = Vector3d(heading.x(), heading.y(), slope.dot(heading)).normalized();
   const Vector3d up = Vector3d(-slope.x(), -slope.y(), 1.0).normalized();

@@ -17,7 +17,7 @@ using urban_nav_store::Access;
 using urban_nav_store::Session;
 using urban_nav_store::Store;
 
-class StoreWriterLinkTest : public testing::Test {
+class StoreWriterLinkTest : public ::testing::Test {
  protected:
   void SetUp() override {
     std::string name = (fs::temp_directory_path() / "store_writer_link_XXXXXX").string();

@@ -20,8 +20,8 @@ using urban_nav_core::StereoCamera;
 
 namespace {
 
-constexpr double reach = 3.0;  // px of the level
-constexpr int row_steps = 4;   // px of the level to both sides, searched where the template does not take hold at once
+constexpr double across_reach = 3.0;  // px of the level
+constexpr int row_steps = 4;  // px of the level to both sides, searched where the template does not take hold at once
 
 /// The place along a row where the template fits best to whole pixels.
 Eigen::Vector2d bestOnRow(Side side, const Corners& corners, const Track& track, const Eigen::Vector2d& around) {
@@ -57,9 +57,9 @@ void matchAcross(const Corners& corners, const StereoCamera& camera, const Pose&
       if (!projected || !partner || !prepareTemplate(side, camera, T_camera_odom, match)) continue;
       // What the sighting in the other image is off by is mostly the pose's error, and so common to both.
       const Eigen::Vector2d start = other.found ? Eigen::Vector2d(*projected + (other.pixel - *partner)) : *projected;
-      mine = refine(side, corners, *match.track, start, reach);
+      mine = refine(side, corners, *match.track, start, across_reach);
       if (!mine.found && other.found)
-        mine = refine(side, corners, *match.track, bestOnRow(side, corners, *match.track, start), reach);
+        mine = refine(side, corners, *match.track, bestOnRow(side, corners, *match.track, start), across_reach);
     }
   }
 }

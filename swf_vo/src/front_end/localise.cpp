@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "front_end/refine.hpp"
+#include "urban_nav_core/geometry/small_matrices.hpp"
 
 namespace swf_vo {
 
@@ -23,7 +24,7 @@ namespace {
 
 constexpr double cauchy2 = 5.7;  // (2.385 sigma)^2: 95 % efficiency, Zhang 1997
 constexpr double gate = 16.3;    // chi-square, 3 degrees of freedom, 99.9 %
-constexpr int most_steps = 12;
+constexpr int most_pose_steps = 12;
 constexpr double prediction_bonus = 0.9;  // a start that was found by consensus must be better by more than this
 constexpr double clear_majority = 0.35;   // share of the highest cost, below which no other motion is looked for
 constexpr double full_trust_age = 6.0;    // frames
@@ -114,7 +115,7 @@ Pose Localiser::descend(Pose T, int steps, const std::array<int, sample_size>* o
     H.diagonal().head<3>().array() += 1.0 / (anchor_m * anchor_m);
     H.diagonal().tail<3>().array() += 1.0 / (anchor_rad * anchor_rad);
     b.head<3>() -= (T.t() - anchor.t()) / (anchor_m * anchor_m);
-    const Vector6d d = H.ldlt().solve(b);
+    const Vector6d d = urban_nav_core::solveByLdlt<6, 1>(H, b);
     if (!d.allFinite()) return anchor;
     T = apply(d, T);
     if (d.head<3>().norm() < 1e-6 && d.tail<3>().norm() < 1e-7) break;
@@ -163,10 +164,10 @@ Localisation Localiser::locate(const std::vector<Pose>& starts, const LocaliseOp
   for (Match& match : matches) match.inlier = false;
   if (items_.size() < 4) return result;
 
-  Pose best = descend(starts.front(), most_steps, nullptr);
+  Pose best = descend(starts.front(), most_pose_steps, nullptr);
   double best_cost = cost(best);
   const auto consider = [&](const Pose& start) {
-    const Pose T = descend(start, most_steps, nullptr);
+    const Pose T = descend(start, most_pose_steps, nullptr);
     const double c = cost(T);
     if (c < prediction_bonus * best_cost) {
       best_cost = c;

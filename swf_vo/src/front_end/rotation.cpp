@@ -16,7 +16,7 @@ using urban_nav_core::Vector3d;
 
 namespace {
 
-constexpr int most_steps = 10;
+constexpr int most_rotation_steps = 10;
 constexpr double settled = 1e-4;       // rad
 constexpr double longest_step = 0.05;  // rad
 constexpr int wanted_pixels = 1500;    // of which the sums are made
@@ -142,7 +142,7 @@ RotationEstimate RotationTracker::track(const ImageView& image, int level, const
   estimate.before = normal.rms();
   double best = estimate.before;
   if (best < 0.0) return estimate;
-  for (int i = 0; i < most_steps; ++i) {
+  for (int i = 0; i < most_rotation_steps; ++i) {
     normal.H.diagonal().array() += 1e-3F;
     Vector3d d = normal.H.ldlt().solve(normal.b).head<3>().cast<double>();
     if (!d.allFinite()) break;

@@ -13,16 +13,16 @@ namespace {
 
 // A place: so many neighbours along a row; few enough for a row that rectification has bent to stay in it.
 constexpr int length = 32;
-constexpr int column_step = 64, row_step = 4;
+constexpr int corruption_column_step = 64, corruption_row_step = 4;
 // From pixel to pixel random bytes differ by 85 grey levels, and at a place by more than 60 nearly always; below 16 it may be the noise of the camera.
 constexpr unsigned least_rough = 16 * length, random_bytes = 60 * length;
 // Halfway, in proportion, between what pictures have and what rubbish has (the header).
-constexpr double enough = 0.025;
-constexpr int fewest =
+constexpr double corrupted_share = 0.025;
+constexpr int fewest_lines =
     4;  // places: a small image has a few tens, and one of them may be an edge that lies along the rows
 // Rows: where 60 % are rubbish, one in twenty has nothing else about it, and that is over random_bytes by itself.
-constexpr int reach = 3;
-constexpr int white = 250;
+constexpr int corruption_reach = 3;
+constexpr int saturated_grey = 250;
 
 unsigned difference(const std::uint8_t* p, const std::uint8_t* q) {
   return cv::v_reduce_sad(cv::v_load(p), cv::v_load(q)) + cv::v_reduce_sad(cv::v_load(p + 16), cv::v_load(q + 16));
@@ -37,16 +37,16 @@ bool isRougher(unsigned roughness, unsigned other) { return roughness > least_ro
 bool looksCorrupted(const ImageView& image) {
   if (image.empty()) return false;
   int places = 0, rubbish = 0;
-  for (int v = 0; v + 1 < image.height; v += row_step) {
+  for (int v = 0; v + 1 < image.height; v += corruption_row_step) {
     const std::uint8_t *upper = image.row(v), *lower = image.row(v + 1);
-    for (int u = 0; u + length < image.width; u += column_step, ++places) {
+    for (int u = 0; u + length < image.width; u += corruption_column_step, ++places) {
       const unsigned a = roughness(upper + u), b = roughness(lower + u);
       const bool torn = isRougher(std::max(a, b), std::min(a, b));
       const bool random = std::min({a, b, difference(upper + u, lower + u)}) > random_bytes;
       rubbish += torn || random ? 1 : 0;
     }
   }
-  return rubbish >= fewest && rubbish > enough * places;
+  return rubbish >= fewest_lines && rubbish > corrupted_share * places;
 }
 
 RowMender::RowMender(int width, int height)
@@ -85,10 +85,10 @@ void RowMender::findRubbish(const ImageView& image, int column) {
   for (int v = 0; v < height_; ++v) {
     const unsigned here = roughness_[static_cast<std::size_t>(v)];
     unsigned least = here;
-    for (int w = std::max(0, v - reach); w < std::min(height_, v + reach + 1); ++w) {
+    for (int w = std::max(0, v - corruption_reach); w < std::min(height_, v + corruption_reach + 1); ++w) {
       const unsigned there = roughness_[static_cast<std::size_t>(w)];
       // A row without any texture may be one that is missing, unless it is of a white sky.
-      if (there > 0 || image.at(column, w) >= white) least = std::min(least, there);
+      if (there > 0 || image.at(column, w) >= saturated_grey) least = std::min(least, there);
     }
     rubbish_[static_cast<std::size_t>(v)] = here > random_bytes || isRougher(here, least);
   }

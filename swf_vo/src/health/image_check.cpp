@@ -16,7 +16,7 @@ using urban_nav_core::StereoPair;
 
 namespace {
 
-constexpr int column_step = 8;
+constexpr int check_column_step = 8;
 constexpr int row_step = 4;
 // Below these an 8-bit image holds no corner above its own noise (FAST at its lowest threshold needs 3 grey levels of contrast).
 constexpr double dark_contrast = 2.0;
@@ -26,7 +26,7 @@ constexpr double exposure_ratio = 1.6;
 constexpr int longest_blur = 50;
 // An image that is suddenly white by half is no better than a black one: what is left of it is matched wrongly or not at all, and landmarks are worth
 // keeping for when the light is back. For so many frames it is not: then it is the new usual.
-constexpr int white = 250;
+constexpr int white_grey = 250;
 constexpr double white_share = 0.5, white_rate = 0.01;
 
 // Sum of absolute differences of two samples; 0 for samples of different size.
@@ -40,7 +40,7 @@ std::int64_t distance(const std::vector<std::uint8_t>& a, const std::vector<std:
 }  // namespace
 
 ImageCheck::Figures ImageCheck::measure(const ImageView& image, std::vector<std::uint8_t>& sample) const {
-  const int columns = (image.width - 1) / column_step, rows = image.height / row_step;
+  const int columns = (image.width - 1) / check_column_step, rows = image.height / row_step;
   sample.resize(static_cast<std::size_t>(std::max(columns, 0)) * static_cast<std::size_t>(std::max(rows, 0)));
   if (sample.empty()) return {};
   std::int64_t sum = 0, squares = 0, clipped = 0;
@@ -48,10 +48,10 @@ ImageCheck::Figures ImageCheck::measure(const ImageView& image, std::vector<std:
   for (int r = 0; r < rows; ++r) {
     const std::uint8_t* row = image.row(r * row_step);
     for (int c = 0; c < columns; ++c) {
-      const int value = row[c * column_step];
+      const int value = row[c * check_column_step];
       sample[at++] = static_cast<std::uint8_t>(value);
       sum += value;
-      clipped += value >= white ? 1 : 0;
+      clipped += value >= white_grey ? 1 : 0;
       squares += value * value;
     }
   }

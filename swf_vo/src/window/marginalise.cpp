@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "window/marginalise.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "urban_nav_core/geometry/small_matrices.hpp"
 #include "window/gauge.hpp"
 #include "window/make_room.hpp"
 
@@ -19,7 +19,7 @@ using urban_nav_core::Vector6d;
 namespace {
 
 // An eigenvalue of a block scaled to a unit diagonal below this is rounding.
-constexpr double relative_limit = 1e-12;
+constexpr double least_eigenvalue = 1e-12;
 constexpr int unused = 1 << 30;
 
 // G with G G^T = D^-1, or the inverse on what D determines.
@@ -28,11 +28,10 @@ Eigen::Matrix<double, N, N> inverseRoot(const Eigen::Matrix<double, N, N>& D) {
   Eigen::Matrix<double, N, 1> scale;
   for (int i = 0; i < N; ++i) scale[i] = D(i, i) > 0.0 ? 1.0 / std::sqrt(D(i, i)) : 0.0;
   const Eigen::Matrix<double, N, N> scaled = scale.asDiagonal() * D * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, N, N>> eigen(scaled);
+  const auto eigen = urban_nav_core::smallEigen<N>(scaled);
   Eigen::Matrix<double, N, 1> roots;
-  for (int i = 0; i < N; ++i)
-    roots[i] = eigen.eigenvalues()[i] > relative_limit ? 1.0 / std::sqrt(eigen.eigenvalues()[i]) : 0.0;
-  return scale.asDiagonal() * eigen.eigenvectors() * roots.asDiagonal();
+  for (int i = 0; i < N; ++i) roots[i] = eigen.values[i] > least_eigenvalue ? 1.0 / std::sqrt(eigen.values[i]) : 0.0;
+  return scale.asDiagonal() * eigen.vectors * roots.asDiagonal();
 }
 
 bool seenBy(const LandmarkBlock& landmark, std::int64_t step) {

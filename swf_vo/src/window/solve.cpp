@@ -16,11 +16,11 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
-constexpr double relative_limit = 1e-12;
+constexpr double least_solve_pivot = 1e-12;
 // The other way has to promise this share of the work: its panels are narrow.
 constexpr double worth_changing = 0.7;
 // Columns of eliminated landmarks that are taken together.
-constexpr int panel = 48;
+constexpr int solve_panel = 48;
 constexpr std::size_t most_rows = 1 << 20;  // of a factor that is read
 // Any would do; this one leaves the oldest pose a variance that nobody notices.
 constexpr double datum_strength = 1e3;
@@ -49,7 +49,7 @@ Matrix3d inverseRoot(const Matrix3d& C) {
   for (int j = 0; j < 3; ++j) {
     double pivot = C(j, j);
     for (int k = 0; k < j; ++k) pivot -= L(j, k) * L(j, k);
-    held[j] = !(pivot > relative_limit * C(j, j)) || !(pivot > 0.0);
+    held[j] = !(pivot > least_solve_pivot * C(j, j)) || !(pivot > 0.0);
     if (held[j]) {
       L(j, j) = 1.0;
       continue;
@@ -92,7 +92,7 @@ void Solver::eliminateFree(const State& state, const NormalEquations& equations)
   eliminated_.resize(equations.cross.size());
   inverse_root_.resize(state.landmarks.size());
   onto_poses_.reset(6 * static_cast<int>(poses_));
-  columns_.assign(static_cast<std::size_t>(onto_poses_.stride()) * panel, 0.0);
+  columns_.assign(static_cast<std::size_t>(onto_poses_.stride()) * solve_panel, 0.0);
   Strip strip;
   for (std::size_t slot = 0; slot < state.landmarks.size(); ++slot) {
     const LandmarkBlock& landmark = state.landmarks[slot];
@@ -112,7 +112,7 @@ void Solver::eliminateFree(const State& state, const NormalEquations& equations)
       strip.last = std::max(strip.last, row + 6);
     }
     strip.columns += 3;
-    if (strip.columns + 3 > panel) subtractStrip(strip);
+    if (strip.columns + 3 > solve_panel) subtractStrip(strip);
   }
   subtractStrip(strip);
   for (int j = 0; j < onto_poses_.size(); ++j) {

@@ -13,8 +13,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr int fewest_coordinates = 12;        // four frames: with fewer a landmark can take up whatever it is off by
-constexpr std::size_t fewest_landmarks = 16;  // to know what is usual
+constexpr int fewest_coordinates = 12;       // four frames: with fewer a landmark can take up whatever it is off by
+constexpr std::size_t fewest_for_test = 16;  // to know what is usual
 
 }  // namespace
 
@@ -48,7 +48,7 @@ const std::vector<LandmarkId>& Strays::find(const State& state, const SensorMode
   for (const LandmarkBlock& landmark : state.landmarks)
     if (landmark.used && !landmark.known && landmark.followed && score(state, sensor, landmark))
       sorted_.push_back(scores_.back().residual);
-  if (scores_.size() < fewest_landmarks) return strays_;
+  if (scores_.size() < fewest_for_test) return strays_;
   const double limit = robustThreshold(sorted_.begin(), sorted_.end());
   for (const Score& score : scores_)
     if (score.residual > limit) strays_.push_back(score.landmark);

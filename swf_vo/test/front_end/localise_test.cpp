@@ -17,7 +17,7 @@ using urban_nav_core::Pose;
 using urban_nav_core::StereoCamera;
 using urban_nav_core::Vector6d;
 
-StereoCamera camera() { return {{400.0, 400.0, 255.5, 191.5, 512, 384}, 0.3}; }
+StereoCamera localiseCamera() { return {{400.0, 400.0, 255.5, 191.5, 512, 384}, 0.3}; }
 
 Vector6d tangent(double x, double y, double z, double a, double b, double c) {
   Vector6d v;
@@ -34,7 +34,7 @@ class World {
   void add(int count, double sigma, int seen, const Pose& T_camera_odom, const Pose& mover = Pose()) {
     std::normal_distribution<double> normal(0.0, 1.0);
     std::uniform_real_distribution<double> u(30.0, 480.0), v(30.0, 350.0), inverse(0.02, 0.3);
-    const StereoCamera c = camera();
+    const StereoCamera c = localiseCamera();
     while (count > 0) {
       const double rho = inverse(random_);
       const Eigen::Vector3d p = c.left.ray({u(random_), v(random_)}) / rho;
@@ -74,7 +74,7 @@ const Pose kTruth = expSe3(tangent(0.2, -0.05, -0.6, 0.02, -0.05, 0.01));
 TEST(Localise, ExactMatchesGiveTheExactPose) {
   World world(1);
   world.add(40, 0.0, 5, kTruth);
-  const StereoCamera stereo = camera();
+  const StereoCamera stereo = localiseCamera();
   Localiser localiser(stereo);
   const Localisation found = localiser.locate({Pose()}, {}, world.matches);
   ASSERT_TRUE(found.found);
@@ -88,7 +88,7 @@ TEST(Localise, OutliersAreNamedAndDoNotMoveThePose) {
   World world(2);
   world.add(60, 0.1, 5, kTruth);
   world.spoil(24);
-  const StereoCamera stereo = camera();
+  const StereoCamera stereo = localiseCamera();
   Localiser localiser(stereo);
   const Localisation found = localiser.locate({Pose()}, {}, world.matches);
   ASSERT_TRUE(found.found);
@@ -114,7 +114,7 @@ TEST(Localise, PointsWithoutRightImageAndAtInfinityCount) {
     const Eigen::Vector3d p = kTruth.q() * match.p_odom.head<3>();
     match.z << 400.0 * p.x() / p.z() + 255.5, 400.0 * p.y() / p.z() + 191.5, 400.0 * p.x() / p.z() + 255.5;
   }
-  const StereoCamera stereo = camera();
+  const StereoCamera stereo = localiseCamera();
   Localiser localiser(stereo);
   const Localisation found = localiser.locate({Pose()}, {}, world.matches);
   EXPECT_EQ(found.inliers, 30);
@@ -128,7 +128,7 @@ TEST(Localise, AVanThatFillsTheViewDoesNotCarryUsAway) {
     const Pose van(urban_nav_core::Quaterniond::Identity(), Eigen::Vector3d(0.05, 0.0, 0.5));
     world.add(40, 0.1, 8, kTruth);
     world.add(60, 0.1, 1, kTruth, van);
-    const StereoCamera stereo = camera();
+    const StereoCamera stereo = localiseCamera();
     Localiser localiser(stereo);
     const Pose predicted = boxPlus(kTruth, tangent(0.02, 0.01, 0.1, 0.002, 0.003, 0.0));
     const Localisation found = localiser.locate({predicted}, {}, world.matches);
@@ -145,7 +145,7 @@ TEST(Localise, ConsensusFindsAMotionThatNobodyPredicted) {
   const Pose far = expSe3(tangent(0.1, 0.0, -1.5, 0.0, 0.25, 0.0));
   world.add(60, 0.1, 4, far);
   world.spoil(20);
-  const StereoCamera stereo = camera();
+  const StereoCamera stereo = localiseCamera();
   Localiser localiser(stereo);
   const Localisation found = localiser.locate({Pose()}, {}, world.matches);
   ASSERT_TRUE(found.found);
@@ -157,7 +157,7 @@ TEST(Localise, AMinorityThatAgreesCloselyDoesNotHoldThePose) {
   const Pose mover = expSe3(tangent(0.0, 0.0, 0.3, 0.0, 0.0, 0.0));
   world.add(30, 0.02, 2, kTruth, mover);
   world.add(70, 0.03, 2, kTruth);
-  const StereoCamera stereo = camera();
+  const StereoCamera stereo = localiseCamera();
   Localiser localiser(stereo);
   const Localisation found = localiser.locate({kTruth * mover}, {}, world.matches);
   ASSERT_TRUE(found.found);
@@ -168,7 +168,7 @@ TEST(Localise, AMinorityThatAgreesCloselyDoesNotHoldThePose) {
 TEST(Localise, TooFewOrAbsurdMatchesLeaveThePrediction) {
   World world(4);
   world.add(3, 0.0, 5, kTruth);
-  const StereoCamera stereo = camera();
+  const StereoCamera stereo = localiseCamera();
   Localiser localiser(stereo);
   const Pose predicted = expSe3(tangent(1, 2, 3, 0.1, 0.2, 0.3));
   Localisation found = localiser.locate({predicted}, {}, world.matches);

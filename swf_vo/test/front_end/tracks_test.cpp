@@ -14,7 +14,7 @@ using urban_nav_core::expSo3;
 using urban_nav_core::Pose;
 using urban_nav_core::StereoCamera;
 
-StereoCamera camera() { return {{400.0, 410.0, 250.0, 190.0, 512, 384}, 0.2}; }
+StereoCamera tracksCamera() { return {{400.0, 410.0, 250.0, 190.0, 512, 384}, 0.2}; }
 
 TEST(Tracks, IdsAreNeverReusedAndPlacesAre) {
   Tracks tracks(3);
@@ -46,7 +46,7 @@ Eigen::Vector2d through(Side side, const StereoCamera& c, const Eigen::Vector3d&
 }
 
 TEST(Tracks, WarpIsTheHomographyOfTheSurface) {
-  const StereoCamera c = camera();
+  const StereoCamera c = tracksCamera();
   Track track;
   const Eigen::Vector2d pixel(300.0, 250.0);
   track.ray = c.left.ray(pixel);
@@ -71,7 +71,7 @@ TEST(Tracks, WarpIsTheHomographyOfTheSurface) {
 }
 
 TEST(Tracks, SlantDirectionIsTheDerivativeOfTheWarp) {
-  const StereoCamera c = camera();
+  const StereoCamera c = tracksCamera();
   Track track;
   track.ray = c.left.ray({300.0, 250.0});
   track.plane = urban_nav_core::surfaceThrough(c, {300.0, 250.0, 290.0}, {0.05, 0.25});
@@ -87,7 +87,7 @@ TEST(Tracks, SlantDirectionIsTheDerivativeOfTheWarp) {
 }
 
 TEST(Tracks, WarpOfAPointAtInfinityTurnsOnly) {
-  const StereoCamera c = camera();
+  const StereoCamera c = tracksCamera();
   Track track;
   track.ray = Eigen::Vector3d::UnitZ();
   const Pose T(expSo3({0.0, 0.0, 0.3}), Eigen::Vector3d(5.0, 0.0, 3.0));

@@ -15,25 +15,25 @@ namespace {
 using urban_nav_core::ImageView;
 using urban_nav_core::StereoPair;
 
-constexpr int width = 512, height = 384;
+constexpr int checked_width = 512, checked_height = 384;
 
 /// A wall of random blobs seen by both cameras at one disparity, with noise of its own in every frame.
-struct Scene {
+struct CheckScene {
   std::vector<std::uint8_t> left, right;
 
-  Scene(unsigned seed, double disparity, double gain = 1.0, double shift = 0.0, double softness = 1.0)
-      : left(width * height), right(width * height) {
+  CheckScene(unsigned seed, double disparity, double gain = 1.0, double shift = 0.0, double softness = 1.0)
+      : left(checked_width * checked_height), right(checked_width * checked_height) {
     std::mt19937 noise(seed);
     std::normal_distribution<double> grey(0.0, 1.0);
-    for (int v = 0; v < height; ++v)
-      for (int u = 0; u < width; ++u) {
-        left[static_cast<std::size_t>(v * width + u)] = clip(gain * value(u + shift, v, softness) + grey(noise));
-        right[static_cast<std::size_t>(v * width + u)] =
+    for (int v = 0; v < checked_height; ++v)
+      for (int u = 0; u < checked_width; ++u) {
+        left[static_cast<std::size_t>(v * checked_width + u)] = clip(gain * value(u + shift, v, softness) + grey(noise));
+        right[static_cast<std::size_t>(v * checked_width + u)] =
             clip(gain * value(u + shift + disparity, v, softness) + grey(noise));
       }
   }
   StereoPair pair(std::int64_t stamp = 0) const {
-    return {stamp, {left.data(), width, height, width}, {right.data(), width, height, width}};
+    return {stamp, {left.data(), checked_width, checked_height, checked_width}, {right.data(), checked_width, checked_height, checked_width}};
   }
   StereoPair exchanged() const { return {0, pair().right, pair().left}; }
 
@@ -49,7 +49,7 @@ struct Scene {
 TEST(ImageCheck, passesUsualPairs) {
   ImageCheck check;
   for (unsigned i = 0; i < 5; ++i) {
-    const ImageVerdict verdict = check.look(Scene(i, 12.0, 1.0, 3.0 * i).pair(), true);
+    const ImageVerdict verdict = check.look(CheckScene(i, 12.0, 1.0, 3.0 * i).pair(), true);
     EXPECT_TRUE(verdict.usable);
     EXPECT_FALSE(verdict.exchange);
     EXPECT_EQ(verdict.reason, Reason::None) << toString(verdict.reason);
@@ -59,9 +59,9 @@ TEST(ImageCheck, passesUsualPairs) {
 // Suddenly white by half: of no use, until it has lasted so long that it is how the scene looks.
 TEST(ImageCheck, waitsForTheLightToComeBack) {
   ImageCheck check;
-  for (unsigned i = 0; i < 5; ++i) EXPECT_TRUE(check.look(Scene(i, 12.0, 1.0, 3.0 * i).pair(), true).usable);
+  for (unsigned i = 0; i < 5; ++i) EXPECT_TRUE(check.look(CheckScene(i, 12.0, 1.0, 3.0 * i).pair(), true).usable);
   unsigned frame = 5;
-  const std::vector<Scene> seen = {Scene(5, 12.0, 4.5, 15.0), Scene(6, 12.0, 4.5, 18.0), Scene(7, 12.0, 4.5, 21.0)};
+  const std::vector<CheckScene> seen = {CheckScene(5, 12.0, 4.5, 15.0), CheckScene(6, 12.0, 4.5, 18.0), CheckScene(7, 12.0, 4.5, 21.0)};
   const auto white = [&] { return check.look(seen[frame % 3].pair(), false); };
   for (; frame < 25; ++frame) {
     const ImageVerdict verdict = white();
@@ -74,7 +74,7 @@ TEST(ImageCheck, waitsForTheLightToComeBack) {
 }
 
 TEST(ImageCheck, namesAMissingImageAndImagesOfOtherSize) {
-  const Scene scene(1, 12.0);
+  const CheckScene scene(1, 12.0);
   ImageCheck check;
   StereoPair pair = scene.pair();
   pair.right = ImageView();
@@ -87,40 +87,40 @@ TEST(ImageCheck, namesAMissingImageAndImagesOfOtherSize) {
 
 TEST(ImageCheck, namesBlackAndWashedOutImages) {
   ImageCheck check;
-  check.look(Scene(1, 12.0).pair(), false);
-  EXPECT_EQ(check.look(Scene(2, 12.0, 0.0).pair(), false).reason, Reason::Dark);
-  EXPECT_EQ(check.look(Scene(3, 12.0, 1000.0).pair(), false).reason, Reason::Dark);
-  EXPECT_EQ(check.look(Scene(4, 12.0).pair(), false).reason, Reason::None);
+  check.look(CheckScene(1, 12.0).pair(), false);
+  EXPECT_EQ(check.look(CheckScene(2, 12.0, 0.0).pair(), false).reason, Reason::Dark);
+  EXPECT_EQ(check.look(CheckScene(3, 12.0, 1000.0).pair(), false).reason, Reason::Dark);
+  EXPECT_EQ(check.look(CheckScene(4, 12.0).pair(), false).reason, Reason::None);
 }
 
 TEST(ImageCheck, namesAFrozenCameraEvenIfOnlyOneIs) {
   ImageCheck check;
-  const Scene first(1, 12.0), second(2, 12.0);
+  const CheckScene first(1, 12.0), second(2, 12.0);
   check.look(first.pair(), false);
   StereoPair half = second.pair();
   half.right = first.pair().right;
   EXPECT_EQ(check.look(half, false).reason, Reason::Frozen);
   EXPECT_EQ(check.look(half, false).reason, Reason::Frozen);
-  EXPECT_EQ(check.look(Scene(3, 12.0).pair(), false).reason, Reason::None)
+  EXPECT_EQ(check.look(CheckScene(3, 12.0).pair(), false).reason, Reason::None)
       << "the same scene with fresh noise is not frozen";
 }
 
 TEST(ImageCheck, namesAJumpOfExposureOnceAndThenGetsUsedToIt) {
   ImageCheck check;
-  for (unsigned i = 0; i < 5; ++i) check.look(Scene(i, 12.0).pair(), false);
-  EXPECT_EQ(check.look(Scene(10, 12.0, 2.2).pair(), false).reason, Reason::ExposureJump);
-  for (unsigned i = 0; i < 10; ++i) check.look(Scene(20 + i, 12.0, 2.2).pair(), false);
-  EXPECT_EQ(check.look(Scene(40, 12.0, 2.2).pair(), false).reason, Reason::None);
+  for (unsigned i = 0; i < 5; ++i) check.look(CheckScene(i, 12.0).pair(), false);
+  EXPECT_EQ(check.look(CheckScene(10, 12.0, 2.2).pair(), false).reason, Reason::ExposureJump);
+  for (unsigned i = 0; i < 10; ++i) check.look(CheckScene(20 + i, 12.0, 2.2).pair(), false);
+  EXPECT_EQ(check.look(CheckScene(40, 12.0, 2.2).pair(), false).reason, Reason::None);
 }
 
 /// The scene in steps of grey, so that it has edges; then spread over 5 x 5 pixels, `times` times.
-Scene stepped(unsigned seed, int times) {
-  Scene scene(seed, 12.0, 1.0, 3.0 * seed, 0.0);
+CheckScene stepped(unsigned seed, int times) {
+  CheckScene scene(seed, 12.0, 1.0, 3.0 * seed, 0.0);
   for (auto* image : {&scene.left, &scene.right}) {
     for (std::uint8_t& grey : *image) grey = static_cast<std::uint8_t>(grey / 24 * 24);
     for (int i = 0; i < 2 * times; ++i) {
       const std::vector<std::uint8_t> before = *image;
-      const std::size_t step = i % 2 == 0 ? 1 : width;
+      const std::size_t step = i % 2 == 0 ? 1 : checked_width;
       for (std::size_t at = 2 * step; at + 2 * step < before.size(); ++at)
         (*image)[at] = static_cast<std::uint8_t>(
             (before[at - 2 * step] + before[at - step] + before[at] + before[at + step] + before[at + 2 * step] + 2) /
@@ -138,7 +138,7 @@ TEST(ImageCheck, namesBlurAndGetsUsedToIt) {
   EXPECT_TRUE(verdict.usable);
   EXPECT_GT(verdict.edges.left.minCoeff(), 2.0);
   unsigned frames = 6;
-  const std::vector<Scene> seen = {stepped(6, 2), stepped(7, 2), stepped(8, 2)};
+  const std::vector<CheckScene> seen = {stepped(6, 2), stepped(7, 2), stepped(8, 2)};
   while (frames < 100 && check.look(seen[frames % 3].pair(), false).reason == Reason::Blurred) ++frames;
   EXPECT_GT(frames, 30U);
   EXPECT_LT(frames, 100U);
@@ -147,17 +147,17 @@ TEST(ImageCheck, namesBlurAndGetsUsedToIt) {
 TEST(ImageCheck, DoesNotTakeOneSoftImageForBlur) {
   ImageCheck check;
   for (unsigned i = 0; i < 5; ++i) check.look(stepped(i, 0).pair(), false);
-  Scene one_soft = stepped(5, 0);
+  CheckScene one_soft = stepped(5, 0);
   one_soft.right = stepped(5, 2).right;
   EXPECT_EQ(check.look(one_soft.pair(), false).reason, Reason::None);
 }
 
 TEST(ImageCheck, findsExchangedImagesAtTheStartAndLater) {
   ImageCheck fresh;
-  EXPECT_TRUE(fresh.look(Scene(1, 14.0).exchanged(), false).exchange);
+  EXPECT_TRUE(fresh.look(CheckScene(1, 14.0).exchanged(), false).exchange);
   ImageCheck running;
-  for (unsigned i = 0; i < 3; ++i) running.look(Scene(i, 14.0).pair(), false);
-  const ImageVerdict verdict = running.look(Scene(7, 14.0).exchanged(), true);
+  for (unsigned i = 0; i < 3; ++i) running.look(CheckScene(i, 14.0).pair(), false);
+  const ImageVerdict verdict = running.look(CheckScene(7, 14.0).exchanged(), true);
   EXPECT_TRUE(verdict.exchange);
   EXPECT_TRUE(verdict.usable) << "they can be used the other way round";
   EXPECT_EQ(verdict.reason, Reason::Swapped);

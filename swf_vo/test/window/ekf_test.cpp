@@ -10,7 +10,7 @@ namespace {
 
 using urban_nav_core::Matrix6d;
 
-class WindowOne : public testing::TestWithParam<bool> {};
+class WindowOne : public ::testing::TestWithParam<bool> {};
 
 TEST_P(WindowOne, equalsTheExtendedKalmanFilter) {
   auto motion = mixedMotion(50, 0.5, 7);
@@ -45,7 +45,7 @@ TEST_P(WindowOne, equalsTheExtendedKalmanFilter) {
   EXPECT_GT(moved, 40) << "without errors the comparison says little";
 }
 
-INSTANTIATE_TEST_SUITE_P(Linearised, WindowOne, testing::Bool(),
+INSTANTIATE_TEST_SUITE_P(Linearised, WindowOne, ::testing::Bool(),
                          [](const auto& parameter) { return parameter.param ? "first" : "latest"; });
 
 }  // namespace

@@ -14,31 +14,31 @@ using urban_nav_core::boxPlus;
 using urban_nav_core::Pose;
 using urban_nav_core::Vector6d;
 
-struct Scene {
+struct ModelScene {
   urban_nav_core::StereoCamera camera = urban_nav_core::testing::simulateTracks({1, 1}).camera;
   SensorModel model{camera};
   Anchor anchor;
   Pose T_odom_anchor{urban_nav_core::expSo3(Vector3d(0.4, -0.7, 0.2)), Vector3d(3.0, -1.0, 2.0)};
 
-  Scene() {
+  ModelScene() {
     anchor.R_odom_anchor = T_odom_anchor.R();
     anchor.t_odom_anchor = T_odom_anchor.t();
   }
 };
 
-Vector6d tangent(double x, double y, double z, double a, double b, double c) {
+Vector6d poseTangent(double x, double y, double z, double a, double b, double c) {
   Vector6d d;
   d << x, y, z, a, b, c;
   return d;
 }
 
 // Far from the anchor as well: half a metre and 40 deg.
-const Vector6d offsets[] = {Vector6d::Zero(), tangent(0.02, -0.01, 0.03, 0.01, 0.02, -0.02),
-                            tangent(0.3, -0.3, 0.25, 0.1, 0.6, -0.3)};
+const Vector6d offsets[] = {Vector6d::Zero(), poseTangent(0.02, -0.01, 0.03, 0.01, 0.02, -0.02),
+                            poseTangent(0.3, -0.3, 0.25, 0.1, 0.6, -0.3)};
 const Vector3d thetas[] = {{0.1, -0.2, 0.3}, {-0.3, 0.1, 0.01}, {0.2, 0.2, 0.0}, {0.0, 0.1, -0.02}, {0.1, 0.0, 0.5}};
 
 TEST(SensorModel, jacobiansAreThoseOfThePrediction) {
-  const Scene scene;
+  const ModelScene scene;
   for (const Vector6d& offset : offsets)
     for (const Vector3d& theta : thetas) {
       const Pose pose = boxPlus(scene.T_odom_anchor, offset);
@@ -61,7 +61,7 @@ TEST(SensorModel, jacobiansAreThoseOfThePrediction) {
 }
 
 TEST(SensorModel, agreesWithTheCameraAndWithItsOwnInverse) {
-  const Scene scene;
+  const ModelScene scene;
   const Vector3d z(300.0, 120.0, 290.0);
   const Vector3d theta = scene.model.invert(z);
   Vector3d again;
@@ -75,7 +75,7 @@ TEST(SensorModel, agreesWithTheCameraAndWithItsOwnInverse) {
 }
 
 TEST(SensorModel, movingEverythingTogetherChangesNothing) {
-  const Scene scene;
+  const ModelScene scene;
   const Vector3d theta(0.1, -0.2, 0.3);
   const Pose pose = boxPlus(scene.T_odom_anchor, offsets[2]);
   SensorModel::Linearised at;
@@ -97,7 +97,7 @@ TEST(SensorModel, movingEverythingTogetherChangesNothing) {
 }
 
 TEST(SensorModel, refusesWhatIsBehind) {
-  const Scene scene;
+  const ModelScene scene;
   Vector3d z;
   SensorModel::Linearised at;
   const Pose ahead(scene.T_odom_anchor.q(), scene.T_odom_anchor * Vector3d(0.0, 0.0, 5.0));

@@ -21,7 +21,7 @@ urban_nav_core::testing::TrackOptions tracksOf(int frames, double sigma_px, std:
   return mixedMotion(frames, sigma_px, seed);
 }
 
-double nees(const Pose& truth, const urban_nav_core::PoseWithCovariance& estimate) {
+double poseNees(const Pose& truth, const urban_nav_core::PoseWithCovariance& estimate) {
   const Vector6d e = urban_nav_core::boxMinus(truth, estimate.pose);
   return e.dot(estimate.covariance.ldlt().solve(e));
 }
@@ -93,10 +93,10 @@ TEST(Window, isConsistent) {
     const auto tracks = simulateTracks(tracksOf(100, 0.5, static_cast<std::uint64_t>(50 + seed)));
     TrackRunner run(tracks, WindowOptions());
     while (!run.done()) run.step();
-    now += nees(run.truth(), run.window.newest()) / runs;
+    now += poseNees(run.truth(), run.window.newest()) / runs;
     for (std::size_t i = 1; i < run.settled.size(); ++i, ++steps)
-      relative += nees(tracks.frames[i - 1].T_world_camera.inverse() * tracks.frames[i].T_world_camera,
-                       {run.settled[i].T_previous_camera, run.settled[i].relative_covariance});
+      relative += poseNees(tracks.frames[i - 1].T_world_camera.inverse() * tracks.frames[i].T_world_camera,
+                           {run.settled[i].T_previous_camera, run.settled[i].relative_covariance});
   }
   EXPECT_GT(now, 2.3);
   EXPECT_LT(now, 12.0);
@@ -134,7 +134,7 @@ TEST(Window, goesOnByPredictionWhereNothingIsSeen) {
     before = newest.covariance.trace();
   }
   while (!run.done()) run.step();
-  EXPECT_LT(nees(run.truth(), run.window.newest()), 40.0);
+  EXPECT_LT(poseNees(run.truth(), run.window.newest()), 40.0);
 }
 
 // Where the estimate of a pose begins says nothing of where the pose is.
@@ -239,7 +239,7 @@ TEST(Window, knownLandmarksHoldThePose) {
   double sum = 0.0;
   while (!run.done()) {
     run.step();
-    sum += nees(run.truth(), run.window.newest());
+    sum += poseNees(run.truth(), run.window.newest());
   }
   EXPECT_LT(urban_nav_core::distanceBetween(run.window.newest().pose, run.truth()), 0.02);
   EXPECT_NEAR(sum / 60.0, 6.0, 2.0);

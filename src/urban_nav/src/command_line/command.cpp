@@ -7,6 +7,7 @@
 
 #include "command_line/console.hpp"
 #include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/io/text.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav {
@@ -23,12 +24,6 @@ std::string keyOf(const Option& option) {
 }
 
 bool isPositional(const Option& option) { return option.name.empty() || option.name.front() != '-'; }
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
 
 std::string signature(const Option& option) {
   std::string text = option.name;
@@ -55,7 +50,7 @@ std::string helpOf(const Command& command, const Arguments& arguments) {
   for (const Option& option : command.options) {
     const std::string left = signature(option);
     text += "  " + left + std::string(width - left.size() + 2, ' ') + option.sentence;
-    if (!option.words.empty()) text += ": " + joined(option.words);
+    if (!option.words.empty()) text += ": " + urban_nav_core::joined(option.words);
     if (option.repeatable) text += " (repeatable)";
     text += "\n";
   }
@@ -88,7 +83,7 @@ void checkRequired(const Command& command, const Arguments& arguments) {
       if (std::find(option.words.begin(), option.words.end(), value) == option.words.end()) {
         throw UserError("urban_nav " + command.name,
                         (isPositional(option) ? option.name : "--" + keyOf(option)) + " = " + value,
-                        joined(option.words));
+                        urban_nav_core::joined(option.words));
       }
     }
   }
@@ -205,7 +200,7 @@ int runCommandLine(const std::vector<Command>& commands, int argc, const char* c
       std::vector<std::string> names;
       names.reserve(commands.size());
       for (const Command& c : commands) names.push_back(c.name);
-      throw UserError("urban_nav", "no command \"" + name + "\"", joined(names));
+      throw UserError("urban_nav", "no command \"" + name + "\"", urban_nav_core::joined(names));
     }
     const int status = runCommand(*command, argc - 1, argv + 1, console);
     if (std::ferror(stdout) != 0) throw UserError("standard output", "could not be written", "a disk with room");

@@ -20,7 +20,7 @@ void checkKind(const std::string& kind, const std::string& source) {
                                     kind == "kitti" ? "image_0/, image_1/, calib.txt" : "mav0/ with cam0 and cam1");
 }
 
-int run(const Arguments& arguments, Console& console) {
+int runConvert(const Arguments& arguments, Console& console) {
   checkCommonOptions(arguments);
   const std::string kind = arguments.get("FORMAT"), source = arguments.get("SRC"), bag = arguments.get("output");
   Converted converted;
@@ -71,7 +71,7 @@ Command convertCommand() {
   command.examples = {"urban_nav convert kitti sequences/06 -o kitti06.bag",
                       "urban_nav convert new-college MOOSLog_3_11_2008_____13_43_32 -o college.bag"};
   command.more_help = commonHelp;
-  command.run = run;
+  command.run = runConvert;
   return command;
 }
 

@@ -116,7 +116,7 @@ int runStamp(const Arguments& arguments, Console& console) {
   return 0;
 }
 
-int runRun(const Arguments& arguments, Console& console) {
+int runDeviceRun(const Arguments& arguments, Console& console) {
   const auto words = deviceWords(arguments, 1, false, "run KIND --port PATH --duration S -o OUT.csv");
   const segway_drivers::Parameters parameters = loadDriverParameters(arguments).parameters;
   segway_drivers::RunJob job;
@@ -143,7 +143,7 @@ int runRun(const Arguments& arguments, Console& console) {
   return 0;
 }
 
-int runSimulate(const Arguments& arguments, Console& console) {
+int runDeviceSimulate(const Arguments& arguments, Console& console) {
   const auto words = deviceWords(arguments, 1, false, "simulate KIND --link PATH --bag BAG");
   loadDriverParameters(arguments);
   SimulateDeviceJob job;
@@ -176,7 +176,11 @@ int runSimulate(const Arguments& arguments, Console& console) {
 
 const std::map<std::string, std::function<int(const Arguments&, Console&)>>& deviceActions() {
   static const std::map<std::string, std::function<int(const Arguments&, Console&)>> actions = {
-      {"decode", runDecode}, {"encode", runEncode}, {"run", runRun}, {"simulate", runSimulate}, {"stamp", runStamp}};
+      {"decode", runDecode},
+      {"encode", runEncode},
+      {"run", runDeviceRun},
+      {"simulate", runDeviceSimulate},
+      {"stamp", runStamp}};
   return actions;
 }
 

@@ -75,7 +75,7 @@ Json jsonOf(const StereoResult& result, double ms) {
   return json;
 }
 
-int run(const Arguments& arguments, Console& console) {
+int runDisparity(const Arguments& arguments, Console& console) {
   ParameterSet parameters = loadParameters(arguments);
   for (const std::string& warning : parameterWarnings(parameters)) console.warn(warning);
   const urban_nav_core::ThreadLimit threads(static_cast<int>(arguments.integer("threads", 0, 1, 1024)));
@@ -97,7 +97,7 @@ int run(const Arguments& arguments, Console& console) {
   return 0;
 }
 
-std::string help(const Arguments& arguments) { return stageHelp(arguments, dense_stereo::table().stage()); }
+std::string disparityHelp(const Arguments& arguments) { return stageHelp(arguments, dense_stereo::table().stage()); }
 
 }  // namespace
 
@@ -135,8 +135,8 @@ Command disparityCommand() {
   command.examples = {
       "urban_nav disparity left.png right.png --calibration calib.txt -o disparity.pfm --variance variance.pfm",
       "urban_nav disparity left.png right.png --calibration left.yaml,right.yaml -o points.ply"};
-  command.more_help = help;
-  command.run = run;
+  command.more_help = disparityHelp;
+  command.run = runDisparity;
   return command;
 }
 

@@ -47,7 +47,7 @@ void writePlot(const std::string& path, const Evaluation& evaluation, const std:
   }
 }
 
-int run(const Arguments& arguments, Console& console) {
+int runEvaluate(const Arguments& arguments, Console& console) {
   checkCommonOptions(arguments);
   const std::string plot = arguments.get("output");
   const std::string extension = fs::path(plot).extension().string();
@@ -111,7 +111,7 @@ Command evaluateCommand() {
       "urban_nav evaluate --truth poses.txt --estimate out/trajectory.kitti",
       "urban_nav evaluate --truth truth.tum --estimate out/trajectory.tum --spans 10f,100m -o errors.html"};
   command.more_help = commonHelp;
-  command.run = run;
+  command.run = runEvaluate;
   return command;
 }
 

@@ -69,7 +69,7 @@ std::string describe(const std::vector<StoredTrajectory>& map) {
          (map.size() == 1 ? " session" : " sessions") + (relaxed ? "" : ", as odometry says");
 }
 
-int run(const Arguments& arguments, Console& console) {
+int runExport(const Arguments& arguments, Console& console) {
   checkCommonOptions(arguments);
   checkFormats(arguments);
   Store store(arguments.get("STORE"), Access::Read);
@@ -119,7 +119,7 @@ Command exportCommand() {
       threadsOption()};
   command.examples = {"urban_nav export out/session.db --tum trajectory.tum --g2o graph.g2o"};
   command.more_help = commonHelp;
-  command.run = run;
+  command.run = runExport;
   return command;
 }
 

@@ -139,7 +139,7 @@ PointCloud readNamed(const std::string& path, Console& console) {
   return cloud;
 }
 
-int run(const Arguments& arguments, Console& console) {
+int runIcp(const Arguments& arguments, Console& console) {
   const ParameterSet parameters = loadParameters(arguments);
   for (const std::string& warning : parameterWarnings(parameters)) console.warn(warning);
   const urban_nav_core::ThreadLimit threads(static_cast<int>(arguments.integer("threads", 0, 1, 1024)));
@@ -197,7 +197,7 @@ Command icpCommand() {
   command.examples = {"urban_nav icp source.ply target.ply --json alignment.json",
                       "urban_nav icp a.pcd b.csv.gz --global"};
   command.more_help = help;
-  command.run = run;
+  command.run = runIcp;
   return command;
 }
 

@@ -66,7 +66,7 @@ Json jsonOf(const InputInfo& info) {
   return json;
 }
 
-int run(const Arguments& arguments, Console& console) {
+int runInfo(const Arguments& arguments, Console& console) {
   checkCommonOptions(arguments);
   Json all = Json::array();
   for (const std::string& input : arguments.all("INPUT")) {
@@ -97,7 +97,7 @@ Command infoCommand() {
                      threadsOption()};
   command.examples = {"urban_nav info robot.bag out/session.db"};
   command.more_help = commonHelp;
-  command.run = run;
+  command.run = runInfo;
   return command;
 }
 

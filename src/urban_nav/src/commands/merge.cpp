@@ -12,7 +12,7 @@ namespace urban_nav {
 
 namespace {
 
-int run(const Arguments& arguments, Console& console) {
+int runMerge(const Arguments& arguments, Console& console) {
   checkCommonOptions(arguments);
   const std::string output = arguments.get("output");
   const urban_nav_store::MergeResult result = urban_nav_store::merge(arguments.all("STORE"), output);
@@ -45,7 +45,7 @@ Command mergeCommand() {
                      threadsOption()};
   command.examples = {"urban_nav merge monday/session.db tuesday/session.db -o both.db"};
   command.more_help = commonHelp;
-  command.run = run;
+  command.run = runMerge;
   return command;
 }
 

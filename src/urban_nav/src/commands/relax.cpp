@@ -215,7 +215,7 @@ RelaxReport relaxFile(const G2oGraph& graph, const std::string& name, const Argu
   return report;
 }
 
-int run(const Arguments& arguments, Console& console) {
+int runRelax(const Arguments& arguments, Console& console) {
   checkCommonOptions(arguments);
   const urban_nav_core::ThreadLimit threads(static_cast<int>(arguments.integer("threads", 0, 1, 1024)));
   const std::string name = arguments.get("IN");
@@ -282,7 +282,7 @@ Command relaxCommand() {
   command.examples = {"urban_nav relax sphere2500.g2o -o relaxed.g2o",
                       "urban_nav relax graph.g2o -o relaxed.g2o --objective chordal --robust off --edges edges.csv"};
   command.more_help = commonHelp;
-  command.run = run;
+  command.run = runRelax;
   return command;
 }
 

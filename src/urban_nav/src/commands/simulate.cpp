@@ -60,7 +60,7 @@ SimulateJob jobOf(const Arguments& arguments) {
   return job;
 }
 
-int run(const Arguments& arguments, Console& console) {
+int runSimulate(const Arguments& arguments, Console& console) {
   const urban_nav_core::ThreadLimit threads(static_cast<int>(arguments.integer("threads", 0, 0, 1024)));
   loadParameters(arguments);  // none is the simulator's own, but errors in them are reported
   const SimulateJob job = jobOf(arguments);
@@ -154,7 +154,7 @@ Command simulateCommand() {
                       "urban_nav simulate --sensors stereo --folder quad/ -o quad.bag",
                       "urban_nav simulate --without all:all --with stereo:lens --views stereo,lasers -o ideal.bag",
                       "urban_nav simulate --fault unplug:lasers:20:5 --fault drop:stereo:30:10:0.3 -o faults.bag"};
-  command.run = run;
+  command.run = runSimulate;
   return command;
 }
 

@@ -42,7 +42,7 @@ const StoredClosure& byTimes(const std::vector<StoredClosure>& closures, const s
   return *nearest;
 }
 
-int run(const Arguments& arguments, Console& console) {
+int runWhy(const Arguments& arguments, Console& console) {
   const double cloud_way = loadParameters(arguments).get(loop_metric::table()).cloud_way;
   const bool moments = arguments.has("T1") || arguments.has("T2");
   if (arguments.has("jump"))
@@ -98,7 +98,7 @@ Command whyCommand() {
   command.examples = {"urban_nav why out/session.db", "urban_nav why out/session.db +3.5 +92.1 -o why.html",
                       "urban_nav why out/session.db --closure 12"};
   command.more_help = commonHelp;
-  command.run = run;
+  command.run = runWhy;
   return command;
 }
 

@@ -19,7 +19,6 @@ namespace urban_nav {
 using urban_nav_core::DataError;
 using urban_nav_core::Matched;
 using urban_nav_core::Pose;
-using urban_nav_core::Span;
 using urban_nav_core::StampNs;
 using urban_nav_core::UserError;
 
@@ -129,8 +128,9 @@ Evaluation evaluate(const TrajectoryFile& truth, const TrajectoryFile& estimate,
   evaluation.first = urban_nav_core::absoluteError(m.truth, m.estimate, TrajectoryAlignment::First);
   evaluation.se3 = urban_nav_core::absoluteError(m.truth, m.estimate, TrajectoryAlignment::Se3);
   evaluation.sim3 = urban_nav_core::absoluteError(m.truth, m.estimate, TrajectoryAlignment::Sim3);
-  evaluation.ten_frames = urban_nav_core::relativeError(m.truth, m.estimate, {Span::Unit::Frames, 10.0});
-  for (const Span& span : options.spans) {
+  evaluation.ten_frames =
+      urban_nav_core::relativeError(m.truth, m.estimate, {urban_nav_core::Span::Unit::Frames, 10.0});
+  for (const urban_nav_core::Span& span : options.spans) {
     if (const auto error = urban_nav_core::relativeError(m.truth, m.estimate, span))
       evaluation.spans.push_back({span, *error});
   }
@@ -172,17 +172,17 @@ void addToJson(const Evaluation& evaluation, Json& json) {
   }
 }
 
-std::vector<Span> parseSpans(const std::vector<std::string>& words) {
-  std::vector<Span> spans;
+std::vector<urban_nav_core::Span> parseSpans(const std::vector<std::string>& words) {
+  std::vector<urban_nav_core::Span> spans;
   for (const std::string& word : words) {
-    const std::optional<Span> span = urban_nav_core::parseSpan(word);
+    const std::optional<urban_nav_core::Span> span = urban_nav_core::parseSpan(word);
     if (!span) throw UserError("--spans", "\"" + word + "\"", "frames or metres above zero: 10f, 10m, 100m");
     spans.push_back(*span);
   }
   return spans;
 }
 
-std::string printSpan(const Span& span) {
+std::string printSpan(const urban_nav_core::Span& span) {
   std::ostringstream text;
   text << span;
   return text.str();

@@ -19,8 +19,8 @@ using urban_nav_store::EdgeKind;
 
 namespace {
 
-constexpr double kDegrees = 57.29577951308232;
-constexpr double kMetresPerRadian = 10.0;  // for display of free directions
+constexpr double kExplainedDegrees = 57.29577951308232;
+constexpr double kAngleWeight = 10.0;  // for display of free directions
 
 std::string timeText(const std::string& name, double since, urban_nav_core::StampNs stamp) {
   return name + " +" + forPerson(since, 6) + " s (" + urban_nav_core::printStamp(stamp) + ")";
@@ -44,8 +44,7 @@ std::string verdictOf(const StoredClosure& closure) {
 std::string transformOf(const StoredClosure& closure) {
   const urban_nav_core::Constraint& measured = closure.edge.measured;
   if (measured.information.isZero(0.0)) return {};
-  const urban_nav_core::Matrix6d covariance =
-      urban_nav_core::covarianceForDisplay(measured.information, kMetresPerRadian);
+  const urban_nav_core::Matrix6d covariance = urban_nav_core::covarianceForDisplay(measured.information, kAngleWeight);
   const auto sigma = [&](int i) { return std::sqrt(covariance(i, i)); };
   const auto part = [&](int i, double value, double unit) {
     return forPerson(unit * value, 4) + (sigma(i) > 1.0 ? " (free)" : " +- " + forPerson(unit * sigma(i), 2));
@@ -53,7 +52,8 @@ std::string transformOf(const StoredClosure& closure) {
   const auto& t = measured.T_a_b.t();
   const urban_nav_core::Vector3d r = urban_nav_core::logSo3(measured.T_a_b.q());
   return "T_a_b: " + part(0, t.x(), 1) + ", " + part(1, t.y(), 1) + ", " + part(2, t.z(), 1) + " m; rotation vector " +
-         part(3, r.x(), kDegrees) + ", " + part(4, r.y(), kDegrees) + ", " + part(5, r.z(), kDegrees) + " deg";
+         part(3, r.x(), kExplainedDegrees) + ", " + part(4, r.y(), kExplainedDegrees) + ", " +
+         part(5, r.z(), kExplainedDegrees) + " deg";
 }
 
 /// What a failed test would have needed.

@@ -25,15 +25,14 @@ namespace frames = urban_nav_core::frames;
 using urban_nav_core::CameraInfo;
 using urban_nav_core::DataError;
 using urban_nav_core::UserError;
-using urban_nav_ros::Side;
 using urban_nav_ros::StereoFeed;
 
 namespace {
 
 constexpr urban_nav_core::StampNs kMaxLateness = 200'000'000;  // ns: offline, waiting costs nothing
 
-constexpr const char* kStateName = "reader of bags";
-constexpr std::uint32_t kStateVersion = 2;
+constexpr const char* kBagStateName = "reader of bags";
+constexpr std::uint32_t kBagStateVersion = 2;
 
 /// The bags of one recording, read as one stream in the order of their receipt; the feed brings it into the order of
 /// stamps.
@@ -87,7 +86,7 @@ class BagSource : public Source {
 
   std::vector<std::string> closingFaults() const override {
     std::vector<std::string> faults;
-    const auto count = [&](Side side, Role role) {
+    const auto count = [&](urban_nav_ros::Side side, Role role) {
       const urban_nav_core::TimeOrderedQueueCounts& counts = feed_->counts(side);
       const std::string topic = topics_.find(role)->name;
       if (counts.late > 0)
@@ -100,8 +99,8 @@ class BagSource : public Source {
         faults.push_back(topic + ": " + std::to_string(feed_->missing(side)) +
                          " images are missing: no partner within 5 ms");
     };
-    count(Side::Left, Role::Left);
-    count(Side::Right, Role::Right);
+    count(urban_nav_ros::Side::Left, Role::Left);
+    count(urban_nav_ros::Side::Right, Role::Right);
     for (std::size_t i = 0; i < laser_topics_.size(); ++i)
       if (refused_scans_[i] > 0)
         faults.push_back(laser_topics_[i] + ": " + std::to_string(refused_scans_[i]) +
@@ -268,7 +267,7 @@ class BagSource : public Source {
       urban_nav_core::Archive writer;
       archive(writer);
       bag_end_ = std::make_shared<BagEnd>(BagEnd{groups_[group_].end, groups_[group_].receipt,
-                                                 urban_nav_core::seal(kStateName, kStateVersion, writer.take()),
+                                                 urban_nav_core::seal(kBagStateName, kBagStateVersion, writer.take()),
                                                  std::exchange(scans_, {})});
     }
     if (++group_ < groups_.size()) {
@@ -307,8 +306,8 @@ class BagSource : public Source {
     const SourceInfo here = info_;
     const BagTopics topics = topics_;
     const std::optional<urban_nav_core::Matrix3d> R_base_imu = R_base_imu_;
-    urban_nav_core::Archive reader(urban_nav_core::unseal(kStateName, kStateVersion, after.reader),
-                                   std::string("state of ") + kStateName);
+    urban_nav_core::Archive reader(urban_nav_core::unseal(kBagStateName, kBagStateVersion, after.reader),
+                                   std::string("state of ") + kBagStateName);
     archive(reader);
     reader.finish();
     const auto same = [](const urban_nav_core::Pose& a, const urban_nav_core::Pose& b) {
@@ -330,7 +329,8 @@ class BagSource : public Source {
   void add(const rosbag::MessageInstance& instance) {
     const std::string& topic = instance.getTopic();
     if (topic == topics_.find(Role::Left)->name || topic == topics_.find(Role::Right)->name) {
-      const Side side = topic == topics_.find(Role::Left)->name ? Side::Left : Side::Right;
+      const urban_nav_ros::Side side =
+          topic == topics_.find(Role::Left)->name ? urban_nav_ros::Side::Left : urban_nav_ros::Side::Right;
       if (const auto image = instance.instantiate<sensor_msgs::Image>()) {
         feed_->add(side, sensor_msgs::ImageConstPtr(image));
       } else if (const auto compressed = instance.instantiate<sensor_msgs::CompressedImage>()) {

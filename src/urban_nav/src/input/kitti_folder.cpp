@@ -15,7 +15,6 @@ namespace urban_nav {
 
 using urban_nav_core::StereoPairWithMotion;
 using urban_nav_ros::GreyImage;
-using urban_nav_ros::Side;
 
 namespace {
 
@@ -44,8 +43,9 @@ class KittiFolder : public Source {
     SourceItem input;
     StereoPairWithMotion& assembled = input.assembled;
     assembled.pair.stamp = frames_.stamps[position_];
-    std::tie(assembled.pair.left, assembled.left_owner) = keep(read(Side::Left, number, input.faults));
-    std::tie(assembled.pair.right, assembled.right_owner) = keep(read(Side::Right, number, input.faults));
+    std::tie(assembled.pair.left, assembled.left_owner) = keep(read(urban_nav_ros::Side::Left, number, input.faults));
+    std::tie(assembled.pair.right, assembled.right_owner) =
+        keep(read(urban_nav_ros::Side::Right, number, input.faults));
     ++position_;
     return input;
   }
@@ -89,12 +89,12 @@ class KittiFolder : public Source {
 
   static std::string sizeText(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
 
-  cv::Mat read(Side side, std::int64_t number, std::vector<std::string>& faults) const {
-    const std::map<std::int64_t, std::string>& files = side == Side::Left ? frames_.left : frames_.right;
+  cv::Mat read(urban_nav_ros::Side side, std::int64_t number, std::vector<std::string>& faults) const {
+    const std::map<std::int64_t, std::string>& files = side == urban_nav_ros::Side::Left ? frames_.left : frames_.right;
     const auto file = files.find(number);
     if (file == files.end()) {
-      faults.push_back((side == Side::Left ? layout_.left : layout_.right) + ": image " + std::to_string(number) +
-                       " is missing");
+      faults.push_back((side == urban_nav_ros::Side::Left ? layout_.left : layout_.right) + ": image " +
+                       std::to_string(number) + " is missing");
       return {};
     }
     const GreyImage image = readGrey(file->second, bits_);

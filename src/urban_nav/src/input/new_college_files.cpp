@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "input/image_file.hpp"
+#include "urban_nav_core/io/text.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav {
@@ -21,15 +22,11 @@ namespace {
 constexpr int kDepth = 3;
 constexpr int kLadybugCameras = 5;
 
-bool endsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
 /// "left" or "right" of "...-left.pnm"; empty for other names.
 std::string sideOf(const fs::path& path) {
   const std::string stem = path.stem().string();
   for (const char* side : {"left", "right"}) {
-    if (endsWith(stem, side) && isImageName(path.filename().string())) return side;
+    if (urban_nav_core::endsWith(stem, side) && isImageName(path.filename().string())) return side;
   }
   return "";
 }

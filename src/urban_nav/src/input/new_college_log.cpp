@@ -19,12 +19,12 @@ using urban_nav_core::UserError;
 using urban_nav_core::Vector3d;
 
 constexpr double kDegree = M_PI / 180.0;
-constexpr StampNs kWindow = 2000000000;  // rows come at most 0.9 s late
-constexpr StampNs kSameStamp = 100000;   // one of the two is printed with four decimals
-constexpr double kLongestOff = 3600.0;   // s between a value's time and the logger's: more is damage
-constexpr double kNeighbour = 0.2;       // s: headings further apart say little about the turning rate now
-constexpr double kPeriod = 0.0133381;    // s a turn of the LMS, a straight line through the log's stamps
-constexpr double kRangeMax = 80.0;       // m, reach of the LMS291
+constexpr StampNs kWindow = 2000000000;       // rows come at most 0.9 s late
+constexpr StampNs kSameStamp = 100000;        // one of the two is printed with four decimals
+constexpr double kLongestOff = 3600.0;        // s between a value's time and the logger's: more is damage
+constexpr double kNeighbour = 0.2;            // s: headings further apart say little about the turning rate now
+constexpr double kLadybugPeriod = 0.0133381;  // s a turn of the LMS, a straight line through the log's stamps
+constexpr double kRangeMax = 80.0;            // m, reach of the LMS291
 
 double yawOf(const Pose& T) { return 2.0 * std::atan2(T.q().z(), T.q().w()); }
 
@@ -125,8 +125,8 @@ NewCollegeScan NewCollegeLog::scan(const AlogRow& row, Side side) {
   out.scan.stamp = out.stamp;
   out.scan.angle_first = (first - 90.0) * kDegree;
   out.scan.angle_step = step * kDegree;
-  out.scan.period = kPeriod;
-  out.scan.time_step = kPeriod * step / 360.0;
+  out.scan.period = kLadybugPeriod;
+  out.scan.time_step = kLadybugPeriod * step / 360.0;
   out.scan.range_max = kRangeMax;
   // Values below zero are error codes of the device.
   for (const double range : ranges) out.scan.ranges.push_back(range > 0.0 ? static_cast<float>(range) : 0.0F);

@@ -37,7 +37,7 @@ Pose cameraOf(Store& store, const urban_nav_store::Session& session) {
       "--tum, which needs no camera");
 }
 
-std::array<double, 7> valuesOf(const Pose& pose) {
+std::array<double, 7> poseColumns(const Pose& pose) {
   return {pose.t().x(), pose.t().y(), pose.t().z(), pose.q().x(), pose.q().y(), pose.q().z(), pose.q().w()};
 }
 
@@ -105,7 +105,7 @@ ExportedGraph exportG2o(Store& store, const std::vector<std::vector<StoredTrajec
         G2oGraph::Edge line;
         line.from = a->second;
         line.to = b->second;
-        line.values = valuesOf(edge.measured.T_a_b);
+        line.values = poseColumns(edge.measured.T_a_b);
         urban_nav_core::setG2oInformation(
             line, urban_nav_core::g2oFromBoxInformation(edge.measured.information, edge.measured.T_a_b));
         graph.edges.push_back(line);

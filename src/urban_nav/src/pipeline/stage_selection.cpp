@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "urban_nav_core/io/text.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav {
@@ -15,18 +16,12 @@ bool contains(const std::vector<std::string>& list, const std::string& word) {
   return std::find(list.begin(), list.end(), word) != list.end();
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
 void checkWords(const std::vector<std::string>& words) {
   for (const std::string& word : words) {
     if (contains(stageNames(), word)) continue;
     const std::string found =
         contains(plannedStageNames(), word) ? "stage " + word + " is not in this version" : "no stage \"" + word + "\"";
-    throw UserError("--stages", found, joined(stageNames()));
+    throw UserError("--stages", found, urban_nav_core::joined(stageNames()));
   }
 }
 
@@ -48,8 +43,8 @@ StageList selectStages(const std::vector<std::unique_ptr<Stage>>& stages, const 
     }
   }
   if (options.stages.empty() && !plannedStageNames().empty())
-    left_out.push_back(joined(plannedStageNames()) + " (not in this version)");
-  console.info("stages: " + joined(names) + (left_out.empty() ? "" : "; left out: " + joined(left_out)));
+    left_out.push_back(urban_nav_core::joined(plannedStageNames()) + " (not in this version)");
+  console.info("stages: " + urban_nav_core::joined(names) + (left_out.empty() ? "" : "; left out: " + urban_nav_core::joined(left_out)));
   for (const std::string& note : notes) console.info(note);
   const bool uses_closures =
       std::any_of(selected.begin(), selected.end(), [](const Stage* stage) { return stage->describe().uses_closures; });

@@ -11,7 +11,7 @@ namespace urban_nav {
 namespace {
 
 constexpr std::size_t kMostPoints = 1200;  // of a line: about two a pixel at full width
-constexpr double kLeft = 62, kRight = 14, kTop = 12, kBottom = 44;
+constexpr double kPlotLeft = 62, kPlotRight = 14, kPlotTop = 12, kPlotBottom = 44;
 
 struct Range {
   double low = std::numeric_limits<double>::infinity();
@@ -25,11 +25,13 @@ struct Range {
   double span() const { return high - low; }
 };
 
-struct Frame {  // of the plot: from values to px
+struct PlotFrame {  // of the plot: from values to px
   Range x, y;
   double width = 0, height = 0;
-  double u(double value) const { return kLeft + (value - x.low) / x.span() * (width - kLeft - kRight); }
-  double v(double value) const { return height - kBottom - (value - y.low) / y.span() * (height - kTop - kBottom); }
+  double u(double value) const { return kPlotLeft + (value - x.low) / x.span() * (width - kPlotLeft - kPlotRight); }
+  double v(double value) const {
+    return height - kPlotBottom - (value - y.low) / y.span() * (height - kPlotTop - kPlotBottom);
+  }
 };
 
 std::string px(double value) {
@@ -64,8 +66,8 @@ std::vector<std::size_t> thinned(const std::vector<PlotPoint>& points) {
   return kept;
 }
 
-Frame frameOf(const Plot& plot) {
-  Frame frame;
+PlotFrame frameOf(const Plot& plot) {
+  PlotFrame frame;
   frame.width = plot.width;
   frame.height = plot.height;
   for (const Series& series : plot.series) {
@@ -99,7 +101,7 @@ Frame frameOf(const Plot& plot) {
     const double margin_x = 0.04 * frame.x.span();
     frame.x.low -= margin_x;
     frame.x.high += margin_x;
-    const double across = frame.width - kLeft - kRight, up = frame.height - kTop - kBottom;
+    const double across = frame.width - kPlotLeft - kPlotRight, up = frame.height - kPlotTop - kPlotBottom;
     const double metre = std::max({frame.x.span() / across, frame.y.span() / up, 1e-6});
     widen(frame.x, metre * across);
     widen(frame.y, metre * up);
@@ -107,29 +109,31 @@ Frame frameOf(const Plot& plot) {
   return frame;
 }
 
-std::string axes(const Plot& plot, const Frame& f) {
+std::string axes(const Plot& plot, const PlotFrame& f) {
   std::string svg;
-  const double bottom = f.height - kBottom, right = f.width - kRight;
+  const double bottom = f.height - kPlotBottom, right = f.width - kPlotRight;
   for (const double tick : niceTicks(f.x.low, f.x.high, plot.width / 90)) {
     const std::string u = px(f.u(tick));
-    svg += "<line class=\"grid\" x1=\"" + u + "\" y1=\"" + px(kTop) + "\" x2=\"" + u + "\" y2=\"" + px(bottom) + "\"/>";
+    svg += "<line class=\"grid\" x1=\"" + u + "\" y1=\"" + px(kPlotTop) + "\" x2=\"" + u + "\" y2=\"" + px(bottom) +
+           "\"/>";
     svg += "<text class=\"tick\" x=\"" + u + "\" y=\"" + px(bottom + 16) + "\" text-anchor=\"middle\">" +
            forPerson(tick, 6) + "</text>";
   }
   for (const double tick : niceTicks(f.y.low, f.y.high, plot.y_label.empty() ? 0 : plot.height / 55)) {
     const std::string v = px(f.v(tick));
-    svg += "<line class=\"grid\" x1=\"" + px(kLeft) + "\" y1=\"" + v + "\" x2=\"" + px(right) + "\" y2=\"" + v + "\"/>";
-    svg += "<text class=\"tick\" x=\"" + px(kLeft - 7) + "\" y=\"" + px(f.v(tick) + 4) + "\" text-anchor=\"end\">" +
+    svg += "<line class=\"grid\" x1=\"" + px(kPlotLeft) + "\" y1=\"" + v + "\" x2=\"" + px(right) + "\" y2=\"" + v +
+           "\"/>";
+    svg += "<text class=\"tick\" x=\"" + px(kPlotLeft - 7) + "\" y=\"" + px(f.v(tick) + 4) + "\" text-anchor=\"end\">" +
            forPerson(tick, 6) + "</text>";
   }
-  svg += "<text class=\"label\" x=\"" + px(0.5 * (kLeft + right)) + "\" y=\"" + px(f.height - 8) +
+  svg += "<text class=\"label\" x=\"" + px(0.5 * (kPlotLeft + right)) + "\" y=\"" + px(f.height - 8) +
          "\" text-anchor=\"middle\">" + escapeHtml(plot.x_label) + "</text>";
-  svg += "<text class=\"label\" transform=\"translate(14 " + px(0.5 * (kTop + bottom)) +
+  svg += "<text class=\"label\" transform=\"translate(14 " + px(0.5 * (kPlotTop + bottom)) +
          ") rotate(-90)\" text-anchor=\"middle\">" + escapeHtml(plot.y_label) + "</text>";
   return svg;
 }
 
-std::string pathOf(const Series& series, const Frame& f) {
+std::string pathOf(const Series& series, const PlotFrame& f) {
   std::string d;
   bool pen_down = false;
   for (const std::size_t i : thinned(series.points)) {
@@ -144,7 +148,7 @@ std::string pathOf(const Series& series, const Frame& f) {
   return d;
 }
 
-std::string bandOf(const Series& series, const Frame& f) {
+std::string bandOf(const Series& series, const PlotFrame& f) {
   std::string there, back;
   for (const std::size_t i : thinned(series.points)) {
     const PlotPoint& p = series.points[i];
@@ -155,7 +159,7 @@ std::string bandOf(const Series& series, const Frame& f) {
   return there.empty() ? "" : "<path class=\"band c-" + series.colour + "\" d=\"" + there + back + "Z\"/>";
 }
 
-std::string barsOf(const Series& series, const Frame& f) {
+std::string barsOf(const Series& series, const PlotFrame& f) {
   std::string svg;
   for (const PlotPoint& p : series.points) {
     if (!finite(p) || p.y <= 0.0) continue;
@@ -166,7 +170,7 @@ std::string barsOf(const Series& series, const Frame& f) {
   return svg;
 }
 
-std::string dotsOf(const Series& series, const Frame& f) {
+std::string dotsOf(const Series& series, const PlotFrame& f) {
   std::string svg;
   for (const std::size_t i : thinned(series.points)) {
     const PlotPoint& p = series.points[i];
@@ -177,7 +181,7 @@ std::string dotsOf(const Series& series, const Frame& f) {
   return svg;
 }
 
-std::string draw(const Series& series, const Frame& f) {
+std::string draw(const Series& series, const PlotFrame& f) {
   switch (series.kind) {
     case Series::Kind::Band: return bandOf(series, f);
     case Series::Kind::Bars: return barsOf(series, f);
@@ -210,7 +214,7 @@ std::string legend(const Plot& plot) {
 }  // namespace
 
 std::string renderSvg(const Plot& plot, bool with_legend) {
-  const Frame f = frameOf(plot);
+  const PlotFrame f = frameOf(plot);
   if (f.x.empty() || f.y.empty()) return {};
   const auto attribute = [](const char* name, double value) {
     return std::string(" data-") + name + "=\"" + forPerson(value, 9) + "\"";
@@ -220,16 +224,16 @@ std::string renderSvg(const Plot& plot, bool with_legend) {
                     attribute("x0", f.x.low) + attribute("x1", f.x.high) + attribute("y0", f.y.low) +
                     attribute("y1", f.y.high) + " data-xl=\"" + escapeHtml(plot.x_label) + "\" data-yl=\"" +
                     escapeHtml(plot.y_label) + "\">";
-  const std::string area =
-      px(kLeft) + " " + px(kTop) + " " + px(f.width - kLeft - kRight) + " " + px(f.height - kTop - kBottom);
-  svg += axes(plot, f) + "<svg class=\"area\" x=\"" + px(kLeft) + "\" y=\"" + px(kTop) + "\" width=\"" +
-         px(f.width - kLeft - kRight) + "\" height=\"" + px(f.height - kTop - kBottom) + "\" viewBox=\"" + area +
-         "\">";  // a viewport of its own clips without an id
+  const std::string area = px(kPlotLeft) + " " + px(kPlotTop) + " " + px(f.width - kPlotLeft - kPlotRight) + " " +
+                           px(f.height - kPlotTop - kPlotBottom);
+  svg += axes(plot, f) + "<svg class=\"area\" x=\"" + px(kPlotLeft) + "\" y=\"" + px(kPlotTop) + "\" width=\"" +
+         px(f.width - kPlotLeft - kPlotRight) + "\" height=\"" + px(f.height - kPlotTop - kPlotBottom) +
+         "\" viewBox=\"" + area + "\">";  // a viewport of its own clips without an id
   for (const Span& span : plot.spans) {
     const double left = f.u(std::max(span.from, f.x.low)), right = f.u(std::min(span.to, f.x.high));
     if (right >= left)
-      svg += "<rect class=\"span c-" + span.colour + "\" x=\"" + px(left) + "\" y=\"" + px(kTop) + "\" width=\"" +
-             px(std::max(1.0, right - left)) + "\" height=\"" + px(f.height - kTop - kBottom) + "\"/>";
+      svg += "<rect class=\"span c-" + span.colour + "\" x=\"" + px(left) + "\" y=\"" + px(kPlotTop) + "\" width=\"" +
+             px(std::max(1.0, right - left)) + "\" height=\"" + px(f.height - kPlotTop - kPlotBottom) + "\"/>";
   }
   for (const Series& series : plot.series) svg += draw(series, f);
   return svg + "</svg></svg>";

@@ -7,7 +7,7 @@ namespace urban_nav {
 
 namespace {
 
-constexpr int kTitleHeight = 44;
+constexpr int kSvgTitleHeight = 44;
 constexpr const char* kStyle =
     "svg{font-family:sans-serif;background:#fff}.c-a{color:#1f6feb}.c-b{color:#d9480f}.c-c{color:#0c8599}.c-d{color:#"
     "9c36b5}.c-good{color:#2b8a3e}.c-plain{color:#5d6877}"
@@ -36,10 +36,10 @@ std::string standaloneSvg(const std::vector<std::pair<std::string, Plot>>& plots
   for (const auto& [title, plot] : plots) {
     body += "<text class=\"title\" x=\"62\" y=\"" + std::to_string(y + 20) + "\">" + escapeHtml(title) + "</text>" +
             names(plot, y + 38);
-    body += "<g transform=\"translate(0 " + std::to_string(y + kTitleHeight) + ")\"><svg width=\"" +
+    body += "<g transform=\"translate(0 " + std::to_string(y + kSvgTitleHeight) + ")\"><svg width=\"" +
             std::to_string(plot.width) + "\" height=\"" + std::to_string(plot.height) + "\">" + renderSvg(plot, false) +
             "</svg></g>";
-    y += kTitleHeight + plot.height;
+    y += kSvgTitleHeight + plot.height;
     width = std::max(width, plot.width);
   }
   const std::string size = std::to_string(width) + " " + std::to_string(y);

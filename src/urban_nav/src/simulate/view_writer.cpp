@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/io/text.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav {
@@ -17,10 +18,6 @@ using urban_nav_core::UserError;
 using urban_nav_sim::ViewTruth;
 
 namespace {
-
-bool endsWith(const std::string& name, const std::string& end) {
-  return name.size() >= end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
-}
 
 void writePicture(const std::string& path, const cv::Mat& picture) {
   urban_nav_core::PartialFile file(path);
@@ -33,7 +30,8 @@ void writePicture(const std::string& path, const cv::Mat& picture) {
 ViewWriter::ViewWriter(std::string folder) : folder_(std::move(folder)) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_)) {
     const std::string name = entry.path().filename().string();
-    const bool is_ours = entry.is_directory() ? endsWith(name, "_optical_frame") : name.rfind("laser_", 0) == 0;
+    const bool is_ours =
+        entry.is_directory() ? urban_nav_core::endsWith(name, "_optical_frame") : name.rfind("laser_", 0) == 0;
     if (is_ours) fs::remove_all(entry.path());
   }
 }

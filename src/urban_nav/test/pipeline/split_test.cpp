@@ -28,7 +28,7 @@ using testing::readFile;
 using testing::TemporaryFolder;
 
 constexpr int kFrames = 60;
-const std::vector<std::string> kSame = {"trajectory.tum",          "trajectory.kitti", "covariance.csv",
+const std::vector<std::string> kSameWhenSplit = {"trajectory.tum",          "trajectory.kitti", "covariance.csv",
                                         "relative_covariance.csv", "graph.g2o",        "landmarks.ply"};
 
 /// What an accelerometer felt at the nodes, as the store has it.
@@ -69,7 +69,7 @@ class Split : public ::testing::Test {
     return ::testing::internal::GetCapturedStderr();
   }
   static void expectWhole(const std::string& out) {
-    for (const std::string& name : kSame)
+    for (const std::string& name : kSameWhenSplit)
       EXPECT_TRUE(readFile(whole() + "/" + name) == readFile(out + "/" + name)) << name;
     EXPECT_TRUE(forcesIn(whole() + "/session.db") == forcesIn(out + "/session.db"));
     const StoreInfo a = lookIntoStore(whole() + "/session.db"), b = lookIntoStore(out + "/session.db");
@@ -90,7 +90,7 @@ std::unique_ptr<TemporaryFolder> Split::shared_;
 
 TEST_F(Split, isOneRecording) {
   map({all()}, folder.file("all"));
-  for (const std::string& name : kSame)
+  for (const std::string& name : kSameWhenSplit)
     EXPECT_TRUE(readFile(whole() + "/" + name) == readFile(folder.file("all/" + name))) << name;
   EXPECT_EQ(urban_nav_core::readTum(whole() + "/trajectory.tum").size(), static_cast<std::size_t>(kFrames));
   EXPECT_NE(forcesIn(whole() + "/session.db"), "none");

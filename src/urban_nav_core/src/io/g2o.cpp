@@ -14,13 +14,13 @@ namespace {
 
 using Words = GraphLines::Words;
 
-std::size_t poseSize(int dimension) { return dimension == 2 ? 3 : 7; }
-std::size_t informationSize(int dimension) { return dimension == 2 ? 6 : 21; }
+std::size_t g2oPoseSize(int dimension) { return dimension == 2 ? 3 : 7; }
+std::size_t g2oInformationSize(int dimension) { return dimension == 2 ? 6 : 21; }
 Eigen::Index tangentSize(int dimension) { return dimension == 2 ? 3 : 6; }
 
-class Parser {
+class G2oParser {
  public:
-  Parser(const std::string& name, UnknownTags unknown)
+  G2oParser(const std::string& name, UnknownTags unknown)
       : lines_(name, unknown, "VERTEX_SE2, VERTEX_SE3:QUAT, EDGE_SE2, EDGE_SE3:QUAT, FIX", "SE2 and SE3") {}
 
   void line(std::string_view text, int number) {
@@ -39,7 +39,7 @@ class Parser {
 
  private:
   void vertex(const Words& words, int dimension) {
-    lines_.demandColumns(words, 2 + poseSize(dimension), dimension);
+    lines_.demandColumns(words, 2 + g2oPoseSize(dimension), dimension);
     G2oGraph::Vertex vertex;
     vertex.id = lines_.id(words[1]);
     pose(words, 2, dimension, vertex.values);
@@ -47,18 +47,18 @@ class Parser {
   }
 
   void edge(const Words& words, int dimension) {
-    lines_.demandColumns(words, 3 + poseSize(dimension) + informationSize(dimension), dimension);
+    lines_.demandColumns(words, 3 + g2oPoseSize(dimension) + g2oInformationSize(dimension), dimension);
     G2oGraph::Edge edge;
     edge.from = lines_.id(words[1]);
     edge.to = lines_.id(words[2]);
     pose(words, 3, dimension, edge.values);
-    for (std::size_t i = 0; i < informationSize(dimension); ++i)
-      edge.information[i] = lines_.number(words[3 + poseSize(dimension) + i]);
+    for (std::size_t i = 0; i < g2oInformationSize(dimension); ++i)
+      edge.information[i] = lines_.number(words[3 + g2oPoseSize(dimension) + i]);
     lines_.add(edge);
   }
 
   void pose(const Words& words, std::size_t first, int dimension, std::array<double, 7>& values) const {
-    for (std::size_t i = 0; i < poseSize(dimension); ++i) values[i] = lines_.number(words[first + i]);
+    for (std::size_t i = 0; i < g2oPoseSize(dimension); ++i) values[i] = lines_.number(words[first + i]);
     if (dimension == 2) return;
     const double length = Quaterniond(values[6], values[3], values[4], values[5]).norm();
     if (!(std::abs(length - 1.0) <= 0.01))
@@ -76,20 +76,20 @@ void appendNumbers(std::string& text, const std::array<double, N>& values, std::
   }
 }
 
-void appendLine(std::string& text, const G2oGraph& graph, const G2oGraph::Line& line) {
+void appendG2oLine(std::string& text, const G2oGraph& graph, const G2oGraph::Line& line) {
   const std::string type = graph.dimension == 2 ? "SE2 " : "SE3:QUAT ";
   switch (line.kind) {
     case G2oGraph::Kind::Vertex: {
       const auto& vertex = graph.vertices[line.index];
       text += "VERTEX_" + type + std::to_string(vertex.id);
-      appendNumbers(text, vertex.values, poseSize(graph.dimension));
+      appendNumbers(text, vertex.values, g2oPoseSize(graph.dimension));
       break;
     }
     case G2oGraph::Kind::Edge: {
       const auto& edge = graph.edges[line.index];
       text += "EDGE_" + type + std::to_string(edge.from) + " " + std::to_string(edge.to);
-      appendNumbers(text, edge.values, poseSize(graph.dimension));
-      appendNumbers(text, edge.information, informationSize(graph.dimension));
+      appendNumbers(text, edge.values, g2oPoseSize(graph.dimension));
+      appendNumbers(text, edge.information, g2oInformationSize(graph.dimension));
       break;
     }
     case G2oGraph::Kind::Fix: text += "FIX " + std::to_string(graph.fixed[line.index]); break;
@@ -162,7 +162,7 @@ Matrix6d g2oFromBoxInformation(const Matrix6d& box, const Pose& T_from_to) {
 G2oGraph readG2o(const std::string& path, UnknownTags unknown) { return parseG2o(readTextFile(path), path, unknown); }
 
 G2oGraph parseG2o(std::string_view text, const std::string& name, UnknownTags unknown) {
-  Parser parser(name, unknown);
+  G2oParser parser(name, unknown);
   forEachLine(text, [&parser](std::string_view line, int number) { parser.line(line, number); });
   return parser.take();
 }
@@ -183,7 +183,7 @@ std::vector<G2oGraph::Line> linesOf(const G2oGraph& graph) {
 
 std::string printG2o(const G2oGraph& graph) {
   std::string text;
-  for (const G2oGraph::Line& line : linesOf(graph)) appendLine(text, graph, line);
+  for (const G2oGraph::Line& line : linesOf(graph)) appendG2oLine(text, graph, line);
   return text;
 }
 

@@ -12,7 +12,7 @@
 namespace urban_nav_core {
 namespace {
 
-constexpr int kColumns = 12;
+constexpr int kKittiColumns = 12;
 
 bool isRotation(const Matrix3d& R) {
   constexpr double kTolerance = 1e-3;
@@ -20,11 +20,11 @@ bool isRotation(const Matrix3d& R) {
 }
 
 KittiMatrix parseLine(const std::vector<std::string_view>& words, const std::string& where) {
-  if (words.size() != static_cast<std::size_t>(kColumns)) {
+  if (words.size() != static_cast<std::size_t>(kKittiColumns)) {
     throw UserError(where, std::to_string(words.size()) + " columns", "12: a 3x4 matrix, row by row");
   }
   KittiMatrix M;
-  for (int i = 0; i < kColumns; ++i) {
+  for (int i = 0; i < kKittiColumns; ++i) {
     const std::string_view word = words[static_cast<std::size_t>(i)];
     const auto number = parseNumber(word);
     if (!number) throw UserError(where, "`" + std::string(word) + "`", "a finite number");
@@ -39,9 +39,9 @@ KittiMatrix parseLine(const std::vector<std::string_view>& words, const std::str
 std::string printKitti(const std::vector<KittiMatrix>& matrices) {
   std::string text;
   for (const KittiMatrix& M : matrices) {
-    for (int i = 0; i < kColumns; ++i) {
+    for (int i = 0; i < kKittiColumns; ++i) {
       appendNumber(text, M(i / 4, i % 4));
-      text += i + 1 < kColumns ? ' ' : '\n';
+      text += i + 1 < kKittiColumns ? ' ' : '\n';
     }
   }
   return text;

@@ -18,8 +18,8 @@ constexpr const char* known_tags = "VERTEX2, VERTEX, EDGE2, EDGE, VERTEX3, EDGE3
 bool isVertex2(std::string_view tag) { return tag == "VERTEX2" || tag == "VERTEX"; }
 bool isEdge2(std::string_view tag) { return tag == "EDGE2" || tag == "EDGE"; }
 
-std::size_t poseSize(int dimension) { return dimension == 2 ? 3 : 6; }
-std::size_t informationSize(int dimension) { return dimension == 2 ? 6 : 21; }
+std::size_t toroPoseSize(int dimension) { return dimension == 2 ? 3 : 6; }
+std::size_t toroInformationSize(int dimension) { return dimension == 2 ? 6 : 21; }
 
 // Where the numbers of EDGE2 (11 12 22 33 13 23) stand in the upper triangle (11 12 13 22 23 33).
 constexpr std::array<std::size_t, 6> upper_of_toro = {0, 1, 3, 5, 2, 4};
@@ -53,9 +53,9 @@ void scaleRotation(std::array<double, 21>& information, double scale) {
   }
 }
 
-class Parser {
+class ToroParser {
  public:
-  Parser(const std::string& name, UnknownTags unknown) : lines_(name, unknown, known_tags, "plane and space") {}
+  ToroParser(const std::string& name, UnknownTags unknown) : lines_(name, unknown, known_tags, "plane and space") {}
 
   void line(std::string_view text, int number) {
     const Words words = lines_.begin(text, number);
@@ -73,7 +73,7 @@ class Parser {
 
  private:
   void vertex(const Words& words, int dimension) {
-    lines_.demandColumns(words, 2 + poseSize(dimension), dimension);
+    lines_.demandColumns(words, 2 + toroPoseSize(dimension), dimension);
     G2oGraph::Vertex vertex;
     vertex.id = lines_.id(words[1]);
     vertex.values = pose(words, 2, dimension);
@@ -81,13 +81,13 @@ class Parser {
   }
 
   void edge(const Words& words, int dimension) {
-    lines_.demandColumns(words, 3 + poseSize(dimension) + informationSize(dimension), dimension);
+    lines_.demandColumns(words, 3 + toroPoseSize(dimension) + toroInformationSize(dimension), dimension);
     G2oGraph::Edge edge;
     edge.from = lines_.id(words[1]);
     edge.to = lines_.id(words[2]);
     edge.values = pose(words, 3, dimension);
-    for (std::size_t i = 0; i < informationSize(dimension); ++i)
-      edge.information[dimension == 2 ? upper_of_toro[i] : i] = lines_.number(words[3 + poseSize(dimension) + i]);
+    for (std::size_t i = 0; i < toroInformationSize(dimension); ++i)
+      edge.information[dimension == 2 ? upper_of_toro[i] : i] = lines_.number(words[3 + toroPoseSize(dimension) + i]);
     if (dimension == 3) scaleRotation(edge.information, 2.0);
     for (const double value : edge.information)
       if (!std::isfinite(value)) lines_.refuse("information beyond a double's range", "");
@@ -122,7 +122,7 @@ void appendPose(std::string& text, const std::array<double, 7>& values, const Po
   for (int i = 0; i < 3; ++i) appendValue(text, angles[i]);
 }
 
-void appendLine(std::string& text, const G2oGraph& graph, const G2oGraph::Line& line) {
+void appendToroLine(std::string& text, const G2oGraph& graph, const G2oGraph::Line& line) {
   const char digit = graph.dimension == 2 ? '2' : '3';
   switch (line.kind) {
     case G2oGraph::Kind::Vertex: {
@@ -137,7 +137,7 @@ void appendLine(std::string& text, const G2oGraph& graph, const G2oGraph::Line& 
       appendPose(text, edge.values, graph.pose(edge), graph.dimension);
       std::array<double, 21> information = edge.information;
       if (graph.dimension == 3) scaleRotation(information, 0.5);
-      for (std::size_t i = 0; i < informationSize(graph.dimension); ++i)
+      for (std::size_t i = 0; i < toroInformationSize(graph.dimension); ++i)
         appendValue(text, information[graph.dimension == 2 ? upper_of_toro[i] : i]);
       break;
     }
@@ -152,14 +152,14 @@ void appendLine(std::string& text, const G2oGraph& graph, const G2oGraph::Line& 
 G2oGraph readToro(const std::string& path, UnknownTags unknown) { return parseToro(readTextFile(path), path, unknown); }
 
 G2oGraph parseToro(std::string_view text, const std::string& name, UnknownTags unknown) {
-  Parser parser(name, unknown);
+  ToroParser parser(name, unknown);
   forEachLine(text, [&parser](std::string_view line, int number) { parser.line(line, number); });
   return parser.take();
 }
 
 std::string printToro(const G2oGraph& graph) {
   std::string text;
-  for (const G2oGraph::Line& line : linesOf(graph)) appendLine(text, graph, line);
+  for (const G2oGraph::Line& line : linesOf(graph)) appendToroLine(text, graph, line);
   return text;
 }
 

@@ -12,7 +12,7 @@
 namespace urban_nav_core {
 namespace {
 
-constexpr std::size_t kColumns = 8;
+constexpr std::size_t kTumColumns = 8;
 
 // Some writers print 1.403715273262142976e+09, which goes through a double and loses what it has lost already.
 std::optional<StampNs> stampOf(std::string_view text) {
@@ -24,12 +24,12 @@ std::optional<StampNs> stampOf(std::string_view text) {
 
 StampedPose parseLine(std::string_view line, const std::string& where) {
   const auto words = splitBlanks(line);
-  if (words.size() != kColumns) {
+  if (words.size() != kTumColumns) {
     throw UserError(where, std::to_string(words.size()) + " columns", "8: stamp x y z qx qy qz qw");
   }
   const auto stamp = stampOf(words[0]);
   if (!stamp) throw UserError(where, "stamp " + std::string(words[0]), "seconds");
-  std::array<double, kColumns - 1> v{};
+  std::array<double, kTumColumns - 1> v{};
   for (std::size_t i = 0; i < v.size(); ++i) {
     const auto number = parseNumber(words[i + 1]);
     if (!number) throw UserError(where, "`" + std::string(words[i + 1]) + "`", "a finite number");

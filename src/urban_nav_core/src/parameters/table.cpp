@@ -7,15 +7,10 @@
 #include <set>
 
 #include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/io/text.hpp"
 
 namespace urban_nav_core {
 namespace {
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
 
 double asNumber(const ParameterValue& value) {
   if (const auto* whole = std::get_if<std::int64_t>(&value.base())) return static_cast<double>(*whole);

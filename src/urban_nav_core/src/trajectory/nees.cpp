@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "urban_nav_core/trajectory/nees.hpp"
 
-#include <Eigen/Cholesky>
 #include <cassert>
+
+#include "urban_nav_core/geometry/small_matrices.hpp"
 
 namespace urban_nav_core {
 namespace {
 
 template <int N>
 std::optional<double> normalised(const Eigen::Matrix<double, N, 1>& d, const Eigen::Matrix<double, N, N>& covariance) {
-  const Eigen::LLT<Eigen::Matrix<double, N, N>> factor(covariance);
-  if (factor.info() != Eigen::Success || !covariance.allFinite() || !d.allFinite()) return std::nullopt;
-  return factor.matrixL().solve(d).squaredNorm();
+  const SmallCholesky<N> factored(covariance);
+  if (!factored.succeeded() || !covariance.allFinite() || !d.allFinite()) return std::nullopt;
+  return factored.whiten(d).squaredNorm();
 }
 
 }  // namespace

@@ -12,24 +12,24 @@
 namespace urban_nav_core {
 namespace {
 
-StereoCamera camera() { return {{389.5, 391.25, 254.75, 201.5, 512, 384}, 0.12}; }
+StereoCamera infoCamera() { return {{389.5, 391.25, 254.75, 201.5, 512, 384}, 0.12}; }
 
 TEST(CameraInfo, OfARectifiedPairGivesThePairBack) {
-  const StereoCamera back = stereoCamera(leftInfo(camera()), rightInfo(camera()), "here");
-  EXPECT_TRUE(isApprox(back, camera(), 1e-12)) << back;
-  EXPECT_FALSE(needsRectification(leftInfo(camera())));
-  EXPECT_FALSE(needsRectification(rightInfo(camera())));
-  EXPECT_TRUE(isApprox(rawCamera(leftInfo(camera()), "here").pinhole, camera().left, 0.0));
+  const StereoCamera back = stereoCamera(leftInfo(infoCamera()), rightInfo(infoCamera()), "here");
+  EXPECT_TRUE(isApprox(back, infoCamera(), 1e-12)) << back;
+  EXPECT_FALSE(needsRectification(leftInfo(infoCamera())));
+  EXPECT_FALSE(needsRectification(rightInfo(infoCamera())));
+  EXPECT_TRUE(isApprox(rawCamera(leftInfo(infoCamera()), "here").pinhole, infoCamera().left, 0.0));
 }
 
 TEST(CameraInfo, SaysWhetherARemapIsNeeded) {
-  CameraInfo info = leftInfo(camera());
+  CameraInfo info = leftInfo(infoCamera());
   info.D[0] = -0.1;
   EXPECT_TRUE(needsRectification(info));
-  info = leftInfo(camera());
+  info = leftInfo(infoCamera());
   info.K(0, 2) += 1.0;
   EXPECT_TRUE(needsRectification(info));
-  info = leftInfo(camera());
+  info = leftInfo(infoCamera());
   info.R = Eigen::AngleAxisd(0.01, Eigen::Vector3d::UnitX()).toRotationMatrix();
   EXPECT_TRUE(needsRectification(info));
   info.R.setZero();
@@ -37,7 +37,7 @@ TEST(CameraInfo, SaysWhetherARemapIsNeeded) {
 }
 
 std::string errorAfter(const std::function<void(CameraInfo&, CameraInfo&)>& spoil) {
-  CameraInfo left = leftInfo(camera()), right = rightInfo(camera());
+  CameraInfo left = leftInfo(infoCamera()), right = rightInfo(infoCamera());
   spoil(left, right);
   try {
     stereoCamera(left, right, "calib.yaml");

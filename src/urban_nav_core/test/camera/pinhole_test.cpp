@@ -11,10 +11,10 @@
 namespace urban_nav_core {
 namespace {
 
-Pinhole camera() { return {389.5, 391.25, 254.75, 201.5, 512, 384}; }
+Pinhole pinholeCamera() { return {389.5, 391.25, 254.75, 201.5, 512, 384}; }
 
 TEST(Pinhole, AgreesWithOpenCv) {
-  const Pinhole pinhole = camera();
+  const Pinhole pinhole = pinholeCamera();
   const cv::Matx33d K(pinhole.fx, 0, pinhole.cx, 0, pinhole.fy, pinhole.cy, 0, 0, 1);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> xy(-5.0, 5.0), z(0.3, 60.0);
@@ -31,13 +31,13 @@ TEST(Pinhole, AgreesWithOpenCv) {
 }
 
 TEST(Pinhole, RayLeadsBackToThePoint) {
-  const Pinhole pinhole = camera();
+  const Pinhole pinhole = pinholeCamera();
   const Eigen::Vector3d p(0.7, -1.3, 4.0);
   EXPECT_TRUE((pinhole.ray(*pinhole.project(p)) * p.z()).isApprox(p, 1e-14));
 }
 
 TEST(Pinhole, JacobianIsTheNumericDerivative) {
-  const Pinhole pinhole = camera();
+  const Pinhole pinhole = pinholeCamera();
   for (const Eigen::Vector3d& p : {Eigen::Vector3d(0.7, -1.3, 4.0), Eigen::Vector3d(-3.0, 2.0, 0.4)}) {
     const auto J = pinhole.projectJacobian(p);
     for (int k = 0; k < 3; ++k) {
@@ -49,7 +49,7 @@ TEST(Pinhole, JacobianIsTheNumericDerivative) {
 }
 
 TEST(Pinhole, NothingBehindTheCameraOrAtItsCentre) {
-  const Pinhole pinhole = camera();
+  const Pinhole pinhole = pinholeCamera();
   EXPECT_FALSE(pinhole.project({0.1, 0.1, 0.0}));
   EXPECT_FALSE(pinhole.project({0.1, 0.1, -1.0}));
   EXPECT_FALSE(pinhole.project({0.1, 0.1, 1e-310}));
@@ -57,7 +57,7 @@ TEST(Pinhole, NothingBehindTheCameraOrAtItsCentre) {
 }
 
 TEST(Pinhole, ContainsHalfAPixelAroundTheCentres) {
-  const Pinhole pinhole = camera();
+  const Pinhole pinhole = pinholeCamera();
   EXPECT_TRUE(pinhole.contains({-0.5, -0.5}));
   EXPECT_TRUE(pinhole.contains({511.49, 383.49}));
   EXPECT_FALSE(pinhole.contains({511.5, 0.0}));
@@ -65,14 +65,14 @@ TEST(Pinhole, ContainsHalfAPixelAroundTheCentres) {
 }
 
 TEST(Pinhole, ComparesAndPrints) {
-  Pinhole other = camera();
+  Pinhole other = pinholeCamera();
   other.cx += 0.01;
-  EXPECT_TRUE(isApprox(camera(), other, 0.02));
-  EXPECT_FALSE(isApprox(camera(), other, 0.005));
+  EXPECT_TRUE(isApprox(pinholeCamera(), other, 0.02));
+  EXPECT_FALSE(isApprox(pinholeCamera(), other, 0.005));
   other.cx = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(isApprox(camera(), other, 1e9));
+  EXPECT_FALSE(isApprox(pinholeCamera(), other, 1e9));
   std::ostringstream text;
-  text << camera();
+  text << pinholeCamera();
   EXPECT_EQ(text.str(), "512 x 384 px, fx = 389.5, fy = 391.25, cx = 254.75, cy = 201.5 px");
 }
 

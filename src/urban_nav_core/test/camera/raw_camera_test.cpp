@@ -6,6 +6,8 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "support/opencv.hpp"
+
 namespace urban_nav_core {
 namespace {
 
@@ -18,9 +20,6 @@ RawCamera rational() {
   return {{610.0, 612.5, 330.25, 243.75, 640, 480},
           Distortion({0.45, -0.11, 0.0003, -0.0002, 0.013, 0.80, 0.05, 0.002})};
 }
-
-cv::Matx33d K(const Pinhole& p) { return {p.fx, 0, p.cx, 0, p.fy, p.cy, 0, 0, 1}; }
-std::vector<double> D(const Distortion& d) { return {d.coefficients().begin(), d.coefficients().end()}; }
 
 TEST(RawCamera, AgreesWithOpenCvOverTheImage) {
   for (const RawCamera& camera : {plumbBob(), rational()}) {

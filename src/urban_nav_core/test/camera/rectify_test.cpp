@@ -13,6 +13,7 @@
 #include <optional>
 #include <random>
 
+#include "support/opencv.hpp"
 #include "urban_nav_core/image/fast.hpp"
 #include "urban_nav_core/types/error.hpp"
 
@@ -40,15 +41,9 @@ Pose T_right_left() {
          Pose(left_in_body, Vector3d(-0.0216401454975, -0.064676986768, 0.00981073058949));
 }
 
-cv::Matx33d K(const Pinhole& p) { return {p.fx, 0, p.cx, 0, p.fy, p.cy, 0, 0, 1}; }
-std::vector<double> D(const Distortion& d) { return {d.coefficients().begin(), d.coefficients().end()}; }
 cv::Matx33d toCv(const Matrix3d& R) {
   return {R(0, 0), R(0, 1), R(0, 2), R(1, 0), R(1, 1), R(1, 2), R(2, 0), R(2, 1), R(2, 2)};
 }
-ImageView view(const cv::Mat& image) {
-  return {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)};
-}
-
 cv::Mat smoothImage(int width, int height) {
   cv::Mat image(height, width, CV_8U);
   for (int v = 0; v < height; ++v) {

@@ -6,10 +6,10 @@
 namespace urban_nav_core {
 namespace {
 
-StereoCamera camera() { return {{400.0, 410.0, 250.0, 190.0, 512, 384}, 0.2, 0.3}; }
+StereoCamera surfaceCamera() { return {{400.0, 410.0, 250.0, 190.0, 512, 384}, 0.2, 0.3}; }
 
 TEST(Surface, HasTheSlopesOfItsDisparity) {
-  const StereoCamera c = camera();
+  const StereoCamera c = surfaceCamera();
   const StereoCamera::Pixel pixel(300.0, 250.0, 289.7);
   const Eigen::Vector2d slopes(0.1, 0.3);
   const Eigen::Vector3d plane = surfaceThrough(c, pixel, slopes);
@@ -23,7 +23,7 @@ TEST(Surface, HasTheSlopesOfItsDisparity) {
 }
 
 TEST(Surface, WarpsAsItsPointsProject) {
-  const StereoCamera c = camera();
+  const StereoCamera c = surfaceCamera();
   const Eigen::Vector2d pixel(310.0, 150.0);
   const Eigen::Vector3d ray = c.left.ray(pixel), plane = surfaceThrough(c, {310.0, 150.0, 300.0}, {0.05, 0.2});
   const Pose T_to_from(expSo3({0.05, -0.1, 0.02}), {0.3, -0.1, -0.8});

@@ -15,7 +15,7 @@ using testing::numericJacobian;
 const Pose kT(expSo3({0.3, -0.8, 1.1}), {4.0, -2.0, 0.7});
 const Pose kT_base_camera(expSo3({-1.2, 1.2, -1.1}), {0.1, 0.05, 1.1});
 
-Matrix6d someCovariance() {
+Matrix6d wavyCovariance() {
   Matrix6d A = Matrix6d::Identity();
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 6; ++j) A(i, j) += 0.1 * std::sin(1.0 + 3.0 * i + 7.0 * j);
@@ -40,7 +40,7 @@ TEST(CovarianceFrames, LeftAndRightDifferByTheAdjoint) {
 }
 
 TEST(CovarianceFrames, PoseOfTheCameraMovesToTheBase) {
-  const PoseWithCovariance camera{kT, someCovariance()};
+  const PoseWithCovariance camera{kT, wavyCovariance()};
   const PoseWithCovariance base = baseFromCamera(camera, kT_base_camera);
   EXPECT_TRUE(isApprox(base.pose * kT_base_camera, kT, 1e-14));
   const auto f = [](const Pose& X) { return X * kT_base_camera.inverse(); };
@@ -50,7 +50,7 @@ TEST(CovarianceFrames, PoseOfTheCameraMovesToTheBase) {
 }
 
 TEST(CovarianceFrames, MotionOfTheCameraMovesToTheBase) {
-  const PoseWithCovariance motion{Pose(expSo3({0.0, 0.6, 0.1}), {0.2, 0.0, 0.9}), someCovariance()};
+  const PoseWithCovariance motion{Pose(expSo3({0.0, 0.6, 0.1}), {0.2, 0.0, 0.9}), wavyCovariance()};
   const PoseWithCovariance base = baseMotionFromCameraMotion(motion, kT_base_camera);
   const auto f = [](const Pose& X) { return kT_base_camera * X * kT_base_camera.inverse(); };
   EXPECT_TRUE(isApprox(base.pose, f(motion.pose), 1e-14));
@@ -59,14 +59,14 @@ TEST(CovarianceFrames, MotionOfTheCameraMovesToTheBase) {
 }
 
 TEST(CovarianceFrames, MotionsOfTheBaseMultiplyUpLikeThoseOfTheCamera) {
-  const PoseWithCovariance step{Pose(expSo3({0.0, 0.2, 0.0}), {0.0, 0.0, 1.0}), someCovariance()};
+  const PoseWithCovariance step{Pose(expSo3({0.0, 0.2, 0.0}), {0.0, 0.0, 1.0}), wavyCovariance()};
   const PoseWithCovariance by_camera = baseMotionFromCameraMotion(compose(step, step), kT_base_camera);
   const PoseWithCovariance base_step = baseMotionFromCameraMotion(step, kT_base_camera);
   EXPECT_TRUE(isApprox(by_camera, compose(base_step, base_step), 1e-12));
 }
 
 TEST(CovarianceFrames, RelativeToTheFirstTurnsTheAxes) {
-  const PoseWithCovariance base{kT, someCovariance()};
+  const PoseWithCovariance base{kT, wavyCovariance()};
   const PoseWithCovariance relative = relativeToFirst(base, kT_base_camera);
   EXPECT_TRUE(isApprox(kT_base_camera * relative.pose, kT, 1e-14));
   const auto f = [](const Pose& X) { return kT_base_camera.inverse() * X; };
@@ -75,7 +75,7 @@ TEST(CovarianceFrames, RelativeToTheFirstTurnsTheAxes) {
 }
 
 TEST(CovarianceFrames, InformationOfMovedTangentIsTheInverseOfItsCovariance) {
-  const Matrix6d J = boxFromLeft(kT), covariance = someCovariance();
+  const Matrix6d J = boxFromLeft(kT), covariance = wavyCovariance();
   const Matrix6d information = transformInformation(leftFromBox(kT), covariance.inverse());
   EXPECT_LE((information * transformCovariance(J, covariance) - Matrix6d::Identity()).norm(), 1e-9);
 }
@@ -105,7 +105,7 @@ TEST(CovarianceFrames, DisplayShowsFreeDirectionsAsVeryLong) {
 }
 
 TEST(CovarianceFrames, DisplayOfFullInformationIsItsInverse) {
-  const Matrix6d covariance = someCovariance();
+  const Matrix6d covariance = wavyCovariance();
   EXPECT_LE((covarianceForDisplay(covariance.inverse(), 3.0) - covariance).norm(), 1e-12);
 }
 

@@ -13,14 +13,12 @@
 #include <random>
 #include <set>
 
+#include "support/opencv.hpp"
+
 namespace urban_nav_core {
 namespace {
 
-using Place = std::pair<int, int>;  // v, u: in reading order
-
-ImageView view(const cv::Mat& image) {
-  return {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)};
-}
+using RowColumn = std::pair<int, int>;  // v, u: in reading order
 
 /// Noise smoothed over `sigma` px and stretched: corners of all scores.
 cv::Mat randomImage(int width, int height, double sigma, unsigned seed) {
@@ -34,16 +32,16 @@ cv::Mat randomImage(int width, int height, double sigma, unsigned seed) {
   return image;
 }
 
-std::set<Place> byOpenCv(const cv::Mat& image, int threshold) {
+std::set<RowColumn> byOpenCv(const cv::Mat& image, int threshold) {
   std::vector<cv::KeyPoint> found;
   cv::FAST(image, found, threshold, false, cv::FastFeatureDetector::TYPE_9_16);
-  std::set<Place> places;
+  std::set<RowColumn> places;
   for (const cv::KeyPoint& point : found) places.emplace(cvRound(point.pt.y), cvRound(point.pt.x));
   return places;
 }
 
-std::set<Place> places(const std::vector<Corner>& corners) {
-  std::set<Place> result;
+std::set<RowColumn> places(const std::vector<Corner>& corners) {
+  std::set<RowColumn> result;
   for (const Corner& corner : corners) result.emplace(corner.v, corner.u);
   return result;
 }
@@ -73,8 +71,9 @@ void expectAsOpenCv(const cv::Mat& image, const std::string& name) {
   for (const int threshold : {0, 5, 12, 20, 60, 200, 254}) {
     const std::vector<Corner>& corners = fast.detect(view(image), threshold, Fast::Suppression::None);
     EXPECT_EQ(places(corners), byOpenCv(image, threshold)) << name << ", threshold " << threshold;
-    EXPECT_TRUE(std::is_sorted(corners.begin(), corners.end(),
-                               [](const Corner& a, const Corner& b) { return Place(a.v, a.u) < Place(b.v, b.u); }));
+    EXPECT_TRUE(std::is_sorted(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) {
+      return RowColumn(a.v, a.u) < RowColumn(b.v, b.u);
+    }));
   }
 }
 
@@ -117,16 +116,16 @@ TEST(Fast, SuppressionKeepsLocalMaximaAndOneOfEquals) {
   cv::Mat image = randomImage(150, 110, 1.0, 6);
   image /= 12;  // few grey levels, many equal scores
   Fast fast;
-  std::map<Place, int> scores;
+  std::map<RowColumn, int> scores;
   for (const Corner& corner : fast.detect(view(image), 1, Fast::Suppression::None))
     scores[{corner.v, corner.u}] = corner.fast;
-  std::set<Place> expected;
+  std::set<RowColumn> expected;
   int ties = 0;
   for (const auto& [place, score] : scores) {
     bool kept = true;
     for (int dv = -1; dv <= 1; ++dv) {
       for (int du = -1; du <= 1; ++du) {
-        const Place other(place.first + dv, place.second + du);
+        const RowColumn other(place.first + dv, place.second + du);
         if (other == place || scores.count(other) == 0) continue;
         ties += scores[other] == score ? 1 : 0;
         if (scores[other] > score || (scores[other] == score && other < place)) kept = false;

@@ -8,6 +8,8 @@
 #include <random>
 #include <vector>
 
+#include "support/opencv.hpp"
+
 namespace urban_nav_core {
 namespace {
 
@@ -18,10 +20,6 @@ cv::Mat randomImage(int width, int height, unsigned seed) {
     for (int u = 0; u < width; ++u) image.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(random() & 255U);
   }
   return image;
-}
-
-ImageView view(const cv::Mat& image) {
-  return {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)};
 }
 
 StructureTensor plain(const cv::Mat& image, int u, int v) {

@@ -23,18 +23,18 @@ std::vector<std::uint8_t> corner(double sigma) {
   return pixels;
 }
 
-ImageView view(const std::vector<std::uint8_t>& pixels) { return {pixels.data(), width, width, width}; }
+ImageView viewOfPixels(const std::vector<std::uint8_t>& pixels) { return {pixels.data(), width, width, width}; }
 
 // A corner moves into its bright side as it is blurred, and a template that is blurred as well moves along.
 TEST(PatchBlur, takesTheDisplacementOfACornerAway) {
   const std::vector<std::uint8_t> sharp = corner(0.6), soft = corner(std::sqrt(0.36 + 1.0));
-  const auto source = cutSource(view(sharp), 32, 32);
+  const auto source = cutSource(viewOfPixels(sharp), 32, 32);
   ASSERT_TRUE(source);
   PatchTemplate as_it_was, as_blurred;
   ASSERT_TRUE(warpTemplate(*source, {}, as_it_was));
   ASSERT_TRUE(warpTemplate(blurred(*source, {1.0, 1.0}), {}, as_blurred));
-  const Alignment wrong = alignPatch(view(soft), as_it_was, {32.0, 32.0}),
-                  right = alignPatch(view(soft), as_blurred, {32.0, 32.0});
+  const Alignment wrong = alignPatch(viewOfPixels(soft), as_it_was, {32.0, 32.0}),
+                  right = alignPatch(viewOfPixels(soft), as_blurred, {32.0, 32.0});
   ASSERT_TRUE(wrong.converged && right.converged);
   const Eigen::Vector2d middle(32.0, 32.0);
   EXPECT_GT((wrong.position - middle).norm(), 0.1);
@@ -45,7 +45,7 @@ TEST(PatchBlur, takesTheDisplacementOfACornerAway) {
 
 TEST(PatchBlur, ofNothingChangesNothing) {
   const std::vector<std::uint8_t> sharp = corner(0.6);
-  const auto source = cutSource(view(sharp), 32, 32);
+  const auto source = cutSource(viewOfPixels(sharp), 32, 32);
   EXPECT_EQ(blurred(*source, Eigen::Vector2d::Zero()).pixels, source->pixels);
 }
 

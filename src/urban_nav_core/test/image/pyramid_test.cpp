@@ -7,14 +7,12 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
+#include "support/opencv.hpp"
+
 namespace urban_nav_core {
 namespace {
 
-ImageView view(const cv::Mat& image) {
-  return {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)};
-}
-
-cv::Mat noise(int width, int height, unsigned seed) {
+cv::Mat drawImage(int width, int height, unsigned seed) {
   std::mt19937 random(seed);
   cv::Mat image(height, width, CV_8U);
   for (int v = 0; v < height; ++v) {
@@ -50,7 +48,7 @@ cv::Mat reduced(const cv::Mat& below) {
 TEST(Pyramid, EveryPixelIsByTheDefinitionAtOddAndEvenSizes) {
   for (const auto& [width, height] :
        {std::pair{64, 48}, {65, 49}, {97, 33}, {161, 47}, {16, 16}, {31, 18}, {3, 2}, {1, 1}}) {
-    cv::Mat expected = noise(width, height, static_cast<unsigned>(width));
+    cv::Mat expected = drawImage(width, height, static_cast<unsigned>(width));
     Pyramid pyramid(4);
     pyramid.build(view(expected));
     ASSERT_GE(pyramid.levels(), 1);
@@ -69,7 +67,7 @@ TEST(Pyramid, EveryPixelIsByTheDefinitionAtOddAndEvenSizes) {
 }
 
 TEST(Pyramid, AgreesWithOpenCv) {
-  const cv::Mat image = noise(1241, 376, 5);
+  const cv::Mat image = drawImage(1241, 376, 5);
   Pyramid pyramid(3, 1241, 376);
   pyramid.build(view(image));
   ASSERT_EQ(pyramid.levels(), 3);
@@ -111,7 +109,7 @@ TEST(Pyramid, AStructureAtUStandsAtUOverTwoToTheLevel) {
 }
 
 TEST(Pyramid, OwnsItsPixelsAndReadsThroughAStride) {
-  cv::Mat wide = noise(200, 100, 7);
+  cv::Mat wide = drawImage(200, 100, 7);
   const cv::Mat inside = wide(cv::Rect(13, 9, 101, 67));
   const cv::Mat copy = inside.clone();
   Pyramid pyramid(2);
@@ -122,7 +120,7 @@ TEST(Pyramid, OwnsItsPixelsAndReadsThroughAStride) {
 }
 
 TEST(Pyramid, KeepsItsMemoryAndStopsAtSmallImages) {
-  const cv::Mat a = noise(80, 60, 1), b = noise(80, 60, 2);
+  const cv::Mat a = drawImage(80, 60, 1), b = drawImage(80, 60, 2);
   Pyramid pyramid(6, 80, 60);
   pyramid.build(view(a));
   EXPECT_EQ(pyramid.levels(), 2) << "20 x 15 is below the smallest side";

@@ -11,7 +11,7 @@
 namespace urban_nav_core {
 namespace {
 
-struct Picture {
+struct RowPicture {
   int width = 160, height = 40;
   std::vector<std::uint8_t> pixels = std::vector<std::uint8_t>(160 * 40, 100);
   ImageView view() const { return {pixels.data(), width, height, width}; }
@@ -19,7 +19,7 @@ struct Picture {
 };
 
 /// Random blocks of 2x2 px, the right one shifted by `disparity` to the left.
-void paint(int disparity, unsigned seed, Picture& left, Picture& right) {
+void paint(int disparity, unsigned seed, RowPicture& left, RowPicture& right) {
   std::mt19937 random(seed);
   std::vector<std::uint8_t> blocks(20 * 200);
   for (auto& b : blocks) b = static_cast<std::uint8_t>(random() % 200);
@@ -33,7 +33,7 @@ void paint(int disparity, unsigned seed, Picture& left, Picture& right) {
 
 TEST(FindDisparity, FindsItInSpiteOfBrightness) {
   for (const int disparity : {-2, 0, 1, 7, 30, 60}) {
-    Picture left, right;
+    RowPicture left, right;
     paint(disparity, 3, left, right);
     const auto found = findDisparity(left.view(), right.view(), 100, 20, -2, 64);
     ASSERT_TRUE(found) << disparity;
@@ -42,7 +42,7 @@ TEST(FindDisparity, FindsItInSpiteOfBrightness) {
 }
 
 TEST(FindDisparity, LooksInTheRowThatIsMeant) {
-  Picture left, right, lower;
+  RowPicture left, right, lower;
   paint(7, 3, left, right);
   for (int v = 0; v < 40; ++v)
     for (int u = 0; u < 160; ++u) lower.at(u, v) = right.at(u, std::max(0, v - 3));
@@ -54,22 +54,22 @@ TEST(FindDisparity, LooksInTheRowThatIsMeant) {
 }
 
 TEST(FindDisparity, RefusesWhatRepeatsItselfOrIsNotThere) {
-  Picture left, right;
+  RowPicture left, right;
   for (int v = 0; v < 40; ++v)
     for (int u = 0; u < 160; ++u)
       left.at(u, v) = right.at(u, v) = static_cast<std::uint8_t>(100 + 50 * ((u / 5 + v / 5) % 2));
   EXPECT_FALSE(findDisparity(left.view(), right.view(), 100, 20, -2, 64));
-  Picture other, unused;
+  RowPicture other, unused;
   paint(0, 1, left, unused);
   paint(0, 2, unused, other);
   EXPECT_FALSE(findDisparity(left.view(), other.view(), 100, 20, -2, 64));
-  Picture flat;
+  RowPicture flat;
   EXPECT_FALSE(findDisparity(flat.view(), flat.view(), 100, 20, -2, 64));
   EXPECT_FALSE(findDisparity(left.view(), other.view(), 2, 20, -2, 64));
 }
 
 TEST(FindDisparity, StaysWithinTheRangeItWasGiven) {
-  Picture left, right;
+  RowPicture left, right;
   paint(40, 5, left, right);
   EXPECT_FALSE(findDisparity(left.view(), right.view(), 100, 20, -2, 30));
   EXPECT_TRUE(findDisparity(left.view(), right.view(), 100, 20, -2, 41));

@@ -11,7 +11,7 @@ namespace urban_nav_core {
 namespace {
 
 /// Of the whole range of grey levels, so that sums reach their largest values.
-std::vector<std::uint8_t> noise(int width, int height, unsigned seed) {
+std::vector<std::uint8_t> drawPixels(int width, int height, unsigned seed) {
   std::mt19937 random(seed);
   std::vector<std::uint8_t> pixels;
   for (int i = 0; i < width * height; ++i)
@@ -21,7 +21,7 @@ std::vector<std::uint8_t> noise(int width, int height, unsigned seed) {
 
 TEST(SadRow, IsTheSumPlaceByPlaceWithEveryInstructionSet) {
   constexpr int width = 60, height = 9;
-  const std::vector<std::uint8_t> a = noise(width, height, 1), b = noise(width, height, 2);
+  const std::vector<std::uint8_t> a = drawPixels(width, height, 1), b = drawPixels(width, height, 2);
   const ImageView left{a.data(), width, height, width}, right{b.data(), width, height, width};
   const SadPatch patch = sadPatch(left, 20, 4);
   for (const auto& set : sad_row::instructionSets())
@@ -36,7 +36,7 @@ TEST(SadRow, IsTheSumPlaceByPlaceWithEveryInstructionSet) {
 
 TEST(SadRow, HasAnyLength) {
   constexpr int width = 60, height = 9;
-  const std::vector<std::uint8_t> pixels = noise(width, height, 3);
+  const std::vector<std::uint8_t> pixels = drawPixels(width, height, 3);
   const ImageView image{pixels.data(), width, height, width};
   const SadPatch patch = sadPatch(image, 20, 4);
   for (int count = 0; count <= width - 7; ++count) {

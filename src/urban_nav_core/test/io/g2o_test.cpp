@@ -15,19 +15,19 @@
 namespace urban_nav_core {
 namespace {
 
-const char* const kPlane =
+const char* const kG2oPlane =
     "VERTEX_SE2 0 0 0 0\n"
     "VERTEX_SE2 1   1.5 0.25\t-3.1\n"
     "FIX 0\n"
     "EDGE_SE2 0 1 1.5 0.25 -3.1 50 1 2 60 3 100   \n"
     "# a remark\n"
     "PARAMS_X 0  1 2\n";
-const char* const kSpace =
+const char* const kG2oSpace =
     "VERTEX_SE3:QUAT 7 1 2 3 0 0 0.6 0.800001\n"
     "EDGE_SE3:QUAT 7 8 1 2 3 0.5 0.5 0.5 0.5 1 0 0 0 0 0 2 0 0 0 0 3 0 0 0 4 0 0 5 0 6\n";
 
 TEST(G2o, ReadsThePlane) {
-  const G2oGraph graph = parseG2o(kPlane, "g.g2o");
+  const G2oGraph graph = parseG2o(kG2oPlane, "g.g2o");
   EXPECT_EQ(graph.dimension, 2);
   ASSERT_EQ(graph.vertices.size(), 2U);
   ASSERT_EQ(graph.edges.size(), 1U);
@@ -40,7 +40,7 @@ TEST(G2o, ReadsThePlane) {
 }
 
 TEST(G2o, ReadsSpaceAndNormalisesOnlyOnRequest) {
-  const G2oGraph graph = parseG2o(kSpace, "g.g2o");
+  const G2oGraph graph = parseG2o(kG2oSpace, "g.g2o");
   EXPECT_EQ(graph.dimension, 3);
   EXPECT_EQ(graph.vertices[0].values[6], 0.800001);
   EXPECT_NEAR(graph.pose(graph.vertices[0]).q().norm(), 1.0, 1e-15);
@@ -48,12 +48,12 @@ TEST(G2o, ReadsSpaceAndNormalisesOnlyOnRequest) {
 }
 
 TEST(G2o, RoundTripKeepsNumbersAndOrder) {
-  const std::string text = printG2o(parseG2o(kPlane, "g.g2o"));
+  const std::string text = printG2o(parseG2o(kG2oPlane, "g.g2o"));
   EXPECT_EQ(
       text,
       "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1.5 0.25 -3.1\nFIX 0\nEDGE_SE2 0 1 1.5 0.25 -3.1 50 1 2 60 3 100\n# a remark\nPARAMS_X 0  1 2\n");
   EXPECT_EQ(printG2o(parseG2o(text, "g.g2o")), text);
-  EXPECT_EQ(printG2o(parseG2o(kSpace, "g.g2o")), kSpace);
+  EXPECT_EQ(printG2o(parseG2o(kG2oSpace, "g.g2o")), kG2oSpace);
 }
 
 TEST(G2o, GraphsMadeHereArePrintedToo) {
@@ -86,10 +86,10 @@ TEST(G2o, NamesFileAndLine) {
   EXPECT_EQ(error("VERTEX_SE2 0 1 2 nan\n"), "g.g2o:1: `nan`: allowed a finite number");
   EXPECT_EQ(error("VERTEX_SE2 0 1 2 3\nVERTEX_SE2 0 1 2 3\n"), "g.g2o:2: vertex 0 stands twice");
   EXPECT_EQ(error("VERTEX_SE3:QUAT 0 1 2 3 0 0 0 0\n"), "g.g2o:1: a quaternion of length 0: allowed length 1 (1 %)");
-  EXPECT_EQ(error(std::string(kPlane) + kSpace), "g.g2o:7: SE2 and SE3 in one file: allowed one of them");
+  EXPECT_EQ(error(std::string(kG2oPlane) + kG2oSpace), "g.g2o:7: SE2 and SE3 in one file: allowed one of them");
   EXPECT_EQ(error("FIX\n"), "g.g2o:1: FIX without a vertex: allowed FIX id");
   EXPECT_EQ(error("EDGE_SE2 1 1 1 1 1 1 0 0 1 0 1\n"), "g.g2o:1: an edge from 1 to itself");
-  EXPECT_EQ(error(kPlane, UnknownTags::Refuse),
+  EXPECT_EQ(error(kG2oPlane, UnknownTags::Refuse),
             "g.g2o:6: unknown tag PARAMS_X: allowed VERTEX_SE2, VERTEX_SE3:QUAT, EDGE_SE2, EDGE_SE3:QUAT, FIX");
 }
 
@@ -135,7 +135,7 @@ TEST(G2o, RealGraphsRoundTrip) {
 }
 
 TEST(G2o, Fuzzed) {
-  expectSurvives(testing::fuzzText({kPlane, kSpace}, [](const std::string& text) {
+  expectSurvives(testing::fuzzText({kG2oPlane, kG2oSpace}, [](const std::string& text) {
     const G2oGraph graph = parseG2o(text, "g");
     for (const auto& vertex : graph.vertices) {
       if (!graph.pose(vertex).isFinite()) throw std::runtime_error("a pose that is not finite");

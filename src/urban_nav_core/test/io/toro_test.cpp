@@ -13,17 +13,17 @@
 namespace urban_nav_core {
 namespace {
 
-const char* const kPlane =
+const char* const kToroPlane =
     "VERTEX2 0 0 0 0\n"
     "VERTEX2 1   1.5 0.25\t-3.1\n"
     "EDGE2 0 1 1.5 0.25 -3.1 11 12 22 33 13 23   \n"
     "EQUIV 0 1\n";
-const char* const kSpace =
+const char* const kToroSpace =
     "VERTEX3 7 1 2 3 0.1 -0.2 2.5\n"
     "EDGE3 7 8 1 2 3 0.3 0.4 -0.5 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21\n";
 
 TEST(Toro, ReadsThePlaneWithItsOwnOrderOfTheInformation) {
-  const G2oGraph graph = parseToro(kPlane, "g.graph");
+  const G2oGraph graph = parseToro(kToroPlane, "g.graph");
   EXPECT_EQ(graph.dimension, 2);
   ASSERT_EQ(graph.vertices.size(), 2U);
   ASSERT_EQ(graph.edges.size(), 1U);
@@ -35,7 +35,7 @@ TEST(Toro, ReadsThePlaneWithItsOwnOrderOfTheInformation) {
 }
 
 TEST(Toro, ReadsSpaceWithYawOutermost) {
-  const G2oGraph graph = parseToro(kSpace, "g.graph");
+  const G2oGraph graph = parseToro(kToroSpace, "g.graph");
   EXPECT_EQ(graph.dimension, 3);
   const Quaterniond R = expSo3({0, 0, 2.5}) * expSo3({0, -0.2, 0}) * expSo3({0.1, 0, 0});
   EXPECT_TRUE(isApprox(graph.pose(graph.vertices[0]), Pose(R, {1, 2, 3}), 1e-15));
@@ -48,7 +48,7 @@ TEST(Toro, ReadsSpaceWithYawOutermost) {
 }
 
 TEST(Toro, TheInformationSaysTheSameOfASmallErrorAsBefore) {
-  const G2oGraph graph = parseToro(kSpace, "g.graph");
+  const G2oGraph graph = parseToro(kToroSpace, "g.graph");
   const Vector6d angles = 1e-5 * (Vector6d() << 1, -2, 3, -4, 5, -6).finished();
   const Quaterniond E = expSo3({0, 0, angles[5]}) * expSo3({0, angles[4], 0}) * expSo3({angles[3], 0, 0});
   Vector6d g2o = angles;
@@ -62,14 +62,14 @@ TEST(Toro, TheInformationSaysTheSameOfASmallErrorAsBefore) {
 }
 
 TEST(Toro, RoundTripOfThePlaneKeepsEveryNumber) {
-  const std::string text = printToro(parseToro(kPlane, "g.graph"));
+  const std::string text = printToro(parseToro(kToroPlane, "g.graph"));
   EXPECT_EQ(text, "VERTEX2 0 0 0 0\nVERTEX2 1 1.5 0.25 -3.1\nEDGE2 0 1 1.5 0.25 -3.1 11 12 22 33 13 23\nEQUIV 0 1\n");
   EXPECT_EQ(printToro(parseToro("VERTEX 3 1 2 3\nEDGE 3 4 1 2 3 1 0 1 1 0 0\n", "g")),
             "VERTEX2 3 1 2 3\nEDGE2 3 4 1 2 3 1 0 1 1 0 0\n");
 }
 
 TEST(Toro, RoundTripOfSpaceKeepsEveryNumberToTheLastBits) {
-  const G2oGraph graph = parseToro(kSpace, "g.graph");
+  const G2oGraph graph = parseToro(kToroSpace, "g.graph");
   const G2oGraph back = parseToro(printToro(graph), "g.graph");
   ASSERT_EQ(back.vertices.size(), graph.vertices.size());
   ASSERT_EQ(back.edges.size(), graph.edges.size());
@@ -93,7 +93,7 @@ TEST(Toro, AnglesComeBackFromEveryAttitude) {
 }
 
 TEST(Toro, GoesOverIntoG2oAndBack) {
-  const std::string text = printToro(parseToro(kPlane, "g"));
+  const std::string text = printToro(parseToro(kToroPlane, "g"));
   EXPECT_EQ(printToro(parseG2o(printG2o(parseToro(text, "g")), "g.g2o")), text);
 }
 
@@ -107,17 +107,17 @@ TEST(Toro, NamesFileAndLine) {
   EXPECT_EQ(error("VERTEX2 -1 1 2 3\n"), "g.graph:1: vertex `-1`: allowed whole numbers from 0");
   EXPECT_EQ(error("VERTEX2 0 1 2 nan\n"), "g.graph:1: `nan`: allowed a finite number");
   EXPECT_EQ(error("VERTEX2 0 1 2 3\nVERTEX2 0 1 2 3\n"), "g.graph:2: vertex 0 stands twice");
-  EXPECT_EQ(error(std::string(kPlane) + kSpace), "g.graph:5: plane and space in one file: allowed one of them");
+  EXPECT_EQ(error(std::string(kToroPlane) + kToroSpace), "g.graph:5: plane and space in one file: allowed one of them");
   EXPECT_EQ(error("EDGE2 1 1 1 1 1 1 0 0 1 0 1\n"), "g.graph:1: an edge from 1 to itself");
   EXPECT_EQ(error("FIX\n"), "g.graph:1: FIX without a vertex: allowed FIX id");
-  EXPECT_EQ(error(kPlane, UnknownTags::Refuse),
+  EXPECT_EQ(error(kToroPlane, UnknownTags::Refuse),
             "g.graph:4: unknown tag EQUIV: allowed VERTEX2, VERTEX, EDGE2, EDGE, VERTEX3, EDGE3, FIX");
   EXPECT_NE(error("EDGE3 7 8 1 2 3 0 0 0 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1e308 0 0 1 0 1\n"), "");
 }
 
 TEST(Toro, IsToldFromG2o) {
-  EXPECT_TRUE(isToro(kPlane));
-  EXPECT_TRUE(isToro(std::string("# a remark\n\n") + kSpace));
+  EXPECT_TRUE(isToro(kToroPlane));
+  EXPECT_TRUE(isToro(std::string("# a remark\n\n") + kToroSpace));
   EXPECT_FALSE(isToro("VERTEX_SE2 0 0 0 0\nVERTEX2 1 0 0 0\n"));
   EXPECT_FALSE(isToro("EDGE_SE3:QUAT 0 1\n"));
   EXPECT_FALSE(isToro(""));
@@ -126,14 +126,14 @@ TEST(Toro, IsToldFromG2o) {
 TEST(Toro, WritesWhatItReads) {
   const std::string path =
       (std::filesystem::temp_directory_path() / ("urban_nav_toro_" + std::to_string(::getpid()))).string();
-  writeToro(path, parseToro(kPlane, "g"));
+  writeToro(path, parseToro(kToroPlane, "g"));
   EXPECT_EQ(printToro(readToro(path)), readTextFile(path));
   std::filesystem::remove(path);
   EXPECT_NE(errorOf([&] { readToro(path); }), "");
 }
 
 TEST(Toro, Fuzzed) {
-  expectSurvives(testing::fuzzText({kPlane, kSpace}, [](const std::string& text) {
+  expectSurvives(testing::fuzzText({kToroPlane, kToroSpace}, [](const std::string& text) {
     const G2oGraph graph = parseToro(text, "g");
     for (const auto& vertex : graph.vertices) {
       if (!graph.pose(vertex).isFinite()) throw std::runtime_error("a pose that is not finite");

@@ -17,9 +17,9 @@ namespace {
 const std::string empty_readme =
     "# Title\n<!-- parameters: stage -->\nold\n<!-- end -->\nbetween\n<!-- parameters:  -->\n<!-- end -->\nrest\n";
 
-class Documents : public testing::Test {
+class Documents : public ::testing::Test {
  protected:
-  Documents() : package_(testing::TempDir() + "documents_test") {
+  Documents() : package_(::testing::TempDir() + "documents_test") {
     std::filesystem::remove_all(package_);
     std::filesystem::create_directories(package_ + "/config");
   }

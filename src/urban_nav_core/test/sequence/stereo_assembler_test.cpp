@@ -5,10 +5,10 @@
 
 #include <cstdint>
 
+#include "support/time.hpp"
+
 namespace urban_nav_core {
 namespace {
-
-constexpr StampNs ms = 1'000'000;
 
 OwnedImage image(StampNs stamp, std::uint8_t value) {
   auto pixels = std::make_shared<std::vector<std::uint8_t>>(16, value);

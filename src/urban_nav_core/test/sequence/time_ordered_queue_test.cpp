@@ -5,21 +5,22 @@
 
 #include <random>
 
+#include "support/time.hpp"
+
 namespace urban_nav_core {
 namespace {
 
-constexpr StampNs ms = 1'000'000;
 using TestQueue = TimeOrderedQueue<int>;
-using Place = std::pair<StampNs, int>;
+using Entry = std::pair<StampNs, int>;
 
-std::vector<Place> drain(TestQueue& queue) {
-  std::vector<Place> out;
+std::vector<Entry> drain(TestQueue& queue) {
+  std::vector<Entry> out;
   while (const auto entry = queue.take()) out.emplace_back(entry->stamp, entry->stream);
   return out;
 }
 
-std::vector<Place> threeStreams() {
-  std::vector<Place> inputs;
+std::vector<Entry> threeStreams() {
+  std::vector<Entry> inputs;
   for (StampNs t = 0; t < 2000; t += 50) {
     inputs.emplace_back(t * ms, 1);
     inputs.emplace_back(t * ms, 2);
@@ -30,39 +31,39 @@ std::vector<Place> threeStreams() {
 }
 
 TEST(TimeOrderedQueue, whateverIsShuffledWithinTheLatenessLeavesInOrder) {
-  const std::vector<Place> inputs = threeStreams();
+  const std::vector<Entry> inputs = threeStreams();
   std::mt19937 random(7);
   std::uniform_real_distribution<double> delay(0.0, 50.0);
   for (int run = 0; run < 20; ++run) {
-    std::vector<std::pair<double, Place>> arrivals;
-    for (const Place& input : inputs)
+    std::vector<std::pair<double, Entry>> arrivals;
+    for (const Entry& input : inputs)
       arrivals.emplace_back(static_cast<double>(input.first) / ms + delay(random), input);
     std::sort(arrivals.begin(), arrivals.end());
     TestQueue queue(3, 50 * ms);
-    std::vector<Place> out;
+    std::vector<Entry> out;
     for (const auto& [when, input] : arrivals) {
       ASSERT_TRUE(queue.put(input.second, input.first, 0));
-      for (const Place& place : drain(queue)) out.push_back(place);
+      for (const Entry& place : drain(queue)) out.push_back(place);
     }
     queue.finish();
-    for (const Place& place : drain(queue)) out.push_back(place);
+    for (const Entry& place : drain(queue)) out.push_back(place);
     ASSERT_EQ(out, inputs);
   }
 }
 
 TEST(TimeOrderedQueue, theSameOrderWhetherStreamsAreTakenAsOrderedOrNot) {
   TestQueue live(3, 100 * ms, DeliveryOrder::OrderedStreams), offline(3, 50 * ms);
-  std::vector<Place> live_out, offline_out;
-  for (const Place& input : threeStreams()) {
+  std::vector<Entry> live_out, offline_out;
+  for (const Entry& input : threeStreams()) {
     live.put(input.second, input.first, 0);
     offline.put(input.second, input.first, 0);
-    for (const Place& place : drain(live)) live_out.push_back(place);
-    for (const Place& place : drain(offline)) offline_out.push_back(place);
+    for (const Entry& place : drain(live)) live_out.push_back(place);
+    for (const Entry& place : drain(offline)) offline_out.push_back(place);
   }
   live.finish();
   offline.finish();
-  for (const Place& place : drain(live)) live_out.push_back(place);
-  for (const Place& place : drain(offline)) offline_out.push_back(place);
+  for (const Entry& place : drain(live)) live_out.push_back(place);
+  for (const Entry& place : drain(offline)) offline_out.push_back(place);
   EXPECT_EQ(live_out, offline_out);
   EXPECT_EQ(live_out, threeStreams());
 }
@@ -72,7 +73,7 @@ TEST(TimeOrderedQueue, orderedStreamsLeaveAsSoonAsAllHaveComeThatFar) {
   queue.put(0, 50 * ms, 0);
   EXPECT_TRUE(drain(queue).empty());
   queue.put(1, 50 * ms, 0);
-  EXPECT_EQ(drain(queue), (std::vector<Place>{{50 * ms, 0}, {50 * ms, 1}}));
+  EXPECT_EQ(drain(queue), (std::vector<Entry>{{50 * ms, 0}, {50 * ms, 1}}));
 }
 
 TEST(TimeOrderedQueue, aSilentStreamIsWaitedForNoLongerThanTheLateness) {
@@ -81,7 +82,7 @@ TEST(TimeOrderedQueue, aSilentStreamIsWaitedForNoLongerThanTheLateness) {
   queue.put(0, 99 * ms, 0);
   EXPECT_TRUE(drain(queue).empty());
   queue.put(0, 100 * ms, 0);
-  EXPECT_EQ(drain(queue), (std::vector<Place>{{0, 0}}));
+  EXPECT_EQ(drain(queue), (std::vector<Entry>{{0, 0}}));
   EXPECT_FALSE(queue.reached(1));
   EXPECT_EQ(*queue.reached(0), 100 * ms);
 }
@@ -105,9 +106,9 @@ TEST(TimeOrderedQueue, oneStampFarAheadHoldsNothingUp) {
   TestQueue queue(1, 10 * ms);
   queue.put(0, 100 * ms, 0);
   queue.put(0, 100'000'000 * ms, 0);
-  EXPECT_EQ(drain(queue), (std::vector<Place>{{100 * ms, 0}}));
+  EXPECT_EQ(drain(queue), (std::vector<Entry>{{100 * ms, 0}}));
   queue.put(0, 150 * ms, 0);
-  EXPECT_EQ(drain(queue), (std::vector<Place>{{150 * ms, 0}}));
+  EXPECT_EQ(drain(queue), (std::vector<Entry>{{150 * ms, 0}}));
   EXPECT_EQ(queue.waiting(), 1U);
 }
 

@@ -7,10 +7,11 @@
 #include <limits>
 #include <sstream>
 
+#include "support/time.hpp"
+
 namespace urban_nav_core {
 namespace {
 
-constexpr StampNs kSecond = 1000000000;
 constexpr StampNs kMs = 1000000;
 
 // A way with bends and changes of speed, sampled every `step`.

@@ -12,7 +12,7 @@
 namespace urban_nav_core {
 namespace {
 
-Matrix6d someCovariance() {
+Matrix6d definiteCovariance() {
   Matrix6d A;
   for (int i = 0; i < 36; ++i) A(i / 6, i % 6) = 0.01 * std::sin(1.0 + i * i);
   return A * A.transpose() + 1e-4 * Matrix6d::Identity();
@@ -32,7 +32,7 @@ TEST(Nees, OfOneSigmaAlongEachAxisIsSix) {
 }
 
 TEST(Nees, HasTheMeanOfItsDimension) {
-  const PoseWithCovariance estimate{Pose(expSo3({0.3, 0.2, 1}), {1, 2, 3}), someCovariance()};
+  const PoseWithCovariance estimate{Pose(expSo3({0.3, 0.2, 1}), {1, 2, 3}), definiteCovariance()};
   const Matrix6d L = estimate.covariance.llt().matrixL();
   std::mt19937 random(1);
   std::normal_distribution<double> n;

@@ -6,12 +6,11 @@
 #include <limits>
 #include <sstream>
 
+#include "support/time.hpp"
 #include "urban_nav_core/trajectory/interpolate.hpp"
 
 namespace urban_nav_core {
 namespace {
-
-constexpr StampNs kSecond = 1000000000;
 
 Trajectory corner() {
   Trajectory t;

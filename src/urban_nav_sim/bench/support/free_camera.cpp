@@ -10,7 +10,7 @@
 namespace urban_nav_sim::bench {
 namespace {
 
-constexpr int kFiner = 3;
+constexpr int kPixelSamples = 3;
 constexpr float kMiddle = 0.145F;  // what the mean of the lower two thirds becomes, linear
 
 /// Filmic curve (Narkowicz 2015), then the gamma of screens.
@@ -36,7 +36,7 @@ Lens FreeCamera::lens(int finer) const {
 
 cv::Mat photograph(const Tracer& tracer, const Sky& sky, const FreeCamera& camera, double t) {
   Picture picture;
-  render(Snapshot(tracer, t, t), sky, RayTable(camera.lens(kFiner)), camera.place(), Colours::Rgb, picture);
+  render(Snapshot(tracer, t, t), sky, RayTable(camera.lens(kPixelSamples)), camera.place(), Colours::Rgb, picture);
   const cv::Mat fine(picture.height, picture.width, CV_32FC3, picture.radiance.data());
   cv::Mat light, image(camera.height, camera.width, CV_8UC3);
   cv::resize(cv::min(fine, 4.0), light, image.size(), 0.0, 0.0, cv::INTER_AREA);  // the sun's disc would spread

@@ -10,7 +10,7 @@
 namespace urban_nav_sim::bench {
 namespace {
 
-constexpr int kFiner = 2;
+constexpr int kPointViewScale = 2;
 constexpr double kSize = 0.025;    // m, half the side of the square that a point is drawn as
 constexpr float kDarkness = 1.5F;  // of edges
 const cv::Vec3b kBackground(36, 28, 24);
@@ -20,7 +20,7 @@ struct Drawn {
 };
 
 Drawn drawn(const std::vector<Return>& cloud, const FreeCamera& camera) {
-  const Lens lens = camera.lens(kFiner);
+  const Lens lens = camera.lens(kPointViewScale);
   const urban_nav_core::Pose T_camera_world = camera.place().inverse();
   Drawn d{cv::Mat(lens.height, lens.width, CV_32F, std::numeric_limits<float>::infinity()),
           cv::Mat(lens.height, lens.width, CV_32F, 0.0F), cv::Mat(lens.height, lens.width, CV_32F, 0.0F)};

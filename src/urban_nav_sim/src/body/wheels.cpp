@@ -10,7 +10,7 @@
 namespace urban_nav_sim {
 namespace {
 
-constexpr int kSteps = 9;  // between two measurements: 4 ms, in which speeds hardly change
+constexpr int kWheelSteps = 9;  // between two measurements: 4 ms, in which speeds hardly change
 constexpr double kCountsPerMetre = 33215.0, kCountsPerSpeed = 332.0, kCountsPerTurn = 7.8 * 180.0 / M_PI;
 
 struct Rolling {
@@ -56,8 +56,8 @@ Wheels::Wheels(const Ride& ride, const WheelOptions& options, const Clock& clock
   Both travel{0.0, 0.0}, counted{0.0, 0.0};
   double x = 0.0, y = 0.0, yaw = 0.0, last = 0.0;
   for (std::int64_t k = 0; k < count; ++k) {
-    const double t = schedule.at(k), dt = (t - last) / kSteps;
-    for (int i = 0; i < kSteps; ++i) {
+    const double t = schedule.at(k), dt = (t - last) / kWheelSteps;
+    for (int i = 0; i < kWheelSteps; ++i) {
       const Both speeds = speedsAt(last + (i + 0.5) * dt);
       Both way;
       for (std::size_t w = 0; w < 2; ++w) {

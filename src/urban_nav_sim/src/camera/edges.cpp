@@ -12,12 +12,12 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr int kRays = 4;                   // through a pixel
-constexpr int kTogether = kLanes / kRays;  // pixels of a packet
+constexpr int kRaysOfPixel = 4;                   // through a pixel
+constexpr int kTogether = kLanes / kRaysOfPixel;  // pixels of a packet
 
 /// Rooks that do not take each other, and not on a diagonal either: any edge, however it lies, goes past them one by one.
-constexpr std::array<int, kRays> kRow = {2, 0, 3, 1};
-float along(int i) { return (static_cast<float>(i) + 0.5F) / kRays - 0.5F; }
+constexpr std::array<int, kRaysOfPixel> kRow = {2, 0, 3, 1};
+float along(int i) { return (static_cast<float>(i) + 0.5F) / kRaysOfPixel - 0.5F; }
 
 int bits(std::uint32_t mask) { return static_cast<int>(std::bitset<kLanes>(mask).count()); }
 
@@ -56,7 +56,7 @@ class Smoother {
     std::uint32_t lanes = 0;
   };
   struct Shares {
-    std::array<Share, kRays> all;
+    std::array<Share, kRaysOfPixel> all;
     int count = 0;
   };
 
@@ -64,17 +64,18 @@ class Smoother {
     Packet packet;
     std::array<std::array<int, 2>, kLanes> pixels{};
     for (int lane = 0; lane < kLanes; ++lane) {
-      const int i = lane % kRays, u = waiting[static_cast<std::size_t>(std::min(lane / kRays, count - 1))].u;
+      const int i = lane % kRaysOfPixel,
+                u = waiting[static_cast<std::size_t>(std::min(lane / kRaysOfPixel, count - 1))].u;
       pixels[static_cast<std::size_t>(lane)] = {u, v};
       eye_.aim(lane, u, v, along(i), along(kRow[static_cast<std::size_t>(i)]), packet);
     }
-    packet.active = (1U << count * kRays) - 1U;
+    packet.active = (1U << count * kRaysOfPixel) - 1U;
     Eye::Seen seen;
     eye_.trace(packet, seen);
     std::array<Shares, kTogether> shares;
     std::uint32_t lanes = 0;
     for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
-      shares[k] = sharesOf(seen, static_cast<int>(k) * kRays);
+      shares[k] = sharesOf(seen, static_cast<int>(k) * kRaysOfPixel);
       for (int i = 0; i < shares[k].count; ++i) {
         const Share& share = shares[k].all[static_cast<std::size_t>(i)];
         if (waiting[k].edge == Edge::OfShadow) lanes |= share.lanes;
@@ -88,7 +89,7 @@ class Smoother {
 
   Shares sharesOf(const Eye::Seen& seen, int begin) const {
     Shares shares;
-    for (int lane = begin; lane < begin + kRays; ++lane) {
+    for (int lane = begin; lane < begin + kRaysOfPixel; ++lane) {
       const Met met{seen.hits.facet[lane], seen.hits.mover[lane]};
       int i = 0;
       for (; i < shares.count; ++i) {
@@ -132,7 +133,7 @@ class Smoother {
       }
       for (std::size_t c = 0; c < channels; ++c) sum[c] += static_cast<float>(bits(lanes)) * own[c];
     }
-    for (std::size_t c = 0; c < channels; ++c) radiance[c] = sum[c] / kRays;
+    for (std::size_t c = 0; c < channels; ++c) radiance[c] = sum[c] / kRaysOfPixel;
   }
 
   const Tracer& tracer_;

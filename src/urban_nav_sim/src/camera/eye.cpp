@@ -9,7 +9,7 @@ using Eigen::Vector3f;
 
 namespace {
 
-constexpr float kFar = 5000.0F;         // m of depth
+constexpr float kFarDepth = 5000.0F;    // m of depth
 constexpr float kShadowOffset = 2e-3F;  // m off the surface, so that it does not shade itself
 
 /// What a grey sensor makes of colours: silicon behind glass, most sensitive to green and red.
@@ -28,7 +28,7 @@ void Eye::aim(int lane, int u, int v, float du, float dv, Packet& packet) const 
   const Eigen::Vector2f ideal = rays_.at(u, v) + du * rays_.right(u, v) + dv * rays_.down(u, v);
   packet.setOrigin(lane, origin_);
   packet.setDirection(lane, inWorld(ideal, 1.0F));
-  packet.far[lane] = kFar;
+  packet.far[lane] = kFarDepth;
   packet.time[lane] = 0.0F;
   packet.active |= 1U << lane;
 }
@@ -39,7 +39,7 @@ void Eye::examine(const Packet& packet, const std::array<std::array<int, 2>, kLa
   for (int lane = 0; lane < kLanes; ++lane) {
     shadow.setDirection(lane, sky_.day().to_sun);
     shadow.setOrigin(lane, origin_);
-    shadow.far[lane] = kFar;
+    shadow.far[lane] = kFarDepth;
     shadow.time[lane] = 0.0F;
     if ((lanes >> lane & 1U) == 0 || !seen.met(lane)) continue;
     const auto [u, v] = pixels[static_cast<std::size_t>(lane)];

@@ -25,16 +25,17 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 using urban_nav_core::Pose;
 
-constexpr double kStep = 0.5 * M_PI / 180.0;          // rad from beam to beam
+constexpr double kBeamStep = 0.5 * M_PI / 180.0;      // rad from beam to beam
 constexpr double kExit = 0.013, kDivergence = 0.011;  // m, rad: width of the beam (1.6 there)
 constexpr double kWeakest = 0.1 / (30.0 * 30.0);      // 30 m on an albedo of 0.1 (1.3 there)
 constexpr double kPulse = 1.5;                        // m: echoes nearer to each other than that are one to the device
-constexpr float kFar = 200.0F;                        // m
-constexpr int kRays = 5, kBeamsOfPacket = kLanes / kRays;  // the middle of the beam, and four places around it
+constexpr float kFarRange = 200.0F;                   // m
+constexpr int kRaysOfBeam = 5,
+              kBeamsOfPacket = kLanes / kRaysOfBeam;  // the middle of the beam, and four places around it
 
 /// Towards the ray of a beam's footprint, laser's frame; the outer ones lie at half the radius.
 Vector3d rayOf(int beam, int ray) {
-  const double angle = -M_PI / 4.0 + kStep * beam, off = kDivergence / 4.0;
+  const double angle = -M_PI / 4.0 + kBeamStep * beam, off = kDivergence / 4.0;
   const double up = ray == 1 ? off : ray == 2 ? -off : 0.0, aside = ray == 3 ? off : ray == 4 ? -off : 0.0;
   return {std::cos(angle) - aside * std::sin(angle), std::sin(angle) + aside * std::cos(angle), up};
 }
@@ -106,7 +107,7 @@ Lms291::Reading Lms291::measured(const Footprint& footprint, const Noise& noise,
 /// What comes back to each part of the beam's cross-section.
 Lms291::Footprint Lms291::echoes(const Snapshot& snapshot, const Packet& packet, const Hits& hits, int first_lane) {
   Footprint footprint;
-  for (int ray = 0; ray < kRays; ++ray) {
+  for (int ray = 0; ray < kRaysOfBeam; ++ray) {
     const int lane = first_lane + ray;
     if (hits.facet[lane] == kNothing) continue;
     // The look is taken over the width of the beam.
@@ -132,7 +133,7 @@ urban_nav_core::PlanarScan Lms291::scan(const Ride& ride, double t, urban_nav_co
   urban_nav_core::PlanarScan scan;
   scan.stamp = stamp;
   scan.angle_first = -M_PI / 4.0;
-  scan.angle_step = kStep;
+  scan.angle_step = kBeamStep;
   scan.time_step = settings_.period / 720.0;
   scan.period = settings_.period;
   scan.range_min = 0.05;
@@ -146,11 +147,11 @@ urban_nav_core::PlanarScan Lms291::scan(const Ride& ride, double t, urban_nav_co
     for (int i = 0; i < beams; ++i) {
       const int beam = first + i;
       const Pose T_world_laser = ride.at(t + scan.time_step * beam).T_world_base * T_base_laser_;
-      for (int ray = 0; ray < kRays; ++ray) {
-        const int lane = i * kRays + ray;
+      for (int ray = 0; ray < kRaysOfBeam; ++ray) {
+        const int lane = i * kRaysOfBeam + ray;
         packet.setOrigin(lane, T_world_laser.t().cast<float>());
         packet.setDirection(lane, (T_world_laser.q() * rayOf(beam, ray)).cast<float>());
-        packet.far[lane] = kFar;
+        packet.far[lane] = kFarRange;
         packet.time[lane] = static_cast<float>(beam) / (kBeams - 1);
         packet.active |= 1U << lane;
       }
@@ -158,7 +159,7 @@ urban_nav_core::PlanarScan Lms291::scan(const Ride& ride, double t, urban_nav_co
     Hits hits;
     snapshot.closest(packet, hits);
     for (int i = 0; i < beams; ++i) {
-      const Footprint footprint = echoes(snapshot, packet, hits, i * kRays);
+      const Footprint footprint = echoes(snapshot, packet, hits, i * kRaysOfBeam);
       const Reading reading = measured(footprint, noise, first + i);
       scan.ranges.push_back(static_cast<float>(reading.range));
       scan.intensities.push_back(std::isfinite(reading.range) ? static_cast<float>(reading.intensity) : 0.0F);

@@ -10,7 +10,7 @@
 namespace urban_nav_sim {
 namespace {
 
-constexpr double kStep = 0.02;                          // m: of the differences that give the gradient
+constexpr double kGradientStep = 0.02;                  // m: of the differences that give the gradient
 constexpr double kShort = 0.12, kShortHeight = 1.2e-3;  // m: spacing of the lattice and standard deviation
 constexpr double kLong = 0.5, kLongHeight = 6e-3;       // m
 
@@ -39,8 +39,9 @@ double RoughGround::height(double x, double y) const {
 }
 
 Eigen::Vector2d RoughGround::gradient(double x, double y) const {
-  return Eigen::Vector2d(smooth_(x + kStep, y) - smooth_(x - kStep, y), smooth_(x, y + kStep) - smooth_(x, y - kStep)) /
-         (2.0 * kStep);
+  return Eigen::Vector2d(smooth_(x + kGradientStep, y) - smooth_(x - kGradientStep, y),
+                         smooth_(x, y + kGradientStep) - smooth_(x, y - kGradientStep)) /
+         (2.0 * kGradientStep);
 }
 
 Eigen::Vector3d RoughGround::normal(double x, double y) const {

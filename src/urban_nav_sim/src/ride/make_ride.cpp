@@ -16,9 +16,9 @@
 namespace urban_nav_sim {
 namespace {
 
-constexpr double kKnot = 0.02;    // s between the spline's control points
-constexpr int kSteps = 4;         // of the dynamics between two of them
-constexpr double kMargin = 0.25;  // s before and behind, within which the ride is defined
+constexpr double kKnot = 0.02;     // s between the spline's control points
+constexpr int kDynamicsSteps = 4;  // of the dynamics between two of them
+constexpr double kMargin = 0.25;   // s before and behind, within which the ride is defined
 
 // What ground and driver's weight do: at strength 1 and in motion the body sways by 0.3 deg.
 class Pushes {
@@ -74,9 +74,9 @@ std::unique_ptr<Ride> makeRide(const World& world, const Route& route, const Rid
     control.push_back(coordinatesOf(state, ground));
     const SegwayCommand command = i < 0 ? SegwayCommand{} : driver.steer(state, kKnot);
     const double slope = ground.slope(state.position.x(), state.position.y(), state.yaw);
-    for (int j = 0; j < kSteps; ++j) {
-      const double t = kKnot * (i + static_cast<double>(j) / kSteps);
-      state = stepSegway(state, command, pushes.at(t + 1.0, state.speed, slope), kKnot / kSteps);
+    for (int j = 0; j < kDynamicsSteps; ++j) {
+      const double t = kKnot * (i + static_cast<double>(j) / kDynamicsSteps);
+      state = stepSegway(state, command, pushes.at(t + 1.0, state.speed, slope), kKnot / kDynamicsSteps);
     }
   }
   return std::make_unique<SplineRide>(TimeSpline(-before * kKnot, kKnot, std::move(control)), options.duration);

@@ -12,6 +12,7 @@
 #include "session/timeline.hpp"
 #include "truth/cloud.hpp"
 #include "truth/truth_files.hpp"
+#include "urban_nav_core/io/text.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_core/types/frames.hpp"
 #include "world/world.hpp"
@@ -27,12 +28,6 @@ namespace {
 constexpr StampNs first_day = 1'225'719'873'000'000'000;  // of the New College set: 3 November 2008
 constexpr StampNs one_day = 86'400'000'000'000;
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string list;
-  for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
-  return list;
-}
-
 bool seesTheWorld(Sensor sensor) {
   return sensor == Sensor::Stereo || sensor == Sensor::Ladybug || sensor == Sensor::Lasers;
 }
@@ -40,7 +35,7 @@ bool seesTheWorld(Sensor sensor) {
 const SessionOptions& checked(const SessionOptions& options) {
   const std::vector<std::string> worlds = worldNames();
   if (std::find(worlds.begin(), worlds.end(), options.world) == worlds.end())
-    throw UserError(options.where + "world", options.world, joined(worlds));
+    throw UserError(options.where + "world", options.world, urban_nav_core::joined(worlds));
   for (const Sensor sensor : options.views)
     if (!seesTheWorld(sensor) || options.sensors.count(sensor) == 0)
       throw UserError(options.where + "views", std::string("views of \"") + toString(sensor) + "\"",
@@ -54,7 +49,7 @@ Route routeOf(const SessionOptions& options) {
     if (route.name == options.route) return std::move(route);
     names.push_back(route.name);
   }
-  throw UserError(options.where + "route", options.route, joined(names) + " in " + options.world);
+  throw UserError(options.where + "route", options.route, urban_nav_core::joined(names) + " in " + options.world);
 }
 
 RideOptions rideOptions(const SessionOptions& options) {

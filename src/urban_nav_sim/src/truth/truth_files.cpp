@@ -20,7 +20,7 @@ using urban_nav_core::Trajectory;
 
 constexpr double kBehind = 0.05;  // s
 
-double rounded(double value, double per_unit) { return std::round(value * per_unit) / per_unit + 0.0; }
+double roundedTo(double value, double per_unit) { return std::round(value * per_unit) / per_unit + 0.0; }
 
 std::string stampOf(const Trajectory& panoramas, std::size_t index) { return std::to_string(panoramas[index].stamp); }
 
@@ -48,8 +48,9 @@ void writeRevisits(const std::string& path, const Trajectory& panoramas, const s
   AtomicFile file(path);
   file.write(printCsvRow({"stamp_a_ns", "stamp_b_ns", "distance_m", "heading_deg"}));
   for (const Revisit& each : revisits) {
-    file.write(printCsvRow({stampOf(panoramas, each.a), stampOf(panoramas, each.b),
-                            printNumber(rounded(each.distance, 1e4)), printNumber(rounded(each.heading_deg, 1e3))}));
+    file.write(
+        printCsvRow({stampOf(panoramas, each.a), stampOf(panoramas, each.b), printNumber(roundedTo(each.distance, 1e4)),
+                     printNumber(roundedTo(each.heading_deg, 1e3))}));
   }
   file.commit();
 }

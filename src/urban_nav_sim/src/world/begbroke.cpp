@@ -14,14 +14,14 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kRoad = 3.4;  // half the width of a road, m
+constexpr double kHalfRoad = 3.4;  // half the width of a road, m
 
 /// A science park: a building like a C that a road runs around, car parks, other buildings, a wedge of grass.
-struct Plan {
+struct BegbrokePlan {
   double width, depth;  ///< of the rectangle of the ring road's middle; its south side runs through the origin
   std::vector<Vector2d> ring, footpath;
 
-  explicit Plan(std::uint32_t seed) {
+  explicit BegbrokePlan(std::uint32_t seed) {
     Draw draw(hash(seed, 0xBE6));
     width = draw.uniform(56, 64), depth = draw.uniform(42, 50);
     const double w = 0.5 * width;
@@ -30,11 +30,11 @@ struct Plan {
                        false);
   }
   double half() const { return 0.5 * width; }
-  Extent carPark() const { return {-half() - 30, 2, -half() - kRoad + 0.5, depth - 4}; }
-  Extent southPark() const { return {-half(), -26, half() - 8, -kRoad + 0.5}; }
+  Extent carPark() const { return {-half() - 30, 2, -half() - kHalfRoad + 0.5, depth - 4}; }
+  Extent southPark() const { return {-half(), -26, half() - 8, -kHalfRoad + 0.5}; }
 };
 
-void buildPark(Site& site, const Plan& p, std::uint32_t seed) {
+void buildPark(Site& site, const BegbrokePlan& p, std::uint32_t seed) {
   Draw draw(hash(seed, 0xB17));
   Style s;
   s.pitch = 0.45, s.storeys = 2, s.storey = 3.3, s.window = Stuff::ShopWindow, s.window_width = 1.8,
@@ -62,7 +62,7 @@ void buildPark(Site& site, const Plan& p, std::uint32_t seed) {
   house({p.half() + 50, 2, p.half() + 62, 34}, Stuff::Render, 0);
 }
 
-void plantPark(Site& site, const Plan& p, std::uint32_t seed) {
+void plantPark(Site& site, const BegbrokePlan& p, std::uint32_t seed) {
   Draw draw(hash(seed, 0x97A));
   const double w = p.half();
   // Between the ring road and the buildings, and in the yard of the C.
@@ -76,9 +76,9 @@ void plantPark(Site& site, const Plan& p, std::uint32_t seed) {
   for (int i = 0; i < 3; ++i)
     plantTree(site, w - 16 - 5.0 * i, 0.5 * p.depth + draw.uniform(-3, 3), draw.uniform(6, 9), draw.bits());
   for (double y = 4; y < p.depth; y += 15)
-    placeLamp(site, -w + kRoad + 1.2, y, M_PI), placeLamp(site, w - kRoad - 1.2, y, 0.0);
+    placeLamp(site, -w + kHalfRoad + 1.2, y, M_PI), placeLamp(site, w - kHalfRoad - 1.2, y, 0.0);
   for (double x = -w + 5; x < w - 4; x += 17)
-    placeLamp(site, x, kRoad + 1.2, -M_PI / 2), placeLamp(site, x, p.depth + kRoad + 1.2, -M_PI / 2);
+    placeLamp(site, x, kHalfRoad + 1.2, -M_PI / 2), placeLamp(site, x, p.depth + kHalfRoad + 1.2, -M_PI / 2);
   std::vector<Vector2d> ways = p.footpath;
   for (int i = 0, planted = 0; i < 400 && planted < 26; ++i) {  // the wedge of grass in the east
     const double x = draw.uniform(w + 7, w + 48), y = draw.uniform(-18, p.depth + 4), height = draw.uniform(5, 11);
@@ -96,7 +96,7 @@ void plantPark(Site& site, const Plan& p, std::uint32_t seed) {
   placeBench(site, w + 30, 8.5, 0.6), placeBench(site, w + 32, 28.0, 2.4), placeBin(site, w + 7, -4.8);
 }
 
-void paintBays(Site& site, const Plan& p) {
+void paintBays(Site& site, const BegbrokePlan& p) {
   const Finish paint{Stuff::RoadPaint, 0, 2}, kerb{Stuff::Kerb, 0, 1};
   const double above = 0.0015;
   const Extent a = p.carPark(), b = p.southPark();
@@ -114,7 +114,7 @@ void paintBays(Site& site, const Plan& p) {
   for (const double y : {0.0, p.depth}) {
     for (double x = -w + 4; x < w - 5; x += 4) layStrip(site, paint, paint, {x, y}, {x + 1.5, y}, 0.1, above);
   }
-  const double in = kRoad + 0.08;
+  const double in = kHalfRoad + 0.08;
   for (const auto& [from, to] : {std::pair<Vector2d, Vector2d>{{-w + in, in}, {w - in, in}},
                                  {{w - in, in}, {w - in, p.depth - in}},
                                  {{w - in, p.depth - in}, {-w + in, p.depth - in}},
@@ -123,7 +123,7 @@ void paintBays(Site& site, const Plan& p) {
   }
 }
 
-void fillDay(Site& site, const Plan& p, std::uint32_t seed, int day) {
+void fillBegbrokeDay(Site& site, const BegbrokePlan& p, std::uint32_t seed, int day) {
   Draw draw(hash(seed, 0xDA7, static_cast<std::uint64_t>(day)));
   const Extent a = p.carPark(), b = p.southPark();
   for (double y = a.y0 + 2.3; y < a.y1 - 1.5; y += 2.6) {
@@ -141,7 +141,7 @@ void fillDay(Site& site, const Plan& p, std::uint32_t seed, int day) {
   }
   const int people = day == 1 ? 3 : 6 + draw.index(5);
   for (int i = 0; i < people; ++i) {
-    const double w = p.half(), y = draw.chance(0.5) ? kRoad + 2.0 : p.depth - kRoad - 2.0;
+    const double w = p.half(), y = draw.chance(0.5) ? kHalfRoad + 2.0 : p.depth - kHalfRoad - 2.0;
     sendWalker(site, {{-w + 8, y}, {w - 8, y}}, draw.uniform(1.0, 1.6), draw.uniform(), draw.bits());
   }
   if (day > 1) sendCar(site, {a.x0 + 8.3, a.y0}, {a.x0 + 8.3, a.y1}, draw.uniform(2, 4), draw.uniform(), draw.bits());
@@ -152,17 +152,17 @@ void fillDay(Site& site, const Plan& p, std::uint32_t seed, int day) {
 World buildBegbroke(std::uint32_t seed, int day) {
   World world;
   world.name = "begbroke", world.day = makeDay(seed, day), world.ground = makeGround(seed, 0.13);
-  const Plan p(seed);
+  const BegbrokePlan p(seed);
   Site site(world, seed);
   const double w = p.half();
   const Extent all{-w - 52, -48, w + 66, p.depth + 28}, park = p.carPark(), south = p.southPark();
   const auto strewn = patches({-w - 3, -3, w + 3, p.depth + 3}, 120, seed);
   const auto mended = [&](double x, double y) {
-    return std::min(strewn(x, y), kRoad - 0.4 - distanceTo(p.ring, x, y));
+    return std::min(strewn(x, y), kHalfRoad - 0.4 - distanceTo(p.ring, x, y));
   };
   layGround(site, all,
             {{{Stuff::Asphalt, 2, 5}, mended},
-             {{Stuff::Asphalt, 0, 1}, [&](double x, double y) { return kRoad - distanceTo(p.ring, x, y); }},
+             {{Stuff::Asphalt, 0, 1}, [&](double x, double y) { return kHalfRoad - distanceTo(p.ring, x, y); }},
              {{Stuff::Asphalt, 1, 2}, [&](double x, double y) { return insideRectangle(park, 1.0, x, y); }},
              {{Stuff::Asphalt, 1, 2}, [&](double x, double y) { return insideRectangle(south, 1.0, x, y); }},
              {{Stuff::Soil, 0, 1}, [&](double x, double y) { return 1.3 - distanceTo(p.footpath, x, y); }},
@@ -181,12 +181,12 @@ World buildBegbroke(std::uint32_t seed, int day) {
   const double x0 = all.x0 + 2, x1 = all.x1 - 2, y0 = all.y0 + 2, y1 = all.y1 - 3;
   plantBelt(site, {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}, {x0, y0}}, seed);
   paintBays(site, p);
-  fillDay(site, p, seed, day);
+  fillBegbrokeDay(site, p, seed, day);
   return world;
 }
 
 std::vector<Route> routesOfBegbroke(std::uint32_t seed) {
-  const Plan p(seed);
+  const BegbrokePlan p(seed);
   const double w = p.half(), d = p.depth;
   const std::vector<Vector2d> round = {{0, 0}, {w, 0}, {w, d}, {-w, d}, {-w, 0}};
   std::vector<Vector2d> loops = round, orbits4;

@@ -21,13 +21,13 @@ constexpr double kFromWall = 3.8;  // where the robot drives: off the wall
 constexpr double kArch = 3.6;      // width of the archway
 
 /// Where things are, from the seed alone: the route must know it without the world.
-struct Plan {
+struct QuadPlan {
   double west, east, south, north;    ///< the inner faces of the four walls
   double gate;                        ///< y of the archway in the east wing
   double garden;                      ///< x at which the gardens begin
   std::vector<Vector2d> garden_path;  ///< closed, from the archway on, rounded
 
-  explicit Plan(std::uint32_t seed) {
+  explicit QuadPlan(std::uint32_t seed) {
     Draw draw(hash(seed, 0x90AD));
     const double width = draw.uniform(37, 45), depth = draw.uniform(32, 38);
     west = -0.5 * width, east = 0.5 * width, south = -kFromWall, north = depth - kFromWall;
@@ -54,7 +54,7 @@ struct Plan {
   }
 };
 
-void buildWings(Site& site, const Plan& p, std::uint32_t seed) {
+void buildWings(Site& site, const QuadPlan& p, std::uint32_t seed) {
   Draw draw(hash(seed, 0xB1));
   Style style;
   style.wall = {Stuff::Ashlar, static_cast<std::uint64_t>(draw.index(4)), 10};
@@ -81,7 +81,7 @@ void buildWings(Site& site, const Plan& p, std::uint32_t seed) {
 }
 
 /// A tower over the archway: a barrel vault through it, round arches with a ring of stones at both ends.
-void buildGate(Site& site, const Plan& p) {
+void buildGate(Site& site, const QuadPlan& p) {
   constexpr int kStones = 11;
   constexpr double kRing = 0.4, kProud = 0.06;  // m: how broad the ring is, and how far before the wall
   const double radius = 0.5 * kArch, floor = site.ground(p.east + 4, p.gate);
@@ -117,7 +117,7 @@ void buildGate(Site& site, const Plan& p) {
   }
 }
 
-void furnishCourt(Site& site, const Plan& p, std::uint32_t seed) {
+void furnishCourt(Site& site, const QuadPlan& p, std::uint32_t seed) {
   Draw draw(hash(seed, 0xC0));
   const Extent c = p.court();
   // Beds with shrubs at the feet of the walls, with gaps for the doors.
@@ -144,7 +144,7 @@ void furnishCourt(Site& site, const Plan& p, std::uint32_t seed) {
   placeBin(site, c.x1 - 0.7, c.y0 + 0.7);
 }
 
-void plantGardens(Site& site, const Plan& p, std::uint32_t seed) {
+void plantGardens(Site& site, const QuadPlan& p, std::uint32_t seed) {
   Draw draw(hash(seed, 0x6A));
   const Extent g = p.gardens();
   const std::vector<Vector2d> line = p.pathLine();
@@ -196,7 +196,7 @@ void plantGardens(Site& site, const Plan& p, std::uint32_t seed) {
 }
 
 /// What is there on one day and not on another.
-void peopleDay(Site& site, const Plan& p, std::uint32_t seed, int day) {
+void peopleDay(Site& site, const QuadPlan& p, std::uint32_t seed, int day) {
   Draw draw(hash(seed, 0xDE, static_cast<std::uint64_t>(day)));
   const Extent c = p.court();
   // Vans by the walls, out of the way of the robot (1.6 m from the wall to their outer side).
@@ -222,7 +222,7 @@ void peopleDay(Site& site, const Plan& p, std::uint32_t seed, int day) {
 World buildQuad(std::uint32_t seed, int day) {
   World world;
   world.name = "quad", world.day = makeDay(seed, day), world.ground = makeGround(seed, 0.12);
-  const Plan plan(seed);
+  const QuadPlan plan(seed);
   Site site(world, seed);
   const std::vector<Vector2d> path = plan.pathLine();
   const Extent all{plan.west - 14, plan.gate - 44, plan.garden + 84, plan.gate + 58}, court = plan.court(),
@@ -255,7 +255,7 @@ World buildQuad(std::uint32_t seed, int day) {
 }
 
 std::vector<Route> routesOfQuad(std::uint32_t seed) {
-  const Plan p(seed);
+  const QuadPlan p(seed);
   const double x0 = p.west + kFromWall, x1 = p.east - kFromWall, y1 = p.north - kFromWall;
   const std::vector<Vector2d> orbit = {{0, 0}, {x1, 0}, {x1, y1}, {x0, y1}, {x0, 0}};
   std::vector<Vector2d> loops = orbit;

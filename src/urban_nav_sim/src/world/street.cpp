@@ -14,19 +14,19 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kRoad = 5.6;      // half the width between the kerbs, m
-constexpr double kPavement = 2.4;  // width
-constexpr double kFace = kRoad + kPavement;
+constexpr double kHalfStreet = 5.6;  // half the width between the kerbs, m
+constexpr double kPavement = 2.4;    // width
+constexpr double kFace = kHalfStreet + kPavement;
 constexpr double kSide = 4.4, kSideFace = kSide + kPavement;  // the same of side streets, half widths
 constexpr int kBlocks = 5;
 constexpr double kDepth = 9.0;  // of a house
 
 /// Two long streets (y = 0 and y = second) and the side streets between, from the seed alone.
-struct Plan {
+struct StreetPlan {
   double house, block, second;
   int houses;
 
-  explicit Plan(std::uint32_t seed) {
+  explicit StreetPlan(std::uint32_t seed) {
     Draw draw(hash(seed, 0x57E));
     house = draw.uniform(5.2, 6.0), houses = 9;
     block = house * houses + 2.0 * kSideFace;
@@ -37,7 +37,7 @@ struct Plan {
 };
 
 /// A terrace: houses in a row that look alike, every one of a few kinds, so that one place is taken for another.
-void buildTerrace(Site& site, const Plan& p, double x0, double y0, bool faces_south, std::uint64_t row,
+void buildTerrace(Site& site, const StreetPlan& p, double x0, double y0, bool faces_south, std::uint64_t row,
                   std::uint32_t seed) {
   Draw draw(hash(seed, row, 0x7E2));
   Style kinds[3];
@@ -76,7 +76,7 @@ void layPavement(Site& site, const Extent& e) {
   layStrip(site, slabs, kerb, {e.x1 - h, e.y0 + kPavement}, {e.x1 - h, e.y1 - kPavement}, kPavement, height);
 }
 
-void buildBlocks(Site& site, const Plan& p, std::uint32_t seed) {
+void buildBlocks(Site& site, const StreetPlan& p, std::uint32_t seed) {
   Draw draw(hash(seed, 0xB10));
   for (int b = -1; b <= kBlocks; ++b) {
     const double x0 = p.first(b), x1 = x0 + p.house * p.houses;
@@ -85,9 +85,9 @@ void buildBlocks(Site& site, const Plan& p, std::uint32_t seed) {
     buildTerrace(site, p, x0, kFace, true, 4 * row + 1, seed);
     buildTerrace(site, p, x0, p.second - kFace - kDepth, false, 4 * row + 2, seed);
     buildTerrace(site, p, x0, p.second + kFace, true, 4 * row + 3, seed);
-    layPavement(site, {x0 - kPavement, -kFace - kDepth - kPavement, x1 + kPavement, -kRoad});
-    layPavement(site, {x0 - kPavement, kRoad, x1 + kPavement, p.second - kRoad});
-    layPavement(site, {x0 - kPavement, p.second + kRoad, x1 + kPavement, p.second + kFace + kDepth + kPavement});
+    layPavement(site, {x0 - kPavement, -kFace - kDepth - kPavement, x1 + kPavement, -kHalfStreet});
+    layPavement(site, {x0 - kPavement, kHalfStreet, x1 + kPavement, p.second - kHalfStreet});
+    layPavement(site, {x0 - kPavement, p.second + kHalfStreet, x1 + kPavement, p.second + kFace + kDepth + kPavement});
     // Yards behind the houses, with walls, hedges and a tree.
     const double y0 = kFace + kDepth, y1 = p.second - kFace - kDepth;
     for (const double x : {x0 + 0.2, x1 - 0.2})
@@ -95,7 +95,8 @@ void buildBlocks(Site& site, const Plan& p, std::uint32_t seed) {
                2.0);
     plantTree(site, x0 + draw.uniform(5, 40), 0.5 * (y0 + y1), draw.uniform(7, 11), draw.bits());
     plantTree(site, x1 - draw.uniform(1.6, 3.0), 0.5 * (y0 + y1), draw.uniform(6, 8), draw.bits());
-    for (const double y : {-kRoad - 0.5, kRoad + 0.5, p.second - kRoad - 0.5, p.second + kRoad + 0.5}) {
+    for (const double y :
+         {-kHalfStreet - 0.5, kHalfStreet + 0.5, p.second - kHalfStreet - 0.5, p.second + kHalfStreet + 0.5}) {
       const bool south = y < 0.5 * p.second ? y < 0 : y < p.second;
       for (double x = x0 + draw.uniform(4, 10); x < x1 - 3; x += draw.uniform(16, 26))
         placeLamp(site, x, y, south ? M_PI / 2 : -M_PI / 2);
@@ -111,7 +112,7 @@ void buildBlocks(Site& site, const Plan& p, std::uint32_t seed) {
   }
 }
 
-void paintRoads(Site& site, const Plan& p) {
+void paintRoads(Site& site, const StreetPlan& p) {
   const Finish paint{Stuff::RoadPaint, 0, 2};
   const double above = 0.0015, x0 = p.sideStreet(-1), x1 = p.sideStreet(kBlocks + 1);
   for (const double y : {0.0, p.second}) {
@@ -121,8 +122,8 @@ void paintRoads(Site& site, const Plan& p) {
     }
     for (int b = -1; b <= kBlocks; ++b) {
       for (const double s : {-1.0, 1.0})
-        layStrip(site, paint, paint, {p.first(b), y + s * (kRoad - 0.25)},
-                 {p.first(b) + p.house * p.houses, y + s * (kRoad - 0.25)}, 0.09, above);
+        layStrip(site, paint, paint, {p.first(b), y + s * (kHalfStreet - 0.25)},
+                 {p.first(b) + p.house * p.houses, y + s * (kHalfStreet - 0.25)}, 0.09, above);
       // A crossing at the end of each block.
       for (int k = 0; k < 9; ++k)
         layStrip(site, paint, paint, {p.first(b) + 0.5, y - 4.4 + 1.1 * k}, {p.first(b) + 2.7, y - 4.4 + 1.1 * k}, 0.55,
@@ -135,10 +136,10 @@ void paintRoads(Site& site, const Plan& p) {
   }
 }
 
-void fillDay(Site& site, const Plan& p, std::uint32_t seed, int day) {
+void fillStreetDay(Site& site, const StreetPlan& p, std::uint32_t seed, int day) {
   Draw draw(hash(seed, 0xDA9, static_cast<std::uint64_t>(day)));
   for (int b = 0; b < kBlocks; ++b) {
-    for (const double y : {kRoad - 1.25, p.second + kRoad - 1.25, p.second - kRoad + 1.25}) {
+    for (const double y : {kHalfStreet - 1.25, p.second + kHalfStreet - 1.25, p.second - kHalfStreet + 1.25}) {
       for (double x = p.first(b) + 6; x < p.first(b) + p.house * p.houses - 3; x += draw.uniform(5.0, 6.5)) {
         if (draw.chance(0.35)) continue;
         parkCar(site, x, y + 0.08 * draw.normal(), draw.chance(0.8) ? 0.0 : M_PI, draw.chance(0.2), draw.bits());
@@ -147,7 +148,7 @@ void fillDay(Site& site, const Plan& p, std::uint32_t seed, int day) {
   }
   const int people = day == 1 ? 4 : 8 + draw.index(6);
   for (int i = 0; i < people; ++i) {
-    const double y = draw.chance(0.5) ? kRoad + 1.3 : -kRoad - 1.3, x = p.first(draw.index(3));
+    const double y = draw.chance(0.5) ? kHalfStreet + 1.3 : -kHalfStreet - 1.3, x = p.first(draw.index(3));
     sendWalker(site, {{x, y}, {x + p.house * p.houses, y}}, draw.uniform(1.0, 1.6), draw.uniform(), draw.bits());
   }
   // The robot turns off to the north alone, and the ends are inside houses.
@@ -160,7 +161,7 @@ void fillDay(Site& site, const Plan& p, std::uint32_t seed, int day) {
 World buildStreet(std::uint32_t seed, int day) {
   World world;
   world.name = "street", world.day = makeDay(seed, day), world.ground = makeGround(seed, 0.1);
-  const Plan p(seed);
+  const StreetPlan p(seed);
   Site site(world, seed);
   const Extent all{p.sideStreet(-1) - 2, -kFace - kDepth - 8, p.sideStreet(kBlocks + 1) + 2,
                    p.second + kFace + kDepth + 8};
@@ -170,7 +171,7 @@ World buildStreet(std::uint32_t seed, int day) {
   };
   const auto path = [&](double x, double y) { return std::min(yard(x, y), 0.8 - std::abs(y - 0.5 * p.second)); };
   const auto on_road = [&](std::uint64_t which) {
-    return patches({all.x0, -kRoad + 0.5, all.x1, kRoad - 2.5}, 60, hash(seed, which));
+    return patches({all.x0, -kHalfStreet + 0.5, all.x1, kHalfStreet - 2.5}, 60, hash(seed, which));
   };
   layGround(site, all,
             {{{Stuff::Soil, 0, 1}, path},
@@ -197,12 +198,12 @@ World buildStreet(std::uint32_t seed, int day) {
         {p.sideStreet(b) - 7, p.second + kFace + kDepth + 14, p.sideStreet(b) + 7, p.second + kFace + kDepth + 24},
         end);
   }
-  fillDay(site, p, seed, day);
+  fillStreetDay(site, p, seed, day);
   return world;
 }
 
 std::vector<Route> routesOfStreet(std::uint32_t seed) {
-  const Plan p(seed);
+  const StreetPlan p(seed);
   const double x1 = p.sideStreet(1), y1 = p.second;
   const std::vector<Vector2d> round = {{0, 0}, {x1, 0}, {x1, y1}, {0, y1}};
   std::vector<Vector2d> loops = round, orbits4;

@@ -10,13 +10,13 @@
 namespace urban_nav_sim {
 namespace {
 
-constexpr urban_nav_core::StampNs kBegin = 1225719873501685000;
+constexpr urban_nav_core::StampNs kClockBegin = 1225719873501685000;
 
 TEST(Clock, WithoutErrorsStampsAreTrue) {
-  const Clock clock(kBegin, ClockOptions{}, Noise(1, "clock"));
-  EXPECT_EQ(clock.stamp(3, 0.0), kBegin);
-  EXPECT_EQ(clock.stamp(3, 3600.000000001), kBegin + 3600000000001);
-  EXPECT_EQ(clock.taken(0.05), kBegin + 50000000);
+  const Clock clock(kClockBegin, ClockOptions{}, Noise(1, "clock"));
+  EXPECT_EQ(clock.stamp(3, 0.0), kClockBegin);
+  EXPECT_EQ(clock.stamp(3, 3600.000000001), kClockBegin + 3600000000001);
+  EXPECT_EQ(clock.taken(0.05), kClockBegin + 50000000);
 }
 
 TEST(Clock, HasOffsetSkewAndJitter) {
@@ -24,7 +24,7 @@ TEST(Clock, HasOffsetSkewAndJitter) {
   options.offset = 0.25;
   options.skew = 1e-4;
   options.jitter = 1e-3;
-  const Clock clock(kBegin, options, Noise(1, "clock"));
+  const Clock clock(kClockBegin, options, Noise(1, "clock"));
   double mean = 0.0, square = 0.0;
   constexpr int kMany = 20000;
   for (int k = 0; k < kMany; ++k) {
@@ -41,7 +41,7 @@ TEST(Clock, HasOffsetSkewAndJitter) {
 TEST(Clock, StampsOfEverySensorIncrease) {
   for (const Sensor sensor : all_sensors) {
     for (const ClockOptions& options : {correctedClock(sensor), uncorrectedClock(sensor, 7)}) {
-      const Clock clock(kBegin, options, Noise(3, toString(sensor)));
+      const Clock clock(kClockBegin, options, Noise(3, toString(sensor)));
       const Schedule schedule = scheduleOf(sensor);
       for (std::int64_t k = 1; k < 20000; ++k) {
         ASSERT_GT(clock.stamp(k, schedule.at(k)), clock.stamp(k - 1, schedule.at(k - 1))) << toString(sensor);

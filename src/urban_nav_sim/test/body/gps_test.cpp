@@ -11,14 +11,14 @@ namespace {
 using Eigen::Vector3d;
 using urban_nav_core::Pose;
 
-const Clock kClock(0, ClockOptions{}, Noise(1, "clock"));
+const Clock kGpsClock(0, ClockOptions{}, Noise(1, "clock"));
 const Pose kPlace(Eigen::Quaterniond::Identity(), {-0.15, 0.0, 1.3});
-const Schedule kSchedule = scheduleOf(Sensor::Gps);
+const Schedule kGpsSchedule = scheduleOf(Sensor::Gps);
 
 Vector3d offOf(const Gps& gps, const Ride& ride, std::int64_t k) {
   const GpsMeasurement fix = gps.at(k);
   return toLocal(kOxford, {fix.latitude, fix.longitude, fix.altitude}) -
-         ride.at(kSchedule.at(k)).T_world_base * kPlace.t();
+         ride.at(kGpsSchedule.at(k)).T_world_base * kPlace.t();
 }
 
 TEST(Geodesy, KnowsTheLengthsOfDegrees) {
@@ -38,11 +38,11 @@ TEST(Geodesy, BackAndForthIsTheSame) {
 
 TEST(Gps, WithoutErrorsItIsTheAntenna) {
   const auto ride = testRide(60.0);
-  const Gps gps(*ride, kPlace, perfectGps(), kClock, Noise(7, "gps"));
+  const Gps gps(*ride, kPlace, perfectGps(), kGpsClock, Noise(7, "gps"));
   for (std::int64_t k = 0; k < 60; ++k) {
     EXPECT_TRUE(gps.at(k).has_fix);
     EXPECT_LT(offOf(gps, *ride, k).norm(), 1e-6);
-    const double h = 1e-4, t = kSchedule.at(k);
+    const double h = 1e-4, t = kGpsSchedule.at(k);
     const Vector3d velocity =
         (ride->at(t + h).T_world_base * kPlace.t() - ride->at(t - h).T_world_base * kPlace.t()) / (2 * h);
     EXPECT_LT((gps.at(k).velocity - velocity).norm(), 1e-4);
@@ -54,7 +54,7 @@ TEST(Gps, ErrorsAreSlowAndOfTheSizeThatIsStated) {
   double square = 0.0, stated = 0.0, step = 0.0;
   int fixes = 0;
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
-    const Gps gps(*ride, kPlace, GpsOptions{}, kClock, Noise(seed, "gps"));
+    const Gps gps(*ride, kPlace, GpsOptions{}, kGpsClock, Noise(seed, "gps"));
     for (std::int64_t k = 1; k < 900; ++k) {
       if (!gps.at(k).has_fix || !gps.at(k - 1).has_fix) continue;
       ++fixes;
@@ -77,7 +77,7 @@ TEST(Gps, GapsHoldTheLastPlaceAndSaySo) {
   const auto ride = testRide(300.0);
   int gaps = 0, all = 0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
-    const Gps gps(*ride, kPlace, GpsOptions{}, kClock, Noise(seed, "gps"));
+    const Gps gps(*ride, kPlace, GpsOptions{}, kGpsClock, Noise(seed, "gps"));
     for (std::int64_t k = 1; k < 300; ++k, ++all) {
       const GpsMeasurement now = gps.at(k), before = gps.at(k - 1);
       EXPECT_TRUE(std::isfinite(now.latitude) && std::isfinite(now.altitude) && std::abs(now.latitude - 51.75) < 0.1);

@@ -14,10 +14,12 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using urban_nav_core::Pose;
 
-const Pose kPlace(urban_nav_core::expSo3({0.3, -0.2, 1.1}), {0.12, -0.07, 0.5});
-const Clock kClock(0, ClockOptions{}, Noise(1, "clock"));
+const Pose kImuPlace(urban_nav_core::expSo3({0.3, -0.2, 1.1}), {0.12, -0.07, 0.5});
+const Clock kImuClock(0, ClockOptions{}, Noise(1, "clock"));
 
-Imu imuOn(const Ride& ride, const ImuOptions& options) { return Imu(ride, kPlace, options, kClock, Noise(7, "imu")); }
+Imu imuOn(const Ride& ride, const ImuOptions& options) {
+  return Imu(ride, kImuPlace, options, kImuClock, Noise(7, "imu"));
+}
 
 struct State {
   Quaterniond q;
@@ -44,12 +46,12 @@ State rungeKutta(const State& s, const ImuMeasurement& begin, const ImuMeasureme
   return next;
 }
 
-Pose imuPose(const Ride& ride, double t) { return ride.at(t).T_world_base * kPlace; }
+Pose imuPose(const Ride& ride, double t) { return ride.at(t).T_world_base * kImuPlace; }
 
 State trueState(const Ride& ride, double t) {
   const MotionState moment = ride.at(t);
-  const Pose pose = moment.T_world_base * kPlace;
-  return {pose.q(), moment.velocity_world + moment.T_world_base.q() * moment.rate_base.cross(kPlace.t()), pose.t()};
+  const Pose pose = moment.T_world_base * kImuPlace;
+  return {pose.q(), moment.velocity_world + moment.T_world_base.q() * moment.rate_base.cross(kImuPlace.t()), pose.t()};
 }
 
 TEST(Imu, IntegratedWithoutNoiseItReturnsToTheTruePose) {
@@ -70,7 +72,7 @@ TEST(Imu, IntegratedWithoutNoiseItReturnsToTheTruePose) {
 TEST(Imu, StandingItFeelsGravityAlone) {
   const auto ride = testRide(5.0, false);
   const ImuMeasurement measured = imuOn(*ride, perfectImu()).at(0);
-  const Vector3d up = kPlace.q().conjugate() * Vector3d(0, 0, kGravity);
+  const Vector3d up = kImuPlace.q().conjugate() * Vector3d(0, 0, kGravity);
   EXPECT_LT((measured.specific_force - up).norm(), 0.25);
   EXPECT_LT(measured.rate.norm(), 0.05);
   EXPECT_NEAR(measured.field.norm(), earthField().norm(), 1e-12);

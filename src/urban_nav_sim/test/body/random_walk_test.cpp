@@ -8,12 +8,12 @@
 namespace urban_nav_sim {
 namespace {
 
-constexpr int kMany = 3000;
+constexpr int kWalks = 3000;
 
 template <typename Make>
 double sigmaAt(double t, const Make& make) {
   double square = 0.0;
-  for (std::uint64_t i = 0; i < kMany; ++i) square += make(Noise(i, "walk")).at(t).squaredNorm() / (3.0 * kMany);
+  for (std::uint64_t i = 0; i < kWalks; ++i) square += make(Noise(i, "walk")).at(t).squaredNorm() / (3.0 * kWalks);
   return std::sqrt(square);
 }
 
@@ -28,9 +28,9 @@ TEST(RandomWalk, DrawnBackOnesKeepTheirSpreadAndForget) {
   EXPECT_NEAR(sigmaAt(0.0, make), 2.0, 0.08);
   EXPECT_NEAR(sigmaAt(100.0, make), 2.0, 0.08);
   double product = 0.0;
-  for (std::uint64_t i = 0; i < kMany; ++i) {
+  for (std::uint64_t i = 0; i < kWalks; ++i) {
     const RandomWalk walk = make(Noise(i, "walk"));
-    product += walk.at(30.0).dot(walk.at(50.0)) / (3.0 * kMany);
+    product += walk.at(30.0).dot(walk.at(50.0)) / (3.0 * kWalks);
   }
   EXPECT_NEAR(product, 4.0 * std::exp(-1.0), 0.25);
 }

@@ -10,16 +10,16 @@ namespace {
 
 using urban_nav_core::Pose;
 
-const Clock kClock(0, ClockOptions{}, Noise(1, "clock"));
-const Schedule kSchedule = scheduleOf(Sensor::Wheels);
+const Clock kWheelClock(0, ClockOptions{}, Noise(1, "clock"));
+const Schedule kWheelSchedule = scheduleOf(Sensor::Wheels);
 
 TEST(Wheels, WithoutErrorsDeadReckoningStaysOnTheTrueWay) {
   const auto ride = testRide(120.0, false, 0.0);
-  const Wheels wheels(*ride, perfectWheels(), kClock, Noise(7, "wheels"));
+  const Wheels wheels(*ride, perfectWheels(), kWheelClock, Noise(7, "wheels"));
   const Pose T_base_world = ride->at(0.0).T_world_base.inverse();
   double furthest = 0.0, turned = 0.0;
   for (std::int64_t k = 0; k < wheels.count(); ++k) {
-    const Pose truth = T_base_world * ride->at(kSchedule.at(k)).T_world_base;
+    const Pose truth = T_base_world * ride->at(kWheelSchedule.at(k)).T_world_base;
     // base_link swings below the axle as the body leans: 0.24 m times the lean.
     furthest = std::max(furthest, (truth.t() - wheels.at(k).T_odom_base.t()).head<2>().norm());
     turned = std::max(turned, urban_nav_core::angleBetween(truth, wheels.at(k).T_odom_base));
@@ -30,9 +30,9 @@ TEST(Wheels, WithoutErrorsDeadReckoningStaysOnTheTrueWay) {
 
 TEST(Wheels, SpeedsAreThoseOfTheAxle) {
   const auto ride = testRide(60.0, true);
-  const Wheels wheels(*ride, perfectWheels(), kClock, Noise(7, "wheels"));
+  const Wheels wheels(*ride, perfectWheels(), kWheelClock, Noise(7, "wheels"));
   for (std::int64_t k = 0; k < wheels.count(); k += 20) {
-    const MotionState moment = ride->at(kSchedule.at(k));
+    const MotionState moment = ride->at(kWheelSchedule.at(k));
     EXPECT_NEAR(wheels.at(k).speed, moment.velocity_world.dot(moment.T_world_base.R().col(0)), 0.08);
     EXPECT_NEAR(wheels.at(k).yaw_rate, moment.rate_base.z(), 0.05);
   }
@@ -40,10 +40,10 @@ TEST(Wheels, SpeedsAreThoseOfTheAxle) {
 
 TEST(Wheels, ErrorsGrowWithTheWay) {
   const auto ride = testRide(200.0);
-  const Wheels perfect(*ride, perfectWheels(), kClock, Noise(7, "wheels"));
+  const Wheels perfect(*ride, perfectWheels(), kWheelClock, Noise(7, "wheels"));
   double after_10_m = 0.0, at_end = 0.0;
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
-    const Wheels wheels(*ride, WheelOptions{}, kClock, Noise(seed, "wheels"));
+    const Wheels wheels(*ride, WheelOptions{}, kWheelClock, Noise(seed, "wheels"));
     ASSERT_EQ(wheels.count(), perfect.count());
     const auto off = [&](std::int64_t k) {
       return (wheels.at(k).T_odom_base.t() - perfect.at(k).T_odom_base.t()).norm();
@@ -59,7 +59,7 @@ TEST(Wheels, ErrorsGrowWithTheWay) {
 
 TEST(Wheels, ComeInStepsOfTheCounters) {
   const auto ride = testRide(20.0);
-  const Wheels wheels(*ride, WheelOptions{}, kClock, Noise(7, "wheels"));
+  const Wheels wheels(*ride, WheelOptions{}, kWheelClock, Noise(7, "wheels"));
   for (std::int64_t k = 0; k < wheels.count(); k += 7) {
     const double counts = wheels.at(k).speed * 332.0;
     EXPECT_NEAR(counts, std::round(counts), 1e-9);
@@ -68,7 +68,7 @@ TEST(Wheels, ComeInStepsOfTheCounters) {
 
 TEST(Wheels, AreAsManyAsTheScheduleHas) {
   const auto ride = testRide(36.0);
-  const Wheels wheels(*ride, WheelOptions{}, kClock, Noise(7, "wheels"));
+  const Wheels wheels(*ride, WheelOptions{}, kWheelClock, Noise(7, "wheels"));
   EXPECT_EQ(wheels.count(), 1000);
   EXPECT_EQ(wheels.at(1).stamp - wheels.at(0).stamp, 36000000);
 }

@@ -62,7 +62,7 @@ std::vector<double> disparityErrors(const std::array<cv::Mat, 2>& images, const 
   return errors;
 }
 
-struct Scene {
+struct HeadScene {
   World world = yard();
   Tracer tracer{world};
   Sky sky{world.day, 1};
@@ -70,7 +70,7 @@ struct Scene {
 };
 
 TEST(StereoHead, DisparityOfTheTextureIsThatOfTheGeometry) {
-  const Scene scene;
+  const HeadScene scene;
   StereoHead head(scene.tracer, scene.sky, StereoImages::Rectified, scene.T_base_left, 1, none());
   const auto images = head.take(SteadyRide(), 3.0);
   const auto errors = disparityErrors(images, head.pictures()[0]);
@@ -79,7 +79,7 @@ TEST(StereoHead, DisparityOfTheTextureIsThatOfTheGeometry) {
 }
 
 TEST(StereoHead, AndSoItIsAfterRectificationOfTheDistortedImages) {
-  const Scene scene;
+  const HeadScene scene;
   StereoHead raw(scene.tracer, scene.sky, StereoImages::Raw, scene.T_base_left, 1, none());
   StereoHead rectified(scene.tracer, scene.sky, StereoImages::Rectified, scene.T_base_left, 1, none());
   const auto images = raw.take(SteadyRide(), 3.0), direct = rectified.take(SteadyRide(), 3.0);
@@ -104,7 +104,7 @@ TEST(StereoHead, AndSoItIsAfterRectificationOfTheDistortedImages) {
 }
 
 TEST(StereoHead, SameBytesForAnyNumberOfThreadsAndOthersForAnotherSeed) {
-  const Scene scene;
+  const HeadScene scene;
   std::vector<cv::Mat> images;
   for (const int threads : {1, 2}) {
     const urban_nav_core::ThreadLimit limit(threads);
@@ -120,7 +120,7 @@ TEST(StereoHead, SameBytesForAnyNumberOfThreadsAndOthersForAnotherSeed) {
 }
 
 TEST(StereoHead, NoiseIsAboutOneGreyLevel) {
-  const Scene scene;
+  const HeadScene scene;
   StereoHead noisy(scene.tracer, scene.sky, StereoImages::Rectified, scene.T_base_left, 1);
   CameraDefects defects;
   defects.is_noisy = false;
@@ -138,7 +138,7 @@ TEST(StereoHead, NoiseIsAboutOneGreyLevel) {
 }
 
 TEST(LadybugHead, TakesFiveUprightColourImages) {
-  const Scene scene;
+  const HeadScene scene;
   LadybugHead head(scene.tracer, scene.sky, Pose(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0, 0, 1.4)), 1);
   const auto images = head.take(SteadyRide(0.5), 1.0);
   for (std::size_t i = 0; i < 5; ++i) {
@@ -156,7 +156,7 @@ TEST(LadybugHead, TakesFiveUprightColourImages) {
 }
 
 TEST(MotionBlur, FlowIsTheMotionOfThePixel) {
-  const Scene scene;
+  const HeadScene scene;
   const SteadyRide ride(1.2, 0.9);
   for (const auto images : {StereoImages::Raw, StereoImages::Rectified}) {
     const Camera camera = bumblebee(images)[1];

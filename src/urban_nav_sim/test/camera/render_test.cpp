@@ -19,22 +19,22 @@ namespace {
 using Eigen::Vector3d;
 using urban_nav_core::Pose;
 
-struct Scene {
+struct RenderScene {
   World world = yard();
   Tracer tracer{world};
   Sky sky{world.day, 1};
   Pose T_world_left = placeOf("stereo_left_optical_frame");
 };
 
-Picture rendered(const Scene& scene, const Lens& lens, const Pose& T_world_camera, Colours colours = Colours::Grey,
-                 double t = 2.5) {
+Picture rendered(const RenderScene& scene, const Lens& lens, const Pose& T_world_camera,
+                 Colours colours = Colours::Grey, double t = 2.5) {
   Picture picture;
   render(Snapshot(scene.tracer, t, t), scene.sky, RayTable(lens), T_world_camera, colours, picture);
   return picture;
 }
 
 TEST(Render, DepthIsThatOfTheTrueSurfaceThroughEachLens) {
-  const Scene scene;
+  const RenderScene scene;
   for (const auto images : {StereoImages::Raw, StereoImages::Rectified}) {
     for (const Camera& camera : bumblebee(images)) {
       const Pose T = scene.T_world_left * camera.T_head_camera;
@@ -59,7 +59,7 @@ TEST(Render, DepthIsThatOfTheTrueSurfaceThroughEachLens) {
 }
 
 TEST(Render, ABeamAndTheDepthImageMeetInOnePoint) {
-  const Scene scene;
+  const RenderScene scene;
   const Lens lens = bumblebee(StereoImages::Rectified)[0].lens;
   const Pose T_laser(Eigen::Quaterniond::Identity(), Vector3d(0.1, 0.0600025, 1.1));
   const Lms291 laser(scene.tracer, T_laser, 1, "test", Lms291::Settings::exact());
@@ -83,7 +83,7 @@ TEST(Render, ABeamAndTheDepthImageMeetInOnePoint) {
 }
 
 TEST(Render, SameBytesForAnyNumberOfThreads) {
-  const Scene scene;
+  const RenderScene scene;
   const Lens lens = ladybug()[2].lens;
   std::vector<Picture> pictures;
   for (const int threads : {1, 2, 3}) {
@@ -129,7 +129,7 @@ TEST(Render, ShadowsFallWhereTheyMust) {
 }
 
 TEST(Render, ClassesAreThoseOfTheMaterials) {
-  const Scene scene;
+  const RenderScene scene;
   const Picture picture = rendered(scene, ladybug()[0].lens, scene.T_world_left);
   std::array<int, 8> count{};
   for (const std::uint8_t c : picture.surface_class) ++count[c];

@@ -63,7 +63,7 @@ std::string told(const Tracer& tracer, const Traces& traces, int width, int heig
   return text;
 }
 
-class SeamsOfAPicture : public testing::Test {
+class SeamsOfAPicture : public ::testing::Test {
  protected:
   Traces flat() const {
     return {std::vector<Met>(kWidth * kHeight, met(kFlat)), std::vector<std::uint8_t>(kWidth * kHeight)};

@@ -45,7 +45,7 @@ TEST(Defects, AllStandsForSensorsAndForUsualDefects) {
 }
 
 /// What is wrong is named, and what there is.
-void expectComplaint(const std::string& word, const std::string& found, const std::string& allowed) {
+void expectDefectError(const std::string& word, const std::string& found, const std::string& allowed) {
   try {
     Defects().switchOff(word, "--without");
     ADD_FAILURE() << word << " was taken";
@@ -58,11 +58,11 @@ void expectComplaint(const std::string& word, const std::string& found, const st
 }
 
 TEST(Defects, SaysWhatThereIs) {
-  expectComplaint("imu", "imu", "SENSOR:DEFECT");
-  expectComplaint("", "\"\"", "SENSOR:DEFECT");
-  expectComplaint("sonar:noise", "sonar", "stereo, ladybug, lasers, imu, wheels, gps");
-  expectComplaint("imu:blur", "imu:blur", "noise, bias, jitter, clock");
-  expectComplaint("all:rust", "all:rust", "vignetting");
+  expectDefectError("imu", "imu", "SENSOR:DEFECT");
+  expectDefectError("", "\"\"", "SENSOR:DEFECT");
+  expectDefectError("sonar:noise", "sonar", "stereo, ladybug, lasers, imu, wheels, gps");
+  expectDefectError("imu:blur", "imu:blur", "noise, bias, jitter, clock");
+  expectDefectError("all:rust", "all:rust", "vignetting");
   for (const Sensor sensor : all_sensors)
     EXPECT_NE(defectHelp().find(toString(sensor)), std::string::npos) << toString(sensor);
 }

@@ -22,7 +22,7 @@ TEST(Fault, IsReadAsTheCommandLineHasIt) {
 }
 
 /// What is wrong is named, and what there is.
-void expectComplaint(const std::string& text, const std::string& found, const std::string& allowed) {
+void expectFaultError(const std::string& text, const std::string& found, const std::string& allowed) {
   try {
     parseFault(text);
     ADD_FAILURE() << text << " was taken";
@@ -34,15 +34,15 @@ void expectComplaint(const std::string& text, const std::string& found, const st
 }
 
 TEST(Fault, SaysWhatIsAllowed) {
-  expectComplaint("melt:stereo:0:1", "melt", "drop, freeze, swap, corrupt, jump, unplug, nan");
-  expectComplaint("drop:sonar:0:1", "sonar", "stereo, ladybug, lasers, imu, wheels, gps");
-  expectComplaint("drop:stereo", "incomplete", "KIND:SENSOR:START_S:DURATION_S");
-  expectComplaint("drop:stereo:0:1:0.5:9", "incomplete", "KIND:SENSOR:START_S:DURATION_S");
-  expectComplaint("drop:stereo:-1:1", "start", "0...");
-  expectComplaint("drop:stereo:0:abc", "duration", "0...");
-  expectComplaint("drop:stereo:0:1:1.5", "share", "0...1");
-  expectComplaint("freeze:stereo:0:1:1", "freeze takes no value", "KIND");
-  expectComplaint("", "fault", "drop");
+  expectFaultError("melt:stereo:0:1", "melt", "drop, freeze, swap, corrupt, jump, unplug, nan");
+  expectFaultError("drop:sonar:0:1", "sonar", "stereo, ladybug, lasers, imu, wheels, gps");
+  expectFaultError("drop:stereo", "incomplete", "KIND:SENSOR:START_S:DURATION_S");
+  expectFaultError("drop:stereo:0:1:0.5:9", "incomplete", "KIND:SENSOR:START_S:DURATION_S");
+  expectFaultError("drop:stereo:-1:1", "start", "0...");
+  expectFaultError("drop:stereo:0:abc", "duration", "0...");
+  expectFaultError("drop:stereo:0:1:1.5", "share", "0...1");
+  expectFaultError("freeze:stereo:0:1:1", "freeze takes no value", "KIND");
+  expectFaultError("", "fault", "drop");
 }
 
 }  // namespace

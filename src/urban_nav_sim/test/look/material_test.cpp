@@ -33,7 +33,7 @@ Vector3f meanOver(const Material& m, const Vector2f& centre, float length, float
   return sum / static_cast<float>(n * n);
 }
 
-class Materials : public testing::Test {
+class Materials : public ::testing::Test {
  protected:
   static Stock& stock() {
     static Stock s(11);

@@ -10,7 +10,7 @@
 namespace urban_nav_sim {
 namespace {
 
-constexpr std::uint64_t kMany = 200000;
+constexpr std::uint64_t kDraws = 200000;
 
 struct Moments {
   double mean = 0.0, variance = 0.0, third = 0.0, fourth = 0.0, most = 0.0;
@@ -19,12 +19,12 @@ struct Moments {
 template <typename Draw>
 Moments momentsOf(const Draw& draw) {
   Moments sums;
-  for (std::uint64_t i = 0; i < kMany; ++i) {
+  for (std::uint64_t i = 0; i < kDraws; ++i) {
     const double x = draw(i);
-    sums.mean += x / kMany;
-    sums.variance += x * x / kMany;
-    sums.third += x * x * x / kMany;
-    sums.fourth += x * x * x * x / kMany;
+    sums.mean += x / kDraws;
+    sums.variance += x * x / kDraws;
+    sums.third += x * x * x / kDraws;
+    sums.fourth += x * x * x * x / kDraws;
     sums.most = std::max(sums.most, std::abs(x));
   }
   sums.variance -= sums.mean * sums.mean;
@@ -34,8 +34,8 @@ Moments momentsOf(const Draw& draw) {
 template <typename A, typename B>
 double correlationOf(const A& a, const B& b) {
   double sum = 0.0;
-  for (std::uint64_t i = 0; i < kMany; ++i) sum += a(i) * b(i);
-  return sum / kMany;
+  for (std::uint64_t i = 0; i < kDraws; ++i) sum += a(i) * b(i);
+  return sum / kDraws;
 }
 
 constexpr double kFiveSigma = 5.0 / 447.2;  // of a mean of kMany unit variances
@@ -44,7 +44,7 @@ TEST(Noise, UniformFillsItsRangeEvenly) {
   const Noise noise(7, "uniform");
   std::vector<int> counts(64);
   double least = 1.0, most = 0.0;
-  for (std::uint64_t i = 0; i < kMany; ++i) {
+  for (std::uint64_t i = 0; i < kDraws; ++i) {
     const double x = noise.uniform(i);
     ASSERT_GE(x, 0.0);
     ASSERT_LT(x, 1.0);
@@ -55,7 +55,7 @@ TEST(Noise, UniformFillsItsRangeEvenly) {
   EXPECT_LT(least, 1e-3);
   EXPECT_GT(most, 1.0 - 1e-3);
   double chi2 = 0.0;
-  for (const int count : counts) chi2 += std::pow(count - kMany / 64.0, 2) / (kMany / 64.0);
+  for (const int count : counts) chi2 += std::pow(count - kDraws / 64.0, 2) / (kDraws / 64.0);
   EXPECT_GT(chi2, 25.0);  // 63 degrees of freedom: both ends one in 100 000
   EXPECT_LT(chi2, 120.0);
 }
@@ -127,7 +127,7 @@ TEST(Noise, EveryBitOfTheCounterChangesHalfTheBits) {
 TEST(Noise, VectorsHaveIndependentParts) {
   const Noise noise(7, "vectors");
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  for (std::uint64_t i = 0; i < kMany; ++i) sum += noise.normal3(i) * noise.normal3(i).transpose() / kMany;
+  for (std::uint64_t i = 0; i < kDraws; ++i) sum += noise.normal3(i) * noise.normal3(i).transpose() / kDraws;
   EXPECT_LT((sum - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff(), kFiveSigma * 1.5);
 }
 
@@ -135,13 +135,13 @@ TEST(Noise, BelowIsEvenAndChanceHasItsProbability) {
   const Noise noise(7, "below");
   std::vector<int> counts(7);
   double hits = 0.0;
-  for (std::uint64_t i = 0; i < kMany; ++i) {
+  for (std::uint64_t i = 0; i < kDraws; ++i) {
     const std::uint64_t x = noise.below(i, 7);
     ASSERT_LT(x, 7U);
     ++counts[x];
-    hits += noise.chance(i, 0.2) ? 1.0 / kMany : 0.0;
+    hits += noise.chance(i, 0.2) ? 1.0 / kDraws : 0.0;
   }
-  for (const int count : counts) EXPECT_NEAR(count, kMany / 7.0, 5.0 * std::sqrt(kMany / 7.0));
+  for (const int count : counts) EXPECT_NEAR(count, kDraws / 7.0, 5.0 * std::sqrt(kDraws / 7.0));
   EXPECT_NEAR(hits, 0.2, 0.4 * kFiveSigma);
   EXPECT_EQ(noise.below(3, 1), 0U);
 }

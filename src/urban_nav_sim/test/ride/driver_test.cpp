@@ -20,7 +20,7 @@ struct Drive {
   Vector2d stood = Vector2d::Zero();
 };
 
-double distanceToLine(const Vector2d& p, const Route& route) {
+double distanceToRoute(const Vector2d& p, const Route& route) {
   double least = 1e9;
   for (std::size_t i = 1; i < route.waypoints.size(); ++i) {
     const Vector2d a = route.waypoints[i - 1].position, d = route.waypoints[i].position - a;
@@ -40,7 +40,7 @@ Drive drive(const Route& route, double duration, double start = 0.0) {
   for (double t = 0.0; t < duration; t += kStep) {
     const SegwayCommand command = driver.steer(state, kStep);
     for (int j = 0; j < 4; ++j) state = stepSegway(state, command, {}, kStep / 4);
-    result.furthest_off = std::max(result.furthest_off, distanceToLine(state.position, route));
+    result.furthest_off = std::max(result.furthest_off, distanceToRoute(state.position, route));
     if (t > 3.0 && command.speed == 0.0) {
       result.stands += kStep;
       result.stood = state.position;

@@ -28,7 +28,7 @@ World hillyWorld() {
   return world;
 }
 
-Route routeOf(const std::vector<Vector2d>& places, double speed = 1.3) {
+Route routeThrough(const std::vector<Vector2d>& places, double speed = 1.3) {
   Route route;
   route.name = "test";
   for (const Vector2d& place : places) {
@@ -40,15 +40,17 @@ Route routeOf(const std::vector<Vector2d>& places, double speed = 1.3) {
   return route;
 }
 
-Route loop() { return routeOf({{0, 0}, {20, 0}, {20, 12}, {8, 12}, {0, 6}, {0, 0}}); }
-Route thereAndBack() { return routeOf({{0, 0}, {15, 2}, {25, 0}}); }
+Route loop() { return routeThrough({{0, 0}, {20, 0}, {20, 12}, {8, 12}, {0, 6}, {0, 0}}); }
+Route thereAndBack() { return routeThrough({{0, 0}, {15, 2}, {25, 0}}); }
 Route circle() {
   std::vector<Vector2d> places;
   for (int i = 0; i <= 60; ++i) places.push_back({8 * std::sin(i * M_PI / 30), 8 - 8 * std::cos(i * M_PI / 30)});
-  return routeOf(places, 1.6);
+  return routeThrough(places, 1.6);
 }
 // Corners of 60 to 150 deg, two metres apart: the hardest that a gardener would lay out.
-Route zigzag() { return routeOf({{0, 0}, {2, 0}, {2, 2}, {3, 0.5}, {5, 0.5}, {3.2, 1.0}, {3, 4}, {0, 4}, {0, 0}}); }
+Route zigzag() {
+  return routeThrough({{0, 0}, {2, 0}, {2, 2}, {3, 0.5}, {5, 0.5}, {3.2, 1.0}, {3, 4}, {0, 4}, {0, 0}});
+}
 
 RideOptions optionsFor(double duration, std::uint64_t seed = 1) {
   RideOptions options;
@@ -57,7 +59,7 @@ RideOptions optionsFor(double duration, std::uint64_t seed = 1) {
   return options;
 }
 
-Vector2d placeOf(const Ride& ride, double t) { return ride.at(t).T_world_base.t().head<2>(); }
+Vector2d positionAt(const Ride& ride, double t) { return ride.at(t).T_world_base.t().head<2>(); }
 Vector3d axisOf(const MotionState& moment, int axis) { return moment.T_world_base.R().col(axis); }
 
 double distanceToLine(const Vector2d& p, const Route& route) {
@@ -130,7 +132,7 @@ TEST(MakeRide, RollFollowsTheSlopeAcross) {
   world.ground = [](double, double y) { return 0.1 * y; };  // up to the left of a robot that drives along x
   RideOptions options = optionsFor(20.0);
   options.roughness = 0.0;
-  const auto ride = makeRide(world, routeOf({{0, 0}, {40, 0}}), options);
+  const auto ride = makeRide(world, routeThrough({{0, 0}, {40, 0}}), options);
   for (double t = 5.0; t < 15.0; t += 0.5) {
     EXPECT_NEAR(std::asin(axisOf(ride->at(t), 1).z()), std::atan(0.1), 0.01);
     EXPECT_GT(axisOf(ride->at(t), 1).z(), 0.0);
@@ -158,7 +160,7 @@ TEST(MakeRide, LeansUphillSoThatTheMassStaysAboveTheWheels) {
   world.ground = [](double x, double) { return 0.1 * x; };
   RideOptions options = optionsFor(30.0);
   options.oscillation = options.roughness = 0.0;
-  const auto ride = makeRide(world, routeOf({{0, 0}, {60, 0}}, 1.0), options);
+  const auto ride = makeRide(world, routeThrough({{0, 0}, {60, 0}}, 1.0), options);
   for (double t = 10.0; t < 25.0; t += 1.0) {
     EXPECT_NEAR(std::asin(-axisOf(ride->at(t), 0).z()), 0.4 * std::sin(std::atan(0.1)), 0.01);
   }
@@ -199,7 +201,7 @@ TEST(MakeRide, FollowsItsWaypointsInTheirOrder) {
     std::size_t next = 0;
     double off = 0.0;
     for (double t = 0.0; t < 120.0; t += 0.05) {
-      const Vector2d p = placeOf(*ride, t);
+      const Vector2d p = positionAt(*ride, t);
       off = std::max(off, distanceToLine(p, route));
       if (next < route.waypoints.size() && (p - route.waypoints[next].position).norm() < 0.5) ++next;
     }
@@ -220,7 +222,7 @@ TEST(MakeRide, ComesBackTheWayItWentWhereTheRouteIsOpen) {
   int arrivals = 0;
   bool at_start = true;
   for (double t = 0.0; t < 120.0; t += 0.1) {
-    const double away = placeOf(*ride, t).norm();
+    const double away = positionAt(*ride, t).norm();
     if (at_start && away > 20.0) at_start = false;
     if (!at_start && away < 0.6) {
       at_start = true;
@@ -248,7 +250,7 @@ TEST(MakeRide, StandsWhereItIsToldToPause) {
 }
 
 TEST(MakeRide, StandsAtTheStartInTheDirectionOfTheRoute) {
-  const auto ride = makeRide(levelWorld(), routeOf({{3, 4}, {3, 30}}), optionsFor(10.0));
+  const auto ride = makeRide(levelWorld(), routeThrough({{3, 4}, {3, 30}}), optionsFor(10.0));
   const MotionState start = ride->at(0.0);
   EXPECT_LT((start.T_world_base.t().head<2>() - Vector2d(3, 4)).norm(), 0.02);
   EXPECT_LT((axisOf(start, 0) - Vector3d::UnitY()).norm(), 0.03);
@@ -259,7 +261,7 @@ TEST(MakeRide, BeginsFurtherAlongWhereToldTo) {
   RideOptions options = optionsFor(10.0);
   options.start = 30.0;
   const auto ride = makeRide(levelWorld(), loop(), options);
-  EXPECT_LT((placeOf(*ride, 0.0) - Vector2d(20, 10)).norm(), 0.1);
+  EXPECT_LT((positionAt(*ride, 0.0) - Vector2d(20, 10)).norm(), 0.1);
 }
 
 TEST(MakeRide, DependsOnTheSeedAndOnNothingElse) {
@@ -275,8 +277,8 @@ TEST(MakeRide, DependsOnTheSeedAndOnNothingElse) {
 
 TEST(MakeRide, RefusesRoutesThatLeadNowhere) {
   EXPECT_THROW(makeRide(levelWorld(), Route{}, optionsFor(10.0)), urban_nav_core::UserError);
-  EXPECT_THROW(makeRide(levelWorld(), routeOf({{1, 1}}), optionsFor(10.0)), urban_nav_core::UserError);
-  EXPECT_THROW(makeRide(levelWorld(), routeOf({{1, 1}, {1.2, 1}}), optionsFor(10.0)), urban_nav_core::UserError);
+  EXPECT_THROW(makeRide(levelWorld(), routeThrough({{1, 1}}), optionsFor(10.0)), urban_nav_core::UserError);
+  EXPECT_THROW(makeRide(levelWorld(), routeThrough({{1, 1}, {1.2, 1}}), optionsFor(10.0)), urban_nav_core::UserError);
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ TEST(Cloud, HoldsWhatIsNearTheWay) {
   world.parts = {rectangle({0, -1, 0}, {4, 0, 0}, {0, 2, 0}, 0), rectangle({0, 60, 0}, {4, 0, 0}, {0, 0, 3}, 1),
                  rectangle({2, 28, -2}, {1, 0, 0}, {0, 0, 3}, 1)};
   world.ground = [](double, double) { return 0.0; };
-  const std::string path = testing::TempDir() + "cloud_test.ply";
+  const std::string path = ::testing::TempDir() + "cloud_test.ply";
   writeCloud(path, world, Straight());
   std::ifstream in(path, std::ios::binary);
   std::string line;

@@ -18,7 +18,7 @@ namespace {
 using urban_nav_core::CsvTable;
 using urban_nav_core::Trajectory;
 
-constexpr urban_nav_core::StampNs kBegin = 1225719873'000000000;
+constexpr urban_nav_core::StampNs kTruthBegin = 1225719873'000000000;
 
 class TruthFiles : public ::testing::Test {
  protected:
@@ -33,8 +33,8 @@ class TruthFiles : public ::testing::Test {
 
   std::filesystem::path folder_;
   std::unique_ptr<Ride> ride_ = testRide(150.0);
-  Clock exact_{kBegin, ClockOptions{}, Noise(7, "truth")};
-  Clock ladybug_{kBegin, correctedClock(Sensor::Ladybug), Noise(7, "ladybug")};
+  Clock exact_{kTruthBegin, ClockOptions{}, Noise(7, "truth")};
+  Clock ladybug_{kTruthBegin, correctedClock(Sensor::Ladybug), Noise(7, "ladybug")};
 };
 
 TEST_F(TruthFiles, TrajectoryIsTheRideAt200Hz) {
@@ -42,7 +42,7 @@ TEST_F(TruthFiles, TrajectoryIsTheRideAt200Hz) {
   const Trajectory trajectory = urban_nav_core::readTum(path("trajectory.tum"));
   ASSERT_EQ(trajectory.size(), 30011U);
   for (std::size_t k = 1; k < trajectory.size(); ++k) EXPECT_EQ(trajectory[k].stamp - trajectory[k - 1].stamp, 5000000);
-  EXPECT_EQ(trajectory.front().stamp, kBegin);
+  EXPECT_EQ(trajectory.front().stamp, kTruthBegin);
   EXPECT_TRUE(isApprox(trajectory[2000].pose, ride_->at(10.0).T_world_base, 1e-9));
 }
 
@@ -58,7 +58,7 @@ TEST_F(TruthFiles, RevisitsAreAtTheStampsOfPanoramas) {
     EXPECT_EQ(stamps.count(table.integer(row, 0)), 1U);
     EXPECT_EQ(stamps.count(table.integer(row, 1)), 1U);
     const auto at = [&](std::size_t column) {
-      return ride_->at(1e-9 * static_cast<double>(table.integer(row, column) - kBegin)).T_world_base;
+      return ride_->at(1e-9 * static_cast<double>(table.integer(row, column) - kTruthBegin)).T_world_base;
     };
     EXPECT_NEAR(table.number(row, 2), urban_nav_core::distanceBetween(at(0), at(1)), 0.01);
   }

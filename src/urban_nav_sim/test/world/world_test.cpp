@@ -26,7 +26,7 @@ const World& worldOf(const std::string& name) {
   return found != worlds.end() ? found->second : worlds.emplace(name, buildWorld(name, 7, 1)).first->second;
 }
 
-class Worlds : public testing::TestWithParam<std::string> {};
+class Worlds : public ::testing::TestWithParam<std::string> {};
 
 /// The legs of all routes, sampled every 0.1 m, in cells of 1 m.
 std::set<std::pair<int, int>> cellsOf(const std::vector<Vector2d>& places) {
@@ -209,7 +209,7 @@ TEST_P(Worlds, IsMadeOfProperTriangles) {
   EXPECT_LT(triangles, 1500000U);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Worlds, testing::ValuesIn(worldNames()), [](const auto& of) { return of.param; });
+INSTANTIATE_TEST_SUITE_P(All, Worlds, ::testing::ValuesIn(worldNames()), [](const auto& of) { return of.param; });
 
 TEST(World, AnotherSeedIsAnotherPlace) {
   EXPECT_NE(routesOf("quad", 7)[0].waypoints[1].position, routesOf("quad", 8)[0].waypoints[1].position);

@@ -11,7 +11,7 @@ namespace urban_nav_store {
 
 namespace {
 constexpr int kLevel = 3;
-constexpr std::size_t kHeader = sizeof(std::uint64_t);
+constexpr std::size_t kLengthBytes = sizeof(std::uint64_t);
 constexpr std::size_t kMostGain = 1100;  // deflate cannot shrink by more than 1032 (zlib's technical notes)
 }  // namespace
 
@@ -19,11 +19,11 @@ std::string deflated(std::string_view bytes) {
   uLongf size = compressBound(static_cast<uLong>(bytes.size()));
   std::string result;
   appendInteger(result, bytes.size());
-  result.resize(kHeader + size);
-  const int code = compress2(reinterpret_cast<Bytef*>(result.data() + kHeader), &size,
+  result.resize(kLengthBytes + size);
+  const int code = compress2(reinterpret_cast<Bytef*>(result.data() + kLengthBytes), &size,
                              reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uLong>(bytes.size()), kLevel);
   if (code != Z_OK) throw std::bad_alloc();  // the only other way in which compress2 can end
-  result.resize(kHeader + size);
+  result.resize(kLengthBytes + size);
   return result;
 }
 
@@ -34,9 +34,9 @@ std::optional<std::string> inflated(std::string_view bytes, std::size_t limit) {
   std::string result(static_cast<std::size_t>(length), '\0');
   uLongf size = static_cast<uLongf>(length);
   char nothing = 0;
-  const int code =
-      uncompress(reinterpret_cast<Bytef*>(length > 0 ? result.data() : &nothing), &size,
-                 reinterpret_cast<const Bytef*>(bytes.data() + kHeader), static_cast<uLong>(bytes.size() - kHeader));
+  const int code = uncompress(reinterpret_cast<Bytef*>(length > 0 ? result.data() : &nothing), &size,
+                              reinterpret_cast<const Bytef*>(bytes.data() + kLengthBytes),
+                              static_cast<uLong>(bytes.size() - kLengthBytes));
   if (code != Z_OK || size != length) return std::nullopt;
   return result;
 }

@@ -9,7 +9,7 @@
 namespace urban_nav_store {
 
 namespace {
-constexpr std::size_t kMostBytes = std::size_t{1} << 26;
+constexpr std::size_t kMostEventBytes = std::size_t{1} << 26;
 constexpr std::size_t kEvent = 12;  // bytes before compression
 }  // namespace
 
@@ -34,7 +34,7 @@ std::string packEvents(const std::vector<InputEvent>& events) {
 }
 
 std::optional<std::vector<InputEvent>> unpackEvents(std::string_view packed) {
-  const std::optional<std::string> bytes = inflated(packed, kMostBytes);
+  const std::optional<std::string> bytes = inflated(packed, kMostEventBytes);
   if (!bytes) return std::nullopt;
   ByteReader reader(*bytes);
   const std::size_t named = reader.integer32();

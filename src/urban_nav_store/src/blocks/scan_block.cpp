@@ -13,7 +13,7 @@ using urban_nav_core::Scan;
 
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 29;
+constexpr std::size_t kMostScanBytes = std::size_t{1} << 29;
 constexpr std::size_t kBeam = 28, kScan = 12;  // bytes before compression
 
 std::uint64_t asUnsigned(std::int64_t value) { return static_cast<std::uint64_t>(value); }
@@ -48,7 +48,7 @@ std::string packScans(const std::vector<Scan>& scans) {
 }
 
 std::optional<std::vector<Scan>> unpackScans(std::string_view packed) {
-  const std::optional<std::string> bytes = inflated(packed, kMostBytes);
+  const std::optional<std::string> bytes = inflated(packed, kMostScanBytes);
   if (!bytes) return std::nullopt;
   ByteReader reader(*bytes);
   const std::size_t count = reader.integer32();

@@ -18,10 +18,10 @@ using urban_nav_core::UserError;
 namespace {
 
 // SQLite's file format, section 1.3: 100 bytes, numbers big-endian.
-constexpr std::size_t kHeader = 100, kUserVersion = 60, kApplication = 68;
+constexpr std::size_t kHeaderBytes = 100, kUserVersion = 60, kApplication = 68;
 constexpr std::string_view kMagic("SQLite format 3\0", 16);
 
-std::uint32_t bigEndian(const std::array<char, kHeader>& bytes, std::size_t offset) {
+std::uint32_t bigEndian(const std::array<char, kHeaderBytes>& bytes, std::size_t offset) {
   std::uint32_t value = 0;
   for (std::size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<unsigned char>(bytes[offset + i]);
   return value;
@@ -36,10 +36,11 @@ FileKind fileKind(const std::string& path) {
   if (!fs::is_regular_file(status)) return FileKind::Other;
   std::ifstream file(path, std::ios::binary);
   if (!file) throw UserError(path, "cannot be opened", "a file that can be read");
-  std::array<char, kHeader> bytes{};
-  file.read(bytes.data(), kHeader);
+  std::array<char, kHeaderBytes> bytes{};
+  file.read(bytes.data(), kHeaderBytes);
   if (file.gcount() == 0) return FileKind::Absent;
-  if (file.gcount() < static_cast<std::streamsize>(kHeader) || std::string_view(bytes.data(), kMagic.size()) != kMagic)
+  if (file.gcount() < static_cast<std::streamsize>(kHeaderBytes) ||
+      std::string_view(bytes.data(), kMagic.size()) != kMagic)
     return FileKind::Other;
   if (bigEndian(bytes, kApplication) != static_cast<std::uint32_t>(schema::kApplicationId))
     return FileKind::OtherSqlite;

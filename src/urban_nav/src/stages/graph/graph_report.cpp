@@ -131,17 +131,17 @@ std::optional<PageTable> errorsTable(const GraphRun& graph, const std::vector<Se
   return table;
 }
 
-constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+constexpr double kGraphDegrees = 180.0 / 3.14159265358979323846;
 
 /// By how much the first pose leans.
-double leanDeg(const pose_graph::Level& level) { return kDegrees * std::acos(std::min(1.0, level.up.z())); }
+double leanDeg(const pose_graph::Level& level) { return kGraphDegrees * std::acos(std::min(1.0, level.up.z())); }
 
 Verdict levelVerdict(const pose_graph::Level& level) {
   if (!level.known())
     return {Grade::Plain, "The map is not level.", "It stands as the first pose stood: " + level.sentence + "."};
   return {Grade::Good, "The map is level.",
           "The first pose leans by " + forPerson(leanDeg(level), 2) + " deg (standard deviation " +
-              forPerson(kDegrees * level.sigma, 2) + " deg), says gravity."};
+              forPerson(kGraphDegrees * level.sigma, 2) + " deg), says gravity."};
 }
 
 Json toJson(const pose_graph::Level& level) {
@@ -149,7 +149,7 @@ Json toJson(const pose_graph::Level& level) {
   json["known"] = level.known();
   if (level.known()) {
     json["lean_deg"] = leanDeg(level);
-    json["sigma_deg"] = kDegrees * level.sigma;
+    json["sigma_deg"] = kGraphDegrees * level.sigma;
     json["gravity"] = level.gravity;
     Json& up = json["up"] = Json::array();
     for (int i = 0; i < 3; ++i) up.append(level.up(i));
@@ -201,7 +201,7 @@ std::vector<Verdict> graphVerdicts(const GraphRun& graph) {
     made.push_back({Grade::Fair, "Odometry errs " + forPerson(boast, 2) + " times as much as it states,",
                     "so the closures say; the covariances of this map are those of the larger errors."});
   made.push_back(levelVerdict(graph.levels.front()));
-  if (const double lean = kDegrees * graph.graph.odometryLean(); lean > 0.0)
+  if (const double lean = kGraphDegrees * graph.graph.odometryLean(); lean > 0.0)
     made.push_back({Grade::Good, "Roll and pitch are held by the accelerometer.",
                     "Odometry came to lean by up to " + forPerson(lean, 2) + " deg, which is taken out."});
   const std::size_t joined = graph.sessionsJoined();
@@ -228,7 +228,7 @@ Json toJson(const GraphRun& graph, const std::vector<SessionEvaluations>& evalua
   json["cost_before"] = relaxed.cost_before;
   json["cost_after"] = relaxed.cost_after;
   json["odometry_variance"] = graph.graph.odometryVariance();
-  json["odometry_lean_deg"] = kDegrees * graph.graph.odometryLean();
+  json["odometry_lean_deg"] = kGraphDegrees * graph.graph.odometryLean();
   json["iterations"] = relaxed.iterations.size();
   json["ending"] = toString(relaxed.ending);
   json["ms_batch"] = graph.ms;

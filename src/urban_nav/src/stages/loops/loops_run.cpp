@@ -34,7 +34,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kRound = 32;  // candidates between two steps of the progress bar
 constexpr std::size_t kStereoPictures = 4, kIcpPictures = 3, kRejectedPictures = 3;  // in the report: some 60 kB each
 
-double millisecondsSince(Clock::time_point begin) {
+double closureMilliseconds(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
@@ -155,7 +155,7 @@ LoopsRun runLoops(const loop_metric::Parameters& parameters, const StereoCamera&
       std::unique_ptr<Worker> worker = workers.take(make);
       const Clock::time_point since = Clock::now();
       closures[first + i] = measure(*worker, rows[first + i]);
-      ms[first + i] = millisecondsSince(since);
+      ms[first + i] = closureMilliseconds(since);
       workers.give(std::move(worker));
     });
     progress.update(static_cast<std::int64_t>(first + count));
@@ -175,7 +175,7 @@ LoopsRun runLoops(const loop_metric::Parameters& parameters, const StereoCamera&
   }
   run.ms_median = quantile(ms, 0.5);
   run.ms_p99 = quantile(ms, 0.99);
-  run.ms = millisecondsSince(begin);
+  run.ms = closureMilliseconds(begin);
   run.pictures = picturesOf(rows, workers.take(make)->surroundings, parameters.cloud_way);
   for (const CandidateSession& session : sessions)
     if (!known.at(session.name).has_camera)

@@ -16,7 +16,7 @@ struct Field {
   std::size_t count = 1;
   std::size_t size() const { return number.size * count; }
 };
-struct Header {
+struct PcdHeader {
   std::vector<Field> fields;
   std::size_t points = 0;
   bool has_points = false;
@@ -35,7 +35,7 @@ std::size_t wholeNumber(std::string_view word, const std::string& where, std::in
 constexpr std::int64_t kMostPoints = std::int64_t{1} << 40U;
 
 /// A line with one word for each field.
-void readFieldLine(const std::vector<std::string_view>& words, Header& header, const std::string& where) {
+void readFieldLine(const std::vector<std::string_view>& words, PcdHeader& header, const std::string& where) {
   if (words.size() != header.fields.size() + 1)
     throw UserError(where,
                     std::to_string(words.size() - 1) + " words for " + std::to_string(header.fields.size()) + " fields",
@@ -54,7 +54,7 @@ void readFieldLine(const std::vector<std::string_view>& words, Header& header, c
   }
 }
 
-void readHeaderLine(const std::vector<std::string_view>& words, Header& header, const std::string& where) {
+void readPcdHeaderLine(const std::vector<std::string_view>& words, PcdHeader& header, const std::string& where) {
   const std::string_view key = words[0];
   const auto one = [&]() -> std::string_view {
     if (words.size() != 2)
@@ -82,13 +82,13 @@ void readHeaderLine(const std::vector<std::string_view>& words, Header& header, 
   }
 }
 
-Header readHeader(HeaderLines& lines, const std::string& name) {
-  Header header;
+PcdHeader readPcdHeader(HeaderLines& lines, const std::string& name) {
+  PcdHeader header;
   while (header.data.empty()) {
     const auto line = lines.next();
     if (!line) throw UserError(name, "the header does not end", "a line DATA");
     const auto words = splitBlanks(*line);
-    if (!words.empty() && words[0][0] != '#') readHeaderLine(words, header, atLine(name, lines.number()));
+    if (!words.empty() && words[0][0] != '#') readPcdHeaderLine(words, header, atLine(name, lines.number()));
   }
   if (!header.has_points) header.points = header.width * header.height;
   for (const Field& field : header.fields) {
@@ -99,7 +99,7 @@ Header readHeader(HeaderLines& lines, const std::string& name) {
   return header;
 }
 
-std::array<std::size_t, 3> coordinatesOf(const Header& header, const std::string& name) {
+std::array<std::size_t, 3> coordinatesOf(const PcdHeader& header, const std::string& name) {
   std::array<std::size_t, 3> columns{};
   const std::array<const char*, 3> names = {"x", "y", "z"};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -112,11 +112,11 @@ std::array<std::size_t, 3> coordinatesOf(const Header& header, const std::string
   return columns;
 }
 
-UserError tooShort(const std::string& name, const Header& header) {
+UserError tooShort(const std::string& name, const PcdHeader& header) {
   return UserError(name, "ends before its " + std::to_string(header.points) + " points", "a whole file");
 }
 
-PointCloud asciiPoints(const Header& header, HeaderLines& lines, const std::string& name) {
+PointCloud asciiPoints(const PcdHeader& header, HeaderLines& lines, const std::string& name) {
   const auto columns = coordinatesOf(header, name);
   std::array<std::size_t, 3> words_before{};
   std::size_t row_words = 0;
@@ -146,7 +146,7 @@ PointCloud asciiPoints(const Header& header, HeaderLines& lines, const std::stri
 }
 
 /// `by_field`: all of the first field, then all of the second, as in a compressed file; else point by point.
-PointCloud binaryPoints(const Header& header, std::string_view bytes, bool by_field, const std::string& name) {
+PointCloud binaryPoints(const PcdHeader& header, std::string_view bytes, bool by_field, const std::string& name) {
   const auto columns = coordinatesOf(header, name);
   std::size_t row = 0;
   std::array<std::size_t, 3> offsets{};
@@ -169,7 +169,7 @@ PointCloud binaryPoints(const Header& header, std::string_view bytes, bool by_fi
   return cloud;
 }
 
-PointCloud compressedPoints(const Header& header, std::string_view bytes, const std::string& name) {
+PointCloud compressedPoints(const PcdHeader& header, std::string_view bytes, const std::string& name) {
   if (bytes.size() < 8) throw tooShort(name, header);
   std::uint32_t packed = 0, plain = 0;
   std::memcpy(&packed, bytes.data(), 4);
@@ -185,7 +185,7 @@ PointCloud compressedPoints(const Header& header, std::string_view bytes, const 
 
 PointCloud parsePcd(std::string_view content, const std::string& name) {
   HeaderLines lines(content);
-  const Header header = readHeader(lines, name);
+  const PcdHeader header = readPcdHeader(lines, name);
   if (header.data == "ascii") return asciiPoints(header, lines, name);
   if (header.data == "binary") return binaryPoints(header, lines.rest(), false, name);
   return compressedPoints(header, lines.rest(), name);

@@ -21,7 +21,7 @@ struct Element {
   std::vector<Property> properties;
 };
 enum class Format { None, Ascii, Little, Big };
-struct Header {
+struct PlyHeader {
   Format format = Format::None;
   std::vector<Element> elements;
 };
@@ -45,7 +45,7 @@ Format formatOf(std::string_view word, const std::string& where) {
   throw UserError(where, "format " + std::string(word), "ascii, binary_little_endian, binary_big_endian");
 }
 
-void readHeaderLine(const std::vector<std::string_view>& words, Header& header, const std::string& where) {
+void readPlyHeaderLine(const std::vector<std::string_view>& words, PlyHeader& header, const std::string& where) {
   if (words[0] == "format" && words.size() >= 2) {
     header.format = formatOf(words[1], where);
   } else if (words[0] == "element" && words.size() == 3) {
@@ -63,8 +63,8 @@ void readHeaderLine(const std::vector<std::string_view>& words, Header& header, 
   }
 }
 
-Header readHeader(HeaderLines& lines, const std::string& name) {
-  Header header;
+PlyHeader readPlyHeader(HeaderLines& lines, const std::string& name) {
+  PlyHeader header;
   lines.next();  // ply
   while (const auto line = lines.next()) {
     const auto words = splitBlanks(*line);
@@ -74,7 +74,7 @@ Header readHeader(HeaderLines& lines, const std::string& name) {
         throw UserError(atLine(name, lines.number()), "no format", "a line `format ...`");
       return header;
     }
-    readHeaderLine(words, header, atLine(name, lines.number()));
+    readPlyHeaderLine(words, header, atLine(name, lines.number()));
   }
   throw UserError(name, "the header does not end", "a line end_header");
 }
@@ -148,7 +148,7 @@ std::size_t skipRow(const Element& element, std::string_view bytes, std::size_t 
   return at;
 }
 
-PointCloud binaryVertices(const Header& header, std::string_view bytes, const std::string& name) {
+PointCloud binaryVertices(const PlyHeader& header, std::string_view bytes, const std::string& name) {
   const bool swap = header.format == Format::Big;
   std::size_t at = 0;
   for (const Element& element : header.elements) {
@@ -182,7 +182,7 @@ PointCloud binaryVertices(const Header& header, std::string_view bytes, const st
   throw UserError(name, "no element vertex", "a PLY file of points");
 }
 
-PointCloud asciiVertices(const Header& header, HeaderLines& lines, const std::string& name) {
+PointCloud asciiVertices(const PlyHeader& header, HeaderLines& lines, const std::string& name) {
   for (const Element& element : header.elements) {
     const bool vertices = element.name == "vertex";
     Vertex vertex;
@@ -215,7 +215,7 @@ PointCloud asciiVertices(const Header& header, HeaderLines& lines, const std::st
 
 PointCloud parsePly(std::string_view content, const std::string& name) {
   HeaderLines lines(content);
-  const Header header = readHeader(lines, name);
+  const PlyHeader header = readPlyHeader(lines, name);
   if (header.format == Format::Ascii) return asciiVertices(header, lines, name);
   return binaryVertices(header, lines.rest(), name);
 }
