@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Builds and tests all there is, on a bare Debian 12 too; the last line is the result, and so is the exit status.
 #   ./run_tests.sh              warnings are errors; lint, gtest, Python, rostest; readers and window once more under sanitizers
-#   ./run_tests.sh --sanitize   all ROS-free cores under the sanitizers, every reader fuzzed for a minute
+#   ./run_tests.sh --sanitize   all ROS-free cores under the sanitizers, every reader fuzzed for 20 s
 #   ./run_tests.sh --tidy       clang-format and clang-tidy over all sources as well
 # Tests on real data look in the folder that URBAN_NAV_DATA names, and are skipped without it.
 set -eu
@@ -26,7 +26,8 @@ if [ -n "${URBAN_NAV_DATA:-}" ]; then
 fi
 failed_steps=0
 
-# step NAME COMMAND...: runs it and says how long it took; one that fails counts as a failed test and does not end the run.
+# step NAME COMMAND...: runs it and says how long it took; one that fails counts as a failed test and does not end the
+# run.
 step() {
   local name=$1 start=$SECONDS
   shift
@@ -42,36 +43,66 @@ step() {
 
 build_all() (
   lock
-  configure "$ws" -DCATKIN_ENABLE_TESTING=ON -DURBAN_NAV_BENCH=ON -DURBAN_NAV_WERROR=ON
+  configure "$ws" -DCATKIN_ENABLE_TESTING=ON -DURBAN_NAV_BENCH=ON -DURBAN_NAV_WERROR=ON -DURBAN_NAV_SANITIZED_READERS=ON \
+    -DURBAN_NAV_TEST_SHARDS="$(nproc)"
   : >"$ws/command.started"
   compile "$ws" "Building" all tests urban_nav_benches || return 1
   mv "$ws/command.started" "$ws/command.built"
 )
 
-# build_cores ROOMS PACKAGES: the cores of these packages under the sanitizers, with the tests of these folders of test/ (all, if empty).
+# All cores under the sanitizers, with their tests.
 build_cores() (
   lock
-  configure "$build/cores" -DCATKIN_ENABLE_TESTING=ON -DURBAN_NAV_CORES_ONLY=ON -DURBAN_NAV_SANITIZE=ON \
-    -DCATKIN_WHITELIST_PACKAGES="$2" -DURBAN_NAV_TEST_ROOMS="$1"
+  configure "$build/cores" -DCATKIN_ENABLE_TESTING=ON -DURBAN_NAV_CORES_ONLY=ON -DURBAN_NAV_SANITIZE=ON -DURBAN_NAV_TEST_SHARDS="$(nproc)" \
+    -DCATKIN_WHITELIST_PACKAGES='urban_nav_core;urban_nav_store;urban_nav_sim;swf_vo;loop_metric;urban_nav'
   compile "$build/cores" "Building the sanitized cores" tests
 )
 
-# run_group FOLDER KIND JOBS: the tests of one kind (gtest, python, rostest) by catkin's own targets; how they end is in the XML files,
-# so this fails only where they did not come to their end.
+# list_tests FOLDER KIND: catkin's own targets for the tests of one kind (gtest, sanitized, python, rostest).
+list_tests() {
+  ninja -C "$1/build" -t targets all | sed -n "s/^\(run_tests_[A-Za-z0-9_]*_$2_[^:/]*\): phony.*/\1/p" | sort -u
+}
+
+# say_troubles LOG: what in a log of tests is worth a line.
+say_troubles() {
+  grep -E '^\[  (FAILED|SKIPPED) +\]|^\[ERROR\]|AddressSanitizer|runtime error' "$1" >&2 || true
+}
+
+# run_group FOLDER KIND [SECONDS]: the tests of one kind, as many at a time as there are processors, with so many
+# seconds of fuzzing a reader; how they end is in the XML files, so this fails only where they did not come to their
+# end.
 run_group() {
-  local targets status=0 limit=$((1200 + 30 * ${URBAN_NAV_FUZZ_SECONDS:-0}))
-  mapfile -t targets < <(ninja -C "$1/build" -t targets all | sed -n "s/^\(run_tests_[A-Za-z0-9_]*_$2_[^:/]*\): phony.*/\1/p" | sort -u)
+  local targets status=0 limit=$((1200 + 30 * ${3:-0}))
+  if [ -n "${3:-}" ]; then export URBAN_NAV_FUZZ_SECONDS=$3; fi
+  mapfile -t targets < <(list_tests "$1" "$2")
   if [ ${#targets[@]} = 0 ]; then return; fi
-  timeout -k 10 $limit ninja -C "$1/build" -k 0 -j "$3" "${targets[@]}" >"$1/$2.log" 2>&1 || status=$?
-  grep -E '^\[  (FAILED|SKIPPED) +\]|^\[ERROR\]|AddressSanitizer|runtime error' "$1/$2.log" >&2 || true
+  timeout -k 10 $limit ninja -C "$1/build" -k 0 -j "$(jobs)" "${targets[@]}" >"$1/$2.log" 2>&1 || status=$?
+  say_troubles "$1/$2.log"
   [ $status -lt 124 ]
 }
 
-run_ros_tests() {
-  # A master of our own, so that no running roscore is met, and a host name that needs no resolver.
+# run_ros_test NUMBER COMMAND: with a master of its own, so that it meets no other roscore, and a host name that needs
+# no resolver.
+run_ros_test() {
+  export ROS_HOSTNAME=localhost ROS_HOME=$build/ros_home/$1
   ROS_MASTER_URI=http://localhost:$(python3 -c 'import socket; s = socket.socket(); s.bind(("", 0)); print(s.getsockname()[1])')
-  export ROS_MASTER_URI ROS_HOSTNAME=localhost ROS_HOME=$build/ros_home
-  run_group "$ws" rostest 1
+  export ROS_MASTER_URI
+  mkdir -p "$ROS_HOME"
+  bash -c "$2" >"$ROS_HOME/test.log" 2>&1
+}
+
+# The rostests, two at a time: several take the time they take, and leave the processors idle.
+run_ros_tests() {
+  local target number=0 status=0
+  export build
+  export -f run_ros_test
+  rm -rf "$build/ros_home"
+  for target in $(list_tests "$ws" rostest); do
+    printf '%d\0%s\0' $((number++)) "$(ninja -C "$ws/build" -t commands "$target" | tail -n 1)"
+  done | timeout -k 10 1200 xargs -0 -n 2 -P 2 bash -c 'run_ros_test "$@"' run_ros_test || status=$?
+  cat "$build"/ros_home/*/test.log >"$ws/rostest.log"
+  say_troubles "$ws/rostest.log"
+  [ $status -lt 124 ]
 }
 
 run_tidy() {
@@ -81,6 +112,12 @@ run_tidy() {
     grep -E 'warning:|error:' "$build/tidy.log" | sort -u | head -50 >&2
     return 1
   }
+}
+
+run_lint() {
+  mkdir -p "$build"
+  scripts/lint_test.py >"$build/lint_test.log" 2>&1 || { cat "$build/lint_test.log" >&2; return 1; }
+  scripts/lint.py
 }
 
 run_format() {
@@ -93,9 +130,12 @@ tools=()
 if [ $tidy = yes ]; then tools=(clang-format clang-tidy clang-tools); fi
 step "packages" install_packages "${tools[@]}" || true
 if [ $sanitize = no ]; then
+  seconds=${URBAN_NAV_FUZZ_SECONDS:-2}
+  step "lint" run_lint || true
   if step "build" build_all; then
-    step "gtest" run_group "$ws" gtest "$(jobs)"
-    step "Python" run_group "$ws" python "$(jobs)"
+    step "gtest" run_group "$ws" gtest
+    step "readers under the sanitizers, $seconds s of fuzzing each" run_group "$ws" sanitized "$seconds"
+    step "Python" run_group "$ws" python
     step "rostest" run_ros_tests
     results+=("$ws/build/test_results")
   fi || true
@@ -105,14 +145,12 @@ if [ $sanitize = no ]; then
     step "clang-format" run_format || true
     step "clang-tidy" run_tidy || true
   fi
+else
+  seconds=${URBAN_NAV_FUZZ_SECONDS:-20}
+  if step "build under the sanitizers" build_cores; then
+    step "tests under the sanitizers, $seconds s of fuzzing a reader" run_group "$build/cores" gtest "$seconds"
+    results+=("$build/cores/build/test_results")
+  fi || true
 fi
-
-rooms='io;parameters;window;state;blocks;schema;stores;support' packages='urban_nav_core;urban_nav_store;urban_nav_live;swf_vo;loop_metric;urban_nav' seconds=${URBAN_NAV_FUZZ_SECONDS:-20}
-if [ $sanitize = yes ]; then rooms='' packages+=';urban_nav_sim' seconds=${URBAN_NAV_FUZZ_SECONDS:-60}; fi
-export URBAN_NAV_FUZZ_SECONDS=$seconds
-if step "build under the sanitizers" build_cores "$rooms" "$packages"; then
-  step "tests under the sanitizers, $seconds s of fuzzing a reader" run_group "$build/cores" gtest "$(jobs)"
-  results+=("$build/cores/build/test_results")
-fi || true
 
 scripts/results.py --failed-steps $failed_steps --ninja-log "$ws/build/.ninja_log" --ninja-log "$build/cores/build/.ninja_log" "${results[@]}"

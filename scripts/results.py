@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sums up the XML files of gtest, rosunit and rostest, names what failed and what compiled slowest, and ends with the one line that counts.
+"""Sums up the XML files of gtest, rosunit and rostest, names what failed and what compiled and ran slowest, and ends with the one line that counts.
 
 Exit status 0 if something passed and nothing failed.
 """
@@ -47,6 +47,30 @@ def compile_times(log):
     return times
 
 
+def test_times(path):
+    """{test: seconds} of one file."""
+    try:
+        root = xml.parse(path).getroot()
+    except (xml.ParseError, OSError):
+        return {}
+    times = {}
+    for case in root.iter("testcase"):
+        try:
+            times[f"{path.parent.name}: {case.get('classname', '')}.{case.get('name', '')}"] = float(case.get("time") or 0)
+        except ValueError:
+            pass
+    return times
+
+
+def print_slowest(title, times):
+    """The ten largest of {name: seconds}."""
+    slowest = sorted(times.items(), key=lambda item: -item[1])[:10]
+    if slowest:
+        print(title)
+    for name, seconds in slowest:
+        print(f"  {seconds:6.1f}  {name}")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--failed-steps", type=int, default=0)
@@ -55,14 +79,12 @@ def main():
     arguments = parser.parse_args()
 
     for log in arguments.ninja_log:
-        times = sorted(compile_times(log).items(), key=lambda item: -item[1])[:10]
-        if times:
-            print(f"The slowest files of {log.parent.parent.name}, s:")
-            for name, seconds in times:
-                print(f"  {seconds:6.1f}  {name}")
+        print_slowest(f"The slowest files of {log.parent.parent.name}, s:", compile_times(log))
+    files = sorted(p for folder in arguments.folders for p in folder.rglob("*.xml"))
+    print_slowest("The slowest tests, s:", {name: s for path in files for name, s in test_times(path).items()})
 
     passed, failed, skipped = 0, arguments.failed_steps, 0
-    for path in sorted(p for folder in arguments.folders for p in folder.rglob("*.xml")):
+    for path in files:
         counts = read(path)
         passed, failed, skipped = passed + counts[0], failed + counts[1], skipped + counts[2]
         for name in counts[3]:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # How every package of the suite is built. Loaded by find_package(urban_nav_core), from the devel space and the install
-# space alike. Nothing here touches a target, a flag or an include path that is not ours: the suite may share a workspace.
+# space alike. Nothing here touches a target, a flag or an include path that is not ours: the suite may share a
+# workspace.
 #catkin_lint: ignore global_var_collision duplicate_find shadowed_find
 include_guard(DIRECTORY)
 include(CheckCXXCompilerFlag)
@@ -10,6 +11,10 @@ option(URBAN_NAV_SANITIZE "Address and undefined-behaviour sanitizer" OFF)
 option(URBAN_NAV_CORES_ONLY "Build the ROS-free cores alone" OFF)
 option(URBAN_NAV_BENCH "Configure the programs in bench/ (target urban_nav_benches builds them)" OFF)
 option(URBAN_NAV_PRECOMPILE "Headers that most files include are compiled once for each target" OFF)
+option(URBAN_NAV_UNITY "Sources are compiled in batches, which parses what they include once for each batch" OFF)
+set(URBAN_NAV_UNITY_BATCH 8 CACHE STRING "Sources in a batch")
+option(URBAN_NAV_SANITIZED_READERS "Test what reads foreign bytes under the sanitizers, beside the tests without them" OFF)
+set(URBAN_NAV_TEST_SHARDS 1 CACHE STRING "Processes that share the cases of one gtest binary")
 set(URBAN_NAV_TEST_ROOMS "" CACHE STRING "Folders of test/ to compile into the tests; empty: all")
 
 find_package(Eigen3 REQUIRED NO_MODULE)
@@ -25,22 +30,29 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
     list(APPEND urban_nav_compile_options -mcx16 -mpopcnt -msahf -mssse3 -msse4.1 -msse4.2)
   endif()
 endif()
+if(URBAN_NAV_UNITY)
+  # The first two warn of a name at the top of a file, of no account where several files are one. Inlining across files makes GCC 12 see
+  # overflows in std::vector that are none.
+  list(APPEND urban_nav_compile_options -Wno-shadow -Wshadow=local -Wno-subobject-linkage -Wno-array-bounds
+       -Wno-stringop-overflow -Wno-stringop-overread)
+endif()
 # Contraction into fused multiply-add would make the bits depend on the machine.
 list(APPEND urban_nav_compile_options -ffp-contract=off)
 if(URBAN_NAV_WERROR)
   list(APPEND urban_nav_compile_options -Werror)
 endif()
 set(urban_nav_link_options "")
+# The reduced set: the checks left out take two thirds of the compile time of an Eigen file.
+set(urban_nav_sanitizers -fsanitize=address,undefined -fno-sanitize=null,alignment,object-size,pointer-overflow,vptr
+    -fno-sanitize-recover=all -O1 -g1 -UNDEBUG -fno-omit-frame-pointer
+    -Wno-maybe-uninitialized)  # which GCC sees in Eigen where the sanitizers are
 if(URBAN_NAV_SANITIZE)
-  # The reduced set: the checks left out take two thirds of the compile time of an Eigen file.
-  set(urban_nav_sanitizers -fsanitize=address,undefined -fno-sanitize=null,alignment,object-size,pointer-overflow,vptr
-      -fno-sanitize-recover=all)
-  list(APPEND urban_nav_compile_options ${urban_nav_sanitizers} -O1 -g1 -UNDEBUG -fno-omit-frame-pointer
-       -Wno-maybe-uninitialized)  # which GCC sees in Eigen where the sanitizers are
+  list(APPEND urban_nav_compile_options ${urban_nav_sanitizers})
   list(APPEND urban_nav_link_options -fsanitize=address,undefined)
 endif()
 
-# urban_nav_precompile(TARGET HEADER...): these headers compiled once for the target, if it has the files that this takes to be quicker.
+# urban_nav_precompile(TARGET HEADER...): these headers compiled once for the target, if it has the files that this
+# takes to be quicker.
 function(urban_nav_precompile target)
   get_target_property(sources ${target} SOURCES)
   list(LENGTH sources files)
@@ -49,13 +61,15 @@ function(urban_nav_precompile target)
   endif()
 endfunction()
 
-# urban_nav_target(TARGET [ROS]): properties of all our targets. Without the word ROS a target sees urban_nav_core, those
-# of the other ROS-free packages of src/ that the package has found, and no header of ROS: the cores stay free of it.
+# urban_nav_target(TARGET [ROS]): properties of all our targets. Without the word ROS a target sees urban_nav_core,
+# those of the other ROS-free packages of src/ that the package has found, and no header of ROS: the cores stay free of
+# it.
 function(urban_nav_target target)
   cmake_parse_arguments(arg "ROS" "" "" ${ARGN})
   set_target_properties(${target} PROPERTIES
     CXX_STANDARD 17 CXX_STANDARD_REQUIRED ON CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON
-    INSTALL_RPATH "$ORIGIN;$ORIGIN/..;$ORIGIN/../lib")
+    INSTALL_RPATH "$ORIGIN;$ORIGIN/..;$ORIGIN/../lib"
+    UNITY_BUILD ${URBAN_NAV_UNITY} UNITY_BUILD_BATCH_SIZE ${URBAN_NAV_UNITY_BATCH})
   target_compile_options(${target} PRIVATE ${urban_nav_compile_options})
   if(EXISTS ${PROJECT_SOURCE_DIR}/include)
     target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>)
@@ -90,7 +104,8 @@ macro(urban_nav_pass_ros target)
   endif()
 endmacro()
 
-# urban_nav_library(TARGET SOURCE... [STATIC] [ROS]): a library of this package, installed. Further libraries: target_link_libraries.
+# urban_nav_library(TARGET SOURCE... [STATIC] [ROS]): a library of this package, installed. Further libraries:
+# target_link_libraries.
 function(urban_nav_library target)
   cmake_parse_arguments(arg "STATIC;ROS" "" "" ${ARGN})
   if(arg_STATIC)
@@ -105,7 +120,8 @@ function(urban_nav_library target)
     RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
 endfunction()
 
-# urban_nav_program(TARGET SOURCE... [ON_PATH] [ROS]): a program of this package, installed. ON_PATH: also found without rosrun.
+# urban_nav_program(TARGET SOURCE... [ON_PATH] [ROS]): a program of this package, installed. ON_PATH: also found without
+# rosrun.
 function(urban_nav_program target)
   cmake_parse_arguments(arg "ON_PATH;ROS" "" "" ${ARGN})
   add_executable(${target} ${arg_UNPARSED_ARGUMENTS})
@@ -119,8 +135,8 @@ function(urban_nav_program target)
   endif()
 endfunction()
 
-# urban_nav_parameters(): PACKAGE_parameters, and the target PACKAGE_documents by which it writes the texts that are made from the tables of parameters:
-# config/PACKAGE.yaml and two tables of README.md.
+# urban_nav_parameters(): PACKAGE_parameters, and the target PACKAGE_documents by which it writes the texts that are
+# made from the tables of parameters: config/PACKAGE.yaml and two tables of README.md.
 function(urban_nav_parameters)
   set(sources tools/${PROJECT_NAME}_parameters.cpp)
   if(EXISTS ${PROJECT_SOURCE_DIR}/nodelet/nodelet_parameters.cpp)
@@ -132,7 +148,8 @@ function(urban_nav_parameters)
   add_custom_target(${PROJECT_NAME}_documents COMMAND ${PROJECT_NAME}_parameters --write ${PROJECT_SOURCE_DIR} VERBATIM)
 endfunction()
 
-# The library of testing/ for tests, benches and the demo: a target in one workspace, a file when built package by package.
+# The library of testing/ for tests, benches and the demo: a target in one workspace, a file when built package by
+# package.
 #catkin_lint: ignore literal_project_name
 if(TARGET urban_nav_core_testing OR PROJECT_NAME STREQUAL "urban_nav_core")
   set(urban_nav_testing_library urban_nav_core_testing)
@@ -143,8 +160,43 @@ else()
     urban_nav_core opencv_core opencv_imgcodecs opencv_imgproc)
 endif()
 
-# urban_nav_test(LIBRARY... [ROS] [ONLY SOURCE...]): PACKAGE-test, one gtest binary of test/**/*.cpp without test/ros, linked
-# with the libraries.
+# urban_nav_run_gtest(TARGET TYPE): run_tests_PACKAGE_TYPE_TARGET-N run a gtest binary in the package's folder, each its
+# share of the cases. Shards share no folder for temporary files.
+function(urban_nav_run_gtest target type)
+  get_target_property(folder ${target} RUNTIME_OUTPUT_DIRECTORY)
+  math(EXPR last "${URBAN_NAV_TEST_SHARDS} - 1")
+  foreach(shard RANGE ${last})
+    set(results ${type}-${target}-${shard}.xml)
+    set(temporary ${CMAKE_CURRENT_BINARY_DIR}/${target}-${shard}.tmp)
+    catkin_run_tests_target(${type} ${target}-${shard} ${results} DEPENDENCIES ${target} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
+      COMMAND "mkdir -p ${temporary} && TEST_TMPDIR=${temporary} GTEST_TOTAL_SHARDS=${URBAN_NAV_TEST_SHARDS} GTEST_SHARD_INDEX=${shard} \
+${folder}/${target} --gtest_output=xml:${CATKIN_TEST_RESULTS_DIR}/${PROJECT_NAME}/${results}")
+  endforeach()
+endfunction()
+
+# urban_nav_gtest(TARGET TYPE SOURCE... LIBRARIES LIBRARY... [ROS]): a gtest binary of these sources, which catkin's
+# target run_tests runs.
+function(urban_nav_gtest target type)
+  cmake_parse_arguments(arg "ROS" "" "LIBRARIES" ${ARGN})
+  catkin_add_executable_with_gtest(${target} ${arg_UNPARSED_ARGUMENTS} EXCLUDE_FROM_ALL)
+  if(NOT TARGET ${target})
+    return()
+  endif()
+  add_dependencies(tests ${target})
+  urban_nav_pass_ros(${target})
+  urban_nav_precompile(${target} <gtest/gtest.h>)
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/test)
+  target_link_libraries(${target} ${arg_LIBRARIES} ${urban_nav_testing_library})
+  if(TARGET GTest::gtest_main)
+    target_link_libraries(${target} GTest::gtest_main)
+  else()
+    target_link_libraries(${target} ${GTEST_MAIN_LIBRARIES})
+  endif()
+  urban_nav_run_gtest(${target} ${type})
+endfunction()
+
+# urban_nav_test(LIBRARY... [ROS] [ONLY SOURCE...]): PACKAGE-test, one gtest binary of test/**/*.cpp without test/ros,
+# linked with the libraries.
 function(urban_nav_test)
   if(NOT CATKIN_ENABLE_TESTING)
     return()
@@ -161,26 +213,46 @@ function(urban_nav_test)
   if(NOT sources)
     return()
   endif()
-  catkin_add_gtest(${PROJECT_NAME}-test ${sources} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
-  if(NOT TARGET ${PROJECT_NAME}-test)
+  if(EXISTS ${PROJECT_SOURCE_DIR}/nodelet/nodelet_parameters.cpp)
+    list(APPEND sources nodelet/nodelet_parameters.cpp)
+  endif()
+  if(arg_ROS)
+    list(APPEND sources ROS)
+  endif()
+  urban_nav_gtest(${PROJECT_NAME}-test gtest ${sources} LIBRARIES ${arg_UNPARSED_ARGUMENTS})
+endfunction()
+
+# urban_nav_sanitized_test(LIBRARY... ROOMS ROOM... [TESTS SOURCE...] [WITHOUT SOURCE...]): PACKAGE-sanitized-test,
+# src/ROOM and test/ROOM compiled under the sanitizers into one gtest binary; all else of the package comes from the
+# libraries, as it is. The sources of the binary go before those of the libraries.
+function(urban_nav_sanitized_test)
+  if(NOT CATKIN_ENABLE_TESTING OR NOT URBAN_NAV_SANITIZED_READERS)
     return()
   endif()
-  urban_nav_pass_ros(${PROJECT_NAME}-test)
-  urban_nav_precompile(${PROJECT_NAME}-test <gtest/gtest.h>)
-  if(EXISTS ${PROJECT_SOURCE_DIR}/nodelet/nodelet_parameters.cpp)
-    target_sources(${PROJECT_NAME}-test PRIVATE nodelet/nodelet_parameters.cpp)
+  cmake_parse_arguments(arg "" "" "ROOMS;TESTS;WITHOUT" ${ARGN})
+  set(sources ${arg_TESTS})
+  foreach(room ${arg_ROOMS})
+    file(GLOB_RECURSE room_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${room}/*.cpp ${PROJECT_SOURCE_DIR}/test/${room}/*.cpp)
+    list(APPEND sources ${room_sources})
+  endforeach()
+  foreach(source ${arg_WITHOUT})
+    list(REMOVE_ITEM sources ${PROJECT_SOURCE_DIR}/${source})
+  endforeach()
+  if(TARGET urban_nav_core_testing)  # whose malloc, compiled without the sanitizers, would take the place of theirs
+    get_target_property(core urban_nav_core_testing SOURCE_DIR)
+    list(APPEND sources ${core}/testing/allocations.cpp)
   endif()
-  target_include_directories(${PROJECT_NAME}-test PRIVATE ${PROJECT_SOURCE_DIR}/test)
-  target_link_libraries(${PROJECT_NAME}-test ${arg_UNPARSED_ARGUMENTS} ${urban_nav_testing_library})
-  if(TARGET GTest::gtest_main)
-    target_link_libraries(${PROJECT_NAME}-test GTest::gtest_main)
-  else()
-    target_link_libraries(${PROJECT_NAME}-test ${GTEST_MAIN_LIBRARIES})
+  set(target ${PROJECT_NAME}-sanitized-test)
+  urban_nav_gtest(${target} sanitized ${sources} LIBRARIES ${arg_UNPARSED_ARGUMENTS})
+  if(TARGET ${target})
+    target_compile_options(${target} PRIVATE ${urban_nav_sanitizers})
+    target_link_libraries(${target} -fsanitize=address,undefined)
   endif()
 endfunction()
 
-# urban_nav_nodelet(): nodelet/*.cpp becomes PACKAGE_nodelet, which is what ROS sees of the package's library; test/ros/*.cpp becomes PACKAGE-rostest, which
-# test/ros/nodelet.test runs beside it. Nothing where the cores alone are built.
+# urban_nav_nodelet(): nodelet/*.cpp becomes PACKAGE_nodelet, which is what ROS sees of the package's library;
+# test/ros/*.cpp becomes PACKAGE-rostest, which test/ros/nodelet.test runs beside it. Nothing where the cores alone are
+# built.
 function(urban_nav_nodelet)
   if(URBAN_NAV_CORES_ONLY)
     return()
@@ -200,8 +272,8 @@ function(urban_nav_nodelet)
   target_link_libraries(${PROJECT_NAME}-rostest ${PROJECT_NAME}_nodelet ${PROJECT_NAME} ${urban_nav_testing_library} ${GTEST_LIBRARIES})
 endfunction()
 
-# urban_nav_python_tests(): each test/FOLDER/NAME_test.py of this package, run by the python3 of the workspace. It ends with
-# rosunit.unitrun, which leaves the same XML as gtest.
+# urban_nav_python_tests(): each test/FOLDER/NAME_test.py of this package, run by the python3 of the workspace. It ends
+# with rosunit.unitrun, which leaves the same XML as gtest.
 function(urban_nav_python_tests)
   if(NOT CATKIN_ENABLE_TESTING)
     return()
@@ -244,4 +316,22 @@ function(urban_nav_bench)
     target_link_libraries(${target} ${libraries})
     add_dependencies(urban_nav_benches ${target})
   endforeach()
+endfunction()
+
+# urban_nav_stage([LIBRARIES LIBRARY...] [TEST_LIBRARIES LIBRARY...] [SANITIZED ROOM...] [SANITIZED_WITHOUT SOURCE...]):
+# all of a stage after catkin_package(). src/ becomes the library PACKAGE, linked with LIBRARIES; nodelet/, tools/,
+# test/, test/ros/ and bench/ become what the functions above say, tests and benches linked with TEST_LIBRARIES. What is
+# installed beside libraries and programs stays with the stage, where catkin_lint looks for it.
+function(urban_nav_stage)
+  cmake_parse_arguments(arg "" "" "LIBRARIES;TEST_LIBRARIES;SANITIZED;SANITIZED_WITHOUT" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/*.cpp)
+  urban_nav_library(${PROJECT_NAME} ${sources})
+  target_link_libraries(${PROJECT_NAME} ${arg_LIBRARIES})
+  urban_nav_nodelet()
+  urban_nav_parameters()
+  urban_nav_test(${PROJECT_NAME} ${arg_TEST_LIBRARIES})
+  if(arg_SANITIZED)
+    urban_nav_sanitized_test(${PROJECT_NAME} ${arg_LIBRARIES} ROOMS ${arg_SANITIZED} WITHOUT ${arg_SANITIZED_WITHOUT})
+  endif()
+  urban_nav_bench(${arg_TEST_LIBRARIES})
 endfunction()
