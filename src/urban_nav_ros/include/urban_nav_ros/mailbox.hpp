@@ -28,7 +28,8 @@ class Mailbox {
     arrived_.notify_one();
   }
 
-  /// All there is, oldest first; waits up to `patience` for something. Empty after that, when it was woken, or when the box was closed.
+  /// All there is, oldest first; waits up to `patience` for something. Empty after that, when it was woken, or when the
+  /// box was closed.
   std::deque<Item> takeAll(std::chrono::milliseconds patience) {
     std::unique_lock<std::mutex> lock(mutex_);
     arrived_.wait_for(lock, patience, [this] { return closed_ || woken_ || !items_.empty(); });

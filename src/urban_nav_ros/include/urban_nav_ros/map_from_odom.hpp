@@ -20,8 +20,8 @@ class MapFromOdom {
 
   /// From now on it is this; empty: not known.
   void set(const std::optional<urban_nav_core::Pose>& T_map_odom);
-  /// Publishes it with the stamp of an odometry message, so that every odom -> base_link has its map -> odom; where it is not known yet,
-  /// as soon as it is.
+  /// Publishes it with the stamp of an odometry message, so that every odom -> base_link has its map -> odom; where it
+  /// is not known yet, as soon as it is.
   void send(urban_nav_core::StampNs stamp);
 
  private:

@@ -15,8 +15,8 @@ urban_nav_core::PoseRun thinned(const urban_nav_core::PoseRun& run, double spaci
 
 nav_msgs::Path toPathMessage(const urban_nav_core::PoseRun& run, const std::string& map_frame);
 
-/// Appends a pose to a growing path for display. Returns false for a pose closer than `spacing` (m) to the last one, which
-/// is left out. At `max_points` the oldest tenth is removed.
+/// Appends a pose to a growing path for display. Returns false for a pose closer than `spacing` (m) to the last one,
+/// which is left out. At `max_points` the oldest tenth is removed.
 bool appendToPath(urban_nav_core::StampNs stamp, const urban_nav_core::Pose& pose, double spacing,
                   std::size_t max_points, nav_msgs::Path& path);
 

@@ -38,8 +38,8 @@ struct TopicOptions {
   int queue = 100;        ///< messages
 };
 
-/// ROS side of a live stage apart from its topics: handles, monitored subscriptions, services, the latched status topic,
-/// /diagnostics and the log. Thread-safe after the stage's constructor.
+/// ROS side of a live stage apart from its topics: handles, monitored subscriptions, services, the latched status
+/// topic, /diagnostics and the log. Thread-safe after the stage's constructor.
 class StageNode {
  public:
   struct Handles {
@@ -69,8 +69,8 @@ class StageNode {
   void subscribe(const std::string& topic, const TopicOptions& options,
                  const std::function<void(const boost::shared_ptr<const Message>&)>& callback);
 
-  /// Advertises a private service whose response has `success` and `message`. `action` fills in the response in a thread
-  /// of ROS; an Error that it throws becomes the message of a failure.
+  /// Advertises a private service whose response has `success` and `message`. `action` fills in the response in a
+  /// thread of ROS; an Error that it throws becomes the message of a failure.
   template <typename Service>
   void advertiseService(
       const std::string& name,
@@ -123,13 +123,13 @@ class StageNodeWith : public StageNode {
   /// Sets the number of inputs that may wait for the worker.
   void setQueueSize(int inputs) { loop_.setCapacity(static_cast<std::size_t>(inputs)); }
   void push(Input input) { loop_.push(std::move(input)); }
-  /// Subscribes, and queues what `convert` makes of each message: an Input, or an optional one. A message for which it is
-  /// empty is counted as invalid, with a warning.
+  /// Subscribes, and queues what `convert` makes of each message: an Input, or an optional one. A message for which it
+  /// is empty is counted as invalid, with a warning.
   template <typename Message, typename Convert>
   void subscribeInput(const std::string& topic, const TopicOptions& options, const Convert& convert);
 
-  /// Returns the answer of `question`, evaluated in the worker's thread after all earlier inputs. Throws what it throws,
-  /// and UserError if it is not answered within `timeout`. Requires that the caller is not the worker.
+  /// Returns the answer of `question`, evaluated in the worker's thread after all earlier inputs. Throws what it
+  /// throws, and UserError if it is not answered within `timeout`. Requires that the caller is not the worker.
   template <typename Question>
   auto ask(const Question& question, std::chrono::milliseconds timeout = std::chrono::seconds(30))
       -> decltype(question()) {

@@ -29,9 +29,8 @@ namespace urban_nav_ros {
 ///         std::tie(nodelet_, parameters_) = node.parameters(nodeletTable(), table());
 ///         node.setQueueSize(nodelet_.queue_size);
 ///         count_ = node.nh().advertise<std_msgs::UInt64>("frame_counter/count", 10);
-///         node.subscribeInput<sensor_msgs::Image>(topics::left_image, {1.0}, [](const sensor_msgs::ImageConstPtr& image) {
-///           return toStampNs(image->header.stamp);
-///         });
+///         node.subscribeInput<sensor_msgs::Image>(
+///             topics::left_image, {1.0}, [](const auto& image) { return toStampNs(image->header.stamp); });
 ///       }
 ///       // What follows is called by the worker.
 ///       void handle(Input& stamp);

@@ -14,8 +14,8 @@ namespace urban_nav_ros {
 
 enum class Side { Left, Right };
 
-/// Whether the images of a topic were rectified before they came, by a nodelet's parameter `images`: raw, rectified, or auto, which asks whether the
-/// topic's name has `rect` in it, as image_proc names them.
+/// Whether the images of a topic were rectified before they came, by a nodelet's parameter `images`: raw, rectified, or
+/// auto, which asks whether the topic's name has `rect` in it, as image_proc names them.
 bool areRectified(const std::string& images, const std::string& topic);
 
 /// The calibration of a stereo pair of topics: what the two camera_info say, made into a rectified camera and, where

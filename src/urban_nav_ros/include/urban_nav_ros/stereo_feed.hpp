@@ -27,9 +27,9 @@ struct DecodedPair {
   std::vector<std::string> faults;
 };
 
-/// Messages in, stereo pairs out: converters, TimeOrderedQueue, pairing and rectification in the one way that nodelet and bag
-/// reader share, so that both hand a stage the same bytes. One session and one calibration: begin the next with a new
-/// object. Not thread-safe.
+/// Messages in, stereo pairs out: converters, TimeOrderedQueue, pairing and rectification in the one way that nodelet
+/// and bag reader share, so that both hand a stage the same bytes. One session and one calibration: begin the next with
+/// a new object. Not thread-safe.
 class StereoFeed {
  public:
   struct Options {
@@ -50,7 +50,8 @@ class StereoFeed {
   /// are added.
   std::optional<DecodedPair> take();
 
-  /// Where it stands between two messages, as take() has nothing more: what waits, as it came, and what has been counted.
+  /// Where it stands between two messages, as take() has nothing more: what waits, as it came, and what has been
+  /// counted.
   void archive(urban_nav_core::Archive& archive);
 
   /// What came on a side, too late or twice.

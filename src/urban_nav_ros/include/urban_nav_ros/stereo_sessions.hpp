@@ -37,12 +37,12 @@ struct InfoInput {
 /// Returns true if two messages describe the same camera, whatever their headers.
 bool isSameCalibration(const sensor_msgs::CameraInfo& a, const sensor_msgs::CameraInfo& b);
 
-/// Divides the messages of a stereo camera, and of a motion sensor, into sessions: each has one calibration, one mounting
-/// and stamps that do not jump back. Pairs are the same as offline. Used by one thread.
+/// Divides the messages of a stereo camera, and of a motion sensor, into sessions: each has one calibration, one
+/// mounting and stamps that do not jump back. Pairs are the same as offline. Used by one thread.
 ///
-/// A session begins when both camera_info have arrived and /tf_static connects base and camera, at the latest `tf_timeout`
-/// after the first image; earlier images are kept. Without the transform the left camera is taken to be at the base, with
-/// axes as in REP 103.
+/// A session begins when both camera_info have arrived and /tf_static connects base and camera, at the latest
+/// `tf_timeout` after the first image; earlier images are kept. Without the transform the left camera is taken to be at
+/// the base, with axes as in REP 103.
 class StereoSessions {
  public:
   using Message = std::variant<ImageInput, InfoInput, tf2_msgs::TFMessageConstPtr, nav_msgs::OdometryConstPtr,

@@ -33,15 +33,10 @@ inline StereoSessions::Options toStereoOptions(const urban_nav_live::StereoInput
   return options;
 }
 
-/// Subscribes to the images and camera_info of both sides, to /tf_static and to the motion sensor, as inputs of a stage.
-/// Requires that Input can be made from each alternative of StereoSessions::Message. `options` apply to images and motion;
-/// camera_info need arrive only once.
+/// Subscribes to the images and camera_info of both sides as inputs of a stage. Requires that Input can be made from
+/// ImageInput and InfoInput. `options` apply to the images; camera_info need arrive only once.
 template <typename Input>
-void subscribeStereo(StageNodeWith<Input>& node, const TopicOptions& options, bool compressed, MotionTopic motion) {
-  const auto forward = [](const auto& message) { return Input(message); };
-  TopicOptions unmonitored;
-  unmonitored.is_monitored = unmonitored.is_paused = false;
-  node.template subscribeInput<tf2_msgs::TFMessage>(topics::static_transforms, unmonitored, forward);
+void subscribeImages(StageNodeWith<Input>& node, const TopicOptions& options, bool compressed) {
   for (const Side side : {Side::Left, Side::Right}) {
     const bool is_left = side == Side::Left;
     TopicOptions once = options;
@@ -59,6 +54,17 @@ void subscribeStereo(StageNodeWith<Input>& node, const TopicOptions& options, bo
     else node.template subscribeInput<sensor_msgs::Image>(images, options, toInput);
   }
   node.monitor().expectPairs(node.nh().resolveName(topics::left_image), node.nh().resolveName(topics::right_image));
+}
+
+/// Subscribes to images, camera_info, /tf_static and the motion sensor as inputs of a stage. Requires that Input can be
+/// made from each alternative of StereoSessions::Message. `options` apply to images and motion.
+template <typename Input>
+void subscribeStereo(StageNodeWith<Input>& node, const TopicOptions& options, bool compressed, MotionTopic motion) {
+  const auto forward = [](const auto& message) { return Input(message); };
+  TopicOptions unmonitored;
+  unmonitored.is_monitored = unmonitored.is_paused = false;
+  node.template subscribeInput<tf2_msgs::TFMessage>(topics::static_transforms, unmonitored, forward);
+  subscribeImages(node, options, compressed);
   if (motion == MotionTopic::Wheels)
     node.template subscribeInput<nav_msgs::Odometry>(topics::wheel_odometry, options, forward);
   if (motion == MotionTopic::Imu) node.template subscribeInput<sensor_msgs::Imu>(topics::imu, options, forward);

@@ -9,7 +9,8 @@
 
 namespace urban_nav_ros {
 
-/// A service of type std_srvs/Trigger. `action` returns what was done, which is the answer's message; empty: it was not done, and the answer says no.
+/// A service of type std_srvs/Trigger. `action` returns what was done, which is the answer's message; empty: it was not
+/// done, and the answer says no.
 ros::ServiceServer advertiseTrigger(ros::NodeHandle& nh, const std::string& name,
                                     const std::function<std::string()>& action);
 

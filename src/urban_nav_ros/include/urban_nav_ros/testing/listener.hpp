@@ -12,7 +12,8 @@
 
 namespace urban_nav_ros::testing {
 
-/// What listens in the rostest of a nodelet: it keeps all that comes on the topics it is told, in the thread of the test.
+/// What listens in the rostest of a nodelet: it keeps all that comes on the topics it is told, in the thread of the
+/// test.
 class Listener {
  public:
   /// `node`: the nodelet's name, under which its services are.

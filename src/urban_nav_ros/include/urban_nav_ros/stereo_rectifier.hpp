@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "urban_nav_live/stage_report.hpp"
+#include "urban_nav_live/time_jump.hpp"
+#include "urban_nav_ros/stereo_sessions.hpp"
+
+namespace urban_nav_ros {
+
+/// Decodes and rectifies the images of a stereo camera, to the same pixels as StereoFeed. Images that are rectified
+/// already pass through, without a copy if they are mono8. Used by one thread.
+///
+/// Images that arrive before the calibration wait for it. An image that cannot be decoded, or has a wrong size, becomes
+/// a message without pixels, so that it is missing at once and not only after a timeout.
+class StereoRectifier {
+ public:
+  struct Options {
+    bool rectified = false;        ///< the images are rectified already
+    int queue = 200;               ///< images that wait for the calibration
+    std::string where = "stereo";  ///< what an error of the calibration begins with
+  };
+  struct Listener {
+    std::function<void(Side side, const sensor_msgs::ImageConstPtr& image)> image;
+    std::function<void(const std::string& fault)> fault;  ///< of an image, or of the calibration
+  };
+  struct Counts {
+    std::int64_t rectified = 0, passed = 0, damaged = 0, dropped = 0;  ///< images
+  };
+
+  StereoRectifier(Options options, Listener listener) : options_(std::move(options)), listener_(std::move(listener)) {}
+
+  void handle(const InfoInput& info);
+  void handle(const ImageInput& image);
+  /// Forgets the images that wait.
+  void reset();
+
+  const Counts& counts() const { return counts_; }
+  /// Returns the state for the operator: a warning until the calibration is known.
+  urban_nav_live::StageReport report() const;
+
+ private:
+  void calibrate();
+  void forgetStream();
+  void process(const ImageInput& image);
+  sensor_msgs::ImageConstPtr convert(const ImageInput& image, std::string& fault);
+
+  const Options options_;
+  const Listener listener_;
+  sensor_msgs::CameraInfoConstPtr left_info_, right_info_;
+  std::optional<StereoCalibration> calibration_;
+  std::deque<ImageInput> waiting_;  // for the calibration
+  urban_nav_live::TimeJumpDetector images_;
+  int left_bits_ = 0, right_bits_ = 0;  // depth of 16-bit pixels, from the first image
+  std::string fault_;                   // of the calibration
+  Counts counts_;
+};
+
+}  // namespace urban_nav_ros

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_ros/stereo_rectifier.hpp"
+
+#include <sensor_msgs/image_encodings.h>
+
+#include <boost/make_shared.hpp>
+#include <utility>
+
+#include "urban_nav_core/types/error.hpp"
+#include "urban_nav_ros/camera_info.hpp"
+#include "urban_nav_ros/image.hpp"
+
+namespace urban_nav_ros {
+
+using urban_nav_core::ImageView;
+
+namespace {
+
+const std_msgs::Header& headerOf(const ImageInput& image) {
+  return std::visit([](const auto& message) -> const std_msgs::Header& { return message->header; }, image.message);
+}
+
+/// Makes a message of pixels that are in `rectified` or elsewhere.
+sensor_msgs::ImageConstPtr toMono8(const std_msgs::Header& header, const ImageView& view,
+                                   std::vector<std::uint8_t>&& rectified) {
+  auto message = boost::make_shared<sensor_msgs::Image>();
+  message->header = header;
+  message->encoding = sensor_msgs::image_encodings::MONO8;
+  message->width = static_cast<std::uint32_t>(view.width);
+  message->height = static_cast<std::uint32_t>(view.height);
+  message->step = message->width;
+  const std::size_t size = static_cast<std::size_t>(message->step) * message->height;
+  if (view.data == rectified.data() && rectified.size() == size && view.stride == view.width) {
+    message->data = std::move(rectified);
+    return message;
+  }
+  message->data.reserve(size);
+  for (int v = 0; v < view.height; ++v)
+    message->data.insert(message->data.end(), view.row(v), view.row(v) + view.width);
+  return message;
+}
+
+}  // namespace
+
+void StereoRectifier::handle(const InfoInput& info) {
+  sensor_msgs::CameraInfoConstPtr& known = info.side == Side::Left ? left_info_ : right_info_;
+  if (known && isSameCalibration(*known, *info.message)) return;
+  // A new left camera does not match the old right one: its camera_info must arrive again.
+  if (known) (info.side == Side::Left ? right_info_ : left_info_).reset();
+  known = info.message;
+  calibration_.reset();
+  fault_.clear();
+  forgetStream();
+  if (left_info_ && right_info_) calibrate();
+}
+
+void StereoRectifier::calibrate() {
+  try {
+    calibration_.emplace(toCameraInfo(*left_info_), toCameraInfo(*right_info_), options_.rectified, options_.where);
+  } catch (const urban_nav_core::Error& error) {
+    fault_ = error.what();
+    listener_.fault(fault_);
+    return;
+  }
+  for (const ImageInput& image : std::exchange(waiting_, {})) process(image);
+}
+
+void StereoRectifier::handle(const ImageInput& image) {
+  if (images_.add(image.stamp)) forgetStream();
+  if (calibration_) return process(image);
+  waiting_.push_back(image);
+  if (waiting_.size() <= static_cast<std::size_t>(options_.queue)) return;
+  waiting_.pop_front();
+  ++counts_.dropped;
+}
+
+void StereoRectifier::reset() {
+  waiting_.clear();
+  images_.reset();
+  forgetStream();
+}
+
+void StereoRectifier::forgetStream() { left_bits_ = right_bits_ = 0; }
+
+void StereoRectifier::process(const ImageInput& image) {
+  std::string fault;
+  sensor_msgs::ImageConstPtr message = convert(image, fault);
+  if (!fault.empty()) {
+    ++counts_.damaged;
+    listener_.fault((image.side == Side::Left ? "left image: " : "right image: ") + fault);
+    message = toMono8(headerOf(image), {}, {});
+  }
+  listener_.image(image.side, message);
+}
+
+sensor_msgs::ImageConstPtr StereoRectifier::convert(const ImageInput& image, std::string& fault) {
+  int& bits = image.side == Side::Left ? left_bits_ : right_bits_;
+  GreyImage grey;
+  const auto* raw = std::get_if<sensor_msgs::ImageConstPtr>(&image.message);
+  if (raw != nullptr) {
+    if (bits == 0) bits = significantBits(**raw);
+    grey = toGrey(**raw, bits);
+  } else {
+    grey = toGrey(*std::get<sensor_msgs::CompressedImageConstPtr>(image.message));
+  }
+  fault = grey.fault;
+  if (!fault.empty()) return nullptr;
+  std::vector<std::uint8_t> rectified;
+  const ImageView view = calibration_->rectify(image.side, viewOf(grey.pixels), rectified);
+  if (view.empty()) {
+    fault = std::to_string(grey.pixels.cols) + "x" + std::to_string(grey.pixels.rows) +
+            ", which is not the size in camera_info";
+    return nullptr;
+  }
+  ++(calibration_->rectifies() ? counts_.rectified : counts_.passed);
+  const bool is_unchanged =
+      raw != nullptr && !calibration_->rectifies() && (*raw)->encoding == sensor_msgs::image_encodings::MONO8;
+  return is_unchanged ? *raw : toMono8(headerOf(image), view, std::move(rectified));
+}
+
+urban_nav_live::StageReport StereoRectifier::report() const {
+  urban_nav_live::StageReport report;
+  if (!calibration_) {
+    report.is_warning = true;
+    report.summary = fault_.empty() ? "no calibration yet" : fault_;
+  }
+  report.add("images rectified", counts_.rectified);
+  report.add("images passed through", counts_.passed);
+  report.add("images damaged", counts_.damaged);
+  report.add("dropped: before the calibration", counts_.dropped);
+  return report;
+}
+
+}  // namespace urban_nav_ros

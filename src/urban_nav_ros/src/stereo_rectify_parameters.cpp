@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_ros/stereo_rectify_parameters.hpp"
+
+#include <cstdint>
+
+namespace urban_nav_ros {
+
+using urban_nav_core::Table;
+
+StereoRectifyParameters::StereoRectifyParameters() { stereoRectifyTable().setDefaults(*this); }
+
+// clang-format would give each of the columns a line.
+// clang-format off
+const Table<StereoRectifyParameters>& stereoRectifyTable() {
+  using P = StereoRectifyParameters;
+  static const Table<StereoRectifyParameters> rows(
+      "",
+      {
+          {"image_type", &P::image_type, "", "auto", false, false, {"auto", "raw", "rectified"},
+           "Whether images are rectified by camera_info or were before they arrived; auto: "
+           "rectified if the topic's name contains `rect`.",
+           "image_proc"},
+          {"compressed", &P::compressed, "", false, false, true, {},
+           "Whether the image topics are sensor_msgs/CompressedImage.", "docs/architecture.md"},
+          {"queue_size", &P::queue_size, "messages", 200, 2, 1000000, {},
+           "Messages that may wait; beyond that the oldest is dropped and counted.", "docs/architecture.md"},
+      });
+  return rows;
+}
+// clang-format on
+
+}  // namespace urban_nav_ros
