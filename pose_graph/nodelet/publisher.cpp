@@ -6,44 +6,26 @@
 #include <urban_nav_msgs/GraphUpdate.h>
 #include <urban_nav_msgs/MapJump.h>
 
-#include "picture.hpp"
+#include "markers.hpp"
 #include "urban_nav_ros/graph.hpp"
 #include "urban_nav_ros/path.hpp"
 #include "urban_nav_ros/stamp.hpp"
-#include "urban_nav_ros/status.hpp"
+#include "urban_nav_ros/topics.hpp"
 
 namespace pose_graph {
 
+namespace topics = urban_nav_ros::topics;
 using urban_nav_core::PoseRun;
 using urban_nav_core::StampNs;
 using urban_nav_ros::toRosTime;
 
-Publisher::Publisher(ros::NodeHandle& nh, const NodeletParameters& parameters)
-    : parameters_(parameters),
-      update_(nh.advertise<urban_nav_msgs::GraphUpdate>("graph/update", 100)),
-      jump_(nh.advertise<urban_nav_msgs::MapJump>("graph/jump", 100)),
-      path_(nh.advertise<nav_msgs::Path>("graph/path", 1, true)),
-      state_(nh.advertise<urban_nav_msgs::GraphState>("graph/state", 1, true)),
-      markers_(nh.advertise<visualization_msgs::MarkerArray>("graph/markers", 1, true)),
-      status_(nh.advertise<urban_nav_msgs::StageStatus>("pose_graph/status", 10, true)),
-      map_from_odom_(parameters.map_frame, parameters.odom_frame) {}
+namespace {
 
-void Publisher::sendTransform(StampNs stamp) {
-  if (parameters_.publish_tf) map_from_odom_.send(stamp);
-}
-
-void Publisher::publish(const urban_nav_core::GraphUpdate& update, StampNs newest) {
-  update_.publish(urban_nav_ros::toGraphUpdateMessage(update, newest, parameters_.map_frame));
-}
-
-void Publisher::publish(const urban_nav_core::MapJump& jump) {
-  jump_.publish(urban_nav_ros::toMapJumpMessage(jump, parameters_.map_frame));
-}
-
-void Publisher::publish(const Figures& figures, StampNs newest) {
+urban_nav_msgs::GraphState toStateMessage(const Figures& figures, double relax_ms, StampNs newest,
+                                          const std::string& map_frame) {
   urban_nav_msgs::GraphState message;
   message.header.stamp = toRosTime(newest);
-  message.header.frame_id = parameters_.map_frame;
+  message.header.frame_id = map_frame;
   message.revision = static_cast<std::uint64_t>(figures.revision);
   message.sessions = static_cast<std::uint32_t>(figures.sessions);
   message.sessions_joined = static_cast<std::uint32_t>(figures.sessions_joined);
@@ -54,25 +36,40 @@ void Publisher::publish(const Figures& figures, StampNs newest) {
   message.closures_waiting = static_cast<std::uint64_t>(figures.closures_waiting);
   message.cost_before = figures.cost_before;
   message.cost_after = figures.cost_after;
-  message.relax_ms = figures.relax_ms;
-  state_.publish(message);
+  message.relax_ms = relax_ms;
+  return message;
 }
 
-void Publisher::publish(const urban_nav_core::Status& status, const std::string& reason_name, StampNs newest) {
-  const auto message = urban_nav_ros::toStatusMessage(newest, "pose_graph", status, reason_name);
-  if (last_status_ && last_status_->status == message.status && last_status_->reason == message.reason) return;
-  last_status_ = message;
-  status_.publish(message);
+}  // namespace
+
+Publisher::Publisher(ros::NodeHandle& nh, const NodeletParameters& parameters)
+    : parameters_(parameters),
+      update_(nh.advertise<urban_nav_msgs::GraphUpdate>(topics::graph_update, 100)),
+      jump_(nh.advertise<urban_nav_msgs::MapJump>(topics::graph_jump, 100)),
+      path_(nh.advertise<nav_msgs::Path>(topics::graph_path, 1, true)),
+      state_(nh.advertise<urban_nav_msgs::GraphState>(topics::graph_state, 1, true)),
+      markers_(nh.advertise<visualization_msgs::MarkerArray>(topics::graph_markers, 1, true)),
+      map_from_odom_(parameters.map_frame, parameters.odom_frame) {}
+
+void Publisher::sendTransform(StampNs stamp) {
+  if (parameters_.publish_tf) map_from_odom_.send(stamp);
+}
+
+void Publisher::publish(const LiveGraph::Outcome& outcome, StampNs newest, double relax_ms) {
+  const std::string& frame = parameters_.map_frame;
+  if (outcome.update) update_.publish(urban_nav_ros::toGraphUpdateMessage(*outcome.update, newest, frame));
+  for (const urban_nav_core::MapJump& jump : outcome.jumps) jump_.publish(urban_nav_ros::toMapJumpMessage(jump, frame));
+  state_.publish(toStateMessage(outcome.figures, relax_ms, newest, frame));
 }
 
 bool Publisher::isWatched() const { return path_.getNumSubscribers() > 0 || markers_.getNumSubscribers() > 0; }
 
-void Publisher::publishPicture(const std::vector<PoseRun>& runs, const std::vector<Tie>& ties, StampNs newest) {
+void Publisher::publish(const LiveGraph::Picture& picture, StampNs newest) {
   std::vector<PoseRun> drawn;
-  drawn.reserve(runs.size());
-  for (const PoseRun& run : runs) drawn.push_back(urban_nav_ros::thinned(run, parameters_.picture_spacing));
+  drawn.reserve(picture.runs.size());
+  for (const PoseRun& run : picture.runs) drawn.push_back(urban_nav_ros::thinned(run, parameters_.path_spacing));
   if (!drawn.empty()) path_.publish(urban_nav_ros::toPathMessage(drawn.back(), parameters_.map_frame));
-  markers_.publish(toMarkers(ties, drawn, newest, parameters_.map_frame));
+  markers_.publish(toMarkers(picture.closures, drawn, newest, parameters_.map_frame));
 }
 
 }  // namespace pose_graph

@@ -8,17 +8,11 @@
 #include <urban_nav_msgs/NewSession.h>
 #include <urban_nav_msgs/RemoveEdge.h>
 
-#include <boost/function.hpp>
-#include <iomanip>
 #include <memory>
-#include <sstream>
-#include <stdexcept>
-#include <utility>
 
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/closure.hpp"
 #include "urban_nav_ros/graph.hpp"
-#include "urban_nav_ros/stamp.hpp"
 
 namespace pose_graph {
 
@@ -33,11 +27,10 @@ using urban_nav_ros::toStampNs;
 
 namespace {
 
-// A batch relaxation of a million poses takes some ten seconds, and a question may come behind one.
-constexpr std::chrono::seconds patience{30};
-constexpr const char* still_at_work = "the graph is still at work on what came before; ask again";
+// A batch relaxation of a million poses takes some ten seconds.
+constexpr std::chrono::seconds batch_timeout{30};
 
-void demandPath(const std::string& path) {
+void requireAbsolute(const std::string& path) {
   if (path.empty() || path.front() != '/') throw UserError("path", "`" + path + "`", "an absolute path");
 }
 
@@ -56,20 +49,6 @@ void addEdge(LiveGraph& graph, const AddEdge::Request& request, AddEdge::Respons
   for (const auto& edge : reply.contradicting) response.contradicting.push_back(urban_nav_ros::toEdgeRefMessage(edge));
 }
 
-std::string sentenceOf(std::future<Figures>& ended) {
-  try {
-    const Figures figures = ended.get();
-    std::ostringstream text;
-    text << figures.poses << " poses, " << figures.closures << " closures, " << figures.closures_rejected
-         << " rejected, " << figures.closures_waiting << " waiting; cost " << std::setprecision(5)
-         << figures.cost_before << " -> " << figures.cost_after << " in " << std::setprecision(3) << figures.relax_ms
-         << " ms";
-    return text.str();
-  } catch (const std::future_error&) {
-    throw UserError("", "the batch relaxation was dropped: too many inputs wait, or the nodelet ends", "");
-  }
-}
-
 void getTrajectory(LiveGraph& graph, const GetTrajectory::Request& request, GetTrajectory::Response& response) {
   const auto trajectory = graph.trajectory(toStampNs(request.from_stamp), toStampNs(request.to_stamp),
                                            static_cast<std::int64_t>(request.revision));
@@ -77,88 +56,64 @@ void getTrajectory(LiveGraph& graph, const GetTrajectory::Request& request, GetT
   for (const auto& run : trajectory.runs) response.runs.push_back(urban_nav_ros::toPoseRunMessage(run));
 }
 
-}  // namespace
-
-template <typename Service>
-void Services::advertise(ros::NodeHandle& nh, const std::string& name, const Action<Service>& action) {
-  using Request = typename Service::Request;
-  using Response = typename Service::Response;
-  const boost::function<bool(Request&, Response&)> callback = [action](Request& request, Response& response) {
-    try {
-      response.success = true;
-      action(request, response);
-    } catch (const urban_nav_core::Error& error) {
-      response = Response();
-      response.message = error.what();
-    }
-    return true;
-  };
-  servers_.push_back(nh.advertiseService(name, callback));
-}
-
+/// A service that the graph answers in the worker's thread.
 template <typename Service, typename Question>
-void Services::advertiseQuestion(ros::NodeHandle& nh, const std::string& name, const Question& question) {
+void advertiseQuestion(GraphNode& node, GraphWorker& worker, const std::string& name, const Question& question) {
   using Request = typename Service::Request;
   using Response = typename Service::Response;
-  advertise<Service>(nh, name, [this, question](const Request& request, Response& response) {
-    // By value: the worker may get to it after the caller has given up.
-    response = answer([question, request](LiveGraph& graph) {
+  node.advertiseService<Service>(name, [&node, &worker, question](const Request& request, Response& response) {
+    // By value: the worker may evaluate it after the caller has given up.
+    response = node.ask([&worker, question, request] {
       Response made;
       made.success = true;
-      question(graph, request, made);
+      question(worker.graph(), request, made);
       return made;
     });
   });
 }
 
-template <typename Question>
-auto Services::answer(const Question& question) -> decltype(question(std::declval<LiveGraph&>())) {
-  auto answer = worker_.ask(question, patience);
-  if (!answer) throw UserError("", still_at_work, "");
-  return std::move(*answer);
+void save(GraphNode& node, GraphWorker& worker, const std::string& path, std::string& message) {
+  requireAbsolute(path);
+  const LiveGraph::DeferredTask rest = node.ask([&worker, path] { return worker.graph().save(path); });
+  message = path + ": " + rest();
 }
 
-Services::Services(ros::NodeHandle& nh, Worker& worker, std::function<void(bool)> pause) : worker_(worker) {
-  advertiseQuestion<AddEdge>(nh, "add_edge", addEdge);
-  advertiseQuestion<GetTrajectory>(nh, "get_trajectory", getTrajectory);
-  advertiseQuestion<RemoveEdge>(
-      nh, "remove_edge", [](LiveGraph& graph, const RemoveEdge::Request& request, RemoveEdge::Response& response) {
-        response.message = graph.removeEdge(urban_nav_ros::toEdgeRef(request.edge)).message;
-      });
-  advertise<FileCommand>(nh, "save", [this](const FileCommand::Request& request, FileCommand::Response& response) {
-    demandPath(request.path);
-    const LiveGraph::Rest rest = answer([path = request.path](LiveGraph& graph) { return graph.save(path); });
-    response.message = request.path + ": " + rest();
+void load(GraphNode& node, GraphWorker& worker, const std::string& path, std::string& message) {
+  requireAbsolute(path);
+  urban_nav_store::Store store(path, urban_nav_store::Access::Read);
+  const auto stored = std::make_shared<const StoredGraph>(readGraph(store));
+  message = path + ": " + node.ask([&worker, stored] { return worker.graph().load(*stored); });
+}
+
+std::string optimize(GraphNode& node, GraphWorker& worker) {
+  std::future<Figures> ended = node.ask([&worker] { return worker.requestBatch(); });
+  if (ended.wait_for(batch_timeout) != std::future_status::ready)
+    throw UserError("", "the batch relaxation is still under way; graph/state reports its end", "");
+  try {
+    return toSentence(ended.get());
+  } catch (const std::future_error&) {
+    throw UserError("", "the batch relaxation was dropped: too many inputs wait, or the nodelet ends", "");
+  }
+}
+
+}  // namespace
+
+void advertiseServices(GraphNode& node, GraphWorker& worker) {
+  advertiseQuestion<AddEdge>(node, worker, "add_edge", addEdge);
+  advertiseQuestion<GetTrajectory>(node, worker, "get_trajectory", getTrajectory);
+  advertiseQuestion<RemoveEdge>(node, worker, "remove_edge", [](LiveGraph& graph, const auto& request, auto& response) {
+    response.message = graph.removeEdge(urban_nav_ros::toEdgeRef(request.edge)).message;
   });
-  advertise<FileCommand>(nh, "load", [this](const FileCommand::Request& request, FileCommand::Response& response) {
-    demandPath(request.path);
-    urban_nav_store::Store store(request.path, urban_nav_store::Access::Read);
-    const auto stored = std::make_shared<const StoredGraph>(readGraph(store));
-    response.message = request.path + ": " + answer([stored](LiveGraph& graph) { return graph.load(*stored); });
+  advertiseQuestion<NewSession>(node, worker, "new_session", [](LiveGraph& graph, const auto& request, auto& response) {
+    response.session = graph.newSession(request.name);
+    response.message = "session " + response.session + " has begun";
   });
-  advertiseQuestion<NewSession>(
-      nh, "new_session", [](LiveGraph& graph, const NewSession::Request& request, NewSession::Response& response) {
-        response.session = graph.newSession(request.name);
-        response.message = "session " + response.session + " has begun";
-      });
-  advertiseQuestion<Trigger>(nh, "reset", [](LiveGraph& graph, const Trigger::Request&, Trigger::Response& response) {
-    graph.reset();
-    response.message = "the graph is empty";
-  });
-  advertise<Trigger>(nh, "optimize", [this](const Trigger::Request&, Trigger::Response& response) {
-    std::future<Figures> ended = worker_.optimize();
-    if (ended.wait_for(patience) != std::future_status::ready)
-      throw UserError("", "the batch relaxation is still under way; graph/state says when it has ended", "");
-    response.message = sentenceOf(ended);
-  });
-  advertise<Trigger>(nh, "pause", [pause](const Trigger::Request&, Trigger::Response& response) {
-    pause(true);
-    response.message = "inputs are dropped until resume";
-  });
-  advertise<Trigger>(nh, "resume", [pause](const Trigger::Request&, Trigger::Response& response) {
-    pause(false);
-    response.message = "the session goes on";
-  });
+  node.advertiseService<FileCommand>(
+      "save", [&](const auto& request, auto& response) { save(node, worker, request.path, response.message); });
+  node.advertiseService<FileCommand>(
+      "load", [&](const auto& request, auto& response) { load(node, worker, request.path, response.message); });
+  node.advertiseService<Trigger>("optimize",
+                                 [&](const auto&, auto& response) { response.message = optimize(node, worker); });
 }
 
 }  // namespace pose_graph

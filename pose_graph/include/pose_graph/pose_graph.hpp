@@ -193,7 +193,7 @@ class PoseGraph {
   std::vector<double> weights() const;
 
  private:
-  class Paper;  // what LiveCore reads and writes
+  class Paper;  // what IncrementalSolver reads and writes
   std::optional<Place> placeOf(const NodeRef& ref) const;
   /// An unbroken piece of a track's chain.
   struct Run {
@@ -258,7 +258,7 @@ class PoseGraph {
   double odometry_variance_ = 1.0;
   double odometry_lean_ = 0.0;
   bool broken_ = false;
-  std::any live_;  ///< LiveCore: what update() goes on from; empty where that is not known
+  std::any live_;  ///< IncrementalSolver: what update() goes on from; empty where that is not known
 };
 
 /// The information of a chain's edge for relaxation, in the convention of Edge: of the part of the step's covariance that adds up

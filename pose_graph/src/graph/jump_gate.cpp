@@ -167,10 +167,10 @@ Solution<3> judge(const Problem<3>& problem, const Parameters& parameters, const
 namespace {
 
 /// A closure beside what is in the core: does it fit? It is on trial there.
-bool fits(LiveCore& core, const Ground& ground, const Parameters& parameters, const Bond& bond, Closure& closure,
+bool fits(IncrementalSolver& core, const Ground& ground, const Parameters& parameters, const Bond& bond, Closure& closure,
           double& cost_before) {
   const bool doubted = closure.kind != EdgeKind::Asserted && parameters.robust;
-  const LiveCore::Offer offer = core.offer(ground, bond, doubted ? kHopeless * kInnovationLimit : INFINITY);
+  const IncrementalSolver::Offer offer = core.offer(ground, bond, doubted ? kHopeless * kInnovationLimit : INFINITY);
   // What one measurement more costs is the square of its innovation.
   closure.chi2 = std::max(offer.innovation, 0.0);
   cost_before = offer.before;
@@ -184,7 +184,7 @@ void accept(Closure& closure) {
 }
 
 /// Closures that wait and could be the second witness of one that is on trial, those first that it leaves least off.
-std::vector<Way> partnersOf(const Way& tried, const LiveCore& core, const Ground& ground,
+std::vector<Way> partnersOf(const Way& tried, const IncrementalSolver& core, const Ground& ground,
                             const std::map<ClosureId, Bond>& bonds, std::map<ClosureId, Closure>& closures) {
   std::vector<std::pair<double, Way>> found;
   auto bond = bonds.begin();
@@ -207,7 +207,7 @@ std::vector<Way> partnersOf(const Way& tried, const LiveCore& core, const Ground
 
 }  // namespace
 
-Addition judgeAddition(LiveCore& core, const Ground& ground, const Parameters& parameters,
+Addition judgeAddition(IncrementalSolver& core, const Ground& ground, const Parameters& parameters,
                        const std::map<ClosureId, Bond>& bonds, std::map<ClosureId, Closure>& closures) {
   Addition made;
   made.cost_before = core.cost();

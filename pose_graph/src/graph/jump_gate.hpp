@@ -4,7 +4,7 @@
 #include <map>
 #include <vector>
 
-#include "live/live_core.hpp"
+#include "incremental/incremental_solver.hpp"
 #include "pose_graph/pose_graph.hpp"
 
 namespace pose_graph {
@@ -24,7 +24,7 @@ struct Addition {
   bool disagreement = false;  ///< one of them was left out, or more wait than were tried beside it
   bool others_wait = false;   ///< one that was accepted before waits now: `core` is no longer that of the accepted ones
 };
-Addition judgeAddition(LiveCore& core, const Ground& ground, const Parameters& parameters,
+Addition judgeAddition(IncrementalSolver& core, const Ground& ground, const Parameters& parameters,
                        const std::map<ClosureId, Bond>& bonds, std::map<ClosureId, Closure>& closures);
 
 }  // namespace pose_graph

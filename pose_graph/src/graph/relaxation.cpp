@@ -107,10 +107,10 @@ std::vector<Relaxed::Run> PoseGraph::judgeNew(Relaxed& made) {
     std::vector<Bond> bonds;
     for (const auto& [id, closure] : closures_)
       if (closure.weight > 0.0) bonds.push_back(bonds_.at(id));
-    return LiveCore(paper, bonds, parameters_.iterations, odometry_variance_);
+    return IncrementalSolver(paper, bonds, parameters_.iterations, odometry_variance_);
   };
   if (!live_.has_value()) live_ = renewed();
-  LiveCore& live = *std::any_cast<LiveCore>(&live_);
+  IncrementalSolver& live = *std::any_cast<IncrementalSolver>(&live_);
   const Addition added = judgeAddition(live, paper, parameters_, bonds_, closures_);
   if (added.others_wait) live = renewed();
   for (auto& [id, closure] : closures_) closure.judged = true;

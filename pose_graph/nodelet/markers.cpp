@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "markers.hpp"
+
+#include "urban_nav_ros/line_markers.hpp"
+
+namespace pose_graph {
+
+using urban_nav_core::PoseRun;
+using urban_nav_ros::toColour;
+
+namespace {
+
+constexpr double thin = 0.05, thick = 0.12;  // m; the robot is half a metre wide
+
+struct Drawing {
+  ClosureMarker::Style style;
+  const char* name;
+  std_msgs::ColorRGBA colour;
+  double width;
+};
+
+const std::vector<Drawing>& drawings() {
+  using Style = ClosureMarker::Style;
+  static const std::vector<Drawing> all = {
+      {Style::Stereo, "stereo", toColour(0.1, 0.7, 0.2), thick},
+      {Style::Icp, "icp", toColour(0.6, 0.2, 0.7), thick},
+      {Style::Plane, "plane", toColour(0.2, 0.6, 0.8), thin},
+      {Style::Asserted, "asserted", toColour(1.0, 1.0, 1.0), thick},
+      {Style::Session, "session", toColour(0.6, 0.6, 0.6), thin},
+      {Style::Waiting, "waiting", toColour(1.0, 0.6, 0.0), thick},
+      {Style::Rejected, "rejected", toColour(0.9, 0.1, 0.1, 0.4), thin},
+  };
+  return all;
+}
+
+}  // namespace
+
+visualization_msgs::MarkerArray toMarkers(const std::vector<ClosureMarker>& closures, const std::vector<PoseRun>& runs,
+                                          urban_nav_core::StampNs stamp, const std::string& map_frame) {
+  urban_nav_ros::LineMarkers markers(map_frame, stamp);
+  for (const Drawing& drawing : drawings()) {
+    std::vector<Eigen::Vector3d> points;
+    for (const ClosureMarker& closure : closures)
+      if (closure.style == drawing.style) points.insert(points.end(), {closure.p_map_a, closure.p_map_b});
+    markers.addLines(drawing.name, points, drawing.width, drawing.colour);
+  }
+  std::int32_t id = 0;
+  for (const PoseRun& run : runs) {
+    std::vector<Eigen::Vector3d> points;
+    points.reserve(run.poses.size());
+    for (const auto& pose : run.poses) points.push_back(pose.T_map_base.t());
+    markers.addStrip("trajectory", id++, points, thin, toColour(0.2, 0.4, 1.0));
+  }
+  return markers.message();
+}
+
+}  // namespace pose_graph

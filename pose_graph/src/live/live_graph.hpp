@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pose_graph/level.hpp"
+#include "pose_graph/stored_graph.hpp"
+#include "urban_nav_core/trajectory/trajectory.hpp"
+#include "urban_nav_core/types/closure.hpp"
+#include "urban_nav_core/types/graph_update.hpp"
+#include "urban_nav_core/types/status.hpp"
+#include "urban_nav_live/store_writer_link.hpp"
+
+namespace pose_graph {
+
+/// Closure as it is drawn: the present positions of its two poses.
+struct ClosureMarker {
+  enum class Style { Stereo, Icp, Plane, Asserted, Session, Waiting, Rejected };
+  Eigen::Vector3d p_map_a, p_map_b;
+  Style style = Style::Stereo;
+};
+
+/// Figures of the graph, as in GraphState.msg.
+struct Figures {
+  std::int64_t revision = 0;
+  std::int64_t sessions = 0, sessions_joined = 0, poses = 0, edges = 0;
+  std::int64_t closures = 0, closures_rejected = 0, closures_waiting = 0;
+  double cost_before = 0.0, cost_after = 0.0, relax_ms = 0.0;
+};
+/// Returns "201 poses, 2 closures, 0 rejected, 0 waiting; cost 41.5 -> 12.1 in 3.2 ms".
+std::string toSentence(const Figures& figures);
+
+/// Interface of a live graph, as its worker and the services use it. Used by one thread at a time. Throws UserError for
+/// errors of the user.
+class LiveGraph {
+ public:
+  struct Outcome {
+    std::optional<urban_nav_core::GraphUpdate> update;  ///< empty: no pose moved
+    std::vector<urban_nav_core::MapJump> jumps;
+    Figures figures;
+    urban_nav_core::Status status;
+    std::string reason_name;
+    bool needs_batch = false;  ///< a closure disagrees, and only a batch can decide which one is wrong
+  };
+  struct EdgeReply {
+    std::string message;
+    std::vector<urban_nav_core::EdgeRef> contradicting;
+  };
+  struct Trajectory {
+    std::int64_t revision = 0;
+    std::vector<urban_nav_core::PoseRun> runs;
+  };
+  struct Picture {
+    std::vector<urban_nav_core::PoseRun> runs;  ///< the running session last
+    std::vector<ClosureMarker> closures;
+  };
+  /// Batch relaxation: from the edges alone, as the offline run.
+  class Batch {
+   public:
+    virtual ~Batch() = default;
+    /// Relaxes. To be called once, in any thread, while the graph is used. Returns early if `stop` is set.
+    virtual void run(const std::atomic<bool>& stop) = 0;
+  };
+  /// Work that is left of a service and needs no graph. To be called once, in any thread. Returns what was done.
+  using DeferredTask = std::function<std::string()>;
+
+  virtual ~LiveGraph() = default;
+
+  /// Adds an input; cheap.
+  virtual void add(const urban_nav_core::RelativePose& step) = 0;
+  virtual void add(const urban_nav_core::MetricClosure& closure) = 0;
+  virtual void add(const urban_nav_core::RelativeConstraint& constraint) = 0;
+  /// Adds T_odom_base as odometry published it.
+  virtual void add(const urban_nav_core::StampedPose& odometry) = 0;
+  virtual void add(const SpecificForce& sample) = 0;
+
+  /// Returns true if inputs require a relaxation.
+  virtual bool isRelaxationPending() const = 0;
+  /// Relaxes from the present poses.
+  virtual Outcome relax() = 0;
+
+  /// Returns true if only a batch would do: sessions were loaded, or an edge was removed.
+  virtual bool isBatchPending() const = 0;
+  virtual std::unique_ptr<Batch> beginBatch() = 0;
+  /// Applies a batch that has run, and places later poses relative to it. Returns nullopt if the graph of the batch
+  /// does not exist any more.
+  virtual std::optional<Outcome> finishBatch(const Batch& batch) = 0;
+
+  /// Hands what is new to the store, if there is one. To be called some ten times a second. Never waits for the disk,
+  /// except to read a store that has just been opened.
+  virtual void syncStore() = 0;
+  virtual urban_nav_live::StoreState storeState() const = 0;
+  virtual urban_nav_core::Status status() const = 0;
+
+  virtual std::int64_t revision() const = 0;
+  /// Returns the stamp of the newest pose of the running session; 0: none.
+  virtual urban_nav_core::StampNs newest() const = 0;
+  /// Returns T_map_odom of the newest odometry; empty: not known yet.
+  virtual std::optional<urban_nav_core::Pose> T_map_odom() const = 0;
+  virtual Picture picture() const = 0;
+  /// Returns the poses from `from` to `to` (0: no bound) that moved since a revision (0: all).
+  virtual Trajectory trajectory(urban_nav_core::StampNs from, urban_nav_core::StampNs to, std::int64_t since) const = 0;
+
+  virtual EdgeReply addEdge(const urban_nav_core::EdgeRef& edge, const urban_nav_core::Constraint& measured) = 0;
+  virtual EdgeReply removeEdge(const urban_nav_core::EdgeRef& edge) = 0;
+  virtual DeferredTask save(const std::string& path) = 0;
+  /// Adds the sessions that are not in the graph; a batch follows. Returns what was added.
+  virtual std::string load(const StoredGraph& stored) = 0;
+  /// Begins a session. Returns its id.
+  virtual std::string newSession(const std::string& name) = 0;
+  /// Removes everything from the graph; the store keeps what it has.
+  virtual void reset() = 0;
+};
+
+}  // namespace pose_graph

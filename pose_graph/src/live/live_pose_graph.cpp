@@ -1,0 +1,405 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "live/live_pose_graph.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "live/graph_copy.hpp"
+#include "live/graph_output.hpp"
+#include "urban_nav_core/types/error.hpp"
+#include "urban_nav_store/session.hpp"
+
+namespace pose_graph {
+
+using urban_nav_core::EdgeRef;
+using urban_nav_core::PoseRef;
+using urban_nav_core::UserError;
+
+namespace {
+
+// Closures that wait for odometry, which lags them by seconds at most: more of them name poses that do not exist.
+constexpr std::size_t kMaxHeld = 1000;
+// The earliest time to align a map with gravity: three spans of 2 s (level.hpp). The next attempt follows after twice
+// the drive.
+constexpr StampNs kFirstLevel = 6'500'000'000;
+// Longest time until specific forces reach the graph, and from there the store.
+constexpr StampNs kForcesPeriod = 10'000'000'000;
+
+class LiveBatch : public LiveGraph::Batch {
+ public:
+  LiveBatch(pose_graph::Batch batch, int generation) : batch_(std::move(batch)), generation_(generation) {}
+  void run(const std::atomic<bool>& stop) override {
+    SolveOptions options;
+    options.progress = [&stop](int, double) { return !stop; };
+    pose_graph::run(batch_, options);
+  }
+  const pose_graph::Batch& batch() const { return batch_; }
+  int generation() const { return generation_; }
+
+ private:
+  pose_graph::Batch batch_;
+  const int generation_;
+};
+
+}  // namespace
+
+LivePoseGraph::LivePoseGraph(const Parameters& parameters, const std::string& robot, std::string recording,
+                             const std::string& store)
+    : parameters_(parameters),
+      recording_(std::move(recording)),
+      graph_(parameters),
+      link_(store,
+            [] {
+              urban_nav_live::StoreWriterLink::Options options;
+              options.writer = GraphStoreWriter::writerOptions();
+              return options;
+            }()),
+      namer_(robot) {}
+
+LivePoseGraph::~LivePoseGraph() {
+  endSession();
+  if (writer_) writer_->flush(graph_);
+}
+
+void LivePoseGraph::beginSession(const std::string& name, StampNs start) {
+  endSession();
+  if (!session_.empty()) {
+    held_.clear();
+    session_ended_ = newest() > 0;
+  }
+  forces_.beginSession();
+  start_ = start;
+  level_at_ = start + kFirstLevel;
+  forces_at_ = start + kForcesPeriod;
+  odometry_time_.reset();
+  odometry_time_.advance(start);
+
+  std::vector<urban_nav_store::Session> resumable;
+  for (const SessionId& id : resumable_)
+    if (graph_.hasSession(id)) resumable.push_back(sessions_.at(id));
+  const auto endsAt = [this](const urban_nav_store::Session& session, StampNs stamp) {
+    const Track* track = graph_.track(session.id);
+    return track != nullptr && !track->stamps.empty() && track->stamps.back() == stamp;
+  };
+  const auto named = namer_.begin(name, start, resumable, endsAt);
+  session_ = named.session.id;
+  if (named.resumed) {
+    graph_.goOn(session_);
+    resumable_.erase(session_);
+  } else {
+    graph_.beginSession(session_);
+  }
+  writeSession(named.session);
+  revisions_.resize(graph_.tracks().size());
+}
+
+void LivePoseGraph::writeSession(const urban_nav_store::Session& session) {
+  sessions_[session.id] = session;
+  if (writer_) writer_->put(session, parametersOf(parameters_));
+}
+
+void LivePoseGraph::endSession() {
+  if (session_.empty()) return;
+  urban_nav_store::Session& session = sessions_.at(session_);
+  session.complete = true;
+  if (writer_) writer_->put(session);
+}
+
+void LivePoseGraph::add(const urban_nav_core::RelativePose& step) {
+  if (session_.empty() || odometry_time_.jumpsBack(step.from)) beginSession(recording_, step.from);
+  odometry_time_.advance(step.to);
+  if (!graph_.addOdometry(session_, step)) return;
+  const auto& tracks = graph_.tracks();
+  for (std::size_t i = 0; i < tracks.size(); ++i)
+    if (tracks[i].session == session_) revisions_[i].grow(tracks[i].stamps.size(), graph_.revision());
+  updateMapToOdom();
+  if (step.to >= forces_at_) putForces();
+  if (step.to >= level_at_) level();
+  addHeldClosures();
+}
+
+void LivePoseGraph::add(const urban_nav_core::StampedPose& odometry) {
+  map_to_odom_.addOdometry(odometry);
+  updateMapToOdom();
+}
+
+void LivePoseGraph::putForces() {
+  forces_at_ = newest() + kForcesPeriod;
+  if (const Track* track = running()) graph_.putForces(session_, forces_.meansAt(track->stamps));
+}
+
+void LivePoseGraph::level() {
+  level_at_ = start_ + 2 * (newest() - start_);
+  if (graph_.isLevel(session_)) return;
+  putForces();
+  if (const auto levelled = graph_.level()) ready_.push_back(finish(*levelled));
+}
+
+void LivePoseGraph::add(const urban_nav_core::MetricClosure& closure) { addOrHold(toClosureInput(closure)); }
+
+void LivePoseGraph::add(const urban_nav_core::RelativeConstraint& constraint) { addOrHold(toClosureInput(constraint)); }
+
+NodeRef LivePoseGraph::toNode(const PoseRef& ref) const {
+  return {ref.session.empty() ? session_ : ref.session, ref.stamp};
+}
+
+bool LivePoseGraph::isAhead(const NodeRef& node) const {
+  return node.session.empty() || (node.session == session_ && node.stamp > newest());
+}
+
+bool LivePoseGraph::isAhead(const ClosureInput& input) const {
+  return isAhead(input.closure.a) || isAhead(input.closure.b);
+}
+
+void LivePoseGraph::nameSessions(ClosureInput& input) const {
+  if (input.closure.a.session.empty()) input.closure.a.session = session_;
+  if (input.closure.b.session.empty()) input.closure.b.session = session_;
+}
+
+void LivePoseGraph::addOrHold(ClosureInput input) {
+  nameSessions(input);
+  if (isAhead(input)) {
+    if (held_.size() == kMaxHeld) held_.pop_front();
+    held_.push_back(std::move(input));
+    return;
+  }
+  addClosure(input);
+}
+
+void LivePoseGraph::addClosure(ClosureInput& input) {
+  if (input.rejected) {
+    if (!writer_) return;
+    urban_nav_store::Edge edge = edgeOf(input.closure);
+    edge.measured.information.setZero();  // it constrains nothing, and is not read back into a graph
+    edge.verdict = ClosureVerdict::Rejected;
+    edge.weight = 0.0;
+    writer_->putRejected(edge, input.evidence);
+    return;
+  }
+  graph_.addClosure(input.closure);
+  if (writer_ && !input.evidence.empty()) writer_->putEvidence(edgeOf(input.closure), input.evidence);
+  changed_ = true;
+}
+
+void LivePoseGraph::addHeldClosures() {
+  std::deque<ClosureInput> held;
+  std::string refusal;
+  for (ClosureInput& input : std::exchange(held_, {})) {
+    nameSessions(input);  // of one that arrived before the first odometry of its session
+    if (isAhead(input)) {
+      held.push_back(std::move(input));
+      continue;
+    }
+    try {
+      addClosure(input);
+    } catch (const UserError& error) {
+      refusal = error.what();
+    }
+  }
+  held_ = std::move(held);
+  if (!refusal.empty()) throw UserError("", refusal, "");
+}
+
+LiveGraph::Outcome LivePoseGraph::relax() {
+  if (!ready_.empty()) {
+    Outcome outcome = std::move(ready_.front());
+    ready_.pop_front();
+    return outcome;
+  }
+  changed_ = is_exact_ = false;
+  return finish(graph_.update());
+}
+
+std::unique_ptr<LiveGraph::Batch> LivePoseGraph::beginBatch() {
+  batch_due_ = session_ended_ = false;
+  putForces();
+  return std::make_unique<LiveBatch>(graph_.batch(), generation_);
+}
+
+std::optional<LiveGraph::Outcome> LivePoseGraph::finishBatch(const Batch& batch) {
+  const auto& done = dynamic_cast<const LiveBatch&>(batch);
+  // If another batch is due for which an update would not do, it would replace this one at once.
+  if (done.generation() != generation_ || batch_due_) return std::nullopt;
+  putForces();
+  changed_ = false;
+  is_exact_ = true;
+  return finish(graph_.take(done.batch()));
+}
+
+void LivePoseGraph::syncStore() {
+  StoredGraph stored;
+  if (link_.open([&stored](urban_nav_store::Store& store) { stored = readGraph(store); })) {
+    writer_ = std::make_unique<GraphStoreWriter>(link_.writer(), stored.revision);
+    for (const auto& [id, session] : sessions_) writer_->put(session, parametersOf(parameters_));
+    addStored(stored, true);
+  }
+  if (writer_) writer_->sync(graph_, is_exact_);
+}
+
+std::string LivePoseGraph::load(const StoredGraph& stored) {
+  const Loaded loaded = addStored(stored, false);
+  return std::to_string(loaded.sessions) + " sessions with " + std::to_string(loaded.poses) + " poses and " +
+         std::to_string(loaded.closures) + " closures are in the graph" +
+         (loaded.refused > 0 ? "; " + std::to_string(loaded.refused) + " closures were refused" : "") +
+         (loaded.known > 0 ? "; " + std::to_string(loaded.known) + " sessions were there already" : "");
+}
+
+LivePoseGraph::Loaded LivePoseGraph::addStored(const StoredGraph& stored, bool own) {
+  Loaded loaded;
+  for (const StoredGraph::Chain& chain : stored.chains) {
+    const SessionId& id = chain.session.id;
+    if (graph_.hasSession(id)) {
+      ++loaded.known;
+      continue;
+    }
+    graph_.beginSession(id);
+    for (const urban_nav_core::RelativePose& step : chain.steps) graph_.addOdometry(id, step);
+    graph_.putForces(id, chain.forces);
+    const std::size_t track = graph_.tracks().size() - 1, poses = graph_.tracks().back().stamps.size();
+    sessions_[id] = chain.session;
+    if (own) {
+      resumable_.insert(id);
+      writer_->markStored(graph_, track);
+    } else {
+      namer_.reserve(id);
+      if (writer_) writer_->put(chain.session);
+    }
+    revisions_.resize(track + 1);
+    revisions_.back().grow(poses, graph_.revision());
+    ++loaded.sessions;
+    loaded.poses += poses;
+  }
+  for (const Closure& closure : stored.closures) {
+    try {
+      if (graph_.findClosure(closure.a, closure.b, closure.kind, closure.source)) continue;
+      const ClosureId id = graph_.addClosure(closure);
+      if (own) writer_->markStored(graph_.closures().at(id));
+      else if (writer_ && closure.odometry_gate) writer_->putEvidence(edgeOf(closure), evidenceOf(true));
+      ++loaded.closures;
+    } catch (const UserError&) {
+      ++loaded.refused;
+    }
+  }
+  if (!session_.empty()) graph_.goOn(session_);
+  if (loaded.poses > 0) changed_ = batch_due_ = true;
+  return loaded;
+}
+
+urban_nav_live::StoreState LivePoseGraph::storeState() const {
+  urban_nav_live::StoreState state = link_.state();
+  if (writer_) state.lost += writer_->lost();
+  return state;
+}
+
+urban_nav_core::Status LivePoseGraph::status() const {
+  const std::string fault = link_.state().fault;
+  if (fault.empty()) return graph_.status();
+  return {urban_nav_core::Health::Degraded, static_cast<int>(Trouble::NotStored), "nothing is stored: " + fault};
+}
+
+LiveGraph::Outcome LivePoseGraph::finish(const Relaxed& relaxed) {
+  updateMapToOdom();
+  for (const Relaxed::Run& run : relaxed.moved) revisions_[run.track].setMoved({run.first, run.last}, relaxed.revision);
+  Outcome outcome = toOutcome(relaxed, graph_);
+  outcome.status = status();
+  outcome.reason_name = toString(static_cast<Trouble>(outcome.status.reason));
+  return outcome;
+}
+
+StampNs LivePoseGraph::newest() const {
+  const Track* track = running();
+  return track == nullptr || track->stamps.empty() ? 0 : track->stamps.back();
+}
+
+LiveGraph::Picture LivePoseGraph::picture() const { return toPicture(graph_, session_); }
+
+LiveGraph::Trajectory LivePoseGraph::trajectory(StampNs from, StampNs to, std::int64_t since) const {
+  return toTrajectory(graph_, revisions_, from, to, since);
+}
+
+LiveGraph::EdgeReply LivePoseGraph::addEdge(const EdgeRef& edge, const urban_nav_core::Constraint& measured) {
+  Closure input;
+  input.a = toNode(edge.a);
+  input.b = toNode(edge.b);
+  input.kind = toEdgeKind(edge.kind);
+  input.source = edge.source;
+  input.measured = measured;
+  const ClosureId id = graph_.addClosure(input);
+  changed_ = false;
+  ready_.push_back(finish(graph_.update()));
+  const Closure& judged = graph_.closures().at(id);
+  EdgeReply reply;
+  reply.message = std::string(toString(judged.verdict)) + (judged.reason.empty() ? "" : ": " + judged.reason);
+  for (const ClosureId other : judged.contradicted_by)
+    if (const auto found = graph_.closures().find(other); found != graph_.closures().end())
+      reply.contradicting.push_back(toEdgeRef(found->second));
+  return reply;
+}
+
+LiveGraph::EdgeReply LivePoseGraph::removeEdge(const EdgeRef& edge) {
+  const NodeRef a = toNode(edge.a), b = toNode(edge.b);
+  std::vector<ClosureId> meant;
+  std::string between;
+  for (const auto& [id, closure] : graph_.closures()) {
+    if (!(closure.a == a && closure.b == b)) continue;
+    between += (between.empty() ? "" : ", ") + std::string(toString(closure.kind)) + " of " + closure.source;
+    const bool fits = (edge.kind.empty() || edge.kind == toString(closure.kind)) &&
+                      (edge.source.empty() || edge.source == closure.source);
+    if (fits) meant.push_back(id);
+  }
+  if (meant.size() != 1) {
+    throw UserError("", meant.empty() ? "no such edge" : "more than one edge",
+                    between.empty() ? "there is none between these poses, from a to b" : between);
+  }
+  graph_.removeClosure(meant.front());
+  changed_ = batch_due_ = true;  // its effect on the poses must be undone
+  return {"removed; the graph is relaxed without it", {}};
+}
+
+LiveGraph::DeferredTask LivePoseGraph::save(const std::string& path) {
+  if (writer_) {
+    writer_->flush(graph_);
+    return [writer = writer_->writer(), own = link_.path(), path]() -> std::string {
+      writer->flush();
+      if (const std::string fault = writer->counts().fault; !fault.empty()) throw UserError("", fault, "");
+      std::error_code error;
+      if (std::filesystem::equivalent(own, path, error)) return "all of it is committed";
+      copyStore(own, path);
+      return "copied from " + own;
+    };
+  }
+  // Without a store of its own, a copy of the graph is written.
+  return [graph = graph_, sessions = sessions_, path] { return writeStore(graph, sessions, path); };
+}
+
+std::string LivePoseGraph::newSession(const std::string& name) {
+  if (session_.empty()) throw UserError("", "no session is being recorded: the first odometry begins one", "");
+  beginSession(name.empty() ? recording_ : name, newest());
+  return session_;
+}
+
+void LivePoseGraph::reset() {
+  endSession();
+  if (writer_) {
+    writer_->flush(graph_);
+    writer_->reset();
+    for (const auto& [id, session] : sessions_) namer_.reserve(id);  // the store has them
+  } else {
+    sessions_.clear();
+    namer_.clear();
+  }
+  graph_ = PoseGraph(parameters_, graph_.revision() + 1);  // must not be taken for the one before
+  session_.clear();
+  odometry_time_.reset();
+  resumable_.clear();
+  held_.clear();
+  revisions_.clear();
+  ready_.clear();
+  changed_ = batch_due_ = session_ended_ = false;
+  ++generation_;
+  map_to_odom_.forgetSessions();
+  updateMapToOdom();
+}
+
+}  // namespace pose_graph

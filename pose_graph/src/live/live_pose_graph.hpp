@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "live/closure_input.hpp"
+#include "live/live_graph.hpp"
+#include "live/map_to_odom_estimator.hpp"
+#include "live/pose_revisions.hpp"
+#include "live/specific_force_buffer.hpp"
+#include "pose_graph/graph_store_writer.hpp"
+#include "pose_graph/pose_graph.hpp"
+#include "urban_nav_live/session_namer.hpp"
+#include "urban_nav_live/store_writer_link.hpp"
+#include "urban_nav_live/time_jump.hpp"
+
+namespace pose_graph {
+
+/// Pose graph of a live robot: names and resumes sessions (urban_nav_live::SessionNamer), holds closures back until
+/// odometry has reached their poses, converts what a relaxation did to outputs, and writes all of it to a store.
+class LivePoseGraph : public LiveGraph {
+ public:
+  /// `store`: path of the file; empty: none.
+  LivePoseGraph(const Parameters& parameters, const std::string& robot, std::string recording,
+                const std::string& store = "");
+  ~LivePoseGraph() override;
+
+  void add(const urban_nav_core::RelativePose& step) override;
+  void add(const urban_nav_core::MetricClosure& closure) override;
+  void add(const urban_nav_core::RelativeConstraint& constraint) override;
+  void add(const urban_nav_core::StampedPose& odometry) override;
+  void add(const SpecificForce& sample) override { forces_.add(sample); }
+
+  bool isRelaxationPending() const override { return (changed_ && !batch_due_) || !ready_.empty(); }
+  Outcome relax() override;
+  bool isBatchPending() const override { return batch_due_ || session_ended_; }
+  std::unique_ptr<Batch> beginBatch() override;
+  std::optional<Outcome> finishBatch(const Batch& batch) override;
+
+  void syncStore() override;
+  urban_nav_live::StoreState storeState() const override;
+  urban_nav_core::Status status() const override;
+
+  std::int64_t revision() const override { return graph_.revision(); }
+  StampNs newest() const override;
+  std::optional<Pose> T_map_odom() const override { return T_map_odom_; }
+  Picture picture() const override;
+  Trajectory trajectory(StampNs from, StampNs to, std::int64_t since) const override;
+
+  EdgeReply addEdge(const urban_nav_core::EdgeRef& edge, const urban_nav_core::Constraint& measured) override;
+  EdgeReply removeEdge(const urban_nav_core::EdgeRef& edge) override;
+  DeferredTask save(const std::string& path) override;
+  std::string load(const StoredGraph& stored) override;
+  std::string newSession(const std::string& name) override;
+  void reset() override;
+
+ private:
+  struct Loaded {
+    std::size_t sessions = 0, known = 0, poses = 0, closures = 0, refused = 0;
+  };
+  void beginSession(const std::string& name, StampNs start);
+  void writeSession(const urban_nav_store::Session& session);
+  void endSession();
+  NodeRef toNode(const urban_nav_core::PoseRef& ref) const;
+  /// Returns true if odometry has not reached the pose yet.
+  bool isAhead(const NodeRef& node) const;
+  bool isAhead(const ClosureInput& input) const;
+  /// Assigns poses without a session to the running one.
+  void nameSessions(ClosureInput& input) const;
+  void addOrHold(ClosureInput input);
+  void addClosure(ClosureInput& input);
+  void addHeldClosures();
+  /// `own`: from the store that this graph is written to.
+  Loaded addStored(const StoredGraph& stored, bool own);
+  Outcome finish(const Relaxed& relaxed);
+  void updateMapToOdom() { T_map_odom_ = map_to_odom_.estimate(running()); }
+  void putForces();
+  /// Aligns the map with gravity, if that is possible.
+  void level();
+  const Track* running() const { return graph_.track(session_); }
+
+  Parameters parameters_;
+  std::string recording_;
+  PoseGraph graph_;
+  urban_nav_live::StoreWriterLink link_;
+  std::unique_ptr<GraphStoreWriter> writer_;  // null: no store is open
+  urban_nav_live::SessionNamer namer_;
+  SessionId session_;                                       // empty: no odometry yet
+  urban_nav_live::TimeJumpDetector odometry_time_;          // of the running session
+  std::map<SessionId, urban_nav_store::Session> sessions_;  // of the graph and of the store
+  std::set<SessionId> resumable_;                           // begun by an earlier process
+  std::deque<ClosureInput> held_;                           // until odometry reaches their poses
+  std::vector<PoseRevisions> revisions_;                    // of each track
+  std::deque<Outcome> ready_;                               // of relaxations that a service made
+  bool changed_ = false;                                    // since the last relaxation
+  bool batch_due_ = false;      // an update would not do: sessions were loaded, an edge was removed
+  bool is_exact_ = false;       // the last relaxation was a batch: the store gets every digit
+  bool session_ended_ = false;  // a batch follows
+  int generation_ = 0;          // of the graph: a batch of an earlier one is discarded
+  MapToOdomEstimator map_to_odom_;
+  std::optional<Pose> T_map_odom_;
+  SpecificForceBuffer forces_;
+  // Of the running session.
+  StampNs start_ = 0;
+  StampNs level_at_ = 0;   // the next attempt to align the map with gravity
+  StampNs forces_at_ = 0;  // the next update of the graph's specific forces
+};
+
+}  // namespace pose_graph

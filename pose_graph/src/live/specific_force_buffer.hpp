@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "pose_graph/level.hpp"
+
+namespace pose_graph {
+
+/// Buffers the samples of an accelerometer until the poses of a session arrive, which lag them. The mean at a pose is
+/// final when samples are ten seconds ahead of it. Samples are kept for ten minutes.
+class SpecificForceBuffer {
+ public:
+  /// Adds a sample. One whose stamp jumps back belongs to the session that begins next.
+  void add(const SpecificForce& sample);
+  /// Begins a session without poses.
+  void beginSession();
+  /// Returns the means at the session's poses (forcesAt), from the first one that was not final before. `stamps`: of
+  /// all its poses.
+  std::vector<SpecificForce> meansAt(const std::vector<urban_nav_core::StampNs>& stamps);
+
+ private:
+  std::vector<SpecificForce> samples_, next_session_;
+  std::size_t open_ = 0;  ///< the first pose whose mean is not final
+};
+
+}  // namespace pose_graph

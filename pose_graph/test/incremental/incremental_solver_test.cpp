@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "incremental/incremental_solver.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "condense/chain_sum.hpp"
+#include "pose_graph/graph_file.hpp"
+#include "urban_nav_core/testing/street_graph.hpp"
+
+namespace pose_graph {
+namespace {
+
+using urban_nav_core::testing::GraphEdge;
+using urban_nav_core::testing::GraphEdgeKind;
+using urban_nav_core::testing::SimulatedGraph;
+
+/// Tracks as a test has them: each unbroken but where a step does not join.
+class Tracks : public Ground {
+ public:
+  void add(std::size_t track, const ChainStep& step) {
+    if (map_.size() <= track) {
+      map_.resize(track + 1);
+      steps_.resize(track + 1);
+    }
+    if (map_[track].empty()) map_[track].emplace_back();
+    steps_[track].push_back(step);
+    map_[track].push_back(step.joins ? map_[track].back() * poseOf(step.edge.Z) : map_[track].back());
+  }
+
+  std::size_t tracks() const override { return map_.size(); }
+  const ChainStep* steps(std::size_t track) const override { return steps_[track].data(); }
+  Rigid<3> pose(const Place& place) const override { return rigidOf<3>(map_[place.first][place.second]); }
+  std::pair<std::size_t, std::size_t> run(const Place& place) const override {
+    std::pair<std::size_t, std::size_t> made{place.second, place.second};
+    const std::vector<ChainStep>& steps = steps_[place.first];
+    while (made.first > 0 && steps[made.first - 1].joins) --made.first;
+    while (made.second < steps.size() && steps[made.second].joins) ++made.second;
+    return made;
+  }
+  void write(const Place& place, const Rigid<3>& T) override { map_[place.first][place.second] = poseOf(T); }
+
+  /// All of it, with these bonds, from where it is written.
+  Problem<3> problem(const std::vector<Bond>& bonds) const {
+    Problem<3> made;
+    std::vector<int> first;
+    const auto put = [&made](Edge<3> edge, int from, int to) {
+      edge.from = from;
+      edge.to = to;
+      made.edges.push_back(edge);
+    };
+    for (std::size_t t = 0; t < map_.size(); ++t) {
+      first.push_back(static_cast<int>(made.poses.size()));
+      for (const urban_nav_core::Pose& pose : map_[t]) made.poses.push_back(rigidOf<3>(pose));
+      for (std::size_t i = 0; i < steps_[t].size(); ++i)
+        if (steps_[t][i].joins)
+          put(steps_[t][i].edge, first[t] + static_cast<int>(i), first[t] + static_cast<int>(i) + 1);
+    }
+    for (const Bond& bond : bonds)
+      put(bond.edge, first[bond.a.first] + static_cast<int>(bond.a.second),
+          first[bond.b.first] + static_cast<int>(bond.b.second));
+    return made;
+  }
+
+ private:
+  std::vector<std::vector<urban_nav_core::Pose>> map_;
+  std::vector<std::vector<ChainStep>> steps_;
+};
+
+Edge<3> edgeOf(const GraphEdge& edge) {
+  Edge<3> made{0, 0, rigidOf<3>(edge.T_a_b), {}};
+  TangentMatrix<3> axes = TangentMatrix<3>::Zero();
+  axes.topLeftCorner<3, 3>() = axes.bottomRightCorner<3, 3>() = made.Z.R;
+  made.information = axes.transpose() * edge.information * axes;
+  return made;
+}
+
+ChainStep stepOf(const Edge<3>& edge) {
+  ChainStep step;
+  step.edge = edge;
+  step.invertible = invert<3>(edge.information, step.covariance);
+  return step;
+}
+
+struct LiveDrive {
+  std::vector<ChainStep> steps;
+  std::vector<Bond> bonds;  // by the later of their two places
+};
+
+const LiveDrive& liveDrive() {
+  static const LiveDrive made = [] {
+    urban_nav_core::testing::StreetOptions streets;
+    streets.step_m = 0.25;
+    const SimulatedGraph graph =
+        urban_nav_core::testing::streetGraph(3000, 30, urban_nav_core::testing::streetNoise(), 5, streets);
+    LiveDrive drive;
+    for (const GraphEdge& edge : graph.edges) {
+      if (edge.kind == GraphEdgeKind::Chain) drive.steps.push_back(stepOf(edgeOf(edge)));
+      else drive.bonds.push_back({{0, edge.a}, {0, edge.b}, edgeOf(edge)});
+    }
+    std::stable_sort(drive.bonds.begin(), drive.bonds.end(), [](const Bond& one, const Bond& other) {
+      return std::max(one.a, one.b) < std::max(other.a, other.b);
+    });
+    return drive;
+  }();
+  return made;
+}
+
+// What is left to gain from where the poses are written, and by how much the farthest pose would still go, m.
+void expectRelaxed(const Tracks& tracks, const std::vector<Bond>& bonds, double cost) {
+  SolveOptions options;
+  options.start = Start::Vertices;
+  const Problem<3> problem = tracks.problem(bonds);
+  const Solution<3> solution = solve(problem, options);
+  EXPECT_NEAR(cost, solution.cost, 0.02 + 1e-4 * solution.cost);
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < problem.poses.size(); ++i)
+    farthest = std::max(farthest, (problem.poses[i].t - solution.poses[i].t).norm());
+  EXPECT_LT(farthest, 0.01);
+}
+
+TEST(IncrementalSolver, isTheBatchAfterEachClosure) {
+  Tracks tracks;
+  std::vector<Bond> bonds;
+  std::size_t next = 0;
+  std::optional<IncrementalSolver> core;
+  double last_cost = 0.0;
+  for (const Bond& bond : liveDrive().bonds) {
+    for (; next < std::max(bond.a, bond.b).second; ++next) tracks.add(0, liveDrive().steps[next]);
+    if (!core) core.emplace(tracks, bonds, 100);
+    const IncrementalSolver::Offer offer = core->offer(tracks, bond, INFINITY);
+    core->keep();
+    bonds.push_back(bond);
+    EXPECT_GE(offer.innovation, -1e-3);
+    EXPECT_NEAR(offer.cost - offer.innovation, last_cost, 1e-9 + 1e-9 * last_cost);
+    last_cost = offer.cost;
+    core->write(tracks);
+    if (bonds.size() % 10 == 3) expectRelaxed(tracks, bonds, offer.cost);
+  }
+  // One that begins from the same written poses has the same cost.
+  EXPECT_NEAR(IncrementalSolver(tracks, bonds, 100).cost(), core->cost(), 0.01);
+}
+
+TEST(IncrementalSolver, takesBackWhatIsNotKept) {
+  Tracks tracks, untouched;
+  for (const ChainStep& step : liveDrive().steps)
+    for (Tracks* each : {&tracks, &untouched}) each->add(0, step);
+  const std::vector<Bond> half(liveDrive().bonds.begin(), liveDrive().bonds.begin() + 15);
+  IncrementalSolver core(tracks, half, 100), other(untouched, half, 100);
+  for (std::size_t k = 15; k < liveDrive().bonds.size(); ++k) {
+    Bond wrong = liveDrive().bonds[k];
+    wrong.edge.Z.t += Eigen::Vector3d(0.2, 0.1, 0.0);
+    const double before = core.cost();
+    core.offer(tracks, wrong, INFINITY);
+    core.takeBack();
+    EXPECT_EQ(core.cost(), before);
+    // Far beyond hope the cost is a prediction, and nothing is laid.
+    wrong.edge.Z.t += Eigen::Vector3d(30.0, 0.0, 0.0);
+    EXPECT_GT(core.offer(tracks, wrong, 1000.0).innovation, 1000.0);
+    core.takeBack();
+  }
+  for (IncrementalSolver* each : {&core, &other}) {
+    Tracks& on = each == &core ? tracks : untouched;
+    each->offer(on, liveDrive().bonds[20], INFINITY);
+    each->keep();
+    each->write(on);
+  }
+  EXPECT_EQ(core.cost(), other.cost());
+  for (std::size_t i = 0; i <= liveDrive().steps.size(); i += 7)
+    EXPECT_EQ(tracks.pose({0, i}).t, untouched.pose({0, i}).t) << i;
+}
+
+TEST(IncrementalSolver, takesSeveralOnTrialBackOneByOne) {
+  Tracks tracks;
+  for (const ChainStep& step : liveDrive().steps) tracks.add(0, step);
+  const std::vector<Bond> half(liveDrive().bonds.begin(), liveDrive().bonds.begin() + 15);
+  IncrementalSolver core(tracks, half, 100);
+  const auto poses = [&] {
+    std::vector<Rigid<3>> made;
+    for (std::size_t i = 0; i <= liveDrive().steps.size(); i += 11) made.push_back(core.pose(tracks, {0, i}));
+    return made;
+  };
+  std::vector<double> costs;
+  std::vector<std::vector<Rigid<3>>> lay;
+  for (std::size_t k = 15; k < 18; ++k) {
+    costs.push_back(core.cost());
+    lay.push_back(poses());
+    core.offer(tracks, liveDrive().bonds[k], INFINITY);
+    EXPECT_GT(core.cost(), costs.back());
+  }
+  while (!costs.empty()) {
+    core.takeBack();
+    EXPECT_EQ(core.cost(), costs.back());
+    const std::vector<Rigid<3>> now = poses();
+    for (std::size_t i = 0; i < now.size(); ++i) EXPECT_LT((now[i].t - lay.back()[i].t).norm(), 1e-9) << i;
+    costs.pop_back();
+    lay.pop_back();
+  }
+}
+
+TEST(IncrementalSolver, saysWhereAPoseIsBeforeItIsWritten) {
+  Tracks tracks;
+  for (const ChainStep& step : liveDrive().steps) tracks.add(0, step);
+  IncrementalSolver core(tracks, liveDrive().bonds, 100);
+  std::vector<Rigid<3>> said;
+  for (std::size_t i = 0; i <= liveDrive().steps.size(); ++i) said.push_back(core.pose(tracks, {0, i}));
+  core.write(tracks);
+  for (std::size_t i = 0; i < said.size(); ++i) EXPECT_LT((tracks.pose({0, i}).t - said[i].t).norm(), 1e-9) << i;
+}
+
+TEST(IncrementalSolver, takesStepsForAsUncertainAsItIsTold) {
+  Tracks tracks, wider;
+  for (ChainStep step : liveDrive().steps) {
+    tracks.add(0, step);
+    step.edge.information /= 4.0;
+    step.covariance *= 4.0;
+    wider.add(0, step);
+  }
+  EXPECT_NEAR(IncrementalSolver(tracks, liveDrive().bonds, 100, 4.0).cost(),
+              IncrementalSolver(wider, liveDrive().bonds, 100).cost(), 1e-6);
+}
+
+// The second half of the drive as a session of its own, begun where its odometry has its origin: one closure puts it in
+// its place.
+TEST(IncrementalSolver, bringsPartsTogether) {
+  const std::size_t half = liveDrive().steps.size() / 2;
+  Tracks tracks;
+  for (std::size_t i = 0; i < liveDrive().steps.size(); ++i)
+    if (i != half) tracks.add(i < half ? 0 : 1, liveDrive().steps[i]);
+  std::vector<Bond> bonds;
+  std::optional<IncrementalSolver> core;
+  const auto placed = [half](const Place& place) {
+    return place.second <= half ? place : Place{1, place.second - half - 1};
+  };
+  double cost = 0.0;
+  for (Bond bond : liveDrive().bonds) {
+    bond.a = placed(bond.a);
+    bond.b = placed(bond.b);
+    if (!core) core.emplace(tracks, bonds, 100);
+    bonds.push_back(bond);
+    cost = core->offer(tracks, bond, INFINITY).cost;
+    core->keep();
+    core->write(tracks);
+  }
+  EXPECT_EQ(tracks.pose({0, 0}).t, Eigen::Vector3d::Zero().eval());
+  expectRelaxed(tracks, bonds, cost);
+}
+
+TEST(IncrementalSolver, goesRoundGapsAndStepsWithoutInformation) {
+  Tracks tracks;
+  for (std::size_t i = 0; i < liveDrive().steps.size(); ++i) {
+    ChainStep step = liveDrive().steps[i];
+    if (i == 1500) step.joins = false;
+    if (i % 400 == 7) {
+      step.edge.information.row(2).setZero();
+      step.edge.information.col(2).setZero();
+      step.invertible = false;
+    }
+    tracks.add(0, step);
+  }
+  std::optional<IncrementalSolver> core;
+  std::vector<Bond> bonds;
+  double cost = 0.0;
+  for (const Bond& bond : liveDrive().bonds) {
+    if (!core) core.emplace(tracks, bonds, 100);
+    bonds.push_back(bond);
+    cost = core->offer(tracks, bond, INFINITY).cost;
+    core->keep();
+    core->write(tracks);
+    EXPECT_TRUE(std::isfinite(cost));
+  }
+  SolveOptions options;
+  options.start = Start::Vertices;
+  EXPECT_NEAR(solve(tracks.problem(bonds), options).cost, cost, 0.05 + 1e-3 * cost);
+  for (std::size_t i = 0; i <= liveDrive().steps.size(); ++i) ASSERT_TRUE(tracks.pose({0, i}).t.allFinite());
+}
+
+}  // namespace
+}  // namespace pose_graph

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "live/live_pose_graph.hpp"
+
+#include <fstream>
+#include <thread>
+
+#include "../support/driven.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace pose_graph {
+namespace {
+
+using testing::kLap;
+using testing::kPeriod;
+using testing::Place;
+using testing::stepAt;
+using urban_nav_core::UserError;
+using urban_nav_store::Access;
+using urban_nav_store::Store;
+
+urban_nav_core::MetricClosure seenAgain(int a, int b, const SessionId& session_a = "") {
+  const Closure closure = testing::closureAt(session_a, a, "", b);
+  urban_nav_core::MetricClosure made;
+  made.a = {session_a, closure.a.stamp};
+  made.b = {"", closure.b.stamp};
+  made.measured = closure.measured;
+  made.method = urban_nav_core::ClosureMethod::Stereo;
+  made.odometry_gate = true;
+  made.verdict = urban_nav_core::ClosureVerdict::Accepted;
+  made.source = "loop_metric";
+  made.evidence = "47 matches";
+  return made;
+}
+
+class LivePoseGraphTest : public ::testing::Test {
+ protected:
+  std::unique_ptr<LivePoseGraph> begin(const std::string& recording = "monday", const std::string& file = "s.db") {
+    auto graph = std::make_unique<LivePoseGraph>(Parameters(), "lisa", recording, file.empty() ? "" : place.file(file));
+    graph->syncStore();
+    return graph;
+  }
+  static void drive(LivePoseGraph& graph, int first, int end) {
+    for (int i = first; i < end; ++i) graph.add(stepAt(i));
+    graph.syncStore();
+  }
+  /// What an accelerometer feels that lies on its side and does not move: far from what the way shows, but gravity is
+  /// more than that.
+  static void feel(LivePoseGraph& graph, int end) {
+    for (int i = -5; i < end + 5; ++i) graph.add(SpecificForce{i * kPeriod, Eigen::Vector3d(0.0, 0.5, 9.79)});
+  }
+  static std::size_t posesOf(const LivePoseGraph& graph) {
+    std::size_t poses = 0;
+    for (const auto& run : graph.trajectory(0, 0, 0).runs) poses += run.poses.size();
+    return poses;
+  }
+  static void relaxAll(LivePoseGraph& graph) {
+    relaxNew(graph);
+    batch(graph);
+    graph.syncStore();
+  }
+  static void relaxNew(LivePoseGraph& graph) {
+    while (graph.isRelaxationPending()) graph.relax();
+  }
+  static std::optional<LiveGraph::Outcome> batch(LivePoseGraph& graph) {
+    const auto work = graph.beginBatch();
+    work->run(std::atomic<bool>{false});
+    return graph.finishBatch(*work);
+  }
+  StoredGraph stored(const std::string& file = "s.db") {
+    Store store(place.file(file), Access::Read);
+    return readGraph(store);
+  }
+  static void expectSame(const LiveGraph::Trajectory& a, const LiveGraph::Trajectory& b) {
+    ASSERT_EQ(a.runs.size(), b.runs.size());
+    for (std::size_t r = 0; r < a.runs.size(); ++r) {
+      EXPECT_EQ(a.runs[r].session, b.runs[r].session);
+      ASSERT_EQ(a.runs[r].poses.size(), b.runs[r].poses.size());
+      for (std::size_t i = 0; i < a.runs[r].poses.size(); ++i) {
+        EXPECT_EQ(a.runs[r].poses[i].T_map_base.t(), b.runs[r].poses[i].T_map_base.t());
+        EXPECT_EQ(a.runs[r].poses[i].T_map_base.q().coeffs(), b.runs[r].poses[i].T_map_base.q().coeffs());
+      }
+    }
+  }
+
+  const Place place;
+};
+
+TEST_F(LivePoseGraphTest, aRecordingThatIsPlayedAgainGoesOnWhereItWasCutOff) {
+  auto whole = begin("monday", "");
+  drive(*whole, 0, 2 * kLap);
+  for (int i : {10, 60}) whole->add(seenAgain(i, i + kLap));
+  relaxAll(*whole);
+
+  auto cut = begin();
+  drive(*cut, 0, kLap + 20);
+  cut->add(seenAgain(10, 10 + kLap));
+  relaxNew(*cut);
+  cut->syncStore();
+  cut.reset();
+  cut = begin();
+  EXPECT_EQ(posesOf(*cut), kLap + 21u);
+  drive(*cut, 0, 2 * kLap);
+  for (int i : {10, 60}) cut->add(seenAgain(i, i + kLap));
+  relaxAll(*cut);
+  expectSame(cut->trajectory(0, 0, 0), whole->trajectory(0, 0, 0));
+}
+
+TEST_F(LivePoseGraphTest, aSessionGoesOnBehindItsNewestPose) {
+  begin()->add(stepAt(0));
+  auto graph = begin();
+  drive(*graph, 1, 30);
+  EXPECT_EQ(posesOf(*graph), 31u);
+  graph.reset();
+  ASSERT_EQ(stored().chains.size(), 1u);
+  EXPECT_TRUE(stored().chains[0].session.complete);
+  EXPECT_EQ(stored().chains[0].steps.size(), 30u);
+}
+
+TEST_F(LivePoseGraphTest, anotherRecordingIsAnotherSessionThatJoinsTheMapByClosures) {
+  auto first = begin();
+  drive(*first, 0, 2 * kLap);
+  const SessionId earlier = first->trajectory(0, 0, 0).runs[0].session;
+  first.reset();
+  auto second = begin("tuesday");
+  EXPECT_TRUE(second->isBatchPending());
+  drive(*second, 0, 2 * kLap);
+  relaxAll(*second);
+  EXPECT_EQ(second->trajectory(0, 0, 0).runs.size(), 2u);
+  EXPECT_EQ(second->status().reason, static_cast<int>(Trouble::Separate));
+  for (int i : {10, 60, 90}) second->add(seenAgain(i, i + kLap, earlier));
+  relaxAll(*second);
+  EXPECT_EQ(second->status().health, urban_nav_core::Health::Ok) << second->status().sentence;
+  second.reset();
+  Store store(place.file(), Access::Read);
+  ASSERT_EQ(store.sessions().all().size(), 2u);
+  for (const auto& session : store.sessions().all())
+    EXPECT_EQ(store.sessions().anchor(session.id)->map, earlier) << session.id;
+}
+
+TEST_F(LivePoseGraphTest, aBagThatIsLoopedIsASessionEachTime) {
+  auto graph = begin();
+  for (int round = 0; round < 3; ++round) drive(*graph, 0, 30);
+  EXPECT_EQ(graph->trajectory(0, 0, 0).runs.size(), 3u);
+  graph->reset();
+  EXPECT_EQ(posesOf(*graph), 0u);
+  drive(*graph, 0, 5);
+  graph.reset();
+  EXPECT_EQ(stored().chains.size(), 4u) << "the store forgets nothing";
+  std::size_t steps = 0;
+  for (const auto& chain : stored().chains) steps += chain.steps.size();
+  EXPECT_EQ(steps, 95u);
+}
+
+TEST_F(LivePoseGraphTest, whatLoopClosureRejectedIsKeptWithItsReason) {
+  auto graph = begin();
+  urban_nav_core::MetricClosure rejected = seenAgain(3, 8);
+  rejected.verdict = urban_nav_core::ClosureVerdict::Rejected;
+  rejected.method = urban_nav_core::ClosureMethod::None;
+  rejected.reason_name = "TooFewMatches";
+  rejected.sentence = "9 of 20";
+  graph->add(rejected);  // before the first odometry
+  drive(*graph, 0, kLap);
+  graph->add(seenAgain(0, kLap));
+  relaxAll(*graph);
+  graph.reset();
+  ASSERT_EQ(stored().closures.size(), 1u);
+  EXPECT_TRUE(stored().closures[0].odometry_gate);
+  Store store(place.file(), Access::Read);
+  std::string reasons;
+  store.graph().forEachEdge(store.sessions().all()[0].id, [&](const urban_nav_store::Edge& edge) {
+    if (edge.kind != EdgeKind::Odometry && edge.verdict == ClosureVerdict::Rejected && edge.weight == 0.0 &&
+        store.graph().evidence(edge)->find("47 matches") != std::string::npos)
+      reasons += edge.reason;
+  });
+  EXPECT_EQ(reasons.rfind("TooFewMatches: 9 of 20", 0), 0u) << reasons;
+}
+
+TEST_F(LivePoseGraphTest, aStoreThatCannotBeUsedIsNamedAndTheGraphGoesOn) {
+  std::ofstream(place.file("damaged.db")) << "SQLite format 3, or so it seems";
+  for (const std::string file : {"damaged.db", "no/such/folder/s.db"}) {
+    auto graph = begin("monday", file);
+    drive(*graph, 0, 10);
+    EXPECT_EQ(posesOf(*graph), 11u);
+    EXPECT_NE(graph->storeState().fault.find(file), std::string::npos) << graph->storeState().fault;
+    EXPECT_EQ(graph->status().reason, static_cast<int>(Trouble::NotStored));
+    EXPECT_NE(graph->status().sentence.find(file), std::string::npos);
+  }
+  auto writer = begin();
+  auto second = begin();
+  EXPECT_NE(second->storeState().fault.find("another program"), std::string::npos) << second->storeState().fault;
+}
+
+TEST_F(LivePoseGraphTest, savesWithAndWithoutAStoreAndLoadsIntoAnotherGraph) {
+  for (const std::string file : {"", "s.db"}) {
+    auto graph = begin("monday", file);
+    drive(*graph, 0, 2 * kLap);
+    for (int i : {10, 60}) graph->add(seenAgain(i, i + kLap));
+    relaxAll(*graph);
+    graph->save(place.file("saved.db"))();
+    graph->save(place.file("saved.db"))();
+    if (!file.empty()) {
+      EXPECT_EQ(graph->save(place.file(file))(), "all of it is committed");
+    }
+    auto other = begin("tuesday", "");
+    EXPECT_NE(other->load(stored("saved.db")).find("1 sessions with 201 poses and 2 closures"), std::string::npos);
+    relaxAll(*other);
+    expectSame(other->trajectory(0, 0, 0), graph->trajectory(0, 0, 0));
+    EXPECT_NE(other->load(stored("saved.db")).find("1 sessions were there already"), std::string::npos);
+    drive(*other, 0, 10);
+    other->reset();
+    drive(*other, 0, 10);
+    EXPECT_THROW(other->save(place.file("saved.db"))(), UserError) << "it holds a session that would be lost";
+    EXPECT_EQ(stored("saved.db").chains.size(), 1u);
+  }
+}
+
+TEST_F(LivePoseGraphTest, takesInWhileABatchIsAtWork) {
+  auto graph = begin("monday", ""), still = begin("monday", "");
+  for (LivePoseGraph* each : {graph.get(), still.get()}) {
+    drive(*each, 0, 2 * kLap);
+    each->add(seenAgain(10, 10 + kLap));
+  }
+  const auto work = graph->beginBatch();
+  std::atomic<bool> stop{false};
+  std::thread elsewhere([&] { work->run(stop); });
+  drive(*graph, 2 * kLap, 3 * kLap);
+  graph->add(seenAgain(60, 60 + 2 * kLap));
+  relaxNew(*graph);
+  elsewhere.join();
+  const auto taken = graph->finishBatch(*work);
+  ASSERT_TRUE(taken);
+  EXPECT_EQ(taken->figures.poses, 3 * kLap + 1);
+  EXPECT_FALSE(graph->isRelaxationPending()) << "what came was judged with it";
+  drive(*still, 2 * kLap, 3 * kLap);
+  still->add(seenAgain(60, 60 + 2 * kLap));
+  batch(*graph);
+  batch(*still);
+  expectSame(graph->trajectory(0, 0, 0), still->trajectory(0, 0, 0));
+}
+
+TEST_F(LivePoseGraphTest, theBatchOfAGraphThatIsNoMoreIsNotTaken) {
+  auto graph = begin("monday", "");
+  drive(*graph, 0, 2 * kLap);
+  graph->add(seenAgain(10, 10 + kLap));
+  const auto work = graph->beginBatch();
+  graph->reset();
+  drive(*graph, 0, 5);
+  work->run(std::atomic<bool>{false});
+  EXPECT_FALSE(graph->finishBatch(*work));
+  EXPECT_EQ(posesOf(*graph), 6u);
+}
+
+TEST_F(LivePoseGraphTest, aSessionEndsWithABatch) {
+  auto graph = begin("monday", "");
+  drive(*graph, 0, 2 * kLap);
+  EXPECT_FALSE(graph->isBatchPending());
+  graph->newSession("");
+  EXPECT_TRUE(graph->isBatchPending());
+  batch(*graph);
+  EXPECT_FALSE(graph->isBatchPending());
+}
+
+TEST_F(LivePoseGraphTest, levelsOnceItIsKnownWhichWayIsUp) {
+  auto graph = begin("monday", "");
+  feel(*graph, 3 * kLap);
+  drive(*graph, 0, 100);
+  EXPECT_FALSE(graph->isRelaxationPending());
+  drive(*graph, 100, 3 * kLap);
+  ASSERT_TRUE(graph->isRelaxationPending());
+  const LiveGraph::Outcome outcome = graph->relax();
+  ASSERT_EQ(outcome.jumps.size(), 1u);
+  EXPECT_EQ(outcome.jumps[0].reason_name, "Levelled");
+  ASSERT_TRUE(outcome.update);
+  EXPECT_GT(outcome.update->runs[0].poses.size(), 100u) << "all of them";
+  EXPECT_FALSE(graph->isRelaxationPending()) << "once";
+}
+
+TEST_F(LivePoseGraphTest, whatWasFeltLevelsTheMapAfterARestartToo) {
+  auto graph = begin();
+  feel(*graph, 4 * kLap);
+  drive(*graph, 0, 3 * kLap);
+  relaxAll(*graph);
+  const LiveGraph::Trajectory before = graph->trajectory(0, 0, 0);
+  EXPECT_FALSE(isApprox(before.runs[0].poses[0].T_map_base, Pose(), 1e-3));
+  graph.reset();
+  ASSERT_EQ(stored().chains.size(), 1u);
+  EXPECT_EQ(stored().chains[0].forces.size(), 3u * kLap + 1);
+  graph = begin();
+  EXPECT_TRUE(graph->isBatchPending());
+  relaxAll(*graph);
+  expectSame(graph->trajectory(0, 0, 0), before);
+}
+
+TEST_F(LivePoseGraphTest, mapFromOdomIsThatOfTheStampWhereverOdomBegins) {
+  auto graph = begin("monday", "");
+  const Pose T_odom_first(urban_nav_core::expSo3(Eigen::Vector3d(0.1, 0.2, 0.9)), Eigen::Vector3d(30.0, -7.0, 1.0));
+  Pose T;
+  std::vector<Pose> odometry;
+  for (int i = 0; i < 2 * kLap; ++i) {
+    odometry.push_back(T_odom_first * T);
+    graph->add(urban_nav_core::StampedPose{i * kPeriod, odometry.back()});
+    EXPECT_EQ(graph->T_map_odom().has_value(), i > 25);
+    if (i >= 25) graph->add(stepAt(i - 25));
+    T = T * stepAt(i).T_from_to;
+  }
+  graph->add(seenAgain(10, 10 + kLap - 40));
+  relaxAll(*graph);
+  const auto newest = graph->trajectory(0, 0, 0).runs[0].poses.back();
+  EXPECT_TRUE(isApprox(*graph->T_map_odom() * odometry[static_cast<std::size_t>(newest.stamp / kPeriod)],
+                       newest.T_map_base, 1e-9));
+}
+
+}  // namespace
+}  // namespace pose_graph
