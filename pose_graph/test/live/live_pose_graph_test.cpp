@@ -13,7 +13,6 @@ namespace {
 using testing::kLap;
 using testing::kPeriod;
 using testing::Place;
-using testing::stepAt;
 using urban_nav_core::UserError;
 using urban_nav_store::Access;
 using urban_nav_store::Store;
@@ -40,7 +39,7 @@ class LivePoseGraphTest : public ::testing::Test {
     return graph;
   }
   static void drive(LivePoseGraph& graph, int first, int end) {
-    for (int i = first; i < end; ++i) graph.add(stepAt(i));
+    for (int i = first; i < end; ++i) graph.add(testing::stepAt(i));
     graph.syncStore();
   }
   /// What an accelerometer feels that lies on its side and does not move: far from what the way shows, but gravity is
@@ -106,7 +105,7 @@ TEST_F(LivePoseGraphTest, aRecordingThatIsPlayedAgainGoesOnWhereItWasCutOff) {
 }
 
 TEST_F(LivePoseGraphTest, aSessionGoesOnBehindItsNewestPose) {
-  begin()->add(stepAt(0));
+  begin()->add(testing::stepAt(0));
   auto graph = begin();
   drive(*graph, 1, 30);
   EXPECT_EQ(posesOf(*graph), 31u);
@@ -300,8 +299,8 @@ TEST_F(LivePoseGraphTest, mapFromOdomIsThatOfTheStampWhereverOdomBegins) {
     odometry.push_back(T_odom_first * T);
     graph->add(urban_nav_core::StampedPose{i * kPeriod, odometry.back()});
     EXPECT_EQ(graph->T_map_odom().has_value(), i > 25);
-    if (i >= 25) graph->add(stepAt(i - 25));
-    T = T * stepAt(i).T_from_to;
+    if (i >= 25) graph->add(testing::stepAt(i - 25));
+    T = T * testing::stepAt(i).T_from_to;
   }
   graph->add(seenAgain(10, 10 + kLap - 40));
   relaxAll(*graph);

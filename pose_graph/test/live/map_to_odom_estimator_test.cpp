@@ -8,7 +8,7 @@ namespace {
 
 using urban_nav_core::expSo3;
 
-constexpr StampNs kStep = 50'000'000;
+constexpr StampNs kVoPeriod = 50'000'000;
 
 Pose at(int i) { return Pose(expSo3(Eigen::Vector3d(0.0, 0.0, 0.01 * i)), Eigen::Vector3d(0.1 * i, 0.02 * i, 0.0)); }
 
@@ -19,7 +19,7 @@ Track track(int first, int last, const SessionId& session = "a") {
   Track made;
   made.session = session;
   for (int i = first; i < last; ++i) {
-    made.stamps.push_back(i * kStep);
+    made.stamps.push_back(i * kVoPeriod);
     made.odom.push_back(at(first).inverse() * at(i));
     made.map.push_back(kMoved * at(i) * Pose(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0.001 * i, 0.0, 0.0)));
   }
@@ -27,13 +27,13 @@ Track track(int first, int last, const SessionId& session = "a") {
 }
 
 void hear(MapToOdomEstimator& estimator, int first, int last, StampNs offset = 0) {
-  for (int i = first; i < last; ++i) estimator.addOdometry({i * kStep + offset, at(i)});
+  for (int i = first; i < last; ++i) estimator.addOdometry({i * kVoPeriod + offset, at(i)});
 }
 
 void expectTied(MapToOdomEstimator& estimator, const Track& track, int newest) {
   const auto T = estimator.estimate(&track);
   ASSERT_TRUE(T);
-  const auto place = static_cast<std::size_t>(newest - track.stamps.front() / kStep);
+  const auto place = static_cast<std::size_t>(newest - track.stamps.front() / kVoPeriod);
   EXPECT_TRUE(isApprox(*T * at(newest), track.map[place], 1e-9));
 }
 
@@ -80,10 +80,10 @@ TEST(MapToOdomEstimator, anOdometryThatBeginsAnewDoesSoAtTheNewestPose) {
   hear(estimator, 0, 40);
   const Track before = track(0, 40);
   expectTied(estimator, before, 39);
-  hear(estimator, 0, 20, 41 * kStep);
+  hear(estimator, 0, 20, 41 * kVoPeriod);
   EXPECT_TRUE(isApprox(*estimator.estimate(&before), before.map.back(), 0.0));
   Track after = before;
-  after.stamps.push_back(42 * kStep);
+  after.stamps.push_back(42 * kVoPeriod);
   after.map.push_back(kMoved);
   EXPECT_TRUE(isApprox(*estimator.estimate(&after) * at(1), kMoved, 1e-9));
 }

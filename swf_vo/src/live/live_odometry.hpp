@@ -24,7 +24,8 @@ class LiveOdometry {
   LiveOdometry(const Parameters& parameters, Listener listener)
       : parameters_(parameters), listener_(std::move(listener)) {}
 
-  /// Begins a session. `T_base_left`: pose of the rectified left camera. Throws UserError if the calibration is invalid.
+  /// Begins a session. `T_base_left`: pose of the rectified left camera. Throws UserError if the calibration is
+  /// invalid.
   void begin(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_base_left);
   /// Processes a pair. Requires a running session.
   void process(const urban_nav_core::StereoPairWithMotion& pair);

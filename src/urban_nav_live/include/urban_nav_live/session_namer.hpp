@@ -15,8 +15,8 @@ namespace urban_nav_live {
 /// rule, each without knowledge of the others: stores of one robot merge only if the ids agree. Not thread-safe.
 ///
 /// A stored session with the same robot and recording is resumed if it begins at the same time (the recording is played
-/// again) or if its newest pose is at the start (odometry continues). Otherwise a new session begins. A recording that is
-/// played again within one process becomes "name (2)", "name (3)", ...
+/// again) or if its newest pose is at the start (odometry continues). Otherwise a new session begins. A recording that
+/// is played again within one process becomes "name (2)", "name (3)", ...
 class SessionNamer {
  public:
   using Session = urban_nav_store::Session;

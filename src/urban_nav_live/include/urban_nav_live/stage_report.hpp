@@ -40,8 +40,8 @@ enum class ReportLevel : unsigned char { Ok = 0, Warning = 1, Error = 2 };
 
 /// Returns the level of a health: OK and RECOVERED are fine, DEGRADED is a warning, LOST an error.
 ReportLevel reportLevel(urban_nav_core::Health health);
-/// Returns the level and the summary that an operator is shown. `paused`: nothing is wrong. `topic_fault`: what is wrong
-/// with the topics, appended to the summary as a warning; empty: nothing.
+/// Returns the level and the summary that an operator is shown. `paused`: nothing is wrong. `topic_fault`: what is
+/// wrong with the topics, appended to the summary as a warning; empty: nothing.
 std::pair<ReportLevel, std::string> summarise(const StageReport& report, bool paused, const std::string& topic_fault);
 
 }  // namespace urban_nav_live

@@ -26,8 +26,8 @@ struct StoreState {
 /// Appends the state of a store to a report.
 void addStoreFigures(const StoreState& state, StageReport& report);
 
-/// Session store that a stage writes while it runs. Opens the file when it can be opened; a fault is named, and the next
-/// attempt follows after a pause. Writes never wait for the disk. Thread-safe.
+/// Session store that a stage writes while it runs. Opens the file when it can be opened; a fault is named, and the
+/// next attempt follows after a pause. Writes never wait for the disk. Thread-safe.
 class StoreWriterLink {
  public:
   using Clock = std::chrono::steady_clock;

@@ -32,13 +32,13 @@ class TopicMonitor {
 
   /// Records a message. Ignored for topics that are not monitored.
   void received(const std::string& topic, urban_nav_core::StampNs stamp = 0);
-  /// States whether the newest pair lacked a partner. A lag is normal between two messages; in an incomplete pair it is a
-  /// fault.
+  /// States whether the newest pair lacked a partner. A lag is normal between two messages; in an incomplete pair it is
+  /// a fault.
   void setIncomplete(bool incomplete);
 
   /// Returns what is wrong with the topics of a group; empty: nothing. Topics that have not arrived come first ("/a has
-  /// not come yet, /b has not come yet"), then a late partner ("/right lags /left by 40 ms"), then silent topics ("/a has
-  /// been silent for 12.0 s"); only the first kind of fault is returned.
+  /// not come yet, /b has not come yet"), then a late partner ("/right lags /left by 40 ms"), then silent topics ("/a
+  /// has been silent for 12.0 s"); only the first kind of fault is returned.
   std::string fault(const std::string& group = "") const;
 
  private:
