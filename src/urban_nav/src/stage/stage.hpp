@@ -52,8 +52,11 @@ class Stage {
   /// values is not resumed.
   virtual std::vector<urban_nav_core::Setting> passSettings(const ParameterSet&) const { return {}; }
 
-  /// Decides from the options alone. Throws UserError for options that contradict each other or name unusable files.
-  virtual Selection select(const MapOptions& options) const = 0;
+  /// Decides from the options alone; by default, a stage is enabled if --stages allows it. Throws UserError for options
+  /// that contradict each other or name unusable files.
+  virtual Selection select(const MapOptions& options) const {
+    return {isRequested(options, describe().name), "not in --stages", {}};
+  }
 
   /// Returns the stage's part of the reading pass of a session; null: none. Throws Error if the checkpoint does not
   /// match the session; the session is then read from its beginning.

@@ -32,7 +32,6 @@ class FileStage final : public Stage {
   FileStage(std::string name, bool uses_closures, std::vector<std::string> files)
       : description_{name, name, true, uses_closures, false, std::move(files)} {}
   Description describe() const override { return description_; }
-  Selection select(const MapOptions&) const override { return {true, "", {}}; }
 
  private:
   Description description_;

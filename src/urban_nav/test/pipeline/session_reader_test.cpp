@@ -16,7 +16,6 @@ constexpr int kFramesRead = 6;
 class CountingStage final : public Stage {
  public:
   Description describe() const override { return {"count", "count", true, false, false, {}}; }
-  Selection select(const MapOptions&) const override { return {true, "", {}}; }
   std::unique_ptr<SessionPass> beginSession(MapContext&, const SessionStart&) override {
     return std::make_unique<Pass>(frames);
   }
