@@ -40,13 +40,8 @@ std::string stagesSentence() {
   return "of " + names + " (default: all whose inputs exist)";
 }
 
-}  // namespace
-
-Command mapCommand() {
-  Command command;
-  command.name = "map";
-  command.summary = "Turns recordings into a trajectory with covariance, and a report.";
-  command.options = {
+std::vector<Option> mapOptions() {
+  return {
       {"INPUT", "", "bags, or folders of KITTI, EuRoC or New College", true, true, {}},
       {"-o,--out", "DIR", "folder to write into (made if need be)", true, false, {}},
       {"--stages", "LIST", stagesSentence(), false, true, {}},
@@ -95,6 +90,15 @@ Command mapCommand() {
       configOption(),
       setOption(),
       threadsOption()};
+}
+
+}  // namespace
+
+Command mapCommand() {
+  Command command;
+  command.name = "map";
+  command.summary = "Turns recordings into a trajectory with covariance, and a report.";
+  command.options = mapOptions();
   command.examples = {"urban_nav map sequences/06 --out out",
                       "urban_nav map robot.bag --topic left:=/cam0/image_raw --set swf_vo.window=25 --out out"};
   command.more_help = parametersHelp;
