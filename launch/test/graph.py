@@ -127,6 +127,14 @@ def connections(node):
     return {row[4] for row in rows if row[2] == "i" and row[5]}
 
 
+CAMERA = {f"/stereo/{side}/{topic}" for side in ("left", "right") for topic in ("image_raw", "camera_info", "image_rect")}
+
+
+def camera_is_connected():
+    """Do the images reach the stages in stereo_manager, by way of stereo_rectify?"""
+    return {"/stereo_rectify/reset", "/swf_vo/reset"} <= services() and CAMERA <= connections("/stereo_manager")
+
+
 def rviz_file(name):
     return Path(rospkg.RosPack().get_path("urban_nav_rviz")) / "rviz" / f"{name}.rviz"
 

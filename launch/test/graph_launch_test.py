@@ -16,7 +16,7 @@ from urban_nav_msgs.msg import GraphState, MapJump, MetricClosure, StageStatus
 from urban_nav_msgs.srv import GetTrajectory
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from graph import command, connections, services  # noqa: E402
+from graph import camera_is_connected, command, connections, services  # noqa: E402
 from launch_case import LaunchCase  # noqa: E402
 from truth import matrix, pose_of, true_poses  # noqa: E402
 
@@ -41,7 +41,7 @@ def rms(poses, truth):
 class GraphLaunch(LaunchCase):
     @classmethod
     def record(cls, folder):
-        rospy.set_param("/pose_graph/queue", 100000)
+        rospy.set_param("/pose_graph/queue_size", 100000)
         bag = Path(folder) / "simulated.bag"
         subprocess.run([command(), "simulate", "--seed", "5", "--duration", str(SECONDS), "--sensors", "stereo,imu", "-o", str(bag)], check=True,
                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -99,7 +99,7 @@ class GraphLaunch(LaunchCase):
         self.launch("bag.launch", bag=self.bag, rviz="false", paused="true")
         self.expect(lambda: "/player/pause_playback" in services() and "/pose_graph/get_trajectory" in services(), "the nodes")
         self.expect(lambda: {"/loops/metric", "/vo/relative_pose", "/vo/odometry"} <= connections("/pose_graph"), lambda: f"only {connections('/pose_graph')}")
-        self.expect(lambda: {"/stereo/left/image_raw", "/stereo/right/image_raw"} <= connections("/swf_vo"), lambda: f"only {connections('/swf_vo')}")
+        self.expect(camera_is_connected, lambda: f"only {connections('/stereo_manager')}")
         # Ahead of the odometry that they need: they wait for it.
         for closure in self.closures:
             closures.publish(self.message(*closure))

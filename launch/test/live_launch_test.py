@@ -5,6 +5,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import rosbag
+
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from launch_case import PATIENCE, LaunchCase  # noqa: E402
 
@@ -14,12 +16,28 @@ CAMERA_TOPICS = [f"/stereo/{side}/{topic}" for side in ("left", "right") for top
 
 
 class LiveLaunch(LaunchCase):
-    def play(self, topics, *renamed):
-        """Plays these topics, once each of them is heard."""
-        command = ["rosbag", "play", "--quiet", "--wait-for-subscribers", str(self.bag), "--topics", *topics, *renamed]
+    def play(self, topics, *renamed, bag=None):
+        """Plays these topics, once each of them has a subscriber."""
+        command = ["rosbag", "play", "--quiet", "--wait-for-subscribers", str(bag or self.bag), "--topics", *topics, *renamed]
         player = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
         self.addCleanup(player.wait)
         self.addCleanup(player.terminate)
+
+    def distorted(self):
+        """A copy of the bag whose images have to be rectified, and how many pairs it has."""
+        copy, pairs = Path(self.folder) / "distorted.bag", 0
+        with rosbag.Bag(str(self.bag)) as source, rosbag.Bag(str(copy), "w") as target:
+            for topic, message, stamp in source.read_messages(topics=CAMERA_TOPICS):
+                if topic.endswith("camera_info"):
+                    message.distortion_model, message.D = "plumb_bob", [-0.05, 0.0, 0.0, 0.0, 0.0]
+                pairs += topic == "/stereo/left/image_raw"
+                target.write(topic, message, stamp)
+        return copy, pairs
+
+    def figures(self, key):
+        """The newest value of a figure in /diagnostics, by the status that has it."""
+        return {status.name: int(entry.value) for array in self.listener.diagnostics for status in array.status
+                for entry in status.values if entry.key == key}
 
     def reports(self, text):
         return any(text in status.message for array in self.listener.diagnostics for status in array.status)
@@ -40,6 +58,17 @@ class LiveLaunch(LaunchCase):
         self.expect(lambda: len(self.listener.odometry) >= 10, "ten frames")
         for frame in ROBOT_FRAMES:
             self.assertTrue(self.listener.connected("odom", frame), frame)
+
+    def test_the_paper_s_robot_rectifies_each_pair_once(self):
+        bag, pairs = self.distorted()
+        self.launch("robot.launch", graph="true", loops="true")
+        self.expect(lambda: {"stereo_rectify", "swf_vo"} <= {name.split(":")[0].strip("/") for name in self.figures("images rectified")},
+                    lambda: f"both report: {self.figures('images rectified')}")
+        self.play(CAMERA_TOPICS, bag=bag)
+        self.expect(lambda: len(self.listener.frames) >= pairs, lambda: f"{len(self.listener.frames)} of {pairs} frames")
+        self.expect(lambda: sum(self.figures("images rectified").values()) >= 2 * pairs, lambda: str(self.figures("images rectified")))
+        self.assertEqual(sum(self.figures("images rectified").values()), 2 * pairs)
+        self.assertEqual(len(self.listener.frames), pairs)
 
     def test_a_wrong_parameter_is_named_with_what_is_allowed(self):
         config = Path(self.folder) / "wrong.yaml"

@@ -14,7 +14,7 @@ from tf2_msgs.msg import TFMessage
 from urban_nav_msgs.msg import GraphState, MetricClosure, StageStatus, TopologicalClosure
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from graph import command, connections, services  # noqa: E402
+from graph import camera_is_connected, command, connections, services  # noqa: E402
 from launch_case import LaunchCase  # noqa: E402
 from truth import pose_of, true_poses  # noqa: E402
 
@@ -30,7 +30,7 @@ class LoopsLaunch(LaunchCase):
         # The way is short: views from further along it would be those of the turning point, for both moments.
         for name, value in (("queue", 100000), ("patience", 3.0), ("view_way", 1.5)):
             rospy.set_param(f"/loop_metric/{name}", value)
-        rospy.set_param("/pose_graph/queue", 100000)
+        rospy.set_param("/pose_graph/queue_size", 100000)
         there = Path(folder) / "there.bag"
         subprocess.run([command(), "simulate", "--seed", "5", "--duration", str(SECONDS), "--sensors", "stereo,lasers", "-o", str(there)],
                        check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -89,8 +89,8 @@ class LoopsLaunch(LaunchCase):
         self.launch("bag.launch", bag=self.bag, rviz="false", paused="true")
         self.expect(lambda: "/player/pause_playback" in services() and "/loop_metric/reset" in services(), "the nodes")
         heard = {*SENSORS, "/vo/relative_pose", "/vo/odometry", "/places/closure"}
-        self.expect(lambda: heard <= connections("/loop_metric"), lambda: f"only {connections('/loop_metric')}")
-        self.expect(lambda: set(SENSORS[:4]) <= connections("/swf_vo"), lambda: f"only {connections('/swf_vo')}")
+        self.expect(lambda: heard <= connections("/stereo_manager"), lambda: f"only {connections('/stereo_manager')}")
+        self.expect(camera_is_connected, lambda: f"only {connections('/stereo_manager')}")
         self.expect(lambda: {"/loops/metric", "/vo/relative_pose"} <= connections("/pose_graph"), lambda: f"only {connections('/pose_graph')}")
         # Ahead of all data: they wait. The last one's earlier moment was before the drive.
         for a, b, _ in self.closures:
