@@ -36,6 +36,12 @@ class StereoRectifyStage {
 };
 
 StereoRectifyStage::StereoRectifyStage(Node& node) {
+  for (const auto& [input, output] :
+       {std::pair(topics::left_image, topics::left_rectified), std::pair(topics::right_image, topics::right_rectified)})
+    if (node.nh().resolveName(input) == node.nh().resolveName(output))
+      throw urban_nav_core::UserError(input,
+                                      "remapped to " + node.nh().resolveName(output) + ", which is published here",
+                                      "the topic of the camera");
   const auto parameters = readParameters(node.privateHandle(), stereoRectifyTable());
   node.setQueueSize(parameters.queue_size);
   left_ = node.nh().advertise<sensor_msgs::Image>(topics::left_rectified,
