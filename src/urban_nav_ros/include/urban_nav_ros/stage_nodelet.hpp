@@ -68,6 +68,7 @@ class StageNodelet : public nodelet::Nodelet {
       stage_ = std::make_unique<Stage>(*node_);
     } catch (const urban_nav_core::Error& error) {
       NODELET_FATAL("%s", error.what());
+      node_.reset();  // now: the loader destroys the callback queues before the nodelet
       throw;
     }
     start();
