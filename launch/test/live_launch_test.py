@@ -76,6 +76,7 @@ class LiveLaunch(LaunchCase):
         self.launch("swf_vo.launch", config=config, required="true")
         self.assertTrue(self.launched.ended(PATIENCE), self.launched.output())
         self.assertIn("1...100000 (frames)", self.launched.output())
+        self.assertNotIn("exit code -", self.launched.output(), "it ends by itself, not by a signal")
         self.launched = None
         self.listener.errors.clear()  # it says so as an error, too
 
