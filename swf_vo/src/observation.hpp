@@ -16,7 +16,7 @@ struct Observation {
   Eigen::Vector3d z = Eigen::Vector3d::Zero();
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   /// By how much what is measured may have crept over its surface since it was seen last: px^2 in the left image of its first frame.
-  Eigen::Matrix2d wander = Eigen::Matrix2d::Zero();
+  Eigen::Matrix2d template_drift_covariance = Eigen::Matrix2d::Zero();
   /// Standard deviation of the alignment alone, px, in one coordinate: without what `information` has for errors that stay the same from frame to
   /// frame. 0: not known.
   double sigma_px = 0.0;

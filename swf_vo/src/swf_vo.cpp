@@ -95,7 +95,7 @@ class SwfVo::Implementation {
       : parameters_(parameters),
         camera_(camera),
         T_odom_first_camera_(T_base_camera),
-        mender_(camera.left.width, camera.left.height),
+        row_repair_(camera.left.width, camera.left.height),
         prediction_(parameters, T_base_camera),
         front_end_(parameters, camera),
         window_(windowOptions(parameters, camera), camera),
@@ -109,11 +109,11 @@ class SwfVo::Implementation {
     evidence.first = !started_;
     const double periods = takeTime(pair.stamp);
     evidence.gap = periods > gap_periods;
-    const RowMender::Mended mended = mender_.mend(pair);
-    evidence.corrupted = mended.corrupted;
-    evidence.image = images_.look(mended.pair, doubtful_);
+    const CorruptRowRepair::Repaired repaired = row_repair_.repair(pair);
+    evidence.corrupted = repaired.corrupted;
+    evidence.image = images_.look(repaired.pair, doubtful_);
     const StereoPair usable =
-        evidence.image.exchange ? StereoPair{pair.stamp, mended.pair.right, mended.pair.left} : mended.pair;
+        evidence.image.exchange ? StereoPair{pair.stamp, repaired.pair.right, repaired.pair.left} : repaired.pair;
 
     const Pose last = started_ ? window_.newest().pose : T_odom_first_camera_;
     ProcessInput u = started_ ? prediction_.step(seconds_, inputs) : ProcessInput();
@@ -144,7 +144,7 @@ class SwfVo::Implementation {
     doubtful_ = status.health != urban_nav_core::Health::Ok;
     started_ = true;
     const Frame& frame = output_.write(frame_++, pair.stamp, status, window_, u, seen, update);
-    giveUp(window_.strays());
+    giveUp(window_.driftingLandmarks());
     return frame;
   }
 
@@ -234,7 +234,7 @@ class SwfVo::Implementation {
   Parameters parameters_;
   StereoCamera camera_;
   Pose T_odom_first_camera_;
-  RowMender mender_;
+  CorruptRowRepair row_repair_;
   ImageCheck images_;
   Prediction prediction_;
   FrontEnd front_end_;

@@ -27,7 +27,7 @@ enum class Reason : int {
   Gap,           ///< far more time since the last frame than between the frames before
   Inconsistent,  ///< matches do not agree with one rigid motion
   NotObserved,   ///< some direction of the motion is held by the prediction alone
-  Corrupted,     ///< rows of an image are rubbish, as after a transfer that lost bytes; the rest is used
+  Corrupted,     ///< rows of an image are corrupted, as after a transfer that lost bytes; the rest is used
 };
 const char* toString(Reason reason);
 

@@ -48,8 +48,8 @@ void matchAcross(const Corners& corners, const StereoCamera& camera, const Pose&
   for (Match& match : matches) {
     if (match.track->level >= corners.levels()) continue;
     for (const Side side : {Side::Left, Side::Right}) {
-      Sighting& mine = side == Side::Left ? match.left : match.right;
-      const Sighting& other = side == Side::Left ? match.right : match.left;
+      PixelMeasurement& mine = side == Side::Left ? match.left : match.right;
+      const PixelMeasurement& other = side == Side::Left ? match.right : match.left;
       if (mine.found) continue;
       const auto projected = projectInto(side, camera, T_camera_odom, match.p_odom, row_offset);
       const auto partner =

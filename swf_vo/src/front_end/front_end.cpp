@@ -8,10 +8,10 @@
 #include "edge_width.hpp"
 #include "front_end/across.hpp"
 #include "front_end/corners.hpp"
-#include "front_end/localise.hpp"
 #include "front_end/match.hpp"
-#include "front_end/misfit.hpp"
 #include "front_end/noise_scale.hpp"
+#include "front_end/patch_residual_test.hpp"
+#include "front_end/pose_estimation.hpp"
 #include "front_end/refine.hpp"
 #include "front_end/replenish.hpp"
 #include "front_end/rotation.hpp"
@@ -79,14 +79,14 @@ class FrontEnd::Implementation {
                  featuresIn(camera, parameters.features)),
         rotation_(camera.left),
         capacity_(4 * featuresIn(camera, parameters.features)),
-        localiser_(camera_, capacity_),
+        pose_estimator_(camera_, capacity_),
         tracks_(capacity_),
         noise_(capacity_),
         rows_(4 * capacity_),
         replenisher_(camera_, featuresIn(camera, parameters.features), parameters.pixel_noise_floor,
                      parameters.subpixel) {
     const std::size_t capacity = static_cast<std::size_t>(capacity_);
-    misfit_.resize(static_cast<std::size_t>(parameters.pyramid_levels));
+    residual_test_.resize(static_cast<std::size_t>(parameters.pyramid_levels));
     matches_.reserve(capacity);
     spare_.reserve(capacity);
     orphans_.reserve(capacity);
@@ -134,9 +134,10 @@ class FrontEnd::Implementation {
   void archive(urban_nav_core::Archive& archive) {
     archive(corners_, rotation_);
     tracks_.archive(archive, parameters_.pyramid_levels);
-    archive(noise_, rows_, replenisher_, misfit_, result_.row_offset_px, result_.noise_scale);
+    archive(noise_, rows_, replenisher_, residual_test_, result_.row_offset_px, result_.noise_scale);
     archive(radius_, astray_, frame_, T_odom_localised_, T_window_odom_);
-    archive.require(misfit_.size() == static_cast<std::size_t>(parameters_.pyramid_levels), "levels are missing");
+    archive.require(residual_test_.size() == static_cast<std::size_t>(parameters_.pyramid_levels),
+                    "levels are missing");
     archive.require(radius_ >= 0.0 && radius_ <= first_radius * parameters_.search_radius, "a search radius is none");
   }
 
@@ -242,24 +243,24 @@ class FrontEnd::Implementation {
   }
 
   /// First matches, in one image each, and the pose that most of them agree on to about a pixel.
-  Localisation matchCoarsely(const Pose& T_turned_odom, const Pose& T_predicted_odom) {
+  PoseEstimate matchCoarsely(const Pose& T_turned_odom, const Pose& T_predicted_odom) {
     matchTemporal(corners_, camera_, T_turned_odom, radius_, matches_, rows_.px());
     for (Match& match : matches_) measure(match);
     starts_.assign({T_predicted_odom, T_turned_odom});
-    LocaliseOptions options;
+    PoseEstimatorOptions options;
     options.slack_px = coarse_slack_px;
     options.least_inliers = parameters_.lost_features;
-    return localiser_.locate(starts_, options, matches_);
+    return pose_estimator_.locate(starts_, options, matches_);
   }
 
   /// After frames without measurements the prediction may be far off, most of all in heading, and what is warped by it fits badly. From the headings
   /// about it, and from where the camera was last, for a clock may jump and the camera need not; then from the pose that most matches agree on, they
   /// are sought again.
-  Localisation matchAstray(Localisation best, const Pose& T_turned_odom, const Pose& T_predicted_odom) {
+  PoseEstimate matchAstray(PoseEstimate best, const Pose& T_turned_odom, const Pose& T_predicted_odom) {
     radius_ = first_radius * parameters_.search_radius;
     if (!best.found || 2 * best.inliers < best.candidates) {
       const auto tryFrom = [&](const Pose& T_camera_odom) {
-        const Localisation other = matchCoarsely(T_camera_odom, T_camera_odom);
+        const PoseEstimate other = matchCoarsely(T_camera_odom, T_camera_odom);
         if (other.found && (!best.found || other.inliers > best.inliers)) best = other;
       };
       for (const double share : {0.0, -0.5, 0.5, -1.0, 1.0}) {
@@ -276,19 +277,19 @@ class FrontEnd::Implementation {
 
   /// Nothing fits where it was expected, as when the first step is a large one: looks far around for a motion, then matches again from there.
   /// Taken if it explains clearly more than `explained` matches; else all stays as it was.
-  std::optional<Localisation> searchWidely(const Pose& T_turned_odom, int explained) {
+  std::optional<PoseEstimate> searchWidely(const Pose& T_turned_odom, int explained) {
     spare_ = matches_;
     const double radius = std::max(first_radius * parameters_.search_radius, widest_radius * camera_.left.width);
     matchAnywhere(corners_, camera_, T_turned_odom, radius, matches_, rows_.px());
     for (Match& match : matches_) measure(match);
     starts_.assign({T_turned_odom});
-    LocaliseOptions options;
+    PoseEstimatorOptions options;
     options.slack_px = coarse_slack_px;
     options.least_inliers = parameters_.lost_features;
     options.samples = wide_samples;
-    const Localisation guess = localiser_.locate(starts_, options, matches_);
+    const PoseEstimate guess = pose_estimator_.locate(starts_, options, matches_);
     if (guess.found) {
-      const Localisation coarse = matchCoarsely(guess.T_camera_odom, guess.T_camera_odom);
+      const PoseEstimate coarse = matchCoarsely(guess.T_camera_odom, guess.T_camera_odom);
       if (coarse.found && coarse.inliers > 2 * explained) return coarse;
     }
     matches_.swap(spare_);
@@ -311,10 +312,10 @@ class FrontEnd::Implementation {
   }
 
   /// What the coarse motion explains is completed in the other image and placed to a hundredth of a pixel.
-  Localisation matchFinely(const Localisation& coarse, const Pose& T_turned_odom, const Pose& T_predicted_odom) {
+  PoseEstimate matchFinely(const PoseEstimate& coarse, const Pose& T_turned_odom, const Pose& T_predicted_odom) {
     for (Match& match : matches_) {
       match.contradicted = coarse.found && match.measured && !match.inlier;
-      if (match.contradicted) match.left = match.right = Sighting();
+      if (match.contradicted) match.left = match.right = PixelMeasurement();
     }
     matchAcross(corners_, camera_, coarse.found ? coarse.T_camera_odom : T_turned_odom, matches_, rows_.px());
     for (Match& match : matches_) {
@@ -322,21 +323,21 @@ class FrontEnd::Implementation {
       measure(match);
     }
     starts_.assign({coarse.found ? coarse.T_camera_odom : T_predicted_odom});
-    LocaliseOptions options;
+    PoseEstimatorOptions options;
     options.slack_px = astray_ ? astray_slack_px : fine_slack_px;
     options.least_inliers = parameters_.lost_features;
-    return localiser_.locate(starts_, options, matches_);
+    return pose_estimator_.locate(starts_, options, matches_);
   }
 
   void locate(const Pose& T_turned_odom, const Pose& T_predicted_odom) {
     if (matches_.empty()) return;
-    Localisation coarse = matchCoarsely(T_turned_odom, T_predicted_odom);
+    PoseEstimate coarse = matchCoarsely(T_turned_odom, T_predicted_odom);
     if (radius_ < parameters_.search_radius && 2 * coarse.inliers < coarse.candidates) {
       radius_ = parameters_.search_radius;
       coarse = matchCoarsely(T_turned_odom, T_predicted_odom);
     }
     if (astray_) coarse = matchAstray(coarse, T_turned_odom, T_predicted_odom);
-    Localisation fine = matchFinely(coarse, T_turned_odom, T_predicted_odom);
+    PoseEstimate fine = matchFinely(coarse, T_turned_odom, T_predicted_odom);
     if (fine.inliers < parameters_.degraded_features)
       if (const auto wide = searchWidely(T_turned_odom, fine.inliers))
         fine = matchFinely(*wide, T_turned_odom, T_predicted_odom);
@@ -360,14 +361,14 @@ class FrontEnd::Implementation {
   }
 
   void dropMisfits(Match& match) {
-    for (Sighting* sighting : {&match.left, &match.right})
-      if (sighting->found && !misfit_[static_cast<std::size_t>(match.track->level)].isUsual(sighting->noise))
-        *sighting = Sighting();
+    for (PixelMeasurement* sighting : {&match.left, &match.right})
+      if (sighting->found && !residual_test_[static_cast<std::size_t>(match.track->level)].isTypical(sighting->noise))
+        *sighting = PixelMeasurement();
   }
 
   /// Of the landmarks that such a pose would have in view, are those that say so a few only? Where one has searched far around, some patches of any other
   /// place look like some of before, and a few of them agree; and so does what was carried along.
-  bool isByChance(const Localisation& found) const {
+  bool isByChance(const PoseEstimate& found) const {
     const auto in_view = std::count_if(matches_.begin(), matches_.end(), [&](const Match& match) {
       const auto pixel = projectInto(Side::Left, camera_, found.T_camera_odom, match.p_odom);
       return pixel && pixel->x() >= 0.0 && pixel->y() >= 0.0 && pixel->x() < camera_.left.width &&
@@ -450,12 +451,12 @@ class FrontEnd::Implementation {
   Corners corners_;
   RotationTracker rotation_;
   int capacity_;
-  Localiser localiser_;
+  PoseEstimator pose_estimator_;
   Tracks tracks_;
   NoiseScale noise_;
   RowOffset rows_;
   Replenisher replenisher_;
-  std::vector<Misfit> misfit_;  // of landmarks that are followed, by level
+  std::vector<PatchResidualTest> residual_test_;  // of landmarks that are followed, by level
   FrontEndResult result_;
   std::vector<Match> matches_, spare_;
   std::vector<LandmarkId> orphans_;

@@ -8,7 +8,7 @@
 namespace swf_vo {
 
 /// A place in one image, px of level 0.
-struct Sighting {
+struct PixelMeasurement {
   bool found = false;
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
@@ -19,7 +19,7 @@ struct Sighting {
 struct Match {
   Track* track = nullptr;
   Eigen::Vector4d p_odom = Eigen::Vector4d::Zero();  ///< homogeneous, as the map has it
-  Sighting left, right;
+  PixelMeasurement left, right;
   bool measured = false;                                  ///< z is valid
   Eigen::Vector3d z = Eigen::Vector3d::Zero();            ///< u_left, v, u_right (px)
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< zero rows for what was not measured

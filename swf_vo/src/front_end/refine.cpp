@@ -68,8 +68,9 @@ bool prepareTemplate(Side side, const StereoCamera& camera, const Pose& T_camera
   return ready;
 }
 
-Sighting refine(Side side, const Corners& corners, const Track& track, const Eigen::Vector2d& start, double reach) {
-  Sighting sighting;
+PixelMeasurement refine(Side side, const Corners& corners, const Track& track, const Eigen::Vector2d& start,
+                        double reach) {
+  PixelMeasurement sighting;
   const double size = 1.0 / urban_nav_core::Pyramid::scale(track.level);
   const PatchTemplate& made = side == Side::Left ? track.in_left : track.in_right;
   const Alignment a = urban_nav_core::alignPatch(corners.image(side, track.level), made, start / size, reach);
@@ -147,7 +148,7 @@ void loosen(const Eigen::Matrix2d& covariance, double of_disparity, Match& match
 
 void roundToPixels(Match& match) {
   const double size = 1.0 / urban_nav_core::Pyramid::scale(match.track->level);
-  for (Sighting* sighting : {&match.left, &match.right}) {
+  for (PixelMeasurement* sighting : {&match.left, &match.right}) {
     if (!sighting->found) continue;
     for (double& coordinate : sighting->pixel) coordinate = size * std::round(coordinate / size);
     sighting->covariance = size * size / 12.0 * Eigen::Matrix2d::Identity();
@@ -160,7 +161,7 @@ void combine(double floor_px, Match& match, double row_offset) {
   Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
   const Eigen::Matrix2d floor = floor_px * floor_px * Eigen::Matrix2d::Identity();
   const Eigen::Vector2d in_right = match.right.pixel - Eigen::Vector2d(0.0, row_offset);
-  const auto add = [&](const Sighting& sighting, const Eigen::Vector2d& pixel, int column) {
+  const auto add = [&](const PixelMeasurement& sighting, const Eigen::Vector2d& pixel, int column) {
     if (!sighting.found) return;
     const Eigen::Matrix2d information = (sighting.covariance + floor).inverse();
     Eigen::Matrix<double, 2, 3> pick = Eigen::Matrix<double, 2, 3>::Zero();

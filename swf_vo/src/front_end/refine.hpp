@@ -19,14 +19,15 @@ bool prepareTemplate(Side side, const urban_nav_core::StereoCamera& camera, cons
                      Match& match);
 
 /// Aligns the template that was made ready to the image from `start` (px of level 0), at most `reach` px of its level.
-Sighting refine(Side side, const Corners& corners, const Track& track, const Eigen::Vector2d& start, double reach);
+PixelMeasurement refine(Side side, const Corners& corners, const Track& track, const Eigen::Vector2d& start,
+                        double reach);
 
 /// Learns how the landmark's surface slants from its sighting in the left image, once the camera has moved far enough since this was
 /// done last. The templates must be those of the sighting.
 void learnSurface(const Corners& corners, const urban_nav_core::StereoCamera& camera,
                   const urban_nav_core::Pose& T_camera_odom, Match& match);
 
-/// By how much what the template stands for may have crept over its surface since it was last trusted (Observation::wander), by the change of
+/// By how much what the template stands for may have crept over its surface since it was last trusted (Observation::template_drift_covariance), by the change of
 /// the left view from then to T_camera_odom, which is noted.
 Eigen::Matrix2d creep(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_camera_odom,
                       Match& match);

@@ -64,7 +64,7 @@ Replenisher::Replenisher(const StereoCamera& camera, int features, double floor_
 
 void Replenisher::gather(const Corners& corners) {
   candidates_.clear();
-  misfit_.resize(static_cast<std::size_t>(corners.levels()));
+  residual_test_.resize(static_cast<std::size_t>(corners.levels()));
   float weight = 1.0F;
   for (int level = 0; level < corners.levels(); ++level, weight *= level_preference) {
     const ImageView& image = corners.image(Side::Left, level);
@@ -118,7 +118,7 @@ bool Replenisher::start(const Candidate& candidate, FrameId frame, const Corners
   const bool plausible =
       fits && std::abs(lower - row_offset) <= same_row &&
       match.left.pixel.x() - match.right.pixel.x() - camera_.disparity_offset >= least_disparity_px &&
-      misfit_[static_cast<std::size_t>(candidate.level)].isUsual(found.alignment.noise) &&
+      residual_test_[static_cast<std::size_t>(candidate.level)].isTypical(found.alignment.noise) &&
       urban_nav_core::warpTemplate(*source, {}, track->in_left);
   if (plausible) {
     // the template's own noise is the left image's
@@ -172,6 +172,6 @@ void Replenisher::replenish(FrameId frame, const Corners& corners, const Pose& T
   }
 }
 
-void Replenisher::archive(urban_nav_core::Archive& archive) { archive(misfit_); }
+void Replenisher::archive(urban_nav_core::Archive& archive) { archive(residual_test_); }
 
 }  // namespace swf_vo

@@ -5,7 +5,7 @@
 
 #include "front_end/corners.hpp"
 #include "front_end/match.hpp"
-#include "front_end/misfit.hpp"
+#include "front_end/patch_residual_test.hpp"
 #include "front_end/row_offset.hpp"
 #include "front_end/tracks.hpp"
 #include "observation.hpp"
@@ -44,7 +44,7 @@ class Replenisher {
   bool subpixel_;
   urban_nav_core::FeatureQuadtree quadtree_;
   std::vector<Candidate> candidates_;
-  std::vector<Misfit> misfit_;  // by level: noise is less further up
+  std::vector<PatchResidualTest> residual_test_;  // by level: noise is less further up
 };
 
 }  // namespace swf_vo

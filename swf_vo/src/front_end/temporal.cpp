@@ -61,23 +61,23 @@ BestCorner bestCorner(Side side, const Corners& corners, const Track& track, con
   return best;
 }
 
-Sighting at(Side side, const Corners& corners, const Track& track, const Corner& corner) {
+PixelMeasurement at(Side side, const Corners& corners, const Track& track, const Corner& corner) {
   return refine(side, corners, track, Eigen::Vector2d(corner.u, corner.v) / Pyramid::scale(track.level), corner_reach);
 }
 
-Sighting search(Side side, const Corners& corners, const Track& track, const Eigen::Vector2d& projected,
-                double radius) {
+PixelMeasurement search(Side side, const Corners& corners, const Track& track, const Eigen::Vector2d& projected,
+                        double radius) {
   const BestCorner best = bestCorner(side, corners, track, projected, radius);
-  Sighting sighting;
+  PixelMeasurement sighting;
   if (best.any) sighting = at(side, corners, track, best.corner);
   if (!sighting.found) sighting = refine(side, corners, track, projected, direct_reach);
   return sighting;
 }
 
-Sighting searchAnywhere(Side side, const Corners& corners, const Track& track, const Eigen::Vector2d& projected,
-                        double radius) {
+PixelMeasurement searchAnywhere(Side side, const Corners& corners, const Track& track, const Eigen::Vector2d& projected,
+                                double radius) {
   const BestCorner best = bestCorner(side, corners, track, projected, radius);
-  if (!best.any || best.sad > uniqueness * best.second) return Sighting();
+  if (!best.any || best.sad > uniqueness * best.second) return PixelMeasurement();
   return at(side, corners, track, best.corner);
 }
 
@@ -87,7 +87,7 @@ void matchInTurn(const Corners& corners, const StereoCamera& camera, const Pose&
                  std::vector<Match>& matches, double row_offset, const Search& search_one) {
   Side side = Side::Left;
   for (Match& match : matches) {
-    match.left = match.right = Sighting();
+    match.left = match.right = PixelMeasurement();
     side = side == Side::Left ? Side::Right : Side::Left;
     if (match.track->level >= corners.levels()) continue;
     const auto projected = projectInto(side, camera, T_camera_odom, match.p_odom, row_offset);

@@ -16,11 +16,11 @@ constexpr int length = 32;
 constexpr int corruption_column_step = 64, corruption_row_step = 4;
 // From pixel to pixel random bytes differ by 85 grey levels, and at a place by more than 60 nearly always; below 16 it may be the noise of the camera.
 constexpr unsigned least_rough = 16 * length, random_bytes = 60 * length;
-// Halfway, in proportion, between what pictures have and what rubbish has (the header).
+// Halfway, in proportion, between what pictures have and what corrupted has (the header).
 constexpr double corrupted_share = 0.025;
 constexpr int fewest_lines =
     4;  // places: a small image has a few tens, and one of them may be an edge that lies along the rows
-// Rows: where 60 % are rubbish, one in twenty has nothing else about it, and that is over random_bytes by itself.
+// Rows: where 60 % are corrupted, one in twenty has nothing else about it, and that is over random_bytes by itself.
 constexpr int corruption_reach = 3;
 constexpr int saturated_grey = 250;
 
@@ -36,32 +36,32 @@ bool isRougher(unsigned roughness, unsigned other) { return roughness > least_ro
 
 bool looksCorrupted(const ImageView& image) {
   if (image.empty()) return false;
-  int places = 0, rubbish = 0;
+  int places = 0, corrupted = 0;
   for (int v = 0; v + 1 < image.height; v += corruption_row_step) {
     const std::uint8_t *upper = image.row(v), *lower = image.row(v + 1);
     for (int u = 0; u + length < image.width; u += corruption_column_step, ++places) {
       const unsigned a = roughness(upper + u), b = roughness(lower + u);
       const bool torn = isRougher(std::max(a, b), std::min(a, b));
       const bool random = std::min({a, b, difference(upper + u, lower + u)}) > random_bytes;
-      rubbish += torn || random ? 1 : 0;
+      corrupted += torn || random ? 1 : 0;
     }
   }
-  return rubbish >= fewest_lines && rubbish > corrupted_share * places;
+  return corrupted >= fewest_lines && corrupted > corrupted_share * places;
 }
 
-RowMender::RowMender(int width, int height)
+CorruptRowRepair::CorruptRowRepair(int width, int height)
     : width_(width),
       height_(height),
       left_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
       right_(left_.size()),
       roughness_(static_cast<std::size_t>(height)),
-      rubbish_(static_cast<std::size_t>(height)) {}
+      corrupted_(static_cast<std::size_t>(height)) {}
 
-RowMender::Mended RowMender::mend(const StereoPair& pair) {
-  Mended result{pair, false};
+CorruptRowRepair::Repaired CorruptRowRepair::repair(const StereoPair& pair) {
+  Repaired result{pair, false};
   const auto mendOne = [&](ImageView& image, std::vector<std::uint8_t>& pixels) {
     if (image.width != width_ || image.height != height_ || !looksCorrupted(image)) return;
-    mend(image, pixels);
+    repair(image, pixels);
     image = {pixels.data(), width_, height_, width_};
     result.corrupted = true;
   };
@@ -70,17 +70,17 @@ RowMender::Mended RowMender::mend(const StereoPair& pair) {
   return result;
 }
 
-void RowMender::mend(const ImageView& image, std::vector<std::uint8_t>& pixels) {
+void CorruptRowRepair::repair(const ImageView& image, std::vector<std::uint8_t>& pixels) {
   for (int v = 0; v < height_; ++v)
     std::copy_n(image.row(v), width_, pixels.begin() + static_cast<std::ptrdiff_t>(v) * width_);
   for (int begin = 0; begin < width_; begin += length) {
     const int count = std::min(length, width_ - begin);
-    findRubbish(image, std::min(begin, width_ - length - 1));
+    findCorrupted(image, std::min(begin, width_ - length - 1));
     bridge(pixels, begin, count);
   }
 }
 
-void RowMender::findRubbish(const ImageView& image, int column) {
+void CorruptRowRepair::findCorrupted(const ImageView& image, int column) {
   for (int v = 0; v < height_; ++v) roughness_[static_cast<std::size_t>(v)] = roughness(image.row(v) + column);
   for (int v = 0; v < height_; ++v) {
     const unsigned here = roughness_[static_cast<std::size_t>(v)];
@@ -90,15 +90,15 @@ void RowMender::findRubbish(const ImageView& image, int column) {
       // A row without any texture may be one that is missing, unless it is of a white sky.
       if (there > 0 || image.at(column, w) >= saturated_grey) least = std::min(least, there);
     }
-    rubbish_[static_cast<std::size_t>(v)] = here > random_bytes || isRougher(here, least);
+    corrupted_[static_cast<std::size_t>(v)] = here > random_bytes || isRougher(here, least);
   }
 }
 
-void RowMender::bridge(std::vector<std::uint8_t>& pixels, int column, int count) const {
+void CorruptRowRepair::bridge(std::vector<std::uint8_t>& pixels, int column, int count) const {
   const auto rowAt = [&](int v) { return pixels.begin() + static_cast<std::ptrdiff_t>(v) * width_ + column; };
   int above = -1;
   for (int v = 0; v <= height_; ++v) {
-    if (v < height_ && rubbish_[static_cast<std::size_t>(v)]) continue;
+    if (v < height_ && corrupted_[static_cast<std::size_t>(v)]) continue;
     const int below = v;
     const bool has_above = above >= 0, has_below = below < height_;
     for (int w = above + 1; w < below && (has_above || has_below); ++w) {

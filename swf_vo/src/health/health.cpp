@@ -40,7 +40,7 @@ const char* sentence(Reason reason) {
     case Reason::Inconsistent: return "the matches do not agree with one rigid motion";
     case Reason::NotObserved: return "some direction of the motion is held by the prediction alone";
     case Reason::Corrupted:
-      return "rows of an image are rubbish: check cables, bandwidth and drivers; the rest of it is used";
+      return "rows of an image are corrupted: check cables, bandwidth and drivers; the rest of it is used";
   }
   return "";
 }

@@ -14,7 +14,7 @@ namespace swf_vo {
 /// The evidence of one frame that decides on its status.
 struct Evidence {
   ImageVerdict image;
-  bool corrupted = false;  ///< rows of an image were rubbish, and are bridged
+  bool corrupted = false;  ///< rows of an image were corrupted, and are bridged
   bool first = false;      ///< of the session: nothing can be tracked yet
   bool gap = false;        ///< far more time has passed than between frames before
   bool localised = false;  ///< the pose comes from matches

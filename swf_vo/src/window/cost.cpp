@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "window/make_room.hpp"
+#include "window/reserve_with_headroom.hpp"
 
 namespace swf_vo {
 
@@ -132,7 +132,7 @@ void Cost::accumulate(State& state, NormalEquations& equations) const {
     equations.landmark.resize(slots);
     equations.first_cross.resize(slots);
     equations.cross.clear();
-    makeRoom(equations.cross, 2 * slots);
+    reserveWithHeadroom(equations.cross, 2 * slots);
   }
   SensorModel::Linearised at;
   Vector3d z;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "window/make_room.hpp"
+#include "window/reserve_with_headroom.hpp"
 
 namespace swf_vo {
 
@@ -25,7 +25,7 @@ std::size_t rounded(int n) { return static_cast<std::size_t>((n + strip - 1) / s
 void pack(const double* columns, std::size_t stride, int first, int last, int depth, std::vector<double>& packed) {
   const std::size_t strips = rounded(last - first) / strip;
   const std::size_t size = static_cast<std::size_t>(strip) * static_cast<std::size_t>(depth);
-  makeRoom(packed, strips * size);
+  reserveWithHeadroom(packed, strips * size);
   if (packed.size() < strips * size) packed.resize(strips * size);
   for (std::size_t s = 0; s < strips; ++s) {
     const int row = first + static_cast<int>(s) * strip;
@@ -51,7 +51,7 @@ void DenseMatrix::resize(int size) {
   // A power of two would put every column into the same lines of the cache.
   if (stride_ % 64 == 0) stride_ += strip;
   const std::size_t needed = static_cast<std::size_t>(stride_) * rounded(size);
-  makeRoom(data_, needed);
+  reserveWithHeadroom(data_, needed);
   if (data_.size() < needed) data_.resize(needed);
 }
 
@@ -113,8 +113,8 @@ void DenseCholesky::factor(DenseMatrix& A, const std::vector<double>& floor) {
   const int n = A.size();
   L_ = &A;
   held_count_ = 0;
-  makeRoom(held_, static_cast<std::size_t>(n));
-  makeRoom(diagonal_, static_cast<std::size_t>(n));
+  reserveWithHeadroom(held_, static_cast<std::size_t>(n));
+  reserveWithHeadroom(diagonal_, static_cast<std::size_t>(n));
   held_.assign(static_cast<std::size_t>(n), 0);
   diagonal_.resize(static_cast<std::size_t>(n));
   block_.resize(static_cast<std::size_t>(cholesky_panel * cholesky_panel));

@@ -9,8 +9,8 @@
 #include "urban_nav_core/geometry/dense.hpp"
 #include "urban_nav_core/io/archive_types.hpp"
 #include "window/gauge.hpp"
-#include "window/localise_newest.hpp"
 #include "window/measurements.hpp"
+#include "window/pose_only_optimisation.hpp"
 
 namespace swf_vo {
 
@@ -128,7 +128,7 @@ void Filter::removeOldest(std::vector<SettledPose>& settled, History* history) {
   settled_apart_.setZero();
   if (!datum_.isActive()) return;
   datum_.moveTo(origin);
-  wander(origin);
+  applyProcessNoise(origin);
   Departed& departed = marginaliser_.departed();
   datum_.marginalised(departed.gauge_loss);
   const Vector6d per_px = datum_.releaseOffset(offset_sigma_, state_, prior_);
@@ -143,21 +143,21 @@ void Filter::removeOldest(std::vector<SettledPose>& settled, History* history) {
 }
 
 // Small steps are gathered: a landmark costs a pass over the prior.
-void Filter::wander(const Vector3d& origin) {
+void Filter::applyProcessNoise(const Vector3d& origin) {
   wandered_.clear();
   for (LandmarkBlock& landmark : state_.landmarks) {
     if (!landmark.used || landmark.prior < 0) continue;
     if (!landmark.seen.empty()) {
-      landmark.wander += landmark.seen.front().wander;
-      landmark.seen.front().wander.setZero();
+      landmark.template_drift_covariance += landmark.seen.front().template_drift_covariance;
+      landmark.seen.front().template_drift_covariance.setZero();
     }
-    if (landmark.wander.trace() < least_wander * least_wander) continue;
-    wandered_.push_back({landmark.prior, landmark.wander});
-    landmark.wander.setZero();
+    if (landmark.template_drift_covariance.trace() < least_wander * least_wander) continue;
+    wandered_.push_back({landmark.prior, landmark.template_drift_covariance});
+    landmark.template_drift_covariance.setZero();
   }
   if (wandered_.empty()) return;
   gauge::ofPrior(state_, prior_, origin, directions_);
-  wander_.apply(wandered_, directions_, prior_, marginaliser_.departed());
+  process_noise_.apply(wandered_, directions_, prior_, marginaliser_.departed());
 }
 
 SettledPose Filter::settle() {
@@ -264,7 +264,7 @@ void Filter::endLandmark(LandmarkId id) {
 
 // Updating parameters.
 UpdateReport Filter::update() {
-  if (options_.iterations > 1 && state_.poses.size() > 1) localiseNewest(state_, cost_.sensor(), options_.huber);
+  if (options_.iterations > 1 && state_.poses.size() > 1) optimiseNewestPose(state_, cost_.sensor(), options_.huber);
   const GaussNewton::Progress progress = gauss_newton_.run(state_, prior_, cost_, gauge_free_);
   newest_covariance_ = covarianceOf(state_.newestStep());
   offset_sigma_ = std::sqrt(gauss_newton_.solver().offsetVariance());

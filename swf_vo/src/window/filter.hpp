@@ -11,10 +11,10 @@
 #include "window/datum.hpp"
 #include "window/gauss_newton.hpp"
 #include "window/history.hpp"
+#include "window/landmark_process_noise.hpp"
 #include "window/marginalise.hpp"
 #include "window/prior.hpp"
 #include "window/state.hpp"
-#include "window/wander.hpp"
 #include "window/window.hpp"
 
 namespace swf_vo {
@@ -77,7 +77,7 @@ class Filter {
   void deleteOldest();
   urban_nav_core::Matrix6d relativeCovariance(const PoseBlock& oldest) const;
   urban_nav_core::Matrix6d driftCovariance(const PoseBlock& oldest, const urban_nav_core::Matrix6d& relative) const;
-  void wander(const Eigen::Vector3d& origin);
+  void applyProcessNoise(const Eigen::Vector3d& origin);
   urban_nav_core::Matrix6d windowCovarianceOf(std::int64_t step) const;
   urban_nav_core::Matrix6d covarianceOf(std::int64_t step) const;
 
@@ -87,8 +87,8 @@ class Filter {
   Prior prior_;
   GaussNewton gauss_newton_;
   Marginaliser marginaliser_;
-  Wander wander_;
-  std::vector<Wander::Step> wandered_;
+  LandmarkProcessNoise process_noise_;
+  std::vector<LandmarkProcessNoise::Step> wandered_;
   std::vector<double> directions_;  // of the gauge, of the prior
   double offset_sigma_ = 0.0;
   urban_nav_core::Matrix6d newest_covariance_ = urban_nav_core::Matrix6d::Zero();

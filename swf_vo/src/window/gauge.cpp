@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "window/gauge.hpp"
 
-#include "window/make_room.hpp"
+#include "window/reserve_with_headroom.hpp"
 
 namespace swf_vo::gauge {
 
@@ -35,7 +35,7 @@ Eigen::Matrix<double, 3, 6> ofLandmark(const Anchor& anchor, const Vector3d& the
 
 void ofPrior(const State& state, const Prior& prior, const Vector3d& origin, std::vector<double>& directions) {
   const Eigen::Index n = prior.size();
-  makeRoom(directions, static_cast<std::size_t>(6 * n));
+  reserveWithHeadroom(directions, static_cast<std::size_t>(6 * n));
   directions.resize(static_cast<std::size_t>(6 * n));
   Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 6>> G(directions.data(), n, 6);
   for (std::size_t i = 0; i < prior.slots.size(); ++i)

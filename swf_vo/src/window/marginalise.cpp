@@ -6,7 +6,7 @@
 
 #include "urban_nav_core/geometry/small_matrices.hpp"
 #include "window/gauge.hpp"
-#include "window/make_room.hpp"
+#include "window/reserve_with_headroom.hpp"
 
 namespace swf_vo {
 
@@ -100,10 +100,11 @@ void Marginaliser::findRuns(const Prior& prior) {
 
 void Marginaliser::gatherPrior(const Prior& prior, const State& state) {
   const std::size_t size = static_cast<std::size_t>(stride_) * static_cast<std::size_t>(eliminated_);
-  makeRoom(panel_, size);
+  reserveWithHeadroom(panel_, size);
   panel_.resize(size);
   reduced_.resize(remaining_);
-  for (std::vector<double>* some : {&gradient_, &border_, &d_, &g_}) makeRoom(*some, static_cast<std::size_t>(stride_));
+  for (std::vector<double>* some : {&gradient_, &border_, &d_, &g_})
+    reserveWithHeadroom(*some, static_cast<std::size_t>(stride_));
   gradient_.assign(static_cast<std::size_t>(stride_), 0.0);
   border_.assign(static_cast<std::size_t>(stride_), 0.0);
   offset_information_ = prior.offset_information;
@@ -176,7 +177,7 @@ void Marginaliser::addTerms(const State& state, const Cost& cost) {
 // Lambda G at the eliminated rows: what they hold of the gauge.
 void Marginaliser::gatherGauge(const State& state, const Vector3d& origin) {
   const std::size_t stride = static_cast<std::size_t>(stride_);
-  makeRoom(directions_, 6 * stride);
+  reserveWithHeadroom(directions_, 6 * stride);
   directions_.resize(6 * stride);
   const auto put = [&](int row, const auto& G) {
     for (std::size_t k = 0; k < 6; ++k)
@@ -194,7 +195,7 @@ void Marginaliser::gatherGauge(const State& state, const Vector3d& origin) {
   put(eliminated_ - 6, gauge::ofPose(state.poses[0].linearised, origin));
   putLandmarks(kept_, eliminated_);
   put(stride_ - 6, gauge::ofPose(state.poses[1].linearised, origin));
-  makeRoom(gauge_, static_cast<std::size_t>(eliminated_));
+  reserveWithHeadroom(gauge_, static_cast<std::size_t>(eliminated_));
   gauge_.resize(static_cast<std::size_t>(eliminated_));
   for (int j = 0; j < eliminated_; ++j) {
     double* column = eliminatedColumn(j);
@@ -207,7 +208,7 @@ void Marginaliser::gatherGauge(const State& state, const Vector3d& origin) {
 
 void Marginaliser::timesRoot(const Block& block, const Matrix6d& G) {
   const int below = block.at + block.size, rows = stride_ - below;
-  makeRoom(times_root_, static_cast<std::size_t>(rows) * 6);
+  reserveWithHeadroom(times_root_, static_cast<std::size_t>(rows) * 6);
   times_root_.resize(static_cast<std::size_t>(rows) * 6);
   for (int c = 0; c < block.size; ++c)
     std::copy_n(eliminatedColumn(block.at + c) + below, rows,
@@ -224,7 +225,7 @@ void Marginaliser::timesRoot(const Block& block, const Matrix6d& G) {
 }
 
 void Marginaliser::eliminate() {
-  makeRoom(roots_, blocks_.size());
+  reserveWithHeadroom(roots_, blocks_.size());
   roots_.assign(blocks_.size(), Matrix6d::Zero());
   departed_.gauge_loss.setZero();
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
@@ -271,7 +272,7 @@ void Marginaliser::eliminate() {
   }
   product_.subtract(reduced_, 0, remaining_, panel_.data() + eliminated_, eliminated_, stride_);
   // d_pose = G (y - F^T d - b o): its gain, transposed, is -F G^T.
-  makeRoom(departed_.gain, static_cast<std::size_t>(6 * remaining_));
+  reserveWithHeadroom(departed_.gain, static_cast<std::size_t>(6 * remaining_));
   departed_.gain.assign(static_cast<std::size_t>(6 * remaining_), 0.0);
   const Matrix6d& G = roots_.back();
   departed_.offset_gain = -(G * Map<const Vector6d>(border_.data() + eliminated_ - 6));
@@ -366,8 +367,8 @@ void Marginaliser::keep(State& state, Prior& prior) {
   ++state.first_step;
 
   // The gradient was taken at the estimates, eta is it at the centre: g + Pi d + border o, which is gradient() of (-d, -o).
-  makeRoom(prior.eta, static_cast<std::size_t>(remaining_));
-  makeRoom(prior.border, static_cast<std::size_t>(remaining_));
+  reserveWithHeadroom(prior.eta, static_cast<std::size_t>(remaining_));
+  reserveWithHeadroom(prior.border, static_cast<std::size_t>(remaining_));
   prior.eta.assign(gradient_.begin() + eliminated_, gradient_.begin() + stride_);
   prior.border.assign(border_.begin() + eliminated_, border_.begin() + stride_);
   prior.offset_information = prior.has_offset ? offset_information_ : 0.0;

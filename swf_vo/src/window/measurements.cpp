@@ -74,7 +74,7 @@ bool observe(State& state, const SensorModel& sensor, const Observation& observa
   measurement.information = 0.5 * (observation.information + observation.information.transpose());
   measurement.sigma_px = observation.sigma_px;
   measurement.inflation = observation.inflation;
-  measurement.wander = sensor.bearing(observation.wander);
+  measurement.template_drift_covariance = sensor.bearing(observation.template_drift_covariance);
   int slot = state.slotOf(observation.landmark);
   if (slot < 0) {
     if (!hasFullRank(observation.information) || !isSane(sensor.invert(withoutOffset(state, observation.z))))

@@ -2,7 +2,7 @@
 #include "window/prior.hpp"
 
 #include "urban_nav_core/geometry/dense_kernels.hpp"
-#include "window/make_room.hpp"
+#include "window/reserve_with_headroom.hpp"
 
 namespace swf_vo {
 
@@ -46,7 +46,7 @@ double Prior::calibrationInformation(double offset) const {
 }
 
 void Prior::deviation(const State& state, std::vector<double>& d) const {
-  makeRoom(d, static_cast<std::size_t>(size()));
+  reserveWithHeadroom(d, static_cast<std::size_t>(size()));
   d.resize(static_cast<std::size_t>(size()));
   if (!has_pose) return;
   for (std::size_t i = 0; i < slots.size(); ++i)
@@ -56,7 +56,7 @@ void Prior::deviation(const State& state, std::vector<double>& d) const {
 
 double Prior::gradient(const std::vector<double>& d, double offset, std::vector<double>& g, double& g_offset) const {
   const int n = size();
-  makeRoom(g, static_cast<std::size_t>(n));
+  reserveWithHeadroom(g, static_cast<std::size_t>(n));
   g.resize(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) g[static_cast<std::size_t>(i)] = 0.0;
   for (int j = 0; j < n; ++j) {

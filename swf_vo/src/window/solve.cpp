@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "window/make_room.hpp"
+#include "window/reserve_with_headroom.hpp"
 
 namespace swf_vo {
 
@@ -88,7 +88,7 @@ void addBlock(DenseMatrix& M, int row, int column, const double* block, int rows
 }  // namespace
 
 void Solver::eliminateFree(const State& state, const NormalEquations& equations) {
-  makeRoom(eliminated_, equations.cross.size());
+  reserveWithHeadroom(eliminated_, equations.cross.size());
   eliminated_.resize(equations.cross.size());
   inverse_root_.resize(state.landmarks.size());
   onto_poses_.reset(6 * static_cast<int>(poses_));
@@ -136,22 +136,22 @@ void Solver::subtractStrip(Strip& strip) {
   strip = Strip();
 }
 
-bool Solver::isCheaperOntoMap(const State& state, const Prior& prior) const {
-  if (way_ != Way::Cheaper) return way_ == Way::PathOntoMap;
+bool Solver::isCheaperPosesFirst(const State& state, const Prior& prior) const {
+  if (elimination_ != Elimination::Cheaper) return elimination_ == Elimination::PosesFirst;
   std::size_t free = 0;
   for (const LandmarkBlock& landmark : state.landmarks) free += isFree(landmark) && !landmark.seen.empty() ? 1 : 0;
   const double path = 6.0 * static_cast<double>(state.poses.size()),
                dense = 3.0 * static_cast<double>(prior.slots.size()) + path;
   const double onto_path = dense * dense * dense / 6.0 + 1.5 * static_cast<double>(free) * path * path;
-  return PathOntoMap::operations(state.poses.size(), prior.slots.size() + free) < worth_changing * onto_path;
+  return PoseElimination::operations(state.poses.size(), prior.slots.size() + free) < worth_changing * onto_path;
 }
 
 void Solver::factor(const State& state, const Prior& prior, const NormalEquations& equations, bool datum) {
   poses_ = state.poses.size();
   offset_ = static_cast<std::size_t>(prior.landmarkSize());
-  onto_map_ = isCheaperOntoMap(state, prior);
-  if (onto_map_) path_onto_map_.factor(state, prior, equations, datum ? datum_strength : 0.0);
-  else factorOntoPath(state, prior, equations, datum);
+  poses_first_ = isCheaperPosesFirst(state, prior);
+  if (poses_first_) pose_elimination_.factor(state, prior, equations, datum ? datum_strength : 0.0);
+  else factorLandmarksFirst(state, prior, equations, datum);
   border_.used = prior.has_offset;
   if (border_.used) factorBorder(state, prior, equations);
 }
@@ -202,22 +202,22 @@ void Solver::solve(const State& state, const Prior& prior, const NormalEquations
 
 void Solver::solveFor(const State& state, const Prior& prior, const NormalEquations& equations,
                       const RightSide& right) {
-  if (onto_map_) solveOntoMap(state, prior, right);
-  else solveOntoPath(state, prior, equations, right);
+  if (poses_first_) solvePosesFirst(state, prior, right);
+  else solveLandmarksFirst(state, prior, equations, right);
 }
 
-void Solver::solveOntoMap(const State& state, const Prior& prior, const RightSide& right) {
+void Solver::solvePosesFirst(const State& state, const Prior& prior, const RightSide& right) {
   path_.resize(6 * poses_);
-  map_.assign(static_cast<std::size_t>(path_onto_map_.mapSize()), 0.0);
+  map_.assign(static_cast<std::size_t>(pose_elimination_.mapSize()), 0.0);
   for (std::size_t j = 0; j < poses_; ++j) Map<Vector6d>(path_.data() + 6 * j) = right.pose[j];
   std::copy(right.prior.begin(), right.prior.begin() + static_cast<std::ptrdiff_t>(offset_), map_.begin());
   if (prior.has_pose) Map<Vector6d>(path_.data()) += Map<const Vector6d>(right.prior.data() + offset_);
   for (std::size_t slot = 0; slot < state.landmarks.size(); ++slot)
-    if (path_onto_map_.rowOf(slot) >= 0)
-      Map<Vector3d>(map_.data() + path_onto_map_.rowOf(slot)) += right.landmark[slot];
+    if (pose_elimination_.rowOf(slot) >= 0)
+      Map<Vector3d>(map_.data() + pose_elimination_.rowOf(slot)) += right.landmark[slot];
   right_path_ = path_;
   right_map_ = map_;
-  path_onto_map_.solve(path_, map_, true);
+  pose_elimination_.solve(path_, map_, true);
   decrement_ = 0.0;
   for (std::size_t i = 0; i < path_.size(); ++i) decrement_ += path_[i] * right_path_[i];
   for (std::size_t i = 0; i < map_.size(); ++i) decrement_ += map_[i] * right_map_[i];
@@ -225,14 +225,16 @@ void Solver::solveOntoMap(const State& state, const Prior& prior, const RightSid
   std::copy(path_.begin(), path_.end(), rhs_.begin() + static_cast<std::ptrdiff_t>(offset_));
   landmark_step_.assign(state.landmarks.size(), Vector3d::Zero());
   for (std::size_t slot = 0; slot < state.landmarks.size(); ++slot)
-    if (path_onto_map_.rowOf(slot) >= 0)
-      landmark_step_[slot] = Map<const Vector3d>(map_.data() + path_onto_map_.rowOf(slot));
+    if (pose_elimination_.rowOf(slot) >= 0)
+      landmark_step_[slot] = Map<const Vector3d>(map_.data() + pose_elimination_.rowOf(slot));
 }
 
-void Solver::factorOntoPath(const State& state, const Prior& prior, const NormalEquations& equations, bool datum) {
+void Solver::factorLandmarksFirst(const State& state, const Prior& prior, const NormalEquations& equations,
+                                  bool datum) {
   const int size = static_cast<int>(offset_ + 6 * poses_);
   dense_.resize(size);
-  for (std::vector<double>* some : {&floor_, &rhs_, &column_}) makeRoom(*some, static_cast<std::size_t>(size));
+  for (std::vector<double>* some : {&floor_, &rhs_, &column_})
+    reserveWithHeadroom(*some, static_cast<std::size_t>(size));
   floor_.assign(static_cast<std::size_t>(size), 1.0);
   // The prior's blocks are the first of this matrix, in its own order.
   for (int j = 0; j < size; ++j) {
@@ -263,8 +265,8 @@ void Solver::factorOntoPath(const State& state, const Prior& prior, const Normal
   cholesky_.factor(dense_, floor_);
 }
 
-void Solver::solveOntoPath(const State& state, const Prior& prior, const NormalEquations& equations,
-                           const RightSide& right) {
+void Solver::solveLandmarksFirst(const State& state, const Prior& prior, const NormalEquations& equations,
+                                 const RightSide& right) {
   rhs_.assign(offset_ + 6 * poses_, 0.0);
   std::copy(right.prior.begin(), right.prior.begin() + prior.size(), rhs_.begin());
   for (std::size_t i = 0; i < prior.slots.size(); ++i)
@@ -306,11 +308,11 @@ Vector6d Solver::poseStep(std::size_t j) const { return Map<const Vector6d>(rhs_
 
 const std::vector<double>& Solver::inverseColumn(std::size_t j, int c, bool poses_only) const {
   column_.assign(offset_ + 6 * poses_, 0.0);
-  if (onto_map_) {
+  if (poses_first_) {
     path_.assign(6 * poses_, 0.0);
-    map_.assign(static_cast<std::size_t>(path_onto_map_.mapSize()), 0.0);
+    map_.assign(static_cast<std::size_t>(pose_elimination_.mapSize()), 0.0);
     path_[6 * j + static_cast<std::size_t>(c)] = 1.0;
-    path_onto_map_.solve(path_, map_, false);
+    pose_elimination_.solve(path_, map_, false);
     std::copy(map_.begin(), map_.begin() + static_cast<std::ptrdiff_t>(offset_), column_.begin());
     std::copy(path_.begin(), path_.end(), column_.begin() + static_cast<std::ptrdiff_t>(offset_));
     return column_;
@@ -324,11 +326,11 @@ const std::vector<double>& Solver::inverseColumn(std::size_t j, int c, bool pose
 
 const std::vector<double>& Solver::inverseColumns(std::size_t j) const {
   const std::size_t size = offset_ + 6 * poses_;
-  makeRoom(columns_of_pose_, 6 * size);
+  reserveWithHeadroom(columns_of_pose_, 6 * size);
   columns_of_pose_.assign(6 * size, 0.0);
   for (std::size_t c = 0; c < 6; ++c) {
     double* column = columns_of_pose_.data() + c * size;
-    if (onto_map_) {
+    if (poses_first_) {
       const std::vector<double>& one = inverseColumn(j, static_cast<int>(c), false);
       std::copy(one.begin(), one.end(), column);
       continue;
@@ -336,22 +338,23 @@ const std::vector<double>& Solver::inverseColumns(std::size_t j) const {
     column[rowOf(j) + c] = 1.0;
     cholesky_.solveLower(column, static_cast<int>(rowOf(j) + c));
   }
-  if (!onto_map_) cholesky_.solveUpperSix(columns_of_pose_.data(), static_cast<int>(size));
+  if (!poses_first_) cholesky_.solveUpperSix(columns_of_pose_.data(), static_cast<int>(size));
   return columns_of_pose_;
 }
 
 void Solver::archive(urban_nav_core::Archive& archive) {
-  archive(poses_, offset_, onto_map_, border_.used, border_.rows, border_.pivot, border_.calibration, border_.caution);
+  archive(poses_, offset_, poses_first_, border_.used, border_.rows, border_.pivot, border_.calibration,
+          border_.caution);
   const std::size_t rows = offset_ + 6 * poses_;
   archive.require(poses_ < most_rows && offset_ < most_rows && (!border_.used || border_.rows.size() == rows),
                   "a factor is of another size");
   if (poses_ == 0) return;
-  if (onto_map_) archive(path_onto_map_);
+  if (poses_first_) archive(pose_elimination_);
   else cholesky_.archive(archive, dense_);
-  archive.require(
-      onto_map_ ? path_onto_map_.poses() == poses_ && static_cast<std::size_t>(path_onto_map_.mapSize()) >= offset_
-                : static_cast<std::size_t>(dense_.size()) == rows,
-      "a factor is of another size");
+  archive.require(poses_first_ ? pose_elimination_.poses() == poses_ &&
+                                     static_cast<std::size_t>(pose_elimination_.mapSize()) >= offset_
+                               : static_cast<std::size_t>(dense_.size()) == rows,
+                  "a factor is of another size");
 }
 
 }  // namespace swf_vo

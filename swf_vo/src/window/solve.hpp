@@ -6,7 +6,7 @@
 #include "urban_nav_core/io/archive.hpp"
 #include "window/cost.hpp"
 #include "window/dense_cholesky.hpp"
-#include "window/path_onto_map.hpp"
+#include "window/pose_elimination.hpp"
 #include "window/prior.hpp"
 
 namespace swf_vo {
@@ -15,14 +15,14 @@ namespace swf_vo {
 /// covariances. A state has the factor, not the steps.
 ///
 /// Map-onto-path: landmarks that the prior does not touch are block-diagonal and are eliminated first, 3x3 by 3x3, onto the path; then
-/// the landmarks of the prior, then the poses, oldest first, in one dense Cholesky. Path-onto-map (path_onto_map.hpp) where that is less work.
+/// the landmarks of the prior, then the poses, oldest first, in one dense Cholesky. Path-onto-map (pose_elimination.hpp) where that is less work.
 class Solver {
  public:
-  enum class Way { Cheaper, MapOntoPath, PathOntoMap };
-  explicit Solver(Way way = Way::Cheaper) : way_(way) {}
+  enum class Elimination { Cheaper, LandmarksFirst, PosesFirst };
+  explicit Solver(Elimination elimination = Elimination::Cheaper) : elimination_(elimination) {}
 
-  /// The way of the last factor.
-  bool wentOntoMap() const { return onto_map_; }
+  /// Returns whether the last factorisation eliminated poses first.
+  bool eliminatedPosesFirst() const { return poses_first_; }
 
   /// Factors the matrices of `equations` and the prior's. With `datum` the oldest pose is held: the way to solve where no absolute
   /// information is, and exact there, for a gradient without share in the gauge directions can be answered without moving it.
@@ -57,8 +57,8 @@ class Solver {
   void archive(urban_nav_core::Archive& archive);
 
  private:
-  bool isCheaperOntoMap(const State& state, const Prior& prior) const;
-  void factorOntoPath(const State& state, const Prior& prior, const NormalEquations& equations, bool datum);
+  bool isCheaperPosesFirst(const State& state, const Prior& prior) const;
+  void factorLandmarksFirst(const State& state, const Prior& prior, const NormalEquations& equations, bool datum);
   /// A right-hand side, or the border, which is solved for as one. `prior`: landmarks of the prior, then the oldest pose; may be empty.
   struct RightSide {
     const std::vector<double>& prior;
@@ -66,8 +66,9 @@ class Solver {
     const std::vector<Eigen::Vector3d>& landmark;
   };
   void solveFor(const State& state, const Prior& prior, const NormalEquations& equations, const RightSide& right);
-  void solveOntoPath(const State& state, const Prior& prior, const NormalEquations& equations, const RightSide& right);
-  void solveOntoMap(const State& state, const Prior& prior, const RightSide& right);
+  void solveLandmarksFirst(const State& state, const Prior& prior, const NormalEquations& equations,
+                           const RightSide& right);
+  void solvePosesFirst(const State& state, const Prior& prior, const RightSide& right);
   void factorBorder(const State& state, const Prior& prior, const NormalEquations& equations);
   double dotBorder(const State& state, const Prior& prior, const NormalEquations& equations) const;
   struct Strip {
@@ -82,9 +83,9 @@ class Solver {
   DenseCholesky cholesky_;
   std::vector<Eigen::Matrix3d> inverse_root_;  // by slot: R with R^T R = Lambda_m(i, i)^-1, lower triangular
   std::vector<Matrix63d> eliminated_;          // cross R^T, as NormalEquations::cross
-  Way way_;
-  bool onto_map_ = false;
-  PathOntoMap path_onto_map_;
+  Elimination elimination_;
+  bool poses_first_ = false;
+  PoseElimination pose_elimination_;
   std::vector<double> floor_, rhs_;
   mutable std::vector<double> path_, map_;
   std::vector<double> right_path_, right_map_;

@@ -80,12 +80,14 @@ void archive(urban_nav_core::Archive& archive, PoseBlock& pose) {
 }
 
 void archive(urban_nav_core::Archive& archive, Measurement& measurement) {
-  archive(measurement.step, measurement.z, measurement.information, measurement.wander, measurement.sigma_px);
+  archive(measurement.step, measurement.z, measurement.information, measurement.template_drift_covariance,
+          measurement.sigma_px);
   archive(measurement.inflation, measurement.weight, measurement.solved);
 }
 
 void archive(urban_nav_core::Archive& archive, LandmarkBlock& landmark) {
-  archive(landmark.id, landmark.anchor, landmark.estimate, landmark.linearised, landmark.prior, landmark.wander);
+  archive(landmark.id, landmark.anchor, landmark.estimate, landmark.linearised, landmark.prior,
+          landmark.template_drift_covariance);
   archive(landmark.used, landmark.known, landmark.followed, landmark.seen);
 }
 

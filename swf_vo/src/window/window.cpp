@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "window/drifting_landmarks.hpp"
 #include "window/filter.hpp"
-#include "window/strays.hpp"
 #include "window/undo.hpp"
 
 namespace swf_vo {
@@ -30,7 +30,7 @@ class Window::Implementation {
   Filter filter;
   Undo undo;
   History history;
-  Strays strays;
+  DriftingLandmarks driftingLandmarks;
   std::vector<SettledPose> settled;
   std::vector<FrameId> frames;
   mutable std::vector<MapPoint> map;
@@ -114,8 +114,9 @@ UpdateReport Window::update() {
   return implementation_->filter.update();
 }
 
-const std::vector<LandmarkId>& Window::strays() {
-  return implementation_->strays.find(implementation_->filter.state(), implementation_->filter.cost().sensor());
+const std::vector<LandmarkId>& Window::driftingLandmarks() {
+  return implementation_->driftingLandmarks.find(implementation_->filter.state(),
+                                                 implementation_->filter.cost().sensor());
 }
 
 PoseWithCovariance Window::newest() const { return implementation_->filter.newest(); }

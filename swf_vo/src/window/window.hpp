@@ -122,8 +122,8 @@ class Window {
   /// How well the last update trusts the newest observation of it (0...1); 1 if it has none.
   double weight(LandmarkId landmark) const;
 
-  /// Landmarks that do not keep still (strays.hpp), by the last update: to be withdrawn and ended. Lives until the next call.
-  const std::vector<LandmarkId>& strays();
+  /// Landmarks that do not keep still (drifting_landmarks.hpp), by the last update: to be withdrawn and ended. Lives until the next call.
+  const std::vector<LandmarkId>& driftingLandmarks();
 
   /// The rest of the window leaves, oldest first. The window cannot go on after it.
   std::vector<SettledPose> flush();

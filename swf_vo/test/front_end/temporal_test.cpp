@@ -52,7 +52,7 @@ class TwoFrames : public ::testing::Test {
 
   /// Distance of a sighting from where the landmark truly is.
   double error(Side side, const Match& match) const {
-    const Sighting& sighting = side == Side::Left ? match.left : match.right;
+    const PixelMeasurement& sighting = side == Side::Left ? match.left : match.right;
     return (sighting.pixel - *projectInto(side, camera_, T_camera_odom_, match.p_odom)).norm();
   }
 

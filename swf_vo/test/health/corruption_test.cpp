@@ -152,69 +152,69 @@ TEST(LooksCorrupted, neverSaysSoOfRealImages) {
   }
 }
 
-TEST(RowMender, leavesWhatIsGoodWhereItIs) {
-  const cv::Mat left = room(), right = room(), rubbish = spoilt(right, 0.3);
-  RowMender mender(left.cols, left.rows);
-  const auto whole = mender.mend({5, viewOf(left), viewOf(right)});
+TEST(CorruptRowRepair, leavesWhatIsGoodWhereItIs) {
+  const cv::Mat left = room(), right = room(), corrupted = spoilt(right, 0.3);
+  CorruptRowRepair row_repair(left.cols, left.rows);
+  const auto whole = row_repair.repair({5, viewOf(left), viewOf(right)});
   EXPECT_FALSE(whole.corrupted);
   EXPECT_EQ(whole.pair.stamp, 5);
   EXPECT_EQ(whole.pair.left.data, left.data);
   EXPECT_EQ(whole.pair.right.data, right.data);
-  const auto half = mender.mend({6, viewOf(left), viewOf(rubbish)});
+  const auto half = row_repair.repair({6, viewOf(left), viewOf(corrupted)});
   EXPECT_TRUE(half.corrupted);
   EXPECT_EQ(half.pair.left.data, left.data);
-  EXPECT_NE(half.pair.right.data, rubbish.data);
-  RowMender other(left.cols - 2, left.rows);
-  EXPECT_FALSE(other.mend({7, viewOf(rubbish), viewOf(rubbish)}).corrupted);
-  EXPECT_FALSE(other.mend({8, ImageView(), viewOf(rubbish)}).corrupted);
+  EXPECT_NE(half.pair.right.data, corrupted.data);
+  CorruptRowRepair other(left.cols - 2, left.rows);
+  EXPECT_FALSE(other.repair({7, viewOf(corrupted), viewOf(corrupted)}).corrupted);
+  EXPECT_FALSE(other.repair({8, ImageView(), viewOf(corrupted)}).corrupted);
 }
 
-TEST(RowMender, bridgesRubbishAndNothingElse) {
+TEST(CorruptRowRepair, bridgesRubbishAndNothingElse) {
   const cv::Mat good = room();
-  RowMender mender(good.cols, good.rows);
+  CorruptRowRepair row_repair(good.cols, good.rows);
   for (const double share : {0.1, 0.3, 0.6}) {
     const cv::Mat bad = spoilt(good, share);
-    const ImageView view = mender.mend({0, viewOf(bad), viewOf(good)}).pair.left;
-    const cv::Mat mended(view.height, view.width, CV_8U, const_cast<std::uint8_t*>(view.data));
-    EXPECT_LT(meanDifference(mended, good), 0.2 * meanDifference(bad, good)) << share;
+    const ImageView view = row_repair.repair({0, viewOf(bad), viewOf(good)}).pair.left;
+    const cv::Mat repaired(view.height, view.width, CV_8U, const_cast<std::uint8_t*>(view.data));
+    EXPECT_LT(meanDifference(repaired, good), 0.2 * meanDifference(bad, good)) << share;
     int spared = 0, changed = 0;
     for (int v = 0; v < good.rows; ++v) {
       if (meanDifference(bad.row(v), good.row(v)) > 0.0) continue;
       ++spared;
-      changed += meanDifference(mended.row(v), good.row(v)) > 0.0 ? 1 : 0;
+      changed += meanDifference(repaired.row(v), good.row(v)) > 0.0 ? 1 : 0;
     }
     EXPECT_LE(changed, spared / 10) << share;
   }
 }
 
-// A strip that is saturated has no texture at all, nor have rows that are missing: rubbish is found in the first, and what is good stays beside the second.
-TEST(RowMender, tellsAWhiteSkyFromMissingRows) {
+// A strip that is saturated has no texture at all, nor have rows that are missing: corrupted is found in the first, and what is good stays beside the second.
+TEST(CorruptRowRepair, tellsAWhiteSkyFromMissingRows) {
   cv::Mat white = room();
   white.rowRange(0, 100).setTo(255);
-  RowMender mender(white.cols, white.rows);
-  const auto mended = [&](const cv::Mat& image) {
-    const ImageView view = mender.mend({0, viewOf(image), viewOf(image)}).pair.left;
+  CorruptRowRepair row_repair(white.cols, white.rows);
+  const auto repaired = [&](const cv::Mat& image) {
+    const ImageView view = row_repair.repair({0, viewOf(image), viewOf(image)}).pair.left;
     return cv::Mat(view.height, view.width, CV_8U, const_cast<std::uint8_t*>(view.data));
   };
-  const cv::Mat sky = mended(spoilt(white, 0.3)).rowRange(5, 95);
+  const cv::Mat sky = repaired(spoilt(white, 0.3)).rowRange(5, 95);
   EXPECT_LT(meanDifference(sky, cv::Mat(sky.size(), CV_8U, cv::Scalar(255))), 0.5);
   cv::Mat holes = stripes(3, 0) * 0.3 + 50;
   const cv::Mat full = holes.clone();
   for (int v = 0; v < holes.rows; v += 3) holes.row(v).setTo(0);
-  EXPECT_EQ(meanDifference(mended(holes).row(100), full.row(100)), 0.0);
+  EXPECT_EQ(meanDifference(repaired(holes).row(100), full.row(100)), 0.0);
 }
 
-TEST(RowMender, survivesNothingButRubbishAndAllocatesNothing) {
-  cv::Mat rubbish(288, 384, CV_8U);
-  fillWithRubbish(rubbish, 1);
-  RowMender mender(384, 288);
+TEST(CorruptRowRepair, survivesNothingButRubbishAndAllocatesNothing) {
+  cv::Mat corrupted(288, 384, CV_8U);
+  fillWithRubbish(corrupted, 1);
+  CorruptRowRepair row_repair(384, 288);
   const AllocationCount count;
-  const auto mended = mender.mend({0, viewOf(rubbish), viewOf(rubbish)});
+  const auto repaired = row_repair.repair({0, viewOf(corrupted), viewOf(corrupted)});
   if (countsAllocations()) {
     EXPECT_EQ(count.sofar(), 0);
   }
-  EXPECT_TRUE(mended.corrupted);
-  EXPECT_EQ(mended.pair.left.width, 384);
+  EXPECT_TRUE(repaired.corrupted);
+  EXPECT_EQ(repaired.pair.left.width, 384);
 }
 
 }  // namespace

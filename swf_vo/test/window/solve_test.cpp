@@ -43,13 +43,13 @@ System systemAfter(int frames, int size, int features, bool absolute = true) {
 }
 
 void expectSame(const System& system, bool datum) {
-  Solver path(Solver::Way::MapOntoPath), map(Solver::Way::PathOntoMap);
+  Solver path(Solver::Elimination::LandmarksFirst), map(Solver::Elimination::PosesFirst);
   for (Solver* solver : {&path, &map}) {
     solver->factor(system.state, system.prior, system.equations, datum);
     solver->solve(system.state, system.prior, system.equations, system.gradient, system.offset_gradient);
   }
-  ASSERT_FALSE(path.wentOntoMap());
-  ASSERT_TRUE(map.wentOntoMap());
+  ASSERT_FALSE(path.eliminatedPosesFirst());
+  ASSERT_TRUE(map.eliminatedPosesFirst());
   for (std::size_t j = 0; j < system.state.poses.size(); ++j)
     EXPECT_LT((path.poseStep(j) - map.poseStep(j)).norm(), 1e-9) << j;
   double largest = 0.0;
@@ -87,7 +87,7 @@ TEST(Solver, choosesTheCheaperWay) {
   const System many_landmarks = systemAfter(30, 8, 40);
   Solver solver;
   solver.factor(many_landmarks.state, many_landmarks.prior, many_landmarks.equations, false);
-  EXPECT_FALSE(solver.wentOntoMap());
+  EXPECT_FALSE(solver.eliminatedPosesFirst());
   System few = systemAfter(90, 90, 6);
   // Of the landmarks, only the first twenty.
   int left = 0;
@@ -98,7 +98,7 @@ TEST(Solver, choosesTheCheaperWay) {
   any.frames = 1;
   Cost(SensorModel(simulateTracks(any).camera), 0.0, true).build(few.state, few.equations);
   other.factor(few.state, few.prior, few.equations, false);
-  EXPECT_TRUE(other.wentOntoMap());
+  EXPECT_TRUE(other.eliminatedPosesFirst());
 }
 
 }  // namespace

@@ -114,7 +114,7 @@ TEST(Undo, aLandmarkTakenBackInTheMiddleOfAStepIsGone) {
   expectSame(had.window, never.window, 1e-9);
 }
 
-/// Tracks in which one landmark slides over its surface; the window gives up what strays after each update, as SwfVo has it done.
+/// Tracks in which one landmark slides over its surface; the window gives up what driftingLandmarks after each update, as SwfVo has it done.
 class Sliding {
  public:
   using Wanted = std::function<bool(const Observation&)>;
@@ -126,7 +126,7 @@ class Sliding {
   void step(const Wanted& wanted) {
     observe(wanted);
     if (run_.at() < first_undone) return;
-    for (const LandmarkId landmark : run_.window.strays()) {
+    for (const LandmarkId landmark : run_.window.driftingLandmarks()) {
       given_up[landmark] = run_.at();
       run_.window.withdrawAll(landmark);
       run_.window.endLandmark(landmark);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "window/wander.hpp"
+#include "window/landmark_process_noise.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -7,23 +7,23 @@
 #include <limits>
 
 #include "urban_nav_core/geometry/dense_kernels.hpp"
-#include "window/make_room.hpp"
+#include "window/reserve_with_headroom.hpp"
 
 namespace swf_vo {
 
 namespace kernels = urban_nav_core::kernels;
 
-void Wander::apply(const std::vector<Step>& steps, const std::vector<double>& directions, Prior& prior,
-                   Departed& departed) {
+void LandmarkProcessNoise::apply(const std::vector<Step>& steps, const std::vector<double>& directions, Prior& prior,
+                                 Departed& departed) {
   for (std::size_t at = 0; at < steps.size(); at += group)
     apply(steps.data() + at, static_cast<int>(std::min<std::size_t>(group, steps.size() - at)), directions, prior,
           departed);
 }
 
-void Wander::gather(const Step* steps, int count, const Prior& prior) {
+void LandmarkProcessNoise::gather(const Step* steps, int count, const Prior& prior) {
   const int n = prior.size();
   stride_ = static_cast<std::size_t>((n + kernels::strip - 1) / kernels::strip * kernels::strip);
-  makeRoom(columns_, stride_ * most);
+  reserveWithHeadroom(columns_, stride_ * most);
   columns_.resize(stride_ * most);
   for (int k = 0; k < 2 * count; ++k) {
     row_[k] = 3 * steps[k / 2].block + k % 2;
@@ -33,7 +33,7 @@ void Wander::gather(const Step* steps, int count, const Prior& prior) {
   }
 }
 
-void Wander::factor(const Step* steps, int count) {
+void LandmarkProcessNoise::factor(const Step* steps, int count) {
   const int m = 2 * count;
   for (int j = 0; j < m; ++j)
     for (int i = 0; i < m; ++i)
@@ -53,8 +53,8 @@ void Wander::factor(const Step* steps, int count) {
   }
 }
 
-void Wander::apply(const Step* steps, int count, const std::vector<double>& directions, Prior& prior,
-                   Departed& departed) {
+void LandmarkProcessNoise::apply(const Step* steps, int count, const std::vector<double>& directions, Prior& prior,
+                                 Departed& departed) {
   const int n = prior.size(), m = 2 * count;
   gather(steps, count, prior);
   factor(steps, count);

@@ -8,12 +8,12 @@
 
 namespace swf_vo {
 
-/// The process model of a landmark: what a template stands for creeps over the surface as the view of it changes (creep in front_end/refine.hpp), so
-/// what old frames said of the landmark is worth less today. In information form,
+/// Process noise of landmarks: the point that a template stands for drifts over the surface as the view of it changes
+/// (front_end/refine.hpp), so that information of old frames decays. In information form,
 ///   Pi' = (Pi^-1 + Q)^-1 = Pi - Pi E (E^T Pi E + Q^-1)^-1 E^T Pi
 /// with E picking the bearings of the landmarks that have moved. Centres stay, so what is empty in Pi stays empty.
 /// Derivation: docs/derivations/landmark_process_noise.md.
-class Wander {
+class LandmarkProcessNoise {
  public:
   struct Step {
     int block;                   ///< landmark of the prior

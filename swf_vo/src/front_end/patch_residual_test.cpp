@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "front_end/misfit.hpp"
+#include "front_end/patch_residual_test.hpp"
 
 #include <algorithm>
 
@@ -13,7 +13,7 @@ constexpr std::size_t renewal = 8;  // patches between two looks at the median
 
 }  // namespace
 
-bool Misfit::isUsual(double noise) {
+bool PatchResidualTest::isTypical(double noise) {
   recent_[count_ % size] = noise;
   ++count_;
   if (count_ < enough) return true;
@@ -25,6 +25,6 @@ bool Misfit::isUsual(double noise) {
   return noise <= limit_;
 }
 
-void Misfit::archive(urban_nav_core::Archive& archive) { archive(recent_, count_, limit_); }
+void PatchResidualTest::archive(urban_nav_core::Archive& archive) { archive(recent_, count_, limit_); }
 
 }  // namespace swf_vo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "front_end/localise.hpp"
+#include "front_end/pose_estimation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -75,8 +75,8 @@ TEST(Localise, ExactMatchesGiveTheExactPose) {
   World world(1);
   world.add(40, 0.0, 5, kTruth);
   const StereoCamera stereo = localiseCamera();
-  Localiser localiser(stereo);
-  const Localisation found = localiser.locate({Pose()}, {}, world.matches);
+  PoseEstimator pose_estimator(stereo);
+  const PoseEstimate found = pose_estimator.locate({Pose()}, {}, world.matches);
   ASSERT_TRUE(found.found);
   EXPECT_EQ(found.inliers, 40);
   EXPECT_LT(distanceBetween(found.T_camera_odom, kTruth), 1e-4);
@@ -89,8 +89,8 @@ TEST(Localise, OutliersAreNamedAndDoNotMoveThePose) {
   world.add(60, 0.1, 5, kTruth);
   world.spoil(24);
   const StereoCamera stereo = localiseCamera();
-  Localiser localiser(stereo);
-  const Localisation found = localiser.locate({Pose()}, {}, world.matches);
+  PoseEstimator pose_estimator(stereo);
+  const PoseEstimate found = pose_estimator.locate({Pose()}, {}, world.matches);
   ASSERT_TRUE(found.found);
   EXPECT_LT(distanceBetween(found.T_camera_odom, kTruth), 0.02);
   EXPECT_LT(angleBetween(found.T_camera_odom, kTruth), 0.002);
@@ -115,8 +115,8 @@ TEST(Localise, PointsWithoutRightImageAndAtInfinityCount) {
     match.z << 400.0 * p.x() / p.z() + 255.5, 400.0 * p.y() / p.z() + 191.5, 400.0 * p.x() / p.z() + 255.5;
   }
   const StereoCamera stereo = localiseCamera();
-  Localiser localiser(stereo);
-  const Localisation found = localiser.locate({Pose()}, {}, world.matches);
+  PoseEstimator pose_estimator(stereo);
+  const PoseEstimate found = pose_estimator.locate({Pose()}, {}, world.matches);
   EXPECT_EQ(found.inliers, 30);
   EXPECT_LT(distanceBetween(found.T_camera_odom, kTruth), 1e-3);
 }
@@ -129,9 +129,9 @@ TEST(Localise, AVanThatFillsTheViewDoesNotCarryUsAway) {
     world.add(40, 0.1, 8, kTruth);
     world.add(60, 0.1, 1, kTruth, van);
     const StereoCamera stereo = localiseCamera();
-    Localiser localiser(stereo);
+    PoseEstimator pose_estimator(stereo);
     const Pose predicted = boxPlus(kTruth, tangent(0.02, 0.01, 0.1, 0.002, 0.003, 0.0));
-    const Localisation found = localiser.locate({predicted}, {}, world.matches);
+    const PoseEstimate found = pose_estimator.locate({predicted}, {}, world.matches);
     ASSERT_TRUE(found.found) << seed;
     EXPECT_LT(distanceBetween(found.T_camera_odom, kTruth), 0.05) << seed;
     int carried = 0;
@@ -146,8 +146,8 @@ TEST(Localise, ConsensusFindsAMotionThatNobodyPredicted) {
   world.add(60, 0.1, 4, far);
   world.spoil(20);
   const StereoCamera stereo = localiseCamera();
-  Localiser localiser(stereo);
-  const Localisation found = localiser.locate({Pose()}, {}, world.matches);
+  PoseEstimator pose_estimator(stereo);
+  const PoseEstimate found = pose_estimator.locate({Pose()}, {}, world.matches);
   ASSERT_TRUE(found.found);
   EXPECT_LT(distanceBetween(found.T_camera_odom, far), 0.05);
 }
@@ -158,8 +158,8 @@ TEST(Localise, AMinorityThatAgreesCloselyDoesNotHoldThePose) {
   world.add(30, 0.02, 2, kTruth, mover);
   world.add(70, 0.03, 2, kTruth);
   const StereoCamera stereo = localiseCamera();
-  Localiser localiser(stereo);
-  const Localisation found = localiser.locate({kTruth * mover}, {}, world.matches);
+  PoseEstimator pose_estimator(stereo);
+  const PoseEstimate found = pose_estimator.locate({kTruth * mover}, {}, world.matches);
   ASSERT_TRUE(found.found);
   EXPECT_LT(distanceBetween(found.T_camera_odom, kTruth), 0.03);
   EXPECT_GE(found.inliers, 65);
@@ -169,23 +169,23 @@ TEST(Localise, TooFewOrAbsurdMatchesLeaveThePrediction) {
   World world(4);
   world.add(3, 0.0, 5, kTruth);
   const StereoCamera stereo = localiseCamera();
-  Localiser localiser(stereo);
+  PoseEstimator pose_estimator(stereo);
   const Pose predicted = expSe3(tangent(1, 2, 3, 0.1, 0.2, 0.3));
-  Localisation found = localiser.locate({predicted}, {}, world.matches);
+  PoseEstimate found = pose_estimator.locate({predicted}, {}, world.matches);
   EXPECT_FALSE(found.found);
   EXPECT_TRUE(isApprox(found.T_camera_odom, predicted, 1e-12));
 
   World chaos(5);
   chaos.add(30, 0.0, 5, kTruth);
   chaos.spoil(30);
-  found = localiser.locate({predicted}, {}, chaos.matches);
+  found = pose_estimator.locate({predicted}, {}, chaos.matches);
   EXPECT_TRUE(found.T_camera_odom.isFinite());
   if (!found.found) {
     EXPECT_TRUE(isApprox(found.T_camera_odom, predicted, 1e-12));
   }
 
   std::vector<Match> none;
-  EXPECT_FALSE(localiser.locate({predicted}, {}, none).found);
+  EXPECT_FALSE(pose_estimator.locate({predicted}, {}, none).found);
 }
 
 }  // namespace

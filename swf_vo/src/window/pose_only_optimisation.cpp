@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "window/localise_newest.hpp"
+#include "window/pose_only_optimisation.hpp"
 
 #include <cmath>
 
@@ -50,7 +50,7 @@ int addLandmarks(const State& state, const SensorModel& sensor, double huber, Ma
 
 }  // namespace
 
-void localiseNewest(State& state, const SensorModel& sensor, double huber) {
+void optimiseNewestPose(State& state, const SensorModel& sensor, double huber) {
   PoseBlock& newest = state.poses.back();
   const Pose predicted = newest.estimate;
   // The prediction with its information, in the axes of odom.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "window/strays.hpp"
+#include "window/drifting_landmarks.hpp"
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ TrackOptions sixtyFeatures(std::uint64_t seed) {
 
 /// Runs to the end; `slide` says by how much a landmark is moved in a frame (px). Returns how often each landmark was called a stray.
 template <typename Slide>
-std::map<LandmarkId, int> strays(const urban_nav_core::testing::Tracks& tracks, const Slide& slide) {
+std::map<LandmarkId, int> driftingLandmarks(const urban_nav_core::testing::Tracks& tracks, const Slide& slide) {
   TrackRunner run(tracks, WindowOptions());
   std::map<LandmarkId, int> found;
   for (std::size_t i = 0; i < tracks.frames.size(); ++i) {
@@ -40,16 +40,16 @@ std::map<LandmarkId, int> strays(const urban_nav_core::testing::Tracks& tracks, 
       run.window.observe(observation);
     }
     run.endStep();
-    for (const LandmarkId landmark : run.window.strays()) ++found[landmark];
+    for (const LandmarkId landmark : run.window.driftingLandmarks()) ++found[landmark];
   }
   return found;
 }
 
 // Three landmarks slide by less per frame than a measurement's standard deviation.
-TEST(Strays, findsWhatSlidesSlowly) {
+TEST(DriftingLandmarks, findsWhatSlidesSlowly) {
   const auto tracks = simulateTracks(sixtyFeatures(3));
   const auto sliding = [](LandmarkId landmark) { return landmark < 30 && landmark % 10 == 0; };
-  const auto found = strays(tracks, [&](LandmarkId landmark, std::size_t i) {
+  const auto found = driftingLandmarks(tracks, [&](LandmarkId landmark, std::size_t i) {
     return sliding(landmark) ? 0.8 * sigma_px * static_cast<double>(i) : 0.0;
   });
   for (const LandmarkId landmark : {0, 10, 20}) {
@@ -63,22 +63,22 @@ TEST(Strays, findsWhatSlidesSlowly) {
   }
 }
 
-TEST(Strays, leavesWhatKeepsStillAlone) {
+TEST(DriftingLandmarks, leavesWhatKeepsStillAlone) {
   std::size_t called = 0, landmarks = 0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const auto tracks = simulateTracks(sixtyFeatures(seed));
-    called += strays(tracks, [](LandmarkId, std::size_t) { return 0.0; }).size();
+    called += driftingLandmarks(tracks, [](LandmarkId, std::size_t) { return 0.0; }).size();
     landmarks += tracks.points.size();
   }
   EXPECT_LT(called, landmarks / 50);
 }
 
-TEST(Strays, judgesNobodyWithoutKnowingHowWellItWasAligned) {
+TEST(DriftingLandmarks, judgesNobodyWithoutKnowingHowWellItWasAligned) {
   const auto tracks = simulateTracks(sixtyFeatures(5));
   TrackRunner run(tracks, WindowOptions());
   while (!run.done()) {
     run.step();
-    EXPECT_TRUE(run.window.strays().empty());
+    EXPECT_TRUE(run.window.driftingLandmarks().empty());
   }
 }
 

@@ -10,12 +10,12 @@
 
 namespace swf_vo {
 
-/// The other way to solve Lambda d = g: poses first (Newman et al. 2009, section 2.1, path-onto-map). They form a chain, each
+/// Solves Lambda d = g by eliminating poses first (Newman et al. 2009, section 2.1, path-onto-map). They form a chain, each
 /// tied to the next by its process term, so eliminating k of them costs k small steps; what is left is a dense system of all
-/// landmarks. The cheaper way where there are few landmarks and many poses.
-class PathOntoMap {
+/// landmarks. Cheaper than landmarks first if there are few landmarks and many poses.
+class PoseElimination {
  public:
-  /// Operations (multiply and add) of a factor by this way.
+  /// Returns the operations (multiply and add) of a factorisation.
   static double operations(std::size_t poses, std::size_t landmarks);
 
   void factor(const State& state, const Prior& prior, const NormalEquations& equations, double datum_strength);

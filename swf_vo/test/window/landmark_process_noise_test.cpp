@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "window/wander.hpp"
+#include "window/landmark_process_noise.hpp"
 
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ Prior somePrior(bool offset) {
   return prior;
 }
 
-TEST(Wander, addsItsCovarianceToThatOfTheBlocksThatMovedAndNothingToTheMean) {
+TEST(LandmarkProcessNoise, addsItsCovarianceToThatOfTheBlocksThatMovedAndNothingToTheMean) {
   Prior prior = somePrior(true);
   const int n = prior.size();
   const Eigen::MatrixXd before = full(prior);
@@ -57,7 +57,7 @@ TEST(Wander, addsItsCovarianceToThatOfTheBlocksThatMovedAndNothingToTheMean) {
   };
   Eigen::VectorXd mean_before, mean_after;
   Eigen::MatrixXd expected = joint(prior, mean_before);
-  std::vector<Wander::Step> steps;
+  std::vector<LandmarkProcessNoise::Step> steps;
   for (const int block : {0, 1, 2, 3, 4, 6, 7, 8, 9, 10}) {  // more than one group
     Eigen::Matrix2d Q;
     Q << 0.3 + 0.1 * block, 0.05, 0.05, 0.2;
@@ -67,15 +67,15 @@ TEST(Wander, addsItsCovarianceToThatOfTheBlocksThatMovedAndNothingToTheMean) {
   Departed departed;
   departed.gain.assign(static_cast<std::size_t>(6 * n), 0.0);
   const std::vector<double> directions(static_cast<std::size_t>(6 * n), 0.0);
-  Wander wander;
-  wander.apply(steps, directions, prior, departed);
+  LandmarkProcessNoise template_drift_covariance;
+  template_drift_covariance.apply(steps, directions, prior, departed);
   const Eigen::MatrixXd got = joint(prior, mean_after);
   EXPECT_LT((got - expected).norm(), 1e-8 * expected.norm());
   EXPECT_LT((mean_after - mean_before).norm(), 1e-8 * mean_before.norm());
   EXPECT_GT((full(prior) - before).norm(), 1e-3) << "something has happened";
 }
 
-TEST(Wander, keepsWhatTheDepartedPoseOwes) {
+TEST(LandmarkProcessNoise, keepsWhatTheDepartedPoseOwes) {
   // d_left = gain d + offset_gain o, with d before the step; afterwards said of d + w, it has the same covariance with it.
   Prior prior = somePrior(false);
   const int n = prior.size();
@@ -90,9 +90,9 @@ TEST(Wander, keepsWhatTheDepartedPoseOwes) {
   const Eigen::MatrixXd G = Eigen::Map<const Eigen::MatrixXd>(directions.data(), n, 6);
   const Eigen::MatrixXd gauge_before = G.transpose() * full(prior) * G;
   departed.gauge_gain = gain.transpose() * G;
-  Wander wander;
-  wander.apply({{3, 0.5 * Eigen::Matrix2d::Identity()}, {8, 0.2 * Eigen::Matrix2d::Identity()}}, directions, prior,
-               departed);
+  LandmarkProcessNoise template_drift_covariance;
+  template_drift_covariance.apply({{3, 0.5 * Eigen::Matrix2d::Identity()}, {8, 0.2 * Eigen::Matrix2d::Identity()}},
+                                  directions, prior, departed);
   const Eigen::MatrixXd after = Eigen::Map<const Eigen::MatrixXd>(departed.gain.data(), n, 6);
   const Eigen::MatrixXd P_after = full(prior).inverse();
   EXPECT_LT((after.transpose() * P_after - gain.transpose() * P).norm(), 1e-8 * (gain.transpose() * P).norm());

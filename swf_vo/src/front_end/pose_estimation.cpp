@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "front_end/localise.hpp"
+#include "front_end/pose_estimation.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -54,7 +54,8 @@ Pose apply(const Vector6d& step, const Pose& T) {
 
 }  // namespace
 
-void Localiser::prepare(const Pose& T_camera_odom, const LocaliseOptions& options, const std::vector<Match>& matches) {
+void PoseEstimator::prepare(const Pose& T_camera_odom, const PoseEstimatorOptions& options,
+                            const std::vector<Match>& matches) {
   items_.clear();
   for (std::size_t i = 0; i < matches.size(); ++i) {
     const Match& match = matches[i];
@@ -75,8 +76,8 @@ void Localiser::prepare(const Pose& T_camera_odom, const LocaliseOptions& option
   }
 }
 
-bool Localiser::residual(const Item& item, const Pose& T_camera_odom, Eigen::Vector3d& e,
-                         Eigen::Matrix<double, 3, 6>* J) const {
+bool PoseEstimator::residual(const Item& item, const Pose& T_camera_odom, Eigen::Vector3d& e,
+                             Eigen::Matrix<double, 3, 6>* J) const {
   const auto& c = camera_.left;
   const double w = item.p_odom.w();
   const Eigen::Vector3d p = T_camera_odom.q() * item.p_odom.head<3>() + T_camera_odom.t() * w;
@@ -92,7 +93,7 @@ bool Localiser::residual(const Item& item, const Pose& T_camera_odom, Eigen::Vec
   return true;
 }
 
-Pose Localiser::descend(Pose T, int steps, const std::array<int, sample_size>* only) const {
+Pose PoseEstimator::descend(Pose T, int steps, const std::array<int, sample_size>* only) const {
   const Pose anchor = T;
   for (int step = 0; step < steps; ++step) {
     Matrix6d H = Matrix6d::Zero();
@@ -123,7 +124,7 @@ Pose Localiser::descend(Pose T, int steps, const std::array<int, sample_size>* o
   return T;
 }
 
-double Localiser::cost(const Pose& T_camera_odom) const {
+double PoseEstimator::cost(const Pose& T_camera_odom) const {
   double total = 0.0;
   for (const Item& item : items_) {
     Eigen::Vector3d e;
@@ -134,7 +135,7 @@ double Localiser::cost(const Pose& T_camera_odom) const {
   return total;
 }
 
-Pose Localiser::bestByConsensus(const Pose& start, int samples, double& best_cost) const {
+Pose PoseEstimator::bestByConsensus(const Pose& start, int samples, double& best_cost) const {
   Pose best = start;
   const std::uint32_t count = static_cast<std::uint32_t>(items_.size());
   std::uint32_t state = 12345;
@@ -155,9 +156,9 @@ Pose Localiser::bestByConsensus(const Pose& start, int samples, double& best_cos
   return best;
 }
 
-Localisation Localiser::locate(const std::vector<Pose>& starts, const LocaliseOptions& options,
-                               std::vector<Match>& matches) {
-  Localisation result;
+PoseEstimate PoseEstimator::locate(const std::vector<Pose>& starts, const PoseEstimatorOptions& options,
+                                   std::vector<Match>& matches) {
+  PoseEstimate result;
   result.T_camera_odom = starts.front();
   prepare(starts.front(), options, matches);
   result.candidates = static_cast<int>(items_.size());

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "window/strays.hpp"
+#include "window/drifting_landmarks.hpp"
 
 #include <cmath>
 
 #include "robust_threshold.hpp"
-#include "window/make_room.hpp"
 #include "window/measurements.hpp"
+#include "window/reserve_with_headroom.hpp"
 
 namespace swf_vo {
 
@@ -18,7 +18,7 @@ constexpr std::size_t fewest_for_test = 16;  // to know what is usual
 
 }  // namespace
 
-bool Strays::score(const State& state, const SensorModel& sensor, const LandmarkBlock& landmark) {
+bool DriftingLandmarks::score(const State& state, const SensorModel& sensor, const LandmarkBlock& landmark) {
   double sum = 0.0;
   int coordinates = 0;
   Vector3d z;
@@ -38,21 +38,21 @@ bool Strays::score(const State& state, const SensorModel& sensor, const Landmark
   return true;
 }
 
-const std::vector<LandmarkId>& Strays::find(const State& state, const SensorModel& sensor) {
-  makeRoom(scores_, state.landmarks.size());
-  makeRoom(sorted_, state.landmarks.size());
-  makeRoom(strays_, state.landmarks.size());
+const std::vector<LandmarkId>& DriftingLandmarks::find(const State& state, const SensorModel& sensor) {
+  reserveWithHeadroom(scores_, state.landmarks.size());
+  reserveWithHeadroom(sorted_, state.landmarks.size());
+  reserveWithHeadroom(drifting_, state.landmarks.size());
   scores_.clear();
   sorted_.clear();
-  strays_.clear();
+  drifting_.clear();
   for (const LandmarkBlock& landmark : state.landmarks)
     if (landmark.used && !landmark.known && landmark.followed && score(state, sensor, landmark))
       sorted_.push_back(scores_.back().residual);
-  if (scores_.size() < fewest_for_test) return strays_;
+  if (scores_.size() < fewest_for_test) return drifting_;
   const double limit = robustThreshold(sorted_.begin(), sorted_.end());
   for (const Score& score : scores_)
-    if (score.residual > limit) strays_.push_back(score.landmark);
-  return strays_;
+    if (score.residual > limit) drifting_.push_back(score.landmark);
+  return drifting_;
 }
 
 }  // namespace swf_vo

@@ -10,14 +10,14 @@
 
 namespace swf_vo {
 
-struct Localisation {
+struct PoseEstimate {
   urban_nav_core::Pose T_camera_odom;
   bool found = false;  ///< enough matches agree; else the pose is the first start's
   int candidates = 0, inliers = 0;
   double reprojection_px = 0.0;  ///< of the inliers, root mean square in the left image
 };
 
-struct LocaliseOptions {
+struct PoseEstimatorOptions {
   double slack_px =
       0.1;  ///< added to the standard deviation of each coordinate: what the map and the match are wrong by beyond what they say
   int least_inliers = 8;
@@ -28,15 +28,15 @@ struct LocaliseOptions {
 /// disparity allowed for, from several starts: those given, in order of trust, and motions through minimal sets of matches chosen
 /// by a fixed sequence. Starts are compared by a robust cost in which a landmark counts by how often it was right before: a
 /// van ahead that fills the view has few old friends. Sets `inlier` and `chi2` of each match.
-class Localiser {
+class PoseEstimator {
  public:
   /// The camera must outlive it, and may learn its disparity offset. `capacity`: of matches, for which memory is taken at once.
-  explicit Localiser(const urban_nav_core::StereoCamera& camera, int capacity = 0) : camera_(camera) {
+  explicit PoseEstimator(const urban_nav_core::StereoCamera& camera, int capacity = 0) : camera_(camera) {
     items_.reserve(static_cast<std::size_t>(capacity));
   }
 
-  Localisation locate(const std::vector<urban_nav_core::Pose>& T_camera_odom_starts, const LocaliseOptions& options,
-                      std::vector<Match>& matches);
+  PoseEstimate locate(const std::vector<urban_nav_core::Pose>& T_camera_odom_starts,
+                      const PoseEstimatorOptions& options, std::vector<Match>& matches);
 
  private:
   static constexpr int sample_size = 3;  // three points in stereo fix a motion with some to spare
@@ -47,7 +47,7 @@ class Localiser {
     double trust;
     int match;
   };
-  void prepare(const urban_nav_core::Pose& T_camera_odom, const LocaliseOptions& options,
+  void prepare(const urban_nav_core::Pose& T_camera_odom, const PoseEstimatorOptions& options,
                const std::vector<Match>& matches);
   bool residual(const Item& item, const urban_nav_core::Pose& T_camera_odom, Eigen::Vector3d& e,
                 Eigen::Matrix<double, 3, 6>* J) const;

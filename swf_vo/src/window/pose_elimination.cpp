@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "window/path_onto_map.hpp"
+#include "window/pose_elimination.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,12 +19,12 @@ bool isState(const LandmarkBlock& landmark) {
 
 }  // namespace
 
-double PathOntoMap::operations(std::size_t poses, std::size_t landmarks) {
+double PoseElimination::operations(std::size_t poses, std::size_t landmarks) {
   const double p = 6.0 * static_cast<double>(poses), m = 3.0 * static_cast<double>(landmarks);
   return m * m * m / 6.0 + m * m * p / 2.0 + 12.0 * m * p;
 }
 
-void PathOntoMap::gather(const State& state, const Prior& prior, const NormalEquations& equations) {
+void PoseElimination::gather(const State& state, const Prior& prior, const NormalEquations& equations) {
   const std::size_t poses = state.poses.size();
   row_.assign(state.landmarks.size(), -1);
   map_size_ = 0;
@@ -62,7 +62,7 @@ void PathOntoMap::gather(const State& state, const Prior& prior, const NormalEqu
   }
 }
 
-void PathOntoMap::factorPose(std::size_t j, const Vector6d& diagonal) {
+void PoseElimination::factorPose(std::size_t j, const Vector6d& diagonal) {
   Link& link = links_[j];
   const Matrix6d& D = pivots_[j];
   link.L.setZero();
@@ -80,8 +80,8 @@ void PathOntoMap::factorPose(std::size_t j, const Vector6d& diagonal) {
   }
 }
 
-void PathOntoMap::factor(const State& state, const Prior& prior, const NormalEquations& equations,
-                         double datum_strength) {
+void PoseElimination::factor(const State& state, const Prior& prior, const NormalEquations& equations,
+                             double datum_strength) {
   const std::size_t poses = state.poses.size();
   gather(state, prior, equations);
   links_.resize(poses);
@@ -127,7 +127,7 @@ void PathOntoMap::factor(const State& state, const Prior& prior, const NormalEqu
   cholesky_.factor(dense_, floor_);
 }
 
-void PathOntoMap::solve(std::vector<double>& path, std::vector<double>& map, bool hold) const {
+void PoseElimination::solve(std::vector<double>& path, std::vector<double>& map, bool hold) const {
   using Column = Eigen::Map<Vector6d>;
   for (std::size_t j = 0; j < links_.size(); ++j) {
     Column y(path.data() + 6 * j);
@@ -152,7 +152,7 @@ void PathOntoMap::solve(std::vector<double>& path, std::vector<double>& map, boo
   }
 }
 
-void PathOntoMap::archive(urban_nav_core::Archive& archive) {
+void PoseElimination::archive(urban_nav_core::Archive& archive) {
   std::size_t poses = links_.size();
   archive.count(poses);
   if (archive.isReading()) links_.resize(poses);
