@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Density, error and stated deviation beside OpenCV's matchers: URBAN_NAV_DATA's Middlebury pairs, and simulated
+// sessions.
+//
+//   dense_stereo-bench-accuracy [-o FILE.json] [--step N] [NAME FOLDER TRUTH_FOLDER]...
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "support/peers.hpp"
+#include "urban_nav_core/testing/bench_table.hpp"
+
+namespace {
+
+using dense_stereo::DisparityImage;
+using dense_stereo::bench::TruePair;
+using urban_nav_core::testing::cell;
+
+/// Sums over the pixels of one scene.
+struct ErrorSums {
+  long pixels = 0, answered = 0, wrong = 0, sky = 0, sky_answered = 0, fair = 0;
+  double normalised = 0.0;
+  std::vector<float> errors;
+
+  void add(const TruePair& pair, const DisparityImage& image) {
+    for (int v = 0; v < image.height; ++v)
+      for (int u = 0; u < image.width; ++u) {
+        const float d = image.disparity[image.index(u, v)], truth = pair.truth.at<float>(v, u);
+        if (!pair.sky.empty() && pair.sky.at<std::uint8_t>(v, u) != 0) {
+          ++sky;
+          sky_answered += d >= 2.0F ? 1 : 0;
+        }
+        if (truth < 0.0F) continue;
+        ++pixels;
+        if (d < 0.0F) continue;
+        ++answered;
+        const float error = std::abs(d - truth), variance = image.variance[image.index(u, v)];
+        errors.push_back(error);
+        wrong += error > 1.0F ? 1 : 0;
+        if (error > 1.0F || variance <= 0.0F) continue;
+        ++fair;
+        normalised += static_cast<double>(error * error / variance);
+      }
+  }
+  double median() {
+    const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
+    std::nth_element(errors.begin(), middle, errors.end());
+    return errors.empty() ? 0.0 : static_cast<double>(*middle);
+  }
+};
+
+void addRows(const std::string& name, const std::vector<TruePair>& pairs, urban_nav_core::testing::BenchTable& table) {
+  for (const auto& peer : dense_stereo::bench::allPeers()) {
+    ErrorSums sums;
+    for (const TruePair& pair : pairs) sums.add(pair, peer->match(pair.left, pair.right, pair.disparities));
+    const auto percent = [](long part, long all) {
+      return 100.0 * static_cast<double>(part) / static_cast<double>(std::max(all, 1L));
+    };
+    table.add({name, peer->name(), cell(percent(sums.answered, sums.pixels), 1),
+               cell(percent(sums.wrong, sums.answered), 2), cell(sums.median(), 3),
+               sums.sky > 0 ? cell(percent(sums.sky_answered, sums.sky), 1) : "",
+               sums.fair > 0 ? cell(std::sqrt(sums.normalised / static_cast<double>(sums.fair)), 2) : ""});
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  urban_nav_core::testing::BenchTable table({"scene", "method", "answered, %", "wrong by over 1 px, %",
+                                             "median error, px", "sky answered, %", "error / sigma, rms"},
+                                            argc, argv);
+  std::string output;
+  std::vector<std::string> words(argv + 1, argv + argc);
+  if (words.size() >= 2 && words[0] == "-o") {
+    output = words[1];
+    words.erase(words.begin(), words.begin() + 2);
+  }
+  int step = 20;
+  if (words.size() >= 2 && words[0] == "--step") {
+    step = std::max(std::atoi(words[1].c_str()), 1);
+    words.erase(words.begin(), words.begin() + 2);
+  }
+  if (const char* data = std::getenv("URBAN_NAV_DATA"); data != nullptr)
+    for (const TruePair& pair : dense_stereo::bench::middleburyPairs(data)) addRows(pair.name, {pair}, table);
+  for (std::size_t i = 0; i + 2 < words.size(); i += 3)
+    addRows(words[i], dense_stereo::bench::simulatedPairs(words[i], words[i + 1], words[i + 2], step), table);
+  table.note(
+      "Pixels that both cameras see; teddy and cones 64 disparities, wood2 128; simulated worlds 64, nearer than 47 m.");
+  table.note("Sky: pixels without a surface that are given 2 px or more. Error / sigma: of errors below 1 px.");
+  table.note(
+      "StereoBM 11x11; StereoSGBM block 3, P1 72, P2 288, uniqueness 10, speckles 100 px (OpenCV's defaults otherwise).");
+  std::fputs(table.text().c_str(), stdout);
+  if (!output.empty()) table.write(output);
+  return 0;
+}
