@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../nodelet/nodelet_parameters.hpp"
 #include "urban_nav_core/parameters/sources.hpp"
 #include "urban_nav_core/testing/parameter_tables.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -11,7 +12,7 @@ namespace segway_drivers {
 namespace {
 
 TEST(Parameters, YamlAndReadmeEqualTheTable) {
-  EXPECT_EQ(urban_nav_core::testing::faultsOf(table().stage(), table().rows()), "");
+  EXPECT_EQ(urban_nav_core::testing::faultsOf(table().stage(), table().rows(), nodeletTable().rows()), "");
 }
 
 TEST(Parameters, ARowIsSetByDeviceAndKey) {

@@ -3,11 +3,9 @@
 
 #include <cmath>
 
-#include "segway_drivers/gps/driver.hpp"
-#include "segway_drivers/lms291/driver.hpp"
-#include "segway_drivers/segway_rmp/driver.hpp"
+#include "segway_drivers/driver/driver_options.hpp"
 #include "segway_drivers/table/row_decoder.hpp"
-#include "segway_drivers/xsens_mti/driver.hpp"
+#include "segway_drivers/transport/host_clock.hpp"
 #include "table/rows.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/io/csv.hpp"
@@ -19,83 +17,28 @@ using urban_nav_core::UserError;
 
 namespace {
 
-constexpr TimeNs run_wait = 2'000'000;    // ns
-constexpr TimeNs clock_step = 1'000'000;  // ns, of the host clock that is worth a warning
+constexpr TimeNs run_wait = 2'000'000;  // ns
 
 /// Writes stamped messages in real time.
 class RunTable {
  public:
-  RunTable(const std::string& path, const std::string& kind) : file_(path), offset_(realTimeOffset()) {
+  RunTable(const std::string& path, const std::string& kind) : file_(path) {
     file_.write("frame,offset,stamp_ns," + rowColumns(kind) + "\n");
   }
   /// `stamp`: steady time.
   void add(std::optional<TimeNs> stamp, const std::string& cells) {
     if (!stamp) return;
-    file_.write(std::to_string(frame_++) + ",," + std::to_string(*stamp + offset_) + "," + cells + "\n");
+    file_.write(std::to_string(frame_++) + ",," + std::to_string(clock_.toReal(*stamp)) + "," + cells + "\n");
   }
-  /// Follows the host clock. Returns the size of a step, ns; 0 if there was none.
-  TimeNs followHostClock() {
-    const TimeNs offset = realTimeOffset(), step = offset - offset_;
-    if (std::abs(step) < clock_step) {
-      offset_ += step / 16;  // of the readings, and of a clock that is slewed
-      return 0;
-    }
-    offset_ = offset;
-    return step;
-  }
+  /// Returns the size of a step of the host clock, ns.
+  TimeNs followHostClock() { return clock_.follow(); }
   void commit() { file_.commit(); }
 
  private:
   urban_nav_core::AtomicFile file_;
-  TimeNs offset_;
+  HostClock clock_;
   std::int64_t frame_ = 0;
 };
-
-std::unique_ptr<DriverCore> makeLmsDriver(const Parameters& parameters, RunTable& table) {
-  LmsDriver::Options options;
-  options.stream.latency = 1e-3 * parameters.lms291_latency_ms;
-  const auto mode = static_cast<std::uint8_t>(parameters.lms291_measuring_mode);
-  if (const auto format = LmsRangeFormat::fromConfiguration(mode, 1)) options.stream.format = *format;
-  options.configure = parameters.lms291_configure;
-  auto driver = std::make_unique<LmsDriver>(options);
-  driver->on_scan = [&table](const LmsStampedScan& scan) { table.add(scan.stamp, lmsCells(scan.scan)); };
-  return driver;
-}
-
-std::unique_ptr<DriverCore> makeMtiDriver(const Parameters& parameters, RunTable& table) {
-  MtiDriver::Options options;
-  options.rate = parameters.xsens_mti_rate;
-  options.stream.mode = static_cast<unsigned>(parameters.xsens_mti_mode);
-  options.stream.settings = static_cast<unsigned>(parameters.xsens_mti_settings);
-  options.stream.period = 1.0 / parameters.xsens_mti_rate;
-  options.stream.latency = 1e-3 * parameters.xsens_mti_latency_ms;
-  auto driver = std::make_unique<MtiDriver>(options);
-  driver->on_sample = [&table](const MtiStampedSample& sample) { table.add(sample.stamp, mtiCells(sample.sample)); };
-  return driver;
-}
-
-std::unique_ptr<RmpDriver> makeRmpDriver(const Parameters& parameters, RunTable& table) {
-  RmpDriver::Options options;
-  options.latency = 1e-3 * parameters.segway_rmp_latency_ms;
-  options.limits.velocity = parameters.segway_rmp_max_velocity;
-  options.limits.turn_rate = parameters.segway_rmp_max_turn_rate;
-  options.limits.acceleration = parameters.segway_rmp_acceleration;
-  options.limits.angular_acceleration = parameters.segway_rmp_angular_acceleration;
-  options.limits.timeout = parameters.segway_rmp_command_timeout;
-  auto driver = std::make_unique<RmpDriver>(options);
-  driver->on_frame = [&table](const RmpStampedFrame& frame) { table.add(frame.stamp, rmpCells(frame.frame)); };
-  return driver;
-}
-
-std::unique_ptr<DriverCore> makeGpsDriver(const Parameters& parameters, RunTable& table, bool gpsd) {
-  GpsDriver::Options options;
-  options.stream.uere = parameters.gps_uere;
-  options.stream.latency = 1e-3 * parameters.gps_latency_ms;
-  options.gpsd = gpsd;
-  auto driver = std::make_unique<GpsDriver>(options);
-  driver->on_fix = [&table](const GpsFix& fix, std::optional<TimeNs> stamp) { table.add(stamp, gpsCells(fix)); };
-  return driver;
-}
 
 }  // namespace
 
@@ -120,16 +63,26 @@ RunResult runDevice(const RunJob& job, const Parameters& parameters,
   RunTable table(job.output, job.kind);
   std::unique_ptr<DriverCore> core;
   RmpDriver* base = nullptr;
-  if (job.kind == "lms291") core = makeLmsDriver(parameters, table);
-  else if (job.kind == "xsens_mti") core = makeMtiDriver(parameters, table);
-  else if (job.kind == "gps")
-    core = makeGpsDriver(parameters, table,
-                         job.port.find('/') == std::string::npos && job.port.find(':') != std::string::npos);
-  else if (job.kind == "segway_rmp") {
-    auto driver = makeRmpDriver(parameters, table);
+  if (job.kind == "lms291") {
+    auto driver = std::make_unique<LmsDriver>(toLmsOptions(parameters));
+    driver->on_scan = [&table](const LmsStampedScan& scan) { table.add(scan.stamp, lmsCells(scan.scan)); };
+    core = std::move(driver);
+  } else if (job.kind == "xsens_mti") {
+    auto driver = std::make_unique<MtiDriver>(toMtiOptions(parameters));
+    driver->on_sample = [&table](const MtiStampedSample& sample) { table.add(sample.stamp, mtiCells(sample.sample)); };
+    core = std::move(driver);
+  } else if (job.kind == "gps") {
+    auto driver = std::make_unique<GpsDriver>(toGpsOptions(parameters, job.port));
+    driver->on_fix = [&table](const GpsFix& fix, std::optional<TimeNs> stamp) { table.add(stamp, gpsCells(fix)); };
+    core = std::move(driver);
+  } else if (job.kind == "segway_rmp") {
+    auto driver = std::make_unique<RmpDriver>(toRmpOptions(parameters));
+    driver->on_frame = [&table](const RmpStampedFrame& frame) { table.add(frame.stamp, rmpCells(frame.frame)); };
     base = driver.get();
     core = std::move(driver);
-  } else throw UserError("KIND", job.kind + " does not run", "lms291, xsens_mti, segway_rmp, gps");
+  } else {
+    throw UserError("KIND", job.kind + " does not run", "lms291, xsens_mti, segway_rmp, gps");
+  }
   if (base == nullptr && !wishes.empty()) throw UserError("--drive", job.kind, "segway_rmp");
 
   DriverLoop loop(*core, job.port);

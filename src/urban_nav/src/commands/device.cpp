@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <stdexcept>
@@ -48,6 +49,10 @@ std::string requiredValue(const Arguments& arguments, const std::string& option)
 std::vector<std::string> deviceWords(const Arguments& arguments, std::size_t count, bool more,
                                      const std::string& usage) {
   std::vector<std::string> words = arguments.all("ARGUMENT");
+  // roslaunch appends __name:=... and __log:=...
+  words.erase(
+      std::remove_if(words.begin(), words.end(), [](const std::string& word) { return word.rfind("__", 0) == 0; }),
+      words.end());
   if (words.size() < count || (!more && words.size() > count))
     throw UserError("urban_nav device", std::to_string(words.size()) + " words after the action", usage);
   return words;

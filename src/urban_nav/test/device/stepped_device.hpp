@@ -12,8 +12,9 @@ namespace urban_nav::testing {
 /// A driver and a simulated device on one stepped clock, without ports: an hour runs in seconds.
 class SteppedDevice {
  public:
-  SteppedDevice(segway_drivers::DriverCore& driver, urban_nav_sim::SimulatedDevice& device)
-      : driver_(driver), device_(device) {
+  /// `baud`: of a connection whose rate the driver does not set.
+  SteppedDevice(segway_drivers::DriverCore& driver, urban_nav_sim::SimulatedDevice& device, int baud = 0)
+      : driver_(driver), device_(device), baud_(baud) {
     device_.start(now_);
     open();
   }
@@ -30,7 +31,6 @@ class SteppedDevice {
       return each.text.find(text) != std::string::npos;
     });
   }
-  /// Longest time without a byte of the host, s, is not limited by this class: each step ticks the driver.
   static constexpr std::int64_t step = 1'000'000, begin = 1'000'000'000'000;
 
  private:
@@ -68,7 +68,7 @@ class SteppedDevice {
   segway_drivers::DriverCore& driver_;
   urban_nav_sim::SimulatedDevice& device_;
   std::int64_t now_ = begin, retry_at_ = 0;
-  int baud_ = 0;
+  int baud_;
   bool is_open_ = false;
   std::vector<urban_nav_sim::DeviceTruth> truth_;
   std::vector<segway_drivers::DriverEvent> events_;

@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_sim/device/device_server.hpp"
@@ -72,6 +73,8 @@ class PseudoTerminal : public DeviceLink {
     tcgetattr(slave_, &settings);
     cfmakeraw(&settings);
     tcsetattr(slave_, TCSANOW, &settings);
+    std::error_code ignored;  // a folder that cannot be made shows in the link
+    std::filesystem::create_directories(std::filesystem::path(path_).parent_path(), ignored);
     const std::string fresh = path_ + ".new";
     ::unlink(fresh.c_str());
     if (::symlink(name.data(), fresh.c_str()) != 0 || ::rename(fresh.c_str(), path_.c_str()) != 0)

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "segway_drivers/transport/port.hpp"
+
+namespace segway_drivers {
+
+/// Converts times of the steady clock, on which drivers run, to real time. Follows a real clock that is slewed and
+/// reports its steps. Not thread-safe.
+class HostClock {
+ public:
+  HostClock() : offset_(realTimeOffset()) {}
+
+  TimeNs toReal(TimeNs steady) const { return steady + offset_; }
+  /// To be called often. Returns the size of a step of the real clock, ns, beyond 1 ms; 0 if there was none.
+  TimeNs follow();
+
+ private:
+  TimeNs offset_;
+};
+
+}  // namespace segway_drivers

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodelet_parameters.hpp"
+
+namespace segway_drivers {
+
+using urban_nav_core::Table;
+
+NodeletParameters::NodeletParameters() { nodeletTable().setDefaults(*this); }
+
+// clang-format would give each of the columns a line.
+// clang-format off
+const Table<NodeletParameters>& nodeletTable() {
+  using P = NodeletParameters;
+  static const Table<NodeletParameters> rows(
+      "",
+      {
+          {"port", &P::port, "", "", false, false, {},
+           "Serial port, best by /dev/serial/by-id or a udev link; HOST:PORT of gpsd. It may be missing at the start.", ""},
+          {"frame", &P::frame, "", "", false, false, {},
+           "Frame of the measurements; empty: that of the device (laser_left in the namespace laser_left, imu_link, odom, gps_link).", "REP-105"},
+          {"base_frame", &P::base_frame, "", "base_link", false, false, {},
+           "Frame of the robot, for the odometry of the base.", "REP-105"},
+          {"publish_tf", &P::publish_tf, "", false, false, true, {},
+           "Whether the base publishes its odometry on /tf; visual odometry does so by default.", "REP-105"},
+          {"queue", &P::queue, "messages", 1000, 10, 100000, {},
+           "Messages that may wait for publication; beyond that new ones are dropped and counted. Reading never waits.", ""},
+      });
+  return rows;
+}
+// clang-format on
+
+}  // namespace segway_drivers
