@@ -21,7 +21,9 @@ std::unique_ptr<Port> openPort(const std::string& name, std::string& error) {
     if (number && *number > 0 && *number < 65536)
       return openTcpPort(name.substr(0, colon), static_cast<int>(*number), error);
   }
-  return openSerialPort(name, error);
+  const bool is_interface =
+      colon == std::string::npos && name.find('/') == std::string::npos && name.find("can") != std::string::npos;
+  return is_interface ? openCanPort(name, error) : openSerialPort(name, error);
 }
 
 DriverLoop::DriverLoop(DriverCore& core, std::string port) : core_(core), name_(std::move(port)) {}

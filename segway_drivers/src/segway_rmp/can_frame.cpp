@@ -28,6 +28,15 @@ Bytes makeRmpPacket(const CanFrame& frame) {
   return packet;
 }
 
+Bytes makeRmpBasePacket(const CanFrame& frame) {
+  Bytes packet = {
+      0xF0, 0x55, 0xAA, 0, static_cast<std::uint8_t>(frame.id >> 3), static_cast<std::uint8_t>((frame.id & 7) << 5),
+      0,    0,    0};
+  packet.insert(packet.end(), frame.data.begin(), frame.data.end());
+  packet.push_back(computeRmpChecksum(packet));
+  return packet;
+}
+
 FrameProbe probeRmpPacket(ByteView bytes) {
   using Kind = FrameProbe::Kind;
   if (bytes[0] != 0xF0) return {Kind::NoFrame, 0};

@@ -8,6 +8,7 @@
 #include "segway_drivers/segway_rmp/odometry.hpp"
 #include "segway_drivers/segway_rmp/stream.hpp"
 #include "segway_drivers/segway_rmp/units.hpp"
+#include "segway_drivers/transport/port.hpp"
 #include "urban_nav_core/testing/fuzz.hpp"
 
 namespace segway_drivers {
@@ -44,6 +45,27 @@ TEST(RmpCan, CandumpLines) {
   for (const char* const bad :
        {"", "(1.5) can0 401#00", "(1.249713) can0 12345678#0010FFF800040000", "(x.249713) can0 401#0010FFF800040000"})
     EXPECT_FALSE(parseCandumpLine(bad)) << bad;
+}
+
+TEST(RmpCan, FramesBecomePacketsOfTheBase) {
+  const auto line = parseCandumpLine("(1436509052.249713) can0 401#0010FFF800040000");
+  const Bytes packet = makeRmpBasePacket(line->frame);
+  EXPECT_EQ(printHex(packet), "F0 55 AA 00 80 20 00 00 00 00 10 FF F8 00 04 00 00 62");
+  EXPECT_EQ(probeRmpPacket(packet).kind, FrameProbe::Kind::Frame);
+  EXPECT_EQ(splitRmpPacket(packet)->data, line->frame.data);
+}
+
+TEST(RmpCan, AVirtualBusCarriesCommandsAndMessages) {
+  std::string error;
+  const auto driver = openCanPort("vcan0", error), base = openCanPort("vcan0", error);
+  if (!driver || !base) GTEST_SKIP() << "vcan0: " << error;
+  const auto line = parseCandumpLine("(1436509052.249713) can0 401#0010FFF800040000");
+  Bytes packet = makeRmpPacket(line->frame);
+  ASSERT_TRUE(base->write(packet));
+  Bytes buffer(100);
+  const Port::ReadResult read = driver->read(buffer.data(), buffer.size(), 1'000'000'000);
+  ASSERT_EQ(read.outcome, Port::Outcome::Data);
+  EXPECT_EQ(splitRmpPacket(buffer)->id, 0x401);
 }
 
 /// Drives a guard at 50 Hz while the base answers.

@@ -13,7 +13,7 @@
 
 namespace segway_drivers {
 
-/// Opens a device: a path, or HOST:PORT for a TCP server.
+/// Opens a device: a path of a serial port, HOST:PORT of a TCP server, or a CAN interface such as can0 or vcan0.
 std::unique_ptr<Port> openPort(const std::string& name, std::string& error);
 
 /// Drives a DriverCore from a port: reads, ticks, writes, opens again with growing pauses. One call of step() takes at

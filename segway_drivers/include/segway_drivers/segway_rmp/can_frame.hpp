@@ -25,6 +25,8 @@ constexpr std::size_t rmp_packet_size = 18;  // bytes, in both directions
 
 /// USB packet from the host to the base.
 Bytes makeRmpPacket(const CanFrame& frame);
+/// USB packet from the base, as it would send the frame on channel A.
+Bytes makeRmpBasePacket(const CanFrame& frame);
 /// Framing rule of USB packets from the base.
 FrameProbe probeRmpPacket(ByteView bytes);
 /// Frame of a whole USB packet from the base. Returns nullopt for channel B.

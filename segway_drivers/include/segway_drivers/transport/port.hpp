@@ -39,5 +39,8 @@ class Port {
 std::unique_ptr<Port> openSerialPort(const std::string& path, std::string& error);
 /// Connects to a TCP server, waiting up to a second. Returns null and sets `error` on failure.
 std::unique_ptr<Port> openTcpPort(const std::string& host, int port, std::string& error);
+/// Opens a CAN interface such as can0 of SocketCAN for the messages of an RMP; bytes are those of its USB packets.
+/// Returns null and sets `error` where the kernel has no CAN or the interface is missing.
+std::unique_ptr<Port> openCanPort(const std::string& interface, std::string& error);
 
 }  // namespace segway_drivers
