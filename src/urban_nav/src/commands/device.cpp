@@ -149,7 +149,7 @@ int runDeviceRun(const Arguments& arguments, Console& console) {
 }
 
 int runDeviceSimulate(const Arguments& arguments, Console& console) {
-  const auto words = deviceWords(arguments, 1, false, "simulate KIND --link PATH --bag BAG");
+  const auto words = deviceWords(arguments, 1, false, "simulate KIND --link PATH (--bag BAG | --world W)");
   loadDriverParameters(arguments);
   SimulateDeviceJob job;
   job.kind = words[0];
@@ -157,7 +157,14 @@ int runDeviceSimulate(const Arguments& arguments, Console& console) {
   job.tcp = static_cast<int>(arguments.integer("tcp", 0, 1, 65535));
   if (job.tcp > 0 && job.kind != "gps") throw UserError("--tcp", job.kind, "gps");
   if (job.tcp == 0) job.link = requiredValue(arguments, "link");
-  job.bag = requiredValue(arguments, "bag");
+  if (!arguments.has("bag") && !arguments.has("world"))
+    throw UserError("urban_nav device", "--bag is missing", "--bag BAG, or --world W");
+  job.bag = arguments.get("bag");
+  job.session.world = arguments.get("world", job.session.world);
+  job.session.route = arguments.get("route", job.session.route);
+  job.session.day = static_cast<int>(arguments.integer("day", 1, 1, 100000));
+  job.session.duration = arguments.number("duration", job.session.duration, 0.1, 86400.0);
+  job.session.seed = static_cast<std::uint32_t>(arguments.integer("seed", 1, 0, 4294967295));
   job.side = arguments.get("side", "left");
   job.truth = arguments.get("truth");
   job.options.seed = static_cast<std::uint64_t>(arguments.integer("seed", 1, 0, 4294967295));
@@ -201,7 +208,7 @@ std::string deviceHelp(const Arguments& arguments) {
          "  decode KIND FILE -o OUT.csv          bytes as a device sent them, as a table\n"
          "  encode KIND COMMAND [ARGUMENT...]    the bytes of a command, in hexadecimal\n"
          "  run KIND --port PATH --duration S -o OUT.csv  a device at a serial port, or gpsd at HOST:PORT\n"
-         "  simulate KIND --link PATH --bag BAG  a device behind a pseudo-terminal, fed by a bag of simulate\n"
+         "  simulate KIND --link PATH --bag BAG  a device behind a pseudo-terminal, fed by a bag of simulate or by --world\n"
          "  stamp IN.csv -o OUT.csv              device_s,arrival_ns through the clock filter\n"
          "kinds: " +
          kinds + "\n\nparameters (--config FILE, --set segway_drivers.KEY=VALUE):\n" +
@@ -229,11 +236,14 @@ Command deviceCommand() {
        {}},
       {"--arrivals", "FILE", "decode: offset,arrival_ns of each read; adds stamps", false, false, {}},
       {"--port", "PATH", "run: serial port, best by /dev/serial/by-id; HOST:PORT of gpsd", false, false, {}},
-      {"--duration", "S", "run: s to run", false, false, {}},
+      {"--duration", "S", "run: s to run; simulate --world: s of the session (default 60)", false, false, {}},
       {"--drive", "FILE", "run segway_rmp: t_s,linear_mps,angular_radps since the port was opened", false, false, {}},
       {"--link", "PATH", "simulate: link to make to the pseudo-terminal", false, false, {}},
       {"--tcp", "PORT", "simulate gps: serve gpsd's protocol at this port instead", false, false, {}},
       {"--bag", "BAG", "simulate: recorded session", false, false, {}},
+      {"--world", "W", "simulate: simulate a session in this world first, instead of --bag", false, false, {}},
+      {"--route", "R", "simulate: its route (default loops)", false, false, {}},
+      {"--day", "D", "simulate: its day (default 1)", false, false, {}},
       {"--side", "SIDE", "simulate lms291: which laser (default left)", false, false, {"left", "right"}},
       {"--fault", "KIND:START_S:DURATION_S[:VALUE]", "simulate: " + urban_nav_sim::deviceFaultList(), false, true, {}},
       {"--clock", "OFFSET_S:PPM", "simulate: clock of the device against the host's", false, false, {}},

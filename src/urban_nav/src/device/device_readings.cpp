@@ -48,8 +48,6 @@ double forEachOfTopic(const std::string& path, const std::string& topic,
   }
 }
 
-}  // namespace
-
 std::vector<urban_nav_sim::LaserReading> readLaserReadings(const std::string& bag, const std::string& side) {
   std::vector<urban_nav_sim::LaserReading> readings;
   forEachOfTopic<sensor_msgs::LaserScan>(bag, "laser_" + side + "/scan",
@@ -111,6 +109,18 @@ std::vector<urban_nav_sim::GpsReading> readGpsReadings(const std::string& bag, d
     reading.speed = std::hypot(east, north);
     reading.track = std::fmod(std::atan2(east, north) * 180.0 / 3.14159265358979323846 + 360.0, 360.0);
   });
+  return readings;
+}
+
+}  // namespace
+
+DeviceReadings readReadings(const std::string& bag, const std::string& kind, const std::string& side) {
+  DeviceReadings readings;
+  if (kind == "lms291") readings.lasers = readLaserReadings(bag, side);
+  else if (kind == "xsens_mti") readings.imu = readImuReadings(bag);
+  else if (kind == "segway_rmp") readings.wheels = readWheelReadings(bag);
+  else if (kind == "gps") readings.gps = readGpsReadings(bag, readings.gps_begin);
+  else throw UserError("KIND", kind, "lms291, xsens_mti, segway_rmp, gps");
   return readings;
 }
 

@@ -11,12 +11,17 @@
 
 namespace urban_nav {
 
-/// Measurements of a recorded session that simulated devices send again. Times are s since the first measurement of the
-/// kind.
-std::vector<urban_nav_sim::LaserReading> readLaserReadings(const std::string& bag, const std::string& side);
-std::vector<urban_nav_sim::ImuReading> readImuReadings(const std::string& bag);
-std::vector<urban_nav_sim::WheelReading> readWheelReadings(const std::string& bag);
-/// `begin`: UTC of the first fix, s since 1970.
-std::vector<urban_nav_sim::GpsReading> readGpsReadings(const std::string& bag, double& begin);
+/// Measurements of one device in a session. Times are s since its first measurement.
+struct DeviceReadings {
+  std::vector<urban_nav_sim::LaserReading> lasers;
+  std::vector<urban_nav_sim::ImuReading> imu;
+  std::vector<urban_nav_sim::WheelReading> wheels;
+  std::vector<urban_nav_sim::GpsReading> gps;
+  double gps_begin = 0.0;  ///< UTC of the first fix, s since 1970
+};
+
+/// Reads the measurements of a device from a bag. `kind`: lms291, xsens_mti, segway_rmp, gps; `side`: of a laser.
+/// Throws UserError, and DataError if the bag has none.
+DeviceReadings readReadings(const std::string& bag, const std::string& kind, const std::string& side);
 
 }  // namespace urban_nav

@@ -3,34 +3,32 @@
 
 #include <memory>
 
-#include "device/device_readings.hpp"
+#include "device/session_readings.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
-#include "urban_nav_core/types/error.hpp"
 #include "urban_nav_sim/device/device_server.hpp"
 
 namespace urban_nav {
 
-using urban_nav_core::UserError;
-
 namespace {
 
-std::unique_ptr<urban_nav_sim::SimulatedDevice> makeSimulatedDevice(const SimulateDeviceJob& job) {
+std::unique_ptr<urban_nav_sim::SimulatedDevice> makeSimulatedDevice(const SimulateDeviceJob& job,
+                                                                    DeviceReadings readings) {
   if (job.kind == "lms291")
-    return std::make_unique<urban_nav_sim::SimulatedLaser>(readLaserReadings(job.bag, job.side), job.options);
+    return std::make_unique<urban_nav_sim::SimulatedLaser>(std::move(readings.lasers), job.options);
   if (job.kind == "xsens_mti")
-    return std::make_unique<urban_nav_sim::SimulatedImu>(readImuReadings(job.bag), job.options);
+    return std::make_unique<urban_nav_sim::SimulatedImu>(std::move(readings.imu), job.options);
   if (job.kind == "segway_rmp")
-    return std::make_unique<urban_nav_sim::SimulatedBase>(readWheelReadings(job.bag), job.options);
-  if (job.kind != "gps") throw UserError("KIND", job.kind, "lms291, xsens_mti, segway_rmp, gps");
-  double begin = 0.0;
-  std::vector<urban_nav_sim::GpsReading> readings = readGpsReadings(job.bag, begin);
-  return std::make_unique<urban_nav_sim::SimulatedGps>(std::move(readings), begin, job.tcp > 0, job.options);
+    return std::make_unique<urban_nav_sim::SimulatedBase>(std::move(readings.wheels), job.options);
+  return std::make_unique<urban_nav_sim::SimulatedGps>(std::move(readings.gps), readings.gps_begin, job.tcp > 0,
+                                                       job.options);
 }
 
 }  // namespace
 
 std::int64_t simulateDevice(const SimulateDeviceJob& job, const std::function<bool()>& stop) {
-  const auto device = makeSimulatedDevice(job);
+  DeviceReadings readings =
+      job.bag.empty() ? simulateReadings(job.session, job.kind, job.side) : readReadings(job.bag, job.kind, job.side);
+  const auto device = makeSimulatedDevice(job, std::move(readings));
   const auto link = job.tcp > 0 ? urban_nav_sim::openTcpServer(job.tcp, urban_nav_sim::gpsdGreeting())
                                 : urban_nav_sim::openPseudoTerminal(job.link);
   const std::vector<urban_nav_sim::DeviceTruth> truth = serveDevice(*device, *link, stop);

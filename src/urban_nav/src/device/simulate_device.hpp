@@ -6,12 +6,14 @@
 #include <string>
 
 #include "urban_nav_sim/device/simulated_device.hpp"
+#include "urban_nav_sim/session.hpp"
 
 namespace urban_nav {
 
 struct SimulateDeviceJob {
-  std::string kind;           ///< lms291, xsens_mti, segway_rmp, gps
-  std::string bag;            ///< recorded session
+  std::string kind;  ///< lms291, xsens_mti, segway_rmp, gps
+  std::string bag;   ///< recorded session; empty: `session` is simulated first
+  urban_nav_sim::SessionOptions session;
   std::string side = "left";  ///< of lms291
   std::string link;           ///< path of the port
   int tcp = 0;                ///< gps: serve gpsd's protocol at this port instead
