@@ -3,11 +3,10 @@
 
 #include <sensor_msgs/TimeReference.h>
 
-#include <algorithm>
+#include <tuple>
 
-#include "urban_nav_core/parameters/sources.hpp"
+#include "device_parameters.hpp"
 #include "urban_nav_core/types/error.hpp"
-#include "urban_nav_ros/parameters.hpp"
 #include "urban_nav_ros/stamp.hpp"
 
 namespace segway_drivers {
@@ -32,27 +31,12 @@ void DriverNodelet::shutDown() {
   if (publisher_.joinable()) publisher_.join();
 }
 
-/// Splits the private namespace into rows of the nodelet and keys of the device.
-void DriverNodelet::readParameters() {
-  const ros::NodeHandle& handle = getPrivateNodeHandle();
-  std::map<std::string, urban_nav_core::ParameterValue> own, of_device;
-  for (const auto& [name, value] : urban_nav_ros::serverValues(handle)) {
-    const auto& rows = nodeletTable().rows();
-    const bool is_own =
-        std::any_of(rows.begin(), rows.end(), [&, &key = name](const auto& row) { return row.name == key; });
-    if (is_own) own[name] = value;
-    else of_device[device() + "." + name] = value;
-  }
-  const std::string where = handle.getNamespace();
-  nodelet_ = load(nodeletTable(), urban_nav_core::serverParameters("", own, where)).parameters;
-  parameters_ = load(table(), urban_nav_core::serverParameters(table().stage(), of_device, where)).parameters;
-  if (nodelet_.port.empty())
-    throw urban_nav_core::UserError(where + "/port", "empty", "a serial port, or HOST:PORT of gpsd");
-}
-
 void DriverNodelet::onInit() {
   try {
-    readParameters();
+    std::tie(nodelet_, parameters_) = readDeviceParameters(getPrivateNodeHandle(), device());
+    if (nodelet_.port.empty())
+      throw urban_nav_core::UserError(getPrivateNodeHandle().getNamespace() + "/port", "empty",
+                                      "a serial port, HOST:PORT of gpsd, or a CAN interface");
     time_reference_ = getNodeHandle().advertise<sensor_msgs::TimeReference>(
         device() == "lms291" ? "time_reference" : device() + "/time_reference", 100);
     driver_ = makeDriver(parameters_);

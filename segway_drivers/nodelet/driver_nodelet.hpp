@@ -52,7 +52,6 @@ class DriverNodelet : public nodelet::Nodelet {
 
  private:
   void onInit() final;
-  void readParameters();
   void run();
   void publishQueued();
   void fill(diagnostic_updater::DiagnosticStatusWrapper& status);

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <string>
+#include <utility>
+
+#include "nodelet_parameters.hpp"
+#include "segway_drivers/parameters.hpp"
+
+namespace segway_drivers {
+
+/// Reads rows of the nodelet and keys of its device, which stand side by side in the private namespace. `device`:
+/// prefix of the device's rows in the table. Throws UserError naming an unknown parameter or a value that is not
+/// allowed.
+std::pair<NodeletParameters, Parameters> readDeviceParameters(const ros::NodeHandle& private_handle,
+                                                              const std::string& device);
+
+}  // namespace segway_drivers
