@@ -33,10 +33,14 @@ TangentMatrix<D> informationOf(const G2oGraph::Edge& edge) {
 
 template <int N>
 bool isSemidefinite(const Eigen::Matrix<double, N, N>& information) {
-  // Most matrices pass by their Cholesky factor, at a tenth of the price of eigenvalues.
-  if (urban_nav_core::SmallCholesky<N>(information).succeeded()) return true;
-  const auto values = urban_nav_core::symmetricEigenvalues(information);
-  return values && (*values)[0] >= -kPrintedRoundOff * std::max(0.0, values->maxCoeff());
+  if constexpr (N == 1) {
+    return information(0, 0) >= 0.0;
+  } else {
+    // Most matrices pass by their Cholesky factor, at a tenth of the price of eigenvalues.
+    if (urban_nav_core::SmallCholesky<N>(information).succeeded()) return true;
+    const auto values = urban_nav_core::symmetricEigenvalues(information);
+    return values && (*values)[0] >= -kPrintedRoundOff * std::max(0.0, values->maxCoeff());
+  }
 }
 
 /// False where it is not, and need not be.
