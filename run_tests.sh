@@ -54,7 +54,7 @@ build_all() (
 build_cores() (
   lock
   configure "$build/cores" -DCATKIN_ENABLE_TESTING=ON -DURBAN_NAV_CORES_ONLY=ON -DURBAN_NAV_SANITIZE=ON -DURBAN_NAV_TEST_SHARDS="$(nproc)" \
-    -DCATKIN_WHITELIST_PACKAGES='urban_nav_core;urban_nav_store;urban_nav_sim;swf_vo;loop_metric;urban_nav'
+    -DCATKIN_BLACKLIST_PACKAGES='urban_nav_msgs;urban_nav_ros;urban_nav_launch;urban_nav_rviz'
   compile "$build/cores" "Building the sanitized cores" tests
 )
 
