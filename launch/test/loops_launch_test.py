@@ -28,7 +28,7 @@ class LoopsLaunch(LaunchCase):
     @classmethod
     def record(cls, folder):
         # The way is short: views from further along it would be those of the turning point, for both moments.
-        for name, value in (("queue", 100000), ("patience", 3.0), ("view_way", 1.5)):
+        for name, value in (("queue_size", 100000), ("candidate_timeout", 3.0), ("keyframe_search_distance", 1.5)):
             rospy.set_param(f"/loop_metric/{name}", value)
         rospy.set_param("/pose_graph/queue_size", 100000)
         there = Path(folder) / "there.bag"

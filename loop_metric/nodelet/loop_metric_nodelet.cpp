@@ -1,151 +1,236 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <nodelet/nodelet.h>
-#include <ros/ros.h>
 #include <urban_nav_msgs/TopologicalClosure.h>
 #include <pluginlib/class_list_macros.hpp>
 
 #include <atomic>
-#include <functional>
+#include <memory>
+#include <mutex>
 #include <tuple>
-#include <vector>
+#include <utility>
 
-#include "diagnostics.hpp"
-#include "judge.hpp"
+#include "live/loops_report.hpp"
+#include "live/nodelet_parameters.hpp"
 #include "publisher.hpp"
-#include "recorder.hpp"
-#include "stage_store.hpp"
-#include "subscriptions.hpp"
-#include "urban_nav_core/types/error.hpp"
+#include "urban_nav_live/time_jump.hpp"
 #include "urban_nav_ros/closure.hpp"
-#include "urban_nav_ros/parameters.hpp"
-#include "urban_nav_ros/trigger.hpp"
+#include "urban_nav_ros/laser_scan.hpp"
+#include "urban_nav_ros/robot_topics.hpp"
+#include "urban_nav_ros/stage_nodelet.hpp"
 
 namespace loop_metric {
 
-using urban_nav_core::UserError;
+using urban_nav_live::StoreWriterLink;
+using urban_nav_ros::ImageInput;
+using urban_nav_ros::InfoInput;
+using urban_nav_ros::StereoSessions;
 
 namespace {
 
-// A reset waits for the candidates that wait: a caller does not wait longer than this.
-constexpr std::chrono::seconds reset_patience{30};
+// A reset waits for the candidates that wait, a caller of the service no longer than this.
+constexpr std::chrono::seconds reset_timeout{25};
+
+StoreWriterLink::Options storeOptions() {
+  StoreWriterLink::Options options;
+  options.empty_path = StoreWriterLink::EmptyPath::TemporaryFile;
+  return options;
+}
 
 }  // namespace
 
-/// Loop closures on topics: callbacks enqueue; one thread keeps views, scans and odometry in a store, another one takes candidates to their
-/// verdicts with what is there.
-class LoopMetricNodelet : public nodelet::Nodelet {
+/// Loop closures on topics: the worker records keyframes, scans and odometry, the verifier takes candidates to their
+/// verdicts in a thread of its own.
+class LoopMetricStage {
  public:
-  ~LoopMetricNodelet() override {
-    // First nobody may call any more; then the threads end, those who ask before those who are asked.
-    if (subscriptions_) subscriptions_->end();
-    services_.clear();
-    timer_.stop();
-    recorder_.reset();
-    judge_.reset();
-  }
+  static constexpr const char* name = "loop_metric";
+  static constexpr const char* topic = "loop closures";
+  using Input = std::variant<ImageInput, InfoInput, tf2_msgs::TFMessageConstPtr, sensor_msgs::LaserScanConstPtr,
+                             urban_nav_core::StampedPose, urban_nav_core::RelativePose>;
+  using Node = urban_nav_ros::StageNodeWith<Input>;
+
+  explicit LoopMetricStage(Node& node);
+
+  void handle(Input& input);
+  bool idle();
+  std::string reset();
+  void close() { recorder_->end(); }
+  urban_nav_live::StageReport report() const { return makeReport(state()); }
 
  private:
-  void onInit() override;
-  void subscribe();
-  void advertiseServices();
-  void tell();
+  void subscribeCandidates();
+  StereoSessions::Listener stereoListener();
+  void handleImage(const ImageInput& image);
+  void handleScan(const sensor_msgs::LaserScan& message);
+  void placeLasers();
+  void publish(const ClosureVerifier::Verdict& verdict);
+  void logStore(const urban_nav_live::StoreState& store);
+  LoopsState state() const;
 
-  Parameters parameters_;
+  Node& node_;
   NodeletParameters nodelet_;
-  HeardTopics topics_;
-  std::unique_ptr<Subscriptions> subscriptions_;
-  std::vector<ros::ServiceServer> services_;
-  ros::WallTimer timer_;
+  Parameters parameters_;
+  mutable std::mutex mutex_;
+  std::string last_verdict_;  // guarded by mutex_, as the next
+  double last_ms_ = 0.0;
   std::unique_ptr<Publisher> publisher_;
-  std::unique_ptr<Diagnostics> diagnostics_;
-  std::unique_ptr<StageStore> store_;
-  std::unique_ptr<Judge> judge_;
-  std::unique_ptr<Recorder> recorder_;
+  std::unique_ptr<StoreWriterLink> store_;
+  std::unique_ptr<ClosureVerifier> verifier_;
+  std::unique_ptr<SessionRecorder> recorder_;
+  std::unique_ptr<StereoSessions> sessions_;
+  urban_nav_live::TimeJumpDetector image_time_;
+  bool images_jumped_ = false;
+  std::string camera_;
+  std::string store_fault_;
+  std::int64_t store_lost_ = 0;
   std::atomic<std::int64_t> candidates_{0};
-  std::string store_fault_;      // the timer's, as what follows
-  std::int64_t store_lost_ = 0;  // writes
 };
 
-void LoopMetricNodelet::onInit() {
-  try {
-    std::tie(nodelet_, parameters_) = urban_nav_ros::readParameters(getPrivateNodeHandle(), nodeletTable(), table());
-  } catch (const UserError& error) {
-    NODELET_FATAL("%s", error.what());
-    throw;
-  }
-  ros::NodeHandle& nh = getNodeHandle();
-  publisher_ = std::make_unique<Publisher>(nh, nodelet_.base_frame);
-  diagnostics_ = std::make_unique<Diagnostics>(nh, getPrivateNodeHandle(), getName(), topics_, parameters_.stereo,
-                                               parameters_.icp);
-  store_ = std::make_unique<StageStore>(nodelet_.store);
-  judge_ = std::make_unique<Judge>(parameters_, nodelet_.patience, *store_, [this](const Judge::Verdict& verdict) {
-    publisher_->publish(verdict);
-    diagnostics_->judged(verdict.metric, verdict.ms);
-  });
-  const bool rectified = urban_nav_ros::areRectified(nodelet_.images, nh.resolveName("stereo/left/image_raw"));
-  recorder_ = std::make_unique<Recorder>(parameters_, nodelet_, rectified, nh.resolveName("stereo"), *store_, *judge_);
-  subscribe();
-  advertiseServices();
-  timer_ = nh.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { tell(); });
+LoopMetricStage::LoopMetricStage(Node& node) : node_(node) {
+  std::tie(nodelet_, parameters_, parameters_.registration) = urban_nav_ros::readParameters(
+      node.nh(), node.privateHandle(), nodeletTable(), table(), urban_nav_registration::table());
+  node.setQueueSize(nodelet_.queue_size);
+  publisher_ = std::make_unique<Publisher>(node.nh(), nodelet_.base_frame);
+  store_ = std::make_unique<StoreWriterLink>(nodelet_.store, storeOptions());
+  verifier_ = std::make_unique<ClosureVerifier>(parameters_, nodelet_.candidate_timeout, *store_,
+                                                [this](const auto& verdict) { publish(verdict); });
+  recorder_ = std::make_unique<SessionRecorder>(
+      parameters_.registration, SessionRecorder::Options{nodelet_.robot, nodelet_.recording}, *store_, *verifier_);
+  sessions_ = std::make_unique<StereoSessions>(urban_nav_ros::toStereoOptions(nodelet_, node.nh()), stereoListener());
+  subscribeRobot(node, nodelet_.queue_size, parameters_.stereo, nodelet_.compressed, parameters_.icp);
+  subscribeCandidates();
 }
 
-void LoopMetricNodelet::subscribe() {
-  using Kind = HeardTopics::Kind;
-  subscriptions_ = std::make_unique<Subscriptions>(getNodeHandle(), nodelet_.queue, topics_);
-  subscriptions_->listenToRobot(parameters_.stereo, nodelet_.compressed, *recorder_);
-  if (parameters_.icp)
-    for (const char* name : {"laser_left/scan", "laser_right/scan"})
-      subscriptions_->listen<sensor_msgs::LaserScan>(
-          name, Kind::Lasers, [this](const sensor_msgs::LaserScanConstPtr& message) { recorder_->put(message); });
-  subscriptions_->listen<urban_nav_msgs::TopologicalClosure>(
-      "places/closure", Kind::Closures, [this](const urban_nav_msgs::TopologicalClosureConstPtr& message) {
+void LoopMetricStage::subscribeCandidates() {
+  urban_nav_ros::TopicOptions options;
+  options.queue = nodelet_.queue_size;
+  options.is_monitored = false;
+  node_.subscribe<urban_nav_msgs::TopologicalClosure>(
+      urban_nav_ros::topics::place_closure, options, [this](const auto& message) {
         if (const auto closure = urban_nav_ros::toTopologicalClosure(*message)) {
           ++candidates_;
-          judge_->put(Judge::Candidate{*closure, std::chrono::steady_clock::now()});
-        } else {
-          subscriptions_->countDamaged();
-          NODELET_WARN_THROTTLE(5.0, "places/closure: a message without stamps, or with a probability outside 0...1");
+          return verifier_->push(ClosureVerifier::Candidate{*closure, std::chrono::steady_clock::now()});
         }
+        node_.gate().countInvalid();
+        node_.logWarning("candidate", "places/closure: a message without stamps, or with a probability outside 0...1");
       });
 }
 
-void LoopMetricNodelet::advertiseServices() {
-  const auto advertise = [this](const char* name, const std::function<std::string()>& action) {
-    services_.push_back(urban_nav_ros::advertiseTrigger(getMTPrivateNodeHandle(), name, action));
+StereoSessions::Listener LoopMetricStage::stereoListener() {
+  StereoSessions::Listener listener;
+  listener.began = [this](const StereoSessions::Camera& camera) {
+    camera_ = camera.is_mounting_known ? "" : camera.mounting;
+    recorder_->setCamera(urban_nav_registration::MountedCamera{camera.camera, camera.T_base_left});
   };
-  advertise("reset", [this] {
-    const auto done = std::make_shared<std::promise<void>>();
-    recorder_->put(Recorder::Reset{done});
-    const bool ended = done->get_future().wait_for(reset_patience) == std::future_status::ready;
-    return ended ? "what waited has its verdict, the next step of odometry begins a new session" : "";
-  });
-  advertise("pause", [this] {
-    subscriptions_->pause(true);
-    diagnostics_->paused(true);
-    return "views, scans and candidates are dropped until resume; odometry is followed";
-  });
-  advertise("resume", [this] {
-    subscriptions_->pause(false);
-    diagnostics_->paused(false);
-    return "the session goes on";
-  });
+  listener.pair = [this](urban_nav_ros::DecodedPair& pair) { recorder_->addPair(std::move(pair.assembled)); };
+  listener.ended = [this](const std::string&) {
+    if (std::exchange(images_jumped_, false)) recorder_->restartImages();
+    recorder_->setCamera(std::nullopt);
+  };
+  listener.refused = [this](const std::string& fault) {
+    if (!fault.empty()) node_.logError(fault);
+  };
+  return listener;
 }
 
-void LoopMetricNodelet::tell() {
-  const StoreState store = store_->state();
-  diagnostics_->worked(recorder_->state(), judge_->counts(), store,
-                       {candidates_, subscriptions_->pausedDropped(), subscriptions_->damaged()});
-  publisher_->publish(diagnostics_->status());
-  diagnostics_->update();
+void LoopMetricStage::handle(Input& input) {
+  if (const auto* image = std::get_if<ImageInput>(&input)) {
+    handleImage(*image);
+  } else if (const auto* info = std::get_if<InfoInput>(&input)) {
+    sessions_->handle(*info);
+  } else if (const auto* transforms = std::get_if<tf2_msgs::TFMessageConstPtr>(&input)) {
+    sessions_->handle(*transforms);
+    placeLasers();
+  } else if (const auto* scan = std::get_if<sensor_msgs::LaserScanConstPtr>(&input)) {
+    handleScan(**scan);
+  } else if (const auto* odometry = std::get_if<urban_nav_core::StampedPose>(&input)) {
+    recorder_->addOdometry(*odometry);
+  } else {
+    recorder_->addStep(std::get<urban_nav_core::RelativePose>(input));
+  }
+}
+
+void LoopMetricStage::handleImage(const ImageInput& image) {
+  images_jumped_ = image_time_.add(image.stamp);
+  sessions_->handle(image);
+  if (std::exchange(images_jumped_, false)) recorder_->restartImages();  // no stereo session was running
+}
+
+void LoopMetricStage::handleScan(const sensor_msgs::LaserScan& message) {
+  const auto planar = urban_nav_ros::toPlanarScan(message);
+  if (!planar) return node_.gate().countInvalid();
+  recorder_->addScan(message.header.frame_id, urban_nav_core::toScan(*planar));
+  placeLasers();
+}
+
+void LoopMetricStage::placeLasers() {
+  for (const std::string& frame : recorder_->unplacedLasers())
+    if (const auto T_base_laser = sessions_->transforms().lookup(nodelet_.base_frame, frame))
+      recorder_->setLaser(frame, *T_base_laser);
+}
+
+bool LoopMetricStage::idle() {
+  sessions_->idle();
+  recorder_->idle();
+  const LoopsState now = state();
+  const urban_nav_live::StageReport report = makeReport(now);
+  node_.publishStatus(report.status, report.reason_name, urban_nav_ros::toStampNs(ros::Time::now()));
+  logStore(now.store);
+  return false;
+}
+
+std::string LoopMetricStage::reset() {
+  recorder_->end();
+  if (!verifier_->finishSession(reset_timeout))
+    throw urban_nav_core::UserError("", "candidates are still being measured; ask again", "");
+  return "waiting candidates have their verdicts, the next step of odometry begins a new session";
+}
+
+void LoopMetricStage::publish(const ClosureVerifier::Verdict& verdict) {
+  publisher_->publish(verdict);
+  const urban_nav_core::MetricClosure& closure = verdict.metric;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  last_verdict_ = std::string(toString(closure.verdict)) + " (" +
+                  (closure.reason_name.empty() ? toString(closure.method) : closure.reason_name) +
+                  "): " + closure.sentence;
+  last_ms_ = verdict.ms;
+}
+
+void LoopMetricStage::logStore(const urban_nav_live::StoreState& store) {
   if (store.lost + store.refused > store_lost_)
-    NODELET_ERROR_THROTTLE(10.0, "store: %ld views, scans or steps of odometry are lost by now, and %ld were refused",
-                           static_cast<long>(store.lost), static_cast<long>(store.refused));
+    node_.logWarning("store", "store: " + std::to_string(store.lost) +
+                                  " keyframes, scans or steps of odometry are lost so far, and " +
+                                  std::to_string(store.refused) + " were refused");
   store_lost_ = store.lost + store.refused;
   if (store.fault == store_fault_) return;
-  if (store.fault.empty()) NODELET_INFO("%s: what comes is stored again", store.path.c_str());
-  else NODELET_ERROR("store: %s", store.fault.c_str());
+  if (store.fault.empty()) node_.logInfo(store.path + ": store is writable again");
+  else node_.logError("store: " + store.fault);
   store_fault_ = store.fault;
 }
+
+LoopsState LoopMetricStage::state() const {
+  LoopsState state;
+  state.stereo = parameters_.stereo;
+  state.clouds = parameters_.icp;
+  state.paused = node_.gate().isPaused();
+  state.recorder = recorder_->state();
+  state.verifier = verifier_->counts();
+  state.store = store_->state();
+  const urban_nav_live::TopicMonitor& monitor = node_.monitor();
+  state.odometry_fault = monitor.fault(urban_nav_ros::topic_groups::odometry);
+  state.image_fault = monitor.fault(urban_nav_ros::topic_groups::images);
+  state.laser_fault = monitor.fault(urban_nav_ros::topic_groups::lasers);
+  state.camera_fault = sessions_->fault();
+  for (const std::string& frame : recorder_->unplacedLasers())
+    state.laser_pose_fault = "no static tf from " + nodelet_.base_frame + " to " + frame;
+  state.camera = camera_;
+  state.damaged_images = sessions_->counts().damaged;
+  state.candidates = candidates_;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  state.last_verdict = last_verdict_;
+  state.last_ms = last_ms_;
+  return state;
+}
+
+class LoopMetricNodelet : public urban_nav_ros::StageNodelet<LoopMetricStage> {};
 
 }  // namespace loop_metric
 

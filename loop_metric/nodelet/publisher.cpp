@@ -7,14 +7,22 @@
 
 #include <utility>
 
-#include "loop_metric/cloud_picture.hpp"
-#include "loop_metric/match_picture.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_registration/pictures/cloud_picture.hpp"
+#include "urban_nav_registration/pictures/match_picture.hpp"
+#include "urban_nav_registration/session/stored_keyframe.hpp"
 #include "urban_nav_ros/closure.hpp"
 #include "urban_nav_ros/stamp.hpp"
-#include "urban_nav_ros/status.hpp"
+#include "urban_nav_ros/topics.hpp"
 
 namespace loop_metric {
+
+using urban_nav_registration::CloudPictureOptions;
+using urban_nav_registration::drawClouds;
+using urban_nav_registration::drawMatches;
+using urban_nav_registration::keyframe_camera;
+using urban_nav_registration::MatchPictureOptions;
+using urban_nav_registration::Picture;
 
 namespace {
 
@@ -28,17 +36,17 @@ std::string sentenceOf(const urban_nav_core::MetricClosure& closure) {
   return std::string(toString(closure.verdict)) + " (" + toString(closure.method) + "): " + closure.sentence;
 }
 
-Picture drawViews(const Judge::Verdict& verdict) {
-  const StereoTry& shown = verdict.closure.stereo.back();
+Picture drawViews(const ClosureVerifier::Verdict& verdict) {
+  const StereoAttempt& shown = verdict.closure.stereo.back();
   MatchPictureOptions options;
-  options.title_a = titleOf(shown.view_a.at);
-  options.title_b = titleOf(shown.view_b.at);
+  options.title_a = titleOf(shown.keyframe_a.at);
+  options.title_b = titleOf(shown.keyframe_b.at);
   options.caption = sentenceOf(verdict.metric);
-  return drawMatches(verdict.keyframe(shown.view_a.at), verdict.keyframe(shown.view_b.at), shown.result.pixels,
+  return drawMatches(verdict.keyframe(shown.keyframe_a.at), verdict.keyframe(shown.keyframe_b.at), shown.result.pixels,
                      options);
 }
 
-Picture drawAlignment(const Judge::Verdict& verdict) {
+Picture drawAlignment(const ClosureVerifier::Verdict& verdict) {
   const urban_nav_core::PoseRef &a = verdict.closure.metric.a, &b = verdict.closure.metric.b;
   CloudPictureOptions options;
   options.free_directions = verdict.closure.icp->free_directions;
@@ -49,32 +57,18 @@ Picture drawAlignment(const Judge::Verdict& verdict) {
 
 }  // namespace
 
-const char* toString(Trouble trouble) {
-  switch (trouble) {
-    case Trouble::None: return "None";
-    case Trouble::NoOdometry: return "NoOdometry";
-    case Trouble::NotStored: return "NotStored";
-    case Trouble::NoCamera: return "NoCamera";
-    case Trouble::NoImages: return "NoImages";
-    case Trouble::NoLasers: return "NoLasers";
-    case Trouble::NoLaserPlace: break;
-  }
-  return "NoLaserPlace";
-}
-
 Publisher::Publisher(ros::NodeHandle& nh, std::string base_frame)
     : base_frame_(std::move(base_frame)),
-      metric_(nh.advertise<urban_nav_msgs::MetricClosure>("loops/metric", 1000)),
-      matches_(nh.advertise<sensor_msgs::Image>("loops/matches", 5)),
-      status_(nh.advertise<urban_nav_msgs::StageStatus>("loop_metric/status", 10, true)) {}
+      metric_(nh.advertise<urban_nav_msgs::MetricClosure>(urban_nav_ros::topics::metric_closure, 1000)),
+      matches_(nh.advertise<sensor_msgs::Image>("loops/matches", 5)) {}
 
-void Publisher::publish(const Judge::Verdict& verdict) {
+void Publisher::publish(const ClosureVerifier::Verdict& verdict) {
   metric_.publish(urban_nav_ros::toMetricClosureMessage(verdict.metric, base_frame_, metres_per_radian));
   if (matches_.getNumSubscribers() > 0 && (verdict.closure.icp || !verdict.closure.stereo.empty()))
     publishPicture(verdict);
 }
 
-void Publisher::publishPicture(const Judge::Verdict& verdict) {
+void Publisher::publishPicture(const ClosureVerifier::Verdict& verdict) {
   Picture picture;
   try {
     picture = verdict.closure.icp ? drawAlignment(verdict) : drawViews(verdict);
@@ -90,15 +84,6 @@ void Publisher::publishPicture(const Judge::Verdict& verdict) {
   message.step = 3 * message.width;
   message.data = std::move(picture.bgr);
   matches_.publish(message);
-}
-
-void Publisher::publish(const urban_nav_core::Status& status) {
-  const urban_nav_msgs::StageStatus message = urban_nav_ros::toStatusMessage(
-      urban_nav_ros::toStampNs(ros::Time::now()), "loop_metric", status, toString(static_cast<Trouble>(status.reason)));
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (!last_.stage.empty() && message.status == last_.status && message.reason == last_.reason) return;
-  last_ = message;
-  status_.publish(message);
 }
 
 }  // namespace loop_metric

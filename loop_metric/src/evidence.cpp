@@ -14,6 +14,11 @@ namespace loop_metric {
 using urban_nav_core::CsvTable;
 using urban_nav_core::Pose;
 using urban_nav_core::printNumber;
+using urban_nav_registration::Alignment;
+using urban_nav_registration::AlignmentTest;
+using urban_nav_registration::ClosureTest;
+using urban_nav_registration::MatchedPixels;
+using urban_nav_registration::StereoClosure;
 
 namespace {
 
@@ -45,12 +50,12 @@ void print(std::string& text, const char* name, const Pose& T) {
   print(text, {"transform", name, "", "", "", "", "", "", "", "", words});
 }
 
-Evidence::Try tryOf(const StereoTry& made) {
+Evidence::Try tryOf(const StereoAttempt& made) {
   const StereoClosure& result = made.result;
   Evidence::Try its;
   its.method = "stereo";
-  its.view_a = made.view_a.at;
-  its.view_b = made.view_b.at;
+  its.keyframe_a = made.keyframe_a.at;
+  its.keyframe_b = made.keyframe_b.at;
   its.verdict = toString(result.verdict);
   its.reason = toString(result.reason);
   its.sentence = result.sentence;
@@ -63,14 +68,14 @@ Evidence::Try tryOf(const StereoTry& made) {
 Evidence::Try tryOf(const Alignment& alignment, const LoopClosure& closure) {
   Evidence::Try its;
   its.method = "icp";
-  its.view_a = closure.metric.a;
-  its.view_b = closure.metric.b;
+  its.keyframe_a = closure.metric.a;
+  its.keyframe_b = closure.metric.b;
   its.verdict = toString(alignment.verdict);
   its.reason = toString(alignment.reason);
   its.sentence = alignment.sentence;
   its.guess = closure.icp_guess;
   its.T_a_b = alignment.T_target_source;
-  for (const Test& test : alignment.tests)
+  for (const AlignmentTest& test : alignment.tests)
     its.tests.push_back({test.name, test.value, test.threshold, test.at_least, test.passed});
   return its;
 }
@@ -88,8 +93,8 @@ class Reader {
       if (kind == "try") {
         Evidence::Try begun;
         begun.method = table_.text(row, 1);
-        begun.view_a = {table_.text(row, 6), table_.integer(row, 7)};
-        begun.view_b = {table_.text(row, 8), table_.integer(row, 9)};
+        begun.keyframe_a = {table_.text(row, 6), table_.integer(row, 7)};
+        begun.keyframe_b = {table_.text(row, 8), table_.integer(row, 9)};
         evidence.tries.push_back(begun);
       } else if (kind == "gate") {
         evidence.gate.push_back(testAt(row));
@@ -152,9 +157,9 @@ class Reader {
 
 }  // namespace
 
-Evidence evidenceOf(const LoopClosure& closure) {
+Evidence collectEvidence(const LoopClosure& closure) {
   Evidence evidence;
-  for (const StereoTry& made : closure.stereo) evidence.tries.push_back(tryOf(made));
+  for (const StereoAttempt& made : closure.stereo) evidence.tries.push_back(tryOf(made));
   if (closure.icp) evidence.tries.push_back(tryOf(*closure.icp, closure));
   evidence.gate = closure.tests;
   return evidence;
@@ -163,8 +168,8 @@ Evidence evidenceOf(const LoopClosure& closure) {
 std::string printEvidence(const Evidence& evidence) {
   std::string text = header;
   for (const Evidence::Try& each : evidence.tries) {
-    print(text, {"try", each.method, "", "", "", "", each.view_a.session, std::to_string(each.view_a.stamp),
-                 each.view_b.session, std::to_string(each.view_b.stamp)});
+    print(text, {"try", each.method, "", "", "", "", each.keyframe_a.session, std::to_string(each.keyframe_a.stamp),
+                 each.keyframe_b.session, std::to_string(each.keyframe_b.stamp)});
     print(text, {"verdict", each.verdict, "", "", "", "", each.reason, "", "", "", each.sentence});
     for (const ClosureTest& test : each.tests) print(text, test, "test");
     if (each.guess) print(text, "guess", *each.guess);

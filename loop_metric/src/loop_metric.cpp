@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "candidate/keyframe_pairs.hpp"
 #include "candidate/odometry_gate.hpp"
-#include "candidate/view_pairs.hpp"
 #include "loop_metric/evidence.hpp"
 #include "urban_nav_core/geometry/compose.hpp"
 #include "urban_nav_core/geometry/covariance_frames.hpp"
@@ -23,6 +23,12 @@ using urban_nav_core::MetricClosure;
 using urban_nav_core::Pose;
 using urban_nav_core::PoseWithCovariance;
 using urban_nav_core::TopologicalClosure;
+using urban_nav_registration::align;
+using urban_nav_registration::Alignment;
+using urban_nav_registration::AlignmentPrior;
+using urban_nav_registration::betweenBases;
+using urban_nav_registration::SearchMode;
+using urban_nav_registration::StereoClosure;
 
 namespace {
 
@@ -35,14 +41,14 @@ std::string closureReason(const char* format, double value, double threshold) {
 }
 
 /// T_a_b of the moments from that of two views beside them. No information where it cannot be had.
-Constraint atMoments(const Constraint& views, const NearbyView& a, const NearbyView& b) {
+Constraint atMoments(const Constraint& views, const NearbyKeyframe& a, const NearbyKeyframe& b) {
   Constraint made;
   const auto covariance = urban_nav_core::invertPositiveDefinite(views.information);
-  made.T_a_b = a.T_moment_view.pose * views.T_a_b * b.T_moment_view.pose.inverse();
+  made.T_a_b = a.T_place_keyframe.pose * views.T_a_b * b.T_place_keyframe.pose.inverse();
   if (!covariance) return made;
   const PoseWithCovariance moments = urban_nav_core::compose(
-      urban_nav_core::compose(a.T_moment_view, PoseWithCovariance{views.T_a_b, Matrix6d(*covariance)}),
-      urban_nav_core::invert(b.T_moment_view));
+      urban_nav_core::compose(a.T_place_keyframe, PoseWithCovariance{views.T_a_b, Matrix6d(*covariance)}),
+      urban_nav_core::invert(b.T_place_keyframe));
   made.T_a_b = moments.pose;
   if (const auto information = urban_nav_core::invertPositiveDefinite(moments.covariance))
     made.information = Matrix6d(*information);
@@ -54,20 +60,20 @@ Constraint atMoments(const Constraint& views, const NearbyView& a, const NearbyV
 /// One candidate on its way to a verdict.
 class Measuring {
  public:
-  Measuring(LoopMetric& stage, const TopologicalClosure& candidate, const Surroundings& surroundings)
-      : stage_(stage), parameters_(stage.parameters_), surroundings_(surroundings) {
+  Measuring(LoopMetric& stage, const TopologicalClosure& candidate, const PlaceData& place_data)
+      : stage_(stage), parameters_(stage.parameters_), place_data_(place_data) {
     closure_.metric.a = candidate.a;
     closure_.metric.b = candidate.b;
     closure_.metric.probability = candidate.probability;
     closure_.metric.source = "loop_metric";
-    if (const auto way = surroundings.between(candidate.a, candidate.b))
-      gate_.emplace(*way, parameters_.odometry_scale);
+    if (const auto way = place_data.between(candidate.a, candidate.b))
+      gate_.emplace(*way, parameters_.registration.odometry_scale);
   }
 
   LoopClosure run() {
     judge();
     closure_.metric.reason_name = toString(static_cast<LoopReason>(closure_.metric.reason));
-    closure_.metric.evidence = printEvidence(evidenceOf(closure_));
+    closure_.metric.evidence = printEvidence(collectEvidence(closure_));
     return std::move(closure_);
   }
 
@@ -76,7 +82,7 @@ class Measuring {
     MetricClosure& metric = closure_.metric;
     for (const urban_nav_core::PoseRef* at : {&metric.a, &metric.b}) {
       std::string why;
-      if (!surroundings_.knows(*at, why)) return refuse(LoopReason::UnknownMoment, why);
+      if (!place_data_.knows(*at, why)) return refuse(LoopReason::UnknownMoment, why);
     }
     if (gate_) {
       const double apart = gate_->leastDistance(parameters_.gate);
@@ -98,38 +104,39 @@ class Measuring {
   }
 
   bool byStereo() {
-    const double way = parameters_.view_way;
+    const double way = parameters_.keyframe_search_distance;
     std::optional<PoseWithCovariance> T_a_b;
     if (gate_) T_a_b = gate_->T_a_b();
-    for (const ViewPair& pair :
-         pairsOf(surroundings_.views(closure_.metric.a, way), surroundings_.views(closure_.metric.b, way), T_a_b, way,
-                 static_cast<std::size_t>(parameters_.stereo_tries))) {
-      StereoTry made{pair.a, pair.b, stage_.match(pair.a, pair.b, surroundings_)};
+    for (const KeyframePair& pair :
+         chooseKeyframePairs(place_data_.views(closure_.metric.a, way), place_data_.views(closure_.metric.b, way),
+                             T_a_b, way, static_cast<std::size_t>(parameters_.stereo_tries))) {
+      StereoAttempt made{pair.a, pair.b, stage_.match(pair.a, pair.b, place_data_)};
       closure_.stereo.push_back(made);
       if (made.result.verdict != ClosureVerdict::Accepted) continue;
       const Constraint measured =
-          atMoments(betweenBases(made.result.lefts, stage_.T_base_left_), made.view_a, made.view_b);
+          atMoments(betweenBases(made.result.lefts, stage_.T_base_left_), made.keyframe_a, made.keyframe_b);
       if (accept(ClosureMethod::Stereo, measured, {}, made.result.sentence)) return true;
     }
     return false;
   }
 
   bool byClouds() {
-    const auto target = surroundings_.cloud(closure_.metric.a, parameters_.cloud_way),
-               source = surroundings_.cloud(closure_.metric.b, parameters_.cloud_way);
+    const auto target = place_data_.cloud(closure_.metric.a, parameters_.registration.cloud_half_length),
+               source = place_data_.cloud(closure_.metric.b, parameters_.registration.cloud_half_length);
     if (target.points.empty() || source.points.empty()) return false;
     Pose guess;
-    Search search = Search::AtOnce;
-    Known known;
-    known.bend = std::hypot(surroundings_.bend(closure_.metric.a, parameters_.cloud_way),
-                            surroundings_.bend(closure_.metric.b, parameters_.cloud_way));
+    SearchMode search = SearchMode::AtOnce;
+    AlignmentPrior known;
+    known.deformation_sigma =
+        std::hypot(place_data_.deformationSigma(closure_.metric.a, parameters_.registration.cloud_half_length),
+                   place_data_.deformationSigma(closure_.metric.b, parameters_.registration.cloud_half_length));
     if (gate_) {
       guess = gate_->T_a_b().pose;
-      search = Search::IfRejected;
-      known.possible = [this](const Constraint& T_a_b) { return gate_->deviations(T_a_b) <= parameters_.gate; };
+      search = SearchMode::IfRejected;
+      known.is_possible = [this](const Constraint& T_a_b) { return gate_->deviations(T_a_b) <= parameters_.gate; };
     }
     closure_.icp_guess = guess;
-    closure_.icp = align(source, target, parameters_, guess, search, known);
+    closure_.icp = align(source, target, parameters_.registration, guess, search, known);
     Alignment& found = *closure_.icp;
     if (found.verdict == ClosureVerdict::Rejected) return false;
     if (found.verdict == ClosureVerdict::Degenerate && !gate_) {
@@ -186,7 +193,7 @@ class Measuring {
 
   LoopMetric& stage_;
   const Parameters& parameters_;
-  const Surroundings& surroundings_;
+  const PlaceData& place_data_;
   std::optional<OdometryGate> gate_;
   LoopClosure closure_;
 };
@@ -206,18 +213,18 @@ const char* toString(LoopReason reason) {
 
 LoopMetric::LoopMetric(const Parameters& parameters, const urban_nav_core::StereoCamera& camera,
                        const Pose& T_base_left)
-    : parameters_(parameters), T_base_left_(T_base_left), matcher_(camera, parameters) {}
+    : parameters_(parameters), T_base_left_(T_base_left), matcher_(camera, parameters.registration) {}
 
-const StereoClosure& LoopMetric::match(const NearbyView& a, const NearbyView& b, const Surroundings& surroundings) {
-  for (const StereoTry& known : matched_)
-    if (known.view_a.at == a.at && known.view_b.at == b.at) return known.result;
-  matched_.push_front({a, b, matcher_.match(surroundings.keyframe(a.at), surroundings.keyframe(b.at))});
+const StereoClosure& LoopMetric::match(const NearbyKeyframe& a, const NearbyKeyframe& b, const PlaceData& place_data) {
+  for (const StereoAttempt& known : matched_)
+    if (known.keyframe_a.at == a.at && known.keyframe_b.at == b.at) return known.result;
+  matched_.push_front({a, b, matcher_.match(place_data.keyframe(a.at), place_data.keyframe(b.at))});
   if (matched_.size() > kept_matches) matched_.pop_back();
   return matched_.front().result;
 }
 
-LoopClosure LoopMetric::measure(const TopologicalClosure& candidate, const Surroundings& surroundings) {
-  return Measuring(*this, candidate, surroundings).run();
+LoopClosure LoopMetric::measure(const TopologicalClosure& candidate, const PlaceData& place_data) {
+  return Measuring(*this, candidate, place_data).run();
 }
 
 }  // namespace loop_metric

@@ -11,12 +11,14 @@
 namespace loop_metric {
 namespace {
 
+using urban_nav_registration::MatchedPixels;
+
 Evidence someEvidence() {
   Evidence evidence;
   Evidence::Try views;
   views.method = "stereo";
-  views.view_a = {"monday", 12};
-  views.view_b = {"tuesday, the \"second\"", 34};
+  views.keyframe_a = {"monday", 12};
+  views.keyframe_b = {"tuesday, the \"second\"", 34};
   views.verdict = "rejected";
   views.reason = "small_share";
   views.sentence = "alike, in parts";
@@ -31,8 +33,8 @@ Evidence someEvidence() {
   evidence.tries.push_back(views);
   Evidence::Try clouds;
   clouds.method = "icp";
-  clouds.view_a = {"monday", 12};
-  clouds.view_b = {"tuesday", 34};
+  clouds.keyframe_a = {"monday", 12};
+  clouds.keyframe_b = {"tuesday", 34};
   clouds.verdict = "accepted";
   clouds.guess = urban_nav_core::Pose();
   clouds.T_a_b = urban_nav_core::expSe3((urban_nav_core::Vector6d() << 1.0, -2.5, 0.1, 0.02, -0.3, 3.0).finished());
@@ -46,7 +48,7 @@ TEST(Evidence, ReadsBackAsItWasWritten) {
   const std::string text = printEvidence(evidence);
   const Evidence again = parseEvidence(text);
   ASSERT_EQ(again.tries.size(), 2U);
-  EXPECT_EQ(again.tries[0].view_b, evidence.tries[0].view_b);
+  EXPECT_EQ(again.tries[0].keyframe_b, evidence.tries[0].keyframe_b);
   EXPECT_EQ(again.tries[0].sentence, evidence.tries[0].sentence);
   EXPECT_EQ(again.tries[0].pixels.at(0).in_b, evidence.tries[0].pixels[0].in_b);
   EXPECT_FALSE(again.tries[0].T_a_b.has_value());

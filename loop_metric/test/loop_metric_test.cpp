@@ -4,17 +4,16 @@
 #include <gtest/gtest.h>
 
 #include "loop_metric/evidence.hpp"
-#include "support/line_surroundings.hpp"
-#include "support/scanner.hpp"
-#include "support/views.hpp"
+#include "support/line_place_data.hpp"
 #include "urban_nav_core/testing/motion.hpp"
+#include "urban_nav_core/testing/scanner.hpp"
 #include "urban_nav_core/testing/textured_street.hpp"
+#include "urban_nav_registration/testing/photographer.hpp"
 
 namespace loop_metric {
 namespace {
 
-using testing::LineSurroundings;
-using testing::Photographer;
+using testing::LinePlaceData;
 using urban_nav_core::ClosureMethod;
 using urban_nav_core::ClosureVerdict;
 using urban_nav_core::Pose;
@@ -22,6 +21,8 @@ using urban_nav_core::PoseRef;
 using urban_nav_core::StampNs;
 using urban_nav_core::TopologicalClosure;
 using urban_nav_core::testing::lookingAlong;
+using urban_nav_registration::Keyframe;
+using urban_nav_registration::testing::Photographer;
 
 constexpr StampNs kSecond = 1'000'000'000;
 
@@ -29,7 +30,7 @@ constexpr StampNs kSecond = 1'000'000'000;
 struct Drive {
   std::vector<Pose> poses;
 };
-Drive drive(LineSurroundings& around, Photographer& photographer, const std::string& session, double from, double to,
+Drive drive(LinePlaceData& around, Photographer& photographer, const std::string& session, double from, double to,
             double y) {
   Drive made;
   for (double x = from; x <= to; x += 1.0) made.poses.push_back(lookingAlong({x, y, 1.2}, 0.02 * y));
@@ -46,7 +47,7 @@ Drive drive(LineSurroundings& around, Photographer& photographer, const std::str
 /// Two drives down one street. Rendered once: each test has a copy to spoil.
 struct Rendered {
   Photographer photographer{urban_nav_core::testing::texturedStreet()};
-  LineSurroundings around;
+  LinePlaceData around;
   Drive a = drive(around, photographer, "monday", 4.0, 16.0, 0.0),
         b = drive(around, photographer, "tuesday", 4.0, 16.0, 0.7);
 };
@@ -56,7 +57,7 @@ const Rendered& rendered() {
 }
 
 struct Street {
-  LineSurroundings around = rendered().around;
+  LinePlaceData around = rendered().around;
   LoopMetric stage{Parameters(), rendered().photographer.camera(), Pose()};
 
   TopologicalClosure candidate(double at_a, double at_b) const {
@@ -91,7 +92,7 @@ TEST(LoopMetric, MomentsThatAreTooFarApartAreNotOnePlaceHoweverRightTheTransform
 
 TEST(LoopMetric, OdometryOfOneSessionRulesOutWhatItDoesNotAllow) {
   Street street;
-  LineSurroundings& around = street.around;
+  LinePlaceData& around = street.around;
   // One session now, whose odometry says that the second pass was four metres further on.
   std::vector<Pose> poses = rendered().a.poses;
   for (const Pose& pose : rendered().b.poses)
@@ -115,15 +116,17 @@ TEST(LoopMetric, OdometryOfOneSessionRulesOutWhatItDoesNotAllow) {
 }
 
 TEST(LoopMetric, CloudsServeWhereThereAreNoViews) {
-  const testing::World world = testing::courtyard(5);
-  const std::vector<Pose> poses = {testing::stand(0, 0, 0), testing::stand(1, 0, 0)},
-                          others = {testing::stand(1.5, 1.0, 175.0), testing::stand(0.5, 1.0, 175.0)};
-  LineSurroundings around;
+  const urban_nav_core::testing::World world = urban_nav_core::testing::courtyard(5);
+  const std::vector<Pose> poses = {urban_nav_core::testing::stand(0, 0, 0), urban_nav_core::testing::stand(1, 0, 0)},
+                          others = {urban_nav_core::testing::stand(1.5, 1.0, 175.0),
+                                    urban_nav_core::testing::stand(0.5, 1.0, 175.0)};
+  LinePlaceData around;
   around.drive("there", poses, 0.01, 0.001);
   around.drive("back", others, 0.01, 0.001);
   around.clouds = [&](const PoseRef& at) {
     const auto& its = at.session == "there" ? poses : others;
-    return testing::scan(world, its[static_cast<std::size_t>(at.stamp / kSecond)], {}, at.session == "there" ? 1U : 2U);
+    return urban_nav_core::testing::scan(world, its[static_cast<std::size_t>(at.stamp / kSecond)], {},
+                                         at.session == "there" ? 1U : 2U);
   };
   LoopMetric stage(Parameters(), {}, Pose());
   const LoopClosure closure = stage.measure({{"there", 0}, {"back", 0}, 0.9}, around);
@@ -137,15 +140,16 @@ TEST(LoopMetric, CloudsServeWhereThereAreNoViews) {
 }
 
 TEST(LoopMetric, AFacadeIsNoProofOfAPlaceUnlessOdometryHasBroughtUsThere) {
-  const testing::World world = testing::facade();
-  const std::vector<Pose> poses = {testing::stand(0, 0, 0), testing::stand(1, 0, 0), testing::stand(1.5, 0.2, 3.0)};
-  LineSurroundings around;
+  const urban_nav_core::testing::World world = urban_nav_core::testing::facade();
+  const std::vector<Pose> poses = {urban_nav_core::testing::stand(0, 0, 0), urban_nav_core::testing::stand(1, 0, 0),
+                                   urban_nav_core::testing::stand(1.5, 0.2, 3.0)};
+  LinePlaceData around;
   around.drive("there", poses, 0.02, 0.001);
   around.drive("another day", {poses[2], poses[1]}, 0.02, 0.001);
   around.clouds = [&](const PoseRef& at) {
     const bool later = at.session == "another day";
-    return testing::scan(world, later ? poses[2] : poses[static_cast<std::size_t>(at.stamp / kSecond)], {},
-                         later ? 2U : 1U);
+    return urban_nav_core::testing::scan(world, later ? poses[2] : poses[static_cast<std::size_t>(at.stamp / kSecond)],
+                                         {}, later ? 2U : 1U);
   };
   LoopMetric stage(Parameters(), {}, Pose());
   const LoopClosure slid = stage.measure({{"there", 0}, {"another day", 0}, 0.9}, around);
@@ -183,8 +187,8 @@ TEST(LoopMetric, EvidenceHoldsTheTestsTheViewsAndTheMatches) {
   const Evidence::Try& last = evidence.tries.back();
   EXPECT_EQ(last.method, "stereo");
   EXPECT_EQ(last.verdict, "accepted");
-  EXPECT_EQ(last.view_a, closure.stereo.back().view_a.at);
-  EXPECT_EQ(last.view_b, closure.stereo.back().view_b.at);
+  EXPECT_EQ(last.keyframe_a, closure.stereo.back().keyframe_a.at);
+  EXPECT_EQ(last.keyframe_b, closure.stereo.back().keyframe_b.at);
   ASSERT_EQ(last.tests.size(), closure.stereo.back().result.tests.size());
   for (std::size_t i = 0; i < last.tests.size(); ++i) {
     EXPECT_EQ(last.tests[i].name, closure.stereo.back().result.tests[i].name);

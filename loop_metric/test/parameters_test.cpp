@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "../nodelet/nodelet_parameters.hpp"
+#include "live/nodelet_parameters.hpp"
 #include "urban_nav_core/testing/parameter_tables.hpp"
 
 namespace loop_metric {
@@ -11,7 +11,6 @@ namespace {
 
 TEST(Parameters, yamlAndReadmeAreAsTheTablesSay) {
   EXPECT_EQ(urban_nav_core::testing::faultsOf(table().stage(), table().rows(), nodeletTable().rows()), "");
-  EXPECT_EQ(urban_nav_core::testing::faultsOf(localisationTable().stage(), localisationTable().rows()), "");
 }
 
 }  // namespace

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What README.md and config/*.yaml say of the parameters; test/parameters_test.cpp holds them equal to the table.
+// What README.md and config/*.yaml say of the parameters; test/parameters_test.cpp compares them with the tables.
+#include "live/nodelet_parameters.hpp"
 #include "loop_metric/parameters.hpp"
-#include "nodelet_parameters.hpp"
 #include "urban_nav_core/parameters/documents.hpp"
 
 int main(int argc, char** argv) {
   const auto& stage = loop_metric::table();
   const auto& nodelet = loop_metric::nodeletTable();
-  const auto& localisation = loop_metric::localisationTable();
-  return urban_nav_core::documentParameters(
-      argc, argv,
-      {{stage.stage(), stage.rows()}, {nodelet.stage(), nodelet.rows()}, {localisation.stage(), localisation.rows()}});
+  return urban_nav_core::documentParameters(argc, argv,
+                                            {{stage.stage(), stage.rows()}, {nodelet.stage(), nodelet.rows()}});
 }

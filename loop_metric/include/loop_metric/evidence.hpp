@@ -10,28 +10,29 @@
 
 namespace loop_metric {
 
-/// What a verdict rests on, small enough to be kept for every candidate: what `urban_nav why` shows.
+/// Reasons of a verdict, small enough to be stored for every candidate; shown by `urban_nav why`.
 struct Evidence {
   struct Try {
     std::string method;  ///< "stereo", "icp"
-    urban_nav_core::PoseRef view_a,
-        view_b;  ///< of stereo: whose keyframes were matched; of icp: the moments of the clouds
+    urban_nav_core::PoseRef keyframe_a,
+        keyframe_b;  ///< of stereo: whose keyframes were matched; of icp: the moments of the clouds
     std::string verdict, reason, sentence;
-    std::vector<ClosureTest> tests;
-    std::vector<MatchedPixels> pixels;                 ///< of stereo, at most a hundred, spread over all
+    std::vector<urban_nav_registration::ClosureTest> tests;
+    std::vector<urban_nav_registration::MatchedPixels> pixels;  ///< of stereo, at most a hundred, spread over all
     std::optional<urban_nav_core::Pose> guess, T_a_b;  ///< of icp: where it began, and where it ended, right or not
   };
   std::vector<Try> tries;
-  std::vector<ClosureTest> gate;  ///< of the transform against odometry and its neighbours
+  std::vector<urban_nav_registration::ClosureTest> gate;  ///< of the transform against odometry and its neighbours
 };
 
-Evidence evidenceOf(const LoopClosure& closure);
+/// Returns the evidence of a measured closure.
+Evidence collectEvidence(const LoopClosure& closure);
 
-/// Lines of comma separated values: anybody can read them.
+/// Returns the evidence as lines of comma separated values.
 std::string printEvidence(const Evidence& evidence);
-/// DataError naming the line where the text is something else.
+/// Parses printEvidence(). Throws DataError naming the line for any other text.
 Evidence parseEvidence(std::string_view text);
-/// The part of a longer text that printEvidence() wrote, up to its end; empty where there is none.
+/// Returns the part of a longer text that printEvidence() wrote, up to its end; empty if there is none.
 std::string_view evidenceIn(std::string_view text);
 
 }  // namespace loop_metric

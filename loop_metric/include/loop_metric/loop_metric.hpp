@@ -5,64 +5,66 @@
 #include <string>
 #include <vector>
 
-#include "loop_metric/align.hpp"
 #include "loop_metric/parameters.hpp"
-#include "loop_metric/stereo_closure.hpp"
-#include "loop_metric/surroundings.hpp"
+#include "loop_metric/place/place_data.hpp"
 #include "urban_nav_core/types/closure.hpp"
+#include "urban_nav_registration/icp/align.hpp"
+#include "urban_nav_registration/stereo/stereo_closure.hpp"
 
 namespace loop_metric {
 
-/// Why a candidate has no transform. Numbers are kept in stores: new ones go to the end.
+/// Reason why a candidate has no transform. Numbers are stored: new ones are appended.
 enum class LoopReason {
   None = 0,           ///< accepted
-  UnknownMoment = 1,  ///< one of the moments is outside of its session, or the session is not here
-  NothingKept = 2,    ///< neither views nor clouds of one of the moments
-  NotRegistered = 3,  ///< neither views nor clouds gave a transform
+  UnknownMoment = 1,  ///< one of the poses is outside its session, or the session is unknown
+  NothingKept = 2,    ///< neither keyframes nor clouds of one of the poses
+  NotRegistered = 3,  ///< neither keyframes nor clouds gave a transform
   Odometry = 4,       ///< odometry does not allow the transform
-  Contradicted = 5,   ///< closures beside it say something else
-  OtherPlace = 6,     ///< the transform is right, and says that the moments are too far apart to be one place
+  Contradicted = 5,   ///< neighbouring closures contradict it
+  OtherPlace = 6,     ///< the transform is valid, but the poses are too far apart for one place
 };
 /// "", "unknown_moment", "nothing_kept", "not_registered", "odometry", "contradicted", "other_place".
 const char* toString(LoopReason reason);
 
-/// One try to register two views.
-struct StereoTry {
-  NearbyView view_a, view_b;
-  StereoClosure result;
+/// One attempt to register two keyframes.
+struct StereoAttempt {
+  NearbyKeyframe keyframe_a, keyframe_b;
+  urban_nav_registration::StereoClosure result;
 };
 
-/// What came of a candidate: the closure for the graph, and all that its verdict rests on.
+/// Result of a candidate: the closure for the graph, and all data of its verdict.
 struct LoopClosure {
   /// `evidence` is printEvidence() of this (evidence.hpp).
   urban_nav_core::MetricClosure metric;
-  std::vector<StereoTry> stereo;   ///< in the order in which they were made; the last is the accepted one, if any is
-  std::optional<Alignment> icp;    ///< where clouds were aligned: source b, target a
-  urban_nav_core::Pose icp_guess;  ///< T_a_b from which it began
-  std::vector<ClosureTest> tests;  ///< of the transform against odometry
+  std::vector<StereoAttempt> stereo;  ///< in the order in which they were made; the last is the accepted one, if any is
+  std::optional<urban_nav_registration::Alignment> icp;    ///< where clouds were aligned: source b, target a
+  urban_nav_core::Pose icp_guess;                          ///< T_a_b from which it began
+  std::vector<urban_nav_registration::ClosureTest> tests;  ///< of the transform against odometry
 };
 
-/// From a topological closure to T_a_b with what it knows (Newman et al. 2009, section 4): by stereo where two views of the place can be registered (4.1), by
-/// the clouds of the lasers around both moments where they cannot (4.2: opposite direction of travel); then held against the odometry
-/// between the moments.
+/// Measures topological closures: T_a_b with its information (Newman et al. 2009, section 4), by stereo if two
+/// keyframes of the place can be registered (4.1), otherwise by the clouds of the lasers around both poses (4.2:
+/// opposite direction of travel). The result is compared with the odometry between the poses.
 ///
-/// Cameras of both moments must be the same. Failure of any kind is a verdict with a sentence, never an exception, but for what Surroundings throws.
-/// The same candidate in the same surroundings gives the same bits, whatever came before. Not thread-safe; objects are independent.
+/// Requires that both poses have the same camera. Failure of any kind is a verdict with a sentence; only exceptions of
+/// PlaceData pass through. The same candidate with the same data gives the same bits, whatever came before. Not thread-
+/// safe; objects are independent.
 class LoopMetric {
  public:
   LoopMetric(const Parameters& parameters, const urban_nav_core::StereoCamera& camera,
              const urban_nav_core::Pose& T_base_left);
 
-  LoopClosure measure(const urban_nav_core::TopologicalClosure& candidate, const Surroundings& surroundings);
+  LoopClosure measure(const urban_nav_core::TopologicalClosure& candidate, const PlaceData& place_data);
 
  private:
   friend class Measuring;  // one candidate on its way to a verdict
-  const StereoClosure& match(const NearbyView& a, const NearbyView& b, const Surroundings& surroundings);
+  const urban_nav_registration::StereoClosure& match(const NearbyKeyframe& a, const NearbyKeyframe& b,
+                                                     const PlaceData& place_data);
 
   Parameters parameters_;
   urban_nav_core::Pose T_base_left_;
-  StereoMatcher matcher_;
-  std::list<StereoTry> matched_;  // the last ones: candidates half a second apart choose the same views
+  urban_nav_registration::StereoMatcher matcher_;
+  std::list<StereoAttempt> matched_;  // the last ones: candidates half a second apart choose the same views
 };
 
 }  // namespace loop_metric

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "loop_metric/consistency.hpp"
+#include "loop_metric/candidate/consistency.hpp"
 
 #include <cmath>
 #include <map>
@@ -29,17 +29,16 @@ PoseWithCovariance measuredOf(const MetricClosure& closure) {
 }
 
 /// Empty where the two are no neighbours; else root mean square deviations of their ring.
-std::optional<double> ringOf(const MetricClosure& i, const MetricClosure& j, const Surroundings& surroundings,
+std::optional<double> ringOf(const MetricClosure& i, const MetricClosure& j, const PlaceData& place_data,
                              const Parameters& parameters) {
   const auto apart = [](const urban_nav_core::PoseRef& x, const urban_nav_core::PoseRef& y) {
     return x.session != y.session || std::abs(urban_nav_core::secondsBetween(x.stamp, y.stamp)) > near_time;
   };
   if (apart(i.a, j.a) || apart(i.b, j.b)) return std::nullopt;
-  const auto along_a = surroundings.between(i.a, j.a), along_b = surroundings.between(i.b, j.b);
-  if (!along_a || !along_b || along_a->length > near_closure_way || along_b->length > near_closure_way)
-    return std::nullopt;
-  const PoseWithCovariance T_ai_aj = OdometryGate(*along_a, parameters.odometry_scale).T_a_b(),
-                           T_bi_bj = OdometryGate(*along_b, parameters.odometry_scale).T_a_b();
+  const auto along_a = place_data.between(i.a, j.a), along_b = place_data.between(i.b, j.b);
+  if (!along_a || !along_b || along_a->length > near_closure_way || along_b->length > near_closure_way) return std::nullopt;
+  const PoseWithCovariance T_ai_aj = OdometryGate(*along_a, parameters.registration.odometry_scale).T_a_b(),
+                           T_bi_bj = OdometryGate(*along_b, parameters.registration.odometry_scale).T_a_b();
   const PoseWithCovariance one = urban_nav_core::compose(measuredOf(i), T_bi_bj),
                            other = urban_nav_core::compose(T_ai_aj, measuredOf(j));
   const auto squares = urban_nav_core::nees(other.pose, {one.pose, one.covariance + other.covariance});
@@ -48,15 +47,15 @@ std::optional<double> ringOf(const MetricClosure& i, const MetricClosure& j, con
 
 }  // namespace
 
-std::vector<Neighbours> holdAgainstEachOther(std::vector<MetricClosure>& closures, const Surroundings& surroundings,
-                                             const Parameters& parameters) {
+std::vector<Neighbours> pairwiseConsistencyCheck(std::vector<MetricClosure>& closures, const PlaceData& place_data,
+                                                 const Parameters& parameters) {
   std::vector<Neighbours> counts(closures.size());
   std::map<std::pair<std::size_t, std::size_t>, bool> agree;
   for (std::size_t i = 0; i < closures.size(); ++i) {
     if (closures[i].verdict != ClosureVerdict::Accepted) continue;
     for (std::size_t j = i + 1; j < closures.size(); ++j) {
       if (closures[j].verdict != ClosureVerdict::Accepted) continue;
-      const auto deviation = ringOf(closures[i], closures[j], surroundings, parameters);
+      const auto deviation = ringOf(closures[i], closures[j], place_data, parameters);
       if (!deviation) continue;
       const bool agrees = *deviation <= parameters.gate;
       agree[{i, j}] = agrees;

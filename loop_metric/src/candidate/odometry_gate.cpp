@@ -41,7 +41,7 @@ double rootMeanDeviation(const Vector6d& d, const Matrix6d& covariance, const Ma
   return std::sqrt(std::max(0.0, d.dot(w) - w.dot(*both * w)) / directions);
 }
 
-OdometryGate::OdometryGate(const Surroundings::Way& way, double scale) : T_a_b_(way.T_a_b) {
+OdometryGate::OdometryGate(const PlaceData::Way& way, double scale) : T_a_b_(way.T_a_b) {
   const double common = scale * way.length;
   T_a_b_.covariance.diagonal().head<3>().array() += common * common + least_sigma * least_sigma;
   T_a_b_.covariance.diagonal().tail<3>().array() += least_sigma * least_sigma;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "loop_metric/surroundings.hpp"
+#include "loop_metric/place/place_data.hpp"
 
 namespace loop_metric {
 
@@ -9,7 +9,7 @@ namespace loop_metric {
 class OdometryGate {
  public:
   /// `scale`: what may be wrong with all steps in common, as a share of the way, is added to the covariance: the chain does not know it.
-  OdometryGate(const Surroundings::Way& way, double scale);
+  OdometryGate(const PlaceData::Way& way, double scale);
 
   /// The same with that error in it.
   const urban_nav_core::PoseWithCovariance& T_a_b() const { return T_a_b_; }

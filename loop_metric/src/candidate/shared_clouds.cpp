@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "loop_metric/shared_clouds.hpp"
+#include "loop_metric/candidate/shared_clouds.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,33 +15,34 @@ using urban_nav_core::PoseRef;
 
 namespace {
 
-constexpr double least_cloud_share = 1e-3;  // too little for a robot that stands for minutes to tell the same twice
+constexpr double least_cloud_share = 1e-3;  // so that a standing robot does not repeat its information
 
 bool isOfClouds(const MetricClosure& closure) {
   return closure.verdict == ClosureVerdict::Accepted && closure.method == ClosureMethod::Icp;
 }
 
-/// How far behind the cloud around `x` that around `y` lies along the way, in lengths of a cloud; empty where they have nothing in common.
-std::optional<double> shift(const PoseRef& x, const PoseRef& y, const Surroundings& surroundings, double length) {
-  const auto way = surroundings.between(x, y);
+/// Returns the distance from the cloud around `x` to that around `y` along the drive, in lengths of a cloud; nullopt if they
+/// do not overlap.
+std::optional<double> shift(const PoseRef& x, const PoseRef& y, const PlaceData& place_data, double length) {
+  const auto way = place_data.between(x, y);
   if (!way || !(way->length < length)) return std::nullopt;
   return (y.stamp < x.stamp ? -1.0 : 1.0) * way->length / length;
 }
 
-/// By how much a unit square is shifted against another one, which it overlaps.
+/// Shift of a unit square relative to another one that it overlaps.
 struct Shift {
   double at_a, at_b;
 };
 
-/// Of a robot that stands for an hour all squares are one.
-bool isAmong(const std::vector<Shift>& told, const Shift& shift) {
+/// Returns whether a shift is in the list already, as all are for a standing robot.
+bool isAmong(const std::vector<Shift>& covered, const Shift& shift) {
   constexpr double kSame = 1e-3;
-  return std::any_of(told.begin(), told.end(), [&](const Shift& other) {
+  return std::any_of(covered.begin(), covered.end(), [&](const Shift& other) {
     return std::abs(other.at_a - shift.at_a) < kSame && std::abs(other.at_b - shift.at_b) < kSame;
   });
 }
 
-/// Share of the unit square that none of the shifted ones covers.
+/// Returns the share of the unit square that none of the shifted ones covers.
 double uncovered(const std::vector<Shift>& others) {
   std::vector<double> edges{0.0, 1.0};
   for (const Shift& other : others) edges.push_back(other.at_a < 0.0 ? 1.0 + other.at_a : other.at_a);
@@ -63,11 +64,12 @@ double uncovered(const std::vector<Shift>& others) {
 
 }  // namespace
 
-void shareClouds(std::vector<MetricClosure>& closures, const Surroundings& surroundings, const Parameters& parameters) {
-  const double length = 2.0 * parameters.cloud_way;
+void discountSharedClouds(std::vector<MetricClosure>& closures, const PlaceData& place_data,
+                          const Parameters& parameters) {
+  const double length = 2.0 * parameters.registration.cloud_half_length;
   // Share of the cloud around one moment that is in the cloud around the other.
   const auto common = [&](const PoseRef& x, const PoseRef& y) {
-    const auto shifted = shift(x, y, surroundings, length);
+    const auto shifted = shift(x, y, place_data, length);
     return shifted ? 1.0 - std::abs(*shifted) : 0.0;
   };
   std::vector<std::size_t> of_clouds;
@@ -85,19 +87,19 @@ void shareClouds(std::vector<MetricClosure>& closures, const Surroundings& surro
   for (std::size_t i = 0; i < of_clouds.size(); ++i) closures[of_clouds[i]].measured.information /= sharing[i];
 }
 
-void keepWhatIsNew(MetricClosure& closure, const std::vector<MetricClosure>& earlier, const Surroundings& surroundings,
-                   const Parameters& parameters) {
+void discountAgainst(MetricClosure& closure, const std::vector<MetricClosure>& earlier, const PlaceData& place_data,
+                     const Parameters& parameters) {
   if (!isOfClouds(closure)) return;
-  const double length = 2.0 * parameters.cloud_way;
-  std::vector<Shift> told;
+  const double length = 2.0 * parameters.registration.cloud_half_length;
+  std::vector<Shift> covered;
   for (const MetricClosure& each : earlier) {
     if (!isOfClouds(each)) continue;
     for (const auto& [a, b] : {std::pair(&each.a, &each.b), std::pair(&each.b, &each.a)}) {
-      const auto at_a = shift(closure.a, *a, surroundings, length), at_b = shift(closure.b, *b, surroundings, length);
-      if (at_a && at_b && !isAmong(told, {*at_a, *at_b})) told.push_back({*at_a, *at_b});
+      const auto at_a = shift(closure.a, *a, place_data, length), at_b = shift(closure.b, *b, place_data, length);
+      if (at_a && at_b && !isAmong(covered, {*at_a, *at_b})) covered.push_back({*at_a, *at_b});
     }
   }
-  closure.measured.information *= std::max(uncovered(told), least_cloud_share);
+  closure.measured.information *= std::max(uncovered(covered), least_cloud_share);
 }
 
 }  // namespace loop_metric

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "loop_metric/consistency.hpp"
+#include "loop_metric/candidate/consistency.hpp"
 
 #include <gtest/gtest.h>
 
-#include "support/line_surroundings.hpp"
+#include "support/line_place_data.hpp"
 
 namespace loop_metric {
 namespace {
@@ -19,7 +19,7 @@ Pose closurePose(double x, double y) { return Pose(urban_nav_core::Quaterniond::
 
 /// Twice along the same metres, and the closures between each metre of one pass and the same of the other.
 struct TwoPasses {
-  testing::LineSurroundings around;
+  testing::LinePlaceData around;
   std::vector<MetricClosure> closures;
   TwoPasses() {
     std::vector<Pose> poses;
@@ -42,7 +42,7 @@ struct TwoPasses {
 
 TEST(Consistency, ClosuresThatAgreeStay) {
   TwoPasses passes;
-  const auto counts = holdAgainstEachOther(passes.closures, passes.around, {});
+  const auto counts = pairwiseConsistencyCheck(passes.closures, passes.around, {});
   for (std::size_t i = 0; i < counts.size(); ++i) {
     EXPECT_EQ(passes.closures[i].verdict, ClosureVerdict::Accepted);
     EXPECT_EQ(counts[i].agreeing, 9);
@@ -54,7 +54,7 @@ TEST(Consistency, WhatItsNeighboursContradictIsRejectedAndTheyStay) {
   TwoPasses passes;
   passes.closures[4].measured.T_a_b = closurePose(2.0, 0.5);
   passes.closures[7].measured.T_a_b = closurePose(0.0, -3.0);
-  holdAgainstEachOther(passes.closures, passes.around, {});
+  pairwiseConsistencyCheck(passes.closures, passes.around, {});
   for (std::size_t i = 0; i < passes.closures.size(); ++i) {
     const bool wrong = i == 4 || i == 7;
     EXPECT_EQ(passes.closures[i].verdict, wrong ? ClosureVerdict::Rejected : ClosureVerdict::Accepted) << i;
@@ -67,7 +67,7 @@ TEST(Consistency, TwoWithoutAWitnessBothStay) {
   TwoPasses passes;
   passes.closures.resize(2);
   passes.closures[1].measured.T_a_b = closurePose(2.0, 0.5);
-  holdAgainstEachOther(passes.closures, passes.around, {});
+  pairwiseConsistencyCheck(passes.closures, passes.around, {});
   EXPECT_EQ(passes.closures[0].verdict, ClosureVerdict::Accepted);
   EXPECT_EQ(passes.closures[1].verdict, ClosureVerdict::Accepted);
 }
@@ -77,7 +77,7 @@ TEST(Consistency, AFreeDirectionContradictsNobody) {
   passes.closures[4].measured.T_a_b = closurePose(2.0, 0.5);
   passes.closures[4].measured.information.row(0).setZero();
   passes.closures[4].measured.information.col(0).setZero();
-  holdAgainstEachOther(passes.closures, passes.around, {});
+  pairwiseConsistencyCheck(passes.closures, passes.around, {});
   EXPECT_EQ(passes.closures[4].verdict, ClosureVerdict::Accepted);
 }
 
@@ -85,9 +85,9 @@ TEST(Consistency, OtherSessionsAndFarWaysAreNoNeighbours) {
   TwoPasses passes;
   passes.closures[3].b.session = "another";
   passes.closures[3].measured.T_a_b = closurePose(9.0, 9.0);
-  const auto counts = holdAgainstEachOther(passes.closures, passes.around, {});
+  const auto counts = pairwiseConsistencyCheck(passes.closures, passes.around, {});
   EXPECT_EQ(counts[3].agreeing + counts[3].contradicting, 0);
-  EXPECT_TRUE(holdAgainstEachOther(passes.closures = {}, passes.around, {}).empty());
+  EXPECT_TRUE(pairwiseConsistencyCheck(passes.closures = {}, passes.around, {}).empty());
 }
 
 }  // namespace

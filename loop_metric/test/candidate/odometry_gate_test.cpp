@@ -14,8 +14,8 @@ using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
 using urban_nav_core::Vector6d;
 
-Surroundings::Way wayOf(double sigma_m, double sigma_rad, double length) {
-  Surroundings::Way way;
+PlaceData::Way wayOf(double sigma_m, double sigma_rad, double length) {
+  PlaceData::Way way;
   way.T_a_b.pose = Pose(urban_nav_core::expSo3({0.0, 0.0, 0.3}), {3.0, 1.0, 0.0});
   way.T_a_b.covariance.setZero();
   way.T_a_b.covariance.diagonal() << Eigen::Vector3d::Constant(sigma_m * sigma_m),
@@ -69,7 +69,7 @@ TEST(OdometryGate, AScaleErrorGrowsWithTheWay) {
 }
 
 TEST(OdometryGate, KnowsHowFarApartTheMomentsAreAtLeast) {
-  Surroundings::Way way = wayOf(1.0, 0.01, 0.0);
+  PlaceData::Way way = wayOf(1.0, 0.01, 0.0);
   way.T_a_b.pose = Pose(urban_nav_core::Quaterniond::Identity(), {30.0, 0.0, 0.0});
   const OdometryGate gate(way, 0.0);
   EXPECT_NEAR(gate.leastDistance(5.0), 30.0 - 5.0 * std::sqrt(3.0), 1e-3);

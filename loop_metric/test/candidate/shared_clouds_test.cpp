@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "loop_metric/shared_clouds.hpp"
+#include "loop_metric/candidate/shared_clouds.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <numeric>
 
-#include "support/line_surroundings.hpp"
+#include "support/line_place_data.hpp"
 
 namespace loop_metric {
 namespace {
@@ -25,7 +25,7 @@ class SharedClouds : public ::testing::Test {
     std::vector<Pose> poses;
     for (int i = 0; i <= 200; ++i) poses.emplace_back(Eigen::Quaterniond::Identity(), Eigen::Vector3d(i, 0.0, 0.0));
     around_.drive("day", poses, 0.01, 0.001);
-    parameters_.cloud_way = 10.0;
+    parameters_.registration.cloud_half_length = 10.0;
   }
   void add(int a, int b, ClosureMethod method = ClosureMethod::Icp, ClosureVerdict verdict = ClosureVerdict::Accepted) {
     MetricClosure made;
@@ -38,7 +38,7 @@ class SharedClouds : public ::testing::Test {
   }
   /// By how much what each one knows was divided.
   std::vector<double> sharing() {
-    shareClouds(closures_, around_, parameters_);
+    discountSharedClouds(closures_, around_, parameters_);
     std::vector<double> made;
     for (const MetricClosure& closure : closures_) {
       EXPECT_TRUE(closure.measured.information.isApprox(closure.measured.information(0, 0) * Matrix6d::Identity()));
@@ -52,8 +52,8 @@ class SharedClouds : public ::testing::Test {
     std::vector<double> made;
     for (std::size_t i = 0; i < closures_.size(); ++i) {
       MetricClosure told = closures_[i];
-      keepWhatIsNew(told, {closures_.begin(), closures_.begin() + static_cast<std::ptrdiff_t>(i)}, around_,
-                    parameters_);
+      discountAgainst(told, {closures_.begin(), closures_.begin() + static_cast<std::ptrdiff_t>(i)}, around_,
+                      parameters_);
       EXPECT_TRUE(told.measured.information.isApprox(told.measured.information(0, 0) * Matrix6d::Identity()));
       made.push_back(told.measured.information(0, 0));
     }
@@ -64,7 +64,7 @@ class SharedClouds : public ::testing::Test {
     return std::accumulate(each.begin(), each.end(), 0.0);
   }
 
-  testing::LineSurroundings around_;
+  testing::LinePlaceData around_;
   Parameters parameters_;
   std::vector<MetricClosure> closures_;
 };

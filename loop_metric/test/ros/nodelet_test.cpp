@@ -10,15 +10,21 @@
 #include <map>
 
 #include "loop_metric/evidence.hpp"
-#include "loop_metric/keyframe_choice.hpp"
-#include "loop_metric/stored_surroundings.hpp"
+#include "loop_metric/place/stored_place_data.hpp"
 #include "robot.hpp"
+#include "urban_nav_registration/keyframe/keyframe_extractor.hpp"
+#include "urban_nav_registration/keyframe/keyframe_selector.hpp"
+#include "urban_nav_registration/session/stored_keyframe.hpp"
 #include "urban_nav_store/store.hpp"
 
 namespace loop_metric::test {
 namespace {
 
 using urban_nav_msgs::MetricClosure;
+using urban_nav_registration::keyframe_camera;
+using urban_nav_registration::KeyframeExtractor;
+using urban_nav_registration::KeyframeSelector;
+using urban_nav_registration::toStoredKeyframe;
 using urban_nav_store::Access;
 using urban_nav_store::Store;
 
@@ -128,14 +134,14 @@ TEST_F(LoopMetricNodelet, aRevisitIsUpgradedAndAFalsePairIsNot) {
 TEST_F(LoopMetricNodelet, theViewsThatAreKeptAreThoseOfTheSameFramesOffline) {
   constexpr int count = 12;
   robot().drive(0, count);
-  KeyframeChoice choice((Parameters()));
-  const KeyframeMaker maker(robot().camera(), Parameters().points);
+  KeyframeSelector selector((urban_nav_registration::Parameters()));
+  const KeyframeExtractor extractor(robot().camera(), urban_nav_registration::Parameters().points);
   std::vector<urban_nav_store::StoredKeyframe> expected;
   for (int i = 0; i < count; ++i) {
-    if (!choice.choose(robot().T_world_base(0).inverse() * robot().T_world_base(i))) continue;
+    if (!selector.select(robot().T_world_base(0).inverse() * robot().T_world_base(i))) continue;
     urban_nav_core::testing::StereoFrame frame = robot().frame(i);
     frame.stamp = robot().stampOf(i);
-    expected.push_back(storedKeyframe(maker.make({"", frame.stamp}, frame.pair())));
+    expected.push_back(toStoredKeyframe(extractor.extract({"", frame.stamp}, frame.pair())));
   }
   ASSERT_TRUE(Robot::until([&] { return robot().diagnosis("session") == idOf(robot().stampOf(0)); }));
   const auto stored = [&] {
@@ -179,7 +185,7 @@ TEST_F(LoopMetricNodelet, behindAGapInOdometryViewsAloneDecide) {
   robot().recognise(3, 15);
   ASSERT_TRUE(robot().judged(2));
   expectRejected(robot().closures[1], "not_registered");
-  for (const auto& each : parseEvidence(robot().closures[0].evidence).tries) EXPECT_EQ(each.view_a.session, "");
+  for (const auto& each : parseEvidence(robot().closures[0].evidence).tries) EXPECT_EQ(each.keyframe_a.session, "");
 }
 
 TEST_F(LoopMetricNodelet, aResetJudgesWhatWaits) {

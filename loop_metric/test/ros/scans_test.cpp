@@ -4,11 +4,13 @@
 #include <cstdlib>
 
 #include "loop_metric/evidence.hpp"
-#include "scanning.hpp"
+#include "robot.hpp"
+#include "urban_nav_ros/testing/scanning_robot.hpp"
 
 namespace loop_metric::test {
 namespace {
 
+using Scanning = ScanningRobot<Robot>;
 using urban_nav_core::Vector6d;
 using urban_nav_msgs::MetricClosure;
 

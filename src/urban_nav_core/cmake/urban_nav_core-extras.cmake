@@ -86,7 +86,7 @@ function(urban_nav_target target)
     endif()
   else()
     # The ROS-free packages of src/ that this package has found.
-    foreach(package urban_nav_core urban_nav_store urban_nav_live)
+    foreach(package urban_nav_core urban_nav_store urban_nav_registration urban_nav_live)
       target_include_directories(${target} SYSTEM PRIVATE ${${package}_INCLUDE_DIRS})
       target_link_libraries(${target} ${${package}_LIBRARIES})
     endforeach()

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What two lasers saw around places along a ride, for loop_metric/bench/clouds.cpp: a PLY for each place, as from a recording whose odometry drifts, and places.csv with
+// What two lasers saw around places along a ride, for src/urban_nav_registration/bench/clouds.cpp: a PLY for each place, as from a recording whose odometry drifts, and places.csv with
 // the day, the way driven (m) and the true pose of each. The same route on two days.
 //   local_clouds [--world W] [--seed N] [--route loops] [--duration 300] [--step 4] [--folder DIR]
 #include <cmath>
@@ -24,7 +24,7 @@ using urban_nav_core::Pose;
 using urban_nav_core::StampNs;
 using urban_nav_core::Trajectory;
 
-constexpr double kBeside = 10.0;            // m before and behind a place: loop_metric.cloud_way
+constexpr double kBeside = 10.0;            // m before and behind a place: loop_metric.cloud_half_length
 constexpr double kStart = 6.0;              // s: the robot has begun to move
 constexpr double kFrame = 0.05;             // s from pose to pose of odometry
 constexpr std::uint64_t kTurns = 10000000;  // of a day, so that no two share their noise

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Views of places that are seen again, for loop_metric/bench/pairs.cpp: a folder in KITTI's layout with the true poses. Three times along one way: as it is; some
+// Views of places that are seen again, for src/urban_nav_registration/bench/pairs.cpp: a folder in KITTI's layout with the true poses. Three times along one way: as it is; some
 // metres before or behind, up to 1.6 m and 20 deg aside; and so once more on another day.
 //   revisits [--world W] [--seed N] [--places 36] [--step 2] [--folder DIR]
 #include <array>

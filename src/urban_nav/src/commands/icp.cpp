@@ -5,8 +5,6 @@
 #include "command_line/console.hpp"
 #include "command_line/json.hpp"
 #include "commands/commands.hpp"
-#include "loop_metric/align.hpp"
-#include "loop_metric/cloud_picture.hpp"
 #include "pipeline/parameters.hpp"
 #include "report/plot.hpp"
 #include "urban_nav_core/geometry/so3.hpp"
@@ -16,13 +14,15 @@
 #include "urban_nav_core/io/text_file.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_registration/icp/align.hpp"
+#include "urban_nav_registration/pictures/cloud_picture.hpp"
 
 namespace urban_nav {
 
-using loop_metric::Alignment;
 using urban_nav_core::PointCloud;
 using urban_nav_core::Pose;
 using urban_nav_core::UserError;
+using urban_nav_registration::Alignment;
 
 namespace {
 
@@ -67,7 +67,7 @@ Json rowMajor(const Matrix& matrix) {
 
 Json testsJson(const Alignment& alignment) {
   Json tests = Json::array();
-  for (const loop_metric::Test& test : alignment.tests) {
+  for (const urban_nav_registration::AlignmentTest& test : alignment.tests) {
     Json json = Json::object();
     json["name"] = test.name;
     json["value"] = test.value;
@@ -79,7 +79,7 @@ Json testsJson(const Alignment& alignment) {
 }
 
 std::string reasonOf(const Alignment& alignment) {
-  if (alignment.reason == loop_metric::Reason::None) return "";
+  if (alignment.reason == urban_nav_registration::AlignmentReason::None) return "";
   return std::string(toString(alignment.reason)) + ": " + alignment.sentence;
 }
 
@@ -95,10 +95,10 @@ Json jsonOf(const Alignment& alignment, double ms) {
   json["reason"] = reasonOf(alignment);
   json["tests"] = testsJson(alignment);
   json["global_search"] = alignment.searched;
-  if (alignment.rival) {
+  if (alignment.alternative) {
     json["rival"] = Json::object();
-    json["rival"]["T_target_source"] = rowMajor(alignment.rival->T_target_source.matrix());
-    json["rival"]["share"] = alignment.rival->share;
+    json["rival"]["T_target_source"] = rowMajor(alignment.alternative->T_target_source.matrix());
+    json["rival"]["share"] = alignment.alternative->share;
   }
   json["matches"] = alignment.matches;
   json["iterations"] = alignment.iterations;
@@ -111,7 +111,7 @@ Json jsonOf(const Alignment& alignment, double ms) {
 std::string textOf(const Alignment& alignment, double ms) {
   using urban_nav_core::printNumber;
   std::string text = toString(alignment.verdict);
-  if (alignment.reason != loop_metric::Reason::None) text += ": " + reasonOf(alignment);
+  if (alignment.reason != urban_nav_registration::AlignmentReason::None) text += ": " + reasonOf(alignment);
   text += "\nT_target_source\n";
   const Eigen::Matrix4d T = alignment.T_target_source.matrix();
   for (int r = 0; r < 4; ++r) {
@@ -123,7 +123,7 @@ std::string textOf(const Alignment& alignment, double ms) {
     for (int i = 0; i < 6; ++i) text += " " + forPerson(direction[i], 3);
     text += "\n";
   }
-  for (const loop_metric::Test& test : alignment.tests)
+  for (const urban_nav_registration::AlignmentTest& test : alignment.tests)
     text += test.name + " " + forPerson(test.value, 3) + (test.at_least ? ", at least " : ", at most ") +
             forPerson(test.threshold, 3) + (test.passed ? "\n" : ": no\n");
   return text + std::to_string(alignment.iterations) + " iterations, " + forPerson(ms, 3) + " ms\n";
@@ -148,24 +148,25 @@ int runIcp(const Arguments& arguments, Console& console) {
                    target = readNamed(arguments.get("TARGET"), console);
   const auto begin = Clock::now();
   const Alignment alignment =
-      loop_metric::align(source, target, parameters.get(loop_metric::table()), guess,
-                         arguments.has("global") ? loop_metric::Search::AtOnce : loop_metric::Search::IfRejected);
+      urban_nav_registration::align(source, target, parameters.get(urban_nav_registration::table()), guess,
+                                    arguments.has("global") ? urban_nav_registration::SearchMode::AtOnce
+                                                            : urban_nav_registration::SearchMode::IfRejected);
   const double ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
   console.print(textOf(alignment, ms));
   if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), jsonOf(alignment, ms).print());
   if (arguments.has("picture")) {
-    loop_metric::CloudPictureOptions options;
+    urban_nav_registration::CloudPictureOptions options;
     options.free_directions = alignment.free_directions;
     options.caption = "red: target, blue: source; " + std::string(toString(alignment.verdict)) +
                       (alignment.sentence.empty() ? "" : ": " + alignment.sentence);
-    const auto jpeg =
-        loop_metric::jpegOf(loop_metric::drawClouds(source, target, guess, alignment.T_target_source, options));
+    const auto jpeg = urban_nav_registration::encodeJpeg(
+        urban_nav_registration::drawClouds(source, target, guess, alignment.T_target_source, options));
     urban_nav_core::writeAtomically(arguments.get("picture"), std::string(jpeg.begin(), jpeg.end()));
   }
   return alignment.verdict == urban_nav_core::ClosureVerdict::Rejected ? 1 : 0;
 }
 
-std::string help(const Arguments& arguments) { return stageHelp(arguments, loop_metric::table().stage()); }
+std::string help(const Arguments& arguments) { return stageHelp(arguments, urban_nav_registration::table().stage()); }
 
 }  // namespace
 

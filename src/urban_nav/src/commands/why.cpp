@@ -9,6 +9,7 @@
 #include "report/plot.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_registration/parameters.hpp"
 
 namespace urban_nav {
 
@@ -43,7 +44,7 @@ const StoredClosure& byTimes(const std::vector<StoredClosure>& closures, const s
 }
 
 int runWhy(const Arguments& arguments, Console& console) {
-  const double cloud_way = loadParameters(arguments).get(loop_metric::table()).cloud_way;
+  const double cloud_half_length = loadParameters(arguments).get(urban_nav_registration::table()).cloud_half_length;
   const bool moments = arguments.has("T1") || arguments.has("T2");
   if (arguments.has("jump"))
     throw UserError("--jump", "is not in this version: jumps are published on graph/jump", "T1 T2, --closure ID");
@@ -61,7 +62,8 @@ int runWhy(const Arguments& arguments, Console& console) {
                                          : byNumber(closures, arguments.integer("closure", 0, 1, 1'000'000'000));
   console.print(explain(closure));
   if (arguments.has("output")) {
-    urban_nav_core::writeAtomically(arguments.get("output"), renderPage(explainOnPage(closure, store, cloud_way)));
+    urban_nav_core::writeAtomically(arguments.get("output"),
+                                    renderPage(explainOnPage(closure, store, cloud_half_length)));
     console.print(arguments.get("output") + "\n");
   }
   if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), explainAsJson(closure).print());

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "loop_metric/stored_surroundings.hpp"
+#include "loop_metric/place/stored_place_data.hpp"
 #include "report/plot.hpp"
 #include "stage/previous_sessions.hpp"
 #include "stage/stored_sessions.hpp"
@@ -13,8 +13,8 @@
 
 namespace urban_nav {
 
-using loop_metric::ClosureTest;
 using loop_metric::Evidence;
+using urban_nav_registration::ClosureTest;
 using urban_nav_store::EdgeKind;
 
 namespace {
@@ -100,8 +100,8 @@ constexpr const char* kNoEvidence = "The store holds no evidence of it: it was g
 std::vector<CandidateSession> namedIn(const StoredClosure& closure, const PreviousSessions& kept) {
   std::map<std::string, urban_nav_store::SessionId> ids;
   for (const Evidence::Try& each : closure.evidence.tries) {
-    ids.emplace(each.view_a.session, closure.edge.a.session);
-    ids.emplace(each.view_b.session, closure.edge.b.session);
+    ids.emplace(each.keyframe_a.session, closure.edge.a.session);
+    ids.emplace(each.keyframe_b.session, closure.edge.b.session);
   }
   std::vector<CandidateSession> sessions;
   for (const auto& [name, id] : ids)
@@ -128,10 +128,10 @@ std::string explain(const StoredClosure& closure) {
   return text;
 }
 
-Page explainOnPage(const StoredClosure& closure, urban_nav_store::Store& store, double cloud_way) {
+Page explainOnPage(const StoredClosure& closure, urban_nav_store::Store& store, double cloud_half_length) {
   const PreviousSessions kept = readPreviousSessions(store, {});
-  const loop_metric::StoredSurroundings surroundings(storedSessions(namedIn(closure, kept), store, ""),
-                                                     store.keyframes(), store.scans());
+  const loop_metric::StoredPlaceData place_data(storedSessions(namedIn(closure, kept), store, ""), store.keyframes(),
+                                                store.scans());
   Page page;
   page.title = "Why: closure " + std::to_string(closure.id);
   page.subtitle = headlineOf(closure);
@@ -149,7 +149,7 @@ Page explainOnPage(const StoredClosure& closure, urban_nav_store::Store& store, 
                     {},
                     {},
                     {tableOf("Tests", each.tests)}};
-    if (auto picture = pictureOf(each, surroundings, cloud_way)) {
+    if (auto picture = pictureOf(each, place_data, cloud_half_length)) {
       picture->caption = each.method == "stereo" ? kHowToReadViews : kHowToReadClouds;
       section.pictures.push_back(std::move(*picture));
     }

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "loop_metric/camera_words.hpp"
 #include "pipeline/stored_run.hpp"
 #include "stage/store_keys.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_core/types/frames.hpp"
+#include "urban_nav_registration/session/calibration_fingerprint.hpp"
 #include "urban_nav_store/merge.hpp"
 
 namespace urban_nav {
@@ -217,8 +217,8 @@ void RunCheckpoint::writeSession(std::size_t session) {
   store_->sessions().put(id, Property{"input/name", info.name});
   store_->sessions().put(id, Property{"input/kind", info.kind});
   store_->sessions().put(id, urban_nav_store::Extrinsic{urban_nav_core::frames::stereo_left, info.T_base_camera});
-  store_->sessions().put(
-      id, Property{loop_metric::camera_property, loop_metric::cameraWords(info.camera, info.T_base_camera)});
+  store_->sessions().put(id, Property{urban_nav_registration::calibration_property,
+                                      urban_nav_registration::calibrationFingerprint(info.camera, info.T_base_camera)});
   for (const LaserInfo& laser : info.lasers)
     store_->sessions().put(id, urban_nav_store::Extrinsic{laser.frame, laser.T_base_laser});
   for (const urban_nav_core::Setting& setting : options_.parameters.settings())

@@ -3,22 +3,22 @@
 
 #include <memory>
 
-#include "loop_metric/camera_words.hpp"
 #include "stage/vo_run.hpp"
+#include "urban_nav_registration/session/calibration_fingerprint.hpp"
 
 namespace urban_nav {
 
-loop_metric::StoredSurroundings::Sessions storedSessions(const std::vector<CandidateSession>& sessions,
-                                                         urban_nav_store::Store& store, const std::string& camera) {
-  loop_metric::StoredSurroundings::Sessions made;
+loop_metric::StoredPlaceData::Sessions storedSessions(const std::vector<CandidateSession>& sessions,
+                                                      urban_nav_store::Store& store, const std::string& camera) {
+  loop_metric::StoredPlaceData::Sessions made;
   for (const CandidateSession& session : sessions) {
-    loop_metric::SessionOfStore& its = made[session.name];
+    loop_metric::StoredSession& its = made[session.name];
     its.id = session.id;
     its.odometry = std::make_shared<urban_nav_core::OdometryChain>(odometryChain(*session.run));
     its.has_camera = false;
     for (const urban_nav_store::Property& property : store.sessions().properties(session.id))
-      if (property.name == loop_metric::camera_property) its.has_camera = property.value == camera;
-    its.lasers = loop_metric::storedLasers(store, session.id);
+      if (property.name == urban_nav_registration::calibration_property) its.has_camera = property.value == camera;
+    its.lasers = urban_nav_registration::storedLasers(store, session.id);
   }
   return made;
 }

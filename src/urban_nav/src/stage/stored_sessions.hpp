@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "loop_metric/stored_surroundings.hpp"
+#include "loop_metric/place/stored_place_data.hpp"
 #include "stage/vo_run.hpp"
 #include "urban_nav_store/store.hpp"
 
@@ -19,7 +19,7 @@ struct CandidateSession {
 
 /// Returns what loop_metric needs of sessions whose keyframes and scans are in `store`. `camera`: its fingerprint;
 /// sessions of another camera have no keyframes.
-loop_metric::StoredSurroundings::Sessions storedSessions(const std::vector<CandidateSession>& sessions,
-                                                         urban_nav_store::Store& store, const std::string& camera);
+loop_metric::StoredPlaceData::Sessions storedSessions(const std::vector<CandidateSession>& sessions,
+                                                      urban_nav_store::Store& store, const std::string& camera);
 
 }  // namespace urban_nav

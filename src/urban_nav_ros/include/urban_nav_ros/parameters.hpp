@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <map>
 #include <string>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "urban_nav_core/parameters/sources.hpp"
 #include "urban_nav_core/parameters/table.hpp"
@@ -18,13 +20,17 @@ namespace urban_nav_ros {
 /// urban_nav_core::serverParameters. Throws UserError for one that is neither bool, number nor text, naming it.
 std::map<std::string, urban_nav_core::ParameterValue> serverValues(const ros::NodeHandle& nh);
 
-/// Returns the parameters of `table` from values of the parameter server in the namespace `where`. Warns on the console of
-/// old names, which override present ones. Throws UserError, naming the parameter, for one that the table does not have and
-/// for a value that is not allowed.
+namespace detail {
+
 template <typename Parameters>
-Parameters toParameters(const urban_nav_core::Table<Parameters>& table,
-                        const std::map<std::string, urban_nav_core::ParameterValue>& values, const std::string& where) {
-  auto assignments = urban_nav_core::serverParameters(table.stage(), values, where);
+bool hasRow(const urban_nav_core::Table<Parameters>& table, const std::string& name) {
+  return std::any_of(table.rows().begin(), table.rows().end(),
+                     [&](const auto& row) { return urban_nav_core::isCalled(row, name); });
+}
+
+template <typename Parameters>
+Parameters loadAssignments(const urban_nav_core::Table<Parameters>& table,
+                           std::vector<urban_nav_core::Assignment> assignments) {
   // Default files set all present names, so that an old one, which was set on purpose, has to come after them.
   std::stable_partition(assignments.begin(), assignments.end(), [&table](const auto& assignment) {
     return std::any_of(table.rows().begin(), table.rows().end(),
@@ -33,6 +39,17 @@ Parameters toParameters(const urban_nav_core::Table<Parameters>& table,
   auto made = load(table, assignments);
   for (const std::string& warning : made.warnings) ROS_WARN("%s", warning.c_str());
   return made.parameters;
+}
+
+}  // namespace detail
+
+/// Returns the parameters of `table` from values of the parameter server in the namespace `where`. Warns on the console of
+/// old names, which override present ones. Throws UserError, naming the parameter, for one that the table does not have and
+/// for a value that is not allowed.
+template <typename Parameters>
+Parameters toParameters(const urban_nav_core::Table<Parameters>& table,
+                        const std::map<std::string, urban_nav_core::ParameterValue>& values, const std::string& where) {
+  return detail::loadAssignments(table, urban_nav_core::serverParameters(table.stage(), values, where));
 }
 
 /// Returns the parameters of a stage from its nodelet's private namespace. Warns and throws like toParameters().
@@ -54,6 +71,30 @@ std::pair<Own, Stage> readParameters(const ros::NodeHandle& private_nh, const ur
   }
   const std::string where = private_nh.getNamespace();
   return {toParameters(own, of_own, where), toParameters(stage, of_stage, where)};
+}
+
+/// Returns the parameters of readParameters() and those of a table that several stages share: these are read from the
+/// namespace of their stage beside the nodelet, and from the private namespace, which takes precedence. Warns and throws
+/// like toParameters().
+template <typename Own, typename Stage, typename Shared>
+std::tuple<Own, Stage, Shared> readParameters(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh,
+                                              const urban_nav_core::Table<Own>& own,
+                                              const urban_nav_core::Table<Stage>& stage,
+                                              const urban_nav_core::Table<Shared>& shared) {
+  const std::string where = private_nh.getNamespace();
+  std::map<std::string, urban_nav_core::ParameterValue> of_own, of_stage, of_shared;
+  for (const auto& [name, value] : serverValues(private_nh)) {
+    if (detail::hasRow(own, name)) of_own[name] = value;
+    else if (detail::hasRow(stage, name)) of_stage[name] = value;
+    else (detail::hasRow(shared, name) ? of_shared : of_stage)[name] = value;
+  }
+  const ros::NodeHandle shared_nh(nh, shared.stage());
+  auto assignments =
+      urban_nav_core::serverParameters(shared.stage(), serverValues(shared_nh), shared_nh.getNamespace());
+  for (auto& each : urban_nav_core::serverParameters(shared.stage(), of_shared, where))
+    assignments.push_back(std::move(each));
+  return {toParameters(own, of_own, where), toParameters(stage, of_stage, where),
+          detail::loadAssignments(shared, std::move(assignments))};
 }
 
 }  // namespace urban_nav_ros

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <type_traits>
 
 #include "urban_nav_live/stereo_input_parameters.hpp"
 #include "urban_nav_ros/stage_node.hpp"
@@ -57,7 +58,8 @@ void subscribeImages(StageNodeWith<Input>& node, const TopicOptions& options, bo
 }
 
 /// Subscribes to images, camera_info, /tf_static and the motion sensor as inputs of a stage. Requires that Input can be
-/// made from each alternative of StereoSessions::Message. `options` apply to images and motion.
+/// made from ImageInput, InfoInput and tf2_msgs::TFMessageConstPtr, and from the messages of the motion sensor if there is
+/// one. `options` apply to images and motion.
 template <typename Input>
 void subscribeStereo(StageNodeWith<Input>& node, const TopicOptions& options, bool compressed, MotionTopic motion) {
   const auto forward = [](const auto& message) { return Input(message); };
@@ -65,9 +67,11 @@ void subscribeStereo(StageNodeWith<Input>& node, const TopicOptions& options, bo
   unmonitored.is_monitored = unmonitored.is_paused = false;
   node.template subscribeInput<tf2_msgs::TFMessage>(topics::static_transforms, unmonitored, forward);
   subscribeImages(node, options, compressed);
-  if (motion == MotionTopic::Wheels)
-    node.template subscribeInput<nav_msgs::Odometry>(topics::wheel_odometry, options, forward);
-  if (motion == MotionTopic::Imu) node.template subscribeInput<sensor_msgs::Imu>(topics::imu, options, forward);
+  if constexpr (std::is_constructible_v<Input, nav_msgs::OdometryConstPtr>)
+    if (motion == MotionTopic::Wheels)
+      node.template subscribeInput<nav_msgs::Odometry>(topics::wheel_odometry, options, forward);
+  if constexpr (std::is_constructible_v<Input, sensor_msgs::ImuConstPtr>)
+    if (motion == MotionTopic::Imu) node.template subscribeInput<sensor_msgs::Imu>(topics::imu, options, forward);
 }
 
 }  // namespace urban_nav_ros

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "loop_metric/stored_surroundings.hpp"
+#include "urban_nav_registration/session/stored_keyframe.hpp"
 
 namespace urban_nav {
 
@@ -15,27 +15,27 @@ constexpr std::size_t kMaxPending = 2;
 
 }  // namespace
 
-KeyframeWriter::KeyframeWriter(const loop_metric::Parameters& parameters, const urban_nav_core::StereoCamera& camera,
-                               bool one_thread)
-    : choice_(parameters),
-      maker_(std::make_shared<loop_metric::KeyframeMaker>(camera, parameters.points)),
+KeyframeWriter::KeyframeWriter(const urban_nav_registration::Parameters& parameters,
+                               const urban_nav_core::StereoCamera& camera, bool one_thread)
+    : selector_(parameters),
+      extractor_(std::make_shared<urban_nav_registration::KeyframeExtractor>(camera, parameters.points)),
       launch_(one_thread ? std::launch::deferred : std::launch::async) {}
 
 void KeyframeWriter::resume(const VoRun& run, const std::vector<urban_nav_core::StampNs>& stored) {
   for (const VoRow& row : run.rows)
-    if (std::binary_search(stored.begin(), stored.end(), row.stamp)) choice_.keep(row.T_odom_base);
+    if (std::binary_search(stored.begin(), stored.end(), row.stamp)) selector_.keep(row.T_odom_base);
 }
 
 std::optional<StoredKeyframe> KeyframeWriter::process(const urban_nav_core::StereoPairWithMotion& frame,
                                                       const VoRow& row) {
   if (!row.accepted || frame.pair.left.empty() || frame.pair.right.empty()) return std::nullopt;
-  if (!choice_.choose(row.T_odom_base)) return std::nullopt;
+  if (!selector_.select(row.T_odom_base)) return std::nullopt;
   std::optional<StoredKeyframe> done;
   if (made_.size() == kMaxPending) done = next();
   // the owners keep the pixels alive
-  made_.push_back(std::async(launch_, [maker = maker_, pair = frame.pair, left = frame.left_owner,
+  made_.push_back(std::async(launch_, [extractor = extractor_, pair = frame.pair, left = frame.left_owner,
                                        right = frame.right_owner, stamp = row.stamp] {
-    return loop_metric::storedKeyframe(maker->make({"", stamp}, pair));
+    return urban_nav_registration::toStoredKeyframe(extractor->extract({"", stamp}, pair));
   }));
   return done;
 }

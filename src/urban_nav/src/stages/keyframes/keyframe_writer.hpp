@@ -7,11 +7,11 @@
 #include <optional>
 #include <vector>
 
-#include "loop_metric/keyframe.hpp"
-#include "loop_metric/keyframe_choice.hpp"
-#include "loop_metric/parameters.hpp"
 #include "stage/vo_run.hpp"
 #include "urban_nav_core/sequence/stereo_assembler.hpp"
+#include "urban_nav_registration/keyframe/keyframe_extractor.hpp"
+#include "urban_nav_registration/keyframe/keyframe_selector.hpp"
+#include "urban_nav_registration/parameters.hpp"
 #include "urban_nav_store/keyframe_store.hpp"
 
 namespace urban_nav {
@@ -21,7 +21,7 @@ namespace urban_nav {
 /// output does not depend on timing. Equal runs give equal keyframes, also if resumed after a bag.
 class KeyframeWriter {
  public:
-  KeyframeWriter(const loop_metric::Parameters& parameters, const urban_nav_core::StereoCamera& camera,
+  KeyframeWriter(const urban_nav_registration::Parameters& parameters, const urban_nav_core::StereoCamera& camera,
                  bool one_thread);
 
   /// Continues after `run`, of which the keyframes at `stored` (ascending) are in the store.
@@ -34,8 +34,8 @@ class KeyframeWriter {
   std::optional<urban_nav_store::StoredKeyframe> next();
 
  private:
-  loop_metric::KeyframeChoice choice_;
-  std::shared_ptr<const loop_metric::KeyframeMaker> maker_;
+  urban_nav_registration::KeyframeSelector selector_;
+  std::shared_ptr<const urban_nav_registration::KeyframeExtractor> extractor_;
   std::launch launch_;
   std::deque<std::future<urban_nav_store::StoredKeyframe>> made_;
 };

@@ -13,8 +13,8 @@ class KeyframesPass final : public SessionPass {
   KeyframesPass(MapContext& context, const Stage::SessionStart& start)
       : store_(*context.store),
         id_(context.sessions[start.session].id),
-        writer_(context.options.parameters.get(loop_metric::table()), context.sessions[start.session].info.camera,
-                context.options.threads == 1) {
+        writer_(context.options.parameters.get(urban_nav_registration::table()),
+                context.sessions[start.session].info.camera, context.options.threads == 1) {
     if (start.checkpoint)
       writer_.resume(*context.sessions[start.session].vo,
                      store_.keyframes().stamps(id_, urban_nav_core::frames::stereo_left));
@@ -45,11 +45,11 @@ class KeyframesPass final : public SessionPass {
 class KeyframesStage final : public Stage {
  public:
   Description describe() const override { return {"keyframes", "keyframes", false, false, false, {}}; }
-  void addTables(ParameterSet& parameters) const override { parameters.add(loop_metric::table()); }
+  void addTables(ParameterSet& parameters) const override { parameters.add(urban_nav_registration::table()); }
   std::vector<urban_nav_core::Setting> passSettings(const ParameterSet& parameters) const override {
     std::vector<urban_nav_core::Setting> used;
-    for (const urban_nav_core::Setting& setting : parameters.settings(loop_metric::table().stage()))
-      if (setting.name == "points" || setting.name == "keyframe_way" || setting.name == "keyframe_turn")
+    for (const urban_nav_core::Setting& setting : parameters.settings(urban_nav_registration::table().stage()))
+      if (setting.name == "points" || setting.name == "keyframe_distance" || setting.name == "keyframe_angle")
         used.push_back(setting);
     return used;
   }

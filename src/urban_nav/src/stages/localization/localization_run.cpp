@@ -6,22 +6,23 @@
 #include <memory>
 
 #include "evaluation/statistics.hpp"
-#include "loop_metric/cloud_search.hpp"
-#include "loop_metric/map_search.hpp"
-#include "loop_metric/stored_surroundings.hpp"
 #include "stage/store_keys.hpp"
-#include "stage/stored_sessions.hpp"
+#include "stage/vo_run.hpp"
 #include "urban_nav_core/io/csv.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_core/types/frames.hpp"
+#include "urban_nav_localization/cloud_search.hpp"
+#include "urban_nav_localization/map_search.hpp"
+#include "urban_nav_registration/session/session_lasers.hpp"
+#include "urban_nav_registration/session/stored_keyframe.hpp"
 
 namespace urban_nav {
 
-using loop_metric::Knowledge;
-using loop_metric::Located;
 using urban_nav_core::Pose;
 using urban_nav_core::StampNs;
+using urban_nav_localization::LocalizationEstimate;
+using urban_nav_localization::LocalizationState;
 using urban_nav_store::Store;
 
 namespace {
@@ -31,25 +32,25 @@ using Clock = std::chrono::steady_clock;
 /// Registers local clouds of a run to the map; does nothing without scans.
 class CloudLooks {
  public:
-  CloudLooks(const loop_metric::Parameters& parameters, const loop_metric::FrozenMap& map, Store& frozen, Store& own,
-             const urban_nav_store::SessionId& id, const VoRun& run, Console& console)
+  CloudLooks(const urban_nav_localization::Parameters& parameters, const urban_nav_localization::FrozenMap& map,
+             Store& frozen, Store& own, const urban_nav_store::SessionId& id, const VoRun& run, Console& console)
       : console_(console) {
     if (!parameters.icp || own.scans().lasers(id).empty()) return;
-    surroundings_ = std::make_unique<loop_metric::StoredSurroundings>(storedSessions({{"", id, &run}}, own, ""),
-                                                                      own.keyframes(), own.scans());
-    search_ = std::make_unique<loop_metric::CloudSearch>(parameters, map, frozen);
+    scans_ = urban_nav_registration::storedScans(own.scans(), id, urban_nav_registration::storedLasers(own, id));
+    odometry_ = odometryChain(run);
+    search_ = std::make_unique<urban_nav_localization::CloudSearch>(parameters, map, frozen);
   }
 
-  void lookOn(loop_metric::Localiser& localiser, LocalizationRun& made) {
+  void lookOn(urban_nav_localization::Localiser& localiser, LocalizationRun& made) {
     const auto stretch = search_ ? search_->due(localiser) : std::nullopt;
     if (!stretch) return;
     if (search_->read() == 0) readMap();
-    const urban_nav_core::PoseRef at{"", stretch->at};
     ++made.cloud_looks;
-    made.cloud_sightings += search_->look(*stretch, surroundings_->cloud(at, stretch->way),
-                                          surroundings_->bend(at, stretch->way), localiser)
-                                ? 1
-                                : 0;
+    made.cloud_sightings +=
+        search_->query(*stretch, urban_nav_registration::localCloud(odometry_, stretch->at, stretch->way, scans_),
+                       urban_nav_registration::deformationSigma(odometry_, stretch->at, stretch->way), localiser)
+            ? 1
+            : 0;
   }
 
  private:
@@ -61,21 +62,22 @@ class CloudLooks {
   }
 
   Console& console_;
-  std::unique_ptr<loop_metric::StoredSurroundings> surroundings_;
-  std::unique_ptr<loop_metric::CloudSearch> search_;
+  urban_nav_core::OdometryChain odometry_;
+  std::vector<urban_nav_registration::LaserScans> scans_;
+  std::unique_ptr<urban_nav_localization::CloudSearch> search_;
 };
 
 }  // namespace
 
-LocalizationRun runLocalization(const loop_metric::Parameters& parameters, Store& frozen, Store& own,
+LocalizationRun runLocalization(const urban_nav_localization::Parameters& parameters, Store& frozen, Store& own,
                                 const urban_nav_store::SessionId& id, const VoRun& run, Console& console) {
   LocalizationRun made;
-  const loop_metric::FrozenMap map(frozen);
-  loop_metric::MapSearch search(parameters, map, frozen.keyframes(), run.camera, run.T_base_camera);
+  const urban_nav_localization::FrozenMap map(frozen);
+  urban_nav_localization::MapSearch search(parameters, map, frozen.keyframes(), run.camera, run.T_base_camera);
   Progress reading(console, "views of the map", "views", static_cast<std::int64_t>(search.views()));
   while (search.readNext()) reading.update(static_cast<std::int64_t>(search.read()));
   reading.finish(static_cast<std::int64_t>(search.views()));
-  loop_metric::Localiser localiser(parameters);
+  urban_nav_localization::Localiser localiser(parameters);
   CloudLooks clouds(parameters, map, frozen, own, id, run, console);
   const std::vector<StampNs> views = own.keyframes().stamps(id, urban_nav_core::frames::stereo_left);
   Progress progress(console, "localise", "frames", static_cast<std::int64_t>(run.settled.size()));
@@ -88,13 +90,13 @@ LocalizationRun runLocalization(const loop_metric::Parameters& parameters, Store
       const Clock::time_point begin = Clock::now();
       ++made.looks;
       if (const auto stored = own.keyframes().get(id, urban_nav_core::frames::stereo_left, frame.stamp))
-        made.sightings += search.look(loop_metric::keyframeOf(*stored, ""), localiser) ? 1 : 0;
+        made.sightings += search.query(urban_nav_registration::toKeyframe(*stored, ""), localiser) ? 1 : 0;
       ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
     }
     clouds.lookOn(localiser, made);
-    Located located = localiser.at(frame.stamp);
+    LocalizationEstimate located = localiser.at(frame.stamp);
     located.stamp = frame.stamp;
-    if (located.knowledge == Knowledge::Known) {
+    if (located.state == LocalizationState::Localized) {
       ++known;
       if (made.first_known_s < 0.0)
         made.first_known_s = urban_nav_core::secondsBetween(run.settled.front().stamp, frame.stamp);
@@ -108,19 +110,33 @@ LocalizationRun runLocalization(const loop_metric::Parameters& parameters, Store
   // Frames before the first known one, and later unknown ones, are placed by odometry relative to the nearest known one.
   std::optional<Pose> T_map_odom;
   for (std::size_t i = 0; i < made.frames.size() && !T_map_odom; ++i)
-    if (made.frames[i].knowledge == Knowledge::Known)
+    if (made.frames[i].state == LocalizationState::Localized)
       T_map_odom = made.frames[i].T_map_base->pose * run.settled[i].T_odom_base.pose.inverse();
   if (!T_map_odom) {
     made.warnings.push_back("the session was never found in the map: trajectory.tum is that of odometry");
     return made;
   }
   for (std::size_t i = 0; i < made.frames.size(); ++i) {
-    if (made.frames[i].knowledge == Knowledge::Known)
+    if (made.frames[i].state == LocalizationState::Localized)
       T_map_odom = made.frames[i].T_map_base->pose * run.settled[i].T_odom_base.pose.inverse();
     made.T_map_base.append(run.settled[i].stamp, *T_map_odom * run.settled[i].T_odom_base.pose);
   }
   return made;
 }
+
+namespace {
+
+/// Returns the word of localisation.csv for a state.
+const char* csvWord(LocalizationState state) {
+  switch (state) {
+    case LocalizationState::Uncertain: return "UNSURE";
+    case LocalizationState::Localized: return "KNOWN";
+    case LocalizationState::Unmapped: break;
+  }
+  return "NEW";
+}
+
+}  // namespace
 
 std::string localizationCsv(const LocalizationRun& run) {
   using urban_nav_core::printNumber;
@@ -128,9 +144,9 @@ std::string localizationCsv(const LocalizationRun& run) {
   for (int i = 0; i < 36; ++i) header.push_back("c" + std::to_string(i / 6) + std::to_string(i % 6));
   header.emplace_back("sentence");
   std::string text = urban_nav_core::printCsvRow(header);
-  for (const Located& frame : run.frames) {
-    std::vector<std::string> cells = {std::to_string(frame.stamp), toString(frame.knowledge),
-                                      std::to_string(frame.witnesses)};
+  for (const LocalizationEstimate& frame : run.frames) {
+    std::vector<std::string> cells = {std::to_string(frame.stamp), csvWord(frame.state),
+                                      std::to_string(frame.supporting_matches)};
     if (frame.T_map_base) {
       const Pose& T = frame.T_map_base->pose;
       for (const double value : {T.t().x(), T.t().y(), T.t().z(), T.q().x(), T.q().y(), T.q().z(), T.q().w()})

@@ -6,15 +6,17 @@
 
 #include "command_line/console.hpp"
 #include "command_line/json.hpp"
-#include "loop_metric/localiser.hpp"
 #include "stage/vo_run.hpp"
+#include "urban_nav_localization/localiser.hpp"
+#include "urban_nav_localization/parameters.hpp"
 #include "urban_nav_store/store.hpp"
 
 namespace urban_nav {
 
 /// Localization of a session in a map that is only read.
 struct LocalizationRun {
-  std::vector<loop_metric::Located> frames;  ///< one per smoothed frame, from what was observed by then
+  std::vector<urban_nav_localization::LocalizationEstimate>
+      frames;  ///< one per smoothed frame, from what was observed by then
   /// All frames, from what is known at the end; empty if the session was never localized.
   urban_nav_core::Trajectory T_map_base;
   std::size_t looks = 0, sightings = 0;              ///< keyframes that were matched, and transforms from them
@@ -28,7 +30,7 @@ struct LocalizationRun {
 /// Registers the keyframes that `own` holds of the run to those of the map of `frozen`'s first session: those near its
 /// estimated pose if there is one, else all. After some metres without a match, local clouds are registered instead, if
 /// both stores have scans. Throws UserError if the map has no keyframes, or those of another camera.
-LocalizationRun runLocalization(const loop_metric::Parameters& parameters, urban_nav_store::Store& frozen,
+LocalizationRun runLocalization(const urban_nav_localization::Parameters& parameters, urban_nav_store::Store& frozen,
                                 urban_nav_store::Store& own, const urban_nav_store::SessionId& id, const VoRun& run,
                                 Console& console);
 

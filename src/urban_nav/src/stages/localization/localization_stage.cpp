@@ -26,7 +26,10 @@ class LocalizationStage final : public Stage {
   Description describe() const override {
     return {"localization", "localisation", false, false, false, {"localisation#.csv"}};
   }
-  void addTables(ParameterSet& parameters) const override { parameters.add(loop_metric::table()); }
+  void addTables(ParameterSet& parameters) const override {
+    parameters.add(urban_nav_registration::table());
+    parameters.add(urban_nav_localization::table());
+  }
   Selection select(const MapOptions& options) const override {
     if (options.localise.empty()) return {false, "no --localise", {}};
     if (!options.store.empty())
@@ -37,7 +40,8 @@ class LocalizationStage final : public Stage {
 
   Messages run(MapContext& context) override {
     Store frozen(context.options.localise, Access::Read);
-    const loop_metric::Parameters& parameters = context.options.parameters.get(loop_metric::table());
+    urban_nav_localization::Parameters parameters = context.options.parameters.get(urban_nav_localization::table());
+    parameters.registration = context.options.parameters.get(urban_nav_registration::table());
     Messages messages;
     for (std::size_t i = 0; i < context.sessions.size(); ++i) {
       const MapSession& session = context.sessions[i];

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "stages/loops/closure_picture.hpp"
 
-#include "loop_metric/cloud_picture.hpp"
 #include "loop_metric/evidence.hpp"
-#include "loop_metric/match_picture.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_registration/pictures/cloud_picture.hpp"
+#include "urban_nav_registration/pictures/match_picture.hpp"
 
 namespace urban_nav {
 
@@ -41,31 +41,31 @@ std::string titleOf(const urban_nav_core::PoseRef& view) {
 bool hasPicture(const urban_nav_core::MetricClosure& closure) { return shownOf(closure).has_value(); }
 
 std::optional<PagePicture> pictureOf(const urban_nav_core::MetricClosure& closure,
-                                     const loop_metric::Surroundings& surroundings, double way) {
+                                     const loop_metric::PlaceData& place_data, double way) {
   const std::optional<Evidence::Try> shown = shownOf(closure);
   if (!shown) return std::nullopt;
-  return pictureOf(*shown, surroundings, way);
+  return pictureOf(*shown, place_data, way);
 }
 
-std::optional<PagePicture> pictureOf(const Evidence::Try& tried, const loop_metric::Surroundings& surroundings,
-                                     double way) {
+std::optional<PagePicture> pictureOf(const Evidence::Try& tried, const loop_metric::PlaceData& place_data, double way) {
   if (!isShown(tried)) return std::nullopt;
   try {
-    loop_metric::Picture drawn;
+    urban_nav_registration::Picture drawn;
     if (tried.method == "stereo") {
-      loop_metric::MatchPictureOptions options;
-      options.title_a = titleOf(tried.view_a);
-      options.title_b = titleOf(tried.view_b);
-      drawn = loop_metric::drawMatches(surroundings.keyframe(tried.view_a), surroundings.keyframe(tried.view_b),
-                                       tried.pixels, options);
+      urban_nav_registration::MatchPictureOptions options;
+      options.title_a = titleOf(tried.keyframe_a);
+      options.title_b = titleOf(tried.keyframe_b);
+      drawn = urban_nav_registration::drawMatches(place_data.keyframe(tried.keyframe_a),
+                                                  place_data.keyframe(tried.keyframe_b), tried.pixels, options);
     } else {
-      loop_metric::CloudPictureOptions options;
-      options.caption = "red: " + titleOf(tried.view_a) + "; blue: " + titleOf(tried.view_b);
-      drawn = loop_metric::drawClouds(surroundings.cloud(tried.view_b, way), surroundings.cloud(tried.view_a, way),
-                                      *tried.guess, *tried.T_a_b, options);
+      urban_nav_registration::CloudPictureOptions options;
+      options.caption = "red: " + titleOf(tried.keyframe_a) + "; blue: " + titleOf(tried.keyframe_b);
+      drawn = urban_nav_registration::drawClouds(place_data.cloud(tried.keyframe_b, way),
+                                                 place_data.cloud(tried.keyframe_a, way), *tried.guess, *tried.T_a_b,
+                                                 options);
     }
     PagePicture picture;
-    picture.jpeg = loop_metric::jpegOf(drawn);
+    picture.jpeg = urban_nav_registration::encodeJpeg(drawn);
     picture.width = drawn.width;
     picture.height = drawn.height;
     if (picture.jpeg.empty()) return std::nullopt;

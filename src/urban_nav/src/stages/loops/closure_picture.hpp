@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "loop_metric/evidence.hpp"
-#include "loop_metric/surroundings.hpp"
+#include "loop_metric/place/place_data.hpp"
 #include "report/page.hpp"
 #include "urban_nav_core/types/closure.hpp"
 
@@ -14,11 +14,11 @@ namespace urban_nav {
 bool hasPicture(const urban_nav_core::MetricClosure& closure);
 
 /// The try that decided, or the first where none did, from the evidence of the closure: two views with their matches, or two clouds before and after their
-/// alignment. `way`: loop_metric's cloud_way. Empty where nothing was tried, or what is known of it is damaged.
+/// alignment. `way`: loop_metric's cloud_half_length. Empty where nothing was tried, or what is known of it is damaged.
 std::optional<PagePicture> pictureOf(const urban_nav_core::MetricClosure& closure,
-                                     const loop_metric::Surroundings& surroundings, double way);
+                                     const loop_metric::PlaceData& place_data, double way);
 /// The same of one try.
-std::optional<PagePicture> pictureOf(const loop_metric::Evidence::Try& tried,
-                                     const loop_metric::Surroundings& surroundings, double way);
+std::optional<PagePicture> pictureOf(const loop_metric::Evidence::Try& tried, const loop_metric::PlaceData& place_data,
+                                     double way);
 
 }  // namespace urban_nav

@@ -7,19 +7,17 @@
 #include <mutex>
 
 #include "evaluation/statistics.hpp"
-#include "loop_metric/camera_words.hpp"
-#include "loop_metric/consistency.hpp"
+#include "loop_metric/candidate/closure_checks.hpp"
 #include "loop_metric/loop_metric.hpp"
-#include "loop_metric/shared_clouds.hpp"
-#include "loop_metric/shared_views.hpp"
-#include "loop_metric/stored_surroundings.hpp"
+#include "loop_metric/place/stored_place_data.hpp"
 #include "stages/loops/closure_picture.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_registration/session/calibration_fingerprint.hpp"
 
 namespace urban_nav {
 
-using loop_metric::StoredSurroundings;
+using loop_metric::StoredPlaceData;
 using urban_nav_core::ClosureMethod;
 using urban_nav_core::ClosureVerdict;
 using urban_nav_core::MetricClosure;
@@ -40,13 +38,13 @@ double closureMilliseconds(Clock::time_point begin) {
 
 /// Tools of one thread: each has its own reader of the store.
 struct Worker {
-  Worker(const std::string& path, const StoredSurroundings::Sessions& sessions,
-         const loop_metric::Parameters& parameters, const StereoCamera& camera, const Pose& T_base_camera)
+  Worker(const std::string& path, const StoredPlaceData::Sessions& sessions, const loop_metric::Parameters& parameters,
+         const StereoCamera& camera, const Pose& T_base_camera)
       : store(path, urban_nav_store::Access::Read),
-        surroundings(sessions, store.keyframes(), store.scans()),
+        place_data(sessions, store.keyframes(), store.scans()),
         stage(parameters, camera, T_base_camera) {}
   Store store;
-  StoredSurroundings surroundings;
+  StoredPlaceData place_data;
   loop_metric::LoopMetric stage;
 };
 
@@ -79,7 +77,7 @@ MetricClosure measure(Worker& worker, const ClosureRow& row) {
   const urban_nav_core::TopologicalClosure candidate{
       {row.session_a, row.stamp_a}, {row.session_b, row.stamp_b}, row.probability};
   try {
-    return worker.stage.measure(candidate, worker.surroundings).metric;
+    return worker.stage.measure(candidate, worker.place_data).metric;
   } catch (const urban_nav_core::DataError& error) {  // what the store holds of this place is damaged
     MetricClosure closure;
     closure.a = candidate.a;
@@ -113,7 +111,7 @@ std::vector<const ClosureRow*> spread(const std::vector<const ClosureRow*>& rows
 }
 
 /// Returns pictures of closures accepted by stereo, by ICP, and of rejected ones, each group spread over its rows.
-std::vector<PagePicture> picturesOf(const std::vector<ClosureRow>& rows, const StoredSurroundings& surroundings,
+std::vector<PagePicture> picturesOf(const std::vector<ClosureRow>& rows, const StoredPlaceData& place_data,
                                     double way) {
   std::vector<const ClosureRow*> stereo, icp, rejected;
   for (const ClosureRow& row : rows) {
@@ -125,7 +123,7 @@ std::vector<PagePicture> picturesOf(const std::vector<ClosureRow>& rows, const S
   for (const auto& some :
        {spread(stereo, kStereoPictures), spread(icp, kIcpPictures), spread(rejected, kRejectedPictures)})
     for (const ClosureRow* row : some)
-      if (auto picture = pictureOf(*row->measured, surroundings, way)) {
+      if (auto picture = pictureOf(*row->measured, place_data, way)) {
         picture->caption = (row->measured->verdict == ClosureVerdict::Accepted ? "Accepted: " : "Rejected: ") +
                            row->measured->sentence;
         pictures.push_back(std::move(*picture));
@@ -142,8 +140,8 @@ LoopsRun runLoops(const loop_metric::Parameters& parameters, const StereoCamera&
   run.candidates = rows.size();
   if (rows.empty()) return run;
   const Clock::time_point begin = Clock::now();
-  const StoredSurroundings::Sessions known =
-      storedSessions(sessions, store, loop_metric::cameraWords(camera, T_base_camera));
+  const StoredPlaceData::Sessions known =
+      storedSessions(sessions, store, urban_nav_registration::calibrationFingerprint(camera, T_base_camera));
   const auto make = [&] { return std::make_unique<Worker>(store.path(), known, parameters, camera, T_base_camera); };
   Workers workers;
   std::vector<MetricClosure> closures(rows.size());
@@ -163,9 +161,7 @@ LoopsRun runLoops(const loop_metric::Parameters& parameters, const StereoCamera&
   progress.finish(static_cast<std::int64_t>(rows.size()));
   {
     const std::unique_ptr<Worker> worker = workers.take(make);
-    loop_metric::holdAgainstEachOther(closures, worker->surroundings, parameters);
-    loop_metric::shareClouds(closures, worker->surroundings, parameters);
-    loop_metric::shareViews(closures);
+    loop_metric::applyChecks(closures, worker->place_data, parameters);
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const bool accepted = closures[i].verdict == ClosureVerdict::Accepted;
@@ -176,7 +172,7 @@ LoopsRun runLoops(const loop_metric::Parameters& parameters, const StereoCamera&
   run.ms_median = quantile(ms, 0.5);
   run.ms_p99 = quantile(ms, 0.99);
   run.ms = closureMilliseconds(begin);
-  run.pictures = picturesOf(rows, workers.take(make)->surroundings, parameters.cloud_way);
+  run.pictures = picturesOf(rows, workers.take(make)->place_data, parameters.registration.cloud_half_length);
   for (const CandidateSession& session : sessions)
     if (!known.at(session.name).has_camera)
       run.warnings.push_back("views of session " + session.name +

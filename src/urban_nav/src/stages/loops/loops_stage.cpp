@@ -13,7 +13,10 @@ namespace {
 class LoopsStage final : public Stage {
  public:
   Description describe() const override { return {"loops", "loop_metric", true, true, true, {}}; }
-  void addTables(ParameterSet& parameters) const override { parameters.add(loop_metric::table()); }
+  void addTables(ParameterSet& parameters) const override {
+    parameters.add(urban_nav_registration::table());
+    parameters.add(loop_metric::table());
+  }
   Selection select(const MapOptions& options) const override {
     if (!options.localise.empty()) return {false, "not with --localise", {}};
     if (!isRequested(options, "loops")) return {false, "not in --stages", {}};
@@ -26,8 +29,10 @@ class LoopsStage final : public Stage {
     std::vector<CandidateSession> sessions;
     for (std::size_t i = 0; i < runs.size(); ++i) sessions.push_back({context.names[i], ids[i], runs[i]});
     const SourceInfo& last = context.sessions.back().info;
-    run_ = runLoops(context.options.parameters.get(loop_metric::table()), last.camera, last.T_base_camera, sessions,
-                    *context.store, context.closures, context.console);
+    loop_metric::Parameters parameters = context.options.parameters.get(loop_metric::table());
+    parameters.registration = context.options.parameters.get(urban_nav_registration::table());
+    run_ = runLoops(parameters, last.camera, last.T_base_camera, sessions, *context.store, context.closures,
+                    context.console);
     context.closures = run_->closures;
     if (run_->candidates == 0) return {};
     return {{"loops: " + std::to_string(run_->candidates) + " candidates, " + std::to_string(run_->accepted_stereo) +

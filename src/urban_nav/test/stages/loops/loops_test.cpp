@@ -28,7 +28,7 @@ constexpr const char* kHeader = "session_a,stamp_a_ns,session_b,stamp_b_ns,proba
 void map(const std::vector<std::string>& inputs, const std::string& out, const std::string& closures,
          const std::function<void(MapOptions&)>& change = {}) {
   MapOptions request{inputs, out, {"vo", "loops", "graph"}, "", closures, "", {}, loadParameters(Arguments({})), 1};
-  request.parameters.set("loop_metric.keyframe_way=0.05");  // the robot of the room drives a few decimetres
+  request.parameters.set("registration.keyframe_distance=0.05");  // the robot of the room drives a few decimetres
   if (change) change(request);
   Console console;
   runMap(request, console);
@@ -112,7 +112,7 @@ TEST_F(Loops, whySaysWhatTheStoreKnows) {
   const std::string text = explain(closures[0]);
   for (const char* part : {"accepted, by stereo", "passed  matches", "Two views: accepted", "distance_m"})
     EXPECT_NE(text.find(part), std::string::npos) << text;
-  const Page page = explainOnPage(closures[0], store, loop_metric::Parameters().cloud_way);
+  const Page page = explainOnPage(closures[0], store, urban_nav_registration::Parameters().cloud_half_length);
   ASSERT_FALSE(page.sections.empty());
   EXPECT_EQ(page.sections[0].pictures.size(), 1U);
 }

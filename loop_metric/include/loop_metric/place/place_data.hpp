@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "urban_nav_core/types/closure.hpp"
+#include "urban_nav_core/types/point_cloud.hpp"
+#include "urban_nav_core/types/pose_with_covariance.hpp"
+#include "urban_nav_registration/keyframe/keyframe.hpp"
+
+namespace loop_metric {
+
+/// Stored keyframe near a pose of the same session.
+struct NearbyKeyframe {
+  urban_nav_core::PoseRef at;
+  urban_nav_core::PoseWithCovariance T_place_keyframe;  ///< between base_links; the covariance may be zero
+  double way = 0.0;                                     ///< m driven from the moment to the view; negative: before it
+};
+
+/// Stored data of the places that candidates name. LoopMetric requests it piece by piece, as it needs it; implemented
+/// over a recording or a store.
+class PlaceData {
+ public:
+  virtual ~PlaceData() = default;
+
+  /// Returns whether odometry covers the stamp. Otherwise `why` is set to the reason, for the user.
+  virtual bool knows(const urban_nav_core::PoseRef& at, std::string& why) const = 0;
+  /// Returns the keyframes within `way` m of travel from the pose, in order of time.
+  virtual std::vector<NearbyKeyframe> views(const urban_nav_core::PoseRef& at, double way) const = 0;
+  /// Returns a keyframe; without image and points if it is not stored. Throws DataError if the stored data is damaged.
+  virtual urban_nav_registration::Keyframe keyframe(const urban_nav_core::PoseRef& at) const = 0;
+  /// Returns the points of the lasers from `way` m before the pose to `way` m after it, in base_link at the pose; empty
+  /// without laser data.
+  virtual urban_nav_core::PointCloud cloud(const urban_nav_core::PoseRef& at, double way) const = 0;
+  /// Returns the deformation of that cloud by the drift of odometry, m.
+  virtual double deformationSigma(const urban_nav_core::PoseRef& at, double way) const = 0;
+  /// T_a_b by odometry, and the distance driven in between.
+  struct Way {
+    urban_nav_core::PoseWithCovariance T_a_b;
+    double length = 0.0;  ///< m
+  };
+  virtual std::optional<Way> between(const urban_nav_core::PoseRef& a, const urban_nav_core::PoseRef& b) const = 0;
+};
+
+}  // namespace loop_metric

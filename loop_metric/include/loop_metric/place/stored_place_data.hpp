@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "loop_metric/place/place_data.hpp"
+#include "urban_nav_core/trajectory/odometry_chain.hpp"
+#include "urban_nav_registration/session/session_lasers.hpp"
+#include "urban_nav_store/keyframe_store.hpp"
+#include "urban_nav_store/scan_store.hpp"
+#include "urban_nav_store/store.hpp"
+
+namespace loop_metric {
+
+/// Session whose poses candidates may name.
+struct StoredSession {
+  urban_nav_store::SessionId id;
+  std::shared_ptr<const urban_nav_core::OdometryChain> odometry;
+  std::vector<urban_nav_registration::LaserAt> lasers;
+  bool has_camera = true;  ///< the camera that LoopMetric was made for; else its views are left alone
+};
+
+/// Place data from the keyframes and scans of a store and the odometry of its sessions, by the names that candidates
+/// use. Memory grows only by the stamps of keyframes. Not thread-safe; the stores must outlive it.
+class StoredPlaceData : public PlaceData {
+ public:
+  /// By name.
+  using Sessions = std::map<std::string, StoredSession>;
+  StoredPlaceData(Sessions sessions, const urban_nav_store::KeyframeStore& keyframes,
+                  const urban_nav_store::ScanStore& scans);
+
+  /// Adds a keyframe of a session that is being recorded, later than those before; its odometry may grow too.
+  void add(const urban_nav_core::PoseRef& view);
+
+  bool knows(const urban_nav_core::PoseRef& at, std::string& why) const override;
+  std::vector<NearbyKeyframe> views(const urban_nav_core::PoseRef& at, double way) const override;
+  urban_nav_registration::Keyframe keyframe(const urban_nav_core::PoseRef& at) const override;
+  urban_nav_core::PointCloud cloud(const urban_nav_core::PoseRef& at, double way) const override;
+  double deformationSigma(const urban_nav_core::PoseRef& at, double way) const override;
+  std::optional<Way> between(const urban_nav_core::PoseRef& a, const urban_nav_core::PoseRef& b) const override;
+
+ private:
+  const StoredSession* find(const urban_nav_core::PoseRef& at) const;
+
+  Sessions sessions_;
+  const urban_nav_store::KeyframeStore& keyframes_;
+  const urban_nav_store::ScanStore& scans_;
+  std::map<std::string, std::vector<urban_nav_core::StampNs>> stamps_;  // of each session's views
+};
+
+}  // namespace loop_metric

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "live/closure_verifier.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "loop_metric/evidence.hpp"
+#include "urban_nav_core/types/error.hpp"
+#include "urban_nav_registration/session/calibration_fingerprint.hpp"
+
+namespace loop_metric {
+
+using urban_nav_core::ClosureMethod;
+using urban_nav_core::ClosureVerdict;
+using urban_nav_core::MetricClosure;
+using urban_nav_core::PoseRef;
+using urban_nav_core::StampNs;
+using urban_nav_core::TopologicalClosure;
+using urban_nav_registration::LaserAt;
+using urban_nav_registration::MountedCamera;
+using urban_nav_registration::SessionOdometry;
+using urban_nav_store::Access;
+using urban_nav_store::SessionId;
+
+namespace {
+
+constexpr std::size_t max_inputs = 100'000;  // over an hour of odometry at 20 Hz, while a candidate is measured
+// s; odometry lags by seconds at most, so that it will not reach a pose further ahead.
+constexpr double max_ahead = 60.0;
+
+double secondsAfter(StampNs stamp, StampNs reference) { return 1e-9 * static_cast<double>(stamp - reference); }
+
+/// Returns the name by which place data knows a gapless part of a session.
+std::string partName(const SessionId& id, std::size_t part) {
+  return part == 0 ? id : id + "#" + std::to_string(part + 1);
+}
+
+SessionId sessionOfPart(const std::string& name) { return name.substr(0, name.find('#')); }
+
+void reject(MetricClosure& metric, LoopReason reason, const std::string& sentence) {
+  metric.verdict = ClosureVerdict::Rejected;
+  metric.reason = static_cast<int>(reason);
+  metric.reason_name = toString(reason);
+  metric.sentence = sentence;
+  metric.measured.information.setZero();
+}
+
+}  // namespace
+
+ClosureVerifier::ClosureVerifier(const Parameters& parameters, double timeout, urban_nav_live::StoreWriterLink& store,
+                                 Listener listener)
+    : parameters_(parameters), timeout_(timeout), store_(store), listener_(std::move(listener)), loop_(max_inputs) {
+  urban_nav_live::WorkerLoop<Input>::Steps steps;
+  steps.handle = [this](Input& input) { handle(input); };
+  steps.idle = [this] { return verifyNext(); };
+  loop_.start(std::move(steps));
+}
+
+ClosureVerifier::Counts ClosureVerifier::counts() const {
+  return {loop_.dropped(), waits_, stereo_, icp_, rejected_, parts_};
+}
+
+bool ClosureVerifier::finishSession(std::chrono::milliseconds timeout) {
+  return loop_
+      .ask(
+          [this] {
+            endSession(nullptr);
+            return true;
+          },
+          timeout)
+      .value_or(false);
+}
+
+void ClosureVerifier::handle(Input& input) {
+  if (const auto* step = std::get_if<urban_nav_core::RelativePose>(&input)) {
+    addStep(*step);
+  } else if (auto* candidate = std::get_if<Candidate>(&input)) {
+    waiting_.push_back(std::move(*candidate));
+    waits_ = static_cast<std::int64_t>(waiting_.size());
+  } else if (const auto* started = std::get_if<SessionStarted>(&input)) {
+    endSession(started);
+  } else if (const auto* keyframe = std::get_if<KeyframeStored>(&input)) {
+    if (!place_data_ || outdated_ || running_.empty()) return;
+    for (std::size_t i = 0; i < sessions_[running_].odometry.parts().size(); ++i)
+      place_data_->add({partName(running_, i), keyframe->stamp});
+  } else if (const auto* laser = std::get_if<LaserAt>(&input)) {
+    if (running_.empty()) return;
+    sessions_[running_].lasers.push_back(*laser);
+    outdated_ = true;
+  } else {
+    setCamera(std::get<MountedCamera>(input));
+  }
+}
+
+void ClosureVerifier::setCamera(const MountedCamera& camera) {
+  camera_ = camera;
+  stage_.reset();
+  // Whether the camera of another session is this one has to be read again.
+  for (auto each = sessions_.begin(); each != sessions_.end();)
+    each = each->first == running_ ? std::next(each) : sessions_.erase(each);
+  if (!running_.empty()) sessions_[running_].has_camera = true;
+  outdated_ = true;
+}
+
+void ClosureVerifier::addStep(const urban_nav_core::RelativePose& step) {
+  last_step_ = Clock::now();
+  if (running_.empty()) return;
+  SessionOdometry& odometry = sessions_[running_].odometry;
+  const std::size_t parts = odometry.parts().size();
+  odometry.add(step);
+  if (odometry.parts().size() == parts) return;
+  outdated_ = true;
+  parts_ = static_cast<std::int64_t>(odometry.parts().size());
+}
+
+void ClosureVerifier::endSession(const SessionStarted* next) {
+  while (!running_.empty() && !waiting_.empty() && !loop_.isStopping()) {
+    const Candidate candidate = waiting_.front();
+    waiting_.pop_front();
+    verify(candidate, next != nullptr);
+  }
+  waits_ = static_cast<std::int64_t>(waiting_.size());
+  running_.clear();
+  if (next == nullptr) return;
+  if (next->continues) load(next->id);
+  else sessions_.erase(next->id);
+  running_ = next->id;
+  KnownSession& session = sessions_[running_];
+  session.id = running_;
+  session.has_camera = camera_.has_value();
+  session.lasers.clear();  // the recorder reports them again
+  outdated_ = true;
+  last_step_ = Clock::now();
+}
+
+/// A candidate is due if neither pose is of the running session, or if the robot has driven on from the later one by the
+/// extent of a cloud (of the keyframe search, without lasers), or has had the time to, or if odometry has ended.
+bool ClosureVerifier::isDue(const Candidate& candidate) const {
+  StampNs later = 0;
+  for (const PoseRef* at : {&candidate.closure.a, &candidate.closure.b})
+    if (at->session.empty() || at->session == running_) later = std::max(later, at->stamp);
+  if (later == 0) return true;
+  if (Clock::now() - std::max(last_step_, candidate.received) >= timeout_) return true;
+  const auto session = sessions_.find(running_);
+  if (session == sessions_.end() || session->second.odometry.empty()) return false;
+  const StampNs newest = session->second.odometry.newest();
+  if (secondsAfter(newest, later) >= timeout_.count() || secondsAfter(later, newest) > max_ahead) return true;
+  if (newest < later) return false;
+  const bool clouds = parameters_.icp && !session->second.lasers.empty();
+  const urban_nav_core::OdometryChain& odometry = *session->second.odometry.parts().back();
+  return odometry.distance(newest) - odometry.distance(later) >=
+         (clouds ? parameters_.registration.cloud_half_length : parameters_.keyframe_search_distance);
+}
+
+bool ClosureVerifier::verifyNext() {
+  const auto due =
+      std::find_if(waiting_.begin(), waiting_.end(), [this](const Candidate& each) { return isDue(each); });
+  if (due == waiting_.end()) return false;
+  const Candidate candidate = *due;
+  waiting_.erase(due);
+  waits_ = static_cast<std::int64_t>(waiting_.size());
+  verify(candidate, false);
+  return true;
+}
+
+void ClosureVerifier::verify(const Candidate& candidate, bool by_id) {
+  const Clock::time_point begin = Clock::now();
+  LoopClosure closure;
+  try {
+    closure = measure(candidate.closure);
+    if (place_data_) checks_.apply(closure.metric, *place_data_, parameters_);
+  } catch (const urban_nav_core::Error& error) {  // the data of this place is damaged or cannot be read
+    closure.metric = {};
+    closure.metric.probability = candidate.closure.probability;
+    closure.metric.source = "loop_metric";
+    reject(closure.metric, LoopReason::NothingKept, error.what());
+  }
+  report(candidate, closure, by_id, begin);
+}
+
+/// Poses are reported by the frames of odometry, sessions as the candidate names them: a pose without a name is of the
+/// running session, whatever its id.
+void ClosureVerifier::report(const Candidate& candidate, LoopClosure& closure, bool by_id, Clock::time_point begin) {
+  MetricClosure reported = closure.metric;
+  for (const auto& [at, asked] :
+       {std::pair(&reported.a, &candidate.closure.a), std::pair(&reported.b, &candidate.closure.b)}) {
+    if (at->stamp == 0) at->stamp = asked->stamp;
+    at->session = asked->session.empty() && by_id ? running_ : asked->session;
+  }
+  for (StereoAttempt& each : closure.stereo) {
+    restoreName(each.keyframe_a.at);
+    restoreName(each.keyframe_b.at);
+  }
+  closure.metric.a.session = reported.a.session;
+  closure.metric.b.session = reported.b.session;
+  if (!reported.evidence.empty()) reported.evidence = printEvidence(collectEvidence(closure));
+  if (reported.verdict == ClosureVerdict::Rejected) ++rejected_;
+  else ++(reported.method == ClosureMethod::Stereo ? stereo_ : icp_);
+  const auto keyframe = [this](const PoseRef& at) {
+    return place_data_ ? place_data_->keyframe(resolve(at)) : urban_nav_registration::Keyframe();
+  };
+  const auto cloud = [this](const PoseRef& at) {
+    return place_data_ ? place_data_->cloud(resolve(at), parameters_.registration.cloud_half_length)
+                       : urban_nav_core::PointCloud();
+  };
+  listener_({std::move(reported), closure, keyframe, cloud,
+             std::chrono::duration<double, std::milli>(Clock::now() - begin).count()});
+}
+
+/// While writes wait for the disk, keyframes have been announced that cannot be read. Then, and once more when the store
+/// is in order again, its contents are read anew and results of missing keyframes are dropped.
+void ClosureVerifier::followStore() {
+  store_.flush();
+  std::string fault = store_.state().fault;
+  if (!fault.empty() || !store_fault_.empty()) {
+    stage_.reset();
+    outdated_ = true;
+  }
+  store_fault_ = std::move(fault);
+}
+
+LoopClosure ClosureVerifier::measure(const TopologicalClosure& closure) {
+  followStore();
+  TopologicalClosure candidate{resolve(closure.a), resolve(closure.b), closure.probability};
+  LoopClosure made;
+  made.metric.a = candidate.a;
+  made.metric.b = candidate.b;
+  made.metric.probability = candidate.probability;
+  made.metric.source = "loop_metric";
+  if (!reader_) {
+    reject(made.metric, LoopReason::NothingKept,
+           "nothing is kept: " + (store_fault_.empty() ? "no store yet" : store_fault_));
+    return made;
+  }
+  if (running_.empty() && (closure.a.session.empty() || closure.b.session.empty())) {
+    reject(made.metric, LoopReason::UnknownMoment, "no odometry has come: no session is being recorded");
+    return made;
+  }
+  if (outdated_) renewPlaceData();
+  made = stage_->measure(candidate, *place_data_);
+  if (!store_fault_.empty() && made.metric.verdict == ClosureVerdict::Rejected)
+    made.metric.sentence += "; what came last is not in the store: " + store_fault_;
+  return made;
+}
+
+void ClosureVerifier::openReader() {
+  if (!reader_ && store_.isOpen()) reader_.emplace(store_.path(), Access::Read);
+}
+
+PoseRef ClosureVerifier::resolve(const PoseRef& at) {
+  openReader();
+  const SessionId id = at.session.empty() ? running_ : at.session;
+  if (!id.empty() && sessions_.count(id) == 0) load(id);
+  const auto found = sessions_.find(id);
+  if (found == sessions_.end() || found->second.odometry.empty()) return {id, at.stamp};
+  const SessionOdometry& odometry = found->second.odometry;
+  const std::size_t part = odometry.partAt(at.stamp);
+  const auto moment = odometry.parts()[part]->nearestFrame(at.stamp);
+  return {partName(id, part), moment ? moment->frame : at.stamp};
+}
+
+void ClosureVerifier::restoreName(PoseRef& at) const {
+  at.session = sessionOfPart(at.session);
+  if (at.session == running_) at.session.clear();
+}
+
+void ClosureVerifier::load(const SessionId& id) {
+  openReader();
+  if (!reader_ || !reader_->sessions().find(id)) return;
+  KnownSession session;
+  session.id = id;
+  session.odometry = urban_nav_registration::readOdometry(*reader_, id);
+  const std::string fingerprint =
+      camera_ ? urban_nav_registration::calibrationFingerprint(camera_->camera, camera_->T_base_left) : "";
+  for (const urban_nav_store::Property& property : reader_->sessions().properties(id))
+    if (property.name == urban_nav_registration::calibration_property)
+      session.has_camera = property.value == fingerprint;
+  session.lasers = urban_nav_registration::storedLasers(*reader_, id);
+  sessions_[id] = std::move(session);
+  outdated_ = true;
+}
+
+void ClosureVerifier::renewPlaceData() {
+  StoredPlaceData::Sessions sessions;
+  for (const auto& [id, known] : sessions_)
+    for (std::size_t i = 0; i < known.odometry.parts().size(); ++i)
+      sessions[partName(id, i)] = {id, known.odometry.parts()[i], known.lasers, known.has_camera};
+  place_data_ = std::make_unique<StoredPlaceData>(std::move(sessions), reader_->keyframes(), reader_->scans());
+  if (!stage_) {
+    Parameters parameters = parameters_;
+    parameters.stereo = parameters.stereo && camera_;
+    const MountedCamera camera = camera_.value_or(MountedCamera());
+    stage_ = std::make_unique<LoopMetric>(parameters, camera.camera, camera.T_base_left);
+  }
+  outdated_ = false;
+}
+
+}  // namespace loop_metric

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "loop_metric/candidate/closure_checks.hpp"
+#include "loop_metric/loop_metric.hpp"
+#include "loop_metric/place/stored_place_data.hpp"
+#include "urban_nav_live/store_writer_link.hpp"
+#include "urban_nav_live/worker_loop.hpp"
+#include "urban_nav_registration/keyframe/keyframe_builder.hpp"
+#include "urban_nav_registration/session/session_odometry.hpp"
+
+namespace loop_metric {
+
+/// Takes live candidates to their verdicts in a thread of its own. Each candidate waits until the robot has driven on by
+/// what its clouds may need (isDue), is measured with the contents of the store, and is checked against the closures
+/// accepted before it. Thread-safe.
+class ClosureVerifier {
+ public:
+  /// The recorder has begun a session.
+  struct SessionStarted {
+    urban_nav_store::SessionId id;
+    bool continues = false;  ///< after the odometry that the store has of it
+  };
+  struct KeyframeStored {
+    urban_nav_core::StampNs stamp = 0;
+  };
+  struct Candidate {
+    urban_nav_core::TopologicalClosure closure;
+    std::chrono::steady_clock::time_point received;
+  };
+  using Input = std::variant<urban_nav_core::RelativePose, Candidate, SessionStarted, KeyframeStored,
+                             urban_nav_registration::LaserAt, urban_nav_registration::MountedCamera>;
+
+  /// A verdict, and access to the data of its picture.
+  struct Verdict {
+    urban_nav_core::MetricClosure metric;
+    const LoopClosure& closure;
+    /// By the references in `closure.stereo`.
+    std::function<urban_nav_registration::Keyframe(const urban_nav_core::PoseRef&)> keyframe;
+    /// By the poses of `closure.metric`.
+    std::function<urban_nav_core::PointCloud(const urban_nav_core::PoseRef&)> cloud;
+    double ms = 0.0;
+  };
+  /// Called in the thread of the verifier.
+  using Listener = std::function<void(const Verdict&)>;
+  struct Counts {
+    std::int64_t dropped = 0;  ///< inputs for which the queue had no room
+    std::int64_t waiting = 0, stereo = 0, icp = 0, rejected = 0;
+    std::int64_t parts = 0;  ///< gapless parts of the running session's odometry
+  };
+
+  /// `timeout`: s that a candidate waits at most. `store` must outlive it.
+  ClosureVerifier(const Parameters& parameters, double timeout, urban_nav_live::StoreWriterLink& store,
+                  Listener listener);
+  /// Blocks until the candidate at work has its verdict; those that wait are dropped.
+  ~ClosureVerifier() { loop_.stop(); }
+  ClosureVerifier(const ClosureVerifier&) = delete;
+  ClosureVerifier& operator=(const ClosureVerifier&) = delete;
+
+  void push(Input input) { loop_.push(std::move(input)); }
+  /// Ends the session: all candidates that wait are measured with what is stored. Blocks. Returns false on timeout.
+  bool finishSession(std::chrono::milliseconds timeout);
+  Counts counts() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  /// A session that candidates may name, as far as it is known.
+  struct KnownSession {
+    urban_nav_store::SessionId id;
+    urban_nav_registration::SessionOdometry odometry;
+    std::vector<urban_nav_registration::LaserAt> lasers;
+    bool has_camera = false;
+  };
+
+  void handle(Input& input);
+  void addStep(const urban_nav_core::RelativePose& step);
+  void setCamera(const urban_nav_registration::MountedCamera& camera);
+  void endSession(const SessionStarted* next);
+  bool isDue(const Candidate& candidate) const;
+  /// Returns false if no candidate is due.
+  bool verifyNext();
+  /// `by_id`: the running session is named by its id, since another one is about to begin.
+  void verify(const Candidate& candidate, bool by_id);
+  void report(const Candidate& candidate, LoopClosure& closure, bool by_id, Clock::time_point begin);
+  LoopClosure measure(const urban_nav_core::TopologicalClosure& closure);
+  void followStore();
+  /// Returns the pose by the name of its part and the nearest frame of odometry.
+  urban_nav_core::PoseRef resolve(const urban_nav_core::PoseRef& at);
+  void restoreName(urban_nav_core::PoseRef& at) const;
+  void openReader();
+  void load(const urban_nav_store::SessionId& id);
+  void renewPlaceData();
+
+  const Parameters parameters_;
+  const std::chrono::duration<double> timeout_;
+  urban_nav_live::StoreWriterLink& store_;
+  const Listener listener_;
+
+  // Used by the thread alone.
+  std::optional<urban_nav_registration::MountedCamera> camera_;
+  std::unique_ptr<LoopMetric> stage_;
+  std::optional<urban_nav_store::Store> reader_;
+  std::map<urban_nav_store::SessionId, KnownSession> sessions_;
+  urban_nav_store::SessionId running_;  // empty: none yet
+  std::unique_ptr<StoredPlaceData> place_data_;
+  bool outdated_ = true;     // place_data_ lacks some of sessions_
+  std::string store_fault_;  // at the last candidate: writes that wait for the disk cannot be read
+  std::deque<Candidate> waiting_;
+  SequentialChecks checks_;
+  Clock::time_point last_step_ = Clock::now();
+
+  std::atomic<std::int64_t> waits_{0}, stereo_{0}, icp_{0}, rejected_{0}, parts_{0};
+  urban_nav_live::WorkerLoop<Input> loop_;
+};
+
+}  // namespace loop_metric

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "urban_nav_live/stereo_input_parameters.hpp"
+#include "urban_nav_core/parameters/table.hpp"
+
+namespace loop_metric {
+
+/// Parameters of the nodelet of loop closures alone: names, transport, timeout. One member per row of nodeletTable().
+struct NodeletParameters : urban_nav_live::StereoInputParameters {
+  std::string robot;
+  std::string recording;
+  std::string store;
+  double candidate_timeout;  // s
+
+  NodeletParameters();
+};
+
+const urban_nav_core::Table<NodeletParameters>& nodeletTable();
+
+}  // namespace loop_metric

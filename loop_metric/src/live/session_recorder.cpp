@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "live/session_recorder.hpp"
+
+#include <utility>
+
+#include "urban_nav_core/types/error.hpp"
+#include "urban_nav_registration/session/calibration_fingerprint.hpp"
+#include "urban_nav_registration/session/stored_keyframe.hpp"
+
+namespace loop_metric {
+
+using urban_nav_core::RelativePose;
+using urban_nav_core::StampNs;
+using urban_nav_live::SessionNamer;
+using urban_nav_registration::keyframe_camera;
+using urban_nav_registration::LaserAt;
+using urban_nav_store::Access;
+using urban_nav_store::Node;
+using urban_nav_store::SessionId;
+using urban_nav_store::Store;
+
+namespace {
+
+// What arrives before the first step of odometry, which comes a window of frames later: 25 s of two lasers at 75 Hz.
+constexpr std::size_t max_writes_before = 4000;
+
+}  // namespace
+
+SessionRecorder::SessionRecorder(const urban_nav_registration::Parameters& parameters, Options options,
+                                 urban_nav_live::StoreWriterLink& store, ClosureVerifier& verifier)
+    : options_(std::move(options)), store_(store), verifier_(verifier), builder_(parameters), namer_(options_.robot) {}
+
+SessionRecorder::State SessionRecorder::state() const {
+  return {session_ ? session_->id : "", builder_.counts(), scans_, refused_steps_, not_stored_};
+}
+
+void SessionRecorder::setCamera(const std::optional<urban_nav_registration::MountedCamera>& camera) {
+  if (!camera) return builder_.clearCamera();
+  builder_.setCamera(*camera);
+  const std::string fingerprint = urban_nav_registration::calibrationFingerprint(camera->camera, camera->T_base_left);
+  if (fingerprint == camera_) return;
+  camera_ = fingerprint;
+  verifier_.push(*camera);
+  storeSession();
+}
+
+void SessionRecorder::restartImages() {
+  storeKeyframes();
+  builder_.restart();
+  odometry_time_.reset();
+  images_are_next_ = session_.has_value();
+}
+
+void SessionRecorder::addPair(urban_nav_core::StereoPairWithMotion pair) {
+  builder_.addPair(std::move(pair));
+  storeKeyframes();
+}
+
+void SessionRecorder::addOdometry(const urban_nav_core::StampedPose& T_odom_base) {
+  if (odometry_time_.add(T_odom_base.stamp)) builder_.restartOdometry();
+  builder_.addOdometry(T_odom_base);
+  storeKeyframes();
+}
+
+void SessionRecorder::storeKeyframes() {
+  for (const urban_nav_registration::Keyframe& keyframe : builder_.take()) {
+    store(images_are_next_, [stored = toStoredKeyframe(keyframe)](Store& file, const SessionId& session) {
+      file.keyframes().put(session, keyframe_camera, stored);
+    });
+    if (session_ && !images_are_next_) verifier_.push(ClosureVerifier::KeyframeStored{keyframe.at.stamp});
+  }
+}
+
+void SessionRecorder::addScan(const std::string& frame, const urban_nav_core::Scan& scan) {
+  Laser& laser = lasers_[frame];
+  if (laser.time.add(scan.stamp)) laser.is_next = session_.has_value();
+  ++scans_;
+  store(laser.is_next,
+        [frame, scan](Store& file, const SessionId& session) { file.scans().put(session, frame, scan); });
+}
+
+void SessionRecorder::setLaser(const std::string& frame, const urban_nav_core::Pose& T_base_laser) {
+  const auto laser = lasers_.find(frame);
+  if (laser == lasers_.end() || laser->second.T_base_laser) return;
+  laser->second.T_base_laser = T_base_laser;
+  if (session_) verifier_.push(LaserAt{frame, T_base_laser});
+  storeSession();
+}
+
+std::vector<std::string> SessionRecorder::unplacedLasers() const {
+  std::vector<std::string> frames;
+  for (const auto& [frame, laser] : lasers_)
+    if (!laser.T_base_laser) frames.push_back(frame);
+  return frames;
+}
+
+void SessionRecorder::addStep(const RelativePose& step) {
+  if (!session_ || step_time_.jumpsBack(step.from)) begin(step.from);
+  std::vector<Node> nodes;
+  std::optional<urban_nav_store::Edge> edge;
+  if (!odometry_.write(session_->id, step, nodes, edge)) {
+    ++refused_steps_;
+    return;
+  }
+  step_time_.advance(step.to);
+  post([nodes, edge](Store& file, const SessionId& session) {
+    for (const Node& node : nodes) file.graph().put(session, node);
+    file.graph().put(*edge);
+  });
+  verifier_.push(step);
+}
+
+SessionNamer::Named SessionRecorder::nameSession(StampNs start) {
+  odometry_ = OdometryRows();
+  if (!store_.isOpen()) return namer_.begin(options_.recording, start);
+  try {
+    Store file(store_.path(), Access::Read);
+    const auto endsAt = [&](const Session& session, StampNs stamp) {
+      std::vector<Node> later;
+      file.graph().forEachNode(
+          session.id, [&](const Node& node) { later.push_back(node); }, stamp);
+      if (later.size() != 1 || later.front().stamp != stamp) return false;
+      odometry_.continueFrom(later.front());
+      return true;
+    };
+    return namer_.begin(options_.recording, start, file.sessions().all(), endsAt);
+  } catch (const urban_nav_core::Error&) {
+    return namer_.begin(options_.recording, start);  // a store that cannot be read is named when it is written
+  }
+}
+
+void SessionRecorder::begin(StampNs start) {
+  end();
+  const SessionNamer::Named named = nameSession(start);
+  session_ = named.session;
+  step_time_.reset();
+  step_time_.advance(start);
+  images_are_next_ = false;
+  storeSession();
+  verifier_.push(ClosureVerifier::SessionStarted{session_->id, named.continues});
+  for (auto& [frame, laser] : lasers_) {
+    laser.is_next = false;
+    if (laser.T_base_laser) verifier_.push(LaserAt{frame, *laser.T_base_laser});
+  }
+  for (Write& write : std::exchange(before_, {})) post(std::move(write));
+}
+
+void SessionRecorder::storeSession() {
+  if (!session_) return;
+  std::vector<urban_nav_store::Extrinsic> extrinsics;
+  for (const auto& [frame, laser] : lasers_)
+    if (laser.T_base_laser) extrinsics.push_back({frame, *laser.T_base_laser});
+  std::string fingerprint;
+  if (const auto& camera = builder_.camera()) {
+    extrinsics.push_back({keyframe_camera, camera->T_base_left});
+    fingerprint = camera_;
+  }
+  post([session = *session_, extrinsics, fingerprint](Store& file, const SessionId&) {
+    file.sessions().put(session);
+    for (const urban_nav_store::Extrinsic& extrinsic : extrinsics) file.sessions().put(session.id, extrinsic);
+    if (fingerprint.empty()) return;
+    file.sessions().put(session.id,
+                        urban_nav_store::Property{urban_nav_registration::calibration_property, fingerprint});
+  });
+}
+
+void SessionRecorder::idle() {
+  if (store_.open()) storeSession();
+}
+
+void SessionRecorder::end() {
+  if (!session_) return;
+  session_->complete = true;
+  storeSession();
+  session_.reset();
+}
+
+void SessionRecorder::store(bool is_next, Write write) {
+  if (session_ && !is_next) return post(std::move(write));
+  before_.push_back(std::move(write));
+  if (before_.size() <= max_writes_before) return;
+  before_.pop_front();
+  ++not_stored_;
+}
+
+void SessionRecorder::post(Write write) {
+  store_.post([id = session_->id, write = std::move(write)](Store& file) { write(file, id); });
+}
+
+}  // namespace loop_metric

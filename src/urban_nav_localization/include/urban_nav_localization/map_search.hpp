@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "urban_nav_core/camera/stereo_camera.hpp"
+#include "urban_nav_localization/localiser.hpp"
+#include "urban_nav_localization/parameters.hpp"
+#include "urban_nav_registration/keyframe/keyframe.hpp"
+#include "urban_nav_store/keyframe_store.hpp"
+#include "urban_nav_store/stored_map.hpp"
+
+namespace urban_nav_localization {
+
+/// Keyframe of a map.
+struct MapKeyframe {
+  urban_nav_store::SessionId session;
+  urban_nav_core::StampNs stamp = 0;
+  urban_nav_core::Pose T_map_base;
+};
+
+/// The first map of a store, as it is when it is read.
+class FrozenMap {
+ public:
+  /// Throws DataError that names the store if it holds no session or no keyframes.
+  explicit FrozenMap(urban_nav_store::Store& store);
+
+  /// Returns the sessions in order of their starts.
+  const std::vector<urban_nav_store::StoredTrajectory>& sessions() const { return sessions_; }
+  /// Returns the keyframes of sessions whose camera has this fingerprint (calibration_fingerprint.hpp). Throws
+  /// DataError if there are none.
+  std::vector<MapKeyframe> keyframesOf(const std::string& camera_words) const;
+
+ private:
+  struct Views {
+    std::string camera;  // its words
+    std::vector<MapKeyframe> views;
+  };
+  std::string path_;
+  std::vector<urban_nav_store::StoredTrajectory> sessions_;
+  std::vector<Views> views_;  // of sessions that have some
+};
+
+/// Matches keyframes of a drive with those of a map: with those near the estimated pose or the initial pose, otherwise
+/// with all of them. Results are registered by StereoMatcher, so that only a validated transform is a match. Not
+/// thread-safe.
+class MapSearch {
+ public:
+  /// `store` must outlive it, unchanged. Throws DataError if the map has no keyframes of this camera.
+  MapSearch(const Parameters& parameters, const FrozenMap& map, const urban_nav_store::KeyframeStore& store,
+            const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_base_left);
+  ~MapSearch();
+  MapSearch(const MapSearch&) = delete;
+  MapSearch& operator=(const MapSearch&) = delete;
+
+  /// Returns the number of keyframes to be read for the search, one in 1.5 m, and of those read so far. Reading takes
+  /// some 10 ms each.
+  std::size_t views() const;
+  std::size_t read() const;
+  /// Reads one more keyframe. Returns false if none is left.
+  bool readNext();
+
+  /// Searches for a keyframe, and adds the match or the miss to the localiser, whose odometry has reached the keyframe.
+  /// Returns true for a match.
+  bool query(const urban_nav_registration::Keyframe& view, Localiser& localiser);
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace urban_nav_localization

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include <atomic>
+#include <memory>
+#include <tuple>
+#include <utility>
+
+#include "initial_pose.hpp"
+#include "live/localization_report.hpp"
+#include "live/nodelet_parameters.hpp"
+#include "publisher.hpp"
+#include "urban_nav_live/time_jump.hpp"
+#include "urban_nav_ros/laser_scan.hpp"
+#include "urban_nav_ros/robot_topics.hpp"
+#include "urban_nav_ros/stage_nodelet.hpp"
+
+namespace urban_nav_localization {
+
+using urban_nav_core::Error;
+using urban_nav_core::UserError;
+using urban_nav_ros::ImageInput;
+using urban_nav_ros::InfoInput;
+using urban_nav_ros::StereoSessions;
+using urban_nav_store::Access;
+using urban_nav_store::Store;
+
+/// Localization on topics, in a map that is not changed.
+class LocalizationStage {
+ public:
+  static constexpr const char* name = "localization";
+  static constexpr const char* topic = "localization";
+  using Input = std::variant<ImageInput, InfoInput, tf2_msgs::TFMessageConstPtr, sensor_msgs::LaserScanConstPtr,
+                             urban_nav_core::StampedPose, urban_nav_core::RelativePose, LiveLocaliser::InitialPose>;
+  using Node = urban_nav_ros::StageNodeWith<Input>;
+
+  explicit LocalizationStage(Node& node);
+
+  void handle(Input& input);
+  bool idle();
+  std::string reset() {
+    localiser_->restart();
+    return "the pose of the robot is unknown from now on";
+  }
+  void close() {}
+  urban_nav_live::StageReport report() const;
+
+ private:
+  /// Throws UserError that names the parameter.
+  void openMap();
+  void subscribe();
+  StereoSessions::Listener stereoListener();
+  void handleImage(const ImageInput& image);
+  void handleScan(const sensor_msgs::LaserScan& message);
+  void placeLasers();
+
+  Node& node_;
+  NodeletParameters nodelet_;
+  Parameters parameters_;
+  std::vector<urban_nav_store::StoredTrajectory> map_;
+  std::unique_ptr<LocalizationPublisher> publisher_;
+  std::unique_ptr<LiveLocaliser> localiser_;
+  std::unique_ptr<StereoSessions> sessions_;
+  urban_nav_live::TimeJumpDetector image_time_;
+  bool images_jumped_ = false;
+  std::string camera_, map_fault_;
+  std::atomic<std::int64_t> initial_poses_refused_{0};
+};
+
+LocalizationStage::LocalizationStage(Node& node) : node_(node) {
+  std::tie(nodelet_, parameters_, parameters_.registration) = urban_nav_ros::readParameters(
+      node.nh(), node.privateHandle(), nodeletTable(), table(), urban_nav_registration::table());
+  node.setQueueSize(nodelet_.queue_size);
+  openMap();
+  sessions_ = std::make_unique<StereoSessions>(urban_nav_ros::toStereoOptions(nodelet_, node.nh()), stereoListener());
+  subscribe();
+}
+
+void LocalizationStage::openMap() {
+  const std::string parameter = node_.privateHandle().resolveName("store");
+  if (nodelet_.store.empty() || nodelet_.store.front() != '/')
+    throw UserError(parameter, "`" + nodelet_.store + "`", "the absolute path of a session store");
+  try {
+    Store store(nodelet_.store, Access::Read);
+    FrozenMap map(store);
+    map_ = map.sessions();
+    publisher_ = std::make_unique<LocalizationPublisher>(node_.nh(), nodelet_);
+    publisher_->publish(map_);
+    publisher_->publish(LocalizationEstimate(), std::nullopt);
+    localiser_ = std::make_unique<LiveLocaliser>(
+        parameters_, std::move(store), std::move(map),
+        [this](const auto& estimate, const auto& T_map_odom) { publisher_->publish(estimate, T_map_odom); });
+  } catch (const Error& error) {
+    throw UserError(parameter, error.what(), "");
+  }
+}
+
+void LocalizationStage::subscribe() {
+  subscribeRobot(node_, nodelet_.queue_size, true, nodelet_.compressed, parameters_.icp);
+  urban_nav_ros::TopicOptions options;
+  options.is_monitored = options.is_paused = false;
+  options.queue = nodelet_.queue_size;
+  node_.subscribe<nav_msgs::Odometry>(urban_nav_ros::topics::vo_odometry, options, [this](const auto& message) {
+    publisher_->sendTransform(urban_nav_ros::toStampNs(message->header.stamp));
+  });
+  node_.subscribe<geometry_msgs::PoseWithCovarianceStamped>(
+      urban_nav_ros::topics::initial_pose, options, [this](const auto& message) {
+        try {
+          node_.push(LiveLocaliser::InitialPose{urban_nav_ros::toStampNs(message->header.stamp),
+                                                toInitialPose(*message, nodelet_.map_frame, "initialpose", map_)});
+        } catch (const Error& error) {
+          ++initial_poses_refused_;
+          node_.logError(error.what());
+        }
+      });
+}
+
+StereoSessions::Listener LocalizationStage::stereoListener() {
+  StereoSessions::Listener listener;
+  listener.began = [this](const StereoSessions::Camera& camera) {
+    camera_ = camera.is_mounting_known ? "" : camera.mounting;
+    localiser_->setCamera(urban_nav_registration::MountedCamera{camera.camera, camera.T_base_left});
+  };
+  listener.pair = [this](urban_nav_ros::DecodedPair& pair) { localiser_->addPair(std::move(pair.assembled)); };
+  listener.ended = [this](const std::string&) {
+    if (std::exchange(images_jumped_, false)) localiser_->restartImages();
+    localiser_->setCamera(std::nullopt);
+  };
+  listener.refused = [this](const std::string& fault) {
+    if (!fault.empty()) node_.logError(fault);
+  };
+  return listener;
+}
+
+void LocalizationStage::handle(Input& input) {
+  if (const auto* image = std::get_if<ImageInput>(&input)) {
+    handleImage(*image);
+  } else if (const auto* info = std::get_if<InfoInput>(&input)) {
+    sessions_->handle(*info);
+  } else if (const auto* transforms = std::get_if<tf2_msgs::TFMessageConstPtr>(&input)) {
+    sessions_->handle(*transforms);
+    placeLasers();
+  } else if (const auto* scan = std::get_if<sensor_msgs::LaserScanConstPtr>(&input)) {
+    handleScan(**scan);
+  } else if (const auto* odometry = std::get_if<urban_nav_core::StampedPose>(&input)) {
+    localiser_->addOdometry(*odometry);
+  } else if (const auto* step = std::get_if<urban_nav_core::RelativePose>(&input)) {
+    localiser_->addStep(*step);
+  } else {
+    localiser_->addInitialPose(std::get<LiveLocaliser::InitialPose>(input));
+  }
+}
+
+void LocalizationStage::handleImage(const ImageInput& image) {
+  images_jumped_ = image_time_.add(image.stamp);
+  sessions_->handle(image);
+  if (std::exchange(images_jumped_, false)) localiser_->restartImages();  // no stereo session was running
+}
+
+void LocalizationStage::handleScan(const sensor_msgs::LaserScan& message) {
+  const auto planar = urban_nav_ros::toPlanarScan(message);
+  if (!planar) return node_.gate().countInvalid();
+  localiser_->addScan(message.header.frame_id, urban_nav_core::toScan(*planar));
+  placeLasers();
+}
+
+void LocalizationStage::placeLasers() {
+  for (const std::string& frame : localiser_->unplacedLasers())
+    if (const auto T_base_laser = sessions_->transforms().lookup(nodelet_.base_frame, frame))
+      localiser_->setLaser(frame, *T_base_laser);
+}
+
+bool LocalizationStage::idle() {
+  sessions_->idle();
+  const bool busy = localiser_->work();
+  const urban_nav_live::StageReport now = report();
+  node_.publishStatus(now.status, now.reason_name, urban_nav_ros::toStampNs(ros::Time::now()));
+  const std::string fault = localiser_->state().map_fault;
+  if (fault != map_fault_ && !fault.empty()) node_.logError(node_.privateHandle().resolveName("store") + ": " + fault);
+  map_fault_ = fault;
+  return busy;
+}
+
+urban_nav_live::StageReport LocalizationStage::report() const {
+  StageState state;
+  state.paused = node_.gate().isPaused();
+  state.localiser = localiser_->state();
+  state.map = nodelet_.store;
+  state.odometry_fault = node_.monitor().fault(urban_nav_ros::topic_groups::odometry);
+  state.image_fault = node_.monitor().fault(urban_nav_ros::topic_groups::images);
+  state.camera_fault = sessions_->fault();
+  for (const std::string& frame : localiser_->unplacedLasers())
+    state.laser_pose_fault = "no static tf from " + nodelet_.base_frame + " to " + frame;
+  state.camera = camera_;
+  state.initial_poses_refused = initial_poses_refused_;
+  state.damaged_images = sessions_->counts().damaged;
+  return makeReport(state);
+}
+
+class LocalizationNodelet : public urban_nav_ros::StageNodelet<LocalizationStage> {};
+
+}  // namespace urban_nav_localization
+
+PLUGINLIB_EXPORT_CLASS(urban_nav_localization::LocalizationNodelet, nodelet::Nodelet)

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_core/types/error.hpp"
+#include "urban_nav_localization/map_search.hpp"
+#include "urban_nav_registration/session/calibration_fingerprint.hpp"
+#include "urban_nav_registration/session/stored_keyframe.hpp"
+
+namespace urban_nav_localization {
+
+using urban_nav_core::DataError;
+using urban_nav_core::StampNs;
+using urban_nav_registration::calibration_property;
+using urban_nav_registration::isSameCalibration;
+using urban_nav_registration::keyframe_camera;
+
+using urban_nav_store::Store;
+using urban_nav_store::StoredTrajectory;
+
+namespace {
+
+std::string propertyOf(Store& store, const urban_nav_store::SessionId& id, const std::string& name) {
+  for (const urban_nav_store::Property& property : store.sessions().properties(id))
+    if (property.name == name) return property.value;
+  return {};
+}
+
+/// Returns the keyframes of a session that have a pose.
+std::vector<MapKeyframe> keyframesOf(Store& store, const StoredTrajectory& session) {
+  std::vector<MapKeyframe> views;
+  const std::vector<StampNs> stamps = store.keyframes().stamps(session.session.id, keyframe_camera);
+  auto stamp = stamps.begin();
+  for (const urban_nav_core::StampedPose& pose : session.T_map_base) {
+    while (stamp != stamps.end() && *stamp < pose.stamp) ++stamp;
+    if (stamp != stamps.end() && *stamp == pose.stamp) views.push_back({session.session.id, pose.stamp, pose.pose});
+  }
+  return views;
+}
+
+}  // namespace
+
+FrozenMap::FrozenMap(Store& store) : path_(store.path()) {
+  auto maps = readMaps(store, store.sessions().all());
+  if (maps.empty()) throw DataError(path_, "holds no session", "");
+  sessions_ = std::move(maps.front());
+  for (const StoredTrajectory& session : sessions_) {
+    Views made{propertyOf(store, session.session.id, calibration_property),
+               urban_nav_localization::keyframesOf(store, session)};
+    if (!made.views.empty()) views_.push_back(std::move(made));
+  }
+  if (views_.empty())
+    throw DataError(path_, "holds no keyframes: map stores them unless --stages leaves loops out", "");
+}
+
+std::vector<MapKeyframe> FrozenMap::keyframesOf(const std::string& camera_words) const {
+  std::vector<MapKeyframe> views;
+  for (const Views& each : views_)
+    if (isSameCalibration(each.camera, camera_words)) views.insert(views.end(), each.views.begin(), each.views.end());
+  if (views.empty()) throw DataError(path_, "its keyframes are of another camera than this input", "");
+  return views;
+}
+
+}  // namespace urban_nav_localization

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_localization/map_search.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "near.hpp"
+#include "urban_nav_core/geometry/dense.hpp"
+#include "urban_nav_registration/retrieval/descriptor_voting.hpp"
+#include "urban_nav_registration/session/calibration_fingerprint.hpp"
+#include "urban_nav_registration/session/stored_keyframe.hpp"
+#include "urban_nav_registration/stereo/stereo_closure.hpp"
+
+namespace urban_nav_localization {
+
+using urban_nav_core::Constraint;
+using urban_nav_core::Pose;
+using urban_nav_registration::betweenBases;
+using urban_nav_registration::calibrationFingerprint;
+using urban_nav_registration::DescriptorVoting;
+using urban_nav_registration::Keyframe;
+using urban_nav_registration::keyframe_camera;
+using urban_nav_registration::StereoClosure;
+using urban_nav_registration::StereoMatcher;
+using urban_nav_registration::toKeyframe;
+
+namespace {
+
+constexpr double search_spacing = 1.5;               // m between keyframes of the map that are in memory for the search
+constexpr std::size_t max_registered_keyframes = 3;  // of one query
+constexpr double max_near_distance = 6.0;            // m from the prior to keyframes that are tried first, and
+constexpr double max_near_angle = 0.9;               // rad
+constexpr double max_sure_distance = 2.0;            // m; nearer, and
+constexpr double max_sure_angle = 0.35;              // rad, 92 to 100 of 100 match (docs/results/registration.md)
+// Keyframes from further apart share a distant wall rather than the surroundings of the robot, and walls have repeated
+// patterns: such a match starts no hypothesis, unless it determines the position so well that much of it was near. Of 134
+// correct matches along one drive in the opposite direction 98 % are firm, of 12 false ones none.
+constexpr double max_firm_distance = 2.5;          // m, or
+constexpr double max_firm_sigma = 0.03;            // m
+constexpr double metres_per_radian_of_view = 4.0;  // a rotation costs as many matches as this distance
+
+bool isFirm(const Constraint& measured) {
+  if (measured.T_a_b.t().norm() <= max_firm_distance) return true;
+  const auto covariance = urban_nav_core::invertPositiveDefinite(measured.information);
+  return covariance && covariance->topLeftCorner<3, 3>().trace() <= max_firm_sigma * max_firm_sigma;
+}
+
+}  // namespace
+
+class MapSearch::Implementation {
+ public:
+  Implementation(const Parameters& parameters, std::vector<MapKeyframe> views,
+                 const urban_nav_store::KeyframeStore& store, const urban_nav_core::StereoCamera& camera,
+                 const Pose& T_base_left)
+      : store_(store),
+        views_(std::move(views)),
+        finder_(camera),
+        matcher_(camera, parameters.registration),
+        T_base_left_(T_base_left) {
+    std::map<urban_nav_store::SessionId, Pose> last;
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+      const auto before = last.find(views_[i].session);
+      if (before != last.end() && distanceBetween(before->second, views_[i].T_map_base) < search_spacing &&
+          angleBetween(before->second, views_[i].T_map_base) < max_near_angle / 4.0)
+        continue;
+      last[views_[i].session] = views_[i].T_map_base;
+      searched_.push_back(i);
+    }
+  }
+
+  std::size_t views() const { return searched_.size(); }
+  std::size_t read() const { return finder_.size(); }
+  bool readNext() {
+    if (read() < views()) finder_.add(keyframe(views_[searched_[read()]]));
+    return read() < views();
+  }
+
+  bool query(const Keyframe& view, Localiser& localiser) {
+    const LocalizationEstimate prior = localiser.at(view.at.stamp);
+    const std::vector<std::size_t> nearest = isNearKnownPlace(prior)
+                                                 ? near(prior.T_map_base->pose, max_near_distance, max_near_angle)
+                                                 : std::vector<std::size_t>();
+    std::optional<MapMatch> seen = firstOf(nearest, view);
+    // The prior may be wrong, and the robot may have been carried elsewhere: without a match near it, search the whole map.
+    if (!seen) {
+      std::vector<std::size_t> found;
+      for (const DescriptorVoting::Found& each : finder_.find(view, max_registered_keyframes))
+        found.push_back(searched_[each.view]);
+      seen = firstOf(found, view);
+    }
+    if (seen) localiser.addMatch(view.at.stamp, views_[seen->view].T_map_base, seen->measured, isFirm(seen->measured));
+    else localiser.addMiss(view.at.stamp, !nearest.empty() && shows(views_[nearest.front()], prior));
+    return seen.has_value();
+  }
+
+ private:
+  struct MapMatch {
+    std::size_t view;
+    Constraint measured;  // T_view_robot, between base_links
+  };
+
+  Keyframe keyframe(const MapKeyframe& view) const {
+    const auto stored = store_.get(view.session, keyframe_camera, view.stamp);
+    Keyframe made;
+    made.at = {view.session, view.stamp};
+    return stored ? toKeyframe(*stored, view.session) : made;
+  }
+
+  /// Returns whether a robot at the prior should match the keyframe.
+  static bool shows(const MapKeyframe& view, const LocalizationEstimate& prior) {
+    return prior.state == LocalizationState::Localized &&
+           distanceBetween(view.T_map_base, prior.T_map_base->pose) <= max_sure_distance &&
+           angleBetween(view.T_map_base, prior.T_map_base->pose) <= max_sure_angle;
+  }
+
+  /// Returns the first keyframe that can be registered: a second one of the same place is no second match. If it places the
+  /// robot far from it, and the map has keyframes near that pose, one of them must match too, and is more accurate.
+  std::optional<MapMatch> firstOf(const std::vector<std::size_t>& views, const Keyframe& view) {
+    const std::optional<MapMatch> seen = registered(views, view);
+    if (!seen || isFirm(seen->measured)) return seen;
+    const std::vector<std::size_t> nearest =
+        near(views_[seen->view].T_map_base * seen->measured.T_a_b, max_sure_distance, max_sure_angle);
+    return nearest.empty() ? seen : registered(nearest, view);
+  }
+  std::optional<MapMatch> registered(const std::vector<std::size_t>& views, const Keyframe& view) {
+    for (const std::size_t each : views) {
+      const StereoClosure closure = matcher_.match(keyframe(views_[each]), view);
+      if (closure.verdict == urban_nav_core::ClosureVerdict::Accepted)
+        return MapMatch{each, betweenBases(closure.lefts, T_base_left_)};
+    }
+    return std::nullopt;
+  }
+
+  /// Returns the keyframes nearest to a pose.
+  std::vector<std::size_t> near(const Pose& here, double most_way, double most_turn) const {
+    std::vector<std::pair<double, std::size_t>> costs;
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+      const double way = distanceBetween(views_[i].T_map_base, here), turn = angleBetween(views_[i].T_map_base, here);
+      if (way <= most_way && turn <= most_turn) costs.emplace_back(way + metres_per_radian_of_view * turn, i);
+    }
+    std::sort(costs.begin(), costs.end());
+    std::vector<std::size_t> nearest;
+    for (std::size_t i = 0; i < std::min(costs.size(), max_registered_keyframes); ++i)
+      nearest.push_back(costs[i].second);
+    return nearest;
+  }
+
+  const urban_nav_store::KeyframeStore& store_;
+  std::vector<MapKeyframe> views_;
+  std::vector<std::size_t> searched_;  // indices in views_ of those that finder_ has or will have
+  DescriptorVoting finder_;
+  StereoMatcher matcher_;
+  Pose T_base_left_;
+};
+
+MapSearch::MapSearch(const Parameters& parameters, const FrozenMap& map, const urban_nav_store::KeyframeStore& store,
+                     const urban_nav_core::StereoCamera& camera, const Pose& T_base_left)
+    : implementation_(std::make_unique<Implementation>(
+          parameters, map.keyframesOf(calibrationFingerprint(camera, T_base_left)), store, camera, T_base_left)) {}
+MapSearch::~MapSearch() = default;
+
+std::size_t MapSearch::views() const { return implementation_->views(); }
+std::size_t MapSearch::read() const { return implementation_->read(); }
+bool MapSearch::readNext() { return implementation_->readNext(); }
+bool MapSearch::query(const Keyframe& view, Localiser& localiser) { return implementation_->query(view, localiser); }
+
+}  // namespace urban_nav_localization

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "urban_nav_core/sequence/stereo_assembler.hpp"
+#include "urban_nav_core/trajectory/trajectory.hpp"
+#include "urban_nav_registration/keyframe/keyframe_extractor.hpp"
+#include "urban_nav_registration/keyframe/keyframe_selector.hpp"
+#include "urban_nav_registration/parameters.hpp"
+
+namespace urban_nav_registration {
+
+/// Stereo camera and the pose of its left side on the robot.
+struct MountedCamera {
+  urban_nav_core::StereoCamera camera;
+  urban_nav_core::Pose T_base_left;
+};
+
+/// Builds keyframes from live stereo pairs and filtered odometry, which arrive independently. Pairs and selection are the
+/// same as offline. Memory is bounded. Used by one thread.
+class KeyframeBuilder {
+ public:
+  struct Counts {
+    std::int64_t pairs = 0, extracted = 0;
+    std::int64_t without_odometry = 0;  ///< pairs for which odometry has no pose
+  };
+
+  explicit KeyframeBuilder(const Parameters& parameters) : parameters_(parameters), selector_(parameters) {}
+
+  /// Sets the camera of the pairs that follow. Pairs that still wait for odometry are dropped.
+  void setCamera(const MountedCamera& camera);
+  /// Drops the camera and the pairs that wait.
+  void clearCamera();
+  /// Restarts the selection and drops all that waits: stamps have jumped back.
+  void restart();
+
+  /// Appends a pair, later than those before. Requires a camera.
+  void addPair(urban_nav_core::StereoPairWithMotion pair);
+  /// Drops poses that wait: stamps of the odometry have jumped back.
+  void restartOdometry();
+  /// Appends a pose of the odometry. Ignored unless it is later than those before.
+  void addOdometry(const urban_nav_core::StampedPose& T_odom_base);
+  /// Returns the keyframes that are complete since the last call, in order of time.
+  std::vector<Keyframe> take();
+
+  /// Returns nullopt until setCamera().
+  const std::optional<MountedCamera>& camera() const { return camera_; }
+  const Counts& counts() const { return counts_; }
+
+ private:
+  const Parameters parameters_;
+  std::optional<MountedCamera> camera_;
+  std::optional<KeyframeExtractor> extractor_;
+  KeyframeSelector selector_;
+  std::deque<urban_nav_core::StereoPairWithMotion> pairs_;  // for odometry
+  std::deque<urban_nav_core::StampedPose> odometry_;        // for pairs
+  std::optional<urban_nav_core::StampNs> newest_pose_;
+  Counts counts_;
+};
+
+}  // namespace urban_nav_registration

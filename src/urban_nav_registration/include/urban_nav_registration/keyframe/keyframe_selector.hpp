@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_registration/parameters.hpp"
+
+namespace urban_nav_registration {
+
+/// Selects the keyframes of a session: the first frame, and each frame after the keyframe distance or angle, by
+/// odometry as it was at that time. Live and offline stages use it, so that a session and its recording have the same
+/// keyframes. Not thread-safe.
+class KeyframeSelector {
+ public:
+  explicit KeyframeSelector(const Parameters& parameters)
+      : way_(parameters.keyframe_distance), turn_(parameters.keyframe_angle) {}
+
+  /// Sets the pose of the last keyframe, from which the next ones are measured.
+  void keep(const urban_nav_core::Pose& T_odom_base) { last_ = T_odom_base; }
+  /// Returns true if the frame is a keyframe. To be called for each frame in order of time.
+  bool select(const urban_nav_core::Pose& T_odom_base);
+
+ private:
+  double way_, turn_;
+  std::optional<urban_nav_core::Pose> last_;  // T_odom_base of the last keyframe
+};
+
+}  // namespace urban_nav_registration

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "urban_nav_core/parameters/table.hpp"
+
+namespace urban_nav_registration {
+
+/// Parameters of registration, shared by all stages that use it; one member per row of table().
+struct Parameters {
+  // keyframes and odometry
+  double keyframe_distance;  // m
+  double keyframe_angle;     // rad
+  double cloud_half_length;  // m
+  double odometry_scale;     // share
+  // stereo
+  int points;                     // of a keyframe
+  int min_matches;                // to accept
+  double max_reprojection_error;  // px, mean
+  double min_likeness;            // mean correlation
+  double disparity_offset;        // px
+  double pixel_noise_floor;       // px
+  // clouds
+  double voxel_size;                   // m
+  double max_correspondence_distance;  // m
+  int iterations;                      // of one step from coarse to fine
+  double laser_bias;                   // m
+  double free_deviation;               // m
+  double max_residual;                 // m
+  double inlier_distance;              // m
+  double min_inliers;                  // share
+  double min_upright_inliers;          // share
+  double max_misfit;                   // of what noise explains
+  double max_unknown_misfit;           // the same
+  double min_shared;                   // share
+  double max_seen_through;             // share
+  int min_surfels;                     // with a counterpart
+  double search_radius;                // m
+  double max_second;                   // share
+
+  Parameters();
+};
+
+/// The table: the only definition of the defaults, ranges, units and descriptions of these parameters.
+const urban_nav_core::Table<Parameters>& table();
+
+}  // namespace urban_nav_registration

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "urban_nav_core/camera/stereo_camera.hpp"
+#include "urban_nav_core/geometry/se3.hpp"
+
+namespace urban_nav_registration {
+
+/// Returns a text that identifies a camera and its pose on the robot. Keyframes of two sessions with the same
+/// fingerprint can be matched.
+std::string calibrationFingerprint(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_base_left);
+/// Returns true if two fingerprints agree to a millionth of a pixel, metre or radian; a robot description and a bag
+/// round differently.
+bool isSameCalibration(const std::string& words, const std::string& others);
+/// Name of the session property that holds the fingerprint in a store.
+constexpr const char* calibration_property = "camera";
+
+}  // namespace urban_nav_registration

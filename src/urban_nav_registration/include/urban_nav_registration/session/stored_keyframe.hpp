@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "urban_nav_core/types/frames.hpp"
+#include "urban_nav_registration/keyframe/keyframe.hpp"
+#include "urban_nav_store/keyframe_store.hpp"
+
+namespace urban_nav_registration {
+
+/// Name under which the left camera's keyframes stand in a store.
+constexpr const char* keyframe_camera = urban_nav_core::frames::stereo_left;
+
+/// Converts a keyframe to its row in a store. The session is not part of the row.
+urban_nav_store::StoredKeyframe toStoredKeyframe(const Keyframe& keyframe);
+/// Converts a row of a store to the keyframe of a session. Throws DataError if the features are damaged or of another version.
+Keyframe toKeyframe(const urban_nav_store::StoredKeyframe& stored, const std::string& session);
+
+}  // namespace urban_nav_registration

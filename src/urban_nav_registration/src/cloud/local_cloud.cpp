@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_registration/cloud/local_cloud.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "urban_nav_core/laser/beam_renderer.hpp"
+
+namespace urban_nav_registration {
+
+using urban_nav_core::OdometryChain;
+using urban_nav_core::PointCloud;
+using urban_nav_core::Pose;
+using urban_nav_core::StampNs;
+
+namespace {
+
+constexpr StampNs longest_stay = 20'000'000'000;  // ns: before and behind a moment, however little the robot moved
+constexpr StampNs longest_gap = 500'000'000;      // ns without a pose in which beams have no place
+constexpr double usual_range = 10.0;              // m: of surfaces beside a street
+constexpr double least_bend = 0.005;              // m: a millisecond of the lasers' clocks in a turn of 0.5 rad/s
+constexpr std::size_t most_points = 400'000;      // of a cloud: two lasers of 75 Hz and 181 beams over 15 s
+
+/// Evenly, so that dense clouds stay bounded.
+void thin(PointCloud& cloud) {
+  if (cloud.points.size() <= most_points) return;
+  const std::size_t step = (cloud.points.size() + most_points - 1) / most_points;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < cloud.points.size(); i += step, ++kept) {
+    cloud.points[kept] = cloud.points[i];
+    cloud.origins[kept] = cloud.origins[i];
+  }
+  cloud.points.resize(kept);
+  cloud.origins.resize(kept);
+}
+
+}  // namespace
+
+std::pair<StampNs, StampNs> stretchAround(const OdometryChain& odometry, StampNs at, double way) {
+  const urban_nav_core::Trajectory& frames = odometry.trajectory();
+  const double here = odometry.distance(at);
+  const std::size_t nearest = frames.nearest(at);
+  std::size_t first = nearest, last = nearest;
+  while (first > 0 && at - frames[first - 1].stamp <= longest_stay &&
+         here - odometry.distance(frames[first - 1].stamp) <= way)
+    --first;
+  while (last + 1 < frames.size() && frames[last + 1].stamp - at <= longest_stay &&
+         odometry.distance(frames[last + 1].stamp) - here <= way)
+    ++last;
+  return {frames[first].stamp, frames[last].stamp};
+}
+
+PointCloud localCloud(const OdometryChain& odometry, StampNs at, double way, const std::vector<LaserScans>& lasers) {
+  PointCloud cloud;
+  const std::optional<Pose> T_first_moment = odometry.at(at);
+  if (!T_first_moment) return cloud;
+  const auto [first, last] = stretchAround(odometry, at, way);
+  std::vector<urban_nav_core::LaserPoint> points;
+  for (const LaserScans& laser : lasers) {
+    urban_nav_core::BeamRenderer renderer(odometry.trajectory(), laser.T_base_laser, T_first_moment->inverse(),
+                                          longest_gap);
+    laser.forEach(first, last, [&](const urban_nav_core::Scan& scan) {
+      points.clear();
+      renderer.render(scan, points);
+      for (const urban_nav_core::LaserPoint& point : points) {
+        cloud.points.push_back(point.p);
+        cloud.origins.push_back(point.origin);
+      }
+    });
+  }
+  thin(cloud);
+  return cloud;
+}
+
+// Of a random walk from end to end, laid upon another by its mean: a sixth of its variance over the whole way, which is a third of that over a half.
+double deformationSigma(const OdometryChain& odometry, StampNs at, double way) {
+  if (!odometry.nearestFrame(at)) return 0.0;
+  const auto [first, last] = stretchAround(odometry, at, way);
+  double variance = 0.0;
+  for (const StampNs end : {first, last})
+    if (const auto T_moment_end = odometry.between(at, end)) {
+      const auto& covariance = T_moment_end->covariance;
+      variance = std::max(variance, (covariance.topLeftCorner<3, 3>().trace() +
+                                     usual_range * usual_range * covariance.bottomRightCorner<3, 3>().trace()) /
+                                        3.0);
+    }
+  return std::max(std::sqrt(variance / 3.0), least_bend);
+}
+
+}  // namespace urban_nav_registration

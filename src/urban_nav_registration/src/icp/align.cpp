@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_registration/icp/align.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "icp/alignment_validation.hpp"
+#include "icp/free_space_violation.hpp"
+#include "icp/residual_ratio.hpp"
+#include "urban_nav_core/parallel/for_each.hpp"
+#include "urban_nav_registration/cloud/free_space.hpp"
+#include "urban_nav_registration/global/search.hpp"
+
+namespace urban_nav_registration {
+
+using urban_nav_core::ClosureVerdict;
+using urban_nav_core::PointCloud;
+
+namespace {
+
+constexpr std::size_t kFewPoints = 30;  // less is no cloud: a plane of 25 pieces cannot come of it
+constexpr std::size_t kFewSurfaces = 25;
+constexpr float kFreeCube = 2.0F;  // voxels: a beam's neighbours in the next scans go through the same cube
+
+/// What clouds that were gathered by odometry tell beyond their surfaces.
+struct Spaces {
+  FreeSpace of_source, of_target;
+
+  Spaces(const PointCloud& source, const PointCloud& target, float voxel)
+      : of_source(source, kFreeCube * voxel), of_target(target, kFreeCube * voxel) {}
+};
+
+/// m: residuals that noise and bend make.
+RobustScale explainedBy(const PointCloud& source, const PointCloud& target, double deformation_sigma, float voxel) {
+  const RobustScale a = cloudNoise(source, voxel), b = cloudNoise(target, voxel);
+  return {std::max(std::hypot(a.all, b.all, deformation_sigma), 1e-9),
+          std::max(std::hypot(a.upright, b.upright, deformation_sigma), 1e-9)};
+}
+
+/// Everything about the two clouds that does not depend on the pose.
+struct Pair {
+  const Surfels& source_surfels;
+  const Surfels& target_surfels;
+  Target target;
+  Source source;
+  const Parameters& parameters;
+  const PosePredicate& is_possible;
+  std::optional<RobustScale> explained;  ///< where it is asked for
+  std::optional<Spaces> spaces;          ///< of gathered clouds
+};
+
+struct Try {
+  Refined refined;
+  Fit fit;
+};
+
+Try tryFrom(const Pair& pair, const Pose& start, std::size_t first, std::size_t end) {
+  Try made;
+  made.refined = refine(pair.source, pair.target, start, first, end, pair.parameters.iterations);
+  made.fit = computeFit(pair.source.steps()[end - 1], made.refined, pair.parameters);
+  return made;
+}
+
+Observability computeObservability(const Try& made, const Pair& pair) {
+  const double bias = pair.spaces ? pair.explained->all : pair.parameters.laser_bias;
+  return computeObservability(made.refined, bias, static_cast<double>(pair.source_surfels.voxel), pair.parameters);
+}
+
+std::optional<ValidationContext> validationContext(const Try& made, const Pair& pair) {
+  if (!pair.explained) return std::nullopt;
+  const RobustScale spread = computeResidualScale(made.refined.matches);
+  ValidationContext plausibility;
+  plausibility.misfit = spread.all / pair.explained->all;
+  plausibility.upright_misfit = spread.upright / pair.explained->upright;
+  if (pair.spaces)
+    plausibility.seen_through =
+        freeSpaceViolation(pair.source_surfels.all, pair.target_surfels.all, pair.spaces->of_source,
+                           pair.spaces->of_target, made.refined, pair.parameters.inlier_distance)
+            .share();
+  return plausibility;
+}
+
+bool isPossible(const Try& made, const Pair& pair) {
+  const std::optional<ValidationContext> plausibility = validationContext(made, pair);
+  if (plausibility && !isPlausible(*plausibility, pair.parameters)) return false;
+  return !pair.is_possible ||
+         pair.is_possible({made.refined.T_target_source, computeObservability(made, pair).information});
+}
+
+/// Can it be, give or take what a candidate may be off?
+bool mayBe(const Pose& candidate, const Pair& pair) {
+  if (!pair.is_possible) return true;
+  urban_nav_core::Constraint rough;
+  rough.T_a_b = candidate;
+  rough.information.diagonal() << Vector3d::Constant(1.0), Vector3d::Constant(100.0);  // 1 m, 6 deg
+  return pair.is_possible(rough);
+}
+
+Alignment judged(const Try& made, const Pair& pair, Alignment alignment, bool is_alone = false) {
+  alignment.T_target_source = made.refined.T_target_source;
+  alignment.iterations += made.refined.iterations;
+  const Observability observed = computeObservability(made, pair);
+  std::optional<ValidationContext> plausibility = validationContext(made, pair);
+  if (plausibility) plausibility->is_alone = is_alone;
+  judge(made.fit, plausibility, made.refined, observed, pair.parameters, alignment);
+  if (alignment.verdict != ClosureVerdict::Rejected && pair.is_possible &&
+      !pair.is_possible({made.refined.T_target_source, observed.information}))
+    reject(alignment, AlignmentReason::Impossible, "the surfaces fit, but at a pose that is known to be wrong");
+  return alignment;
+}
+
+std::size_t surfacesOf(const Surfels& surfels) {
+  return static_cast<std::size_t>(std::count_if(surfels.all.begin(), surfels.all.end(),
+                                                [](const Surfel& surfel) { return surfel.planarity > 0.0F; }));
+}
+
+/// False, and the alignment rejected, where the clouds cannot be aligned at all.
+bool checkClouds(const Surfels& source, const Surfels& target, Alignment& alignment) {
+  const auto check = [&](const Surfels& surfels, const char* which) {
+    if (surfels.points < kFewPoints) {
+      reject(alignment, AlignmentReason::TooFewPoints,
+             std::string("the ") + which + " holds " + std::to_string(surfels.points) + " points, at least " +
+                 std::to_string(kFewPoints) + " are needed");
+      return false;
+    }
+    const std::size_t surfaces = surfacesOf(surfels);
+    if (surfaces < kFewSurfaces) {
+      reject(alignment, AlignmentReason::NoSurfaces,
+             std::string("the ") + which + " shows " + std::to_string(surfaces) + " pieces of surface, at least " +
+                 std::to_string(kFewSurfaces) + " are needed");
+      return false;
+    }
+    return true;
+  };
+  return check(source, "source") && check(target, "target");
+}
+
+bool areOne(const Pose& a, const Pose& b) { return distanceBetween(a, b) < 0.5 && angleBetween(a, b) < 0.09; }
+
+/// Another place, not the same one further along a free direction.
+bool isAnother(const Pose& pose, const Alignment& best) {
+  constexpr double kFar = 50.0;  // squared deviations: six would be usual
+  if (areOne(pose, best.T_target_source)) return false;
+  if (best.verdict != ClosureVerdict::Degenerate) return true;
+  const Vector6d d = boxMinus(pose, best.T_target_source);
+  return d.dot(best.information * d) > kFar;
+}
+
+/// What a glance around found that might be as good as an answer that was found near the guess: usually nothing.
+std::vector<PoseCandidate> rivalsOf(const Alignment& local, const std::vector<PoseCandidate>& candidates) {
+  constexpr double kFar = 2.5, kTurned = 0.26;  // m, rad: what a coarse candidate may be off
+  constexpr double kClearly = 0.85;             // of the answer's own score: below, it is not as good
+  const auto isOwn = [&](const PoseCandidate& candidate) {
+    return distanceBetween(candidate.T_target_source, local.T_target_source) < kFar &&
+           angleBetween(candidate.T_target_source, local.T_target_source) < kTurned;
+  };
+  double own = 0.0;
+  for (const PoseCandidate& candidate : candidates)
+    if (isOwn(candidate)) own = std::max(own, candidate.score);
+  std::vector<PoseCandidate> others;
+  for (const PoseCandidate& candidate : candidates)
+    if (!isOwn(candidate) && candidate.score > kClearly * own) others.push_back(candidate);
+  return others;
+}
+
+/// The candidates that a coarse alignment leaves, aligned to the end: different from each other, none of them far behind the best.
+std::vector<Try> triesOf(const Pair& pair, const std::vector<PoseCandidate>& candidates) {
+  constexpr double kFarBehind = 0.6;  // of the best score; max_second asks for more
+  const std::size_t end = pair.source.steps().size(), from = end > 3 ? 1 : 0;
+  std::vector<Try> coarse;
+  for (const PoseCandidate& candidate : candidates) {
+    if (!mayBe(candidate.T_target_source, pair)) continue;
+    coarse.push_back(tryFrom(pair, candidate.T_target_source, from, from + 1));
+  }
+  const auto better = [](const Try& a, const Try& b) { return a.fit.score() > b.fit.score(); };
+  std::stable_sort(coarse.begin(), coarse.end(), better);
+  std::vector<Try> tries;
+  for (auto made = coarse.begin(); made != coarse.end(); ++made) {
+    if (made->fit.score() < kFarBehind * coarse.front().fit.score()) break;
+    const auto isSame = [&](const Try& other) {
+      return areOne(made->refined.T_target_source, other.refined.T_target_source);
+    };
+    if (std::none_of(coarse.begin(), made, isSame))
+      tries.push_back(tryFrom(pair, made->refined.T_target_source, from + 1, end));
+  }
+  return tries;
+}
+
+/// The best of the candidates, and how the best different one compares with it.
+Alignment searched(const Pair& pair, const Pose& guess, Alignment alignment, const Try* first,
+                   const std::vector<PoseCandidate>& candidates) {
+  constexpr double kNear = 0.7;  // of the answer's score: below, a rival is none, which allows for less to be shared
+  std::vector<Try> tries = triesOf(pair, candidates);
+  if (first != nullptr) tries.insert(tries.begin(), *first);
+  if (tries.empty()) tries.push_back(tryFrom(pair, guess, 0, pair.source.steps().size()));
+  std::stable_sort(tries.begin(), tries.end(),
+                   [](const Try& a, const Try& b) { return a.fit.score() > b.fit.score(); });
+  const auto is_possible = [&](const Try& made) { return isPossible(made, pair); };
+  const auto found = std::find_if(tries.begin(), tries.end(), is_possible);
+  if (found == tries.end()) {
+    alignment = judged(tries.front(), pair, alignment);
+    alignment.searched = true;
+    if (alignment.verdict != ClosureVerdict::Rejected)
+      reject(alignment, AlignmentReason::Impossible, "no pose that can be was found");
+    return alignment;
+  }
+  const Alignment first_judged = judged(*found, pair, alignment);
+  const auto second = std::find_if(found + 1, tries.end(), [&](const Try& made) {
+    return isAnother(made.refined.T_target_source, first_judged) && is_possible(made);
+  });
+  const double share = second == tries.end() ? 0.0 : second->fit.score() / std::max(found->fit.score(), 1e-9);
+  alignment = share < kNear ? judged(*found, pair, alignment, true) : first_judged;
+  alignment.searched = true;
+  if (second != tries.end()) alignment.alternative = Alternative{second->refined.T_target_source, share};
+  alignment.tests.push_back(
+      {"second_pose", share, pair.parameters.max_second, false, share <= pair.parameters.max_second});
+  if (alignment.verdict != ClosureVerdict::Rejected && share > pair.parameters.max_second)
+    reject(alignment, AlignmentReason::Ambiguous, "another, different pose fits as well");
+  return alignment;
+}
+
+}  // namespace
+
+Alignment align(const PointCloud& source, const PointCloud& target, const Parameters& parameters, const Pose& guess,
+                SearchMode search, const AlignmentPrior& known) {
+  std::array<Surfels, 2> surfels;
+  urban_nav_core::forEach(2, 1, [&](std::size_t i) {
+    surfels[i] = makeSurfels(i == 0 ? source : target, static_cast<float>(parameters.voxel_size));
+  });
+  Alignment alignment;
+  alignment.T_target_source = guess;
+  alignment.source_points = surfels[0].points;
+  alignment.source_left_out = surfels[0].left_out;
+  alignment.target_points = surfels[1].points;
+  alignment.target_left_out = surfels[1].left_out;
+  if (!checkClouds(surfels[0], surfels[1], alignment)) return alignment;
+  Target index(surfels[1], parameters.max_correspondence_distance);
+  Source steps(surfels[0], index);
+  Pair pair{surfels[0], surfels[1], std::move(index), std::move(steps), parameters, known.is_possible, {}, {}};
+  const auto voxel = static_cast<float>(parameters.voxel_size);
+  if (known.deformation_sigma && !source.origins.empty() && !target.origins.empty()) {
+    pair.explained = explainedBy(source, target, *known.deformation_sigma, voxel);
+    pair.spaces.emplace(source, target, voxel);
+  }
+  const auto explain = [&] {
+    if (!pair.explained) pair.explained = explainedBy(source, target, parameters.laser_bias, voxel);
+  };
+  const auto look = [&](const Vector3d& centre, const SearchResolution& grain) {
+    return searchGlobally(extractVerticalStructure(surfels[0], grain), extractVerticalStructure(surfels[1], grain),
+                          centre, parameters.search_radius, grain);
+  };
+  if (search == SearchMode::AtOnce) {
+    explain();
+    return searched(pair, guess, alignment, nullptr, look(guess.t(), fine_resolution));
+  }
+  const Try first = tryFrom(pair, guess, 0, pair.source.steps().size());
+  const Alignment local = judged(first, pair, alignment);
+  if (search == SearchMode::Never || local.verdict == ClosureVerdict::Degenerate) return local;
+  const bool failed = local.verdict == ClosureVerdict::Rejected;
+  const std::vector<PoseCandidate> others =
+      failed ? look(guess.t(), fine_resolution) : rivalsOf(local, look(guess.t(), coarse_resolution));
+  if (!failed && others.empty()) return local;
+  explain();
+  return searched(pair, guess, alignment, &first, others);
+}
+
+const char* toString(AlignmentReason reason) {
+  switch (reason) {
+    case AlignmentReason::None: return "";
+    case AlignmentReason::TooFewPoints: return "too_few_points";
+    case AlignmentReason::NoSurfaces: return "no_surfaces";
+    case AlignmentReason::TooFewMatches: return "too_few_matches";
+    case AlignmentReason::ResidualTooLarge: return "residual_too_large";
+    case AlignmentReason::TooFewInliers: return "too_few_inliers";
+    case AlignmentReason::NotConverged: return "not_converged";
+    case AlignmentReason::Ambiguous: return "ambiguous";
+    case AlignmentReason::Impossible: return "impossible";
+    case AlignmentReason::Misfit: return "misfit";
+    case AlignmentReason::SeenThrough: return "seen_through";
+    case AlignmentReason::FreeDirections: break;
+  }
+  return "free_directions";
+}
+
+}  // namespace urban_nav_registration

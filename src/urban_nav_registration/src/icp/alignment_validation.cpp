@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "icp/alignment_validation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace urban_nav_registration {
+using urban_nav_core::ClosureVerdict;
+
+namespace {
+
+constexpr double kFewUpright = 20.0;  // pieces: fewer say nothing
+constexpr double kUprightMisfit =
+    2.5;  // times max_misfit: cubes blur the edges of fronts, otherwise from each viewpoint
+constexpr double kEnoughAlone =
+    0.67;  // of min_upright_inliers, where nothing else comes near: leaves and crowds fall upon themselves by a third
+constexpr double kStillMoving = 0.005;  // m in the last step
+constexpr double kPatchVoxels = 8.0;    // 2 m of 0.25 m: neighbours whose normals have no beam in common
+
+struct Failure {
+  AlignmentReason reason;
+  const char* sentence;
+};
+
+}  // namespace
+
+double Fit::score() const { return upright >= kFewUpright ? std::sqrt(inliers * upright_inliers) : inliers; }
+
+Fit computeFit(const std::vector<Surfel>& source, const Refined& refined, const Parameters& parameters) {
+  Fit fit;
+  const Eigen::Vector3f level = (refined.T_target_source.R().transpose() * Vector3d::UnitZ()).cast<float>();
+  double all = 0.0, upright_all = 0.0;
+  for (std::size_t i = 0; i < source.size() && i < refined.matches.size(); ++i) {
+    const Match& match = refined.matches[i];
+    const double weight = static_cast<double>(source[i].planarity);
+    const bool inlier = match.weight > 0.0 && std::abs(match.residual) < parameters.inlier_distance;
+    const bool upright = std::abs(source[i].normal.dot(level)) < 0.5F;
+    if (match.weight > 0.0) fit.matches += 1.0;
+    all += weight;
+    if (inlier) fit.inliers += weight;
+    if (upright) {
+      fit.upright += 1.0;
+      upright_all += weight;
+      if (inlier) fit.upright_inliers += weight;
+    }
+  }
+  fit.inliers /= std::max(all, 1e-9);
+  fit.upright_inliers /= std::max(upright_all, 1e-9);
+  return fit;
+}
+
+Observability computeObservability(const Refined& refined, double bias, double voxel, const Parameters& parameters) {
+  const Doubt doubt{bias, std::max(bias, parameters.laser_bias), parameters.free_deviation};
+  return observe(refined.matches, std::max(refined.sigma, 1e-4), doubt, kPatchVoxels * voxel);
+}
+
+void reject(Alignment& alignment, AlignmentReason reason, const std::string& sentence) {
+  alignment.verdict = ClosureVerdict::Rejected;
+  alignment.reason = reason;
+  alignment.sentence = sentence;
+  alignment.information.setZero();
+  alignment.free_directions.clear();
+  for (int i = 0; i < 6; ++i) alignment.free_directions.push_back(Vector6d::Unit(i));
+  Vector6d unlimited;
+  unlimited << Vector3d::Constant(1e6), Vector3d::Constant(10.0);
+  alignment.covariance = unlimited.asDiagonal();
+}
+
+bool isPlausible(const ValidationContext& plausibility, const Parameters& parameters) {
+  if (!plausibility.seen_through) return plausibility.misfit <= parameters.max_unknown_misfit;
+  return plausibility.misfit <= parameters.max_misfit &&
+         plausibility.upright_misfit <= kUprightMisfit * parameters.max_misfit &&
+         *plausibility.seen_through <= parameters.max_seen_through;
+}
+
+void judge(const Fit& fit, const std::optional<ValidationContext>& plausibility, const Refined& refined,
+           const Observability& observed, const Parameters& parameters, Alignment& alignment) {
+  Failure failure{AlignmentReason::None, ""};
+  const auto test = [&](const char* name, double value, double threshold, bool at_least, AlignmentReason reason,
+                        const char* sentence) {
+    const bool passed = at_least ? value >= threshold : value <= threshold;
+    alignment.tests.push_back({name, value, threshold, at_least, passed});
+    if (!passed && failure.reason == AlignmentReason::None) failure = {reason, sentence};
+  };
+  alignment.tests.clear();
+  alignment.matches = static_cast<std::size_t>(fit.matches);
+  test("matches", fit.matches, parameters.min_surfels, true, AlignmentReason::TooFewMatches, "the clouds hardly meet");
+  test("residual_m", refined.sigma, parameters.max_residual, false, AlignmentReason::ResidualTooLarge,
+       "the surfaces do not fall upon each other");
+  const bool upright = fit.upright >= kFewUpright;
+  if (plausibility && plausibility->seen_through) {
+    test("misfit", plausibility->misfit, parameters.max_misfit, false, AlignmentReason::Misfit,
+         "the surfaces lie further apart than noise and odometry explain");
+    test("upright_misfit", plausibility->upright_misfit, kUprightMisfit * parameters.max_misfit, false,
+         AlignmentReason::Misfit, "the upright surfaces lie further apart than noise and odometry explain");
+    test("seen_through", *plausibility->seen_through, parameters.max_seen_through, false, AlignmentReason::SeenThrough,
+         "beams of one cloud went through surfaces of the other");
+    test("shared", upright ? fit.upright_inliers : fit.inliers, parameters.min_shared, true,
+         AlignmentReason::TooFewInliers, "too few of the surfaces fall upon each other");
+  } else {
+    if (plausibility)
+      test("misfit", plausibility->misfit, parameters.max_unknown_misfit, false, AlignmentReason::Misfit,
+           "the surfaces lie further apart than noise explains");
+    const double enough = plausibility && plausibility->is_alone ? kEnoughAlone : 1.0;
+    test("inliers", fit.inliers, parameters.min_inliers, true, AlignmentReason::TooFewInliers,
+         "too few of the surfaces fall upon each other");
+    if (upright)
+      test("upright_inliers", fit.upright_inliers, enough * parameters.min_upright_inliers, true,
+           AlignmentReason::TooFewInliers, "too few of the upright surfaces fall upon each other");
+  }
+  test("last_step_m", refined.usable ? refined.last_step : 1e3, kStillMoving, false, AlignmentReason::NotConverged,
+       "the alignment did not come to rest");
+  alignment.tests.push_back(
+      {"weakest_direction_m", observed.weakest, parameters.free_deviation, false, observed.free_directions.empty()});
+  if (failure.reason == AlignmentReason::None && observed.free_directions.size() > 4)
+    failure = {AlignmentReason::TooFewMatches, "hardly any direction is held"};
+  if (failure.reason != AlignmentReason::None) {
+    reject(alignment, failure.reason, failure.sentence);
+    return;
+  }
+  alignment.information = observed.information;
+  alignment.covariance = observed.covariance;
+  alignment.free_directions = observed.free_directions;
+  const bool free = !observed.free_directions.empty();
+  alignment.verdict = free ? ClosureVerdict::Degenerate : ClosureVerdict::Accepted;
+  alignment.reason = free ? AlignmentReason::FreeDirections : AlignmentReason::None;
+  alignment.sentence =
+      free ? std::to_string(observed.free_directions.size()) + " of six directions are held by nothing in the clouds"
+           : "";
+}
+
+}  // namespace urban_nav_registration

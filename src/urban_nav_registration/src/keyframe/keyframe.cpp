@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_registration/keyframe/keyframe.hpp"
+
+#include <cmath>
+
+namespace urban_nav_registration {
+
+namespace {
+
+constexpr int largest_stored_size = 32767;  // px: places are kept in 16 bits
+constexpr int most_levels = 8;              // of a pyramid from that size on
+
+}  // namespace
+
+void archive(urban_nav_core::Archive& archive, KeyframePoint& point) {
+  archive(point.u, point.v, point.level, point.disparity, point.sigma_disparity, point.slope_u, point.slope_v);
+}
+
+void archive(urban_nav_core::Archive& archive, Keyframe& keyframe) {
+  archive(keyframe.at.session, keyframe.at.stamp, keyframe.width, keyframe.height, keyframe.image, keyframe.points);
+  if (!archive.isReading()) return;
+  archive.require(keyframe.width >= 0 && keyframe.height >= 0 && keyframe.width <= largest_stored_size &&
+                      keyframe.height <= largest_stored_size,
+                  "an image of no size");
+  for (const KeyframePoint& point : keyframe.points) {
+    archive.require(point.level < most_levels, "a point of no level");
+    archive.require(point.u >= 0 && point.v >= 0 && point.u << point.level < keyframe.width &&
+                        point.v << point.level < keyframe.height,
+                    "a point outside its image");
+    archive.require(std::abs(point.disparity) <= static_cast<float>(keyframe.width),
+                    "a disparity wider than its image");
+    archive.require(point.sigma_disparity > 0.0F, "a disparity without a deviation");
+  }
+}
+
+}  // namespace urban_nav_registration

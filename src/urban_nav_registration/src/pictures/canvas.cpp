@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pictures/canvas.hpp"
+
+#include <algorithm>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace urban_nav_registration {
+
+namespace {
+
+constexpr int font = cv::FONT_HERSHEY_SIMPLEX;
+constexpr double font_scale = 0.42;
+
+}  // namespace
+
+void write(cv::Mat& canvas, const std::string& text, cv::Point at, const cv::Scalar& colour) {
+  if (!text.empty()) cv::putText(canvas, text, at, font, font_scale, colour, 1, cv::LINE_AA);
+}
+
+void writeTitle(cv::Mat& canvas, const std::string& title) {
+  if (title.empty()) return;
+  const cv::Size size = cv::getTextSize(title, font, font_scale, 1, nullptr);
+  cv::rectangle(canvas, {0, 0, size.width + 10, 18}, ink, cv::FILLED);
+  write(canvas, title, {5, 13}, paper);
+}
+
+Picture pictureOf(const cv::Mat& canvas) {
+  Picture made;
+  made.width = canvas.cols;
+  made.height = canvas.rows;
+  made.bgr.assign(canvas.datastart, canvas.dataend);
+  return made;
+}
+
+std::vector<std::uint8_t> encodeJpeg(const Picture& picture, int quality) {
+  std::vector<std::uint8_t> bytes;
+  if (picture.width <= 0 || picture.height <= 0 ||
+      picture.bgr.size() != 3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height))
+    return bytes;
+  // cv::Mat has no const view; it is only read
+  const cv::Mat pixels(picture.height, picture.width, CV_8UC3, const_cast<std::uint8_t*>(picture.bgr.data()));
+  cv::imencode(".jpg", pixels, bytes, {cv::IMWRITE_JPEG_QUALITY, std::clamp(quality, 1, 100)});
+  return bytes;
+}
+
+}  // namespace urban_nav_registration

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_registration/pictures/cloud_picture.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <opencv2/imgproc.hpp>
+
+#include "pictures/canvas.hpp"
+
+namespace urban_nav_registration {
+
+using urban_nav_core::PointCloud;
+using urban_nav_core::Pose;
+
+namespace {
+
+using Points = std::vector<Eigen::Vector3d>;
+
+constexpr double shown_share = 0.97;  // of the points, along each axis: few of the far ones are left out
+constexpr double farthest = 1e4;      // m: beyond, a point is not believed
+constexpr double smallest_half = 0.1, cloud_margin = 1.05;
+constexpr int narrowest_cloud = 100, widest = 4000;  // px
+const cv::Scalar red(60, 60, 220), blue(220, 60, 60), green(60, 150, 60);
+
+Points finite(const PointCloud& cloud) {
+  Points points;
+  points.reserve(cloud.points.size());
+  for (const Eigen::Vector3f& point : cloud.points)
+    if (point.allFinite() && point.cwiseAbs().maxCoeff() < farthest) points.push_back(point.cast<double>());
+  return points;
+}
+
+Points moved(const Points& points, const Pose& T) {
+  Points made;
+  made.reserve(points.size());
+  for (const Eigen::Vector3d& point : points) made.push_back(T * point);
+  return made;
+}
+
+double quantile(std::vector<double>& values, double share) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+/// What all panels show: a cube around the points.
+struct Extent {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  double half = 5.0;  ///< m
+};
+
+Extent extentOf(const Points& target, const Points& source) {
+  Extent extent;
+  if (target.empty() && source.empty()) return extent;
+  extent.half = smallest_half;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> values;
+    for (const Points* points : {&target, &source})
+      for (const Eigen::Vector3d& point : *points) values.push_back(point[axis]);
+    const double low = quantile(values, 1.0 - shown_share), high = quantile(values, shown_share);
+    extent.centre[axis] = 0.5 * (low + high);
+    extent.half = std::max(extent.half, 0.5 * cloud_margin * (high - low));
+  }
+  return extent;
+}
+
+/// One look at the cube: the axis that points to the right, and the one that points up.
+class CloudPanel {
+ public:
+  CloudPanel(cv::Mat canvas, const Extent& extent, int right, int up)
+      : canvas_(std::move(canvas)),
+        extent_(extent),
+        right_(right),
+        up_(up),
+        px_per_m_(0.5 * canvas_.cols / extent.half) {}
+
+  void draw(const Points& target, const Points& source) {
+    const cv::Mat of_target = opacity(target), of_source = opacity(source);
+    for (int v = 0; v < canvas_.rows; ++v)
+      for (int u = 0; u < canvas_.cols; ++u) {
+        // red ink lets red through, and blue ink blue: where both lie, little is left
+        const float t = of_target.at<float>(v, u), s = of_source.at<float>(v, u);
+        canvas_.at<cv::Vec3b>(v, u) = cv::Vec3b(level(1.0F - t), level((1.0F - t) * (1.0F - s)), level(1.0F - s));
+      }
+    if (target.empty() && source.empty()) write(canvas_, "no points", {12, canvas_.rows / 2}, ink);
+  }
+
+  void drawOrigin(const Eigen::Vector3d& at, const cv::Scalar& colour) {
+    cv::circle(canvas_, pixel(at), 4, colour, cv::FILLED, cv::LINE_AA);
+    cv::circle(canvas_, pixel(at), 4, ink, 1, cv::LINE_AA);
+  }
+
+  /// A direction that slides, through both sides of a place.
+  void drawFree(const Eigen::Vector3d& at, const Eigen::Vector3d& direction) {
+    const Eigen::Vector3d reach = 0.5 * extent_.half * direction;
+    cv::arrowedLine(canvas_, pixel(at), pixel(at + reach), green, 2, cv::LINE_AA, 0, 0.06);
+    cv::arrowedLine(canvas_, pixel(at), pixel(at - reach), green, 2, cv::LINE_AA, 0, 0.06);
+  }
+
+  /// A round length of about a quarter of the panel.
+  void drawBar() {
+    const double about = 0.5 * extent_.half, ten = std::pow(10.0, std::floor(std::log10(about)));
+    const double length = about >= 5.0 * ten ? 5.0 * ten : about >= 2.0 * ten ? 2.0 * ten : ten;
+    const int px = static_cast<int>(std::lround(length * px_per_m_)), y = canvas_.rows - 10;
+    cv::line(canvas_, {10, y}, {10 + px, y}, ink, 2);
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%g m", length);
+    write(canvas_, text.data(), {10, y - 6}, ink);
+  }
+
+ private:
+  static std::uint8_t level(float share) { return static_cast<std::uint8_t>(std::lround(245.0F * share)); }
+
+  Eigen::Vector2d place(const Eigen::Vector3d& point) const {
+    const Eigen::Vector3d from_centre = px_per_m_ * (point - extent_.centre);
+    return {0.5 * canvas_.cols + from_centre[right_], 0.5 * canvas_.rows - from_centre[up_]};
+  }
+  cv::Point pixel(const Eigen::Vector3d& point) const {
+    const Eigen::Vector2d at = place(point).cwiseMax(-farthest).cwiseMin(farthest);
+    return {static_cast<int>(std::lround(at.x())), static_cast<int>(std::lround(at.y()))};
+  }
+
+  /// How much ink each pixel has: half full with as many points as a pixel has in the mean that has any.
+  cv::Mat opacity(const Points& points) const {
+    cv::Mat counts = cv::Mat::zeros(canvas_.size(), CV_32F);
+    for (const Eigen::Vector3d& point : points) {
+      const Eigen::Vector2d at = place(point);
+      if (at.x() < 0.0 || at.y() < 0.0 || at.x() >= canvas_.cols || at.y() >= canvas_.rows) continue;
+      counts.at<float>(static_cast<int>(at.y()), static_cast<int>(at.x())) += 1.0F;
+    }
+    const int filled = cv::countNonZero(counts);
+    if (filled == 0) return counts;
+    const float usual = static_cast<float>(cv::sum(counts)[0] / filled);
+    for (int v = 0; v < counts.rows; ++v)
+      for (int u = 0; u < counts.cols; ++u) {
+        float& count = counts.at<float>(v, u);
+        count = 1.0F - std::exp2(-count / usual);
+      }
+    return counts;
+  }
+
+  cv::Mat canvas_;
+  const Extent extent_;
+  const int right_, up_;
+  const double px_per_m_;
+};
+
+}  // namespace
+
+Picture drawClouds(const PointCloud& source, const PointCloud& target, const Pose& T_guess, const Pose& T_target_source,
+                   const CloudPictureOptions& options) {
+  const int size = std::clamp(options.panel, narrowest_cloud, widest);
+  const Points of_target = finite(target), of_source = finite(source);
+  cv::Mat canvas(size + caption_height, 3 * size + 2 * panel_gap, CV_8UC3, paper);
+  const Extent extent = extentOf(of_target, moved(of_source, T_target_source));
+  struct Look {
+    const char* title;
+    const Pose& T;
+    int up;
+  };
+  const Look looks[] = {{"before, from above", T_guess, 1},
+                        {"aligned, from above", T_target_source, 1},
+                        {"aligned, from the side", T_target_source, 2}};
+  int left = 0;
+  for (const Look& look : looks) {
+    cv::Mat area = canvas(cv::Rect(left, 0, size, size));
+    CloudPanel panel(area, extent, 0, look.up);
+    panel.draw(of_target, moved(of_source, look.T));
+    panel.drawOrigin(Eigen::Vector3d::Zero(), red);
+    panel.drawOrigin(look.T.t(), blue);
+    if (&look.T == &T_target_source)
+      for (const urban_nav_core::Vector6d& direction : options.free_directions)
+        if (direction.allFinite() && direction.head<3>().norm() > 0.5)
+          panel.drawFree(look.T.t(), direction.head<3>().normalized());
+    panel.drawBar();
+    writeTitle(area, look.title);
+    left += size + panel_gap;
+  }
+  cv::Mat below = canvas(cv::Rect(0, size, canvas.cols, caption_height));
+  write(below, options.caption, {6, 16}, ink);
+  return pictureOf(canvas);
+}
+
+}  // namespace urban_nav_registration

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_registration/pictures/match_picture.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <opencv2/imgproc.hpp>
+
+#include "io/jpeg.hpp"
+#include "pictures/canvas.hpp"
+
+namespace urban_nav_registration {
+
+namespace {
+
+constexpr int subpixel_bits = 4;  // of OpenCV's drawing coordinates
+constexpr int usual_width = 512, usual_height = 384;
+constexpr int largest_picture = 16384;  // px: beyond, a size is not believed
+constexpr int narrowest_view = 64;
+constexpr double opacity = 0.5;  // of the lines, so that the views stay to be seen
+const cv::Scalar grey(150, 150, 150), panel(110, 110, 110);
+
+/// Green over yellow to red, in BGR; `share` of the worst.
+cv::Scalar colourOf(double share) {
+  const double at = std::clamp(share, 0.0, 1.0);
+  return at < 0.5 ? cv::Scalar(60, 200, 60 + 360 * at) : cv::Scalar(60, 200 - 280 * (at - 0.5), 240);
+}
+
+double worstOf(const MatchPictureOptions& options) {
+  return options.worst_px > 0.0 ? options.worst_px : MatchPictureOptions().worst_px;
+}
+
+bool isPlausible(const Keyframe& keyframe) {
+  return keyframe.width > 0 && keyframe.height > 0 && keyframe.width <= largest_picture &&
+         keyframe.height <= largest_picture && keyframe.height <= 4 * keyframe.width;
+}
+
+/// A view's place in the picture.
+struct ViewPanel {
+  cv::Rect area;
+  double scale = 1.0;
+  int width = 0, height = 0;  // of the view
+
+  bool shows(const Eigen::Vector2d& pixel) const {
+    return pixel.allFinite() && pixel.x() >= 0.0 && pixel.y() >= 0.0 && pixel.x() < width && pixel.y() < height;
+  }
+  cv::Point at(const Eigen::Vector2d& pixel) const {
+    constexpr double unit = 1 << subpixel_bits;
+    return {static_cast<int>(std::lround(unit * (area.x + scale * pixel.x()))),
+            static_cast<int>(std::lround(unit * (area.y + scale * pixel.y())))};
+  }
+};
+
+/// `other` lends its size to a view that has none.
+ViewPanel panelOf(const Keyframe& keyframe, const Keyframe& other, int widest) {
+  ViewPanel made;
+  const Keyframe* sized = isPlausible(keyframe) ? &keyframe : isPlausible(other) ? &other : nullptr;
+  made.width = sized != nullptr ? sized->width : usual_width;
+  made.height = sized != nullptr ? sized->height : usual_height;
+  made.scale = std::min(1.0, static_cast<double>(widest) / made.width);
+  made.area = {0, 0, std::max(1, static_cast<int>(std::lround(made.scale * made.width))),
+               std::max(1, static_cast<int>(std::lround(made.scale * made.height)))};
+  return made;
+}
+
+void drawView(cv::Mat canvas, const Keyframe& keyframe, const std::string& title) {
+  const cv::Mat picture =
+      isPlausible(keyframe) ? decodeJpeg(keyframe.image, {keyframe.width, keyframe.height}) : cv::Mat();
+  if (picture.empty()) {
+    canvas.setTo(panel);
+    write(canvas, keyframe.image.empty() ? "no image" : "image unreadable", {12, canvas.rows / 2}, paper);
+  } else {
+    cv::Mat reduced;
+    cv::resize(picture, reduced, canvas.size(), 0.0, 0.0, cv::INTER_AREA);
+    cv::cvtColor(reduced, canvas, cv::COLOR_GRAY2BGR);
+  }
+  writeTitle(canvas, title);
+}
+
+void drawMatchesOn(cv::Mat& canvas, const ViewPanel& a, const ViewPanel& b, const std::vector<MatchedPixels>& pixels,
+                   const MatchPictureOptions& options) {
+  std::vector<const MatchedPixels*> shown, others;
+  for (const MatchedPixels& match : pixels)
+    if (a.shows(match.in_a) && b.shows(match.in_b)) (match.inlier ? shown : others).push_back(&match);
+  const double worst_px = worstOf(options);
+  const auto colour = [worst_px](const MatchedPixels* match) { return colourOf(match->residual_px / worst_px); };
+  cv::Mat lines = canvas.clone();
+  const auto draw = [&](const std::vector<const MatchedPixels*>& matches, bool is_grey) {
+    // every so many, so that those that are left are spread as all are
+    const std::size_t most = static_cast<std::size_t>(std::max(options.most_lines, 1)), count = matches.size(),
+                      lines_drawn = std::min(most, count);
+    for (std::size_t k = 0; k < lines_drawn; ++k) {
+      const MatchedPixels* match = matches[k * count / lines_drawn];
+      cv::line(lines, a.at(match->in_a), b.at(match->in_b), is_grey ? grey : colour(match), 1, cv::LINE_AA,
+               subpixel_bits);
+    }
+  };
+  draw(others, true);
+  draw(shown, false);
+  cv::addWeighted(lines, opacity, canvas, 1.0 - opacity, 0.0, canvas);
+  for (const MatchedPixels* match : shown)
+    for (const cv::Point& end : {a.at(match->in_a), b.at(match->in_b)})
+      cv::circle(canvas, end, 2 << subpixel_bits, colour(match), cv::FILLED, cv::LINE_AA, subpixel_bits);
+}
+
+void drawStrip(cv::Mat canvas, const MatchPictureOptions& options) {
+  constexpr int bar = 60, words = 100;
+  write(canvas, options.caption, {6, 16}, ink);
+  const int from = canvas.cols - bar - words;
+  if (from < narrowest_view) return;
+  cv::rectangle(canvas, {from - 60, 0, canvas.cols - from + 60, canvas.rows}, paper, cv::FILLED);
+  write(canvas, "residual", {from - 58, 16}, ink);
+  for (int i = 0; i < bar; ++i)
+    cv::line(canvas, {from + 4 + i, 7}, {from + 4 + i, 17}, colourOf(static_cast<double>(i) / (bar - 1)));
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3g px", worstOf(options));
+  write(canvas, text.data(), {from + bar + 10, 16}, ink);
+}
+
+}  // namespace
+
+Picture drawMatches(const Keyframe& a, const Keyframe& b, const std::vector<MatchedPixels>& pixels,
+                    const MatchPictureOptions& options) {
+  const int widest = std::clamp(options.widest, narrowest_view, largest_picture);
+  ViewPanel of_a = panelOf(a, b, widest), of_b = panelOf(b, a, widest);
+  if (options.stacked) of_b.area.y = of_a.area.height + panel_gap;
+  else of_b.area.x = of_a.area.width + panel_gap;
+  const cv::Rect both = of_a.area | of_b.area;
+  cv::Mat canvas(both.height + caption_height, both.width, CV_8UC3, paper);
+  drawView(canvas(of_a.area), a, options.title_a);
+  drawView(canvas(of_b.area), b, options.title_b);
+  cv::Mat views = canvas(both);
+  drawMatchesOn(views, of_a, of_b, pixels, options);
+  drawStrip(canvas(cv::Rect(0, both.height, both.width, caption_height)), options);
+  return pictureOf(canvas);
+}
+
+}  // namespace urban_nav_registration

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_registration/session/stored_keyframe.hpp"
+
+#include "urban_nav_core/io/archive.hpp"
+
+namespace urban_nav_registration {
+
+using urban_nav_store::StoredKeyframe;
+
+namespace {
+
+constexpr const char* kind = "keyframe of loop_metric";
+constexpr std::uint32_t version = 1;
+
+}  // namespace
+
+StoredKeyframe toStoredKeyframe(const Keyframe& keyframe) {
+  StoredKeyframe stored;
+  stored.stamp = keyframe.at.stamp;
+  stored.image.assign(keyframe.image.begin(), keyframe.image.end());
+  Keyframe rest = keyframe;  // the session is the row's, the image has a column of its own
+  rest.at.session.clear();
+  rest.image.clear();
+  urban_nav_core::Archive bytes;
+  archive(bytes, rest);
+  stored.features = urban_nav_core::seal(kind, version, bytes.take());
+  return stored;
+}
+
+Keyframe toKeyframe(const StoredKeyframe& stored, const std::string& session) {
+  urban_nav_core::Archive bytes(urban_nav_core::unseal(kind, version, stored.features), kind);
+  Keyframe keyframe;
+  archive(bytes, keyframe);
+  bytes.finish();
+  keyframe.at = {session, stored.stamp};
+  keyframe.image.assign(stored.image.begin(), stored.image.end());
+  return keyframe;
+}
+
+}  // namespace urban_nav_registration

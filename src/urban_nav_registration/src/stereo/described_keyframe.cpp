@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stereo/described_keyframe.hpp"
+
+#include <algorithm>
+
+#include "io/jpeg.hpp"
+#include "urban_nav_core/camera/surface.hpp"
+
+namespace urban_nav_registration {
+
+using urban_nav_core::StereoCamera;
+
+namespace {
+
+constexpr int view_levels = 6;  // of the pyramid: alignment goes to 4, descriptors of near things further
+// Side of a descriptor's window on the thing seen. Bench, pairs, a street: with 0.6, 0.9, 1.2, 1.8, 2.4 m, of pairs 4 to 7.5 m apart 72, 75, 78, 77, 75 % are
+// upgraded.
+constexpr double window_m = 1.2;
+constexpr double largest_window = 0.35;  // of the image's height
+
+}  // namespace
+
+View::View(const Keyframe& keyframe, const StereoCamera& camera) : at(keyframe.at), pyramid(view_levels) {
+  const cv::Mat pixels = decodeJpeg(keyframe.image, {camera.left.width, camera.left.height});
+  if (pixels.empty()) return;
+  pyramid.build({pixels.data, pixels.cols, pixels.rows, static_cast<std::ptrdiff_t>(pixels.step)});
+  points.reserve(keyframe.points.size());
+  for (const KeyframePoint& from : keyframe.points) {
+    if (from.level >= pyramid.levels()) continue;
+    ViewPoint point;
+    point.pixel = from.pixel();
+    if (!camera.left.contains(point.pixel)) continue;
+    point.level = from.level;
+    point.ray = camera.left.ray(point.pixel);
+    point.disparity = static_cast<double>(from.disparity);
+    point.sigma_disparity = static_cast<double>(from.sigma_disparity);
+    point.plane =
+        urban_nav_core::surfaceThrough(camera, {point.pixel.x(), point.pixel.y(), point.pixel.x() - point.disparity},
+                                       {static_cast<double>(from.slope_u), static_cast<double>(from.slope_v)});
+    if (!point.plane.allFinite() || !(point.sigma_disparity > 0.0)) continue;
+    points.push_back(point);
+  }
+  descriptors.resize(descriptor_size, static_cast<Eigen::Index>(points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const ViewPoint& point = points[i];
+    const double px_per_m = std::max(0.0, point.disparity - camera.disparity_offset) / camera.baseline;
+    const double window = std::clamp(window_m * px_per_m, least_window_px,
+                                     std::max(least_window_px, largest_window * camera.left.height));
+    descriptors.col(static_cast<Eigen::Index>(i)) = describe(pyramid, point.pixel, window);
+  }
+}
+
+}  // namespace urban_nav_registration

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stereo/estimate.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "urban_nav_core/geometry/small_matrices.hpp"
+
+namespace urban_nav_registration {
+
+using urban_nav_core::Matrix6d;
+using urban_nav_core::Pose;
+using urban_nav_core::StereoCamera;
+
+namespace {
+
+using Matrix7d = Eigen::Matrix<double, 7, 7>;
+using Vector7d = Eigen::Matrix<double, 7, 1>;
+
+constexpr double huber = 2.5;                               // standard deviations, as swf_vo's
+constexpr double gate_two = 13.8, gate_three = 16.3;        // chi-square, 99.9 %
+constexpr double median_two = 1.386, median_three = 2.366;  // of chi-square
+constexpr double exact_offset = 1e6;                        // 1/px: what weighs an offset that is not allowed for
+constexpr int parts_across = 4, parts_down = 3;             // of the image, within which errors may be alike
+constexpr double least_depth_sigmas = 3.0;
+constexpr double settled_m = 1e-6, settled_rad = 1e-7;
+// Keeps the pose where matches leave it open; far below what any match says.
+constexpr double anchor = 1e-6;
+
+/// One sight linearised at its best depth, the depth eliminated.
+struct Reduced {
+  bool visible = false;
+  Matrix7d H;
+  Vector7d b;
+  double chi2 = 0.0, residual_px = 0.0;
+};
+
+Eigen::Matrix4d weightOf(const Sight& sight) {
+  Eigen::Matrix4d W = Eigen::Matrix4d::Zero();
+  W(0, 0) = 1.0 / (sight.sigma_disparity * sight.sigma_disparity);
+  W.block<2, 2>(1, 1) = sight.covariance.inverse();
+  if (sight.other_sigma > 0.0) W(3, 3) = 1.0 / (sight.other_sigma * sight.other_sigma);
+  return W;
+}
+
+Reduced reduce(const Sight& sight, const StereoCamera& camera, const Pose& T_a_b, double offset, double& rho) {
+  Reduced made;
+  const Eigen::Matrix4d W = weightOf(sight);
+  SightResidual r;
+  constexpr int most_steps = 4;
+  for (int step = 0; step < most_steps; ++step) {
+    r = residualOf(sight, camera, T_a_b, offset, rho);
+    if (!r.visible) return made;
+    const Eigen::Vector4d along = W * r.J.col(of_depth);
+    const double d = along.dot(r.e) / along.dot(r.J.col(of_depth));
+    if (!std::isfinite(d)) return made;
+    if (std::abs(d) < 1e-7 || step + 1 == most_steps) break;
+    rho += d;
+  }
+  // A depth that is not told from infinity has a derivative of noise, which would pass for knowledge of the translation.
+  if (rho * camera.left.fx * camera.baseline < least_depth_sigmas * sight.sigma_disparity) r.J.leftCols<3>().setZero();
+  const Eigen::Matrix<double, 8, 4> JW = r.J.transpose() * W;
+  const Eigen::Matrix<double, 8, 8> H = JW * r.J;
+  const Eigen::Matrix<double, 8, 1> b = JW * r.e;
+  const double of_rho = H(of_depth, of_depth);
+  const Vector7d cross = H.col(of_depth).head<7>();
+  made.H = H.topLeftCorner<7, 7>() - cross * cross.transpose() / of_rho;
+  made.b = b.head<7>() - cross * (b[of_depth] / of_rho);
+  made.chi2 = r.e.dot(W * r.e) - b[of_depth] * b[of_depth] / of_rho;
+  made.residual_px = r.e.segment<2>(1).norm() / sight.size;
+  made.visible = made.H.allFinite() && made.b.allFinite();
+  return made;
+}
+
+double weightOf(double chi2, double scale2) {
+  const double chi = std::sqrt(std::max(chi2 / scale2, 0.0));
+  return chi > huber ? huber / chi : 1.0;
+}
+
+/// How much larger squared residuals are than promised, by their median, which outliers do not move.
+double scaleOf(const std::vector<Sight>& sights, const std::vector<Reduced>& reduced, std::vector<double>& ratios) {
+  ratios.clear();
+  for (std::size_t i = 0; i < sights.size(); ++i)
+    if (reduced[i].visible)
+      ratios.push_back(reduced[i].chi2 / (sights[i].coordinates() == 3 ? median_three : median_two));
+  if (ratios.empty()) return 1.0;
+  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+  std::nth_element(ratios.begin(), middle, ratios.end());
+  return std::max(1.0, *middle);
+}
+
+/// How much larger the covariance is than independent errors would have it: errors of neighbours are alike, since they lie on one surface, under one
+/// light, so the scores of each part of the image are summed before they are squared (Liang and Zeger 1986). One mean over the directions of the translation and
+/// one over those of the rotation: from some ten parts each direction alone would be known to no better than a factor of two.
+struct Inflation {
+  double translation = 1.0, rotation = 1.0;
+};
+
+Inflation inflation(const StereoCamera& camera, const std::vector<Sight>& sights, const std::vector<Reduced>& reduced,
+                    double scale2, const Matrix7d& H) {
+  std::array<Vector7d, 2 * parts_across * parts_down> scores;
+  std::array<bool, 2 * parts_across * parts_down> used{};
+  scores.fill(Vector7d::Zero());
+  for (std::size_t i = 0; i < sights.size(); ++i) {
+    if (!reduced[i].visible) continue;
+    const Eigen::Vector3d& ray = sights[i].ray;
+    const double u = (camera.left.fx * ray.x() + camera.left.cx) / camera.left.width,
+                 v = (camera.left.fy * ray.y() + camera.left.cy) / camera.left.height;
+    const int column = std::clamp(static_cast<int>(u * parts_across), 0, parts_across - 1),
+              row = std::clamp(static_cast<int>(v * parts_down), 0, parts_down - 1);
+    const auto part = static_cast<std::size_t>(((sights[i].of_a ? 0 : parts_down) + row) * parts_across + column);
+    scores[part] += weightOf(reduced[i].chi2, scale2) / scale2 * reduced[i].b;
+    used[part] = true;
+  }
+  Matrix7d S = Matrix7d::Zero();
+  int count = 0;
+  for (std::size_t part = 0; part < scores.size(); ++part) {
+    if (!used[part]) continue;
+    S += scores[part] * scores[part].transpose();
+    ++count;
+  }
+  if (count <= 7) return {};
+  Matrix7d held = H;
+  held.diagonal().array() += anchor;
+  const Matrix7d C = urban_nav_core::solveByLdlt<7, 7>(held, Matrix7d::Identity()), V = C * S * C;
+  const auto mean = [&](int first) {
+    const Eigen::Matrix3d promised = C.block<3, 3>(first, first), found = V.block<3, 3>(first, first);
+    const double ratio = promised.ldlt().solve(found).trace() / 3.0 * count / (count - 7.0);
+    return std::isfinite(ratio) ? std::max(1.0, ratio) : 1.0;
+  };
+  return {mean(0), mean(3)};
+}
+
+/// With errors of all sights in common: as if the other camera were turned, and as if it stood elsewhere.
+Matrix6d withCommonError(const StereoCamera& camera, const Pose& T_a_b, const EstimateOptions& options,
+                         const Matrix6d& information) {
+  Matrix6d spread = Matrix6d::Zero();
+  spread.topLeftCorner<3, 3>() = options.common_m * Eigen::Matrix3d::Identity();
+  spread.bottomRightCorner<3, 3>() = T_a_b.R() * (options.common_px / camera.left.fx);
+  // (C + spread spread^T)^-1, without inverting the information, which may be singular
+  const Matrix6d seen = information * spread;
+  const Matrix6d inner = Matrix6d::Identity() + spread.transpose() * seen;
+  const Matrix6d made = information - seen * urban_nav_core::solveByLdlt<6, 6>(inner, seen.transpose());
+  return 0.5 * (made + made.transpose());
+}
+
+}  // namespace
+
+Estimate estimate(const StereoCamera& camera, const std::vector<Sight>& sights, const Pose& start,
+                  const EstimateOptions& options) {
+  Estimate made;
+  made.T_a_b = start;
+  std::vector<double> rho(sights.size()), ratios;
+  for (std::size_t i = 0; i < sights.size(); ++i) rho[i] = inverseDepth(sights[i], camera);
+  std::vector<Reduced> reduced(sights.size());
+  const double offset_weight =
+      options.sigma_offset > 0.0 ? 1.0 / (options.sigma_offset * options.sigma_offset) : exact_offset * exact_offset;
+  const auto linearise = [&] {
+    for (std::size_t i = 0; i < sights.size(); ++i)
+      reduced[i] = reduce(sights[i], camera, made.T_a_b, made.offset, rho[i]);
+    return options.scaled ? scaleOf(sights, reduced, ratios) : 1.0;
+  };
+  const auto sum = [&](double scale2, Matrix7d& H, Vector7d& b) {
+    H.setZero();
+    b.setZero();
+    for (const Reduced& r : reduced) {
+      if (!r.visible) continue;
+      const double weight = weightOf(r.chi2, scale2) / scale2;
+      H += weight * r.H;
+      b += weight * r.b;
+    }
+    H(of_offset, of_offset) += offset_weight;
+    b[of_offset] -= offset_weight * made.offset;
+  };
+  Matrix7d H;
+  Vector7d b;
+  double scale2 = 1.0;
+  for (int step = 0; step < options.steps; ++step) {
+    scale2 = linearise();
+    sum(scale2, H, b);
+    H.diagonal().array() += anchor;
+    const Vector7d d = urban_nav_core::solveByLdlt<7, 1>(H, b);
+    if (!d.allFinite()) return made;
+    made.T_a_b = urban_nav_core::boxPlus(made.T_a_b, d.head<6>());
+    made.offset += d[of_offset];
+    if (d.head<3>().norm() < settled_m && d.segment<3>(3).norm() < settled_rad) break;
+  }
+  scale2 = linearise();
+  sum(scale2, H, b);
+  if (options.scaled) {
+    const Inflation larger = inflation(camera, sights, reduced, scale2, H);
+    Vector7d by = Vector7d::Ones();
+    by.head<3>().setConstant(1.0 / std::sqrt(larger.translation));
+    by.segment<3>(3).setConstant(1.0 / std::sqrt(larger.rotation));
+    H = (by.asDiagonal() * H * by.asDiagonal()).eval();
+  }
+  made.noise_factor = std::sqrt(scale2);
+  const Eigen::Matrix<double, 6, 1> cross = H.block<6, 1>(0, of_offset);
+  made.information = H.topLeftCorner<6, 6>() - cross * cross.transpose() / H(of_offset, of_offset);
+  made.information = withCommonError(camera, made.T_a_b, options, made.information);
+  made.sights.resize(sights.size());
+  double total = 0.0;
+  for (std::size_t i = 0; i < sights.size(); ++i) {
+    SightOutcome& outcome = made.sights[i];
+    if (!reduced[i].visible) continue;
+    outcome.chi2 = reduced[i].chi2;
+    outcome.residual_px = reduced[i].residual_px;
+    outcome.inlier = outcome.chi2 < scale2 * (sights[i].coordinates() == 3 ? gate_three : gate_two) &&
+                     outcome.residual_px <= options.largest_residual_px;
+    if (!outcome.inlier) continue;
+    ++made.inliers;
+    total += outcome.residual_px;
+  }
+  made.reprojection_px = made.inliers > 0 ? total / made.inliers : 0.0;
+  made.found = made.inliers >= 3 && made.T_a_b.isFinite() && made.information.allFinite();
+  return made;
+}
+
+}  // namespace urban_nav_registration

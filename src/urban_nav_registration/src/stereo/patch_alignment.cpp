@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stereo/patch_alignment.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "urban_nav_core/camera/surface.hpp"
+#include "urban_nav_core/image/patch.hpp"
+#include "urban_nav_core/parallel/for_each.hpp"
+
+namespace urban_nav_registration {
+
+using urban_nav_core::PatchTemplate;
+using urban_nav_core::PatchWarp;
+using urban_nav_core::Pose;
+using urban_nav_core::Pyramid;
+using urban_nav_core::StereoCamera;
+
+namespace {
+
+constexpr double least_view_correlation = 0.8;  // as swf_vo's
+constexpr double least_gain = 0.2, largest_gain = 5.0;
+constexpr double smallest_scale = 0.3, largest_scale = 3.5;  // of a patch from view to view: beyond, nothing is alike
+constexpr double most_stretch = 2.5;                         // of one axis over the other: a wall seen edge-on
+constexpr int view_margin = urban_nav_core::patch_radius + 3;
+constexpr double same_point_px = 3.0;  // of the level: a corner that the other view chose as well
+constexpr double own_window_px = 6.0;  // of the level: nearer patches share their pixels
+constexpr double least_depth_share =
+    0.02;  // of the inverse depth: what one sight's disparity does not know of the other's
+constexpr std::size_t grain = 32;
+
+struct Found {
+  bool visible = false, found = false;
+  double likeness = 0.0;
+  double size = 1.0;  // px of level 0 in one of the level it was found at
+  Sight sight;
+};
+
+/// Where a point lies and how it looks from the other view.
+struct PointView {
+  PatchWarp warp;
+  Eigen::Vector2d pixel;
+};
+
+std::optional<PointView> placeOf(const StereoCamera& camera, const Eigen::Vector3d& plane, const Eigen::Vector3d& ray,
+                                 const Pose& T_to_from) {
+  const double rho = std::max(plane.dot(ray), 0.0);
+  const auto warp = urban_nav_core::warpOfSurface(camera, plane, ray, T_to_from);
+  if (!warp || !warp->A.allFinite() || !warp->bend.allFinite()) return std::nullopt;
+  const Eigen::Vector3d p = T_to_from.q() * ray + T_to_from.t() * rho;
+  if (!(p.z() > 0.05)) return std::nullopt;
+  return PointView{*warp,
+                   {camera.left.fx * p.x() / p.z() + camera.left.cx, camera.left.fy * p.y() / p.z() + camera.left.cy}};
+}
+
+/// By how much a warp enlarges; empty where it does so too much or too unevenly.
+std::optional<double> enlargement(const Eigen::Matrix2d& A) {
+  const double area = A.determinant();
+  if (!(area > smallest_scale * smallest_scale && area < largest_scale * largest_scale)) return std::nullopt;
+  // squares of the singular values: s1 s2 = area^2, s1 + s2 = |A|^2
+  const double half = 0.5 * A.squaredNorm();
+  const double larger = half + std::sqrt(std::max(half * half - area * area, 0.0));
+  if (larger / area > most_stretch) return std::nullopt;
+  return std::sqrt(area);
+}
+
+Found look(const StereoCamera& camera, const View& from, const View& to, const ViewPoint& point, const Pose& T_to_from,
+           double offset, const AligningOptions& options) {
+  Found made;
+  const double rho =
+      std::max(0.0, (point.disparity - camera.disparity_offset - offset) / (camera.left.fx * camera.baseline));
+  const Eigen::Vector3d plane = urban_nav_core::surfaceAt(point.plane, point.ray, rho);
+  const auto place = placeOf(camera, plane, point.ray, T_to_from);
+  if (!place) return made;
+  const auto scale = enlargement(place->warp.A);
+  if (!scale) return made;
+  // Both patches about equally large: from level f to level t.
+  int f = point.level + options.coarser;
+  int t = f + static_cast<int>(std::lround(std::log2(*scale)));
+  if (t < 0) {
+    f -= t;
+    t = 0;
+  }
+  if (f >= from.pyramid.levels() || t >= to.pyramid.levels()) return made;
+  const double from_scale = Pyramid::scale(f), to_scale = Pyramid::scale(t);
+  // The template's middle is a whole pixel of its level, which need not be the point.
+  const int u = static_cast<int>(std::lround(point.pixel.x() * from_scale)),
+            v = static_cast<int>(std::lround(point.pixel.y() * from_scale));
+  const auto source = urban_nav_core::cutSource(from.pyramid.level(f), u, v);
+  if (!source) return made;
+  const Eigen::Vector2d middle = Eigen::Vector2d(u, v) / from_scale;
+  const Eigen::Vector3d ray = camera.left.ray(middle);
+  const auto of_middle = placeOf(camera, plane, ray, T_to_from);
+  if (!of_middle) return made;
+  const auto& image = to.pyramid.level(t);
+  const Eigen::Vector2d start = of_middle->pixel * to_scale;
+  if (!(start.x() >= view_margin && start.y() >= view_margin && start.x() < image.width - view_margin &&
+        start.y() < image.height - view_margin))
+    return made;
+  PatchWarp warp(of_middle->warp.A * (to_scale / from_scale), of_middle->warp.bend / from_scale);
+  warp.bend *= std::min(1.0, urban_nav_core::largest_bend / std::max(warp.bend.norm(), 1e-9));
+  PatchTemplate patch;
+  if (!urban_nav_core::warpTemplate(*source, warp, patch)) return made;
+  made.visible = true;
+  made.likeness = urban_nav_core::correlationAt(image, patch, start);
+  const auto aligned = urban_nav_core::alignPatch(image, patch, start, options.reach);
+  if (!aligned.converged || aligned.correlation < least_view_correlation || aligned.gain < least_gain ||
+      aligned.gain > largest_gain || !aligned.covariance.allFinite())
+    return made;
+  made.found = true;
+  made.size = 1.0 / to_scale;
+  Sight& sight = made.sight;
+  sight.size = made.size;
+  sight.ray = ray;
+  // the surface goes on to the template's middle
+  sight.disparity = point.disparity + camera.left.fx * camera.baseline * (plane.dot(ray) - plane.dot(point.ray));
+  sight.sigma_disparity = point.sigma_disparity;
+  sight.pixel = aligned.position * made.size;
+  // Both images have noise; the alignment knows of one.
+  sight.covariance = 2.0 * aligned.covariance + options.floor_px * options.floor_px * Eigen::Matrix2d::Identity();
+  sight.covariance *= made.size * made.size;
+  return made;
+}
+
+std::vector<Found> lookForAll(const StereoCamera& camera, const View& from, const View& to, const Pose& T_to_from,
+                              double offset, const AligningOptions& options) {
+  std::vector<Found> found(from.points.size());
+  urban_nav_core::forEach(from.points.size(), grain, [&](std::size_t i) {
+    found[i] = look(camera, from, to, from.points[i], T_to_from, offset, options);
+    found[i].sight.point = static_cast<int>(i);
+  });
+  return found;
+}
+
+}  // namespace
+
+Aligned alignViews(const StereoCamera& camera, const View& a, const View& b, const Pose& T_a_b, double offset,
+                   const AligningOptions& options) {
+  Aligned made;
+  std::vector<Found> of_a = lookForAll(camera, a, b, T_a_b.inverse(), offset, options);
+  const std::vector<Found> of_b = lookForAll(camera, b, a, T_a_b, offset, options);
+  const auto see = [&made](const Found& found) {
+    if (!found.visible) return;
+    ++made.visible;
+    made.likeness += found.likeness;
+  };
+  std::vector<bool> taken(b.points.size(), false);
+  for (Found& found : of_a) {
+    see(found);
+    if (!found.found) continue;
+    Sight& sight = found.sight;
+    double nearest = same_point_px * same_point_px;
+    const ViewPoint* partner = nullptr;
+    for (std::size_t j = 0; j < b.points.size(); ++j) {
+      const double size = std::max(found.size, b.points[j].size());
+      const double square = (b.points[j].pixel - sight.pixel).squaredNorm() / (size * size);
+      if (square < own_window_px * own_window_px) taken[j] = true;
+      if (square >= nearest) continue;
+      nearest = square;
+      partner = &b.points[j];
+    }
+    if (partner != nullptr) {
+      const double per_depth = camera.left.fx * camera.baseline;
+      const double slope = partner->plane.dot(camera.left.ray(sight.pixel)) - partner->plane.dot(partner->ray);
+      sight.other_disparity = partner->disparity + per_depth * slope;
+      sight.other_sigma =
+          std::hypot(partner->sigma_disparity, per_depth * slope, least_depth_share * sight.other_disparity);
+    }
+    made.sights.push_back(sight);
+  }
+  for (std::size_t j = 0; j < of_b.size(); ++j) {
+    if (taken[j]) continue;
+    see(of_b[j]);
+    if (!of_b[j].found) continue;
+    made.sights.push_back(of_b[j].sight);
+    made.sights.back().of_a = false;
+  }
+  if (made.visible > 0) made.likeness /= made.visible;
+  return made;
+}
+
+}  // namespace urban_nav_registration

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stereo/ransac.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+namespace urban_nav_registration {
+
+using urban_nav_core::Pose;
+using urban_nav_core::StereoCamera;
+
+namespace {
+
+constexpr double corner_px = 1.0;     // of its level: how well a corner is found again
+constexpr double disparity_px = 0.3;  // added to its own deviation: the two corners are not quite one point
+constexpr double gate = 16.3;         // chi-square, 3 degrees of freedom, 99.9 %
+constexpr double confidence = 0.999;
+constexpr int least_samples = 60, most_samples = 1500;
+constexpr int fewest = 8;                // that agree: three fit by definition, and chance finds some more
+constexpr double least_z = 1.0 / 200.0;  // 1/m: of the points of a triple, with depth to speak of
+
+struct Item {
+  Sight sight;
+  Eigen::Vector3d p_a, p_b;  // over their depths: not used for far points
+  bool deep = false;         // has depth on both sides
+  double rho = 0.0, sigma_rho = 0.0, sigma_px = 1.0;
+};
+
+std::vector<Item> itemsOf(const StereoCamera& camera, const View& a, const View& b,
+                          const std::vector<DescriptorMatch>& pairs) {
+  std::vector<Item> items;
+  items.reserve(pairs.size());
+  const double per_depth = camera.left.fx * camera.baseline;
+  for (const DescriptorMatch& pair : pairs) {
+    const ViewPoint &in_a = a.points[static_cast<std::size_t>(pair.a)],
+                    &in_b = b.points[static_cast<std::size_t>(pair.b)];
+    Item item;
+    Sight& sight = item.sight;
+    sight.point = pair.a;
+    sight.ray = in_a.ray;
+    sight.disparity = in_a.disparity;
+    sight.sigma_disparity = std::hypot(in_a.sigma_disparity, disparity_px);
+    sight.pixel = in_b.pixel;
+    item.sigma_px = corner_px * std::max(in_a.size(), in_b.size());
+    sight.covariance = item.sigma_px * item.sigma_px * Eigen::Matrix2d::Identity();
+    sight.other_disparity = in_b.disparity;
+    sight.other_sigma = std::hypot(in_b.sigma_disparity, disparity_px);
+    item.rho = inverseDepth(sight, camera);
+    item.sigma_rho = sight.sigma_disparity / per_depth;
+    const double rho_b = (in_b.disparity - camera.disparity_offset) / per_depth;
+    item.deep = item.rho > least_z && rho_b > least_z;
+    if (item.deep) {
+      item.p_a = in_a.ray / item.rho;
+      item.p_b = in_b.ray / rho_b;
+    }
+    items.push_back(item);
+  }
+  return items;
+}
+
+/// Chi-square of a pair with three degrees of freedom; the gate where it is more.
+double misfit(const Item& item, const StereoCamera& camera, const Eigen::Matrix3d& R_b_a,
+              const Eigen::Vector3d& t_b_a) {
+  const auto& c = camera.left;
+  const Eigen::Vector3d p = R_b_a * item.sight.ray + t_b_a * item.rho;
+  if (!(p.z() > 1e-3)) return gate;
+  const double iz = 1.0 / p.z(), x = p.x() * iz, y = p.y() * iz, per_depth = c.fx * camera.baseline;
+  const double by_px = 1.0 / item.sigma_px, by_disparity = 1.0 / item.sight.other_sigma;
+  const Eigen::Vector3d e(
+      (item.sight.pixel.x() - c.fx * x - c.cx) * by_px, (item.sight.pixel.y() - c.fy * y - c.cy) * by_px,
+      (item.sight.other_disparity - camera.disparity_offset - per_depth * item.rho * iz) * by_disparity);
+  const double square = e.squaredNorm();
+  if (square > 1e4 * gate) return gate;
+  const Eigen::Vector3d j =
+      item.sigma_rho * Eigen::Vector3d(c.fx * iz * (t_b_a.x() - x * t_b_a.z()) * by_px,
+                                       c.fy * iz * (t_b_a.y() - y * t_b_a.z()) * by_px,
+                                       per_depth * iz * (1.0 - item.rho * iz * t_b_a.z()) * by_disparity);
+  const double along = j.dot(e);
+  return std::min(gate, square - along * along / (1.0 + j.squaredNorm()));
+}
+
+struct Score {
+  double cost = 0.0;
+  int inliers = 0;
+};
+
+Score scoreOf(const std::vector<Item>& items, const StereoCamera& camera, const Pose& T_a_b) {
+  const Pose T_b_a = T_a_b.inverse();
+  const Eigen::Matrix3d R = T_b_a.R();
+  Score score;
+  for (const Item& item : items) {
+    const double chi2 = misfit(item, camera, R, T_b_a.t());
+    score.cost += chi2;
+    if (chi2 < gate) ++score.inliers;
+  }
+  return score;
+}
+
+/// Axes of a triangle: along its first side, in its plane, across it. Empty where the points lie in a row or together.
+std::optional<Eigen::Matrix3d> axesOf(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& r) {
+  const Eigen::Vector3d x = q - p, n = x.cross(r - p);
+  if (!(n.norm() > 0.02 * x.norm() * (r - p).norm()) || !(x.norm() > 0.05)) return std::nullopt;
+  Eigen::Matrix3d axes;
+  axes.col(0) = x.normalized();
+  axes.col(2) = n.normalized();
+  axes.col(1) = axes.col(2).cross(axes.col(0));
+  return axes;
+}
+
+std::optional<Pose> throughTriple(const std::array<const Item*, 3>& triple, const StereoCamera& camera) {
+  const auto a = axesOf(triple[0]->p_a, triple[1]->p_a, triple[2]->p_a);
+  const auto b = axesOf(triple[0]->p_b, triple[1]->p_b, triple[2]->p_b);
+  if (!a || !b) return std::nullopt;
+  const Eigen::Matrix3d R = *a * b->transpose();
+  Eigen::Vector3d middle_a = Eigen::Vector3d::Zero(), middle_b = Eigen::Vector3d::Zero();
+  std::vector<Sight> sights;
+  for (const Item* item : triple) {
+    middle_a += item->p_a / 3.0;
+    middle_b += item->p_b / 3.0;
+    sights.push_back(item->sight);
+  }
+  if (!R.allFinite()) return std::nullopt;
+  EstimateOptions options;
+  options.steps = 3;
+  options.sigma_offset = 0.0;
+  options.scaled = false;
+  const Estimate refined = estimate(camera, sights, Pose(R, middle_a - R * middle_b), options);
+  if (!refined.T_a_b.isFinite()) return std::nullopt;
+  return refined.T_a_b;
+}
+
+/// From all pairs that agree, until no more join.
+Pose improve(const std::vector<Item>& items, const StereoCamera& camera, Pose T_a_b, Score& score) {
+  for (int round = 0; round < 3; ++round) {
+    const Pose T_b_a = T_a_b.inverse();
+    const Eigen::Matrix3d R = T_b_a.R();
+    std::vector<Sight> sights;
+    for (const Item& item : items)
+      if (misfit(item, camera, R, T_b_a.t()) < gate) sights.push_back(item.sight);
+    if (sights.size() < 3) break;
+    EstimateOptions options;
+    options.steps = 4;
+    options.sigma_offset = 0.0;
+    options.scaled = false;
+    const Pose better = estimate(camera, sights, T_a_b, options).T_a_b;
+    if (!better.isFinite()) break;
+    const Score its = scoreOf(items, camera, better);
+    if (its.cost >= score.cost) break;
+    score = its;
+    T_a_b = better;
+  }
+  return T_a_b;
+}
+
+int samplesFor(int inliers, std::size_t count) {
+  const double share = static_cast<double>(inliers) / static_cast<double>(count), all = share * share * share;
+  if (all >= 1.0) return least_samples;
+  const double samples = std::log(1.0 - confidence) / std::log(1.0 - std::max(all, 1e-9));
+  return static_cast<int>(
+      std::clamp(std::ceil(samples), static_cast<double>(least_samples), static_cast<double>(most_samples)));
+}
+
+}  // namespace
+
+Consensus findConsensus(const StereoCamera& camera, const View& a, const View& b,
+                        const std::vector<DescriptorMatch>& pairs) {
+  Consensus made;
+  const std::vector<Item> items = itemsOf(camera, a, b, pairs);
+  std::vector<const Item*> deep;
+  for (const Item& item : items)
+    if (item.deep) deep.push_back(&item);
+  if (deep.size() < 3) return made;
+  Score best{gate * static_cast<double>(items.size()), 0};
+  std::uint32_t state = 12345;
+  int wanted = most_samples;
+  const auto count = static_cast<std::uint32_t>(deep.size());
+  for (; made.samples < wanted; ++made.samples) {
+    std::array<const Item*, 3> triple{};
+    for (auto next = triple.begin(); next != triple.end();) {
+      state = state * 1664525U + 1013904223U;
+      *next = deep[(state >> 8) % count];
+      if (std::find(triple.begin(), next, *next) == next) ++next;
+    }
+    const auto T_a_b = throughTriple(triple, camera);
+    if (!T_a_b) continue;
+    Score score = scoreOf(items, camera, *T_a_b);
+    if (score.cost >= best.cost) continue;
+    made.T_a_b = improve(items, camera, *T_a_b, score);
+    best = score;
+    wanted = samplesFor(best.inliers, items.size());
+  }
+  made.inliers = best.inliers;
+  made.found = best.inliers >= fewest;
+  const Pose T_b_a = made.T_a_b.inverse();
+  const Eigen::Matrix3d R = T_b_a.R();
+  for (std::size_t i = 0; i < items.size(); ++i)
+    if (misfit(items[i], camera, R, T_b_a.t()) >= gate) made.others.push_back(pairs[i]);
+  return made;
+}
+
+}  // namespace urban_nav_registration

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_registration/stereo/stereo_closure.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <list>
+
+#include "stereo/described_keyframe.hpp"
+#include "stereo/estimate.hpp"
+#include "stereo/patch_alignment.hpp"
+#include "stereo/ransac.hpp"
+#include "urban_nav_core/geometry/dense.hpp"
+
+namespace urban_nav_registration {
+
+using urban_nav_core::ClosureVerdict;
+using urban_nav_core::Constraint;
+using urban_nav_core::Matrix3d;
+using urban_nav_core::Matrix6d;
+using urban_nav_core::Pose;
+using urban_nav_core::StereoCamera;
+
+namespace {
+
+constexpr int fewest_agreeing = 8;  // pairs; false pairs have fewer as a rule, and the others fail at the patches
+constexpr std::size_t most_motions = 4;
+constexpr double convincing_likeness =
+    0.65;                              // bench, pairs: no wrong motion had it in the end; no other is looked for then
+constexpr double match_gate = 1.75;    // times the mean error that is allowed: what is further off is no match
+constexpr std::size_t kept_views = 8;  // some 1 MB each at 512x384
+constexpr int least_points = 20;       // with depth, in either view
+// A transform that is known to a metre and half a degree at the worst: what is worse pinches nothing.
+constexpr double largest_sigma_m = 1.0, largest_sigma_rad = 0.1;
+
+// Light moves all edges alike: shadows under ledges by millimetres, what a camera blurs by some hundredths of a pixel. Bench, pairs, between days: in the mean
+// of a hundred pairs poses are off by 0.03...0.09 px and 1...2 mm, in directions that are the same for all pairs.
+constexpr double common_px = 0.06, common_m = 0.0015;
+
+constexpr std::size_t coarse_rounds = 2;
+/// From where consensus is good to some pixels to where patches say it best.
+constexpr std::array<AligningOptions, 4> rounds = {AligningOptions{2, 3.0, 0.1}, AligningOptions{1, 3.0, 0.1},
+                                                   AligningOptions{0, 2.0, 0.0}, AligningOptions{0, 1.5, 0.0}};
+
+std::string stereoReason(const char* format, double value, double threshold) {
+  std::array<char, 160> text{};
+  std::snprintf(text.data(), text.size(), format, value, threshold);
+  return text.data();
+}
+
+/// The largest standard deviations of the translation (m) and of the rotation (rad); infinite where nothing is known.
+std::array<double, 2> largestSigmas(const Matrix6d& information) {
+  constexpr double nothing = std::numeric_limits<double>::infinity();
+  const auto covariance = urban_nav_core::invertPositiveDefinite(information);
+  if (!covariance) return {nothing, nothing};
+  std::array<double, 2> sigmas{};
+  for (const int half : {0, 1}) {
+    const auto values = urban_nav_core::symmetricEigenvalues(covariance->block(3 * half, 3 * half, 3, 3));
+    sigmas[static_cast<std::size_t>(half)] = values && (*values)[2] > 0.0 ? std::sqrt((*values)[2]) : nothing;
+  }
+  return sigmas;
+}
+
+}  // namespace
+
+const char* toString(StereoReason reason) {
+  switch (reason) {
+    case StereoReason::None: return "none";
+    case StereoReason::NoImage: return "no_image";
+    case StereoReason::TooFewPoints: return "too_few_points";
+    case StereoReason::NoConsensus: return "no_consensus";
+    case StereoReason::TooFewMatches: return "too_few_matches";
+    case StereoReason::LargeError: return "large_error";
+    case StereoReason::Unlike: return "unlike";
+    case StereoReason::NotDetermined: return "not_determined";
+  }
+  return "none";
+}
+
+Constraint betweenBases(const Constraint& lefts, const Pose& T_base_left) {
+  // T_basea_baseb = X T X^-1: with box perturbations phi' = Rx phi, rho' = Rx rho + [R' tx] phi'
+  Constraint made;
+  made.T_a_b = T_base_left * lefts.T_a_b * T_base_left.inverse();
+  const Matrix3d Rx = T_base_left.R();
+  Matrix6d left_by_base = Matrix6d::Zero();
+  left_by_base.topLeftCorner<3, 3>() = left_by_base.bottomRightCorner<3, 3>() = Rx.transpose();
+  left_by_base.topRightCorner<3, 3>() = -Rx.transpose() * urban_nav_core::skew(made.T_a_b.q() * T_base_left.t());
+  made.information = left_by_base.transpose() * lefts.information * left_by_base;
+  made.information = (0.5 * (made.information + made.information.transpose())).eval();
+  return made;
+}
+
+class StereoMatcher::Implementation {
+ public:
+  Implementation(const StereoCamera& camera, const Parameters& parameters) : camera_(camera), parameters_(parameters) {}
+
+  StereoClosure match(const Keyframe& keyframe_a, const Keyframe& keyframe_b) {
+    const std::shared_ptr<const View> a = viewOf(keyframe_a), b = viewOf(keyframe_b);
+    StereoClosure closure;
+    closure.points_a = static_cast<int>(a->points.size());
+    closure.points_b = static_cast<int>(b->points.size());
+    if (!a->isReadable() || !b->isReadable())
+      return refused(closure, StereoReason::NoImage,
+                     std::string("the image of ") + (a->isReadable() ? "the later" : "the earlier") +
+                         " view is missing, unreadable or of another size");
+    if (!test(closure, "points", std::min(closure.points_a, closure.points_b), least_points, true))
+      return refused(closure, StereoReason::TooFewPoints,
+                     stereoReason("%.0f points with depth in one of the views, %.0f wanted", closure.tests.back().value,
+                                  least_points));
+    const std::vector<DescriptorMatch> pairs = mutualNearest(a->descriptors, b->descriptors);
+    closure.putative = static_cast<int>(pairs.size());
+    Refined best = findMotion(*a, *b, pairs, closure);
+    if (!test(closure, "consensus", closure.consensus, fewest_agreeing, true) || !best.found.found)
+      return refused(closure, StereoReason::NoConsensus,
+                     stereoReason("no motion explains more than %.0f of %.0f pairs of points", closure.consensus,
+                                  closure.putative));
+    return refine(*a, *b, std::move(best), closure);
+  }
+
+ private:
+  std::shared_ptr<const View> viewOf(const Keyframe& keyframe) {
+    const auto known =
+        std::find_if(views_.begin(), views_.end(), [&](const auto& view) { return view->at == keyframe.at; });
+    if (known != views_.end()) {
+      views_.splice(views_.begin(), views_, known);
+      return views_.front();
+    }
+    views_.push_front(std::make_shared<const View>(keyframe, camera_));
+    if (views_.size() > kept_views) views_.pop_back();
+    return views_.front();
+  }
+
+  static bool test(StereoClosure& closure, const char* name, double value, double threshold, bool at_least) {
+    const bool passed = at_least ? value >= threshold : value <= threshold;
+    closure.tests.push_back({name, value, threshold, at_least, passed});
+    return passed;
+  }
+
+  static StereoClosure refused(StereoClosure& closure, StereoReason reason, std::string sentence) {
+    closure.verdict = ClosureVerdict::Rejected;
+    closure.reason = reason;
+    closure.sentence = std::move(sentence);
+    closure.lefts.information.setZero();
+    return closure;
+  }
+
+  struct Refined {
+    Pose T_a_b;
+    Estimate found;
+    Aligned aligned;
+    double worth() const { return found.inliers * aligned.likeness; }
+  };
+
+  /// One look for all points, and what motion they say; left as it was where that is none.
+  void look(const View& a, const View& b, AligningOptions round, Refined& refined) const {
+    if (round.floor_px == 0.0) round.floor_px = parameters_.pixel_noise_floor;
+    Aligned aligned = alignViews(camera_, a, b, refined.T_a_b, refined.found.offset, round);
+    if (aligned.sights.size() < 6) return;
+    EstimateOptions options;
+    options.sigma_offset = parameters_.disparity_offset;
+    options.common_px = common_px;
+    options.common_m = common_m;
+    options.largest_residual_px = match_gate * parameters_.max_reprojection_error;
+    Estimate next = estimate(camera_, aligned.sights, refined.T_a_b, options);
+    if (!next.found) return;
+    refined = {next.T_a_b, std::move(next), std::move(aligned)};
+  }
+
+  /// Several are tried where facades repeat themselves: which is meant, patches decide.
+  Refined findMotion(const View& a, const View& b, std::vector<DescriptorMatch> pairs, StereoClosure& closure) const {
+    Refined best;
+    for (std::size_t tried = 0; tried < most_motions; ++tried) {
+      Consensus motion = findConsensus(camera_, a, b, pairs);
+      if (tried == 0) closure.consensus = motion.inliers;
+      if (!motion.found) break;
+      Refined its;
+      its.T_a_b = motion.T_a_b;
+      for (std::size_t round = 0; round < coarse_rounds; ++round) look(a, b, rounds[round], its);
+      if (its.worth() > best.worth()) {
+        best = std::move(its);
+        closure.consensus = motion.inliers;
+      }
+      if (best.aligned.likeness >= convincing_likeness) break;
+      pairs = std::move(motion.others);
+    }
+    return best;
+  }
+
+  StereoClosure refine(const View& a, const View& b, Refined refined, StereoClosure& closure) const {
+    for (std::size_t round = coarse_rounds; round < rounds.size(); ++round) look(a, b, rounds[round], refined);
+    const Estimate& found = refined.found;
+    const Aligned& aligned = refined.aligned;
+    closure.visible = aligned.visible;
+    closure.likeness = aligned.likeness;
+    closure.matches = found.inliers;
+    closure.reprojection_px = found.reprojection_px;
+    closure.noise_factor = found.noise_factor;
+    closure.lefts.T_a_b = refined.T_a_b;
+    for (std::size_t i = 0; i < found.sights.size(); ++i) {
+      const Sight& sight = aligned.sights[i];
+      const Eigen::Vector2d own(camera_.left.fx * sight.ray.x() + camera_.left.cx,
+                                camera_.left.fy * sight.ray.y() + camera_.left.cy);
+      closure.pixels.push_back({sight.of_a ? own : sight.pixel, sight.of_a ? sight.pixel : own,
+                                found.sights[i].residual_px, found.sights[i].inlier});
+    }
+    return judge(found, closure);
+  }
+
+  StereoClosure judge(const Estimate& found, StereoClosure& closure) const {
+    const auto [sigma_m, sigma_rad] = largestSigmas(found.information);
+    const bool enough = test(closure, "matches", closure.matches, parameters_.min_matches, true);
+    const bool small =
+        test(closure, "reprojection_error_px", closure.reprojection_px, parameters_.max_reprojection_error, false);
+    const bool alike = test(closure, "likeness", closure.likeness, parameters_.min_likeness, true);
+    const bool firm = test(closure, "sigma_m", sigma_m, largest_sigma_m, false);
+    const bool turned = test(closure, "sigma_rad", sigma_rad, largest_sigma_rad, false);
+    if (!enough)
+      return refused(closure, StereoReason::TooFewMatches,
+                     stereoReason("%.0f points of one view are where the other puts them, %.0f wanted", closure.matches,
+                                  parameters_.min_matches));
+    if (!small)
+      return refused(closure, StereoReason::LargeError,
+                     stereoReason("a mean reprojection error of %.2f px, at most %.2f allowed", closure.reprojection_px,
+                                  parameters_.max_reprojection_error));
+    if (!alike)
+      return refused(
+          closure, StereoReason::Unlike,
+          stereoReason("where points should be the other view looks otherwise: a mean correlation of %.2f, %.2f wanted",
+                       closure.likeness, parameters_.min_likeness));
+    if (!firm || !turned)
+      return refused(closure, StereoReason::NotDetermined,
+                     stereoReason("the matches leave it open by %.2f m or %.3f rad", sigma_m, sigma_rad));
+    closure.verdict = ClosureVerdict::Accepted;
+    closure.reason = StereoReason::None;
+    closure.sentence = stereoReason("%.0f matches with a mean reprojection error of %.3f px", closure.matches,
+                                    closure.reprojection_px);
+    closure.lefts.information = found.information;
+    return closure;
+  }
+
+  StereoCamera camera_;
+  Parameters parameters_;
+  std::list<std::shared_ptr<const View>> views_;  // the one used last comes first
+};
+
+StereoMatcher::StereoMatcher(const StereoCamera& camera, const Parameters& parameters)
+    : implementation_(std::make_unique<Implementation>(camera, parameters)) {}
+StereoMatcher::~StereoMatcher() = default;
+
+StereoClosure StereoMatcher::match(const Keyframe& a, const Keyframe& b) { return implementation_->match(a, b); }
+
+}  // namespace urban_nav_registration

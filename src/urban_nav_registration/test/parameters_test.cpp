@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_registration/parameters.hpp"
+
+#include <gtest/gtest.h>
+
+#include "urban_nav_core/testing/parameter_tables.hpp"
+
+namespace urban_nav_registration {
+namespace {
+
+TEST(Parameters, yamlAndReadmeAreAsTheTablesSay) {
+  EXPECT_EQ(urban_nav_core::testing::faultsOf(table().stage(), table().rows()), "");
+}
+
+}  // namespace
+}  // namespace urban_nav_registration
