@@ -273,14 +273,16 @@ def unity_names(tree):
     names = defaultdict(lambda: defaultdict(set))
     headers = [source for source in tree.sources if source.path.endswith(".hpp")]
     public = {(space, name): source.path for source in headers for space, _, name, _ in source.named}
+    helpers = {(space, name): source.path for source in headers if "/test/" in source.path for space, _, name, _ in source.named}
     types = {(space, name) for source in headers for space, kind, name, _ in source.named if kind == "type"}
     for source in tree.sources:
         target = target_of(source.path) if source.path.endswith(".cpp") else None
         if target:
             for space, kind, name, parameters in source.unnamed:
                 names[target, f"{space}::{name}"][kind.replace("outer ", ""), parameters].add(source.path)
-                known = public if kind in ("variable", "type", "alias") else types if kind == "outer using" else ()
-                if (space, name) in known:
+                known = {"variable": public, "type": public, "alias": public, "outer using": types, "function": helpers}.get(kind, ())
+                # A function hides those of its name in a header from callers in unnamed namespaces, unless arguments lead there.
+                if (space, name) in known and (kind != "function" or target.endswith("test")):
                     yield f"{target}: {space}::{name}: {source.path}, {public[space, name]}"
     for (target, name), entries in sorted(names.items()):
         kinds = {kind for kind, _ in entries}

@@ -85,6 +85,11 @@ class Rules(unittest.TestCase):
         self.check(lint.unity_names, {"p__src__a_cpp": overload % "int", "p__src__b_cpp": overload % "const A&"},
                    {"p__src__a_cpp": overload % "int", "p__src__b_cpp": overload % "int"})
 
+    def test_unnamed_helpers_do_not_hide_those_of_a_header(self):
+        header, test = "namespace n { inline int view(const M& m) { return 0; } }", "namespace n { namespace { int %s(const V& v) { return 0; } } }"
+        self.check(lint.unity_names, {"p__test__h_hpp": header, "p__test__a_cpp": test % "other"},
+                   {"p__test__h_hpp": header, "p__test__a_cpp": test % "view"})
+
     def test_gtest_is_named_from_the_root(self):
         self.check(lint.gtest_names, {"a_cpp": "class A : public ::testing::Test {};"}, {"a_cpp": "class A : public testing::Test {};"})
 

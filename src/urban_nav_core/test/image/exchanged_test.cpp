@@ -22,20 +22,20 @@ std::vector<std::uint8_t> blobs(int shift) {
   return pixels;
 }
 
-ImageView view(const std::vector<std::uint8_t>& pixels) {
+ImageView greyView(const std::vector<std::uint8_t>& pixels) {
   return {pixels.data(), exchanged_width, exchanged_height, exchanged_width};
 }
 
 TEST(LooksExchanged, IsTrueForNegativeDisparitiesOnly) {
   const std::vector<std::uint8_t> left = blobs(0), right = blobs(24);
-  EXPECT_FALSE(looksExchanged(view(left), view(right)));
-  EXPECT_TRUE(looksExchanged(view(right), view(left)));
+  EXPECT_FALSE(looksExchanged(greyView(left), greyView(right)));
+  EXPECT_TRUE(looksExchanged(greyView(right), greyView(left)));
 }
 
 TEST(LooksExchanged, IsFalseWithoutEvidence) {
   const std::vector<std::uint8_t> far = blobs(0), flat(exchanged_width * exchanged_height, 90);
-  EXPECT_FALSE(looksExchanged(view(far), view(far))) << "all disparities are zero";
-  EXPECT_FALSE(looksExchanged(view(flat), view(flat)));
+  EXPECT_FALSE(looksExchanged(greyView(far), greyView(far))) << "all disparities are zero";
+  EXPECT_FALSE(looksExchanged(greyView(flat), greyView(flat)));
   const ImageView tiny{flat.data(), 20, 20, exchanged_width};
   EXPECT_FALSE(looksExchanged(tiny, tiny));
 }
