@@ -72,12 +72,12 @@ configure() {
   # catkin notes once, while it configures, which of these folders exist, and tests see no others in their environment.
   mkdir -p "$folder/build" "$folder/devel/bin" "$folder/devel/lib/pkgconfig" "$folder/devel/lib/python3/dist-packages"
   rm -f "$folder/configured"
-  # ccache compares files as a whole: with it, sources are compiled one by one. Without it, headers are parsed once for
-  # each target and each batch of sources, which takes less than half of the time.
+  # ccache compares files as a whole: with it, headers are not precompiled. -DURBAN_NAV_UNITY=ON compiles sources in
+  # batches as well; it is off until every target has been built and tested that way.
   if command -v ccache >/dev/null; then
     set -- "$@" -DCMAKE_CXX_COMPILER_LAUNCHER=ccache
   else
-    set -- "$@" -DURBAN_NAV_PRECOMPILE=ON -DURBAN_NAV_UNITY=ON
+    set -- "$@" -DURBAN_NAV_PRECOMPILE=ON
   fi
   if ! cmake -S "$ws/src" -B "$folder/build" -G Ninja -DPYTHON_EXECUTABLE=/usr/bin/python3 \
       -DCMAKE_EXPORT_COMPILE_COMMANDS=ON \
