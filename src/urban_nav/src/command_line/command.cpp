@@ -60,15 +60,21 @@ std::string helpOf(const Command& command, const Arguments& arguments) {
   return text;
 }
 
+/// One line per command: its name and summary.
+std::string summaryLines(const std::vector<Command>& commands) {
+  std::string text;
+  for (const Command& command : commands)
+    text += "  " + command.name + std::string(10 - std::min<std::size_t>(9, command.name.size()), ' ') +
+            command.summary + "\n";
+  return text;
+}
+
 std::string generalHelp(const std::vector<Command>& commands) {
   std::string text =
       "urban_nav: what a robot's cameras and lasers saw, turned into a trajectory, a map, and a report on how far to "
       "trust both.\n\n"
       "usage: urban_nav COMMAND [options]      (urban_nav COMMAND --help says more)\n\n";
-  for (const Command& command : commands)
-    text += "  " + command.name + std::string(10 - std::min<std::size_t>(9, command.name.size()), ' ') +
-            command.summary + "\n";
-  return text + "\nexit status: 0 done, 1 the data did not allow it, 2 a mistake in the call\n";
+  return text + summaryLines(commands) + "\nexit status: 0 done, 1 the data did not allow it, 2 a mistake in the call\n";
 }
 
 void checkRequired(const Command& command, const Arguments& arguments) {
@@ -136,6 +142,31 @@ int runCommand(const Command& command, int argc, const char* const* argv, Consol
   return command.run(arguments, console);
 }
 
+bool isHelpWord(const std::string& word) { return word == "--help" || word == "-h" || word == "help"; }
+
+const Command& findCommand(const std::vector<Command>& commands, const std::string& name, const std::string& where,
+                           const std::string& noun) {
+  const auto command = std::find_if(commands.begin(), commands.end(), [&](const Command& c) { return c.name == name; });
+  if (command != commands.end()) return *command;
+  std::vector<std::string> names;
+  names.reserve(commands.size());
+  for (const Command& c : commands) names.push_back(c.name);
+  throw UserError(where, name.empty() ? noun + " is missing" : "no " + noun + " \"" + name + "\"", urban_nav_core::joined(names));
+}
+
+/// A command with actions: the word after it names one.
+int runAction(const Command& group, int argc, const char* const* argv, Console& console) {
+  const std::string name = argc > 1 ? argv[1] : "";
+  if (isHelpWord(name)) {
+    console.print(group.summary + "\n\nusage: urban_nav " + group.name + " ACTION [options]      (urban_nav " +
+                  group.name + " ACTION --help says more)\n\n" + summaryLines(group.actions));
+    return 0;
+  }
+  Command action = findCommand(group.actions, name, "urban_nav " + group.name, "action");
+  action.name = group.name + " " + action.name;
+  return runCommand(action, argc - 1, argv + 1, console);
+}
+
 }  // namespace
 
 std::optional<std::string> Arguments::find(const std::string& name) const {
@@ -190,19 +221,13 @@ int runCommandLine(const std::vector<Command>& commands, int argc, const char* c
   Console console;
   const std::string name = argc > 1 ? argv[1] : "";
   try {
-    if (name.empty() || name == "--help" || name == "-h" || name == "help") {
+    if (name.empty() || isHelpWord(name)) {
       console.print(generalHelp(commands));
       return name.empty() ? 2 : 0;
     }
-    const auto command =
-        std::find_if(commands.begin(), commands.end(), [&](const Command& c) { return c.name == name; });
-    if (command == commands.end()) {
-      std::vector<std::string> names;
-      names.reserve(commands.size());
-      for (const Command& c : commands) names.push_back(c.name);
-      throw UserError("urban_nav", "no command \"" + name + "\"", urban_nav_core::joined(names));
-    }
-    const int status = runCommand(*command, argc - 1, argv + 1, console);
+    const Command& command = findCommand(commands, name, "urban_nav", "command");
+    const int status = command.actions.empty() ? runCommand(command, argc - 1, argv + 1, console)
+                                               : runAction(command, argc - 1, argv + 1, console);
     if (std::ferror(stdout) != 0) throw UserError("standard output", "could not be written", "a disk with room");
     return status;
   } catch (const DataError& error) {

@@ -45,7 +45,8 @@ class Arguments {
 };
 
 /// A subcommand: what it takes and what it does. `run` returns the exit status 0 or 1, and throws UserError (2) or
-/// DataError (1).
+/// DataError (1). A command with actions (`urban_nav places train`) has nothing but its name, summary and actions; each
+/// action is a command with options and help of its own.
 struct Command {
   std::string name;
   std::string summary;
@@ -53,6 +54,7 @@ struct Command {
   std::vector<std::string> examples;
   std::function<std::string(const Arguments&)> more_help;  ///< printed behind the options; may be empty
   std::function<int(const Arguments&, Console&)> run;
+  std::vector<Command> actions = {};
 };
 
 /// Parses, runs, and turns errors into lines and exit statuses: 0 done; 1 the data did not allow it; 2 the user's

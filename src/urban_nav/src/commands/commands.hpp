@@ -15,6 +15,7 @@ Command icpCommand();
 Command infoCommand();
 Command mapCommand();
 Command mergeCommand();
+Command placesCommand();
 Command relaxCommand();
 Command simulateCommand();
 Command whyCommand();

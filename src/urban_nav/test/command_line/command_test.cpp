@@ -50,6 +50,27 @@ TEST(CommandLine, givesWhatWasGiven) {
   EXPECT_TRUE(ran);
 }
 
+TEST(CommandLine, runsTheActionOfACommandThatHasActions) {
+  std::string ran;
+  Command group;
+  group.name = "group";
+  for (const char* const name : {"first", "second"}) {
+    Command action = probe([&ran, name](const Arguments& arguments) {
+      ran = name + (" " + arguments.get("INPUT"));
+      return 0;
+    });
+    action.name = name;
+    group.actions.push_back(action);
+  }
+  EXPECT_EQ(call({group}, {"group", "second", "x", "-o", "there"}), 0);
+  EXPECT_EQ(ran, "second x");
+  EXPECT_EQ(call({group}, {"group", "--help"}), 0);
+  EXPECT_EQ(call({group}, {"group", "first", "--help"}), 0);
+  EXPECT_EQ(call({group}, {"group"}), 2) << "the action is missing";
+  EXPECT_EQ(call({group}, {"group", "third"}), 2);
+  EXPECT_EQ(call({group}, {"group", "first", "x"}), 2) << "--out is missing";
+}
+
 TEST(CommandLine, tellsMistakesOfTheUserFromFaultsOfTheData) {
   const Command fine = probe([](const Arguments&) { return 0; });
   EXPECT_EQ(call({fine}, {}), 2);
