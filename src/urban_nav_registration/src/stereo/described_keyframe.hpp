@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "stereo/descriptor.hpp"
+#include "urban_nav_registration/stereo/descriptor.hpp"
 #include "urban_nav_core/camera/stereo_camera.hpp"
 #include "urban_nav_core/image/pyramid.hpp"
 #include "urban_nav_registration/keyframe/keyframe.hpp"

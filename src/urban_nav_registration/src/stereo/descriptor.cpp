@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "stereo/descriptor.hpp"
+#include "urban_nav_registration/stereo/descriptor.hpp"
 
 #include <algorithm>
 #include <array>

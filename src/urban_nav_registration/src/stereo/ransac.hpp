@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "stereo/described_keyframe.hpp"
-#include "stereo/descriptor.hpp"
+#include "urban_nav_registration/stereo/descriptor.hpp"
 #include "stereo/estimate.hpp"
 
 namespace urban_nav_registration {
