@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "fabmap_node/features/place_observation.hpp"
+#include "urban_nav_core/image/view.hpp"
+
+namespace fabmap_node {
+
+struct FeatureOptions {
+  int single = 500;    ///< largest number of features of a single image
+  int panorama = 250;  ///< largest number of features of one image of a panorama
+};
+
+/// Extracts features for place recognition: FAST corners at several levels of a pyramid, spread by a quadtree, the best
+/// first by Harris score (Newman et al. 2009, section 2.4 (i) and (v)), each with the upright descriptor of keyframes.
+/// Upright suits a robot on wheels, and tells a window sill from a door post. Equal images give equal features.
+/// Thread-safe.
+class FeatureExtractor {
+ public:
+  explicit FeatureExtractor(const FeatureOptions& options = {}) : options_(options) {}
+
+  /// One image: a single camera. More: the images of a panorama, in order around the vertical axis; an empty view is a
+  /// camera without an image at this time.
+  PlaceObservation extract(const std::vector<urban_nav_core::ImageView>& images) const;
+
+ private:
+  FeatureOptions options_;
+};
+
+}  // namespace fabmap_node

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace fabmap_node {
+
+/// Evidence that an observation shows the place it is compared with, as numbers that do not depend on the sizes of
+/// vocabulary and map. Larger values speak for the place.
+struct PlaceEvidence {
+  double word_ratio = 0.0;   ///< log likelihood ratio to a new place per word, nats
+  double word_margin = 0.0;  ///< log likelihood ratio to the likeliest place elsewhere per word, nats
+  double look = 0.0;         ///< square root of LookAgreement::share; 0 without a second look
+  double look_margin = 0.0;  ///< `look` less that of the best place elsewhere
+
+  static constexpr std::size_t size = 4;
+  std::array<double, size> values() const { return {word_ratio, word_margin, look, look_margin}; }
+};
+
+/// Evidence with the truth, from drives that the model was not trained with.
+struct CalibrationSample {
+  PlaceEvidence evidence;
+  bool is_same_place = false;
+};
+
+/// Logistic regression from evidence to the probability that the place is right. The probability never exceeds what the
+/// number of samples supports: it lies between 1 / (n + 2) and 1 - 1 / (n + 2) of n samples of each kind.
+struct PlaceCalibration {
+  double bias = -6.0;
+  std::array<double, PlaceEvidence::size> weights{};  ///< not negative
+  double floor = 0.01, ceiling = 0.99;                ///< limits of the probability
+
+  double logit(const PlaceEvidence& evidence) const;
+  double probability(const PlaceEvidence& evidence) const;
+};
+
+/// Fits a calibration by penalised maximum likelihood. Both kinds of samples weigh the same in total. Weights that
+/// would be negative are set to zero and the others fitted again. Returns the default, which announces nothing, unless
+/// there are samples of both kinds.
+PlaceCalibration fitCalibration(const std::vector<CalibrationSample>& samples);
+
+}  // namespace fabmap_node

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "fabmap_node/model/place_model.hpp"
+#include "fabmap_node/places/place_index.hpp"
+#include "fabmap_node/recognition/second_look.hpp"
+#include "urban_nav_core/types/stamp.hpp"
+
+namespace fabmap_node {
+
+struct MatcherOptions {
+  int second_looks = 10;            ///< candidates that are compared descriptor by descriptor; 0: none
+  std::size_t look_features = 300;  ///< features that a second look compares
+  urban_nav_core::StampNs elsewhere = 10'000'000'000;  ///< places of one session so far apart in time are elsewhere, ns
+};
+
+/// Observation prepared for matching.
+struct DescribedPlace {
+  std::size_t session = 0;  ///< index of the session
+  urban_nav_core::StampNs stamp = 0;
+  WordSet words;
+  LookFeatures look;
+};
+
+/// Place that an observation most likely shows.
+struct PlaceMatch {
+  std::size_t place = 0;
+  double log_likelihood = 0.0;      ///< at this place, nats
+  double log_likelihood_new = 0.0;  ///< at a new place, nats
+  int agreeing = 0;                 ///< of the second look
+  PlaceEvidence evidence;
+};
+
+/// Places with their words and descriptors, and the search for the one that an observation shows (Newman et al. 2009,
+/// section 3): likelihoods of words first, then a second look at the likeliest candidates. The likelihood of a new
+/// place is the mean over the model's sampled places (Cummins and Newman 2008, section 4.4.2).
+///
+/// match() is deterministic for any number of threads. Const functions are thread-safe.
+class PlaceMatcher {
+ public:
+  /// The model must outlive the matcher. `sampled`: observations of places outside the map.
+  PlaceMatcher(const LikelihoodTable& table, const std::vector<WordSet>& sampled, const MatcherOptions& options);
+
+  /// Appends a place; its number is the former size().
+  void add(DescribedPlace place);
+  std::size_t size() const { return places_.size(); }
+  const DescribedPlace& place(std::size_t i) const { return places_[i]; }
+
+  /// Returns the most likely of the places that `isCandidate` admits; nullopt if there are none.
+  std::optional<PlaceMatch> match(const DescribedPlace& query,
+                                  const std::function<bool(std::size_t)>& isCandidate) const;
+
+ private:
+  struct Candidate {
+    std::size_t place = 0;
+    double log_likelihood = 0.0;
+    LookAgreement look;
+  };
+  bool isElsewhere(std::size_t a, std::size_t b) const;
+  std::vector<Candidate> likeliest(const std::vector<double>& likelihoods,
+                                   const std::function<bool(std::size_t)>& isCandidate) const;
+  PlaceMatch judge(const DescribedPlace& query, const std::vector<Candidate>& candidates) const;
+
+  const MatcherOptions options_;
+  PlaceIndex index_, sampled_;
+  std::vector<DescribedPlace> places_;
+};
+
+}  // namespace fabmap_node

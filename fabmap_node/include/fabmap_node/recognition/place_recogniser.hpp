@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "fabmap_node/model/place_model.hpp"
+#include "fabmap_node/recognition/place_matcher.hpp"
+
+namespace fabmap_node {
+
+struct RecogniserOptions {
+  MatcherOptions matcher;
+  urban_nav_core::StampNs mask = 20'000'000'000;  ///< younger places of the same session are no candidates, ns
+};
+
+/// Why an observation was not used.
+enum class ObservationStatus { Used, TooFewFeatures };
+
+struct PlaceRecognition {
+  ObservationStatus status = ObservationStatus::Used;
+  std::size_t words = 0;            ///< different words of the observation
+  std::optional<PlaceMatch> match;  ///< nullopt if there is no earlier place
+  double probability = 0.0;         ///< that `match` shows the same place
+};
+
+/// Recognises places in the observations of one session after another: each is compared with the places before, then
+/// becomes a place itself. Calls in order of time. Not thread-safe.
+class PlaceRecogniser {
+ public:
+  /// The model must outlive the recogniser.
+  PlaceRecogniser(const PlaceModel& model, const RecogniserOptions& options);
+  PlaceRecogniser(const PlaceRecogniser&) = delete;
+  PlaceRecogniser& operator=(const PlaceRecogniser&) = delete;
+
+  /// Starts a session: its places are no candidates for each other within the mask.
+  void beginSession();
+  PlaceRecognition process(urban_nav_core::StampNs stamp, const PlaceObservation& observation);
+
+  /// Returns session index and stamp of a place.
+  const DescribedPlace& place(std::size_t i) const { return matcher_.place(i); }
+  std::size_t places() const { return matcher_.size(); }
+
+ private:
+  const PlaceModel& model_;
+  const RecogniserOptions options_;
+  LikelihoodTable table_;
+  PlaceMatcher matcher_;
+  std::size_t session_ = 0;
+  bool has_session_ = false;
+};
+
+}  // namespace fabmap_node

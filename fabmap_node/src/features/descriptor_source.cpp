@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "features/descriptor_source.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "urban_nav_registration/stereo/descriptor.hpp"
+
+namespace fabmap_node {
+
+bool describeAsBytes(const urban_nav_core::Pyramid& pyramid, const Eigen::Vector2d& centre, double window_px,
+                     ByteDescriptor& descriptor) {
+  const auto unit = urban_nav_registration::describe(pyramid, centre, window_px);
+  if (!(unit.squaredNorm() > 0.5F)) return false;
+  constexpr float scale = 512.0F;
+  for (std::size_t i = 0; i < descriptor_bytes; ++i)
+    descriptor[i] =
+        static_cast<std::uint8_t>(std::clamp(std::lround(scale * unit(static_cast<Eigen::Index>(i))), 0L, 255L));
+  return true;
+}
+
+std::vector<std::pair<std::size_t, std::size_t>> mutualMatches(
+    const Eigen::Matrix<float, static_cast<int>(descriptor_bytes), Eigen::Dynamic>& a,
+    const Eigen::Matrix<float, static_cast<int>(descriptor_bytes), Eigen::Dynamic>& b) {
+  std::vector<std::pair<std::size_t, std::size_t>> matches;
+  for (const auto& pair : urban_nav_registration::mutualNearest(a, b))
+    matches.emplace_back(static_cast<std::size_t>(pair.a), static_cast<std::size_t>(pair.b));
+  return matches;
+}
+
+}  // namespace fabmap_node

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <utility>
+#include <vector>
+
+#include "fabmap_node/features/place_observation.hpp"
+#include "urban_nav_core/image/pyramid.hpp"
+
+namespace fabmap_node {
+
+/// Describes the window of side `window_px` about `centre`, both in px of level 0, with the descriptor of keyframes.
+/// Returns false if the window has too little contrast.
+bool describeAsBytes(const urban_nav_core::Pyramid& pyramid, const Eigen::Vector2d& centre, double window_px,
+                     ByteDescriptor& descriptor);
+
+/// Returns the columns of `a` and `b` that are each other's nearest, clearly nearer than the second nearest on both
+/// sides. Requires unit vectors.
+std::vector<std::pair<std::size_t, std::size_t>> mutualMatches(
+    const Eigen::Matrix<float, static_cast<int>(descriptor_bytes), Eigen::Dynamic>& a,
+    const Eigen::Matrix<float, static_cast<int>(descriptor_bytes), Eigen::Dynamic>& b);
+
+}  // namespace fabmap_node

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <string_view>
+
+#include "fabmap_node/model/place_model.hpp"
+
+// The file becomes part of the library: a model that is there from the first start, wherever the library is installed.
+__asm__(
+    ".pushsection .rodata\n"
+    ".balign 16\n"
+    "fabmap_node_default_model_begin:\n"
+    ".incbin \"" FABMAP_NODE_DEFAULT_MODEL
+    "\"\n"
+    "fabmap_node_default_model_end:\n"
+    ".popsection\n");
+
+extern "C" {
+extern const char begin_of_default_model[] __asm__("fabmap_node_default_model_begin");
+extern const char end_of_default_model[] __asm__("fabmap_node_default_model_end");
+}
+
+namespace fabmap_node {
+
+std::string_view defaultModelBytes() {
+  return {begin_of_default_model, static_cast<std::size_t>(end_of_default_model - begin_of_default_model)};
+}
+
+PlaceModel defaultModel() { return parseModel(defaultModelBytes(), "default model"); }
+
+}  // namespace fabmap_node

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fabmap_node/model/place_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "urban_nav_core/io/archive.hpp"
+#include "urban_nav_core/io/text_file.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace fabmap_node {
+
+using urban_nav_core::Archive;
+using urban_nav_core::DataError;
+
+namespace {
+
+constexpr std::uint32_t model_version = 1;
+constexpr char model_name[] = "places model";
+constexpr std::size_t most_words = 1'000'000;
+
+/// Whole numbers in base 128, least significant digits first, the high bit on all but the last.
+void putNumber(std::vector<std::uint8_t>& bytes, std::uint32_t value) {
+  for (; value >= 128; value >>= 7) bytes.push_back(static_cast<std::uint8_t>(value | 128u));
+  bytes.push_back(static_cast<std::uint8_t>(value));
+}
+
+class NumberReader {
+ public:
+  explicit NumberReader(const std::vector<std::uint8_t>& bytes) : bytes_(bytes) {}
+  bool atEnd() const { return at_ == bytes_.size(); }
+  /// Returns the next number; `isValid` turns false at a damaged one.
+  std::uint32_t next() {
+    std::uint64_t value = 0;
+    for (unsigned shift = 0; shift < 35; shift += 7) {
+      if (atEnd()) break;
+      const std::uint8_t byte = bytes_[at_++];
+      value |= static_cast<std::uint64_t>(byte & 127u) << shift;
+      if (byte < 128) return static_cast<std::uint32_t>(std::min<std::uint64_t>(value, 0xffffffffu));
+    }
+    valid_ = false;
+    return 0;
+  }
+  bool isValid() const { return valid_; }
+
+ private:
+  const std::vector<std::uint8_t>& bytes_;
+  std::size_t at_ = 0;
+  bool valid_ = true;
+};
+
+void archiveCentres(Archive& archive, Vocabulary& vocabulary) {
+  std::vector<std::uint8_t> bytes;
+  if (!archive.isReading())
+    for (const ByteDescriptor& centre : vocabulary.centres()) bytes.insert(bytes.end(), centre.begin(), centre.end());
+  archive(bytes);
+  if (!archive.isReading()) return;
+  const std::size_t words = bytes.size() / descriptor_bytes;
+  archive.require(bytes.size() == words * descriptor_bytes && words > 1 && words <= most_words,
+                  "another number of words");
+  std::vector<ByteDescriptor> centres(words);
+  for (std::size_t i = 0; i < words; ++i)
+    std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(i * descriptor_bytes), descriptor_bytes,
+                centres[i].begin());
+  vocabulary = Vocabulary(std::move(centres));
+}
+
+void archiveProbabilities(Archive& archive, std::vector<double>& values, std::size_t words) {
+  std::vector<float> stored(values.begin(), values.end());
+  archive(stored);
+  if (!archive.isReading()) return;
+  archive.require(stored.size() == words, "another number of probabilities than words");
+  values.assign(stored.begin(), stored.end());
+}
+
+void archiveTree(Archive& archive, ChowLiuTree& tree, std::size_t words) {
+  std::vector<std::uint8_t> parents;
+  for (const Word parent : tree.parent) putNumber(parents, parent);
+  archive(parents);
+  if (archive.isReading()) {
+    NumberReader reader(parents);
+    tree.parent.clear();
+    while (!reader.atEnd() && reader.isValid() && tree.parent.size() <= words) tree.parent.push_back(reader.next());
+    archive.require(reader.isValid() && tree.parent.size() == words, "another number of parents than words");
+  }
+  archiveProbabilities(archive, tree.p, words);
+  archiveProbabilities(archive, tree.p_parent_present, words);
+  archiveProbabilities(archive, tree.p_parent_absent, words);
+}
+
+/// Differences of successive words: one or two bytes a word.
+void archiveWords(Archive& archive, WordSet& set, std::size_t words) {
+  std::vector<std::uint8_t> steps;
+  Word before = 0;
+  for (const Word word : set) {
+    putNumber(steps, word - before);
+    before = word;
+  }
+  archive(steps);
+  if (!archive.isReading()) return;
+  set.clear();
+  std::uint64_t word = 0;
+  for (NumberReader reader(steps); !reader.atEnd();) {
+    const std::uint32_t step = reader.next();
+    word += step;
+    archive.require(reader.isValid() && word < words && (step > 0 || set.empty()),
+                    "words of a sampled place out of order");
+    set.push_back(static_cast<Word>(word));
+  }
+}
+
+void archiveCalibration(Archive& archive, PlaceCalibration& calibration) {
+  archive(calibration.bias, calibration.weights, calibration.floor, calibration.ceiling);
+  archive.require(calibration.floor > 0.0 && calibration.floor < calibration.ceiling && calibration.ceiling < 1.0,
+                  "limits of a calibration that are no probabilities");
+}
+
+void archiveModel(Archive& archive, PlaceModel& model) {
+  archiveCentres(archive, model.vocabulary);
+  const std::size_t words = model.vocabulary.size();
+  archiveTree(archive, model.tree, words);
+  Detector& detector = model.detector;
+  archive(detector.present_given_exists, detector.present_given_absent);
+  archive.require(detector.present_given_absent >= 0.0 &&
+                      detector.present_given_absent < detector.present_given_exists &&
+                      detector.present_given_exists < 1.0,
+                  "probabilities of a detector that cannot be");
+  std::size_t samples = model.sampled_places.size();
+  archive.count(samples, 8);
+  if (archive.isReading()) model.sampled_places.assign(samples, {});
+  for (WordSet& set : model.sampled_places) archiveWords(archive, set, words);
+  archiveCalibration(archive, model.single);
+  archiveCalibration(archive, model.panorama);
+}
+
+}  // namespace
+
+void roundToFile(ChowLiuTree& tree) {
+  for (std::vector<double>* values : {&tree.p, &tree.p_parent_present, &tree.p_parent_absent})
+    for (double& value : *values) value = static_cast<double>(static_cast<float>(value));
+}
+
+std::string printModelContent(const PlaceModel& model) {
+  Archive archive;
+  PlaceModel copy = model;
+  archiveModel(archive, copy);
+  return archive.take();
+}
+
+std::string printModel(const PlaceModel& model) {
+  return urban_nav_core::seal(model_name, model_version, printModelContent(model));
+}
+
+PlaceModel parseModelContent(std::string_view content, const std::string& name) {
+  PlaceModel model;
+  try {
+    Archive archive(content, model_name);
+    archiveModel(archive, model);
+    archive.finish();
+    checkTree(model.tree, "tree");
+  } catch (const urban_nav_core::Error& error) {
+    throw DataError(name, error.what(), "a model written by places train");
+  }
+  return model;
+}
+
+PlaceModel parseModel(std::string_view bytes, const std::string& name) {
+  std::string_view content;
+  try {
+    content = urban_nav_core::unseal(model_name, model_version, bytes);
+  } catch (const urban_nav_core::Error& error) {
+    throw DataError(name, error.what(), "a whole model written by places train");
+  }
+  return parseModelContent(content, name);
+}
+
+PlaceModel readModel(const std::string& path) { return parseModel(urban_nav_core::readTextFile(path), path); }
+
+std::string modelHash(std::string_view bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325U;  // FNV-1a
+  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
+  std::string digits;
+  for (int shift = 60; shift >= 0; shift -= 4) digits += "0123456789abcdef"[hash >> shift & 15u];
+  return digits;
+}
+
+}  // namespace fabmap_node

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fabmap_node/recognition/place_matcher.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include "urban_nav_core/parallel/for_each.hpp"
+
+namespace fabmap_node {
+namespace {
+
+/// A candidate elsewhere shows the same place, in another session or on another lap, if both the query and the best
+/// place agree with it as much as this share of the agreement of query and best place.
+constexpr double same_place_share = 0.5;
+
+double logMeanOfExponentials(const std::vector<double>& logs) {
+  const double top = *std::max_element(logs.begin(), logs.end());
+  double sum = 0.0;
+  for (const double value : logs) sum += std::exp(value - top);
+  return top + std::log(sum / static_cast<double>(logs.size()));
+}
+
+}  // namespace
+
+PlaceMatcher::PlaceMatcher(const LikelihoodTable& table, const std::vector<WordSet>& sampled,
+                           const MatcherOptions& options)
+    : options_(options), index_(table), sampled_(table) {
+  for (const WordSet& words : sampled) sampled_.add(words);
+}
+
+void PlaceMatcher::add(DescribedPlace place) {
+  index_.add(place.words);
+  places_.push_back(std::move(place));
+}
+
+bool PlaceMatcher::isElsewhere(std::size_t a, std::size_t b) const {
+  return places_[a].session != places_[b].session || std::abs(places_[a].stamp - places_[b].stamp) > options_.elsewhere;
+}
+
+/// The likeliest places, among them a third that are elsewhere than the likeliest one.
+std::vector<PlaceMatcher::Candidate> PlaceMatcher::likeliest(
+    const std::vector<double>& likelihoods, const std::function<bool(std::size_t)>& isCandidate) const {
+  std::vector<Candidate> all;
+  for (std::size_t i = 0; i < likelihoods.size(); ++i)
+    if (isCandidate(i)) all.push_back({i, likelihoods[i], {}});
+  std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
+    return a.log_likelihood != b.log_likelihood ? a.log_likelihood > b.log_likelihood : a.place < b.place;
+  });
+  const auto most = static_cast<std::size_t>(std::max(2, options_.second_looks));
+  const std::size_t reserved = (most + 2) / 3;
+  std::vector<Candidate> chosen;
+  std::size_t elsewhere = 0;
+  for (const Candidate& candidate : all) {
+    const bool is_elsewhere = !chosen.empty() && isElsewhere(chosen.front().place, candidate.place);
+    if (!is_elsewhere && chosen.size() - elsewhere >= most - reserved) continue;
+    if (chosen.size() >= most) break;
+    elsewhere += is_elsewhere ? 1u : 0u;
+    chosen.push_back(candidate);
+  }
+  return chosen;
+}
+
+PlaceMatch PlaceMatcher::judge(const DescribedPlace& query, const std::vector<Candidate>& candidates) const {
+  const Candidate& best =
+      *std::max_element(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+        return a.look.share != b.look.share ? a.look.share < b.look.share : a.log_likelihood < b.log_likelihood;
+      });
+  PlaceMatch match;
+  match.place = best.place;
+  match.log_likelihood = best.log_likelihood;
+  match.agreeing = best.look.agreeing;
+  double other_likelihood = -std::numeric_limits<double>::infinity(), other_share = 0.0;
+  for (const Candidate& candidate : candidates) {
+    if (!isElsewhere(best.place, candidate.place)) continue;
+    if (candidate.look.share > same_place_share * best.look.share &&
+        secondLook(places_[best.place].look, places_[candidate.place].look).share > best.look.share * same_place_share)
+      continue;
+    other_likelihood = std::max(other_likelihood, candidate.log_likelihood);
+    other_share = std::max(other_share, candidate.look.share);
+  }
+  const double words = static_cast<double>(std::max<std::size_t>(1, query.words.size()));
+  match.evidence.look = std::sqrt(best.look.share);
+  match.evidence.look_margin = match.evidence.look - std::sqrt(other_share);
+  match.evidence.word_margin = std::isfinite(other_likelihood) ? (best.log_likelihood - other_likelihood) / words : 0.0;
+  return match;
+}
+
+std::optional<PlaceMatch> PlaceMatcher::match(const DescribedPlace& query,
+                                              const std::function<bool(std::size_t)>& isCandidate) const {
+  std::vector<double> likelihoods, at_samples;
+  index_.logLikelihoods(query.words, likelihoods);
+  std::vector<Candidate> candidates = likeliest(likelihoods, isCandidate);
+  if (candidates.empty()) return std::nullopt;
+  if (options_.second_looks > 0)
+    urban_nav_core::forEach(candidates.size(), 1, [&](std::size_t i) {
+      candidates[i].look = secondLook(query.look, places_[candidates[i].place].look);
+    });
+  PlaceMatch match = judge(query, candidates);
+  sampled_.logLikelihoods(query.words, at_samples);
+  match.log_likelihood_new = at_samples.empty() ? match.log_likelihood : logMeanOfExponentials(at_samples);
+  match.evidence.word_ratio = (match.log_likelihood - match.log_likelihood_new) /
+                              static_cast<double>(std::max<std::size_t>(1, query.words.size()));
+  return match;
+}
+
+}  // namespace fabmap_node
