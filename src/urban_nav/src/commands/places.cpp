@@ -2,6 +2,7 @@
 #include "command_line/console.hpp"
 #include "command_line/json.hpp"
 #include "commands/commands.hpp"
+#include "commands/places_actions.hpp"
 #include "fabmap_node/replay/openfabmap_file.hpp"
 #include "fabmap_node/replay/replay.hpp"
 #include "pipeline/parameters.hpp"
@@ -80,7 +81,7 @@ Command placesCommand() {
   Command command;
   command.name = "places";
   command.summary = "Place recognition by appearance (FAB-MAP).";
-  command.actions = {replayAction()};
+  command.actions = {placesTrainAction(), placesQueryAction(), placesEvaluateAction(), replayAction()};
   return command;
 }
 

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "command_line/console.hpp"
+#include "command_line/json.hpp"
+#include "commands/places_actions.hpp"
+#include "fabmap_node/training/train_model.hpp"
+#include "pipeline/parameters.hpp"
+#include "places/place_sessions.hpp"
+#include "urban_nav_core/io/atomic_file.hpp"
+#include "urban_nav_core/parallel/for_each.hpp"
+
+namespace urban_nav {
+namespace {
+
+int runTrain(const Arguments& arguments, Console& console) {
+  checkCommonOptions(arguments);
+  const urban_nav_core::ThreadLimit threads(static_cast<int>(arguments.integer("threads", 0, 1, 1024)));
+  fabmap_node::TrainingOptions options;
+  options.k_means.words = static_cast<std::size_t>(arguments.integer("words", 4000, 10, 1'000'000));
+  options.sampled_places = static_cast<std::size_t>(arguments.integer("sampled", 400, 1, 1'000'000));
+  options.k_means.seed = static_cast<std::uint64_t>(arguments.integer("seed", 1, 0, 1'000'000'000));
+  std::vector<fabmap_node::TrainingDrive> drives;
+  readPlaceSessions(
+      arguments.all("SRC"), arguments.all("topic"), console,
+      [&drives](std::size_t, const std::string&) { drives.emplace_back(); },
+      [&drives](StampedObservation place) {
+        drives.back().push_back({place.stamp, std::move(place.observation)});
+      });
+  std::unique_ptr<Progress> progress;
+  std::string current;
+  const auto trained = fabmap_node::trainModel(std::move(drives), options, [&](const std::string& step, double share) {
+    const auto percent = static_cast<std::int64_t>(100.0 * share);
+    if (step != current) {
+      progress = std::make_unique<Progress>(console, step, "%", 100);
+      current = step;
+    }
+    if (percent < 100) progress->update(percent);
+    else progress->finish(percent);
+  });
+  const std::string bytes = fabmap_node::printModel(trained.model);
+  urban_nav_core::writeAtomically(arguments.get("output"), bytes);
+  const fabmap_node::TrainingReport& report = trained.report;
+  console.info(std::to_string(report.observations) + " images, " + std::to_string(report.stationary) +
+               " of a stationary camera left out, " + std::to_string(report.descriptors) + " descriptors, " +
+               std::to_string(trained.model.vocabulary.size()) + " words; calibrated with " +
+               std::to_string(report.right) + " pairs of one place and " + std::to_string(report.wrong) +
+               " of two; model " + fabmap_node::modelHash(bytes) + ", " + std::to_string(bytes.size()) + " bytes");
+  if (report.right == 0 || report.wrong == 0)
+    console.warn("too few images to calibrate: nothing will be announced as certain");
+  if (arguments.has("json")) {
+    Json json = Json::object();
+    json["images"] = static_cast<std::int64_t>(report.observations);
+    json["stationary"] = static_cast<std::int64_t>(report.stationary);
+    json["descriptors"] = static_cast<std::int64_t>(report.descriptors);
+    json["words"] = static_cast<std::int64_t>(trained.model.vocabulary.size());
+    json["hash"] = fabmap_node::modelHash(bytes);
+    urban_nav_core::writeAtomically(arguments.get("json"), json.print());
+  }
+  return 0;
+}
+
+}  // namespace
+
+Command placesTrainAction() {
+  Command action;
+  action.name = "train";
+  action.summary = "Trains a model of places: vocabulary, Chow-Liu tree, sampled places and calibration.";
+  action.options = {
+      {"SRC", "", "folders of images, or bags; each is a drive, of other places than the others", true, true, {}},
+      {"-o,--output", "MODEL", "model to write", true, false, {}},
+      {"--words", "N", "size of the vocabulary, 10 ... 1000000 (default 4000)", false, false, {}},
+      {"--sampled", "N", "observations stored for the likelihood of a new place (default 400)", false, false, {}},
+      {"--topic", "ROLE:=NAME", "topics of bags: panorama0 ... panorama4, left (default: guessed)", false, true, {}},
+      {"--seed", "N", "of the first cluster centres (default 1)", false, false, {}},
+      jsonOption(),
+      configOption(),
+      setOption(),
+      threadsOption()};
+  action.examples = {"urban_nav places train monday tuesday wednesday -o city.places"};
+  action.more_help = commonHelp;
+  action.run = runTrain;
+  return action;
+}
+
+}  // namespace urban_nav

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "command_line/command.hpp"
+#include "command_line/console.hpp"
+#include "fabmap_node/features/place_observation.hpp"
+#include "urban_nav_core/types/stamp.hpp"
+
+namespace urban_nav {
+
+struct StampedObservation {
+  urban_nav_core::StampNs stamp = 0;
+  fabmap_node::PlaceObservation observation;
+};
+
+/// Reads sessions one after the other and extracts their features on several threads. `session` is called with the
+/// index and the name of each session before its observations, `place` for each observation in order of time. The order
+/// of calls does not depend on the number of threads. Reports progress and notes to `console`. Throws as
+/// openPlaceSource().
+void readPlaceSessions(const std::vector<std::string>& inputs, const std::vector<std::string>& topics, Console& console,
+                       const std::function<void(std::size_t index, const std::string& name)>& session,
+                       const std::function<void(StampedObservation observation)>& place);
+
+}  // namespace urban_nav
