@@ -26,6 +26,7 @@ auto SmallCholesky<N>::whiten(const Vector& b) const -> Vector {
   return llt_.matrixL().solve(b);
 }
 
+template class SmallCholesky<2>;
 template class SmallCholesky<3>;
 template class SmallCholesky<6>;
 

@@ -15,7 +15,8 @@ constexpr double imu_reply_delay = 0.005;  // s
 
 DeviceBytes imuMessage(std::uint8_t mid, const DeviceBytes& data) {
   DeviceBytes message = {0xFA, 0xFF, mid, static_cast<std::uint8_t>(data.size())};
-  message.insert(message.end(), data.begin(), data.end());
+  message.reserve(data.size() + 5);  // GCC 12 warns of insert() here
+  for (const std::uint8_t byte : data) message.push_back(byte);
   unsigned sum = 0;
   for (std::size_t i = 1; i < message.size(); ++i) sum += message[i];
   message.push_back(static_cast<std::uint8_t>(-static_cast<int>(sum & 0xFFU) & 0xFF));

@@ -8,7 +8,7 @@ namespace urban_nav_core {
 // Factorisations of matrices of 3, 6 and 7 rows behind plain functions, as dense.hpp has them for any size: a source that instantiates one itself
 // takes one to six seconds longer to compile. The bits are those of Eigen's own classes.
 
-/// Cholesky factorisation A = L L^T, of which the lower triangle of A is read. For <3> and <6>.
+/// Cholesky factorisation A = L L^T, of which the lower triangle of A is read. For <2>, <3> and <6>.
 template <int N>
 class SmallCholesky {
  public:
@@ -51,7 +51,7 @@ struct SmallEigen {
   Eigen::Matrix<double, N, N> vectors;
 };
 
-/// Returns the eigen-decomposition of a symmetric matrix, of which the lower triangle is read, by QR iterations. For <3> and <6>.
+/// Returns the eigen-decomposition of a symmetric matrix, of which the lower triangle is read, by QR iterations. For <2>, <3> and <6>.
 template <int N>
 SmallEigen<N> smallEigen(const Eigen::Matrix<double, N, N>& A);
 
