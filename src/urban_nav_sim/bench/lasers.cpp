@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The simulated LMS291 beside the truth that it saw, beside its data sheet, and beside the real ones of the New College log.
+// The simulated LMS291 beside the truth that it saw, beside its data sheet, and beside the real ones of the New College
+// log.
 //   lasers [--world NAME] [--duration S] [--places N] [--seed N] [-o FILE.json]
 #include <algorithm>
 #include <array>
@@ -8,12 +9,12 @@
 #include <vector>
 
 #include "laser/lms291.hpp"
-#include "ride/make_ride.hpp"
-#include "rig/places.hpp"
+#include "motion/simulate_drive.hpp"
+#include "ray_tracing/tracer.hpp"
+#include "rig/sensor_poses.hpp"
 #include "support/distribution.hpp"
 #include "support/new_college_scans.hpp"
 #include "support/program.hpp"
-#include "trace/tracer.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
 #include "urban_nav_core/types/frames.hpp"
 
@@ -65,7 +66,8 @@ struct Errors {
   Values far_plane;   // mm, of those beyond 20 m that lie on a plane
   double returns = 0.0, mixed = 0.0, reachable = 0.0, lost = 0.0, sky_returns = 0.0;
 
-  /// `plane`: the beams beside it meet the same plane. Where they do not, what the middle meets is not what its whole width does.
+  /// `plane`: the beams beside it meet the same plane. Where they do not, what the middle meets is not what its whole
+  /// width does.
   void add(double range, double intensity, const BeamTruth& truth, double bias, double range_max, bool plane) {
     const bool returned = std::isfinite(range), reachable_now = truth.range < range_max;
     if (reachable_now) reachable += 1.0;
@@ -95,7 +97,7 @@ bool isOnPlane(const std::vector<BeamTruth>& truth, std::size_t i) {
 }
 
 /// Half the width of the middle 68 %: what a standard deviation would be without tails.
-double coreSpread(const Values& values) { return 0.5 * (quantileOf(values, 0.8413) - quantileOf(values, 0.1587)); }
+double coreSpread(const Values& values) { return 0.5 * (quantile(values, 0.8413) - quantile(values, 0.1587)); }
 
 struct Simulated {
   Turning look;
@@ -106,24 +108,24 @@ struct Simulated {
 Simulated simulated(const Options& options, const std::string& name) {
   const auto seed = static_cast<std::uint32_t>(options.number("--seed", 7));
   const World world = buildWorld(name, seed, 1);
-  RideOptions ride_options;
+  DriveOptions ride_options;
   ride_options.duration = options.number("--duration", 300);
   ride_options.seed = seed;
-  const auto ride = makeRide(world, routeOf(name, seed, "loops"), ride_options);
+  const auto motion = simulateDrive(world, makeRoute(name, seed, "loops"), ride_options);
   const Tracer tracer(world);
   const Lms291::Settings settings;
   const int places = static_cast<int>(options.number("--places", 100));
   Simulated result;
   std::size_t device = 0;
   for (const char* frame : {urban_nav_core::frames::laser_left, urban_nav_core::frames::laser_right}) {
-    const Lms291 laser(tracer, placeOf(frame), seed, frame, settings);
+    const Lms291 laser(tracer, sensorPose(frame), seed, frame, settings);
     result.bias[device++] = laser.bias();
     for (int place = 0; place < places; ++place) {
       Turns turns;
       for (int k = 0; k < kTogether; ++k) {
-        const double t = (place + 0.5) * ride->duration() / places + k * settings.period;
+        const double t = (place + 0.5) * motion->duration() / places + k * settings.period;
         std::vector<BeamTruth> truth;
-        const auto scan = laser.scan(*ride, t, 0, static_cast<std::uint64_t>(place * kTogether + k), &truth);
+        const auto scan = laser.scan(*motion, t, 0, static_cast<std::uint64_t>(place * kTogether + k), &truth);
         std::vector<double> ranges, intensities(scan.intensities.begin(), scan.intensities.end());
         for (std::size_t i = 0; i < truth.size(); ++i) {
           const auto range = static_cast<double>(scan.ranges[i]);
@@ -149,7 +151,7 @@ Turning realTurns() {
 
 /// "fifth ... ninety-fifth percentile", as they are stated of the New College data set (Smith et al. 2009).
 std::string band(const Values& values) {
-  return cell(quantileOf(values, 0.05), 0) + " ... " + cell(quantileOf(values, 0.95), 0);
+  return cell(quantile(values, 0.05), 0) + " ... " + cell(quantile(values, 0.95), 0);
 }
 
 std::string percent(double part, double whole) { return cell(100.0 * part / std::max(whole, 1.0), 2); }
@@ -170,14 +172,14 @@ int main(int argc, char** argv) try {
   table.add({"... where three beams meet one plane (mm)", "10", cell(coreSpread(errors.far_plane), 2), ""});
   table.add(
       {"bias left, right (mm)", "within 5", cell(1000 * sim.bias[0], 2) + ", " + cell(1000 * sim.bias[1], 2), ""});
-  table.add({"median error to 20 m without the bias (mm)", "0", cell(quantileOf(errors.near, 0.5), 2), ""});
+  table.add({"median error to 20 m without the bias (mm)", "0", cell(quantile(errors.near, 0.5), 2), ""});
   table.add({"returns over 0.1 m off (%)", "", percent(errors.mixed, errors.returns), ""});
   table.add({"of things nearer than 32.7 m, no return (%)", "", percent(errors.lost, errors.reachable), ""});
   table.add({"reflectance of the path, 1 to 1.5 m away", "37 ... 54", band(errors.path), ""});
   table.add({"reflectance of walls, 3.5 to 5.5 m away", "53 ... 80", band(errors.wall), ""});
   const auto beside = [&](const std::string& what, const Values& a, const Values& b, int decimals) {
     table.add({what, b.empty() ? "-" : summary(b, decimals), summary(a, decimals),
-               b.empty() ? "-" : cell(distanceOf(a, b), 2)});
+               b.empty() ? "-" : cell(distributionDistance(a, b), 2)});
   };
   beside("range (m)", look.ranges, real.ranges, 2);
   beside("reflectance", look.intensities, real.intensities, 0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What two lasers saw around places along a ride, for src/urban_nav_registration/bench/clouds.cpp: a PLY for each place, as from a recording whose odometry drifts, and places.csv with
-// the day, the way driven (m) and the true pose of each. The same route on two days.
+// What two lasers saw around places along a motion, for src/urban_nav_registration/bench/clouds.cpp: a PLY for each
+// place, as from a recording whose odometry drifts, and places.csv with the day, the way driven (m) and the true pose
+// of each. The same route on two days.
 //   local_clouds [--world W] [--seed N] [--route loops] [--duration 300] [--step 4] [--folder DIR]
 #include <cmath>
 #include <filesystem>
@@ -9,10 +10,10 @@
 #include <vector>
 
 #include "laser/lms291.hpp"
-#include "ride/make_ride.hpp"
-#include "rig/places.hpp"
+#include "motion/simulate_drive.hpp"
+#include "ray_tracing/tracer.hpp"
+#include "rig/sensor_poses.hpp"
 #include "support/program.hpp"
-#include "trace/tracer.hpp"
 #include "urban_nav_core/laser/beam_renderer.hpp"
 #include "urban_nav_core/types/frames.hpp"
 
@@ -24,7 +25,7 @@ using urban_nav_core::Pose;
 using urban_nav_core::StampNs;
 using urban_nav_core::Trajectory;
 
-constexpr double kBeside = 10.0;            // m before and behind a place: loop_metric.cloud_half_length
+constexpr double kBeside = 10.0;            // m before and after a place: loop_metric.cloud_half_length
 constexpr double kStart = 6.0;              // s: the robot has begun to move
 constexpr double kFrame = 0.05;             // s from pose to pose of odometry
 constexpr std::uint64_t kTurns = 10000000;  // of a day, so that no two share their noise
@@ -33,7 +34,8 @@ constexpr StampNs kLongestGap = 500000000;
 // What swf_vo drifts per root of a metre in `quad` (two days of 300 m, ways of 10 m): m, rad.
 const Eigen::Vector3d kDriftAlong(2.2e-3, 2.0e-3, 1.0e-3), kDriftTurned(0.16e-3, 0.16e-3, 0.22e-3);
 
-// By how much that bends a cloud, m: the mean variance along the way of a random walk whose mean is taken out, with turns at 10 m.
+// By how much that bends a cloud, m: the mean variance along the way of a random walk whose mean is taken out, with
+// turns at 10 m.
 const double kBend =
     std::sqrt(2.0 * kBeside / 6.0 * (kDriftAlong.squaredNorm() + 100.0 * kDriftTurned.squaredNorm()) / 3.0);
 
@@ -45,10 +47,10 @@ struct Driven {
   std::vector<Pose> T_world_base;
   Trajectory odometry;
 
-  Driven(const Ride& ride, const Noise& noise) {
+  Driven(const Motion& motion, const Noise& noise) {
     Pose T_first_base;
-    for (double now = kStart; now < ride.duration(); now += kFrame) {
-      const Pose pose = ride.at(now).T_world_base;
+    for (double now = kStart; now < motion.duration(); now += kFrame) {
+      const Pose pose = motion.at(now).T_world_base;
       double length = 0.0;
       if (!t.empty()) {
         const Pose step = T_world_base.back().inverse() * pose;
@@ -90,7 +92,7 @@ int main(int argc, char** argv) try {
   const std::string world = options.text("--world", "quad"), folder = options.text("--folder", world);
   const auto seed = static_cast<std::uint32_t>(options.number("--seed", 1.0));
   const double step = options.number("--step", 4.0);  // m
-  RideOptions ride_options;
+  DriveOptions ride_options;
   ride_options.duration = options.number("--duration", 300.0);
   std::filesystem::create_directories(folder);
   std::ofstream places(folder + "/places.csv");
@@ -100,17 +102,17 @@ int main(int argc, char** argv) try {
   for (const int day : {1, 2}) {
     const World on_day = buildWorld(world, seed, day);
     ride_options.seed = seed + 1000U * static_cast<std::uint32_t>(day);
-    const auto ride = makeRide(on_day, routeOf(world, seed, options.text("--route", "loops")), ride_options);
+    const auto motion = simulateDrive(on_day, makeRoute(world, seed, options.text("--route", "loops")), ride_options);
     const Tracer tracer(on_day);
-    const Driven driven(*ride, Noise(seed, "local clouds").of(static_cast<std::uint64_t>(day)));
+    const Driven driven(*motion, Noise(seed, "local clouds").of(static_cast<std::uint64_t>(day)));
     const std::vector<std::string> frames = {urban_nav_core::frames::laser_left, urban_nav_core::frames::laser_right};
     std::vector<std::vector<Turn>> turns(frames.size());
     for (std::size_t laser = 0; laser < frames.size(); ++laser) {
       const Lms291::Settings settings;
-      const Lms291 device(tracer, placeOf(frames[laser]), seed, frames[laser], settings);
+      const Lms291 device(tracer, sensorPose(frames[laser]), seed, frames[laser], settings);
       std::uint64_t number = kTurns * static_cast<std::uint64_t>(day);
       for (double t = kStart; t < driven.t.back() - settings.period; t += settings.period)
-        turns[laser].push_back({t, toScan(device.scan(*ride, t, stampOf(t), number++))});
+        turns[laser].push_back({t, toScan(device.scan(*motion, t, stampOf(t), number++))});
     }
     double next = kBeside;
     for (std::size_t at = 0; at < driven.t.size() && driven.way[at] + kBeside < driven.way.back(); ++at) {
@@ -121,7 +123,7 @@ int main(int argc, char** argv) try {
       while (driven.way[last + 1] - driven.way[at] <= kBeside) ++last;
       std::vector<urban_nav_core::LaserPoint> points;
       for (std::size_t laser = 0; laser < frames.size(); ++laser) {
-        urban_nav_core::BeamRenderer renderer(driven.odometry, placeOf(frames[laser]),
+        urban_nav_core::BeamRenderer renderer(driven.odometry, sensorPose(frames[laser]),
                                               driven.odometry[at].pose.inverse(), kLongestGap);
         for (const Turn& turn : turns[laser])
           if (turn.t >= driven.t[first] && turn.t <= driven.t[last]) renderer.render(turn.scan, points);

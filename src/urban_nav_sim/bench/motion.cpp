@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the simulated Segway moves on each world beside the real one: Tables 2 and 3 of the paper, and the odometry of the
-// New College log (3.5 s at 27.8 Hz).
+// How the simulated Segway moves on each world beside the real one: Tables 2 and 3 of the paper, and the odometry of
+// the New College log (3.5 s at 27.8 Hz).
 //   motion [--route NAME] [--duration S] [--seed N] [-o FILE.json]
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "ride/make_ride.hpp"
+#include "motion/simulate_drive.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
 #include "world/world.hpp"
 
@@ -25,22 +25,22 @@ constexpr double kPeriod = 0.036;    // s, of the wheels' odometry
 constexpr std::size_t kWindow = 97;  // 3.5 s, as long as the log
 constexpr double kDegree = M_PI / 180.0;
 
-struct Motion {
+struct DriveStatistics {
   Series speed, turn, pitch, pitch_rate, roll;  // m/s, deg/s, deg, deg/s, deg
 };
 
-Motion motionOf(const Ride& ride) {
-  Motion motion;
-  for (double t = 0.0; t < ride.duration(); t += kPeriod) {
-    const MotionState moment = ride.at(t);
-    const Eigen::Matrix3d R = moment.T_world_base.R();
-    motion.speed.push_back(moment.velocity_world.norm());
-    motion.turn.push_back(std::abs(moment.rate_base.z()) / kDegree);
-    motion.pitch.push_back(std::asin(-R(2, 0)) / kDegree);
-    motion.pitch_rate.push_back(moment.rate_base.y() / kDegree);
-    motion.roll.push_back(std::asin(R(2, 1)) / kDegree);
+DriveStatistics computeStatistics(const Motion& motion) {
+  DriveStatistics statistics;
+  for (double t = 0.0; t < motion.duration(); t += kPeriod) {
+    const MotionState motion_state = motion.at(t);
+    const Eigen::Matrix3d R = motion_state.T_world_base.R();
+    statistics.speed.push_back(motion_state.velocity_world.norm());
+    statistics.turn.push_back(std::abs(motion_state.rate_base.z()) / kDegree);
+    statistics.pitch.push_back(std::asin(-R(2, 0)) / kDegree);
+    statistics.pitch_rate.push_back(motion_state.rate_base.y() / kDegree);
+    statistics.roll.push_back(std::asin(R(2, 1)) / kDegree);
   }
-  return motion;
+  return statistics;
 }
 
 double mean(const Series& values) {
@@ -76,7 +76,7 @@ double sway(const Series& values, const Series& speed) {
 
 int main(int argc, char** argv) try {
   std::string route_name = "loops", output;
-  RideOptions options;
+  DriveOptions options;
   options.duration = 300.0;
   options.seed = 7;
   for (int i = 1; i + 1 < argc; i += 2) {
@@ -88,31 +88,32 @@ int main(int argc, char** argv) try {
   }
 
   std::vector<std::string> columns = {"", "real"};
-  std::vector<Motion> motions;
+  std::vector<DriveStatistics> drives;
   for (const std::string& name : worldNames()) {
     const auto seed = static_cast<std::uint32_t>(options.seed);
-    for (const Route& route : routesOf(name, seed)) {
+    for (const Route& route : worldRoutes(name, seed)) {
       if (route.name != route_name) continue;
       columns.push_back(name);
-      motions.push_back(motionOf(*makeRide(buildWorld(name, seed, 1), route, options)));
+      drives.push_back(computeStatistics(*simulateDrive(buildWorld(name, seed, 1), route, options)));
     }
   }
 
   BenchTable table(columns, argc, argv);
   const auto add = [&](const std::string& what, const std::string& real,
-                       const std::function<double(const Motion&)>& of) {
+                       const std::function<double(const DriveStatistics&)>& of) {
     std::vector<std::string> row = {what, real};
-    for (const Motion& motion : motions) row.push_back(cell(of(motion), 2));
+    for (const DriveStatistics& drive : drives) row.push_back(cell(of(drive), 2));
     table.add(row);
   };
-  add("speed, mean (m/s)", "0.56 ... 0.94", [](const Motion& m) { return mean(m.speed); });
-  add("speed, most (m/s)", "1.26 ... 1.53 (3.05 once)", [](const Motion& m) { return most(m.speed); });
-  add("turn rate, mean (deg/s)", "4.8 ... 9.5", [](const Motion& m) { return mean(m.turn); });
-  add("turn rate, most (deg/s)", "60 ... 75", [](const Motion& m) { return most(m.turn); });
-  add("pitch about its trend (deg)", "0.29", [](const Motion& m) { return sway(m.pitch, m.speed); });
-  add("pitch rate about its trend (deg/s)", "1.6", [](const Motion& m) { return sway(m.pitch_rate, m.speed); });
-  add("roll about its trend (deg)", "0.50", [](const Motion& m) { return sway(m.roll, m.speed); });
-  add("speed about its trend (m/s)", "0.04", [](const Motion& m) { return sway(m.speed, m.speed); });
+  add("speed, mean (m/s)", "0.56 ... 0.94", [](const DriveStatistics& m) { return mean(m.speed); });
+  add("speed, most (m/s)", "1.26 ... 1.53 (3.05 once)", [](const DriveStatistics& m) { return most(m.speed); });
+  add("turn rate, mean (deg/s)", "4.8 ... 9.5", [](const DriveStatistics& m) { return mean(m.turn); });
+  add("turn rate, most (deg/s)", "60 ... 75", [](const DriveStatistics& m) { return most(m.turn); });
+  add("pitch about its trend (deg)", "0.29", [](const DriveStatistics& m) { return sway(m.pitch, m.speed); });
+  add("pitch rate about its trend (deg/s)", "1.6",
+      [](const DriveStatistics& m) { return sway(m.pitch_rate, m.speed); });
+  add("roll about its trend (deg)", "0.50", [](const DriveStatistics& m) { return sway(m.roll, m.speed); });
+  add("speed about its trend (m/s)", "0.04", [](const DriveStatistics& m) { return sway(m.speed, m.speed); });
   table.note(
       "Real: the first four rows are the sessions of Tables 2 and 3, the others 3.5 s of the New College log, whose "
       "pitch and roll come in steps of 0.13 deg. The trend is a parabola over 3.5 s.");

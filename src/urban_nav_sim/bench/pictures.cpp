@@ -13,13 +13,13 @@
 #include "camera/heads.hpp"
 #include "camera/sky.hpp"
 #include "laser/lms291.hpp"
-#include "ride/make_ride.hpp"
-#include "rig/places.hpp"
+#include "motion/simulate_drive.hpp"
+#include "ray_tracing/tracer.hpp"
+#include "rig/sensor_poses.hpp"
 #include "support/free_camera.hpp"
 #include "support/panorama.hpp"
 #include "support/point_view.hpp"
 #include "support/program.hpp"
-#include "trace/tracer.hpp"
 #include "urban_nav_core/types/frames.hpp"
 
 namespace {
@@ -33,18 +33,18 @@ constexpr double kDuration = 300.0;     // s
 constexpr std::uint32_t kSeed = 7;
 const cv::Scalar kWhite = cv::Scalar::all(255.0);
 
-/// A world on one day, and a ride through it.
+/// A world on one day, and a motion through it.
 struct Scene {
   World world;
   Tracer tracer;
   Sky sky;
-  std::unique_ptr<Ride> ride;
+  std::unique_ptr<Motion> motion;
 
   Scene(const std::string& name, int day) : world(buildWorld(name, kSeed, day)), tracer(world), sky(world.day, kSeed) {
-    RideOptions options;
+    DriveOptions options;
     options.duration = kDuration;
     options.seed = kSeed;
-    ride = makeRide(world, routeOf(name, kSeed, "loops"), options);
+    motion = simulateDrive(world, makeRoute(name, kSeed, "loops"), options);
   }
 };
 
@@ -76,19 +76,19 @@ cv::Mat above(const std::vector<cv::Mat>& rows) {
 }
 
 /// What both lasers measured, each beam at its own time on the true way.
-std::vector<Return> cloudOf(const Scene& scene) {
+std::vector<Return> scanCloud(const Scene& scene) {
   std::vector<Return> cloud;
   const Lms291::Settings settings;
   for (const char* frame : {urban_nav_core::frames::laser_left, urban_nav_core::frames::laser_right}) {
-    const urban_nav_core::Pose T_base_laser = placeOf(frame);
+    const urban_nav_core::Pose T_base_laser = sensorPose(frame);
     const Lms291 laser(scene.tracer, T_base_laser, kSeed, frame, settings);
-    const auto turns = static_cast<std::uint64_t>(scene.ride->duration() / settings.period);
+    const auto turns = static_cast<std::uint64_t>(scene.motion->duration() / settings.period);
     for (std::uint64_t turn = 0; turn < turns; ++turn) {
       const double t = static_cast<double>(turn) * settings.period;
-      for (const urban_nav_core::Beam& beam : urban_nav_core::toScan(laser.scan(*scene.ride, t, 0, turn)).beams) {
+      for (const urban_nav_core::Beam& beam : urban_nav_core::toScan(laser.scan(*scene.motion, t, 0, turn)).beams) {
         const double then = t + 1e-9 * static_cast<double>(beam.stamp);
         const Vector3d p_laser = static_cast<double>(beam.range) * beam.direction.cast<double>();
-        const Vector3d p_world = scene.ride->at(then).T_world_base * (T_base_laser * p_laser);
+        const Vector3d p_world = scene.motion->at(then).T_world_base * (T_base_laser * p_laser);
         cloud.push_back({p_world.cast<float>(), beam.intensity});
       }
     }
@@ -96,15 +96,15 @@ std::vector<Return> cloudOf(const Scene& scene) {
   return cloud;
 }
 
-std::array<cv::Mat, 2> stereoOf(const Scene& scene, double t) {
-  return StereoHead(scene.tracer, scene.sky, StereoImages::Rectified, placeOf(urban_nav_core::frames::stereo_left),
+std::array<cv::Mat, 2> renderStereo(const Scene& scene, double t) {
+  return StereoHead(scene.tracer, scene.sky, StereoImages::Rectified, sensorPose(urban_nav_core::frames::stereo_left),
                     kSeed)
-      .take(*scene.ride, t);
+      .take(*scene.motion, t);
 }
 
 /// From where the robot's head is, a wider look.
 cv::Mat ahead(const Scene& scene, double t) {
-  const urban_nav_core::Pose T_world_base = scene.ride->at(t).T_world_base;
+  const urban_nav_core::Pose T_world_base = scene.motion->at(t).T_world_base;
   FreeCamera camera;
   camera.from = T_world_base * Vector3d(0.1, 0.0, 1.4);
   camera.to = camera.from + T_world_base.q() * Vector3d(1.0, 0.0, 0.02);
@@ -121,20 +121,20 @@ void write(const std::string& path, const cv::Mat& image) {
 int main(int argc, char** argv) try {
   const Options options(argc, argv);
   const std::string folder = options.text("--folder", ".");
-  const double seen = options.number("--seen", 24.0), again = options.number("--again", 48.0);  // s of the ride
+  const double seen = options.number("--seen", 24.0), again = options.number("--again", 48.0);  // s of the motion
   const Scene quad("quad", 1);
 
   const FreeCamera bird{{-50, 2, 38}, {14, 14, 0}, 0.95};
   write(folder + "/simulated_above.jpg", photograph(quad.tracer, quad.sky, bird));
   FreeCamera over_cloud{{-42, -40, 42}, {24, 10, 0}, 1.0};
   over_cloud.height = 800;
-  write(folder + "/simulated_cloud.jpg", drawCloud(cloudOf(quad), over_cloud, 11.0F));
+  write(folder + "/simulated_cloud.jpg", drawCloud(scanCloud(quad), over_cloud, 11.0F));
 
-  const auto [left, right] = stereoOf(quad, seen);
+  const auto [left, right] = renderStereo(quad, seen);
   LadybugHead head(quad.tracer, quad.sky, ladybugPlace(), kSeed);
-  const cv::Mat round = panorama(head.cameras(), head.take(*quad.ride, seen), kWidth);
+  const cv::Mat round = panorama(head.cameras(), head.take(*quad.motion, seen), kWidth);
   std::vector<cv::Mat> pairs = {left, right}, days = {ahead(quad, again)};
-  for (const char* name : {"street", "begbroke"}) pairs.push_back(stereoOf(Scene(name, 1), seen)[0]);
+  for (const char* name : {"street", "begbroke"}) pairs.push_back(renderStereo(Scene(name, 1), seen)[0]);
   for (const int day : {2, 3}) days.push_back(ahead(Scene("quad", day), again));
   write(folder + "/simulated.jpg", above({beside(pairs), round, beside(days)}));
   return 0;

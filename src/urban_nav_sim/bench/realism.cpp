@@ -12,12 +12,12 @@
 
 #include "camera/heads.hpp"
 #include "camera/sky.hpp"
-#include "ride/make_ride.hpp"
-#include "rig/places.hpp"
+#include "motion/simulate_drive.hpp"
+#include "ray_tracing/tracer.hpp"
+#include "rig/sensor_poses.hpp"
 #include "support/distribution.hpp"
 #include "support/program.hpp"
 #include "support/texture.hpp"
-#include "trace/tracer.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
 #include "urban_nav_core/types/frames.hpp"
 
@@ -49,7 +49,8 @@ struct Textures {
   }
 };
 
-/// As the camera gave them, and at the simulated camera's number of pixels a radian: a simulated frame may be like either.
+/// As the camera gave them, and at the simulated camera's number of pixels a radian: a simulated frame may be like
+/// either.
 Textures realTextures() {
   Textures textures;
   for (const char* name : {"stereo/kitti06_000_050/image_0", "stereo/kitti_raw_0926_0005/image_0"}) {
@@ -62,8 +63,8 @@ Textures realTextures() {
       const cv::Mat image = cv::imread(files[i], cv::IMREAD_GRAYSCALE);
       cv::Mat smaller;
       cv::resize(image, smaller, cv::Size(), kFewerPixels, kFewerPixels, cv::INTER_AREA);
-      textures.add(textureOf(image));
-      textures.add(textureOf(smaller));
+      textures.add(measureTexture(image));
+      textures.add(measureTexture(smaller));
     }
   }
   return textures;
@@ -78,10 +79,10 @@ cv::Mat asTheRealOnes(const cv::Mat& image, const Lens& lens) {
 Textures simulatedTextures(const std::string& name, const Options& options) {
   const auto seed = static_cast<std::uint32_t>(options.number("--seed", 7));
   const World world = buildWorld(name, seed, static_cast<int>(options.number("--day", 1)));
-  RideOptions ride_options;
+  DriveOptions ride_options;
   ride_options.duration = options.number("--duration", 300);
   ride_options.seed = seed;
-  const auto ride = makeRide(world, routeOf(name, seed, options.text("--route", "loops")), ride_options);
+  const auto motion = simulateDrive(world, makeRoute(name, seed, options.text("--route", "loops")), ride_options);
   const Tracer tracer(world);
   const Sky sky(world.day, seed);
   const int frames = static_cast<int>(options.number("--frames", 60));
@@ -89,10 +90,10 @@ Textures simulatedTextures(const std::string& name, const Options& options) {
   Textures textures;
   for (int i = 0; i < frames; ++i) {
     // A head for each frame: its exposure has settled, as after many frames there.
-    StereoHead head(tracer, sky, StereoImages::Rectified, placeOf(urban_nav_core::frames::stereo_left),
+    StereoHead head(tracer, sky, StereoImages::Rectified, sensorPose(urban_nav_core::frames::stereo_left),
                     seed + static_cast<std::uint64_t>(i));
-    const cv::Mat image = head.take(*ride, (i + 0.5) * ride->duration() / frames)[0];
-    textures.add(textureOf(asTheRealOnes(image, head.cameras()[0].lens)));
+    const cv::Mat image = head.take(*motion, (i + 0.5) * motion->duration() / frames)[0];
+    textures.add(measureTexture(asTheRealOnes(image, head.cameras()[0].lens)));
     if (!folder.empty()) cv::imwrite(folder + "/" + name + std::to_string(100 + i) + ".png", image);
   }
   return textures;
@@ -116,7 +117,7 @@ int main(int argc, char** argv) try {
     std::vector<std::string> row = {what, summary(real.*values, decimals)};
     for (const Textures& textures : simulated) {
       row.push_back(summary(textures.*values, decimals));
-      row.push_back(cell(distanceOf(textures.*values, real.*values), 2));
+      row.push_back(cell(distributionDistance(textures.*values, real.*values), 2));
     }
     table.add(row);
   };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Views of places that are seen again, for src/urban_nav_registration/bench/pairs.cpp: a folder in KITTI's layout with the true poses. Three times along one way: as it is; some
-// metres before or behind, up to 1.6 m and 20 deg aside; and so once more on another day.
+// Views of places that are seen again, for src/urban_nav_registration/bench/pairs.cpp: a folder in KITTI's layout with
+// the true poses. Three times along one way: as it is; some metres before or after, up to 1.6 m and 20 deg aside; and
+// so once more on another day.
 //   revisits [--world W] [--seed N] [--places 36] [--step 2] [--folder DIR]
 #include <array>
 #include <filesystem>
@@ -13,10 +14,10 @@
 
 #include "camera/heads.hpp"
 #include "camera/sky.hpp"
-#include "ride/make_ride.hpp"
-#include "rig/places.hpp"
+#include "motion/simulate_drive.hpp"
+#include "ray_tracing/tracer.hpp"
+#include "rig/sensor_poses.hpp"
 #include "support/program.hpp"
-#include "trace/tracer.hpp"
 #include "urban_nav_core/io/calibration.hpp"
 #include "urban_nav_core/io/kitti.hpp"
 #include "urban_nav_core/types/frames.hpp"
@@ -33,26 +34,26 @@ constexpr double kMostBefore = 2.5, kMostAside = 1.6, kMostTurned = 0.35, kMostT
 constexpr int kPictures = 10;               // until the exposure has settled
 constexpr double kBetweenPictures = 0.001;  // s
 
-/// Another ride, at another time and from aside.
-struct Aside : Ride {
-  explicit Aside(const Ride& ride) : way(ride) {}
+/// Another motion, at another time and from aside.
+struct Aside : Motion {
+  explicit Aside(const Motion& motion) : way(motion) {}
   double duration() const override { return way.duration(); }
   MotionState at(double t) const override {
-    MotionState moment = way.at(t + later);
-    moment.T_world_base = moment.T_world_base * T_way_base;
-    return moment;
+    MotionState motion_state = way.at(t + later);
+    motion_state.T_world_base = motion_state.T_world_base * T_way_base;
+    return motion_state;
   }
 
-  const Ride& way;
+  const Motion& way;
   double later = 0.0;
   Pose T_way_base;
 };
 
-void goAside(const Noise& noise, Aside& ride) {
+void goAside(const Noise& noise, Aside& motion) {
   const auto draw = [&noise](std::uint64_t counter, double most) { return noise.uniform(counter, -most, most); };
-  ride.later = draw(0, kMostBefore);
-  ride.T_way_base = Pose(urban_nav_core::expSo3({draw(1, kMostTilted), draw(2, kMostTilted), draw(3, kMostTurned)}),
-                         {0.0, draw(4, kMostAside), draw(5, kMostLifted)});
+  motion.later = draw(0, kMostBefore);
+  motion.T_way_base = Pose(urban_nav_core::expSo3({draw(1, kMostTilted), draw(2, kMostTilted), draw(3, kMostTurned)}),
+                           {0.0, draw(4, kMostAside), draw(5, kMostLifted)});
 }
 
 class Folder {
@@ -91,27 +92,27 @@ int main(int argc, char** argv) try {
   const std::string world = options.text("--world", "quad");
   const auto seed = static_cast<std::uint32_t>(options.number("--seed", 1.0));
   const int places = static_cast<int>(options.number("--places", 36.0));
-  const double step = options.number("--step", 2.0);  // s of the ride
-  const Pose T_base_left = placeOf(urban_nav_core::frames::stereo_left);
+  const double step = options.number("--step", 2.0);  // s of the motion
+  const Pose T_base_left = sensorPose(urban_nav_core::frames::stereo_left);
   const Noise noise(seed, "revisits");
   Folder folder(options.text("--folder", world));
-  RideOptions ride_options;
+  DriveOptions ride_options;
   ride_options.duration = kStart + kMostBefore + step * places + 1.0;
   const std::array<Camera, 2> cameras = bumblebee(StereoImages::Rectified);
   for (const int pass : {0, 1, 2}) {
     const World on_day = buildWorld(world, seed, pass == 2 ? 2 : 1);
-    const auto way = makeRide(on_day, routeOf(world, seed, "loops"), ride_options);
+    const auto way = simulateDrive(on_day, makeRoute(world, seed, "loops"), ride_options);
     const Tracer tracer(on_day);
     const Sky sky(on_day.day, noise.of("sky").bits(0));
     const Noise here = noise.of(static_cast<std::uint64_t>(pass));
     StereoHead head(tracer, sky, StereoImages::Rectified, T_base_left, here.bits(0));
-    Aside ride(*way);
+    Aside motion(*way);
     for (int place = 0; place < places; ++place) {
-      if (pass > 0) goAside(here.of(static_cast<std::uint64_t>(place)), ride);
+      if (pass > 0) goAside(here.of(static_cast<std::uint64_t>(place)), motion);
       double t = kStart + step * place;
-      std::array<cv::Mat, 2> images = head.take(ride, t);
-      for (int again = 1; place == 0 && again < kPictures; ++again) images = head.take(ride, t += kBetweenPictures);
-      folder.add(images, ride.at(t).T_world_base * T_base_left);
+      std::array<cv::Mat, 2> images = head.take(motion, t);
+      for (int again = 1; place == 0 && again < kPictures; ++again) images = head.take(motion, t += kBetweenPictures);
+      folder.add(images, motion.at(t).T_world_base * T_base_left);
     }
   }
   folder.finish(cameras);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a second of a session costs, by world, sensor and number of threads: time of the processor, time by the clock, memory.
-// Measurements alone; what a bag takes to write is not in it.
+// What a second of a session costs, by world, sensor and number of threads: time of the processor, time by the clock,
+// memory. Measurements alone; what a bag takes to write is not in it.
 //   speed [--duration S] [--seed N] [--world NAME] [-o FILE.json]
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -38,7 +38,7 @@ double processorSeconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-Cost costOf(const SessionOptions& options, int threads) {
+Cost measureCost(const SessionOptions& options, int threads) {
   const urban_nav_core::ThreadLimit limit(threads);
   Cost cost;
   const double start = processorSeconds();
@@ -64,7 +64,7 @@ Cost measured(const SessionOptions& options, int threads) {
   if (child == 0) {
     int status = 1;
     try {
-      const Cost cost = costOf(options, threads);
+      const Cost cost = measureCost(options, threads);
       status = write(ends[1], &cost, sizeof cost) == static_cast<ssize_t>(sizeof cost) ? 0 : 1;
     } catch (const std::exception& error) {
       std::cerr << error.what() << "\n";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How places repeat: are some taken for others by their visual words, and how many of the words at a place are gone on another day?
+// How places repeat: are some taken for others by their visual words, and how many of the words at a place are gone on
+// another day?
 //   words [--world NAME] [--places M] [--duration S] [--seed N] [-o FILE.json]
 #include <algorithm>
 #include <array>
@@ -10,13 +11,13 @@
 
 #include "camera/heads.hpp"
 #include "camera/sky.hpp"
-#include "ride/make_ride.hpp"
-#include "rig/places.hpp"
+#include "motion/simulate_drive.hpp"
+#include "ray_tracing/tracer.hpp"
+#include "rig/sensor_poses.hpp"
 #include "support/distribution.hpp"
 #include "support/places.hpp"
 #include "support/program.hpp"
 #include "support/vocabulary.hpp"
-#include "trace/tracer.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
 #include "urban_nav_core/types/frames.hpp"
 
@@ -33,17 +34,18 @@ constexpr double kStep = 0.5;    // m: a change of place that a day is compared 
 constexpr int kPlacesApart = 4;  // every so-manieth place is seen again
 constexpr std::array<int, 3> other_days = {2, 3, 4};  // as they come; wet; in winter
 
-/// A place of the world on one day, seen from anywhere on a ride.
+/// A place of the world on one day, seen from anywhere on a motion.
 class Scene {
  public:
   Scene(const std::string& name, std::uint32_t seed, int day)
       : world_(buildWorld(name, seed, day)), tracer_(world_), sky_(world_.day, seed) {}
 
   const World& world() const { return world_; }
-  /// Descriptors of what the left camera sees. A head for each frame: its exposure has settled; `chance` is that of its noise.
-  cv::Mat describe(const Ride& ride, double t, std::uint64_t chance) const {
-    StereoHead head(tracer_, sky_, StereoImages::Rectified, placeOf(urban_nav_core::frames::stereo_left), chance);
-    return Vocabulary::describe(head.take(ride, t)[0]);
+  /// Descriptors of what the left camera sees. A head for each frame: its exposure has settled; `chance` is that of its
+  /// noise.
+  cv::Mat describe(const Motion& motion, double t, std::uint64_t chance) const {
+    StereoHead head(tracer_, sky_, StereoImages::Rectified, sensorPose(urban_nav_core::frames::stereo_left), chance);
+    return Vocabulary::describe(head.take(motion, t)[0]);
   }
 
  private:
@@ -52,20 +54,20 @@ class Scene {
   Sky sky_;
 };
 
-std::unique_ptr<Ride> rideThrough(const World& world, std::uint32_t seed, double duration) {
-  RideOptions options;
+std::unique_ptr<Motion> rideThrough(const World& world, std::uint32_t seed, double duration) {
+  DriveOptions options;
   options.duration = duration;
   options.seed = seed;
-  return makeRide(world, routeOf(world.name, seed, "loops"), options);
+  return simulateDrive(world, makeRoute(world.name, seed, "loops"), options);
 }
 
 /// When (s) the robot has driven 0, `every`, 2 `every`, ... m.
-std::vector<double> timesEvery(const Ride& ride, double every) {
+std::vector<double> timesEvery(const Motion& motion, double every) {
   std::vector<double> times;
-  Eigen::Vector3d last = ride.at(0.0).T_world_base.t();
+  Eigen::Vector3d last = motion.at(0.0).T_world_base.t();
   double driven = 0.0;
-  for (double t = 0.0; t < ride.duration(); t += 0.02) {
-    const Eigen::Vector3d here = ride.at(t).T_world_base.t();
+  for (double t = 0.0; t < motion.duration(); t += 0.02) {
+    const Eigen::Vector3d here = motion.at(t).T_world_base.t();
     driven += (here - last).norm();
     last = here;
     if (driven >= every * static_cast<double>(times.size())) times.push_back(t);
@@ -77,8 +79,8 @@ Vocabulary trained(std::uint32_t seed) {
   cv::Mat descriptors;
   for (const std::string& name : worldNames()) {
     const Scene scene(name, seed, 1);
-    const auto ride = rideThrough(scene.world(), seed, 300.0);
-    for (const double t : timesEvery(*ride, 15.0)) descriptors.push_back(scene.describe(*ride, t, seed));
+    const auto motion = rideThrough(scene.world(), seed, 300.0);
+    for (const double t : timesEvery(*motion, 15.0)) descriptors.push_back(scene.describe(*motion, t, seed));
   }
   return Vocabulary(descriptors, kWords);
 }
@@ -86,7 +88,7 @@ Vocabulary trained(std::uint32_t seed) {
 std::string percent(double share) { return cell(100.0 * share, 0); }
 std::string percent(int part, int whole) { return whole > 0 ? percent(static_cast<double>(part) / whole) : "-"; }
 
-/// A ride on day 1, and what is left of it when places are seen again.
+/// A motion on day 1, and what is left of it when places are seen again.
 class Repetition {
  public:
   Repetition(const std::string& name, const Vocabulary& vocabulary, const Options& options)
@@ -94,13 +96,13 @@ class Repetition {
         seed_(static_cast<std::uint32_t>(options.number("--seed", 7))),
         vocabulary_(vocabulary),
         first_(name, seed_, 1),
-        ride_(rideThrough(first_.world(), seed_, options.number("--duration", 300))),
+        motion_(rideThrough(first_.world(), seed_, options.number("--duration", 300))),
         every_(options.number("--places", 3)),
-        times_(timesEvery(*ride_, every_)),
-        finely_(timesEvery(*ride_, kStep)) {
+        times_(timesEvery(*motion_, every_)),
+        finely_(timesEvery(*motion_, kStep)) {
     for (const double t : times_) places_.push_back(placeAt(first_, t, seed_));
     for (const Place& place : places_) pictures_.push_back(place.words);
-    worth_ = worthOf(pictures_);
+    worth_ = wordWeights(pictures_);
   }
 
   /// A column of the table.
@@ -119,7 +121,7 @@ class Repetition {
     Values chance;
     for (std::size_t i = 0; i < pictures_.size(); ++i)
       chance.push_back(shareLost(pictures_[i], pictures_[(i + pictures_.size() / 2) % pictures_.size()]));
-    gone.push_back(percent(quantileOf(chance, 0.5)));
+    gone.push_back(percent(quantile(chance, 0.5)));
     cells.insert(cells.end(), gone.begin(), gone.end());
     cells.insert(cells.end(), taken.begin(), taken.end());
     return cells;
@@ -127,11 +129,11 @@ class Repetition {
 
  private:
   Place placeAt(const Scene& scene, double t, std::uint64_t chance) const {
-    const urban_nav_core::Pose pose = ride_->at(t).T_world_base;
+    const urban_nav_core::Pose pose = motion_->at(t).T_world_base;
     const Eigen::Matrix3d R = pose.R();
     const double along = every_ * static_cast<double>(places_.size());
     return {pose.t().head<2>(), std::atan2(R(1, 0), R(0, 0)), along,
-            vocabulary_.countsOf(scene.describe(*ride_, t, chance))};
+            vocabulary_.countWords(scene.describe(*motion_, t, chance))};
   }
 
   /// Of every so-manieth place: which share of its words is gone `further` m on, and how many are taken for elsewhere.
@@ -144,14 +146,14 @@ class Repetition {
       gone.push_back(shareLost(pictures_[i], again.words));
       if (nearestIn(places_, again, worth_) == Neighbour::Elsewhere) ++taken;
     }
-    return {percent(quantileOf(gone, 0.5)), percent(taken, static_cast<int>(gone.size()))};
+    return {percent(quantile(gone, 0.5)), percent(taken, static_cast<int>(gone.size()))};
   }
 
   std::string name_;
   std::uint32_t seed_;
   const Vocabulary& vocabulary_;
   Scene first_;
-  std::unique_ptr<Ride> ride_;
+  std::unique_ptr<Motion> motion_;
   double every_;  // m
   std::vector<double> times_, finely_;
   std::vector<Place> places_;
@@ -160,7 +162,7 @@ class Repetition {
 };
 
 std::vector<std::string> namesOfRows() {
-  std::vector<std::string> names = {"places", "been there before on the same ride", "... and taken for elsewhere (%)",
+  std::vector<std::string> names = {"places", "been there before on the same motion", "... and taken for elsewhere (%)",
                                     "new, and taken for known (%)"};
   const auto add = [&](const std::string& what) {
     names.push_back(what + ", same pose, same day (%)");
@@ -192,7 +194,7 @@ int main(int argc, char** argv) try {
   for (const auto& row : rows) table.add(row);
   table.note(
       "1 000 words of SIFT by BOWKMeansTrainer, learnt on day 1 of all worlds with another seed. Taken for: nearest neighbour by "
-      "tf-idf, on the same ride among places that lie 25 m of driving back, else among all of day 1 that are not within 1 m; it is "
+      "tf-idf, on the same motion among places that lie 25 m of driving back, else among all of day 1 that are not within 1 m; it is "
       "the same place within 5 m and 46 deg, elsewhere from 10 m on. Taken for known: more like a place elsewhere than half of "
       "those been at before are like their own. Words gone: of those in the left image of day 1, median over every fourth place. "
       "Day 3 is wet, on day 4 the leaves are down.");

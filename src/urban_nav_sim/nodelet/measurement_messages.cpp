@@ -42,7 +42,7 @@ TopicMessage onTopic(const std::string& topic, Message message) {
   return {topic, boost::make_shared<Message>(std::move(message))};
 }
 
-std::string nameOf(Side side) { return side == Side::Left ? "left" : "right"; }
+std::string surfaceClassName(Side side) { return side == Side::Left ? "left" : "right"; }
 std::string ladybugName(int camera) { return "camera" + std::to_string(camera); }
 
 void addImage(Side side, const cv::Mat& pixels, sensor_msgs::CameraInfo camera, StampNs stamp,
@@ -50,8 +50,8 @@ void addImage(Side side, const cv::Mat& pixels, sensor_msgs::CameraInfo camera, 
   if (pixels.empty()) return;
   sensor_msgs::Image image = urban_nav_ros::toImageMessage(pixels);
   image.header = camera.header = header(stamp, side == Side::Left ? frames::stereo_left : frames::stereo_right);
-  messages.push_back(onTopic("stereo/" + nameOf(side) + "/image_raw", std::move(image)));
-  messages.push_back(onTopic("stereo/" + nameOf(side) + "/camera_info", std::move(camera)));
+  messages.push_back(onTopic("stereo/" + surfaceClassName(side) + "/image_raw", std::move(image)));
+  messages.push_back(onTopic("stereo/" + surfaceClassName(side) + "/camera_info", std::move(camera)));
 }
 
 template <typename Message>
@@ -63,8 +63,8 @@ void addTopics(Sensor sensor, std::vector<TopicMessage>& topics) {
   switch (sensor) {
     case Sensor::Stereo:
       for (const Side side : {Side::Left, Side::Right}) {
-        addTopic<sensor_msgs::Image>("stereo/" + nameOf(side) + "/image_raw", topics);
-        addTopic<sensor_msgs::CameraInfo>("stereo/" + nameOf(side) + "/camera_info", topics);
+        addTopic<sensor_msgs::Image>("stereo/" + surfaceClassName(side) + "/image_raw", topics);
+        addTopic<sensor_msgs::CameraInfo>("stereo/" + surfaceClassName(side) + "/camera_info", topics);
       }
       return;
     case Sensor::Ladybug:
@@ -75,7 +75,7 @@ void addTopics(Sensor sensor, std::vector<TopicMessage>& topics) {
       return;
     case Sensor::Lasers:
       for (const Side side : {Side::Left, Side::Right})
-        addTopic<sensor_msgs::LaserScan>("laser_" + nameOf(side) + "/scan", topics);
+        addTopic<sensor_msgs::LaserScan>("laser_" + surfaceClassName(side) + "/scan", topics);
       return;
     case Sensor::Imu:
       addTopic<sensor_msgs::Imu>("imu/data", topics);
@@ -91,7 +91,7 @@ void addTopics(Sensor sensor, std::vector<TopicMessage>& topics) {
 
 }  // namespace
 
-std::vector<TopicMessage> topicsOf(const std::set<Sensor>& sensors) {
+std::vector<TopicMessage> listTopics(const std::set<Sensor>& sensors) {
   std::vector<TopicMessage> topics;
   for (const Sensor sensor : sensors) addTopics(sensor, topics);
   addTopic<geometry_msgs::PoseStamped>("ground_truth/pose", topics);
@@ -137,7 +137,7 @@ std::vector<TopicMessage> MeasurementMessages::from(const LadybugMeasurement& pa
 }
 
 std::vector<TopicMessage> MeasurementMessages::from(const LaserMeasurement& turn) {
-  const std::string name = "laser_" + nameOf(turn.side);
+  const std::string name = "laser_" + surfaceClassName(turn.side);
   sensor_msgs::LaserScan scan = urban_nav_ros::toLaserScanMessage(turn.scan, name);
   scan.header.seq = turns_[static_cast<std::size_t>(turn.side)]++;
   return {onTopic(name + "/scan", std::move(scan))};

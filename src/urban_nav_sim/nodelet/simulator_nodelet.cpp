@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "diagnostics.hpp"
-#include "orders.hpp"
-#include "outlet.hpp"
-#include "pace.hpp"
+#include "playback_control.hpp"
+#include "rate_controller.hpp"
 #include "simulator_parameters.hpp"
+#include "topic_publisher.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_core/parameters/sources.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -33,11 +33,12 @@ constexpr std::chrono::seconds last_words{1};   // what the publishers still hav
 
 }  // namespace
 
-/// The simulated robot on topics: one worker drives the session, converts and publishes at the pace that is wanted, or as fast as it renders.
+/// The simulated robot on topics: one worker drives the session, converts and publishes at the pace that is wanted, or
+/// as fast as it renders.
 class SimulatorNodelet : public nodelet::Nodelet {
  public:
   ~SimulatorNodelet() override {
-    // First nobody may call any more; then the worker ends.
+    // Callbacks end before the worker.
     services_.clear();
     timer_.stop();
     orders_.close();
@@ -62,13 +63,13 @@ class SimulatorNodelet : public nodelet::Nodelet {
   std::vector<ros::ServiceServer> services_;
   ros::WallTimer timer_;
   std::unique_ptr<Diagnostics> diagnostics_;
-  Orders orders_;
+  PlaybackControl orders_;
   std::thread worker_;
 
   // The worker's own, once it has begun.
-  std::unique_ptr<Outlet> outlet_;
+  std::unique_ptr<TopicPublisher> outlet_;
   Clock::time_point begin_;  // before it no message leaves
-  std::optional<Pace> pace_;
+  std::optional<RateController> pace_;
   StampNs session_begin_ = 0, now_ = 0;
   std::int64_t published_ = 0;  // in this session
   bool slowness_said_ = false;
@@ -82,7 +83,8 @@ void SimulatorNodelet::onInit() {
     throw;
   }
   orders_.pause(parameters_.paused);
-  outlet_ = std::make_unique<Outlet>(getNodeHandle(), options_.sensors, static_cast<std::uint32_t>(parameters_.queue));
+  outlet_ = std::make_unique<TopicPublisher>(getNodeHandle(), options_.sensors,
+                                             static_cast<std::uint32_t>(parameters_.queue));
   begin_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(parameters_.delay));
   const std::string session = options_.world + ", seed " + std::to_string(options_.seed) + ", route " + options_.route +
                               ", day " + std::to_string(options_.day);
@@ -119,7 +121,7 @@ void SimulatorNodelet::advertiseServices() {
   };
   advertise("reset", "the session begins again", [this] { orders_.reset(); });
   advertise("pause", "time stands until resume", [this] { orders_.pause(true); });
-  advertise("resume", "the session goes on", [this] { orders_.pause(false); });
+  advertise("resume", "the session continues", [this] { orders_.pause(false); });
 }
 
 void SimulatorNodelet::work() try {
@@ -179,10 +181,10 @@ template <typename Due>
 bool SimulatorNodelet::hold(const char* state, const Due& due) {
   while (true) {
     switch (orders_.wait(due(), tick)) {
-      case Orders::Answer::Go: return true;
-      case Orders::Answer::End: return false;
-      case Orders::Answer::Wait: report(state, now_); break;
-      case Orders::Answer::Paused:
+      case PlaybackControl::Answer::Go: return true;
+      case PlaybackControl::Answer::End: return false;
+      case PlaybackControl::Answer::Wait: report(state, now_); break;
+      case PlaybackControl::Answer::Paused:
         pace_->restart();
         report("paused", now_);
         break;

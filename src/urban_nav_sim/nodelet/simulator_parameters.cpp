@@ -14,7 +14,7 @@ using urban_nav_core::Table;
 namespace {
 
 /// Words between commas and blanks.
-std::vector<std::string> wordsOf(const std::string& text) {
+std::vector<std::string> splitWords(const std::string& text) {
   std::vector<std::string> words;
   constexpr const char* separators = ", \t\n";
   for (std::size_t begin = text.find_first_not_of(separators); begin != std::string::npos;) {
@@ -83,12 +83,13 @@ SessionOptions sessionOptions(const SimulatorParameters& parameters, const std::
   options.day = parameters.day;
   options.duration = parameters.duration;
   options.sensors.clear();
-  for (const std::string& word : wordsOf(parameters.sensors))
+  for (const std::string& word : splitWords(parameters.sensors))
     options.sensors.insert(parseSensor(word, where + "sensors"));
   if (options.sensors.empty()) throw urban_nav_core::UserError(where + "sensors", "none", sensorList());
-  for (const std::string& word : wordsOf(parameters.without)) options.defects.switchOff(word, where + "without");
-  for (const std::string& word : wordsOf(parameters.with)) options.defects.switchOn(word, where + "with");
-  for (const std::string& word : wordsOf(parameters.fault)) options.faults.push_back(parseFault(word, where + "fault"));
+  for (const std::string& word : splitWords(parameters.without)) options.defects.switchOff(word, where + "without");
+  for (const std::string& word : splitWords(parameters.with)) options.defects.switchOn(word, where + "with");
+  for (const std::string& word : splitWords(parameters.fault))
+    options.faults.push_back(parseFault(word, where + "fault"));
   checkPlace(options);
   return options;
 }

@@ -8,7 +8,8 @@
 
 namespace urban_nav_sim {
 
-/// What the live simulator must be told: the options of `urban_nav simulate`, and how it is to run. One member per row of simulatorTable().
+/// Parameters of the live simulator: the options of `urban_nav simulate`, and how it is to run. One member per row of
+/// simulatorTable().
 struct SimulatorParameters {
   std::string world, route;
   int seed, day;
@@ -27,7 +28,8 @@ struct SimulatorParameters {
 
 const urban_nav_core::Table<SimulatorParameters>& simulatorTable();
 
-/// Throws UserError for a world, route, sensor or fault that there is not, naming the key behind `where` ("/simulator/") and what there is.
+/// Throws UserError for a world, route, sensor or fault that there is not, naming the key after `where` ("/simulator/")
+/// and what there is.
 SessionOptions sessionOptions(const SimulatorParameters& parameters, const std::string& where);
 
 }  // namespace urban_nav_sim

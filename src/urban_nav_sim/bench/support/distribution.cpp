@@ -12,18 +12,18 @@ namespace urban_nav_sim::bench {
 
 using urban_nav_core::testing::cell;
 
-double meanOf(const Values& values) {
+double mean(const Values& values) {
   return values.empty() ? 0.0 : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-double spreadOf(const Values& values) {
-  const double mean = meanOf(values);
+double spread(const Values& values) {
+  const double mean = mean(values);
   double sum = 0.0;
   for (const double value : values) sum += (value - mean) * (value - mean);
   return values.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-double quantileOf(Values values, double share) {
+double quantile(Values values, double share) {
   if (values.empty()) return 0.0;
   std::sort(values.begin(), values.end());
   const double place = share * static_cast<double>(values.size() - 1);
@@ -32,7 +32,7 @@ double quantileOf(Values values, double share) {
   return values[low] + (place - static_cast<double>(low)) * (values[high] - values[low]);
 }
 
-double distanceOf(const Values& simulated, const Values& real) {
+double distributionDistance(const Values& simulated, const Values& real) {
   if (simulated.empty() || real.empty()) return std::numeric_limits<double>::infinity();
   // Along a line the earth goes by rank: the area between the two distribution functions.
   Values a = simulated, b = real, all = simulated;
@@ -47,12 +47,12 @@ double distanceOf(const Values& simulated, const Values& real) {
         static_cast<double>(i) / static_cast<double>(a.size()) - static_cast<double>(j) / static_cast<double>(b.size());
     area += std::abs(difference) * (all[k + 1] - all[k]);
   }
-  return area > 0.0 ? area / spreadOf(real) : 0.0;
+  return area > 0.0 ? area / spread(real) : 0.0;
 }
 
 std::string summary(const Values& values, int decimals) {
-  return cell(quantileOf(values, 0.5), decimals) + " (" + cell(quantileOf(values, 0.1), decimals) + " ... " +
-         cell(quantileOf(values, 0.9), decimals) + ")";
+  return cell(quantile(values, 0.5), decimals) + " (" + cell(quantile(values, 0.1), decimals) + " ... " +
+         cell(quantile(values, 0.9), decimals) + ")";
 }
 
 }  // namespace urban_nav_sim::bench

@@ -6,7 +6,7 @@
 
 #include "camera/lens.hpp"
 #include "camera/sky.hpp"
-#include "trace/tracer.hpp"
+#include "ray_tracing/tracer.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
 
 namespace urban_nav_sim::bench {

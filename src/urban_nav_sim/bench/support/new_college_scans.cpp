@@ -22,7 +22,7 @@ std::string unpacked(const std::string& path) {
 }
 
 /// The numbers of "Name=[181]{1.0,2.0,...}".
-std::vector<double> arrayOf(const std::string& line, const std::string& name) {
+std::vector<double> parseArray(const std::string& line, const std::string& name) {
   std::vector<double> values;
   const std::size_t start = line.find(name + "=[");
   const std::size_t open = start == std::string::npos ? start : line.find('{', start);
@@ -41,7 +41,7 @@ Turns newCollegeTurns(const std::string& path, const std::string& side) {
   Turns turns;
   for (std::string line; std::getline(lines, line);) {
     if (line.find("LMS_LASER_2D_" + side) >= 60) continue;
-    std::vector<double> ranges = arrayOf(line, "Range"), intensities = arrayOf(line, "Reflectance");
+    std::vector<double> ranges = parseArray(line, "Range"), intensities = parseArray(line, "Reflectance");
     if (ranges.size() != kBeams || intensities.size() != kBeams) continue;
     turns.ranges.push_back(std::move(ranges));
     turns.intensities.push_back(std::move(intensities));

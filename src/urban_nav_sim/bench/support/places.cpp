@@ -8,14 +8,14 @@
 
 namespace urban_nav_sim::bench {
 
-Neighbour neighbourOf(const Place& a, const Place& b) {
+Neighbour findNeighbour(const Place& a, const Place& b) {
   const double apart = (a.position - b.position).norm();
   const bool turned = std::abs(std::remainder(a.heading - b.heading, 2.0 * M_PI)) > kSameHeading;
   if (turned || apart > kElsewhere) return Neighbour::Elsewhere;
   return apart <= kSamePlace ? Neighbour::Same : Neighbour::Near;
 }
 
-std::vector<double> worthOf(const std::vector<Counts>& pictures) {
+std::vector<double> wordWeights(const std::vector<Counts>& pictures) {
   std::vector<double> worth(pictures.empty() ? 0 : pictures.front().size(), 0.0);
   for (std::size_t word = 0; word < worth.size(); ++word) {
     const auto with = std::count_if(pictures.begin(), pictures.end(), [&](const Counts& c) { return c[word] > 0; });
@@ -33,14 +33,14 @@ double likeness(const Counts& a, const Counts& b, const std::vector<double>& wor
   return a2 > 0.0 && b2 > 0.0 ? together / std::sqrt(a2 * b2) : 0.0;
 }
 
-Recognition recognise(const std::vector<Place>& ride, const std::vector<double>& worth, double apart) {
+Recognition recognise(const std::vector<Place>& motion, const std::vector<double>& worth, double apart) {
   Recognition result;
   Values own, elsewhere;  // likenesses: of revisits to their places, of new places to what they are most like
-  for (const Place& place : ride) {
+  for (const Place& place : motion) {
     double best_same = -1.0, best_other = -1.0;
-    for (const Place& before : ride) {
+    for (const Place& before : motion) {
       if (before.along > place.along - apart) continue;
-      const Neighbour neighbour = neighbourOf(place, before);
+      const Neighbour neighbour = findNeighbour(place, before);
       if (neighbour == Neighbour::Near) continue;
       double& best = neighbour == Neighbour::Same ? best_same : best_other;
       best = std::max(best, likeness(place.words, before.words, worth));
@@ -55,7 +55,7 @@ Recognition recognise(const std::vector<Place>& ride, const std::vector<double>&
     }
   }
   if (own.empty()) return result;
-  const double usual = quantileOf(own, 0.5);
+  const double usual = quantile(own, 0.5);
   result.taken_for_known =
       static_cast<int>(std::count_if(elsewhere.begin(), elsewhere.end(), [&](double l) { return l > usual; }));
   return result;
@@ -67,7 +67,7 @@ Neighbour nearestIn(const std::vector<Place>& map, const Place& place, const std
   for (const Place& known : map) {
     if ((known.position - place.position).norm() < kSameSpot) continue;
     const double alike = likeness(place.words, known.words, worth);
-    if (alike > best) best = alike, nearest = neighbourOf(place, known);
+    if (alike > best) best = alike, nearest = findNeighbour(place, known);
   }
   return nearest;
 }

@@ -20,8 +20,8 @@ double Options::number(const std::string& name, double otherwise) const {
   return word.empty() ? otherwise : std::stod(word);
 }
 
-Route routeOf(const std::string& world, std::uint32_t seed, const std::string& name) {
-  for (Route& route : routesOf(world, seed)) {
+Route makeRoute(const std::string& world, std::uint32_t seed, const std::string& name) {
+  for (Route& route : worldRoutes(world, seed)) {
     if (route.name == name) return std::move(route);
   }
   throw std::invalid_argument("no route " + name + " in " + world);

@@ -22,7 +22,7 @@ class Options {
 };
 
 /// The route of that name. Throws std::invalid_argument if there is none.
-Route routeOf(const std::string& world, std::uint32_t seed, const std::string& name);
+Route makeRoute(const std::string& world, std::uint32_t seed, const std::string& name);
 
 /// A folder below URBAN_NAV_DATA; empty, with a word on stderr about what is left out, where it is not there.
 std::string realData(const std::string& folder);

@@ -18,6 +18,6 @@ struct Texture {
 };
 
 /// `image`: 8 bit, grey. Noise as Immerkaer 1996: what is left of each pixel after planes are taken away.
-Texture textureOf(const cv::Mat& image);
+Texture measureTexture(const cv::Mat& image);
 
 }  // namespace urban_nav_sim::bench

@@ -19,7 +19,7 @@ cv::Mat Vocabulary::describe(const cv::Mat& image) {
   return descriptors;
 }
 
-Counts Vocabulary::countsOf(const cv::Mat& descriptors) const {
+Counts Vocabulary::countWords(const cv::Mat& descriptors) const {
   Counts counts(static_cast<std::size_t>(words_.rows), 0);
   if (descriptors.empty()) return counts;
   std::vector<cv::DMatch> matches;

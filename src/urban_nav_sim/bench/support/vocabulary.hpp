@@ -16,7 +16,7 @@ class Vocabulary {
   /// Of the 500 strongest features of an image, 8 bit, grey.
   static cv::Mat describe(const cv::Mat& image);
   /// The word nearest to each of these descriptors.
-  Counts countsOf(const cv::Mat& descriptors) const;
+  Counts countWords(const cv::Mat& descriptors) const;
 
  private:
   cv::Mat words_;

@@ -33,12 +33,13 @@ enum class Defect : std::uint8_t {
 /// The defects of all sensors, each to be switched by itself.
 class Defects {
  public:
-  /// Those that sensors have unless told otherwise: all but Lens, Offset and Clock.
+  /// Defects that are on by default: all but Lens, Offset and Clock.
   Defects();
 
   bool has(Sensor sensor, Defect defect) const { return on_.count({sensor, defect}) != 0; }
-  /// `word`: SENSOR:DEFECT as on the command line, `all` standing for each sensor that has the defect, or for each defect of the sensor that is
-  /// usually there. Throw UserError for what there is not, naming what there is; `where`: the option.
+  /// `word`: SENSOR:DEFECT as on the command line, `all` standing for each sensor that has the defect, or for each
+  /// defect of the sensor that is usually there. Throw UserError for what there is not, naming what there is; `where`:
+  /// the option.
   void switchOn(const std::string& word, const std::string& where = "--with");
   void switchOff(const std::string& word, const std::string& where = "--without");
 

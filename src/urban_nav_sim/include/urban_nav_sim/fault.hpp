@@ -12,7 +12,7 @@ namespace urban_nav_sim {
 /// What can go wrong with what a sensor sends.
 enum class FaultKind : std::uint8_t {
   Drop,     ///< messages are missing; value: their share, 0...1 (default 0.3)
-  Freeze,   ///< the last measurement from before, or else the first, goes on under new stamps
+  Freeze,   ///< the last measurement before the fault, or else the first, is repeated under new stamps
   Swap,     ///< left and right exchanged (stereo, lasers); others: as freeze
   Corrupt,  ///< rubbish in a share of the rows, beams or numbers; value: that share, 0...1 (default 0.3)
   Jump,     ///< stamps are later by value in s (default 10; may be below zero)
@@ -33,7 +33,8 @@ struct Fault {
   bool isActive(double t) const { return t >= start && t < start + duration; }
 };
 
-/// "KIND:SENSOR:START_S:DURATION_S[:VALUE]". Throws UserError that says what is wrong and what is allowed; `option`: where the text stood.
+/// "KIND:SENSOR:START_S:DURATION_S[:VALUE]". Throws UserError that says what is wrong and what is allowed; `option`:
+/// where the text stood.
 Fault parseFault(const std::string& text, const std::string& option = "--fault");
 
 }  // namespace urban_nav_sim

@@ -15,7 +15,8 @@ using Eigen::Vector3f;
 constexpr int kRaysOfPixel = 4;                   // through a pixel
 constexpr int kTogether = kLanes / kRaysOfPixel;  // pixels of a packet
 
-/// Rooks that do not take each other, and not on a diagonal either: any edge, however it lies, goes past them one by one.
+/// Rooks that do not take each other, and not on a diagonal either: any edge, however it lies, goes past them one by
+/// one.
 constexpr std::array<int, kRaysOfPixel> kRow = {2, 0, 3, 1};
 float along(int i) { return (static_cast<float>(i) + 0.5F) / kRaysOfPixel - 0.5F; }
 
@@ -75,7 +76,7 @@ class Smoother {
     std::array<Shares, kTogether> shares;
     std::uint32_t lanes = 0;
     for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
-      shares[k] = sharesOf(seen, static_cast<int>(k) * kRaysOfPixel);
+      shares[k] = computeShares(seen, static_cast<int>(k) * kRaysOfPixel);
       for (int i = 0; i < shares[k].count; ++i) {
         const Share& share = shares[k].all[static_cast<std::size_t>(i)];
         if (waiting[k].edge == Edge::OfShadow) lanes |= share.lanes;
@@ -87,7 +88,7 @@ class Smoother {
       put(packet, seen, shares[k], lanes, picture_.at(waiting[k].u, v));
   }
 
-  Shares sharesOf(const Eye::Seen& seen, int begin) const {
+  Shares computeShares(const Eye::Seen& seen, int begin) const {
     Shares shares;
     for (int lane = begin; lane < begin + kRaysOfPixel; ++lane) {
       const Met met{seen.hits.facet[lane], seen.hits.mover[lane]};
@@ -112,8 +113,8 @@ class Smoother {
     return areSame(tracer_, traces_.met[pixel], {seen.hits.facet[share.first], seen.hits.mover[share.first]});
   }
 
-  /// The mean over the shares. `examined`: lanes of which it is known whether the sun shines there; of a share that has none the light is in the
-  /// picture already.
+  /// The mean over the shares. `examined`: lanes of which it is known whether the sun shines there; of a share that has
+  /// none the light is in the picture already.
   void put(const Packet& packet, const Eye::Seen& seen, const Shares& shares, std::uint32_t examined,
            std::size_t pixel) const {
     const auto channels = static_cast<std::size_t>(picture_.channels);
@@ -125,7 +126,7 @@ class Smoother {
       if ((lanes & examined) == 0) {
         std::copy_n(radiance, channels, own.begin());
       } else {
-        const Vector3f direction = packet.directionOf(first);
+        const Vector3f direction = packet.beamDirection(first);
         const auto sunlit = static_cast<float>(bits(lanes & seen.sunlit)) / static_cast<float>(bits(lanes & examined));
         const auto& point = seen.points[static_cast<std::size_t>(first)];
         urban_nav_sim::put(seen.met(first) ? eye_.light(point, direction, sunlit) : eye_.skyLight(direction),

@@ -12,7 +12,7 @@ namespace {
 constexpr float kFarDepth = 5000.0F;    // m of depth
 constexpr float kShadowOffset = 2e-3F;  // m off the surface, so that it does not shade itself
 
-/// What a grey sensor makes of colours: silicon behind glass, most sensitive to green and red.
+/// Spectral weights of a grey sensor: silicon under glass, most sensitive to green and red.
 const Vector3f kGrey(0.32F, 0.46F, 0.22F);
 
 }  // namespace
@@ -55,7 +55,7 @@ void Eye::examine(const Packet& packet, const std::array<std::array<int, 2>, kLa
 
 Vector3f Eye::light(const SurfacePoint& point, const Vector3f& direction, float sunlit) const {
   const float length = direction.norm();
-  const Look look = lookAt(*point.material, point.spot);
+  const Appearance look = lookAt(*point.material, point.spot);
   const Vector3f light = shade(point, look, direction / length, sunlit, sky_);
   return throughAir(light, static_cast<float>(point.distance) * length, sky_);
 }

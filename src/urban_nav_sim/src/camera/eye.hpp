@@ -7,7 +7,7 @@
 
 #include "camera/ray_table.hpp"
 #include "camera/sky.hpp"
-#include "trace/tracer.hpp"
+#include "ray_tracing/tracer.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
 
 namespace urban_nav_sim {

@@ -6,7 +6,7 @@ namespace {
 
 using urban_nav_core::Pose;
 
-Imager::Settings settingsOf(const CameraDefects& defects, double sensitivity) {
+Imager::Settings toImagerSettings(const CameraDefects& defects, double sensitivity) {
   Imager::Settings settings;
   settings.blurs = defects.blurs;
   settings.is_noisy = defects.is_noisy;
@@ -16,7 +16,7 @@ Imager::Settings settingsOf(const CameraDefects& defects, double sensitivity) {
 }
 
 Imager::Settings colourSettings(const CameraDefects& defects, const Day& day) {
-  Imager::Settings settings = settingsOf(defects, 1.0);
+  Imager::Settings settings = toImagerSettings(defects, 1.0);
   // Balanced for the light of the day: a white sheet in the sun is grey.
   const Eigen::Vector3f light = day.sun + day.sky;
   settings.white_balance = Eigen::Vector3f::Constant(light.y()).cwiseQuotient(light);
@@ -45,21 +45,21 @@ StereoHead::StereoHead(const Tracer& tracer, const Sky& sky, StereoImages images
       sky_(sky),
       T_base_left_(T_base_left),
       cameras_(bumblebee(images)),
-      imagers_{Imager(cameras_[0].lens, settingsOf(defects, 1.0), Noise(seed, "stereo left")),
-               Imager(cameras_[1].lens, settingsOf(defects, 0.97), Noise(seed, "stereo right"))},
+      imagers_{Imager(cameras_[0].lens, toImagerSettings(defects, 1.0), Noise(seed, "stereo left")),
+               Imager(cameras_[1].lens, toImagerSettings(defects, 0.97), Noise(seed, "stereo right"))},
       exposure_(greyExposure(defects)) {}
 
-std::array<cv::Mat, 2> StereoHead::take(const Ride& ride, double t) {
+std::array<cv::Mat, 2> StereoHead::take(const Motion& motion, double t) {
   const Snapshot snapshot(tracer_, t, t);
-  const MotionState moment = ride.at(t);
+  const MotionState motion_state = motion.at(t);
   std::array<cv::Mat, 2> images;
   Exposure exposure;
   for (std::size_t i = 0; i < 2; ++i) {
     const Pose T_base_camera = T_base_left_ * cameras_[i].T_head_camera;
-    render(snapshot, sky_, imagers_[i].rays(), moment.T_world_base * T_base_camera, Colours::Grey, pictures_[i]);
+    render(snapshot, sky_, imagers_[i].rays(), motion_state.T_world_base * T_base_camera, Colours::Grey, pictures_[i]);
     if (i == 0) exposure = exposure_.next(pictures_[0]);
-    images[i] = imagers_[i].develop(pictures_[i], motionOf(moment, T_base_camera), exposure, exposure_.levels(exposure),
-                                    number_);
+    images[i] = imagers_[i].develop(pictures_[i], computeCameraMotion(motion_state, T_base_camera), exposure,
+                                    exposure_.levels(exposure), number_);
   }
   ++number_;
   return images;
@@ -75,15 +75,15 @@ LadybugHead::LadybugHead(const Tracer& tracer, const Sky& sky, const Pose& T_bas
   }
 }
 
-std::array<cv::Mat, 5> LadybugHead::take(const Ride& ride, double t) {
+std::array<cv::Mat, 5> LadybugHead::take(const Motion& motion, double t) {
   const Snapshot snapshot(tracer_, t, t);
-  const MotionState moment = ride.at(t);
+  const MotionState motion_state = motion.at(t);
   std::array<cv::Mat, 5> images;
   for (std::size_t i = 0; i < 5; ++i) {
     const Pose T_base_camera = T_base_head_ * cameras_[i].T_head_camera;
-    render(snapshot, sky_, imagers_[i].rays(), moment.T_world_base * T_base_camera, Colours::Rgb, pictures_[i]);
+    render(snapshot, sky_, imagers_[i].rays(), motion_state.T_world_base * T_base_camera, Colours::Rgb, pictures_[i]);
     const Exposure exposure = exposures_[i].next(pictures_[i]);
-    images[i] = imagers_[i].develop(pictures_[i], motionOf(moment, T_base_camera), exposure,
+    images[i] = imagers_[i].develop(pictures_[i], computeCameraMotion(motion_state, T_base_camera), exposure,
                                     exposures_[i].levels(exposure), number_);
   }
   ++number_;

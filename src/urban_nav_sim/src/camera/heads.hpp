@@ -17,8 +17,8 @@ struct CameraDefects {
   bool adapts = true;     ///< automatic exposure; without: that of the first picture
 };
 
-/// A Bumblebee2: two imagers, one shutter. Frames are taken in order of time, since the exposure of one follows from those
-/// before; one thread at a time. The tracer, the sky and the ride must outlive it.
+/// A Bumblebee2: two imagers, one shutter. Frames are taken in order of time, since the exposure of one follows from
+/// those before; one thread at a time. The tracer, the sky and the motion must outlive it.
 class StereoHead {
  public:
   StereoHead(const Tracer& tracer, const Sky& sky, StereoImages images, const urban_nav_core::Pose& T_base_left,
@@ -26,7 +26,7 @@ class StereoHead {
 
   const std::array<Camera, 2>& cameras() const { return cameras_; }
   /// Left and right, 8 bit grey; `t`: middle of the exposure, s of the session.
-  std::array<cv::Mat, 2> take(const Ride& ride, double t);
+  std::array<cv::Mat, 2> take(const Motion& motion, double t);
   /// Depth and class of the pair that was taken last, left and right.
   const std::array<Picture, 2>& pictures() const { return pictures_; }
 
@@ -50,7 +50,7 @@ class LadybugHead {
 
   const std::array<Camera, 5>& cameras() const { return cameras_; }
   /// 8 bit, BGR, upright.
-  std::array<cv::Mat, 5> take(const Ride& ride, double t);
+  std::array<cv::Mat, 5> take(const Motion& motion, double t);
   /// Depth and class of what was taken last.
   const std::array<Picture, 5>& pictures() const { return pictures_; }
 

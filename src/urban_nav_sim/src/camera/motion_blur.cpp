@@ -32,11 +32,11 @@ void addSample(const Picture& picture, float u, float v, float weight, std::arra
 
 }  // namespace
 
-CameraMotion motionOf(const MotionState& moment, const urban_nav_core::Pose& T_base_camera) {
-  const Eigen::Vector3d velocity_base = moment.T_world_base.q().conjugate() * moment.velocity_world;
+CameraMotion computeCameraMotion(const MotionState& motion_state, const urban_nav_core::Pose& T_base_camera) {
+  const Eigen::Vector3d velocity_base = motion_state.T_world_base.q().conjugate() * motion_state.velocity_world;
   const Eigen::Quaterniond R_camera_base = T_base_camera.q().conjugate();
-  return {R_camera_base * (velocity_base + moment.rate_base.cross(T_base_camera.t())),
-          R_camera_base * moment.rate_base};
+  return {R_camera_base * (velocity_base + motion_state.rate_base.cross(T_base_camera.t())),
+          R_camera_base * motion_state.rate_base};
 }
 
 Eigen::Vector2f flowAt(const RayTable& rays, int u, int v, float depth, const CameraMotion& motion) {

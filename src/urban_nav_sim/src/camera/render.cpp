@@ -34,7 +34,7 @@ void renderBlock(const Eye& eye, int u0, int v0, Picture& picture, Traces& trace
     if ((inside >> lane & 1U) == 0) continue;
     const bool met = seen.met(lane), sunlit = (seen.sunlit >> lane & 1U) != 0;
     const auto& point = seen.points[static_cast<std::size_t>(lane)];
-    const Eigen::Vector3f direction = packet.directionOf(lane);
+    const Eigen::Vector3f direction = packet.beamDirection(lane);
     const std::size_t pixel = picture.at(u0 + lane % kBlock, v0 + lane / kBlock);
     traces.met[pixel] = {seen.hits.facet[lane], met ? seen.hits.mover[lane] : kNothing};
     traces.sunlit[pixel] = sunlit ? 1 : 0;

@@ -7,7 +7,7 @@
 
 #include "camera/ray_table.hpp"
 #include "camera/sky.hpp"
-#include "trace/tracer.hpp"
+#include "ray_tracing/tracer.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
 
 namespace urban_nav_sim {
@@ -27,9 +27,10 @@ struct Picture {
   }
 };
 
-/// What a camera sees from `T_world_camera` at the time of the snapshot: a ray through the middle of each pixel, whose looks are filtered over it,
-/// and several where an edge goes through (edges.hpp). Depth and class are those of the middle. `picture` is made to fit; given again, it is not allocated again.
-/// The same bytes whatever the number of threads.
+/// What a camera sees from `T_world_camera` at the time of the snapshot: a ray through the middle of each pixel, whose
+/// looks are filtered over it, and several where an edge goes through (edges.hpp). Depth and class are those of the
+/// middle. `picture` is made to fit; given again, it is not allocated again. The same bytes whatever the number of
+/// threads.
 void render(const Snapshot& snapshot, const Sky& sky, const RayTable& rays, const urban_nav_core::Pose& T_world_camera,
             Colours colours, Picture& picture);
 

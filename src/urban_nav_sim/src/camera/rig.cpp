@@ -13,7 +13,7 @@ using urban_nav_core::Pose;
 // Of the New College data set (Smith et al. 2009).
 constexpr double kFocal = 389.956085, kCentreU = 254.903519, kCentreV = 201.899490, kBaseline = 0.120005;
 
-CameraInfo infoOf(const Lens& lens) {
+CameraInfo toCameraInfo(const Lens& lens) {
   CameraInfo info;
   info.width = lens.width;
   info.height = lens.height;
@@ -31,13 +31,13 @@ Camera stereoCamera(const Lens& raw, const Eigen::Matrix3d& R_rectified_raw, dou
   if (images == StereoImages::Rectified) {
     camera.lens = rectified;
     camera.T_head_camera = Pose(Eigen::Quaterniond::Identity(), place);
-    camera.info = infoOf(rectified);
+    camera.info = toCameraInfo(rectified);
   } else {
     camera.lens = raw;
     camera.T_head_camera = Pose(R_rectified_raw, place);
-    camera.info = infoOf(raw);
+    camera.info = toCameraInfo(raw);
     camera.info.R = R_rectified_raw;
-    camera.info.P.leftCols<3>() = infoOf(rectified).K;
+    camera.info.P.leftCols<3>() = toCameraInfo(rectified).K;
   }
   camera.info.P(0, 3) = -kFocal * x;
   return camera;
@@ -71,7 +71,7 @@ std::array<Camera, 5> ladybug() {
     const Eigen::Quaterniond yaw(Eigen::AngleAxisd(-2.0 * M_PI / 5.0 * i, Eigen::Vector3d::UnitZ()));
     camera.T_head_camera = Pose(Eigen::Matrix3d(yaw.toRotationMatrix() * R_forward_optical),
                                 Eigen::Vector3d(yaw * Eigen::Vector3d(kRadius, 0.0, 0.0)));
-    camera.info = infoOf(camera.lens);
+    camera.info = toCameraInfo(camera.lens);
   }
   return cameras;
 }

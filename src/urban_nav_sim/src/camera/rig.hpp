@@ -20,7 +20,7 @@ struct Camera {
 enum class StereoImages { Raw, Rectified };
 
 /// The Bumblebee2 of the New College data set at 512x384 (Smith et al. 2009), left and right; the head's frame is
-/// `stereo_left_optical_frame`. The lenses behind the raw images are of our making, like those of a real head's factory
+/// `stereo_left_optical_frame`. The lenses of the raw images are invented, like those of a real head's factory
 /// calibration (its factory calibration): corners drawn in to 0.85 of their distance, imagers turned by some tenths of
 /// a degree.
 std::array<Camera, 2> bumblebee(StereoImages images);

@@ -15,7 +15,7 @@ constexpr unsigned kSurface = 1, kShadow = 2, kBits = 3;
 constexpr int kRight = 0, kLowerLeft = 2, kBelow = 4, kLowerRight = 6;
 
 bool isLeaf(const Tracer& tracer, std::uint32_t facet) {
-  return tracer.partOf(tracer.facets()[facet]).surface_class == SurfaceClass::Foliage;
+  return tracer.partIndex(tracer.facets()[facet]).surface_class == SurfaceClass::Foliage;
 }
 
 unsigned seam(const Tracer& tracer, const Traces& traces, std::size_t a, std::size_t b) {

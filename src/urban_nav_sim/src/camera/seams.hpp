@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "trace/tracer.hpp"
+#include "ray_tracing/tracer.hpp"
 
 namespace urban_nav_sim {
 
@@ -14,7 +14,8 @@ struct Met {
   std::uint32_t mover = kNothing;  ///< of World::movers, or kNothing
 };
 
-/// Are they one surface? Facets of one plane are, or of a gentle bend, and so are leaves of a tree, or a pixel of them would be looked at eight times.
+/// Are they one surface? Facets of one plane are, or of a gentle bend, and so are leaves of a tree, or a pixel of them
+/// would be looked at eight times.
 bool areSame(const Tracer& tracer, const Met& a, const Met& b);
 
 /// What the ray through the middle of each pixel met, row by row.

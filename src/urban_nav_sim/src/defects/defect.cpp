@@ -32,13 +32,13 @@ constexpr std::array<std::pair<Defect, const char*>, 16> names = {{{Defect::Nois
                                                                    {Defect::Jitter, "jitter"},
                                                                    {Defect::Clock, "clock"}}};
 
-std::string nameOf(Defect defect) {
+std::string surfaceClassName(Defect defect) {
   return std::find_if(names.begin(), names.end(), [defect](const auto& each) { return each.first == defect; })->second;
 }
 
 bool isUsual(Defect defect) { return defect != Defect::Lens && defect != Defect::Offset && defect != Defect::Clock; }
 
-std::vector<Defect> defectsOf(Sensor sensor) {
+std::vector<Defect> availableDefects(Sensor sensor) {
   std::vector<Defect> defects;
   switch (sensor) {
     case Sensor::Stereo:
@@ -56,9 +56,9 @@ std::vector<Defect> defectsOf(Sensor sensor) {
   return defects;
 }
 
-std::string listOf(Sensor sensor) {
+std::string listDefects(Sensor sensor) {
   std::string list;
-  for (const Defect defect : defectsOf(sensor)) list += (list.empty() ? "" : ", ") + nameOf(defect);
+  for (const Defect defect : availableDefects(sensor)) list += (list.empty() ? "" : ", ") + surfaceClassName(defect);
   return list;
 }
 
@@ -71,19 +71,19 @@ std::vector<std::pair<Sensor, Defect>> parse(const std::string& word, const std:
                                                 : std::vector<Sensor>{parseSensor(of, where)};
   std::vector<std::pair<Sensor, Defect>> meant;
   for (const Sensor sensor : sensors)
-    for (const Defect defect : defectsOf(sensor))
-      if (name == any ? isUsual(defect) : name == nameOf(defect)) meant.emplace_back(sensor, defect);
+    for (const Defect defect : availableDefects(sensor))
+      if (name == any ? isUsual(defect) : name == surfaceClassName(defect)) meant.emplace_back(sensor, defect);
   if (!meant.empty()) return meant;
   std::string list;
   for (const auto& each : names) list += (list.empty() ? "" : ", ") + std::string(each.second);
-  throw UserError(where, "defect \"" + word + "\"", of == any ? list : listOf(sensors.front()));
+  throw UserError(where, "defect \"" + word + "\"", of == any ? list : listDefects(sensors.front()));
 }
 
 }  // namespace
 
 Defects::Defects() {
   for (const Sensor sensor : all_sensors)
-    for (const Defect defect : defectsOf(sensor))
+    for (const Defect defect : availableDefects(sensor))
       if (isUsual(defect)) on_.emplace(sensor, defect);
 }
 
@@ -100,7 +100,7 @@ std::string defectHelp() {
   for (const Sensor sensor : all_sensors) {
     std::string name = toString(sensor);
     name.resize(9, ' ');
-    text += "  " + name + listOf(sensor) + "\n";
+    text += "  " + name + listDefects(sensor) + "\n";
   }
   return text;
 }

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "faults/spoil.hpp"
+#include "faults/fault_injection.hpp"
 #include "noise/hash.hpp"
 
 namespace urban_nav_sim {
@@ -27,7 +27,7 @@ struct Origin {
   std::optional<Sensor> operator()(const ViewTruth&) const { return std::nullopt; }
 };
 
-int partOf(const Measurement& measurement) {
+int partIndex(const Measurement& measurement) {
   if (const auto* image = std::get_if<LadybugMeasurement>(&measurement)) return image->camera;
   if (const auto* turn = std::get_if<LaserMeasurement>(&measurement)) return static_cast<int>(turn->side);
   return 0;
@@ -61,7 +61,7 @@ void FaultFilter::spoil(const Fault& fault, const Stream& stream, Measurement& m
 std::optional<Measurement> FaultFilter::apply(Measurement measurement, StampNs taken) {
   const std::optional<Sensor> sensor = std::visit(Origin(), measurement);
   if (!sensor || faults_.empty()) return measurement;
-  const Stream stream(*sensor, partOf(measurement));
+  const Stream stream(*sensor, partIndex(measurement));
   const double t = 1e-9 * static_cast<double>(taken - begin_);
   ++count_;
   bool spoilt = false;
@@ -69,7 +69,7 @@ std::optional<Measurement> FaultFilter::apply(Measurement measurement, StampNs t
     if (fault.sensor != *sensor || !fault.isActive(t)) continue;
     if (fault.kind == FaultKind::Unplug) return std::nullopt;
     if (fault.kind == FaultKind::Drop) {
-      if (uniformOf(hash(seed_, count_, 1)) < fault.value.value_or(default_drop)) return std::nullopt;
+      if (toUniform(hash(seed_, count_, 1)) < fault.value.value_or(default_drop)) return std::nullopt;
       continue;
     }
     spoil(fault, stream, measurement);

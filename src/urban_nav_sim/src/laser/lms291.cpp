@@ -34,7 +34,7 @@ constexpr int kRaysOfBeam = 5,
               kBeamsOfPacket = kLanes / kRaysOfBeam;  // the middle of the beam, and four places around it
 
 /// Towards the ray of a beam's footprint, laser's frame; the outer ones lie at half the radius.
-Vector3d rayOf(int beam, int ray) {
+Vector3d beamRay(int beam, int ray) {
   const double angle = -M_PI / 4.0 + kBeamStep * beam, off = kDivergence / 4.0;
   const double up = ray == 1 ? off : ray == 2 ? -off : 0.0, aside = ray == 3 ? off : ray == 4 ? -off : 0.0;
   return {std::cos(angle) - aside * std::sin(angle), std::sin(angle) + aside * std::cos(angle), up};
@@ -42,7 +42,7 @@ Vector3d rayOf(int beam, int ray) {
 
 /// The echo's value as the log has it: path at 1-1.5 m 37-54, walls at 3.5-5.5 m 53-80; the optics lose light near by,
 /// distance takes it from 8 m on (Smith et al. 2009; data sheet of the LMS291).
-double intensityOf(double strength, double range) {
+double computeIntensity(double strength, double range) {
   const double optics = range / (range + 0.5), distance = range > 8.0 ? 8.0 / range : 1.0;
   return 190.0 * std::pow(std::max(strength, 0.0), 0.85) * optics * distance;
 }
@@ -98,7 +98,7 @@ Lms291::Reading Lms291::measured(const Footprint& footprint, const Noise& noise,
   double shown = echo.range + bias_ + settings_.systematic_error + sigma * noise.of("range").normal(counter);
   if (settings_.step > 0.0) shown = std::round(shown / settings_.step) * settings_.step;
   if (!(shown > 0.0 && shown < settings_.range_max)) return {};
-  double intensity = intensityOf(echo.strength, echo.range);
+  double intensity = computeIntensity(echo.strength, echo.range);
   if (settings_.sigma > 0.0) intensity *= 1.0 + 0.04 * noise.of("intensity").normal(counter);
   if (settings_.step > 0.0) intensity = std::round(intensity);
   return {shown, std::clamp(intensity, 1.0, 255.0)};
@@ -111,12 +111,12 @@ Lms291::Footprint Lms291::echoes(const Snapshot& snapshot, const Packet& packet,
     const int lane = first_lane + ray;
     if (hits.facet[lane] == kNothing) continue;
     // The look is taken over the width of the beam.
-    const Vector3f direction = packet.directionOf(lane);
+    const Vector3f direction = packet.beamDirection(lane);
     const float angle =
         static_cast<float>(kDivergence) + static_cast<float>(kExit) / std::max(0.1F, hits.distance[lane]);
     const Vector3f aside = direction.unitOrthogonal(), along = direction.cross(aside);
     const SurfacePoint point = snapshot.surfaceAt(hits, lane, packet, angle * aside, angle * along);
-    const Look look = lookAt(*point.material, point.spot);
+    const Appearance look = lookAt(*point.material, point.spot);
     const float cosine = std::abs(point.normal.dot(direction.normalized()));
     Echo& echo = footprint[static_cast<std::size_t>(ray)];
     echo.range = point.distance;
@@ -128,8 +128,8 @@ Lms291::Footprint Lms291::echoes(const Snapshot& snapshot, const Packet& packet,
   return footprint;
 }
 
-urban_nav_core::PlanarScan Lms291::scan(const Ride& ride, double t, urban_nav_core::StampNs stamp, std::uint64_t number,
-                                        std::vector<BeamTruth>* truth) const {
+urban_nav_core::PlanarScan Lms291::scan(const Motion& motion, double t, urban_nav_core::StampNs stamp,
+                                        std::uint64_t number, std::vector<BeamTruth>* truth) const {
   urban_nav_core::PlanarScan scan;
   scan.stamp = stamp;
   scan.angle_first = -M_PI / 4.0;
@@ -146,11 +146,11 @@ urban_nav_core::PlanarScan Lms291::scan(const Ride& ride, double t, urban_nav_co
     Packet packet{};
     for (int i = 0; i < beams; ++i) {
       const int beam = first + i;
-      const Pose T_world_laser = ride.at(t + scan.time_step * beam).T_world_base * T_base_laser_;
+      const Pose T_world_laser = motion.at(t + scan.time_step * beam).T_world_base * T_base_laser_;
       for (int ray = 0; ray < kRaysOfBeam; ++ray) {
         const int lane = i * kRaysOfBeam + ray;
         packet.setOrigin(lane, T_world_laser.t().cast<float>());
-        packet.setDirection(lane, (T_world_laser.q() * rayOf(beam, ray)).cast<float>());
+        packet.setDirection(lane, (T_world_laser.q() * beamRay(beam, ray)).cast<float>());
         packet.far[lane] = kFarRange;
         packet.time[lane] = static_cast<float>(beam) / (kBeams - 1);
         packet.active |= 1U << lane;

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "motion/motion.hpp"
 #include "noise/noise.hpp"
-#include "ride/ride.hpp"
-#include "trace/tracer.hpp"
+#include "ray_tracing/tracer.hpp"
 #include "urban_nav_core/laser/scan.hpp"
 
 namespace urban_nav_sim {
@@ -19,9 +19,9 @@ struct BeamTruth {
   SurfaceClass surface_class = SurfaceClass::Other;
 };
 
-/// A SICK LMS291-S14 (Telegram listing and data sheet of SICK): 181 beams of 0.5 deg in one turn of 13.338 ms, each at its own time.
-/// Frame: x along beam 90 (the middle one), scan plane x-y, beams from -45 to 45 deg. Immutable, so thread-safe; the tracer
-/// must outlive it.
+/// A SICK LMS291-S14 (Telegram listing and data sheet of SICK): 181 beams of 0.5 deg in one turn of 13.338 ms, each at
+/// its own time. Frame: x along beam 90 (the middle one), scan plane x-y, beams from -45 to 45 deg. Immutable, so
+/// thread-safe; the tracer must outlive it.
 class Lms291 {
  public:
   static constexpr int kBeams = 181;
@@ -32,7 +32,7 @@ class Lms291 {
     double systematic_error = 0.0;  ///< m, added to every range; the data sheet's fault: 0.035
     double step = 1e-3;             ///< m; 0: none, nor of intensities
     double range_max = 32.7;        ///< m: 15 bits of millimetres (1.4 there)
-    bool mixes = true;              ///< echoes of what lies behind an edge draw a beam backwards
+    bool mixes = true;              ///< echoes from the surface beyond a depth edge lengthen the measured range
     bool loses = true;              ///< weak echoes are lost
 
     /// Without noise, bias, steps, mixed pixels and losses.
@@ -45,7 +45,7 @@ class Lms291 {
 
   /// The turn whose first beam is at `t` (s of the session), the `number`-th of this device. `stamp` is passed on.
   /// Beams without return have infinite range and no intensity. `truth`, if not null: what each beam met.
-  urban_nav_core::PlanarScan scan(const Ride& ride, double t, urban_nav_core::StampNs stamp, std::uint64_t number,
+  urban_nav_core::PlanarScan scan(const Motion& motion, double t, urban_nav_core::StampNs stamp, std::uint64_t number,
                                   std::vector<BeamTruth>* truth = nullptr) const;
   double bias() const { return bias_; }  ///< m
 

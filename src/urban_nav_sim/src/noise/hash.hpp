@@ -21,11 +21,11 @@ std::uint64_t hash(std::uint64_t x, std::uint64_t y, More... more) {
 }
 
 /// 0 <= u < 1, of the upper 53 bits.
-inline double uniformOf(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1.0p-53; }
+inline double toUniform(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1.0p-53; }
 
 /// Mean 0, variance 1: Box and Muller of the number and its successor in the stream.
-inline double normalOf(std::uint64_t bits) {
-  const double u = 1.0 - uniformOf(bits), v = uniformOf(hash(bits));
+inline double toNormal(std::uint64_t bits) {
+  const double u = 1.0 - toUniform(bits), v = toUniform(hash(bits));
   return std::sqrt(-2.0 * std::log(u)) * std::cos(6.283185307179586 * v);
 }
 
@@ -34,9 +34,9 @@ class Draw {
  public:
   explicit Draw(std::uint64_t seed) : seed_(seed) {}
   std::uint64_t bits() { return hash(seed_, count_++); }
-  double uniform() { return uniformOf(bits()); }
+  double uniform() { return toUniform(bits()); }
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
-  double normal() { return normalOf(bits()); }
+  double normal() { return toNormal(bits()); }
   /// 0 ... n - 1
   int index(int n) { return static_cast<int>(uniform() * n); }
   bool chance(double probability) { return uniform() < probability; }

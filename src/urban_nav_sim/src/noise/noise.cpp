@@ -10,7 +10,7 @@ namespace {
 constexpr std::uint64_t kGolden = 0x9e3779b97f4a7c15U;  // 2^64 over the golden ratio, odd
 
 // FNV-1a (Fowler, Noll, Vo).
-std::uint64_t hashOf(std::string_view name) {
+std::uint64_t hashName(std::string_view name) {
   std::uint64_t hash = 0xcbf29ce484222325U;
   for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
   return hash;
@@ -59,10 +59,10 @@ Noise::Noise(std::uint64_t seed, std::uint64_t number)
   if (changesOfBits(step_) < 24) step_ ^= 0xaaaaaaaaaaaaaaaaU;
 }
 
-Noise::Noise(std::uint64_t seed, std::string_view name) : Noise(seed, hashOf(name)) {}
+Noise::Noise(std::uint64_t seed, std::string_view name) : Noise(seed, hashName(name)) {}
 
 Noise Noise::of(std::uint64_t number) const { return Noise(start_ ^ step_, number); }
-Noise Noise::of(std::string_view name) const { return Noise(start_ ^ step_, hashOf(name)); }
+Noise Noise::of(std::string_view name) const { return Noise(start_ ^ step_, hashName(name)); }
 
 Eigen::Vector3d Noise::normal3(std::uint64_t counter) const {
   const Noise three = of(counter);

@@ -7,12 +7,12 @@
 
 namespace urban_nav_sim {
 
-/// Mean 0, variance 1, normal to the resolution of 32 bits: |value| at most 6.8 (Box and Muller 1958, one of the two), of
-/// 64 even bits.
+/// Mean 0, variance 1, normal to the resolution of 32 bits: |value| at most 6.8 (Box and Muller 1958, one of the two),
+/// of 64 even bits.
 double normalFrom(std::uint64_t bits);
 
 /// A stream of random numbers as a function of a counter: no state, so any thread may ask for any number in any order,
-/// and asking twice gives the same. Streams are told apart by a seed and a name (or number); those of one seed are
+/// and asking twice gives the same. Streams are distinguished by a seed and a name (or number); those of one seed are
 /// independent of each other. Only whole numbers and + - * / sqrt on doubles are used, never a function of libm, so the
 /// bits are the same on every machine.
 ///

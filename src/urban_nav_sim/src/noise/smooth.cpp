@@ -16,7 +16,7 @@ std::array<double, 4> cubicWeights(double f) {
           f * f * f / 6.0};
 }
 
-std::uint64_t counterOf(std::int64_t cell) { return static_cast<std::uint64_t>(cell + (std::int64_t{1} << 31)); }
+std::uint64_t toCounter(std::int64_t cell) { return static_cast<std::uint64_t>(cell + (std::int64_t{1} << 31)); }
 
 }  // namespace
 
@@ -24,7 +24,7 @@ double smoothNoise(const Noise& noise, double x) {
   const auto cell = static_cast<std::int64_t>(std::floor(x));
   const auto weights = cubicWeights(x - static_cast<double>(cell));
   double sum = 0.0;
-  for (std::size_t i = 0; i < 4; ++i) sum += weights[i] * noise.normal(counterOf(cell - 1 + static_cast<int>(i)));
+  for (std::size_t i = 0; i < 4; ++i) sum += weights[i] * noise.normal(toCounter(cell - 1 + static_cast<int>(i)));
   return sum * kToUnitVariance;
 }
 
@@ -33,9 +33,9 @@ double smoothNoise(const Noise& noise, double x, double y) {
   const auto across = cubicWeights(x - static_cast<double>(column)), up = cubicWeights(y - static_cast<double>(row));
   double sum = 0.0;
   for (std::size_t j = 0; j < 4; ++j) {
-    const std::uint64_t start = counterOf(row - 1 + static_cast<int>(j)) << 32;
+    const std::uint64_t start = toCounter(row - 1 + static_cast<int>(j)) << 32;
     for (std::size_t i = 0; i < 4; ++i) {
-      sum += up[j] * across[i] * noise.normal(start + counterOf(column - 1 + static_cast<int>(i)));
+      sum += up[j] * across[i] * noise.normal(start + toCounter(column - 1 + static_cast<int>(i)));
     }
   }
   return sum * kToUnitVariance * kToUnitVariance;

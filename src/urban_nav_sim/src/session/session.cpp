@@ -5,13 +5,13 @@
 #include <cmath>
 
 #include "faults/fault_filter.hpp"
-#include "ride/make_ride.hpp"
-#include "rig/places.hpp"
-#include "session/eyes.hpp"
+#include "ground_truth/cloud.hpp"
+#include "ground_truth/truth_files.hpp"
+#include "motion/simulate_drive.hpp"
+#include "rig/sensor_poses.hpp"
+#include "session/optical_sensors.hpp"
 #include "session/settings.hpp"
 #include "session/timeline.hpp"
-#include "truth/cloud.hpp"
-#include "truth/truth_files.hpp"
 #include "urban_nav_core/io/text.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_core/types/frames.hpp"
@@ -43,19 +43,19 @@ const SessionOptions& checked(const SessionOptions& options) {
   return options;
 }
 
-Route routeOf(const SessionOptions& options) {
+Route makeRoute(const SessionOptions& options) {
   std::vector<std::string> names;
-  for (Route& route : routesOf(options.world, options.seed)) {
+  for (Route& route : worldRoutes(options.world, options.seed)) {
     if (route.name == options.route) return std::move(route);
     names.push_back(route.name);
   }
   throw UserError(options.where + "route", options.route, urban_nav_core::joined(names) + " in " + options.world);
 }
 
-RideOptions rideOptions(const SessionOptions& options) {
-  RideOptions made;
+DriveOptions rideOptions(const SessionOptions& options) {
+  DriveOptions made;
   made.duration = options.duration;
-  made.seed = Noise(options.seed, "ride").bits(static_cast<std::uint64_t>(options.day));
+  made.seed = Noise(options.seed, "motion").bits(static_cast<std::uint64_t>(options.day));
   return made;
 }
 
@@ -65,9 +65,9 @@ class Session::Implementation {
  public:
   explicit Implementation(const SessionOptions& options)
       : options_(checked(options)),
-        route_(routeOf(options_)),
+        route_(makeRoute(options_)),
         world_(buildWorld(options_.world, options_.seed, options_.day)),
-        ride_(makeRide(world_, route_, rideOptions(options_))),
+        motion_(simulateDrive(world_, route_, rideOptions(options_))),
         begin_(first_day + (options_.day - 1) * one_day),
         noise_(Noise(options_.seed, "session").of(static_cast<std::uint64_t>(options_.day))),
         timeline_(options_.duration),
@@ -88,16 +88,16 @@ class Session::Implementation {
     return std::nullopt;
   }
 
-  Pose truth(StampNs taken) const { return ride_->at(1e-9 * static_cast<double>(taken - begin_)).T_world_base; }
+  Pose truth(StampNs taken) const { return motion_->at(1e-9 * static_cast<double>(taken - begin_)).T_world_base; }
   StampNs begin() const { return begin_; }
   const SessionOptions& options() const { return options_; }
 
   void writeTruth(const std::string& folder, double false_closures) const {
-    writeTruthFiles(folder, *ride_, truthClock(), clockOf(Sensor::Ladybug), false_closures, options_.seed);
+    writeTruthFiles(folder, *motion_, truthClock(), sensorClock(Sensor::Ladybug), false_closures, options_.seed);
     std::map<Sensor, ClockOptions> clocks;
     for (const Sensor sensor : all_sensors) clocks[sensor] = clockErrors(sensor);
     writeClocks(folder + "/clocks.csv", clocks);
-    writeCloud(folder + "/cloud.ply", world_, *ride_);
+    writeCloud(folder + "/cloud.ply", world_, *motion_);
   }
 
  private:
@@ -105,54 +105,58 @@ class Session::Implementation {
   ClockOptions clockErrors(Sensor sensor) const {
     return clockOptions(options_.defects, sensor, noise_.of("clocks").bits(0));
   }
-  Clock clockOf(Sensor sensor) const { return {begin_, clockErrors(sensor), noise_.of(toString(sensor))}; }
+  Clock sensorClock(Sensor sensor) const { return {begin_, clockErrors(sensor), noise_.of(toString(sensor))}; }
   Clock truthClock() const { return {begin_, ClockOptions(), noise_.of("truth")}; }
 
   void addTruth() {
     timeline_.add(truthSchedule(), [this, clock = truthClock()](std::int64_t k) {
       const double t = truthSchedule().at(k);
-      return std::vector<Measurement>{TruthMeasurement{clock.stamp(k, t), ride_->at(t).T_world_base}};
+      return std::vector<Measurement>{TruthMeasurement{clock.stamp(k, t), motion_->at(t).T_world_base}};
     });
   }
 
   void addImu() {
-    imu_.emplace(*ride_, placeOf(urban_nav_core::frames::imu), imuOptions(options_.defects), clockOf(Sensor::Imu),
-                 noise_.of("imu errors"));
-    timeline_.add(scheduleOf(Sensor::Imu), [this](std::int64_t k) { return std::vector<Measurement>{imu_->at(k)}; });
+    imu_.emplace(*motion_, sensorPose(urban_nav_core::frames::imu), imuOptions(options_.defects),
+                 sensorClock(Sensor::Imu), noise_.of("imu errors"));
+    timeline_.add(sensorSchedule(Sensor::Imu),
+                  [this](std::int64_t k) { return std::vector<Measurement>{imu_->at(k)}; });
   }
 
   void addWheels() {
-    wheels_.emplace(*ride_, wheelOptions(options_.defects), clockOf(Sensor::Wheels), noise_.of("wheel errors"));
-    timeline_.add(scheduleOf(Sensor::Wheels), [this](std::int64_t k) {
+    wheels_.emplace(*motion_, wheelOptions(options_.defects), sensorClock(Sensor::Wheels), noise_.of("wheel errors"));
+    timeline_.add(sensorSchedule(Sensor::Wheels), [this](std::int64_t k) {
       return k < wheels_->count() ? std::vector<Measurement>{wheels_->at(k)} : std::vector<Measurement>();
     });
   }
 
   void addGps() {
-    gps_.emplace(*ride_, placeOf(urban_nav_core::frames::gps), gpsOptions(options_.defects), clockOf(Sensor::Gps),
-                 noise_.of("gps errors"));
-    timeline_.add(scheduleOf(Sensor::Gps), [this](std::int64_t k) { return std::vector<Measurement>{gps_->at(k)}; });
+    gps_.emplace(*motion_, sensorPose(urban_nav_core::frames::gps), gpsOptions(options_.defects),
+                 sensorClock(Sensor::Gps), noise_.of("gps errors"));
+    timeline_.add(sensorSchedule(Sensor::Gps),
+                  [this](std::int64_t k) { return std::vector<Measurement>{gps_->at(k)}; });
   }
 
   void addEyes() {
-    eyes_ = std::make_unique<Eyes>(world_, *ride_, noise_, options_.defects, options_.views);
+    optical_sensors_ = std::make_unique<OpticalSensors>(world_, *motion_, noise_, options_.defects, options_.views);
     if (has(Sensor::Lasers))
       for (const Side side : {Side::Left, Side::Right})
-        timeline_.add(laserSchedule(side), [this, side, clock = clockOf(Sensor::Lasers)](std::int64_t k) {
-          return eyes_->laser(side, k, clock);
+        timeline_.add(laserSchedule(side), [this, side, clock = sensorClock(Sensor::Lasers)](std::int64_t k) {
+          return optical_sensors_->laser(side, k, clock);
         });
     if (has(Sensor::Stereo))
-      timeline_.add(scheduleOf(Sensor::Stereo),
-                    [this, clock = clockOf(Sensor::Stereo)](std::int64_t k) { return eyes_->stereo(k, clock); });
+      timeline_.add(sensorSchedule(Sensor::Stereo), [this, clock = sensorClock(Sensor::Stereo)](std::int64_t k) {
+        return optical_sensors_->stereo(k, clock);
+      });
     if (has(Sensor::Ladybug))
-      timeline_.add(scheduleOf(Sensor::Ladybug),
-                    [this, clock = clockOf(Sensor::Ladybug)](std::int64_t k) { return eyes_->panorama(k, clock); });
+      timeline_.add(sensorSchedule(Sensor::Ladybug), [this, clock = sensorClock(Sensor::Ladybug)](std::int64_t k) {
+        return optical_sensors_->panorama(k, clock);
+      });
   }
 
   SessionOptions options_;
   Route route_;
   World world_;
-  std::unique_ptr<Ride> ride_;
+  std::unique_ptr<Motion> motion_;
   StampNs begin_;
   Noise noise_;
   Timeline timeline_;
@@ -160,10 +164,10 @@ class Session::Implementation {
   std::optional<Imu> imu_;
   std::optional<Wheels> wheels_;
   std::optional<Gps> gps_;
-  std::unique_ptr<Eyes> eyes_;
+  std::unique_ptr<OpticalSensors> optical_sensors_;
 };
 
-void checkPlace(const SessionOptions& options) { routeOf(checked(options)); }
+void checkPlace(const SessionOptions& options) { makeRoute(checked(options)); }
 
 Session::Session(const SessionOptions& options) : implementation_(std::make_unique<Implementation>(options)) {}
 Session::~Session() = default;
@@ -172,12 +176,12 @@ std::optional<Session::Arrival> Session::next() { return implementation_->next()
 Pose Session::truth(StampNs taken) const { return implementation_->truth(taken); }
 StampNs Session::begin() const { return implementation_->begin(); }
 double Session::duration() const { return implementation_->options().duration; }
-std::int64_t Session::frames() const { return scheduleOf(Sensor::Stereo).count(duration()); }
+std::int64_t Session::frames() const { return sensorSchedule(Sensor::Stereo).count(duration()); }
 std::map<std::string, Pose> Session::places() const { return sensorPlaces(); }
 urban_nav_core::CameraInfo Session::stereoInfo(Side side) const {
-  return Eyes::stereoInfo(side, implementation_->options().defects);
+  return OpticalSensors::stereoInfo(side, implementation_->options().defects);
 }
-urban_nav_core::CameraInfo Session::ladybugInfo(int camera) const { return Eyes::ladybugInfo(camera); }
+urban_nav_core::CameraInfo Session::ladybugInfo(int camera) const { return OpticalSensors::ladybugInfo(camera); }
 void Session::writeTruth(const std::string& folder, double false_closures) const {
   implementation_->writeTruth(folder, false_closures);
 }
@@ -186,7 +190,7 @@ std::string worldHelp() {
   std::string text = "Worlds and their routes:\n";
   for (const std::string& world : worldNames()) {
     text += "  " + world + "\n";
-    for (const Route& route : routesOf(world, 1)) {
+    for (const Route& route : worldRoutes(world, 1)) {
       std::string name = route.name;
       name.resize(std::max<std::size_t>(name.size() + 1, 14), ' ');
       text += "    " + name + route.summary + "\n";

@@ -3,17 +3,17 @@
 
 #include <cstdint>
 
-#include "body/clock.hpp"
-#include "body/gps.hpp"
-#include "body/imu.hpp"
-#include "body/wheels.hpp"
 #include "camera/heads.hpp"
 #include "laser/lms291.hpp"
+#include "proprioception/clock.hpp"
+#include "proprioception/gps.hpp"
+#include "proprioception/imu.hpp"
+#include "proprioception/wheels.hpp"
 #include "urban_nav_sim/defect.hpp"
 
 namespace urban_nav_sim {
 
-// What the devices have to be told so that they have these defects and no others.
+// Settings that give the devices these defects and no others.
 StereoImages stereoImages(const Defects& defects);
 /// `sensor`: Stereo or Ladybug.
 CameraDefects cameraDefects(const Defects& defects, Sensor sensor);

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "body/schedule.hpp"
+#include "proprioception/schedule.hpp"
 #include "urban_nav_sim/measurement.hpp"
 
 namespace urban_nav_sim {
@@ -17,8 +17,8 @@ class Timeline {
  public:
   explicit Timeline(double duration) : duration_(duration) {}
 
-  /// `measure` gives what the device says the k-th time, none or several measurements. Of devices that are due at once the one added first is asked
-  /// first.
+  /// `measure` gives what the device says the k-th time, none or several measurements. Of devices that are due at once
+  /// the one added first is asked first.
   void add(const Schedule& schedule, std::function<std::vector<Measurement>(std::int64_t k)> measure);
 
   struct Due {

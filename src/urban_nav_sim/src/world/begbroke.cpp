@@ -37,29 +37,29 @@ struct BegbrokePlan {
 void buildPark(Site& site, const BegbrokePlan& p, std::uint32_t seed) {
   Draw draw(hash(seed, 0xB17));
   Style s;
-  s.pitch = 0.45, s.storeys = 2, s.storey = 3.3, s.window = Stuff::ShopWindow, s.window_width = 1.8,
+  s.pitch = 0.45, s.storeys = 2, s.storey = 3.3, s.window = MaterialKind::ShopWindow, s.window_width = 1.8,
   s.window_height = 1.5, s.spacing = 3.0;
-  s.roof.stuff = Stuff::RoofTile, s.irregular = 0.18;
-  const auto house = [&](const Extent& e, Stuff wall, std::uint64_t variant) {
+  s.roof.stuff = MaterialKind::RoofTile, s.irregular = 0.18;
+  const auto house = [&](const Extent& e, MaterialKind wall, std::uint64_t variant) {
     s.seed = draw.bits(), s.wall = {wall, variant, static_cast<std::uint32_t>(draw.index(4000))};
     s.door.variant = variant;
     buildHouse(site, e, s);
   };
   const double x0 = -p.half() + 8.5, x1 = p.half() - 8.5, y0 = 8.5, y1 = p.depth - 8.5;
   s.doors = {6, 5, 6, 4};
-  house({x0, y0, x1, y0 + 9}, Stuff::Brick, 0);
-  house({x0, y1 - 9, x1, y1}, Stuff::Brick, 0);
-  house({x0, y0 + 9, x0 + 10, y1 - 9}, Stuff::Render, 1);
-  s.pitch = 0.0, s.window = Stuff::Casement, s.window_width = 1.2;
-  house({p.half() + 9, p.depth + 8, p.half() + 34, p.depth + 20}, Stuff::Render, 2);
-  house({-p.half() + 2, p.depth + 9, -2, p.depth + 22}, Stuff::Brick, 2);
+  house({x0, y0, x1, y0 + 9}, MaterialKind::Brick, 0);
+  house({x0, y1 - 9, x1, y1}, MaterialKind::Brick, 0);
+  house({x0, y0 + 9, x0 + 10, y1 - 9}, MaterialKind::Render, 1);
+  s.pitch = 0.0, s.window = MaterialKind::Casement, s.window_width = 1.2;
+  house({p.half() + 9, p.depth + 8, p.half() + 34, p.depth + 20}, MaterialKind::Render, 2);
+  house({-p.half() + 2, p.depth + 9, -2, p.depth + 22}, MaterialKind::Brick, 2);
   s.pitch = 0.7, s.storeys = 3;
-  house({4, p.depth + 8, p.half() - 2, p.depth + 19}, Stuff::Rubble, 1);
+  house({4, p.depth + 8, p.half() - 2, p.depth + 19}, MaterialKind::Rubble, 1);
   s.storeys = 2;
-  house({-p.half() - 46, 6, -p.half() - 34, p.depth - 6}, Stuff::DarkBrick, 1);
-  house({-p.half() + 4, -42, 6, -31}, Stuff::Render, 3);
-  house({p.half() - 2, -34, p.half() + 22, -22}, Stuff::Brick, 1);
-  house({p.half() + 50, 2, p.half() + 62, 34}, Stuff::Render, 0);
+  house({-p.half() - 46, 6, -p.half() - 34, p.depth - 6}, MaterialKind::DarkBrick, 1);
+  house({-p.half() + 4, -42, 6, -31}, MaterialKind::Render, 3);
+  house({p.half() - 2, -34, p.half() + 22, -22}, MaterialKind::Brick, 1);
+  house({p.half() + 50, 2, p.half() + 62, 34}, MaterialKind::Render, 0);
 }
 
 void plantPark(Site& site, const BegbrokePlan& p, std::uint32_t seed) {
@@ -70,7 +70,7 @@ void plantPark(Site& site, const BegbrokePlan& p, std::uint32_t seed) {
     for (const double y : {6.9, p.depth - 6.9}) {
       if (draw.chance(0.6))
         plantHedge(site, {x, y}, {x + draw.uniform(1, 5), y}, 0.8, draw.uniform(0.5, 1.2),
-                   draw.chance(0.3) ? Stuff::Flowers : Stuff::Shrub, draw.bits());
+                   draw.chance(0.3) ? MaterialKind::Flowers : MaterialKind::Shrub, draw.bits());
     }
   }
   for (int i = 0; i < 3; ++i)
@@ -86,18 +86,18 @@ void plantPark(Site& site, const BegbrokePlan& p, std::uint32_t seed) {
     if (draw.chance(0.6)) plantTree(site, x, y, height, draw.bits());
     else
       plantHedge(site, {x, y}, {x + 0.7, y + draw.uniform(0.5, 0.9)}, draw.uniform(0.8, 1.5), draw.uniform(0.7, 1.5),
-                 Stuff::Shrub, draw.bits());
+                 MaterialKind::Shrub, draw.bits());
     ++planted;
   }
   const Extent park = p.carPark(), south = p.southPark();
-  plantHedge(site, {park.x0 - 1.2, park.y0}, {park.x0 - 1.2, park.y1}, 1.0, 1.3, Stuff::Hedge, draw.bits());
-  plantHedge(site, {south.x0, south.y0 - 1.2}, {south.x1, south.y0 - 1.2}, 1.0, 1.5, Stuff::Hedge, draw.bits());
+  plantHedge(site, {park.x0 - 1.2, park.y0}, {park.x0 - 1.2, park.y1}, 1.0, 1.3, MaterialKind::Hedge, draw.bits());
+  plantHedge(site, {south.x0, south.y0 - 1.2}, {south.x1, south.y0 - 1.2}, 1.0, 1.5, MaterialKind::Hedge, draw.bits());
   for (const double x : {-w - 2.5, -w + 26.0}) plantTree(site, x, p.depth + 6.5, draw.uniform(5, 7), draw.bits());
   placeBench(site, w + 30, 8.5, 0.6), placeBench(site, w + 32, 28.0, 2.4), placeBin(site, w + 7, -4.8);
 }
 
 void paintBays(Site& site, const BegbrokePlan& p) {
-  const Finish paint{Stuff::RoadPaint, 0, 2}, kerb{Stuff::Kerb, 0, 1};
+  const Finish paint{MaterialKind::RoadPaint, 0, 2}, kerb{MaterialKind::Kerb, 0, 1};
   const double above = 0.0015;
   const Extent a = p.carPark(), b = p.southPark();
   for (double y = a.y0 + 1; y < a.y1; y += 2.6) {
@@ -161,21 +161,21 @@ World buildBegbroke(std::uint32_t seed, int day) {
     return std::min(strewn(x, y), kHalfRoad - 0.4 - distanceTo(p.ring, x, y));
   };
   layGround(site, all,
-            {{{Stuff::Asphalt, 2, 5}, mended},
-             {{Stuff::Asphalt, 0, 1}, [&](double x, double y) { return kHalfRoad - distanceTo(p.ring, x, y); }},
-             {{Stuff::Asphalt, 1, 2}, [&](double x, double y) { return insideRectangle(park, 1.0, x, y); }},
-             {{Stuff::Asphalt, 1, 2}, [&](double x, double y) { return insideRectangle(south, 1.0, x, y); }},
-             {{Stuff::Soil, 0, 1}, [&](double x, double y) { return 1.3 - distanceTo(p.footpath, x, y); }},
-             {{Stuff::Slabs, 0, 1},
+            {{{MaterialKind::Asphalt, 2, 5}, mended},
+             {{MaterialKind::Asphalt, 0, 1}, [&](double x, double y) { return kHalfRoad - distanceTo(p.ring, x, y); }},
+             {{MaterialKind::Asphalt, 1, 2}, [&](double x, double y) { return insideRectangle(park, 1.0, x, y); }},
+             {{MaterialKind::Asphalt, 1, 2}, [&](double x, double y) { return insideRectangle(south, 1.0, x, y); }},
+             {{MaterialKind::Soil, 0, 1}, [&](double x, double y) { return 1.3 - distanceTo(p.footpath, x, y); }},
+             {{MaterialKind::Slabs, 0, 1},
               [&](double x, double y) {
                 return insideRectangle({-w + 6.9, 6.9, w - 6.9, p.depth - 6.9}, 0.3, x, y);
               }},
-             {{Stuff::Lawn, 0, 1},
+             {{MaterialKind::Lawn, 0, 1},
               [&](double x, double y) {
                 return insideRectangle({-w, 0, w, p.depth}, 0.0, x, y);
               }},
-             {{Stuff::Meadow, 0, 1}, nullptr}});
-  laySurroundings(site, all, 80.0, {Stuff::Meadow, 1, 2});
+             {{MaterialKind::Meadow, 0, 1}, nullptr}});
+  laySurroundings(site, all, 80.0, {MaterialKind::Meadow, 1, 2});
   buildPark(site, p, seed);
   plantPark(site, p, seed);
   const double x0 = all.x0 + 2, x1 = all.x1 - 2, y0 = all.y0 + 2, y1 = all.y1 - 3;

@@ -29,7 +29,7 @@ void fillOpening(Site& site, const Finish& trim, const WallFrame& f, const Openi
   site.quad(trim, at(o.u1, o.v0, d), at(o.u1, o.v0, 0), at(o.u1, o.v1, 0), at(o.u1, o.v1, d));
   site.quad(trim, at(o.u0, o.v1, d), at(o.u1, o.v1, d), at(o.u1, o.v1, 0), at(o.u0, o.v1, 0));
   site.quad(trim, at(o.u0, o.v0, 0), at(o.u1, o.v0, 0), at(o.u1, o.v0, d), at(o.u0, o.v0, d));
-  const bool door = o.filling.stuff == Stuff::Door;
+  const bool door = o.filling.stuff == MaterialKind::Door;
   if (door) {
     site.quad(o.filling, at(o.u0, o.v0, d), at(o.u1, o.v0, d), at(o.u1, o.v1, d), at(o.u0, o.v1, d));
   } else {
@@ -47,7 +47,7 @@ void fillOpening(Site& site, const Finish& trim, const WallFrame& f, const Openi
   }
 }
 
-std::vector<Opening> baysOf(const Style& s, std::size_t side, double length, double floor) {
+std::vector<Opening> placeBays(const Style& s, std::size_t side, double length, double floor) {
   std::vector<Opening> result;
   const int bays = static_cast<int>((length - 0.8) / s.spacing);
   if (bays < 1) return result;
@@ -59,8 +59,12 @@ std::vector<Opening> baysOf(const Style& s, std::size_t side, double length, dou
       const auto variant = static_cast<std::uint64_t>(draw.index(3));
       const auto seed = static_cast<std::uint32_t>(draw.index(1000));
       if (storey == 0 && s.doors[side] > 0 && bay % s.doors[side] == s.doors[side] / 2) {
-        result.push_back(
-            {middle - 0.6, middle + 0.6, low + 0.02, low + 2.35, 0.3, {Stuff::Door, s.door.variant + variant, seed}});
+        result.push_back({middle - 0.6,
+                          middle + 0.6,
+                          low + 0.02,
+                          low + 2.35,
+                          0.3,
+                          {MaterialKind::Door, s.door.variant + variant, seed}});
       } else if (s.windows[side] && !draw.chance(s.irregular)) {
         const double half = 0.5 * s.window_width;
         result.push_back({middle - half,
@@ -141,7 +145,7 @@ void buildHouse(Site& site, const Extent& e, const Style& s) {
     const Vector2d along = way / length;
     Finish wall = s.wall;
     wall.seed += static_cast<std::uint32_t>(17 * side);
-    const std::vector<Opening> openings = baysOf(s, side, length, floor);
+    const std::vector<Opening> openings = placeBays(s, side, length, floor);
     buildWall(site, wall, s.trim, start, along, length, floor - 2.0, eaves, openings);
     const WallFrame f{{start.x(), start.y(), 0}, {along.x(), along.y(), 0}};
     const auto bandPiece = [&](double u0, double u1, double v, double height, double out) {
@@ -153,7 +157,7 @@ void buildHouse(Site& site, const Extent& e, const Style& s) {
     const auto band = [&](double v, double height, double out) { bandPiece(-out, length + out, v, height, out); };
     double from = -0.06;  // the plinth, which ends where doors are
     for (const Opening& o : openings) {
-      if (o.filling.stuff != Stuff::Door) continue;
+      if (o.filling.stuff != MaterialKind::Door) continue;
       bandPiece(from, o.u0 - 0.14, floor + 0.25, 0.15, 0.06);
       from = o.u1 + 0.14;
     }

@@ -15,15 +15,16 @@ struct Opening {
   Finish filling;
 };
 
-/// A wall from `start` along a direction, from z = `low` to `high`, seen from its right; with reveals, sills and fillings.
+/// A wall from `start` along a direction, from z = `low` to `high`, seen from its right; with reveals, sills and
+/// fillings.
 void buildWall(Site& site, const Finish& finish, const Finish& trim, const Eigen::Vector2d& start,
                const Eigen::Vector2d& along, double length, double low, double high,
                const std::vector<Opening>& openings);
 
 /// How a building looks. Sides are in the order south, east, north, west.
 struct Style {
-  Finish wall, trim{Stuff::Kerb, 1, 0}, roof{Stuff::Slate, 0, 0}, door{Stuff::Door, 0, 0};
-  Stuff window = Stuff::Sash;
+  Finish wall, trim{MaterialKind::Kerb, 1, 0}, roof{MaterialKind::Slate, 0, 0}, door{MaterialKind::Door, 0, 0};
+  MaterialKind window = MaterialKind::Sash;
   int storeys = 2;
   double storey = 3.4, window_width = 1.1, window_height = 1.7, sill = 0.95, spacing = 2.9;  ///< m
   double pitch = 0.7;  ///< of the roof, rise over run; 0: flat with a parapet

@@ -30,8 +30,8 @@ void addCard(Part& part, const Vector3d& centre, double size, Draw& draw) {
 
 void plantTree(Site& site, double x, double y, double height, std::uint64_t seed) {
   Draw draw(hash(seed, 0x72EE));
-  const Finish bark{Stuff::Bark, seed % 2, static_cast<std::uint32_t>(seed % 97)};
-  const Finish leaves{seed % 3 == 0 ? Stuff::SmallLeaves : Stuff::Leaves, seed % 4,
+  const Finish bark{MaterialKind::Bark, seed % 2, static_cast<std::uint32_t>(seed % 97)};
+  const Finish leaves{seed % 3 == 0 ? MaterialKind::SmallLeaves : MaterialKind::Leaves, seed % 4,
                       static_cast<std::uint32_t>(seed % 31)};
   const Vector3d root(x, y, site.ground(x, y) - 0.1),
       fork = root + Vector3d(0.04 * height * draw.normal(), 0.04 * height * draw.normal(), 0.38 * height);
@@ -54,7 +54,7 @@ void plantTree(Site& site, double x, double y, double height, std::uint64_t seed
   }
 }
 
-void plantHedge(Site& site, const Vector2d& from, const Vector2d& to, double width, double height, Stuff stuff,
+void plantHedge(Site& site, const Vector2d& from, const Vector2d& to, double width, double height, MaterialKind stuff,
                 std::uint64_t seed) {
   Draw draw(hash(seed, 0x4ED6));
   const double length = (to - from).norm();
@@ -62,7 +62,7 @@ void plantHedge(Site& site, const Vector2d& from, const Vector2d& to, double wid
   const int n = std::max(2, static_cast<int>(length / 0.3));
   constexpr int kRound = 7;  // points of the profile, from the foot on the right to that on the left
   const Finish finish{stuff, seed % 3, static_cast<std::uint32_t>(seed % 211)},
-      loose{Stuff::SmallLeaves, seed % 4, static_cast<std::uint32_t>(seed % 13)};
+      loose{MaterialKind::SmallLeaves, seed % 4, static_cast<std::uint32_t>(seed % 13)};
   std::vector<std::vector<Vector3d>> rings;
   for (int i = 0; i <= n; ++i) {
     const double ends = std::min(1.0, 0.75 + 0.5 * std::min(i, n - i));
@@ -107,7 +107,7 @@ void plantBelt(Site& site, const std::vector<Vector2d>& line, std::uint64_t seed
       const double length = draw.uniform(5, 11);
       const Vector2d a = line[i] + s * along + draw.uniform(0, 2) * out;
       if (draw.chance(0.85))
-        plantHedge(site, a, a + 0.9 * length * along, 2.0, draw.uniform(1.5, 3.0), Stuff::Shrub, draw.bits());
+        plantHedge(site, a, a + 0.9 * length * along, 2.0, draw.uniform(1.5, 3.0), MaterialKind::Shrub, draw.bits());
       const Vector2d t = a + 3.0 * out + 0.5 * length * along;
       plantTree(site, t.x(), t.y(), draw.uniform(8, 14), draw.bits());
       s += length;

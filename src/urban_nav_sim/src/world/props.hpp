@@ -13,7 +13,7 @@ namespace urban_nav_sim {
 void plantTree(Site& site, double x, double y, double height, std::uint64_t seed);
 /// A clipped hedge along a line, or a shrub where the line is short: rounded, bumpy, with loose leaves at its surface.
 void plantHedge(Site& site, const Eigen::Vector2d& from, const Eigen::Vector2d& to, double width, double height,
-                Stuff stuff, std::uint64_t seed);
+                MaterialKind stuff, std::uint64_t seed);
 /// A belt of trees and undergrowth to the right of a line: what closes the view.
 void plantBelt(Site& site, const std::vector<Eigen::Vector2d>& line, std::uint64_t seed);
 void placeLamp(Site& site, double x, double y, double yaw);
@@ -25,12 +25,12 @@ void makeCar(Site& site, bool van, std::uint64_t seed);
 /// A car that stands on the ground.
 void parkCar(Site& site, double x, double y, double yaw, bool van, std::uint64_t seed);
 
-/// Somebody who walks to and fro along a line at `speed` m/s; `phase` (0 ... 1): where at t = 0.
+/// A pedestrian walking to and fro along a line at `speed` m/s; `phase` (0 ... 1): where at t = 0.
 void sendWalker(Site& site, const std::vector<Eigen::Vector2d>& line, double speed, double phase, std::uint64_t seed);
 /// A car that drives along a line and back; it turns on the spot, so its ends had better be out of sight.
 void sendCar(Site& site, const Eigen::Vector2d& from, const Eigen::Vector2d& to, double speed, double phase,
              std::uint64_t seed);
-/// Cars that drive along a line one behind the other, all at one speed (m/s), again and again. Its ends must be out of sight.
+/// Cars in a row that drive along a line at one speed (m/s), repeatedly. Its ends must be out of sight.
 void sendTraffic(Site& site, const Eigen::Vector2d& from, const Eigen::Vector2d& to, double speed, int cars,
                  Draw& draw);
 

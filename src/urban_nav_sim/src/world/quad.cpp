@@ -57,9 +57,9 @@ struct QuadPlan {
 void buildWings(Site& site, const QuadPlan& p, std::uint32_t seed) {
   Draw draw(hash(seed, 0xB1));
   Style style;
-  style.wall = {Stuff::Ashlar, static_cast<std::uint64_t>(draw.index(4)), 10};
-  style.window = Stuff::Sash, style.spacing = draw.uniform(2.9, 3.4), style.storey = draw.uniform(3.6, 4.1);
-  style.trim = {Stuff::Ashlar, 7, 3};
+  style.wall = {MaterialKind::Ashlar, static_cast<std::uint64_t>(draw.index(4)), 10};
+  style.window = MaterialKind::Sash, style.spacing = draw.uniform(2.9, 3.4), style.storey = draw.uniform(3.6, 4.1);
+  style.trim = {MaterialKind::Ashlar, 7, 3};
   const auto wing = [&](const Extent& e, int variant) {
     style.seed = hash(seed, static_cast<std::uint64_t>(variant));
     style.wall.seed = static_cast<std::uint32_t>(100 * variant);
@@ -72,7 +72,7 @@ void buildWings(Site& site, const QuadPlan& p, std::uint32_t seed) {
   wing({p.west - kWing, p.north, p.east + kWing, p.north + kWing + 2}, 1);
   style.storeys = 2, style.storey += 0.4, style.doors = {0, 4, 0, 0};
   const Style stone = style;
-  style.wall = {Stuff::Render, 1, 7}, style.window = Stuff::Casement;  // one side is plastered
+  style.wall = {MaterialKind::Render, 1, 7}, style.window = MaterialKind::Casement;  // one side is plastered
   wing({p.west - kWing, p.south, p.west, p.north}, 3);
   style = stone;
   style.doors = {0, 0, 0, 5}, style.windows = {false, true, false, true};
@@ -87,7 +87,7 @@ void buildGate(Site& site, const QuadPlan& p) {
   const double radius = 0.5 * kArch, floor = site.ground(p.east + 4, p.gate);
   const double spring = floor + 2.2, low = spring + radius + 0.1, high = floor + 10.8;
   const double x0 = p.east - 0.35, x1 = p.garden + 0.35, y0 = p.gate - radius - 0.6, y1 = p.gate + radius + 0.6;
-  const Finish tower{Stuff::Ashlar, 7, 55};
+  const Finish tower{MaterialKind::Ashlar, 7, 55};
   site.box(tower, {0.5 * (x0 + x1), p.gate, low}, {x1 - x0, y1 - y0, high - low});
   const auto on_arch = [&](double x, int stone, double r) {
     const double angle = M_PI * stone / kStones;
@@ -95,7 +95,7 @@ void buildGate(Site& site, const QuadPlan& p) {
   };
   const auto over = [&](const Vector3d& q) { return Vector3d(q.x(), q.y(), low); };
   for (int i = 0; i < kStones; ++i) {
-    const Finish stone{Stuff::Ashlar, 7, static_cast<std::uint32_t>(60 + i)};
+    const Finish stone{MaterialKind::Ashlar, 7, static_cast<std::uint32_t>(60 + i)};
     site.quad(tower, on_arch(x0, i + 1, radius), on_arch(x1, i + 1, radius), on_arch(x1, i, radius),
               on_arch(x0, i, radius));
     for (const double side : {-1.0, 1.0}) {
@@ -123,12 +123,14 @@ void furnishCourt(Site& site, const QuadPlan& p, std::uint32_t seed) {
   // Beds with shrubs at the feet of the walls, with gaps for the doors.
   for (double x = c.x0 + 3; x < c.x1 - 6; x += draw.uniform(5, 9)) {
     const double end = x + draw.uniform(1.5, 4.0);
-    const Stuff stuff = draw.chance(0.4) ? Stuff::Flowers : draw.chance(0.5) ? Stuff::Shrub : Stuff::Hedge;
+    const MaterialKind stuff = draw.chance(0.4)   ? MaterialKind::Flowers
+                               : draw.chance(0.5) ? MaterialKind::Shrub
+                                                  : MaterialKind::Hedge;
     plantHedge(site, {x, c.y1 - 0.6}, {end, c.y1 - 0.6}, 0.7, draw.uniform(0.5, 1.3), stuff, draw.bits());
   }
   for (double x = c.x0 + 4; x < c.x1 - 6; x += draw.uniform(7, 12))
     plantHedge(site, {x, c.y0 + 0.55}, {x + draw.uniform(1.2, 3), c.y0 + 0.55}, 0.6, draw.uniform(0.4, 0.9),
-               Stuff::Flowers, draw.bits());
+               MaterialKind::Flowers, draw.bits());
   for (const double t : {0.25, 0.75}) {
     placeLamp(site, c.x0 + 0.5, c.y0 + t * (c.y1 - c.y0), 0.0);
     placeBench(site, c.x0 + t * (c.x1 - c.x0), c.y0 + 0.55, M_PI);
@@ -137,9 +139,9 @@ void furnishCourt(Site& site, const QuadPlan& p, std::uint32_t seed) {
   // In the middle of the lawn: a plinth with a sundial, and a tree to one side.
   const Vector2d m(0.5 * (c.x0 + c.x1), 0.5 * (c.y0 + c.y1));
   const Vector3d foot(m.x(), m.y(), site.ground(m.x(), m.y()));
-  site.box({Stuff::Slabs, 0, 9}, foot, {2.4, 2.4, 0.25});
-  site.box({Stuff::Ashlar, 7, 9}, foot + Vector3d(0, 0, 0.25), {0.9, 0.9, 1.1});
-  site.pole({Stuff::Ashlar, 7, 8}, foot + Vector3d(0, 0, 1.35), foot + Vector3d(0, 0, 3.1), 0.28, 0.2, 12);
+  site.box({MaterialKind::Slabs, 0, 9}, foot, {2.4, 2.4, 0.25});
+  site.box({MaterialKind::Ashlar, 7, 9}, foot + Vector3d(0, 0, 0.25), {0.9, 0.9, 1.1});
+  site.pole({MaterialKind::Ashlar, 7, 8}, foot + Vector3d(0, 0, 1.35), foot + Vector3d(0, 0, 3.1), 0.28, 0.2, 12);
   plantTree(site, m.x() - draw.uniform(5, 8), m.y() + draw.uniform(-3, 3), draw.uniform(6, 8), draw.bits());
   placeBin(site, c.x1 - 0.7, c.y0 + 0.7);
 }
@@ -148,7 +150,7 @@ void plantGardens(Site& site, const QuadPlan& p, std::uint32_t seed) {
   Draw draw(hash(seed, 0x6A));
   const Extent g = p.gardens();
   const std::vector<Vector2d> line = p.pathLine();
-  const Finish wall{Stuff::Rubble, 0, 4}, cap{Stuff::Kerb, 1, 4};
+  const Finish wall{MaterialKind::Rubble, 0, 4}, cap{MaterialKind::Kerb, 1, 4};
   const auto garden_wall = [&](const Vector2d& a, const Vector2d& b, double height) {
     layStrip(site, cap, wall, a, b, 0.5, height);
   };
@@ -171,7 +173,8 @@ void plantGardens(Site& site, const QuadPlan& p, std::uint32_t seed) {
     if (b.x() > g.x1 - 1.5 || b.y() > g.y1 - 1.5 || !free(a.x(), a.y(), 2.7) || !free(b.x(), b.y(), 2.7) ||
         !free(0.5 * (a + b).x(), 0.5 * (a + b).y(), 2.7))
       continue;
-    const Stuff stuff = length < 2 ? (draw.chance(0.5) ? Stuff::Flowers : Stuff::Shrub) : Stuff::Hedge;
+    const MaterialKind stuff =
+        length < 2 ? (draw.chance(0.5) ? MaterialKind::Flowers : MaterialKind::Shrub) : MaterialKind::Hedge;
     plantHedge(site, a, b, draw.uniform(0.8, 1.5), draw.uniform(0.6, 1.9), stuff, draw.bits());
     ++planted;
   }
@@ -181,14 +184,14 @@ void plantGardens(Site& site, const QuadPlan& p, std::uint32_t seed) {
     placeBench(site, x, y, draw.uniform(0, 6));
     ++placed;
   }
-  // What rises behind the walls: houses of the town.
+  // Houses of the town, visible above the walls.
   Style town;
   town.storeys = 3, town.spacing = 3.3;
   for (int i = 0; i < 9; ++i) {
     town.seed = draw.bits();
-    town.wall = {draw.chance(0.5) ? Stuff::Brick : Stuff::Render, static_cast<std::uint64_t>(draw.index(4)),
-                 static_cast<std::uint32_t>(300 + 10 * i)};
-    town.roof.stuff = draw.chance(0.5) ? Stuff::RoofTile : Stuff::Slate;
+    town.wall = {draw.chance(0.5) ? MaterialKind::Brick : MaterialKind::Render,
+                 static_cast<std::uint64_t>(draw.index(4)), static_cast<std::uint32_t>(300 + 10 * i)};
+    town.roof.stuff = draw.chance(0.5) ? MaterialKind::RoofTile : MaterialKind::Slate;
     const double x = i < 5 ? g.x0 + 15.0 * i : g.x1 + 7,
                  y = i < 5 ? (i % 2 == 0 ? g.y1 + 6 : g.y0 - 16) : g.y0 + 19.0 * (i - 5), w = draw.uniform(9, 13);
     buildHouse(site, {x, y, x + w, y + 10}, town);
@@ -228,22 +231,22 @@ World buildQuad(std::uint32_t seed, int day) {
   const Extent all{plan.west - 14, plan.gate - 44, plan.garden + 84, plan.gate + 58}, court = plan.court(),
                                                                                       lawn = plan.lawn();
   layGround(site, all,
-            {{{Stuff::Lawn, 0, 1}, [&](double x, double y) { return insideRectangle(lawn, 5.0, x, y); }},
-             {{Stuff::Slabs, 0, 1},
+            {{{MaterialKind::Lawn, 0, 1}, [&](double x, double y) { return insideRectangle(lawn, 5.0, x, y); }},
+             {{MaterialKind::Slabs, 0, 1},
               [&](double x, double y) {
                 return insideRectangle({court.x1 - 1.2, plan.gate - 3, plan.garden + 3, plan.gate + 3}, 0.5, x, y);
               }},
-             {{Stuff::Slabs, 0, 1},
+             {{MaterialKind::Slabs, 0, 1},
               [&](double x, double y) {
                 return insideRectangle({court.x0 - 1, court.y1 - 1.6, court.x1 + 1, court.y1 + 1}, 0.0, x, y);
               }},
-             {{Stuff::Gravel, 0, 1},
+             {{MaterialKind::Gravel, 0, 1},
               [&](double x, double y) {
                 return insideRectangle({court.x0 - 1, court.y0 - 1, court.x1 + 1, court.y1 + 1}, 0.0, x, y);
               }},
-             {{Stuff::Soil, 0, 1}, [&](double x, double y) { return 1.6 - distanceTo(path, x, y); }},
-             {{Stuff::Meadow, 0, 1}, nullptr}});
-  laySurroundings(site, all, 60.0, {Stuff::Meadow, 0, 1});
+             {{MaterialKind::Soil, 0, 1}, [&](double x, double y) { return 1.6 - distanceTo(path, x, y); }},
+             {{MaterialKind::Meadow, 0, 1}, nullptr}});
+  laySurroundings(site, all, 60.0, {MaterialKind::Meadow, 0, 1});
   buildWings(site, plan, seed);
   buildGate(site, plan);
   furnishCourt(site, plan, seed);

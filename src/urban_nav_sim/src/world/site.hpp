@@ -8,14 +8,14 @@
 #include <utility>
 #include <vector>
 
-#include "look/stock.hpp"
+#include "materials/material_library.hpp"
 #include "world/world.hpp"
 
 namespace urban_nav_sim {
 
 /// A look of a thing: which stuff, which colour of it, and what tells it from its like.
 struct Finish {
-  Stuff stuff = Stuff::Render;
+  MaterialKind stuff = MaterialKind::Render;
   std::uint64_t variant = 0;
   std::uint32_t seed = 0;
 };
@@ -42,16 +42,16 @@ class Site {
   void pole(const Finish& finish, const Eigen::Vector3d& below, const Eigen::Vector3d& above, double r0, double r1,
             int sides = 8);
 
-  /// Parts from here on belong to a mover, in its own frame; `take` hands it out, `release` adds it to the world; both go on with the
-  /// world itself.
+  /// Parts from here on belong to a mover, in its own frame; `take` hands it out, `release` adds it to the world; both
+  /// go on with the world itself.
   void beginMover();
   Mover take();
   void release(std::function<urban_nav_core::Pose(double)> path);
 
  private:
   World& world_;
-  Stock stock_;
-  std::map<std::pair<Stuff, std::uint64_t>, std::uint32_t> materials_;
+  MaterialLibrary stock_;
+  std::map<std::pair<MaterialKind, std::uint64_t>, std::uint32_t> materials_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> parts_, mover_parts_;
   Mover mover_;
   bool moving_ = false;

@@ -44,10 +44,10 @@ void buildTerrace(Site& site, const StreetPlan& p, double x0, double y0, bool fa
   for (int i = 0; i < 3; ++i) {
     Draw kind(hash(seed, static_cast<std::uint64_t>(i), 0x51D));
     Style& s = kinds[i];
-    s.wall.stuff = i == 0 ? Stuff::Brick : i == 1 ? Stuff::Render : Stuff::DarkBrick;
+    s.wall.stuff = i == 0 ? MaterialKind::Brick : i == 1 ? MaterialKind::Render : MaterialKind::DarkBrick;
     s.wall.variant = static_cast<std::uint64_t>(kind.index(3));
-    s.roof.stuff = i == 2 ? Stuff::RoofTile : Stuff::Slate;
-    s.window = i == 1 ? Stuff::Casement : Stuff::Sash;
+    s.roof.stuff = i == 2 ? MaterialKind::RoofTile : MaterialKind::Slate;
+    s.window = i == 1 ? MaterialKind::Casement : MaterialKind::Sash;
     s.storeys = i == 2 ? 3 : 2, s.storey = kind.uniform(2.9, 3.2), s.sill = 0.8,
     s.window_height = kind.uniform(1.4, 1.6), s.window_width = kind.uniform(0.95, 1.15);
     s.spacing = 2.2, s.irregular = 0.0,
@@ -68,7 +68,7 @@ void buildTerrace(Site& site, const StreetPlan& p, double x0, double y0, bool fa
 }
 
 void layPavement(Site& site, const Extent& e) {
-  const Finish slabs{Stuff::Slabs, 0, 3}, kerb{Stuff::Kerb, 0, 3};
+  const Finish slabs{MaterialKind::Slabs, 0, 3}, kerb{MaterialKind::Kerb, 0, 3};
   const double h = 0.5 * kPavement, height = 0.11;
   layStrip(site, slabs, kerb, {e.x0, e.y0 + h}, {e.x1, e.y0 + h}, kPavement, height);
   layStrip(site, slabs, kerb, {e.x0, e.y1 - h}, {e.x1, e.y1 - h}, kPavement, height);
@@ -88,11 +88,11 @@ void buildBlocks(Site& site, const StreetPlan& p, std::uint32_t seed) {
     layPavement(site, {x0 - kPavement, -kFace - kDepth - kPavement, x1 + kPavement, -kHalfStreet});
     layPavement(site, {x0 - kPavement, kHalfStreet, x1 + kPavement, p.second - kHalfStreet});
     layPavement(site, {x0 - kPavement, p.second + kHalfStreet, x1 + kPavement, p.second + kFace + kDepth + kPavement});
-    // Yards behind the houses, with walls, hedges and a tree.
+    // Yards at the rear of the houses, with walls, hedges and a tree.
     const double y0 = kFace + kDepth, y1 = p.second - kFace - kDepth;
     for (const double x : {x0 + 0.2, x1 - 0.2})
-      layStrip(site, {Stuff::Kerb, 1, 1}, {Stuff::Brick, 1, static_cast<std::uint32_t>(b + 5)}, {x, y0}, {x, y1}, 0.25,
-               2.0);
+      layStrip(site, {MaterialKind::Kerb, 1, 1}, {MaterialKind::Brick, 1, static_cast<std::uint32_t>(b + 5)}, {x, y0},
+               {x, y1}, 0.25, 2.0);
     plantTree(site, x0 + draw.uniform(5, 40), 0.5 * (y0 + y1), draw.uniform(7, 11), draw.bits());
     plantTree(site, x1 - draw.uniform(1.6, 3.0), 0.5 * (y0 + y1), draw.uniform(6, 8), draw.bits());
     for (const double y :
@@ -107,13 +107,13 @@ void buildBlocks(Site& site, const StreetPlan& p, std::uint32_t seed) {
       const double h = south ? y - 1.5 : y + 1.5, from = x0 + p.house * draw.index(p.houses - 2) + 2.6;
       if (draw.chance(0.8))
         plantHedge(site, {from, h}, {from + 2.2, h}, 0.5, draw.uniform(0.6, 1.1),
-                   draw.chance(0.5) ? Stuff::Hedge : Stuff::Flowers, draw.bits());
+                   draw.chance(0.5) ? MaterialKind::Hedge : MaterialKind::Flowers, draw.bits());
     }
   }
 }
 
 void paintRoads(Site& site, const StreetPlan& p) {
-  const Finish paint{Stuff::RoadPaint, 0, 2};
+  const Finish paint{MaterialKind::RoadPaint, 0, 2};
   const double above = 0.0015, x0 = p.sideStreet(-1), x1 = p.sideStreet(kBlocks + 1);
   for (const double y : {0.0, p.second}) {
     for (double x = x0; x < x1; x += 5.0) {
@@ -174,23 +174,23 @@ World buildStreet(std::uint32_t seed, int day) {
     return patches({all.x0, -kHalfStreet + 0.5, all.x1, kHalfStreet - 2.5}, 60, hash(seed, which));
   };
   layGround(site, all,
-            {{{Stuff::Soil, 0, 1}, path},
-             {{Stuff::Lawn, 0, 1}, yard},
-             {{Stuff::Asphalt, 1, 4}, on_road(1)},
-             {{Stuff::Asphalt, 2, 5}, on_road(2)},
-             {{Stuff::Asphalt, 0, 1}, nullptr}});
-  laySurroundings(site, all, 80.0, {Stuff::Meadow, 1, 2});
+            {{{MaterialKind::Soil, 0, 1}, path},
+             {{MaterialKind::Lawn, 0, 1}, yard},
+             {{MaterialKind::Asphalt, 1, 4}, on_road(1)},
+             {{MaterialKind::Asphalt, 2, 5}, on_road(2)},
+             {{MaterialKind::Asphalt, 0, 1}, nullptr}});
+  laySurroundings(site, all, 80.0, {MaterialKind::Meadow, 1, 2});
   buildBlocks(site, p, seed);
   paintRoads(site, p);
   // What closes the long streets at their ends.
   Style end;
-  end.wall = {Stuff::Ashlar, 1, 3}, end.storeys = 3, end.seed = seed, end.doors = {0, 4, 0, 4};
+  end.wall = {MaterialKind::Ashlar, 1, 3}, end.storeys = 3, end.seed = seed, end.doors = {0, 4, 0, 4};
   buildHouse(site, {p.sideStreet(-1) - 2, -9, p.sideStreet(-1) + 7, 9}, end);
   buildHouse(site, {p.sideStreet(kBlocks + 1) - 7, -9, p.sideStreet(kBlocks + 1) + 2, 9}, end);
   // ... and the side streets.
   for (int b = -1; b <= kBlocks + 1; ++b) {
     end.seed = hash(seed, static_cast<std::uint64_t>(b + 9)),
-    end.wall = {b % 2 == 0 ? Stuff::Render : Stuff::Rubble, 2, static_cast<std::uint32_t>(b + 40)},
+    end.wall = {b % 2 == 0 ? MaterialKind::Render : MaterialKind::Rubble, 2, static_cast<std::uint32_t>(b + 40)},
     end.doors = {3, 0, 3, 0};
     buildHouse(site, {p.sideStreet(b) - 7, -kFace - kDepth - 24, p.sideStreet(b) + 7, -kFace - kDepth - 14}, end);
     buildHouse(

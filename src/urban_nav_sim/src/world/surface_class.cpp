@@ -3,7 +3,7 @@
 
 namespace urban_nav_sim {
 
-const char* nameOf(SurfaceClass surface_class) {
+const char* surfaceClassName(SurfaceClass surface_class) {
   switch (surface_class) {
     case SurfaceClass::Grass: return "grass";
     case SurfaceClass::Paved: return "tarmac/paved";

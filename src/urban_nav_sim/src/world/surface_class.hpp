@@ -5,7 +5,8 @@
 
 namespace urban_nav_sim {
 
-/// What a surface is, in the words of the paper's classifier (Newman et al. 2009, section 8), and as cloud.ply numbers it.
+/// What a surface is, in the words of the paper's classifier (Newman et al. 2009, section 8), and as cloud.ply numbers
+/// it.
 enum class SurfaceClass : std::uint8_t {
   Other = 0,
   Grass = 1,
@@ -17,6 +18,6 @@ enum class SurfaceClass : std::uint8_t {
   Vehicle = 7
 };
 
-const char* nameOf(SurfaceClass surface_class);
+const char* surfaceClassName(SurfaceClass surface_class);
 
 }  // namespace urban_nav_sim

@@ -21,7 +21,7 @@ World buildWorld(const std::string& world, std::uint32_t seed, int day) {
 
 namespace {
 
-std::vector<Route> fastRoutesOf(const std::string& world, std::uint32_t seed) {
+std::vector<Route> fastRoutes(const std::string& world, std::uint32_t seed) {
   if (world == "quad") return routesOfQuad(seed);
   if (world == "begbroke") return routesOfBegbroke(seed);
   if (world == "street") return routesOfStreet(seed);
@@ -40,8 +40,8 @@ Route creeping(const Route& route) {
 
 }  // namespace
 
-std::vector<Route> routesOf(const std::string& world, std::uint32_t seed) {
-  std::vector<Route> routes = fastRoutesOf(world, seed);
+std::vector<Route> worldRoutes(const std::string& world, std::uint32_t seed) {
+  std::vector<Route> routes = fastRoutes(world, seed);
   routes.push_back(creeping(routes.front()));
   return routes;
 }

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "look/material.hpp"
+#include "materials/material.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
 #include "world/day.hpp"
 
@@ -29,7 +29,7 @@ struct Mover {
   std::function<urban_nav_core::Pose(double t)> T_world_mover;  ///< at a time of the session, s
 };
 
-/// Where a route goes on from here. Speeds are wanted ones: the robot slows down for turns by itself.
+/// Next waypoint of a route. Speeds are targets: the robot slows down for turns by itself.
 struct Waypoint {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< m, in `world`
   double speed = 1.2;                                  ///< m/s on the way to it
@@ -56,7 +56,7 @@ struct Route {
 /// Names for the command line, in the order of --help.
 std::vector<std::string> worldNames();
 /// The routes of a world. `world` is one of worldNames().
-std::vector<Route> routesOf(const std::string& world, std::uint32_t seed);
+std::vector<Route> worldRoutes(const std::string& world, std::uint32_t seed);
 /// `day`: 1, 2, ...: the same place in other weather, with other vehicles and people.
 World buildWorld(const std::string& world, std::uint32_t seed, int day);
 

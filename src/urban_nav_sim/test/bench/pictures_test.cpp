@@ -53,7 +53,7 @@ TEST(DrawCloud, WhatIsNearerHidesWhatIsBehind) {
   EXPECT_NE(far, background);
   EXPECT_EQ(near, middle({before, low}));
   EXPECT_LT(near[0] + near[1] + near[2], far[0] + far[1] + far[2]);
-  EXPECT_EQ(middle({{{-2.0F, 0.0F, 0.0F}, 255.0F}}), background);  // behind the camera
+  EXPECT_EQ(middle({{{-2.0F, 0.0F, 0.0F}, 255.0F}}), background);  // at negative depth
 }
 
 }  // namespace

@@ -12,18 +12,18 @@ Place at(double x, double heading, double along, const Counts& words) { return {
 
 TEST(Places, NeighboursAreToldByDistanceAndHeading) {
   const Place here = at(0, 3.1, 0, {});
-  EXPECT_EQ(neighbourOf(here, at(4.9, 3.1, 0, {})), Neighbour::Same);
-  EXPECT_EQ(neighbourOf(here, at(0, -3.1, 0, {})), Neighbour::Same);  // 5 deg across the seam of angles
-  EXPECT_EQ(neighbourOf(here, at(7, 3.1, 0, {})), Neighbour::Near);
-  EXPECT_EQ(neighbourOf(here, at(11, 3.1, 0, {})), Neighbour::Elsewhere);
-  EXPECT_EQ(neighbourOf(here, at(0, 0.0, 0, {})), Neighbour::Elsewhere);
+  EXPECT_EQ(findNeighbour(here, at(4.9, 3.1, 0, {})), Neighbour::Same);
+  EXPECT_EQ(findNeighbour(here, at(0, -3.1, 0, {})), Neighbour::Same);  // 5 deg across the seam of angles
+  EXPECT_EQ(findNeighbour(here, at(7, 3.1, 0, {})), Neighbour::Near);
+  EXPECT_EQ(findNeighbour(here, at(11, 3.1, 0, {})), Neighbour::Elsewhere);
+  EXPECT_EQ(findNeighbour(here, at(0, 0.0, 0, {})), Neighbour::Elsewhere);
 }
 
 TEST(Places, AWordInEveryPictureIsWorthNothing) {
-  const std::vector<double> worth = worthOf({{3, 1, 0}, {1, 0, 0}});
+  const std::vector<double> worth = wordWeights({{3, 1, 0}, {1, 0, 0}});
   EXPECT_EQ(worth, (std::vector<double>{0.0, std::log(2.0), 0.0}));
   EXPECT_EQ(likeness({5, 0, 0}, {5, 0, 0}, worth), 0.0);
-  EXPECT_TRUE(worthOf({}).empty());
+  EXPECT_TRUE(wordWeights({}).empty());
 }
 
 TEST(Places, LikenessIsTheCosineOfWorthWhileWords) {
@@ -37,21 +37,21 @@ TEST(Places, MistakesAreOfRevisitsAlone) {
   const Counts a = {4, 0, 1}, b = {0, 4, 1};
   const std::vector<double> worth = {1, 1, 1};
   // Back at 0 with the looks of 50: a mistake. At 50 again, looking as before: none.
-  const std::vector<Place> ride = {at(0, 0, 0, a), at(50, 0, 50, b), at(0, 0, 100, b), at(50, 0, 150, b)};
-  Recognition found = recognise(ride, worth, 25.0);
+  const std::vector<Place> motion = {at(0, 0, 0, a), at(50, 0, 50, b), at(0, 0, 100, b), at(50, 0, 150, b)};
+  Recognition found = recognise(motion, worth, 25.0);
   EXPECT_EQ(found.revisits, 2);
   EXPECT_EQ(found.mistaken, 1);
   EXPECT_EQ(found.new_places, 1);  // the second; before the first there is nothing to be taken for
   EXPECT_EQ(found.taken_for_known, 0);
-  found = recognise(ride, worth, 120.0);  // now the past of the last place is the first one alone
+  found = recognise(motion, worth, 120.0);  // now the past of the last place is the first one alone
   EXPECT_EQ(found.revisits, 0);
   EXPECT_EQ(found.new_places, 1);
 }
 
 TEST(Places, NewPlacesLikeOldOnesAreTakenForThem) {
   const Counts a = {4, 0}, near_a = {4, 1}, b = {0, 4};
-  const std::vector<Place> ride = {at(0, 0, 0, a), at(0, 0, 30, near_a), at(50, 0, 80, a), at(90, 0, 120, b)};
-  const Recognition found = recognise(ride, {1, 1}, 25.0);
+  const std::vector<Place> motion = {at(0, 0, 0, a), at(0, 0, 30, near_a), at(50, 0, 80, a), at(90, 0, 120, b)};
+  const Recognition found = recognise(motion, {1, 1}, 25.0);
   EXPECT_EQ(found.revisits, 1);
   EXPECT_EQ(found.mistaken, 0);
   EXPECT_EQ(found.new_places, 2);

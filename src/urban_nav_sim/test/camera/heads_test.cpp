@@ -9,8 +9,8 @@
 #include <opencv2/core/eigen.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "rig/places.hpp"
-#include "trace/small_worlds.hpp"
+#include "ray_tracing/small_worlds.hpp"
+#include "rig/sensor_poses.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 
 namespace urban_nav_sim {
@@ -23,7 +23,7 @@ double median(std::vector<double> values) {
   return values.at(values.size() / 2);
 }
 
-std::vector<double> sizesOf(std::vector<double> values) {
+std::vector<double> magnitudes(std::vector<double> values) {
   for (double& value : values) value = std::abs(value);
   return values;
 }
@@ -35,7 +35,7 @@ CameraDefects none() {
 }
 
 /// Best shift of a patch along the row, by normalised correlation and a parabola; shares nothing with the renderer.
-double shiftOf(const cv::Mat& left, const cv::Mat& right, int u, int v, double guess) {
+double measureShift(const cv::Mat& left, const cv::Mat& right, int u, int v, double guess) {
   const cv::Rect patch(u - 8, v - 8, 17, 17);
   const int from = u - 8 - static_cast<int>(std::lround(guess)) - 4;
   if (from < 0 || patch.x + 17 > left.cols) return NAN;
@@ -55,7 +55,7 @@ std::vector<double> disparityErrors(const std::array<cv::Mat, 2>& images, const 
     for (int u = 20; u < 492; u += 6) {
       const double depth = static_cast<double>(left.depth[left.at(u, v)]);
       if (left.surface_class[left.at(u, v)] != static_cast<int>(SurfaceClass::TexturedWall)) continue;
-      const double d = shiftOf(images[0], images[1], u, v, 46.797 / depth);
+      const double d = measureShift(images[0], images[1], u, v, 46.797 / depth);
       if (std::isfinite(d)) errors.push_back(d - 46.797 / depth);
     }
   }
@@ -66,23 +66,23 @@ struct HeadScene {
   World world = yard();
   Tracer tracer{world};
   Sky sky{world.day, 1};
-  Pose T_base_left = placeOf("stereo_left_optical_frame");
+  Pose T_base_left = sensorPose("stereo_left_optical_frame");
 };
 
 TEST(StereoHead, DisparityOfTheTextureIsThatOfTheGeometry) {
   const HeadScene scene;
   StereoHead head(scene.tracer, scene.sky, StereoImages::Rectified, scene.T_base_left, 1, none());
-  const auto images = head.take(SteadyRide(), 3.0);
+  const auto images = head.take(SteadyMotion(), 3.0);
   const auto errors = disparityErrors(images, head.pictures()[0]);
   ASSERT_GT(errors.size(), 300U);
-  EXPECT_LT(median(sizesOf(errors)), 0.05);
+  EXPECT_LT(median(magnitudes(errors)), 0.05);
 }
 
 TEST(StereoHead, AndSoItIsAfterRectificationOfTheDistortedImages) {
   const HeadScene scene;
   StereoHead raw(scene.tracer, scene.sky, StereoImages::Raw, scene.T_base_left, 1, none());
   StereoHead rectified(scene.tracer, scene.sky, StereoImages::Rectified, scene.T_base_left, 1, none());
-  const auto images = raw.take(SteadyRide(), 3.0), direct = rectified.take(SteadyRide(), 3.0);
+  const auto images = raw.take(SteadyMotion(), 3.0), direct = rectified.take(SteadyMotion(), 3.0);
   std::array<cv::Mat, 2> mapped;
   for (std::size_t i = 0; i < 2; ++i) {
     const auto& info = raw.cameras()[i].info;
@@ -96,7 +96,7 @@ TEST(StereoHead, AndSoItIsAfterRectificationOfTheDistortedImages) {
   const auto errors = disparityErrors(mapped, rectified.pictures()[0]);
   ASSERT_GT(errors.size(), 200U);
   EXPECT_LT(std::abs(median(errors)), 0.05);
-  EXPECT_LT(median(sizesOf(errors)), 0.05);
+  EXPECT_LT(median(magnitudes(errors)), 0.05);
   // The remapped image is the one that was rendered directly.
   cv::Mat difference;
   cv::absdiff(mapped[0](cv::Rect(40, 40, 430, 300)), direct[0](cv::Rect(40, 40, 430, 300)), difference);
@@ -109,12 +109,12 @@ TEST(StereoHead, SameBytesForAnyNumberOfThreadsAndOthersForAnotherSeed) {
   for (const int threads : {1, 2}) {
     const urban_nav_core::ThreadLimit limit(threads);
     StereoHead head(scene.tracer, scene.sky, StereoImages::Raw, scene.T_base_left, 1);
-    head.take(SteadyRide(1.0, 0.5), 0.5);
-    images.push_back(head.take(SteadyRide(1.0, 0.5), 0.55)[1]);
+    head.take(SteadyMotion(1.0, 0.5), 0.5);
+    images.push_back(head.take(SteadyMotion(1.0, 0.5), 0.55)[1]);
   }
   StereoHead other(scene.tracer, scene.sky, StereoImages::Raw, scene.T_base_left, 2);
-  other.take(SteadyRide(1.0, 0.5), 0.5);
-  images.push_back(other.take(SteadyRide(1.0, 0.5), 0.55)[1]);
+  other.take(SteadyMotion(1.0, 0.5), 0.5);
+  images.push_back(other.take(SteadyMotion(1.0, 0.5), 0.55)[1]);
   EXPECT_EQ(cv::norm(images[0], images[1], cv::NORM_INF), 0.0);
   EXPECT_GT(cv::norm(images[0], images[2], cv::NORM_INF), 1.0);
 }
@@ -126,8 +126,8 @@ TEST(StereoHead, NoiseIsAboutOneGreyLevel) {
   defects.is_noisy = false;
   StereoHead clean(scene.tracer, scene.sky, StereoImages::Rectified, scene.T_base_left, 1, defects);
   cv::Mat a, b;
-  noisy.take(SteadyRide(), 3.0)[0].convertTo(a, CV_32F);
-  clean.take(SteadyRide(), 3.0)[0].convertTo(b, CV_32F);
+  noisy.take(SteadyMotion(), 3.0)[0].convertTo(a, CV_32F);
+  clean.take(SteadyMotion(), 3.0)[0].convertTo(b, CV_32F);
   cv::Mat inside;
   cv::inRange(b, 20, 200, inside);
   cv::Scalar mean, sigma;
@@ -140,7 +140,7 @@ TEST(StereoHead, NoiseIsAboutOneGreyLevel) {
 TEST(LadybugHead, TakesFiveUprightColourImages) {
   const HeadScene scene;
   LadybugHead head(scene.tracer, scene.sky, Pose(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0, 0, 1.4)), 1);
-  const auto images = head.take(SteadyRide(0.5), 1.0);
+  const auto images = head.take(SteadyMotion(0.5), 1.0);
   for (std::size_t i = 0; i < 5; ++i) {
     ASSERT_EQ(images[i].size(), cv::Size(384, 512));
     ASSERT_EQ(images[i].type(), CV_8UC3);
@@ -149,7 +149,7 @@ TEST(LadybugHead, TakesFiveUprightColourImages) {
     EXPECT_EQ(picture.surface_class[picture.at(192, 500)],
               static_cast<int>(scene.world.materials[kGround].surface_class));
   }
-  EXPECT_TRUE(std::isinf(head.pictures()[2].depth[head.pictures()[2].at(192, 5)]));  // sky above, behind
+  EXPECT_TRUE(std::isinf(head.pictures()[2].depth[head.pictures()[2].at(192, 5)]));  // sky above
   // Sky is blue or white: no less blue than red, so the channels are in OpenCV's order.
   const cv::Scalar sky = cv::mean(images[2](cv::Rect(150, 0, 80, 40)));
   EXPECT_GE(sky[0], sky[2] - 3.0);
@@ -157,19 +157,19 @@ TEST(LadybugHead, TakesFiveUprightColourImages) {
 
 TEST(MotionBlur, FlowIsTheMotionOfThePixel) {
   const HeadScene scene;
-  const SteadyRide ride(1.2, 0.9);
+  const SteadyMotion motion(1.2, 0.9);
   for (const auto images : {StereoImages::Raw, StereoImages::Rectified}) {
     const Camera camera = bumblebee(images)[1];
     const RayTable rays(camera.lens);
     const Pose T_base_camera = scene.T_base_left * camera.T_head_camera;
-    const CameraMotion motion = motionOf(ride.at(1.0), T_base_camera);
+    const CameraMotion motion = computeCameraMotion(motion.at(1.0), T_base_camera);
     for (const double depth : {1.5, 20.0}) {
       const Eigen::Vector2d pixel(400.0, 90.0);
       const auto ideal = camera.lens.idealAt(pixel);
-      const Eigen::Vector3d p = ride.at(1.0).T_world_base * T_base_camera *
+      const Eigen::Vector3d p = motion.at(1.0).T_world_base * T_base_camera *
                                 Eigen::Vector3d(depth * Eigen::Vector3d(ideal->x(), ideal->y(), 1.0));
       const auto seen = [&](double t) {
-        return *camera.lens.project((ride.at(t).T_world_base * T_base_camera).inverse() * p);
+        return *camera.lens.project((motion.at(t).T_world_base * T_base_camera).inverse() * p);
       };
       const Eigen::Vector2d numeric = (seen(1.0005) - seen(0.9995)) / 1e-3;
       const Eigen::Vector2f flow = flowAt(rays, 400, 90, static_cast<float>(depth), motion);

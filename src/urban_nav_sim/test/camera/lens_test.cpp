@@ -7,7 +7,7 @@
 
 #include "camera/rig.hpp"
 #include "noise/noise.hpp"
-#include "rig/places.hpp"
+#include "rig/sensor_poses.hpp"
 
 namespace urban_nav_sim {
 namespace {
@@ -79,14 +79,14 @@ TEST(Lens, WhatIsBehindOrFoldedIsNotSeen) {
 
 TEST(Rig, AgreesWithThePlacesOfTheSensors) {
   const auto stereo = bumblebee(StereoImages::Rectified);
-  const auto T_base_left = placeOf("stereo_left_optical_frame");
-  EXPECT_TRUE(isApprox(T_base_left * stereo[1].T_head_camera, placeOf("stereo_right_optical_frame"), 1e-9));
+  const auto T_base_left = sensorPose("stereo_left_optical_frame");
+  EXPECT_TRUE(isApprox(T_base_left * stereo[1].T_head_camera, sensorPose("stereo_right_optical_frame"), 1e-9));
   EXPECT_NEAR(stereo[1].info.P(0, 3), -46.797, 1e-3);
   const urban_nav_core::Pose T_base_head(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0, 0, 1.4));
   const auto ring = ladybug();
   for (std::size_t i = 0; i < 5; ++i) {
     EXPECT_TRUE(isApprox(T_base_head * ring[i].T_head_camera,
-                         placeOf("ladybug_camera" + std::to_string(i) + "_optical_frame"), 1e-9));
+                         sensorPose("ladybug_camera" + std::to_string(i) + "_optical_frame"), 1e-9));
   }
 }
 

@@ -9,8 +9,8 @@
 #include "camera/rig.hpp"
 #include "camera/shade.hpp"
 #include "laser/lms291.hpp"
-#include "rig/places.hpp"
-#include "trace/small_worlds.hpp"
+#include "ray_tracing/small_worlds.hpp"
+#include "rig/sensor_poses.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 
 namespace urban_nav_sim {
@@ -23,7 +23,7 @@ struct RenderScene {
   World world = yard();
   Tracer tracer{world};
   Sky sky{world.day, 1};
-  Pose T_world_left = placeOf("stereo_left_optical_frame");
+  Pose T_world_left = sensorPose("stereo_left_optical_frame");
 };
 
 Picture rendered(const RenderScene& scene, const Lens& lens, const Pose& T_world_camera,
@@ -63,7 +63,7 @@ TEST(Render, ABeamAndTheDepthImageMeetInOnePoint) {
   const Lens lens = bumblebee(StereoImages::Rectified)[0].lens;
   const Pose T_laser(Eigen::Quaterniond::Identity(), Vector3d(0.1, 0.0600025, 1.1));
   const Lms291 laser(scene.tracer, T_laser, 1, "test", Lms291::Settings::exact());
-  const auto scan = laser.scan(SteadyRide(), 2.5, 0, 0);
+  const auto scan = laser.scan(SteadyMotion(), 2.5, 0, 0);
   int compared = 0;
   for (int beam = 30; beam <= 150; beam += 3) {
     const auto range = static_cast<double>(scan.ranges[static_cast<std::size_t>(beam)]);

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "trace/small_worlds.hpp"
+#include "ray_tracing/small_worlds.hpp"
 
 namespace urban_nav_sim {
 namespace {
@@ -49,8 +49,8 @@ TEST(Seams, AreBetweenSurfacesAndNotBetweenTheirTriangles) {
           << a << " and " << b;
 }
 
-// What each pixel of a small picture is told, a letter each: surface, shadow, nothing.
-std::string told(const Tracer& tracer, const Traces& traces, int width, int height) {
+// The class of each pixel of a small picture, a letter each: surface, shadow, nothing.
+std::string classify(const Tracer& tracer, const Traces& traces, int width, int height) {
   const Seams seams(tracer, traces, width, height);
   std::string text;
   for (int v = 0; v < height; ++v) {
@@ -68,7 +68,7 @@ class SeamsOfAPicture : public ::testing::Test {
   Traces flat() const {
     return {std::vector<Met>(kWidth * kHeight, met(kFlat)), std::vector<std::uint8_t>(kWidth * kHeight)};
   }
-  std::string told(const Traces& traces) const { return urban_nav_sim::told(tracer_, traces, kWidth, kHeight); }
+  std::string classify(const Traces& traces) const { return urban_nav_sim::classify(tracer_, traces, kWidth, kHeight); }
 
   static constexpr int kWidth = 6, kHeight = 4;
   const Tracer tracer_{sheets()};
@@ -76,32 +76,32 @@ class SeamsOfAPicture : public ::testing::Test {
 
 TEST_F(SeamsOfAPicture, AreToldToAllEightAboutAPixel) {
   Traces traces = flat();
-  EXPECT_EQ(told(traces), "......\n......\n......\n......\n");
+  EXPECT_EQ(classify(traces), "......\n......\n......\n......\n");
   traces.met[2 * kWidth + 2] = met(kAbove);
-  EXPECT_EQ(told(traces), "......\n.eee..\n.eee..\n.eee..\n");
+  EXPECT_EQ(classify(traces), "......\n.eee..\n.eee..\n.eee..\n");
 }
 
 TEST_F(SeamsOfAPicture, EndAtItsBorders) {
   Traces traces = flat();
   traces.met[1 * kWidth + 5] = {};
-  EXPECT_EQ(told(traces), "....ee\n....ee\n....ee\n......\n") << "the row's end is not beside the next one's begin";
+  EXPECT_EQ(classify(traces), "....ee\n....ee\n....ee\n......\n") << "the row's end is not beside the next one's begin";
   traces = flat();
   traces.met[0] = {};
-  EXPECT_EQ(told(traces), "ee....\nee....\n......\n......\n");
+  EXPECT_EQ(classify(traces), "ee....\nee....\n......\n......\n");
 }
 
 TEST_F(SeamsOfAPicture, OfAShadowComeFirst) {
   Traces traces = flat();
   traces.met[2 * kWidth + 2] = met(kAbove);
   traces.sunlit[2 * kWidth + 4] = 1;
-  EXPECT_EQ(told(traces), "......\n.eesss\n.eesss\n.eesss\n");
+  EXPECT_EQ(classify(traces), "......\n.eesss\n.eesss\n.eesss\n");
 }
 
 TEST_F(SeamsOfAPicture, AreBetweenLeavesToo) {
   Traces traces = flat();
   for (Met& all : traces.met) all = met(kLeaf);
   traces.met[0] = met(kOtherLeaf);
-  EXPECT_EQ(told(traces), "ee....\nee....\n......\n......\n");
+  EXPECT_EQ(classify(traces), "ee....\nee....\n......\n......\n");
 }
 
 }  // namespace

@@ -36,10 +36,10 @@ std::optional<Measurement> applied(FaultFilter& filter, const Measurement& measu
   return filter.apply(measurement, stampOf(measurement));
 }
 
-FaultFilter filterOf(const std::string& fault) { return {{parseFault(fault)}, 7, begin}; }
+FaultFilter makeFilter(const std::string& fault) { return {{parseFault(fault)}, 7, begin}; }
 
 TEST(FaultFilter, LeavesOtherTimesAndSensorsAlone) {
-  FaultFilter filter = filterOf("unplug:stereo:1:1");
+  FaultFilter filter = makeFilter("unplug:stereo:1:1");
   for (const double t : {0.0, 0.5, 1.0, 1.9, 2.0}) {
     const bool lost = t >= 1.0 && t < 2.0;
     EXPECT_EQ(applied(filter, pairAt(t)).has_value(), !lost) << t;
@@ -50,13 +50,13 @@ TEST(FaultFilter, LeavesOtherTimesAndSensorsAlone) {
 }
 
 TEST(FaultFilter, GoesByTheTrueTimeNotByTheStamp) {
-  FaultFilter filter = filterOf("unplug:imu:1:1");
+  FaultFilter filter = makeFilter("unplug:imu:1:1");
   EXPECT_TRUE(filter.apply(imuAt(1.3), at(0.9)));
   EXPECT_FALSE(filter.apply(imuAt(2.3), at(1.9)));
 }
 
 TEST(FaultFilter, FreezesWithNewStamps) {
-  FaultFilter filter = filterOf("freeze:stereo:1:1");
+  FaultFilter filter = makeFilter("freeze:stereo:1:1");
   applied(filter, pairAt(0.9));
   const auto frozen = std::get<StereoMeasurement>(*applied(filter, pairAt(1.5)));
   EXPECT_EQ(frozen.stamp, at(1.5));
@@ -65,7 +65,7 @@ TEST(FaultFilter, FreezesWithNewStamps) {
 }
 
 TEST(FaultFilter, FreezesTheFirstWhereThereIsNoneBefore) {
-  FaultFilter filter = filterOf("freeze:stereo:0:1");
+  FaultFilter filter = makeFilter("freeze:stereo:0:1");
   EXPECT_EQ(grey(std::get<StereoMeasurement>(*applied(filter, pairAt(0.2))).left), 2);
   const auto frozen = std::get<StereoMeasurement>(*applied(filter, pairAt(0.7)));
   EXPECT_EQ(frozen.stamp, at(0.7));
@@ -73,28 +73,28 @@ TEST(FaultFilter, FreezesTheFirstWhereThereIsNoneBefore) {
 }
 
 TEST(FaultFilter, SwapsSides) {
-  FaultFilter filter = filterOf("swap:stereo:0:9");
+  FaultFilter filter = makeFilter("swap:stereo:0:9");
   EXPECT_EQ(grey(std::get<StereoMeasurement>(*applied(filter, pairAt(1.0))).left), 110);
-  FaultFilter lasers = filterOf("swap:lasers:0:9");
+  FaultFilter lasers = makeFilter("swap:lasers:0:9");
   LaserMeasurement turn;
   turn.scan.stamp = at(1.0);
   EXPECT_EQ(std::get<LaserMeasurement>(*applied(lasers, turn)).side, Side::Right);
 }
 
 TEST(FaultFilter, DropsTheShare) {
-  FaultFilter filter = filterOf("drop:imu:0:100:0.25");
+  FaultFilter filter = makeFilter("drop:imu:0:100:0.25");
   int arrived = 0;
   for (int i = 0; i < 4000; ++i) arrived += applied(filter, imuAt(0.01 * i)) ? 1 : 0;
   EXPECT_NEAR(arrived, 3000, 100);
 }
 
 TEST(FaultFilter, CorruptsACopyAndStaysFinite) {
-  FaultFilter filter = filterOf("corrupt:stereo:0:9:1");
+  FaultFilter filter = makeFilter("corrupt:stereo:0:9:1");
   const StereoMeasurement sent = pairAt(1.0);
   const auto arrived = std::get<StereoMeasurement>(*applied(filter, sent));
   EXPECT_EQ(cv::norm(sent.left, pairAt(1.0).left, cv::NORM_INF), 0.0);
   EXPECT_GT(cv::norm(arrived.left, sent.left, cv::NORM_INF), 20.0);
-  FaultFilter lasers = filterOf("corrupt:lasers:0:9:1");
+  FaultFilter lasers = makeFilter("corrupt:lasers:0:9:1");
   LaserMeasurement turn;
   turn.scan.stamp = at(1.0);
   turn.scan.range_max = 80.0;
@@ -107,20 +107,20 @@ TEST(FaultFilter, CorruptsACopyAndStaysFinite) {
 }
 
 TEST(FaultFilter, JumpsAndBlanks) {
-  FaultFilter jump = filterOf("jump:gps:0:9:-2.5");
+  FaultFilter jump = makeFilter("jump:gps:0:9:-2.5");
   EXPECT_EQ(stampOf(*applied(jump, gpsAt(1.0))), at(-1.5));
-  FaultFilter blank = filterOf("nan:imu:0:9");
+  FaultFilter blank = makeFilter("nan:imu:0:9");
   const auto imu = std::get<ImuMeasurement>(*applied(blank, imuAt(1.0)));
   EXPECT_TRUE(std::isnan(imu.rate.x()));
   EXPECT_EQ(imu.stamp, at(1.0));
-  FaultFilter black = filterOf("nan:stereo:0:9");
+  FaultFilter black = makeFilter("nan:stereo:0:9");
   EXPECT_EQ(grey(std::get<StereoMeasurement>(*applied(black, pairAt(5.0))).right), 0);
 }
 
 TEST(FaultFilter, SameBytesAgain) {
   for (int run = 0; run < 2; ++run) {
     static cv::Mat first;
-    FaultFilter filter = filterOf("corrupt:stereo:0:9");
+    FaultFilter filter = makeFilter("corrupt:stereo:0:9");
     const auto arrived = std::get<StereoMeasurement>(*applied(filter, pairAt(1.0)));
     if (run == 0) first = arrived.left;
     else EXPECT_EQ(cv::norm(first, arrived.left, cv::NORM_INF), 0.0);

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rig/places.hpp"
-#include "trace/small_worlds.hpp"
+#include "ray_tracing/small_worlds.hpp"
+#include "rig/sensor_poses.hpp"
 
 namespace urban_nav_sim {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 using urban_nav_core::PlanarScan;
 using urban_nav_core::Pose;
 
-Eigen::Vector3d directionOf(const PlanarScan& scan, int beam) {
+Eigen::Vector3d beamDirection(const PlanarScan& scan, int beam) {
   const double angle = scan.angle_first + beam * scan.angle_step;
   return {std::cos(angle), std::sin(angle), 0.0};
 }
@@ -23,10 +23,10 @@ Eigen::Vector3d directionOf(const PlanarScan& scan, int beam) {
 TEST(Lms291, BeamsEndOnTheSurfaceAtTheirOwnTime) {
   const World world = yard();
   const Tracer tracer(world);
-  const SteadyRide ride(1.5, 1.2);
-  const Pose T_base_laser = placeOf("laser_left");
+  const SteadyMotion motion(1.5, 1.2);
+  const Pose T_base_laser = sensorPose("laser_left");
   const Lms291 laser(tracer, T_base_laser, 7, "laser_left", Lms291::Settings::exact());
-  const PlanarScan scan = laser.scan(ride, 0.3, 1000, 0);
+  const PlanarScan scan = laser.scan(motion, 0.3, 1000, 0);
   ASSERT_EQ(scan.ranges.size(), 181U);
   EXPECT_EQ(scan.stamp, 1000);
   EXPECT_NEAR(scan.time_step, 18.525e-6, 1e-9);
@@ -34,8 +34,8 @@ TEST(Lms291, BeamsEndOnTheSurfaceAtTheirOwnTime) {
   for (int beam = 0; beam < 181; ++beam) {
     const auto range = static_cast<double>(scan.ranges[static_cast<std::size_t>(beam)]);
     if (!std::isfinite(range)) continue;
-    const Pose T = ride.at(0.3 + beam * scan.time_step).T_world_base * T_base_laser;
-    const Eigen::Vector3d p = T * (range * directionOf(scan, beam));
+    const Pose T = motion.at(0.3 + beam * scan.time_step).T_world_base * T_base_laser;
+    const Eigen::Vector3d p = T * (range * beamDirection(scan, beam));
     const Eigen::Vector3d normal(std::sin(0.35), -std::cos(0.35), 0.0);
     const double to_wall = std::abs(normal.dot(p - Eigen::Vector3d(-20, 4, 0))), to_ground = std::abs(p.z());
     EXPECT_LT(std::min(to_wall, to_ground), 1e-5) << beam;
@@ -49,9 +49,9 @@ TEST(Lms291, BeamsEndOnTheSurfaceAtTheirOwnTime) {
 TEST(Lms291, LooksToItsSideFromTheGroundUpAndTheRightOneFromTheTopDown) {
   const World world = yard();
   const Tracer tracer(world);
-  const Lms291 left(tracer, placeOf("laser_left"), 7, "laser_left", Lms291::Settings::exact());
-  const Lms291 right(tracer, placeOf("laser_right"), 7, "laser_right", Lms291::Settings::exact());
-  const auto first = left.scan(SteadyRide(), 0.0, 0, 0), second = right.scan(SteadyRide(), 0.0, 0, 0);
+  const Lms291 left(tracer, sensorPose("laser_left"), 7, "laser_left", Lms291::Settings::exact());
+  const Lms291 right(tracer, sensorPose("laser_right"), 7, "laser_right", Lms291::Settings::exact());
+  const auto first = left.scan(SteadyMotion(), 0.0, 0, 0), second = right.scan(SteadyMotion(), 0.0, 0, 0);
   EXPECT_NEAR(first.ranges.front(), 0.75 * std::sqrt(2.0), 1e-5);
   EXPECT_NEAR(second.ranges.back(), 0.75 * std::sqrt(2.0), 1e-5);
   EXPECT_TRUE(std::isinf(second.ranges.front()));  // above the hedge: sky
@@ -61,13 +61,13 @@ TEST(Lms291, LooksToItsSideFromTheGroundUpAndTheRightOneFromTheTopDown) {
 TEST(Lms291, ErrsAsItsDataSheetSays) {
   const World world = yard();
   const Tracer tracer(world);
-  const Lms291 laser(tracer, placeOf("laser_left"), 7, "laser_left", Lms291::Settings());
+  const Lms291 laser(tracer, sensorPose("laser_left"), 7, "laser_left", Lms291::Settings());
   EXPECT_LE(std::abs(laser.bias()), 5e-3);
   double sum = 0.0, squares = 0.0;
   int count = 0;
   for (std::uint64_t i = 0; i < 200; ++i) {
     std::vector<BeamTruth> truth;
-    const PlanarScan scan = laser.scan(SteadyRide(), 0.0, 0, i, &truth);
+    const PlanarScan scan = laser.scan(SteadyMotion(), 0.0, 0, i, &truth);
     for (std::size_t beam = 0; beam < 60; ++beam) {
       const auto range = static_cast<double>(scan.ranges[beam]);
       EXPECT_NEAR(range * 1000.0, std::round(range * 1000.0), 1e-3);
@@ -81,8 +81,8 @@ TEST(Lms291, ErrsAsItsDataSheetSays) {
   EXPECT_NEAR(sigma, 5e-3, 3e-4);
   Lms291::Settings faulty;
   faulty.systematic_error = 0.035;
-  const Lms291 other(tracer, placeOf("laser_left"), 7, "laser_left", faulty);
-  EXPECT_NEAR(other.scan(SteadyRide(), 0, 0, 3).ranges[10] - laser.scan(SteadyRide(), 0, 0, 3).ranges[10], 0.035,
+  const Lms291 other(tracer, sensorPose("laser_left"), 7, "laser_left", faulty);
+  EXPECT_NEAR(other.scan(SteadyMotion(), 0, 0, 3).ranges[10] - laser.scan(SteadyMotion(), 0, 0, 3).ranges[10], 0.035,
               1.1e-3);
 }
 
@@ -90,7 +90,8 @@ TEST(Lms291, EachDefectIsSwitchedByItself) {
   const World world = yard();
   const Tracer tracer(world);
   const auto scanOf = [&](const Lms291::Settings& settings, std::vector<BeamTruth>& truth) {
-    return Lms291(tracer, placeOf("laser_right"), 7, "laser_right", settings).scan(SteadyRide(), 0.0, 0, 0, &truth);
+    return Lms291(tracer, sensorPose("laser_right"), 7, "laser_right", settings)
+        .scan(SteadyMotion(), 0.0, 0, 0, &truth);
   };
   std::vector<BeamTruth> truth;
   const PlanarScan exact = scanOf(Lms291::Settings::exact(), truth);
@@ -121,9 +122,9 @@ TEST(Lms291, EdgesMixAndOnlyEdgesDo) {
   Lms291::Settings settings;
   settings.sigma = 0.0;
   settings.largest_bias = 0.0;
-  const Lms291 laser(tracer, placeOf("laser_left"), 7, "laser_left", settings);
+  const Lms291 laser(tracer, sensorPose("laser_left"), 7, "laser_left", settings);
   std::vector<BeamTruth> truth;
-  const PlanarScan scan = laser.scan(SteadyRide(), 0.0, 0, 0, &truth);
+  const PlanarScan scan = laser.scan(SteadyMotion(), 0.0, 0, 0, &truth);
   int mixed = 0;
   for (std::size_t beam = 0; beam < 181; ++beam)
     mixed += std::abs(static_cast<double>(scan.ranges[beam]) - truth[beam].range) > 0.01;
@@ -134,11 +135,11 @@ TEST(Lms291, EdgesMixAndOnlyEdgesDo) {
 TEST(Lms291, ReflectsAsMuchAsTheRealOnes) {
   const World world = yard();
   const Tracer tracer(world);
-  const Lms291 laser(tracer, placeOf("laser_left"), 7, "laser_left", Lms291::Settings());
+  const Lms291 laser(tracer, sensorPose("laser_left"), 7, "laser_left", Lms291::Settings());
   std::vector<float> ground, wall;
   for (std::uint64_t i = 0; i < 50; ++i) {
     std::vector<BeamTruth> truth;
-    const PlanarScan scan = laser.scan(SteadyRide(1.0), 0.02 * static_cast<double>(i), 0, i, &truth);
+    const PlanarScan scan = laser.scan(SteadyMotion(1.0), 0.02 * static_cast<double>(i), 0, i, &truth);
     for (std::size_t beam = 0; beam < 181; ++beam) {
       if (truth[beam].surface_class == world.materials[kGround].surface_class && truth[beam].range < 1.5)
         ground.push_back(scan.intensities[beam]);

@@ -48,7 +48,7 @@ TEST(SimulatorParameters, DefectsAreSwitchedAsByTheCommand) {
   EXPECT_FALSE(defects.has(Sensor::Imu, Defect::Bias));
 }
 
-std::string errorOf(std::string SimulatorParameters::*key, const std::string& text) {
+std::string errorMessage(std::string SimulatorParameters::*key, const std::string& text) {
   SimulatorParameters parameters;
   parameters.*key = text;
   try {
@@ -64,20 +64,20 @@ void expectIn(const std::string& text, const std::string& part) {
 }
 
 TEST(SimulatorParameters, WhatThereIsNotIsNamedWithItsKeyAndWhatThereIs) {
-  const std::string world = errorOf(&SimulatorParameters::world, "atlantis");
+  const std::string world = errorMessage(&SimulatorParameters::world, "atlantis");
   expectIn(world, "/simulator/world");
   expectIn(world, "quad, begbroke, street");
-  const std::string route = errorOf(&SimulatorParameters::route, "moonwalk");
+  const std::string route = errorMessage(&SimulatorParameters::route, "moonwalk");
   expectIn(route, "/simulator/route");
   expectIn(route, "orbits4");
-  const std::string sensors = errorOf(&SimulatorParameters::sensors, "stereo, sonar");
+  const std::string sensors = errorMessage(&SimulatorParameters::sensors, "stereo, sonar");
   expectIn(sensors, "/simulator/sensors");
   expectIn(sensors, "sonar");
   expectIn(sensors, sensorList());
-  expectIn(errorOf(&SimulatorParameters::sensors, " , "), sensorList());
-  expectIn(errorOf(&SimulatorParameters::with, "imu:blur"), "/simulator/with");
-  expectIn(errorOf(&SimulatorParameters::without, "imu:blur"), "noise, bias, jitter, clock");
-  const std::string fault = errorOf(&SimulatorParameters::fault, "melt:stereo:0:1");
+  expectIn(errorMessage(&SimulatorParameters::sensors, " , "), sensorList());
+  expectIn(errorMessage(&SimulatorParameters::with, "imu:blur"), "/simulator/with");
+  expectIn(errorMessage(&SimulatorParameters::without, "imu:blur"), "noise, bias, jitter, clock");
+  const std::string fault = errorMessage(&SimulatorParameters::fault, "melt:stereo:0:1");
   expectIn(fault, "/simulator/fault melt:stereo:0:1");
   expectIn(fault, faultList());
 }

@@ -17,7 +17,7 @@ struct Moments {
 };
 
 template <typename Draw>
-Moments momentsOf(const Draw& draw) {
+Moments computeMoments(const Draw& draw) {
   Moments sums;
   for (std::uint64_t i = 0; i < kDraws; ++i) {
     const double x = draw(i);
@@ -32,7 +32,7 @@ Moments momentsOf(const Draw& draw) {
 }
 
 template <typename A, typename B>
-double correlationOf(const A& a, const B& b) {
+double computeCorrelation(const A& a, const B& b) {
   double sum = 0.0;
   for (std::uint64_t i = 0; i < kDraws; ++i) sum += a(i) * b(i);
   return sum / kDraws;
@@ -62,7 +62,7 @@ TEST(Noise, UniformFillsItsRangeEvenly) {
 
 TEST(Noise, NormalHasTheMomentsOfANormal) {
   const Noise noise(7, "normal");
-  const Moments m = momentsOf([&](std::uint64_t i) { return noise.normal(i); });
+  const Moments m = computeMoments([&](std::uint64_t i) { return noise.normal(i); });
   EXPECT_NEAR(m.mean, 0.0, kFiveSigma);
   EXPECT_NEAR(m.variance, 1.0, kFiveSigma * std::sqrt(2.0));
   EXPECT_NEAR(m.third, 0.0, kFiveSigma * std::sqrt(15.0));
@@ -83,7 +83,7 @@ TEST(Noise, NormalAgreesWithBoxAndMullerByTheLibrary) {
 
 TEST(Noise, RoughNormalHasTheMomentsThatItSays) {
   const Noise noise(7, "pixels");
-  const Moments m = momentsOf([&](std::uint64_t i) { return static_cast<double>(noise.roughNormal(i)); });
+  const Moments m = computeMoments([&](std::uint64_t i) { return static_cast<double>(noise.roughNormal(i)); });
   EXPECT_NEAR(m.mean, 0.0, kFiveSigma);
   EXPECT_NEAR(m.variance, 1.0, kFiveSigma * std::sqrt(2.0));
   EXPECT_NEAR(m.fourth, 2.85, kFiveSigma * std::sqrt(96.0));
@@ -95,22 +95,22 @@ TEST(Noise, StreamsAreIndependent) {
   const auto draws = [](const Noise& noise) { return [noise](std::uint64_t i) { return noise.normal(i); }; };
   for (const Noise& other :
        {Noise(7, "laser_right"), Noise(8, "laser_left"), Noise(7, 0), base.of(0), base.of(1), base.of("laser_left")}) {
-    EXPECT_NEAR(correlationOf(draws(base), draws(other)), 0.0, kFiveSigma);
+    EXPECT_NEAR(computeCorrelation(draws(base), draws(other)), 0.0, kFiveSigma);
   }
-  EXPECT_NEAR(correlationOf(draws(base.of(1)), draws(base.of(2))), 0.0, kFiveSigma);
+  EXPECT_NEAR(computeCorrelation(draws(base.of(1)), draws(base.of(2))), 0.0, kFiveSigma);
 }
 
 TEST(Noise, NeighboursAreIndependent) {
   const Noise noise(7, "neighbours");
   for (const std::uint64_t lag : {1, 2, 181, 512, 65536}) {
-    EXPECT_NEAR(correlationOf([&](std::uint64_t i) { return noise.normal(i); },
-                              [&](std::uint64_t i) { return noise.normal(i + lag); }),
+    EXPECT_NEAR(computeCorrelation([&](std::uint64_t i) { return noise.normal(i); },
+                                   [&](std::uint64_t i) { return noise.normal(i + lag); }),
                 0.0, kFiveSigma);
   }
   // The first number of neighbouring streams, as where each row of a picture has its own.
   const auto first = [&](std::uint64_t i) { return noise.of(i).normal(0); };
-  EXPECT_NEAR(momentsOf(first).variance, 1.0, kFiveSigma * std::sqrt(2.0));
-  EXPECT_NEAR(correlationOf(first, [&](std::uint64_t i) { return noise.of(i + 1).normal(0); }), 0.0, kFiveSigma);
+  EXPECT_NEAR(computeMoments(first).variance, 1.0, kFiveSigma * std::sqrt(2.0));
+  EXPECT_NEAR(computeCorrelation(first, [&](std::uint64_t i) { return noise.of(i + 1).normal(0); }), 0.0, kFiveSigma);
 }
 
 TEST(Noise, EveryBitOfTheCounterChangesHalfTheBits) {

@@ -32,7 +32,7 @@ SessionOptions sameSession() {
 
 /// What a message says, but for header.seq, which the publisher counts.
 template <typename Message>
-std::vector<std::uint8_t> bytesOf(Message message) {
+std::vector<std::uint8_t> toBytes(Message message) {
   message.header.seq = 0;
   std::vector<std::uint8_t> bytes(ros::serialization::serializationLength(message));
   ros::serialization::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
@@ -43,14 +43,14 @@ std::vector<std::uint8_t> bytesOf(Message message) {
 /// A listener that keeps everything, and the services.
 class Simulator : public ::testing::Test {
  protected:
-  struct Heard {
+  struct Received {
     StampNs stamp, clock;
     std::vector<std::uint8_t> bytes;
   };
 
   void SetUp() override {
     call("pause");
-    for (const TopicMessage& each : topicsOf(sameSession().sensors))
+    for (const TopicMessage& each : listTopics(sameSession().sensors))
       std::visit([&](const auto& pointer) { keep(each.topic, *pointer); }, each.message);
     subscribers_.push_back(
         nh_.subscribe<rosgraph_msgs::Clock>("/clock", 10000, [this](const rosgraph_msgs::ClockConstPtr& message) {
@@ -67,7 +67,7 @@ class Simulator : public ::testing::Test {
     ASSERT_TRUE(call("reset"));
     // At the beginning, and held there.
     ASSERT_TRUE(until([this] { return !clock_.empty() && clock_.back() == begin(); })) << lastState();
-    heard_.clear();
+    received_.clear();
     clock_.clear();
     diagnostics_.clear();
   }
@@ -103,15 +103,15 @@ class Simulator : public ::testing::Test {
   void keep(const std::string& topic, const Message&) {
     const boost::function<void(const boost::shared_ptr<const Message>&)> callback =
         [this, topic](const boost::shared_ptr<const Message>& message) {
-          heard_[topic].push_back(
-              {urban_nav_ros::toStampNs(message->header.stamp), clock_.empty() ? 0 : clock_.back(), bytesOf(*message)});
+          received_[topic].push_back(
+              {urban_nav_ros::toStampNs(message->header.stamp), clock_.empty() ? 0 : clock_.back(), toBytes(*message)});
         };
     subscribers_.push_back(nh_.subscribe<Message>(topic, 10000, callback));
   }
 
   ros::NodeHandle nh_;
   std::vector<ros::Subscriber> subscribers_;
-  std::map<std::string, std::vector<Heard>> heard_;
+  std::map<std::string, std::vector<Received>> received_;
   std::vector<StampNs> clock_;
   std::vector<diagnostic_msgs::DiagnosticStatus> diagnostics_;
 };
@@ -122,18 +122,18 @@ TEST_F(Simulator, PublishesTheSessionToTheLastBit) {
   MeasurementMessages messages(session);
   while (const auto arrival = session.next())
     for (const TopicMessage& each : messages.convert(arrival->measurement))
-      std::visit([&](const auto& pointer) { expected[each.topic].push_back(bytesOf(*pointer)); }, each.message);
+      std::visit([&](const auto& pointer) { expected[each.topic].push_back(toBytes(*pointer)); }, each.message);
   EXPECT_EQ(expected["stereo/left/image_raw"].size(), 20U);
   EXPECT_LT(expected["laser_left/scan"].size(), 60U) << "the fault is in force";
-  ASSERT_EQ(expected.size(), topicsOf(sameSession().sensors).size());
+  ASSERT_EQ(expected.size(), listTopics(sameSession().sensors).size());
 
   ASSERT_TRUE(call("resume"));
   ASSERT_TRUE(until([this] { return said("over"); })) << lastState();
   for (const auto& [topic, all] : expected) {
-    ASSERT_TRUE(until([&, &name = topic, &wanted = all] { return heard_[name].size() >= wanted.size(); }))
-        << topic << ": " << heard_[topic].size() << " of " << all.size();
-    ASSERT_EQ(heard_[topic].size(), all.size()) << topic;
-    for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(heard_[topic][i].bytes, all[i]) << topic << " " << i;
+    ASSERT_TRUE(until([&, &name = topic, &wanted = all] { return received_[name].size() >= wanted.size(); }))
+        << topic << ": " << received_[topic].size() << " of " << all.size();
+    ASSERT_EQ(received_[topic].size(), all.size()) << topic;
+    for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(received_[topic][i].bytes, all[i]) << topic << " " << i;
   }
 }
 
@@ -143,8 +143,8 @@ TEST_F(Simulator, TheClockFollowsTheMessagesAndTheDiagnosticsTellHowFar) {
   EXPECT_TRUE(std::is_sorted(clock_.begin(), clock_.end()));
   EXPECT_EQ(clock_.back(), begin() + 1'000'000'000) << "the end of the session";
   EXPECT_GE(clock_.size(), 150U);
-  for (const Heard& truth : heard_["ground_truth/pose"]) {
-    if (truth.clock == 0) continue;  // heard before the first /clock
+  for (const Received& truth : received_["ground_truth/pose"]) {
+    if (truth.clock == 0) continue;  // received before the first /clock
     EXPECT_NEAR(1e-9 * static_cast<double>(truth.stamp - truth.clock), 0.0, 0.1);
   }
 
@@ -154,7 +154,7 @@ TEST_F(Simulator, TheClockFollowsTheMessagesAndTheDiagnosticsTellHowFar) {
   EXPECT_EQ(values["time (s)"], "1.00");
   EXPECT_EQ(values["duration (s)"], "1.00");
   EXPECT_NE(values["time factor"], "");
-  const std::size_t end = heard_["ground_truth/pose"].size();
+  const std::size_t end = received_["ground_truth/pose"].size();
   EXPECT_GT(std::stoul(values["messages"]), end) << "of this session, not of those before";
   EXPECT_LT(std::stoul(values["messages"]), 4 * end);
 }
@@ -162,18 +162,18 @@ TEST_F(Simulator, TheClockFollowsTheMessagesAndTheDiagnosticsTellHowFar) {
 TEST_F(Simulator, PausesAndGoesOn) {
   ASSERT_TRUE(until([this] { return clock_.size() >= 3; })) << "the clock is said while it stands";
   EXPECT_EQ(clock_.front(), clock_.back());
-  EXPECT_TRUE(heard_["ground_truth/pose"].empty());
+  EXPECT_TRUE(received_["ground_truth/pose"].empty());
   ASSERT_TRUE(call("resume"));
-  ASSERT_TRUE(until([this] { return heard_["stereo/left/image_raw"].size() >= 3; }));
+  ASSERT_TRUE(until([this] { return received_["stereo/left/image_raw"].size() >= 3; }));
   ASSERT_TRUE(call("pause"));
   ASSERT_TRUE(until([this] { return said("paused"); })) << lastState();
-  const std::size_t before = heard_["stereo/left/image_raw"].size();
+  const std::size_t before = received_["stereo/left/image_raw"].size();
   ros::WallDuration(0.3).sleep();
   ros::spinOnce();
-  EXPECT_LE(heard_["stereo/left/image_raw"].size(), before + 1);
+  EXPECT_LE(received_["stereo/left/image_raw"].size(), before + 1);
   ASSERT_TRUE(call("resume"));
-  ASSERT_TRUE(until([this] { return heard_["stereo/left/image_raw"].size() == 20; }))
-      << heard_["stereo/left/image_raw"].size();
+  ASSERT_TRUE(until([this] { return received_["stereo/left/image_raw"].size() == 20; }))
+      << received_["stereo/left/image_raw"].size();
 }
 
 TEST_F(Simulator, ItsFramesHangTogether) {

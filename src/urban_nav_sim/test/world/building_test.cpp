@@ -14,7 +14,7 @@ TEST(Building, AWallHasHolesWhereItsOpeningsAreAndLooksOutwards) {
   World world;
   world.ground = [](double, double) { return 0.0; };
   Site site(world, 1);
-  const Finish wall{Stuff::Brick, 0, 1}, trim{Stuff::Kerb, 0, 1}, window{Stuff::Sash, 0, 1};
+  const Finish wall{MaterialKind::Brick, 0, 1}, trim{MaterialKind::Kerb, 0, 1}, window{MaterialKind::Sash, 0, 1};
   buildWall(site, wall, trim, {0, 0}, {1, 0}, 10.0, -1.0, 5.0,
             {{1, 2, 1, 2.5, 0.2, window}, {4, 5.5, 1, 2.5, 0.2, window}, {1, 2, 3, 4.5, 0.2, window}});
   double area = 0.0;
@@ -30,7 +30,7 @@ TEST(Building, AWallHasHolesWhereItsOpeningsAreAndLooksOutwards) {
     EXPECT_NEAR((part.texture[t[1]] - part.texture[t[0]]).norm(), (part.vertices[t[1]] - part.vertices[t[0]]).norm(),
                 1e-5F);
   }
-  for (const Vector3f& v : site.part(window).vertices) EXPECT_NEAR(v.y(), 0.2F, 1e-6F);  // behind the wall
+  for (const Vector3f& v : site.part(window).vertices) EXPECT_NEAR(v.y(), 0.2F, 1e-6F);  // inside the wall
 }
 
 TEST(Building, AHouseStandsOnItsRectangleAndHasWindowsDoorsAndARoof) {
@@ -38,7 +38,7 @@ TEST(Building, AHouseStandsOnItsRectangleAndHasWindowsDoorsAndARoof) {
   world.ground = [](double, double) { return 0.0; };
   Site site(world, 1);
   Style style;
-  style.wall = {Stuff::Brick, 0, 5}, style.doors = {2, 0, 0, 0}, style.irregular = 0.0;
+  style.wall = {MaterialKind::Brick, 0, 5}, style.doors = {2, 0, 0, 0}, style.irregular = 0.0;
   buildHouse(site, {0, 0, 12, 8}, style);
   bool window = false, door = false, roof = false;
   for (const Part& part : world.parts) {

@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3f;
 
-double areaOf(const Part& part) {
+double computeArea(const Part& part) {
   double area = 0.0;
   for (const auto& t : part.triangles) {
     const Vector3f a = part.vertices[t[0]], b = part.vertices[t[1]], c = part.vertices[t[2]];
@@ -32,7 +32,7 @@ World flatWorld() {
 TEST(Terrain, RegionsFillTheGroundWithoutGapsAndWithTheirOwnSize) {
   World world = flatWorld();
   Site site(world, 1);
-  const Finish disc{Stuff::Lawn, 0, 1}, square{Stuff::Slabs, 0, 1}, rest{Stuff::Meadow, 0, 1};
+  const Finish disc{MaterialKind::Lawn, 0, 1}, square{MaterialKind::Slabs, 0, 1}, rest{MaterialKind::Meadow, 0, 1};
   layGround(site, {-10, -10, 10, 10},
             {{disc, [](double x, double y) { return 4.0 - std::hypot(x, y); }},
              {square,
@@ -40,17 +40,19 @@ TEST(Terrain, RegionsFillTheGroundWithoutGapsAndWithTheirOwnSize) {
                 return insideRectangle({0, 0, 6.1, 6.1}, 0.0, x, y);
               }},
              {rest, nullptr}});
-  EXPECT_NEAR(areaOf(site.part(disc)), M_PI * 16.0, 0.3);
-  EXPECT_NEAR(areaOf(site.part(square)), 6.1 * 6.1 - M_PI * 4.0, 0.4);
-  EXPECT_NEAR(areaOf(site.part(disc)) + areaOf(site.part(square)) + areaOf(site.part(rest)), 400.0, 0.01);
+  EXPECT_NEAR(computeArea(site.part(disc)), M_PI * 16.0, 0.3);
+  EXPECT_NEAR(computeArea(site.part(square)), 6.1 * 6.1 - M_PI * 4.0, 0.4);
+  EXPECT_NEAR(computeArea(site.part(disc)) + computeArea(site.part(square)) + computeArea(site.part(rest)), 400.0,
+              0.01);
 }
 
 TEST(Terrain, EdgesOfRegionsAreCutNotStepped) {
   World world = flatWorld();
   Site site(world, 1);
-  const Finish disc{Stuff::Lawn, 0, 1};
-  layGround(site, {-6, -6, 6, 6},
-            {{disc, [](double x, double y) { return 4.0 - std::hypot(x, y); }}, {{Stuff::Meadow, 0, 1}, nullptr}});
+  const Finish disc{MaterialKind::Lawn, 0, 1};
+  layGround(
+      site, {-6, -6, 6, 6},
+      {{disc, [](double x, double y) { return 4.0 - std::hypot(x, y); }}, {{MaterialKind::Meadow, 0, 1}, nullptr}});
   float farthest = 0.0F;
   for (const Vector3f& v : site.part(disc).vertices) farthest = std::max(farthest, v.head<2>().norm());
   EXPECT_NEAR(farthest, 4.0F, 0.01F);
@@ -59,9 +61,9 @@ TEST(Terrain, EdgesOfRegionsAreCutNotStepped) {
 TEST(Terrain, AStripIsAsWideAndHighAsWanted) {
   World world = flatWorld();
   Site site(world, 1);
-  const Finish top{Stuff::Slabs, 0, 1}, side{Stuff::Kerb, 0, 1};
+  const Finish top{MaterialKind::Slabs, 0, 1}, side{MaterialKind::Kerb, 0, 1};
   layStrip(site, top, side, {1, 2}, {11, 2}, 1.5, 0.11);
-  EXPECT_NEAR(areaOf(site.part(top)), 15.0, 1e-3);
+  EXPECT_NEAR(computeArea(site.part(top)), 15.0, 1e-3);
   for (const Vector3f& v : site.part(top).vertices) EXPECT_NEAR(v.z(), 0.11F, 1e-6F);
 }
 

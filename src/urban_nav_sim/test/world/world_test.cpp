@@ -9,8 +9,8 @@
 #include <map>
 #include <set>
 
-#include "look/material.hpp"
-#include "ride/make_ride.hpp"
+#include "materials/material.hpp"
+#include "motion/simulate_drive.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav_sim {
@@ -20,7 +20,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-const World& worldOf(const std::string& name) {
+const World& testWorld(const std::string& name) {
   static std::map<std::string, World> worlds;
   const auto found = worlds.find(name);
   return found != worlds.end() ? found->second : worlds.emplace(name, buildWorld(name, 7, 1)).first->second;
@@ -29,7 +29,7 @@ const World& worldOf(const std::string& name) {
 class Worlds : public ::testing::TestWithParam<std::string> {};
 
 /// The legs of all routes, sampled every 0.1 m, in cells of 1 m.
-std::set<std::pair<int, int>> cellsOf(const std::vector<Vector2d>& places) {
+std::set<std::pair<int, int>> coveredCells(const std::vector<Vector2d>& places) {
   std::set<std::pair<int, int>> cells;
   for (const Vector2d& p : places) {
     for (int i = -1; i <= 1; ++i) {
@@ -40,7 +40,7 @@ std::set<std::pair<int, int>> cellsOf(const std::vector<Vector2d>& places) {
   return cells;
 }
 
-std::vector<Vector2d> placesOf(const Route& route, double step) {
+std::vector<Vector2d> samplePositions(const Route& route, double step) {
   std::vector<Vector2d> places;
   for (std::size_t i = 1; i < route.waypoints.size(); ++i) {
     const Vector2d a = route.waypoints[i - 1].position, d = route.waypoints[i].position - a;
@@ -51,29 +51,29 @@ std::vector<Vector2d> placesOf(const Route& route, double step) {
 }
 
 TEST_P(Worlds, OneOfTheRoutesCreeps) {
-  const std::vector<Route> routes = routesOf(GetParam(), 7);
+  const std::vector<Route> routes = worldRoutes(GetParam(), 7);
   const auto creep =
       std::find_if(routes.begin(), routes.end(), [](const Route& route) { return route.name == "creep"; });
   ASSERT_NE(creep, routes.end());
-  RideOptions options;
+  DriveOptions options;
   options.duration = 15.0;
-  const auto ride = makeRide(worldOf(GetParam()), *creep, options);
+  const auto motion = simulateDrive(testWorld(GetParam()), *creep, options);
   const auto way = [&](double a, double b) {
-    return (ride->at(b).T_world_base.t() - ride->at(a).T_world_base.t()).head<2>().norm();
+    return (motion->at(b).T_world_base.t() - motion->at(a).T_world_base.t()).head<2>().norm();
   };
   EXPECT_NEAR(way(3.0, 13.0), 0.2, 0.04);  // at 2 cm/s, and it sways
   EXPECT_LT(way(0.0, 3.0), 0.09);
 }
 
 TEST_P(Worlds, RoutesKeepClearOfWhatStandsThere) {
-  const World& world = worldOf(GetParam());
+  const World& world = testWorld(GetParam());
   std::vector<Vector2d> places;
-  for (const Route& route : routesOf(GetParam(), 7)) {
+  for (const Route& route : worldRoutes(GetParam(), 7)) {
     ASSERT_GE(route.waypoints.size(), 2U) << route.name;
-    const std::vector<Vector2d> some = placesOf(route, 0.1);
+    const std::vector<Vector2d> some = samplePositions(route, 0.1);
     places.insert(places.end(), some.begin(), some.end());
   }
-  const auto cells = cellsOf(places);
+  const auto cells = coveredCells(places);
   double nearest = 1e9;
   for (const Part& part : world.parts) {
     for (const auto& t : part.triangles) {
@@ -97,7 +97,7 @@ TEST_P(Worlds, RoutesKeepClearOfWhatStandsThere) {
 
 TEST_P(Worlds, LegsAreLongEnoughToDriveAndStartAtTheOrigin) {
   std::set<std::string> names;
-  for (const Route& route : routesOf(GetParam(), 7)) {
+  for (const Route& route : worldRoutes(GetParam(), 7)) {
     names.insert(route.name);
     double length = 0.0;
     for (std::size_t i = 1; i < route.waypoints.size(); ++i)
@@ -109,8 +109,8 @@ TEST_P(Worlds, LegsAreLongEnoughToDriveAndStartAtTheOrigin) {
 }
 
 TEST_P(Worlds, MeshFollowsTheGroundThatWheelsRollOn) {
-  const World& world = worldOf(GetParam());
-  const auto cells = cellsOf(placesOf(routesOf(GetParam(), 7)[0], 0.5));
+  const World& world = testWorld(GetParam());
+  const auto cells = coveredCells(samplePositions(worldRoutes(GetParam(), 7)[0], 0.5));
   std::set<std::pair<int, int>> covered;
   double worst = 0.0;
   for (const Part& part : world.parts) {
@@ -134,7 +134,7 @@ TEST_P(Worlds, MeshFollowsTheGroundThatWheelsRollOn) {
 }
 
 TEST_P(Worlds, GroundIsSmooth) {
-  const World& world = worldOf(GetParam());
+  const World& world = testWorld(GetParam());
   EXPECT_EQ(world.ground(0, 0), 0.0);
   for (int i = 0; i < 2000; ++i) {
     const double x = 0.137 * i - 100, y = 0.071 * i - 50, h = 1e-3;
@@ -145,14 +145,14 @@ TEST_P(Worlds, GroundIsSmooth) {
 }
 
 TEST_P(Worlds, EveryClassOfSurfaceIsNearTheRoutes) {
-  const World& world = worldOf(GetParam());
+  const World& world = testWorld(GetParam());
   std::set<SurfaceClass> classes;
   for (const Part& part : world.parts) classes.insert(world.materials.at(part.material).surface_class);
   EXPECT_EQ(classes.size(), 8U);
 }
 
 TEST_P(Worlds, IsTheSameAgainAndItsBuildingsStandOnOtherDays) {
-  const World& first = worldOf(GetParam());
+  const World& first = testWorld(GetParam());
   if (GetParam() == "street") {  // one of them, for the time it takes
     const World again = buildWorld(GetParam(), 7, 1);
     ASSERT_EQ(first.parts.size(), again.parts.size());
@@ -197,7 +197,7 @@ TEST_P(Worlds, HasNoCarsInEachOther) {
 }
 
 TEST_P(Worlds, IsMadeOfProperTriangles) {
-  const World& world = worldOf(GetParam());
+  const World& world = testWorld(GetParam());
   std::size_t triangles = 0;
   for (const Part& part : world.parts) {
     ASSERT_LT(part.material, world.materials.size());
@@ -212,13 +212,13 @@ TEST_P(Worlds, IsMadeOfProperTriangles) {
 INSTANTIATE_TEST_SUITE_P(All, Worlds, ::testing::ValuesIn(worldNames()), [](const auto& of) { return of.param; });
 
 TEST(World, AnotherSeedIsAnotherPlace) {
-  EXPECT_NE(routesOf("quad", 7)[0].waypoints[1].position, routesOf("quad", 8)[0].waypoints[1].position);
-  EXPECT_NE(routesOf("street", 7)[0].waypoints[1].position, routesOf("street", 8)[0].waypoints[1].position);
+  EXPECT_NE(worldRoutes("quad", 7)[0].waypoints[1].position, worldRoutes("quad", 8)[0].waypoints[1].position);
+  EXPECT_NE(worldRoutes("street", 7)[0].waypoints[1].position, worldRoutes("street", 8)[0].waypoints[1].position);
 }
 
 TEST(World, NamesWhatThereIsWhereItIsAskedForAnother) {
   EXPECT_THROW(buildWorld("atlantis", 1, 1), urban_nav_core::UserError);
-  EXPECT_THROW(routesOf("atlantis", 1), urban_nav_core::UserError);
+  EXPECT_THROW(worldRoutes("atlantis", 1), urban_nav_core::UserError);
 }
 
 }  // namespace

@@ -22,10 +22,12 @@
 
 #include "urban_nav_sim/session.hpp"
 
-/// What of urban_nav_sim knows of ROS: the bag of the command and the live node get their messages here, so that equal sessions are equal bytes in both.
+/// What of urban_nav_sim knows of ROS: the bag of the command and the live node get their messages here, so that equal
+/// sessions are equal bytes in both.
 namespace urban_nav_sim {
 
-/// A message (never null) and the topic of docs/architecture.md where it belongs, without a slash in front: a name space may come there.
+/// A message (never null) and the topic of docs/architecture.md where it belongs, without a slash in front: a name
+/// space may come there.
 struct TopicMessage {
   using Message =
       std::variant<sensor_msgs::ImagePtr, sensor_msgs::CameraInfoPtr, sensor_msgs::CompressedImagePtr,
@@ -36,7 +38,7 @@ struct TopicMessage {
 };
 
 /// Every topic on which these sensors, and the truth, may speak, with an empty message of its type.
-std::vector<TopicMessage> topicsOf(const std::set<Sensor>& sensors);
+std::vector<TopicMessage> listTopics(const std::set<Sensor>& sensors);
 
 /// Measurements of one session as messages. Not thread-safe: laser scans are counted.
 class MeasurementMessages {

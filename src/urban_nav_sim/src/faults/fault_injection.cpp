@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "faults/fault_injection.hpp"
+
+#include <limits>
+#include <utility>
+
+#include "noise/hash.hpp"
+
+namespace urban_nav_sim {
+
+using urban_nav_core::StampNs;
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+template <typename Any>
+void set(StampNs stamp, Any& measurement) {
+  measurement.stamp = stamp;
+}
+void set(StampNs stamp, LaserMeasurement& measurement) { measurement.scan.stamp = stamp; }
+
+/// Pixels are shared with what was sent before: they are changed in a copy.
+void corruptRows(double share, std::uint64_t seed, cv::Mat& image) {
+  image = image.clone();
+  for (int v = 0; v < image.rows; ++v) {
+    if (toUniform(hash(seed, v)) >= share) continue;
+    std::uint8_t* row = image.ptr<std::uint8_t>(v);
+    for (int i = 0; i < image.cols * image.channels(); ++i) row[i] = static_cast<std::uint8_t>(hash(seed, v, i));
+  }
+}
+
+/// Sets one of the numbers to anything up to `size`.
+class CorruptedBytes {
+ public:
+  CorruptedBytes(double share, std::uint64_t seed) : share_(share), draw_(seed) {}
+  void into(double size, double& number) {
+    if (draw_.chance(share_)) number = draw_.uniform(-size, size);
+  }
+  void into(double size, Eigen::Vector3d& vector) {
+    for (int k = 0; k < 3; ++k) into(size, vector[k]);
+  }
+
+ private:
+  double share_;
+  Draw draw_;
+};
+
+struct Corrupt {
+  double share;
+  std::uint64_t seed;
+
+  void operator()(StereoMeasurement& pair) const {
+    corruptRows(share, hash(seed, 1), pair.left);
+    corruptRows(share, hash(seed, 2), pair.right);
+  }
+  void operator()(LadybugMeasurement& panorama) const { corruptRows(share, seed, panorama.image); }
+  void operator()(LaserMeasurement& turn) const {
+    for (std::size_t i = 0; i < turn.scan.ranges.size(); ++i)
+      if (toUniform(hash(seed, i)) < share)
+        turn.scan.ranges[i] = static_cast<float>(turn.scan.range_max * toUniform(hash(seed, i, 1)));
+  }
+  void operator()(ImuMeasurement& imu) const {
+    CorruptedBytes rubbish(share, seed);
+    rubbish.into(10.0, imu.rate);
+    rubbish.into(50.0, imu.specific_force);
+    rubbish.into(1e-4, imu.field);
+  }
+  void operator()(WheelMeasurement& wheels) const {
+    CorruptedBytes rubbish(share, seed);
+    Eigen::Vector3d place = wheels.T_odom_base.t();
+    rubbish.into(1000.0, place);
+    wheels.T_odom_base = urban_nav_core::Pose(wheels.T_odom_base.q(), place);
+    rubbish.into(10.0, wheels.speed);
+    rubbish.into(10.0, wheels.yaw_rate);
+  }
+  void operator()(GpsMeasurement& gps) const {
+    CorruptedBytes rubbish(share, seed);
+    rubbish.into(90.0, gps.latitude);
+    rubbish.into(180.0, gps.longitude);
+    rubbish.into(9000.0, gps.altitude);
+    rubbish.into(100.0, gps.velocity);
+  }
+  void operator()(TruthMeasurement&) const {}
+  void operator()(ViewTruth&) const {}
+};
+
+struct Blank {
+  static cv::Mat black(const cv::Mat& image) { return cv::Mat::zeros(image.size(), image.type()); }
+
+  void operator()(StereoMeasurement& pair) const {
+    pair.left = black(pair.left);
+    pair.right = black(pair.right);
+  }
+  void operator()(LadybugMeasurement& panorama) const { panorama.image = black(panorama.image); }
+  void operator()(LaserMeasurement& turn) const {
+    turn.scan.ranges.assign(turn.scan.ranges.size(), std::numeric_limits<float>::quiet_NaN());
+  }
+  void operator()(ImuMeasurement& imu) const {
+    imu.rate.setConstant(nan);
+    imu.specific_force.setConstant(nan);
+    imu.field.setConstant(nan);
+  }
+  void operator()(WheelMeasurement& wheels) const {
+    wheels.T_odom_base = urban_nav_core::Pose(wheels.T_odom_base.q(), Eigen::Vector3d::Constant(nan));
+    wheels.speed = wheels.yaw_rate = nan;
+  }
+  void operator()(GpsMeasurement& gps) const {
+    gps.latitude = gps.longitude = gps.altitude = nan;
+    gps.velocity.setConstant(nan);
+  }
+  void operator()(TruthMeasurement&) const {}
+  void operator()(ViewTruth&) const {}
+};
+
+}  // namespace
+
+void setStamp(StampNs stamp, Measurement& measurement) {
+  std::visit([stamp](auto& any) { set(stamp, any); }, measurement);
+}
+
+bool swapSides(Measurement& measurement) {
+  if (auto* pair = std::get_if<StereoMeasurement>(&measurement)) {
+    std::swap(pair->left, pair->right);
+    return true;
+  }
+  if (auto* turn = std::get_if<LaserMeasurement>(&measurement)) {
+    turn->side = turn->side == Side::Left ? Side::Right : Side::Left;
+    return true;
+  }
+  return false;
+}
+
+void corrupt(double share, std::uint64_t seed, Measurement& measurement) {
+  std::visit(Corrupt{share, seed}, measurement);
+}
+
+void blank(Measurement& measurement) { std::visit(Blank(), measurement); }
+
+}  // namespace urban_nav_sim

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "ground_truth/revisits.hpp"
+#include "motion/motion.hpp"
+#include "proprioception/clock.hpp"
+
+namespace urban_nav_sim {
+
+/// base_link in `world` every 5 ms, from t = 0 to 0.05 s after the end, which covers the last beams.
+urban_nav_core::Trajectory trueTrajectory(const Motion& motion, const Clock& truth);
+/// base_link in `world` at the stamps that panoramas have, or would have.
+urban_nav_core::Trajectory truePanoramas(const Motion& motion, const Clock& ladybug);
+
+/// `stamp_a_ns,stamp_b_ns,distance_m,heading_deg`, to 0.1 mm and 0.001 deg.
+void writeRevisits(const std::string& path, const urban_nav_core::Trajectory& panoramas,
+                   const std::vector<Revisit>& revisits);
+/// `session_a,stamp_a_ns,session_b,stamp_b_ns,probability`; both sessions are 0.
+void writeClosures(const std::string& path, const urban_nav_core::Trajectory& panoramas,
+                   const std::vector<Closure>& closures);
+
+/// `sensor,offset_s,skew,jitter_s`: by how much the stamps of each are off.
+void writeClocks(const std::string& path, const std::map<Sensor, ClockOptions>& clocks);
+
+/// The truth folder of docs/files.md but for cloud.ply, into a folder that exists: trajectory.tum, revisits.csv,
+/// closures_true.csv and, if `false_percent` is above zero, closures_false.csv with so many per cent of the number of
+/// true ones. `ladybug`: the clock that stamps panoramas. Throws UserError naming the file that cannot be written.
+void writeTruthFiles(const std::string& folder, const Motion& motion, const Clock& truth, const Clock& ladybug,
+                     double false_percent, std::uint64_t seed);
+
+}  // namespace urban_nav_sim

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "motion/segway.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "motion/simulate_drive.hpp"
+
+namespace urban_nav_sim {
+namespace {
+
+constexpr double kFallAcceleration = 9.81;  // m/s^2
+constexpr double kLength = 0.85;  // m: of the point pendulum that swings alike (computers, batteries and mast)
+constexpr double kMass = 0.60;    // m: of the centre of mass above the axle
+constexpr double kPole = 4.0, kDamping = 0.7;
+constexpr double kStiffness = kFallAcceleration + kPole * kPole * kLength;  // m/s^2 a rad
+constexpr double kBrake = 2.0 * kDamping * kPole * kLength;                 // m/s^2 a rad/s
+constexpr double kSpeedGain = 1.1;                                          // 1/s: (m/s^2) a (m/s) of missing speed
+constexpr double kMostLean = 0.09;                                          // rad: 0.9 m/s^2
+constexpr double kTurnLag = 0.18;                                           // s
+constexpr double kMostTurnChange = 3.0;                                     // rad/s^2
+
+// How far in front of the axle the wheel touches a slope, as the sine of the lean that brings the mass above it.
+double wheelOffset(double slope) { return kWheelRadius / kMass * std::sin(slope); }
+
+}  // namespace
+
+SegwayState standingSegway(const Eigen::Vector2d& position, double yaw, double slope) {
+  SegwayState state;
+  state.position = position;
+  state.yaw = yaw;
+  state.pitch = std::asin(wheelOffset(slope));
+  return state;
+}
+
+SegwayState stepSegway(const SegwayState& state, const SegwayCommand& command, const SegwayDisturbance& disturbance,
+                       double dt) {
+  // The lean that would hold the acceleration; the stiffness has gravity to overcome first.
+  const double wanted =
+      kSpeedGain * (command.speed - state.speed) / kFallAcceleration * (kStiffness - kFallAcceleration) / kStiffness;
+  const double foot = wheelOffset(disturbance.slope);
+  const double lean = std::clamp(wanted, -kMostLean, kMostLean) + foot;
+  const double acceleration = kStiffness * (state.pitch - lean) + kBrake * state.pitch_rate;
+  const double fall = kFallAcceleration * (std::sin(state.pitch) - foot) - acceleration * std::cos(state.pitch);
+
+  SegwayState next = state;
+  next.pitch_rate += dt * (fall / kLength + disturbance.pitch_push);
+  next.pitch += dt * next.pitch_rate;
+  next.speed += dt * acceleration;
+  const double turn_change = std::clamp((command.turn - state.turn) / kTurnLag, -kMostTurnChange, kMostTurnChange);
+  next.turn += dt * (turn_change + disturbance.turn_push);
+  next.yaw += dt * next.turn;
+  const double heading = 0.5 * (state.yaw + next.yaw);
+  const double forward = dt * 0.5 * (state.speed + next.speed) * std::cos(disturbance.slope);
+  next.position += forward * Eigen::Vector2d(std::cos(heading), std::sin(heading));
+  return next;
+}
+
+}  // namespace urban_nav_sim

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace urban_nav_sim {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+/// Six functions of time as uniform B-splines of degree five: four times continuously differentiable. Immutable, so
+/// thread-safe.
+class TimeSpline {
+ public:
+  struct Value {
+    Vector6 value, rate, change;  ///< the functions, their first and their second derivatives by s
+  };
+
+  /// Control point i belongs to the time `first + i * step` (s). The curve does not pass through the points: it is
+  /// their polygon under a window of six steps (and equals it where it is straight). At least six.
+  TimeSpline(double first, double step, std::vector<Vector6> control);
+
+  double begin() const { return first_ + 2.0 * step_; }
+  double end() const { return first_ + static_cast<double>(control_.size() - 3) * step_; }
+  /// Outside of begin() ... end() the last polynomial is extrapolated.
+  Value at(double t) const;
+
+ private:
+  double first_, step_;
+  std::vector<Vector6> control_;
+};
+
+}  // namespace urban_nav_sim

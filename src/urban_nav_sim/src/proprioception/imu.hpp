@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+
+#include "motion/motion.hpp"
+#include "proprioception/clock.hpp"
+#include "proprioception/random_walk.hpp"
+#include "proprioception/schedule.hpp"
+
+namespace urban_nav_sim {
+
+constexpr double kGravity = 9.81;  ///< m/s^2, along -z of `world`
+
+/// Errors of an XSens MTi (its data sheet). All zero: it measures the truth.
+struct ImuOptions {
+  double rate_density = 0.1 * M_PI / 180.0;                ///< rad/s/sqrt(Hz)
+  double rate_bias = 0.2 * M_PI / 180.0;                   ///< rad/s, standard deviation at the start
+  double rate_walk = 20.0 / 3600.0 * M_PI / 180.0 / 60.0;  ///< rad/s/sqrt(s): 20 deg/h after an hour
+  double force_density = 1e-3;                             ///< m/s^2/sqrt(Hz)
+  double force_bias = 0.02;                                ///< m/s^2, drifts within this standard deviation
+  double force_bias_time = 600.0;                          ///< s, time constant of that drift
+  double field_sigma = 5e-8;                               ///< T, of one measurement
+  double field_bias = 1e-6;                                ///< T, of the robot's own iron
+  double field_disturbance = 3e-6;                         ///< T, of iron in walls and ground, over some 5 m
+};
+ImuOptions perfectImu();
+
+/// The earth's field at Oxford: 48.6 uT, 66.5 deg below the horizon, declination 2.5 deg west; `world` is x east, y
+/// north.
+Eigen::Vector3d earthField();
+
+/// An XSens on the robot. Immutable, so thread-safe; the motion must outlive it.
+class Imu {
+ public:
+  Imu(const Motion& motion, const urban_nav_core::Pose& T_base_imu, const ImuOptions& options, const Clock& clock,
+      const Noise& noise);
+
+  /// Measurement k = 0, 1, ..., taken at sensorSchedule(Sensor::Imu).at(k), in the axes of imu_link.
+  ImuMeasurement at(std::int64_t k) const;
+  /// Without any error, at any time of the motion; the stamp is left out.
+  ImuMeasurement truth(double t) const;
+
+ private:
+  const Motion& motion_;
+  urban_nav_core::Pose T_base_imu_;
+  ImuOptions options_;
+  Clock clock_;
+  Schedule schedule_ = sensorSchedule(Sensor::Imu);
+  Noise rate_noise_, force_noise_, field_noise_;
+  RandomWalk rate_bias_, force_bias_;
+  Eigen::Vector3d field_bias_;
+};
+
+}  // namespace urban_nav_sim

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "motion/motion.hpp"
+#include "proprioception/clock.hpp"
+#include "proprioception/schedule.hpp"
+
+namespace urban_nav_sim {
+
+/// Errors of the odometry of a Segway RMP200.
+struct WheelOptions {
+  double scale_sigma = 0.005;        ///< of the radius of both wheels, one for the session (tyre pressure, load)
+  double difference_sigma = 0.0005;  ///< of that of one wheel beside the other's: 0.1 deg of heading a metre
+  double track = 1.02;               ///< effective over nominal track: tyres scrub as they turn
+  double slip_sigma = 0.003;         ///< share of the way of each wheel that is lost or won within some half a second
+  bool counts = true;                ///< in the steps of the base's counters (Segway RMP interface guide)
+};
+WheelOptions perfectWheels();
+
+/// What the wheels say they did: pose in `odom`, which is base_link at t = 0, flat, and speeds, every 36 ms. Immutable,
+/// so thread-safe; the motion is not needed afterwards.
+class Wheels {
+ public:
+  Wheels(const Motion& motion, const WheelOptions& options, const Clock& clock, const Noise& noise);
+
+  /// Measurement k = 0 ... count() - 1, taken at sensorSchedule(Sensor::Wheels).at(k).
+  const WheelMeasurement& at(std::int64_t k) const { return all_[static_cast<std::size_t>(k)]; }
+  std::int64_t count() const { return static_cast<std::int64_t>(all_.size()); }
+
+ private:
+  std::vector<WheelMeasurement> all_;
+};
+
+}  // namespace urban_nav_sim

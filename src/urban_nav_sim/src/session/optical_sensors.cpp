@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "session/optical_sensors.hpp"
+
+#include <algorithm>
+#include <opencv2/core.hpp>
+#include <string>
+#include <utility>
+
+#include "camera/heads.hpp"
+#include "camera/sky.hpp"
+#include "laser/lms291.hpp"
+#include "proprioception/schedule.hpp"
+#include "ray_tracing/tracer.hpp"
+#include "rig/sensor_poses.hpp"
+#include "session/settings.hpp"
+#include "urban_nav_core/types/frames.hpp"
+
+namespace urban_nav_sim {
+
+namespace frames = urban_nav_core::frames;
+
+using urban_nav_core::StampNs;
+
+namespace {
+
+ViewTruth toViewTruth(const Picture& picture, std::string frame, StampNs stamp) {
+  ViewTruth view{stamp, std::move(frame), cv::Mat(picture.height, picture.width, CV_32F),
+                 cv::Mat(picture.height, picture.width, CV_8U)};
+  std::copy(picture.depth.begin(), picture.depth.end(), view.depth.begin<float>());
+  std::copy(picture.surface_class.begin(), picture.surface_class.end(), view.surface_class.begin<std::uint8_t>());
+  return view;
+}
+
+ViewTruth toViewTruth(const std::vector<BeamTruth>& beams, std::string frame, StampNs stamp) {
+  const auto count = static_cast<int>(beams.size());
+  ViewTruth view{stamp, std::move(frame), cv::Mat(1, count, CV_32F), cv::Mat(1, count, CV_8U)};
+  for (int i = 0; i < count; ++i) {
+    const BeamTruth& beam = beams[static_cast<std::size_t>(i)];
+    view.depth.at<float>(i) = static_cast<float>(beam.range);
+    view.surface_class.at<std::uint8_t>(i) = static_cast<std::uint8_t>(beam.surface_class);
+  }
+  return view;
+}
+
+}  // namespace
+
+class OpticalSensors::Implementation {
+ public:
+  Implementation(const World& world, const Motion& motion, const Noise& noise, const Defects& defects,
+                 const std::set<Sensor>& views)
+      : motion_(motion),
+        views_(views),
+        tracer_(world),
+        sky_(world.day, noise.of("sky").bits(0)),
+        stereo_(tracer_, sky_, stereoImages(defects), sensorPose(frames::stereo_left), noise.of("stereo").bits(0),
+                cameraDefects(defects, Sensor::Stereo)),
+        ladybug_(tracer_, sky_, ladybugPlace(), noise.of("ladybug").bits(0), cameraDefects(defects, Sensor::Ladybug)),
+        left_laser_(tracer_, sensorPose(frames::laser_left), noise.of("lasers").bits(0), frames::laser_left,
+                    laserSettings(defects)),
+        right_laser_(tracer_, sensorPose(frames::laser_right), noise.of("lasers").bits(0), frames::laser_right,
+                     laserSettings(defects)) {}
+
+  std::vector<Measurement> stereo(std::int64_t k, const Clock& clock) {
+    const double t = sensorSchedule(Sensor::Stereo).at(k);
+    const StampNs stamp = clock.stamp(k, t);
+    auto [left, right] = stereo_.take(motion_, t);
+    std::vector<Measurement> measurements = {StereoMeasurement{stamp, std::move(left), std::move(right)}};
+    if (views_.count(Sensor::Stereo) != 0) {
+      measurements.emplace_back(toViewTruth(stereo_.pictures()[0], frames::stereo_left, stamp));
+      measurements.emplace_back(toViewTruth(stereo_.pictures()[1], frames::stereo_right, stamp));
+    }
+    return measurements;
+  }
+
+  std::vector<Measurement> panorama(std::int64_t k, const Clock& clock) {
+    const double t = sensorSchedule(Sensor::Ladybug).at(k);
+    const StampNs stamp = clock.stamp(k, t);
+    std::array<cv::Mat, 5> taken = ladybug_.take(motion_, t);
+    std::vector<Measurement> measurements;
+    for (std::size_t i = 0; i < taken.size(); ++i) {
+      measurements.emplace_back(LadybugMeasurement{stamp, static_cast<int>(i), std::move(taken[i])});
+      if (views_.count(Sensor::Ladybug) != 0)
+        measurements.emplace_back(
+            toViewTruth(ladybug_.pictures()[i], frames::ladybugCamera(static_cast<int>(i)), stamp));
+    }
+    return measurements;
+  }
+
+  std::vector<Measurement> laser(Side side, std::int64_t k, const Clock& clock) const {
+    const double t = laserSchedule(side).at(k);
+    const StampNs stamp = clock.stamp(k, t);
+    const Lms291& device = side == Side::Left ? left_laser_ : right_laser_;
+    const bool is_viewed = views_.count(Sensor::Lasers) != 0;
+    std::vector<BeamTruth> beams;
+    std::vector<Measurement> measurements = {LaserMeasurement{
+        side, device.scan(motion_, t, stamp, static_cast<std::uint64_t>(k), is_viewed ? &beams : nullptr)}};
+    if (is_viewed)
+      measurements.emplace_back(
+          toViewTruth(beams, side == Side::Left ? frames::laser_left : frames::laser_right, stamp));
+    return measurements;
+  }
+
+ private:
+  const Motion& motion_;
+  std::set<Sensor> views_;
+  Tracer tracer_;
+  Sky sky_;
+  StereoHead stereo_;
+  LadybugHead ladybug_;
+  Lms291 left_laser_, right_laser_;
+};
+
+OpticalSensors::OpticalSensors(const World& world, const Motion& motion, const Noise& noise, const Defects& defects,
+                               const std::set<Sensor>& views)
+    : implementation_(std::make_unique<Implementation>(world, motion, noise, defects, views)) {}
+OpticalSensors::~OpticalSensors() = default;
+
+std::vector<Measurement> OpticalSensors::stereo(std::int64_t k, const Clock& clock) {
+  return implementation_->stereo(k, clock);
+}
+std::vector<Measurement> OpticalSensors::panorama(std::int64_t k, const Clock& clock) {
+  return implementation_->panorama(k, clock);
+}
+std::vector<Measurement> OpticalSensors::laser(Side side, std::int64_t k, const Clock& clock) {
+  return implementation_->laser(side, k, clock);
+}
+
+urban_nav_core::CameraInfo OpticalSensors::stereoInfo(Side side, const Defects& defects) {
+  return bumblebee(stereoImages(defects))[static_cast<std::size_t>(side)].info;
+}
+urban_nav_core::CameraInfo OpticalSensors::ladybugInfo(int camera) {
+  return ladybug()[static_cast<std::size_t>(camera)].info;
+}
+
+}  // namespace urban_nav_sim

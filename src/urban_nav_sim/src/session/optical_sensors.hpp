@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <set>
+#include <vector>
+
+#include "motion/motion.hpp"
+#include "noise/noise.hpp"
+#include "proprioception/clock.hpp"
+#include "urban_nav_core/camera/camera_info.hpp"
+#include "urban_nav_sim/defect.hpp"
+#include "urban_nav_sim/measurement.hpp"
+#include "world/world.hpp"
+
+namespace urban_nav_sim {
+
+/// The cameras and lasers of a session: all that sends rays into the world. Measurements of one device are asked for in
+/// their order; with each come the views of it that the session wants. Not thread-safe (each works on all threads);
+/// world and motion must outlive it.
+class OpticalSensors {
+ public:
+  OpticalSensors(const World& world, const Motion& motion, const Noise& noise, const Defects& defects,
+                 const std::set<Sensor>& views);
+  ~OpticalSensors();
+
+  std::vector<Measurement> stereo(std::int64_t k, const Clock& clock);
+  std::vector<Measurement> panorama(std::int64_t k, const Clock& clock);
+  std::vector<Measurement> laser(Side side, std::int64_t k, const Clock& clock);
+
+  static urban_nav_core::CameraInfo stereoInfo(Side side, const Defects& defects);
+  static urban_nav_core::CameraInfo ladybugInfo(int camera);
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace urban_nav_sim

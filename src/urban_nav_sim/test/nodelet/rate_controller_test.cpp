@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "../../nodelet/pace.hpp"
+
+#include <gtest/gtest.h>
+
+namespace urban_nav_sim {
+namespace {
+
+using std::chrono::milliseconds;
+using urban_nav_core::StampNs;
+
+constexpr StampNs ms = 1'000'000;
+constexpr StampNs first = 1'225'719'873'000 * ms;
+
+RateController::Wall wall(int after_ms) { return RateController::Wall(milliseconds(1'000'000 + after_ms)); }
+
+TEST(RateController, GoesAtTheRateThatIsAskedFor) {
+  RateController pace(2.0);
+  EXPECT_EQ(pace.due(first, wall(0)), wall(0));
+  EXPECT_EQ(pace.due(first + 100 * ms, wall(1)), wall(50));
+  EXPECT_EQ(pace.due(first + 1000 * ms, wall(60)), wall(500));
+}
+
+TEST(RateController, AllIsDueAtOnceAtRateZero) {
+  RateController pace(0.0);
+  EXPECT_EQ(pace.due(first, wall(0)), wall(0));
+  EXPECT_EQ(pace.due(first + 100'000 * ms, wall(7)), wall(7));
+}
+
+TEST(RateController, CatchesUpAfterAShortDelayAndForgetsALongOne) {
+  RateController pace(1.0);
+  pace.due(first, wall(0));
+  EXPECT_EQ(pace.due(first + 100 * ms, wall(700)), wall(100)) << "late, and due since long";
+  EXPECT_EQ(pace.due(first + 900 * ms, wall(720)), wall(900)) << "in time again";
+  EXPECT_EQ(pace.due(first + 1000 * ms, wall(3000)), wall(3000)) << "too late to catch up";
+  EXPECT_EQ(pace.due(first + 1500 * ms, wall(3001)), wall(3500)) << "time continues from there";
+}
+
+TEST(RateController, APauseIsNoDelay) {
+  RateController pace(1.0);
+  pace.due(first, wall(0));
+  pace.restart();
+  EXPECT_EQ(pace.due(first + 10 * ms, wall(60'000)), wall(60'000));
+  EXPECT_EQ(pace.due(first + 20 * ms, wall(60'001)), wall(60'010));
+  EXPECT_FALSE(pace.isSlow());
+}
+
+/// `steps` of 50 ms of the session, each taking `takes` ms to render.
+void run(RateController& pace, int steps, int takes) {
+  int now = 0;
+  for (int k = 0; k < steps; ++k) {
+    now += takes;
+    const StampNs taken = first + 50 * k * ms;
+    const RateController::Wall due = pace.due(taken, wall(now));
+    if (due > wall(now)) now = static_cast<int>(std::chrono::duration_cast<milliseconds>(due - wall(0)).count());
+    pace.passed(taken, wall(now));
+  }
+}
+
+TEST(RateController, SaysByHowMuchItIsTooSlow) {
+  RateController quick(1.0), slow(1.0);
+  EXPECT_FALSE(quick.factor()) << "nothing measured yet";
+  run(quick, 200, 20);
+  ASSERT_TRUE(quick.factor());
+  EXPECT_NEAR(*quick.factor(), 1.0, 0.02);
+  EXPECT_FALSE(quick.isSlow());
+  run(slow, 200, 125);
+  ASSERT_TRUE(slow.factor());
+  EXPECT_NEAR(*slow.factor(), 0.4, 0.02);
+  EXPECT_TRUE(slow.isSlow());
+}
+
+}  // namespace
+}  // namespace urban_nav_sim
