@@ -51,7 +51,7 @@ struct SmallEigen {
   Eigen::Matrix<double, N, N> vectors;
 };
 
-/// Returns the eigen-decomposition of a symmetric matrix, of which the lower triangle is read, by QR iterations. For <2>, <3> and <6>.
+/// Returns the eigen-decomposition of a symmetric matrix, of which the lower triangle is read, by QR iterations. For <3> and <6>.
 template <int N>
 SmallEigen<N> smallEigen(const Eigen::Matrix<double, N, N>& A);
 
