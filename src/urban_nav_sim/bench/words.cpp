@@ -162,7 +162,7 @@ class Repetition {
 };
 
 std::vector<std::string> namesOfRows() {
-  std::vector<std::string> names = {"places", "been there before on the same motion", "... and taken for elsewhere (%)",
+  std::vector<std::string> names = {"places", "been there before on the same ride", "... and taken for elsewhere (%)",
                                     "new, and taken for known (%)"};
   const auto add = [&](const std::string& what) {
     names.push_back(what + ", same pose, same day (%)");
@@ -194,7 +194,7 @@ int main(int argc, char** argv) try {
   for (const auto& row : rows) table.add(row);
   table.note(
       "1 000 words of SIFT by BOWKMeansTrainer, learnt on day 1 of all worlds with another seed. Taken for: nearest neighbour by "
-      "tf-idf, on the same motion among places that lie 25 m of driving back, else among all of day 1 that are not within 1 m; it is "
+      "tf-idf, on the same ride among places that lie 25 m of driving back, else among all of day 1 that are not within 1 m; it is "
       "the same place within 5 m and 46 deg, elsewhere from 10 m on. Taken for known: more like a place elsewhere than half of "
       "those been at before are like their own. Words gone: of those in the left image of day 1, median over every fourth place. "
       "Day 3 is wet, on day 4 the leaves are down.");

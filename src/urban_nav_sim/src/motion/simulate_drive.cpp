@@ -55,7 +55,7 @@ Vector6 toCoordinates(const SegwayState& state, const RoughGround& ground) {
 }  // namespace
 
 std::unique_ptr<Motion> simulateDrive(const World& world, const Route& route, const DriveOptions& options) {
-  const Noise noise(options.seed, "motion");
+  const Noise noise(options.seed, "ride");
   const RoutePath way(route, options.start + kTopSpeed * (options.duration + kMargin) + 20.0);
   const RoughGround ground(world.ground, options.roughness, noise.of("ground"));
   const Pushes pushes(options.oscillation, noise.of("pushes"));

@@ -55,7 +55,7 @@ Route makeRoute(const SessionOptions& options) {
 DriveOptions rideOptions(const SessionOptions& options) {
   DriveOptions made;
   made.duration = options.duration;
-  made.seed = Noise(options.seed, "motion").bits(static_cast<std::uint64_t>(options.day));
+  made.seed = Noise(options.seed, "ride").bits(static_cast<std::uint64_t>(options.day));
   return made;
 }
 
