@@ -162,7 +162,7 @@ TEST(MotionBlur, FlowIsTheMotionOfThePixel) {
     const Camera camera = bumblebee(images)[1];
     const RayTable rays(camera.lens);
     const Pose T_base_camera = scene.T_base_left * camera.T_head_camera;
-    const CameraMotion motion = computeCameraMotion(motion.at(1.0), T_base_camera);
+    const CameraMotion camera_motion = computeCameraMotion(motion.at(1.0), T_base_camera);
     for (const double depth : {1.5, 20.0}) {
       const Eigen::Vector2d pixel(400.0, 90.0);
       const auto ideal = camera.lens.idealAt(pixel);
@@ -172,7 +172,7 @@ TEST(MotionBlur, FlowIsTheMotionOfThePixel) {
         return *camera.lens.project((motion.at(t).T_world_base * T_base_camera).inverse() * p);
       };
       const Eigen::Vector2d numeric = (seen(1.0005) - seen(0.9995)) / 1e-3;
-      const Eigen::Vector2f flow = flowAt(rays, 400, 90, static_cast<float>(depth), motion);
+      const Eigen::Vector2f flow = flowAt(rays, 400, 90, static_cast<float>(depth), camera_motion);
       EXPECT_LT((flow.cast<double>() - numeric).norm(), 0.01 * numeric.norm());
     }
   }
