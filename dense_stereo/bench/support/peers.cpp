@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "support/peers.hpp"
+#include "peers.hpp"
 
 #include <algorithm>
 #include <cmath>

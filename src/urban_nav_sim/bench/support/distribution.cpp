@@ -17,9 +17,9 @@ double mean(const Values& values) {
 }
 
 double spread(const Values& values) {
-  const double mean = mean(values);
+  const double centre = mean(values);
   double sum = 0.0;
-  for (const double value : values) sum += (value - mean) * (value - mean);
+  for (const double value : values) sum += (value - centre) * (value - centre);
   return values.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(values.size()));
 }
 
