@@ -14,7 +14,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 
 # The rules that hold. A breach fails the run; every other rule of RULES is counted only.
-ENFORCED = {"long_files", "unity_names", "gtest_names", "command_includes"}
+ENFORCED = {"long_files", "long_lines", "unity_names", "gtest_names", "command_includes"}
 
 # Functions over 60 lines that are to stay, with the reason.
 LONG_FUNCTIONS = {}
@@ -233,10 +233,10 @@ class Tree:
 
 
 def long_lines(tree):
-    """A line of C++ is at most 120 columns wide."""
+    """A line of C++ is at most 120 columns wide, unless it holds a string: these are not broken."""
     for source in tree.sources:
         for number, line in enumerate(source.text.split("\n"), 1):
-            if len(line) > 120 and not line.startswith("#include"):
+            if len(line) > 120 and not line.startswith("#include") and '"' not in line:
                 yield f"{source.path}:{number}: {len(line)} columns"
 
 

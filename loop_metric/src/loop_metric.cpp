@@ -140,7 +140,8 @@ class Measuring {
     Alignment& found = *closure_.icp;
     if (found.verdict == ClosureVerdict::Rejected) return false;
     if (found.verdict == ClosureVerdict::Degenerate && !gate_) {
-      // One flat facade lies on any other: what slides tells no place from another, unless odometry has said that it is this one.
+      // One flat facade lies on any other: what slides tells no place from another, unless odometry has said that it is
+      // this one.
       found.sentence += "; without odometry between the moments that is no proof of a place";
       return false;
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Are the covariances of relaxed poses true? Thirty simulated graphs (spheres, lattices, drives through a town) from raw odometry,
-// NEES of T_first_pose at ten poses of each, without false closures and with such present and rejected; and how long all marginals take.
+// Are the covariances of relaxed poses true? Thirty simulated graphs (spheres, lattices, drives through a town) from
+// raw odometry, NEES of T_first_pose at ten poses of each, without false closures and with such present and rejected;
+// and how long all marginals take.
 //   pose_graph-bench-covariance [--graphs N] [-o results/covariance.json]
 #include <array>
 #include <string>

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Graphs with false closures drawn anew, by the definition of Vertigo's script (Suenderhauf, Protzel, IROS 2012): how far the relaxed
-// graph lies from the optimum without them, how many wrong ones were kept and true ones lost, and how long that takes. A row for each
-// draw, or with --seeds one for each graph: of so many seeds in a row each kind of false closures, a tenth and half as many as true ones.
-//   pose_graph-bench-false_closures [NAME or FILE.g2o...] [--seed N] [--percent N] [--seeds N] [-o results/false_closures.json]
+// Graphs with false closures drawn anew, by the definition of Vertigo's script (Suenderhauf, Protzel, IROS 2012): how
+// far the relaxed graph lies from the optimum without them, how many wrong ones were kept and true ones lost, and how
+// long that takes. A row for each draw, or with --seeds one for each graph: of so many seeds in a row each kind of
+// false closures, a tenth and half as many as true ones.
+//   pose_graph-bench-false_closures [NAME or FILE.g2o...] [--seed N] [--percent N] [--seeds N]
+//     [-o results/false_closures.json]
 #include <algorithm>
 #include <filesystem>
 #include <string>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The public graphs, from what their files hold to the optimum, with each objective: how near, and how long on one core with reading left out. It is time
-// of the processor, so that what else runs does not count.
+// The public graphs, from what their files hold to the optimum, with each objective: how near, and how long on one core
+// with reading left out. It is time of the processor, so that what else runs does not count.
 //   pose_graph-bench-graphs [NAME...] [--peers FILE] [--runs N] [-o results/graphs.json]
-// FILE: what other programs took on the same machine, `graph,peer,version,options,seconds,reached` (reached 1: ends at its own optimum), as CSV.
+// FILE: what other programs took on the same machine, `graph,peer,version,options,seconds,reached` (reached 1: ends at
+// its own optimum), as CSV.
 #include <algorithm>
 #include <cmath>
 #include <string>

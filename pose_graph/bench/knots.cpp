@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// First guesses that twist the graph into knots: no rotation at all, or rotations that are off by 90 deg (about each axis, standard deviation). Of 20 seeds, each
-// with its own noise of measurement and of the guess, how many end at the global optimum: the least cost found from the truth and from all guesses.
+// First guesses that twist the graph into knots: no rotation at all, or rotations that are off by 90 deg (about each
+// axis, standard deviation). Of 20 seeds, each with its own noise of measurement and of the guess, how many end at the
+// global optimum: the least cost found from the truth and from all guesses.
 //   pose_graph-bench-knots [--seeds N] [-o results/knots.json]
 #include <algorithm>
 #include <cmath>

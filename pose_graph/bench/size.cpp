@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A robot drives through a town and comes back to its streets: the paper's size (50 000 poses, 300 closures) and up to twenty times as much, relaxed from
-// raw odometry; at the paper's size by its own method too. Time of the processor, growth of the memory at its peak, and what is left of the error.
+// A robot drives through a town and comes back to its streets: the paper's size (50 000 poses, 300 closures) and up to
+// twenty times as much, relaxed from raw odometry; at the paper's size by its own method too. Time of the processor,
+// growth of the memory at its peak, and what is left of the error.
 //   pose_graph-bench-size [--runs N] [--largest POSES] [-o results/size.json]
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A closure arrives: how long until the map says so? A robot drives through a town; closures come one at a time when their later pose is reached, with
-// the odometry since the last one, as live, and a fifth more that are false. Time of the processor of each PoseGraph::update().
+// A closure arrives: how long until the map says so? A robot drives through a town; closures come one at a time when
+// their later pose is reached, with the odometry since the last one, as live, and a fifth more that are false. Time of
+// the processor of each PoseGraph::update().
 //   pose_graph-bench-update [--largest POSES] [-o results/update.json]
 #include <algorithm>
 #include <cmath>

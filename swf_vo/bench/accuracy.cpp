@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Accuracy on the real sequences with the shipped defaults, now and settled, beside other systems on the same frames; and how far the
-// covariance is to be believed there (NEES, mean over the frames: 6 is right).
-//   swf_vo-bench-accuracy [FOLDER...] [--peer NAME=SEQUENCE=FILE]... [--set swf_vo.NAME=VALUE]... [-o results/accuracy.json]
-// FOLDER: a sequence in KITTI's layout with poses.txt, such as render_sequence writes; default: the two real ones. FILE: what another
-// system made of the folder named SEQUENCE, poses of the left camera in KITTI's or (.tum) the TUM format, one a frame.
+// Accuracy on the real sequences with the shipped defaults, now and settled, beside other systems on the same frames;
+// and how far the covariance is to be believed there (NEES, mean over the frames: 6 is right).
+//   swf_vo-bench-accuracy [FOLDER...] [--peer NAME=SEQUENCE=FILE]... [--set swf_vo.NAME=VALUE]...
+//     [-o results/accuracy.json]
+// FOLDER: a sequence in KITTI's layout with poses.txt, such as render_sequence writes; default: the two real ones.
+// FILE: what another system made of the folder named SEQUENCE, poses of the left camera in KITTI's or (.tum) the TUM
+// format, one a frame.
 #include <algorithm>
 #include <filesystem>
 #include <string>

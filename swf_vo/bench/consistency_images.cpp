@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Is the covariance honest on images? Normalised estimation error squared of the pose (6 degrees of freedom: 6 is right) at frames 50,
-// 100 and 200, averaged over runs in rendered rooms, wandering, turning through 360 deg with stops, and round the room, at three
-// levels of image noise, with the shipped defaults, with an exact calibration and with one whose disparities are off by as much as the filter is
-// told; also of T_{i,i+100} composed of the relative poses and their drifts, and of single steps.
+// Is the covariance honest on images? Normalised estimation error squared of the pose (6 degrees of freedom: 6 is
+// right) at frames 50, 100 and 200, averaged over runs in rendered rooms, wandering, turning through 360 deg with
+// stops, and round the room, at three levels of image noise, with the shipped defaults, with an exact calibration and
+// with one whose disparities are off by as much as the filter is told; also of T_{i,i+100} composed of the relative
+// poses and their drifts, and of single steps.
 //   swf_vo-bench-consistency_images [--runs N] [--set swf_vo.NAME=VALUE]... [-o results/consistency_images.json]
 #include <algorithm>
 #include <array>
@@ -54,7 +55,8 @@ struct Score {
   int runs = 0;
 };
 
-// Frames 50 to 150 from the settled relative poses alone: by their drifts and the two ends (RelativePose::drift_covariance).
+// Frames 50 to 150 from the settled relative poses alone: by their drifts and the two ends
+// (RelativePose::drift_covariance).
 PoseWithCovariance composed(const Run& run) {
   constexpr std::size_t first = 51, last = 150;
   PoseWithCovariance sum;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far do templates creep over their surface as the view of it changes? The front end alone, led along the true way through rendered
-// rooms: errors of what it measures, by how much the view has changed since the landmark was first seen (Frobenius norm of the warp less the
-// identity); and by how much their variance has grown since the change was next to nothing, for a change of one, in units of the variance that
-// the template was born with.
+// How far do templates creep over their surface as the view of it changes? The front end alone, led along the true way
+// through rendered rooms: errors of what it measures, by how much the view has changed since the landmark was first
+// seen (Frobenius norm of the warp less the identity); and by how much their variance has grown since the change was
+// next to nothing, for a change of one, in units of the variance that the template was born with.
 //   swf_vo-bench-creep [--seeds N] [-o results/creep.json]
 #include <Eigen/Dense>
 #include <algorithm>

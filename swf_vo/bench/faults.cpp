@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a second of trouble costs: the error at the end over that of the undisturbed run, for each fault of the images, on pieces of
-// kitti_raw_0926_0005 and in rendered rooms, where the covariance can be held against it too.
+// What a second of trouble costs: the error at the end over that of the undisturbed run, for each fault of the images,
+// on pieces of kitti_raw_0926_0005 and in rendered rooms, where the covariance can be held against it too.
 //   swf_vo-bench-faults [-o results/faults.json]
 #include <algorithm>
 #include <array>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What calibration and rectification left in a stereo pair, as the filter finds it: by how much the right image lies lower, and by how much
-// disparities are too large; and how much larger the errors of measurements are than their alignments say. Beside it the same on rendered images, where there is neither, with a calibration that says so and with one that does not.
+// What calibration and rectification left in a stereo pair, as the filter finds it: by how much the right image lies
+// lower, and by how much disparities are too large; and how much larger the errors of measurements are than their
+// alignments say. Beside it the same on rendered images, where there is neither, with a calibration that says so and
+// with one that does not.
 //   swf_vo-bench-offsets [FOLDER...] [-o results/offsets.json]
 // FOLDER: a sequence in KITTI's layout; default: the two real ones.
 #include <algorithm>

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Time of a frame on one core over rendered images: the defaults, other windows, and what less work costs in accuracy. It is time of the
-// processor, so that what else runs does not count; ratios between the rows of one run depend least on the machine.
+// Time of a frame on one core over rendered images: the defaults, other windows, and what less work costs in accuracy.
+// It is time of the processor, so that what else runs does not count; ratios between the rows of one run depend least
+// on the machine.
 //   swf_vo-bench-speed [FOLDER...] [--frames N] [--peer NAME=SEQUENCE=MS]... [-o results/speed.json]
-// FOLDER: a sequence in KITTI's layout in place of those rendered here, so that a peer can be measured on the same images.
+// FOLDER: a sequence in KITTI's layout in place of those rendered here, so that a peer can be measured on the same
+// images.
 #include <memory>
 #include <string>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Does a frame cost the same after a day as after a second? A loop through the rendered room is drawn once and played forth and back.
+// Does a frame cost the same after a day as after a second? A loop through the rendered room is drawn once and played
+// forth and back.
 //   swf_vo-bench-steady [FOLDER] [--frames N] [-o results/steady.json]
 #include <unistd.h>
 #include <fstream>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A vehicle that is said to stand (euroc_still): how far it goes and turns, says the filter, and how far its gyroscope says it turns.
+// A vehicle that is said to stand (euroc_still): how far it goes and turns, says the filter, and how far its gyroscope
+// says it turns.
 //   swf_vo-bench-still [--set swf_vo.NAME=VALUE]... [-o results/still.json]
 #include <algorithm>
 #include <cmath>
@@ -61,7 +62,8 @@ Sequence eurocFolder(const std::string& mav0) {
   return sequence;
 }
 
-/// By how much the gyroscope has turned since the first of the stamps, at each of them; its bias is what it says at rest.
+/// By how much the gyroscope has turned since the first of the stamps, at each of them; its bias is what it says at
+/// rest.
 std::vector<double> turned(const std::string& imu, const std::vector<StampNs>& stamps) {
   const CsvTable table = CsvTable::read(imu);
   const auto rate = [&](std::size_t row) {

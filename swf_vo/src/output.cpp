@@ -103,8 +103,8 @@ Velocity Output::velocity(FrameId frame, StampNs stamp, bool lost, const Window&
   const auto inner = compose(T_base_camera_, step);
   const auto outer = compose(inner.T_a_c, T_camera_base_);
   velocity.twist = urban_nav_core::logSe3(outer.T_a_c) / seconds;
-  // Steps that follow one another are known about equally well, so the last settled one speaks for this one, unless nothing was
-  // measured: then the process model alone does.
+  // Steps that follow one another are known about equally well, so the last settled one speaks for this one, unless
+  // nothing was measured: then the process model alone does.
   const bool settled = !lost && !step_covariance_.isZero();
   const Matrix6d covariance =
       settled ? step_covariance_ : moved(urban_nav_core::inverseByLu<6>(u.information), outer.J1 * inner.J2);

@@ -11,7 +11,8 @@
 
 namespace swf_vo {
 
-/// Turns what the window knows of the left camera into what leaves the stage of base_link, in the convention of docs/conventions.md.
+/// Turns what the window knows of the left camera into what leaves the stage of base_link, in the convention of
+/// docs/conventions.md.
 class Output {
  public:
   explicit Output(const urban_nav_core::Pose& T_base_camera);

@@ -73,7 +73,8 @@ ProcessInput Prediction::step(double seconds, const std::vector<MotionInput>& in
   ProcessInput u;
   const double steps = 1.0 + unmeasured_;
   u.T_from_to = known_ ? expSe3(velocity_ * seconds) : Pose();
-  // What was known of the velocity is never worth less than nothing; m steps at one unknown velocity are m times as uncertain as one.
+  // What was known of the velocity is never worth less than nothing; m steps at one unknown velocity are m times as
+  // uncertain as one.
   const double speed = unknown_speed * std::sqrt(2.0 * steps - 1.0) * seconds,
                angular_speed = unknown_angular_speed * std::sqrt(2.0 * steps - 1.0) * seconds;
   const double drift = steps * seconds * seconds;

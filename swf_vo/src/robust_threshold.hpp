@@ -6,8 +6,8 @@
 
 namespace swf_vo {
 
-/// Returns median + 4 sigma of the values, with sigma = 1.4826 times the median absolute deviation. Requires at least one
-/// value. Overwrites the values.
+/// Returns median + 4 sigma of the values, with sigma = 1.4826 times the median absolute deviation. Requires at least
+/// one value. Overwrites the values.
 template <typename Iterator>
 double robustThreshold(Iterator begin, Iterator end) {
   constexpr double gate = 4.0;

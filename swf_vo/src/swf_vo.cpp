@@ -45,7 +45,8 @@ WindowOptions windowOptions(const Parameters& parameters, const StereoCamera& ca
   options.huber = parameters.huber;
   options.iterations = parameters.iterations;
   options.disparity_offset = parameters.disparity_offset;
-  // Live, a frame must end within its period: what is refuted goes out at the estimates of now instead of by taking up to k steps again.
+  // Live, a frame must end within its period: what is refuted goes out at the estimates of now instead of by taking up
+  // to k steps again.
   options.exact_undo = false;
   options.tolerance = 1e-3;
   options.landmarks = landmarks_per_feature * featuresIn(camera, parameters.features);
@@ -192,8 +193,9 @@ class SwfVo::Implementation {
       for (const Observation& observation : *group) newest_known_ = std::max(newest_known_, observation.landmark);
   }
 
-  // `adrift`: what was seen, where nothing but the prediction ties it to the frames before the loss. Held by that alone for ever, the window would
-  // be as loose as a second of darkness leaves it, too loose to be linear; anew, it is firm in itself and carries what is not known of its place.
+  // `adrift`: what was seen, where nothing but the prediction ties it to the frames before the loss. Held by that alone
+  // for ever, the window would be as loose as a second of darkness leaves it, too loose to be linear; anew, it is firm
+  // in itself and carries what is not known of its place.
   void takeStep(const ProcessInput& u, const FrontEndResult* adrift) {
     if (!started_) {
       window_.start(frame_, T_odom_first_camera_, urban_nav_core::Matrix6d::Identity() / (origin_sigma * origin_sigma));
@@ -208,8 +210,9 @@ class SwfVo::Implementation {
     }
   }
 
-  // The step as the window has it now. The frame before may have been moved by this one's measurements, and after darkness is moved far: from
-  // where it was believed to be until now, the step would have the error of the whole dead reckoning in it.
+  // The step as the window has it now. The frame before may have been moved by this one's measurements, and after
+  // darkness is moved far: from where it was believed to be until now, the step would have the error of the whole dead
+  // reckoning in it.
   void learn(const Pose& last, bool trusted, bool blind) {
     const bool smoothed = window_.hasPose(frame_ - 1);
     const Pose from = smoothed ? window_.pose(frame_ - 1) : last;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A robot that has stood and starts at 2 cm/s, a millimetre a frame: the first five centimetres are neither swallowed nor jumped over.
+// A robot that has stood and starts at 2 cm/s, a millimetre a frame: the first five centimetres are neither swallowed
+// nor jumped over.
 #include <gtest/gtest.h>
 
 #include <algorithm>

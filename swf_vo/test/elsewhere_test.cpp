@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// When frames come again after a gap, and show another place: some patches look like some of before, and a few of them agree on a motion by chance.
+// When frames come again after a gap, and show another place: some patches look like some of before, and a few of them
+// agree on a motion by chance.
 #include <algorithm>
 #include <cmath>
 

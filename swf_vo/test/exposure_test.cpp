@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cameras that hold their exposure on the dark, so that what is bright is cut off, now more of it and now less: where it is cut off is no place.
+// Cameras that hold their exposure on the dark, so that what is bright is cut off, now more of it and now less: where
+// it is cut off is no place.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What goes wrong with cameras, on the frames of a rendered room and of a real street: it is named, survived, and does not pass for knowledge.
+// What goes wrong with cameras, on the frames of a rendered room and of a real street: it is named, survived, and does
+// not pass for knowledge.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -103,7 +104,8 @@ TEST(ClockJump, movesNothing) {
   }
 }
 
-// Wheels that are off by one and a half of what they claim bridge a second without images, and the images then have the word: neither counts twice.
+// Wheels that are off by one and a half of what they claim bridge a second without images, and the images then have the
+// word: neither counts twice.
 TEST(GapOnWheels, isCrossed) {
   for (const char* motion : {"loop", "wander", "turns"}) {
     SCOPED_TRACE(motion);
@@ -162,7 +164,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Trouble{"corrupt:1.5:1", {Reason::Corrupted}}, Trouble{"corrupt:1.5:1:0.1", {Reason::Corrupted}},
                       Trouble{"corrupt:1.5:1:0.6", {Reason::Corrupted}}));
 
-// kitti_raw_0926_0005: a car in a bend, with a van ahead. Frames 20 to 90 (28 m) for the faults, 46 to 146 for turning fast.
+// kitti_raw_0926_0005: a car in a bend, with a van ahead. Frames 20 to 90 (28 m) for the faults, 46 to 146 for turning
+// fast.
 struct Street {
   Recording faults, turning;
   double usual = 0.0;
@@ -193,9 +196,10 @@ const Street* street() {
   return read;
 }
 
-// The truth is from a laser: a common scale of half a per cent is within what the calibrations of laser and camera can differ by (the folder's
-// README), so the distance has that as its own error. Nothing is stated of its headings, and the undisturbed run is 0.2 deg from them where the
-// filter, which takes the calibration as exact, says 0.02: of those the test says nothing.
+// The truth is from a laser: a common scale of half a per cent is within what the calibrations of laser and camera can
+// differ by (the folder's README), so the distance has that as its own error. Nothing is stated of its headings, and
+// the undisturbed run is 0.2 deg from them where the filter, which takes the calibration as exact, says 0.02: of those
+// the test says nothing.
 bool isWithinWhatIsStated(const FaultOutcome& outcome, double length) {
   PoseWithCovariance end = outcome.last.T_odom_base;
   end.covariance.topLeftCorner<3, 3>() += std::pow(0.005 * length, 2) * Eigen::Matrix3d::Identity();
@@ -223,8 +227,9 @@ INSTANTIATE_TEST_SUITE_P(
                       Trouble{"corrupt:1.5:1:0.6", {Reason::Corrupted}},
                       Trouble{"backward:1.5:0.5", {Reason::BadStamp}}));
 
-// A fault of the motion, not of the images: followed, it needs no name. Of real frames every fourth, at the pace of all, turns through the bend at
-// 59 deg/s, and goes at 20 m/s. From each of the first four frames, root mean square, since one end point is a throw of dice.
+// A fault of the motion, not of the images: followed, it needs no name. Of real frames every fourth, at the pace of
+// all, turns through the bend at 59 deg/s, and goes at 20 m/s. From each of the first four frames, root mean square,
+// since one end point is a throw of dice.
 TEST(Turning, sixtyDegreesASecondAreFollowedInTheStreet) {
   if (street() == nullptr) GTEST_SKIP() << "URBAN_NAV_DATA names no folder with stereo/kitti_raw_0926_0005";
   const Recording& whole = street()->turning;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Images that shimmer as over a hot road: everything is where it should not be by a fifth of a pixel, another way in each frame, and no patch looks
-// any worse for it. The filter has to find out from what the measurements leave.
+// Images that shimmer as over a hot road: everything is where it should not be by a fifth of a pixel, another way in
+// each frame, and no patch looks any worse for it. The filter has to find out from what the measurements leave.
 #include <gtest/gtest.h>
 
 #include <opencv2/imgproc.hpp>

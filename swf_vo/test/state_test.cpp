@@ -76,9 +76,7 @@ TEST(State, GoesOnBehindAGap) { expectSeamless(stepsOf("loop", 60, "drop:1:0.8")
 TEST(State, GoesOnWithImagesExchanged) { expectSeamless(stepsOf("loop", 45, "swap:1:0.5"), {21, 23, 26, 32}); }
 TEST(State, GoesOnInFrozenImages) { expectSeamless(stepsOf("loop", 45, "freeze:1:0.5"), {20, 21, 22, 25, 29, 32}); }
 
-TEST(State, GoesOnWithWheels) {
-  expectSeamless(stepsOf("loop", 40, "black:0.5:0.3", true), {5, 12, 16, 25});
-}
+TEST(State, GoesOnWithWheels) { expectSeamless(stepsOf("loop", 40, "black:0.5:0.3", true), {5, 12, 16, 25}); }
 
 TEST(State, GoesOnWithOtherParameters) {
   const std::vector<Step> some = stepsOf("loop", 45, "black:1:0.4");

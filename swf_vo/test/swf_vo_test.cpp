@@ -75,7 +75,8 @@ TEST(SwfVo, movesTheBaseNotTheCamera) {
     const auto& frame = room.frames[static_cast<std::size_t>(i)];
     const Pose T_first_camera = camera.process(frame.pair()).T_odom_base.pose;
     const Pose T_odom_base = base.process(frame.pair()).T_odom_base.pose;
-    // In other axes sums round otherwise; once that has decided about a feature, the runs are as far apart as their errors.
+    // In other axes sums round otherwise; once that has decided about a feature, the runs are as far apart as their
+    // errors.
     EXPECT_TRUE(isApprox(T_odom_base, T_base_camera * T_first_camera * T_base_camera.inverse(), i < 3 ? 1e-5 : 1e-3))
         << i;
   }

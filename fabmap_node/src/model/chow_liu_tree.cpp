@@ -74,8 +74,8 @@ float mutualInformation(std::size_t both, std::size_t first, std::size_t second,
     return joint * std::log(joint / (p_a * p_b));
   };
   return static_cast<float>(term(total + both - first - second, 1.0 - p_first, 1.0 - p_second) +
-                            term(second - both, 1.0 - p_first, p_second) +
-                            term(first - both, p_first, 1.0 - p_second) + term(both, p_first, p_second));
+                            term(second - both, 1.0 - p_first, p_second) + term(first - both, p_first, 1.0 - p_second) +
+                            term(both, p_first, p_second));
 }
 
 ChowLiuTree learnChowLiuTree(const WordSets& training) {
@@ -137,7 +137,8 @@ void checkTree(const ChowLiuTree& tree, const std::string& name) {
     const std::string where = name + ": word " + std::to_string(q);
     if (tree.parent[q] >= tree.size())
       throw UserError(where, "parent " + std::to_string(tree.parent[q]), "below " + std::to_string(tree.size()));
-    if (!isProbability(tree.p[q]) || !isProbability(tree.p_parent_present[q]) || !isProbability(tree.p_parent_absent[q]))
+    if (!isProbability(tree.p[q]) || !isProbability(tree.p_parent_present[q]) ||
+        !isProbability(tree.p_parent_absent[q]))
       throw UserError(where, "a probability outside (0, 1)", "above 0 and below 1");
     if (tree.parent[q] == q) reached.push_back(q);
     else children[tree.parent[q]].push_back(q);

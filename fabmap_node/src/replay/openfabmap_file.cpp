@@ -14,7 +14,8 @@ using urban_nav_core::UserError;
 
 namespace {
 
-const char* const kMatrixFile = "a YAML file of OpenCV (cv::FileStorage), or such a file with .gz, that holds one matrix";
+const char* const kMatrixFile =
+    "a YAML file of OpenCV (cv::FileStorage), or such a file with .gz, that holds one matrix";
 
 /// The first matrix of a file, as double.
 cv::Mat readMatrix(const std::string& path) {

@@ -48,8 +48,7 @@ std::vector<double> normalisedPosterior(std::vector<double> logs) {
   const double top = *std::max_element(logs.begin(), logs.end());
   double sum = 0.0;
   for (double& value : logs) sum += value = std::exp(value - top);
-  for (double& value : logs)
-    value = kUnsmoothed * value / sum + (1.0 - kUnsmoothed) / static_cast<double>(logs.size());
+  for (double& value : logs) value = kUnsmoothed * value / sum + (1.0 - kUnsmoothed) / static_cast<double>(logs.size());
   return logs;
 }
 
@@ -95,8 +94,7 @@ void replay(const WordSets& input, const ChowLiuTree& tree, ReplayModel model,
     std::vector<double> weighted = logs;
     if (model == ReplayModel::ChowLiuMotion) addMotionPrior(posterior, weighted);
     posterior = normalisedPosterior(std::move(weighted));
-    for (std::size_t i = 0; i < logs.size(); ++i)
-      row({query, static_cast<std::int64_t>(i) - 1, logs[i], posterior[i]});
+    for (std::size_t i = 0; i < logs.size(); ++i) row({query, static_cast<std::int64_t>(i) - 1, logs[i], posterior[i]});
     places.add(observation);
   }
 }

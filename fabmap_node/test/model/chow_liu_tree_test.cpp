@@ -76,7 +76,8 @@ TEST(ChowLiuTree, IsTheBestOfAllTreesOfSevenWords) {
       for (Word b = 0; b < 7; ++b) {
         std::size_t both = 0;
         for (const WordSet& words : training.observations)
-          both += std::binary_search(words.begin(), words.end(), a) && std::binary_search(words.begin(), words.end(), b);
+          both +=
+              std::binary_search(words.begin(), words.end(), a) && std::binary_search(words.begin(), words.end(), b);
         weight[a][b] = mutualInformation(both, single[a], single[b], training.observations.size());
       }
     const ChowLiuTree tree = learnChowLiuTree(training);

@@ -28,9 +28,8 @@ struct Case {
   Detector detector;
   Dependence dependence;
 };
-const Case kCases[] = {{{0.39, 0.0}, Dependence::ChowLiu},
-                       {{0.6, 0.05}, Dependence::ChowLiu},
-                       {{0.39, 0.01}, Dependence::Naive}};
+const Case kCases[] = {
+    {{0.39, 0.0}, Dependence::ChowLiu}, {{0.6, 0.05}, Dependence::ChowLiu}, {{0.39, 0.01}, Dependence::Naive}};
 
 TEST(PlaceIndex, EqualsThePlainEvaluation) {
   const WordSets drawn = drawWords(150, 80, 0.1, 3);

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <unistd.h>
+#include <cstdlib>
 
 #include <filesystem>
 #include <fstream>
@@ -77,8 +77,8 @@ TEST_F(Replay, RefusesWhatDoesNotFit) {
 }
 
 TEST_F(Replay, DamagedFilesAreRefusedOrRead) {
-  const auto bags = urban_nav_core::testing::fuzzFile(
-      {kBags}, "bow.yml", [](const std::string& path) { readBagsOfWords(path); });
+  const auto bags =
+      urban_nav_core::testing::fuzzFile({kBags}, "bow.yml", [](const std::string& path) { readBagsOfWords(path); });
   EXPECT_EQ(bags.failure, "");
   writeTree(folder_ / "tree.yml", learnChowLiuTree(readBagsOfWords(write("bow.yml", kBags))));
   std::ifstream file(folder_ / "tree.yml");

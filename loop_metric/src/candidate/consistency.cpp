@@ -36,7 +36,8 @@ std::optional<double> ringOf(const MetricClosure& i, const MetricClosure& j, con
   };
   if (apart(i.a, j.a) || apart(i.b, j.b)) return std::nullopt;
   const auto along_a = place_data.between(i.a, j.a), along_b = place_data.between(i.b, j.b);
-  if (!along_a || !along_b || along_a->length > near_closure_way || along_b->length > near_closure_way) return std::nullopt;
+  if (!along_a || !along_b || along_a->length > near_closure_way || along_b->length > near_closure_way)
+    return std::nullopt;
   const PoseWithCovariance T_ai_aj = OdometryGate(*along_a, parameters.registration.odometry_scale).T_a_b(),
                            T_bi_bj = OdometryGate(*along_b, parameters.registration.odometry_scale).T_a_b();
   const PoseWithCovariance one = urban_nav_core::compose(measuredOf(i), T_bi_bj),

@@ -10,9 +10,9 @@ namespace loop_metric {
 
 /// Chooses which stored keyframes around two poses to match, and in which order: at most `most` pairs.
 ///
-/// With odometry between the poses (`T_a_b`) the keyframes that it places nearest to each other come first, and there are no
-/// pairs if it is certain that the headings differ. Then those nearest to the poses, which were recognised; then others
-/// of a, half of `way` (m) before and after.
+/// With odometry between the poses (`T_a_b`) the keyframes that it places nearest to each other come first, and there
+/// are no pairs if it is certain that the headings differ. Then those nearest to the poses, which were recognised; then
+/// others of a, half of `way` (m) before and after.
 struct KeyframePair {
   NearbyKeyframe a, b;
 };

@@ -21,8 +21,8 @@ bool isOfClouds(const MetricClosure& closure) {
   return closure.verdict == ClosureVerdict::Accepted && closure.method == ClosureMethod::Icp;
 }
 
-/// Returns the distance from the cloud around `x` to that around `y` along the drive, in lengths of a cloud; nullopt if they
-/// do not overlap.
+/// Returns the distance from the cloud around `x` to that around `y` along the drive, in lengths of a cloud; nullopt if
+/// they do not overlap.
 std::optional<double> shift(const PoseRef& x, const PoseRef& y, const PlaceData& place_data, double length) {
   const auto way = place_data.between(x, y);
   if (!way || !(way->length < length)) return std::nullopt;

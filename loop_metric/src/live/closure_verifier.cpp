@@ -134,8 +134,8 @@ void ClosureVerifier::endSession(const SessionStarted* next) {
   last_step_ = Clock::now();
 }
 
-/// A candidate is due if neither pose is of the running session, or if the robot has driven on from the later one by the
-/// extent of a cloud (of the keyframe search, without lasers), or has had the time to, or if odometry has ended.
+/// A candidate is due if neither pose is of the running session, or if the robot has driven on from the later one by
+/// the extent of a cloud (of the keyframe search, without lasers), or has had the time to, or if odometry has ended.
 bool ClosureVerifier::isDue(const Candidate& candidate) const {
   StampNs later = 0;
   for (const PoseRef* at : {&candidate.closure.a, &candidate.closure.b})
@@ -208,8 +208,8 @@ void ClosureVerifier::report(const Candidate& candidate, LoopClosure& closure, b
              std::chrono::duration<double, std::milli>(Clock::now() - begin).count()});
 }
 
-/// While writes wait for the disk, keyframes have been announced that cannot be read. Then, and once more when the store
-/// is in order again, its contents are read anew and results of missing keyframes are dropped.
+/// While writes wait for the disk, keyframes have been announced that cannot be read. Then, and once more when the
+/// store is in order again, its contents are read anew and results of missing keyframes are dropped.
 void ClosureVerifier::followStore() {
   store_.flush();
   std::string fault = store_.state().fault;

@@ -22,8 +22,8 @@
 
 namespace loop_metric {
 
-/// Takes live candidates to their verdicts in a thread of its own. Each candidate waits until the robot has driven on by
-/// what its clouds may need (isDue), is measured with the contents of the store, and is checked against the closures
+/// Takes live candidates to their verdicts in a thread of its own. Each candidate waits until the robot has driven on
+/// by what its clouds may need (isDue), is measured with the contents of the store, and is checked against the closures
 /// accepted before it. Thread-safe.
 class ClosureVerifier {
  public:

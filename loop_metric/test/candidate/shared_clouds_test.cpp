@@ -112,7 +112,8 @@ TEST_F(SharedClouds, oneAfterAnotherPartsCountAsParts) {
   add(20, 120);
   add(25, 110);  // 15 m and 10 m of 20 m are told
   add(35,
-      120);  // 5 m and 20 m by the first, 10 m and 10 m by the second, which have a quarter of 20 m times 10 m in common
+      120);  // 5 m and 20 m by the first, 10 m and 10 m by the second, which have a quarter of 20 m times 10 m in
+             // common
   const std::vector<double> each = kept();
   EXPECT_EQ(each[0], 1.0);
   EXPECT_NEAR(each[1], 1.0 - 0.75 * 0.5, 1e-9);

@@ -40,7 +40,8 @@ Keyframe someKeyframe(StampNs stamp) {
   return keyframe;
 }
 
-/// 40 s straight ahead at 1 m/s, a view each 2 m, and a laser 1 m above base_link that sees one thing 2 m to its left all the time.
+/// 40 s straight ahead at 1 m/s, a view each 2 m, and a laser 1 m above base_link that sees one thing 2 m to its left
+/// all the time.
 class StoredSurroundingsTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -116,8 +117,8 @@ TEST_F(StoredSurroundingsTest, ACloudIsWhatTheLasersSawAroundTheMomentInItsFrame
   EXPECT_TRUE(place_data_->cloud({"day", 900 * kRowSecond}, 3.0).points.empty());
 }
 
-// Nine steps of 1 mm and 1 mrad to each side of the middle: 9 mm2 along and 9 mrad2 about each axis, the latter at 10 m and across the way driven; a third of the
-// sum of the three axes, and of that a third.
+// Nine steps of 1 mm and 1 mrad to each side of the middle: 9 mm2 along and 9 mrad2 about each axis, the latter at 10 m
+// and across the way driven; a third of the sum of the three axes, and of that a third.
 TEST_F(StoredSurroundingsTest, OdometrysDriftBendsACloud) {
   EXPECT_NEAR(place_data_->deformationSigma({"day", 20 * kRowSecond}, 9.0), 0.019, 0.0015);
   EXPECT_LT(place_data_->deformationSigma({"day", 20 * kRowSecond}, 4.0), 0.014);

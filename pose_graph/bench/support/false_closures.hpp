@@ -8,8 +8,8 @@
 
 namespace pose_graph::bench {
 
-/// How false closures are drawn (Suenderhauf and Protzel, Switchable constraints for robust pose graph SLAM, IROS 2012, and the script
-/// that is theirs): between any poses or near ones, alone or ten in a row that agree with each other.
+/// How false closures are drawn (Suenderhauf and Protzel, Switchable constraints for robust pose graph SLAM, IROS 2012,
+/// and the script that is theirs): between any poses or near ones, alone or ten in a row that agree with each other.
 struct FalseKind {
   const char* name;
   bool local;

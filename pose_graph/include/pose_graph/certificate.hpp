@@ -15,16 +15,17 @@ struct Certificate {
   std::optional<double> gap;  ///< no poses cost less than cost - gap; empty: nothing is known
 };
 
-/// Is a minimum of the chordal objective the global one? (Rosen, Carlone, Bandeira, Leonard, SE-Sync, IJRR 2019, section 4, with the
-/// translations left in, so that everything stays sparse.)
+/// Is a minimum of the chordal objective the global one? (Rosen, Carlone, Bandeira, Leonard, SE-Sync, IJRR 2019,
+/// section 4, with the translations left in, so that everything stays sparse.)
 ///
-/// The cost is tr(X M X^T), X = [t_1 R_1 t_2 R_2 ...], and for every symmetric Lambda_i with S = M - diag(0, Lambda_i) that is nowhere
-/// less than -eta on the rotations, no poses cost less than sum tr(Lambda_i) - eta * D * n: whatever Lambda is, so that the bound
-/// does not rest on how well the minimisation has converged. Lambda_i = sym(R_i^T (X M)_i) is the multiplier of R_i^T R_i = I at a
-/// minimum. That S + eta is positive semidefinite is what a Cholesky factorisation finds, to its round-off.
+/// The cost is tr(X M X^T), X = [t_1 R_1 t_2 R_2 ...], and for every symmetric Lambda_i with S = M - diag(0, Lambda_i)
+/// that is nowhere less than -eta on the rotations, no poses cost less than sum tr(Lambda_i) - eta * D * n: whatever
+/// Lambda is, so that the bound does not rest on how well the minimisation has converged. Lambda_i = sym(R_i^T (X M)_i)
+/// is the multiplier of R_i^T R_i = I at a minimum. That S + eta is positive semidefinite is what a Cholesky
+/// factorisation finds, to its round-off.
 ///
-/// One or a few factorisations of blocks of D + 1. A minimum that is not certified may still be the global one where noise is
-/// large. `weights` as in cost(); the problem must be sound.
+/// One or a few factorisations of blocks of D + 1. A minimum that is not certified may still be the global one where
+/// noise is large. `weights` as in cost(); the problem must be sound.
 template <int D>
 Certificate certify(const Problem<D>& problem, const std::vector<Rigid<D>>& poses,
                     const std::vector<double>& weights = {});

@@ -15,8 +15,8 @@ constexpr const char* kForcesStage = "gravity";
 
 /// Returns the specific forces at a session's poses as the bytes of a stored state.
 std::string packForces(std::vector<urban_nav_core::SpecificForce> forces);
-/// Inverse of packForces, for the bytes of every earlier version too. Returns nullopt for damaged bytes and for those of a
-/// newer version.
+/// Inverse of packForces, for the bytes of every earlier version too. Returns nullopt for damaged bytes and for those
+/// of a newer version.
 std::optional<std::vector<urban_nav_core::SpecificForce>> unpackForces(std::string_view bytes);
 
 }  // namespace pose_graph

@@ -9,8 +9,9 @@
 
 namespace pose_graph {
 
-/// A pose-graph file as a problem: its ids, whatever they are, become 0...n-1 in ascending order; its edges stay in the order of
-/// the file. Vertices that edges name and the file does not list are placed by following edges, and named in `notes`.
+/// A pose-graph file as a problem: its ids, whatever they are, become 0...n-1 in ascending order; its edges stay in the
+/// order of the file. Vertices that edges name and the file does not list are placed by following edges, and named in
+/// `notes`.
 template <int D>
 struct FileProblem {
   Problem<D> problem;
@@ -21,12 +22,13 @@ struct FileProblem {
 /// What of an edge's information must be positive semidefinite.
 enum class Semidefinite {
   Whole,   ///< all of it
-  Blocks,  ///< its translation and its rotation block, all that the chordal objective reads: public graphs exist of which the rest is not
+  Blocks,  ///< its translation and its rotation block, all that the chordal objective reads: public graphs exist of
+           ///< which the rest is not
 };
 
-/// `graph.dimension` must be D. Information of 3D files is that of the quaternion's vector, half the rotation vector: its rotation
-/// block is divided by 4 and its cross blocks by 2. Throws UserError with `name` for information that is not positive
-/// semidefinite (to 1e-9 of its largest eigenvalue) and for a file without edges.
+/// `graph.dimension` must be D. Information of 3D files is that of the quaternion's vector, half the rotation vector:
+/// its rotation block is divided by 4 and its cross blocks by 2. Throws UserError with `name` for information that is
+/// not positive semidefinite (to 1e-9 of its largest eigenvalue) and for a file without edges.
 template <int D>
 FileProblem<D> problemOf(const urban_nav_core::G2oGraph& graph, const std::string& name,
                          Semidefinite demanded = Semidefinite::Whole);

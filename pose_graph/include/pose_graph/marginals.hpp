@@ -31,12 +31,13 @@ urban_nav_core::Matrix6d displayed(const Marginal<3>& marginal, double length);
 
 /// Marginal covariances of relaxed poses, (J^T W J)^-1 of the geodesic residuals.
 ///
-/// They are as true as the edges' information is: errors independent from edge to edge, of that size, no false closure among them, and
-/// poses at the optimum. Whatever the objective was that led there, the error is the geodesic one. A rejected edge has the weight
-/// zero: it then says nothing and connects nothing.
+/// They are as true as the edges' information is: errors independent from edge to edge, of that size, no false closure
+/// among them, and poses at the optimum. Whatever the objective was that led there, the error is the geodesic one. A
+/// rejected edge has the weight zero: it then says nothing and connects nothing.
 ///
-/// One factorisation and one selected inverse, about three times what an iteration of the solver takes, for all poses and for all pairs
-/// that an edge joins; another pair costs a walk from both up the elimination tree. Keeps buffers: not thread-safe.
+/// One factorisation and one selected inverse, about three times what an iteration of the solver takes, for all poses
+/// and for all pairs that an edge joins; another pair costs a walk from both up the elimination tree. Keeps buffers:
+/// not thread-safe.
 template <int D>
 class Marginals {
  public:

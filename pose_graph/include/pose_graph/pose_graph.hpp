@@ -103,15 +103,15 @@ struct Relaxed {
   bool needs_batch = false;  ///< update() met a closure that disagrees
 };
 
-/// A batch relaxation of a graph as it stood: PoseGraph::batch() makes it, run() does the work, which may be in another thread while the
-/// graph grows, and PoseGraph::take() lays the graph as it says.
+/// A batch relaxation of a graph as it stood: PoseGraph::batch() makes it, run() does the work, which may be in another
+/// thread while the graph grows, and PoseGraph::take() lays the graph as it says.
 struct Batch {
   Parameters parameters;
-  Problem<3>
-      problem;  ///< as PoseGraph::problem(), odometry as it was measured; levelled, with covariances as found, when it has run
-  std::vector<std::vector<StampNs>> stamps;    ///< of each track
+  Problem<3> problem;  ///< as PoseGraph::problem(), odometry as it was measured; levelled, with covariances as found,
+                       ///< when it has run
+  std::vector<std::vector<StampNs>> stamps;        ///< of each track
   std::vector<std::vector<SpecificForce>> forces;  ///< of each track; who knows more than the graph may put it in
-  std::map<ClosureId, Closure> closures;       ///< judged when it has run
+  std::map<ClosureId, Closure> closures;           ///< judged when it has run
   Solution<3> solution;
   double odometry_variance = 1.0;
   double odometry_lean = 0.0;
@@ -119,8 +119,8 @@ struct Batch {
 /// Deterministic. Who ends it by SolveOptions::progress must not take it.
 void run(Batch& batch, const SolveOptions& options = {});
 
-/// The pose graph of many sessions: chains of relative poses, pinched together by closures (Newman et al. 2009, sections 5 and 7).
-/// Sessions are joined by nothing but closures: two that agree fuse them, with no alignment by hand.
+/// The pose graph of many sessions: chains of relative poses, pinched together by closures (Newman et al. 2009,
+/// sections 5 and 7). Sessions are joined by nothing but closures: two that agree fuse them, with no alignment by hand.
 ///
 /// Not thread-safe. The same calls give the same bits, whatever the number of threads.
 class PoseGraph {
@@ -134,20 +134,23 @@ class PoseGraph {
   /// The session that is being recorded, whose jumps are told: the one that began last, unless it is said here.
   void goOn(const SessionId& session);
 
-  /// The next step of a session's chain. The first one makes two poses. A step that does not begin at the session's newest pose
-  /// breaks the chain (Trouble::BrokenChain); one that is not later than it, or not finite, is left out: false.
+  /// The next step of a session's chain. The first one makes two poses. A step that does not begin at the session's
+  /// newest pose breaks the chain (Trouble::BrokenChain); one that is not later than it, or not finite, is left out:
+  /// false.
   bool addOdometry(const SessionId& session, const urban_nav_core::RelativePose& step);
 
-  /// UserError where a pose does not exist (with the nearest one that does), where numbers are not finite or the information has a
-  /// negative eigenvalue. An edge with the same poses, kind and source is replaced. Judged by the next relax().
+  /// UserError where a pose does not exist (with the nearest one that does), where numbers are not finite or the
+  /// information has a negative eigenvalue. An edge with the same poses, kind and source is replaced. Judged by the
+  /// next relax().
   ClosureId addClosure(const Closure& offered);
   /// False where there is none.
   bool removeClosure(ClosureId id);
   std::optional<ClosureId> findClosure(const NodeRef& a, const NodeRef& b, EdgeKind kind,
                                        const std::string& source) const;
 
-  /// What was felt at poses of a session, in order of time; from the first of them on it takes the place of what is known. Batches level
-  /// by it: a map of which one of the sessions knows which way is up has z up, and origin and heading of its first pose.
+  /// What was felt at poses of a session, in order of time; from the first of them on it takes the place of what is
+  /// known. Batches level by it: a map of which one of the sessions knows which way is up has z up, and origin and
+  /// heading of its first pose.
   void putForces(const SessionId& session, const std::vector<SpecificForce>& forces);
   const std::vector<SpecificForce>& forces(std::size_t track) const { return forces_[track]; }
   /// Levels what is not level yet where that is known by now, and tells of it as relax() does.
@@ -157,13 +160,13 @@ class PoseGraph {
 
   /// Relaxes all there is, from the measurements alone: what was relaxed before leaves no trace. Deterministic.
   Relaxed relax(const SolveOptions& options = {});
-  /// The same in three steps. What the graph took in since batch() follows what was there; closures that are new, or were measured anew,
-  /// are judged as by update(). Not of another graph.
+  /// The same in three steps. What the graph took in since batch() follows what was there; closures that are new, or
+  /// were measured anew, are judged as by update(). Not of another graph.
   Batch batch() const;
   Relaxed take(const Batch& batch);
-  /// The same from where the graph stands, for some closures more: each is accepted if it raises the cost by no more than chance
-  /// and noise explain (its innovation, chi-square at 99.9 %), verdicts given earlier stay. Faster by far; where it finds
-  /// disagreement, `needs_batch` asks for relax(), which may find the others wrong.
+  /// The same from where the graph stands, for some closures more: each is accepted if it raises the cost by no more
+  /// than chance and noise explain (its innovation, chi-square at 99.9 %), verdicts given earlier stay. Faster by far;
+  /// where it finds disagreement, `needs_batch` asks for relax(), which may find the others wrong.
   Relaxed update();
 
   const std::vector<Track>& tracks() const { return tracks_; }
@@ -177,17 +180,20 @@ class PoseGraph {
   /// T_map_odom at a session's newest pose.
   Pose mapFromOdom(const SessionId& session) const;
 
-  /// The graph as a problem: poses of the tracks one after another, edges: the chains, then the closures in the order of ids.
+  /// The graph as a problem: poses of the tracks one after another, edges: the chains, then the closures in the order
+  /// of ids.
   Problem<3> problem() const;
   /// Number of a pose in problem().
   std::optional<int> poseNumber(const NodeRef& ref) const;
-  /// By what the covariances of odometry were multiplied in the last relax(), in problem() too: 1, or more where the closures
-  /// show that it promises more than it keeps.
+  /// By what the covariances of odometry were multiplied in the last relax(), in problem() too: 1, or more where the
+  /// closures show that it promises more than it keeps.
   double odometryVariance() const { return odometry_variance_; }
-  /// How far a pose of odometry leant at most against its first one, rad, as the accelerometer says: taken out in the last relax().
+  /// How far a pose of odometry leant at most against its first one, rad, as the accelerometer says: taken out in the
+  /// last relax().
   double odometryLean() const { return odometry_lean_; }
-  /// The covariance of a pose's own settled noise, in its own axes: half that of its step, where the step tells which part of it adds
-  /// up along the way. It is in no edge of the chain, in the closures' edges, and has to be added to what Marginals tell.
+  /// The covariance of a pose's own settled noise, in its own axes: half that of its step, where the step tells which
+  /// part of it adds up along the way. It is in no edge of the chain, in the closures' edges, and has to be added to
+  /// what Marginals tell.
   urban_nav_core::Matrix6d ownNoise(const NodeRef& ref) const;
   /// Weights of problem()'s edges after the last relaxation: 0 for closures that are not accepted.
   std::vector<double> weights() const;
@@ -225,8 +231,8 @@ class PoseGraph {
   void takeVerdicts(const Batch& batch);
   /// Steps as they were levelled.
   void takeSteps(const Batch& batch);
-  /// Turns the maps of which it is known which way is up, but those that are level already if they are to `stay`. The maps, by their first
-  /// tracks, that were not level before.
+  /// Turns the maps of which it is known which way is up, but those that are level already if they are to `stay`. The
+  /// maps, by their first tracks, that were not level before.
   std::vector<std::size_t> level(Laid& laid, bool stay);
   bool isOfRunning(const std::vector<std::size_t>& maps) const;
   /// The poses that moved by it.
@@ -249,8 +255,8 @@ class PoseGraph {
   }
   std::map<Name, ClosureId> by_name_;
   std::vector<std::vector<SpecificForce>> forces_;  ///< of each track
-  std::vector<bool> level_;                     ///< of each track: whether the map that begins with it is
-  std::vector<Closure> removed_;                ///< since the last relaxation, of those that were believed
+  std::vector<bool> level_;                         ///< of each track: whether the map that begins with it is
+  std::vector<Closure> removed_;                    ///< since the last relaxation, of those that were believed
   ClosureId next_id_ = 1;
   std::size_t running_ = 0;  ///< number of the track that is being recorded
   std::int64_t revision_ = 0;
@@ -261,9 +267,9 @@ class PoseGraph {
   std::any live_;  ///< IncrementalSolver: what update() goes on from; empty where that is not known
 };
 
-/// The information of a chain's edge for relaxation, in the convention of Edge: of the part of the step's covariance that adds up
-/// from step to step. WARNING: neighbouring steps share an end, so their covariances composed as if independent are far too
-/// large; what is left over belongs to the ends of closures, see closureInformation.
+/// The information of a chain's edge for relaxation, in the convention of Edge: of the part of the step's covariance
+/// that adds up from step to step. WARNING: neighbouring steps share an end, so their covariances composed as if
+/// independent are far too large; what is left over belongs to the ends of closures, see closureInformation.
 TangentMatrix<3> chainInformation(const urban_nav_core::RelativePose& step);
 /// The covariance of T_a_b (as what leaves a stage) that comes from both poses' own noise: PoseGraph::ownNoise().
 urban_nav_core::Matrix6d relativeNoise(const Pose& T_a_b, const urban_nav_core::Matrix6d& noise_a,

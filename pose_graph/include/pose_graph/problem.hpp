@@ -27,10 +27,10 @@ struct Rigid {
 
 /// Measures pose `to` in the frame of pose `from`: Z = T_from_to.
 ///
-/// `information` is that of e = (translation of E, rotation vector of E; in the plane its angle), E = Z^-1 T_from^-1 T_to:
-/// both parts in the frame of Z's child. It may be singular and is never inverted; it must be symmetric and positive
-/// semidefinite. The convention of everything that leaves a stage is the same one seen from `from`: turn both blocks by
-/// Z.R, exactly, at any size of e.
+/// `information` is that of e = (translation of E, rotation vector of E; in the plane its angle), E = Z^-1 T_from^-1
+/// T_to: both parts in the frame of Z's child. It may be singular and is never inverted; it must be symmetric and
+/// positive semidefinite. The convention of everything that leaves a stage is the same one seen from `from`: turn both
+/// blocks by Z.R, exactly, at any size of e.
 template <int D>
 struct Edge {
   int from = 0, to = 0;
@@ -49,8 +49,9 @@ struct Problem {
 /// What is minimised, each without the factor 1/2 (definitions: README.md, "Costs").
 enum class Objective {
   Geodesic,  ///< e^T information e, e as in Edge
-  Chordal,  ///< sum of kappa |R_j - R_i R_ij|^2 + tau |t_j - t_i - R_i t_ij|^2 (Rosen et al., SE-Sync, IJRR 2019, eq. 11)
-  G2o,      ///< e with the quaternion's vector in place of the rotation vector, as g2o has it
+  Chordal,   ///< sum of kappa |R_j - R_i R_ij|^2 + tau |t_j - t_i - R_i t_ij|^2 (Rosen et al., SE-Sync, IJRR 2019, eq.
+             ///< 11)
+  G2o,       ///< e with the quaternion's vector in place of the rotation vector, as g2o has it
 };
 
 }  // namespace pose_graph

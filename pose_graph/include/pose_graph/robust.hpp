@@ -46,26 +46,27 @@ template <int D>
 struct RobustSolution {
   Solution<D> solution;
   std::vector<EdgeAssessment> edges;
-  /// By how much the squares of the residuals differ from what the edges' information promises: below 1 it is too modest. Above
-  /// 1 it boasts, and many loops of near closures say so; where there are none, it is taken at its word.
+  /// By how much the squares of the residuals differ from what the edges' information promises: below 1 it is too
+  /// modest. Above 1 it boasts, and many loops of near closures say so; where there are none, it is taken at its word.
   double variance_factor = 1.0;
 };
 
 /// Relaxes a graph some of whose closures are false, without any setting. `roles`: one for each edge. Derivation:
 /// docs/derivations/pose_graph.md.
 ///
-/// What the information is worth is read off loops of two near closures first. Where next to nothing speaks against odometry
-/// all closures are taken at once, and that is the answer if they fit. Else they grow into the graph by evidence: against what is
-/// accepted so far each one is tested by its innovation, with the covariance that the accepted graph gives; evidence is the
-/// logarithm of how much likelier its residual is from a true closure than from one anywhere in the map. The better half of
-/// those that pass enters, the graph is relaxed, and everything is judged anew: what entered wrongly leaves again by Baarda's
-/// test of one observation, or of one common bias of a group (A testing procedure for use in geodetic networks, 1968).
-/// At the end all are judged once more where the graph is settled, so that a group which bends a long way until it fits shows too.
-/// Where information is too modest, a closure that fits by what it states and is far likelier true than anywhere stays.
-/// Covariances are those of random disturbances of all edges carried through the factor, some dozens of right-hand sides; so a
-/// thousand closures cost what one costs. Where odometry promises more than it keeps and closures are left out because of that,
-/// a second minimisation with truncated squares starts from there (Yang, Antonante, Tzoumas, Carlone, Graduated
-/// non-convexity, RA-L 2020) and is taken if its truncated cost is lower and more closures fit.
+/// What the information is worth is read off loops of two near closures first. Where next to nothing speaks against
+/// odometry all closures are taken at once, and that is the answer if they fit. Else they grow into the graph by
+/// evidence: against what is accepted so far each one is tested by its innovation, with the covariance that the
+/// accepted graph gives; evidence is the logarithm of how much likelier its residual is from a true closure than from
+/// one anywhere in the map. The better half of those that pass enters, the graph is relaxed, and everything is judged
+/// anew: what entered wrongly leaves again by Baarda's test of one observation, or of one common bias of a group (A
+/// testing procedure for use in geodetic networks, 1968). At the end all are judged once more where the graph is
+/// settled, so that a group which bends a long way until it fits shows too. Where information is too modest, a closure
+/// that fits by what it states and is far likelier true than anywhere stays. Covariances are those of random
+/// disturbances of all edges carried through the factor, some dozens of right-hand sides; so a thousand closures cost
+/// what one costs. Where odometry promises more than it keeps and closures are left out because of that, a second
+/// minimisation with truncated squares starts from there (Yang, Antonante, Tzoumas, Carlone, Graduated non-convexity,
+/// RA-L 2020) and is taken if its truncated cost is lower and more closures fit.
 ///
 /// Parts that no trusted edge joins are joined where at least two closures agree with each other. The result does not
 /// depend on the number of threads. The problem must be sound (check.hpp).

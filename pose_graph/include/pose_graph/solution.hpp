@@ -44,8 +44,8 @@ enum class Ending {
 };
 const char* toString(Ending ending);
 
-/// Relaxed poses. The first pose of each connected component stays where the start had it; where the problem has poses given
-/// for Start::Auto, the result is moved so that pose 0 stays at its given place.
+/// Relaxed poses. The first pose of each connected component stays where the start had it; where the problem has poses
+/// given for Start::Auto, the result is moved so that pose 0 stays at its given place.
 template <int D>
 struct Solution {
   std::vector<Rigid<D>> poses;

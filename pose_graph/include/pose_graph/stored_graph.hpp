@@ -15,7 +15,7 @@ struct StoredGraph {
   struct Chain {
     urban_nav_store::Session session;
     std::vector<urban_nav_core::RelativePose>
-        steps;                      ///< in order of time; one that does not begin where the last ended: a gap
+        steps;                          ///< in order of time; one that does not begin where the last ended: a gap
     std::vector<SpecificForce> forces;  ///< at its poses
   };
   std::vector<Chain> chains;      ///< in the order in which the sessions began
@@ -23,11 +23,12 @@ struct StoredGraph {
   std::int64_t revision = 0;      ///< the highest that a pose in it is of
 };
 
-/// Reads it. Closures without any information are evidence alone and are left out; so are those of sessions that are not there.
-/// DataError where the store is damaged.
+/// Reads it. Closures without any information are evidence alone and are left out; so are those of sessions that are
+/// not there. DataError where the store is damaged.
 StoredGraph readGraph(urban_nav_store::Store& store);
 
-/// How a store keeps what a stage says of a closure: lines for a person, of which passedOdometryGate() finds its own again.
+/// How a store keeps what a stage says of a closure: lines for a person, of which passedOdometryGate() finds its own
+/// again.
 std::string evidenceOf(const urban_nav_core::MetricClosure& closure);
 std::string evidenceOf(bool odometry_gate);
 bool passedOdometryGate(const std::string& evidence);

@@ -106,8 +106,8 @@ Edge<D> composedEdge(const ChainSum<D>& sum, const Rigid<D>& end) {
   const Tangent<D> shift = boxFromTwist<D>(sum.shift, end.t);
   edge.Z = moved<D>(end, shift);
   TangentMatrix<D> P = turnedBy<D>(Rotation<D>(edge.Z.R.transpose()), shifted<D>(sum.covariance, end.t, 1.0));
-  // The error of the edge at `end` is -shift, and its derivative there has J_l^-1: with it in the covariance too, the edge has
-  // the chain's gradient and second derivative there, and so the same optimum.
+  // The error of the edge at `end` is -shift, and its derivative there has J_l^-1: with it in the covariance too, the
+  // edge has the chain's gradient and second derivative there, and so the same optimum.
   if constexpr (D == 3) {
     const Eigen::Vector3d e_r = -(end.R.transpose() * shift.template tail<3>());
     const Eigen::Matrix3d J = urban_nav_core::leftJacobianInverseSo3(e_r);

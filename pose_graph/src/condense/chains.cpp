@@ -110,8 +110,8 @@ class Finder {
     }
   }
 
-  // Ways of one edge are no chains. One that comes back to where it began is cut at its last pose, one that has company between
-  // the same two poses stays: the core may have several edges between two poses.
+  // Ways of one edge are no chains. One that comes back to where it began is cut at its last pose, one that has company
+  // between the same two poses stays: the core may have several edges between two poses.
   void followFrom(int pose) {
     for (int k = first_[sz(pose)]; k < first_[sz(pose) + 1]; ++k) {
       const int e = incident_[sz(k)];

@@ -15,11 +15,11 @@ struct Link {
   int pose = 0;          ///< where the step ends
 };
 
-/// How a pose graph falls into a small core and what hangs on it. An odometry of 50 000 poses with 300 closures has a core of
-/// some 600 poses: their ends.
+/// How a pose graph falls into a small core and what hangs on it. An odometry of 50 000 poses with 300 closures has a
+/// core of some 600 poses: their ends.
 struct Chains {
-  /// Links first[s]...first[s + 1] - 1 of `links` lead from the core pose begin[s] over poses that have no other edge to the
-  /// core pose where the last one ends.
+  /// Links first[s]...first[s + 1] - 1 of `links` lead from the core pose begin[s] over poses that have no other edge
+  /// to the core pose where the last one ends.
   std::vector<int> begin;
   std::vector<int> first = {0};
   std::vector<Link> links;

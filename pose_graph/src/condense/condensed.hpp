@@ -12,12 +12,12 @@ namespace pose_graph {
 /// A pose graph whose chains are each replaced by one edge, and brought back again. Geodesic objective. Derivation:
 /// docs/derivations/pose_graph.md.
 ///
-/// The poses between the ends of a chain see nothing but the chain: for given ends they are where the chain's cost is least, and
-/// that cost, as a function of the ends, is to second order an edge with the chain's composed transform and the sum of its
-/// covariances (Newman et al. 2009, eq. 8-13: the composition and its Jacobians; here summed as twists about the chain's begin,
-/// so that a chain costs as many operations as it has links). The second order is exact at a point only, so relinearise() and
-/// expand() alternate until nothing moves: each round is a Gauss-Newton step for the poses in between and a full minimisation for
-/// the core.
+/// The poses between the ends of a chain see nothing but the chain: for given ends they are where the chain's cost is
+/// least, and that cost, as a function of the ends, is to second order an edge with the chain's composed transform and
+/// the sum of its covariances (Newman et al. 2009, eq. 8-13: the composition and its Jacobians; here summed as twists
+/// about the chain's begin, so that a chain costs as many operations as it has links). The second order is exact at a
+/// point only, so relinearise() and expand() alternate until nothing moves: each round is a Gauss-Newton step for the
+/// poses in between and a full minimisation for the core.
 template <int D>
 class Condensed {
  public:
@@ -26,8 +26,8 @@ class Condensed {
 
   const Chains& chains() const { return chains_; }
 
-  /// The core as a problem of its own: poses in the order of chains().core; its edges are those of chains().core_edges and
-  /// behind them one for each chain. `poses` are where the core poses stand now.
+  /// The core as a problem of its own: poses in the order of chains().core; its edges are those of chains().core_edges
+  /// and behind them one for each chain. `poses` are where the core poses stand now.
   Problem<D> core(const std::vector<Rigid<D>>& poses) const;
   /// The same edges renewed, of the chains alone.
   void renew(Problem<D>& core) const;

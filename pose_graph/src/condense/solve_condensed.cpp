@@ -18,15 +18,16 @@ namespace {
 // Below this share of poses on chains the elimination order takes care of them as well (bench/size).
 constexpr double kLeastChainShare = 0.5;
 constexpr int kCondensedRounds = 30;
-// The edge that stands for a long chain bends more than any of its links. Where the core takes more steps than this, or rounds no
-// longer halve what the ends are off, the whole graph is the easier one (ais2klinik: 70 steps a round and no end, the whole graph 6).
+// The edge that stands for a long chain bends more than any of its links. Where the core takes more steps than this, or
+// rounds no longer halve what the ends are off, the whole graph is the easier one (ais2klinik: 70 steps a round and no
+// end, the whole graph 6).
 constexpr int kCoreSteps = 12, kFreeRounds = 3;
 constexpr double kContraction = 0.5;
-// What the ends of chains may be off, in weighted squares, as a share of the cost: its root is the share by which the cost
-// may then be wrong.
+// What the ends of chains may be off, in weighted squares, as a share of the cost: its root is the share by which the
+// cost may then be wrong.
 constexpr double kClosed = 1e-12;
-// A change of the cost from round to round ends them, as a share of what ends a minimisation; and a cost, in squares of standard
-// deviations, that is none.
+// A change of the cost from round to round ends them, as a share of what ends a minimisation; and a cost, in squares of
+// standard deviations, that is none.
 constexpr double kSettledShare = 1e-3, kSettledLeast = 1e-12, kNothing = 1e-9;
 // By how much round-off may make the end seem worse than the begin.
 constexpr double kCostRoundOff = 1e-9;

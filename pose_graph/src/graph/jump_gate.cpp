@@ -61,8 +61,8 @@ void take(const RobustSolution<3>& judged, std::size_t chains, std::map<ClosureI
   }
 }
 
-// Chi-square of six degrees of freedom at 99.9 %; of fewer where the information leaves directions free, which errs towards
-// keeping.
+// Chi-square of six degrees of freedom at 99.9 %; of fewer where the information leaves directions free, which errs
+// towards keeping.
 constexpr double kInnovationLimit = 22.458;
 
 // Beyond this many times the limit, ten in standard deviations, the linear prediction of an innovation is enough: what
@@ -74,8 +74,8 @@ bool meet(const Way& a, const Way& b) {
   return std::min(a.a, a.b) < std::max(b.a, b.b) && std::min(b.a, b.b) < std::max(a.a, a.b);
 }
 
-// Of closures that wait, so many are tried beside a new one, the likeliest first: each costs what the new one costs. Those beyond are
-// for the batch.
+// Of closures that wait, so many are tried beside a new one, the likeliest first: each costs what the new one costs.
+// Those beyond are for the batch.
 constexpr std::size_t kTried = 3;
 
 /// Those of the accepted closures that have to wait, and do.
@@ -167,8 +167,8 @@ Solution<3> judge(const Problem<3>& problem, const Parameters& parameters, const
 namespace {
 
 /// A closure beside what is in the core: does it fit? It is on trial there.
-bool fits(IncrementalSolver& core, const Ground& ground, const Parameters& parameters, const Bond& bond, Closure& closure,
-          double& cost_before) {
+bool fits(IncrementalSolver& core, const Ground& ground, const Parameters& parameters, const Bond& bond,
+          Closure& closure, double& cost_before) {
   const bool doubted = closure.kind != EdgeKind::Asserted && parameters.robust;
   const IncrementalSolver::Offer offer = core.offer(ground, bond, doubted ? kHopeless * kInnovationLimit : INFINITY);
   // What one measurement more costs is the square of its innovation.

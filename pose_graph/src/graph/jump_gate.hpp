@@ -9,16 +9,16 @@
 
 namespace pose_graph {
 
-/// Which closures are believed, and the poses that follow: robust relaxation, and then the rule that a large correction needs two
-/// witnesses (docs/derivations/pose_graph.md). A closure waits where odometry alone led from a to
-/// b so far, it says something further off than parameters.jump_distance or jump_angle, it is no stereo closure that odometry
-/// allows, and no other accepted closure spans a part of the same way. `closures` get their verdicts, weights and reasons; those
-/// that wait or are rejected have weight 0 in the solution.
+/// Which closures are believed, and the poses that follow: robust relaxation, and then the rule that a large correction
+/// needs two witnesses (docs/derivations/pose_graph.md). A closure waits where odometry alone led from a to b so far,
+/// it says something further off than parameters.jump_distance or jump_angle, it is no stereo closure that odometry
+/// allows, and no other accepted closure spans a part of the same way. `closures` get their verdicts, weights and
+/// reasons; those that wait or are rejected have weight 0 in the solution.
 Solution<3> judge(const Problem<3>& problem, const Parameters& parameters, const SolveOptions& options,
                   std::map<ClosureId, Closure>& closures);
 
-/// Closures that were not judged yet, each beside what is accepted already, and those that waited for one like it; those that are let in
-/// stay in `core`.
+/// Closures that were not judged yet, each beside what is accepted already, and those that waited for one like it;
+/// those that are let in stay in `core`.
 struct Addition {
   double cost_before = 0.0;   ///< where the poses stood, with what was let in last
   bool disagreement = false;  ///< one of them was left out, or more wait than were tried beside it

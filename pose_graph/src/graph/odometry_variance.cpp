@@ -27,7 +27,8 @@ int joinedParts(const Problem<3>& problem, std::size_t chains, const std::vector
   return apart - unknownsOf(joined).components;
 }
 
-// How much of the chains' errors shows in their residuals, in numbers: what the closures take up of theirs is the chains'.
+// How much of the chains' errors shows in their residuals, in numbers: what the closures take up of theirs is the
+// chains'.
 std::optional<double> redundancyOfChains(const Problem<3>& problem, std::size_t chains,
                                          const std::vector<double>& weights, const std::vector<Rigid<3>>& poses) {
   const Marginals<3> marginals(problem, poses, weights);

@@ -24,8 +24,8 @@ bool isProper(const Matrix6d& covariance) {
   return covariance.allFinite() && urban_nav_core::SmallCholesky<6>(covariance).succeeded();
 }
 
-// Round-off can make the least eigenvalues of a good covariance negative: the step counts, with those raised to what the largest
-// one's last digits are. Empty where there is nothing to raise.
+// Round-off can make the least eigenvalues of a good covariance negative: the step counts, with those raised to what
+// the largest one's last digits are. Empty where there is nothing to raise.
 std::optional<Matrix6d> properCovariance(const Matrix6d& covariance) {
   if (isProper(covariance)) return covariance;
   if (!covariance.allFinite()) return std::nullopt;

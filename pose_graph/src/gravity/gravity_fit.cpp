@@ -15,7 +15,8 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
-// What is wrong with an accelerometer, m/s2: across gravity 1 deg of its place on the robot, along it the bias of a calibrated one (XSens MTi).
+// What is wrong with an accelerometer, m/s2: across gravity 1 deg of its place on the robot, along it the bias of a
+// calibrated one (XSens MTi).
 constexpr double kFaultAcross = 9.81 * 0.01745, kFaultAlong = 0.02;
 constexpr double kGravityHuber = 1.345;  // Huber 1964: 95 % as good as least squares where nothing is wrong
 constexpr double kMadToSigma = 1.4826;   // of a Gaussian

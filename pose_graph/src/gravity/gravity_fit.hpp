@@ -19,7 +19,8 @@ struct GravityFit {
   Eigen::Vector3d residual(const Span& span) const { return span.force - x.head<3>() - span.rotation * x.tail<3>(); }
 };
 
-/// Least squares, reweighted (Huber 1964), from the medians of the forces. `spans` must not be empty; nothing where they are not finite.
+/// Least squares, reweighted (Huber 1964), from the medians of the forces. `spans` must not be empty; nothing where
+/// they are not finite.
 std::optional<GravityFit> fitGravity(const std::vector<Span>& spans);
 
 }  // namespace pose_graph

@@ -10,7 +10,8 @@ namespace pose_graph {
 /// A stretch of a drive, over which means are taken.
 struct Span {
   urban_nav_core::StampNs begin = 0, end = 0;
-  /// Of what was felt, in the axes of the first pose, less the acceleration that the trajectory shows (m/s2): gravity and faults.
+  /// Of what was felt, in the axes of the first pose, less the acceleration that the trajectory shows (m/s2): gravity
+  /// and faults.
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
   /// Of R_first_base: what it does to a fault that is fixed to the robot.
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Zero();
@@ -18,8 +19,8 @@ struct Span {
   Eigen::Matrix3d lever = Eigen::Matrix3d::Zero();
 };
 
-/// One after another, each of 2 s or a little more; none where forces are more than 0.3 s apart. Two that follow each other share
-/// the velocity between them, so its error takes itself away in their sum.
+/// One after another, each of 2 s or a little more; none where forces are more than 0.3 s apart. Two that follow each
+/// other share the velocity between them, so its error takes itself away in their sum.
 std::vector<Span> spansOf(const urban_nav_core::Trajectory& trajectory, const std::vector<SpecificForce>& forces,
                           const urban_nav_core::Pose& T_world_first);
 

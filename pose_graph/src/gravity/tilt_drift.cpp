@@ -19,7 +19,8 @@ using urban_nav_core::Trajectory;
 
 namespace {
 
-// What is sought: gravity's error and the accelerometer's fault (m/s2), its lever arm (m), the tilt about two axes across gravity (rad).
+// What is sought: gravity's error and the accelerometer's fault (m/s2), its lever arm (m), the tilt about two axes
+// across gravity (rad).
 constexpr int kStates = 11, kFault = 3, kTilt = 9;
 using State = Eigen::Matrix<double, kStates, 1>;
 using StateMatrix = Eigen::Matrix<double, kStates, kStates>;
@@ -45,7 +46,8 @@ struct Sight {
   Seen H;
 };
 
-/// How the tilt and the fault walk, in noises of a force, as squares: the factor on odometry's variance, and the variance a second. Logarithms.
+/// How the tilt and the fault walk, in noises of a force, as squares: the factor on odometry's variance, and the
+/// variance a second. Logarithms.
 struct Walks {
   double tilt = 0.0, fault = 0.0;
 };

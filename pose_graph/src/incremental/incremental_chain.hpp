@@ -8,8 +8,8 @@
 
 namespace pose_graph {
 
-/// A way along a track between two poses of a core, with the poses in between as they were laid last: `at` from the begin. A
-/// single step is none.
+/// A way along a track between two poses of a core, with the poses in between as they were laid last: `at` from the
+/// begin. A single step is none.
 class IncrementalChain {
  public:
   IncrementalChain() = default;
@@ -26,7 +26,8 @@ class IncrementalChain {
   /// In two at the end of a link, laid as they were; this one is then the first part.
   IncrementalChain splitBehind(std::size_t link, const ChainStep* steps);
 
-  /// The square of what the wanted end (T_begin_end) is off the one it was laid to, in standard deviations of the chain.
+  /// The square of what the wanted end (T_begin_end) is off the one it was laid to, in standard deviations of the
+  /// chain.
   double bend(const Rigid<3>& wanted) const;
   /// Lays the poses so that they fit that end, and sums up anew.
   void lay(const Rigid<3>& wanted, const ChainStep* steps);

@@ -12,10 +12,11 @@ namespace pose_graph {
 
 namespace {
 
-// Squares of standard deviations: what is left to gain is a hundredth of one, and the next update goes on from there; relax() is exact.
+// Squares of standard deviations: what is left to gain is a hundredth of one, and the next update goes on from there;
+// relax() is exact.
 constexpr double kLiveEnough = 1e-4;
-// And of a chain's, by which its end may be off before it is laid anew. At 1e-2 poses end 1.7 mm from the batch's, at 1e-3 0.3 mm, at 1e-4
-// 0.1 mm, and an update takes 5, 6 and 9 ms (20 000 poses, bench/update).
+// And of a chain's, by which its end may be off before it is laid anew. At 1e-2 poses end 1.7 mm from the batch's, at
+// 1e-3 0.3 mm, at 1e-4 0.1 mm, and an update takes 5, 6 and 9 ms (20 000 poses, bench/update).
 constexpr double kLiveBent = 1e-3;
 // A tenth of what graph/update tells of (docs/architecture.md).
 constexpr double kWrittenDistance = 1e-3, kWrittenAngle = 0.002 * 3.14159265358979323846 / 180.0;
@@ -26,7 +27,8 @@ double angleOf(const Eigen::Matrix3d& R) { return logRotation(R).norm(); }
 
 }  // namespace
 
-IncrementalSolver::IncrementalSolver(const Ground& ground, const std::vector<Bond>& bonds, int iterations, double variance)
+IncrementalSolver::IncrementalSolver(const Ground& ground, const std::vector<Bond>& bonds, int iterations,
+                                     double variance)
     : steps_at_most_(iterations), variance_(variance) {
   nodes_.resize(ground.tracks());
   for (const Bond& bond : bonds) {
@@ -334,7 +336,8 @@ void IncrementalSolver::write(Ground& ground) {
     for (auto at = nodes_[t].begin(); at != nodes_[t].end(); ++at) writeFrom(ground, t, at);
 }
 
-// A node, what follows it up to the next one or to the end of its run, and what lies before it where it is the first of its run.
+// A node, what follows it up to the next one or to the end of its run, and what lies before it where it is the first of
+// its run.
 void IncrementalSolver::writeFrom(Ground& ground, std::size_t track, Nodes::iterator at) {
   auto& [index, node] = *at;
   const auto next = std::next(at);

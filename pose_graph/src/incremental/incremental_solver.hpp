@@ -11,7 +11,8 @@
 
 namespace pose_graph {
 
-/// What the live core reads of the graph around it. Steps are never changed once they are there; each track has one less than poses.
+/// What the live core reads of the graph around it. Steps are never changed once they are there; each track has one
+/// less than poses.
 class Ground {
  public:
   virtual ~Ground() = default;
@@ -24,12 +25,14 @@ class Ground {
   virtual void write(const Place& place, const Rigid<3>& T_map_pose) = 0;
 };
 
-/// The graph condensed to the ends of its closures (condense/condensed.hpp), kept relaxed while odometry grows and closures come one at a
-/// time. A closure more splits the chains that it ends in; the core is relaxed from where it stands; a chain is laid anew only once its ends
-/// have moved against each other by a hundredth of its standard deviation. So an update costs what the core costs, and the chains that bend.
+/// The graph condensed to the ends of its closures (condense/condensed.hpp), kept relaxed while odometry grows and
+/// closures come one at a time. A closure more splits the chains that it ends in; the core is relaxed from where it
+/// stands; a chain is laid anew only once its ends have moved against each other by a hundredth of its standard
+/// deviation. So an update costs what the core costs, and the chains that bend.
 class IncrementalSolver {
  public:
-  /// Takes bonds that are accepted. Poses begin as they are written. `variance`: factor of the covariances of all steps.
+  /// Takes bonds that are accepted. Poses begin as they are written. `variance`: factor of the covariances of all
+  /// steps.
   IncrementalSolver(const Ground& ground, const std::vector<Bond>& bonds, int iterations, double variance = 1.0);
 
   /// What relaxing with one bond more came to.
@@ -38,8 +41,8 @@ class IncrementalSolver {
     double innovation = 0.0;  ///< by how much the bond raises it
     double before = 0.0;      ///< the cost where the poses stood
   };
-  /// Relaxes with this bond too, on trial: further ones may be offered beside it. Gives up where already the linear prediction of
-  /// its innovation is `hopeless`; takeBack() follows then.
+  /// Relaxes with this bond too, on trial: further ones may be offered beside it. Gives up where already the linear
+  /// prediction of its innovation is `hopeless`; takeBack() follows then.
   Offer offer(const Ground& ground, const Bond& bond, double hopeless);
   /// All that are on trial stay.
   void keep();
@@ -52,13 +55,14 @@ class IncrementalSolver {
   const std::vector<Iteration>& iterations() const { return iterations_; }
   Ending ending() const { return ending_; }
 
-  /// Writes where the poses are now: those that moved by more than a tenth of what anyone is told of, and the end of each track.
+  /// Writes where the poses are now: those that moved by more than a tenth of what anyone is told of, and the end of
+  /// each track.
   void write(Ground& ground);
 
  private:
   struct Node {
     Rigid<3> pose;
-    IncrementalChain onward;                     ///< to the next node of the track; empty: a single step, or none
+    IncrementalChain onward;              ///< to the next node of the track; empty: a single step, or none
     Rigid<3> written;                     ///< `pose` when what follows was written
     double bent_m = 0.0, bent_rad = 0.0;  ///< by how much the chain was laid otherwise since then
     bool is_written = false;

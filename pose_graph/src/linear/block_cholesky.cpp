@@ -255,7 +255,8 @@ void BlockCholesky<B>::solveEight(double* x) const {
   for (int s = symbolic_->size() - 1; s >= 0; --s) backwardEight(s, x);
 }
 
-// The columns of L^-1 of one place: B right-hand sides, one after another, which differ from zero along the way to the root.
+// The columns of L^-1 of one place: B right-hand sides, one after another, which differ from zero along the way to the
+// root.
 template <int B>
 void BlockCholesky<B>::halfColumns(int place, std::vector<double>& x) const {
   const std::size_t length = sz(B) * symbolic_->node.size();

@@ -9,10 +9,10 @@
 
 namespace pose_graph {
 
-/// Sparse Cholesky factorisation of a symmetric positive definite matrix of BxB blocks, supernodal and multifrontal (Duff, Reid,
-/// ACM TOMS 1983; Liu, SIAM Review 1992). Own code: it takes blocks where they are, needs one symbolic analysis for blocks of
-/// every size, gives the same bits on every machine, and lets marginal covariances be read off its supernodes. Compiled for
-/// B = 2, 3, 4, 6. Keeps its buffers; not thread-safe.
+/// Sparse Cholesky factorisation of a symmetric positive definite matrix of BxB blocks, supernodal and multifrontal
+/// (Duff, Reid, ACM TOMS 1983; Liu, SIAM Review 1992). Own code: it takes blocks where they are, needs one symbolic
+/// analysis for blocks of every size, gives the same bits on every machine, and lets marginal covariances be read off
+/// its supernodes. Compiled for B = 2, 3, 4, 6. Keeps its buffers; not thread-safe.
 template <int B>
 class BlockCholesky {
  public:
@@ -22,17 +22,19 @@ class BlockCholesky {
   /// False where A is not positive definite to working precision, or holds NaN.
   bool factor(const BlockMatrix<B>& A, const BlockPattern& pattern);
 
-  /// The same for a matrix that may be singular: where nothing is left of a pivot, pinOf() is added to that entry of the diagonal. The
-  /// entries come in `pinned`, each as B times its place plus its row; empty: A is positive definite.
+  /// The same for a matrix that may be singular: where nothing is left of a pivot, pinOf() is added to that entry of
+  /// the diagonal. The entries come in `pinned`, each as B times its place plus its row; empty: A is positive definite.
   bool factorPinned(const BlockMatrix<B>& A, const BlockPattern& pattern, std::vector<int>& pinned);
   static double pinOf(const BlockMatrix<B>& A, int entry);
 
   /// x becomes A^-1 x for `columns` right-hand sides, one after another, each B numbers a place.
   void solve(double* x, int columns = 1) const;
-  /// The same for eight right-hand sides that lie side by side, number r of side c at x[8 r + c]: several times as fast.
+  /// The same for eight right-hand sides that lie side by side, number r of side c at x[8 r + c]: several times as
+  /// fast.
   void solveEight(double* x) const;
 
-  /// The block of A^-1 in the row of one place and the column of another. Costs as much as there are supernodes above them.
+  /// The block of A^-1 in the row of one place and the column of another. Costs as much as there are supernodes above
+  /// them.
   typename BlockMatrix<B>::Block inverseBlock(int row, int column) const;
 
   const Symbolic& symbolic() const { return *symbolic_; }

@@ -14,7 +14,8 @@ namespace pose_graph {
 struct BlockPattern {
   BlockPattern(const Adjacency& graph, const Symbolic& symbolic);
 
-  /// The block of two nodes, and whether it stands there as (b, a) instead of (a, b); index -1 where they are no neighbours.
+  /// The block of two nodes, and whether it stands there as (b, a) instead of (a, b); index -1 where they are no
+  /// neighbours.
   struct Slot {
     int index = -1;
     bool turned = false;

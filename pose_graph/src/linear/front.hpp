@@ -7,8 +7,9 @@
 
 namespace pose_graph {
 
-/// The dense piece that a multifrontal factorisation works on: a symmetric matrix (lower triangle, column-major), of which the
-/// leading columns are eliminated. Its room is rounded up so that kernels may work on whole tiles of 8x8. Keeps its buffers.
+/// The dense piece that a multifrontal factorisation works on: a symmetric matrix (lower triangle, column-major), of
+/// which the leading columns are eliminated. Its room is rounded up so that kernels may work on whole tiles of 8x8.
+/// Keeps its buffers.
 class Front {
  public:
   /// All zero, of this size.

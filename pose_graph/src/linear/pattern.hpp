@@ -6,8 +6,8 @@
 
 namespace pose_graph {
 
-/// Which nodes of an undirected graph are neighbours: the pattern of a symmetric matrix of blocks, without its diagonal.
-/// Neighbours of node i are neighbours[first[i]]...neighbours[first[i + 1] - 1], ascending, each once.
+/// Which nodes of an undirected graph are neighbours: the pattern of a symmetric matrix of blocks, without its
+/// diagonal. Neighbours of node i are neighbours[first[i]]...neighbours[first[i + 1] - 1], ascending, each once.
 struct Adjacency {
   std::vector<int> first = {0};
   std::vector<int> neighbours;

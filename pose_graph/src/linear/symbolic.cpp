@@ -47,8 +47,8 @@ struct Run {
   double zeros;    // entries of the factor that joining made up
 };
 
-// Joining pays where the zeros are few, and the more of them are borne the smaller the piece is: the limits are CHOLMOD's
-// (Chen, Davis, Hager, Rajamanickam, ACM TOMS 887, 2008, section 3), in nodes of six numbers.
+// Joining pays where the zeros are few, and the more of them are borne the smaller the piece is: the limits are
+// CHOLMOD's (Chen, Davis, Hager, Rajamanickam, ACM TOMS 887, 2008, section 3), in nodes of six numbers.
 bool worthJoining(const Run& child, const Run& parent, double zeros) {
   const int columns = parent.end - child.begin;
   const double total = 0.5 * columns * (columns + 1.0) + static_cast<double>(columns) * parent.rows;

@@ -40,8 +40,8 @@ inline Eigen::Matrix3d turned(const Eigen::Vector3d& v) { return -urban_nav_core
 Rotation<2> nearestRotation(const Eigen::Matrix2d& M);
 Rotation<3> nearestRotation(const Eigen::Matrix3d& M);
 
-/// A rotation without the round-off of a long product, which a transpose taken for an inverse would double at each step: one
-/// step of Newton's method to the nearest rotation.
+/// A rotation without the round-off of a long product, which a transpose taken for an inverse would double at each
+/// step: one step of Newton's method to the nearest rotation.
 template <int D>
 Rotation<D> renormalised(const Rotation<D>& R) {
   return 0.5 * R * (3.0 * Rotation<D>::Identity() - R.transpose() * R);

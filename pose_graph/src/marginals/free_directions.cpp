@@ -8,8 +8,8 @@ namespace pose_graph {
 
 namespace {
 
-// Of the variance, in units of its own deviations. Pins are 1e-6 of the diagonal, so that what they hold varies more than what
-// edges hold, and the difference of two such covariances is right to about 1e-8.
+// Of the variance, in units of its own deviations. Pins are 1e-6 of the diagonal, so that what they hold varies more
+// than what edges hold, and the difference of two such covariances is right to about 1e-8.
 constexpr double kFree = 1e-5;
 
 }  // namespace

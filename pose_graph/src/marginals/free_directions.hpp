@@ -5,8 +5,9 @@
 
 namespace pose_graph {
 
-/// What is known of N numbers whose covariance under pins is `pinned`, and of that the part `free` is the pins' alone: twice the difference
-/// between pins and pins of double strength, since everything that edges determine does not depend on them.
+/// What is known of N numbers whose covariance under pins is `pinned`, and of that the part `free` is the pins' alone:
+/// twice the difference between pins and pins of double strength, since everything that edges determine does not depend
+/// on them.
 template <int D>
 Marginal<D> withoutPins(const TangentMatrix<D>& pinned, const TangentMatrix<D>& free);
 

@@ -93,7 +93,8 @@ EdgeTerm<D> termOf(const Edge<D>& edge) {
   made.t_Z = edge.Z.R.transpose() * edge.Z.t;
   made.information = edge.information;
   made.tau = D * harmonic<D>(edge.information.template topLeftCorner<D, D>());
-  // SE-Sync has 3 / (2 trace) of the information of the quaternion's vector, which is four times that of the rotation vector.
+  // SE-Sync has 3 / (2 trace) of the information of the quaternion's vector, which is four times that of the rotation
+  // vector.
   made.kappa = D == 2 ? edge.information(D, D) : 6.0 * harmonic<r>(edge.information.template bottomRightCorner<r, r>());
   return made;
 }

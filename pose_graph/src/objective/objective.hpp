@@ -8,7 +8,8 @@
 
 namespace pose_graph {
 
-/// What an objective needs of an edge, made once: `rotation` and `translation` are kappa and tau of the chordal objective.
+/// What an objective needs of an edge, made once: `rotation` and `translation` are kappa and tau of the chordal
+/// objective.
 template <int D>
 struct EdgeTerm {
   int from = 0, to = 0;
@@ -20,9 +21,9 @@ struct EdgeTerm {
 template <int D>
 EdgeTerm<D> termOf(const Edge<D>& edge);
 
-/// An edge's cost around two poses. With A = R_from R_Z (how the child of Z would stand in the map) and d = t_to - t_from, every
-/// objective is a function of e_t = A^T d - R_Z^T t_Z and R_E = A^T R_to alone, so that it does not change when both poses move
-/// together. Moving `to` by y, in the axes of A, changes it to
+/// An edge's cost around two poses. With A = R_from R_Z (how the child of Z would stand in the map) and d = t_to -
+/// t_from, every objective is a function of e_t = A^T d - R_Z^T t_Z and R_E = A^T R_to alone, so that it does not
+/// change when both poses move together. Moving `to` by y, in the axes of A, changes it to
 ///   cost + 2 g^T y + y^T H y + ...
 /// H is the Gauss-Newton matrix, positive semidefinite.
 template <int D>
@@ -35,7 +36,8 @@ template <Objective objective, int D>
 LocalQuadratic<D> localQuadratic(const EdgeTerm<D>& term, const Eigen::Matrix<double, D, 1>& e_t,
                                  const Rotation<D>& R_E);
 
-/// The error's rotation as an objective writes it, and its derivative by a turn of R_E from the left. Not of the chordal one.
+/// The error's rotation as an objective writes it, and its derivative by a turn of R_E from the left. Not of the
+/// chordal one.
 template <int D>
 struct RotationError {
   RotationVector<D> e;

@@ -27,8 +27,8 @@ ChainState<D> moved(const ChainState<D>& state, const Increments<D>& step);
 template <int D>
 double costOf(const Problem<D>& problem, const ChainState<D>& state);
 
-/// The normal equations of (19) about a state, weighted: (M + H^T W H) dV = b, where M is block-diagonal and H is a rule
-/// for products. Everything is O(links + closures).
+/// The normal equations of (19) about a state, weighted: (M + H^T W H) dV = b, where M is block-diagonal and H is a
+/// rule for products. Everything is O(links + closures).
 template <int D>
 class LinearSystem {
  public:

@@ -15,13 +15,14 @@ namespace {
 // hundredth of what a factorisation takes, and bold steps undo knots that small ones run into: on manhattan from its
 // odometry damping as soon as a gain is poor stops at 3 753, this at the optimum, 3 549.
 constexpr int halvings = 3;
-// Levenberg's damping in units of what odometry itself knows of each link. None until a step fails; then from here, four
-// times as much at each failure and a tenth at each success, gone below the least.
+// Levenberg's damping in units of what odometry itself knows of each link. None until a step fails; then from here,
+// four times as much at each failure and a tenth at each success, gone below the least.
 constexpr double first_damping = 1e-2, least_damping = 1e-4;
 constexpr double more = 4.0, less = 0.1;
 // Beyond it a step is a millionth of what odometry allows: nothing is to be gained.
 constexpr double most_damping = 1e12;
-// A sum of weighted squares below it has no meaning in double precision: a billionth of one residual's share of a sigma.
+// A sum of weighted squares below it has no meaning in double precision: a billionth of one residual's share of a
+// sigma.
 constexpr double nothing = 1e-18;
 
 // How exactly a step is solved: roughly at first, where it is far off anyhow, and better as the promises fall.

@@ -14,9 +14,9 @@ namespace pose_graph {
 ///
 ///     A_k = sum (a_r + p_r x b_r),   B_k = sum b_r
 ///
-/// say all of pose k, delta p_k = A_k - p_k x B_k, and a closure from m to q sees the difference x_q - x_m of x = (A, B)
-/// alone, whichever of the two comes first. That is eq. 10-16 of Newman et al. 2009 with the products of Jacobians of
-/// eq. 13 taken apart into a factor of the link and a factor of the closure: H times a vector costs one sweep of the
+/// say all of pose k, delta p_k = A_k - p_k x B_k, and a closure from m to q sees the difference x_q - x_m of x = (A,
+/// B) alone, whichever of the two comes first. That is eq. 10-16 of Newman et al. 2009 with the products of Jacobians
+/// of eq. 13 taken apart into a factor of the link and a factor of the closure: H times a vector costs one sweep of the
 /// chain instead of one of each loop. In the plane the cross products are those of vectors with z = 0.
 
 template <int D>

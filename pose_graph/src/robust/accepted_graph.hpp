@@ -22,18 +22,18 @@ class AcceptedGraph {
   /// Takes these edges (those not 0), with weights by edge of the whole problem, or ones if empty.
   void take(const std::vector<char>& in, const std::vector<double>& weights = {});
 
-  /// What it would take to factor these edges, in multiplications of blocks. `soon`: in the order that is found soonest, where it may
-  /// be more.
+  /// What it would take to factor these edges, in multiplications of blocks. `soon`: in the order that is found
+  /// soonest, where it may be more.
   double work(const std::vector<char>& in, bool soon = false) const;
 
   /// Steps until what is left to gain is less than this share of the cost. `afresh`: from rotations found without a
-  /// guess if that costs less than `poses`. Ends too where the cost will stay above `most`: were the next steps to gain as much as the
-  /// last one.
+  /// guess if that costs less than `poses`. Ends too where the cost will stay above `most`: were the next steps to gain
+  /// as much as the last one.
   void relax(std::vector<Rigid<D>>& poses, int iterations, double share, bool afresh,
              double most = std::numeric_limits<double>::infinity());
 
-  /// To where nothing worth the name is left to gain. From where these poses are, or, where that is a long way, from no first
-  /// guess, if that ends lower.
+  /// To where nothing worth the name is left to gain. From where these poses are, or, where that is a long way, from no
+  /// first guess, if that ends lower.
   void settle(std::vector<Rigid<D>>& poses);
 
   double cost(const std::vector<Rigid<D>>& poses) const {

@@ -16,17 +16,18 @@ struct Thresholds {
   static constexpr double kEvidence = 6.214608098422191;
 
   std::vector<double> limit;  ///< of chi-square, by degrees of freedom
-  /// The same while the graph is still vague: of all candidates together, were all false, one would pass with the chance
-  /// kFalseAlarms. What enters then shapes all that follows.
+  /// The same while the graph is still vague: of all candidates together, were all false, one would pass with the
+  /// chance kFalseAlarms. What enters then shapes all that follows.
   double early_evidence = 0.0;
 
   Thresholds(std::size_t candidates, int largest_dof);
 };
 
-/// Groups of closures that support each other: near ones whose loop closes, with evidence as in Thresholds (Latif, Cadena,
-/// Neira, RRR, RSS 2012). `variance`: factor of all covariances.
+/// Groups of closures that support each other: near ones whose loop closes, with evidence as in Thresholds (Latif,
+/// Cadena, Neira, RRR, RSS 2012). `variance`: factor of all covariances.
 ///
-/// Returns for each of so many edges the number of its group (the first edge of the group), -1 for edges that are no candidates.
+/// Returns for each of so many edges the number of its group (the first edge of the group), -1 for edges that are no
+/// candidates.
 template <int D>
 std::vector<int> agreeingGroups(std::size_t edges, const ClosureLoops<D>& closures, double variance,
                                 const Thresholds& thresholds);

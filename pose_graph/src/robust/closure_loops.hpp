@@ -9,9 +9,9 @@
 
 namespace pose_graph {
 
-/// Two closures and the odometry between their ends. The way from one pose along odometry to the next, over one closure,
-/// along odometry again and back over the other closure ends where it began if both are true (Olson, Walter, Leonard,
-/// Teller, Single-cluster graph partitioning for robotics applications, RSS 2005).
+/// Two closures and the odometry between their ends. The way from one pose along odometry to the next, over one
+/// closure, along odometry again and back over the other closure ends where it began if both are true (Olson, Walter,
+/// Leonard, Teller, Single-cluster graph partitioning for robotics applications, RSS 2005).
 struct ClosureLoop {
   double chi2 = 0.0;       ///< of the tangent that remains, with all covariances as stated
   double log_true = 0.0;   ///< logarithm of the density of no remainder at all, were both true
@@ -30,8 +30,8 @@ class ClosureLoops {
   /// Costs the number of poses between the ends.
   ClosureLoop loop(std::size_t a, std::size_t b) const;
 
-  /// visit(b) for the closures behind `a` that are near it, at most `most`: both ends at most kNear poses apart; between two
-  /// chains, which nothing else can vouch for, however far apart.
+  /// visit(b) for the closures behind `a` that are near it, at most `most`: both ends at most kNear poses apart;
+  /// between two chains, which nothing else can vouch for, however far apart.
   template <typename Visit>
   void partners(std::size_t a, int most, const Visit& visit) const {
     const auto on = chainsOf(closures_[a]);

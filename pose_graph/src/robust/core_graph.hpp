@@ -9,13 +9,14 @@
 
 namespace pose_graph {
 
-/// A graph whose trusted chains are each one edge, with composed transform and covariance as odometry lays them: what to think of its
-/// closures can be asked of the core alone, which is small where a robot drives far and comes back seldom.
+/// A graph whose trusted chains are each one edge, with composed transform and covariance as odometry lays them: what
+/// to think of its closures can be asked of the core alone, which is small where a robot drives far and comes back
+/// seldom.
 template <int D>
 class CoreGraph {
  public:
-  /// Empty where too few poses lie on chains for that to pay, or where a closure ends where nothing else does. `problem` must
-  /// outlive it.
+  /// Empty where too few poses lie on chains for that to pay, or where a closure ends where nothing else does.
+  /// `problem` must outlive it.
   static std::optional<CoreGraph> of(const Problem<D>& problem, const std::vector<EdgeRole>& roles);
 
   const Problem<D>& problem() const { return core_; }

@@ -33,9 +33,10 @@ class Witness {
   const std::vector<int>& candidates() const { return candidates_; }
 
   /// Puts random disturbances of one standard deviation on all accepted edges, each by kDisturbances signs, and carries
-  /// them through the factor of `graph`: the spread of what comes out at an edge is its covariance (of a residual inside,
-  /// of a prediction outside), to about three tenths. `variance`: factor of all covariances. `small_group`: groups by edge,
-  /// -1 for none, as they are tested for a common bias. `uncontrolled`: redundancy below which a residual tells nothing (judging.hpp).
+  /// them through the factor of `graph`: the spread of what comes out at an edge is its covariance (of a residual
+  /// inside, of a prediction outside), to about three tenths. `variance`: factor of all covariances. `small_group`:
+  /// groups by edge, -1 for none, as they are tested for a common bias. `uncontrolled`: redundancy below which a
+  /// residual tells nothing (judging.hpp).
   Evidence hear(AcceptedGraph<D>& graph, const std::vector<char>& in, const std::vector<Rigid<D>>& poses,
                 double variance, const std::vector<int>& small_group, double uncontrolled) const;
 

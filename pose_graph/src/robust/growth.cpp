@@ -15,8 +15,8 @@ namespace pose_graph {
 namespace {
 
 constexpr int kGrowthRounds = 30;
-// Of the candidates: when fewer change, it is done; when fewer enter, groups may; when more do, the graph is still in the making, and
-// only what is beyond doubt enters.
+// Of the candidates: when fewer change, it is done; when fewer enter, groups may; when more do, the graph is still in
+// the making, and only what is beyond doubt enters.
 constexpr double kGrowthSettled = 1e-3, kLittle = 0.01, kMuch = 0.05;
 constexpr std::size_t kGroup = 20;  // larger groups are no repeated mistake but a way travelled twice
 

@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::size_t kLoops = 500;  // looked at: the factor of so many is good to some hundredths
 constexpr int kScaleSteps = 20;
-// False closures that were found in a row err alike, and nearly agree: loops whose deviations are at least five times those of
-// true ones are taken for theirs.
+// False closures that were found in a row err alike, and nearly agree: loops whose deviations are at least five times
+// those of true ones are taken for theirs.
 constexpr double kLoose = 25.0;
 constexpr double kLeastScaleShare = 1e-3;
 constexpr double kScalePrior = 1.0;  // loops of unit variance
@@ -91,8 +91,8 @@ InformationScale informationScale(const ClosureLoops<D>& closures) {
   if (loops.empty()) return {};
   const Mixture plain = likeliest(loops, dof, false);
   InformationScale made{plain.factor, plain.true_loops, plain.shares[0]};
-  // Where false closures that agree with each other outnumber the true ones, theirs is the likelier spread: that information
-  // boasts must be so beside them too.
+  // Where false closures that agree with each other outnumber the true ones, theirs is the likelier spread: that
+  // information boasts must be so beside them too.
   if (made.factor > 1.0)
     made.factor = plain.true_loops < kToDoubt ? 1.0 : std::max(1.0, likeliest(loops, dof, true).factor);
   return made;

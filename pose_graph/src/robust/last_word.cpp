@@ -11,8 +11,8 @@ namespace pose_graph {
 
 namespace {
 
-// Whether the settled graph costs no more with a group than chance explains for all its members together: where it closes a long way
-// its linearised test sees a straight line, and finds true ones too far off.
+// Whether the settled graph costs no more with a group than chance explains for all its members together: where it
+// closes a long way its linearised test sees a straight line, and finds true ones too far off.
 template <int D>
 bool stands(const Witness<D>& witness, const Thresholds& thresholds, const std::vector<int>& members,
             AcceptedGraph<D>& graph, const Grown<D>& grown, double cost) {

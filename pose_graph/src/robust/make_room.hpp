@@ -12,12 +12,13 @@ namespace pose_graph {
 constexpr int kGroupSteps = 20;
 constexpr double kGroupShare = 1e-6;
 
-/// So many true ones stand against one false one that is in their way; a false group meets as many true ones as it has members. For
-/// fewer no room is made.
+/// So many true ones stand against one false one that is in their way; a false group meets as many true ones as it has
+/// members. For fewer no room is made.
 constexpr std::size_t kForOne = 8;
 
-/// Goes on from a graph with a group that the others do not let be: who is contradicted beside it leaves, the worst ones first.
-/// True if all that remain fit, and the group drove out but few for what it is itself. `in`, `poses`: with the group, and after.
+/// Goes on from a graph with a group that the others do not let be: who is contradicted beside it leaves, the worst
+/// ones first. True if all that remain fit, and the group drove out but few for what it is itself. `in`, `poses`: with
+/// the group, and after.
 template <int D>
 bool makeRoom(const Witness<D>& witness, const Thresholds& thresholds, const std::vector<int>& members, double variance,
               AcceptedGraph<D>& graph, std::vector<char>& in, std::vector<Rigid<D>>& poses);

@@ -164,8 +164,8 @@ bool sameVerdicts(const std::vector<EdgeAssessment>& a, const std::vector<EdgeAs
   });
 }
 
-// The same by way of the core. What a chain says of its ends was read off where odometry laid it: it is read again where the
-// accepted closures have put it, as long as that changes what is thought of any.
+// The same by way of the core. What a chain says of its ends was read off where odometry laid it: it is read again
+// where the accepted closures have put it, as long as that changes what is thought of any.
 template <int D>
 Judgement<D> judgeCore(CoreGraph<D>& core, const Problem<D>& problem, const std::vector<EdgeRole>& roles) {
   const DeadReckoning<D> whole(problem, roles);
@@ -201,8 +201,9 @@ Judgement<D> judgeCore(CoreGraph<D>& core, const Problem<D>& problem, const std:
   return made;
 }
 
-// From where the growth left off, which is near as a rule. Where it is at the far end of a long flat valley (over a long way that few
-// closures tie, the cost hardly tells hundreds of metres) the way from no first guess is the shorter one.
+// From where the growth left off, which is near as a rule. Where it is at the far end of a long flat valley (over a
+// long way that few closures tie, the cost hardly tells hundreds of metres) the way from no first guess is the shorter
+// one.
 template <int D>
 Solution<D> relaxed(const Problem<D>& part, const std::vector<Rigid<D>>& given, const SolveOptions& options) {
   if (options.start != Start::Auto) return solve(part, options);

@@ -66,7 +66,8 @@ void Round<D>::admitLikely(const std::vector<int>& times) {
   const double likely = Thresholds::kEvidence - std::max(0.0, std::log(inside / outside));
   for (int e : witness_.candidates()) {
     if (!outAndFits(e) || times[sz(e)] >= kExpelled) continue;
-    // Only of those that would not have to leave were they in: as little as modest information asks false ones do as well.
+    // Only of those that would not have to leave were they in: as little as modest information asks false ones do as
+    // well.
     const double least = evidence_.chi2[sz(e)] <= kDoubt * limit(e) ? likely : Thresholds::kEvidence;
     if (evidence_.likelier[sz(e)] >= least) let(e);
   }

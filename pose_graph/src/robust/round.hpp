@@ -21,8 +21,8 @@ class Round {
 
   // `times`: how often each edge has left so far; who left twice stays out.
 
-  /// In, and more than chance can explain. Where information is too modest that is not enough: what it states explains the residual of
-  /// one that there is evidence for.
+  /// In, and more than chance can explain. Where information is too modest that is not enough: what it states explains
+  /// the residual of one that there is evidence for.
   void expel(std::vector<int>& times);
   /// Out, fits, and has evidence: the better half, or all once they are fewer than those inside.
   void admit(const std::vector<int>& times, double least);

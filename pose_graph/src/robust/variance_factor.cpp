@@ -9,8 +9,8 @@ namespace pose_graph {
 
 namespace {
 
-// Loops of near closures (information_scale.hpp) may hide what only long ways show: twice their deviations are allowed for
-// until there are closures to tell. 1 loses more true ones (manhattan: 25 of 1954 for 12), 2 does as well.
+// Loops of near closures (information_scale.hpp) may hide what only long ways show: twice their deviations are allowed
+// for until there are closures to tell. 1 loses more true ones (manhattan: 25 of 1954 for 12), 2 does as well.
 constexpr double kCaution = 4.0;
 constexpr double kPriorTangents = 10.0;
 

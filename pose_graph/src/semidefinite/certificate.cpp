@@ -12,8 +12,8 @@ namespace pose_graph {
 
 namespace {
 
-// The shift is tried from a gap of this share of the cost on, ten times as large each time, and then between the last two, by halves of the exponent. What is less
-// drowns in round-off.
+// The shift is tried from a gap of this share of the cost on, ten times as large each time, and then between the last
+// two, by halves of the exponent. What is less drowns in round-off.
 constexpr double kLeastEigenvalueShare = 1e-9, kCertified = 1e-4;
 constexpr int kHalvings = 4;
 // Of the largest entry: as much as a factorisation of some thousand poses may err.

@@ -9,9 +9,9 @@
 
 namespace pose_graph {
 
-/// The chordal objective as a quadratic form: its cost is tr(X M X^T) for X = [t_1 R_1 t_2 R_2 ...], M symmetric and positive semidefinite by blocks
-/// of D + 1 (row and column 0 of a block are the translation, the others the rotation). Rosen et al., SE-Sync, IJRR 2019, eq. 13, with the translations left
-/// in, so that everything stays sparse.
+/// The chordal objective as a quadratic form: its cost is tr(X M X^T) for X = [t_1 R_1 t_2 R_2 ...], M symmetric and
+/// positive semidefinite by blocks of D + 1 (row and column 0 of a block are the translation, the others the rotation).
+/// Rosen et al., SE-Sync, IJRR 2019, eq. 13, with the translations left in, so that everything stays sparse.
 template <int D>
 struct QuadraticForm {
   static constexpr int B = D + 1;
@@ -22,8 +22,8 @@ struct QuadraticForm {
   QuadraticForm(const QuadraticForm&) = delete;
   QuadraticForm& operator=(const QuadraticForm&) = delete;
 
-  /// Takes the row and the column of one translation of each part out of A, which has M's pattern: its first pose's, which may be shifted at no cost. What stands
-  /// there instead is `pivot`.
+  /// Takes the row and the column of one translation of each part out of A, which has M's pattern: its first pose's,
+  /// which may be shifted at no cost. What stands there instead is `pivot`.
   void holdTranslations(BlockMatrix<B>& A, double pivot) const;
   bool holdsTranslation(int place) const { return held_[static_cast<std::size_t>(place)] != 0; }
 

@@ -15,9 +15,9 @@ struct Descent {
   Ending ending = Ending::Converged;
 };
 
-/// Gauss-Newton, and Levenberg-Marquardt where a plain step would raise the cost (Nocedal, Wright, Numerical Optimization,
-/// chapter 10; damping in proportion to the diagonal as Marquardt has it). `poses` are moved in place; they are never worse
-/// than they were.
+/// Gauss-Newton, and Levenberg-Marquardt where a plain step would raise the cost (Nocedal, Wright, Numerical
+/// Optimization, chapter 10; damping in proportion to the diagonal as Marquardt has it). `poses` are moved in place;
+/// they are never worse than they were.
 template <int D>
 Descent minimise(NormalEquations<D>& equations, BlockCholesky<tangent_size<D>>& cholesky, const SolveOptions& options,
                  const std::vector<double>& weights, std::vector<Rigid<D>>& poses);

@@ -18,7 +18,8 @@ bool allFinite(const std::vector<Rigid<D>>& poses) {
                      [](const Rigid<D>& pose) { return pose.R.allFinite() && pose.t.allFinite(); });
 }
 
-// Radians between what edges measure of rotations and where they end up: beyond, on average about an axis or of one edge alone, there may be a better valley.
+// Radians between what edges measure of rotations and where they end up: beyond, on average about an axis or of one
+// edge alone, there may be a better valley.
 constexpr double kNoisy = 0.1, kTangled = 1.1;
 
 template <int D>

@@ -93,7 +93,8 @@ TEST(Condensed, takesEdgesThatRunBackwards) {
     Edge<3>& edge = problem.edges[e];
     std::swap(edge.from, edge.to);
     edge.Z = edge.Z.inverse();
-    // Seen from the other end the same information turns and gets a lever arm, which this one has no room for: even noise.
+    // Seen from the other end the same information turns and gets a lever arm, which this one has no room for: even
+    // noise.
     edge.information = Eigen::Matrix<double, 6, 1>(1e6, 1e6, 1e6, 1e7, 1e7, 1e7).asDiagonal();
   }
   expectWhatTheWholeGraphGives<3>(problem, Start::Auto);

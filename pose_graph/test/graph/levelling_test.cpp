@@ -16,7 +16,8 @@ using testing::kPeriod;
 // The robot begins tilted: a map that begins with it has z there.
 const Pose kT_level_first(urban_nav_core::expSo3(Eigen::Vector3d(0.1, -0.2, 0.0)), Eigen::Vector3d::Zero());
 
-/// At rest all along, as far as the accelerometer can tell: a lap of 10 m in 5 s turns its axes and bends its way by little.
+/// At rest all along, as far as the accelerometer can tell: a lap of 10 m in 5 s turns its axes and bends its way by
+/// little.
 std::vector<SpecificForce> felt(const Track& track, std::size_t first, std::size_t end,
                                 const std::vector<Pose>& poses) {
   std::vector<SpecificForce> made;

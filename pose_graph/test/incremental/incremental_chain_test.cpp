@@ -80,7 +80,8 @@ TEST(IncrementalChain, splitsWhereItLies) {
   const Rigid<3> end = chain.at(7) * behind.at(11);
   EXPECT_LT((end.t - wanted.t).norm(), 1e-6);
   EXPECT_LT((end.R - wanted.R).norm(), 1e-6);
-  // Covariances of ways add up in the axes of one place: information of the parts, one behind the other, is that of the whole.
+  // Covariances of ways add up in the axes of one place: information of the parts, one behind the other, is that of the
+  // whole.
   Problem<3> two;
   two.poses = {Rigid<3>(), chain.at(7), wanted};
   two.edges = {chain.edge(), behind.edge()};

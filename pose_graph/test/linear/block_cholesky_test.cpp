@@ -123,7 +123,8 @@ TEST(BlockCholesky, AnyBlockOfTheInverse) {
   }
 }
 
-/// Nothing tells where each part lies: as many pins as that leaves free, and with them a factor of the matrix plus pins.
+/// Nothing tells where each part lies: as many pins as that leaves free, and with them a factor of the matrix plus
+/// pins.
 TEST(BlockCholesky, PinsWhatIsFree) {
   const Adjacency graph = test::chainWithClosures(40, 10, 2);
   BlockSystem<3> system(graph, 3);

@@ -173,8 +173,8 @@ TEST(Marginals, WeightsAreFactorsOfTheInformation) {
   EXPECT_LT((4.0 * four_times.between(2, 8).covariance - covariance).norm(), 1e-9 * covariance.norm());
 }
 
-/// A pose that hangs on by an edge of less than full rank: what the edge tells is known, along what it does not tell the information is
-/// zero, and all others are as if it were not there.
+/// A pose that hangs on by an edge of less than full rank: what the edge tells is known, along what it does not tell
+/// the information is zero, and all others are as if it were not there.
 template <int D>
 void expectFreeMarginals() {
   constexpr int N = tangent_size<D>;

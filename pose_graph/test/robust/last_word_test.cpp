@@ -23,8 +23,8 @@ Rigid<2> step() {
   return made;
 }
 
-// Three laps of a circle, hardly known to odometry for its closures: beginning and middle of the second lap are tied to the first, and
-// ten in a row of the third lap to places that are a quarter of a lap away.
+// Three laps of a circle, hardly known to odometry for its closures: beginning and middle of the second lap are tied to
+// the first, and ten in a row of the third lap to places that are a quarter of a lap away.
 struct Laps {
   Problem<2> problem;
   std::vector<EdgeRole> roles;

@@ -27,7 +27,8 @@ TEST(ForcesState, whatIsNotWholeIsNothing) {
   EXPECT_FALSE(unpackForces(whole + "x"));
 }
 
-/// The bytes of version 1: its number (4 bytes), how many forces (8), then stamp and three numbers of each (8 bytes each); little-endian.
+/// The bytes of version 1: its number (4 bytes), how many forces (8), then stamp and three numbers of each (8 bytes
+/// each); little-endian.
 std::string versionOne() {
   std::string bytes;
   const auto integer = [&](std::uint64_t value, std::size_t size) {

@@ -9,7 +9,8 @@
 
 namespace pose_graph::test {
 
-/// An edge's cost as r^T W r, written down from the definitions (data sets' README, "Costs"), with nothing of the solver.
+/// An edge's cost as r^T W r, written down from the definitions (data sets' README, "Costs"), with nothing of the
+/// solver.
 struct PlainResidual {
   Eigen::VectorXd r;
   Eigen::MatrixXd W;

@@ -51,8 +51,9 @@ constexpr double min_firm_half_length = 5.0;  // m of a stretch whose match may 
 constexpr double query_distance = 2.0;        // m between queries
 constexpr double localized_query_distance = 5.0;  // m between queries while Localized
 constexpr std::size_t max_aligned_places = 3;     // of one query
-// Smallest overlap of the vertical structure without a pose prior. Of firm stretches, 95 of 100 correct matches have 0.77
-// and more; false ones in courtyards that pass all other tests have 0.62 to 0.66, those of shorter stretches up to 0.88.
+// Smallest overlap of the vertical structure without a pose prior. Of firm stretches, 95 of 100 correct matches have
+// 0.77 and more; false ones in courtyards that pass all other tests have 0.62 to 0.66, those of shorter stretches up to
+// 0.88.
 constexpr double min_overlap_without_prior = 0.7;
 constexpr double same_pose_distance = 1.0;   // m; results further apart contradict each other
 constexpr double max_nearby_distance = 8.0;  // m from the prior to a place that is tried first
@@ -249,13 +250,15 @@ class CloudSearch::Implementation {
     const Alignment found = align(queried.cloud, target, start.is_known ? parameters_.registration : demanding_,
                                   T_map_place.inverse() * start.T_map_base, start.search, known);
     if (found.verdict == ClosureVerdict::Rejected) return std::nullopt;
-    // One flat facade fits any other: a result with free directions does not identify a place, unless the pose is known.
+    // One flat facade fits any other: a result with free directions does not identify a place, unless the pose is
+    // known.
     if (found.verdict == ClosureVerdict::Degenerate && !start.is_known) return std::nullopt;
     return MapMatch{place, T_map_place, {found.T_target_source, found.information}};
   }
 
-  /// Returns the match if all places that fit agree on one pose; otherwise the map has several similar places. The place of
-  /// the map nearest to that pose must fit too, since it has more of its surroundings than a similar one further away.
+  /// Returns the match if all places that fit agree on one pose; otherwise the map has several similar places. The
+  /// place of the map nearest to that pose must fit too, since it has more of its surroundings than a similar one
+  /// further away.
   std::optional<MapMatch> among(const std::vector<std::size_t>& places, const Query& queried) const {
     std::optional<MapMatch> seen;
     for (const std::size_t place : places) {

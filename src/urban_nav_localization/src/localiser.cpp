@@ -37,8 +37,8 @@ double positionSigma(const PoseWithCovariance& pose) {
   return values ? std::sqrt(std::max(0.0, (*values)[2])) : 1e6;
 }
 
-/// Returns the probability of the best hypothesis among three: it is right and all others are false, the next best one is
-/// right, or all are false; equally likely a priori.
+/// Returns the probability of the best hypothesis among three: it is right and all others are false, the next best one
+/// is right, or all are false; equally likely a priori.
 double computeProbability(int supporting_matches, int against) {
   const double odds_best = std::pow((1.0 - false_match_rate) / false_match_rate, supporting_matches);
   const double odds_other = std::pow((1.0 - false_match_rate) / false_match_rate, against);

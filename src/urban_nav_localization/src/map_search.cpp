@@ -35,8 +35,8 @@ constexpr double max_near_angle = 0.9;               // rad
 constexpr double max_sure_distance = 2.0;            // m; nearer, and
 constexpr double max_sure_angle = 0.35;              // rad, 92 to 100 of 100 match (docs/results/registration.md)
 // Keyframes from further apart share a distant wall rather than the surroundings of the robot, and walls have repeated
-// patterns: such a match starts no hypothesis, unless it determines the position so well that much of it was near. Of 134
-// correct matches along one drive in the opposite direction 98 % are firm, of 12 false ones none.
+// patterns: such a match starts no hypothesis, unless it determines the position so well that much of it was near. Of
+// 134 correct matches along one drive in the opposite direction 98 % are firm, of 12 false ones none.
 constexpr double max_firm_distance = 2.5;          // m, or
 constexpr double max_firm_sigma = 0.03;            // m
 constexpr double metres_per_radian_of_view = 4.0;  // a rotation costs as many matches as this distance
@@ -83,7 +83,8 @@ class MapSearch::Implementation {
                                                  ? near(prior.T_map_base->pose, max_near_distance, max_near_angle)
                                                  : std::vector<std::size_t>();
     std::optional<MapMatch> seen = firstOf(nearest, view);
-    // The prior may be wrong, and the robot may have been carried elsewhere: without a match near it, search the whole map.
+    // The prior may be wrong, and the robot may have been carried elsewhere: without a match near it, search the whole
+    // map.
     if (!seen) {
       std::vector<std::size_t> found;
       for (const DescriptorVoting::Found& each : finder_.find(view, max_registered_keyframes))
@@ -115,8 +116,8 @@ class MapSearch::Implementation {
            angleBetween(view.T_map_base, prior.T_map_base->pose) <= max_sure_angle;
   }
 
-  /// Returns the first keyframe that can be registered: a second one of the same place is no second match. If it places the
-  /// robot far from it, and the map has keyframes near that pose, one of them must match too, and is more accurate.
+  /// Returns the first keyframe that can be registered: a second one of the same place is no second match. If it places
+  /// the robot far from it, and the map has keyframes near that pose, one of them must match too, and is more accurate.
   std::optional<MapMatch> firstOf(const std::vector<std::size_t>& views, const Keyframe& view) {
     const std::optional<MapMatch> seen = registered(views, view);
     if (!seen || isFirm(seen->measured)) return seen;

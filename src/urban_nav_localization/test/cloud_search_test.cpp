@@ -45,7 +45,8 @@ Pose back(int i) {
               {14.0 - per_step * i, 0.75, 0.0});
 }
 
-/// Beams that are thrown up and down on both sides of the robot, a little forward, so that fronts across the way are seen too.
+/// Beams that are thrown up and down on both sides of the robot, a little forward, so that fronts across the way are
+/// seen too.
 Scan scanAt(const World& world, const Pose& T_world_laser, StampNs stamp) {
   Scanner scanner;
   scanner.rings = 1;

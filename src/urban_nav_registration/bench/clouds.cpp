@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Real pairs of clouds: how far the alignment ends from the stored pose, what it takes from the points of both clouds to the verdict, and how many of some random starts
-// (up to 5 m and any heading away) end in the right place; beside what other programs took on the same machine.
+// Real pairs of clouds: how far the alignment ends from the stored pose, what it takes from the points of both clouds
+// to the verdict, and how many of some random starts (up to 5 m and any heading away) end in the right place; beside
+// what other programs took on the same machine.
 //   urban_nav_registration-bench-clouds [--peers FILE] [--runs N] [--starts N] [-o results/clouds.json]
 // FILE: pair,peer,ms,metres,deg as CSV, metres and deg from the stored pose. Clouds: URBAN_NAV_DATA/clouds.
 #include <algorithm>

@@ -27,7 +27,8 @@ Sequence kittiFolder(const std::string& folder, std::size_t frames = 1000000);
 /// The folder of a real sequence below URBAN_NAV_DATA/stereo; empty (and said on stderr) where it is absent.
 std::string dataFolder(const std::string& name);
 
-/// A scene of the renderer ("room" or "street", by its seed) along a motion of that name, at 20 Hz, 512x384 unless `camera` says otherwise.
+/// A scene of the renderer ("room" or "street", by its seed) along a motion of that name, at 20 Hz, 512x384 unless
+/// `camera` says otherwise.
 struct RenderedOptions {
   std::string scene = "room", motion = "wander";
   std::uint32_t seed = 1;
@@ -59,7 +60,8 @@ std::vector<Run> runTogether(const std::vector<Sequence>& sequences, const Param
 /// Time that this thread has had of a processor.
 double processorMs();
 
-/// Errors over all spans of so many frames: mean in per cent and deg/m, and the median ratio of the lengths of one-frame steps.
+/// Errors over all spans of so many frames: mean in per cent and deg/m, and the median ratio of the lengths of
+/// one-frame steps.
 struct SpanErrors {
   double percent = 0.0;
   double deg_per_m = 0.0;

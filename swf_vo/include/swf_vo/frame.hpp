@@ -71,8 +71,8 @@ struct Settled {
   FrameId frame = 0;
   urban_nav_core::StampNs stamp = 0;
   urban_nav_core::PoseWithCovariance T_odom_base;  ///< covariance: of T_first_base in the axes of the first pose
-  /// To the settled pose before; from == to for the very first frame. The error of the disparity offset is one and the same in
-  /// all steps, so it is not in drift_covariance: T_odom_base's covariance has it.
+  /// To the settled pose before; from == to for the very first frame. The error of the disparity offset is one and the
+  /// same in all steps, so it is not in drift_covariance: T_odom_base's covariance has it.
   urban_nav_core::RelativePose from_previous;
   urban_nav_core::Status status;  ///< as it was when the frame came
 };
@@ -87,7 +87,7 @@ struct Velocity {
 struct Frame {
   FrameId frame = 0;
   urban_nav_core::StampNs stamp = 0;
-  bool accepted = true;                       ///< false: dropped because of its stamp; the pose is the last one
+  bool accepted = true;                            ///< false: dropped because of its stamp; the pose is the last one
   urban_nav_core::PoseWithCovariance T_odom_base;  ///< now: all evidence up to this frame and none after it
   Velocity velocity;  ///< since the frame before; zero with a covariance of unknown motion in the first
   urban_nav_core::Status status;

@@ -18,29 +18,34 @@ namespace swf_vo {
 ///
 /// Feed it pairs in order of time. Every pair, whatever its state, gives a Frame with a finite pose and a proper
 /// covariance; bad pairs give a status with its reason. It never throws for data, reads no clock, prints nothing and
-/// allocates nothing once its buffers have grown. Not thread-safe: one caller at a time; different objects are independent.
-/// The same calls give the same bits.
+/// allocates nothing once its buffers have grown. Not thread-safe: one caller at a time; different objects are
+/// independent. The same calls give the same bits.
 class SwfVo {
  public:
-  /// T_base_camera: the left optical frame in base_link. Throws UserError where parameters or camera contradict themselves.
+  /// T_base_camera: the left optical frame in base_link. Throws UserError where parameters or camera contradict
+  /// themselves.
   SwfVo(const Parameters& parameters, const urban_nav_core::StereoCamera& camera,
         const urban_nav_core::Pose& T_base_camera);
-  /// Goes on where another object stood when `state` was taken from it. UserError that names what differs where parameters or calibration are
-  /// others than that one had, DataError where the bytes are damaged or of another version.
+  /// Goes on where another object stood when `state` was taken from it. UserError that names what differs where
+  /// parameters or calibration are others than that one had, DataError where the bytes are damaged or of another
+  /// version.
   SwfVo(const Parameters& parameters, const urban_nav_core::StereoCamera& camera,
         const urban_nav_core::Pose& T_base_camera, std::string_view state);
   ~SwfVo();
   SwfVo(SwfVo&&) noexcept;
   SwfVo& operator=(SwfVo&&) noexcept;
 
-  /// One stereo pair and the motion inputs that came since the last (may be empty). The result lives until the next call.
+  /// One stereo pair and the motion inputs that came since the last (may be empty). The result lives until the next
+  /// call.
   const Frame& process(const urban_nav_core::StereoPair& pair,
                        const std::vector<urban_nav_core::MotionInput>& inputs = {});
 
-  /// Empties the window: the frames that were still in it leave as settled, oldest first. The filter cannot go on after it.
+  /// Empties the window: the frames that were still in it leave as settled, oldest first. The filter cannot go on after
+  /// it.
   std::vector<Settled> flush();
 
-  /// All that the answers to further calls depend on, as bytes: an object made from it gives the same bits as this one. Not after flush().
+  /// All that the answers to further calls depend on, as bytes: an object made from it gives the same bits as this one.
+  /// Not after flush().
   std::string state() const;
 
  private:

@@ -16,8 +16,9 @@ namespace swf_vo {
 /// Step (i) of Newman et al. 2009, section 2.4: pyramids and FAST corners of both images, found by place.
 class Corners {
  public:
-  /// Corners at `levels` levels; the pyramids go on to level `top` for the rotation between frames. `threshold`: of FAST, in grey
-  /// levels, at the start; it follows the scene from frame to frame so that each level has a few corners for each of `features`.
+  /// Corners at `levels` levels; the pyramids go on to level `top` for the rotation between frames. `threshold`: of
+  /// FAST, in grey levels, at the start; it follows the scene from frame to frame so that each level has a few corners
+  /// for each of `features`.
   Corners(int levels, int top, int threshold, int features);
 
   /// Neither image may be empty.

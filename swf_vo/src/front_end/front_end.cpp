@@ -31,25 +31,29 @@ namespace {
 constexpr double reference_area = 512.0 * 384.0;  // of the parameter `features`
 constexpr int top_width = 160;                    // the image whose rotation is found is at most this wide
 constexpr double first_radius = 3.0;              // of the search radius, while the motion is not known yet
-// The window follows what the prediction was off by in the frame before (px, and times the 90 % quantile), up to the search radius.
+// The window follows what the prediction was off by in the frame before (px, and times the 90 % quantile), up to the
+// search radius.
 constexpr double least_radius = 8.0, radius_per_error = 3.0, radius_offset = 4.0;
 constexpr double coarse_slack_px = 1.0, fine_slack_px = 0.1;
 constexpr double noticed_row_offset = 0.1;  // px
 // A template that was last seen a while ago has been warped far, by a slant of its surface that is known roughly.
 constexpr double astray_slack_px = 0.5;
-// By chance 8 % of the landmarks in view agreed, once in ten simulated minutes with gaps (the soak of src/urban_nav/bench); where the pose was
-// right at least 21 % did, after a second without pictures in a real street seen from a car (the recordings of bench/faults).
+// By chance 8 % of the landmarks in view agreed, once in ten simulated minutes with gaps (the soak of
+// src/urban_nav/bench); where the pose was right at least 21 % did, after a second without pictures in a real street
+// seen from a car (the recordings of bench/faults).
 constexpr double least_share_in_view = 0.15;
-// Where so little agrees that nothing is known of the motion: how far around landmarks are then looked for (share of the width; about as far as the
-// nearest of them stand apart in the two images), and how many motions are tried, for one match in five to be right.
+// Where so little agrees that nothing is known of the motion: how far around landmarks are then looked for (share of
+// the width; about as far as the nearest of them stand apart in the two images), and how many motions are tried, for
+// one match in five to be right.
 constexpr double widest_radius = 0.16;
 constexpr int wide_samples = 400;
-// Within the window a landmark stands still, and what it creeps by there has to be in its measurements: n of them with this share of n^2 steps
-// added to their variance show a motion along the track as badly as n steps of a random walk do (6 / (5 n) q = 12 / n^3 R).
+// Within the window a landmark stands still, and what it creeps by there has to be in its measurements: n of them with
+// this share of n^2 steps added to their variance show a motion along the track as badly as n steps of a random walk do
+// (6 / (5 n) q = 12 / n^3 R).
 constexpr double slope_share = 0.1;
-// Of the error of a disparity a part stays the same as long as the landmark lives (that of its slope, and of what else is in its patch): this
-// share of the variance it was born with. Measured in rendered rooms at 1, 3 and 6 grey levels of noise (bench/creep). However many
-// measurements there are, up to this many, their mean is no better.
+// Of the error of a disparity a part stays the same as long as the landmark lives (that of its slope, and of what else
+// is in its patch): this share of the variance it was born with. Measured in rendered rooms at 1, 3 and 6 grey levels
+// of noise (bench/creep). However many measurements there are, up to this many, their mean is no better.
 constexpr double constant_share = 0.2;
 constexpr int longest_average = 30;
 constexpr double least_two_eyed = 0.3;                 // share of the inliers
@@ -153,7 +157,8 @@ class FrontEnd::Implementation {
     result_.inlier_share = result_.reprojection_px = 0.0;
   }
 
-  /// New landmarks. The first frame is looked at twice where the rows of its images turn out to differ: its landmarks want to be right too.
+  /// New landmarks. The first frame is looked at twice where the rows of its images turn out to differ: its landmarks
+  /// want to be right too.
   void replenish(FrameId frame) {
     const bool first = !rows_.isKnown();
     replenisher_.replenish(frame, corners_, result_.T_odom_camera, matches_, tracks_, result_.fresh, rows_);
@@ -197,7 +202,8 @@ class FrontEnd::Implementation {
     return Pose(correction, Eigen::Vector3d::Zero()) * predicted.inverse();
   }
 
-  /// By what the images are less sharp than when the track was born; in both by the same: a difference would go into the disparity.
+  /// By what the images are less sharp than when the track was born; in both by the same: a difference would go into
+  /// the disparity.
   void setBlur(Track& track) const {
     const double size = 1.0 / urban_nav_core::Pyramid::scale(track.level);
     track.blur = widening(edges_, {track.born_edges, track.born_edges}) / (size * size);
@@ -227,7 +233,8 @@ class FrontEnd::Implementation {
     for (const LandmarkId id : orphans_) tracks_.end(id);
   }
 
-  /// What the measurements of the frame before have left, now that the window has them. A landmark's own place takes up its share.
+  /// What the measurements of the frame before have left, now that the window has them. A landmark's own place takes up
+  /// its share.
   void learnNoise() {
     for (const Match& match : matches_) {
       Track& track = *match.track;
@@ -253,9 +260,9 @@ class FrontEnd::Implementation {
     return pose_estimator_.locate(starts_, options, matches_);
   }
 
-  /// After frames without measurements the prediction may be far off, most of all in heading, and what is warped by it fits badly. From the headings
-  /// about it, and from where the camera was last, for a clock may jump and the camera need not; then from the pose that most matches agree on, they
-  /// are sought again.
+  /// After frames without measurements the prediction may be far off, most of all in heading, and what is warped by it
+  /// fits badly. From the headings about it, and from where the camera was last, for a clock may jump and the camera
+  /// need not; then from the pose that most matches agree on, they are sought again.
   PoseEstimate matchAstray(PoseEstimate best, const Pose& T_turned_odom, const Pose& T_predicted_odom) {
     radius_ = first_radius * parameters_.search_radius;
     if (!best.found || 2 * best.inliers < best.candidates) {
@@ -275,8 +282,8 @@ class FrontEnd::Implementation {
     return matchCoarsely(best.T_camera_odom, best.T_camera_odom);
   }
 
-  /// Nothing fits where it was expected, as when the first step is a large one: looks far around for a motion, then matches again from there.
-  /// Taken if it explains clearly more than `explained` matches; else all stays as it was.
+  /// Nothing fits where it was expected, as when the first step is a large one: looks far around for a motion, then
+  /// matches again from there. Taken if it explains clearly more than `explained` matches; else all stays as it was.
   std::optional<PoseEstimate> searchWidely(const Pose& T_turned_odom, int explained) {
     spare_ = matches_;
     const double radius = std::max(first_radius * parameters_.search_radius, widest_radius * camera_.left.width);
@@ -366,8 +373,9 @@ class FrontEnd::Implementation {
         *sighting = PixelMeasurement();
   }
 
-  /// Of the landmarks that such a pose would have in view, are those that say so a few only? Where one has searched far around, some patches of any other
-  /// place look like some of before, and a few of them agree; and so does what was carried along.
+  /// Of the landmarks that such a pose would have in view, are those that say so a few only? Where one has searched far
+  /// around, some patches of any other place look like some of before, and a few of them agree; and so does what was
+  /// carried along.
   bool isByChance(const PoseEstimate& found) const {
     const auto in_view = std::count_if(matches_.begin(), matches_.end(), [&](const Match& match) {
       const auto pixel = projectInto(Side::Left, camera_, found.T_camera_odom, match.p_odom);
@@ -377,8 +385,9 @@ class FrontEnd::Implementation {
     return found.inliers < least_share_in_view * static_cast<double>(in_view);
   }
 
-  /// Do most matches live in one image although the other has something to show? Then the two images are no pair (swapped, or of
-  /// different times), and a motion that explains one of them is wrong. A dark image is another matter: one eye is enough.
+  /// Do most matches live in one image although the other has something to show? Then the two images are no pair
+  /// (swapped, or of different times), and a motion that explains one of them is wrong. A dark image is another matter:
+  /// one eye is enough.
   bool isOneEyed(int inliers) const {
     int both = 0;
     for (const Match& match : matches_) both += match.inlier && match.left.found && match.right.found ? 1 : 0;

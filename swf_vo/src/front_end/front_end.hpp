@@ -40,11 +40,11 @@ class FrontEnd {
   FrontEnd(const Parameters& parameters, const urban_nav_core::StereoCamera& camera);
   ~FrontEnd();
 
-  /// `predicted`: T_odom_camera of this frame by the process model; `last` that of the frame processed last, as the window has it now.
-  /// `map`: the landmarks of the window that are still being followed. `disparity_offset`: of the camera, as the window has it now (px).
-  /// `astray`: so much time has passed since the frame before that the prediction may be far off, as it is after frames that were left out here.
-  /// `edges`: how sharp the images are.
-  /// The result lives until the next call.
+  /// `predicted`: T_odom_camera of this frame by the process model; `last` that of the frame processed last, as the
+  /// window has it now. `map`: the landmarks of the window that are still being followed. `disparity_offset`: of the
+  /// camera, as the window has it now (px). `astray`: so much time has passed since the frame before that the
+  /// prediction may be far off, as it is after frames that were left out here. `edges`: how sharp the images are. The
+  /// result lives until the next call.
   const FrontEndResult& process(FrameId frame, const urban_nav_core::StereoPair& pair, const urban_nav_core::Pose& last,
                                 const urban_nav_core::Pose& predicted, const std::vector<MapPoint>& map,
                                 double disparity_offset, bool astray = false, const Edges& edges = Edges());

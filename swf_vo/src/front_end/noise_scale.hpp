@@ -7,10 +7,11 @@
 
 namespace swf_vo {
 
-/// By how much the errors of measurements are larger than their alignments say, as variance, learnt from what they leave against the window.
-/// An alignment knows the noise of the images. It does not know that an edge is no straight line of pixels, that a patch bends, or that half of it
-/// lies further back; nor would a constant, for landmarks differ by a factor of ten in this, and each stays as it is for as long as it lives.
-/// So each has a scale of its own; what is usual among the others counts like a frame or two of it (empirical Bayes: the mean of an inverse gamma
+/// By how much the errors of measurements are larger than their alignments say, as variance, learnt from what they
+/// leave against the window. An alignment knows the noise of the images. It does not know that an edge is no straight
+/// line of pixels, that a patch bends, or that half of it lies further back; nor would a constant, for landmarks differ
+/// by a factor of ten in this, and each stays as it is for as long as it lives. So each has a scale of its own; what is
+/// usual among the others counts like a frame or two of it (empirical Bayes: the mean of an inverse gamma
 /// distribution), and alone where nothing is known of it yet. A scale is never below one.
 class NoiseScale {
  public:
@@ -23,7 +24,8 @@ class NoiseScale {
   /// `capacity`: landmarks of a frame, for which memory is taken at once.
   explicit NoiseScale(int capacity) { scales_.reserve(static_cast<std::size_t>(capacity)); }
 
-  /// `squared`: r^T Omega r of a measurement against the window that has it; `coordinates`: what is expected of that. Both >= 0.
+  /// `squared`: r^T Omega r of a measurement against the window that has it; `coordinates`: what is expected of that.
+  /// Both >= 0.
   void see(double squared, double coordinates, Own& own);
   /// After all landmarks of a frame.
   void learn();

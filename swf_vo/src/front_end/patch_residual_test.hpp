@@ -8,13 +8,13 @@
 
 namespace swf_vo {
 
-/// Detects patches that contain two surfaces. At the edge of a near object, left and right image show different backgrounds,
-/// and the disparity of the patch belongs to neither surface: its residual is larger than the noise of the image explains.
-/// The threshold follows the residuals of recent patches (robust_threshold.hpp).
+/// Detects patches that contain two surfaces. At the edge of a near object, left and right image show different
+/// backgrounds, and the disparity of the patch belongs to neither surface: its residual is larger than the noise of the
+/// image explains. The threshold follows the residuals of recent patches (robust_threshold.hpp).
 class PatchResidualTest {
  public:
-  /// Returns whether a residual (standard deviation, grey levels) is below the threshold, and adds it to the recent ones.
-  /// Returns true while too few are known.
+  /// Returns whether a residual (standard deviation, grey levels) is below the threshold, and adds it to the recent
+  /// ones. Returns true while too few are known.
   bool isTypical(double noise);
   void archive(urban_nav_core::Archive& archive);
 

@@ -18,19 +18,21 @@ struct PoseEstimate {
 };
 
 struct PoseEstimatorOptions {
-  double slack_px =
-      0.1;  ///< added to the standard deviation of each coordinate: what the map and the match are wrong by beyond what they say
+  double slack_px = 0.1;  ///< added to the standard deviation of each coordinate: what the map and the match are wrong
+                          ///< by beyond what they say
   int least_inliers = 8;
   int samples = 24;  ///< motions through few matches that are tried too, for when the starts given are all wrong
 };
 
-/// Step (iv) of section 2.4: the camera's pose by an m-estimator over the measured matches, with the error of a landmark's first
-/// disparity allowed for, from several starts: those given, in order of trust, and motions through minimal sets of matches chosen
-/// by a fixed sequence. Starts are compared by a robust cost in which a landmark counts by how often it was right before: a
-/// van ahead that fills the view has few old friends. Sets `inlier` and `chi2` of each match.
+/// Step (iv) of section 2.4: the camera's pose by an m-estimator over the measured matches, with the error of a
+/// landmark's first disparity allowed for, from several starts: those given, in order of trust, and motions through
+/// minimal sets of matches chosen by a fixed sequence. Starts are compared by a robust cost in which a landmark counts
+/// by how often it was right before: a van ahead that fills the view has few old friends. Sets `inlier` and `chi2` of
+/// each match.
 class PoseEstimator {
  public:
-  /// The camera must outlive it, and may learn its disparity offset. `capacity`: of matches, for which memory is taken at once.
+  /// The camera must outlive it, and may learn its disparity offset. `capacity`: of matches, for which memory is taken
+  /// at once.
   explicit PoseEstimator(const urban_nav_core::StereoCamera& camera, int capacity = 0) : camera_(camera) {
     items_.reserve(static_cast<std::size_t>(capacity));
   }

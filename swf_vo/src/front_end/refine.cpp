@@ -24,7 +24,8 @@ constexpr double row_slack_px = 0.3;  // what rectification may be wrong by
 constexpr double further = 1.4;       // a slant is learnt anew each time the camera has moved so much further
 constexpr double steepest = 20.0;     // change of a surface's slant in one step, tangent
 constexpr double same_blur = 0.05;    // px^2 of the level
-// Of the blur that edges show, what it may be off by, and what a blur that is no Gaussian adds: of the displacement that the blur makes.
+// Of the blur that edges show, what it may be off by, and what a blur that is no Gaussian adds: of the displacement
+// that the blur makes.
 constexpr double blur_share = 0.3;
 constexpr double least_gain = 0.2, largest_gain = 5.0;
 

@@ -14,7 +14,8 @@ inline constexpr double least_correlation =
 /// 1/z of the landmark in the camera that first saw it, by the map of now.
 double inverseDepthWhereBorn(const Match& match);
 
-/// Makes the track's template for one image ready for a camera pose; false if it is seen too large, too small or too slanted.
+/// Makes the track's template for one image ready for a camera pose; false if it is seen too large, too small or too
+/// slanted.
 bool prepareTemplate(Side side, const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_camera_odom,
                      Match& match);
 
@@ -22,18 +23,18 @@ bool prepareTemplate(Side side, const urban_nav_core::StereoCamera& camera, cons
 PixelMeasurement refine(Side side, const Corners& corners, const Track& track, const Eigen::Vector2d& start,
                         double reach);
 
-/// Learns how the landmark's surface slants from its sighting in the left image, once the camera has moved far enough since this was
-/// done last. The templates must be those of the sighting.
+/// Learns how the landmark's surface slants from its sighting in the left image, once the camera has moved far enough
+/// since this was done last. The templates must be those of the sighting.
 void learnSurface(const Corners& corners, const urban_nav_core::StereoCamera& camera,
                   const urban_nav_core::Pose& T_camera_odom, Match& match);
 
-/// By how much what the template stands for may have crept over its surface since it was last trusted (Observation::template_drift_covariance), by the change of
-/// the left view from then to T_camera_odom, which is noted.
+/// By how much what the template stands for may have crept over its surface since it was last trusted
+/// (Observation::template_drift_covariance), by the change of the left view from then to T_camera_odom, which is noted.
 Eigen::Matrix2d creep(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_camera_odom,
                       Match& match);
 
-/// What a sighting may be off by since the view is less sharp than where the track was born, px^2 of level 0: the template was blurred as well,
-/// but nobody knows exactly how the camera does it.
+/// What a sighting may be off by since the view is less sharp than where the track was born, px^2 of level 0: the
+/// template was blurred as well, but nobody knows exactly how the camera does it.
 Eigen::Matrix2d displacedByBlur(const Track& track, bool in_left);
 
 /// Adds a covariance that both images share, and a variance of the disparity (px^2), to a measurement.
@@ -42,9 +43,9 @@ void loosen(const Eigen::Matrix2d& covariance, double of_disparity, Match& match
 /// Puts the sightings onto the pixels of their level, as without any refinement.
 void roundToPixels(Match& match);
 
-/// The two sightings as one measurement (u_left, v, u_right): the row counts once, weighed by both. `floor_px` is added to the
-/// standard deviation of each coordinate. The row is the left image's: the right one's is `row_offset` (RowOffset) less than was sighted. Not
-/// measured if neither image has it, or if the rows contradict each other.
+/// The two sightings as one measurement (u_left, v, u_right): the row counts once, weighed by both. `floor_px` is added
+/// to the standard deviation of each coordinate. The row is the left image's: the right one's is `row_offset`
+/// (RowOffset) less than was sighted. Not measured if neither image has it, or if the rows contradict each other.
 void combine(double floor_px, Match& match, double row_offset = 0.0);
 
 }  // namespace swf_vo

@@ -29,17 +29,19 @@ constexpr double least_disparity_px = -1.0;  // after refinement, level 0
 constexpr float level_preference = 0.3F;     // a feature is located to pixels of its own level
 constexpr double same_row = 1.0;             // px of the level between the rows of both images
 constexpr double least_correlation_across = 0.85;
-// As the view changes, a template weighs its pixels anew, and where it stands creeps: by the error it was born with (its noise, and what the
-// surface is beside a plane, creep_px), in variance, times this for a change of one. Measured in rendered rooms at 1, 3 and 6 grey
-// levels of noise (bench/creep), for u and v alike, in both images at once; disparities do not creep.
+// As the view changes, a template weighs its pixels anew, and where it stands creeps: by the error it was born with
+// (its noise, and what the surface is beside a plane, creep_px), in variance, times this for a change of one. Measured
+// in rendered rooms at 1, 3 and 6 grey levels of noise (bench/creep), for u and v alike, in both images at once;
+// disparities do not creep.
 constexpr double creep_per_change = 2.75, creep_px = 0.026;
 // From here on a pixel says no more than "at least so bright"; cameras' tables and JPEG end a level or two early.
 constexpr std::uint8_t clipped_from = 254;
 constexpr int clipping_reach = 2;                                // px of the level
 constexpr int attempts_per_feature = 3, attempts_at_least = 20;  // bounds the time where nothing can be matched
 
-/// Is it a corner of what is clipped, such as leaves before a white sky? Where the light is cut off moves with the exposure and with what falls into
-/// each pixel, alike for all such corners: they turn the camera, and no residual shows it.
+/// Is it a corner of what is clipped, such as leaves before a white sky? Where the light is cut off moves with the
+/// exposure and with what falls into each pixel, alike for all such corners: they turn the camera, and no residual
+/// shows it.
 bool isOfClipped(const ImageView& image, int u, int v, int reach) {
   const int first = std::max(u - reach, 0), end = std::min(u + reach + 1, image.width);
   for (int j = std::max(v - reach, 0); j <= std::min(v + reach, image.height - 1); ++j)

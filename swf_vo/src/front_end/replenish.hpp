@@ -15,14 +15,15 @@
 
 namespace swf_vo {
 
-/// Step (v) of section 2.4: new features, the best first by Harris score, where the quadtree has room; matched left to right, refined,
-/// and started as tracks with their first observation.
+/// Step (v) of section 2.4: new features, the best first by Harris score, where the quadtree has room; matched left to
+/// right, refined, and started as tracks with their first observation.
 class Replenisher {
  public:
   /// The camera must outlive it, and may learn its disparity offset. `features`: wanted in the image.
   Replenisher(const urban_nav_core::StereoCamera& camera, int features, double floor_px, bool subpixel = true);
 
-  /// `matches`: those that are inliers keep their place. Appends to `fresh`. `rows`: by what the images differ, and what is seen of it.
+  /// `matches`: those that are inliers keep their place. Appends to `fresh`. `rows`: by what the images differ, and
+  /// what is seen of it.
   void replenish(FrameId frame, const Corners& corners, const urban_nav_core::Pose& T_odom_camera,
                  const std::vector<Match>& matches, Tracks& tracks, std::vector<Observation>& fresh, RowOffset& rows);
   void archive(urban_nav_core::Archive& archive);

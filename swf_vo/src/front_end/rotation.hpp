@@ -23,20 +23,20 @@ struct Parallax {
       urban_nav_core::Vector3d::Zero();  ///< t_now_last / depth, so that its ray becomes R ray + shift
 };
 
-/// Step (ii) of section 2.4: the rotation between two frames that makes their smallest images most alike (sum of squared
-/// differences, with brightness and contrast free), by efficient second-order minimisation (Mei et al. 2008; Benhimane and
-/// Malis 2004).
+/// Step (ii) of section 2.4: the rotation between two frames that makes their smallest images most alike (sum of
+/// squared differences, with brightness and contrast free), by efficient second-order minimisation (Mei et al. 2008;
+/// Benhimane and Malis 2004).
 ///
-/// The paper neglects the translation, which holds at 20 Hz and walking speed. Over 1.2 m a frame in a street (KITTI 06) the
-/// rotation of the whole images was found wrong by 1 to 2 deg, so where landmarks give the depth the sums are made around them,
-/// with the predicted translation taken into account; else over the whole image.
+/// The paper neglects the translation, which holds at 20 Hz and walking speed. Over 1.2 m a frame in a street (KITTI
+/// 06) the rotation of the whole images was found wrong by 1 to 2 deg, so where landmarks give the depth the sums are
+/// made around them, with the predicted translation taken into account; else over the whole image.
 class RotationTracker {
  public:
   /// `camera`: of level 0.
   explicit RotationTracker(const urban_nav_core::Pinhole& camera) : camera_(camera) {}
 
-  /// Turns the image kept last into this one, starting from `start`, and keeps this one. The first image, or one of another
-  /// size, gives `found` false. `known`: may be empty.
+  /// Turns the image kept last into this one, starting from `start`, and keeps this one. The first image, or one of
+  /// another size, gives `found` false. `known`: may be empty.
   RotationEstimate track(const urban_nav_core::ImageView& image, int level, const urban_nav_core::Quaterniond& start,
                          const std::vector<Parallax>& known);
   void archive(urban_nav_core::Archive& archive);

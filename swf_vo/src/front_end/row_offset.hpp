@@ -7,9 +7,10 @@
 
 namespace swf_vo {
 
-/// By how many pixels (of level 0) the right image shows everything lower than the left one. Rectification means none; real ones leave some
-/// tenths, and a knock to a camera more. Each match says it anew, so it is known to a hundredth after the first frame, and need not be a state of
-/// the filter: rows are measured in the left image's, and what the right one says is brought there first.
+/// By how many pixels (of level 0) the right image shows everything lower than the left one. Rectification means none;
+/// real ones leave some tenths, and a knock to a camera more. Each match says it anew, so it is known to a hundredth
+/// after the first frame, and need not be a state of the filter: rows are measured in the left image's, and what the
+/// right one says is brought there first.
 class RowOffset {
  public:
   /// `capacity`: of differences in a frame, for which memory is taken at once.

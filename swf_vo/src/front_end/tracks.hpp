@@ -16,9 +16,9 @@ namespace swf_vo {
 
 enum class Side { Left, Right };
 
-/// A landmark that is being followed: its one template, cut from the left image where it was first seen, and the piece of surface
-/// around it. Every later measurement, in either image, aligns the current image to that template, so that errors of different
-/// frames are independent.
+/// A landmark that is being followed: its one template, cut from the left image where it was first seen, and the piece
+/// of surface around it. Every later measurement, in either image, aligns the current image to that template, so that
+/// errors of different frames are independent.
 struct Track {
   LandmarkId id = 0;
   FrameId born = 0;
@@ -46,7 +46,8 @@ struct Track {
   urban_nav_core::PatchTemplate in_left, in_right;  ///< as last warped for either image
   bool left_ready = false, right_ready = false;
   Eigen::Vector2d born_edges = Eigen::Vector2d::Zero();  ///< edgeVariance of the image it was cut from, px^2 of level 0
-  /// What the images of now are less sharp by than that one, px^2 of its level along rows and columns, and what the templates were made with.
+  /// What the images of now are less sharp by than that one, px^2 of its level along rows and columns, and what the
+  /// templates were made with.
   Eigen::Vector2d blur = Eigen::Vector2d::Zero();
   Eigen::Vector2d made_blur_left = Eigen::Vector2d::Zero(), made_blur_right = Eigen::Vector2d::Zero();
   bool sharper = false;  ///< the images of now are much sharper than that one: there is nothing to find in them
@@ -57,13 +58,15 @@ void archive(urban_nav_core::Archive& archive, Track& track);
 /// The landmark's surface, if 1/z of the landmark in the first camera is `inverse_depth`.
 Eigen::Vector3d surfaceAt(const Track& track, double inverse_depth);
 
-/// How pixels around the landmark move from its first left view into a view of now, by the homography of its surface (px of level 0).
-/// `inverse_depth`: 1/z of the landmark in the first camera, as the map has it now. Empty if it would lie behind the camera.
+/// How pixels around the landmark move from its first left view into a view of now, by the homography of its surface
+/// (px of level 0). `inverse_depth`: 1/z of the landmark in the first camera, as the map has it now. Empty if it would
+/// lie behind the camera.
 std::optional<urban_nav_core::PatchWarp> warpInto(Side side, const urban_nav_core::StereoCamera& camera,
                                                   const Track& track, const urban_nav_core::Pose& T_camera_born,
                                                   double inverse_depth);
 
-/// Where a pixel next to the landmark goes if its surface slants by one unit more: the `direction` of urban_nav_core::seeSlant, m.
+/// Where a pixel next to the landmark goes if its surface slants by one unit more: the `direction` of
+/// urban_nav_core::seeSlant, m.
 Eigen::Vector2d slantDirection(const urban_nav_core::StereoCamera& camera, const Track& track,
                                const urban_nav_core::Pose& T_camera_born, double inverse_depth);
 

@@ -14,7 +14,8 @@ namespace {
 // A place: so many neighbours along a row; few enough for a row that rectification has bent to stay in it.
 constexpr int length = 32;
 constexpr int corruption_column_step = 64, corruption_row_step = 4;
-// From pixel to pixel random bytes differ by 85 grey levels, and at a place by more than 60 nearly always; below 16 it may be the noise of the camera.
+// From pixel to pixel random bytes differ by 85 grey levels, and at a place by more than 60 nearly always; below 16 it
+// may be the noise of the camera.
 constexpr unsigned least_rough = 16 * length, random_bytes = 60 * length;
 // Halfway, in proportion, between what pictures have and what corrupted has (the header).
 constexpr double corrupted_share = 0.025;

@@ -24,7 +24,8 @@ struct Evidence {
   double inlier_share = 0.0;
 };
 
-/// Statistics of a frame -> status and reason; when it is LOST, when RECOVERED. Deterministic, no allocation but for long sentences.
+/// Statistics of a frame -> status and reason; when it is LOST, when RECOVERED. Deterministic, no allocation but for
+/// long sentences.
 class HealthMonitor {
  public:
   explicit HealthMonitor(const Parameters& parameters);

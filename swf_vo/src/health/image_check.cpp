@@ -18,14 +18,16 @@ namespace {
 
 constexpr int check_column_step = 8;
 constexpr int row_step = 4;
-// Below these an 8-bit image holds no corner above its own noise (FAST at its lowest threshold needs 3 grey levels of contrast).
+// Below these an 8-bit image holds no corner above its own noise (FAST at its lowest threshold needs 3 grey levels of
+// contrast).
 constexpr double dark_contrast = 2.0;
 // Matching removes mean and gain; beyond a factor of 1.6 between frames clipping begins to move the corners.
 constexpr double exposure_ratio = 1.6;
 // A lens that is out of focus for so many frames is so for good: then it is the new usual.
 constexpr int longest_blur = 50;
-// An image that is suddenly white by half is no better than a black one: what is left of it is matched wrongly or not at all, and landmarks are worth
-// keeping for when the light is back. For so many frames it is not: then it is the new usual.
+// An image that is suddenly white by half is no better than a black one: what is left of it is matched wrongly or not
+// at all, and landmarks are worth keeping for when the light is back. For so many frames it is not: then it is the new
+// usual.
 constexpr int white_grey = 250;
 constexpr double white_share = 0.5, white_rate = 0.01;
 

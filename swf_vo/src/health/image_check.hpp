@@ -22,8 +22,8 @@ struct ImageVerdict {
   double contrast = 0.0;         ///< standard deviation, grey levels, the lesser of the two images
 };
 
-/// Looks at thinned-out pixels: missing, dark, frozen, exposure jumps, blur, exchanged images. Remembers the last usable pair's
-/// figures. Allocates only when the size of the images changes. Costs some 0.1 ms at 512x384.
+/// Looks at thinned-out pixels: missing, dark, frozen, exposure jumps, blur, exchanged images. Remembers the last
+/// usable pair's figures. Allocates only when the size of the images changes. Costs some 0.1 ms at 512x384.
 class ImageCheck {
  public:
   /// `doubtful`: the frame before was not OK. The test for exchanged images, the dear one, runs then, at the start, and

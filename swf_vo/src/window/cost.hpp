@@ -10,8 +10,8 @@ namespace swf_vo {
 
 using Matrix63d = Eigen::Matrix<double, 6, 3>;
 
-/// The row and column that the disparity offset adds to Lambda: it is tied to everything that was measured in the right image, so it
-/// stands last and is eliminated last.
+/// The row and column that the disparity offset adds to Lambda: it is tied to everything that was measured in the right
+/// image, so it stands last and is eliminated last.
 struct Border {
   std::vector<urban_nav_core::Vector6d> pose;  ///< Lambda(p(j), offset)
   std::vector<Eigen::Vector3d> landmark;       ///< Lambda(m(i), offset), by slot
@@ -48,7 +48,8 @@ struct ProcessTerm {
   urban_nav_core::Vector6d last_gradient, next_gradient;
 };
 
-/// l(x) = process + sensor (Newman et al. 2009, eq. 3), the latter under Huber's kernel on the Mahalanobis distance of a stereo pixel.
+/// l(x) = process + sensor (Newman et al. 2009, eq. 3), the latter under Huber's kernel on the Mahalanobis distance of
+/// a stereo pixel.
 class Cost {
  public:
   Cost(const SensorModel& sensor, double huber, bool linearise_first)

@@ -9,8 +9,9 @@
 
 namespace swf_vo {
 
-/// WARNING: covariances are first-order, at the linearisation points of the last factor, and as honest as the measurements'
-/// own. All are of boxPlus in `odom`. A direction that nothing determines has the variance of process_model::floor().
+/// WARNING: covariances are first-order, at the linearisation points of the last factor, and as honest as the
+/// measurements' own. All are of boxPlus in `odom`. A direction that nothing determines has the variance of
+/// process_model::floor().
 namespace covariance {
 
 using Matrix12d = Eigen::Matrix<double, 12, 12>;
@@ -24,9 +25,10 @@ urban_nav_core::Matrix6d marginal(const Solver& solver, std::size_t j);
 /// Of poses j and j + 1 together.
 Matrix12d joint(const Solver& solver, std::size_t j);
 
-/// Of the pose that left last, as it was when it left, together with the oldest pose as it is now. A settled estimate does not
-/// move any more, and the newer one's error is independent of all that was measured: so the covariance between both is that of the
-/// smoothed joint, gain P(b, oldest), with b the blocks of the prior, which are the first of the factor. `left`: givenOffset of the one that left.
+/// Of the pose that left last, as it was when it left, together with the oldest pose as it is now. A settled estimate
+/// does not move any more, and the newer one's error is independent of all that was measured: so the covariance between
+/// both is that of the smoothed joint, gain P(b, oldest), with b the blocks of the prior, which are the first of the
+/// factor. `left`: givenOffset of the one that left.
 Matrix12d leftAndOldest(const Solver& solver, const urban_nav_core::Matrix6d& left, const Departed& departed);
 
 /// Of T_a_b = T_odom_a^-1 T_odom_b, in a, from the joint covariance of both poses.

@@ -9,15 +9,18 @@ namespace swf_vo {
 
 /// Where the window stands in `odom`, and how well that is known.
 ///
-/// All measurements are relative, and with first estimates none of them says anything in the six directions G of the gauge. So Pi G is
-/// what is left of the prior of the first pose, and nothing else:
+/// All measurements are relative, and with first estimates none of them says anything in the six directions G of the
+/// gauge. So Pi G is what is left of the prior of the first pose, and nothing else:
 ///   Pi = Pi_relative + v M v^T,   Pi_relative G = 0,   M = G^T Pi G,   v = Pi G M^-1,
-/// with M the information on gamma = v^T x, the place of the window as a whole (its shape given). Neither the estimate nor the
-/// covariance of the shape depends on M; the covariance of a block is that of the shape plus G_b M^-1 G_b^T. Hence
+/// with M the information on gamma = v^T x, the place of the window as a whole (its shape given). Neither the estimate
+/// nor the covariance of the shape depends on M; the covariance of a block is that of the shape plus G_b M^-1 G_b^T.
+/// Hence
 ///
-/// * M may be exchanged for a stronger W at any time, with M^-1 - W^-1 carried beside the window, and nothing has changed: rounding no longer
+/// * M may be exchanged for a stronger W at any time, with M^-1 - W^-1 carried beside the window, and nothing has
+/// changed: rounding no longer
 ///   eats what is known of the way back to the first pose, and Gauss-Newton has no loose direction to run along (hold);
-/// * marginalising can only lower M, and what M^-1 grows by is the drift of this step: the part of the error that never comes back
+/// * marginalising can only lower M, and what M^-1 grows by is the drift of this step: the part of the error that never
+/// comes back
 ///   (growth). It is positive semidefinite, and the drift from one pose to another is the sum of the steps'.
 ///
 /// Derivation: docs/derivations/sliding_window_filter.md.
@@ -25,7 +28,8 @@ namespace swf_vo {
 /// Not for the textbook's linearisation, which puts information into G, nor where places of landmarks are known.
 class Datum {
  public:
-  /// The prior is that of the first pose alone. Where its information is singular, nothing is known of the gauge and isActive is false.
+  /// The prior is that of the first pose alone. Where its information is singular, nothing is known of the gauge and
+  /// isActive is false.
   void start(const Prior& prior);
   /// Likewise, with what is not known of that pose carried beside.
   void start(const Prior& prior, const urban_nav_core::Matrix6d& carried);
@@ -41,13 +45,14 @@ class Datum {
   /// Covariance that the last step added to gamma, about origin().
   const urban_nav_core::Matrix6d& growth() const { return growth_; }
 
-  /// An error of the disparity offset is one of scale, and goes with the way travelled. What the prior ties between the offset and the place of
-  /// the window is taken out of it and carried here, as the same error in every step: so what is learnt of the offset
-  /// corrects the way to come, and `odom` never jumps. `sigma`: of the offset, px. Returns d(gamma)/d(offset) of the last step.
+  /// An error of the disparity offset is one of scale, and goes with the way travelled. What the prior ties between the
+  /// offset and the place of the window is taken out of it and carried here, as the same error in every step: so what
+  /// is learnt of the offset corrects the way to come, and `odom` never jumps. `sigma`: of the offset, px. Returns
+  /// d(gamma)/d(offset) of the last step.
   urban_nav_core::Vector6d releaseOffset(double sigma, const State& state, Prior& prior);
 
-  /// `local`: information of one frame on its own pose. Holds the window at least so well once M^-1 exceeds `ratio` times its inverse;
-  /// true if it did: what was covariance in the window before has then shrunk by G_b shift() G_b^T.
+  /// `local`: information of one frame on its own pose. Holds the window at least so well once M^-1 exceeds `ratio`
+  /// times its inverse; true if it did: what was covariance in the window before has then shrunk by G_b shift() G_b^T.
   bool hold(const urban_nav_core::Matrix6d& local, double ratio, const State& state, Prior& prior);
   const urban_nav_core::Matrix6d& shift() const { return shift_; }
 

@@ -11,7 +11,8 @@ namespace swf_vo {
 
 namespace kernels = urban_nav_core::kernels;
 
-/// A symmetric matrix of dynamic size, column-major; only the lower triangle counts (anything may stand in the upper one). Takes three times the room it needs, and never shrinks.
+/// A symmetric matrix of dynamic size, column-major; only the lower triangle counts (anything may stand in the upper
+/// one). Takes three times the room it needs, and never shrinks.
 class DenseMatrix {
  public:
   /// All zero.
@@ -36,8 +37,8 @@ class DenseMatrix {
   std::vector<double> data_;
 };
 
-/// C[first, first + rows) -= B B^T, lower triangle, B column-major with its own stride. `first` is a multiple of 8, and so is
-/// first + rows unless it is the end of C. Keeps its buffer.
+/// C[first, first + rows) -= B B^T, lower triangle, B column-major with its own stride. `first` is a multiple of 8, and
+/// so is first + rows unless it is the end of C. Keeps its buffer.
 class StripProduct {
  public:
   explicit StripProduct(const kernels::InstructionSet& set = kernels::instructionSets().front()) : set_(set) {}
@@ -49,8 +50,8 @@ class StripProduct {
   std::vector<double> packed_;
 };
 
-/// L L^T = A for a positive semidefinite A. Where a pivot falls below 1e-12 of its diagonal element, that direction is not
-/// determined by what stands before it: it is held, that is, solutions leave component j where it is, and its pivot
+/// L L^T = A for a positive semidefinite A. Where a pivot falls below 1e-12 of its diagonal element, that direction is
+/// not determined by what stands before it: it is held, that is, solutions leave component j where it is, and its pivot
 /// becomes floor[j] (an information) so that covariances stay proper. Nothing of that goes into A's owner.
 class DenseCholesky {
  public:

@@ -8,9 +8,9 @@
 
 namespace swf_vo::gauge {
 
-/// The six directions that no measurement between robot and world sees: shifting and turning everything together. d of a block
-/// for a small (shift, turn) of the world about the point `origin`, all in the axes of `odom`. With J of any sensor or process
-/// term at the same values, J G = 0: exactly so, whatever the values are (sensor_model.hpp).
+/// The six directions that no measurement between robot and world sees: shifting and turning everything together. d of
+/// a block for a small (shift, turn) of the world about the point `origin`, all in the axes of `odom`. With J of any
+/// sensor or process term at the same values, J G = 0: exactly so, whatever the values are (sensor_model.hpp).
 urban_nav_core::Matrix6d ofPose(const urban_nav_core::Pose& T_odom_camera, const Eigen::Vector3d& origin);
 Eigen::Matrix<double, 3, 6> ofLandmark(const Anchor& anchor, const Eigen::Vector3d& theta,
                                        const Eigen::Vector3d& origin);

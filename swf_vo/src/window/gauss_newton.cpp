@@ -21,7 +21,8 @@ constexpr int halvings = 4;
 constexpr double contraction = 0.1;
 // ... and the first step was no larger than this (chi-square).
 constexpr double far_start = 2000.0;
-// A step that an old factor promises, and that is not so much smaller than the one before, is not taken: a new factor is asked.
+// A step that an old factor promises, and that is not so much smaller than the one before, is not taken: a new factor
+// is asked.
 constexpr double stalled = 0.5;
 
 }  // namespace

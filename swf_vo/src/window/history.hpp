@@ -13,7 +13,8 @@ namespace swf_vo {
 /// (Newman et al. 2009, section 2.2). Grows with the trajectory.
 class History {
  public:
-  /// A block that left: d_a = mean + gain d_b, with d_b the deviations of the blocks it was tied to from where they were then.
+  /// A block that left: d_a = mean + gain d_b, with d_b the deviations of the blocks it was tied to from where they
+  /// were then.
   struct Row {
     bool is_pose = false;
     std::int64_t id = 0;        ///< frame or landmark

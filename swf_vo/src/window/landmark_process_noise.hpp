@@ -20,8 +20,9 @@ class LandmarkProcessNoise {
     Eigen::Matrix2d covariance;  ///< of its bearing (a, b), positive definite
   };
 
-  /// Adds the steps to the prior, each block at most once. `departed`, what the pose that left owes to the blocks of the prior, is said of where
-  /// they are now; its gauge_loss grows by what the prior no longer knows of the gauge (`directions`: gauge::ofPrior).
+  /// Adds the steps to the prior, each block at most once. `departed`, what the pose that left owes to the blocks of
+  /// the prior, is said of where they are now; its gauge_loss grows by what the prior no longer knows of the gauge
+  /// (`directions`: gauge::ofPrior).
   void apply(const std::vector<Step>& steps, const std::vector<double>& directions, Prior& prior, Departed& departed);
 
  private:

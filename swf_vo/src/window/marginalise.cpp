@@ -366,7 +366,8 @@ void Marginaliser::keep(State& state, Prior& prior) {
   state.poses.erase(state.poses.begin());
   ++state.first_step;
 
-  // The gradient was taken at the estimates, eta is it at the centre: g + Pi d + border o, which is gradient() of (-d, -o).
+  // The gradient was taken at the estimates, eta is it at the centre: g + Pi d + border o, which is gradient() of (-d,
+  // -o).
   reserveWithHeadroom(prior.eta, static_cast<std::size_t>(remaining_));
   reserveWithHeadroom(prior.border, static_cast<std::size_t>(remaining_));
   prior.eta.assign(gradient_.begin() + eliminated_, gradient_.begin() + stride_);

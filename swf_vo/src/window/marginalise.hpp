@@ -13,27 +13,28 @@ namespace swf_vo {
 
 /// What the pose that left last owes to what is still there.
 struct Departed {
-  /// d(it)/d(blocks of the prior), 6 columns to a row of the prior, column-major with prior.size() rows: -Lambda_a^-1 Lambda_b, transposed.
+  /// d(it)/d(blocks of the prior), 6 columns to a row of the prior, column-major with prior.size() rows: -Lambda_a^-1
+  /// Lambda_b, transposed.
   std::vector<double> gain;
   urban_nav_core::Vector6d offset_gain = urban_nav_core::Vector6d::Zero();  ///< d(it)/d(disparity offset)
   /// `gain` times the directions of the gauge (gauge.hpp): how it goes with the rest of the window.
   urban_nav_core::Matrix6d gauge_gain = urban_nav_core::Matrix6d::Zero();
-  /// G^T Lambda G before less G^T Lambda G after: the information on where the window stands that went with it, Lambda taken of the prior and
-  /// of the terms that went in.
+  /// G^T Lambda G before less G^T Lambda G after: the information on where the window stands that went with it, Lambda
+  /// taken of the prior and of the terms that went in.
   urban_nav_core::Matrix6d gauge_loss = urban_nav_core::Matrix6d::Zero();
 };
 
 void archive(urban_nav_core::Archive& archive, Departed& departed);
 
-/// The only place where information leaves x: the oldest pose, and landmarks that no active pose sees and nobody follows,
-/// go into the prior by the Schur complement Lambda_c - Lambda_b^T Lambda_a^-1 Lambda_b (Newman et al. 2009, section 2.2),
-/// never by deletion. Whatever Lambda_a does not determine is left out of the inverse: there is nothing to hand on.
-/// Derivation: docs/derivations/sliding_window_filter.md.
+/// The only place where information leaves x: the oldest pose, and landmarks that no active pose sees and nobody
+/// follows, go into the prior by the Schur complement Lambda_c - Lambda_b^T Lambda_a^-1 Lambda_b (Newman et al. 2009,
+/// section 2.2), never by deletion. Whatever Lambda_a does not determine is left out of the inverse: there is nothing
+/// to hand on. Derivation: docs/derivations/sliding_window_filter.md.
 class Marginaliser {
  public:
-  /// Takes poses.front() out of `state` with its measurements; the pose behind it and the landmarks it saw are then tied by
-  /// the prior. Needs a second pose. The linearisation points must be those of Cost::relinearise. Directions of the gauge are
-  /// about `origin`. `history` may be null.
+  /// Takes poses.front() out of `state` with its measurements; the pose behind it and the landmarks it saw are then
+  /// tied by the prior. Needs a second pose. The linearisation points must be those of Cost::relinearise. Directions of
+  /// the gauge are about `origin`. `history` may be null.
   void removeOldest(State& state, Prior& prior, const Cost& cost, const Eigen::Vector3d& origin, History* history);
 
   /// About the pose that left; what happens to the prior before the next one is added to it.

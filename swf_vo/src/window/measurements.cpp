@@ -69,8 +69,8 @@ bool observe(State& state, const SensorModel& sensor, const Observation& observa
   Measurement measurement;
   measurement.step = state.first_step + pose;
   measurement.z = observation.z;
-  // What is not symmetric would come back as information, good or bad, in directions that were not measured: at 1e-8 of a pixel's, more than a second
-  // of prediction has.
+  // What is not symmetric would come back as information, good or bad, in directions that were not measured: at 1e-8 of
+  // a pixel's, more than a second of prediction has.
   measurement.information = 0.5 * (observation.information + observation.information.transpose());
   measurement.sigma_px = observation.sigma_px;
   measurement.inflation = observation.inflation;

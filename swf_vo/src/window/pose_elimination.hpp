@@ -10,9 +10,9 @@
 
 namespace swf_vo {
 
-/// Solves Lambda d = g by eliminating poses first (Newman et al. 2009, section 2.1, path-onto-map). They form a chain, each
-/// tied to the next by its process term, so eliminating k of them costs k small steps; what is left is a dense system of all
-/// landmarks. Cheaper than landmarks first if there are few landmarks and many poses.
+/// Solves Lambda d = g by eliminating poses first (Newman et al. 2009, section 2.1, path-onto-map). They form a chain,
+/// each tied to the next by its process term, so eliminating k of them costs k small steps; what is left is a dense
+/// system of all landmarks. Cheaper than landmarks first if there are few landmarks and many poses.
 class PoseElimination {
  public:
   /// Returns the operations (multiply and add) of a factorisation.
@@ -20,8 +20,9 @@ class PoseElimination {
 
   void factor(const State& state, const Prior& prior, const NormalEquations& equations, double datum_strength);
 
-  /// In place: `path` holds 6 numbers a pose, `map` 3 a landmark, those of the prior first, then by slot. `hold`: components that
-  /// nothing determines stay where they are (steps); else they answer with process_model::floor() (covariances).
+  /// In place: `path` holds 6 numbers a pose, `map` 3 a landmark, those of the prior first, then by slot. `hold`:
+  /// components that nothing determines stay where they are (steps); else they answer with process_model::floor()
+  /// (covariances).
   void solve(std::vector<double>& path, std::vector<double>& map, bool hold) const;
 
   /// Row of a landmark in `map`, by slot.

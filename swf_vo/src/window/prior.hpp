@@ -9,16 +9,17 @@
 
 namespace swf_vo {
 
-/// What earlier frames left behind (Newman et al. 2009, eq. 1 and 3): a Gaussian over the oldest pose and the landmarks that
-/// frames outside the window saw, as information Pi and vector eta:
-///   l(d, o) = 1/2 d^T Pi d - eta^T d + o border^T d + 1/2 o^2 offset_information - offset_eta o,   d = x - centre  (boxMinus for the pose),
+/// What earlier frames left behind (Newman et al. 2009, eq. 1 and 3): a Gaussian over the oldest pose and the landmarks
+/// that frames outside the window saw, as information Pi and vector eta:
+///   l(d, o) = 1/2 d^T Pi d - eta^T d + o border^T d + 1/2 o^2 offset_information - offset_eta o,   d = x - centre
+///   (boxMinus for the pose),
 /// with o the disparity offset itself, in which the sensor model is linear.
 /// Blocks stand in the order landmarks, pose. Pi may be singular: what was never measured has no information in it.
 ///
-/// Two rules make the filter consistent. A block that the prior touches is linearised where the prior was, in every later
-/// term (linearise_first; Huang et al. 2008, "first estimates Jacobian"): so the whole information is J^T W J at one set
-/// of values, and the six gauge directions stay empty. And the robust weights of what went in are frozen: they are in Pi.
-/// The textbook's EKF (linearise_first off) moves the centre to each new estimate instead.
+/// Two rules make the filter consistent. A block that the prior touches is linearised where the prior was, in every
+/// later term (linearise_first; Huang et al. 2008, "first estimates Jacobian"): so the whole information is J^T W J at
+/// one set of values, and the six gauge directions stay empty. And the robust weights of what went in are frozen: they
+/// are in Pi. The textbook's EKF (linearise_first off) moves the centre to each new estimate instead.
 struct Prior {
   bool has_pose = false;
   bool frozen = false;     ///< something was marginalised into it: from now on blocks are linearised where they
@@ -40,8 +41,9 @@ struct Prior {
   void start(const urban_nav_core::Pose& centre, const urban_nav_core::Matrix6d& pose_information);
   /// What the calibration says of the disparity offset, and how well it knows (px); with sigma 0 it is a constant.
   void startOffset(double offset, double sigma);
-  /// What the calibration counts for at an offset: all of 1 / sigma^2 close to what it says, and less the further away the measurements
-  /// want it, as with Student's t: most calibrations are as good as they are said to be, and some are far off.
+  /// What the calibration counts for at an offset: all of 1 / sigma^2 close to what it says, and less the further away
+  /// the measurements want it, as with Student's t: most calibrations are as good as they are said to be, and some are
+  /// far off.
   double calibrationInformation(double offset) const;
 
   /// d at the estimates.

@@ -5,8 +5,8 @@
 
 namespace swf_vo {
 
-/// Reserves three times `size` elements if the capacity is below `size`: sizes vary from frame to frame, and a steady state
-/// should allocate nothing.
+/// Reserves three times `size` elements if the capacity is below `size`: sizes vary from frame to frame, and a steady
+/// state should allocate nothing.
 template <typename Vector>
 void reserveWithHeadroom(Vector& vector, std::size_t size) {
   if (vector.capacity() < size) vector.reserve(3 * size);

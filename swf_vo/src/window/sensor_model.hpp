@@ -8,10 +8,10 @@
 
 namespace swf_vo {
 
-/// A landmark as inverse depth in a constant anchor frame: the point ((a, b, 1) / rho) of the frame `anchor`, which is the
-/// camera where the landmark was born *as it was estimated then*: a number, not a state. So a landmark is a fixed point of
-/// `odom`, but the stereo pixel is nearly linear in theta = (a, b, rho), and points near infinity (rho = 0, also slightly
-/// below while estimating) need no special case.
+/// A landmark as inverse depth in a constant anchor frame: the point ((a, b, 1) / rho) of the frame `anchor`, which is
+/// the camera where the landmark was born *as it was estimated then*: a number, not a state. So a landmark is a fixed
+/// point of `odom`, but the stereo pixel is nearly linear in theta = (a, b, rho), and points near infinity (rho = 0,
+/// also slightly below while estimating) need no special case.
 struct Anchor {
   Eigen::Matrix3d R_odom_anchor = Eigen::Matrix3d::Identity();
   Eigen::Vector3d t_odom_anchor = Eigen::Vector3d::Zero();
@@ -29,9 +29,9 @@ struct PoseMatrices {
   explicit PoseMatrices(const urban_nav_core::Pose& T_odom_camera);
 };
 
-/// z_ij = h(x_m(i), x_p(j)) + v (Newman et al. 2009, section 2.1 and eq. 2): the stereo pixel (u_left, v, u_right) of a landmark.
-/// h depends on nothing but where the point is seen from, so moving pose and point together changes nothing: its Jacobians
-/// at any one pair of values leave the six gauge directions empty.
+/// z_ij = h(x_m(i), x_p(j)) + v (Newman et al. 2009, section 2.1 and eq. 2): the stereo pixel (u_left, v, u_right) of a
+/// landmark. h depends on nothing but where the point is seen from, so moving pose and point together changes nothing:
+/// its Jacobians at any one pair of values leave the six gauge directions empty.
 class SensorModel {
  public:
   explicit SensorModel(const urban_nav_core::StereoCamera& camera);
@@ -53,7 +53,8 @@ class SensorModel {
   bool linearise(const Anchor& anchor, const Eigen::Vector3d& theta, const PoseMatrices& pose,
                  Linearised& result) const;
 
-  /// theta of a landmark whose anchor is the camera that sees it at z. Any finite z has one; a negative disparity gives rho < 0.
+  /// theta of a landmark whose anchor is the camera that sees it at z. Any finite z has one; a negative disparity gives
+  /// rho < 0.
   Eigen::Vector3d invert(const Eigen::Vector3d& z) const;
   /// A covariance of pixels of the left image as one of (a, b).
   Eigen::Matrix2d bearing(const Eigen::Matrix2d& covariance_px) const;

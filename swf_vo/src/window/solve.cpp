@@ -24,10 +24,10 @@ constexpr int solve_panel = 48;
 constexpr std::size_t most_rows = 1 << 20;  // of a factor that is read
 // Any would do; this one leaves the oldest pose a variance that nobody notices.
 constexpr double datum_strength = 1e3;
-// The disparity offset is read off how disparities change as things come nearer, and so is everything that the model of camera and
-// surfaces leaves out: measured in rendered rooms, where there is none, and on real sequences its estimate is off by 2 to 30 times what the
-// information says. It is believed a twentieth as well (in standard deviation) as alignments alone would have it; by what measurements are
-// inflated they have lost of that already.
+// The disparity offset is read off how disparities change as things come nearer, and so is everything that the model of
+// camera and surfaces leaves out: measured in rendered rooms, where there is none, and on real sequences its estimate
+// is off by 2 to 30 times what the information says. It is believed a twentieth as well (in standard deviation) as
+// alignments alone would have it; by what measurements are inflated they have lost of that already.
 constexpr double caution = 400.0;
 
 double cautionFor(const State& state) {
@@ -122,7 +122,8 @@ void Solver::eliminateFree(const State& state, const NormalEquations& equations)
   }
 }
 
-// Landmarks are born in the order of their slots more or less, so that those of one strip were seen from much the same poses.
+// Landmarks are born in the order of their slots more or less, so that those of one strip were seen from much the same
+// poses.
 void Solver::subtractStrip(Strip& strip) {
   if (strip.columns > 0) {
     const int first = strip.first / kernels::strip * kernels::strip;

@@ -11,11 +11,12 @@
 
 namespace swf_vo {
 
-/// Solves Lambda d = g of eq. 3 (Newman et al. 2009, section 2.1) and keeps the factor for further right-hand sides and for
-/// covariances. A state has the factor, not the steps.
+/// Solves Lambda d = g of eq. 3 (Newman et al. 2009, section 2.1) and keeps the factor for further right-hand sides and
+/// for covariances. A state has the factor, not the steps.
 ///
-/// Map-onto-path: landmarks that the prior does not touch are block-diagonal and are eliminated first, 3x3 by 3x3, onto the path; then
-/// the landmarks of the prior, then the poses, oldest first, in one dense Cholesky. Path-onto-map (pose_elimination.hpp) where that is less work.
+/// Map-onto-path: landmarks that the prior does not touch are block-diagonal and are eliminated first, 3x3 by 3x3, onto
+/// the path; then the landmarks of the prior, then the poses, oldest first, in one dense Cholesky. Path-onto-map
+/// (pose_elimination.hpp) where that is less work.
 class Solver {
  public:
   enum class Elimination { Cheaper, LandmarksFirst, PosesFirst };
@@ -24,8 +25,9 @@ class Solver {
   /// Returns whether the last factorisation eliminated poses first.
   bool eliminatedPosesFirst() const { return poses_first_; }
 
-  /// Factors the matrices of `equations` and the prior's. With `datum` the oldest pose is held: the way to solve where no absolute
-  /// information is, and exact there, for a gradient without share in the gauge directions can be answered without moving it.
+  /// Factors the matrices of `equations` and the prior's. With `datum` the oldest pose is held: the way to solve where
+  /// no absolute information is, and exact there, for a gradient without share in the gauge directions can be answered
+  /// without moving it.
   void factor(const State& state, const Prior& prior, const NormalEquations& equations, bool datum);
   /// The step for the gradients of `equations` and the prior's gradient, with the last factor.
   void solve(const State& state, const Prior& prior, const NormalEquations& equations,
@@ -38,16 +40,18 @@ class Solver {
   /// d^T g: twice the decrease that the quadratic promises.
   double decrement() const { return decrement_; }
 
-  /// Column (pose j, component c) of the inverse, the covariance were the disparity offset known: landmarks of the prior, then poses. With `poses_only` the
-  /// rows of the landmarks are not made. Valid until the next call.
+  /// Column (pose j, component c) of the inverse, the covariance were the disparity offset known: landmarks of the
+  /// prior, then poses. With `poses_only` the rows of the landmarks are not made. Valid until the next call.
   const std::vector<double>& inverseColumn(std::size_t j, int c, bool poses_only) const;
   /// All six columns of pose j, whole and one after the other. Valid until the next call.
   const std::vector<double>& inverseColumns(std::size_t j) const;
   /// Row where pose j begins in such a column.
   std::size_t rowOf(std::size_t j) const { return offset_ + 6 * j; }
-  /// Variance of the disparity offset (px^2), 0 where it is a constant, and how the estimate in such a row goes with it.
+  /// Variance of the disparity offset (px^2), 0 where it is a constant, and how the estimate in such a row goes with
+  /// it.
   double offsetVariance() const { return border_.used ? 1.0 / border_.pivot : 0.0; }
-  /// What measurements say of the offset with all else marginalised, and what the calibration pulls at an estimate: Prior's terms of it.
+  /// What measurements say of the offset with all else marginalised, and what the calibration pulls at an estimate:
+  /// Prior's terms of it.
   double offsetInformation() const;
   double offsetPull(const Prior& prior, double offset) const;
   double perOffset(std::size_t row) const { return border_.used ? -border_.rows[row] : 0.0; }
@@ -59,7 +63,8 @@ class Solver {
  private:
   bool isCheaperPosesFirst(const State& state, const Prior& prior) const;
   void factorLandmarksFirst(const State& state, const Prior& prior, const NormalEquations& equations, bool datum);
-  /// A right-hand side, or the border, which is solved for as one. `prior`: landmarks of the prior, then the oldest pose; may be empty.
+  /// A right-hand side, or the border, which is solved for as one. `prior`: landmarks of the prior, then the oldest
+  /// pose; may be empty.
   struct RightSide {
     const std::vector<double>& prior;
     const std::vector<urban_nav_core::Vector6d>& pose;

@@ -28,11 +28,11 @@ struct Measurement {
   Eigen::Vector3d z = Eigen::Vector3d::Zero();
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Matrix2d template_drift_covariance =
-      Eigen::Matrix2d::Zero();                       ///< of the bearing, since the measurement before
-  double sigma_px = 0.0;                             ///< of the alignment alone
-  double inflation = 1.0;                            ///< Observation::inflation
-  double weight = 1.0;  ///< robust weight at the last linearisation; 0: not in front of the camera
-  bool solved = false;  ///< the last solve had this measurement
+      Eigen::Matrix2d::Zero();  ///< of the bearing, since the measurement before
+  double sigma_px = 0.0;        ///< of the alignment alone
+  double inflation = 1.0;       ///< Observation::inflation
+  double weight = 1.0;          ///< robust weight at the last linearisation; 0: not in front of the camera
+  bool solved = false;          ///< the last solve had this measurement
 };
 
 /// A landmark x_m(i) with what active poses saw of it, in order of pose.
@@ -41,12 +41,12 @@ struct LandmarkBlock {
   Anchor anchor;
   Eigen::Vector3d estimate = Eigen::Vector3d::Zero();
   Eigen::Vector3d linearised = Eigen::Vector3d::Zero();
-  int prior = -1;                                    ///< which landmark of the prior; -1: the prior does not touch it
+  int prior = -1;  ///< which landmark of the prior; -1: the prior does not touch it
   Eigen::Matrix2d template_drift_covariance =
-      Eigen::Matrix2d::Zero();                       ///< of the bearing, since what the prior knows of it
-  bool used = false;                                 ///< false: the slot is free
-  bool known = false;                                ///< its place is given: a constant, not a state
-  bool followed = true;                              ///< still looked for
+      Eigen::Matrix2d::Zero();  ///< of the bearing, since what the prior knows of it
+  bool used = false;            ///< false: the slot is free
+  bool known = false;           ///< its place is given: a constant, not a state
+  bool followed = true;         ///< still looked for
   std::vector<Measurement> seen;
 };
 

@@ -7,13 +7,13 @@
 
 namespace swf_vo {
 
-/// The inputs of the steps whose poses are in the window, and where the filter stood before each that marginalised something: so
-/// that a measurement can go in or out of the past exactly (reversible data association, out-of-sequence measurements:
-/// Newman et al. 2009, section 2.2.1). What went into the prior since was linearised and weighted with it or without it; so the
-/// filter goes back to the step of the measurement and takes the later steps again: what results is, to the last bit, the filter
-/// that never had it, or had it in time. (Of the first `size` frames, before which nothing was marginalised, it goes in or out by
-/// itself, and the two agree as far as Gauss-Newton converges.) Costs `size` copies of state and prior, and as many updates as
-/// steps are taken again.
+/// The inputs of the steps whose poses are in the window, and where the filter stood before each that marginalised
+/// something: so that a measurement can go in or out of the past exactly (reversible data association, out-of-sequence
+/// measurements: Newman et al. 2009, section 2.2.1). What went into the prior since was linearised and weighted with it
+/// or without it; so the filter goes back to the step of the measurement and takes the later steps again: what results
+/// is, to the last bit, the filter that never had it, or had it in time. (Of the first `size` frames, before which
+/// nothing was marginalised, it goes in or out by itself, and the two agree as far as Gauss-Newton converges.) Costs
+/// `size` copies of state and prior, and as many updates as steps are taken again.
 class Undo {
  public:
   /// Before addPose: `marginalises` says whether this step will take information out of the window.

@@ -28,10 +28,9 @@ struct WindowOptions {
   bool exact_undo =
       true;  ///< withdraw and late observe as if it had always been so (undo.hpp); false: the measurement itself
              ///< goes in or out, but what was marginalised since keeps the linearisation points it had
-  double datum_ratio =
-      100.0;  ///< once the place of the whole window is this much less certain than what one frame tells of its own pose
-              ///< (in variance), it is held anew and the difference carried beside (datum.hpp): changes no result but
-              ///< for rounding
+  double datum_ratio = 100.0;  ///< once the place of the whole window is this much less certain than what one frame
+                               ///< tells of its own pose (in variance), it is held anew and the difference carried
+                               ///< beside (datum.hpp): changes no result but for rounding
   double disparity_offset =
       0.0;  ///< px, standard deviation of the camera's disparity offset, which is then a state; 0: it is a constant
   int landmarks = 64;         ///< so many at once are expected; memory for them is taken at the start
@@ -50,7 +49,7 @@ struct WindowOptions {
 struct SettledPose {
   FrameId frame = 0;
   urban_nav_core::PoseWithCovariance T_odom_camera;  ///< previous pose times T_previous_camera, to the last bit
-  urban_nav_core::Pose T_previous_camera;       ///< from the settled pose before; identity for the first
+  urban_nav_core::Pose T_previous_camera;            ///< from the settled pose before; identity for the first
   urban_nav_core::Matrix6d relative_covariance =
       urban_nav_core::Matrix6d::Zero();  ///< of T_previous_camera, in `previous`: between both as they settled
   urban_nav_core::Matrix6d drift_covariance =
@@ -71,8 +70,9 @@ struct UpdateReport {
 
 /// The Sliding Window Filter's back end (Newman et al. 2009, sections 2.1-2.3). Observations in, poses out: knows no
 /// pixel, no image, no clock. One step is: addPose, removePoses, endLandmark.../observe..., update, in this order; at
-/// size 1 this order (propagate, marginalise, update) is the extended Kalman filter's. Never NaN: what nothing determines stays where
-/// the prediction put it, with the variance of process_model::floor(). Not thread-safe. The same calls give the same bits.
+/// size 1 this order (propagate, marginalise, update) is the extended Kalman filter's. Never NaN: what nothing
+/// determines stays where the prediction put it, with the variance of process_model::floor(). Not thread-safe. The same
+/// calls give the same bits.
 class Window {
  public:
   Window(const WindowOptions& options, const urban_nav_core::StereoCamera& camera);
@@ -80,27 +80,28 @@ class Window {
   Window(Window&&) noexcept;
   Window& operator=(Window&&) noexcept;
 
-  /// The first pose, held by a prior of this information (in the parent frame). If it is singular, nothing says where `odom`
-  /// is: the gauge is left free, and covariances are relative to the oldest pose of the window.
+  /// The first pose, held by a prior of this information (in the parent frame). If it is singular, nothing says where
+  /// `odom` is: the gauge is left free, and covariances are relative to the oldest pose of the window.
   void start(FrameId frame, const urban_nav_core::Pose& T_odom_camera, const urban_nav_core::Matrix6d& information);
   /// A further pose by the process model, the frame after the newest.
   void addPose(FrameId frame, const ProcessInput& u);
-  /// A further pose by the process model that nothing else will ever tie to those before: no landmark is left that is still looked for. All
-  /// of them leave (settled()), and the window begins anew at the prediction, with its covariance.
+  /// A further pose by the process model that nothing else will ever tie to those before: no landmark is left that is
+  /// still looked for. All of them leave (settled()), and the window begins anew at the prediction, with its
+  /// covariance.
   void restart(FrameId frame, const ProcessInput& u);
-  /// Marginalises the oldest poses until at most `size` are left, with them landmarks that no active pose sees and that are
-  /// not followed any more. What left is in settled() until the next call.
+  /// Marginalises the oldest poses until at most `size` are left, with them landmarks that no active pose sees and that
+  /// are not followed any more. What left is in settled() until the next call.
   void removePoses();
   const std::vector<SettledPose>& settled() const;
 
   /// A landmark whose place is known (a surveyed beacon): a constant. False if it is active already.
   bool fixLandmark(const MapPoint& point);
-  /// Puts a measurement in. A landmark that is not known yet is started from it (it must then have full rank); a frame that
-  /// is still in the window may be an earlier one. False if the frame has left, the landmark was seen from it already,
-  /// it cannot be started, or a number is not finite.
+  /// Puts a measurement in. A landmark that is not known yet is started from it (it must then have full rank); a frame
+  /// that is still in the window may be an earlier one. False if the frame has left, the landmark was seen from it
+  /// already, it cannot be started, or a number is not finite.
   bool observe(const Observation& observation);
-  /// Takes one back, or all of a landmark that active frames saw: exact while the frames are in the window (exact_undo).
-  /// False if there is none. Takes effect with the next update().
+  /// Takes one back, or all of a landmark that active frames saw: exact while the frames are in the window
+  /// (exact_undo). False if there is none. Takes effect with the next update().
   bool withdraw(LandmarkId landmark, FrameId frame);
   void withdrawAll(LandmarkId landmark);
   /// This landmark is not looked for any more: marginalised as soon as no active pose sees it.
@@ -109,7 +110,8 @@ class Window {
   /// Robust Gauss-Newton over all that is in the window.
   UpdateReport update();
 
-  /// Before update(): the prediction, or where the process input has the estimate begin. The window must have been started.
+  /// Before update(): the prediction, or where the process input has the estimate begin. The window must have been
+  /// started.
   urban_nav_core::PoseWithCovariance newest() const;
   urban_nav_core::Pose pose(FrameId frame) const;  ///< of an active frame
   bool hasPose(FrameId frame) const;
@@ -122,7 +124,8 @@ class Window {
   /// How well the last update trusts the newest observation of it (0...1); 1 if it has none.
   double weight(LandmarkId landmark) const;
 
-  /// Landmarks that do not keep still (drifting_landmarks.hpp), by the last update: to be withdrawn and ended. Lives until the next call.
+  /// Landmarks that do not keep still (drifting_landmarks.hpp), by the last update: to be withdrawn and ended. Lives
+  /// until the next call.
   const std::vector<LandmarkId>& driftingLandmarks();
 
   /// The rest of the window leaves, oldest first. The window cannot go on after it.

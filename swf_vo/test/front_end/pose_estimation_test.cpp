@@ -122,7 +122,8 @@ TEST(Localise, PointsWithoutRightImageAndAtInfinityCount) {
 }
 
 TEST(Localise, AVanThatFillsTheViewDoesNotCarryUsAway) {
-  // 60 % of the matches move together, by 0.5 m a frame; they came into view lately, and the prediction is off by 10 cm.
+  // 60 % of the matches move together, by 0.5 m a frame; they came into view lately, and the prediction is off by 10
+  // cm.
   for (unsigned seed = 0; seed < 20; ++seed) {
     World world(seed);
     const Pose van(urban_nav_core::Quaterniond::Identity(), Eigen::Vector3d(0.05, 0.0, 0.5));

@@ -187,7 +187,8 @@ TEST(CorruptRowRepair, bridgesRubbishAndNothingElse) {
   }
 }
 
-// A strip that is saturated has no texture at all, nor have rows that are missing: corrupted is found in the first, and what is good stays beside the second.
+// A strip that is saturated has no texture at all, nor have rows that are missing: corrupted is found in the first, and
+// what is good stays beside the second.
 TEST(CorruptRowRepair, tellsAWhiteSkyFromMissingRows) {
   cv::Mat white = room();
   white.rowRange(0, 100).setTo(255);

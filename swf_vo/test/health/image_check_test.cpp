@@ -27,13 +27,16 @@ struct CheckScene {
     std::normal_distribution<double> grey(0.0, 1.0);
     for (int v = 0; v < checked_height; ++v)
       for (int u = 0; u < checked_width; ++u) {
-        left[static_cast<std::size_t>(v * checked_width + u)] = clip(gain * value(u + shift, v, softness) + grey(noise));
+        left[static_cast<std::size_t>(v * checked_width + u)] =
+            clip(gain * value(u + shift, v, softness) + grey(noise));
         right[static_cast<std::size_t>(v * checked_width + u)] =
             clip(gain * value(u + shift + disparity, v, softness) + grey(noise));
       }
   }
   StereoPair pair(std::int64_t stamp = 0) const {
-    return {stamp, {left.data(), checked_width, checked_height, checked_width}, {right.data(), checked_width, checked_height, checked_width}};
+    return {stamp,
+            {left.data(), checked_width, checked_height, checked_width},
+            {right.data(), checked_width, checked_height, checked_width}};
   }
   StereoPair exchanged() const { return {0, pair().right, pair().left}; }
 
@@ -61,7 +64,8 @@ TEST(ImageCheck, waitsForTheLightToComeBack) {
   ImageCheck check;
   for (unsigned i = 0; i < 5; ++i) EXPECT_TRUE(check.look(CheckScene(i, 12.0, 1.0, 3.0 * i).pair(), true).usable);
   unsigned frame = 5;
-  const std::vector<CheckScene> seen = {CheckScene(5, 12.0, 4.5, 15.0), CheckScene(6, 12.0, 4.5, 18.0), CheckScene(7, 12.0, 4.5, 21.0)};
+  const std::vector<CheckScene> seen = {CheckScene(5, 12.0, 4.5, 15.0), CheckScene(6, 12.0, 4.5, 18.0),
+                                        CheckScene(7, 12.0, 4.5, 21.0)};
   const auto white = [&] { return check.look(seen[frame % 3].pair(), false); };
   for (; frame < 25; ++frame) {
     const ImageVerdict verdict = white();

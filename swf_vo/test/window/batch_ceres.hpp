@@ -14,8 +14,8 @@
 
 namespace swf_vo {
 
-/// The whole trajectory at once by Ceres, with a cost of its own (points in `odom`, projection and process error by automatic
-/// differentiation): what the window is held against.
+/// The whole trajectory at once by Ceres, with a cost of its own (points in `odom`, projection and process error by
+/// automatic differentiation): what the window is held against.
 struct BatchProblem {
   urban_nav_core::StereoCamera camera;
   std::vector<urban_nav_core::Pose> poses;     ///< start values by frame, and results

@@ -26,7 +26,8 @@ TrackOptions sixtyFeatures(std::uint64_t seed) {
   return options;
 }
 
-/// Runs to the end; `slide` says by how much a landmark is moved in a frame (px). Returns how often each landmark was called a stray.
+/// Runs to the end; `slide` says by how much a landmark is moved in a frame (px). Returns how often each landmark was
+/// called a stray.
 template <typename Slide>
 std::map<LandmarkId, int> driftingLandmarks(const urban_nav_core::testing::Tracks& tracks, const Slide& slide) {
   TrackRunner run(tracks, WindowOptions());

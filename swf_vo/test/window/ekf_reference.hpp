@@ -11,9 +11,9 @@
 
 namespace swf_vo {
 
-/// EKF-SLAM as in a textbook (Thrun et al. 2005, chapter 10), in covariance form: propagate, forget the old pose, augment, update.
-/// It shares the models with the window and nothing else. `first_estimates`: Jacobians at the first estimates (Huang et al.
-/// 2008) instead of the latest.
+/// EKF-SLAM as in a textbook (Thrun et al. 2005, chapter 10), in covariance form: propagate, forget the old pose,
+/// augment, update. It shares the models with the window and nothing else. `first_estimates`: Jacobians at the first
+/// estimates (Huang et al. 2008) instead of the latest.
 class EkfReference {
  public:
   EkfReference(const urban_nav_core::StereoCamera& camera, bool first_estimates)
@@ -117,8 +117,8 @@ class EkfReference {
   urban_nav_core::Matrix6d covariance() const { return P.bottomRightCorner<6, 6>(); }
 
  private:
-  // With Jacobians that stay, the residuals at the new estimate are taken anew, as a further Gauss-Newton step would: what
-  // one linear step left of them shifts the mean away from the estimate.
+  // With Jacobians that stay, the residuals at the new estimate are taken anew, as a further Gauss-Newton step would:
+  // what one linear step left of them shifts the mean away from the estimate.
   struct Landmark {
     LandmarkId id = 0;
     Anchor anchor;

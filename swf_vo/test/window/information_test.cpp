@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What marginalisation leaves is the Schur complement of the batch at one set of linearisation points, and nothing fills
-// the directions that no measurement sees (section 2.2).
+// What marginalisation leaves is the Schur complement of the batch at one set of linearisation points, and nothing
+// fills the directions that no measurement sees (section 2.2).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -69,7 +69,8 @@ MatrixXd schur(MatrixXd A, Eigen::Index count) {
   return A.bottomRightCorner(A.rows() - count, A.rows() - count);
 }
 
-// Prior and active terms of a filter at its linearisation points, in the order of its prior, then newer poses, then free landmarks.
+// Prior and active terms of a filter at its linearisation points, in the order of its prior, then newer poses, then
+// free landmarks.
 Batch windowInformation(const Filter& filter, const SensorModel& model) {
   const State& state = filter.state();
   const Prior& prior = filter.prior();

@@ -76,7 +76,8 @@ TEST(LandmarkProcessNoise, addsItsCovarianceToThatOfTheBlocksThatMovedAndNothing
 }
 
 TEST(LandmarkProcessNoise, keepsWhatTheDepartedPoseOwes) {
-  // d_left = gain d + offset_gain o, with d before the step; afterwards said of d + w, it has the same covariance with it.
+  // d_left = gain d + offset_gain o, with d before the step; afterwards said of d + w, it has the same covariance with
+  // it.
   Prior prior = somePrior(false);
   const int n = prior.size();
   std::mt19937 random(9);

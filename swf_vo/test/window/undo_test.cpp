@@ -114,7 +114,8 @@ TEST(Undo, aLandmarkTakenBackInTheMiddleOfAStepIsGone) {
   expectSame(had.window, never.window, 1e-9);
 }
 
-/// Tracks in which one landmark slides over its surface; the window gives up what driftingLandmarks after each update, as SwfVo has it done.
+/// Tracks in which one landmark slides over its surface; the window gives up what driftingLandmarks after each update,
+/// as SwfVo has it done.
 class Sliding {
  public:
   using Wanted = std::function<bool(const Observation&)>;

@@ -12,11 +12,11 @@ namespace fabmap_node {
 
 /// Inference as openFABMAP does it (Glover et al., ICRA 2012), for comparison of the arithmetic with that program.
 enum class ReplayModel {
-  ChowLiu,         ///< FAB-MAP, tree, mean-field new place
-  Naive,           ///< the same without the tree
-  ChowLiuPzgne001, ///< as ChowLiu with p(z = 1 | e = 0) = 0.01
-  Fabmap2Sampled,  ///< FAB-MAP 2, new place: mean likelihood over all observations of the input
-  ChowLiuMotion    ///< as ChowLiu with a prior of motion: new place 0.9, forward bias 0.5
+  ChowLiu,          ///< FAB-MAP, tree, mean-field new place
+  Naive,            ///< the same without the tree
+  ChowLiuPzgne001,  ///< as ChowLiu with p(z = 1 | e = 0) = 0.01
+  Fabmap2Sampled,   ///< FAB-MAP 2, new place: mean likelihood over all observations of the input
+  ChowLiuMotion     ///< as ChowLiu with a prior of motion: new place 0.9, forward bias 0.5
 };
 
 /// Names of the models in the order of the enumeration.

@@ -74,7 +74,8 @@ std::string generalHelp(const std::vector<Command>& commands) {
       "urban_nav: what a robot's cameras and lasers saw, turned into a trajectory, a map, and a report on how far to "
       "trust both.\n\n"
       "usage: urban_nav COMMAND [options]      (urban_nav COMMAND --help says more)\n\n";
-  return text + summaryLines(commands) + "\nexit status: 0 done, 1 the data did not allow it, 2 a mistake in the call\n";
+  return text + summaryLines(commands) +
+         "\nexit status: 0 done, 1 the data did not allow it, 2 a mistake in the call\n";
 }
 
 void checkRequired(const Command& command, const Arguments& arguments) {
@@ -151,7 +152,8 @@ const Command& findCommand(const std::vector<Command>& commands, const std::stri
   std::vector<std::string> names;
   names.reserve(commands.size());
   for (const Command& c : commands) names.push_back(c.name);
-  throw UserError(where, name.empty() ? noun + " is missing" : "no " + noun + " \"" + name + "\"", urban_nav_core::joined(names));
+  throw UserError(where, name.empty() ? noun + " is missing" : "no " + noun + " \"" + name + "\"",
+                  urban_nav_core::joined(names));
 }
 
 /// A command with actions: the word after it names one.

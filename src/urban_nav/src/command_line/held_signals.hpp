@@ -5,9 +5,9 @@
 
 namespace urban_nav {
 
-/// Keeps SIGINT, SIGTERM and SIGHUP (those that are not ignored) waiting while it lives, so that what has been begun can
-/// be tidied away; then they do what they always do. Holds for this thread and those that it starts from then on: to be
-/// made before there are others.
+/// Keeps SIGINT, SIGTERM and SIGHUP (those that are not ignored) waiting while it lives, so that what has been begun
+/// can be tidied away; then they do what they always do. Holds for this thread and those that it starts from then on:
+/// to be made before there are others.
 class HeldSignals {
  public:
   HeldSignals();

@@ -16,8 +16,8 @@ struct Converted {
 };
 
 /// A folder of KITTI or EuRoC into a bag: rectified images with camera_info, static tf, IMU and truth where the folder
-/// has them. `ahead`: pictures are decoded by a second thread, the bag is the same. Throws DataError naming the file for
-/// an image that is missing or damaged: no bag is left behind.
+/// has them. `ahead`: pictures are decoded by a second thread, the bag is the same. Throws DataError naming the file
+/// for an image that is missing or damaged: no bag is left behind.
 Converted convertStereoFolder(const std::string& folder, const std::string& bag, const SourceOptions& options,
                               Console& console, bool ahead = true);
 

@@ -11,9 +11,11 @@
 
 namespace urban_nav {
 
-/// Why a closure has its verdict, from what the store holds: all tests with value and limit, and what would have been needed.
+/// Why a closure has its verdict, from what the store holds: all tests with value and limit, and what would have been
+/// needed.
 std::string explain(const StoredClosure& closure);
-/// The same as a page, with the two views and their matches, and the two clouds, where the store has them. `cloud_half_length`: loop_metric's.
+/// The same as a page, with the two views and their matches, and the two clouds, where the store has them.
+/// `cloud_half_length`: loop_metric's.
 Page explainOnPage(const StoredClosure& closure, urban_nav_store::Store& store, double cloud_half_length);
 Json explainAsJson(const StoredClosure& closure);
 

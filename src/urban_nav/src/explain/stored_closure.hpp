@@ -23,7 +23,8 @@ struct StoredClosure {
 /// All closures of a store: measured, asserted and rejected ones. DataError where evidence is damaged.
 std::vector<StoredClosure> closuresOf(urban_nav_store::Store& store);
 
-/// A time as the user gives it: seconds since 1970 ("1225719873.5"), or since the start of a session ("+12.5", "quad+12.5").
+/// A time as the user gives it: seconds since 1970 ("1225719873.5"), or since the start of a session ("+12.5",
+/// "quad+12.5").
 struct TimeQuery {
   std::string session;  ///< name or beginning of an id; empty: any
   bool since_begin = false;
@@ -33,7 +34,8 @@ struct TimeQuery {
 /// Throws UserError naming `what` if the text is invalid.
 TimeQuery parseTimeQuery(const std::string& text, const std::string& what);
 
-/// How far a closure is from these two moments, the larger of both, s; the moments may come in either order. Infinite where a session is another one.
+/// How far a closure is from these two moments, the larger of both, s; the moments may come in either order. Infinite
+/// where a session is another one.
 double distanceOf(const StoredClosure& closure, const TimeQuery& one, const TimeQuery& other);
 
 }  // namespace urban_nav

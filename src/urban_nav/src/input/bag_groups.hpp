@@ -17,8 +17,8 @@ struct BagGroup {
   urban_nav_core::StampNs receipt = 0;  ///< of the last message
 };
 
-/// The bags of a recording, which begin one after the other: a new group begins where all messages of the bags before were received
-/// before the first of it. The bags must outlive it.
+/// The bags of a recording, which begin one after the other: a new group begins where all messages of the bags before
+/// were received before the first of it. The bags must outlive it.
 std::vector<BagGroup> groupsOf(std::list<rosbag::Bag>& bags);
 
 }  // namespace urban_nav

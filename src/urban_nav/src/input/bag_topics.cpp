@@ -167,7 +167,8 @@ void guessInfo(const std::map<std::string, std::string>& available, Role image, 
   }
 }
 
-/// Where none stands beside the images: the only two that are left over, by their sides, else in the order of their names.
+/// Where none stands beside the images: the only two that are left over, by their sides, else in the order of their
+/// names.
 void guessOtherInfos(const std::map<std::string, std::string>& available, BagTopics& topics) {
   if (topics.find(Role::LeftInfo) || topics.find(Role::RightInfo)) return;
   std::vector<ChosenTopic> infos;

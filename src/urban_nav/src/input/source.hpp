@@ -70,8 +70,8 @@ class Source {
   virtual std::shared_ptr<const BagEnd> bagEnd() const { return nullptr; }
   /// Returns scans that no pair and no end of a bag follow. Valid after next() has returned nullopt.
   virtual std::vector<LaserInput> scans() const { return {}; }
-  /// Returns the specific forces of the input's accelerometer; complete once next() has returned nullopt. Empty without an
-  /// accelerometer, or if its extrinsics are not known.
+  /// Returns the specific forces of the input's accelerometer; complete once next() has returned nullopt. Empty without
+  /// an accelerometer, or if its extrinsics are not known.
   virtual std::vector<urban_nav_core::SpecificForce> forces() const { return {}; }
 };
 

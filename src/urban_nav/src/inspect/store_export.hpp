@@ -7,9 +7,11 @@
 
 namespace urban_nav {
 
-/// The poses of one map of a store as other programs read them. Each gives the bytes that `map` wrote from the same poses.
+/// The poses of one map of a store as other programs read them. Each gives the bytes that `map` wrote from the same
+/// poses.
 
-/// base_link in `map`, sessions one after another. UserError where sessions overlap in time: the format has one pose a stamp.
+/// base_link in `map`, sessions one after another. UserError where sessions overlap in time: the format has one pose a
+/// stamp.
 std::string exportTum(const urban_nav_store::Store& store, const std::vector<urban_nav_store::StoredTrajectory>& map);
 
 /// The left optical frame relative to the first pose, a line for every stereo frame; one without a pose repeats the one
@@ -21,7 +23,8 @@ struct ExportedGraph {
   std::int64_t vertices = 0, edges = 0;
   std::int64_t left_out = 0;  ///< edges that are rejected or wait
 };
-/// Every node, and every accepted edge between them but those without information; the first vertex of each map is fixed.
+/// Every node, and every accepted edge between them but those without information; the first vertex of each map is
+/// fixed.
 ExportedGraph exportG2o(urban_nav_store::Store& store,
                         const std::vector<std::vector<urban_nav_store::StoredTrajectory>>& maps);
 

@@ -28,8 +28,8 @@ std::string packBagCheckpoint(BagCheckpoint checkpoint);
 /// Reads this version and version 1, which knew visual odometry alone. Throws DataError for anything else.
 BagCheckpoint unpackBagCheckpoint(std::string_view bytes);
 
-/// Returns how many of a session's bags the checkpoint covers: those that are its last ones, or none if the first begins
-/// less than kLongestSplit after its end. nullopt if they do not follow it.
+/// Returns how many of a session's bags the checkpoint covers: those that are its last ones, or none if the first
+/// begins less than kLongestSplit after its end. nullopt if they do not follow it.
 std::optional<std::size_t> coveredBags(const BagCheckpoint& checkpoint, const std::vector<std::string>& bags,
                                        urban_nav_core::StampNs begin);
 

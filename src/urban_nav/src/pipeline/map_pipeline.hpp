@@ -7,8 +7,8 @@
 namespace urban_nav {
 
 /// Runs the stages over the inputs and writes trajectories, closures, report, summary and the files of each stage into
-/// the output folder. Continues an interrupted run with the same options. Throws UserError for bad options, DataError if
-/// the inputs are not usable.
+/// the output folder. Continues an interrupted run with the same options. Throws UserError for bad options, DataError
+/// if the inputs are not usable.
 void runMap(const MapOptions& options, Console& console);
 
 }  // namespace urban_nav

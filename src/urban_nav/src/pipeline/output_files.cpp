@@ -13,7 +13,8 @@ namespace {
 
 constexpr const char* kClosuresFile = "closures.csv";
 
-/// Returns the session, from 0, whose file of this pattern ("landmarks#.ply") has a name; nullopt if it is no such name.
+/// Returns the session, from 0, whose file of this pattern ("landmarks#.ply") has a name; nullopt if it is no such
+/// name.
 std::optional<std::size_t> matchSession(const std::string& name, const std::string& pattern) {
   const std::size_t at = pattern.find('#');
   if (at == std::string::npos) return name == pattern ? std::optional<std::size_t>(0) : std::nullopt;

@@ -6,7 +6,8 @@
 
 namespace urban_nav {
 
-/// The folder a run writes into. Each file appears whole or not at all: it is written beside its place, flushed, renamed.
+/// The folder a run writes into. Each file appears whole or not at all: it is written beside its place, flushed,
+/// renamed.
 class OutputFolder {
  public:
   /// Makes the folder if it does not exist. Throws UserError if that fails.

@@ -15,8 +15,8 @@ namespace urban_nav {
 /// there what an interrupted run has finished.
 ///
 /// A session that an earlier run has finished is restored from the store, bit-exactly, if its fingerprint
-/// (run_fingerprint.hpp) is the same; anything else is removed and made again, and the console reports the difference. A
-/// run that ends leaves no states: the next one in its folder starts from the beginning.
+/// (run_fingerprint.hpp) is the same; anything else is removed and made again, and the console reports the difference.
+/// A run that ends leaves no states: the next one in its folder starts from the beginning.
 ///
 /// If --store names a store to continue from, its sessions are in session.db from the start, and stay. One that is
 /// mapped again is replaced; one whose recording the bags continue is continued after its last known bag

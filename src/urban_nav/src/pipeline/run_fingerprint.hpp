@@ -13,14 +13,14 @@
 namespace urban_nav {
 
 /// Everything on which the stored result of a session depends, so that an interrupted run resumes only if the result
-/// would be the same: pairs of a name for the user ("inputs", "options", "parameters", "program", "stages", "store") and a
-/// digest. Inputs are identified by names, sizes, times of the last change, and the first and last bytes of some files,
-/// without ground truth; the program by the files it was loaded from, libraries included.
+/// would be the same: pairs of a name for the user ("inputs", "options", "parameters", "program", "stages", "store")
+/// and a digest. Inputs are identified by names, sizes, times of the last change, and the first and last bytes of some
+/// files, without ground truth; the program by the files it was loaded from, libraries included.
 using RunFingerprint = std::vector<std::pair<std::string, std::string>>;
 RunFingerprint fingerprint(const MapOptions& options, const StageList& stages, const InputSession& session);
 
-/// Returns the identity of a session: the content of its folder or first bag, independent of its path and of when it was
-/// copied. Further bags make the same session longer.
+/// Returns the identity of a session: the content of its folder or first bag, independent of its path and of when it
+/// was copied. Further bags make the same session longer.
 urban_nav_store::SessionOrigin origin(const MapOptions& options, const InputSession& session);
 
 /// Returns the fingerprint of each bag of the session; empty for a folder.

@@ -44,7 +44,8 @@ StageList selectStages(const std::vector<std::unique_ptr<Stage>>& stages, const 
   }
   if (options.stages.empty() && !plannedStageNames().empty())
     left_out.push_back(urban_nav_core::joined(plannedStageNames()) + " (not in this version)");
-  console.info("stages: " + urban_nav_core::joined(names) + (left_out.empty() ? "" : "; left out: " + urban_nav_core::joined(left_out)));
+  console.info("stages: " + urban_nav_core::joined(names) +
+               (left_out.empty() ? "" : "; left out: " + urban_nav_core::joined(left_out)));
   for (const std::string& note : notes) console.info(note);
   const bool uses_closures =
       std::any_of(selected.begin(), selected.end(), [](const Stage* stage) { return stage->describe().uses_closures; });

@@ -12,14 +12,16 @@
 
 namespace urban_nav {
 
-/// The bag of a simulated session, or BAG_STEM_0.bag, BAG_STEM_1.bag, ... of equal length, as `rosbag record --split` names them: each appears when it is
-/// complete, the last (or only) one with commit(). Static transforms begin each of them. `session` must outlive it. Throws UserError as BagWriter does.
+/// The bag of a simulated session, or BAG_STEM_0.bag, BAG_STEM_1.bag, ... of equal length, as `rosbag record --split`
+/// names them: each appears when it is complete, the last (or only) one with commit(). Static transforms begin each of
+/// them. `session` must outlive it. Throws UserError as BagWriter does.
 class SessionBags {
  public:
   /// `part`: s of the session in a bag; 0: all of it.
   SessionBags(std::string path, double part, const urban_nav_sim::Session& session);
 
-  /// `taken`, which does not decrease from call to call, is when a recorder receives it; the stamp in its header may be any.
+  /// `taken`, which does not decrease from call to call, is when a recorder receives it; the stamp in its header may be
+  /// any.
   void write(const urban_nav_sim::Measurement& measurement, urban_nav_core::StampNs taken);
   void commit();
 

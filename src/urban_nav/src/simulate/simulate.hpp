@@ -26,8 +26,8 @@ struct Simulated {
   std::map<std::string, std::int64_t> counts;  ///< messages by topic
 };
 
-/// Writes the truth, the folder and at last the bag, or the last of its parts: where that is, all is there. Throws UserError. An
-/// interrupt leaves no bag that is not whole.
+/// Writes the truth, the folder and at last the bag, or the last of its parts: where that is, all is there. Throws
+/// UserError. An interrupt leaves no bag that is not whole.
 Simulated simulate(const SimulateJob& job, Console& console);
 
 }  // namespace urban_nav

@@ -9,9 +9,10 @@
 
 namespace urban_nav {
 
-/// The stereo stream as a folder of KITTI odometry, so that other systems run on the very same frames. Each file appears whole or not at all,
-/// poses.txt last. Until finish() it holds a file `simulate.unfinished`; where that is found, as a run that was cut off leaves it, the
-/// folder is begun anew. Throws UserError if the folder is there and not empty, or cannot be written.
+/// The stereo stream as a folder of KITTI odometry, so that other systems run on the very same frames. Each file
+/// appears whole or not at all, poses.txt last. Until finish() it holds a file `simulate.unfinished`; where that is
+/// found, as a run that was cut off leaves it, the folder is begun anew. Throws UserError if the folder is there and
+/// not empty, or cannot be written.
 class StereoFolderWriter {
  public:
   StereoFolderWriter(std::string folder, const urban_nav_sim::Session& session);

@@ -30,7 +30,8 @@ struct ClosureRow {
   std::optional<urban_nav_core::MetricClosure> measured;
 };
 
-/// The first five columns must be there; kind, x...qw, sigma_m and sigma_rad are taken where they are. UserError with file and line.
+/// The first five columns must be there; kind, x...qw, sigma_m and sigma_rad are taken where they are. UserError with
+/// file and line.
 std::vector<ClosureRow> readClosures(const std::string& path);
 /// The same of a text; `name` stands for the path.
 std::vector<ClosureRow> parseClosures(std::string_view text, const std::string& name);

@@ -21,8 +21,9 @@ struct MapOptions {
   SourceOptions source;
   ParameterSet parameters;
   int threads = 0;  ///< 0: one per core
-  /// Share of an unfinished recording that the inputs cover, 0...1. Below 1 the report is marked as unfinished. With any
-  /// value it is written once, at the end: the report of the previous run is more useful than one that starts empty.
+  /// Share of an unfinished recording that the inputs cover, 0...1. Below 1 the report is marked as unfinished. With
+  /// any value it is written once, at the end: the report of the previous run is more useful than one that starts
+  /// empty.
   std::optional<double> so_far = std::nullopt;
   std::string store = {};     ///< session store to continue from; empty: none
   std::string localise = {};  ///< session store whose map is only read; empty: none

@@ -10,7 +10,7 @@ namespace urban_nav {
 
 /// One item of the reading pass.
 struct PassItem {
-  const SourceItem& input;         ///< rectified pair, motion, scans, faults of its data
+  const SourceItem& input;          ///< rectified pair, motion, scans, faults of its data
   const VoRow* odometry = nullptr;  ///< row of this frame, set by stage vo, which comes first
 };
 
@@ -28,8 +28,8 @@ class SessionPass {
   virtual void process(PassItem& item) = 0;
   /// Writes what is new to the store. Called before each commit, about once a second.
   virtual void flush() {}
-  /// Returns the state at the end of a bag, from which a new object continues bit-exactly. Everything up to here must be
-  /// in the store.
+  /// Returns the state at the end of a bag, from which a new object continues bit-exactly. Everything up to here must
+  /// be in the store.
   virtual std::string checkpoint() { return {}; }
   /// Called once, after the last item. Throws DataError if nothing of the session is usable.
   virtual void finish(const PassEnd&) {}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// kill -9 of the whole command at random moments: `info` opens the store each time, and the run started again ends with the bytes
-// of one that was never cut off.
+// kill -9 of the whole command at random moments: `info` opens the store each time, and the run started again ends with
+// the bytes of one that was never cut off.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -104,7 +104,8 @@ TEST_F(Killed, endsWithTheBytesOfAnUnbrokenRun) {
 TEST_F(Killed, beginsAnewWhereTheResultWouldBeAnother) {
   makeInputs({8, 10, 9});
   const std::string out = folder.file("out");
-  // As if it was killed when all was done but the report: the last thing that is written, into a folder that cannot be replaced.
+  // As if it was killed when all was done but the report: the last thing that is written, into a folder that cannot be
+  // replaced.
   fs::create_directories(out + "/summary.json/in the way");
   const auto interrupted = [&] { ASSERT_EQ(run(words(out)), 2) << log(); };
   interrupted();

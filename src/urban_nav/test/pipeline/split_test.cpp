@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A recording in several bags is one session, whether its bags are mapped at once, one after the other, or behind a kill -9.
+// A recording in several bags is one session, whether its bags are mapped at once, one after the other, or behind a
+// kill -9.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +30,7 @@ using testing::TemporaryFolder;
 
 constexpr int kFrames = 60;
 const std::vector<std::string> kSameWhenSplit = {"trajectory.tum",          "trajectory.kitti", "covariance.csv",
-                                        "relative_covariance.csv", "graph.g2o",        "landmarks.ply"};
+                                                 "relative_covariance.csv", "graph.g2o",        "landmarks.ply"};
 
 /// What an accelerometer felt at the nodes, as the store has it.
 std::string forcesIn(const std::string& store) {

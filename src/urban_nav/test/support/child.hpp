@@ -33,8 +33,8 @@ class Child {
       ::_exit(127);
     }
   }
-  /// Kills it when it has used so much of a processor's time, which is less moved by what else is at work than a clock on the
-  /// wall. The exit status, or empty where it was killed.
+  /// Kills it when it has used so much of a processor's time, which is less moved by what else is at work than a clock
+  /// on the wall. The exit status, or empty where it was killed.
   std::optional<int> endWithin(double seconds) {
     clockid_t clock{};
     const bool known = ::clock_getcpuclockid(child_, &clock) == 0;

@@ -9,9 +9,13 @@ Eigen::Matrix<double, N, Columns> solveByLdlt(const Eigen::Matrix<double, N, N>&
   return A.ldlt().solve(B);
 }
 
-template Eigen::Matrix<double, 6, 1> solveByLdlt(const Eigen::Matrix<double, 6, 6>&, const Eigen::Matrix<double, 6, 1>&);
-template Eigen::Matrix<double, 6, 6> solveByLdlt(const Eigen::Matrix<double, 6, 6>&, const Eigen::Matrix<double, 6, 6>&);
-template Eigen::Matrix<double, 7, 1> solveByLdlt(const Eigen::Matrix<double, 7, 7>&, const Eigen::Matrix<double, 7, 1>&);
-template Eigen::Matrix<double, 7, 7> solveByLdlt(const Eigen::Matrix<double, 7, 7>&, const Eigen::Matrix<double, 7, 7>&);
+template Eigen::Matrix<double, 6, 1> solveByLdlt(const Eigen::Matrix<double, 6, 6>&,
+                                                 const Eigen::Matrix<double, 6, 1>&);
+template Eigen::Matrix<double, 6, 6> solveByLdlt(const Eigen::Matrix<double, 6, 6>&,
+                                                 const Eigen::Matrix<double, 6, 6>&);
+template Eigen::Matrix<double, 7, 1> solveByLdlt(const Eigen::Matrix<double, 7, 7>&,
+                                                 const Eigen::Matrix<double, 7, 1>&);
+template Eigen::Matrix<double, 7, 7> solveByLdlt(const Eigen::Matrix<double, 7, 7>&,
+                                                 const Eigen::Matrix<double, 7, 7>&);
 
 }  // namespace urban_nav_core

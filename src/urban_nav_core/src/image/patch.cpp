@@ -134,8 +134,8 @@ void blurWide(double blur, std::size_t step, WideGrid& grid) {
 constexpr int spread_rows = patch_size + 2, spread_stride = 24, spread_margin = 4;
 using SpreadGrid = std::array<float, spread_rows * spread_stride>;
 
-/// A filter spread by (1 4 1)/6 along columns, with zeros left and right of it. All of it is written before any is read across: a
-/// load that meets two stores under way has to wait for both.
+/// A filter spread by (1 4 1)/6 along columns, with zeros left and right of it. All of it is written before any is read
+/// across: a load that meets two stores under way has to wait for both.
 void spreadAlongColumns(const PatchGrid& filter, SpreadGrid& out) {
   static constexpr float zeros[patch_stride] = {};
   const auto row = [&](int j) {

@@ -24,7 +24,8 @@ struct Equations {
   double noise2 = 1.0;  // variance of a weighted pixel
 };
 
-/// A pixel p of the source stands at A p + direction (slant . p) in the view; alignment.position is where the image was aligned.
+/// A pixel p of the source stands at A p + direction (slant . p) in the view; alignment.position is where the image was
+/// aligned.
 Equations observe(const ImageView& image, const PatchTemplate& patch, const Gradients& gradients,
                   const Alignment& alignment, const Eigen::Vector2d& direction) {
   PatchGrid pixels;
@@ -53,7 +54,8 @@ Equations observe(const ImageView& image, const PatchTemplate& patch, const Grad
   return made;
 }
 
-/// What they say of the slopes, the shift being whatever fits best; `assumed`: the slopes that the template was made with.
+/// What they say of the slopes, the shift being whatever fits best; `assumed`: the slopes that the template was made
+/// with.
 void see(const Equations& equations, const Eigen::Vector2d& assumed, Slope& slope) {
   const Eigen::Matrix2d coupling = equations.H.block<2, 2>(2, 0) * equations.H.block<2, 2>(0, 0).inverse();
   const Eigen::Matrix2d information =

@@ -21,7 +21,8 @@ void Slope::see(const Eigen::Vector2d& moment, const Eigen::Matrix2d& informatio
 }
 
 Slope::Estimate Slope::under(double usual) const {
-  // Cauchy is Gaussian with an information w that is Gamma(1/2, usual^2 / 2); given a slope s, w is (1 + 2) / (usual^2 + |s|^2).
+  // Cauchy is Gaussian with an information w that is Gamma(1/2, usual^2 / 2); given a slope s, w is (1 + 2) / (usual^2
+  // + |s|^2).
   Estimate estimate;
   double w = 1.0 / (usual * usual);
   for (int round = 0; round < rounds; ++round) {

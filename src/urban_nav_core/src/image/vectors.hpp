@@ -3,8 +3,8 @@
 
 #include <cstring>
 
-/// Vectors of the compiler's own, for the kernels of this folder that are compiled once for every width and chosen at run time. All is
-/// inlined into functions that name their processor: nothing of this may be called from elsewhere.
+/// Vectors of the compiler's own, for the kernels of this folder that are compiled once for every width and chosen at
+/// run time. All is inlined into functions that name their processor: nothing of this may be called from elsewhere.
 
 #if defined(__x86_64__)
 #define URBAN_NAV_X86 1

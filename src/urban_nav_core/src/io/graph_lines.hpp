@@ -10,8 +10,8 @@
 
 namespace urban_nav_core {
 
-/// What the text formats of pose graphs have in common: lines of a tag, vertex numbers and figures. Each demand throws a UserError
-/// that names file and line.
+/// What the text formats of pose graphs have in common: lines of a tag, vertex numbers and figures. Each demand throws
+/// a UserError that names file and line.
 class GraphLines {
  public:
   using Words = std::vector<std::string_view>;

@@ -43,8 +43,8 @@ Vector3d rollPitchYaw(const Quaterniond& q) {
   return {wrapped(0.5 * (sum - difference)), pitch, wrapped(0.5 * (sum + difference))};
 }
 
-// The upper triangle from one rotation to another that is `1 / scale` of it: the quaternion's vector is half the rotation
-// vector (scale 2), and back (0.5).
+// The upper triangle from one rotation to another that is `1 / scale` of it: the quaternion's vector is half the
+// rotation vector (scale 2), and back (0.5).
 void scaleRotation(std::array<double, 21>& information, double scale) {
   std::size_t at = 0;
   for (int row = 0; row < 6; ++row) {

@@ -58,7 +58,8 @@ std::vector<double> absoluteErrors(const std::vector<Pose>& truth, const std::ve
   return errors;
 }
 
-ErrorStatistics absoluteError(const std::vector<Pose>& truth, const std::vector<Pose>& estimate, TrajectoryAlignment alignment) {
+ErrorStatistics absoluteError(const std::vector<Pose>& truth, const std::vector<Pose>& estimate,
+                              TrajectoryAlignment alignment) {
   std::vector<double> errors = absoluteErrors(truth, estimate, alignment);
   ErrorStatistics statistics;
   statistics.count = errors.size();

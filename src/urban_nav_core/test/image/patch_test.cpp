@@ -170,8 +170,8 @@ TEST(Patch, WarpFollowsScaleAndTurn) {
 }
 
 TEST(Patch, PerspectiveIsTakenIntoTheTemplate) {
-  // Around a place on a wall alongside, pixels further ahead are seen less enlarged: an affine template is off, to the second order, alike
-  // for all such places.
+  // Around a place on a wall alongside, pixels further ahead are seen less enlarged: an affine template is off, to the
+  // second order, alike for all such places.
   PatchWarp warp(Eigen::Matrix2d(Eigen::Vector2d(1.25, 1.15).asDiagonal()), {0.02, -0.005});
   const Eigen::Matrix2d back = warp.A.inverse();
   Eigen::Vector2d bias = Eigen::Vector2d::Zero(), without = Eigen::Vector2d::Zero();

@@ -16,10 +16,17 @@ struct Camera {
 
 const Table<Camera>& cameraTable() {
   static const Table<Camera> table(
-      "camera",
-      {{"disparity_offset", &Camera::disparity_offset, "px", 0.1, 0.0, 5.0, {}, "An error.", "",
-        {"vo.disparity_offset", "loops.disparity_offset"}},
-       {"queue_size", &Camera::queue_size, "", 10, 1, 100, {}, "A length.", "", {"queue", "pending"}}});
+      "camera", {{"disparity_offset",
+                  &Camera::disparity_offset,
+                  "px",
+                  0.1,
+                  0.0,
+                  5.0,
+                  {},
+                  "An error.",
+                  "",
+                  {"vo.disparity_offset", "loops.disparity_offset"}},
+                 {"queue_size", &Camera::queue_size, "", 10, 1, 100, {}, "A length.", "", {"queue", "pending"}}});
   return table;
 }
 

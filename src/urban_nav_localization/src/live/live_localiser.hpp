@@ -19,8 +19,8 @@
 
 namespace urban_nav_localization {
 
-/// Localises a live robot in a frozen map. Keyframes are selected as in any drive, and each is searched for in the map once
-/// smoothed odometry has reached it; so are the scans of the last metres. Used by one thread.
+/// Localises a live robot in a frozen map. Keyframes are selected as in any drive, and each is searched for in the map
+/// once smoothed odometry has reached it; so are the scans of the last metres. Used by one thread.
 class LiveLocaliser {
  public:
   /// Pose in the map from the user (`initialpose`). Stamp 0, or a stamp that odometry has not reached: now.
@@ -28,7 +28,8 @@ class LiveLocaliser {
     urban_nav_core::StampNs stamp = 0;
     urban_nav_core::PoseWithCovariance T_map_base;
   };
-  /// Called after each step of odometry. `T_map_odom`: of the last time that the state was Localized; nullopt: it never was.
+  /// Called after each step of odometry. `T_map_odom`: of the last time that the state was Localized; nullopt: it never
+  /// was.
   using Listener =
       std::function<void(const LocalizationEstimate&, const std::optional<urban_nav_core::Pose>& T_map_odom)>;
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "urban_nav_live/stereo_input_parameters.hpp"
 #include "urban_nav_core/parameters/table.hpp"
+#include "urban_nav_live/stereo_input_parameters.hpp"
 
 namespace urban_nav_localization {
 

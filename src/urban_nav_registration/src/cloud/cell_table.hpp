@@ -35,7 +35,8 @@ inline std::uint64_t keyBeside(std::uint64_t key, const Cell& offset) {
   return key + part(offset.x) + (part(offset.y) << 21U) + (part(offset.z) << 42U);
 }
 
-/// From cells to numbers 0, 1, 2, ... in the order in which they came: open addressing, so that a look-up is one or two reads.
+/// From cells to numbers 0, 1, 2, ... in the order in which they came: open addressing, so that a look-up is one or two
+/// reads.
 class CellTable {
  public:
   static constexpr std::uint32_t none = 0xffffffffU;

@@ -73,7 +73,8 @@ PointCloud localCloud(const OdometryChain& odometry, StampNs at, double way, con
   return cloud;
 }
 
-// Of a random walk from end to end, laid upon another by its mean: a sixth of its variance over the whole way, which is a third of that over a half.
+// Of a random walk from end to end, laid upon another by its mean: a sixth of its variance over the whole way, which is
+// a third of that over a half.
 double deformationSigma(const OdometryChain& odometry, StampNs at, double way) {
   if (!odometry.nearestFrame(at)) return 0.0;
   const auto [first, last] = stretchAround(odometry, at, way);

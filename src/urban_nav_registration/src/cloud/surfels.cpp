@@ -140,7 +140,8 @@ std::vector<Placed> inOrder(const SurfelGrid& grid) {
   return placed;
 }
 
-/// Walks along cubes in the order of their keys, and beside them along the nine rows of neighbours: a cube and its 26 neighbours are found without looking anything up.
+/// Walks along cubes in the order of their keys, and beside them along the nine rows of neighbours: a cube and its 26
+/// neighbours are found without looking anything up.
 class VoxelNeighbours {
  public:
   VoxelNeighbours(const SurfelGrid& grid, const std::vector<Placed>& placed, float edge)
@@ -217,8 +218,8 @@ std::vector<Lie> liesOf(const SurfelGrid& grid, const std::vector<std::uint8_t>&
 
 constexpr int kScales = 4;  // cubes of 1, 2, 4, 8 voxels: far from the sensor its beams are metres apart
 
-/// n n^T of the plane in which all points lie, to a hundredth of the voxel, and the sensor with them; zero where they don't. A plane
-/// that the sensor looks down upon is ground.
+/// n n^T of the plane in which all points lie, to a hundredth of the voxel, and the sensor with them; zero where they
+/// don't. A plane that the sensor looks down upon is ground.
 Eigen::Matrix3f flatnessOf(const SurfelGrid& grid, float voxel) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d outer = Eigen::Matrix3d::Zero();

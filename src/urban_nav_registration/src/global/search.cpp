@@ -47,8 +47,8 @@ int bearingOf(double angle) {
   return static_cast<int>((turns - std::floor(turns)) * kBearings) % kBearings;
 }
 
-/// One picture from above for each bearing: 2 where a piece lies, 1 next to it (in place or bearing). Around what may hold pieces there is
-/// a margin of two windows, so that a window which reaches beyond the margin holds nothing.
+/// One picture from above for each bearing: 2 where a piece lies, 1 next to it (in place or bearing). Around what may
+/// hold pieces there is a margin of two windows, so that a window which reaches beyond the margin holds nothing.
 struct Pictures {
   double x0 = 0.0, y0 = 0.0, cell = 1.0;
   int width = 0;

@@ -14,7 +14,8 @@ struct UpDirection {
   bool has_ground = false;
 };
 
-/// The direction within 35 deg of z that most normals share, and the height at which most of those surfaces near the sensor lie.
+/// The direction within 35 deg of z that most normals share, and the height at which most of those surfaces near the
+/// sensor lie.
 UpDirection estimateUpDirection(const Surfels& surfels);
 
 }  // namespace urban_nav_registration

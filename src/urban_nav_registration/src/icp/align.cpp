@@ -164,7 +164,8 @@ std::vector<PoseCandidate> rivalsOf(const Alignment& local, const std::vector<Po
   return others;
 }
 
-/// The candidates that a coarse alignment leaves, aligned to the end: different from each other, none of them far behind the best.
+/// The candidates that a coarse alignment leaves, aligned to the end: different from each other, none of them far
+/// behind the best.
 std::vector<Try> triesOf(const Pair& pair, const std::vector<PoseCandidate>& candidates) {
   constexpr double kFarBehind = 0.6;  // of the best score; max_second asks for more
   const std::size_t end = pair.source.steps().size(), from = end > 3 ? 1 : 0;

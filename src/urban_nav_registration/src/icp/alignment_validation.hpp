@@ -27,15 +27,16 @@ Observability computeObservability(const Refined& refined, double bias, double v
 struct ValidationContext {
   double misfit = 0.0;          ///< residual, as a multiple of what noise and bend explain
   double upright_misfit = 0.0;  ///< the same of upright surfaces
-  /// Share of upright surfaces that beams of the other cloud went through; only of clouds that were gathered by odometry and know the origins of
-  /// their beams and by how much they may be bent.
+  /// Share of upright surfaces that beams of the other cloud went through; only of clouds that were gathered by
+  /// odometry and know the origins of their beams and by how much they may be bent.
   std::optional<double> seen_through;
   /// Of clouds that know neither: a search found no other pose that fits nearly as well.
   bool is_alone = false;
 };
 bool isPlausible(const ValidationContext& plausibility, const Parameters& parameters);
 
-/// `plausibility`: none where only the surfaces are to be judged. Fills in the verdict, its reason, the tests, information and covariance.
+/// `plausibility`: none where only the surfaces are to be judged. Fills in the verdict, its reason, the tests,
+/// information and covariance.
 void judge(const Fit& fit, const std::optional<ValidationContext>& plausibility, const Refined& refined,
            const Observability& observed, const Parameters& parameters, Alignment& alignment);
 

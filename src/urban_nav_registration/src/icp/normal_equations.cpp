@@ -81,8 +81,8 @@ double spreadOf(const std::vector<Match>& matches) {
     sizes.emplace_back(std::abs(match.residual), match.weight);
     sum += match.weight;
   }
-  // Weighted median by halving what it may be in; a tie of sizes has equal values, so the order within the halves does not matter but for
-  // the rounding of their sums, and nth_element is a function of its input.
+  // Weighted median by halving what it may be in; a tie of sizes has equal values, so the order within the halves does
+  // not matter but for the rounding of their sums, and nth_element is a function of its input.
   auto begin = sizes.begin(), end = sizes.end();
   double below = 0.0;  // weight before `begin`
   while (end - begin > 1) {

@@ -28,9 +28,10 @@ inline Vector6d planeJacobian(const Vector3d& lever, const Vector3d& normal) {
   return (Vector6d() << normal.x(), normal.y(), normal.z(), turn.x(), turn.y(), turn.z()).finished();
 }
 
-/// Source surfels beside their counterparts, pose after pose: a counterpart is looked for anew only where the surfel has moved by more than leaves
-/// it the nearest one, which near the end of an alignment is hardly anywhere (Greenspan and Godin 2001). The turn
-/// of its normal in between is let pass: it changes two counterparts in ten thousand, near 45 deg, and the pose by microns. Source and target must outlive it.
+/// Source surfels beside their counterparts, pose after pose: a counterpart is looked for anew only where the surfel
+/// has moved by more than leaves it the nearest one, which near the end of an alignment is hardly anywhere (Greenspan
+/// and Godin 2001). The turn of its normal in between is let pass: it changes two counterparts in ten thousand, near 45
+/// deg, and the pose by microns. Source and target must outlive it.
 class Matcher {
  public:
   Matcher(const std::vector<Surfel>& source, const SurfelIndex& target) : source_(source), target_(target) {}
@@ -48,7 +49,8 @@ class Matcher {
   std::vector<Held> held_;
 };
 
-/// Sums of the robust normal equations H d = -b of the cost weight * sigma^2 log(1 + (r / sigma)^2): Cauchy's weight 1 / (1 + (r / sigma)^2).
+/// Sums of the robust normal equations H d = -b of the cost weight * sigma^2 log(1 + (r / sigma)^2): Cauchy's weight 1
+/// / (1 + (r / sigma)^2).
 struct NormalEquations {
   Matrix6d H = Matrix6d::Zero();
   Vector6d b = Vector6d::Zero();

@@ -112,8 +112,8 @@ double Sums::errorOfPatches() const {
   return count > 7.0 ? std::sqrt(squares / weights * count / (count - 6.0)) : std::numeric_limits<double>::infinity();
 }
 
-/// Deviation of u^T agreed u by the noise of the normals, which is what the two differ by: of the product (a + e1)(a + e2) it is
-/// sqrt(a^2 e^2 + e^4 / 4) with e = e1 - e2. Neighbours share their noise, so it adds up within a patch.
+/// Deviation of u^T agreed u by the noise of the normals, which is what the two differ by: of the product (a + e1)(a +
+/// e2) it is sqrt(a^2 e^2 + e^4 / 4) with e = e1 - e2. Neighbours share their noise, so it adds up within a patch.
 double cloudNoise(const Sums& sums, const Vector6d& u) {
   std::vector<double> by_patch(sums.pull_by_patch.size(), 0.0);
   for (const Row& row : sums.rows) {
@@ -155,8 +155,8 @@ Observability observe(const std::vector<Match>& matches, double sigma, const Dou
   unlimited << Vector3d::Constant(kFreeTranslation), Vector3d::Constant(kFreeRotation * scaled.length * scaled.length);
   Matrix6d covariance = free * unlimited.asDiagonal() * free;
   if (!held_directions.empty()) {
-    // Within the held directions: the patches' own errors through the normal equations (cluster-robust, Liang and Zeger 1986), and what all share,
-    // which no residual shows: as much as that which differs.
+    // Within the held directions: the patches' own errors through the normal equations (cluster-robust, Liang and Zeger
+    // 1986), and what all share, which no residual shows: as much as that which differs.
     const auto count = static_cast<Eigen::Index>(held_directions.size());
     Eigen::MatrixXd basis(6, count);
     for (Eigen::Index i = 0; i < count; ++i) basis.col(i) = held_directions[static_cast<std::size_t>(i)];

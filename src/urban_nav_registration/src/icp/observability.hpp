@@ -23,13 +23,15 @@ struct Doubt {
 
 /// What the matches say about each direction.
 ///
-/// A noisy normal fakes information along a wall: its square adds up. Here a direction counts as held only as far as the normals of both clouds
-/// agree: the mean of (J_source d)(J_target d), whose noise is independent and averages out, less twice its deviation over independent patches. And because
-/// beams of one device may err together (the range is off, the trajectory between the beams), a direction that the bias divided by that mean's root
-/// moves by more than `free_deviation` is free.
+/// A noisy normal fakes information along a wall: its square adds up. Here a direction counts as held only as far as
+/// the normals of both clouds agree: the mean of (J_source d)(J_target d), whose noise is independent and averages out,
+/// less twice its deviation over independent patches. And because beams of one device may err together (the range is
+/// off, the trajectory between the beams), a direction that the bias divided by that mean's root moves by more than
+/// `free_deviation` is free.
 ///
-/// Of what is held, the information is that of patches of surface of `patch` m which err as wholes by what their residuals show, each for itself and all
-/// together, at most by `most`: the points of a patch share its normal, its beams and their odometry, so their number says nothing.
+/// Of what is held, the information is that of patches of surface of `patch` m which err as wholes by what their
+/// residuals show, each for itself and all together, at most by `most`: the points of a patch share its normal, its
+/// beams and their odometry, so their number says nothing.
 Observability observe(const std::vector<Match>& matches, double sigma, const Doubt& doubt, double patch);
 
 }  // namespace urban_nav_registration

@@ -16,7 +16,8 @@ constexpr double kLeastSigmaShare =
 constexpr double kDamping =
     5e-4;  // of the sum over the three directions; a direction counts as held above 1e-2 (observability.hpp)
 constexpr double kRelaxation =
-    1.8;  // of a step: Cauchy's weights are twice as stiff as his cost (1.9 times at Gaussian residuals of its scale), and what they stand for is a bound from above, which any factor below 2 takes down
+    1.8;  // of a step: Cauchy's weights are twice as stiff as his cost (1.9 times at Gaussian residuals of its scale),
+          // and what they stand for is a bound from above, which any factor below 2 takes down
 constexpr double kRest = 2e-4;        // m that the planes' distances still change by
 constexpr double kCoarseRest = 5e-3;  // of the reach, before the last step
 
@@ -76,7 +77,8 @@ Refined refine(const Source& source, const Target& target, const Pose& start, st
       refined.sigma = std::max(spreadOf(refined.matches), 0.5 * kLeastSigmaShare * finest);
       const NormalEquations equations = sumUp(refined.matches, refined.sigma);
       ++refined.iterations;
-      // What nothing holds would wander with the noise of the normals: damped, it stays; what counts is twenty times stiffer.
+      // What nothing holds would wander with the noise of the normals: damped, it stays; what counts is twenty times
+      // stiffer.
       Matrix6d H = equations.H;
       const double scale = std::max(H(0, 0) + H(1, 1) + H(2, 2), 1e-12);
       const double turn = std::max(H(3, 3) + H(4, 4) + H(5, 5), 1e-12);

@@ -19,8 +19,8 @@ class Target {
   std::vector<std::shared_ptr<const SurfelIndex>> steps_;  // each asks the next one first
 };
 
-/// A source thinned for each step of a Target, to one surfel (the most planar) per cube of half the reach or more, and a last step with all of
-/// them against the finest.
+/// A source thinned for each step of a Target, to one surfel (the most planar) per cube of half the reach or more, and
+/// a last step with all of them against the finest.
 class Source {
  public:
   Source(const Surfels& surfels, const Target& target);
@@ -40,8 +40,9 @@ struct Refined {
   bool usable = false;  ///< false: too few matches to solve for a pose
 };
 
-/// Gauss-Newton of point-to-plane distances (Chen and Medioni 1992) on SE(3), from coarse to fine, with Cauchy's weight at the spread that
-/// the residuals show, over-relaxed: those weights alone come near at half speed. The steps of the source from `first` (0: the coarsest) to before `end`, at least one.
+/// Gauss-Newton of point-to-plane distances (Chen and Medioni 1992) on SE(3), from coarse to fine, with Cauchy's weight
+/// at the spread that the residuals show, over-relaxed: those weights alone come near at half speed. The steps of the
+/// source from `first` (0: the coarsest) to before `end`, at least one.
 Refined refine(const Source& source, const Target& target, const Pose& start, std::size_t first, std::size_t end,
                int iterations);
 

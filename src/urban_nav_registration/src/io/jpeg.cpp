@@ -6,7 +6,8 @@
 namespace urban_nav_registration {
 
 std::optional<ImageSize> sizeOfJpeg(const std::vector<std::uint8_t>& bytes) {
-  // ITU-T T.81, B.1 and B.2: segments of FF, a kind, a length that counts itself; the frame header is SOF0...SOF15 without DHT, JPG and DAC
+  // ITU-T T.81, B.1 and B.2: segments of FF, a kind, a length that counts itself; the frame header is SOF0...SOF15
+  // without DHT, JPG and DAC
   const auto number = [&bytes](std::size_t at) { return 256 * bytes[at] + bytes[at + 1]; };
   if (bytes.size() < 4 || number(0) != 0xFFD8) return std::nullopt;
   for (std::size_t at = 2; at + 9 <= bytes.size();) {

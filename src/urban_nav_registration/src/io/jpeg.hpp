@@ -17,8 +17,8 @@ struct ImageSize {
 /// What a JPEG says of its size, from its headers alone; empty where it is none.
 std::optional<ImageSize> sizeOfJpeg(const std::vector<std::uint8_t>& bytes);
 
-/// The grey picture of a JPEG of this size; empty where the bytes are damaged, something else, or of another size: these are not decoded, so that a header that
-/// lies takes no memory.
+/// The grey picture of a JPEG of this size; empty where the bytes are damaged, something else, or of another size:
+/// these are not decoded, so that a header that lies takes no memory.
 cv::Mat decodeJpeg(const std::vector<std::uint8_t>& bytes, ImageSize size);
 
 std::vector<std::uint8_t> encodeJpeg(const urban_nav_core::ImageView& image, int quality);

@@ -13,8 +13,8 @@ using urban_nav_core::StereoCamera;
 namespace {
 
 constexpr int view_levels = 6;  // of the pyramid: alignment goes to 4, descriptors of near things further
-// Side of a descriptor's window on the thing seen. Bench, pairs, a street: with 0.6, 0.9, 1.2, 1.8, 2.4 m, of pairs 4 to 7.5 m apart 72, 75, 78, 77, 75 % are
-// upgraded.
+// Side of a descriptor's window on the thing seen. Bench, pairs, a street: with 0.6, 0.9, 1.2, 1.8, 2.4 m, of pairs 4
+// to 7.5 m apart 72, 75, 78, 77, 75 % are upgraded.
 constexpr double window_m = 1.2;
 constexpr double largest_window = 0.35;  // of the image's height
 

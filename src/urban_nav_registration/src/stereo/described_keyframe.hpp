@@ -4,10 +4,10 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "urban_nav_registration/stereo/descriptor.hpp"
 #include "urban_nav_core/camera/stereo_camera.hpp"
 #include "urban_nav_core/image/pyramid.hpp"
 #include "urban_nav_registration/keyframe/keyframe.hpp"
+#include "urban_nav_registration/stereo/descriptor.hpp"
 
 namespace urban_nav_registration {
 

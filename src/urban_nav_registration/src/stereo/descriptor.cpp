@@ -34,8 +34,8 @@ struct Places {
 
 using DescriptorGrid = std::array<float, grid * grid>;
 
-/// Directions of gradients as places among the bins, 0 ... `directions`, to 1e-4 of a bin (Abramowitz and Stegun 1964, 4.4.49): the library's own takes a third of
-/// a descriptor's time.
+/// Directions of gradients as places among the bins, 0 ... `directions`, to 1e-4 of a bin (Abramowitz and Stegun
+/// 1964, 4.4.49): the library's own takes a third of a descriptor's time.
 void directionsOf(const DescriptorGrid& dx, const DescriptorGrid& dy, DescriptorGrid& place) {
   for (std::size_t i = 0; i < place.size(); ++i) {
     const float x = std::abs(dx[i]), y = std::abs(dy[i]);

@@ -60,7 +60,8 @@ Reduced reduce(const Sight& sight, const StereoCamera& camera, const Pose& T_a_b
     if (std::abs(d) < 1e-7 || step + 1 == most_steps) break;
     rho += d;
   }
-  // A depth that is not told from infinity has a derivative of noise, which would pass for knowledge of the translation.
+  // A depth that is not told from infinity has a derivative of noise, which would pass for knowledge of the
+  // translation.
   if (rho * camera.left.fx * camera.baseline < least_depth_sigmas * sight.sigma_disparity) r.J.leftCols<3>().setZero();
   const Eigen::Matrix<double, 8, 4> JW = r.J.transpose() * W;
   const Eigen::Matrix<double, 8, 8> H = JW * r.J;
@@ -92,9 +93,10 @@ double scaleOf(const std::vector<Sight>& sights, const std::vector<Reduced>& red
   return std::max(1.0, *middle);
 }
 
-/// How much larger the covariance is than independent errors would have it: errors of neighbours are alike, since they lie on one surface, under one
-/// light, so the scores of each part of the image are summed before they are squared (Liang and Zeger 1986). One mean over the directions of the translation and
-/// one over those of the rotation: from some ten parts each direction alone would be known to no better than a factor of two.
+/// How much larger the covariance is than independent errors would have it: errors of neighbours are alike, since they
+/// lie on one surface, under one light, so the scores of each part of the image are summed before they are squared
+/// (Liang and Zeger 1986). One mean over the directions of the translation and one over those of the rotation: from
+/// some ten parts each direction alone would be known to no better than a factor of two.
 struct Inflation {
   double translation = 1.0, rotation = 1.0;
 };

@@ -13,7 +13,8 @@ struct EstimateOptions {
   int steps = 10;                    ///< at most
   double sigma_offset = 0.1;         ///< px, of the error of all disparities; 0: there is none
   double largest_residual_px = 1e9;  ///< of an inlier, px of the level where it was measured
-  /// Standard deviations of what no residual shows: the other camera seems turned (px at the centre of the image), and to stand elsewhere (m).
+  /// Standard deviations of what no residual shows: the other camera seems turned (px at the centre of the image), and
+  /// to stand elsewhere (m).
   double common_px = 0.0, common_m = 0.0;
   bool scaled = true;  ///< the noise follows the residuals where they are larger than promised
 };
@@ -37,9 +38,10 @@ struct Estimate {
   double reprojection_px = 0.0;  ///< mean of the inliers
 };
 
-/// The motion between two views by Gauss-Newton with a Huber kernel. Each point's depth is a variable of its own, bound by its disparities in either view and
-/// eliminated: were it taken as measured, its error would stand in the derivatives too, and pull far points' motion towards zero. The disparities' common error is
-/// one more variable. Serial, so that the bits are always the same.
+/// The motion between two views by Gauss-Newton with a Huber kernel. Each point's depth is a variable of its own, bound
+/// by its disparities in either view and eliminated: were it taken as measured, its error would stand in the
+/// derivatives too, and pull far points' motion towards zero. The disparities' common error is one more variable.
+/// Serial, so that the bits are always the same.
 Estimate estimate(const urban_nav_core::StereoCamera& camera, const std::vector<Sight>& sights,
                   const urban_nav_core::Pose& start, const EstimateOptions& options);
 

@@ -22,9 +22,10 @@ struct Aligned {
   double likeness = 0.0;  ///< mean correlation of their patches with what it shows there
 };
 
-/// Looks for every point of one view in the other, at its place by T_a_b: the patch is warped by its surface and aligned at the pyramid level where both views show it
-/// about equally large. First those of a in b, then those of b in a of which a shows nothing yet: a corner that both views have chosen is measured once, and what
-/// b says of its disparity is the measurement's third coordinate.
+/// Looks for every point of one view in the other, at its place by T_a_b: the patch is warped by its surface and
+/// aligned at the pyramid level where both views show it about equally large. First those of a in b, then those of b in
+/// a of which a shows nothing yet: a corner that both views have chosen is measured once, and what b says of its
+/// disparity is the measurement's third coordinate.
 Aligned alignViews(const urban_nav_core::StereoCamera& camera, const View& a, const View& b,
                    const urban_nav_core::Pose& T_a_b, double offset, const AligningOptions& options);
 

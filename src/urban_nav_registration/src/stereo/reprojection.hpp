@@ -27,8 +27,8 @@ struct Sight {
 /// Perturbations: of T_a_b as boxPlus, of the error of all disparities (px), of this point's inverse depth (1/m).
 inline constexpr int of_offset = 6, of_depth = 7;
 
-/// Residuals of one sight, measured minus predicted: its own disparity, (u, v) in the other view, disparity there (zero without one). Negative derivatives are left
-/// to who uses them: `J` is that of the prediction.
+/// Residuals of one sight, measured minus predicted: its own disparity, (u, v) in the other view, disparity there (zero
+/// without one). Negative derivatives are left to who uses them: `J` is that of the prediction.
 struct SightResidual {
   Eigen::Vector4d e = Eigen::Vector4d::Zero();
   Eigen::Matrix<double, 4, 8> J = Eigen::Matrix<double, 4, 8>::Zero();

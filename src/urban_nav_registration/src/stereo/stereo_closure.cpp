@@ -35,8 +35,9 @@ constexpr int least_points = 20;       // with depth, in either view
 // A transform that is known to a metre and half a degree at the worst: what is worse pinches nothing.
 constexpr double largest_sigma_m = 1.0, largest_sigma_rad = 0.1;
 
-// Light moves all edges alike: shadows under ledges by millimetres, what a camera blurs by some hundredths of a pixel. Bench, pairs, between days: in the mean
-// of a hundred pairs poses are off by 0.03...0.09 px and 1...2 mm, in directions that are the same for all pairs.
+// Light moves all edges alike: shadows under ledges by millimetres, what a camera blurs by some hundredths of a pixel.
+// Bench, pairs, between days: in the mean of a hundred pairs poses are off by 0.03...0.09 px and 1...2 mm, in
+// directions that are the same for all pairs.
 constexpr double common_px = 0.06, common_m = 0.0015;
 
 constexpr std::size_t coarse_rounds = 2;

@@ -114,7 +114,8 @@ TEST(Align, whatIsKnownOfTheHeadingDecidesBetweenTwoThatFit) {
   EXPECT_GT(asked, 0);
 }
 
-/// A court of 24 m by 20 m whose fronts have panels that stand out by up to half a metre: a court of another seed differs in those alone.
+/// A court of 24 m by 20 m whose fronts have panels that stand out by up to half a metre: a court of another seed
+/// differs in those alone.
 World panelledCourt(std::uint64_t seed, double nearer = 0.0) {
   Dice dice(seed);
   World court;

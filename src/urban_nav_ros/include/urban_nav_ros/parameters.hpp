@@ -43,9 +43,9 @@ Parameters loadAssignments(const urban_nav_core::Table<Parameters>& table,
 
 }  // namespace detail
 
-/// Returns the parameters of `table` from values of the parameter server in the namespace `where`. Warns on the console of
-/// old names, which override present ones. Throws UserError, naming the parameter, for one that the table does not have and
-/// for a value that is not allowed.
+/// Returns the parameters of `table` from values of the parameter server in the namespace `where`. Warns on the console
+/// of old names, which override present ones. Throws UserError, naming the parameter, for one that the table does not
+/// have and for a value that is not allowed.
 template <typename Parameters>
 Parameters toParameters(const urban_nav_core::Table<Parameters>& table,
                         const std::map<std::string, urban_nav_core::ParameterValue>& values, const std::string& where) {
@@ -74,8 +74,8 @@ std::pair<Own, Stage> readParameters(const ros::NodeHandle& private_nh, const ur
 }
 
 /// Returns the parameters of readParameters() and those of a table that several stages share: these are read from the
-/// namespace of their stage beside the nodelet, and from the private namespace, which takes precedence. Warns and throws
-/// like toParameters().
+/// namespace of their stage beside the nodelet, and from the private namespace, which takes precedence. Warns and
+/// throws like toParameters().
 template <typename Own, typename Stage, typename Shared>
 std::tuple<Own, Stage, Shared> readParameters(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh,
                                               const urban_nav_core::Table<Own>& own,

@@ -50,15 +50,15 @@ class StereoSessions {
 
   struct Options {
     std::string base_frame = urban_nav_core::frames::base_link;
-    bool rectified = false;        ///< the images are rectified already
-    int queue_size = 200;          ///< messages kept before a session begins
-    double max_lateness = 0.1;     ///< s, by stamps, that an image waits for its partner and for motion inputs
+    bool rectified = false;         ///< the images are rectified already
+    int queue_size = 200;           ///< messages kept before a session begins
+    double max_lateness = 0.1;      ///< s, by stamps, that an image waits for its partner and for motion inputs
     double sync_tolerance = 0.005;  ///< s between the stamps of left and right image
     double tf_timeout = 1.0;        ///< s
-    bool motion = false;           ///< nav_msgs/Odometry or sensor_msgs/Imu are motion inputs
-    double wheel_noise = 0.0;      ///< of WheelMotion
-    double gyro_noise = 0.0;       ///< of GyroMotion, rad/s
-    std::string where = "stereo";  ///< what an error of the calibration begins with
+    bool motion = false;            ///< nav_msgs/Odometry or sensor_msgs/Imu are motion inputs
+    double wheel_noise = 0.0;       ///< of WheelMotion
+    double gyro_noise = 0.0;        ///< of GyroMotion, rad/s
+    std::string where = "stereo";   ///< what an error of the calibration begins with
   };
   struct Camera {
     urban_nav_core::StereoCamera camera;

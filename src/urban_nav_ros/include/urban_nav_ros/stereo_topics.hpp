@@ -58,8 +58,8 @@ void subscribeImages(StageNodeWith<Input>& node, const TopicOptions& options, bo
 }
 
 /// Subscribes to images, camera_info, /tf_static and the motion sensor as inputs of a stage. Requires that Input can be
-/// made from ImageInput, InfoInput and tf2_msgs::TFMessageConstPtr, and from the messages of the motion sensor if there is
-/// one. `options` apply to images and motion.
+/// made from ImageInput, InfoInput and tf2_msgs::TFMessageConstPtr, and from the messages of the motion sensor if there
+/// is one. `options` apply to images and motion.
 template <typename Input>
 void subscribeStereo(StageNodeWith<Input>& node, const TopicOptions& options, bool compressed, MotionTopic motion) {
   const auto forward = [](const auto& message) { return Input(message); };

@@ -6,7 +6,8 @@
 
 namespace urban_nav_sim::bench {
 
-/// Turns of one laser in order of time; 181 beams each. No range (m) where it is not over zero: then the device gave an error code.
+/// Turns of one laser in order of time; 181 beams each. No range (m) where it is not over zero: then the device gave an
+/// error code.
 struct Turns {
   std::vector<std::vector<double>> ranges, intensities;
 };

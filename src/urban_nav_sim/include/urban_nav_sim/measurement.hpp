@@ -58,7 +58,8 @@ struct TruthMeasurement {
   urban_nav_core::Pose T_world_base;
 };
 
-/// What the pixels of a camera or the beams of a laser truly met, taken with the measurement of the same stamp. Faults leave it alone.
+/// What the pixels of a camera or the beams of a laser truly met, taken with the measurement of the same stamp. Faults
+/// leave it alone.
 struct ViewTruth {
   urban_nav_core::StampNs stamp = 0;
   std::string frame;  ///< "laser_left", "stereo_right_optical_frame", ...

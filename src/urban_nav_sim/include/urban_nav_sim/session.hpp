@@ -29,12 +29,12 @@ struct SessionOptions {
   std::string where = "--";  ///< what stands before the name of an option in an error
 };
 
-/// Throws UserError where there is no such world or route, or no view of a sensor, naming those there are: what the constructor of Session does first,
-/// without the work.
+/// Throws UserError where there is no such world or route, or no view of a sensor, naming those there are: what the
+/// constructor of Session does first, without the work.
 void checkPlace(const SessionOptions& options);
 
-/// A session of the simulated robot. Its constructor throws as checkPlace does. Not thread-safe; works on as many threads as
-/// urban_nav_core::ThreadLimit allows.
+/// A session of the simulated robot. Its constructor throws as checkPlace does. Not thread-safe; works on as many
+/// threads as urban_nav_core::ThreadLimit allows.
 class Session {
  public:
   explicit Session(const SessionOptions& options);
@@ -62,8 +62,9 @@ class Session {
   urban_nav_core::CameraInfo stereoInfo(Side side) const;
   urban_nav_core::CameraInfo ladybugInfo(int camera) const;  ///< 0 ... 4
 
-  /// trajectory.tum, revisits.csv, closures_true.csv, closures_false.csv (if `false_closures` is not zero: their per cent of the true ones), cloud.ply
-  /// (docs/files.md), clocks.csv (`sensor,offset_s,skew,jitter_s`: by how much stamps are off) into a folder that exists. What sensors there are does not matter.
+  /// trajectory.tum, revisits.csv, closures_true.csv, closures_false.csv (if `false_closures` is not zero: their per
+  /// cent of the true ones), cloud.ply (docs/files.md), clocks.csv (`sensor,offset_s,skew,jitter_s`: by how much stamps
+  /// are off) into a folder that exists. What sensors there are does not matter.
   void writeTruth(const std::string& folder, double false_closures) const;
 
  private:

@@ -14,8 +14,8 @@ struct Exposure {
 };
 
 /// Automatic exposure as a Bumblebee2 has it (its reference manual): mean grey of the lower two thirds of the image
-/// towards 110, shutter first, up to 10 ms, then gain; a picture bears on the second one after it, and no step is larger
-/// than a tenth. Judges the light alone, not its noise.
+/// towards 110, shutter first, up to 10 ms, then gain; a picture bears on the second one after it, and no step is
+/// larger than a tenth. Judges the light alone, not its noise.
 class AutoExposure {
  public:
   struct Settings {

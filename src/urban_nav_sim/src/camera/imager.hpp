@@ -13,15 +13,16 @@
 
 namespace urban_nav_sim {
 
-/// What makes grey levels of light: smear of the motion, spread of a point over its neighbours, vignetting, noise, 8 bits.
-/// Keeps buffers, so one thread at a time; uses several inside. Same bytes whatever their number.
+/// What makes grey levels of light: smear of the motion, spread of a point over its neighbours, vignetting, noise, 8
+/// bits. Keeps buffers, so one thread at a time; uses several inside. Same bytes whatever their number.
 class Imager {
  public:
   struct Settings {
     double vignetting = 0.30;  ///< share of light that is lost in the corners
     double spread = 0.44;      ///< px, sigma of the point spread beside what looks are filtered by (look/tile.cpp)
     double read_noise = 0.40;  ///< grey levels without gain
-    /// Levels^2 per level without gain. Not from a data sheet: with it and the above, frames have about the noise of real ones (bench/realism).
+    /// Levels^2 per level without gain. Not from a data sheet: with it and the above, frames have about the noise of
+    /// real ones (bench/realism).
     double shot_noise = 0.0033;
     double sensitivity = 1.0;                                 ///< of this imager beside the others of its head
     Eigen::Vector3f white_balance = Eigen::Vector3f::Ones();  ///< factors of red, green, blue

@@ -17,8 +17,8 @@ class FaultFilter {
  public:
   FaultFilter(std::vector<Fault> faults, std::uint64_t seed, urban_nav_core::StampNs begin);
 
-  /// The measurement as it arrives; none if it was lost. They come in the order in which they were `taken`, whatever their stamps say. The truth has no
-  /// faults.
+  /// The measurement as it arrives; none if it was lost. They come in the order in which they were `taken`, whatever
+  /// their stamps say. The truth has no faults.
   std::optional<Measurement> apply(Measurement measurement, urban_nav_core::StampNs taken);
 
  private:

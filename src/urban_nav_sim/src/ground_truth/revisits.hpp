@@ -32,8 +32,8 @@ struct Closure {
 /// For each panorama that has revisits, the one nearest to it. In the order of b.
 std::vector<Closure> trueClosures(const std::vector<Revisit>& revisits, const Noise& noise);
 
-/// `count` different pairs more than kRevisitGap and 10 m apart, as sure of themselves as the true ones, in the order of
-/// b, then of a; fewer where the session has no such pairs.
+/// `count` different pairs more than kRevisitGap and 10 m apart, as sure of themselves as the true ones, in the order
+/// of b, then of a; fewer where the session has no such pairs.
 std::vector<Closure> falseClosures(const urban_nav_core::Trajectory& panoramas, std::size_t count, const Noise& noise);
 
 }  // namespace urban_nav_sim

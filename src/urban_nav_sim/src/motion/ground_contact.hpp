@@ -8,8 +8,8 @@
 
 namespace urban_nav_sim {
 
-/// What wheels roll on: a smooth height and, on it, what is too small for it: stones, joints of slabs, ruts. As tyres feel
-/// it, nothing is shorter than 0.24 m. Immutable, so thread-safe.
+/// What wheels roll on: a smooth height and, on it, what is too small for it: stones, joints of slabs, ruts. As tyres
+/// feel it, nothing is shorter than 0.24 m. Immutable, so thread-safe.
 class RoughGround {
  public:
   /// `roughness` 1: 1.2 mm (standard deviation) of some 0.3 m length and 6 mm of 1 m, which rocks the robot as the

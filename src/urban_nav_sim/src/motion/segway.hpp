@@ -34,10 +34,10 @@ SegwayState standingSegway(const Eigen::Vector2d& position, double yaw, double s
 /// One step of `dt` seconds (at most 0.01). The body is an inverted pendulum of equivalent length L whose foot the
 /// wheels accelerate by a; the ground pushes where the wheel touches, on a slope in front of the axle by r sin(slope):
 ///   L pitch'' = g sin(pitch) - a cos(pitch) - g r / l sin(slope)
-/// (textbook cart and pole with the axle's acceleration as input; Grasser et al., JOE: a mobile, inverted pendulum, 2002,
-/// has the masses). The base's own controller balances: state feedback with both poles at 4 rad/s, damping 0.7, about the
-/// lean that accelerates towards the wanted speed. So the robot leans into every acceleration, and before it moves
-/// forward it rolls back a little.
+/// (textbook cart and pole with the axle's acceleration as input; Grasser et al., JOE: a mobile, inverted pendulum,
+/// 2002, has the masses). The base's own controller balances: state feedback with both poles at 4 rad/s, damping 0.7,
+/// about the lean that accelerates towards the wanted speed. So the robot leans into every acceleration, and before it
+/// moves forward it rolls back a little.
 SegwayState stepSegway(const SegwayState& state, const SegwayCommand& command, const SegwayDisturbance& disturbance,
                        double dt);
 

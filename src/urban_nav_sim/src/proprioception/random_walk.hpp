@@ -8,9 +8,9 @@
 
 namespace urban_nav_sim {
 
-/// Three values that drift independently: a normal start, then a walk whose variance grows by `walk`^2 a second, or, with
-/// a time constant, one that is drawn back and keeps the variance of its start (first-order Gauss-Markov). A node a
-/// second, straight between them. Immutable, so thread-safe.
+/// Three values that drift independently: a normal start, then a walk whose variance grows by `walk`^2 a second, or,
+/// with a time constant, one that is drawn back and keeps the variance of its start (first-order Gauss-Markov). A node
+/// a second, straight between them. Immutable, so thread-safe.
 class RandomWalk {
  public:
   /// `duration`: up to which time (s) it is asked; later ones give the last value.

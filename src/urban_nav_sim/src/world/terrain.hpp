@@ -23,8 +23,8 @@ struct Extent {
   double x0, y0, x1, y1;  ///< m
 };
 
-/// Meshes the ground in cells of 1/3 m (it strays from World::ground by less than 1 mm), each region with its own look; edges of
-/// regions are cut, not stepped. Earlier regions lie above later ones; the last one is everywhere else.
+/// Meshes the ground in cells of 1/3 m (it strays from World::ground by less than 1 mm), each region with its own look;
+/// edges of regions are cut, not stepped. Earlier regions lie above later ones; the last one is everywhere else.
 void layGround(Site& site, const Extent& extent, const std::vector<Region>& regions);
 
 /// Coarse ground of 6 m cells around the extent as far as `reach` m, 0.15 m lower, so that nothing ends in the air.

@@ -93,8 +93,8 @@ std::vector<std::vector<Matrix6d>> covariancesOf(const PoseGraph& graph, const s
   return made;
 }
 
-/// A session that no closure touches lies where odometry has it, and as surely: what is common to all its steps, a scale, is in odometry's
-/// own covariance alone.
+/// A session that no closure touches lies where odometry has it, and as surely: what is common to all its steps, a
+/// scale, is in odometry's own covariance alone.
 void leaveToOdometry(GraphRun& run, const std::vector<const VoRun*>& runs) {
   std::set<std::string> touched;
   for (const auto& [id, closure] : run.graph.closures())

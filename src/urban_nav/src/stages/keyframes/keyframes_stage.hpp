@@ -7,8 +7,8 @@
 
 namespace urban_nav {
 
-/// Returns the stage keyframes: stores keyframes of each session while it is read, for loops and localization of this or
-/// a later run.
+/// Returns the stage keyframes: stores keyframes of each session while it is read, for loops and localization of this
+/// or a later run.
 std::unique_ptr<Stage> makeKeyframesStage();
 
 }  // namespace urban_nav

@@ -107,7 +107,8 @@ LocalizationRun runLocalization(const urban_nav_localization::Parameters& parame
   progress.finish(static_cast<std::int64_t>(run.settled.size()));
   made.known_share = made.frames.empty() ? 0.0 : static_cast<double>(known) / static_cast<double>(made.frames.size());
   made.ms_median = quantile(ms, 0.5);
-  // Frames before the first known one, and later unknown ones, are placed by odometry relative to the nearest known one.
+  // Frames before the first known one, and later unknown ones, are placed by odometry relative to the nearest known
+  // one.
   std::optional<Pose> T_map_odom;
   for (std::size_t i = 0; i < made.frames.size() && !T_map_odom; ++i)
     if (made.frames[i].state == LocalizationState::Localized)

@@ -13,8 +13,9 @@ namespace urban_nav {
 /// Is there a try of this closure that can be shown?
 bool hasPicture(const urban_nav_core::MetricClosure& closure);
 
-/// The try that decided, or the first where none did, from the evidence of the closure: two views with their matches, or two clouds before and after their
-/// alignment. `way`: loop_metric's cloud_half_length. Empty where nothing was tried, or what is known of it is damaged.
+/// The try that decided, or the first where none did, from the evidence of the closure: two views with their matches,
+/// or two clouds before and after their alignment. `way`: loop_metric's cloud_half_length. Empty where nothing was
+/// tried, or what is known of it is damaged.
 std::optional<PagePicture> pictureOf(const urban_nav_core::MetricClosure& closure,
                                      const loop_metric::PlaceData& place_data, double way);
 /// The same of one try.

@@ -25,8 +25,8 @@ struct LoopsRun {
 };
 
 /// Measures the transform of each row from the keyframes and scans that `store` holds, which must be committed; values
-/// of a row besides its two stamps and its probability are replaced. Runs on several threads; the result does not depend
-/// on their number. `camera`: that of the last session.
+/// of a row besides its two stamps and its probability are replaced. Runs on several threads; the result does not
+/// depend on their number. `camera`: that of the last session.
 LoopsRun runLoops(const loop_metric::Parameters& parameters, const urban_nav_core::StereoCamera& camera,
                   const urban_nav_core::Pose& T_base_camera, const std::vector<CandidateSession>& sessions,
                   urban_nav_store::Store& store, std::vector<ClosureRow> rows, Console& console);

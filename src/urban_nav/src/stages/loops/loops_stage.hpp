@@ -7,8 +7,8 @@
 
 namespace urban_nav {
 
-/// Returns the stage loops: measures the transforms of closure candidates (loop_metric). Replaces MapContext::closures by
-/// rows with transform or reason.
+/// Returns the stage loops: measures the transforms of closure candidates (loop_metric). Replaces MapContext::closures
+/// by rows with transform or reason.
 std::unique_ptr<Stage> makeLoopsStage();
 
 }  // namespace urban_nav

@@ -128,8 +128,8 @@ TEST_F(Loops, anotherDayIsFoundInAMapThatStaysAsItIs) {
   EXPECT_EQ(std::filesystem::exists(file("frozen") + "/session.db-wal"), false);
   const urban_nav_core::CsvTable table = urban_nav_core::CsvTable::read(file("found") + "/localisation.csv");
   ASSERT_EQ(table.rows(), 15U);
-  // The same way through the same room, so that map and odometry of the second day are one. Less than half a metre of it: one place, one
-  // witness, and so a right guess that is not KNOWN.
+  // The same way through the same room, so that map and odometry of the second day are one. Less than half a metre of
+  // it: one place, one witness, and so a right guess that is not KNOWN.
   const urban_nav_core::Trajectory truth = urban_nav_core::readTum(file("frozen") + "/trajectory.tum");
   EXPECT_EQ(table.text(14, table.column("knowledge")), "UNSURE");
   EXPECT_EQ(table.integer(14, table.column("witnesses")), 1);

@@ -53,7 +53,8 @@ TEST(VoState, comesBackBitByBit) {
   EXPECT_EQ(back->forces[1].force, run.forces[1].force);
 }
 
-/// Appends numbers as the programs of version 2 did: little-endian, whole numbers in eight bytes, texts and lists after their length.
+/// Appends numbers as the programs of version 2 did: little-endian, whole numbers in eight bytes, texts and lists after
+/// their length.
 class BytesOfVersion2 {
  public:
   BytesOfVersion2& integers(std::initializer_list<std::int64_t> values) {

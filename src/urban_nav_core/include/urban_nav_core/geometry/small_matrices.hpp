@@ -5,8 +5,8 @@
 
 namespace urban_nav_core {
 
-// Factorisations of matrices of 3, 6 and 7 rows behind plain functions, as dense.hpp has them for any size: a source that instantiates one itself
-// takes one to six seconds longer to compile. The bits are those of Eigen's own classes.
+// Factorisations of matrices of 3, 6 and 7 rows behind plain functions, as dense.hpp has them for any size: a source
+// that instantiates one itself takes one to six seconds longer to compile. The bits are those of Eigen's own classes.
 
 /// Cholesky factorisation A = L L^T, of which the lower triangle of A is read. For <2>, <3> and <6>.
 template <int N>
@@ -35,12 +35,14 @@ class SmallCholesky {
   Eigen::LLT<Matrix> llt_;
 };
 
-/// Returns A^-1 B of a symmetric A by its factorisation L D L^T; NaN or infinities where A is singular. For <6, 1>, <6, 6>, <7, 1>, <7, 7>.
+/// Returns A^-1 B of a symmetric A by its factorisation L D L^T; NaN or infinities where A is singular. For <6, 1>, <6,
+/// 6>, <7, 1>, <7, 7>.
 template <int N, int Columns>
 Eigen::Matrix<double, N, Columns> solveByLdlt(const Eigen::Matrix<double, N, N>& A,
                                               const Eigen::Matrix<double, N, Columns>& B);
 
-/// Returns the inverse of any matrix, by factors L U with partial pivoting; NaN or infinities where it is singular. For <6>.
+/// Returns the inverse of any matrix, by factors L U with partial pivoting; NaN or infinities where it is singular. For
+/// <6>.
 template <int N>
 Eigen::Matrix<double, N, N> inverseByLu(const Eigen::Matrix<double, N, N>& A);
 
@@ -51,7 +53,8 @@ struct SmallEigen {
   Eigen::Matrix<double, N, N> vectors;
 };
 
-/// Returns the eigen-decomposition of a symmetric matrix, of which the lower triangle is read, by QR iterations. For <3> and <6>.
+/// Returns the eigen-decomposition of a symmetric matrix, of which the lower triangle is read, by QR iterations. For
+/// <3> and <6>.
 template <int N>
 SmallEigen<N> smallEigen(const Eigen::Matrix<double, N, N>& A);
 

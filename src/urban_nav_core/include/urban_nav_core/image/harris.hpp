@@ -22,8 +22,8 @@ struct StructureTensor {
   float harris() const { return uu * vv - uv * uv - kHarrisK * (uu + vv) * (uu + vv); }
 };
 
-/// Returns the structure tensor of the window centred at (u, v), which must be at least kHarrisMargin from every border.
-/// Sums are of integers and so are the same on every machine.
+/// Returns the structure tensor of the window centred at (u, v), which must be at least kHarrisMargin from every
+/// border. Sums are of integers and so are the same on every machine.
 StructureTensor structureTensor(const ImageView& image, int u, int v);
 
 /// Fills Corner::harris; drops corners nearer to a border than kHarrisMargin. Keeps the order.

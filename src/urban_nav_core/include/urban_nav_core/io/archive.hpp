@@ -17,17 +17,19 @@ namespace urban_nav_core {
 
 class Pose;
 
-/// The state of an object as bytes, and back. A class names its members once, in one function that serves both ways, so that what
-/// is written and what is read cannot differ:
+/// The state of an object as bytes, and back. A class names its members once, in one function that serves both ways, so
+/// that what is written and what is read cannot differ:
 ///
 ///   void HealthMonitor::archive(Archive& archive) { archive(was_lost_); }
 ///
-/// Takes bool, whole numbers and enumerators (8 bytes each), double, float, text, matrices of fixed size, poses; arrays, vectors, pairs and optionals of
-/// these; and whatever has such a member, or a function `archive(Archive&, T&)` beside it. Little-endian on every machine, numbers to the last bit.
+/// Takes bool, whole numbers and enumerators (8 bytes each), double, float, text, matrices of fixed size, poses;
+/// arrays, vectors, pairs and optionals of these; and whatever has such a member, or a function `archive(Archive&, T&)`
+/// beside it. Little-endian on every machine, numbers to the last bit.
 ///
-/// What is read is not trusted: a number of things to come is held against the bytes that are left, a whole number against half the range of its type
-/// (so that what counts on from there does not run over), numbers must be finite and rotations be rotations; `require` is for what else a class relies on. Anything else is a DataError "is damaged", and the object that
-/// was being read is then half old and half new: it must not be used. Not thread-safe.
+/// What is read is not trusted: a number of things to come is held against the bytes that are left, a whole number
+/// against half the range of its type (so that what counts on from there does not run over), numbers must be finite and
+/// rotations be rotations; `require` is for what else a class relies on. Anything else is a DataError "is damaged", and
+/// the object that was being read is then half old and half new: it must not be used. Not thread-safe.
 class Archive {
  public:
   /// Writes.
@@ -153,11 +155,11 @@ struct UnsealedState {
   std::uint32_t version = 0;
   std::string_view content;  ///< a part of the bytes given to unseal
 };
-/// Reads a sealed state of any version from `oldest` to `newest`. Throws DataError that names the fault if the bytes are damaged, belong
-/// to another state or have another version.
+/// Reads a sealed state of any version from `oldest` to `newest`. Throws DataError that names the fault if the bytes
+/// are damaged, belong to another state or have another version.
 UnsealedState unseal(std::string_view what, std::uint32_t oldest, std::uint32_t newest, std::string_view sealed);
-/// Returns the content of a sealed state of exactly this version. Throws DataError if the bytes are damaged, belong to another state or have
-/// another version.
+/// Returns the content of a sealed state of exactly this version. Throws DataError if the bytes are damaged, belong to
+/// another state or have another version.
 std::string_view unseal(std::string_view what, std::uint32_t version, std::string_view sealed);
 /// Returns whether the bytes begin as those of seal() do: states from before it have formats of their own.
 bool isSealed(std::string_view bytes);

@@ -10,8 +10,8 @@
 
 namespace urban_nav_core {
 
-/// The plain structs that states are made of, for Archive. They stand here and not beside each struct, so that what only hands structs on
-/// needs no archive.
+/// The plain structs that states are made of, for Archive. They stand here and not beside each struct, so that what
+/// only hands structs on needs no archive.
 void archive(Archive& archive, Status& status);
 void archive(Archive& archive, PoseWithCovariance& value);
 void archive(Archive& archive, RelativePose& value);

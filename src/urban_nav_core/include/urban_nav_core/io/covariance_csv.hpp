@@ -9,7 +9,8 @@
 
 namespace urban_nav_core {
 
-/// A row of covariance.csv: covariance of T_first_base in the axes of the first pose (convention of PoseWithCovariance).
+/// A row of covariance.csv: covariance of T_first_base in the axes of the first pose (convention of
+/// PoseWithCovariance).
 struct CovarianceRow {
   StampNs stamp = 0;
   Health status = Health::Ok;

@@ -19,12 +19,13 @@ struct LaserPoint {
   float intensity = 0.0F;                            ///< 0...255
 };
 
-/// Lays the beams of a laser along a trajectory, each from where the laser was at the beam's own time (Newman et al. 2009, section 6).
-/// Between two poses the motion is that of interpolate(). Scans in the order of time are laid at once; others are laid as well.
+/// Lays the beams of a laser along a trajectory, each from where the laser was at the beam's own time (Newman et al.
+/// 2009, section 6). Between two poses the motion is that of interpolate(). Scans in the order of time are laid at
+/// once; others are laid as well.
 class BeamRenderer {
  public:
-  /// `T_world_base` must outlive the renderer. `T_frame_world`: of the points that come out; near the origin of `frame` their single
-  /// precision costs nothing. Poses further apart in time than `max_gap` have nothing between them.
+  /// `T_world_base` must outlive the renderer. `T_frame_world`: of the points that come out; near the origin of `frame`
+  /// their single precision costs nothing. Poses further apart in time than `max_gap` have nothing between them.
   BeamRenderer(const Trajectory& T_world_base, const Pose& T_base_laser, const Pose& T_frame_world, StampNs max_gap);
 
   /// Appends a point for every beam whose time the trajectory covers, in their order; the number of those left out.

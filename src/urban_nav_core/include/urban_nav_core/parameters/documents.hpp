@@ -14,11 +14,13 @@ struct DocumentedTable {
   std::vector<RowInfo> rows;
 };
 
-/// Writes what a package's texts say of its parameters: the tables between their marks in README.md, and config/STAGE.yaml for each stage that
-/// has such a file. Throws UserError naming the text that is missing, or lacks its marks.
+/// Writes what a package's texts say of its parameters: the tables between their marks in README.md, and
+/// config/STAGE.yaml for each stage that has such a file. Throws UserError naming the text that is missing, or lacks
+/// its marks.
 void writeDocuments(const std::string& package, const std::vector<DocumentedTable>& tables);
 
-/// The main function of a package's program for that: `--write FOLDER_OF_THE_PACKAGE`, or `--markdown` to print the tables.
+/// The main function of a package's program for that: `--write FOLDER_OF_THE_PACKAGE`, or `--markdown` to print the
+/// tables.
 int documentParameters(int argc, char** argv, const std::vector<DocumentedTable>& tables);
 
 }  // namespace urban_nav_core

@@ -9,8 +9,8 @@
 
 namespace urban_nav_core {
 
-/// Which motion sensor accompanies the images, and its noise: parameters of readers and nodelets, which turn its messages
-/// into MotionInput. Base of their parameters; the rows are those of withMotionInput().
+/// Which motion sensor accompanies the images, and its noise: parameters of readers and nodelets, which turn its
+/// messages into MotionInput. Base of their parameters; the rows are those of withMotionInput().
 struct MotionInputParameters {
   std::string motion_input;  // none, wheels, gyroscope
   double wheel_noise;        // m/m and rad/rad

@@ -28,9 +28,9 @@ struct StereoPairWithMotion {
   std::shared_ptr<const void> left_owner, right_owner;
 };
 
-/// Left and right images and motion inputs, in the order in which a TimeOrderedQueue hands them on, become stereo pairs. An image
-/// whose partner did not come leaves as a pair with an empty view as soon as a later image shows that: by stamps alone,
-/// so the same inputs give the same pairs whether live or from a file. Not thread-safe.
+/// Left and right images and motion inputs, in the order in which a TimeOrderedQueue hands them on, become stereo
+/// pairs. An image whose partner did not come leaves as a pair with an empty view as soon as a later image shows that:
+/// by stamps alone, so the same inputs give the same pairs whether live or from a file. Not thread-safe.
 class StereoAssembler {
  public:
   /// Two images belong together if their stamps differ by at most `tolerance`.

@@ -5,8 +5,8 @@
 
 namespace urban_nav_core {
 
-/// Largest step back in time, ns, that is a late message. A larger one starts a new session: the recording was restarted
-/// or the clock was set.
+/// Largest step back in time, ns, that is a late message. A larger one starts a new session: the recording was
+/// restarted or the clock was set.
 constexpr StampNs max_step_back = 1'000'000'000;
 
 /// Returns whether `stamp` is more than max_step_back before `newest`.

@@ -56,8 +56,8 @@ class RenderedSequence {
   Pose T_world_camera(int i) const { return motion_(time(i)); }
   /// The pair. Lives until the next call.
   const StereoFrame& frame(int i) { return frame(i, options_.noise); }
-  /// The same with another standard deviation of the image noise, grey levels. What is seen is drawn once per frame: its further
-  /// exposures are cheap.
+  /// The same with another standard deviation of the image noise, grey levels. What is seen is drawn once per frame:
+  /// its further exposures are cheap.
   const StereoFrame& frame(int i, double noise);
 
  private:

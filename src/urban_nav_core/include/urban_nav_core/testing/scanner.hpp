@@ -36,7 +36,8 @@ struct Scanner {
   double range = 60.0, sigma = 0.015;     // m
 };
 
-/// What a spinning laser at T_world_sensor sees, in its frame. Rays against blocks, one by one; shares nothing with the estimator.
+/// What a spinning laser at T_world_sensor sees, in its frame. Rays against blocks, one by one; shares nothing with the
+/// estimator.
 urban_nav_core::PointCloud scan(const World& world, const Pose& T_world_sensor, const Scanner& scanner,
                                 std::uint64_t seed);
 

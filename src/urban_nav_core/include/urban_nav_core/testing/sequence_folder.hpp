@@ -27,12 +27,12 @@ struct Recording {
 };
 /// The first `frames` frames of a sequence.
 Recording record(RenderedSequence& sequence, int frames);
-/// At most `count` frames of a folder from `first` on; a missing file is a missing image. Throws UserError naming the file where calib.txt,
-/// times.txt or poses.txt is absent or broken, or where there is no such frame.
+/// At most `count` frames of a folder from `first` on; a missing file is a missing image. Throws UserError naming the
+/// file where calib.txt, times.txt or poses.txt is absent or broken, or where there is no such frame.
 Recording readSequenceFolder(const std::string& folder, std::size_t first = 0, std::size_t count = 1'000'000);
 
-/// A folder of the data that tests are run against: URBAN_NAV_DATA/`name`. Empty where the variable is not set or there is no
-/// such folder: such a test says so and is skipped.
+/// A folder of the data that tests are run against: URBAN_NAV_DATA/`name`. Empty where the variable is not set or there
+/// is no such folder: such a test says so and is skipped.
 std::string dataFolder(const std::string& name);
 
 }  // namespace urban_nav_core::testing

@@ -8,8 +8,8 @@
 
 namespace urban_nav_core::testing {
 
-/// While it lives no file of this process can grow beyond `bytes`: what a full disk looks like from here, without a disk
-/// to fill.
+/// While it lives no file of this process can grow beyond `bytes`: what a full disk looks like from here, without a
+/// disk to fill.
 class SmallDisk {
  public:
   explicit SmallDisk(std::size_t bytes) {

@@ -20,7 +20,8 @@ struct ErrorStatistics {
 /// Absolute trajectory error: distances between true and estimated positions after an alignment. Both vectors equally
 /// long.
 enum class TrajectoryAlignment { None, First, Se3, Sim3 };
-ErrorStatistics absoluteError(const std::vector<Pose>& truth, const std::vector<Pose>& estimate, TrajectoryAlignment alignment);
+ErrorStatistics absoluteError(const std::vector<Pose>& truth, const std::vector<Pose>& estimate,
+                              TrajectoryAlignment alignment);
 /// The distances themselves, m, by pose.
 std::vector<double> absoluteErrors(const std::vector<Pose>& truth, const std::vector<Pose>& estimate,
                                    TrajectoryAlignment alignment);

@@ -18,8 +18,8 @@ namespace urban_nav_core {
 /// while it grows.
 class OdometryChain {
  public:
-  /// Appends a step. Returns false, and ignores it, if it does not begin at the newest frame, goes back in time or is not
-  /// finite.
+  /// Appends a step. Returns false, and ignores it, if it does not begin at the newest frame, goes back in time or is
+  /// not finite.
   bool append(const RelativePose& step);
 
   bool empty() const { return trajectory_.empty(); }
@@ -44,8 +44,8 @@ class OdometryChain {
   double distance(StampNs stamp) const;
 
  private:
-  /// Sums of covariances of neighbouring steps, about the pose that the first of them begins at: far from where they are, the difference of
-  /// two sums would be lost in rounding.
+  /// Sums of covariances of neighbouring steps, about the pose that the first of them begins at: far from where they
+  /// are, the difference of two sums would be lost in rounding.
   struct Block {
     Pose T_first_origin;
     std::vector<Matrix6d> sums;  // of the steps of this block up to each, its own included

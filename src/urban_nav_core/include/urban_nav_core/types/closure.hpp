@@ -10,8 +10,8 @@
 
 namespace urban_nav_core {
 
-/// The robot's base_link at a time of a session: how stages name a pose of the trajectory to each other, whatever the pose
-/// graph makes of it. `session`: an id; empty is the session that is being recorded.
+/// The robot's base_link at a time of a session: how stages name a pose of the trajectory to each other, whatever the
+/// pose graph makes of it. `session`: an id; empty is the session that is being recorded.
 struct PoseRef {
   std::string session;
   StampNs stamp = 0;

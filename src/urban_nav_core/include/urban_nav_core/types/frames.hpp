@@ -3,15 +3,15 @@
 
 #include <string>
 
-/// Names of coordinate frames in tf, in messages and in stores (REP 103, REP 105). Nodelets take map, odom and base_link
-/// from their parameters, whose defaults these are.
+/// Names of coordinate frames in tf, in messages and in stores (REP 103, REP 105). Nodelets take map, odom and
+/// base_link from their parameters, whose defaults these are.
 namespace urban_nav_core::frames {
 
 constexpr const char* map = "map";
 constexpr const char* odom = "odom";
-constexpr const char* base_link = "base_link";                              ///< on the ground between the wheels
-constexpr const char* stereo_left = "stereo_left_optical_frame";            ///< z forward, x right, y down
-constexpr const char* stereo_right = "stereo_right_optical_frame";          ///< z forward, x right, y down
+constexpr const char* base_link = "base_link";                      ///< on the ground between the wheels
+constexpr const char* stereo_left = "stereo_left_optical_frame";    ///< z forward, x right, y down
+constexpr const char* stereo_right = "stereo_right_optical_frame";  ///< z forward, x right, y down
 constexpr const char* laser_left = "laser_left";
 constexpr const char* laser_right = "laser_right";
 constexpr const char* imu = "imu_link";

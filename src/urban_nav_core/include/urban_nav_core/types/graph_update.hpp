@@ -21,7 +21,8 @@ struct PoseRun {
   std::vector<StampedMapPose> poses;
 };
 
-/// What other stages follow: the poses that moved by more than 1 cm or 0.02 deg since the revision before. Who missed one
+/// What other stages follow: the poses that moved by more than 1 cm or 0.02 deg since the revision before. Who missed
+/// one
 /// (`previous` is not the revision they have) asks for the trajectory.
 struct GraphUpdate {
   std::int64_t revision = 0;

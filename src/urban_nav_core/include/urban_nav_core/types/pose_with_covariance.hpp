@@ -27,10 +27,10 @@ struct RelativePose {
   StampNs to = 0;
   Pose T_from_to;
   Matrix6d covariance = Matrix6d::Identity();  ///< as in PoseWithCovariance, parent frame: `from`
-  /// WARNING: covariances of an odometry's steps are right one by one, but neighbours share an end: composed as if independent
-  /// they may be 5 to 50 times too large over 100 steps. This is the part that adds up. The covariance of a way of many
-  /// steps is that composed of their drifts, with half of `covariance` added to the first and to the last. Zero where the
-  /// odometry does not tell it apart: then `covariance` adds up.
+  /// WARNING: covariances of an odometry's steps are right one by one, but neighbours share an end: composed as if
+  /// independent they may be 5 to 50 times too large over 100 steps. This is the part that adds up. The covariance of a
+  /// way of many steps is that composed of their drifts, with half of `covariance` added to the first and to the last.
+  /// Zero where the odometry does not tell it apart: then `covariance` adds up.
   Matrix6d drift_covariance = Matrix6d::Zero();
   Status status;
   std::string source;  ///< which odometry ("swf_vo")

@@ -20,12 +20,13 @@ bool isGzip(std::string_view content);
 /// What was compressed; UserError where the stream is damaged, ends early, or holds more than `limit` bytes.
 std::string gunzip(std::string_view content, const std::string& name, std::size_t limit);
 
-/// LZF (Lehmann 2000, the compression of PCD files): a control byte below 32 is followed by so many literal bytes and one
-/// more; else its top three bits (7: and another byte) are the length less two of a copy, the other thirteen bits how far back it
-/// begins, less one. Empty where the input is damaged or does not give `size` bytes.
+/// LZF (Lehmann 2000, the compression of PCD files): a control byte below 32 is followed by so many literal bytes and
+/// one more; else its top three bits (7: and another byte) are the length less two of a copy, the other thirteen bits
+/// how far back it begins, less one. Empty where the input is damaged or does not give `size` bytes.
 std::optional<std::string> decompressLzf(std::string_view packed, std::size_t size);
 
-/// A number of these formats; unlike parseNumber it takes "nan", "inf" and their like, which a cloud may hold. Empty for anything else.
+/// A number of these formats; unlike parseNumber it takes "nan", "inf" and their like, which a cloud may hold. Empty
+/// for anything else.
 std::optional<float> parseCoordinate(std::string_view text);
 
 /// The bytes of a number in a binary file.

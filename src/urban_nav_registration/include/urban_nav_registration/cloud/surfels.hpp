@@ -13,8 +13,8 @@ namespace urban_nav_registration {
 struct Surfel {
   Eigen::Vector3f mean;    ///< of the points in the cube, m
   Eigen::Vector3f normal;  ///< unit, towards the cloud's origin; of the 27 cubes around, each with equal weight
-  float planarity =
-      0.0F;  ///< 0...1: 1 - thickness / second extent, as variances; 0 where there is no surface (a line, a bush, a lone point)
+  float planarity = 0.0F;  ///< 0...1: 1 - thickness / second extent, as variances; 0 where there is no surface (a line,
+                           ///< a bush, a lone point)
 };
 
 /// Cloud prepared for alignment.

@@ -20,8 +20,8 @@ struct MountedCamera {
   urban_nav_core::Pose T_base_left;
 };
 
-/// Builds keyframes from live stereo pairs and filtered odometry, which arrive independently. Pairs and selection are the
-/// same as offline. Memory is bounded. Used by one thread.
+/// Builds keyframes from live stereo pairs and filtered odometry, which arrive independently. Pairs and selection are
+/// the same as offline. Memory is bounded. Used by one thread.
 class KeyframeBuilder {
  public:
   struct Counts {

@@ -7,9 +7,9 @@
 
 namespace urban_nav_registration {
 
-/// Extracts keyframes from stereo pairs. Corners are chosen as those that swf_vo tracks (Newman et al. 2009, section 2.4 (i)
-/// and (v)): the best first by Harris score, as far as the quadtree has room, each with its disparity. Equal pairs give
-/// equal bytes, whatever came before. Thread-safe.
+/// Extracts keyframes from stereo pairs. Corners are chosen as those that swf_vo tracks (Newman et al. 2009,
+/// section 2.4 (i) and (v)): the best first by Harris score, as far as the quadtree has room, each with its disparity.
+/// Equal pairs give equal bytes, whatever came before. Thread-safe.
 class KeyframeExtractor {
  public:
   /// `points`: largest number of points of a keyframe.

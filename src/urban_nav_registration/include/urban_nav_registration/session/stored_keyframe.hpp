@@ -14,7 +14,8 @@ constexpr const char* keyframe_camera = urban_nav_core::frames::stereo_left;
 
 /// Converts a keyframe to its row in a store. The session is not part of the row.
 urban_nav_store::StoredKeyframe toStoredKeyframe(const Keyframe& keyframe);
-/// Converts a row of a store to the keyframe of a session. Throws DataError if the features are damaged or of another version.
+/// Converts a row of a store to the keyframe of a session. Throws DataError if the features are damaged or of another
+/// version.
 Keyframe toKeyframe(const urban_nav_store::StoredKeyframe& stored, const std::string& session);
 
 }  // namespace urban_nav_registration

@@ -22,8 +22,9 @@ constexpr int frames = static_cast<int>((4.0 * half_way + turn) / (speed * perio
 constexpr int drift_frame = static_cast<int>((2.0 * half_way + 0.5 * turn) / (speed * period));  // in the turn
 constexpr double drift_sigma = 0.1;                                                              // m, rad
 
-/// A robot of the class Robot, but without a camera, in a courtyard: along it, half a turn, and back two metres beside. Its lasers look ahead to the left
-/// and back to the right, so that both ways see the same fronts across. Odometry errs in one step of the turn, and says by how much.
+/// A robot of the class Robot, but without a camera, in a courtyard: along it, half a turn, and back two metres beside.
+/// Its lasers look ahead to the left and back to the right, so that both ways see the same fronts across. Odometry errs
+/// in one step of the turn, and says by how much.
 template <typename Robot>
 class ScanningRobot : public Robot {
  public:
