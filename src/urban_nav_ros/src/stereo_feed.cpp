@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "urban_nav_ros/stereo_feed.hpp"
 
-#include <boost/make_shared.hpp>
 #include <utility>
 
+#include "archive_message.hpp"
 #include "urban_nav_core/io/archive_types.hpp"
 #include "urban_nav_ros/image.hpp"
 #include "urban_nav_ros/stamp.hpp"
@@ -27,27 +27,6 @@ struct Pixels {
 constexpr int motion_stream = 0;
 
 std::string sizeOf(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
-
-template <typename Message>
-void archiveMessage(urban_nav_core::Archive& archive, boost::shared_ptr<const Message>& message) {
-  namespace wire = ros::serialization;
-  std::vector<std::uint8_t> bytes;
-  if (!archive.isReading()) {
-    bytes.resize(wire::serializationLength(*message));
-    wire::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
-    wire::serialize(stream, *message);
-  }
-  archive(bytes);
-  if (!archive.isReading()) return;
-  auto read = boost::make_shared<Message>();
-  try {
-    wire::IStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
-    wire::deserialize(stream, *read);
-  } catch (const ros::Exception&) {
-    archive.require(false, "a message ends too early");
-  }
-  message = read;
-}
 
 }  // namespace
 

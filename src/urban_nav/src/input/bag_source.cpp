@@ -6,8 +6,10 @@
 #include <list>
 
 #include "input/bag_groups.hpp"
+#include "input/bag_panorama.hpp"
 #include "input/bag_topics.hpp"
 #include "input/calibration_file.hpp"
+#include "input/first_message.hpp"
 #include "input/open.hpp"
 #include "urban_nav_core/io/archive_types.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -32,7 +34,7 @@ namespace {
 constexpr urban_nav_core::StampNs kMaxLateness = 200'000'000;  // ns: offline, waiting costs nothing
 
 constexpr const char* kBagStateName = "reader of bags";
-constexpr std::uint32_t kBagStateVersion = 2;
+constexpr std::uint32_t kBagStateVersion = 3;
 
 /// The bags of one recording, read as one stream in the order of their receipt; the feed brings it into the order of
 /// stamps.
@@ -63,6 +65,7 @@ class BagSource : public Source {
           SourceItem input(std::move(*pair));
           input.bag_end = std::exchange(bag_end_, nullptr);
           input.scans = std::exchange(scans_, {});
+          input.panoramas = std::exchange(panoramas_, {});
           return input;
         }
         if (ended_) return std::nullopt;
@@ -81,6 +84,7 @@ class BagSource : public Source {
   }
 
   std::vector<LaserInput> scans() const override { return scans_; }
+  std::vector<urban_nav_ros::Panorama> panoramas() const override { return panoramas_; }
   std::vector<urban_nav_core::SpecificForce> forces() const override { return forces_; }
   std::shared_ptr<const BagEnd> bagEnd() const override { return bag_end_; }
 
@@ -105,6 +109,7 @@ class BagSource : public Source {
       if (refused_scans_[i] > 0)
         faults.push_back(laser_topics_[i] + ": " + std::to_string(refused_scans_[i]) +
                          " scans have no stamp, or angles or times that are not finite, and were dropped");
+    for (std::string& fault : panorama_.faults()) faults.push_back(std::move(fault));
     return faults;
   }
 
@@ -127,16 +132,9 @@ class BagSource : public Source {
     return text.empty() ? "it has no images at all" : text + " (--topic left:=NAME --topic right:=NAME)";
   }
 
-  /// The first message of a topic that is of type Message.
   template <typename Message>
   boost::shared_ptr<Message> first(const std::string& topic) {
-    for (rosbag::Bag& bag : bags_) {
-      rosbag::View view(bag, rosbag::TopicQuery(topic));
-      for (const rosbag::MessageInstance& instance : view) {
-        if (boost::shared_ptr<Message> message = instance.instantiate<Message>()) return message;
-      }
-    }
-    return nullptr;
+    return firstMessage<Message>(bags_, topic);
   }
 
   /// Frame and size of a camera's first image.
@@ -218,6 +216,8 @@ class BagSource : public Source {
       }
     }
     refused_scans_.resize(laser_topics_.size(), 0);
+    panorama_ = BagPanorama(bags_, topics_, transforms);
+    info_.panorama = panorama_.cameras();
   }
 
   /// What is read, and what becomes of it: from the topics and from where the IMU stands.
@@ -230,6 +230,7 @@ class BagSource : public Source {
     if (R_base_imu_ && options_.motion_input != "gyroscope" && topics_.find(Role::Imu))
       names_.push_back(topics_.find(Role::Imu)->name);
     names_.insert(names_.end(), laser_topics_.begin(), laser_topics_.end());
+    for (std::string& name : panorama_.topics()) names_.push_back(std::move(name));
   }
 
   void startReading() {
@@ -268,13 +269,15 @@ class BagSource : public Source {
       archive(writer);
       bag_end_ = std::make_shared<BagEnd>(BagEnd{groups_[group_].end, groups_[group_].receipt,
                                                  urban_nav_core::seal(kBagStateName, kBagStateVersion, writer.take()),
-                                                 std::exchange(scans_, {})});
+                                                 std::exchange(scans_, {}), std::exchange(panoramas_, {})});
     }
     if (++group_ < groups_.size()) {
       readGroup();
       return;
     }
     feed_->finish();
+    panorama_.finish();
+    takePanoramas();
     ended_ = true;
   }
 
@@ -292,6 +295,8 @@ class BagSource : public Source {
       }
       refused_scans_.resize(laser_topics_.size(), 0);
     }
+    archive(panorama_);
+    info_.panorama = panorama_.cameras();
     if (archive.isReading()) listen();
     std::vector<std::pair<urban_nav_core::StampNs, urban_nav_core::Vector3d>> forces;
     for (const urban_nav_core::SpecificForce& sample : forces_) forces.emplace_back(sample.stamp, sample.force);
@@ -345,7 +350,13 @@ class BagSource : public Source {
         feed_->add(*motion);
     } else if (const auto scan = instance.instantiate<sensor_msgs::LaserScan>()) {
       add(topic, *scan);
+    } else if (panorama_.add(instance)) {
+      takePanoramas();
     }
+  }
+
+  void takePanoramas() {
+    for (urban_nav_ros::Panorama& panorama : panorama_.take()) panoramas_.push_back(std::move(panorama));
   }
 
   void add(const std::string& topic, const sensor_msgs::LaserScan& message) {
@@ -378,6 +389,8 @@ class BagSource : public Source {
   std::vector<std::string> laser_topics_;    // of info_.lasers
   std::vector<std::int64_t> refused_scans_;  // likewise
   std::vector<LaserInput> scans_;            // since the pair or end of a bag before
+  BagPanorama panorama_;
+  std::vector<urban_nav_ros::Panorama> panoramas_;  // since the pair or end of a bag before
   std::optional<StereoFeed> feed_;
   bool is_placed_ = false;          // the bags say where the camera stands
   std::vector<std::string> names_;  // of the topics that are read

@@ -17,15 +17,25 @@ struct RoleNames {
   const char* word;
   const char* topic;  // of docs/architecture.md
 };
-constexpr std::array<RoleNames, 9> kRoles = {{{Role::Left, "left", "stereo/left/image_raw"},
-                                              {Role::Right, "right", "stereo/right/image_raw"},
-                                              {Role::LeftInfo, "left_info", "stereo/left/camera_info"},
-                                              {Role::RightInfo, "right_info", "stereo/right/camera_info"},
-                                              {Role::Imu, "imu", "imu/data"},
-                                              {Role::Wheels, "wheels", "wheel_odom"},
-                                              {Role::LaserLeft, "laser_left", "laser_left/scan"},
-                                              {Role::LaserRight, "laser_right", "laser_right/scan"},
-                                              {Role::Truth, "truth", "ground_truth/pose"}}};
+constexpr std::array<RoleNames, 19> kRoles = {{{Role::Left, "left", "stereo/left/image_raw"},
+                                               {Role::Right, "right", "stereo/right/image_raw"},
+                                               {Role::LeftInfo, "left_info", "stereo/left/camera_info"},
+                                               {Role::RightInfo, "right_info", "stereo/right/camera_info"},
+                                               {Role::Imu, "imu", "imu/data"},
+                                               {Role::Wheels, "wheels", "wheel_odom"},
+                                               {Role::LaserLeft, "laser_left", "laser_left/scan"},
+                                               {Role::LaserRight, "laser_right", "laser_right/scan"},
+                                               {Role::Truth, "truth", "ground_truth/pose"},
+                                               {Role::Panorama0, "panorama0", "ladybug/camera0/image_raw"},
+                                               {Role::Panorama1, "panorama1", "ladybug/camera1/image_raw"},
+                                               {Role::Panorama2, "panorama2", "ladybug/camera2/image_raw"},
+                                               {Role::Panorama3, "panorama3", "ladybug/camera3/image_raw"},
+                                               {Role::Panorama4, "panorama4", "ladybug/camera4/image_raw"},
+                                               {Role::Panorama0Info, "panorama0_info", "ladybug/camera0/camera_info"},
+                                               {Role::Panorama1Info, "panorama1_info", "ladybug/camera1/camera_info"},
+                                               {Role::Panorama2Info, "panorama2_info", "ladybug/camera2/camera_info"},
+                                               {Role::Panorama3Info, "panorama3_info", "ladybug/camera3/camera_info"},
+                                               {Role::Panorama4Info, "panorama4_info", "ladybug/camera4/camera_info"}}};
 
 constexpr std::array<std::array<const char*, 2>, 7> kSides = {{{"left", "right"},
                                                                {"cam0", "cam1"},
@@ -42,9 +52,19 @@ std::string bare(const std::string& topic) { return topic.empty() || topic.front
 bool fits(Role role, const std::string& type) {
   switch (role) {
     case Role::Left:
-    case Role::Right: return isImageType(type);
+    case Role::Right:
+    case Role::Panorama0:
+    case Role::Panorama1:
+    case Role::Panorama2:
+    case Role::Panorama3:
+    case Role::Panorama4: return isImageType(type);
     case Role::LeftInfo:
-    case Role::RightInfo: return type == "sensor_msgs/CameraInfo";
+    case Role::RightInfo:
+    case Role::Panorama0Info:
+    case Role::Panorama1Info:
+    case Role::Panorama2Info:
+    case Role::Panorama3Info:
+    case Role::Panorama4Info: return type == "sensor_msgs/CameraInfo";
     case Role::Imu: return type == "sensor_msgs/Imu";
     case Role::Wheels: return type == "nav_msgs/Odometry";
     case Role::LaserLeft:
@@ -184,6 +204,46 @@ void guessOtherInfos(const std::map<std::string, std::string>& available, BagTop
   topics.chosen[Role::RightInfo] = infos[1];
 }
 
+/// Cameras of a panoramic head, unless the user names one: the first topic of each camera whose name tells so.
+void guessPanorama(const std::map<std::string, std::string>& available, BagTopics& topics) {
+  if (topics.panorama().empty()) {
+    for (std::size_t camera = 0; camera < panorama_cameras; ++camera)
+      for (const auto& [topic, type] : available) {
+        const std::string number = std::to_string(camera);
+        if (!isImageType(type) || !(contains(topic, "ladybug") || contains(topic, "panorama")) ||
+            !(contains(topic, "camera" + number) || contains(topic, "cam" + number)))
+          continue;
+        topics.chosen[panoramaRole(camera)] = {topic, type};
+        break;
+      }
+    if (topics.panorama().size() < 2)
+      for (const std::size_t camera : topics.panorama()) topics.chosen.erase(panoramaRole(camera));
+  }
+  for (const std::size_t camera : topics.panorama())
+    guessInfo(available, panoramaRole(camera), panoramaInfoRole(camera), topics);
+}
+
+/// What may be a stereo pair: all topics but those of a panoramic head.
+std::map<std::string, std::string> withoutPanorama(std::map<std::string, std::string> available,
+                                                   const BagTopics& topics) {
+  for (const std::size_t camera : topics.panorama())
+    for (const Role role : {panoramaRole(camera), panoramaInfoRole(camera)})
+      if (const auto topic = topics.find(role)) available.erase(topic->name);
+  return available;
+}
+
+/// One line for each role; panoramas share one.
+void noteTopics(const std::map<Role, ChosenTopic>& wished, BagTopics& topics) {
+  const std::vector<std::size_t> panorama = topics.panorama();
+  for (const auto& [role, topic] : topics.chosen) {
+    const std::string guessed = wished.count(role) != 0 ? "" : " (guessed)";
+    if (role < Role::Panorama0) topics.notes.push_back(std::string(toString(role)) + ": " + topic.name + guessed);
+    else if (role == panoramaRole(panorama.front()))
+      topics.notes.push_back(std::to_string(panorama.size()) + " cameras of a panorama: " + topic.name +
+                             (panorama.size() > 1 ? " ..." : "") + guessed);
+  }
+}
+
 void guessOther(const std::map<std::string, std::string>& available, const RoleNames& names,
                 const std::vector<std::string>& words, BagTopics& topics) {
   if (topics.find(names.role)) return;
@@ -204,6 +264,19 @@ const char* toString(Role role) {
       ->word;
 }
 
+Role panoramaRole(std::size_t camera) { return static_cast<Role>(static_cast<std::size_t>(Role::Panorama0) + camera); }
+
+Role panoramaInfoRole(std::size_t camera) {
+  return static_cast<Role>(static_cast<std::size_t>(Role::Panorama0Info) + camera);
+}
+
+std::vector<std::size_t> BagTopics::panorama() const {
+  std::vector<std::size_t> cameras;
+  for (std::size_t camera = 0; camera < panorama_cameras; ++camera)
+    if (find(panoramaRole(camera))) cameras.push_back(camera);
+  return cameras;
+}
+
 std::optional<ChosenTopic> BagTopics::find(Role role) const {
   const auto found = chosen.find(role);
   return found == chosen.end() ? std::nullopt : std::optional<ChosenTopic>(found->second);
@@ -213,19 +286,18 @@ BagTopics chooseTopics(const std::map<std::string, std::string>& available, cons
   BagTopics topics;
   for (const std::string& wish : wishes) take(available, wish, topics);
   const std::map<Role, ChosenTopic> wished = topics.chosen;
-  guessImages(available, topics);
-  guessInfo(available, Role::Left, Role::LeftInfo, topics);
-  guessInfo(available, Role::Right, Role::RightInfo, topics);
-  guessOtherInfos(available, topics);
+  guessPanorama(available, topics);
+  const std::map<std::string, std::string> others = withoutPanorama(available, topics);
+  guessImages(others, topics);
+  guessInfo(others, Role::Left, Role::LeftInfo, topics);
+  guessInfo(others, Role::Right, Role::RightInfo, topics);
+  guessOtherInfos(others, topics);
   guessOther(available, kRoles[4], {"imu"}, topics);
   guessOther(available, kRoles[5], {"wheel"}, topics);
   guessOther(available, kRoles[6], {"left"}, topics);
   guessOther(available, kRoles[7], {"right"}, topics);
   guessOther(available, kRoles[8], {"ground_truth", "groundtruth"}, topics);
-  for (const auto& [role, topic] : topics.chosen) {
-    topics.notes.push_back(std::string(toString(role)) + ": " + topic.name +
-                           (wished.count(role) != 0 ? "" : " (guessed)"));
-  }
+  noteTopics(wished, topics);
   if (topics.chosen.size() > wished.size())
     topics.notes.push_back("guessed from types and names; --topic ROLE:=NAME decides");
   return topics;

@@ -60,6 +60,11 @@ class ReadAhead : public Source {
     return ended_ ? source_->scans() : std::vector<LaserInput>();
   }
 
+  std::vector<urban_nav_ros::Panorama> panoramas() const override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return ended_ ? source_->panoramas() : std::vector<urban_nav_ros::Panorama>();
+  }
+
   std::vector<urban_nav_core::SpecificForce> forces() const override {
     const std::lock_guard<std::mutex> lock(mutex_);
     return ended_ ? source_->forces() : std::vector<urban_nav_core::SpecificForce>();

@@ -43,7 +43,7 @@ void SessionReader::openPasses(const BagCheckpoint* checkpoint) {
 void SessionReader::openResumed() {
   const std::optional<RunCheckpoint::ResumePoint>& point = checkpoint_.resumePoint(session_);
   if (!point) return;
-  const BagEnd after{point->bags, point->checkpoint.receipt, point->checkpoint.reader, {}};
+  const BagEnd after{point->bags, point->checkpoint.receipt, point->checkpoint.reader, {}, {}};
   try {
     source_ = openSource(&after);
     openPasses(&point->checkpoint);
@@ -86,7 +86,13 @@ void SessionReader::flush() {
   for (const auto& [key, pass] : passes_) pass->flush();
 }
 
+void SessionReader::processPanoramas(const std::vector<urban_nav_ros::Panorama>& panoramas) {
+  for (const urban_nav_ros::Panorama& panorama : panoramas)
+    for (const auto& [key, pass] : passes_) pass->process(panorama);
+}
+
 void SessionReader::saveBagEnd(const BagEnd& end) {
+  processPanoramas(end.panoramas);
   flush();
   std::vector<BagCheckpoint::StageState> states;
   for (const auto& [key, pass] : passes_) states.emplace_back(key, pass->checkpoint());
@@ -102,6 +108,7 @@ void SessionReader::read(const ProgressCallback& progress) {
   while (const std::optional<SourceItem> input = source_->next()) {
     if (input->bag_end) saveBagEnd(*input->bag_end);
     checkpoint_.writeScans(input->scans);
+    processPanoramas(input->panoramas);
     PassItem item{*input};
     for (const auto& [key, pass] : passes_) pass->process(item);
     bar.update(static_cast<std::int64_t>(rows.size()));
@@ -113,6 +120,7 @@ void SessionReader::read(const ProgressCallback& progress) {
   }
   if (const auto end = source_->bagEnd()) saveBagEnd(*end);
   checkpoint_.writeScans(source_->scans());
+  processPanoramas(source_->panoramas());
   const PassEnd end{source_->closingFaults(), source_->forces()};
   std::vector<BagCheckpoint::StageState> states;
   for (const auto& [key, pass] : passes_) {

@@ -34,6 +34,7 @@ class SessionReader {
   void openPasses(const BagCheckpoint* checkpoint);
   bool restoreFinished();
   void flush();
+  void processPanoramas(const std::vector<urban_nav_ros::Panorama>& panoramas);
   void saveBagEnd(const BagEnd& end);
 
   MapContext& context_;

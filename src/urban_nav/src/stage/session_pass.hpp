@@ -26,6 +26,9 @@ class SessionPass {
   virtual ~SessionPass() = default;
   /// Observes the next item.
   virtual void process(PassItem& item) = 0;
+  /// Observes a panorama whose images follow SourceInfo::panorama. Panoramas come in order of stamps, each before the
+  /// first pair that was recorded after it was complete; its own stamp may be later or earlier than that of this pair.
+  virtual void process(const urban_nav_ros::Panorama&) {}
   /// Writes what is new to the store. Called before each commit, about once a second.
   virtual void flush() {}
   /// Returns the state at the end of a bag, from which a new object continues bit-exactly. Everything up to here must

@@ -36,7 +36,8 @@ TEST(BagTopics, takesTheSuitesOwnNames) {
   EXPECT_EQ(name(topics, Role::Imu), "/imu/data");
   EXPECT_EQ(name(topics, Role::Wheels), "/wheel_odom");
   EXPECT_EQ(name(topics, Role::Truth), "/ground_truth/pose");
-  EXPECT_EQ(topics.notes.size(), 8U);
+  EXPECT_EQ(topics.panorama().size(), 2U);
+  EXPECT_EQ(topics.notes.size(), 9U);
 }
 
 TEST(BagTopics, guessesOtherPeoplesNames) {
@@ -87,6 +88,32 @@ TEST(BagTopics, takesTheOnlyTwoCameraInfosWhereverTheyStand) {
   EXPECT_EQ(with({"/calibration/a_left", "/calibration/a_right"}), "/calibration/a_left /calibration/a_right");
   EXPECT_EQ(with({"/info"}), "none none");
   EXPECT_EQ(with({"/a/info", "/b/info", "/c/info"}), "none none");
+}
+
+TEST(BagTopics, findsAPanoramicHeadAndTakesItForNoStereoPair) {
+  std::map<std::string, std::string> available;
+  for (const char* number : {"0", "1", "2", "3", "4"}) {
+    available["/ladybug/camera" + std::string(number) + "/image_raw/compressed"] = kCompressed;
+    available["/ladybug/camera" + std::string(number) + "/camera_info"] = kInfo;
+  }
+  const BagTopics alone = chooseTopics(available, {});
+  EXPECT_EQ(alone.panorama(), (std::vector<std::size_t>{0, 1, 2, 3, 4}));
+  EXPECT_EQ(name(alone, Role::Panorama3), "/ladybug/camera3/image_raw/compressed");
+  EXPECT_EQ(name(alone, Role::Panorama3Info), "/ladybug/camera3/camera_info");
+  EXPECT_EQ(name(alone, Role::Left), "none");
+  available["/stereo/left/image_raw"] = available["/stereo/right/image_raw"] = kImage;
+  const BagTopics with_stereo = chooseTopics(available, {});
+  EXPECT_EQ(name(with_stereo, Role::Left), "/stereo/left/image_raw");
+  EXPECT_EQ(with_stereo.panorama().size(), 5U);
+  available["/gopro"] = kImage;
+  const BagTopics single = chooseTopics(available, {"panorama0:=/gopro"});
+  EXPECT_EQ(single.panorama(), std::vector<std::size_t>{0});
+  EXPECT_EQ(name(single, Role::Panorama0), "/gopro");
+}
+
+TEST(BagTopics, takesNoPanoramicHeadFromASingleCamera) {
+  const BagTopics topics = chooseTopics({{"/panorama/camera0/image_raw", kImage}}, {});
+  EXPECT_TRUE(topics.panorama().empty());
 }
 
 TEST(BagTopics, doesAsItIsTold) {

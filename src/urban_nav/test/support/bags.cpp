@@ -15,6 +15,8 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
+#include "urban_nav_core/types/frames.hpp"
+
 namespace urban_nav::testing {
 
 namespace {
@@ -112,6 +114,18 @@ void splitBag(const std::string& from, const std::vector<std::string>& parts) {
     wheels.pose.pose.position.x = (time - view.getBeginTime()).toSec();
     wheels.pose.pose.orientation.w = 1.0;
     partOf(time).write("/wheel_odom", time, wheels);
+    for (int camera = 0; camera < 5; ++camera) {
+      sensor_msgs::Image image;
+      image.header.stamp = instance.instantiate<sensor_msgs::Image>()->header.stamp;
+      image.header.frame_id = urban_nav_core::frames::ladybugCamera(camera);
+      image.encoding = "mono8";
+      image.width = image.step = 4;
+      image.height = 1;
+      image.data.assign(4, static_cast<std::uint8_t>(camera));
+      const ros::Time received = time + ros::Duration(0.003 * (5 - camera));
+      partOf(std::min(received, view.getEndTime()))
+          .write("/ladybug/camera" + std::to_string(camera) + "/image_raw", received, image);
+    }
   }
 }
 

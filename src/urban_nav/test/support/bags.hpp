@@ -16,9 +16,9 @@ enum class Rewrite {
 };
 void rewriteBag(const std::string& from, const std::string& to, Rewrite how);
 
-/// The same bag in parts of equal length by times of receipt, with an IMU that lies askew and wheels that turn. What is
-/// said once
-/// (/tf_static) is in the first part alone; images come up to 40 ms late, so that pairs are cut in two.
+/// The same bag in parts of equal length by times of receipt, with an IMU that lies askew, wheels that turn, and
+/// panoramas of five images as often as left images. What is published once (/tf_static) is in the first part alone;
+/// images come up to 40 ms late, so that pairs are cut in two.
 void splitBag(const std::string& from, const std::vector<std::string>& parts);
 
 }  // namespace urban_nav::testing

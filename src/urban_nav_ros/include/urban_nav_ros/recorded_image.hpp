@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <sensor_msgs/CompressedImage.h>
+#include <sensor_msgs/Image.h>
+
+#include <opencv2/core/mat.hpp>
+#include <string>
+
+#include "urban_nav_core/io/archive.hpp"
+#include "urban_nav_core/types/stamp.hpp"
+#include "urban_nav_ros/image.hpp"
+
+namespace urban_nav_ros {
+
+/// Colour pixels (CV_8UC3, BGR), or none and a sentence that states why.
+struct ColourImage {
+  cv::Mat pixels;
+  std::string fault;
+};
+
+/// Image as it was recorded or received, decoded on demand. Copies share the message, which is never changed. Const
+/// functions are thread-safe.
+class RecordedImage {
+ public:
+  RecordedImage() = default;
+  explicit RecordedImage(sensor_msgs::ImageConstPtr image) : raw_(std::move(image)) {}
+  explicit RecordedImage(sensor_msgs::CompressedImageConstPtr image) : compressed_(std::move(image)) {}
+
+  /// Returns true if there is no message.
+  bool empty() const { return !raw_ && !compressed_; }
+  /// Returns stamp (ns) and frame of the header; 0 and "" if it is empty.
+  urban_nav_core::StampNs stamp() const;
+  std::string frame() const;
+
+  /// Decodes to grey. The pixels do not depend on the life of this object.
+  GreyImage grey() const;
+  /// Decodes to colour; grey images have three equal channels.
+  ColourImage colour() const;
+
+  void archive(urban_nav_core::Archive& archive);
+
+ private:
+  sensor_msgs::ImageConstPtr raw_;  // at most one of them
+  sensor_msgs::CompressedImageConstPtr compressed_;
+};
+
+}  // namespace urban_nav_ros

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "urban_nav_ros/recorded_image.hpp"
+
+#include <array>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "archive_message.hpp"
+#include "urban_nav_ros/stamp.hpp"
+
+namespace urban_nav_ros {
+namespace {
+
+struct ColourLayout {
+  const char* encoding;
+  int type;
+  int to_bgr;  // code of cv::cvtColor; same_order: none
+};
+
+constexpr int same_order = -1;
+
+/// Encodings with colour. ROS names a Bayer pattern by the first two pixels of the first row, OpenCV by the second and
+/// third pixel of the second row.
+constexpr std::array<ColourLayout, 10> colour_layouts = {{{"bgr8", CV_8UC3, same_order},
+                                                          {"8UC3", CV_8UC3, same_order},
+                                                          {"rgb8", CV_8UC3, cv::COLOR_RGB2BGR},
+                                                          {"bgra8", CV_8UC4, cv::COLOR_BGRA2BGR},
+                                                          {"8UC4", CV_8UC4, cv::COLOR_BGRA2BGR},
+                                                          {"rgba8", CV_8UC4, cv::COLOR_RGBA2BGR},
+                                                          {"bayer_rggb8", CV_8UC1, cv::COLOR_BayerBG2BGR},
+                                                          {"bayer_bggr8", CV_8UC1, cv::COLOR_BayerRG2BGR},
+                                                          {"bayer_gbrg8", CV_8UC1, cv::COLOR_BayerGR2BGR},
+                                                          {"bayer_grbg8", CV_8UC1, cv::COLOR_BayerGB2BGR}}};
+
+ColourImage fromGrey(const GreyImage& grey) {
+  if (grey.pixels.empty()) return {{}, grey.fault};
+  ColourImage colour;
+  cv::cvtColor(grey.pixels, colour.pixels, cv::COLOR_GRAY2BGR);
+  return colour;
+}
+
+ColourImage toColourImage(const sensor_msgs::Image& message) {
+  const GreyImage grey = toGrey(message);  // checks encoding and size
+  if (grey.pixels.empty()) return {{}, grey.fault};
+  for (const ColourLayout& layout : colour_layouts) {
+    if (message.encoding != layout.encoding) continue;
+    auto* bytes = const_cast<std::uint8_t*>(message.data.data());  // cv::Mat has no const view; it is only read
+    const cv::Mat shared(static_cast<int>(message.height), static_cast<int>(message.width), layout.type, bytes,
+                         message.step);
+    ColourImage colour;
+    if (layout.to_bgr == same_order) colour.pixels = shared.clone();
+    else cv::cvtColor(shared, colour.pixels, layout.to_bgr);
+    return colour;
+  }
+  return fromGrey(grey);
+}
+
+ColourImage toColourImage(const sensor_msgs::CompressedImage& message) {
+  if (message.data.empty()) return {{}, "no bytes"};
+  try {
+    ColourImage colour{cv::imdecode(message.data, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION), {}};
+    if (colour.pixels.empty())
+      colour.fault =
+          "format \"" + message.format + "\": " + std::to_string(message.data.size()) + " bytes that do not decode";
+    return colour;
+  } catch (const cv::Exception& error) {
+    return {{}, "format \"" + message.format + "\": " + error.err};
+  }
+}
+
+}  // namespace
+
+urban_nav_core::StampNs RecordedImage::stamp() const {
+  if (raw_) return toStampNs(raw_->header.stamp);
+  return compressed_ ? toStampNs(compressed_->header.stamp) : 0;
+}
+
+std::string RecordedImage::frame() const {
+  if (raw_) return raw_->header.frame_id;
+  return compressed_ ? compressed_->header.frame_id : std::string();
+}
+
+GreyImage RecordedImage::grey() const {
+  if (compressed_) return toGrey(*compressed_);
+  if (!raw_) return {{}, "no image"};
+  GreyImage grey = toGrey(*raw_);
+  if (!grey.pixels.empty() && grey.pixels.data == raw_->data.data()) grey.pixels = grey.pixels.clone();
+  return grey;
+}
+
+ColourImage RecordedImage::colour() const {
+  if (compressed_) return toColourImage(*compressed_);
+  if (!raw_) return {{}, "no image"};
+  return toColourImage(*raw_);
+}
+
+void RecordedImage::archive(urban_nav_core::Archive& archive) {
+  int kind = raw_ ? 1 : compressed_ ? 2 : 0;
+  archive(kind);
+  archive.require(kind >= 0 && kind <= 2, "no such image");
+  if (archive.isReading()) *this = RecordedImage();
+  if (kind == 1) archiveMessage(archive, raw_);
+  if (kind == 2) archiveMessage(archive, compressed_);
+}
+
+}  // namespace urban_nav_ros
