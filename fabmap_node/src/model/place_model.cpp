@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
+#include "fabmap_node/model/word_bytes.hpp"
+#include "model/number_bytes.hpp"
 #include "urban_nav_core/io/archive.hpp"
 #include "urban_nav_core/io/text_file.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -19,36 +22,6 @@ namespace {
 constexpr std::uint32_t model_version = 1;
 constexpr char model_name[] = "places model";
 constexpr std::size_t most_words = 1'000'000;
-
-/// Whole numbers in base 128, least significant digits first, the high bit on all but the last.
-void putNumber(std::vector<std::uint8_t>& bytes, std::uint32_t value) {
-  for (; value >= 128; value >>= 7) bytes.push_back(static_cast<std::uint8_t>(value | 128u));
-  bytes.push_back(static_cast<std::uint8_t>(value));
-}
-
-class NumberReader {
- public:
-  explicit NumberReader(const std::vector<std::uint8_t>& bytes) : bytes_(bytes) {}
-  bool atEnd() const { return at_ == bytes_.size(); }
-  /// Returns the next number; `isValid` turns false at a damaged one.
-  std::uint32_t next() {
-    std::uint64_t value = 0;
-    for (unsigned shift = 0; shift < 35; shift += 7) {
-      if (atEnd()) break;
-      const std::uint8_t byte = bytes_[at_++];
-      value |= static_cast<std::uint64_t>(byte & 127u) << shift;
-      if (byte < 128) return static_cast<std::uint32_t>(std::min<std::uint64_t>(value, 0xffffffffu));
-    }
-    valid_ = false;
-    return 0;
-  }
-  bool isValid() const { return valid_; }
-
- private:
-  const std::vector<std::uint8_t>& bytes_;
-  std::size_t at_ = 0;
-  bool valid_ = true;
-};
 
 void archiveCentres(Archive& archive, Vocabulary& vocabulary) {
   std::vector<std::uint8_t> bytes;
@@ -89,25 +62,13 @@ void archiveTree(Archive& archive, ChowLiuTree& tree, std::size_t words) {
   archiveProbabilities(archive, tree.p_parent_absent, words);
 }
 
-/// Differences of successive words: one or two bytes a word.
 void archiveWords(Archive& archive, WordSet& set, std::size_t words) {
-  std::vector<std::uint8_t> steps;
-  Word before = 0;
-  for (const Word word : set) {
-    putNumber(steps, word - before);
-    before = word;
-  }
+  std::vector<std::uint8_t> steps = packWords(set);
   archive(steps);
   if (!archive.isReading()) return;
-  set.clear();
-  std::uint64_t word = 0;
-  for (NumberReader reader(steps); !reader.atEnd();) {
-    const std::uint32_t step = reader.next();
-    word += step;
-    archive.require(reader.isValid() && word < words && (step > 0 || set.empty()),
-                    "words of a sampled place out of order");
-    set.push_back(static_cast<Word>(word));
-  }
+  std::optional<WordSet> read = unpackWords(steps, words);
+  archive.require(read.has_value(), "words of a sampled place out of order");
+  set = std::move(*read);
 }
 
 void archiveCalibration(Archive& archive, PlaceCalibration& calibration) {

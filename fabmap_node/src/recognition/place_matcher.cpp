@@ -6,7 +6,9 @@
 #include <cstdlib>
 #include <limits>
 
+#include "fabmap_node/recognition/compact_look.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
+#include "urban_nav_core/types/stamp.hpp"
 
 namespace fabmap_node {
 namespace {
@@ -33,6 +35,10 @@ PlaceMatcher::PlaceMatcher(const LikelihoodTable& table, const std::vector<WordS
 void PlaceMatcher::add(DescribedPlace place) {
   index_.add(place.words);
   places_.push_back(std::move(place));
+}
+
+LookFeatures PlaceMatcher::look(const DescribedPlace& place) const {
+  return unpackLook(place.look, "place at " + urban_nav_core::printStamp(place.stamp) + " s");
 }
 
 bool PlaceMatcher::isElsewhere(std::size_t a, std::size_t b) const {
@@ -75,7 +81,8 @@ PlaceMatch PlaceMatcher::judge(const DescribedPlace& query, const std::vector<Ca
   for (const Candidate& candidate : candidates) {
     if (!isElsewhere(best.place, candidate.place)) continue;
     if (candidate.look.share > same_place_share * best.look.share &&
-        secondLook(places_[best.place].look, places_[candidate.place].look).share > best.look.share * same_place_share)
+        secondLook(look(places_[best.place]), look(places_[candidate.place])).share >
+            best.look.share * same_place_share)
       continue;
     other_likelihood = std::max(other_likelihood, candidate.log_likelihood);
     other_share = std::max(other_share, candidate.look.share);
@@ -93,10 +100,12 @@ std::optional<PlaceMatch> PlaceMatcher::match(const DescribedPlace& query,
   index_.logLikelihoods(query.words, likelihoods);
   std::vector<Candidate> candidates = likeliest(likelihoods, isCandidate);
   if (candidates.empty()) return std::nullopt;
-  if (options_.second_looks > 0)
+  if (options_.second_looks > 0) {
+    const LookFeatures own = look(query);
     urban_nav_core::forEach(candidates.size(), 1, [&](std::size_t i) {
-      candidates[i].look = secondLook(query.look, places_[candidates[i].place].look);
+      candidates[i].look = secondLook(own, look(places_[candidates[i].place]));
     });
+  }
   PlaceMatch match = judge(query, candidates);
   sampled_.logLikelihoods(query.words, at_samples);
   match.log_likelihood_new = at_samples.empty() ? match.log_likelihood : logMeanOfExponentials(at_samples);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fabmap_node/recognition/compact_look.hpp"
 #include "training/calibration_samples.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -59,7 +60,8 @@ DescribedDrive described(const TrainingDrive& drive, std::size_t number, const V
   DescribedDrive result(drive.size());
   urban_nav_core::forEach(drive.size(), 1, [&](std::size_t i) {
     const PlaceObservation& observation = drive[i].observation;
-    result[i] = {number, drive[i].stamp, vocabulary.words(observation), lookFeatures(observation, look_features)};
+    result[i] = {number, drive[i].stamp, vocabulary.words(observation),
+                 packLook(lookFeatures(observation, look_features))};
   });
   return result;
 }

@@ -38,6 +38,10 @@ const TrainedModel& trainedOnce() {
   return trained;
 }
 
+PlaceDescription describeSynthetic(const PlaceObservation& observation) {
+  return PlaceDescriber(trainedOnce().model.vocabulary, {}, 1000).describe(observation);
+}
+
 TEST(TrainModel, HasBothKindsOfCalibrationSamples) {
   EXPECT_EQ(trainedOnce().model.vocabulary.size(), 250u);
   EXPECT_EQ(trainedOnce().model.sampled_places.size(), 50u);
@@ -66,9 +70,11 @@ TEST(PlaceRecogniser, RecognisesTheSecondVisitAndNothingBefore) {
   recogniser.beginSession();
   double highest_new = 0.0;
   for (std::uint32_t i = 0; i < 40; ++i)
-    highest_new = std::max(highest_new, recogniser.process(i * one_second, syntheticPlace(5000 + i, 0)).probability);
+    highest_new = std::max(
+        highest_new, recogniser.process(i * one_second, describeSynthetic(syntheticPlace(5000 + i, 0))).probability);
   for (std::uint32_t i = 0; i < 15; ++i) {
-    const PlaceRecognition found = recogniser.process((40 + i) * one_second, syntheticPlace(5000 + i, 1));
+    const PlaceRecognition found =
+        recogniser.process((40 + i) * one_second, describeSynthetic(syntheticPlace(5000 + i, 1)));
     ASSERT_TRUE(found.match);
     EXPECT_EQ(found.match->place, i);
     EXPECT_GT(found.probability, highest_new);
@@ -79,16 +85,16 @@ TEST(PlaceRecogniser, RecognisesTheSecondVisitAndNothingBefore) {
 TEST(PlaceRecogniser, PlacesWithinTheMaskAreNoCandidates) {
   PlaceRecogniser recogniser(trainedOnce().model, {});
   recogniser.beginSession();
-  EXPECT_FALSE(recogniser.process(0, syntheticPlace(1, 0)).match);
-  EXPECT_FALSE(recogniser.process(19 * one_second, syntheticPlace(1, 1)).match);
-  EXPECT_TRUE(recogniser.process(21 * one_second, syntheticPlace(1, 2)).match);
+  EXPECT_FALSE(recogniser.process(0, describeSynthetic(syntheticPlace(1, 0))).match);
+  EXPECT_FALSE(recogniser.process(19 * one_second, describeSynthetic(syntheticPlace(1, 1))).match);
+  EXPECT_TRUE(recogniser.process(21 * one_second, describeSynthetic(syntheticPlace(1, 2))).match);
   recogniser.beginSession();
-  EXPECT_TRUE(recogniser.process(22 * one_second, syntheticPlace(1, 1)).match);
+  EXPECT_TRUE(recogniser.process(22 * one_second, describeSynthetic(syntheticPlace(1, 1))).match);
 }
 
 TEST(PlaceRecogniser, ReportsObservationsWithTooFewFeaturesAndStoresNone) {
   PlaceRecogniser recogniser(trainedOnce().model, {});
-  EXPECT_EQ(recogniser.process(0, {}).status, ObservationStatus::TooFewFeatures);
+  EXPECT_EQ(recogniser.process(0, describeSynthetic({})).status, ObservationStatus::TooFewFeatures);
   EXPECT_EQ(recogniser.places(), 0u);
 }
 

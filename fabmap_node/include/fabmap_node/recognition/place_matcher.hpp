@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "fabmap_node/model/place_model.hpp"
@@ -15,7 +16,7 @@ namespace fabmap_node {
 
 struct MatcherOptions {
   int second_looks = 10;            ///< candidates that are compared descriptor by descriptor; 0: none
-  std::size_t look_features = 300;  ///< features that a second look compares
+  std::size_t look_features = 280;  ///< features that a second look compares: 19 kB a place
   urban_nav_core::StampNs elsewhere = 10'000'000'000;  ///< places of one session so far apart in time are elsewhere, ns
 };
 
@@ -24,7 +25,7 @@ struct DescribedPlace {
   std::size_t session = 0;  ///< index of the session
   urban_nav_core::StampNs stamp = 0;
   WordSet words;
-  LookFeatures look;
+  std::string look;  ///< packLook()
 };
 
 /// Place that an observation most likely shows.
@@ -65,6 +66,7 @@ class PlaceMatcher {
   std::vector<Candidate> likeliest(const std::vector<double>& likelihoods,
                                    const std::function<bool(std::size_t)>& isCandidate) const;
   PlaceMatch judge(const DescribedPlace& query, const std::vector<Candidate>& candidates) const;
+  LookFeatures look(const DescribedPlace& place) const;
 
   const MatcherOptions options_;
   PlaceIndex index_, sampled_;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "fabmap_node/model/place_model.hpp"
+#include "fabmap_node/recognition/place_describer.hpp"
 #include "fabmap_node/recognition/place_matcher.hpp"
 
 namespace fabmap_node {
@@ -13,9 +14,6 @@ struct RecogniserOptions {
   MatcherOptions matcher;
   urban_nav_core::StampNs mask = 20'000'000'000;  ///< younger places of the same session are no candidates, ns
 };
-
-/// Why an observation was not used.
-enum class ObservationStatus { Used, TooFewFeatures };
 
 struct PlaceRecognition {
   ObservationStatus status = ObservationStatus::Used;
@@ -35,7 +33,9 @@ class PlaceRecogniser {
 
   /// Starts a session: its places are no candidates for each other within the mask.
   void beginSession();
-  PlaceRecognition process(urban_nav_core::StampNs stamp, const PlaceObservation& observation);
+  /// Adds an observation as a place without recognising it. Returns whether it is usable.
+  bool add(urban_nav_core::StampNs stamp, const PlaceDescription& description);
+  PlaceRecognition process(urban_nav_core::StampNs stamp, const PlaceDescription& description);
 
   /// Returns session index and stamp of a place.
   const DescribedPlace& place(std::size_t i) const { return matcher_.place(i); }

@@ -20,7 +20,7 @@ int runTrain(const Arguments& arguments, Console& console) {
   options.k_means.seed = static_cast<std::uint64_t>(arguments.integer("seed", 1, 0, 1'000'000'000));
   std::vector<fabmap_node::TrainingDrive> drives;
   readPlaceSessions(
-      arguments.all("SRC"), arguments.all("topic"), console,
+      arguments.all("SRC"), arguments.all("topic"), console, nullptr,
       [&drives](std::size_t, const std::string&) { drives.emplace_back(); },
       [&drives](StampedObservation place) {
         drives.back().push_back({place.stamp, std::move(place.observation)});

@@ -7,6 +7,7 @@
 #include "stages/keyframes/keyframes_stage.hpp"
 #include "stages/localization/localization_stage.hpp"
 #include "stages/loops/loops_stage.hpp"
+#include "stages/places/places_stage.hpp"
 #include "stages/vo/vo_stage.hpp"
 
 namespace urban_nav {
@@ -15,6 +16,7 @@ std::vector<std::unique_ptr<Stage>> makeStages() {
   std::vector<std::unique_ptr<Stage>> stages;
   stages.push_back(makeVoStage());
   stages.push_back(makeKeyframesStage());
+  stages.push_back(makePlacesStage());
   stages.push_back(makeLoopsStage());
   stages.push_back(makeGraphStage());
   stages.push_back(makeLocalizationStage());

@@ -12,9 +12,10 @@ PlaceQuery queryPlaces(const fabmap_node::PlaceModel& model, const std::vector<s
                        Console& console) {
   PlaceQuery query;
   fabmap_node::PlaceRecogniser recogniser(model, options);
+  const fabmap_node::PlaceDescriber describer(model.vocabulary, {}, options.matcher.look_features);
   std::vector<std::size_t> row_of_place;
   readPlaceSessions(
-      inputs, topics, console,
+      inputs, topics, console, &describer,
       [&](std::size_t, const std::string& name) {
         query.sessions.push_back(name);
         recogniser.beginSession();
@@ -23,7 +24,7 @@ PlaceQuery queryPlaces(const fabmap_node::PlaceModel& model, const std::vector<s
         PlaceQueryRow row;
         row.session = query.sessions.size() - 1;
         row.stamp = observation.stamp;
-        row.recognition = recogniser.process(observation.stamp, observation.observation);
+        row.recognition = recogniser.process(observation.stamp, observation.description);
         if (row.recognition.match) row.matched_row = row_of_place[row.recognition.match->place];
         if (row.recognition.status == fabmap_node::ObservationStatus::Used) row_of_place.push_back(query.rows.size());
         else ++query.unused;

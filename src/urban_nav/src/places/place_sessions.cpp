@@ -12,15 +12,18 @@ namespace {
 
 constexpr std::size_t images_at_once = 32;  // decoded before features are extracted on all threads
 
-StampedObservation describeImages(const fabmap_node::FeatureExtractor& extractor, const PlaceImages& images) {
+StampedObservation describeImages(const fabmap_node::FeatureExtractor& extractor,
+                                  const fabmap_node::PlaceDescriber* describer, const PlaceImages& images) {
   std::vector<urban_nav_core::ImageView> views;
   for (const cv::Mat& grey : images.grey) views.push_back(urban_nav_ros::viewOf(grey));
-  return {images.stamp, extractor.extract(views)};
+  if (describer != nullptr) return {images.stamp, {}, describer->describe(views)};
+  return {images.stamp, extractor.extract(views), {}};
 }
 
 }  // namespace
 
 void readPlaceSessions(const std::vector<std::string>& inputs, const std::vector<std::string>& topics, Console& console,
+                       const fabmap_node::PlaceDescriber* describer,
                        const std::function<void(std::size_t, const std::string&)>& session,
                        const std::function<void(StampedObservation)>& place) {
   std::vector<std::unique_ptr<PlaceSource>> sources;  // all opened first: a mistake is reported before work begins
@@ -44,7 +47,7 @@ void readPlaceSessions(const std::vector<std::string>& inputs, const std::vector
       }
       std::vector<StampedObservation> observations(batch.size());
       urban_nav_core::forEach(batch.size(), 1,
-                              [&](std::size_t i) { observations[i] = describeImages(extractor, batch[i]); });
+                              [&](std::size_t i) { observations[i] = describeImages(extractor, describer, batch[i]); });
       for (StampedObservation& observation : observations) {
         place(std::move(observation));
         progress.update(++done);

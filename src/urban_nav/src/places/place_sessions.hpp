@@ -7,21 +7,23 @@
 
 #include "command_line/command.hpp"
 #include "command_line/console.hpp"
-#include "fabmap_node/features/place_observation.hpp"
+#include "fabmap_node/recognition/place_describer.hpp"
 #include "urban_nav_core/types/stamp.hpp"
 
 namespace urban_nav {
 
 struct StampedObservation {
   urban_nav_core::StampNs stamp = 0;
-  fabmap_node::PlaceObservation observation;
+  fabmap_node::PlaceObservation observation;  ///< without a describer
+  fabmap_node::PlaceDescription description;  ///< with a describer
 };
 
 /// Reads sessions one after the other and extracts their features on several threads. `session` is called with the
 /// index and the name of each session before its observations, `place` for each observation in order of time. The order
-/// of calls does not depend on the number of threads. Reports progress and notes to `console`. Throws as
-/// openPlaceSource().
+/// of calls does not depend on the number of threads. `describer`: describes them on the same threads; null: none.
+/// Reports progress and notes to `console`. Throws as openPlaceSource().
 void readPlaceSessions(const std::vector<std::string>& inputs, const std::vector<std::string>& topics, Console& console,
+                       const fabmap_node::PlaceDescriber* describer,
                        const std::function<void(std::size_t index, const std::string& name)>& session,
                        const std::function<void(StampedObservation observation)>& place);
 

@@ -166,7 +166,6 @@ TEST_F(Map, saysThatTheCamerasAreExchanged) {
 TEST_F(Map, refusesWhatNobodyCanMap) {
   const TemporaryFolder folder;
   const auto with_stage = [](const char* stage) { return [stage](MapOptions& request) { request.stages = {stage}; }; };
-  EXPECT_THROW(map({in()}, folder.file("out"), 1, with_stage("places")), UserError);
   EXPECT_THROW(map({in()}, folder.file("out"), 1, with_stage("vision")), UserError);
   EXPECT_THROW(map({in()}, folder.file("out"), 1, [](MapOptions& request) { request.truth = "/nowhere.tum"; }),
                UserError);

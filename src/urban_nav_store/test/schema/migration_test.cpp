@@ -80,19 +80,19 @@ void createVersion2(const std::string& path) {
 
 constexpr int kLater = 1000;  // a version that no release has
 
-struct Place {
+struct Landmark {
   SessionId session;
   std::int64_t number = 0;
-  urban_nav_core::Pose T_map_place;
+  urban_nav_core::Pose T_map_landmark;
   static Table table() {
-    Table table{"place", 2};
+    Table table{"landmark", 2};
     table.since = kLater;
     return table;
   }
   void columns(Columns& columns) {
     columns.text("session", session);
     columns.integer("number", number);
-    columns.pose(T_map_place);
+    columns.pose(T_map_landmark);
   }
 };
 
@@ -119,7 +119,7 @@ Tables laterTables() {
   Tables tables = schema::tables();
   for (const Table*& table : tables)
     if (table->name == "property") table = &declaredTable<PropertyWithUnit>();
-  tables.push_back(&declaredTable<Place>());
+  tables.push_back(&declaredTable<Landmark>());
   return tables;
 }
 
@@ -170,12 +170,12 @@ TEST_F(Migration, addsTablesAndColumnsAndKeepsAllRows) {
   EXPECT_EQ(rows[0].sigma, 0.5);
   TableAccess tables(connection);
   tables.put(declaredTable<PropertyWithUnit>(), unchanged(PropertyWithUnit{id, {"length", "8"}, "mm", 0.25}));
-  tables.put(declaredTable<Place>(), unchanged(Place{id, 4, testing::Drawn(1).pose()}));
+  tables.put(declaredTable<Landmark>(), unchanged(Landmark{id, 4, testing::Drawn(1).pose()}));
   connection.commit();
   EXPECT_EQ(properties(connection)[0].unit, "mm");
-  Place place{id, 4, {}};
-  ASSERT_TRUE(tables.find(declaredTable<Place>(), AnyRow(place)));
-  EXPECT_TRUE(urban_nav_core::isApprox(place.T_map_place, testing::Drawn(1).pose(), 1e-15));
+  Landmark landmark{id, 4, {}};
+  ASSERT_TRUE(tables.find(declaredTable<Landmark>(), AnyRow(landmark)));
+  EXPECT_TRUE(urban_nav_core::isApprox(landmark.T_map_landmark, testing::Drawn(1).pose(), 1e-15));
   EXPECT_EQ(connection.integer("SELECT sum(count) FROM tally WHERE name='node'"), 12);
   schema::migrate(connection, laterTables());
   EXPECT_EQ(properties(connection).size(), 2U) << "nothing is left to do";
@@ -187,11 +187,11 @@ TEST_F(Migration, anOlderFileIsReadAsItIs) {
   ASSERT_EQ(rows.size(), 2U);
   EXPECT_EQ(rows[0].property.value, "7");
   EXPECT_EQ(rows[0].unit, "m");
-  Place place;
+  Landmark landmark;
   TableAccess tables(connection);
-  EXPECT_FALSE(tables.has(declaredTable<Place>()));
-  EXPECT_FALSE(tables.find(declaredTable<Place>(), AnyRow(place)));
-  tables.forEach(declaredTable<Place>(), id, AnyRow(place), [] { FAIL(); });
+  EXPECT_FALSE(tables.has(declaredTable<Landmark>()));
+  EXPECT_FALSE(tables.find(declaredTable<Landmark>(), AnyRow(landmark)));
+  tables.forEach(declaredTable<Landmark>(), id, AnyRow(landmark), [] { FAIL(); });
   connection.close();
   EXPECT_TRUE(Store(path, Access::Read).sessions().find(id));
 }
@@ -199,10 +199,10 @@ TEST_F(Migration, anOlderFileIsReadAsItIs) {
 TEST_F(Migration, happensAsAWholeOrNotAtAll) {
   {
     Connection connection(path, Connection::Mode::Write);
-    connection.execute("CREATE TABLE place(a)");
+    connection.execute("CREATE TABLE landmark(a)");
     expectError([&] { schema::migrate(connection, laterTables()); }, path, "SQLite says");
     EXPECT_LT(schema::version(connection), kLater);
-    connection.execute("DROP TABLE place");
+    connection.execute("DROP TABLE landmark");
   }
   Store store(path, Access::Read);
   EXPECT_EQ(dump(store), before);

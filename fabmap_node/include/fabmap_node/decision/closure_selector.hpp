@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <tuple>
+
+#include "fabmap_node/parameters.hpp"
+
+namespace fabmap_node {
+
+/// Where a place lies along the drive of its session.
+struct PlacePosition {
+  std::size_t session = 0;
+  double travelled = 0.0;  ///< m driven since the session began
+};
+
+/// Selects the recognitions that are worth the cost of a geometric check: likely enough, a limited number per metre
+/// driven, and none between stretches that those before connect well. Not thread-safe.
+class ClosureSelector {
+ public:
+  explicit ClosureSelector(const Parameters& parameters);
+
+  /// Begins a session: nothing of the allowance per metre is left over.
+  void beginSession();
+  /// Returns whether a recognition is to be proposed, and counts it if so. Queries of a session in order of time.
+  bool select(const PlacePosition& earlier, const PlacePosition& query, double probability);
+
+ private:
+  using StretchPair = std::tuple<std::size_t, std::int64_t, std::size_t, std::int64_t>;
+
+  double closure_probability_, per_metre_, enough_;
+  double allowance_ = 0.0, travelled_ = 0.0;
+  std::map<StretchPair, double> expected_;  // sum of the probabilities of those proposed
+};
+
+}  // namespace fabmap_node

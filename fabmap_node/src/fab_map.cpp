@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fabmap_node/fab_map.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "fabmap_node/recognition/compact_look.hpp"
+
+namespace fabmap_node {
+
+using urban_nav_core::StampNs;
+
+namespace {
+
+constexpr int second_look_candidates = 10;
+
+RecogniserOptions recogniserOptions(const Parameters& parameters) {
+  RecogniserOptions options;
+  options.matcher.second_looks = parameters.second_look ? second_look_candidates : 0;
+  options.mask = static_cast<StampNs>(std::llround(1e9 * parameters.mask));
+  return options;
+}
+
+}  // namespace
+
+const char* toString(PlaceKnowledge knowledge) {
+  constexpr std::array<const char*, 3> names = {"KNOWN", "UNSURE", "NEW"};
+  return names[static_cast<std::size_t>(knowledge)];
+}
+
+FabMap::FabMap(const PlaceModel& model, const Parameters& parameters)
+    : known_probability_(parameters.known_probability),
+      closure_probability_(parameters.closure_probability),
+      recogniser_(model, recogniserOptions(parameters)),
+      selector_(parameters) {}
+
+void FabMap::beginSession(const std::string& name) {
+  sessions_.push_back(name);
+  recogniser_.beginSession();
+  selector_.beginSession();
+  last_look_.reset();
+}
+
+void FabMap::addPlace(StampNs stamp, const PlaceDescription& description, double travelled) {
+  if (recogniser_.add(stamp, description)) travelled_.push_back(travelled);
+}
+
+PlaceBelief FabMap::decide(const PlaceRecognition& recognition) const {
+  PlaceBelief belief;
+  belief.observation = recognition.status;
+  belief.words = recognition.words;
+  if (!recognition.match) return belief;
+  const DescribedPlace& place = recogniser_.place(recognition.match->place);
+  belief.likeliest.push_back({{sessions_[place.session], place.stamp}, recognition.probability});
+  belief.p_new = 1.0 - recognition.probability;
+  belief.agreeing = recognition.match->agreeing;
+  if (recognition.probability > known_probability_) belief.knowledge = PlaceKnowledge::Known;
+  else if (recognition.probability > closure_probability_) belief.knowledge = PlaceKnowledge::Unsure;
+  return belief;
+}
+
+PlaceOutput FabMap::process(StampNs stamp, const PlaceDescription& description, double travelled) {
+  PlaceOutput output;
+  if (description.status == ObservationStatus::Used) {
+    LookFeatures look = unpackLook(description.look, "observation");
+    if (last_look_ && isStationary(*last_look_, look)) {
+      output.belief = last_belief_;
+      output.belief.at.stamp = stamp;
+      output.belief.is_stationary = true;
+      return output;
+    }
+    last_look_ = std::move(look);
+  }
+  const PlaceRecognition recognition = recogniser_.process(stamp, description);
+  output.belief = decide(recognition);
+  output.belief.at = {sessions_.back(), stamp};
+  if (description.status == ObservationStatus::Used) travelled_.push_back(travelled);
+  if (recognition.match) {
+    const std::size_t earlier = recognition.match->place;
+    if (selector_.select({recogniser_.place(earlier).session, travelled_[earlier]}, {sessions_.size() - 1, travelled},
+                         recognition.probability))
+      output.closures.push_back({output.belief.likeliest.front().at, output.belief.at, recognition.probability});
+  }
+  last_belief_ = output.belief;
+  return output;
+}
+
+}  // namespace fabmap_node

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fabmap_node/recognition/compact_look.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "urban_nav_core/types/error.hpp"
+
+namespace fabmap_node {
+namespace {
+
+// An element of a descriptor is at most some 0.25 (limited to 0.2 before the last normalisation).
+constexpr float levels_per_unit = 64.0F;
+constexpr int highest_level = 15;
+constexpr float highest_coordinate = 65535.0F;
+constexpr std::size_t look_header = 3;  // cameras, number of features
+constexpr std::size_t look_entry = descriptor_bytes / 2 + 5;
+
+std::uint16_t packShare(float share) {
+  return static_cast<std::uint16_t>(std::lround(std::clamp(share, 0.0F, 1.0F) * highest_coordinate));
+}
+
+void append16(std::string& bytes, std::uint16_t value) {
+  bytes.push_back(static_cast<char>(value & 255u));
+  bytes.push_back(static_cast<char>(value >> 8));
+}
+
+std::uint16_t read16(std::string_view bytes, std::size_t at) {
+  return static_cast<std::uint16_t>(static_cast<unsigned char>(bytes[at]) | static_cast<unsigned char>(bytes[at + 1])
+                                                                                << 8);
+}
+
+int level(float element) {
+  return std::clamp(static_cast<int>(std::lround(element * levels_per_unit)), 0, highest_level);
+}
+
+}  // namespace
+
+std::string packLook(const LookFeatures& look) {
+  const std::size_t count = std::min<std::size_t>(look.size(), 65535);
+  std::string bytes;
+  bytes.reserve(look_header + count * look_entry);
+  bytes.push_back(static_cast<char>(look.cameras));
+  append16(bytes, static_cast<std::uint16_t>(count));
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto descriptor = look.descriptors.col(static_cast<Eigen::Index>(k));
+    for (Eigen::Index i = 0; i < descriptor.size(); i += 2)
+      bytes.push_back(static_cast<char>(level(descriptor(i)) | level(descriptor(i + 1)) << 4));
+    const Eigen::Vector2f& direction = look.directions[k];
+    const float camera = std::clamp(std::floor(direction.x()), 0.0F, 255.0F);
+    bytes.push_back(static_cast<char>(static_cast<std::uint8_t>(camera)));
+    append16(bytes, packShare(direction.x() - camera));
+    append16(bytes, packShare(direction.y()));
+  }
+  return bytes;
+}
+
+LookFeatures unpackLook(std::string_view bytes, const std::string& name) {
+  LookFeatures look;
+  const std::size_t count = bytes.size() < look_header ? 0 : read16(bytes, 1);
+  if (bytes.size() != look_header + count * look_entry || bytes.front() == 0)
+    throw urban_nav_core::DataError(name, "descriptors of a place that are truncated or damaged", "");
+  look.cameras = static_cast<std::uint8_t>(bytes.front());
+  look.descriptors.resize(Eigen::NoChange, static_cast<Eigen::Index>(count));
+  look.directions.reserve(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t at = look_header + k * look_entry;
+    auto descriptor = look.descriptors.col(static_cast<Eigen::Index>(k));
+    for (std::size_t i = 0; i < descriptor_bytes / 2; ++i) {
+      const auto pair = static_cast<unsigned char>(bytes[at + i]);
+      descriptor(static_cast<Eigen::Index>(2 * i)) = static_cast<float>(pair & 15u);
+      descriptor(static_cast<Eigen::Index>(2 * i + 1)) = static_cast<float>(pair >> 4);
+    }
+    descriptor /= std::max(1.0F, descriptor.norm());
+    const std::size_t place = at + descriptor_bytes / 2;
+    look.directions.emplace_back(static_cast<float>(static_cast<unsigned char>(bytes[place])) +
+                                     static_cast<float>(read16(bytes, place + 1)) / highest_coordinate,
+                                 static_cast<float>(read16(bytes, place + 3)) / highest_coordinate);
+  }
+  return look;
+}
+
+}  // namespace fabmap_node

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fabmap_node/fab_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include "fabmap_node/training/train_model.hpp"
+#include "support/synthetic_places.hpp"
+
+namespace fabmap_node {
+namespace {
+
+using testing::syntheticPlace;
+using urban_nav_core::StampNs;
+
+constexpr StampNs place_second = 1'000'000'000;
+
+/// Model of synthetic places, with a calibration that announces what clearly agrees.
+const PlaceModel& syntheticModel() {
+  static const PlaceModel model = [] {
+    std::vector<TrainingDrive> drives(3);
+    for (std::uint32_t d = 0; d < 3; ++d)
+      for (std::uint32_t i = 0; i < 40; ++i) drives[d].push_back({i * place_second, syntheticPlace(1000 * d + i, 0)});
+    TrainingOptions options;
+    options.k_means.words = 300;
+    PlaceModel made = trainModel(std::move(drives), options).model;
+    made.single.bias = -20.0;
+    made.single.weights = {0.0, 0.0, 60.0, 0.0};
+    made.single.floor = 0.001;
+    made.single.ceiling = 0.999;
+    return made;
+  }();
+  return model;
+}
+
+PlaceDescription describeNumber(std::uint32_t number, std::uint32_t noise) {
+  return PlaceDescriber(syntheticModel().vocabulary, {}, 280).describe(syntheticPlace(number, noise));
+}
+
+TEST(FabMap, AnnouncesARevisitAndProposesItOnce) {
+  FabMap map(syntheticModel(), Parameters());
+  map.beginSession("monday");
+  for (std::uint32_t i = 0; i < 40; ++i) {
+    const PlaceOutput output = map.process(i * place_second, describeNumber(5000 + i, 0), 6.0 * i);
+    EXPECT_EQ(output.belief.knowledge, PlaceKnowledge::New) << i;
+    EXPECT_TRUE(output.closures.empty()) << i;
+  }
+  map.beginSession("tuesday");
+  for (std::uint32_t i = 10; i < 20; ++i) {
+    const PlaceOutput output =
+        map.process(1000 * place_second + i * place_second, describeNumber(5000 + i, 1), 6.0 * (i - 10));
+    EXPECT_EQ(output.belief.knowledge, PlaceKnowledge::Known) << i;
+    ASSERT_EQ(output.closures.size(), 1u) << i;
+    EXPECT_EQ(output.closures[0].a.session, "monday");
+    EXPECT_EQ(output.closures[0].a.stamp, i * place_second);
+    EXPECT_EQ(output.closures[0].b.session, "tuesday");
+    EXPECT_EQ(output.closures[0].probability, output.belief.likeliest.at(0).probability);
+    EXPECT_NEAR(output.belief.p_new + output.closures[0].probability, 1.0, 1e-12);
+  }
+}
+
+TEST(FabMap, StationaryRobotCountsOnce) {
+  FabMap map(syntheticModel(), Parameters());
+  map.beginSession("monday");
+  for (std::uint32_t i = 0; i < 60; ++i) {
+    const PlaceOutput output = map.process(i * place_second, describeNumber(7, 0), 0.0);
+    EXPECT_EQ(output.belief.is_stationary, i > 0);
+    EXPECT_TRUE(output.closures.empty());
+  }
+  EXPECT_EQ(map.places(), 1u);
+}
+
+TEST(FabMap, PlacesOfEarlierSessionsAreCandidatesAndUnusableOnesAreNot) {
+  FabMap map(syntheticModel(), Parameters());
+  map.beginSession("earlier");
+  map.addPlace(0, describeNumber(1, 0), 0.0);
+  map.addPlace(1, PlaceDescription{ObservationStatus::Dark, 1, 0, {}, {}}, 1.0);
+  EXPECT_EQ(map.places(), 1u);
+  map.beginSession("now");
+  const PlaceOutput dark = map.process(5, PlaceDescription{ObservationStatus::Dark, 1, 0, {}, {}}, 0.0);
+  EXPECT_EQ(dark.belief.observation, ObservationStatus::Dark);
+  EXPECT_TRUE(dark.belief.likeliest.empty());
+  const PlaceOutput again = map.process(6, describeNumber(1, 1), 0.0);
+  ASSERT_EQ(again.closures.size(), 1u);
+  EXPECT_EQ(again.closures[0].a.session, "earlier");
+}
+
+}  // namespace
+}  // namespace fabmap_node

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fabmap_node/recognition/place_describer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "fabmap_node/model/place_model.hpp"
+#include "fabmap_node/model/word_bytes.hpp"
+#include "fabmap_node/recognition/compact_look.hpp"
+#include "fabmap_node/store/place_rows.hpp"
+#include "support/synthetic_places.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace fabmap_node {
+namespace {
+
+using testing::syntheticPlace;
+using urban_nav_core::ImageView;
+
+constexpr int side = 200;
+
+/// Squares of random brightness, which have corners.
+std::vector<std::uint8_t> squares(unsigned seed) {
+  std::mt19937 random(seed);
+  std::vector<std::uint8_t> pixels(static_cast<std::size_t>(side * side));
+  std::vector<std::uint8_t> level(400);
+  for (std::uint8_t& value : level) value = static_cast<std::uint8_t>(random() % 256);
+  for (int v = 0; v < side; ++v)
+    for (int u = 0; u < side; ++u)
+      pixels[static_cast<std::size_t>(v * side + u)] = level[static_cast<std::size_t>(v / 10 * 20 + u / 10)];
+  return pixels;
+}
+
+ImageView viewOfPixels(const std::vector<std::uint8_t>& pixels) { return {pixels.data(), side, side, side}; }
+
+const PlaceModel& suiteModel() {
+  static const PlaceModel model = defaultModel();
+  return model;
+}
+
+PlaceDescription describePixels(const std::vector<std::uint8_t>& pixels) {
+  return PlaceDescriber(suiteModel().vocabulary, {}, 280).describe({viewOfPixels(pixels)});
+}
+
+TEST(PlaceDescriber, StatesWhyAnImageIsNotUsed) {
+  EXPECT_EQ(describePixels(squares(1)).status, ObservationStatus::Used);
+  EXPECT_EQ(describePixels(std::vector<std::uint8_t>(side * side, 3)).status, ObservationStatus::Dark);
+  EXPECT_EQ(describePixels(std::vector<std::uint8_t>(side * side, 200)).status, ObservationStatus::Blank);
+  std::vector<std::uint8_t> ramp(static_cast<std::size_t>(side * side));
+  for (std::size_t i = 0; i < ramp.size(); ++i) ramp[i] = static_cast<std::uint8_t>(i % side);
+  EXPECT_EQ(describePixels(ramp).status, ObservationStatus::Blurred);
+  EXPECT_EQ(PlaceDescriber(suiteModel().vocabulary, {}, 280).describe({ImageView(), ImageView()}).status,
+            ObservationStatus::NoImage);
+}
+
+TEST(PlaceDescriber, ContinuesWithoutOneOfFiveCameras) {
+  const std::vector<std::uint8_t> pixels = squares(2);
+  const ImageView image = viewOfPixels(pixels);
+  const auto description =
+      PlaceDescriber(suiteModel().vocabulary, {}, 280).describe({image, image, ImageView(), image, image});
+  EXPECT_EQ(description.status, ObservationStatus::Used);
+  EXPECT_EQ(description.cameras, 5);
+  EXPECT_EQ(description.missing, 1);
+}
+
+TEST(CompactLook, KeepsDescriptorsAndDirections) {
+  const LookFeatures look = lookFeatures(syntheticPlace(3, 0, 5), 1000);
+  const std::string bytes = packLook(look);
+  const LookFeatures read = unpackLook(bytes, "look");
+  ASSERT_EQ(read.size(), look.size());
+  EXPECT_EQ(read.cameras, 5);
+  for (std::size_t k = 0; k < look.size(); ++k) {
+    EXPECT_GT(
+        look.descriptors.col(static_cast<Eigen::Index>(k)).dot(read.descriptors.col(static_cast<Eigen::Index>(k))),
+        0.99F);
+    EXPECT_NEAR((look.directions[k] - read.directions[k]).norm(), 0.0F, 2e-5F);
+  }
+  EXPECT_EQ(packLook(read), bytes) << "reading and writing again changes nothing";
+  EXPECT_GT(secondLook(look, read).share, 0.9);
+}
+
+TEST(CompactLook, RefusesDamagedBytes) {
+  const std::string bytes = packLook(lookFeatures(syntheticPlace(3, 0), 10));
+  for (const std::size_t size : {std::size_t{0}, std::size_t{2}, std::size_t{3}, bytes.size() - 1})
+    EXPECT_THROW(unpackLook(bytes.substr(0, size), "look"), urban_nav_core::DataError);
+  EXPECT_THROW(unpackLook(bytes + "x", "look"), urban_nav_core::DataError);
+}
+
+TEST(WordBytes, ReadBackAndRefuseDamage) {
+  for (const WordSet& words : {WordSet{}, WordSet{0}, WordSet{0, 1, 127, 128, 5000}, WordSet{7, 3999}}) {
+    EXPECT_EQ(unpackWords(packWords(words), 5001), words);
+    if (words.empty()) continue;
+    EXPECT_FALSE(unpackWords(packWords(words), words.back()));
+  }
+  EXPECT_FALSE(unpackWords({5, 0}, 100)) << "a word twice";
+  EXPECT_FALSE(unpackWords({255}, 1000000)) << "ends too early";
+}
+
+TEST(PlaceRows, ReadBackAndRefuseDamage) {
+  PlaceDescription description = describePixels(squares(4));
+  description.missing = 1;
+  const urban_nav_store::StoredPlace row = toStoredPlace("session", 17, description, "hash");
+  EXPECT_LE(row.descriptors.size(), 20000u);
+  const std::size_t words = suiteModel().vocabulary.size();
+  const PlaceDescription read = toPlaceDescription(row, words);
+  EXPECT_EQ(read.words, description.words);
+  EXPECT_EQ(read.look, description.look);
+  EXPECT_EQ(read.missing, 1);
+  EXPECT_EQ(read.status, ObservationStatus::Used);
+  const auto refuses = [&](const std::function<void(urban_nav_store::StoredPlace&)>& damage) {
+    urban_nav_store::StoredPlace damaged = row;
+    damage(damaged);
+    EXPECT_THROW(toPlaceDescription(damaged, words), urban_nav_core::DataError);
+  };
+  refuses([](auto& place) { place.status = "seen"; });
+  refuses([](auto& place) { place.cameras = 0; });
+  refuses([](auto& place) { place.missing = 2; });
+  refuses([](auto& place) { place.words += "\xff"; });
+  refuses([](auto& place) { place.descriptors.pop_back(); });
+  EXPECT_THROW(toPlaceDescription(row, 10), urban_nav_core::DataError) << "words of a larger vocabulary";
+}
+
+TEST(PlaceRows, ThumbnailIsSmall) {
+  const std::vector<std::uint8_t> pixels = squares(5);
+  const std::string jpeg = placeThumbnail(std::vector<ImageView>(5, viewOfPixels(pixels)));
+  EXPECT_FALSE(jpeg.empty());
+  EXPECT_LE(jpeg.size(), 6000u);
+  EXPECT_TRUE(placeThumbnail({ImageView()}).empty());
+}
+
+}  // namespace
+}  // namespace fabmap_node

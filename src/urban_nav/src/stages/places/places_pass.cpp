@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stages/places/places_pass.hpp"
+
+#include <set>
+
+#include "urban_nav_store/table_store.hpp"
+#include "urban_nav_store/tables/stored_model.hpp"
+
+namespace urban_nav {
+
+using urban_nav_store::StoredModel;
+using urban_nav_store::StoredPlace;
+using urban_nav_store::TableStore;
+
+namespace {
+
+/// Grey images of a panorama, by camera number.
+std::vector<cv::Mat> decodePanorama(const urban_nav_ros::Panorama& panorama, const std::vector<std::size_t>& cameras) {
+  std::vector<cv::Mat> images(cameras.back() + 1);
+  for (std::size_t i = 0; i < panorama.images.size(); ++i)
+    if (!panorama.images[i].empty()) images[cameras[i]] = panorama.images[i].grey().pixels;
+  return images;
+}
+
+}  // namespace
+
+PlacesPass::PlacesPass(MapContext& context, const Stage::SessionStart& start,
+                       std::shared_ptr<const LoadedPlaceModel> model, std::vector<double>& ms_features)
+    : store_(*context.store),
+      id_(context.sessions[start.session].id),
+      selector_(context.options.parameters.get(urban_nav_registration::table())),
+      writer_(model, context.options.parameters.get(fabmap_node::table()), id_, context.options.threads == 1),
+      ms_features_(ms_features) {
+  for (const PanoramaCamera& camera : context.sessions[start.session].info.panorama) cameras_.push_back(camera.number);
+  TableStore<StoredModel> models(store_);
+  if (!models.get({id_, model->hash, {}, {}})) models.put({id_, model->hash, "fabmap_node", model->bytes});
+  if (!start.checkpoint || !cameras_.empty()) return;
+  std::set<urban_nav_core::StampNs> stored;
+  TableStore<StoredPlace>(store_).forEach(id_, [&](const StoredPlace& row) { stored.insert(row.stamp); });
+  for (const VoRow& row : context.sessions[start.session].vo->rows)
+    if (stored.count(row.stamp) > 0) selector_.keep(row.T_odom_base);
+}
+
+void PlacesPass::process(PassItem& item) {
+  const VoRow& row = *item.odometry;
+  const urban_nav_core::StereoPairWithMotion& frame = item.input.assembled;
+  if (!cameras_.empty() || !row.accepted || frame.pair.left.empty() || !selector_.select(row.T_odom_base)) return;
+  // The owner keeps the pixels alive.
+  add(row.stamp, [left = frame.pair.left, owner = frame.left_owner] {
+    return std::vector<cv::Mat>{cv::Mat(left.height, left.width, CV_8UC1, const_cast<std::uint8_t*>(left.data),
+                                        static_cast<std::size_t>(left.stride))};
+  });
+}
+
+void PlacesPass::process(const urban_nav_ros::Panorama& panorama) {
+  add(panorama.stamp, [panorama, cameras = cameras_] { return decodePanorama(panorama, cameras); });
+}
+
+std::string PlacesPass::checkpoint() {
+  writeAll();
+  return {};
+}
+
+void PlacesPass::finish(const PassEnd&) { writeAll(); }
+
+void PlacesPass::add(urban_nav_core::StampNs stamp, PlaceWriter::Images images) {
+  if (const auto described = writer_.add(stamp, std::move(images))) put(*described);
+}
+
+void PlacesPass::put(const PlaceWriter::Described& described) {
+  TableStore<StoredPlace>(store_).put(described.row);
+  ms_features_.push_back(described.ms);
+}
+
+void PlacesPass::writeAll() {
+  while (const auto described = writer_.next()) put(*described);
+}
+
+}  // namespace urban_nav
