@@ -76,7 +76,7 @@ std::vector<Pair> chooseKeyframePairs(const std::string& folder) {
   Eigen::Matrix4d car;
   car << 0.981715, 0.169605, -0.0864239, 0.0614127, -0.152902, 0.973034, 0.172703, 0.191433, 0.113385, -0.15633,
       0.981175, -0.0338571, 0, 0, 0, 1;
-  const auto read = [&](const char* file) { return urban_nav_core::readCloud(folder + "/" + file); };
+  const auto read = [&](const char* file) { return urban_nav_core::readCloud(folder + "/" + file).cloud; };
   return {{"outdoor_pair", read("outdoor_pair/source.ply"), read("outdoor_pair/target.ply"),
            readPose(folder + "/outdoor_pair/T_target_source.txt")},
           {"car_pair", read("car_pair/car_cloud401.csv.gz"), read("car_pair/car_cloud400.csv.gz"), poseOf(car)}};

@@ -89,7 +89,8 @@ std::vector<Place> readPlaces(const std::string& folder) {
     places.push_back({static_cast<int>(number("day")), number("way"),
                       Pose(Eigen::Quaterniond(number("qw"), number("qx"), number("qy"), number("qz")),
                            {number("x"), number("y"), number("z")}),
-                      urban_nav_core::readCloud(folder + "/" + csv.text(row, csv.column("cloud"))), number("bend")});
+                      urban_nav_core::readCloud(folder + "/" + csv.text(row, csv.column("cloud"))).cloud,
+                      number("bend")});
   }
   return places;
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <filesystem>
 
 #include "command_line/console.hpp"
@@ -9,6 +10,7 @@
 #include "report/raster_plot.hpp"
 #include "report/standalone_svg.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
+#include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav {
@@ -18,12 +20,45 @@ using urban_nav_core::UserError;
 
 namespace {
 
-std::vector<urban_nav_core::CovarianceRow> covariancesFor(const Arguments& arguments) {
+/// A file that nobody asked for is never the reason for an error.
+std::vector<urban_nav_core::CovarianceRow> covariancesFor(const Arguments& arguments, Console& console) {
   if (const std::optional<std::string> given = arguments.find("covariance"))
     return urban_nav_core::readCovariances(*given);
   const fs::path beside = fs::path(arguments.get("estimate")).parent_path() / "covariance.csv";
-  return fs::exists(beside) ? urban_nav_core::readCovariances(beside.string())
-                            : std::vector<urban_nav_core::CovarianceRow>();
+  if (!fs::exists(beside)) return {};
+  try {
+    return urban_nav_core::readCovariances(beside.string());
+  } catch (const urban_nav_core::Error& error) {
+    console.warn(std::string("no NEES: ") + error.what());
+    return {};
+  }
+}
+
+/// "M,DEG"
+TruthSigma parseTruthSigma(const std::vector<std::string>& words) {
+  TruthSigma sigma;
+  const auto number = [&](std::size_t i) {
+    const auto value = i < words.size() ? urban_nav_core::parseNumber(words[i]) : std::nullopt;
+    if (words.size() != 2 || !value || *value < 0.0)
+      throw UserError("--truth-sigma", words.empty() ? "" : words[std::min(i, words.size() - 1)],
+                      "M,DEG: two numbers from zero on, such as 0.1,0.1");
+    return *value;
+  };
+  sigma.m = number(0);
+  sigma.deg = number(1);
+  return sigma;
+}
+
+/// Warnings about the two files and how they belong together.
+void warnAboutFiles(const TrajectoryFile& truth, const TrajectoryFile& estimate, const Evaluation& evaluation,
+                    Console& console) {
+  for (const TrajectoryFile* file : {&truth, &estimate})
+    for (const std::string& note : file->notes) console.warn(note);
+  if (evaluation.axes != Axes::Same) console.warn(describe(evaluation.axes));
+  const std::size_t matched = evaluation.matched.truth.size();
+  if (matched < std::min(truth.poses.size(), estimate.poses.size()))
+    console.warn(std::to_string(estimate.poses.size() - matched) + " of " + std::to_string(estimate.poses.size()) +
+                 " poses of the estimate are left out: no pose of the truth within 0.02 s");
 }
 
 void writePlot(const std::string& path, const Evaluation& evaluation, const std::string& title) {
@@ -59,8 +94,10 @@ int runEvaluate(const Arguments& arguments, Console& console) {
   options.find_offset = arguments.has("find-offset");
   const TrajectoryFile truth = readTrajectory(arguments.get("truth")),
                        estimate = readTrajectory(arguments.get("estimate"));
-  const std::vector<urban_nav_core::CovarianceRow> covariances = covariancesFor(arguments);
+  if (arguments.has("truth-sigma")) options.truth_sigma = parseTruthSigma(arguments.list("truth-sigma"));
+  const std::vector<urban_nav_core::CovarianceRow> covariances = covariancesFor(arguments, console);
   const Evaluation evaluation = evaluate(truth, estimate, covariances, options);
+  warnAboutFiles(truth, estimate, evaluation, console);
   if (!covariances.empty() && evaluation.covariances.empty())
     console.warn("no NEES: " + std::to_string(covariances.size()) + " covariances, and not one for each of " +
                  std::to_string(evaluation.matched.truth.size()) + " matched poses");
@@ -87,7 +124,12 @@ Command evaluateCommand() {
   Command command;
   command.name = "evaluate";
   command.summary = "Compares a trajectory with the truth: absolute and relative errors, NEES, a plot.";
-  command.options = {{"--truth", "FILE", "TUM (.tum) or KITTI (.kitti, .txt with 12 columns)", true, false, {}},
+  command.options = {{"--truth",
+                      "FILE",
+                      "TUM (.tum, .txt with 8 columns), KITTI (.kitti, .txt with 12 columns) or EuRoC (.csv)",
+                      true,
+                      false,
+                      {}},
                      {"--estimate", "FILE", "the same", true, false, {}},
                      {"--covariance",
                       "FILE",
@@ -98,6 +140,12 @@ Command evaluateCommand() {
                      {"--spans",
                       "LIST",
                       "of relative errors, in frames or metres (default 10m,100m; 10 frames always)",
+                      false,
+                      true,
+                      {}},
+                     {"--truth-sigma",
+                      "M,DEG",
+                      "standard deviation of each pose of the truth, which NEES allows for (default 0,0)",
                       false,
                       true,
                       {}},

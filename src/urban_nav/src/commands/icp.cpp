@@ -15,14 +15,16 @@
 #include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_registration/icp/align.hpp"
+#include "urban_nav_registration/icp/offset_frames.hpp"
 #include "urban_nav_registration/pictures/cloud_picture.hpp"
 
 namespace urban_nav {
 
-using urban_nav_core::PointCloud;
+using urban_nav_core::CloudFile;
 using urban_nav_core::Pose;
 using urban_nav_core::UserError;
 using urban_nav_registration::Alignment;
+using urban_nav_registration::CloudOffsets;
 
 namespace {
 
@@ -129,14 +131,16 @@ std::string textOf(const Alignment& alignment, double ms) {
   return text + std::to_string(alignment.iterations) + " iterations, " + forPerson(ms, 3) + " ms\n";
 }
 
-PointCloud readNamed(const std::string& path, Console& console) {
-  PointCloud cloud = urban_nav_core::readCloud(path);
+/// The cloud of a file about its own middle: single precision and the linearised rotation hold near the origin alone.
+CloudFile readNamed(const std::string& path, Console& console) {
+  CloudFile file = urban_nav_core::readCloud(path);
   std::size_t bad = 0;
-  for (const Eigen::Vector3f& point : cloud.points) bad += point.allFinite() ? 0 : 1;
+  for (const Eigen::Vector3f& point : file.cloud.points) bad += point.allFinite() ? 0 : 1;
   if (bad > 0)
-    console.warn(path + ": " + std::to_string(bad) + " of " + std::to_string(cloud.points.size()) +
+    console.warn(path + ": " + std::to_string(bad) + " of " + std::to_string(file.cloud.points.size()) +
                  " points are not finite: left out");
-  return cloud;
+  urban_nav_core::recentre(file);
+  return file;
 }
 
 int runIcp(const Arguments& arguments, Console& console) {
@@ -144,23 +148,26 @@ int runIcp(const Arguments& arguments, Console& console) {
   for (const std::string& warning : parameterWarnings(parameters)) console.warn(warning);
   const urban_nav_core::ThreadLimit threads(static_cast<int>(arguments.integer("threads", 0, 1, 1024)));
   const Pose guess = arguments.has("initial") ? readInitial(arguments.get("initial")) : Pose();
-  const PointCloud source = readNamed(arguments.get("SOURCE"), console),
-                   target = readNamed(arguments.get("TARGET"), console);
+  const CloudFile source = readNamed(arguments.get("SOURCE"), console),
+                  target = readNamed(arguments.get("TARGET"), console);
+  const CloudOffsets offsets{source.offset, target.offset};
+  const Pose near_guess = urban_nav_registration::relativeToOffsets(guess, offsets);
   const auto begin = Clock::now();
-  const Alignment alignment =
-      urban_nav_registration::align(source, target, parameters.get(urban_nav_registration::table()), guess,
-                                    arguments.has("global") ? urban_nav_registration::SearchMode::AtOnce
-                                                            : urban_nav_registration::SearchMode::IfRejected);
+  const Alignment about_middles = urban_nav_registration::align(
+      source.cloud, target.cloud, parameters.get(urban_nav_registration::table()), near_guess,
+      arguments.has("global") ? urban_nav_registration::SearchMode::AtOnce
+                              : urban_nav_registration::SearchMode::IfRejected);
+  const Alignment alignment = urban_nav_registration::toFileFrames(about_middles, offsets);
   const double ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
   console.print(textOf(alignment, ms));
   if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), jsonOf(alignment, ms).print());
   if (arguments.has("picture")) {
     urban_nav_registration::CloudPictureOptions options;
-    options.free_directions = alignment.free_directions;
+    options.free_directions = about_middles.free_directions;
     options.caption = "red: target, blue: source; " + std::string(toString(alignment.verdict)) +
                       (alignment.sentence.empty() ? "" : ": " + alignment.sentence);
-    const auto jpeg = urban_nav_registration::encodeJpeg(
-        urban_nav_registration::drawClouds(source, target, guess, alignment.T_target_source, options));
+    const auto jpeg = urban_nav_registration::encodeJpeg(urban_nav_registration::drawClouds(
+        source.cloud, target.cloud, near_guess, about_middles.T_target_source, options));
     urban_nav_core::writeAtomically(arguments.get("picture"), std::string(jpeg.begin(), jpeg.end()));
   }
   return alignment.verdict == urban_nav_core::ClosureVerdict::Rejected ? 1 : 0;
@@ -174,7 +181,7 @@ Command icpCommand() {
   Command command;
   command.name = "icp";
   command.summary = "Aligns two point clouds: their transform, what it knows, and a verdict.";
-  const char* const formats = "PLY, PCD, or CSV with or without a header; .gz of each";
+  const char* const formats = "PLY, PCD, LAS, or CSV with or without a header; .gz of each";
   command.options = {
       {"SOURCE", "", std::string("the cloud that is moved: ") + formats, true, false, {}},
       {"TARGET", "", std::string("the cloud it is laid on: ") + formats, true, false, {}},

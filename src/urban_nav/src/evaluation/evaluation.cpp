@@ -2,22 +2,20 @@
 #include "evaluation/evaluation.hpp"
 
 #include <algorithm>
-#include <filesystem>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <sstream>
 
-#include "input/text_lines.hpp"
-#include "urban_nav_core/io/kitti.hpp"
+#include "urban_nav_core/geometry/so3.hpp"
 #include "urban_nav_core/io/numbers.hpp"
-#include "urban_nav_core/io/tum.hpp"
 #include "urban_nav_core/types/error.hpp"
-#include "urban_nav_ros/extrinsics.hpp"
 
 namespace urban_nav {
 
 using urban_nav_core::DataError;
 using urban_nav_core::Matched;
+using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
 using urban_nav_core::StampNs;
 using urban_nav_core::UserError;
@@ -27,13 +25,6 @@ namespace {
 constexpr double kFew = 0.5;  // share of the shorter trajectory below which an offset is looked for
 
 std::string secondsText(StampNs ns) { return urban_nav_core::printNumber(1e-9 * static_cast<double>(ns)) + " s"; }
-
-/// KITTI's poses are of optical axes (z forward); with the axes of base_link, plots and covariances mean the same for
-/// every format.
-Pose turned(const Pose& T_first_camera) {
-  const Pose T_base_camera = urban_nav_ros::opticalInBody();
-  return T_base_camera * T_first_camera * T_base_camera.inverse();
-}
 
 Matched match(const TrajectoryFile& truth, const TrajectoryFile& estimate, Evaluation& evaluation, bool find_offset) {
   if (!truth.stamped || !estimate.stamped) {
@@ -92,28 +83,20 @@ Evaluation::End endOf(const Matched& matched, const std::vector<urban_nav_core::
   return end;
 }
 
-}  // namespace
-
-TrajectoryFile readTrajectory(const std::string& path) {
-  TrajectoryFile file;
-  file.path = path;
-  const std::string extension = std::filesystem::path(path).extension().string();
-  if (extension != ".tum" && extension != ".kitti" && extension != ".txt")
-    throw UserError(path, "extension \"" + extension + "\"", ".tum, .kitti, or .txt with 12 columns");
-  file.stamped = extension == ".tum";
-  if (extension == ".txt") {
-    const std::vector<TextLine> lines = readLines(path);
-    file.stamped = !lines.empty() && urban_nav_core::splitBlanks(lines.front().text).size() == 8;
-  }
-  if (file.stamped) {
-    file.trajectory = urban_nav_core::readTum(path);
-    for (const urban_nav_core::StampedPose& pose : file.trajectory) file.poses.push_back(pose.pose);
-  } else {
-    for (const Pose& camera : urban_nav_core::readKitti(path)) file.poses.push_back(turned(camera));
-  }
-  if (file.poses.empty()) throw DataError(path, "holds no poses", "");
-  return file;
+/// Of T_first_i of a truth whose poses have independent errors: that of pose i, that of the first one, and the rotation
+/// of the first one over the distance.
+Matrix6d truthCovariance(const Pose& T_first_i, const TruthSigma& sigma) {
+  const double m2 = sigma.m * sigma.m, rad2 = std::pow(sigma.deg * M_PI / 180.0, 2);
+  Matrix6d covariance = Matrix6d::Zero();
+  const urban_nav_core::Matrix3d arm = urban_nav_core::skew(T_first_i.t());
+  covariance.topLeftCorner<3, 3>() = 2.0 * m2 * urban_nav_core::Matrix3d::Identity() + rad2 * arm * arm.transpose();
+  covariance.topRightCorner<3, 3>() = -rad2 * arm;
+  covariance.bottomLeftCorner<3, 3>() = -rad2 * arm.transpose();
+  covariance.bottomRightCorner<3, 3>() = 2.0 * rad2 * urban_nav_core::Matrix3d::Identity();
+  return covariance;
 }
+
+}  // namespace
 
 Evaluation evaluate(const TrajectoryFile& truth, const TrajectoryFile& estimate,
                     const std::vector<urban_nav_core::CovarianceRow>& covariances, const EvaluationOptions& options) {
@@ -123,6 +106,8 @@ Evaluation evaluate(const TrajectoryFile& truth, const TrajectoryFile& estimate,
   evaluation.frames_truth = truth.poses.size();
   evaluation.frames_estimate = estimate.poses.size();
   evaluation.matched = match(truth, estimate, evaluation, options.find_offset);
+  evaluation.axes = detectAxes(evaluation.matched);
+  applyAxes(evaluation.axes, evaluation.matched);
   const Matched& m = evaluation.matched;
   evaluation.length_m = urban_nav_core::pathLength(m.truth);
   evaluation.first = urban_nav_core::absoluteError(m.truth, m.estimate, TrajectoryAlignment::First);
@@ -135,6 +120,11 @@ Evaluation evaluate(const TrajectoryFile& truth, const TrajectoryFile& estimate,
       evaluation.spans.push_back({span, *error});
   }
   evaluation.covariances = covariancesOf(estimate, m, covariances);
+  for (std::size_t i = 0; i < evaluation.covariances.size(); ++i) {
+    Matrix6d& covariance = evaluation.covariances[i];
+    covariance = applyAxes(evaluation.axes, covariance);
+    if (i > 0) covariance += truthCovariance(m.truth.front().inverse() * m.truth[i], options.truth_sigma);
+  }
   if (!evaluation.covariances.empty())
     evaluation.nees = urban_nav_core::neesOfTrajectory(m.truth, m.estimate, evaluation.covariances);
   evaluation.end = endOf(m, evaluation.covariances);
@@ -163,6 +153,8 @@ void addToJson(const Evaluation& evaluation, Json& json) {
     json["offset_s"] = 1e-9 * static_cast<double>(evaluation.offset->offset);
     json["offset_applied"] = evaluation.offset_applied;
   }
+  if (evaluation.axes != Axes::Same)
+    json["axes"] = evaluation.axes == Axes::EstimateOptical ? "estimate_optical" : "truth_optical";
   Json& spans = json["spans"] = Json::object();
   for (const SpanError& each : evaluation.spans) {
     Json& entry = spans[printSpan(each.span)] = Json::object();

@@ -6,22 +6,14 @@
 #include <vector>
 
 #include "command_line/json.hpp"
+#include "evaluation/axes.hpp"
+#include "evaluation/trajectory_file.hpp"
 #include "urban_nav_core/io/covariance_csv.hpp"
 #include "urban_nav_core/trajectory/associate.hpp"
 #include "urban_nav_core/trajectory/errors.hpp"
 #include "urban_nav_core/trajectory/nees.hpp"
 
 namespace urban_nav {
-
-/// A trajectory as a file has it: with stamps (TUM) or without (KITTI's lines).
-struct TrajectoryFile {
-  std::string path;
-  bool stamped = true;
-  urban_nav_core::Trajectory trajectory;    ///< if stamped
-  std::vector<urban_nav_core::Pose> poses;  ///< always; axes as REP-103 has them, also where the file has a camera's
-};
-/// By the extension: .tum; .kitti and .txt with 12 columns; .txt with 8 columns is TUM's. UserError with file and line.
-TrajectoryFile readTrajectory(const std::string& path);
 
 struct SpanError {
   urban_nav_core::Span span;
@@ -35,6 +27,7 @@ struct Evaluation {
   urban_nav_core::Matched matched;
   std::optional<urban_nav_core::TimeOffset> offset;  ///< that was applied, or would help where few stamps match
   bool offset_applied = false;
+  Axes axes = Axes::Same;                            ///< how the files differed; both are in the axes of base_link here
   double length_m = 0.0;                             ///< of the true path
   urban_nav_core::ErrorStatistics first, se3, sim3;  ///< absolute errors by alignment
   std::optional<urban_nav_core::RelativeError> ten_frames;
@@ -48,9 +41,15 @@ struct Evaluation {
   std::vector<urban_nav_core::Matrix6d> covariances;  ///< by matched pose; empty where there are none
 };
 
+/// Standard deviation of each pose of the truth, which NEES allows for; independent from pose to pose.
+struct TruthSigma {
+  double m = 0.0, deg = 0.0;
+};
+
 struct EvaluationOptions {
   std::vector<urban_nav_core::Span> spans;
   bool find_offset = false;
+  TruthSigma truth_sigma = {};
 };
 
 /// DataError where no two poses belong together; where that may be the stamps, it names the offset that would help.

@@ -28,7 +28,7 @@ using urban_nav_core::UserError;
 namespace {
 
 TrajectoryFile stamped(const std::string& path, const Trajectory& trajectory) {
-  TrajectoryFile file{path, true, trajectory, {}};
+  TrajectoryFile file{path, true, trajectory, {}, {}};
   for (const urban_nav_core::StampedPose& pose : trajectory) file.poses.push_back(pose.pose);
   return file;
 }
@@ -108,7 +108,9 @@ TrajectoryFile truthOfBase(const TrajectoryFile& file, const SourceInfo& info, c
   const Pose T_body_optical = urban_nav_ros::opticalInBody();
   std::vector<Pose> camera;
   for (const Pose& pose : file.poses) camera.push_back(T_body_optical.inverse() * pose * T_body_optical);
-  return stamped(file.path, baseOfCamera(camera, stamps, info.T_base_camera, file.path));
+  TrajectoryFile base = stamped(file.path, baseOfCamera(camera, stamps, info.T_base_camera, file.path));
+  base.notes = file.notes;
+  return base;
 }
 
 }  // namespace urban_nav

@@ -56,6 +56,7 @@ std::vector<SessionEvaluations> evaluateSessions(const MapContext& context) {
     try {
       const std::optional<TrajectoryFile> truth = readTruth(context, session);
       if (!truth) continue;
+      for (const std::string& note : truth->notes) context.console.warn(note);
       made.map = compare(context, *session.vo, *truth, trajectory.T_map_base, trajectory.covariances);
       if (context.relaxed) made.odometry = compare(context, *session.vo, *truth, smoothedTrajectory(*session.vo), {});
       context.console.info("truth: " + truth->path +

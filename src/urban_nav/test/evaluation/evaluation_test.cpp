@@ -3,7 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <fstream>
+#include <random>
+
 #include "support/folders.hpp"
+#include "urban_nav_core/geometry/so3.hpp"
 #include "urban_nav_core/io/kitti.hpp"
 #include "urban_nav_core/io/tum.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -41,6 +46,78 @@ TEST(Evaluation, findsNoErrorWhereThereIsNone) {
   EXPECT_LT(evaluation.ten_frames->percent, 1e-9);
   EXPECT_EQ(evaluation.spans.size(), 2U);
   EXPECT_FALSE(evaluation.nees);
+}
+
+TEST(Evaluation, turnsAnEstimateOfOpticalAxes) {
+  const TemporaryFolder folder;
+  Trajectory optical;
+  std::vector<Pose> camera;
+  const Pose C = Pose(urban_nav_core::Quaterniond(0.5, -0.5, 0.5, -0.5), urban_nav_core::Vector3d::Zero());
+  for (const urban_nav_core::StampedPose& each : curve(0, 1.0)) {
+    camera.push_back(C.inverse() * each.pose * C);
+    optical.append(each.stamp, camera.back());
+  }
+  urban_nav_core::writeTum(folder.file("body.tum"), curve(0, 1.0));
+  urban_nav_core::writeTum(folder.file("optical.tum"), optical);
+  urban_nav_core::writeKitti(folder.file("truth.kitti"), camera);
+  const TrajectoryFile body = readTrajectory(folder.file("body.tum")),
+                       other = readTrajectory(folder.file("optical.tum")),
+                       kitti = readTrajectory(folder.file("truth.kitti"));
+  std::vector<urban_nav_core::CovarianceRow> rows;
+  urban_nav_core::Matrix6d covariance = urban_nav_core::Matrix6d::Identity();
+  covariance(2, 2) = 9.0;  // forward, of optical axes
+  for (const urban_nav_core::StampedPose& each : optical)
+    rows.push_back({each.stamp, urban_nav_core::Health::Ok, covariance});
+  const Evaluation turned = evaluate(body, other, rows, {});
+  EXPECT_EQ(turned.axes, Axes::EstimateOptical);
+  EXPECT_LT(turned.first.rmse, 1e-9);
+  EXPECT_NEAR(turned.covariances.back()(0, 0), 9.0, 1e-9);
+  EXPECT_EQ(evaluate(kitti, other, {}, {}).axes, Axes::EstimateOptical);
+  EXPECT_EQ(evaluate(other, body, {}, {}).axes, Axes::TruthOptical);
+  EXPECT_EQ(evaluate(kitti, body, {}, {}).axes, Axes::Same);
+  EXPECT_EQ(evaluate(body, body, {}, {}).axes, Axes::Same);
+}
+
+TEST(Evaluation, neesAllowsForTheTruthsOwnError) {
+  const TemporaryFolder folder;
+  const Trajectory truth = curve(0, 1.0);
+  std::vector<urban_nav_core::CovarianceRow> rows;
+  for (const urban_nav_core::StampedPose& each : truth)
+    rows.push_back({each.stamp, urban_nav_core::Health::Ok, 1e-12 * urban_nav_core::Matrix6d::Identity()});
+  // Many draws of a truth with noise against an exact estimate: the mean must be 6.
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  const double m = 0.05, deg = 0.4, rad = deg * M_PI / 180.0;
+  const TrajectoryFile estimate{"e", true, truth, {}, {}};
+  double sum = 0.0;
+  constexpr int kDraws = 400;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    Trajectory noisy;
+    for (const urban_nav_core::StampedPose& each : truth) {
+      const auto vector = [&](double sigma) {
+        return urban_nav_core::Vector3d(sigma * normal(random), sigma * normal(random), sigma * normal(random));
+      };
+      noisy.append(each.stamp, Pose(urban_nav_core::expSo3(vector(rad)) * each.pose.q(), each.pose.t() + vector(m)));
+    }
+    TrajectoryFile file{"t", true, noisy, {}, {}}, exact = estimate;
+    for (const auto& each : noisy) file.poses.push_back(each.pose);
+    for (const auto& each : truth) exact.poses.push_back(each.pose);
+    sum += *evaluate(file, exact, rows, {{}, false, {m, deg}}).end.nees;
+  }
+  EXPECT_NEAR(sum / kDraws, 6.0, 0.7);  // four standard deviations of such a mean
+}
+
+TEST(Evaluation, readsEurocsGroundTruth) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.file("data.csv"))
+      << "#timestamp,p_RS_R_x [m],y,z,q_RS_w [],x,y,z,v_x\n"
+      << "1403636580838555648,1,2,3,1,0,0,0,9\n1403636580838555648,1,2,3,1,0,0,0,9\n";
+  const TrajectoryFile file = readTrajectory(folder.file("data.csv"));
+  ASSERT_EQ(file.poses.size(), 1U);
+  EXPECT_EQ(file.trajectory[0].stamp, 1403636580838555648);
+  EXPECT_EQ(file.poses[0].t(), urban_nav_core::Vector3d(1.0, 2.0, 3.0));
+  ASSERT_EQ(file.notes.size(), 1U);
+  EXPECT_NE(file.notes[0].find("1 poses left out"), std::string::npos);
 }
 
 TEST(Evaluation, seesAScale) {

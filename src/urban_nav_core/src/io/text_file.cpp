@@ -28,6 +28,7 @@ std::string readTextFile(const std::string& path) {
     text.resize(before + got);
   }
   if (std::ferror(file.get()) != 0) fail(errno != 0 ? errno : EIO);
+  if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) text.erase(0, 3);  // byte order mark of UTF-8
   return text;
 }
 

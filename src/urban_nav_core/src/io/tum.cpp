@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "urban_nav_core/io/tum.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/io/numbers.hpp"
@@ -14,20 +17,34 @@ namespace {
 
 constexpr std::size_t kTumColumns = 8;
 
-// Some writers print 1.403715273262142976e+09, which goes through a double and loses what it has lost already.
-std::optional<StampNs> stampOf(std::string_view text) {
-  if (const auto stamp = parseStamp(text)) return stamp;
-  const auto seconds = parseNumber(text);
-  if (!seconds || std::abs(*seconds) > 9.2e9) return std::nullopt;
-  return static_cast<StampNs>(std::llround(*seconds * 1e9));
+// Some writers print 1.403715273262142976e+09, which goes through a double and loses what it has lost already. `unit`:
+// of the stamp, s.
+std::optional<StampNs> parseStampIn(double unit, std::string_view text) {
+  if (unit == 1.0)
+    if (const auto stamp = parseStamp(text)) return stamp;
+  if (const auto whole = unit < 1.0 ? parseInteger(text) : std::nullopt) {
+    const auto ns = static_cast<std::int64_t>(std::llround(unit * 1e9));
+    if (*whole > std::numeric_limits<std::int64_t>::max() / ns || *whole < 0) return std::nullopt;
+    return *whole * ns;
+  }
+  const auto number = parseNumber(text);
+  if (!number || std::abs(unit * *number) > 9.2e9) return std::nullopt;
+  return static_cast<StampNs>(std::llround(unit * *number * 1e9));
 }
 
-StampedPose parseLine(std::string_view line, const std::string& where) {
+/// s: the unit in which a stamp is one of the years 1971 to 2255; 1 where it is no number.
+double guessUnit(std::string_view stamp) {
+  const double number = std::abs(parseNumber(stamp).value_or(0.0));
+  if (number < 3.2e10) return 1.0;
+  return number < 3.2e13 ? 1e-3 : number < 3.2e16 ? 1e-6 : 1e-9;
+}
+
+StampedPose parseLine(std::string_view line, double unit, const std::string& where) {
   const auto words = splitBlanks(line);
   if (words.size() != kTumColumns) {
     throw UserError(where, std::to_string(words.size()) + " columns", "8: stamp x y z qx qy qz qw");
   }
-  const auto stamp = stampOf(words[0]);
+  const auto stamp = parseStampIn(unit, words[0]);
   if (!stamp) throw UserError(where, "stamp " + std::string(words[0]), "seconds");
   std::array<double, kTumColumns - 1> v{};
   for (std::size_t i = 0; i < v.size(); ++i) {
@@ -62,19 +79,31 @@ std::string printTum(const Trajectory& trajectory) {
 
 void writeTum(const std::string& path, const Trajectory& trajectory) { writeAtomically(path, printTum(trajectory)); }
 
-Trajectory readTum(const std::string& path) { return parseTum(readTextFile(path), path); }
+Trajectory readTum(const std::string& path, TumRepairs* repairs) { return parseTum(readTextFile(path), path, repairs); }
 
-Trajectory parseTum(std::string_view text, const std::string& name) {
-  Trajectory trajectory;
+Trajectory parseTum(std::string_view text, const std::string& name, TumRepairs* repairs) {
+  std::vector<StampedPose> poses;
+  double unit = 1.0;
+  std::size_t disorder = 0;
   forEachLine(text, [&](std::string_view line, int number) {
     const std::string_view content = trimmed(line.substr(0, line.find('#')));
     if (content.empty()) return;
+    if (repairs != nullptr && poses.empty()) unit = guessUnit(splitBlanks(content).front());
     const std::string where = atLine(name, number);
-    const StampedPose pose = parseLine(content, where);
-    if (!trajectory.append(pose.stamp, pose.pose)) {
-      throw UserError(where, "stamp " + printStamp(pose.stamp) + " is not later than the one before", "");
+    const StampedPose pose = parseLine(content, unit, where);
+    if (!poses.empty() && pose.stamp <= poses.back().stamp) {
+      if (repairs == nullptr)
+        throw UserError(where, "stamp " + printStamp(pose.stamp) + " is not later than the one before", "");
+      if (pose.stamp < poses.back().stamp) ++disorder;
     }
+    poses.push_back(pose);
   });
+  std::stable_sort(poses.begin(), poses.end(),
+                   [](const StampedPose& a, const StampedPose& b) { return a.stamp < b.stamp; });
+  Trajectory trajectory;
+  std::size_t repeated = 0;
+  for (const StampedPose& pose : poses) repeated += trajectory.append(pose.stamp, pose.pose) ? 0 : 1;
+  if (repairs != nullptr) *repairs = {repeated, disorder, unit};
   return trajectory;
 }
 

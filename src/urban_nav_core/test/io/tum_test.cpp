@@ -71,6 +71,24 @@ TEST(Tum, NamesFileAndLine) {
   EXPECT_NE(errorOf([] { readTum("/nowhere.tum"); }), "");
 }
 
+TEST(Tum, RepairsAreCounted) {
+  TumRepairs repairs;
+  const Trajectory sorted =
+      parseTum("2 1 0 0 0 0 0 1\n1 2 0 0 0 0 0 1\n2 3 0 0 0 0 0 1\n3 4 0 0 0 0 0 1\n", "t.tum", &repairs);
+  ASSERT_EQ(sorted.size(), 3U);
+  EXPECT_EQ(sorted[0].pose.t().x(), 2.0);
+  EXPECT_EQ(sorted[1].pose.t().x(), 1.0);  // the first of a stamp stays
+  EXPECT_EQ(repairs.repeated, 1U);
+  EXPECT_EQ(repairs.out_of_order, 1U);
+  EXPECT_EQ(repairs.unit, 1.0);
+  for (const auto& [stamp, unit] : std::vector<std::pair<std::string, double>>{
+           {"1403715273262142976", 1e-9}, {"1403715273262142.976", 1e-6}, {"1403715273262.142976", 1e-3}}) {
+    const Trajectory trajectory = parseTum(stamp + " 1 0 0 0 0 0 1\n", "t.tum", &repairs);
+    EXPECT_NEAR(static_cast<double>(trajectory[0].stamp - 1403715273262142976), 0.0, 1000.0);
+    EXPECT_EQ(repairs.unit, unit);
+  }
+}
+
 TEST(Tum, Fuzzed) {
   expectSurvives(testing::fuzzText(
       {printTum(someTrajectory()).substr(0, 1500) + "\n", "# c\n1 1 2 3 0 0 0 1\n2.5 0 0 0 1 0 0 0\n"},

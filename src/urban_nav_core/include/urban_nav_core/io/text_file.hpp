@@ -7,7 +7,8 @@
 
 namespace urban_nav_core {
 
-/// The whole file. Throws UserError naming the path where it is missing, a folder, or cannot be read to its end.
+/// The whole file, without a byte order mark. Throws UserError naming the path if it is missing, a folder, or cannot be
+/// read to its end.
 std::string readTextFile(const std::string& path);
 
 /// Calls `line(text, number)` for every line, counted from 1, without its end (\n or \r\n); a last line without an end

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -13,11 +14,19 @@ namespace urban_nav_core {
 std::string printTum(const Trajectory& trajectory);
 void writeTum(const std::string& path, const Trajectory& trajectory);
 
+/// What a tolerant reader made of a file that breaks the rules.
+struct TumRepairs {
+  std::size_t repeated = 0;      ///< lines left out, their stamp having come before
+  std::size_t out_of_order = 0;  ///< lines that were sorted
+  double unit = 1.0;             ///< s: of the stamps; 1e-9 where they are in nanoseconds
+};
+
 /// Throws UserError with file and line for lines that do not hold eight finite numbers, quaternions that are not of
-/// length one to 1 %, and stamps that are not later than the one before.
-Trajectory readTum(const std::string& path);
+/// length one to 1 %, and stamps that are not later than the one before. With `repairs`, repeated stamps, lines out of
+/// order and stamps in ms, us or ns (from 1971 on) are not errors but counted there.
+Trajectory readTum(const std::string& path, TumRepairs* repairs = nullptr);
 /// The same from text; `name` stands for the path in errors.
-Trajectory parseTum(std::string_view text, const std::string& name);
+Trajectory parseTum(std::string_view text, const std::string& name, TumRepairs* repairs = nullptr);
 
 /// "t_x t_y t_z q_x q_y q_z q_w", as in a line of the format.
 std::string printTumPose(const Pose& pose);

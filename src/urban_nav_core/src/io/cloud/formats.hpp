@@ -1,20 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "urban_nav_core/types/point_cloud.hpp"
-
-/// The formats behind readCloud(), each in a file of its name.
+/// The formats of readCloud(), each in a file of its name.
 namespace urban_nav_core::cloud_formats {
 
-PointCloud parsePly(std::string_view content, const std::string& name);
-PointCloud parsePcd(std::string_view content, const std::string& name);
-PointCloud parsePoints(std::string_view content, const std::string& name);  // CSV
+/// Points as a file has them, m; `origins` is empty where the file has none.
+struct Vertices {
+  std::vector<Eigen::Vector3d> points, origins;
+};
+
+Vertices parsePly(std::string_view content, const std::string& name);
+Vertices parsePcd(std::string_view content, const std::string& name);
+Vertices parseLas(std::string_view content, const std::string& name);
+Vertices parsePoints(std::string_view content, const std::string& name);  // CSV and its like
 
 bool isGzip(std::string_view content);
 /// What was compressed; UserError where the stream is damaged, ends early, or holds more than `limit` bytes.
@@ -27,7 +33,7 @@ std::optional<std::string> decompressLzf(std::string_view packed, std::size_t si
 
 /// A number of these formats; unlike parseNumber it takes "nan", "inf" and their like, which a cloud may hold. Empty
 /// for anything else.
-std::optional<float> parseCoordinate(std::string_view text);
+std::optional<double> parseCoordinate(std::string_view text);
 
 /// The bytes of a number in a binary file.
 struct BinaryNumber {

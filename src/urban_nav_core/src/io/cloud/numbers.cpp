@@ -20,18 +20,14 @@ double as(const std::array<char, 8>& bytes) {
 
 }  // namespace
 
-std::optional<float> parseCoordinate(std::string_view text) {
-  if (const auto number = parseNumber(text)) {
-    constexpr double kLimit = std::numeric_limits<float>::max();
-    if (*number > kLimit || *number < -kLimit) return std::numeric_limits<float>::infinity();
-    return static_cast<float>(*number);
-  }
+std::optional<double> parseCoordinate(std::string_view text) {
+  if (const auto number = parseNumber(text)) return number;
   std::string word(text);
   std::transform(word.begin(), word.end(), word.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (!word.empty() && (word.front() == '-' || word.front() == '+')) word.erase(0, 1);
-  if (word == "nan") return std::numeric_limits<float>::quiet_NaN();
-  if (word == "inf" || word == "infinity") return std::numeric_limits<float>::infinity();
+  if (word == "nan") return std::numeric_limits<double>::quiet_NaN();
+  if (word == "inf" || word == "infinity") return std::numeric_limits<double>::infinity();
   return std::nullopt;
 }
 

@@ -116,7 +116,7 @@ UserError tooShort(const std::string& name, const PcdHeader& header) {
   return UserError(name, "ends before its " + std::to_string(header.points) + " points", "a whole file");
 }
 
-PointCloud asciiPoints(const PcdHeader& header, HeaderLines& lines, const std::string& name) {
+Vertices asciiPoints(const PcdHeader& header, HeaderLines& lines, const std::string& name) {
   const auto columns = coordinatesOf(header, name);
   std::array<std::size_t, 3> words_before{};
   std::size_t row_words = 0;
@@ -125,7 +125,7 @@ PointCloud asciiPoints(const PcdHeader& header, HeaderLines& lines, const std::s
       if (columns[axis] == i) words_before[axis] = row_words;
     row_words += header.fields[i].count;
   }
-  PointCloud cloud;
+  Vertices cloud;
   while (cloud.points.size() < header.points) {
     const auto line = lines.next();
     if (!line) throw tooShort(name, header);
@@ -134,7 +134,7 @@ PointCloud asciiPoints(const PcdHeader& header, HeaderLines& lines, const std::s
     const std::string where = atLine(name, lines.number());
     if (words.size() != row_words)
       throw UserError(where, std::to_string(words.size()) + " numbers", std::to_string(row_words));
-    Eigen::Vector3f point;
+    Eigen::Vector3d point;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto value = parseCoordinate(words[words_before[axis]]);
       if (!value) throw UserError(where, "`" + std::string(words[words_before[axis]].substr(0, 40)) + "`", "a number");
@@ -146,7 +146,7 @@ PointCloud asciiPoints(const PcdHeader& header, HeaderLines& lines, const std::s
 }
 
 /// `by_field`: all of the first field, then all of the second, as in a compressed file; else point by point.
-PointCloud binaryPoints(const PcdHeader& header, std::string_view bytes, bool by_field, const std::string& name) {
+Vertices binaryPoints(const PcdHeader& header, std::string_view bytes, bool by_field, const std::string& name) {
   const auto columns = coordinatesOf(header, name);
   std::size_t row = 0;
   std::array<std::size_t, 3> offsets{};
@@ -156,20 +156,19 @@ PointCloud binaryPoints(const PcdHeader& header, std::string_view bytes, bool by
     row += header.fields[i].size();
   }
   if (header.points > bytes.size() / row) throw tooShort(name, header);
-  PointCloud cloud;
+  Vertices cloud;
   cloud.points.resize(header.points);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const BinaryNumber number = header.fields[columns[axis]].number;
     const char* begin = bytes.data() + (by_field ? offsets[axis] * header.points : offsets[axis]);
     const std::size_t step = by_field ? number.size : row;
     for (std::size_t i = 0; i < header.points; ++i)
-      cloud.points[i][static_cast<Eigen::Index>(axis)] =
-          static_cast<float>(readBinary(begin + i * step, number, false));
+      cloud.points[i][static_cast<Eigen::Index>(axis)] = readBinary(begin + i * step, number, false);
   }
   return cloud;
 }
 
-PointCloud compressedPoints(const PcdHeader& header, std::string_view bytes, const std::string& name) {
+Vertices compressedPoints(const PcdHeader& header, std::string_view bytes, const std::string& name) {
   if (bytes.size() < 8) throw tooShort(name, header);
   std::uint32_t packed = 0, plain = 0;
   std::memcpy(&packed, bytes.data(), 4);
@@ -183,7 +182,7 @@ PointCloud compressedPoints(const PcdHeader& header, std::string_view bytes, con
 
 }  // namespace
 
-PointCloud parsePcd(std::string_view content, const std::string& name) {
+Vertices parsePcd(std::string_view content, const std::string& name) {
   HeaderLines lines(content);
   const PcdHeader header = readPcdHeader(lines, name);
   if (header.data == "ascii") return asciiPoints(header, lines, name);

@@ -104,120 +104,130 @@ Vertex vertexOf(const Element& element, const std::string& name) {
   return {*point, columnsOf(element, {"origin_x", "origin_y", "origin_z"})};
 }
 
-/// `number(column)`: of the row that is read.
-template <class Number>
-Eigen::Vector3f pick(const Columns& columns, const Number& number) {
-  return {number(columns[0]), number(columns[1]), number(columns[2])};
-}
-
-/// Bytes of a row; empty where it has lists.
-std::optional<std::size_t> rowSize(const Element& element) {
-  std::size_t size = 0;
-  for (const Property& property : element.properties) {
-    if (property.length) return std::nullopt;
-    size += property.number.size;
-  }
-  return size;
-}
-
 UserError tooShort(const std::string& name, const Element& element) {
   return UserError(name, "ends before its " + std::to_string(element.count) + " of element " + element.name,
                    "a whole file");
 }
 
-/// Past one row with lists.
-std::size_t skipRow(const Element& element, std::string_view bytes, std::size_t at, bool swap,
-                    const std::string& name) {
-  const auto need = [&](std::size_t size) {
-    if (size > bytes.size() - at) throw tooShort(name, element);
-  };
+/// The numbers of a file one after another, whatever its format.
+class BinaryNumbers {
+ public:
+  BinaryNumbers(std::string_view bytes, bool swap) : bytes_(bytes), swap_(swap) {}
+
+  std::optional<double> next(BinaryNumber number) {
+    if (number.size > bytes_.size() - at_) return std::nullopt;
+    const double value = readBinary(&bytes_[at_], number, swap_);
+    at_ += number.size;
+    return value;
+  }
+  bool skip(std::size_t count, BinaryNumber number) {
+    if (count > (bytes_.size() - at_) / number.size) return false;
+    at_ += count * number.size;
+    return true;
+  }
+  std::size_t left() const { return bytes_.size() - at_; }
+  void expectEnd() const {}  // padding does no harm
+
+ private:
+  std::string_view bytes_;
+  std::size_t at_ = 0;
+  bool swap_;
+};
+
+/// Words between blanks and ends of lines, as the format allows them to be laid out.
+class AsciiNumbers {
+ public:
+  AsciiNumbers(HeaderLines& lines, std::string name) : lines_(lines), name_(std::move(name)) {}
+
+  std::optional<double> next(BinaryNumber) {
+    const auto word = nextWord();
+    if (!word) return std::nullopt;
+    const auto value = parseCoordinate(*word);
+    if (!value)
+      throw UserError(atLine(name_, lines_.number()), "`" + std::string(word->substr(0, 40)) + "`", "a number");
+    return value;
+  }
+  bool skip(std::size_t count, BinaryNumber) {
+    while (count > 0 && nextWord()) --count;
+    return count == 0;
+  }
+  std::size_t left() const { return words_.size() - at_ + lines_.rest().size(); }
+  /// A row with a number too many would displace all after it.
+  void expectEnd() {
+    if (nextWord())
+      throw UserError(atLine(name_, lines_.number()), "more numbers than the header announces", "as many");
+  }
+
+ private:
+  std::optional<std::string_view> nextWord() {
+    while (at_ >= words_.size()) {
+      const auto line = lines_.next();
+      if (!line) return std::nullopt;
+      words_ = splitBlanks(*line);
+      at_ = 0;
+    }
+    return words_[at_++];
+  }
+
+  HeaderLines& lines_;
+  std::string name_;
+  std::vector<std::string_view> words_;
+  std::size_t at_ = 0;
+};
+
+/// One row of an element: its numbers into `row`, 0 where a list is, which is skipped. Returns whether it is all there.
+template <class Numbers>
+bool readRow(const Element& element, Numbers& numbers, std::vector<double>& row) {
+  row.clear();
   for (const Property& property : element.properties) {
-    if (!property.length) {
-      need(property.number.size);
-      at += property.number.size;
-      continue;
-    }
-    need(property.length->size);
-    const double length = readBinary(&bytes[at], *property.length, swap);
-    at += property.length->size;
-    if (length < 0.0 || length > static_cast<double>(bytes.size() - at)) throw tooShort(name, element);
-    const std::size_t size = static_cast<std::size_t>(length) * property.number.size;
-    need(size);
-    at += size;
+    const auto value = numbers.next(property.length ? *property.length : property.number);
+    if (!value) return false;
+    row.push_back(property.length ? 0.0 : *value);
+    if (!property.length) continue;
+    if (!(*value >= 0.0 && *value <= static_cast<double>(numbers.left()))) return false;
+    if (!numbers.skip(static_cast<std::size_t>(*value), property.number)) return false;
   }
-  return at;
+  return true;
 }
 
-PointCloud binaryVertices(const PlyHeader& header, std::string_view bytes, const std::string& name) {
-  const bool swap = header.format == Format::Big;
-  std::size_t at = 0;
-  for (const Element& element : header.elements) {
-    const auto size = rowSize(element);
-    const bool vertices = element.name == "vertex";
-    if (vertices && !size) throw UserError(name, "element vertex holds lists", "numbers alone");
-    if (!size) {
-      for (std::size_t row = 0; row < element.count; ++row) at = skipRow(element, bytes, at, swap, name);
-      continue;
-    }
-    if (*size > 0 && element.count > (bytes.size() - at) / *size) throw tooShort(name, element);
-    if (vertices) {
-      const Vertex vertex = vertexOf(element, name);
-      std::vector<std::size_t> offsets{0};
-      for (const Property& property : element.properties) offsets.push_back(offsets.back() + property.number.size);
-      PointCloud cloud;
-      cloud.points.reserve(element.count);
-      if (vertex.origin) cloud.origins.reserve(element.count);
-      for (std::size_t row = 0; row < element.count; ++row) {
-        const char* begin = bytes.data() + at + row * *size;
-        const auto number = [&](std::size_t column) {
-          return static_cast<float>(readBinary(begin + offsets[column], element.properties[column].number, swap));
-        };
-        cloud.points.push_back(pick(vertex.point, number));
-        if (vertex.origin) cloud.origins.push_back(pick(*vertex.origin, number));
-      }
-      return cloud;
-    }
-    at += *size * element.count;
-  }
-  throw UserError(name, "no element vertex", "a PLY file of points");
+Eigen::Vector3d pick(const Columns& columns, const std::vector<double>& row) {
+  return {row[columns[0]], row[columns[1]], row[columns[2]]};
 }
 
-PointCloud asciiVertices(const PlyHeader& header, HeaderLines& lines, const std::string& name) {
+template <class Numbers>
+Vertices readVertices(const PlyHeader& header, Numbers& numbers, const std::string& name) {
+  std::vector<double> row;
+  std::optional<Vertices> found;
   for (const Element& element : header.elements) {
-    const bool vertices = element.name == "vertex";
+    const bool vertices = element.name == "vertex" && !found;
     Vertex vertex;
-    if (vertices) vertex = vertexOf(element, name);
-    PointCloud cloud;
-    for (std::size_t row = 0; row < element.count;) {
-      const auto line = lines.next();
-      if (!line) throw tooShort(name, element);
-      const auto words = splitBlanks(*line);
-      if (words.empty()) continue;
-      ++row;
-      if (!vertices) continue;
-      const std::string where = atLine(name, lines.number());
-      if (words.size() != element.properties.size())
-        throw UserError(where, std::to_string(words.size()) + " numbers", std::to_string(element.properties.size()));
-      const auto number = [&](std::size_t column) {
-        const auto value = parseCoordinate(words[column]);
-        if (!value) throw UserError(where, "`" + std::string(words[column].substr(0, 40)) + "`", "a number");
-        return *value;
-      };
-      cloud.points.push_back(pick(vertex.point, number));
-      if (vertex.origin) cloud.origins.push_back(pick(*vertex.origin, number));
+    if (vertices) {
+      vertex = vertexOf(element, name);
+      found.emplace();
     }
-    if (vertices) return cloud;
+    for (std::size_t i = 0; i < element.count && !element.properties.empty(); ++i) {
+      if (!readRow(element, numbers, row)) throw tooShort(name, element);
+      if (!vertices) continue;
+      found->points.push_back(pick(vertex.point, row));
+      if (vertex.origin) found->origins.push_back(pick(*vertex.origin, row));
+    }
   }
-  throw UserError(name, "no element vertex", "a PLY file of points");
+  if (!found) throw UserError(name, "no element vertex", "a PLY file of points");
+  numbers.expectEnd();
+  return *found;
 }
 
 }  // namespace
 
-PointCloud parsePly(std::string_view content, const std::string& name) {
+Vertices parsePly(std::string_view content, const std::string& name) {
   HeaderLines lines(content);
   const PlyHeader header = readPlyHeader(lines, name);
-  if (header.format == Format::Ascii) return asciiVertices(header, lines, name);
-  return binaryVertices(header, lines.rest(), name);
+  if (header.format == Format::Ascii) {
+    AsciiNumbers numbers(lines, name);
+    return readVertices(header, numbers, name);
+  }
+  BinaryNumbers numbers(lines.rest(), header.format == Format::Big);
+  return readVertices(header, numbers, name);
 }
 
 }  // namespace urban_nav_core::cloud_formats

@@ -12,7 +12,7 @@
 namespace urban_nav_core::cloud_formats {
 namespace {
 
-std::vector<std::string_view> cellsOf(std::string_view line) {
+std::vector<std::string_view> splitCells(std::string_view line) {
   for (const char separator : {',', ';'})
     if (line.find(separator) != std::string_view::npos) return splitAt(line, separator);
   return splitBlanks(line);
@@ -47,21 +47,33 @@ std::string quoted(std::string_view text) {
   return "`" + shown + "`";
 }
 
+[[noreturn]] void refuseCount(const std::string& name, std::size_t promised, std::size_t found) {
+  throw UserError(name, "ends after " + std::to_string(found) + " points, and announces " + std::to_string(promised),
+                  "a whole file");
+}
+
 }  // namespace
 
-PointCloud parsePoints(std::string_view content, const std::string& name) {
-  PointCloud cloud;
+Vertices parsePoints(std::string_view content, const std::string& name) {
+  Vertices cloud;
   std::optional<std::array<std::size_t, 3>> columns;
+  std::size_t promised = 0;  // by the counts that some programs write above their points
   forEachLine(content, [&](std::string_view line, int number) {
-    const std::string_view text = trimmed(line);
+    std::string_view text = trimmed(line);
+    while (!text.empty() && text.front() == '/') text = trimmed(text.substr(1));  // CloudCompare: //X,Y,Z
     if (text.empty() || text.front() == '#') return;
-    const std::vector<std::string_view> cells = cellsOf(text);
+    const std::vector<std::string_view> cells = splitCells(text);
+    if (const auto count = cells.size() == 1 ? parseInteger(cells.front()) : std::nullopt; count && *count >= 0) {
+      if (promised > cloud.points.size()) return refuseCount(name, promised, cloud.points.size());
+      promised = cloud.points.size() + static_cast<std::size_t>(*count);
+      return;
+    }
     if (!columns) {
       const bool numbers = parseCoordinate(cells.front()).has_value();
       columns = numbers ? std::array<std::size_t, 3>{0, 1, 2} : columnsOf(cells, atLine(name, number));
       if (!numbers) return;
     }
-    Eigen::Vector3f point;
+    Eigen::Vector3d point;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::size_t column = (*columns)[axis];
       if (column >= cells.size())
@@ -73,6 +85,7 @@ PointCloud parsePoints(std::string_view content, const std::string& name) {
     }
     cloud.points.push_back(point);
   });
+  if (promised > cloud.points.size()) refuseCount(name, promised, cloud.points.size());
   return cloud;
 }
 

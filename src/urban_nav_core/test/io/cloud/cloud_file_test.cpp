@@ -18,7 +18,9 @@ namespace {
 const std::vector<Eigen::Vector3f> kPoints = {
     {1.5F, -2.25F, 0.0F}, {1e-3F, 4e4F, -7.0F}, {0.0F, 0.0F, 3.0F}, {8.0F, 9.0F, 10.0F}};
 
-void expectPoints(const PointCloud& cloud) {
+void expectPoints(const CloudFile& file) {
+  EXPECT_TRUE(file.offset.isZero());
+  const PointCloud& cloud = file.cloud;
   ASSERT_EQ(cloud.points.size(), kPoints.size());
   for (std::size_t i = 0; i < kPoints.size(); ++i) EXPECT_EQ(cloud.points[i], kPoints[i]) << i;
 }
@@ -135,7 +137,7 @@ TEST(CloudFile, everyFormatGivesThePoints) {
 }
 
 TEST(CloudFile, columnsOfAHeaderComeInAnyOrder) {
-  const PointCloud cloud = parseCloud("nx;z;x;y\n9;3;1;2\n", "c");
+  const PointCloud cloud = parseCloud("nx;z;x;y\n9;3;1;2\n", "c").cloud;
   ASSERT_EQ(cloud.points.size(), 1U);
   EXPECT_EQ(cloud.points[0], Eigen::Vector3f(1.0F, 2.0F, 3.0F));
 }
@@ -148,25 +150,99 @@ TEST(CloudFile, originsOfBeamsComeWithThePoints) {
     append<float>(bytes, value);
   for (const std::string& file : {"ply\nformat binary_little_endian " + header + "end_header\n" + bytes,
                                   "ply\nformat ascii " + header + "end_header\n6 1 2 3 4 5\n12 7 8 9 10 11\n"}) {
-    const PointCloud cloud = parseCloud(file, "c");
+    const PointCloud cloud = parseCloud(file, "c").cloud;
     ASSERT_EQ(cloud.points.size(), 2U);
     ASSERT_EQ(cloud.origins.size(), 2U);
     EXPECT_EQ(cloud.points[1], Eigen::Vector3f(7.0F, 8.0F, 9.0F));
     EXPECT_EQ(cloud.origins[0], Eigen::Vector3f(4.0F, 5.0F, 6.0F));
     EXPECT_EQ(cloud.origins[1], Eigen::Vector3f(10.0F, 11.0F, 12.0F));
   }
-  EXPECT_TRUE(parseCloud(plyAscii(), "c").origins.empty());
+  EXPECT_TRUE(parseCloud(plyAscii(), "c").cloud.origins.empty());
+}
+
+TEST(CloudFile, isReadAsOtherProgramsWriteIt) {
+  expectPoints(parseCloud("//X,Y,Z\n" + asText(","), "CloudCompare"));
+  expectPoints(parseCloud("//X Y Z\n4\n" + asText(" "), "CloudCompare, counted"));
+  expectPoints(parseCloud("4\n" + asText(" "), "pts"));
+  expectPoints(parseCloud("\xEF\xBB\xBFx,y,z\r\n" + asText(","), "a spreadsheet"));
+  const std::string pcd = pcdAscii();
+  expectPoints(parseCloud(pcd.substr(pcd.find("FIELDS")), "without comment and version"));
+  std::string one_line = plyAscii();
+  for (std::size_t i = one_line.find("end_header") + 11; i < one_line.size(); ++i)
+    if (one_line[i] == '\n') one_line[i] = ' ';
+  expectPoints(parseCloud(one_line, "all numbers in a line"));
+}
+
+TEST(CloudFile, listsOfVerticesAreSkipped) {
+  const std::string header =
+      "1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nproperty list uchar int views\n"
+      "end_header\n";
+  std::string bytes;
+  for (const int views : {2, 0}) {
+    for (const float value : {1.0F, 2.0F, 3.0F}) append<float>(bytes, value);
+    append<std::uint8_t>(bytes, static_cast<std::uint8_t>(views));
+    for (int i = 0; i < views; ++i) append<std::int32_t>(bytes, 7);
+  }
+  for (const std::string& file : {"ply\nformat binary_little_endian " + header + bytes,
+                                  "ply\nformat ascii " + header + "1 2 3 2 7 7\n1 2 3 0\n"}) {
+    const PointCloud cloud = parseCloud(file, "c").cloud;
+    ASSERT_EQ(cloud.points.size(), 2U);
+    EXPECT_EQ(cloud.points[1], Eigen::Vector3f(1.0F, 2.0F, 3.0F));
+  }
+}
+
+TEST(CloudFile, farCoordinatesKeepMillimetres) {
+  const CloudFile file =
+      parseCloud("691244.251,5334577.502,519.001\n691245.253,5334578.504,519.003\n691246.0,5334579.0,520.0\n", "utm");
+  ASSERT_EQ(file.cloud.points.size(), 3U);
+  const Eigen::Vector3d first = file.offset + file.cloud.points[0].cast<double>();
+  EXPECT_LT((first - Eigen::Vector3d(691244.251, 5334577.502, 519.001)).norm(), 1e-6);
+  CloudFile again = file;
+  recentre(again);
+  EXPECT_LT((again.offset + again.cloud.points[0].cast<double>() - first).norm(), 1e-6);
+  EXPECT_LT(again.cloud.points[1].norm(), 1e-6);  // the median of three
+}
+
+std::string las(const std::vector<Eigen::Vector3i>& points, std::uint8_t format = 3) {
+  std::string bytes(227, '\0');
+  const auto put = [&bytes](std::size_t at, auto value) { std::memcpy(&bytes[at], &value, sizeof(value)); };
+  std::memcpy(&bytes[0], "LASF", 4);
+  put(24, std::uint8_t{1});
+  put(25, std::uint8_t{2});
+  put(94, std::uint16_t{227});
+  put(96, std::uint32_t{227});
+  put(104, format);
+  put(105, std::uint16_t{34});
+  put(107, static_cast<std::uint32_t>(points.size()));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    put(131 + 8 * axis, 0.001);
+    put(155 + 8 * axis, 1000.0 * static_cast<double>(axis));
+  }
+  for (const Eigen::Vector3i& point : points) {
+    for (int axis = 0; axis < 3; ++axis) append<std::int32_t>(bytes, point[axis]);
+    bytes.append(34 - 12, '\0');
+  }
+  return bytes;
+}
+
+TEST(CloudFile, lasIsRead) {
+  const CloudFile file = parseCloud(las({{1500, 0, -1}, {1, 2, 3}, {5, 5, 5}}), "c");
+  ASSERT_EQ(file.cloud.points.size(), 3U);
+  const Eigen::Vector3d first = file.offset + file.cloud.points[0].cast<double>();
+  EXPECT_LT((first - Eigen::Vector3d(1.5, 1000.0, 1999.999)).norm(), 1e-6);
+  EXPECT_NE(refusal(las({{1, 2, 3}}, 0x83)).find("LAZ"), std::string::npos);
+  EXPECT_EQ(refusal(las({{1, 2, 3}}).substr(0, 250)), "c: ends before its 1 points: allowed a whole file");
 }
 
 TEST(CloudFile, beamsWithoutReturnAreKept) {
-  const PointCloud cloud = parseCloud("1,2,3\nnan,NaN,-inf\n1e300,0,0\n", "c");
+  const PointCloud cloud = parseCloud("1,2,3\nnan,NaN,-inf\n1e300,0,0\n", "c").cloud;
   ASSERT_EQ(cloud.points.size(), 3U);
   EXPECT_TRUE(std::isnan(cloud.points[1].x()));
   EXPECT_TRUE(std::isinf(cloud.points[1].z()));
   EXPECT_FALSE(cloud.points[2].allFinite());
 }
 
-TEST(CloudFile, anEmptyFileIsAnEmptyCloud) { EXPECT_TRUE(parseCloud("", "c").points.empty()); }
+TEST(CloudFile, anEmptyFileIsAnEmptyCloud) { EXPECT_TRUE(parseCloud("", "c").cloud.points.empty()); }
 
 TEST(CloudFile, mistakesAreNamedWithTheirLine) {
   EXPECT_EQ(refusal("1,2,3\n1,2\n"), "c:2: 2 columns: allowed at least 3");
@@ -174,7 +250,10 @@ TEST(CloudFile, mistakesAreNamedWithTheirLine) {
   EXPECT_EQ(refusal("a,b,c\n1,2,3\n"), "c:1: no column x: allowed PLY, PCD, or CSV with the columns x, y, z");
   EXPECT_EQ(refusal("ply\nformat ascii 1.0\nelement vertex 1\nproperty real x\nend_header\n"),
             "c:4: property type real: allowed a type of PLY, such as float");
-  EXPECT_EQ(refusal(plyAscii().substr(0, plyAscii().size() - 12)).substr(0, 5), "c:11:");
+  EXPECT_EQ(refusal(plyAscii().substr(0, plyAscii().size() - 12)),
+            "c: ends before its 4 of element vertex: allowed a whole file");
+  EXPECT_EQ(refusal(plyAscii() + "1 2\n"), "c:12: more numbers than the header announces: allowed as many");
+  EXPECT_EQ(refusal("5\n1 2 3\n"), "c: ends after 1 points, and announces 5: allowed a whole file");
   EXPECT_EQ(refusal(plyBinary(false).substr(0, 300)), "c: ends before its 4 of element vertex: allowed a whole file");
   EXPECT_EQ(refusal(pcdBinary().substr(0, pcdBinary().size() - 1)),
             "c: ends before its 4 points: allowed a whole file");
@@ -191,7 +270,8 @@ TEST(CloudFile, survivesDamage) {
                                                          {pcdAscii()},
                                                          {pcdBinary(), pcdCompressed()},
                                                          {asText(","), "x y z\n" + asText(" ")},
-                                                         {gzipped(asText(","))}};
+                                                         {gzipped(asText(","))},
+                                                         {las({{1, 2, 3}, {4, 5, 6}})}};
   for (const auto& seeds : formats)
     expectSurvives(testing::fuzzText(seeds, [](const std::string& text) { parseCloud(text, "c"); }));
 }
