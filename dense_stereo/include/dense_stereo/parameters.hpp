@@ -9,10 +9,17 @@ namespace dense_stereo {
 
 /// What a user may want to change, one member per row of table().
 struct Parameters {
-  std::string method;  // sgm, paper
-  int disparities;     // px
-  int min_component;   // px
-  double max_sigma;    // px
+  std::string method;        // sgm, paper
+  int disparities;           // px
+  int min_component;         // px
+  double max_sigma;          // px
+  double max_range;          // m
+  double obstacle_height;    // m
+  double clearance;          // m
+  double point_spacing;      // m
+  double keyframe_distance;  // m
+  double keyframe_angle;     // rad
+  double keyframe_interval;  // s
 
   Parameters();
 };

@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <limits>
 #include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "report/disparity_picture.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/types/error.hpp"
 
@@ -37,18 +37,8 @@ void writePfm(const std::string& path, const DisparityImage& image, const std::v
 }
 
 void writeColours(const std::string& path, const DisparityImage& image) {
-  const float most = *std::max_element(image.disparity.begin(), image.disparity.end());
-  cv::Mat levels(image.height, image.width, CV_8UC1), colours;
-  for (int v = 0; v < image.height; ++v)
-    for (int u = 0; u < image.width; ++u)
-      levels.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(
-          std::clamp(255.0F * image.disparity[image.index(u, v)] / std::max(most, 1.0F), 0.0F, 255.0F));
-  cv::applyColorMap(levels, colours, cv::COLORMAP_JET);
-  for (int v = 0; v < image.height; ++v)
-    for (int u = 0; u < image.width; ++u)
-      if (!image.isValid(u, v)) colours.at<cv::Vec3b>(v, u) = {0, 0, 0};
   std::vector<std::uint8_t> bytes;
-  if (!cv::imencode(".png", colours, bytes)) throw UserError(path, "cannot be encoded", "");
+  if (!cv::imencode(".png", drawDisparities(image), bytes)) throw UserError(path, "cannot be encoded", "");
   urban_nav_core::writeAtomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 

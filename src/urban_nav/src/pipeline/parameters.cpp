@@ -2,7 +2,6 @@
 #include "pipeline/parameters.hpp"
 
 #include "command_line/command_parameters.hpp"
-#include "dense_stereo/parameters.hpp"
 #include "input/input_parameters.hpp"
 #include "pipeline/stage_list.hpp"
 #include "urban_nav_core/camera/camera_noise.hpp"
@@ -30,7 +29,6 @@ ParameterSet loadParameters(const Arguments& arguments) {
   parameters.add(commandTable());
   parameters.add(inputTable());
   for (const std::unique_ptr<Stage>& stage : makeStages()) stage->addTables(parameters);
-  parameters.add(dense_stereo::table());  // of the command disparity
   parameters.load(readAssignments(arguments));
   return parameters;
 }

@@ -8,6 +8,7 @@
 #include "stages/localization/localization_stage.hpp"
 #include "stages/loops/loops_stage.hpp"
 #include "stages/places/places_stage.hpp"
+#include "stages/stereo/stereo_stage.hpp"
 #include "stages/vo/vo_stage.hpp"
 
 namespace urban_nav {
@@ -17,6 +18,7 @@ std::vector<std::unique_ptr<Stage>> makeStages() {
   stages.push_back(makeVoStage());
   stages.push_back(makeKeyframesStage());
   stages.push_back(makePlacesStage());
+  stages.push_back(makeStereoStage());
   stages.push_back(makeLoopsStage());
   stages.push_back(makeGraphStage());
   stages.push_back(makeLocalizationStage());
