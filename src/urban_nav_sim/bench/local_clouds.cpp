@@ -14,6 +14,7 @@
 #include "ray_tracing/tracer.hpp"
 #include "rig/sensor_poses.hpp"
 #include "support/program.hpp"
+#include "urban_nav_core/io/cloud/ply_writer.hpp"
 #include "urban_nav_core/laser/beam_renderer.hpp"
 #include "urban_nav_core/types/frames.hpp"
 
@@ -75,10 +76,10 @@ struct Turn {
 
 void write(const std::string& path, const std::vector<urban_nav_core::LaserPoint>& points) {
   std::ofstream file(path, std::ios::binary);
-  file
-      << "ply\nformat binary_little_endian 1.0\nelement vertex " << points.size()
-      << "\nproperty float x\nproperty float y\nproperty float z\nproperty float origin_x\nproperty float origin_y\nproperty float origin_z"
-      << "\nend_header\n";
+  urban_nav_core::PlyLayout layout;
+  for (const char* name : {"x", "y", "z", "origin_x", "origin_y", "origin_z"})
+    layout.properties.push_back({name, urban_nav_core::PlyType::Float});
+  file << urban_nav_core::plyHeader(layout, points.size());
   for (const urban_nav_core::LaserPoint& point : points)
     for (const Eigen::Vector3f* part : {&point.p, &point.origin})
       file.write(reinterpret_cast<const char*>(part->data()), 3 * sizeof(float));

@@ -11,6 +11,7 @@
 
 #include "report/disparity_picture.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
+#include "urban_nav_core/io/cloud/ply_writer.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav {
@@ -70,12 +71,14 @@ void writePoints(const std::string& path, const DisparityImage& image, const urb
       body.push_back(static_cast<char>(vertex.grey));
       ++count;
     }
-  urban_nav_core::writeAtomically(
-      path, "ply\nformat binary_little_endian 1.0\ncomment left optical frame, m\nelement vertex " +
-                std::to_string(count) +
-                "\nproperty float x\nproperty float y\nproperty float z\nproperty float sigma_z\n"
-                "property uchar intensity\nend_header\n" +
-                body);
+  using urban_nav_core::PlyType;
+  const urban_nav_core::PlyLayout layout{{{"x", PlyType::Float},
+                                          {"y", PlyType::Float},
+                                          {"z", PlyType::Float},
+                                          {"sigma_z", PlyType::Float},
+                                          {"intensity", PlyType::UChar}},
+                                         {"left optical frame, m"}};
+  urban_nav_core::writeAtomically(path, urban_nav_core::plyHeader(layout, count) + body);
 }
 
 }  // namespace

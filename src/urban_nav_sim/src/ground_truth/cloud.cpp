@@ -9,6 +9,7 @@
 
 #include "ground_truth/route_distance.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
+#include "urban_nav_core/io/cloud/ply_writer.hpp"
 
 namespace urban_nav_sim {
 
@@ -83,11 +84,12 @@ void writeCloud(const std::string& path, const World& world, const Motion& motio
   std::size_t count = 0;
   forEachPoint(world, near, [&count](const Vector3f&, SurfaceClass) { ++count; });
   urban_nav_core::AtomicFile file(path);
-  file.write(
-      "ply\nformat binary_little_endian 1.0\ncomment m, frame of trajectory.tum; class: 0 other, 1 grass, 2 paved, "
-      "3 dirt path, 4 textured wall, 5 smooth wall, 6 foliage, 7 vehicle\nelement vertex " +
-      std::to_string(count) +
-      "\nproperty float x\nproperty float y\nproperty float z\nproperty uchar class\nend_header\n");
+  using urban_nav_core::PlyType;
+  file.write(urban_nav_core::plyHeader(
+      {{{"x", PlyType::Float}, {"y", PlyType::Float}, {"z", PlyType::Float}, {"class", PlyType::UChar}},
+       {"m, frame of trajectory.tum; class: 0 other, 1 grass, 2 paved, 3 dirt path, 4 textured wall, 5 smooth wall, "
+        "6 foliage, 7 vehicle"}},
+      count));
   forEachPoint(world, near, [&file](const Vector3f& p, SurfaceClass surface_class) {
     std::array<char, row_bytes> row;
     std::memcpy(row.data(), p.data(), 3 * sizeof(float));

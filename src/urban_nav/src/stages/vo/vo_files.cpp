@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "urban_nav_core/geometry/dense.hpp"
+#include "urban_nav_core/io/cloud/ply_writer.hpp"
 #include "urban_nav_core/io/g2o.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 
@@ -64,7 +65,7 @@ std::string chainG2o(const VoRun& run) { return urban_nav_core::printG2o(chain(r
 
 std::string landmarksPly(const VoRun& run) {
   std::string bytes;
-  std::int64_t count = 0;
+  std::size_t count = 0;
   for (const auto& [id, landmark] : run.landmarks) {
     if (landmark.seen < kMinObservations || !landmark.landmark.p_odom.allFinite()) continue;
     for (int i = 0; i < 3; ++i) appendFloat(bytes, static_cast<float>(landmark.landmark.p_odom(i)));
@@ -72,9 +73,16 @@ std::string landmarksPly(const VoRun& run) {
     bytes.append(3, static_cast<char>(landmark.grey));
     ++count;
   }
-  return "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(count) +
-         "\nproperty float x\nproperty float y\nproperty float z\nproperty float sigma\nproperty uchar red\nproperty "
-         "uchar green\nproperty uchar blue\nend_header\n" +
+  using urban_nav_core::PlyType;
+  return urban_nav_core::plyHeader({{{"x", PlyType::Float},
+                                     {"y", PlyType::Float},
+                                     {"z", PlyType::Float},
+                                     {"sigma", PlyType::Float},
+                                     {"red", PlyType::UChar},
+                                     {"green", PlyType::UChar},
+                                     {"blue", PlyType::UChar}},
+                                    {}},
+                                   count) +
          bytes;
 }
 

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "urban_nav_core/io/atomic_file.hpp"
+
+namespace urban_nav_core {
+
+enum class PlyType { Float, Double, UChar, UShort, Int };
+
+struct PlyProperty {
+  std::string name;
+  PlyType type = PlyType::Float;
+};
+
+/// Properties of the vertices of a PLY file (Turk 1994) and what its header says about them.
+struct PlyLayout {
+  std::vector<PlyProperty> properties;
+  std::vector<std::string> comments;  ///< one line each
+
+  /// Returns the bytes of one vertex.
+  std::size_t vertexBytes() const;
+};
+
+/// Returns the header of a binary little-endian file with this many vertices. The bytes of the vertices follow it, each
+/// with its properties in their order and without gaps.
+std::string plyHeader(const PlyLayout& layout, std::size_t vertices);
+
+/// Appends the bytes of a number in little-endian order.
+template <typename Number>
+void appendLittleEndian(std::string& bytes, Number value);
+
+/// Writes a binary PLY file whose number of vertices is known at its end only. The file appears whole or not at all.
+/// Not thread-safe. Throws UserError or DataError naming the path.
+class PlyWriter {
+ public:
+  PlyWriter(const std::string& path, PlyLayout layout);
+  ~PlyWriter();
+  PlyWriter(const PlyWriter&) = delete;
+  PlyWriter& operator=(const PlyWriter&) = delete;
+
+  /// Appends vertices. Requires a whole number of them.
+  void append(std::string_view vertices);
+  std::size_t vertices() const { return vertices_; }
+  /// Writes the header and gives the file its name.
+  void commit();
+
+ private:
+  void write(std::string_view bytes);
+
+  std::string path_;
+  PlyLayout layout_;
+  PartialFile partial_;
+  std::FILE* file_ = nullptr;
+  std::size_t vertices_ = 0, header_bytes_ = 0;
+};
+
+extern template void appendLittleEndian(std::string&, float);
+extern template void appendLittleEndian(std::string&, double);
+extern template void appendLittleEndian(std::string&, std::uint8_t);
+extern template void appendLittleEndian(std::string&, std::uint16_t);
+extern template void appendLittleEndian(std::string&, std::uint32_t);
+extern template void appendLittleEndian(std::string&, std::int32_t);
+
+}  // namespace urban_nav_core
