@@ -11,6 +11,7 @@
 #include "report/plot.hpp"
 #include "stage/run_totals.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
+#include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav {
 
@@ -91,7 +92,10 @@ class MapRun {
   void runStages() {
     for (Stage* stage : stages_) {
       if (const std::string missing = stage->missingInput(context_); !missing.empty()) {
-        context_.console.info("stage " + stage->describe().name + " left out: " + missing);
+        const Stage::Description description = stage->describe();
+        if (description.listed && !context_.options.stages.empty())
+          throw urban_nav_core::DataError("--stages " + description.name, "cannot be run: " + missing, "");
+        context_.console.info("stage " + description.name + " left out: " + missing);
         continue;
       }
       context_.store->commit();

@@ -67,6 +67,7 @@ void writeOutputFiles(const OutputFolder& folder, const MapContext& context,
   if (usesClosures(selected)) files.push_back({kClosuresFile, [&] { return printClosures(context.closures); }});
   for (const StageResult& result : results) files.insert(files.end(), result.files.begin(), result.files.end());
   std::set<std::string> written;
+  for (const StageResult& result : results) written.insert(result.written_files.begin(), result.written_files.end());
   for (const OutputFile& file : files) {
     if (file.content) {
       folder.write(file.name, file.content());

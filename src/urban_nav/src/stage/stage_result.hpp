@@ -38,7 +38,9 @@ struct StageResult {
   std::vector<PlacedSection> sections;
   std::vector<std::string> data_faults;  ///< what is wrong with the data, for the report's table of warnings
   std::vector<OutputFile> files;         ///< besides the trajectories, which the pipeline writes
-  std::optional<Json> summary;           ///< object of summary.json under Stage::Description::key
+  std::vector<std::string>
+      written_files;            ///< that run() has written into the output folder itself, too large for memory
+  std::optional<Json> summary;  ///< object of summary.json under Stage::Description::key
 };
 
 }  // namespace urban_nav

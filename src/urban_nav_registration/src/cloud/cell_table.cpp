@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cloud/cell_table.hpp"
+#include "urban_nav_registration/cloud/cell_table.hpp"
 
 #include <utility>
 

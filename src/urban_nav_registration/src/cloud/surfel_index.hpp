@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "cloud/cell_table.hpp"
+#include "urban_nav_registration/cloud/cell_table.hpp"
 #include "urban_nav_registration/cloud/surfels.hpp"
 
 namespace urban_nav_registration {

@@ -8,8 +8,8 @@
 #include <numeric>
 #include <utility>
 
-#include "cloud/cell_table.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
+#include "urban_nav_registration/cloud/cell_table.hpp"
 
 namespace urban_nav_registration {
 namespace {

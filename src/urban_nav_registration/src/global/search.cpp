@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <opencv2/core/hal/intrin.hpp>
 
-#include "cloud/cell_table.hpp"
 #include "global/up_direction.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
+#include "urban_nav_registration/cloud/cell_table.hpp"
 
 namespace urban_nav_registration {
 

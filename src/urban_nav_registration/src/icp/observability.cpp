@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "cloud/cell_table.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
 #include "urban_nav_core/geometry/so3.hpp"
+#include "urban_nav_registration/cloud/cell_table.hpp"
 
 namespace urban_nav_registration {
 

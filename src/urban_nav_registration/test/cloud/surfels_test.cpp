@@ -8,8 +8,8 @@
 #include <cmath>
 #include <map>
 
-#include "cloud/cell_table.hpp"
 #include "urban_nav_core/testing/dice.hpp"
+#include "urban_nav_registration/cloud/cell_table.hpp"
 
 namespace urban_nav_registration {
 namespace {

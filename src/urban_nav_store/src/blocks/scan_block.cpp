@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "blocks/deflate.hpp"
 #include "urban_nav_store/bytes.hpp"
+#include "urban_nav_store/deflate.hpp"
 
 namespace urban_nav_store {
 

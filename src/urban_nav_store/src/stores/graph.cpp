@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "stores/graph.hpp"
 
-#include "blocks/deflate.hpp"
 #include "tables/graph_tables.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_store/deflate.hpp"
 
 namespace urban_nav_store {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "blocks/deflate.hpp"
 #include "schema/row.hpp"
 #include "tables/measurement_tables.hpp"
+#include "urban_nav_store/deflate.hpp"
 
 namespace urban_nav_store {
 

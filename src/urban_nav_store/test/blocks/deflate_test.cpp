@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "blocks/deflate.hpp"
+#include "urban_nav_store/deflate.hpp"
 
 #include <gtest/gtest.h>
 

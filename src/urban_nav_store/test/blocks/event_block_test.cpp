@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "blocks/deflate.hpp"
 #include "urban_nav_core/testing/fuzz.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_store/deflate.hpp"
 
 namespace urban_nav_store {
 namespace {

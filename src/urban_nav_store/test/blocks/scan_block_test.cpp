@@ -5,11 +5,11 @@
 
 #include <limits>
 
-#include "blocks/deflate.hpp"
 #include "support/contents.hpp"
 #include "urban_nav_core/testing/fuzz.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_store/bytes.hpp"
+#include "urban_nav_store/deflate.hpp"
 
 namespace urban_nav_store {
 namespace {

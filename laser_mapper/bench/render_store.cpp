@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Renders the scans of a session store along a trajectory, the true one for example, and reports its speed:
+//   render_store STORE TRAJECTORY.tum MAP.ply
+// The store receives the rendered chunks: pass a copy.
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
+#include <string>
+
+#include "laser_mapper/laser_map.hpp"
+#include "laser_mapper/map_files.hpp"
+#include "urban_nav_core/io/tum.hpp"
+#include "urban_nav_core/parallel/for_each.hpp"
+
+namespace laser_mapper::bench {
+
+double secondsSince(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+void renderStore(const std::string& store_path, const std::string& trajectory_path, const std::string& map_path,
+                 int threads) {
+  const urban_nav_core::ThreadLimit limit(threads);
+  urban_nav_store::Store store(store_path, urban_nav_store::Access::Write);
+  const urban_nav_core::Trajectory trajectory = urban_nav_core::readTum(trajectory_path);
+  const auto sessions = store.sessions().all();
+  if (sessions.empty()) throw std::runtime_error(store_path + ": no session");
+  const Parameters parameters;
+  const auto begin = std::chrono::steady_clock::now();
+  LaserMap map(parameters, store, {{sessions.front().id, &trajectory, nullptr}});
+  const RenderStatistics rendered = map.render();
+  const double render_s = secondsSince(begin);
+  urban_nav_core::PlyWriter file(map_path, mapLayout());
+  map.forEachTile([&](const Tile&, const std::vector<MapPoint>& points) {
+    std::string bytes;
+    for (const MapPoint& point : points) appendVertex(bytes, point);
+    file.append(bytes);
+  });
+  const std::size_t points = file.vertices();
+  file.commit();
+  const double all_s = secondsSince(begin);
+  const auto beams = static_cast<double>(rendered.beams.all);
+  std::printf("%zu of %zu chunks, %.0f beams, mixed %.2f %%, without pose %.2f %%, out of range %.2f %%, %zu points\n",
+              rendered.chunks_rendered, rendered.chunks, beams,
+              100.0 * static_cast<double>(rendered.beams.mixed) / beams,
+              100.0 * static_cast<double>(rendered.beams.without_pose) / beams,
+              100.0 * static_cast<double>(rendered.beams.out_of_range) / beams, points);
+  std::printf("render %.2f s, surfaces and file %.2f s, %.2f M beams/s on %d threads\n", render_s, all_s - render_s,
+              1e-6 * beams / all_s, threads);
+  for (const std::string& warning : rendered.warnings) std::printf("%s\n", warning.c_str());
+}
+
+}  // namespace laser_mapper::bench
+
+int main(int argc, char** argv) try {
+  if (argc < 4) {
+    std::fprintf(stderr, "usage: render_store STORE TRAJECTORY.tum MAP.ply [THREADS]\n");
+    return 2;
+  }
+  laser_mapper::bench::renderStore(argv[1], argv[2], argv[3], argc > 4 ? std::stoi(argv[4]) : 1);
+  return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
+}

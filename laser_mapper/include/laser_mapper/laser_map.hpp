@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "laser_mapper/chunk_renderer.hpp"
+#include "laser_mapper/map_point.hpp"
+#include "laser_mapper/parameters.hpp"
+#include "laser_mapper/passes.hpp"
+#include "laser_mapper/tile_cells.hpp"
+#include "urban_nav_core/trajectory/trajectory.hpp"
+#include "urban_nav_store/store.hpp"
+
+namespace laser_mapper {
+
+/// A session of the map. The members pointed to must outlive the map.
+struct MappedSession {
+  urban_nav_store::SessionId id;
+  const urban_nav_core::Trajectory* T_map_base = nullptr;
+  /// Of T_map_base, one per pose; may be shorter than the trajectory: poses without one count as exact.
+  const std::vector<urban_nav_core::Matrix6d>* covariances = nullptr;
+};
+
+/// What rendering did.
+struct RenderStatistics {
+  std::size_t chunks = 0;
+  std::size_t chunks_rendered = 0;    ///< the others were in the store, and their poses had not moved
+  BeamCounts beams;                   ///< of all chunks
+  std::vector<std::string> warnings;  ///< about the data
+};
+
+/// The map of the laser scans of sessions that lie in one map (Newman et al. 2009, section 6.1). Scans are read from
+/// the store, and rendered chunks are written to it: a chunk whose poses have moved by less than Parameters::max_shift
+/// since is not rendered again. Memory depends on the width of the map, not on its length or on the duration of the
+/// sessions. The bytes do not depend on the number of threads. Not thread-safe.
+class LaserMap {
+ public:
+  using ProgressCallback = std::function<void(std::size_t done, std::size_t all)>;
+  using TileCallback = std::function<void(const Tile& tile, const std::vector<MapPoint>& points)>;
+
+  /// The store must outlive the map. Sessions without scans are left out.
+  LaserMap(const Parameters& parameters, urban_nav_store::Store& store, std::vector<MappedSession> sessions);
+
+  /// Brings the chunks in the store up to date and commits them. Throws the errors of the store.
+  RenderStatistics render(const ProgressCallback& progress = {});
+
+  /// Calls `take` for the tiles that have points, in the order of Tile. Requires render() before. Throws DataError if
+  /// the store is damaged.
+  void forEachTile(const TileCallback& take) const;
+
+  const std::vector<SessionPasses>& passes() const { return passes_; }
+
+ private:
+  using Tiles = std::set<Tile>;
+  std::vector<std::vector<MergedCell>> mergeRow(const std::vector<Tile>& tiles) const;
+  double poseSigma(const MergedCell& cell, const Eigen::Vector3d& p, const Eigen::Vector3d& along) const;
+
+  const Parameters parameters_;
+  urban_nav_store::Store& store_;
+  const std::vector<MappedSession> sessions_;
+  std::vector<SessionPasses> passes_;
+  Tiles tiles_;  ///< that have cells in the store
+};
+
+}  // namespace laser_mapper

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "laser_mapper/map_point.hpp"
+#include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_registration/pictures/picture.hpp"
+
+namespace laser_mapper {
+
+/// Camera of a picture: x right, y down, z away from the viewer.
+struct MapView {
+  int width = 1200, height = 900;  ///< px
+  urban_nav_core::Pose T_camera_map;
+  double px_per_m = 10.0;        ///< from above: of the parallel projection
+  double focal_px = 0.0;         ///< of the perspective; 0: parallel projection
+  double near = 0.5, far = 1e9;  ///< m: points nearer or farther are not drawn
+};
+
+/// Returns a view from above, north of the picture along y of the map, that shows all poses and what lies within
+/// `margin` m of them. At most `longest` px wide and high.
+MapView viewFromAbove(const std::vector<urban_nav_core::Vector3d>& path, double margin, int longest);
+
+/// Returns a view of the path from outside and above.
+MapView viewInPerspective(const std::vector<urban_nav_core::Vector3d>& path, int width, int height);
+
+/// Draws points into a picture, nearest first, lit by their normals. Points may come in any order: equally near ones
+/// apart, the picture does not depend on it. Not thread-safe.
+class MapPicture {
+ public:
+  explicit MapPicture(const MapView& view);
+  void draw(const std::vector<MapPoint>& points);
+  /// Draws a line over everything.
+  void drawPath(const std::vector<urban_nav_core::Vector3d>& path);
+  /// Fills small gaps between points, and returns the picture.
+  urban_nav_registration::Picture finish() const;
+
+ private:
+  struct Pixel {
+    float depth = 0.0F;  ///< m; 0: empty
+    float blue = 0.0F, green = 0.0F, red = 0.0F;
+  };
+  bool project(const urban_nav_core::Vector3d& p, double& u, double& v, double& depth) const;
+  void put(int u, int v, const Pixel& pixel);
+  void shadeEdges(std::vector<Pixel>& pixels) const;
+
+  const MapView view_;
+  const urban_nav_core::Matrix3d R_;
+  std::vector<Pixel> pixels_;
+  std::vector<std::uint8_t> path_;  ///< 1 where the path is
+};
+
+}  // namespace laser_mapper

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "urban_nav_core/laser/scan.hpp"
+
+namespace laser_mapper {
+
+/// Sensor model of the mixed-pixel test.
+struct MixedPixelModel {
+  float range_sigma = 0.006F;  ///< m
+  float roughness = 0.01F;     ///< m: height of the unevenness of real surfaces
+  float min_jump = 0.03F;      ///< m: smaller steps in range are left to the noise
+};
+
+/// Returns a flag per beam: 1 if its range lies between those of its neighbours, continues neither the surface before
+/// it nor the one after it, and does not lie on the line between them. Such a beam has met two surfaces, and its end
+/// lies on neither (Tuley et al. 2005). On a plane the inverse of the range is a sinusoid of the angle, hence one beam
+/// is predicted by two others. Beams without two neighbours on a side are tested on the other side alone. Thread-safe.
+std::vector<std::uint8_t> findMixedPixels(const urban_nav_core::Scan& scan, const MixedPixelModel& model);
+
+}  // namespace laser_mapper

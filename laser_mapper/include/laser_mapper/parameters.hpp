@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "urban_nav_core/parameters/table.hpp"
+
+namespace laser_mapper {
+
+/// Settings of the map, one member per row of table().
+struct Parameters {
+  double voxel;        // m
+  double min_range;    // m
+  double max_range;    // m
+  double range_sigma;  // m
+  double range_bias;   // m
+  double beam_width;   // rad
+  bool mixed_pixels;
+  double max_gap;    // s
+  double max_shift;  // m
+
+  Parameters();
+};
+
+/// The only place where a default, a range, a unit or a sentence about a parameter is written.
+const urban_nav_core::Table<Parameters>& table();
+
+}  // namespace laser_mapper

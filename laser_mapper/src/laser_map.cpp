@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "laser_mapper/laser_map.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "chunk_store.hpp"
+#include "laser_mapper/tile_surface.hpp"
+#include "session_chunks.hpp"
+#include "urban_nav_core/parallel/for_each.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace laser_mapper {
+
+using urban_nav_core::StampNs;
+using urban_nav_core::Trajectory;
+
+namespace {
+
+using Cells = std::vector<MergedCell>;
+
+/// Cells of a chunk in a tile, as the store has them.
+struct PackedCells {
+  CellSource source;
+  std::string data;
+};
+
+Cells mergePacked(const Tile& tile, const std::vector<PackedCells>& packed, const std::string& store) {
+  TileMerger merger;
+  for (const PackedCells& each : packed) {
+    const auto cells = unpackCells(tile, each.data);
+    if (!cells) throw urban_nav_core::DataError(store, "points of tile " + toString(tile) + " are damaged", "");
+    merger.add(each.source, *cells);
+  }
+  return merger.take();
+}
+
+/// Merged tiles of up to three rows.
+class TileRows {
+ public:
+  void put(const std::vector<Tile>& tiles, std::vector<Cells> cells) {
+    for (std::size_t i = 0; i < tiles.size(); ++i) tiles_[tiles[i]] = std::move(cells[i]);
+  }
+  void dropBelow(int y) {
+    while (!tiles_.empty() && tiles_.begin()->first.y < y) tiles_.erase(tiles_.begin());
+  }
+  bool hasRow(int y) const {
+    const auto found = tiles_.lower_bound({-(1 << 24), y});
+    return found != tiles_.end() && found->first.y == y;
+  }
+  const Cells& at(const Tile& tile) const { return tiles_.at(tile); }
+
+  /// Returns the cells around a tile, within kTileMargin.
+  Cells margin(const Tile& tile) const {
+    Cells around;
+    const int x0 = tile.x * kTileCells - kTileMargin, x1 = (tile.x + 1) * kTileCells + kTileMargin;
+    const int y0 = tile.y * kTileCells - kTileMargin, y1 = (tile.y + 1) * kTileCells + kTileMargin;
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) {
+        const auto found = dx == 0 && dy == 0 ? tiles_.end() : tiles_.find({tile.x + dx, tile.y + dy});
+        if (found == tiles_.end()) continue;
+        for (const MergedCell& cell : found->second)
+          if (cell.cell.x >= x0 && cell.cell.x < x1 && cell.cell.y >= y0 && cell.cell.y < y1) around.push_back(cell);
+      }
+    return around;
+  }
+
+ private:
+  std::map<Tile, Cells> tiles_;
+};
+
+/// Returns the tiles of each row.
+std::map<int, std::vector<Tile>> byRow(const std::set<Tile>& tiles) {
+  std::map<int, std::vector<Tile>> rows;
+  for (const Tile& tile : tiles) rows[tile.y].push_back(tile);
+  return rows;
+}
+
+std::vector<const Trajectory*> trajectories(const std::vector<MappedSession>& sessions) {
+  std::vector<const Trajectory*> all;
+  for (const MappedSession& session : sessions) all.push_back(session.T_map_base);
+  return all;
+}
+
+}  // namespace
+
+LaserMap::LaserMap(const Parameters& parameters, urban_nav_store::Store& store, std::vector<MappedSession> sessions)
+    : parameters_(parameters),
+      store_(store),
+      sessions_(std::move(sessions)),
+      passes_(findPasses(trajectories(sessions_))) {}
+
+RenderStatistics LaserMap::render(const ProgressCallback& progress) {
+  RenderStatistics statistics;
+  tiles_.clear();
+  std::size_t all = 0, done = 0;
+  for (const MappedSession& session : sessions_) all += SessionChunks::count(*session.T_map_base);
+  for (const MappedSession& session : sessions_) {
+    SessionChunks chunks(parameters_, store_, session.id, *session.T_map_base);
+    chunks.update([&](std::size_t now) {
+      if (progress) progress(done + now, all);
+    });
+    done += SessionChunks::count(*session.T_map_base);
+    statistics.chunks += chunks.chunks();
+    statistics.chunks_rendered += chunks.rendered();
+    statistics.beams = statistics.beams + chunks.beams();
+    tiles_.insert(chunks.tiles().begin(), chunks.tiles().end());
+    for (const std::string& warning : chunks.warnings()) statistics.warnings.push_back(warning);
+  }
+  return statistics;
+}
+
+std::vector<Cells> LaserMap::mergeRow(const std::vector<Tile>& tiles) const {
+  std::vector<std::vector<PackedCells>> packed(tiles.size());
+  for (std::size_t s = 0; s < sessions_.size(); ++s) {
+    const ChunkStore chunks(store_, sessions_[s].id);
+    for (std::size_t i = 0; i < tiles.size(); ++i)
+      chunks.forEachInTile(tiles[i], [&](StampNs begin, std::string data) {
+        const CellSource source{static_cast<std::uint16_t>(s), passes_[s].at(begin + kChunkNs / 2), begin};
+        packed[i].push_back({source, std::move(data)});
+      });
+  }
+  std::vector<Cells> merged(tiles.size());
+  urban_nav_core::forEach(tiles.size(), 1,
+                          [&](std::size_t i) { merged[i] = mergePacked(tiles[i], packed[i], store_.path()); });
+  return merged;
+}
+
+double LaserMap::poseSigma(const MergedCell& cell, const Eigen::Vector3d& p, const Eigen::Vector3d& along) const {
+  const MappedSession& session = sessions_[cell.session];
+  if (session.covariances == nullptr || session.T_map_base->empty()) return 0.0;
+  const std::size_t pose = session.T_map_base->nearest(cell.stamp);
+  if (pose >= session.covariances->size()) return 0.0;
+  const Eigen::Vector3d lever = p - (*session.T_map_base)[pose].pose.t();
+  urban_nav_core::Vector6d jacobian;
+  jacobian << along, lever.cross(along);
+  return std::sqrt(std::max(0.0, jacobian.dot((*session.covariances)[pose] * jacobian)));
+}
+
+void LaserMap::forEachTile(const TileCallback& take) const {
+  const std::map<int, std::vector<Tile>> rows = byRow(tiles_);
+  TileRows merged;
+  const PoseSigma pose_sigma = [this](const MergedCell& cell, const Eigen::Vector3d& p, const Eigen::Vector3d& along) {
+    return poseSigma(cell, p, along);
+  };
+  for (const auto& [y, tiles] : rows) {
+    merged.dropBelow(y - 1);
+    for (const int next : {y, y + 1})
+      if (const auto row = rows.find(next); row != rows.end() && !merged.hasRow(next))
+        merged.put(row->second, mergeRow(row->second));
+    std::vector<std::vector<MapPoint>> points(tiles.size());
+    urban_nav_core::forEach(tiles.size(), 1, [&, &row_tiles = tiles](std::size_t i) {
+      points[i] =
+          makeSurface(parameters_, row_tiles[i], merged.at(row_tiles[i]), merged.margin(row_tiles[i]), pose_sigma);
+    });
+    for (std::size_t i = 0; i < tiles.size(); ++i) take(tiles[i], points[i]);
+  }
+}
+
+}  // namespace laser_mapper

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "laser_mapper/tile_cells.hpp"
+#include "urban_nav_registration/cloud/cell_table.hpp"
+
+namespace laser_mapper {
+
+/// The plane that fits a neighbourhood best.
+struct LocalPlane {
+  Eigen::Vector3f centre = Eigen::Vector3f::Zero();  ///< m, in the frame of LocalPlanes
+  Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();
+  float thickness = 0.0F;  ///< m, standard deviation of the cubes' means about the plane
+  float weight = 0.0F;     ///< beams that it rests on
+  int level = 0;           ///< the neighbourhood was 3 * 2^level cubes wide
+};
+
+/// Planes through the neighbourhoods of the cubes of a tile, from the moments of cubes of one, two, four and eight
+/// edges: far from the laser its beams are far apart. Immutable, so thread-safe. Positions are in a frame with the axes
+/// of the map whose origin is the corner of the tile.
+class LocalPlanes {
+ public:
+  LocalPlanes(double voxel, const Tile& tile, const std::vector<MergedCell>& cells,
+              const std::vector<MergedCell>& margin);
+
+  /// Returns the plane of the smallest neighbourhood that extends in two directions; nullopt if none does.
+  std::optional<LocalPlane> around(const MergedCell& cell) const;
+  /// Returns whether another cube represents the surface at a point of this one: the point lies in it, or it is the
+  /// next one along the normal and `reach` (m) of noise separates it from the plane; and it has more beams. `position`:
+  /// of the point.
+  bool belongsToAnother(const MergedCell& cell, const Eigen::Vector3f& position, const LocalPlane& plane,
+                        float reach) const;
+  Eigen::Vector3f position(const MergedCell& cell) const;
+  Eigen::Vector3d inMap(const Eigen::Vector3f& position) const { return origin_ + position.cast<double>(); }
+
+ private:
+  static constexpr int kLevels = 4;
+  /// Sums over beams, with w the number of beams of a cube, at most kMaxWeight.
+  struct Moments {
+    float w = 0.0F;
+    Eigen::Vector3f first = Eigen::Vector3f::Zero();                         ///< of w times the position
+    Eigen::Matrix<float, 6, 1> second = Eigen::Matrix<float, 6, 1>::Zero();  ///< xx xy xz yy yz zz
+    void add(const Moments& other, const Eigen::Vector3f& shift);
+  };
+  struct Level {
+    urban_nav_registration::CellTable table{1 << 10};
+    std::vector<Moments> cubes;  ///< about the centres of the cubes
+    float edge = 0.0F;           ///< m
+  };
+  bool hasMoreBeams(const Cell& other, const MergedCell& cell) const;
+  Cell local(const Cell& cell) const { return {cell.x - corner_.x, cell.y - corner_.y, cell.z}; }
+  void addToLevels(const MergedCell& cell);
+  std::optional<LocalPlane> planeAt(int level, const Cell& cell) const;
+
+  const float voxel_;
+  Cell corner_;
+  Eigen::Vector3d origin_;
+  std::vector<float> counts_;  ///< beams of each cube of level 0
+  std::array<Level, kLevels> levels_;
+};
+
+}  // namespace laser_mapper

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "laser_mapper/parameters.hpp"
+
+#include <cstdint>
+
+namespace laser_mapper {
+
+using urban_nav_core::Table;
+
+Parameters::Parameters() { table().setDefaults(*this); }
+
+// clang-format would give each of the columns a line.
+// clang-format off
+const Table<Parameters>& table() {
+  using P = Parameters;
+  static const Table<Parameters> rows(
+      "laser_mapper",
+      {
+          {"voxel", &P::voxel, "m", 0.05, 0.01, 1.0, {},
+           "Distance between points of the map: edge of the cubes within which points are averaged.", "section 6.1"},
+          {"min_range", &P::min_range, "m", 0.3, 0.0, 10.0, {},
+           "Beams that end nearer to the laser, on the robot itself, are left out.", "section 6.1"},
+          {"max_range", &P::max_range, "m", 30.0, 1.0, 1000.0, {}, "Beams that end farther away are left out.",
+           "section 6.1"},
+          {"range_sigma", &P::range_sigma, "m", 0.006, 0.0001, 1.0, {},
+           "Standard deviation of a range.", "data sheet of the LMS291: 5 mm typical, resolution 1 mm"},
+          {"range_bias", &P::range_bias, "m", 0.003, 0.0, 1.0, {},
+           "Standard deviation of the constant error of a laser's ranges.", "docs/methods/laser_mapper.md"},
+          {"beam_width", &P::beam_width, "rad", 0.011, 0.0, 0.2, {},
+           "Divergence of the beams.", "data sheet of the LMS291"},
+          {"mixed_pixels", &P::mixed_pixels, "", true, false, false, {},
+           "Beams that hit two surfaces, whose range belongs to neither, are left out.",
+           "docs/methods/laser_mapper.md"},
+          {"max_gap", &P::max_gap, "s", 0.5, 0.01, 10.0, {},
+           "Beams between two poses of the trajectory further apart in time are left out.", "section 6.1"},
+          {"max_shift", &P::max_shift, "m", 0.005, 0.0, 10.0, {},
+           "A part of the map is rendered again when its points have moved by more than this.",
+           "docs/methods/laser_mapper.md"},
+      });
+  return rows;
+}
+// clang-format on
+
+}  // namespace laser_mapper

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "session_chunks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "urban_nav_core/parallel/for_each.hpp"
+#include "urban_nav_core/types/frames.hpp"
+
+namespace laser_mapper {
+
+using urban_nav_core::Scan;
+using urban_nav_core::StampNs;
+using urban_nav_core::Trajectory;
+using urban_nav_store::MapChunk;
+
+namespace {
+
+constexpr std::size_t kBatch = 8;      // chunks read before they are rendered, on all threads
+constexpr double kLongestPause = 0.5;  // s between scans of a laser that runs
+
+std::vector<urban_nav_registration::LaserAt> sortedLasers(urban_nav_store::Store& store,
+                                                          const urban_nav_store::SessionId& session) {
+  std::vector<urban_nav_registration::LaserAt> lasers = urban_nav_registration::storedLasers(store, session);
+  std::sort(lasers.begin(), lasers.end(), [](const auto& a, const auto& b) { return a.frame < b.frame; });
+  return lasers;
+}
+
+int laserNumber(const std::string& frame, std::size_t index) {
+  if (frame == urban_nav_core::frames::laser_left) return 0;
+  if (frame == urban_nav_core::frames::laser_right) return 1;
+  return static_cast<int>(2 + index);
+}
+
+}  // namespace
+
+std::size_t SessionChunks::count(const Trajectory& T_map_base) {
+  if (T_map_base.empty()) return 0;
+  return static_cast<std::size_t>((chunkBegin(T_map_base.back().stamp) - chunkBegin(T_map_base.front().stamp)) /
+                                  kChunkNs) +
+         1;
+}
+
+SessionChunks::SessionChunks(const Parameters& parameters, urban_nav_store::Store& store,
+                             const urban_nav_store::SessionId& session, const Trajectory& T_map_base)
+    : parameters_(parameters),
+      store_(store),
+      session_(session),
+      T_map_base_(T_map_base),
+      max_gap_(std::llround(parameters.max_gap * 1e9)),
+      lasers_(sortedLasers(store, session)),
+      chunk_store_(store, session),
+      settings_(renderSettings(parameters, lasers_)),
+      last_scan_(lasers_.size(), 0),
+      silent_(lasers_.size(), 0.0) {
+  for (const std::string& frame : store.scans().lasers(session))
+    if (std::none_of(lasers_.begin(), lasers_.end(), [&](const auto& laser) { return laser.frame == frame; }))
+      warnings_.push_back("scans of " + frame + " are left out: its pose on the robot is unknown");
+}
+
+bool SessionChunks::isCurrent(const Stored& stored, StampNs begin) const {
+  const auto found = stored.find(begin);
+  return found != stored.end() && found->second.settings == settings_ &&
+         chunkShift(found->second.poses, T_map_base_, begin, max_gap_) <= parameters_.max_shift;
+}
+
+void SessionChunks::checkContinuity(std::size_t laser, const Scan& scan) {
+  const double pause = last_scan_[laser] == 0 ? 0.0 : urban_nav_core::secondsBetween(last_scan_[laser], scan.stamp);
+  if (pause > kLongestPause) silent_[laser] += pause;
+  last_scan_[laser] = scan.stamp;
+}
+
+SessionChunks::Task SessionChunks::readTask(StampNs begin) {
+  Task task;
+  task.begin = begin;
+  for (std::size_t i = 0; i < lasers_.size(); ++i) {
+    LaserInput input;
+    input.T_base_laser = lasers_[i].T_base_laser;
+    input.laser = laserNumber(lasers_[i].frame, i);
+    store_.scans().forEach(session_, lasers_[i].frame, begin, begin + kChunkNs - 1, [&](const Scan& scan) {
+      checkContinuity(i, scan);
+      input.scans.push_back(scan);
+    });
+    task.lasers.push_back(std::move(input));
+  }
+  return task;
+}
+
+void SessionChunks::renderTasks(std::vector<Task>& tasks, const Stored& stored) {
+  urban_nav_core::forEach(tasks.size(), 1, [&](std::size_t i) {
+    tasks[i].chunk = renderChunk(parameters_, T_map_base_, tasks[i].lasers, tasks[i].begin);
+  });
+  for (const Task& task : tasks) {
+    const BeamCounts& beams = task.chunk.beams;
+    MapChunk header;
+    header.begin = task.begin;
+    header.end = task.begin + kChunkNs;
+    header.settings = settings_;
+    header.poses = packChunkPoses(T_map_base_, task.begin, max_gap_);
+    header.beams = static_cast<std::int64_t>(beams.all);
+    header.mixed = static_cast<std::int64_t>(beams.mixed);
+    header.without_pose = static_cast<std::int64_t>(beams.without_pose);
+    header.out_of_range = static_cast<std::int64_t>(beams.out_of_range);
+    const auto old = stored.find(task.begin);
+    chunk_store_.put(header, task.chunk, old == stored.end() ? nullptr : &old->second);
+    beams_ = beams_ + beams;
+    for (const RenderedChunk::Part& part : task.chunk.parts) tiles_.insert(part.tile);
+  }
+  rendered_ += tasks.size();
+  tasks.clear();
+  store_.commit();
+}
+
+void SessionChunks::reportGaps() {
+  for (std::size_t i = 0; i < lasers_.size(); ++i)
+    if (silent_[i] > 0.0)
+      warnings_.push_back(lasers_[i].frame + " sent nothing during " +
+                          std::to_string(static_cast<int>(std::ceil(silent_[i]))) + " s of the rendered time");
+}
+
+void SessionChunks::update(const std::function<void(std::size_t)>& progress) {
+  if (lasers_.empty() || T_map_base_.empty()) return;
+  const Stored stored = chunk_store_.chunks();
+  const StampNs first = chunkBegin(T_map_base_.front().stamp), last = chunkBegin(T_map_base_.back().stamp);
+  for (const auto& [begin, chunk] : stored)
+    if (begin < first || begin > last) chunk_store_.remove(chunk);
+  std::vector<Task> tasks;
+  for (StampNs begin = first; begin <= last; begin += kChunkNs) {
+    ++chunks_;
+    if (isCurrent(stored, begin)) {
+      const MapChunk& chunk = stored.at(begin);
+      const auto size = [](std::int64_t n) { return static_cast<std::size_t>(n); };
+      beams_ =
+          beams_ + BeamCounts{size(chunk.beams), size(chunk.mixed), size(chunk.without_pose), size(chunk.out_of_range)};
+      for (const Tile& tile : chunkTiles(chunk)) tiles_.insert(tile);
+      continue;
+    }
+    tasks.push_back(readTask(begin));
+    if (tasks.size() == kBatch) renderTasks(tasks, stored);
+    progress(chunks_);
+  }
+  renderTasks(tasks, stored);
+  progress(chunks_);
+  reportGaps();
+}
+
+}  // namespace laser_mapper

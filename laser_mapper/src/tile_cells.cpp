@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "laser_mapper/tile_cells.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace laser_mapper {
+
+using urban_nav_core::StampNs;
+
+void TileMerger::elect(MergedCell& cell, const PassVotes& votes) {
+  cell.session = votes.session;
+  cell.pass = votes.pass;
+  cell.laser = votes.laser;
+  cell.stamp =
+      votes.since + static_cast<StampNs>(std::llround(1e3 * votes.time / static_cast<double>(votes.count))) * 1000;
+}
+
+void TileMerger::add(const CellSource& source, const std::vector<MapCell>& cells) {
+  for (const MapCell& from : cells) {
+    const std::uint32_t number = table_.insert(urban_nav_registration::keyOf(from.cell));
+    if (number == cells_.size()) {
+      cells_.emplace_back();
+      cells_.back().cell = from.cell;
+      votes_.emplace_back();
+      best_.push_back(0.0F);
+    }
+    MergedCell& cell = cells_[number];
+    const auto count = static_cast<float>(from.count);
+    cell.count += count;
+    const float share = count / cell.count;
+    cell.offset += share * (from.offset - cell.offset);
+    cell.to_laser += share * (from.to_laser - cell.to_laser);
+    cell.range += share * (from.range - cell.range);
+    cell.intensity += share * (static_cast<float>(from.intensity) - cell.intensity);
+    PassVotes& votes = votes_[number];
+    if (votes.count == 0.0F || votes.pass != source.pass || votes.session != source.session)
+      votes = {source.session, source.pass, from.laser, 0.0F, 0.0, source.begin};
+    votes.count += count;
+    votes.time += static_cast<double>(count) *
+                  (1e-3 * static_cast<double>(from.time_us) + 1e-6 * static_cast<double>(source.begin - votes.since));
+    if (votes.count > best_[number]) {
+      best_[number] = votes.count;
+      elect(cell, votes);
+    }
+  }
+}
+
+std::vector<MergedCell> TileMerger::take() {
+  table_ = urban_nav_registration::CellTable(1 << 12);
+  votes_.clear();
+  best_.clear();
+  return std::exchange(cells_, {});
+}
+
+}  // namespace laser_mapper

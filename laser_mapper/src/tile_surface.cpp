@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "laser_mapper/tile_surface.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "local_planes.hpp"
+
+namespace laser_mapper {
+
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+
+namespace {
+
+constexpr float kFarRange = 20.0F;  // m: beyond, ranges are twice as noisy (data sheet of the LMS291)
+constexpr float kReach = 3.0F;      // standard deviations of a range: cubes nearer to a plane belong to it
+
+float rangeSigma(const Parameters& parameters, float range) {
+  return static_cast<float>(parameters.range_sigma) * (range > kFarRange ? 2.0F : 1.0F);
+}
+
+/// Returns how much of the distance to a plane noise explains, 0...1.
+float noiseShare(const LocalPlane& plane, float sigma) {
+  return std::clamp(2.0F - plane.thickness * plane.thickness / (sigma * sigma), 0.0F, 1.0F);
+}
+
+float measurementVariance(const Parameters& parameters, const MergedCell& cell, const LocalPlane* plane, float share,
+                          float cosine) {
+  const float sigma = rangeSigma(parameters, cell.range);
+  float beams = cell.count;
+  if (plane != nullptr) beams += share * std::max(0.0F, plane->weight - beams);
+  const float sine = std::sqrt(std::max(0.0F, 1.0F - cosine * cosine));
+  const float noise = sigma * cosine, bias = static_cast<float>(parameters.range_bias) * cosine;
+  const float pointing = 0.25F * static_cast<float>(parameters.beam_width) * cell.range * sine;
+  float variance = (noise * noise + pointing * pointing) / beams + bias * bias;
+  if (plane != nullptr) variance += (1.0F - share) * plane->thickness * plane->thickness / cell.count;
+  return variance;
+}
+
+/// One cube on its way to a point.
+struct SurfacePoint {
+  MapPoint point;
+  bool belongs_to_another = false;
+};
+
+}  // namespace
+
+float normalisedIntensity(float raw, float range, float cosine) {
+  const float optics = range / (range + 0.5F), distance = range > 8.0F ? 8.0F / range : 1.0F;
+  const float lambert = std::pow(std::clamp(cosine, 0.2F, 1.0F), 0.85F);
+  return std::clamp(raw / (std::max(optics, 0.1F) * distance * lambert), 0.0F, 255.0F);
+}
+
+std::vector<MapPoint> makeSurface(const Parameters& parameters, const Tile& tile, const std::vector<MergedCell>& cells,
+                                  const std::vector<MergedCell>& margin, const PoseSigma& pose_sigma) {
+  const LocalPlanes planes(parameters.voxel, tile, cells, margin);
+  std::vector<SurfacePoint> made(cells.size());
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const MergedCell& cell = cells[i];
+    SurfacePoint& surface = made[i];
+    const std::optional<LocalPlane> plane = planes.around(cell);
+    Vector3f local = planes.position(cell);
+    Vector3f along = cell.to_laser.norm() > 0.1F ? Vector3f(cell.to_laser.normalized()) : Vector3f(Vector3f::UnitZ());
+    float share = 0.0F, cosine = 1.0F;
+    if (plane) {
+      Vector3f normal = plane->normal;
+      if (normal.dot(along) < 0.0F) normal = -normal;
+      cosine = std::max(0.05F, normal.dot(along));
+      const float sigma = rangeSigma(parameters, cell.range);
+      share = noiseShare(*plane, sigma);
+      local -= share * normal.dot(local - plane->centre) * normal;
+      surface.point.normal = along = normal;
+      surface.belongs_to_another = share > 0.0F && planes.belongsToAnother(cell, local, *plane, kReach * sigma);
+    }
+    const Vector3d p = planes.inMap(local);
+    const double pose = pose_sigma(cell, p, along.cast<double>());
+    const float variance = measurementVariance(parameters, cell, plane ? &*plane : nullptr, share, cosine);
+    MapPoint& point = surface.point;
+    point.p = p.cast<float>();
+    point.sigma = std::sqrt(variance + static_cast<float>(pose * pose));
+    point.raw_intensity = static_cast<std::uint8_t>(std::lround(std::clamp(cell.intensity, 0.0F, 255.0F)));
+    point.intensity =
+        static_cast<std::uint8_t>(std::lround(normalisedIntensity(cell.intensity, cell.range, plane ? cosine : 1.0F)));
+    point.red = point.green = point.blue = point.intensity;
+    point.laser = cell.laser;
+    point.pass = cell.pass;
+    point.count = static_cast<std::uint16_t>(std::min(cell.count, 65535.0F));
+    point.range = cell.range;
+    point.stamp = cell.stamp;
+  }
+  std::vector<MapPoint> points;
+  points.reserve(made.size());
+  for (const SurfacePoint& surface : made)
+    if (!surface.belongs_to_another) points.push_back(surface.point);
+  return points;
+}
+
+}  // namespace laser_mapper

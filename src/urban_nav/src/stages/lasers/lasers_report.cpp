@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stages/lasers/lasers_report.hpp"
+
+#include <algorithm>
+
+#include "report/plot.hpp"
+
+namespace urban_nav {
+
+namespace {
+
+constexpr double kManyMixed = 0.05, kManyWithoutPose = 0.01;  // shares worth a warning
+
+double beamShare(std::size_t part, std::size_t all) {
+  return static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(all, 1));
+}
+
+std::string beamPercent(std::size_t part, std::size_t all) { return forPerson(100.0 * beamShare(part, all), 3) + " %"; }
+
+PageTable beamsTable(const LasersRun& run) {
+  const laser_mapper::BeamCounts beams = run.beams();
+  const std::size_t used = beams.all - beams.mixed - beams.without_pose - beams.out_of_range;
+  return {
+      "What became of the beams",
+      {"", "beams", "share"},
+      {{"with a valid range", std::to_string(beams.all), ""},
+       {"in the map", std::to_string(used), beamPercent(used, beams.all)},
+       {"left out: too near or too far", std::to_string(beams.out_of_range),
+        beamPercent(beams.out_of_range, beams.all)},
+       {"left out: on the edge between two surfaces", std::to_string(beams.mixed), beamPercent(beams.mixed, beams.all)},
+       {"left out: at a time without a pose", std::to_string(beams.without_pose),
+        beamPercent(beams.without_pose, beams.all)}},
+      ""};
+}
+
+}  // namespace
+
+std::vector<std::string> lasersWarnings(const LasersRun& run) {
+  std::vector<std::string> warnings;
+  for (const LaserMapRun& map : run.maps)
+    warnings.insert(warnings.end(), map.rendered.warnings.begin(), map.rendered.warnings.end());
+  const laser_mapper::BeamCounts beams = run.beams();
+  if (beamShare(beams.without_pose, beams.all) > kManyWithoutPose)
+    warnings.push_back(beamPercent(beams.without_pose, beams.all) +
+                       " of the laser beams are left out of the map: the trajectory has no pose at their time");
+  if (beamShare(beams.mixed, beams.all) > kManyMixed)
+    warnings.push_back(beamPercent(beams.mixed, beams.all) + " of the laser beams lie between two surfaces");
+  return warnings;
+}
+
+Section lasersSection(const LasersRun& run) {
+  Section section;
+  section.id = "map";
+  section.title = "The map";
+  section.introduction =
+      "What the lasers measured, each beam from where the robot was at its time. Points, with normals "
+      "and uncertainties, are in map.ply.";
+  for (const LaserMapRun& map : run.maps)
+    section.pictures.insert(section.pictures.end(), map.pictures.begin(), map.pictures.end());
+  section.tables.push_back(beamsTable(run));
+  return section;
+}
+
+std::vector<Tile> lasersTiles(const LasersRun& run) {
+  if (run.points() == 0) return {};
+  return {{forPerson(1e-6 * static_cast<double>(run.points()), 3), "M", "points in the map", Grade::Plain}};
+}
+
+Json toJson(const LasersRun& run) {
+  const laser_mapper::BeamCounts beams = run.beams();
+  Json json = Json::object();
+  json["points"] = run.points();
+  json["points_per_s"] = static_cast<double>(beams.all) / std::max(run.seconds, 1e-9);
+  json["planes"] = 0;
+  json["angle_deg_mean"] = Json();
+  json["displacement_m_mean"] = Json();
+  json["delays_ms"] = Json::object();
+  std::size_t chunks = 0, passes = 0;
+  for (const LaserMapRun& map : run.maps) {
+    chunks += map.rendered.chunks;
+    passes += map.passes;
+  }
+  json["chunks"] = chunks;
+  json["chunks_rendered"] = run.chunksRendered();
+  json["passes"] = passes;
+  json["beams"] = beams.all;
+  json["beams_mixed"] = beams.mixed;
+  json["beams_without_pose"] = beams.without_pose;
+  json["beams_out_of_range"] = beams.out_of_range;
+  json["sigma_m_median"] = run.maps.empty() ? Json() : Json(run.maps.front().sigma_median);
+  json["seconds"] = run.seconds;
+  Json& warnings = json["warnings"] = Json::array();
+  for (const std::string& warning : lasersWarnings(run)) warnings.append(warning);
+  return json;
+}
+
+}  // namespace urban_nav

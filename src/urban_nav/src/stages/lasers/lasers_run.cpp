@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stages/lasers/lasers_run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <map>
+
+#include "laser_mapper/map_files.hpp"
+#include "laser_mapper/map_picture.hpp"
+#include "stage/stage_result.hpp"
+
+namespace urban_nav {
+
+using laser_mapper::LaserMap;
+using laser_mapper::MapPicture;
+using laser_mapper::MapPoint;
+using urban_nav_core::Trajectory;
+
+namespace {
+
+constexpr double kShownMargin = 25.0;  // m around the path in the view from above
+constexpr int kLongestPicture = 1400, kPictureWidth = 1400, kPictureHeight = 800;  // px
+constexpr double kPathStep = 0.25;                                                 // m
+constexpr std::size_t kSigmaBins = 4096;
+constexpr float kSigmaBin = 1e-4F;  // m
+
+std::vector<urban_nav_core::Vector3d> thinnedPath(const Trajectory& trajectory) {
+  std::vector<urban_nav_core::Vector3d> path;
+  for (const urban_nav_core::StampedPose& pose : trajectory)
+    if (path.empty() || (pose.pose.t() - path.back()).norm() > kPathStep) path.push_back(pose.pose.t());
+  return path;
+}
+
+PagePicture pagePicture(const MapPicture& drawn, const std::string& caption) {
+  const urban_nav_registration::Picture picture = drawn.finish();
+  return {caption, urban_nav_registration::encodeJpeg(picture), picture.width, picture.height};
+}
+
+/// Histogram of the points' sigmas.
+class SigmaHistogram {
+ public:
+  void add(float sigma) {
+    ++bins_[std::min(kSigmaBins - 1, static_cast<std::size_t>(sigma / kSigmaBin))];
+    ++all_;
+  }
+  double median() const {
+    std::size_t below = 0;
+    for (std::size_t i = 0; i < kSigmaBins; ++i) {
+      below += bins_[i];
+      if (2 * below >= all_ && all_ > 0) return (static_cast<double>(i) + 0.5) * static_cast<double>(kSigmaBin);
+    }
+    return 0.0;
+  }
+
+ private:
+  std::vector<std::size_t> bins_ = std::vector<std::size_t>(kSigmaBins, 0);
+  std::size_t all_ = 0;
+};
+
+LaserMapRun renderMap(LaserMap& map, std::size_t first_session, const std::vector<const Trajectory*>& trajectories,
+                      const MapContext& context) {
+  LaserMapRun run;
+  run.map = first_session;
+  run.file = "map" + fileSuffix(first_session) + ".ply";
+  Progress bar(context.console, "lasers", "chunks", 0);
+  run.rendered = map.render([&](std::size_t done, std::size_t) { bar.update(static_cast<std::int64_t>(done)); });
+  bar.finish(static_cast<std::int64_t>(run.rendered.chunks));
+  std::vector<std::vector<urban_nav_core::Vector3d>> paths;
+  std::vector<urban_nav_core::Vector3d> all;
+  for (const Trajectory* trajectory : trajectories) {
+    paths.push_back(thinnedPath(*trajectory));
+    all.insert(all.end(), paths.back().begin(), paths.back().end());
+  }
+  MapPicture above(laser_mapper::viewFromAbove(all, kShownMargin, kLongestPicture));
+  MapPicture perspective(laser_mapper::viewInPerspective(all, kPictureWidth, kPictureHeight));
+  urban_nav_core::PlyWriter file((std::filesystem::path(context.options.out) / run.file).string(),
+                                 laser_mapper::mapLayout());
+  SigmaHistogram sigmas;
+  map.forEachTile([&](const laser_mapper::Tile&, const std::vector<MapPoint>& points) {
+    std::string bytes;
+    for (const MapPoint& point : points) {
+      appendVertex(bytes, point);
+      sigmas.add(point.sigma);
+    }
+    file.append(bytes);
+    above.draw(points);
+    perspective.draw(points);
+  });
+  run.points = file.vertices();
+  run.sigma_median = sigmas.median();
+  file.commit();
+  for (const auto& path : paths) above.drawPath(path);
+  if (run.points > 0) {
+    run.pictures.push_back(pagePicture(above, "The map from above, the path of the robot in red."));
+    run.pictures.push_back(pagePicture(perspective, "The map in perspective."));
+  }
+  for (const laser_mapper::SessionPasses& passes : map.passes()) run.passes += passes.begins.size();
+  return run;
+}
+
+}  // namespace
+
+std::size_t LasersRun::points() const {
+  std::size_t all = 0;
+  for (const LaserMapRun& map : maps) all += map.points;
+  return all;
+}
+
+std::size_t LasersRun::chunksRendered() const {
+  std::size_t all = 0;
+  for (const LaserMapRun& map : maps) all += map.rendered.chunks_rendered;
+  return all;
+}
+
+laser_mapper::BeamCounts LasersRun::beams() const {
+  laser_mapper::BeamCounts all;
+  for (const LaserMapRun& map : maps) all = all + map.rendered.beams;
+  return all;
+}
+
+LasersRun runLasers(const laser_mapper::Parameters& parameters, MapContext& context) {
+  const auto begin = std::chrono::steady_clock::now();
+  const std::vector<urban_nav_store::SessionId> ids = context.ids();
+  std::map<std::size_t, std::vector<std::size_t>> sessions_of_map;
+  for (std::size_t s = 0; s < context.trajectories.size(); ++s)
+    if (context.trajectories[s].written) sessions_of_map[context.trajectories[s].map].push_back(s);
+  LasersRun run;
+  for (const auto& [map, sessions] : sessions_of_map) {
+    std::vector<laser_mapper::MappedSession> mapped;
+    std::vector<const Trajectory*> trajectories;
+    for (const std::size_t s : sessions) {
+      const SessionTrajectory& session = context.trajectories[s];
+      if (context.store->scans().lasers(ids[s]).empty()) continue;
+      mapped.push_back({ids[s], &session.T_map_base, &session.covariances});
+      trajectories.push_back(&session.T_map_base);
+    }
+    if (mapped.empty()) continue;
+    LaserMap laser_map(parameters, *context.store, mapped);
+    run.maps.push_back(renderMap(laser_map, map, trajectories, context));
+  }
+  run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return run;
+}
+
+}  // namespace urban_nav

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "laser_mapper/laser_map.hpp"
+#include "report/page.hpp"
+#include "stage/context.hpp"
+
+namespace urban_nav {
+
+/// The map of sessions that lie in one map.
+struct LaserMapRun {
+  std::size_t map = 0;  ///< number of its first session
+  std::string file;     ///< "map.ply", in the output folder
+  std::size_t points = 0;
+  std::size_t passes = 0;
+  double sigma_median = 0.0;  ///< m
+  laser_mapper::RenderStatistics rendered;
+  std::vector<PagePicture> pictures;
+};
+
+/// What stage lasers made.
+struct LasersRun {
+  std::vector<LaserMapRun> maps;
+  double seconds = 0.0;  ///< of the whole stage
+
+  std::size_t points() const;
+  std::size_t chunksRendered() const;
+  laser_mapper::BeamCounts beams() const;
+};
+
+/// Renders the maps of all sessions whose trajectories are written, and writes their files into the output folder.
+LasersRun runLasers(const laser_mapper::Parameters& parameters, MapContext& context);
+
+}  // namespace urban_nav

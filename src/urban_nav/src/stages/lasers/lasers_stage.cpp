@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stages/lasers/lasers_stage.hpp"
+
+#include <algorithm>
+
+#include "report/plot.hpp"
+#include "stages/lasers/lasers_report.hpp"
+#include "stages/lasers/lasers_run.hpp"
+
+namespace urban_nav {
+
+namespace {
+
+class LasersStage final : public Stage {
+ public:
+  Description describe() const override { return {"lasers", "laser_mapper", true, false, false, {"map#.ply"}}; }
+  void addTables(ParameterSet& parameters) const override { parameters.add(laser_mapper::table()); }
+  Selection select(const MapOptions& options) const override {
+    if (!options.localise.empty()) return {false, "not with --localise", {}};
+    if (!isRequested(options, "lasers")) return {false, "not in --stages", {}};
+    return {true, "", {}};
+  }
+
+  std::string missingInput(const MapContext& context) const override {
+    const std::vector<urban_nav_store::SessionId> ids = context.ids();
+    const bool any =
+        std::any_of(ids.begin(), ids.end(), [&](const auto& id) { return !context.store->scans().lasers(id).empty(); });
+    return any ? "" : "no laser scans";
+  }
+
+  Messages run(MapContext& context) override {
+    run_ = runLasers(context.options.parameters.get(laser_mapper::table()), context);
+    const laser_mapper::BeamCounts beams = run_->beams();
+    return {{"lasers: " + std::to_string(run_->points()) + " points of " + std::to_string(beams.all) + " beams, " +
+             std::to_string(run_->chunksRendered()) + " chunks rendered in " + forPerson(run_->seconds, 3) + " s"},
+            lasersWarnings(*run_)};
+  }
+
+  StageResult result(const MapContext&) const override {
+    StageResult made;
+    if (!run_) return made;
+    made.method = "laser map";
+    made.tiles = lasersTiles(*run_);
+    made.sections.push_back({report_place::map, lasersSection(*run_)});
+    made.data_faults = lasersWarnings(*run_);
+    for (const LaserMapRun& map : run_->maps) made.written_files.push_back(map.file);
+    made.summary = toJson(*run_);
+    return made;
+  }
+
+ private:
+  std::optional<LasersRun> run_;
+};
+
+}  // namespace
+
+std::unique_ptr<Stage> makeLasersStage() { return std::make_unique<LasersStage>(); }
+
+}  // namespace urban_nav
