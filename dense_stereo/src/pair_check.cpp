@@ -22,7 +22,7 @@ struct Brightness {
 };
 
 /// Of every fourth pixel of every second row.
-Brightness brightnessOf(const ImageView& image) {
+Brightness measureBrightness(const ImageView& image) {
   std::int64_t sum = 0, squares = 0, count = 0;
   for (int v = 0; v < image.height; v += 2) {
     const std::uint8_t* row = image.row(v);
@@ -36,7 +36,7 @@ Brightness brightnessOf(const ImageView& image) {
   return {mean, std::sqrt(std::max(0.0, static_cast<double>(squares) / n - mean * mean))};
 }
 
-std::string sizeOf(const ImageView& image) { return std::to_string(image.width) + "x" + std::to_string(image.height); }
+std::string toSize(const ImageView& image) { return std::to_string(image.width) + "x" + std::to_string(image.height); }
 
 PairCheck refuse(Reason reason, std::string sentence) { return {reason, std::move(sentence), false, 1.0, 0.0}; }
 
@@ -46,8 +46,8 @@ PairCheck checkPair(const urban_nav_core::StereoPair& pair) {
   if (pair.left.empty() || pair.right.empty())
     return refuse(Reason::ImageMissing, pair.left.empty() ? "the left image is missing" : "the right image is missing");
   if (pair.left.width != pair.right.width || pair.left.height != pair.right.height)
-    return refuse(Reason::SizesDiffer, "left image " + sizeOf(pair.left) + ", right image " + sizeOf(pair.right));
-  const Brightness left = brightnessOf(pair.left), right = brightnessOf(pair.right);
+    return refuse(Reason::SizesDiffer, "left image " + toSize(pair.left) + ", right image " + toSize(pair.right));
+  const Brightness left = measureBrightness(pair.left), right = measureBrightness(pair.right);
   if (std::min(left.deviation, right.deviation) < least_contrast)
     return refuse(Reason::NoContrast,
                   std::string(left.deviation < right.deviation ? "left" : "right") + " image without contrast");

@@ -30,7 +30,7 @@ Block blockAt(const Padded<std::uint8_t>& image, int u, int v) {
   return block;
 }
 
-int distanceOf(const Block& a, const Block& b) {
+int computeDistance(const Block& a, const Block& b) {
   int sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(a[i] - b[i]);
   return sum;
@@ -53,7 +53,7 @@ int bestRow(const Padded<std::uint8_t>& left, const Padded<std::uint8_t>& right,
     int& cost = costs[static_cast<std::size_t>(k + farthest)];
     cost = 1 << 30;
     for (int d = 0; d < disparities && u - d >= block_radius; ++d)
-      cost = std::min(cost, distanceOf(block, blockAt(right, u - d, v + k)));
+      cost = std::min(cost, computeDistance(block, blockAt(right, u - d, v + k)));
   }
   const auto best = std::min_element(costs.begin(), costs.end());
   const int row = static_cast<int>(best - costs.begin()) - farthest;

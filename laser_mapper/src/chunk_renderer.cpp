@@ -16,7 +16,7 @@ using urban_nav_core::Scan;
 using urban_nav_core::StampNs;
 using urban_nav_core::Trajectory;
 using urban_nav_registration::CellTable;
-using urban_nav_registration::keyOf;
+using urban_nav_registration::toKey;
 
 namespace {
 
@@ -51,7 +51,7 @@ class ChunkGrid {
     if (std::abs(cell.x) > urban_nav_registration::kFarthestCell ||
         std::abs(cell.y) > urban_nav_registration::kFarthestCell || std::abs(cell.z) > kMaxHeightCell)
       return false;
-    const std::uint32_t number = table_.insert(keyOf(cell));
+    const std::uint32_t number = table_.insert(toKey(cell));
     if (number == sums_.size()) {
       sums_.emplace_back();
       sums_.back().cell = cell;
@@ -78,7 +78,7 @@ class ChunkGrid {
     }
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
       if (!(tiles[a] == tiles[b])) return tiles[a] < tiles[b];
-      return keyOf(sums_[a].cell) < keyOf(sums_[b].cell);  // z, then y, then x
+      return toKey(sums_[a].cell) < toKey(sums_[b].cell);  // z, then y, then x
     });
     std::vector<RenderedChunk::Part> parts;
     for (const std::uint32_t i : order) {

@@ -10,7 +10,7 @@ namespace laser_mapper {
 using Eigen::Matrix3f;
 using Eigen::Vector3f;
 using urban_nav_registration::keyBeside;
-using urban_nav_registration::keyOf;
+using urban_nav_registration::toKey;
 
 namespace {
 
@@ -58,7 +58,7 @@ void LocalPlanes::addToLevels(const MergedCell& cell) {
   for (int level = 0; level < kLevels; ++level) {
     Level& into = levels_[static_cast<std::size_t>(level)];
     const Cell cube{coarse(at.x, level), coarse(at.y, level), coarse(at.z, level)};
-    const std::uint32_t number = into.table.insert(keyOf(cube));
+    const std::uint32_t number = into.table.insert(toKey(cube));
     if (number == into.cubes.size()) into.cubes.emplace_back();
     const auto size = static_cast<float>(1 << level);
     const Vector3f centre =
@@ -81,7 +81,7 @@ Vector3f LocalPlanes::position(const MergedCell& cell) const {
 std::optional<LocalPlane> LocalPlanes::planeAt(int level, const Cell& cell) const {
   const Level& at = levels_[static_cast<std::size_t>(level)];
   const Cell cube{coarse(cell.x, level), coarse(cell.y, level), coarse(cell.z, level)};
-  const std::uint64_t key = keyOf(cube);
+  const std::uint64_t key = toKey(cube);
   Moments sums;
   int cubes = 0;
   for (int dz = -1; dz <= 1; ++dz)
@@ -125,9 +125,9 @@ std::optional<LocalPlane> LocalPlanes::around(const MergedCell& cell) const {
 }
 
 bool LocalPlanes::hasMoreBeams(const Cell& other, const MergedCell& cell) const {
-  const std::uint32_t number = levels_[0].table.find(keyOf(other));
+  const std::uint32_t number = levels_[0].table.find(toKey(other));
   if (number == urban_nav_registration::CellTable::none) return false;
-  return counts_[number] > cell.count || (counts_[number] == cell.count && keyOf(other) < keyOf(local(cell.cell)));
+  return counts_[number] > cell.count || (counts_[number] == cell.count && toKey(other) < toKey(local(cell.cell)));
 }
 
 bool LocalPlanes::belongsToAnother(const MergedCell& cell, const Vector3f& position, const LocalPlane& plane,
@@ -140,7 +140,7 @@ bool LocalPlanes::belongsToAnother(const MergedCell& cell, const Vector3f& posit
   plane.normal.cwiseAbs().maxCoeff(&axis);
   for (const int step : {-1, 1}) {
     const Cell beside{own.x + (axis == 0 ? step : 0), own.y + (axis == 1 ? step : 0), own.z + (axis == 2 ? step : 0)};
-    const std::uint32_t number = levels_[0].table.find(keyOf(beside));
+    const std::uint32_t number = levels_[0].table.find(toKey(beside));
     if (number == urban_nav_registration::CellTable::none || !hasMoreBeams(beside, cell)) continue;
     const Moments& moments = levels_[0].cubes[number];
     const Vector3f mean = voxel_ * Vector3f(static_cast<float>(beside.x) + 0.5F, static_cast<float>(beside.y) + 0.5F,

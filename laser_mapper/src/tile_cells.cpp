@@ -18,7 +18,7 @@ void TileMerger::elect(MergedCell& cell, const PassVotes& votes) {
 
 void TileMerger::add(const CellSource& source, const std::vector<MapCell>& cells) {
   for (const MapCell& from : cells) {
-    const std::uint32_t number = table_.insert(urban_nav_registration::keyOf(from.cell));
+    const std::uint32_t number = table_.insert(urban_nav_registration::toKey(from.cell));
     if (number == cells_.size()) {
       cells_.emplace_back();
       cells_.back().cell = from.cell;

@@ -10,7 +10,7 @@ namespace laser_mapper {
 namespace {
 
 TEST(Parameters, YamlAndReadmeEqualTheTable) {
-  EXPECT_EQ(urban_nav_core::testing::faultsOf(table().stage(), table().rows(), {}), "");
+  EXPECT_EQ(urban_nav_core::testing::findFaults(table().stage(), table().rows(), {}), "");
 }
 
 TEST(Parameters, TheYamlFileGivesTheDefaults) {

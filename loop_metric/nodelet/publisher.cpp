@@ -28,20 +28,20 @@ namespace {
 
 constexpr double metres_per_radian = 10.0;  // of the covariance for display: what is matched is some ten metres away
 
-std::string titleOf(const urban_nav_core::PoseRef& at) {
+std::string makeTitle(const urban_nav_core::PoseRef& at) {
   return (at.session.empty() ? "" : at.session + " ") + urban_nav_core::printStamp(at.stamp) + " s";
 }
 
-std::string sentenceOf(const urban_nav_core::MetricClosure& closure) {
+std::string makeSentence(const urban_nav_core::MetricClosure& closure) {
   return std::string(toString(closure.verdict)) + " (" + toString(closure.method) + "): " + closure.sentence;
 }
 
 Picture drawViews(const ClosureVerifier::Verdict& verdict) {
   const StereoAttempt& shown = verdict.closure.stereo.back();
   MatchPictureOptions options;
-  options.title_a = titleOf(shown.keyframe_a.at);
-  options.title_b = titleOf(shown.keyframe_b.at);
-  options.caption = sentenceOf(verdict.metric);
+  options.title_a = makeTitle(shown.keyframe_a.at);
+  options.title_b = makeTitle(shown.keyframe_b.at);
+  options.caption = makeSentence(verdict.metric);
   return drawMatches(verdict.keyframe(shown.keyframe_a.at), verdict.keyframe(shown.keyframe_b.at), shown.result.pixels,
                      options);
 }
@@ -50,7 +50,7 @@ Picture drawAlignment(const ClosureVerifier::Verdict& verdict) {
   const urban_nav_core::PoseRef &a = verdict.closure.metric.a, &b = verdict.closure.metric.b;
   CloudPictureOptions options;
   options.free_directions = verdict.closure.icp->free_directions;
-  options.caption = "red: " + titleOf(a) + "; blue: " + titleOf(b) + "; " + sentenceOf(verdict.metric);
+  options.caption = "red: " + makeTitle(a) + "; blue: " + makeTitle(b) + "; " + makeSentence(verdict.metric);
   return drawClouds(verdict.cloud(b), verdict.cloud(a), verdict.closure.icp_guess, verdict.closure.icp->T_target_source,
                     options);
 }

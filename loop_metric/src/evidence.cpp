@@ -50,7 +50,7 @@ void print(std::string& text, const char* name, const Pose& T) {
   print(text, {"transform", name, "", "", "", "", "", "", "", "", words});
 }
 
-Evidence::Try tryOf(const StereoAttempt& made) {
+Evidence::Try toTry(const StereoAttempt& made) {
   const StereoClosure& result = made.result;
   Evidence::Try its;
   its.method = "stereo";
@@ -65,7 +65,7 @@ Evidence::Try tryOf(const StereoAttempt& made) {
   return its;
 }
 
-Evidence::Try tryOf(const Alignment& alignment, const LoopClosure& closure) {
+Evidence::Try toTry(const Alignment& alignment, const LoopClosure& closure) {
   Evidence::Try its;
   its.method = "icp";
   its.keyframe_a = closure.metric.a;
@@ -159,8 +159,8 @@ class Reader {
 
 Evidence collectEvidence(const LoopClosure& closure) {
   Evidence evidence;
-  for (const StereoAttempt& made : closure.stereo) evidence.tries.push_back(tryOf(made));
-  if (closure.icp) evidence.tries.push_back(tryOf(*closure.icp, closure));
+  for (const StereoAttempt& made : closure.stereo) evidence.tries.push_back(toTry(made));
+  if (closure.icp) evidence.tries.push_back(toTry(*closure.icp, closure));
   evidence.gate = closure.tests;
   return evidence;
 }

@@ -66,7 +66,7 @@ struct Street {
   }
 };
 
-std::string reasonOf(const LoopClosure& closure) {
+std::string toReason(const LoopClosure& closure) {
   EXPECT_EQ(closure.metric.verdict, ClosureVerdict::Rejected);
   EXPECT_TRUE(closure.metric.measured.information.isZero(0.0));
   EXPECT_FALSE(closure.metric.sentence.empty());
@@ -87,7 +87,7 @@ TEST(LoopMetric, TwoViewsOfAPlaceAreATransformBetweenTheMomentsThemselves) {
 
 TEST(LoopMetric, MomentsThatAreTooFarApartAreNotOnePlaceHoweverRightTheTransform) {
   Street street;
-  EXPECT_EQ(reasonOf(street.stage.measure(street.candidate(1.0, 11.0), street.around)), "other_place");
+  EXPECT_EQ(toReason(street.stage.measure(street.candidate(1.0, 11.0), street.around)), "other_place");
 }
 
 TEST(LoopMetric, OdometryOfOneSessionRulesOutWhatItDoesNotAllow) {
@@ -108,10 +108,10 @@ TEST(LoopMetric, OdometryOfOneSessionRulesOutWhatItDoesNotAllow) {
   }
   const auto second = static_cast<StampNs>(rendered().a.poses.size()) * kSecond;
   const TopologicalClosure candidate{{"both", 4 * kSecond}, {"both", second + 4 * kSecond}, 0.9};
-  EXPECT_EQ(reasonOf(street.stage.measure(candidate, around)), "odometry");
+  EXPECT_EQ(toReason(street.stage.measure(candidate, around)), "odometry");
   const TopologicalClosure far{{"both", 0}, {"both", second + 12 * kSecond}, 0.9};
   const LoopClosure closure = street.stage.measure(far, around);
-  EXPECT_EQ(reasonOf(closure), "odometry");
+  EXPECT_EQ(toReason(closure), "odometry");
   EXPECT_TRUE(closure.stereo.empty());  // sixteen metres apart by odometry: no view is looked at
 }
 
@@ -135,7 +135,7 @@ TEST(LoopMetric, CloudsServeWhereThereAreNoViews) {
   EXPECT_LT(urban_nav_core::distanceBetween(closure.metric.measured.T_a_b, poses[0].inverse() * others[0]), 0.1);
   Parameters without;
   without.icp = false;
-  EXPECT_EQ(reasonOf(LoopMetric(without, {}, Pose()).measure({{"there", 0}, {"back", 0}, 0.9}, around)),
+  EXPECT_EQ(toReason(LoopMetric(without, {}, Pose()).measure({{"there", 0}, {"back", 0}, 0.9}, around)),
             "nothing_kept");
 }
 
@@ -153,7 +153,7 @@ TEST(LoopMetric, AFacadeIsNoProofOfAPlaceUnlessOdometryHasBroughtUsThere) {
   };
   LoopMetric stage(Parameters(), {}, Pose());
   const LoopClosure slid = stage.measure({{"there", 0}, {"another day", 0}, 0.9}, around);
-  EXPECT_EQ(reasonOf(slid), "not_registered");
+  EXPECT_EQ(toReason(slid), "not_registered");
   const LoopClosure held = stage.measure({{"there", 0}, {"there", 2 * kSecond}, 0.9}, around);
   ASSERT_EQ(held.metric.verdict, ClosureVerdict::Accepted) << held.metric.sentence;
   EXPECT_FALSE(held.metric.free_directions.empty());
@@ -163,10 +163,10 @@ TEST(LoopMetric, AFacadeIsNoProofOfAPlaceUnlessOdometryHasBroughtUsThere) {
 
 TEST(LoopMetric, UnknownMomentsAndEmptyPlacesAreNamed) {
   Street street;
-  EXPECT_EQ(reasonOf(street.stage.measure(street.candidate(3.0, 500.0), street.around)), "unknown_moment");
-  EXPECT_EQ(reasonOf(street.stage.measure({{"monday", 0}, {"sunday", 0}, 0.5}, street.around)), "unknown_moment");
+  EXPECT_EQ(toReason(street.stage.measure(street.candidate(3.0, 500.0), street.around)), "unknown_moment");
+  EXPECT_EQ(toReason(street.stage.measure({{"monday", 0}, {"sunday", 0}, 0.5}, street.around)), "unknown_moment");
   street.around.keyframes.clear();
-  EXPECT_EQ(reasonOf(street.stage.measure(street.candidate(3.0, 3.0), street.around)), "nothing_kept");
+  EXPECT_EQ(toReason(street.stage.measure(street.candidate(3.0, 3.0), street.around)), "nothing_kept");
 }
 
 TEST(LoopMetric, TheSameBitsWhateverCameBefore) {

@@ -33,7 +33,7 @@ SimulatedGraph drive(int poses, int closures, std::uint64_t seed) {
   return streetGraph(static_cast<std::size_t>(poses), static_cast<std::size_t>(closures), streetNoise(), seed, streets);
 }
 
-SimulatedGraph graphOf(int number) {
+SimulatedGraph makeGraph(int number) {
   const auto seed = static_cast<std::uint64_t>(number);
   switch (number % 3) {
     case 0: return sphereGraph(20, 30, 20.0, evenNoise(0.02, 0.005), seed);
@@ -44,22 +44,22 @@ SimulatedGraph graphOf(int number) {
 
 using Nees = std::array<double, kPlaces>;  // at the ends of the ten tenths of the way
 
-Nees neesOf(const SimulatedGraph& graph, const Problem<3>& problem, const std::vector<Rigid<3>>& poses,
-            const std::vector<double>& weights) {
+Nees computeNees(const SimulatedGraph& graph, const Problem<3>& problem, const std::vector<Rigid<3>>& poses,
+                 const std::vector<double>& weights) {
   const Marginals<3> marginals(problem, poses, weights);
   Nees made{};
   for (std::size_t k = 0; k < kPlaces; ++k) {
     const std::size_t pose = (k + 1) * (poses.size() - 1) / kPlaces;
-    const urban_nav_core::PoseWithCovariance estimate{poseOf(poses[0].inverse() * poses[pose]),
+    const urban_nav_core::PoseWithCovariance estimate{toPose(poses[0].inverse() * poses[pose]),
                                                       marginals.ofPose(static_cast<int>(pose)).covariance};
     made[k] = urban_nav_core::nees(trueRelative(graph, 0, pose), estimate).value();
   }
   return made;
 }
 
-Nees neesOf(const SimulatedGraph& graph) {
-  const Problem<3> problem = std::get<Problem<3>>(problemOf(graph, deadReckoning(graph)));
-  return neesOf(graph, problem, solve(problem, {}).poses, {});
+Nees computeNees(const SimulatedGraph& graph) {
+  const Problem<3> problem = std::get<Problem<3>>(makeProblem(graph, deadReckoning(graph)));
+  return computeNees(graph, problem, solve(problem, {}).poses, {});
 }
 
 /// What became of closures, over all graphs.
@@ -73,7 +73,7 @@ Nees neesAmongFalseOnes(SimulatedGraph graph, int number, Judged& judged) {
                                       FalseClosures::LocalGrouped};
   const std::size_t closures = graph.edges.size() - graph.truth.size() + 1;
   addFalseClosures(graph, kKinds[number % 4], closures / 5, static_cast<std::uint64_t>(number));
-  const Problem<3> problem = std::get<Problem<3>>(problemOf(graph, deadReckoning(graph)));
+  const Problem<3> problem = std::get<Problem<3>>(makeProblem(graph, deadReckoning(graph)));
   std::vector<EdgeRole> roles;
   for (const GraphEdge& edge : graph.edges)
     roles.push_back(edge.kind == GraphEdgeKind::Chain ? EdgeRole::Trusted : EdgeRole::Candidate);
@@ -87,20 +87,20 @@ Nees neesAmongFalseOnes(SimulatedGraph graph, int number, Judged& judged) {
     if (graph.edges[e].wrong && kept) ++judged.wrong_kept;
     if (!graph.edges[e].wrong && !kept) ++judged.right_lost;
   }
-  return neesOf(graph, problem, robust.solution.poses, weights);
+  return computeNees(graph, problem, robust.solution.poses, weights);
 }
 
 std::string timed(int poses, int closures) {
   const SimulatedGraph graph = drive(poses, closures, 1);
-  const Problem<3> problem = std::get<Problem<3>>(problemOf(graph, deadReckoning(graph)));
+  const Problem<3> problem = std::get<Problem<3>>(makeProblem(graph, deadReckoning(graph)));
   const std::vector<Rigid<3>> relaxed = solve(problem, {}).poses;
   double largest = 0.0;
-  const double seconds = secondsOf(3, [&] {
+  const double seconds = measureSeconds(3, [&] {
     const Marginals<3> marginals(problem, relaxed);
     for (int i = 0; i < poses; ++i) largest = std::max(largest, marginals.ofPose(i).covariance(0, 0));
   });
   const Marginals<3> marginals(problem, relaxed);
-  const double pair = secondsOf(3, [&] { marginals.between(poses / 3, poses / 2); });
+  const double pair = measureSeconds(3, [&] { marginals.between(poses / 3, poses / 2); });
   return std::to_string(poses) + " poses with " + std::to_string(closures) + " closures: all marginals in " +
          cell(seconds, 3) + " s of one core, the covariance of one pair that no edge joins in " + cell(1e3 * pair, 1) +
          " ms.";
@@ -109,14 +109,14 @@ std::string timed(int poses, int closures) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-  const Arguments asked = argumentsOf(argc, argv, {"--graphs"});
+  const Arguments asked = parseArguments(argc, argv, {"--graphs"});
   const int graphs = asked.number("--graphs", 30);
   const urban_nav_core::ThreadLimit one(1);
   Nees plain{}, robust{};
   Judged judged;
   for (int number = 1; number <= graphs; ++number) {
-    const SimulatedGraph graph = graphOf(number);
-    const Nees alone = neesOf(graph), among = neesAmongFalseOnes(graph, number, judged);
+    const SimulatedGraph graph = makeGraph(number);
+    const Nees alone = computeNees(graph), among = neesAmongFalseOnes(graph, number, judged);
     for (std::size_t k = 0; k < kPlaces; ++k) {
       plain[k] += alone[k] / graphs;
       robust[k] += among[k] / graphs;

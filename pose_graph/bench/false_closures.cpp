@@ -25,7 +25,7 @@ using urban_nav_core::testing::cell;
 // What a user is promised: of the extent, and more of a small one; of the wrong ones; of the true ones.
 constexpr double kShareOff = 0.005, kShareOffSmall = 0.01, kSmallM = 30.0, kShareKept = 0.002, kShareLost = 0.02;
 
-std::vector<PublicGraph> graphsOf(const std::vector<std::string>& names) {
+std::vector<PublicGraph> readGraphs(const std::vector<std::string>& names) {
   std::vector<PublicGraph> graphs;
   std::vector<std::string> known;
   for (const std::string& name : names) {
@@ -35,8 +35,8 @@ std::vector<PublicGraph> graphsOf(const std::vector<std::string>& names) {
     }
     const urban_nav_core::G2oGraph file = urban_nav_core::readG2o(name);
     graphs.push_back({std::filesystem::path(name).stem().string(),
-                      file.dimension == 2 ? AnyProblem(pose_graph::problemOf<2>(file, name).problem)
-                                          : AnyProblem(pose_graph::problemOf<3>(file, name).problem)});
+                      file.dimension == 2 ? AnyProblem(pose_graph::makeProblem<2>(file, name).problem)
+                                          : AnyProblem(pose_graph::makeProblem<3>(file, name).problem)});
   }
   if (graphs.empty() || !known.empty())
     for (PublicGraph& graph : publicGraphs(known)) graphs.push_back(std::move(graph));
@@ -87,7 +87,7 @@ void addSums(const PublicGraph& graph, int seeds, std::uint64_t first, BenchTabl
 }  // namespace
 
 int main(int argc, char** argv) try {
-  const Arguments asked = argumentsOf(argc, argv, {"--seed", "--percent", "--seeds"});
+  const Arguments asked = parseArguments(argc, argv, {"--seed", "--percent", "--seeds"});
   const auto seed = static_cast<std::uint64_t>(asked.number("--seed", 101));
   const urban_nav_core::ThreadLimit one(1);
   if (asked.options.count("--seeds") > 0) {
@@ -95,7 +95,7 @@ int main(int argc, char** argv) try {
     BenchTable table({"graph", "closures", "sets within the limits", "wrong ones kept", "true ones lost",
                       "worst, m (limit)", "time, times plain", "lost without false ones", "time then"},
                      argc, argv);
-    for (const PublicGraph& graph : graphsOf(asked.names)) addSums(graph, seeds, seed, table);
+    for (const PublicGraph& graph : readGraphs(asked.names)) addSums(graph, seeds, seed, table);
     table.note(
         "Sets: four kinds, a tenth and half as many as true ones, seeds " + std::to_string(seed) + " to " +
         std::to_string(seed + static_cast<std::uint64_t>(seeds) - 1) +
@@ -106,7 +106,7 @@ int main(int argc, char** argv) try {
   BenchTable table({"graph", "false closures", "of the true ones", "from the clean optimum, m", "wrong ones kept",
                     "true ones lost", "time, times plain"},
                    argc, argv);
-  for (const PublicGraph& graph : graphsOf(asked.names)) addDraws(graph, asked.number("--percent", 50), seed, table);
+  for (const PublicGraph& graph : readGraphs(asked.names)) addDraws(graph, asked.number("--percent", 50), seed, table);
   table.note(
       "Drawn with seed " + std::to_string(seed) +
       ", one draw a row. One core, processor time; plain: the graph without false closures, every edge taken as it "

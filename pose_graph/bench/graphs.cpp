@@ -38,7 +38,7 @@ Found relaxed(const PublicGraph& graph, Objective objective, int runs) {
       [&](const auto& problem) {
         auto solution = solve(problem, options);
         Found found;
-        found.seconds = secondsOf(runs, [&] { solution = solve(problem, options); });
+        found.seconds = measureSeconds(runs, [&] { solution = solve(problem, options); });
         found.cost = solution.cost;
         found.iterations = solution.iterations.size();
         found.ending = toString(solution.ending);
@@ -58,7 +58,7 @@ std::string byCeres(const PublicGraph& graph, double best, int runs) {
   return std::visit(
       [&](const auto& problem) {
         double cost = 0.0;
-        const double seconds = secondsOf(runs, [&] { cost = solveByCeres(problem, {}).cost; });
+        const double seconds = measureSeconds(runs, [&] { cost = solveByCeres(problem, {}).cost; });
         return cost <= best * (1.0 + 1e-6) ? cell(1e3 * seconds, seconds < 0.0995 ? 1 : 0) : "";
       },
       graph.problem);
@@ -104,7 +104,7 @@ std::string versions(const CsvTable& peers) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-  const Arguments asked = argumentsOf(argc, argv, {"--peers", "--runs"});
+  const Arguments asked = parseArguments(argc, argv, {"--peers", "--runs"});
   const int runs = asked.number("--runs", 5);
   const std::string file = asked.text("--peers", "");
   const CsvTable peers =

@@ -69,13 +69,13 @@ struct Costs {
 };
 
 template <int D>
-Costs costsOf(const SimulatedGraph& graph, const std::vector<Pose>& guess) {
-  const auto problem = std::get<Problem<D>>(problemOf(graph, guess));
-  const auto at_truth = std::get<Problem<D>>(problemOf(graph, graph.truth));
+Costs computeCosts(const SimulatedGraph& graph, const std::vector<Pose>& guess) {
+  const auto problem = std::get<Problem<D>>(makeProblem(graph, guess));
+  const auto at_truth = std::get<Problem<D>>(makeProblem(graph, graph.truth));
   SolveOptions vertices;
   vertices.start = Start::Vertices;
   Costs costs;
-  costs.seconds = secondsOf(1, [&] { costs.found = solve(problem, {}).cost; });
+  costs.seconds = measureSeconds(1, [&] { costs.found = solve(problem, {}).cost; });
   costs.from_truth = solve(at_truth, vertices).cost;
   vertices.iterations = kDescent;
   costs.descended = solve(problem, vertices).cost;
@@ -85,7 +85,7 @@ Costs costsOf(const SimulatedGraph& graph, const std::vector<Pose>& guess) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-  const Arguments asked = argumentsOf(argc, argv, {"--seeds"});
+  const Arguments asked = parseArguments(argc, argv, {"--seeds"});
   const int seeds = asked.number("--seeds", 20);
   const urban_nav_core::ThreadLimit one(1);
   testing::BenchTable table({"graph", "measured to, m and rad", "first guess", "at the optimum", "worst above it",
@@ -100,7 +100,7 @@ int main(int argc, char** argv) try {
         Dice dice(static_cast<std::uint64_t>(1000 + seed));
         std::vector<Pose> poses;
         for (const Pose& truth : graph.truth) poses.push_back(guess.make(truth, graph.planar, dice));
-        const Costs costs = graph.planar ? costsOf<2>(graph, poses) : costsOf<3>(graph, poses);
+        const Costs costs = graph.planar ? computeCosts<2>(graph, poses) : computeCosts<3>(graph, poses);
         const double best = std::min({costs.found, costs.descended, costs.from_truth});
         reached += costs.found <= best * (1.0 + kSame);
         descended += costs.descended <= best * (1.0 + kSame);

@@ -39,8 +39,8 @@ double offBy(const SimulatedGraph& graph, const std::vector<Rigid<3>>& poses) {
 void addRow(BenchTable& table, const std::string& solver, const SimulatedGraph& graph, const Problem<3>& problem,
             double best, int runs, const std::function<Solution<3>()>& relax) {
   Solution<3> solution;
-  const double bytes = memoryOf([&] { solution = relax(); });
-  const double seconds = secondsOf(runs, [&] { solution = relax(); });
+  const double bytes = measureMemory([&] { solution = relax(); });
+  const double seconds = measureSeconds(runs, [&] { solution = relax(); });
   const double poses = static_cast<double>(problem.poses.size());
   char excess[32];
   std::snprintf(excess, sizeof excess, "%.0e", solution.cost / best - 1.0);
@@ -53,11 +53,11 @@ void addRow(BenchTable& table, const std::string& solver, const SimulatedGraph& 
 void addSize(BenchTable& table, int poses, int closures, int runs) {
   const SimulatedGraph graph = urban_nav_core::testing::streetGraph(
       static_cast<std::size_t>(poses), static_cast<std::size_t>(closures), urban_nav_core::testing::streetNoise(), 1);
-  Problem<3> problem = std::get<Problem<3>>(problemOf(graph, graph.truth));
+  Problem<3> problem = std::get<Problem<3>>(makeProblem(graph, graph.truth));
   SolveOptions from_truth;
   from_truth.start = Start::Vertices;
   const double best = solve(problem, from_truth).cost;
-  problem = std::get<Problem<3>>(problemOf(graph, deadReckoning(graph)));
+  problem = std::get<Problem<3>>(makeProblem(graph, deadReckoning(graph)));
   addRow(table, "default", graph, problem, best, runs, [&] { return solve(problem, {}); });
   if (poses == kSizes[0].first)
     addRow(table, "relative_pcg", graph, problem, best, 1, [&] { return Solution<3>(relaxRelative(problem)); });
@@ -66,7 +66,7 @@ void addSize(BenchTable& table, int poses, int closures, int runs) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-  const Arguments asked = argumentsOf(argc, argv, {"--runs", "--largest"});
+  const Arguments asked = parseArguments(argc, argv, {"--runs", "--largest"});
   const int runs = asked.number("--runs", 3), largest = asked.number("--largest", 1000000);
   const urban_nav_core::ThreadLimit one(1);
   BenchTable table({"poses", "closures", "solver", "s", "us a pose", "MB at the peak", "bytes a pose", "steps", "end",

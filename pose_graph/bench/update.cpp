@@ -29,7 +29,7 @@ struct Size {
 };
 constexpr Size kSizes[] = {{5000, 50}, {20000, 200}, {20000, 2000}, {100000, 1000}};
 
-urban_nav_core::RelativePose stepOf(const GraphEdge& edge) {
+urban_nav_core::RelativePose toStep(const GraphEdge& edge) {
   urban_nav_core::RelativePose step;
   step.from = static_cast<StampNs>(edge.a) * kStep;
   step.to = static_cast<StampNs>(edge.b) * kStep;
@@ -39,7 +39,7 @@ urban_nav_core::RelativePose stepOf(const GraphEdge& edge) {
   return step;
 }
 
-Closure closureOf(const GraphEdge& edge) {
+Closure toClosure(const GraphEdge& edge) {
   Closure closure;
   closure.a = {"drive", static_cast<StampNs>(edge.a) * kStep};
   closure.b = {"drive", static_cast<StampNs>(edge.b) * kStep};
@@ -79,9 +79,9 @@ void addSize(BenchTable& table, const Size& size) {
   std::vector<std::pair<ClosureId, bool>> wrong;
   std::size_t next = 0;
   for (const GraphEdge& closure : closures) {
-    for (; next < std::max(closure.a, closure.b); ++next) graph.addOdometry("drive", stepOf(drive.edges[next]));
-    wrong.emplace_back(graph.addClosure(closureOf(closure)), closure.wrong);
-    seconds.push_back(secondsOf(1, [&] { graph.update(); }));
+    for (; next < std::max(closure.a, closure.b); ++next) graph.addOdometry("drive", toStep(drive.edges[next]));
+    wrong.emplace_back(graph.addClosure(toClosure(closure)), closure.wrong);
+    seconds.push_back(measureSeconds(1, [&] { graph.update(); }));
   }
   std::size_t kept = 0, lost = 0;
   for (const auto& [id, is_wrong] : wrong) {
@@ -95,8 +95,8 @@ void addSize(BenchTable& table, const Size& size) {
     if (!(graph.closures().at(id).weight > 0.0)) graph.removeClosure(id);
   const Problem<3> problem = graph.problem();
   std::vector<Pose> batch;
-  const double batch_seconds = secondsOf(1, [&] {
-    for (const Rigid<3>& pose : solve(problem, {}).poses) batch.push_back(poseOf(pose));
+  const double batch_seconds = measureSeconds(1, [&] {
+    for (const Rigid<3>& pose : solve(problem, {}).poses) batch.push_back(toPose(pose));
   });
   std::sort(seconds.begin(), seconds.end());
   table.add({std::to_string(size.poses), std::to_string(size.closures), std::to_string(size.closures / 5),
@@ -108,7 +108,7 @@ void addSize(BenchTable& table, const Size& size) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-  const Arguments asked = argumentsOf(argc, argv, {"--largest"});
+  const Arguments asked = parseArguments(argc, argv, {"--largest"});
   const int largest = asked.number("--largest", 100000);
   const urban_nav_core::ThreadLimit one(1);
   BenchTable table({"poses", "true closures", "false ones", "median, ms", "95 %, ms", "worst, ms",

@@ -12,7 +12,7 @@ namespace segway_drivers {
 namespace {
 
 TEST(Parameters, YamlAndReadmeEqualTheTable) {
-  EXPECT_EQ(urban_nav_core::testing::faultsOf(table().stage(), table().rows(), nodeletTable().rows()), "");
+  EXPECT_EQ(urban_nav_core::testing::findFaults(table().stage(), table().rows(), nodeletTable().rows()), "");
 }
 
 TEST(Parameters, ARowIsSetByDeviceAndKey) {

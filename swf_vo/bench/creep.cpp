@@ -45,7 +45,7 @@ struct Point {
   double birth;
 };
 
-Eigen::Matrix2d viewOf(const Sequence& sequence, const Pose& T, const Point& point) {
+Eigen::Matrix2d toView(const Sequence& sequence, const Pose& T, const Point& point) {
   constexpr double step = 1e-4;
   const auto pixel = [&](const Vector3d& p) {
     return sequence.camera.left.project(T.inverse() * p).value_or(Eigen::Vector2d::Zero());
@@ -87,7 +87,7 @@ void follow(const RenderedOptions& options, std::vector<Error>& errors) {
       const Point& point = points.at(seen.landmark);
       const auto truth = sequence.camera.project(T.inverse() * point.p);
       if (!truth || !(seen.information(0, 0) > 0.0) || !(seen.information(2, 2) > 0.0)) continue;
-      const Eigen::Matrix2d warp = viewOf(sequence, T, point) * point.born_as.inverse();
+      const Eigen::Matrix2d warp = toView(sequence, T, point) * point.born_as.inverse();
       errors.push_back({(warp - Eigen::Matrix2d::Identity()).norm(), point.birth, combination() * (seen.z - *truth)});
     }
     for (const Observation& seen : result.fresh) {
@@ -100,7 +100,7 @@ void follow(const RenderedOptions& options, std::vector<Error>& errors) {
       point.p = T_world_first.inverse() * Vector3d(T_world_camera.t() + hit->distance * ray);
       point.a = T_world_first.q().inverse() * wall.a;
       point.b = T_world_first.q().inverse() * wall.b;
-      point.born_as = viewOf(sequence, T, point);
+      point.born_as = toView(sequence, T, point);
       point.birth = seen.information.inverse()(0, 0) + rough_px * rough_px;
       points[seen.landmark] = point;
       map[seen.landmark] = {seen.landmark, point.p.homogeneous()};

@@ -23,7 +23,7 @@ struct Series {
   int decimals;
 };
 
-std::vector<Series> seriesOf(const Sequence& sequence, const Run& run) {
+std::vector<Series> makeSeries(const Sequence& sequence, const Run& run) {
   Series speed{"velocity (m/s)", {}, 2}, turn{"angular velocity (deg/s)", {}, 2}, rate{"frames per second", {}, 0};
   Series features{"features per frame", {}, 0}, length{"feature track length", {}, 2},
       error{"reprojection error (px)", {}, 3};
@@ -56,7 +56,7 @@ int main(int argc, char** argv) try {
     const Run result = run(sequence, swf_vo::Parameters());
     table.add({sequence.name, "distance travelled (km)", "", "", cell(travelled(result) / 1000.0, 3)});
     table.add({"", "frames processed", "", "", std::to_string(result.settled.size())});
-    for (const Series& series : seriesOf(sequence, result)) {
+    for (const Series& series : makeSeries(sequence, result)) {
       const auto [low, high] = std::minmax_element(series.values.begin(), series.values.end());
       const double mean =
           std::accumulate(series.values.begin(), series.values.end(), 0.0) / static_cast<double>(series.values.size());

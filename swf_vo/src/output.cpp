@@ -46,7 +46,7 @@ Output::Output(const Pose& T_base_camera) : T_base_camera_(T_base_camera), T_cam
   waiting_.reserve(64);
 }
 
-int Output::ageOf(LandmarkId landmark, FrameId frame) {
+int Output::computeAge(LandmarkId landmark, FrameId frame) {
   const auto at = std::lower_bound(born_.begin(), born_.end(), landmark,
                                    [](const auto& entry, LandmarkId id) { return entry.first < id; });
   if (at != born_.end() && at->first == landmark) return static_cast<int>(frame - at->second);
@@ -69,7 +69,7 @@ void Output::list(const Window& window, const FrontEndResult* seen) {
   double ages = 0.0;
   for (const auto* group : {&seen->tracked, &seen->fresh}) {
     for (const Observation& observation : *group) {
-      const int age = ageOf(observation.landmark, frame_.frame);
+      const int age = computeAge(observation.landmark, frame_.frame);
       ages += age + 1;
       frame_.features.push_back({observation.landmark, observation.z, age, window.weight(observation.landmark) >= 0.5});
     }

@@ -37,7 +37,7 @@ class Output {
   Velocity velocity(FrameId frame, urban_nav_core::StampNs stamp, bool lost, const Window& window,
                     const ProcessInput& u) const;
   void list(const Window& window, const FrontEndResult* seen);
-  int ageOf(LandmarkId landmark, FrameId frame);
+  int computeAge(LandmarkId landmark, FrameId frame);
 
   urban_nav_core::Pose T_base_camera_, T_camera_base_;
   Frame frame_;

@@ -24,7 +24,7 @@ StereoFrame elsewhere(const StereoFrame& frame) {
 }
 
 /// A piece of the picture of before in front of the other place: what is carried along, or looks the same there.
-StereoFrame withAPieceOf(const StereoFrame& before, StereoFrame frame) {
+StereoFrame pastePiece(const StereoFrame& before, StereoFrame frame) {
   const int width = frame.left.width, height = frame.left.height;
   for (int v = height / 3; v < 2 * height / 3; ++v) {
     const auto row = v * width, first = row + width / 2, last = row + width / 2 + width / 9;
@@ -47,7 +47,7 @@ TEST(Elsewhere, isNotTakenForThePlaceOfBefore) {
       StampNs stamp = room.frames[first + before - 1].stamp + gap;
       for (std::size_t i = 0; i < after; ++i, stamp += period) {
         StereoFrame other = elsewhere(room.frames[room.frames.size() - 1 - first - i]);
-        if (first % 10 == 5) other = withAPieceOf(room.frames[first + before - 1], other);
+        if (first % 10 == 5) other = pastePiece(room.frames[first + before - 1], other);
         other.stamp = stamp;
         const Frame& frame = filter.process(other.pair());
         expectProper(frame);

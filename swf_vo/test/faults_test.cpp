@@ -56,7 +56,7 @@ FaultOutcome play(const Recording& recording, const Trouble& trouble) {
 // The fault after all frames is none.
 FaultOutcome undisturbed(const Recording& recording) { return play(recording, {"black:1000:1", {}}); }
 
-double lengthOf(const Recording& recording) {
+double computeLength(const Recording& recording) {
   double sum = 0.0;
   for (std::size_t i = 1; i < recording.truth.size(); ++i)
     sum += distanceBetween(recording.truth[i - 1], recording.truth[i]);
@@ -213,7 +213,7 @@ TEST_P(FaultsInTheStreet, areNamedWithinTwoFramesAndOvercome) {
   const FaultOutcome outcome = play(street()->faults, GetParam());
   expectNamedAndOvercome(outcome);
   EXPECT_LT(outcome.error(), 2.0 * street()->usual);
-  EXPECT_TRUE(isWithinWhatIsStated(outcome, lengthOf(street()->faults))) << "off by " << outcome.error() << " m";
+  EXPECT_TRUE(isWithinWhatIsStated(outcome, computeLength(street()->faults))) << "off by " << outcome.error() << " m";
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -244,7 +244,7 @@ TEST(Turning, sixtyDegreesASecondAreFollowedInTheStreet) {
     EXPECT_GT(most, 57.0 * M_PI / 180.0);
     const FaultOutcome outcome = undisturbed(fast);
     EXPECT_EQ(outcome.last.status.health, Health::Ok) << first << ": " << outcome.last.status;
-    EXPECT_TRUE(isWithinWhatIsStated(outcome, lengthOf(fast))) << first << ": off by " << outcome.error() << " m";
+    EXPECT_TRUE(isWithinWhatIsStated(outcome, computeLength(fast))) << first << ": off by " << outcome.error() << " m";
     squares += std::pow(outcome.error(), 2);
     usual += std::pow(undisturbed(slow).error(), 2);
   }

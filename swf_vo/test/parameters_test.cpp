@@ -14,7 +14,7 @@ namespace {
 using urban_nav_core::parseSetting;
 
 TEST(Parameters, yamlAndReadmeAreAsTheTablesSay) {
-  EXPECT_EQ(urban_nav_core::testing::faultsOf(table().stage(), table().rows(), nodeletTable().rows()), "");
+  EXPECT_EQ(urban_nav_core::testing::findFaults(table().stage(), table().rows(), nodeletTable().rows()), "");
 }
 
 TEST(Parameters, theYamlFileGivesTheDefaults) {

@@ -13,19 +13,19 @@ namespace {
 
 using urban_nav_core::Archive;
 
-std::string bytesOf(Frame frame) {
+std::string toBytes(Frame frame) {
   Archive archive;
   archive(frame);
   return archive.take();
 }
 
-std::string bytesOf(std::vector<Settled> settled) {
+std::string toBytes(std::vector<Settled> settled) {
   Archive archive;
   archive(settled);
   return archive.take();
 }
 
-std::string process(SwfVo& filter, const Step& step) { return bytesOf(filter.process(step.frame.pair(), step.inputs)); }
+std::string process(SwfVo& filter, const Step& step) { return toBytes(filter.process(step.frame.pair(), step.inputs)); }
 
 /// Cuts a run everywhere in `cuts`, and has each part go on for some frames, one of them to the end.
 void expectSeamless(const std::vector<Step>& some, const std::vector<std::size_t>& cuts,
@@ -37,7 +37,7 @@ void expectSeamless(const std::vector<Step>& some, const std::vector<std::size_t
     states.push_back(whole.state());
     frames.push_back(process(whole, step));
   }
-  const std::string rest = bytesOf(whole.flush());
+  const std::string rest = toBytes(whole.flush());
   SwfVo unasked(parameters, stereoCamera(), kPlace);
   for (std::size_t i = 0; i < some.size(); ++i)
     ASSERT_TRUE(process(unasked, some[i]) == frames[i]) << "asking for the state changed frame " << i;
@@ -56,30 +56,32 @@ void expectSeamless(const std::vector<Step>& some, const std::vector<std::size_t
       }
     }
     if (end == some.size()) {
-      EXPECT_TRUE(bytesOf(part.flush()) == rest);
+      EXPECT_TRUE(toBytes(part.flush()) == rest);
     }
   }
 }
 
 TEST(State, GoesOnWithTheSameBits) {
-  expectSeamless(stepsOf("loop", 60, "black:1000:1"), {0, 1, 2, 3, 9, 12, 14, 30, 45});
+  expectSeamless(collectSteps("loop", 60, "black:1000:1"), {0, 1, 2, 3, 9, 12, 14, 30, 45});
 }
 
-TEST(State, GoesOnAtAStandstill) { expectSeamless(stepsOf("stand", 30, "black:1000:1"), {1, 8, 14, 20}); }
+TEST(State, GoesOnAtAStandstill) { expectSeamless(collectSteps("stand", 30, "black:1000:1"), {1, 8, 14, 20}); }
 
-TEST(State, GoesOnInTheDark) { expectSeamless(stepsOf("loop", 60, "black:0.7:1.5"), {14, 15, 20, 30, 44, 46}); }
+TEST(State, GoesOnInTheDark) { expectSeamless(collectSteps("loop", 60, "black:0.7:1.5"), {14, 15, 20, 30, 44, 46}); }
 
-TEST(State, GoesOnInABlur) { expectSeamless(stepsOf("loop", 45, "blur:1:0.5"), {20, 22, 24, 30, 33}); }
+TEST(State, GoesOnInABlur) { expectSeamless(collectSteps("loop", 45, "blur:1:0.5"), {20, 22, 24, 30, 33}); }
 
-TEST(State, GoesOnBehindAGap) { expectSeamless(stepsOf("loop", 60, "drop:1:0.8"), {20, 21, 22, 24, 30}); }
+TEST(State, GoesOnBehindAGap) { expectSeamless(collectSteps("loop", 60, "drop:1:0.8"), {20, 21, 22, 24, 30}); }
 
-TEST(State, GoesOnWithImagesExchanged) { expectSeamless(stepsOf("loop", 45, "swap:1:0.5"), {21, 23, 26, 32}); }
-TEST(State, GoesOnInFrozenImages) { expectSeamless(stepsOf("loop", 45, "freeze:1:0.5"), {20, 21, 22, 25, 29, 32}); }
+TEST(State, GoesOnWithImagesExchanged) { expectSeamless(collectSteps("loop", 45, "swap:1:0.5"), {21, 23, 26, 32}); }
+TEST(State, GoesOnInFrozenImages) {
+  expectSeamless(collectSteps("loop", 45, "freeze:1:0.5"), {20, 21, 22, 25, 29, 32});
+}
 
-TEST(State, GoesOnWithWheels) { expectSeamless(stepsOf("loop", 40, "black:0.5:0.3", true), {5, 12, 16, 25}); }
+TEST(State, GoesOnWithWheels) { expectSeamless(collectSteps("loop", 40, "black:0.5:0.3", true), {5, 12, 16, 25}); }
 
 TEST(State, GoesOnWithOtherParameters) {
-  const std::vector<Step> some = stepsOf("loop", 45, "black:1:0.4");
+  const std::vector<Step> some = collectSteps("loop", 45, "black:1:0.4");
   std::vector<Parameters> kinds(5);
   kinds[0].window = 1;
   kinds[1].window = 25;

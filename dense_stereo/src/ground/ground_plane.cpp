@@ -34,18 +34,18 @@ struct SpacePlane {
   double height;
 };
 
-Eigen::Vector3d normalOf(const DisparityPlane& plane, const StereoCamera& camera) {
+Eigen::Vector3d computeNormal(const DisparityPlane& plane, const StereoCamera& camera) {
   return {plane.x() * camera.left.fx, plane.y() * camera.left.fy, plane.z()};
 }
 
 /// The plane normal . p = fx baseline.
 SpacePlane toSpace(const DisparityPlane& plane, const StereoCamera& camera) {
-  const Eigen::Vector3d normal = normalOf(plane, camera);
+  const Eigen::Vector3d normal = computeNormal(plane, camera);
   const double length = std::max(normal.norm(), 1e-12);
   return {-normal / length, camera.left.fx * camera.baseline / length};
 }
 
-Eigen::Vector3d rowOf(const DensePoint& point, const StereoCamera& camera) {
+Eigen::Vector3d toRow(const DensePoint& point, const StereoCamera& camera) {
   return {point.u - camera.left.cx, point.v - camera.left.cy, 1.0};
 }
 
@@ -81,13 +81,13 @@ class GroundSearch {
       Eigen::Vector3d disparities;
       for (int k = 0; k < 3; ++k) {
         const DensePoint& point = points_[random.below(points_.size())];
-        rows.row(k) = rowOf(point, camera_);
+        rows.row(k) = toRow(point, camera_);
         disparities[k] = static_cast<double>(point.disparity);
       }
       if (std::abs(rows.determinant()) < 100.0) continue;
       const DisparityPlane plane = rows.inverse() * disparities;
       if (!isNearGravity(plane)) continue;
-      const double score = scoreOf(plane, stride);
+      const double score = computeScore(plane, stride);
       if (score <= best_score) continue;
       best_score = score;
       best = plane;
@@ -115,7 +115,7 @@ class GroundSearch {
       information.setZero();
       Eigen::Vector3d moment = Eigen::Vector3d::Zero();
       for (const DensePoint& point : points_) {
-        const Eigen::Vector3d row = rowOf(point, camera_);
+        const Eigen::Vector3d row = toRow(point, camera_);
         if (row.dot(plane) < far_margin * farthest)
           continue;  // points just beyond the range are missing by their noise
         const double residual = static_cast<double>(point.disparity) - row.dot(plane);
@@ -133,7 +133,7 @@ class GroundSearch {
 
   /// The share of all points that is on the plane, and the share of the ground's area, which is what lies in a band
   /// around the plane.
-  std::pair<double, double> supportOf(const SpacePlane& plane) const {
+  std::pair<double, double> findSupport(const SpacePlane& plane) const {
     double on = 0.0, on_area = 0.0, near_area = 0.0;
     for (const DensePoint& point : points_) {
       const double area = std::pow(static_cast<double>(point.disparity), -3.0);  // of ground that a pixel shows
@@ -149,9 +149,9 @@ class GroundSearch {
   }
 
   /// First-order covariance of (up, height) from that of the plane's three coefficients.
-  Eigen::Matrix4d covarianceOf(const DisparityPlane& plane, const Eigen::Matrix3d& information) const {
+  Eigen::Matrix4d computeCovariance(const DisparityPlane& plane, const Eigen::Matrix3d& information) const {
     const Eigen::Matrix3d coefficients = points_of_a_window * pointsPerPixel() * information.inverse();
-    const Eigen::Vector3d normal = normalOf(plane, camera_), scale(camera_.left.fx, camera_.left.fy, 1.0);
+    const Eigen::Vector3d normal = computeNormal(plane, camera_), scale(camera_.left.fx, camera_.left.fy, 1.0);
     const double length = normal.norm();
     const Eigen::Vector3d unit = normal / length;
     Eigen::Matrix<double, 4, 3> jacobian;
@@ -170,11 +170,11 @@ class GroundSearch {
     return 1.0 / std::max(1, std::min(step * step, 80));
   }
 
-  double scoreOf(const DisparityPlane& plane, std::size_t stride) const {
+  double computeScore(const DisparityPlane& plane, std::size_t stride) const {
     const double height = toSpace(plane, camera_).height;
     double score = 0.0;
     for (std::size_t i = 0; i < points_.size(); i += stride) {
-      const double residual = static_cast<double>(points_[i].disparity) - rowOf(points_[i], camera_).dot(plane);
+      const double residual = static_cast<double>(points_[i].disparity) - toRow(points_[i], camera_).dot(plane);
       score += std::max(0.0, 1.0 - residual * residual / (6.0 * toleratedVariance(points_[i], height)));
     }
     return score;
@@ -217,7 +217,7 @@ GroundPlane findGround(const std::vector<DensePoint>& points, const StereoCamera
   const DisparityPlane plane = search.fit(*start, information);
   if (!search.isNearGravity(plane)) return ground;
   const SpacePlane space = toSpace(plane, camera);
-  const auto [of_all, of_band] = search.supportOf(space);
+  const auto [of_all, of_band] = search.findSupport(space);
   ground.support = of_band;
   if (of_all < least_support) {
     ground.sentence = percent("the best plane holds ", of_all, " of the points within range");
@@ -225,7 +225,7 @@ GroundPlane findGround(const std::vector<DensePoint>& points, const StereoCamera
   }
   ground.up = space.up;
   ground.height = space.height;
-  ground.covariance = search.covarianceOf(plane, information);
+  ground.covariance = search.computeCovariance(plane, information);
   const bool is_planar = of_band >= least_planar_share;
   ground.verdict = is_planar ? GroundVerdict::Found : GroundVerdict::NotPlanar;
   ground.sentence = is_planar ? "" : percent("the ground is no plane: ", of_band, " of it lies on the best one");

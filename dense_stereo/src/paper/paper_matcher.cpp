@@ -21,11 +21,11 @@ struct CurveMinimum {
   int rival = 65535;  ///< the least score at disparities that differ by more than one
 };
 
-CurveMinimum minimumOf(const std::uint16_t* scores, int disparities) {
+CurveMinimum findMinimum(const std::uint16_t* scores, int disparities) {
   CurveMinimum minimum;
   minimum.score = 65536;
   for (int d = 0; d < disparities; d += lanes_of_words) {
-    const auto [score, at] = leastOf(Words::load(scores + d));
+    const auto [score, at] = findLeast(Words::load(scores + d));
     if (score >= minimum.score) continue;
     minimum.score = score;
     minimum.disparity = d + at;
@@ -59,7 +59,7 @@ void PaperMatcher::matchRow(const ScoreRow& row, int v, int disparities, Dispari
   for (int u = 0; u < image.width; ++u) {
     whole[u] = Winners::invalid;
     const std::uint16_t* scores = row.scores + static_cast<std::ptrdiff_t>(u) * disparities;
-    const CurveMinimum minimum = minimumOf(scores, disparities);
+    const CurveMinimum minimum = findMinimum(scores, disparities);
     const int d = minimum.disparity;
     if (d > u || std::abs(row.right_disparity[u - d] - d) > 1) continue;
     if (minimum.rival < (1.0 + least_rise) * minimum.score) continue;

@@ -69,7 +69,7 @@ void SupportingWindows<V>::addRow(int v, bool is_added) {
 }
 
 template <typename V>
-const std::uint16_t* SupportingWindows<V>::sumsOf(int v) const {
+const std::uint16_t* SupportingWindows<V>::computeSums(int v) const {
   const std::size_t row = static_cast<std::size_t>(std::clamp(v, 0, height_ - 1) % kept_rows);
   return windows_.data() + row * static_cast<std::size_t>(width_) * static_cast<std::size_t>(disparities_);
 }
@@ -77,7 +77,7 @@ const std::uint16_t* SupportingWindows<V>::sumsOf(int v) const {
 /// Sums of the columns over 11 of them.
 template <typename V>
 void SupportingWindows<V>::sumAlong(int v) {
-  std::uint16_t* sums = const_cast<std::uint16_t*>(sumsOf(v));
+  std::uint16_t* sums = const_cast<std::uint16_t*>(computeSums(v));
   const auto column = [this](int u) {
     return columns_.data() + static_cast<std::ptrdiff_t>(std::clamp(u, 0, width_ - 1)) * disparities_;
   };
@@ -97,7 +97,7 @@ void SupportingWindows<V>::sumAlong(int v) {
 
 template <typename V>
 void SupportingWindows<V>::scoreRow(int v) {
-  const std::uint16_t* rows[3] = {sumsOf(v - radius), sumsOf(v), sumsOf(v + radius)};
+  const std::uint16_t* rows[3] = {computeSums(v - radius), computeSums(v), computeSums(v + radius)};
   for (int u = 0; u < width_; ++u) {
     const std::ptrdiff_t before = static_cast<std::ptrdiff_t>(std::max(u - radius, 0)) * disparities_;
     const std::ptrdiff_t after = static_cast<std::ptrdiff_t>(std::min(u + radius, width_ - 1)) * disparities_;

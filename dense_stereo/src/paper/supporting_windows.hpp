@@ -33,7 +33,7 @@ class SupportingWindows {
 
   void addRow(int v, bool is_added);
   void sumAlong(int v);
-  const std::uint16_t* sumsOf(int v) const;
+  const std::uint16_t* computeSums(int v) const;
   void scoreRow(int v);
   void findRightWinners();
 

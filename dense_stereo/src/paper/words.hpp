@@ -56,7 +56,7 @@ struct PlainWords {
     return each(a, b, [](int x, int y) { return std::max(x, y); });
   }
   /// The first of the least elements: value, then position.
-  friend std::pair<int, int> leastOf(const PlainWords& a) {
+  friend std::pair<int, int> findLeast(const PlainWords& a) {
     const auto at = std::min_element(a.v.begin(), a.v.end());
     return {*at, static_cast<int>(at - a.v.begin())};
   }
@@ -79,7 +79,7 @@ struct SseWords {
   friend SseWords operator-(SseWords a, SseWords b) { return {_mm_sub_epi16(a.v, b.v)}; }
   friend SseWords smaller(SseWords a, SseWords b) { return {_mm_min_epu16(a.v, b.v)}; }
   friend SseWords larger(SseWords a, SseWords b) { return {_mm_max_epu16(a.v, b.v)}; }
-  friend std::pair<int, int> leastOf(SseWords a) {
+  friend std::pair<int, int> findLeast(SseWords a) {
     const int packed = _mm_cvtsi128_si32(_mm_minpos_epu16(a.v));
     return {packed & 0xffff, (packed >> 16) & 7};
   }

@@ -54,7 +54,7 @@ struct PlainFloats {
   friend PlainFloats magnitude(const PlainFloats& a) {
     return each(a, a, [](float x, float) { return std::abs(x); });
   }
-  friend float sumOf(const PlainFloats& a) { return (a.v[0] + a.v[2]) + (a.v[1] + a.v[3]); }
+  friend float sumLanes(const PlainFloats& a) { return (a.v[0] + a.v[2]) + (a.v[1] + a.v[3]); }
   /// First and second number of the pairs `at`, whole numbers.
   static std::pair<PlainFloats, PlainFloats> gatherPairs(const float* pairs, const PlainFloats& at) {
     std::pair<PlainFloats, PlainFloats> r;
@@ -86,7 +86,7 @@ struct SseFloats {
     return {_mm_blendv_ps(b.v, a.v, _mm_cmplt_ps(x.v, y.v))};
   }
   friend SseFloats magnitude(SseFloats a) { return {_mm_andnot_ps(_mm_set1_ps(-0.0F), a.v)}; }
-  friend float sumOf(SseFloats a) {
+  friend float sumLanes(SseFloats a) {
     const __m128 pairs = _mm_add_ps(a.v, _mm_movehl_ps(a.v, a.v));
     return _mm_cvtss_f32(_mm_add_ss(pairs, _mm_shuffle_ps(pairs, pairs, 1)));
   }

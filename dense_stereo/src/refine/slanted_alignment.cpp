@@ -41,7 +41,7 @@ struct Moments {
 
 /// Sums over -4...4 with weights 1, k, k^2 of elements `stride` apart.
 template <typename V, typename At>
-[[gnu::always_inline]] inline Moments<V> momentsOf(const At& at) {
+[[gnu::always_inline]] inline Moments<V> computeMoments(const At& at) {
   V sum = at(0), first = V::splat(0.0F), second = V::splat(0.0F);
 #pragma GCC unroll 5
   for (int k = 1; k <= 4; ++k) {
@@ -177,11 +177,11 @@ template <typename V>
 void SlantedAlignment<V>::sumRow(int v) {
   for (int u = 0; u < width_; u += 4) {
     const auto along = [u](const float* row) { return [row, u](int k) { return V::load(row + u + k); }; };
-    const Moments<V> gg = momentsOf<V>(along(channel(v, GG)));
+    const Moments<V> gg = computeMoments<V>(along(channel(v, GG)));
     gg.sum.store(channel(v, SumGG) + u);
     gg.first.store(channel(v, SumGGU) + u);
     gg.second.store(channel(v, SumGGUU) + u);
-    const Moments<V> g = momentsOf<V>(along(channel(v, G))), gq = momentsOf<V>(along(channel(v, GQ)));
+    const Moments<V> g = computeMoments<V>(along(channel(v, G))), gq = computeMoments<V>(along(channel(v, GQ)));
     g.sum.store(channel(v, SumG) + u);
     g.first.store(channel(v, SumGU) + u);
     gq.sum.store(channel(v, SumGQ) + u);
@@ -291,11 +291,11 @@ typename SlantedAlignment<V>::PlaneAtEdge SlantedAlignment<V>::fitAtEdge(const L
       differences = differences + pixel(Difference);
     }
   }
-  const float count = larger(sumOf(s.count), 1.0F), mean = sumOf(differences) / count;
-  const float noise = larger(sumOf(squares) / count - mean * mean, 0.0F);
-  const PlaneSums<float> sums{sumOf(s.gg),   sumOf(s.ggu), sumOf(s.ggv), sumOf(s.gguu), sumOf(s.gguv),
-                              sumOf(s.ggvv), sumOf(s.g),   sumOf(s.gu),  sumOf(s.gv),   count,
-                              sumOf(s.gq),   sumOf(s.gqu), sumOf(s.gqv), sumOf(s.q)};
+  const float count = larger(sumLanes(s.count), 1.0F), mean = sumLanes(differences) / count;
+  const float noise = larger(sumLanes(squares) / count - mean * mean, 0.0F);
+  const PlaneSums<float> sums{sumLanes(s.gg),   sumLanes(s.ggu), sumLanes(s.ggv), sumLanes(s.gguu), sumLanes(s.gguv),
+                              sumLanes(s.ggvv), sumLanes(s.g),   sumLanes(s.gu),  sumLanes(s.gv),   count,
+                              sumLanes(s.gq),   sumLanes(s.gqu), sumLanes(s.gqv), sumLanes(s.q)};
   return {fitPlane(sums, disparity, prior_weight * (noise + least_noise), slope_prior, tiny), noise};
 }
 

@@ -6,15 +6,15 @@
 namespace fabmap_node {
 namespace {
 
-double probabilityOf(bool value, double p_true) { return value ? p_true : 1.0 - p_true; }
+double toProbability(bool value, double p_true) { return value ? p_true : 1.0 - p_true; }
 
 /// p(z_q = z | z_parent, e) with p(z_q = 1 | e) = `detection`.
 double observationGivenElement(const ChowLiuTree& tree, Word q, bool z, bool parent, double detection,
                                Dependence dependence) {
-  const double given_element = probabilityOf(z, detection);
+  const double given_element = toProbability(z, detection);
   if (dependence == Dependence::Naive) return given_element;
-  const double conditional = probabilityOf(z, parent ? tree.p_parent_present[q] : tree.p_parent_absent[q]);
-  const double marginal = probabilityOf(z, tree.p[q]);
+  const double conditional = toProbability(z, parent ? tree.p_parent_present[q] : tree.p_parent_absent[q]);
+  const double marginal = toProbability(z, tree.p[q]);
   const double a = marginal * (1.0 - given_element) * (1.0 - conditional);
   const double b = (1.0 - marginal) * given_element * conditional;
   return b / (a + b);

@@ -57,7 +57,7 @@ double chanceShare(int cameras) {
   return cameras > 1 ? 3.0 / (headings_per_camera * cameras) * 2.0 * static_cast<double>(same_height) : 9.0 * 0.0064;
 }
 
-std::vector<Eigen::Vector2f> movesOf(const LookFeatures& a, const LookFeatures& b) {
+std::vector<Eigen::Vector2f> computeMoves(const LookFeatures& a, const LookFeatures& b) {
   std::vector<Eigen::Vector2f> moves;
   for (const auto& [i, j] : mutualMatches(a.descriptors, b.descriptors))
     moves.push_back(b.directions[j] - a.directions[i]);
@@ -86,7 +86,7 @@ LookFeatures lookFeatures(const PlaceObservation& observation, std::size_t most)
 LookAgreement secondLook(const LookFeatures& a, const LookFeatures& b) {
   LookAgreement result;
   if (a.cameras != b.cameras || a.size() == 0 || b.size() == 0) return result;
-  const std::vector<Eigen::Vector2f> moves = movesOf(a, b);
+  const std::vector<Eigen::Vector2f> moves = computeMoves(a, b);
   result.matches = static_cast<int>(moves.size());
   result.agreeing = a.cameras > 1 ? agreeingPanorama(moves, a.cameras) : agreeingSingle(moves);
   const double beyond = result.agreeing - chanceShare(a.cameras) * result.matches;
@@ -96,7 +96,7 @@ LookAgreement secondLook(const LookFeatures& a, const LookFeatures& b) {
 
 bool isStationary(const LookFeatures& a, const LookFeatures& b) {
   if (a.cameras != b.cameras || a.size() == 0 || b.size() == 0) return false;
-  const std::vector<Eigen::Vector2f> moves = movesOf(a, b);
+  const std::vector<Eigen::Vector2f> moves = computeMoves(a, b);
   const auto unmoved = std::count_if(moves.begin(), moves.end(), [](const Eigen::Vector2f& move) {
     return std::abs(move.x()) < still && std::abs(move.y()) < still;
   });

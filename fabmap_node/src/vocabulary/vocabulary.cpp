@@ -16,7 +16,7 @@ constexpr int grouping_iterations = 4;
 
 using Column = Eigen::Matrix<float, static_cast<int>(descriptor_bytes), 1>;
 
-Column columnOf(const ByteDescriptor& descriptor) {
+Column makeColumn(const ByteDescriptor& descriptor) {
   return Eigen::Map<const Eigen::Matrix<std::uint8_t, static_cast<int>(descriptor_bytes), 1>>(descriptor.data())
       .cast<float>();
 }
@@ -31,7 +31,7 @@ void Vocabulary::group() {
   const std::size_t count =
       words <= ungrouped ? 1 : static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(words))));
   Columns all(static_cast<Eigen::Index>(descriptor_bytes), static_cast<Eigen::Index>(words));
-  for (std::size_t i = 0; i < words; ++i) all.col(static_cast<Eigen::Index>(i)) = columnOf(centres_[i]);
+  for (std::size_t i = 0; i < words; ++i) all.col(static_cast<Eigen::Index>(i)) = makeColumn(centres_[i]);
   coarse_.resize(Eigen::NoChange, static_cast<Eigen::Index>(count));
   for (std::size_t g = 0; g < count; ++g)
     coarse_.col(static_cast<Eigen::Index>(g)) = all.col(static_cast<Eigen::Index>(g * words / count));
@@ -65,7 +65,7 @@ void Vocabulary::group() {
 }
 
 Word Vocabulary::quantise(const ByteDescriptor& descriptor) const {
-  const Column asked = columnOf(descriptor);
+  const Column asked = makeColumn(descriptor);
   const Eigen::VectorXf score = coarse_.transpose() * asked - coarse_half_norm_;
   std::vector<Eigen::Index> order(groups_.size());
   std::iota(order.begin(), order.end(), Eigen::Index{0});

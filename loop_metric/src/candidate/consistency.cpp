@@ -23,14 +23,14 @@ constexpr double near_closure_way = 30.0;           // m: over which odometry is
 constexpr double closure_metres_per_radian = 10.0;  // for directions of which a closure knows nothing
 constexpr double near_time = 120.0;                 // s: nor does it take longer
 
-PoseWithCovariance measuredOf(const MetricClosure& closure) {
+PoseWithCovariance toMeasured(const MetricClosure& closure) {
   return {closure.measured.T_a_b,
           urban_nav_core::covarianceForDisplay(closure.measured.information, closure_metres_per_radian)};
 }
 
 /// Empty where the two are no neighbours; else root mean square deviations of their ring.
-std::optional<double> ringOf(const MetricClosure& i, const MetricClosure& j, const PlaceData& place_data,
-                             const Parameters& parameters) {
+std::optional<double> computeRing(const MetricClosure& i, const MetricClosure& j, const PlaceData& place_data,
+                                  const Parameters& parameters) {
   const auto apart = [](const urban_nav_core::PoseRef& x, const urban_nav_core::PoseRef& y) {
     return x.session != y.session || std::abs(urban_nav_core::secondsBetween(x.stamp, y.stamp)) > near_time;
   };
@@ -40,8 +40,8 @@ std::optional<double> ringOf(const MetricClosure& i, const MetricClosure& j, con
     return std::nullopt;
   const PoseWithCovariance T_ai_aj = OdometryGate(*along_a, parameters.registration.odometry_scale).T_a_b(),
                            T_bi_bj = OdometryGate(*along_b, parameters.registration.odometry_scale).T_a_b();
-  const PoseWithCovariance one = urban_nav_core::compose(measuredOf(i), T_bi_bj),
-                           other = urban_nav_core::compose(T_ai_aj, measuredOf(j));
+  const PoseWithCovariance one = urban_nav_core::compose(toMeasured(i), T_bi_bj),
+                           other = urban_nav_core::compose(T_ai_aj, toMeasured(j));
   const auto squares = urban_nav_core::nees(other.pose, {one.pose, one.covariance + other.covariance});
   return squares ? std::optional<double>(std::sqrt(*squares / 6.0)) : std::nullopt;
 }
@@ -56,7 +56,7 @@ std::vector<Neighbours> pairwiseConsistencyCheck(std::vector<MetricClosure>& clo
     if (closures[i].verdict != ClosureVerdict::Accepted) continue;
     for (std::size_t j = i + 1; j < closures.size(); ++j) {
       if (closures[j].verdict != ClosureVerdict::Accepted) continue;
-      const auto deviation = ringOf(closures[i], closures[j], place_data, parameters);
+      const auto deviation = computeRing(closures[i], closures[j], place_data, parameters);
       if (!deviation) continue;
       const bool agrees = *deviation <= parameters.gate;
       agree[{i, j}] = agrees;

@@ -18,16 +18,16 @@ namespace {
 
 constexpr double least_view_share = 1e-3;  // not nothing: information that is zero says that nothing was measured
 
-auto orderOf(const PoseRef& at) { return std::tie(at.session, at.stamp); }
+auto orderKey(const PoseRef& at) { return std::tie(at.session, at.stamp); }
 
 }  // namespace
 
 bool operator<(const SharedKeyframes& one, const SharedKeyframes& other) {
-  return std::tuple_cat(orderOf(one.first), orderOf(one.second)) <
-         std::tuple_cat(orderOf(other.first), orderOf(other.second));
+  return std::tuple_cat(orderKey(one.first), orderKey(one.second)) <
+         std::tuple_cat(orderKey(other.first), orderKey(other.second));
 }
 
-std::optional<SharedKeyframes> keyframesOf(const MetricClosure& closure) {
+std::optional<SharedKeyframes> findKeyframes(const MetricClosure& closure) {
   if (closure.verdict != ClosureVerdict::Accepted || closure.method != ClosureMethod::Stereo) return std::nullopt;
   const std::string_view text = evidenceIn(closure.evidence);
   if (text.empty()) return std::nullopt;
@@ -36,20 +36,20 @@ std::optional<SharedKeyframes> keyframesOf(const MetricClosure& closure) {
                                      [](const Evidence::Try& each) { return each.method == "stereo"; });
   if (accepted == evidence.tries.rend()) return std::nullopt;
   SharedKeyframes views{accepted->keyframe_a, accepted->keyframe_b};
-  if (orderOf(views.second) < orderOf(views.first)) std::swap(views.first, views.second);
+  if (orderKey(views.second) < orderKey(views.first)) std::swap(views.first, views.second);
   return views;
 }
 
 void discountSharedKeyframes(std::vector<MetricClosure>& closures) {
   std::map<SharedKeyframes, std::vector<MetricClosure*>> by_views;
   for (MetricClosure& closure : closures)
-    if (const auto views = keyframesOf(closure)) by_views[*views].push_back(&closure);
+    if (const auto views = findKeyframes(closure)) by_views[*views].push_back(&closure);
   for (const auto& [views, resting] : by_views)
     for (MetricClosure* closure : resting) closure->measured.information /= static_cast<double>(resting.size());
 }
 
 void SharedKeyframeDiscount::discountAgainst(MetricClosure& closure) {
-  const auto views = keyframesOf(closure);
+  const auto views = findKeyframes(closure);
   if (views && !known_.insert(*views).second) closure.measured.information *= least_view_share;
 }
 

@@ -15,7 +15,7 @@ using urban_nav_core::Matrix6d;
 using urban_nav_core::MetricClosure;
 using urban_nav_core::PoseRef;
 
-Evidence::Try tryOf(const std::string& method, const PoseRef& a, const PoseRef& b) {
+Evidence::Try toTry(const std::string& method, const PoseRef& a, const PoseRef& b) {
   Evidence::Try made;
   made.method = method;
   made.keyframe_a = a;
@@ -24,13 +24,13 @@ Evidence::Try tryOf(const std::string& method, const PoseRef& a, const PoseRef& 
 }
 
 /// A closure that was tried with views that did not do, and then with those of `a` and `b`.
-MetricClosure closureOf(const PoseRef& a, const PoseRef& b, ClosureMethod method = ClosureMethod::Stereo) {
+MetricClosure toClosure(const PoseRef& a, const PoseRef& b, ClosureMethod method = ClosureMethod::Stereo) {
   MetricClosure made;
   made.method = method;
   made.verdict = ClosureVerdict::Accepted;
   made.measured.information = 6.0 * Matrix6d::Identity();
   Evidence evidence;
-  evidence.tries = {tryOf("stereo", {"day", 1}, {"day", 2}), tryOf("stereo", a, b)};
+  evidence.tries = {toTry("stereo", {"day", 1}, {"day", 2}), toTry("stereo", a, b)};
   made.evidence = printEvidence(evidence);
   return made;
 }
@@ -41,9 +41,9 @@ double knows(const MetricClosure& closure) {
 }
 
 TEST(SharedViews, OneMeasurementCountsOnceHoweverManyCandidatesItServes) {
-  std::vector<MetricClosure> closures{closureOf({"day", 5}, {"day", 90}), closureOf({"day", 5}, {"day", 90}),
-                                      closureOf({"day", 90}, {"day", 5}), closureOf({"day", 5}, {"day", 91}),
-                                      closureOf({"day", 5}, {"next", 90})};
+  std::vector<MetricClosure> closures{toClosure({"day", 5}, {"day", 90}), toClosure({"day", 5}, {"day", 90}),
+                                      toClosure({"day", 90}, {"day", 5}), toClosure({"day", 5}, {"day", 91}),
+                                      toClosure({"day", 5}, {"next", 90})};
   discountSharedKeyframes(closures);
   for (int i = 0; i < 3; ++i) EXPECT_DOUBLE_EQ(knows(closures[static_cast<std::size_t>(i)]), 2.0);
   EXPECT_DOUBLE_EQ(knows(closures[3]), 6.0);
@@ -51,11 +51,11 @@ TEST(SharedViews, OneMeasurementCountsOnceHoweverManyCandidatesItServes) {
 }
 
 TEST(SharedViews, OnlyAcceptedClosuresByStereoTakePart) {
-  std::vector<MetricClosure> closures(4, closureOf({"day", 5}, {"day", 90}));
+  std::vector<MetricClosure> closures(4, toClosure({"day", 5}, {"day", 90}));
   closures[1].verdict = ClosureVerdict::Rejected;
   closures[2].method = ClosureMethod::Icp;
   closures[3].evidence.clear();
-  EXPECT_FALSE(keyframesOf(closures[3]));
+  EXPECT_FALSE(findKeyframes(closures[3]));
   discountSharedKeyframes(closures);
   for (const MetricClosure& closure : closures) EXPECT_DOUBLE_EQ(knows(closure), 6.0);
 }
@@ -64,14 +64,14 @@ TEST(SharedViews, ByAndByTheFirstTellsAll) {
   SharedKeyframeDiscount told;
   double sum = 0.0;
   for (int i = 0; i < 20; ++i) {
-    MetricClosure closure = closureOf({"day", 5}, {"day", 90});
+    MetricClosure closure = toClosure({"day", 5}, {"day", 90});
     told.discountAgainst(closure);
     EXPECT_GT(knows(closure), 0.0);
     sum += knows(closure);
   }
   EXPECT_NEAR(sum, 6.0, 0.06 * 6.0);
-  MetricClosure other = closureOf({"day", 5}, {"day", 91}),
-                clouds = closureOf({"day", 5}, {"day", 90}, ClosureMethod::Icp);
+  MetricClosure other = toClosure({"day", 5}, {"day", 91}),
+                clouds = toClosure({"day", 5}, {"day", 90}, ClosureMethod::Icp);
   told.discountAgainst(other);
   told.discountAgainst(clouds);
   EXPECT_DOUBLE_EQ(knows(other), 6.0);
@@ -79,9 +79,9 @@ TEST(SharedViews, ByAndByTheFirstTellsAll) {
 }
 
 TEST(SharedViews, DamagedEvidenceIsNamed) {
-  MetricClosure closure = closureOf({"day", 5}, {"day", 90});
+  MetricClosure closure = toClosure({"day", 5}, {"day", 90});
   closure.evidence = closure.evidence.substr(0, closure.evidence.size() / 2) + "\nnonsense";
-  EXPECT_THROW(keyframesOf(closure), urban_nav_core::DataError);
+  EXPECT_THROW(findKeyframes(closure), urban_nav_core::DataError);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ using urban_nav_registration::toStoredKeyframe;
 using urban_nav_store::Access;
 using urban_nav_store::Store;
 
-pid_t processOf(const std::string& node) {
+pid_t findProcess(const std::string& node) {
   const auto ask = [](const std::string& host, std::uint32_t port, const char* method, const char* argument) {
     XmlRpc::XmlRpcValue question, answer;
     question[0] = "test";
@@ -79,7 +79,7 @@ class LoopMetricNodelet : public ::testing::Test {
     EXPECT_TRUE(ros::param::get("/loop_metric/store", path));
     return path;
   }
-  std::string idOf(StampNs first) { return urban_nav_store::sessionIdOf({"lisa", "", first, ""}); }
+  std::string toId(StampNs first) { return urban_nav_store::makeSessionId({"lisa", "", first, ""}); }
   void expectTrue(const MetricClosure& closure, int a, int b) {
     EXPECT_EQ(closure.verdict, MetricClosure::ACCEPTED) << closure.reason_name << ": " << closure.text;
     EXPECT_EQ(closure.method, MetricClosure::STEREO);
@@ -98,7 +98,7 @@ class LoopMetricNodelet : public ::testing::Test {
   }
 
   /// Share of the pixels that have the blue which most of them have.
-  static double plainShareOf(const sensor_msgs::Image& picture) {
+  static double measurePlainShare(const sensor_msgs::Image& picture) {
     std::map<std::uint8_t, double> levels;
     for (std::size_t i = 0; i < picture.data.size(); i += 3) levels[picture.data[i]] += 1.0;
     double most = 0.0;
@@ -115,19 +115,19 @@ TEST_F(LoopMetricNodelet, aRevisitIsUpgradedAndAFalsePairIsNot) {
   robot().recognise(3, lap + 3);
   robot().recognise(3, 15);  // the other side of the room
   ASSERT_TRUE(robot().judged(2));
-  const bool in_order = robot().closures[0].b.stamp == urban_nav_ros::toRosTime(robot().stampOf(lap + 3));
+  const bool in_order = robot().closures[0].b.stamp == urban_nav_ros::toRosTime(robot().toStamp(lap + 3));
   const MetricClosure &right = robot().closures[in_order ? 0 : 1], &wrong = robot().closures[in_order ? 1 : 0];
   expectTrue(right, 3, lap + 3);
   EXPECT_TRUE(right.odometry_gate);
   EXPECT_EQ(right.a.session, "") << "who names no session means the running one";
-  EXPECT_EQ(right.a.stamp, urban_nav_ros::toRosTime(robot().stampOf(3)));
+  EXPECT_EQ(right.a.stamp, urban_nav_ros::toRosTime(robot().toStamp(3)));
   EXPECT_DOUBLE_EQ(right.probability, 0.99);
   expectRejected(wrong, "nothing_kept");  // no two views look the same way, by odometry
   ASSERT_TRUE(Robot::until([&] { return !robot().pictures.empty(); }));
   EXPECT_EQ(robot().pictures.front().encoding, "bgr8");
   EXPECT_GE(robot().pictures.front().width, 2U * 512U);
   EXPECT_EQ(robot().pictures.front().data.size(), robot().pictures.front().step * robot().pictures.front().height);
-  EXPECT_LT(plainShareOf(robot().pictures.front()), 0.3) << "views, and no panels that say that there are none";
+  EXPECT_LT(measurePlainShare(robot().pictures.front()), 0.3) << "views, and no panels that say that there are none";
   EXPECT_TRUE(Robot::until([&] { return robot().diagnosed("accepted by stereo", "1"); }));
 }
 
@@ -140,19 +140,19 @@ TEST_F(LoopMetricNodelet, theViewsThatAreKeptAreThoseOfTheSameFramesOffline) {
   for (int i = 0; i < count; ++i) {
     if (!selector.select(robot().T_world_base(0).inverse() * robot().T_world_base(i))) continue;
     urban_nav_core::testing::StereoFrame frame = robot().frame(i);
-    frame.stamp = robot().stampOf(i);
+    frame.stamp = robot().toStamp(i);
     expected.push_back(toStoredKeyframe(extractor.extract({"", frame.stamp}, frame.pair())));
   }
-  ASSERT_TRUE(Robot::until([&] { return robot().diagnosis("session") == idOf(robot().stampOf(0)); }));
+  ASSERT_TRUE(Robot::until([&] { return robot().diagnosis("session") == toId(robot().toStamp(0)); }));
   const auto stored = [&] {
     Store store(storePath(), Access::Read);
-    return store.keyframes().stamps(idOf(robot().stampOf(0)), keyframe_camera);
+    return store.keyframes().stamps(toId(robot().toStamp(0)), keyframe_camera);
   };
   ASSERT_TRUE(Robot::until([&] { return stored().size() >= expected.size(); })) << stored().size();
   Store store(storePath(), Access::Read);
   EXPECT_EQ(stored().size(), expected.size());
   for (const urban_nav_store::StoredKeyframe& view : expected)
-    EXPECT_TRUE(store.keyframes().get(idOf(robot().stampOf(0)), keyframe_camera, view.stamp) == view) << view.stamp;
+    EXPECT_TRUE(store.keyframes().get(toId(robot().toStamp(0)), keyframe_camera, view.stamp) == view) << view.stamp;
 }
 
 TEST_F(LoopMetricNodelet, momentsThatAreNotKnownAreNamed) {
@@ -160,10 +160,10 @@ TEST_F(LoopMetricNodelet, momentsThatAreNotKnownAreNamed) {
   ASSERT_TRUE(robot().judged(1));
   expectRejected(robot().closures[0], "unknown_moment");
   robot().drive(0, 8);
-  robot().recognise({"", robot().stampOf(0) - 500 * 1'000'000'000LL}, {"", robot().stampOf(2)});
+  robot().recognise({"", robot().toStamp(0) - 500 * 1'000'000'000LL}, {"", robot().toStamp(2)});
   ASSERT_TRUE(robot().judged(2));
   expectRejected(robot().closures[1], "unknown_moment");
-  robot().recognise({"0123456789abcdef0123", robot().stampOf(0)}, {"", robot().stampOf(2)});
+  robot().recognise({"0123456789abcdef0123", robot().toStamp(0)}, {"", robot().toStamp(2)});
   ASSERT_TRUE(robot().judged(3));
   expectRejected(robot().closures[2], "unknown_moment");
   EXPECT_EQ(robot().closures[2].a.session, "0123456789abcdef0123");
@@ -193,7 +193,7 @@ TEST_F(LoopMetricNodelet, aResetJudgesWhatWaits) {
   robot().recognise(0, 3);
   ASSERT_TRUE(robot().call("reset"));
   ASSERT_TRUE(robot().judged(1));
-  EXPECT_EQ(robot().closures[0].b.stamp, urban_nav_ros::toRosTime(robot().stampOf(3)));
+  EXPECT_EQ(robot().closures[0].b.stamp, urban_nav_ros::toRosTime(robot().toStamp(3)));
 }
 
 TEST_F(LoopMetricNodelet, aPauseDropsCandidatesAndCountsThem) {
@@ -218,7 +218,7 @@ TEST_F(LoopMetricNodelet, lasersThatDoNotComeAreNamed) {
 
 TEST_F(LoopMetricNodelet, aFullDiskIsNamedAndWhatWaitedForItIsNotLost) {
   {
-    const FullDisk disk(processOf("/loop_metric"));
+    const FullDisk disk(findProcess("/loop_metric"));
     robot().drive(0, lap + 7);
     ASSERT_TRUE(Robot::until([&] { return robot().diagnosis("reason") == "NotStored"; }));
     robot().recognise(3, lap + 3);
@@ -241,8 +241,8 @@ TEST_F(LoopMetricNodelet, aFullDiskIsNamedAndWhatWaitedForItIsNotLost) {
 
 TEST_F(LoopMetricNodelet, anEarlierSessionOfTheStoreIsKnownAgain) {
   robot().drive(0, lap / 3);
-  const std::string earlier = idOf(robot().stampOf(0));
-  const StampNs there = robot().stampOf(5);
+  const std::string earlier = toId(robot().toStamp(0));
+  const StampNs there = robot().toStamp(5);
   ASSERT_TRUE(Robot::until([&] { return robot().diagnosis("session") == earlier; }));
   ASSERT_TRUE(robot().call("reset"));
   ASSERT_EQ(std::system("rosnode kill /loop_metric > /dev/null 2>&1"), 0);
@@ -251,8 +251,8 @@ TEST_F(LoopMetricNodelet, anEarlierSessionOfTheStoreIsKnownAgain) {
   robot().forget();
   robot().beginSession();
   robot().drive(0, lap / 3);
-  ASSERT_TRUE(Robot::until([&] { return robot().diagnosis("session") == idOf(robot().stampOf(0)); }));
-  robot().recognise({earlier, there}, {"", robot().stampOf(5)});
+  ASSERT_TRUE(Robot::until([&] { return robot().diagnosis("session") == toId(robot().toStamp(0)); }));
+  robot().recognise({earlier, there}, {"", robot().toStamp(5)});
   ASSERT_TRUE(robot().judged(1));
   expectTrue(robot().closures[0], 5, 5);
   EXPECT_EQ(robot().closures[0].a.session, earlier);

@@ -31,7 +31,7 @@ class Robot : public DrivingRobot {
   void recognise(const urban_nav_core::PoseRef& a, const urban_nav_core::PoseRef& b) {
     places_.publish(urban_nav_ros::toTopologicalClosureMessage({a, b, 0.99}));
   }
-  void recognise(int a, int b) { recognise({"", stampOf(a)}, {"", stampOf(b)}); }
+  void recognise(int a, int b) { recognise({"", toStamp(a)}, {"", toStamp(b)}); }
   /// The verdict that comes next.
   bool judged(std::size_t count) {
     return until([&] { return closures.size() >= count; });

@@ -14,7 +14,7 @@ using Scanning = ScanningRobot<Robot>;
 using urban_nav_core::Vector6d;
 using urban_nav_msgs::MetricClosure;
 
-Eigen::Matrix<double, 6, 6, Eigen::RowMajor> informationOf(const MetricClosure& closure) {
+Eigen::Matrix<double, 6, 6, Eigen::RowMajor> toInformation(const MetricClosure& closure) {
   return Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(closure.information.data());
 }
 
@@ -30,7 +30,7 @@ TEST(LoopMetricNodeletScans, whereNoViewsAreCloudsOfOppositeDirectionsAreAligned
   ASSERT_TRUE(Robot::until([&] { return std::atol(robot.diagnosis("scans").c_str()) >= before + 2 * frames; }))
       << robot.diagnosis("scans");
 
-  const auto recognise = [&](int a, int b) { robot.recognise({"", Scanning::stampOf(a)}, {"", Scanning::stampOf(b)}); };
+  const auto recognise = [&](int a, int b) { robot.recognise({"", Scanning::toStamp(a)}, {"", Scanning::toStamp(b)}); };
   const int a = Scanning::there(0.0), b = Scanning::back(0.0);
   recognise(a, b);
   ASSERT_TRUE(robot.judged(1));
@@ -39,7 +39,7 @@ TEST(LoopMetricNodeletScans, whereNoViewsAreCloudsOfOppositeDirectionsAreAligned
                                                     << first.evidence;
   EXPECT_EQ(first.method, MetricClosure::ICP);
   EXPECT_TRUE(first.odometry_gate);
-  EXPECT_EQ(first.a.stamp, urban_nav_ros::toRosTime(Scanning::stampOf(a)));
+  EXPECT_EQ(first.a.stamp, urban_nav_ros::toRosTime(Scanning::toStamp(a)));
   const Pose truth = Scanning::T_world_base(a).inverse() * Scanning::T_world_base(b);
   const Pose T_a_b = *urban_nav_ros::toPose(first.T_a_b);
   const Evidence evidence = parseEvidence(first.evidence);
@@ -48,8 +48,8 @@ TEST(LoopMetricNodeletScans, whereNoViewsAreCloudsOfOppositeDirectionsAreAligned
   EXPECT_LT(urban_nav_core::distanceBetween(T_a_b, truth), 0.03);
   EXPECT_LT(urban_nav_core::angleBetween(T_a_b, truth), 0.005);
   const Vector6d off = urban_nav_core::boxMinus(T_a_b, truth);
-  EXPECT_LT(off.dot(informationOf(first) * off), 22.5) << "chi2 of 6, one in a thousand";
-  EXPECT_GT(informationOf(first).diagonal().minCoeff(), 1.0 / (0.1 * 0.1)) << "and it knows something";
+  EXPECT_LT(off.dot(toInformation(first) * off), 22.5) << "chi2 of 6, one in a thousand";
+  EXPECT_GT(toInformation(first).diagonal().minCoeff(), 1.0 / (0.1 * 0.1)) << "and it knows something";
 
   // The picture shows both clouds: red where the first was, blue where the second.
   ASSERT_TRUE(Robot::until([&] { return !robot.pictures.empty(); }));
@@ -70,7 +70,7 @@ TEST(LoopMetricNodeletScans, whereNoViewsAreCloudsOfOppositeDirectionsAreAligned
   const MetricClosure& second = robot.closures[1];
   ASSERT_EQ(second.verdict, MetricClosure::ACCEPTED) << second.reason_name << ": " << second.text;
   EXPECT_EQ(second.method, MetricClosure::ICP);
-  const double share = informationOf(second).trace() / informationOf(first).trace();
+  const double share = toInformation(second).trace() / toInformation(first).trace();
   EXPECT_GT(share, 0.01);
   EXPECT_LT(share, 0.2) << "0.1: two ways of half a metre to 20 m";
 }

@@ -66,7 +66,7 @@ double cholmodOnce(const Problem<D>& problem, int runs) {
   cholmod_common common;
   cholmod_start(&common);
   bool sound = true;
-  const double seconds = secondsOf(runs, [&] {
+  const double seconds = measureSeconds(runs, [&] {
     cholmod_factor* factor = cholmod_analyze(&view, &common);
     sound = cholmod_factorize(&view, factor, &common) == 1 && common.status == CHOLMOD_OK && sound;
     cholmod_free_factor(&factor, &common);

@@ -75,15 +75,15 @@ double apart(const std::vector<Rigid<D>>& a, const std::vector<Rigid<D>>& b) {
 }
 
 template <int D>
-FalseOutcome outcomeOf(const Problem<D>& clean, const std::vector<Rigid<D>>& optimum, const FalseKind& kind,
-                       double share, std::uint64_t seed) {
+FalseOutcome makeOutcome(const Problem<D>& clean, const std::vector<Rigid<D>>& optimum, const FalseKind& kind,
+                         double share, std::uint64_t seed) {
   FalseOutcome made;
   made.closures = static_cast<std::size_t>(std::count_if(clean.edges.begin(), clean.edges.end(), isClosure<D>));
   Problem<D> problem = clean;
   Dice dice(seed);
   addFalse<D>(problem, kind, static_cast<std::size_t>(share * static_cast<double>(made.closures)), dice);
   RobustSolution<D> robust;
-  made.seconds = secondsOf(1, [&] { robust = relaxRobust(problem, rolesByNumbers(problem), {}); });
+  made.seconds = measureSeconds(1, [&] { robust = relaxRobust(problem, rolesByNumbers(problem), {}); });
   made.error_m = apart<D>(robust.solution.poses, optimum);
   for (std::size_t e = 0; e < problem.edges.size(); ++e) {
     const Edge<D>& edge = problem.edges[e];
@@ -106,7 +106,7 @@ CleanGraph::CleanGraph(AnyProblem problem) : problem_(std::move(problem)) {
   std::visit(
       [&](const auto& clean) {
         auto optimum = solve(clean, SolveOptions());
-        seconds_ = secondsOf(3, [&] { optimum = solve(clean, SolveOptions()); });
+        seconds_ = measureSeconds(3, [&] { optimum = solve(clean, SolveOptions()); });
         for (const auto& edge : clean.edges) closures_ += isClosure(edge);
         auto low = optimum.poses.front().t, high = low;
         for (const auto& pose : optimum.poses) {
@@ -124,8 +124,8 @@ CleanGraph::CleanGraph(AnyProblem problem) : problem_(std::move(problem)) {
 
 FalseOutcome CleanGraph::with(const FalseKind& kind, double share, std::uint64_t seed) const {
   if (const auto* flat = std::get_if<Problem<2>>(&problem_))
-    return outcomeOf<2>(*flat, std::get<Problem<2>>(optimum_).poses, kind, share, seed);
-  return outcomeOf<3>(std::get<Problem<3>>(problem_), std::get<Problem<3>>(optimum_).poses, kind, share, seed);
+    return makeOutcome<2>(*flat, std::get<Problem<2>>(optimum_).poses, kind, share, seed);
+  return makeOutcome<3>(std::get<Problem<3>>(problem_), std::get<Problem<3>>(optimum_).poses, kind, share, seed);
 }
 
 }  // namespace pose_graph::bench

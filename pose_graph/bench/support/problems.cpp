@@ -42,12 +42,12 @@ AnyProblem fromSimulated(const SimulatedGraph& graph, const std::vector<Pose>& g
   Problem<D> problem;
   problem.poses.reserve(guess.size());
   problem.edges.reserve(graph.edges.size());
-  for (const Pose& pose : guess) problem.poses.push_back(rigidOf<D>(pose));
+  for (const Pose& pose : guess) problem.poses.push_back(toRigid<D>(pose));
   for (const GraphEdge& edge : graph.edges) {
     // From the frame of a, where the noise was drawn, to that of b.
     Matrix6d turn = Matrix6d::Zero();
     turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = edge.T_a_b.R();
-    problem.edges.push_back({static_cast<int>(edge.a), static_cast<int>(edge.b), rigidOf<D>(edge.T_a_b),
+    problem.edges.push_back({static_cast<int>(edge.a), static_cast<int>(edge.b), toRigid<D>(edge.T_a_b),
                              ofDimension<D>(turn.transpose() * edge.information * turn)});
   }
   return problem;
@@ -68,7 +68,7 @@ std::string unpacked(const std::string& path) {
 
 }  // namespace
 
-AnyProblem problemOf(const SimulatedGraph& graph, const std::vector<Pose>& guess) {
+AnyProblem makeProblem(const SimulatedGraph& graph, const std::vector<Pose>& guess) {
   return graph.planar ? fromSimulated<2>(graph, guess) : fromSimulated<3>(graph, guess);
 }
 
@@ -82,8 +82,8 @@ std::vector<PublicGraph> publicGraphs(const std::vector<std::string>& names) {
     const std::string name = optima.text(row, optima.column("name"));
     if (!names.empty() && std::find(names.begin(), names.end(), name) == names.end()) continue;
     const G2oGraph file = urban_nav_core::parseG2o(unpacked(folder + name + ".g2o.xz"), name);
-    const AnyProblem problem = file.dimension == 2 ? AnyProblem(pose_graph::problemOf<2>(file, name).problem)
-                                                   : AnyProblem(pose_graph::problemOf<3>(file, name).problem);
+    const AnyProblem problem = file.dimension == 2 ? AnyProblem(pose_graph::makeProblem<2>(file, name).problem)
+                                                   : AnyProblem(pose_graph::makeProblem<3>(file, name).problem);
     graphs.push_back({name, problem, optima.number(row, optima.column("F_certified")),
                       optima.number(row, optima.column("chi2_g2o_optimum"))});
   }

@@ -14,8 +14,8 @@ namespace pose_graph::bench {
 using AnyProblem = std::variant<Problem<2>, Problem<3>>;
 
 /// `guess`: where the poses begin.
-AnyProblem problemOf(const urban_nav_core::testing::SimulatedGraph& graph,
-                     const std::vector<urban_nav_core::Pose>& guess);
+AnyProblem makeProblem(const urban_nav_core::testing::SimulatedGraph& graph,
+                       const std::vector<urban_nav_core::Pose>& guess);
 
 /// One of the public graphs of URBAN_NAV_DATA/graphs with what is known of its optima (its README.md).
 struct PublicGraph {

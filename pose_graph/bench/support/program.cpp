@@ -27,7 +27,7 @@ int Arguments::number(const std::string& option, int otherwise) const {
   return static_cast<int>(*value);
 }
 
-Arguments argumentsOf(int argc, char** argv, const std::vector<std::string>& options) {
+Arguments parseArguments(int argc, char** argv, const std::vector<std::string>& options) {
   Arguments asked;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
@@ -75,7 +75,7 @@ double memory(const std::string& key) {
 
 }  // namespace
 
-double secondsOf(int runs, const std::function<void()>& work) {
+double measureSeconds(int runs, const std::function<void()>& work) {
   std::vector<double> seconds;
   for (int run = 0; run < runs; ++run) {
     const double begin = processorTime();
@@ -86,7 +86,7 @@ double secondsOf(int runs, const std::function<void()>& work) {
   return seconds[static_cast<std::size_t>(runs / 2)];
 }
 
-double memoryOf(const std::function<void()>& work) {
+double measureMemory(const std::function<void()>& work) {
   std::ofstream("/proc/self/clear_refs") << "5";  // the peak begins anew (Linux, proc(5))
   const double before = memory("VmRSS");
   work();

@@ -22,7 +22,7 @@ struct Arguments {
   /// A whole number above zero.
   int number(const std::string& option, int otherwise) const;
 };
-Arguments argumentsOf(int argc, char** argv, const std::vector<std::string>& options);
+Arguments parseArguments(int argc, char** argv, const std::vector<std::string>& options);
 
 /// What main returns: prints the table, and writes it unless `output` is empty.
 int show(const urban_nav_core::testing::BenchTable& table, const std::string& output);
@@ -31,9 +31,9 @@ int complain(const std::exception& error);
 
 /// Time of the processor (s) that `work` takes, all its threads together, so that what else runs does not count: the
 /// median of `runs`.
-double secondsOf(int runs, const std::function<void()>& work);
+double measureSeconds(int runs, const std::function<void()>& work);
 
 /// By how much (bytes) the memory of the process grows while `work` runs, at its peak; 0 where the system does not say.
-double memoryOf(const std::function<void()>& work);
+double measureMemory(const std::function<void()>& work);
 
 }  // namespace pose_graph::bench

@@ -30,8 +30,8 @@ enum class Semidefinite {
 /// its rotation block is divided by 4 and its cross blocks by 2. Throws UserError with `name` for information that is
 /// not positive semidefinite (to 1e-9 of its largest eigenvalue) and for a file without edges.
 template <int D>
-FileProblem<D> problemOf(const urban_nav_core::G2oGraph& graph, const std::string& name,
-                         Semidefinite demanded = Semidefinite::Whole);
+FileProblem<D> makeProblem(const urban_nav_core::G2oGraph& graph, const std::string& name,
+                           Semidefinite demanded = Semidefinite::Whole);
 
 /// The graph with these poses for its vertices; vertices it did not list are added at the end.
 template <int D>
@@ -40,8 +40,8 @@ urban_nav_core::G2oGraph withPoses(const urban_nav_core::G2oGraph& graph, const 
 
 /// The core's pose, and back.
 template <int D>
-Rigid<D> rigidOf(const urban_nav_core::Pose& pose);
-urban_nav_core::Pose poseOf(const Rigid<2>& T);
-urban_nav_core::Pose poseOf(const Rigid<3>& T);
+Rigid<D> toRigid(const urban_nav_core::Pose& pose);
+urban_nav_core::Pose toPose(const Rigid<2>& T);
+urban_nav_core::Pose toPose(const Rigid<3>& T);
 
 }  // namespace pose_graph

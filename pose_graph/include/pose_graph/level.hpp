@@ -52,10 +52,10 @@ struct Level {
 /// Each force's stamp must be that of a pose to count. The origin of the accelerometer's frame is taken to be
 /// base_link's: its lever arm moves in the robot's turns, which adds up to nothing over the spans. An orientation that
 /// an IMU makes of the same forces in a filter of its own is not used: it knows less of the drive.
-Level levelOf(const urban_nav_core::Trajectory& trajectory, const std::vector<SpecificForce>& forces);
+Level estimateLevel(const urban_nav_core::Trajectory& trajectory, const std::vector<SpecificForce>& forces);
 /// Seen from another pose of the trajectory's world than its first: T_world_first.
-Level levelOf(const urban_nav_core::Trajectory& trajectory, const std::vector<SpecificForce>& forces,
-              const urban_nav_core::Pose& T_world_first);
+Level estimateLevel(const urban_nav_core::Trajectory& trajectory, const std::vector<SpecificForce>& forces,
+                    const urban_nav_core::Pose& T_world_first);
 
 /// The rotations of a trajectory are themselves not exact, and what all of them have in common looks like a tilt of the
 /// first pose: `covariance` of it (rad2, a small turn in the axes of the first pose) is added.

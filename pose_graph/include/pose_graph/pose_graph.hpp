@@ -200,17 +200,17 @@ class PoseGraph {
 
  private:
   class Paper;  // what IncrementalSolver reads and writes
-  std::optional<Place> placeOf(const NodeRef& ref) const;
+  std::optional<Place> findPlace(const NodeRef& ref) const;
   /// An unbroken piece of a track's chain.
   struct Run {
     std::size_t track = 0, first = 0, last = 0;
     int part = 0;
   };
-  std::size_t runOf(const Place& place) const;
+  std::size_t findRun(const Place& place) const;
   /// Which part each run is in, by accepted closures: numbered by their first poses.
   std::vector<int> partNumbers() const;
   urban_nav_core::Matrix6d ownNoise(const Place& place) const;
-  Edge<3> edgeOf(const Closure& closure, const Place& a, const Place& b) const;
+  Edge<3> toEdge(const Closure& closure, const Place& a, const Place& b) const;
   std::vector<ClosureId> accepted() const;
   /// How things stand before a relaxation.
   struct Before {
@@ -250,7 +250,7 @@ class PoseGraph {
   std::map<ClosureId, Closure> closures_;
   std::map<ClosureId, Bond> bonds_;  ///< of each closure
   using Name = std::tuple<SessionId, StampNs, SessionId, StampNs, EdgeKind, std::string>;
-  static Name nameOf(const NodeRef& a, const NodeRef& b, EdgeKind kind, const std::string& source) {
+  static Name makeName(const NodeRef& a, const NodeRef& b, EdgeKind kind, const std::string& source) {
     return {a.session, a.stamp, b.session, b.stamp, kind, source};
   }
   std::map<Name, ClosureId> by_name_;

@@ -29,14 +29,14 @@ StoredGraph readGraph(urban_nav_store::Store& store);
 
 /// How a store keeps what a stage says of a closure: lines for a person, of which passedOdometryGate() finds its own
 /// again.
-std::string evidenceOf(const urban_nav_core::MetricClosure& closure);
-std::string evidenceOf(bool odometry_gate);
+std::string toEvidence(const urban_nav_core::MetricClosure& closure);
+std::string toEvidence(bool odometry_gate);
 bool passedOdometryGate(const std::string& evidence);
 
 /// The rows of a session that say with which parameters it is relaxed.
-std::vector<urban_nav_store::StoredParameter> parametersOf(const Parameters& parameters);
+std::vector<urban_nav_store::StoredParameter> listParameters(const Parameters& parameters);
 
 /// The edge of the store that a closure is, but for its verdict.
-urban_nav_store::Edge edgeOf(const Closure& closure);
+urban_nav_store::Edge toEdge(const Closure& closure);
 
 }  // namespace pose_graph

@@ -33,7 +33,7 @@ constexpr double kSettledShare = 1e-3, kSettledLeast = 1e-12, kNothing = 1e-9;
 constexpr double kCostRoundOff = 1e-9;
 
 template <int D>
-std::vector<Rigid<D>> placesOf(const Chains& chains, const std::vector<Rigid<D>>& poses) {
+std::vector<Rigid<D>> collectPlaces(const Chains& chains, const std::vector<Rigid<D>>& poses) {
   std::vector<Rigid<D>> made;
   made.reserve(chains.core.size());
   for (const int pose : chains.core) made.push_back(poses[sz(pose)]);
@@ -64,7 +64,7 @@ std::optional<Solution<D>> solveCondensed(const Problem<D>& problem, const Solve
     return std::nullopt;
 
   Solution<D> made;
-  const Unknowns unknowns = unknownsOf(problem);
+  const Unknowns unknowns = makeUnknowns(problem);
   made.components = unknowns.components;
   made.cost_before = cost(problem, problem.poses, options.objective, weights);
   std::vector<double> core_weights;
@@ -82,7 +82,7 @@ std::optional<Solution<D>> solveCondensed(const Problem<D>& problem, const Solve
   if (options.start != Start::Odometry && made.cost_before <= made.cost_start) {
     condensed.layBy(problem.poses);
     chain_cost = condensed.relinearise();
-    poses = placesOf(chains, problem.poses);
+    poses = collectPlaces(chains, problem.poses);
     made.cost_start = made.cost_before;
     condensed.renew(core);
     equations.renew(core, chains.core_edges.size());

@@ -21,7 +21,7 @@ constexpr double kPrintedRoundOff =
     1e-9;  // of the largest eigenvalue: what printing information with few digits may cost
 
 template <int D>
-TangentMatrix<D> informationOf(const G2oGraph::Edge& edge) {
+TangentMatrix<D> toInformation(const G2oGraph::Edge& edge) {
   TangentMatrix<D> information = urban_nav_core::g2oInformation(edge, D);
   if constexpr (D == 3) {
     information.template topRightCorner<3, 3>() *= 0.5;
@@ -58,7 +58,7 @@ bool demand(Semidefinite demanded, const TangentMatrix<D>& information, const G2
                   "positive semidefinite matrices");
 }
 
-std::vector<G2oGraph::Id> idsOf(const G2oGraph& graph) {
+std::vector<G2oGraph::Id> listIds(const G2oGraph& graph) {
   std::vector<G2oGraph::Id> ids;
   ids.reserve(graph.vertices.size() + 2 * graph.edges.size());
   for (const G2oGraph::Vertex& vertex : graph.vertices) ids.push_back(vertex.id);
@@ -71,35 +71,35 @@ std::vector<G2oGraph::Id> idsOf(const G2oGraph& graph) {
   return ids;
 }
 
-int numberOf(const std::vector<G2oGraph::Id>& ids, G2oGraph::Id id) {
+int findNumber(const std::vector<G2oGraph::Id>& ids, G2oGraph::Id id) {
   return static_cast<int>(std::lower_bound(ids.begin(), ids.end(), id) - ids.begin());
 }
 
 }  // namespace
 
 template <int D>
-Rigid<D> rigidOf(const Pose& pose) {
+Rigid<D> toRigid(const Pose& pose) {
   return {pose.R().template topLeftCorner<D, D>(), pose.t().template head<D>()};
 }
 
-Pose poseOf(const Rigid<2>& T) {
+Pose toPose(const Rigid<2>& T) {
   const double half = 0.5 * std::atan2(T.R(1, 0), T.R(0, 0));
   return Pose(Eigen::Quaterniond(std::cos(half), 0.0, 0.0, std::sin(half)), {T.t.x(), T.t.y(), 0.0});
 }
-Pose poseOf(const Rigid<3>& T) { return Pose(T.R, T.t); }
+Pose toPose(const Rigid<3>& T) { return Pose(T.R, T.t); }
 
 template <int D>
-FileProblem<D> problemOf(const G2oGraph& graph, const std::string& name, Semidefinite demanded) {
+FileProblem<D> makeProblem(const G2oGraph& graph, const std::string& name, Semidefinite demanded) {
   if (graph.edges.empty()) throw UserError(name, "a graph without edges", "EDGE_SE2 or EDGE_SE3:QUAT lines");
   FileProblem<D> made;
-  made.ids = idsOf(graph);
+  made.ids = listIds(graph);
   made.problem.edges.reserve(graph.edges.size());
   std::size_t indefinite = 0;
   for (const G2oGraph::Edge& edge : graph.edges) {
-    const TangentMatrix<D> information = informationOf<D>(edge);
+    const TangentMatrix<D> information = toInformation<D>(edge);
     indefinite += demand<D>(demanded, information, edge, name) ? 0 : 1;
     made.problem.edges.push_back(
-        {numberOf(made.ids, edge.from), numberOf(made.ids, edge.to), rigidOf<D>(graph.pose(edge)), information});
+        {findNumber(made.ids, edge.from), findNumber(made.ids, edge.to), toRigid<D>(graph.pose(edge)), information});
   }
   if (indefinite > 0)
     made.notes.push_back(std::to_string(indefinite) +
@@ -107,8 +107,8 @@ FileProblem<D> problemOf(const G2oGraph& graph, const std::string& name, Semidef
   made.problem.poses.resize(made.ids.size());
   std::vector<char> listed(made.ids.size(), 0);
   for (const G2oGraph::Vertex& vertex : graph.vertices) {
-    const std::size_t i = static_cast<std::size_t>(numberOf(made.ids, vertex.id));
-    made.problem.poses[i] = rigidOf<D>(graph.pose(vertex));
+    const std::size_t i = static_cast<std::size_t>(findNumber(made.ids, vertex.id));
+    made.problem.poses[i] = toRigid<D>(graph.pose(vertex));
     listed[i] = 1;
   }
   const auto missing = static_cast<std::size_t>(std::count(listed.begin(), listed.end(), 0));
@@ -132,24 +132,24 @@ G2oGraph withPoses(const G2oGraph& graph, const FileProblem<D>& file, const std:
   G2oGraph made = graph;
   std::vector<char> listed(file.ids.size(), 0);
   for (G2oGraph::Vertex& vertex : made.vertices) {
-    const std::size_t i = static_cast<std::size_t>(numberOf(file.ids, vertex.id));
-    made.setPose(vertex, poseOf(poses[i]));
+    const std::size_t i = static_cast<std::size_t>(findNumber(file.ids, vertex.id));
+    made.setPose(vertex, toPose(poses[i]));
     listed[i] = 1;
   }
   for (std::size_t i = 0; i < listed.size(); ++i) {
     if (listed[i]) continue;
     G2oGraph::Vertex vertex;
     vertex.id = file.ids[i];
-    made.setPose(vertex, poseOf(poses[i]));
+    made.setPose(vertex, toPose(poses[i]));
     made.vertices.push_back(vertex);
   }
   return made;
 }
 
-template Rigid<2> rigidOf<2>(const Pose&);
-template Rigid<3> rigidOf<3>(const Pose&);
-template FileProblem<2> problemOf<2>(const G2oGraph&, const std::string&, Semidefinite);
-template FileProblem<3> problemOf<3>(const G2oGraph&, const std::string&, Semidefinite);
+template Rigid<2> toRigid<2>(const Pose&);
+template Rigid<3> toRigid<3>(const Pose&);
+template FileProblem<2> makeProblem<2>(const G2oGraph&, const std::string&, Semidefinite);
+template FileProblem<3> makeProblem<3>(const G2oGraph&, const std::string&, Semidefinite);
 template G2oGraph withPoses<2>(const G2oGraph&, const FileProblem<2>&, const std::vector<Rigid<2>>&);
 template G2oGraph withPoses<3>(const G2oGraph&, const FileProblem<3>&, const std::vector<Rigid<3>>&);
 

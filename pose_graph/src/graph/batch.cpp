@@ -31,7 +31,7 @@ Batch PoseGraph::batch() const {
   auto edge = made.problem.edges.begin();
   for (std::size_t t = 0; t < tracks_.size(); ++t)
     for (std::size_t i = 0; i < steps_[t].size(); ++i)
-      if (steps_[t][i].joins) (edge++)->Z = rigidOf<3>(measured_[t][i].T_from_to);
+      if (steps_[t][i].joins) (edge++)->Z = toRigid<3>(measured_[t][i].T_from_to);
   for (const Track& track : tracks_) made.stamps.push_back(track.stamps);
   made.forces = forces_;
   made.closures = closures_;
@@ -107,7 +107,7 @@ PoseGraph::Laid PoseGraph::laidBy(const Batch& batch) const {
     const std::size_t known = t < batch.stamps.size() ? batch.stamps[t].size() : 0;
     laid.emplace_back();
     for (std::size_t i = 0; i < track.map.size(); ++i) {
-      if (i < known) laid[t].push_back(poseOf(batch.solution.poses[number++]));
+      if (i < known) laid[t].push_back(toPose(batch.solution.poses[number++]));
       else if (i == 0) laid[t].push_back(track.map[0]);
       else laid[t].push_back(laid[t][i - 1] * (track.odom[i - 1].inverse() * track.odom[i]));
     }

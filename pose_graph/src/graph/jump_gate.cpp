@@ -27,7 +27,7 @@ bool isLarge(const Closure& closure, const Pose& T_a_b, const Parameters& parame
          angleBetween(T_a_b, closure.measured.T_a_b) > parameters.jump_angle * 3.14159265358979323846 / 180.0;
 }
 
-std::vector<EdgeRole> rolesOf(std::size_t chains, const std::map<ClosureId, Closure>& closures) {
+std::vector<EdgeRole> assignRoles(std::size_t chains, const std::map<ClosureId, Closure>& closures) {
   std::vector<EdgeRole> roles(chains, EdgeRole::Trusted);
   for (const auto& [id, closure] : closures)
     roles.push_back(closure.kind == EdgeKind::Asserted ? EdgeRole::Asserted : EdgeRole::Candidate);
@@ -107,7 +107,7 @@ bool makeWait(const Problem<3>& problem, std::size_t chains, const Parameters& p
       ways.push_back({&closure, {0, static_cast<std::size_t>(edge.from)}, {0, static_cast<std::size_t>(edge.to)}});
   }
   const Known by_poses = [&problem](const Way& way) {
-    return poseOf(problem.poses[way.a.second]).inverse() * poseOf(problem.poses[way.b.second]);
+    return toPose(problem.poses[way.a.second]).inverse() * toPose(problem.poses[way.b.second]);
   };
   return !makeWait(ways, by_poses, parameters).empty();
 }
@@ -121,7 +121,7 @@ std::vector<ClosureId> makeWait(const Ground& ground, const std::map<ClosureId, 
     ++bond;
   }
   const Known by_map = [&ground](const Way& way) {
-    return poseOf(ground.pose(way.a)).inverse() * poseOf(ground.pose(way.b));
+    return toPose(ground.pose(way.a)).inverse() * toPose(ground.pose(way.b));
   };
   return makeWait(ways, by_map, parameters);
 }
@@ -150,7 +150,7 @@ Solution<3> judge(const Problem<3>& problem, const Parameters& parameters, const
   const std::size_t chains = problem.edges.size() - closures.size();
   RobustSolution<3> judged;
   if (parameters.robust) {
-    judged = relaxRobust(problem, rolesOf(chains, closures), options);
+    judged = relaxRobust(problem, assignRoles(chains, closures), options);
     take(judged, chains, closures);
   } else {
     takeAll(closures);
@@ -184,8 +184,8 @@ void accept(Closure& closure) {
 }
 
 /// Closures that wait and could be the second witness of one that is on trial, those first that it leaves least off.
-std::vector<Way> partnersOf(const Way& tried, const IncrementalSolver& core, const Ground& ground,
-                            const std::map<ClosureId, Bond>& bonds, std::map<ClosureId, Closure>& closures) {
+std::vector<Way> findPartners(const Way& tried, const IncrementalSolver& core, const Ground& ground,
+                              const std::map<ClosureId, Bond>& bonds, std::map<ClosureId, Closure>& closures) {
   std::vector<std::pair<double, Way>> found;
   auto bond = bonds.begin();
   for (auto& [id, closure] : closures) {
@@ -224,7 +224,7 @@ Addition judgeAddition(IncrementalSolver& core, const Ground& ground, const Para
     }
     accept(closure);
     const std::vector<Way> partners =
-        partnersOf({&closure, bonds.at(id).a, bonds.at(id).b}, core, ground, bonds, closures);
+        findPartners({&closure, bonds.at(id).a, bonds.at(id).b}, core, ground, bonds, closures);
     for (std::size_t p = 0; p < std::min(partners.size(), kTried); ++p) {
       Closure& partner = *partners[p].closure;
       double ignored = 0.0;

@@ -12,7 +12,7 @@ using urban_nav_core::UserError;
 
 namespace {
 
-Trajectory trajectoryOf(const Track& track, const std::vector<Pose>& laid) {
+Trajectory makeTrajectory(const Track& track, const std::vector<Pose>& laid) {
   Trajectory made;
   for (std::size_t i = 0; i < laid.size(); ++i) made.append(track.stamps[i], laid[i]);
   return made;
@@ -20,7 +20,7 @@ Trajectory trajectoryOf(const Track& track, const std::vector<Pose>& laid) {
 
 }  // namespace
 
-std::size_t mapOf(const std::vector<Track>& tracks, std::size_t track) {
+std::size_t findMap(const std::vector<Track>& tracks, std::size_t track) {
   const std::vector<int>& parts = tracks[track].part;
   if (parts.empty() || std::any_of(parts.begin(), parts.end(), [&](int each) { return each != parts.front(); }))
     return track;
@@ -45,17 +45,17 @@ void PoseGraph::putForces(const SessionId& session, const std::vector<SpecificFo
 
 bool PoseGraph::isLevel(const SessionId& session) const {
   const auto found = track_of_.find(session);
-  return found != track_of_.end() && level_[mapOf(tracks_, found->second)];
+  return found != track_of_.end() && level_[findMap(tracks_, found->second)];
 }
 
 std::vector<std::size_t> PoseGraph::level(Laid& laid, bool stay) {
   std::vector<Level> levels(tracks_.size());
   std::vector<std::size_t> maps;
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
-    const std::size_t map = mapOf(tracks_, t);
+    const std::size_t map = findMap(tracks_, t);
     maps.push_back(map);
     if (levels[map].known() || forces_[t].empty() || laid[map].empty() || (stay && level_[map])) continue;
-    levels[map] = levelOf(trajectoryOf(tracks_[t], laid[t]), forces_[t], laid[map].front());
+    levels[map] = estimateLevel(makeTrajectory(tracks_[t], laid[t]), forces_[t], laid[map].front());
   }
   std::vector<std::size_t> first_time;
   std::vector<Pose> turns;
@@ -71,7 +71,7 @@ std::vector<std::size_t> PoseGraph::level(Laid& laid, bool stay) {
 }
 
 bool PoseGraph::isOfRunning(const std::vector<std::size_t>& maps) const {
-  return !tracks_.empty() && std::count(maps.begin(), maps.end(), mapOf(tracks_, running_)) > 0;
+  return !tracks_.empty() && std::count(maps.begin(), maps.end(), findMap(tracks_, running_)) > 0;
 }
 
 std::optional<Relaxed> PoseGraph::level() {

@@ -21,10 +21,10 @@ int joinedParts(const Problem<3>& problem, std::size_t chains, const std::vector
   Problem<3> joined;
   joined.poses = problem.poses;
   joined.edges.assign(problem.edges.begin(), problem.edges.begin() + static_cast<std::ptrdiff_t>(chains));
-  const int apart = unknownsOf(joined).components;
+  const int apart = makeUnknowns(joined).components;
   for (std::size_t e = chains; e < problem.edges.size(); ++e)
     if (weights[e] > 0.0) joined.edges.push_back(problem.edges[e]);
-  return apart - unknownsOf(joined).components;
+  return apart - makeUnknowns(joined).components;
 }
 
 // How much of the chains' errors shows in their residuals, in numbers: what the closures take up of theirs is the

@@ -18,7 +18,7 @@ using urban_nav_core::UserError;
 
 namespace {
 
-std::string textOf(const NodeRef& ref) { return ref.session + " at " + urban_nav_core::printStamp(ref.stamp) + " s"; }
+std::string toText(const NodeRef& ref) { return ref.session + " at " + urban_nav_core::printStamp(ref.stamp) + " s"; }
 
 bool isProper(const Matrix6d& covariance) {
   return covariance.allFinite() && urban_nav_core::SmallCholesky<6>(covariance).succeeded();
@@ -110,7 +110,7 @@ bool PoseGraph::addOdometry(const SessionId& session, const RelativePose& offere
     broken_ = true;
   }
   ChainStep joint;
-  joint.edge = {0, 0, rigidOf<3>(step.T_from_to), chainInformation(step)};
+  joint.edge = {0, 0, toRigid<3>(step.T_from_to), chainInformation(step)};
   joint.invertible = invert<3>(joint.edge.information, joint.covariance);
   if (step.drift_covariance.trace() > 0.0) joint.own_noise = 0.5 * step.covariance;
   steps_[t].push_back(joint);
@@ -119,7 +119,7 @@ bool PoseGraph::addOdometry(const SessionId& session, const RelativePose& offere
   return true;
 }
 
-std::optional<Place> PoseGraph::placeOf(const NodeRef& ref) const {
+std::optional<Place> PoseGraph::findPlace(const NodeRef& ref) const {
   const auto track = track_of_.find(ref.session);
   if (track == track_of_.end()) return std::nullopt;
   const std::vector<StampNs>& stamps = tracks_[track->second].stamps;
@@ -129,7 +129,7 @@ std::optional<Place> PoseGraph::placeOf(const NodeRef& ref) const {
 }
 
 std::optional<int> PoseGraph::poseNumber(const NodeRef& ref) const {
-  const std::optional<Place> place = placeOf(ref);
+  const std::optional<Place> place = findPlace(ref);
   if (!place) return std::nullopt;
   std::size_t number = place->second;
   for (std::size_t t = 0; t < place->first; ++t) number += tracks_[t].stamps.size();
@@ -138,7 +138,7 @@ std::optional<int> PoseGraph::poseNumber(const NodeRef& ref) const {
 
 ClosureId PoseGraph::addClosure(const Closure& offered) {
   for (const NodeRef* ref : {&offered.a, &offered.b}) {
-    if (placeOf(*ref)) continue;
+    if (findPlace(*ref)) continue;
     const Track* track = this->track(ref->session);
     if (track == nullptr || track->stamps.empty())
       throw UserError("closure", "session " + ref->session + " has no poses", "a session of the graph");
@@ -147,20 +147,20 @@ ClosureId PoseGraph::addClosure(const Closure& offered) {
                                     (above != track->stamps.begin() && ref->stamp - *(above - 1) < *above - ref->stamp)
                                 ? *(above - 1)
                                 : *above;
-    throw UserError("closure", "no pose in session " + textOf(*ref),
+    throw UserError("closure", "no pose in session " + toText(*ref),
                     "stamps of poses; the nearest is " + urban_nav_core::printStamp(nearest) + " s");
   }
-  const Place a = *placeOf(offered.a), b = *placeOf(offered.b);
-  if (a == b) throw UserError("closure", "from a pose to itself: " + textOf(offered.a), "");
+  const Place a = *findPlace(offered.a), b = *findPlace(offered.b);
+  if (a == b) throw UserError("closure", "from a pose to itself: " + toText(offered.a), "");
   if (!offered.measured.T_a_b.isFinite() || !offered.measured.information.allFinite())
-    throw UserError("closure", "numbers that are not finite, " + textOf(offered.a) + " to " + textOf(offered.b), "");
+    throw UserError("closure", "numbers that are not finite, " + toText(offered.a) + " to " + toText(offered.b), "");
   if (offered.kind == EdgeKind::Odometry)
     throw UserError("closure", "kind odometry", "stereo, icp, plane, session, asserted");
   const Matrix6d symmetric = 0.5 * (offered.measured.information + offered.measured.information.transpose());
   const auto values = urban_nav_core::symmetricEigenvalues(symmetric);
   if (!values || (*values)[0] < -1e-9 * std::max(values->maxCoeff(), 0.0))
     throw UserError("closure",
-                    "information with a negative eigenvalue, " + textOf(offered.a) + " to " + textOf(offered.b),
+                    "information with a negative eigenvalue, " + toText(offered.a) + " to " + toText(offered.b),
                     "positive semidefinite matrices");
   Closure taken = offered;
   const auto same = findClosure(offered.a, offered.b, offered.kind, offered.source);
@@ -173,13 +173,13 @@ ClosureId PoseGraph::addClosure(const Closure& offered) {
   const auto earlier = closures_.find(taken.id);
   if (earlier != closures_.end() && earlier->second.weight > 0.0) live_.reset();
   closures_[taken.id] = taken;
-  bonds_[taken.id] = {a, b, edgeOf(taken, a, b)};
-  by_name_[nameOf(taken.a, taken.b, taken.kind, taken.source)] = taken.id;
+  bonds_[taken.id] = {a, b, toEdge(taken, a, b)};
+  by_name_[makeName(taken.a, taken.b, taken.kind, taken.source)] = taken.id;
   return taken.id;
 }
 
-Edge<3> PoseGraph::edgeOf(const Closure& closure, const Place& a, const Place& b) const {
-  return {0, 0, rigidOf<3>(closure.measured.T_a_b), closureInformation(closure.measured, ownNoise(a), ownNoise(b))};
+Edge<3> PoseGraph::toEdge(const Closure& closure, const Place& a, const Place& b) const {
+  return {0, 0, toRigid<3>(closure.measured.T_a_b), closureInformation(closure.measured, ownNoise(a), ownNoise(b))};
 }
 
 Matrix6d PoseGraph::ownNoise(const Place& place) const {
@@ -187,7 +187,7 @@ Matrix6d PoseGraph::ownNoise(const Place& place) const {
   return steps.empty() ? Matrix6d(Matrix6d::Zero()) : steps[place.second == 0 ? 0 : place.second - 1].own_noise;
 }
 
-Matrix6d PoseGraph::ownNoise(const NodeRef& ref) const { return ownNoise(placeOf(ref).value()); }
+Matrix6d PoseGraph::ownNoise(const NodeRef& ref) const { return ownNoise(findPlace(ref).value()); }
 
 bool PoseGraph::removeClosure(ClosureId id) {
   const auto found = closures_.find(id);
@@ -195,7 +195,7 @@ bool PoseGraph::removeClosure(ClosureId id) {
   const Closure& closure = found->second;
   if (closure.weight > 0.0) live_.reset();
   if (closure.verdict == ClosureVerdict::Accepted) removed_.push_back(closure);
-  by_name_.erase(nameOf(closure.a, closure.b, closure.kind, closure.source));
+  by_name_.erase(makeName(closure.a, closure.b, closure.kind, closure.source));
   bonds_.erase(id);
   closures_.erase(found);
   return true;
@@ -203,7 +203,7 @@ bool PoseGraph::removeClosure(ClosureId id) {
 
 std::optional<ClosureId> PoseGraph::findClosure(const NodeRef& a, const NodeRef& b, EdgeKind kind,
                                                 const std::string& source) const {
-  const auto found = by_name_.find(nameOf(a, b, kind, source));
+  const auto found = by_name_.find(makeName(a, b, kind, source));
   return found == by_name_.end() ? std::nullopt : std::optional<ClosureId>(found->second);
 }
 
@@ -214,7 +214,7 @@ Problem<3> PoseGraph::problem(double odometry_variance) const {
   std::vector<int> first;  // pose of each track
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     first.push_back(static_cast<int>(made.poses.size()));
-    for (const Pose& pose : tracks_[t].odom) made.poses.push_back(rigidOf<3>(pose));
+    for (const Pose& pose : tracks_[t].odom) made.poses.push_back(toRigid<3>(pose));
   }
   const auto put = [&made](const Edge<3>& edge, int from, int to) {
     made.edges.push_back(edge);

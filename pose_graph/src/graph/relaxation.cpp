@@ -50,13 +50,13 @@ class PoseGraph::Paper : public Ground {
 
   std::size_t tracks() const override { return graph_.tracks_.size(); }
   const ChainStep* steps(std::size_t track) const override { return graph_.steps_[track].data(); }
-  Rigid<3> pose(const Place& place) const override { return rigidOf<3>(graph_.tracks_[place.first].map[place.second]); }
+  Rigid<3> pose(const Place& place) const override { return toRigid<3>(graph_.tracks_[place.first].map[place.second]); }
   std::pair<std::size_t, std::size_t> run(const Place& place) const override {
-    const Run& run = graph_.runs_[place.first][graph_.runOf(place)];
+    const Run& run = graph_.runs_[place.first][graph_.findRun(place)];
     return {run.first, run.last};
   }
   void write(const Place& place, const Rigid<3>& T_map_pose) override {
-    moves.put(place.first, place.second, poseOf(T_map_pose), graph_.tracks_[place.first].map[place.second]);
+    moves.put(place.first, place.second, toPose(T_map_pose), graph_.tracks_[place.first].map[place.second]);
   }
 
   Moves moves;
@@ -65,7 +65,7 @@ class PoseGraph::Paper : public Ground {
   PoseGraph& graph_;
 };
 
-std::size_t PoseGraph::runOf(const Place& place) const {
+std::size_t PoseGraph::findRun(const Place& place) const {
   const std::vector<Run>& runs = runs_[place.first];
   const auto behind = std::upper_bound(runs.begin(), runs.end(), place.second,
                                        [](std::size_t index, const Run& run) { return index < run.first; });
@@ -189,17 +189,17 @@ std::vector<int> PoseGraph::partNumbers() const {
     first.push_back(joined.poses.size());
     joined.poses.resize(joined.poses.size() + runs.size());
   }
-  const auto numberOf = [&](const Place& place) { return static_cast<int>(first[place.first] + runOf(place)); };
+  const auto findNumber = [&](const Place& place) { return static_cast<int>(first[place.first] + findRun(place)); };
   for (const auto& [id, closure] : closures_) {
     if (closure.weight <= 0.0) continue;
     const Bond& bond = bonds_.at(id);
-    const int a = numberOf(bond.a), b = numberOf(bond.b);
+    const int a = findNumber(bond.a), b = findNumber(bond.b);
     if (a == b) continue;
     joined.edges.emplace_back();
     joined.edges.back().from = a;
     joined.edges.back().to = b;
   }
-  return unknownsOf(joined).component;
+  return makeUnknowns(joined).component;
 }
 
 }  // namespace pose_graph

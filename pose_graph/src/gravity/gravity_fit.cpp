@@ -48,7 +48,7 @@ std::optional<GravityFit> solve(const std::vector<Span>& spans, const std::vecto
   return GravityFit{*covariance * rhs, *covariance};
 }
 
-double scatterOf(const std::vector<Span>& spans, const GravityFit& fit) {
+double computeScatter(const std::vector<Span>& spans, const GravityFit& fit) {
   std::vector<double> sizes;
   for (const Span& span : spans)
     for (int axis = 0; axis < 3; ++axis) sizes.push_back(std::abs(fit.residual(span)(axis)));
@@ -69,7 +69,7 @@ std::optional<GravityFit> fitGravity(const std::vector<Span>& spans) {
     fit.x(axis) = *middle;
   }
   for (int round = 0; round < kGravityRounds; ++round) {
-    const double scatter = scatterOf(spans, fit);
+    const double scatter = computeScatter(spans, fit);
     std::vector<double> weights;
     for (const Span& span : spans) {
       const double size = fit.residual(span).norm() / (scatter * std::sqrt(3.0));
@@ -79,7 +79,7 @@ std::optional<GravityFit> fitGravity(const std::vector<Span>& spans) {
     if (!next) return std::nullopt;
     fit = *next;
   }
-  fit.scatter = scatterOf(spans, fit);
+  fit.scatter = computeScatter(spans, fit);
   return fit;
 }
 

@@ -52,14 +52,14 @@ const char* toString(LevelTrouble trouble) {
   return "";
 }
 
-Level levelOf(const Trajectory& trajectory, const std::vector<SpecificForce>& forces) {
-  return levelOf(trajectory, forces, trajectory.empty() ? urban_nav_core::Pose() : trajectory.front().pose);
+Level estimateLevel(const Trajectory& trajectory, const std::vector<SpecificForce>& forces) {
+  return estimateLevel(trajectory, forces, trajectory.empty() ? urban_nav_core::Pose() : trajectory.front().pose);
 }
 
-Level levelOf(const Trajectory& trajectory, const std::vector<SpecificForce>& forces,
-              const urban_nav_core::Pose& T_world_first) {
+Level estimateLevel(const Trajectory& trajectory, const std::vector<SpecificForce>& forces,
+                    const urban_nav_core::Pose& T_world_first) {
   if (forces.empty() || trajectory.empty()) return unknown(LevelTrouble::NoForces, "no accelerometer was recorded");
-  const std::vector<Span> spans = spansOf(trajectory, forces, T_world_first);
+  const std::vector<Span> spans = makeSpans(trajectory, forces, T_world_first);
   if (spans.size() < kLeastLevelSpans)
     return unknown(LevelTrouble::TooShort, "the accelerometer was recorded for too short a time");
   const std::optional<GravityFit> fit = fitGravity(spans);

@@ -27,7 +27,7 @@ double levelRun(Problem<3>& problem, std::size_t first_edge, std::size_t first_p
     TangentMatrix<3> covariance;
     if (!invert<3>(step.information, covariance)) return 0.0;
     T_first_pose = T_first_pose * step.Z;
-    odometry.append(stamps[i + 1], poseOf(T_first_pose));
+    odometry.append(stamps[i + 1], toPose(T_first_pose));
     variance.push_back(variance.back() + covariance.bottomRightCorner<3, 3>().trace() / 3.0);
   }
   const std::vector<Tilt> tilts = tiltDrift(odometry, variance, forces);

@@ -29,8 +29,8 @@ struct SpanPlace {
   Matrix3d rotation, turning;
 };
 
-std::vector<SpanPlace> placesOf(const Trajectory& trajectory, const std::vector<SpecificForce>& forces,
-                                const Pose& T_first_world) {
+std::vector<SpanPlace> collectPlaces(const Trajectory& trajectory, const std::vector<SpecificForce>& forces,
+                                     const Pose& T_first_world) {
   std::vector<SpanPlace> places;
   for (const SpecificForce& felt : forces) {
     if (!isUsable(felt)) continue;
@@ -49,7 +49,7 @@ std::vector<SpanPlace> placesOf(const Trajectory& trajectory, const std::vector<
 }
 
 /// Means over places first...last by the trapezoidal rule.
-Span spanOf(const std::vector<SpanPlace>& places, std::size_t first, std::size_t last) {
+Span makeSpan(const std::vector<SpanPlace>& places, std::size_t first, std::size_t last) {
   Span span;
   span.begin = places[first].stamp;
   span.end = places[last].stamp;
@@ -89,16 +89,16 @@ std::vector<SpecificForce> forcesAt(const std::vector<StampNs>& stamps, std::vec
   return made;
 }
 
-std::vector<Span> spansOf(const Trajectory& trajectory, const std::vector<SpecificForce>& forces,
-                          const Pose& T_world_first) {
-  const std::vector<SpanPlace> places = placesOf(trajectory, forces, T_world_first.inverse());
+std::vector<Span> makeSpans(const Trajectory& trajectory, const std::vector<SpecificForce>& forces,
+                            const Pose& T_world_first) {
+  const std::vector<SpanPlace> places = collectPlaces(trajectory, forces, T_world_first.inverse());
   std::vector<Span> spans;
   std::size_t first = 0;
   for (std::size_t i = 1; i < places.size(); ++i) {
     if (secondsBetween(places[i - 1].stamp, places[i].stamp) > kLongestGap || places[i].stamp <= places[i - 1].stamp) {
       first = i;
     } else if (secondsBetween(places[first].stamp, places[i].stamp) >= kSpan) {
-      spans.push_back(spanOf(places, first, i));
+      spans.push_back(makeSpan(places, first, i));
       first = i;
     }
   }

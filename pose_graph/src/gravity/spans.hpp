@@ -21,7 +21,7 @@ struct Span {
 
 /// One after another, each of 2 s or a little more; none where forces are more than 0.3 s apart. Two that follow each
 /// other share the velocity between them, so its error takes itself away in their sum.
-std::vector<Span> spansOf(const urban_nav_core::Trajectory& trajectory, const std::vector<SpecificForce>& forces,
-                          const urban_nav_core::Pose& T_world_first);
+std::vector<Span> makeSpans(const urban_nav_core::Trajectory& trajectory, const std::vector<SpecificForce>& forces,
+                            const urban_nav_core::Pose& T_world_first);
 
 }  // namespace pose_graph

@@ -126,7 +126,7 @@ Walks likeliest(const std::vector<Sight>& sights, const std::vector<double>& wei
 }
 
 /// Shocks hardly count: one would turn the states behind it.
-std::vector<double> calmOf(const std::vector<Span>& spans, const GravityFit& fit) {
+std::vector<double> measureCalm(const std::vector<Span>& spans, const GravityFit& fit) {
   std::vector<double> made;
   for (const Span& span : spans) {
     const double size = fit.residual(span).norm() / (kShock * fit.scatter);
@@ -159,9 +159,9 @@ std::vector<State> smoothed(const std::vector<Passed>& states) {
   return made;
 }
 
-std::vector<Sight> sightsOf(const std::vector<Span>& spans, const Trajectory& odometry,
-                            const std::vector<double>& variance, const Vector3d& gravity,
-                            const Eigen::Matrix<double, 3, 2>& across) {
+std::vector<Sight> collectSights(const std::vector<Span>& spans, const Trajectory& odometry,
+                                 const std::vector<double>& variance, const Vector3d& gravity,
+                                 const Eigen::Matrix<double, 3, 2>& across) {
   std::vector<Sight> made;
   double before = 0.0;
   StampNs last = odometry.front().stamp;
@@ -184,17 +184,17 @@ std::vector<Sight> sightsOf(const std::vector<Span>& spans, const Trajectory& od
 
 std::vector<Tilt> tiltDrift(const Trajectory& odometry, const std::vector<double>& variance,
                             const std::vector<SpecificForce>& forces) {
-  const Level level = levelOf(odometry, forces);
+  const Level level = estimateLevel(odometry, forces);
   if (!level.known()) return {};
-  const std::vector<Span> spans = spansOf(odometry, forces, odometry.front().pose);
+  const std::vector<Span> spans = makeSpans(odometry, forces, odometry.front().pose);
   if (spans.size() < kLeastTiltSpans) return {};
   Eigen::Matrix<double, 3, 2> across;
   across.col(0) = level.up.unitOrthogonal();
   across.col(1) = level.up.cross(across.col(0));
-  const std::vector<Sight> sights = sightsOf(spans, odometry, variance, level.gravity * level.up, across);
+  const std::vector<Sight> sights = collectSights(spans, odometry, variance, level.gravity * level.up, across);
   const std::optional<GravityFit> fit = fitGravity(spans);
   if (!fit) return {};
-  const std::vector<double> calm = calmOf(spans, *fit);
+  const std::vector<double> calm = measureCalm(spans, *fit);
   std::vector<double> weights = calm;
   // A force good to 0.01 m/s2, odometry as it promises, a fault as the data sheet has it.
   Walks walks{std::log(1e4), std::log(1e4 * kFaultWalk * kFaultWalk)};

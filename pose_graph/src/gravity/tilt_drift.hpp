@@ -22,7 +22,7 @@ struct Tilt {
 /// Striebel 1965). `variance`: of odometry's rotation about an axis, rad2, added up from the first pose to each, as
 /// odometry promises it. By how much it promises too much, and what a force is worth, is as the drive shows it (largest
 /// likelihood, with odometry's word as six observations); shocks weigh less. Empty where gravity is not known, as
-/// levelOf, or the drift is more than this can tell, 0.3 rad.
+/// estimateLevel, or the drift is more than this can tell, 0.3 rad.
 std::vector<Tilt> tiltDrift(const urban_nav_core::Trajectory& odometry, const std::vector<double>& variance,
                             const std::vector<SpecificForce>& forces);
 

@@ -23,7 +23,7 @@ constexpr double kWrittenDistance = 1e-3, kWrittenAngle = 0.002 * 3.141592653589
 
 constexpr double kStillRoundOff = 1e-9;  // m, rad: a pose that moved by less has not moved
 
-double angleOf(const Eigen::Matrix3d& R) { return logRotation(R).norm(); }
+double rotationAngle(const Eigen::Matrix3d& R) { return logRotation(R).norm(); }
 
 }  // namespace
 
@@ -185,10 +185,10 @@ void IncrementalSolver::bringTogether(const Ground& ground, const Bond& bond) {
       if (next != nodes_[t].end() && node->second.leadsOn(ground.steps(t), node->first, next->first))
         join(node->second.number, next->second.number);
     }
-  const auto numberOf = [this](const Place& place) { return nodes_[place.first].at(place.second).number; };
-  for (std::size_t b = 0; b + 1 < bonds_.size(); ++b) join(numberOf(bonds_[b].a), numberOf(bonds_[b].b));
-  const std::vector<int> part = unknownsOf(joined).component;
-  const std::size_t a = sz(numberOf(bond.a)), b = sz(numberOf(bond.b));
+  const auto findNumber = [this](const Place& place) { return nodes_[place.first].at(place.second).number; };
+  for (std::size_t b = 0; b + 1 < bonds_.size(); ++b) join(findNumber(bonds_[b].a), findNumber(bonds_[b].b));
+  const std::vector<int> part = makeUnknowns(joined).component;
+  const std::size_t a = sz(findNumber(bond.a)), b = sz(findNumber(bond.b));
   if (part[a] == part[b]) return;
   const Rigid<3> T_a_b = joined.poses[a].inverse() * joined.poses[b];
   const Rigid<3> T = part[a] < part[b] ? joined.poses[a] * bond.edge.Z * joined.poses[b].inverse()
@@ -212,11 +212,11 @@ struct IncrementalSolver::Core {
 IncrementalSolver::Core IncrementalSolver::core(const Ground& ground) {
   number();
   Core made;
-  const auto numberOf = [this](const Place& place) { return nodes_[place.first].at(place.second).number; };
+  const auto findNumber = [this](const Place& place) { return nodes_[place.first].at(place.second).number; };
   for (const Bond& bond : bonds_) {
     made.problem.edges.push_back(bond.edge);
-    made.problem.edges.back().from = numberOf(bond.a);
-    made.problem.edges.back().to = numberOf(bond.b);
+    made.problem.edges.back().from = findNumber(bond.a);
+    made.problem.edges.back().to = findNumber(bond.b);
   }
   for (std::size_t t = 0; t < nodes_.size(); ++t)
     for (auto at = nodes_[t].begin(); at != nodes_[t].end(); ++at) {
@@ -254,7 +254,7 @@ bool IncrementalSolver::layBent(const Ground& ground, Core& core) {
     remember(begin);
     const Rigid<3> by = wanted * node->onward.at(node->onward.size() - 1).inverse();
     node->bent_m += by.t.norm();
-    node->bent_rad += angleOf(by.R);
+    node->bent_rad += rotationAngle(by.R);
     node->onward.lay(wanted, ground.steps(begin.first) + begin.second);
     Edge<3>& edge = core.problem.edges[core.first_chain + c];
     edge.Z = node->onward.edge().Z;
@@ -343,7 +343,7 @@ void IncrementalSolver::writeFrom(Ground& ground, std::size_t track, Nodes::iter
   const auto next = std::next(at);
   const bool leads_on = next != nodes_[track].end() && node.leadsOn(ground.steps(track), index, next->first);
   const Rigid<3> by = node.pose * node.written.inverse();
-  const double angle = angleOf(by.R) + node.bent_rad;
+  const double angle = rotationAngle(by.R) + node.bent_rad;
   const double distance = (node.pose.t - node.written.t).norm() + node.bent_m + angle * node.onward.reach();
   // The newest pose is what the robot goes by: what hangs on a last node follows it exactly.
   const bool stays = leads_on ? distance < kWrittenDistance && angle < kWrittenAngle : distance == 0.0 && angle == 0.0;
@@ -352,7 +352,7 @@ void IncrementalSolver::writeFrom(Ground& ground, std::size_t track, Nodes::iter
   const auto [first, last] = ground.run(here);
   const Rigid<3> T = node.pose * ground.pose(here).inverse();
   const bool is_first = at == nodes_[track].begin() || std::prev(at)->first < first;
-  const bool moves = T.t.norm() > kStillRoundOff || angleOf(T.R) > kStillRoundOff;
+  const bool moves = T.t.norm() > kStillRoundOff || rotationAngle(T.R) > kStillRoundOff;
   for (std::size_t i = first; i < index && is_first && moves; ++i)
     ground.write({track, i}, T * ground.pose({track, i}));
   ground.write(here, node.pose);

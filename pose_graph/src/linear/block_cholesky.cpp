@@ -11,7 +11,7 @@ namespace pose_graph {
 namespace {
 
 // What an entry of the diagonal is measured by; one where it is zero, so that any measure would do.
-double sizeOf(double entry) { return entry > 0.0 ? entry : 1.0; }
+double toSize(double entry) { return entry > 0.0 ? entry : 1.0; }
 
 }  // namespace
 
@@ -111,8 +111,8 @@ bool BlockCholesky<B>::factorPinned(const BlockMatrix<B>& A, const BlockPattern&
 }
 
 template <int B>
-double BlockCholesky<B>::pinOf(const BlockMatrix<B>& A, int entry) {
-  return Front::kPin * sizeOf(A.diagonal[sz(entry / B)](entry % B, entry % B));
+double BlockCholesky<B>::computePin(const BlockMatrix<B>& A, int entry) {
+  return Front::kPin * toSize(A.diagonal[sz(entry / B)](entry % B, entry % B));
 }
 
 template <int B>
@@ -129,7 +129,7 @@ bool BlockCholesky<B>::factor(const BlockMatrix<B>& A, const BlockPattern& patte
       if (!front_.eliminate(B * columns)) return false;
     } else {
       Front::Pins pins;
-      for (int j = 0; j < B * columns; ++j) pins.size.push_back(sizeOf(A.diagonal[sz(begin + j / B)](j % B, j % B)));
+      for (int j = 0; j < B * columns; ++j) pins.size.push_back(toSize(A.diagonal[sz(begin + j / B)](j % B, j % B)));
       if (!front_.eliminate(B * columns, &pins)) return false;
       for (const int column : pins.columns) pinned->push_back(B * begin + column);
     }

@@ -22,10 +22,11 @@ class BlockCholesky {
   /// False where A is not positive definite to working precision, or holds NaN.
   bool factor(const BlockMatrix<B>& A, const BlockPattern& pattern);
 
-  /// The same for a matrix that may be singular: where nothing is left of a pivot, pinOf() is added to that entry of
-  /// the diagonal. The entries come in `pinned`, each as B times its place plus its row; empty: A is positive definite.
+  /// The same for a matrix that may be singular: where nothing is left of a pivot, computePin() is added to that entry
+  /// of the diagonal. The entries come in `pinned`, each as B times its place plus its row; empty: A is positive
+  /// definite.
   bool factorPinned(const BlockMatrix<B>& A, const BlockPattern& pattern, std::vector<int>& pinned);
-  static double pinOf(const BlockMatrix<B>& A, int entry);
+  static double computePin(const BlockMatrix<B>& A, int entry);
 
   /// x becomes A^-1 x for `columns` right-hand sides, one after another, each B numbers a place.
   void solve(double* x, int columns = 1) const;

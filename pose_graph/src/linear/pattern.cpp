@@ -7,7 +7,7 @@
 
 namespace pose_graph {
 
-Adjacency adjacencyOf(int nodes, const std::vector<std::pair<int, int>>& pairs) {
+Adjacency makeAdjacency(int nodes, const std::vector<std::pair<int, int>>& pairs) {
   const auto counts = [](const std::pair<int, int>& pair) {
     return pair.first >= 0 && pair.second >= 0 && pair.first != pair.second;
   };

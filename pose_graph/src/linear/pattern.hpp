@@ -16,6 +16,6 @@ struct Adjacency {
 };
 
 /// Pairs may come twice and either way round; a pair of a node with itself, or with a negative node, is left out.
-Adjacency adjacencyOf(int nodes, const std::vector<std::pair<int, int>>& pairs);
+Adjacency makeAdjacency(int nodes, const std::vector<std::pair<int, int>>& pairs);
 
 }  // namespace pose_graph

@@ -11,16 +11,16 @@ using urban_nav_core::UserError;
 
 namespace {
 
-NodeRef nodeOf(const urban_nav_core::PoseRef& ref) { return {ref.session, ref.stamp}; }
+NodeRef toNodeRef(const urban_nav_core::PoseRef& ref) { return {ref.session, ref.stamp}; }
 
 }  // namespace
 
 ClosureInput toClosureInput(const urban_nav_core::MetricClosure& closure) {
   ClosureInput input;
   input.rejected = closure.verdict != urban_nav_core::ClosureVerdict::Accepted || closure.method == ClosureMethod::None;
-  input.evidence = evidenceOf(closure);
-  input.closure.a = nodeOf(closure.a);
-  input.closure.b = nodeOf(closure.b);
+  input.evidence = toEvidence(closure);
+  input.closure.a = toNodeRef(closure.a);
+  input.closure.b = toNodeRef(closure.b);
   input.closure.kind = closure.method == ClosureMethod::Icp ? EdgeKind::Icp : EdgeKind::Stereo;
   input.closure.source = closure.source;
   input.closure.measured = closure.measured;
@@ -32,8 +32,8 @@ ClosureInput toClosureInput(const urban_nav_core::MetricClosure& closure) {
 
 ClosureInput toClosureInput(const urban_nav_core::RelativeConstraint& constraint) {
   ClosureInput input;
-  input.closure.a = nodeOf(constraint.a);
-  input.closure.b = nodeOf(constraint.b);
+  input.closure.a = toNodeRef(constraint.a);
+  input.closure.b = toNodeRef(constraint.b);
   input.closure.kind = toEdgeKind(constraint.kind);
   input.closure.source = constraint.source;
   input.closure.measured = constraint.measured;

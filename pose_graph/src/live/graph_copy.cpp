@@ -26,7 +26,7 @@ std::string writeStore(const PoseGraph& graph, const std::map<SessionId, urban_n
           std::make_shared<LiveWriter>(Store(temporary, Access::Write), GraphStoreWriter::writerOptions()), 0);
       for (const Track& track : graph.tracks()) writer.put(sessions.at(track.session));
       for (const auto& [id, closure] : graph.closures())
-        if (closure.odometry_gate) writer.putEvidence(edgeOf(closure), evidenceOf(true));
+        if (closure.odometry_gate) writer.putEvidence(toEdge(closure), toEvidence(true));
       while (!writer.isUpToDate(graph)) {
         writer.flush(graph);
         writer.writer()->flush();

@@ -96,7 +96,7 @@ void LivePoseGraph::beginSession(const std::string& name, StampNs start) {
 
 void LivePoseGraph::writeSession(const urban_nav_store::Session& session) {
   sessions_[session.id] = session;
-  if (writer_) writer_->put(session, parametersOf(parameters_));
+  if (writer_) writer_->put(session, listParameters(parameters_));
 }
 
 void LivePoseGraph::endSession() {
@@ -170,7 +170,7 @@ void LivePoseGraph::addOrHold(ClosureInput input) {
 void LivePoseGraph::addClosure(ClosureInput& input) {
   if (input.rejected) {
     if (!writer_) return;
-    urban_nav_store::Edge edge = edgeOf(input.closure);
+    urban_nav_store::Edge edge = toEdge(input.closure);
     edge.measured.information.setZero();  // it constrains nothing, and is not read back into a graph
     edge.verdict = ClosureVerdict::Rejected;
     edge.weight = 0.0;
@@ -178,7 +178,7 @@ void LivePoseGraph::addClosure(ClosureInput& input) {
     return;
   }
   graph_.addClosure(input.closure);
-  if (writer_ && !input.evidence.empty()) writer_->putEvidence(edgeOf(input.closure), input.evidence);
+  if (writer_ && !input.evidence.empty()) writer_->putEvidence(toEdge(input.closure), input.evidence);
   changed_ = true;
 }
 
@@ -231,7 +231,7 @@ void LivePoseGraph::syncStore() {
   StoredGraph stored;
   if (link_.open([&stored](urban_nav_store::Store& store) { stored = readGraph(store); })) {
     writer_ = std::make_unique<GraphStoreWriter>(link_.writer(), stored.revision);
-    for (const auto& [id, session] : sessions_) writer_->put(session, parametersOf(parameters_));
+    for (const auto& [id, session] : sessions_) writer_->put(session, listParameters(parameters_));
     addStored(stored, true);
   }
   if (writer_) writer_->sync(graph_, is_exact_);
@@ -275,7 +275,7 @@ LivePoseGraph::Loaded LivePoseGraph::addStored(const StoredGraph& stored, bool o
       if (graph_.findClosure(closure.a, closure.b, closure.kind, closure.source)) continue;
       const ClosureId id = graph_.addClosure(closure);
       if (own) writer_->markStored(graph_.closures().at(id));
-      else if (writer_ && closure.odometry_gate) writer_->putEvidence(edgeOf(closure), evidenceOf(true));
+      else if (writer_ && closure.odometry_gate) writer_->putEvidence(toEdge(closure), toEvidence(true));
       ++loaded.closures;
     } catch (const UserError&) {
       ++loaded.refused;

@@ -102,7 +102,7 @@ struct Marginals<D>::Parts {
     inverse[0].selected = selectedInverse(inverse[0].cholesky, equations.pattern());
     if (pinned.empty()) return;
     std::vector<double> pins;
-    for (const int entry : pinned) pins.push_back(BlockCholesky<N>::pinOf(H, entry));
+    for (const int entry : pinned) pins.push_back(BlockCholesky<N>::computePin(H, entry));
     for (std::size_t k = 0; k < pinned.size(); ++k)
       H.diagonal[sz(pinned[k] / N)](pinned[k] % N, pinned[k] % N) += 2.0 * pins[k];
     inverse.emplace_back(equations.symbolic());

@@ -46,7 +46,7 @@ RotationError<3> rotationError(const Rotation<3>& R_E) {
 namespace {
 
 template <Objective objective, int D>
-Tangent<D> errorOf(const Eigen::Matrix<double, D, 1>& e_t, const Rotation<D>& R_E) {
+Tangent<D> computeError(const Eigen::Matrix<double, D, 1>& e_t, const Rotation<D>& R_E) {
   Tangent<D> e;
   e.template head<D>() = e_t;
   if constexpr (D == 2) {
@@ -84,7 +84,7 @@ LocalQuadratic<D> chordalQuadratic(const EdgeTerm<D>& term, const Eigen::Matrix<
 }  // namespace
 
 template <int D>
-EdgeTerm<D> termOf(const Edge<D>& edge) {
+EdgeTerm<D> makeTerm(const Edge<D>& edge) {
   constexpr int r = rotation_size<D>;
   EdgeTerm<D> made;
   made.from = edge.from;
@@ -106,7 +106,7 @@ LocalQuadratic<D> localQuadratic(const EdgeTerm<D>& term, const Eigen::Matrix<do
     return chordalQuadratic<D>(term, e_t, R_E);
   } else if constexpr (D == 2) {
     LocalQuadratic<D> made;
-    const Tangent<D> e = errorOf<objective, D>(e_t, R_E);
+    const Tangent<D> e = computeError<objective, D>(e_t, R_E);
     made.g = term.information * e;
     made.H = term.information;
     made.cost = e.dot(made.g);
@@ -133,7 +133,7 @@ double localCost(const EdgeTerm<D>& term, const Eigen::Matrix<double, D, 1>& e_t
   if constexpr (objective == Objective::Chordal) {
     return term.kappa * chordSquared<D>(R_E) + term.tau * e_t.squaredNorm();
   } else {
-    const Tangent<D> e = errorOf<objective, D>(e_t, R_E);
+    const Tangent<D> e = computeError<objective, D>(e_t, R_E);
     return e.dot(term.information * e);
   }
 }
@@ -154,7 +154,7 @@ POSE_GRAPH_OBJECTIVE(Objective::Chordal, 3)
 POSE_GRAPH_OBJECTIVE(Objective::G2o, 2)
 POSE_GRAPH_OBJECTIVE(Objective::G2o, 3)
 #undef POSE_GRAPH_OBJECTIVE
-template EdgeTerm<2> termOf<2>(const Edge<2>&);
-template EdgeTerm<3> termOf<3>(const Edge<3>&);
+template EdgeTerm<2> makeTerm<2>(const Edge<2>&);
+template EdgeTerm<3> makeTerm<3>(const Edge<3>&);
 
 }  // namespace pose_graph

@@ -19,7 +19,7 @@ struct EdgeTerm {
   double kappa = 0.0, tau = 0.0;
 };
 template <int D>
-EdgeTerm<D> termOf(const Edge<D>& edge);
+EdgeTerm<D> makeTerm(const Edge<D>& edge);
 
 /// An edge's cost around two poses. With A = R_from R_Z (how the child of Z would stand in the map) and d = t_to -
 /// t_from, every objective is a function of e_t = A^T d - R_Z^T t_Z and R_E = A^T R_to alone, so that it does not

@@ -22,8 +22,8 @@ template <int D>
 Rigid<D> at(const Rigid<D>& base, const double* x) {
   return moved<D>(base, Eigen::Map<const Tangent<D>>(x));
 }
-Eigen::Matrix<double, 1, 1> turnOf(const RotationVector<2>&) { return Eigen::Matrix<double, 1, 1>::Ones(); }
-Eigen::Matrix3d turnOf(const RotationVector<3>& phi) { return urban_nav_core::leftJacobianSo3(phi); }
+Eigen::Matrix<double, 1, 1> toTurn(const RotationVector<2>&) { return Eigen::Matrix<double, 1, 1>::Ones(); }
+Eigen::Matrix3d toTurn(const RotationVector<3>& phi) { return urban_nav_core::leftJacobianSo3(phi); }
 
 template <Objective objective, int D>
 class EdgeCost final : public ceres::SizedCostFunction<residual_size<objective, D>, tangent_size<D>, tangent_size<D>> {
@@ -44,7 +44,7 @@ class EdgeCost final : public ceres::SizedCostFunction<residual_size<objective, 
       out = J;
       out.template rightCols<rotation_size<D>>() =
           J.template rightCols<rotation_size<D>>() *
-          turnOf(RotationVector<D>(Eigen::Map<const RotationVector<D>>(at_x + D)));
+          toTurn(RotationVector<D>(Eigen::Map<const RotationVector<D>>(at_x + D)));
     };
     put(edge.J_from, x[0], jacobians[0]);
     put(edge.J_to, x[1], jacobians[1]);
@@ -94,7 +94,7 @@ class Told final : public ceres::IterationCallback {
 template <Objective objective, int D>
 void descend(const Problem<D>& problem, const SolveOptions& options, const std::vector<double>& weights,
              Solution<D>& made) {
-  const Unknowns unknowns = unknownsOf(problem);
+  const Unknowns unknowns = makeUnknowns(problem);
   std::vector<Tangent<D>> x(problem.poses.size(), Tangent<D>::Zero());
   ceres::Problem all;
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -104,7 +104,7 @@ void descend(const Problem<D>& problem, const SolveOptions& options, const std::
   for (std::size_t e = 0; e < problem.edges.size(); ++e) {
     Edge<D> edge = problem.edges[e];
     if (!weights.empty()) edge.information *= weights[e];
-    const EdgeTerm<D> term = termOf(edge);
+    const EdgeTerm<D> term = makeTerm(edge);
     all.AddResidualBlock(
         new EdgeCost<objective, D>(term, informationRoot<D>(edge.information), made.poses[sz(edge.from)],
                                    made.poses[sz(edge.to)]),  // Ceres owns it

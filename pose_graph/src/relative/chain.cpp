@@ -16,7 +16,7 @@ namespace {
 using urban_nav_core::UserError;
 
 template <int D>
-std::string nameOf(const Problem<D>& problem, std::size_t i) {
+std::string makeName(const Problem<D>& problem, std::size_t i) {
   const Edge<D>& edge = problem.edges[i];
   return "edge " + std::to_string(i) + " (" + std::to_string(edge.from) + " to " + std::to_string(edge.to) + ")";
 }
@@ -37,9 +37,9 @@ TangentMatrix<D> chainRoot(const Problem<D>& problem, std::size_t i) {
   const auto eigen = urban_nav_core::symmetricEigen(information);
   const double least = eigen->values.minCoeff(), most = eigen->values.maxCoeff();
   if (least < -rounding * std::max(most, 0.0) || most < 0.0) {
-    throw UserError("",
-                    nameOf(problem, i) + " has indefinite information (an eigenvalue of " + std::to_string(least) + ")",
-                    "positive semidefinite information");
+    throw UserError(
+        "", makeName(problem, i) + " has indefinite information (an eigenvalue of " + std::to_string(least) + ")",
+        "positive semidefinite information");
   }
   return eigen->values.cwiseMax(0.0).cwiseSqrt().asDiagonal() * eigen->vectors.transpose();
 }
@@ -65,20 +65,20 @@ void checkNumbers(const Problem<D>& problem) {
     const Edge<D>& edge = problem.edges[i];
     for (const int pose : {edge.from, edge.to}) {
       if (pose < 0 || pose >= count) {
-        throw UserError("", nameOf(problem, i) + " names a pose that is not there",
+        throw UserError("", makeName(problem, i) + " names a pose that is not there",
                         count == 0 ? "there are none" : "0..." + std::to_string(count - 1));
       }
     }
-    if (edge.from == edge.to) throw UserError("", nameOf(problem, i) + " goes from a pose to itself", "");
+    if (edge.from == edge.to) throw UserError("", makeName(problem, i) + " goes from a pose to itself", "");
     if (!isFinite(edge.Z) || !edge.information.allFinite())
-      throw UserError("", nameOf(problem, i) + " is not finite", "");
+      throw UserError("", makeName(problem, i) + " is not finite", "");
   }
 }
 
 }  // namespace
 
 template <int D>
-Chain<D> chainOf(const Problem<D>& problem) {
+Chain<D> makeChain(const Problem<D>& problem) {
   checkNumbers(problem);
   Chain<D> chain;
   chain.links = std::max(0, static_cast<int>(problem.poses.size()) - 1);
@@ -108,7 +108,7 @@ Chain<D> chainOf(const Problem<D>& problem) {
   return chain;
 }
 
-template Chain<2> chainOf(const Problem<2>&);
-template Chain<3> chainOf(const Problem<3>&);
+template Chain<2> makeChain(const Problem<2>&);
+template Chain<3> makeChain(const Problem<3>&);
 
 }  // namespace pose_graph

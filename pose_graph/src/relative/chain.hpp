@@ -27,6 +27,6 @@ struct Chain {
 
 /// Throws UserError as relaxRelative does.
 template <int D>
-Chain<D> chainOf(const Problem<D>& problem);
+Chain<D> makeChain(const Problem<D>& problem);
 
 }  // namespace pose_graph

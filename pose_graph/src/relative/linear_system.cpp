@@ -12,7 +12,7 @@ double weighted(const Edge<D>& edge, const Tangent<D>& e) {
 }  // namespace
 
 template <int D>
-ChainState<D> stateOf(const std::vector<Rigid<D>>& poses) {
+ChainState<D> makeState(const std::vector<Rigid<D>>& poses) {
   ChainState<D> state;
   for (std::size_t i = 1; i < poses.size(); ++i) state.links.push_back(chained(poses[i - 1].inverse(), poses[i]));
   if (!poses.empty()) state.poses.push_back(poses.front());
@@ -34,7 +34,7 @@ ChainState<D> moved(const ChainState<D>& state, const Increments<D>& step) {
 }
 
 template <int D>
-double costOf(const Problem<D>& problem, const ChainState<D>& state) {
+double computeCost(const Problem<D>& problem, const ChainState<D>& state) {
   double cost = 0.0;
   for (const Edge<D>& edge : problem.edges) {
     const auto& from = state.poses[static_cast<std::size_t>(edge.from)];
@@ -125,12 +125,12 @@ TangentMatrix<D> LinearSystem<D>::linkMatrix(int link) const {
   return pose_graph::linkMatrix<D>(poses_[r], poses_[r + 1].t);
 }
 
-template ChainState<2> stateOf(const std::vector<Rigid<2>>&);
-template ChainState<3> stateOf(const std::vector<Rigid<3>>&);
+template ChainState<2> makeState(const std::vector<Rigid<2>>&);
+template ChainState<3> makeState(const std::vector<Rigid<3>>&);
 template ChainState<2> moved(const ChainState<2>&, const Increments<2>&);
 template ChainState<3> moved(const ChainState<3>&, const Increments<3>&);
-template double costOf(const Problem<2>&, const ChainState<2>&);
-template double costOf(const Problem<3>&, const ChainState<3>&);
+template double computeCost(const Problem<2>&, const ChainState<2>&);
+template double computeCost(const Problem<3>&, const ChainState<3>&);
 template class LinearSystem<2>;
 template class LinearSystem<3>;
 

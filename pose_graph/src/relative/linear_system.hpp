@@ -19,13 +19,13 @@ struct ChainState {
   std::vector<Rigid<D>> poses;
 };
 template <int D>
-ChainState<D> stateOf(const std::vector<Rigid<D>>& poses);
+ChainState<D> makeState(const std::vector<Rigid<D>>& poses);
 /// Every link moved by its column.
 template <int D>
 ChainState<D> moved(const ChainState<D>& state, const Increments<D>& step);
 
 template <int D>
-double costOf(const Problem<D>& problem, const ChainState<D>& state);
+double computeCost(const Problem<D>& problem, const ChainState<D>& state);
 
 /// The normal equations of (19) about a state, weighted: (M + H^T W H) dV = b, where M is block-diagonal and H is a
 /// rule for products. Everything is O(links + closures).

@@ -34,7 +34,7 @@ std::optional<ChainState<D>> lowered(const Problem<D>& problem, const ChainState
                                      Increments<D> step) {
   for (int i = 0; i <= halvings; ++i) {
     ChainState<D> next = moved(state, step);
-    if (costOf(problem, next) < cost) return next;
+    if (computeCost(problem, next) < cost) return next;
     step *= 0.5;
   }
   return std::nullopt;
@@ -44,13 +44,13 @@ std::optional<ChainState<D>> lowered(const Problem<D>& problem, const ChainState
 
 template <int D>
 RelativeSolution<D> relaxRelative(const Problem<D>& problem, const RelativePcgOptions& options) {
-  const Chain<D> chain = chainOf(problem);
+  const Chain<D> chain = makeChain(problem);
   RelativeSolution<D> solution;
   solution.poses = problem.poses;
   solution.components = problem.poses.empty() ? 0 : 1;
   if (chain.links == 0) return solution;
 
-  ChainState<D> state = stateOf(problem.poses);
+  ChainState<D> state = makeState(problem.poses);
   LinearSystem<D> system(problem, chain, state);
   solution.cost_before = solution.cost_start = system.cost();
   solution.ending = Ending::Iterations;

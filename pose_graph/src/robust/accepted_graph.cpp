@@ -39,7 +39,7 @@ double AcceptedGraph<D>::work(const std::vector<char>& in, bool soon) const {
   std::vector<std::pair<int, int>> pairs;
   for (std::size_t e = 0; e < in.size(); ++e)
     if (in[e]) pairs.emplace_back(problem_->edges[e].from, problem_->edges[e].to);
-  const Adjacency graph = adjacencyOf(static_cast<int>(problem_->poses.size()), pairs);
+  const Adjacency graph = makeAdjacency(static_cast<int>(problem_->poses.size()), pairs);
   const Symbolic symbolic = analyse(graph, soon ? minimumDegreeOrder(graph) : eliminationOrder(graph));
   double sum = 0.0;
   for (int s = 0; s < symbolic.size(); ++s) {

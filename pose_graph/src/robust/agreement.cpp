@@ -40,11 +40,11 @@ std::vector<int> agreeingGroups(std::size_t edges, const ClosureLoops<D>& closur
   std::iota(above.begin(), above.end(), 0);
   for (std::size_t a = 0; a < closures.size(); ++a)
     closures.partners(a, kPartners, [&](std::size_t b) {
-      const int i = rootOf(above, closures.edge(a)), j = rootOf(above, closures.edge(b));
+      const int i = findRoot(above, closures.edge(a)), j = findRoot(above, closures.edge(b));
       if (i != j && agree<D>(closures.loop(a, b), variance, thresholds)) above[sz(std::max(i, j))] = std::min(i, j);
     });
   std::vector<int> group(edges, -1);
-  for (std::size_t a = 0; a < closures.size(); ++a) group[sz(closures.edge(a))] = rootOf(above, closures.edge(a));
+  for (std::size_t a = 0; a < closures.size(); ++a) group[sz(closures.edge(a))] = findRoot(above, closures.edge(a));
   return group;
 }
 

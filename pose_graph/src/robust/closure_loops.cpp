@@ -17,7 +17,7 @@ const double kLogTwoPi = std::log(2.0 * 3.14159265358979323846);
 }  // namespace
 
 template <int D>
-typename ClosureLoops<D>::Closure ClosureLoops<D>::closureOf(const Problem<D>& problem, int e, double extent) {
+typename ClosureLoops<D>::Closure ClosureLoops<D>::toClosure(const Problem<D>& problem, int e, double extent) {
   const Edge<D>& edge = problem.edges[sz(e)];
   const TangentMatrix<D> child = boundedCovariance<D>(edge.information, extent);
   if (edge.from <= edge.to) {
@@ -32,9 +32,9 @@ ClosureLoops<D>::ClosureLoops(const Problem<D>& problem, const std::vector<int>&
                               const DeadReckoning<D>& chains)
     : chains_(&chains) {
   closures_.reserve(candidates.size());
-  for (int e : candidates) closures_.push_back(closureOf(problem, e, chains.extent));
+  for (int e : candidates) closures_.push_back(toClosure(problem, e, chains.extent));
   std::sort(closures_.begin(), closures_.end(), [&](const Closure& a, const Closure& b) {
-    const auto on_a = chainsOf(a), on_b = chainsOf(b);
+    const auto on_a = closureChains(a), on_b = closureChains(b);
     return on_a != on_b ? on_a < on_b : a.from != b.from ? a.from < b.from : a.edge < b.edge;
   });
 }

@@ -34,10 +34,10 @@ class ClosureLoops {
   /// between two chains, which nothing else can vouch for, however far apart.
   template <typename Visit>
   void partners(std::size_t a, int most, const Visit& visit) const {
-    const auto on = chainsOf(closures_[a]);
+    const auto on = closureChains(closures_[a]);
     const bool between = on.first != on.second;
     for (std::size_t b = a + 1; b < closures_.size() && most > 0; ++b) {
-      if (chainsOf(closures_[b]) != on || (!between && closures_[b].from > closures_[a].from + kNear)) return;
+      if (closureChains(closures_[b]) != on || (!between && closures_[b].from > closures_[a].from + kNear)) return;
       if (!between && std::abs(closures_[b].to - closures_[a].to) > kNear) continue;
       --most;
       visit(b);
@@ -53,8 +53,8 @@ class ClosureLoops {
     Rigid<D> Z;
     TangentMatrix<D> covariance;  // in the frame of `from`
   };
-  static Closure closureOf(const Problem<D>& problem, int edge, double extent);
-  std::pair<int, int> chainsOf(const Closure& c) const {
+  static Closure toClosure(const Problem<D>& problem, int edge, double extent);
+  std::pair<int, int> closureChains(const Closure& c) const {
     return {chains_->of_pose[static_cast<std::size_t>(c.from)], chains_->of_pose[static_cast<std::size_t>(c.to)]};
   }
 

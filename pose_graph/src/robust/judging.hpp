@@ -33,7 +33,7 @@ constexpr std::size_t kTries = 10;
 
 /// Chi-square of an edge that may stand by chance.
 template <int D>
-double limitOf(const Thresholds& thresholds, const WhitenedEdge<D>& edge) {
+double findLimit(const Thresholds& thresholds, const WhitenedEdge<D>& edge) {
   return thresholds.limit[static_cast<std::size_t>(std::max(1, edge.rank))];
 }
 

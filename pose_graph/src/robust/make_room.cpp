@@ -27,7 +27,7 @@ bool makeRoom(const Witness<D>& witness, const Thresholds& thresholds, const std
       if (in[sz(e)]) worst = std::max(worst, evidence.chi2[sz(e)]);
     bool all_fit = true;
     for (int e : witness.candidates()) {
-      if (!in[sz(e)] || evidence.chi2[sz(e)] <= leavesBeyond(thresholds, limitOf(thresholds, witness.edge(e)), worst))
+      if (!in[sz(e)] || evidence.chi2[sz(e)] <= leavesBeyond(thresholds, findLimit(thresholds, witness.edge(e)), worst))
         continue;
       in[sz(e)] = 0;
       all_fit = false;

@@ -19,7 +19,7 @@ using urban_nav_core::ClosureVerdict;
 namespace {
 
 template <int D>
-Problem<D> partOf(const Problem<D>& problem, const std::vector<char>& in, std::vector<Rigid<D>> poses) {
+Problem<D> extractPart(const Problem<D>& problem, const std::vector<char>& in, std::vector<Rigid<D>> poses) {
   Problem<D> part;
   part.poses = std::move(poses);
   for (std::size_t e = 0; e < in.size(); ++e)
@@ -51,8 +51,8 @@ std::vector<int> contradicting(const Problem<D>& problem, int asserted, Grown<D>
 }
 
 template <int D>
-double costOf(const Edge<D>& edge, const std::vector<Rigid<D>>& poses) {
-  return edgeCost<Objective::Geodesic, D>(termOf(edge), poses[sz(edge.from)], poses[sz(edge.to)]);
+double computeCost(const Edge<D>& edge, const std::vector<Rigid<D>>& poses) {
+  return edgeCost<Objective::Geodesic, D>(makeTerm(edge), poses[sz(edge.from)], poses[sz(edge.to)]);
 }
 
 }  // namespace
@@ -84,7 +84,7 @@ std::vector<EdgeRole> rolesByNumbers(const Problem<D>& problem) {
   std::vector<int> above(problem.poses.size());
   std::iota(above.begin(), above.end(), 0);
   for (std::size_t e = 0; e < roles.size(); ++e) {
-    const int a = rootOf(above, problem.edges[e].from), b = rootOf(above, problem.edges[e].to);
+    const int a = findRoot(above, problem.edges[e].from), b = findRoot(above, problem.edges[e].to);
     if (a == b) continue;
     above[sz(std::max(a, b))] = std::min(a, b);
     roles[e] = EdgeRole::Trusted;
@@ -230,12 +230,12 @@ RobustSolution<D> relaxRobust(const Problem<D>& problem, const std::vector<EdgeR
   std::vector<char> in;
   for (const EdgeAssessment& verdict : judged.edges) in.push_back(verdict.weight > 0.0);
   RobustSolution<D> made;
-  made.solution = relaxed(partOf(problem, in, std::move(judged.poses)), problem.poses, options);
+  made.solution = relaxed(extractPart(problem, in, std::move(judged.poses)), problem.poses, options);
   made.solution.cost_before = cost(problem, problem.poses, options.objective);
   made.variance_factor = judged.variance;
   made.edges = std::move(judged.edges);
   for (std::size_t e = 0; e < roles.size(); ++e)
-    if (roles[e] != EdgeRole::Candidate) made.edges[e].chi2 = costOf(problem.edges[e], made.solution.poses);
+    if (roles[e] != EdgeRole::Candidate) made.edges[e].chi2 = computeCost(problem.edges[e], made.solution.poses);
   return made;
 }
 

@@ -30,12 +30,13 @@ void Round<D>::let(int e) {
 
 template <int D>
 void Round<D>::expel(std::vector<int>& times) {
-  const auto offOf = [&](int e) { return std::max(evidence_.chi2[sz(e)], evidence_.group_chi2[sz(e)]); };
+  const auto measureOff = [&](int e) { return std::max(evidence_.chi2[sz(e)], evidence_.group_chi2[sz(e)]); };
   double worst = 0.0;
   for (int e : witness_.candidates())
-    if (in_[sz(e)]) worst = std::max(worst, offOf(e));
+    if (in_[sz(e)]) worst = std::max(worst, measureOff(e));
   for (int e : witness_.candidates()) {
-    if (!in_[sz(e)] || offOf(e) <= leavesBeyond(thresholds_, limit(e), worst) || excused(e, offOf(e))) continue;
+    if (!in_[sz(e)] || measureOff(e) <= leavesBeyond(thresholds_, limit(e), worst) || excused(e, measureOff(e)))
+      continue;
     next[sz(e)] = 0;
     ++times[sz(e)];
     ++changes;

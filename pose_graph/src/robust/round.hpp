@@ -38,7 +38,7 @@ class Round {
   bool joined = false;
 
  private:
-  double limit(int e) const { return limitOf(thresholds_, witness_.edge(e)); }
+  double limit(int e) const { return findLimit(thresholds_, witness_.edge(e)); }
   double asStated() const { return std::min(1.0, evidence_.variance); }
   bool outAndFits(int e) const { return !in_[sz(e)] && evidence_.chi2[sz(e)] * asStated() <= limit(e); }
   bool excused(int e, double off) const;

@@ -31,7 +31,7 @@ constexpr double kBentFactor = 1.5, kFewNumbers = 60.0;
 template <int D>
 bool takeAll(const Witness<D>& witness, const std::vector<int>& group, const std::vector<int>& small_group,
              const Thresholds& thresholds, const InformationScale& scale, AcceptedGraph<D>& graph, Grown<D>& grown) {
-  const auto limit = [&](int e) { return limitOf(thresholds, witness.edge(e)); };
+  const auto limit = [&](int e) { return findLimit(thresholds, witness.edge(e)); };
   const double candidates = static_cast<double>(witness.candidates().size());
   const auto joins = [&](int e) { return !std::isfinite(grown.evidence.chi2[sz(e)]); };  // two parts: not by itself
   Grown<D> all = grown;

@@ -25,21 +25,21 @@ void takeBack(const Problem<D>& problem, const std::vector<EdgeRole>& roles, con
   std::vector<double> limit(1, 0.0);
   for (int dof = 1; dof <= tangent_size<D>; ++dof)
     limit.push_back(grown.variance * urban_nav_core::chiSquareQuantile(kQuantile, dof));
-  const auto squareOf = [&](std::size_t e, const std::vector<Rigid<D>>& poses) {
+  const auto toSquare = [&](std::size_t e, const std::vector<Rigid<D>>& poses) {
     const WhitenedEdge<D>& edge = witness.edge(static_cast<int>(e));
     return whitenedError(edge, poses[sz(edge.from)], poses[sz(edge.to)]).squaredNorm();
   };
-  const auto limitOf = [&](std::size_t e) { return limit[sz(witness.edge(static_cast<int>(e)).rank)]; };
+  const auto findLimit = [&](std::size_t e) { return limit[sz(witness.edge(static_cast<int>(e)).rank)]; };
   const auto truncated = [&](const std::vector<Rigid<D>>& poses) {
     double sum = 0.0;
     for (std::size_t e = 0; e < roles.size(); ++e)
-      sum += roles[e] == EdgeRole::Candidate ? std::min(squareOf(e, poses), limitOf(e)) : squareOf(e, poses);
+      sum += roles[e] == EdgeRole::Candidate ? std::min(toSquare(e, poses), findLimit(e)) : toSquare(e, poses);
     return sum;
   };
 
   const auto worthIt = [&](const std::vector<Rigid<D>>& poses, double wide) {
     std::size_t near = 0;
-    for (int e : witness.candidates()) near += !grown.in[sz(e)] && squareOf(sz(e), poses) <= wide * limitOf(sz(e));
+    for (int e : witness.candidates()) near += !grown.in[sz(e)] && toSquare(sz(e), poses) <= wide * findLimit(sz(e));
     return static_cast<double>(near) > kWorth * static_cast<double>(witness.candidates().size());
   };
   if (!worthIt(grown.poses, kWideFactor)) return;
@@ -51,7 +51,7 @@ void takeBack(const Problem<D>& problem, const std::vector<EdgeRole>& roles, con
   for (double wide = kWideFactor; wide > 1.0; wide /= kNarrower) {
     if (!worthIt(poses, wide)) return;
     for (int e : witness.candidates()) {
-      const double share = squareOf(sz(e), poses) / (wide * limitOf(sz(e)));
+      const double share = toSquare(sz(e), poses) / (wide * findLimit(sz(e)));
       in[sz(e)] = share < 1.0;
       weights[sz(e)] = share < 1.0 ? (1.0 - share) * (1.0 - share) : 0.0;  // Beaton, Tukey, Technometrics 1974
     }
@@ -60,7 +60,7 @@ void takeBack(const Problem<D>& problem, const std::vector<EdgeRole>& roles, con
   }
   for (int i = 0; i < kLast; ++i) {
     const std::vector<char> before = in;
-    for (int e : witness.candidates()) in[sz(e)] = squareOf(sz(e), poses) <= limitOf(sz(e));
+    for (int e : witness.candidates()) in[sz(e)] = toSquare(sz(e), poses) <= findLimit(sz(e));
     if (i > 0 && in == before) break;
     graph.take(in);
     graph.relax(poses, 2, 0.0, false);
@@ -68,12 +68,12 @@ void takeBack(const Problem<D>& problem, const std::vector<EdgeRole>& roles, con
   // A lower cost alone may come from throwing more away: there must be more that fit.
   const auto fitting = [&](const std::vector<Rigid<D>>& at) {
     return std::count_if(witness.candidates().begin(), witness.candidates().end(),
-                         [&](int e) { return squareOf(sz(e), at) <= limitOf(sz(e)); });
+                         [&](int e) { return toSquare(sz(e), at) <= findLimit(sz(e)); });
   };
   if (!(truncated(poses) < truncated(grown.poses)) || fitting(poses) <= fitting(grown.poses)) return;
   grown.in = std::move(in);
   grown.poses = std::move(poses);
-  for (int e : witness.candidates()) grown.evidence.chi2[sz(e)] = squareOf(sz(e), grown.poses) / grown.variance;
+  for (int e : witness.candidates()) grown.evidence.chi2[sz(e)] = toSquare(sz(e), grown.poses) / grown.variance;
 }
 
 template void takeBack<2>(const Problem<2>&, const std::vector<EdgeRole>&, const Witness<2>&, Grown<2>&);

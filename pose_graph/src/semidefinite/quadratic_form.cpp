@@ -27,7 +27,7 @@ template <int D>
 Adjacency neighbours(const Problem<D>& problem) {
   std::vector<std::pair<int, int>> pairs;
   for (const Edge<D>& edge : problem.edges) pairs.emplace_back(edge.from, edge.to);
-  return adjacencyOf(static_cast<int>(problem.poses.size()), pairs);
+  return makeAdjacency(static_cast<int>(problem.poses.size()), pairs);
 }
 
 }  // namespace
@@ -38,14 +38,14 @@ QuadraticForm<D>::QuadraticForm(const Problem<D>& problem, const std::vector<dou
 
 template <int D>
 QuadraticForm<D>::QuadraticForm(const Problem<D>& problem)
-    : unknowns(unknownsOf(problem)),
+    : unknowns(makeUnknowns(problem)),
       graph(neighbours(problem)),
       symbolic(analyse(graph)),
       pattern(graph, symbolic),
       held_(problem.poses.size(), 0) {
   M.setZero(pattern);
   for (const Edge<D>& edge : problem.edges) {
-    const EdgeTerm<D> term = termOf(edge);
+    const EdgeTerm<D> term = makeTerm(edge);
     terms.push_back(term);
     // kappa |R_j - R_i R_ij|^2 + tau |t_j - t_i - R_i t_ij|^2
     const Eigen::Matrix<double, D, 1> t = term.R_Z * term.t_Z;

@@ -18,7 +18,7 @@ Adjacency adjacencyOfUnknowns(const Problem<D>& problem, const Unknowns& unknown
   pairs.reserve(problem.edges.size());
   for (const Edge<D>& edge : problem.edges)
     pairs.emplace_back(unknowns.of_pose[sz(edge.from)], unknowns.of_pose[sz(edge.to)]);
-  return adjacencyOf(static_cast<int>(unknowns.pose.size()), pairs);
+  return makeAdjacency(static_cast<int>(unknowns.pose.size()), pairs);
 }
 
 // T = [I, turned(d); 0, I] of EdgeQuadratic: K T and T^T K by their blocks alone.
@@ -40,19 +40,19 @@ constexpr std::size_t kEdgeGrain = 4096;  // edges summed by one thread at a tim
 }  // namespace
 
 template <int D>
-Unknowns unknownsOf(const Problem<D>& problem) {
+Unknowns makeUnknowns(const Problem<D>& problem) {
   const int n = static_cast<int>(problem.poses.size());
   std::vector<int> above(sz(n));
   std::iota(above.begin(), above.end(), 0);
   for (const Edge<D>& edge : problem.edges) {
-    const int a = rootOf(above, edge.from), b = rootOf(above, edge.to);
+    const int a = findRoot(above, edge.from), b = findRoot(above, edge.to);
     if (a != b) above[sz(std::max(a, b))] = std::min(a, b);  // the first pose of a component is its root
   }
   Unknowns made;
   made.of_pose.assign(sz(n), -1);
   made.component.assign(sz(n), 0);
   for (int i = 0; i < n; ++i) {
-    const int root = rootOf(above, i);
+    const int root = findRoot(above, i);
     if (root == i) {
       made.component[sz(i)] = made.components++;
     } else {
@@ -66,14 +66,14 @@ Unknowns unknownsOf(const Problem<D>& problem) {
 
 template <int D>
 NormalEquations<D>::NormalEquations(const Problem<D>& problem)
-    : unknowns_(unknownsOf(problem)),
+    : unknowns_(makeUnknowns(problem)),
       graph_(adjacencyOfUnknowns(problem, unknowns_)),
       symbolic_(analyse(graph_)),
       pattern_(graph_, symbolic_) {
   terms_.reserve(problem.edges.size());
   places_.reserve(problem.edges.size());
   for (const Edge<D>& edge : problem.edges) {
-    terms_.push_back(termOf(edge));
+    terms_.push_back(makeTerm(edge));
     const int from = unknowns_.of_pose[sz(edge.from)], to = unknowns_.of_pose[sz(edge.to)];
     EdgePlace place;
     if (from >= 0) place.from = symbolic_.place[sz(from)];
@@ -85,7 +85,7 @@ NormalEquations<D>::NormalEquations(const Problem<D>& problem)
 
 template <int D>
 void NormalEquations<D>::renew(const Problem<D>& problem, std::size_t first) {
-  for (std::size_t e = first; e < terms_.size(); ++e) terms_[e] = termOf(problem.edges[e]);
+  for (std::size_t e = first; e < terms_.size(); ++e) terms_[e] = makeTerm(problem.edges[e]);
 }
 
 template <int D>
@@ -160,8 +160,8 @@ double NormalEquations<D>::cost(Objective objective, const std::vector<Rigid<D>>
   return 0.0;
 }
 
-template Unknowns unknownsOf<2>(const Problem<2>&);
-template Unknowns unknownsOf<3>(const Problem<3>&);
+template Unknowns makeUnknowns<2>(const Problem<2>&);
+template Unknowns makeUnknowns<3>(const Problem<3>&);
 template class NormalEquations<2>;
 template class NormalEquations<3>;
 

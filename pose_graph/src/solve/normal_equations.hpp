@@ -17,7 +17,7 @@ struct Unknowns {
 };
 /// Edges with weight zero count as edges: the pattern does not depend on weights.
 template <int D>
-Unknowns unknownsOf(const Problem<D>& problem);
+Unknowns makeUnknowns(const Problem<D>& problem);
 
 /// The sparse linear system of a pose graph: its shape once, its numbers as often as wanted.
 template <int D>

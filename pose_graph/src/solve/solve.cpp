@@ -80,7 +80,7 @@ double cost(const Problem<D>& problem, const std::vector<Rigid<D>>& poses, Objec
             const std::vector<double>& weights) {
   double total = 0.0;
   for (std::size_t e = 0; e < problem.edges.size(); ++e) {
-    const EdgeTerm<D> term = termOf(problem.edges[e]);
+    const EdgeTerm<D> term = makeTerm(problem.edges[e]);
     const Rigid<D>&from = poses[static_cast<std::size_t>(term.from)], &to = poses[static_cast<std::size_t>(term.to)];
     const double one = objective == Objective::Geodesic  ? edgeCost<Objective::Geodesic, D>(term, from, to)
                        : objective == Objective::Chordal ? edgeCost<Objective::Chordal, D>(term, from, to)

@@ -15,7 +15,7 @@ struct Incidence {
 };
 
 template <int D>
-Incidence incidenceOf(const Problem<D>& problem) {
+Incidence makeIncidence(const Problem<D>& problem) {
   Incidence made;
   made.first.assign(problem.poses.size() + 1, 0);
   for (const Edge<D>& edge : problem.edges) {
@@ -41,7 +41,7 @@ std::vector<Rigid<D>> posesAlongEdges(const Problem<D>& problem) {
 
 template <int D>
 std::vector<Rigid<D>> posesAlongEdges(const Problem<D>& problem, const std::vector<char>& known) {
-  const Incidence incidence = incidenceOf(problem);
+  const Incidence incidence = makeIncidence(problem);
   std::vector<Rigid<D>> poses = problem.poses;
   std::vector<char> reached = known;
   std::vector<int> chain, others;  // reached poses, to be looked at: chain edges go first and far

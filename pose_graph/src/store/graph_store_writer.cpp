@@ -57,7 +57,7 @@ struct Nodes {
   }
 };
 
-Nodes nodesOf(const PoseGraph& graph, std::size_t t, std::size_t first, std::size_t end) {
+Nodes collectNodes(const PoseGraph& graph, std::size_t t, std::size_t first, std::size_t end) {
   const Track& track = graph.tracks()[t];
   Nodes made;
   made.session = track.session;
@@ -76,10 +76,10 @@ Nodes nodesOf(const PoseGraph& graph, std::size_t t, std::size_t first, std::siz
   return made;
 }
 
-ClosureId newestOf(const PoseGraph& graph) { return graph.closures().empty() ? 0 : graph.closures().rbegin()->first; }
+ClosureId findNewest(const PoseGraph& graph) { return graph.closures().empty() ? 0 : graph.closures().rbegin()->first; }
 
 /// The session at whose first pose the map of a track has its origin.
-const SessionId& mapOf(const PoseGraph& graph, const Track& track) {
+const SessionId& findMap(const PoseGraph& graph, const Track& track) {
   for (const Track& other : graph.tracks())
     if (!other.part.empty() && other.part.front() == track.part.front()) return other.session;
   return track.session;
@@ -153,7 +153,7 @@ void GraphStoreWriter::markStored(const PoseGraph& graph, std::size_t track) {
 }
 
 void GraphStoreWriter::markStored(const Closure& closure) {
-  closures_[closure.id] = edgeOf(closure);
+  closures_[closure.id] = toEdge(closure);
   closures_[closure.id].weight = -1.0;  // differs from any: it is written again when it has a verdict
 }
 
@@ -186,7 +186,7 @@ bool GraphStoreWriter::syncNodes(const PoseGraph& graph) {
     const std::size_t size = graph.tracks()[t].stamps.size();
     while (tracks_[t].nodes < size) {
       const std::size_t end = std::min(size, tracks_[t].nodes + kNodesAtOnce);
-      if (!post(nodesOf(graph, t, tracks_[t].nodes, end))) return false;
+      if (!post(collectNodes(graph, t, tracks_[t].nodes, end))) return false;
       tracks_[t].nodes = end;
     }
   }
@@ -209,7 +209,7 @@ bool GraphStoreWriter::syncForces(const PoseGraph& graph, bool at_once) {
 }
 
 void GraphStoreWriter::syncRelaxation(const PoseGraph& graph, bool exactly, bool at_once) {
-  const ClosureId newest = newestOf(graph);
+  const ClosureId newest = findNewest(graph);
   const bool poses = graph.revision() != synced_revision_ || (exactly && !exact_);
   if (!poses && newest == newest_closure_) return;
   // One at a time: while the disk is slow, successive relaxations become one write.
@@ -233,7 +233,7 @@ void GraphStoreWriter::collectPoses(const PoseGraph& graph, bool exactly, Batch&
     const Track& track = graph.tracks()[t];
     if (track.stamps.empty()) continue;
     std::vector<Pose>& stored = tracks_[t].map;
-    const SessionId& map = mapOf(graph, track);
+    const SessionId& map = findMap(graph, track);
     const bool as_odometry = stored.empty() && map == track.session &&
                              std::equal(track.map.begin(), track.map.end(), track.odom.begin(),
                                         [](const Pose& a, const Pose& b) { return isSame(a, b); });
@@ -254,7 +254,7 @@ void GraphStoreWriter::collectPoses(const PoseGraph& graph, bool exactly, Batch&
 
 void GraphStoreWriter::collectClosures(const PoseGraph& graph, Batch& batch) {
   for (const auto& [id, closure] : graph.closures()) {
-    const StoredEdge edge = edgeOf(closure);
+    const StoredEdge edge = toEdge(closure);
     const auto known = closures_.find(id);
     if (known != closures_.end() && isSame(known->second, edge)) continue;
     closures_[id] = edge;
@@ -273,7 +273,7 @@ void GraphStoreWriter::collectClosures(const PoseGraph& graph, Batch& batch) {
 bool GraphStoreWriter::isUpToDate(const PoseGraph& graph) const {
   if (!pending_.empty() || synced_revision_ != graph.revision() || tracks_.size() != graph.tracks().size())
     return false;
-  if (newest_closure_ != newestOf(graph)) return false;
+  if (newest_closure_ != findNewest(graph)) return false;
   for (std::size_t t = 0; t < tracks_.size(); ++t)
     if (tracks_[t].nodes != graph.tracks()[t].stamps.size()) return false;
   return writer_->counts().waiting == 0;

@@ -21,7 +21,8 @@ constexpr const char* kGate = "odometry gate: passed\n";
 
 /// The steps of a session: a node's covariances are of the motion from the one before, the transform stands in the edge
 /// between the two, where one was measured.
-std::vector<RelativePose> stepsOf(Store& store, const SessionId& session, const std::map<StampNs, StoredEdge>& edges) {
+std::vector<RelativePose> collectSteps(Store& store, const SessionId& session,
+                                       const std::map<StampNs, StoredEdge>& edges) {
   std::vector<RelativePose> steps;
   StampNs before = 0;
   store.graph().forEachNode(session, [&](const Node& node) {
@@ -41,7 +42,7 @@ std::vector<RelativePose> stepsOf(Store& store, const SessionId& session, const 
   return steps;
 }
 
-Closure closureOf(const StoredEdge& edge) {
+Closure toClosure(const StoredEdge& edge) {
   Closure closure;
   closure.a = edge.a;
   closure.b = edge.b;
@@ -51,7 +52,7 @@ Closure closureOf(const StoredEdge& edge) {
   return closure;
 }
 
-auto orderOf(const Closure& closure) {
+auto orderKey(const Closure& closure) {
   return std::make_tuple(std::max(closure.a.stamp, closure.b.stamp), closure.a.stamp, closure.a.session,
                          closure.b.session, closure.kind, closure.source);
 }
@@ -70,10 +71,10 @@ StoredGraph readGraph(Store& store) {
         return;
       }
       if (edge.measured.information.isZero(0.0)) return;
-      made.closures.push_back(closureOf(edge));
+      made.closures.push_back(toClosure(edge));
       made.closures.back().odometry_gate = passedOdometryGate(store.graph().evidence(edge).value_or(""));
     });
-    made.chains.push_back({session, stepsOf(store, session.id, steps), {}});
+    made.chains.push_back({session, collectSteps(store, session.id, steps), {}});
     if (const auto forces = store.states().get(session.id, kForcesStage))
       made.chains.back().forces = unpackForces(*forces).value_or(std::vector<SpecificForce>());
     store.graph().forEachRelaxed(session.id, [&](const urban_nav_store::RelaxedPose& pose) {
@@ -87,20 +88,20 @@ StoredGraph readGraph(Store& store) {
   };
   made.closures.erase(std::remove_if(made.closures.begin(), made.closures.end(), strange), made.closures.end());
   std::sort(made.closures.begin(), made.closures.end(),
-            [](const Closure& a, const Closure& b) { return orderOf(a) < orderOf(b); });
+            [](const Closure& a, const Closure& b) { return orderKey(a) < orderKey(b); });
   return made;
 }
 
-std::string evidenceOf(bool odometry_gate) { return odometry_gate ? kGate : ""; }
+std::string toEvidence(bool odometry_gate) { return odometry_gate ? kGate : ""; }
 
-std::string evidenceOf(const urban_nav_core::MetricClosure& closure) {
-  return evidenceOf(closure.odometry_gate) + "method: " + toString(closure.method) +
+std::string toEvidence(const urban_nav_core::MetricClosure& closure) {
+  return toEvidence(closure.odometry_gate) + "method: " + toString(closure.method) +
          "\nprobability of the places being one: " + std::to_string(closure.probability) + "\n" + closure.evidence;
 }
 
 bool passedOdometryGate(const std::string& evidence) { return evidence.rfind(kGate, 0) == 0; }
 
-std::vector<urban_nav_store::StoredParameter> parametersOf(const Parameters& parameters) {
+std::vector<urban_nav_store::StoredParameter> listParameters(const Parameters& parameters) {
   std::vector<urban_nav_store::StoredParameter> made;
   for (const urban_nav_core::RowInfo& row : table().rows())
     made.push_back({urban_nav_core::fullName(table().stage(), row.name),
@@ -108,7 +109,7 @@ std::vector<urban_nav_store::StoredParameter> parametersOf(const Parameters& par
   return made;
 }
 
-StoredEdge edgeOf(const Closure& closure) {
+StoredEdge toEdge(const Closure& closure) {
   StoredEdge edge;
   edge.a = closure.a;
   edge.b = closure.b;

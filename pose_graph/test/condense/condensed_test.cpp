@@ -18,9 +18,9 @@ using urban_nav_core::testing::SimulatedGraph;
 
 Problem<3> problemFrom(const SimulatedGraph& graph) {
   Problem<3> problem;
-  for (const urban_nav_core::Pose& pose : deadReckoning(graph)) problem.poses.push_back(rigidOf<3>(pose));
+  for (const urban_nav_core::Pose& pose : deadReckoning(graph)) problem.poses.push_back(toRigid<3>(pose));
   for (const auto& edge : graph.edges) {
-    Edge<3> made{static_cast<int>(edge.a), static_cast<int>(edge.b), rigidOf<3>(edge.T_a_b), {}};
+    Edge<3> made{static_cast<int>(edge.a), static_cast<int>(edge.b), toRigid<3>(edge.T_a_b), {}};
     Matrix6d axes = Matrix6d::Zero();
     axes.topLeftCorner<3, 3>() = axes.bottomRightCorner<3, 3>() = made.Z.R;
     made.information = axes.transpose() * edge.information * axes;

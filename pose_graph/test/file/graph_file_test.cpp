@@ -30,14 +30,14 @@ const std::string kSpace =
 
 template <int D>
 FileProblem<D> parsed(const std::string& text) {
-  return problemOf<D>(parseG2o(text, "g.g2o"), "g.g2o");
+  return makeProblem<D>(parseG2o(text, "g.g2o"), "g.g2o");
 }
 
-std::string errorOf(const std::string& text) {
+std::string catchError(const std::string& text) {
   try {
     const G2oGraph graph = parseG2o(text, "g.g2o");
-    if (graph.dimension == 2) problemOf<2>(graph, "g.g2o");
-    else problemOf<3>(graph, "g.g2o");
+    if (graph.dimension == 2) makeProblem<2>(graph, "g.g2o");
+    else makeProblem<3>(graph, "g.g2o");
   } catch (const UserError& error) {
     return error.what();
   }
@@ -87,28 +87,28 @@ TEST(GraphFile, InformationOfSpaceIsThatOfTheQuaternionsVector) {
 }
 
 TEST(GraphFile, IndefiniteInformationIsNamed) {
-  const std::string plane = errorOf("EDGE_SE2 3 5 1 0 0 1 2 0 1 0 1\n");
+  const std::string plane = catchError("EDGE_SE2 3 5 1 0 0 1 2 0 1 0 1\n");
   EXPECT_NE(plane.find("g.g2o"), std::string::npos) << plane;
   EXPECT_NE(plane.find("from 3 to 5"), std::string::npos) << plane;
-  EXPECT_NE(errorOf("EDGE_SE2 3 5 1 0 0 -1e-3 0 0 0 0 0\n"), "");
+  EXPECT_NE(catchError("EDGE_SE2 3 5 1 0 0 -1e-3 0 0 0 0 0\n"), "");
   std::string space = kSpace;
   space.replace(space.rfind("60"), 2, "-60");
-  EXPECT_NE(errorOf(space).find("from 0 to 1"), std::string::npos);
+  EXPECT_NE(catchError(space).find("from 0 to 1"), std::string::npos);
 }
 
 TEST(GraphFile, SemidefiniteInformationPasses) {
-  EXPECT_EQ(errorOf("EDGE_SE2 3 5 1 0 0 4 0 0 4 0 0\n"), "");
-  EXPECT_EQ(errorOf("EDGE_SE2 3 5 1 0 0 0 0 0 0 0 0\n"), "");
-  EXPECT_EQ(errorOf("EDGE_SE2 3 5 1 0 0 1 3 0 9 0 0\n"), "");
+  EXPECT_EQ(catchError("EDGE_SE2 3 5 1 0 0 4 0 0 4 0 0\n"), "");
+  EXPECT_EQ(catchError("EDGE_SE2 3 5 1 0 0 0 0 0 0 0 0\n"), "");
+  EXPECT_EQ(catchError("EDGE_SE2 3 5 1 0 0 1 3 0 9 0 0\n"), "");
 }
 
 TEST(GraphFile, WhatIsIndefiniteBetweenItsBlocksServesTheChordalObjective) {
   const auto blocks = [](const std::string& edge) {
-    return problemOf<2>(parseG2o("VERTEX_SE2 3 0 0 0\nVERTEX_SE2 5 1 0 0\n" + edge, "g.g2o"), "g.g2o",
-                        Semidefinite::Blocks);
+    return makeProblem<2>(parseG2o("VERTEX_SE2 3 0 0 0\nVERTEX_SE2 5 1 0 0\n" + edge, "g.g2o"), "g.g2o",
+                          Semidefinite::Blocks);
   };
   const std::string across = "EDGE_SE2 3 5 1 0 0 4 0 9 4 9 1\n", within = "EDGE_SE2 3 5 1 0 0 4 9 0 4 0 1\n";
-  EXPECT_NE(errorOf(across), "");
+  EXPECT_NE(catchError(across), "");
   const FileProblem<2> file = blocks(across);
   ASSERT_EQ(file.notes.size(), 1U);
   EXPECT_NE(file.notes[0].find("1 edges have information with a negative eigenvalue"), std::string::npos);
@@ -116,14 +116,14 @@ TEST(GraphFile, WhatIsIndefiniteBetweenItsBlocksServesTheChordalObjective) {
 }
 
 TEST(GraphFile, AFileWithoutEdgesIsRefused) {
-  EXPECT_NE(errorOf("VERTEX_SE2 0 0 0 0\n").find("without edges"), std::string::npos);
-  EXPECT_NE(errorOf(""), "");
+  EXPECT_NE(catchError("VERTEX_SE2 0 0 0 0\n").find("without edges"), std::string::npos);
+  EXPECT_NE(catchError(""), "");
 }
 
 template <int D>
 void expectRoundTrip(const std::string& text) {
   const G2oGraph graph = parseG2o(text, "g.g2o");
-  const FileProblem<D> file = problemOf<D>(graph, "g.g2o");
+  const FileProblem<D> file = makeProblem<D>(graph, "g.g2o");
   Dice dice(3);
   std::vector<Rigid<D>> poses;
   for (std::size_t i = 0; i < file.ids.size(); ++i) poses.push_back(drawRigid<D>(dice, 5.0, 1.0));
@@ -131,7 +131,7 @@ void expectRoundTrip(const std::string& text) {
   EXPECT_EQ(made.edges.size(), graph.edges.size());
   EXPECT_EQ(made.vertices.size(), file.ids.size());
   for (std::size_t i = 0; i < graph.vertices.size(); ++i) EXPECT_EQ(made.vertices[i].id, graph.vertices[i].id);
-  const FileProblem<D> again = problemOf<D>(parseG2o(urban_nav_core::printG2o(made), "again"), "again");
+  const FileProblem<D> again = makeProblem<D>(parseG2o(urban_nav_core::printG2o(made), "again"), "again");
   EXPECT_EQ(again.ids, file.ids);
   EXPECT_TRUE(again.notes.empty());
   EXPECT_LT(largestDifference(again.problem.poses, poses), 1e-14);
@@ -146,15 +146,15 @@ TEST(GraphFile, RigidsAndPosesAreOne) {
   for (int run = 0; run < 20; ++run) {
     const Rigid<2> plane = drawRigid<2>(dice, 5.0, 2.0);
     const Rigid<3> space = drawRigid<3>(dice, 5.0, 2.0);
-    EXPECT_LT(largestDifference<2>({rigidOf<2>(poseOf(plane))}, {plane}), 1e-14);
-    EXPECT_LT(largestDifference<3>({rigidOf<3>(poseOf(space))}, {space}), 1e-14);
+    EXPECT_LT(largestDifference<2>({toRigid<2>(toPose(plane))}, {plane}), 1e-14);
+    EXPECT_LT(largestDifference<3>({toRigid<3>(toPose(space))}, {space}), 1e-14);
   }
 }
 
 /// What a reader lets through is relaxed without a number that is none.
 template <int D>
 void relaxed(const G2oGraph& graph) {
-  const FileProblem<D> file = problemOf<D>(graph, "fuzz");
+  const FileProblem<D> file = makeProblem<D>(graph, "fuzz");
   SolveOptions options;
   options.iterations = 5;
   const Solution<D> solution = solve(file.problem, options);

@@ -35,7 +35,7 @@ std::vector<SpecificForce> felt(const Track& track, std::size_t first, std::size
 /// Of a track as odometry has it.
 std::vector<SpecificForce> felt(const Track& track) { return felt(track, 0, track.stamps.size(), track.odom); }
 
-double tiltOf(const PoseGraph& graph, std::size_t track = 0) {
+double computeTilt(const PoseGraph& graph, std::size_t track = 0) {
   // The first pose of the map leans as the robot did: what was up there is up here.
   const Eigen::Vector3d up =
       graph.tracks()[track].map.front().R() * (kT_level_first.R().transpose() * Eigen::Vector3d::UnitZ());
@@ -55,7 +55,7 @@ TEST(Levelling, turnsTheMapAboutItsFirstPoseOnceItIsKnown) {
   const auto levelled = graph.level();
   ASSERT_TRUE(levelled);
   EXPECT_TRUE(graph.isLevel("a"));
-  EXPECT_LT(tiltOf(graph), 0.01);
+  EXPECT_LT(computeTilt(graph), 0.01);
   EXPECT_EQ(graph.tracks()[0].map.front().t(), Eigen::Vector3d::Zero().eval());
   ASSERT_TRUE(levelled->jump);
   EXPECT_EQ(levelled->jump->reason, JumpReason::Levelled);
@@ -80,7 +80,7 @@ TEST(Levelling, theBatchLevelsByAllThatWasFelt) {
   urban_nav_core::Trajectory flat;
   for (std::size_t i = 0; i < plain.tracks()[0].map.size(); ++i)
     flat.append(plain.tracks()[0].stamps[i], plain.tracks()[0].map[i]);
-  const Level level = levelOf(flat, felt(graph.tracks()[0]));
+  const Level level = estimateLevel(flat, felt(graph.tracks()[0]));
   ASSERT_TRUE(level.known());
   const Pose T_level_map = levelling(level, plain.tracks()[0].map.front());
   for (std::size_t i = 0; i < flat.size(); ++i) {
@@ -99,7 +99,7 @@ TEST(Levelling, closuresComeIntoTheLevelMap) {
   graph.addClosure(closureAt("a", 60, "a", 60 + kLap));
   const Relaxed relaxed = graph.update();
   EXPECT_EQ(relaxed.accepted, 2u);
-  EXPECT_LT(tiltOf(graph), 0.02);
+  EXPECT_LT(computeTilt(graph), 0.02);
   const Pose live = graph.tracks()[0].map.back();
   graph.relax();
   EXPECT_TRUE(isApprox(graph.tracks()[0].map.back(), live, 2e-2));
@@ -116,8 +116,8 @@ TEST(Levelling, oneSessionLevelsTheMapOfAllThatAreInIt) {
   for (const int i : {10, 60, 110}) graph.addClosure(closureAt("a", i, "b", i));
   EXPECT_EQ(graph.relax().parts, 1);
   EXPECT_TRUE(graph.isLevel("a"));
-  EXPECT_LT(tiltOf(graph, 0), 0.02);
-  EXPECT_EQ(mapOf(graph.tracks(), 1), 0u);
+  EXPECT_LT(computeTilt(graph, 0), 0.02);
+  EXPECT_EQ(findMap(graph.tracks(), 1), 0u);
 }
 
 TEST(Levelling, laterForcesTakeThePlaceOfWhatWasKnownThere) {

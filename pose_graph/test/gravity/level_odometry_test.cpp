@@ -34,7 +34,7 @@ struct TiltedChains {
         Edge<3> edge;
         edge.from = static_cast<int>(problem.poses.size()) - 1;
         edge.to = edge.from + 1;
-        edge.Z = rigidOf<3>(Pose(step.q() * expSo3(2e-4 * dice.normals<3>()), step.t()));
+        edge.Z = toRigid<3>(Pose(step.q() * expSo3(2e-4 * dice.normals<3>()), step.t()));
         edge.information *= 1.0 / 4e-8;
         problem.edges.push_back(edge);
         pose = pose * edge.Z;
@@ -60,7 +60,7 @@ TEST(LevelOdometry, turnsStepsAndLaysPosesAlongThem) {
   const auto truth = drive.trajectory();
   double lost_before = 0.0, lost_after = 0.0;
   for (std::size_t i = 0; i < truth.size(); ++i) {
-    const Rigid<3> right = rigidOf<3>(truth[i].pose);
+    const Rigid<3> right = toRigid<3>(truth[i].pose);
     lost_before = std::max(lost_before, tiltBetween(before.poses[i], right, drive.trueUp()));
     lost_after = std::max(lost_after, tiltBetween(chains.problem.poses[i], right, drive.trueUp()));
     if (i == 0) continue;

@@ -67,11 +67,11 @@ TEST(Level, doesNotDependOnTheFrameOfTheTrajectory) {
   const Drive drive;
   const std::vector<SpecificForce> forces = drive.forces(dice);
   const Pose T_elsewhere(expSo3(Vector3d(1.0, 2.0, -0.5)), Vector3d(100.0, -30.0, 7.0));
-  const Level level = levelOf(drive.trajectory(), forces),
-              same = levelOf(transformed(T_elsewhere, drive.trajectory()), forces);
+  const Level level = estimateLevel(drive.trajectory(), forces),
+              same = estimateLevel(transformed(T_elsewhere, drive.trajectory()), forces);
   EXPECT_LT((level.up - same.up).norm(), 1e-9);
   const Pose later = drive.trajectory()[700].pose;
-  const Level from_later = levelOf(drive.trajectory(), forces, later);
+  const Level from_later = estimateLevel(drive.trajectory(), forces, later);
   EXPECT_LT((later.R().transpose() * level.up - from_later.up).norm(), 1e-9);
 }
 
@@ -86,7 +86,7 @@ TEST(Level, standsShocksAndRubbish) {
     if (dice.chance(0.01)) forces[i].force.y() = std::numeric_limits<double>::quiet_NaN();
     if (dice.chance(0.001)) forces[i].force *= 1e300;
   }
-  const Level level = levelOf(drive.trajectory(), forces);
+  const Level level = estimateLevel(drive.trajectory(), forces);
   ASSERT_TRUE(level.known()) << level.sentence;
   EXPECT_LT(degreesBetween(level.up, drive.trueUp()), 0.15);
   EXPECT_TRUE(level.covariance.allFinite());
@@ -137,14 +137,14 @@ TEST(Level, rotationsThatAreNotExactAddToItsCovariance) {
 TEST(Level, saysWhyItIsNotKnown) {
   Dice dice(1);
   Drive drive;
-  EXPECT_EQ(levelOf(drive.trajectory(), {}).trouble, LevelTrouble::NoForces);
-  EXPECT_EQ(levelOf({}, drive.forces(dice)).trouble, LevelTrouble::NoForces);
+  EXPECT_EQ(estimateLevel(drive.trajectory(), {}).trouble, LevelTrouble::NoForces);
+  EXPECT_EQ(estimateLevel({}, drive.forces(dice)).trouble, LevelTrouble::NoForces);
   std::vector<SpecificForce> forces = drive.forces(dice);
   for (SpecificForce& felt : forces) felt.stamp += 1;
-  EXPECT_EQ(levelOf(drive.trajectory(), forces).trouble, LevelTrouble::TooShort) << "of no pose";
+  EXPECT_EQ(estimateLevel(drive.trajectory(), forces).trouble, LevelTrouble::TooShort) << "of no pose";
   forces = drive.forces(dice);
   for (SpecificForce& felt : forces) felt.force /= kGravity;
-  const Level level = levelOf(drive.trajectory(), forces);
+  const Level level = estimateLevel(drive.trajectory(), forces);
   EXPECT_EQ(level.trouble, LevelTrouble::NotGravity) << "in units of g";
   EXPECT_FALSE(level.sentence.empty());
   EXPECT_TRUE(level.R_map_first.isIdentity());

@@ -42,14 +42,14 @@ TEST(Spans, takeTheAccelerationOfTheTrajectoryAway) {
     trajectory.append(50 * kMs * i, Pose(Eigen::Quaterniond::Identity(), {0.35 * t * t, 0.0, 0.0}));
     forces.push_back({50 * kMs * i, {0.7, 0.0, 9.81}});
   }
-  const std::vector<Span> spans = spansOf(trajectory, forces, Pose());
+  const std::vector<Span> spans = makeSpans(trajectory, forces, Pose());
   ASSERT_EQ(spans.size(), 2U);
   for (const Span& span : spans) {
     EXPECT_LT((span.force - Vector3d(0.0, 0.0, 9.81)).norm(), 1e-9);
     EXPECT_LT((span.rotation - Eigen::Matrix3d::Identity()).norm(), 1e-9);
   }
   forces.erase(forces.begin() + 30, forces.begin() + 40);
-  EXPECT_EQ(spansOf(trajectory, forces, Pose()).size(), 1U) << "none over a gap";
+  EXPECT_EQ(makeSpans(trajectory, forces, Pose()).size(), 1U) << "none over a gap";
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ struct Lost {
 };
 
 /// How far the robot seems to lean otherwise than it does.
-Lost lostOf(const Drive& drive, const Odometry& odometry, const std::vector<Tilt>& tilts) {
+Lost measureLoss(const Drive& drive, const Odometry& odometry, const std::vector<Tilt>& tilts) {
   const Trajectory truth = drive.trajectory();
   const Vector3d up = drive.trueUp();
   Lost lost;
@@ -83,7 +83,8 @@ TEST(TiltDrift, isFoundToWhatForcesCanTell) {
     Dice dice(seed);
     const Drive drive = felt(0.02);
     const Odometry odometry = drifting(drive, 3e-4, dice);
-    const Lost lost = lostOf(drive, odometry, tiltDrift(odometry.trajectory, odometry.variance, drive.forces(dice)));
+    const Lost lost =
+        measureLoss(drive, odometry, tiltDrift(odometry.trajectory, odometry.variance, drive.forces(dice)));
     before += 0.1 * lost.before * lost.before;
     after += 0.1 * lost.after * lost.after;
   }
@@ -98,9 +99,9 @@ TEST(TiltDrift, doesNotBelieveOdometryThatPromisesTooMuch) {
     const Drive drive = felt(0.02);
     Odometry odometry = drifting(drive, 3e-4, dice);
     const std::vector<SpecificForce> forces = drive.forces(dice);
-    const Lost honest = lostOf(drive, odometry, tiltDrift(odometry.trajectory, odometry.variance, forces));
+    const Lost honest = measureLoss(drive, odometry, tiltDrift(odometry.trajectory, odometry.variance, forces));
     for (double& variance : odometry.variance) variance /= 100.0;
-    const Lost boasting = lostOf(drive, odometry, tiltDrift(odometry.trajectory, odometry.variance, forces));
+    const Lost boasting = measureLoss(drive, odometry, tiltDrift(odometry.trajectory, odometry.variance, forces));
     EXPECT_LT(boasting.after, 1.3 * honest.after) << seed;
   }
 }
@@ -109,7 +110,7 @@ TEST(TiltDrift, leavesGoodOdometryAlone) {
   Dice dice(1);
   const Drive drive = felt(0.3);
   const Odometry odometry = drifting(drive, 2e-5, dice);
-  const Lost lost = lostOf(drive, odometry, tiltDrift(odometry.trajectory, odometry.variance, drive.forces(dice)));
+  const Lost lost = measureLoss(drive, odometry, tiltDrift(odometry.trajectory, odometry.variance, drive.forces(dice)));
   EXPECT_LT(lost.after, 0.8 * kMilli) << "a force of a span is good to 3 mrad at best";
 }
 
@@ -126,7 +127,7 @@ TEST(TiltDrift, findsTheLeverArmOfAnAccelerometerThatIsNotAtBaseLink) {
     felt.force += R.transpose() * ((drive.rotation(t + h) - 2.0 * R + drive.rotation(t - h)) / (h * h) * arm);
   }
   const auto lost = [&](const std::vector<SpecificForce>& forces) {
-    return lostOf(drive, odometry, tiltDrift(odometry.trajectory, odometry.variance, forces)).after;
+    return measureLoss(drive, odometry, tiltDrift(odometry.trajectory, odometry.variance, forces)).after;
   };
   EXPECT_LT(lost(far), 1.2 * lost(near));
 }
@@ -139,7 +140,7 @@ TEST(TiltDrift, standsAFaultThatWanders) {
   for (std::size_t i = 0; i < forces.size(); ++i)
     forces[i].force +=
         0.02 * Vector3d(std::sin(2e-3 * static_cast<double>(i)), std::cos(1e-3 * static_cast<double>(i)), 0.0);
-  const Lost lost = lostOf(drive, odometry, tiltDrift(odometry.trajectory, odometry.variance, forces));
+  const Lost lost = measureLoss(drive, odometry, tiltDrift(odometry.trajectory, odometry.variance, forces));
   EXPECT_LT(lost.after, 1.2 * kMilli) << "of which the fault alone would be 2";
 }
 
@@ -150,7 +151,7 @@ TEST(TiltDrift, standsShocks) {
   std::vector<SpecificForce> forces = drive.forces(dice);
   for (SpecificForce& felt : forces)
     if (dice.chance(0.002)) felt.force += 30.0 * dice.normals<3>();
-  const Lost lost = lostOf(drive, odometry, tiltDrift(odometry.trajectory, odometry.variance, forces));
+  const Lost lost = measureLoss(drive, odometry, tiltDrift(odometry.trajectory, odometry.variance, forces));
   EXPECT_LT(lost.after, 1.0 * kMilli);
 }
 

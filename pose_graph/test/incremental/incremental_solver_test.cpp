@@ -26,12 +26,12 @@ class Tracks : public Ground {
     }
     if (map_[track].empty()) map_[track].emplace_back();
     steps_[track].push_back(step);
-    map_[track].push_back(step.joins ? map_[track].back() * poseOf(step.edge.Z) : map_[track].back());
+    map_[track].push_back(step.joins ? map_[track].back() * toPose(step.edge.Z) : map_[track].back());
   }
 
   std::size_t tracks() const override { return map_.size(); }
   const ChainStep* steps(std::size_t track) const override { return steps_[track].data(); }
-  Rigid<3> pose(const Place& place) const override { return rigidOf<3>(map_[place.first][place.second]); }
+  Rigid<3> pose(const Place& place) const override { return toRigid<3>(map_[place.first][place.second]); }
   std::pair<std::size_t, std::size_t> run(const Place& place) const override {
     std::pair<std::size_t, std::size_t> made{place.second, place.second};
     const std::vector<ChainStep>& steps = steps_[place.first];
@@ -39,7 +39,7 @@ class Tracks : public Ground {
     while (made.second < steps.size() && steps[made.second].joins) ++made.second;
     return made;
   }
-  void write(const Place& place, const Rigid<3>& T) override { map_[place.first][place.second] = poseOf(T); }
+  void write(const Place& place, const Rigid<3>& T) override { map_[place.first][place.second] = toPose(T); }
 
   /// All of it, with these bonds, from where it is written.
   Problem<3> problem(const std::vector<Bond>& bonds) const {
@@ -52,7 +52,7 @@ class Tracks : public Ground {
     };
     for (std::size_t t = 0; t < map_.size(); ++t) {
       first.push_back(static_cast<int>(made.poses.size()));
-      for (const urban_nav_core::Pose& pose : map_[t]) made.poses.push_back(rigidOf<3>(pose));
+      for (const urban_nav_core::Pose& pose : map_[t]) made.poses.push_back(toRigid<3>(pose));
       for (std::size_t i = 0; i < steps_[t].size(); ++i)
         if (steps_[t][i].joins)
           put(steps_[t][i].edge, first[t] + static_cast<int>(i), first[t] + static_cast<int>(i) + 1);
@@ -68,15 +68,15 @@ class Tracks : public Ground {
   std::vector<std::vector<ChainStep>> steps_;
 };
 
-Edge<3> edgeOf(const GraphEdge& edge) {
-  Edge<3> made{0, 0, rigidOf<3>(edge.T_a_b), {}};
+Edge<3> toEdge(const GraphEdge& edge) {
+  Edge<3> made{0, 0, toRigid<3>(edge.T_a_b), {}};
   TangentMatrix<3> axes = TangentMatrix<3>::Zero();
   axes.topLeftCorner<3, 3>() = axes.bottomRightCorner<3, 3>() = made.Z.R;
   made.information = axes.transpose() * edge.information * axes;
   return made;
 }
 
-ChainStep stepOf(const Edge<3>& edge) {
+ChainStep toStep(const Edge<3>& edge) {
   ChainStep step;
   step.edge = edge;
   step.invertible = invert<3>(edge.information, step.covariance);
@@ -96,8 +96,8 @@ const LiveDrive& liveDrive() {
         urban_nav_core::testing::streetGraph(3000, 30, urban_nav_core::testing::streetNoise(), 5, streets);
     LiveDrive drive;
     for (const GraphEdge& edge : graph.edges) {
-      if (edge.kind == GraphEdgeKind::Chain) drive.steps.push_back(stepOf(edgeOf(edge)));
-      else drive.bonds.push_back({{0, edge.a}, {0, edge.b}, edgeOf(edge)});
+      if (edge.kind == GraphEdgeKind::Chain) drive.steps.push_back(toStep(toEdge(edge)));
+      else drive.bonds.push_back({{0, edge.a}, {0, edge.b}, toEdge(edge)});
     }
     std::stable_sort(drive.bonds.begin(), drive.bonds.end(), [](const Bond& one, const Bond& other) {
       return std::max(one.a, one.b) < std::max(other.a, other.b);

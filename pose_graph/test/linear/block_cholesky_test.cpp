@@ -16,7 +16,7 @@ using test::BlockSystem;
 using urban_nav_core::testing::Dice;
 
 template <int B>
-Eigen::MatrixXd factorOf(const BlockCholesky<B>& cholesky) {
+Eigen::MatrixXd assembleFactor(const BlockCholesky<B>& cholesky) {
   const Symbolic& shape = cholesky.symbolic();
   const Eigen::Index n = static_cast<Eigen::Index>(shape.node.size()) * B;
   Eigen::MatrixXd L = Eigen::MatrixXd::Zero(n, n);
@@ -42,7 +42,7 @@ void expectFactorsAndSolves() {
     const BlockSystem<B> system(one.graph, ++seed);
     BlockCholesky<B> cholesky(system.symbolic);
     ASSERT_TRUE(cholesky.factor(system.A, system.pattern));
-    const Eigen::MatrixXd L = factorOf(cholesky);
+    const Eigen::MatrixXd L = assembleFactor(cholesky);
     EXPECT_LT((L * L.transpose() - system.dense).norm(), 1e-12 * (1.0 + system.dense.norm()));
 
     const Eigen::Index n = system.dense.rows();
@@ -90,7 +90,7 @@ TEST(BlockCholesky, MayBeFactoredAgainAfterARefusal) {
   EXPECT_FALSE(cholesky.factor(system.A, system.pattern));
   ASSERT_TRUE(cholesky.factor(good, system.pattern));
   ASSERT_TRUE(fresh.factor(good, system.pattern));
-  EXPECT_EQ((factorOf(cholesky) - factorOf(fresh)).norm(), 0.0);
+  EXPECT_EQ((assembleFactor(cholesky) - assembleFactor(fresh)).norm(), 0.0);
 }
 
 TEST(BlockCholesky, RefusesWhatIsNotPositiveDefinite) {
@@ -146,11 +146,11 @@ TEST(BlockCholesky, PinsWhatIsFree) {
   for (const int entry : pinned) {
     ++coordinates[entry % 3];
     system.A.diagonal[static_cast<std::size_t>(entry / 3)](entry % 3, entry % 3) +=
-        BlockCholesky<3>::pinOf(system.A, entry);
+        BlockCholesky<3>::computePin(system.A, entry);
   }
   EXPECT_EQ(coordinates[1], 2);
   system.makeDense();
-  const Eigen::MatrixXd L = factorOf(cholesky);
+  const Eigen::MatrixXd L = assembleFactor(cholesky);
   EXPECT_LT((L * L.transpose() - system.dense).norm(), 1e-12 * system.dense.norm());
 }
 
@@ -161,7 +161,7 @@ TEST(BlockCholesky, PinsNothingOfADefiniteMatrix) {
   ASSERT_TRUE(pins.factorPinned(system.A, system.pattern, pinned));
   ASSERT_TRUE(plain.factor(system.A, system.pattern));
   EXPECT_TRUE(pinned.empty());
-  EXPECT_EQ((factorOf(pins) - factorOf(plain)).norm(), 0.0);
+  EXPECT_EQ((assembleFactor(pins) - assembleFactor(plain)).norm(), 0.0);
 }
 
 }  // namespace

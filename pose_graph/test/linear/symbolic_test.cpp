@@ -13,7 +13,7 @@
 namespace pose_graph {
 namespace {
 
-std::set<int> rowsOf(const Symbolic& shape, int s) {
+std::set<int> listRows(const Symbolic& shape, int s) {
   return {shape.rows.begin() + shape.row_begin[sz(s)], shape.rows.begin() + shape.row_begin[sz(s) + 1]};
 }
 
@@ -41,7 +41,7 @@ void expectSound(const Adjacency& graph, const Symbolic& shape) {
       const int parent = shape.parent[sz(s)];
       ASSERT_GT(parent, s);
       EXPECT_EQ(parent, shape.supernode[sz(*first)]);
-      const std::set<int> above = rowsOf(shape, parent);
+      const std::set<int> above = listRows(shape, parent);
       for (auto row = first; row != last; ++row)
         EXPECT_TRUE(above.count(*row) > 0 || shape.supernode[sz(*row)] == parent);
     }
@@ -69,7 +69,7 @@ void expectHoldsFill(const Adjacency& graph, const Symbolic& shape) {
     }
   for (int k = 0; k < n; ++k) {
     const int s = shape.supernode[sz(k)];
-    const std::set<int> rows = rowsOf(shape, s);
+    const std::set<int> rows = listRows(shape, s);
     for (const int row : below[sz(k)]) EXPECT_TRUE(shape.supernode[sz(row)] == s || rows.count(row) > 0);
     if (below[sz(k)].empty()) continue;
     const int next = *below[sz(k)].begin();
@@ -104,7 +104,7 @@ TEST(Symbolic, ACliqueIsOnePiece) {
   std::vector<std::pair<int, int>> pairs;
   for (int i = 0; i < 12; ++i)
     for (int j = 0; j < i; ++j) pairs.emplace_back(i, j);
-  EXPECT_EQ(analyse(adjacencyOf(12, pairs)).size(), 1);
+  EXPECT_EQ(analyse(makeAdjacency(12, pairs)).size(), 1);
 }
 
 }  // namespace

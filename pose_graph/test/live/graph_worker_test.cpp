@@ -137,7 +137,7 @@ class Worker {
   std::unique_ptr<GraphWorker> worker_;
 };
 
-Note::Book bookOf(Worker& worker) {
+Note::Book makeBook(Worker& worker) {
   return *worker.ask([](LiveGraph& graph) { return dynamic_cast<Note&>(graph).book; }, 10s);
 }
 
@@ -148,7 +148,7 @@ bool set(Worker& worker, bool Note::Book::*flag) {
 TEST(GraphWorker, KeepsTheOrderAndAnswersInTurn) {
   Worker worker(std::make_unique<Note>(0ms), 100, {});
   for (int i = 0; i < 20; ++i) worker.put(step(i, i + 1));
-  const Note::Book book = bookOf(worker);
+  const Note::Book book = makeBook(worker);
   ASSERT_EQ(book.steps.size(), 20U);
   for (int i = 0; i < 20; ++i) EXPECT_EQ(book.steps[static_cast<std::size_t>(i)], i + 1);
   EXPECT_EQ(book.updates, 0) << "odometry alone gives nothing to relax";
@@ -167,7 +167,7 @@ TEST(GraphWorker, NobodyWaitsForARelaxation) {
   const auto begin = std::chrono::steady_clock::now();
   for (int i = 0; i < 500; ++i) worker.put(step(i, i + 1));
   EXPECT_LT(std::chrono::steady_clock::now() - begin, 100ms);
-  const Note::Book book = bookOf(worker);
+  const Note::Book book = makeBook(worker);
   EXPECT_EQ(book.steps.size(), 500U) << "and nothing is lost";
   EXPECT_EQ(book.updates, 1);
   EXPECT_EQ(relaxed, 1);
@@ -178,10 +178,10 @@ TEST(GraphWorker, NobodyWaitsForARelaxation) {
 TEST(GraphWorker, ManyClosuresAtOnceAreOneRelaxation) {
   Worker worker(std::make_unique<Note>(100ms), 1000, {});
   for (int i = 0; i < 50; ++i) worker.put(urban_nav_core::MetricClosure());
-  while (bookOf(worker).closures < 50) std::this_thread::sleep_for(1ms);
+  while (makeBook(worker).closures < 50) std::this_thread::sleep_for(1ms);
   std::this_thread::sleep_for(300ms);
-  EXPECT_LE(bookOf(worker).updates, 3);
-  EXPECT_GE(bookOf(worker).updates, 1);
+  EXPECT_LE(makeBook(worker).updates, 3);
+  EXPECT_GE(makeBook(worker).updates, 1);
 }
 
 TEST(GraphWorker, OptimizeIsABatch) {
@@ -194,7 +194,7 @@ TEST(GraphWorker, OptimizeIsABatch) {
   EXPECT_TRUE(told) << "who asked for it can rely on the topics";
   EXPECT_EQ(figures.poses, 1);
   EXPECT_GE(figures.relax_ms, 20.0);
-  EXPECT_EQ(bookOf(worker).batches, 1);
+  EXPECT_EQ(makeBook(worker).batches, 1);
 }
 
 TEST(GraphWorker, WhoWaitsForABatchIsToldHowItEnds) {
@@ -211,7 +211,7 @@ TEST(GraphWorker, WhoWaitsForABatchIsToldHowItEnds) {
     set(worker, &Note::Book::due);
     EXPECT_NO_THROW(anew.get());
     EXPECT_NO_THROW(next.get());
-    EXPECT_EQ(bookOf(worker).batches, 2) << "the first was of a graph that is gone";
+    EXPECT_EQ(makeBook(worker).batches, 2) << "the first was of a graph that is gone";
   }
   {
     Worker worker(std::make_unique<Note>(60s), 100, {});
@@ -226,12 +226,12 @@ TEST(GraphWorker, NothingWaitsForABatch) {
   worker.optimize();
   for (int i = 0; i < 20; ++i) worker.put(step(i, i + 1));
   const auto begin = std::chrono::steady_clock::now();
-  EXPECT_EQ(bookOf(worker).steps.size(), 20U);
+  EXPECT_EQ(makeBook(worker).steps.size(), 20U);
   EXPECT_LT(std::chrono::steady_clock::now() - begin, 300ms);
-  EXPECT_EQ(bookOf(worker).batches, 0) << "it is still at work";
-  while (bookOf(worker).batches == 0) std::this_thread::sleep_for(1ms);
-  EXPECT_LE(bookOf(worker).steps_at_batch, 20);
-  EXPECT_EQ(bookOf(worker).steps_at_take, 20);
+  EXPECT_EQ(makeBook(worker).batches, 0) << "it is still at work";
+  while (makeBook(worker).batches == 0) std::this_thread::sleep_for(1ms);
+  EXPECT_LE(makeBook(worker).steps_at_batch, 20);
+  EXPECT_EQ(makeBook(worker).steps_at_take, 20);
   EXPECT_EQ(worker.counts().relaxations, 1);
 }
 
@@ -241,7 +241,7 @@ TEST(GraphWorker, OneThatIsDueAgainBeforeItHasEndedIsBegunAnew) {
   std::this_thread::sleep_for(20ms);
   set(worker, &Note::Book::due);
   while (worker.counts().relaxations == 0) std::this_thread::sleep_for(1ms);
-  EXPECT_EQ(bookOf(worker).batches, 2);
+  EXPECT_EQ(makeBook(worker).batches, 2);
   EXPECT_EQ(worker.counts().relaxations, 1) << "of the first one nobody was told";
 }
 
@@ -253,7 +253,7 @@ TEST(GraphWorker, ABatchThatFailsIsSaid) {
   worker.optimize();
   for (int i = 0; i < 1000 && !said; ++i) std::this_thread::sleep_for(5ms);
   EXPECT_TRUE(said);
-  EXPECT_EQ(bookOf(worker).batches, 0);
+  EXPECT_EQ(makeBook(worker).batches, 0);
 }
 
 TEST(GraphWorker, EndsInTheMiddleOfABatch) {
@@ -261,7 +261,7 @@ TEST(GraphWorker, EndsInTheMiddleOfABatch) {
   {
     Worker worker(std::make_unique<Note>(60s), 100, {});
     worker.optimize();
-    bookOf(worker);
+    makeBook(worker);
     std::this_thread::sleep_for(50ms);
   }
   EXPECT_LT(std::chrono::steady_clock::now() - begin, 5s);
@@ -275,7 +275,7 @@ TEST(GraphWorker, ADisagreementIsJudgedByABatchAndNotByOneAfterTheOther) {
     worker.put(urban_nav_core::MetricClosure());
     std::this_thread::sleep_for(10ms);
   }
-  const Note::Book book = bookOf(worker);
+  const Note::Book book = makeBook(worker);
   EXPECT_GE(book.batches, 1);
   EXPECT_LE(book.batches, 5) << "a fifth of the time";
   EXPECT_GT(book.updates, book.batches);
@@ -289,7 +289,7 @@ TEST(GraphWorker, WhatTheGraphRefusesIsCountedAndSaid) {
   Worker worker(std::make_unique<Note>(0ms), 100, listener);
   worker.put(step(5, 3));
   worker.put(step(5, 7));
-  EXPECT_EQ(bookOf(worker).steps.size(), 1U);
+  EXPECT_EQ(makeBook(worker).steps.size(), 1U);
   EXPECT_EQ(worker.counts().refused, 1);
   EXPECT_EQ(said, "step: backwards");
 }

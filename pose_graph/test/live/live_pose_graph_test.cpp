@@ -47,7 +47,7 @@ class LivePoseGraphTest : public ::testing::Test {
   static void feel(LivePoseGraph& graph, int end) {
     for (int i = -5; i < end + 5; ++i) graph.add(SpecificForce{i * kPeriod, Eigen::Vector3d(0.0, 0.5, 9.79)});
   }
-  static std::size_t posesOf(const LivePoseGraph& graph) {
+  static std::size_t countPoses(const LivePoseGraph& graph) {
     std::size_t poses = 0;
     for (const auto& run : graph.trajectory(0, 0, 0).runs) poses += run.poses.size();
     return poses;
@@ -97,7 +97,7 @@ TEST_F(LivePoseGraphTest, aRecordingThatIsPlayedAgainGoesOnWhereItWasCutOff) {
   cut->syncStore();
   cut.reset();
   cut = begin();
-  EXPECT_EQ(posesOf(*cut), kLap + 21u);
+  EXPECT_EQ(countPoses(*cut), kLap + 21u);
   drive(*cut, 0, 2 * kLap);
   for (int i : {10, 60}) cut->add(seenAgain(i, i + kLap));
   relaxAll(*cut);
@@ -108,7 +108,7 @@ TEST_F(LivePoseGraphTest, aSessionGoesOnBehindItsNewestPose) {
   begin()->add(testing::stepAt(0));
   auto graph = begin();
   drive(*graph, 1, 30);
-  EXPECT_EQ(posesOf(*graph), 31u);
+  EXPECT_EQ(countPoses(*graph), 31u);
   graph.reset();
   ASSERT_EQ(stored().chains.size(), 1u);
   EXPECT_TRUE(stored().chains[0].session.complete);
@@ -141,7 +141,7 @@ TEST_F(LivePoseGraphTest, aBagThatIsLoopedIsASessionEachTime) {
   for (int round = 0; round < 3; ++round) drive(*graph, 0, 30);
   EXPECT_EQ(graph->trajectory(0, 0, 0).runs.size(), 3u);
   graph->reset();
-  EXPECT_EQ(posesOf(*graph), 0u);
+  EXPECT_EQ(countPoses(*graph), 0u);
   drive(*graph, 0, 5);
   graph.reset();
   EXPECT_EQ(stored().chains.size(), 4u) << "the store forgets nothing";
@@ -179,7 +179,7 @@ TEST_F(LivePoseGraphTest, aStoreThatCannotBeUsedIsNamedAndTheGraphGoesOn) {
   for (const std::string file : {"damaged.db", "no/such/folder/s.db"}) {
     auto graph = begin("monday", file);
     drive(*graph, 0, 10);
-    EXPECT_EQ(posesOf(*graph), 11u);
+    EXPECT_EQ(countPoses(*graph), 11u);
     EXPECT_NE(graph->storeState().fault.find(file), std::string::npos) << graph->storeState().fault;
     EXPECT_EQ(graph->status().reason, static_cast<int>(Trouble::NotStored));
     EXPECT_NE(graph->status().sentence.find(file), std::string::npos);
@@ -246,7 +246,7 @@ TEST_F(LivePoseGraphTest, theBatchOfAGraphThatIsNoMoreIsNotTaken) {
   drive(*graph, 0, 5);
   work->run(std::atomic<bool>{false});
   EXPECT_FALSE(graph->finishBatch(*work));
-  EXPECT_EQ(posesOf(*graph), 6u);
+  EXPECT_EQ(countPoses(*graph), 6u);
 }
 
 TEST_F(LivePoseGraphTest, aSessionEndsWithABatch) {

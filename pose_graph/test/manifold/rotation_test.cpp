@@ -75,7 +75,7 @@ TEST(Rotation, MovedTurnsAndShiftsInTheParentFrame) {
   const Rigid<3> T = drawRigid<3>(dice, 2.0, 1.0);
   const Tangent<3> d = drawTangent<3>(dice, 1.0, 0.5);
   const Rigid<3> made = moved(T, d);
-  const urban_nav_core::Pose expected = urban_nav_core::boxPlus(poseOf(T), d);
+  const urban_nav_core::Pose expected = urban_nav_core::boxPlus(toPose(T), d);
   EXPECT_LT((made.R - expected.R()).norm() + (made.t - expected.t()).norm(), 1e-12);
 }
 

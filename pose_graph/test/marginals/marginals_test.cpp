@@ -23,7 +23,7 @@ using urban_nav_core::PoseWithCovariance;
 PoseWithCovariance withCovariance(const Edge<3>& edge) {
   Matrix6d turn = Matrix6d::Zero();
   turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = edge.Z.R;
-  return {poseOf(edge.Z), turn * *urban_nav_core::invertPositiveDefinite(edge.information) * turn.transpose()};
+  return {toPose(edge.Z), turn * *urban_nav_core::invertPositiveDefinite(edge.information) * turn.transpose()};
 }
 
 /// Covariance of all poses by a dense inverse, 0 for the first, in the axes of the map.
@@ -55,7 +55,7 @@ Eigen::MatrixXd denseCovariance(const Problem<D>& problem) {
 
 /// d_ab by d_a and d_b from the core's own Jacobians, all in the axes of the map or, the result, of a.
 Matrix6d expectedBetween(const Problem<3>& problem, const Eigen::MatrixXd& covariance, int a, int b) {
-  const auto between = urban_nav_core::between(poseOf(problem.poses[sz(a)]), poseOf(problem.poses[sz(b)]));
+  const auto between = urban_nav_core::between(toPose(problem.poses[sz(a)]), toPose(problem.poses[sz(b)]));
   Eigen::MatrixXd joint(12, 12), J(6, 12);
   const int at[2] = {6 * a, 6 * b};
   for (int i = 0; i < 2; ++i)
@@ -275,7 +275,7 @@ TEST(Marginals, NeesIsRight) {
     const Marginals<3> marginals(problem, poses);
     const int last = static_cast<int>(poses.size()) - 1;
     for (const int pose : {last / 2, last}) {
-      const urban_nav_core::Pose estimate = poseOf(poses[0].inverse() * poses[sz(pose)]);
+      const urban_nav_core::Pose estimate = toPose(poses[0].inverse() * poses[sz(pose)]);
       const auto one =
           urban_nav_core::nees(trueRelative(graph, 0, sz(pose)), {estimate, marginals.ofPose(pose).covariance});
       ASSERT_TRUE(one);

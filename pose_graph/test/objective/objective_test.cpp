@@ -13,8 +13,8 @@ using urban_nav_core::testing::numericJacobian;
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 template <int D>
-EdgeQuadratic<D> quadraticOf(Objective objective, const Edge<D>& edge, const Rigid<D>& from, const Rigid<D>& to) {
-  const EdgeTerm<D> term = termOf(edge);
+EdgeQuadratic<D> makeQuadratic(Objective objective, const Edge<D>& edge, const Rigid<D>& from, const Rigid<D>& to) {
+  const EdgeTerm<D> term = makeTerm(edge);
   switch (objective) {
     case Objective::Geodesic: return edgeQuadratic<Objective::Geodesic, D>(term, from, to);
     case Objective::Chordal: return edgeQuadratic<Objective::Chordal, D>(term, from, to);
@@ -24,8 +24,8 @@ EdgeQuadratic<D> quadraticOf(Objective objective, const Edge<D>& edge, const Rig
 }
 
 template <int D>
-double costOf(Objective objective, const Edge<D>& edge, const Rigid<D>& from, const Rigid<D>& to) {
-  const EdgeTerm<D> term = termOf(edge);
+double computeCost(Objective objective, const Edge<D>& edge, const Rigid<D>& from, const Rigid<D>& to) {
+  const EdgeTerm<D> term = makeTerm(edge);
   switch (objective) {
     case Objective::Geodesic: return edgeCost<Objective::Geodesic, D>(term, from, to);
     case Objective::Chordal: return edgeCost<Objective::Chordal, D>(term, from, to);
@@ -63,8 +63,8 @@ void expectCostsAsDefined() {
     const Case<D> one(dice, 2.0 * dice.uniform(), 179 * kDegree * dice.uniform());
     for (const Objective objective : kObjectives) {
       const double expected = plainResidual(objective, one.edge, one.from, one.to).cost();
-      EXPECT_NEAR(costOf(objective, one.edge, one.from, one.to), expected, 1e-11 * (1.0 + expected));
-      EXPECT_NEAR(quadraticOf(objective, one.edge, one.from, one.to).cost, expected, 1e-11 * (1.0 + expected));
+      EXPECT_NEAR(computeCost(objective, one.edge, one.from, one.to), expected, 1e-11 * (1.0 + expected));
+      EXPECT_NEAR(makeQuadratic(objective, one.edge, one.from, one.to).cost, expected, 1e-11 * (1.0 + expected));
     }
   }
 }
@@ -89,15 +89,15 @@ void expectGradients() {
     for (int run = 0; run < 8; ++run) {
       const Case<D> one(dice, Sizes<D>::metres[size], Sizes<D>::angle[size]);
       for (const Objective objective : kObjectives) {
-        const EdgeQuadratic<D> quadratic = quadraticOf(objective, one.edge, one.from, one.to);
+        const EdgeQuadratic<D> quadratic = makeQuadratic(objective, one.edge, one.from, one.to);
         const Tangent<D> zero = Tangent<D>::Zero();
         const Tangent<D> by_to =
             numericJacobian<1, N>(
-                [&](const Tangent<D>& x) { return costOf(objective, one.edge, one.from, moved(one.to, x)); }, zero)
+                [&](const Tangent<D>& x) { return computeCost(objective, one.edge, one.from, moved(one.to, x)); }, zero)
                 .transpose();
         const Tangent<D> by_from =
             numericJacobian<1, N>(
-                [&](const Tangent<D>& x) { return costOf(objective, one.edge, moved(one.from, x), one.to); }, zero)
+                [&](const Tangent<D>& x) { return computeCost(objective, one.edge, moved(one.from, x), one.to); }, zero)
                 .transpose();
         const double scale = 1.0 + by_to.norm() + by_from.norm();
         EXPECT_LT((2.0 * quadratic.g_to - by_to).norm(), 1e-8 * scale);
@@ -135,7 +135,7 @@ void expectGaussNewton() {
       Eigen::MatrixXd W = Eigen::MatrixXd::Zero(kMost, kMost);
       W.topLeftCorner(small.rows(), small.cols()) = small;
 
-      const EdgeQuadratic<D> quadratic = quadraticOf(objective, one.edge, one.from, one.to);
+      const EdgeQuadratic<D> quadratic = makeQuadratic(objective, one.edge, one.from, one.to);
       const TangentMatrix<D> T = fromTo(quadratic), &K = quadratic.K;
       const double tolerance = 1e-7 * (1.0 + K.norm() + T.norm() * T.norm() * K.norm());
       EXPECT_LT((K - J_to.transpose() * W * J_to).norm(), tolerance) << "size " << size;
@@ -156,8 +156,8 @@ void expectInvariance() {
     const Case<D> one(dice, 1.0, 2.0);
     const Rigid<D> T = drawRigid<D>(dice, 10.0, 2.0);
     for (const Objective objective : kObjectives) {
-      const double before = costOf(objective, one.edge, one.from, one.to);
-      EXPECT_NEAR(costOf(objective, one.edge, T * one.from, T * one.to), before, 1e-11 * before);
+      const double before = computeCost(objective, one.edge, one.from, one.to);
+      EXPECT_NEAR(computeCost(objective, one.edge, T * one.from, T * one.to), before, 1e-11 * before);
     }
   }
 }
@@ -172,14 +172,14 @@ void expectSingularInformation() {
   for (int rank = 0; rank < tangent_size<D>; ++rank) {
     Case<D> one(dice, 0.5, 1.0);
     one.edge.information = drawInformation<D>(dice, rank);
-    const EdgeTerm<D> term = termOf(one.edge);
+    const EdgeTerm<D> term = makeTerm(one.edge);
     EXPECT_TRUE(std::isfinite(term.kappa) && term.kappa >= 0.0);
     EXPECT_TRUE(std::isfinite(term.tau) && term.tau >= 0.0);
     if (rank < D) {
       EXPECT_LT(term.tau, 1e-12);
     }
     for (const Objective objective : kObjectives) {
-      const EdgeQuadratic<D> quadratic = quadraticOf(objective, one.edge, one.from, one.to);
+      const EdgeQuadratic<D> quadratic = makeQuadratic(objective, one.edge, one.from, one.to);
       EXPECT_TRUE(std::isfinite(quadratic.cost) && quadratic.g_to.allFinite() && quadratic.K.allFinite());
       EXPECT_GE(quadratic.cost, 0.0);
     }
@@ -194,10 +194,10 @@ TEST(Objective, TauOfFreeDirectionsIsTheLimit) {
   Edge<2> edge;
   for (const double weak : {1e-3, 1e-6, 1e-9}) {
     edge.information.diagonal() << 4.0, weak, 1.0;
-    EXPECT_NEAR(termOf(edge).tau, 2.0 * weak, 1e-3 * weak);
+    EXPECT_NEAR(makeTerm(edge).tau, 2.0 * weak, 1e-3 * weak);
   }
   edge.information.diagonal() << 4.0, 0.0, 1.0;
-  EXPECT_EQ(termOf(edge).tau, 0.0);
+  EXPECT_EQ(makeTerm(edge).tau, 0.0);
 }
 
 TEST(Objective, HalfATurnIsNoTrouble) {
@@ -207,26 +207,26 @@ TEST(Objective, HalfATurnIsNoTrouble) {
     Edge<3> edge;
     const Rigid<3> from, to{expRotation(Eigen::Vector3d(half * axis.normalized())), Eigen::Vector3d(1, 2, 3)};
     for (const Objective objective : kObjectives) {
-      const EdgeQuadratic<3> quadratic = quadraticOf(objective, edge, from, to);
+      const EdgeQuadratic<3> quadratic = makeQuadratic(objective, edge, from, to);
       EXPECT_TRUE(std::isfinite(quadratic.cost) && quadratic.g_to.allFinite() && quadratic.K.allFinite());
     }
-    EXPECT_NEAR(costOf(Objective::Geodesic, edge, from, to), 14.0 + half * half, 1e-9);
-    EXPECT_NEAR(costOf(Objective::G2o, edge, from, to), 14.0 + 4.0, 1e-9);
+    EXPECT_NEAR(computeCost(Objective::Geodesic, edge, from, to), 14.0 + half * half, 1e-9);
+    EXPECT_NEAR(computeCost(Objective::G2o, edge, from, to), 14.0 + 4.0, 1e-9);
   }
   Rigid<3> exact;  // not a bit beside half a turn
   for (int axis = 0; axis < 3; ++axis) {
     exact.R = -Eigen::Matrix3d::Identity();
     exact.R(axis, axis) = 1.0;
     for (const Objective objective : kObjectives) {
-      const EdgeQuadratic<3> quadratic = quadraticOf(objective, Edge<3>(), Rigid<3>(), exact);
+      const EdgeQuadratic<3> quadratic = makeQuadratic(objective, Edge<3>(), Rigid<3>(), exact);
       EXPECT_TRUE(std::isfinite(quadratic.cost) && quadratic.g_to.allFinite() && quadratic.K.allFinite());
     }
-    EXPECT_NEAR(costOf(Objective::Geodesic, Edge<3>(), Rigid<3>(), exact), half * half, 1e-9);
+    EXPECT_NEAR(computeCost(Objective::Geodesic, Edge<3>(), Rigid<3>(), exact), half * half, 1e-9);
   }
   const Rigid<2> turned_about{-Eigen::Matrix2d::Identity(), Eigen::Vector2d::Zero()};
   for (const Objective objective : kObjectives)
-    EXPECT_TRUE(quadraticOf(objective, Edge<2>(), Rigid<2>(), turned_about).g_to.allFinite());
-  EXPECT_NEAR(costOf(Objective::Geodesic, Edge<2>(), Rigid<2>(), turned_about), half * half, 1e-12);
+    EXPECT_TRUE(makeQuadratic(objective, Edge<2>(), Rigid<2>(), turned_about).g_to.allFinite());
+  EXPECT_NEAR(computeCost(Objective::Geodesic, Edge<2>(), Rigid<2>(), turned_about), half * half, 1e-12);
 }
 
 }  // namespace

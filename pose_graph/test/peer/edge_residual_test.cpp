@@ -20,7 +20,7 @@ void expectSquareAndDerivatives() {
     Edge<D> edge;
     edge.Z = drawRigid<D>(dice, 2.0, 1.0);
     edge.information = drawInformation<D>(dice);
-    const EdgeTerm<D> term = termOf(edge);
+    const EdgeTerm<D> term = makeTerm(edge);
     const TangentMatrix<D> root = Eigen::LLT<TangentMatrix<D>>(edge.information).matrixU();
     const Rigid<D> from = drawRigid<D>(dice, 3.0, 1.0);
     const Rigid<D> to = from * edge.Z * drawRigid<D>(dice, 0.5, 0.4);

@@ -15,11 +15,11 @@ using test::stacked;
 template <int D>
 void expectDenseSolution(int coupled, double damping) {
   const Problem<D> problem = smallGraph<D>(15, 9, 0.5, 0.7);
-  const ChainState<D> state = stateOf(problem.poses);
-  const Chain<D> chain = chainOf(problem);
+  const ChainState<D> state = makeState(problem.poses);
+  const Chain<D> chain = makeChain(problem);
   const LinearSystem<D> system(problem, chain, state);
-  const Eigen::MatrixXd J = test::numericRows(problem, state), W = test::weightsOf(problem);
-  const Eigen::VectorXd e = test::residualsOf(problem, state);
+  const Eigen::MatrixXd J = test::numericRows(problem, state), W = test::computeWeights(problem);
+  const Eigen::VectorXd e = test::computeResiduals(problem, state);
   Eigen::MatrixXd A = J.transpose() * W * J;
   const Eigen::MatrixXd undamped = A;
   for (int i = 0; i < chain.links; ++i) {
@@ -51,7 +51,7 @@ TEST(ConjugateGradients, AgreeWithTheDenseSolution) {
 
 TEST(ConjugateGradients, EndWhereTheyAreTold) {
   const Problem<3> problem = smallGraph<3>(40, 20, 0.1, 0.1);
-  const LinearSystem<3> system(problem, chainOf(problem), stateOf(problem.poses));
+  const LinearSystem<3> system(problem, makeChain(problem), makeState(problem.poses));
   const Preconditioner<3> preconditioner(system, 0.0, 0);
   EXPECT_EQ(conjugateGradients(system, preconditioner, 0.0, 0.0, 7).iterations, 7);
   const int rough = conjugateGradients(system, preconditioner, 0.0, 1e-1, 1000).iterations;
@@ -62,7 +62,7 @@ TEST(ConjugateGradients, EndWhereTheyAreTold) {
 
 TEST(ConjugateGradients, EveryStepOfThemPromisesMore) {
   const Problem<3> problem = smallGraph<3>(40, 20, 0.5, 0.5);
-  const LinearSystem<3> system(problem, chainOf(problem), stateOf(problem.poses));
+  const LinearSystem<3> system(problem, makeChain(problem), makeState(problem.poses));
   const Preconditioner<3> preconditioner(system, 0.0, 0);
   double last = 0.0;
   for (int i = 1; i < 12; ++i) {

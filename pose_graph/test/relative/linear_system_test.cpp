@@ -16,12 +16,12 @@ template <int D>
 void expectNormalEquations() {
   // Residuals of half a metre and forty degrees.
   const Problem<D> problem = smallGraph<D>(9, 5, 0.5, 0.7);
-  const ChainState<D> state = stateOf(problem.poses);
-  const LinearSystem<D> system(problem, chainOf(problem), state);
-  const Eigen::MatrixXd J = test::numericRows(problem, state), W = test::weightsOf(problem);
-  const Eigen::VectorXd e = test::residualsOf(problem, state);
+  const ChainState<D> state = makeState(problem.poses);
+  const LinearSystem<D> system(problem, makeChain(problem), state);
+  const Eigen::MatrixXd J = test::numericRows(problem, state), W = test::computeWeights(problem);
+  const Eigen::VectorXd e = test::computeResiduals(problem, state);
   EXPECT_NEAR(system.cost(), e.dot(W * e), 1e-9 * system.cost());
-  EXPECT_NEAR(system.cost(), costOf(problem, state), 1e-9 * system.cost());
+  EXPECT_NEAR(system.cost(), computeCost(problem, state), 1e-9 * system.cost());
   const Eigen::VectorXd b = -J.transpose() * (W * e);
   EXPECT_LE((stacked<D>(system.b()) - b).norm(), 1e-7 * b.norm());
   const Eigen::MatrixXd A = J.transpose() * W * J;
@@ -43,7 +43,7 @@ TEST(LinearSystem, AgreesWithTheDenseNormalEquations) {
 template <int D>
 void expectTransposed() {
   const Problem<D> problem = smallGraph<D>(30, 5, 0.5, 0.7);
-  const LinearSystem<D> system(problem, chainOf(problem), stateOf(problem.poses));
+  const LinearSystem<D> system(problem, makeChain(problem), makeState(problem.poses));
   Draw<D> draw(4);
   const Increments<D> step = test::drawIncrements<D>(draw, 29), pull = test::drawIncrements<D>(draw, 30);
   Increments<D> x, force;
@@ -59,13 +59,13 @@ TEST(LinearSystem, SweepingBackIsTheTransposedSweep) {
 
 TEST(LinearSystem, DampingIsInUnitsOfTheChain) {
   Problem<3> problem = smallGraph<3>(9, 5, 0.1, 0.1);
-  const ChainState<3> state = stateOf(problem.poses);
-  const LinearSystem<3> system(problem, chainOf(problem), state);
+  const ChainState<3> state = makeState(problem.poses);
+  const LinearSystem<3> system(problem, makeChain(problem), state);
   std::vector<Edge<3>> chain_alone;
   for (const Edge<3>& edge : problem.edges)
     if (std::abs(edge.from - edge.to) == 1) chain_alone.push_back(edge);
   problem.edges = chain_alone;
-  const LinearSystem<3> chain(problem, chainOf(problem), state);
+  const LinearSystem<3> chain(problem, makeChain(problem), state);
   Draw<3> draw(6);
   const Increments<3> step = test::drawIncrements<3>(draw, 8);
   Increments<3> damped, plain, block, scratch;
@@ -77,7 +77,7 @@ TEST(LinearSystem, DampingIsInUnitsOfTheChain) {
 
 TEST(LinearSystem, AStateIsItsPoses) {
   const Problem<3> problem = smallGraph<3>(50, 0, 0.1, 0.5);
-  const ChainState<3> state = stateOf(problem.poses);
+  const ChainState<3> state = makeState(problem.poses);
   ASSERT_EQ(state.poses.size(), problem.poses.size());
   for (std::size_t i = 0; i < problem.poses.size(); ++i) {
     EXPECT_LE((state.poses[i].t - problem.poses[i].t).norm(), 1e-12);

@@ -15,7 +15,7 @@ using test::unstacked;
 
 // P as a matrix, column by column.
 template <int D>
-Eigen::MatrixXd matrixOf(const Preconditioner<D>& preconditioner, int links) {
+Eigen::MatrixXd toMatrix(const Preconditioner<D>& preconditioner, int links) {
   const Eigen::Index size = tangent_size<D> * links;
   Eigen::MatrixXd P(size, size);
   Increments<D> result, scratch;
@@ -29,8 +29,8 @@ Eigen::MatrixXd matrixOf(const Preconditioner<D>& preconditioner, int links) {
 template <int D>
 void expectInverse(double damping) {
   const Problem<D> problem = smallGraph<D>(12, 8, 0.5, 0.7);  // a third of the closures is singular
-  const LinearSystem<D> system(problem, chainOf(problem), stateOf(problem.poses));
-  const Eigen::MatrixXd P = matrixOf(Preconditioner<D>(system, damping, 8), 11);
+  const LinearSystem<D> system(problem, makeChain(problem), makeState(problem.poses));
+  const Eigen::MatrixXd P = toMatrix(Preconditioner<D>(system, damping, 8), 11);
   Increments<D> product, scratch;
   for (Eigen::Index i = 0; i < P.cols(); ++i) {
     system.apply(damping, unstacked<D>(P.col(i)), product, scratch);
@@ -48,8 +48,8 @@ TEST(Preconditioner, WithAllClosuresIsTheInverse) {
 template <int D>
 void expectPositiveDefinite(int coupled) {
   const Problem<D> problem = smallGraph<D>(12, 8, 0.5, 0.7);
-  const LinearSystem<D> system(problem, chainOf(problem), stateOf(problem.poses));
-  const Eigen::MatrixXd P = matrixOf(Preconditioner<D>(system, 0.0, coupled), 11);
+  const LinearSystem<D> system(problem, makeChain(problem), makeState(problem.poses));
+  const Eigen::MatrixXd P = toMatrix(Preconditioner<D>(system, 0.0, coupled), 11);
   EXPECT_LE((P - P.transpose()).norm(), 1e-12 * P.norm());
   EXPECT_GT(urban_nav_core::symmetricEigenvalues(P)->minCoeff(), 0.0);
 }
@@ -71,7 +71,7 @@ TEST(Preconditioner, CouplesTheClosuresOfWhichTheChainKnowsLeast) {
   };
   for (int i = 0; i < 30; i += 3) add(i, i + 2);
   add(0, 39);
-  const LinearSystem<2> system(problem, chainOf(problem), stateOf(problem.poses));
+  const LinearSystem<2> system(problem, makeChain(problem), makeState(problem.poses));
   const Eigen::VectorXd unit = Eigen::VectorXd::Unit(3 * 39, 40);
   const auto error = [&](int coupled) {
     Increments<2> result, product, scratch;

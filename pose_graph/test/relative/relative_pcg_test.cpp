@@ -16,7 +16,7 @@ using test::smallGraph;
 
 template <int D>
 double costOfPoses(const Problem<D>& problem, const std::vector<Rigid<D>>& poses) {
-  return costOf(problem, ChainState<D>{{}, poses});
+  return computeCost(problem, ChainState<D>{{}, poses});
 }
 
 // The reference: damped Gauss-Newton over the poses themselves, dense, with numeric derivatives; nothing in common with
@@ -25,9 +25,9 @@ template <int D>
 double denseCost(const Problem<D>& problem) {
   constexpr Eigen::Index d = tangent_size<D>;
   std::vector<Rigid<D>> poses = problem.poses;
-  const Eigen::MatrixXd W = test::weightsOf(problem);
+  const Eigen::MatrixXd W = test::computeWeights(problem);
   const auto residuals = [&problem](const std::vector<Rigid<D>>& at) {
-    return test::residualsOf(problem, ChainState<D>{{}, at});
+    return test::computeResiduals(problem, ChainState<D>{{}, at});
   };
   const auto shifted = [](std::vector<Rigid<D>> at, const Eigen::VectorXd& step) {
     for (std::size_t i = 1; i < at.size(); ++i)
@@ -102,7 +102,7 @@ void expectNoCostWithoutNoise() {
   Problem<D> bent = smallGraph<D>(200, 20, 0.0, 0.0);
   test::Draw<D> draw(8);
   const auto truth = bent.poses;
-  ChainState<D> state = stateOf(bent.poses);
+  ChainState<D> state = makeState(bent.poses);
   bent.poses = moved(state, test::drawIncrements<D>(draw, 199, 0.02)).poses;
   const RelativeSolution<D> relaxed = relaxRelative(bent);
   EXPECT_GT(relaxed.cost_before, 1.0);

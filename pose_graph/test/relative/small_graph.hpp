@@ -93,7 +93,7 @@ Increments<D> drawIncrements(Draw<D>& draw, int links, double size = 1.0) {
 
 /// All residuals of a state under each other, in the order of the edges.
 template <int D>
-Eigen::VectorXd residualsOf(const Problem<D>& problem, const ChainState<D>& state) {
+Eigen::VectorXd computeResiduals(const Problem<D>& problem, const ChainState<D>& state) {
   constexpr Eigen::Index d = tangent_size<D>;
   Eigen::VectorXd residuals(d * static_cast<Eigen::Index>(problem.edges.size()));
   for (std::size_t i = 0; i < problem.edges.size(); ++i) {
@@ -112,8 +112,8 @@ Eigen::MatrixXd numericRows(const Problem<D>& problem, const ChainState<D>& stat
   for (Eigen::Index column = 0; column < columns; ++column) {
     const auto central = [&](double h) {
       const Eigen::VectorXd d = h * Eigen::VectorXd::Unit(columns, column);
-      return Eigen::VectorXd((residualsOf(problem, moved(state, unstacked<D>(d))) -
-                              residualsOf(problem, moved(state, unstacked<D>(Eigen::VectorXd(-d))))) /
+      return Eigen::VectorXd((computeResiduals(problem, moved(state, unstacked<D>(d))) -
+                              computeResiduals(problem, moved(state, unstacked<D>(Eigen::VectorXd(-d))))) /
                              (2.0 * h));
     };
     J.col(column) = (4.0 * central(5e-4) - central(1e-3)) / 3.0;
@@ -123,7 +123,7 @@ Eigen::MatrixXd numericRows(const Problem<D>& problem, const ChainState<D>& stat
 
 /// The weights of all residuals, block by block.
 template <int D>
-Eigen::MatrixXd weightsOf(const Problem<D>& problem) {
+Eigen::MatrixXd computeWeights(const Problem<D>& problem) {
   constexpr Eigen::Index d = tangent_size<D>;
   const auto count = static_cast<Eigen::Index>(problem.edges.size());
   Eigen::MatrixXd W = Eigen::MatrixXd::Zero(d * count, d * count);

@@ -29,7 +29,7 @@ void expectNumericDerivatives(bool backwards) {
   constexpr double forty_degrees = 40.0 * M_PI / 180.0;
   std::vector<Rigid<D>> poses = {draw.rigid(20.0, 1.0)};
   for (int i = 0; i < 6; ++i) poses.push_back(poses.back() * draw.rigid(1.0, 0.5));
-  const ChainState<D> state = stateOf(poses);
+  const ChainState<D> state = makeState(poses);
   Problem<D> problem;
   problem.poses = poses;
   const Rigid<D> T = poses[1].inverse() * poses[5];

@@ -37,7 +37,7 @@ struct Candidates {
   }
 };
 
-InformationScale scaleOf(const SimulatedGraph& graph) {
+InformationScale estimateScale(const SimulatedGraph& graph) {
   const Candidates drawn(graph);
   const DeadReckoning<3> chains(drawn.problem, drawn.roles);
   return informationScale(ClosureLoops<3>(drawn.problem, drawn.edges, chains));
@@ -46,7 +46,7 @@ InformationScale scaleOf(const SimulatedGraph& graph) {
 // The factor is one of variances; it is read off some hundred loops.
 TEST(InformationScale, IsThatOfTheNoise) {
   for (const double drawn : {0.1, 0.5, 1.0, 4.0}) {
-    const double factor = scaleOf(globe(drawn, 3)).factor;
+    const double factor = estimateScale(globe(drawn, 3)).factor;
     EXPECT_GT(factor, 0.7 * drawn * drawn) << drawn;
     EXPECT_LT(factor, 1.4 * drawn * drawn) << drawn;
   }
@@ -57,7 +57,7 @@ TEST(InformationScale, StandsBesideAsManyFalseClosures) {
     for (const double drawn : {0.2, 1.0, 4.0}) {
       SimulatedGraph graph = globe(drawn, 5);
       addFalseClosures(graph, kind, graph.edges.size() - graph.truth.size(), 11);
-      const InformationScale scale = scaleOf(graph);
+      const InformationScale scale = estimateScale(graph);
       EXPECT_GT(scale.factor, 0.5 * drawn * drawn) << drawn << ' ' << static_cast<int>(kind);
       EXPECT_LT(scale.factor, 3.0 * drawn * drawn) << drawn << ' ' << static_cast<int>(kind);
     }
@@ -66,14 +66,14 @@ TEST(InformationScale, StandsBesideAsManyFalseClosures) {
 TEST(InformationScale, IsOneWithoutLoops) {
   SimulatedGraph graph = globe(4.0, 5);
   graph.edges.resize(graph.truth.size() - 1);
-  EXPECT_EQ(scaleOf(graph).factor, 1.0);
+  EXPECT_EQ(estimateScale(graph).factor, 1.0);
 }
 
 // Few loops may be told from what is stated by chance, and must not make everything acceptable.
 TEST(InformationScale, TakesFewLoopsForNoProofOfABoast) {
   SimulatedGraph graph = globe(10.0, 5);
   graph.edges.resize(graph.truth.size() + 19);
-  EXPECT_LE(scaleOf(graph).factor, 1.0);
+  EXPECT_LE(estimateScale(graph).factor, 1.0);
 }
 
 // Information four times too confident in every deviation: each true closure looks false by what is stated.

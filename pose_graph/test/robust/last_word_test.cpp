@@ -65,7 +65,7 @@ struct Said {
   std::vector<char> in;
   double group_chi2 = 0.0;  // before, of the last group, as a round hears it
 };
-Said saidOf(const Laps& laps) {
+Said summariseLaps(const Laps& laps) {
   const DeadReckoning<2> reckoning(laps.problem, laps.roles);
   const Witness<2> witness(laps.problem, laps.candidates, reckoning);
   const Thresholds thresholds(laps.candidates.size(), 3);
@@ -86,7 +86,7 @@ Said saidOf(const Laps& laps) {
 
 TEST(LastWord, ExpelsAGroupThatBendsTheGraphUntilItFits) {
   const Laps laps(M_PI / 2.0);
-  const Said said = saidOf(laps);
+  const Said said = summariseLaps(laps);
   EXPECT_LT(said.group_chi2, kDoubt * Thresholds(laps.candidates.size(), 3).limit.back())
       << "nothing else controls it, and a round does not see it";
   EXPECT_TRUE(said.changed);
@@ -95,7 +95,7 @@ TEST(LastWord, ExpelsAGroupThatBendsTheGraphUntilItFits) {
 }
 
 TEST(LastWord, LeavesTrueOnesAlone) {
-  const Said said = saidOf(Laps(0.0));
+  const Said said = summariseLaps(Laps(0.0));
   EXPECT_FALSE(said.changed);
   EXPECT_EQ(std::count(said.in.begin(), said.in.end(), 0), 0);
 }

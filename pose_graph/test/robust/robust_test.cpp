@@ -31,7 +31,7 @@ SimulatedGraph town(std::uint64_t seed) {
 SimulatedGraph globe(std::uint64_t seed) {
   return urban_nav_core::testing::sphereGraph(12, 24, 20.0, urban_nav_core::testing::evenNoise(0.05, 0.01), seed);
 }
-std::size_t closuresOf(const SimulatedGraph& graph) { return graph.edges.size() - (graph.truth.size() - 1); }
+std::size_t listClosures(const SimulatedGraph& graph) { return graph.edges.size() - (graph.truth.size() - 1); }
 
 struct Count {
   int wrong_kept = 0, wrong = 0, true_lost = 0, right = 0;
@@ -56,7 +56,7 @@ template <int D>
 void undoesFalseClosures(SimulatedGraph (*draw)(std::uint64_t), double metres) {
   for (const FalseClosures kind : kKinds) {
     SimulatedGraph graph = draw(7);
-    const std::size_t closures = closuresOf(graph);
+    const std::size_t closures = listClosures(graph);
     addFalseClosures(graph, kind, closures / 2, 11);
     const Problem<D> problem = simulatedProblem<D>(graph, deadReckoning(graph));
     const RobustSolution<D> robust = relaxRobust(problem, rolesByNumbers(problem), {});
@@ -65,7 +65,7 @@ void undoesFalseClosures(SimulatedGraph (*draw)(std::uint64_t), double metres) {
     EXPECT_EQ(seen.wrong_kept, 0) << "kind " << static_cast<int>(kind);
     EXPECT_LE(seen.true_lost, seen.right / 50) << "kind " << static_cast<int>(kind);
     for (std::size_t i = 0; i < graph.truth.size(); ++i)
-      EXPECT_LT((robust.solution.poses[i].t - rigidOf<D>(graph.truth[i]).t).norm(), metres) << i;
+      EXPECT_LT((robust.solution.poses[i].t - toRigid<D>(graph.truth[i]).t).norm(), metres) << i;
   }
 }
 
@@ -94,7 +94,7 @@ TEST(Robust, ExactMeasurementsStayExact) {
   const RobustSolution<2> robust = relaxRobust(problem, rolesByNumbers(problem), {});
   EXPECT_EQ(count(graph, robust).true_lost, 0);
   for (std::size_t i = 0; i < graph.truth.size(); ++i)
-    EXPECT_LT((robust.solution.poses[i].t - rigidOf<2>(graph.truth[i]).t).norm(), 1e-6);
+    EXPECT_LT((robust.solution.poses[i].t - toRigid<2>(graph.truth[i]).t).norm(), 1e-6);
 }
 
 // Most residuals are a fifth of what the information promises, one is three times what it promises.
@@ -107,7 +107,8 @@ TEST(Robust, WhatModestInformationStatesIsBelieved) {
         return noise;
       }(),
       7);
-  const std::size_t chain = graph.truth.size() - 1, odd = chain + closuresOf(graph) / 2, closures = closuresOf(graph);
+  const std::size_t chain = graph.truth.size() - 1, odd = chain + listClosures(graph) / 2,
+                    closures = listClosures(graph);
   addFalseClosures(graph, FalseClosures::Random, closures / 4, 11);
   Problem<2> problem = simulatedProblem<2>(graph, deadReckoning(graph));
   problem.edges[odd].Z.t[0] += 3.0 / std::sqrt(problem.edges[odd].information(0, 0));
@@ -122,7 +123,7 @@ TEST(Robust, WhatModestInformationStatesIsBelieved) {
 TEST(Robust, PlacesWithoutHeadingsAreEnough) {
   SimulatedGraph graph = town(9);
   const std::size_t chain = graph.truth.size() - 1;
-  addFalseClosures(graph, FalseClosures::Random, closuresOf(graph) / 5, 2);
+  addFalseClosures(graph, FalseClosures::Random, listClosures(graph) / 5, 2);
   Problem<2> problem = simulatedProblem<2>(graph, deadReckoning(graph));
   for (std::size_t e = chain; e < problem.edges.size(); ++e)
     problem.edges[e].information = Eigen::Vector3d(100.0, 100.0, 0.0).asDiagonal();
@@ -163,7 +164,7 @@ TEST(Robust, DrivesAreJoinedByClosuresThatAgree) {
   EXPECT_EQ(robust.solution.components, 1);
   EXPECT_LE(count(drives.graph, robust).true_lost, 3);
   for (std::size_t i = 0; i < drives.graph.truth.size(); ++i)
-    EXPECT_LT((robust.solution.poses[i].t - rigidOf<2>(drives.graph.truth[i]).t).norm(), 1.0) << i;
+    EXPECT_LT((robust.solution.poses[i].t - toRigid<2>(drives.graph.truth[i]).t).norm(), 1.0) << i;
 }
 
 TEST(Robust, OneClosureAloneJoinsNothing) {

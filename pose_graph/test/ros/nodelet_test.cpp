@@ -28,7 +28,7 @@ using urban_nav_core::Vector6d;
 constexpr StampNs start = 1'225'719'873'000'000'000, period = 100'000'000;
 constexpr int lap = 40;  // poses around
 
-StampNs stampOf(int i) { return start + i * period; }
+StampNs toStamp(int i) { return start + i * period; }
 
 Pose turned(double yaw, double x) {
   return Pose(urban_nav_core::expSo3(Eigen::Vector3d(0, 0, yaw)), Eigen::Vector3d(x, 0, 0));
@@ -41,10 +41,10 @@ Pose odomPose(int i) {
   return T;
 }
 
-urban_nav_core::MetricClosure closureOf(int a, int b, const Pose& T_a_b) {
+urban_nav_core::MetricClosure toClosure(int a, int b, const Pose& T_a_b) {
   urban_nav_core::MetricClosure closure;
-  closure.a = {"", stampOf(a)};
-  closure.b = {"", stampOf(b)};
+  closure.a = {"", toStamp(a)};
+  closure.b = {"", toStamp(b)};
   closure.measured.T_a_b = T_a_b;
   closure.measured.information = (Vector6d() << 1e4, 1e4, 1e4, 1e6, 1e6, 1e6).finished().asDiagonal();
   closure.probability = 0.999;
@@ -69,8 +69,8 @@ class PoseGraphNodelet : public ::testing::Test {
   void drive(int from, int to) {
     for (int i = from; i < to; ++i) {
       urban_nav_core::RelativePose step;
-      step.from = stampOf(i);
-      step.to = stampOf(i + 1);
+      step.from = toStamp(i);
+      step.to = toStamp(i + 1);
       step.T_from_to = measuredStep();
       step.covariance = (Vector6d() << 1e-3, 1e-3, 1e-3, 1e-4, 1e-4, 1e-4).finished().asDiagonal();
       step.source = "swf_vo";
@@ -84,8 +84,8 @@ class PoseGraphNodelet : public ::testing::Test {
   urban_nav_msgs::GetTrajectory::Response trajectory(std::uint64_t since = 0, int from = -1, int to = -1) {
     urban_nav_msgs::GetTrajectory call;
     call.request.revision = since;
-    if (from >= 0) call.request.from_stamp = urban_nav_ros::toRosTime(stampOf(from));
-    if (to >= 0) call.request.to_stamp = urban_nav_ros::toRosTime(stampOf(to));
+    if (from >= 0) call.request.from_stamp = urban_nav_ros::toRosTime(toStamp(from));
+    if (to >= 0) call.request.to_stamp = urban_nav_ros::toRosTime(toStamp(to));
     EXPECT_TRUE(ros::service::call("pose_graph/get_trajectory", call));
     return call.response;
   }
@@ -99,7 +99,7 @@ class PoseGraphNodelet : public ::testing::Test {
   }
   void hear(int at, const Pose& T_odom_base) {
     nav_msgs::Odometry odometry;
-    odometry.header.stamp = urban_nav_ros::toRosTime(stampOf(at));
+    odometry.header.stamp = urban_nav_ros::toRosTime(toStamp(at));
     odometry.header.frame_id = "odom";
     odometry.pose.pose = urban_nav_ros::toPoseMessage(T_odom_base);
     listener().odometry.publish(odometry);
@@ -115,7 +115,7 @@ class PoseGraphNodelet : public ::testing::Test {
     const auto& transform = listener().transforms.back().transforms.back();
     EXPECT_EQ(transform.header.frame_id, "map");
     EXPECT_EQ(transform.child_frame_id, "odom");
-    EXPECT_EQ(transform.header.stamp, urban_nav_ros::toRosTime(stampOf(at)));
+    EXPECT_EQ(transform.header.stamp, urban_nav_ros::toRosTime(toStamp(at)));
     return *urban_nav_ros::toPose(transform.transform);
   }
 
@@ -129,14 +129,14 @@ TEST_F(PoseGraphNodelet, aClosureBringsTheRobotHome) {
   EXPECT_TRUE(isApprox(mapFromOdom(lap), Pose(), 1e-12)) << "nothing says otherwise yet";
   EXPECT_GT(odomPose(lap).t().norm(), 0.5) << "odometry has drifted";
 
-  close(closureOf(0, lap, Pose()));
+  close(toClosure(0, lap, Pose()));
   ASSERT_TRUE(Listener::until([&] { return !listener().updates.empty() && !listener().states.empty(); }));
   const auto update = urban_nav_ros::toGraphUpdate(listener().updates.back());
   ASSERT_TRUE(update);
   EXPECT_EQ(update->revision, static_cast<std::int64_t>(listener().states.back().revision));
   EXPECT_EQ(listener().updates.back().header.frame_id, "map");
   ASSERT_FALSE(update->runs.empty());
-  EXPECT_EQ(update->runs.back().poses.back().stamp, stampOf(lap));
+  EXPECT_EQ(update->runs.back().poses.back().stamp, toStamp(lap));
   EXPECT_LT(update->runs.back().poses.back().T_map_base.t().norm(), 0.1);
   ASSERT_TRUE(Listener::until([&] { return (mapFromOdom(lap) * odomPose(lap)).t().norm() < 0.1; }));
 
@@ -158,7 +158,7 @@ TEST_F(PoseGraphNodelet, aClosureBringsTheRobotHome) {
 TEST_F(PoseGraphNodelet, aClosureThatIsAheadOfOdometryWaitsForIt) {
   drive(0, 10);
   ASSERT_TRUE(driven(11));
-  close(closureOf(0, lap, Pose()));
+  close(toClosure(0, lap, Pose()));
   ros::WallDuration(0.3).sleep();
   ros::spinOnce();
   EXPECT_TRUE(listener().updates.empty());
@@ -169,7 +169,7 @@ TEST_F(PoseGraphNodelet, aClosureThatIsAheadOfOdometryWaitsForIt) {
 
 TEST_F(PoseGraphNodelet, aRejectedClosureIsNone) {
   drive(0, lap);
-  auto rejected = closureOf(0, lap, Pose());
+  auto rejected = toClosure(0, lap, Pose());
   rejected.verdict = urban_nav_core::ClosureVerdict::Rejected;
   close(rejected);
   ASSERT_TRUE(driven(lap + 1));
@@ -189,7 +189,7 @@ TEST_F(PoseGraphNodelet, givesTheTrajectoryOrWhatChangedOfIt) {
   ASSERT_EQ(part.runs.size(), 1U);
   EXPECT_EQ(part.runs[0].stamps.size(), 5U);
 
-  close(closureOf(0, lap, Pose()));
+  close(toClosure(0, lap, Pose()));
   ASSERT_TRUE(Listener::until([&] { return !listener().updates.empty(); }));
   const std::uint64_t now = trajectory().revision;
   EXPECT_GT(now, before.revision);
@@ -203,8 +203,8 @@ TEST_F(PoseGraphNodelet, edgesAreAddedAndRemovedByHand) {
   drive(0, lap);
   ASSERT_TRUE(driven(lap + 1));
   urban_nav_msgs::AddEdge add;
-  add.request.a.stamp = urban_nav_ros::toRosTime(stampOf(0));
-  add.request.b.stamp = urban_nav_ros::toRosTime(stampOf(lap));
+  add.request.a.stamp = urban_nav_ros::toRosTime(toStamp(0));
+  add.request.b.stamp = urban_nav_ros::toRosTime(toStamp(lap));
   add.request.T_a_b = urban_nav_ros::toPoseMessage(Pose());
   add.request.information =
       urban_nav_ros::toArray36((Vector6d() << 1e4, 1e4, 1e4, 1e6, 1e6, 1e6).finished().asDiagonal());
@@ -231,14 +231,14 @@ TEST_F(PoseGraphNodelet, anEdgeThatCannotBeIsRefusedWithTheReason) {
   drive(0, 5);
   ASSERT_TRUE(driven(6));
   urban_nav_msgs::AddEdge add;
-  add.request.a.stamp = urban_nav_ros::toRosTime(stampOf(0));
-  add.request.b.stamp = urban_nav_ros::toRosTime(stampOf(3) + 7);
+  add.request.a.stamp = urban_nav_ros::toRosTime(toStamp(0));
+  add.request.b.stamp = urban_nav_ros::toRosTime(toStamp(3) + 7);
   add.request.T_a_b.orientation.w = 1.0;
   add.request.kind = "asserted";
   ASSERT_TRUE(ros::service::call("pose_graph/add_edge", add));
   EXPECT_FALSE(add.response.success);
   EXPECT_NE(add.response.message.find("nearest"), std::string::npos) << add.response.message;
-  add.request.b.stamp = urban_nav_ros::toRosTime(stampOf(3));
+  add.request.b.stamp = urban_nav_ros::toRosTime(toStamp(3));
   add.request.kind = "guess";
   ASSERT_TRUE(ros::service::call("pose_graph/add_edge", add));
   EXPECT_NE(add.response.message.find("asserted, stereo, icp, plane"), std::string::npos) << add.response.message;
@@ -250,7 +250,7 @@ TEST_F(PoseGraphNodelet, anEdgeThatCannotBeIsRefusedWithTheReason) {
 
 TEST_F(PoseGraphNodelet, showsPathAndClosures) {
   drive(0, lap);
-  close(closureOf(0, lap, Pose()));
+  close(toClosure(0, lap, Pose()));
   ASSERT_TRUE(Listener::until([&] {
     return !listener().paths.empty() && listener().paths.back().poses.size() > lap / 2 && !listener().markers.empty() &&
            listener().markers.back().markers.size() >= 3;
@@ -306,12 +306,12 @@ TEST_F(PoseGraphNodelet, mapToOdomTakesTheRobotToItsPoseWhenTheNodeletIsStartedI
   const auto session = [&] { return trajectory().runs.back(); };
   for (int i = 30; i <= 35; ++i) hear(i, odomPose(i));
   drive(25, 29);  // what came between is lost, and so is what odometry said of these
-  ASSERT_TRUE(Listener::until([&] { return session().stamps.back() == urban_nav_ros::toRosTime(stampOf(29)); }));
+  ASSERT_TRUE(Listener::until([&] { return session().stamps.back() == urban_nav_ros::toRosTime(toStamp(29)); }));
   ros::WallDuration(0.3).sleep();
   ros::spinOnce();
   EXPECT_TRUE(listener().transforms.empty()) << "nothing is told that is not known";
   drive(29, 33);
-  ASSERT_TRUE(Listener::until([&] { return session().stamps.back() == urban_nav_ros::toRosTime(stampOf(33)); }));
+  ASSERT_TRUE(Listener::until([&] { return session().stamps.back() == urban_nav_ros::toRosTime(toStamp(33)); }));
   const Pose newest = *urban_nav_ros::toPose(session().T_map_base.back());
   ASSERT_TRUE(Listener::until([&] { return !listener().transforms.empty(); }));
   EXPECT_GE(listener().transforms.back().transforms.size(), 6U) << "of the odometry that waited, too";
@@ -326,7 +326,7 @@ TEST_F(PoseGraphNodelet, pauseDropsInputsAndDiagnosticsCountWhatIsWrong) {
   ros::WallDuration(0.3).sleep();
   EXPECT_EQ(poses(), 6U);
   ASSERT_TRUE(listener().call("resume"));
-  auto damaged = urban_nav_ros::toMetricClosureMessage(closureOf(0, 3, Pose()), "base_link", 1.0);
+  auto damaged = urban_nav_ros::toMetricClosureMessage(toClosure(0, 3, Pose()), "base_link", 1.0);
   damaged.T_a_b.position.x = std::numeric_limits<double>::quiet_NaN();
   listener().closures.publish(damaged);
   EXPECT_TRUE(Listener::until([&] { return listener().diagnosed("dropped: paused", "3"); }));
@@ -373,7 +373,7 @@ TEST_F(Store, hasWhatWasTakenInASecondAgo) {
 
 TEST_F(Store, savesTheGraphAndGoesOnFromIt) {
   drive(0, lap);
-  close(closureOf(0, lap, Pose()));
+  close(toClosure(0, lap, Pose()));
   ASSERT_TRUE(Listener::until([&] { return !listener().updates.empty(); }));
   const auto saved = command("save", path() + ".saved");
   EXPECT_TRUE(saved.success) << saved.message;
@@ -392,7 +392,7 @@ TEST_F(Store, savesTheGraphAndGoesOnFromIt) {
 
 TEST_F(PoseGraphNodelet, optimizesFromTheEdgesAndTheStatusWaitsForLateSubscribers) {
   drive(0, lap);
-  close(closureOf(0, lap, Pose()));
+  close(toClosure(0, lap, Pose()));
   ASSERT_TRUE(Listener::until([&] { return !listener().states.empty(); }));
   const std::uint64_t before = listener().states.back().revision;
   std_srvs::Trigger optimize;

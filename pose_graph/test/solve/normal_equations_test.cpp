@@ -15,7 +15,7 @@ TEST(Unknowns, FirstPosesOfComponentsAreHeld) {
   problem.edges.push_back({5, 2, {}, {}});
   problem.edges.push_back({3, 1, {}, {}});
   problem.edges.push_back({4, 5, {}, {}});
-  const Unknowns made = unknownsOf(problem);
+  const Unknowns made = makeUnknowns(problem);
   EXPECT_EQ(made.components, 4);
   EXPECT_EQ(made.component, (std::vector<int>{0, 1, 2, 1, 2, 2, 3}));
   EXPECT_EQ(made.pose, (std::vector<int>{3, 4, 5}));
@@ -23,10 +23,10 @@ TEST(Unknowns, FirstPosesOfComponentsAreHeld) {
 }
 
 TEST(Unknowns, NoPosesAndNoEdges) {
-  EXPECT_EQ(unknownsOf(Problem<3>()).components, 0);
+  EXPECT_EQ(makeUnknowns(Problem<3>()).components, 0);
   Problem<3> lone;
   lone.poses.resize(2);
-  EXPECT_EQ(unknownsOf(lone).components, 2);
+  EXPECT_EQ(makeUnknowns(lone).components, 2);
 }
 
 /// H and g as J^T W J and J^T W r of plain residuals, J by central differences, in the order of places.

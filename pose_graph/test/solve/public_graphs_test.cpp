@@ -9,7 +9,7 @@ namespace {
 
 template <int D>
 void expectOptima(const urban_nav_core::G2oGraph& graph, const PublicGraph& known) {
-  const Problem<D> problem = problemOf<D>(graph, known.name).problem;
+  const Problem<D> problem = makeProblem<D>(graph, known.name).problem;
   SolveOptions options;
   options.objective = Objective::Chordal;
   const Solution<D> chordal = solve(problem, options);

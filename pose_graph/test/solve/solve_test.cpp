@@ -32,7 +32,7 @@ std::vector<urban_nav_core::Pose> disturbed(const std::vector<urban_nav_core::Po
 template <int D>
 std::vector<Rigid<D>> rigids(const std::vector<urban_nav_core::Pose>& poses) {
   std::vector<Rigid<D>> made;
-  for (const urban_nav_core::Pose& pose : poses) made.push_back(rigidOf<D>(pose));
+  for (const urban_nav_core::Pose& pose : poses) made.push_back(toRigid<D>(pose));
   return made;
 }
 

@@ -7,7 +7,7 @@ namespace pose_graph::test {
 namespace {
 
 template <int D>
-std::vector<Rotation<D>> rotationsOf(const std::vector<Rigid<D>>& poses) {
+std::vector<Rotation<D>> toRotations(const std::vector<Rigid<D>>& poses) {
   std::vector<Rotation<D>> made;
   for (const Rigid<D>& pose : poses) made.push_back(pose.R);
   return made;
@@ -62,10 +62,10 @@ void expectBestTranslations() {
   Dice dice(3);
   const Problem<D> problem = drawProblem<D>(dice, 15, 9, 0.3, 0.2);
   const NormalEquations<D> equations(problem);
-  const auto rotations = rotationsOf(problem.poses);
+  const auto rotations = toRotations(problem.poses);
   std::vector<double> weights;
   for (std::size_t e = 0; e < problem.edges.size(); ++e) weights.push_back(dice.uniform(0.5, 2.0));
-  const auto costOf = [&](const std::vector<Rigid<D>>& poses) {
+  const auto computeCost = [&](const std::vector<Rigid<D>>& poses) {
     double total = 0.0;
     for (std::size_t e = 0; e < problem.edges.size(); ++e) {
       const Edge<D>& edge = problem.edges[e];
@@ -84,7 +84,7 @@ void expectBestTranslations() {
       for (const double h : {1e-3, -1e-3}) {
         auto other = *best;
         other[i].t[k] += h;
-        EXPECT_GT(costOf(other), costOf(*best));
+        EXPECT_GT(computeCost(other), computeCost(*best));
       }
 }
 TEST(ChordalStart, TranslationsAreTheBestOnes) {
@@ -101,7 +101,7 @@ void expectNothing() {
   std::vector<double> weights(5, 1.0);
   weights[3] = 0.0;
   EXPECT_FALSE(chordalRotations(equations, problem.poses, weights));
-  EXPECT_FALSE(translationsFor(equations, rotationsOf(problem.poses), problem.poses, weights));
+  EXPECT_FALSE(translationsFor(equations, toRotations(problem.poses), problem.poses, weights));
 }
 TEST(ChordalStart, IsEmptyWhereEdgesDetermineNothing) {
   expectNothing<2>();

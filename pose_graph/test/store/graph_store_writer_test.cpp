@@ -50,7 +50,7 @@ TEST_F(GraphStoreWriterTest, aGraphComesBackAndRelaxesToTheSameBits) {
     GraphStoreWriter writer = open();
     for (const char* id : {"a", "b"}) {
       graph.beginSession(id);
-      writer.put(session(id), parametersOf(Parameters()));
+      writer.put(session(id), listParameters(Parameters()));
       for (int i = 0; i < 2 * kLap; i += 20) {
         drive(graph, id, i, i + 20);
         writer.sync(graph);
@@ -129,7 +129,7 @@ TEST_F(GraphStoreWriterTest, closuresCarryTheirVerdictsAndGoWhenTheyAreRemoved) 
   drive(graph, "a", 0, 2 * kLap);
   const ClosureId first = graph.addClosure(closureAt("a", 0, "a", kLap));
   graph.addClosure(closureAt("a", 30, "a", 30 + kLap));
-  writer.putEvidence(edgeOf(graph.closures().at(first)), evidenceOf(true) + "seen by eye");
+  writer.putEvidence(toEdge(graph.closures().at(first)), toEvidence(true) + "seen by eye");
   const auto edges = [&] {
     Store store(place.file(), Access::Read);
     std::vector<urban_nav_store::Edge> found;
@@ -163,7 +163,7 @@ TEST_F(GraphStoreWriterTest, whatItsStageRejectedIsEvidenceAndNoPartOfTheGraph) 
   graph.beginSession("a");
   writer.put(session("a"));
   drive(graph, "a", 0, 10);
-  urban_nav_store::Edge edge = edgeOf(closureAt("a", 1, "a", 7));
+  urban_nav_store::Edge edge = toEdge(closureAt("a", 1, "a", 7));
   edge.measured.information.setZero();
   edge.verdict = ClosureVerdict::Rejected;
   edge.weight = 0.0;

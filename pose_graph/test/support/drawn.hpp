@@ -71,7 +71,7 @@ template <int D>
 Problem<D> simulatedProblem(const urban_nav_core::testing::SimulatedGraph& graph,
                             const std::vector<urban_nav_core::Pose>& guess) {
   Problem<D> made;
-  for (const urban_nav_core::Pose& pose : guess) made.poses.push_back(rigidOf<D>(pose));
+  for (const urban_nav_core::Pose& pose : guess) made.poses.push_back(toRigid<D>(pose));
   for (const urban_nav_core::testing::GraphEdge& edge : graph.edges) {
     urban_nav_core::Matrix6d turn = urban_nav_core::Matrix6d::Zero();
     turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = edge.T_a_b.R();
@@ -84,7 +84,7 @@ Problem<D> simulatedProblem(const urban_nav_core::testing::SimulatedGraph& graph
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) information(i, j) = turned(kept[i], kept[j]);
     }
-    made.edges.push_back({static_cast<int>(edge.a), static_cast<int>(edge.b), rigidOf<D>(edge.T_a_b), information});
+    made.edges.push_back({static_cast<int>(edge.a), static_cast<int>(edge.b), toRigid<D>(edge.T_a_b), information});
   }
   return made;
 }

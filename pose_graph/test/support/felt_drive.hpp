@@ -54,7 +54,7 @@ struct Drive {
     return made;
   }
   Eigen::Vector3d trueUp() const { return rotation(0.0).transpose() * Eigen::Vector3d::UnitZ(); }
-  Level level(urban_nav_core::testing::Dice& dice) const { return levelOf(trajectory(), forces(dice)); }
+  Level level(urban_nav_core::testing::Dice& dice) const { return estimateLevel(trajectory(), forces(dice)); }
 };
 
 }  // namespace pose_graph::testing

@@ -26,7 +26,7 @@ inline Adjacency cubeGraph(int side) {
         if (y > 0) pairs.emplace_back(at(x, y, z), at(x, y - 1, z));
         if (z > 0) pairs.emplace_back(at(x, y, z), at(x, y, z - 1));
       }
-  return adjacencyOf(side * side * side, pairs);
+  return makeAdjacency(side * side * side, pairs);
 }
 
 /// A chain of `nodes` with `closures` between any two.
@@ -37,16 +37,16 @@ inline Adjacency chainWithClosures(int nodes, int closures, std::uint64_t seed) 
   for (int i = 0; i < closures; ++i)
     pairs.emplace_back(static_cast<int>(dice.below(static_cast<std::size_t>(nodes))),
                        static_cast<int>(dice.below(static_cast<std::size_t>(nodes))));
-  return adjacencyOf(nodes, pairs);
+  return makeAdjacency(nodes, pairs);
 }
 
 /// Chains, stars, cliques, parts that nothing connects, lone nodes, none at all, and graphs drawn at random.
 inline std::vector<NamedGraph> manyGraphs() {
   using Pairs = std::vector<std::pair<int, int>>;
   std::vector<NamedGraph> made;
-  made.push_back({"nothing", adjacencyOf(0, {})});
-  made.push_back({"one", adjacencyOf(1, {})});
-  made.push_back({"five alone", adjacencyOf(5, {})});
+  made.push_back({"nothing", makeAdjacency(0, {})});
+  made.push_back({"one", makeAdjacency(1, {})});
+  made.push_back({"five alone", makeAdjacency(5, {})});
   made.push_back({"chain", chainWithClosures(60, 0, 1)});
   Pairs star, clique, parts;
   for (int i = 1; i < 30; ++i) star.emplace_back(7, i == 7 ? 0 : i);
@@ -55,9 +55,9 @@ inline std::vector<NamedGraph> manyGraphs() {
   for (int i = 0; i < 40; ++i)
     if (i % 10 != 9) parts.emplace_back(i, i + 1);
   for (int i = 20; i < 30; ++i) parts.emplace_back(20, i);
-  made.push_back({"star", adjacencyOf(30, star)});
-  made.push_back({"clique", adjacencyOf(20, clique)});
-  made.push_back({"parts", adjacencyOf(42, parts)});
+  made.push_back({"star", makeAdjacency(30, star)});
+  made.push_back({"clique", makeAdjacency(20, clique)});
+  made.push_back({"parts", makeAdjacency(42, parts)});
   made.push_back({"cube", cubeGraph(5)});
   for (std::uint64_t seed = 1; seed <= 6; ++seed)
     made.push_back({"drawn " + std::to_string(seed),

@@ -105,17 +105,17 @@ TEST(FrameStream, TheArrivalIsThatOfTheFirstByte) {
   Bytes bytes = makeToy({9});
   const std::size_t first = bytes.size();
   bytes.insert(bytes.end(), frame.begin(), frame.end());
-  const auto arrivalOf = [](std::size_t byte) { return 1'000'000'000 + static_cast<TimeNs>(byte + 1) * 1'000'000; };
+  const auto toArrival = [](std::size_t byte) { return 1'000'000'000 + static_cast<TimeNs>(byte + 1) * 1'000'000; };
   for (const std::size_t chunk : {1U, 3U, 5U, 12U}) {
     FrameStream stream(23, probeToy);
     stream.setBaud(10000);
     TimeNs arrival = 0;
     for (std::size_t at = 0; at < bytes.size(); at += chunk) {
       const std::size_t size = std::min(chunk, bytes.size() - at);
-      stream.feed(ByteView(bytes).sub(at, size), {arrivalOf(at + size - 1), 0},
+      stream.feed(ByteView(bytes).sub(at, size), {toArrival(at + size - 1), 0},
                   [&](const StreamFrame& found) { arrival = found.arrival; });
     }
-    EXPECT_EQ(arrival, arrivalOf(first) - 1'000'000) << chunk;
+    EXPECT_EQ(arrival, toArrival(first) - 1'000'000) << chunk;
   }
 }
 

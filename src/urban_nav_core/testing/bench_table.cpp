@@ -31,7 +31,7 @@ std::string list(const std::vector<std::string>& texts) {
   return result + "]";
 }
 
-std::string firstLineOf(const char* command) {
+std::string readFirstLine(const char* command) {
   std::array<char, 256> buffer{};
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command, "r"), pclose);
   if (!pipe || std::fgets(buffer.data(), static_cast<int>(buffer.size()), pipe.get()) == nullptr) return {};
@@ -107,9 +107,9 @@ std::string machineName() {
 }
 
 std::string commitName() {
-  const std::string commit = firstLineOf("git rev-parse --short HEAD 2>/dev/null");
+  const std::string commit = readFirstLine("git rev-parse --short HEAD 2>/dev/null");
   if (commit.empty()) return "unknown";
-  return commit + (firstLineOf("git status --porcelain 2>/dev/null").empty() ? "" : "+");
+  return commit + (readFirstLine("git status --porcelain 2>/dev/null").empty() ? "" : "+");
 }
 
 }  // namespace urban_nav_core::testing

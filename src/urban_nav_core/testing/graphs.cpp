@@ -25,7 +25,7 @@ Quaterniond turnBy(const Vector3d& phi) {
   return Quaterniond(Eigen::AngleAxisd(angle, phi / angle));
 }
 
-Vector3d turnOf(const Quaterniond& q) {
+Vector3d toTurn(const Quaterniond& q) {
   const Eigen::AngleAxisd turn(q.w() < 0.0 ? Quaterniond(-q.coeffs()) : q);
   return turn.angle() * turn.axis();
 }
@@ -159,7 +159,7 @@ Pose trueRelative(const SimulatedGraph& graph, std::size_t a, std::size_t b) {
 Vector6d edgeError(const SimulatedGraph& graph, const GraphEdge& edge) {
   const Pose exact = trueRelative(graph, edge.a, edge.b);
   Vector6d error;
-  error << edge.T_a_b.t() - exact.t(), turnOf(edge.T_a_b.q() * exact.q().conjugate());
+  error << edge.T_a_b.t() - exact.t(), toTurn(edge.T_a_b.q() * exact.q().conjugate());
   return error;
 }
 

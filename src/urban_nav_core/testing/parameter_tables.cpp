@@ -8,8 +8,8 @@
 
 namespace urban_nav_core::testing {
 
-std::string faultsOf(const std::string& stage, const std::vector<RowInfo>& of_stage,
-                     const std::vector<RowInfo>& of_nodelet) {
+std::string findFaults(const std::string& stage, const std::vector<RowInfo>& of_stage,
+                       const std::vector<RowInfo>& of_nodelet) {
   std::string faults;
   const auto demand = [&](bool so, const std::string& fault) {
     if (!so) faults += fault + "\n";

@@ -28,7 +28,7 @@ const std::array<float, 4096>& normalTable() {
 }
 
 /// SplitMix64 (Steele et al. 2014): sixty-four good bits for each count.
-std::uint64_t bitsOf(std::uint64_t count) {
+std::uint64_t toBits(std::uint64_t count) {
   std::uint64_t z = count * 0x9E3779B97F4A7C15ULL;
   z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9ULL;
   z = (z ^ (z >> 27U)) * 0x94D049BB133111EBULL;
@@ -37,7 +37,7 @@ std::uint64_t bitsOf(std::uint64_t count) {
 
 }  // namespace
 
-StereoCamera cameraOf(const RenderCamera& rendered) {
+StereoCamera makeCamera(const RenderCamera& rendered) {
   StereoCamera camera;
   camera.left = {rendered.fx, rendered.fy, rendered.cx, rendered.cy, rendered.width, rendered.height};
   camera.baseline = rendered.baseline;
@@ -61,7 +61,7 @@ void RenderedSequence::expose(const std::vector<float>& radiance, double gain, d
   const auto factor = static_cast<float>(gain), spread = static_cast<float>(noise);
   std::uint64_t bits = 0;
   for (std::size_t i = 0; i < radiance.size(); ++i) {
-    bits = i % 5 == 0 ? bitsOf((stream << 32U) + i) : bits >> 12U;
+    bits = i % 5 == 0 ? toBits((stream << 32U) + i) : bits >> 12U;
     const float grey = factor * radiance[i] + spread * normal[bits & 4095U];
     image.pixels[i] = static_cast<std::uint8_t>(std::clamp(grey + 0.5F, 0.0F, 255.0F));
   }
@@ -82,7 +82,7 @@ const StereoFrame& RenderedSequence::frame(int i, double noise) {
   draw(i);
   const double gain = options_.gain ? options_.gain(time(i)) : 1.0;
   const std::uint64_t stream =
-      bitsOf((static_cast<std::uint64_t>(options_.seed) << 32U) + static_cast<std::uint64_t>(i)) & 0x7FFFFFFFU;
+      toBits((static_cast<std::uint64_t>(options_.seed) << 32U) + static_cast<std::uint64_t>(i)) & 0x7FFFFFFFU;
   frame_.stamp = stamp(i);
   expose(radiance_left_, gain, noise, 2 * stream, frame_.left);
   expose(radiance_right_, gain, noise, 2 * stream + 1, frame_.right);

@@ -23,7 +23,7 @@ constexpr std::array<std::array<int, 2>, 4> kDirections = {{{1, 0}, {0, 1}, {-1,
 Vector2d along(std::size_t direction) {
   return {static_cast<double>(kDirections[direction][0]), static_cast<double>(kDirections[direction][1])};
 }
-Vector2d leftOf(const Vector2d& v) { return {-v.y(), v.x()}; }
+Vector2d turnLeft(const Vector2d& v) { return {-v.y(), v.x()}; }
 
 /// A stretch of the way: straight, or a quarter of a circle to the left (turn 1) or right (turn -1).
 struct Piece {
@@ -38,7 +38,7 @@ struct Piece {
 std::pair<Vector2d, Vector2d> placeAndHeading(const Piece& piece, double s) {
   if (piece.turn == 0) return {piece.start + s * piece.forward, piece.forward};
   const double radius = 2.0 * piece.length / M_PI, angle = s / radius;
-  const Vector2d inward = static_cast<double>(piece.turn) * leftOf(piece.forward);
+  const Vector2d inward = static_cast<double>(piece.turn) * turnLeft(piece.forward);
   return {piece.start + radius * (std::sin(angle) * piece.forward + (1.0 - std::cos(angle)) * inward),
           std::cos(angle) * piece.forward + std::sin(angle) * inward};
 }
@@ -52,7 +52,7 @@ class Walk {
 
   Piece next() {
     const double radius = options_.turn_radius_m;
-    const Vector2d forward = along(direction_), lane = -options_.lane_m * leftOf(forward);
+    const Vector2d forward = along(direction_), lane = -options_.lane_m * turnLeft(forward);
     const Vector2d crossing = options_.block_m * Vector2d(x_, y_);
     Piece piece;
     piece.forward = forward;
@@ -106,7 +106,7 @@ Pose onTheHills(const Vector2d& place, const Vector2d& heading, double height) {
 using Pair = std::pair<std::size_t, std::size_t>;
 
 /// `count` of them, each set equally likely, in order of the later pose.
-std::vector<Pair> someOf(std::vector<Pair> pairs, std::size_t count, Dice& dice) {
+std::vector<Pair> pickSome(std::vector<Pair> pairs, std::size_t count, Dice& dice) {
   if (pairs.size() < count)
     throw std::invalid_argument("only " + std::to_string(pairs.size()) + " places are seen again, not " +
                                 std::to_string(count));
@@ -158,7 +158,7 @@ SimulatedGraph streetGraph(std::size_t poses, std::size_t closures, const GraphN
     left = s - piece.length;
   }
 
-  const std::vector<Pair> chosen = someOf(std::move(again), closures, dice);
+  const std::vector<Pair> chosen = pickSome(std::move(again), closures, dice);
   graph.edges.reserve(poses + closures);
   for (std::size_t i = 0; i + 1 < poses; ++i) measure(graph, i, i + 1, GraphEdgeKind::Chain, noise, dice);
   for (const auto& [a, b] : chosen) measure(graph, a, b, GraphEdgeKind::Closure, noise, dice);

@@ -165,7 +165,7 @@ inline Texture::Part Texture::part(double x, double size, double per_size, doubl
           kStepUp(-(edge + margin) * per_sigma)};
 }
 
-inline double Texture::greyOf(const Pattern& pattern, int column, int row) {
+inline double Texture::sampleGrey(const Pattern& pattern, int column, int row) {
   const std::uint32_t h = hash(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row), pattern.seed);
   if ((h & 0xFFFFU) >= pattern.share * 65536.0) return 0.0;
   return pattern.low + (pattern.high - pattern.low) * ((h >> 16U) * (1.0 / 65535.0));
@@ -174,8 +174,8 @@ inline double Texture::greyOf(const Pattern& pattern, int column, int row) {
 double Texture::rowValue(const Pattern& pattern, int row, double x, double per_sigma_x) {
   const double shifted = x - ((row & 1) != 0 ? pattern.shift * pattern.width : 0.0);
   const Part columns = part(shifted, pattern.width, pattern.per_width, pattern.margin_x, per_sigma_x);
-  double sum = columns.own_share > 0.0 ? columns.own_share * greyOf(pattern, columns.own, row) : 0.0;
-  if (columns.other_share > 0.0) sum += columns.other_share * greyOf(pattern, columns.other, row);
+  double sum = columns.own_share > 0.0 ? columns.own_share * sampleGrey(pattern, columns.own, row) : 0.0;
+  if (columns.other_share > 0.0) sum += columns.other_share * sampleGrey(pattern, columns.other, row);
   return sum;
 }
 

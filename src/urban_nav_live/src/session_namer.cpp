@@ -34,7 +34,7 @@ SessionNamer::Named SessionNamer::begin(const std::string& recording, StampNs st
   session.start = start;
   for (int round = 1;; ++round) {
     session.recording = round == 1 ? recording : recording + " (" + std::to_string(round) + ")";
-    session.id = urban_nav_store::sessionIdOf({robot_, session.recording, start, ""});
+    session.id = urban_nav_store::makeSessionId({robot_, session.recording, start, ""});
     if (isReserved(session.id)) continue;
     if (const auto again = resume(session.recording, begins_there)) return named(*again, true, false);
     return named(session, false, false);

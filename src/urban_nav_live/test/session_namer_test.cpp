@@ -9,8 +9,8 @@ namespace urban_nav_live {
 namespace {
 
 using urban_nav_core::StampNs;
+using urban_nav_store::makeSessionId;
 using urban_nav_store::Session;
-using urban_nav_store::sessionIdOf;
 
 constexpr StampNs start = 1'225'719'873'501'685'000, end = start + 60'000'000'000;
 
@@ -22,7 +22,7 @@ TEST(SessionNamer, IdDependsOnRobotRecordingAndStartAlone) {
   SessionNamer one("lisa"), other("lisa");
   const auto named = one.begin("monday", start);
   EXPECT_FALSE(named.resumed);
-  EXPECT_EQ(named.session.id, sessionIdOf({"lisa", "monday", start, ""}));
+  EXPECT_EQ(named.session.id, makeSessionId({"lisa", "monday", start, ""}));
   EXPECT_EQ(named.session.name, "monday");
   EXPECT_EQ(named.session.recording, "monday");
   EXPECT_EQ(named.session.robot, "lisa");
@@ -104,7 +104,7 @@ TEST(SessionNamer, ResumesASessionOnce) {
 
 TEST(SessionNamer, ReservedIdsAreNotUsed) {
   SessionNamer namer("lisa");
-  const auto id = sessionIdOf({"lisa", "monday", start, ""});
+  const auto id = makeSessionId({"lisa", "monday", start, ""});
   namer.reserve(id);
   EXPECT_TRUE(namer.isReserved(id));
   EXPECT_EQ(namer.begin("monday", start).session.recording, "monday (2)");

@@ -17,14 +17,14 @@ using urban_nav_store::StoredTrajectory;
 
 namespace {
 
-std::string propertyOf(Store& store, const urban_nav_store::SessionId& id, const std::string& name) {
+std::string readProperty(Store& store, const urban_nav_store::SessionId& id, const std::string& name) {
   for (const urban_nav_store::Property& property : store.sessions().properties(id))
     if (property.name == name) return property.value;
   return {};
 }
 
 /// Returns the keyframes of a session that have a pose.
-std::vector<MapKeyframe> keyframesOf(Store& store, const StoredTrajectory& session) {
+std::vector<MapKeyframe> findKeyframes(Store& store, const StoredTrajectory& session) {
   std::vector<MapKeyframe> views;
   const std::vector<StampNs> stamps = store.keyframes().stamps(session.session.id, keyframe_camera);
   auto stamp = stamps.begin();
@@ -42,15 +42,15 @@ FrozenMap::FrozenMap(Store& store) : path_(store.path()) {
   if (maps.empty()) throw DataError(path_, "holds no session", "");
   sessions_ = std::move(maps.front());
   for (const StoredTrajectory& session : sessions_) {
-    Views made{propertyOf(store, session.session.id, calibration_property),
-               urban_nav_localization::keyframesOf(store, session)};
+    Views made{readProperty(store, session.session.id, calibration_property),
+               urban_nav_localization::findKeyframes(store, session)};
     if (!made.views.empty()) views_.push_back(std::move(made));
   }
   if (views_.empty())
     throw DataError(path_, "holds no keyframes: map stores them unless --stages leaves loops out", "");
 }
 
-std::vector<MapKeyframe> FrozenMap::keyframesOf(const std::string& camera_words) const {
+std::vector<MapKeyframe> FrozenMap::findKeyframes(const std::string& camera_words) const {
   std::vector<MapKeyframe> views;
   for (const Views& each : views_)
     if (isSameCalibration(each.camera, camera_words)) views.insert(views.end(), each.views.begin(), each.views.end());

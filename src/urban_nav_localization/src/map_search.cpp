@@ -82,14 +82,14 @@ class MapSearch::Implementation {
     const std::vector<std::size_t> nearest = isNearKnownPlace(prior)
                                                  ? near(prior.T_map_base->pose, max_near_distance, max_near_angle)
                                                  : std::vector<std::size_t>();
-    std::optional<MapMatch> seen = firstOf(nearest, view);
+    std::optional<MapMatch> seen = findFirst(nearest, view);
     // The prior may be wrong, and the robot may have been carried elsewhere: without a match near it, search the whole
     // map.
     if (!seen) {
       std::vector<std::size_t> found;
       for (const DescriptorVoting::Found& each : finder_.find(view, max_registered_keyframes))
         found.push_back(searched_[each.view]);
-      seen = firstOf(found, view);
+      seen = findFirst(found, view);
     }
     if (seen) localiser.addMatch(view.at.stamp, views_[seen->view].T_map_base, seen->measured, isFirm(seen->measured));
     else localiser.addMiss(view.at.stamp, !nearest.empty() && shows(views_[nearest.front()], prior));
@@ -118,7 +118,7 @@ class MapSearch::Implementation {
 
   /// Returns the first keyframe that can be registered: a second one of the same place is no second match. If it places
   /// the robot far from it, and the map has keyframes near that pose, one of them must match too, and is more accurate.
-  std::optional<MapMatch> firstOf(const std::vector<std::size_t>& views, const Keyframe& view) {
+  std::optional<MapMatch> findFirst(const std::vector<std::size_t>& views, const Keyframe& view) {
     const std::optional<MapMatch> seen = registered(views, view);
     if (!seen || isFirm(seen->measured)) return seen;
     const std::vector<std::size_t> nearest =
@@ -159,7 +159,7 @@ class MapSearch::Implementation {
 MapSearch::MapSearch(const Parameters& parameters, const FrozenMap& map, const urban_nav_store::KeyframeStore& store,
                      const urban_nav_core::StereoCamera& camera, const Pose& T_base_left)
     : implementation_(std::make_unique<Implementation>(
-          parameters, map.keyframesOf(calibrationFingerprint(camera, T_base_left)), store, camera, T_base_left)) {}
+          parameters, map.findKeyframes(calibrationFingerprint(camera, T_base_left)), store, camera, T_base_left)) {}
 MapSearch::~MapSearch() = default;
 
 std::size_t MapSearch::views() const { return implementation_->views(); }

@@ -84,7 +84,7 @@ TEST_F(MapSearchTest, FindsTheRobotWhateverSomebodyBelieves) {
   const FrozenMap map(*store_);
   ASSERT_EQ(map.sessions().size(), 1U);
   EXPECT_EQ(map.sessions()[0].T_map_base.size(), 13U);
-  EXPECT_EQ(map.keyframesOf(words()).size(), 13U);
+  EXPECT_EQ(map.findKeyframes(words()).size(), 13U);
   MapSearch search(Parameters(), map, store_->keyframes(), street_.camera(), Pose());
   EXPECT_EQ(search.read(), 0U);
   while (search.readNext()) {
@@ -135,9 +135,9 @@ TEST_F(MapSearchTest, AStoreWithoutSessionViewsOrThisCameraIsNamed) {
   EXPECT_THROW(FrozenMap{*store_}, DataError) << "no views";
   drive(1);
   const FrozenMap map(*store_);
-  EXPECT_THROW(map.keyframesOf(words() + " 1"), DataError);
+  EXPECT_THROW(map.findKeyframes(words() + " 1"), DataError);
   try {
-    map.keyframesOf("640x480 1 2 3");
+    map.findKeyframes("640x480 1 2 3");
     FAIL();
   } catch (const DataError& error) {
     EXPECT_NE(std::string(error.what()).find("store.db"), std::string::npos);

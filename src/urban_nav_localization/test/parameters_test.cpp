@@ -10,7 +10,7 @@ namespace urban_nav_localization {
 namespace {
 
 TEST(Parameters, yamlAndReadmeAreAsTheTablesSay) {
-  EXPECT_EQ(urban_nav_core::testing::faultsOf(table().stage(), table().rows(), nodeletTable().rows()), "");
+  EXPECT_EQ(urban_nav_core::testing::findFaults(table().stage(), table().rows(), nodeletTable().rows()), "");
 }
 
 }  // namespace

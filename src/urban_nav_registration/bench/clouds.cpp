@@ -58,7 +58,7 @@ struct Pair {
   Pose T_target_source;
 };
 
-Pose poseOf(const Eigen::Matrix4d& T) {
+Pose toPose(const Eigen::Matrix4d& T) {
   return Pose(Eigen::Quaterniond(Eigen::Matrix3d(T.topLeftCorner<3, 3>())).normalized(), T.topRightCorner<3, 1>());
 }
 
@@ -68,7 +68,7 @@ Pose readPose(const std::string& path) {
   for (int row = 0; row < 4; ++row)
     for (int column = 0; column < 4; ++column) file >> T(row, column);
   if (!file) throw urban_nav_core::UserError(path, "not a pose", "4 x 4 numbers");
-  return poseOf(T);
+  return toPose(T);
 }
 
 std::vector<Pair> chooseKeyframePairs(const std::string& folder) {
@@ -79,7 +79,7 @@ std::vector<Pair> chooseKeyframePairs(const std::string& folder) {
   const auto read = [&](const char* file) { return urban_nav_core::readCloud(folder + "/" + file).cloud; };
   return {{"outdoor_pair", read("outdoor_pair/source.ply"), read("outdoor_pair/target.ply"),
            readPose(folder + "/outdoor_pair/T_target_source.txt")},
-          {"car_pair", read("car_pair/car_cloud401.csv.gz"), read("car_pair/car_cloud400.csv.gz"), poseOf(car)}};
+          {"car_pair", read("car_pair/car_cloud401.csv.gz"), read("car_pair/car_cloud400.csv.gz"), toPose(car)}};
 }
 
 double processorMs() {

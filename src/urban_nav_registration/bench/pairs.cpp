@@ -148,7 +148,7 @@ constexpr std::array<Class, 6> classes = {{{"up to 1 m, turned by less than 20 d
                                            {"up to 4 m, turned by 20 to 30 deg", 0.0, 4.0, 20.0, 30.0},
                                            {"up to 4 m, turned by 30 to 40 deg", 0.0, 4.0, 30.0, 40.0}}};
 
-const Class* classOf(double metres, double deg) {
+const Class* classify(double metres, double deg) {
   for (const Class& one : classes)
     if (metres >= one.least_m && metres < one.most_m && deg >= one.least_deg && deg < one.most_deg) return &one;
   return nullptr;
@@ -184,7 +184,7 @@ class Program {
       for (std::size_t j = i + 1; j < keyframes.size(); ++j) {
         const Pose truth = recording.truth[i].inverse() * recording.truth[j];
         const double metres = truth.t().norm(), deg = degrees * urban_nav_core::angleBetween(truth, Pose());
-        const Class* kind = classOf(metres, deg);
+        const Class* kind = classify(metres, deg);
         if (kind == nullptr) continue;
         const auto k = static_cast<std::size_t>(kind - classes.data());
         StereoMatcher matcher(recording.camera, parameters_);  // nothing kept from before: all in

@@ -9,7 +9,7 @@ namespace urban_nav_registration {
 namespace {
 
 TEST(Parameters, yamlAndReadmeAreAsTheTablesSay) {
-  EXPECT_EQ(urban_nav_core::testing::faultsOf(table().stage(), table().rows()), "");
+  EXPECT_EQ(urban_nav_core::testing::findFaults(table().stage(), table().rows()), "");
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace urban_nav_ros {
 using diagnostic_msgs::DiagnosticStatus;
 using urban_nav_core::Health;
 
-unsigned char diagnosticLevelOf(Health health) {
+unsigned char toDiagnosticLevel(Health health) {
   switch (health) {
     case Health::Ok:
     case Health::Recovered: return DiagnosticStatus::OK;

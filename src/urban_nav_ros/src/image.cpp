@@ -44,7 +44,7 @@ const std::array<Layout, 14>& layouts() {
   return all;
 }
 
-const Layout* layoutOf(const std::string& encoding) {
+const Layout* findLayout(const std::string& encoding) {
   const auto found =
       std::find_if(layouts().begin(), layouts().end(), [&](const Layout& l) { return encoding == l.encoding; });
   return found == layouts().end() ? nullptr : &*found;
@@ -59,8 +59,8 @@ std::string knownEncodings() {
 }
 
 /// The message's bytes as a matrix that shares them; empty with a fault if they are not what the header says.
-GreyImage pixelsOf(const sensor_msgs::Image& message, const Layout*& layout) {
-  layout = layoutOf(message.encoding);
+GreyImage toPixels(const sensor_msgs::Image& message, const Layout*& layout) {
+  layout = findLayout(message.encoding);
   if (layout == nullptr) return {{}, "encoding " + message.encoding + ": known are " + knownEncodings()};
   if (message.width == 0 || message.height == 0) return {{}, "no pixels"};
   if (message.width > 65535 || message.height > 65535) return {{}, "larger than 65535 pixels"};
@@ -96,7 +96,7 @@ cv::Mat highestEight(const cv::Mat& deep, int bits) {
   return grey;
 }
 
-int bitsOf(const cv::Mat& deep) {
+int toBits(const cv::Mat& deep) {
   double highest = 0.0;
   cv::minMaxLoc(deep, nullptr, &highest);
   int bits = 8;
@@ -108,7 +108,7 @@ int bitsOf(const cv::Mat& deep) {
 
 GreyImage toGrey(const sensor_msgs::Image& message, int bits) {
   const Layout* layout = nullptr;
-  GreyImage image = pixelsOf(message, layout);
+  GreyImage image = toPixels(message, layout);
   if (image.pixels.empty()) return image;
   if (image.pixels.type() == CV_16UC1) return {highestEight(image.pixels, bits), {}};
   if (layout->to_grey == kAsItIs) return image;
@@ -148,13 +148,13 @@ GreyImage toGrey(const cv::Mat& pixels, int bits) {
 
 int significantBits(const sensor_msgs::Image& message) {
   const Layout* layout = nullptr;
-  const GreyImage image = pixelsOf(message, layout);
+  const GreyImage image = toPixels(message, layout);
   return image.pixels.empty() ? 8 : significantBits(image.pixels);
 }
 
 int significantBits(const cv::Mat& pixels) {
   if (pixels.empty() || pixels.depth() != CV_16U) return 8;
-  return bitsOf(pixels.channels() == 1 ? pixels : pixels.reshape(1));
+  return toBits(pixels.channels() == 1 ? pixels : pixels.reshape(1));
 }
 
 sensor_msgs::Image toImageMessage(const cv::Mat& grey) {
@@ -183,7 +183,7 @@ sensor_msgs::Image toColourImageMessage(const cv::Mat& bgr) {
   return message;
 }
 
-ImageView viewOf(const cv::Mat& grey) {
+ImageView toView(const cv::Mat& grey) {
   if (grey.empty()) return {};
   CV_Assert(grey.type() == CV_8UC1);
   return {grey.data, grey.cols, grey.rows, static_cast<std::ptrdiff_t>(grey.step[0])};

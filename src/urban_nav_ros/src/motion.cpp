@@ -16,7 +16,7 @@ namespace {
 // Resolution of usual encoders over one message: 1 mm, 1 mrad.
 constexpr double resolution = 1e-3;
 
-double informationOf(double sigma) { return 1.0 / (sigma * sigma); }
+double toInformation(double sigma) { return 1.0 / (sigma * sigma); }
 
 }  // namespace
 
@@ -34,8 +34,8 @@ std::optional<MotionInput> WheelMotion::add(const nav_msgs::Odometry& message) {
   input.T_from_to = last->T_odom_base.inverse() * *pose;
   const double distance = input.T_from_to.t().norm();
   const double angle = urban_nav_core::angleBetween(input.T_from_to, Pose());
-  const double along = informationOf(resolution + noise_ * distance);
-  input.information.diagonal() << along, along, 0.0, 0.0, 0.0, informationOf(resolution + noise_ * angle);
+  const double along = toInformation(resolution + noise_ * distance);
+  input.information.diagonal() << along, along, 0.0, 0.0, 0.0, toInformation(resolution + noise_ * angle);
   return input;
 }
 
@@ -55,7 +55,7 @@ std::optional<MotionInput> GyroMotion::add(const sensor_msgs::Imu& message) {
   input.to = stamp;
   const double seconds = urban_nav_core::secondsBetween(input.from, input.to);
   input.T_from_to = Pose(urban_nav_core::expSo3(0.5 * seconds * (last->rate + rate)), Vector3d::Zero());
-  input.information.diagonal().tail<3>().setConstant(informationOf(noise_ * seconds));
+  input.information.diagonal().tail<3>().setConstant(toInformation(noise_ * seconds));
   return input;
 }
 

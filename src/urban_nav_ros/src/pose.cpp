@@ -18,7 +18,7 @@ using urban_nav_core::Vector3d;
 namespace {
 
 template <typename Translation, typename Rotation>
-std::optional<Pose> poseOf(const Translation& t, const Rotation& q) {
+std::optional<Pose> toPose(const Translation& t, const Rotation& q) {
   const Quaterniond rotation(q.w, q.x, q.y, q.z);
   const Vector3d translation(t.x, t.y, t.z);
   if (!translation.allFinite() || !rotation.coeffs().allFinite() || std::abs(rotation.norm() - 1.0) > 0.01)
@@ -39,9 +39,9 @@ void fill(const Pose& pose, Translation& t, Rotation& q) {
 
 }  // namespace
 
-std::optional<Pose> toPose(const geometry_msgs::Pose& message) { return poseOf(message.position, message.orientation); }
+std::optional<Pose> toPose(const geometry_msgs::Pose& message) { return toPose(message.position, message.orientation); }
 std::optional<Pose> toPose(const geometry_msgs::Transform& message) {
-  return poseOf(message.translation, message.rotation);
+  return toPose(message.translation, message.rotation);
 }
 
 geometry_msgs::Pose toPoseMessage(const Pose& pose) {

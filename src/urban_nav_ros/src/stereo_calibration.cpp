@@ -11,12 +11,12 @@ using urban_nav_core::RectifyMap;
 namespace {
 
 // A driver that does not rectify leaves R at zero.
-Eigen::Matrix3d rotationOf(const CameraInfo& info) {
+Eigen::Matrix3d toRotation(const CameraInfo& info) {
   return info.R.isZero() ? Eigen::Matrix3d::Identity().eval() : info.R;
 }
 
-RectifyMap mapOf(const CameraInfo& info, const std::string& where) {
-  return RectifyMap(rawCamera(info, where), rotationOf(info), rectifiedPinhole(info, where));
+RectifyMap makeRectifyMap(const CameraInfo& info, const std::string& where) {
+  return RectifyMap(rawCamera(info, where), toRotation(info), rectifiedPinhole(info, where));
 }
 
 }  // namespace
@@ -28,12 +28,12 @@ bool areRectified(const std::string& images, const std::string& topic) {
 StereoCalibration::StereoCalibration(const CameraInfo& left, const CameraInfo& right, bool images_are_rectified,
                                      const std::string& where)
     : camera_(stereoCamera(left, right, where)),
-      T_optical_rectified_(Pose(rotationOf(left), Eigen::Vector3d::Zero()).inverse()),
+      T_optical_rectified_(Pose(toRotation(left), Eigen::Vector3d::Zero()).inverse()),
       raw_width_(left.width),
       raw_height_(left.height) {
   if (images_are_rectified || !(needsRectification(left) || needsRectification(right))) return;
-  left_map_.emplace(mapOf(left, where + ", left"));
-  right_map_.emplace(mapOf(right, where + ", right"));
+  left_map_.emplace(makeRectifyMap(left, where + ", left"));
+  right_map_.emplace(makeRectifyMap(right, where + ", right"));
 }
 
 ImageView StereoCalibration::rectify(Side side, const ImageView& image, std::vector<std::uint8_t>& out) const {

@@ -26,7 +26,7 @@ struct Pixels {
 
 constexpr int motion_stream = 0;
 
-std::string sizeOf(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
+std::string toSize(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
 
 }  // namespace
 
@@ -36,14 +36,14 @@ StereoFeed::StereoFeed(const Options& options, std::shared_ptr<const StereoCalib
       queue_(first_image_stream_ + 2, options.max_lateness, options.delivery),
       assembler_(options.pairing_tolerance) {}
 
-int StereoFeed::streamOf(Side side) const { return first_image_stream_ + (side == Side::Left ? 0 : 1); }
+int StereoFeed::toStream(Side side) const { return first_image_stream_ + (side == Side::Left ? 0 : 1); }
 
 void StereoFeed::add(Side side, const sensor_msgs::ImageConstPtr& image) {
-  queue_.put(streamOf(side), toStampNs(image->header.stamp), image);
+  queue_.put(toStream(side), toStampNs(image->header.stamp), image);
 }
 
 void StereoFeed::add(Side side, const sensor_msgs::CompressedImageConstPtr& image) {
-  queue_.put(streamOf(side), toStampNs(image->header.stamp), image);
+  queue_.put(toStream(side), toStampNs(image->header.stamp), image);
 }
 
 void StereoFeed::add(const MotionInput& input) {
@@ -73,9 +73,9 @@ OwnedImage StereoFeed::decode(Side side, StampNs stamp, const Input& input) {
     return {stamp, {}, nullptr};
   }
   pixels->grey = image.pixels;
-  const ImageView view = calibration_->rectify(side, viewOf(pixels->grey), pixels->rectified);
+  const ImageView view = calibration_->rectify(side, toView(pixels->grey), pixels->rectified);
   if (view.empty()) {
-    faults_.push_back(name + sizeOf(image.pixels.cols, image.pixels.rows) + ", which is not the size in camera_info");
+    faults_.push_back(name + toSize(image.pixels.cols, image.pixels.rows) + ", which is not the size in camera_info");
     return {stamp, {}, nullptr};
   }
   if (view.data != pixels->grey.data) {
@@ -98,7 +98,7 @@ std::optional<DecodedPair> StereoFeed::take() {
     }
     if (const auto* motion = std::get_if<MotionInput>(&entry->item)) {
       assembler_.addMotion(*motion);
-    } else if (entry->stream == streamOf(Side::Left)) {
+    } else if (entry->stream == toStream(Side::Left)) {
       assembler_.addLeft(decode(Side::Left, entry->stamp, entry->item));
     } else {
       assembler_.addRight(decode(Side::Right, entry->stamp, entry->item));
@@ -107,14 +107,14 @@ std::optional<DecodedPair> StereoFeed::take() {
 }
 
 const urban_nav_core::TimeOrderedQueueCounts& StereoFeed::counts(Side side) const {
-  return queue_.counts(streamOf(side));
+  return queue_.counts(toStream(side));
 }
 
 std::int64_t StereoFeed::missing(Side side) const {
   return side == Side::Left ? assembler_.leftsMissing() : assembler_.rightsMissing();
 }
 
-std::optional<StampNs> StereoFeed::reached(Side side) const { return queue_.reached(streamOf(side)); }
+std::optional<StampNs> StereoFeed::reached(Side side) const { return queue_.reached(toStream(side)); }
 
 void StereoFeed::archive(urban_nav_core::Archive& archive) {
   queue_.archive(archive, [](urban_nav_core::Archive& items, Input& input) {

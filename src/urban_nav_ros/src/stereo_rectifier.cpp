@@ -16,7 +16,7 @@ using urban_nav_core::ImageView;
 
 namespace {
 
-const std_msgs::Header& headerOf(const ImageInput& image) {
+const std_msgs::Header& findHeader(const ImageInput& image) {
   return std::visit([](const auto& message) -> const std_msgs::Header& { return message->header; }, image.message);
 }
 
@@ -88,7 +88,7 @@ void StereoRectifier::process(const ImageInput& image) {
   if (!fault.empty()) {
     ++counts_.damaged;
     listener_.fault((image.side == Side::Left ? "left image: " : "right image: ") + fault);
-    message = toMono8(headerOf(image), {}, {});
+    message = toMono8(findHeader(image), {}, {});
   }
   listener_.image(image.side, message);
 }
@@ -106,7 +106,7 @@ sensor_msgs::ImageConstPtr StereoRectifier::convert(const ImageInput& image, std
   fault = grey.fault;
   if (!fault.empty()) return nullptr;
   std::vector<std::uint8_t> rectified;
-  const ImageView view = calibration_->rectify(image.side, viewOf(grey.pixels), rectified);
+  const ImageView view = calibration_->rectify(image.side, toView(grey.pixels), rectified);
   if (view.empty()) {
     fault = std::to_string(grey.pixels.cols) + "x" + std::to_string(grey.pixels.rows) +
             ", which is not the size in camera_info";
@@ -115,7 +115,7 @@ sensor_msgs::ImageConstPtr StereoRectifier::convert(const ImageInput& image, std
   ++(calibration_->rectifies() ? counts_.rectified : counts_.passed);
   const bool is_unchanged =
       raw != nullptr && !calibration_->rectifies() && (*raw)->encoding == sensor_msgs::image_encodings::MONO8;
-  return is_unchanged ? *raw : toMono8(headerOf(image), view, std::move(rectified));
+  return is_unchanged ? *raw : toMono8(findHeader(image), view, std::move(rectified));
 }
 
 urban_nav_live::StageReport StereoRectifier::report() const {

@@ -13,10 +13,10 @@ using diagnostic_msgs::DiagnosticStatus;
 using urban_nav_core::Health;
 
 TEST(Diagnostics, healthHasALevel) {
-  EXPECT_EQ(diagnosticLevelOf(Health::Ok), DiagnosticStatus::OK);
-  EXPECT_EQ(diagnosticLevelOf(Health::Recovered), DiagnosticStatus::OK);
-  EXPECT_EQ(diagnosticLevelOf(Health::Degraded), DiagnosticStatus::WARN);
-  EXPECT_EQ(diagnosticLevelOf(Health::Lost), DiagnosticStatus::ERROR);
+  EXPECT_EQ(toDiagnosticLevel(Health::Ok), DiagnosticStatus::OK);
+  EXPECT_EQ(toDiagnosticLevel(Health::Recovered), DiagnosticStatus::OK);
+  EXPECT_EQ(toDiagnosticLevel(Health::Degraded), DiagnosticStatus::WARN);
+  EXPECT_EQ(toDiagnosticLevel(Health::Lost), DiagnosticStatus::ERROR);
 }
 
 TEST(Arrival, saysWhatHasNotComeAndWhatIsSilent) {

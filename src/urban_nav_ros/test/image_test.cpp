@@ -94,8 +94,8 @@ TEST(ToImageMessage, comesBackTheSame) {
   const sensor_msgs::Image image = toImageMessage(picture(cv::Rect(1, 1, 5, 3)));
   EXPECT_EQ(image.step, 5U);
   EXPECT_EQ(cv::norm(toGrey(image).pixels, picture(cv::Rect(1, 1, 5, 3)), cv::NORM_INF), 0.0);
-  EXPECT_TRUE(viewOf(cv::Mat()).empty());
-  EXPECT_EQ(viewOf(picture).at(6, 4), picture.at<std::uint8_t>(4, 6));
+  EXPECT_TRUE(toView(cv::Mat()).empty());
+  EXPECT_EQ(toView(picture).at(6, 4), picture.at<std::uint8_t>(4, 6));
 }
 
 }  // namespace

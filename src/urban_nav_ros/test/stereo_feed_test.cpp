@@ -180,7 +180,7 @@ TEST(CameraInfo, thereAndBack) {
 }
 
 /// What came out of a feed: stamps, pixels, inputs, faults.
-std::string textOf(const std::vector<DecodedPair>& pairs) {
+std::string toText(const std::vector<DecodedPair>& pairs) {
   std::string text;
   const auto add = [&](const urban_nav_core::ImageView& view) {
     text += " " + (view.empty() ? std::string("none")
@@ -235,7 +235,7 @@ TEST(StereoFeed, goesOnFromItsState) {
     }
     feed->finish();
     for (DecodedPair& pair : drain(*feed)) pairs.push_back(std::move(pair));
-    return textOf(pairs) + std::to_string(feed->missing(Side::Right)) + " " +
+    return toText(pairs) + std::to_string(feed->missing(Side::Right)) + " " +
            std::to_string(feed->counts(Side::Right).late) + " " + std::to_string(feed->counts(Side::Left).received);
   };
   const std::string whole = play(messages.size() + 1);

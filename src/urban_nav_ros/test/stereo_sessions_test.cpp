@@ -25,13 +25,13 @@ urban_nav_core::StereoCamera sessionCamera(double baseline = 0.12) {
   return camera;
 }
 
-InfoInput infoOf(Side side, const urban_nav_core::CameraInfo& info) {
+InfoInput makeInfo(Side side, const urban_nav_core::CameraInfo& info) {
   auto message = boost::make_shared<sensor_msgs::CameraInfo>(toCameraInfoMessage(info));
   message->header.frame_id = side == Side::Left ? "left" : "right";
   return {side, message};
 }
 
-ImageInput imageOf(Side side, StampNs stamp, int width = 96) {
+ImageInput toImage(Side side, StampNs stamp, int width = 96) {
   auto message = boost::make_shared<sensor_msgs::Image>(toImageMessage(cv::Mat(72, width, CV_8UC1, cv::Scalar(9))));
   message->header.stamp = toRosTime(stamp);
   return {side, sensor_msgs::ImageConstPtr(message), stamp};
@@ -55,12 +55,12 @@ struct Kept {
                                           [this](const std::string& fault) { faults.push_back(fault); }});
   }
   void calibrate(double baseline = 0.12) {
-    sessions->handle(infoOf(Side::Left, leftInfo(sessionCamera(baseline))));
-    sessions->handle(infoOf(Side::Right, rightInfo(sessionCamera(baseline))));
+    sessions->handle(makeInfo(Side::Left, leftInfo(sessionCamera(baseline))));
+    sessions->handle(makeInfo(Side::Right, rightInfo(sessionCamera(baseline))));
   }
   void show(StampNs stamp) {
-    sessions->handle(imageOf(Side::Left, stamp));
-    sessions->handle(imageOf(Side::Right, stamp));
+    sessions->handle(toImage(Side::Left, stamp));
+    sessions->handle(toImage(Side::Right, stamp));
   }
   StereoSessions::Options options;
   std::unique_ptr<StereoSessions> sessions;
@@ -108,7 +108,7 @@ TEST(StereoSessions, AJumpBackInTimeEndsTheSession) {
   Kept kept;
   kept.calibrate();
   kept.show(session_start);
-  kept.sessions->handle(imageOf(Side::Left, session_start + 50 * session_ms));
+  kept.sessions->handle(toImage(Side::Left, session_start + 50 * session_ms));
   kept.show(session_start - 2000 * session_ms);
   EXPECT_EQ(kept.ends, std::vector<std::string>{"time went back"});
   EXPECT_EQ(kept.cameras.size(), 2U);
@@ -124,11 +124,11 @@ TEST(StereoSessions, AnotherCalibrationEndsTheSessionUntilBothSidesHaveIt) {
   kept.show(session_start);
   kept.calibrate();
   EXPECT_TRUE(kept.ends.empty()) << "the same calibration";
-  kept.sessions->handle(infoOf(Side::Left, leftInfo(sessionCamera(0.2))));
+  kept.sessions->handle(makeInfo(Side::Left, leftInfo(sessionCamera(0.2))));
   EXPECT_EQ(kept.ends, std::vector<std::string>{"the calibration changed"});
   kept.show(session_start + 50 * session_ms);
   EXPECT_EQ(kept.cameras.size(), 1U);
-  kept.sessions->handle(infoOf(Side::Right, rightInfo(sessionCamera(0.2))));
+  kept.sessions->handle(makeInfo(Side::Right, rightInfo(sessionCamera(0.2))));
   ASSERT_EQ(kept.cameras.size(), 2U);
   EXPECT_NEAR(kept.cameras[1].camera.baseline, 0.2, 1e-9);
   EXPECT_EQ(kept.stamps.size(), 2U);
@@ -137,13 +137,13 @@ TEST(StereoSessions, AnotherCalibrationEndsTheSessionUntilBothSidesHaveIt) {
 TEST(StereoSessions, ACalibrationThatIsNoStereoPairIsRefusedOnce) {
   Kept kept;
   kept.show(session_start);
-  kept.sessions->handle(infoOf(Side::Left, leftInfo(sessionCamera())));
-  kept.sessions->handle(infoOf(Side::Right, leftInfo(sessionCamera())));
+  kept.sessions->handle(makeInfo(Side::Left, leftInfo(sessionCamera())));
+  kept.sessions->handle(makeInfo(Side::Right, leftInfo(sessionCamera())));
   kept.sessions->idle();
   ASSERT_EQ(kept.faults.size(), 1U);
   EXPECT_FALSE(kept.sessions->fault().empty());
-  kept.sessions->handle(infoOf(Side::Right, rightInfo(sessionCamera())));
-  kept.sessions->handle(infoOf(Side::Left, leftInfo(sessionCamera())));
+  kept.sessions->handle(makeInfo(Side::Right, rightInfo(sessionCamera())));
+  kept.sessions->handle(makeInfo(Side::Left, leftInfo(sessionCamera())));
   EXPECT_EQ(kept.sessions->fault(), "");
   EXPECT_EQ(kept.stamps.size(), 1U);
 }
@@ -151,8 +151,8 @@ TEST(StereoSessions, ACalibrationThatIsNoStereoPairIsRefusedOnce) {
 TEST(StereoSessions, CountDamagedImages) {
   Kept kept;
   kept.calibrate();
-  kept.sessions->handle(imageOf(Side::Left, session_start, 50));
-  kept.sessions->handle(imageOf(Side::Right, session_start));
+  kept.sessions->handle(toImage(Side::Left, session_start, 50));
+  kept.sessions->handle(toImage(Side::Right, session_start));
   EXPECT_EQ(kept.stamps.size(), 1U);
   EXPECT_EQ(kept.sessions->counts().damaged, 1);
   urban_nav_live::StageReport report;
@@ -164,7 +164,7 @@ TEST(StereoSessions, AnEndWithoutDeliveryForgetsWhatWaits) {
   Kept kept;
   kept.calibrate();
   kept.show(session_start);
-  kept.sessions->handle(imageOf(Side::Left, session_start + 50 * session_ms));
+  kept.sessions->handle(toImage(Side::Left, session_start + 50 * session_ms));
   kept.sessions->end("shutdown", false);
   EXPECT_EQ(kept.stamps.size(), 1U);
   EXPECT_EQ(kept.ends, std::vector<std::string>{"shutdown"});

@@ -40,7 +40,7 @@ const Eigen::Vector3d kDriftAlong(2.2e-3, 2.0e-3, 1.0e-3), kDriftTurned(0.16e-3,
 const double kBend =
     std::sqrt(2.0 * kBeside / 6.0 * (kDriftAlong.squaredNorm() + 100.0 * kDriftTurned.squaredNorm()) / 3.0);
 
-StampNs stampOf(double t) { return static_cast<StampNs>(std::llround(1e9 * t)); }
+StampNs toStamp(double t) { return static_cast<StampNs>(std::llround(1e9 * t)); }
 
 /// The true way and what odometry makes of it, frame by frame.
 struct Driven {
@@ -64,7 +64,7 @@ struct Driven {
       way.push_back(way.empty() ? 0.0 : way.back() + length);
       t.push_back(now);
       T_world_base.push_back(pose);
-      odometry.append(stampOf(now), T_first_base);
+      odometry.append(toStamp(now), T_first_base);
     }
   }
 };
@@ -113,7 +113,7 @@ int main(int argc, char** argv) try {
       const Lms291 device(tracer, sensorPose(frames[laser]), seed, frames[laser], settings);
       std::uint64_t number = kTurns * static_cast<std::uint64_t>(day);
       for (double t = kStart; t < driven.t.back() - settings.period; t += settings.period)
-        turns[laser].push_back({t, toScan(device.scan(*motion, t, stampOf(t), number++))});
+        turns[laser].push_back({t, toScan(device.scan(*motion, t, toStamp(t), number++))});
     }
     double next = kBeside;
     for (std::size_t at = 0; at < driven.t.size() && driven.way[at] + kBeside < driven.way.back(); ++at) {

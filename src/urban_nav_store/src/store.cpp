@@ -23,7 +23,7 @@ namespace {
 /// it is read.
 constexpr std::uintmax_t kCheckedThroughout = std::uintmax_t{64} << 20;
 
-std::uintmax_t sizeOf(const std::string& path) {
+std::uintmax_t toSize(const std::string& path) {
   std::error_code error;
   const std::uintmax_t size = fs::file_size(path, error);
   return error ? 0 : size;
@@ -52,7 +52,7 @@ void make(const std::string& path) {
 Connection::Mode modeFor(const std::string& path, Access access) {
   if (access == Access::Write) return Connection::Mode::Write;
   // Without a log and a writer the file is all there is, and nothing needs to be made beside it to read it.
-  return sizeOf(path + "-wal") > 0 || WriterLock::isHeld(path) ? Connection::Mode::Read : Connection::Mode::ReadFrozen;
+  return toSize(path + "-wal") > 0 || WriterLock::isHeld(path) ? Connection::Mode::Read : Connection::Mode::ReadFrozen;
 }
 
 void checkThroughout(Connection& connection) {
@@ -93,7 +93,7 @@ Store::Implementation::Implementation(const std::string& path, Access access)
     schema::migrate(connection, schema::tables());
   }
   schema::check(connection);
-  if (sizeOf(path_) <= kCheckedThroughout) checkThroughout(connection);
+  if (toSize(path_) <= kCheckedThroughout) checkThroughout(connection);
 }
 
 void Store::Implementation::settle() {

@@ -37,7 +37,7 @@ StoredTrajectory readTrajectory(Store& store, const Session& session) {
   return trajectory;
 }
 
-std::vector<Session> sessionsOf(Store& store, const std::vector<std::string>& wanted) {
+std::vector<Session> selectSessions(Store& store, const std::vector<std::string>& wanted) {
   std::vector<Session> sessions = store.sessions().all();
   std::string known;
   for (const Session& session : sessions) known += (known.empty() ? "" : ", ") + session.id + " (" + session.name + ")";

@@ -11,7 +11,7 @@
 namespace urban_nav_store {
 namespace {
 
-using testing::errorOf;
+using testing::catchError;
 using testing::expectError;
 using testing::fill;
 using testing::Folder;
@@ -26,7 +26,7 @@ TEST(FullDisk, isNamedAndLosesNothingThatWasCommitted) {
     {
       const SmallDisk disk(room);
       for (std::uint32_t seed = 1; error.empty() && seed < 200; ++seed) {
-        error = errorOf([&] {
+        error = catchError([&] {
           fill(store, seed, 20);
           store.commit();
           committed = dump(store);
@@ -53,7 +53,7 @@ TEST(FullDisk, anErrorLeavesTheStoreReadableForOthers) {
   store.commit();
   const std::string committed = dump(store);
   const SmallDisk disk(200'000);
-  EXPECT_NE(errorOf([&] {
+  EXPECT_NE(catchError([&] {
               for (std::uint32_t seed = 2; seed < 100; ++seed) fill(store, seed, 20);
               store.commit();
             }),

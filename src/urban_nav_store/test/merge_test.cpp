@@ -26,7 +26,7 @@ class Merge : public ::testing::Test {
     store.commit();
     return folder.file(name);
   }
-  std::string dumpOf(const std::string& path) {
+  std::string dumpStore(const std::string& path) {
     Store store(path, Access::Read);
     return dump(store);
   }
@@ -39,12 +39,12 @@ TEST_F(Merge, joinsOtherSessionsInAnyOrder) {
   const std::string b = make("b.db", [](Store& store) { fill(store, 2, 20); });
   const std::string both = make("both.db", [](Store& store) { fill(store, 2, 20), fill(store, 1, 20); });
   const MergeResult result = merge({a, b}, out);
-  EXPECT_TRUE(dumpOf(out) == dumpOf(both));
+  EXPECT_TRUE(dumpStore(out) == dumpStore(both));
   EXPECT_EQ(result.identical, 0);
   merge({b, a}, out);
-  EXPECT_TRUE(dumpOf(out) == dumpOf(both)) << "over the one before";
+  EXPECT_TRUE(dumpStore(out) == dumpStore(both)) << "over the one before";
   const MergeResult again = merge({out, a}, out);
-  EXPECT_TRUE(dumpOf(out) == dumpOf(both)) << "into one of the sources";
+  EXPECT_TRUE(dumpStore(out) == dumpStore(both)) << "into one of the sources";
   EXPECT_EQ(again.rows, result.rows);
   EXPECT_GT(again.identical, 50);
 }
@@ -132,10 +132,10 @@ TEST_F(Merge, takesTheLaterRevisionOfTheGraph) {
   const std::string a = make("a.db", with(3, 1)), b = make("b.db", with(4, 2)), c = make("c.db", with(4, 3));
   for (const auto& sources : {std::vector<std::string>{a, b}, {b, a}}) {
     EXPECT_EQ(merge(sources, out).outdated, 2);
-    EXPECT_TRUE(dumpOf(out) == dumpOf(b));
+    EXPECT_TRUE(dumpStore(out) == dumpStore(b));
   }
   expectError([&] { merge({b, c}, out); }, out, "contradict");
-  EXPECT_TRUE(dumpOf(out) == dumpOf(b)) << "what was there stays";
+  EXPECT_TRUE(dumpStore(out) == dumpStore(b)) << "what was there stays";
 }
 
 TEST_F(Merge, refusesWhatIsNoStore) {

@@ -18,7 +18,7 @@ cv::Point fixedPoint(const cv::Point2f& pixel) {
   return {cvRound(pixel.x * (1 << subpixel_bits)), cvRound(pixel.y * (1 << subpixel_bits))};
 }
 
-cv::Scalar colourOf(Health health) {
+cv::Scalar toColour(Health health) {
   switch (health) {
     case Health::Ok: return {90, 200, 90};
     case Health::Recovered: return {200, 200, 60};
@@ -68,9 +68,9 @@ const cv::Mat& TracksPicture::draw(const urban_nav_core::ImageView& left, const 
     cv::circle(picture_, fixedPoint(way.back()), (fresh ? 3 : 2) << subpixel_bits, colour, fresh ? 1 : cv::FILLED,
                cv::LINE_AA, subpixel_bits);
   }
-  cv::rectangle(picture_, {0, 0, picture_.cols, 4}, colourOf(frame.status.health), cv::FILLED);
+  cv::rectangle(picture_, {0, 0, picture_.cols, 4}, toColour(frame.status.health), cv::FILLED);
   if (!frame.status.sentence.empty())
-    cv::putText(picture_, frame.status.sentence, {8, 22}, cv::FONT_HERSHEY_SIMPLEX, 0.45, colourOf(frame.status.health),
+    cv::putText(picture_, frame.status.sentence, {8, 22}, cv::FONT_HERSHEY_SIMPLEX, 0.45, toColour(frame.status.health),
                 1, cv::LINE_AA);
   return picture_;
 }

@@ -35,14 +35,14 @@ Eigen::Matrix<double, N, 1> perOffset(const Solver& solver, std::size_t row) {
 }  // namespace
 
 Matrix6d marginal(const Solver& solver, std::size_t j) {
-  const Vector6d s = perOffset<6>(solver, solver.rowOf(j));
+  const Vector6d s = perOffset<6>(solver, solver.toRow(j));
   return givenOffset(solver, j) + solver.offsetVariance() * s * s.transpose();
 }
 
 Matrix6d givenOffset(const Solver& solver, std::size_t j) {
   Matrix6d P;
   for (int c = 0; c < 6; ++c)
-    P.col(c) = Eigen::Map<const urban_nav_core::Vector6d>(solver.inverseColumn(j, c, true).data() + solver.rowOf(j));
+    P.col(c) = Eigen::Map<const urban_nav_core::Vector6d>(solver.inverseColumn(j, c, true).data() + solver.toRow(j));
   return symmetric(P);
 }
 
@@ -50,9 +50,9 @@ Matrix12d joint(const Solver& solver, std::size_t j) {
   Matrix12d P;
   for (int c = 0; c < 12; ++c) {
     const auto& column = solver.inverseColumn(j + static_cast<std::size_t>(c / 6), c % 6, true);
-    P.col(c) = Eigen::Map<const Eigen::Matrix<double, 12, 1>>(column.data() + solver.rowOf(j));
+    P.col(c) = Eigen::Map<const Eigen::Matrix<double, 12, 1>>(column.data() + solver.toRow(j));
   }
-  const Eigen::Matrix<double, 12, 1> s = perOffset<12>(solver, solver.rowOf(j));
+  const Eigen::Matrix<double, 12, 1> s = perOffset<12>(solver, solver.toRow(j));
   return symmetric(Matrix12d(P + solver.offsetVariance() * s * s.transpose()));
 }
 
@@ -65,10 +65,10 @@ Matrix12d leftAndOldest(const Solver& solver, const Matrix6d& left, const Depart
   const Eigen::Map<const Eigen::MatrixXd> X(columns.data(), static_cast<Eigen::Index>(columns.size() / 6), 6);
   for (int c = 0; c < 6; ++c)
     for (int r = 0; r < 6; ++r) P(r, 6 + c) = kernels::dot(G.col(r).data(), X.col(c).data(), static_cast<int>(size));
-  P.block<6, 6>(6, 6) = X.block<6, 6>(static_cast<Eigen::Index>(solver.rowOf(0)), 0);
+  P.block<6, 6>(6, 6) = X.block<6, 6>(static_cast<Eigen::Index>(solver.toRow(0)), 0);
   P.bottomLeftCorner<6, 6>() = P.topRightCorner<6, 6>().transpose();
   Eigen::Matrix<double, 12, 1> s;
-  s.tail<6>() = perOffset<6>(solver, solver.rowOf(0));
+  s.tail<6>() = perOffset<6>(solver, solver.toRow(0));
   s.head<6>() = departed.offset_gain;
   for (Eigen::Index i = 0; i < size; ++i)
     s.head<6>() += G.row(i).transpose() * solver.perOffset(static_cast<std::size_t>(i));

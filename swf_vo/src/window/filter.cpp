@@ -71,7 +71,7 @@ void Filter::addPose(FrameId frame, const ProcessInput& u) {
   PoseBlock pose;
   pose.frame = frame;
   pose.u = u;
-  pose.estimate = pose.linearised = process_model::startOf(last.estimate, u);
+  pose.estimate = pose.linearised = process_model::makeStart(last.estimate, u);
   state_.poses.push_back(pose);
 }
 
@@ -164,7 +164,7 @@ SettledPose Filter::settle() {
   const PoseBlock& oldest = state_.poses.front();
   SettledPose result;
   result.frame = oldest.frame;
-  result.T_odom_camera.covariance = covarianceOf(state_.first_step);
+  result.T_odom_camera.covariance = computeCovariance(state_.first_step);
   if (settled_step_ < 0) {
     result.T_odom_camera.pose = oldest.estimate;
   } else {
@@ -174,7 +174,7 @@ SettledPose Filter::settle() {
     result.drift_covariance = driftCovariance(oldest, result.relative_covariance);
   }
   settled_ = result.T_odom_camera;
-  settled_in_window_ = windowCovarianceOf(state_.first_step);
+  settled_in_window_ = computeWindowCovariance(state_.first_step);
   settled_step_ = state_.first_step;
   return result;
 }
@@ -201,7 +201,7 @@ Matrix6d Filter::driftCovariance(const PoseBlock& oldest, const Matrix6d& relati
 
 // Classic visual odometry: what the oldest frame said is lost, and the next pose becomes the datum.
 void Filter::deleteOldest() {
-  const Matrix6d covariance = covarianceOf(state_.first_step + 1);
+  const Matrix6d covariance = computeCovariance(state_.first_step + 1);
   const std::int64_t leaving = state_.first_step;
   for (std::size_t slot = 0; slot < state_.landmarks.size(); ++slot) {
     LandmarkBlock& landmark = state_.landmarks[slot];
@@ -258,7 +258,7 @@ void Filter::publish(const Published& published) {
 }
 
 void Filter::endLandmark(LandmarkId id) {
-  const int slot = state_.slotOf(id);
+  const int slot = state_.findSlot(id);
   if (slot >= 0) state_.landmarks[static_cast<std::size_t>(slot)].followed = false;
 }
 
@@ -266,7 +266,7 @@ void Filter::endLandmark(LandmarkId id) {
 UpdateReport Filter::update() {
   if (options_.iterations > 1 && state_.poses.size() > 1) optimiseNewestPose(state_, cost_.sensor(), options_.huber);
   const GaussNewton::Progress progress = gauss_newton_.run(state_, prior_, cost_, gauge_free_);
-  newest_covariance_ = covarianceOf(state_.newestStep());
+  newest_covariance_ = computeCovariance(state_.newestStep());
   offset_sigma_ = std::sqrt(gauss_newton_.solver().offsetVariance());
   oldest_information_ = gauss_newton_.ownInformation(0);
   UpdateReport result = report(state_, cost_.sensor());
@@ -275,13 +275,13 @@ UpdateReport Filter::update() {
   return result;
 }
 
-Matrix6d Filter::windowCovarianceOf(std::int64_t step) const {
+Matrix6d Filter::computeWindowCovariance(std::int64_t step) const {
   std::size_t place = 0;
   return gauss_newton_.inFactor(step, place) ? covariance::givenOffset(gauss_newton_.solver(), place)
                                              : newest_covariance_;
 }
 
-Matrix6d Filter::covarianceOf(std::int64_t step) const {
+Matrix6d Filter::computeCovariance(std::int64_t step) const {
   std::size_t place = 0;
   if (!gauss_newton_.inFactor(step, place)) return newest_covariance_;
   return covariance::marginal(gauss_newton_.solver(), place) +

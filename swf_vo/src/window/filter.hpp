@@ -78,8 +78,8 @@ class Filter {
   urban_nav_core::Matrix6d relativeCovariance(const PoseBlock& oldest) const;
   urban_nav_core::Matrix6d driftCovariance(const PoseBlock& oldest, const urban_nav_core::Matrix6d& relative) const;
   void applyProcessNoise(const Eigen::Vector3d& origin);
-  urban_nav_core::Matrix6d windowCovarianceOf(std::int64_t step) const;
-  urban_nav_core::Matrix6d covarianceOf(std::int64_t step) const;
+  urban_nav_core::Matrix6d computeWindowCovariance(std::int64_t step) const;
+  urban_nav_core::Matrix6d computeCovariance(std::int64_t step) const;
 
   WindowOptions options_;
   Cost cost_;

@@ -45,7 +45,7 @@ Eigen::Matrix3d lookingAlong(const Vector3d& direction) {
 Vector3d withoutOffset(const State& state, const Vector3d& z) { return {z.x(), z.y(), z.z() + state.disparity_offset}; }
 
 bool fixLandmark(State& state, const MapPoint& point) {
-  if (state.slotOf(point.landmark) >= 0 || !point.p_odom.allFinite()) return false;
+  if (state.findSlot(point.landmark) >= 0 || !point.p_odom.allFinite()) return false;
   LandmarkBlock& landmark = state.landmarks[static_cast<std::size_t>(state.add(point.landmark))];
   landmark.known = true;
   // An anchor at the origin that looks at the point.
@@ -64,7 +64,7 @@ void place(State& state, const SensorModel& sensor, int slot, const Measurement&
 }
 
 bool observe(State& state, const SensorModel& sensor, const Observation& observation) {
-  const int pose = state.poseOf(observation.frame);
+  const int pose = state.toPose(observation.frame);
   if (pose < 0 || !observation.z.allFinite() || !observation.information.allFinite()) return false;
   Measurement measurement;
   measurement.step = state.first_step + pose;
@@ -75,7 +75,7 @@ bool observe(State& state, const SensorModel& sensor, const Observation& observa
   measurement.sigma_px = observation.sigma_px;
   measurement.inflation = observation.inflation;
   measurement.template_drift_covariance = sensor.bearing(observation.template_drift_covariance);
-  int slot = state.slotOf(observation.landmark);
+  int slot = state.findSlot(observation.landmark);
   if (slot < 0) {
     if (!hasFullRank(observation.information) || !isSane(sensor.invert(withoutOffset(state, observation.z))))
       return false;
@@ -91,8 +91,8 @@ bool observe(State& state, const SensorModel& sensor, const Observation& observa
 }
 
 bool withdraw(State& state, LandmarkId id, FrameId frame) {
-  const int slot = state.slotOf(id);
-  const int pose = state.poseOf(frame);
+  const int slot = state.findSlot(id);
+  const int pose = state.toPose(frame);
   if (slot < 0 || pose < 0) return false;
   LandmarkBlock& landmark = state.landmarks[static_cast<std::size_t>(slot)];
   const std::int64_t step = state.first_step + pose;
@@ -106,7 +106,7 @@ bool withdraw(State& state, LandmarkId id, FrameId frame) {
 }
 
 void replace(State& state, const SensorModel& sensor, FrameId frame, const std::vector<Observation>& observations) {
-  const int pose = state.poseOf(frame);
+  const int pose = state.toPose(frame);
   if (pose < 0) return;
   const std::int64_t step = state.first_step + pose;
   for (LandmarkBlock& landmark : state.landmarks) {

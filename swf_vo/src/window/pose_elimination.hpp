@@ -26,7 +26,7 @@ class PoseElimination {
   void solve(std::vector<double>& path, std::vector<double>& map, bool hold) const;
 
   /// Row of a landmark in `map`, by slot.
-  int rowOf(std::size_t slot) const { return row_[slot]; }
+  int toRow(std::size_t slot) const { return row_[slot]; }
   int mapSize() const { return map_size_; }
   std::size_t poses() const { return links_.size(); }
   void archive(urban_nav_core::Archive& archive);

@@ -19,7 +19,7 @@ Matrix6d floor() {
 
 Pose predict(const Pose& T_odom_last, const ProcessInput& u) { return T_odom_last * u.T_from_to; }
 
-Pose startOf(const Pose& T_odom_last, const ProcessInput& u) {
+Pose makeStart(const Pose& T_odom_last, const ProcessInput& u) {
   return u.T_from_start ? T_odom_last * *u.T_from_start : predict(T_odom_last, u);
 }
 

@@ -26,7 +26,7 @@ urban_nav_core::Matrix6d floor();
 
 urban_nav_core::Pose predict(const urban_nav_core::Pose& T_odom_last, const ProcessInput& u);
 /// Where the estimate of the next pose begins.
-urban_nav_core::Pose startOf(const urban_nav_core::Pose& T_odom_last, const ProcessInput& u);
+urban_nav_core::Pose makeStart(const urban_nav_core::Pose& T_odom_last, const ProcessInput& u);
 
 /// e = (T_odom_last^-1 T_odom_next) boxMinus u, zero where the prediction is exact, and its exact Jacobians by boxPlus
 /// of either pose. e depends on the relative pose alone, so the six gauge directions stay empty.

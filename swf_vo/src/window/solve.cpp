@@ -214,8 +214,8 @@ void Solver::solvePosesFirst(const State& state, const Prior& prior, const Right
   std::copy(right.prior.begin(), right.prior.begin() + static_cast<std::ptrdiff_t>(offset_), map_.begin());
   if (prior.has_pose) Map<Vector6d>(path_.data()) += Map<const Vector6d>(right.prior.data() + offset_);
   for (std::size_t slot = 0; slot < state.landmarks.size(); ++slot)
-    if (pose_elimination_.rowOf(slot) >= 0)
-      Map<Vector3d>(map_.data() + pose_elimination_.rowOf(slot)) += right.landmark[slot];
+    if (pose_elimination_.toRow(slot) >= 0)
+      Map<Vector3d>(map_.data() + pose_elimination_.toRow(slot)) += right.landmark[slot];
   right_path_ = path_;
   right_map_ = map_;
   pose_elimination_.solve(path_, map_, true);
@@ -226,8 +226,8 @@ void Solver::solvePosesFirst(const State& state, const Prior& prior, const Right
   std::copy(path_.begin(), path_.end(), rhs_.begin() + static_cast<std::ptrdiff_t>(offset_));
   landmark_step_.assign(state.landmarks.size(), Vector3d::Zero());
   for (std::size_t slot = 0; slot < state.landmarks.size(); ++slot)
-    if (pose_elimination_.rowOf(slot) >= 0)
-      landmark_step_[slot] = Map<const Vector3d>(map_.data() + pose_elimination_.rowOf(slot));
+    if (pose_elimination_.toRow(slot) >= 0)
+      landmark_step_[slot] = Map<const Vector3d>(map_.data() + pose_elimination_.toRow(slot));
 }
 
 void Solver::factorLandmarksFirst(const State& state, const Prior& prior, const NormalEquations& equations,
@@ -318,7 +318,7 @@ const std::vector<double>& Solver::inverseColumn(std::size_t j, int c, bool pose
     std::copy(path_.begin(), path_.end(), column_.begin() + static_cast<std::ptrdiff_t>(offset_));
     return column_;
   }
-  const std::size_t at = rowOf(j) + static_cast<std::size_t>(c);
+  const std::size_t at = toRow(j) + static_cast<std::size_t>(c);
   column_[at] = 1.0;
   cholesky_.solveLower(column_.data(), static_cast<int>(at));
   cholesky_.solveUpper(column_.data(), poses_only ? static_cast<int>(offset_) : 0);
@@ -336,8 +336,8 @@ const std::vector<double>& Solver::inverseColumns(std::size_t j) const {
       std::copy(one.begin(), one.end(), column);
       continue;
     }
-    column[rowOf(j) + c] = 1.0;
-    cholesky_.solveLower(column, static_cast<int>(rowOf(j) + c));
+    column[toRow(j) + c] = 1.0;
+    cholesky_.solveLower(column, static_cast<int>(toRow(j) + c));
   }
   if (!poses_first_) cholesky_.solveUpperSix(columns_of_pose_.data(), static_cast<int>(size));
   return columns_of_pose_;

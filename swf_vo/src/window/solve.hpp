@@ -46,7 +46,7 @@ class Solver {
   /// All six columns of pose j, whole and one after the other. Valid until the next call.
   const std::vector<double>& inverseColumns(std::size_t j) const;
   /// Row where pose j begins in such a column.
-  std::size_t rowOf(std::size_t j) const { return offset_ + 6 * j; }
+  std::size_t toRow(std::size_t j) const { return offset_ + 6 * j; }
   /// Variance of the disparity offset (px^2), 0 where it is a constant, and how the estimate in such a row goes with
   /// it.
   double offsetVariance() const { return border_.used ? 1.0 / border_.pivot : 0.0; }

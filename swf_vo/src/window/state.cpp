@@ -15,13 +15,13 @@ bool before(const std::pair<LandmarkId, int>& entry, LandmarkId id) { return ent
 
 }  // namespace
 
-int State::poseOf(FrameId frame) const {
+int State::toPose(FrameId frame) const {
   const auto at = std::lower_bound(poses.begin(), poses.end(), frame,
                                    [](const PoseBlock& pose, FrameId value) { return pose.frame < value; });
   return at != poses.end() && at->frame == frame ? static_cast<int>(at - poses.begin()) : -1;
 }
 
-int State::slotOf(LandmarkId landmark) const {
+int State::findSlot(LandmarkId landmark) const {
   const auto at = std::lower_bound(slots_.begin(), slots_.end(), landmark, before);
   return at != slots_.end() && at->first == landmark ? at->second : -1;
 }

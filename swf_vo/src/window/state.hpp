@@ -65,9 +65,9 @@ class State {
 
   std::int64_t newestStep() const { return first_step + static_cast<std::int64_t>(poses.size()) - 1; }
   /// Place in `poses`, -1 if the frame is not active.
-  int poseOf(FrameId frame) const;
+  int toPose(FrameId frame) const;
   /// Slot of a landmark, -1 if unknown.
-  int slotOf(LandmarkId landmark) const;
+  int findSlot(LandmarkId landmark) const;
   /// As much room as another has, so that copies of it allocate nothing.
   void reserveLike(const State& other);
   /// Room for so many landmarks.

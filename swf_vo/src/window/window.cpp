@@ -23,7 +23,7 @@ class Window::Implementation {
 
   // An earlier frame's measurement, with something marginalised since.
   bool isLate(FrameId frame) const {
-    return options.exact_undo && filter.state().poseOf(frame) >= 0 && undo.needsReplay(frame);
+    return options.exact_undo && filter.state().toPose(frame) >= 0 && undo.needsReplay(frame);
   }
 
   WindowOptions options;
@@ -95,7 +95,7 @@ bool Window::withdraw(LandmarkId landmark, FrameId frame) {
 
 void Window::withdrawAll(LandmarkId landmark) {
   Implementation& all = *implementation_;
-  const int slot = all.filter.state().slotOf(landmark);
+  const int slot = all.filter.state().findSlot(landmark);
   if (slot < 0) return;
   const State& state = all.filter.state();
   all.frames.clear();
@@ -121,11 +121,11 @@ const std::vector<LandmarkId>& Window::driftingLandmarks() {
 
 PoseWithCovariance Window::newest() const { return implementation_->filter.newest(); }
 std::size_t Window::poses() const { return implementation_->filter.state().poses.size(); }
-bool Window::hasPose(FrameId frame) const { return implementation_->filter.state().poseOf(frame) >= 0; }
+bool Window::hasPose(FrameId frame) const { return implementation_->filter.state().toPose(frame) >= 0; }
 
 Pose Window::pose(FrameId frame) const {
   const State& state = implementation_->filter.state();
-  return state.poses[static_cast<std::size_t>(std::max(0, state.poseOf(frame)))].estimate;
+  return state.poses[static_cast<std::size_t>(std::max(0, state.toPose(frame)))].estimate;
 }
 
 double Window::disparityOffset() const { return implementation_->filter.state().disparity_offset; }
@@ -143,7 +143,7 @@ const std::vector<MapPoint>& Window::map() const {
 
 double Window::weight(LandmarkId landmark) const {
   const State& state = implementation_->filter.state();
-  const int slot = state.slotOf(landmark);
+  const int slot = state.findSlot(landmark);
   if (slot < 0 || state.landmarks[static_cast<std::size_t>(slot)].seen.empty()) return 1.0;
   return state.landmarks[static_cast<std::size_t>(slot)].seen.back().weight;
 }

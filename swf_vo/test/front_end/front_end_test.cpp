@@ -71,7 +71,7 @@ RenderedSequence room(double rate) {
 
 TEST(FrontEnd, FollowsLandmarksThroughARoom) {
   RenderedSequence sequence = room(20.0);
-  const StereoCamera camera = cameraOf(sequence.options().camera);
+  const StereoCamera camera = makeCamera(sequence.options().camera);
   Bench bench(camera);
   Pose last = sequence.T_world_camera(0);
   for (int i = 0; i < 12; ++i) {
@@ -102,7 +102,7 @@ TEST(FrontEnd, FollowsLandmarksThroughARoom) {
 
 TEST(FrontEnd, BearsARightImageWhoseRowsLieLower) {
   RenderedSequence sequence = room(20.0);
-  const StereoCamera camera = cameraOf(sequence.options().camera);
+  const StereoCamera camera = makeCamera(sequence.options().camera);
   for (const int lower : {-1, 1, 2}) {
     Bench bench(camera);
     Pose last = sequence.T_world_camera(0);
@@ -134,7 +134,7 @@ TEST(FrontEnd, BearsARightImageWhoseRowsLieLower) {
 
 TEST(FrontEnd, FirstObservationsAreAsGoodAsTheySay) {
   RenderedSequence sequence = room(20.0);
-  const StereoCamera camera = cameraOf(sequence.options().camera);
+  const StereoCamera camera = makeCamera(sequence.options().camera);
   Bench bench(camera);
   const Pose first = sequence.T_world_camera(0);
   const Scene scene = texturedRoom();
@@ -158,7 +158,7 @@ TEST(FrontEnd, FirstObservationsAreAsGoodAsTheySay) {
 
 TEST(FrontEnd, SwappedDarkAndAbsurdImagesGiveFewMatchesAndNoHarm) {
   RenderedSequence sequence = room(20.0);
-  const StereoCamera camera = cameraOf(sequence.options().camera);
+  const StereoCamera camera = makeCamera(sequence.options().camera);
   Bench bench(camera);
   const Pose truth = sequence.T_world_camera(0);
   bench.learn(bench.see(sequence.frame(0).pair(), truth, truth), truth);
@@ -200,7 +200,7 @@ TEST(FrontEnd, FindsAFirstStepThatNothingForetold) {
     const Pose second = first * expSe3(motion);
     RenderedSequence sequence(
         texturedRoom(), [&](double t) { return t > 0.0 ? second : first; }, options);
-    Bench bench(cameraOf(options.camera));
+    Bench bench(makeCamera(options.camera));
     bench.learn(bench.see(sequence.frame(0).pair(), first, first), first);
     const FrontEndResult& seen = bench.see(sequence.frame(1).pair(), first, first);
     ASSERT_TRUE(seen.localised) << metres;
@@ -212,7 +212,7 @@ TEST(FrontEnd, FindsAFirstStepThatNothingForetold) {
 
 TEST(FrontEnd, GoesOnAfterDarkness) {
   RenderedSequence sequence = room(20.0);
-  Bench bench(cameraOf(sequence.options().camera));
+  Bench bench(makeCamera(sequence.options().camera));
   Pose last = sequence.T_world_camera(0);
   int localised = 0;
   for (int i = 0; i < 8; ++i) {
@@ -233,7 +233,7 @@ TEST(FrontEnd, SameInputSameBits) {
   std::vector<double> values[2];
   for (auto& out : values) {
     RenderedSequence sequence = room(10.0);
-    Bench bench(cameraOf(sequence.options().camera));
+    Bench bench(makeCamera(sequence.options().camera));
     Pose last = sequence.T_world_camera(0);
     for (int i = 0; i < 4; ++i) {
       const Pose truth = sequence.T_world_camera(i);

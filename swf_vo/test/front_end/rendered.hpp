@@ -6,7 +6,7 @@
 
 namespace swf_vo {
 
-using urban_nav_core::testing::cameraOf;
+using urban_nav_core::testing::makeCamera;
 
 /// A small camera, so that tests stay fast.
 inline urban_nav_core::testing::SequenceOptions smallCamera(double noise = 1.0) {

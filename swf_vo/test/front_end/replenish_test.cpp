@@ -20,7 +20,7 @@ class Replenish : public ::testing::Test {
  protected:
   void SetUp() override {
     RenderedSequence sequence(texturedRoom(), standing(lookingAlong({0.0, 0.0, 1.2}, 0.3)), smallCamera(1.0));
-    camera_ = cameraOf(sequence.options().camera);
+    camera_ = makeCamera(sequence.options().camera);
     frame_ = sequence.frame(0);
     corners_.extract(frame_.pair());
   }

@@ -21,14 +21,14 @@ using namespace urban_nav_core::testing;
 constexpr double kDegree = M_PI / 180.0;
 
 /// Error of the rotation found between two views from one place, deg.
-double errorOf(const Vector3d& turn, double gain, const std::vector<Parallax>& known = {}) {
+double computeError(const Vector3d& turn, double gain, const std::vector<Parallax>& known = {}) {
   SequenceOptions options = smallCamera(2.0);
   options.gain = [gain](double t) { return t > 0.0 ? gain : 1.0; };
   const Pose start = lookingAlong({0.3, 0.2, 1.2}, 0.4);
   const Pose turned = start * Pose(expSo3(turn), Vector3d::Zero());
   RenderedSequence sequence(
       texturedRoom(), [&](double t) { return t > 0.0 ? turned : start; }, options);
-  RotationTracker tracker(cameraOf(options.camera).left);
+  RotationTracker tracker(makeCamera(options.camera).left);
   Pyramid pyramid(3);
   for (int i = 0; i < 2; ++i) {
     pyramid.build(sequence.frame(i).left.view());
@@ -40,31 +40,31 @@ double errorOf(const Vector3d& turn, double gain, const std::vector<Parallax>& k
 }
 
 TEST(Rotation, ThreeDegreesAFrameAreFound) {
-  EXPECT_LT(errorOf({0.0, 3.0 * kDegree, 0.0}, 1.0), 0.1);
-  EXPECT_LT(errorOf({0.0, -3.0 * kDegree, 0.0}, 1.0), 0.1);
-  EXPECT_LT(errorOf({3.0 * kDegree, 0.0, 0.0}, 1.0), 0.1);
-  EXPECT_LT(errorOf({0.0, 0.0, 3.0 * kDegree}, 1.0), 0.1);
-  EXPECT_LT(errorOf({1.0 * kDegree, 2.0 * kDegree, -2.0 * kDegree}, 1.0), 0.1);
+  EXPECT_LT(computeError({0.0, 3.0 * kDegree, 0.0}, 1.0), 0.1);
+  EXPECT_LT(computeError({0.0, -3.0 * kDegree, 0.0}, 1.0), 0.1);
+  EXPECT_LT(computeError({3.0 * kDegree, 0.0, 0.0}, 1.0), 0.1);
+  EXPECT_LT(computeError({0.0, 0.0, 3.0 * kDegree}, 1.0), 0.1);
+  EXPECT_LT(computeError({1.0 * kDegree, 2.0 * kDegree, -2.0 * kDegree}, 1.0), 0.1);
 }
 
-TEST(Rotation, SixtyDegreesASecondAtTenHertzAreFound) { EXPECT_LT(errorOf({0.0, 6.0 * kDegree, 0.0}, 1.0), 0.2); }
+TEST(Rotation, SixtyDegreesASecondAtTenHertzAreFound) { EXPECT_LT(computeError({0.0, 6.0 * kDegree, 0.0}, 1.0), 0.2); }
 
 TEST(Rotation, BrightnessDoesNotMatter) {
-  EXPECT_LT(errorOf({0.0, 3.0 * kDegree, 0.0}, 0.5), 0.15);
-  EXPECT_LT(errorOf({0.0, 3.0 * kDegree, 0.0}, 1.4), 0.3);  // bright parts are cut off at 255
+  EXPECT_LT(computeError({0.0, 3.0 * kDegree, 0.0}, 0.5), 0.15);
+  EXPECT_LT(computeError({0.0, 3.0 * kDegree, 0.0}, 1.4), 0.3);  // bright parts are cut off at 255
 }
 
 TEST(Rotation, KnownPlacesSuffice) {
   std::vector<Parallax> known;
   for (int i = 0; i < 60; ++i)
     known.push_back({Eigen::Vector2d(40.0 + 4.0 * i, 40.0 + (i * 37) % 160), Vector3d::Zero()});
-  EXPECT_LT(errorOf({0.0, 3.0 * kDegree, 0.0}, 1.0, known), 0.15);
+  EXPECT_LT(computeError({0.0, 3.0 * kDegree, 0.0}, 1.0, known), 0.15);
 }
 
 TEST(Rotation, WhatDoesNotTurnKeepsTheStart) {
   SequenceOptions options = smallCamera(1.0);
   RenderedSequence sequence(texturedRoom(), standing(lookingAlong({0.0, 0.0, 1.2}, 0.4)), options);
-  RotationTracker tracker(cameraOf(options.camera).left);
+  RotationTracker tracker(makeCamera(options.camera).left);
   Pyramid pyramid(3);
   RotationEstimate found;
   for (int i = 0; i < 3; ++i) {

@@ -30,7 +30,7 @@ class TwoFrames : public ::testing::Test {
     SequenceOptions options = smallCamera(2.0);
     RenderedSequence sequence(
         texturedRoom(), [&](double t) { return t > 0.0 ? second : first; }, options);
-    camera_ = cameraOf(options.camera);
+    camera_ = makeCamera(options.camera);
     T_camera_odom_ = second.inverse();
     corners_.extract(sequence.frame(0).pair());
     Replenisher replenisher(camera_, 60, kFloor);
@@ -120,7 +120,7 @@ TEST_F(TwoFrames, NothingIsFoundWhereTheLandmarksAreNot) {
 }
 
 TEST(ProjectInto, AgreesWithTheCameraAndKnowsInfinity) {
-  const StereoCamera camera = cameraOf(smallCamera().camera);
+  const StereoCamera camera = makeCamera(smallCamera().camera);
   const Eigen::Vector3d p(0.5, -0.2, 4.0);
   const auto z = camera.project(p);
   const Eigen::Vector4d h(0.5, -0.2, 4.0, 1.0);

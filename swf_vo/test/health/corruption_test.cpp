@@ -19,16 +19,16 @@ namespace {
 using namespace urban_nav_core::testing;
 using urban_nav_core::ImageView;
 
-ImageView viewOf(const cv::Mat& image) {
+ImageView toView(const cv::Mat& image) {
   return {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)};
 }
 
-cv::Mat imageOf(const GreyImage& grey) {
+cv::Mat toImage(const GreyImage& grey) {
   return cv::Mat(grey.height, grey.width, CV_8U, const_cast<std::uint8_t*>(grey.pixels.data())).clone();
 }
 
 /// A view into the rendered room.
-cv::Mat room() { return imageOf(inTheRoom("loop", 1.0, 70).frames[10].left); }
+cv::Mat room() { return toImage(inTheRoom("loop", 1.0, 70).frames[10].left); }
 
 void fillWithRubbish(cv::Mat rows, unsigned seed) {
   std::mt19937 draw(seed);
@@ -71,36 +71,36 @@ cv::Mat stripes(int along_u, int along_v) {
 }
 
 TEST(LooksCorrupted, sparesPicturesWhateverTheirTexture) {
-  EXPECT_FALSE(looksCorrupted(viewOf(room())));
-  for (const double sigma : {6.0, 20.0, 40.0}) EXPECT_FALSE(looksCorrupted(viewOf(withNoise(room(), sigma)))) << sigma;
+  EXPECT_FALSE(looksCorrupted(toView(room())));
+  for (const double sigma : {6.0, 20.0, 40.0}) EXPECT_FALSE(looksCorrupted(toView(withNoise(room(), sigma)))) << sigma;
   cv::Mat blurred;
   cv::GaussianBlur(room(), blurred, cv::Size(), 4.0);
-  EXPECT_FALSE(looksCorrupted(viewOf(blurred)));
-  EXPECT_FALSE(looksCorrupted(viewOf(room() * 4.0))) << "over-exposed";
-  EXPECT_FALSE(looksCorrupted(viewOf(stripes(3, 0))));
-  EXPECT_FALSE(looksCorrupted(viewOf(stripes(0, 1))));
-  EXPECT_FALSE(looksCorrupted(viewOf(stripes(8, 8))));
-  EXPECT_FALSE(looksCorrupted(viewOf(cv::Mat::zeros(288, 384, CV_8U))));
+  EXPECT_FALSE(looksCorrupted(toView(blurred)));
+  EXPECT_FALSE(looksCorrupted(toView(room() * 4.0))) << "over-exposed";
+  EXPECT_FALSE(looksCorrupted(toView(stripes(3, 0))));
+  EXPECT_FALSE(looksCorrupted(toView(stripes(0, 1))));
+  EXPECT_FALSE(looksCorrupted(toView(stripes(8, 8))));
+  EXPECT_FALSE(looksCorrupted(toView(cv::Mat::zeros(288, 384, CV_8U))));
   EXPECT_FALSE(looksCorrupted(ImageView()));
-  EXPECT_FALSE(looksCorrupted(viewOf(cv::Mat::zeros(1, 20, CV_8U))));
+  EXPECT_FALSE(looksCorrupted(toView(cv::Mat::zeros(1, 20, CV_8U))));
 }
 
 TEST(LooksCorrupted, findsAnyShareOfRubbish) {
   for (const double share : {0.05, 0.1, 0.3, 0.6, 0.9, 1.0})
     for (unsigned seed = 1; seed <= 5; ++seed)
-      EXPECT_TRUE(looksCorrupted(viewOf(spoilt(room(), share, seed)))) << share << ", " << seed;
+      EXPECT_TRUE(looksCorrupted(toView(spoilt(room(), share, seed)))) << share << ", " << seed;
 }
 
 TEST(LooksCorrupted, findsHalfAnImageOfRubbish) {
   cv::Mat image = room();
   fillWithRubbish(image.rowRange(image.rows / 2, image.rows), 3);
-  EXPECT_TRUE(looksCorrupted(viewOf(image)));
+  EXPECT_TRUE(looksCorrupted(toView(image)));
 }
 
 TEST(LooksCorrupted, forgivesOneRow) {
   cv::Mat image = room();
   fillWithRubbish(image.row(100), 3);
-  EXPECT_FALSE(looksCorrupted(viewOf(image)));
+  EXPECT_FALSE(looksCorrupted(toView(image)));
 }
 
 TEST(LooksCorrupted, findsRowsThatRectificationHasBent) {
@@ -115,7 +115,7 @@ TEST(LooksCorrupted, findsRowsThatRectificationHasBent) {
     }
   const auto bend = [&](const cv::Mat& image) {
     cv::remap(image, bent, map_u, map_v, cv::INTER_LINEAR);
-    return viewOf(bent);
+    return toView(bent);
   };
   EXPECT_FALSE(looksCorrupted(bend(room())));
   for (const double share : {0.1, 0.3, 0.6}) EXPECT_TRUE(looksCorrupted(bend(spoilt(room(), share)))) << share;
@@ -127,15 +127,15 @@ TEST(LooksCorrupted, sparesSmallImages) {
     for (const int interpolation : {cv::INTER_NEAREST, cv::INTER_LINEAR, cv::INTER_AREA})
       for (const auto& frame : inTheRoom("loop", 1.0, 70).frames) {
         cv::Mat small;
-        cv::resize(imageOf(frame.left), small, {width, width * 3 / 4}, 0, 0, interpolation);
-        EXPECT_FALSE(looksCorrupted(viewOf(small))) << width << " " << interpolation;
+        cv::resize(toImage(frame.left), small, {width, width * 3 / 4}, 0, 0, interpolation);
+        EXPECT_FALSE(looksCorrupted(toView(small))) << width << " " << interpolation;
       }
 }
 
 TEST(LooksCorrupted, isNoMatterOfTheImagesPlaceInMemory) {
   const cv::Mat whole = spoilt(room(), 0.3);
-  EXPECT_TRUE(looksCorrupted(viewOf(whole(cv::Rect(7, 5, 101, 77)))));
-  EXPECT_FALSE(looksCorrupted(viewOf(room()(cv::Rect(7, 5, 101, 77)))));
+  EXPECT_TRUE(looksCorrupted(toView(whole(cv::Rect(7, 5, 101, 77)))));
+  EXPECT_FALSE(looksCorrupted(toView(room()(cv::Rect(7, 5, 101, 77)))));
 }
 
 TEST(LooksCorrupted, neverSaysSoOfRealImages) {
@@ -147,26 +147,26 @@ TEST(LooksCorrupted, neverSaysSoOfRealImages) {
       EXPECT_FALSE(looksCorrupted(frame.pair().left)) << name << ", " << frame.stamp;
       EXPECT_FALSE(looksCorrupted(frame.pair().right)) << name << ", " << frame.stamp;
     }
-    const cv::Mat real = imageOf(recording.frames[10].left);
-    EXPECT_TRUE(looksCorrupted(viewOf(spoilt(real, 0.1))));
+    const cv::Mat real = toImage(recording.frames[10].left);
+    EXPECT_TRUE(looksCorrupted(toView(spoilt(real, 0.1))));
   }
 }
 
 TEST(CorruptRowRepair, leavesWhatIsGoodWhereItIs) {
   const cv::Mat left = room(), right = room(), corrupted = spoilt(right, 0.3);
   CorruptRowRepair row_repair(left.cols, left.rows);
-  const auto whole = row_repair.repair({5, viewOf(left), viewOf(right)});
+  const auto whole = row_repair.repair({5, toView(left), toView(right)});
   EXPECT_FALSE(whole.corrupted);
   EXPECT_EQ(whole.pair.stamp, 5);
   EXPECT_EQ(whole.pair.left.data, left.data);
   EXPECT_EQ(whole.pair.right.data, right.data);
-  const auto half = row_repair.repair({6, viewOf(left), viewOf(corrupted)});
+  const auto half = row_repair.repair({6, toView(left), toView(corrupted)});
   EXPECT_TRUE(half.corrupted);
   EXPECT_EQ(half.pair.left.data, left.data);
   EXPECT_NE(half.pair.right.data, corrupted.data);
   CorruptRowRepair other(left.cols - 2, left.rows);
-  EXPECT_FALSE(other.repair({7, viewOf(corrupted), viewOf(corrupted)}).corrupted);
-  EXPECT_FALSE(other.repair({8, ImageView(), viewOf(corrupted)}).corrupted);
+  EXPECT_FALSE(other.repair({7, toView(corrupted), toView(corrupted)}).corrupted);
+  EXPECT_FALSE(other.repair({8, ImageView(), toView(corrupted)}).corrupted);
 }
 
 TEST(CorruptRowRepair, bridgesRubbishAndNothingElse) {
@@ -174,7 +174,7 @@ TEST(CorruptRowRepair, bridgesRubbishAndNothingElse) {
   CorruptRowRepair row_repair(good.cols, good.rows);
   for (const double share : {0.1, 0.3, 0.6}) {
     const cv::Mat bad = spoilt(good, share);
-    const ImageView view = row_repair.repair({0, viewOf(bad), viewOf(good)}).pair.left;
+    const ImageView view = row_repair.repair({0, toView(bad), toView(good)}).pair.left;
     const cv::Mat repaired(view.height, view.width, CV_8U, const_cast<std::uint8_t*>(view.data));
     EXPECT_LT(meanDifference(repaired, good), 0.2 * meanDifference(bad, good)) << share;
     int spared = 0, changed = 0;
@@ -194,7 +194,7 @@ TEST(CorruptRowRepair, tellsAWhiteSkyFromMissingRows) {
   white.rowRange(0, 100).setTo(255);
   CorruptRowRepair row_repair(white.cols, white.rows);
   const auto repaired = [&](const cv::Mat& image) {
-    const ImageView view = row_repair.repair({0, viewOf(image), viewOf(image)}).pair.left;
+    const ImageView view = row_repair.repair({0, toView(image), toView(image)}).pair.left;
     return cv::Mat(view.height, view.width, CV_8U, const_cast<std::uint8_t*>(view.data));
   };
   const cv::Mat sky = repaired(spoilt(white, 0.3)).rowRange(5, 95);
@@ -210,7 +210,7 @@ TEST(CorruptRowRepair, survivesNothingButRubbishAndAllocatesNothing) {
   fillWithRubbish(corrupted, 1);
   CorruptRowRepair row_repair(384, 288);
   const AllocationCount count;
-  const auto repaired = row_repair.repair({0, viewOf(corrupted), viewOf(corrupted)});
+  const auto repaired = row_repair.repair({0, toView(corrupted), toView(corrupted)});
   if (countsAllocations()) {
     EXPECT_EQ(count.sofar(), 0);
   }

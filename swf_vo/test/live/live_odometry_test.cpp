@@ -27,7 +27,7 @@ RenderedSequence liveRoom() {
   return {urban_nav_core::testing::texturedRoom(), urban_nav_core::testing::loop(3.0, 1.5, 1.2, 25.0), options};
 }
 
-std::string figureOf(const urban_nav_live::StageReport& report, const std::string& name) {
+std::string findFigure(const urban_nav_live::StageReport& report, const std::string& name) {
   for (const auto& figure : report.figures)
     if (figure.name == name) return figure.value;
   return "absent";
@@ -55,7 +55,7 @@ struct Recorded {
 
 TEST(LiveOdometry, EqualsTheFilterToTheLastBit) {
   RenderedSequence sequence = liveRoom();
-  const auto camera = cameraOf(sequence.options().camera);
+  const auto camera = makeCamera(sequence.options().camera);
   Recorded live;
   live.odometry.begin(camera, Pose());
   live.play(sequence, 0, 6);
@@ -74,11 +74,11 @@ TEST(LiveOdometry, EqualsTheFilterToTheLastBit) {
 TEST(LiveOdometry, EachSessionStartsAtTheOrigin) {
   RenderedSequence sequence = liveRoom();
   Recorded live;
-  live.odometry.begin(cameraOf(sequence.options().camera), Pose());
+  live.odometry.begin(makeCamera(sequence.options().camera), Pose());
   live.play(sequence, 20, 3);
   live.odometry.end("the calibration changed");
   EXPECT_FALSE(live.odometry.isRunning());
-  live.odometry.begin(cameraOf(sequence.options().camera), Pose());
+  live.odometry.begin(makeCamera(sequence.options().camera), Pose());
   live.play(sequence, 0, 2);
   EXPECT_EQ(live.odometry.sessions(), 2);
   EXPECT_EQ(live.frames.back().frame, 1);
@@ -92,13 +92,13 @@ TEST(LiveOdometry, ReportsWhyThereIsNoSession) {
   EXPECT_TRUE(live.odometry.report().is_warning);
   live.odometry.setFault("stereo: no baseline");
   EXPECT_EQ(live.odometry.report().summary, "stereo: no baseline");
-  live.odometry.begin(cameraOf(sequence.options().camera), Pose());
+  live.odometry.begin(makeCamera(sequence.options().camera), Pose());
   live.play(sequence, 0, 2);
   const auto running = live.odometry.report();
   EXPECT_EQ(running.summary, "");
   EXPECT_FALSE(running.is_warning);
-  EXPECT_EQ(figureOf(running, "frames"), "2");
-  EXPECT_EQ(figureOf(running, "sessions"), "1");
+  EXPECT_EQ(findFigure(running, "frames"), "2");
+  EXPECT_EQ(findFigure(running, "sessions"), "1");
   live.odometry.end("reset");
   EXPECT_EQ(live.odometry.report().summary, "no session (reset)");
   live.odometry.end("again");
@@ -107,7 +107,7 @@ TEST(LiveOdometry, ReportsWhyThereIsNoSession) {
 
 TEST(TracksPicture, DrawsTheImageAndItsFeatures) {
   RenderedSequence sequence = liveRoom();
-  SwfVo filter(Parameters(), cameraOf(sequence.options().camera), Pose());
+  SwfVo filter(Parameters(), makeCamera(sequence.options().camera), Pose());
   TracksPicture picture(32.0);
   for (int i = 0; i < 2; ++i) {
     const auto& pair = sequence.frame(i);

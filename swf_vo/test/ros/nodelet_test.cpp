@@ -38,7 +38,7 @@ class SwfVoNodelet : public ::testing::Test {
   }
   Graph& graph() { return *graph_; }
   RenderedSequence& sequence() { return *sequence_; }
-  StereoCamera camera() { return cameraOf(sequence().options().camera); }
+  StereoCamera camera() { return makeCamera(sequence().options().camera); }
 
   bool play(int first, int count) {
     const std::size_t wanted = graph().frames.size() + static_cast<std::size_t>(count);

@@ -13,8 +13,8 @@
 namespace swf_vo {
 namespace {
 
-std::string errorOf(const Parameters& parameters, const urban_nav_core::StereoCamera& camera,
-                    const std::string& state) {
+std::string catchError(const Parameters& parameters, const urban_nav_core::StereoCamera& camera,
+                       const std::string& state) {
   try {
     SwfVo(parameters, camera, kPlace, state);
   } catch (const urban_nav_core::Error& error) {
@@ -25,7 +25,7 @@ std::string errorOf(const Parameters& parameters, const urban_nav_core::StereoCa
 
 std::string someState(std::size_t frames) {
   SwfVo filter(Parameters(), stereoCamera(), kPlace);
-  const std::vector<Step> some = stepsOf("loop", 20, "black:1000:1");
+  const std::vector<Step> some = collectSteps("loop", 20, "black:1000:1");
   for (std::size_t i = 0; i < frames; ++i) filter.process(some[i].frame.pair());
   return filter.state();
 }
@@ -33,13 +33,13 @@ std::string someState(std::size_t frames) {
 TEST(State, BelongsToItsParametersAndItsCamera) {
   const std::string state = someState(3);
   Parameters parameters;
-  EXPECT_EQ(errorOf(parameters, stereoCamera(), state), "");
+  EXPECT_EQ(catchError(parameters, stereoCamera(), state), "");
   parameters.window = 12;
-  EXPECT_EQ(errorOf(parameters, stereoCamera(), state),
+  EXPECT_EQ(catchError(parameters, stereoCamera(), state),
             "state of swf_vo: was made with window = 10 and is to go on with window = 12: allowed the same parameters");
   urban_nav_core::StereoCamera camera = stereoCamera();
   camera.baseline += 1e-6;
-  EXPECT_EQ(errorOf(Parameters(), camera, state),
+  EXPECT_EQ(catchError(Parameters(), camera, state),
             "state of swf_vo: was made with another calibration: allowed the same camera and extrinsics");
 }
 
@@ -48,15 +48,15 @@ TEST(State, IsNamedWhereItIsDamaged) {
   for (std::size_t i = 0; i < state.size(); i += state.size() / 50) {
     std::string damaged = state;
     damaged[i] = static_cast<char>(damaged[i] ^ 1);
-    EXPECT_NE(errorOf(Parameters(), stereoCamera(), damaged), "") << i;
-    EXPECT_NE(errorOf(Parameters(), stereoCamera(), state.substr(0, i)), "") << i;
+    EXPECT_NE(catchError(Parameters(), stereoCamera(), damaged), "") << i;
+    EXPECT_NE(catchError(Parameters(), stereoCamera(), state.substr(0, i)), "") << i;
   }
 }
 
 // Damage under a checksum that is right: what is taken all the same still gives frames.
 TEST(State, FuzzedBehindItsChecksum) {
   const std::string name = "swf_vo";
-  const std::vector<Step> some = stepsOf("loop", 20, "black:1000:1");
+  const std::vector<Step> some = collectSteps("loop", 20, "black:1000:1");
   const std::string whole = someState(12);
   const std::string content(urban_nav_core::unseal(name, 1, whole));
   int accepted = 0;

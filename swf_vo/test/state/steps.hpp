@@ -20,7 +20,8 @@ struct Step {
 
 /// Frames of a motion with a fault on them (parseFault), of which every twentieth comes twice; with wheels if asked
 /// for.
-inline std::vector<Step> stepsOf(const std::string& motion, int count, const std::string& fault, bool wheels = false) {
+inline std::vector<Step> collectSteps(const std::string& motion, int count, const std::string& fault,
+                                      bool wheels = false) {
   const Recording& recording = inTheRoom(motion, 1.0, count);
   urban_nav_core::testing::FaultFilter faults({urban_nav_core::testing::parseFault(fault)}, 1);
   std::vector<Step> made;

@@ -97,7 +97,7 @@ struct First {
 };
 
 template <typename Matrix>
-Matrix rootOf(const Matrix& information) {
+Matrix squareRoot(const Matrix& information) {
   return information.llt().matrixU();
 }
 
@@ -117,7 +117,7 @@ inline bool solveBatch(BatchProblem& all) {
     const std::size_t i = static_cast<std::size_t>(observation.frame),
                       m = static_cast<std::size_t>(observation.landmark);
     problem.AddResidualBlock(new ceres::AutoDiffCostFunction<batch::Sight, 3, 6, 3>(new batch::Sight{
-                                 all.camera, starts[i], observation.z, batch::rootOf(observation.information)}),
+                                 all.camera, starts[i], observation.z, batch::squareRoot(observation.information)}),
                              all.huber > 0.0 ? new ceres::HuberLoss(all.huber) : nullptr, poses[i].data(),
                              all.points[m].data());
     if (!all.known.empty() && all.known[m]) problem.SetParameterBlockConstant(all.points[m].data());
@@ -126,10 +126,10 @@ inline bool solveBatch(BatchProblem& all) {
     problem.AddResidualBlock(
         new ceres::AutoDiffCostFunction<batch::Motion, 6, 6, 6>(new batch::Motion{
             starts[i - 1], starts[i], all.inputs[i].T_from_to,
-            batch::rootOf<urban_nav_core::Matrix6d>(all.inputs[i].information + process_model::floor())}),
+            batch::squareRoot<urban_nav_core::Matrix6d>(all.inputs[i].information + process_model::floor())}),
         nullptr, poses[i - 1].data(), poses[i].data());
   problem.AddResidualBlock(new ceres::AutoDiffCostFunction<batch::First, 6, 6>(
-                               new batch::First{all.poses.front().t(), batch::rootOf(all.first_information)}),
+                               new batch::First{all.poses.front().t(), batch::squareRoot(all.first_information)}),
                            nullptr, poses.front().data());
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_SCHUR;

@@ -27,7 +27,7 @@ Pose movement(const Vector6d& x) {
 Anchor someAnchor() { return {expSo3(Vector3d(-0.2, 0.5, 0.1)).toRotationMatrix(), Vector3d(0.7, -0.1, 0.9)}; }
 
 // Inverse-depth coordinates of a point of `odom`, its homogeneous scale kept.
-Vector3d thetaOf(const Anchor& anchor, const Eigen::Vector4d& point) {
+Vector3d computeTheta(const Anchor& anchor, const Eigen::Vector4d& point) {
   const Vector3d p = anchor.R_odom_anchor.transpose() * (point.head<3>() - point.w() * anchor.t_odom_anchor);
   return Vector3d(p.x() / p.z(), p.y() / p.z(), point.w() / p.z());
 }
@@ -52,7 +52,7 @@ TEST(Gauge, movesALandmarkAsTheWorldMoves) {
     const auto moved = [&](const Vector6d& x) {
       Eigen::Vector4d q = point;
       q.head<3>() = movement(x).q() * point.head<3>() + point.w() * movement(x).t();
-      return thetaOf(anchor, q);
+      return computeTheta(anchor, q);
     };
     for (int c = 0; c < 6; ++c) {
       const Vector6d x = h * Vector6d::Unit(c);

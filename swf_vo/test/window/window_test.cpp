@@ -17,7 +17,7 @@ using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
 using urban_nav_core::Vector6d;
 
-urban_nav_core::testing::TrackOptions tracksOf(int frames, double sigma_px, std::uint64_t seed = 3) {
+urban_nav_core::testing::TrackOptions makeTracks(int frames, double sigma_px, std::uint64_t seed = 3) {
   return mixedMotion(frames, sigma_px, seed);
 }
 
@@ -27,7 +27,7 @@ double poseNees(const Pose& truth, const urban_nav_core::PoseWithCovariance& est
 }
 
 TEST(Window, withoutNoiseWithoutError) {
-  auto tracks = simulateTracks(tracksOf(60, 0.0));
+  auto tracks = simulateTracks(makeTracks(60, 0.0));
   tracks.sigma_px = 0.3;  // what is claimed of the measurements
   for (const int size : {1, 5, 20}) {
     WindowOptions options;
@@ -44,7 +44,7 @@ TEST(Window, withoutNoiseWithoutError) {
 }
 
 TEST(Window, backSubstitutionGivesTheBatchWhereTheWorldIsNearlyLinear) {
-  const auto tracks = simulateTracks(tracksOf(30, 1e-4));
+  const auto tracks = simulateTracks(makeTracks(30, 1e-4));
   WindowOptions small, all;
   small.size = 4;
   small.keep_history = true;
@@ -71,7 +71,7 @@ TEST(Window, backSubstitutionGivesTheBatchWhereTheWorldIsNearlyLinear) {
 }
 
 TEST(Window, settledPosesAreTheProductOfTheirSteps) {
-  const auto tracks = simulateTracks(tracksOf(40, 0.5));
+  const auto tracks = simulateTracks(makeTracks(40, 0.5));
   TrackRunner run(tracks, WindowOptions());
   while (!run.done()) run.step();
   for (const SettledPose& pose : run.window.flush()) run.settled.push_back(pose);
@@ -90,7 +90,7 @@ TEST(Window, isConsistent) {
   int steps = 0;
   constexpr int runs = 8;
   for (int seed = 0; seed < runs; ++seed) {
-    const auto tracks = simulateTracks(tracksOf(100, 0.5, static_cast<std::uint64_t>(50 + seed)));
+    const auto tracks = simulateTracks(makeTracks(100, 0.5, static_cast<std::uint64_t>(50 + seed)));
     TrackRunner run(tracks, WindowOptions());
     while (!run.done()) run.step();
     now += poseNees(run.truth(), run.window.newest()) / runs;
@@ -106,7 +106,7 @@ TEST(Window, isConsistent) {
 // The calibration is believed where it is right, and given up where the images insist on something else.
 TEST(Window, learnsWhatTheCalibrationGotWrong) {
   for (const double offset : {0.0, 0.1, 0.8}) {
-    urban_nav_core::testing::TrackOptions motion = tracksOf(120, 0.1);
+    urban_nav_core::testing::TrackOptions motion = makeTracks(120, 0.1);
     motion.features = 60;
     auto tracks = simulateTracks(motion);
     for (auto& frame : tracks.frames)
@@ -121,7 +121,7 @@ TEST(Window, learnsWhatTheCalibrationGotWrong) {
 }
 
 TEST(Window, goesOnByPredictionWhereNothingIsSeen) {
-  const auto tracks = simulateTracks(tracksOf(60, 0.5));
+  const auto tracks = simulateTracks(makeTracks(60, 0.5));
   TrackRunner run(tracks, WindowOptions());
   for (int i = 0; i < 20; ++i) run.step();
   double before = run.window.newest().covariance.trace();
@@ -139,7 +139,7 @@ TEST(Window, goesOnByPredictionWhereNothingIsSeen) {
 
 // Where the estimate of a pose begins says nothing of where the pose is.
 TEST(Window, takesAStartForNoEvidence) {
-  const auto tracks = simulateTracks(tracksOf(40, 0.5));
+  const auto tracks = simulateTracks(makeTracks(40, 0.5));
   const Pose start = expSe3((Vector6d() << 0.4, -0.1, 0.6, 0.02, 0.1, -0.03).finished());
   for (const bool seen : {false, true}) {
     WindowOptions options;
@@ -163,7 +163,7 @@ TEST(Window, takesAStartForNoEvidence) {
 }
 
 TEST(Window, withNeitherInputNorMeasurementStaysWithAProperCovariance) {
-  const auto tracks = simulateTracks(tracksOf(3, 0.5));
+  const auto tracks = simulateTracks(makeTracks(3, 0.5));
   Window window(WindowOptions(), tracks.camera);
   window.start(0, Pose(), Matrix6d::Zero());
   for (FrameId frame = 1; frame < 30; ++frame) {
@@ -177,7 +177,7 @@ TEST(Window, withNeitherInputNorMeasurementStaysWithAProperCovariance) {
 }
 
 TEST(Window, survivesNonsense) {
-  const auto tracks = simulateTracks(tracksOf(60, 0.5));
+  const auto tracks = simulateTracks(makeTracks(60, 0.5));
   TrackRunner run(tracks, WindowOptions());
   std::uint64_t dice = 12345;
   const auto roll = [&] {
@@ -202,7 +202,7 @@ TEST(Window, survivesNonsense) {
 }
 
 TEST(Window, startsALandmarkOnlyFromAFullMeasurement) {
-  const auto tracks = simulateTracks(tracksOf(3, 0.5));
+  const auto tracks = simulateTracks(makeTracks(3, 0.5));
   Window window(WindowOptions(), tracks.camera);
   window.start(0, Pose(), diagonalInformation(1e-3, 1e-3));
   Observation observation;
@@ -225,7 +225,7 @@ TEST(Window, startsALandmarkOnlyFromAFullMeasurement) {
 }
 
 TEST(Window, knownLandmarksHoldThePose) {
-  auto motion = tracksOf(60, 0.5);
+  auto motion = makeTracks(60, 0.5);
   motion.missed = 0.0;
   const auto tracks = simulateTracks(motion);
   TrackRunner run(tracks, WindowOptions());
@@ -247,7 +247,7 @@ TEST(Window, knownLandmarksHoldThePose) {
 
 TEST(Window, allocatesNothingInASteadyState) {
   if (!urban_nav_core::testing::countsAllocations()) GTEST_SKIP() << "the allocator of this build cannot be counted";
-  const auto tracks = simulateTracks(tracksOf(260, 0.5));
+  const auto tracks = simulateTracks(makeTracks(260, 0.5));
   TrackRunner run(tracks, WindowOptions());
   run.settled.reserve(300);
   while (run.at() + 1 < 200) run.step();

@@ -17,7 +17,7 @@ struct SharedKeyframes {
 bool operator<(const SharedKeyframes& one, const SharedKeyframes& other);
 /// Returns the two keyframes of a closure, from its evidence; nullopt for a closure that is not accepted by stereo and
 /// for one without evidence.
-std::optional<SharedKeyframes> keyframesOf(const urban_nav_core::MetricClosure& closure);
+std::optional<SharedKeyframes> findKeyframes(const urban_nav_core::MetricClosure& closure);
 
 /// Divides the information of closures measured by the same two keyframes among them: candidates half a second apart,
 /// or of a standing robot, are one measurement carried along odometry to several poses. Throws DataError if evidence is

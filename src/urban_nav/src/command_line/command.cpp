@@ -18,7 +18,7 @@ using urban_nav_core::UserError;
 namespace {
 
 /// "out" of "-o,--out", "INPUT" of "INPUT".
-std::string keyOf(const Option& option) {
+std::string toKey(const Option& option) {
   const std::size_t dashes = option.name.rfind("--");
   return dashes == std::string::npos ? option.name : option.name.substr(dashes + 2);
 }
@@ -32,19 +32,19 @@ std::string signature(const Option& option) {
   return text + (option.value.empty() ? "" : " " + option.value);
 }
 
-std::string usageOf(const Command& command) {
+std::string makeUsage(const Command& command) {
   std::string text = "urban_nav " + command.name;
   for (const Option& option : command.options) {
     if (isPositional(option)) text += " " + signature(option);
   }
   for (const Option& option : command.options) {
-    if (!isPositional(option) && option.required) text += " --" + keyOf(option) + " " + option.value;
+    if (!isPositional(option) && option.required) text += " --" + toKey(option) + " " + option.value;
   }
   return text + " [options]";
 }
 
-std::string helpOf(const Command& command, const Arguments& arguments) {
-  std::string text = command.summary + "\n\nusage: " + usageOf(command) + "\n\n";
+std::string makeHelp(const Command& command, const Arguments& arguments) {
+  std::string text = command.summary + "\n\nusage: " + makeUsage(command) + "\n\n";
   std::size_t width = 0;
   for (const Option& option : command.options) width = std::max(width, signature(option).size());
   for (const Option& option : command.options) {
@@ -80,16 +80,17 @@ std::string generalHelp(const std::vector<Command>& commands) {
 
 void checkRequired(const Command& command, const Arguments& arguments) {
   for (const Option& option : command.options) {
-    if (option.required && !arguments.has(keyOf(option))) {
+    if (option.required && !arguments.has(toKey(option))) {
       throw UserError(
           "urban_nav " + command.name,
-          (isPositional(option) ? option.name : "--" + keyOf(option)) + " is missing; usage: " + usageOf(command), "");
+          (isPositional(option) ? option.name : "--" + toKey(option)) + " is missing; usage: " + makeUsage(command),
+          "");
     }
     if (option.words.empty()) continue;
-    for (const std::string& value : arguments.all(keyOf(option))) {
+    for (const std::string& value : arguments.all(toKey(option))) {
       if (std::find(option.words.begin(), option.words.end(), value) == option.words.end()) {
         throw UserError("urban_nav " + command.name,
-                        (isPositional(option) ? option.name : "--" + keyOf(option)) + " = " + value,
+                        (isPositional(option) ? option.name : "--" + toKey(option)) + " = " + value,
                         urban_nav_core::joined(option.words));
       }
     }
@@ -103,7 +104,7 @@ Arguments parse(const Command& command, int argc, const char* const* argv) {
   std::map<std::string, std::vector<std::string>> values;
   std::map<std::string, bool> flags;
   for (const Option& option : command.options) {
-    const std::string key = keyOf(option);
+    const std::string key = toKey(option);
     if (option.value.empty() && !isPositional(option)) {
       app.add_flag(option.name, flags[key]);
       continue;
@@ -136,7 +137,7 @@ Arguments parse(const Command& command, int argc, const char* const* argv) {
 int runCommand(const Command& command, int argc, const char* const* argv, Console& console) {
   const Arguments arguments = parse(command, argc, argv);
   if (arguments.has("help")) {
-    console.print(helpOf(command, arguments));
+    console.print(makeHelp(command, arguments));
     return 0;
   }
   checkRequired(command, arguments);

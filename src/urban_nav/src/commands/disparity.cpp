@@ -55,15 +55,15 @@ void readPair(const Arguments& arguments, RectifiedImages& images) {
   const urban_nav_ros::StereoCalibration calibration(left_info, right_info, arguments.has("rectified"), files);
   images.camera = calibration.camera();
   images.pair.left =
-      calibration.rectify(urban_nav_ros::Side::Left, urban_nav_ros::viewOf(images.raw_left), images.left_pixels);
+      calibration.rectify(urban_nav_ros::Side::Left, urban_nav_ros::toView(images.raw_left), images.left_pixels);
   images.pair.right =
-      calibration.rectify(urban_nav_ros::Side::Right, urban_nav_ros::viewOf(images.raw_right), images.right_pixels);
+      calibration.rectify(urban_nav_ros::Side::Right, urban_nav_ros::toView(images.raw_right), images.right_pixels);
   if (images.pair.left.empty() || images.pair.right.empty())
     throw UserError(files, "a calibration for images of another size",
                     std::to_string(size.width) + "x" + std::to_string(size.height) + " px");
 }
 
-Json jsonOf(const StereoResult& result, double ms) {
+Json toJson(const StereoResult& result, double ms) {
   Json json = Json::object();
   json["answered"] = result.answered;
   json["status"] = toString(result.status.health);
@@ -88,7 +88,7 @@ int runDisparity(const Arguments& arguments, Console& console) {
   const auto begin = DisparityClock::now();
   const StereoResult& result = stereo.process(images.pair);
   const double ms = std::chrono::duration<double, std::milli>(DisparityClock::now() - begin).count();
-  if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), jsonOf(result, ms).print());
+  if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), toJson(result, ms).print());
   if (result.status.health == Health::Lost) throw DataError(arguments.get("LEFT"), result.status.sentence, "");
   if (!result.status.sentence.empty()) console.warn(result.status.sentence);
   writeDisparity(output, result.image, images.pair.left, images.camera);

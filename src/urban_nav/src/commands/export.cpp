@@ -73,7 +73,7 @@ int runExport(const Arguments& arguments, Console& console) {
   checkCommonOptions(arguments);
   checkFormats(arguments);
   Store store(arguments.get("STORE"), Access::Read);
-  const Maps maps = readMaps(store, sessionsOf(store, arguments.all("session")));
+  const Maps maps = readMaps(store, selectSessions(store, arguments.all("session")));
   if (maps.empty()) throw urban_nav_core::DataError(store.path(), "holds no session", "");
   Written written(console);
   for (std::size_t i = 0; i < maps.size(); ++i) {

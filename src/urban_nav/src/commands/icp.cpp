@@ -80,12 +80,12 @@ Json testsJson(const Alignment& alignment) {
   return tests;
 }
 
-std::string reasonOf(const Alignment& alignment) {
+std::string toReason(const Alignment& alignment) {
   if (alignment.reason == urban_nav_registration::AlignmentReason::None) return "";
   return std::string(toString(alignment.reason)) + ": " + alignment.sentence;
 }
 
-Json jsonOf(const Alignment& alignment, double ms) {
+Json toJson(const Alignment& alignment, double ms) {
   Json json = Json::object();
   json["T_target_source"] = rowMajor(alignment.T_target_source.matrix());
   json["covariance"] = rowMajor(alignment.covariance);
@@ -94,7 +94,7 @@ Json jsonOf(const Alignment& alignment, double ms) {
   for (const urban_nav_core::Vector6d& direction : alignment.free_directions) directions.append(rowMajor(direction));
   json["free_directions"] = directions;
   json["verdict"] = toString(alignment.verdict);
-  json["reason"] = reasonOf(alignment);
+  json["reason"] = toReason(alignment);
   json["tests"] = testsJson(alignment);
   json["global_search"] = alignment.searched;
   if (alignment.alternative) {
@@ -110,10 +110,10 @@ Json jsonOf(const Alignment& alignment, double ms) {
   return json;
 }
 
-std::string textOf(const Alignment& alignment, double ms) {
+std::string toText(const Alignment& alignment, double ms) {
   using urban_nav_core::printNumber;
   std::string text = toString(alignment.verdict);
-  if (alignment.reason != urban_nav_registration::AlignmentReason::None) text += ": " + reasonOf(alignment);
+  if (alignment.reason != urban_nav_registration::AlignmentReason::None) text += ": " + toReason(alignment);
   text += "\nT_target_source\n";
   const Eigen::Matrix4d T = alignment.T_target_source.matrix();
   for (int r = 0; r < 4; ++r) {
@@ -159,8 +159,8 @@ int runIcp(const Arguments& arguments, Console& console) {
                               : urban_nav_registration::SearchMode::IfRejected);
   const Alignment alignment = urban_nav_registration::toFileFrames(about_middles, offsets);
   const double ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-  console.print(textOf(alignment, ms));
-  if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), jsonOf(alignment, ms).print());
+  console.print(toText(alignment, ms));
+  if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), toJson(alignment, ms).print());
   if (arguments.has("picture")) {
     urban_nav_registration::CloudPictureOptions options;
     options.free_directions = about_middles.free_directions;

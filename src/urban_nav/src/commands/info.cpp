@@ -21,7 +21,7 @@ std::string padded(const std::string& text, std::size_t width) {
   return text + std::string(text.size() < width ? width - text.size() : 1, ' ');
 }
 
-std::string textOf(const InputInfo& info) {
+std::string toText(const InputInfo& info) {
   std::string text = info.name + ": " + info.kind + "\n";
   for (const std::string& note : info.notes) text += "  " + note + "\n";
   std::size_t width = 20, type_width = 12;
@@ -45,7 +45,7 @@ std::string textOf(const InputInfo& info) {
   return text;
 }
 
-Json jsonOf(const InputInfo& info) {
+Json toJson(const InputInfo& info) {
   Json json = Json::object();
   json["name"] = info.name;
   json["kind"] = info.kind;
@@ -72,13 +72,13 @@ int runInfo(const Arguments& arguments, Console& console) {
   for (const std::string& input : arguments.all("INPUT")) {
     if (urban_nav_store::isStore(input) || fs::path(input).extension() == ".db") {
       const StoreInfo info = lookIntoStore(input);
-      console.print(textOf(info));
-      all.append(jsonOf(info));
+      console.print(toText(info));
+      all.append(toJson(info));
       continue;
     }
     const InputInfo info = lookInto(input);
-    console.print(textOf(info));
-    all.append(jsonOf(info));
+    console.print(toText(info));
+    all.append(toJson(info));
   }
   if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), all.print());
   return 0;

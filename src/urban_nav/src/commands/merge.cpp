@@ -20,9 +20,9 @@ int runMerge(const Arguments& arguments, Console& console) {
       std::to_string(result.rows) + " rows, " + std::to_string(result.identical) + " that several files hold" +
       (result.outdated > 0 ? ", " + std::to_string(result.outdated) + " poses of an earlier relaxation left out" : ""));
   const StoreInfo info = lookIntoStore(output);
-  console.print(textOf(info));
+  console.print(toText(info));
   if (arguments.has("json")) {
-    Json json = jsonOf(info);
+    Json json = toJson(info);
     json["rows"] = result.rows;
     json["identical"] = result.identical;
     json["outdated"] = result.outdated;

@@ -33,12 +33,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-Objective objectiveOf(const std::string& name) {
+Objective parseObjective(const std::string& name) {
   if (name == "chordal") return Objective::Chordal;
   return name == "g2o" ? Objective::G2o : Objective::Geodesic;
 }
 
-Start startOf(const std::string& name) {
+Start makeStart(const std::string& name) {
   if (name == "vertices") return Start::Vertices;
   if (name == "odometry") return Start::Odometry;
   return name == "identity" ? Start::Identity : Start::Auto;
@@ -74,17 +74,17 @@ struct Costs {
 };
 
 template <int D>
-Costs costsOf(const pose_graph::Problem<D>& problem, const std::vector<pose_graph::Rigid<D>>& poses) {
+Costs computeCosts(const pose_graph::Problem<D>& problem, const std::vector<pose_graph::Rigid<D>>& poses) {
   return {cost(problem, poses, Objective::Geodesic), cost(problem, poses, Objective::Chordal),
           cost(problem, poses, Objective::G2o)};
 }
 
-std::string textOf(const char* when, const Costs& costs) {
+std::string toText(const char* when, const Costs& costs) {
   return std::string(when) + "geodesic " + forPerson(costs.geodesic, 9) + ", chordal " + forPerson(costs.chordal, 9) +
          ", g2o " + forPerson(costs.g2o, 9) + "\n";
 }
 
-Json jsonOf(const Costs& costs) {
+Json toJson(const Costs& costs) {
   Json json = Json::object();
   json["geodesic"] = costs.geodesic;
   json["chordal"] = costs.chordal;
@@ -104,14 +104,14 @@ struct RelaxReport {
   std::optional<pose_graph::Certificate> certificate;  // of the accepted edges, by the chordal objective
 };
 
-std::string textOf(const RelaxReport& report) {
+std::string toText(const RelaxReport& report) {
   std::string text = std::to_string(report.poses) + " poses, " + std::to_string(report.edges) + " edges, " +
                      std::to_string(report.rejected) + " rejected; " + std::to_string(report.iterations) +
                      " iterations, " + report.ending + ", " + forPerson(report.ms, 3) + " ms\n";
   if (report.variance)
     text +=
         "errors: " + forPerson(std::sqrt(*report.variance), 2) + " times the deviations that the information states\n";
-  text += textOf("before: ", report.before) + textOf("after:  ", report.after);
+  text += toText("before: ", report.before) + toText("after:  ", report.after);
   if (!report.certificate) return text;
   const pose_graph::Certificate& certificate = *report.certificate;
   text += certificate.certified ? "certified: the global optimum" : "not certified: there may be a better optimum";
@@ -121,7 +121,7 @@ std::string textOf(const RelaxReport& report) {
   return text + "\n";
 }
 
-Json jsonOf(const RelaxReport& report) {
+Json toJson(const RelaxReport& report) {
   Json json = Json::object();
   json["poses"] = report.poses;
   json["edges"] = report.edges;
@@ -131,8 +131,8 @@ Json jsonOf(const RelaxReport& report) {
   if (report.variance) json["variance_factor"] = *report.variance;
   json["ending"] = report.ending;
   json["ms_batch"] = report.ms;
-  json["cost_before"] = jsonOf(report.before);
-  json["cost_after"] = jsonOf(report.after);
+  json["cost_before"] = toJson(report.before);
+  json["cost_after"] = toJson(report.after);
   if (report.certificate) {
     json["certified"] = report.certificate->certified;
     if (report.certificate->gap) json["certified_gap"] = *report.certificate->gap;
@@ -143,13 +143,13 @@ Json jsonOf(const RelaxReport& report) {
 template <int D>
 RelaxReport relaxFile(const G2oGraph& graph, const std::string& name, const Arguments& arguments, Console& console) {
   pose_graph::SolveOptions options;
-  options.objective = objectiveOf(arguments.get("objective", "geodesic"));
+  options.objective = parseObjective(arguments.get("objective", "geodesic"));
   const bool doubted = arguments.get("robust", "on") == "on";
   const bool blocks = options.objective == Objective::Chordal && !doubted;
-  const pose_graph::FileProblem<D> file = pose_graph::problemOf<D>(
+  const pose_graph::FileProblem<D> file = pose_graph::makeProblem<D>(
       graph, name, blocks ? pose_graph::Semidefinite::Blocks : pose_graph::Semidefinite::Whole);
   for (const std::string& note : file.notes) console.warn(name + ": " + note);
-  options.start = startOf(arguments.get("start", "auto"));
+  options.start = makeStart(arguments.get("start", "auto"));
   Progress progress(console, "relax", "iterations", 0);
   options.progress = [&](int iteration, double) {
     progress.update(iteration);
@@ -186,8 +186,8 @@ RelaxReport relaxFile(const G2oGraph& graph, const std::string& name, const Argu
   // Each of a component's poses but the first hangs on one trusted edge.
   const std::size_t trusted = report.poses - static_cast<std::size_t>(std::max(solution.components, 1));
   if (doubted && report.edges > trusted) report.variance = robust.variance_factor;
-  report.before = costsOf(file.problem, file.problem.poses);
-  report.after = costsOf(file.problem, solution.poses);
+  report.before = computeCosts(file.problem, file.problem.poses);
+  report.after = computeCosts(file.problem, solution.poses);
   if (options.objective == Objective::Chordal) {
     std::vector<double> weights;
     for (const pose_graph::EdgeAssessment& edge : robust.edges) weights.push_back(edge.weight);
@@ -224,8 +224,8 @@ int runRelax(const Arguments& arguments, Console& console) {
       urban_nav_core::isToro(text) ? urban_nav_core::parseToro(text, name) : urban_nav_core::parseG2o(text, name);
   const RelaxReport report = graph.dimension == 2 ? relaxFile<2>(graph, name, arguments, console)
                                                   : relaxFile<3>(graph, name, arguments, console);
-  console.print(textOf(report));
-  if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), jsonOf(report).print());
+  console.print(toText(report));
+  if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), toJson(report).print());
   return 0;
 }
 

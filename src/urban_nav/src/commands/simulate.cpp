@@ -20,29 +20,29 @@ namespace {
 constexpr double longest = 86400.0;  // s
 
 /// Words of a comma-separated list; each named with its option where it is not known.
-std::set<urban_nav_sim::Sensor> listOf(const std::string& option, const Arguments& arguments) {
+std::set<urban_nav_sim::Sensor> makeList(const std::string& option, const Arguments& arguments) {
   std::set<urban_nav_sim::Sensor> sensors;
   for (const std::string& word : arguments.list(option))
     sensors.insert(urban_nav_sim::parseSensor(word, "--" + option));
   return sensors;
 }
 
-std::set<urban_nav_sim::Sensor> sensorsOf(const Arguments& arguments) {
+std::set<urban_nav_sim::Sensor> parseSensors(const Arguments& arguments) {
   if (!arguments.has("sensors")) return {urban_nav_sim::all_sensors.begin(), urban_nav_sim::all_sensors.end()};
-  std::set<urban_nav_sim::Sensor> sensors = listOf("sensors", arguments);
+  std::set<urban_nav_sim::Sensor> sensors = makeList("sensors", arguments);
   if (sensors.empty()) throw UserError("--sensors", "none", urban_nav_sim::sensorList());
   return sensors;
 }
 
-SimulateJob jobOf(const Arguments& arguments) {
+SimulateJob makeJob(const Arguments& arguments) {
   SimulateJob job;
   job.session.world = arguments.get("world", job.session.world);
   job.session.route = arguments.get("route", job.session.route);
   job.session.seed = static_cast<std::uint32_t>(arguments.integer("seed", 1, 0, 4294967295));
   job.session.day = static_cast<int>(arguments.integer("day", 1, 1, 100000));
   job.session.duration = arguments.number("duration", job.session.duration, 0.1, longest);
-  job.session.sensors = sensorsOf(arguments);
-  job.session.views = listOf("views", arguments);
+  job.session.sensors = parseSensors(arguments);
+  job.session.views = makeList("views", arguments);
   for (const std::string& word : arguments.list("without")) job.session.defects.switchOff(word);
   for (const std::string& word : arguments.list("with")) job.session.defects.switchOn(word);
   for (const std::string& fault : arguments.all("fault"))
@@ -63,7 +63,7 @@ SimulateJob jobOf(const Arguments& arguments) {
 int runSimulate(const Arguments& arguments, Console& console) {
   const urban_nav_core::ThreadLimit threads(static_cast<int>(arguments.integer("threads", 0, 0, 1024)));
   loadParameters(arguments);  // none is the simulator's own, but errors in them are reported
-  const SimulateJob job = jobOf(arguments);
+  const SimulateJob job = makeJob(arguments);
   const Simulated made = simulate(job, console);
   Json json = Json::object();
   json["bag"] = job.bag;

@@ -31,9 +31,9 @@ const StoredClosure& byTimes(const std::vector<StoredClosure>& closures, const s
                              const TimeQuery& other) {
   if (closures.empty()) throw DataError(path, "holds no closures", "");
   const auto nearest = std::min_element(closures.begin(), closures.end(), [&](const auto& x, const auto& y) {
-    return distanceOf(x, one, other) < distanceOf(y, one, other);
+    return computeDistance(x, one, other) < computeDistance(y, one, other);
   });
-  if (const double distance = distanceOf(*nearest, one, other); !(distance <= kNear))
+  if (const double distance = computeDistance(*nearest, one, other); !(distance <= kNear))
     throw DataError(path,
                     "no candidate lies within 1 s of these moments: closures.csv does not pair them" +
                         (std::isfinite(distance) ? "; the nearest is " + std::to_string(nearest->id) + ", " +
@@ -52,9 +52,9 @@ int runWhy(const Arguments& arguments, Console& console) {
     throw UserError("urban_nav why", "one moment alone", "STORE T1 T2, or STORE --closure ID");
   if (moments && arguments.has("closure")) throw UserError("urban_nav why", "moments and --closure", "one of them");
   urban_nav_store::Store store(arguments.get("STORE"), urban_nav_store::Access::Read);
-  const std::vector<StoredClosure> closures = closuresOf(store);
+  const std::vector<StoredClosure> closures = listClosures(store);
   if (!moments && !arguments.has("closure")) {
-    console.print(listOf(closures));
+    console.print(makeList(closures));
     return 0;
   }
   const StoredClosure& closure = moments ? byTimes(closures, store.path(), parseTimeQuery(arguments.get("T1"), "T1"),

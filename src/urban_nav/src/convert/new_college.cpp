@@ -82,7 +82,7 @@ class NewCollege {
   }
 
   StampNs first() const {
-    StampNs stamp = event_ ? stampOf(*event_) : std::numeric_limits<StampNs>::max();
+    StampNs stamp = event_ ? toStamp(*event_) : std::numeric_limits<StampNs>::max();
     if (!files_.stereo.empty()) stamp = std::min(stamp, files_.stereo.front().stamp);
     if (!files_.panorama.empty()) stamp = std::min(stamp, files_.panorama.front().stamp);
     return stamp;
@@ -91,7 +91,7 @@ class NewCollege {
   void writeAll(BagWriter& bag, Progress& progress) {
     std::int64_t written = 0;
     for (; event_; event_ = log_->next()) {
-      writeImagesUntil(stampOf(*event_), bag);
+      writeImagesUntil(toStamp(*event_), bag);
       std::visit([&](const auto& event) { write(event, bag); }, *event_);
       progress.update(++written);
     }

@@ -18,12 +18,12 @@ constexpr double kLeastMatch = 0.9;  // normalised correlation
 constexpr std::size_t kLeastMatches = 20;
 
 /// Where a parabola through three values has its top, from the middle one.
-double topOf(double before, double middle, double after) {
+double findTop(double before, double middle, double after) {
   const double bend = before - 2.0 * middle + after;
   return bend < 0.0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0.0;
 }
 
-std::optional<double> rowOf(const cv::Mat& left, const cv::Mat& right, const cv::Point& corner) {
+std::optional<double> toRow(const cv::Mat& left, const cv::Mat& right, const cv::Point& corner) {
   const cv::Rect patch(corner.x - kHalf, corner.y - kHalf, 2 * kHalf + 1, 2 * kHalf + 1);
   const cv::Rect strip(corner.x - kHalf - kDisparities, corner.y - kHalf - kRows, kDisparities + 2 * kHalf + 1,
                        2 * (kHalf + kRows) + 1);
@@ -36,7 +36,7 @@ std::optional<double> rowOf(const cv::Mat& left, const cv::Mat& right, const cv:
   cv::minMaxLoc(scores, nullptr, &best, nullptr, &at);
   if (best < kLeastMatch || at.y == 0 || at.y == scores.rows - 1) return std::nullopt;
   return at.y - kRows +
-         topOf(scores.at<float>(at.y - 1, at.x), scores.at<float>(at.y, at.x), scores.at<float>(at.y + 1, at.x));
+         findTop(scores.at<float>(at.y - 1, at.x), scores.at<float>(at.y, at.x), scores.at<float>(at.y + 1, at.x));
 }
 
 }  // namespace
@@ -47,7 +47,7 @@ std::optional<double> rowDisagreement(const cv::Mat& left, const cv::Mat& right)
   cv::goodFeaturesToTrack(left, corners, kCorners, 0.01, 10.0);
   std::vector<double> rows;
   for (const cv::Point2f& corner : corners) {
-    if (const std::optional<double> row = rowOf(left, right, cv::Point(cvRound(corner.x), cvRound(corner.y))))
+    if (const std::optional<double> row = toRow(left, right, cv::Point(cvRound(corner.x), cvRound(corner.y))))
       rows.push_back(std::abs(*row));
   }
   if (rows.size() < kLeastMatches) return std::nullopt;

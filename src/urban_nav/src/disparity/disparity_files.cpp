@@ -22,7 +22,7 @@ using urban_nav_core::UserError;
 
 namespace {
 
-std::string endingOf(const std::string& path) { return std::filesystem::path(path).extension().string(); }
+std::string fileExtension(const std::string& path) { return std::filesystem::path(path).extension().string(); }
 
 /// Portable float map: rows from the bottom up, little endian.
 void writePfm(const std::string& path, const DisparityImage& image, const std::vector<float>& values) {
@@ -84,14 +84,14 @@ void writePoints(const std::string& path, const DisparityImage& image, const urb
 }  // namespace
 
 void checkDisparityName(const std::string& path, const std::string& option) {
-  const std::string ending = endingOf(path);
+  const std::string ending = fileExtension(path);
   if (ending != ".pfm" && ending != ".png" && ending != ".ply")
     throw UserError(option, path, "a name that ends in .pfm, .png or .ply");
 }
 
 void writeDisparity(const std::string& path, const DisparityImage& image, const urban_nav_core::ImageView& left,
                     const StereoCamera& camera) {
-  const std::string ending = endingOf(path);
+  const std::string ending = fileExtension(path);
   if (ending == ".pfm") writePfm(path, image, image.disparity);
   else if (ending == ".png") writeColours(path, image);
   else writePoints(path, image, left, camera);

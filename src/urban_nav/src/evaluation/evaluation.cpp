@@ -54,8 +54,8 @@ Matched match(const TrajectoryFile& truth, const TrajectoryFile& estimate, Evalu
   return matched;
 }
 
-std::vector<urban_nav_core::Matrix6d> covariancesOf(const TrajectoryFile& estimate, const Matched& matched,
-                                                    const std::vector<urban_nav_core::CovarianceRow>& rows) {
+std::vector<urban_nav_core::Matrix6d> computeCovariances(const TrajectoryFile& estimate, const Matched& matched,
+                                                         const std::vector<urban_nav_core::CovarianceRow>& rows) {
   std::map<StampNs, const urban_nav_core::CovarianceRow*> by_stamp;
   for (const urban_nav_core::CovarianceRow& row : rows) by_stamp[row.stamp] = &row;
   std::vector<urban_nav_core::Matrix6d> result;
@@ -73,7 +73,7 @@ std::vector<urban_nav_core::Matrix6d> covariancesOf(const TrajectoryFile& estima
   return result;
 }
 
-Evaluation::End endOf(const Matched& matched, const std::vector<urban_nav_core::Matrix6d>& covariances) {
+Evaluation::End evaluateEnd(const Matched& matched, const std::vector<urban_nav_core::Matrix6d>& covariances) {
   const Pose truth = matched.truth.front().inverse() * matched.truth.back();
   const Pose estimate = matched.estimate.front().inverse() * matched.estimate.back();
   Evaluation::End end;
@@ -119,7 +119,7 @@ Evaluation evaluate(const TrajectoryFile& truth, const TrajectoryFile& estimate,
     if (const auto error = urban_nav_core::relativeError(m.truth, m.estimate, span))
       evaluation.spans.push_back({span, *error});
   }
-  evaluation.covariances = covariancesOf(estimate, m, covariances);
+  evaluation.covariances = computeCovariances(estimate, m, covariances);
   for (std::size_t i = 0; i < evaluation.covariances.size(); ++i) {
     Matrix6d& covariance = evaluation.covariances[i];
     covariance = applyAxes(evaluation.axes, covariance);
@@ -127,7 +127,7 @@ Evaluation evaluate(const TrajectoryFile& truth, const TrajectoryFile& estimate,
   }
   if (!evaluation.covariances.empty())
     evaluation.nees = urban_nav_core::neesOfTrajectory(m.truth, m.estimate, evaluation.covariances);
-  evaluation.end = endOf(m, evaluation.covariances);
+  evaluation.end = evaluateEnd(m, evaluation.covariances);
   return evaluation;
 }
 

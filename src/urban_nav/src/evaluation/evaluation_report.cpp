@@ -70,7 +70,7 @@ std::string lengthText(double m) {
 }
 
 /// Two columns: what, how much.
-std::vector<std::vector<std::string>> figuresOf(const Evaluation& e) {
+std::vector<std::vector<std::string>> formatFigures(const Evaluation& e) {
   std::vector<std::vector<std::string>> rows;
   rows.push_back({"poses", std::to_string(e.matched.truth.size()) + " matched, " + std::to_string(e.frames_estimate) +
                                " estimated, " + std::to_string(e.frames_truth) + " true"});
@@ -185,7 +185,7 @@ Section evaluationSection(const Evaluation& evaluation) {
   }
   section.tables.push_back({"Figures",
                             {"what", "value"},
-                            figuresOf(evaluation),
+                            formatFigures(evaluation),
                             "Relative errors: of the motion over a span, in per cent and degrees of its true length. "
                             "NEES: 6 where the covariance tells the truth, more where it is too small."});
   return section;
@@ -246,7 +246,7 @@ std::vector<Tile> evaluationTiles(const Evaluation& e) {
 
 std::string evaluationText(const Evaluation& evaluation) {
   std::string text;
-  for (const std::vector<std::string>& row : figuresOf(evaluation))
+  for (const std::vector<std::string>& row : formatFigures(evaluation))
     text += row[0] + std::string(row[0].size() < 44 ? 44 - row[0].size() : 1, ' ') + row[1] + "\n";
   return text;
 }

@@ -26,13 +26,13 @@ std::string timeText(const std::string& name, double since, urban_nav_core::Stam
   return name + " +" + forPerson(since, 6) + " s (" + urban_nav_core::printStamp(stamp) + ")";
 }
 
-std::string headlineOf(const StoredClosure& closure) {
+std::string makeHeadline(const StoredClosure& closure) {
   const urban_nav_store::Edge& edge = closure.edge;
   return "closure " + std::to_string(closure.id) + ": " + timeText(closure.name_a, closure.since_a, edge.a.stamp) +
          " and " + timeText(closure.name_b, closure.since_b, edge.b.stamp);
 }
 
-std::string verdictOf(const StoredClosure& closure) {
+std::string formatVerdict(const StoredClosure& closure) {
   const urban_nav_store::Edge& edge = closure.edge;
   std::string text = std::string(toString(edge.verdict));
   if (edge.verdict == urban_nav_core::ClosureVerdict::Accepted)
@@ -41,7 +41,7 @@ std::string verdictOf(const StoredClosure& closure) {
 }
 
 /// Empty where nothing was measured.
-std::string transformOf(const StoredClosure& closure) {
+std::string formatTransform(const StoredClosure& closure) {
   const urban_nav_core::Constraint& measured = closure.edge.measured;
   if (measured.information.isZero(0.0)) return {};
   const urban_nav_core::Matrix6d covariance = urban_nav_core::covarianceForDisplay(measured.information, kAngleWeight);
@@ -57,32 +57,32 @@ std::string transformOf(const StoredClosure& closure) {
 }
 
 /// What a failed test would have needed.
-std::string neededOf(const ClosureTest& test) {
+std::string describeNeeded(const ClosureTest& test) {
   if (test.passed) return {};
   return std::string(test.at_least ? "at least " : "at most ") + forPerson(test.threshold, 4);
 }
 
-std::vector<std::string> rowOf(const ClosureTest& test) {
+std::vector<std::string> toRow(const ClosureTest& test) {
   return {test.name, forPerson(test.value, 4), (test.at_least ? ">= " : "<= ") + forPerson(test.threshold, 4),
-          test.passed ? "passed" : "failed", neededOf(test)};
+          test.passed ? "passed" : "failed", describeNeeded(test)};
 }
 
-PageTable tableOf(const std::string& title, const std::vector<ClosureTest>& tests) {
+PageTable makeTable(const std::string& title, const std::vector<ClosureTest>& tests) {
   PageTable table{title, {"test", "value", "limit", "", "would have been needed"}, {}, ""};
-  for (const ClosureTest& test : tests) table.rows.push_back(rowOf(test));
+  for (const ClosureTest& test : tests) table.rows.push_back(toRow(test));
   return table;
 }
 
-std::string titleOf(const Evidence::Try& each, std::size_t number, std::size_t of) {
+std::string makeTitle(const Evidence::Try& each, std::size_t number, std::size_t of) {
   std::string title = each.method == "icp" ? "Clouds of the lasers" : "Two views";
   if (of > 1) title += " (" + std::to_string(number + 1) + " of " + std::to_string(of) + " tries)";
   return title;
 }
 
-std::string linesOf(const std::vector<ClosureTest>& tests) {
+std::string toLines(const std::vector<ClosureTest>& tests) {
   std::string text;
   for (const ClosureTest& test : tests) {
-    const std::vector<std::string> row = rowOf(test);
+    const std::vector<std::string> row = toRow(test);
     text += "    " + row[3] + "  " + row[0] + " = " + row[1] + " (" + row[2] + ")\n";
   }
   return text;
@@ -113,17 +113,17 @@ std::vector<CandidateSession> namedIn(const StoredClosure& closure, const Previo
 }  // namespace
 
 std::string explain(const StoredClosure& closure) {
-  std::string text = headlineOf(closure) + "\n  " + verdictOf(closure) + "\n";
+  std::string text = makeHeadline(closure) + "\n  " + formatVerdict(closure) + "\n";
   if (closure.probability)
     text += "  probability of the places being one: " + forPerson(*closure.probability, 4) + "\n";
-  if (const std::string transform = transformOf(closure); !transform.empty()) text += "  " + transform + "\n";
+  if (const std::string transform = formatTransform(closure); !transform.empty()) text += "  " + transform + "\n";
   const Evidence& evidence = closure.evidence;
   for (std::size_t i = 0; i < evidence.tries.size(); ++i) {
     const Evidence::Try& each = evidence.tries[i];
-    text += "  " + titleOf(each, i, evidence.tries.size()) + ": " + each.verdict +
-            (each.sentence.empty() ? "" : ": " + each.sentence) + "\n" + linesOf(each.tests);
+    text += "  " + makeTitle(each, i, evidence.tries.size()) + ": " + each.verdict +
+            (each.sentence.empty() ? "" : ": " + each.sentence) + "\n" + toLines(each.tests);
   }
-  if (!evidence.gate.empty()) text += "  " + std::string(kGate) + ":\n" + linesOf(evidence.gate);
+  if (!evidence.gate.empty()) text += "  " + std::string(kGate) + ":\n" + toLines(evidence.gate);
   if (evidence.tries.empty() && evidence.gate.empty()) text += "  " + std::string(kNoEvidence) + "\n";
   return text;
 }
@@ -134,28 +134,28 @@ Page explainOnPage(const StoredClosure& closure, urban_nav_store::Store& store, 
                                                 store.scans());
   Page page;
   page.title = "Why: closure " + std::to_string(closure.id);
-  page.subtitle = headlineOf(closure);
+  page.subtitle = makeHeadline(closure);
   const bool accepted = closure.edge.verdict == urban_nav_core::ClosureVerdict::Accepted;
   page.verdicts.push_back({accepted ? Grade::Good : Grade::Bad, accepted ? "Accepted." : "Not accepted.",
-                           verdictOf(closure) + ". " + transformOf(closure)});
+                           formatVerdict(closure) + ". " + formatTransform(closure)});
   if (closure.probability)
     page.tiles.push_back({forPerson(*closure.probability, 4), "", "probability of one place", Grade::Plain});
   const Evidence& evidence = closure.evidence;
   for (std::size_t i = 0; i < evidence.tries.size(); ++i) {
     const Evidence::Try& each = evidence.tries[i];
     Section section{"try" + std::to_string(i + 1),
-                    titleOf(each, i, evidence.tries.size()),
+                    makeTitle(each, i, evidence.tries.size()),
                     each.verdict + (each.sentence.empty() ? "" : ": " + each.sentence),
                     {},
                     {},
-                    {tableOf("Tests", each.tests)}};
-    if (auto picture = pictureOf(each, place_data, cloud_half_length)) {
+                    {makeTable("Tests", each.tests)}};
+    if (auto picture = toPicture(each, place_data, cloud_half_length)) {
       picture->caption = each.method == "stereo" ? kHowToReadViews : kHowToReadClouds;
       section.pictures.push_back(std::move(*picture));
     }
     page.sections.push_back(std::move(section));
   }
-  if (!evidence.gate.empty()) page.sections.push_back({"gate", kGate, "", {}, {}, {tableOf("Tests", evidence.gate)}});
+  if (!evidence.gate.empty()) page.sections.push_back({"gate", kGate, "", {}, {}, {makeTable("Tests", evidence.gate)}});
   if (evidence.tries.empty() && evidence.gate.empty())
     page.sections.push_back({"none", "Evidence", kNoEvidence, {}, {}, {}});
   page.footer = "urban_nav why, from the evidence in " + store.path() + ".";
@@ -173,7 +173,7 @@ Json explainAsJson(const StoredClosure& closure) {
   json["verdict"] = toString(closure.edge.verdict);
   json["reason"] = closure.edge.reason;
   json["weight"] = closure.edge.weight;
-  const auto testsOf = [](const std::vector<ClosureTest>& tests) {
+  const auto listTests = [](const std::vector<ClosureTest>& tests) {
     Json list = Json::array();
     for (const ClosureTest& test : tests) {
       Json one = Json::object();
@@ -193,18 +193,18 @@ Json explainAsJson(const StoredClosure& closure) {
     one["verdict"] = each.verdict;
     one["reason"] = each.reason;
     one["sentence"] = each.sentence;
-    one["tests"] = testsOf(each.tests);
+    one["tests"] = listTests(each.tests);
     tries.append(one);
   }
-  json["gate"] = testsOf(closure.evidence.gate);
+  json["gate"] = listTests(closure.evidence.gate);
   return json;
 }
 
-std::string listOf(const std::vector<StoredClosure>& closures) {
+std::string makeList(const std::vector<StoredClosure>& closures) {
   std::string text;
   for (const StoredClosure& closure : closures)
     text += std::to_string(closure.id) + "  " + closure.name_a + " +" + forPerson(closure.since_a, 6) + "  " +
-            closure.name_b + " +" + forPerson(closure.since_b, 6) + "  " + verdictOf(closure) + "\n";
+            closure.name_b + " +" + forPerson(closure.since_b, 6) + "  " + formatVerdict(closure) + "\n";
   return text.empty() ? "no closures\n" : text;
 }
 

@@ -20,6 +20,6 @@ Page explainOnPage(const StoredClosure& closure, urban_nav_store::Store& store, 
 Json explainAsJson(const StoredClosure& closure);
 
 /// A line for each closure: what `why` says where none is asked for.
-std::string listOf(const std::vector<StoredClosure>& closures);
+std::string makeList(const std::vector<StoredClosure>& closures);
 
 }  // namespace urban_nav

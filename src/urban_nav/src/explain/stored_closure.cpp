@@ -25,7 +25,7 @@ struct Beginning {
   StampNs first = 0;
 };
 
-std::map<std::string, Beginning> beginningsOf(urban_nav_store::Store& store) {
+std::map<std::string, Beginning> readBeginnings(urban_nav_store::Store& store) {
   std::map<std::string, Beginning> made;
   for (const urban_nav_store::Session& session : store.sessions().all()) {
     Beginning& its = made[session.id];
@@ -52,13 +52,13 @@ std::optional<double> probabilityIn(const std::string& evidence) {
   return std::nullopt;
 }
 
-auto orderOf(const Edge& edge) {
+auto orderKey(const Edge& edge) {
   return std::make_tuple(std::max(edge.a.stamp, edge.b.stamp), std::min(edge.a.stamp, edge.b.stamp), edge.a.session,
                          edge.b.session, edge.kind, edge.source);
 }
 
-double distanceOf(const std::string& name, const std::string& id, StampNs stamp, double since,
-                  const TimeQuery& moment) {
+double computeDistance(const std::string& name, const std::string& id, StampNs stamp, double since,
+                       const TimeQuery& moment) {
   if (!moment.session.empty() && name.rfind(moment.session, 0) != 0 && id.rfind(moment.session, 0) != 0)
     return std::numeric_limits<double>::infinity();
   return moment.since_begin ? std::abs(since - moment.seconds)
@@ -67,14 +67,14 @@ double distanceOf(const std::string& name, const std::string& id, StampNs stamp,
 
 }  // namespace
 
-std::vector<StoredClosure> closuresOf(urban_nav_store::Store& store) {
+std::vector<StoredClosure> listClosures(urban_nav_store::Store& store) {
   std::vector<Edge> edges;
-  const std::map<std::string, Beginning> beginnings = beginningsOf(store);
+  const std::map<std::string, Beginning> beginnings = readBeginnings(store);
   for (const auto& [id, beginning] : beginnings)
     store.graph().forEachEdge(id, [&](const Edge& edge) {
       if (edge.kind != EdgeKind::Odometry && beginnings.count(edge.b.session) > 0) edges.push_back(edge);
     });
-  std::sort(edges.begin(), edges.end(), [](const Edge& x, const Edge& y) { return orderOf(x) < orderOf(y); });
+  std::sort(edges.begin(), edges.end(), [](const Edge& x, const Edge& y) { return orderKey(x) < orderKey(y); });
   std::vector<StoredClosure> closures;
   for (const Edge& edge : edges) {
     StoredClosure closure;
@@ -111,11 +111,11 @@ TimeQuery parseTimeQuery(const std::string& text, const std::string& what) {
   return moment;
 }
 
-double distanceOf(const StoredClosure& closure, const TimeQuery& one, const TimeQuery& other) {
+double computeDistance(const StoredClosure& closure, const TimeQuery& one, const TimeQuery& other) {
   const auto at = [&](bool a, const TimeQuery& moment) {
     const Edge& edge = closure.edge;
-    return a ? distanceOf(closure.name_a, edge.a.session, edge.a.stamp, closure.since_a, moment)
-             : distanceOf(closure.name_b, edge.b.session, edge.b.stamp, closure.since_b, moment);
+    return a ? computeDistance(closure.name_a, edge.a.session, edge.a.stamp, closure.since_a, moment)
+             : computeDistance(closure.name_b, edge.b.session, edge.b.stamp, closure.since_b, moment);
   };
   return std::min(std::max(at(true, one), at(false, other)), std::max(at(true, other), at(false, one)));
 }

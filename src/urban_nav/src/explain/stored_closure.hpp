@@ -21,7 +21,7 @@ struct StoredClosure {
 };
 
 /// All closures of a store: measured, asserted and rejected ones. DataError where evidence is damaged.
-std::vector<StoredClosure> closuresOf(urban_nav_store::Store& store);
+std::vector<StoredClosure> listClosures(urban_nav_store::Store& store);
 
 /// A time as the user gives it: seconds since 1970 ("1225719873.5"), or since the start of a session ("+12.5",
 /// "quad+12.5").
@@ -36,6 +36,6 @@ TimeQuery parseTimeQuery(const std::string& text, const std::string& what);
 
 /// How far a closure is from these two moments, the larger of both, s; the moments may come in either order. Infinite
 /// where a session is another one.
-double distanceOf(const StoredClosure& closure, const TimeQuery& one, const TimeQuery& other);
+double computeDistance(const StoredClosure& closure, const TimeQuery& one, const TimeQuery& other);
 
 }  // namespace urban_nav

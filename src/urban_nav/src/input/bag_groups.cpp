@@ -9,7 +9,7 @@
 
 namespace urban_nav {
 
-std::vector<BagGroup> groupsOf(std::list<rosbag::Bag>& bags) {
+std::vector<BagGroup> groupBags(std::list<rosbag::Bag>& bags) {
   std::vector<BagGroup> groups;
   std::size_t count = 0;
   for (rosbag::Bag& bag : bags) {

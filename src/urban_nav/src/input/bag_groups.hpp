@@ -19,6 +19,6 @@ struct BagGroup {
 
 /// The bags of a recording, which begin one after the other: a new group begins where all messages of the bags before
 /// were received before the first of it. The bags must outlive it.
-std::vector<BagGroup> groupsOf(std::list<rosbag::Bag>& bags);
+std::vector<BagGroup> groupBags(std::list<rosbag::Bag>& bags);
 
 }  // namespace urban_nav

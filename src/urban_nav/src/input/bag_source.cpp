@@ -154,7 +154,7 @@ class BagSource : public Source {
     return {image->header.frame_id, pixels.cols, pixels.rows};
   }
 
-  CameraInfo infoOf(Role role) {
+  CameraInfo makeInfo(Role role) {
     const std::optional<ChosenTopic> topic = topics_.find(role);
     const auto message = topic ? first<sensor_msgs::CameraInfo>(topic->name) : nullptr;
     if (!message)
@@ -171,7 +171,7 @@ class BagSource : public Source {
     camera_frame_ = seen.frame;
     const bool given = !options_.calibration.empty();
     const auto [left_info, right_info] = given ? readCalibration(options_.calibration, seen.width, seen.height)
-                                               : std::make_pair(infoOf(Role::LeftInfo), infoOf(Role::RightInfo));
+                                               : std::make_pair(makeInfo(Role::LeftInfo), makeInfo(Role::RightInfo));
     if (camera_frame_.empty()) camera_frame_ = seen.frame;
     const std::string where = given
                                   ? options_.calibration
@@ -245,7 +245,7 @@ class BagSource : public Source {
     }
     feed_.emplace(feed, calibration_);
     listen();
-    groups_ = groupsOf(bags_);
+    groups_ = groupBags(bags_);
     for (rosbag::Bag& bag : bags_) info_.frames += rosbag::View(bag, rosbag::TopicQuery(images.front())).size();
     rosbag::View stereo;
     for (rosbag::Bag& bag : bags_) stereo.addQuery(bag, rosbag::TopicQuery(images));

@@ -141,7 +141,7 @@ urban_nav_ros::GreyImage readRectified(const std::string& path, const RectifyMap
   urban_nav_ros::GreyImage raw = readGrey(path);
   if (raw.pixels.empty()) return raw;
   std::vector<std::uint8_t> bytes;
-  const urban_nav_core::ImageView view = map.remap(urban_nav_ros::viewOf(raw.pixels), bytes);
+  const urban_nav_core::ImageView view = map.remap(urban_nav_ros::toView(raw.pixels), bytes);
   if (view.empty()) {
     return {{},
             path + ": " + std::to_string(raw.pixels.cols) + "x" + std::to_string(raw.pixels.rows) +

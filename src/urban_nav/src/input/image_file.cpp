@@ -61,7 +61,7 @@ GreyImage readGrey(const std::string& path, int bits) {
 std::pair<urban_nav_core::ImageView, std::shared_ptr<const void>> keep(const cv::Mat& grey) {
   if (grey.empty()) return {};
   auto owner = std::make_shared<const cv::Mat>(grey);
-  return {urban_nav_ros::viewOf(*owner), owner};
+  return {urban_nav_ros::toView(*owner), owner};
 }
 
 bool isImageName(const std::string& name) {

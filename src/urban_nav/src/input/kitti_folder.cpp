@@ -107,7 +107,7 @@ class KittiFolder : public Source {
     }
     if (!calibration_ || !calibration_->rectifies()) return image.pixels;
     std::vector<std::uint8_t> bytes;
-    const urban_nav_core::ImageView view = calibration_->rectify(side, urban_nav_ros::viewOf(image.pixels), bytes);
+    const urban_nav_core::ImageView view = calibration_->rectify(side, urban_nav_ros::toView(image.pixels), bytes);
     return cv::Mat(view.height, view.width, CV_8UC1, bytes.data(), static_cast<std::size_t>(view.stride)).clone();
   }
 

@@ -23,7 +23,7 @@ constexpr int kDepth = 3;
 constexpr int kLadybugCameras = 5;
 
 /// "left" or "right" of "...-left.pnm"; empty for other names.
-std::string sideOf(const fs::path& path) {
+std::string findSide(const fs::path& path) {
   const std::string stem = path.stem().string();
   for (const char* side : {"left", "right"}) {
     if (urban_nav_core::endsWith(stem, side) && isImageName(path.filename().string())) return side;
@@ -72,7 +72,7 @@ NewCollegeFiles findNewCollege(const std::string& source) {
                         "one log at a time: give the .alog file itself");
       files.alog = path.string();
     }
-    const std::string side = sideOf(path);
+    const std::string side = findSide(path);
     const int camera = ladybugCamera(path);
     if (side.empty() && camera < 0) continue;
     const std::optional<StampNs> stamp = stampOfName(path.filename().string());

@@ -26,7 +26,7 @@ constexpr double kNeighbour = 0.2;            // s: headings further apart say l
 constexpr double kLadybugPeriod = 0.0133381;  // s a turn of the LMS, a straight line through the log's stamps
 constexpr double kRangeMax = 80.0;            // m, reach of the LMS291
 
-double yawOf(const Pose& T) { return 2.0 * std::atan2(T.q().z(), T.q().w()); }
+double computeYaw(const Pose& T) { return 2.0 * std::atan2(T.q().z(), T.q().w()); }
 
 Quaterniond rollPitchYaw(double roll, double pitch, double yaw) {
   return expSo3({0.0, 0.0, yaw}) * expSo3({0.0, pitch, 0.0}) * expSo3({roll, 0.0, 0.0});
@@ -38,7 +38,7 @@ std::string baseName(std::string_view path) {
 }
 
 // theta = 0 faces the log's +y, counter-clockwise. The tilt comes later, from RAW: this row's own is turned by theta.
-NewCollegeOdometry odometryOf(const AlogFields& fields, StampNs stamp) {
+NewCollegeOdometry parseOdometry(const AlogFields& fields, StampNs stamp) {
   const auto pose = fields.array("Pose", 3);
   NewCollegeOdometry odometry;
   odometry.stamp = stamp;
@@ -47,7 +47,7 @@ NewCollegeOdometry odometryOf(const AlogFields& fields, StampNs stamp) {
   return odometry;
 }
 
-NewCollegePanorama panoramaOf(const AlogFields& fields, StampNs stamp, const std::string& where) {
+NewCollegePanorama parsePanorama(const AlogFields& fields, StampNs stamp, const std::string& where) {
   constexpr double kMostImages = 64.0;
   NewCollegePanorama panorama;
   panorama.stamp = stamp;
@@ -61,7 +61,7 @@ NewCollegePanorama panoramaOf(const AlogFields& fields, StampNs stamp, const std
 
 }  // namespace
 
-StampNs stampOf(const NewCollegeEvent& event) {
+StampNs toStamp(const NewCollegeEvent& event) {
   return std::visit([](const auto& each) { return each.stamp; }, event);
 }
 
@@ -78,7 +78,7 @@ std::optional<NewCollegeEvent> NewCollegeLog::next() {
   }
 }
 
-StampNs NewCollegeLog::timeOf(const AlogRow& row, const AlogFields& fields) const {
+StampNs NewCollegeLog::computeTime(const AlogRow& row, const AlogFields& fields) const {
   const StampNs stamp = fields.stamp("time");
   const StampNs start = reader_.logStart().value_or(0);
   const double off = secondsBetween(start, stamp) - secondsBetween(0, row.logged);
@@ -97,11 +97,11 @@ void NewCollegeLog::take(const AlogRow& row) {
     return;
 
   const AlogFields fields(row.value, where);
-  const StampNs stamp = timeOf(row, fields);
+  const StampNs stamp = computeTime(row, fields);
   if (row.variable == "ODOMETRY_POSE") {
-    put(odometryOf(fields, stamp));
+    put(parseOdometry(fields, stamp));
   } else if (row.variable == "CAMERA_FILE_WRITE") {
-    put(panoramaOf(fields, stamp, where));
+    put(parsePanorama(fields, stamp, where));
   } else {
     tilts_[stamp] = {fields.number("Pitch"), fields.number("Roll"), fields.number("PitchDot")};
     tilts_.erase(tilts_.begin(), tilts_.lower_bound(stamp - 2 * kWindow));
@@ -119,7 +119,7 @@ NewCollegeScan NewCollegeLog::scan(const AlogRow& row, Side side) {
     throw UserError(where, std::to_string(ranges.size()) + " ranges", "as many as minAngle, maxAngle and angRes say");
   }
   NewCollegeScan out;
-  out.stamp = timeOf(row, fields);
+  out.stamp = computeTime(row, fields);
   out.side = side;
   out.id = static_cast<std::int64_t>(std::clamp(fields.number("ID"), -9e15, 9e15));
   out.scan.stamp = out.stamp;
@@ -135,7 +135,7 @@ NewCollegeScan NewCollegeLog::scan(const AlogRow& row, Side side) {
 }
 
 void NewCollegeLog::put(NewCollegeEvent event) {
-  const StampNs stamp = stampOf(event);
+  const StampNs stamp = toStamp(event);
   if (released_ && stamp < *released_) {
     ++counts_.out_of_order;
     return;
@@ -171,7 +171,7 @@ void NewCollegeLog::complete(NewCollegeOdometry& odometry) {
     return;
   }
   // RAW's pitch is about the axis to the right, its roll positive with the left side up.
-  const double yaw = yawOf(odometry.T_odom_base);
+  const double yaw = computeYaw(odometry.T_odom_base);
   odometry.T_odom_base = Pose(rollPitchYaw(tilt->second.roll, -tilt->second.pitch, yaw), odometry.T_odom_base.t());
   odometry.pitch_rate = -tilt->second.pitch_rate;
 }
@@ -191,7 +191,7 @@ double NewCollegeLog::yawRate(const NewCollegeOdometry& odometry) const {
   }
   const double seconds = secondsBetween(before->stamp, after->stamp);
   if (!(seconds > 0.0)) return 0.0;
-  return std::remainder(yawOf(after->T_odom_base) - yawOf(before->T_odom_base), 2.0 * M_PI) / seconds;
+  return std::remainder(computeYaw(after->T_odom_base) - computeYaw(before->T_odom_base), 2.0 * M_PI) / seconds;
 }
 
 }  // namespace urban_nav

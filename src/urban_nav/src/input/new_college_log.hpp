@@ -44,7 +44,7 @@ struct NewCollegePanorama {
 };
 
 using NewCollegeEvent = std::variant<NewCollegeScan, NewCollegeOdometry, NewCollegePanorama>;
-urban_nav_core::StampNs stampOf(const NewCollegeEvent& event);
+urban_nav_core::StampNs toStamp(const NewCollegeEvent& event);
 
 struct NewCollegeCounts {
   std::int64_t scans_left = 0, scans_right = 0;
@@ -80,7 +80,7 @@ class NewCollegeLog {
   void complete(NewCollegeOdometry& odometry);
   double yawRate(const NewCollegeOdometry& odometry) const;
   /// The value's own time, which must be near the one at which it was logged.
-  urban_nav_core::StampNs timeOf(const AlogRow& row, const AlogFields& fields) const;
+  urban_nav_core::StampNs computeTime(const AlogRow& row, const AlogFields& fields) const;
 
   std::string path_;
   AlogReader reader_;

@@ -24,7 +24,7 @@ struct Extent {
   urban_nav_core::StampNs first = 0;
 };
 
-Extent extentOf(const std::string& path) {
+Extent computeExtent(const std::string& path) {
   try {
     rosbag::Bag bag(path, rosbag::bagmode::Read);
     rosbag::View view(bag);
@@ -46,7 +46,7 @@ std::vector<InputSession> findSessions(const std::vector<std::string>& inputs) {
   std::vector<Extent> bags;
   for (const std::string& input : inputs) {
     if (inputKind(input) == InputKind::Bag) {
-      bags.push_back(extentOf(input));
+      bags.push_back(computeExtent(input));
     } else {
       sessions.push_back({{input}, 0});
     }

@@ -57,7 +57,7 @@ class Counter {
 };
 
 template <typename Stamps>
-StreamInfo streamOf(const std::string& name, const std::string& type, const Stamps& stamps) {
+StreamInfo toStream(const std::string& name, const std::string& type, const Stamps& stamps) {
   Counter counter(name, type);
   for (const StampNs stamp : stamps) counter.add(stamp);
   return counter.info();
@@ -97,13 +97,13 @@ void lookIntoFolder(const std::string& path, InputKind kind, InputInfo& info) {
   info.notes.push_back(std::to_string(camera.left.width) + "x" + std::to_string(camera.left.height) + ", f " +
                        std::to_string(camera.left.fx) + " px, baseline " + std::to_string(camera.baseline) + " m");
   if (kind == InputKind::KittiFolder) {
-    info.streams.push_back(streamOf("stereo", "image pairs", listKittiFrames(*findKittiLayout(path), 0.0).stamps));
+    info.streams.push_back(toStream("stereo", "image pairs", listKittiFrames(*findKittiLayout(path), 0.0).stamps));
   } else {
     for (const EurocPair& pair : readEurocPairs(eurocFolder(path))) stamps.push_back(pair.stamp);
-    info.streams.push_back(streamOf("stereo", "image pairs", stamps));
+    info.streams.push_back(toStream("stereo", "image pairs", stamps));
     stamps.clear();
     for (const EurocImu& row : readEurocImu(eurocFolder(path))) stamps.push_back(row.stamp);
-    if (!stamps.empty()) info.streams.push_back(streamOf("imu0", "rates and accelerations", stamps));
+    if (!stamps.empty()) info.streams.push_back(toStream("imu0", "rates and accelerations", stamps));
   }
   if (const std::optional<TrajectoryFile> truth = findTruth({{path}}, source->info(), options)) {
     std::vector<Vector3d> way;
@@ -112,7 +112,7 @@ void lookIntoFolder(const std::string& path, InputKind kind, InputInfo& info) {
       way.push_back(pose.pose.t());
       stamps.push_back(pose.stamp);
     }
-    info.streams.push_back(streamOf("truth", "poses", stamps));
+    info.streams.push_back(toStream("truth", "poses", stamps));
     info.distance_m = pathLength(way);
     info.distance_of = truth->path;
   }
@@ -122,12 +122,12 @@ void lookIntoNewCollege(const std::string& path, InputInfo& info) {
   const NewCollegeFiles files = findNewCollege(path);
   std::vector<StampNs> stamps;
   for (const NewCollegeFiles::Pair& pair : files.stereo) stamps.push_back(pair.stamp);
-  info.streams.push_back(streamOf("stereo", "image pairs", stamps));
+  info.streams.push_back(toStream("stereo", "image pairs", stamps));
   stamps.clear();
   for (const NewCollegeFiles::Image& image : files.panorama) {
     if (image.camera == 0) stamps.push_back(image.stamp);
   }
-  info.streams.push_back(streamOf("ladybug", "panoramas", stamps));
+  info.streams.push_back(toStream("ladybug", "panoramas", stamps));
   if (files.alog.empty()) return;
   Counter left("laser_left", "scans"), right("laser_right", "scans"), odometry("wheel_odom", "poses");
   std::vector<Vector3d> way;

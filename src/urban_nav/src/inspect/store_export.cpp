@@ -28,7 +28,7 @@ namespace {
 
 constexpr const char* kStereo = "stereo";
 
-Pose cameraOf(Store& store, const urban_nav_store::Session& session) {
+Pose makeCamera(Store& store, const urban_nav_store::Session& session) {
   for (const urban_nav_store::Extrinsic& extrinsic : store.sessions().extrinsics(session.id))
     if (extrinsic.frame == urban_nav_core::frames::stereo_left) return extrinsic.T_base_frame;
   throw UserError(
@@ -59,7 +59,7 @@ std::string exportKitti(Store& store, const std::vector<StoredTrajectory>& map) 
   bool first = true;
   for (const StoredTrajectory& each : map) {
     if (each.T_map_base.empty()) continue;
-    const Pose T_base_camera = cameraOf(store, each.session);
+    const Pose T_base_camera = makeCamera(store, each.session);
     if (std::exchange(first, false)) T_first_map = (each.T_map_base.front().pose * T_base_camera).inverse();
     std::size_t next = 0;
     const auto add = [&](bool used) {

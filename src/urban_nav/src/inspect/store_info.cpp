@@ -21,13 +21,13 @@ using urban_nav_store::StoredTrajectory;
 
 namespace {
 
-double lengthOf(const std::vector<urban_nav_core::StampedPose>& poses) {
+double computeLength(const std::vector<urban_nav_core::StampedPose>& poses) {
   double length = 0.0;
   for (std::size_t i = 1; i < poses.size(); ++i) length += distanceBetween(poses[i - 1].pose, poses[i].pose);
   return length;
 }
 
-std::vector<StreamInfo> streamsOf(Store& store, const urban_nav_store::SessionId& id) {
+std::vector<StreamInfo> listStreams(Store& store, const urban_nav_store::SessionId& id) {
   std::map<std::string, StreamInfo> streams;
   std::map<std::string, std::int64_t> unused;
   store.inputs().forEach(id, [&](const urban_nav_store::InputEvent& event) {
@@ -60,7 +60,7 @@ class Groups {
   std::vector<std::size_t> parent_;
 };
 
-std::string idOf(const std::vector<StoredSession>& sessions, std::size_t i) {
+std::string toId(const std::vector<StoredSession>& sessions, std::size_t i) {
   return sessions[i].session.id.substr(0, 8);
 }
 
@@ -70,7 +70,7 @@ std::string printBytes(std::int64_t bytes) {
   return bytes < 1'000'000 ? forPerson(value / 1e3, 3) + " kB" : forPerson(value / 1e6, 3) + " MB";
 }
 
-std::string textOf(const StoredSession& each) {
+std::string toText(const StoredSession& each) {
   const double seconds = urban_nav_core::secondsBetween(each.first, each.last);
   std::string text = "\n  session " + each.session.id + "  " + each.session.name +
                      (each.session.complete ? "" : "  (not complete)") + "\n";
@@ -132,10 +132,10 @@ StoreInfo lookIntoStore(const std::string& path) {
       each.first = trajectory.T_map_base.front().stamp;
       each.last = trajectory.T_map_base.back().stamp;
     }
-    each.length_m = lengthOf(trajectory.T_map_base);
+    each.length_m = computeLength(trajectory.T_map_base);
     store.graph().forEachNode(session.id,
                               [&](const urban_nav_store::Node& node) { ++each.status_counts[toString(node.status)]; });
-    each.streams = streamsOf(store, session.id);
+    each.streams = listStreams(store, session.id);
     for (const std::string& laser : store.scans().lasers(session.id))
       each.scans[laser] = store.scans().count(session.id, laser);
     for (const urban_nav_store::Extrinsic& extrinsic : store.sessions().extrinsics(session.id))
@@ -160,14 +160,14 @@ StoreInfo lookIntoStore(const std::string& path) {
   return info;
 }
 
-std::string textOf(const StoreInfo& info) {
+std::string toText(const StoreInfo& info) {
   std::string text = info.path + ": session store, " + printBytes(info.bytes) + ", " +
                      std::to_string(info.sessions.size()) + (info.sessions.size() == 1 ? " session\n" : " sessions\n");
-  for (const StoredSession& each : info.sessions) text += textOf(each);
+  for (const StoredSession& each : info.sessions) text += toText(each);
   text += info.sessions.empty() ? "" : "\n";
   for (std::size_t i = 0; i < info.joined.size(); ++i) {
     text += "  map " + std::to_string(i + 1) + ":";
-    for (const std::size_t member : info.joined[i]) text += " " + idOf(info.sessions, member);
+    for (const std::size_t member : info.joined[i]) text += " " + toId(info.sessions, member);
     const StoredSession& first = info.sessions[info.joined[i].front()];
     const bool anchored = std::any_of(info.sessions.begin(), info.sessions.end(),
                                       [&](const StoredSession& each) { return each.session.id == first.map; });
@@ -177,7 +177,7 @@ std::string textOf(const StoreInfo& info) {
   return text;
 }
 
-Json jsonOf(const StoreInfo& info) {
+Json toJson(const StoreInfo& info) {
   Json json = Json::object();
   json["name"] = info.path;
   json["kind"] = "session store";

@@ -41,7 +41,7 @@ struct StoreInfo {
 /// Reads the store whole; errors as urban_nav_store has them.
 StoreInfo lookIntoStore(const std::string& path);
 
-std::string textOf(const StoreInfo& info);
-Json jsonOf(const StoreInfo& info);
+std::string toText(const StoreInfo& info);
+Json toJson(const StoreInfo& info);
 
 }  // namespace urban_nav

@@ -82,7 +82,7 @@ std::string firstAndLastBytes(const InputFile& file) {
   return bytes;
 }
 
-std::string digestOf(const std::vector<std::string>& inputs, const std::string& out, bool with_time) {
+std::string computeDigest(const std::vector<std::string>& inputs, const std::string& out, bool with_time) {
   std::string bytes;
   for (const std::string& input : inputs) {
     const std::vector<InputFile> files = listFiles(input, out);
@@ -143,7 +143,7 @@ std::string digestOfOptions(const MapOptions& options, const StageList& stages) 
   for (std::size_t comma = 0; !calibration.empty();
        calibration.erase(0, comma == std::string::npos ? comma : comma + 1)) {
     comma = calibration.find(',');
-    appendText(bytes, digestOf({calibration.substr(0, comma)}, options.out, true));
+    appendText(bytes, computeDigest({calibration.substr(0, comma)}, options.out, true));
   }
   return sha256(bytes);
 }
@@ -157,13 +157,13 @@ std::string digestOfStages(const MapOptions& options) {
 std::string digestOfStore(const MapOptions& options) {
   std::error_code ignored;
   const bool own = fs::equivalent(options.store, fs::path(options.out) / "session.db", ignored);
-  return options.store.empty() || own ? sha256("") : digestOf({options.store}, options.out, true);
+  return options.store.empty() || own ? sha256("") : computeDigest({options.store}, options.out, true);
 }
 
 }  // namespace
 
 RunFingerprint fingerprint(const MapOptions& options, const StageList& stages, const InputSession& session) {
-  return {{"inputs", digestOf(session.paths, options.out, true)},
+  return {{"inputs", computeDigest(session.paths, options.out, true)},
           {"options", digestOfOptions(options, stages)},
           {"parameters", digestOfParameters(options, stages)},
           {"program", digestOfProgram()},
@@ -172,13 +172,13 @@ RunFingerprint fingerprint(const MapOptions& options, const StageList& stages, c
 }
 
 urban_nav_store::SessionOrigin origin(const MapOptions& options, const InputSession& session) {
-  return {"", "", 0, digestOf({session.paths.front()}, options.out, false)};
+  return {"", "", 0, computeDigest({session.paths.front()}, options.out, false)};
 }
 
 std::vector<std::string> bagFingerprints(const MapOptions& options, const InputSession& session) {
   std::vector<std::string> digests;
   if (session.begin != 0)
-    for (const std::string& path : session.paths) digests.push_back(digestOf({path}, options.out, true));
+    for (const std::string& path : session.paths) digests.push_back(computeDigest({path}, options.out, true));
   return digests;
 }
 

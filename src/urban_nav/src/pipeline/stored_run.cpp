@@ -14,10 +14,10 @@ std::vector<SessionId> sessionIds(const MapOptions& options, const std::vector<M
   std::vector<SessionId> ids;
   for (const MapSession& session : sessions) {
     urban_nav_store::SessionOrigin of_session = origin(options, session.input);
-    SessionId id = sessionIdOf(of_session);
+    SessionId id = makeSessionId(of_session);
     for (int again = 2; std::find(ids.begin(), ids.end(), id) != ids.end(); ++again) {
       of_session.recording = std::to_string(again);
-      id = sessionIdOf(of_session);
+      id = makeSessionId(of_session);
     }
     ids.push_back(id);
   }

@@ -15,7 +15,7 @@ constexpr std::size_t images_at_once = 32;  // decoded before features are extra
 StampedObservation describeImages(const fabmap_node::FeatureExtractor& extractor,
                                   const fabmap_node::PlaceDescriber* describer, const PlaceImages& images) {
   std::vector<urban_nav_core::ImageView> views;
-  for (const cv::Mat& grey : images.grey) views.push_back(urban_nav_ros::viewOf(grey));
+  for (const cv::Mat& grey : images.grey) views.push_back(urban_nav_ros::toView(grey));
   if (describer != nullptr) return {images.stamp, {}, describer->describe(views)};
   return {images.stamp, extractor.extract(views), {}};
 }

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kMostTilesAcross = 6;
 constexpr std::size_t kLongTable = 60;  // rows: more of them scroll within their own frame
 
-const char* classOf(Grade grade) {
+const char* classify(Grade grade) {
   switch (grade) {
     case Grade::Good: return "good";
     case Grade::Fair: return "fair";
@@ -24,7 +24,7 @@ const char* classOf(Grade grade) {
   return "plain";
 }
 
-const char* markOf(Grade grade) {
+const char* toMark(Grade grade) {
   switch (grade) {
     case Grade::Good: return "&#10003;";
     case Grade::Fair: return "!";
@@ -34,28 +34,28 @@ const char* markOf(Grade grade) {
   return "i";
 }
 
-std::string tilesOf(const std::vector<Tile>& tiles) {
+std::string makeTiles(const std::vector<Tile>& tiles) {
   const std::size_t across = tiles.size() <= kMostTilesAcross ? tiles.size() : (tiles.size() + 1) / 2;
   std::string html =
       "<div class=\"tiles\" style=\"--across: " + std::to_string(std::max<std::size_t>(1, across)) + "\">";
   for (const Tile& tile : tiles) {
-    html += "<div class=\"tile " + std::string(classOf(tile.grade)) + "\"><div class=\"value\">" +
+    html += "<div class=\"tile " + std::string(classify(tile.grade)) + "\"><div class=\"value\">" +
             escapeHtml(tile.value) + "<small> " + escapeHtml(tile.unit) + "</small></div><div class=\"what\">" +
             escapeHtml(tile.label) + "</div></div>";
   }
   return html + "</div>\n";
 }
 
-std::string verdictsOf(const std::vector<Verdict>& verdicts) {
+std::string formatVerdicts(const std::vector<Verdict>& verdicts) {
   std::string html = "<ul class=\"verdicts\">";
   for (const Verdict& verdict : verdicts) {
-    html += "<li class=\"" + std::string(classOf(verdict.grade)) + "\"><span class=\"mark\">" + markOf(verdict.grade) +
+    html += "<li class=\"" + std::string(classify(verdict.grade)) + "\"><span class=\"mark\">" + toMark(verdict.grade) +
             "</span><div><b>" + escapeHtml(verdict.headline) + "</b> " + escapeHtml(verdict.sentence) + "</div></li>";
   }
   return html + "</ul>\n";
 }
 
-std::string figuresOf(const std::vector<Figure>& figures) {
+std::string formatFigures(const std::vector<Figure>& figures) {
   std::string html = "<div class=\"figures\">";
   for (const Figure& figure : figures) {
     if (figure.svg.empty()) continue;
@@ -65,7 +65,7 @@ std::string figuresOf(const std::vector<Figure>& figures) {
   return html + "</div>\n";
 }
 
-std::string picturesOf(const std::vector<PagePicture>& pictures) {
+std::string makePictures(const std::vector<PagePicture>& pictures) {
   std::string html = "<div class=\"pictures\">";
   for (const PagePicture& picture : pictures) {
     html += "<figure><img alt=\"" + escapeHtml(picture.caption) + "\" width=\"" + std::to_string(picture.width) +
@@ -75,7 +75,7 @@ std::string picturesOf(const std::vector<PagePicture>& pictures) {
   return html + "</div>\n";
 }
 
-std::string tableOf(const PageTable& table) {
+std::string makeTable(const PageTable& table) {
   std::string html = table.title.empty() ? "" : "<h3>" + escapeHtml(table.title) + "</h3>";
   html +=
       std::string("<div class=\"scroll") + (table.rows.size() > kLongTable ? " long" : "") + "\"><table><thead><tr>";
@@ -90,12 +90,12 @@ std::string tableOf(const PageTable& table) {
   return table.caption.empty() ? html : html + "<p class=\"caption\">" + escapeHtml(table.caption) + "</p>";
 }
 
-std::string sectionOf(const Section& section) {
+std::string makeSection(const Section& section) {
   std::string html = "<section id=\"" + section.id + "\"><h2>" + escapeHtml(section.title) + "</h2>\n";
   if (!section.introduction.empty()) html += "<p>" + escapeHtml(section.introduction) + "</p>\n";
-  if (!section.figures.empty()) html += figuresOf(section.figures);
-  if (!section.pictures.empty()) html += picturesOf(section.pictures);
-  for (const PageTable& table : section.tables) html += tableOf(table);
+  if (!section.figures.empty()) html += formatFigures(section.figures);
+  if (!section.pictures.empty()) html += makePictures(section.pictures);
+  for (const PageTable& table : section.tables) html += makeTable(table);
   return html + "</section>\n";
 }
 
@@ -118,8 +118,8 @@ std::string renderPage(const Page& page) {
   html += "<nav>";
   for (const Section& section : page.sections)
     html += "<a href=\"#" + section.id + "\">" + escapeHtml(section.title) + "</a>";
-  html += "</nav></header>\n<main>\n" + tilesOf(page.tiles) + verdictsOf(page.verdicts);
-  for (const Section& section : page.sections) html += sectionOf(section);
+  html += "</nav></header>\n<main>\n" + makeTiles(page.tiles) + formatVerdicts(page.verdicts);
+  for (const Section& section : page.sections) html += makeSection(section);
   return html + "</main>\n<footer>" + escapeHtml(page.footer) + "</footer>\n<script>" + pageScript() +
          "</script>\n</body></html>\n";
 }

@@ -66,7 +66,7 @@ std::vector<std::size_t> thinned(const std::vector<PlotPoint>& points) {
   return kept;
 }
 
-PlotFrame frameOf(const Plot& plot) {
+PlotFrame makePlotFrame(const Plot& plot) {
   PlotFrame frame;
   frame.width = plot.width;
   frame.height = plot.height;
@@ -133,7 +133,7 @@ std::string axes(const Plot& plot, const PlotFrame& f) {
   return svg;
 }
 
-std::string pathOf(const Series& series, const PlotFrame& f) {
+std::string makePath(const Series& series, const PlotFrame& f) {
   std::string d;
   bool pen_down = false;
   for (const std::size_t i : thinned(series.points)) {
@@ -148,7 +148,7 @@ std::string pathOf(const Series& series, const PlotFrame& f) {
   return d;
 }
 
-std::string bandOf(const Series& series, const PlotFrame& f) {
+std::string drawBand(const Series& series, const PlotFrame& f) {
   std::string there, back;
   for (const std::size_t i : thinned(series.points)) {
     const PlotPoint& p = series.points[i];
@@ -159,7 +159,7 @@ std::string bandOf(const Series& series, const PlotFrame& f) {
   return there.empty() ? "" : "<path class=\"band c-" + series.colour + "\" d=\"" + there + back + "Z\"/>";
 }
 
-std::string barsOf(const Series& series, const PlotFrame& f) {
+std::string drawBars(const Series& series, const PlotFrame& f) {
   std::string svg;
   for (const PlotPoint& p : series.points) {
     if (!finite(p) || p.y <= 0.0) continue;
@@ -170,7 +170,7 @@ std::string barsOf(const Series& series, const PlotFrame& f) {
   return svg;
 }
 
-std::string dotsOf(const Series& series, const PlotFrame& f) {
+std::string drawDots(const Series& series, const PlotFrame& f) {
   std::string svg;
   for (const std::size_t i : thinned(series.points)) {
     const PlotPoint& p = series.points[i];
@@ -183,9 +183,9 @@ std::string dotsOf(const Series& series, const PlotFrame& f) {
 
 std::string draw(const Series& series, const PlotFrame& f) {
   switch (series.kind) {
-    case Series::Kind::Band: return bandOf(series, f);
-    case Series::Kind::Bars: return barsOf(series, f);
-    case Series::Kind::Dots: return dotsOf(series, f);
+    case Series::Kind::Band: return drawBand(series, f);
+    case Series::Kind::Bars: return drawBars(series, f);
+    case Series::Kind::Dots: return drawDots(series, f);
     case Series::Kind::Line:
     case Series::Kind::Dashed:
     case Series::Kind::Faint: break;
@@ -194,7 +194,7 @@ std::string draw(const Series& series, const PlotFrame& f) {
                              : series.kind == Series::Kind::Faint ? " faint"
                                                                   : "";
   return "<path class=\"line c-" + series.colour + dashed + "\" data-name=\"" + escapeHtml(series.name) + "\" d=\"" +
-         pathOf(series, f) + "\"/>";
+         makePath(series, f) + "\"/>";
 }
 
 std::string legend(const Plot& plot) {
@@ -214,7 +214,7 @@ std::string legend(const Plot& plot) {
 }  // namespace
 
 std::string renderSvg(const Plot& plot, bool with_legend) {
-  const PlotFrame f = frameOf(plot);
+  const PlotFrame f = makePlotFrame(plot);
   if (f.x.empty() || f.y.empty()) return {};
   const auto attribute = [](const char* name, double value) {
     return std::string(" data-") + name + "=\"" + forPerson(value, 9) + "\"";

@@ -14,7 +14,7 @@ constexpr int kScale = 2;  // pixels per px of the plot's own size
 constexpr int kTitleHeight = 44, kLeft = 62, kRight = 14, kTop = 12, kBottom = 44;
 const cv::Scalar kGrid(226, 232, 235), kText(119, 104, 93);
 
-cv::Scalar colourOf(const std::string& name) {
+cv::Scalar toColour(const std::string& name) {
   if (name == "a") return {235, 111, 31};
   if (name == "b") return {15, 72, 217};
   if (name == "c") return {153, 133, 12};
@@ -28,7 +28,7 @@ struct Bounds {
 
 bool drawable(const Series& series) { return series.kind != Series::Kind::Band && series.kind != Series::Kind::Bars; }
 
-Bounds boundsOf(const Plot& plot) {
+Bounds computeBounds(const Plot& plot) {
   Bounds b;
   for (const Series& series : plot.series) {
     if (!drawable(series)) continue;
@@ -54,7 +54,7 @@ void write(cv::Mat& canvas, const std::string& text, double u, double v, double 
 }
 
 void draw(cv::Mat& canvas, int top, const std::string& title, const Plot& plot) {
-  const Bounds b = boundsOf(plot);
+  const Bounds b = computeBounds(plot);
   write(canvas, title, kLeft, top + 20, 0.5, {48, 36, 29});
   if (!(b.x1 > b.x0) || !(b.y1 > b.y0)) return;
   const auto u = [&](double x) { return kLeft + (x - b.x0) / (b.x1 - b.x0) * (plot.width - kLeft - kRight); };
@@ -77,13 +77,13 @@ void draw(cv::Mat& canvas, int top, const std::string& title, const Plot& plot) 
   double name_at = kLeft;
   for (const Series& series : plot.series) {
     if (!drawable(series)) continue;
-    write(canvas, series.name, name_at, top + 38, 0.4, colourOf(series.colour));
+    write(canvas, series.name, name_at, top + 38, 0.4, toColour(series.colour));
     name_at += 24.0 + 8.0 * static_cast<double>(series.name.size());
     for (std::size_t i = 1; i < series.points.size(); ++i) {
       const PlotPoint &p = series.points[i - 1], &q = series.points[i];
       const bool finite = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(q.x) && std::isfinite(q.y);
       const bool gap = series.kind == Series::Kind::Dashed && i % 2 == 0;
-      if (finite && !gap) line(u(p.x), v(p.y), u(q.x), v(q.y), colourOf(series.colour), kScale + 1);
+      if (finite && !gap) line(u(p.x), v(p.y), u(q.x), v(q.y), toColour(series.colour), kScale + 1);
     }
   }
 }

@@ -20,7 +20,7 @@ SessionBags::SessionBags(std::string path, double part, const urban_nav_sim::Ses
   begin();
 }
 
-std::string SessionBags::pathOf(std::size_t number) const {
+std::string SessionBags::makePath(std::size_t number) const {
   const std::filesystem::path whole(path_);
   return part_ == 0 ? path_
                     : (whole.parent_path() / whole.stem()).string() + "_" + std::to_string(number) +
@@ -29,7 +29,7 @@ std::string SessionBags::pathOf(std::size_t number) const {
 
 void SessionBags::begin() {
   const auto number = static_cast<StampNs>(paths_.size());
-  paths_.push_back(pathOf(paths_.size()));
+  paths_.push_back(makePath(paths_.size()));
   bag_.emplace(paths_.back());
   bag_->writeStaticTransforms(session_.begin() + number * part_, urban_nav_sim::staticTransforms(session_));
 }
@@ -52,7 +52,7 @@ void SessionBags::write(const urban_nav_sim::Measurement& measurement, StampNs t
 void SessionBags::commit() { end(); }
 
 std::string SessionBags::leftBehind() const {
-  const std::string next = pathOf(paths_.size());
+  const std::string next = makePath(paths_.size());
   return part_ > 0 && std::filesystem::exists(next) ? next : "";
 }
 

@@ -32,7 +32,7 @@ class SessionBags {
   std::string leftBehind() const;
 
  private:
-  std::string pathOf(std::size_t number) const;
+  std::string makePath(std::size_t number) const;
   void begin();
   void end();
 

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::int64_t frame_period = 50'000'000;  // ns, of the stereo camera, by which progress is told
 
-std::string truthFolderOf(const std::string& bag) { return fs::path(bag).replace_extension(".truth").string(); }
+std::string toTruthFolder(const std::string& bag) { return fs::path(bag).replace_extension(".truth").string(); }
 
 void makeFolder(const std::string& path) {
   std::error_code error;
@@ -38,7 +38,7 @@ Simulated simulate(const SimulateJob& job, Console& console) {
   std::optional<StereoFolderWriter> folder;
   if (!job.folder.empty()) folder.emplace(job.folder, session);
   Simulated made;
-  made.truth_folder = truthFolderOf(job.bag);
+  made.truth_folder = toTruthFolder(job.bag);
   makeFolder(made.truth_folder);
   ViewWriter views(made.truth_folder);
 

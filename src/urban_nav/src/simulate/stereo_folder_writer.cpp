@@ -26,18 +26,18 @@ std::string projection(const char* name, const urban_nav_core::CameraInfo& info)
 }
 
 /// By what tells a folder of a run that was cut off from one that must not be touched.
-std::string markOf(const std::string& folder) { return folder + "/simulate.unfinished"; }
+std::string toMark(const std::string& folder) { return folder + "/simulate.unfinished"; }
 
 }  // namespace
 
 StereoFolderWriter::StereoFolderWriter(std::string folder, const urban_nav_sim::Session& session)
     : folder_(std::move(folder)) {
   std::error_code error;
-  if (fs::exists(folder_, error) && !fs::is_empty(folder_, error) && !fs::exists(markOf(folder_), error))
+  if (fs::exists(folder_, error) && !fs::is_empty(folder_, error) && !fs::exists(toMark(folder_), error))
     throw UserError(folder_, "is not empty", "a new or empty folder");
   fs::create_directories(folder_, error);
   if (error) throw UserError(folder_, "cannot be made: " + error.message(), "");
-  urban_nav_core::writeAtomically(markOf(folder_), "");
+  urban_nav_core::writeAtomically(toMark(folder_), "");
   for (const char* side : {"image_0", "image_1"}) {
     fs::remove_all(fs::path(folder_) / side, error);
     if (fs::create_directory(fs::path(folder_) / side, error); error)
@@ -71,7 +71,7 @@ void StereoFolderWriter::finish() {
   std::vector<urban_nav_core::Pose> relative;
   for (const urban_nav_core::Pose& pose : poses_) relative.push_back(poses_.front().inverse() * pose);
   urban_nav_core::writeKitti(folder_ + "/poses.txt", relative);
-  fs::remove(markOf(folder_));
+  fs::remove(toMark(folder_));
 }
 
 }  // namespace urban_nav

@@ -19,7 +19,7 @@ namespace {
 constexpr std::array<const char*, 7> kPose = {"x", "y", "z", "qx", "qy", "qz", "qw"};
 constexpr double kUnit = 0.01;  // by how much a quaternion's length may differ from one
 
-std::optional<Pose> poseOf(const CsvTable& table, std::size_t row) {
+std::optional<Pose> toPose(const CsvTable& table, std::size_t row) {
   std::array<double, 7> v{};
   for (std::size_t i = 0; i < kPose.size(); ++i) {
     if (!table.has(kPose[i]) || table.text(row, table.column(kPose[i])).empty()) return std::nullopt;
@@ -32,7 +32,7 @@ std::optional<Pose> poseOf(const CsvTable& table, std::size_t row) {
   return Pose(q, {v[0], v[1], v[2]});
 }
 
-double sigmaOf(const CsvTable& table, std::size_t row, const char* column) {
+double readSigma(const CsvTable& table, std::size_t row, const char* column) {
   if (!table.has(column) || table.text(row, table.column(column)).empty()) return 0.0;
   const double sigma = table.number(row, table.column(column));
   if (!(sigma > 0.0))
@@ -40,7 +40,7 @@ double sigmaOf(const CsvTable& table, std::size_t row, const char* column) {
   return sigma;
 }
 
-std::vector<ClosureRow> rowsOf(const CsvTable& table) {
+std::vector<ClosureRow> listRows(const CsvTable& table) {
   const std::size_t session_a = table.column("session_a"), stamp_a = table.column("stamp_a_ns"),
                     session_b = table.column("session_b"), stamp_b = table.column("stamp_b_ns"),
                     probability = table.column("probability");
@@ -59,9 +59,9 @@ std::vector<ClosureRow> rowsOf(const CsvTable& table) {
       row.kind = table.text(i, table.column("kind"));
     if (row.kind != "stereo" && row.kind != "icp" && row.kind != "none")
       throw UserError(row.where, "kind = " + row.kind, "stereo, icp, none");
-    row.T_a_b = poseOf(table, i);
-    row.sigma_m = sigmaOf(table, i, "sigma_m");
-    row.sigma_rad = sigmaOf(table, i, "sigma_rad");
+    row.T_a_b = toPose(table, i);
+    row.sigma_m = readSigma(table, i, "sigma_m");
+    row.sigma_rad = readSigma(table, i, "sigma_rad");
     rows.push_back(row);
   }
   return rows;
@@ -69,10 +69,10 @@ std::vector<ClosureRow> rowsOf(const CsvTable& table) {
 
 }  // namespace
 
-std::vector<ClosureRow> readClosures(const std::string& path) { return rowsOf(CsvTable::read(path)); }
+std::vector<ClosureRow> readClosures(const std::string& path) { return listRows(CsvTable::read(path)); }
 
 std::vector<ClosureRow> parseClosures(std::string_view text, const std::string& name) {
-  return rowsOf(CsvTable::parse(text, name));
+  return listRows(CsvTable::parse(text, name));
 }
 
 std::string printClosures(const std::vector<ClosureRow>& rows) {

@@ -21,7 +21,7 @@ using urban_nav_store::Store;
 namespace {
 
 /// The steps of a chain by where they end: what visual odometry says, where several say something.
-std::map<StampNs, Edge> stepsOf(Store& store, const SessionId& id) {
+std::map<StampNs, Edge> collectSteps(Store& store, const SessionId& id) {
   std::map<StampNs, Edge> steps;
   store.graph().forEachEdge(id, [&](const Edge& edge) {
     if (edge.kind != EdgeKind::Odometry || edge.b.session != id) return;
@@ -34,11 +34,11 @@ std::map<StampNs, Edge> stepsOf(Store& store, const SessionId& id) {
   return steps;
 }
 
-VoRun chainOf(Store& store, const SessionId& id) {
+VoRun makeChain(Store& store, const SessionId& id) {
   VoRun run;
   for (const urban_nav_store::Extrinsic& extrinsic : store.sessions().extrinsics(id))
     if (extrinsic.frame == urban_nav_core::frames::stereo_left) run.T_base_camera = extrinsic.T_base_frame;
-  const std::map<StampNs, Edge> steps = stepsOf(store, id);
+  const std::map<StampNs, Edge> steps = collectSteps(store, id);
   store.graph().forEachNode(id, [&](const urban_nav_store::Node& node) {
     swf_vo::Settled settled;
     settled.frame = static_cast<swf_vo::FrameId>(run.settled.size());
@@ -80,7 +80,7 @@ std::string_view offerIn(std::string_view evidence) {
 }
 
 /// As it was offered where the store knows; else as it stands in the graph.
-ClosureRow rowOf(Store& store, const Edge& edge, const pose_graph::Closure& closure) {
+ClosureRow toRow(Store& store, const Edge& edge, const pose_graph::Closure& closure) {
   ClosureRow row;
   row.stamp_a = edge.a.stamp;
   row.stamp_b = edge.b.stamp;
@@ -106,7 +106,7 @@ PreviousSessions readPreviousSessions(Store& store, const std::vector<SessionId>
   PreviousSessions made;
   for (const urban_nav_store::Session& session : store.sessions().all()) {
     if (std::find(without.begin(), without.end(), session.id) != without.end()) continue;
-    VoRun run = chainOf(store, session.id);
+    VoRun run = makeChain(store, session.id);
     if (run.settled.empty()) continue;
     run.input = session.name;
     made.ids.push_back(session.id);
@@ -137,7 +137,7 @@ std::vector<PreviousClosure> closuresBetween(Store& store, const std::vector<Ses
       closure.kind = edge.kind;
       closure.source = edge.source;
       closure.measured = edge.measured;
-      made.push_back({rowOf(store, edge, closure), closure});
+      made.push_back({toRow(store, edge, closure), closure});
     }
   }
   return made;

@@ -24,7 +24,7 @@ std::vector<SourceItem> all(Source& source) {
   return inputs;
 }
 
-std::string messageOf(const std::function<void()>& call) {
+std::string catchMessage(const std::function<void()>& call) {
   try {
     call();
   } catch (const UserError& error) {
@@ -101,19 +101,20 @@ TEST(KittiFolder, namesFileAndLineOfWhatIsWrong) {
   testing::makeKittiFolder(folder.file("in"), style);
   const auto open = [&] { openKittiFolder(folder.file("in"), {}); };
   writeFile(folder.file("in/times.txt"), "0.0\nsoon\n0.2\n");
-  EXPECT_NE(messageOf(open).find("times.txt:2"), std::string::npos) << messageOf(open);
+  EXPECT_NE(catchMessage(open).find("times.txt:2"), std::string::npos) << catchMessage(open);
   writeFile(folder.file("in/times.txt"), "0.0\n0.1\n");
-  EXPECT_NE(messageOf(open).find("2 stamps"), std::string::npos) << messageOf(open);
+  EXPECT_NE(catchMessage(open).find("2 stamps"), std::string::npos) << catchMessage(open);
   std::filesystem::remove(folder.file("in/times.txt"));
   std::filesystem::create_directory(folder.file("in/times.txt"));
-  EXPECT_EQ(messageOf(open), folder.file("in/times.txt") + ": is a folder: allowed a text file");
+  EXPECT_EQ(catchMessage(open), folder.file("in/times.txt") + ": is a folder: allowed a text file");
   std::filesystem::remove(folder.file("in/times.txt"));
   writeFile(folder.file("in/calib.txt"), "P0: 1 0 0 0 0 1 0 0 0 0 1 0\nP1: 1 0 0 zero 0 1 0 0 0 0 1 0\n");
-  EXPECT_NE(messageOf(open).find("calib.txt:2"), std::string::npos) << messageOf(open);
+  EXPECT_NE(catchMessage(open).find("calib.txt:2"), std::string::npos) << catchMessage(open);
   writeFile(folder.file("in/calib.txt"), "P0: 200 0 100 0 0 200 90 0 0 0 1 0\nP1: 200 0 100 20 0 200 90 0 0 0 1 0\n");
-  EXPECT_NE(messageOf(open).find("baseline"), std::string::npos) << "right camera to the left: " << messageOf(open);
+  EXPECT_NE(catchMessage(open).find("baseline"), std::string::npos)
+      << "right camera to the left: " << catchMessage(open);
   std::filesystem::remove(folder.file("in/calib.txt"));
-  EXPECT_NE(messageOf(open).find("calib.txt"), std::string::npos);
+  EXPECT_NE(catchMessage(open).find("calib.txt"), std::string::npos);
 }
 
 TEST(KittiFolder, takesTheCalibrationOfTheUser) {
@@ -167,12 +168,12 @@ TEST(KittiFolder, rectifiesByTheCalibrationOfTheUser) {
   testing::makeKittiFolder(folder.file("in"), style);
   SourceOptions options;
   options.calibration = folder.file("left.yaml") + "," + folder.file("right.yaml");
-  const auto firstOf = [&](double distortion) {
+  const auto findFirst = [&](double distortion) {
     writeFile(folder.file("left.yaml"), cameraYaml(0.0, distortion));
     writeFile(folder.file("right.yaml"), cameraYaml(-24.0, distortion));
     return all(*openKittiFolder(folder.file("in"), options)).front();
   };
-  const SourceItem plain = firstOf(0.0), bent = firstOf(-0.2);
+  const SourceItem plain = findFirst(0.0), bent = findFirst(-0.2);
   ASSERT_FALSE(plain.assembled.pair.left.empty());
   ASSERT_FALSE(bent.assembled.pair.left.empty());
   int centre = 0, corner = 0;
@@ -184,7 +185,7 @@ TEST(KittiFolder, rectifiesByTheCalibrationOfTheUser) {
   EXPECT_GT(corner, 0);
   writeFile(folder.file("left.yaml"), cameraYaml(0.0, 0.0, 320));
   writeFile(folder.file("right.yaml"), cameraYaml(-24.0, 0.0, 320));
-  EXPECT_NE(messageOf([&] { openKittiFolder(folder.file("in"), options); }).find("320x180"), std::string::npos);
+  EXPECT_NE(catchMessage([&] { openKittiFolder(folder.file("in"), options); }).find("320x180"), std::string::npos);
 }
 
 TEST(KittiLayout, parsesDates) {
@@ -198,9 +199,9 @@ TEST(InputKind, tellsWhatItKnows) {
   const TemporaryFolder folder;
   writeFile(folder.file("text.bag"), "no bag");
   std::filesystem::create_directories(folder.file("empty"));
-  EXPECT_NE(messageOf([&] { inputKind(folder.file("text.bag")); }).find("#ROSBAG"), std::string::npos);
-  EXPECT_NE(messageOf([&] { inputKind(folder.file("empty")); }).find("KITTI"), std::string::npos);
-  EXPECT_NE(messageOf([&] { inputKind(folder.file("nowhere")); }).find("is not there"), std::string::npos);
+  EXPECT_NE(catchMessage([&] { inputKind(folder.file("text.bag")); }).find("#ROSBAG"), std::string::npos);
+  EXPECT_NE(catchMessage([&] { inputKind(folder.file("empty")); }).find("KITTI"), std::string::npos);
+  EXPECT_NE(catchMessage([&] { inputKind(folder.file("nowhere")); }).find("is not there"), std::string::npos);
 }
 
 }  // namespace

@@ -143,8 +143,8 @@ TEST_F(NewCollege, TheRealCut) {
   double way = 0.0;
   std::optional<Pose> before;
   while (const auto event = log.next()) {
-    EXPECT_LE(last, stampOf(*event));
-    last = stampOf(*event);
+    EXPECT_LE(last, toStamp(*event));
+    last = toStamp(*event);
     if (const auto* scan = std::get_if<NewCollegeScan>(&*event)) {
       ASSERT_EQ(scan->scan.ranges.size(), 181U);
       ASSERT_EQ(scan->scan.intensities.size(), 181U);

@@ -51,7 +51,7 @@ class StoreCommands : public ::testing::Test {
   }
   static void TearDownTestSuite() { shared_.reset(); }
   static std::string file(const std::string& name) { return shared_->file(name); }
-  static std::string dumpOf(const std::string& path) {
+  static std::string dumpStore(const std::string& path) {
     Store store(path, Access::Read);
     return dump(store);
   }
@@ -77,7 +77,7 @@ TEST_F(StoreCommands, infoSaysWhatIsInAStore) {
   EXPECT_EQ(session.streams.front().messages, 16);
   EXPECT_NEAR(session.streams.front().rate_hz, 20.0, 1e-6);
   EXPECT_EQ(session.frames, std::vector<std::string>{"stereo_left_optical_frame"});
-  const std::string text = textOf(info);
+  const std::string text = toText(info);
   for (const char* words :
        {"2 sessions", "in12", "nodes 16", "odometry: 15 accepted", "stream stereo: 16 at 20 Hz", "base_link"})
     EXPECT_NE(text.find(words), std::string::npos) << words << " in " << text;
@@ -100,11 +100,11 @@ TEST_F(StoreCommands, exportsTheBytesThatMapWrote) {
 }
 
 TEST_F(StoreCommands, mapGoesOnFromAStore) {
-  const std::string first = dumpOf(file("a/session.db"));
+  const std::string first = dumpStore(file("a/session.db"));
   ASSERT_EQ(call({"map", file("in12"), "--out", file("on"), "--stages", "vo", "--store", file("a/session.db")}), 0);
   const auto sessionsIn = [](const std::string& path) { return lookIntoStore(path).sessions.size(); };
   EXPECT_EQ(sessionsIn(file("on/session.db")), 2U);
-  EXPECT_TRUE(dumpOf(file("a/session.db")) == first) << "it is only read";
+  EXPECT_TRUE(dumpStore(file("a/session.db")) == first) << "it is only read";
   EXPECT_EQ(readFile(file("on/trajectory.tum")), readFile(file("b/trajectory.tum")));
   ASSERT_EQ(call({"map", file("in12"), "--out", file("on"), "--stages", "vo", "--store", file("a/session.db")}), 0);
   EXPECT_EQ(sessionsIn(file("on/session.db")), 2U) << "again";
@@ -123,7 +123,7 @@ TEST_F(StoreCommands, mapRelaxesTheSessionsOfAStoreWithNewOnes) {
   const auto truth = [&](const std::string& name) { return urban_nav_core::readKitti(file(name + "/poses.txt")); };
   const std::string header =
       "session_a,stamp_a_ns,session_b,stamp_b_ns,probability,kind,x,y,z,qx,qy,qz,qw,sigma_m,sigma_rad\n";
-  const auto rowOf = [&](const std::string& a, int i, const std::string& b, int j) {
+  const auto toRow = [&](const std::string& a, int i, const std::string& b, int j) {
     const Pose T_base_camera = urban_nav_ros::opticalInBody();
     const Pose T = T_base_camera * truth(a).at(i).inverse() * truth(b).at(j) * T_base_camera.inverse();
     std::string row =
@@ -132,8 +132,8 @@ TEST_F(StoreCommands, mapRelaxesTheSessionsOfAStoreWithNewOnes) {
       row += "," + urban_nav_core::printNumber(v);
     return row + "\n";
   };
-  const std::string within = rowOf("in16", 0, "in16", 12) + rowOf("in16", 2, "in16", 15) + rowOf("in16", 1, "in16", 14);
-  const std::string between = rowOf("in16", 3, "in12", 1) + rowOf("in16", 9, "in12", 7) + rowOf("in16", 14, "in12", 11);
+  const std::string within = toRow("in16", 0, "in16", 12) + toRow("in16", 2, "in16", 15) + toRow("in16", 1, "in16", 14);
+  const std::string between = toRow("in16", 3, "in12", 1) + toRow("in16", 9, "in12", 7) + toRow("in16", 14, "in12", 11);
   testing::writeFile(file("within.csv"), header + within);
   testing::writeFile(file("between.csv"), header + between);
   testing::writeFile(file("all.csv"), header + between + within);
@@ -142,7 +142,7 @@ TEST_F(StoreCommands, mapRelaxesTheSessionsOfAStoreWithNewOnes) {
             0);
   ASSERT_EQ(
       call({"map", file("in16"), "--out", file("day1"), "--stages", "vo,graph", "--closures", file("within.csv")}), 0);
-  const std::string day1 = dumpOf(file("day1/session.db"));
+  const std::string day1 = dumpStore(file("day1/session.db"));
   for (const char* closures : {"between.csv", "all.csv"}) {
     const std::string out = file(std::string("day2") + closures);
     ASSERT_EQ(call({"map", file("in12"), "--out", out, "--stages", "vo,graph", "--closures", file(closures), "--store",
@@ -157,7 +157,7 @@ TEST_F(StoreCommands, mapRelaxesTheSessionsOfAStoreWithNewOnes) {
     const auto joined = [&](const std::string& db) { return lookIntoStore(db).joined; };
     EXPECT_EQ(joined(out + "/session.db").size(), joined(file("at_once/session.db")).size());
   }
-  EXPECT_TRUE(dumpOf(file("day1/session.db")) == day1) << "it is only read";
+  EXPECT_TRUE(dumpStore(file("day1/session.db")) == day1) << "it is only read";
   const std::string lines = readFile(file("at_once/trajectory.tum"));
   EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 28) << "of both";
 
@@ -192,7 +192,7 @@ TEST_F(StoreCommands, mergeGivesTheStoreOfOneRun) {
   ASSERT_EQ(
       call({"merge", file("a/session.db"), file("b/session.db"), "-o", file("merged.db"), "--json", file("m.json")}),
       0);
-  const std::string whole = dumpOf(file("both/session.db")), merged = dumpOf(file("merged.db"));
+  const std::string whole = dumpStore(file("both/session.db")), merged = dumpStore(file("merged.db"));
   EXPECT_TRUE(whole == merged);
   EXPECT_NE(readFile(file("m.json")).find("\"rows\""), std::string::npos);
   EXPECT_EQ(call({"merge", file("a/session.db"), file("in16/times.txt"), "-o", file("m2.db")}), 2);
@@ -229,7 +229,7 @@ TEST_F(StoreCommands, relaxedSessionsOfOneMapAreExportedTogether) {
   edge.kind = EdgeKind::Session;
   edge.verdict = ClosureVerdict::Accepted;
   store.graph().put(edge);
-  const auto maps = readMaps(store, sessionsOf(store, {}));
+  const auto maps = readMaps(store, selectSessions(store, {}));
   ASSERT_EQ(maps.size(), 1U);
   const urban_nav_core::Trajectory trajectory = urban_nav_core::parseTum(exportTum(store, maps[0]), "x");
   std::vector<double> x;
@@ -244,7 +244,7 @@ TEST_F(StoreCommands, relaxedSessionsOfOneMapAreExportedTogether) {
   store.close();
   const StoreInfo info = lookIntoStore(file("joined.db"));
   EXPECT_EQ(info.joined.size(), 1U);
-  EXPECT_NE(textOf(info).find("joined by closures"), std::string::npos);
+  EXPECT_NE(toText(info).find("joined by closures"), std::string::npos);
 }
 
 }  // namespace

@@ -188,7 +188,7 @@ std::string timeless(const std::string& path) {
   return std::regex_replace(text, times, "");
 }
 
-std::vector<std::string> picturesOf(const std::string& path) {
+std::vector<std::string> makePictures(const std::string& path) {
   const std::string text = readFile(path);
   std::vector<std::string> pictures;
   for (std::size_t at = 0; (at = text.find("data:image/jpeg", at)) != std::string::npos; ++at)
@@ -228,8 +228,8 @@ TEST_F(Split, goesOnBehindItsLastBagAfterAKill) {
       std::string there = timeless(whole() + "/" + name), here = timeless(folder.file("cut/") + name);
       EXPECT_EQ(there, here) << name;
     }
-    EXPECT_EQ(picturesOf(whole() + "/report.html"), picturesOf(folder.file("cut/report.html")));
-    EXPECT_FALSE(picturesOf(whole() + "/report.html").empty());
+    EXPECT_EQ(makePictures(whole() + "/report.html"), makePictures(folder.file("cut/report.html")));
+    EXPECT_FALSE(makePictures(whole() + "/report.html").empty());
   }
   EXPECT_GT(kills, 0);
 }

@@ -83,7 +83,7 @@ void splitBag(const std::string& from, const std::vector<std::string>& parts) {
   rosbag::View view(in);
   const double span = (view.getEndTime() - view.getBeginTime()).toSec() + 0.05;
   std::mt19937 random(7);
-  const auto partOf = [&](const ros::Time& time) -> rosbag::Bag& {
+  const auto extractPart = [&](const ros::Time& time) -> rosbag::Bag& {
     const double share = (time - view.getBeginTime()).toSec() / span;
     return *std::next(out.begin(), static_cast<int>(share * static_cast<double>(parts.size())));
   };
@@ -100,7 +100,7 @@ void splitBag(const std::string& from, const std::vector<std::string>& parts) {
       continue;
     }
     const ros::Time time = instance.getTime() + ros::Duration(0.04 * static_cast<double>(random()) / 4294967296.0);
-    partOf(time).write(instance.getTopic(), time, instance);
+    extractPart(time).write(instance.getTopic(), time, instance);
     if (instance.getTopic() != "/stereo/left/image_raw") continue;
     sensor_msgs::Imu imu;
     imu.header.stamp = time;
@@ -108,12 +108,12 @@ void splitBag(const std::string& from, const std::vector<std::string>& parts) {
     imu.linear_acceleration.y = 9.4;
     imu.linear_acceleration.z = 2.8;
     imu.angular_velocity.z = 0.1;
-    partOf(time).write("/imu/data", time, imu);
+    extractPart(time).write("/imu/data", time, imu);
     nav_msgs::Odometry wheels;
     wheels.header.stamp = time;
     wheels.pose.pose.position.x = (time - view.getBeginTime()).toSec();
     wheels.pose.pose.orientation.w = 1.0;
-    partOf(time).write("/wheel_odom", time, wheels);
+    extractPart(time).write("/wheel_odom", time, wheels);
     for (int camera = 0; camera < 5; ++camera) {
       sensor_msgs::Image image;
       image.header.stamp = instance.instantiate<sensor_msgs::Image>()->header.stamp;
@@ -123,7 +123,7 @@ void splitBag(const std::string& from, const std::vector<std::string>& parts) {
       image.height = 1;
       image.data.assign(4, static_cast<std::uint8_t>(camera));
       const ros::Time received = time + ros::Duration(0.003 * (5 - camera));
-      partOf(std::min(received, view.getEndTime()))
+      extractPart(std::min(received, view.getEndTime()))
           .write("/ladybug/camera" + std::to_string(camera) + "/image_raw", received, image);
     }
   }

@@ -41,7 +41,7 @@ class Child {
     return endOr([&] {
       timespec now{};
       return known && ::clock_gettime(clock, &now) == 0 &&
-             secondsOf(now.tv_sec, 1e-9 * static_cast<double>(now.tv_nsec)) > seconds;
+             toSeconds(now.tv_sec, 1e-9 * static_cast<double>(now.tv_nsec)) > seconds;
     });
   }
   /// Kills it as soon as `now` says so.
@@ -50,8 +50,8 @@ class Child {
       int status = 0;
       rusage used{};
       if (::wait4(child_, &status, WNOHANG, &used) == child_) {
-        seconds_ = secondsOf(used.ru_utime.tv_sec, 1e-6 * static_cast<double>(used.ru_utime.tv_usec)) +
-                   secondsOf(used.ru_stime.tv_sec, 1e-6 * static_cast<double>(used.ru_stime.tv_usec));
+        seconds_ = toSeconds(used.ru_utime.tv_sec, 1e-6 * static_cast<double>(used.ru_utime.tv_usec)) +
+                   toSeconds(used.ru_stime.tv_sec, 1e-6 * static_cast<double>(used.ru_stime.tv_usec));
         return WIFEXITED(status) ? std::optional<int>(WEXITSTATUS(status)) : std::nullopt;
       }
       if (!killed && now()) {
@@ -64,7 +64,7 @@ class Child {
   double secondsUsed() const { return seconds_; }
 
  private:
-  static double secondsOf(time_t whole, double part) { return static_cast<double>(whole) + part; }
+  static double toSeconds(time_t whole, double part) { return static_cast<double>(whole) + part; }
 
   pid_t child_;
   double seconds_ = 0.0;

@@ -39,7 +39,7 @@ void requireSame(const char* name, double left, double right, const std::string&
                   "a rectified pair, equal to " + std::to_string(kSamePixel) + " px");
 }
 
-CameraInfo infoOf(const StereoCamera& camera, double baseline) {
+CameraInfo makeInfo(const StereoCamera& camera, double baseline) {
   const Pinhole& pinhole = camera.left;
   CameraInfo info;
   info.width = pinhole.width;
@@ -86,7 +86,7 @@ StereoCamera stereoCamera(const CameraInfo& left, const CameraInfo& right, const
   return {a, baseline};
 }
 
-CameraInfo leftInfo(const StereoCamera& camera) { return infoOf(camera, 0.0); }
-CameraInfo rightInfo(const StereoCamera& camera) { return infoOf(camera, camera.baseline); }
+CameraInfo leftInfo(const StereoCamera& camera) { return makeInfo(camera, 0.0); }
+CameraInfo rightInfo(const StereoCamera& camera) { return makeInfo(camera, camera.baseline); }
 
 }  // namespace urban_nav_core

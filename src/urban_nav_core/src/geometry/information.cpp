@@ -14,7 +14,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-std::vector<Index> indicesOf(const Information& information, const std::vector<Information::Name>& names) {
+std::vector<Index> findIndices(const Information& information, const std::vector<Information::Name>& names) {
   std::vector<Index> indices;
   for (const auto name : names) {
     const Index begin = information.offset(name);
@@ -69,10 +69,10 @@ Index Information::offset(Name name) const {
 }
 
 MatrixXd Information::H(Name row, Name column) const {
-  return part(H_, indicesOf(*this, {row}), indicesOf(*this, {column}));
+  return part(H_, findIndices(*this, {row}), findIndices(*this, {column}));
 }
 
-VectorXd Information::b(Name name) const { return part(b_, indicesOf(*this, {name})); }
+VectorXd Information::b(Name name) const { return part(b_, findIndices(*this, {name})); }
 
 void Information::append(const Block& block) {
   assert(!contains(block.name));
@@ -87,7 +87,7 @@ void Information::append(const Block& block) {
 }
 
 void Information::add(const std::vector<Name>& names, const MatrixXd& H, const VectorXd& b) {
-  const std::vector<Index> at = indicesOf(*this, names);
+  const std::vector<Index> at = findIndices(*this, names);
   assert(H.rows() == H.cols() && b.size() == H.rows() && static_cast<Index>(at.size()) == b.size());
   for (Index c = 0; c < H.cols(); ++c) {
     const Index column = at[static_cast<std::size_t>(c)];
@@ -107,7 +107,7 @@ void Information::add(const Information& other) {
 
 Information Information::permuted(const std::vector<Name>& order) const {
   assert(order.size() == blocks_.size());
-  const std::vector<Index> at = indicesOf(*this, order);
+  const std::vector<Index> at = findIndices(*this, order);
   Information out;
   for (const Name name : order) {
     out.blocks_.push_back(
@@ -121,7 +121,7 @@ Information Information::permuted(const std::vector<Name>& order) const {
 std::optional<Information> Information::marginalised(const std::vector<Name>& removed) const {
   constexpr double kEmpty = 1e-12;
   const std::vector<Name> names = others(*this, removed);
-  const std::vector<Index> keep = indicesOf(*this, names), drop = indicesOf(*this, removed);
+  const std::vector<Index> keep = findIndices(*this, names), drop = findIndices(*this, removed);
   const auto inverse = pseudoInverse(part(H_, drop, drop), kEmpty);
   if (!inverse || !H_.allFinite() || !b_.allFinite()) return std::nullopt;
   const MatrixXd cross = part(H_, keep, drop);
@@ -138,7 +138,7 @@ std::optional<Information> Information::marginalised(const std::vector<Name>& re
 }
 
 Information Information::conditioned(Name name, const VectorXd& value) const {
-  const std::vector<Index> keep = indicesOf(*this, others(*this, {name})), given = indicesOf(*this, {name});
+  const std::vector<Index> keep = findIndices(*this, others(*this, {name})), given = findIndices(*this, {name});
   assert(value.size() == static_cast<Index>(given.size()));
   Information out;
   for (const Block& block : blocks_) {
@@ -159,7 +159,7 @@ std::optional<VectorXd> Information::mean() const {
 std::optional<MatrixXd> Information::covariance(Name name) const {
   const auto inverse = invertPositiveDefinite(H_);
   if (!inverse) return std::nullopt;
-  const std::vector<Index> at = indicesOf(*this, {name});
+  const std::vector<Index> at = findIndices(*this, {name});
   return part(*inverse, at, at);
 }
 

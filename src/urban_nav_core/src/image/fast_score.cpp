@@ -81,7 +81,7 @@ URBAN_NAV_INLINE V bestArc(const V* p) {
 
 /// Grey levels less one another where that is positive: what comes of the arcs is compared, not every pixel.
 template <typename V>
-URBAN_NAV_INLINE V scoreOf(const V* circle, const V& centre, const V& threshold) {
+URBAN_NAV_INLINE V computeScore(const V* circle, const V& centre, const V& threshold) {
   const V score = most(excess(bestArc<false>(circle), centre), excess(centre, bestArc<true>(circle)));
   return score > threshold ? score : V{};
 }
@@ -130,7 +130,7 @@ URBAN_NAV_INLINE bool scoreGathered(Gathered<Width>& some, const typename Width:
   V circle[kCircle];
 #pragma GCC unroll 16
   for (int i = 0; i < kCircle; ++i) circle[i] = load<V>(some.circle[i]);
-  const V score = scoreOf<V>(circle, load<V>(some.centre), threshold);
+  const V score = computeScore<V>(circle, load<V>(some.centre), threshold);
   for (int i = 0; i < some.count; ++i) scores[some.at[i]] = score[i];
   some.count = 0;
   return any(score);

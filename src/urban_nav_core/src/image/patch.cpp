@@ -293,7 +293,7 @@ Reading measure(const PatchGrid& pixels, const PatchTemplate& patch) {
 
 namespace {
 
-double correlationOf(const Reading& reading, const PatchTemplate& patch) {
+double computeCorrelation(const Reading& reading, const PatchTemplate& patch) {
   return reading.gain * std::sqrt(patch.energy / std::max(reading.variance, 1e-9));
 }
 
@@ -301,7 +301,7 @@ double correlationOf(const Reading& reading, const PatchTemplate& patch) {
 void judge(const Reading& reading, const PatchTemplate& patch, Alignment& alignment) {
   const double g = reading.gain, explained = g * g * patch.energy;
   alignment.gain = g;
-  alignment.correlation = correlationOf(reading, patch);
+  alignment.correlation = computeCorrelation(reading, patch);
   // 4 of about 57 / 2 independent weighted values were spent on position, offset and gain
   const double residual = std::max(reading.variance - explained, 0.0) * 1.15;
   // (b, 1 - 2 b, b) leaves 1 - 4 b + 6 b^2 of white noise; of noise that is smooth already, about the root of that
@@ -368,7 +368,7 @@ double correlationAt(const ImageView& image, const PatchTemplate& patch, const E
   if (!at.allFinite() || !fits(image, at.x(), at.y())) return 0.0;
   PatchGrid pixels;
   readWindow(image, at.x(), at.y(), patch.view_blur, pixels);
-  return std::clamp(correlationOf(measure(pixels, patch), patch), -1.0, 1.0);
+  return std::clamp(computeCorrelation(measure(pixels, patch), patch), -1.0, 1.0);
 }
 
 }  // namespace urban_nav_core

@@ -53,15 +53,15 @@ double requireNotNegative(const YamlNode& root, std::string_view key, const std:
   return value;
 }
 
-std::vector<double> numbersOf(const YamlNode& node, std::string_view key, const std::string& file) {
+std::vector<double> toNumbers(const YamlNode& node, std::string_view key, const std::string& file) {
   const YamlNode& list = require(node, key, file);
   return list.kind == YamlNode::Kind::List ? requireNumbers(node, key, list.list.size(), file) : std::vector<double>{};
 }
 
 // ---- KITTI
 
-std::optional<Projection> projectionOf(std::string_view line, std::string_view key, std::string_view raw_key,
-                                       const std::string& where) {
+std::optional<Projection> parseProjection(std::string_view line, std::string_view key, std::string_view raw_key,
+                                          const std::string& where) {
   const std::size_t colon = line.find(':');
   const std::string_view name = trimmed(line.substr(0, colon));
   if (colon == std::string_view::npos || (name != key && name != raw_key)) return std::nullopt;
@@ -80,7 +80,7 @@ std::optional<Projection> projectionOf(std::string_view line, std::string_view k
   return P;
 }
 
-CameraInfo infoOf(const Projection& P, int width, int height) {
+CameraInfo makeInfo(const Projection& P, int width, int height) {
   CameraInfo info;
   info.width = width;
   info.height = height;
@@ -115,15 +115,15 @@ StereoCamera parseKittiCalibration(std::string_view text, const std::string& nam
   std::optional<Projection> left, right;
   forEachLine(text, [&](std::string_view line, int number) {
     const std::string where = atLine(name, number);
-    if (const auto P = projectionOf(line, "P" + a, "P_rect_0" + a, where)) left = P;
-    if (const auto P = projectionOf(line, "P" + b, "P_rect_0" + b, where)) right = P;
+    if (const auto P = parseProjection(line, "P" + a, "P_rect_0" + a, where)) left = P;
+    if (const auto P = parseProjection(line, "P" + b, "P_rect_0" + b, where)) right = P;
   });
   if (!left || !right)
     throw UserError(name, "no line P" + (left ? b : a), "`P" + a + ": ` and `P" + b + ": ` with twelve numbers each");
   // The left camera need not be the origin of the rig: what counts is how far right of it the other one is.
   right->col(3) -= left->col(3);
   left->col(3).setZero();
-  return stereoCamera(infoOf(*left, width, height), infoOf(*right, width, height), name);
+  return stereoCamera(makeInfo(*left, width, height), makeInfo(*right, width, height), name);
 }
 
 StereoCamera readKittiCalibration(const std::string& path, int width, int height, KittiPair pair) {
@@ -144,7 +144,7 @@ CameraInfo parseCameraInfo(std::string_view text, const std::string& name) {
   const YamlNode* model = root.find("distortion_model");
   info.distortion_model = model != nullptr ? model->scalar : "";
   if (root.find("distortion_coefficients") != nullptr)
-    info.D = numbersOf(require(root, "distortion_coefficients", name), "data", name);
+    info.D = toNumbers(require(root, "distortion_coefficients", name), "data", name);
   info.K = requireMatrix<3, 3>(root, "camera_matrix", name);
   if (root.find("rectification_matrix") != nullptr) info.R = requireMatrix<3, 3>(root, "rectification_matrix", name);
   if (info.R.isZero(0.0)) info.R.setIdentity();  // "not set", as in the message
@@ -178,7 +178,7 @@ EurocCamera parseEurocCamera(std::string_view text, const std::string& name) {
   camera.info.K << k[0], 0.0, k[2], 0.0, k[1], k[3], 0.0, 0.0, 1.0;
   camera.info.P.leftCols<3>() = camera.info.K;
   camera.info.distortion_model = require(root, "distortion_model", name).scalar;
-  camera.info.D = numbersOf(root, "distortion_coefficients", name);
+  camera.info.D = toNumbers(root, "distortion_coefficients", name);
   (void)rawCamera(camera.info, name);
   return camera;
 }

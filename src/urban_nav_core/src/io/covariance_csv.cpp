@@ -45,7 +45,7 @@ Matrix6d matrixAt(const CsvTable& table, std::size_t row, std::size_t first) {
   return M;
 }
 
-CsvTable tableOf(std::string_view text, const std::string& name, const std::string& header) {
+CsvTable makeTable(std::string_view text, const std::string& name, const std::string& header) {
   CsvTable table = CsvTable::parse(text, name);
   const std::size_t wanted = CsvTable::parse(header, name).header().size();
   if (table.header().size() != wanted) {
@@ -73,7 +73,7 @@ std::string printCovarianceRow(const RelativeCovarianceRow& row) {
 }
 
 std::vector<CovarianceRow> parseCovariances(std::string_view text, const std::string& name) {
-  const CsvTable table = tableOf(text, name, covarianceHeader());
+  const CsvTable table = makeTable(text, name, covarianceHeader());
   std::vector<CovarianceRow> rows;
   for (std::size_t i = 0; i < table.rows(); ++i) {
     rows.push_back({table.integer(i, 0), statusAt(table, i, 1), matrixAt(table, i, 2)});
@@ -82,7 +82,7 @@ std::vector<CovarianceRow> parseCovariances(std::string_view text, const std::st
 }
 
 std::vector<RelativeCovarianceRow> parseRelativeCovariances(std::string_view text, const std::string& name) {
-  const CsvTable table = tableOf(text, name, relativeCovarianceHeader());
+  const CsvTable table = makeTable(text, name, relativeCovarianceHeader());
   std::vector<RelativeCovarianceRow> rows;
   for (std::size_t i = 0; i < table.rows(); ++i) {
     rows.push_back({table.integer(i, 0), table.integer(i, 1), statusAt(table, i, 2), matrixAt(table, i, 3)});

@@ -98,7 +98,7 @@ void appendG2oLine(std::string& text, const G2oGraph& graph, const G2oGraph::Lin
   text += '\n';
 }
 
-Pose poseOf(const std::array<double, 7>& v, int dimension) {
+Pose toPose(const std::array<double, 7>& v, int dimension) {
   if (dimension == 2) return Pose(Quaterniond(std::cos(0.5 * v[2]), 0.0, 0.0, std::sin(0.5 * v[2])), {v[0], v[1], 0.0});
   return Pose(Quaterniond(v[6], v[3], v[4], v[5]), {v[0], v[1], v[2]});
 }
@@ -114,8 +114,8 @@ Matrix6d g2oFromBox(const Pose& T_from_to) {
 
 }  // namespace
 
-Pose G2oGraph::pose(const Vertex& vertex) const { return poseOf(vertex.values, dimension); }
-Pose G2oGraph::pose(const Edge& edge) const { return poseOf(edge.values, dimension); }
+Pose G2oGraph::pose(const Vertex& vertex) const { return toPose(vertex.values, dimension); }
+Pose G2oGraph::pose(const Edge& edge) const { return toPose(edge.values, dimension); }
 
 void G2oGraph::setPose(Vertex& vertex, const Pose& pose) const {
   const Vector3d& t = pose.t();
@@ -167,7 +167,7 @@ G2oGraph parseG2o(std::string_view text, const std::string& name, UnknownTags un
   return parser.take();
 }
 
-std::vector<G2oGraph::Line> linesOf(const G2oGraph& graph) {
+std::vector<G2oGraph::Line> toLines(const G2oGraph& graph) {
   std::vector<G2oGraph::Line> lines = graph.lines;
   std::array<std::size_t, 4> listed{};
   for (const G2oGraph::Line& line : graph.lines) ++listed[static_cast<std::size_t>(line.kind)];
@@ -183,7 +183,7 @@ std::vector<G2oGraph::Line> linesOf(const G2oGraph& graph) {
 
 std::string printG2o(const G2oGraph& graph) {
   std::string text;
-  for (const G2oGraph::Line& line : linesOf(graph)) appendG2oLine(text, graph, line);
+  for (const G2oGraph::Line& line : toLines(graph)) appendG2oLine(text, graph, line);
   return text;
 }
 

@@ -24,7 +24,7 @@ std::size_t toroInformationSize(int dimension) { return dimension == 2 ? 6 : 21;
 // Where the numbers of EDGE2 (11 12 22 33 13 23) stand in the upper triangle (11 12 13 22 23 33).
 constexpr std::array<std::size_t, 6> upper_of_toro = {0, 1, 3, 5, 2, 4};
 
-Quaterniond rotationOf(double roll, double pitch, double yaw) {
+Quaterniond toRotation(double roll, double pitch, double yaw) {
   const Quaterniond z(std::cos(0.5 * yaw), 0.0, 0.0, std::sin(0.5 * yaw));
   const Quaterniond y(std::cos(0.5 * pitch), 0.0, std::sin(0.5 * pitch), 0.0);
   const Quaterniond x(std::cos(0.5 * roll), std::sin(0.5 * roll), 0.0, 0.0);
@@ -99,7 +99,7 @@ class ToroParser {
     for (std::size_t i = 0; i < 3; ++i) values[i] = lines_.number(words[first + i]);
     if (dimension == 2) return values;
     const Quaterniond q =
-        rotationOf(lines_.number(words[first + 3]), lines_.number(words[first + 4]), lines_.number(words[first + 5]));
+        toRotation(lines_.number(words[first + 3]), lines_.number(words[first + 4]), lines_.number(words[first + 5]));
     values[3] = q.x();
     values[4] = q.y();
     values[5] = q.z();
@@ -159,7 +159,7 @@ G2oGraph parseToro(std::string_view text, const std::string& name, UnknownTags u
 
 std::string printToro(const G2oGraph& graph) {
   std::string text;
-  for (const G2oGraph::Line& line : linesOf(graph)) appendToroLine(text, graph, line);
+  for (const G2oGraph::Line& line : toLines(graph)) appendToroLine(text, graph, line);
   return text;
 }
 

@@ -29,7 +29,7 @@ std::string wrapped(const std::string& prose, const std::string& beginning) {
   return out + line + "\n";
 }
 
-std::string rangeOf(const RowInfo& row) {
+std::string formatRange(const RowInfo& row) {
   return row.type == ParameterType::Integer || row.type == ParameterType::Number
              ? printValue(row.low) + "..." + printValue(row.high)
              : allowed(row);
@@ -76,7 +76,7 @@ std::string printMarkdown(const std::string& stage, const std::vector<RowInfo>& 
   std::string out = "| parameter | default | unit | allowed | what it does | source |\n|---|---|---|---|---|---|\n";
   for (const RowInfo& row : rows) {
     out += "|" + cell("`" + fullName(stage, row.name) + "`") + cell("`" + printValue(row.standard) + "`") +
-           cell(row.unit) + cell(rangeOf(row)) + cell(row.sentence) + cell(row.source) + "\n";
+           cell(row.unit) + cell(formatRange(row)) + cell(row.sentence) + cell(row.source) + "\n";
   }
   return out;
 }

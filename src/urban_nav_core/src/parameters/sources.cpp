@@ -38,7 +38,7 @@ std::string nearest(const std::string& wanted, const std::vector<std::string>& k
   return best == known.end() ? "" : *best;
 }
 
-std::vector<std::string> namesOf(const std::vector<RowInfo>& rows) {
+std::vector<std::string> listNames(const std::vector<RowInfo>& rows) {
   std::vector<std::string> names;
   for (const RowInfo& row : rows) names.push_back(row.name);
   return names;
@@ -144,7 +144,7 @@ std::vector<Setting> resolve(const std::string& stage, const std::vector<RowInfo
     if (row == rows.end()) {
       throw UserError(
           assignment.where, fullName(stage, assignment.name) + " is no parameter",
-          "the parameters that --help lists; nearest: " + fullName(stage, nearest(assignment.name, namesOf(rows))));
+          "the parameters that --help lists; nearest: " + fullName(stage, nearest(assignment.name, listNames(rows))));
     }
     Setting& setting = settings[static_cast<std::size_t>(row - rows.begin())];
     setting.value = checked(*row, assignment);

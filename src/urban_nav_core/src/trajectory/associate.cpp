@@ -31,7 +31,7 @@ struct Motion {
   std::vector<double> rate;   ///< rad/s
 };
 
-Motion motionOf(const Trajectory& trajectory, double step, std::size_t samples) {
+Motion computeMotion(const Trajectory& trajectory, double step, std::size_t samples) {
   Motion motion{std::vector<double>(samples), std::vector<double>(samples)};
   std::size_t after = 1;
   const auto poseAt = [&trajectory, &after](double seconds) {
@@ -142,7 +142,7 @@ std::optional<TimeOffset> findOffset(const Trajectory& truth, const Trajectory& 
   double shift = 0.0, height = 0.0;  // behind the one that lines up the first stamps
   if (samples(long_truth) >= 3 && samples(long_estimate) >= 3) {
     const Peak peak =
-        bestLag(motionOf(truth, step, samples(long_truth)), motionOf(estimate, step, samples(long_estimate)));
+        bestLag(computeMotion(truth, step, samples(long_truth)), computeMotion(estimate, step, samples(long_estimate)));
     if (peak.height >= 0.5) shift = peak.lag * step, height = peak.height;
   }
   TimeOffset result;

@@ -31,7 +31,7 @@ Pose spanError(const std::vector<Pose>& truth, const std::vector<Pose>& estimate
   return (truth[i].inverse() * truth[j]).inverse() * (estimate[i].inverse() * estimate[j]);
 }
 
-double turnOf(const Pose& T) { return logSo3(T.q()).norm() / kDegree; }
+double toTurn(const Pose& T) { return logSo3(T.q()).norm() / kDegree; }
 
 Similarity align(const std::vector<Pose>& truth, const std::vector<Pose>& estimate, TrajectoryAlignment alignment) {
   switch (alignment) {
@@ -102,7 +102,7 @@ std::optional<RelativeError> relativeError(const std::vector<Pose>& truth, const
     if (way < kStanding * static_cast<double>(j - i)) continue;
     const Pose error = spanError(truth, estimate, i, j);
     sum.percent += 100.0 * error.t().norm() / way;
-    sum.deg_per_m += turnOf(error) / way;
+    sum.deg_per_m += toTurn(error) / way;
     true_chords += distanceBetween(truth[i], truth[j]);
     estimated_chords += distanceBetween(estimate[i], estimate[j]);
     ++sum.count;
@@ -133,7 +133,7 @@ SegmentErrors kittiSegmentErrors(const std::vector<Pose>& truth, const std::vect
       if (j >= truth.size()) break;
       const Pose error = spanError(truth, estimate, i, j);
       sum.percent += 100.0 * error.t().norm() / length;
-      sum.deg_per_m += turnOf(error) / length;
+      sum.deg_per_m += toTurn(error) / length;
       ++sum.count;
     }
     errors.all.percent += sum.percent;

@@ -46,7 +46,7 @@ bool OdometryChain::append(const RelativePose& step) {
 
 std::optional<OdometryChain::NearestFrame> OdometryChain::nearestFrame(StampNs stamp) const {
   if (empty()) return std::nullopt;
-  const StampedPose& nearest = trajectory_[indexOf(stamp)];
+  const StampedPose& nearest = trajectory_[findIndex(stamp)];
   if (nearest.stamp == stamp) return NearestFrame{stamp, Pose()};
   std::optional<Pose> there = trajectory_.at(stamp, kLongestGap);
   const std::size_t size = trajectory_.size();
@@ -61,12 +61,12 @@ std::optional<OdometryChain::NearestFrame> OdometryChain::nearestFrame(StampNs s
 std::optional<Pose> OdometryChain::at(StampNs stamp) const {
   const std::optional<NearestFrame> nearest = nearestFrame(stamp);
   if (!nearest) return std::nullopt;
-  return trajectory_[indexOf(nearest->frame)].pose * nearest->T_frame_pose;
+  return trajectory_[findIndex(nearest->frame)].pose * nearest->T_frame_pose;
 }
 
 double OdometryChain::distance(StampNs stamp) const {
   if (empty()) return 0.0;
-  const std::size_t frame = indexOf(stamp);
+  const std::size_t frame = findIndex(stamp);
   const std::optional<NearestFrame> nearest = nearestFrame(stamp);
   if (!nearest) return distances_[frame];
   const double beside = nearest->T_frame_pose.t().norm();
@@ -90,7 +90,7 @@ Matrix6d OdometryChain::drift(std::size_t from, std::size_t to) const {
 std::optional<PoseWithCovariance> OdometryChain::between(StampNs a, StampNs b) const {
   const std::optional<NearestFrame> at_a = nearestFrame(a), at_b = nearestFrame(b);
   if (!at_a || !at_b) return std::nullopt;
-  const std::size_t from = indexOf(at_a->frame), to = indexOf(at_b->frame);
+  const std::size_t from = findIndex(at_a->frame), to = findIndex(at_b->frame);
   if (from > to) {
     const std::optional<PoseWithCovariance> back = between(b, a);
     return back ? std::optional<PoseWithCovariance>(invert(*back)) : std::nullopt;

@@ -71,10 +71,10 @@ TEST_F(AtomicFileTest, AnotherWritersFileIsRenamedOrRemoved) {
 
 TEST_F(AtomicFileTest, NamesThePathThatCannotBeWritten) {
   const std::string nowhere = path("no/such/folder/a.txt");
-  EXPECT_EQ(errorOf([&] { writeAtomically(nowhere, "x"); }),
+  EXPECT_EQ(catchError([&] { writeAtomically(nowhere, "x"); }),
             nowhere + ": cannot be written: No such file or directory");
   fs::create_directories(path("folder"));
-  EXPECT_EQ(errorOf([&] { writeAtomically(path("folder"), "x"); }),
+  EXPECT_EQ(catchError([&] { writeAtomically(path("folder"), "x"); }),
             path("folder") + ": cannot be written: Is a directory");
   EXPECT_EQ(files(), 1U);
 }
@@ -82,7 +82,7 @@ TEST_F(AtomicFileTest, NamesThePathThatCannotBeWritten) {
 TEST_F(AtomicFileTest, AFullDiskIsAnErrorAndNoFile) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
   fs::create_symlink("/dev/full", path("a.part.txt"));
-  EXPECT_EQ(errorOf([&] { writeAtomically(path("a.txt"), "x"); }),
+  EXPECT_EQ(catchError([&] { writeAtomically(path("a.txt"), "x"); }),
             path("a.txt") + ": cannot be written: No space left on device");
   fs::create_symlink("/dev/full", path("a.part.txt"));
   EXPECT_THROW(writeAtomically(path("a.txt"), "x"), DataError) << "no mistake of the user";
@@ -113,7 +113,7 @@ TEST_F(AtomicFileTest, APipeIsWrittenAndNotReplaced) {
 
 TEST_F(AtomicFileTest, AnotherWriterIsGivenNoPipe) {
   ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
-  EXPECT_EQ(errorOf([&] { const PartialFile partial(path("pipe")); }),
+  EXPECT_EQ(catchError([&] { const PartialFile partial(path("pipe")); }),
             path("pipe") + ": is a device or a pipe: allowed a file");
   EXPECT_TRUE(fs::is_fifo(path("pipe")));
 }

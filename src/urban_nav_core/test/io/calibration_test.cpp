@@ -52,19 +52,19 @@ TEST(Calibration, KittiHasAPairInColour) {
   std::string text = kKitti;
   text.replace(text.find("P0:"), 3, "P2:").replace(text.find("P1:"), 3, "P3:");
   EXPECT_NEAR(parseKittiCalibration(text, "calib.txt", 1226, 370, KittiPair::Colour).baseline, 0.53715, 1e-5);
-  EXPECT_EQ(errorOf([] { parseKittiCalibration(kKitti, "calib.txt", 1226, 370, KittiPair::Colour); }),
+  EXPECT_EQ(catchError([] { parseKittiCalibration(kKitti, "calib.txt", 1226, 370, KittiPair::Colour); }),
             "calib.txt: no line P2: allowed `P2: ` and `P3: ` with twelve numbers each");
 }
 
 TEST(Calibration, KittiNamesWhatIsWrong) {
-  EXPECT_EQ(errorOf([] { parseKittiCalibration("P0: 1 2 3\n", "calib.txt", 10, 10); }),
+  EXPECT_EQ(catchError([] { parseKittiCalibration("P0: 1 2 3\n", "calib.txt", 10, 10); }),
             "calib.txt:1: P0 with 3 numbers: allowed 12: a 3x4 matrix, row by row");
-  EXPECT_EQ(errorOf([] { parseKittiCalibration("Tr: 1 2 3\n", "calib.txt", 10, 10); }),
+  EXPECT_EQ(catchError([] { parseKittiCalibration("Tr: 1 2 3\n", "calib.txt", 10, 10); }),
             "calib.txt: no line P0: allowed `P0: ` and `P1: ` with twelve numbers each");
   std::string swapped = kKitti;
   swapped.replace(swapped.find("-3.798"), 6, "+3.798");
-  EXPECT_NE(errorOf([&] { parseKittiCalibration(swapped, "calib.txt", 10, 10); }), "");
-  EXPECT_NE(errorOf([&] { parseKittiCalibration(kKitti, "calib.txt", 0, 10); }), "");
+  EXPECT_NE(catchError([&] { parseKittiCalibration(swapped, "calib.txt", 10, 10); }), "");
+  EXPECT_NE(catchError([&] { parseKittiCalibration(kKitti, "calib.txt", 0, 10); }), "");
 }
 
 TEST(Calibration, CameraInfoRoundTripIsExact) {
@@ -81,7 +81,7 @@ TEST(Calibration, CameraInfoNamesWhatIsWrong) {
   const auto with = [](const std::string& from, const std::string& to) {
     std::string text = kInfo;
     text.replace(text.find(from), from.size(), to);
-    return errorOf([&text] { parseCameraInfo(text, "left.yaml"); });
+    return catchError([&text] { parseCameraInfo(text, "left.yaml"); });
   };
   EXPECT_EQ(with("image_width: 512", "image_width: 0"), "left.yaml:1: image_width = 0: allowed 1...100000 (px)");
   EXPECT_EQ(with("image_width: 512", "image_wide: 512"), "left.yaml:1: no key `image_width`");
@@ -107,10 +107,10 @@ TEST(Calibration, EurocGivesCameraAndExtrinsics) {
 TEST(Calibration, EurocNamesWhatIsWrong) {
   std::string text = kEuroc;
   text.replace(text.find("0.999660727178"), 14, "0.099660727178");
-  EXPECT_EQ(errorOf([&] { parseEurocCamera(text, "sensor.yaml"); }), "sensor.yaml:6: T_BS is no rotation");
+  EXPECT_EQ(catchError([&] { parseEurocCamera(text, "sensor.yaml"); }), "sensor.yaml:6: T_BS is no rotation");
   text = kImu;
   text.replace(text.find("1.6968e-04"), 10, "-1");
-  EXPECT_EQ(errorOf([&] { parseEurocImu(text, "sensor.yaml"); }),
+  EXPECT_EQ(catchError([&] { parseEurocImu(text, "sensor.yaml"); }),
             "sensor.yaml:6: gyroscope_noise_density = -1: allowed 0 or more");
 }
 

@@ -49,23 +49,24 @@ TEST(CovarianceCsv, HeadersBeginAsTheContractSays) {
 TEST(CovarianceCsv, NamesFileAndLine) {
   std::string text = covariances();
   text.replace(text.find("LOST"), 4, "GONE");
-  EXPECT_EQ(errorOf([&] { parseCovariances(text, "c.csv"); }),
+  EXPECT_EQ(catchError([&] { parseCovariances(text, "c.csv"); }),
             "c.csv:2: status GONE: allowed OK, DEGRADED, LOST, RECOVERED");
   Matrix6d lopsided = Matrix6d::Identity();
   lopsided(0, 1) = 0.1;
   const std::string header = covarianceHeader();
-  EXPECT_NE(errorOf([&] {
+  EXPECT_NE(catchError([&] {
               parseCovariances(header + printCovarianceRow(CovarianceRow{1, Health::Ok, lopsided}), "c.csv");
             }).find("c.csv:2: no covariance"),
             std::string::npos);
   EXPECT_NE(
-      errorOf([&] {
+      catchError([&] {
         parseCovariances(header + printCovarianceRow(CovarianceRow{1, Health::Ok, -Matrix6d::Identity()}), "c.csv");
       }),
       "");
-  EXPECT_NE(
-      errorOf([&] { parseCovariances(relatives(), "c.csv"); }).find("39 columns: allowed 38: stamp_ns,status,c11..."),
-      std::string::npos);
+  EXPECT_NE(catchError([&] {
+              parseCovariances(relatives(), "c.csv");
+            }).find("39 columns: allowed 38: stamp_ns,status,c11..."),
+            std::string::npos);
 }
 
 TEST(CovarianceCsv, Fuzzed) {

@@ -78,7 +78,7 @@ TEST(G2o, GraphsMadeHereArePrintedToo) {
 
 TEST(G2o, NamesFileAndLine) {
   const auto error = [](const std::string& text, UnknownTags unknown = UnknownTags::Keep) {
-    return errorOf([&] { parseG2o(text, "g.g2o", unknown); });
+    return catchError([&] { parseG2o(text, "g.g2o", unknown); });
   };
   EXPECT_EQ(error("\nVERTEX_SE2 0 1 2\n"), "g.g2o:2: VERTEX_SE2 with 4 columns: allowed 5");
   EXPECT_EQ(error("EDGE_SE2 0 1 1 1 1 1 1 1 1 1\n"), "g.g2o:1: EDGE_SE2 with 11 columns: allowed 12");

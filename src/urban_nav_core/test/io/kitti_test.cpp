@@ -44,23 +44,23 @@ TEST(Kitti, ReadsTheFormOfTheBenchmark) {
 }
 
 TEST(Kitti, ChecksTheNumberOfColumnsAndTheRotation) {
-  EXPECT_EQ(errorOf([] { parseKitti("1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1\n", "p.txt"); }),
+  EXPECT_EQ(catchError([] { parseKitti("1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1\n", "p.txt"); }),
             "p.txt:2: 11 columns: allowed 12: a 3x4 matrix, row by row");
-  EXPECT_EQ(errorOf([] { parseKitti("1 0 0 0 0 1 0 0 0 0 1 inf\n", "p.txt"); }),
+  EXPECT_EQ(catchError([] { parseKitti("1 0 0 0 0 1 0 0 0 0 1 inf\n", "p.txt"); }),
             "p.txt:1: `inf`: allowed a finite number");
-  EXPECT_EQ(errorOf([] { parseKitti("1 0 0 0 0 1 0 0 0 0 -1 0\n", "p.txt"); }),
+  EXPECT_EQ(catchError([] { parseKitti("1 0 0 0 0 1 0 0 0 0 -1 0\n", "p.txt"); }),
             "p.txt:1: a matrix that is no rotation to 0.001");
-  EXPECT_EQ(errorOf([] { parseKitti("2 0 0 0 0 1 0 0 0 0 1 0\n", "p.txt"); }),
+  EXPECT_EQ(catchError([] { parseKitti("2 0 0 0 0 1 0 0 0 0 1 0\n", "p.txt"); }),
             "p.txt:1: a matrix that is no rotation to 0.001");
-  EXPECT_NE(errorOf([] { parseKitti("1e200 0 0 0 0 1e200 0 0 0 0 1e200 0\n", "p.txt"); }), "");
+  EXPECT_NE(catchError([] { parseKitti("1e200 0 0 0 0 1e200 0 0 0 0 1e200 0\n", "p.txt"); }), "");
 }
 
 TEST(Kitti, TimesRise) {
   EXPECT_EQ(parseTimes("0.000000e+00\n1.038170e-01\n\n0.3\n", "times.txt"),
             (std::vector<StampNs>{0, 103817000, 300000000}));
-  EXPECT_EQ(errorOf([] { parseTimes("0.1\n0.1\n", "times.txt"); }),
+  EXPECT_EQ(catchError([] { parseTimes("0.1\n0.1\n", "times.txt"); }),
             "times.txt:2: 0.1 is not later than the time before");
-  EXPECT_EQ(errorOf([] { parseTimes("0.1\n0.1 0.2\n", "times.txt"); }),
+  EXPECT_EQ(catchError([] { parseTimes("0.1\n0.1 0.2\n", "times.txt"); }),
             "times.txt:2: `0.1 0.2`: allowed seconds, one number a line");
 }
 

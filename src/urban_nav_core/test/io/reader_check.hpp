@@ -12,7 +12,7 @@ namespace urban_nav_core {
 
 /// The text of the UserError that a call throws, or "".
 template <typename Call>
-std::string errorOf(const Call& call) {
+std::string catchError(const Call& call) {
   try {
     call();
   } catch (const Error& error) {

@@ -13,16 +13,16 @@ namespace {
 
 using Lines = std::vector<std::pair<std::string, int>>;
 
-Lines linesOf(std::string_view text) {
+Lines toLines(std::string_view text) {
   Lines lines;
   forEachLine(text, [&lines](std::string_view line, int number) { lines.emplace_back(line, number); });
   return lines;
 }
 
 TEST(TextFile, LinesCountFromOneWhateverTheirEnds) {
-  EXPECT_EQ(linesOf("a\nb\r\n\nc"), (Lines{{"a", 1}, {"b", 2}, {"", 3}, {"c", 4}}));
-  EXPECT_EQ(linesOf("a\n"), (Lines{{"a", 1}}));
-  EXPECT_EQ(linesOf(""), Lines{});
+  EXPECT_EQ(toLines("a\nb\r\n\nc"), (Lines{{"a", 1}, {"b", 2}, {"", 3}, {"c", 4}}));
+  EXPECT_EQ(toLines("a\n"), (Lines{{"a", 1}}));
+  EXPECT_EQ(toLines(""), Lines{});
 }
 
 TEST(TextFile, ReadsAllBytes) {
@@ -38,9 +38,9 @@ TEST(TextFile, ReadsAllBytes) {
 }
 
 TEST(TextFile, NamesTheFileThatCannotBeRead) {
-  EXPECT_EQ(errorOf([] { readTextFile("/nowhere/poses.txt"); }),
+  EXPECT_EQ(catchError([] { readTextFile("/nowhere/poses.txt"); }),
             "/nowhere/poses.txt: cannot be read: No such file or directory");
-  EXPECT_EQ(errorOf([] { readTextFile("/tmp"); }), "/tmp: is a folder: allowed a text file");
+  EXPECT_EQ(catchError([] { readTextFile("/tmp"); }), "/tmp: is a folder: allowed a text file");
 }
 
 }  // namespace

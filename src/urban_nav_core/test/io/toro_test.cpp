@@ -99,7 +99,7 @@ TEST(Toro, GoesOverIntoG2oAndBack) {
 
 TEST(Toro, NamesFileAndLine) {
   const auto error = [](const std::string& text, UnknownTags unknown = UnknownTags::Keep) {
-    return errorOf([&] { parseToro(text, "g.graph", unknown); });
+    return catchError([&] { parseToro(text, "g.graph", unknown); });
   };
   EXPECT_EQ(error("\nVERTEX2 0 1 2\n"), "g.graph:2: VERTEX2 with 4 columns: allowed 5");
   EXPECT_EQ(error("EDGE2 0 1 1 1 1 1 1 1 1 1\n"), "g.graph:1: EDGE2 with 11 columns: allowed 12");
@@ -129,7 +129,7 @@ TEST(Toro, WritesWhatItReads) {
   writeToro(path, parseToro(kToroPlane, "g"));
   EXPECT_EQ(printToro(readToro(path)), readTextFile(path));
   std::filesystem::remove(path);
-  EXPECT_NE(errorOf([&] { readToro(path); }), "");
+  EXPECT_NE(catchError([&] { readToro(path); }), "");
 }
 
 TEST(Toro, Fuzzed) {

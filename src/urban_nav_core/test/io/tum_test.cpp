@@ -60,15 +60,15 @@ TEST(Tum, PrintsItsLines) {
 }
 
 TEST(Tum, NamesFileAndLine) {
-  EXPECT_EQ(errorOf([] { parseTum("1 1 2 3 0 0 0 1\n2 1 2 3 0 0 0\n", "t.tum"); }),
+  EXPECT_EQ(catchError([] { parseTum("1 1 2 3 0 0 0 1\n2 1 2 3 0 0 0\n", "t.tum"); }),
             "t.tum:2: 7 columns: allowed 8: stamp x y z qx qy qz qw");
-  EXPECT_EQ(errorOf([] { parseTum("1 1 nan 3 0 0 0 1\n", "t.tum"); }), "t.tum:1: `nan`: allowed a finite number");
-  EXPECT_EQ(errorOf([] { parseTum("x 1 1 3 0 0 0 1\n", "t.tum"); }), "t.tum:1: stamp x: allowed seconds");
-  EXPECT_EQ(errorOf([] { parseTum("1 1 1 3 0 0 0 0\n", "t.tum"); }),
+  EXPECT_EQ(catchError([] { parseTum("1 1 nan 3 0 0 0 1\n", "t.tum"); }), "t.tum:1: `nan`: allowed a finite number");
+  EXPECT_EQ(catchError([] { parseTum("x 1 1 3 0 0 0 1\n", "t.tum"); }), "t.tum:1: stamp x: allowed seconds");
+  EXPECT_EQ(catchError([] { parseTum("1 1 1 3 0 0 0 0\n", "t.tum"); }),
             "t.tum:1: a quaternion of length 0: allowed length 1 (1 %)");
-  EXPECT_EQ(errorOf([] { parseTum("1 1 1 3 0 0 0 1\n1 1 1 3 0 0 0 1\n", "t.tum"); }),
+  EXPECT_EQ(catchError([] { parseTum("1 1 1 3 0 0 0 1\n1 1 1 3 0 0 0 1\n", "t.tum"); }),
             "t.tum:2: stamp 1.000000000 is not later than the one before");
-  EXPECT_NE(errorOf([] { readTum("/nowhere.tum"); }), "");
+  EXPECT_NE(catchError([] { readTum("/nowhere.tum"); }), "");
 }
 
 TEST(Tum, RepairsAreCounted) {

@@ -27,21 +27,21 @@ TEST(Yaml, ReadsBehindOpenCvsHeader) {
 }
 
 TEST(Yaml, NamesFileLineAndKey) {
-  EXPECT_EQ(errorOf([] { parseYaml("a: [1\nb: 2\n", "f.yaml"); }).rfind("f.yaml:", 0), 0U);
-  EXPECT_EQ(errorOf([] { parseYaml("? [1]\n: 2\n", "f.yaml"); }).rfind("f.yaml:1: a key that is no word", 0), 0U);
+  EXPECT_EQ(catchError([] { parseYaml("a: [1\nb: 2\n", "f.yaml"); }).rfind("f.yaml:", 0), 0U);
+  EXPECT_EQ(catchError([] { parseYaml("? [1]\n: 2\n", "f.yaml"); }).rfind("f.yaml:1: a key that is no word", 0), 0U);
   const YamlNode root = parseYaml("a: x\nb: [1, nan]\n", "f.yaml");
-  EXPECT_EQ(errorOf([&] { requireNumber(root, "z", "f.yaml"); }), "f.yaml:1: no key `z`");
-  EXPECT_EQ(errorOf([&] { requireNumber(root, "a", "f.yaml"); }), "f.yaml:1: a = x: allowed a number");
-  EXPECT_EQ(errorOf([&] { requireNumbers(root, "b", 3, "f.yaml"); }),
+  EXPECT_EQ(catchError([&] { requireNumber(root, "z", "f.yaml"); }), "f.yaml:1: no key `z`");
+  EXPECT_EQ(catchError([&] { requireNumber(root, "a", "f.yaml"); }), "f.yaml:1: a = x: allowed a number");
+  EXPECT_EQ(catchError([&] { requireNumbers(root, "b", 3, "f.yaml"); }),
             "f.yaml:2: b has 2 elements: allowed 3 numbers in a list");
-  EXPECT_EQ(errorOf([&] { requireNumbers(root, "b", 2, "f.yaml"); }),
+  EXPECT_EQ(catchError([&] { requireNumbers(root, "b", 2, "f.yaml"); }),
             "f.yaml:2: b holds `nan`: allowed 2 numbers in a list");
 }
 
 TEST(Yaml, BombsAreRefused) {
   std::string deep = "a: ";
   for (int i = 0; i < 100; ++i) deep += "[";
-  EXPECT_NE(errorOf([&] { parseYaml(deep + std::string(100, ']'), "f"); }), "");
+  EXPECT_NE(catchError([&] { parseYaml(deep + std::string(100, ']'), "f"); }), "");
   std::string laughs = "a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n";
   for (int i = 1; i < 12; ++i) {
     const std::string before = "*a" + std::to_string(i - 1);
@@ -49,7 +49,7 @@ TEST(Yaml, BombsAreRefused) {
     for (int k = 0; k < 10; ++k) laughs += (k == 0 ? "" : ", ") + before;
     laughs += "]\n";
   }
-  EXPECT_NE(errorOf([&] { parseYaml(laughs, "f"); }).find("too many values"), std::string::npos);
+  EXPECT_NE(catchError([&] { parseYaml(laughs, "f"); }).find("too many values"), std::string::npos);
 }
 
 TEST(Yaml, Fuzzed) {

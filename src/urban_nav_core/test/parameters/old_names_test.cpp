@@ -60,17 +60,17 @@ TEST(OldNames, OfOneParameterWithTwoValuesAreNamedTogether) {
 }
 
 TEST(OldNames, LastAssignmentCountsUnderWhateverName) {
-  const auto valueOf = [](const std::vector<Assignment>& assignments) {
+  const auto toValue = [](const std::vector<Assignment>& assignments) {
     return load(cameraTable(), assignments).parameters.queue_size;
   };
-  EXPECT_EQ(valueOf({parseSetting("camera.queue=2"), parseSetting("camera.queue_size=3")}), 3);
-  EXPECT_EQ(valueOf({parseSetting("camera.queue_size=3"), parseSetting("camera.queue=2")}), 2);
+  EXPECT_EQ(toValue({parseSetting("camera.queue=2"), parseSetting("camera.queue_size=3")}), 3);
+  EXPECT_EQ(toValue({parseSetting("camera.queue_size=3"), parseSetting("camera.queue=2")}), 2);
 }
 
 TEST(OldNames, AreCheckedAndReportedAsTheParameterThatTheyAre) {
-  EXPECT_EQ(errorOf([] { load(cameraTable(), {parseSetting("camera.queue=0")}); }),
+  EXPECT_EQ(catchError([] { load(cameraTable(), {parseSetting("camera.queue=0")}); }),
             "--set camera.queue=0: camera.queue_size = 0: allowed 1...100");
-  EXPECT_NE(errorOf([] { load(cameraTable(), {parseSetting("camera.queu=1")}); }).find("nearest: camera.queue_size"),
+  EXPECT_NE(catchError([] { load(cameraTable(), {parseSetting("camera.queu=1")}); }).find("nearest: camera.queue_size"),
             std::string::npos);
 }
 

@@ -61,7 +61,7 @@ TEST(Print, MarkdownGoesBetweenItsMarkers) {
   EXPECT_EQ(text, "# Title\n<!-- parameters: stage -->\n" + printMarkdown("stage", rows()) + "<!-- end -->\nrest\n");
   EXPECT_EQ(insertMarkdown(text, "README.md", "stage", rows()), text);
   EXPECT_EQ(
-      errorOf([] { insertMarkdown("# Title\n", "README.md", "stage", rows()); }),
+      catchError([] { insertMarkdown("# Title\n", "README.md", "stage", rows()); }),
       "README.md: no markers for the table of parameters: allowed `<!-- parameters: stage -->` ... `<!-- end -->`");
 }
 

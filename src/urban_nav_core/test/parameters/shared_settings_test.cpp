@@ -13,20 +13,21 @@ struct SharedNoise {
   double pixel_noise_floor;
 };
 
-std::vector<Setting> settingsOf(const std::string& stage, const std::vector<Assignment>& assignments) {
+std::vector<Setting> collectSettings(const std::string& stage, const std::vector<Assignment>& assignments) {
   const Table<SharedNoise> table(stage, {disparityOffsetRow<SharedNoise>(), pixelNoiseFloorRow<SharedNoise>()});
   return load(table, assignments).settings;
 }
 
 TEST(SharedSettings, StagesWithDefaultsAgree) {
-  const auto one = settingsOf("vo", {}), other = settingsOf("loops", {});
+  const auto one = collectSettings("vo", {}), other = collectSettings("loops", {});
   EXPECT_TRUE(differingValues({&one, &other}, cameraNoiseNames()).empty());
   EXPECT_TRUE(differingValues({&one}, cameraNoiseNames()).empty());
   EXPECT_TRUE(differingValues({}, cameraNoiseNames()).empty());
 }
 
 TEST(SharedSettings, DifferentValuesAreNamedWithTheirOrigins) {
-  const auto one = settingsOf("vo", {parseSetting("vo.disparity_offset=0.3")}), other = settingsOf("loops", {});
+  const auto one = collectSettings("vo", {parseSetting("vo.disparity_offset=0.3")}),
+             other = collectSettings("loops", {});
   const std::vector<std::string> sentences = differingValues({&one, &other}, cameraNoiseNames());
   ASSERT_EQ(sentences.size(), 1U);
   for (const char* part : {"vo.disparity_offset = 0.3", "--set", "loops.disparity_offset = 0.1", "default"})
@@ -34,8 +35,8 @@ TEST(SharedSettings, DifferentValuesAreNamedWithTheirOrigins) {
 }
 
 TEST(SharedSettings, EqualValuesInOtherFormsAgree) {
-  const auto one = settingsOf("vo", {parseSetting("vo.disparity_offset=0.30")}),
-             other = settingsOf("loops", {parseSetting("loops.disparity_offset=3e-1")});
+  const auto one = collectSettings("vo", {parseSetting("vo.disparity_offset=0.30")}),
+             other = collectSettings("loops", {parseSetting("loops.disparity_offset=3e-1")});
   EXPECT_TRUE(differingValues({&one, &other}, cameraNoiseNames()).empty());
 }
 

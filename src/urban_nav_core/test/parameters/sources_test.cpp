@@ -52,29 +52,30 @@ TEST(Sources, LaterOnesWinAndSayWhoTheyAre) {
 }
 
 TEST(Sources, ErrorsNameFileLineKeyValueAndWhatIsAllowed) {
-  EXPECT_EQ(errorOf([] { loadText("stage:\n\n  window: 0\n"); }),
+  EXPECT_EQ(catchError([] { loadText("stage:\n\n  window: 0\n"); }),
             "config.yaml:3: stage.window = 0: allowed 1...100000 (frames)");
-  EXPECT_EQ(errorOf([] { loadText("stage:\n  window: 2.5\n"); }),
+  EXPECT_EQ(catchError([] { loadText("stage:\n  window: 2.5\n"); }),
             "config.yaml:2: stage.window = 2.5: allowed 1...100000 (frames)");
-  EXPECT_EQ(errorOf([] { loadText("stage:\n  noise: nan\n"); }),
+  EXPECT_EQ(catchError([] { loadText("stage:\n  noise: nan\n"); }),
             "config.yaml:2: stage.noise = nan: allowed numbers 0.001...5 (px)");
-  EXPECT_EQ(errorOf([] { loadText("stage:\n  robust: 1\n"); }), "config.yaml:2: stage.robust = 1: allowed true, false");
-  EXPECT_EQ(errorOf([] { loadText("stage:\n  forget: keep\n"); }),
+  EXPECT_EQ(catchError([] { loadText("stage:\n  robust: 1\n"); }),
+            "config.yaml:2: stage.robust = 1: allowed true, false");
+  EXPECT_EQ(catchError([] { loadText("stage:\n  forget: keep\n"); }),
             "config.yaml:2: stage.forget = keep: allowed schur, delete");
   EXPECT_EQ(
-      errorOf([] { loadText("stage:\n  windw: 3\n"); }),
+      catchError([] { loadText("stage:\n  windw: 3\n"); }),
       "config.yaml:2: stage.windw is no parameter: allowed the parameters that --help lists; nearest: stage.window");
-  EXPECT_EQ(errorOf([] { loadText("stage:\n  window: [1]\n"); }),
+  EXPECT_EQ(catchError([] { loadText("stage:\n  window: [1]\n"); }),
             "config.yaml:2: stage.window is not a single value: allowed one value behind the colon");
-  EXPECT_EQ(errorOf([] { loadText("stage:\n  window: 1\n  window: 2\n"); }),
+  EXPECT_EQ(catchError([] { loadText("stage:\n  window: 1\n  window: 2\n"); }),
             "config.yaml:3: stage.window stands twice");
-  EXPECT_EQ(errorOf([] { loadText("stage:\n  window: 1\nstage:\n  noise: 2\n"); }),
+  EXPECT_EQ(catchError([] { loadText("stage:\n  window: 1\nstage:\n  noise: 2\n"); }),
             "config.yaml:3: stage stands twice");
-  EXPECT_EQ(errorOf([] { loadText("- 1\n"); }), "config.yaml:1: no map of stages: allowed lines such as `swf_vo:`");
-  EXPECT_NE(errorOf([] { loadText("stage: [\n"); }).find("config.yaml:"), std::string::npos);
-  EXPECT_EQ(errorOf([] { load(exampleTable(), {parseSetting("stage.window=x")}); }),
+  EXPECT_EQ(catchError([] { loadText("- 1\n"); }), "config.yaml:1: no map of stages: allowed lines such as `swf_vo:`");
+  EXPECT_NE(catchError([] { loadText("stage: [\n"); }).find("config.yaml:"), std::string::npos);
+  EXPECT_EQ(catchError([] { load(exampleTable(), {parseSetting("stage.window=x")}); }),
             "--set stage.window=x: stage.window = x: allowed 1...100000 (frames)");
-  EXPECT_EQ(errorOf([] {
+  EXPECT_EQ(catchError([] {
               load(exampleTable(), serverParameters("stage", {{"window", "25"}}, "/vo"));
             }),
             "/vo/window: stage.window = \"25\": allowed 1...100000 (frames)");
@@ -82,15 +83,15 @@ TEST(Sources, ErrorsNameFileLineKeyValueAndWhatIsAllowed) {
 
 TEST(Sources, UnknownStagesAreRefused) {
   const auto assignments = parseParameters(kYaml, "config.yaml");
-  EXPECT_EQ(errorOf([&] {
+  EXPECT_EQ(catchError([&] {
               refuseUnknownStages(assignments, {"stage", "others", ""});
             }),
             "config.yaml:8: other is no stage: allowed stage, others, none; nearest: others");
-  EXPECT_EQ(errorOf([&] {
+  EXPECT_EQ(catchError([&] {
               refuseUnknownStages(assignments, {"stage", "other"});
             }),
             "config.yaml:9: memory_mb has no stage in front: allowed stage, other; nearest: stage");
-  EXPECT_EQ(errorOf([&] { refuseUnknownStages(assignments, {"stage", "other", ""}); }), "");
+  EXPECT_EQ(catchError([&] { refuseUnknownStages(assignments, {"stage", "other", ""}); }), "");
 }
 
 TEST(Sources, SettingsOfTheCommandLine) {
@@ -98,9 +99,9 @@ TEST(Sources, SettingsOfTheCommandLine) {
   EXPECT_EQ(a.stage, "");
   EXPECT_EQ(a.name, "memory_mb");
   EXPECT_EQ(std::get<std::string>(parseSetting("stage.name=a=b").value), "a=b");
-  EXPECT_EQ(errorOf([] { parseSetting("stage.window"); }),
+  EXPECT_EQ(catchError([] { parseSetting("stage.window"); }),
             "--set stage.window: no key and value: allowed stage.key=value");
-  EXPECT_NE(errorOf([] { parseSetting("=3"); }), "");
+  EXPECT_NE(catchError([] { parseSetting("=3"); }), "");
 }
 
 TEST(Sources, Fuzzed) {

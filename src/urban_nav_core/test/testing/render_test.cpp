@@ -21,7 +21,7 @@ cv::Mat copy(const std::vector<float>& image, const RenderCamera& camera) {
   return cv::Mat(camera.height, camera.width, CV_32F, const_cast<float*>(image.data())).clone();
 }
 
-Pose rightOf(const Pose& T_world_left, double baseline) {
+Pose toRight(const Pose& T_world_left, double baseline) {
   return T_world_left * Pose(Quaterniond::Identity(), Vector3d(baseline, 0.0, 0.0));
 }
 
@@ -51,7 +51,7 @@ TEST(Render, ASquareStandsWhereGeometryPutsIt) {
     for (const double shift : {0.0, 0.0013, 0.0029, 0.0041}) {
       const Scene scene = wallWithSquare(2.7, tilt);
       const Pose left = lookingAlong({0.0, 0.05 + shift, -0.03 + 0.7 * shift}, 0.02, 0.01, 0.03);
-      for (const Pose& eye : {left, rightOf(left, camera().baseline)}) {
+      for (const Pose& eye : {left, toRight(left, camera().baseline)}) {
         const std::vector<float>& image = renderer.draw(scene, eye);
         double mass = 0.0, u_sum = 0.0, v_sum = 0.0;
         for (int v = 0; v < camera().height; ++v) {
@@ -194,7 +194,7 @@ TEST(Render, DisparityIsThatOfTheGeometry) {
   for (const double yaw : {0.1, 1.7, 3.3}) {
     const Pose eye = lookingAlong({0.3, -0.2, 1.2}, yaw, 0.05, 0.02);
     const cv::Mat left = copy(renderer.draw(scene, eye), camera());
-    const cv::Mat right = copy(renderer.draw(scene, rightOf(eye, camera().baseline)), camera());
+    const cv::Mat right = copy(renderer.draw(scene, toRight(eye, camera().baseline)), camera());
     for (int v = 12; v < camera().height - 12; v += 9) {
       for (int u = 50; u < camera().width - 12; u += 9) {
         const auto truth = disparities(scene, eye, u, v);

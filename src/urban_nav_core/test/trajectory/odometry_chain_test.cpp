@@ -37,7 +37,7 @@ std::vector<RelativePose> someSteps(std::size_t count, bool with_drift) {
   return steps;
 }
 
-OdometryChain chainOf(const std::vector<RelativePose>& steps) {
+OdometryChain makeChain(const std::vector<RelativePose>& steps) {
   OdometryChain chain;
   for (const RelativePose& step : steps) EXPECT_TRUE(chain.append(step));
   return chain;
@@ -64,7 +64,7 @@ void expectSame(const PoseWithCovariance& a, const PoseWithCovariance& b) {
 TEST(OdometryChain, AWayIsItsStepsOneByOneOverTheBordersOfBlocksToo) {
   for (const bool with_drift : {false, true}) {
     const std::vector<RelativePose> steps = someSteps(700, with_drift);
-    const OdometryChain chain = chainOf(steps);
+    const OdometryChain chain = makeChain(steps);
     for (const auto& [from, to] : std::vector<std::pair<std::size_t, std::size_t>>{
              {0, 1}, {3, 4}, {10, 200}, {255, 257}, {256, 512}, {100, 699}, {0, 700}, {690, 700}}) {
       const auto way = chain.between(static_cast<StampNs>(from) * kStep, static_cast<StampNs>(to) * kStep);
@@ -75,12 +75,12 @@ TEST(OdometryChain, AWayIsItsStepsOneByOneOverTheBordersOfBlocksToo) {
 }
 
 TEST(OdometryChain, TheWayBackIsTheInverse) {
-  const OdometryChain chain = chainOf(someSteps(40, true));
+  const OdometryChain chain = makeChain(someSteps(40, true));
   expectSame(*chain.between(30 * kStep, 5 * kStep), invert(*chain.between(5 * kStep, 30 * kStep)));
 }
 
 TEST(OdometryChain, NothingIsUncertainBetweenMomentsOfOneFrame) {
-  const OdometryChain chain = chainOf(someSteps(10, true));
+  const OdometryChain chain = makeChain(someSteps(10, true));
   const auto way = chain.between(4 * kStep + 1'000'000, 4 * kStep - 1'000'000);
   ASSERT_TRUE(way);
   EXPECT_TRUE(way->covariance.isZero(0.0));
@@ -88,7 +88,7 @@ TEST(OdometryChain, NothingIsUncertainBetweenMomentsOfOneFrame) {
 }
 
 TEST(OdometryChain, MomentsBetweenFramesLieOnTheWay) {
-  const OdometryChain chain = chainOf(someSteps(10, true));
+  const OdometryChain chain = makeChain(someSteps(10, true));
   const StampNs stamp = 3 * kStep + kStep / 4;
   const auto way = chain.between(0, stamp);
   ASSERT_TRUE(way);
@@ -97,7 +97,7 @@ TEST(OdometryChain, MomentsBetweenFramesLieOnTheWay) {
 }
 
 TEST(OdometryChain, JustOutsideTheMotionGoesOnAndFurtherOutNothingIsKnown) {
-  const OdometryChain chain = chainOf(someSteps(10, true));
+  const OdometryChain chain = makeChain(someSteps(10, true));
   EXPECT_TRUE(chain.at(-90'000'000));
   EXPECT_TRUE(chain.at(10 * kStep + 90'000'000));
   EXPECT_FALSE(chain.at(-110'000'000));
@@ -119,14 +119,14 @@ TEST(OdometryChain, FramesFarApartHaveNothingBetweenThem) {
 
 TEST(OdometryChain, DistanceGrowsAlongTheWay) {
   const std::vector<RelativePose> steps = someSteps(5, true);
-  const OdometryChain chain = chainOf(steps);
+  const OdometryChain chain = makeChain(steps);
   EXPECT_NEAR(chain.distance(2 * kStep), steps[0].T_from_to.t().norm() + steps[1].T_from_to.t().norm(), 1e-12);
   EXPECT_GT(chain.distance(2 * kStep + kStep / 4), chain.distance(2 * kStep));
   EXPECT_LT(chain.distance(2 * kStep - kStep / 4), chain.distance(2 * kStep));
 }
 
 TEST(OdometryChain, StepsThatDoNotFitAreLeftOut) {
-  OdometryChain chain = chainOf(someSteps(3, true));
+  OdometryChain chain = makeChain(someSteps(3, true));
   RelativePose step;
   step.from = kStep;
   step.to = 9 * kStep;

@@ -30,15 +30,15 @@ TEST(Error, KindsAreSiblings) {
 }
 
 TEST(Error, CatchesEitherKindWithItsParts) {
-  const auto partsOf = [](const auto& error) {
+  const auto toParts = [](const auto& error) {
     try {
       throw error;
     } catch (const Error& caught) {
       return std::string(caught.what()) + "|" + caught.parts().where + "|" + caught.parts().found;
     }
   };
-  EXPECT_EQ(partsOf(DataError("a.bag", "no stereo images", "")), "a.bag: no stereo images|a.bag|no stereo images");
-  EXPECT_EQ(partsOf(UserError("a.bag", "is no bag", "")), "a.bag: is no bag|a.bag|is no bag");
+  EXPECT_EQ(toParts(DataError("a.bag", "no stereo images", "")), "a.bag: no stereo images|a.bag|no stereo images");
+  EXPECT_EQ(toParts(UserError("a.bag", "is no bag", "")), "a.bag: is no bag|a.bag|is no bag");
 }
 
 TEST(Error, BecomesTheOtherKindByItsParts) {

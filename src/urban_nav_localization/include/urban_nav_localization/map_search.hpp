@@ -31,7 +31,7 @@ class FrozenMap {
   const std::vector<urban_nav_store::StoredTrajectory>& sessions() const { return sessions_; }
   /// Returns the keyframes of sessions whose camera has this fingerprint (calibration_fingerprint.hpp). Throws
   /// DataError if there are none.
-  std::vector<MapKeyframe> keyframesOf(const std::string& camera_words) const;
+  std::vector<MapKeyframe> findKeyframes(const std::string& camera_words) const;
 
  private:
   struct Views {

@@ -36,7 +36,7 @@ using urban_nav_registration::toStoredKeyframe;
 using urban_nav_store::Access;
 using urban_nav_store::Store;
 
-std::string bytesOf(const std::string& path) {
+std::string toBytes(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream bytes;
   bytes << file.rdbuf();
@@ -67,7 +67,7 @@ class Visitor : public DrivingRobot {
   }
   bool settledAt(int frame) {
     return until(
-        [&] { return !states.empty() && states.back().header.stamp == urban_nav_ros::toRosTime(stampOf(frame)); });
+        [&] { return !states.empty() && states.back().header.stamp == urban_nav_ros::toRosTime(toStamp(frame)); });
   }
   bool hasSaid(std::uint8_t state) const {
     return std::any_of(states.begin(), states.end(),
@@ -99,22 +99,22 @@ class LocalizationNodelet : public ::testing::Test {
     makeMap(path("map.db"));
   }
   static void TearDownTestSuite() { std::filesystem::remove_all(folder_); }
-  void SetUp() override { bytes_ = bytesOf(path("map.db")); }
+  void SetUp() override { bytes_ = toBytes(path("map.db")); }
   void TearDown() override {
     loader_.clear();
-    EXPECT_EQ(bytesOf(path("map.db")), bytes_) << "the map stays as it is";
+    EXPECT_EQ(toBytes(path("map.db")), bytes_) << "the map stays as it is";
   }
 
   static std::string path(const std::string& name) { return (folder_ / name).string(); }
   /// The first day: once around the room.
   static void makeMap(const std::string& path) {
     auto day = room();
-    const urban_nav_core::StereoCamera camera = cameraOf(day.options().camera);
+    const urban_nav_core::StereoCamera camera = makeCamera(day.options().camera);
     const KeyframeExtractor extractor(camera, urban_nav_registration::Parameters().points);
     KeyframeSelector selector((urban_nav_registration::Parameters()));
     Store store(path, Access::Write);
     const urban_nav_store::Session session{
-        urban_nav_store::sessionIdOf({"lisa", "", start, ""}), "first", "lisa", "", start, true};
+        urban_nav_store::makeSessionId({"lisa", "", start, ""}), "first", "lisa", "", start, true};
     store.sessions().put(session);
     store.sessions().put(
         session.id, urban_nav_store::Property{calibration_property, calibrationFingerprint(camera, T_base_left())});

@@ -41,16 +41,16 @@ class ScanningVisitor : public Scanning {
 void makeMap(const std::string& path) {
   Store store(path, urban_nav_store::Access::Write);
   const urban_nav_store::Session session{
-      urban_nav_store::sessionIdOf({"lisa", "", start, ""}), "first", "lisa", "", start, true};
+      urban_nav_store::makeSessionId({"lisa", "", start, ""}), "first", "lisa", "", start, true};
   store.sessions().put(session);
   Keyframe nothing;
-  nothing.at.stamp = Scanning::stampOf(0);
+  nothing.at.stamp = Scanning::toStamp(0);
   nothing.width = nothing.height = 1;
   store.keyframes().put(session.id, keyframe_camera, toStoredKeyframe(nothing));
   for (const auto& [frame, T_base_laser] : Scanning::lasers())
     store.sessions().put(session.id, urban_nav_store::Extrinsic{frame, T_base_laser});
   for (int i = 0; i < half; ++i) {
-    urban_nav_store::Node node{Scanning::stampOf(i), Scanning::T_world_base(0).inverse() * Scanning::T_world_base(i)};
+    urban_nav_store::Node node{Scanning::toStamp(i), Scanning::T_world_base(0).inverse() * Scanning::T_world_base(i)};
     if (i > 0) node.covariance = 1e-7 * urban_nav_core::Matrix6d::Identity();
     store.graph().put(session.id, node);
     for (const auto& [frame, T_base_laser] : Scanning::lasers())
@@ -89,7 +89,7 @@ TEST(LocalizationNodeletScans, whoDrivesTheOtherWayIsFoundByItsLasers) {
   robot.drive(last, last + 1);
   ASSERT_TRUE(DrivingRobot::until([&] {
     return !robot.states.empty() &&
-           robot.states.back().header.stamp == urban_nav_ros::toRosTime(Scanning::stampOf(last));
+           robot.states.back().header.stamp == urban_nav_ros::toRosTime(Scanning::toStamp(last));
   }));
   const LocalizationState& state = robot.states.back();
   ASSERT_EQ(state.state, LocalizationState::LOCALIZED) << state.message;

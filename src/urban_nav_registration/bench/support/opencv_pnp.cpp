@@ -19,12 +19,12 @@ constexpr int features = 500, least_inliers = 50;
 constexpr float ratio = 0.8F, inlier_px = 2.0F;
 constexpr int disparities = 64;
 
-cv::Mat matOf(const ImageView& image) {
+cv::Mat toMat(const ImageView& image) {
   return {image.height, image.width, CV_8U, const_cast<std::uint8_t*>(image.data),
           static_cast<std::size_t>(image.stride)};
 }
 
-cv::Ptr<cv::Feature2D> detectorOf(Feature feature) {
+cv::Ptr<cv::Feature2D> makeDetector(Feature feature) {
 #if CV_VERSION_MAJOR > 4 || (CV_VERSION_MAJOR == 4 && CV_VERSION_MINOR >= 4)
   if (feature == Feature::Sift) return cv::SIFT::create(features);
 #endif
@@ -36,8 +36,8 @@ cv::Ptr<cv::Feature2D> detectorOf(Feature feature) {
 std::optional<Pose> poseByOpenCv(Feature feature, const StereoCamera& camera, const StereoPair& a,
                                  const StereoPair& b) {
   if (a.left.empty() || a.right.empty() || b.left.empty()) return std::nullopt;
-  const cv::Mat left = matOf(a.left), right = matOf(a.right), other = matOf(b.left);
-  const auto detector = detectorOf(feature);
+  const cv::Mat left = toMat(a.left), right = toMat(a.right), other = toMat(b.left);
+  const auto detector = makeDetector(feature);
   std::vector<cv::KeyPoint> in_a, in_b;
   cv::Mat of_a, of_b, disparity;
   detector->detectAndCompute(left, cv::noArray(), in_a, of_a);

@@ -14,7 +14,7 @@ void CellTable::rehash(std::size_t expected) {
   shift_ = 64 - bits;
   for (const Slot& slot : old) {
     if (slot.key == 0) continue;
-    std::size_t at = slotOf(slot.key);
+    std::size_t at = findSlot(slot.key);
     while (slots_[at].key != 0) at = (at + 1) & mask_;
     slots_[at] = slot;
   }

@@ -20,7 +20,7 @@ constexpr float kBeforeTheEnd = 2.0F;       // edges
 
 FreeSpace::FreeSpace(const PointCloud& cloud, float edge) : per_m_(1.0F / edge), beams_(kAbove * kHigh, 0) {
   const std::size_t count = std::min(cloud.points.size(), cloud.origins.size());
-  for (const Eigen::Vector3f& point : cloud.points) mark(cubeOf(point));
+  for (const Eigen::Vector3f& point : cloud.points) mark(findCube(point));
   const std::size_t step = std::max<std::size_t>(1, (count + kMostBeams - 1) / kMostBeams);
   for (std::size_t i = 0; i < count; i += step) {
     const Eigen::Vector3f way = cloud.points[i] - cloud.origins[i];
@@ -29,13 +29,13 @@ FreeSpace::FreeSpace(const PointCloud& cloud, float edge) : per_m_(1.0F / edge),
     const Eigen::Vector3f along = way * (edge / std::max(length, edge));
     Eigen::Vector3f at = cloud.origins[i] + 0.5F * along;
     for (float left = length - 0.5F * edge; left > kBeforeTheEnd * edge; left -= edge, at += along) {
-      const std::size_t cube = cubeOf(at);
+      const std::size_t cube = findCube(at);
       if (cube != none && beams_[cube] < kOccupied - 1) ++beams_[cube];
     }
   }
 }
 
-std::size_t FreeSpace::cubeOf(const Eigen::Vector3f& point) const {
+std::size_t FreeSpace::findCube(const Eigen::Vector3f& point) const {
   const Eigen::Vector3f at =
       point * per_m_ + Eigen::Vector3f(0.5F * static_cast<float>(kWide), 0.5F * static_cast<float>(kWide),
                                        0.5F * static_cast<float>(kHigh));
@@ -55,7 +55,7 @@ void FreeSpace::mark(std::size_t cube) {
 }
 
 bool FreeSpace::isFree(const Eigen::Vector3f& point) const {
-  const std::size_t cube = cubeOf(point);
+  const std::size_t cube = findCube(point);
   return cube != none && beams_[cube] >= kFewest && beams_[cube] != kOccupied;
 }
 

@@ -27,7 +27,7 @@ SurfelIndex::SurfelIndex(const std::vector<Surfel>& surfels, float reach, std::s
   std::vector<std::uint32_t> counts;
   for (std::size_t i = 0; i < surfels.size(); ++i) {
     if (!(surfels[i].planarity > 0.0F)) continue;
-    cells[i] = table_.insert(keyOf(cellOf(surfels[i].mean, per_m_)));
+    cells[i] = table_.insert(toKey(toCell(surfels[i].mean, per_m_)));
     if (cells[i] == counts.size()) counts.push_back(0);
     ++counts[cells[i]];
   }
@@ -50,7 +50,7 @@ SurfelIndex::Nearest SurfelIndex::nearest(const Eigen::Vector3f& point, const Ei
     if (const Nearest near = finer_->nearest(point, normal); near.surfel != nullptr) return near;
   const Eigen::Vector3f at = point * per_m_;
   if (!(at.cwiseAbs().maxCoeff() < static_cast<float>(kFarthestCell - 1))) return {};
-  const Cell own = cellOf(point, per_m_);
+  const Cell own = toCell(point, per_m_);
   const Eigen::Vector3f within =
       at - Eigen::Vector3f(static_cast<float>(own.x), static_cast<float>(own.y), static_cast<float>(own.z));
   const Eigen::Vector3f gap = within.cwiseMin(Eigen::Vector3f::Ones() - within) / per_m_;  // m to the nearest faces
@@ -70,7 +70,7 @@ SurfelIndex::Nearest SurfelIndex::nearest(const Eigen::Vector3f& point, const Ei
       continue;
     }
     const std::uint32_t cell =
-        table_.find(keyOf({own.x + (x ? over.x : 0), own.y + (y ? over.y : 0), own.z + (z ? over.z : 0)}));
+        table_.find(toKey({own.x + (x ? over.x : 0), own.y + (y ? over.y : 0), own.z + (z ? over.z : 0)}));
     if (cell == CellTable::none) continue;
     for (std::uint32_t i = begins_[cell]; i < begins_[cell + 1]; i += kSurfelLanes) {
       const auto lane = [&](std::size_t which) { return cv::v_load(&lanes_[which][i]); };

@@ -23,7 +23,7 @@ struct Moments {
   Cell cell;
 };
 
-Eigen::Vector3f cornerOf(const Cell& cell) {
+Eigen::Vector3f cellCorner(const Cell& cell) {
   return {static_cast<float>(cell.x), static_cast<float>(cell.y), static_cast<float>(cell.z)};
 }
 
@@ -62,7 +62,7 @@ struct SurfelGrid {
   std::size_t used = 0;
 };
 
-SurfelGrid gridOf(const PointCloud& cloud, float voxel) {
+SurfelGrid makeGrid(const PointCloud& cloud, float voxel) {
   SurfelGrid grid{CellTable(cloud.points.size() / 32 + 16), {}, 0};  // small: neighbours are looked up 27 at a time
   grid.cubes.reserve(cloud.points.size() / 8 + 16);
   const float per_m = 1.0F / voxel, limit = voxel * static_cast<float>(kFarthestCell);
@@ -71,8 +71,8 @@ SurfelGrid gridOf(const PointCloud& cloud, float voxel) {
   for (const Eigen::Vector3f& point : cloud.points) {
     if (!isWithin(point, limit)) continue;
     ++grid.used;
-    const Cell cell = cellOf(point, per_m);
-    if (const std::uint64_t key = keyOf(cell); key != last) {  // beams beside each other mostly share a cube
+    const Cell cell = toCell(point, per_m);
+    if (const std::uint64_t key = toKey(cell); key != last) {  // beams beside each other mostly share a cube
       number = grid.table.insert(key);
       last = key;
     }
@@ -81,7 +81,7 @@ SurfelGrid gridOf(const PointCloud& cloud, float voxel) {
       grid.cubes.back().cell = cell;
     }
     Moments& cube = grid.cubes[number];
-    const Eigen::Vector3f d = point - voxel * cornerOf(cell);
+    const Eigen::Vector3f d = point - voxel * cellCorner(cell);
     cube.sum += d;
     cube.xx += d.x() * d.x();
     cube.xy += d.x() * d.y();
@@ -107,21 +107,21 @@ struct Coarser {
 };
 
 /// The same points in cubes of twice the edge: each of the eight within counts as much as it has beams' cubes in it.
-Coarser coarserOf(const SurfelGrid& fine, float edge) {
+Coarser coarsen(const SurfelGrid& fine, float edge) {
   Coarser coarser{{CellTable(fine.cubes.size() / 4 + 16), {}, fine.used}, {}};
   SurfelGrid& grid = coarser.grid;
   grid.cubes.reserve(fine.cubes.size() / 2 + 16);
   coarser.cube_of.reserve(fine.cubes.size());
   for (const Moments& cube : fine.cubes) {
     const Cell cell{cube.cell.x >> 1, cube.cell.y >> 1, cube.cell.z >> 1};
-    const std::uint32_t number = grid.table.insert(keyOf(cell));
+    const std::uint32_t number = grid.table.insert(toKey(cell));
     coarser.cube_of.push_back(number);
     if (number == grid.cubes.size()) {
       grid.cubes.emplace_back();
       grid.cubes.back().cell = cell;
     }
     Moments shifted = cube;
-    shiftBy(shifted, edge * cornerOf({cube.cell.x & 1, cube.cell.y & 1, cube.cell.z & 1}));
+    shiftBy(shifted, edge * cellCorner({cube.cell.x & 1, cube.cell.y & 1, cube.cell.z & 1}));
     addTo(grid.cubes[number], shifted);
   }
   return coarser;
@@ -135,7 +135,7 @@ struct Placed {
 
 std::vector<Placed> inOrder(const SurfelGrid& grid) {
   std::vector<Placed> placed(grid.cubes.size());
-  for (std::uint32_t i = 0; i < placed.size(); ++i) placed[i] = {keyOf(grid.cubes[i].cell), i};
+  for (std::uint32_t i = 0; i < placed.size(); ++i) placed[i] = {toKey(grid.cubes[i].cell), i};
   std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) { return a.key < b.key; });
   return placed;
 }
@@ -160,7 +160,7 @@ class VoxelNeighbours {
         for (std::size_t next = at; next < placed_.size() && placed_[next].key <= last; ++next) {
           Moments cube = grid_.cubes[placed_[next].number];
           const int i = static_cast<int>(placed_[next].key - first) - 1;
-          shiftBy(cube, edge_ * cornerOf({i, j, k}));
+          shiftBy(cube, edge_ * cellCorner({i, j, k}));
           addTo(all, cube);
         }
       }
@@ -187,7 +187,7 @@ struct Lie {
   float planarity = -1.0F;
 };
 
-Lie lieOf(const Moments& all, float edge, const Eigen::Matrix3f& flat) {
+Lie computeLie(const Moments& all, float edge, const Eigen::Matrix3f& flat) {
   if (all.count < 3.0F) return {};
   const float share = 1.0F / all.count;
   const Eigen::Vector3f mean = share * all.sum;
@@ -203,15 +203,16 @@ Lie lieOf(const Moments& all, float edge, const Eigen::Matrix3f& flat) {
 }
 
 /// Of all cubes of a grid that are wanted, in the order of the grid.
-std::vector<Lie> liesOf(const SurfelGrid& grid, const std::vector<std::uint8_t>& wanted, float edge,
-                        const Eigen::Matrix3f& flat) {
+std::vector<Lie> computeLies(const SurfelGrid& grid, const std::vector<std::uint8_t>& wanted, float edge,
+                             const Eigen::Matrix3f& flat) {
   constexpr std::size_t kRun = 512;
   const std::vector<Placed> placed = inOrder(grid);
   std::vector<Lie> lies(placed.size());
   urban_nav_core::forEach((placed.size() + kRun - 1) / kRun, 1, [&](std::size_t run) {
     VoxelNeighbours neighbours(grid, placed, edge);
     for (std::size_t i = run * kRun; i < std::min(placed.size(), (run + 1) * kRun); ++i)
-      if (wanted[placed[i].number] != 0) lies[placed[i].number] = lieOf(neighbours.around(placed[i].key), edge, flat);
+      if (wanted[placed[i].number] != 0)
+        lies[placed[i].number] = computeLie(neighbours.around(placed[i].key), edge, flat);
   });
   return lies;
 }
@@ -220,11 +221,11 @@ constexpr int kScales = 4;  // cubes of 1, 2, 4, 8 voxels: far from the sensor i
 
 /// n n^T of the plane in which all points lie, to a hundredth of the voxel, and the sensor with them; zero where they
 /// don't. A plane that the sensor looks down upon is ground.
-Eigen::Matrix3f flatnessOf(const SurfelGrid& grid, float voxel) {
+Eigen::Matrix3f computeFlatness(const SurfelGrid& grid, float voxel) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d outer = Eigen::Matrix3d::Zero();
   for (const Moments& cube : grid.cubes) {
-    const Eigen::Vector3d mean = (voxel * cornerOf(cube.cell) + cube.sum / cube.count).cast<double>();
+    const Eigen::Vector3d mean = (voxel * cellCorner(cube.cell) + cube.sum / cube.count).cast<double>();
     sum += mean;
     outer += mean * mean.transpose();
   }
@@ -242,9 +243,9 @@ Eigen::Matrix3f flatnessOf(const SurfelGrid& grid, float voxel) {
 }  // namespace
 
 Surfels makeSurfels(const PointCloud& cloud, float voxel) {
-  SurfelGrid grid = gridOf(cloud, voxel);
+  SurfelGrid grid = makeGrid(cloud, voxel);
   const Eigen::Matrix3f flat =
-      flatnessOf(grid, voxel);  // added to covariances: what a scan of one plane does not see of its walls
+      computeFlatness(grid, voxel);  // added to covariances: what a scan of one plane does not see of its walls
   Surfels surfels;
   surfels.voxel = voxel;
   surfels.points = grid.used;
@@ -252,7 +253,7 @@ Surfels makeSurfels(const PointCloud& cloud, float voxel) {
   surfels.all.resize(grid.cubes.size());
   for (std::size_t i = 0; i < grid.cubes.size(); ++i) {
     const Moments& own = grid.cubes[i];
-    surfels.all[i].mean = voxel * cornerOf(own.cell) + own.sum / own.count;
+    surfels.all[i].mean = voxel * cellCorner(own.cell) + own.sum / own.count;
     surfels.all[i].normal = Eigen::Vector3f::UnitZ();
   }
   std::vector<std::uint32_t> open(grid.cubes.size());  // surfels without a normal yet
@@ -261,13 +262,13 @@ Surfels makeSurfels(const PointCloud& cloud, float voxel) {
   for (int scale = 0; scale < kScales && !open.empty(); ++scale) {
     const float edge = voxel * static_cast<float>(1 << scale);
     if (scale > 0) {
-      Coarser coarser = coarserOf(grid, 0.5F * edge);
+      Coarser coarser = coarsen(grid, 0.5F * edge);
       for (const std::uint32_t i : open) cube_of[i] = coarser.cube_of[cube_of[i]];
       grid = std::move(coarser.grid);
     }
     std::vector<std::uint8_t> wanted(grid.cubes.size(), 0);
     for (const std::uint32_t i : open) wanted[cube_of[i]] = 1;
-    const std::vector<Lie> lies = liesOf(grid, wanted, edge, flat);
+    const std::vector<Lie> lies = computeLies(grid, wanted, edge, flat);
     std::vector<std::uint32_t> still_open;
     for (const std::uint32_t i : open) {
       const Lie& lie = lies[cube_of[i]];

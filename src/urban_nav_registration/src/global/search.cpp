@@ -26,15 +26,15 @@ constexpr int kShiftLanes = 8;      // shifts that are summed up at once
 
 using Piece = VerticalStructure::Piece;
 
-std::vector<Piece> piecesOf(const Surfels& surfels, const UpDirection& upright, const Eigen::Matrix3f& level,
-                            double cell) {
+std::vector<Piece> cutPieces(const Surfels& surfels, const UpDirection& upright, const Eigen::Matrix3f& level,
+                             double cell) {
   CellTable cells(1024);
   std::vector<Piece> pieces;
   for (const Surfel& surfel : surfels.all) {
     if (!(surfel.planarity > 0.3F) || std::abs(surfel.normal.dot(upright.up)) > 0.5F) continue;
     const Eigen::Vector3f p = level * surfel.mean, n = level * surfel.normal;
     if (p.head<2>().norm() > static_cast<float>(kFarthest)) continue;
-    const std::uint32_t number = cells.insert(keyOf(cellOf({p.x(), p.y(), 0.0F}, static_cast<float>(1.0 / cell))));
+    const std::uint32_t number = cells.insert(toKey(toCell({p.x(), p.y(), 0.0F}, static_cast<float>(1.0 / cell))));
     if (number == pieces.size())
       pieces.push_back({static_cast<double>(p.x()), static_cast<double>(p.y()),
                         std::atan2(static_cast<double>(n.y()), static_cast<double>(n.x()))});
@@ -42,7 +42,7 @@ std::vector<Piece> piecesOf(const Surfels& surfels, const UpDirection& upright, 
   return pieces;
 }
 
-int bearingOf(double angle) {
+int toBearing(double angle) {
   const double turns = angle / kHalfTurn;  // walls are the same from both sides
   return static_cast<int>((turns - std::floor(turns)) * kBearings) % kBearings;
 }
@@ -61,7 +61,7 @@ struct Pictures {
   }
 };
 
-Pictures picturesOf(const std::vector<Piece>& pieces, double cell, int half) {
+Pictures makePictures(const std::vector<Piece>& pieces, double cell, int half) {
   Pictures pictures;
   const int margin = 2 * half + kShiftLanes + 2;
   pictures.cell = cell;
@@ -72,7 +72,7 @@ Pictures picturesOf(const std::vector<Piece>& pieces, double cell, int half) {
                          0);
   for (const Piece& piece : pieces) {
     const int x = static_cast<int>((piece.x - pictures.x0) / cell),
-              y = static_cast<int>((piece.y - pictures.y0) / cell), b = bearingOf(piece.bearing);
+              y = static_cast<int>((piece.y - pictures.y0) / cell), b = toBearing(piece.bearing);
     for (int db = -1; db <= 1; ++db)
       for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx) {
@@ -97,8 +97,8 @@ void addRow(const std::uint8_t* counts, std::uint16_t* sums, int length) {
 }
 
 /// The best shifts of one heading.
-std::vector<Peak> peaksOf(Pictures& pictures, const std::vector<Piece>& pieces, int heading, int headings,
-                          const Vector3d& centre, int half) {
+std::vector<Peak> findPeaks(Pictures& pictures, const std::vector<Piece>& pieces, int heading, int headings,
+                            const Vector3d& centre, int half) {
   const double angle = 2.0 * kHalfTurn * heading / headings, c = std::cos(angle), s = std::sin(angle);
   const int side = 2 * half + 1, stride = (side + kShiftLanes - 1) / kShiftLanes * kShiftLanes;
   std::vector<std::uint16_t> wide(static_cast<std::size_t>(side) * static_cast<std::size_t>(stride), 0);
@@ -107,7 +107,7 @@ std::vector<Peak> peaksOf(Pictures& pictures, const std::vector<Piece>& pieces, 
     const int left = static_cast<int>(std::floor((x - pictures.x0) / pictures.cell)) - half,
               top = static_cast<int>(std::floor((y - pictures.y0) / pictures.cell)) - half;
     if (left < 0 || top < 0 || left + stride > pictures.width || top + side > pictures.width) continue;
-    const int bearing = bearingOf(piece.bearing + angle);
+    const int bearing = toBearing(piece.bearing + angle);
     for (int row = 0; row < side; ++row)
       addRow(pictures.at(bearing, left, top + row), &wide[static_cast<std::size_t>(row * stride)], stride);
   }
@@ -144,7 +144,7 @@ VerticalStructure extractVerticalStructure(const Surfels& surfels, const SearchR
   outline.level = levelling(upright.up);
   outline.ground = upright.ground;
   outline.has_ground = upright.has_ground;
-  outline.pieces = piecesOf(surfels, upright, outline.level, grain.cell);
+  outline.pieces = cutPieces(surfels, upright, outline.level, grain.cell);
   return outline;
 }
 
@@ -158,11 +158,11 @@ std::vector<PoseCandidate> searchGlobally(const VerticalStructure& source, const
     pieces = some;
   }
   const int half = std::max(1, static_cast<int>(radius / grain.cell));
-  Pictures pictures = picturesOf(target.pieces, grain.cell, half);
+  Pictures pictures = makePictures(target.pieces, grain.cell, half);
   const Vector3d middle = target.level.cast<double>() * centre;
   std::vector<std::vector<Peak>> by_heading(static_cast<std::size_t>(grain.headings));
   urban_nav_core::forEach(by_heading.size(), 6, [&](std::size_t heading) {
-    by_heading[heading] = peaksOf(pictures, pieces, static_cast<int>(heading), grain.headings, middle, half);
+    by_heading[heading] = findPeaks(pictures, pieces, static_cast<int>(heading), grain.headings, middle, half);
   });
   std::vector<Peak> peaks;
   for (const auto& some : by_heading) peaks.insert(peaks.end(), some.begin(), some.end());

@@ -110,7 +110,7 @@ Alignment judged(const Try& made, const Pair& pair, Alignment alignment, bool is
   return alignment;
 }
 
-std::size_t surfacesOf(const Surfels& surfels) {
+std::size_t countSurfaces(const Surfels& surfels) {
   return static_cast<std::size_t>(std::count_if(surfels.all.begin(), surfels.all.end(),
                                                 [](const Surfel& surfel) { return surfel.planarity > 0.0F; }));
 }
@@ -124,7 +124,7 @@ bool checkClouds(const Surfels& source, const Surfels& target, Alignment& alignm
                  std::to_string(kFewPoints) + " are needed");
       return false;
     }
-    const std::size_t surfaces = surfacesOf(surfels);
+    const std::size_t surfaces = countSurfaces(surfels);
     if (surfaces < kFewSurfaces) {
       reject(alignment, AlignmentReason::NoSurfaces,
              std::string("the ") + which + " shows " + std::to_string(surfaces) + " pieces of surface, at least " +
@@ -148,7 +148,7 @@ bool isAnother(const Pose& pose, const Alignment& best) {
 }
 
 /// What a glance around found that might be as good as an answer that was found near the guess: usually nothing.
-std::vector<PoseCandidate> rivalsOf(const Alignment& local, const std::vector<PoseCandidate>& candidates) {
+std::vector<PoseCandidate> findRivals(const Alignment& local, const std::vector<PoseCandidate>& candidates) {
   constexpr double kFar = 2.5, kTurned = 0.26;  // m, rad: what a coarse candidate may be off
   constexpr double kClearly = 0.85;             // of the answer's own score: below, it is not as good
   const auto isOwn = [&](const PoseCandidate& candidate) {
@@ -166,7 +166,7 @@ std::vector<PoseCandidate> rivalsOf(const Alignment& local, const std::vector<Po
 
 /// The candidates that a coarse alignment leaves, aligned to the end: different from each other, none of them far
 /// behind the best.
-std::vector<Try> triesOf(const Pair& pair, const std::vector<PoseCandidate>& candidates) {
+std::vector<Try> listTries(const Pair& pair, const std::vector<PoseCandidate>& candidates) {
   constexpr double kFarBehind = 0.6;  // of the best score; max_second asks for more
   const std::size_t end = pair.source.steps().size(), from = end > 3 ? 1 : 0;
   std::vector<Try> coarse;
@@ -192,7 +192,7 @@ std::vector<Try> triesOf(const Pair& pair, const std::vector<PoseCandidate>& can
 Alignment searched(const Pair& pair, const Pose& guess, Alignment alignment, const Try* first,
                    const std::vector<PoseCandidate>& candidates) {
   constexpr double kNear = 0.7;  // of the answer's score: below, a rival is none, which allows for less to be shared
-  std::vector<Try> tries = triesOf(pair, candidates);
+  std::vector<Try> tries = listTries(pair, candidates);
   if (first != nullptr) tries.insert(tries.begin(), *first);
   if (tries.empty()) tries.push_back(tryFrom(pair, guess, 0, pair.source.steps().size()));
   std::stable_sort(tries.begin(), tries.end(),
@@ -260,7 +260,7 @@ Alignment align(const PointCloud& source, const PointCloud& target, const Parame
   if (search == SearchMode::Never || local.verdict == ClosureVerdict::Degenerate) return local;
   const bool failed = local.verdict == ClosureVerdict::Rejected;
   const std::vector<PoseCandidate> others =
-      failed ? look(guess.t(), fine_resolution) : rivalsOf(local, look(guess.t(), coarse_resolution));
+      failed ? look(guess.t(), fine_resolution) : findRivals(local, look(guess.t(), coarse_resolution));
   if (!failed && others.empty()) return local;
   explain();
   return searched(pair, guess, alignment, &first, others);

@@ -72,7 +72,7 @@ NormalEquations sumUp(const std::vector<Match>& matches, double sigma) {
   return total;
 }
 
-double spreadOf(const std::vector<Match>& matches) {
+double computeSpread(const std::vector<Match>& matches) {
   std::vector<std::pair<double, double>> sizes;
   sizes.reserve(matches.size());
   double sum = 0.0;

@@ -61,6 +61,6 @@ struct NormalEquations {
 NormalEquations sumUp(const std::vector<Match>& matches, double sigma);
 
 /// 1.4826 times the weighted median of the absolute residuals: the deviation of a Gaussian, m. 0 without matches.
-double spreadOf(const std::vector<Match>& matches);
+double computeSpread(const std::vector<Match>& matches);
 
 }  // namespace urban_nav_registration

@@ -33,7 +33,7 @@ struct Scaled {
   }
 };
 
-Scaled scaledOf(const std::vector<Match>& matches, double sigma) {
+Scaled scaleMatches(const std::vector<Match>& matches, double sigma) {
   Scaled scaled;
   for (const Match& match : matches) {
     const double weight = robustWeight(match, sigma);
@@ -73,7 +73,7 @@ struct Sums {
   double errorOfPatches() const;
 };
 
-Sums sumsOf(const std::vector<Match>& matches, const Scaled& scaled, double sigma, double patch) {
+Sums computeSums(const std::vector<Match>& matches, const Scaled& scaled, double sigma, double patch) {
   Sums sums;
   CellTable patches(matches.size() / 4 + 16);
   sums.rows.reserve(matches.size());
@@ -81,7 +81,7 @@ Sums sumsOf(const std::vector<Match>& matches, const Scaled& scaled, double sigm
     const double weight = robustWeight(match, sigma) / scaled.weight;
     if (!(weight > 0.0)) continue;
     const std::uint32_t number =
-        patches.insert(keyOf(cellOf(match.lever.cast<float>(), static_cast<float>(1.0 / patch))));
+        patches.insert(toKey(toCell(match.lever.cast<float>(), static_cast<float>(1.0 / patch))));
     if (number == sums.pull_by_patch.size()) {
       sums.pull_by_patch.push_back(Vector6d::Zero());
       sums.weight_by_patch.push_back(0.0);
@@ -130,8 +130,8 @@ double cloudNoise(const Sums& sums, const Vector6d& u) {
 
 Observability observe(const std::vector<Match>& matches, double sigma, const Doubt& doubt, double patch) {
   Observability observed;
-  const Scaled scaled = scaledOf(matches, sigma);
-  const Sums sums = sumsOf(matches, scaled, sigma, patch);
+  const Scaled scaled = scaleMatches(matches, sigma);
+  const Sums sums = computeSums(matches, scaled, sigma, patch);
   const auto eigen = urban_nav_core::symmetricEigen(Eigen::MatrixXd(sums.agreed));
   const double bias = std::max(doubt.bias, 1e-4);
   const double least = std::pow(bias / doubt.free_deviation, 2);

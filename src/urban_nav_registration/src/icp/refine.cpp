@@ -29,7 +29,7 @@ std::vector<Surfel> thinned(const std::vector<Surfel>& surfels, float edge) {
   std::vector<Surfel> chosen;
   for (const Surfel& surfel : surfels) {
     if (!(surfel.planarity > 0.0F)) continue;
-    const std::uint32_t cell = table.insert(keyOf(cellOf(surfel.mean, 1.0F / edge)));
+    const std::uint32_t cell = table.insert(toKey(toCell(surfel.mean, 1.0F / edge)));
     if (cell == chosen.size()) chosen.push_back(surfel);
     else if (surfel.planarity > chosen[cell].planarity) chosen[cell] = surfel;
   }
@@ -74,7 +74,7 @@ Refined refine(const Source& source, const Target& target, const Pose& start, st
     Matcher matcher(source.steps()[step], index);
     for (int i = 0; i < iterations; ++i) {
       matcher.match(refined.T_target_source, refined.matches);
-      refined.sigma = std::max(spreadOf(refined.matches), 0.5 * kLeastSigmaShare * finest);
+      refined.sigma = std::max(computeSpread(refined.matches), 0.5 * kLeastSigmaShare * finest);
       const NormalEquations equations = sumUp(refined.matches, refined.sigma);
       ++refined.iterations;
       // What nothing holds would wander with the noise of the normals: damped, it stays; what counts is twenty times

@@ -14,7 +14,7 @@ RobustScale computeResidualScale(const std::vector<Match>& matches) {
   std::vector<Match> upright = matches;
   for (Match& match : upright)
     if (std::abs(match.target_normal.z()) >= 0.5) match.weight = 0.0;
-  return {spreadOf(matches), spreadOf(upright)};
+  return {computeSpread(matches), computeSpread(upright)};
 }
 
 RobustScale cloudNoise(const PointCloud& cloud, float voxel) {

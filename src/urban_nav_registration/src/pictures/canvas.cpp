@@ -25,7 +25,7 @@ void writeTitle(cv::Mat& canvas, const std::string& title) {
   write(canvas, title, {5, 13}, paper);
 }
 
-Picture pictureOf(const cv::Mat& canvas) {
+Picture toPicture(const cv::Mat& canvas) {
   Picture made;
   made.width = canvas.cols;
   made.height = canvas.rows;

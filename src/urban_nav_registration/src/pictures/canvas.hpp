@@ -18,6 +18,6 @@ void write(cv::Mat& canvas, const std::string& text, cv::Point at, const cv::Sca
 /// In the upper left corner, light on dark.
 void writeTitle(cv::Mat& canvas, const std::string& title);
 /// `canvas` is whole, of three bytes.
-Picture pictureOf(const cv::Mat& canvas);
+Picture toPicture(const cv::Mat& canvas);
 
 }  // namespace urban_nav_registration

@@ -51,7 +51,7 @@ struct Extent {
   double half = 5.0;  ///< m
 };
 
-Extent extentOf(const Points& target, const Points& source) {
+Extent computeExtent(const Points& target, const Points& source) {
   Extent extent;
   if (target.empty() && source.empty()) return extent;
   extent.half = smallest_half;
@@ -154,7 +154,7 @@ Picture drawClouds(const PointCloud& source, const PointCloud& target, const Pos
   const int size = std::clamp(options.panel, narrowest_cloud, widest);
   const Points of_target = finite(target), of_source = finite(source);
   cv::Mat canvas(size + caption_height, 3 * size + 2 * panel_gap, CV_8UC3, paper);
-  const Extent extent = extentOf(of_target, moved(of_source, T_target_source));
+  const Extent extent = computeExtent(of_target, moved(of_source, T_target_source));
   struct Look {
     const char* title;
     const Pose& T;
@@ -180,7 +180,7 @@ Picture drawClouds(const PointCloud& source, const PointCloud& target, const Pos
   }
   cv::Mat below = canvas(cv::Rect(0, size, canvas.cols, caption_height));
   write(below, options.caption, {6, 16}, ink);
-  return pictureOf(canvas);
+  return toPicture(canvas);
 }
 
 }  // namespace urban_nav_registration

@@ -22,12 +22,12 @@ constexpr double opacity = 0.5;  // of the lines, so that the views stay to be s
 const cv::Scalar grey(150, 150, 150), panel(110, 110, 110);
 
 /// Green over yellow to red, in BGR; `share` of the worst.
-cv::Scalar colourOf(double share) {
+cv::Scalar toColour(double share) {
   const double at = std::clamp(share, 0.0, 1.0);
   return at < 0.5 ? cv::Scalar(60, 200, 60 + 360 * at) : cv::Scalar(60, 200 - 280 * (at - 0.5), 240);
 }
 
-double worstOf(const MatchPictureOptions& options) {
+double findWorst(const MatchPictureOptions& options) {
   return options.worst_px > 0.0 ? options.worst_px : MatchPictureOptions().worst_px;
 }
 
@@ -53,7 +53,7 @@ struct ViewPanel {
 };
 
 /// `other` lends its size to a view that has none.
-ViewPanel panelOf(const Keyframe& keyframe, const Keyframe& other, int widest) {
+ViewPanel makePanel(const Keyframe& keyframe, const Keyframe& other, int widest) {
   ViewPanel made;
   const Keyframe* sized = isPlausible(keyframe) ? &keyframe : isPlausible(other) ? &other : nullptr;
   made.width = sized != nullptr ? sized->width : usual_width;
@@ -83,8 +83,8 @@ void drawMatchesOn(cv::Mat& canvas, const ViewPanel& a, const ViewPanel& b, cons
   std::vector<const MatchedPixels*> shown, others;
   for (const MatchedPixels& match : pixels)
     if (a.shows(match.in_a) && b.shows(match.in_b)) (match.inlier ? shown : others).push_back(&match);
-  const double worst_px = worstOf(options);
-  const auto colour = [worst_px](const MatchedPixels* match) { return colourOf(match->residual_px / worst_px); };
+  const double worst_px = findWorst(options);
+  const auto colour = [worst_px](const MatchedPixels* match) { return toColour(match->residual_px / worst_px); };
   cv::Mat lines = canvas.clone();
   const auto draw = [&](const std::vector<const MatchedPixels*>& matches, bool is_grey) {
     // every so many, so that those that are left are spread as all are
@@ -112,9 +112,9 @@ void drawStrip(cv::Mat canvas, const MatchPictureOptions& options) {
   cv::rectangle(canvas, {from - 60, 0, canvas.cols - from + 60, canvas.rows}, paper, cv::FILLED);
   write(canvas, "residual", {from - 58, 16}, ink);
   for (int i = 0; i < bar; ++i)
-    cv::line(canvas, {from + 4 + i, 7}, {from + 4 + i, 17}, colourOf(static_cast<double>(i) / (bar - 1)));
+    cv::line(canvas, {from + 4 + i, 7}, {from + 4 + i, 17}, toColour(static_cast<double>(i) / (bar - 1)));
   std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3g px", worstOf(options));
+  std::snprintf(text.data(), text.size(), "%.3g px", findWorst(options));
   write(canvas, text.data(), {from + bar + 10, 16}, ink);
 }
 
@@ -123,7 +123,7 @@ void drawStrip(cv::Mat canvas, const MatchPictureOptions& options) {
 Picture drawMatches(const Keyframe& a, const Keyframe& b, const std::vector<MatchedPixels>& pixels,
                     const MatchPictureOptions& options) {
   const int widest = std::clamp(options.widest, narrowest_view, largest_picture);
-  ViewPanel of_a = panelOf(a, b, widest), of_b = panelOf(b, a, widest);
+  ViewPanel of_a = makePanel(a, b, widest), of_b = makePanel(b, a, widest);
   if (options.stacked) of_b.area.y = of_a.area.height + panel_gap;
   else of_b.area.x = of_a.area.width + panel_gap;
   const cv::Rect both = of_a.area | of_b.area;
@@ -133,7 +133,7 @@ Picture drawMatches(const Keyframe& a, const Keyframe& b, const std::vector<Matc
   cv::Mat views = canvas(both);
   drawMatchesOn(views, of_a, of_b, pixels, options);
   drawStrip(canvas(cv::Rect(0, both.height, both.width, caption_height)), options);
-  return pictureOf(canvas);
+  return toPicture(canvas);
 }
 
 }  // namespace urban_nav_registration

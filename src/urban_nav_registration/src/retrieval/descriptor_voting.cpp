@@ -13,7 +13,7 @@ namespace {
 constexpr Eigen::Index most_descriptors = 120;  // of a view: a quarter of a keyframe's, spread as they are
 constexpr double common = 0.9;  // what as many views hold as well says nothing: the score begins at this quantile
 
-Descriptors someOf(const Descriptors& all) {
+Descriptors pickSome(const Descriptors& all) {
   const Eigen::Index count = std::min(most_descriptors, all.cols());
   Descriptors some(descriptor_size, count);
   for (Eigen::Index i = 0; i < count; ++i) some.col(i) = all.col(i * all.cols() / count);
@@ -29,7 +29,7 @@ class DescriptorVoting::Implementation {
   bool add(const Keyframe& keyframe) {
     const View view(keyframe, camera_);
     const bool usable = view.isReadable() && !view.points.empty();
-    views_.push_back(usable ? someOf(view.descriptors) : Descriptors(descriptor_size, 0));
+    views_.push_back(usable ? pickSome(view.descriptors) : Descriptors(descriptor_size, 0));
     return usable;
   }
   std::size_t size() const { return views_.size(); }
@@ -37,7 +37,7 @@ class DescriptorVoting::Implementation {
   std::vector<Found> find(const Keyframe& keyframe, std::size_t most) const {
     const View view(keyframe, camera_);
     if (!view.isReadable() || view.points.empty() || views_.empty()) return {};
-    const Descriptors asked = someOf(view.descriptors);
+    const Descriptors asked = pickSome(view.descriptors);
     // A row for each descriptor that is asked for: how well each view answers it.
     Eigen::MatrixXf answers(asked.cols(), static_cast<Eigen::Index>(views_.size()));
     urban_nav_core::forEach(views_.size(), 16, [&](std::size_t i) {

@@ -36,7 +36,7 @@ using DescriptorGrid = std::array<float, grid * grid>;
 
 /// Directions of gradients as places among the bins, 0 ... `directions`, to 1e-4 of a bin (Abramowitz and Stegun
 /// 1964, 4.4.49): the library's own takes a third of a descriptor's time.
-void directionsOf(const DescriptorGrid& dx, const DescriptorGrid& dy, DescriptorGrid& place) {
+void computeDirections(const DescriptorGrid& dx, const DescriptorGrid& dy, DescriptorGrid& place) {
   for (std::size_t i = 0; i < place.size(); ++i) {
     const float x = std::abs(dx[i]), y = std::abs(dy[i]);
     const float large = std::max(x, y), small = std::min(x, y);
@@ -112,7 +112,7 @@ Eigen::Matrix<float, descriptor_size, 1> describe(const Pyramid& pyramid, const 
       contrast += size[k];
     }
   if (!(contrast > least_contrast * grid * grid)) return made;
-  directionsOf(dx, dy, place);
+  computeDirections(dx, dy, place);
 
   // Histograms with a margin of a part on each side, for what is shared out beyond the window.
   std::array<float, (parts + 2) * (parts + 2) * directions> bins{};

@@ -38,7 +38,7 @@ struct Reduced {
   double chi2 = 0.0, residual_px = 0.0;
 };
 
-Eigen::Matrix4d weightOf(const Sight& sight) {
+Eigen::Matrix4d computeWeight(const Sight& sight) {
   Eigen::Matrix4d W = Eigen::Matrix4d::Zero();
   W(0, 0) = 1.0 / (sight.sigma_disparity * sight.sigma_disparity);
   W.block<2, 2>(1, 1) = sight.covariance.inverse();
@@ -48,11 +48,11 @@ Eigen::Matrix4d weightOf(const Sight& sight) {
 
 Reduced reduce(const Sight& sight, const StereoCamera& camera, const Pose& T_a_b, double offset, double& rho) {
   Reduced made;
-  const Eigen::Matrix4d W = weightOf(sight);
+  const Eigen::Matrix4d W = computeWeight(sight);
   SightResidual r;
   constexpr int most_steps = 4;
   for (int step = 0; step < most_steps; ++step) {
-    r = residualOf(sight, camera, T_a_b, offset, rho);
+    r = computeResidual(sight, camera, T_a_b, offset, rho);
     if (!r.visible) return made;
     const Eigen::Vector4d along = W * r.J.col(of_depth);
     const double d = along.dot(r.e) / along.dot(r.J.col(of_depth));
@@ -76,13 +76,14 @@ Reduced reduce(const Sight& sight, const StereoCamera& camera, const Pose& T_a_b
   return made;
 }
 
-double weightOf(double chi2, double scale2) {
+double computeWeight(double chi2, double scale2) {
   const double chi = std::sqrt(std::max(chi2 / scale2, 0.0));
   return chi > huber ? huber / chi : 1.0;
 }
 
 /// How much larger squared residuals are than promised, by their median, which outliers do not move.
-double scaleOf(const std::vector<Sight>& sights, const std::vector<Reduced>& reduced, std::vector<double>& ratios) {
+double estimateScale(const std::vector<Sight>& sights, const std::vector<Reduced>& reduced,
+                     std::vector<double>& ratios) {
   ratios.clear();
   for (std::size_t i = 0; i < sights.size(); ++i)
     if (reduced[i].visible)
@@ -114,7 +115,7 @@ Inflation inflation(const StereoCamera& camera, const std::vector<Sight>& sights
     const int column = std::clamp(static_cast<int>(u * parts_across), 0, parts_across - 1),
               row = std::clamp(static_cast<int>(v * parts_down), 0, parts_down - 1);
     const auto part = static_cast<std::size_t>(((sights[i].of_a ? 0 : parts_down) + row) * parts_across + column);
-    scores[part] += weightOf(reduced[i].chi2, scale2) / scale2 * reduced[i].b;
+    scores[part] += computeWeight(reduced[i].chi2, scale2) / scale2 * reduced[i].b;
     used[part] = true;
   }
   Matrix7d S = Matrix7d::Zero();
@@ -163,14 +164,14 @@ Estimate estimate(const StereoCamera& camera, const std::vector<Sight>& sights, 
   const auto linearise = [&] {
     for (std::size_t i = 0; i < sights.size(); ++i)
       reduced[i] = reduce(sights[i], camera, made.T_a_b, made.offset, rho[i]);
-    return options.scaled ? scaleOf(sights, reduced, ratios) : 1.0;
+    return options.scaled ? estimateScale(sights, reduced, ratios) : 1.0;
   };
   const auto sum = [&](double scale2, Matrix7d& H, Vector7d& b) {
     H.setZero();
     b.setZero();
     for (const Reduced& r : reduced) {
       if (!r.visible) continue;
-      const double weight = weightOf(r.chi2, scale2) / scale2;
+      const double weight = computeWeight(r.chi2, scale2) / scale2;
       H += weight * r.H;
       b += weight * r.b;
     }

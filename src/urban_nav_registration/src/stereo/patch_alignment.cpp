@@ -44,8 +44,8 @@ struct PointView {
   Eigen::Vector2d pixel;
 };
 
-std::optional<PointView> placeOf(const StereoCamera& camera, const Eigen::Vector3d& plane, const Eigen::Vector3d& ray,
-                                 const Pose& T_to_from) {
+std::optional<PointView> findPlace(const StereoCamera& camera, const Eigen::Vector3d& plane, const Eigen::Vector3d& ray,
+                                   const Pose& T_to_from) {
   const double rho = std::max(plane.dot(ray), 0.0);
   const auto warp = urban_nav_core::warpOfSurface(camera, plane, ray, T_to_from);
   if (!warp || !warp->A.allFinite() || !warp->bend.allFinite()) return std::nullopt;
@@ -72,7 +72,7 @@ Found look(const StereoCamera& camera, const View& from, const View& to, const V
   const double rho =
       std::max(0.0, (point.disparity - camera.disparity_offset - offset) / (camera.left.fx * camera.baseline));
   const Eigen::Vector3d plane = urban_nav_core::surfaceAt(point.plane, point.ray, rho);
-  const auto place = placeOf(camera, plane, point.ray, T_to_from);
+  const auto place = findPlace(camera, plane, point.ray, T_to_from);
   if (!place) return made;
   const auto scale = enlargement(place->warp.A);
   if (!scale) return made;
@@ -92,7 +92,7 @@ Found look(const StereoCamera& camera, const View& from, const View& to, const V
   if (!source) return made;
   const Eigen::Vector2d middle = Eigen::Vector2d(u, v) / from_scale;
   const Eigen::Vector3d ray = camera.left.ray(middle);
-  const auto of_middle = placeOf(camera, plane, ray, T_to_from);
+  const auto of_middle = findPlace(camera, plane, ray, T_to_from);
   if (!of_middle) return made;
   const auto& image = to.pyramid.level(t);
   const Eigen::Vector2d start = of_middle->pixel * to_scale;

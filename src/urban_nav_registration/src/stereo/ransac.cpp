@@ -29,8 +29,8 @@ struct Item {
   double rho = 0.0, sigma_rho = 0.0, sigma_px = 1.0;
 };
 
-std::vector<Item> itemsOf(const StereoCamera& camera, const View& a, const View& b,
-                          const std::vector<DescriptorMatch>& pairs) {
+std::vector<Item> makeItems(const StereoCamera& camera, const View& a, const View& b,
+                            const std::vector<DescriptorMatch>& pairs) {
   std::vector<Item> items;
   items.reserve(pairs.size());
   const double per_depth = camera.left.fx * camera.baseline;
@@ -87,7 +87,7 @@ struct Score {
   int inliers = 0;
 };
 
-Score scoreOf(const std::vector<Item>& items, const StereoCamera& camera, const Pose& T_a_b) {
+Score computeScore(const std::vector<Item>& items, const StereoCamera& camera, const Pose& T_a_b) {
   const Pose T_b_a = T_a_b.inverse();
   const Eigen::Matrix3d R = T_b_a.R();
   Score score;
@@ -100,7 +100,7 @@ Score scoreOf(const std::vector<Item>& items, const StereoCamera& camera, const 
 }
 
 /// Axes of a triangle: along its first side, in its plane, across it. Empty where the points lie in a row or together.
-std::optional<Eigen::Matrix3d> axesOf(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& r) {
+std::optional<Eigen::Matrix3d> findAxes(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& r) {
   const Eigen::Vector3d x = q - p, n = x.cross(r - p);
   if (!(n.norm() > 0.02 * x.norm() * (r - p).norm()) || !(x.norm() > 0.05)) return std::nullopt;
   Eigen::Matrix3d axes;
@@ -111,8 +111,8 @@ std::optional<Eigen::Matrix3d> axesOf(const Eigen::Vector3d& p, const Eigen::Vec
 }
 
 std::optional<Pose> throughTriple(const std::array<const Item*, 3>& triple, const StereoCamera& camera) {
-  const auto a = axesOf(triple[0]->p_a, triple[1]->p_a, triple[2]->p_a);
-  const auto b = axesOf(triple[0]->p_b, triple[1]->p_b, triple[2]->p_b);
+  const auto a = findAxes(triple[0]->p_a, triple[1]->p_a, triple[2]->p_a);
+  const auto b = findAxes(triple[0]->p_b, triple[1]->p_b, triple[2]->p_b);
   if (!a || !b) return std::nullopt;
   const Eigen::Matrix3d R = *a * b->transpose();
   Eigen::Vector3d middle_a = Eigen::Vector3d::Zero(), middle_b = Eigen::Vector3d::Zero();
@@ -147,7 +147,7 @@ Pose improve(const std::vector<Item>& items, const StereoCamera& camera, Pose T_
     options.scaled = false;
     const Pose better = estimate(camera, sights, T_a_b, options).T_a_b;
     if (!better.isFinite()) break;
-    const Score its = scoreOf(items, camera, better);
+    const Score its = computeScore(items, camera, better);
     if (its.cost >= score.cost) break;
     score = its;
     T_a_b = better;
@@ -168,7 +168,7 @@ int samplesFor(int inliers, std::size_t count) {
 Consensus findConsensus(const StereoCamera& camera, const View& a, const View& b,
                         const std::vector<DescriptorMatch>& pairs) {
   Consensus made;
-  const std::vector<Item> items = itemsOf(camera, a, b, pairs);
+  const std::vector<Item> items = makeItems(camera, a, b, pairs);
   std::vector<const Item*> deep;
   for (const Item& item : items)
     if (item.deep) deep.push_back(&item);
@@ -186,7 +186,7 @@ Consensus findConsensus(const StereoCamera& camera, const View& a, const View& b
     }
     const auto T_a_b = throughTriple(triple, camera);
     if (!T_a_b) continue;
-    Score score = scoreOf(items, camera, *T_a_b);
+    Score score = computeScore(items, camera, *T_a_b);
     if (score.cost >= best.cost) continue;
     made.T_a_b = improve(items, camera, *T_a_b, score);
     best = score;

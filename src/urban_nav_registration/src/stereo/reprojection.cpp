@@ -17,8 +17,8 @@ double inverseDepth(const Sight& sight, const StereoCamera& camera) {
   return (sight.disparity - camera.disparity_offset) / (camera.left.fx * camera.baseline);
 }
 
-SightResidual residualOf(const Sight& sight, const StereoCamera& camera, const Pose& T_a_b, double offset,
-                         double inverse_depth) {
+SightResidual computeResidual(const Sight& sight, const StereoCamera& camera, const Pose& T_a_b, double offset,
+                              double inverse_depth) {
   SightResidual made;
   const auto& c = camera.left;
   const double per_depth = c.fx * camera.baseline, rho = inverse_depth;

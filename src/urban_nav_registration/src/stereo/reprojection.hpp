@@ -36,8 +36,8 @@ struct SightResidual {
 };
 
 /// Of a point at `inverse_depth` in its own view.
-SightResidual residualOf(const Sight& sight, const urban_nav_core::StereoCamera& camera,
-                         const urban_nav_core::Pose& T_a_b, double offset, double inverse_depth);
+SightResidual computeResidual(const Sight& sight, const urban_nav_core::StereoCamera& camera,
+                              const urban_nav_core::Pose& T_a_b, double offset, double inverse_depth);
 
 /// 1/z by the sight's own disparity.
 double inverseDepth(const Sight& sight, const urban_nav_core::StereoCamera& camera);

@@ -98,7 +98,7 @@ class StereoMatcher::Implementation {
   Implementation(const StereoCamera& camera, const Parameters& parameters) : camera_(camera), parameters_(parameters) {}
 
   StereoClosure match(const Keyframe& keyframe_a, const Keyframe& keyframe_b) {
-    const std::shared_ptr<const View> a = viewOf(keyframe_a), b = viewOf(keyframe_b);
+    const std::shared_ptr<const View> a = toView(keyframe_a), b = toView(keyframe_b);
     StereoClosure closure;
     closure.points_a = static_cast<int>(a->points.size());
     closure.points_b = static_cast<int>(b->points.size());
@@ -121,7 +121,7 @@ class StereoMatcher::Implementation {
   }
 
  private:
-  std::shared_ptr<const View> viewOf(const Keyframe& keyframe) {
+  std::shared_ptr<const View> toView(const Keyframe& keyframe) {
     const auto known =
         std::find_if(views_.begin(), views_.end(), [&](const auto& view) { return view->at == keyframe.at; });
     if (known != views_.end()) {

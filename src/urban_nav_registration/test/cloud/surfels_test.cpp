@@ -21,7 +21,7 @@ constexpr float kVoxel = 0.25F;
 using Key = std::array<int, 3>;
 
 Key keyAt(const Eigen::Vector3f& point) {
-  const Cell cell = cellOf(point, 1.0F / kVoxel);
+  const Cell cell = toCell(point, 1.0F / kVoxel);
   return {cell.x, cell.y, cell.z};
 }
 
@@ -83,7 +83,7 @@ TEST(Surfels, whereBeamsAreFarApartLargerCubesKnowTheNormal) {
 TEST(Surfels, theKeyOfACellBesideIsFoundWithoutTheCell) {
   for (const Cell& cell : {Cell{0, 0, 0}, Cell{-1, 5, -7}, Cell{kFarthestCell, -kFarthestCell, kFarthestCell}})
     for (const Cell& by : {Cell{-1, -1, -1}, Cell{1, -1, 0}, Cell{0, 1, 1}})
-      EXPECT_EQ(keyBeside(keyOf(cell), by), keyOf({cell.x + by.x, cell.y + by.y, cell.z + by.z}));
+      EXPECT_EQ(keyBeside(toKey(cell), by), toKey({cell.x + by.x, cell.y + by.y, cell.z + by.z}));
 }
 
 }  // namespace

@@ -46,14 +46,14 @@ struct Pair {
   Pose truth;
 };
 
-Pair pairOf(const World& world, const Pose& T_world_source, const Pose& T_world_target, std::uint64_t seed) {
+Pair makePair(const World& world, const Pose& T_world_source, const Pose& T_world_target, std::uint64_t seed) {
   return {scan(world, T_world_source, Scanner{}, 2 * seed + 1), scan(world, T_world_target, Scanner{}, 2 * seed + 2),
           T_world_target.inverse() * T_world_source};
 }
 
 TEST(Align, findsSmallMotionsFromTheIdentity) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const Pair pair = pairOf(courtyard(seed), stand(1.0, 0.5, 5.0, 1.0, -2.0), stand(0.3, 0.1, 0.0), seed);
+    const Pair pair = makePair(courtyard(seed), stand(1.0, 0.5, 5.0, 1.0, -2.0), stand(0.3, 0.1, 0.0), seed);
     const Alignment alignment = align(pair.source, pair.target, {});
     EXPECT_EQ(alignment.verdict, ClosureVerdict::Accepted) << seed << ": " << alignment.sentence;
     EXPECT_LT(distanceBetween(alignment.T_target_source, pair.truth), 0.02) << seed;
@@ -68,7 +68,7 @@ TEST(Align, needsNoGuessWhateverTheHeading) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const Pose there = stand(dice.uniform(-3.0, 3.0), dice.uniform(-3.0, 3.0), dice.uniform(90.0, 270.0),
                              dice.uniform(-4.0, 4.0), dice.uniform(-4.0, 4.0));
-    const Pair pair = pairOf(courtyard(seed), there, stand(0.5, -0.5, 20.0), seed);
+    const Pair pair = makePair(courtyard(seed), there, stand(0.5, -0.5, 20.0), seed);
     for (const SearchMode search : {SearchMode::IfRejected, SearchMode::AtOnce}) {
       const Alignment alignment = align(pair.source, pair.target, {}, {}, search);
       EXPECT_EQ(alignment.verdict, ClosureVerdict::Accepted) << seed << ": " << alignment.sentence;
@@ -86,7 +86,7 @@ TEST(Align, whatIsKnownOfTheHeadingDecidesBetweenTwoThatFit) {
     box.blocks.push_back(
         {-away * std::sin(heading), away * std::cos(heading), side % 2 == 0 ? 24.0 : 16.0, 1.0, 0.0, 6.0, heading});
   }
-  const Pair pair = pairOf(box, stand(1.0, 0.5, 175.0), stand(-0.5, 0.3, 0.0), 1);
+  const Pair pair = makePair(box, stand(1.0, 0.5, 175.0), stand(-0.5, 0.3, 0.0), 1);
   const Alignment without = align(pair.source, pair.target, {}, {}, SearchMode::AtOnce);
   EXPECT_EQ(without.reason, AlignmentReason::Ambiguous) << without.sentence;
   ASSERT_TRUE(without.alternative);
@@ -135,10 +135,10 @@ World panelledCourt(std::uint64_t seed, double nearer = 0.0) {
   return court;
 }
 
-/// As pairOf, with the origins of the beams: the sensor.
+/// As makePair, with the origins of the beams: the sensor.
 Pair gatheredPair(const World& source, const World& target, std::uint64_t seed) {
-  Pair pair = pairOf(source, stand(1.0, 0.5, 5.0), stand(-0.5, 0.3, 0.0), seed);
-  pair.target = pairOf(target, stand(1.0, 0.5, 5.0), stand(-0.5, 0.3, 0.0), seed).target;
+  Pair pair = makePair(source, stand(1.0, 0.5, 5.0), stand(-0.5, 0.3, 0.0), seed);
+  pair.target = makePair(target, stand(1.0, 0.5, 5.0), stand(-0.5, 0.3, 0.0), seed).target;
   for (PointCloud* cloud : {&pair.source, &pair.target})
     cloud->origins.assign(cloud->points.size(), Eigen::Vector3f::Zero());
   return pair;
@@ -190,7 +190,7 @@ PointCloud ahead(const PointCloud& cloud, double half_deg) {
 TEST(Align, whereNothingElseComesNearLessOfTheSurfacesWillDo) {
   int alone = 0;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-    Pair pair = pairOf(courtyard(seed), stand(1.0, 0.5, 5.0), stand(0.3, 0.1, 0.0), seed);
+    Pair pair = makePair(courtyard(seed), stand(1.0, 0.5, 5.0), stand(0.3, 0.1, 0.0), seed);
     pair.target = ahead(pair.target, 70.0);
     EXPECT_EQ(align(pair.source, pair.target, {}, {}, SearchMode::Never).reason, AlignmentReason::TooFewInliers)
         << "it tests nothing";
@@ -224,7 +224,7 @@ TEST(Align, whatASearchFindsIsNoBetterThanNoiseLetsIt) {
 }
 
 TEST(Align, whereNothingIsPossibleItSaysSo) {
-  const Pair pair = pairOf(courtyard(1), stand(1.0, 0.5, 5.0), stand(0.3, 0.1, 0.0), 1);
+  const Pair pair = makePair(courtyard(1), stand(1.0, 0.5, 5.0), stand(0.3, 0.1, 0.0), 1);
   const auto never = [](const urban_nav_core::Constraint&) { return false; };
   for (const SearchMode search : {SearchMode::Never, SearchMode::IfRejected, SearchMode::AtOnce}) {
     const Alignment alignment = align(pair.source, pair.target, {}, {}, search, {never, {}});
@@ -243,7 +243,7 @@ TEST(Align, neverTakesOnePlaceForAnother) {
 }
 
 TEST(Align, aFacadeLeavesItsDirectionFree) {
-  const Pair pair = pairOf(urban_nav_core::testing::facade(), stand(3.0, 0.2, 2.0), stand(0.0, 0.0, 0.0), 1);
+  const Pair pair = makePair(urban_nav_core::testing::facade(), stand(3.0, 0.2, 2.0), stand(0.0, 0.0, 0.0), 1);
   const Alignment alignment = align(pair.source, pair.target, {});
   EXPECT_EQ(alignment.verdict, ClosureVerdict::Degenerate);
   EXPECT_EQ(alignment.reason, AlignmentReason::FreeDirections);
@@ -257,7 +257,7 @@ TEST(Align, aFacadeLeavesItsDirectionFree) {
 }
 
 TEST(Align, groundHoldsHeightRollAndPitchAlone) {
-  const Pair pair = pairOf(urban_nav_core::testing::plain(), stand(1.0, 0.7, 10.0, 1.0), stand(0.0, 0.0, 0.0), 1);
+  const Pair pair = makePair(urban_nav_core::testing::plain(), stand(1.0, 0.7, 10.0, 1.0), stand(0.0, 0.0, 0.0), 1);
   const Alignment alignment = align(pair.source, pair.target, {});
   EXPECT_EQ(alignment.verdict, ClosureVerdict::Degenerate);
   EXPECT_EQ(alignment.free_directions.size(), 3U);
@@ -266,7 +266,7 @@ TEST(Align, groundHoldsHeightRollAndPitchAlone) {
 }
 
 TEST(Align, givesTheSameBitsWhateverTheThreads) {
-  const Pair pair = pairOf(courtyard(9), stand(2.0, 1.0, 170.0), stand(0.0, 0.0, 0.0), 3);
+  const Pair pair = makePair(courtyard(9), stand(2.0, 1.0, 170.0), stand(0.0, 0.0, 0.0), 3);
   std::vector<Alignment> alignments;
   for (const int threads : {1, 2, 5}) {
     const urban_nav_core::ThreadLimit limit(threads);
@@ -319,7 +319,7 @@ TEST(Align, anotherScaleIsRejected) {
 }
 
 TEST(Align, beamsWithoutReturnDoNotMatter) {
-  const Pair pair = pairOf(courtyard(3), stand(1.0, 0.5, 5.0), stand(0.0, 0.0, 0.0), 4);
+  const Pair pair = makePair(courtyard(3), stand(1.0, 0.5, 5.0), stand(0.0, 0.0, 0.0), 4);
   PointCloud source;
   for (const Eigen::Vector3f& point : pair.source.points) {
     source.points.push_back(point);
@@ -332,7 +332,7 @@ TEST(Align, beamsWithoutReturnDoNotMatter) {
 
 TEST(Align, aThirdOfOutliersIsBorne) {
   Dice dice(8);
-  Pair pair = pairOf(courtyard(4), stand(1.0, 0.5, 5.0), stand(0.0, 0.0, 0.0), 5);
+  Pair pair = makePair(courtyard(4), stand(1.0, 0.5, 5.0), stand(0.0, 0.0, 0.0), 5);
   for (Eigen::Vector3f& point : pair.source.points)
     if (dice.chance(0.3))
       point += Eigen::Vector3f(static_cast<float>(dice.uniform(-5, 5)), static_cast<float>(dice.uniform(-5, 5)),

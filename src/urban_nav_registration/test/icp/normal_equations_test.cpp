@@ -76,10 +76,10 @@ TEST(NormalEquations, theRightHandSideIsHalfTheGradientOfTheCost) {
 
 TEST(NormalEquations, theSpreadIsTheDeviationOfAGaussian) {
   std::vector<Match> matches = randomMatches(20000);
-  EXPECT_NEAR(spreadOf(matches), 0.1, 0.003);
+  EXPECT_NEAR(computeSpread(matches), 0.1, 0.003);
   for (std::size_t i = 0; i < matches.size(); i += 4) matches[i].residual = 50.0;
-  EXPECT_LT(spreadOf(matches), 0.2);
-  EXPECT_EQ(spreadOf({}), 0.0);
+  EXPECT_LT(computeSpread(matches), 0.2);
+  EXPECT_EQ(computeSpread({}), 0.0);
 }
 
 }  // namespace

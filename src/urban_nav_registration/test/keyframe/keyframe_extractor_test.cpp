@@ -17,7 +17,7 @@ using urban_nav_core::testing::lookingAlong;
 using urban_nav_core::testing::texturedRoom;
 using urban_nav_registration::testing::Photographer;
 
-std::string bytesOf(Keyframe keyframe) {
+std::string toBytes(Keyframe keyframe) {
   urban_nav_core::Archive archive;
   archive(keyframe);
   return archive.take();
@@ -55,7 +55,7 @@ TEST(KeyframeExtractor, GivesTheSameBytesWhateverTheThreads) {
   std::string first;
   for (const int threads : {1, 2}) {
     const urban_nav_core::ThreadLimit limit(threads);
-    const std::string bytes = bytesOf(extractor.extract({"s", 5}, frame.pair()));
+    const std::string bytes = toBytes(extractor.extract({"s", 5}, frame.pair()));
     if (first.empty()) first = bytes;
     EXPECT_EQ(bytes, first);
   }

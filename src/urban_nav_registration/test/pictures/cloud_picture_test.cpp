@@ -24,7 +24,7 @@ struct Counts {
   int red = 0, blue = 0, purple = 0;
 };
 
-Counts countsOf(const Picture& picture, int which) {
+Counts computeCounts(const Picture& picture, int which) {
   Counts counts;
   for (int v = 20; v < panel - 30; ++v)  // without title and bar
     for (int u = which * (panel + gap); u < which * (panel + gap) + panel; ++u) {
@@ -63,7 +63,7 @@ TEST(CloudPicture, purpleWhereTheCloudsMeetAndTwoColoursWhereTheyDoNot) {
   const Picture picture = drawn(moved(wall(), T.inverse()), wall(), Pose(), T);
   EXPECT_EQ(picture.width, 3 * panel + 2 * gap);
   ASSERT_EQ(picture.bgr.size(), 3U * picture.width * picture.height);
-  const Counts before = countsOf(picture, 0), above = countsOf(picture, 1), side = countsOf(picture, 2);
+  const Counts before = computeCounts(picture, 0), above = computeCounts(picture, 1), side = computeCounts(picture, 2);
   EXPECT_GT(before.red, 100);
   EXPECT_GT(before.blue, 100);
   EXPECT_GT(above.purple, 100);

@@ -72,12 +72,12 @@ TEST(MatchPicture, ShowsTheViewsBesideOrAboveEachOther) {
 
 TEST(MatchPicture, MatchesAreLinesWhoseColourIsTheResidual) {
   const Keyframe a = emptyView(200, 100), b = emptyView(200, 100);
-  const auto middleOf = [&](double residual, bool inlier) {
+  const auto toMiddle = [&](double residual, bool inlier) {
     const Picture picture = drawMatches(a, b, {{{20.0, 30.0}, {160.0, 30.0}, residual, inlier}});
     return colourAt(picture, 190, 30);
   };
-  const ViewColour good = middleOf(0.0, true), bad = middleOf(0.5, true), worse = middleOf(50.0, true),
-                   other = middleOf(0.0, false);
+  const ViewColour good = toMiddle(0.0, true), bad = toMiddle(0.5, true), worse = toMiddle(50.0, true),
+                   other = toMiddle(0.0, false);
   EXPECT_GT(good.green, good.red + 50);
   EXPECT_GT(bad.red, bad.green + 50);
   EXPECT_EQ(worse.red, bad.red);

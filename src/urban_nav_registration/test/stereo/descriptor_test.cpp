@@ -13,7 +13,7 @@ namespace {
 using urban_nav_core::Pyramid;
 
 /// A picture of a function of place.
-Pyramid pictureOf(const std::function<double(double, double)>& grey) {
+Pyramid toPicture(const std::function<double(double, double)>& grey) {
   std::vector<std::uint8_t> pixels(200 * 160);
   for (int v = 0; v < 160; ++v)
     for (int u = 0; u < 200; ++u)
@@ -34,15 +34,15 @@ double distanceBetween(const Pyramid& a, const Eigen::Vector2d& at_a, double win
 }
 
 TEST(Descriptor, IsAUnitVectorThatLightDoesNotChange) {
-  const Pyramid plain = pictureOf(scene),
-                other = pictureOf([](double x, double y) { return 0.6 * scene(x, y) + 40.0; });
+  const Pyramid plain = toPicture(scene),
+                other = toPicture([](double x, double y) { return 0.6 * scene(x, y) + 40.0; });
   EXPECT_NEAR(describe(plain, {100.0, 80.0}, 32.0).norm(), 1.0F, 1e-5F);
   EXPECT_LT(distanceBetween(plain, {100.0, 80.0}, 32.0, other, {100.0, 80.0}, 32.0), 0.05);
   EXPECT_GT(distanceBetween(plain, {100.0, 80.0}, 32.0, plain, {125.0, 70.0}, 32.0), 0.5);
 }
 
 TEST(Descriptor, FollowsTheScaleThatIsGiven) {
-  const Pyramid near = pictureOf(scene), far = pictureOf([](double x, double y) {
+  const Pyramid near = toPicture(scene), far = toPicture([](double x, double y) {
                                            return scene(100.0 + 1.7 * (x - 100.0), 80.0 + 1.7 * (y - 80.0));
                                          });
   EXPECT_LT(distanceBetween(near, {100.0, 80.0}, 51.0, far, {100.0, 80.0}, 30.0), 0.25);
@@ -50,7 +50,7 @@ TEST(Descriptor, FollowsTheScaleThatIsGiven) {
 }
 
 TEST(Descriptor, NothingToSeeIsZeroAndMatchesNothing) {
-  const Pyramid flat = pictureOf([](double, double) { return 90.0; });
+  const Pyramid flat = toPicture([](double, double) { return 90.0; });
   EXPECT_EQ(describe(flat, {100.0, 80.0}, 32.0).norm(), 0.0F);
   Descriptors zeros = Descriptors::Zero(descriptor_size, 5);
   EXPECT_TRUE(mutualNearest(zeros, zeros).empty());
@@ -58,7 +58,7 @@ TEST(Descriptor, NothingToSeeIsZeroAndMatchesNothing) {
 }
 
 TEST(Descriptor, BordersAndCornersAreReadToo) {
-  const Pyramid picture = pictureOf(scene);
+  const Pyramid picture = toPicture(scene);
   for (const Eigen::Vector2d& at : {Eigen::Vector2d(0, 0), Eigen::Vector2d(199, 159), Eigen::Vector2d(0, 159)})
     EXPECT_TRUE(describe(picture, at, 130.0).allFinite());
 }

@@ -9,7 +9,7 @@
 namespace urban_nav_ros {
 
 /// The level of diagnostic_msgs/DiagnosticStatus at which a stage's health is told.
-unsigned char diagnosticLevelOf(urban_nav_core::Health health);
+unsigned char toDiagnosticLevel(urban_nav_core::Health health);
 
 /// When a topic was heard last, by the wall clock: what a silent graph is told by. Not thread-safe.
 class Arrival {

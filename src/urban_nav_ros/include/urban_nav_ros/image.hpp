@@ -39,6 +39,6 @@ sensor_msgs::Image toImageMessage(const cv::Mat& grey);
 sensor_msgs::Image toColourImageMessage(const cv::Mat& bgr);
 
 /// A look at pixels of type CV_8UC1 that somebody else keeps alive; empty for an empty matrix.
-urban_nav_core::ImageView viewOf(const cv::Mat& grey);
+urban_nav_core::ImageView toView(const cv::Mat& grey);
 
 }  // namespace urban_nav_ros

@@ -66,7 +66,7 @@ class StereoFeed {
  private:
   using Input =
       std::variant<sensor_msgs::ImageConstPtr, sensor_msgs::CompressedImageConstPtr, urban_nav_core::MotionInput>;
-  int streamOf(Side side) const;
+  int toStream(Side side) const;
   urban_nav_core::OwnedImage decode(Side side, urban_nav_core::StampNs stamp, const Input& input);
 
   std::shared_ptr<const StereoCalibration> calibration_;

@@ -70,6 +70,6 @@ struct ViewTruth {
 using Measurement = std::variant<StereoMeasurement, LadybugMeasurement, LaserMeasurement, ImuMeasurement,
                                  WheelMeasurement, GpsMeasurement, TruthMeasurement, ViewTruth>;
 
-urban_nav_core::StampNs stampOf(const Measurement& measurement);
+urban_nav_core::StampNs toStamp(const Measurement& measurement);
 
 }  // namespace urban_nav_sim

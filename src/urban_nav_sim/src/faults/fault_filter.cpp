@@ -40,7 +40,7 @@ FaultFilter::FaultFilter(std::vector<Fault> faults, std::uint64_t seed, StampNs 
 
 void FaultFilter::spoil(const Fault& fault, const Stream& stream, Measurement& measurement) {
   const auto freeze = [&] {
-    const StampNs now = stampOf(measurement);
+    const StampNs now = toStamp(measurement);
     measurement = last_good_.try_emplace(stream, measurement).first->second;
     setStamp(now, measurement);
   };
@@ -53,7 +53,7 @@ void FaultFilter::spoil(const Fault& fault, const Stream& stream, Measurement& m
       return;
     case FaultKind::Corrupt: return corrupt(fault.value.value_or(default_corrupt), hash(seed_, count_), measurement);
     case FaultKind::Jump:
-      return setStamp(stampOf(measurement) + std::llround(1e9 * fault.value.value_or(default_jump)), measurement);
+      return setStamp(toStamp(measurement) + std::llround(1e9 * fault.value.value_or(default_jump)), measurement);
     case FaultKind::Nan: return blank(measurement);
   }
 }

@@ -22,7 +22,7 @@ constexpr double kBehind = 0.05;  // s
 
 double roundedTo(double value, double per_unit) { return std::round(value * per_unit) / per_unit + 0.0; }
 
-std::string stampOf(const Trajectory& panoramas, std::size_t index) { return std::to_string(panoramas[index].stamp); }
+std::string toStamp(const Trajectory& panoramas, std::size_t index) { return std::to_string(panoramas[index].stamp); }
 
 }  // namespace
 
@@ -49,7 +49,7 @@ void writeRevisits(const std::string& path, const Trajectory& panoramas, const s
   file.write(printCsvRow({"stamp_a_ns", "stamp_b_ns", "distance_m", "heading_deg"}));
   for (const Revisit& each : revisits) {
     file.write(
-        printCsvRow({stampOf(panoramas, each.a), stampOf(panoramas, each.b), printNumber(roundedTo(each.distance, 1e4)),
+        printCsvRow({toStamp(panoramas, each.a), toStamp(panoramas, each.b), printNumber(roundedTo(each.distance, 1e4)),
                      printNumber(roundedTo(each.heading_deg, 1e3))}));
   }
   file.commit();
@@ -60,7 +60,7 @@ void writeClosures(const std::string& path, const Trajectory& panoramas, const s
   file.write(printCsvRow({"session_a", "stamp_a_ns", "session_b", "stamp_b_ns", "probability"}));
   for (const Closure& each : closures) {
     file.write(
-        printCsvRow({"0", stampOf(panoramas, each.a), "0", stampOf(panoramas, each.b), printNumber(each.probability)}));
+        printCsvRow({"0", toStamp(panoramas, each.a), "0", toStamp(panoramas, each.b), printNumber(each.probability)}));
   }
   file.commit();
 }

@@ -13,7 +13,7 @@ urban_nav_core::StampNs stamp(const LaserMeasurement& measurement) { return meas
 
 }  // namespace
 
-urban_nav_core::StampNs stampOf(const Measurement& measurement) {
+urban_nav_core::StampNs toStamp(const Measurement& measurement) {
   return std::visit([](const auto& any) { return stamp(any); }, measurement);
 }
 

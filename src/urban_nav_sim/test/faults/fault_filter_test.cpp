@@ -33,7 +33,7 @@ GpsMeasurement gpsAt(double t) {
 int grey(const cv::Mat& image) { return image.at<std::uint8_t>(0, 0); }
 
 std::optional<Measurement> applied(FaultFilter& filter, const Measurement& measurement) {
-  return filter.apply(measurement, stampOf(measurement));
+  return filter.apply(measurement, toStamp(measurement));
 }
 
 FaultFilter makeFilter(const std::string& fault) { return {{parseFault(fault)}, 7, begin}; }
@@ -108,7 +108,7 @@ TEST(FaultFilter, CorruptsACopyAndStaysFinite) {
 
 TEST(FaultFilter, JumpsAndBlanks) {
   FaultFilter jump = makeFilter("jump:gps:0:9:-2.5");
-  EXPECT_EQ(stampOf(*applied(jump, gpsAt(1.0))), at(-1.5));
+  EXPECT_EQ(toStamp(*applied(jump, gpsAt(1.0))), at(-1.5));
   FaultFilter blank = makeFilter("nan:imu:0:9");
   const auto imu = std::get<ImuMeasurement>(*applied(blank, imuAt(1.0)));
   EXPECT_TRUE(std::isnan(imu.rate.x()));

@@ -89,18 +89,18 @@ TEST(Lms291, ErrsAsItsDataSheetSays) {
 TEST(Lms291, EachDefectIsSwitchedByItself) {
   const World world = yard();
   const Tracer tracer(world);
-  const auto scanOf = [&](const Lms291::Settings& settings, std::vector<BeamTruth>& truth) {
+  const auto makeScan = [&](const Lms291::Settings& settings, std::vector<BeamTruth>& truth) {
     return Lms291(tracer, sensorPose("laser_right"), 7, "laser_right", settings)
         .scan(SteadyMotion(), 0.0, 0, 0, &truth);
   };
   std::vector<BeamTruth> truth;
-  const PlanarScan exact = scanOf(Lms291::Settings::exact(), truth);
+  const PlanarScan exact = makeScan(Lms291::Settings::exact(), truth);
   Lms291::Settings stepped = Lms291::Settings::exact(), losing = stepped, mixing = stepped;
   stepped.step = 1e-3;
   losing.loses = true;
   mixing.mixes = true;
-  const PlanarScan in_steps = scanOf(stepped, truth), with_losses = scanOf(losing, truth),
-                   mixed = scanOf(mixing, truth);
+  const PlanarScan in_steps = makeScan(stepped, truth), with_losses = makeScan(losing, truth),
+                   mixed = makeScan(mixing, truth);
   int lost = 0, moved = 0;
   for (std::size_t beam = 0; beam < truth.size(); ++beam) {
     if (!(truth[beam].range < 32.0)) continue;

@@ -148,7 +148,7 @@ TEST(Noise, BelowIsEvenAndChanceHasItsProbability) {
 
 // What other machines must give as well; a change here changes every simulated byte.
 TEST(Noise, SameBitsEverywhere) {
-  const auto bitsOf = [](double x) {
+  const auto toBits = [](double x) {
     std::uint64_t bits = 0;
     std::memcpy(&bits, &x, sizeof(bits));
     return bits;
@@ -157,7 +157,7 @@ TEST(Noise, SameBitsEverywhere) {
   EXPECT_EQ(noise.bits(0), 9406206974837856439U);
   EXPECT_EQ(noise.of(3).bits(1U << 20), 9970584337589087420U);
   std::uint64_t all = 0;
-  for (std::uint64_t i = 0; i < 10000; ++i) all = all * 31 + bitsOf(noise.normal(i));
+  for (std::uint64_t i = 0; i < 10000; ++i) all = all * 31 + toBits(noise.normal(i));
   EXPECT_EQ(all, 15259115872865884821U);
 }
 

@@ -29,7 +29,7 @@ TEST(Timeline, AsksDevicesInTheOrderOfTime) {
   int count = 0;
   while (const auto due = timeline.next()) {
     EXPECT_GE(due->taken, last);
-    EXPECT_EQ(stampOf(due->measurement), std::llround(1e9 * due->taken));
+    EXPECT_EQ(toStamp(due->measurement), std::llround(1e9 * due->taken));
     last = due->taken;
     ++count;
   }

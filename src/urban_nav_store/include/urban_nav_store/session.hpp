@@ -25,7 +25,7 @@ struct SessionOrigin {
 /// Returns the first 80 bits of SHA-256 (FIPS 180-4) of the origin. Deterministic: all computers of one robot compute
 /// the same id of a live session from its name and start, and a recording mapped twice has one id. Probability that any
 /// two of a million sessions collide: 10^-12.
-SessionId sessionIdOf(const SessionOrigin& origin);
+SessionId makeSessionId(const SessionOrigin& origin);
 
 struct Session {
   SessionId id;

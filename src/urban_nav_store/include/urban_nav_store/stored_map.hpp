@@ -24,7 +24,7 @@ StoredTrajectory readTrajectory(Store& store, const Session& session);
 
 /// Returns the sessions whose id or name begins with one of `wanted`, or all if it is empty. Throws UserError for an
 /// entry without a session.
-std::vector<Session> sessionsOf(Store& store, const std::vector<std::string>& wanted);
+std::vector<Session> selectSessions(Store& store, const std::vector<std::string>& wanted);
 
 /// Returns trajectories grouped by map, in the order of each map's first session.
 std::vector<std::vector<StoredTrajectory>> readMaps(Store& store, const std::vector<Session>& sessions);

@@ -17,7 +17,7 @@ using urban_nav_core::UserError;
 
 namespace {
 
-std::string lockPathOf(const std::string& path) { return path + "-lock"; }
+std::string makeLockPath(const std::string& path) { return path + "-lock"; }
 
 /// Is what lies at the path still what was opened? A holder removes the file before it lets go.
 bool isStillThere(const std::string& path, int descriptor) {
@@ -29,7 +29,7 @@ bool isStillThere(const std::string& path, int descriptor) {
 
 }  // namespace
 
-WriterLock::WriterLock(const std::string& path) : lock_path_(lockPathOf(path)) {
+WriterLock::WriterLock(const std::string& path) : lock_path_(makeLockPath(path)) {
   while (true) {
     descriptor_ = ::open(lock_path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (descriptor_ < 0)
@@ -50,7 +50,7 @@ WriterLock::~WriterLock() {
 }
 
 bool WriterLock::isHeld(const std::string& path) {
-  const int descriptor = ::open(lockPathOf(path).c_str(), O_RDONLY | O_CLOEXEC);
+  const int descriptor = ::open(makeLockPath(path).c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return false;
   const bool held = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0;
   ::close(descriptor);

@@ -14,7 +14,7 @@ namespace {
 constexpr int kPatience = 5000;  // ms to wait for another process that recovers the log or closes its connection
 
 /// A path as SQLite's URIs want it.
-std::string uriOf(const std::string& path) {
+std::string toUri(const std::string& path) {
   std::string uri = "file:";
   for (const char c : path) {
     if (c == '%' || c == '?' || c == '#') {
@@ -29,7 +29,7 @@ std::string uriOf(const std::string& path) {
 }
 
 /// errno of the last call that failed on the file or its log.
-int systemErrorOf(sqlite3* handle) {
+int findSystemError(sqlite3* handle) {
   if (const int error = sqlite3_system_errno(handle); error != 0) return error;
   int error = 0;
   sqlite3_file* log = nullptr;
@@ -39,7 +39,7 @@ int systemErrorOf(sqlite3* handle) {
   return error;
 }
 
-int flagsOf(Connection::Mode mode) {
+int toFlags(Connection::Mode mode) {
   constexpr int common = SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX;
   switch (mode) {
     case Connection::Mode::Read:
@@ -56,8 +56,8 @@ Connection::Connection(const std::string& path, Mode mode, std::string name)
     : name_(name.empty() ? path : std::move(name)), writes_(mode == Mode::Write || mode == Mode::Create) {
   // A relative path that begins with a slash would be taken for a host in a URI, and "//" for one too.
   const std::string uri =
-      uriOf(path.rfind("//", 0) == 0 ? path.substr(1) : path) + (mode == Mode::ReadFrozen ? "?immutable=1" : "");
-  const int code = sqlite3_open_v2(uri.c_str(), &handle_, flagsOf(mode), nullptr);
+      toUri(path.rfind("//", 0) == 0 ? path.substr(1) : path) + (mode == Mode::ReadFrozen ? "?immutable=1" : "");
+  const int code = sqlite3_open_v2(uri.c_str(), &handle_, toFlags(mode), nullptr);
   try {
     if (code != SQLITE_OK) fail(code);
     sqlite3_extended_result_codes(handle_, 1);
@@ -85,7 +85,7 @@ sqlite3* Connection::handle() const {
 }
 
 void Connection::fail(int code) const {
-  const int system_error = handle_ == nullptr ? 0 : systemErrorOf(handle_);
+  const int system_error = handle_ == nullptr ? 0 : findSystemError(handle_);
   const bool of_the_disk = (code & 0xff) == SQLITE_IOERR || (code & 0xff) == SQLITE_CANTOPEN ||
                            (code & 0xff) == SQLITE_READONLY || (code & 0xff) == SQLITE_FULL;
   const std::string message = handle_ == nullptr ? sqlite3_errstr(code) : sqlite3_errmsg(handle_);

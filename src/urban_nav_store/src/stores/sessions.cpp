@@ -28,7 +28,7 @@ std::vector<Part> sessionRows(TableAccess& tables, const SessionId& id, Part Row
 
 }  // namespace
 
-SessionId sessionIdOf(const SessionOrigin& origin) {
+SessionId makeSessionId(const SessionOrigin& origin) {
   std::string bytes = "urban_nav session";
   appendText(bytes, origin.robot);
   appendText(bytes, origin.recording);

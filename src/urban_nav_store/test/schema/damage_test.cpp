@@ -14,7 +14,7 @@
 namespace urban_nav_store {
 namespace {
 
-using testing::errorOf;
+using testing::catchError;
 using testing::fill;
 using testing::Folder;
 using testing::readFile;
@@ -37,21 +37,21 @@ class Damage : public ::testing::Test {
   /// What was read of a damaged file: all, or an error that names it.
   enum class Outcome { Same, Refused, Other };
   template <typename Read>
-  Outcome outcomeOf(const Read& read) {
+  Outcome makeOutcome(const Read& read) {
     std::string text;
-    const std::string error = errorOf([&] { text = read(); });
+    const std::string error = catchError([&] { text = read(); });
     if (error.empty()) return text == whole ? Outcome::Same : Outcome::Other;
     return error.rfind(path, 0) == 0 ? Outcome::Refused : Outcome::Other;
   }
   Outcome opened() {
-    return outcomeOf([&] {
+    return makeOutcome([&] {
       Store store(path, Access::Read);
       return dump(store);
     });
   }
   /// As a large store is read, which is not checked throughout when it is opened.
   Outcome readOnly() {
-    return outcomeOf([&] {
+    return makeOutcome([&] {
       Connection connection(path, Connection::Mode::ReadFrozen);
       schema::check(connection);
       return dumpTables(connection);
@@ -110,7 +110,7 @@ TEST_F(Damage, aDamagedStoreIsNotWrittenTo) {
   std::string damaged = bytes;
   damaged.replace(5 * kPage, kPage, kPage, '\xff');
   writeFile(path, damaged);
-  EXPECT_NE(errorOf([&] { Store(path, Access::Write); }).find("is damaged"), std::string::npos);
+  EXPECT_NE(catchError([&] { Store(path, Access::Write); }).find("is damaged"), std::string::npos);
   EXPECT_EQ(readFile(path), damaged);
   removeStore(path);
   EXPECT_EQ(folder.files(), 0U);

@@ -18,7 +18,7 @@ using testing::Folder;
 using urban_nav_core::Scan;
 using urban_nav_core::StampNs;
 
-std::vector<StampNs> stampsOf(Store& store, const std::string& laser, StampNs from, StampNs to) {
+std::vector<StampNs> listStamps(Store& store, const std::string& laser, StampNs from, StampNs to) {
   std::vector<StampNs> stamps;
   store.scans().forEach("s", laser, from, to, [&](const Scan& scan) { stamps.push_back(scan.stamp); });
   return stamps;
@@ -52,9 +52,9 @@ TEST(Scans, comeBackInOrderWhateverTheOrderTheyCameIn) {
     });
     EXPECT_EQ(next, scans.size());
   }
-  EXPECT_EQ(stampsOf(store, "left", scans[120].stamp, scans[122].stamp),
+  EXPECT_EQ(listStamps(store, "left", scans[120].stamp, scans[122].stamp),
             (std::vector<StampNs>{scans[120].stamp, scans[121].stamp, scans[122].stamp}));
-  EXPECT_TRUE(stampsOf(store, "middle", -1000, 1000).empty());
+  EXPECT_TRUE(listStamps(store, "middle", -1000, 1000).empty());
 }
 
 TEST(Scans, noBeamThatIsNoneGetsIn) {
@@ -77,7 +77,7 @@ TEST(Scans, whatIsTakenBackIsNotThere) {
   store.rollback();
   store.scans().put("s", "left", drawn.scan(7, 10));
   store.commit();
-  EXPECT_EQ(stampsOf(store, "left", 0, 100), (std::vector<StampNs>{5, 7}));
+  EXPECT_EQ(listStamps(store, "left", 0, 100), (std::vector<StampNs>{5, 7}));
 }
 
 }  // namespace

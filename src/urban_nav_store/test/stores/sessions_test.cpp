@@ -20,16 +20,16 @@ using testing::Folder;
 
 TEST(SessionId, dependsOnEveryPartOfTheOriginAndOnNothingElse) {
   const SessionOrigin origin{"lisa", "run", 1225719873501685123, "digest"};
-  EXPECT_EQ(sessionIdOf(origin), sessionIdOf(origin));
-  EXPECT_EQ(sessionIdOf(origin).size(), 20U);
-  std::set<SessionId> ids = {sessionIdOf(origin)};
+  EXPECT_EQ(makeSessionId(origin), makeSessionId(origin));
+  EXPECT_EQ(makeSessionId(origin).size(), 20U);
+  std::set<SessionId> ids = {makeSessionId(origin)};
   for (const SessionOrigin& other : {SessionOrigin{"lisb", "run", origin.start, "digest"},
                                      {"lisa", "ran", origin.start, "digest"},
                                      {"lisa", "run", origin.start + 1, "digest"},
                                      {"lisa", "run", origin.start, "digesu"},
                                      {"lisar", "un", origin.start, "digest"},
                                      {"lisa", "run", origin.start, ""}})
-    EXPECT_TRUE(ids.insert(sessionIdOf(other)).second);
+    EXPECT_TRUE(ids.insert(makeSessionId(other)).second);
 }
 
 class SessionRows : public ::testing::Test {

@@ -13,8 +13,9 @@ using urban_nav_core::StampNs;
 Session Drawn::session() {
   SessionOrigin origin{"lisa", "run " + std::to_string(random_()),
                        1225719873501685123 + static_cast<StampNs>(random_()), "digest"};
-  return {sessionIdOf(origin), "a \"session\" with ' and \n in its name", origin.robot, origin.recording, origin.start,
-          random_() % 2 == 0};
+  return {makeSessionId(origin), "a \"session\" with ' and \n in its name",
+          origin.robot,          origin.recording,
+          origin.start,          random_() % 2 == 0};
 }
 
 Pose Drawn::pose() {

@@ -30,7 +30,7 @@ void writeFile(const std::string& path, const std::string& content);
 
 /// The text of the UserError that a call throws, or "".
 template <typename Call>
-std::string errorOf(const Call& call) {
+std::string catchError(const Call& call) {
   try {
     call();
   } catch (const urban_nav_core::Error& error) {
@@ -42,7 +42,7 @@ std::string errorOf(const Call& call) {
 /// The call must throw a UserError that names the file and has these words.
 template <typename Call>
 void expectError(const Call& call, const std::string& file, const std::string& words) {
-  const std::string text = errorOf(call);
+  const std::string text = catchError(call);
   EXPECT_EQ(text.rfind(file, 0), 0U) << text;
   EXPECT_NE(text.find(words), std::string::npos) << text;
 }

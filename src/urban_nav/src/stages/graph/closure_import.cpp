@@ -28,7 +28,7 @@ constexpr double kUnknownSigmaM = 0.25, kUnknownSigmaRad = 0.05;
 using Place = std::tuple<std::size_t, StampNs, std::size_t, StampNs, EdgeKind>;
 using Numbers = std::array<double, 8>;
 
-Numbers numbersOf(const Closure& closure) {
+Numbers toNumbers(const Closure& closure) {
   const Pose& T = closure.measured.T_a_b;
   return {T.t().x(), T.t().y(), T.t().z(), T.q().x(),
           T.q().y(), T.q().z(), T.q().w(), closure.measured.information.trace()};
@@ -43,7 +43,7 @@ class ClosureImport {
   /// Adds a row of the file. `row`: its index in GraphRun::closures. Returns why it cannot be used; empty if it can.
   std::string add(std::size_t row, const ClosureRow& offered) {
     for (const std::string* name : {&offered.session_a, &offered.session_b})
-      if (placeOf(*name) == sessions_.size())
+      if (findPlace(*name) == sessions_.size())
         return "no session \"" + *name + "\" in this map; there are: " + listing();
     if (offered.measured && offered.measured->verdict != urban_nav_core::ClosureVerdict::Accepted)
       return offered.measured->reason_name + ": " + offered.measured->sentence;
@@ -54,7 +54,7 @@ class ClosureImport {
     for (const bool at_a : {true, false}) {
       const std::string& name = at_a ? offered.session_a : offered.session_b;
       const StampNs stamp = at_a ? offered.stamp_a : offered.stamp_b;
-      const std::size_t session = placeOf(name);
+      const std::size_t session = findPlace(name);
       const auto moment = odometry_[session].nearestFrame(stamp);
       if (!moment) return "no frames around " + urban_nav_core::printStamp(stamp) + " s in " + name;
       (at_a ? closure.a : closure.b) = {name, moment->frame};
@@ -77,7 +77,7 @@ class ClosureImport {
       closure.measured.information.diagonal().head<3>().setConstant(1.0 / (sigma_m * sigma_m));
       closure.measured.information.diagonal().tail<3>().setConstant(1.0 / (sigma_rad * sigma_rad));
     }
-    offers_.push_back({keyOf(closure), row, closure});
+    offers_.push_back({toKey(closure), row, closure});
     return {};
   }
 
@@ -86,7 +86,7 @@ class ClosureImport {
     std::set<Place> in_file;
     for (const Offer& offer : offers_) in_file.insert(offer.key.first);
     for (std::size_t row = 0; row < previous.size(); ++row) {
-      const Key key = keyOf(previous[row].closure);
+      const Key key = toKey(previous[row].closure);
       if (in_file.count(key.first) == 0) offers_.push_back({key, row, previous[row].closure});
     }
   }
@@ -112,12 +112,13 @@ class ClosureImport {
     Closure closure;
   };
 
-  std::size_t placeOf(const std::string& session) const {
+  std::size_t findPlace(const std::string& session) const {
     return static_cast<std::size_t>(std::find(sessions_.begin(), sessions_.end(), session) - sessions_.begin());
   }
-  Key keyOf(const Closure& closure) const {
-    return {{placeOf(closure.a.session), closure.a.stamp, placeOf(closure.b.session), closure.b.stamp, closure.kind},
-            numbersOf(closure)};
+  Key toKey(const Closure& closure) const {
+    return {
+        {findPlace(closure.a.session), closure.a.stamp, findPlace(closure.b.session), closure.b.stamp, closure.kind},
+        toNumbers(closure)};
   }
   std::string listing() const {
     std::string text;

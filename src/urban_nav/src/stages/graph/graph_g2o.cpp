@@ -32,7 +32,7 @@ G2oGraph relaxedProblem(const GraphRun& run) {
     G2oGraph::Edge line;
     line.from = edge.from;
     line.to = edge.to;
-    const Pose Z = poseOf(edge.Z);
+    const Pose Z = toPose(edge.Z);
     line.values = {Z.t().x(), Z.t().y(), Z.t().z(), Z.q().x(), Z.q().y(), Z.q().z(), Z.q().w()};
     Matrix6d information =
         edge.information;  // of the rotation vector; the file has the quaternion's, which is half of it

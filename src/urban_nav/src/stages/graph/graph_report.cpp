@@ -29,8 +29,8 @@ std::vector<PlotPoint> seenFromAbove(const Trajectory& trajectory) {
 }
 
 /// Lines between the two ends of closures with this verdict.
-Series linksOf(const GraphRun& graph, urban_nav_core::ClosureVerdict verdict, const std::string& name,
-               const std::string& colour) {
+Series makeLinks(const GraphRun& graph, urban_nav_core::ClosureVerdict verdict, const std::string& name,
+                 const std::string& colour) {
   Series series;
   series.name = name;
   series.colour = colour;
@@ -59,9 +59,9 @@ Plot pathsPlot(const GraphRun& graph, const std::vector<const VoRun*>& runs) {
   plot.x_label = "x, forward at the start (m)";
   plot.y_label = "y, left (m)";
   // Behind the paths: there may be a thousand of them.
-  plot.series.push_back(linksOf(graph, urban_nav_core::ClosureVerdict::Rejected, "rejected", "bad"));
-  plot.series.push_back(linksOf(graph, urban_nav_core::ClosureVerdict::Waiting, "waiting", "fair"));
-  plot.series.push_back(linksOf(graph, urban_nav_core::ClosureVerdict::Accepted, "closures", "good"));
+  plot.series.push_back(makeLinks(graph, urban_nav_core::ClosureVerdict::Rejected, "rejected", "bad"));
+  plot.series.push_back(makeLinks(graph, urban_nav_core::ClosureVerdict::Waiting, "waiting", "fair"));
+  plot.series.push_back(makeLinks(graph, urban_nav_core::ClosureVerdict::Accepted, "closures", "good"));
   for (std::size_t s = 0; s < runs.size(); ++s) {
     Series before, after;
     before.kind = Series::Kind::Dashed;
@@ -242,7 +242,7 @@ Json toJson(const GraphRun& graph, const std::vector<SessionEvaluations>& evalua
   for (std::size_t i = 0; i < graph.sessions.size(); ++i) {
     Json session = Json::object();
     session["name"] = graph.sessions[i];
-    session["map"] = graph.sessions[graph.mapOf(i)];
+    session["map"] = graph.sessions[graph.findMap(i)];
     const urban_nav_core::Trajectory trajectory = graph.trajectory(i);
     session["frames"] = trajectory.size();
     session["length_m"] = trajectory.length();

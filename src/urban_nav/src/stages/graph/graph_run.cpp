@@ -66,12 +66,13 @@ pose_graph::Relaxed relax(PoseGraph& graph, const std::vector<const VoRun*>& run
 }
 
 // All sessions from one factorisation.
-std::vector<std::vector<Matrix6d>> covariancesOf(const PoseGraph& graph, const std::vector<std::string>& sessions) {
+std::vector<std::vector<Matrix6d>> computeCovariances(const PoseGraph& graph,
+                                                      const std::vector<std::string>& sessions) {
   std::vector<pose_graph::Rigid<3>> poses;
   std::vector<pose_graph::NodeRef> refs;
   for (const Track& track : graph.tracks())
     for (std::size_t i = 0; i < track.map.size(); ++i) {
-      poses.push_back(pose_graph::rigidOf<3>(track.map[i]));
+      poses.push_back(pose_graph::toRigid<3>(track.map[i]));
       refs.push_back({track.session, track.stamps[i]});
     }
   const auto at = [](int pose) { return static_cast<std::size_t>(pose); };
@@ -85,7 +86,7 @@ std::vector<std::vector<Matrix6d>> covariancesOf(const PoseGraph& graph, const s
       const int pose = first + static_cast<int>(i), origin = marginals.first(pose);
       Matrix6d covariance = displayed(marginals.ofPose(pose), kMetresPerRadian);
       if (pose != origin)
-        covariance += pose_graph::relativeNoise(poseOf(poses[at(origin)]).inverse() * track->map[i],
+        covariance += pose_graph::relativeNoise(toPose(poses[at(origin)]).inverse() * track->map[i],
                                                 graph.ownNoise(refs[at(origin)]), graph.ownNoise(refs[at(pose)]));
       made[s].push_back(covariance);
     }
@@ -115,10 +116,10 @@ Trajectory relaxedTrack(const GraphRun& run, std::size_t session) {
   return made;
 }
 
-std::vector<Level> levelsOf(const GraphRun& run, const std::vector<const VoRun*>& runs) {
+std::vector<Level> estimateLevels(const GraphRun& run, const std::vector<const VoRun*>& runs) {
   std::vector<Level> levels(runs.size());
   for (std::size_t s = 0; s < runs.size(); ++s) {
-    const std::size_t map = run.mapOf(s);
+    const std::size_t map = run.findMap(s);
     if (levels[map].known()) continue;
     const Trajectory trajectory = relaxedTrack(run, s);
     if (trajectory.empty()) {
@@ -129,7 +130,8 @@ std::vector<Level> levelsOf(const GraphRun& run, const std::vector<const VoRun*>
     for (const Matrix6d& covariance : run.covariances[s]) rotations += covariance.bottomRightCorner<3, 3>();
     rotations /= static_cast<double>(std::max<std::size_t>(1, run.covariances[s].size()));
     const Level level = pose_graph::withRotations(
-        pose_graph::levelOf(trajectory, runs[s]->forces, run.graph.track(run.sessions[map])->map.front()), rotations);
+        pose_graph::estimateLevel(trajectory, runs[s]->forces, run.graph.track(run.sessions[map])->map.front()),
+        rotations);
     if (s == map || level.known()) levels[map] = level;
   }
   return levels;
@@ -137,10 +139,10 @@ std::vector<Level> levelsOf(const GraphRun& run, const std::vector<const VoRun*>
 
 }  // namespace
 
-std::size_t GraphRun::mapOf(std::size_t session) const {
+std::size_t GraphRun::findMap(std::size_t session) const {
   const Track* track = graph.track(sessions[session]);
   if (track == nullptr) return session;
-  const std::size_t map = pose_graph::mapOf(graph.tracks(), static_cast<std::size_t>(track - graph.tracks().data()));
+  const std::size_t map = pose_graph::findMap(graph.tracks(), static_cast<std::size_t>(track - graph.tracks().data()));
   return static_cast<std::size_t>(std::find(sessions.begin(), sessions.end(), graph.tracks()[map].session) -
                                   sessions.begin());
 }
@@ -153,7 +155,7 @@ std::size_t GraphRun::sessionsJoined() const {
 
 Trajectory GraphRun::trajectory(std::size_t session) const {
   const Trajectory track = relaxedTrack(*this, session);
-  const std::size_t map = mapOf(session);
+  const std::size_t map = findMap(session);
   if (map >= levels.size() || !levels[map].known()) return track;
   return transformed(pose_graph::levelling(levels[map], graph.track(sessions[map])->map.front()), track);
 }
@@ -175,12 +177,12 @@ GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<co
   made.ms = millisecondsSince(begin);
   judge(made, ids, known.size());
   const auto relaxed = Clock::now();
-  made.covariances = covariancesOf(made.graph, sessions);
+  made.covariances = computeCovariances(made.graph, sessions);
   leaveToOdometry(made, runs);
   made.ms_covariances = millisecondsSince(relaxed);
-  made.levels = levelsOf(made, runs);
+  made.levels = estimateLevels(made, runs);
   for (std::size_t s = 1; s < sessions.size(); ++s)
-    if (made.mapOf(s) == s)
+    if (made.findMap(s) == s)
       made.warnings.push_back("session " + sessions[s] + " is a map of its own: no closures that agree join it to " +
                               (s == 1 ? sessions[0] : "one before it"));
   const urban_nav_core::Status status = made.graph.status();

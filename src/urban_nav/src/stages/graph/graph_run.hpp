@@ -27,9 +27,9 @@ struct GraphRun {
   std::vector<std::vector<urban_nav_core::Matrix6d>> covariances;
 
   /// Returns the first session in whose map a whole session lies; the session itself if it is joined to none before it.
-  std::size_t mapOf(std::size_t session) const;
+  std::size_t findMap(std::size_t session) const;
   /// Returns whether a session lies in the map of the first session.
-  bool joined(std::size_t session) const { return mapOf(session) == 0; }
+  bool joined(std::size_t session) const { return findMap(session) == 0; }
   std::size_t sessionsJoined() const;
   /// Gravity direction of the map that starts with a session, in the frame of its first pose, by the first of its
   /// sessions that knows it. Default values for sessions in the map of another one.

@@ -16,13 +16,13 @@ using urban_nav_store::Store;
 
 namespace {
 
-SessionId idOf(const GraphRun& run, const std::vector<SessionId>& ids, const std::string& name) {
+SessionId toId(const GraphRun& run, const std::vector<SessionId>& ids, const std::string& name) {
   const auto place = std::find(run.sessions.begin(), run.sessions.end(), name);
   return ids[static_cast<std::size_t>(place - run.sessions.begin())];
 }
 
 /// The row as it was offered, and what its stage says of it.
-std::string evidenceOf(const ClosureRow& row) {
+std::string toEvidence(const ClosureRow& row) {
   return printClosures({row}) + (row.measured ? row.measured->evidence : "");
 }
 
@@ -33,8 +33,8 @@ void putRejected(Store& store, const GraphRun& run, const std::vector<SessionId>
   };
   if (!known(row.session_a) || !known(row.session_b)) return;
   Edge edge;
-  edge.a = {idOf(run, ids, row.session_a), row.stamp_a};
-  edge.b = {idOf(run, ids, row.session_b), row.stamp_b};
+  edge.a = {toId(run, ids, row.session_a), row.stamp_a};
+  edge.b = {toId(run, ids, row.session_b), row.stamp_b};
   edge.kind = row.measured->method == urban_nav_core::ClosureMethod::Icp ? EdgeKind::Icp : EdgeKind::Stereo;
   edge.source = row.where;
   edge.measured.T_a_b = row.measured->measured.T_a_b;
@@ -42,7 +42,7 @@ void putRejected(Store& store, const GraphRun& run, const std::vector<SessionId>
   edge.verdict = urban_nav_core::ClosureVerdict::Rejected;
   edge.reason = row.reason;
   store.graph().put(edge);
-  store.graph().putEvidence(edge, evidenceOf(row));
+  store.graph().putEvidence(edge, toEvidence(row));
 }
 
 void removeClosures(Store& store, const SessionId& id) {
@@ -64,18 +64,18 @@ void exportGraph(Store& store, const std::vector<SessionId>& ids, const GraphRun
     const urban_nav_core::Trajectory trajectory = run.trajectory(s);
     for (const urban_nav_core::StampedPose& pose : trajectory)
       store.graph().put(ids[s], urban_nav_store::RelaxedPose{pose.stamp, pose.pose, revision});
-    store.sessions().put(urban_nav_store::Anchor{ids[s], ids[run.mapOf(s)], revision,
+    store.sessions().put(urban_nav_store::Anchor{ids[s], ids[run.findMap(s)], revision,
                                                  trajectory.front().pose * track->odom.front().inverse()});
   }
   std::map<pose_graph::ClosureId, const ClosureRow*> rows;
   for (const ClosureRow& row : run.closures) rows[row.id] = &row;
   for (const auto& [id, closure] : run.graph.closures()) {
-    Edge edge = pose_graph::edgeOf(closure);
-    edge.a.session = idOf(run, ids, closure.a.session);
-    edge.b.session = idOf(run, ids, closure.b.session);
+    Edge edge = pose_graph::toEdge(closure);
+    edge.a.session = toId(run, ids, closure.a.session);
+    edge.b.session = toId(run, ids, closure.b.session);
     store.graph().put(edge);
     const auto row = rows.find(id);
-    if (row != rows.end()) store.graph().putEvidence(edge, evidenceOf(*row->second));
+    if (row != rows.end()) store.graph().putEvidence(edge, toEvidence(*row->second));
   }
   for (const ClosureRow& row : run.closures)
     if (row.id == 0 && row.measured) putRejected(store, run, ids, row);

@@ -7,7 +7,7 @@ std::vector<SessionTrajectory> relaxedTrajectories(const GraphRun& graph, std::v
   for (std::size_t s = 0; s < odometry.size(); ++s) {
     SessionTrajectory& session = odometry[s];
     session.written = true;
-    session.map = graph.mapOf(s);
+    session.map = graph.findMap(s);
     urban_nav_core::Trajectory trajectory = graph.trajectory(s);
     if (trajectory.empty()) continue;
     session.T_map_base = std::move(trajectory);

@@ -14,7 +14,7 @@ namespace {
 
 bool isShown(const Evidence::Try& tried) { return tried.method == "stereo" || (tried.guess && tried.T_a_b); }
 
-std::optional<Evidence::Try> shownOf(const urban_nav_core::MetricClosure& closure) {
+std::optional<Evidence::Try> findShown(const urban_nav_core::MetricClosure& closure) {
   Evidence evidence;
   try {
     evidence = loop_metric::parseEvidence(loop_metric::evidenceIn(closure.evidence));
@@ -32,34 +32,34 @@ std::optional<Evidence::Try> shownOf(const urban_nav_core::MetricClosure& closur
   return *shown;
 }
 
-std::string titleOf(const urban_nav_core::PoseRef& view) {
+std::string makeTitle(const urban_nav_core::PoseRef& view) {
   return view.session + " " + urban_nav_core::printStamp(view.stamp);
 }
 
 }  // namespace
 
-bool hasPicture(const urban_nav_core::MetricClosure& closure) { return shownOf(closure).has_value(); }
+bool hasPicture(const urban_nav_core::MetricClosure& closure) { return findShown(closure).has_value(); }
 
-std::optional<PagePicture> pictureOf(const urban_nav_core::MetricClosure& closure,
+std::optional<PagePicture> toPicture(const urban_nav_core::MetricClosure& closure,
                                      const loop_metric::PlaceData& place_data, double way) {
-  const std::optional<Evidence::Try> shown = shownOf(closure);
+  const std::optional<Evidence::Try> shown = findShown(closure);
   if (!shown) return std::nullopt;
-  return pictureOf(*shown, place_data, way);
+  return toPicture(*shown, place_data, way);
 }
 
-std::optional<PagePicture> pictureOf(const Evidence::Try& tried, const loop_metric::PlaceData& place_data, double way) {
+std::optional<PagePicture> toPicture(const Evidence::Try& tried, const loop_metric::PlaceData& place_data, double way) {
   if (!isShown(tried)) return std::nullopt;
   try {
     urban_nav_registration::Picture drawn;
     if (tried.method == "stereo") {
       urban_nav_registration::MatchPictureOptions options;
-      options.title_a = titleOf(tried.keyframe_a);
-      options.title_b = titleOf(tried.keyframe_b);
+      options.title_a = makeTitle(tried.keyframe_a);
+      options.title_b = makeTitle(tried.keyframe_b);
       drawn = urban_nav_registration::drawMatches(place_data.keyframe(tried.keyframe_a),
                                                   place_data.keyframe(tried.keyframe_b), tried.pixels, options);
     } else {
       urban_nav_registration::CloudPictureOptions options;
-      options.caption = "red: " + titleOf(tried.keyframe_a) + "; blue: " + titleOf(tried.keyframe_b);
+      options.caption = "red: " + makeTitle(tried.keyframe_a) + "; blue: " + makeTitle(tried.keyframe_b);
       drawn = urban_nav_registration::drawClouds(place_data.cloud(tried.keyframe_b, way),
                                                  place_data.cloud(tried.keyframe_a, way), *tried.guess, *tried.T_a_b,
                                                  options);

@@ -29,13 +29,13 @@ bool isOpposite(const MetricClosure& closure) {
 }
 
 /// Kind and direction of travel, in words; empty where there is no transform.
-std::string classOf(const MetricClosure& closure) {
+std::string classify(const MetricClosure& closure) {
   if (closure.verdict != ClosureVerdict::Accepted) return {};
   return std::string(closure.method == ClosureMethod::Stereo ? "stereo" : "ICP") +
          (isOpposite(closure) ? ", opposite direction" : ", same direction");
 }
 
-std::optional<PlotPoint> placeOf(const Trajectories& trajectories, const urban_nav_core::PoseRef& at) {
+std::optional<PlotPoint> findPlace(const Trajectories& trajectories, const urban_nav_core::PoseRef& at) {
   const auto trajectory = trajectories.find(at.session);
   if (trajectory == trajectories.end() || trajectory->second.empty()) return std::nullopt;
   const auto& t = trajectory->second[trajectory->second.nearest(at.stamp)].pose.t();
@@ -88,8 +88,8 @@ Plot closuresPlot(const LoopsRun& run, const Trajectories& trajectories) {
     dots.name = *kind == '\0' ? "rejected" : kind;
     dots.colour = lines.colour = colour;
     for (const ClosureRow& row : run.closures) {
-      if (!row.measured || classOf(*row.measured) != kind) continue;
-      const auto a = placeOf(trajectories, row.measured->a), b = placeOf(trajectories, row.measured->b);
+      if (!row.measured || classify(*row.measured) != kind) continue;
+      const auto a = findPlace(trajectories, row.measured->a), b = findPlace(trajectories, row.measured->b);
       if (!a || !b) continue;
       dots.points.push_back(*b);
       if (*kind == '\0') continue;  // a line to a place that is another one says nothing
@@ -107,7 +107,7 @@ PageTable kindsTable(const LoopsRun& run) {
   for (const ClosureRow& row : run.closures)
     if (row.measured)
       ++counts[row.verdict == "accepted" || row.measured->verdict == ClosureVerdict::Accepted
-                   ? classOf(*row.measured)
+                   ? classify(*row.measured)
                    : "rejected: " + row.measured->reason_name];
   PageTable table{"What became of the candidates",
                   {"", "candidates"},

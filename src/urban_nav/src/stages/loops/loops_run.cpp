@@ -111,8 +111,8 @@ std::vector<const ClosureRow*> spread(const std::vector<const ClosureRow*>& rows
 }
 
 /// Returns pictures of closures accepted by stereo, by ICP, and of rejected ones, each group spread over its rows.
-std::vector<PagePicture> picturesOf(const std::vector<ClosureRow>& rows, const StoredPlaceData& place_data,
-                                    double way) {
+std::vector<PagePicture> makePictures(const std::vector<ClosureRow>& rows, const StoredPlaceData& place_data,
+                                      double way) {
   std::vector<const ClosureRow*> stereo, icp, rejected;
   for (const ClosureRow& row : rows) {
     if (!row.measured || !hasPicture(*row.measured)) continue;
@@ -123,7 +123,7 @@ std::vector<PagePicture> picturesOf(const std::vector<ClosureRow>& rows, const S
   for (const auto& some :
        {spread(stereo, kStereoPictures), spread(icp, kIcpPictures), spread(rejected, kRejectedPictures)})
     for (const ClosureRow* row : some)
-      if (auto picture = pictureOf(*row->measured, place_data, way)) {
+      if (auto picture = toPicture(*row->measured, place_data, way)) {
         picture->caption = (row->measured->verdict == ClosureVerdict::Accepted ? "Accepted: " : "Rejected: ") +
                            row->measured->sentence;
         pictures.push_back(std::move(*picture));
@@ -172,7 +172,7 @@ LoopsRun runLoops(const loop_metric::Parameters& parameters, const StereoCamera&
   run.ms_median = quantile(ms, 0.5);
   run.ms_p99 = quantile(ms, 0.99);
   run.ms = closureMilliseconds(begin);
-  run.pictures = picturesOf(rows, workers.take(make)->place_data, parameters.registration.cloud_half_length);
+  run.pictures = makePictures(rows, workers.take(make)->place_data, parameters.registration.cloud_half_length);
   for (const CandidateSession& session : sessions)
     if (!known.at(session.name).has_camera)
       run.warnings.push_back("views of session " + session.name +

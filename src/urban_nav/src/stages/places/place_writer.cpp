@@ -20,7 +20,7 @@ PlaceWriter::Described describePlace(const LoadedPlaceModel& model, const fabmap
   const auto begin = std::chrono::steady_clock::now();
   const std::vector<cv::Mat> grey = images();
   std::vector<urban_nav_core::ImageView> views;
-  for (const cv::Mat& image : grey) views.push_back(urban_nav_ros::viewOf(image));
+  for (const cv::Mat& image : grey) views.push_back(urban_nav_ros::toView(image));
   PlaceWriter::Described described;
   described.row = fabmap_node::toStoredPlace(session, stamp, describer.describe(views), model.hash);
   described.row.thumbnail = fabmap_node::placeThumbnail(views);

@@ -24,7 +24,7 @@ cv::Point fixedPoint(double u, double v, double scale) {
 }
 
 /// Blue (far) over green and yellow to red (near), in BGR; `nearness` in 0...1.
-cv::Scalar colourOf(double nearness) {
+cv::Scalar toColour(double nearness) {
   static const std::vector<cv::Scalar> stops = {
       {230, 120, 40}, {200, 200, 40}, {80, 210, 90}, {40, 200, 240}, {50, 70, 240}};
   const double at = std::clamp(nearness, 0.0, 1.0) * static_cast<double>(stops.size() - 1);
@@ -56,7 +56,7 @@ VoPicture drawTracks(const ImageView& image, const std::vector<std::vector<Featu
       if (!(feature.pixel.x() > 0.0)) continue;  // seen in the right image alone
       const double disparity = feature.pixel.z() > 0.0 ? feature.pixel.x() - feature.pixel.z() : 1.0;
       const double nearness = std::log2(std::max(disparity, 1.0)) / 6.0;  // 1 px ... 64 px
-      const cv::Scalar colour = feature.trusted ? colourOf(nearness) : cv::Scalar(150, 150, 150);
+      const cv::Scalar colour = feature.trusted ? toColour(nearness) : cv::Scalar(150, 150, 150);
       const std::vector<cv::Point>& way = ways[feature.landmark];
       for (std::size_t i = 1; i < way.size(); ++i)
         cv::line(canvas, way[i - 1], way[i], colour, 1, cv::LINE_AA, kSubpixelBits);

@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kBins = 40;
 constexpr double kGap = std::numeric_limits<double>::quiet_NaN();  // ends a line
 
-double secondsOf(const VoRun& run, urban_nav_core::StampNs stamp) {
+double toSeconds(const VoRun& run, urban_nav_core::StampNs stamp) {
   return urban_nav_core::secondsBetween(run.rows.front().stamp, stamp);
 }
 
@@ -31,7 +31,7 @@ Series line(const std::string& name, const std::string& colour, std::vector<Plot
   return series;
 }
 
-const char* colourOf(Health health) {
+const char* toColour(Health health) {
   switch (health) {
     case Health::Ok: return "good";
     case Health::Degraded: return "fair";
@@ -46,9 +46,9 @@ std::vector<Span> troubles(const VoRun& run) {
   std::vector<Span> spans;
   for (std::size_t i = 0; i < run.rows.size(); ++i) {
     if (run.rows[i].status.health == Health::Ok) continue;
-    const double from = secondsOf(run, run.rows[i].stamp);
-    const double to = i + 1 < run.rows.size() ? secondsOf(run, run.rows[i + 1].stamp) : from;
-    const char* colour = colourOf(run.rows[i].status.health);
+    const double from = toSeconds(run, run.rows[i].stamp);
+    const double to = i + 1 < run.rows.size() ? toSeconds(run, run.rows[i + 1].stamp) : from;
+    const char* colour = toColour(run.rows[i].status.health);
     if (!spans.empty() && spans.back().colour == colour && std::abs(spans.back().to - from) < 1e-9) {
       spans.back().to = to;
     } else {
@@ -61,7 +61,7 @@ std::vector<Span> troubles(const VoRun& run) {
 template <typename Value>
 std::vector<PlotPoint> overTime(const VoRun& run, Value value) {
   std::vector<PlotPoint> points;
-  for (const VoRow& row : run.rows) points.push_back({secondsOf(run, row.stamp), value(row)});
+  for (const VoRow& row : run.rows) points.push_back({toSeconds(run, row.stamp), value(row)});
   return points;
 }
 
@@ -96,7 +96,7 @@ Figure doubtFigure(const VoRun& run, int first, const std::string& title, const 
     std::vector<PlotPoint> points;
     for (const Settled& s : run.settled)
       points.push_back(
-          {secondsOf(run, s.stamp), unit * std::sqrt(std::max(0.0, s.T_odom_base.covariance(first + i, first + i)))});
+          {toSeconds(run, s.stamp), unit * std::sqrt(std::max(0.0, s.T_odom_base.covariance(first + i, first + i)))});
     plot.series.push_back(
         line(names[static_cast<std::size_t>(first + i)], colours[static_cast<std::size_t>(i)], points));
   }
@@ -132,10 +132,10 @@ Figure statusFigure(const VoRun& run) {
     else ok.points.pop_back();
     ok.points.insert(ok.points.end(), {{trouble.from, kGap}, {trouble.to, 0.0}});
   }
-  ok.points.push_back({secondsOf(run, run.rows.back().stamp), 0.0});
+  ok.points.push_back({toSeconds(run, run.rows.back().stamp), 0.0});
   plot.series.push_back(ok);
   for (const Health health : {Health::Ok, Health::Degraded, Health::Lost, Health::Recovered}) {
-    Series key = line(toString(health), colourOf(health), {});
+    Series key = line(toString(health), toColour(health), {});
     key.kind = Series::Kind::Band;
     plot.series.push_back(key);
   }
@@ -165,7 +165,7 @@ Figure offsetFigure(const VoRun& run) {
   band.kind = Series::Kind::Band;
   Series estimate = line("estimate", "b", {});
   for (const VoRow& row : run.rows) {
-    const double x = secondsOf(run, row.stamp), px = row.statistics.disparity_offset_px;
+    const double x = toSeconds(run, row.stamp), px = row.statistics.disparity_offset_px;
     estimate.points.push_back({x, px});
     band.points.push_back({x, px + row.statistics.disparity_offset_sigma_px});
     band.lower.push_back(px - row.statistics.disparity_offset_sigma_px);
@@ -226,7 +226,7 @@ std::vector<Section> voSections(const VoRun& run, bool with_path) {
                 {},
                 {}};
   for (const VoPicture& picture : run.pictures) {
-    views.pictures.push_back({forPerson(secondsOf(run, picture.stamp), 4) + " s, frame " +
+    views.pictures.push_back({forPerson(toSeconds(run, picture.stamp), 4) + " s, frame " +
                                   std::to_string(picture.frame) + ": " + picture.caption,
                               picture.jpeg, picture.width, picture.height});
   }

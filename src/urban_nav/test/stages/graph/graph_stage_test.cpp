@@ -144,7 +144,7 @@ TEST(GraphRunTest, takesClosuresInAnyOrderAndFromWhereverTheyAreKnown) {
   std::vector<ClosureRow> rows;
   for (int i = 20; i < 300; i += 40) rows.push_back(closure("monday", i + 0.3, "monday", i + 600.6));
   for (int i = 310; i < 600; i += 60) rows.push_back(closure("monday", i + 0.4, "tuesday", i + 0.2));
-  const auto bytesOf = [&](const std::vector<ClosureRow>& file, const std::vector<PreviousClosure>& known) {
+  const auto toBytes = [&](const std::vector<ClosureRow>& file, const std::vector<PreviousClosure>& known) {
     const testing::TemporaryFolder folder;
     const GraphRun run = runGraph({}, {&monday, &tuesday}, {"monday", "tuesday"}, file, known);
     writeFiles(OutputFolder(folder.file("out")), run, {&monday, &tuesday});
@@ -154,17 +154,17 @@ TEST(GraphRunTest, takesClosuresInAnyOrderAndFromWhereverTheyAreKnown) {
       bytes += testing::readFile(folder.file("out/" + std::string(name)));
     return bytes;
   };
-  const std::string expected = bytesOf(rows, {});
+  const std::string expected = toBytes(rows, {});
   std::vector<ClosureRow> backwards(rows.rbegin(), rows.rend());
-  EXPECT_TRUE(bytesOf(backwards, {}) == expected);
+  EXPECT_TRUE(toBytes(backwards, {}) == expected);
 
   const GraphRun whole = runGraph({}, {&monday, &tuesday}, {"monday", "tuesday"}, rows);
   std::vector<PreviousClosure> known;
   for (const ClosureRow& row : whole.closures)
     if (row.session_b == "monday") known.push_back({row, whole.graph.closures().at(row.id)});
   ASSERT_EQ(known.size(), 7U);
-  EXPECT_TRUE(bytesOf({rows.begin() + 7, rows.end()}, known) == expected) << "the file has the new ones alone";
-  EXPECT_TRUE(bytesOf(rows, known) == expected) << "the file has all of them again";
+  EXPECT_TRUE(toBytes({rows.begin() + 7, rows.end()}, known) == expected) << "the file has the new ones alone";
+  EXPECT_TRUE(toBytes(rows, known) == expected) << "the file has all of them again";
 }
 
 TEST(GraphRunTest, sessionsThatJoinEachOtherAloneAreOneMapOfTheirOwn) {
@@ -172,8 +172,8 @@ TEST(GraphRunTest, sessionsThatJoinEachOtherAloneAreOneMapOfTheirOwn) {
   std::vector<ClosureRow> rows;
   for (int i = 310; i < 600; i += 60) rows.push_back(closure("tuesday", i, "friday", i + 0.2));
   const GraphRun run = runGraph({}, {&monday, &tuesday, &friday}, {"monday", "tuesday", "friday"}, rows);
-  EXPECT_EQ(run.mapOf(1), 1U);
-  EXPECT_EQ(run.mapOf(2), 1U);
+  EXPECT_EQ(run.findMap(1), 1U);
+  EXPECT_EQ(run.findMap(2), 1U);
   EXPECT_EQ(run.sessionsJoined(), 1U);
   EXPECT_TRUE(isApprox(run.trajectory(1).front().pose, Pose(), 1e-12)) << "its origin is its own first pose";
   ASSERT_EQ(run.warnings.size(), 1U) << "one map that nothing joins";

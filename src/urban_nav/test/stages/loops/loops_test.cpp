@@ -50,7 +50,7 @@ class Loops : public ::testing::Test {
   }
   static void TearDownTestSuite() { shared_.reset(); }
   static std::string file(const std::string& name) { return shared_->file(name); }
-  static std::vector<ClosureRow> rowsOf(const std::string& out) { return readClosures(file(out) + "/closures.csv"); }
+  static std::vector<ClosureRow> listRows(const std::string& out) { return readClosures(file(out) + "/closures.csv"); }
 
  private:
   static std::unique_ptr<TemporaryFolder> shared_;
@@ -58,7 +58,7 @@ class Loops : public ::testing::Test {
 std::unique_ptr<TemporaryFolder> Loops::shared_;
 
 TEST_F(Loops, findsTheTransformsOfTrueClosuresAndJoinsTheSessions) {
-  const std::vector<ClosureRow> rows = rowsOf("out");
+  const std::vector<ClosureRow> rows = listRows("out");
   ASSERT_EQ(rows.size(), 4U);
   const std::vector<Pose> truth = urban_nav_core::readKitti(file("monday") + "/poses.txt");
   // base_link is the left camera with its axes turned.
@@ -96,19 +96,19 @@ TEST_F(Loops, laterDaysFindTheViewsOfEarlierOnesInTheStore) {
   map({file("monday")}, file("first"), "");
   map({file("tuesday")}, file("second"), file("closures.csv"),
       [](MapOptions& request) { request.store = file("first") + "/session.db"; });
-  const std::vector<ClosureRow> rows = rowsOf("second");
+  const std::vector<ClosureRow> rows = listRows("second");
   ASSERT_EQ(rows.size(), 4U);
   EXPECT_EQ(rows[1].kind, "stereo") << readFile(file("second") + "/closures.csv");
-  EXPECT_EQ(rows[1].T_a_b->matrix(), rowsOf("out")[1].T_a_b->matrix());
+  EXPECT_EQ(rows[1].T_a_b->matrix(), listRows("out")[1].T_a_b->matrix());
 }
 
 TEST_F(Loops, whySaysWhatTheStoreKnows) {
   urban_nav_store::Store store(file("out") + "/session.db", urban_nav_store::Access::Read);
-  const std::vector<StoredClosure> closures = closuresOf(store);
+  const std::vector<StoredClosure> closures = listClosures(store);
   ASSERT_EQ(closures.size(), 3U) << "the one with an unknown session has no place in a store";
-  EXPECT_LT(distanceOf(closures[0], parseTimeQuery("monday+0.2", ""), parseTimeQuery("tuesday+0.4", "")), 1e-6);
-  EXPECT_LT(distanceOf(closures[0], parseTimeQuery("0.4", ""), parseTimeQuery("0.2", "")), 1e-6);
-  EXPECT_GT(distanceOf(closures[0], parseTimeQuery("tuesday+0.2", ""), parseTimeQuery("tuesday+0.4", "")), 1e6);
+  EXPECT_LT(computeDistance(closures[0], parseTimeQuery("monday+0.2", ""), parseTimeQuery("tuesday+0.4", "")), 1e-6);
+  EXPECT_LT(computeDistance(closures[0], parseTimeQuery("0.4", ""), parseTimeQuery("0.2", "")), 1e-6);
+  EXPECT_GT(computeDistance(closures[0], parseTimeQuery("tuesday+0.2", ""), parseTimeQuery("tuesday+0.4", "")), 1e6);
   const std::string text = explain(closures[0]);
   for (const char* part : {"accepted, by stereo", "passed  matches", "Two views: accepted", "distance_m"})
     EXPECT_NE(text.find(part), std::string::npos) << text;
@@ -147,7 +147,7 @@ TEST_F(Loops, withoutTheStageTheTransformsOfTheFileCount) {
   map({file("monday"), file("tuesday")}, file("given"), file("measured.csv"), [](MapOptions& request) {
     request.stages = {"vo", "graph"};
   });
-  const std::vector<ClosureRow> rows = rowsOf("given");
+  const std::vector<ClosureRow> rows = listRows("given");
   ASSERT_EQ(rows.size(), 1U);
   ASSERT_TRUE(rows[0].T_a_b);
   EXPECT_EQ(rows[0].T_a_b->t(), urban_nav_core::Vector3d::Zero());

@@ -62,10 +62,10 @@ class BytesOfVersion2 {
     return *this;
   }
   BytesOfVersion2& reals(std::initializer_list<double> values) {
-    for (const double value : values) append(bitsOf<std::uint64_t>(value), 8);
+    for (const double value : values) append(toBits<std::uint64_t>(value), 8);
     return *this;
   }
-  BytesOfVersion2& real32(float value) { return append(bitsOf<std::uint32_t>(value), 4); }
+  BytesOfVersion2& real32(float value) { return append(toBits<std::uint32_t>(value), 4); }
   BytesOfVersion2& version() { return append(2, 4); }
   BytesOfVersion2& text(const std::string& value) {
     append(value.size(), 8);
@@ -81,7 +81,7 @@ class BytesOfVersion2 {
 
  private:
   template <typename Bits, typename Number>
-  static Bits bitsOf(Number value) {
+  static Bits toBits(Number value) {
     Bits bits = 0;
     std::memcpy(&bits, &value, sizeof bits);
     return bits;

@@ -49,8 +49,8 @@ class CornerGrid {
   template <typename Visit>
   void forEachInside(double u_min, double v_min, double u_max, double v_max, Visit visit) const {
     if (corners_.empty() || !(u_max >= 0.0 && v_max >= 0.0 && u_min <= width_ && v_min <= height_)) return;
-    const int first_column = cellOf(u_min, columns_), last_column = cellOf(u_max, columns_);
-    const int first_row = cellOf(v_min, rows_), last_row = cellOf(v_max, rows_);
+    const int first_column = toCell(u_min, columns_), last_column = toCell(u_max, columns_);
+    const int first_row = toCell(v_min, rows_), last_row = toCell(v_max, rows_);
     for (int row = first_row; row <= last_row; ++row) {
       // Cells of one row follow each other, so do their corners.
       const std::size_t begin = starts_[static_cast<std::size_t>(row * columns_ + first_column)];
@@ -63,7 +63,7 @@ class CornerGrid {
   }
 
  private:
-  int cellOf(double coordinate, int cells) const {
+  int toCell(double coordinate, int cells) const {
     return static_cast<int>(std::clamp(coordinate, 0.0, static_cast<double>(cells * cell_) - 1.0)) / cell_;
   }
 

@@ -68,7 +68,7 @@ G2oGraph readG2o(const std::string& path, UnknownTags unknown = UnknownTags::Kee
 G2oGraph parseG2o(std::string_view text, const std::string& name, UnknownTags unknown = UnknownTags::Keep);
 
 /// The lines in the order in which they are written: graph.lines, then what has no line.
-std::vector<G2oGraph::Line> linesOf(const G2oGraph& graph);
+std::vector<G2oGraph::Line> toLines(const G2oGraph& graph);
 std::string printG2o(const G2oGraph& graph);
 void writeG2o(const std::string& path, const G2oGraph& graph);
 

@@ -100,7 +100,7 @@ class TimeOrderedQueue {
       archive(entry.stamp, entry.stream);
       item(archive, entry.item);
       archive.require(entry.stream >= 0 && static_cast<std::size_t>(entry.stream) < counts_.size(), "no such stream");
-      archive.require(i == 0 || placeOf(waiting_[i - 1]) < placeOf(entry), "inputs are out of order");
+      archive.require(i == 0 || findPlace(waiting_[i - 1]) < findPlace(entry), "inputs are out of order");
     }
     for (TimeOrderedQueueCounts& counts : counts_) archive(counts.received, counts.late, counts.duplicate);
     for (std::optional<StampNs>& reached : reached_) archive(reached);
@@ -110,7 +110,7 @@ class TimeOrderedQueue {
 
  private:
   using Place = std::pair<StampNs, int>;
-  static Place placeOf(const Entry& entry) { return {entry.stamp, entry.stream}; }
+  static Place findPlace(const Entry& entry) { return {entry.stamp, entry.stream}; }
 
   bool mayLeave(const Entry& entry) const {
     if (finished_ || *newest_ - entry.stamp >= max_lateness_) return true;

@@ -29,7 +29,7 @@ struct StereoFrame {
 };
 
 /// The renderer's camera as a stage knows it.
-StereoCamera cameraOf(const RenderCamera& rendered);
+StereoCamera makeCamera(const RenderCamera& rendered);
 
 /// How the sequence is taken.
 struct SequenceOptions {

@@ -90,7 +90,7 @@ class Texture {
   static void alongRun(const Run& x, const Run& y, double frequency, Function function, Run& out);
   static std::optional<int> commonRow(const Pattern& pattern, const Run& y, const Filter& filter);
   static bool isUniform(const Pattern& pattern, int row, const Run& x, const Filter& filter);
-  static double greyOf(const Pattern& pattern, int column, int row);
+  static double sampleGrey(const Pattern& pattern, int column, int row);
   static Part part(double x, double size, double per_size, double margin, double per_sigma);
   static double rowValue(const Pattern& pattern, int row, double x, double per_sigma_x);
   static double patternValue(const Pattern& pattern, double x, double y, const Filter& filter);

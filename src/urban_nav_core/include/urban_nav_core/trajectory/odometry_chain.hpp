@@ -50,7 +50,7 @@ class OdometryChain {
     Pose T_first_origin;
     std::vector<Matrix6d> sums;  // of the steps of this block up to each, its own included
   };
-  std::size_t indexOf(StampNs frame) const { return trajectory_.nearest(frame); }
+  std::size_t findIndex(StampNs frame) const { return trajectory_.nearest(frame); }
   /// The drift of the steps from + 1 ... to, about the pose of frame `from`.
   Matrix6d drift(std::size_t from, std::size_t to) const;
 

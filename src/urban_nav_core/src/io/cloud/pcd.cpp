@@ -99,7 +99,7 @@ PcdHeader readPcdHeader(HeaderLines& lines, const std::string& name) {
   return header;
 }
 
-std::array<std::size_t, 3> coordinatesOf(const PcdHeader& header, const std::string& name) {
+std::array<std::size_t, 3> findCoordinates(const PcdHeader& header, const std::string& name) {
   std::array<std::size_t, 3> columns{};
   const std::array<const char*, 3> names = {"x", "y", "z"};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -117,7 +117,7 @@ UserError tooShort(const std::string& name, const PcdHeader& header) {
 }
 
 Vertices asciiPoints(const PcdHeader& header, HeaderLines& lines, const std::string& name) {
-  const auto columns = coordinatesOf(header, name);
+  const auto columns = findCoordinates(header, name);
   std::array<std::size_t, 3> words_before{};
   std::size_t row_words = 0;
   for (std::size_t i = 0; i < header.fields.size(); ++i) {
@@ -147,7 +147,7 @@ Vertices asciiPoints(const PcdHeader& header, HeaderLines& lines, const std::str
 
 /// `by_field`: all of the first field, then all of the second, as in a compressed file; else point by point.
 Vertices binaryPoints(const PcdHeader& header, std::string_view bytes, bool by_field, const std::string& name) {
-  const auto columns = coordinatesOf(header, name);
+  const auto columns = findCoordinates(header, name);
   std::size_t row = 0;
   std::array<std::size_t, 3> offsets{};
   for (std::size_t i = 0; i < header.fields.size(); ++i) {

@@ -26,7 +26,7 @@ struct PlyHeader {
   std::vector<Element> elements;
 };
 
-BinaryNumber numberOf(std::string_view word, const std::string& where) {
+BinaryNumber parseBinaryNumber(std::string_view word, const std::string& where) {
   static const std::map<std::string_view, BinaryNumber> types = {
       {"char", {1, 'I'}},  {"int8", {1, 'I'}},    {"uchar", {1, 'U'}},  {"uint8", {1, 'U'}},
       {"short", {2, 'I'}}, {"int16", {2, 'I'}},   {"ushort", {2, 'U'}}, {"uint16", {2, 'U'}},
@@ -38,7 +38,7 @@ BinaryNumber numberOf(std::string_view word, const std::string& where) {
   return found->second;
 }
 
-Format formatOf(std::string_view word, const std::string& where) {
+Format parseFormat(std::string_view word, const std::string& where) {
   if (word == "ascii") return Format::Ascii;
   if (word == "binary_little_endian") return Format::Little;
   if (word == "binary_big_endian") return Format::Big;
@@ -47,17 +47,17 @@ Format formatOf(std::string_view word, const std::string& where) {
 
 void readPlyHeaderLine(const std::vector<std::string_view>& words, PlyHeader& header, const std::string& where) {
   if (words[0] == "format" && words.size() >= 2) {
-    header.format = formatOf(words[1], where);
+    header.format = parseFormat(words[1], where);
   } else if (words[0] == "element" && words.size() == 3) {
     const auto count = parseInteger(words[2]);
     if (!count || *count < 0) throw UserError(where, "element count " + std::string(words[2]), "a whole number");
     header.elements.push_back({std::string(words[1]), static_cast<std::size_t>(*count), {}});
   } else if (words[0] == "property" && words.size() == 3 && !header.elements.empty()) {
-    header.elements.back().properties.push_back({std::string(words[2]), numberOf(words[1], where), {}});
+    header.elements.back().properties.push_back({std::string(words[2]), parseBinaryNumber(words[1], where), {}});
   } else if (words[0] == "property" && words.size() == 5 && words[1] == "list" && !header.elements.empty()) {
-    const BinaryNumber length = numberOf(words[2], where);
+    const BinaryNumber length = parseBinaryNumber(words[2], where);
     if (length.kind == 'F') throw UserError(where, "a list whose length is no whole number", "uchar, int, ...");
-    header.elements.back().properties.push_back({std::string(words[4]), numberOf(words[3], where), length});
+    header.elements.back().properties.push_back({std::string(words[4]), parseBinaryNumber(words[3], where), length});
   } else if (words[0] != "comment" && words[0] != "obj_info") {
     throw UserError(where, "`" + std::string(words[0]) + "`", "format, element, property, comment, end_header");
   }
@@ -81,7 +81,7 @@ PlyHeader readPlyHeader(HeaderLines& lines, const std::string& name) {
 
 /// The columns of three properties; empty where one is missing or a list.
 using Columns = std::array<std::size_t, 3>;
-std::optional<Columns> columnsOf(const Element& vertex, const std::array<const char*, 3>& names) {
+std::optional<Columns> findColumns(const Element& vertex, const std::array<const char*, 3>& names) {
   Columns columns{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     std::size_t at = 0;
@@ -98,10 +98,10 @@ struct Vertex {
   std::optional<Columns> origin;
 };
 
-Vertex vertexOf(const Element& element, const std::string& name) {
-  const auto point = columnsOf(element, {"x", "y", "z"});
+Vertex parseVertex(const Element& element, const std::string& name) {
+  const auto point = findColumns(element, {"x", "y", "z"});
   if (!point) throw UserError(name, "element vertex lacks x, y or z", "x, y, z, each a number");
-  return {*point, columnsOf(element, {"origin_x", "origin_y", "origin_z"})};
+  return {*point, findColumns(element, {"origin_x", "origin_y", "origin_z"})};
 }
 
 UserError tooShort(const std::string& name, const Element& element) {
@@ -202,7 +202,7 @@ Vertices readVertices(const PlyHeader& header, Numbers& numbers, const std::stri
     const bool vertices = element.name == "vertex" && !found;
     Vertex vertex;
     if (vertices) {
-      vertex = vertexOf(element, name);
+      vertex = parseVertex(element, name);
       found.emplace();
     }
     for (std::size_t i = 0; i < element.count && !element.properties.empty(); ++i) {

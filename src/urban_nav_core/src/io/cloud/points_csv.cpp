@@ -26,7 +26,7 @@ std::string lower(std::string_view text) {
   return word;
 }
 
-std::array<std::size_t, 3> columnsOf(const std::vector<std::string_view>& header, const std::string& where) {
+std::array<std::size_t, 3> findColumns(const std::vector<std::string_view>& header, const std::string& where) {
   std::array<std::size_t, 3> columns{};
   const std::array<std::string, 3> names = {"x", "y", "z"};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -70,7 +70,7 @@ Vertices parsePoints(std::string_view content, const std::string& name) {
     }
     if (!columns) {
       const bool numbers = parseCoordinate(cells.front()).has_value();
-      columns = numbers ? std::array<std::size_t, 3>{0, 1, 2} : columnsOf(cells, atLine(name, number));
+      columns = numbers ? std::array<std::size_t, 3>{0, 1, 2} : findColumns(cells, atLine(name, number));
       if (!numbers) return;
     }
     Eigen::Vector3d point;

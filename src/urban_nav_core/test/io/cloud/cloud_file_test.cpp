@@ -123,7 +123,7 @@ std::string gzipped(const std::string& plain) {
 }
 
 std::string refusal(const std::string& content) {
-  return errorOf([&] { parseCloud(content, "c"); });
+  return catchError([&] { parseCloud(content, "c"); });
 }
 
 TEST(CloudFile, everyFormatGivesThePoints) {

@@ -18,13 +18,13 @@ struct Cell {
 constexpr int kFarthestCell = (1 << 20) - 2;
 
 /// The cell of a point, edges of length 1 / `per_m`. The point lies within the grid.
-inline Cell cellOf(const Eigen::Vector3f& point, float per_m) {
+inline Cell toCell(const Eigen::Vector3f& point, float per_m) {
   return {static_cast<int>(std::floor(point.x() * per_m)), static_cast<int>(std::floor(point.y() * per_m)),
           static_cast<int>(std::floor(point.z() * per_m))};
 }
 
 /// One number for a cell; different cells within kFarthestCell + 1 have different ones, none is 0.
-inline std::uint64_t keyOf(const Cell& cell) {
+inline std::uint64_t toKey(const Cell& cell) {
   const auto part = [](int i) { return static_cast<std::uint64_t>(i + (1 << 20)); };
   return part(cell.x) | part(cell.y) << 21U | part(cell.z) << 42U;
 }
@@ -46,14 +46,14 @@ class CellTable {
   std::size_t size() const { return size_; }
   /// The number of a cell, or `none`.
   std::uint32_t find(std::uint64_t key) const {
-    for (std::size_t at = slotOf(key);; at = (at + 1) & mask_) {
+    for (std::size_t at = findSlot(key);; at = (at + 1) & mask_) {
       if (slots_[at].key == key) return slots_[at].number;
       if (slots_[at].key == 0) return none;
     }
   }
   /// The number of a cell, a new one if it has none.
   std::uint32_t insert(std::uint64_t key) {
-    for (std::size_t at = slotOf(key);; at = (at + 1) & mask_) {
+    for (std::size_t at = findSlot(key);; at = (at + 1) & mask_) {
       if (slots_[at].key == key) return slots_[at].number;
       if (slots_[at].key != 0) continue;
       slots_[at] = {key, static_cast<std::uint32_t>(size_++)};
@@ -68,7 +68,7 @@ class CellTable {
     std::uint32_t number = none;
   };
 
-  std::size_t slotOf(std::uint64_t key) const {
+  std::size_t findSlot(std::uint64_t key) const {
     return static_cast<std::size_t>((key * 0x9e3779b97f4a7c15U) >> shift_);
   }  // Knuth 1973, 6.4
   void rehash(std::size_t expected);

@@ -23,7 +23,7 @@ class FreeSpace {
  private:
   /// Index of the cube; `none` outside the grid.
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
-  std::size_t cubeOf(const Eigen::Vector3f& point) const;
+  std::size_t findCube(const Eigen::Vector3f& point) const;
   void mark(std::size_t cube);
 
   float per_m_;

@@ -10,7 +10,7 @@ namespace urban_nav_registration::testing {
 
 using urban_nav_core::Pose;
 
-using urban_nav_core::testing::cameraOf;
+using urban_nav_core::testing::makeCamera;
 
 /// Renders stereo pairs of a scene from given poses.
 class Photographer {
@@ -19,7 +19,7 @@ class Photographer {
     options_.noise = noise;
   }
 
-  urban_nav_core::StereoCamera camera() const { return cameraOf(options_.camera); }
+  urban_nav_core::StereoCamera camera() const { return makeCamera(options_.camera); }
   /// `gain`: of the exposure. Each pair has different noise.
   urban_nav_core::testing::StereoFrame take(const Pose& T_world_left, double gain = 1.0) {
     options_.seed = ++taken_;

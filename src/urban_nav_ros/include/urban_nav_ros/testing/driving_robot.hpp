@@ -65,17 +65,17 @@ class DrivingRobot : public StereoListener {
 
   /// Each is later than the one before.
   void beginSession() { ++session_; }
-  StampNs stampOf(int frame) const { return sequence_.stamp(frame) + session_ * epoch; }
+  StampNs toStamp(int frame) const { return sequence_.stamp(frame) + session_ * epoch; }
   Pose T_world_base(int frame) const { return sequence_.T_world_camera(frame) * T_base_left().inverse(); }
-  urban_nav_core::StereoCamera camera() const { return cameraOf(sequence_.options().camera); }
+  urban_nav_core::StereoCamera camera() const { return makeCamera(sequence_.options().camera); }
   const urban_nav_core::testing::StereoFrame& frame(int i) { return sequence_.frame(i); }
 
   /// Frames from ... to - 1 and the odometry between them; without the step that leads to frame `lost`.
   void drive(int from, int to, bool images = true, int lost = -1) {
     for (int i = from; i < to; ++i) {
       if (images) show(i);
-      beAt(stampOf(i), T_world_base(0).inverse() * T_world_base(i));
-      if (i > 0 && i != lost) step(stampOf(i - 1), stampOf(i), T_world_base(i - 1).inverse() * T_world_base(i), 1e-3);
+      beAt(toStamp(i), T_world_base(0).inverse() * T_world_base(i));
+      if (i > 0 && i != lost) step(toStamp(i - 1), toStamp(i), T_world_base(i - 1).inverse() * T_world_base(i), 1e-3);
     }
   }
   void beAt(StampNs stamp, const Pose& T_odom_base) {
@@ -95,7 +95,7 @@ class DrivingRobot : public StereoListener {
     step.source = "swf_vo";
     relative_.publish(urban_nav_ros::toRelativePoseMessage(step, "base_link"));
   }
-  void show(int i) { StereoListener::show(sequence_.frame(i), camera(), stampOf(i)); }
+  void show(int i) { StereoListener::show(sequence_.frame(i), camera(), toStamp(i)); }
   /// The last value of an entry of the diagnostics.
   std::string diagnosis(const std::string& key) const {
     std::string value;

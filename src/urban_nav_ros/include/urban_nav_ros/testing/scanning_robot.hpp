@@ -37,7 +37,7 @@ class ScanningRobot : public Robot {
   }
   bool scanning() const { return scanning_; }
 
-  static StampNs stampOf(int frame) {
+  static StampNs toStamp(int frame) {
     return start + 100 * epoch + static_cast<StampNs>(std::llround(1e9 * period * frame));
   }
   static Pose T_world_base(int frame) {
@@ -65,8 +65,8 @@ class ScanningRobot : public Robot {
     for (int i = from; i < to; ++i) {
       if (i > first_) T_odom_base_ = T_odom_base_ * stepTo(i);
       else first_ = i;
-      this->beAt(stampOf(i), T_odom_base_);
-      if (i > first_) this->step(stampOf(i - 1), stampOf(i), stepTo(i), i == drift_frame ? drift_sigma : 5e-4);
+      this->beAt(toStamp(i), T_odom_base_);
+      if (i > first_) this->step(toStamp(i - 1), toStamp(i), stepTo(i), i == drift_frame ? drift_sigma : 5e-4);
     }
   }
   void scan(int from, int to) {
@@ -96,7 +96,7 @@ class ScanningRobot : public Robot {
     planar.sigma = 0.01;
     const std::uint64_t seed = 2 * static_cast<std::uint64_t>(i) + (frame == "laser_left" ? 0 : 1);
     sensor_msgs::LaserScan message;
-    message.header.stamp = urban_nav_ros::toRosTime(stampOf(i));
+    message.header.stamp = urban_nav_ros::toRosTime(toStamp(i));
     message.header.frame_id = frame;
     message.angle_min = static_cast<float>(-0.5 * 3.14159265358979323846);
     message.angle_max = -message.angle_min;
