@@ -89,6 +89,45 @@ TEST(ClockFilter, ALeastDelayThatRisesForAMinuteDoesNotTiltTheLine) {
   }
 }
 
+/// A raised stretch that is as long as what is known of the floor, with delays as wide as the rise.
+TEST(ClockFilter, ARiseSoonAfterTheStartDoesNotTiltTheLine) {
+  const auto delay = [](double t, std::mt19937& random) {
+    return evenDelay(t, random) + (t > 65.0 && t < 125.0 ? 5e-3 : 0.0);
+  };
+  for (const double period : {0.0133381, 0.05}) {
+    const ClockTrial trial = runClock(period, 180.0, 60.0, delay, 5);
+    EXPECT_LT(trial.worst, 0.5e-3) << period;
+    EXPECT_GT(trial.within, 0.95 * trial.judged) << period;
+    EXPECT_EQ(trial.epochs, 0) << period;
+  }
+}
+
+TEST(ClockFilter, AStallWithABacklogDoesNotTiltAYoungLine) {
+  const auto delay = [](double t, std::mt19937& random) {
+    return longTail(t, random) + (t > 10.0 && t < 12.0 ? 12.0 - t : 0.0);
+  };
+  for (const double period : {0.0133381, 0.01}) {
+    const ClockTrial trial = runClock(period, 60.0, 2.0, delay, 6);
+    EXPECT_LT(trial.worst, 1e-3) << period;
+    EXPECT_EQ(trial.epochs, 0) << period;
+  }
+}
+
+/// One device time that is 5 s wrong begins an epoch; the line before it returns with the next measurement.
+TEST(ClockFilter, AWrongDeviceTimeCostsItselfAlone) {
+  for (const double wrong : {5.0, -5.0, 1000.0}) {
+    ClockFilter filter(ClockOptions{});
+    for (int i = 0; i < 3000; ++i) {
+      const double t = 0.01 * i, device = t + (i == 2000 ? wrong : 0.0);
+      const ClockEstimate estimate = filter.add(device, clock_begin + static_cast<TimeNs>(std::llround(1e9 * t)));
+      if (i == 2000 || i < 100) continue;
+      ASSERT_TRUE(estimate.time.has_value()) << wrong << " " << i;
+      EXPECT_NEAR(1e-9 * static_cast<double>(*estimate.time - clock_begin), t, 1e-5);
+      EXPECT_EQ(estimate.epoch, i < 2000 ? 0 : 2);
+    }
+  }
+}
+
 TEST(ClockFilter, CongestionAtTheStartEndsInANewEpoch) {
   const auto delay = [](double t, std::mt19937& random) { return longTail(t, random) + (t < 40.0 ? 5e-3 : 0.0); };
   const ClockTrial trial = runClock(0.01, 120.0, 45.0, delay, 4);

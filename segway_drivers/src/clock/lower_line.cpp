@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "clock/lower_line.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace segway_drivers {
+
+namespace {
+
+constexpr std::size_t fewest_blocks = 6;  // below that every point belongs to the floor
+constexpr double widest_floor = 6.0;      // times the median step between lowest points of adjacent blocks
+constexpr double least_floor = 0.1e-3;    // s
+
+struct ClockBlock {
+  std::size_t begin = 0, end = 0;  // of the points
+  std::vector<ClockPoint> hull;
+};
+
+std::vector<ClockBlock> cutIntoBlocks(const ClockPoint* points, std::size_t count, double length) {
+  std::vector<ClockBlock> blocks;
+  for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
+    const double last = points[begin].x + length;
+    while (end < count && points[end].x < last) ++end;
+    blocks.push_back({begin, end, lowerHull(points + begin, end - begin)});
+  }
+  return blocks;
+}
+
+/// Lowest value of z - slope x.
+double lowestAlong(const std::vector<ClockPoint>& hull, double slope) {
+  double lowest = hull.front().z - slope * hull.front().x;
+  for (const ClockPoint& point : hull) lowest = std::min(lowest, point.z - slope * point.x);
+  return lowest;
+}
+
+/// Height above a line up to which a block belongs to its floor, s.
+double floorHeight(const std::vector<ClockBlock>& blocks, double skew) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < blocks.size(); ++i)
+    steps.push_back(std::abs(lowestAlong(blocks[i].hull, skew) - lowestAlong(blocks[i - 1].hull, skew)));
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return std::max(least_floor, widest_floor * *middle);
+}
+
+double clockEdgeSlope(const ClockPoint& a, const ClockPoint& b) { return (b.z - a.z) / (b.x - a.x); }
+
+double heightOfHull(const std::vector<ClockPoint>& hull, double x) {
+  std::size_t i = 1;
+  while (i + 1 < hull.size() && hull[i].x < x) ++i;
+  return hull[i].z + clockEdgeSlope(hull[i - 1], hull[i]) * (x - hull[i].x);
+}
+
+/// Slope of the chord of the hull between the means of the first and the second half of the points. The edge over the
+/// mean of all would be the best line, but it may be short, and then its slope is wrong.
+double chordSlope(const std::vector<ClockPoint>& hull, const std::vector<ClockPoint>& points) {
+  const std::size_t half = points.size() / 2;
+  double first = 0.0, second = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) (i < half ? first : second) += points[i].x;
+  const double a = first / static_cast<double>(half), b = second / static_cast<double>(points.size() - half);
+  return (heightOfHull(hull, b) - heightOfHull(hull, a)) / (b - a);
+}
+
+/// Slope of the edge with the least sum of heights of the blocks, each counted up to `height`; empty if no edge is
+/// within the limit.
+std::optional<double> slopeOfMostBlocks(const std::vector<ClockPoint>& hull, const std::vector<ClockBlock>& blocks,
+                                        double height, double limit) {
+  std::optional<double> best;
+  double least = 0.0;
+  for (std::size_t i = 1; i < hull.size(); ++i) {
+    const double slope = clockEdgeSlope(hull[i - 1], hull[i]), line = hull[i].z - slope * hull[i].x;
+    if (std::abs(slope) > limit) continue;
+    double sum = 0.0;
+    for (const ClockBlock& block : blocks)
+      sum += static_cast<double>(block.end - block.begin) * std::min(height, lowestAlong(block.hull, slope) - line);
+    if (!best || sum < least) {
+      best = slope;
+      least = sum;
+    }
+  }
+  return best;
+}
+
+/// Mean distance in height above a slope between neighbours of the lowest quarter of the points, s.
+double floorSpacing(const std::vector<ClockPoint>& points, double slope) {
+  std::vector<double> heights;
+  heights.reserve(points.size());
+  for (const ClockPoint& point : points) heights.push_back(point.z - slope * point.x);
+  const std::size_t count = std::min(points.size() - 1, std::max<std::size_t>(2, points.size() / 4));
+  std::nth_element(heights.begin(), heights.begin() + static_cast<std::ptrdiff_t>(count), heights.end());
+  const double lowest = *std::min_element(heights.begin(), heights.begin() + static_cast<std::ptrdiff_t>(count));
+  return (heights[count] - lowest) / static_cast<double>(count);
+}
+
+}  // namespace
+
+std::vector<ClockPoint> lowerHull(const ClockPoint* points, std::size_t count) {
+  std::vector<ClockPoint> hull;
+  for (std::size_t i = 0; i < count; ++i) {
+    const ClockPoint& p = points[i];
+    while (hull.size() >= 2) {
+      const ClockPoint &a = hull[hull.size() - 2], &b = hull.back();
+      if ((b.x - a.x) * (p.z - b.z) > (b.z - a.z) * (p.x - b.x)) break;
+      hull.pop_back();
+    }
+    hull.push_back(p);
+  }
+  return hull;
+}
+
+std::optional<LowerLine> fitLowerLine(const ClockPoint* points, std::size_t count, double block, double skew,
+                                      double limit) {
+  if (count < 3) return std::nullopt;
+  std::vector<ClockPoint> hull = lowerHull(points, count);
+  const std::vector<ClockBlock> blocks = cutIntoBlocks(points, count, block);
+  std::optional<double> first;
+  double height = 0.0, floor = 0.0;
+  if (blocks.size() >= fewest_blocks) {
+    height = floorHeight(blocks, skew);
+    first = slopeOfMostBlocks(hull, blocks, height, limit);
+    if (first) floor = lowestAlong(hull, *first) + height;
+  }
+  std::vector<ClockPoint> on_floor;
+  for (const ClockBlock& each : blocks)
+    if (!first || lowestAlong(each.hull, *first) <= floor)
+      on_floor.insert(on_floor.end(), points + each.begin, points + each.end);
+  LowerLine line;
+  line.points = static_cast<double>(on_floor.size());
+  line.span = on_floor.back().x - on_floor.front().x;
+  for (const ClockPoint& point : on_floor) {
+    line.mean_x += point.x / line.points;
+    line.mean_z += point.z / line.points;
+  }
+  if (on_floor.size() < count) hull = lowerHull(on_floor.data(), on_floor.size());
+  line.slope = chordSlope(hull, on_floor);
+  line.spacing = floorSpacing(on_floor, line.slope);
+  return line;
+}
+
+}  // namespace segway_drivers
