@@ -26,6 +26,12 @@ constexpr const char* vo_landmarks = "vo/landmarks";
 constexpr const char* vo_tracks = "vo/tracks";
 constexpr const char* vo_path = "vo/path";
 
+// dense_stereo.
+constexpr const char* stereo_disparity = "stereo/disparity";
+constexpr const char* stereo_points = "stereo/points2";
+constexpr const char* ground_plane = "stereo/ground_plane";
+constexpr const char* obstacles = "stereo/obstacles";
+
 // Loop closures.
 constexpr const char* place_closure = "places/closure";
 constexpr const char* metric_closure = "loops/metric";

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "publisher.hpp"
+
+#include "messages.hpp"
+#include "urban_nav_ros/topics.hpp"
+
+namespace dense_stereo {
+
+namespace topics = urban_nav_ros::topics;
+
+Publisher::Publisher(urban_nav_ros::StageNode& node)
+    : node_(node),
+      disparity_(node.nh().advertise<stereo_msgs::DisparityImage>(topics::stereo_disparity, 5)),
+      points_(node.nh().advertise<sensor_msgs::PointCloud2>(topics::stereo_points, 5)),
+      ground_(node.nh().advertise<urban_nav_msgs::GroundPlane>(topics::ground_plane, 20)),
+      obstacles_(node.nh().advertise<sensor_msgs::PointCloud2>(topics::obstacles, 5)) {}
+
+void Publisher::startSession(const std::string& frame, const urban_nav_core::StereoCamera& camera, int disparities) {
+  frame_ = frame;
+  camera_ = camera;
+  disparities_ = (disparities + 15) / 16 * 16;
+  node_.restartStatus();
+}
+
+bool Publisher::isWanted() const {
+  for (const ros::Publisher* publisher : {&disparity_, &points_, &ground_, &obstacles_})
+    if (publisher->getNumSubscribers() > 0) return true;
+  return false;
+}
+
+void Publisher::publish(const NearScene& scene, const urban_nav_core::StereoPair& pair) {
+  const urban_nav_core::Status& status = scene.stereo.status;
+  node_.publishStatus(status, toString(static_cast<Reason>(status.reason)), pair.stamp);
+  if (pair.left.empty()) return;
+  std_msgs::Header header;
+  header.stamp = urban_nav_ros::toRosTime(pair.stamp);
+  header.frame_id = frame_;
+  if (disparity_.getNumSubscribers() > 0)
+    disparity_.publish(toDisparityMessage(scene.stereo.image, camera_, disparities_, header));
+  if (points_.getNumSubscribers() > 0) points_.publish(toPointsMessage(scene.stereo.image, camera_, pair.left, header));
+  ground_.publish(toGroundMessage(scene.ground, header));
+  if (obstacles_.getNumSubscribers() > 0) obstacles_.publish(toObstaclesMessage(scene.obstacles, header));
+}
+
+}  // namespace dense_stereo

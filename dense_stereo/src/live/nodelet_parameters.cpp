@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "live/nodelet_parameters.hpp"
+
+namespace dense_stereo {
+
+using urban_nav_core::Table;
+
+NodeletParameters::NodeletParameters() { nodeletTable().setDefaults(*this); }
+
+// clang-format would give each of the columns a line.
+// clang-format off
+const Table<NodeletParameters>& nodeletTable() {
+  using P = NodeletParameters;
+  static const Table<NodeletParameters> rows(
+      "",
+      urban_nav_live::withStereoInput<P>(
+          {
+              {"always", &P::always, "", false, false, true, {},
+               "Whether pairs are matched even if no topic has a subscriber.", "stereo_image_proc"},
+              {"gravity", &P::gravity, "", true, false, true, {},
+               "Whether imu/data, where it arrives, tells the direction of gravity to the search for the ground.",
+               "section 6.2"},
+          },
+          20));
+  return rows;
+}
+// clang-format on
+
+}  // namespace dense_stereo
