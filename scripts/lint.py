@@ -28,7 +28,7 @@ COMMAND_FOLDERS = [  # src/urban_nav/README.md, "Inside"
     ["stage"],
     ["stages"],
     ["pipeline"],
-    ["convert", "places", "simulate", "inspect", "explain", "device", "disparity"],
+    ["convert", "places", "simulate", "inspect", "explain", "device", "disparity", "relax"],
     ["commands"],
 ]
 

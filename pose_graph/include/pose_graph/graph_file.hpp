@@ -5,18 +5,28 @@
 #include <vector>
 
 #include "pose_graph/problem.hpp"
+#include "pose_graph/robust.hpp"
 #include "urban_nav_core/io/g2o.hpp"
 
 namespace pose_graph {
 
-/// A pose-graph file as a problem: its ids, whatever they are, become 0...n-1 in ascending order; its edges stay in the
-/// order of the file. Vertices that edges name and the file does not list are placed by following edges, and named in
-/// `notes`.
+/// A pose-graph file as a problem: the ids of its poses, whatever they are, become 0...n-1 in ascending order; its
+/// edges stay in the order of the file. Vertices that edges name and the file does not list are placed by following
+/// edges, and named in `notes`. Landmarks, priors, sensors and fixed vertices become further poses and edges after
+/// those of the file.
 template <int D>
 struct FileProblem {
+  using Id = urban_nav_core::G2oGraph::Id;
+
   Problem<D> problem;
-  std::vector<urban_nav_core::G2oGraph::Id> ids;  ///< of each pose
-  std::vector<std::string> notes;                 ///< what a user should know, a sentence each
+  std::vector<EdgeRole> roles;     ///< of each edge of `problem`
+  std::vector<Id> ids;             ///< of the first poses of `problem`
+  std::vector<Id> point_ids;       ///< of the landmarks, the poses after those
+  std::vector<int> edges;          ///< of each edge of the file: its index in problem.edges; -1 for one to itself
+  std::vector<int> point_edges;    ///< of each measurement of a landmark: its index in problem.edges
+  std::vector<int> priors;         ///< of each prior
+  int frame = -1;                  ///< the pose that is the frame of the file; -1 where nothing refers to one
+  std::vector<std::string> notes;  ///< what a user should know, a sentence each
 };
 
 /// What of an edge's information must be positive semidefinite.
@@ -28,12 +38,14 @@ enum class Semidefinite {
 
 /// `graph.dimension` must be D. Information of 3D files is that of the quaternion's vector, half the rotation vector:
 /// its rotation block is divided by 4 and its cross blocks by 2. Throws UserError with `name` for information that is
-/// not positive semidefinite (to 1e-9 of its largest eigenvalue) and for a file without edges.
+/// not positive semidefinite (to 3e-5 of its largest eigenvalue, which six printed digits cost), for a parameter that
+/// is named and not defined, and for a file without edges.
 template <int D>
 FileProblem<D> makeProblem(const urban_nav_core::G2oGraph& graph, const std::string& name,
                            Semidefinite demanded = Semidefinite::Whole);
 
-/// The graph with these poses for its vertices; vertices it did not list are added at the end.
+/// The graph with these poses (all of `file.problem`) for its vertices and landmarks, in the frame of the file where
+/// something refers to it; vertices it did not list are added at the end. Fixed vertices keep their numbers.
 template <int D>
 urban_nav_core::G2oGraph withPoses(const urban_nav_core::G2oGraph& graph, const FileProblem<D>& file,
                                    const std::vector<Rigid<D>>& poses);

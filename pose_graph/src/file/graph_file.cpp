@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "file/constraints.hpp"
+#include "file/information.hpp"
 #include "start/along_edges.hpp"
-#include "urban_nav_core/geometry/dense.hpp"
-#include "urban_nav_core/geometry/small_matrices.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace pose_graph {
@@ -17,47 +17,6 @@ using urban_nav_core::UserError;
 
 namespace {
 
-constexpr double kPrintedRoundOff =
-    1e-9;  // of the largest eigenvalue: what printing information with few digits may cost
-
-template <int D>
-TangentMatrix<D> toInformation(const G2oGraph::Edge& edge) {
-  TangentMatrix<D> information = urban_nav_core::g2oInformation(edge, D);
-  if constexpr (D == 3) {
-    information.template topRightCorner<3, 3>() *= 0.5;
-    information.template bottomLeftCorner<3, 3>() *= 0.5;
-    information.template bottomRightCorner<3, 3>() *= 0.25;
-  }
-  return information;
-}
-
-template <int N>
-bool isSemidefinite(const Eigen::Matrix<double, N, N>& information) {
-  if constexpr (N == 1) {
-    return information(0, 0) >= 0.0;
-  } else {
-    // Most matrices pass by their Cholesky factor, at a tenth of the price of eigenvalues.
-    if (urban_nav_core::SmallCholesky<N>(information).succeeded()) return true;
-    const auto values = urban_nav_core::symmetricEigenvalues(information);
-    return values && (*values)[0] >= -kPrintedRoundOff * std::max(0.0, values->maxCoeff());
-  }
-}
-
-/// False where it is not, and need not be.
-template <int D>
-bool demand(Semidefinite demanded, const TangentMatrix<D>& information, const G2oGraph::Edge& edge,
-            const std::string& name) {
-  if (isSemidefinite<tangent_size<D>>(information)) return true;
-  constexpr int R = tangent_size<D> - D;
-  if (demanded == Semidefinite::Blocks && isSemidefinite<D>(information.template topLeftCorner<D, D>()) &&
-      isSemidefinite<R>(information.template bottomRightCorner<R, R>()))
-    return false;
-  throw UserError(name,
-                  "the information of the edge from " + std::to_string(edge.from) + " to " + std::to_string(edge.to) +
-                      " has a negative eigenvalue",
-                  "positive semidefinite matrices");
-}
-
 std::vector<G2oGraph::Id> listIds(const G2oGraph& graph) {
   std::vector<G2oGraph::Id> ids;
   ids.reserve(graph.vertices.size() + 2 * graph.edges.size());
@@ -66,6 +25,8 @@ std::vector<G2oGraph::Id> listIds(const G2oGraph& graph) {
     ids.push_back(edge.from);
     ids.push_back(edge.to);
   }
+  for (const G2oGraph::PointEdge& edge : graph.point_edges) ids.push_back(edge.from);
+  for (const G2oGraph::Prior& prior : graph.priors) ids.push_back(prior.vertex);
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   return ids;
@@ -88,22 +49,43 @@ Pose toPose(const Rigid<2>& T) {
 }
 Pose toPose(const Rigid<3>& T) { return Pose(T.R, T.t); }
 
+namespace {
+
+void refuseEdgesToLandmarks(const G2oGraph& graph, const std::vector<G2oGraph::Id>& ids, const std::string& name) {
+  const auto refuse = [&](G2oGraph::Id id) {
+    if (std::binary_search(ids.begin(), ids.end(), id))
+      throw UserError(name, "vertex " + std::to_string(id) + " is a landmark and a pose", "one of them");
+  };
+  for (const G2oGraph::Point& point : graph.points) refuse(point.id);
+  for (const G2oGraph::PointEdge& edge : graph.point_edges) refuse(edge.to);
+}
+
 template <int D>
-FileProblem<D> makeProblem(const G2oGraph& graph, const std::string& name, Semidefinite demanded) {
-  if (graph.edges.empty()) throw UserError(name, "a graph without edges", "EDGE_SE2 or EDGE_SE3:QUAT lines");
-  FileProblem<D> made;
-  made.ids = listIds(graph);
+void readEdges(const G2oGraph& graph, const std::string& name, Semidefinite demanded, FileProblem<D>& made) {
   made.problem.edges.reserve(graph.edges.size());
-  std::size_t indefinite = 0;
+  std::size_t indefinite = 0, to_itself = 0;
   for (const G2oGraph::Edge& edge : graph.edges) {
-    const TangentMatrix<D> information = toInformation<D>(edge);
-    indefinite += demand<D>(demanded, information, edge, name) ? 0 : 1;
+    TangentMatrix<D> information = tangentInformation<D>(edge.information);
+    const std::string what = "the edge from " + std::to_string(edge.from) + " to " + std::to_string(edge.to);
+    indefinite += demandSemidefinite<D>(demanded, information, what, name) ? 0 : 1;
+    if (edge.from == edge.to) {
+      ++to_itself;
+      made.edges.push_back(-1);
+      continue;
+    }
+    made.edges.push_back(static_cast<int>(made.problem.edges.size()));
     made.problem.edges.push_back(
         {findNumber(made.ids, edge.from), findNumber(made.ids, edge.to), toRigid<D>(graph.pose(edge)), information});
   }
   if (indefinite > 0)
     made.notes.push_back(std::to_string(indefinite) +
                          " edges have information with a negative eigenvalue: only its blocks are read");
+  if (to_itself > 0)
+    made.notes.push_back(std::to_string(to_itself) + " edges from a vertex to itself: they say nothing of it");
+}
+
+template <int D>
+void placeVertices(const G2oGraph& graph, FileProblem<D>& made) {
   made.problem.poses.resize(made.ids.size());
   std::vector<char> listed(made.ids.size(), 0);
   for (const G2oGraph::Vertex& vertex : graph.vertices) {
@@ -112,11 +94,11 @@ FileProblem<D> makeProblem(const G2oGraph& graph, const std::string& name, Semid
     listed[i] = 1;
   }
   const auto missing = static_cast<std::size_t>(std::count(listed.begin(), listed.end(), 0));
-  if (missing == 0) return made;
+  if (missing == 0) return;
   if (missing == listed.size()) {
     made.notes.push_back("no VERTEX lines: the first guess follows the edges");
     made.problem.poses = posesAlongEdges(made.problem);
-    return made;
+    return;
   }
   const std::size_t first = static_cast<std::size_t>(std::find(listed.begin(), listed.end(), 0) - listed.begin());
   made.notes.push_back(std::to_string(missing) + " vertices have no VERTEX line, the first is " +
@@ -124,6 +106,21 @@ FileProblem<D> makeProblem(const G2oGraph& graph, const std::string& name, Semid
   const std::vector<Rigid<D>> along = posesAlongEdges(made.problem, listed);
   for (std::size_t i = 0; i < listed.size(); ++i)
     if (!listed[i]) made.problem.poses[i] = along[i];
+}
+
+}  // namespace
+
+template <int D>
+FileProblem<D> makeProblem(const G2oGraph& graph, const std::string& name, Semidefinite demanded) {
+  if (graph.edges.empty() && graph.point_edges.empty() && graph.priors.empty())
+    throw UserError(name, "a graph without edges", "EDGE_SE2 or EDGE_SE3:QUAT lines");
+  FileProblem<D> made;
+  made.ids = listIds(graph);
+  refuseEdgesToLandmarks(graph, made.ids, name);
+  readEdges(graph, name, demanded, made);
+  placeVertices(graph, made);
+  made.roles = rolesByNumbers(made.problem);
+  addConstraints(graph, name, demanded, made);
   return made;
 }
 
@@ -131,17 +128,29 @@ template <int D>
 G2oGraph withPoses(const G2oGraph& graph, const FileProblem<D>& file, const std::vector<Rigid<D>>& poses) {
   G2oGraph made = graph;
   std::vector<char> listed(file.ids.size(), 0);
+  const auto inFile = [&](std::size_t i) {
+    return toPose(file.frame < 0 ? poses[i] : poses[static_cast<std::size_t>(file.frame)].inverse() * poses[i]);
+  };
+  std::vector<G2oGraph::Id> fixed = graph.fixed;
+  std::sort(fixed.begin(), fixed.end());
+  const auto isFixed = [&](G2oGraph::Id id) { return std::binary_search(fixed.begin(), fixed.end(), id); };
   for (G2oGraph::Vertex& vertex : made.vertices) {
     const std::size_t i = static_cast<std::size_t>(findNumber(file.ids, vertex.id));
-    made.setPose(vertex, toPose(poses[i]));
+    if (file.frame < 0 || !isFixed(vertex.id)) made.setPose(vertex, inFile(i));
     listed[i] = 1;
   }
   for (std::size_t i = 0; i < listed.size(); ++i) {
     if (listed[i]) continue;
     G2oGraph::Vertex vertex;
     vertex.id = file.ids[i];
-    made.setPose(vertex, toPose(poses[i]));
+    made.setPose(vertex, inFile(i));
     made.vertices.push_back(vertex);
+  }
+  for (std::size_t k = 0; k < file.point_ids.size(); ++k) {
+    const urban_nav_core::Vector3d at = inFile(file.ids.size() + k).t();
+    if (k >= made.points.size()) made.points.push_back({file.point_ids[k], {}});
+    G2oGraph::Point& point = made.points[k];
+    if (file.frame < 0 || !isFixed(point.id)) point.values = {at.x(), at.y(), D == 2 ? 0.0 : at.z()};
   }
   return made;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose_graph/graph_file.hpp"
 
+#include <Eigen/Eigenvalues>
+
 #include "pose_graph/solution.hpp"
 #include "support/drawn.hpp"
 #include "support/plain_costs.hpp"
@@ -115,6 +117,124 @@ TEST(GraphFile, WhatIsIndefiniteBetweenItsBlocksServesTheChordalObjective) {
   EXPECT_THROW(blocks(within), UserError);
 }
 
+TEST(GraphFile, RankDeficientInformationOfSixDigitsIsMadeSemidefinite) {
+  // (1, 2, 3) (1, 2, 3)^T / 7 printed with six digits.
+  const std::string edge = "EDGE_SE2 0 1 1 0 0 0.142857 0.285714 0.428571 0.571429 0.857143 1.28571\n";
+  const FileProblem<2> file = parsed<2>("VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0\n" + edge);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(file.problem.edges[0].information);
+  EXPECT_GT(eigen.eigenvalues()[0], -1e-12);
+  EXPECT_NEAR(eigen.eigenvalues()[2], 2.0, 1e-5);
+}
+
+TEST(GraphFile, AnEdgeToItselfIsLeftOutAndSaid) {
+  const FileProblem<2> file = parsed<2>("EDGE_SE2 0 0 1 0 0" + kI2 + "EDGE_SE2 0 -1 1 0 0" + kI2);
+  EXPECT_EQ(file.ids, (std::vector<G2oGraph::Id>{-1, 0}));
+  EXPECT_EQ(file.edges, (std::vector<int>{-1, 0}));
+  ASSERT_EQ(file.problem.edges.size(), 1U);
+  EXPECT_NE(file.notes[0].find("itself"), std::string::npos);
+}
+
+// A path whose ends priors hold, with a landmark seen from both.
+const std::string kConstrained =
+    "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0.2\nVERTEX_SE2 2 2 0.3 0.4\nVERTEX_XY 7 3 3\n"
+    "EDGE_SE2 0 1 1 0 0.2" +
+    kI2 + "EDGE_SE2 1 2 1 0.1 0.1" + kI2 +
+    "EDGE_SE2_XY 0 7 3 2.5 20 1 30\nEDGE_SE2_XY 2 7 1.6 2.2 10 0 15\n"
+    "EDGE_PRIOR_SE2 0 100 50 1 8 0 0 8 0 9\nEDGE_PRIOR_SE2_XY 2 100.8 51.9 40 2 50\n";
+
+/// The costs of the file's lines as g2o defines them, at the poses of a graph.
+double costOfLines(const G2oGraph& graph) {
+  double sum = 0.0;
+  const auto vertex = [&](G2oGraph::Id id) {
+    for (const G2oGraph::Vertex& v : graph.vertices)
+      if (v.id == id) return toRigid<2>(graph.pose(v));
+    return Rigid<2>{};
+  };
+  const auto squared = [](const Rigid<2>& E, const Eigen::Matrix3d& information) {
+    const Eigen::Vector3d e(E.t.x(), E.t.y(), std::atan2(E.R(1, 0), E.R(0, 0)));
+    return e.dot(information * e);
+  };
+  for (const G2oGraph::Edge& edge : graph.edges)
+    sum += squared(toRigid<2>(graph.pose(edge)).inverse() * vertex(edge.from).inverse() * vertex(edge.to),
+                   urban_nav_core::g2oInformation(edge, 2));
+  for (const G2oGraph::PointEdge& edge : graph.point_edges) {
+    const Eigen::Vector2d landmark(graph.points[0].values[0], graph.points[0].values[1]);
+    const Rigid<2> T = vertex(edge.from).inverse();
+    const Eigen::Vector2d e = T.R * landmark + T.t - Eigen::Vector2d(edge.values[0], edge.values[1]);
+    sum +=
+        edge.information[0] * e[0] * e[0] + 2.0 * edge.information[1] * e[0] * e[1] + edge.information[2] * e[1] * e[1];
+  }
+  for (const G2oGraph::Prior& prior : graph.priors) {
+    Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+    G2oGraph::Edge full;
+    full.information = prior.information;
+    if (!prior.position) information = urban_nav_core::g2oInformation(full, 2);
+    else
+      information.topLeftCorner<2, 2>() << prior.information[0], prior.information[1], prior.information[1],
+          prior.information[2];
+    Rigid<2> E = toRigid<2>(graph.pose(prior)).inverse() * vertex(prior.vertex);
+    sum += squared(E, information);
+  }
+  return sum;
+}
+
+TEST(GraphFile, LandmarksAndPriorsCostWhatTheLinesSay) {
+  const G2oGraph graph = parseG2o(kConstrained, "g.g2o");
+  const FileProblem<2> file = parsed<2>(kConstrained);
+  EXPECT_EQ(file.problem.poses.size(), 5U);
+  SolveOptions options;
+  const Solution<2> solution = solve(file.problem, options);
+  const G2oGraph made = withPoses(graph, file, solution.poses);
+  EXPECT_NEAR(costOfLines(made), solution.cost, 1e-9 * solution.cost);
+  EXPECT_GT(solution.cost, 0.01);
+  // No step of any of the file's numbers costs less.
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t axis = 0; axis < (i < 3 ? 3U : 2U); ++axis)
+      for (const double step : {-1e-4, 1e-4}) {
+        G2oGraph moved = made;
+        (i < 3 ? moved.vertices[i].values[axis] : moved.points[0].values[axis]) += step;
+        EXPECT_GT(costOfLines(moved), solution.cost) << i << " " << axis;
+      }
+  EXPECT_NEAR(made.vertices[0].values[0], 100.0, 1.0);
+}
+
+TEST(GraphFile, FixedVerticesKeepTheirNumbers) {
+  const std::string text = kConstrained + "FIX 0 2\nFIX 99\n";
+  const G2oGraph graph = parseG2o(text, "g.g2o");
+  const FileProblem<2> file = parsed<2>(text);
+  EXPECT_NE(file.notes.back().find("99"), std::string::npos);
+  const Solution<2> solution = solve(file.problem, {});
+  const G2oGraph made = withPoses(graph, file, solution.poses);
+  EXPECT_EQ(made.vertices[0].values, graph.vertices[0].values);
+  EXPECT_EQ(made.vertices[2].values, graph.vertices[2].values);
+  const Rigid<2>&frame = solution.poses[static_cast<std::size_t>(file.frame)], &held = solution.poses[2];
+  EXPECT_LT(((frame.inverse() * held).t - Eigen::Vector2d(2, 0.3)).norm(), 1e-4);
+  EXPECT_NEAR(costOfLines(made), solution.cost, 1e-5 * solution.cost);
+  for (const double step : {-1e-3, 1e-3}) {
+    G2oGraph moved = made;
+    moved.vertices[1].values[0] += step;
+    EXPECT_GT(costOfLines(moved), costOfLines(made));
+  }
+}
+
+TEST(GraphFile, SensorsOfSpaceAreAtTheirMounts) {
+  const std::string text =
+      "PARAMS_SE3OFFSET 3 0.5 0 0.2 0 0 0.6 0.8\nPARAMS_SE3OFFSET 0 0 0 0 0 0 0 1\n"
+      "VERTEX_SE3:QUAT 0 0 0 0 0 0 0 1\nVERTEX_TRACKXYZ 5 9 9 9\n"
+      "EDGE_SE3_TRACKXYZ 0 5 3 1 2 3 10 0 0 20 0 30\n"
+      "EDGE_SE3_PRIOR 0 3 1 2 3 0 0 0 1" +
+      kI3;
+  const G2oGraph graph = parseG2o(text, "g.g2o");
+  const FileProblem<3> file = makeProblem<3>(graph, "g.g2o");
+  const G2oGraph made = withPoses(graph, file, solve(file.problem, {}).poses);
+  const urban_nav_core::Pose sensor = made.pose(made.vertices[0]) * made.pose(made.offsets[0]);
+  EXPECT_LT((sensor.t() - Eigen::Vector3d(1, 2, 3)).norm(), 1e-6);
+  EXPECT_NEAR(std::abs(sensor.q().w()), 1.0, 1e-9);
+  const Eigen::Vector3d landmark(made.points[0].values[0], made.points[0].values[1], made.points[0].values[2]);
+  EXPECT_LT((landmark - Eigen::Vector3d(2, 4, 6)).norm(), 1e-6);
+  EXPECT_NE(catchError("EDGE_SE3_PRIOR 0 3 1 2 3 0 0 0 1" + kI3).find("parameter 3"), std::string::npos);
+}
+
 TEST(GraphFile, AFileWithoutEdgesIsRefused) {
   EXPECT_NE(catchError("VERTEX_SE2 0 0 0 0\n").find("without edges"), std::string::npos);
   EXPECT_NE(catchError(""), "");
@@ -164,11 +284,12 @@ void relaxed(const G2oGraph& graph) {
 }
 
 TEST(GraphFile, DamagedFilesAreTakenOrRefused) {
-  const auto result = urban_nav_core::testing::fuzzText({kPlane, kSpace}, [](const std::string& text) {
-    const G2oGraph graph = parseG2o(text, "fuzz");
-    if (graph.dimension == 2) relaxed<2>(graph);
-    else relaxed<3>(graph);
-  });
+  const auto result =
+      urban_nav_core::testing::fuzzText({kPlane, kSpace, kConstrained + "FIX 0 2\n"}, [](const std::string& text) {
+        const G2oGraph graph = parseG2o(text, "fuzz");
+        if (graph.dimension == 2) relaxed<2>(graph);
+        else relaxed<3>(graph);
+      });
   EXPECT_EQ(result.failure, "");
   EXPECT_GT(result.accepted, 0);
   EXPECT_GT(result.refused, 0);

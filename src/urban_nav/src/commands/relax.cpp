@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <optional>
 
 #include "command_line/console.hpp"
 #include "command_line/json.hpp"
 #include "commands/commands.hpp"
 #include "pipeline/parameters.hpp"
 #include "pose_graph/ceres.hpp"
-#include "pose_graph/certificate.hpp"
 #include "pose_graph/graph_file.hpp"
 #include "pose_graph/relative_pcg.hpp"
 #include "pose_graph/robust.hpp"
 #include "pose_graph/solution.hpp"
-#include "report/plot.hpp"
+#include "relax/relax_files.hpp"
+#include "relax/relax_report.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
-#include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/io/text_file.hpp"
 #include "urban_nav_core/io/toro.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
@@ -68,98 +65,24 @@ pose_graph::Solution<D> relaxAlongChain(pose_graph::Problem<D> problem, const po
   return pose_graph::relaxRelative(problem, relative);
 }
 
-/// All three costs of some poses: the one that is minimised has a mark.
-struct Costs {
-  double geodesic = 0.0, chordal = 0.0, g2o = 0.0;
-};
-
 template <int D>
-Costs computeCosts(const pose_graph::Problem<D>& problem, const std::vector<pose_graph::Rigid<D>>& poses) {
+GraphCosts computeCosts(const pose_graph::Problem<D>& problem, const std::vector<pose_graph::Rigid<D>>& poses) {
   return {cost(problem, poses, Objective::Geodesic), cost(problem, poses, Objective::Chordal),
           cost(problem, poses, Objective::G2o)};
 }
 
-std::string toText(const char* when, const Costs& costs) {
-  return std::string(when) + "geodesic " + forPerson(costs.geodesic, 9) + ", chordal " + forPerson(costs.chordal, 9) +
-         ", g2o " + forPerson(costs.g2o, 9) + "\n";
-}
-
-Json toJson(const Costs& costs) {
-  Json json = Json::object();
-  json["geodesic"] = costs.geodesic;
-  json["chordal"] = costs.chordal;
-  json["g2o"] = costs.g2o;
-  return json;
-}
-
-/// What the command says of the run beside the files.
-struct RelaxReport {
-  Costs before, after;
-  std::size_t poses = 0, edges = 0, rejected = 0, iterations = 0;
-  int components = 0;
-  std::optional<double>
-      variance;  // of the residuals, in units of what the information states; where closures were judged
-  std::string ending;
-  double ms = 0.0;
-  std::optional<pose_graph::Certificate> certificate;  // of the accepted edges, by the chordal objective
-};
-
-std::string toText(const RelaxReport& report) {
-  std::string text = std::to_string(report.poses) + " poses, " + std::to_string(report.edges) + " edges, " +
-                     std::to_string(report.rejected) + " rejected; " + std::to_string(report.iterations) +
-                     " iterations, " + report.ending + ", " + forPerson(report.ms, 3) + " ms\n";
-  if (report.variance)
-    text +=
-        "errors: " + forPerson(std::sqrt(*report.variance), 2) + " times the deviations that the information states\n";
-  text += toText("before: ", report.before) + toText("after:  ", report.after);
-  if (!report.certificate) return text;
-  const pose_graph::Certificate& certificate = *report.certificate;
-  text += certificate.certified ? "certified: the global optimum" : "not certified: there may be a better optimum";
-  if (certificate.gap)
-    text += "; no poses cost less than " + forPerson(certificate.cost, 9) + " by more than " +
-            forPerson(*certificate.gap, 2);
-  return text + "\n";
-}
-
-Json toJson(const RelaxReport& report) {
-  Json json = Json::object();
-  json["poses"] = report.poses;
-  json["edges"] = report.edges;
-  json["edges_rejected"] = report.rejected;
-  json["components"] = report.components;
-  json["iterations"] = report.iterations;
-  if (report.variance) json["variance_factor"] = *report.variance;
-  json["ending"] = report.ending;
-  json["ms_batch"] = report.ms;
-  json["cost_before"] = toJson(report.before);
-  json["cost_after"] = toJson(report.after);
-  if (report.certificate) {
-    json["certified"] = report.certificate->certified;
-    if (report.certificate->gap) json["certified_gap"] = *report.certificate->gap;
-  }
-  return json;
-}
-
+/// Poses, and what is thought of each edge.
 template <int D>
-RelaxReport relaxFile(const G2oGraph& graph, const std::string& name, const Arguments& arguments, Console& console) {
-  pose_graph::SolveOptions options;
-  options.objective = parseObjective(arguments.get("objective", "geodesic"));
+pose_graph::RobustSolution<D> solved(const pose_graph::FileProblem<D>& file, const Arguments& arguments,
+                                     const pose_graph::SolveOptions& options) {
   const bool doubted = arguments.get("robust", "on") == "on";
-  const bool blocks = options.objective == Objective::Chordal && !doubted;
-  const pose_graph::FileProblem<D> file = pose_graph::makeProblem<D>(
-      graph, name, blocks ? pose_graph::Semidefinite::Blocks : pose_graph::Semidefinite::Whole);
-  for (const std::string& note : file.notes) console.warn(name + ": " + note);
-  options.start = makeStart(arguments.get("start", "auto"));
-  Progress progress(console, "relax", "iterations", 0);
-  options.progress = [&](int iteration, double) {
-    progress.update(iteration);
-    return true;
-  };
-  const auto begin = Clock::now();
   const std::string solver = arguments.get("solver", "gauss_newton");
+  if (solver == "relative_pcg" && file.problem.edges.size() != file.edges.size())
+    throw UserError("", "--solver relative_pcg with priors, landmarks or fixed vertices",
+                    "--solver gauss_newton, ceres");
   pose_graph::RobustSolution<D> robust;
   robust.edges.resize(file.problem.edges.size());
-  if (doubted) robust = pose_graph::relaxRobust(file.problem, pose_graph::rolesByNumbers(file.problem), options);
+  if (doubted) robust = pose_graph::relaxRobust(file.problem, file.roles, options);
   if (solver != "gauss_newton") {
     pose_graph::Problem<D> accepted;
     accepted.poses = file.problem.poses;
@@ -171,47 +94,106 @@ RelaxReport relaxFile(const G2oGraph& graph, const std::string& name, const Argu
   } else if (!doubted) {
     robust.solution = pose_graph::solve(file.problem, options);
   }
+  return robust;
+}
+
+/// Says a warning, and keeps it for the summary.
+class Warnings {
+ public:
+  Warnings(Console& console, std::string name, std::vector<std::string>& kept)
+      : console_(console), name_(std::move(name)), kept_(kept) {}
+
+  void add(const std::string& warning) {
+    console_.warn(name_ + ": " + warning);
+    kept_.push_back(warning);
+  }
+
+ private:
+  Console& console_;
+  std::string name_;
+  std::vector<std::string>& kept_;
+};
+
+template <int D>
+std::size_t rejectedEdges(const pose_graph::FileProblem<D>& file, const pose_graph::RobustSolution<D>& robust) {
+  return static_cast<std::size_t>(std::count_if(file.edges.begin(), file.edges.end(), [&](int edge) {
+    return edge >= 0 &&
+           robust.edges[static_cast<std::size_t>(edge)].verdict == urban_nav_core::ClosureVerdict::Rejected;
+  }));
+}
+
+template <int D>
+void summarise(const pose_graph::FileProblem<D>& file, const pose_graph::RobustSolution<D>& robust, bool doubted,
+               Warnings& warnings, RelaxReport& report) {
   const pose_graph::Solution<D>& solution = robust.solution;
-  RelaxReport report;
-  report.ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-  report.poses = file.problem.poses.size();
-  report.edges = file.problem.edges.size();
+  report.poses = file.ids.size();
+  report.edges = file.edges.size();
+  report.landmarks = file.point_ids.size();
+  report.landmark_edges = file.point_edges.size();
+  report.priors = file.priors.size();
   report.iterations = solution.iterations.size();
   report.components = solution.components;
-  report.rejected = static_cast<std::size_t>(
-      std::count_if(robust.edges.begin(), robust.edges.end(), [](const pose_graph::EdgeAssessment& verdict) {
-        return verdict.verdict == urban_nav_core::ClosureVerdict::Rejected;
-      }));
+  report.rejected = rejectedEdges(file, robust);
   report.ending = toString(solution.ending);
   // Each of a component's poses but the first hangs on one trusted edge.
   const std::size_t trusted = report.poses - static_cast<std::size_t>(std::max(solution.components, 1));
   if (doubted && report.edges > trusted) report.variance = robust.variance_factor;
   report.before = computeCosts(file.problem, file.problem.poses);
   report.after = computeCosts(file.problem, solution.poses);
+  if (solution.components > 1)
+    warnings.add(std::to_string(solution.components) + " parts that no edge connects; each stays in its own frame");
+  if (report.edges > trusted && 2 * report.rejected > report.edges - trusted)
+    warnings.add(
+        std::to_string(report.rejected) + " of " + std::to_string(report.edges - trusted) +
+        " closures rejected. If most of them are true, the file's information is larger than its errors allow: "
+        "--robust off takes them all");
+}
+
+template <int D>
+void writeOutputs(const G2oGraph& graph, const pose_graph::FileProblem<D>& file,
+                  const pose_graph::RobustSolution<D>& robust, const Arguments& arguments) {
+  const auto write = [](const std::string& path, const G2oGraph& written) {
+    if (endsLikeToro(path)) urban_nav_core::writeToro(path, written);
+    else urban_nav_core::writeG2o(path, written);
+  };
+  if (arguments.has("edges"))
+    urban_nav_core::writeAtomically(arguments.get("edges"), edgesCsv(graph, file, robust.edges));
+  if (arguments.has("covariance"))
+    urban_nav_core::writeAtomically(arguments.get("covariance"),
+                                    covarianceCsv(file, robust.edges, robust.solution.poses));
+  if (arguments.has("rejected")) write(arguments.get("rejected"), withoutRejected(graph, file, robust.edges));
+  write(arguments.get("output"), pose_graph::withPoses<D>(graph, file, robust.solution.poses));
+}
+
+template <int D>
+RelaxReport relaxFile(const G2oGraph& graph, const std::string& name, const Arguments& arguments, Console& console) {
+  RelaxReport report;
+  Warnings warnings(console, name, report.warnings);
+  for (const auto& [tag, count] : unknownTags(graph))
+    warnings.add(std::to_string(count) + " lines " + tag + " are of an unknown kind and left out");
+  pose_graph::SolveOptions options;
+  options.objective = parseObjective(arguments.get("objective", "geodesic"));
+  const bool doubted = arguments.get("robust", "on") == "on";
+  const bool blocks = options.objective == Objective::Chordal && !doubted;
+  const pose_graph::FileProblem<D> file = pose_graph::makeProblem<D>(
+      graph, name, blocks ? pose_graph::Semidefinite::Blocks : pose_graph::Semidefinite::Whole);
+  for (const std::string& note : file.notes) warnings.add(note);
+  options.start = makeStart(arguments.get("start", "auto"));
+  Progress progress(console, "relax", "iterations", 0);
+  options.progress = [&](int iteration, double) {
+    progress.update(iteration);
+    return true;
+  };
+  const auto begin = Clock::now();
+  const pose_graph::RobustSolution<D> robust = solved(file, arguments, options);
+  report.ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+  summarise(file, robust, doubted, warnings, report);
   if (options.objective == Objective::Chordal) {
     std::vector<double> weights;
     for (const pose_graph::EdgeAssessment& edge : robust.edges) weights.push_back(edge.weight);
-    report.certificate = certify(file.problem, solution.poses, weights);
+    report.certificate = certify(file.problem, robust.solution.poses, weights);
   }
-  if (solution.components > 1)
-    console.warn(name + ": " + std::to_string(solution.components) +
-                 " parts that no edge connects; each stays in its own frame");
-  if (report.edges > trusted && 2 * report.rejected > report.edges - trusted)
-    console.warn(
-        name + ": " + std::to_string(report.rejected) + " of " + std::to_string(report.edges - trusted) +
-        " closures rejected. If most of them are true, the file's information is larger than its errors allow: "
-        "--robust off takes them all");
-  if (arguments.has("edges")) {
-    std::string text = "from,to,weight,verdict\n";
-    for (std::size_t e = 0; e < graph.edges.size(); ++e)
-      text += std::to_string(graph.edges[e].from) + "," + std::to_string(graph.edges[e].to) + "," +
-              urban_nav_core::printNumber(robust.edges[e].weight) + "," + toString(robust.edges[e].verdict) + "\n";
-    urban_nav_core::writeAtomically(arguments.get("edges"), text);
-  }
-  const std::string output = arguments.get("output");
-  const G2oGraph relaxed = pose_graph::withPoses<D>(graph, file, solution.poses);
-  if (endsLikeToro(output)) urban_nav_core::writeToro(output, relaxed);
-  else urban_nav_core::writeG2o(output, relaxed);
+  writeOutputs(graph, file, robust, arguments);
   return report;
 }
 
@@ -220,8 +202,10 @@ int runRelax(const Arguments& arguments, Console& console) {
   const urban_nav_core::ThreadLimit threads(static_cast<int>(arguments.integer("threads", 0, 1, 1024)));
   const std::string name = arguments.get("IN");
   const std::string text = urban_nav_core::readTextFile(name);
-  const G2oGraph graph =
-      urban_nav_core::isToro(text) ? urban_nav_core::parseToro(text, name) : urban_nav_core::parseG2o(text, name);
+  const auto unknown =
+      arguments.has("ignore-unknown") ? urban_nav_core::UnknownTags::Keep : urban_nav_core::UnknownTags::Refuse;
+  const G2oGraph graph = urban_nav_core::isToro(text) ? urban_nav_core::parseToro(text, name, unknown)
+                                                      : urban_nav_core::parseG2o(text, name, unknown);
   const RelaxReport report = graph.dimension == 2 ? relaxFile<2>(graph, name, arguments, console)
                                                   : relaxFile<3>(graph, name, arguments, console);
   console.print(toText(report));
@@ -238,7 +222,8 @@ Command relaxCommand() {
   command.options = {
       {"IN",
        "",
-       "g2o file (VERTEX_SE2, VERTEX_SE3:QUAT, EDGE_SE2, EDGE_SE3:QUAT) or TORO file (VERTEX2, VERTEX3, EDGE2, EDGE3)",
+       "g2o file (poses VERTEX_SE2, VERTEX_SE3:QUAT and edges between them, landmarks, priors, FIX) or TORO file "
+       "(VERTEX2, VERTEX3, EDGE2, EDGE3)",
        true,
        false,
        {}},
@@ -274,7 +259,10 @@ Command relaxCommand() {
        false,
        false,
        {"on", "off"}},
-      {"--edges", "CSV", "write each edge's weight and verdict: from,to,weight,verdict", false, false, {}},
+      {"--edges", "CSV", "write each edge's weight and verdict: from,to,weight,verdict,reason", false, false, {}},
+      {"--covariance", "CSV", "write each vertex and its marginal covariance, row by row", false, false, {}},
+      {"--rejected", "G2O", "write IN without the rejected edges", false, false, {}},
+      {"--ignore-unknown", "", "leave out lines of unknown kinds, named and counted", false, false, {}},
       jsonOption(),
       configOption(),
       setOption(),

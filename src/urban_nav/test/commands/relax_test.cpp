@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -89,6 +90,30 @@ TEST_F(Relax, ToroGoesInAndOut) {
   expectSamePoses(read("a.g2o"), read("b.toro"), 1e-12);
   ASSERT_EQ(relax({path("in.graph"), "-o", path("c.g2o")}), 0);
   EXPECT_EQ(readTextFile(path("c.g2o")), readTextFile(path("a.g2o")));
+}
+
+TEST_F(Relax, UnknownLinesAreRefusedOrNamedAndCounted) {
+  writeAtomically(path("in.g2o"),
+                  std::string(kSquare) + "TUTORIAL_EDGE_SE2 4 0 1 0 0 1\nTUTORIAL_EDGE_SE2 4 1 1 0 0 1\n");
+  EXPECT_EQ(relax({path("in.g2o"), "-o", path("a.g2o")}), 2);
+  EXPECT_FALSE(std::filesystem::exists(path("a.g2o")));
+  ASSERT_EQ(relax({path("in.g2o"), "-o", path("a.g2o"), "--ignore-unknown", "--json", path("a.json")}), 0);
+  EXPECT_NE(readTextFile(path("a.json")).find("2 lines TUTORIAL_EDGE_SE2"), std::string::npos);
+}
+
+TEST_F(Relax, CovariancesAndRejectedEdgesAreWritten) {
+  writeAtomically(path("in.g2o"), std::string(kSquare) + "EDGE_SE2 0 2 50 -30 1 100 0 0 100 0 400\n");
+  ASSERT_EQ(relax({path("in.g2o"), "-o", path("a.g2o"), "--edges", path("e.csv"), "--covariance", path("c.csv"),
+                   "--rejected", path("r.g2o")}),
+            0);
+  const std::string edges = readTextFile(path("e.csv")), covariances = readTextFile(path("c.csv"));
+  EXPECT_EQ(edges.substr(0, edges.find('\n')), "from,to,weight,verdict,reason");
+  EXPECT_NE(edges.find("0,2,0,rejected,"), std::string::npos) << edges;
+  EXPECT_NE(edges.find("0,1,1,accepted,\n"), std::string::npos) << edges;
+  EXPECT_EQ(read("r.g2o").edges.size(), 5U);
+  EXPECT_EQ(read("r.g2o").vertices[4].values, read("in.g2o").vertices[4].values);
+  EXPECT_EQ(std::count(covariances.begin(), covariances.end(), '\n'), 6);
+  EXPECT_NE(covariances.find("\n0,0,0,0,0,0,0,0,0,0\n"), std::string::npos) << covariances;
 }
 
 TEST_F(Relax, ABrokenChainIsNamed) {

@@ -7,12 +7,19 @@
 
 namespace urban_nav_core {
 
+std::string_view withoutByteOrderMark(std::string_view text) {
+  constexpr std::string_view mark = "\xEF\xBB\xBF";
+  return text.substr(0, mark.size()) == mark ? text.substr(mark.size()) : text;
+}
+
 GraphLines::GraphLines(std::string name, UnknownTags unknown, std::string known_tags, std::string two_kinds)
     : name_(std::move(name)), unknown_(unknown), known_tags_(std::move(known_tags)), two_kinds_(std::move(two_kinds)) {}
 
 GraphLines::Words GraphLines::begin(std::string_view text, int number) {
   where_ = atLine(name_, number);
-  return splitBlanks(text);
+  const std::size_t comment = text.find('#');
+  const bool after_words = comment != std::string_view::npos && text.find_first_not_of(" \t") < comment;
+  return splitBlanks(after_words ? text.substr(0, comment) : text);
 }
 
 void GraphLines::demandColumns(const Words& words, std::size_t columns, int dimension) {
@@ -25,7 +32,7 @@ void GraphLines::demandColumns(const Words& words, std::size_t columns, int dime
 
 G2oGraph::Id GraphLines::id(std::string_view word) const {
   const auto value = parseInteger(word);
-  if (!value || *value < 0) refuse("vertex `" + std::string(word) + "`", "whole numbers from 0");
+  if (!value) refuse("vertex `" + std::string(word) + "`", "whole numbers");
   return *value;
 }
 
@@ -46,9 +53,30 @@ void GraphLines::add(const G2oGraph::Vertex& vertex) {
 }
 
 void GraphLines::add(const G2oGraph::Edge& edge) {
-  if (edge.from == edge.to) refuse("an edge from " + std::to_string(edge.from) + " to itself", "");
   graph_.lines.push_back({G2oGraph::Kind::Edge, graph_.edges.size()});
   graph_.edges.push_back(edge);
+}
+
+void GraphLines::add(const G2oGraph::Point& point) {
+  if (!known_.insert(point.id).second) refuse("vertex " + std::to_string(point.id) + " stands twice", "");
+  graph_.lines.push_back({G2oGraph::Kind::Point, graph_.points.size()});
+  graph_.points.push_back(point);
+}
+
+void GraphLines::add(const G2oGraph::PointEdge& edge) {
+  graph_.lines.push_back({G2oGraph::Kind::PointEdge, graph_.point_edges.size()});
+  graph_.point_edges.push_back(edge);
+}
+
+void GraphLines::add(const G2oGraph::Prior& prior) {
+  graph_.lines.push_back({G2oGraph::Kind::Prior, graph_.priors.size()});
+  graph_.priors.push_back(prior);
+}
+
+void GraphLines::add(const G2oGraph::Offset& offset) {
+  if (!known_offsets_.insert(offset.id).second) refuse("parameter " + std::to_string(offset.id) + " stands twice", "");
+  graph_.lines.push_back({G2oGraph::Kind::Offset, graph_.offsets.size()});
+  graph_.offsets.push_back(offset);
 }
 
 void GraphLines::fix(const Words& words) {

@@ -10,6 +10,9 @@
 
 namespace urban_nav_core {
 
+/// `text` without a byte order mark at its begin.
+std::string_view withoutByteOrderMark(std::string_view text);
+
 /// What the text formats of pose graphs have in common: lines of a tag, vertex numbers and figures. Each demand throws
 /// a UserError that names file and line.
 class GraphLines {
@@ -19,7 +22,8 @@ class GraphLines {
   /// `two_kinds`: what to call a file with lines of the plane and of space.
   GraphLines(std::string name, UnknownTags unknown, std::string known_tags, std::string two_kinds);
 
-  /// The words of the next line; empty: nothing in it.
+  /// The words of the next line, without a comment after them; empty: nothing in it. A line that is a comment as a
+  /// whole is one word or more.
   Words begin(std::string_view text, int number);
 
   void demandColumns(const Words& words, std::size_t columns, int dimension);
@@ -29,6 +33,10 @@ class GraphLines {
 
   void add(const G2oGraph::Vertex& vertex);
   void add(const G2oGraph::Edge& edge);
+  void add(const G2oGraph::Point& point);
+  void add(const G2oGraph::PointEdge& edge);
+  void add(const G2oGraph::Prior& prior);
+  void add(const G2oGraph::Offset& offset);
   void fix(const Words& words);
   /// A line that the format does not know.
   void other(std::string_view text, std::string_view tag);
@@ -40,7 +48,7 @@ class GraphLines {
   UnknownTags unknown_;
   std::string known_tags_, two_kinds_;
   bool has_dimension_ = false;
-  std::set<G2oGraph::Id> known_;
+  std::set<G2oGraph::Id> known_, known_offsets_;
   G2oGraph graph_;
 };
 

@@ -141,6 +141,10 @@ void appendToroLine(std::string& text, const G2oGraph& graph, const G2oGraph::Li
         appendValue(text, information[graph.dimension == 2 ? upper_of_toro[i] : i]);
       break;
     }
+    case G2oGraph::Kind::Point:
+    case G2oGraph::Kind::PointEdge:
+    case G2oGraph::Kind::Prior:
+    case G2oGraph::Kind::Offset: return;
     case G2oGraph::Kind::Fix: text += "FIX " + std::to_string(graph.fixed[line.index]); break;
     case G2oGraph::Kind::Other: text += graph.others[line.index]; break;
   }
@@ -153,7 +157,7 @@ G2oGraph readToro(const std::string& path, UnknownTags unknown) { return parseTo
 
 G2oGraph parseToro(std::string_view text, const std::string& name, UnknownTags unknown) {
   ToroParser parser(name, unknown);
-  forEachLine(text, [&parser](std::string_view line, int number) { parser.line(line, number); });
+  forEachLine(withoutByteOrderMark(text), [&parser](std::string_view line, int number) { parser.line(line, number); });
   return parser.take();
 }
 
@@ -167,7 +171,7 @@ void writeToro(const std::string& path, const G2oGraph& graph) { writeAtomically
 
 bool isToro(std::string_view text) {
   bool known = false, toro = false;
-  forEachLine(text, [&](std::string_view line, int) {
+  forEachLine(withoutByteOrderMark(text), [&](std::string_view line, int) {
     if (known) return;
     const Words words = splitBlanks(line);
     if (words.empty()) return;

@@ -24,7 +24,7 @@ namespace urban_nav_core {
 G2oGraph readToro(const std::string& path, UnknownTags unknown = UnknownTags::Keep);
 G2oGraph parseToro(std::string_view text, const std::string& name, UnknownTags unknown = UnknownTags::Keep);
 
-/// Lines in the order of graph.lines, as printG2o.
+/// Lines in the order of graph.lines, as printG2o. The format has no landmarks and no priors: they are left out.
 std::string printToro(const G2oGraph& graph);
 void writeToro(const std::string& path, const G2oGraph& graph);
 

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "file/constraints.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "file/information.hpp"
+#include "linear/index.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace pose_graph {
+
+using urban_nav_core::G2oGraph;
+using urban_nav_core::UserError;
+
+namespace {
+
+template <int D>
+class ConstraintAdder {
+ public:
+  ConstraintAdder(const G2oGraph& graph, const std::string& name, Semidefinite demanded, FileProblem<D>& file)
+      : graph_(graph), name_(name), demanded_(demanded), file_(file) {
+    for (const Edge<D>& edge : file.problem.edges) stiffest(edge.information);
+    for (const G2oGraph::Offset& offset : graph.offsets) offsets_[offset.id] = toRigid<D>(graph.pose(offset));
+  }
+
+  void addLandmarks() {
+    for (const G2oGraph::Point& point : graph_.points) {
+      Rigid<D> pose;
+      for (int a = 0; a < D; ++a) pose.t[a] = point.values[sz(a)];
+      landmark_[point.id] = addPose(pose);
+      file_.point_ids.push_back(point.id);
+    }
+    std::vector<char> placed(file_.problem.poses.size(), 1), tied(file_.problem.poses.size(), 0);
+    for (const G2oGraph::PointEdge& measured : graph_.point_edges) {
+      if (!landmark_.count(measured.to)) {
+        landmark_[measured.to] = addPose({});
+        file_.point_ids.push_back(measured.to);
+        placed.push_back(0);
+        tied.push_back(0);
+      }
+      addSighting(measured, placed, tied);
+    }
+  }
+
+  void addPriors() {
+    for (const G2oGraph::Prior& prior : graph_.priors) {
+      Edge<D> edge;
+      edge.Z = toRigid<D>(graph_.pose(prior));
+      edge.information = priorInformation(prior);
+      demandSemidefinite<D>(demanded_, edge.information, "the prior of " + std::to_string(prior.vertex), name_);
+      stiffest(edge.information);
+      edge.to = sensorOn(prior);
+      edge.from = frame();
+      file_.priors.push_back(static_cast<int>(file_.problem.edges.size()));
+      add(edge, EdgeRole::Asserted);
+    }
+  }
+
+  void fixVertices() {
+    std::vector<G2oGraph::Id> fixed = graph_.fixed;
+    std::sort(fixed.begin(), fixed.end());
+    fixed.erase(std::unique(fixed.begin(), fixed.end()), fixed.end());
+    // A single one that is held anyway needs nothing.
+    if (graph_.priors.empty() && fixed.size() == 1 && fixed.front() == file_.ids.front()) return;
+    for (const G2oGraph::Id id : fixed) {
+      const int pose = poseOrLandmark(id);
+      if (pose < 0) {
+        file_.notes.push_back("FIX names vertex " + std::to_string(id) + ", which does not exist");
+        continue;
+      }
+      const int at = frame();  // before the pose is read: it may move them all
+      Edge<D> edge = stiff(at, pose, file_.problem.poses[sz(pose)]);
+      if (landmark_.count(id)) edge.information.template bottomRightCorner<kTurn, kTurn>().setZero();
+      add(edge, EdgeRole::Asserted);
+    }
+  }
+
+ private:
+  static constexpr int kTurn = tangent_size<D> - D;
+
+  int addPose(const Rigid<D>& pose) {
+    file_.problem.poses.push_back(pose);
+    return static_cast<int>(file_.problem.poses.size()) - 1;
+  }
+
+  void add(const Edge<D>& edge, EdgeRole role) {
+    file_.problem.edges.push_back(edge);
+    file_.roles.push_back(role);
+  }
+
+  int frame() {
+    if (file_.frame < 0) file_.frame = addPose({});
+    return file_.frame;
+  }
+
+  void stiffest(const TangentMatrix<D>& information) {
+    stiffest_ = std::max(stiffest_, information.diagonal().maxCoeff());
+  }
+
+  Edge<D> stiff(int from, int to, const Rigid<D>& Z) const {
+    return {from, to, Z, TangentMatrix<D>::Identity() * (kStiffness * (stiffest_ > 0.0 ? stiffest_ : 1.0))};
+  }
+
+  int poseOrLandmark(G2oGraph::Id id) const {
+    const auto landmark = landmark_.find(id);
+    if (landmark != landmark_.end()) return landmark->second;
+    const auto at = std::lower_bound(file_.ids.begin(), file_.ids.end(), id);
+    return at != file_.ids.end() && *at == id ? static_cast<int>(at - file_.ids.begin()) : -1;
+  }
+
+  const Rigid<D>& offset(G2oGraph::Id id) const {
+    const auto at = offsets_.find(id);
+    if (at == offsets_.end())
+      throw UserError(name_, "parameter " + std::to_string(id) + " is not defined",
+                      "a line PARAMS_SE3OFFSET " + std::to_string(id));
+    return at->second;
+  }
+
+  void addSighting(const G2oGraph::PointEdge& measured, std::vector<char>& placed, std::vector<char>& tied) {
+    Eigen::Matrix<double, D, 1> at;
+    for (int a = 0; a < D; ++a) at[a] = measured.values[sz(a)];
+    Edge<D> edge;
+    edge.from = poseOrLandmark(measured.from);
+    edge.to = landmark_.at(measured.to);
+    if constexpr (D == 3) edge.Z = offset(measured.parameter);
+    edge.Z.t += edge.Z.R * at;
+    edge.information.setZero();
+    std::size_t next = 0;
+    for (int row = 0; row < D; ++row)
+      for (int column = row; column < D; ++column)
+        edge.information(row, column) = edge.information(column, row) = measured.information[next++];
+    const std::string what = "the edge from " + std::to_string(measured.from) + " to " + std::to_string(measured.to);
+    demandSemidefinite<D>(Semidefinite::Whole, edge.information, what, name_);
+    stiffest(edge.information);
+    Rigid<D>& landmark = file_.problem.poses[sz(edge.to)];
+    const Rigid<D> seen = file_.problem.poses[sz(edge.from)] * edge.Z;
+    if (!placed[sz(edge.to)]) landmark.t = seen.t;
+    placed[sz(edge.to)] = 1;
+    const bool first = !tied[sz(edge.to)];
+    if (first) {
+      landmark.R = seen.R;
+      const double weight = std::max(1e-300, edge.information.trace() / D);
+      edge.information.template bottomRightCorner<kTurn, kTurn>().diagonal().setConstant(weight);
+    }
+    tied[sz(edge.to)] = 1;
+    file_.point_edges.push_back(static_cast<int>(file_.problem.edges.size()));
+    add(edge, first ? EdgeRole::Trusted : EdgeRole::Asserted);
+  }
+
+  TangentMatrix<D> priorInformation(const G2oGraph::Prior& prior) const {
+    if (!prior.position) return tangentInformation<D>(prior.information);
+    TangentMatrix<D> made = TangentMatrix<D>::Zero();
+    made(0, 0) = prior.information[0];
+    made(0, 1) = made(1, 0) = prior.information[1];
+    made(1, 1) = prior.information[2];
+    return made;
+  }
+
+  /// The pose that a prior measures: the vertex, or a sensor away from it.
+  int sensorOn(const G2oGraph::Prior& prior) {
+    const int pose = poseOrLandmark(prior.vertex);
+    if constexpr (D == 3) {
+      const Rigid<D>& mount = offset(prior.parameter);
+      if (mount.t.isZero(0.0) && mount.R.isIdentity(0.0)) return pose;
+      const int sensor = addPose(file_.problem.poses[sz(pose)] * mount);
+      add(stiff(pose, sensor, mount), EdgeRole::Trusted);
+      return sensor;
+    }
+    return pose;
+  }
+
+  const G2oGraph& graph_;
+  const std::string& name_;
+  Semidefinite demanded_;
+  FileProblem<D>& file_;
+  double stiffest_ = 0.0;
+  std::map<G2oGraph::Id, int> landmark_;
+  std::map<G2oGraph::Id, Rigid<D>> offsets_;
+};
+
+}  // namespace
+
+template <int D>
+void addConstraints(const G2oGraph& graph, const std::string& name, Semidefinite demanded, FileProblem<D>& file) {
+  ConstraintAdder<D> adder(graph, name, demanded, file);
+  adder.addLandmarks();
+  adder.addPriors();
+  adder.fixVertices();
+}
+
+template void addConstraints<2>(const G2oGraph&, const std::string&, Semidefinite, FileProblem<2>&);
+template void addConstraints<3>(const G2oGraph&, const std::string&, Semidefinite, FileProblem<3>&);
+
+}  // namespace pose_graph

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "file/information.hpp"
+
+#include <algorithm>
+
+#include "urban_nav_core/geometry/dense.hpp"
+#include "urban_nav_core/geometry/small_matrices.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace pose_graph {
+
+namespace {
+
+// Of the largest eigenvalue. A number of six digits is off by 5e-6 of itself at most, a matrix of six rows by six times
+// that of its largest number.
+constexpr double kSixDigits = 3e-5;
+constexpr double kDoubleRoundOff = 1e-9;  // less need not be put right: nothing takes a root of it
+
+template <int N>
+bool isSemidefinite(const Eigen::Matrix<double, N, N>& information) {
+  if constexpr (N == 1) {
+    return information(0, 0) >= 0.0;
+  } else {
+    // Most matrices pass by their Cholesky factor, at a tenth of the price of eigenvalues.
+    if (urban_nav_core::SmallCholesky<N>(information).succeeded()) return true;
+    const auto values = urban_nav_core::symmetricEigenvalues(information);
+    return values && (*values)[0] >= -kSixDigits * std::max(0.0, values->maxCoeff());
+  }
+}
+
+template <int N>
+void clampEigenvalues(Eigen::Matrix<double, N, N>& information) {
+  if (urban_nav_core::SmallCholesky<N>(information).succeeded()) return;
+  const auto eigen = urban_nav_core::smallEigen<N>(information);
+  if (eigen.values[0] >= -kDoubleRoundOff * eigen.values[N - 1]) return;
+  const Eigen::Matrix<double, N, 1> clamped = eigen.values.cwiseMax(0.0);
+  const Eigen::Matrix<double, N, N> made = eigen.vectors * clamped.asDiagonal() * eigen.vectors.transpose();
+  information = 0.5 * (made + made.transpose());
+}
+
+}  // namespace
+
+template <int D>
+TangentMatrix<D> tangentInformation(const std::array<double, 21>& upper_triangle) {
+  urban_nav_core::G2oGraph::Edge edge;
+  edge.information = upper_triangle;
+  TangentMatrix<D> information = urban_nav_core::g2oInformation(edge, D);
+  if constexpr (D == 3) {
+    information.template topRightCorner<3, 3>() *= 0.5;
+    information.template bottomLeftCorner<3, 3>() *= 0.5;
+    information.template bottomRightCorner<3, 3>() *= 0.25;
+  }
+  return information;
+}
+
+template <int D>
+bool demandSemidefinite(Semidefinite demanded, TangentMatrix<D>& information, const std::string& what,
+                        const std::string& name) {
+  if (isSemidefinite<tangent_size<D>>(information)) {
+    clampEigenvalues<tangent_size<D>>(information);
+    return true;
+  }
+  constexpr int R = tangent_size<D> - D;
+  if (demanded == Semidefinite::Blocks && isSemidefinite<D>(information.template topLeftCorner<D, D>()) &&
+      isSemidefinite<R>(information.template bottomRightCorner<R, R>()))
+    return false;
+  throw urban_nav_core::UserError(name, "the information of " + what + " has a negative eigenvalue",
+                                  "positive semidefinite matrices");
+}
+
+template TangentMatrix<2> tangentInformation<2>(const std::array<double, 21>&);
+template TangentMatrix<3> tangentInformation<3>(const std::array<double, 21>&);
+template bool demandSemidefinite<2>(Semidefinite, TangentMatrix<2>&, const std::string&, const std::string&);
+template bool demandSemidefinite<3>(Semidefinite, TangentMatrix<3>&, const std::string&, const std::string&);
+
+}  // namespace pose_graph
