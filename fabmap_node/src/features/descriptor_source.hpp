@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "fabmap_node/features/place_observation.hpp"
+#include "fabmap_node/recognition/second_look.hpp"
 #include "urban_nav_core/image/pyramid.hpp"
 
 namespace fabmap_node {
@@ -17,8 +17,6 @@ bool describeAsBytes(const urban_nav_core::Pyramid& pyramid, const Eigen::Vector
 
 /// Returns the columns of `a` and `b` that are each other's nearest, clearly nearer than the second nearest on both
 /// sides. Requires unit vectors.
-std::vector<std::pair<std::size_t, std::size_t>> mutualMatches(
-    const Eigen::Matrix<float, static_cast<int>(descriptor_bytes), Eigen::Dynamic>& a,
-    const Eigen::Matrix<float, static_cast<int>(descriptor_bytes), Eigen::Dynamic>& b);
+std::vector<std::pair<std::size_t, std::size_t>> mutualMatches(const LookDescriptors& a, const LookDescriptors& b);
 
 }  // namespace fabmap_node

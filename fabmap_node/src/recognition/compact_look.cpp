@@ -10,12 +10,13 @@
 namespace fabmap_node {
 namespace {
 
-// An element of a descriptor is at most some 0.25 (limited to 0.2 before the last normalisation).
-constexpr float levels_per_unit = 64.0F;
+// Of a unit vector of 64 sums of two elements, which are limited to 0.2 before the last normalisation; few are larger.
+constexpr float levels_per_unit = 40.0F;
 constexpr int highest_level = 15;
 constexpr float highest_coordinate = 65535.0F;
 constexpr std::size_t look_header = 3;  // cameras, number of features
-constexpr std::size_t look_entry = descriptor_bytes / 2 + 5;
+constexpr std::size_t packed_descriptor = look_elements / 2;
+constexpr std::size_t look_entry = packed_descriptor + 5;
 
 std::uint16_t packShare(float share) {
   return static_cast<std::uint16_t>(std::lround(std::clamp(share, 0.0F, 1.0F) * highest_coordinate));
@@ -67,13 +68,13 @@ LookFeatures unpackLook(std::string_view bytes, const std::string& name) {
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t at = look_header + k * look_entry;
     auto descriptor = look.descriptors.col(static_cast<Eigen::Index>(k));
-    for (std::size_t i = 0; i < descriptor_bytes / 2; ++i) {
+    for (std::size_t i = 0; i < packed_descriptor; ++i) {
       const auto pair = static_cast<unsigned char>(bytes[at + i]);
       descriptor(static_cast<Eigen::Index>(2 * i)) = static_cast<float>(pair & 15u);
       descriptor(static_cast<Eigen::Index>(2 * i + 1)) = static_cast<float>(pair >> 4);
     }
     descriptor /= std::max(1.0F, descriptor.norm());
-    const std::size_t place = at + descriptor_bytes / 2;
+    const std::size_t place = at + packed_descriptor;
     look.directions.emplace_back(static_cast<float>(static_cast<unsigned char>(bytes[place])) +
                                      static_cast<float>(read16(bytes, place + 1)) / highest_coordinate,
                                  static_cast<float>(read16(bytes, place + 3)) / highest_coordinate);

@@ -16,6 +16,8 @@ namespace {
 /// A candidate elsewhere shows the same place, in another session or on another lap, if both the query and the best
 /// place agree with it as much as this share of the agreement of query and best place.
 constexpr double same_place_share = 0.5;
+constexpr std::size_t thinning = 4;     // of the descriptors of a first look
+constexpr int smallest_selection = 10;  // candidates without any look
 
 double logMeanOfExponentials(const std::vector<double>& logs) {
   const double top = *std::max_element(logs.begin(), logs.end());
@@ -45,7 +47,23 @@ bool PlaceMatcher::isElsewhere(std::size_t a, std::size_t b) const {
   return places_[a].session != places_[b].session || std::abs(places_[a].stamp - places_[b].stamp) > options_.elsewhere;
 }
 
-/// The likeliest places, among them a third that are elsewhere than the likeliest one.
+/// The first candidates, among them a third that are elsewhere than the very first.
+std::vector<PlaceMatcher::Candidate> PlaceMatcher::selectVaried(const std::vector<Candidate>& ranked,
+                                                                int most_wanted) const {
+  const auto most = static_cast<std::size_t>(std::max(2, most_wanted));
+  const std::size_t reserved = (most + 2) / 3;
+  std::vector<Candidate> chosen;
+  std::size_t elsewhere = 0;
+  for (const Candidate& candidate : ranked) {
+    const bool is_elsewhere = !chosen.empty() && isElsewhere(chosen.front().place, candidate.place);
+    if (!is_elsewhere && chosen.size() - elsewhere >= most - reserved) continue;
+    if (chosen.size() >= most) break;
+    elsewhere += is_elsewhere ? 1u : 0u;
+    chosen.push_back(candidate);
+  }
+  return chosen;
+}
+
 std::vector<PlaceMatcher::Candidate> PlaceMatcher::likeliest(
     const std::vector<double>& likelihoods, const std::function<bool(std::size_t)>& isCandidate) const {
   std::vector<Candidate> all;
@@ -54,18 +72,16 @@ std::vector<PlaceMatcher::Candidate> PlaceMatcher::likeliest(
   std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
     return a.log_likelihood != b.log_likelihood ? a.log_likelihood > b.log_likelihood : a.place < b.place;
   });
-  const auto most = static_cast<std::size_t>(std::max(2, options_.second_looks));
-  const std::size_t reserved = (most + 2) / 3;
-  std::vector<Candidate> chosen;
-  std::size_t elsewhere = 0;
-  for (const Candidate& candidate : all) {
-    const bool is_elsewhere = !chosen.empty() && isElsewhere(chosen.front().place, candidate.place);
-    if (!is_elsewhere && chosen.size() - elsewhere >= most - reserved) continue;
-    if (chosen.size() >= most) break;
-    elsewhere += is_elsewhere ? 1u : 0u;
-    chosen.push_back(candidate);
-  }
-  return chosen;
+  return selectVaried(
+      all, options_.second_looks > 0 ? std::max(options_.first_looks, options_.second_looks) : smallest_selection);
+}
+
+/// Compares every `step`-th descriptor of the places with those of the query.
+void PlaceMatcher::compareAll(const LookFeatures& query, std::size_t step, std::vector<Candidate>& candidates) const {
+  urban_nav_core::forEach(candidates.size(), 1, [&](std::size_t i) {
+    const LookFeatures all = look(places_[candidates[i].place]);
+    candidates[i].look = secondLook(query, step > 1 ? thinnedOut(all, step) : all);
+  });
 }
 
 PlaceMatch PlaceMatcher::judge(const DescribedPlace& query, const std::vector<Candidate>& candidates) const {
@@ -102,9 +118,13 @@ std::optional<PlaceMatch> PlaceMatcher::match(const DescribedPlace& query,
   if (candidates.empty()) return std::nullopt;
   if (options_.second_looks > 0) {
     const LookFeatures own = look(query);
-    urban_nav_core::forEach(candidates.size(), 1, [&](std::size_t i) {
-      candidates[i].look = secondLook(own, look(places_[candidates[i].place]));
-    });
+    if (candidates.size() > static_cast<std::size_t>(options_.second_looks)) {
+      compareAll(own, thinning, candidates);
+      std::stable_sort(candidates.begin(), candidates.end(),
+                       [](const Candidate& a, const Candidate& b) { return a.look.share > b.look.share; });
+      candidates = selectVaried(candidates, options_.second_looks);
+    }
+    compareAll(own, 1, candidates);
   }
   PlaceMatch match = judge(query, candidates);
   sampled_.logLikelihoods(query.words, at_samples);

@@ -75,12 +75,25 @@ LookFeatures lookFeatures(const PlaceObservation& observation, std::size_t most)
   for (std::size_t k = 0; k < count; ++k) {
     const PlaceFeature& feature = observation.features[k * all / count];
     auto column = look.descriptors.col(static_cast<Eigen::Index>(k));
-    for (std::size_t i = 0; i < descriptor_bytes; ++i)
-      column(static_cast<Eigen::Index>(i)) = static_cast<float>(feature.descriptor[i]);
+    for (std::size_t i = 0; i < descriptor_bytes / 2; ++i)
+      column(static_cast<Eigen::Index>(i)) =
+          static_cast<float>(feature.descriptor[2 * i]) + static_cast<float>(feature.descriptor[2 * i + 1]);
     column /= std::max(1.0F, column.norm());
     look.directions.emplace_back(static_cast<float>(feature.camera) + feature.u, feature.v);
   }
   return look;
+}
+
+LookFeatures thinnedOut(const LookFeatures& look, std::size_t step) {
+  LookFeatures some;
+  some.cameras = look.cameras;
+  const std::size_t count = (look.size() + step - 1) / step;
+  some.descriptors.resize(Eigen::NoChange, static_cast<Eigen::Index>(count));
+  for (std::size_t k = 0; k < count; ++k) {
+    some.descriptors.col(static_cast<Eigen::Index>(k)) = look.descriptors.col(static_cast<Eigen::Index>(k * step));
+    some.directions.push_back(look.directions[k * step]);
+  }
+  return some;
 }
 
 LookAgreement secondLook(const LookFeatures& a, const LookFeatures& b) {

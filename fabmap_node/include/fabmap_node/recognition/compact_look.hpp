@@ -9,7 +9,7 @@
 namespace fabmap_node {
 
 /// Returns the bytes of a second look's features: 4 bits per element of a descriptor, 16 per coordinate of a direction,
-/// 69 bytes per feature in total. Equal features give equal bytes on every machine.
+/// 37 bytes per feature in total. Equal features give equal bytes on every machine.
 std::string packLook(const LookFeatures& look);
 /// Returns the features of packLook(), rounded as stored. Throws DataError with `name` if the bytes are damaged.
 LookFeatures unpackLook(std::string_view bytes, const std::string& name);

@@ -15,8 +15,9 @@
 namespace fabmap_node {
 
 struct MatcherOptions {
+  int first_looks = 30;             ///< likeliest candidates of which a quarter of the descriptors is compared
   int second_looks = 10;            ///< candidates that are compared descriptor by descriptor; 0: none
-  std::size_t look_features = 280;  ///< features that a second look compares: 19 kB a place
+  std::size_t look_features = 540;  ///< features that a second look compares: 19 kB a place
   urban_nav_core::StampNs elsewhere = 10'000'000'000;  ///< places of one session so far apart in time are elsewhere, ns
 };
 
@@ -65,6 +66,8 @@ class PlaceMatcher {
   bool isElsewhere(std::size_t a, std::size_t b) const;
   std::vector<Candidate> likeliest(const std::vector<double>& likelihoods,
                                    const std::function<bool(std::size_t)>& isCandidate) const;
+  std::vector<Candidate> selectVaried(const std::vector<Candidate>& ranked, int most) const;
+  void compareAll(const LookFeatures& query, std::size_t step, std::vector<Candidate>& candidates) const;
   PlaceMatch judge(const DescribedPlace& query, const std::vector<Candidate>& candidates) const;
   LookFeatures look(const DescribedPlace& place) const;
 

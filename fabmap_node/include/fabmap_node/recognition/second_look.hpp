@@ -9,10 +9,14 @@
 
 namespace fabmap_node {
 
+inline constexpr int look_elements = 64;
+/// Descriptors of a second look: neighbouring directions of the gradient are added up, so that twice as many fit.
+using LookDescriptors = Eigen::Matrix<float, look_elements, Eigen::Dynamic>;
+
 /// What a second look compares: descriptors of an observation with their directions.
 struct LookFeatures {
   std::uint8_t cameras = 1;
-  Eigen::Matrix<float, static_cast<int>(descriptor_bytes), Eigen::Dynamic> descriptors;  ///< unit vectors, one a column
+  LookDescriptors descriptors;              ///< unit vectors, one a column
   std::vector<Eigen::Vector2f> directions;  ///< azimuth and height; see lookFeatures()
 
   std::size_t size() const { return directions.size(); }
@@ -21,6 +25,9 @@ struct LookFeatures {
 /// Selects at most `most` features, evenly over the observation. Directions are shares of the image's width and height;
 /// the azimuth of a panorama counts in images around the vertical axis, 0 ... cameras, clockwise from camera 0.
 LookFeatures lookFeatures(const PlaceObservation& observation, std::size_t most);
+
+/// Returns every `step`-th feature.
+LookFeatures thinnedOut(const LookFeatures& look, std::size_t step);
 
 /// Result of comparing two observations descriptor by descriptor.
 struct LookAgreement {

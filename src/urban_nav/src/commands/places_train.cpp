@@ -2,18 +2,60 @@
 #include "command_line/console.hpp"
 #include "command_line/json.hpp"
 #include "commands/places_actions.hpp"
+#include "fabmap_node/training/recalibrate.hpp"
 #include "fabmap_node/training/train_model.hpp"
 #include "pipeline/parameters.hpp"
+#include "places/place_query.hpp"
 #include "places/place_sessions.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
+#include "urban_nav_core/io/tum.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
+#include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav {
 namespace {
 
+Json trainSummary(const fabmap_node::PlaceModel& model, const std::string& bytes) {
+  Json json = Json::object();
+  json["words"] = static_cast<std::int64_t>(model.vocabulary.size());
+  json["hash"] = fabmap_node::modelHash(bytes);
+  return json;
+}
+
+/// Fits the calibrations of an existing model with days at one place whose positions are known.
+int runRecalibrate(const Arguments& arguments, Console& console) {
+  const std::vector<std::string> sources = arguments.all("SRC"), truths = arguments.all("truth");
+  if (truths.size() != sources.size())
+    throw urban_nav_core::UserError("--truth", std::to_string(truths.size()) + " files",
+                                    std::to_string(sources.size()) + ": one trajectory for each SRC");
+  fabmap_node::PlaceModel model = readPlaceModel(arguments.get("calibrate"));
+  std::vector<urban_nav_core::Trajectory> trajectories;
+  for (const std::string& truth : truths) {
+    trajectories.push_back(urban_nav_core::readTum(truth));
+    if (trajectories.back().empty()) throw urban_nav_core::UserError(truth, "holds no poses", "a TUM trajectory");
+  }
+  std::vector<fabmap_node::LocatedDay> days;
+  readPlaceSessions(
+      sources, arguments.all("topic"), console, nullptr,
+      [&days](std::size_t, const std::string&) { days.emplace_back(); },
+      [&](StampedObservation place) {
+        const urban_nav_core::Trajectory& trajectory = trajectories[days.size() - 1];
+        const Eigen::Vector3d position = trajectory[trajectory.nearest(place.stamp)].pose.t();
+        days.back().push_back({place.stamp, std::move(place.observation), position});
+      });
+  const auto report = fabmap_node::recalibrate(model, days, {});
+  const std::string bytes = fabmap_node::printModel(model);
+  urban_nav_core::writeAtomically(arguments.get("output"), bytes);
+  console.info("calibrated with " + std::to_string(report.right) + " pairs of one place and " +
+               std::to_string(report.wrong) + " of two; model " + fabmap_node::modelHash(bytes));
+  if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), trainSummary(model, bytes).print());
+  return 0;
+}
+
 int runTrain(const Arguments& arguments, Console& console) {
   checkCommonOptions(arguments);
   const urban_nav_core::ThreadLimit threads(static_cast<int>(arguments.integer("threads", 0, 1, 1024)));
+  if (arguments.has("calibrate")) return runRecalibrate(arguments, console);
   fabmap_node::TrainingOptions options;
   options.k_means.words = static_cast<std::size_t>(arguments.integer("words", 4000, 10, 1'000'000));
   options.sampled_places = static_cast<std::size_t>(arguments.integer("sampled", 400, 1, 1'000'000));
@@ -47,12 +89,10 @@ int runTrain(const Arguments& arguments, Console& console) {
   if (report.right == 0 || report.wrong == 0)
     console.warn("too few images to calibrate: nothing will be announced as certain");
   if (arguments.has("json")) {
-    Json json = Json::object();
+    Json json = trainSummary(trained.model, bytes);
     json["images"] = static_cast<std::int64_t>(report.observations);
     json["stationary"] = static_cast<std::int64_t>(report.stationary);
     json["descriptors"] = static_cast<std::int64_t>(report.descriptors);
-    json["words"] = static_cast<std::int64_t>(trained.model.vocabulary.size());
-    json["hash"] = fabmap_node::modelHash(bytes);
     urban_nav_core::writeAtomically(arguments.get("json"), json.print());
   }
   return 0;
@@ -69,13 +109,22 @@ Command placesTrainAction() {
       {"-o,--output", "MODEL", "model to write", true, false, {}},
       {"--words", "N", "size of the vocabulary, 10 ... 1000000 (default 4000)", false, false, {}},
       {"--sampled", "N", "observations stored for the likelihood of a new place (default 400)", false, false, {}},
+      {"--calibrate",
+       "MODEL",
+       "takes words and tree from MODEL and only calibrates it, on days at one place with --truth",
+       false,
+       false,
+       {}},
+      {"--truth", "FILE.tum", "with --calibrate: positions, one file for each SRC, in one frame", false, true, {}},
       {"--topic", "ROLE:=NAME", "topics of bags: panorama0 ... panorama4, left (default: guessed)", false, true, {}},
       {"--seed", "N", "of the first cluster centres (default 1)", false, false, {}},
       jsonOption(),
       configOption(),
       setOption(),
       threadsOption()};
-  action.examples = {"urban_nav places train monday tuesday wednesday -o city.places"};
+  action.examples = {"urban_nav places train monday tuesday wednesday -o city.places",
+                     "urban_nav places train --calibrate city.places day1.bag day2.bag --truth day1.tum --truth "
+                     "day2.tum -o calibrated.places"};
   action.more_help = commonHelp;
   action.run = runTrain;
   return action;

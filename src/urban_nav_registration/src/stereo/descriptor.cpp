@@ -165,10 +165,14 @@ struct Nearest {
 }  // namespace
 
 std::vector<DescriptorMatch> mutualNearest(const Descriptors& a, const Descriptors& b) {
-  std::vector<DescriptorMatch> pairs;
-  if (a.cols() == 0 || b.cols() == 0) return pairs;
+  if (a.cols() == 0 || b.cols() == 0) return {};
   const Eigen::MatrixXf products = a.transpose() * b;
-  std::vector<Nearest> of_a(static_cast<std::size_t>(a.cols())), of_b(static_cast<std::size_t>(b.cols()));
+  return mutualNearest(products);
+}
+
+std::vector<DescriptorMatch> mutualNearest(const Eigen::MatrixXf& products) {
+  std::vector<DescriptorMatch> pairs;
+  std::vector<Nearest> of_a(static_cast<std::size_t>(products.rows())), of_b(static_cast<std::size_t>(products.cols()));
   for (Eigen::Index j = 0; j < products.cols(); ++j)
     for (Eigen::Index i = 0; i < products.rows(); ++i) {
       const float product = products(i, j);

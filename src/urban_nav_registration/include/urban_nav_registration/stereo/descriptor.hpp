@@ -30,5 +30,7 @@ struct DescriptorMatch {
   int a = 0, b = 0;
 };
 std::vector<DescriptorMatch> mutualNearest(const Descriptors& a, const Descriptors& b);
+/// Returns such matches of unit vectors of any size, by their inner products: those of `a` in rows, of `b` in columns.
+std::vector<DescriptorMatch> mutualNearest(const Eigen::MatrixXf& products);
 
 }  // namespace urban_nav_registration

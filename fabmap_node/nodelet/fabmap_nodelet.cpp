@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <nav_msgs/Odometry.h>
+#include <urban_nav_msgs/PlaceBelief.h>
+#include <urban_nav_msgs/TopologicalClosure.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include <tuple>
+#include <variant>
+
+#include "live/live_places.hpp"
+#include "live/nodelet_parameters.hpp"
+#include "urban_nav_ros/closure.hpp"
+#include "urban_nav_ros/image.hpp"
+#include "urban_nav_ros/panorama_feed.hpp"
+#include "urban_nav_ros/pose.hpp"
+#include "urban_nav_ros/stage_nodelet.hpp"
+#include "urban_nav_ros/topics.hpp"
+
+namespace fabmap_node {
+
+using urban_nav_ros::Panorama;
+using urban_nav_ros::PanoramaFeed;
+using urban_nav_ros::RecordedImage;
+
+namespace {
+
+constexpr const char* belief_topic = "places/belief";
+constexpr double image_timeout = 2.0;     // s
+constexpr double odometry_timeout = 5.0;  // s
+
+/// Image of one camera of the head.
+struct CameraImage {
+  std::size_t camera = 0;
+  RecordedImage image;
+};
+
+urban_nav_msgs::PlaceBelief toMessage(const PlaceBelief& belief) {
+  urban_nav_msgs::PlaceBelief message;
+  message.header.stamp = urban_nav_ros::toRosTime(belief.at.stamp);
+  message.knowledge = static_cast<std::uint8_t>(belief.knowledge);
+  message.observation = toString(belief.observation);
+  message.is_stationary = belief.is_stationary;
+  message.p_new = belief.p_new;
+  for (const LikelyPlace& place : belief.likeliest) {
+    message.places.push_back(urban_nav_ros::toPoseRefMessage(place.at));
+    message.probabilities.push_back(place.probability);
+  }
+  return message;
+}
+
+}  // namespace
+
+/// Place recognition on topics: panoramas and odometry in, places/belief and places/closure out.
+class FabmapStage {
+ public:
+  static constexpr const char* name = "fabmap_node";
+  static constexpr const char* topic = "place recognition";
+  using Input = std::variant<CameraImage, urban_nav_core::StampedPose>;
+  using Node = urban_nav_ros::StageNodeWith<Input>;
+
+  explicit FabmapStage(Node& node);
+
+  void handle(Input& input);
+  bool idle();
+  std::string reset();
+  void close() {}
+  urban_nav_live::StageReport report() const { return places_->report(); }
+
+ private:
+  template <typename Message>
+  void subscribeCameras();
+  void subscribeOdometry();
+  void startFeed();
+  void process(const Panorama& panorama);
+
+  Node& node_;
+  NodeletParameters nodelet_;
+  Parameters parameters_;
+  ros::Publisher belief_, closure_;
+  std::unique_ptr<PanoramaFeed> feed_;
+  std::unique_ptr<LivePlaces> places_;
+};
+
+FabmapStage::FabmapStage(Node& node) : node_(node) {
+  std::tie(nodelet_, parameters_) = node.parameters(nodeletTable(), table());
+  node.setQueueSize(nodelet_.queue_size);
+  places_ = std::make_unique<LivePlaces>(parameters_);
+  startFeed();
+  belief_ = node.nh().advertise<urban_nav_msgs::PlaceBelief>(belief_topic, 100);
+  closure_ = node.nh().advertise<urban_nav_msgs::TopologicalClosure>(urban_nav_ros::topics::place_closure, 1000);
+  subscribeOdometry();
+  if (nodelet_.compressed) subscribeCameras<sensor_msgs::CompressedImage>();
+  else subscribeCameras<sensor_msgs::Image>();
+}
+
+template <typename Message>
+void FabmapStage::subscribeCameras() {
+  urban_nav_ros::TopicOptions options;
+  options.timeout = image_timeout;
+  options.queue = nodelet_.queue_size;
+  for (int camera = 0; camera < nodelet_.cameras; ++camera) {
+    std::string image = nodelet_.cameras > 1 ? "ladybug/camera" + std::to_string(camera) + "/image_raw"
+                                             : std::string(urban_nav_ros::topics::left_image);
+    if (nodelet_.compressed) image += "/compressed";
+    node_.subscribeInput<Message>(image, options, [camera](const boost::shared_ptr<const Message>& message) {
+      return Input(CameraImage{static_cast<std::size_t>(camera), RecordedImage(message)});
+    });
+  }
+}
+
+void FabmapStage::subscribeOdometry() {
+  urban_nav_ros::TopicOptions options;
+  options.timeout = odometry_timeout;
+  options.queue = nodelet_.queue_size;
+  options.is_paused = false;
+  node_.subscribeInput<nav_msgs::Odometry>(
+      urban_nav_ros::topics::vo_odometry, options,
+      [](const nav_msgs::OdometryConstPtr& message) -> std::optional<urban_nav_core::StampedPose> {
+        const auto T_odom_base = urban_nav_ros::toPose(message->pose.pose);
+        if (!T_odom_base) return std::nullopt;
+        return urban_nav_core::StampedPose{urban_nav_ros::toStampNs(message->header.stamp), *T_odom_base};
+      });
+}
+
+void FabmapStage::startFeed() {
+  PanoramaFeed::Options options;
+  options.cameras = static_cast<std::size_t>(nodelet_.cameras);
+  options.max_lateness = static_cast<urban_nav_core::StampNs>(1e9 * nodelet_.max_lateness);
+  options.delivery = urban_nav_core::DeliveryOrder::OrderedStreams;
+  feed_ = std::make_unique<PanoramaFeed>(options);
+}
+
+void FabmapStage::handle(Input& input) {
+  if (const auto* pose = std::get_if<urban_nav_core::StampedPose>(&input)) return places_->addOdometry(*pose);
+  const CameraImage& image = std::get<CameraImage>(input);
+  feed_->add(image.camera, image.image);
+  while (const auto panorama = feed_->take()) process(*panorama);
+}
+
+void FabmapStage::process(const Panorama& panorama) {
+  std::vector<cv::Mat> grey;
+  std::vector<urban_nav_core::ImageView> views;
+  for (const RecordedImage& image : panorama.images) {
+    const urban_nav_ros::GreyImage decoded = image.empty() ? urban_nav_ros::GreyImage() : image.grey();
+    if (!decoded.fault.empty()) node_.logWarning("image", decoded.fault);
+    grey.push_back(decoded.pixels);
+    views.push_back(urban_nav_ros::toView(grey.back()));
+  }
+  const PlaceOutput output = places_->process(panorama.stamp, views);
+  belief_.publish(toMessage(output.belief));
+  for (const auto& closure : output.closures) closure_.publish(urban_nav_ros::toTopologicalClosureMessage(closure));
+}
+
+bool FabmapStage::idle() {
+  const urban_nav_live::StageReport report = places_->report();
+  node_.publishStatus(report.status, report.reason_name, urban_nav_ros::toStampNs(ros::Time::now()));
+  return false;
+}
+
+std::string FabmapStage::reset() {
+  places_->reset();
+  startFeed();
+  return "all places are forgotten, the next panorama begins a new session";
+}
+
+class FabmapNodelet : public urban_nav_ros::StageNodelet<FabmapStage> {};
+
+}  // namespace fabmap_node
+
+PLUGINLIB_EXPORT_CLASS(fabmap_node::FabmapNodelet, nodelet::Nodelet)

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "live/nodelet_parameters.hpp"
+
+#include <cstdint>
+
+namespace fabmap_node {
+
+using urban_nav_core::Table;
+
+NodeletParameters::NodeletParameters() { nodeletTable().setDefaults(*this); }
+
+// clang-format would give each of the columns a line.
+// clang-format off
+const Table<NodeletParameters>& nodeletTable() {
+  using P = NodeletParameters;
+  static const Table<NodeletParameters> rows(
+      "",
+      {
+          {"cameras", &P::cameras, "", std::int64_t{5}, std::int64_t{1}, std::int64_t{5}, {},
+           "Cameras of the panoramic head, on ladybug/camera0 ... 4; 1: no panoramas, the left camera serves.", "paper 3"},
+          {"compressed", &P::compressed, "", true, false, false, {},
+           "Image topics are sensor_msgs/CompressedImage; /compressed is appended to their names.", "docs/architecture.md"},
+          {"queue_size", &P::queue_size, "messages", std::int64_t{100}, std::int64_t{5}, std::int64_t{10000}, {},
+           "Images and poses that may wait; when the queue is full, the oldest is dropped and counted.", "docs/architecture.md"},
+          {"max_lateness", &P::max_lateness, "s", 0.2, 0.0, 10.0, {},
+           "Time by stamps that a panorama waits for missing images.", "docs/architecture.md"},
+      });
+  return rows;
+}
+// clang-format on
+
+}  // namespace fabmap_node

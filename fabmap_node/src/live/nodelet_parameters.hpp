@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "urban_nav_core/parameters/table.hpp"
+
+namespace fabmap_node {
+
+/// Parameters of the nodelet of place recognition alone: transport and queues. One member per row of nodeletTable().
+struct NodeletParameters {
+  int cameras;  // of the panoramic head; 1: the left camera
+  bool compressed;
+  int queue_size;       // images
+  double max_lateness;  // s
+
+  NodeletParameters();
+};
+
+const urban_nav_core::Table<NodeletParameters>& nodeletTable();
+
+}  // namespace fabmap_node
