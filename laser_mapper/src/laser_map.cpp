@@ -9,6 +9,7 @@
 
 #include "chunk_store.hpp"
 #include "laser_mapper/tile_surface.hpp"
+#include "relative_covariance.hpp"
 #include "session_chunks.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -91,7 +92,13 @@ LaserMap::LaserMap(const Parameters& parameters, urban_nav_store::Store& store, 
     : parameters_(parameters),
       store_(store),
       sessions_(std::move(sessions)),
-      passes_(findPasses(trajectories(sessions_))) {}
+      passes_(findPasses(trajectories(sessions_))) {
+  for (const MappedSession& session : sessions_)
+    covariances_.push_back(
+        session.covariances == nullptr || session.covariances->empty()
+            ? nullptr
+            : std::make_shared<const RelativeCovariances>(*session.T_map_base, *session.covariances));
+}
 
 RenderStatistics LaserMap::render(const ProgressCallback& progress) {
   RenderStatistics statistics;
@@ -131,13 +138,13 @@ std::vector<Cells> LaserMap::mergeRow(const std::vector<Tile>& tiles) const {
 
 double LaserMap::poseSigma(const MergedCell& cell, const Eigen::Vector3d& p, const Eigen::Vector3d& along) const {
   const MappedSession& session = sessions_[cell.session];
-  if (session.covariances == nullptr || session.T_map_base->empty()) return 0.0;
+  const RelativeCovariances* covariances = covariances_[cell.session].get();
+  if (covariances == nullptr || session.T_map_base->empty()) return 0.0;
   const std::size_t pose = session.T_map_base->nearest(cell.stamp);
-  if (pose >= session.covariances->size()) return 0.0;
   const Eigen::Vector3d lever = p - (*session.T_map_base)[pose].pose.t();
   urban_nav_core::Vector6d jacobian;
   jacobian << along, lever.cross(along);
-  return std::sqrt(std::max(0.0, jacobian.dot((*session.covariances)[pose] * jacobian)));
+  return std::sqrt(std::max(0.0, jacobian.dot(covariances->at(pose) * jacobian)));
 }
 
 void LaserMap::forEachTile(const TileCallback& take) const {

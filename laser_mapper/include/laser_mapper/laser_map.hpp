@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -16,6 +17,8 @@
 #include "urban_nav_store/store.hpp"
 
 namespace laser_mapper {
+
+class RelativeCovariances;
 
 /// A session of the map. The members pointed to must outlive the map.
 struct MappedSession {
@@ -63,7 +66,8 @@ class LaserMap {
   urban_nav_store::Store& store_;
   const std::vector<MappedSession> sessions_;
   std::vector<SessionPasses> passes_;
-  Tiles tiles_;  ///< that have cells in the store
+  std::vector<std::shared_ptr<const RelativeCovariances>> covariances_;  ///< by session; null: exact poses
+  Tiles tiles_;                                                          ///< that have cells in the store
 };
 
 }  // namespace laser_mapper

@@ -94,6 +94,16 @@ ColourImage RecordedImage::colour() const {
   return toColourImage(*raw_);
 }
 
+std::string RecordedImage::jpeg() const {
+  if (compressed_ && compressed_->data.size() > 2 && compressed_->data[0] == 0xFF && compressed_->data[1] == 0xD8)
+    return {compressed_->data.begin(), compressed_->data.end()};
+  const ColourImage image = colour();
+  if (image.pixels.empty()) return {};
+  std::vector<std::uint8_t> bytes;
+  cv::imencode(".jpg", image.pixels, bytes, {cv::IMWRITE_JPEG_QUALITY, 92});
+  return {bytes.begin(), bytes.end()};
+}
+
 void RecordedImage::archive(urban_nav_core::Archive& archive) {
   int kind = raw_ ? 1 : compressed_ ? 2 : 0;
   archive(kind);

@@ -5,6 +5,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "io/jpeg.hpp"
+
 namespace urban_nav_registration {
 
 namespace {
@@ -42,6 +44,19 @@ std::vector<std::uint8_t> encodeJpeg(const Picture& picture, int quality) {
   const cv::Mat pixels(picture.height, picture.width, CV_8UC3, const_cast<std::uint8_t*>(picture.bgr.data()));
   cv::imencode(".jpg", pixels, bytes, {cv::IMWRITE_JPEG_QUALITY, std::clamp(quality, 1, 100)});
   return bytes;
+}
+
+Picture decodePicture(std::string_view jpeg) {
+  constexpr std::int64_t largest = 100'000'000;  // pixels
+  const std::vector<std::uint8_t> bytes(jpeg.begin(), jpeg.end());
+  const auto size = sizeOfJpeg(bytes);
+  if (!size || std::int64_t{size->width} * size->height > largest) return {};
+  try {
+    const cv::Mat pixels = cv::imdecode(bytes, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+    return pixels.empty() ? Picture() : toPicture(pixels);
+  } catch (const cv::Exception&) {
+    return {};
+  }
 }
 
 }  // namespace urban_nav_registration

@@ -38,6 +38,10 @@ class RecordedImage {
   /// Decodes to colour; grey images have three equal channels.
   ColourImage colour() const;
 
+  /// Returns the image as a JPEG: its own bytes if it is one, otherwise with colour and a quality of 92. Empty if it
+  /// does not decode.
+  std::string jpeg() const;
+
   void archive(urban_nav_core::Archive& archive);
 
  private:

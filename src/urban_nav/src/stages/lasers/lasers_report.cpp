@@ -87,6 +87,7 @@ Json toJson(const LasersRun& run) {
   json["beams_mixed"] = beams.mixed;
   json["beams_without_pose"] = beams.without_pose;
   json["beams_out_of_range"] = beams.out_of_range;
+  json["coloured_share"] = beamShare(run.coloured(), run.points());
   json["sigma_m_median"] = run.maps.empty() ? Json() : Json(run.maps.front().sigma_median);
   json["seconds"] = run.seconds;
   Json& warnings = json["warnings"] = Json::array();

@@ -6,9 +6,11 @@
 #include <filesystem>
 #include <map>
 
+#include "command_line/command_parameters.hpp"
 #include "laser_mapper/map_files.hpp"
 #include "laser_mapper/map_picture.hpp"
 #include "stage/stage_result.hpp"
+#include "stages/lasers/map_colour.hpp"
 
 namespace urban_nav {
 
@@ -22,6 +24,7 @@ namespace {
 constexpr double kShownMargin = 25.0;  // m around the path in the view from above
 constexpr int kLongestPicture = 1400, kPictureWidth = 1400, kPictureHeight = 800;  // px
 constexpr double kPathStep = 0.25;                                                 // m
+constexpr double kImageMemoryShare = 0.1;                                          // of memory_mb
 constexpr std::size_t kSigmaBins = 4096;
 constexpr float kSigmaBin = 1e-4F;  // m
 
@@ -58,14 +61,20 @@ class SigmaHistogram {
   std::size_t all_ = 0;
 };
 
-LaserMapRun renderMap(LaserMap& map, std::size_t first_session, const std::vector<const Trajectory*>& trajectories,
-                      const MapContext& context) {
+LaserMapRun renderMap(LaserMap& map, laser_mapper::Colouriser* colouriser, std::size_t first_session,
+                      const std::vector<const Trajectory*>& trajectories, const MapContext& context) {
   LaserMapRun run;
   run.map = first_session;
   run.file = "map" + fileSuffix(first_session) + ".ply";
   Progress bar(context.console, "lasers", "chunks", 0);
   run.rendered = map.render([&](std::size_t done, std::size_t) { bar.update(static_cast<std::int64_t>(done)); });
   bar.finish(static_cast<std::int64_t>(run.rendered.chunks));
+  if (colouriser != nullptr) {
+    map.forEachTile(
+        [&](const laser_mapper::Tile&, const std::vector<MapPoint>& points) { colouriser->addSurface(points); });
+    colouriser->equalise();
+    run.views = colouriser->views();
+  }
   std::vector<std::vector<urban_nav_core::Vector3d>> paths;
   std::vector<urban_nav_core::Vector3d> all;
   for (const Trajectory* trajectory : trajectories) {
@@ -77,7 +86,8 @@ LaserMapRun renderMap(LaserMap& map, std::size_t first_session, const std::vecto
   urban_nav_core::PlyWriter file((std::filesystem::path(context.options.out) / run.file).string(),
                                  laser_mapper::mapLayout());
   SigmaHistogram sigmas;
-  map.forEachTile([&](const laser_mapper::Tile&, const std::vector<MapPoint>& points) {
+  map.forEachTile([&](const laser_mapper::Tile&, std::vector<MapPoint> points) {
+    if (colouriser != nullptr) run.coloured += colouriser->colour(points);
     std::string bytes;
     for (const MapPoint& point : points) {
       appendVertex(bytes, point);
@@ -104,6 +114,12 @@ LaserMapRun renderMap(LaserMap& map, std::size_t first_session, const std::vecto
 std::size_t LasersRun::points() const {
   std::size_t all = 0;
   for (const LaserMapRun& map : maps) all += map.points;
+  return all;
+}
+
+std::size_t LasersRun::coloured() const {
+  std::size_t all = 0;
+  for (const LaserMapRun& map : maps) all += map.coloured;
   return all;
 }
 
@@ -137,7 +153,9 @@ LasersRun runLasers(const laser_mapper::Parameters& parameters, MapContext& cont
     }
     if (mapped.empty()) continue;
     LaserMap laser_map(parameters, *context.store, mapped);
-    run.maps.push_back(renderMap(laser_map, map, trajectories, context));
+    const double memory_mb = kImageMemoryShare * context.options.parameters.get(commandTable()).memory_mb;
+    const auto colouriser = makeColouriser(*context.store, mapped, parameters.voxel, memory_mb);
+    run.maps.push_back(renderMap(laser_map, colouriser.get(), map, trajectories, context));
   }
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return run;

@@ -16,6 +16,8 @@ struct LaserMapRun {
   std::size_t map = 0;  ///< number of its first session
   std::string file;     ///< "map.ply", in the output folder
   std::size_t points = 0;
+  std::size_t coloured = 0;  ///< points with the colour of a panorama
+  std::size_t views = 0;     ///< images that it was coloured from
   std::size_t passes = 0;
   double sigma_median = 0.0;  ///< m
   laser_mapper::RenderStatistics rendered;
@@ -28,6 +30,7 @@ struct LasersRun {
   double seconds = 0.0;  ///< of the whole stage
 
   std::size_t points() const;
+  std::size_t coloured() const;
   std::size_t chunksRendered() const;
   laser_mapper::BeamCounts beams() const;
 };

@@ -6,6 +6,7 @@
 #include "report/plot.hpp"
 #include "stages/lasers/lasers_report.hpp"
 #include "stages/lasers/lasers_run.hpp"
+#include "stages/lasers/panorama_pass.hpp"
 
 namespace urban_nav {
 
@@ -19,6 +20,11 @@ class LasersStage final : public Stage {
     if (!options.localise.empty()) return {false, "not with --localise", {}};
     if (!isRequested(options, "lasers")) return {false, "not in --stages", {}};
     return {true, "", {}};
+  }
+
+  std::unique_ptr<SessionPass> beginSession(MapContext& context, const SessionStart& start) override {
+    if (context.sessions[start.session].info.panorama.empty()) return nullptr;
+    return std::make_unique<PanoramaPass>(context, start);
   }
 
   std::string missingInput(const MapContext& context) const override {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 namespace urban_nav_registration {
@@ -14,5 +15,9 @@ struct Picture {
 
 /// Returns the JPEG of a picture; empty for an empty picture. `quality`: 1...100.
 std::vector<std::uint8_t> encodeJpeg(const Picture& picture, int quality = 85);
+
+/// Returns the picture of a JPEG; an empty one if the bytes are damaged or something else, or if it is larger than 100
+/// million pixels. Thread-safe.
+Picture decodePicture(std::string_view jpeg);
 
 }  // namespace urban_nav_registration

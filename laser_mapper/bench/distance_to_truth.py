@@ -1,0 +1,77 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Distances of a map's points to the true surfaces of a simulated session:
+
+    distance_to_truth.py MAP.ply BAG.truth [TRAJECTORY.tum]
+
+With a trajectory, the map is moved by the rigid motion that aligns it with the true one. Points farther than 20 m from the
+laser, and those nearest to leaves, are left out.
+"""
+import sys
+from pathlib import Path
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+TYPES = {"float": "<f4", "double": "<f8", "uchar": "u1", "ushort": "<u2", "int": "<i4"}
+LEAVES, LASER_HEIGHT, FARTHEST, SHOWN = 6, 0.75, 20.0, 80000
+
+
+def read_ply(path):
+    fields, count = [], 0
+    with open(path, "rb") as file:
+        for line in iter(file.readline, b"end_header\n"):
+            words = line.decode().split()
+            if words[0] == "element":
+                count = int(words[2])
+            elif words[0] == "property":
+                fields.append((words[2], TYPES[words[1]]))
+        return np.frombuffer(file.read(count * np.dtype(fields).itemsize), np.dtype(fields))
+
+
+def positions(cloud):
+    return np.column_stack([cloud[axis] for axis in "xyz"]).astype(float)
+
+
+def distances(points, truth):
+    """To the plane through the seven nearest samples where these are flat and around the point, else to the nearest."""
+    near_distance, near = cKDTree(truth).query(points, k=7)
+    patches = truth[near]
+    centres = patches.mean(1)
+    offsets = patches - centres[:, None]
+    values, vectors = np.linalg.eigh(np.einsum("nki,nkj->nij", offsets, offsets))
+    plane = np.abs(np.einsum("ni,ni->n", points - centres, vectors[:, :, 0]))
+    aside = np.sqrt(np.maximum(near_distance[:, 0] ** 2 - plane ** 2, 0.0))
+    flat = (values[:, 0] < 0.02 * values[:, 1]) & (aside < 0.1)
+    return np.where(flat, np.minimum(plane, near_distance[:, 0]), near_distance[:, 0]), near[:, 0]
+
+
+def rigid_motion(source, target):
+    """R, t that take `source` to `target` (Umeyama 1991)."""
+    u, _, v = np.linalg.svd((target - target.mean(0)).T @ (source - source.mean(0)))
+    rotation = u @ np.diag([1.0, 1.0, np.linalg.det(u @ v)]) @ v
+    return rotation, target.mean(0) - rotation @ source.mean(0)
+
+
+def main():
+    cloud, folder = read_ply(sys.argv[1]), Path(sys.argv[2])
+    points, stamps = positions(cloud), cloud["stamp"]
+    true = np.loadtxt(folder / "trajectory.tum")
+    interpolated = lambda at: np.column_stack([np.interp(at, true[:, 0], true[:, i]) for i in (1, 2, 3)])
+    if len(sys.argv) > 3:
+        estimate = np.loadtxt(sys.argv[3])
+        rotation, translation = rigid_motion(estimate[:, 1:4], interpolated(estimate[:, 0]))
+        points = points @ rotation.T + translation
+    near = np.linalg.norm(points - interpolated(stamps) - [0.0, 0.0, LASER_HEIGHT], axis=1) < FARTHEST
+    chosen = np.flatnonzero(near)
+    chosen = chosen[:: max(1, len(chosen) // SHOWN)]
+    truth = read_ply(folder / "cloud.ply")
+    distance, nearest = distances(points[chosen], positions(truth))
+    used = truth["class"][nearest] != LEAVES
+    d, sigma = distance[used], cloud["sigma"][chosen][used]
+    print(f"{used.sum()} points: median {1e3 * np.median(d):.2f} mm, 95 % {100 * np.quantile(d, .95):.2f} cm, "
+          f"99 % {100 * np.quantile(d, .99):.2f} cm; median of distance over sigma {np.median(d / sigma):.2f}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <list>
+#include <memory>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "laser_mapper/colour/colour_view.hpp"
+#include "laser_mapper/map_point.hpp"
+
+namespace laser_mapper {
+
+/// Colours the points of a map from images (Newman et al. 2009, section 6.1): each point from the best of the views
+/// that nothing of the map hides it from, after the images' exposures and white balances have been made equal by the
+/// points that they share. Order of calls: addSurface() for all points, equalise() once, then colour(). The result does
+/// not depend on the number of threads. Not thread-safe.
+class Colouriser {
+ public:
+  /// `voxel`: distance between points of the map, m. `cached_images`: that are kept decoded, at least 1.
+  Colouriser(std::vector<ColourView> views, ImageLoader load, double voxel, std::size_t cached_images);
+  ~Colouriser();
+
+  /// Notes what points hide. `points` are near each other.
+  void addSurface(const std::vector<MapPoint>& points);
+  /// Estimates a gain of each image and channel.
+  void equalise();
+  /// Sets red, green and blue of the points that a view shows; the others keep theirs. Returns how many it coloured.
+  std::size_t colour(std::vector<MapPoint>& points);
+
+  /// Factors of blue, green and red by which each image is multiplied.
+  const std::vector<std::array<float, 3>>& gains() const { return gains_; }
+  std::size_t views() const { return views_.size(); }
+
+ private:
+  struct ViewData;
+  using Colour = std::array<float, 3>;  // blue, green, red
+  std::shared_ptr<const urban_nav_registration::Picture> image(std::size_t view);
+  std::vector<std::size_t> viewsNear(const std::vector<MapPoint>& points) const;
+
+  const std::vector<ColourView> views_;
+  const ImageLoader load_;
+  const double voxel_;
+  const std::size_t cached_images_;
+  std::vector<ViewData> data_;
+  std::vector<Eigen::Vector3f> samples_;  ///< points by which images are compared
+  std::size_t sample_step_ = 1, seen_ = 0;
+  std::vector<Colour> gains_;
+  std::list<std::size_t> recent_;  ///< views of cache_, the one used last first
+  std::unordered_map<
+      std::size_t, std::pair<std::shared_ptr<const urban_nav_registration::Picture>, std::list<std::size_t>::iterator>>
+      cache_;
+};
+
+}  // namespace laser_mapper

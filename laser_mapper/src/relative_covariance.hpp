@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "urban_nav_core/trajectory/trajectory.hpp"
+
+namespace laser_mapper {
+
+/// Covariances of the poses of a session relative to its middle pose, in the axes of the map: what remains of the
+/// uncertainty when the map as a whole is moved. Derived from those relative to the first pose, as if the steps of the
+/// trajectory were independent; where closures make a difference indefinite, the absolute values of its eigenvalues are
+/// used, which is right for a closed loop. Immutable, so thread-safe.
+class RelativeCovariances {
+ public:
+  /// `T_first_base`: covariances, one per pose; poses after the last one count as exact.
+  RelativeCovariances(const urban_nav_core::Trajectory& T_map_base,
+                      const std::vector<urban_nav_core::Matrix6d>& T_first_base);
+  /// Returns the covariance of a pose, by its index in the trajectory; of one near it, at most kSpacing away.
+  const urban_nav_core::Matrix6d& at(std::size_t pose) const;
+
+ private:
+  static constexpr std::size_t kSpacing = 8;
+  std::vector<urban_nav_core::Matrix6d> covariances_;  // of every kSpacing-th pose
+};
+
+}  // namespace laser_mapper

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "laser_mapper/colour/colouriser.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "urban_nav_core/parallel/for_each.hpp"
+
+namespace laser_mapper {
+namespace {
+
+using urban_nav_core::Pose;
+using urban_nav_registration::Picture;
+
+constexpr int kTestWidth = 320, kTestHeight = 240;
+
+/// A view from (x, 0, 0) along z.
+ColourView viewFrom(double x, std::size_t image) {
+  ColourView view;
+  view.camera.pinhole = {200.0, 200.0, 160.0, 120.0, kTestWidth, kTestHeight};
+  view.T_map_camera = Pose(Eigen::Quaterniond::Identity(), Eigen::Vector3d(x, 0.0, 0.0));
+  view.image = image;
+  return view;
+}
+
+/// A wall at z = `depth`, 5 cm from point to point.
+std::vector<MapPoint> wallAt(float depth, float low_x, float high_x) {
+  std::vector<MapPoint> points;
+  for (float x = low_x; x < high_x; x += 0.05F)
+    for (float y = -1.0F; y < 1.0F; y += 0.05F) {
+      MapPoint point;
+      point.p = {x, y, depth};
+      point.normal = -Eigen::Vector3f::UnitZ();
+      points.push_back(point);
+    }
+  return points;
+}
+
+Picture uniform(std::uint8_t blue, std::uint8_t green, std::uint8_t red) {
+  Picture picture{kTestWidth, kTestHeight, {}};
+  for (int i = 0; i < kTestWidth * kTestHeight; ++i) picture.bgr.insert(picture.bgr.end(), {blue, green, red});
+  return picture;
+}
+
+TEST(Colouriser, ExposuresAreEqualised) {
+  std::vector<ColourView> views;
+  for (std::size_t i = 0; i < 5; ++i) views.push_back(viewFrom(0.2 * static_cast<double>(i), i));
+  const auto load = [](std::size_t image) {
+    const double gain = 0.6 + 0.2 * static_cast<double>(image);
+    return uniform(static_cast<std::uint8_t>(40.0 * gain), static_cast<std::uint8_t>(90.0 * gain),
+                   static_cast<std::uint8_t>(140.0 * gain));
+  };
+  Colouriser colouriser(views, load, 0.05, 2);
+  std::vector<MapPoint> wall = wallAt(3.0F, -1.0F, 1.5F);
+  colouriser.addSurface(wall);
+  colouriser.equalise();
+  for (std::size_t i = 1; i < 5; ++i)
+    EXPECT_NEAR(colouriser.gains()[0][2] / colouriser.gains()[i][2], (0.6 + 0.2 * static_cast<double>(i)) / 0.6, 0.03);
+  EXPECT_EQ(colouriser.colour(wall), wall.size());
+  for (const MapPoint& point : wall) {
+    EXPECT_NEAR(point.blue, 40, 2);
+    EXPECT_NEAR(point.green, 90, 3);
+    EXPECT_NEAR(point.red, 140, 3);
+  }
+}
+
+TEST(Colouriser, WhatIsHiddenIsNotColoured) {
+  Colouriser colouriser(
+      {viewFrom(0.0, 0)}, [](std::size_t) { return uniform(10, 20, 200); }, 0.05, 1);
+  std::vector<MapPoint> far = wallAt(6.0F, -1.0F, 1.0F), near = wallAt(2.0F, -0.2F, 0.2F);
+  colouriser.addSurface(far);
+  colouriser.addSurface(near);
+  colouriser.equalise();
+  EXPECT_EQ(colouriser.colour(near), near.size());
+  colouriser.colour(far);
+  for (const MapPoint& point : far) {
+    const bool hidden = std::abs(point.p.x() / 3.0F) < 0.2F && std::abs(point.p.y() / 3.0F) < 0.95F;
+    if (hidden) {
+      EXPECT_EQ(point.red, 0) << point.p.transpose();
+    }
+    if (std::abs(point.p.x() / 3.0F) > 0.35F) {
+      EXPECT_EQ(point.red, 200) << point.p.transpose();
+    }
+  }
+}
+
+TEST(Colouriser, ImagesThatCannotBeReadAreLeftOut) {
+  const auto load = [](std::size_t image) {
+    return image == 0 ? Picture() : image == 1 ? Picture{3, 1, std::vector<std::uint8_t>(9, 0)} : uniform(1, 200, 3);
+  };
+  Colouriser colouriser({viewFrom(0.0, 0), viewFrom(0.1, 1), viewFrom(0.2, 2)}, load, 0.05, 4);
+  std::vector<MapPoint> wall = wallAt(3.0F, -0.5F, 0.5F);
+  colouriser.addSurface(wall);
+  colouriser.equalise();
+  EXPECT_EQ(colouriser.colour(wall), wall.size());
+  EXPECT_EQ(wall.front().green, 200);
+}
+
+TEST(Colouriser, DoesNotDependOnTheNumberOfThreads) {
+  std::vector<std::vector<MapPoint>> results;
+  for (const int threads : {1, 2}) {
+    const urban_nav_core::ThreadLimit limit(threads);
+    std::vector<ColourView> views;
+    for (std::size_t i = 0; i < 4; ++i) views.push_back(viewFrom(0.3 * static_cast<double>(i), i));
+    Colouriser colouriser(
+        views,
+        [](std::size_t image) {
+          Picture picture = uniform(0, 0, 0);
+          for (std::size_t i = 0; i < picture.bgr.size(); ++i)
+            picture.bgr[i] = static_cast<std::uint8_t>(30 + (i / 7 + 13 * image) % 180);
+          return picture;
+        },
+        0.05, 2);
+    std::vector<MapPoint> wall = wallAt(3.0F, -1.0F, 1.5F);
+    colouriser.addSurface(wall);
+    colouriser.equalise();
+    colouriser.colour(wall);
+    results.push_back(wall);
+  }
+  for (std::size_t i = 0; i < results[0].size(); ++i) {
+    EXPECT_EQ(results[0][i].red, results[1][i].red);
+    EXPECT_EQ(results[0][i].blue, results[1][i].blue);
+  }
+}
+
+}  // namespace
+}  // namespace laser_mapper

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stages/lasers/map_colour.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "urban_nav_store/table_store.hpp"
+#include "urban_nav_store/tables/stored_panorama.hpp"
+#include "urban_nav_store/tables/stored_panorama_camera.hpp"
+
+namespace urban_nav {
+
+using laser_mapper::ColourView;
+using laser_mapper::MappedSession;
+using urban_nav_core::Pose;
+using urban_nav_core::StampNs;
+using urban_nav_store::StoredPanorama;
+using urban_nav_store::StoredPanoramaCamera;
+using urban_nav_store::TableStore;
+
+namespace {
+
+constexpr double kViewDistance = 0.7, kViewAngle = 0.26;  // m, rad: between views of one camera
+constexpr StampNs kLongestGap = 500'000'000;
+
+/// Key of an image in the store.
+struct ImageKey {
+  urban_nav_store::SessionId session;
+  std::int64_t camera = 0;
+  StampNs stamp = 0;
+};
+
+struct SessionViews {
+  std::vector<ColourView> views;
+  std::vector<ImageKey> images;
+};
+
+urban_nav_core::RawCamera rawCameraFromRow(const StoredPanoramaCamera& row) {
+  urban_nav_core::RawCamera camera;
+  camera.pinhole = {row.fx, row.fy, row.cx, row.cy, static_cast<int>(row.width), static_cast<int>(row.height)};
+  camera.distortion = urban_nav_core::Distortion(row.distortion);
+  return camera;
+}
+
+void addViews(urban_nav_store::Store& store, const MappedSession& session, SessionViews& made) {
+  std::map<std::int64_t, StoredPanoramaCamera> cameras;
+  TableStore<StoredPanoramaCamera>(store).forEach(session.id,
+                                                  [&](const StoredPanoramaCamera& row) { cameras[row.camera] = row; });
+  std::optional<Pose> last;
+  std::int64_t last_camera = -1;
+  TableStore<StoredPanorama>(store).forEach(session.id, [&](const StoredPanorama& row) {
+    const auto camera = cameras.find(row.camera);
+    const auto T_map_base = session.T_map_base->at(row.stamp, kLongestGap);
+    if (camera == cameras.end() || !T_map_base) return;
+    if (row.camera == last_camera && last && distanceBetween(*last, *T_map_base) < kViewDistance &&
+        angleBetween(*last, *T_map_base) < kViewAngle)
+      return;
+    last = T_map_base;
+    last_camera = row.camera;
+    made.views.push_back(
+        {rawCameraFromRow(camera->second), *T_map_base * camera->second.T_base_camera, row.stamp, made.images.size()});
+    made.images.push_back({session.id, row.camera, row.stamp});
+  });
+}
+
+}  // namespace
+
+std::unique_ptr<laser_mapper::Colouriser> makeColouriser(urban_nav_store::Store& store,
+                                                         const std::vector<MappedSession>& sessions, double voxel,
+                                                         double memory_mb) {
+  SessionViews made;
+  for (const MappedSession& session : sessions) addViews(store, session, made);
+  if (made.views.empty()) return nullptr;
+  const urban_nav_core::Pinhole& pinhole = made.views.front().camera.pinhole;
+  const double image_mb = std::max(0.1, 3e-6 * pinhole.width * pinhole.height);
+  const auto load = [&store, images = made.images](std::size_t image) {
+    const ImageKey& key = images[image];
+    const auto row = TableStore<StoredPanorama>(store).get({key.session, key.camera, key.stamp, {}});
+    return row ? urban_nav_registration::decodePicture(row->jpeg) : urban_nav_registration::Picture();
+  };
+  return std::make_unique<laser_mapper::Colouriser>(std::move(made.views), load, voxel,
+                                                    static_cast<std::size_t>(std::max(8.0, memory_mb / image_mb)));
+}
+
+}  // namespace urban_nav

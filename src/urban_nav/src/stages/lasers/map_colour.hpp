@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "laser_mapper/colour/colouriser.hpp"
+#include "laser_mapper/laser_map.hpp"
+#include "urban_nav_store/store.hpp"
+
+namespace urban_nav {
+
+/// Returns the colouriser of a map from the panoramas that the store holds of its sessions, some 0.7 m or 15 deg apart;
+/// null if there are none at times that the trajectories cover. The store must outlive it. `memory_mb`: for decoded
+/// images.
+std::unique_ptr<laser_mapper::Colouriser> makeColouriser(urban_nav_store::Store& store,
+                                                         const std::vector<laser_mapper::MappedSession>& sessions,
+                                                         double voxel, double memory_mb);
+
+}  // namespace urban_nav
