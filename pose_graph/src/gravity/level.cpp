@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "gravity/gravity_fit.hpp"
-#include "urban_nav_core/geometry/dense.hpp"
+#include "gravity/level_axes.hpp"
 
 namespace pose_graph {
 
@@ -18,27 +18,6 @@ namespace {
 constexpr std::size_t kLeastLevelSpans = 3;
 // Gravity is 9.78...9.83 on the ground; a scale of 2 % and that fault are allowed for.
 constexpr double kLeastGravity = 9.4, kMostGravity = 10.2;
-
-Matrix3d levelAxes(const Vector3d& up) {
-  Matrix3d rows;
-  Vector3d ahead = Vector3d::UnitX() - up.x() * up;
-  if (ahead.norm() < 1e-3) ahead = up.unitOrthogonal();  // it points up or down: no heading to keep
-  ahead.normalize();
-  rows << ahead.transpose(), up.cross(ahead).transpose(), up.transpose();
-  return rows;
-}
-
-double largestSigma(const Matrix3d& covariance) {
-  const auto values = urban_nav_core::symmetricEigenvalues(covariance);
-  return values ? std::sqrt(std::max(0.0, values->maxCoeff())) : 0.0;
-}
-
-Level unknown(LevelTrouble trouble, const std::string& sentence) {
-  Level level;
-  level.trouble = trouble;
-  level.sentence = sentence;
-  return level;
-}
 
 }  // namespace
 
@@ -58,14 +37,15 @@ Level estimateLevel(const Trajectory& trajectory, const std::vector<SpecificForc
 
 Level estimateLevel(const Trajectory& trajectory, const std::vector<SpecificForce>& forces,
                     const urban_nav_core::Pose& T_world_first) {
-  if (forces.empty() || trajectory.empty()) return unknown(LevelTrouble::NoForces, "no accelerometer was recorded");
+  if (forces.empty() || trajectory.empty())
+    return unknownLevel(LevelTrouble::NoForces, "no accelerometer was recorded");
   const std::vector<Span> spans = makeSpans(trajectory, forces, T_world_first);
   if (spans.size() < kLeastLevelSpans)
-    return unknown(LevelTrouble::TooShort, "the accelerometer was recorded for too short a time");
+    return unknownLevel(LevelTrouble::TooShort, "the accelerometer was recorded for too short a time");
   const std::optional<GravityFit> fit = fitGravity(spans);
   const double gravity = fit ? fit->gravity().norm() : 0.0;
   if (!(gravity > kLeastGravity && gravity < kMostGravity))
-    return unknown(LevelTrouble::NotGravity, "what the accelerometer felt has not the size of gravity");
+    return unknownLevel(LevelTrouble::NotGravity, "what the accelerometer felt has not the size of gravity");
   Level level;
   level.trouble = LevelTrouble::None;
   level.gravity = gravity;

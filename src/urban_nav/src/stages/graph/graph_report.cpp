@@ -141,7 +141,8 @@ Verdict levelVerdict(const pose_graph::Level& level) {
     return {Grade::Plain, "The map is not level.", "It stands as the first pose stood: " + level.sentence + "."};
   return {Grade::Good, "The map is level.",
           "The first pose leans by " + forPerson(leanDeg(level), 2) + " deg (standard deviation " +
-              forPerson(kGraphDegrees * level.sigma, 2) + " deg), says gravity."};
+              forPerson(kGraphDegrees * level.sigma, 2) + " deg), by " +
+              (pose_graph::isFromGround(level) ? "the plane of the ground." : "gravity.")};
 }
 
 Json toJson(const pose_graph::Level& level) {
@@ -150,6 +151,7 @@ Json toJson(const pose_graph::Level& level) {
   if (level.known()) {
     json["lean_deg"] = leanDeg(level);
     json["sigma_deg"] = kGraphDegrees * level.sigma;
+    json["source"] = pose_graph::isFromGround(level) ? "ground" : "accelerometer";
     json["gravity"] = level.gravity;
     Json& up = json["up"] = Json::array();
     for (int i = 0; i < 3; ++i) up.append(level.up(i));

@@ -116,24 +116,38 @@ Trajectory relaxedTrack(const GraphRun& run, std::size_t session) {
   return made;
 }
 
-std::vector<Level> estimateLevels(const GraphRun& run, const std::vector<const VoRun*>& runs) {
-  std::vector<Level> levels(runs.size());
-  for (std::size_t s = 0; s < runs.size(); ++s) {
+/// Mean covariance of the rotations of a session: as if all of them erred alike.
+Matrix3d meanRotationCovariance(const GraphRun& run, std::size_t session) {
+  Matrix3d rotations = Matrix3d::Zero();
+  for (const Matrix6d& covariance : run.covariances[session]) rotations += covariance.bottomRightCorner<3, 3>();
+  return rotations / static_cast<double>(std::max<std::size_t>(1, run.covariances[session].size()));
+}
+
+/// Sets the levels of maps that are not known yet, by the first session of each map whose `measured` direction is.
+template <typename Measured>
+void addLevels(const GraphRun& run, const std::vector<std::vector<Measured>>& measured, std::vector<Level>& levels) {
+  for (std::size_t s = 0; s < measured.size(); ++s) {
     const std::size_t map = run.findMap(s);
-    if (levels[map].known()) continue;
-    const Trajectory trajectory = relaxedTrack(run, s);
-    if (trajectory.empty()) {
-      levels[s].sentence = "the session has no two poses";
-      continue;
-    }
-    Matrix3d rotations = Matrix3d::Zero();  // the mean: as if all of them erred alike
-    for (const Matrix6d& covariance : run.covariances[s]) rotations += covariance.bottomRightCorner<3, 3>();
-    rotations /= static_cast<double>(std::max<std::size_t>(1, run.covariances[s].size()));
-    const Level level = pose_graph::withRotations(
-        pose_graph::estimateLevel(trajectory, runs[s]->forces, run.graph.track(run.sessions[map])->map.front()),
-        rotations);
-    if (s == map || level.known()) levels[map] = level;
+    const Track* track = run.graph.track(run.sessions[map]);
+    if (levels[map].known() || measured[s].empty() || track == nullptr || track->map.empty()) continue;
+    const Level level =
+        pose_graph::withRotations(pose_graph::estimateLevel(relaxedTrack(run, s), measured[s], track->map.front()),
+                                  meanRotationCovariance(run, s));
+    if (level.known() || s == map) levels[map] = level;
   }
+}
+
+std::vector<Level> estimateLevels(const GraphRun& run, const std::vector<const VoRun*>& runs,
+                                  const SessionGrounds& grounds) {
+  std::vector<Level> levels(runs.size());
+  std::vector<std::vector<urban_nav_core::SpecificForce>> forces;
+  for (std::size_t s = 0; s < runs.size(); ++s) {
+    forces.push_back(runs[s]->forces);
+    levels[s].sentence = relaxedTrack(run, s).empty() ? "the session has no two poses"
+                                                      : "no accelerometer was recorded, nor the ground seen";
+  }
+  addLevels(run, forces, levels);
+  addLevels(run, grounds, levels);
   return levels;
 }
 
@@ -162,7 +176,7 @@ Trajectory GraphRun::trajectory(std::size_t session) const {
 
 GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<const VoRun*>& runs,
                   const std::vector<std::string>& sessions, const std::vector<ClosureRow>& closures,
-                  const std::vector<PreviousClosure>& known) {
+                  const std::vector<PreviousClosure>& known, const SessionGrounds& grounds) {
   GraphRun made;
   made.graph = PoseGraph(parameters);
   made.sessions = sessions;
@@ -180,7 +194,7 @@ GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<co
   made.covariances = computeCovariances(made.graph, sessions);
   leaveToOdometry(made, runs);
   made.ms_covariances = millisecondsSince(relaxed);
-  made.levels = estimateLevels(made, runs);
+  made.levels = estimateLevels(made, runs, grounds);
   for (std::size_t s = 1; s < sessions.size(); ++s)
     if (made.findMap(s) == s)
       made.warnings.push_back("session " + sessions[s] + " is a map of its own: no closures that agree join it to " +

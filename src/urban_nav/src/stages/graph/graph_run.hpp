@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pose_graph/level.hpp"
+#include "pose_graph/ground_level.hpp"
 #include "pose_graph/marginals.hpp"
 #include "pose_graph/pose_graph.hpp"
 #include "stage/closures_file.hpp"
@@ -31,13 +31,17 @@ struct GraphRun {
   /// Returns whether a session lies in the map of the first session.
   bool joined(std::size_t session) const { return findMap(session) == 0; }
   std::size_t sessionsJoined() const;
-  /// Gravity direction of the map that starts with a session, in the frame of its first pose, by the first of its
-  /// sessions that knows it. Default values for sessions in the map of another one.
+  /// Gravity direction of the map that starts with a session, in the frame of its first pose: by the first of its
+  /// sessions with an accelerometer that tells it, otherwise by the ground that the first of them has seen. Default
+  /// values for sessions in the map of another one.
   std::vector<pose_graph::Level> levels;
   /// Returns the poses of a session in its map: origin and heading of the map's first pose, aligned with gravity where
   /// its direction is known.
   urban_nav_core::Trajectory trajectory(std::size_t session) const;
 };
+
+/// Normals of the ground of each session, in the order of the runs; empty: none.
+using SessionGrounds = std::vector<std::vector<pose_graph::GroundNormal>>;
 
 /// Relaxes the smoothed odometry chains of the runs with the closures. A closure between two frames is carried to the
 /// nearest ones by the odometry in between. One that cannot be used is rejected with a reason, never lost. A closure in
@@ -45,6 +49,6 @@ struct GraphRun {
 /// of the closures, bit by bit.
 GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<const VoRun*>& runs,
                   const std::vector<std::string>& sessions, const std::vector<ClosureRow>& closures,
-                  const std::vector<PreviousClosure>& previous = {});
+                  const std::vector<PreviousClosure>& previous = {}, const SessionGrounds& grounds = {});
 
 }  // namespace urban_nav

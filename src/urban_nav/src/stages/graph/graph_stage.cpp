@@ -10,6 +10,8 @@
 #include "stages/graph/graph_run.hpp"
 #include "stages/graph/graph_store_export.hpp"
 #include "stages/graph/graph_trajectories.hpp"
+#include "urban_nav_store/table_store.hpp"
+#include "urban_nav_store/tables/ground_view.hpp"
 
 namespace urban_nav {
 
@@ -35,6 +37,19 @@ bool anyMeasuredByIcp(const std::vector<ClosureRow>& closures) {
                      [](const ClosureRow& row) { return row.measured && row.kind == "icp"; });
 }
 
+/// Returns the normals of the ground that dense stereo has stored, over all sessions.
+SessionGrounds readGrounds(const MapContext& context) {
+  SessionGrounds grounds;
+  const urban_nav_store::TableStore<urban_nav_store::GroundView> views(*context.store);
+  for (const urban_nav_store::SessionId& id : context.ids()) {
+    std::vector<pose_graph::GroundNormal>& normals = grounds.emplace_back();
+    views.forEach(id, [&](const urban_nav_store::GroundView& view) {
+      if (view.verdict == "found") normals.push_back({view.stamp, view.up, view.sigma});
+    });
+  }
+  return grounds;
+}
+
 class GraphStage final : public Stage {
  public:
   Description describe() const override { return {"graph", "pose_graph", true, true, true, {"graph#.g2o"}}; }
@@ -50,12 +65,13 @@ class GraphStage final : public Stage {
     const pose_graph::Parameters& parameters = context.options.parameters.get(pose_graph::table());
     const std::vector<const VoRun*> runs = context.runs();
     const std::vector<PreviousClosure> previous = previousClosures(context);
-    run_ = runGraph(parameters, runs, context.names, context.closures, previous);
+    const SessionGrounds grounds = readGrounds(context);
+    run_ = runGraph(parameters, runs, context.names, context.closures, previous, grounds);
     if (anyMeasuredByIcp(context.closures)) {
       std::vector<ClosureRow> by_stereo;
       for (const ClosureRow& row : context.closures)
         if (row.kind != "icp") by_stereo.push_back(row);
-      const GraphRun without_icp = runGraph(parameters, runs, context.names, by_stereo, previous);
+      const GraphRun without_icp = runGraph(parameters, runs, context.names, by_stereo, previous, grounds);
       for (std::size_t s = 0; s < runs.size(); ++s) context.stereo_only.push_back(without_icp.trajectory(s));
     }
     exportGraph(*context.store, context.ids(), *run_, context.previous.revision);
@@ -85,8 +101,10 @@ class GraphStage final : public Stage {
     return {"graph: " + std::to_string(relaxed.poses) + " poses, " + std::to_string(relaxed.closures) + " closures, " +
                 std::to_string(relaxed.accepted) + " accepted; cost " + forPerson(relaxed.cost_before, 5) + " -> " +
                 forPerson(relaxed.cost_after, 5) + " in " + forPerson(run_->ms, 3) + " ms",
-            level.known() ? "map aligned with gravity (sigma " + forPerson(kDegreesPerRadian * level.sigma, 2) + " deg)"
-                          : "map not aligned with gravity: " + level.sentence};
+            level.known()
+                ? std::string("map aligned with ") + (pose_graph::isFromGround(level) ? "the ground" : "gravity") +
+                      " (sigma " + forPerson(kDegreesPerRadian * level.sigma, 2) + " deg)"
+                : "map not aligned with gravity: " + level.sentence};
   }
 
   std::optional<GraphRun> run_;
