@@ -24,6 +24,7 @@ struct ErrorSums {
   long pixels = 0, answered = 0, wrong = 0, sky = 0, sky_answered = 0, fair = 0;
   double normalised = 0.0;
   std::vector<float> errors;
+  std::vector<std::pair<float, double>> by_variance;  ///< variance, squared normalised error
 
   void add(const TruePair& pair, const DisparityImage& image) {
     for (int v = 0; v < image.height; ++v)
@@ -43,12 +44,25 @@ struct ErrorSums {
         if (error > 1.0F || variance <= 0.0F) continue;
         ++fair;
         normalised += static_cast<double>(error * error / variance);
+        by_variance.emplace_back(variance, static_cast<double>(error * error / variance));
       }
   }
   double median() {
     const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
     std::nth_element(errors.begin(), middle, errors.end());
     return errors.empty() ? 0.0 : static_cast<double>(*middle);
+  }
+  /// Returns "0.9 1.0 1.1 1.2": rms of the normalised errors in each quartile of the stated deviations.
+  std::string quartiles() {
+    std::sort(by_variance.begin(), by_variance.end());
+    std::string text;
+    for (std::size_t q = 0; q < 4 && !by_variance.empty(); ++q) {
+      const std::size_t begin = q * by_variance.size() / 4, end = (q + 1) * by_variance.size() / 4;
+      double sum = 0.0;
+      for (std::size_t i = begin; i < end; ++i) sum += by_variance[i].second;
+      text += (q > 0 ? " " : "") + cell(std::sqrt(sum / static_cast<double>(std::max<std::size_t>(end - begin, 1))), 2);
+    }
+    return text;
   }
 };
 
@@ -59,19 +73,20 @@ void addRows(const std::string& name, const std::vector<TruePair>& pairs, urban_
     const auto percent = [](long part, long all) {
       return 100.0 * static_cast<double>(part) / static_cast<double>(std::max(all, 1L));
     };
-    table.add({name, peer->name(), cell(percent(sums.answered, sums.pixels), 1),
-               cell(percent(sums.wrong, sums.answered), 2), cell(sums.median(), 3),
-               sums.sky > 0 ? cell(percent(sums.sky_answered, sums.sky), 1) : "",
-               sums.fair > 0 ? cell(std::sqrt(sums.normalised / static_cast<double>(sums.fair)), 2) : ""});
+    table.add(
+        {name, peer->name(), cell(percent(sums.answered, sums.pixels), 1), cell(percent(sums.wrong, sums.answered), 2),
+         cell(sums.median(), 3), sums.sky > 0 ? cell(percent(sums.sky_answered, sums.sky), 1) : "",
+         sums.fair > 0 ? cell(std::sqrt(sums.normalised / static_cast<double>(sums.fair)), 2) : "", sums.quartiles()});
   }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  urban_nav_core::testing::BenchTable table({"scene", "method", "answered, %", "wrong by over 1 px, %",
-                                             "median error, px", "sky answered, %", "error / sigma, rms"},
-                                            argc, argv);
+  urban_nav_core::testing::BenchTable table(
+      {"scene", "method", "answered, %", "wrong by over 1 px, %", "median error, px", "sky answered, %",
+       "error / sigma, rms", "in quartiles of sigma"},
+      argc, argv);
   std::string output;
   std::vector<std::string> words(argv + 1, argv + argc);
   if (words.size() >= 2 && words[0] == "-o") {
