@@ -23,6 +23,8 @@ namespace {
 
 // Good images in which nothing is found where the velocity says, so many times in a row: the velocity is wrong.
 constexpr int patience = 3;
+// After a pause of that length a velocity says nothing: the motion is unknown, and none is made up.
+constexpr double velocity_holds = 5.0;  // s
 
 Matrix6d fromSigmas(double translation, double rotation) {
   Vector6d diagonal;
@@ -72,15 +74,16 @@ Prediction::Prediction(const Parameters& parameters, const Pose& T_base_camera)
 ProcessInput Prediction::step(double seconds, const std::vector<MotionInput>& inputs) const {
   ProcessInput u;
   const double steps = 1.0 + unmeasured_;
-  u.T_from_to = known_ ? expSe3(velocity_ * seconds) : Pose();
+  const bool known = known_ && seconds < velocity_holds;
+  u.T_from_to = known ? expSe3(velocity_ * seconds) : Pose();
   // What was known of the velocity is never worth less than nothing; m steps at one unknown velocity are m times as
   // uncertain as one.
   const double speed = unknown_speed * std::sqrt(2.0 * steps - 1.0) * seconds,
                angular_speed = unknown_angular_speed * std::sqrt(2.0 * steps - 1.0) * seconds;
   const double drift = steps * seconds * seconds;
-  u.information = known_ ? fromSigmas(std::min(acceleration_ * drift, speed),
-                                      std::min(angular_acceleration_ * drift, angular_speed))
-                         : fromSigmas(unknown_speed * seconds, unknown_angular_speed * seconds);
+  u.information =
+      known ? fromSigmas(std::min(acceleration_ * drift, speed), std::min(angular_acceleration_ * drift, angular_speed))
+            : fromSigmas(unknown_speed * seconds, unknown_angular_speed * seconds);
   const Measured measured = together(inputs);
   if (measured.count == 0) return u;
   const Pose motion = expSe3(logSe3(measured.T_from_to) * (seconds / measured.seconds));

@@ -29,6 +29,14 @@ TEST(Prediction, goesOnAtTheVelocityOfTheLastStep) {
   EXPECT_TRUE(isApprox(prediction.step(0.3, {}).T_from_to, expSe3(velocity * 0.3), 1e-12)) << "two frames were dropped";
 }
 
+TEST(Prediction, makesUpNoWayOverALongPause) {
+  Prediction prediction{Parameters(), Pose()};
+  prediction.learn(expSe3(twist(0.0, 0.0, 5.0, 0.0, 0.0, 0.0) * 0.1), 0.1, true);
+  const ProcessInput u = prediction.step(600.0, {});
+  EXPECT_TRUE(isApprox(u.T_from_to, Pose(), 1e-12));
+  EXPECT_LT(u.information(2, 2), 1.0 / (1000.0 * 1000.0)) << "anything may have happened";
+}
+
 TEST(Prediction, trustsItselfLessTheLongerNothingWasMeasured) {
   Prediction prediction{Parameters(), Pose()};
   prediction.learn(Pose(), 0.1, true);

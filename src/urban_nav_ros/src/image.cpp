@@ -23,9 +23,9 @@ struct Layout {
   int to_grey;  // code of cv::cvtColor
 };
 
-const std::array<Layout, 14>& layouts() {
+const std::array<Layout, 26>& layouts() {
   // ROS names a Bayer pattern by its first row's first two pixels, OpenCV by the second row's second and third.
-  static const std::array<Layout, 14> all = {{
+  static const std::array<Layout, 26> all = {{
       {"mono8", CV_8UC1, kAsItIs},
       {"8UC1", CV_8UC1, kAsItIs},
       {"mono16", CV_16UC1, kAsItIs},
@@ -40,6 +40,18 @@ const std::array<Layout, 14>& layouts() {
       {"bayer_bggr8", CV_8UC1, cv::COLOR_BayerRG2GRAY},
       {"bayer_gbrg8", CV_8UC1, cv::COLOR_BayerGR2GRAY},
       {"bayer_grbg8", CV_8UC1, cv::COLOR_BayerGB2GRAY},
+      {"bgr16", CV_16UC3, cv::COLOR_BGR2GRAY},
+      {"16UC3", CV_16UC3, cv::COLOR_BGR2GRAY},
+      {"rgb16", CV_16UC3, cv::COLOR_RGB2GRAY},
+      {"bgra16", CV_16UC4, cv::COLOR_BGRA2GRAY},
+      {"16UC4", CV_16UC4, cv::COLOR_BGRA2GRAY},
+      {"rgba16", CV_16UC4, cv::COLOR_RGBA2GRAY},
+      {"bayer_rggb16", CV_16UC1, cv::COLOR_BayerBG2GRAY},
+      {"bayer_bggr16", CV_16UC1, cv::COLOR_BayerRG2GRAY},
+      {"bayer_gbrg16", CV_16UC1, cv::COLOR_BayerGR2GRAY},
+      {"bayer_grbg16", CV_16UC1, cv::COLOR_BayerGB2GRAY},
+      {"yuv422", CV_8UC2, cv::COLOR_YUV2GRAY_UYVY},
+      {"yuv422_yuy2", CV_8UC2, cv::COLOR_YUV2GRAY_YUY2},
   }};
   return all;
 }
@@ -77,7 +89,7 @@ GreyImage toPixels(const sensor_msgs::Image& message, const Layout*& layout) {
     cv::Mat swapped = shared.clone();
     for (int v = 0; v < swapped.rows; ++v) {
       auto* pixels = swapped.ptr<std::uint16_t>(v);
-      for (int u = 0; u < swapped.cols; ++u)
+      for (int u = 0; u < swapped.cols * swapped.channels(); ++u)
         pixels[u] = static_cast<std::uint16_t>((pixels[u] << 8) | (pixels[u] >> 8));
     }
     return {swapped, {}};
@@ -110,10 +122,9 @@ GreyImage toGrey(const sensor_msgs::Image& message, int bits) {
   const Layout* layout = nullptr;
   GreyImage image = toPixels(message, layout);
   if (image.pixels.empty()) return image;
-  if (image.pixels.type() == CV_16UC1) return {highestEight(image.pixels, bits), {}};
-  if (layout->to_grey == kAsItIs) return image;
-  cv::Mat grey;
-  cv::cvtColor(image.pixels, grey, layout->to_grey);
+  cv::Mat grey = image.pixels;
+  if (layout->to_grey != kAsItIs) cv::cvtColor(image.pixels, grey, layout->to_grey);
+  if (grey.depth() == CV_16U) return {highestEight(grey, bits), {}};
   return {grey, {}};
 }
 
@@ -150,6 +161,19 @@ int significantBits(const sensor_msgs::Image& message) {
   const Layout* layout = nullptr;
   const GreyImage image = toPixels(message, layout);
   return image.pixels.empty() ? 8 : significantBits(image.pixels);
+}
+
+int significantBits(const sensor_msgs::CompressedImage& message) {
+  // PNG keeps the depth in its 25th byte; the usual 8 bits need no decoding.
+  constexpr std::size_t kDepthAt = 24;
+  const std::vector<std::uint8_t>& bytes = message.data;
+  const bool png = bytes.size() > kDepthAt && bytes[0] == 0x89 && bytes[1] == 'P' && bytes[2] == 'N' && bytes[3] == 'G';
+  if (!png || bytes[kDepthAt] != 16) return 8;
+  try {
+    return significantBits(cv::imdecode(bytes, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR));
+  } catch (const cv::Exception&) {
+    return 8;  // decoding says what is wrong
+  }
 }
 
 int significantBits(const cv::Mat& pixels) {

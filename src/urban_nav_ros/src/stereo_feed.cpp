@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "urban_nav_ros/stereo_feed.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "archive_message.hpp"
@@ -25,6 +26,7 @@ struct Pixels {
 };
 
 constexpr int motion_stream = 0;
+constexpr int most_bits = 16;
 
 std::string toSize(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
 
@@ -34,7 +36,8 @@ StereoFeed::StereoFeed(const Options& options, std::shared_ptr<const StereoCalib
     : calibration_(std::move(calibration)),
       first_image_stream_(options.motion ? motion_stream + 1 : 0),
       queue_(first_image_stream_ + 2, options.max_lateness, options.delivery),
-      assembler_(options.pairing_tolerance) {}
+      assembler_(options.pairing_tolerance),
+      pairing_tolerance_(options.pairing_tolerance) {}
 
 int StereoFeed::toStream(Side side) const { return first_image_stream_ + (side == Side::Left ? 0 : 1); }
 
@@ -55,17 +58,29 @@ void StereoFeed::finish() {
   finished_ = true;
 }
 
+void StereoFeed::widen(const Input& input) {
+  const auto* raw = std::get_if<sensor_msgs::ImageConstPtr>(&input);
+  const auto* packed = std::get_if<sensor_msgs::CompressedImageConstPtr>(&input);
+  if (raw != nullptr) bits_ = std::max(bits_, significantBits(**raw));
+  if (packed != nullptr) bits_ = std::max(bits_, significantBits(**packed));
+}
+
+/// The depth of 16-bit pixels is one for both cameras: before an image is decoded, its partner is looked at too.
+void StereoFeed::widenByPair(StampNs stamp, const Input& input) {
+  if (bits_ >= most_bits) return;
+  widen(input);
+  queue_.forEachUntil(stamp + pairing_tolerance_, [this](const Input& waiting) { widen(waiting); });
+}
+
 OwnedImage StereoFeed::decode(Side side, StampNs stamp, const Input& input) {
-  int& bits = side == Side::Left ? left_bits_ : right_bits_;
+  widenByPair(stamp, input);
   auto pixels = std::make_shared<Pixels>();
   GreyImage image;
   if (const auto* raw = std::get_if<sensor_msgs::ImageConstPtr>(&input)) {
-    if (bits == 0) bits = significantBits(**raw);
     pixels->message = *raw;
-    image = toGrey(**raw, bits);
+    image = toGrey(**raw, bits_);
   } else {
-    // The depth of a compressed image is seen after decoding only, so all of its bits count.
-    image = toGrey(*std::get<sensor_msgs::CompressedImageConstPtr>(input));
+    image = toGrey(*std::get<sensor_msgs::CompressedImageConstPtr>(input), bits_);
   }
   const char* name = side == Side::Left ? "left image: " : "right image: ";
   if (!image.fault.empty()) {
@@ -127,7 +142,7 @@ void StereoFeed::archive(urban_nav_core::Archive& archive) {
     if (auto* packed = std::get_if<sensor_msgs::CompressedImageConstPtr>(&input)) archiveMessage(items, *packed);
     if (auto* motion = std::get_if<MotionInput>(&input)) items(*motion);
   });
-  archive(assembler_, left_bits_, right_bits_, faults_, finished_, drained_);
+  archive(assembler_, bits_, faults_, finished_, drained_);
 }
 
 }  // namespace urban_nav_ros

@@ -2,6 +2,7 @@
 #include "urban_nav_ros/stereo_rectifier.hpp"
 
 #include <sensor_msgs/image_encodings.h>
+#include <algorithm>
 
 #include <boost/make_shared.hpp>
 #include <utility>
@@ -80,7 +81,7 @@ void StereoRectifier::reset() {
   forgetStream();
 }
 
-void StereoRectifier::forgetStream() { left_bits_ = right_bits_ = 0; }
+void StereoRectifier::forgetStream() { bits_ = 8; }
 
 void StereoRectifier::process(const ImageInput& image) {
   std::string fault;
@@ -94,14 +95,15 @@ void StereoRectifier::process(const ImageInput& image) {
 }
 
 sensor_msgs::ImageConstPtr StereoRectifier::convert(const ImageInput& image, std::string& fault) {
-  int& bits = image.side == Side::Left ? left_bits_ : right_bits_;
   GreyImage grey;
   const auto* raw = std::get_if<sensor_msgs::ImageConstPtr>(&image.message);
   if (raw != nullptr) {
-    if (bits == 0) bits = significantBits(**raw);
-    grey = toGrey(**raw, bits);
+    bits_ = std::max(bits_, significantBits(**raw));
+    grey = toGrey(**raw, bits_);
   } else {
-    grey = toGrey(*std::get<sensor_msgs::CompressedImageConstPtr>(image.message));
+    const auto& packed = *std::get<sensor_msgs::CompressedImageConstPtr>(image.message);
+    bits_ = std::max(bits_, significantBits(packed));
+    grey = toGrey(packed, bits_);
   }
   fault = grey.fault;
   if (!fault.empty()) return nullptr;

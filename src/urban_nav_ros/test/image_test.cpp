@@ -64,8 +64,27 @@ TEST(ToGrey, keepsTheHighestEightOfTheBitsInUse) {
   EXPECT_EQ(toGrey(image, 12).pixels.at<std::uint8_t>(0, 0), 255);
 }
 
+TEST(ToGrey, takesTheBrightnessOfYuv) {
+  const cv::Mat uyvy = toGrey(message("yuv422", 2, 1, {1, 20, 3, 40})).pixels;
+  EXPECT_EQ(uyvy.at<std::uint8_t>(0, 0), 20);
+  EXPECT_EQ(uyvy.at<std::uint8_t>(0, 1), 40);
+  const cv::Mat yuyv = toGrey(message("yuv422_yuy2", 2, 1, {20, 1, 40, 3})).pixels;
+  EXPECT_EQ(yuyv.at<std::uint8_t>(0, 0), 20);
+  EXPECT_EQ(yuyv.at<std::uint8_t>(0, 1), 40);
+}
+
+TEST(ToGrey, readsDeepColour) {
+  // Red, little-endian, 12 of 16 bits.
+  const sensor_msgs::Image red = message("rgb16", 1, 1, {0xff, 0x0f, 0, 0, 0, 0});
+  EXPECT_EQ(significantBits(red), 12);
+  EXPECT_NEAR(toGrey(red, 12).pixels.at<std::uint8_t>(0, 0), 0.299 * 255, 1.0);
+  sensor_msgs::Image big = message("bgr16", 1, 1, {0, 0, 0, 0, 0x0f, 0xff});
+  big.is_bigendian = 1;
+  EXPECT_NEAR(toGrey(big, 12).pixels.at<std::uint8_t>(0, 0), 0.299 * 255, 1.0);
+}
+
 TEST(ToGrey, saysWhatIsWrong) {
-  EXPECT_NE(toGrey(message("yuv422", 2, 1, {1, 2, 3, 4})).fault.find("mono8"), std::string::npos)
+  EXPECT_NE(toGrey(message("32FC1", 1, 1, {1, 2, 3, 4})).fault.find("mono8"), std::string::npos)
       << "names what is known";
   EXPECT_FALSE(toGrey(message("mono8", 4, 4, std::vector<std::uint8_t>(15), 4)).fault.empty());
   EXPECT_FALSE(toGrey(message("mono8", 4, 1, std::vector<std::uint8_t>(4), 3)).fault.empty())

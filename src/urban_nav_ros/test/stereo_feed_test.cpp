@@ -179,6 +179,33 @@ TEST(CameraInfo, thereAndBack) {
   EXPECT_EQ(back.P, info.P);
 }
 
+TEST(CameraInfo, binningAndRegionOfInterestScaleTheProjection) {
+  CameraInfo info = rightInfo(camera());
+  sensor_msgs::CameraInfo message = toCameraInfoMessage(info);
+  message.binning_x = message.binning_y = 2;
+  message.roi.x_offset = 4;
+  message.roi.y_offset = 6;
+  message.roi.width = message.width - 8;
+  message.roi.height = message.height - 12;
+  const CameraInfo binned = toCameraInfo(message);
+  EXPECT_EQ(binned.width, static_cast<int>(message.roi.width / 2));
+  const Eigen::Vector4d X(0.3, -0.2, 2.0, 1.0);
+  const Eigen::Vector3d full = info.P * X, small = binned.P * X;
+  EXPECT_NEAR(small.x() / small.z(), (full.x() / full.z() - 4.0) / 2.0, 1e-12);
+  EXPECT_NEAR(small.y() / small.z(), (full.y() / full.z() - 6.0) / 2.0, 1e-12);
+  EXPECT_NEAR(binned.K(0, 0), info.K(0, 0) / 2.0, 1e-12);
+}
+
+TEST(CameraInfo, aProjectionAloneIsOfARectifiedCamera) {
+  sensor_msgs::CameraInfo message = toCameraInfoMessage(rightInfo(camera()));
+  message.K.fill(0.0);
+  message.R.fill(0.0);
+  message.D.clear();
+  const CameraInfo info = toCameraInfo(message);
+  EXPECT_FALSE(needsRectification(info));
+  EXPECT_EQ(info.K, info.P.leftCols<3>());
+}
+
 /// What came out of a feed: stamps, pixels, inputs, faults.
 std::string toText(const std::vector<DecodedPair>& pairs) {
   std::string text;

@@ -17,7 +17,8 @@ MapOptions readOptions(const Arguments& arguments) {
                              arguments.number("rate", 0.0, 0.01, 10000.0),
                              input.motion_input,
                              input.wheel_noise,
-                             input.gyro_noise};
+                             input.gyro_noise,
+                             input.right_delay};
   const std::optional<double> so_far =
       arguments.has("so-far") ? std::optional(arguments.number("so-far", 1.0, 0.0, 1.0)) : std::nullopt;
   return {arguments.all("INPUT"),

@@ -25,4 +25,14 @@ std::vector<BagGroup> groupBags(std::list<rosbag::Bag>& bags) {
   return groups;
 }
 
+std::vector<BagGroup> asOneGroup(const std::vector<BagGroup>& groups) {
+  BagGroup all;
+  for (const BagGroup& group : groups) {
+    all.bags.insert(all.bags.end(), group.bags.begin(), group.bags.end());
+    all.end = group.end;
+    all.receipt = std::max(all.receipt, group.receipt);
+  }
+  return {all};
+}
+
 }  // namespace urban_nav

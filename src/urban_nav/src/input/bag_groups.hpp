@@ -20,5 +20,7 @@ struct BagGroup {
 /// The bags of a recording, which begin one after the other: a new group begins where all messages of the bags before
 /// were received before the first of it. The bags must outlive it.
 std::vector<BagGroup> groupBags(std::list<rosbag::Bag>& bags);
+/// All of them as one group: stamps of one bag may lie between those of another.
+std::vector<BagGroup> asOneGroup(const std::vector<BagGroup>& groups);
 
 }  // namespace urban_nav

@@ -3,15 +3,20 @@
 #include <rosbag/view.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <array>
+#include <cstdlib>
 #include <list>
 
 #include "input/bag_groups.hpp"
+#include "input/bag_order.hpp"
 #include "input/bag_panorama.hpp"
 #include "input/bag_topics.hpp"
 #include "input/calibration_file.hpp"
 #include "input/first_message.hpp"
 #include "input/open.hpp"
+#include "input/pair_delay.hpp"
 #include "urban_nav_core/io/archive_types.hpp"
+#include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_ros/camera_info.hpp"
@@ -33,8 +38,13 @@ namespace {
 
 constexpr urban_nav_core::StampNs kMaxLateness = 200'000'000;  // ns: offline, waiting costs nothing
 
+constexpr urban_nav_core::StampNs kClockStep = 1'000'000'000;  // ns
+
 constexpr const char* kBagStateName = "reader of bags";
-constexpr std::uint32_t kBagStateVersion = 3;
+constexpr std::uint32_t kBagStateVersion = 4;
+constexpr urban_nav_core::StampNs kReceiptTolerance =
+    25'000'000;                            // ns: images of a pair are received one after another
+constexpr std::size_t kDepthSamples = 20;  // images at the beginning of each side
 
 /// The bags of one recording, read as one stream in the order of their receipt; the feed brings it into the order of
 /// stamps.
@@ -69,12 +79,8 @@ class BagSource : public Source {
           return input;
         }
         if (ended_) return std::nullopt;
-        if (next_ == view_->end()) {
-          endGroup();
-          continue;
-        }
-        add(*next_);
-        ++next_;
+        if (const rosbag::MessageInstance* message = messages_ ? messages_->next() : nullptr) add(*message);
+        else endGroup();
       }
     } catch (const rosbag::BagException& error) {
       throw DataError(name_, std::string("is damaged: ") + error.what(), "");
@@ -101,7 +107,7 @@ class BagSource : public Source {
                          " images have the stamp of another and were dropped");
       if (feed_->missing(side) > 0)
         faults.push_back(topic + ": " + std::to_string(feed_->missing(side)) +
-                         " images are missing: no partner within 5 ms");
+                         " images are missing: no partner within 5 ms" + delayHint());
     };
     count(urban_nav_ros::Side::Left, Role::Left);
     count(urban_nav_ros::Side::Right, Role::Right);
@@ -114,6 +120,18 @@ class BagSource : public Source {
   }
 
  private:
+  /// "" unless the stamps of one side are late by a constant time.
+  std::string delayHint() const {
+    const auto delay = constantDelay(image_stamps_[0], image_stamps_[1]);
+    constexpr urban_nav_core::StampNs kPaired = 5'000'000;
+    if (!delay || std::abs(*delay) <= kPaired) return "";
+    const double ms = 1e-6 * static_cast<double>(*delay);
+    return "; the right images are stamped " + urban_nav_core::printNumber(std::abs(ms)) + " ms " +
+           (ms > 0.0 ? "later" : "earlier") +
+           " than the left ones: if they are exposed together, --set input.right_delay=" +
+           urban_nav_core::printNumber(ms) + " shifts their stamps";
+  }
+
   std::map<std::string, std::string> available() {
     std::map<std::string, std::string> topics;
     for (rosbag::Bag& bag : bags_) {
@@ -243,23 +261,53 @@ class BagSource : public Source {
         throw DataError(name_, "has no topic for input.motion_input = " + options_.motion_input, "");
       feed.motion = true;
     }
+    const StampSurvey survey = surveyStamps(bags_, images);
+    stamps_are_receipts_ = survey.unset;
+    is_sorted_ = survey.needs_sorting;
+    if (stamps_are_receipts_) {
+      feed.pairing_tolerance = kReceiptTolerance;
+      info_.notes.push_back("no header has a stamp: the times at which messages were received are used instead");
+    }
+    if (is_sorted_) info_.notes.push_back("messages lie in another order than their stamps: sorted by stamp");
+    if (survey.back > kClockStep)
+      info_.notes.push_back("stamps step back by " +
+                            urban_nav_core::printNumber(1e-9 * static_cast<double>(survey.back)) +
+                            " s while the recording goes on (a clock was set): images after the step are left out "
+                            "until the stamps have caught up");
     feed_.emplace(feed, calibration_);
     listen();
     groups_ = groupBags(bags_);
+    if (is_sorted_ && groups_.size() > 1) groups_ = asOneGroup(groups_);
     for (rosbag::Bag& bag : bags_) info_.frames += rosbag::View(bag, rosbag::TopicQuery(images.front())).size();
     rosbag::View stereo;
     for (rosbag::Bag& bag : bags_) stereo.addQuery(bag, rosbag::TopicQuery(images));
     if (stereo.size() == 0) throw DataError(name_, "holds no images", "");
     info_.first = urban_nav_ros::toStampNs(stereo.getBeginTime());
     info_.last = urban_nav_ros::toStampNs(stereo.getEndTime());
+    expectBits(images);
+  }
+
+  /// The depth of 16-bit images is known before the first of them is decoded.
+  void expectBits(const std::vector<std::string>& topics) {
+    for (const std::string& topic : topics) {
+      std::size_t seen = 0;
+      for (rosbag::Bag& bag : bags_) {
+        rosbag::View view(bag, rosbag::TopicQuery(topic));
+        for (auto message = view.begin(); message != view.end() && seen < kDepthSamples; ++message, ++seen) {
+          if (const auto image = message->instantiate<sensor_msgs::Image>())
+            feed_->expectBits(urban_nav_ros::significantBits(*image));
+          else if (const auto packed = message->instantiate<sensor_msgs::CompressedImage>())
+            feed_->expectBits(urban_nav_ros::significantBits(*packed));
+        }
+        if (seen >= kDepthSamples) break;
+      }
+    }
   }
 
   /// The messages of the next group, if there is one.
   void readGroup() {
-    view_.emplace();
-    if (group_ < groups_.size())
-      for (rosbag::Bag* bag : groups_[group_].bags) view_->addQuery(*bag, rosbag::TopicQuery(names_));
-    next_ = view_->begin();
+    messages_.reset();
+    if (group_ < groups_.size()) messages_ = std::make_unique<BagMessages>(groups_[group_].bags, names_, is_sorted_);
   }
 
   /// Nothing more comes out of the bags so far until others follow, or it is the end.
@@ -338,8 +386,10 @@ class BagSource : public Source {
       const urban_nav_ros::Side side =
           topic == topics_.find(Role::Left)->name ? urban_nav_ros::Side::Left : urban_nav_ros::Side::Right;
       if (const auto image = instance.instantiate<sensor_msgs::Image>()) {
+        setStamp(side, instance, image->header);
         feed_->add(side, sensor_msgs::ImageConstPtr(image));
       } else if (const auto compressed = instance.instantiate<sensor_msgs::CompressedImage>()) {
+        setStamp(side, instance, compressed->header);
         feed_->add(side, sensor_msgs::CompressedImageConstPtr(compressed));
       }
     } else if (const auto odometry = instance.instantiate<nav_msgs::Odometry>()) {
@@ -353,6 +403,18 @@ class BagSource : public Source {
     } else if (panorama_.add(instance)) {
       takePanoramas();
     }
+  }
+
+  /// Puts right what is known to be wrong with an image's stamp, and remembers the first stamps of each side.
+  void setStamp(urban_nav_ros::Side side, const rosbag::MessageInstance& instance, std_msgs::Header& header) {
+    constexpr std::size_t kRemembered = 400;
+    const bool is_right = side == urban_nav_ros::Side::Right;
+    if (stamps_are_receipts_) header.stamp = instance.getTime();
+    if (is_right && options_.right_delay != 0.0)
+      header.stamp = urban_nav_ros::toRosTime(urban_nav_ros::toStampNs(header.stamp) -
+                                              static_cast<urban_nav_core::StampNs>(1e6 * options_.right_delay));
+    std::vector<urban_nav_core::StampNs>& stamps = image_stamps_[is_right ? 1 : 0];
+    if (stamps.size() < kRemembered) stamps.push_back(urban_nav_ros::toStampNs(header.stamp));
   }
 
   void takePanoramas() {
@@ -397,8 +459,10 @@ class BagSource : public Source {
   std::vector<BagGroup> groups_;
   std::size_t group_ = 0;  // at work
   std::shared_ptr<const BagEnd> bag_end_;
-  std::optional<rosbag::View> view_;
-  rosbag::View::iterator next_;
+  std::unique_ptr<BagMessages> messages_;  // of the group
+  bool is_sorted_ = false;                 // by stamp, else messages come as they were received
+  bool stamps_are_receipts_ = false;
+  std::array<std::vector<urban_nav_core::StampNs>, 2> image_stamps_;  // left, right: the first of them
   bool ended_ = false;
 };
 

@@ -129,6 +129,17 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text;
 }
 
+/// The names of the other camera: one occurrence of the word replaced, the last one first, so that the two images are
+/// of one head (.../left/cam/left with .../left/cam/right), then all of them.
+std::vector<std::string> otherNames(const std::string& text, const std::string& from, const std::string& to) {
+  std::vector<std::string> names;
+  for (std::size_t at = text.rfind(from); at != std::string::npos;
+       at = at == 0 ? std::string::npos : text.rfind(from, at - 1))
+    names.push_back(text.substr(0, at) + to + text.substr(at + from.size()));
+  names.push_back(replaced(text, from, to));
+  return names;
+}
+
 /// Where names tell nothing: the only two streams of images there are, in the order of their names. Not a camera's raw
 /// and rectified images, and not depth beside colour.
 std::pair<ChosenTopic, ChosenTopic> onlyPair(const std::map<std::string, std::string>& available) {
@@ -153,13 +164,17 @@ void guessImages(const std::map<std::string, std::string>& available, BagTopics&
     if (wished_left && wished_left->name != left) continue;
     for (std::size_t i = 0; i < kSides.size(); ++i) {
       if (!contains(left, kSides[i][0])) continue;
-      const auto right = available.find(replaced(left, kSides[i][0], kSides[i][1]));
-      if (right == available.end() || right->second != type || (wished_right && wished_right->name != right->first))
-        continue;
-      const int value = oddness(left, type) + static_cast<int>(i);
-      if (value >= best) continue;
-      best = value;
-      pair = {{left, type}, {right->first, type}};
+      for (const std::string& name : otherNames(left, kSides[i][0], kSides[i][1])) {
+        const auto right = available.find(name);
+        if (right == available.end() || right->second != type || (wished_right && wished_right->name != right->first))
+          continue;
+        const int value = oddness(left, type) + static_cast<int>(i);
+        if (value < best) {
+          best = value;
+          pair = {{left, type}, {right->first, type}};
+        }
+        break;
+      }
     }
   }
   if (pair.first.name.empty()) {

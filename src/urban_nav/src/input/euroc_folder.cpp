@@ -16,7 +16,8 @@ namespace {
 class EurocFolder : public Source {
  public:
   EurocFolder(const std::string& folder, const SourceOptions& options)
-      : mav0_(eurocFolder(folder)), rig_(readEurocRig(mav0_)), pairs_(readEurocPairs(mav0_)) {
+      : mav0_(eurocFolder(folder)), rig_(readEurocRig(mav0_)), pairs_(readEurocPairs(mav0_, &info_.notes)) {
+    bits_ = eurocBits(pairs_);
     if (pairs_.empty()) throw UserError(mav0_, "lists no images", "cam0/data.csv and cam1/data.csv");
     info_.name = folder;
     info_.kind = "EuRoC folder";
@@ -42,9 +43,9 @@ class EurocFolder : public Source {
     SourceItem input;
     input.assembled.pair.stamp = pair.stamp;
     std::tie(input.assembled.pair.left, input.assembled.left_owner) =
-        keep(read(pair.left, "left", pair.stamp, rig_.left_map, input.faults));
+        keep(read(pair.left, "left", pair.stamp, rig_.left_map, bits_, input.faults));
     std::tie(input.assembled.pair.right, input.assembled.right_owner) =
-        keep(read(pair.right, "right", pair.stamp, rig_.right_map, input.faults));
+        keep(read(pair.right, "right", pair.stamp, rig_.right_map, bits_, input.faults));
     for (; next_motion_ < motion_.size() && motion_[next_motion_].to <= pair.stamp; ++next_motion_)
       input.assembled.inputs.push_back(motion_[next_motion_]);
     return input;
@@ -71,20 +72,21 @@ class EurocFolder : public Source {
   }
 
   static cv::Mat read(const std::string& path, const char* side, urban_nav_core::StampNs stamp,
-                      const urban_nav_core::RectifyMap& map, std::vector<std::string>& faults) {
+                      const urban_nav_core::RectifyMap& map, int bits, std::vector<std::string>& faults) {
     if (path.empty()) {
       faults.push_back(std::string(side) + " image of " + std::to_string(stamp) + " ns is missing");
       return {};
     }
-    const GreyImage image = readRectified(path, map);
+    const GreyImage image = readRectified(path, map, bits);
     if (!image.fault.empty()) faults.push_back(image.fault);
     return image.pixels;
   }
 
   std::string mav0_;
   EurocRig rig_;
-  std::vector<EurocPair> pairs_;
   SourceInfo info_;
+  std::vector<EurocPair> pairs_;
+  int bits_ = 8;
   std::vector<urban_nav_core::MotionInput> motion_;
   std::vector<urban_nav_core::SpecificForce> forces_;
   std::size_t position_ = 0, next_motion_ = 0;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "input/euroc_layout.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
+#include "input/euroc_table.hpp"
 #include "input/image_file.hpp"
 #include "urban_nav_core/io/calibration.hpp"
-#include "urban_nav_core/io/csv.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
@@ -16,7 +17,6 @@
 namespace urban_nav {
 
 namespace fs = std::filesystem;
-using urban_nav_core::CsvTable;
 using urban_nav_core::Pose;
 using urban_nav_core::RawCamera;
 using urban_nav_core::RectifyMap;
@@ -28,17 +28,20 @@ namespace {
 
 constexpr StampNs kPairing = 5'000'000;  // ns between the two images of a pair
 
-std::vector<std::pair<StampNs, std::string>> readImages(const std::string& camera) {
-  const CsvTable table = CsvTable::read((fs::path(camera) / "data.csv").string());
+/// The images of a camera in order of stamps; later ones of the same stamp are left out.
+std::vector<std::pair<StampNs, std::string>> readImages(const std::string& camera, std::vector<std::string>* notes) {
+  const std::string path = (fs::path(camera) / "data.csv").string();
+  const EurocTable table = readEurocTable(path, 2, "stamp in ns, file name");
+  if (notes != nullptr && table.out_of_order > 0)
+    notes->push_back(path + ": " + std::to_string(table.out_of_order) + " rows out of order, sorted by stamp");
+  if (notes != nullptr && table.repeated > 0)
+    notes->push_back(path + ": " + std::to_string(table.repeated) + " rows left out: an earlier one has their stamp");
   std::vector<std::pair<StampNs, std::string>> images;
-  if (table.header().size() < 2)
-    throw UserError(table.where(0), "has " + std::to_string(table.header().size()) + " columns",
-                    "stamp in ns, file name");
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    const fs::path name(table.text(row, 1));
+  for (const EurocRow& row : table.rows) {
+    const fs::path name(row.cells[1]);
     if (name.has_parent_path())
-      throw UserError(table.where(row), "file name \"" + name.string() + "\"", "a name without folders");
-    images.emplace_back(table.integer(row, 0), (fs::path(camera) / "data" / name).string());
+      throw UserError(row.where, "file name \"" + name.string() + "\"", "a name without folders");
+    images.emplace_back(row.stamp, (fs::path(camera) / "data" / name).string());
   }
   return images;
 }
@@ -49,9 +52,9 @@ std::string eurocFolder(const std::string& path) {
   return fs::is_directory(fs::path(path) / "mav0") ? (fs::path(path) / "mav0").string() : path;
 }
 
-std::vector<EurocPair> readEurocPairs(const std::string& mav0) {
-  const auto left = readImages((fs::path(mav0) / "cam0").string());
-  const auto right = readImages((fs::path(mav0) / "cam1").string());
+std::vector<EurocPair> readEurocPairs(const std::string& mav0, std::vector<std::string>* notes) {
+  const auto left = readImages((fs::path(mav0) / "cam0").string(), notes);
+  const auto right = readImages((fs::path(mav0) / "cam1").string(), notes);
   std::vector<EurocPair> pairs;
   std::size_t j = 0;
   for (const auto& [stamp, path] : left) {
@@ -91,15 +94,9 @@ std::vector<EurocImu> readEurocImu(const std::string& mav0) {
   const std::string path = (fs::path(mav0) / "imu0" / "data.csv").string();
   std::vector<EurocImu> rows;
   if (!fs::exists(path)) return rows;
-  const CsvTable table = CsvTable::read(path);
-  if (table.header().size() != 7)
-    throw UserError(path, std::to_string(table.header().size()) + " columns",
-                    "stamp in ns, three rates, three accelerations");
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    rows.push_back({table.integer(row, 0),
-                    {table.number(row, 1), table.number(row, 2), table.number(row, 3)},
-                    {table.number(row, 4), table.number(row, 5), table.number(row, 6)}});
-  }
+  for (const EurocRow& row : readEurocTable(path, 7, "stamp in ns, three rates, three accelerations").rows)
+    rows.push_back(
+        {row.stamp, {row.number(1), row.number(2), row.number(3)}, {row.number(4), row.number(5), row.number(6)}});
   return rows;
 }
 
@@ -120,25 +117,28 @@ sensor_msgs::Imu toImuMessage(const EurocImu& row) {
 std::optional<urban_nav_core::Trajectory> readEurocTruth(const std::string& mav0, const Pose& T_base_body) {
   const std::string path = (fs::path(mav0) / "state_groundtruth_estimate0" / "data.csv").string();
   if (!fs::exists(path)) return std::nullopt;
-  const CsvTable table = CsvTable::read(path);
-  if (table.header().size() < 8)
-    throw UserError(path, std::to_string(table.header().size()) + " columns",
-                    "stamp in ns, position, quaternion w x y z");
   urban_nav_core::Trajectory trajectory;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    const urban_nav_core::Quaterniond q(table.number(row, 4), table.number(row, 5), table.number(row, 6),
-                                        table.number(row, 7));
+  for (const EurocRow& row : readEurocTable(path, 8, "stamp in ns, position, quaternion w x y z").rows) {
+    const urban_nav_core::Quaterniond q(row.number(4), row.number(5), row.number(6), row.number(7));
     if (std::abs(q.norm() - 1.0) > 0.01)
-      throw UserError(table.where(row), "quaternion of length " + std::to_string(q.norm()), "length 1");
-    const Pose T_world_body(q, Vector3d(table.number(row, 1), table.number(row, 2), table.number(row, 3)));
-    if (!trajectory.append(table.integer(row, 0), T_world_body * T_base_body.inverse()))
-      throw UserError(table.where(row), "stamp is not later than the one before", "");
+      throw UserError(row.where, "quaternion of length " + std::to_string(q.norm()), "length 1");
+    const Pose T_world_body(q, Vector3d(row.number(1), row.number(2), row.number(3)));
+    trajectory.append(row.stamp, T_world_body * T_base_body.inverse());
   }
   return trajectory;
 }
 
-urban_nav_ros::GreyImage readRectified(const std::string& path, const RectifyMap& map) {
-  urban_nav_ros::GreyImage raw = readGrey(path);
+int eurocBits(const std::vector<EurocPair>& pairs) {
+  constexpr std::size_t kLookedAt = 10;  // pairs at the beginning, until the exposure has settled
+  int bits = 8;
+  for (std::size_t i = 0; i < std::min(kLookedAt, pairs.size()); ++i)
+    for (const std::string& path : {pairs[i].left, pairs[i].right})
+      if (!path.empty()) bits = std::max(bits, urban_nav_ros::significantBits(readPixels(path).pixels));
+  return bits;
+}
+
+urban_nav_ros::GreyImage readRectified(const std::string& path, const RectifyMap& map, int bits) {
+  urban_nav_ros::GreyImage raw = readGrey(path, bits);
   if (raw.pixels.empty()) return raw;
   std::vector<std::uint8_t> bytes;
   const urban_nav_core::ImageView view = map.remap(urban_nav_ros::toView(raw.pixels), bytes);

@@ -8,7 +8,19 @@ using urban_nav_core::Table;
 InputParameters::InputParameters() { inputTable().setDefaults(*this); }
 
 const Table<InputParameters>& inputTable() {
-  static const Table<InputParameters> table("input", urban_nav_core::withMotionInput<InputParameters>({}));
+  using P = InputParameters;
+  static const Table<P> table(
+      "input", urban_nav_core::withMotionInput<P>(
+                   {{"right_delay",
+                     &P::right_delay,
+                     "ms",
+                     0.0,
+                     -1000.0,
+                     1000.0,
+                     {},
+                     "how much later the right images of a bag are stamped than the left ones, though they are exposed "
+                     "together; it is taken from their stamps",
+                     "docs/files.md"}}));
   return table;
 }
 

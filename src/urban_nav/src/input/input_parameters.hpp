@@ -7,6 +7,8 @@ namespace urban_nav {
 
 /// Parameters of the readers of recordings: `input.motion_input` and so on. One member per row of inputTable().
 struct InputParameters : urban_nav_core::MotionInputParameters {
+  double right_delay;  // ms
+
   InputParameters();
 };
 

@@ -63,11 +63,22 @@ class KittiFolder : public Source {
         }
         size_ = image.pixels.size();
         calibrate(calibration);
-        bits_ = urban_nav_ros::significantBits(image.pixels);
+        lookAtDepth();
         return;
       }
     }
     throw urban_nav_core::DataError(info_.name, "no image can be read, the first: " + fault, "");
+  }
+
+  /// One depth for both cameras, from the first images of each.
+  void lookAtDepth() {
+    constexpr int kLookedAt = 10;
+    bits_ = 8;
+    for (const std::map<std::int64_t, std::string>* side : {&frames_.left, &frames_.right}) {
+      int seen = 0;
+      for (auto image = side->begin(); image != side->end() && seen < kLookedAt; ++image, ++seen)
+        bits_ = std::max(bits_, urban_nav_ros::significantBits(urban_nav::readPixels(image->second).pixels));
+    }
   }
 
   /// By the user's files where there are any, else by the folder's.

@@ -17,6 +17,7 @@ struct SourceOptions {
   std::string motion_input = "none";  ///< as input.motion_input
   double wheel_noise = 0.0;           ///< as input.wheel_noise
   double gyro_noise = 0.0;            ///< as input.gyro_noise
+  double right_delay = 0.0;           ///< ms, as input.right_delay
 };
 
 enum class InputKind { KittiFolder, EurocFolder, NewCollegeFolder, Bag };

@@ -6,7 +6,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <optional>
+#include <utility>
 
+#include "input/bag_order.hpp"
 #include "input/open.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -20,17 +24,41 @@ namespace {
 
 struct Extent {
   std::string path;
-  double begin = 0.0, end = 0.0;  // s
+  double begin = 0.0, end = 0.0;  // s: by the stamps of the images, else of receipt
   urban_nav_core::StampNs first = 0;
 };
+
+/// Stamps tell what belongs together also where bags were converted or written anew, all at the same time.
+void useStamps(rosbag::Bag& bag, Extent& extent) {
+  rosbag::View images(bag,
+                      rosbag::TypeQuery(std::vector<std::string>{"sensor_msgs/Image", "sensor_msgs/CompressedImage"}));
+  std::map<std::string, std::pair<urban_nav_core::StampNs, urban_nav_core::StampNs>> topics;
+  for (const rosbag::ConnectionInfo* connection : images.getConnections()) {
+    rosbag::View view(bag, rosbag::TopicQuery(connection->topic));
+    if (view.size() == 0) continue;
+    auto last = view.begin();
+    for (auto each = view.begin(); each != view.end(); ++each) last = each;
+    topics[connection->topic] = {readHeaderStamp(*view.begin()), readHeaderStamp(*last)};
+  }
+  std::optional<std::pair<urban_nav_core::StampNs, urban_nav_core::StampNs>> all;
+  for (const auto& [topic, stamps] : topics) {
+    if (stamps.first == 0 || stamps.second < stamps.first) return;
+    all = all ? std::make_pair(std::min(all->first, stamps.first), std::max(all->second, stamps.second)) : stamps;
+  }
+  if (!all) return;
+  extent.begin = 1e-9 * static_cast<double>(all->first);
+  extent.end = 1e-9 * static_cast<double>(all->second);
+}
 
 Extent computeExtent(const std::string& path) {
   try {
     rosbag::Bag bag(path, rosbag::bagmode::Read);
     rosbag::View view(bag);
     if (view.size() == 0) throw DataError(path, "holds no messages", "");
-    return {path, view.getBeginTime().toSec(), view.getEndTime().toSec(),
-            urban_nav_ros::toStampNs(view.getBeginTime())};
+    Extent extent{path, view.getBeginTime().toSec(), view.getEndTime().toSec(),
+                  urban_nav_ros::toStampNs(view.getBeginTime())};
+    useStamps(bag, extent);
+    return extent;
   } catch (const rosbag::BagUnindexedException&) {
     throw DataError(path, "has no index: the recording was cut off (rosbag reindex " + path + " repairs that)", "");
   } catch (const rosbag::BagException& error) {

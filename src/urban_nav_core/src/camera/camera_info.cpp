@@ -54,6 +54,15 @@ CameraInfo makeInfo(const StereoCamera& camera, double baseline) {
 
 }  // namespace
 
+CameraInfo withRawCamera(CameraInfo info) {
+  if (!info.K.isZero(0.0) || info.P.leftCols<3>().isZero(0.0)) return info;
+  info.K = info.P.leftCols<3>();
+  info.R.setIdentity();
+  info.D.clear();
+  info.distortion_model.clear();
+  return info;
+}
+
 RawCamera rawCamera(const CameraInfo& info, const std::string& where) {
   return {pinhole(info, info.K, "K", where), Distortion::named(info.distortion_model, info.D, where)};
 }

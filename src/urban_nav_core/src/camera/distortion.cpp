@@ -29,30 +29,55 @@ Distortion Distortion::named(const std::string& model, const std::vector<double>
   const auto has_only_zeros = [&] {
     return std::all_of(coefficients.begin(), coefficients.end(), [](double k) { return k == 0.0; });
   };
+  const bool fisheye = model == "equidistant" || model == "fisheye" || model == "kannala_brandt";
   if (coefficients.empty() || has_only_zeros()) return Distortion();
   if (!std::all_of(coefficients.begin(), coefficients.end(), [](double k) { return std::isfinite(k); })) {
     throw UserError(where, "a distortion coefficient that is no number", "finite coefficients");
   }
   const bool plumb_bob = model == "plumb_bob" || model == "radial-tangential" || model == "radtan";
   const bool rational = model == "rational_polynomial";
-  if (!plumb_bob && !rational) {
+  if (!plumb_bob && !rational && !fisheye) {
     throw UserError(where, "distortion model " + model,
-                    "plumb_bob, radial-tangential, rational_polynomial (rectify others before)");
+                    "plumb_bob, radial-tangential, rational_polynomial, equidistant (rectify others before)");
   }
-  const std::size_t n = coefficients.size();
-  if (plumb_bob ? (n != 4 && n != 5) : n != 8) {
-    throw UserError(where, std::to_string(n) + " distortion coefficients for " + model, plumb_bob ? "4 or 5" : "8");
-  }
+  const std::size_t used = fisheye ? 4 : 8;
+  if (coefficients.size() < 4)
+    throw UserError(where, std::to_string(coefficients.size()) + " distortion coefficients for " + model, "at least 4");
+  for (std::size_t i = used; i < coefficients.size(); ++i)
+    if (coefficients[i] != 0.0)
+      throw UserError(
+          where, "distortion coefficient " + std::to_string(i + 1) + " of " + model + " is not zero",
+          "at most " + std::to_string(used) + " coefficients (thin prisms and tilted sensors are not known)");
+  if (fisheye) return equidistant({coefficients[0], coefficients[1], coefficients[2], coefficients[3]});
   std::array<double, 8> k{};
-  std::copy(coefficients.begin(), coefficients.end(), k.begin());
+  std::copy_n(coefficients.begin(), std::min(coefficients.size(), k.size()), k.begin());
   return Distortion(k);
 }
 
+Distortion Distortion::equidistant(const std::array<double, 4>& coefficients) {
+  Distortion distortion;
+  std::copy(coefficients.begin(), coefficients.end(), distortion.k_.begin());
+  distortion.equidistant_ = true;
+  distortion.fold_radius_ = distortion.findFold();
+  return distortion;
+}
+
 bool Distortion::isNone() const {
-  return std::all_of(k_.begin(), k_.end(), [](double k) { return k == 0.0; });
+  return !equidistant_ && std::all_of(k_.begin(), k_.end(), [](double k) { return k == 0.0; });
+}
+
+Distortion::Radial Distortion::equidistantRadial(double r2) const {
+  constexpr double kNearAxis = 1e-8;  // of r^2: below, the series of atan
+  if (r2 < kNearAxis) return {1.0 + r2 * (k_[0] - 1.0 / 3.0), k_[0] - 1.0 / 3.0};
+  const double r = std::sqrt(r2), a = std::atan(r), a2 = a * a;
+  const double bent = a * (1.0 + a2 * (k_[0] + a2 * (k_[1] + a2 * (k_[2] + a2 * k_[3]))));
+  const double slope =
+      (1.0 + a2 * (3.0 * k_[0] + a2 * (5.0 * k_[1] + a2 * (7.0 * k_[2] + a2 * 9.0 * k_[3])))) / (1.0 + r2);
+  return {bent / r, (slope * r - bent) / (2.0 * r2 * r)};
 }
 
 Distortion::Radial Distortion::radial(double r2) const {
+  if (equidistant_) return equidistantRadial(r2);
   const double above = 1.0 + r2 * (k_[0] + r2 * (k_[1] + r2 * k_[4]));
   const double below = 1.0 + r2 * (k_[5] + r2 * (k_[6] + r2 * k_[7]));
   const double above_slope = k_[0] + r2 * (2.0 * k_[1] + r2 * 3.0 * k_[4]);
@@ -64,7 +89,7 @@ double Distortion::findFold() const {
   // d(r f)/dr = f + 2 r^2 f'; also where the denominator passes through zero the formula has ended.
   const auto rises = [this](double r) {
     const Radial at = radial(r * r);
-    const double below = 1.0 + r * r * (k_[5] + r * r * (k_[6] + r * r * k_[7]));
+    const double below = equidistant_ ? 1.0 : 1.0 + r * r * (k_[5] + r * r * (k_[6] + r * r * k_[7]));
     return below > 0.0 && at.factor > 0.0 && at.factor + 2.0 * r * r * at.slope > 0.0;
   };
   double good = 0.0;
@@ -85,7 +110,7 @@ double Distortion::findFold() const {
 
 Eigen::Vector2d Distortion::formula(const Eigen::Vector2d& ideal) const {
   const double x = ideal.x(), y = ideal.y(), r2 = ideal.squaredNorm();
-  const double p1 = k_[2], p2 = k_[3];
+  const double p1 = equidistant_ ? 0.0 : k_[2], p2 = equidistant_ ? 0.0 : k_[3];
   const Eigen::Vector2d tangential(2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x),
                                    p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y);
   return radial(r2).factor * ideal + tangential;
@@ -98,7 +123,7 @@ std::optional<Eigen::Vector2d> Distortion::distort(const Eigen::Vector2d& ideal)
 
 Eigen::Matrix2d Distortion::jacobian(const Eigen::Vector2d& ideal) const {
   const double x = ideal.x(), y = ideal.y();
-  const double p1 = k_[2], p2 = k_[3];
+  const double p1 = equidistant_ ? 0.0 : k_[2], p2 = equidistant_ ? 0.0 : k_[3];
   const Radial at = radial(ideal.squaredNorm());
   Eigen::Matrix2d tangential;
   tangential << 2.0 * p1 * y + 6.0 * p2 * x, 2.0 * p1 * x + 2.0 * p2 * y,  //
@@ -138,6 +163,11 @@ std::optional<Eigen::Vector2d> Distortion::undistort(const Eigen::Vector2d& dist
 
 std::ostream& operator<<(std::ostream& out, const Distortion& distortion) {
   if (distortion.isNone()) return out << "no distortion";
+  if (distortion.isEquidistant()) {
+    out << "equidistant";
+    for (std::size_t i = 0; i < 4; ++i) out << ", k" << i + 1 << " = " << distortion.coefficients()[i];
+    return out;
+  }
   const char* names[] = {"k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6"};
   const char* separator = "";
   for (std::size_t i = 0; i < 8; ++i) {

@@ -14,10 +14,12 @@ namespace {
 // The left camera of EuRoC's V1_01, and a rational model like those of wide lenses.
 const Distortion kPlumbBob({-0.28340811, 0.07395907, 0.00019359, 1.76187114e-05, 0.0, 0.0, 0.0, 0.0});
 const Distortion kRational({0.45, -0.11, 0.0003, -0.0002, 0.013, 0.80, 0.05, 0.002});
+// The left camera of TUM-VI.
+const Distortion kFisheye = Distortion::equidistant({0.0034, 0.00077, -0.00076, 0.00026});
 const Distortion kFolding({-0.35, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
 
 TEST(Distortion, UndistortInvertsDistort) {
-  for (const Distortion& lens : {kPlumbBob, kRational, Distortion()}) {
+  for (const Distortion& lens : {kPlumbBob, kRational, kFisheye, Distortion()}) {
     for (double x = -1.0; x <= 1.0; x += 0.1) {
       for (double y = -0.7; y <= 0.7; y += 0.1) {
         const auto seen = lens.distort({x, y});
@@ -32,7 +34,7 @@ TEST(Distortion, UndistortInvertsDistort) {
 }
 
 TEST(Distortion, JacobianIsTheNumericDerivative) {
-  for (const Distortion& lens : {kPlumbBob, kRational}) {
+  for (const Distortion& lens : {kPlumbBob, kRational, kFisheye}) {
     for (const Eigen::Vector2d& p :
          {Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(0.7, -0.4), Eigen::Vector2d(-1.1, 0.8)}) {
       const double h = 1e-6;
@@ -80,16 +82,37 @@ TEST(Distortion, IsNamedAsInCameraInfoAndEuroc) {
   EXPECT_TRUE(Distortion::named("equidistant", {0.0, 0.0, 0.0, 0.0}, "f").isNone());
 }
 
+TEST(Distortion, FisheyeBendsAnglesNotSlopes) {
+  const Distortion lens = Distortion::equidistant({1e-12, 0.0, 0.0, 0.0});
+  for (const double angle : {0.01, 0.5, 1.2, 1.4}) {
+    const auto seen = lens.distort({0.6 * std::tan(angle), 0.8 * std::tan(angle)});
+    ASSERT_TRUE(seen);
+    EXPECT_NEAR(seen->norm(), angle, 1e-9);
+    EXPECT_NEAR(seen->x() / seen->y(), 0.75, 1e-9);
+  }
+}
+
+TEST(Distortion, CoefficientsMayBePaddedWithZeros) {
+  const auto& k = kPlumbBob.coefficients();
+  const std::vector<double> four(k.begin(), k.begin() + 4);
+  for (const std::size_t n : {4, 5, 8, 12, 14}) {
+    std::vector<double> padded = four;
+    padded.resize(n, 0.0);
+    EXPECT_EQ(Distortion::named("plumb_bob", padded, "f").coefficients(), k);
+    EXPECT_EQ(Distortion::named("rational_polynomial", padded, "f").coefficients(), k);
+  }
+  EXPECT_THROW(Distortion::named("rational_polynomial", {0.1, 0, 0, 0, 0, 0, 0, 0, 1e-3}, "f"), UserError);
+}
+
 TEST(Distortion, MistakesAreNamed) {
   EXPECT_THROW(Distortion::named("plumb_bob", {0.1, 0.2}, "left.yaml"), UserError);
-  EXPECT_THROW(Distortion::named("rational_polynomial", {0.1, 0.2, 0.0, 0.0, 0.0}, "left.yaml"), UserError);
+  EXPECT_THROW(Distortion::named("equidistant", {0.1, 0.2, 0.0, 0.0, 0.3}, "left.yaml"), UserError);
   EXPECT_THROW(Distortion::named("plumb_bob", {0.1, std::nan(""), 0.0, 0.0}, "left.yaml"), UserError);
   try {
-    Distortion::named("equidistant", {0.1, 0.2, 0.0, 0.0}, "left.yaml");
+    Distortion::named("omni", {0.1, 0.2, 0.0, 0.0}, "left.yaml");
     FAIL();
   } catch (const UserError& error) {
-    EXPECT_NE(std::string(error.what()).find("left.yaml: distortion model equidistant"), std::string::npos)
-        << error.what();
+    EXPECT_NE(std::string(error.what()).find("left.yaml: distortion model omni"), std::string::npos) << error.what();
   }
 }
 

@@ -18,10 +18,11 @@ struct GreyImage {
   std::string fault;
 };
 
-/// Grey of mono8, 8UC1, mono16, 16UC1, bgr8, rgb8, bgra8, rgba8, 8UC3 (as bgr8), 8UC4 and the 8-bit Bayer patterns.
-/// mono8 is not copied: the pixels then live as long as the message. `bits` is the depth of 16-bit pixels (8...16, from
-/// significantBits): the highest eight of them are kept, the same for every image of a camera so that brightness stays
-/// comparable.
+/// Returns the grey values of an image of any encoding of sensor_msgs/image_encodings.h with 8 or 16 bits (mono, BGR,
+/// RGB, with alpha, Bayer, YUV 4:2:2; 8UC1, 8UC3, 8UC4, 16UC1, 16UC3, 16UC4 as mono, BGR, BGRA); others are refused by
+/// name. mono8 is not copied: the pixels then live as long as the message. `bits` is the depth of 16-bit pixels
+/// (8...16, from significantBits): the highest eight of them are kept, the same for all images of a pair of cameras so
+/// that brightness stays comparable.
 GreyImage toGrey(const sensor_msgs::Image& message, int bits = 16);
 /// JPEG, PNG or whatever OpenCV reads.
 GreyImage toGrey(const sensor_msgs::CompressedImage& message, int bits = 16);
@@ -31,6 +32,7 @@ GreyImage toGrey(const cv::Mat& pixels, int bits = 16);
 /// How many low bits of a 16-bit image are in use, rounded up to 8, 10, 12, 14 or 16 (cameras put 10 or 12 bits into
 /// 16). 8 for other images.
 int significantBits(const sensor_msgs::Image& message);
+int significantBits(const sensor_msgs::CompressedImage& message);
 int significantBits(const cv::Mat& pixels);
 
 /// Grey 8-bit pixels as mono8. The header is the caller's business.

@@ -7,6 +7,7 @@
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/Imu.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -43,6 +44,8 @@ class StereoFeed {
   void add(Side side, const sensor_msgs::ImageConstPtr& image);
   void add(Side side, const sensor_msgs::CompressedImageConstPtr& image);
   void add(const urban_nav_core::MotionInput& input);
+  /// States the depth of 16-bit pixels (8...16) as far as it is known in advance; deeper images raise it.
+  void expectBits(int bits) { bits_ = std::max(bits_, bits); }
   /// Nothing more will come: all that waits may leave.
   void finish();
 
@@ -67,13 +70,16 @@ class StereoFeed {
   using Input =
       std::variant<sensor_msgs::ImageConstPtr, sensor_msgs::CompressedImageConstPtr, urban_nav_core::MotionInput>;
   int toStream(Side side) const;
+  void widen(const Input& input);
+  void widenByPair(urban_nav_core::StampNs stamp, const Input& input);
   urban_nav_core::OwnedImage decode(Side side, urban_nav_core::StampNs stamp, const Input& input);
 
   std::shared_ptr<const StereoCalibration> calibration_;
   int first_image_stream_;
   urban_nav_core::TimeOrderedQueue<Input> queue_;
   urban_nav_core::StereoAssembler assembler_;
-  int left_bits_ = 0, right_bits_ = 0;  // depth of 16-bit pixels, from the first image
+  urban_nav_core::StampNs pairing_tolerance_;
+  int bits_ = 8;  // depth of the 16-bit pixels of both cameras: the largest so far
   std::vector<std::string> faults_;
   bool finished_ = false, drained_ = false;
   std::int64_t rectified_ = 0;  // images; no part of the archived state

@@ -60,8 +60,8 @@ class StereoRectifier {
   std::optional<StereoCalibration> calibration_;
   std::deque<ImageInput> waiting_;  // for the calibration
   urban_nav_live::TimeJumpDetector images_;
-  int left_bits_ = 0, right_bits_ = 0;  // depth of 16-bit pixels, from the first image
-  std::string fault_;                   // of the calibration
+  int bits_ = 8;       // depth of the 16-bit pixels of both cameras: the largest so far
+  std::string fault_;  // of the calibration
   Counts counts_;
 };
 

@@ -13,13 +13,17 @@ namespace urban_nav_core {
 /// One camera's calibration as sensor_msgs/CameraInfo and its YAML have it.
 struct CameraInfo {
   int width = 0, height = 0;                        ///< px
-  std::string distortion_model;                     ///< "plumb_bob", "rational_polynomial"; "" for none
+  std::string distortion_model;                     ///< "plumb_bob", "rational_polynomial", "equidistant"; "" for none
   std::vector<double> D;                            ///< coefficients, order as in distortion.hpp
   Eigen::Matrix3d K = Eigen::Matrix3d::Zero();      ///< raw pinhole, px
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();  ///< R_rectified_raw
   /// Rectified pinhole; P(0,3) = -fx baseline of a right camera.
   Eigen::Matrix<double, 3, 4> P = Eigen::Matrix<double, 3, 4>::Zero();
 };
+
+/// Fills in the raw camera of a calibration that has P alone, as converters of rectified sequences write it: K from P,
+/// no rotation, no distortion. Returns others as they are.
+CameraInfo withRawCamera(CameraInfo info);
 
 /// The raw camera. Throws UserError that begins with `where` (file or topic) if size, K or D cannot be those of a
 /// camera.

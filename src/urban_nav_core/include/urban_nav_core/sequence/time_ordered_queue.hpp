@@ -87,6 +87,14 @@ class TimeOrderedQueue {
   /// Returns the latest stamp of a stream so far.
   std::optional<StampNs> reached(int stream) const { return reached_[static_cast<std::size_t>(stream)]; }
   std::size_t waiting() const { return waiting_.size(); }
+  /// Calls `see(item)` for the inputs that are held and not later than `stamp`, in order.
+  template <typename See>
+  void forEachUntil(StampNs stamp, See see) const {
+    for (const Entry& entry : waiting_) {
+      if (entry.stamp > stamp) break;
+      see(entry.item);
+    }
+  }
 
   /// Reads or writes the whole state; `item(Archive&, Item&)` reads or writes one item.
   template <typename ArchiveItem>
