@@ -146,7 +146,8 @@ Matrix6d withCommonError(const StereoCamera& camera, const Pose& T_a_b, const Es
   // (C + spread spread^T)^-1, without inverting the information, which may be singular
   const Matrix6d seen = information * spread;
   const Matrix6d inner = Matrix6d::Identity() + spread.transpose() * seen;
-  const Matrix6d made = information - seen * urban_nav_core::solveByLdlt<6, 6>(inner, seen.transpose());
+  // Eigen solves a transposed right side by rows, in another order of sums than solveByLdlt.
+  const Matrix6d made = information - seen * inner.ldlt().solve(seen.transpose());
   return 0.5 * (made + made.transpose());
 }
 
