@@ -14,7 +14,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 
 # The rules that hold. A breach fails the run; every other rule of RULES is counted only.
-ENFORCED = {"long_files", "long_lines", "unity_names", "gtest_names", "command_includes", "of_functions"}
+ENFORCED = {"long_files", "long_lines", "unity_names", "gtest_names", "command_includes", "of_functions",
+            "word_counts"}
 
 # Functions over 60 lines that are to stay, with the reason.
 LONG_FUNCTIONS = {}

@@ -66,7 +66,7 @@ TEST(Evidence, NothingThatIsNoNumberIsWritten) {
   EXPECT_NO_THROW(parseEvidence(printEvidence(evidence)));
 }
 
-TEST(Evidence, IsFoundBehindOtherText) {
+TEST(Evidence, IsFoundAfterOtherText) {
   const std::string text = printEvidence(someEvidence());
   EXPECT_EQ(evidenceIn("session_a,stamp\n0,1\n" + text), text);
   EXPECT_EQ(evidenceIn(text), text);

@@ -22,7 +22,7 @@ const Table<Parameters>& table() {
           {"robust", &P::robust, "", true, false, false, {},
            "Closures that disagree with the others are rejected; without, every edge is taken as it is.", "paper 5"},
           {"gravity", &P::gravity, "", true, false, false, {},
-           "What an accelerometer felt takes the drift of roll and pitch out of odometry; without, it says which way is up and no more.", "paper 5; measured"},
+           "Accelerometer measurements remove the drift of roll and pitch from odometry; without, they only determine which direction is up.", "paper 5; measured"},
           {"iterations", &P::iterations, "", std::int64_t{100}, std::int64_t{1}, std::int64_t{10000}, {},
            "Steps of one minimisation, at most; fewer where nothing is left to gain.", "paper 5"},
           {"jump_distance", &P::jump_distance, "m", 0.5, 0.0, 1000.0, {},

@@ -2,7 +2,7 @@
 // Is the covariance honest on images? Normalised estimation error squared of the pose (6 degrees of freedom: 6 is
 // right) at frames 50, 100 and 200, averaged over runs in rendered rooms, wandering, turning through 360 deg with
 // stops, and round the room, at three levels of image noise, with the shipped defaults, with an exact calibration and
-// with one whose disparities are off by as much as the filter is told; also of T_{i,i+100} composed of the relative
+// with one whose disparities are off by as much as the filter assumes; also of T_{i,i+100} composed of the relative
 // poses and their drifts, and of single steps.
 //   swf_vo-bench-consistency_images [--runs N] [--set swf_vo.NAME=VALUE]... [-o results/consistency_images.json]
 #include <algorithm>
@@ -137,7 +137,7 @@ int main(int argc, char** argv) try {
                  cell(1000.0 * s.error_m / s.runs, 1) + " mm, " + cell(s.error_deg / s.runs, 3) + " deg"});
     }
   table.note(
-      "Calibration drawn: disparities are off by what was drawn for the run from the standard deviation that the filter is told "
+      "Calibration drawn: disparities are off by what was drawn for the run from the standard deviation that the filter assumes "
       "(disparity_offset). Its error is the same in all steps, so the drift of steps does not have it.");
   table.note(
       "NEES: 6 is right; of a mean over 50 runs, 99 % lie between 4.81 and 7.34. In brackets translation and rotation, 3 each.");

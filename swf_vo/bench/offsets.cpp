@@ -40,7 +40,7 @@ void addRendered(BenchTable& table, const RenderedOptions& options) {
   sequences[1].camera.disparity_offset = wrong_px;
   const std::vector<Run> runs = runTogether(sequences, swf_vo::Parameters());
   add(table, options.scene + ", rendered", runs[0], "0");
-  add(table, options.scene + ", rendered; told " + cell(wrong_px, 1) + " px", runs[1], "0");
+  add(table, options.scene + ", rendered; assumed " + cell(wrong_px, 1) + " px", runs[1], "0");
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ void expectSeamless(const std::vector<Step>& some, const std::vector<std::size_t
     for (std::size_t i = cut; i < end; ++i) {
       ASSERT_TRUE(process(part, some[i]) == frames[i]) << "frame " << i;
       if (i + 1 < states.size()) {
-        ASSERT_TRUE(part.state() == states[i + 1]) << "behind frame " << i;
+        ASSERT_TRUE(part.state() == states[i + 1]) << "after frame " << i;
       }
     }
     if (end == some.size()) {
@@ -71,7 +71,7 @@ TEST(State, GoesOnInTheDark) { expectSeamless(collectSteps("loop", 60, "black:0.
 
 TEST(State, GoesOnInABlur) { expectSeamless(collectSteps("loop", 45, "blur:1:0.5"), {20, 22, 24, 30, 33}); }
 
-TEST(State, GoesOnBehindAGap) { expectSeamless(collectSteps("loop", 60, "drop:1:0.8"), {20, 21, 22, 24, 30}); }
+TEST(State, ResumesAfterAGap) { expectSeamless(collectSteps("loop", 60, "drop:1:0.8"), {20, 21, 22, 24, 30}); }
 
 TEST(State, GoesOnWithImagesExchanged) { expectSeamless(collectSteps("loop", 45, "swap:1:0.5"), {21, 23, 26, 32}); }
 TEST(State, GoesOnInFrozenImages) {

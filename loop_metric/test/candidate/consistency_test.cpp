@@ -72,7 +72,7 @@ TEST(Consistency, TwoWithoutAWitnessBothStay) {
   EXPECT_EQ(passes.closures[1].verdict, ClosureVerdict::Accepted);
 }
 
-TEST(Consistency, AFreeDirectionContradictsNobody) {
+TEST(Consistency, AFreeDirectionContradictsNothing) {
   TwoPasses passes;
   passes.closures[4].measured.T_a_b = closurePose(2.0, 0.5);
   passes.closures[4].measured.information.row(0).setZero();

@@ -11,10 +11,10 @@ namespace {
 using urban_nav_core::Pose;
 using urban_nav_core::PoseWithCovariance;
 
-/// Views each metre along x, `behind` m before the moment to `ahead` m behind it.
-std::vector<NearbyKeyframe> row(const char* session, int behind, int ahead) {
+/// Views each metre along x, `before` m before the time to `after` m after it.
+std::vector<NearbyKeyframe> row(const char* session, int before, int after) {
   std::vector<NearbyKeyframe> views;
-  for (int i = -behind; i <= ahead; ++i) {
+  for (int i = -before; i <= after; ++i) {
     NearbyKeyframe view;
     view.at = {session, 1000 + i};
     view.T_place_keyframe.pose = Pose(urban_nav_core::Quaterniond::Identity(), {static_cast<double>(i), 0.0, 0.0});

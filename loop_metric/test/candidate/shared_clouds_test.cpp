@@ -51,11 +51,12 @@ class SharedClouds : public ::testing::Test {
   std::vector<double> kept() {
     std::vector<double> made;
     for (std::size_t i = 0; i < closures_.size(); ++i) {
-      MetricClosure told = closures_[i];
-      discountAgainst(told, {closures_.begin(), closures_.begin() + static_cast<std::ptrdiff_t>(i)}, around_,
+      MetricClosure discounted = closures_[i];
+      discountAgainst(discounted, {closures_.begin(), closures_.begin() + static_cast<std::ptrdiff_t>(i)}, around_,
                       parameters_);
-      EXPECT_TRUE(told.measured.information.isApprox(told.measured.information(0, 0) * Matrix6d::Identity()));
-      made.push_back(told.measured.information(0, 0));
+      EXPECT_TRUE(
+          discounted.measured.information.isApprox(discounted.measured.information(0, 0) * Matrix6d::Identity()));
+      made.push_back(discounted.measured.information(0, 0));
     }
     return made;
   }
@@ -110,7 +111,7 @@ TEST_F(SharedClouds, oneAfterAnotherTheFirstTellsAllAndTheSameAgainNothing) {
 
 TEST_F(SharedClouds, oneAfterAnotherPartsCountAsParts) {
   add(20, 120);
-  add(25, 110);  // 15 m and 10 m of 20 m are told
+  add(25, 110);  // 15 m and 10 m of 20 m are discounted
   add(35,
       120);  // 5 m and 20 m by the first, 10 m and 10 m by the second, which have a quarter of 20 m times 10 m in
              // common

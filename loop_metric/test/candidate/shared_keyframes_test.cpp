@@ -61,19 +61,19 @@ TEST(SharedViews, OnlyAcceptedClosuresByStereoTakePart) {
 }
 
 TEST(SharedViews, ByAndByTheFirstTellsAll) {
-  SharedKeyframeDiscount told;
+  SharedKeyframeDiscount discount;
   double sum = 0.0;
   for (int i = 0; i < 20; ++i) {
     MetricClosure closure = toClosure({"day", 5}, {"day", 90});
-    told.discountAgainst(closure);
+    discount.discountAgainst(closure);
     EXPECT_GT(knows(closure), 0.0);
     sum += knows(closure);
   }
   EXPECT_NEAR(sum, 6.0, 0.06 * 6.0);
   MetricClosure other = toClosure({"day", 5}, {"day", 91}),
                 clouds = toClosure({"day", 5}, {"day", 90}, ClosureMethod::Icp);
-  told.discountAgainst(other);
-  told.discountAgainst(clouds);
+  discount.discountAgainst(other);
+  discount.discountAgainst(clouds);
   EXPECT_DOUBLE_EQ(knows(other), 6.0);
   EXPECT_DOUBLE_EQ(knows(clouds), 6.0);
 }

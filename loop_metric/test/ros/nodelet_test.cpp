@@ -176,7 +176,7 @@ TEST_F(LoopMetricNodelet, withoutImagesThereIsNothingToGoBy) {
   expectRejected(robot().closures[0], "nothing_kept");
 }
 
-TEST_F(LoopMetricNodelet, behindAGapInOdometryViewsAloneDecide) {
+TEST_F(LoopMetricNodelet, afterAGapInOdometryViewsAloneDecide) {
   robot().drive(0, lap + 7, true, 12);
   robot().recognise(3, lap + 3);
   ASSERT_TRUE(robot().judged(1));

@@ -34,7 +34,7 @@ class LinePlaceData : public PlaceData {
   bool knows(const urban_nav_core::PoseRef& at, std::string& why) const override {
     const auto its = odometry.find(at.session);
     if (its != odometry.end() && its->second.nearestFrame(at.stamp)) return true;
-    why = "nobody was there";
+    why = "no data there";
     return false;
   }
   std::vector<NearbyKeyframe> views(const urban_nav_core::PoseRef& at, double way) const override {

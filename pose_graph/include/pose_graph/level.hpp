@@ -20,9 +20,9 @@ std::vector<SpecificForce> forcesAt(const std::vector<urban_nav_core::StampNs>& 
 /// Why it is not known which way is up.
 enum class LevelTrouble {
   None,
-  NoForces,    ///< nothing was felt at any pose
+  NoForces,    ///< no specific force was measured at any pose
   TooShort,    ///< less than three spans of 2 s without a gap
-  NotGravity,  ///< what was felt has not the size of gravity: other units, or an IMU that takes gravity off
+  NotGravity,  ///< the specific force has not the size of gravity: other units, or an IMU that takes gravity off
 };
 const char* toString(LevelTrouble trouble);
 
@@ -35,7 +35,7 @@ struct Level {
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();         ///< of length 1
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of `up`, rad2; zero along it
   double sigma = 0.0;                                    ///< rad: the larger of the two
-  double gravity = 0.0;                                  ///< m/s2, as felt
+  double gravity = 0.0;                                  ///< m/s2, as measured
   /// The rotation of a frame `map` at the first pose with z up, and x where the first pose's x points on the ground:
   /// its heading is zero. The identity where nothing is known.
   Eigen::Matrix3d R_map_first = Eigen::Matrix3d::Identity();
@@ -45,7 +45,7 @@ struct Level {
 ///
 /// Which way is up, from all forces of a drive: turned into the axes of the first pose by the trajectory's rotations,
 /// less the change of velocity that the trajectory shows, they are gravity and what is wrong with the accelerometer.
-/// The latter turns with the robot, so the two are told apart where it has turned; where it has not, the covariance
+/// The latter turns with the robot, so the two are separable where it has turned; where it has not, the covariance
 /// says so (linear least squares in both, over spans of 2 s, reweighted as Huber 1964 has it; scatter as found). The
 /// trajectory's rotations are taken as exact: see withRotations.
 ///

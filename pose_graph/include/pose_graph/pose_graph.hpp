@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "pose_graph/level.hpp"
+#include "pose_graph/node_index.hpp"
 #include "pose_graph/parameters.hpp"
-#include "pose_graph/places.hpp"
 #include "pose_graph/solution.hpp"
 #include "urban_nav_core/types/pose_with_covariance.hpp"
 #include "urban_nav_core/types/status.hpp"
@@ -31,7 +31,7 @@ using ClosureId = std::int64_t;
 /// Why the graph is not OK: Status::reason of this stage.
 enum class Trouble : int {
   None = 0,
-  BrokenChain,  ///< a relative pose does not begin where the last one ended: what comes behind is a part of its own
+  BrokenChain,  ///< a relative pose does not begin where the last one ended: what follows is a part of its own
   Separate,     ///< sessions, or parts of one, that no accepted closure joins
   Waiting,      ///< a closure waits for a second one that agrees
   NotStored,    ///< live: what is taken in does not reach the store
@@ -42,7 +42,7 @@ const char* toString(Trouble trouble);
 enum class JumpReason : int {
   None = 0,
   Believed,   ///< closures that were not believed before: the witnesses
-  Asserted,   ///< the same, and somebody asserted one of them
+  Asserted,   ///< the same, and one of them was asserted by hand
   Withdrawn,  ///< closures that were believed no longer are: the witnesses
   Removed,    ///< closures that were believed were removed by hand: the witnesses
   Refined,    ///< none of these: relaxed from the measurements alone, the graph lies elsewhere
@@ -131,7 +131,7 @@ class PoseGraph {
   /// A session begins; UserError where it has begun already.
   void beginSession(const SessionId& session);
   bool hasSession(const SessionId& session) const;
-  /// The session that is being recorded, whose jumps are told: the one that began last, unless it is said here.
+  /// The session that is being recorded, whose jumps are reported: the one that began last, unless it is said here.
   void goOn(const SessionId& session);
 
   /// The next step of a session's chain. The first one makes two poses. A step that does not begin at the session's
@@ -148,7 +148,7 @@ class PoseGraph {
   std::optional<ClosureId> findClosure(const NodeRef& a, const NodeRef& b, EdgeKind kind,
                                        const std::string& source) const;
 
-  /// What was felt at poses of a session, in order of time; from the first of them on it takes the place of what is
+  /// Specific forces at poses of a session, in order of time; from the first of them on it takes the place of what is
   /// known. Batches level by it: a map of which one of the sessions knows which way is up has z up, and origin and
   /// heading of its first pose.
   void putForces(const SessionId& session, const std::vector<SpecificForce>& forces);
@@ -171,7 +171,7 @@ class PoseGraph {
 
   const std::vector<Track>& tracks() const { return tracks_; }
   const Track* track(const SessionId& session) const;
-  /// The step that leads to a pose of a track, as it was measured; null at the first one, and behind a gap.
+  /// The step that leads to a pose of a track, as it was measured; null at the first one, and after a gap.
   const urban_nav_core::RelativePose* stepTo(std::size_t track, std::size_t pose) const;
   const std::map<ClosureId, Closure>& closures() const { return closures_; }
   std::int64_t revision() const { return revision_; }
@@ -199,18 +199,18 @@ class PoseGraph {
   std::vector<double> weights() const;
 
  private:
-  class Paper;  // what IncrementalSolver reads and writes
-  std::optional<Place> findPlace(const NodeRef& ref) const;
+  class TrackView;  // what IncrementalSolver reads and writes
+  std::optional<NodeIndex> findNode(const NodeRef& ref) const;
   /// An unbroken piece of a track's chain.
   struct Run {
     std::size_t track = 0, first = 0, last = 0;
     int part = 0;
   };
-  std::size_t findRun(const Place& place) const;
+  std::size_t findRun(const NodeIndex& place) const;
   /// Which part each run is in, by accepted closures: numbered by their first poses.
   std::vector<int> partNumbers() const;
-  urban_nav_core::Matrix6d ownNoise(const Place& place) const;
-  Edge<3> toEdge(const Closure& closure, const Place& a, const Place& b) const;
+  urban_nav_core::Matrix6d ownNoise(const NodeIndex& place) const;
+  Edge<3> toEdge(const Closure& closure, const NodeIndex& a, const NodeIndex& b) const;
   std::vector<ClosureId> accepted() const;
   /// How things stand before a relaxation.
   struct Before {
@@ -226,7 +226,7 @@ class PoseGraph {
   Problem<3> problem(double odometry_variance) const;
   /// Poses of all tracks as they are laid.
   using Laid = std::vector<std::vector<Pose>>;
-  /// Where each batch pose goes, and what has come since behind them.
+  /// Where each batch pose goes, and what has come since after them.
   Laid laidBy(const Batch& batch) const;
   void takeVerdicts(const Batch& batch);
   /// Steps as they were levelled.
@@ -248,7 +248,7 @@ class PoseGraph {
   std::vector<std::vector<urban_nav_core::RelativePose>> measured_;
   std::vector<std::vector<Run>> runs_;  ///< of each track, in order
   std::map<ClosureId, Closure> closures_;
-  std::map<ClosureId, Bond> bonds_;  ///< of each closure
+  std::map<ClosureId, ClosureEdge> closure_edges_;  ///< of each closure
   using Name = std::tuple<SessionId, StampNs, SessionId, StampNs, EdgeKind, std::string>;
   static Name makeName(const NodeRef& a, const NodeRef& b, EdgeKind kind, const std::string& source) {
     return {a.session, a.stamp, b.session, b.stamp, kind, source};

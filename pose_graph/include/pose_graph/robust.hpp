@@ -15,8 +15,8 @@ enum class EdgeRole {
   Candidate,  ///< a closure: accepted or rejected
 };
 
-/// Roles where nobody says which edges are odometry: the first edge between two consecutive numbers, either way, is
-/// Trusted, all others are Candidate. A graph without any edge between consecutive numbers trusts those that reach a
+/// Roles where it is not stated which edges are odometry: the first edge between two consecutive numbers, either way,
+/// is Trusted, all others are Candidate. A graph without any edge between consecutive numbers trusts those that reach a
 /// pose for the first time, in the order of its edges.
 template <int D>
 std::vector<EdgeRole> rolesByNumbers(const Problem<D>& problem);

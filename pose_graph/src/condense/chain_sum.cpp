@@ -96,7 +96,7 @@ ChainSum<D> linkSum(const Edge<D>& edge, bool against, const TangentMatrix<D>& c
   ChainSum<D> sum;
   sum.covariance = shifted<D>(turnedBy<D>(A, P), to.t, -1.0);
   sum.shift = twistFromBox<D>(turnedBy<D>(A, Tangent<D>(-e)), to.t);
-  if (against) sum.shift = -sum.shift;  // the twist of what comes behind against what comes before
+  if (against) sum.shift = -sum.shift;  // the twist of what follows against what comes before
   return sum;
 }
 

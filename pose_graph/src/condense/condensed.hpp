@@ -27,7 +27,7 @@ class Condensed {
   const Chains& chains() const { return chains_; }
 
   /// The core as a problem of its own: poses in the order of chains().core; its edges are those of chains().core_edges
-  /// and behind them one for each chain. `poses` are where the core poses stand now.
+  /// and after them one for each chain. `poses` are where the core poses stand now.
   Problem<D> core(const std::vector<Rigid<D>>& poses) const;
   /// The same edges renewed, of the chains alone.
   void renew(Problem<D>& core) const;

@@ -23,8 +23,8 @@ Matrix6d seenFromChild(const Matrix6d& matrix, const Pose& T_parent_child) {
 }  // namespace
 
 TangentMatrix<3> chainInformation(const urban_nav_core::RelativePose& step) {
-  const bool told = step.drift_covariance.trace() > 0.0;
-  const Matrix6d covariance = seenFromChild(told ? step.drift_covariance : step.covariance, step.T_from_to);
+  const bool has_drift = step.drift_covariance.trace() > 0.0;
+  const Matrix6d covariance = seenFromChild(has_drift ? step.drift_covariance : step.covariance, step.T_from_to);
   const Matrix6d information = urban_nav_core::SmallCholesky<6>(covariance).inverse();
   return 0.5 * (information + information.transpose());
 }

@@ -17,7 +17,7 @@ namespace {
 /// An accepted closure and where its ends are.
 struct Way {
   Closure* closure;
-  Place a, b;
+  NodeIndex a, b;
 };
 /// What is known of T_a_b without it.
 using Known = std::function<Pose(const Way&)>;
@@ -34,7 +34,7 @@ std::vector<EdgeRole> assignRoles(std::size_t chains, const std::map<ClosureId, 
   return roles;
 }
 
-void takeAll(std::map<ClosureId, Closure>& closures) {
+void admitAll(std::map<ClosureId, Closure>& closures) {
   for (auto& [id, closure] : closures) {
     closure.verdict = ClosureVerdict::Accepted;
     closure.weight = 1.0;
@@ -112,16 +112,17 @@ bool makeWait(const Problem<3>& problem, std::size_t chains, const Parameters& p
   return !makeWait(ways, by_poses, parameters).empty();
 }
 
-std::vector<ClosureId> makeWait(const Ground& ground, const std::map<ClosureId, Bond>& bonds,
+std::vector<ClosureId> makeWait(const GraphView& view, const std::map<ClosureId, ClosureEdge>& closure_edges,
                                 const Parameters& parameters, std::map<ClosureId, Closure>& closures) {
   std::vector<Way> ways;
-  auto bond = bonds.begin();
+  auto closure_edge = closure_edges.begin();
   for (auto& [id, closure] : closures) {
-    if (closure.verdict == ClosureVerdict::Accepted) ways.push_back({&closure, bond->second.a, bond->second.b});
-    ++bond;
+    if (closure.verdict == ClosureVerdict::Accepted)
+      ways.push_back({&closure, closure_edge->second.a, closure_edge->second.b});
+    ++closure_edge;
   }
-  const Known by_map = [&ground](const Way& way) {
-    return toPose(ground.pose(way.a)).inverse() * toPose(ground.pose(way.b));
+  const Known by_map = [&view](const Way& way) {
+    return toPose(view.pose(way.a)).inverse() * toPose(view.pose(way.b));
   };
   return makeWait(ways, by_map, parameters);
 }
@@ -153,7 +154,7 @@ Solution<3> judge(const Problem<3>& problem, const Parameters& parameters, const
     judged = relaxRobust(problem, assignRoles(chains, closures), options);
     take(judged, chains, closures);
   } else {
-    takeAll(closures);
+    admitAll(closures);
   }
   const bool waiting = makeWait(problem, chains, parameters, closures);
   if (parameters.solver == "relative_pcg") return relaxAccepted(problem, chains, options, closures);
@@ -167,10 +168,11 @@ Solution<3> judge(const Problem<3>& problem, const Parameters& parameters, const
 namespace {
 
 /// A closure beside what is in the core: does it fit? It is on trial there.
-bool fits(IncrementalSolver& core, const Ground& ground, const Parameters& parameters, const Bond& bond,
+bool fits(IncrementalSolver& core, const GraphView& view, const Parameters& parameters, const ClosureEdge& closure_edge,
           Closure& closure, double& cost_before) {
   const bool doubted = closure.kind != EdgeKind::Asserted && parameters.robust;
-  const IncrementalSolver::Offer offer = core.offer(ground, bond, doubted ? kHopeless * kInnovationLimit : INFINITY);
+  const IncrementalSolver::Offer offer =
+      core.offer(view, closure_edge, doubted ? kHopeless * kInnovationLimit : INFINITY);
   // What one measurement more costs is the square of its innovation.
   closure.chi2 = std::max(offer.innovation, 0.0);
   cost_before = offer.before;
@@ -184,16 +186,17 @@ void accept(Closure& closure) {
 }
 
 /// Closures that wait and could be the second witness of one that is on trial, those first that it leaves least off.
-std::vector<Way> findPartners(const Way& tried, const IncrementalSolver& core, const Ground& ground,
-                              const std::map<ClosureId, Bond>& bonds, std::map<ClosureId, Closure>& closures) {
+std::vector<Way> findPartners(const Way& tried, const IncrementalSolver& core, const GraphView& view,
+                              const std::map<ClosureId, ClosureEdge>& closure_edges,
+                              std::map<ClosureId, Closure>& closures) {
   std::vector<std::pair<double, Way>> found;
-  auto bond = bonds.begin();
+  auto closure_edge = closure_edges.begin();
   for (auto& [id, closure] : closures) {
-    const auto& [a, b, edge] = (bond++)->second;
+    const auto& [a, b, edge] = (closure_edge++)->second;
     const Way way{&closure, a, b};
     if (!closure.judged || closure.verdict != ClosureVerdict::Waiting || !meet(way, tried)) continue;
     Problem<3> alone;
-    alone.poses = {core.pose(ground, a), core.pose(ground, b)};
+    alone.poses = {core.pose(view, a), core.pose(view, b)};
     alone.edges = {edge};
     alone.edges.back().from = 0;
     alone.edges.back().to = 1;
@@ -207,15 +210,15 @@ std::vector<Way> findPartners(const Way& tried, const IncrementalSolver& core, c
 
 }  // namespace
 
-Addition judgeAddition(IncrementalSolver& core, const Ground& ground, const Parameters& parameters,
-                       const std::map<ClosureId, Bond>& bonds, std::map<ClosureId, Closure>& closures) {
+Addition judgeAddition(IncrementalSolver& core, const GraphView& view, const Parameters& parameters,
+                       const std::map<ClosureId, ClosureEdge>& closure_edges, std::map<ClosureId, Closure>& closures) {
   Addition made;
   made.cost_before = core.cost();
   for (auto& [id, closure] : closures) {
     if (closure.judged) continue;
     double cost_before = 0.0;
-    if (!fits(core, ground, parameters, bonds.at(id), closure, cost_before)) {
-      core.takeBack();
+    if (!fits(core, view, parameters, closure_edges.at(id), closure, cost_before)) {
+      core.readmitByTruncatedSquares();
       closure.verdict = ClosureVerdict::Rejected;
       closure.weight = 0.0;
       closure.reason = "disagrees with what is accepted";
@@ -224,20 +227,20 @@ Addition judgeAddition(IncrementalSolver& core, const Ground& ground, const Para
     }
     accept(closure);
     const std::vector<Way> partners =
-        findPartners({&closure, bonds.at(id).a, bonds.at(id).b}, core, ground, bonds, closures);
+        findPartners({&closure, closure_edges.at(id).a, closure_edges.at(id).b}, core, view, closure_edges, closures);
     for (std::size_t p = 0; p < std::min(partners.size(), kTried); ++p) {
       Closure& partner = *partners[p].closure;
       double ignored = 0.0;
-      if (fits(core, ground, parameters, bonds.at(partner.id), partner, ignored)) accept(partner);
-      else core.takeBack();
+      if (fits(core, view, parameters, closure_edges.at(partner.id), partner, ignored)) accept(partner);
+      else core.readmitByTruncatedSquares();
     }
-    for (const ClosureId waiting : makeWait(ground, bonds, parameters, closures))
+    for (const ClosureId waiting : makeWait(view, closure_edges, parameters, closures))
       if (waiting != id) made.others_wait = true;
     if (closure.weight > 0.0) {
       made.cost_before = cost_before;
       core.keep();
     } else {
-      core.takeBack();
+      core.readmitByTruncatedSquares();
       // Others that wait, and were not tried, may be its witnesses.
       made.disagreement = made.disagreement || partners.size() > kTried;
     }

@@ -24,7 +24,7 @@ struct Addition {
   bool disagreement = false;  ///< one of them was left out, or more wait than were tried beside it
   bool others_wait = false;   ///< one that was accepted before waits now: `core` is no longer that of the accepted ones
 };
-Addition judgeAddition(IncrementalSolver& core, const Ground& ground, const Parameters& parameters,
-                       const std::map<ClosureId, Bond>& bonds, std::map<ClosureId, Closure>& closures);
+Addition judgeAddition(IncrementalSolver& core, const GraphView& view, const Parameters& parameters,
+                       const std::map<ClosureId, ClosureEdge>& closure_edges, std::map<ClosureId, Closure>& closures);
 
 }  // namespace pose_graph

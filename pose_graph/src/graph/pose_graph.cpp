@@ -119,17 +119,17 @@ bool PoseGraph::addOdometry(const SessionId& session, const RelativePose& offere
   return true;
 }
 
-std::optional<Place> PoseGraph::findPlace(const NodeRef& ref) const {
+std::optional<NodeIndex> PoseGraph::findNode(const NodeRef& ref) const {
   const auto track = track_of_.find(ref.session);
   if (track == track_of_.end()) return std::nullopt;
   const std::vector<StampNs>& stamps = tracks_[track->second].stamps;
   const auto found = std::lower_bound(stamps.begin(), stamps.end(), ref.stamp);
   if (found == stamps.end() || *found != ref.stamp) return std::nullopt;
-  return Place{track->second, static_cast<std::size_t>(found - stamps.begin())};
+  return NodeIndex{track->second, static_cast<std::size_t>(found - stamps.begin())};
 }
 
 std::optional<int> PoseGraph::poseNumber(const NodeRef& ref) const {
-  const std::optional<Place> place = findPlace(ref);
+  const std::optional<NodeIndex> place = findNode(ref);
   if (!place) return std::nullopt;
   std::size_t number = place->second;
   for (std::size_t t = 0; t < place->first; ++t) number += tracks_[t].stamps.size();
@@ -138,7 +138,7 @@ std::optional<int> PoseGraph::poseNumber(const NodeRef& ref) const {
 
 ClosureId PoseGraph::addClosure(const Closure& offered) {
   for (const NodeRef* ref : {&offered.a, &offered.b}) {
-    if (findPlace(*ref)) continue;
+    if (findNode(*ref)) continue;
     const Track* track = this->track(ref->session);
     if (track == nullptr || track->stamps.empty())
       throw UserError("closure", "session " + ref->session + " has no poses", "a session of the graph");
@@ -150,7 +150,7 @@ ClosureId PoseGraph::addClosure(const Closure& offered) {
     throw UserError("closure", "no pose in session " + toText(*ref),
                     "stamps of poses; the nearest is " + urban_nav_core::printStamp(nearest) + " s");
   }
-  const Place a = *findPlace(offered.a), b = *findPlace(offered.b);
+  const NodeIndex a = *findNode(offered.a), b = *findNode(offered.b);
   if (a == b) throw UserError("closure", "from a pose to itself: " + toText(offered.a), "");
   if (!offered.measured.T_a_b.isFinite() || !offered.measured.information.allFinite())
     throw UserError("closure", "numbers that are not finite, " + toText(offered.a) + " to " + toText(offered.b), "");
@@ -173,21 +173,21 @@ ClosureId PoseGraph::addClosure(const Closure& offered) {
   const auto earlier = closures_.find(taken.id);
   if (earlier != closures_.end() && earlier->second.weight > 0.0) live_.reset();
   closures_[taken.id] = taken;
-  bonds_[taken.id] = {a, b, toEdge(taken, a, b)};
+  closure_edges_[taken.id] = {a, b, toEdge(taken, a, b)};
   by_name_[makeName(taken.a, taken.b, taken.kind, taken.source)] = taken.id;
   return taken.id;
 }
 
-Edge<3> PoseGraph::toEdge(const Closure& closure, const Place& a, const Place& b) const {
+Edge<3> PoseGraph::toEdge(const Closure& closure, const NodeIndex& a, const NodeIndex& b) const {
   return {0, 0, toRigid<3>(closure.measured.T_a_b), closureInformation(closure.measured, ownNoise(a), ownNoise(b))};
 }
 
-Matrix6d PoseGraph::ownNoise(const Place& place) const {
+Matrix6d PoseGraph::ownNoise(const NodeIndex& place) const {
   const std::vector<ChainStep>& steps = steps_[place.first];
   return steps.empty() ? Matrix6d(Matrix6d::Zero()) : steps[place.second == 0 ? 0 : place.second - 1].own_noise;
 }
 
-Matrix6d PoseGraph::ownNoise(const NodeRef& ref) const { return ownNoise(findPlace(ref).value()); }
+Matrix6d PoseGraph::ownNoise(const NodeRef& ref) const { return ownNoise(findNode(ref).value()); }
 
 bool PoseGraph::removeClosure(ClosureId id) {
   const auto found = closures_.find(id);
@@ -196,7 +196,7 @@ bool PoseGraph::removeClosure(ClosureId id) {
   if (closure.weight > 0.0) live_.reset();
   if (closure.verdict == ClosureVerdict::Accepted) removed_.push_back(closure);
   by_name_.erase(makeName(closure.a, closure.b, closure.kind, closure.source));
-  bonds_.erase(id);
+  closure_edges_.erase(id);
   closures_.erase(found);
   return true;
 }
@@ -228,9 +228,9 @@ Problem<3> PoseGraph::problem(double odometry_variance) const {
       put(steps_[t][i].edge, from, from + 1);
       made.edges.back().information /= odometry_variance;
     }
-  for (const auto& [id, bond] : bonds_)
-    put(bond.edge, first[bond.a.first] + static_cast<int>(bond.a.second),
-        first[bond.b.first] + static_cast<int>(bond.b.second));
+  for (const auto& [id, closure_edge] : closure_edges_)
+    put(closure_edge.edge, first[closure_edge.a.first] + static_cast<int>(closure_edge.a.second),
+        first[closure_edge.b.first] + static_cast<int>(closure_edge.b.second));
   return made;
 }
 

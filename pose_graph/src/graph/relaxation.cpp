@@ -44,18 +44,20 @@ std::vector<Relaxed::Run> merged(std::vector<Relaxed::Run> runs) {
 
 }  // namespace
 
-class PoseGraph::Paper : public Ground {
+class PoseGraph::TrackView : public GraphView {
  public:
-  explicit Paper(PoseGraph& graph) : graph_(graph) {}
+  explicit TrackView(PoseGraph& graph) : graph_(graph) {}
 
   std::size_t tracks() const override { return graph_.tracks_.size(); }
   const ChainStep* steps(std::size_t track) const override { return graph_.steps_[track].data(); }
-  Rigid<3> pose(const Place& place) const override { return toRigid<3>(graph_.tracks_[place.first].map[place.second]); }
-  std::pair<std::size_t, std::size_t> run(const Place& place) const override {
+  Rigid<3> pose(const NodeIndex& place) const override {
+    return toRigid<3>(graph_.tracks_[place.first].map[place.second]);
+  }
+  std::pair<std::size_t, std::size_t> run(const NodeIndex& place) const override {
     const Run& run = graph_.runs_[place.first][graph_.findRun(place)];
     return {run.first, run.last};
   }
-  void write(const Place& place, const Rigid<3>& T_map_pose) override {
+  void write(const NodeIndex& place, const Rigid<3>& T_map_pose) override {
     moves.put(place.first, place.second, toPose(T_map_pose), graph_.tracks_[place.first].map[place.second]);
   }
 
@@ -65,11 +67,11 @@ class PoseGraph::Paper : public Ground {
   PoseGraph& graph_;
 };
 
-std::size_t PoseGraph::findRun(const Place& place) const {
+std::size_t PoseGraph::findRun(const NodeIndex& place) const {
   const std::vector<Run>& runs = runs_[place.first];
-  const auto behind = std::upper_bound(runs.begin(), runs.end(), place.second,
-                                       [](std::size_t index, const Run& run) { return index < run.first; });
-  return static_cast<std::size_t>(behind - runs.begin()) - 1;
+  const auto after = std::upper_bound(runs.begin(), runs.end(), place.second,
+                                      [](std::size_t index, const Run& run) { return index < run.first; });
+  return static_cast<std::size_t>(after - runs.begin()) - 1;
 }
 
 std::vector<ClosureId> PoseGraph::accepted() const {
@@ -102,16 +104,16 @@ Relaxed PoseGraph::update() {
 }
 
 std::vector<Relaxed::Run> PoseGraph::judgeNew(Relaxed& made) {
-  Paper paper(*this);
+  TrackView paper(*this);
   const auto renewed = [&] {
-    std::vector<Bond> bonds;
+    std::vector<ClosureEdge> closure_edges;
     for (const auto& [id, closure] : closures_)
-      if (closure.weight > 0.0) bonds.push_back(bonds_.at(id));
-    return IncrementalSolver(paper, bonds, parameters_.iterations, odometry_variance_);
+      if (closure.weight > 0.0) closure_edges.push_back(closure_edges_.at(id));
+    return IncrementalSolver(paper, closure_edges, parameters_.iterations, odometry_variance_);
   };
   if (!live_.has_value()) live_ = renewed();
   IncrementalSolver& live = *std::any_cast<IncrementalSolver>(&live_);
-  const Addition added = judgeAddition(live, paper, parameters_, bonds_, closures_);
+  const Addition added = judgeAddition(live, paper, parameters_, closure_edges_, closures_);
   if (added.others_wait) live = renewed();
   for (auto& [id, closure] : closures_) closure.judged = true;
   live.write(paper);
@@ -189,11 +191,11 @@ std::vector<int> PoseGraph::partNumbers() const {
     first.push_back(joined.poses.size());
     joined.poses.resize(joined.poses.size() + runs.size());
   }
-  const auto findNumber = [&](const Place& place) { return static_cast<int>(first[place.first] + findRun(place)); };
+  const auto findNumber = [&](const NodeIndex& place) { return static_cast<int>(first[place.first] + findRun(place)); };
   for (const auto& [id, closure] : closures_) {
     if (closure.weight <= 0.0) continue;
-    const Bond& bond = bonds_.at(id);
-    const int a = findNumber(bond.a), b = findNumber(bond.b);
+    const ClosureEdge& closure_edge = closure_edges_.at(id);
+    const int a = findNumber(closure_edge.a), b = findNumber(closure_edge.b);
     if (a == b) continue;
     joined.edges.emplace_back();
     joined.edges.back().from = a;

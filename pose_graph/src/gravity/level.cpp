@@ -45,7 +45,7 @@ Level estimateLevel(const Trajectory& trajectory, const std::vector<SpecificForc
   const std::optional<GravityFit> fit = fitGravity(spans);
   const double gravity = fit ? fit->gravity().norm() : 0.0;
   if (!(gravity > kLeastGravity && gravity < kMostGravity))
-    return unknownLevel(LevelTrouble::NotGravity, "what the accelerometer felt has not the size of gravity");
+    return unknownLevel(LevelTrouble::NotGravity, "the measured specific force has not the size of gravity");
   Level level;
   level.trouble = LevelTrouble::None;
   level.gravity = gravity;

@@ -20,9 +20,9 @@ constexpr double kSpan = 2.0, kLongestGap = 0.3;  // s
 constexpr StampNs kReach = 100'000'000;           // ns around a stamp
 constexpr double kMost = 1000.0;                  // m/s2: a hundred times gravity is no drive
 
-bool isUsable(const SpecificForce& felt) { return felt.force.allFinite() && felt.force.norm() < kMost; }
+bool isUsable(const SpecificForce& sample) { return sample.force.allFinite() && sample.force.norm() < kMost; }
 
-/// A pose at which something was felt, in the axes of the first pose.
+/// A pose at which specific force was measured, in the axes of the first pose.
 struct SpanPlace {
   StampNs stamp;
   Vector3d velocity, force;
@@ -32,18 +32,18 @@ struct SpanPlace {
 std::vector<SpanPlace> collectPlaces(const Trajectory& trajectory, const std::vector<SpecificForce>& forces,
                                      const Pose& T_first_world) {
   std::vector<SpanPlace> places;
-  for (const SpecificForce& felt : forces) {
-    if (!isUsable(felt)) continue;
-    const std::size_t i = trajectory.nearest(felt.stamp);
+  for (const SpecificForce& sample : forces) {
+    if (!isUsable(sample)) continue;
+    const std::size_t i = trajectory.nearest(sample.stamp);
     // The velocity from the neighbours, which the first and the last pose do not have.
-    if (trajectory[i].stamp != felt.stamp || i == 0 || i + 1 == trajectory.size()) continue;
+    if (trajectory[i].stamp != sample.stamp || i == 0 || i + 1 == trajectory.size()) continue;
     const StampedPose &before = trajectory[i - 1], &after = trajectory[i + 1];
     const double seconds = secondsBetween(before.stamp, after.stamp);
     if (seconds > 2.0 * kLongestGap) continue;
     const Matrix3d R = (T_first_world * trajectory[i].pose).R();
     const Vector3d v = T_first_world.R() * (after.pose.t() - before.pose.t()) / seconds;
     const Vector3d rate = urban_nav_core::logSo3(before.pose.q().inverse() * after.pose.q()) / seconds;
-    places.push_back({felt.stamp, v, R * felt.force, R, R * urban_nav_core::skew(rate)});
+    places.push_back({sample.stamp, v, R * sample.force, R, R * urban_nav_core::skew(rate)});
   }
   return places;
 }

@@ -10,8 +10,8 @@ namespace pose_graph {
 /// A stretch of a drive, over which means are taken.
 struct Span {
   urban_nav_core::StampNs begin = 0, end = 0;
-  /// Of what was felt, in the axes of the first pose, less the acceleration that the trajectory shows (m/s2): gravity
-  /// and faults.
+  /// Of the specific force, in the axes of the first pose, less the acceleration that the trajectory shows (m/s2):
+  /// gravity and faults.
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
   /// Of R_first_base: what it does to a fault that is fixed to the robot.
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Zero();

@@ -125,7 +125,7 @@ Walks likeliest(const std::vector<Sight>& sights, const std::vector<double>& wei
   return best;
 }
 
-/// Shocks hardly count: one would turn the states behind it.
+/// Shocks hardly count: one would turn the states after it.
 std::vector<double> measureCalm(const std::vector<Span>& spans, const GravityFit& fit) {
   std::vector<double> made;
   for (const Span& span : spans) {
@@ -148,7 +148,7 @@ std::vector<double> weightsFor(std::vector<double> innovations, const std::vecto
   return made;
 }
 
-/// The states by all forces, those behind them too (Rauch, Tung and Striebel 1965).
+/// The states by all forces, those after them too (Rauch, Tung and Striebel 1965).
 std::vector<State> smoothed(const std::vector<Passed>& states) {
   std::vector<State> made(states.size());
   made.back() = states.back().x;

@@ -14,14 +14,14 @@ IncrementalChain::IncrementalChain(const ChainStep* steps, const std::vector<Rig
   sumUp(steps);
 }
 
-IncrementalChain IncrementalChain::splitBehind(std::size_t link, const ChainStep* steps) {
-  std::vector<Rigid<3>> behind;
+IncrementalChain IncrementalChain::splitAfter(std::size_t link, const ChainStep* steps) {
+  std::vector<Rigid<3>> after;
   const Rigid<3> T_middle_begin = links_[link].at.inverse();
-  for (std::size_t l = link + 1; l < links_.size(); ++l) behind.push_back(T_middle_begin * links_[l].at);
+  for (std::size_t l = link + 1; l < links_.size(); ++l) after.push_back(T_middle_begin * links_[l].at);
   links_.resize(link + 1);
   if (links_.size() == 1) links_.clear();
   else sumUp(steps);
-  return behind.size() == 1 ? IncrementalChain() : IncrementalChain(steps + link + 1, behind);
+  return after.size() == 1 ? IncrementalChain() : IncrementalChain(steps + link + 1, after);
 }
 
 double IncrementalChain::bend(const Rigid<3>& wanted) const {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "condense/chain_sum.hpp"
-#include "pose_graph/places.hpp"
+#include "pose_graph/node_index.hpp"
 
 namespace pose_graph {
 
@@ -24,7 +24,7 @@ class IncrementalChain {
   double reach() const { return reach_; }
 
   /// In two at the end of a link, laid as they were; this one is then the first part.
-  IncrementalChain splitBehind(std::size_t link, const ChainStep* steps);
+  IncrementalChain splitAfter(std::size_t link, const ChainStep* steps);
 
   /// The square of what the wanted end (T_begin_end) is off the one it was laid to, in standard deviations of the
   /// chain.

@@ -27,32 +27,33 @@ double rotationAngle(const Eigen::Matrix3d& R) { return logRotation(R).norm(); }
 
 }  // namespace
 
-IncrementalSolver::IncrementalSolver(const Ground& ground, const std::vector<Bond>& bonds, int iterations,
-                                     double variance)
+IncrementalSolver::IncrementalSolver(const GraphView& view, const std::vector<ClosureEdge>& closure_edges,
+                                     int iterations, double variance)
     : steps_at_most_(iterations), variance_(variance) {
-  nodes_.resize(ground.tracks());
-  for (const Bond& bond : bonds) {
-    insert(ground, bond.a);
-    insert(ground, bond.b);
+  nodes_.resize(view.tracks());
+  for (const ClosureEdge& closure_edge : closure_edges) {
+    insert(view, closure_edge.a);
+    insert(view, closure_edge.b);
   }
-  bonds_ = bonds;
-  relax(ground, INFINITY);
+  closure_edges_ = closure_edges;
+  relax(view, INFINITY);
 }
 
-IncrementalSolver::Offer IncrementalSolver::offer(const Ground& ground, const Bond& bond, double hopeless) {
-  nodes_.resize(ground.tracks());
+IncrementalSolver::Offer IncrementalSolver::offer(const GraphView& view, const ClosureEdge& closure_edge,
+                                                  double hopeless) {
+  nodes_.resize(view.tracks());
   const double cost_without = cost_;
   undo_.emplace_back();
   undo_.back().cost = cost_;
   undo_.back().ending = ending_;
-  insert(ground, bond.a);
-  insert(ground, bond.b);
+  insert(view, closure_edge.a);
+  insert(view, closure_edge.b);
   for (const Nodes& nodes : nodes_)
     for (const auto& [index, node] : nodes) undo_.back().poses.push_back(node.pose);
-  bonds_.push_back(bond);
-  bringTogether(ground, bond);
+  closure_edges_.push_back(closure_edge);
+  bringTogether(view, closure_edge);
   Offer made;
-  relax(ground, cost_without + hopeless);
+  relax(view, cost_without + hopeless);
   made.cost = cost_;
   made.innovation = cost_ - cost_without;
   made.before = cost_before_;
@@ -61,10 +62,10 @@ IncrementalSolver::Offer IncrementalSolver::offer(const Ground& ground, const Bo
 
 void IncrementalSolver::keep() { undo_.clear(); }
 
-void IncrementalSolver::takeBack() {
+void IncrementalSolver::readmitByTruncatedSquares() {
   Undo undo = std::move(undo_.back());
   undo_.pop_back();
-  bonds_.pop_back();
+  closure_edges_.pop_back();
   std::size_t number = 0;
   for (Nodes& nodes : nodes_)
     for (auto& [index, node] : nodes) node.pose = undo.poses[number++];
@@ -77,42 +78,42 @@ void IncrementalSolver::takeBack() {
   ending_ = undo.ending;
 }
 
-void IncrementalSolver::remember(const Place& place) {
+void IncrementalSolver::remember(const NodeIndex& place) {
   if (undo_.empty() || undo_.back().nodes.count(place)) return;
   Nodes& nodes = nodes_[place.first];
   const auto found = nodes.find(place.second);
   undo_.back().nodes.emplace(place, found == nodes.end() ? std::nullopt : std::optional<Node>(found->second));
 }
 
-// Poses before the first and behind the last node of a chain hang on it as they were written.
-Rigid<3> IncrementalSolver::hangingAt(const Ground& ground, const Place& node, const Place& place) const {
-  return nodes_[node.first].at(node.second).pose * (ground.pose(node).inverse() * ground.pose(place));
+// Poses before the first and after the last node of a chain hang on it as they were written.
+Rigid<3> IncrementalSolver::hangingAt(const GraphView& view, const NodeIndex& node, const NodeIndex& place) const {
+  return nodes_[node.first].at(node.second).pose * (view.pose(node).inverse() * view.pose(place));
 }
 
-Rigid<3> IncrementalSolver::pose(const Ground& ground, const Place& place) const {
+Rigid<3> IncrementalSolver::pose(const GraphView& view, const NodeIndex& place) const {
   const auto& [track, index] = place;
-  if (track >= nodes_.size()) return ground.pose(place);
+  if (track >= nodes_.size()) return view.pose(place);
   const Nodes& nodes = nodes_[track];
   const auto next = nodes.lower_bound(index);
   if (next != nodes.end() && next->first == index) return next->second.pose;
-  const auto [first_of_run, last_of_run] = ground.run(place);
+  const auto [first_of_run, last_of_run] = view.run(place);
   const bool has_last = next != nodes.begin() && std::prev(next)->first >= first_of_run;
   const bool has_next = next != nodes.end() && next->first <= last_of_run;
   if (has_last && has_next) {
     const auto last = std::prev(next);
     return last->second.pose * last->second.onward.at(index - last->first - 1);
   }
-  if (has_last) return hangingAt(ground, {track, std::prev(next)->first}, place);
-  if (has_next) return hangingAt(ground, {track, next->first}, place);
-  return ground.pose(place);
+  if (has_last) return hangingAt(view, {track, std::prev(next)->first}, place);
+  if (has_next) return hangingAt(view, {track, next->first}, place);
+  return view.pose(place);
 }
 
-void IncrementalSolver::insert(const Ground& ground, const Place& place) {
+void IncrementalSolver::insert(const GraphView& view, const NodeIndex& place) {
   const auto& [track, index] = place;
   Nodes& nodes = nodes_[track];
   const auto next = nodes.lower_bound(index);
   if (next != nodes.end() && next->first == index) return;
-  const auto [first_of_run, last_of_run] = ground.run(place);
+  const auto [first_of_run, last_of_run] = view.run(place);
   const bool has_last = next != nodes.begin() && std::prev(next)->first >= first_of_run;
   const bool has_next = next != nodes.end() && next->first <= last_of_run;
   remember(place);
@@ -123,27 +124,27 @@ void IncrementalSolver::insert(const Ground& ground, const Place& place) {
     const std::size_t link = index - begin - 1;
     Node made;
     made.pose = last.pose * last.onward.at(link);
-    made.onward = last.onward.splitBehind(link, ground.steps(track) + begin);
+    made.onward = last.onward.splitAfter(link, view.steps(track) + begin);
     last.is_written = false;
     nodes.emplace(index, std::move(made));
     return;
   }
   const std::size_t first = has_last ? std::prev(next)->first : index, last = has_next ? next->first : index;
   Node made;
-  made.pose = pose(ground, place);
+  made.pose = pose(view, place);
   nodes.emplace(index, std::move(made));
-  layChains(ground, track, first, last);
+  layChains(view, track, first, last);
 }
 
 // From a node to a later one, of poses as they are written; what cannot be a link of a chain gets nodes at its ends.
-void IncrementalSolver::layChains(const Ground& ground, std::size_t track, std::size_t first, std::size_t last) {
+void IncrementalSolver::layChains(const GraphView& view, std::size_t track, std::size_t first, std::size_t last) {
   Nodes& nodes = nodes_[track];
-  const ChainStep* steps = ground.steps(track);
+  const ChainStep* steps = view.steps(track);
   const auto put = [&](std::size_t index) {
     if (nodes.count(index)) return;
     remember({track, index});
     Node made;
-    made.pose = hangingAt(ground, {track, first}, {track, index});
+    made.pose = hangingAt(view, {track, first}, {track, index});
     nodes.emplace(index, std::move(made));
   };
   for (std::size_t i = first; i < last; ++i) {
@@ -156,9 +157,9 @@ void IncrementalSolver::layChains(const Ground& ground, std::size_t track, std::
     remember({track, begin});
     node->second.is_written = false;
     if (end == begin + 1) continue;
-    const Rigid<3> T_begin_map = ground.pose({track, begin}).inverse();
+    const Rigid<3> T_begin_map = view.pose({track, begin}).inverse();
     std::vector<Rigid<3>> at;
-    for (std::size_t i = begin + 1; i <= end; ++i) at.push_back(T_begin_map * ground.pose({track, i}));
+    for (std::size_t i = begin + 1; i <= end; ++i) at.push_back(T_begin_map * view.pose({track, i}));
     node->second.onward = IncrementalChain(steps + begin, at);
   }
 }
@@ -170,7 +171,7 @@ void IncrementalSolver::number() {
 }
 
 // A closure that joins two parts brings the later one to where it says.
-void IncrementalSolver::bringTogether(const Ground& ground, const Bond& bond) {
+void IncrementalSolver::bringTogether(const GraphView& view, const ClosureEdge& closure_edge) {
   number();
   Problem<3> joined;
   const auto join = [&joined](int from, int to) {
@@ -182,53 +183,55 @@ void IncrementalSolver::bringTogether(const Ground& ground, const Bond& bond) {
     for (auto node = nodes_[t].begin(); node != nodes_[t].end(); ++node) {
       joined.poses.push_back(node->second.pose);
       const auto next = std::next(node);
-      if (next != nodes_[t].end() && node->second.leadsOn(ground.steps(t), node->first, next->first))
+      if (next != nodes_[t].end() && node->second.leadsOn(view.steps(t), node->first, next->first))
         join(node->second.number, next->second.number);
     }
-  const auto findNumber = [this](const Place& place) { return nodes_[place.first].at(place.second).number; };
-  for (std::size_t b = 0; b + 1 < bonds_.size(); ++b) join(findNumber(bonds_[b].a), findNumber(bonds_[b].b));
+  const auto findNumber = [this](const NodeIndex& place) { return nodes_[place.first].at(place.second).number; };
+  for (std::size_t b = 0; b + 1 < closure_edges_.size(); ++b)
+    join(findNumber(closure_edges_[b].a), findNumber(closure_edges_[b].b));
   const std::vector<int> part = makeUnknowns(joined).component;
-  const std::size_t a = sz(findNumber(bond.a)), b = sz(findNumber(bond.b));
+  const std::size_t a = sz(findNumber(closure_edge.a)), b = sz(findNumber(closure_edge.b));
   if (part[a] == part[b]) return;
   const Rigid<3> T_a_b = joined.poses[a].inverse() * joined.poses[b];
-  const Rigid<3> T = part[a] < part[b] ? joined.poses[a] * bond.edge.Z * joined.poses[b].inverse()
-                                       : joined.poses[a] * T_a_b * bond.edge.Z.inverse() * joined.poses[a].inverse();
+  const Rigid<3> T = part[a] < part[b]
+                         ? joined.poses[a] * closure_edge.edge.Z * joined.poses[b].inverse()
+                         : joined.poses[a] * T_a_b * closure_edge.edge.Z.inverse() * joined.poses[a].inverse();
   for (Nodes& nodes : nodes_)
     for (auto& [index, node] : nodes)
       if (part[sz(node.number)] == std::max(part[a], part[b])) node.pose = T * node.pose;
 }
 
-/// The core as a problem: bonds and single steps, and behind them the chains.
+/// The core as a problem: closure_edges and single steps, and after them the chains.
 struct IncrementalSolver::Core {
   Problem<3> problem;
   std::size_t first_chain = 0;
   struct Way {
-    Place begin;
+    NodeIndex begin;
     Node* node;
   };
   std::vector<Way> chains;
 };
 
-IncrementalSolver::Core IncrementalSolver::core(const Ground& ground) {
+IncrementalSolver::Core IncrementalSolver::core(const GraphView& view) {
   number();
   Core made;
-  const auto findNumber = [this](const Place& place) { return nodes_[place.first].at(place.second).number; };
-  for (const Bond& bond : bonds_) {
-    made.problem.edges.push_back(bond.edge);
-    made.problem.edges.back().from = findNumber(bond.a);
-    made.problem.edges.back().to = findNumber(bond.b);
+  const auto findNumber = [this](const NodeIndex& place) { return nodes_[place.first].at(place.second).number; };
+  for (const ClosureEdge& closure_edge : closure_edges_) {
+    made.problem.edges.push_back(closure_edge.edge);
+    made.problem.edges.back().from = findNumber(closure_edge.a);
+    made.problem.edges.back().to = findNumber(closure_edge.b);
   }
   for (std::size_t t = 0; t < nodes_.size(); ++t)
     for (auto at = nodes_[t].begin(); at != nodes_[t].end(); ++at) {
       auto& [index, node] = *at;
       made.problem.poses.push_back(node.pose);
       const auto next = std::next(at);
-      if (next == nodes_[t].end() || !node.leadsOn(ground.steps(t), index, next->first)) continue;
+      if (next == nodes_[t].end() || !node.leadsOn(view.steps(t), index, next->first)) continue;
       if (!node.onward.empty()) {
         made.chains.push_back({{t, index}, &node});
         continue;
       }
-      made.problem.edges.push_back(ground.steps(t)[index].edge);
+      made.problem.edges.push_back(view.steps(t)[index].edge);
       made.problem.edges.back().from = node.number;
       made.problem.edges.back().to = node.number + 1;
       made.problem.edges.back().information /= variance_;
@@ -244,7 +247,7 @@ IncrementalSolver::Core IncrementalSolver::core(const Ground& ground) {
 }
 
 // Chains whose ends have moved against each other. Did any?
-bool IncrementalSolver::layBent(const Ground& ground, Core& core) {
+bool IncrementalSolver::layBent(const GraphView& view, Core& core) {
   bool any = false;
   for (std::size_t c = 0; c < core.chains.size(); ++c) {
     const auto& [begin, node] = core.chains[c];
@@ -255,7 +258,7 @@ bool IncrementalSolver::layBent(const Ground& ground, Core& core) {
     const Rigid<3> by = wanted * node->onward.at(node->onward.size() - 1).inverse();
     node->bent_m += by.t.norm();
     node->bent_rad += rotationAngle(by.R);
-    node->onward.lay(wanted, ground.steps(begin.first) + begin.second);
+    node->onward.lay(wanted, view.steps(begin.first) + begin.second);
     Edge<3>& edge = core.problem.edges[core.first_chain + c];
     edge.Z = node->onward.edge().Z;
     edge.information = node->onward.edge().information / variance_;
@@ -264,11 +267,11 @@ bool IncrementalSolver::layBent(const Ground& ground, Core& core) {
   return any;
 }
 
-void IncrementalSolver::relax(const Ground& ground, double hopeless) {
+void IncrementalSolver::relax(const GraphView& view, double hopeless) {
   iterations_.clear();
   ending_ = Ending::Converged;
   cost_ = cost_before_ = 0.0;
-  Core core = this->core(ground);
+  Core core = this->core(view);
   std::vector<Rigid<3>>& poses = core.problem.poses;
   if (poses.empty()) return;
   NormalEquations<3> equations(core.problem);
@@ -312,7 +315,7 @@ void IncrementalSolver::relax(const Ground& ground, double hopeless) {
     }
     const double gain = std::max({cost_ - step.cost, step.predicted, 0.0});
     cost_ = step.cost;
-    const bool laid = layBent(ground, core);
+    const bool laid = layBent(view, core);
     if (laid) equations.renew(core.problem, core.first_chain);
     // What further steps will still gain, by how much less each gains than the one before.
     const double rate = last_gain > 0.0 ? std::min(gain / last_gain, 0.999) : 0.1;
@@ -331,34 +334,33 @@ void IncrementalSolver::relax(const Ground& ground, double hopeless) {
     for (auto& [index, node] : nodes) node.pose = poses[sz(node.number)];
 }
 
-void IncrementalSolver::write(Ground& ground) {
+void IncrementalSolver::write(GraphView& view) {
   for (std::size_t t = 0; t < nodes_.size(); ++t)
-    for (auto at = nodes_[t].begin(); at != nodes_[t].end(); ++at) writeFrom(ground, t, at);
+    for (auto at = nodes_[t].begin(); at != nodes_[t].end(); ++at) writeFrom(view, t, at);
 }
 
 // A node, what follows it up to the next one or to the end of its run, and what lies before it where it is the first of
 // its run.
-void IncrementalSolver::writeFrom(Ground& ground, std::size_t track, Nodes::iterator at) {
+void IncrementalSolver::writeFrom(GraphView& view, std::size_t track, Nodes::iterator at) {
   auto& [index, node] = *at;
   const auto next = std::next(at);
-  const bool leads_on = next != nodes_[track].end() && node.leadsOn(ground.steps(track), index, next->first);
+  const bool leads_on = next != nodes_[track].end() && node.leadsOn(view.steps(track), index, next->first);
   const Rigid<3> by = node.pose * node.written.inverse();
   const double angle = rotationAngle(by.R) + node.bent_rad;
   const double distance = (node.pose.t - node.written.t).norm() + node.bent_m + angle * node.onward.reach();
   // The newest pose is what the robot goes by: what hangs on a last node follows it exactly.
   const bool stays = leads_on ? distance < kWrittenDistance && angle < kWrittenAngle : distance == 0.0 && angle == 0.0;
   if (node.is_written && stays) return;
-  const Place here{track, index};
-  const auto [first, last] = ground.run(here);
-  const Rigid<3> T = node.pose * ground.pose(here).inverse();
+  const NodeIndex here{track, index};
+  const auto [first, last] = view.run(here);
+  const Rigid<3> T = node.pose * view.pose(here).inverse();
   const bool is_first = at == nodes_[track].begin() || std::prev(at)->first < first;
   const bool moves = T.t.norm() > kStillRoundOff || rotationAngle(T.R) > kStillRoundOff;
-  for (std::size_t i = first; i < index && is_first && moves; ++i)
-    ground.write({track, i}, T * ground.pose({track, i}));
-  ground.write(here, node.pose);
-  for (std::size_t i = index + 1; i <= last && !leads_on; ++i) ground.write({track, i}, T * ground.pose({track, i}));
+  for (std::size_t i = first; i < index && is_first && moves; ++i) view.write({track, i}, T * view.pose({track, i}));
+  view.write(here, node.pose);
+  for (std::size_t i = index + 1; i <= last && !leads_on; ++i) view.write({track, i}, T * view.pose({track, i}));
   for (std::size_t l = 0; l + 1 < node.onward.size(); ++l)
-    ground.write({track, index + 1 + l}, node.pose * node.onward.at(l));
+    view.write({track, index + 1 + l}, node.pose * node.onward.at(l));
   node.written = node.pose;
   node.bent_m = node.bent_rad = 0.0;
   node.is_written = true;

@@ -13,16 +13,16 @@ namespace pose_graph {
 
 /// What the live core reads of the graph around it. Steps are never changed once they are there; each track has one
 /// less than poses.
-class Ground {
+class GraphView {
  public:
-  virtual ~Ground() = default;
+  virtual ~GraphView() = default;
   virtual std::size_t tracks() const = 0;
   virtual const ChainStep* steps(std::size_t track) const = 0;
   /// T_map_pose as last written, its rotation proper to the last digits.
-  virtual Rigid<3> pose(const Place& place) const = 0;
+  virtual Rigid<3> pose(const NodeIndex& place) const = 0;
   /// The first and the last pose of the unbroken run that a pose lies in.
-  virtual std::pair<std::size_t, std::size_t> run(const Place& place) const = 0;
-  virtual void write(const Place& place, const Rigid<3>& T_map_pose) = 0;
+  virtual std::pair<std::size_t, std::size_t> run(const NodeIndex& place) const = 0;
+  virtual void write(const NodeIndex& place, const Rigid<3>& T_map_pose) = 0;
 };
 
 /// The graph condensed to the ends of its closures (condense/condensed.hpp), kept relaxed while odometry grows and
@@ -31,33 +31,34 @@ class Ground {
 /// deviation. So an update costs what the core costs, and the chains that bend.
 class IncrementalSolver {
  public:
-  /// Takes bonds that are accepted. Poses begin as they are written. `variance`: factor of the covariances of all
-  /// steps.
-  IncrementalSolver(const Ground& ground, const std::vector<Bond>& bonds, int iterations, double variance = 1.0);
+  /// Takes closure_edges that are accepted. Poses begin as they are written. `variance`: factor of the covariances of
+  /// all steps.
+  IncrementalSolver(const GraphView& view, const std::vector<ClosureEdge>& closure_edges, int iterations,
+                    double variance = 1.0);
 
-  /// What relaxing with one bond more came to.
+  /// What relaxing with one closure_edge more came to.
   struct Offer {
-    double cost = 0.0;        ///< of all that is relaxed, the bond included
-    double innovation = 0.0;  ///< by how much the bond raises it
+    double cost = 0.0;        ///< of all that is relaxed, the closure_edge included
+    double innovation = 0.0;  ///< by how much the closure_edge raises it
     double before = 0.0;      ///< the cost where the poses stood
   };
-  /// Relaxes with this bond too, on trial: further ones may be offered beside it. Gives up where already the linear
-  /// prediction of its innovation is `hopeless`; takeBack() follows then.
-  Offer offer(const Ground& ground, const Bond& bond, double hopeless);
+  /// Relaxes with this closure_edge too, on trial: further ones may be offered beside it. Gives up where already the
+  /// linear prediction of its innovation is `hopeless`; readmitByTruncatedSquares() follows then.
+  Offer offer(const GraphView& view, const ClosureEdge& closure_edge, double hopeless);
   /// All that are on trial stay.
   void keep();
   /// The last one that is on trial goes, and everything is where it was before.
-  void takeBack();
+  void readmitByTruncatedSquares();
   /// T_map_pose with all that is accepted or on trial.
-  Rigid<3> pose(const Ground& ground, const Place& place) const;
+  Rigid<3> pose(const GraphView& view, const NodeIndex& place) const;
 
   double cost() const { return cost_; }
   const std::vector<Iteration>& iterations() const { return iterations_; }
   Ending ending() const { return ending_; }
 
-  /// Writes where the poses are now: those that moved by more than a tenth of what anyone is told of, and the end of
+  /// Writes where the poses are now: those that moved by more than a tenth of what is reported, and the end of
   /// each track.
-  void write(Ground& ground);
+  void write(GraphView& view);
 
  private:
   struct Node {
@@ -74,30 +75,30 @@ class IncrementalSolver {
   };
   using Nodes = std::map<std::size_t, Node>;
 
-  void insert(const Ground& ground, const Place& place);
-  void layChains(const Ground& ground, std::size_t track, std::size_t first, std::size_t last);
-  Rigid<3> hangingAt(const Ground& ground, const Place& node, const Place& place) const;
-  void remember(const Place& place);
+  void insert(const GraphView& view, const NodeIndex& place);
+  void layChains(const GraphView& view, std::size_t track, std::size_t first, std::size_t last);
+  Rigid<3> hangingAt(const GraphView& view, const NodeIndex& node, const NodeIndex& place) const;
+  void remember(const NodeIndex& place);
   void number();
-  void bringTogether(const Ground& ground, const Bond& bond);
-  void relax(const Ground& ground, double hopeless);
+  void bringTogether(const GraphView& view, const ClosureEdge& closure_edge);
+  void relax(const GraphView& view, double hopeless);
   struct Core;
-  Core core(const Ground& ground);
-  bool layBent(const Ground& ground, Core& core);
-  void writeFrom(Ground& ground, std::size_t track, Nodes::iterator at);
+  Core core(const GraphView& view);
+  bool layBent(const GraphView& view, Core& core);
+  void writeFrom(GraphView& view, std::size_t track, Nodes::iterator at);
 
   int steps_at_most_;
   double variance_;
   std::vector<Nodes> nodes_;  ///< of each track, by their numbers in there
-  std::vector<Bond> bonds_;
+  std::vector<ClosureEdge> closure_edges_;
   double cost_ = 0.0, cost_before_ = 0.0;
   std::vector<Iteration> iterations_;
   Ending ending_ = Ending::Converged;
 
   /// How to take an offer back: to where its predecessors on trial had brought things.
   struct Undo {
-    std::map<Place, std::optional<Node>> nodes;  ///< as they were; empty: there was none
-    std::vector<Rigid<3>> poses;                 ///< of the nodes in the core's order, those inserted included
+    std::map<NodeIndex, std::optional<Node>> nodes;  ///< as they were; empty: there was none
+    std::vector<Rigid<3>> poses;                     ///< of the nodes in the core's order, those inserted included
     double cost = 0.0;
     Ending ending = Ending::Converged;
   };

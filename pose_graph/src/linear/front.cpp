@@ -24,8 +24,8 @@ void Front::reset(int size) {
   stride_ = (size + strip - 1) / strip * strip + strip;
   const std::size_t room = sz(stride_) * sz(stride_);
   if (data_.size() < room) data_.resize(room);
-  // The lower triangle alone is read. A tile that crosses the diagonal, or the end, computes numbers that nobody needs;
-  // it begins up to seven rows above the diagonal.
+  // The lower triangle alone is read. A tile that crosses the diagonal, or the end, computes numbers that are not
+  // needed; it begins up to seven rows above the diagonal.
   for (int j = 0; j < stride_; ++j) {
     const int first = std::max(0, j - strip + 1);
     std::memset(column(j) + first, 0, sz(stride_ - first) * sizeof(double));
@@ -68,7 +68,7 @@ bool Front::eliminate(int pivots, Pins* pins) {
       for (int s = 0; s < strips; ++s)
         std::memcpy(&packed_[sz(s) * piece + sz(c) * strip], source + s * strip, strip * sizeof(double));
     }
-    // What stands behind the last row is padding.
+    // What stands after the last row is padding.
     for (int c = 0; c < width; ++c)
       for (int r = rows; r < strips * strip; ++r) packed_[sz(strips - 1) * piece + sz(c) * strip + sz(r % strip)] = 0.0;
     kernels_.solveStrips(packed_.data(), strips, width, lower_.data(), inverse_.data());

@@ -88,7 +88,7 @@ EliminationTree eliminationTree(const Adjacency& graph, const std::vector<int>& 
     const std::size_t node = static_cast<std::size_t>(order[k]);
     for (int e = graph.first[node]; e < graph.first[node + 1]; ++e) {
       int i = place[static_cast<std::size_t>(graph.neighbours[static_cast<std::size_t>(e)])];
-      while (i != -1 && i < static_cast<int>(k)) {  // up the tree, with the path made short behind
+      while (i != -1 && i < static_cast<int>(k)) {  // up the tree, with the path compressed
         const int next = ancestor[static_cast<std::size_t>(i)];
         ancestor[static_cast<std::size_t>(i)] = static_cast<int>(k);
         if (next == -1) tree.parent[static_cast<std::size_t>(i)] = static_cast<int>(k);

@@ -65,9 +65,10 @@ TangentMatrix<D> informationRoot(const TangentMatrix<D>& information) {
   return eigen->values.cwiseMax(0.0).cwiseSqrt().asDiagonal() * eigen->vectors.transpose();
 }
 
-class Told final : public ceres::IterationCallback {
+class ProgressCallback final : public ceres::IterationCallback {
  public:
-  Told(const SolveOptions& options, std::vector<Iteration>& iterations) : options_(options), iterations_(iterations) {}
+  ProgressCallback(const SolveOptions& options, std::vector<Iteration>& iterations)
+      : options_(options), iterations_(iterations) {}
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
     if (summary.iteration == 0) return ceres::SOLVER_CONTINUE;
@@ -110,7 +111,7 @@ void descend(const Problem<D>& problem, const SolveOptions& options, const std::
                                    made.poses[sz(edge.to)]),  // Ceres owns it
         nullptr, x[sz(edge.from)].data(), x[sz(edge.to)].data());
   }
-  Told told(options, made.iterations);
+  ProgressCallback progress(options, made.iterations);
   ceres::Solver::Options wanted;
   wanted.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
   wanted.sparse_linear_algebra_library_type = ceres::SUITE_SPARSE;
@@ -119,7 +120,7 @@ void descend(const Problem<D>& problem, const SolveOptions& options, const std::
   wanted.function_tolerance = options.tolerance;
   wanted.gradient_tolerance = wanted.parameter_tolerance = 0.0;
   wanted.logging_type = ceres::SILENT;
-  wanted.callbacks.push_back(&told);
+  wanted.callbacks.push_back(&progress);
   ceres::Solver::Summary summary;
   ceres::Solve(wanted, &all, &summary);
   for (std::size_t i = 0; i < x.size(); ++i)

@@ -92,11 +92,11 @@ void LinearSystem<D>::sweep(const Increments<D>& step, Increments<D>& x) const {
 template <int D>
 void LinearSystem<D>::sweepBack(const Increments<D>& pull, Increments<D>& force) const {
   force.resize(Eigen::NoChange, pull.cols() - 1);
-  Tangent<D> behind = Tangent<D>::Zero();
+  Tangent<D> following = Tangent<D>::Zero();
   for (Eigen::Index i = pull.cols() - 2; i >= 0; --i) {
     const auto r = static_cast<std::size_t>(i);
-    behind += pull.col(i + 1);
-    force.col(i) = linkForce<D>(poses_[r], poses_[r + 1].t, behind);
+    following += pull.col(i + 1);
+    force.col(i) = linkForce<D>(poses_[r], poses_[r + 1].t, following);
   }
 }
 

@@ -49,7 +49,7 @@ class LinearSystem {
 
   /// x_k of twist.hpp for all poses, x_0 = 0.
   void sweep(const Increments<D>& step, Increments<D>& x) const;
-  /// The transposed sweep: the sum over all poses behind each link of what pulls at them, as forces on the link.
+  /// The transposed sweep: the sum over all poses after each link of what pulls at them, as forces on the link.
   void sweepBack(const Increments<D>& pull, Increments<D>& force) const;
 
   /// ((1 + damping) M + H^T W H) step. `scratch`: overwritten, to save allocations.

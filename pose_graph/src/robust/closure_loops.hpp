@@ -30,7 +30,7 @@ class ClosureLoops {
   /// Costs the number of poses between the ends.
   ClosureLoop loop(std::size_t a, std::size_t b) const;
 
-  /// visit(b) for the closures behind `a` that are near it, at most `most`: both ends at most kNear poses apart;
+  /// visit(b) for the closures after `a` that are near it, at most `most`: both ends at most kNear poses apart;
   /// between two chains, which nothing else can vouch for, however far apart.
   template <typename Visit>
   void partners(std::size_t a, int most, const Visit& visit) const {

@@ -8,7 +8,7 @@
 #include <map>
 
 #include "linear/index.hpp"
-#include "robust/true_residual.hpp"
+#include "robust/inlier_likelihood.hpp"
 #include "urban_nav_core/geometry/dense_kernels.hpp"
 #include "urban_nav_core/geometry/small_matrices.hpp"
 
@@ -46,7 +46,8 @@ Eight<D> disturbances(std::size_t edge, int first) {
 }  // namespace
 
 template <int D>
-Witness<D>::Witness(const Problem<D>& problem, const std::vector<int>& candidates, const DeadReckoning<D>& chains)
+ClosureEvaluator<D>::ClosureEvaluator(const Problem<D>& problem, const std::vector<int>& candidates,
+                                      const DeadReckoning<D>& chains)
     : problem_(&problem), candidates_(candidates) {
   edges_.reserve(problem.edges.size());
   for (const Edge<D>& edge : problem.edges) edges_.push_back(whitened(edge));
@@ -68,8 +69,9 @@ Witness<D>::Witness(const Problem<D>& problem, const std::vector<int>& candidate
 }
 
 template <int D>
-Evidence Witness<D>::hear(AcceptedGraph<D>& graph, const std::vector<char>& in, const std::vector<Rigid<D>>& poses,
-                          double variance, const std::vector<int>& small_group, double uncontrolled) const {
+Evidence ClosureEvaluator<D>::evaluate(AcceptedGraph<D>& graph, const std::vector<char>& in,
+                                       const std::vector<Rigid<D>>& poses, double variance,
+                                       const std::vector<int>& small_group, double uncontrolled) const {
   constexpr int N = tangent_size<D>;
   using Samples = Eigen::Matrix<double, N, kDisturbances, Eigen::RowMajor>;
   const std::size_t edges = problem_->edges.size();
@@ -133,7 +135,7 @@ Evidence Witness<D>::hear(AcceptedGraph<D>& graph, const std::vector<char>& in, 
       const double log = log_at_zero + 0.5 * std::log(std::max(1e-300, C.determinant()));
       C.diagonal().array() += uncontrolled;
       made.chi2[e] = at[e].error.dot(urban_nav_core::SmallCholesky<N>(C).solve(at[e].error)) * kShrink / variance;
-      made.likelier[e] = logOfTrueResidual(log, edge.rank, made.chi2[e] * variance, variance);
+      made.likelier[e] = logInlierLikelihood(log, edge.rank, made.chi2[e] * variance, variance);
       if (small_group[e] >= 0) groups[small_group[e]].push_back(k);
       continue;
     }
@@ -143,7 +145,7 @@ Evidence Witness<D>::hear(AcceptedGraph<D>& graph, const std::vector<char>& in, 
     made.chi2[e] = at[e].error.dot(factored.solve(at[e].error)) / variance;
     double log = log_at_zero;
     for (int a = 0; a < edge.rank; ++a) log -= std::log(factored.factor()(a, a));
-    made.likelier[e] = logOfTrueResidual(log, edge.rank, made.chi2[e] * variance, variance);
+    made.likelier[e] = logInlierLikelihood(log, edge.rank, made.chi2[e] * variance, variance);
   }
 
   // One bias of a whole group: its far ends moved as one body.
@@ -173,13 +175,13 @@ Evidence Witness<D>::hear(AcceptedGraph<D>& graph, const std::vector<char>& in, 
     const double log = width - 0.5 * N * std::log(2.0 * M_PI) + 0.5 * std::log(std::max(1e-300, C.determinant()));
     for (std::size_t k : members) {
       made.group_chi2[sz(candidates_[k])] = std::isfinite(chi2) ? chi2 : 0.0;
-      made.group_likelier[sz(candidates_[k])] = logOfTrueResidual(log, N, chi2 * variance, variance);
+      made.group_likelier[sz(candidates_[k])] = logInlierLikelihood(log, N, chi2 * variance, variance);
     }
   }
   return made;
 }
 
-template class Witness<2>;
-template class Witness<3>;
+template class ClosureEvaluator<2>;
+template class ClosureEvaluator<3>;
 
 }  // namespace pose_graph

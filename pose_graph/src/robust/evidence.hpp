@@ -19,15 +19,15 @@ struct Evidence {
   /// Logarithm of how much likelier the residual is from a true closure than from one anywhere.
   std::vector<double> likelier;
   std::vector<double> group_likelier;  ///< the same of a group's bias; 0 without a group
-  double variance = 1.0;               ///< as they were heard with
+  double variance = 1.0;               ///< as they were evaluated with
   bool known = true;  ///< false where the accepted graph could not be factored: nothing else is filled then
 };
 
 /// The candidates of a problem, whitened, with what their tests need that does not change.
 template <int D>
-class Witness {
+class ClosureEvaluator {
  public:
-  Witness(const Problem<D>& problem, const std::vector<int>& candidates, const DeadReckoning<D>& chains);
+  ClosureEvaluator(const Problem<D>& problem, const std::vector<int>& candidates, const DeadReckoning<D>& chains);
 
   const WhitenedEdge<D>& edge(int e) const { return edges_[static_cast<std::size_t>(e)]; }
   const std::vector<int>& candidates() const { return candidates_; }
@@ -36,9 +36,9 @@ class Witness {
   /// them through the factor of `graph`: the spread of what comes out at an edge is its covariance (of a residual
   /// inside, of a prediction outside), to about three tenths. `variance`: factor of all covariances. `small_group`:
   /// groups by edge, -1 for none, as they are tested for a common bias. `uncontrolled`: redundancy below which a
-  /// residual tells nothing (judging.hpp).
-  Evidence hear(AcceptedGraph<D>& graph, const std::vector<char>& in, const std::vector<Rigid<D>>& poses,
-                double variance, const std::vector<int>& small_group, double uncontrolled) const;
+  /// residual tells nothing (admission_thresholds.hpp).
+  Evidence evaluate(AcceptedGraph<D>& graph, const std::vector<char>& in, const std::vector<Rigid<D>>& poses,
+                    double variance, const std::vector<int>& small_group, double uncontrolled) const;
 
  private:
   const Problem<D>* problem_;
@@ -48,7 +48,7 @@ class Witness {
   std::vector<double> false_log_;  ///< minus the logarithm of the density of false residuals, whitened; by candidate
 };
 
-extern template class Witness<2>;
-extern template class Witness<3>;
+extern template class ClosureEvaluator<2>;
+extern template class ClosureEvaluator<3>;
 
 }  // namespace pose_graph

@@ -9,8 +9,8 @@
 #include "linear/disjoint_sets.hpp"
 #include "linear/index.hpp"
 #include "objective/objective.hpp"
+#include "robust/admission.hpp"
 #include "robust/core_graph.hpp"
-#include "robust/growth.hpp"
 #include "robust/information_scale.hpp"
 
 namespace pose_graph {
@@ -30,8 +30,8 @@ Problem<D> extractPart(const Problem<D>& problem, const std::vector<char>& in, s
 // Edges that cannot stand beside an asserted one: those of what is accepted without any assertion that do not fit once
 // this one is added.
 template <int D>
-std::vector<int> contradicting(const Problem<D>& problem, int asserted, Grown<D> without, const Witness<D>& witness,
-                               const Thresholds& thresholds) {
+std::vector<int> contradicting(const Problem<D>& problem, int asserted, AdmissionState<D> without,
+                               const ClosureEvaluator<D>& evaluator, const Thresholds& thresholds) {
   AcceptedGraph<D> graph(problem);
   without.in[sz(asserted)] = 1;
   graph.take(without.in);
@@ -39,7 +39,7 @@ std::vector<int> contradicting(const Problem<D>& problem, int asserted, Grown<D>
   std::vector<std::pair<double, int>> off;
   for (std::size_t e = 0; e < without.in.size(); ++e) {
     if (!without.in[e] || static_cast<int>(e) == asserted) continue;
-    const WhitenedEdge<D>& edge = witness.edge(static_cast<int>(e));
+    const WhitenedEdge<D>& edge = evaluator.edge(static_cast<int>(e));
     const double square =
         whitenedError(edge, without.poses[sz(edge.from)], without.poses[sz(edge.to)]).squaredNorm() / without.variance;
     if (square > thresholds.limit[sz(edge.rank)]) off.emplace_back(-square, static_cast<int>(e));
@@ -113,36 +113,36 @@ Judgement<D> judge(const Problem<D>& problem, const std::vector<EdgeRole>& roles
     if (roles[e] == EdgeRole::Asserted) asserted.push_back(static_cast<int>(e));
   }
   const Thresholds thresholds(candidates.size(), tangent_size<D>);
-  const Witness<D> witness(problem, candidates, reckoning);
+  const ClosureEvaluator<D> evaluator(problem, candidates, reckoning);
   const ClosureLoops<D> loops(problem, candidates, reckoning);
   const InformationScale scale = informationScale(loops);
-  const std::vector<int> group = agreeingGroups(problem.edges.size(), loops, std::max(1.0, scale.factor), thresholds);
-  Grown<D> grown = grow(problem, roles, witness, group, thresholds, scale);
-  if (grown.evidence.known) takeBack(problem, roles, witness, grown);
+  const std::vector<int> group = consistentGroups(problem.edges.size(), loops, std::max(1.0, scale.factor), thresholds);
+  AdmissionState<D> state = admitClosures(problem, roles, evaluator, group, thresholds, scale);
+  if (state.evidence.known) readmitByTruncatedSquares(problem, roles, evaluator, state);
 
   Judgement<D> made;
-  made.variance = grown.variance;
+  made.variance = state.variance;
   made.edges.resize(roles.size());
   for (std::size_t e = 0; e < roles.size(); ++e) {
     EdgeAssessment& verdict = made.edges[e];
-    const WhitenedEdge<D>& edge = witness.edge(static_cast<int>(e));
+    const WhitenedEdge<D>& edge = evaluator.edge(static_cast<int>(e));
     verdict.dof = edge.rank;
     if (roles[e] != EdgeRole::Candidate) continue;
-    const double heard = grown.evidence.known
-                             ? grown.evidence.chi2[e] * grown.variance
-                             : whitenedError(edge, grown.poses[sz(edge.from)], grown.poses[sz(edge.to)]).squaredNorm();
-    verdict.chi2 = std::isfinite(heard) ? heard : 0.0;
-    if (grown.in[e]) {
+    const double chi2 = state.evidence.known
+                            ? state.evidence.chi2[e] * state.variance
+                            : whitenedError(edge, state.poses[sz(edge.from)], state.poses[sz(edge.to)]).squaredNorm();
+    verdict.chi2 = std::isfinite(chi2) ? chi2 : 0.0;
+    if (state.in[e]) {
       verdict.reason = Reason::Fits;
       continue;
     }
     verdict.weight = 0.0;
     verdict.verdict = ClosureVerdict::Rejected;
-    verdict.reason = !std::isfinite(heard)                                      ? Reason::NoWitness
-                     : heard > grown.variance * thresholds.limit[sz(edge.rank)] ? Reason::Disagrees
-                                                                                : Reason::Unconfirmed;
+    verdict.reason = !std::isfinite(chi2)                                      ? Reason::NoWitness
+                     : chi2 > state.variance * thresholds.limit[sz(edge.rank)] ? Reason::Disagrees
+                                                                               : Reason::Unconfirmed;
   }
-  made.poses = std::move(grown.poses);
+  made.poses = std::move(state.poses);
   if (asserted.empty()) return made;
 
   std::vector<EdgeRole> believed = roles;
@@ -151,10 +151,10 @@ Judgement<D> judge(const Problem<D>& problem, const std::vector<EdgeRole>& roles
     unasserted.edges[sz(e)].information.setZero();  // says nothing, and keeps the numbers of the others
     believed[sz(e)] = EdgeRole::Trusted;
   }
-  const Witness<D> doubter(unasserted, candidates, reckoning);
-  Grown<D> without = grow(unasserted, believed, doubter, group, thresholds, scale);
+  const ClosureEvaluator<D> doubter(unasserted, candidates, reckoning);
+  AdmissionState<D> without = admitClosures(unasserted, believed, doubter, group, thresholds, scale);
   for (int e : asserted) without.in[sz(e)] = 0;
-  for (int e : asserted) made.edges[sz(e)].contradicted_by = contradicting(problem, e, without, witness, thresholds);
+  for (int e : asserted) made.edges[sz(e)].contradicted_by = contradicting(problem, e, without, evaluator, thresholds);
   return made;
 }
 

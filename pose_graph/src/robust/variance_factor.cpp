@@ -17,14 +17,14 @@ constexpr double kPriorTangents = 10.0;
 }  // namespace
 
 template <int D>
-double varianceFactor(const Witness<D>& witness, const std::vector<char>& in, const std::vector<Rigid<D>>& poses,
-                      int unknowns, const Thresholds& thresholds, double scale) {
+double varianceFactor(const ClosureEvaluator<D>& evaluator, const std::vector<char>& in,
+                      const std::vector<Rigid<D>>& poses, int unknowns, const Thresholds& thresholds, double scale) {
   const double expected = scale < 1.0 ? std::min(1.0, kCaution * scale) : scale;
   std::vector<std::pair<double, int>> squares;
   double redundancy = -static_cast<double>(unknowns) * tangent_size<D>;
   for (std::size_t e = 0; e < in.size(); ++e) {
     if (!in[e]) continue;
-    const WhitenedEdge<D>& edge = witness.edge(static_cast<int>(e));
+    const WhitenedEdge<D>& edge = evaluator.edge(static_cast<int>(e));
     squares.emplace_back(whitenedError(edge, poses[sz(edge.from)], poses[sz(edge.to)]).squaredNorm(), edge.rank);
     redundancy += edge.rank;
   }
@@ -39,9 +39,9 @@ double varianceFactor(const Witness<D>& witness, const std::vector<char>& in, co
   return factor;
 }
 
-template double varianceFactor<2>(const Witness<2>&, const std::vector<char>&, const std::vector<Rigid<2>>&, int,
-                                  const Thresholds&, double);
-template double varianceFactor<3>(const Witness<3>&, const std::vector<char>&, const std::vector<Rigid<3>>&, int,
-                                  const Thresholds&, double);
+template double varianceFactor<2>(const ClosureEvaluator<2>&, const std::vector<char>&, const std::vector<Rigid<2>>&,
+                                  int, const Thresholds&, double);
+template double varianceFactor<3>(const ClosureEvaluator<3>&, const std::vector<char>&, const std::vector<Rigid<3>>&,
+                                  int, const Thresholds&, double);
 
 }  // namespace pose_graph

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "robust/agreement.hpp"
+#include "robust/consistent_groups.hpp"
 #include "robust/evidence.hpp"
 
 namespace pose_graph {
@@ -12,7 +12,7 @@ namespace pose_graph {
 /// expected by `scale` (InformationScale::factor) with the weight of ten observed tangents, so that a few redundant
 /// edges do not decide; false ones that agree with each other are in `scale` too, so that it is no bound from below.
 template <int D>
-double varianceFactor(const Witness<D>& witness, const std::vector<char>& in, const std::vector<Rigid<D>>& poses,
-                      int unknowns, const Thresholds& thresholds, double scale);
+double varianceFactor(const ClosureEvaluator<D>& evaluator, const std::vector<char>& in,
+                      const std::vector<Rigid<D>>& poses, int unknowns, const Thresholds& thresholds, double scale);
 
 }  // namespace pose_graph

@@ -13,7 +13,7 @@ using testing::kLap;
 constexpr int kDriven = 4 * kLap;
 
 /// It says that the robot is where it was two laps ago, which is over half a metre from where odometry has it; acts
-/// alone only if it is told to.
+/// alone only if it is asked to.
 Closure large(int a, bool alone = false) {
   Closure closure = closureAt("a", a, "a", a + 2 * kLap);
   closure.odometry_gate = alone;

@@ -2,7 +2,7 @@
 #include "pose_graph/map_levels.hpp"
 
 #include "../support/driven.hpp"
-#include "../support/felt_drive.hpp"
+#include "../support/specific_force_drive.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace pose_graph {
@@ -18,8 +18,8 @@ const Pose kT_level_first(urban_nav_core::expSo3(Eigen::Vector3d(0.1, -0.2, 0.0)
 
 /// At rest all along, as far as the accelerometer can tell: a lap of 10 m in 5 s turns its axes and bends its way by
 /// little.
-std::vector<SpecificForce> felt(const Track& track, std::size_t first, std::size_t end,
-                                const std::vector<Pose>& poses) {
+std::vector<SpecificForce> forcesAlong(const Track& track, std::size_t first, std::size_t end,
+                                       const std::vector<Pose>& poses) {
   std::vector<SpecificForce> made;
   for (std::size_t i = first; i < end; ++i) {
     Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();
@@ -33,7 +33,9 @@ std::vector<SpecificForce> felt(const Track& track, std::size_t first, std::size
 }
 
 /// Of a track as odometry has it.
-std::vector<SpecificForce> felt(const Track& track) { return felt(track, 0, track.stamps.size(), track.odom); }
+std::vector<SpecificForce> forcesAlong(const Track& track) {
+  return forcesAlong(track, 0, track.stamps.size(), track.odom);
+}
 
 double computeTilt(const PoseGraph& graph, std::size_t track = 0) {
   // The first pose of the map leans as the robot did: what was up there is up here.
@@ -45,12 +47,12 @@ double computeTilt(const PoseGraph& graph, std::size_t track = 0) {
 TEST(Levelling, turnsTheMapAboutItsFirstPoseOnceItIsKnown) {
   PoseGraph graph{Parameters()};
   drive(graph, "a", 0, 20);
-  graph.putForces("a", felt(graph.tracks()[0]));
+  graph.putForces("a", forcesAlong(graph.tracks()[0]));
   EXPECT_FALSE(graph.level()) << "a second is too short";
   EXPECT_FALSE(graph.isLevel("a"));
   EXPECT_EQ(graph.revision(), 0);
   drive(graph, "a", 20, 2 * kLap);
-  graph.putForces("a", felt(graph.tracks()[0]));
+  graph.putForces("a", forcesAlong(graph.tracks()[0]));
   const Pose before = graph.tracks()[0].map.back();
   const auto levelled = graph.level();
   ASSERT_TRUE(levelled);
@@ -66,13 +68,13 @@ TEST(Levelling, turnsTheMapAboutItsFirstPoseOnceItIsKnown) {
   EXPECT_FALSE(graph.level()) << "once";
 }
 
-TEST(Levelling, theBatchLevelsByAllThatWasFelt) {
+TEST(Levelling, theBatchLevelsByAllForces) {
   PoseGraph graph{Parameters()}, plain{Parameters()};
   for (PoseGraph* each : {&graph, &plain}) {
     drive(*each, "a", 0, 2 * kLap);
     for (const int i : {10, 60}) each->addClosure(closureAt("a", i, "a", i + kLap));
   }
-  graph.putForces("a", felt(graph.tracks()[0]));
+  graph.putForces("a", forcesAlong(graph.tracks()[0]));
   graph.level();
   graph.update();
   graph.relax();
@@ -80,7 +82,7 @@ TEST(Levelling, theBatchLevelsByAllThatWasFelt) {
   urban_nav_core::Trajectory flat;
   for (std::size_t i = 0; i < plain.tracks()[0].map.size(); ++i)
     flat.append(plain.tracks()[0].stamps[i], plain.tracks()[0].map[i]);
-  const Level level = estimateLevel(flat, felt(graph.tracks()[0]));
+  const Level level = estimateLevel(flat, forcesAlong(graph.tracks()[0]));
   ASSERT_TRUE(level.known());
   const Pose T_level_map = levelling(level, plain.tracks()[0].map.front());
   for (std::size_t i = 0; i < flat.size(); ++i) {
@@ -92,7 +94,7 @@ TEST(Levelling, theBatchLevelsByAllThatWasFelt) {
 TEST(Levelling, closuresComeIntoTheLevelMap) {
   PoseGraph graph{Parameters()};
   drive(graph, "a", 0, 2 * kLap);
-  graph.putForces("a", felt(graph.tracks()[0]));
+  graph.putForces("a", forcesAlong(graph.tracks()[0]));
   graph.addClosure(closureAt("a", 10, "a", 10 + kLap));
   graph.update();
   ASSERT_TRUE(graph.level());
@@ -109,7 +111,7 @@ TEST(Levelling, oneSessionLevelsTheMapOfAllThatAreInIt) {
   PoseGraph graph{Parameters()};
   drive(graph, "a", 0, 2 * kLap);
   drive(graph, "b", 0, 2 * kLap);
-  graph.putForces("b", felt(graph.tracks()[1]));
+  graph.putForces("b", forcesAlong(graph.tracks()[1]));
   ASSERT_TRUE(graph.level());
   EXPECT_FALSE(graph.isLevel("a"));
   EXPECT_TRUE(graph.isLevel("b"));
@@ -123,7 +125,7 @@ TEST(Levelling, oneSessionLevelsTheMapOfAllThatAreInIt) {
 TEST(Levelling, laterForcesTakeThePlaceOfWhatWasKnownThere) {
   PoseGraph graph{Parameters()}, whole{Parameters()};
   for (PoseGraph* each : {&graph, &whole}) drive(*each, "a", 0, 2 * kLap);
-  const std::vector<SpecificForce> all = felt(whole.tracks()[0]);
+  const std::vector<SpecificForce> all = forcesAlong(whole.tracks()[0]);
   whole.putForces("a", all);
   std::vector<SpecificForce> early(all.begin(), all.begin() + 120);
   early.back().force.setConstant(900.0);
@@ -135,7 +137,7 @@ TEST(Levelling, laterForcesTakeThePlaceOfWhatWasKnownThere) {
   EXPECT_THROW(graph.putForces("b", all), urban_nav_core::UserError);
 }
 
-/// Odometry whose rotation walks away, and what is felt on the way that was driven.
+/// Odometry whose rotation walks away, and the specific forces on the path that was driven.
 struct Leaning {
   testing::Drive drive;
   std::vector<urban_nav_core::RelativePose> steps;

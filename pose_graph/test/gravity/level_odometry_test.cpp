@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "../support/felt_drive.hpp"
+#include "../support/specific_force_drive.hpp"
 #include "pose_graph/graph_file.hpp"
 
 namespace pose_graph {
@@ -95,7 +95,7 @@ TEST(LevelOdometry, takesTracksAndTheirPiecesEachForItself) {
   const auto moved = [&](std::size_t pose) {
     return (chains.problem.poses[pose].R - before.poses[pose].R).norm() > 1e-6;
   };
-  EXPECT_FALSE(moved(1499)) << "nothing was felt";
+  EXPECT_FALSE(moved(1499)) << "no force was measured";
   EXPECT_FALSE(moved(1500));
   EXPECT_TRUE(moved(1500 + 699));
   EXPECT_FALSE(moved(1500 + 700)) << "a piece begins where it began";

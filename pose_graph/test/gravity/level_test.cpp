@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "../support/felt_drive.hpp"
+#include "../support/specific_force_drive.hpp"
 #include "urban_nav_core/testing/bands.hpp"
 
 namespace pose_graph {
@@ -140,10 +140,10 @@ TEST(Level, saysWhyItIsNotKnown) {
   EXPECT_EQ(estimateLevel(drive.trajectory(), {}).trouble, LevelTrouble::NoForces);
   EXPECT_EQ(estimateLevel({}, drive.forces(dice)).trouble, LevelTrouble::NoForces);
   std::vector<SpecificForce> forces = drive.forces(dice);
-  for (SpecificForce& felt : forces) felt.stamp += 1;
+  for (SpecificForce& sample : forces) sample.stamp += 1;
   EXPECT_EQ(estimateLevel(drive.trajectory(), forces).trouble, LevelTrouble::TooShort) << "of no pose";
   forces = drive.forces(dice);
-  for (SpecificForce& felt : forces) felt.force /= kGravity;
+  for (SpecificForce& sample : forces) sample.force /= kGravity;
   const Level level = estimateLevel(drive.trajectory(), forces);
   EXPECT_EQ(level.trouble, LevelTrouble::NotGravity) << "in units of g";
   EXPECT_FALSE(level.sentence.empty());

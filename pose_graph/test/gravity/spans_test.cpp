@@ -16,7 +16,7 @@ using urban_nav_core::Trajectory;
 
 constexpr StampNs kMs = 1'000'000;
 
-TEST(ForcesAt, areMeansOfWhatWasFeltAroundEachStamp) {
+TEST(ForcesAt, areMeansOfForcesAroundEachStamp) {
   std::vector<SpecificForce> samples;
   for (StampNs t = 0; t < 400; t += 10) samples.push_back({t * kMs, {static_cast<double>(t), 0.0, 1.0}});
   const std::vector<StampNs> stamps = {100 * kMs, 150 * kMs, 200 * kMs, 2000 * kMs};

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../support/felt_drive.hpp"
+#include "../support/specific_force_drive.hpp"
 
 namespace pose_graph {
 namespace {
@@ -69,7 +69,7 @@ Lost measureLoss(const Drive& drive, const Odometry& odometry, const std::vector
   return {std::sqrt(lost.before / count), std::sqrt(lost.after / count)};
 }
 
-Drive felt(double noise) {
+Drive noisyDrive(double noise) {
   Drive drive;
   drive.frames = 6000;
   drive.noise = noise;
@@ -81,7 +81,7 @@ TEST(TiltDrift, isFoundToWhatForcesCanTell) {
   double before = 0.0, after = 0.0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     Dice dice(seed);
-    const Drive drive = felt(0.02);
+    const Drive drive = noisyDrive(0.02);
     const Odometry odometry = drifting(drive, 3e-4, dice);
     const Lost lost =
         measureLoss(drive, odometry, tiltDrift(odometry.trajectory, odometry.variance, drive.forces(dice)));
@@ -96,7 +96,7 @@ TEST(TiltDrift, isFoundToWhatForcesCanTell) {
 TEST(TiltDrift, doesNotBelieveOdometryThatPromisesTooMuch) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     Dice dice(seed);
-    const Drive drive = felt(0.02);
+    const Drive drive = noisyDrive(0.02);
     Odometry odometry = drifting(drive, 3e-4, dice);
     const std::vector<SpecificForce> forces = drive.forces(dice);
     const Lost honest = measureLoss(drive, odometry, tiltDrift(odometry.trajectory, odometry.variance, forces));
@@ -108,7 +108,7 @@ TEST(TiltDrift, doesNotBelieveOdometryThatPromisesTooMuch) {
 
 TEST(TiltDrift, leavesGoodOdometryAlone) {
   Dice dice(1);
-  const Drive drive = felt(0.3);
+  const Drive drive = noisyDrive(0.3);
   const Odometry odometry = drifting(drive, 2e-5, dice);
   const Lost lost = measureLoss(drive, odometry, tiltDrift(odometry.trajectory, odometry.variance, drive.forces(dice)));
   EXPECT_LT(lost.after, 0.8 * kMilli) << "a force of a span is good to 3 mrad at best";
@@ -116,15 +116,15 @@ TEST(TiltDrift, leavesGoodOdometryAlone) {
 
 TEST(TiltDrift, findsTheLeverArmOfAnAccelerometerThatIsNotAtBaseLink) {
   Dice dice(2);
-  const Drive drive = felt(0.005);
+  const Drive drive = noisyDrive(0.005);
   const Odometry odometry = drifting(drive, 3e-4, dice);
   std::vector<SpecificForce> near = drive.forces(dice), far = near;
   const Vector3d arm(0.2, -0.1, 0.8);
   constexpr double h = 1e-3;
-  for (SpecificForce& felt : far) {
-    const double t = 1e-9 * static_cast<double>(felt.stamp);
+  for (SpecificForce& sample : far) {
+    const double t = 1e-9 * static_cast<double>(sample.stamp);
     const Eigen::Matrix3d R = drive.rotation(t);
-    felt.force += R.transpose() * ((drive.rotation(t + h) - 2.0 * R + drive.rotation(t - h)) / (h * h) * arm);
+    sample.force += R.transpose() * ((drive.rotation(t + h) - 2.0 * R + drive.rotation(t - h)) / (h * h) * arm);
   }
   const auto lost = [&](const std::vector<SpecificForce>& forces) {
     return measureLoss(drive, odometry, tiltDrift(odometry.trajectory, odometry.variance, forces)).after;
@@ -134,7 +134,7 @@ TEST(TiltDrift, findsTheLeverArmOfAnAccelerometerThatIsNotAtBaseLink) {
 
 TEST(TiltDrift, standsAFaultThatWanders) {
   Dice dice(4);
-  const Drive drive = felt(0.02);
+  const Drive drive = noisyDrive(0.02);
   const Odometry odometry = drifting(drive, 3e-4, dice);
   std::vector<SpecificForce> forces = drive.forces(dice);
   for (std::size_t i = 0; i < forces.size(); ++i)
@@ -146,28 +146,28 @@ TEST(TiltDrift, standsAFaultThatWanders) {
 
 TEST(TiltDrift, standsShocks) {
   Dice dice(3);
-  const Drive drive = felt(0.02);
+  const Drive drive = noisyDrive(0.02);
   const Odometry odometry = drifting(drive, 3e-4, dice);
   std::vector<SpecificForce> forces = drive.forces(dice);
-  for (SpecificForce& felt : forces)
-    if (dice.chance(0.002)) felt.force += 30.0 * dice.normals<3>();
+  for (SpecificForce& sample : forces)
+    if (dice.chance(0.002)) sample.force += 30.0 * dice.normals<3>();
   const Lost lost = measureLoss(drive, odometry, tiltDrift(odometry.trajectory, odometry.variance, forces));
   EXPECT_LT(lost.after, 1.0 * kMilli);
 }
 
 TEST(TiltDrift, saysNothingWhereNothingIsKnown) {
   Dice dice(1);
-  Drive drive = felt(0.02);
+  Drive drive = noisyDrive(0.02);
   const Odometry odometry = drifting(drive, 3e-4, dice);
   std::vector<SpecificForce> forces = drive.forces(dice);
   EXPECT_TRUE(tiltDrift(odometry.trajectory, odometry.variance, {}).empty());
   EXPECT_TRUE(tiltDrift(odometry.trajectory, odometry.variance, {forces.begin(), forces.begin() + 100}).empty())
       << "5 s";
-  for (SpecificForce& felt : forces) felt.force /= 9.81;
+  for (SpecificForce& sample : forces) sample.force /= 9.81;
   EXPECT_TRUE(tiltDrift(odometry.trajectory, odometry.variance, forces).empty()) << "in other units";
 }
 
-TEST(TiltAt, isStraightBetweenAndSteadyBehind) {
+TEST(TiltAt, isStraightBetweenAndSteadyAfter) {
   const std::vector<Tilt> tilts = {{10, Vector3d(1, 0, 0)}, {20, Vector3d(3, 0, 0)}};
   EXPECT_EQ(tiltAt(tilts, 0, 0).x(), 0.0);
   EXPECT_EQ(tiltAt(tilts, 0, 5).x(), 0.5);

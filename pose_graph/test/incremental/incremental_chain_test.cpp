@@ -73,18 +73,18 @@ TEST(IncrementalChain, splitsWhereItLies) {
   const Rigid<3> wanted = moved<3>(laidBy(steps).back(), Tangent<3>::Constant(0.02));
   for (int round = 0; round < 4; ++round) chain.lay(wanted, steps.data());
   IncrementalChain whole = chain;
-  const IncrementalChain behind = chain.splitBehind(7, steps.data());
+  const IncrementalChain rest = chain.splitAfter(7, steps.data());
   ASSERT_EQ(chain.size(), 8u);
-  ASSERT_EQ(behind.size(), 12u);
+  ASSERT_EQ(rest.size(), 12u);
   EXPECT_LT((chain.at(7).t - whole.at(7).t).norm(), 1e-12);
-  const Rigid<3> end = chain.at(7) * behind.at(11);
+  const Rigid<3> end = chain.at(7) * rest.at(11);
   EXPECT_LT((end.t - wanted.t).norm(), 1e-6);
   EXPECT_LT((end.R - wanted.R).norm(), 1e-6);
-  // Covariances of ways add up in the axes of one place: information of the parts, one behind the other, is that of the
+  // Covariances of ways add up in the axes of one place: information of the parts, one after the other, is that of the
   // whole.
   Problem<3> two;
   two.poses = {Rigid<3>(), chain.at(7), wanted};
-  two.edges = {chain.edge(), behind.edge()};
+  two.edges = {chain.edge(), rest.edge()};
   two.edges[0].to = 1;
   two.edges[1].from = 1;
   two.edges[1].to = 2;
@@ -95,7 +95,7 @@ TEST(IncrementalChain, splitsWhereItLies) {
   const double expected = cost(one, one.poses, Objective::Geodesic);
   EXPECT_NEAR(cost(two, two.poses, Objective::Geodesic), expected, 1e-4 * expected);
   // A part of a single step is no chain.
-  EXPECT_TRUE(whole.splitBehind(18, steps.data()).empty());
+  EXPECT_TRUE(whole.splitAfter(18, steps.data()).empty());
 }
 
 }  // namespace

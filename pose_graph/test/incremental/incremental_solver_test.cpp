@@ -17,7 +17,7 @@ using urban_nav_core::testing::GraphEdgeKind;
 using urban_nav_core::testing::SimulatedGraph;
 
 /// Tracks as a test has them: each unbroken but where a step does not join.
-class Tracks : public Ground {
+class Tracks : public GraphView {
  public:
   void add(std::size_t track, const ChainStep& step) {
     if (map_.size() <= track) {
@@ -31,18 +31,18 @@ class Tracks : public Ground {
 
   std::size_t tracks() const override { return map_.size(); }
   const ChainStep* steps(std::size_t track) const override { return steps_[track].data(); }
-  Rigid<3> pose(const Place& place) const override { return toRigid<3>(map_[place.first][place.second]); }
-  std::pair<std::size_t, std::size_t> run(const Place& place) const override {
+  Rigid<3> pose(const NodeIndex& place) const override { return toRigid<3>(map_[place.first][place.second]); }
+  std::pair<std::size_t, std::size_t> run(const NodeIndex& place) const override {
     std::pair<std::size_t, std::size_t> made{place.second, place.second};
     const std::vector<ChainStep>& steps = steps_[place.first];
     while (made.first > 0 && steps[made.first - 1].joins) --made.first;
     while (made.second < steps.size() && steps[made.second].joins) ++made.second;
     return made;
   }
-  void write(const Place& place, const Rigid<3>& T) override { map_[place.first][place.second] = toPose(T); }
+  void write(const NodeIndex& place, const Rigid<3>& T) override { map_[place.first][place.second] = toPose(T); }
 
-  /// All of it, with these bonds, from where it is written.
-  Problem<3> problem(const std::vector<Bond>& bonds) const {
+  /// All of it, with these closure_edges, from where it is written.
+  Problem<3> problem(const std::vector<ClosureEdge>& closure_edges) const {
     Problem<3> made;
     std::vector<int> first;
     const auto put = [&made](Edge<3> edge, int from, int to) {
@@ -57,9 +57,9 @@ class Tracks : public Ground {
         if (steps_[t][i].joins)
           put(steps_[t][i].edge, first[t] + static_cast<int>(i), first[t] + static_cast<int>(i) + 1);
     }
-    for (const Bond& bond : bonds)
-      put(bond.edge, first[bond.a.first] + static_cast<int>(bond.a.second),
-          first[bond.b.first] + static_cast<int>(bond.b.second));
+    for (const ClosureEdge& closure_edge : closure_edges)
+      put(closure_edge.edge, first[closure_edge.a.first] + static_cast<int>(closure_edge.a.second),
+          first[closure_edge.b.first] + static_cast<int>(closure_edge.b.second));
     return made;
   }
 
@@ -85,7 +85,7 @@ ChainStep toStep(const Edge<3>& edge) {
 
 struct LiveDrive {
   std::vector<ChainStep> steps;
-  std::vector<Bond> bonds;  // by the later of their two places
+  std::vector<ClosureEdge> closure_edges;  // by the later of their two places
 };
 
 const LiveDrive& liveDrive() {
@@ -97,21 +97,22 @@ const LiveDrive& liveDrive() {
     LiveDrive drive;
     for (const GraphEdge& edge : graph.edges) {
       if (edge.kind == GraphEdgeKind::Chain) drive.steps.push_back(toStep(toEdge(edge)));
-      else drive.bonds.push_back({{0, edge.a}, {0, edge.b}, toEdge(edge)});
+      else drive.closure_edges.push_back({{0, edge.a}, {0, edge.b}, toEdge(edge)});
     }
-    std::stable_sort(drive.bonds.begin(), drive.bonds.end(), [](const Bond& one, const Bond& other) {
-      return std::max(one.a, one.b) < std::max(other.a, other.b);
-    });
+    std::stable_sort(drive.closure_edges.begin(), drive.closure_edges.end(),
+                     [](const ClosureEdge& one, const ClosureEdge& other) {
+                       return std::max(one.a, one.b) < std::max(other.a, other.b);
+                     });
     return drive;
   }();
   return made;
 }
 
 // What is left to gain from where the poses are written, and by how much the farthest pose would still go, m.
-void expectRelaxed(const Tracks& tracks, const std::vector<Bond>& bonds, double cost) {
+void expectRelaxed(const Tracks& tracks, const std::vector<ClosureEdge>& closure_edges, double cost) {
   SolveOptions options;
   options.start = Start::Vertices;
-  const Problem<3> problem = tracks.problem(bonds);
+  const Problem<3> problem = tracks.problem(closure_edges);
   const Solution<3> solution = solve(problem, options);
   EXPECT_NEAR(cost, solution.cost, 0.02 + 1e-4 * solution.cost);
   double farthest = 0.0;
@@ -122,47 +123,47 @@ void expectRelaxed(const Tracks& tracks, const std::vector<Bond>& bonds, double 
 
 TEST(IncrementalSolver, isTheBatchAfterEachClosure) {
   Tracks tracks;
-  std::vector<Bond> bonds;
+  std::vector<ClosureEdge> closure_edges;
   std::size_t next = 0;
   std::optional<IncrementalSolver> core;
   double last_cost = 0.0;
-  for (const Bond& bond : liveDrive().bonds) {
-    for (; next < std::max(bond.a, bond.b).second; ++next) tracks.add(0, liveDrive().steps[next]);
-    if (!core) core.emplace(tracks, bonds, 100);
-    const IncrementalSolver::Offer offer = core->offer(tracks, bond, INFINITY);
+  for (const ClosureEdge& closure_edge : liveDrive().closure_edges) {
+    for (; next < std::max(closure_edge.a, closure_edge.b).second; ++next) tracks.add(0, liveDrive().steps[next]);
+    if (!core) core.emplace(tracks, closure_edges, 100);
+    const IncrementalSolver::Offer offer = core->offer(tracks, closure_edge, INFINITY);
     core->keep();
-    bonds.push_back(bond);
+    closure_edges.push_back(closure_edge);
     EXPECT_GE(offer.innovation, -1e-3);
     EXPECT_NEAR(offer.cost - offer.innovation, last_cost, 1e-9 + 1e-9 * last_cost);
     last_cost = offer.cost;
     core->write(tracks);
-    if (bonds.size() % 10 == 3) expectRelaxed(tracks, bonds, offer.cost);
+    if (closure_edges.size() % 10 == 3) expectRelaxed(tracks, closure_edges, offer.cost);
   }
   // One that begins from the same written poses has the same cost.
-  EXPECT_NEAR(IncrementalSolver(tracks, bonds, 100).cost(), core->cost(), 0.01);
+  EXPECT_NEAR(IncrementalSolver(tracks, closure_edges, 100).cost(), core->cost(), 0.01);
 }
 
 TEST(IncrementalSolver, takesBackWhatIsNotKept) {
   Tracks tracks, untouched;
   for (const ChainStep& step : liveDrive().steps)
     for (Tracks* each : {&tracks, &untouched}) each->add(0, step);
-  const std::vector<Bond> half(liveDrive().bonds.begin(), liveDrive().bonds.begin() + 15);
+  const std::vector<ClosureEdge> half(liveDrive().closure_edges.begin(), liveDrive().closure_edges.begin() + 15);
   IncrementalSolver core(tracks, half, 100), other(untouched, half, 100);
-  for (std::size_t k = 15; k < liveDrive().bonds.size(); ++k) {
-    Bond wrong = liveDrive().bonds[k];
+  for (std::size_t k = 15; k < liveDrive().closure_edges.size(); ++k) {
+    ClosureEdge wrong = liveDrive().closure_edges[k];
     wrong.edge.Z.t += Eigen::Vector3d(0.2, 0.1, 0.0);
     const double before = core.cost();
     core.offer(tracks, wrong, INFINITY);
-    core.takeBack();
+    core.readmitByTruncatedSquares();
     EXPECT_EQ(core.cost(), before);
     // Far beyond hope the cost is a prediction, and nothing is laid.
     wrong.edge.Z.t += Eigen::Vector3d(30.0, 0.0, 0.0);
     EXPECT_GT(core.offer(tracks, wrong, 1000.0).innovation, 1000.0);
-    core.takeBack();
+    core.readmitByTruncatedSquares();
   }
   for (IncrementalSolver* each : {&core, &other}) {
     Tracks& on = each == &core ? tracks : untouched;
-    each->offer(on, liveDrive().bonds[20], INFINITY);
+    each->offer(on, liveDrive().closure_edges[20], INFINITY);
     each->keep();
     each->write(on);
   }
@@ -174,7 +175,7 @@ TEST(IncrementalSolver, takesBackWhatIsNotKept) {
 TEST(IncrementalSolver, takesSeveralOnTrialBackOneByOne) {
   Tracks tracks;
   for (const ChainStep& step : liveDrive().steps) tracks.add(0, step);
-  const std::vector<Bond> half(liveDrive().bonds.begin(), liveDrive().bonds.begin() + 15);
+  const std::vector<ClosureEdge> half(liveDrive().closure_edges.begin(), liveDrive().closure_edges.begin() + 15);
   IncrementalSolver core(tracks, half, 100);
   const auto poses = [&] {
     std::vector<Rigid<3>> made;
@@ -186,11 +187,11 @@ TEST(IncrementalSolver, takesSeveralOnTrialBackOneByOne) {
   for (std::size_t k = 15; k < 18; ++k) {
     costs.push_back(core.cost());
     lay.push_back(poses());
-    core.offer(tracks, liveDrive().bonds[k], INFINITY);
+    core.offer(tracks, liveDrive().closure_edges[k], INFINITY);
     EXPECT_GT(core.cost(), costs.back());
   }
   while (!costs.empty()) {
-    core.takeBack();
+    core.readmitByTruncatedSquares();
     EXPECT_EQ(core.cost(), costs.back());
     const std::vector<Rigid<3>> now = poses();
     for (std::size_t i = 0; i < now.size(); ++i) EXPECT_LT((now[i].t - lay.back()[i].t).norm(), 1e-9) << i;
@@ -202,14 +203,14 @@ TEST(IncrementalSolver, takesSeveralOnTrialBackOneByOne) {
 TEST(IncrementalSolver, saysWhereAPoseIsBeforeItIsWritten) {
   Tracks tracks;
   for (const ChainStep& step : liveDrive().steps) tracks.add(0, step);
-  IncrementalSolver core(tracks, liveDrive().bonds, 100);
+  IncrementalSolver core(tracks, liveDrive().closure_edges, 100);
   std::vector<Rigid<3>> said;
   for (std::size_t i = 0; i <= liveDrive().steps.size(); ++i) said.push_back(core.pose(tracks, {0, i}));
   core.write(tracks);
   for (std::size_t i = 0; i < said.size(); ++i) EXPECT_LT((tracks.pose({0, i}).t - said[i].t).norm(), 1e-9) << i;
 }
 
-TEST(IncrementalSolver, takesStepsForAsUncertainAsItIsTold) {
+TEST(IncrementalSolver, takesStepsForAsUncertainAsStated) {
   Tracks tracks, wider;
   for (ChainStep step : liveDrive().steps) {
     tracks.add(0, step);
@@ -217,8 +218,8 @@ TEST(IncrementalSolver, takesStepsForAsUncertainAsItIsTold) {
     step.covariance *= 4.0;
     wider.add(0, step);
   }
-  EXPECT_NEAR(IncrementalSolver(tracks, liveDrive().bonds, 100, 4.0).cost(),
-              IncrementalSolver(wider, liveDrive().bonds, 100).cost(), 1e-6);
+  EXPECT_NEAR(IncrementalSolver(tracks, liveDrive().closure_edges, 100, 4.0).cost(),
+              IncrementalSolver(wider, liveDrive().closure_edges, 100).cost(), 1e-6);
 }
 
 // The second half of the drive as a session of its own, begun where its odometry has its origin: one closure puts it in
@@ -228,23 +229,23 @@ TEST(IncrementalSolver, bringsPartsTogether) {
   Tracks tracks;
   for (std::size_t i = 0; i < liveDrive().steps.size(); ++i)
     if (i != half) tracks.add(i < half ? 0 : 1, liveDrive().steps[i]);
-  std::vector<Bond> bonds;
+  std::vector<ClosureEdge> closure_edges;
   std::optional<IncrementalSolver> core;
-  const auto placed = [half](const Place& place) {
-    return place.second <= half ? place : Place{1, place.second - half - 1};
+  const auto placed = [half](const NodeIndex& place) {
+    return place.second <= half ? place : NodeIndex{1, place.second - half - 1};
   };
   double cost = 0.0;
-  for (Bond bond : liveDrive().bonds) {
-    bond.a = placed(bond.a);
-    bond.b = placed(bond.b);
-    if (!core) core.emplace(tracks, bonds, 100);
-    bonds.push_back(bond);
-    cost = core->offer(tracks, bond, INFINITY).cost;
+  for (ClosureEdge closure_edge : liveDrive().closure_edges) {
+    closure_edge.a = placed(closure_edge.a);
+    closure_edge.b = placed(closure_edge.b);
+    if (!core) core.emplace(tracks, closure_edges, 100);
+    closure_edges.push_back(closure_edge);
+    cost = core->offer(tracks, closure_edge, INFINITY).cost;
     core->keep();
     core->write(tracks);
   }
   EXPECT_EQ(tracks.pose({0, 0}).t, Eigen::Vector3d::Zero().eval());
-  expectRelaxed(tracks, bonds, cost);
+  expectRelaxed(tracks, closure_edges, cost);
 }
 
 TEST(IncrementalSolver, goesRoundGapsAndStepsWithoutInformation) {
@@ -260,19 +261,19 @@ TEST(IncrementalSolver, goesRoundGapsAndStepsWithoutInformation) {
     tracks.add(0, step);
   }
   std::optional<IncrementalSolver> core;
-  std::vector<Bond> bonds;
+  std::vector<ClosureEdge> closure_edges;
   double cost = 0.0;
-  for (const Bond& bond : liveDrive().bonds) {
-    if (!core) core.emplace(tracks, bonds, 100);
-    bonds.push_back(bond);
-    cost = core->offer(tracks, bond, INFINITY).cost;
+  for (const ClosureEdge& closure_edge : liveDrive().closure_edges) {
+    if (!core) core.emplace(tracks, closure_edges, 100);
+    closure_edges.push_back(closure_edge);
+    cost = core->offer(tracks, closure_edge, INFINITY).cost;
     core->keep();
     core->write(tracks);
     EXPECT_TRUE(std::isfinite(cost));
   }
   SolveOptions options;
   options.start = Start::Vertices;
-  EXPECT_NEAR(solve(tracks.problem(bonds), options).cost, cost, 0.05 + 1e-3 * cost);
+  EXPECT_NEAR(solve(tracks.problem(closure_edges), options).cost, cost, 0.05 + 1e-3 * cost);
   for (std::size_t i = 0; i <= liveDrive().steps.size(); ++i) ASSERT_TRUE(tracks.pose({0, i}).t.allFinite());
 }
 

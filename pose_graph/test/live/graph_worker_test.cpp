@@ -154,7 +154,7 @@ TEST(GraphWorker, KeepsTheOrderAndAnswersInTurn) {
   EXPECT_EQ(book.updates, 0) << "odometry alone gives nothing to relax";
 }
 
-TEST(GraphWorker, NobodyWaitsForARelaxation) {
+TEST(GraphWorker, NothingWaitsForARelaxation) {
   std::atomic<int> relaxed{0};
   Worker::Listener listener;
   listener.relaxed = [&](const LiveGraph::Outcome&, const LiveGraph&, double ms) {
@@ -185,19 +185,19 @@ TEST(GraphWorker, ManyClosuresAtOnceAreOneRelaxation) {
 }
 
 TEST(GraphWorker, OptimizeIsABatch) {
-  bool told = false;
+  bool reported = false;
   Worker::Listener listener;
-  listener.relaxed = [&](const LiveGraph::Outcome&, const LiveGraph&, double) { told = true; };
+  listener.relaxed = [&](const LiveGraph::Outcome&, const LiveGraph&, double) { reported = true; };
   Worker worker(std::make_unique<Note>(20ms), 100, listener);
   worker.put(step(0, 1));
   const Figures figures = worker.optimize().get();
-  EXPECT_TRUE(told) << "who asked for it can rely on the topics";
+  EXPECT_TRUE(reported) << "who asked for it can rely on the topics";
   EXPECT_EQ(figures.poses, 1);
   EXPECT_GE(figures.relax_ms, 20.0);
   EXPECT_EQ(makeBook(worker).batches, 1);
 }
 
-TEST(GraphWorker, WhoWaitsForABatchIsToldHowItEnds) {
+TEST(GraphWorker, WhoWaitsForABatchIsInformedHowItEnds) {
   std::future<Figures> dropped;
   {
     Worker worker(std::make_unique<Note>(77ms), 100, {});
@@ -242,7 +242,7 @@ TEST(GraphWorker, OneThatIsDueAgainBeforeItHasEndedIsBegunAnew) {
   set(worker, &Note::Book::due);
   while (worker.counts().relaxations == 0) std::this_thread::sleep_for(1ms);
   EXPECT_EQ(makeBook(worker).batches, 2);
-  EXPECT_EQ(worker.counts().relaxations, 1) << "of the first one nobody was told";
+  EXPECT_EQ(worker.counts().relaxations, 1) << "the first one was not reported";
 }
 
 TEST(GraphWorker, ABatchThatFailsIsSaid) {

@@ -12,7 +12,7 @@ namespace {
 
 using testing::kLap;
 using testing::kPeriod;
-using testing::Place;
+using testing::StoreFolder;
 using urban_nav_core::UserError;
 using urban_nav_store::Access;
 using urban_nav_store::Store;
@@ -81,7 +81,7 @@ class LivePoseGraphTest : public ::testing::Test {
     }
   }
 
-  const Place place;
+  const StoreFolder place;
 };
 
 TEST_F(LivePoseGraphTest, aRecordingThatIsPlayedAgainGoesOnWhereItWasCutOff) {
@@ -104,7 +104,7 @@ TEST_F(LivePoseGraphTest, aRecordingThatIsPlayedAgainGoesOnWhereItWasCutOff) {
   expectSame(cut->trajectory(0, 0, 0), whole->trajectory(0, 0, 0));
 }
 
-TEST_F(LivePoseGraphTest, aSessionGoesOnBehindItsNewestPose) {
+TEST_F(LivePoseGraphTest, aSessionResumesAfterItsNewestPose) {
   begin()->add(testing::stepAt(0));
   auto graph = begin();
   drive(*graph, 1, 30);
@@ -274,7 +274,7 @@ TEST_F(LivePoseGraphTest, levelsOnceItIsKnownWhichWayIsUp) {
   EXPECT_FALSE(graph->isRelaxationPending()) << "once";
 }
 
-TEST_F(LivePoseGraphTest, whatWasFeltLevelsTheMapAfterARestartToo) {
+TEST_F(LivePoseGraphTest, forcesLevelTheMapAfterARestartToo) {
   auto graph = begin();
   feel(*graph, 4 * kLap);
   drive(*graph, 0, 3 * kLap);

@@ -26,7 +26,7 @@ Track track(int first, int last, const SessionId& session = "a") {
   return made;
 }
 
-void hear(MapToOdomEstimator& estimator, int first, int last, StampNs offset = 0) {
+void receive(MapToOdomEstimator& estimator, int first, int last, StampNs offset = 0) {
   for (int i = first; i < last; ++i) estimator.addOdometry({i * kVoPeriod + offset, at(i)});
 }
 
@@ -39,11 +39,11 @@ void expectTied(MapToOdomEstimator& estimator, const Track& track, int newest) {
 
 TEST(MapToOdomEstimator, isOfTheNewestPoseWhoseOdometryIsKnown) {
   MapToOdomEstimator estimator;
-  hear(estimator, 0, 50);
+  receive(estimator, 0, 50);
   expectTied(estimator, track(0, 26), 25);
   expectTied(estimator, track(0, 30), 29);
   expectTied(estimator, track(0, 30), 29);
-  hear(estimator, 50, 60);
+  receive(estimator, 50, 60);
   expectTied(estimator, track(0, 58), 57);
   expectTied(estimator, track(0, 80), 59);
 }
@@ -51,7 +51,7 @@ TEST(MapToOdomEstimator, isOfTheNewestPoseWhoseOdometryIsKnown) {
 TEST(MapToOdomEstimator, nothingIsKnownOfAnOdometryThatRanBeforeUntilItsStampsMeet) {
   MapToOdomEstimator estimator;
   EXPECT_FALSE(estimator.estimate(nullptr));
-  hear(estimator, 100, 130);
+  receive(estimator, 100, 130);
   EXPECT_FALSE(estimator.estimate(nullptr));
   const Track early = track(60, 100), late = track(60, 110);
   EXPECT_FALSE(estimator.estimate(&early));
@@ -60,13 +60,13 @@ TEST(MapToOdomEstimator, nothingIsKnownOfAnOdometryThatRanBeforeUntilItsStampsMe
 
 TEST(MapToOdomEstimator, whereOdomBeginsTheMapDoes) {
   MapToOdomEstimator estimator;
-  hear(estimator, 0, 20);
+  receive(estimator, 0, 20);
   EXPECT_TRUE(isApprox(*estimator.estimate(nullptr), Pose(), 0.0));
 }
 
 TEST(MapToOdomEstimator, aNewSessionIsTiedAtItsFirstPose) {
   MapToOdomEstimator estimator;
-  hear(estimator, 0, 100);
+  receive(estimator, 0, 100);
   expectTied(estimator, track(0, 76), 75);
   Track next = track(75, 77, "b");
   for (Pose& pose : next.map) pose = kMoved * kMoved * pose;
@@ -77,10 +77,10 @@ TEST(MapToOdomEstimator, aNewSessionIsTiedAtItsFirstPose) {
 
 TEST(MapToOdomEstimator, anOdometryThatBeginsAnewDoesSoAtTheNewestPose) {
   MapToOdomEstimator estimator;
-  hear(estimator, 0, 40);
+  receive(estimator, 0, 40);
   const Track before = track(0, 40);
   expectTied(estimator, before, 39);
-  hear(estimator, 0, 20, 41 * kVoPeriod);
+  receive(estimator, 0, 20, 41 * kVoPeriod);
   EXPECT_TRUE(isApprox(*estimator.estimate(&before), before.map.back(), 0.0));
   Track after = before;
   after.stamps.push_back(42 * kVoPeriod);
@@ -90,28 +90,28 @@ TEST(MapToOdomEstimator, anOdometryThatBeginsAnewDoesSoAtTheNewestPose) {
 
 TEST(MapToOdomEstimator, aRecordingThatBeginsAgainHasNothingToDoWithTheSessionBefore) {
   MapToOdomEstimator estimator;
-  hear(estimator, 0, 100);
+  receive(estimator, 0, 100);
   const Track before = track(0, 100), again = track(0, 10, "b");
   expectTied(estimator, before, 99);
-  hear(estimator, 0, 30);
+  receive(estimator, 0, 30);
   EXPECT_TRUE(isApprox(*estimator.estimate(&before), Pose(), 0.0)) << "though its stamps are the same";
   expectTied(estimator, again, 9);
 }
 
 TEST(MapToOdomEstimator, aSessionOfAnEmptiedGraphMayHaveTheIdOfOneBefore) {
   MapToOdomEstimator estimator;
-  hear(estimator, 0, 100);
+  receive(estimator, 0, 100);
   expectTied(estimator, track(0, 100), 99);
-  hear(estimator, 0, 1);
+  receive(estimator, 0, 1);
   estimator.forgetSessions();
   EXPECT_FALSE(estimator.estimate(nullptr) && !isApprox(*estimator.estimate(nullptr), Pose(), 0.0));
-  hear(estimator, 1, 30);
+  receive(estimator, 1, 30);
   expectTied(estimator, track(0, 10), 9);
 }
 
 TEST(MapToOdomEstimator, isBounded) {
   MapToOdomEstimator estimator;
-  hear(estimator, 0, 20'000);
+  receive(estimator, 0, 20'000);
   const Track early = track(0, 100), late = track(0, 19'000);
   EXPECT_TRUE(isApprox(*estimator.estimate(&early), early.map.back(), 0.0)) << "that long ago is forgotten";
   expectTied(estimator, late, 18'999);

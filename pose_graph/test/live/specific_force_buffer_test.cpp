@@ -37,42 +37,42 @@ void expectSame(const std::vector<SpecificForce>& a, const std::vector<SpecificF
 }
 
 TEST(SpecificForceBuffer, endsWithTheBitsOfAllAtOnce) {
-  SpecificForceBuffer felt;
+  SpecificForceBuffer buffer;
   std::vector<SpecificForce> all, known;
   int poses = 0;
   for (StampNs stamp = -200'000'000; stamp < 60'000'000'000; stamp += kSample) {
     if (stamp > 30'000'000'000 && stamp < 31'000'000'000) continue;  // it was silent
-    felt.add(sampleAt(stamp));
+    buffer.add(sampleAt(stamp));
     all.push_back(sampleAt(stamp));
     // Poses come a second and a quarter late, and are asked for at odd times.
     poses = std::max(0, static_cast<int>((stamp - 1'250'000'000) / kPose));
-    if (all.size() % 333 == 0) put(felt.meansAt(posesUpTo(poses)), known);
+    if (all.size() % 333 == 0) put(buffer.meansAt(posesUpTo(poses)), known);
   }
-  put(felt.meansAt(posesUpTo(poses + 20)), known);
+  put(buffer.meansAt(posesUpTo(poses + 20)), known);
   expectSame(known, forcesAt(posesUpTo(poses + 20), all));
   // What is final is not made again.
-  EXPECT_LT(felt.meansAt(posesUpTo(poses + 20)).size(), 300u);
+  EXPECT_LT(buffer.meansAt(posesUpTo(poses + 20)).size(), 300u);
 }
 
 TEST(SpecificForceBuffer, aRecordingThatBeginsAgainIsForTheNextSession) {
-  SpecificForceBuffer felt;
+  SpecificForceBuffer buffer;
   std::vector<SpecificForce> first, second;
   for (int i = 0; i < 500; ++i) first.push_back(sampleAt(i * kSample));
   for (int i = 0; i < 500; ++i) second.push_back({i * kSample, Eigen::Vector3d(1.0, 0.0, 9.7)});
-  for (const SpecificForce& each : first) felt.add(each);
-  for (const SpecificForce& each : second) felt.add(each);
-  expectSame(felt.meansAt(posesUpTo(80)), forcesAt(posesUpTo(80), first));
-  felt.beginSession();
-  expectSame(felt.meansAt(posesUpTo(80)), forcesAt(posesUpTo(80), second));
-  felt.beginSession();
-  EXPECT_FALSE(felt.meansAt(posesUpTo(80)).empty()) << "a session that begins by hand goes on with the same samples";
+  for (const SpecificForce& each : first) buffer.add(each);
+  for (const SpecificForce& each : second) buffer.add(each);
+  expectSame(buffer.meansAt(posesUpTo(80)), forcesAt(posesUpTo(80), first));
+  buffer.beginSession();
+  expectSame(buffer.meansAt(posesUpTo(80)), forcesAt(posesUpTo(80), second));
+  buffer.beginSession();
+  EXPECT_FALSE(buffer.meansAt(posesUpTo(80)).empty()) << "a session that begins by hand goes on with the same samples";
 }
 
-TEST(SpecificForceBuffer, nothingFeltIsNothingKnown) {
-  SpecificForceBuffer felt;
-  EXPECT_TRUE(felt.meansAt(posesUpTo(10)).empty());
-  felt.add(sampleAt(0));
-  EXPECT_TRUE(felt.meansAt({}).empty());
+TEST(SpecificForceBuffer, withoutForcesNothingIsKnown) {
+  SpecificForceBuffer buffer;
+  EXPECT_TRUE(buffer.meansAt(posesUpTo(10)).empty());
+  buffer.add(sampleAt(0));
+  EXPECT_TRUE(buffer.meansAt({}).empty());
 }
 
 }  // namespace

@@ -34,8 +34,8 @@ TEST(Rotation, TurnedIsTheDerivativeOfATurn) {
       1e-9);
   const Eigen::Vector3d w = dice.normals<3>(), d = dice.normals<3>();
   const Eigen::Vector3d ahead = expRotation(Eigen::Vector3d(h * d)) * w,
-                        behind = expRotation(Eigen::Vector3d(-h * d)) * w;
-  EXPECT_LT(((ahead - behind) / (2 * h) - turned(w) * d).norm(), 1e-9);
+                        before = expRotation(Eigen::Vector3d(-h * d)) * w;
+  EXPECT_LT(((ahead - before) / (2 * h) - turned(w) * d).norm(), 1e-9);
 }
 
 /// No rotation drawn at random lies nearer.

@@ -198,8 +198,8 @@ void expectFreeMarginals() {
     TangentMatrix<D> turn = TangentMatrix<D>::Identity();
     turn.template topLeftCorner<D, D>() = loose.Z.R;
     if constexpr (D == 3) turn.template bottomRightCorner<3, 3>() = loose.Z.R;
-    const TangentMatrix<D> told = turn * loose.information * turn.transpose();
-    EXPECT_LT((hanging.information - told).norm(), 1e-5 * told.norm()) << "rank " << rank;
+    const TangentMatrix<D> turned_information = turn * loose.information * turn.transpose();
+    EXPECT_LT((hanging.information - turned_information).norm(), 1e-5 * turned_information.norm()) << "rank " << rank;
     EXPECT_EQ(marginals.ofPose(12).knowledge, Knowledge::Partial);
   }
 }
@@ -249,7 +249,7 @@ TEST(Marginals, AreDisplayedWithTheLargestVarianceWhereNothingIsKnown) {
   EXPECT_NEAR(mixed(5, 5), 10.0, 1e-6);
 }
 
-TEST(Marginals, NumbersBeyondReasonAreToldAsNothingKnown) {
+TEST(Marginals, NumbersBeyondReasonAreReportedAsNothingKnown) {
   Dice dice(8);
   Problem<3> problem = drawProblem<3>(dice, 6, 3, 0.1, 0.1);
   problem.edges[2].information *= 1e308;

@@ -46,7 +46,7 @@ TEST(SolveByCeres, leavesWeightlessEdgesAndOtherPartsAlone) {
   EXPECT_EQ(theirs.poses[20].t, problem.poses[20].t);
 }
 
-TEST(SolveByCeres, stopsWhenTold) {
+TEST(SolveByCeres, stopsWhenAsked) {
   Dice dice(5);
   const Problem<3> problem = drawProblem<3>(dice, 40, 20, 0.3, 0.3);
   SolveOptions options;

@@ -49,7 +49,7 @@ TEST(ConjugateGradients, AgreeWithTheDenseSolution) {
   }
 }
 
-TEST(ConjugateGradients, EndWhereTheyAreTold) {
+TEST(ConjugateGradients, EndWhereTheyAreAsked) {
   const Problem<3> problem = smallGraph<3>(40, 20, 0.1, 0.1);
   const LinearSystem<3> system(problem, makeChain(problem), makeState(problem.poses));
   const Preconditioner<3> preconditioner(system, 0.0, 0);

@@ -158,7 +158,7 @@ TEST(RelativePcg, GivesTheSameBitsAgain) {
   }
 }
 
-TEST(RelativePcg, StopsWhenTold) {
+TEST(RelativePcg, StopsWhenAsked) {
   const Problem<3> problem = smallGraph<3>(60, 30, 0.3, 0.2);
   RelativePcgOptions options;
   int calls = 0;

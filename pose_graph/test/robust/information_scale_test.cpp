@@ -69,7 +69,7 @@ TEST(InformationScale, IsOneWithoutLoops) {
   EXPECT_EQ(estimateScale(graph).factor, 1.0);
 }
 
-// Few loops may be told from what is stated by chance, and must not make everything acceptable.
+// Few loops may be distinguished from what is stated by chance, and must not make everything acceptable.
 TEST(InformationScale, TakesFewLoopsForNoProofOfABoast) {
   SimulatedGraph graph = globe(10.0, 5);
   graph.edges.resize(graph.truth.size() + 19);

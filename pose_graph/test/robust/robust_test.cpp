@@ -153,7 +153,7 @@ struct TwoDrives {
     }
     graph.edges = kept;
     problem = simulatedProblem<2>(graph, graph.truth);
-    for (std::size_t i = second; i < problem.poses.size(); ++i) problem.poses[i].t.x() += 500.0;  // nobody knows
+    for (std::size_t i = second; i < problem.poses.size(); ++i) problem.poses[i].t.x() += 500.0;  // unknown
     roles = rolesByNumbers(problem);
   }
 };

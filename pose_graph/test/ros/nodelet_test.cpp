@@ -97,7 +97,7 @@ class PoseGraphNodelet : public ::testing::Test {
   bool driven(int count) {
     return Listener::until([&] { return poses() == static_cast<std::size_t>(count); });
   }
-  void hear(int at, const Pose& T_odom_base) {
+  void receive(int at, const Pose& T_odom_base) {
     nav_msgs::Odometry odometry;
     odometry.header.stamp = urban_nav_ros::toRosTime(toStamp(at));
     odometry.header.frame_id = "odom";
@@ -107,7 +107,7 @@ class PoseGraphNodelet : public ::testing::Test {
   /// map -> odom as it is sent with an odometry message.
   Pose mapFromOdom(int at) {
     listener().transforms.clear();
-    hear(at, odomPose(at));
+    receive(at, odomPose(at));
     if (!Listener::until([&] { return !listener().transforms.empty(); })) {
       ADD_FAILURE() << "no map -> odom";
       return {};
@@ -281,7 +281,7 @@ TEST_F(PoseGraphNodelet, aNewSessionHasItsOwnIdAndTimeGoingBackBeginsOne) {
 }
 
 TEST_F(PoseGraphNodelet, mapToOdomTakesTheRobotToItsPoseInASessionThatBeginsOnTheWay) {
-  for (int i = 0; i <= 20; ++i) hear(i, odomPose(i));
+  for (int i = 0; i <= 20; ++i) receive(i, odomPose(i));
   drive(0, 10);
   ASSERT_TRUE(driven(11));
   urban_nav_msgs::NewSession begin;
@@ -295,7 +295,7 @@ TEST_F(PoseGraphNodelet, mapToOdomTakesTheRobotToItsPoseInASessionThatBeginsOnTh
 }
 
 TEST_F(PoseGraphNodelet, mapToOdomTakesTheRobotToItsPoseWhenTheNodeletIsStartedInTheMiddle) {
-  for (int i = 0; i <= 20; ++i) hear(i, odomPose(i));
+  for (int i = 0; i <= 20; ++i) receive(i, odomPose(i));
   drive(0, 18);
   ASSERT_TRUE(driven(19));
   ASSERT_EQ(std::system("rosnode kill /pose_graph > /dev/null 2>&1"), 0);
@@ -304,12 +304,12 @@ TEST_F(PoseGraphNodelet, mapToOdomTakesTheRobotToItsPoseWhenTheNodeletIsStartedI
       [&] { return listener().isConnected() && ros::service::exists("pose_graph/get_trajectory", false); }));
   listener().forget();
   const auto session = [&] { return trajectory().runs.back(); };
-  for (int i = 30; i <= 35; ++i) hear(i, odomPose(i));
+  for (int i = 30; i <= 35; ++i) receive(i, odomPose(i));
   drive(25, 29);  // what came between is lost, and so is what odometry said of these
   ASSERT_TRUE(Listener::until([&] { return session().stamps.back() == urban_nav_ros::toRosTime(toStamp(29)); }));
   ros::WallDuration(0.3).sleep();
   ros::spinOnce();
-  EXPECT_TRUE(listener().transforms.empty()) << "nothing is told that is not known";
+  EXPECT_TRUE(listener().transforms.empty()) << "nothing is published that is not known";
   drive(29, 33);
   ASSERT_TRUE(Listener::until([&] { return session().stamps.back() == urban_nav_ros::toRosTime(toStamp(33)); }));
   const Pose newest = *urban_nav_ros::toPose(session().T_map_base.back());

@@ -12,7 +12,7 @@ using testing::closureAt;
 using testing::drive;
 using testing::expectSameMap;
 using testing::kLap;
-using testing::Place;
+using testing::StoreFolder;
 using urban_nav_core::testing::SmallDisk;
 using urban_nav_store::Access;
 using urban_nav_store::Store;
@@ -41,7 +41,7 @@ class GraphStoreWriterTest : public ::testing::Test {
     return count;
   }
 
-  const Place place;
+  const StoreFolder place;
   PoseGraph graph{Parameters()};
 };
 
@@ -216,7 +216,7 @@ TEST_F(GraphStoreWriterTest, goesOnWhereThereIsRoomAgain) {
   EXPECT_EQ(writer.lost(), 0);
 }
 
-TEST_F(GraphStoreWriterTest, theRevisionsOfAnotherGraphGoOnBehindThoseOfTheFirst) {
+TEST_F(GraphStoreWriterTest, theRevisionsOfAnotherGraphContinueAfterThoseOfTheFirst) {
   GraphStoreWriter writer = open();
   for (const char* id : {"a", "b"}) {
     graph = PoseGraph(Parameters(), graph.revision());

@@ -58,15 +58,15 @@ inline void expectSameMap(const PoseGraph& a, const PoseGraph& b) {
 }
 
 /// A path in a folder of its own, gone when the test is.
-class Place {
+class StoreFolder {
  public:
-  Place() {
+  StoreFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "pose_graph_XXXXXX").string();
     folder_ = ::mkdtemp(name.data());
   }
-  ~Place() { std::filesystem::remove_all(folder_); }
-  Place(const Place&) = delete;
-  Place& operator=(const Place&) = delete;
+  ~StoreFolder() { std::filesystem::remove_all(folder_); }
+  StoreFolder(const StoreFolder&) = delete;
+  StoreFolder& operator=(const StoreFolder&) = delete;
   std::string file(const std::string& name = "s.db") const { return (folder_ / name).string(); }
 
  private:

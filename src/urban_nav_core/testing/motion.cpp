@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kHeight = 1.1;  // m, of the camera above the floor
 
-/// 0 before 0, 1 behind 1, with two continuous derivatives.
+/// 0 before 0, 1 after 1, with two continuous derivatives.
 double smoothStep(double s) {
   s = std::clamp(s, 0.0, 1.0);
   return s * s * s * (10.0 + s * (6.0 * s - 15.0));

@@ -263,7 +263,7 @@ LocalizationEstimate Localiser::at(StampNs stamp) const {
   const double sigma = positionSigma(*estimate.T_map_base);
   if (best_.supporting_matches == 0)
     return because(LocalizationState::Uncertain, LocalizationReason::InitialPoseOnly,
-                   "somebody says so, and nothing was seen of it");
+                   "it was given by hand, and nothing was matched yet");
   if (best_.supporting_matches < min_matches)
     return because(LocalizationState::Uncertain, LocalizationReason::SingleMatch,
                    "one sighting, and no second one that agrees");

@@ -152,7 +152,7 @@ TEST_F(LocaliserTest, ARobotThatWasCarriedElsewhereIsFoundAgain) {
   EXPECT_LT(distanceBetween(localiser_.now().T_map_base->pose, elsewhere * truth(40)), 0.05);
 }
 
-TEST_F(LocaliserTest, FalseSightingsBetweenTrueOnesCarryNobody) {
+TEST_F(LocaliserTest, FalseSightingsBetweenTrueOnesCarryNothing) {
   drive(40);
   for (int second = 1; second <= 40; ++second)
     see(second, second > 30 && second % 3 != 0 ? poseAt(35.0, -12.0) : Pose());
@@ -221,7 +221,7 @@ TEST_F(LocaliserTest, ReasonAndProbabilityFollowWhatWasSeen) {
   localiser_.addInitialPose(0, {truth(0), 0.01 * urban_nav_core::Matrix6d::Identity()});
   EXPECT_EQ(localiser_.now().reason, LocalizationReason::InitialPoseOnly);
   const double prior = localiser_.now().probability;
-  EXPECT_LT(prior, 0.5) << "nobody knows how often people are right";
+  EXPECT_LT(prior, 0.5) << "it is unknown how often people are right";
   see(1);
   EXPECT_EQ(localiser_.now().reason, LocalizationReason::SingleMatch);
   const double one = localiser_.now().probability;
@@ -257,7 +257,7 @@ TEST_F(LocaliserTest, AWallAloneIsNoHypothesis) {
   expectRight(0.02);
 }
 
-TEST_F(LocaliserTest, WhatIsNotFirmBeginsNothingAndCarriesNobody) {
+TEST_F(LocaliserTest, WhatIsNotFirmBeginsNothingAndCarriesNothing) {
   const Pose elsewhere = poseAt(20.0, 3.0);
   drive(4);
   const auto seeFromAfar = [&](int second, const Pose& error) {

@@ -79,7 +79,7 @@ class MapSearchTest : public ::testing::Test {
   Localiser localiser_{Parameters()};
 };
 
-TEST_F(MapSearchTest, FindsTheRobotWhateverSomebodyBelieves) {
+TEST_F(MapSearchTest, FindsTheRobotWhateverTheInitialPose) {
   drive(12);
   const FrozenMap map(*store_);
   ASSERT_EQ(map.sessions().size(), 1U);

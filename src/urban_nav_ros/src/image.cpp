@@ -83,7 +83,7 @@ GreyImage toPixels(const sensor_msgs::Image& message, const Layout*& layout) {
   if (message.data.size() < needed) {
     return {{}, std::to_string(message.data.size()) + " bytes where " + std::to_string(needed) + " are needed"};
   }
-  auto* bytes = const_cast<std::uint8_t*>(message.data.data());  // cv::Mat has no const view; nobody writes through it
+  auto* bytes = const_cast<std::uint8_t*>(message.data.data());  // cv::Mat has no const view; it is not written through
   cv::Mat shared(static_cast<int>(message.height), static_cast<int>(message.width), layout->type, bytes, message.step);
   if (CV_MAT_DEPTH(layout->type) == CV_16U && message.is_bigendian != 0) {
     cv::Mat swapped = shared.clone();

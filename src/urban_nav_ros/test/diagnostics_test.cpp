@@ -33,7 +33,7 @@ TEST(Arrival, saysWhatHasNotComeAndWhatIsSilent) {
   EXPECT_EQ(arrival.silence(0.01).rfind("/camera/image has been silent for 0.", 0), 0U) << arrival.silence(0.01);
 }
 
-TEST(Arrival, nothingIsWrongWithATopicThatNobodyListensTo) {
+TEST(Arrival, nothingIsWrongWithATopicWithoutSubscribers) {
   Arrival none;
   EXPECT_EQ(none.absence(), "");
   none.happen();

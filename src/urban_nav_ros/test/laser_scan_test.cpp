@@ -25,7 +25,7 @@ TEST(LaserScan, SaysAllThatATurnSays) {
   EXPECT_EQ(toStampNs(message.header.stamp), scan.stamp);
   EXPECT_EQ(message.header.frame_id, "laser_left");
   EXPECT_FLOAT_EQ(message.angle_min, -1.5F);
-  EXPECT_FLOAT_EQ(message.angle_max, 0.0F) << "of the last beam, not one behind it";
+  EXPECT_FLOAT_EQ(message.angle_max, 0.0F) << "of the last beam, not one after it";
   EXPECT_FLOAT_EQ(message.angle_increment, 0.5F);
   EXPECT_FLOAT_EQ(message.time_increment, 1e-4F);
   EXPECT_FLOAT_EQ(message.scan_time, 0.0133F);

@@ -9,7 +9,7 @@ using urban_nav_core::StampNs;
 namespace {
 
 // A panorama may take half a second to render, which the frames after it make good.
-constexpr std::chrono::seconds most_behind{1};
+constexpr std::chrono::seconds max_lag{1};
 constexpr std::chrono::milliseconds between_marks{250};
 constexpr std::chrono::seconds remembered{5};
 constexpr double measurable = 1.0;  // s
@@ -24,7 +24,7 @@ RateController::Wall RateController::due(StampNs taken, Wall now) {
   if (!anchor_) anchor_ = {now, taken};
   const duration<double> since(1e-9 * static_cast<double>(taken - anchor_->taken) / rate_);
   const Wall due = anchor_->wall + std::chrono::duration_cast<std::chrono::steady_clock::duration>(since);
-  if (now - due <= most_behind) return due;
+  if (now - due <= max_lag) return due;
   slipped_ = true;
   anchor_ = {now, taken};
   return now;

@@ -34,7 +34,7 @@ Eigen::Matrix2d creep(const urban_nav_core::StereoCamera& camera, const urban_na
                       Match& match);
 
 /// What a sighting may be off by since the view is less sharp than where the track was born, px^2 of level 0: the
-/// template was blurred as well, but nobody knows exactly how the camera does it.
+/// template was blurred as well, but how exactly the camera does it is unknown.
 Eigen::Matrix2d displacedByBlur(const Track& track, bool in_left);
 
 /// Adds a covariance that both images share, and a variance of the disparity (px^2), to a measurement.

@@ -24,8 +24,8 @@ void matchTemporal(const Corners& corners, const urban_nav_core::StereoCamera& c
                    const urban_nav_core::Pose& T_camera_odom, double radius, std::vector<Match>& matches,
                    double row_offset = 0.0);
 
-/// The same where nobody knows how the camera moved: so far around that much looks alike, hence corners alone, and only
-/// one that is clearly better than all others.
+/// The same where the motion of the camera is unknown: so far around that much looks alike, hence corners alone, and
+/// only one that is clearly better than all others.
 void matchAnywhere(const Corners& corners, const urban_nav_core::StereoCamera& camera,
                    const urban_nav_core::Pose& T_camera_odom, double radius, std::vector<Match>& matches,
                    double row_offset = 0.0);

@@ -8,7 +8,7 @@
 
 namespace swf_vo {
 
-/// Finds landmarks that violate the static-world assumption. Where the edge of something near crosses what lies behind
+/// Finds landmarks that violate the static-world assumption. Where the edge of something near crosses what lies beyond
 /// it, the images show a corner that is no point of the scene: it slides as the camera moves, by a few hundredths of a
 /// pixel per frame, too little for any single measurement to stand out. What it leaves over all the frames of the
 /// window does: its root mean square residual, in standard deviations of its alignments, is far from that of the others

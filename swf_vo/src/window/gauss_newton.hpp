@@ -34,7 +34,7 @@ class GaussNewton {
   const Solver& solver() const { return solver_; }
   /// What the terms of one frame alone say of its pose.
   const urban_nav_core::Matrix6d& ownInformation(std::size_t place) const { return equations_.pose[place]; }
-  /// The state has changed behind its back.
+  /// The state was changed by others.
   void forget() { has_factor_ = false; }
   void archive(urban_nav_core::Archive& archive);
 

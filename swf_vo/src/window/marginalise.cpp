@@ -67,7 +67,8 @@ void Marginaliser::sort(const State& state, const Prior& prior) {
   }
   for (std::size_t at = 0; at < state.landmarks.size(); ++at) {
     const LandmarkBlock& landmark = state.landmarks[at];
-    // One that only this pose saw and nobody follows explains its measurement whatever the pose: it hands nothing on.
+    // One that only this pose saw and that is not tracked explains its measurement whatever the pose: it hands nothing
+    // on.
     if (!landmark.used || landmark.known || landmark.prior >= 0 || !seenBy(landmark, state.first_step)) continue;
     if (!staysWithout(landmark, state.first_step)) continue;
     place_[at] = 3 * static_cast<int>(kept_.size());

@@ -26,13 +26,13 @@ struct Departed {
 
 void archive(urban_nav_core::Archive& archive, Departed& departed);
 
-/// The only place where information leaves x: the oldest pose, and landmarks that no active pose sees and nobody
+/// The only place where information leaves x: the oldest pose, and landmarks that no active pose sees and nothing
 /// follows, go into the prior by the Schur complement Lambda_c - Lambda_b^T Lambda_a^-1 Lambda_b (Newman et al. 2009,
 /// section 2.2), never by deletion. Whatever Lambda_a does not determine is left out of the inverse: there is nothing
 /// to hand on. Derivation: docs/derivations/sliding_window_filter.md.
 class Marginaliser {
  public:
-  /// Takes poses.front() out of `state` with its measurements; the pose behind it and the landmarks it saw are then
+  /// Takes poses.front() out of `state` with its measurements; the pose after it and the landmarks it saw are then
   /// tied by the prior. Needs a second pose. The linearisation points must be those of Cost::relinearise. Directions of
   /// the gauge are about `origin`. `history` may be null.
   void removeOldest(State& state, Prior& prior, const Cost& cost, const Eigen::Vector3d& origin, History* history);

@@ -9,7 +9,7 @@
 
 namespace swf_vo {
 
-/// What earlier frames left behind (Newman et al. 2009, eq. 1 and 3): a Gaussian over the oldest pose and the landmarks
+/// What earlier frames left (Newman et al. 2009, eq. 1 and 3): a Gaussian over the oldest pose and the landmarks
 /// that frames outside the window saw, as information Pi and vector eta:
 ///   l(d, o) = 1/2 d^T Pi d - eta^T d + o border^T d + 1/2 o^2 offset_information - offset_eta o,   d = x - centre
 ///   (boxMinus for the pose),

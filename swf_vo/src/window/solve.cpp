@@ -22,7 +22,7 @@ constexpr double worth_changing = 0.7;
 // Columns of eliminated landmarks that are taken together.
 constexpr int solve_panel = 48;
 constexpr std::size_t most_rows = 1 << 20;  // of a factor that is read
-// Any would do; this one leaves the oldest pose a variance that nobody notices.
+// Any would do; this one leaves the oldest pose a negligible variance.
 constexpr double datum_strength = 1e3;
 // The disparity offset is read off how disparities change as things come nearer, and so is everything that the model of
 // camera and surfaces leaves out: measured in rendered rooms, where there is none, and on real sequences its estimate

@@ -141,7 +141,7 @@ TEST(Localise, AVanThatFillsTheViewDoesNotCarryUsAway) {
   }
 }
 
-TEST(Localise, ConsensusFindsAMotionThatNobodyPredicted) {
+TEST(Localise, ConsensusFindsAMotionThatWasNotPredicted) {
   World world(7);
   const Pose far = expSe3(tangent(0.1, 0.0, -1.5, 0.0, 0.25, 0.0));
   world.add(60, 0.1, 4, far);

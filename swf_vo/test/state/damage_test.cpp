@@ -54,7 +54,7 @@ TEST(State, IsNamedWhereItIsDamaged) {
 }
 
 // Damage under a checksum that is right: what is taken all the same still gives frames.
-TEST(State, FuzzedBehindItsChecksum) {
+TEST(State, FuzzedBeyondItsChecksum) {
   const std::string name = "swf_vo";
   const std::vector<Step> some = collectSteps("loop", 20, "black:1000:1");
   const std::string whole = someState(12);

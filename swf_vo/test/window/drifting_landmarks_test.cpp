@@ -74,7 +74,7 @@ TEST(DriftingLandmarks, leavesWhatKeepsStillAlone) {
   EXPECT_LT(called, landmarks / 50);
 }
 
-TEST(DriftingLandmarks, judgesNobodyWithoutKnowingHowWellItWasAligned) {
+TEST(DriftingLandmarks, judgesNothingWithoutKnowingHowWellItWasAligned) {
   const auto tracks = simulateTracks(sixtyFeatures(5));
   TrackRunner run(tracks, WindowOptions());
   while (!run.done()) {

@@ -30,7 +30,7 @@ struct DriverEvent {
   std::string text;
 };
 
-/// Driver of one device without its transport: told of bytes and of the time, it asks for bytes to be written and for
+/// Driver of one device without its transport: given bytes and the time, it asks for bytes to be written and for
 /// changes of the line rate. Times come from one steady clock, ns. Reads no clock, never blocks. Not thread-safe.
 class DriverCore {
  public:

@@ -11,7 +11,7 @@
 
 namespace segway_drivers {
 
-/// Stream of a receiver or of gpsd: NMEA sentences, Garmin's binary packets and gpsd's lines, told apart by content.
+/// Stream of a receiver or of gpsd: NMEA sentences, Garmin's binary packets and gpsd's lines, distinguished by content.
 /// Each time is given out once. Reads no clock. Not thread-safe.
 class GpsStream {
  public:

@@ -5,16 +5,16 @@
 
 namespace segway_drivers {
 
-/// What the base is told.
+/// Command sent to the base.
 struct RmpCommand {
   double velocity = 0.0;   ///< m/s, forward
   double turn_rate = 0.0;  ///< rad/s, to the left
 };
 
-/// Decides what the base is told from what the robot wants: the last safeguard before the motors. Zero in these cases:
-/// no wish for `timeout`; the first `hold` after the start; no message of the base for `silence`, and `hold` after it;
-/// an emergency stop until its release; a wish that is not finite or beyond ten times the limits. Accelerates within
-/// limits from the commanded value, brakes at once. All times come from one steady clock. Not thread-safe.
+/// Decides the command to the base from what the robot wants: the last safeguard before the motors. Zero in these
+/// cases: no wish for `timeout`; the first `hold` after the start; no message of the base for `silence`, and `hold`
+/// after it; an emergency stop until its release; a wish that is not finite or beyond ten times the limits. Accelerates
+/// within limits from the commanded value, brakes at once. All times come from one steady clock. Not thread-safe.
 class RmpCommandGuard {
  public:
   struct Limits {

@@ -52,7 +52,7 @@ struct Command {
   std::string summary;
   std::vector<Option> options;
   std::vector<std::string> examples;
-  std::function<std::string(const Arguments&)> more_help;  ///< printed behind the options; may be empty
+  std::function<std::string(const Arguments&)> more_help;  ///< printed after the options; may be empty
   std::function<int(const Arguments&, Console&)> run;
   std::vector<Command> actions = {};
 };

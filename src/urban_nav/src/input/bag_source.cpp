@@ -354,7 +354,7 @@ class BagSource : public Source {
     for (const auto& [stamp, force] : forces) forces_.push_back({stamp, force});
   }
 
-  /// Behind bags that need not be here any more: what stood only in them is taken from the state, and what stands in
+  /// After bags that need not exist any more: what stood only in them is taken from the state, and what stands in
   /// both must be the same.
   void resume(const BagEnd& after) {
     const SourceInfo here = info_;

@@ -9,7 +9,7 @@
 
 namespace urban_nav {
 
-/// `from,to,weight,verdict,reason`, a row for each edge between poses in the order of the file. Behind them, with the
+/// `from,to,weight,verdict,reason`, a row for each edge between poses in the order of the file. After them, with the
 /// same columns, measurements of landmarks (pose, landmark) and priors (vertex, nothing).
 template <int D>
 std::string edgesCsv(const urban_nav_core::G2oGraph& graph, const pose_graph::FileProblem<D>& file,

@@ -51,7 +51,7 @@ void SessionBags::write(const urban_nav_sim::Measurement& measurement, StampNs t
 
 void SessionBags::commit() { end(); }
 
-std::string SessionBags::leftBehind() const {
+std::string SessionBags::leftover() const {
   const std::string next = makePath(paths_.size());
   return part_ > 0 && std::filesystem::exists(next) ? next : "";
 }

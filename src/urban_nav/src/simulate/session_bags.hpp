@@ -29,7 +29,7 @@ class SessionBags {
   const std::vector<std::string>& paths() const { return paths_; }
   const std::map<std::string, std::int64_t>& counts() const { return counts_; }
   /// A part of a longer session that was written here before, which would pass for the next one; empty: none.
-  std::string leftBehind() const;
+  std::string leftover() const;
 
  private:
   std::string makePath(std::size_t number) const;

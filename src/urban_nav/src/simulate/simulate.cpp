@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::int64_t frame_period = 50'000'000;  // ns, of the stereo camera, by which progress is told
+constexpr std::int64_t frame_period = 50'000'000;  // ns, of the stereo camera, by which progress is reported
 
 std::string toTruthFolder(const std::string& bag) { return fs::path(bag).replace_extension(".truth").string(); }
 
@@ -64,7 +64,7 @@ Simulated simulate(const SimulateJob& job, Console& console) {
   if (folder) folder->finish();
   bags.commit();
   made.bags = bags.paths();
-  if (const std::string old = bags.leftBehind(); !old.empty())
+  if (const std::string old = bags.leftover(); !old.empty())
     console.warn(old + " is of an earlier session, and no part of this one");
   made.counts = bags.counts();
   return made;

@@ -75,7 +75,7 @@ TEST(NewCollegeBag, holdsTheRealCut) {
   EXPECT_GT(roll_span, 0.001) << "the tilt is there";
 }
 
-TEST(NewCollegeBag, leavesNothingBehindWhereTheLogIsDamaged) {
+TEST(NewCollegeBag, leavesNothingWhereTheLogIsDamaged) {
   const TemporaryFolder folder;
   writeFile(folder.file("in/cut.alog"),
             "%% LOGSTART               1225719811.65\n61.850 LMS_LASER_2D_LEFT LMS1 "

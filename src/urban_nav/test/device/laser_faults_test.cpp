@@ -63,7 +63,7 @@ LaserOutcome runLaser(double seconds, const std::vector<std::string>& faults, bo
   driver.on_scan = [&](const LmsStampedScan& scan) { outcome.scans.emplace_back(pair.seconds(), scan); };
   pair.run(seconds);
 
-  // Scans are told apart by their values; the truth gives the time of each.
+  // Scans are distinguished by their values; the truth gives the time of each.
   std::map<std::vector<float>, std::int64_t> times;
   for (const auto& each : pair.truth())
     times[std::vector<float>(session[static_cast<std::size_t>(each.sequence)].ranges.begin() + 8,

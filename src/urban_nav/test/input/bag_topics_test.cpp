@@ -116,7 +116,7 @@ TEST(BagTopics, takesNoPanoramicHeadFromASingleCamera) {
   EXPECT_TRUE(topics.panorama().empty());
 }
 
-TEST(BagTopics, doesAsItIsTold) {
+TEST(BagTopics, doesAsItIsAsked) {
   const Topics available = {{"/stereo/left/image_raw", kImage},
                             {"/stereo/right/image_raw", kImage},
                             {"/stereo/left/image_rect", kImage},

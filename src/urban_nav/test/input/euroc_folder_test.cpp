@@ -70,7 +70,7 @@ TEST(EurocFolder, namesAnImageThatIsNotThere) {
   EXPECT_FALSE(source->next());
 }
 
-TEST(EurocFolder, givesWhatTheAccelerometerFelt) {
+TEST(EurocFolder, givesSpecificForce) {
   const TemporaryFolder folder;
   makeEuroc(folder.file("in"));
   EXPECT_TRUE(openEurocFolder(folder.file("in"), {})->forces().empty());

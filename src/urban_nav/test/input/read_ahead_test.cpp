@@ -41,7 +41,7 @@ TEST(ReadAhead, handsOnWhatWasReadBeforeAnErrorAndThenTheError) {
   EXPECT_THROW(source->next(), std::runtime_error);
 }
 
-TEST(ReadAhead, stopsWhenNobodyReads) { readAhead(std::make_unique<Counting>(1000000, false), 2)->next(); }
+TEST(ReadAhead, stopsWithoutReaders) { readAhead(std::make_unique<Counting>(1000000, false), 2)->next(); }
 
 }  // namespace
 }  // namespace urban_nav

@@ -180,7 +180,7 @@ TEST_F(StoreCommands, exportRefusesByName) {
   const std::string store = file("a/session.db");
   EXPECT_EQ(call({"export", store}), 2);
   EXPECT_EQ(call({"export", store, "--las", file("x.las")}), 2);
-  EXPECT_EQ(call({"export", store, "--tum", file("x.tum"), "--session", "nobody"}), 2);
+  EXPECT_EQ(call({"export", store, "--tum", file("x.tum"), "--session", "unknown"}), 2);
   EXPECT_EQ(call({"export", file("in16/times.txt"), "--tum", file("x.tum")}), 2);
   EXPECT_EQ(call({"export", file("nothing.db"), "--tum", file("x.tum")}), 2);
   testing::writeFile(file("damaged.db"), readFile(store).substr(0, 9000));

@@ -85,7 +85,7 @@ TEST_F(Map, saysWhatTheContractAsksFor) {
     EXPECT_EQ(report.find(word), std::string::npos) << word;
 }
 
-TEST_F(Map, runsTheGraphWhereNobodyGaveClosures) {
+TEST_F(Map, runsTheGraphWithoutGivenClosures) {
   const TemporaryFolder folder;
   const auto all = [](MapOptions& request) { request.stages.clear(); };
   map({in()}, folder.file("out"), 1, all);
@@ -163,7 +163,7 @@ TEST_F(Map, saysThatTheCamerasAreExchanged) {
   EXPECT_EQ(summary.find("\"none\":"), std::string::npos);
 }
 
-TEST_F(Map, refusesWhatNobodyCanMap) {
+TEST_F(Map, refusesWhatCannotBeMapped) {
   const TemporaryFolder folder;
   const auto with_stage = [](const char* stage) { return [stage](MapOptions& request) { request.stages = {stage}; }; };
   EXPECT_THROW(map({in()}, folder.file("out"), 1, with_stage("vision")), UserError);
@@ -234,7 +234,7 @@ TEST_F(Map, joinsTheBagsOfASplitRecordingAndKeepsSessionsApart) {
   EXPECT_FALSE(fs::exists(folder.file("out/trajectory_2.tum"))) << "of the run before";
 }
 
-TEST_F(Map, leavesNoHalfBagBehind) {
+TEST_F(Map, leavesNoHalfBag) {
   const TemporaryFolder folder;
   fs::copy(in(), folder.file("in"), fs::copy_options::recursive);
   writeFile(folder.file("in/image_1/000005.png"), "damaged");

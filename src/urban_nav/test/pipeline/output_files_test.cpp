@@ -26,7 +26,7 @@ VoRun drive(int frames) {
   return run;
 }
 
-/// Writes the files it is told to.
+/// Writes the files it is asked for.
 class FileStage final : public Stage {
  public:
   FileStage(std::string name, bool uses_closures, std::vector<std::string> files)

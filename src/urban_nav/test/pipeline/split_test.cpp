@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A recording in several bags is one session, whether its bags are mapped at once, one after the other, or behind a
+// A recording in several bags is one session, whether its bags are mapped at once, one after the other, or after a
 // kill -9.
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ constexpr int kFrames = 60;
 const std::vector<std::string> kSameWhenSplit = {"trajectory.tum",          "trajectory.kitti", "covariance.csv",
                                                  "relative_covariance.csv", "graph.g2o",        "landmarks.ply"};
 
-/// What an accelerometer felt at the nodes, as the store has it.
+/// Specific forces at the nodes, as the store has it.
 std::string forcesIn(const std::string& store) {
   urban_nav_store::Store file(store, urban_nav_store::Access::Read);
   const auto sessions = file.sessions().all();
@@ -107,7 +107,7 @@ TEST_F(Split, goesOnBagByBagInOneFolder) {
   map({part(2)}, out, out);
   expectWhole(out);
   map({part(2)}, out, out);
-  expectWhole(out);  // there is nothing behind the end, and nothing to make again from
+  expectWhole(out);  // there is nothing after the end, and nothing to make again from
 }
 
 TEST_F(Split, goesOnInAnotherFolder) {
@@ -196,7 +196,7 @@ std::vector<std::string> makePictures(const std::string& path) {
   return pictures;
 }
 
-TEST_F(Split, goesOnBehindItsLastBagAfterAKill) {
+TEST_F(Split, resumesAfterItsLastBagAfterAKill) {
   std::vector<std::string> words = {"map", "--stages", "vo", "--threads", "1", "--out", folder.file("cut")};
   for (const std::string& input : parts()) words.push_back(input);
   int kills = 0;

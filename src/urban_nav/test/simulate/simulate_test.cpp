@@ -202,7 +202,7 @@ TEST(Simulate, RawPairsSayHowTheyAreRectified) {
   }
 }
 
-TEST(Simulate, ABagGivesWhatItsAccelerometerFelt) {
+TEST(Simulate, ABagGivesSpecificForce) {
   const TemporaryFolder folder;
   SimulateJob job = shortJob(folder);
   job.session.duration = 0.2;
@@ -281,7 +281,7 @@ TEST(Simulate, BeginsAFolderAnewThatWasCutOff) {
   fs::create_directories(job.folder + "/image_0");
   testing::writeFile(job.folder + "/image_0/000007.png", "of a longer run");
   Console console;
-  EXPECT_THROW(simulate(job, console), urban_nav_core::UserError) << "a folder of somebody else";
+  EXPECT_THROW(simulate(job, console), urban_nav_core::UserError) << "a folder of another program";
   EXPECT_FALSE(fs::exists(job.bag));
   testing::writeFile(job.folder + "/simulate.unfinished", "");
   simulate(job, console);

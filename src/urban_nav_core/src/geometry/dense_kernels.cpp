@@ -219,7 +219,7 @@ __attribute__((always_inline)) inline void subtractEightAs(double* Y, int rows, 
   for (; r < rows; ++r) subtractEightRows<Width, 1>(Y + r * 8, L + r * row_step, row_step, column_step, X, columns);
 }
 
-// One function of each kind for every width; only so can a compiler be told what processor it is for.
+// One function of each kind for every width; only so can a compiler know what processor it is for.
 // NOLINTBEGIN(bugprone-macro-parentheses): names of types, and attributes, stand in none.
 #define URBAN_NAV_KERNELS(Width, target)                                                                         \
   target void subtractStrips##Width(double* C, int stride, const double* packed, int count, int depth) {         \

@@ -31,9 +31,9 @@ inline int keptOfSixteen(const ScoreRows& rows, int u, bool suppress) {
   if (!suppress) return cv::v_signmask(score != zero);
   const v_uint8x16 before = cv::v_max(cv::v_max(cv::v_load(rows.above + u - 1), cv::v_load(rows.above + u)),
                                       cv::v_max(cv::v_load(rows.above + u + 1), cv::v_load(rows.here + u - 1)));
-  const v_uint8x16 behind = cv::v_max(cv::v_max(cv::v_load(rows.below + u - 1), cv::v_load(rows.below + u)),
-                                      cv::v_max(cv::v_load(rows.below + u + 1), cv::v_load(rows.here + u + 1)));
-  return cv::v_signmask(((score - before) != zero) & ((behind - score) == zero));
+  const v_uint8x16 after = cv::v_max(cv::v_max(cv::v_load(rows.below + u - 1), cv::v_load(rows.below + u)),
+                                     cv::v_max(cv::v_load(rows.below + u + 1), cv::v_load(rows.here + u + 1)));
+  return cv::v_signmask(((score - before) != zero) & ((after - score) == zero));
 }
 #else
 int keptOfSixteen(const ScoreRows& rows, int first, bool suppress) {
@@ -42,8 +42,8 @@ int keptOfSixteen(const ScoreRows& rows, int first, bool suppress) {
     const int u = first + i;
     const int score = rows.here[u];
     const int before = std::max({rows.above[u - 1], rows.above[u], rows.above[u + 1], rows.here[u - 1]});
-    const int behind = std::max({rows.below[u - 1], rows.below[u], rows.below[u + 1], rows.here[u + 1]});
-    if (score != 0 && (!suppress || (score > before && score >= behind))) bits |= 1 << i;
+    const int after = std::max({rows.below[u - 1], rows.below[u], rows.below[u + 1], rows.here[u + 1]});
+    if (score != 0 && (!suppress || (score > before && score >= after))) bits |= 1 << i;
   }
   return bits;
 }

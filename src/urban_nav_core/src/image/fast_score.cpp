@@ -163,7 +163,7 @@ URBAN_NAV_INLINE bool scoreRowAs(const std::uint8_t* row, std::ptrdiff_t stride,
         for (; u < end; ++u) gather(u);
         break;
       }
-      u = end - lanes;  // some pixels twice, rather than bytes behind the row
+      u = end - lanes;  // some pixels twice, rather than bytes after the row
     }
     const std::uint8_t* pixel = row + u;
     const V centre = load<V>(pixel);

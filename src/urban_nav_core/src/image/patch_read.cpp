@@ -110,7 +110,7 @@ URBAN_NAV_INLINE Sums measureAs(const float* window, const float* weight, const 
   return sums;
 }
 
-// One function of each kind for every width; only so can a compiler be told what processor it is for.
+// One function of each kind for every width; only so can a compiler know what processor it is for.
 #define URBAN_NAV_KERNELS(Width, target)                                                                      \
   target void read##Width(const std::uint8_t* first, std::ptrdiff_t stride, const float* wx, const float* wy, \
                           bool blurs, float* window) {                                                        \

@@ -32,7 +32,7 @@ std::string takeCell(std::string_view line, std::size_t& at, const std::string& 
   }
   if (at >= line.size()) throw UserError(where, "a quote that does not end", "");
   for (++at; at < line.size() && line[at] != ','; ++at) {
-    if (line[at] != ' ') throw UserError(where, "text behind a quote", "a comma");
+    if (line[at] != ' ') throw UserError(where, "text after a quote", "a comma");
   }
   return cell;
 }

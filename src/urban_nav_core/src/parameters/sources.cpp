@@ -82,7 +82,7 @@ void append(std::vector<Assignment>& assignments, const std::string& stage, cons
     const std::string where = atLine(file, node.line);
     const std::string full = fullName(stage, key);
     if (node.kind != YamlNode::Kind::Scalar)
-      throw UserError(where, full + " is not a single value", "one value behind the colon");
+      throw UserError(where, full + " is not a single value", "one value after the colon");
     if (!seen.insert(key).second) throw UserError(where, full + " stands twice", "");
     assignments.push_back({stage, key, node.scalar, true, where});
   }

@@ -25,7 +25,7 @@ StampNs saturated(double nanoseconds) {
   return static_cast<StampNs>(std::llround(std::clamp(nanoseconds, -kLimit, kLimit)));
 }
 
-// How fast a trajectory moves, on a grid of times. NaN-free; zero before the first and behind the last pose.
+// How fast a trajectory moves, on a grid of times. NaN-free; zero before the first and after the last pose.
 struct Motion {
   std::vector<double> speed;  ///< m/s
   std::vector<double> rate;   ///< rad/s
@@ -139,7 +139,7 @@ std::optional<TimeOffset> findOffset(const Trajectory& truth, const Trajectory& 
   const double step = std::max(kFinest, std::max(long_truth, long_estimate) / kSamples);
   const auto samples = [step](double seconds) { return static_cast<std::size_t>(seconds / step); };
 
-  double shift = 0.0, height = 0.0;  // behind the one that lines up the first stamps
+  double shift = 0.0, height = 0.0;  // after the one that lines up the first stamps
   if (samples(long_truth) >= 3 && samples(long_estimate) >= 3) {
     const Peak peak =
         bestLag(computeMotion(truth, step, samples(long_truth)), computeMotion(estimate, step, samples(long_estimate)));

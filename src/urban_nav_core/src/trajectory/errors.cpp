@@ -21,8 +21,8 @@ std::vector<double> distances(const std::vector<Pose>& poses) {
   return along;
 }
 
-// The first pose at least `metres` along the path behind `from`, or the number of poses.
-std::size_t firstBehind(const std::vector<double>& along, std::size_t from, double metres) {
+// The first pose at least `metres` along the path after `from`, or the number of poses.
+std::size_t firstAfter(const std::vector<double>& along, std::size_t from, double metres) {
   const auto begin = along.begin() + static_cast<std::ptrdiff_t>(from);
   return static_cast<std::size_t>(std::lower_bound(begin, along.end(), along[from] + metres) - along.begin());
 }
@@ -96,7 +96,7 @@ std::optional<RelativeError> relativeError(const std::vector<Pose>& truth, const
   double true_chords = 0.0, estimated_chords = 0.0;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const bool frames = span.unit == Span::Unit::Frames;
-    const std::size_t j = frames ? i + static_cast<std::size_t>(span.length) : firstBehind(along, i, span.length);
+    const std::size_t j = frames ? i + static_cast<std::size_t>(span.length) : firstAfter(along, i, span.length);
     if (j >= truth.size()) break;
     const double way = along[j] - along[i];
     if (way < kStanding * static_cast<double>(j - i)) continue;
@@ -129,7 +129,7 @@ SegmentErrors kittiSegmentErrors(const std::vector<Pose>& truth, const std::vect
     SegmentError sum;
     sum.length = length;
     for (std::size_t i = 0; i < truth.size(); i += kBegunEvery) {
-      const std::size_t j = firstBehind(along, i, length);
+      const std::size_t j = firstAfter(along, i, length);
       if (j >= truth.size()) break;
       const Pose error = spanError(truth, estimate, i, j);
       sum.percent += 100.0 * error.t().norm() / length;

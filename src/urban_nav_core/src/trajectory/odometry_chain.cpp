@@ -12,9 +12,8 @@ namespace urban_nav_core {
 namespace {
 
 constexpr StampNs kLongestGap = 1'000'000'000;  // ns between frames that odometry bridges for a moment in between
-constexpr StampNs kOutside =
-    100'000'000;                     // ns before the first and behind the last frame that their motion is good for
-constexpr std::size_t kBlock = 256;  // steps; a way has one product of matrices for each
+constexpr StampNs kOutside = 100'000'000;  // ns before the first and after the last frame that their motion is good for
+constexpr std::size_t kBlock = 256;        // steps; a way has one product of matrices for each
 
 Pose along(const StampedPose& a, const StampedPose& b, StampNs stamp) {
   return interpolate(a.pose, b.pose, static_cast<double>(stamp - a.stamp) / static_cast<double>(b.stamp - a.stamp));
@@ -109,8 +108,8 @@ std::optional<PoseWithCovariance> OdometryChain::between(StampNs a, StampNs b) c
     way.covariance = transformCovariance(boxFromLeft(way.pose), left);
   }
   const Matrix6d none = Matrix6d::Zero();
-  const PoseWithCovariance before{at_a->T_frame_pose, none}, behind{at_b->T_frame_pose, none};
-  return compose(invert(before), compose(way, behind));
+  const PoseWithCovariance before{at_a->T_frame_pose, none}, after{at_b->T_frame_pose, none};
+  return compose(invert(before), compose(way, after));
 }
 
 }  // namespace urban_nav_core

@@ -147,7 +147,7 @@ TEST(Rectify, TheIdentityCopiesEveryPixelTheLastRowAndColumnToo) {
   cv::Mat raw(241, 333, CV_8U);
   cv::theRNG().state = 3;
   cv::randu(raw, 0, 256);
-  // The copy ends with its last pixel, so that a read behind it is seen by the address sanitizer.
+  // The copy ends with its last pixel, so that a read beyond it is seen by the address sanitizer.
   const std::vector<std::uint8_t> exact(raw.datastart, raw.dataend);
   std::vector<std::uint8_t> out;
   map.remap({exact.data(), 333, 241, 333}, out);

@@ -35,7 +35,7 @@ TEST(Surface, WarpsAsItsPointsProject) {
   ASSERT_TRUE(warp);
   for (const Eigen::Vector2d& d : {Eigen::Vector2d(6, 0), Eigen::Vector2d(0, -7), Eigen::Vector2d(-5, 4)})
     EXPECT_LT((project(pixel + d) - project(pixel) - warp->A * d / (1.0 + warp->bend.dot(d))).norm(), 1e-9);
-  EXPECT_FALSE(warpOfSurface(c, plane, ray, Pose(Quaterniond::Identity(), {0.0, 0.0, -100.0}))) << "behind";
+  EXPECT_FALSE(warpOfSurface(c, plane, ray, Pose(Quaterniond::Identity(), {0.0, 0.0, -100.0}))) << "not in front";
 }
 
 TEST(Surface, KeepsItsSlantForASmallCorrectionAlone) {

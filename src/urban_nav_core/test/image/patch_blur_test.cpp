@@ -39,8 +39,8 @@ TEST(PatchBlur, takesTheDisplacementOfACornerAway) {
   const Eigen::Vector2d middle(32.0, 32.0);
   EXPECT_GT((wrong.position - middle).norm(), 0.1);
   EXPECT_LT((right.position - middle).norm(), 0.02);
-  const Eigen::Vector2d told = displacement(as_blurred, as_it_was);
-  EXPECT_NEAR(told.norm(), (wrong.position - middle).norm(), 0.6 * told.norm());
+  const Eigen::Vector2d predicted = displacement(as_blurred, as_it_was);
+  EXPECT_NEAR(predicted.norm(), (wrong.position - middle).norm(), 0.6 * predicted.norm());
 }
 
 TEST(PatchBlur, ofNothingChangesNothing) {

@@ -103,10 +103,10 @@ TEST_F(AtomicFileTest, APipeIsWrittenAndNotReplaced) {
   const int reader = ::open(path("pipe").c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   ASSERT_GE(reader, 0);
   writeAtomically(path("pipe"), "said");
-  std::array<char, 16> heard{};
-  EXPECT_EQ(::read(reader, heard.data(), heard.size()), 4);
+  std::array<char, 16> received{};
+  EXPECT_EQ(::read(reader, received.data(), received.size()), 4);
   ::close(reader);
-  EXPECT_STREQ(heard.data(), "said");
+  EXPECT_STREQ(received.data(), "said");
   EXPECT_TRUE(fs::is_fifo(path("pipe")));
   EXPECT_EQ(files(), 1U);
 }

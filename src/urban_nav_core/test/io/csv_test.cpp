@@ -23,7 +23,7 @@ TEST(Csv, KnowsItsCells) {
   EXPECT_FALSE(table.has("d"));
 }
 
-TEST(Csv, TakesAHeaderBehindAHash) {
+TEST(Csv, TakesAHeaderAfterAHash) {
   const CsvTable table =
       CsvTable::parse("#timestamp [ns],filename\n1403715273262142976,1403715273262142976.png\n", "data.csv");
   EXPECT_EQ(table.integer(0, table.column("timestamp [ns]")), 1403715273262142976);
@@ -38,7 +38,7 @@ TEST(Csv, NamesFileLineAndColumn) {
   EXPECT_EQ(catchError([] { CsvTable::parse("a,b\n1\n", "t.csv"); }), "t.csv:2: 1 cells: allowed 2, as in the header");
   EXPECT_EQ(catchError([] { CsvTable::parse("a,b\n1,\"2\n", "t.csv"); }), "t.csv:2: a quote that does not end");
   EXPECT_EQ(catchError([] { CsvTable::parse("a,b\n1,\"2\"3\n", "t.csv"); }),
-            "t.csv:2: text behind a quote: allowed a comma");
+            "t.csv:2: text after a quote: allowed a comma");
   EXPECT_EQ(catchError([] { CsvTable::parse("\n", "t.csv"); }), "t.csv: is empty: allowed a header line and rows");
 }
 

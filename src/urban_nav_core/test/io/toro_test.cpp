@@ -114,7 +114,7 @@ TEST(Toro, NamesFileAndLine) {
   EXPECT_NE(error("EDGE3 7 8 1 2 3 0 0 0 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1e308 0 0 1 0 1\n"), "");
 }
 
-TEST(Toro, IsToldFromG2o) {
+TEST(Toro, IsDistinguishedFromG2o) {
   EXPECT_TRUE(isToro(kToroPlane));
   EXPECT_TRUE(isToro(std::string("# a remark\n\n") + kToroSpace));
   EXPECT_FALSE(isToro("VERTEX_SE2 0 0 0 0\nVERTEX2 1 0 0 0\n"));

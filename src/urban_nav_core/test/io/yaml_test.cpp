@@ -20,7 +20,7 @@ TEST(Yaml, IsATreeThatKnowsItsLines) {
 
 TEST(Yaml, KeepsDoubledKeys) { EXPECT_EQ(parseYaml("a: 1\na: 2\n", "f").map.size(), 2U); }
 
-TEST(Yaml, ReadsBehindOpenCvsHeader) {
+TEST(Yaml, ReadsAfterOpenCvsHeader) {
   const YamlNode root = parseYaml("%YAML:1.0\n# comment\nrate_hz: 20\n", "sensor.yaml");
   EXPECT_EQ(requireNumber(root, "rate_hz", "sensor.yaml"), 20.0);
   EXPECT_EQ(root.find("rate_hz")->line, 3);

@@ -66,7 +66,7 @@ TEST(Sources, ErrorsNameFileLineKeyValueAndWhatIsAllowed) {
       catchError([] { loadText("stage:\n  windw: 3\n"); }),
       "config.yaml:2: stage.windw is no parameter: allowed the parameters that --help lists; nearest: stage.window");
   EXPECT_EQ(catchError([] { loadText("stage:\n  window: [1]\n"); }),
-            "config.yaml:2: stage.window is not a single value: allowed one value behind the colon");
+            "config.yaml:2: stage.window is not a single value: allowed one value after the colon");
   EXPECT_EQ(catchError([] { loadText("stage:\n  window: 1\n  window: 2\n"); }),
             "config.yaml:3: stage.window stands twice");
   EXPECT_EQ(catchError([] { loadText("stage:\n  window: 1\nstage:\n  noise: 2\n"); }),

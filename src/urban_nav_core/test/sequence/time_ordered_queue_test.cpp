@@ -95,7 +95,7 @@ TEST(TimeOrderedQueue, lateAndDoubledInputsAreCountedAndDropped) {
   EXPECT_EQ(drain(queue).size(), 1U);
   EXPECT_FALSE(queue.put(0, 100 * ms, 1)) << "the same again, handed on";
   EXPECT_FALSE(queue.put(1, 90 * ms, 1));
-  EXPECT_TRUE(queue.put(1, 100 * ms, 1)) << "behind it in the order (stamp, stream)";
+  EXPECT_TRUE(queue.put(1, 100 * ms, 1)) << "after it in the order (stamp, stream)";
   EXPECT_EQ(queue.counts(0).received, 4);
   EXPECT_EQ(queue.counts(0).duplicate, 2);
   EXPECT_EQ(queue.counts(0).late, 0);

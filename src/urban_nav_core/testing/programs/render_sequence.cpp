@@ -94,7 +94,7 @@ Request readArguments(const std::vector<std::string>& arguments) {
       request.folder = arguments[i];
       continue;
     }
-    if (i + 1 == arguments.size()) throw UserError(arguments[i], "no value", "a value behind it");
+    if (i + 1 == arguments.size()) throw UserError(arguments[i], "no value", "a value after it");
     readOption(arguments[i], arguments[i + 1], request);
     ++i;
   }

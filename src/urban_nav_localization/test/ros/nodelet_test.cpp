@@ -190,7 +190,7 @@ TEST_F(LocalizationNodelet, anotherDayIsKnownWhereItIs) {
   EXPECT_EQ(robot.states.back().state, LocalizationState::UNCERTAIN) << "whoever is moved by hand says so";
 }
 
-TEST_F(LocalizationNodelet, whatSomebodyBelievesIsNeitherNeededNorBelievedAgainstWhatIsSeen) {
+TEST_F(LocalizationNodelet, anInitialPoseIsNeitherNeededNorAcceptedAgainstMatches) {
   ASSERT_TRUE(load(path("map.db")));
   Visitor robot(roomOfAnotherDay());
   ASSERT_TRUE(DrivingRobot::until([&] { return robot.isConnected(); }));

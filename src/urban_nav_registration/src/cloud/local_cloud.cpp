@@ -16,7 +16,7 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr StampNs longest_stay = 20'000'000'000;  // ns: before and behind a moment, however little the robot moved
+constexpr StampNs longest_stay = 20'000'000'000;  // ns: before and after a time, however little the robot moved
 constexpr StampNs longest_gap = 500'000'000;      // ns without a pose in which beams have no place
 constexpr double usual_range = 10.0;              // m: of surfaces beside a street
 constexpr double least_bend = 0.005;              // m: a millisecond of the lasers' clocks in a turn of 0.5 rad/s

@@ -165,9 +165,9 @@ std::vector<PoseCandidate> findRivals(const Alignment& local, const std::vector<
 }
 
 /// The candidates that a coarse alignment leaves, aligned to the end: different from each other, none of them far
-/// behind the best.
+/// below the best.
 std::vector<Try> listTries(const Pair& pair, const std::vector<PoseCandidate>& candidates) {
-  constexpr double kFarBehind = 0.6;  // of the best score; max_second asks for more
+  constexpr double kFarBelow = 0.6;  // of the best score; max_second asks for more
   const std::size_t end = pair.source.steps().size(), from = end > 3 ? 1 : 0;
   std::vector<Try> coarse;
   for (const PoseCandidate& candidate : candidates) {
@@ -178,7 +178,7 @@ std::vector<Try> listTries(const Pair& pair, const std::vector<PoseCandidate>& c
   std::stable_sort(coarse.begin(), coarse.end(), better);
   std::vector<Try> tries;
   for (auto made = coarse.begin(); made != coarse.end(); ++made) {
-    if (made->fit.score() < kFarBehind * coarse.front().fit.score()) break;
+    if (made->fit.score() < kFarBelow * coarse.front().fit.score()) break;
     const auto isSame = [&](const Try& other) {
       return areOne(made->refined.T_target_source, other.refined.T_target_source);
     };

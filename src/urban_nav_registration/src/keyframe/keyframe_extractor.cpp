@@ -36,7 +36,7 @@ constexpr int attempts_per_point = 3;
 constexpr std::array<int, 3> thresholds = {20, 10, 4};  // of FAST, until there are enough
 constexpr int wanted_per_point = 6;                     // corners, so that the quadtree has a choice
 // Bench, pairs, a street of 512x384: 80, 90, 95, 100 take 34, 51, 73, 124 kB, and of pairs 4 to 7.5 m apart 75, 77, 78,
-// 79 % are upgraded, nearer ones and errors not told apart.
+// 79 % are upgraded, nearer ones and errors not distinguished.
 constexpr int jpeg_quality = 95;
 
 struct CornerCandidate {

@@ -60,7 +60,7 @@ Reduced reduce(const Sight& sight, const StereoCamera& camera, const Pose& T_a_b
     if (std::abs(d) < 1e-7 || step + 1 == most_steps) break;
     rho += d;
   }
-  // A depth that is not told from infinity has a derivative of noise, which would pass for knowledge of the
+  // A depth that is not distinguishable from infinity has a derivative of noise, which would pass for knowledge of the
   // translation.
   if (rho * camera.left.fx * camera.baseline < least_depth_sigmas * sight.sigma_disparity) r.J.leftCols<3>().setZero();
   const Eigen::Matrix<double, 8, 4> JW = r.J.transpose() * W;

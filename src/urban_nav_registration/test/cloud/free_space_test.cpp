@@ -16,7 +16,7 @@ using urban_nav_core::PointCloud;
 using urban_nav_core::testing::Dice;
 
 /// A robot that drives 8 m along x in a corridor of walls at y = -5 and 5, with a pillar of half a metre at x = 4, y
-/// = 2. Behind the pillar and the walls nothing is seen.
+/// = 2. Beyond the pillar and the walls nothing is seen.
 PointCloud corridor() {
   PointCloud cloud;
   for (int scan = 0; scan < 160; ++scan) {
@@ -49,9 +49,9 @@ TEST(FreeSpace, isWhereBeamsWentThroughAndNothingElse) {
                           1.1F);
     free += space.isFree(inside) ? 1 : 0;
     const float side = dice.chance(0.5) ? 1.0F : -1.0F;
-    const Vector3f behind(static_cast<float>(dice.uniform(0.0, 8.0)), side * static_cast<float>(dice.uniform(5.0, 9.0)),
+    const Vector3f hidden(static_cast<float>(dice.uniform(0.0, 8.0)), side * static_cast<float>(dice.uniform(5.0, 9.0)),
                           1.1F);
-    EXPECT_FALSE(space.isFree(behind)) << behind.transpose();
+    EXPECT_FALSE(space.isFree(hidden)) << hidden.transpose();
     const Vector3f at_wall(static_cast<float>(dice.uniform(0.0, 8.0)),
                            side * static_cast<float>(dice.uniform(4.6, 5.0)), 1.1F);
     EXPECT_FALSE(space.isFree(at_wall)) << at_wall.transpose();

@@ -109,7 +109,7 @@ TEST(Align, whatIsKnownOfTheHeadingDecidesBetweenTwoThatFit) {
       EXPECT_LT(angleBetween(with.alternative->T_target_source, pair.truth) * kDeg, 30.0);
     }
     const Alignment other = align(pair.source, pair.target, {}, {}, search, {near(turned), {}});
-    EXPECT_LT(angleBetween(other.T_target_source, turned) * kDeg, 2.0) << "it believes what it is told";
+    EXPECT_LT(angleBetween(other.T_target_source, turned) * kDeg, 2.0) << "it accepts its prior";
   }
   EXPECT_GT(asked, 0);
 }

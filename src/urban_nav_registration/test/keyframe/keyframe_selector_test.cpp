@@ -40,7 +40,7 @@ TEST_F(Choice, aTurnOnTheSpotIsEnough) {
   EXPECT_TRUE(selector_.select(keyframePose(0.0, -0.26)));
 }
 
-TEST_F(Choice, goesOnBehindAViewThatWasKept) {
+TEST_F(Choice, resumesAfterAStoredKeyframe) {
   selector_.keep(keyframePose(5.0));
   EXPECT_FALSE(selector_.select(keyframePose(5.5)));
   EXPECT_TRUE(selector_.select(keyframePose(6.5)));

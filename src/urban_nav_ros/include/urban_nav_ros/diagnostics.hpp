@@ -8,10 +8,10 @@
 
 namespace urban_nav_ros {
 
-/// The level of diagnostic_msgs/DiagnosticStatus at which a stage's health is told.
+/// The level of diagnostic_msgs/DiagnosticStatus at which a stage's health is reported.
 unsigned char toDiagnosticLevel(urban_nav_core::Health health);
 
-/// When a topic was heard last, by the wall clock: what a silent graph is told by. Not thread-safe.
+/// When a topic was received last, by the wall clock: detects a silent graph. Not thread-safe.
 class Arrival {
  public:
   /// `name`: the topic's full name; empty: it is not listened to, and nothing is wrong with it.

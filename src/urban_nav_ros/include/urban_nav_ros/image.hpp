@@ -40,7 +40,7 @@ sensor_msgs::Image toImageMessage(const cv::Mat& grey);
 /// Converts 8-bit BGR pixels to a message of encoding bgr8. Sets no header.
 sensor_msgs::Image toColourImageMessage(const cv::Mat& bgr);
 
-/// A look at pixels of type CV_8UC1 that somebody else keeps alive; empty for an empty matrix.
+/// Non-owning view of pixels of type CV_8UC1; empty for an empty matrix.
 urban_nav_core::ImageView toView(const cv::Mat& grey);
 
 }  // namespace urban_nav_ros

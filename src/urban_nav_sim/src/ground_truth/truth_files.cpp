@@ -18,7 +18,7 @@ using urban_nav_core::printCsvRow;
 using urban_nav_core::printNumber;
 using urban_nav_core::Trajectory;
 
-constexpr double kBehind = 0.05;  // s
+constexpr double kOverhang = 0.05;  // s
 
 double roundedTo(double value, double per_unit) { return std::round(value * per_unit) / per_unit + 0.0; }
 
@@ -29,7 +29,7 @@ std::string toStamp(const Trajectory& panoramas, std::size_t index) { return std
 Trajectory trueTrajectory(const Motion& motion, const Clock& truth) {
   const Schedule schedule = truthSchedule();
   Trajectory trajectory;
-  for (std::int64_t k = 0; k <= schedule.count(motion.duration() + kBehind); ++k) {
+  for (std::int64_t k = 0; k <= schedule.count(motion.duration() + kOverhang); ++k) {
     trajectory.append(truth.taken(schedule.at(k)), motion.at(schedule.at(k)).T_world_base);
   }
   return trajectory;

@@ -43,7 +43,7 @@ TEST(Panorama, ShowsAheadInTheMiddleAndGoesClockwise) {
   EXPECT_LT(at(300, 64), 55);
 }
 
-TEST(DrawCloud, WhatIsNearerHidesWhatIsBehind) {
+TEST(DrawCloud, WhatIsNearerHidesWhatIsFarther) {
   const FreeCamera camera{{0, 0, 0}, {1, 0, 0}, 1.0, 64, 64};
   const Return low{{20.0F, 0.0F, 0.0F}, 255.0F}, before{{2.0F, 0.0F, 0.0F}, 0.0F};
   const auto middle = [&](const std::vector<Return>& cloud) {

@@ -10,7 +10,7 @@ namespace {
 
 Place at(double x, double heading, double along, const Counts& words) { return {{x, 0.0}, heading, along, words}; }
 
-TEST(Places, NeighboursAreToldByDistanceAndHeading) {
+TEST(Places, NeighboursAreFoundByDistanceAndHeading) {
   const Place here = at(0, 3.1, 0, {});
   EXPECT_EQ(findNeighbour(here, at(4.9, 3.1, 0, {})), Neighbour::Same);
   EXPECT_EQ(findNeighbour(here, at(0, -3.1, 0, {})), Neighbour::Same);  // 5 deg across the seam of angles

@@ -67,7 +67,7 @@ TEST(Lens, JacobianIsTheNumericOne) {
   }
 }
 
-TEST(Lens, WhatIsBehindOrFoldedIsNotSeen) {
+TEST(Lens, WhatIsNotInFrontOrIsFoldedIsNotSeen) {
   Lens lens = lenses().front();
   lens.distortion = {-0.3};
   EXPECT_FALSE(lens.project({0.1, 0.1, -1.0}));

@@ -74,7 +74,7 @@ class SeamsOfAPicture : public ::testing::Test {
   const Tracer tracer_{sheets()};
 };
 
-TEST_F(SeamsOfAPicture, AreToldToAllEightAboutAPixel) {
+TEST_F(SeamsOfAPicture, AreKnownToAllEightAboutAPixel) {
   Traces traces = flat();
   EXPECT_EQ(classify(traces), "......\n......\n......\n......\n");
   traces.met[2 * kWidth + 2] = met(kAbove);

@@ -232,7 +232,7 @@ TEST(MakeRide, ComesBackTheWayItWentWhereTheRouteIsOpen) {
   EXPECT_GE(arrivals, 2);
 }
 
-TEST(MakeRide, StandsWhereItIsToldToPause) {
+TEST(MakeRide, StandsWhereItIsToPause) {
   Route route = thereAndBack();
   route.waypoints[1].pause = 5.0;
   const auto motion = simulateDrive(levelWorld(), route, optionsFor(24.0));
@@ -257,7 +257,7 @@ TEST(MakeRide, StandsAtTheStartInTheDirectionOfTheRoute) {
   EXPECT_LT(start.velocity_world.norm(), 0.05);
 }
 
-TEST(MakeRide, BeginsFurtherAlongWhereToldTo) {
+TEST(MakeRide, BeginsFurtherAlongIfAsked) {
   DriveOptions options = optionsFor(10.0);
   options.start = 30.0;
   const auto motion = simulateDrive(levelWorld(), loop(), options);

@@ -24,7 +24,7 @@ TEST(Bytes, roundTrip) {
   EXPECT_TRUE(reader.complete());
 }
 
-TEST(Bytes, nothingIsReadBehindTheEnd) {
+TEST(Bytes, nothingIsReadAfterTheEnd) {
   std::string bytes;
   appendText(bytes, "words");
   for (std::size_t size = 0; size < bytes.size(); ++size) {

@@ -58,7 +58,7 @@ Plot pathsPlot(const GraphRun& graph, const std::vector<const VoRun*>& runs) {
   plot.height = 420;
   plot.x_label = "x, forward at the start (m)";
   plot.y_label = "y, left (m)";
-  // Behind the paths: there may be a thousand of them.
+  // Below the paths: there may be a thousand of them.
   plot.series.push_back(makeLinks(graph, urban_nav_core::ClosureVerdict::Rejected, "rejected", "bad"));
   plot.series.push_back(makeLinks(graph, urban_nav_core::ClosureVerdict::Waiting, "waiting", "fair"));
   plot.series.push_back(makeLinks(graph, urban_nav_core::ClosureVerdict::Accepted, "closures", "good"));

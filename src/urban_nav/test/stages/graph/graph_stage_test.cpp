@@ -252,7 +252,7 @@ TEST(GraphRunTest, levelsTheMapWhereAnAccelerometerKnowsHow) {
   }
 }
 
-TEST(GraphRunTest, holdsRollAndPitchByWhatTheAccelerometerFelt) {
+TEST(GraphRunTest, holdsRollAndPitchBySpecificForce) {
   // Odometry that leans ever more to one side, by 0.05 rad in 45 s, from a start that leans; closures would see that.
   TwoDays days;
   days.rows.clear();

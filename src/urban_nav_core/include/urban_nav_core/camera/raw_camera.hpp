@@ -10,7 +10,7 @@
 
 namespace urban_nav_core {
 
-/// A camera as it left the factory: a pinhole behind a lens.
+/// A camera as it left the factory: a pinhole with a lens.
 struct RawCamera {
   Pinhole pinhole;
   Distortion distortion;

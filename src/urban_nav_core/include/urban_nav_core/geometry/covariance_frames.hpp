@@ -31,8 +31,8 @@ PoseWithCovariance baseMotionFromCameraMotion(const PoseWithCovariance& T_camera
 PoseWithCovariance relativeToFirst(const PoseWithCovariance& T_odom_base, const Pose& T_odom_first);
 
 /// A covariance for display of a constraint that leaves directions free: the inverse where there is information, 1e6
-/// m^2 and 10 rad^2 along the free directions. Translation and rotation are told apart by `length`, the m that weigh as
-/// much as one rad.
+/// m^2 and 10 rad^2 along the free directions. Translation and rotation are distinguished by `length`, the m that weigh
+/// as much as one rad.
 Matrix6d covarianceForDisplay(const Matrix6d& information, double length);
 
 }  // namespace urban_nav_core

@@ -6,7 +6,7 @@
 
 namespace urban_nav_core {
 
-/// Dense linear algebra of dynamic size behind plain functions: the only place that instantiates factorisations, which
+/// Dense linear algebra of dynamic size as plain functions: the only place that instantiates factorisations, which
 /// is where compile time goes. Matrices are column-major. The functions that say "in place" allocate nothing when they
 /// are handed a matrix, a block of one, or a Map; any other expression would be copied by Eigen::Ref. The same numbers
 /// in give the same bits out.

@@ -5,7 +5,7 @@
 
 namespace urban_nav_core {
 
-// Factorisations of matrices of 3, 6 and 7 rows behind plain functions, as dense.hpp has them for any size: a source
+// Factorisations of matrices of 3, 6 and 7 rows as plain functions, as dense.hpp has them for any size: a source
 // that instantiates one itself takes one to six seconds longer to compile. The bits are those of Eigen's own classes.
 
 /// Cholesky factorisation A = L L^T, of which the lower triangle of A is read. For <2>, <3> and <6>.

@@ -16,7 +16,7 @@ namespace urban_nav_core {
 /// about the border pixels (a b c | b a). Sums are rounded to nearest, once per level.
 ///
 /// All levels, level 0 included, are copies: they live until the next build() and owe nothing to the input. Before the
-/// first and behind the last byte of a level, and so around every row, at least kPadding bytes may be read (of
+/// first and after the last byte of a level, and so around every row, at least kPadding bytes may be read (of
 /// unspecified value), which spares SIMD loops their tails. Not thread-safe; allocates only when the size changes.
 class Pyramid {
  public:

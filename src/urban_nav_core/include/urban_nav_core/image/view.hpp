@@ -7,7 +7,7 @@
 
 namespace urban_nav_core {
 
-/// A look at 8-bit grey pixels that somebody else owns. Row-major, `stride` bytes from row to row. (0, 0) is the
+/// Non-owning view of 8-bit grey pixels. Row-major, `stride` bytes from row to row. (0, 0) is the
 /// middle of the top left pixel, u to the right, v down. Cheap to copy; valid as long as the owner is.
 struct ImageView {
   const std::uint8_t* data = nullptr;

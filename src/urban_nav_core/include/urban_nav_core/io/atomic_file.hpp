@@ -19,7 +19,7 @@ class PartialFile {
   PartialFile& operator=(const PartialFile&) = delete;
 
   /// `final_path` with ".part" before its extension, so that writers who look at the extension are content; or with the
-  /// suffix behind it, so that what a killed process leaves is not taken for a whole file.
+  /// suffix after it, so that what a killed process leaves is not taken for a whole file.
   const std::string& path() const { return path_; }
   /// The writer has closed the file. Throws UserError naming the final path if it cannot be flushed or renamed.
   void commit();

@@ -9,8 +9,8 @@
 
 namespace urban_nav_core::testing {
 
-/// Damages files in ways that keep most of their structure, so that a reader is tested behind its first check: bytes,
-/// numbers (too large, not finite, negative, with garbage behind), words, lines and ends; pieces of one seed in
+/// Damages files in ways that keep most of their structure, so that a reader is tested beyond its first check: bytes,
+/// numbers (too large, not finite, negative, followed by garbage), words, lines and ends; pieces of one seed in
 /// another. The same seed value gives the same sequence of texts.
 class Mutator {
  public:

@@ -34,8 +34,8 @@ Eigen::Matrix<double, Rows, Columns> numericJacobian(const Function& f, const X&
     d[column] = step;
     const auto ahead = f(plus(x, d));
     d[column] = -step;
-    const auto behind = f(plus(x, d));
-    return minus(ahead, behind) / (2.0 * step);
+    const auto before = f(plus(x, d));
+    return minus(ahead, before) / (2.0 * step);
   };
   for (int column = 0; column < Columns; ++column) {
     J.col(column) = (4.0 * central(column, 0.5 * h) - central(column, h)) / 3.0;

@@ -18,7 +18,7 @@ struct PoseRef {
 };
 bool operator==(const PoseRef& a, const PoseRef& b);
 bool operator<(const PoseRef& a, const PoseRef& b);
-/// "1225719873.501685001 s", behind the session and a blank where there is one.
+/// "1225719873.501685001 s", after the session and a blank where there is one.
 std::ostream& operator<<(std::ostream& out, const PoseRef& ref);
 
 /// Two times at which the robot saw the same place (Newman et al. 2009, section 3): no transform.

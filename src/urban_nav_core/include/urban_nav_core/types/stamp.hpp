@@ -19,7 +19,7 @@ double secondsBetween(StampNs earlier, StampNs later);
 std::string printStamp(StampNs stamp);
 
 /// Parses decimal seconds ("61.59", "1225719873.501685", "-3.4", "1e-1" is refused) without passing through a double.
-/// Digits behind the ninth decimal are rounded half up. Empty if the text is no such number or does not fit.
+/// Digits after the ninth decimal are rounded half up. Empty if the text is no such number or does not fit.
 std::optional<StampNs> parseStamp(std::string_view seconds);
 
 }  // namespace urban_nav_core

@@ -43,7 +43,7 @@ struct BinaryNumber {
 /// `bytes` points at as many as its size; `swap`: of the other byte order.
 double readBinary(const char* bytes, BinaryNumber number, bool swap);
 
-/// Lines one after another, each with its number, and what is behind them: headers of text before bytes.
+/// Lines one after another, each with its number, and what follows them: headers of text before bytes.
 class HeaderLines {
  public:
   explicit HeaderLines(std::string_view content) : content_(content) {}

@@ -39,7 +39,7 @@ void readFieldLine(const std::vector<std::string_view>& words, PcdHeader& header
   if (words.size() != header.fields.size() + 1)
     throw UserError(where,
                     std::to_string(words.size() - 1) + " words for " + std::to_string(header.fields.size()) + " fields",
-                    "one for each, behind the line FIELDS");
+                    "one for each, after the line FIELDS");
   for (std::size_t i = 0; i < header.fields.size(); ++i) {
     const std::string_view word = words[i + 1];
     Field& field = header.fields[i];
@@ -58,7 +58,7 @@ void readPcdHeaderLine(const std::vector<std::string_view>& words, PcdHeader& he
   const std::string_view key = words[0];
   const auto one = [&]() -> std::string_view {
     if (words.size() != 2)
-      throw UserError(where, std::to_string(words.size() - 1) + " words behind " + std::string(key), "one");
+      throw UserError(where, std::to_string(words.size() - 1) + " words after " + std::string(key), "one");
     return words[1];
   };
   if (key == "FIELDS" || key == "COLUMNS") {

@@ -40,7 +40,7 @@ std::string gunzip(std::string_view content, const std::string& name, std::size_
     }
     taken -= stream.avail_in;
     stream.avail_in = 0;
-    if (!isGzip(content.substr(taken))) break;  // padding behind the last member
+    if (!isGzip(content.substr(taken))) break;  // padding after the last member
     if (inflateReset(&stream) != Z_OK) throw UserError(name, "cannot be unpacked", "");
   }
   return plain;

@@ -45,7 +45,7 @@ std::string plyAscii() {
          asText(" ");
 }
 
-/// With an element of lists before the points, one behind, and other properties between.
+/// With an element of lists before the points, one after, and other properties between.
 std::string plyBinary(bool big) {
   std::string bytes =
       std::string("ply\nformat ") + (big ? "binary_big_endian" : "binary_little_endian") +
@@ -259,7 +259,7 @@ TEST(CloudFile, mistakesAreNamedWithTheirLine) {
             "c: ends before its 4 points: allowed a whole file");
   EXPECT_EQ(refusal(gzipped(plyAscii()).substr(0, 60)), "c: the gzip stream ends too early: allowed a whole file");
   EXPECT_EQ(refusal("VERSION 0.7\nFIELDS x y\nSIZE 4 4 4\n"),
-            "c:3: 3 words for 2 fields: allowed one for each, behind the line FIELDS");
+            "c:3: 3 words for 2 fields: allowed one for each, after the line FIELDS");
   EXPECT_EQ(refusal(withSizes("\xff\xff", 64)), "c: the compressed points are damaged: allowed a whole file");
   EXPECT_EQ(refusal(withSizes("\xff\xff", 4000000000U)), "c: ends before its 4 points: allowed a whole file");
 }

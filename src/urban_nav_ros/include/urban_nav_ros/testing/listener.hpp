@@ -12,7 +12,7 @@
 
 namespace urban_nav_ros::testing {
 
-/// What listens in the rostest of a nodelet: it keeps all that comes on the topics it is told, in the thread of the
+/// What listens in the rostest of a nodelet: it keeps all that comes on the topics it is given, in the thread of the
 /// test.
 class Listener {
  public:
@@ -29,7 +29,7 @@ class Listener {
     return false;
   }
 
-  /// Each topic that is kept has somebody who publishes it, and each of the test's own somebody who listens.
+  /// Each topic that is stored has a publisher, and each of the test's own a subscriber.
   bool isConnected() const {
     return std::all_of(subscribers_.begin(), subscribers_.end(),
                        [](const ros::Subscriber& each) { return each.getNumPublishers() > 0; }) &&

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "linear/index.hpp"
-#include "robust/growth.hpp"
+#include "robust/admission.hpp"
 #include "urban_nav_core/trajectory/chi_square.hpp"
 
 namespace pose_graph {
@@ -20,16 +20,16 @@ constexpr double kWorth =
 }  // namespace
 
 template <int D>
-void takeBack(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const Witness<D>& witness,
-              Grown<D>& grown) {
+void readmitByTruncatedSquares(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
+                               const ClosureEvaluator<D>& evaluator, AdmissionState<D>& state) {
   std::vector<double> limit(1, 0.0);
   for (int dof = 1; dof <= tangent_size<D>; ++dof)
-    limit.push_back(grown.variance * urban_nav_core::chiSquareQuantile(kQuantile, dof));
+    limit.push_back(state.variance * urban_nav_core::chiSquareQuantile(kQuantile, dof));
   const auto toSquare = [&](std::size_t e, const std::vector<Rigid<D>>& poses) {
-    const WhitenedEdge<D>& edge = witness.edge(static_cast<int>(e));
+    const WhitenedEdge<D>& edge = evaluator.edge(static_cast<int>(e));
     return whitenedError(edge, poses[sz(edge.from)], poses[sz(edge.to)]).squaredNorm();
   };
-  const auto findLimit = [&](std::size_t e) { return limit[sz(witness.edge(static_cast<int>(e)).rank)]; };
+  const auto findLimit = [&](std::size_t e) { return limit[sz(evaluator.edge(static_cast<int>(e)).rank)]; };
   const auto truncated = [&](const std::vector<Rigid<D>>& poses) {
     double sum = 0.0;
     for (std::size_t e = 0; e < roles.size(); ++e)
@@ -39,18 +39,18 @@ void takeBack(const Problem<D>& problem, const std::vector<EdgeRole>& roles, con
 
   const auto worthIt = [&](const std::vector<Rigid<D>>& poses, double wide) {
     std::size_t near = 0;
-    for (int e : witness.candidates()) near += !grown.in[sz(e)] && toSquare(sz(e), poses) <= wide * findLimit(sz(e));
-    return static_cast<double>(near) > kWorth * static_cast<double>(witness.candidates().size());
+    for (int e : evaluator.candidates()) near += !state.in[sz(e)] && toSquare(sz(e), poses) <= wide * findLimit(sz(e));
+    return static_cast<double>(near) > kWorth * static_cast<double>(evaluator.candidates().size());
   };
-  if (!worthIt(grown.poses, kWideFactor)) return;
+  if (!worthIt(state.poses, kWideFactor)) return;
 
-  std::vector<char> in = grown.in;
+  std::vector<char> in = state.in;
   std::vector<double> weights(in.size(), 1.0);
-  std::vector<Rigid<D>> poses = grown.poses;
+  std::vector<Rigid<D>> poses = state.poses;
   AcceptedGraph<D> graph(problem);
   for (double wide = kWideFactor; wide > 1.0; wide /= kNarrower) {
     if (!worthIt(poses, wide)) return;
-    for (int e : witness.candidates()) {
+    for (int e : evaluator.candidates()) {
       const double share = toSquare(sz(e), poses) / (wide * findLimit(sz(e)));
       in[sz(e)] = share < 1.0;
       weights[sz(e)] = share < 1.0 ? (1.0 - share) * (1.0 - share) : 0.0;  // Beaton, Tukey, Technometrics 1974
@@ -60,23 +60,25 @@ void takeBack(const Problem<D>& problem, const std::vector<EdgeRole>& roles, con
   }
   for (int i = 0; i < kLast; ++i) {
     const std::vector<char> before = in;
-    for (int e : witness.candidates()) in[sz(e)] = toSquare(sz(e), poses) <= findLimit(sz(e));
+    for (int e : evaluator.candidates()) in[sz(e)] = toSquare(sz(e), poses) <= findLimit(sz(e));
     if (i > 0 && in == before) break;
     graph.take(in);
     graph.relax(poses, 2, 0.0, false);
   }
   // A lower cost alone may come from throwing more away: there must be more that fit.
   const auto fitting = [&](const std::vector<Rigid<D>>& at) {
-    return std::count_if(witness.candidates().begin(), witness.candidates().end(),
+    return std::count_if(evaluator.candidates().begin(), evaluator.candidates().end(),
                          [&](int e) { return toSquare(sz(e), at) <= findLimit(sz(e)); });
   };
-  if (!(truncated(poses) < truncated(grown.poses)) || fitting(poses) <= fitting(grown.poses)) return;
-  grown.in = std::move(in);
-  grown.poses = std::move(poses);
-  for (int e : witness.candidates()) grown.evidence.chi2[sz(e)] = toSquare(sz(e), grown.poses) / grown.variance;
+  if (!(truncated(poses) < truncated(state.poses)) || fitting(poses) <= fitting(state.poses)) return;
+  state.in = std::move(in);
+  state.poses = std::move(poses);
+  for (int e : evaluator.candidates()) state.evidence.chi2[sz(e)] = toSquare(sz(e), state.poses) / state.variance;
 }
 
-template void takeBack<2>(const Problem<2>&, const std::vector<EdgeRole>&, const Witness<2>&, Grown<2>&);
-template void takeBack<3>(const Problem<3>&, const std::vector<EdgeRole>&, const Witness<3>&, Grown<3>&);
+template void readmitByTruncatedSquares<2>(const Problem<2>&, const std::vector<EdgeRole>&, const ClosureEvaluator<2>&,
+                                           AdmissionState<2>&);
+template void readmitByTruncatedSquares<3>(const Problem<3>&, const std::vector<EdgeRole>&, const ClosureEvaluator<3>&,
+                                           AdmissionState<3>&);
 
 }  // namespace pose_graph

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "robust/true_residual.hpp"
+#include "robust/inlier_likelihood.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace {
 
 // Of one standard deviation as stated, in one direction.
 double density(double residual, double variance) {
-  return std::exp(logOfTrueResidual(-0.5 * std::log(2.0 * M_PI), 1, residual * residual, variance));
+  return std::exp(logInlierLikelihood(-0.5 * std::log(2.0 * M_PI), 1, residual * residual, variance));
 }
 
 TEST(TrueResidual, IsADensity) {
@@ -36,9 +36,9 @@ TEST(TrueResidual, FarOutIsWhatModestInformationStates) {
 
 TEST(TrueResidual, FallsWithTheResidualAndStaysFinite) {
   for (const double variance : {1e-9, 0.1, 1.0, 1e6}) {
-    double before = logOfTrueResidual(0.0, 6, 0.0, variance);
+    double before = logInlierLikelihood(0.0, 6, 0.0, variance);
     for (double chi2 = 1e-3; chi2 < 1e12; chi2 *= 10.0) {
-      const double now = logOfTrueResidual(0.0, 6, chi2, variance);
+      const double now = logInlierLikelihood(0.0, 6, chi2, variance);
       EXPECT_TRUE(std::isfinite(now));
       EXPECT_LT(now, before);
       before = now;

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "linear/index.hpp"
-#include "robust/growth.hpp"
-#include "robust/judging.hpp"
+#include "robust/admission.hpp"
+#include "robust/admission_thresholds.hpp"
 #include "robust/variance_factor.hpp"
 
 namespace pose_graph {
@@ -29,59 +29,61 @@ constexpr double kBentFactor = 1.5, kFewNumbers = 60.0;
 }  // namespace
 
 template <int D>
-bool takeAll(const Witness<D>& witness, const std::vector<int>& group, const std::vector<int>& small_group,
-             const Thresholds& thresholds, const InformationScale& scale, AcceptedGraph<D>& graph, Grown<D>& grown) {
-  const auto limit = [&](int e) { return findLimit(thresholds, witness.edge(e)); };
-  const double candidates = static_cast<double>(witness.candidates().size());
-  const auto joins = [&](int e) { return !std::isfinite(grown.evidence.chi2[sz(e)]); };  // two parts: not by itself
-  Grown<D> all = grown;
-  for (int e : witness.candidates()) all.in[sz(e)] = witness.edge(e).rank > 0 && !joins(e);
+bool admitAll(const ClosureEvaluator<D>& evaluator, const std::vector<int>& group, const std::vector<int>& small_group,
+              const Thresholds& thresholds, const InformationScale& scale, AcceptedGraph<D>& graph,
+              AdmissionState<D>& state) {
+  const auto limit = [&](int e) { return findLimit(thresholds, evaluator.edge(e)); };
+  const double candidates = static_cast<double>(evaluator.candidates().size());
+  const auto joins = [&](int e) { return !std::isfinite(state.evidence.chi2[sz(e)]); };  // two parts: not by itself
+  AdmissionState<D> all = state;
+  for (int e : evaluator.candidates()) all.in[sz(e)] = evaluator.edge(e).rank > 0 && !joins(e);
   // Who looks for a better order of something cheap finds none.
-  if (graph.work(all.in, true) > kCheap * static_cast<double>(grown.poses.size() + grown.in.size())) {
+  if (graph.work(all.in, true) > kCheap * static_cast<double>(state.poses.size() + state.in.size())) {
     double contradicted = 0.0;
-    for (int e : witness.candidates()) contradicted += !joins(e) && grown.evidence.chi2[sz(e)] > limit(e);
+    for (int e : evaluator.candidates()) contradicted += !joins(e) && state.evidence.chi2[sz(e)] > limit(e);
     const bool many_open = scale.true_loops >= kTelling && scale.true_share < kOpen;
     if (many_open || (contradicted > 1.0 + kContradicted * candidates && scale.true_share < kClosing)) return false;
-    std::vector<int> members(grown.in.size(), 0);
-    for (int e : witness.candidates()) ++members[sz(group[sz(e)])];
-    std::vector<char> confirmed = grown.in;
-    for (int e : witness.candidates()) confirmed[sz(e)] = all.in[sz(e)] && members[sz(group[sz(e)])] > 1;
+    std::vector<int> members(state.in.size(), 0);
+    for (int e : evaluator.candidates()) ++members[sz(group[sz(e)])];
+    std::vector<char> confirmed = state.in;
+    for (int e : evaluator.candidates()) confirmed[sz(e)] = all.in[sz(e)] && members[sz(group[sz(e)])] > 1;
     if (graph.work(all.in) > kWork * graph.work(confirmed)) return false;
   }
 
   graph.take(all.in);
   graph.relax(all.poses, kRoundSteps, kRoundShare, true);
-  all.variance = varianceFactor(witness, all.in, all.poses, graph.unknowns(), thresholds, scale.factor);
-  all.evidence = witness.hear(graph, all.in, all.poses, all.variance, small_group, kUncontrolled);
+  all.variance = varianceFactor(evaluator, all.in, all.poses, graph.unknowns(), thresholds, scale.factor);
+  all.evidence = evaluator.evaluate(graph, all.in, all.poses, all.variance, small_group, kUncontrolled);
 
   // Among many that are right one more is likely to be, so that it takes less to be believed.
   double contradicted = 0.0, confident = 0.0, poor = 0.0;
   const auto contradicts = [&](int e) {
     return !(all.evidence.chi2[sz(e)] <= limit(e)) || all.evidence.group_chi2[sz(e)] > thresholds.limit.back();
   };
-  for (int e : witness.candidates()) {
+  for (int e : evaluator.candidates()) {
     if (!all.in[sz(e)]) continue;
     contradicted += contradicts(e);
     confident += !contradicts(e) && all.evidence.likelier[sz(e)] >= Thresholds::kEvidence;
   }
   const double enough = Thresholds::kEvidence - std::max(0.0, std::log((confident + 1.0) / (contradicted + 1.0)));
-  for (int e : witness.candidates())
+  for (int e : evaluator.candidates())
     poor += all.in[sz(e)] && (contradicts(e) || !(all.evidence.likelier[sz(e)] >= enough));
   // Many false ones that bend the graph a little each fit one by one, but not all together.
   double redundancy = -static_cast<double>(graph.unknowns()) * tangent_size<D>;
-  for (std::size_t e = 0; e < all.in.size(); ++e) redundancy += all.in[e] ? witness.edge(static_cast<int>(e)).rank : 0;
+  for (std::size_t e = 0; e < all.in.size(); ++e)
+    redundancy += all.in[e] ? evaluator.edge(static_cast<int>(e)).rank : 0;
   const bool bent = graph.cost(all.poses) > kBentFactor * all.variance * std::max(redundancy, kFewNumbers);
   if (!all.evidence.known || bent || poor > kPoor * candidates) {
-    graph.take(grown.in);
+    graph.take(state.in);
     return false;
   }
-  grown = std::move(all);
+  state = std::move(all);
   return true;
 }
 
-template bool takeAll<2>(const Witness<2>&, const std::vector<int>&, const std::vector<int>&, const Thresholds&,
-                         const InformationScale&, AcceptedGraph<2>&, Grown<2>&);
-template bool takeAll<3>(const Witness<3>&, const std::vector<int>&, const std::vector<int>&, const Thresholds&,
-                         const InformationScale&, AcceptedGraph<3>&, Grown<3>&);
+template bool admitAll<2>(const ClosureEvaluator<2>&, const std::vector<int>&, const std::vector<int>&,
+                          const Thresholds&, const InformationScale&, AcceptedGraph<2>&, AdmissionState<2>&);
+template bool admitAll<3>(const ClosureEvaluator<3>&, const std::vector<int>&, const std::vector<int>&,
+                          const Thresholds&, const InformationScale&, AcceptedGraph<3>&, AdmissionState<3>&);
 
 }  // namespace pose_graph

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "robust/admission_thresholds.hpp"
 #include "robust/evidence.hpp"
-#include "robust/judging.hpp"
 
 namespace pose_graph {
 
@@ -20,7 +20,7 @@ constexpr std::size_t kForOne = 8;
 /// ones first. True if all that remain fit, and the group drove out but few for what it is itself. `in`, `poses`: with
 /// the group, and after.
 template <int D>
-bool makeRoom(const Witness<D>& witness, const Thresholds& thresholds, const std::vector<int>& members, double variance,
-              AcceptedGraph<D>& graph, std::vector<char>& in, std::vector<Rigid<D>>& poses);
+bool exchangeGroup(const ClosureEvaluator<D>& evaluator, const Thresholds& thresholds, const std::vector<int>& members,
+                   double variance, AcceptedGraph<D>& graph, std::vector<char>& in, std::vector<Rigid<D>>& poses);
 
 }  // namespace pose_graph

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "robust/agreement.hpp"
+#include "robust/consistent_groups.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -34,8 +34,8 @@ Thresholds::Thresholds(std::size_t candidates, int largest_dof) {
 }
 
 template <int D>
-std::vector<int> agreeingGroups(std::size_t edges, const ClosureLoops<D>& closures, double variance,
-                                const Thresholds& thresholds) {
+std::vector<int> consistentGroups(std::size_t edges, const ClosureLoops<D>& closures, double variance,
+                                  const Thresholds& thresholds) {
   std::vector<int> above(edges);
   std::iota(above.begin(), above.end(), 0);
   for (std::size_t a = 0; a < closures.size(); ++a)
@@ -48,7 +48,7 @@ std::vector<int> agreeingGroups(std::size_t edges, const ClosureLoops<D>& closur
   return group;
 }
 
-template std::vector<int> agreeingGroups<2>(std::size_t, const ClosureLoops<2>&, double, const Thresholds&);
-template std::vector<int> agreeingGroups<3>(std::size_t, const ClosureLoops<3>&, double, const Thresholds&);
+template std::vector<int> consistentGroups<2>(std::size_t, const ClosureLoops<2>&, double, const Thresholds&);
+template std::vector<int> consistentGroups<3>(std::size_t, const ClosureLoops<3>&, double, const Thresholds&);
 
 }  // namespace pose_graph

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "robust/growth.hpp"
-#include "robust/judging.hpp"
+#include "robust/admission.hpp"
+#include "robust/admission_thresholds.hpp"
 #include "support/drawn.hpp"
 
 namespace pose_graph {
@@ -67,20 +67,20 @@ struct Said {
 };
 Said summariseLaps(const Laps& laps) {
   const DeadReckoning<2> reckoning(laps.problem, laps.roles);
-  const Witness<2> witness(laps.problem, laps.candidates, reckoning);
+  const ClosureEvaluator<2> evaluator(laps.problem, laps.candidates, reckoning);
   const Thresholds thresholds(laps.candidates.size(), 3);
-  Grown<2> grown;
-  grown.in.assign(laps.problem.edges.size(), 1);
-  grown.poses = laps.problem.poses;
+  AdmissionState<2> state;
+  state.in.assign(laps.problem.edges.size(), 1);
+  state.poses = laps.problem.poses;
   AcceptedGraph<2> graph(laps.problem);
-  graph.take(grown.in);
-  graph.settle(grown.poses);
+  graph.take(state.in);
+  graph.settle(state.poses);
   const std::vector<int> group = laps.group;
   Said said;
-  said.group_chi2 = witness.hear(graph, grown.in, grown.poses, 1.0, group, kUncontrolled).group_chi2.back();
+  said.group_chi2 = evaluator.evaluate(graph, state.in, state.poses, 1.0, group, kUncontrolled).group_chi2.back();
   std::vector<int> expelled(laps.problem.edges.size(), 0);
-  said.changed = lastWord(witness, group, group, thresholds, {}, expelled, graph, grown);
-  said.in = grown.in;
+  said.changed = validateFinally(evaluator, group, group, thresholds, {}, expelled, graph, state);
+  said.in = state.in;
   return said;
 }
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "robust/agreement.hpp"
+#include "robust/consistent_groups.hpp"
 #include "robust/whitened_edge.hpp"
 
 namespace pose_graph {

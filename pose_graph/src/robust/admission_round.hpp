@@ -5,19 +5,20 @@
 
 #include "linear/index.hpp"
 #include "robust/accepted_graph.hpp"
+#include "robust/admission_thresholds.hpp"
 #include "robust/evidence.hpp"
-#include "robust/judging.hpp"
 
 namespace pose_graph {
 
-/// A round of judging: what enters and what leaves by what was heard. `in` says what is inside, `next` what will be.
+/// A round of judging: which closures enter and which leave, by the evidence. `in` says what is inside, `next` what
+/// will be.
 template <int D>
-class Round {
+class AdmissionRound {
  public:
   /// All must outlive it.
-  Round(const Witness<D>& witness, const std::vector<int>& group, const Thresholds& thresholds,
-        const Evidence& evidence, const std::vector<char>& in)
-      : next(in), witness_(witness), group_(group), thresholds_(thresholds), evidence_(evidence), in_(in) {}
+  AdmissionRound(const ClosureEvaluator<D>& evaluator, const std::vector<int>& group, const Thresholds& thresholds,
+                 const Evidence& evidence, const std::vector<char>& in)
+      : next(in), evaluator_(evaluator), group_(group), thresholds_(thresholds), evidence_(evidence), in_(in) {}
 
   // `times`: how often each edge has left so far; who left twice stays out.
 
@@ -38,20 +39,20 @@ class Round {
   bool joined = false;
 
  private:
-  double limit(int e) const { return findLimit(thresholds_, witness_.edge(e)); }
+  double limit(int e) const { return findLimit(thresholds_, evaluator_.edge(e)); }
   double asStated() const { return std::min(1.0, evidence_.variance); }
   bool outAndFits(int e) const { return !in_[sz(e)] && evidence_.chi2[sz(e)] * asStated() <= limit(e); }
   bool excused(int e, double off) const;
   void let(int e);
 
-  const Witness<D>& witness_;
+  const ClosureEvaluator<D>& evaluator_;
   const std::vector<int>& group_;
   const Thresholds& thresholds_;
   const Evidence& evidence_;
   const std::vector<char>& in_;
 };
 
-extern template class Round<2>;
-extern template class Round<3>;
+extern template class AdmissionRound<2>;
+extern template class AdmissionRound<3>;
 
 }  // namespace pose_graph

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "robust/growth.hpp"
+#include "robust/admission.hpp"
 
 #include <algorithm>
 #include <map>
 #include <set>
 
 #include "linear/index.hpp"
-#include "robust/round.hpp"
+#include "robust/admission_round.hpp"
 #include "robust/variance_factor.hpp"
 #include "start/along_edges.hpp"
 
@@ -34,35 +34,36 @@ std::vector<int> smallGroups(const std::vector<int>& group) {
 }  // namespace
 
 template <int D>
-Grown<D> grow(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const Witness<D>& witness,
-              const std::vector<int>& group, const Thresholds& thresholds, const InformationScale& scale) {
-  Grown<D> grown;
+AdmissionState<D> admitClosures(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
+                                const ClosureEvaluator<D>& evaluator, const std::vector<int>& group,
+                                const Thresholds& thresholds, const InformationScale& scale) {
+  AdmissionState<D> state;
   for (std::size_t e = 0; e < problem.edges.size(); ++e)
-    grown.in.push_back(witness.edge(static_cast<int>(e)).rank > 0);  // a link without information joins nothing
-  for (int e : witness.candidates()) grown.in[sz(e)] = 0;
+    state.in.push_back(evaluator.edge(static_cast<int>(e)).rank > 0);  // a link without information joins nothing
+  for (int e : evaluator.candidates()) state.in[sz(e)] = 0;
   Problem<D> part;
   part.poses = problem.poses;
   bool asserted = false;
   for (std::size_t e = 0; e < problem.edges.size(); ++e) {
-    if (grown.in[e] && roles[e] == EdgeRole::Trusted) part.edges.push_back(problem.edges[e]);
+    if (state.in[e] && roles[e] == EdgeRole::Trusted) part.edges.push_back(problem.edges[e]);
     asserted |= roles[e] == EdgeRole::Asserted;
   }
-  grown.poses = posesAlongEdges(part);
+  state.poses = posesAlongEdges(part);
   AcceptedGraph<D> graph(problem);
-  graph.take(grown.in);
-  graph.relax(grown.poses, kRoundSteps, kRoundShare, asserted);
+  graph.take(state.in);
+  graph.relax(state.poses, kRoundSteps, kRoundShare, asserted);
   const std::vector<int> small = smallGroups(group);
   std::vector<int> expelled(problem.edges.size(), 0);
   std::set<int> tried;
   bool all = false;
-  const double candidates = static_cast<double>(witness.candidates().size());
+  const double candidates = static_cast<double>(evaluator.candidates().size());
   const auto isFew = [&](std::size_t changes) { return static_cast<double>(changes) <= kGrowthSettled * candidates; };
   for (int round = 0; round < kGrowthRounds; ++round) {
-    grown.variance = varianceFactor(witness, grown.in, grown.poses, graph.unknowns(), thresholds, scale.factor);
-    grown.evidence = witness.hear(graph, grown.in, grown.poses, grown.variance, small, kUncontrolled);
-    if (!grown.evidence.known) break;
-    if (round == 0) all = takeAll(witness, group, small, thresholds, scale, graph, grown);
-    Round<D> now(witness, group, thresholds, grown.evidence, grown.in);
+    state.variance = varianceFactor(evaluator, state.in, state.poses, graph.unknowns(), thresholds, scale.factor);
+    state.evidence = evaluator.evaluate(graph, state.in, state.poses, state.variance, small, kUncontrolled);
+    if (!state.evidence.known) break;
+    if (round == 0) all = admitAll(evaluator, group, small, thresholds, scale, graph, state);
+    AdmissionRound<D> now(evaluator, group, thresholds, state.evidence, state.in);
     now.expel(expelled);
     now.admit(expelled, thresholds.early_evidence);
     const auto much = [&] { return static_cast<double>(now.admitted) > kMuch * candidates; };
@@ -73,26 +74,26 @@ Grown<D> grow(const Problem<D>& problem, const std::vector<EdgeRole>& roles, con
     }
     const bool few = isFew(now.changes);
     if (now.changes > 0) {
-      grown.in = std::move(now.next);
-      graph.take(grown.in);
-      graph.relax(grown.poses, kRoundSteps, kRoundShare, now.joined || much() || round < 5);
+      state.in = std::move(now.next);
+      graph.take(state.in);
+      graph.relax(state.poses, kRoundSteps, kRoundShare, now.joined || much() || round < 5);
     }
-    if (!few || now.joined || tryGroups(witness, group, thresholds, tried, graph, grown)) continue;
-    const bool unquestioned = all && std::count(grown.in.begin(), grown.in.end(), 0) == 0;
+    if (!few || now.joined || admitOneGroup(evaluator, group, thresholds, tried, graph, state)) continue;
+    const bool unquestioned = all && std::count(state.in.begin(), state.in.end(), 0) == 0;
     if (unquestioned) break;
     // So few changes that a round would end there are judged where they are settled, and by no round before.
     std::size_t changes = 0;
     do {
-      changes = lastWord(witness, group, small, thresholds, scale, expelled, graph, grown);
+      changes = validateFinally(evaluator, group, small, thresholds, scale, expelled, graph, state);
     } while (changes > 0 && isFew(changes) && ++round < kGrowthRounds);
     if (changes == 0) break;
   }
-  return grown;
+  return state;
 }
 
-template Grown<2> grow<2>(const Problem<2>&, const std::vector<EdgeRole>&, const Witness<2>&, const std::vector<int>&,
-                          const Thresholds&, const InformationScale&);
-template Grown<3> grow<3>(const Problem<3>&, const std::vector<EdgeRole>&, const Witness<3>&, const std::vector<int>&,
-                          const Thresholds&, const InformationScale&);
+template AdmissionState<2> admitClosures<2>(const Problem<2>&, const std::vector<EdgeRole>&, const ClosureEvaluator<2>&,
+                                            const std::vector<int>&, const Thresholds&, const InformationScale&);
+template AdmissionState<3> admitClosures<3>(const Problem<3>&, const std::vector<EdgeRole>&, const ClosureEvaluator<3>&,
+                                            const std::vector<int>&, const Thresholds&, const InformationScale&);
 
 }  // namespace pose_graph

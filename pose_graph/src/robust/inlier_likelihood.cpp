@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "robust/true_residual.hpp"
+#include "robust/inlier_likelihood.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ constexpr double kAsStated = 0.05;  // share; a hundredth or a fifth moves what 
 
 }  // namespace
 
-double logOfTrueResidual(double log_at_zero, int rank, double chi2, double variance) {
+double logInlierLikelihood(double log_at_zero, int rank, double chi2, double variance) {
   const double narrow = log_at_zero - 0.5 * rank * std::log(variance) - 0.5 * chi2 / variance;
   if (!(variance < 1.0)) return narrow;
   const double a = std::log(1.0 - kAsStated) + narrow, b = std::log(kAsStated) + log_at_zero - 0.5 * chi2;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "robust/round.hpp"
+#include "robust/admission_round.hpp"
 
 #include <cmath>
 #include <map>
@@ -15,26 +15,26 @@ constexpr int kExpelled = 2;      // times out: stays out
 }  // namespace
 
 template <int D>
-bool Round<D>::excused(int e, double off) const {
+bool AdmissionRound<D>::excused(int e, double off) const {
   return off * asStated() <= kDoubt * limit(e) && evidence_.likelier[sz(e)] >= Thresholds::kEvidence &&
          (evidence_.group_chi2[sz(e)] <= kDoubt * thresholds_.limit.back() ||
           evidence_.group_likelier[sz(e)] >= Thresholds::kEvidence);
 }
 
 template <int D>
-void Round<D>::let(int e) {
+void AdmissionRound<D>::let(int e) {
   next[sz(e)] = 1;
   ++changes;
   ++admitted;
 }
 
 template <int D>
-void Round<D>::expel(std::vector<int>& times) {
+void AdmissionRound<D>::expel(std::vector<int>& times) {
   const auto measureOff = [&](int e) { return std::max(evidence_.chi2[sz(e)], evidence_.group_chi2[sz(e)]); };
   double worst = 0.0;
-  for (int e : witness_.candidates())
+  for (int e : evaluator_.candidates())
     if (in_[sz(e)]) worst = std::max(worst, measureOff(e));
-  for (int e : witness_.candidates()) {
+  for (int e : evaluator_.candidates()) {
     if (!in_[sz(e)] || measureOff(e) <= leavesBeyond(thresholds_, limit(e), worst) || excused(e, measureOff(e)))
       continue;
     next[sz(e)] = 0;
@@ -44,10 +44,10 @@ void Round<D>::expel(std::vector<int>& times) {
 }
 
 template <int D>
-void Round<D>::admit(const std::vector<int>& times, double least) {
+void AdmissionRound<D>::admit(const std::vector<int>& times, double least) {
   std::vector<double> evidence;
   std::size_t inside = 0;
-  for (int e : witness_.candidates()) {
+  for (int e : evaluator_.candidates()) {
     inside += in_[sz(e)] ? 1 : 0;
     if (outAndFits(e) && evidence_.likelier[sz(e)] >= least) evidence.push_back(evidence_.likelier[sz(e)]);
   }
@@ -56,16 +56,16 @@ void Round<D>::admit(const std::vector<int>& times, double least) {
     std::nth_element(evidence.begin(), half, evidence.end());
     least = *half;
   }
-  for (int e : witness_.candidates())
+  for (int e : evaluator_.candidates())
     if (!next[sz(e)] && outAndFits(e) && evidence_.likelier[sz(e)] >= least && times[sz(e)] < kExpelled) let(e);
 }
 
 template <int D>
-void Round<D>::admitLikely(const std::vector<int>& times) {
+void AdmissionRound<D>::admitLikely(const std::vector<int>& times) {
   double inside = 1.0, outside = 1.0;
-  for (int e : witness_.candidates()) ++(in_[sz(e)] ? inside : outside);
+  for (int e : evaluator_.candidates()) ++(in_[sz(e)] ? inside : outside);
   const double likely = Thresholds::kEvidence - std::max(0.0, std::log(inside / outside));
-  for (int e : witness_.candidates()) {
+  for (int e : evaluator_.candidates()) {
     if (!outAndFits(e) || times[sz(e)] >= kExpelled) continue;
     // Only of those that would not have to leave were they in: as little as modest information asks false ones do as
     // well.
@@ -75,9 +75,9 @@ void Round<D>::admitLikely(const std::vector<int>& times) {
 }
 
 template <int D>
-void Round<D>::admitGroups(const std::vector<int>& times) {
+void AdmissionRound<D>::admitGroups(const std::vector<int>& times) {
   std::map<int, std::vector<double>> chi2;
-  for (int e : witness_.candidates())
+  for (int e : evaluator_.candidates())
     if (!in_[sz(e)] && !next[sz(e)] && times[sz(e)] < kExpelled && std::isfinite(evidence_.chi2[sz(e)]))
       chi2[group_[sz(e)]].push_back(evidence_.chi2[sz(e)]);
   std::set<int> fitting;
@@ -89,7 +89,7 @@ void Round<D>::admitGroups(const std::vector<int>& times) {
     fitting.insert(name);
     largest = std::max(largest, values.size());
   }
-  for (int e : witness_.candidates()) {
+  for (int e : evaluator_.candidates()) {
     const int name = group_[sz(e)];
     if (next[sz(e)] || times[sz(e)] >= kExpelled || !fitting.count(name) || 2 * chi2[name].size() < largest) continue;
     if (outAndFits(e)) let(e);
@@ -97,11 +97,11 @@ void Round<D>::admitGroups(const std::vector<int>& times) {
 }
 
 template <int D>
-void Round<D>::join(const AcceptedGraph<D>& graph, const std::vector<int>& times) {
+void AdmissionRound<D>::join(const AcceptedGraph<D>& graph, const std::vector<int>& times) {
   std::map<std::pair<int, int>, std::map<int, std::vector<int>>> between;
-  for (int e : witness_.candidates()) {
+  for (int e : evaluator_.candidates()) {
     if (in_[sz(e)] || times[sz(e)] >= kExpelled) continue;
-    const int a = graph.component(witness_.edge(e).from), b = graph.component(witness_.edge(e).to);
+    const int a = graph.component(evaluator_.edge(e).from), b = graph.component(evaluator_.edge(e).to);
     if (a != b) between[{std::min(a, b), std::max(a, b)}][group_[sz(e)]].push_back(e);
   }
   for (const auto& [parts, groups] : between) {
@@ -114,7 +114,7 @@ void Round<D>::join(const AcceptedGraph<D>& graph, const std::vector<int>& times
   }
 }
 
-template class Round<2>;
-template class Round<3>;
+template class AdmissionRound<2>;
+template class AdmissionRound<3>;
 
 }  // namespace pose_graph

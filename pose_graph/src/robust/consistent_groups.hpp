@@ -29,7 +29,7 @@ struct Thresholds {
 /// Returns for each of so many edges the number of its group (the first edge of the group), -1 for edges that are no
 /// candidates.
 template <int D>
-std::vector<int> agreeingGroups(std::size_t edges, const ClosureLoops<D>& closures, double variance,
-                                const Thresholds& thresholds);
+std::vector<int> consistentGroups(std::size_t edges, const ClosureLoops<D>& closures, double variance,
+                                  const Thresholds& thresholds);
 
 }  // namespace pose_graph

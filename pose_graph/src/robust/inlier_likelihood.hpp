@@ -11,6 +11,6 @@ namespace pose_graph {
 ///
 /// `log_at_zero`: logarithm of the density at no residual at all, covariances as stated. `chi2`: as stated, with `rank`
 /// degrees of freedom.
-double logOfTrueResidual(double log_at_zero, int rank, double chi2, double variance);
+double logInlierLikelihood(double log_at_zero, int rank, double chi2, double variance);
 
 }  // namespace pose_graph

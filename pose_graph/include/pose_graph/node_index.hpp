@@ -9,7 +9,7 @@
 namespace pose_graph {
 
 /// A pose by the number of its track and its own in there.
-using Place = std::pair<std::size_t, std::size_t>;
+using NodeIndex = std::pair<std::size_t, std::size_t>;
 
 /// One step of a track's odometry, as relaxation needs it.
 struct ChainStep {
@@ -21,8 +21,8 @@ struct ChainStep {
 };
 
 /// A closure between two places.
-struct Bond {
-  Place a, b;
+struct ClosureEdge {
+  NodeIndex a, b;
   Edge<3> edge;  ///< but for its numbers
 };
 
