@@ -21,10 +21,11 @@ using urban_nav_core::ImageView;
 
 namespace {
 
-constexpr double little = 0.1;              // share of the pixels
-constexpr double well_matched = 0.5;        // share of the pixels
-constexpr double largest_row_offset = 0.5;  // px
-constexpr double equal_exposure = 0.05;     // relative: no more than scenes differ by between two views
+constexpr double little = 0.1;               // share of the pixels
+constexpr double matched_if_swapped = 0.25;  // share of the pixels
+constexpr double well_matched = 0.5;         // share of the pixels
+constexpr double largest_row_offset = 0.5;   // px
+constexpr double equal_exposure = 0.05;      // relative: no more than scenes differ by between two views
 
 std::unique_ptr<Matcher> makeMatcher(const Parameters& parameters) {
   if (parameters.method == "paper") return std::make_unique<PaperMatcher>(parameters);
@@ -45,7 +46,10 @@ class DenseStereo::Implementation {
       : disparities_(parameters.disparities), matcher_(makeMatcher(parameters)) {}
 
   const StereoResult& process(const urban_nav_core::StereoPair& pair) {
-    const PairCheck check = checkPair(pair);
+    PairCheck check = checkPair(pair);
+    // Images of different scenes look exchanged by chance; exchanged ones match once they are put right.
+    if (check.reason == Reason::Swapped && matchShare({pair.stamp, pair.right, pair.left}) < matched_if_swapped)
+      check = checkPair(pair, false);
     begin(pair.left, check);
     if (!check.usable) return result_;
     copy(pair.left, 1.0, 0.0, left_);
@@ -58,6 +62,16 @@ class DenseStereo::Implementation {
   }
 
  private:
+  /// Returns the share of the pixels that are answered.
+  double matchShare(const urban_nav_core::StereoPair& pair) {
+    begin(pair.left, PairCheck());
+    copy(pair.left, 1.0, 0.0, left_);
+    copy(pair.right, 1.0, 0.0, right_);
+    matcher_->match({left_, right_}, result_.image);
+    count();
+    return result_.answered;
+  }
+
   void begin(const ImageView& left, const PairCheck& check) {
     DisparityImage& image = result_.image;
     image.width = std::max(left.width, 0);

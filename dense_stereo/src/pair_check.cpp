@@ -42,7 +42,7 @@ PairCheck refuse(Reason reason, std::string sentence) { return {reason, std::mov
 
 }  // namespace
 
-PairCheck checkPair(const urban_nav_core::StereoPair& pair) {
+PairCheck checkPair(const urban_nav_core::StereoPair& pair, bool may_be_swapped) {
   if (pair.left.empty() || pair.right.empty())
     return refuse(Reason::ImageMissing, pair.left.empty() ? "the left image is missing" : "the right image is missing");
   if (pair.left.width != pair.right.width || pair.left.height != pair.right.height)
@@ -51,7 +51,7 @@ PairCheck checkPair(const urban_nav_core::StereoPair& pair) {
   if (std::min(left.deviation, right.deviation) < least_contrast)
     return refuse(Reason::NoContrast,
                   std::string(left.deviation < right.deviation ? "left" : "right") + " image without contrast");
-  if (urban_nav_core::looksExchanged(pair.left, pair.right))
+  if (may_be_swapped && urban_nav_core::looksExchanged(pair.left, pair.right))
     return refuse(Reason::Swapped, "left and right images are swapped: disparities are negative");
   PairCheck check;
   check.exposure = left.deviation / right.deviation;

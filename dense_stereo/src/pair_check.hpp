@@ -15,7 +15,7 @@ struct PairCheck {
 };
 
 /// Missing or unequal images, images without contrast, exchanged images, unequal exposures. Costs some 0.1 ms at
-/// 512x384.
-PairCheck checkPair(const urban_nav_core::StereoPair& pair);
+/// 512x384. `may_be_swapped`: false if the images are known not to be exchanged.
+PairCheck checkPair(const urban_nav_core::StereoPair& pair, bool may_be_swapped = true);
 
 }  // namespace dense_stereo
