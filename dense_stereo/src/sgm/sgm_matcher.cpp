@@ -71,7 +71,7 @@ void SgmMatcher::finish(DisparityImage& image) const {
     for (int u = 0; u < image.width; ++u) {
       const std::size_t at = image.index(u, v);
       const float variance = variance_scale * noise[u] / (information[u] + 1.0F) + least_sigma * least_sigma;
-      const bool valid = d[u] >= 0.0F && variance < largest;
+      const bool valid = d[u] > 0.0F && variance < largest;  // 0 px is nothing at a finite depth
       image.disparity[at] = valid ? d[u] : DisparityImage::invalid;
       image.variance[at] = valid ? variance : 0.0F;
     }
