@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "support/true_scene.hpp"
+#include "true_scene.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -122,8 +122,9 @@ GreyImage toGrey(const sensor_msgs::Image& message, int bits) {
   const Layout* layout = nullptr;
   GreyImage image = toPixels(message, layout);
   if (image.pixels.empty()) return image;
-  cv::Mat grey = image.pixels;
-  if (layout->to_grey != kAsItIs) cv::cvtColor(image.pixels, grey, layout->to_grey);
+  cv::Mat grey;
+  if (layout->to_grey == kAsItIs) grey = image.pixels;
+  else cv::cvtColor(image.pixels, grey, layout->to_grey);  // never into the message's own bytes
   if (grey.depth() == CV_16U) return {highestEight(grey, bits), {}};
   return {grey, {}};
 }
