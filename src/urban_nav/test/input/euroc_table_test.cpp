@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "support/folders.hpp"
 #include "urban_nav_core/types/error.hpp"
 
@@ -16,8 +18,8 @@ EurocTable read(const std::string& text) {
 }
 
 TEST(EurocTable, needsNoHeader) {
-  for (const std::string& header : {"", "#timestamp [ns],filename\n", "timestamp,filename\r\n", "# a comment\n\n"}) {
-    const EurocTable table = read(header + "10,a.png\n20,b.png\r\n");
+  for (const char* const header : {"", "#timestamp [ns],filename\n", "timestamp,filename\r\n", "# a comment\n\n"}) {
+    const EurocTable table = read(std::string(header) + "10,a.png\n20,b.png\r\n");
     ASSERT_EQ(table.rows.size(), 2U) << header;
     EXPECT_EQ(table.rows[0].stamp, 10);
     EXPECT_EQ(table.rows[1].cells[1], "b.png");
