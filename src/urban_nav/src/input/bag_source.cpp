@@ -4,6 +4,7 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <list>
 
@@ -125,7 +126,7 @@ class BagSource : public Source {
     const auto delay = constantDelay(image_stamps_[0], image_stamps_[1]);
     constexpr urban_nav_core::StampNs kPaired = 5'000'000;
     if (!delay || std::abs(*delay) <= kPaired) return "";
-    const double ms = 1e-6 * static_cast<double>(*delay);
+    const double ms = std::round(1e-4 * static_cast<double>(*delay)) / 100.0;  // to 0.01 ms
     return "; the right images are stamped " + urban_nav_core::printNumber(std::abs(ms)) + " ms " +
            (ms > 0.0 ? "later" : "earlier") +
            " than the left ones: if they are exposed together, --set input.right_delay=" +
