@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Accuracy on the real sequences with the shipped defaults, now and settled, beside other systems on the same frames;
-// and how far the covariance is to be believed there (NEES, mean over the frames: 6 is right).
+// and how consistent the covariance is there (NEES, mean over the frames: 6 is right).
 //   swf_vo-bench-accuracy [FOLDER...] [--peer NAME=SEQUENCE=FILE]... [--set swf_vo.NAME=VALUE]...
 //     [-o results/accuracy.json]
 // FOLDER: a sequence in KITTI's layout with poses.txt, such as render_sequence writes; default: the two real ones.

@@ -17,9 +17,9 @@ constexpr double unknown_angular_speed = 1.0;  // rad/s
 
 /// The input of the process model (eq. 1) from what is known: constant velocity, and where there is one, a measured u.
 ///
-/// Without u: the motion of the last step goes on at the same velocity, with white noise on the acceleration: sigma = a
-/// dt^2. It is weak on purpose, since the velocity itself comes from the same images. After m steps by prediction alone
-/// sigma is m times that, so that the sum over m steps grows as the random walk of the velocity does (m^3 / 3 in
+/// Without u: the motion of the last step continues at the same velocity, with white noise on the acceleration: sigma =
+/// a dt^2. It is weak on purpose, since the velocity itself comes from the same images. After m steps by prediction
+/// alone sigma is m times that, so that the sum over m steps grows as the random walk of the velocity does (m^3 / 3 in
 /// variance), although the window takes steps as independent; and no larger than it would be if nothing had ever been
 /// known of the velocity.
 class Prediction {
@@ -31,7 +31,7 @@ class Prediction {
   ProcessInput step(double seconds, const std::vector<urban_nav_core::MotionInput>& inputs) const;
 
   /// The motion of the last step as it was estimated, and whether measurements had part in it. `blind`: there were none
-  /// because there was no usable image; the velocity then goes on, else it is given up after some frames. `smoothed`:
+  /// because there was no usable image; the velocity is then kept, else it is given up after some frames. `smoothed`:
   /// measurements had part in where the step begins, too; where they had not, its length says nothing after a frame by
   /// prediction.
   void learn(const urban_nav_core::Pose& T_last_camera, double seconds, bool measured, bool blind = false,

@@ -211,7 +211,7 @@ class SwfVo::Implementation {
   }
 
   // The step as the window has it now. The frame before may have been moved by this one's measurements, and after
-  // darkness is moved far: from where it was believed to be until now, the step would have the error of the whole dead
+  // darkness is moved far: from where it was assumed to be until now, the step would have the error of the whole dead
   // reckoning in it.
   void learn(const Pose& last, bool trusted, bool blind) {
     const bool smoothed = window_.hasPose(frame_ - 1);

@@ -256,7 +256,7 @@ class PoseGraph {
   std::map<Name, ClosureId> by_name_;
   std::vector<std::vector<SpecificForce>> forces_;  ///< of each track
   std::vector<bool> level_;                         ///< of each track: whether the map that begins with it is
-  std::vector<Closure> removed_;                    ///< since the last relaxation, of those that were believed
+  std::vector<Closure> removed_;                    ///< since the last relaxation, of those that were accepted
   ClosureId next_id_ = 1;
   std::size_t running_ = 0;  ///< number of the track that is being recorded
   std::int64_t revision_ = 0;

@@ -27,7 +27,7 @@ constexpr double kContraction = 0.5;
 // cost may then be wrong.
 constexpr double kClosed = 1e-12;
 // A change of the cost from round to round ends them, as a share of what ends a minimisation; and a cost, in squares of
-// standard deviations, that is none.
+// standard deviations, that is negligible.
 constexpr double kSettledShare = 1e-3, kSettledLeast = 1e-12, kNothing = 1e-9;
 // By how much round-off may make the end seem worse than the begin.
 constexpr double kCostRoundOff = 1e-9;

@@ -9,7 +9,7 @@
 
 namespace pose_graph {
 
-/// Which closures are believed, and the poses that follow: robust relaxation, and then the rule that a large correction
+/// Accepted closures, and the poses that follow: robust relaxation, and then the rule that a large correction
 /// needs two witnesses (docs/derivations/pose_graph.md). A closure waits where odometry alone led from a to b so far,
 /// it says something further off than parameters.jump_distance or jump_angle, it is no stereo closure that odometry
 /// allows, and no other accepted closure spans a part of the same way. `closures` get their verdicts, weights and

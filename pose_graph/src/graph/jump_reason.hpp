@@ -8,7 +8,7 @@
 
 namespace pose_graph {
 
-/// Fills in a jump's reason, sentence and witnesses. `accepted_before`: closures believed before the relaxation,
+/// Fills in a jump's reason, sentence and witnesses. `accepted_before`: closures accepted before the relaxation,
 /// ascending; `removed`: those of them that were removed by hand since; `closures`: as they are judged now; `levelled`:
 /// the map was turned too.
 void explain(Relaxed::Jump& jump, const std::vector<ClosureId>& accepted_before, const std::vector<Closure>& removed,

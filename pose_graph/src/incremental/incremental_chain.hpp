@@ -9,7 +9,7 @@
 namespace pose_graph {
 
 /// A way along a track between two poses of a core, with the poses in between as they were laid last: `at` from the
-/// begin. A single step is none.
+/// begin. A single step is no chain.
 class IncrementalChain {
  public:
   IncrementalChain() = default;

@@ -12,7 +12,7 @@ namespace pose_graph {
 
 namespace {
 
-// Squares of standard deviations: what is left to gain is a hundredth of one, and the next update goes on from there;
+// Squares of standard deviations: what is left to gain is a hundredth of one, and the next update continues from there;
 // relax() is exact.
 constexpr double kLiveEnough = 1e-4;
 // And of a chain's, by which its end may be off before it is laid anew. At 1e-2 poses end 1.7 mm from the batch's, at

@@ -52,9 +52,9 @@ std::size_t validateFinally(const ClosureEvaluator<D>& evaluator, const std::vec
                             const InformationScale& scale, std::vector<int>& expelled, AcceptedGraph<D>& graph,
                             AdmissionState<D>& state);
 
-/// Goes on from there with all candidates, their squares truncated, the limit falling from far too wide to the quantile
-/// of 99 %; keeps the result if its truncated cost is lower. Worth its time only where many are out that are not far
-/// off.
+/// Continues from there with all candidates, their squares truncated, the limit falling from far too wide to the
+/// quantile of 99 %; keeps the result if its truncated cost is lower. Worth its time only where many are out that are
+/// not far off.
 template <int D>
 void readmitByTruncatedSquares(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
                                const ClosureEvaluator<D>& evaluator, AdmissionState<D>& state);

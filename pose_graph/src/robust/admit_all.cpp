@@ -22,7 +22,7 @@ constexpr double kContradicted = 1e-3, kClosing = 0.97, kWork = 4.0, kCheap = 30
 constexpr double kTelling = 30.0, kOpen = 0.9;
 // Baarda's test finds single outliers among many right ones. Beyond this share it starts from the wrong side.
 constexpr double kPoor = 0.02;
-// Of what the residuals may be together, times the variance that is believed; from so many numbers on that is a matter
+// Of what the residuals may be together, times the assumed variance; from so many numbers on that is a matter
 // of chance no more.
 constexpr double kBentFactor = 1.5, kFewNumbers = 60.0;
 
@@ -55,7 +55,7 @@ bool admitAll(const ClosureEvaluator<D>& evaluator, const std::vector<int>& grou
   all.variance = varianceFactor(evaluator, all.in, all.poses, graph.unknowns(), thresholds, scale.factor);
   all.evidence = evaluator.evaluate(graph, all.in, all.poses, all.variance, small_group, kUncontrolled);
 
-  // Among many that are right one more is likely to be, so that it takes less to be believed.
+  // Among many that are right one more is likely to be, so that less evidence is needed.
   double contradicted = 0.0, confident = 0.0, poor = 0.0;
   const auto contradicts = [&](int e) {
     return !(all.evidence.chi2[sz(e)] <= limit(e)) || all.evidence.group_chi2[sz(e)] > thresholds.limit.back();

@@ -16,7 +16,7 @@ constexpr double kGroupShare = 1e-6;
 /// members. For fewer no room is made.
 constexpr std::size_t kForOne = 8;
 
-/// Goes on from a graph with a group that the others do not let be: who is contradicted beside it leaves, the worst
+/// Continues from a graph with a group that contradicts the others: who is contradicted beside it leaves, the worst
 /// ones first. True if all that remain fit, and the group drove out but few for what it is itself. `in`, `poses`: with
 /// the group, and after.
 template <int D>

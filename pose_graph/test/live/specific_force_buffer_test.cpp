@@ -65,7 +65,8 @@ TEST(SpecificForceBuffer, aRecordingThatBeginsAgainIsForTheNextSession) {
   buffer.beginSession();
   expectSame(buffer.meansAt(posesUpTo(80)), forcesAt(posesUpTo(80), second));
   buffer.beginSession();
-  EXPECT_FALSE(buffer.meansAt(posesUpTo(80)).empty()) << "a session that begins by hand goes on with the same samples";
+  EXPECT_FALSE(buffer.meansAt(posesUpTo(80)).empty())
+      << "a session that begins by hand continues with the same samples";
 }
 
 TEST(SpecificForceBuffer, withoutForcesNothingIsKnown) {

@@ -94,7 +94,7 @@ TEST_F(MapSearchTest, FindsTheRobotWhateverTheInitialPose) {
   visit(0);
   const Keyframe first = visit(1);
   localiser_.addInitialPose(second, {place(11), 0.01 * urban_nav_core::Matrix6d::Identity()});
-  EXPECT_TRUE(search.query(first, localiser_)) << "there is nothing of it where it was believed to be";
+  EXPECT_TRUE(search.query(first, localiser_)) << "there is nothing of it where it was assumed to be";
   EXPECT_EQ(localiser_.now().reason, LocalizationReason::SingleMatch);
   EXPECT_TRUE(search.query(visit(2), localiser_));
   EXPECT_EQ(localiser_.now().state, LocalizationState::Localized) << localiser_.now().sentence;

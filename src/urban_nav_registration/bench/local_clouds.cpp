@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What becomes of pairs of local clouds without a guess: how many are aligned by how far apart and how turned the robot
-// was, how wrong those are, how far their information is to be believed (NEES: as many as directions are held), and
+// was, how wrong those are, how consistent their information is (NEES: as many as directions are held), and
 // what is made of pairs of different places.
 //   urban_nav_registration-bench-local_clouds FOLDER... [--true N] [--false N] [--list] [--unknown]
 //     [--set registration.NAME=VALUE]... [-o results/local_clouds.json]

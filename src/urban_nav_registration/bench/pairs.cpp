@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which pairs of views are upgraded to a transform, by how far apart they were taken; how wrong those are, how far
-// their information is to be believed (NEES: 6 is right), and what it takes; beside what OpenCV has for the purpose on
+// their information is consistent (NEES: 6 is right), and what it takes; beside what OpenCV has for the purpose on
 // the same pairs. And what is made of pairs of different places.
 //   urban_nav_registration-bench-pairs FOLDER... [--false N] [--no-peers] [--draw DIR] [--list]
 //     [--set registration.NAME=VALUE]... [-o results/pairs.json]

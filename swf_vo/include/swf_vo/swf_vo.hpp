@@ -26,7 +26,7 @@ class SwfVo {
   /// themselves.
   SwfVo(const Parameters& parameters, const urban_nav_core::StereoCamera& camera,
         const urban_nav_core::Pose& T_base_camera);
-  /// Goes on where another object stood when `state` was taken from it. UserError that names what differs where
+  /// Continues where another object stood when `state` was taken from it. UserError that names what differs where
   /// parameters or calibration are others than that one had, DataError where the bytes are damaged or of another
   /// version.
   SwfVo(const Parameters& parameters, const urban_nav_core::StereoCamera& camera,

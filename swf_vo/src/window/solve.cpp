@@ -26,7 +26,7 @@ constexpr std::size_t most_rows = 1 << 20;  // of a factor that is read
 constexpr double datum_strength = 1e3;
 // The disparity offset is read off how disparities change as things come nearer, and so is everything that the model of
 // camera and surfaces leaves out: measured in rendered rooms, where there is none, and on real sequences its estimate
-// is off by 2 to 30 times what the information says. It is believed a twentieth as well (in standard deviation) as
+// is off by 2 to 30 times what the information says. It is weighted a twentieth as much (in standard deviation) as
 // alignments alone would have it; by what measurements are inflated they have lost of that already.
 constexpr double caution = 400.0;
 

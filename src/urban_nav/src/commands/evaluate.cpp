@@ -20,7 +20,7 @@ using urban_nav_core::UserError;
 
 namespace {
 
-/// A file that nobody asked for is never the reason for an error.
+/// The default file is optional: if it cannot be read, there is a warning and no NEES.
 std::vector<urban_nav_core::CovarianceRow> covariancesFor(const Arguments& arguments, Console& console) {
   if (const std::optional<std::string> given = arguments.find("covariance"))
     return urban_nav_core::readCovariances(*given);

@@ -40,7 +40,7 @@ std::vector<Sample> drawSamples(std::list<rosbag::Bag>& bags, const std::vector<
 }  // namespace
 
 StampNs readHeaderStamp(const rosbag::MessageInstance& message) {
-  constexpr std::size_t kSecondsAt = 4, kNanosecondsAt = 8, kEnd = 12;  // behind seq, little-endian
+  constexpr std::size_t kSecondsAt = 4, kNanosecondsAt = 8, kEnd = 12;  // after seq, little-endian
   const std::uint32_t size = message.size();
   if (size < kEnd) return 0;
   std::vector<std::uint8_t> bytes(size);

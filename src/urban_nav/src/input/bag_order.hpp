@@ -22,7 +22,7 @@ struct StampSurvey {
   bool needs_sorting = false;
   /// No header has a stamp.
   bool unset = false;
-  /// ns; by how much the stamps of a topic step back at most while time goes on: a clock was set.
+  /// ns; by how much the stamps of a topic step back at most while times of receipt ascend: a clock was set.
   urban_nav_core::StampNs back = 0;
 };
 

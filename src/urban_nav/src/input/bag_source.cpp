@@ -273,7 +273,7 @@ class BagSource : public Source {
     if (survey.back > kClockStep)
       info_.notes.push_back("stamps step back by " +
                             urban_nav_core::printNumber(1e-9 * static_cast<double>(survey.back)) +
-                            " s while the recording goes on (a clock was set): images after the step are left out "
+                            " s during the recording (a clock was set): images after the step are left out "
                             "until the stamps have caught up");
     feed_.emplace(feed, calibration_);
     listen();

@@ -26,8 +26,8 @@ enum class InputKind { KittiFolder, EurocFolder, NewCollegeFolder, Bag };
 InputKind inputKind(const std::string& path);
 
 /// One session: a folder, or the bags of a recording (more than one where it was split). `after`: where another reader
-/// of the recording stood, with bags that count as the first of `paths`; it is null, or goes on there. UserError where
-/// the bags do not follow.
+/// of the recording stood, with bags that count as the first of `paths`; null for a reader that begins at the start.
+/// UserError where the bags do not follow.
 std::unique_ptr<Source> openSource(const std::vector<std::string>& paths, const SourceOptions& options,
                                    const BagEnd* after = nullptr);
 
