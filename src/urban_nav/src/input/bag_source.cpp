@@ -272,7 +272,7 @@ class BagSource : public Source {
     if (is_sorted_) info_.notes.push_back("messages lie in another order than their stamps: sorted by stamp");
     if (survey.back > kClockStep)
       info_.notes.push_back("stamps step back by " +
-                            urban_nav_core::printNumber(1e-9 * static_cast<double>(survey.back)) +
+                            urban_nav_core::printNumber(std::round(1e-7 * static_cast<double>(survey.back)) / 100.0) +
                             " s during the recording (a clock was set): images after the step are left out "
                             "until the stamps have caught up");
     feed_.emplace(feed, calibration_);
