@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "nodelet_parameters.hpp"
+#include "live/nodelet_parameters.hpp"
 #include "segway_drivers/parameters.hpp"
 
 namespace segway_drivers {

@@ -14,7 +14,7 @@
 #include <string>
 #include <thread>
 
-#include "nodelet_parameters.hpp"
+#include "live/nodelet_parameters.hpp"
 #include "segway_drivers/driver/run_device.hpp"
 #include "segway_drivers/transport/host_clock.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "../nodelet/nodelet_parameters.hpp"
+#include "live/nodelet_parameters.hpp"
 #include "urban_nav_core/parameters/sources.hpp"
 #include "urban_nav_core/testing/parameter_tables.hpp"
 #include "urban_nav_core/types/error.hpp"

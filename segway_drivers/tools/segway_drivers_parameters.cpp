@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes the parameter tables of README.md and config/segway_drivers.yaml; test/parameters_test.cpp compares them with
 // the table.
-#include "nodelet_parameters.hpp"
+#include "live/nodelet_parameters.hpp"
 #include "segway_drivers/parameters.hpp"
 #include "urban_nav_core/parameters/documents.hpp"
 

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "diagnostics.hpp"
-#include "playback_control.hpp"
-#include "rate_controller.hpp"
-#include "simulator_parameters.hpp"
+#include "live/playback_control.hpp"
+#include "live/rate_controller.hpp"
+#include "live/simulator_parameters.hpp"
 #include "topic_publisher.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_core/parameters/sources.hpp"

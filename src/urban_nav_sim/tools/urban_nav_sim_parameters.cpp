@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What README.md says of the parameters; test/nodelet/simulator_parameters_test.cpp holds it equal to the table.
-#include "simulator_parameters.hpp"
+// What README.md says of the parameters; test/live/simulator_parameters_test.cpp holds it equal to the table.
+#include "live/simulator_parameters.hpp"
 #include "urban_nav_core/parameters/documents.hpp"
 
 int main(int argc, char** argv) {

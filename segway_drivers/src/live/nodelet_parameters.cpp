@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodelet_parameters.hpp"
+#include "live/nodelet_parameters.hpp"
 
 namespace segway_drivers {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulator_parameters.hpp"
+#include "live/simulator_parameters.hpp"
 
 #include <cstdint>
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rate_controller.hpp"
+#include "live/rate_controller.hpp"
 
 namespace urban_nav_sim {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "../../nodelet/rate_controller.hpp"
+#include "live/rate_controller.hpp"
 
 #include <gtest/gtest.h>
 
