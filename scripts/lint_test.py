@@ -107,6 +107,11 @@ class Rules(unittest.TestCase):
         self.assertEqual(breaches(lint.of_functions, a_cpp=names.split("\n", 1)[1]), [])
         self.assertEqual(len(breaches(lint.of_functions, a_cpp=names)), 21)
 
+    def test_renamed_names_do_not_come_back(self):
+        glossary = "## Renamed\n| old | new |\n|---|---|\n| `OldName`, `older` | `NewName` |\n| `Moment` (core) | `Time` |\n"
+        self.check(lint.old_names, {"docs__glossary_md": glossary, "a_cpp": "struct Moment { NewName x; };  // OldName\n"},
+                   {"docs__glossary_md": glossary, "a_cpp": "struct A { OldName x; };\n"})
+
     def test_nodelets_are_short_and_of_ros(self):
         ros = "#include <ros/ros.h>\n"
         self.check(lint.nodelet_includes, {"p__nodelet__a_hpp": ros, "p__nodelet__a_cpp": '#include "a.hpp"\n'}, {"p__nodelet__b_cpp": "int x;\n"})

@@ -100,7 +100,7 @@ int main(int argc, char** argv) try {
                                          {"window 1", {"swf_vo.window=1"}},
                                          {"window 25", {"swf_vo.window=25"}},
                                          {"one iteration", {"swf_vo.iterations=1"}},
-                                         {"prior dropped (forget: delete)", {"swf_vo.forget=delete"}}};
+                                         {"prior dropped (marginalization: none)", {"swf_vo.marginalization=none"}}};
   BenchTable table({"images", "variant", "ms a frame, median", "99 %", "frames/s", "features", "10-frame spans"}, argc,
                    argv);
   for (const Sequence& drawn : sequences(options)) {

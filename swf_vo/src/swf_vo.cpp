@@ -40,8 +40,8 @@ constexpr std::uint32_t state_version = 1;  // one more whenever what is archive
 WindowOptions windowOptions(const Parameters& parameters, const StereoCamera& camera) {
   WindowOptions options;
   options.size = parameters.window;
-  options.forget_by_deletion = parameters.forget == "delete";
-  options.linearise_first = parameters.linearise == "first";
+  options.forget_by_deletion = parameters.marginalization == "none";
+  options.linearise_first = parameters.first_estimate_jacobians;
   options.huber = parameters.huber;
   options.iterations = parameters.iterations;
   options.disparity_offset = parameters.disparity_offset;
@@ -66,13 +66,21 @@ void check(const StereoCamera& camera) {
     throw UserError("calibration", "the images are smaller than 64x64", "at least 64x64 px");
 }
 
+/// Returns "name = value" as stored states have it: two parameters had other names when these began.
+std::string storedSetting(const Parameters& parameters, const std::string& name) {
+  if (name == "marginalization") return parameters.marginalization == "none" ? "forget = delete" : "forget = schur";
+  if (name == "first_estimate_jacobians")
+    return parameters.first_estimate_jacobians ? "linearise = first" : "linearise = latest";
+  return name + " = " + urban_nav_core::printValue(table().get(parameters, name));
+}
+
 }  // namespace
 
 /// A state is of use with the parameters and the calibration that it was made with, and no others.
 void agree(urban_nav_core::Archive& archive, const Parameters& parameters, const StereoCamera& camera,
            const Pose& T_base_camera) {
   for (const urban_nav_core::RowInfo& row : table().rows()) {
-    const std::string now = row.name + " = " + urban_nav_core::printValue(table().get(parameters, row.name));
+    const std::string now = storedSetting(parameters, row.name);
     std::string then = now;
     archive(then);
     if (then != now)

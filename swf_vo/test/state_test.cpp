@@ -86,8 +86,8 @@ TEST(State, GoesOnWithOtherParameters) {
   kinds[0].window = 1;
   kinds[1].window = 25;
   kinds[1].features = 20;  // few landmarks and many poses: the path is eliminated first
-  kinds[2].linearise = "latest";
-  kinds[3].forget = "delete";
+  kinds[2].first_estimate_jacobians = false;
+  kinds[3].marginalization = "none";
   kinds[4].disparity_offset = 0.3;
   kinds[4].subpixel = false;
   for (std::size_t i = 0; i < kinds.size(); ++i) {

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from support import WORLDS, commit, mapped, show, simulated, urban_nav
 
-PLAIN = ("swf_vo.window=1", "swf_vo.forget=delete", "swf_vo.subpixel=false")
+PLAIN = ("swf_vo.window=1", "swf_vo.marginalization=none", "swf_vo.subpixel=false")
 COLUMNS = ("world", "system", "10 frames", "10 m", "position, rms, mm", "NEES", "frames not OK", "ms a frame, median")
 
 

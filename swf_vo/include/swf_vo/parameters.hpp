@@ -10,9 +10,9 @@ namespace swf_vo {
 /// What a user may want to change; one member per row of table(), which says what each means, its unit, range and
 /// default. The camera and the extrinsics are not here: they come with the data.
 struct Parameters {
-  int window;                // frames
-  std::string forget;        // schur, delete
-  std::string linearise;     // first, latest
+  int window;                   // frames
+  std::string marginalization;  // schur, none
+  bool first_estimate_jacobians;
   int features;              // in an image of 512x384
   double pixel_noise_floor;  // px
   bool subpixel;

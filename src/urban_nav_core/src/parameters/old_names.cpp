@@ -7,13 +7,42 @@
 namespace urban_nav_core {
 namespace {
 
+using OldWords = std::map<std::string, std::string>;  // present words by old ones
+
+/// Old name without its words: "queue" or "loop_metric.queue".
+std::string nameWithoutWords(const std::string& old_name) { return old_name.substr(0, old_name.find(':')); }
+
+/// OldWords of an old name, "forget: delete = none, keep = all".
+OldWords parseOldWords(const std::string& old_name) {
+  OldWords words;
+  std::string word, present;
+  std::string* part = &word;
+  for (std::size_t i = std::min(old_name.find(':'), old_name.size() - 1) + 1; i <= old_name.size(); ++i) {
+    const char c = i < old_name.size() ? old_name[i] : ',';
+    if (c == '=') {
+      part = &present;
+    } else if (c == ',') {
+      if (!word.empty()) words[word] = present;
+      word.clear();
+      present.clear();
+      part = &word;
+    } else if (c != ' ') {
+      *part += c;
+    }
+  }
+  return words;
+}
+
 /// "loop_metric.queue" of either form of an old name.
 std::string fullOldName(const std::string& stage, const std::string& old_name) {
-  return old_name.find('.') == std::string::npos ? fullName(stage, old_name) : old_name;
+  const std::string name = nameWithoutWords(old_name);
+  return name.find('.') == std::string::npos ? fullName(stage, name) : name;
 }
 
 struct PresentKey {
   std::string stage, name;
+  ParameterType type;
+  OldWords words;
 };
 
 std::map<std::string, PresentKey> presentKeys(const std::vector<StageRows>& tables) {
@@ -21,12 +50,23 @@ std::map<std::string, PresentKey> presentKeys(const std::vector<StageRows>& tabl
   for (const StageRows& table : tables)
     for (const RowInfo& row : table.rows)
       for (const std::string& old_name : row.old_names)
-        keys.emplace(fullOldName(table.stage, old_name), PresentKey{table.stage, row.name});
+        keys.emplace(fullOldName(table.stage, old_name),
+                     PresentKey{table.stage, row.name, row.type, parseOldWords(old_name)});
   return keys;
 }
 
 std::string valueText(const Assignment& assignment) {
   return assignment.is_text ? std::get<std::string>(assignment.value) : printValue(assignment.value);
+}
+
+/// Replaces a word that has another name today; returns " = none" if it did. Typed words of switches become switches.
+std::string replaceOldWord(const PresentKey& key, Assignment& assignment) {
+  const std::string* word = std::get_if<std::string>(&assignment.value.base());
+  const auto present = word ? key.words.find(*word) : key.words.end();
+  if (present == key.words.end()) return "";
+  const bool is_switch = key.type == ParameterType::Bool && !assignment.is_text;
+  assignment.value = is_switch ? ParameterValue(present->second == "true") : ParameterValue(present->second);
+  return " = " + present->second;
 }
 
 }  // namespace
@@ -40,7 +80,10 @@ RenamedAssignments replaceOldNames(std::vector<Assignment> assignments, const st
     const auto key = keys.find(old_name);
     if (key == keys.end()) continue;
     const std::string present = fullName(key->second.stage, key->second.name);
-    renamed.warnings.push_back(assignment.where + ": " + old_name + " is now called " + present);
+    const std::string old_word = key->second.words.empty() ? "" : " = " + valueText(assignment);
+    const std::string word = replaceOldWord(key->second, assignment);
+    renamed.warnings.push_back(assignment.where + ": " + old_name + (word.empty() ? "" : old_word) + " is now called " +
+                               present + word);
     const auto [other, is_first] = earlier.emplace(present, assignment);
     if (!is_first) {
       const std::string other_name = fullName(other->second.stage, other->second.name);
@@ -59,8 +102,9 @@ RenamedAssignments replaceOldNames(std::vector<Assignment> assignments, const st
 
 bool isCalled(const RowInfo& row, const std::string& name) {
   const auto matches = [&name](const std::string& old_name) {
-    const std::size_t dot = old_name.find('.');
-    return old_name.substr(dot == std::string::npos ? 0 : dot + 1) == name;
+    const std::string without_words = nameWithoutWords(old_name);
+    const std::size_t dot = without_words.find('.');
+    return without_words.substr(dot == std::string::npos ? 0 : dot + 1) == name;
   };
   return row.name == name || std::any_of(row.old_names.begin(), row.old_names.end(), matches);
 }

@@ -106,7 +106,8 @@ void assertSound([[maybe_unused]] const std::string& stage, const std::vector<Ro
                                                   std::get<std::int64_t>(row.low) >= std::numeric_limits<int>::min()));
     assert(isAllowed(row, row.standard));
     assert(std::none_of(row.old_names.begin(), row.old_names.end(), [&](const std::string& old_name) {
-      return std::any_of(rows.begin(), rows.end(), [&](const RowInfo& other) { return other.name == old_name; });
+      return std::any_of(rows.begin(), rows.end(),
+                         [&](const RowInfo& other) { return other.name == old_name.substr(0, old_name.find(':')); });
     }));
   }
 }

@@ -74,6 +74,38 @@ TEST(OldNames, AreCheckedAndReportedAsTheParameterThatTheyAre) {
             std::string::npos);
 }
 
+struct Memory {
+  std::string keeps;
+  bool first;
+};
+
+const Table<Memory>& memoryTable() {
+  static const Table<Memory> table(
+      "memory",
+      {{"keeps", &Memory::keeps, "", "all", false, false, {"all", "none"}, "What.", "", {"forget: delete = none"}},
+       {"first", &Memory::first, "", true, false, false, {}, "When.", "", {"when: first = true, latest = false"}}});
+  return table;
+}
+
+TEST(OldNames, HaveOldWords) {
+  const auto loaded = load(memoryTable(), {parseSetting("memory.forget=delete"), parseSetting("memory.when=latest")});
+  EXPECT_EQ(loaded.parameters.keeps, "none");
+  EXPECT_FALSE(loaded.parameters.first);
+  EXPECT_EQ(loaded.warnings, (std::vector<std::string>{
+                                 "--set memory.forget=delete: memory.forget = delete is now called memory.keeps = none",
+                                 "--set memory.when=latest: memory.when = latest is now called memory.first = false"}));
+  EXPECT_EQ(load(memoryTable(), {parseSetting("memory.forget=all")}).parameters.keeps, "all");
+  EXPECT_EQ(catchError([] { load(memoryTable(), {parseSetting("memory.keeps=delete")}); }),
+            "--set memory.keeps=delete: memory.keeps = delete: allowed all, none")
+      << "new name, old word";
+}
+
+TEST(OldNames, WordsOfTheParameterServerBecomeSwitches) {
+  const auto loaded = load(memoryTable(), {{"memory", "when", "latest", false, "/memory/when"}});
+  EXPECT_FALSE(loaded.parameters.first);
+  EXPECT_TRUE(isCalled(memoryTable().rows()[1], "when"));
+}
+
 TEST(OldNames, AssignmentsToOthersAreLeftAlone) {
   const auto renamed = replaceOldNames({parseSetting("vo.queue=1"), parseSetting("memory_mb=1")}, tables());
   EXPECT_TRUE(renamed.warnings.empty());

@@ -22,7 +22,8 @@ struct RenamedAssignments {
 };
 
 /// Returns the assignments with old names (Row::old_names) replaced by present ones, in the same order. An old name
-/// without a dot belongs to the row's own stage; one with a dot may name another stage, whose rows have moved.
+/// without a dot belongs to the row's own stage; one with a dot may name another stage, whose rows have moved. Old
+/// words follow a colon, `"forget: delete = none"`: they are replaced where the old name is used, and no other words.
 ///
 /// A warning names the place and the present name. Where several old names of one parameter are assigned different
 /// values, as when two stages had a copy each, a further warning names both places; the last one counts.
