@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "support/arguments.hpp"
 #include "support/peers.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
 
@@ -87,27 +88,18 @@ int main(int argc, char** argv) {
       {"scene", "method", "answered, %", "wrong by over 1 px, %", "median error, px", "sky answered, %",
        "error / sigma, rms", "in quartiles of sigma"},
       argc, argv);
-  std::string output;
-  std::vector<std::string> words(argv + 1, argv + argc);
-  if (words.size() >= 2 && words[0] == "-o") {
-    output = words[1];
-    words.erase(words.begin(), words.begin() + 2);
-  }
-  int step = 20;
-  if (words.size() >= 2 && words[0] == "--step") {
-    step = std::max(std::atoi(words[1].c_str()), 1);
-    words.erase(words.begin(), words.begin() + 2);
-  }
+  const dense_stereo::bench::BenchArguments arguments = dense_stereo::bench::readBenchArguments(argc, argv, 20);
+  const std::vector<std::string>& words = arguments.words;
   if (const char* data = std::getenv("URBAN_NAV_DATA"); data != nullptr)
     for (const TruePair& pair : dense_stereo::bench::middleburyPairs(data)) addRows(pair.name, {pair}, table);
   for (std::size_t i = 0; i + 2 < words.size(); i += 3)
-    addRows(words[i], dense_stereo::bench::simulatedPairs(words[i], words[i + 1], words[i + 2], step), table);
+    addRows(words[i], dense_stereo::bench::simulatedPairs(words[i], words[i + 1], words[i + 2], arguments.step), table);
   table.note(
       "Pixels that both cameras see; teddy and cones 64 disparities, wood2 128; simulated worlds 64, nearer than 47 m.");
   table.note("Sky: pixels without a surface that are given 2 px or more. Error / sigma: of errors below 1 px.");
   table.note(
       "StereoBM 11x11; StereoSGBM block 3, P1 72, P2 288, uniqueness 10, speckles 100 px (OpenCV's defaults otherwise).");
   std::fputs(table.text().c_str(), stdout);
-  if (!output.empty()) table.write(output);
+  if (!arguments.output.empty()) table.write(arguments.output);
   return 0;
 }

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "support/arguments.hpp"
 #include "support/true_scene.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
 
@@ -60,21 +61,12 @@ int main(int argc, char** argv) {
       {"world", "pairs", "with a true plane", "plane found", "angle, deg: median, 95 %", "height, cm: median, 95 %",
        "obstacles over 10 cm", "of these found", "false obstacles in 100 pairs"},
       argc, argv);
-  std::string output;
-  std::vector<std::string> words(argv + 1, argv + argc);
-  if (words.size() >= 2 && words[0] == "-o") {
-    output = words[1];
-    words.erase(words.begin(), words.begin() + 2);
-  }
-  int step = 10;
-  if (words.size() >= 2 && words[0] == "--step") {
-    step = std::max(std::atoi(words[1].c_str()), 1);
-    words.erase(words.begin(), words.begin() + 2);
-  }
+  const dense_stereo::bench::BenchArguments arguments = dense_stereo::bench::readBenchArguments(argc, argv, 10);
+  const std::vector<std::string>& words = arguments.words;
   for (std::size_t i = 0; i + 2 < words.size(); i += 3) {
     GroundFigures figures;
     dense_stereo::bench::forEachTrueScene(
-        words[i + 1], words[i + 2], step,
+        words[i + 1], words[i + 2], arguments.step,
         [&](const TrueScene& truth, const NearScene& scene) { figures.add(truth, scene); });
     const auto both = [](const std::vector<double>& values) {
       return cell(quantile(values, 0.5), 2) + ", " + cell(quantile(values, 0.95), 2);
@@ -89,6 +81,6 @@ int main(int argc, char** argv) {
       "1 to 5 m ahead, that both cameras see with 60 pixels or more. False: connected obstacle points with nothing over "
       "5 cm within 25 cm.");
   std::fputs(table.text().c_str(), stdout);
-  if (!output.empty()) table.write(output);
+  if (!arguments.output.empty()) table.write(arguments.output);
   return 0;
 }

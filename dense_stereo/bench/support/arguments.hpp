@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace dense_stereo::bench {
+
+/// Command line of a bench: [-o FILE.json] [--step N] WORD...
+struct BenchArguments {
+  std::string output;              ///< "" if none is given
+  int step = 1;                    ///< every which frame, at least 1
+  std::vector<std::string> words;  ///< that follow
+};
+
+BenchArguments readBenchArguments(int argc, char** argv, int default_step);
+
+}  // namespace dense_stereo::bench
