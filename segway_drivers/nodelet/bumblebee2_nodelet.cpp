@@ -1,35 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <diagnostic_updater/diagnostic_updater.h>
-#include <nodelet/nodelet.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 #include <pluginlib/class_list_macros.hpp>
 
-#include <atomic>
 #include <boost/make_shared.hpp>
-#include <mutex>
 #include <opencv2/imgproc.hpp>
-#include <thread>
 
-#include "device_parameters.hpp"
+#include "camera_nodelet.hpp"
 #include "segway_drivers/bumblebee2/camera.hpp"
 #include "segway_drivers/bumblebee2/factory_calibration.hpp"
-#include "segway_drivers/transport/host_clock.hpp"
+#include "urban_nav_core/io/calibration.hpp"
 #include "urban_nav_core/io/text_file.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_core/types/frames.hpp"
+#include "urban_nav_ros/camera_info.hpp"
 #include "urban_nav_ros/image.hpp"
-#include "urban_nav_ros/stamp.hpp"
 #include "urban_nav_ros/topics.hpp"
 
 namespace segway_drivers {
 
 namespace topics = urban_nav_ros::topics;
+namespace frames = urban_nav_core::frames;
 
 namespace {
 
-constexpr TimeNs camera_wait = 100'000'000, camera_stalled = 1'000'000'000;  // ns
-constexpr double reopen_pause = 1.0;                                         // s
+constexpr TimeNs stereo_stalled = 500'000'000;  // ns
 
 const char* encodingOfMosaic(MosaicPattern pattern) {
   switch (pattern) {
@@ -44,158 +39,115 @@ const char* encodingOfMosaic(MosaicPattern pattern) {
 
 }  // namespace
 
-/// Stereo camera. With rectify: none `stereo/{left,right}/image_raw` as the imagers sent it; with factory `image_rect`,
-/// grey, and `camera_info`.
-class Bumblebee2Nodelet : public nodelet::Nodelet {
+/// Stereo camera. With rectify: none `stereo/{left,right}/image_raw` as the imagers sent it, with `camera_info` where
+/// that is given; with factory `image_rect`, grey, and `camera_info`.
+class Bumblebee2Nodelet : public CameraNodelet {
  public:
-  ~Bumblebee2Nodelet() override {
-    stop_ = true;
-    timer_.stop();
-    if (reader_.joinable()) reader_.join();
-  }
+  ~Bumblebee2Nodelet() override { shutDown(); }
 
  private:
-  void onInit() override {
-    try {
-      std::tie(nodelet_, parameters_) = readDeviceParameters(getPrivateNodeHandle(), "bumblebee2");
-      if (parameters_.bumblebee2_rectify == "factory") loadCalibration();
-    } catch (const urban_nav_core::Error& error) {
-      NODELET_FATAL("%s", error.what());
-      throw;
-    }
+  std::string device() const override { return "bumblebee2"; }
+  std::string model() const override { return "Bumblebee2"; }
+  FrameReader readBag(const std::string& bag) override { return readStereoFrames(bag); }
+  SimCameraOptions::Model simulatedModel() const override { return SimCameraOptions::Model::Bumblebee2; }
+  TimeNs stalledAfter() const override { return stereo_stalled; }
+  bool start(std::string& error) override { return camera_->start(error); }
+  const std::string& identity() const override { return camera_->identity(); }
+  const DeviceCounters& counters() const override { return camera_->counters(); }
+  std::vector<DriverEvent> takeEvents() override { return camera_->takeEvents(); }
+
+  void prepare() override {
+    const bool rectified = parameters().bumblebee2_rectify == "factory";
+    if (rectified) loadCalibration();
+    else loadInfos();
     ros::NodeHandle& handle = getNodeHandle();
-    const bool rectified = calibration_.has_value();
     left_ = handle.advertise<sensor_msgs::Image>(rectified ? topics::left_rectified : topics::left_image, 10);
     right_ = handle.advertise<sensor_msgs::Image>(rectified ? topics::right_rectified : topics::right_image, 10);
-    if (rectified) {
-      left_info_ = handle.advertise<sensor_msgs::CameraInfo>(topics::left_info, 10);
-      right_info_ = handle.advertise<sensor_msgs::CameraInfo>(topics::right_info, 10);
-    }
-    updater_ = std::make_unique<diagnostic_updater::Updater>(handle, getPrivateNodeHandle(), getName());
-    updater_->setHardwareID("Bumblebee2 " + nodelet_.port);
-    updater_->add("driver", [this](diagnostic_updater::DiagnosticStatusWrapper& status) { fill(status); });
-    timer_ = handle.createWallTimer(ros::WallDuration(1.0),
-                                    [this](const ros::WallTimerEvent&) { updater_->force_update(); });
-    reader_ = std::thread([this] { run(); });
+    if (!left_info_) return;
+    left_infos_ = handle.advertise<sensor_msgs::CameraInfo>(topics::left_info, 10);
+    right_infos_ = handle.advertise<sensor_msgs::CameraInfo>(topics::right_info, 10);
+  }
+
+  void makeCamera(FrameSource& source) override {
+    Bb2Camera::Options options;
+    options.latency = 1e-3 * parameters().bumblebee2_latency_ms;
+    options.swap = parameters().bumblebee2_swap_images;
+    camera_ = std::make_unique<Bb2Camera>(source, options);
   }
 
   void loadCalibration() {
-    const std::string& file = parameters_.bumblebee2_calibration;
+    const std::string& file = parameters().bumblebee2_calibration;
     if (file.empty()) throw urban_nav_core::UserError("~calibration", "empty", "the file of the factory calibration");
-    calibration_ = parseFactoryCalibration(urban_nav_core::readTextFile(file), file);
-    left_map_ = makeRectifyingMap(calibration_->left, {bb2_width, bb2_height});
-    right_map_ = makeRectifyingMap(calibration_->right, {bb2_width, bb2_height});
+    const FactoryCalibration calibration = parseFactoryCalibration(urban_nav_core::readTextFile(file), file);
+    left_map_ = makeRectifyingMap(calibration.left, {bb2_width, bb2_height});
+    right_map_ = makeRectifyingMap(calibration.right, {bb2_width, bb2_height});
+    left_info_ = makeInfo(calibration, 0.0);
+    right_info_ = makeInfo(calibration, calibration.baseline);
   }
 
-  void run() {
-    std::string error;
-    const std::unique_ptr<FrameSource> source = makeBusCamera(nodelet_.port, "Bumblebee2", error);
-    if (!source) {
-      NODELET_ERROR("%s", error.c_str());
-      setState("absent", error);
-      return;
+  /// Calibration that is published with raw images: of two files, or of the bag that feeds a simulation.
+  void loadInfos() {
+    const std::string& files = parameters().bumblebee2_camera_info;
+    const std::size_t comma = files.find(',');
+    if (!files.empty()) {
+      if (comma == std::string::npos) throw urban_nav_core::UserError("~camera_info", files, "LEFT.yaml,RIGHT.yaml");
+      left_info_ = urban_nav_ros::toCameraInfoMessage(urban_nav_core::readCameraInfo(files.substr(0, comma)));
+      right_info_ = urban_nav_ros::toCameraInfoMessage(urban_nav_core::readCameraInfo(files.substr(comma + 1)));
+    } else if (isSimulated()) {
+      left_info_ = readStereoInfo(nodelet().port, "left");
+      right_info_ = readStereoInfo(nodelet().port, "right");
     }
-    Bb2Camera::Options options;
-    options.latency = 1e-3 * parameters_.bumblebee2_latency_ms;
-    options.swap = parameters_.bumblebee2_swap_images;
-    Bb2Camera camera(*source, options);
-    while (!stop_) {
-      if (!camera.start(error)) {
-        setState("absent", error);
-        ros::WallDuration(reopen_pause).sleep();
-        continue;
-      }
-      setState("streaming", camera.identity());
-      TimeNs last = steadyTime();
-      while (!stop_ && !source->isGone() && steadyTime() - last < camera_stalled) {
-        if (const auto pair = camera.next(camera_wait)) {
-          last = steadyTime();
-          publish(*pair, camera.pattern());
-        }
-        clock_.follow();
-        for (const DriverEvent& event : camera.takeEvents()) NODELET_WARN("%s", event.text.c_str());
-        const std::lock_guard<std::mutex> guard(mutex_);
-        counters_ = camera.counters();
-      }
-      setState("lost", "no image");
-      source->stop();
-      const std::lock_guard<std::mutex> guard(mutex_);
-      ++reconnections_;
-    }
+    if (!right_info_) left_info_.reset();
   }
 
-  void publish(const Bb2StampedPair& pair, MosaicPattern pattern) {
-    const ros::Time stamp = urban_nav_ros::toRosTime(clock_.toReal(pair.stamp));
-    publishImage(pair.frame.left, pattern, left_map_, stamp, urban_nav_core::frames::stereo_left, left_);
-    publishImage(pair.frame.right, pattern, right_map_, stamp, urban_nav_core::frames::stereo_right, right_);
-    if (!calibration_) return;
-    left_info_.publish(makeInfo(stamp, urban_nav_core::frames::stereo_left, 0.0));
-    right_info_.publish(makeInfo(stamp, urban_nav_core::frames::stereo_right, calibration_->baseline));
+  void step(TimeNs wait) override {
+    const auto pair = camera_->next(wait);
+    if (!pair) return;
+    const ros::Time stamp = toRos(pair->stamp);
+    publishImage(pair->frame.left, left_map_, stamp, frames::stereo_left, left_);
+    publishImage(pair->frame.right, right_map_, stamp, frames::stereo_right, right_);
+    publishTimeReference(frames::stereo_left, pair->arrival, *pair->frame.bus_time);
+    if (!left_info_) return;
+    left_info_->header.stamp = right_info_->header.stamp = stamp;
+    left_info_->header.frame_id = frames::stereo_left;
+    right_info_->header.frame_id = frames::stereo_right;
+    left_infos_.publish(*left_info_);
+    right_infos_.publish(*right_info_);
   }
 
-  void publishImage(const cv::Mat& raw, MosaicPattern pattern, const RectifyingMap& map, const ros::Time& stamp,
-                    const std::string& frame, const ros::Publisher& publisher) const {
+  void publishImage(const cv::Mat& raw, const RectifyingMap& map, const ros::Time& stamp, const std::string& frame,
+                    const ros::Publisher& publisher) const {
     cv::Mat image = raw;
     if (!map.x.empty()) {
-      cv::Mat grey = demosaic(raw, pattern);
+      cv::Mat grey = demosaic(raw, camera_->pattern());
       if (grey.channels() == 3) cv::cvtColor(grey, grey, cv::COLOR_BGR2GRAY);
       cv::remap(grey, image, map.x, map.y, cv::INTER_LINEAR);
     }
     auto message = boost::make_shared<sensor_msgs::Image>(urban_nav_ros::toImageMessage(image));
-    if (map.x.empty()) message->encoding = encodingOfMosaic(pattern);
+    if (map.x.empty()) message->encoding = encodingOfMosaic(camera_->pattern());
     message->header.stamp = stamp;
     message->header.frame_id = frame;
     publisher.publish(message);
   }
 
-  sensor_msgs::CameraInfo makeInfo(const ros::Time& stamp, const std::string& frame, double baseline) const {
+  static sensor_msgs::CameraInfo makeInfo(const FactoryCalibration& calibration, double baseline) {
     sensor_msgs::CameraInfo info;
-    info.header.stamp = stamp;
-    info.header.frame_id = frame;
     info.width = bb2_width;
     info.height = bb2_height;
     info.distortion_model = "plumb_bob";
     info.D.assign(5, 0.0);
-    const double fx = calibration_->fx * bb2_width, fy = calibration_->fy * bb2_height;
-    const double cx = calibration_->cx * bb2_width, cy = calibration_->cy * bb2_height;
+    const double fx = calibration.fx * bb2_width, fy = calibration.fy * bb2_height;
+    const double cx = calibration.cx * bb2_width, cy = calibration.cy * bb2_height;
     info.K = {fx, 0, cx, 0, fy, cy, 0, 0, 1};
     info.R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     info.P = {fx, 0, cx, -fx * baseline, 0, fy, cy, 0, 0, 0, 1, 0};
     return info;
   }
 
-  void setState(const std::string& state, const std::string& detail) {
-    const std::lock_guard<std::mutex> guard(mutex_);
-    if (state != state_) NODELET_INFO("%s: %s", state.c_str(), detail.c_str());
-    state_ = state;
-    detail_ = detail;
-  }
-
-  void fill(diagnostic_updater::DiagnosticStatusWrapper& status) {
-    const std::lock_guard<std::mutex> guard(mutex_);
-    status.summary(static_cast<unsigned char>(state_ == "streaming" ? 0 : 2), state_);
-    status.add("detail", detail_);
-    status.add("frames", counters_.frames);
-    status.add("corrupt frames", counters_.bad_checksums);
-    status.add("pairs lost", counters_.gaps);
-    status.add("reconnections", reconnections_);
-  }
-
-  NodeletParameters nodelet_;
-  Parameters parameters_;
-  std::optional<FactoryCalibration> calibration_;
+  std::unique_ptr<Bb2Camera> camera_;
+  std::optional<sensor_msgs::CameraInfo> left_info_, right_info_;
   RectifyingMap left_map_, right_map_;
-  HostClock clock_;
-  ros::Publisher left_, right_, left_info_, right_info_;
-  std::unique_ptr<diagnostic_updater::Updater> updater_;
-  ros::WallTimer timer_;
-  std::thread reader_;
-  std::atomic<bool> stop_{false};
-
-  std::mutex mutex_;  // guards what follows
-  std::string state_ = "absent", detail_;
-  DeviceCounters counters_;
-  int reconnections_ = 0;
+  ros::Publisher left_, right_, left_infos_, right_infos_;
 };
 
 }  // namespace segway_drivers

@@ -28,8 +28,11 @@ struct Parameters {
   std::string bumblebee2_pattern;
   std::string bumblebee2_rectify;
   std::string bumblebee2_calibration;
+  std::string bumblebee2_camera_info;
   bool bumblebee2_swap_images;
   double ladybug2_latency_ms;
+  double ladybug2_rate;
+  int ladybug2_quality;
   std::string ladybug2_camera_order;
   std::string ladybug2_pattern;
 

@@ -66,6 +66,7 @@ std::optional<Bb2StampedPair> Bb2Camera::next(TimeNs timeout) {
   ++counters_.frames;
   if (!embedding_ && !findEmbedding(*raw)) return std::nullopt;
   Bb2StampedPair pair;
+  pair.arrival = raw->arrival;
   pair.frame = splitBb2Frame(raw->bytes, options_.swap, *embedding_);
   const auto cycle = source_.readCycle();
   if (!pair.frame.bus_time || !cycle) {

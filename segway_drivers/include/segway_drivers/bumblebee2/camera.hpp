@@ -16,8 +16,9 @@ namespace segway_drivers {
 /// A pair with its stamp on the steady clock.
 struct Bb2StampedPair {
   Bb2Frame frame;
-  TimeNs stamp = 0;  ///< by the time of the bus, less the latency, ns
-  int missing = 0;   ///< pairs lost since the one before, by the frame counter
+  TimeNs arrival = 0;  ///< ns
+  TimeNs stamp = 0;    ///< by the time of the bus, less the latency, ns
+  int missing = 0;     ///< pairs lost since the one before, by the frame counter
 };
 
 /// Driver of a Bumblebee2 over a FrameSource: sets the order of the imagers and the embedded information, finds where

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bag_pictures.hpp"
+
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <sensor_msgs/CompressedImage.h>
+#include <sensor_msgs/Image.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <opencv2/imgcodecs.hpp>
+
+#include "segway_drivers/bumblebee2/frame.hpp"
+#include "segway_drivers/camera/pack_frames.hpp"
+#include "urban_nav_core/types/error.hpp"
+#include "urban_nav_ros/image.hpp"
+
+namespace segway_drivers {
+
+namespace {
+
+constexpr int simulated_quality = 90;
+
+std::string withoutSlash(const std::string& topic) { return topic.rfind('/', 0) == 0 ? topic.substr(1) : topic; }
+
+cv::Mat decodeColour(const rosbag::MessageInstance& instance) {
+  if (const auto compressed = instance.instantiate<sensor_msgs::CompressedImage>())
+    return cv::imdecode(compressed->data, cv::IMREAD_COLOR);
+  const auto image = instance.instantiate<sensor_msgs::Image>();
+  if (!image || image->encoding != "bgr8" || image->data.size() < 3UL * image->width * image->height) return {};
+  const cv::Mat view(static_cast<int>(image->height), static_cast<int>(image->width), CV_8UC3,
+                     const_cast<std::uint8_t*>(image->data.data()), image->step);
+  return view.clone();
+}
+
+cv::Mat decodeGrey(const rosbag::MessageInstance& instance) {
+  if (const auto image = instance.instantiate<sensor_msgs::Image>())
+    return urban_nav_ros::toGrey(*image).pixels.clone();
+  if (const auto compressed = instance.instantiate<sensor_msgs::CompressedImage>())
+    return urban_nav_ros::toGrey(*compressed).pixels;
+  return {};
+}
+
+ros::Time readImageStamp(const rosbag::MessageInstance& instance) {
+  if (const auto image = instance.instantiate<sensor_msgs::Image>()) return image->header.stamp;
+  if (const auto compressed = instance.instantiate<sensor_msgs::CompressedImage>()) return compressed->header.stamp;
+  return instance.getTime();
+}
+
+/// Groups of images with one stamp, one of each topic.
+class BagGroups {
+ public:
+  BagGroups(const std::string& path, std::map<std::string, std::size_t> topics, std::size_t size)
+      : topics_(std::move(topics)), size_(size) {
+    try {
+      bag_.open(path, rosbag::bagmode::Read);
+      view_.addQuery(
+          bag_, [this](const rosbag::ConnectionInfo* each) { return topics_.count(withoutSlash(each->topic)) != 0; });
+      next_ = view_.begin();
+    } catch (const rosbag::BagException& error) {
+      throw urban_nav_core::UserError(path, error.what(), "a bag of urban_nav simulate");
+    }
+    if (next_ == view_.end())
+      throw urban_nav_core::UserError(path, "no images", "a bag with the images of this camera");
+  }
+
+  /// The next complete group; `time`: s since the first. Empty at the end.
+  std::optional<std::vector<cv::Mat>> next(const std::function<cv::Mat(const rosbag::MessageInstance&)>& decode,
+                                           double& time) {
+    for (; next_ != view_.end(); ++next_) {
+      const rosbag::MessageInstance& instance = *next_;
+      const ros::Time stamp = readImageStamp(instance);
+      std::vector<cv::Mat>& group = waiting_[stamp];
+      group.resize(size_);
+      group[topics_.at(withoutSlash(instance.getTopic()))] = decode(instance);
+      if (std::any_of(group.begin(), group.end(), [](const cv::Mat& each) { return each.empty(); })) continue;
+      if (!first_) first_ = stamp;
+      time = (stamp - *first_).toSec();
+      std::vector<cv::Mat> complete = std::move(group);
+      waiting_.erase(waiting_.begin(), waiting_.upper_bound(stamp));
+      ++next_;
+      return complete;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  std::map<std::string, std::size_t> topics_;  // by place in the group
+  std::size_t size_;
+  rosbag::Bag bag_;
+  rosbag::View view_;
+  rosbag::View::iterator next_;
+  std::map<ros::Time, std::vector<cv::Mat>> waiting_;
+  std::optional<ros::Time> first_;
+};
+
+}  // namespace
+
+FrameReader readStereoFrames(const std::string& bag) {
+  std::map<std::string, std::size_t> topics;
+  for (const std::string name : {"image_raw", "image_rect", "image_raw/compressed", "image_rect/compressed"}) {
+    topics["stereo/left/" + name] = 0;
+    topics["stereo/right/" + name] = 1;
+  }
+  const auto groups = std::make_shared<BagGroups>(bag, topics, 2);
+  return [groups]() -> std::optional<SimFrame> {
+    SimFrame frame;
+    const auto pair = groups->next(decodeGrey, frame.time);
+    if (!pair) return std::nullopt;
+    frame.bytes = packBb2Frame((*pair)[0], (*pair)[1]);
+    return frame;
+  };
+}
+
+FrameReader readLadybugFrames(const std::string& bag) {
+  std::map<std::string, std::size_t> topics;
+  for (std::size_t camera = 0; camera < 5; ++camera) {
+    topics["ladybug/camera" + std::to_string(camera) + "/image_raw"] = camera;
+    topics["ladybug/camera" + std::to_string(camera) + "/image_raw/compressed"] = camera;
+  }
+  const auto groups = std::make_shared<BagGroups>(bag, topics, 5);
+  return [groups]() -> std::optional<SimFrame> {
+    SimFrame frame;
+    const auto images = groups->next(decodeColour, frame.time);
+    if (!images) return std::nullopt;
+    std::array<cv::Mat, 5> cameras;
+    std::copy(images->begin(), images->end(), cameras.begin());
+    frame.bytes = packLadybugFrame(cameras, simulated_quality);
+    return frame;
+  };
+}
+
+std::optional<sensor_msgs::CameraInfo> readStereoInfo(const std::string& path, const std::string& side) {
+  try {
+    rosbag::Bag bag(path, rosbag::bagmode::Read);
+    rosbag::View view(bag, [&](const rosbag::ConnectionInfo* each) {
+      return withoutSlash(each->topic) == "stereo/" + side + "/camera_info";
+    });
+    for (const rosbag::MessageInstance& instance : view) {
+      const auto message = instance.instantiate<sensor_msgs::CameraInfo>();
+      if (!message || message->width == 0 || message->height == 0) continue;
+      sensor_msgs::CameraInfo info = *message;
+      const double sx = static_cast<double>(bb2_width) / info.width, sy = static_cast<double>(bb2_height) / info.height;
+      info.width = bb2_width;
+      info.height = bb2_height;
+      for (const auto& [matrix, columns] : {std::pair{info.K.data(), 3}, std::pair{info.P.data(), 4}}) {
+        matrix[0] *= sx;
+        matrix[2] = (matrix[2] + 0.5) * sx - 0.5;
+        matrix[columns + 1] *= sy;
+        matrix[columns + 2] = (matrix[columns + 2] + 0.5) * sy - 0.5;
+        if (columns == 4) matrix[3] *= sx;
+      }
+      return info;
+    }
+  } catch (const rosbag::BagException&) {
+    return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+}  // namespace segway_drivers

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "camera_nodelet.hpp"
+
+#include <sensor_msgs/TimeReference.h>
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "device_parameters.hpp"
+#include "urban_nav_core/types/error.hpp"
+#include "urban_nav_ros/stamp.hpp"
+
+namespace segway_drivers {
+
+namespace {
+
+constexpr TimeNs frame_wait = 100'000'000;                                             // ns
+constexpr TimeNs least_camera_pause = 200'000'000, most_camera_pause = 2'000'000'000;  // ns
+
+}  // namespace
+
+CameraNodelet::~CameraNodelet() { shutDown(); }
+
+void CameraNodelet::shutDown() {
+  stop_ = true;
+  timer_.stop();
+  if (reader_.joinable()) reader_.join();
+}
+
+bool CameraNodelet::isSimulated() const {
+  const std::string ending = ".bag";
+  return nodelet_.port.size() > ending.size() &&
+         nodelet_.port.compare(nodelet_.port.size() - ending.size(), ending.size(), ending) == 0;
+}
+
+void CameraNodelet::onInit() {
+  try {
+    std::tie(nodelet_, parameters_) = readDeviceParameters(getPrivateNodeHandle(), device());
+    prepare();
+    std::string error;
+    source_ = makeSource(error);
+    if (source_) {
+      makeCamera(*source_);
+    } else {
+      NODELET_WARN("%s", error.c_str());
+      detail_ = error;
+    }
+  } catch (const urban_nav_core::Error& error) {
+    NODELET_FATAL("%s", error.what());
+    throw;
+  }
+  time_reference_ = getNodeHandle().advertise<sensor_msgs::TimeReference>(device() + "/time_reference", 100);
+  updater_ = std::make_unique<diagnostic_updater::Updater>(getNodeHandle(), getPrivateNodeHandle(), getName());
+  updater_->setHardwareID(model() + " " + nodelet_.port);
+  updater_->add("driver", [this](diagnostic_updater::DiagnosticStatusWrapper& status) { fill(status); });
+  timer_ = getNodeHandle().createWallTimer(ros::WallDuration(1.0),
+                                           [this](const ros::WallTimerEvent&) { updater_->force_update(); });
+  if (source_) reader_ = std::thread([this] { run(); });
+}
+
+std::unique_ptr<FrameSource> CameraNodelet::makeSource(std::string& error) {
+  if (!isSimulated()) return makeBusCamera(nodelet_.port, model(), error);
+  SimCameraOptions options;
+  options.model = simulatedModel();
+  try {
+    return std::make_unique<SimSource>(readBag(nodelet_.port), options, realSimClock());
+  } catch (const urban_nav_core::UserError& no_pictures) {
+    error = no_pictures.what();
+    return nullptr;
+  }
+}
+
+void CameraNodelet::run() {
+  TimeNs wait = least_camera_pause;
+  while (!stop_) {
+    std::string error;
+    if (!start(error)) {
+      setState(openings_ == 0 ? DriverState::Absent : DriverState::Lost, error);
+      pause(wait);
+      wait = std::min(wait + least_camera_pause, most_camera_pause);
+      continue;
+    }
+    wait = least_camera_pause;
+    setState(DriverState::Configuring, identity());
+    stream(*source_);
+    source_->stop();
+    pause(wait);
+  }
+}
+
+/// Until the camera vanishes or its stream stalls. It streams from its first frame on.
+void CameraNodelet::stream(FrameSource& source) {
+  TimeNs last = steadyTime();
+  bool streams = false;
+  while (!stop_ && !source.isGone() && steadyTime() - last < stalledAfter()) {
+    const std::int64_t frames = counters().frames;
+    step(frame_wait);
+    if (counters().frames != frames) {
+      last = steadyTime();
+      if (!std::exchange(streams, true)) countOpening();
+    }
+    if (const TimeNs change = clock_.follow(); change != 0)
+      NODELET_WARN("the host's clock stepped by %lld ms", static_cast<long long>(change / 1'000'000));
+    for (const DriverEvent& event : takeEvents()) NODELET_WARN("%s", event.text.c_str());
+    const std::lock_guard<std::mutex> guard(mutex_);
+    counters_ = counters();
+    identity_ = identity();
+  }
+  if (!stop_) setState(source.isGone() ? DriverState::Lost : DriverState::Stalled, "no image");
+}
+
+void CameraNodelet::countOpening() {
+  setState(DriverState::Streaming, identity());
+  const std::lock_guard<std::mutex> guard(mutex_);
+  ++openings_;
+}
+
+void CameraNodelet::pause(TimeNs duration) const {
+  for (const TimeNs end = steadyTime() + duration; !stop_ && steadyTime() < end;) ros::WallDuration(0.05).sleep();
+}
+
+ros::Time CameraNodelet::toRos(TimeNs steady) const { return urban_nav_ros::toRosTime(clock_.toReal(steady)); }
+
+void CameraNodelet::publishTimeReference(const std::string& frame, TimeNs arrival, double bus_s) const {
+  sensor_msgs::TimeReference reference;
+  reference.header.stamp = toRos(arrival);
+  reference.header.frame_id = frame;
+  reference.time_ref = urban_nav_ros::toRosTime(static_cast<TimeNs>(1e9 * bus_s));
+  reference.source = device();
+  time_reference_.publish(reference);
+}
+
+void CameraNodelet::setState(DriverState state, const std::string& detail) {
+  const std::lock_guard<std::mutex> guard(mutex_);
+  if (state != state_) NODELET_INFO("%s: %s", toString(state), detail.c_str());
+  state_ = state;
+  detail_ = detail;
+}
+
+void CameraNodelet::fill(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const std::lock_guard<std::mutex> guard(mutex_);
+  const bool good = state_ == DriverState::Streaming;
+  const bool bad = state_ == DriverState::Absent || state_ == DriverState::Lost;
+  status.summary(static_cast<unsigned char>(good ? 0 : bad ? 2 : 1), toString(state_));
+  status.add("port", nodelet_.port);
+  status.add("identity", identity_);
+  if (!good) status.add("reason", detail_);
+  status.add("bytes", counters_.bytes);
+  status.add("frames", counters_.frames);
+  status.add("bad frames", counters_.bad_checksums);
+  status.add("gaps", counters_.gaps);
+  status.add("without a time", counters_.unexpected);
+  status.add("reconnections", std::max(openings_ - 1, 0));
+  addDiagnostics(status);
+}
+
+}  // namespace segway_drivers

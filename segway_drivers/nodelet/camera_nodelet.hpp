@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <nodelet/nodelet.h>
+#include <ros/publisher.h>
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "bag_pictures.hpp"
+#include "live/nodelet_parameters.hpp"
+#include "segway_drivers/camera/frame_source.hpp"
+#include "segway_drivers/driver/driver_core.hpp"
+#include "segway_drivers/parameters.hpp"
+#include "segway_drivers/transport/host_clock.hpp"
+
+namespace segway_drivers {
+
+/// Nodelet of a camera: one thread opens it, reads frames and publishes; it is opened again after a loss, with pauses
+/// that grow to 2 s. The port is a GUID on the bus, or a bag that feeds a simulated camera. /diagnostics come once a
+/// second.
+class CameraNodelet : public nodelet::Nodelet {
+ public:
+  ~CameraNodelet() override;
+
+ protected:
+  /// Ends the thread. To be called by the destructor of the derived class, whose members the thread uses.
+  void shutDown();
+  /// Prefix of the device's rows in the table, such as "bumblebee2".
+  virtual std::string device() const = 0;
+  /// Beginning of the camera's model on the bus.
+  virtual std::string model() const = 0;
+  /// Advertises topics. Errors are fatal.
+  virtual void prepare() = 0;
+  virtual FrameReader readBag(const std::string& bag) = 0;
+  virtual SimCameraOptions::Model simulatedModel() const = 0;
+  /// Makes the camera's driver over a source that lives as long as the nodelet.
+  virtual void makeCamera(FrameSource& source) = 0;
+  virtual bool start(std::string& error) = 0;
+  /// Waits up to `wait` ns for a frame and publishes it.
+  virtual void step(TimeNs wait) = 0;
+  /// ns without a frame after which the stream counts as stalled.
+  virtual TimeNs stalledAfter() const = 0;
+  virtual const std::string& identity() const = 0;
+  virtual const DeviceCounters& counters() const = 0;
+  virtual std::vector<DriverEvent> takeEvents() = 0;
+  virtual void addDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& /*status*/) {}
+
+  const NodeletParameters& nodelet() const { return nodelet_; }
+  const Parameters& parameters() const { return parameters_; }
+  bool isSimulated() const;
+  ros::Time toRos(TimeNs steady) const;
+  /// Publishes raw arrival and time of the bus on time_reference.
+  void publishTimeReference(const std::string& frame, TimeNs arrival, double bus_s) const;
+
+ private:
+  void onInit() final;
+  std::unique_ptr<FrameSource> makeSource(std::string& error);
+  void run();
+  void stream(FrameSource& source);
+  void countOpening();
+  void setState(DriverState state, const std::string& detail);
+  void pause(TimeNs duration) const;
+  void fill(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  NodeletParameters nodelet_;
+  Parameters parameters_;
+  HostClock clock_;
+  ros::Publisher time_reference_;
+  std::unique_ptr<FrameSource> source_;
+  std::unique_ptr<diagnostic_updater::Updater> updater_;
+  ros::WallTimer timer_;
+  std::thread reader_;
+  std::atomic<bool> stop_{false};
+
+  std::mutex mutex_;  // guards what follows
+  DriverState state_ = DriverState::Absent;
+  std::string detail_, identity_;
+  DeviceCounters counters_;
+  int openings_ = 0;
+};
+
+}  // namespace segway_drivers
