@@ -9,6 +9,7 @@ namespace urban_nav {
 Command convertCommand();
 Command deviceCommand();
 Command disparityCommand();
+Command doctorCommand();
 Command evaluateCommand();
 Command exportCommand();
 Command icpCommand();

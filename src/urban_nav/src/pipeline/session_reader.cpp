@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "command_line/command_parameters.hpp"
+#include "input/calibration_check.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav {
@@ -29,6 +30,13 @@ std::unique_ptr<Source> SessionReader::openSource(const BagEnd* after) {
   const double pair_mb = std::max(0.1, 2e-6 * camera.width * camera.height);
   const int fits = static_cast<int>(kReadAheadShare * options.parameters.get(commandTable()).memory_mb / pair_mb);
   return readAhead(std::move(source), std::clamp(fits, 2, kMaxReadAhead));
+}
+
+std::vector<std::string> SessionReader::calibrationFaults() const {
+  std::vector<std::string> sentences;
+  for (const CalibrationFault& fault : checkCalibration(source_->info().camera))
+    sentences.push_back(source_->info().name + ": " + fault.text + " (" + fault.remedy + ")");
+  return sentences;
 }
 
 void SessionReader::openPasses(const BagCheckpoint* checkpoint) {
@@ -65,6 +73,7 @@ void SessionReader::open() {
     return;
   }
   source_ = openSource();
+  for (const std::string& fault : calibrationFaults()) context_.console.warn(fault);
   finished_ = restoreFinished();
   if (finished_) return;
   checkpoint_.begin(session_);
@@ -121,7 +130,9 @@ void SessionReader::read(const ProgressCallback& progress) {
   if (const auto end = source_->bagEnd()) saveBagEnd(*end);
   checkpoint_.writeScans(source_->scans());
   processPanoramas(source_->panoramas());
-  const PassEnd end{source_->closingFaults(), source_->forces()};
+  std::vector<std::string> faults = source_->closingFaults();
+  for (std::string& fault : calibrationFaults()) faults.push_back(std::move(fault));
+  const PassEnd end{faults, source_->forces()};
   std::vector<BagCheckpoint::StageState> states;
   for (const auto& [key, pass] : passes_) {
     pass->finish(end);

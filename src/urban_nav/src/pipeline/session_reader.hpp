@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -31,6 +32,7 @@ class SessionReader {
   using StagePass = std::pair<std::string, std::unique_ptr<SessionPass>>;  // Stage::Description::key
 
   std::unique_ptr<Source> openSource(const BagEnd* after = nullptr);
+  std::vector<std::string> calibrationFaults() const;
   void openPasses(const BagCheckpoint* checkpoint);
   bool restoreFinished();
   void flush();

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "command_line/console.hpp"
+#include "command_line/json.hpp"
+#include "commands/commands.hpp"
+#include "doctor/input_doctor.hpp"
+#include "input/input_parameters.hpp"
+#include "pipeline/parameters.hpp"
+#include "report/plot.hpp"
+#include "urban_nav_core/io/atomic_file.hpp"
+
+namespace urban_nav {
+
+namespace {
+
+SourceOptions readSourceOptions(const Arguments& arguments) {
+  ParameterSet parameters = loadParameters(arguments);
+  SourceOptions options;
+  options.topics = arguments.all("topic");
+  options.calibration = arguments.get("calibration");
+  options.rate = arguments.number("rate", 0.0, 0.01, 10000.0);
+  options.right_delay = parameters.get(inputTable()).right_delay;
+  return options;
+}
+
+std::string toText(const Diagnosis& diagnosis) {
+  std::string text = diagnosis.name + (diagnosis.kind.empty() ? "" : ": " + diagnosis.kind) + "\n";
+  for (const std::string& line : diagnosis.contents) text += "  " + line + "\n";
+  if (diagnosis.pairs > 0)
+    text += "  " + std::to_string(diagnosis.pairs) + " stereo pairs, " + std::to_string(diagnosis.complete) +
+            " complete, " + forPerson(diagnosis.duration_s, 4) + " s at " + forPerson(diagnosis.rate_hz, 3) + " Hz\n";
+  for (const Finding& finding : diagnosis.findings)
+    text += std::string("  ") + (finding.unusable ? "UNUSABLE " : "") + toString(finding.kind) + ": " + finding.text +
+            "\n    -> " + finding.remedy + "\n";
+  if (diagnosis.findings.empty()) text += "  no defect found\n";
+  return text;
+}
+
+Json toJson(const std::vector<Diagnosis>& all) {
+  Json json = Json::object();
+  Json& sessions = json["sessions"] = Json::array();
+  Json& findings = json["findings"] = Json::array();
+  bool usable = true;
+  for (const Diagnosis& diagnosis : all) {
+    Json session = Json::object();
+    session["name"] = diagnosis.name;
+    session["kind"] = diagnosis.kind;
+    session["pairs"] = diagnosis.pairs;
+    session["complete"] = diagnosis.complete;
+    session["duration_s"] = diagnosis.duration_s;
+    session["rate_hz"] = diagnosis.rate_hz;
+    session["usable"] = diagnosis.isUsable();
+    sessions.append(session);
+    usable = usable && diagnosis.isUsable();
+    for (const Finding& finding : diagnosis.findings) {
+      Json entry = Json::object();
+      entry["session"] = diagnosis.name;
+      entry["kind"] = toString(finding.kind);
+      entry["text"] = finding.text;
+      entry["remedy"] = finding.remedy;
+      entry["unusable"] = finding.unusable;
+      findings.append(entry);
+    }
+  }
+  json["usable"] = usable;
+  return json;
+}
+
+int runDoctor(const Arguments& arguments, Console& console) {
+  const SourceOptions options = readSourceOptions(arguments);
+  std::vector<Diagnosis> all;
+  bool usable = true;
+  for (const InputSession& session : findSessions(arguments.all("INPUT"))) {
+    std::optional<Progress> bar;
+    std::int64_t done = 0;
+    all.push_back(examine(session, options, [&](std::int64_t pairs, std::int64_t total) {
+      if (!bar) bar.emplace(console, "doctor", "pairs", total);
+      bar->update(done = pairs);
+    }));
+    if (bar) bar->finish(done);
+    console.print(toText(all.back()));
+    usable = usable && all.back().isUsable();
+  }
+  if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), toJson(all).print());
+  return usable ? 0 : 1;
+}
+
+}  // namespace
+
+Command doctorCommand() {
+  Command command;
+  command.name = "doctor";
+  command.summary =
+      "Reports what is wrong with bags or folders before they are mapped, each defect with what repairs it; exit status "
+      "1 if they cannot be used.";
+  command.options = {
+      {"INPUT", "", "bags, or folders of KITTI, EuRoC or New College", true, true, {}},
+      {"--topic",
+       "ROLE:=NAME",
+       "topic of a bag: left, right, left_info, right_info, imu (default: guessed and printed)",
+       false,
+       true,
+       {}},
+      {"--calibration", "FILE", "as of map: calib.txt, or LEFT.yaml,RIGHT.yaml (camera_info)", false, false, {}},
+      {"--rate", "HZ", "frame rate of an image folder without times.txt (default 10)", false, false, {}},
+      jsonOption(),
+      configOption(),
+      setOption(),
+      threadsOption()};
+  command.examples = {"urban_nav doctor robot.bag", "urban_nav doctor sequences/06 --json doctor.json"};
+  command.more_help = commonHelp;
+  command.run = runDoctor;
+  return command;
+}
+
+}  // namespace urban_nav

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Faults injected into a sound session, each of which has to be named.
+#include "doctor/input_doctor.hpp"
+
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/Imu.h>
+#include <sensor_msgs/LaserScan.h>
+
+#include <filesystem>
+#include <functional>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <set>
+
+#include "support/folders.hpp"
+
+namespace urban_nav {
+namespace {
+
+namespace fs = std::filesystem;
+
+using testing::readFile;
+using testing::TemporaryFolder;
+using testing::writeFile;
+
+/// The kinds of an input's findings, and whether it can be used.
+struct Verdict {
+  std::multiset<std::string> kinds;
+  std::string text;
+  bool usable = true;
+};
+
+Verdict judge(const std::string& path, const SourceOptions& options = {}) {
+  Verdict verdict;
+  for (const InputSession& session : findSessions({path})) {
+    const Diagnosis diagnosis = examine(session, options, [](std::int64_t, std::int64_t) {});
+    for (const Finding& finding : diagnosis.findings) {
+      verdict.kinds.insert(toString(finding.kind));
+      verdict.text += std::string(toString(finding.kind)) + ": " + finding.text + " -> " + finding.remedy + "\n";
+      EXPECT_FALSE(finding.remedy.empty()) << finding.text;
+    }
+    verdict.usable = verdict.usable && diagnosis.isUsable();
+  }
+  return verdict;
+}
+
+/// A rendered room as a KITTI folder, one for all tests, copied and damaged by each.
+class FolderDoctor : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    shared_ = std::make_unique<TemporaryFolder>();
+    testing::KittiStyle style;
+    style.frames = 24;
+    testing::makeKittiFolder(shared_->file("sound"), style);
+  }
+  static void TearDownTestSuite() { shared_.reset(); }
+
+  void SetUp() override { fs::copy(shared_->file("sound"), path_, fs::copy_options::recursive); }
+
+  /// Changes every image of a side.
+  void changeImages(const std::string& side, const std::function<cv::Mat(const cv::Mat&)>& change) const {
+    for (const auto& entry : fs::directory_iterator(path_ + "/" + side)) {
+      const std::string file = entry.path().string();
+      cv::imwrite(file, change(cv::imread(file, cv::IMREAD_UNCHANGED)));
+    }
+  }
+  static cv::Mat warp(const cv::Mat& image, double angle_deg, double scale, double down) {
+    cv::Mat affine = cv::getRotationMatrix2D(cv::Point2f(cv::Point(image.cols, image.rows)) * 0.5F, angle_deg, scale), warped;
+    affine.at<double>(1, 2) += down;
+    cv::warpAffine(image, warped, affine, image.size(), cv::INTER_LINEAR, cv::BORDER_REFLECT);
+    return warped;
+  }
+  void replaceCalibration(const std::function<void(double& f, double& cx, double& cy, double& shift)>& change) const {
+    double f = 200.0, cx = 119.5, cy = 89.5, shift = -200.0 * 0.2;
+    change(f, cx, cy, shift);
+    const auto line = [&](const char* name, double t) {
+      return std::string(name) + " " + std::to_string(f) + " 0 " + std::to_string(cx) + " " + std::to_string(t) +
+             " 0 " + std::to_string(f) + " " + std::to_string(cy) + " 0 0 0 1 0\n";
+    };
+    writeFile(path_ + "/calib.txt", line("P0:", 0.0) + line("P1:", shift));
+  }
+  void writeTimes(const std::function<double(int)>& time) const {
+    std::string times;
+    for (int i = 0; i < 24; ++i) times += std::to_string(time(i)) + "\n";
+    writeFile(path_ + "/times.txt", times);
+  }
+
+  static std::unique_ptr<TemporaryFolder> shared_;
+  TemporaryFolder folder_;
+  std::string path_ = folder_.file("input");
+};
+std::unique_ptr<TemporaryFolder> FolderDoctor::shared_;
+
+TEST_F(FolderDoctor, findsNothingInASoundSession) {
+  const Verdict verdict = judge(path_);
+  EXPECT_TRUE(verdict.usable);
+  EXPECT_TRUE(verdict.kinds.empty()) << verdict.text;
+}
+
+TEST_F(FolderDoctor, namesExchangedCameras) {
+  fs::rename(path_ + "/image_0", path_ + "/other");
+  fs::rename(path_ + "/image_1", path_ + "/image_0");
+  fs::rename(path_ + "/other", path_ + "/image_1");
+  const Verdict verdict = judge(path_);
+  EXPECT_FALSE(verdict.usable);
+  EXPECT_NE(verdict.text.find("exchanged"), std::string::npos) << verdict.text;
+}
+
+TEST_F(FolderDoctor, namesImagesOfAnotherScene) {
+  changeImages("image_1", [](const cv::Mat& image) {
+    cv::Mat turned;
+    cv::rotate(image, turned, cv::ROTATE_180);
+    return turned;
+  });
+  EXPECT_EQ(judge(path_).kinds.count("pairs"), 1U) << judge(path_).text;
+}
+
+TEST_F(FolderDoctor, namesMissingAndDamagedImages) {
+  fs::remove(path_ + "/image_1/000005.png");
+  writeFile(path_ + "/image_0/000009.png", "no image");
+  const Verdict verdict = judge(path_);
+  EXPECT_TRUE(verdict.usable);
+  EXPECT_GE(verdict.kinds.count("pairs"), 2U) << verdict.text;
+}
+
+TEST_F(FolderDoctor, namesRowsThatDiffer) {
+  changeImages("image_1", [](const cv::Mat& image) { return warp(image, 0.0, 1.0, 2.0); });
+  EXPECT_EQ(judge(path_).kinds.count("rectification"), 1U) << judge(path_).text;
+}
+
+TEST_F(FolderDoctor, namesACameraThatIsRotated) {
+  changeImages("image_1", [](const cv::Mat& image) { return warp(image, 1.5, 1.0, 0.0); });
+  const Verdict verdict = judge(path_);
+  EXPECT_EQ(verdict.kinds.count("rectification"), 1U) << verdict.text;
+  EXPECT_NE(verdict.text.find("optical axis"), std::string::npos) << verdict.text;
+}
+
+TEST_F(FolderDoctor, namesFocalLengthsThatDiffer) {
+  changeImages("image_1", [](const cv::Mat& image) { return warp(image, 0.0, 1.04, 0.0); });
+  const Verdict verdict = judge(path_);
+  EXPECT_EQ(verdict.kinds.count("rectification"), 1U) << verdict.text;
+  EXPECT_NE(verdict.text.find("focal lengths"), std::string::npos) << verdict.text;
+}
+
+TEST_F(FolderDoctor, namesBlackSaturatedAndUnequalImages) {
+  changeImages("image_0", [](const cv::Mat& image) { return cv::Mat(image / 32); });
+  const Verdict dark = judge(path_);
+  EXPECT_GE(dark.kinds.count("depth"), 1U) << dark.text;
+  changeImages("image_0", [](const cv::Mat& image) { return cv::Mat(image * 255); });
+  const Verdict bright = judge(path_);
+  EXPECT_GE(bright.kinds.count("depth"), 1U) << bright.text;
+}
+
+TEST_F(FolderDoctor, namesABaselineInMillimetres) {
+  replaceCalibration([](double&, double&, double&, double& shift) { shift *= 1000.0; });
+  const Verdict verdict = judge(path_);
+  EXPECT_EQ(verdict.kinds.count("calibration"), 1U) << verdict.text;
+  EXPECT_NE(verdict.text.find("millimetres"), std::string::npos) << verdict.text;
+}
+
+TEST_F(FolderDoctor, namesACalibrationOfLargerImages) {
+  replaceCalibration([](double& f, double& cx, double& cy, double& shift) { f *= 2, cx *= 2, cy *= 2, shift *= 2; });
+  const Verdict verdict = judge(path_);
+  EXPECT_GE(verdict.kinds.count("calibration"), 1U) << verdict.text;
+}
+
+TEST_F(FolderDoctor, namesAnImpossibleFieldOfView) {
+  replaceCalibration([](double& f, double&, double&, double& shift) { f *= 20, shift *= 20; });
+  EXPECT_EQ(judge(path_).kinds.count("calibration"), 1U) << judge(path_).text;
+}
+
+TEST_F(FolderDoctor, namesMissingCalibration) {
+  fs::remove(path_ + "/calib.txt");
+  const Verdict verdict = judge(path_);
+  EXPECT_FALSE(verdict.usable);
+  EXPECT_EQ(verdict.kinds.count("calibration"), 1U) << verdict.text;
+}
+
+TEST_F(FolderDoctor, namesStampsThatStandStill) {
+  writeTimes([](int i) { return 0.05 * (i == 12 ? 11 : i); });
+  EXPECT_GE(judge(path_).kinds.count("stamps"), 1U) << judge(path_).text;
+}
+
+TEST_F(FolderDoctor, namesStampsOfArrival) {
+  writeTimes([](int i) { return 0.05 * i + (i % 3 == 0 ? 0.03 : 0.0); });
+  EXPECT_EQ(judge(path_).kinds.count("stamps"), 1U) << judge(path_).text;
+}
+
+TEST_F(FolderDoctor, namesGapsAndLowRates) {
+  writeTimes([](int i) { return 0.05 * i + (i > 10 ? 3.0 : 0.0); });
+  EXPECT_EQ(judge(path_).kinds.count("rates"), 1U) << judge(path_).text;
+  writeTimes([](int i) { return 1.0 * i; });
+  EXPECT_EQ(judge(path_).kinds.count("rates"), 1U) << judge(path_).text;
+}
+
+/// A bag of plain grey images with an IMU and a laser.
+struct BagRecipe {
+  double right_late = 0.0;  ///< s
+  bool stamped = true, right_exists = true;
+  double imu_rate = 100.0;  ///< Hz; 0: none
+  bool laser_gap = false;
+  std::function<double(int)> time = [](int i) { return 1.5e9 + 0.05 * i; };
+};
+
+void writeDoctorBag(const std::string& path, const BagRecipe& recipe) {
+  rosbag::Bag bag(path, rosbag::bagmode::Write);
+  const auto add = [&](const std::string& topic, auto message, double receipt, double stamp, const char* frame) {
+    if (recipe.stamped) message.header.stamp = ros::Time(stamp);
+    message.header.frame_id = frame;
+    bag.write(topic, ros::Time(receipt), message);
+  };
+  sensor_msgs::Image image;
+  image.encoding = "mono8";
+  image.width = image.step = 32;
+  image.height = 24;
+  image.data.assign(image.step * image.height, 100);
+  sensor_msgs::CameraInfo info;
+  info.width = 32;
+  info.height = 24;
+  for (int i = 0; i < 40; ++i) {
+    const double left = recipe.time(i), right = left + recipe.right_late, receipt = 1.5e9 + 0.05 * i + 0.01;
+    for (const bool is_right : {false, true}) {
+      if (is_right && !recipe.right_exists) continue;
+      const std::string side = is_right ? "/stereo/right/" : "/stereo/left/";
+      info.P = {30, 0, 15.5, is_right ? -6.0 : 0.0, 0, 30, 11.5, 0, 0, 0, 1, 0};
+      add(side + "image_raw", image, receipt, is_right ? right : left, "camera");
+      add(side + "camera_info", info, receipt, is_right ? right : left, "camera");
+    }
+    if (!recipe.laser_gap || i < 10 || i > 38)
+      for (int k = 0; k < 2; ++k) add("/laser_left/scan", sensor_msgs::LaserScan(), receipt + 0.02 * k, left, "laser");
+  }
+  for (int i = 0; i < 2 * recipe.imu_rate; ++i)
+    add("/imu/data", sensor_msgs::Imu(), 1.5e9 + i / recipe.imu_rate, 1.5e9 + i / recipe.imu_rate, "imu");
+}
+
+Verdict judgeBag(const std::function<void(BagRecipe&)>& change) {
+  const TemporaryFolder folder;
+  BagRecipe recipe;
+  change(recipe);
+  writeDoctorBag(folder.file("a.bag"), recipe);
+  return judge(folder.file("a.bag"));
+}
+
+TEST(BagDoctor, namesTransformsThatAreMissing) {
+  const Verdict verdict = judgeBag([](BagRecipe&) {});
+  EXPECT_TRUE(verdict.usable);
+  EXPECT_EQ(verdict.kinds, (std::multiset<std::string>{"tf", "tf"})) << verdict.text;  // camera and laser
+  EXPECT_NE(verdict.text.find("base_link camera"), std::string::npos) << verdict.text;
+  EXPECT_NE(verdict.text.find("base_link laser"), std::string::npos) << verdict.text;
+}
+
+TEST(BagDoctor, namesImagesWithoutStamps) {
+  EXPECT_EQ(judgeBag([](BagRecipe& recipe) { recipe.stamped = false; }).kinds.count("stamps"), 1U);
+}
+
+TEST(BagDoctor, namesAClockThatWasSet) {
+  const Verdict verdict =
+      judgeBag([](BagRecipe& recipe) { recipe.time = [](int i) { return 1.5e9 + 0.05 * i - (i > 20 ? 50.0 : 0.0); }; });
+  EXPECT_GE(verdict.kinds.count("stamps"), 1U) << verdict.text;
+}
+
+TEST(BagDoctor, namesTheDelayOfOneCamera) {
+  const Verdict verdict = judgeBag([](BagRecipe& recipe) { recipe.right_late = 0.012; });
+  EXPECT_FALSE(verdict.usable);
+  EXPECT_NE(verdict.text.find("input.right_delay=12"), std::string::npos) << verdict.text;
+}
+
+TEST(BagDoctor, namesACameraThatIsMissing) {
+  const Verdict verdict = judgeBag([](BagRecipe& recipe) { recipe.right_exists = false; });
+  EXPECT_FALSE(verdict.usable);
+  EXPECT_EQ(verdict.kinds.count("pairs"), 1U) << verdict.text;
+}
+
+TEST(BagDoctor, namesSlowDevicesAndGapsOfDevices) {
+  EXPECT_EQ(judgeBag([](BagRecipe& recipe) { recipe.imu_rate = 20.0; }).kinds.count("rates"), 1U);
+  EXPECT_EQ(judgeBag([](BagRecipe& recipe) { recipe.laser_gap = true; }).kinds.count("rates"), 1U);
+}
+
+}  // namespace
+}  // namespace urban_nav
