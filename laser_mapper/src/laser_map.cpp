@@ -9,6 +9,7 @@
 
 #include "chunk_store.hpp"
 #include "laser_mapper/tile_surface.hpp"
+#include "map_state.hpp"
 #include "relative_covariance.hpp"
 #include "session_chunks.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
@@ -117,7 +118,31 @@ RenderStatistics LaserMap::render(const ProgressCallback& progress) {
     tiles_.insert(chunks.tiles().begin(), chunks.tiles().end());
     for (const std::string& warning : chunks.warnings()) statistics.warnings.push_back(warning);
   }
+  for (std::size_t s = 0; s < sessions_.size(); ++s)
+    store_.states().put(sessions_[s].id, kMapState,
+                        packMapState({parameters_, covariances_[s] ? covariances_[s]->values()
+                                                                   : std::vector<urban_nav_core::Matrix6d>()}));
+  store_.commit();
   return statistics;
+}
+
+void LaserMap::load() {
+  tiles_.clear();
+  for (std::size_t s = 0; s < sessions_.size(); ++s) {
+    for (const auto& [begin, chunk] : ChunkStore(store_, sessions_[s].id).chunks())
+      for (const Tile& tile : chunkTiles(chunk)) tiles_.insert(tile);
+    const auto bytes = store_.states().get(sessions_[s].id, kMapState);
+    std::vector<urban_nav_core::Matrix6d> values;
+    if (bytes) values = unpackMapState(*bytes).covariances;
+    covariances_[s] = values.empty() ? nullptr : std::make_shared<const RelativeCovariances>(std::move(values));
+  }
+}
+
+std::optional<Parameters> storedMapParameters(urban_nav_store::Store& store,
+                                              const urban_nav_store::SessionId& session) {
+  const auto bytes = store.states().get(session, kMapState);
+  if (!bytes) return std::nullopt;
+  return unpackMapState(*bytes).parameters;
 }
 
 std::vector<Cells> LaserMap::mergeRow(const std::vector<Tile>& tiles) const {

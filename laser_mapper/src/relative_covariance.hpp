@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "urban_nav_core/trajectory/trajectory.hpp"
@@ -16,6 +17,10 @@ class RelativeCovariances {
   /// `T_first_base`: covariances, one per pose; poses after the last one count as exact.
   RelativeCovariances(const urban_nav_core::Trajectory& T_map_base,
                       const std::vector<urban_nav_core::Matrix6d>& T_first_base);
+  /// Takes values() of another object. Requires at least one.
+  explicit RelativeCovariances(std::vector<urban_nav_core::Matrix6d> values) : covariances_(std::move(values)) {}
+  /// Returns the covariances of every kSpacing-th pose.
+  const std::vector<urban_nav_core::Matrix6d>& values() const { return covariances_; }
   /// Returns the covariance of a pose, by its index in the trajectory; of one near it, at most kSpacing away.
   const urban_nav_core::Matrix6d& at(std::size_t pose) const;
 

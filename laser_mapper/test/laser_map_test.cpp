@@ -173,5 +173,24 @@ TEST_F(LaserMapTest, ALaserWithoutExtrinsicsAndAPauseAreReported) {
   EXPECT_EQ(statistics.warnings.front(), "laser_right sent nothing during 11 s of the rendered time");
 }
 
+TEST_F(LaserMapTest, AStoredMapHasTheBytesOfTheRenderedOne) {
+  EXPECT_FALSE(storedMapParameters(*store_, kRoomSession));
+  std::vector<Matrix6d> covariances;
+  for (std::size_t i = 0; i < trajectory_.size(); ++i)
+    covariances.push_back(Matrix6d::Identity() * 1e-6 * static_cast<double>(i));
+  const std::vector<MapPoint> rendered = mapPoints(trajectory_, nullptr, &covariances);
+  const auto parameters = storedMapParameters(*store_, kRoomSession);
+  ASSERT_TRUE(parameters);
+  EXPECT_EQ(parameters->voxel, Parameters().voxel);
+  store_.reset();
+  Store read(path_, urban_nav_store::Access::Read);
+  LaserMap map(*parameters, read, {{kRoomSession, &trajectory_, nullptr}});
+  map.load();
+  std::vector<MapPoint> all;
+  map.forEachTile(
+      [&](const Tile&, const std::vector<MapPoint>& points) { all.insert(all.end(), points.begin(), points.end()); });
+  EXPECT_TRUE(bytes(all) == bytes(rendered));
+}
+
 }  // namespace
 }  // namespace laser_mapper

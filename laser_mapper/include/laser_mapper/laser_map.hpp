@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -51,8 +52,12 @@ class LaserMap {
   /// Brings the chunks in the store up to date and commits them. Throws the errors of the store.
   RenderStatistics render(const ProgressCallback& progress = {});
 
-  /// Calls `take` for the tiles that have points, in the order of Tile. Requires render() before. Throws DataError if
-  /// the store is damaged.
+  /// Takes the chunks and uncertainties that render() left in the store, and changes nothing there. Chunks must have
+  /// been rendered along T_map_base with the parameters of this map.
+  void load();
+
+  /// Calls `take` for the tiles that have points, in the order of Tile. Requires render() or load() before. Throws
+  /// DataError if the store is damaged.
   void forEachTile(const TileCallback& take) const;
 
   const std::vector<SessionPasses>& passes() const { return passes_; }
@@ -69,5 +74,9 @@ class LaserMap {
   std::vector<std::shared_ptr<const RelativeCovariances>> covariances_;  ///< by session; null: exact poses
   Tiles tiles_;                                                          ///< that have cells in the store
 };
+
+/// Returns the parameters that the map of a session in a store was made with; nullopt if the store holds no map of it.
+/// Throws DataError if the store is damaged.
+std::optional<Parameters> storedMapParameters(urban_nav_store::Store& store, const urban_nav_store::SessionId& session);
 
 }  // namespace laser_mapper

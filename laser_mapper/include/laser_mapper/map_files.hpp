@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "laser_mapper/map_point.hpp"
+#include "urban_nav_core/io/cloud/las_writer.hpp"
+#include "urban_nav_core/io/cloud/pcd_writer.hpp"
 #include "urban_nav_core/io/cloud/ply_writer.hpp"
 
 namespace laser_mapper {
@@ -14,5 +16,17 @@ urban_nav_core::PlyLayout mapLayout();
 
 /// Appends the bytes of a vertex of mapLayout().
 void appendVertex(std::string& bytes, const MapPoint& point);
+
+/// Returns the fields of a map as PCD, named as PCL (Rusu and Cousins 2011) names them.
+std::vector<urban_nav_core::PcdField> mapPcdFields();
+/// Appends the bytes of a point of mapPcdFields().
+void appendPcdPoint(std::string& bytes, const MapPoint& point);
+
+/// Returns the attributes of a map in LAS files that the format itself does not know.
+std::vector<urban_nav_core::LasAttribute> mapLasAttributes();
+/// Returns a point for LasWriter: the laser as scanner channel, the pass, counted from 1, as point source.
+urban_nav_core::LasPoint lasPoint(const MapPoint& point);
+/// Appends the values of mapLasAttributes().
+void appendLasAttributes(std::string& bytes, const MapPoint& point);
 
 }  // namespace laser_mapper

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <filesystem>
 
+#include "command_line/command_parameters.hpp"
 #include "command_line/console.hpp"
 #include "command_line/json.hpp"
 #include "commands/commands.hpp"
+#include "inspect/map_export.hpp"
 #include "inspect/store_export.hpp"
 #include "pipeline/parameters.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
@@ -18,6 +20,8 @@ using urban_nav_store::StoredTrajectory;
 
 namespace {
 
+constexpr double kMapImageShare = 0.1;  // of memory_mb, for decoded images
+
 using Maps = std::vector<std::vector<StoredTrajectory>>;
 
 /// "out.tum", "out_2.tum" and so on.
@@ -28,13 +32,26 @@ std::string numbered(const std::string& path, std::size_t number) {
       .string();
 }
 
+MapFilePaths mapFilePaths(const Arguments& arguments, std::size_t number) {
+  const auto path = [&](const char* option) {
+    return arguments.has(option) ? numbered(arguments.get(option), number) : std::string();
+  };
+  return {path("ply"), path("pcd"), path("las"), path("grid"), path("ortho")};
+}
+
 void checkFormats(const Arguments& arguments) {
-  for (const char* later : {"ply", "pcd", "las"})
-    if (arguments.has(later))
-      throw UserError("--" + std::string(later), "is not in this version: the store holds no map of points yet",
-                      "--tum, --kitti, --g2o");
-  if (!arguments.has("tum") && !arguments.has("kitti") && !arguments.has("g2o"))
-    throw UserError("urban_nav export", "no format is asked for", "--tum FILE, --kitti FILE, --g2o FILE");
+  if (!mapFilePaths(arguments, 0).any() && !arguments.has("tum") && !arguments.has("kitti") && !arguments.has("g2o"))
+    throw UserError("urban_nav export", "no format is asked for",
+                    "--tum, --kitti, --g2o, --ply, --pcd, --las, --grid or --ortho FILE");
+  if (arguments.has("crs"))
+    throw urban_nav_core::DataError("--crs " + arguments.get("crs"), "the store holds no GPS fixes to place the map by",
+                                    "no --crs: coordinates of the frame map");
+  const std::string ortho = arguments.get("ortho");
+  if (!ortho.empty() && std::filesystem::path(ortho).extension() != ".png")
+    throw UserError("--ortho", ortho, "a name that ends in .png");
+  const std::string grid = arguments.get("grid");
+  if (!grid.empty() && std::filesystem::path(grid).extension() != ".yaml")
+    throw UserError("--grid", grid, "a name that ends in .yaml");
 }
 
 /// What is written, for the user and for --json.
@@ -44,6 +61,9 @@ class Written {
 
   void write(const std::string& path, const std::string& text, const std::string& what) {
     urban_nav_core::writeAtomically(path, text);
+    note(path, what);
+  }
+  void note(const std::string& path, const std::string& what) {
     console_.info(what);
     console_.print(path + "\n");
     Json file = Json::object();
@@ -69,6 +89,19 @@ std::string describe(const std::vector<StoredTrajectory>& map) {
          (map.size() == 1 ? " session" : " sessions") + (relaxed ? "" : ", as odometry says");
 }
 
+void writeMaps(Store& store, const Maps& maps, const Arguments& arguments, Written& written) {
+  const double memory_mb = kMapImageShare * loadParameters(arguments).get(commandTable()).memory_mb;
+  std::size_t number = 0;
+  for (const std::vector<StoredTrajectory>& map : maps) {
+    const MapFilePaths paths = mapFilePaths(arguments, number);
+    if (!holdsMap(store, map) && (number > 0 || &map != &maps.back())) continue;  // the last one reports the lack
+    const ExportedMap made = exportMap(store, map, paths, memory_mb);
+    const std::string points = made.points > 0 ? std::to_string(made.points) + " points of " : "";
+    for (const std::string& path : made.files) written.note(path, points + describe(map));
+    ++number;
+  }
+}
+
 int runExport(const Arguments& arguments, Console& console) {
   checkCommonOptions(arguments);
   checkFormats(arguments);
@@ -89,6 +122,7 @@ int runExport(const Arguments& arguments, Console& console) {
         std::to_string(graph.vertices) + " vertices, " + std::to_string(graph.edges) + " edges" +
             (graph.left_out > 0 ? "; " + std::to_string(graph.left_out) + " that are not accepted left out" : ""));
   }
+  if (mapFilePaths(arguments, 0).any()) writeMaps(store, maps, arguments, written);
   if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), written.json().print());
   return 0;
 }
@@ -109,15 +143,29 @@ Command exportCommand() {
        {}},
       {"--kitti", "FILE", "the left camera relative to its first pose, a line per stereo frame", false, false, {}},
       {"--g2o", "FILE", "the pose graph: all nodes, accepted edges", false, false, {}},
-      {"--ply", "FILE", "not in this version", false, false, {}},
-      {"--pcd", "FILE", "not in this version", false, false, {}},
-      {"--las", "FILE", "not in this version", false, false, {}},
+      {"--ply", "FILE", "the map of laser points, with the bytes of map.ply", false, false, {}},
+      {"--pcd", "FILE", "the map of laser points for PCL", false, false, {}},
+      {"--las", "FILE", "the map of laser points as LAS 1.4, point format 7", false, false, {}},
+      {"--crs",
+       "auto,EPSG:N",
+       "coordinate system of --las; needs GPS fixes (default: the frame map)",
+       false,
+       false,
+       {}},
+      {"--grid",
+       "FILE.yaml",
+       "obstacles and free ground for map_server; the PGM is written beside it",
+       false,
+       false,
+       {}},
+      {"--ortho", "FILE.png", "the map from above; its world file is written beside it", false, false, {}},
       {"--session", "ID", "only sessions whose id or name begins so (default: all)", false, true, {}},
       jsonOption(),
       configOption(),
       setOption(),
       threadsOption()};
-  command.examples = {"urban_nav export out/session.db --tum trajectory.tum --g2o graph.g2o"};
+  command.examples = {"urban_nav export out/session.db --tum trajectory.tum --g2o graph.g2o",
+                      "urban_nav export out/session.db --las map.las --grid map.yaml --ortho map.png"};
   command.more_help = commonHelp;
   command.run = runExport;
   return command;

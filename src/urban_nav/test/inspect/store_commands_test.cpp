@@ -179,7 +179,10 @@ TEST_F(StoreCommands, mapRelaxesTheSessionsOfAStoreWithNewOnes) {
 TEST_F(StoreCommands, exportRefusesByName) {
   const std::string store = file("a/session.db");
   EXPECT_EQ(call({"export", store}), 2);
-  EXPECT_EQ(call({"export", store, "--las", file("x.las")}), 2);
+  EXPECT_EQ(call({"export", store, "--las", file("x.las")}), 1) << "no lasers";
+  EXPECT_EQ(call({"export", store, "--las", file("x.las"), "--crs", "auto"}), 1) << "no GPS";
+  EXPECT_EQ(call({"export", store, "--ortho", file("x.jpg")}), 2);
+  EXPECT_EQ(call({"export", store, "--grid", file("x.pgm")}), 2);
   EXPECT_EQ(call({"export", store, "--tum", file("x.tum"), "--session", "unknown"}), 2);
   EXPECT_EQ(call({"export", file("in16/times.txt"), "--tum", file("x.tum")}), 2);
   EXPECT_EQ(call({"export", file("nothing.db"), "--tum", file("x.tum")}), 2);

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "urban_nav_core/io/cloud/ply_writer.hpp"
 
-#include <cassert>
-#include <cerrno>
 #include <cstring>
-
-#include "urban_nav_core/types/error.hpp"
+#include <utility>
 
 namespace urban_nav_core {
 namespace {
@@ -70,37 +67,15 @@ template void appendLittleEndian(std::string&, std::int32_t);
 
 // The header's length must not depend on the number of vertices: a comment of blanks takes the digits that it lacks.
 PlyWriter::PlyWriter(const std::string& path, PlyLayout layout)
-    : path_(path), layout_(std::move(layout)), partial_(path) {
-  file_ = std::fopen(partial_.path().c_str(), "wb");
-  if (file_ == nullptr) throw UserError(path_, std::string("cannot be written: ") + std::strerror(errno), "");
-  layout_.comments.emplace_back(kCountDigits, ' ');
-  header_bytes_ = plyHeader(layout_, 0).size();
-  write(std::string(header_bytes_, ' '));
-}
-
-PlyWriter::~PlyWriter() {
-  if (file_ != nullptr) std::fclose(file_);
-}
-
-void PlyWriter::write(std::string_view bytes) {
-  if (std::fwrite(bytes.data(), 1, bytes.size(), file_) == bytes.size()) return;
-  throw DataError(path_, std::string("cannot be written: ") + std::strerror(errno), "");
-}
-
-void PlyWriter::append(std::string_view vertices) {
-  assert(vertices.size() % layout_.vertexBytes() == 0);
-  write(vertices);
-  vertices_ += vertices.size() / layout_.vertexBytes();
-}
+    : layout_([&] {
+        layout.comments.emplace_back(kCountDigits, ' ');
+        return std::move(layout);
+      }()),
+      file_(path, plyHeader(layout_, 0).size(), layout_.vertexBytes()) {}
 
 void PlyWriter::commit() {
-  layout_.comments.back().resize(kCountDigits + 1 - std::to_string(vertices_).size());
-  const bool at_start = std::fseek(file_, 0, SEEK_SET) == 0;
-  if (at_start) write(plyHeader(layout_, vertices_));
-  const bool closed = std::fclose(file_) == 0;
-  file_ = nullptr;
-  if (!at_start || !closed) throw DataError(path_, std::string("cannot be written: ") + std::strerror(errno), "");
-  partial_.commit();
+  layout_.comments.back().resize(kCountDigits + 1 - std::to_string(vertices()).size());
+  file_.commit(plyHeader(layout_, vertices()));
 }
 
 }  // namespace urban_nav_core

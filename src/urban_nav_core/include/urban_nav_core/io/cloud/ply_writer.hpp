@@ -3,12 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "urban_nav_core/io/atomic_file.hpp"
+#include "urban_nav_core/io/cloud/record_file.hpp"
 
 namespace urban_nav_core {
 
@@ -41,24 +40,16 @@ void appendLittleEndian(std::string& bytes, Number value);
 class PlyWriter {
  public:
   PlyWriter(const std::string& path, PlyLayout layout);
-  ~PlyWriter();
-  PlyWriter(const PlyWriter&) = delete;
-  PlyWriter& operator=(const PlyWriter&) = delete;
 
   /// Appends vertices. Requires a whole number of them.
-  void append(std::string_view vertices);
-  std::size_t vertices() const { return vertices_; }
+  void append(std::string_view vertices) { file_.append(vertices); }
+  std::size_t vertices() const { return file_.records(); }
   /// Writes the header and gives the file its name.
   void commit();
 
  private:
-  void write(std::string_view bytes);
-
-  std::string path_;
   PlyLayout layout_;
-  PartialFile partial_;
-  std::FILE* file_ = nullptr;
-  std::size_t vertices_ = 0, header_bytes_ = 0;
+  RecordFile file_;
 };
 
 extern template void appendLittleEndian(std::string&, float);

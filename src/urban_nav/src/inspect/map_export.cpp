@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "inspect/map_export.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <opencv2/imgcodecs.hpp>
+#include <optional>
+
+#include "laser_mapper/laser_map.hpp"
+#include "laser_mapper/map_files.hpp"
+#include "laser_mapper/map_picture.hpp"
+#include "laser_mapper/occupancy_grid.hpp"
+#include "stages/lasers/map_colour.hpp"
+#include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/types/error.hpp"
+#include "urban_nav_core/types/frames.hpp"
+#include "urban_nav_registration/session/session_lasers.hpp"
+
+namespace urban_nav {
+
+using laser_mapper::LaserMap;
+using laser_mapper::MapPoint;
+using urban_nav_core::Pose;
+using urban_nav_core::StampNs;
+using urban_nav_core::Trajectory;
+using urban_nav_core::Vector3d;
+using urban_nav_store::Store;
+using urban_nav_store::StoredTrajectory;
+
+namespace {
+
+constexpr double kOrthoMargin = 20.0;  // m around the path
+constexpr int kLongestOrtho = 16000;   // px
+constexpr StampNs kLongestPoseGap = 500'000'000;
+constexpr const char* kLocalSystem =
+    R"(LOCAL_CS["map of urban_nav",LOCAL_DATUM["first pose",0],UNIT["metre",1],AXIS["x",OTHER],AXIS["y",OTHER],AXIS["z",UP]])";
+
+/// Sessions of a map that have laser points.
+struct MappedSessions {
+  std::vector<std::unique_ptr<Trajectory>> trajectories;
+  std::vector<laser_mapper::MappedSession> sessions;
+  std::vector<std::vector<urban_nav_registration::LaserAt>> lasers;
+  std::vector<Vector3d> path;
+  std::optional<laser_mapper::Parameters> parameters;
+};
+
+MappedSessions mappedSessions(Store& store, const std::vector<StoredTrajectory>& map) {
+  MappedSessions made;
+  for (const StoredTrajectory& each : map) {
+    const auto parameters = laser_mapper::storedMapParameters(store, each.session.id);
+    if (!parameters || each.T_map_base.empty()) continue;
+    made.parameters = parameters;
+    made.trajectories.push_back(std::make_unique<Trajectory>(each.T_map_base));
+    made.sessions.push_back({each.session.id, made.trajectories.back().get(), nullptr});
+    made.lasers.push_back(urban_nav_registration::storedLasers(store, each.session.id));
+    for (const urban_nav_core::StampedPose& pose : each.T_map_base) made.path.push_back(pose.pose.t());
+  }
+  return made;
+}
+
+std::optional<Vector3d> beamOrigin(const MappedSessions& mapped, const MapPoint& point) {
+  const char* frame = point.laser == 0 ? urban_nav_core::frames::laser_left : urban_nav_core::frames::laser_right;
+  for (std::size_t s = 0; s < mapped.sessions.size(); ++s) {
+    const auto T_map_base = mapped.trajectories[s]->at(point.stamp, kLongestPoseGap);
+    if (!T_map_base) continue;
+    for (const urban_nav_registration::LaserAt& laser : mapped.lasers[s])
+      if (laser.frame == frame) return *T_map_base * laser.T_base_laser.t();
+  }
+  return std::nullopt;
+}
+
+/// The formats with a record for each point.
+class PointFiles {
+ public:
+  explicit PointFiles(const MapFilePaths& paths) {
+    if (!paths.ply.empty()) ply_.emplace(paths.ply, laser_mapper::mapLayout());
+    if (!paths.pcd.empty()) pcd_.emplace(paths.pcd, laser_mapper::mapPcdFields());
+    if (!paths.las.empty()) las_.emplace(paths.las, laser_mapper::mapLasAttributes(), kLocalSystem);
+  }
+  void append(const std::vector<MapPoint>& points) {
+    for (const MapPoint& point : points) {
+      if (ply_) appendBytes(*ply_, laser_mapper::appendVertex, point);
+      if (pcd_) appendBytes(*pcd_, laser_mapper::appendPcdPoint, point);
+      bytes_.clear();
+      if (las_) laser_mapper::appendLasAttributes(bytes_, point);
+      if (las_) las_->append(laser_mapper::lasPoint(point), bytes_);
+    }
+  }
+  void commit() {
+    if (ply_) ply_->commit();
+    if (pcd_) pcd_->commit();
+    if (las_) las_->commit();
+  }
+
+ private:
+  template <typename Writer>
+  void appendBytes(Writer& writer, void (*print)(std::string&, const MapPoint&), const MapPoint& point) {
+    bytes_.clear();
+    print(bytes_, point);
+    writer.append(bytes_);
+  }
+
+  std::optional<urban_nav_core::PlyWriter> ply_;
+  std::optional<urban_nav_core::PcdWriter> pcd_;
+  std::optional<urban_nav_core::LasWriter> las_;
+  std::string bytes_;
+};
+
+/// Writes the picture and its world file: pixel size, and the centre of the first pixel (ESRI world file).
+void writeOrtho(const std::string& path, const laser_mapper::MapView& view, const laser_mapper::MapPicture& drawn) {
+  const urban_nav_registration::Picture picture = drawn.finish();
+  const cv::Mat image(picture.height, picture.width, CV_8UC3, const_cast<std::uint8_t*>(picture.bgr.data()));
+  std::vector<std::uint8_t> bytes;
+  if (!cv::imencode(".png", image, bytes)) throw urban_nav_core::DataError(path, "cannot be encoded", "");
+  const Vector3d first = view.T_camera_map.inverse() * Vector3d((0.5 - 0.5 * view.width) / view.px_per_m,
+                                                                (0.5 - 0.5 * view.height) / view.px_per_m, 0.0);
+  std::string world;
+  for (const double value : {1.0 / view.px_per_m, 0.0, 0.0, -1.0 / view.px_per_m, first.x(), first.y()})
+    world += urban_nav_core::printNumber(value) + "\n";
+  urban_nav_core::writeAtomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  urban_nav_core::writeAtomically(withExtension(path, ".pgw"), world);
+}
+
+void writeGrid(const std::string& path, const LaserMap& map, const MappedSessions& mapped) {
+  const laser_mapper::GridModel model;
+  laser_mapper::OccupancyGrid grid(model, mapped.path);
+  map.forEachTile([&](const laser_mapper::Tile&, const std::vector<MapPoint>& points) { grid.addSurface(points); });
+  grid.findGround();
+  map.forEachTile([&](const laser_mapper::Tile&, const std::vector<MapPoint>& points) {
+    grid.addBeams(points, [&](const MapPoint& point) { return beamOrigin(mapped, point); });
+  });
+  const std::string pgm = withExtension(path, ".pgm");
+  urban_nav_core::writeAtomically(pgm, laser_mapper::printPgm(grid.image(), grid.width(), grid.height()));
+  urban_nav_core::writeAtomically(
+      path, laser_mapper::printGridYaml(grid, model, std::filesystem::path(pgm).filename().string()));
+}
+
+/// Writes the formats that show points in their colours.
+std::size_t writeColoured(const MapFilePaths& paths, Store& store, const LaserMap& map, const MappedSessions& mapped,
+                          double memory_mb) {
+  const auto colouriser = makeColouriser(store, mapped.sessions, mapped.parameters->voxel, memory_mb);
+  if (colouriser) {
+    map.forEachTile(
+        [&](const laser_mapper::Tile&, const std::vector<MapPoint>& points) { colouriser->addSurface(points); });
+    colouriser->equalise();
+  }
+  const laser_mapper::MapView view = laser_mapper::viewFromAbove(mapped.path, kOrthoMargin, kLongestOrtho);
+  std::optional<laser_mapper::MapPicture> ortho;
+  if (!paths.ortho.empty()) ortho.emplace(view);
+  PointFiles files(paths);
+  std::size_t written = 0;
+  map.forEachTile([&](const laser_mapper::Tile&, std::vector<MapPoint> points) {
+    if (colouriser) colouriser->colour(points);
+    files.append(points);
+    if (ortho) ortho->draw(points);
+    written += points.size();
+  });
+  files.commit();
+  if (ortho) writeOrtho(paths.ortho, view, *ortho);
+  return written;
+}
+
+}  // namespace
+
+std::string withExtension(const std::string& path, const std::string& extension) {
+  return std::filesystem::path(path).replace_extension(extension).string();
+}
+
+bool holdsMap(Store& store, const std::vector<StoredTrajectory>& map) {
+  return std::any_of(map.begin(), map.end(), [&](const StoredTrajectory& each) {
+    return laser_mapper::storedMapParameters(store, each.session.id).has_value();
+  });
+}
+
+ExportedMap exportMap(Store& store, const std::vector<StoredTrajectory>& map, const MapFilePaths& paths,
+                      double memory_mb) {
+  const MappedSessions mapped = mappedSessions(store, map);
+  if (mapped.sessions.empty())
+    throw urban_nav_core::DataError(store.path(), "holds no map of laser points", "a store of map --stages vo,lasers");
+  LaserMap laser_map(*mapped.parameters, store, mapped.sessions);
+  laser_map.load();
+  ExportedMap made;
+  if (!(paths.ply + paths.pcd + paths.las + paths.ortho).empty())
+    made.points = writeColoured(paths, store, laser_map, mapped, memory_mb);
+  if (!paths.grid.empty()) writeGrid(paths.grid, laser_map, mapped);
+  for (const std::string& path : {paths.ply, paths.pcd, paths.las, paths.grid, paths.ortho})
+    if (!path.empty()) made.files.push_back(path);
+  return made;
+}
+
+}  // namespace urban_nav

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "urban_nav_store/stored_map.hpp"
+
+namespace urban_nav {
+
+/// Files of a map of points, by their formats; those without a path are not written.
+struct MapFilePaths {
+  std::string ply, pcd, las;
+  std::string grid;   ///< YAML of map_server; the PGM is written beside it
+  std::string ortho;  ///< PNG; its world file is written beside it
+
+  bool any() const { return !(ply + pcd + las + grid + ortho).empty(); }
+};
+
+/// What exportMap() wrote.
+struct ExportedMap {
+  std::size_t points = 0;
+  std::vector<std::string> files;
+};
+
+/// Returns whether a store holds a map of laser points of one of these sessions.
+bool holdsMap(urban_nav_store::Store& store, const std::vector<urban_nav_store::StoredTrajectory>& map);
+
+/// Writes the map of laser points of sessions that lie in one map, as the store holds it; the PLY file has the bytes
+/// that `map` wrote. `memory_mb`: for decoded images. Throws DataError if the store holds no such map.
+ExportedMap exportMap(urban_nav_store::Store& store, const std::vector<urban_nav_store::StoredTrajectory>& map,
+                      const MapFilePaths& paths, double memory_mb);
+
+/// Returns `path` with another extension, which begins with a point.
+std::string withExtension(const std::string& path, const std::string& extension);
+
+}  // namespace urban_nav

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "inspect/map_export.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "laser_mapper/laser_map.hpp"
+#include "laser_mapper/map_files.hpp"
+#include "support/folders.hpp"
+#include "urban_nav_core/io/cloud/cloud_file.hpp"
+#include "urban_nav_core/types/error.hpp"
+#include "urban_nav_core/types/frames.hpp"
+
+namespace urban_nav {
+namespace {
+
+using urban_nav_core::Pose;
+using urban_nav_core::StampNs;
+using urban_nav_core::Vector3d;
+using urban_nav_store::Access;
+using urban_nav_store::Store;
+
+constexpr StampNs kExportStart = 1'225'719'872'000'000'000;
+constexpr const char* kExportSession = "0123456789abcdef0123";
+
+/// A store of a drive of 8 m along x beside a wall at y = 4; the laser looks to the left from 1 m above the ground.
+class MapExportTest : public ::testing::Test {
+ protected:
+  MapExportTest() : store_(folder_.file("session.db"), Access::Write) {
+    store_.sessions().put(urban_nav_store::Session{kExportSession, "wall", "", "", 1, true});
+    Eigen::Matrix3d R;
+    R << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+    store_.sessions().put(kExportSession, urban_nav_store::Extrinsic{urban_nav_core::frames::laser_left,
+                                                                     Pose(R, Vector3d(0.0, 0.0, 1.0))});
+    for (int i = 0; i <= 160; ++i) {
+      urban_nav_store::Node node;
+      node.stamp = kExportStart + i * 50'000'000LL;
+      node.T_odom_base = Pose(R.Identity(), Vector3d(0.05 * i, 0.0, 0.0));
+      store_.graph().put(kExportSession, node);
+      if (i > 0 && i < 160) store_.scans().put(kExportSession, urban_nav_core::frames::laser_left, scan(node.stamp));
+    }
+    store_.commit();
+  }
+
+  static urban_nav_core::Scan scan(StampNs stamp) {
+    urban_nav_core::Scan scan;
+    scan.stamp = stamp;
+    for (int degrees = -45; degrees <= 40; ++degrees) {
+      const double angle = degrees * M_PI / 180.0;
+      urban_nav_core::Beam beam;
+      beam.stamp = stamp;
+      beam.direction = Vector3d(std::cos(angle), std::sin(angle), 0.0).cast<float>();
+      const double wall = 4.0 / std::cos(angle), ground = angle < 0.0 ? 1.0 / std::sin(-angle) : 1e9;
+      beam.range = static_cast<float>(std::min(wall, ground));
+      scan.beams.push_back(beam);
+    }
+    return scan;
+  }
+
+  std::vector<urban_nav_store::StoredTrajectory> map() {
+    return urban_nav_store::readMaps(store_, urban_nav_store::selectSessions(store_, {})).front();
+  }
+  void render() {
+    const urban_nav_core::Trajectory trajectory(map().front().T_map_base);
+    laser_mapper::LaserMap(laser_mapper::Parameters(), store_, {{kExportSession, &trajectory, nullptr}}).render();
+  }
+
+  testing::TemporaryFolder folder_;
+  Store store_;
+};
+
+TEST_F(MapExportTest, EveryFormatHasThePointsOfTheMap) {
+  render();
+  const MapFilePaths paths{folder_.file("m.ply"), folder_.file("m.pcd"), folder_.file("m.las"), "", ""};
+  const ExportedMap made = exportMap(store_, map(), paths, 100.0);
+  EXPECT_EQ(made.files.size(), 3U);
+  ASSERT_GT(made.points, 1000U);
+  const auto ply = urban_nav_core::readCloud(paths.ply).cloud.points;
+  ASSERT_EQ(ply.size(), made.points);
+  for (const std::string& path : {paths.pcd, paths.las}) {
+    const auto read = urban_nav_core::readCloud(path).cloud.points;
+    ASSERT_EQ(read.size(), ply.size());
+    for (std::size_t i = 0; i < ply.size(); ++i) ASSERT_LT((read[i] - ply[i]).norm(), 2e-4F) << path;
+  }
+  for (const Eigen::Vector3f& p : ply) EXPECT_LT(std::min(std::abs(p.y() - 4.0F), std::abs(p.z())), 0.01F);
+}
+
+TEST_F(MapExportTest, GridShowsTheWallAndTheGroundBeforeIt) {
+  render();
+  exportMap(store_, map(), {"", "", "", folder_.file("m.yaml"), ""}, 100.0);
+  const std::string yaml = testing::readFile(folder_.file("m.yaml")), pgm = testing::readFile(folder_.file("m.pgm"));
+  EXPECT_NE(yaml.find("image: m.pgm\nresolution: 0.1\norigin: [-30, -30, 0]\n"), std::string::npos) << yaml;
+  int width = 0, height = 0;
+  ASSERT_EQ(std::sscanf(pgm.c_str(), "P5\n%d %d\n255\n", &width, &height), 2);
+  const auto at = [&](double x, double y) {
+    const int u = static_cast<int>(std::floor((x + 30.0) / 0.1)), v = static_cast<int>(std::floor((y + 30.0) / 0.1));
+    return static_cast<int>(static_cast<unsigned char>(pgm[pgm.size() - static_cast<std::size_t>(width * height) +
+                                                           static_cast<std::size_t>((height - 1 - v) * width + u)]));
+  };
+  for (double x = 1.05; x < 7.0; x += 0.1) {
+    EXPECT_TRUE(at(x, 3.95) == 0 || at(x, 4.05) == 0) << "wall at " << x;
+    for (double y = 0.05; y < 3.8; y += 0.1) EXPECT_EQ(at(x, y), 254) << x << " " << y;
+    EXPECT_EQ(at(x, 4.55), 205) << "beyond the wall";
+  }
+}
+
+TEST_F(MapExportTest, OrthophotoIsPlacedByItsWorldFile) {
+  render();
+  exportMap(store_, map(), {"", "", "", "", folder_.file("m.png")}, 100.0);
+  double step_x = 0.0, a = 1.0, b = 1.0, step_y = 0.0, x = 0.0, y = 0.0;
+  ASSERT_EQ(std::sscanf(testing::readFile(folder_.file("m.pgw")).c_str(), "%lf %lf %lf %lf %lf %lf", &step_x, &a, &b,
+                        &step_y, &x, &y),
+            6);
+  EXPECT_NEAR(step_x, 0.05, 1e-9);
+  EXPECT_NEAR(step_y, -0.05, 1e-9);
+  EXPECT_EQ(a, 0.0);
+  EXPECT_EQ(b, 0.0);
+  EXPECT_NEAR(x, -20.0 + 0.025, 0.05);
+  EXPECT_NEAR(y, 20.0 - 0.025, 0.05);
+  EXPECT_EQ(testing::readFile(folder_.file("m.png")).substr(1, 3), "PNG");
+}
+
+TEST_F(MapExportTest, RefusesAStoreWithoutAMap) {
+  EXPECT_FALSE(holdsMap(store_, map()));
+  EXPECT_THROW(exportMap(store_, map(), {folder_.file("m.ply"), "", "", "", ""}, 100.0), urban_nav_core::DataError);
+  EXPECT_FALSE(std::filesystem::exists(folder_.file("m.ply")));
+}
+
+}  // namespace
+}  // namespace urban_nav
