@@ -2,9 +2,11 @@
 // Writes the parameter tables of README.md and config/laser_mapper.yaml; test/parameters_test.cpp compares them with
 // the table.
 #include "laser_mapper/parameters.hpp"
+#include "live/nodelet_parameters.hpp"
 #include "urban_nav_core/parameters/documents.hpp"
 
 int main(int argc, char** argv) {
   const auto& stage = laser_mapper::table();
-  return urban_nav_core::documentParameters(argc, argv, {{stage.stage(), stage.rows()}});
+  const auto& nodelet = laser_mapper::nodeletTable();
+  return urban_nav_core::documentParameters(argc, argv, {{stage.stage(), stage.rows()}, {nodelet.stage(), nodelet.rows()}});
 }

@@ -22,6 +22,8 @@ TOPICS = {
     "/stereo/ground_plane": "urban_nav_msgs/GroundPlane",
     "/stereo/obstacles": "sensor_msgs/PointCloud2",
     "/dense_stereo/status": "urban_nav_msgs/StageStatus",
+    "/map/cloud": "sensor_msgs/PointCloud2",
+    "/laser_mapper/status": "urban_nav_msgs/StageStatus",
     "/graph/update": "urban_nav_msgs/GraphUpdate",
     "/graph/jump": "urban_nav_msgs/MapJump",
     "/graph/path": "nav_msgs/Path",

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <sensor_msgs/PointCloud2.h>
+#include <unistd.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <tuple>
+#include <variant>
+
+#include "live/live_map.hpp"
+#include "live/nodelet_parameters.hpp"
+#include "urban_nav_ros/extrinsics.hpp"
+#include "urban_nav_ros/graph.hpp"
+#include "urban_nav_ros/laser_scan.hpp"
+#include "urban_nav_ros/point_cloud.hpp"
+#include "urban_nav_ros/robot_topics.hpp"
+#include "urban_nav_ros/stage_nodelet.hpp"
+
+namespace laser_mapper {
+
+using urban_nav_ros::ImageInput;
+using urban_nav_ros::InfoInput;
+
+namespace {
+
+constexpr const char* kCloudTopic = "map/cloud";
+constexpr int kRestPerWork = 3;  // times as long as a cloud took until the next one begins
+
+enum class MapFault { None = 0, NoOdometry = 1, NoLasers = 2, NoLaserPlace = 3, NotStored = 4 };
+
+const char* toString(MapFault fault) {
+  switch (fault) {
+    case MapFault::None: return "None";
+    case MapFault::NoOdometry: return "NoOdometry";
+    case MapFault::NoLasers: return "NoLasers";
+    case MapFault::NoLaserPlace: return "NoLaserPlace";
+    case MapFault::NotStored: break;
+  }
+  return "NotStored";
+}
+
+std::string temporaryStore(const std::string& node) {
+  std::string name = node;
+  for (char& letter : name)
+    if (letter == '/') letter = '_';
+  return (std::filesystem::temp_directory_path() / ("laser_mapper" + name + "_" + std::to_string(::getpid()) + ".db"))
+      .string();
+}
+
+}  // namespace
+
+/// The map of the lasers on a topic: scans and poses are recorded, and a cloud is made while it has a subscriber.
+class LaserMapperStage {
+ public:
+  static constexpr const char* name = "laser_mapper";
+  static constexpr const char* topic = "laser map";
+  using Input = std::variant<ImageInput, InfoInput, tf2_msgs::TFMessageConstPtr, sensor_msgs::LaserScanConstPtr,
+                             urban_nav_core::StampedPose, urban_nav_core::RelativePose, urban_nav_core::GraphUpdate>;
+  using Node = urban_nav_ros::StageNodeWith<Input>;
+
+  explicit LaserMapperStage(Node& node);
+
+  void handle(Input& input);
+  bool idle();
+  std::string reset();
+  void close() {}
+  urban_nav_live::StageReport report() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void addScan(const sensor_msgs::LaserScan& message);
+  void publish();
+
+  Node& node_;
+  NodeletParameters nodelet_;
+  Parameters parameters_;
+  std::unique_ptr<LiveMap> map_;
+  urban_nav_ros::StaticTransforms transforms_;
+  ros::Publisher publisher_;
+  std::string unplaced_, store_fault_;
+  bool changed_ = false;
+  Clock::time_point due_;
+  double seconds_ = 0.0;  ///< of the last cloud
+};
+
+LaserMapperStage::LaserMapperStage(Node& node) : node_(node) {
+  std::tie(nodelet_, parameters_) = node.parameters(nodeletTable(), table());
+  node.setQueueSize(nodelet_.queue_size);
+  map_ = std::make_unique<LiveMap>(parameters_, temporaryStore(node.name()));
+  publisher_ = node.nh().advertise<sensor_msgs::PointCloud2>(kCloudTopic, 1, true);
+  subscribeRobot(node, nodelet_.queue_size, false, false, true);
+  urban_nav_ros::TopicOptions options;
+  options.is_monitored = options.is_paused = false;
+  options.queue = nodelet_.queue_size;
+  node.subscribeInput<urban_nav_msgs::GraphUpdate>(
+      urban_nav_ros::topics::graph_update, options,
+      [](const urban_nav_msgs::GraphUpdateConstPtr& message) { return urban_nav_ros::toGraphUpdate(*message); });
+}
+
+void LaserMapperStage::handle(Input& input) {
+  try {
+    if (const auto* transforms = std::get_if<tf2_msgs::TFMessageConstPtr>(&input)) transforms_.add(**transforms);
+    else if (const auto* scan = std::get_if<sensor_msgs::LaserScanConstPtr>(&input)) addScan(**scan);
+    else if (const auto* odometry = std::get_if<urban_nav_core::StampedPose>(&input)) map_->addOdometry(*odometry);
+    else if (const auto* update = std::get_if<urban_nav_core::GraphUpdate>(&input)) map_->addGraph(*update);
+    changed_ = true;
+  } catch (const urban_nav_core::Error& error) {
+    store_fault_ = error.what();
+  }
+}
+
+void LaserMapperStage::addScan(const sensor_msgs::LaserScan& message) {
+  const auto planar = urban_nav_ros::toPlanarScan(message);
+  if (!planar) return node_.gate().countInvalid();
+  const std::string& frame = message.header.frame_id;
+  if (!map_->isPlaced(frame)) {
+    const auto T_base_laser = transforms_.lookup(nodelet_.base_frame, frame);
+    if (T_base_laser) map_->placeLaser(frame, *T_base_laser);
+    unplaced_ = T_base_laser ? "" : frame;
+  }
+  map_->addScan(frame, urban_nav_core::toScan(*planar));
+}
+
+bool LaserMapperStage::idle() {
+  const urban_nav_live::StageReport now = report();
+  node_.publishStatus(now.status, now.reason_name, map_->newest());
+  if (!changed_ || publisher_.getNumSubscribers() == 0 || Clock::now() < due_) return false;
+  const Clock::time_point begin = Clock::now();
+  try {
+    publish();
+    store_fault_.clear();
+  } catch (const urban_nav_core::Error& error) {
+    store_fault_ = error.what();
+    node_.logError(store_fault_);
+  }
+  changed_ = false;
+  const Clock::duration taken = Clock::now() - begin;
+  seconds_ = std::chrono::duration<double>(taken).count();
+  due_ = Clock::now() + std::max<Clock::duration>(kRestPerWork * taken,
+                                                  std::chrono::milliseconds(static_cast<int>(1e3 * nodelet_.period)));
+  return false;
+}
+
+void LaserMapperStage::publish() {
+  const std::vector<MapPoint> points = map_->render();
+  if (points.empty()) return;
+  std::vector<Eigen::Vector4f> rows;
+  rows.reserve(points.size());
+  for (const MapPoint& point : points)
+    rows.emplace_back(point.p.x(), point.p.y(), point.p.z(), static_cast<float>(point.intensity));
+  sensor_msgs::PointCloud2 cloud = urban_nav_ros::toPointCloudMessage(rows, "intensity");
+  cloud.header.frame_id = nodelet_.map_frame;
+  cloud.header.stamp = urban_nav_ros::toRosTime(map_->newest());
+  publisher_.publish(cloud);
+}
+
+std::string LaserMapperStage::reset() {
+  map_->clear();
+  return "the map is empty";
+}
+
+urban_nav_live::StageReport LaserMapperStage::report() const {
+  const urban_nav_live::TopicMonitor& monitor = node_.monitor();
+  const std::string odometry = monitor.fault(urban_nav_ros::topic_groups::odometry);
+  const std::string lasers = monitor.fault(urban_nav_ros::topic_groups::lasers);
+  MapFault fault = MapFault::None;
+  std::string sentence;
+  const auto set = [&](MapFault as, const std::string& text) {
+    if (text.empty() || fault != MapFault::None || node_.gate().isPaused()) return;
+    fault = as;
+    sentence = text;
+  };
+  set(MapFault::NotStored, store_fault_);
+  set(MapFault::NoOdometry, odometry);
+  set(MapFault::NoLasers, lasers);
+  if (!unplaced_.empty()) set(MapFault::NoLaserPlace, "no static tf from " + nodelet_.base_frame + " to " + unplaced_);
+  urban_nav_live::StageReport report;
+  if (fault != MapFault::None) report.status = {urban_nav_core::Health::Degraded, static_cast<int>(fault), sentence};
+  report.reason_name = toString(fault);
+  report.is_error = fault == MapFault::NotStored;
+  const LiveMap::Counts& counts = map_->counts();
+  report.add("scans", counts.scans);
+  report.add("scans of lasers without a pose on the robot", counts.scans_unplaced);
+  report.add("poses of odometry", counts.poses);
+  report.add("revisions of the graph missed", counts.updates_missed);
+  report.add("points", counts.points);
+  report.add("chunks", counts.chunks);
+  report.add("chunks rendered last", counts.chunks_rendered);
+  report.add("time of the last cloud (s)", seconds_);
+  return report;
+}
+
+class LaserMapperNodelet : public urban_nav_ros::StageNodelet<LaserMapperStage> {};
+
+}  // namespace laser_mapper
+
+PLUGINLIB_EXPORT_CLASS(laser_mapper::LaserMapperNodelet, nodelet::Nodelet)

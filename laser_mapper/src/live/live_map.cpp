@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "live/live_map.hpp"
+
+#include <utility>
+
+#include "laser_mapper/laser_map.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace laser_mapper {
+
+using urban_nav_core::Pose;
+using urban_nav_core::StampNs;
+using urban_nav_core::Trajectory;
+
+namespace {
+
+constexpr const char* kLiveSession = "00000000000000000000";
+constexpr StampNs kBackInTime = 1'000'000'000;
+
+}  // namespace
+
+LiveMap::LiveMap(const Parameters& parameters, std::string store_path)
+    : parameters_(parameters), path_(std::move(store_path)) {
+  open();
+}
+
+LiveMap::~LiveMap() {
+  store_.reset();
+  try {
+    urban_nav_store::removeStore(path_);
+  } catch (const urban_nav_core::Error&) {  // a temporary file that stays does no harm
+  }
+}
+
+void LiveMap::open() {
+  store_.reset();
+  urban_nav_store::removeStore(path_);
+  store_ = std::make_unique<urban_nav_store::Store>(path_, urban_nav_store::Access::Write);
+  store_->sessions().put(urban_nav_store::Session{kLiveSession, "live", "", "", 0, false});
+  for (const auto& [frame, T_base_laser] : placed_)
+    store_->sessions().put(kLiveSession, urban_nav_store::Extrinsic{frame, T_base_laser});
+}
+
+void LiveMap::clear() {
+  open();
+  T_odom_base_.clear();
+  T_map_base_.clear();
+  revision_.reset();
+  counts_ = {};
+}
+
+void LiveMap::placeLaser(const std::string& laser, const Pose& T_base_laser) {
+  if (!placed_.emplace(laser, T_base_laser).second) return;
+  store_->sessions().put(kLiveSession, urban_nav_store::Extrinsic{laser, T_base_laser});
+}
+
+void LiveMap::addScan(const std::string& laser, const urban_nav_core::Scan& scan) {
+  if (!isPlaced(laser)) {
+    ++counts_.scans_unplaced;
+    return;
+  }
+  store_->scans().put(kLiveSession, laser, scan);
+  ++counts_.scans;
+}
+
+void LiveMap::addOdometry(const urban_nav_core::StampedPose& T_odom_base) {
+  if (newest() > T_odom_base.stamp + kBackInTime) clear();
+  T_odom_base_[T_odom_base.stamp] = T_odom_base.pose;
+  counts_.poses = T_odom_base_.size();
+}
+
+void LiveMap::addGraph(const urban_nav_core::GraphUpdate& update) {
+  if (revision_ && update.previous != *revision_) ++counts_.updates_missed;
+  revision_ = update.revision;
+  for (const urban_nav_core::PoseRun& run : update.runs)
+    for (const urban_nav_core::StampedMapPose& pose : run.poses) T_map_base_[pose.stamp] = pose.T_map_base;
+}
+
+StampNs LiveMap::newest() const { return T_odom_base_.empty() ? 0 : T_odom_base_.rbegin()->first; }
+
+/// Poses of odometry, each moved by what the graph says of the last of them that it knows.
+Trajectory LiveMap::trajectory() const {
+  Trajectory made;
+  Pose T_map_odom;
+  auto next = T_map_base_.begin();
+  bool known = false;
+  for (const auto& [stamp, T_odom_base] : T_odom_base_) {
+    while (next != T_map_base_.end() && next->first < stamp) ++next;
+    if (next != T_map_base_.end() && next->first == stamp) {
+      T_map_odom = next->second * T_odom_base.inverse();
+      known = true;
+    }
+    if (known || T_map_base_.empty()) made.append(stamp, T_map_odom * T_odom_base);
+  }
+  return made;
+}
+
+std::vector<MapPoint> LiveMap::render() {
+  std::vector<MapPoint> points;
+  const Trajectory T_map_base = trajectory();
+  if (T_map_base.empty() || store_->scans().lasers(kLiveSession).empty()) return points;
+  LaserMap map(parameters_, *store_, {{kLiveSession, &T_map_base, nullptr}});
+  const RenderStatistics rendered = map.render();
+  map.forEachTile(
+      [&](const Tile&, const std::vector<MapPoint>& tile) { points.insert(points.end(), tile.begin(), tile.end()); });
+  counts_.chunks = rendered.chunks;
+  counts_.chunks_rendered = rendered.chunks_rendered;
+  counts_.points = points.size();
+  return points;
+}
+
+}  // namespace laser_mapper

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "laser_mapper/map_point.hpp"
+#include "laser_mapper/parameters.hpp"
+#include "urban_nav_core/laser/scan.hpp"
+#include "urban_nav_core/trajectory/trajectory.hpp"
+#include "urban_nav_core/types/graph_update.hpp"
+#include "urban_nav_store/store.hpp"
+
+namespace laser_mapper {
+
+/// The map of a session that is still going on: LaserMap over a temporary session store. Between the poses of the graph
+/// the robot moves as odometry says; without a graph the map is in the frame of odometry. When poses of the graph move,
+/// the chunks along them are rendered again. Not thread-safe. Throws UserError or DataError if the store cannot be
+/// written.
+class LiveMap {
+ public:
+  /// Figures for the operator.
+  struct Counts {
+    std::size_t scans = 0;
+    std::size_t scans_unplaced = 0;               ///< of lasers whose pose on the robot is unknown
+    std::size_t poses = 0;                        ///< of odometry
+    std::size_t points = 0;                       ///< of the last map
+    std::size_t chunks = 0, chunks_rendered = 0;  ///< all; by the last render()
+    std::size_t updates_missed = 0;               ///< revisions of the graph that did not arrive
+  };
+
+  LiveMap(const Parameters& parameters, std::string store_path);
+  ~LiveMap();
+  LiveMap(const LiveMap&) = delete;
+  LiveMap& operator=(const LiveMap&) = delete;
+
+  bool isPlaced(const std::string& laser) const { return placed_.count(laser) != 0; }
+  void placeLaser(const std::string& laser, const urban_nav_core::Pose& T_base_laser);
+  void addScan(const std::string& laser, const urban_nav_core::Scan& scan);
+  /// A pose earlier than the last one by over a second begins a new session.
+  void addOdometry(const urban_nav_core::StampedPose& T_odom_base);
+  void addGraph(const urban_nav_core::GraphUpdate& update);
+
+  /// Returns the points of the whole map.
+  std::vector<MapPoint> render();
+  /// Forgets scans and poses.
+  void clear();
+
+  const Counts& counts() const { return counts_; }
+  /// Returns the stamp of the newest pose; 0 without poses.
+  urban_nav_core::StampNs newest() const;
+
+ private:
+  void open();
+  urban_nav_core::Trajectory trajectory() const;
+
+  const Parameters parameters_;
+  const std::string path_;
+  std::unique_ptr<urban_nav_store::Store> store_;
+  std::map<std::string, urban_nav_core::Pose> placed_;
+  std::map<urban_nav_core::StampNs, urban_nav_core::Pose> T_odom_base_, T_map_base_;
+  std::optional<std::int64_t> revision_;
+  Counts counts_;
+};
+
+}  // namespace laser_mapper

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "live/nodelet_parameters.hpp"
+
+#include "urban_nav_core/types/frames.hpp"
+
+namespace laser_mapper {
+
+using urban_nav_core::Table;
+
+NodeletParameters::NodeletParameters() { nodeletTable().setDefaults(*this); }
+
+// clang-format would give each of the columns a line.
+// clang-format off
+const Table<NodeletParameters>& nodeletTable() {
+  using P = NodeletParameters;
+  static const Table<NodeletParameters> rows(
+      "",
+      {
+          {"base_frame", &P::base_frame, "", urban_nav_core::frames::base_link, false, false, {},
+           "Frame of the robot.", "REP-105"},
+          {"map_frame", &P::map_frame, "", "map", false, false, {},
+           "Frame of the cloud; `odom` without a pose graph.", "REP-105"},
+          {"period", &P::period, "s", 2.0, 0.1, 3600.0, {},
+           "Least time between two clouds; making them takes at most a quarter of all time.", "docs/architecture.md"},
+          {"queue_size", &P::queue_size, "messages", 4000, 2, 1000000, {},
+           "Inputs that may wait; beyond that the oldest is dropped and counted.", "docs/architecture.md"},
+      });
+  return rows;
+}
+// clang-format on
+
+}  // namespace laser_mapper

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <nav_msgs/Odometry.h>
+#include <sensor_msgs/LaserScan.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <sensor_msgs/point_cloud2_iterator.h>
+#include <tf2_msgs/TFMessage.h>
+#include <urban_nav_msgs/GraphUpdate.h>
+#include <urban_nav_msgs/RelativePose.h>
+#include <urban_nav_msgs/StageStatus.h>
+
+#include <cmath>
+#include <limits>
+
+#include "urban_nav_ros/extrinsics.hpp"
+#include "urban_nav_ros/graph.hpp"
+#include "urban_nav_ros/pose.hpp"
+#include "urban_nav_ros/stamp.hpp"
+#include "urban_nav_ros/testing/listener.hpp"
+
+namespace laser_mapper {
+namespace {
+
+using urban_nav_core::Pose;
+using urban_nav_core::StampNs;
+using urban_nav_core::Vector3d;
+
+constexpr StampNs kDriveStart = 1'225'719'872'000'000'000;
+constexpr int kFrames = 100;  // of 50 ms and 5 cm
+
+/// A robot that drives along x beside a wall at y = 4; its left laser is 1 m above the ground and looks to the left.
+class WallRobot : public urban_nav_ros::testing::Listener {
+ public:
+  WallRobot() : Listener("laser_mapper") {
+    keep("map/cloud", clouds);
+    keep("laser_mapper/status", statuses);
+  }
+  static StampNs toStamp(int frame) { return kDriveStart + frame * 50'000'000LL; }
+  static Pose T_odom_base(int frame) { return Pose(Eigen::Matrix3d::Identity(), Vector3d(0.05 * frame, 0.0, 0.0)); }
+
+  void placeLaser() {
+    Eigen::Matrix3d R;
+    R << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+    tf2_msgs::TFMessage message;
+    message.transforms.push_back(
+        urban_nav_ros::toStaticTransform("base_link", "laser_left", Pose(R, Vector3d(0.0, 0.0, 1.0))));
+    tf_static_.publish(message);
+  }
+  void drive() {
+    for (int i = 0; i < kFrames; ++i) {
+      nav_msgs::Odometry odometry;
+      odometry.header.stamp = urban_nav_ros::toRosTime(toStamp(i));
+      odometry.pose.pose = urban_nav_ros::toPoseMessage(T_odom_base(i));
+      odometry_.publish(odometry);
+      if (i > 0) left_.publish(scan(toStamp(i)));
+    }
+  }
+  /// The graph moves all poses by dz.
+  void lift(std::int64_t revision, double dz) {
+    urban_nav_core::GraphUpdate update;
+    update.revision = revision;
+    update.previous = revision - 1;
+    update.runs.emplace_back();
+    for (int i = 0; i < kFrames; ++i)
+      update.runs.back().poses.push_back(
+          {toStamp(i), Pose(Eigen::Matrix3d::Identity(), Vector3d(0.0, 0.0, dz)) * T_odom_base(i)});
+    graph_.publish(urban_nav_ros::toGraphUpdateMessage(update, toStamp(kFrames - 1), "map"));
+  }
+  /// Whether the last cloud has over `least` points, all on the wall or on the ground lifted by dz.
+  bool showsWall(std::size_t least, double dz) const {
+    if (clouds.empty() || clouds.back().width * clouds.back().height < least) return false;
+    for (sensor_msgs::PointCloud2ConstIterator<float> p(clouds.back(), "x"); p != p.end(); ++p)
+      if (std::abs(p[1] - 4.0F) > 0.03F && std::abs(static_cast<double>(p[2]) - dz) > 0.03) return false;
+    float low = 1e9F;
+    for (sensor_msgs::PointCloud2ConstIterator<float> p(clouds.back(), "x"); p != p.end(); ++p)
+      low = std::min(low, p[2]);
+    return std::abs(static_cast<double>(low) - dz) < 0.05;
+  }
+
+  std::vector<sensor_msgs::PointCloud2> clouds;
+  std::vector<urban_nav_msgs::StageStatus> statuses;
+
+ private:
+  static sensor_msgs::LaserScan scan(StampNs stamp) {
+    sensor_msgs::LaserScan message;
+    message.header.stamp = urban_nav_ros::toRosTime(stamp);
+    message.header.frame_id = "laser_left";
+    message.angle_min = static_cast<float>(-45.0 * M_PI / 180.0);
+    message.angle_max = static_cast<float>(40.0 * M_PI / 180.0);
+    message.angle_increment = static_cast<float>(M_PI / 180.0);
+    message.range_min = 0.1F;
+    message.range_max = 30.0F;
+    for (int degrees = -45; degrees <= 40; ++degrees) {
+      const double angle = degrees * M_PI / 180.0;
+      const double ground = angle < 0.0 ? 1.0 / std::sin(-angle) : std::numeric_limits<double>::infinity();
+      message.ranges.push_back(static_cast<float>(std::min(4.0 / std::cos(angle), ground)));
+    }
+    return message;
+  }
+
+  ros::Publisher tf_static_ = advertise<tf2_msgs::TFMessage>("/tf_static", true);
+  ros::Publisher odometry_ = advertise<nav_msgs::Odometry>("vo/odometry");
+  ros::Publisher relative_ = advertise<urban_nav_msgs::RelativePose>("vo/relative_pose");
+  ros::Publisher left_ = advertise<sensor_msgs::LaserScan>("laser_left/scan");
+  ros::Publisher right_ = advertise<sensor_msgs::LaserScan>("laser_right/scan");
+  ros::Publisher graph_ = advertise<urban_nav_msgs::GraphUpdate>("graph/update");
+};
+
+TEST(LaserMapperNodelet, TheMapGrowsFollowsTheGraphAndIsForgotten) {
+  WallRobot robot;
+  ASSERT_TRUE(WallRobot::until([&] { return robot.isConnected(); }));
+  robot.placeLaser();
+  ros::WallDuration(0.3).sleep();  // transforms come on another connection than scans
+  robot.drive();
+  ASSERT_TRUE(WallRobot::until([&] { return robot.showsWall(1500, 0.0); })) << robot.clouds.size() << " clouds";
+  EXPECT_EQ(robot.clouds.back().header.frame_id, "map");
+  EXPECT_EQ(urban_nav_ros::toStampNs(robot.clouds.back().header.stamp), WallRobot::toStamp(kFrames - 1));
+
+  robot.lift(1, 0.5);
+  ASSERT_TRUE(WallRobot::until([&] { return robot.showsWall(1500, 0.5); })) << "the graph has moved";
+
+  ASSERT_TRUE(robot.call("reset"));
+  ASSERT_TRUE(WallRobot::until([&] { return robot.diagnosed("scans", "0"); }));
+  const std::size_t before = robot.clouds.size();
+  robot.drive();
+  ASSERT_TRUE(WallRobot::until([&] { return robot.clouds.size() > before && robot.showsWall(1500, 0.0); }));
+}
+
+TEST(LaserMapperNodelet, ASilentOdometryIsNamed) {
+  WallRobot robot;
+  ASSERT_TRUE(WallRobot::until([&] { return robot.isConnected(); }));
+  ASSERT_TRUE(
+      WallRobot::until([&] { return !robot.statuses.empty() && robot.statuses.back().reason_name == "NoOdometry"; }));
+  EXPECT_EQ(robot.statuses.back().status, urban_nav_msgs::StageStatus::DEGRADED);
+  EXPECT_NE(robot.statuses.back().text.find("/vo/odometry"), std::string::npos) << robot.statuses.back().text;
+}
+
+}  // namespace
+}  // namespace laser_mapper
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "laser_mapper_nodelet_test");
+  ros::NodeHandle keeps_ros_alive;
+  return RUN_ALL_TESTS();
+}
