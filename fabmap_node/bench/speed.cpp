@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Processor time of place recognition on one core: describing a panorama, likelihoods of all places by the inverted
+// index, the second look, and a whole match. Places are drawn at random with word frequencies as in text (Zipf).
+//
+//   fabmap_node-bench-speed [-o FILE.json]
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <opencv2/core/utility.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "fabmap_node/model/place_model.hpp"
+#include "fabmap_node/recognition/compact_look.hpp"
+#include "fabmap_node/recognition/place_describer.hpp"
+#include "fabmap_node/recognition/place_matcher.hpp"
+#include "urban_nav_core/parallel/for_each.hpp"
+#include "urban_nav_core/testing/bench_table.hpp"
+
+namespace {
+
+using namespace fabmap_node;
+using urban_nav_core::testing::BenchTable;
+using urban_nav_core::testing::cell;
+
+double processorMs() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+/// Median of the processor times of `runs` calls, ms, after one that does not count.
+template <typename Call>
+double medianMs(int runs, const Call& call) {
+  std::vector<double> times;
+  for (int i = 0; i <= runs; ++i) {
+    const double begin = processorMs();
+    call();
+    if (i > 0) times.push_back(processorMs() - begin);
+  }
+  std::nth_element(times.begin(), times.begin() + runs / 2, times.end());
+  return times[static_cast<std::size_t>(runs) / 2];
+}
+
+/// Draws observations whose words have frequencies proportional to 1 / (rank + 10).
+class WordDraws {
+ public:
+  explicit WordDraws(std::size_t words) : random_(1) {
+    std::vector<double> weights;
+    for (std::size_t q = 0; q < words; ++q) weights.push_back(1.0 / static_cast<double>(q + 10));
+    draw_ = std::discrete_distribution<Word>(weights.begin(), weights.end());
+  }
+  WordSet draw(std::size_t different) {
+    WordSet set;
+    while (set.size() < different) {
+      for (std::size_t k = set.size(); k < different; ++k) set.push_back(draw_(random_));
+      std::sort(set.begin(), set.end());
+      set.erase(std::unique(set.begin(), set.end()), set.end());
+    }
+    return set;
+  }
+
+ private:
+  std::mt19937 random_;
+  std::discrete_distribution<Word> draw_;
+};
+
+ChowLiuTree drawTree(std::size_t words) {
+  ChowLiuTree tree;
+  std::mt19937 random(2);
+  for (Word q = 0; q < words; ++q) {
+    tree.parent.push_back(q == 0 ? 0 : static_cast<Word>(random() % q));
+    const double p = 0.01 + 0.3 / (1.0 + 0.01 * q);
+    tree.p.push_back(p);
+    tree.p_parent_present.push_back(q == 0 ? p : std::min(0.9, 2.0 * p));
+    tree.p_parent_absent.push_back(q == 0 ? p : 0.8 * p);
+  }
+  return tree;
+}
+
+void addInference(std::size_t words, std::size_t seen, std::size_t places, BenchTable& table) {
+  const ChowLiuTree tree = drawTree(words);
+  const LikelihoodTable likelihoods(tree, {0.39, 0.05}, Dependence::ChowLiu);
+  PlaceIndex index(likelihoods);
+  WordDraws draws(words);
+  for (std::size_t i = 0; i < places; ++i) index.add(draws.draw(seen));
+  const WordSet query = draws.draw(seen);
+  std::vector<double> logs;
+  table.add({"likelihoods of " + std::to_string(places) + " places",
+             std::to_string(words) + " words, " + std::to_string(seen) + " seen",
+             cell(medianMs(21, [&] { index.logLikelihoods(query, logs); }), 2)});
+}
+
+/// Images of a data set, each as large as one of the panoramic head.
+std::vector<cv::Mat> readHeadImages(const std::string& folder) {
+  std::vector<std::string> names;
+  if (std::filesystem::is_directory(folder))
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) names.push_back(entry.path().string());
+  std::sort(names.begin(), names.end());
+  std::vector<cv::Mat> images;
+  for (const std::string& name : names) {
+    const cv::Mat image = cv::imread(name, cv::IMREAD_GRAYSCALE);
+    if (image.empty()) continue;
+    images.emplace_back();
+    cv::resize(image, images.back(), {384, 512}, 0.0, 0.0, cv::INTER_AREA);
+  }
+  return images;
+}
+
+std::vector<urban_nav_core::ImageView> panorama(const std::vector<cv::Mat>& images, std::size_t first) {
+  std::vector<urban_nav_core::ImageView> views;
+  for (std::size_t k = 0; k < 5; ++k) {
+    const cv::Mat& image = images[(first + k) % images.size()];
+    views.push_back({image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step[0])});
+  }
+  return views;
+}
+
+void addImages(const std::vector<cv::Mat>& images, BenchTable& table) {
+  const PlaceModel model = defaultModel();
+  const MatcherOptions options;
+  const FeatureExtractor extractor;
+  const PlaceDescriber describer(model.vocabulary, {}, options.look_features);
+  const auto views = panorama(images, 0);
+  table.add({"features of a panorama", "five images of 384x512 px",
+             cell(medianMs(15, [&] { extractor.extract(views); }), 1)});
+  table.add({"panorama to words and compact descriptors", std::to_string(model.vocabulary.size()) + " words",
+             cell(medianMs(15, [&] { describer.describe(views); }), 1)});
+  const LikelihoodTable likelihoods(model.tree, model.detector, Dependence::ChowLiu);
+  PlaceMatcher matcher(likelihoods, model.sampled_places, options);
+  constexpr std::size_t described = 40, map_places = 4000;
+  std::vector<PlaceDescription> descriptions;
+  for (std::size_t k = 0; k < described; ++k) descriptions.push_back(describer.describe(panorama(images, 5 * k)));
+  for (std::size_t i = 0; i < map_places; ++i) {
+    const PlaceDescription& one = descriptions[1 + i % (described - 1)];
+    matcher.add({0, static_cast<urban_nav_core::StampNs>(i) * 1'000'000'000, one.words, one.look});
+  }
+  const LookFeatures a = unpackLook(descriptions[0].look, "a"), b = unpackLook(descriptions[1].look, "b");
+  table.add({"second look at one place", std::to_string(a.size()) + " descriptors",
+             cell(medianMs(21, [&] { secondLook(a, b); }), 2)});
+  const DescribedPlace query{1, 0, descriptions[0].words, descriptions[0].look};
+  table.add({"match of a panorama, all in one", std::to_string(map_places) + " places",
+             cell(medianMs(15, [&] { matcher.match(query, [](std::size_t) { return true; }); }), 1)});
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  cv::setNumThreads(1);
+  const urban_nav_core::ThreadLimit one_thread(1);
+  BenchTable table({"step", "size", "processor time, ms"}, argc, argv);
+  addInference(1604, 183, 4000, table);
+  addInference(10000, 600, 100000, table);
+  const char* data = std::getenv("URBAN_NAV_DATA");
+  const auto images = readHeadImages(std::string(data == nullptr ? "" : data) + "/places/malaga_07/images");
+  if (images.empty())
+    std::fputs("URBAN_NAV_DATA names no folder with places/malaga_07: no images are described\n", stderr);
+  else addImages(images, table);
+  table.note(
+      "One core, medians. Images: five of a street sequence at a time, resized; 4 000 places repeat 39 panoramas.");
+  std::fputs(table.text().c_str(), stdout);
+  if (argc == 3 && std::string(argv[1]) == "-o") table.write(argv[2]);
+  return 0;
+}
