@@ -12,11 +12,11 @@
 #include <thread>
 #include <vector>
 
-#include "bag_pictures.hpp"
 #include "live/nodelet_parameters.hpp"
 #include "segway_drivers/camera/frame_source.hpp"
 #include "segway_drivers/driver/driver_core.hpp"
 #include "segway_drivers/parameters.hpp"
+#include "segway_drivers/ros/bag_pictures.hpp"
 #include "segway_drivers/transport/host_clock.hpp"
 
 namespace segway_drivers {

@@ -39,7 +39,7 @@ SimClock realSimClock() {
           }};
 }
 
-SimSource::SimSource(std::function<std::optional<SimFrame>()> read, SimCameraOptions options, SimClock clock)
+SimSource::SimSource(FrameReader read, SimCameraOptions options, SimClock clock)
     : read_(std::move(read)), options_(std::move(options)), clock_(std::move(clock)) {
   powerOn();
 }
@@ -71,6 +71,7 @@ double SimSource::busTime(double elapsed_s) const {
 
 bool SimSource::open(std::string& error) {
   streams_ = false;
+  if (!begin_) begin_ = clock_.now();
   if (isGone()) {
     error = "no such camera on the simulated bus";
     return false;
@@ -97,7 +98,6 @@ bool SimSource::start(const CameraFormat&, std::string& error) {
     error = "the camera has vanished from the simulated bus";
     return false;
   }
-  if (!begin_) begin_ = clock_.now();
   streams_ = true;
   return true;
 }

@@ -15,7 +15,11 @@ namespace segway_drivers {
 struct SimFrame {
   double time = 0.0;  ///< s since the session began
   Bytes bytes;
+  TimeNs recorded = 0;  ///< stamp in the recording, ns
 };
+
+/// Gives the frames of a session in order of time, and nothing after the last.
+using FrameReader = std::function<std::optional<SimFrame>()>;
 
 /// What can go wrong with a simulated camera for some time, s since the session began.
 struct SimCameraFault {
@@ -50,7 +54,7 @@ struct SimCameraOptions {
 /// nothing after the last. Frames that nobody fetched for 0.4 s are lost, as in a ring of buffers. Not thread-safe.
 class SimSource : public FrameSource {
  public:
-  SimSource(std::function<std::optional<SimFrame>()> read, SimCameraOptions options, SimClock clock);
+  SimSource(FrameReader read, SimCameraOptions options, SimClock clock);
 
   bool open(std::string& error) override;
   std::optional<std::uint32_t> readRegister(std::uint64_t address) override;
@@ -71,7 +75,7 @@ class SimSource : public FrameSource {
   void powerOn();
   void embed(SimFrame& frame) const;
 
-  std::function<std::optional<SimFrame>()> read_;
+  FrameReader read_;
   SimCameraOptions options_;
   SimClock clock_;
   std::optional<TimeNs> begin_;

@@ -8,6 +8,7 @@
 #include "command_line/held_signals.hpp"
 #include "command_line/json.hpp"
 #include "commands/commands.hpp"
+#include "device/simulate_camera.hpp"
 #include "device/simulate_device.hpp"
 #include "segway_drivers/driver/run_device.hpp"
 #include "segway_drivers/parameters.hpp"
@@ -148,12 +149,32 @@ int runDeviceRun(const Arguments& arguments, Console& console) {
   return 0;
 }
 
-int runDeviceSimulate(const Arguments& arguments, Console& console) {
-  const auto words = deviceWords(arguments, 1, false, "simulate KIND --link PATH (--bag BAG | --world W)");
-  loadDriverParameters(arguments);
+urban_nav_sim::DeviceOptions deviceOptions(const Arguments& arguments) {
+  urban_nav_sim::DeviceOptions options;
+  options.seed = static_cast<std::uint64_t>(arguments.integer("seed", 1, 0, 4294967295));
+  for (const std::string& fault : arguments.all("fault"))
+    options.faults.push_back(urban_nav_sim::parseDeviceFault(fault));
+  if (arguments.has("clock")) options.clock = urban_nav_sim::DeviceClock::parse(arguments.get("clock"));
+  if (arguments.has("delay")) options.delay = urban_nav_sim::DelayModel::parse(arguments.get("delay"), 1.0);
+  return options;
+}
+
+std::int64_t runSimulatedCamera(const std::string& kind, const Arguments& arguments,
+                                const std::function<bool()>& stop) {
+  SimulateCameraJob job;
+  job.kind = kind;
+  job.source = requiredValue(arguments, "source");
+  job.bag = requiredValue(arguments, "bag");
+  job.truth = arguments.get("truth");
+  job.options = deviceOptions(arguments);
+  return simulateCamera(job, stop);
+}
+
+std::int64_t runSimulatedDevice(const std::string& kind, const Arguments& arguments,
+                                const std::function<bool()>& stop) {
   SimulateDeviceJob job;
-  job.kind = words[0];
-  segway_drivers::rowColumns(job.kind);  // refuses an unknown kind
+  job.kind = kind;
+  if (arguments.has("source")) throw UserError("--source", kind, "bumblebee2, ladybug2");
   job.tcp = static_cast<int>(arguments.integer("tcp", 0, 1, 65535));
   if (job.tcp > 0 && job.kind != "gps") throw UserError("--tcp", job.kind, "gps");
   if (job.tcp == 0) job.link = requiredValue(arguments, "link");
@@ -167,11 +188,15 @@ int runDeviceSimulate(const Arguments& arguments, Console& console) {
   job.session.seed = static_cast<std::uint32_t>(arguments.integer("seed", 1, 0, 4294967295));
   job.side = arguments.get("side", "left");
   job.truth = arguments.get("truth");
-  job.options.seed = static_cast<std::uint64_t>(arguments.integer("seed", 1, 0, 4294967295));
-  for (const std::string& fault : arguments.all("fault"))
-    job.options.faults.push_back(urban_nav_sim::parseDeviceFault(fault));
-  if (arguments.has("clock")) job.options.clock = urban_nav_sim::DeviceClock::parse(arguments.get("clock"));
-  if (arguments.has("delay")) job.options.delay = urban_nav_sim::DelayModel::parse(arguments.get("delay"), 1.0);
+  job.options = deviceOptions(arguments);
+  return simulateDevice(job, stop);
+}
+
+int runDeviceSimulate(const Arguments& arguments, Console& console) {
+  const auto words = deviceWords(arguments, 1, false, "simulate KIND --link PATH (--bag BAG | --world W)");
+  loadDriverParameters(arguments);
+  const std::string& kind = words[0];
+  segway_drivers::rowColumns(kind);  // refuses an unknown kind
   const HeldSignals signals;
   const auto stop = [&signals] {
     try {
@@ -181,7 +206,8 @@ int runDeviceSimulate(const Arguments& arguments, Console& console) {
       return true;
     }
   };
-  const std::int64_t measurements = simulateDevice(job, stop);
+  const std::int64_t measurements =
+      isCamera(kind) ? runSimulatedCamera(kind, arguments, stop) : runSimulatedDevice(kind, arguments, stop);
   console.info(std::to_string(measurements) + " measurements");
   return 0;
 }
@@ -209,6 +235,7 @@ std::string deviceHelp(const Arguments& arguments) {
          "  encode KIND COMMAND [ARGUMENT...]    the bytes of a command, in hexadecimal\n"
          "  run KIND --port PATH --duration S -o OUT.csv  a device at a serial port, or gpsd at HOST:PORT\n"
          "  simulate KIND --link PATH --bag BAG  a device on a pseudo-terminal, fed by a bag of simulate or by --world\n"
+         "  simulate CAMERA --source FILE --bag BAG  raw frames of a camera, and FILE.csv, their index\n"
          "  stamp IN.csv -o OUT.csv              device_s,arrival_ns through the clock filter\n"
          "kinds: " +
          kinds + "\n\nparameters (--config FILE, --set segway_drivers.KEY=VALUE):\n" +
@@ -239,6 +266,7 @@ Command deviceCommand() {
       {"--duration", "S", "run: s to run; simulate --world: s of the session (default 60)", false, false, {}},
       {"--drive", "FILE", "run segway_rmp: t_s,linear_mps,angular_radps since the port was opened", false, false, {}},
       {"--link", "PATH", "simulate: link to make to the pseudo-terminal", false, false, {}},
+      {"--source", "FILE", "simulate a camera: file of raw frames to write, with FILE.csv", false, false, {}},
       {"--tcp", "PORT", "simulate gps: serve gpsd's protocol at this port instead", false, false, {}},
       {"--bag", "BAG", "simulate: recorded session", false, false, {}},
       {"--world", "W", "simulate: simulate a session in this world first, instead of --bag", false, false, {}},

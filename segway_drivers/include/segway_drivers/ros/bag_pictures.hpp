@@ -3,15 +3,12 @@
 
 #include <sensor_msgs/CameraInfo.h>
 
-#include <functional>
 #include <optional>
 #include <string>
 
 #include "segway_drivers/camera/sim_source.hpp"
 
 namespace segway_drivers {
-
-using FrameReader = std::function<std::optional<SimFrame>()>;
 
 /// Frames of a simulated Bumblebee2 from the stereo images of a bag, image_raw or image_rect. Throws UserError if the
 /// bag cannot be read or has none.

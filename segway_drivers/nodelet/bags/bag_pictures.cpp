@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bag_pictures.hpp"
+#include "segway_drivers/ros/bag_pictures.hpp"
 
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
@@ -65,9 +65,9 @@ class BagGroups {
       throw urban_nav_core::UserError(path, "no images", "a bag with the images of this camera");
   }
 
-  /// The next complete group; `time`: s since the first. Empty at the end.
+  /// The next complete group; sets the times of `frame`. Empty at the end.
   std::optional<std::vector<cv::Mat>> next(const std::function<cv::Mat(const rosbag::MessageInstance&)>& decode,
-                                           double& time) {
+                                           SimFrame& frame) {
     for (; next_ != view_.end(); ++next_) {
       const rosbag::MessageInstance& instance = *next_;
       const ros::Time stamp = readImageStamp(instance);
@@ -76,7 +76,8 @@ class BagGroups {
       group[topics_.at(withoutSlash(instance.getTopic()))] = decode(instance);
       if (std::any_of(group.begin(), group.end(), [](const cv::Mat& each) { return each.empty(); })) continue;
       if (!first_) first_ = stamp;
-      time = (stamp - *first_).toSec();
+      frame.time = (stamp - *first_).toSec();
+      frame.recorded = static_cast<TimeNs>(stamp.toNSec());
       std::vector<cv::Mat> complete = std::move(group);
       waiting_.erase(waiting_.begin(), waiting_.upper_bound(stamp));
       ++next_;
@@ -106,7 +107,7 @@ FrameReader readStereoFrames(const std::string& bag) {
   const auto groups = std::make_shared<BagGroups>(bag, topics, 2);
   return [groups]() -> std::optional<SimFrame> {
     SimFrame frame;
-    const auto pair = groups->next(decodeGrey, frame.time);
+    const auto pair = groups->next(decodeGrey, frame);
     if (!pair) return std::nullopt;
     frame.bytes = packBb2Frame((*pair)[0], (*pair)[1]);
     return frame;
@@ -122,7 +123,7 @@ FrameReader readLadybugFrames(const std::string& bag) {
   const auto groups = std::make_shared<BagGroups>(bag, topics, 5);
   return [groups]() -> std::optional<SimFrame> {
     SimFrame frame;
-    const auto images = groups->next(decodeColour, frame.time);
+    const auto images = groups->next(decodeColour, frame);
     if (!images) return std::nullopt;
     std::array<cv::Mat, 5> cameras;
     std::copy(images->begin(), images->end(), cameras.begin());

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "urban_nav_sim/device/simulated_device.hpp"
+
+namespace urban_nav {
+
+struct SimulateCameraJob {
+  std::string kind;    ///< bumblebee2, ladybug2
+  std::string bag;     ///< recorded session
+  std::string source;  ///< raw frames one after another; `SOURCE.csv` is their index
+  std::string truth;   ///< file of `sequence,true_ns`, or empty
+  urban_nav_sim::DeviceOptions options;
+};
+
+bool isCamera(const std::string& kind);
+
+/// Writes the raw frames of a simulated camera, as its driver gets them from the bus, and an index of them:
+/// `offset,arrival_ns,sequence,bytes,corrupt`. Times are those of the recording; nothing waits. Ends early once `stop`
+/// returns true. Returns the number of frames. Throws UserError for faults that a camera does not have or a bag that
+/// cannot be read, DataError if it has no images of the camera.
+std::int64_t simulateCamera(const SimulateCameraJob& job, const std::function<bool()>& stop);
+
+}  // namespace urban_nav
