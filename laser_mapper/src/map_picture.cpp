@@ -15,8 +15,32 @@ namespace {
 
 constexpr float kPaper = 250.0F;
 constexpr float kPathBlue = 40.0F, kPathGreen = 40.0F, kPathRed = 220.0F;
-constexpr double kPointEdge = 0.06;  // m, drawn size of a point in perspective
-constexpr int kLargestSplat = 4;     // px
+constexpr double kPointEdge = 0.06;   // m, drawn size of a point in perspective
+constexpr int kLargestSplat = 4;      // px
+constexpr double kBeyondSide = 1e-3;  // share of the drawn pixels
+constexpr int kPictureEdge = 12;      // px
+
+/// Pixels from the first to the last one.
+struct Interval {
+  int first = 0, last = 0;
+  void add(int pixel) {
+    first = std::min(first, pixel);
+    last = std::max(last, pixel);
+  }
+  void widen(int edge, int size) {
+    first = std::max(0, first - edge);
+    last = std::min(size - 1, last + edge);
+  }
+};
+
+/// Returns the pixels beyond which, on either side, no more than `beyond` were drawn; all where nothing was drawn.
+Interval trimmedEnds(const std::vector<std::size_t>& drawn, std::size_t beyond) {
+  Interval ends{0, static_cast<int>(drawn.size()) - 1};
+  std::size_t before = 0, after = 0;
+  while (ends.first < ends.last && (before += drawn[static_cast<std::size_t>(ends.first)]) <= beyond) ++ends.first;
+  while (ends.first < ends.last && (after += drawn[static_cast<std::size_t>(ends.last)]) <= beyond) --ends.last;
+  return ends.first < ends.last ? ends : Interval{0, static_cast<int>(drawn.size()) - 1};
+}
 
 struct Box {
   Vector3d low = Vector3d::Constant(1e300), high = Vector3d::Constant(-1e300);
@@ -156,7 +180,29 @@ void MapPicture::shadeEdges(std::vector<Pixel>& pixels) const {
     }
 }
 
-urban_nav_registration::Picture MapPicture::finish() const {
+PictureBox MapPicture::shownBox() const {
+  const auto columns = static_cast<std::size_t>(view_.width), rows = static_cast<std::size_t>(view_.height);
+  std::vector<std::size_t> by_column(columns, 0), by_row(rows, 0);
+  std::size_t all = 0;
+  for (std::size_t i = 0; i < pixels_.size(); ++i) {
+    if (pixels_[i].depth == 0.0F) continue;
+    ++by_column[i % columns];
+    ++by_row[i / columns];
+    ++all;
+  }
+  const auto beyond = static_cast<std::size_t>(kBeyondSide * static_cast<double>(all));
+  Interval u = trimmedEnds(by_column, beyond), v = trimmedEnds(by_row, beyond);
+  for (std::size_t i = 0; i < path_.size(); ++i) {
+    if (path_[i] == 0) continue;
+    u.add(static_cast<int>(i % columns));
+    v.add(static_cast<int>(i / columns));
+  }
+  u.widen(kPictureEdge, view_.width);
+  v.widen(kPictureEdge, view_.height);
+  return {u.first, v.first, u.last - u.first + 1, v.last - v.first + 1};
+}
+
+urban_nav_registration::Picture MapPicture::finish(const PictureBox& box) const {
   std::vector<Pixel> pixels = pixels_;
   for (int v = 1; v + 1 < view_.height; ++v)  // a pixel between two others shows what they do
     for (int u = 1; u + 1 < view_.width; ++u) {
@@ -172,16 +218,19 @@ urban_nav_registration::Picture MapPicture::finish() const {
     }
   shadeEdges(pixels);
   urban_nav_registration::Picture picture;
-  picture.width = view_.width;
-  picture.height = view_.height;
-  picture.bgr.reserve(3 * pixels.size());
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    Pixel pixel = pixels[i];
-    if (path_[i] != 0) pixel = {1.0F, kPathBlue, kPathGreen, kPathRed};
-    else if (pixel.depth == 0.0F) pixel = {0.0F, kPaper, kPaper, kPaper};
-    for (const float value : {pixel.blue, pixel.green, pixel.red})
-      picture.bgr.push_back(static_cast<std::uint8_t>(std::clamp(std::lround(value), 0L, 255L)));
-  }
+  picture.width = box.width;
+  picture.height = box.height;
+  picture.bgr.reserve(3 * static_cast<std::size_t>(box.width) * static_cast<std::size_t>(box.height));
+  for (int v = box.v0; v < box.v0 + box.height; ++v)
+    for (int u = box.u0; u < box.u0 + box.width; ++u) {
+      const std::size_t i =
+          static_cast<std::size_t>(v) * static_cast<std::size_t>(view_.width) + static_cast<std::size_t>(u);
+      Pixel pixel = pixels[i];
+      if (path_[i] != 0) pixel = {1.0F, kPathBlue, kPathGreen, kPathRed};
+      else if (pixel.depth == 0.0F) pixel = {0.0F, kPaper, kPaper, kPaper};
+      for (const float value : {pixel.blue, pixel.green, pixel.red})
+        picture.bgr.push_back(static_cast<std::uint8_t>(std::clamp(std::lround(value), 0L, 255L)));
+    }
   return picture;
 }
 

@@ -59,5 +59,31 @@ TEST(MapPicture, AnEmptyMapIsPaper) {
   for (const std::uint8_t value : made.bgr) ASSERT_EQ(value, 250);
 }
 
+TEST(MapPicture, IsCutToPathAndPointsButForFewFarOnes) {
+  std::vector<MapPoint> points;
+  for (int i = 0; i < 10000; ++i)
+    points.push_back(
+        grey(2.0F + 0.05F * static_cast<float>(i % 100), 1.0F + 0.05F * static_cast<float>(i / 100), 0, 9));
+  points.push_back(grey(-20.0F, 5.0F, 0.0F, 9));
+  MapPicture picture(viewFromAbove(kSquarePath, 40.0, 1000));  // a point about a pixel
+  picture.draw(points);
+  picture.drawPath(kSquarePath);
+  const PictureBox box = picture.shownBox();
+  EXPECT_NEAR(box.width, 10.0 * 1000 / 90 + 24, 4) << "the path, and an edge of 12 px";
+  EXPECT_NEAR(box.height, 10.0 * 1000 / 90 + 24, 4);
+  EXPECT_NEAR(box.u0, 40.0 * 1000 / 90 - 12, 3);
+  const auto made = picture.finish(box);
+  EXPECT_EQ(made.width, box.width);
+  EXPECT_EQ(made.bgr.size(), 3U * static_cast<std::size_t>(box.width * box.height));
+  const auto whole = picture.finish();
+  EXPECT_EQ(valueAt(made, 20, 30), valueAt(whole, box.u0 + 20, box.v0 + 30));
+}
+
+TEST(MapPicture, AnEmptyMapIsShownWhole) {
+  const PictureBox box = MapPicture(viewFromAbove({}, 5.0, 100)).shownBox();
+  EXPECT_EQ(box.width, 100);
+  EXPECT_EQ(box.height, 100);
+}
+
 }  // namespace
 }  // namespace laser_mapper

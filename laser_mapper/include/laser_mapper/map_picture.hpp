@@ -27,6 +27,11 @@ MapView viewFromAbove(const std::vector<urban_nav_core::Vector3d>& path, double 
 /// Returns a view of the path from outside and above.
 MapView viewInPerspective(const std::vector<urban_nav_core::Vector3d>& path, int width, int height);
 
+/// A part of a picture, px.
+struct PictureBox {
+  int u0 = 0, v0 = 0, width = 0, height = 0;
+};
+
 /// Draws points into a picture, nearest first, lit by their normals. Points may come in any order: equally near ones
 /// apart, the picture does not depend on it. Not thread-safe.
 class MapPicture {
@@ -35,8 +40,12 @@ class MapPicture {
   void draw(const std::vector<MapPoint>& points);
   /// Draws a line over everything.
   void drawPath(const std::vector<urban_nav_core::Vector3d>& path);
-  /// Fills small gaps between points, and returns the picture.
-  urban_nav_registration::Picture finish() const;
+  /// Returns the box of the path and of the points, with an edge around it. Of the points, 0.1 % may lie beyond each of
+  /// its sides: single beams through a gate do not make the picture larger.
+  PictureBox shownBox() const;
+  /// Fills small gaps between points, and returns the picture, or what is within the box.
+  urban_nav_registration::Picture finish() const { return finish({0, 0, view_.width, view_.height}); }
+  urban_nav_registration::Picture finish(const PictureBox& box) const;
 
  private:
   struct Pixel {

@@ -31,7 +31,7 @@ using urban_nav_store::StoredTrajectory;
 
 namespace {
 
-constexpr double kOrthoMargin = 20.0;  // m around the path
+constexpr double kOrthoMargin = 30.0;  // m around the path, before it is cut to what it shows
 constexpr int kLongestOrtho = 16000;   // px
 constexpr StampNs kLongestPoseGap = 500'000'000;
 constexpr const char* kLocalSystem =
@@ -110,12 +110,14 @@ class PointFiles {
 
 /// Writes the picture and its world file: pixel size, and the centre of the first pixel (ESRI world file).
 void writeOrtho(const std::string& path, const laser_mapper::MapView& view, const laser_mapper::MapPicture& drawn) {
-  const urban_nav_registration::Picture picture = drawn.finish();
+  const laser_mapper::PictureBox box = drawn.shownBox();
+  const urban_nav_registration::Picture picture = drawn.finish(box);
   const cv::Mat image(picture.height, picture.width, CV_8UC3, const_cast<std::uint8_t*>(picture.bgr.data()));
   std::vector<std::uint8_t> bytes;
   if (!cv::imencode(".png", image, bytes)) throw urban_nav_core::DataError(path, "cannot be encoded", "");
-  const Vector3d first = view.T_camera_map.inverse() * Vector3d((0.5 - 0.5 * view.width) / view.px_per_m,
-                                                                (0.5 - 0.5 * view.height) / view.px_per_m, 0.0);
+  const Vector3d first =
+      view.T_camera_map.inverse() * Vector3d((0.5 + box.u0 - 0.5 * view.width) / view.px_per_m,
+                                             (0.5 + box.v0 - 0.5 * view.height) / view.px_per_m, 0.0);
   std::string world;
   for (const double value : {1.0 / view.px_per_m, 0.0, 0.0, -1.0 / view.px_per_m, first.x(), first.y()})
     world += urban_nav_core::printNumber(value) + "\n";

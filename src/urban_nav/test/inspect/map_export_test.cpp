@@ -117,8 +117,8 @@ TEST_F(MapExportTest, OrthophotoIsPlacedByItsWorldFile) {
   EXPECT_NEAR(step_y, -0.05, 1e-9);
   EXPECT_EQ(a, 0.0);
   EXPECT_EQ(b, 0.0);
-  EXPECT_NEAR(x, -20.0 + 0.025, 0.05);
-  EXPECT_NEAR(y, 20.0 - 0.025, 0.05);
+  EXPECT_NEAR(x, -0.6, 0.15) << "the path begins at 0, the edge is 12 px wide";
+  EXPECT_NEAR(y, 4.0 + 0.6, 0.15) << "the wall is at 4";
   EXPECT_EQ(testing::readFile(folder_.file("m.png")).substr(1, 3), "PNG");
 }
 

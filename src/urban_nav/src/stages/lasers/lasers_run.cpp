@@ -21,8 +21,8 @@ using urban_nav_core::Trajectory;
 
 namespace {
 
-constexpr double kShownMargin = 25.0;  // m around the path in the view from above
-constexpr int kLongestPicture = 1400, kPictureWidth = 1400, kPictureHeight = 800;  // px
+constexpr double kShownMargin = 25.0;  // m around the path in the view from above, before it is cut to what it shows
+constexpr int kLongestPicture = 2000, kPictureWidth = 1400, kPictureHeight = 800;  // px
 constexpr double kPathStep = 0.25;                                                 // m
 constexpr double kImageMemoryShare = 0.1;                                          // of memory_mb
 constexpr std::size_t kSigmaBins = 4096;
@@ -36,7 +36,7 @@ std::vector<urban_nav_core::Vector3d> thinnedPath(const Trajectory& trajectory) 
 }
 
 PagePicture pagePicture(const MapPicture& drawn, const std::string& caption) {
-  const urban_nav_registration::Picture picture = drawn.finish();
+  const urban_nav_registration::Picture picture = drawn.finish(drawn.shownBox());
   return {caption, urban_nav_registration::encodeJpeg(picture), picture.width, picture.height};
 }
 

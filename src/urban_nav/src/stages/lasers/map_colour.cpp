@@ -23,7 +23,7 @@ using urban_nav_store::TableStore;
 namespace {
 
 constexpr double kViewDistance = 0.7, kViewAngle = 0.26;  // m, rad: between views of one camera
-constexpr StampNs kLongestGap = 500'000'000;
+constexpr StampNs kLongestViewGap = 500'000'000;
 
 /// Key of an image in the store.
 struct ImageKey {
@@ -52,7 +52,7 @@ void addViews(urban_nav_store::Store& store, const MappedSession& session, Sessi
   std::int64_t last_camera = -1;
   TableStore<StoredPanorama>(store).forEach(session.id, [&](const StoredPanorama& row) {
     const auto camera = cameras.find(row.camera);
-    const auto T_map_base = session.T_map_base->at(row.stamp, kLongestGap);
+    const auto T_map_base = session.T_map_base->at(row.stamp, kLongestViewGap);
     if (camera == cameras.end() || !T_map_base) return;
     if (row.camera == last_camera && last && distanceBetween(*last, *T_map_base) < kViewDistance &&
         angleBetween(*last, *T_map_base) < kViewAngle)
