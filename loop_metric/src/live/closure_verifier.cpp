@@ -99,7 +99,7 @@ void ClosureVerifier::setCamera(const MountedCamera& camera) {
   // Whether the camera of another session is this one has to be read again.
   for (auto each = sessions_.begin(); each != sessions_.end();)
     each = each->first == running_ ? std::next(each) : sessions_.erase(each);
-  if (!running_.empty()) sessions_[running_].has_camera = true;
+  if (!running_.empty()) sessions_[running_].has_camera = true, sessions_[running_].conversion = nullptr;
   outdated_ = true;
 }
 
@@ -129,6 +129,7 @@ void ClosureVerifier::endSession(const SessionStarted* next) {
   KnownSession& session = sessions_[running_];
   session.id = running_;
   session.has_camera = camera_.has_value();
+  session.conversion = nullptr;
   session.lasers.clear();  // the recorder reports them again
   outdated_ = true;
   last_step_ = Clock::now();
@@ -271,11 +272,9 @@ void ClosureVerifier::load(const SessionId& id) {
   KnownSession session;
   session.id = id;
   session.odometry = urban_nav_registration::readOdometry(*reader_, id);
-  const std::string fingerprint =
-      camera_ ? urban_nav_registration::calibrationFingerprint(camera_->camera, camera_->T_base_left) : "";
   for (const urban_nav_store::Property& property : reader_->sessions().properties(id))
-    if (property.name == urban_nav_registration::calibration_property)
-      session.has_camera = property.value == fingerprint;
+    if (camera_ && property.name == urban_nav_registration::calibration_property)
+      session.conversion = urban_nav_registration::findConversion(property.value, *camera_, session.has_camera);
   session.lasers = urban_nav_registration::storedLasers(*reader_, id);
   sessions_[id] = std::move(session);
   outdated_ = true;
@@ -285,7 +284,7 @@ void ClosureVerifier::renewPlaceData() {
   StoredPlaceData::Sessions sessions;
   for (const auto& [id, known] : sessions_)
     for (std::size_t i = 0; i < known.odometry.parts().size(); ++i)
-      sessions[partName(id, i)] = {id, known.odometry.parts()[i], known.lasers, known.has_camera};
+      sessions[partName(id, i)] = {id, known.odometry.parts()[i], known.lasers, known.has_camera, known.conversion};
   place_data_ = std::make_unique<StoredPlaceData>(std::move(sessions), reader_->keyframes(), reader_->scans());
   if (!stage_) {
     Parameters parameters = parameters_;

@@ -81,6 +81,7 @@ class ClosureVerifier {
     urban_nav_registration::SessionOdometry odometry;
     std::vector<urban_nav_registration::LaserAt> lasers;
     bool has_camera = false;
+    std::shared_ptr<const urban_nav_registration::KeyframeConversion> conversion = nullptr;  ///< to the present camera
   };
 
   void handle(Input& input);

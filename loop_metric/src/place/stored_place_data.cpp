@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "urban_nav_core/geometry/compose.hpp"
 #include "urban_nav_registration/cloud/local_cloud.hpp"
 #include "urban_nav_registration/session/stored_keyframe.hpp"
 
@@ -62,7 +63,10 @@ std::vector<NearbyKeyframe> StoredPlaceData::views(const PoseRef& at, double way
   const auto [first, last] = stretchAround(odometry, at.stamp, way);
   for (auto stamp = std::lower_bound(stamps->second.begin(), stamps->second.end(), first);
        stamp != stamps->second.end() && *stamp <= last; ++stamp) {
-    const auto T_place_keyframe = odometry.between(at.stamp, *stamp);
+    auto T_place_keyframe = odometry.between(at.stamp, *stamp);
+    if (T_place_keyframe && session->conversion)
+      T_place_keyframe = urban_nav_core::compose(
+          *T_place_keyframe, {session->conversion->T_base_virtual(), urban_nav_core::Matrix6d::Zero()});
     if (T_place_keyframe) views.push_back({{at.session, *stamp}, *T_place_keyframe, odometry.distance(*stamp) - here});
   }
   return views;
@@ -74,7 +78,8 @@ Keyframe StoredPlaceData::keyframe(const PoseRef& at) const {
   const StoredSession* session = find(at);
   if (session == nullptr) return keyframe;
   const auto stored = keyframes_.get(session->id, keyframe_camera, at.stamp);
-  return stored ? toKeyframe(*stored, at.session) : keyframe;
+  if (stored) keyframe = toKeyframe(*stored, at.session);
+  return stored && session->conversion ? session->conversion->convert(keyframe) : keyframe;
 }
 
 PointCloud StoredPlaceData::cloud(const PoseRef& at, double way) const {

@@ -9,7 +9,6 @@ namespace urban_nav_localization {
 using urban_nav_core::DataError;
 using urban_nav_core::StampNs;
 using urban_nav_registration::calibration_property;
-using urban_nav_registration::isSameCalibration;
 using urban_nav_registration::keyframe_camera;
 
 using urban_nav_store::Store;
@@ -50,11 +49,19 @@ FrozenMap::FrozenMap(Store& store) : path_(store.path()) {
     throw DataError(path_, "holds no keyframes: map stores them unless --stages leaves loops out", "");
 }
 
-std::vector<MapKeyframe> FrozenMap::findKeyframes(const std::string& camera_words) const {
+std::vector<MapKeyframe> FrozenMap::findKeyframes(const urban_nav_registration::MountedCamera& camera) const {
   std::vector<MapKeyframe> views;
-  for (const Views& each : views_)
-    if (isSameCalibration(each.camera, camera_words)) views.insert(views.end(), each.views.begin(), each.views.end());
-  if (views.empty()) throw DataError(path_, "its keyframes are of another camera than this input", "");
+  for (const Views& each : views_) {
+    bool is_known = false;
+    const auto conversion = urban_nav_registration::findConversion(each.camera, camera, is_known);
+    if (!is_known) continue;
+    for (MapKeyframe view : each.views) {
+      if (conversion) view.T_map_base = view.T_map_base * conversion->T_base_virtual();
+      view.conversion = conversion;
+      views.push_back(std::move(view));
+    }
+  }
+  if (views.empty()) throw DataError(path_, "its keyframes are of an unknown camera", "");
   return views;
 }
 

@@ -18,7 +18,6 @@ namespace urban_nav_localization {
 using urban_nav_core::Constraint;
 using urban_nav_core::Pose;
 using urban_nav_registration::betweenBases;
-using urban_nav_registration::calibrationFingerprint;
 using urban_nav_registration::DescriptorVoting;
 using urban_nav_registration::Keyframe;
 using urban_nav_registration::keyframe_camera;
@@ -106,7 +105,8 @@ class MapSearch::Implementation {
     const auto stored = store_.get(view.session, keyframe_camera, view.stamp);
     Keyframe made;
     made.at = {view.session, view.stamp};
-    return stored ? toKeyframe(*stored, view.session) : made;
+    if (stored) made = toKeyframe(*stored, view.session);
+    return stored && view.conversion ? view.conversion->convert(made) : made;
   }
 
   /// Returns whether a robot at the prior should match the keyframe.
@@ -158,8 +158,8 @@ class MapSearch::Implementation {
 
 MapSearch::MapSearch(const Parameters& parameters, const FrozenMap& map, const urban_nav_store::KeyframeStore& store,
                      const urban_nav_core::StereoCamera& camera, const Pose& T_base_left)
-    : implementation_(std::make_unique<Implementation>(
-          parameters, map.findKeyframes(calibrationFingerprint(camera, T_base_left)), store, camera, T_base_left)) {}
+    : implementation_(std::make_unique<Implementation>(parameters, map.findKeyframes({camera, T_base_left}), store,
+                                                       camera, T_base_left)) {}
 MapSearch::~MapSearch() = default;
 
 std::size_t MapSearch::views() const { return implementation_->views(); }

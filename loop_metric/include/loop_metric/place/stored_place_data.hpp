@@ -8,6 +8,7 @@
 
 #include "loop_metric/place/place_data.hpp"
 #include "urban_nav_core/trajectory/odometry_chain.hpp"
+#include "urban_nav_registration/keyframe/keyframe_conversion.hpp"
 #include "urban_nav_registration/session/session_lasers.hpp"
 #include "urban_nav_store/keyframe_store.hpp"
 #include "urban_nav_store/scan_store.hpp"
@@ -20,7 +21,9 @@ struct StoredSession {
   urban_nav_store::SessionId id;
   std::shared_ptr<const urban_nav_core::OdometryChain> odometry;
   std::vector<urban_nav_registration::LaserAt> lasers;
-  bool has_camera = true;  ///< the camera that LoopMetric was made for; else its views are left alone
+  bool has_camera = true;  ///< false: its camera is unknown, and its keyframes are not used
+  /// To the camera that LoopMetric was made for; null if it is the same one.
+  std::shared_ptr<const urban_nav_registration::KeyframeConversion> conversion = nullptr;
 };
 
 /// Place data from the keyframes and scans of a store and the odometry of its sessions, by the names that candidates

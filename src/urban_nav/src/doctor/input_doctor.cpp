@@ -18,7 +18,7 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr std::int64_t kSamples = 24;         // pairs whose images are matched
+constexpr std::int64_t kMatchedSamples = 24;  // pairs whose images are matched
 constexpr std::int64_t kGuessedFrames = 500;  // if the length is unknown
 constexpr double kIncomplete = 0.01;          // share of pairs: above it, a finding
 
@@ -66,7 +66,7 @@ class Reading {
  public:
   Reading(Source& source, Diagnosis& diagnosis) : source_(source), diagnosis_(diagnosis) {
     const std::int64_t frames = source.info().frames > 0 ? source.info().frames : kGuessedFrames;
-    step_ = std::max<std::int64_t>(1, frames / kSamples);
+    step_ = std::max<std::int64_t>(1, frames / kMatchedSamples);
   }
 
   void read(const std::function<void(std::int64_t, std::int64_t)>& progress) {
@@ -78,7 +78,7 @@ class Reading {
       ++diagnosis_.pairs;
       last_.push_back(std::move(item->assembled));
       if (last_.size() > 3) last_.pop_front();
-      if (last_.size() == 3 && diagnosis_.pairs % step_ == step_ / 2 && images_.pairs() < 2 * kSamples) sample();
+      if (last_.size() == 3 && diagnosis_.pairs % step_ == step_ / 2 && images_.pairs() < 2 * kMatchedSamples) sample();
       progress(diagnosis_.pairs, source_.info().frames);
     }
   }

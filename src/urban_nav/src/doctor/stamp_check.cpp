@@ -12,11 +12,11 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr double kLowestRate = 3.0;    // Hz, of stereo pairs from a vehicle at walking speed
-constexpr double kLongestGap = 1.0;    // s
-constexpr double kGapIntervals = 5.0;  // median intervals without a pair
-constexpr double kUnevenShare = 0.2;   // of intervals ...
-constexpr double kUneven = 0.4;        // ... that differ from the median by this share of it
+constexpr double kLowestRate = 3.0;      // Hz, of stereo pairs from a vehicle at walking speed
+constexpr double kLongestPairGap = 1.0;  // s
+constexpr double kGapIntervals = 5.0;    // median intervals without a pair
+constexpr double kUnevenShare = 0.2;     // of intervals ...
+constexpr double kUneven = 0.4;          // ... that differ from the median by this share of it
 
 constexpr std::size_t kFewIntervals = 10;
 
@@ -64,7 +64,7 @@ std::vector<Finding> checkStamps(const std::vector<StampNs>& stamps) {
   std::int64_t uneven = 0;
   for (std::size_t i = 1; i < stamps.size(); ++i) {
     const double seconds = urban_nav_core::secondsBetween(stamps[i - 1], stamps[i]);
-    if (seconds > std::max(kGapIntervals * median, std::min(kLongestGap, 20.0 * median)))
+    if (seconds > std::max(kGapIntervals * median, std::min(kLongestPairGap, 20.0 * median)))
       gaps.push_back({stamps[i - 1], seconds});
     uneven += seconds > 0.0 && seconds < kGapIntervals * median && std::abs(seconds / median - 1.0) > kUneven;
   }
@@ -92,7 +92,7 @@ std::vector<Finding> checkStreams(const std::vector<StreamInfo>& streams) {
     if (is_imu && stream.rate_hz < kSlowestImu)
       findings.push_back({FindingKind::Rates, stream.name + " comes at " + forPerson(stream.rate_hz, 3) + " Hz",
                           "set the inertial unit to 100 Hz or more"});
-    if (stream.longest_gap_s > kLongestGap && stream.longest_gap_s * stream.rate_hz > 10.0)
+    if (stream.longest_gap_s > kLongestPairGap && stream.longest_gap_s * stream.rate_hz > 10.0)
       findings.push_back({FindingKind::Rates,
                           stream.name + " has a gap of " + forPerson(stream.longest_gap_s, 3) + " s",
                           "check the cable and the driver of this device, and the disk that records"});

@@ -130,8 +130,8 @@ std::string explain(const StoredClosure& closure) {
 
 Page explainOnPage(const StoredClosure& closure, urban_nav_store::Store& store, double cloud_half_length) {
   const PreviousSessions kept = readPreviousSessions(store, {});
-  const loop_metric::StoredPlaceData place_data(storedSessions(namedIn(closure, kept), store, ""), store.keyframes(),
-                                                store.scans());
+  const loop_metric::StoredPlaceData place_data(storedSessions(namedIn(closure, kept), store, std::nullopt),
+                                                store.keyframes(), store.scans());
   Page page;
   page.title = "Why: closure " + std::to_string(closure.id);
   page.subtitle = makeHeadline(closure);

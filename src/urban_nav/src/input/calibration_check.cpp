@@ -12,7 +12,7 @@ namespace {
 constexpr double kShortestBaseline = 0.01, kLongestBaseline = 3.0;  // m, of cameras on one vehicle
 constexpr double kNarrowestView = 10.0, kWidestView = 150.0;        // deg, of a rectified image
 
-std::string printed(double value) { return forPerson(value, 4); }
+std::string printedValue(double value) { return forPerson(value, 4); }
 
 void checkBaseline(double baseline, std::vector<CalibrationFault>& findings) {
   if (baseline >= kShortestBaseline && baseline <= kLongestBaseline) return;
@@ -20,9 +20,9 @@ void checkBaseline(double baseline, std::vector<CalibrationFault>& findings) {
   std::string unit;
   if (baseline > kLongestBaseline)
     unit = 0.001 * baseline >= kShortestBaseline && 0.001 * baseline <= kLongestBaseline
-               ? "; in millimetres it would be " + printed(0.001 * baseline) + " m (a factor of 1000)"
+               ? "; in millimetres it would be " + printedValue(0.001 * baseline) + " m (a factor of 1000)"
                : "";
-  findings.push_back({"the baseline is " + printed(baseline) + " m" + unit,
+  findings.push_back({"the baseline is " + printedValue(baseline) + " m" + unit,
                       "P[3] of the right camera_info is -fx times the baseline in metres; maps have the scale of this "
                       "number"});
 }
@@ -30,8 +30,8 @@ void checkBaseline(double baseline, std::vector<CalibrationFault>& findings) {
 void checkView(const urban_nav_core::Pinhole& camera, std::vector<CalibrationFault>& findings) {
   const double degrees = 360.0 / M_PI * std::atan(0.5 * camera.width / camera.fx);
   if (degrees < kNarrowestView || degrees > kWidestView)
-    findings.push_back({"a focal length of " + printed(camera.fx) + " px for " + std::to_string(camera.width) +
-                            " columns is a field of view of " + printed(degrees) + " deg",
+    findings.push_back({"a focal length of " + printedValue(camera.fx) + " px for " + std::to_string(camera.width) +
+                            " columns is a field of view of " + printedValue(degrees) + " deg",
                         "state the focal length in pixels of the images as they were recorded"});
 }
 
@@ -42,8 +42,8 @@ void checkPrincipalPoint(const urban_nav_core::Pinhole& camera, std::vector<Cali
   const double factor = 0.5 * (across + down) / 0.5;
   std::string scale;
   if (std::abs(across - down) < 0.1 && (factor > 1.5 || factor < 0.67))
-    scale = "; the calibration seems to be of images " + printed(factor) + " times as large";
-  findings.push_back({"the principal point (" + printed(camera.cx) + ", " + printed(camera.cy) +
+    scale = "; the calibration seems to be of images " + printedValue(factor) + " times as large";
+  findings.push_back({"the principal point (" + printedValue(camera.cx) + ", " + printedValue(camera.cy) +
                           ") px is far from the middle of " + std::to_string(camera.width) + "x" +
                           std::to_string(camera.height) + " px" + scale,
                       "scale the calibration to the size of the images (camera_info: K, P, width and height)"});
@@ -57,7 +57,7 @@ std::vector<CalibrationFault> checkCalibration(const urban_nav_core::StereoCamer
   checkView(camera.left, findings);
   checkPrincipalPoint(camera.left, findings);
   if (std::abs(camera.left.fx / camera.left.fy - 1.0) > 0.2)
-    findings.push_back({"fx is " + printed(camera.left.fx) + " px and fy " + printed(camera.left.fy) + " px",
+    findings.push_back({"fx is " + printedValue(camera.left.fx) + " px and fy " + printedValue(camera.left.fy) + " px",
                         "check K and P: pixels of today's cameras are square"});
   return findings;
 }

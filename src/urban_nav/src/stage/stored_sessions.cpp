@@ -8,8 +8,9 @@
 
 namespace urban_nav {
 
-loop_metric::StoredPlaceData::Sessions storedSessions(const std::vector<CandidateSession>& sessions,
-                                                      urban_nav_store::Store& store, const std::string& camera) {
+loop_metric::StoredPlaceData::Sessions storedSessions(
+    const std::vector<CandidateSession>& sessions, urban_nav_store::Store& store,
+    const std::optional<urban_nav_registration::MountedCamera>& camera) {
   loop_metric::StoredPlaceData::Sessions made;
   for (const CandidateSession& session : sessions) {
     loop_metric::StoredSession& its = made[session.name];
@@ -17,7 +18,8 @@ loop_metric::StoredPlaceData::Sessions storedSessions(const std::vector<Candidat
     its.odometry = std::make_shared<urban_nav_core::OdometryChain>(odometryChain(*session.run));
     its.has_camera = false;
     for (const urban_nav_store::Property& property : store.sessions().properties(session.id))
-      if (property.name == urban_nav_registration::calibration_property) its.has_camera = property.value == camera;
+      if (camera && property.name == urban_nav_registration::calibration_property)
+        its.conversion = urban_nav_registration::findConversion(property.value, *camera, its.has_camera);
     its.lasers = urban_nav_registration::storedLasers(store, session.id);
   }
   return made;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,9 +18,10 @@ struct CandidateSession {
   const VoRun* run = nullptr;
 };
 
-/// Returns what loop_metric needs of sessions whose keyframes and scans are in `store`. `camera`: its fingerprint;
-/// sessions of another camera have no keyframes.
-loop_metric::StoredPlaceData::Sessions storedSessions(const std::vector<CandidateSession>& sessions,
-                                                      urban_nav_store::Store& store, const std::string& camera);
+/// Returns what loop_metric needs of sessions whose keyframes and scans are in `store`. `camera`: to which keyframes of
+/// other cameras are converted; nullopt: keyframes are not needed.
+loop_metric::StoredPlaceData::Sessions storedSessions(
+    const std::vector<CandidateSession>& sessions, urban_nav_store::Store& store,
+    const std::optional<urban_nav_registration::MountedCamera>& camera);
 
 }  // namespace urban_nav

@@ -27,14 +27,14 @@ using testing::TemporaryFolder;
 using testing::writeFile;
 
 /// The kinds of an input's findings, and whether it can be used.
-struct Verdict {
+struct JudgedInput {
   std::multiset<std::string> kinds;
   std::string text;
   bool usable = true;
 };
 
-Verdict judge(const std::string& path, const SourceOptions& options = {}) {
-  Verdict verdict;
+JudgedInput judge(const std::string& path, const SourceOptions& options = {}) {
+  JudgedInput verdict;
   for (const InputSession& session : findSessions({path})) {
     const Diagnosis diagnosis = examine(session, options, [](std::int64_t, std::int64_t) {});
     for (const Finding& finding : diagnosis.findings) {
@@ -68,7 +68,8 @@ class FolderDoctor : public ::testing::Test {
     }
   }
   static cv::Mat warp(const cv::Mat& image, double angle_deg, double scale, double down) {
-    cv::Mat affine = cv::getRotationMatrix2D(cv::Point2f(cv::Point(image.cols, image.rows)) * 0.5F, angle_deg, scale), warped;
+    const cv::Point2f middle(0.5F * cv::Point2f(cv::Point(image.size())));
+    cv::Mat affine = cv::getRotationMatrix2D(middle, angle_deg, scale), warped;
     affine.at<double>(1, 2) += down;
     cv::warpAffine(image, warped, affine, image.size(), cv::INTER_LINEAR, cv::BORDER_REFLECT);
     return warped;
@@ -95,7 +96,7 @@ class FolderDoctor : public ::testing::Test {
 std::unique_ptr<TemporaryFolder> FolderDoctor::shared_;
 
 TEST_F(FolderDoctor, findsNothingInASoundSession) {
-  const Verdict verdict = judge(path_);
+  const JudgedInput verdict = judge(path_);
   EXPECT_TRUE(verdict.usable);
   EXPECT_TRUE(verdict.kinds.empty()) << verdict.text;
 }
@@ -104,7 +105,7 @@ TEST_F(FolderDoctor, namesExchangedCameras) {
   fs::rename(path_ + "/image_0", path_ + "/other");
   fs::rename(path_ + "/image_1", path_ + "/image_0");
   fs::rename(path_ + "/other", path_ + "/image_1");
-  const Verdict verdict = judge(path_);
+  const JudgedInput verdict = judge(path_);
   EXPECT_FALSE(verdict.usable);
   EXPECT_NE(verdict.text.find("exchanged"), std::string::npos) << verdict.text;
 }
@@ -121,7 +122,7 @@ TEST_F(FolderDoctor, namesImagesOfAnotherScene) {
 TEST_F(FolderDoctor, namesMissingAndDamagedImages) {
   fs::remove(path_ + "/image_1/000005.png");
   writeFile(path_ + "/image_0/000009.png", "no image");
-  const Verdict verdict = judge(path_);
+  const JudgedInput verdict = judge(path_);
   EXPECT_TRUE(verdict.usable);
   EXPECT_GE(verdict.kinds.count("pairs"), 2U) << verdict.text;
 }
@@ -133,37 +134,37 @@ TEST_F(FolderDoctor, namesRowsThatDiffer) {
 
 TEST_F(FolderDoctor, namesACameraThatIsRotated) {
   changeImages("image_1", [](const cv::Mat& image) { return warp(image, 1.5, 1.0, 0.0); });
-  const Verdict verdict = judge(path_);
+  const JudgedInput verdict = judge(path_);
   EXPECT_EQ(verdict.kinds.count("rectification"), 1U) << verdict.text;
   EXPECT_NE(verdict.text.find("optical axis"), std::string::npos) << verdict.text;
 }
 
 TEST_F(FolderDoctor, namesFocalLengthsThatDiffer) {
   changeImages("image_1", [](const cv::Mat& image) { return warp(image, 0.0, 1.04, 0.0); });
-  const Verdict verdict = judge(path_);
+  const JudgedInput verdict = judge(path_);
   EXPECT_EQ(verdict.kinds.count("rectification"), 1U) << verdict.text;
   EXPECT_NE(verdict.text.find("focal lengths"), std::string::npos) << verdict.text;
 }
 
 TEST_F(FolderDoctor, namesBlackSaturatedAndUnequalImages) {
   changeImages("image_0", [](const cv::Mat& image) { return cv::Mat(image / 32); });
-  const Verdict dark = judge(path_);
+  const JudgedInput dark = judge(path_);
   EXPECT_GE(dark.kinds.count("depth"), 1U) << dark.text;
   changeImages("image_0", [](const cv::Mat& image) { return cv::Mat(image * 255); });
-  const Verdict bright = judge(path_);
+  const JudgedInput bright = judge(path_);
   EXPECT_GE(bright.kinds.count("depth"), 1U) << bright.text;
 }
 
 TEST_F(FolderDoctor, namesABaselineInMillimetres) {
   replaceCalibration([](double&, double&, double&, double& shift) { shift *= 1000.0; });
-  const Verdict verdict = judge(path_);
+  const JudgedInput verdict = judge(path_);
   EXPECT_EQ(verdict.kinds.count("calibration"), 1U) << verdict.text;
   EXPECT_NE(verdict.text.find("millimetres"), std::string::npos) << verdict.text;
 }
 
 TEST_F(FolderDoctor, namesACalibrationOfLargerImages) {
   replaceCalibration([](double& f, double& cx, double& cy, double& shift) { f *= 2, cx *= 2, cy *= 2, shift *= 2; });
-  const Verdict verdict = judge(path_);
+  const JudgedInput verdict = judge(path_);
   EXPECT_GE(verdict.kinds.count("calibration"), 1U) << verdict.text;
 }
 
@@ -174,7 +175,7 @@ TEST_F(FolderDoctor, namesAnImpossibleFieldOfView) {
 
 TEST_F(FolderDoctor, namesMissingCalibration) {
   fs::remove(path_ + "/calib.txt");
-  const Verdict verdict = judge(path_);
+  const JudgedInput verdict = judge(path_);
   EXPECT_FALSE(verdict.usable);
   EXPECT_EQ(verdict.kinds.count("calibration"), 1U) << verdict.text;
 }
@@ -236,7 +237,7 @@ void writeDoctorBag(const std::string& path, const BagRecipe& recipe) {
     add("/imu/data", sensor_msgs::Imu(), 1.5e9 + i / recipe.imu_rate, 1.5e9 + i / recipe.imu_rate, "imu");
 }
 
-Verdict judgeBag(const std::function<void(BagRecipe&)>& change) {
+JudgedInput judgeBag(const std::function<void(BagRecipe&)>& change) {
   const TemporaryFolder folder;
   BagRecipe recipe;
   change(recipe);
@@ -245,7 +246,7 @@ Verdict judgeBag(const std::function<void(BagRecipe&)>& change) {
 }
 
 TEST(BagDoctor, namesTransformsThatAreMissing) {
-  const Verdict verdict = judgeBag([](BagRecipe&) {});
+  const JudgedInput verdict = judgeBag([](BagRecipe&) {});
   EXPECT_TRUE(verdict.usable);
   EXPECT_EQ(verdict.kinds, (std::multiset<std::string>{"tf", "tf"})) << verdict.text;  // camera and laser
   EXPECT_NE(verdict.text.find("base_link camera"), std::string::npos) << verdict.text;
@@ -257,19 +258,19 @@ TEST(BagDoctor, namesImagesWithoutStamps) {
 }
 
 TEST(BagDoctor, namesAClockThatWasSet) {
-  const Verdict verdict =
+  const JudgedInput verdict =
       judgeBag([](BagRecipe& recipe) { recipe.time = [](int i) { return 1.5e9 + 0.05 * i - (i > 20 ? 50.0 : 0.0); }; });
   EXPECT_GE(verdict.kinds.count("stamps"), 1U) << verdict.text;
 }
 
 TEST(BagDoctor, namesTheDelayOfOneCamera) {
-  const Verdict verdict = judgeBag([](BagRecipe& recipe) { recipe.right_late = 0.012; });
+  const JudgedInput verdict = judgeBag([](BagRecipe& recipe) { recipe.right_late = 0.012; });
   EXPECT_FALSE(verdict.usable);
   EXPECT_NE(verdict.text.find("input.right_delay=12"), std::string::npos) << verdict.text;
 }
 
 TEST(BagDoctor, namesACameraThatIsMissing) {
-  const Verdict verdict = judgeBag([](BagRecipe& recipe) { recipe.right_exists = false; });
+  const JudgedInput verdict = judgeBag([](BagRecipe& recipe) { recipe.right_exists = false; });
   EXPECT_FALSE(verdict.usable);
   EXPECT_EQ(verdict.kinds.count("pairs"), 1U) << verdict.text;
 }

@@ -8,7 +8,7 @@
 #include "urban_nav_core/camera/stereo_camera.hpp"
 #include "urban_nav_localization/localiser.hpp"
 #include "urban_nav_localization/parameters.hpp"
-#include "urban_nav_registration/keyframe/keyframe.hpp"
+#include "urban_nav_registration/keyframe/keyframe_conversion.hpp"
 #include "urban_nav_store/keyframe_store.hpp"
 #include "urban_nav_store/stored_map.hpp"
 
@@ -18,7 +18,10 @@ namespace urban_nav_localization {
 struct MapKeyframe {
   urban_nav_store::SessionId session;
   urban_nav_core::StampNs stamp = 0;
+  /// Of base_link; of a converted keyframe, of the robot that would have taken it (KeyframeConversion).
   urban_nav_core::Pose T_map_base;
+  /// To the camera of the drive; null if it is the same one.
+  std::shared_ptr<const urban_nav_registration::KeyframeConversion> conversion = nullptr;
 };
 
 /// The first map of a store, as it is when it is read.
@@ -29,9 +32,9 @@ class FrozenMap {
 
   /// Returns the sessions in order of their starts.
   const std::vector<urban_nav_store::StoredTrajectory>& sessions() const { return sessions_; }
-  /// Returns the keyframes of sessions whose camera has this fingerprint (calibration_fingerprint.hpp). Throws
-  /// DataError if there are none.
-  std::vector<MapKeyframe> findKeyframes(const std::string& camera_words) const;
+  /// Returns the keyframes of all sessions whose camera is known, to be converted to this one where it is another.
+  /// Throws DataError if there are none.
+  std::vector<MapKeyframe> findKeyframes(const urban_nav_registration::MountedCamera& camera) const;
 
  private:
   struct Views {

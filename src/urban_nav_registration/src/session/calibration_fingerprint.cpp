@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <sstream>
+#include <vector>
 
 #include "urban_nav_core/io/numbers.hpp"
 
@@ -10,6 +11,7 @@ namespace urban_nav_registration {
 
 namespace {
 
+constexpr double quaternion_tolerance = 1e-3;
 constexpr double rounding = 1e-6;  // px, m; of a quaternion
 
 }  // namespace
@@ -21,7 +23,34 @@ std::string calibrationFingerprint(const urban_nav_core::StereoCamera& camera,
                              T_base_left.t().x(), T_base_left.t().y(), T_base_left.t().z(), T_base_left.q().x(),
                              T_base_left.q().y(), T_base_left.q().z(), T_base_left.q().w()})
     words += " " + urban_nav_core::printNumber(value);
+  if (camera.disparity_offset != 0.0) words += " " + urban_nav_core::printNumber(camera.disparity_offset);
   return words;
+}
+
+std::optional<MountedCamera> parseCalibrationFingerprint(const std::string& words) {
+  constexpr std::size_t fewest_values = 12;  // one more if the disparity has an offset
+  MountedCamera made;
+  urban_nav_core::Pinhole& left = made.camera.left;
+  std::istringstream text(words);
+  std::string word;
+  char by = 0;
+  if (!(text >> left.width >> by >> left.height) || by != 'x' || left.width <= 0 || left.height <= 0)
+    return std::nullopt;
+  std::vector<double> values;
+  while (text >> word) {
+    const auto value = urban_nav_core::parseNumber(word);
+    if (!value || !std::isfinite(*value)) return std::nullopt;
+    values.push_back(*value);
+  }
+  if (values.size() != fewest_values && values.size() != fewest_values + 1) return std::nullopt;
+  left.fx = values[0], left.fy = values[1], left.cx = values[2], left.cy = values[3];
+  made.camera.baseline = values[4];
+  if (!(left.fx > 0.0) || !(left.fy > 0.0) || !(made.camera.baseline > 0.0)) return std::nullopt;
+  const Eigen::Quaterniond q(values[11], values[8], values[9], values[10]);
+  if (!(std::abs(q.norm() - 1.0) < quaternion_tolerance)) return std::nullopt;
+  made.T_base_left = urban_nav_core::Pose(q, {values[5], values[6], values[7]});
+  if (values.size() > fewest_values) made.camera.disparity_offset = values[12];
+  return made;
 }
 
 bool isSameCalibration(const std::string& words, const std::string& others) {

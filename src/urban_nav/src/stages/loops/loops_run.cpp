@@ -141,7 +141,7 @@ LoopsRun runLoops(const loop_metric::Parameters& parameters, const StereoCamera&
   if (rows.empty()) return run;
   const Clock::time_point begin = Clock::now();
   const StoredPlaceData::Sessions known =
-      storedSessions(sessions, store, urban_nav_registration::calibrationFingerprint(camera, T_base_camera));
+      storedSessions(sessions, store, urban_nav_registration::MountedCamera{camera, T_base_camera});
   const auto make = [&] { return std::make_unique<Worker>(store.path(), known, parameters, camera, T_base_camera); };
   Workers workers;
   std::vector<MetricClosure> closures(rows.size());
@@ -176,7 +176,7 @@ LoopsRun runLoops(const loop_metric::Parameters& parameters, const StereoCamera&
   for (const CandidateSession& session : sessions)
     if (!known.at(session.name).has_camera)
       run.warnings.push_back("views of session " + session.name +
-                             " are not matched: it has another camera, or kept no views");
+                             " are not matched: its camera is unknown, or it kept no views");
   run.closures = std::move(rows);
   return run;
 }

@@ -10,15 +10,10 @@
 #include "urban_nav_core/trajectory/trajectory.hpp"
 #include "urban_nav_registration/keyframe/keyframe_extractor.hpp"
 #include "urban_nav_registration/keyframe/keyframe_selector.hpp"
+#include "urban_nav_registration/keyframe/mounted_camera.hpp"
 #include "urban_nav_registration/parameters.hpp"
 
 namespace urban_nav_registration {
-
-/// Stereo camera and the pose of its left side on the robot.
-struct MountedCamera {
-  urban_nav_core::StereoCamera camera;
-  urban_nav_core::Pose T_base_left;
-};
 
 /// Builds keyframes from live stereo pairs and filtered odometry, which arrive independently. Pairs and selection are
 /// the same as offline. Memory is bounded. Used by one thread.

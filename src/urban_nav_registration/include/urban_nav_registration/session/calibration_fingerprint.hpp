@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "urban_nav_core/camera/stereo_camera.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_registration/keyframe/mounted_camera.hpp"
 
 namespace urban_nav_registration {
 
-/// Returns a text that identifies a camera and its pose on the robot. Keyframes of two sessions with the same
-/// fingerprint can be matched.
+/// Returns a text that identifies a camera and its pose on the robot, with all their numbers. Keyframes of two sessions
+/// with the same fingerprint can be matched as they are; those of others after a KeyframeConversion.
 std::string calibrationFingerprint(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_base_left);
+/// Returns the camera of a fingerprint; nullopt if the text is none.
+std::optional<MountedCamera> parseCalibrationFingerprint(const std::string& words);
 /// Returns true if two fingerprints agree to a millionth of a pixel, metre or radian; a robot description and a bag
 /// round differently.
 bool isSameCalibration(const std::string& words, const std::string& others);

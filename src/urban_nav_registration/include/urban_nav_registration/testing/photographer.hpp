@@ -19,6 +19,9 @@ class Photographer {
     options_.noise = noise;
   }
 
+  /// Changes the camera of the pairs that follow.
+  void setCamera(const urban_nav_core::testing::RenderCamera& camera) { options_.camera = camera; }
+
   urban_nav_core::StereoCamera camera() const { return makeCamera(options_.camera); }
   /// `gain`: of the exposure. Each pair has different noise.
   urban_nav_core::testing::StereoFrame take(const Pose& T_world_left, double gain = 1.0) {
