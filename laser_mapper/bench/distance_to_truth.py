@@ -4,7 +4,7 @@
 
     distance_to_truth.py MAP.ply BAG.truth [TRAJECTORY.tum]
 
-With a trajectory, the map is moved by the rigid motion that aligns it with the true one. Points farther than 20 m from the
+With a trajectory, the map is moved by the rigid motion that aligns its poses with the true ones. Points farther than 20 m from the
 laser, and those nearest to leaves, are left out.
 """
 import sys
@@ -12,9 +12,10 @@ from pathlib import Path
 
 import numpy as np
 from scipy.spatial import cKDTree
+from scipy.spatial.transform import Rotation
 
 TYPES = {"float": "<f4", "double": "<f8", "uchar": "u1", "ushort": "<u2", "int": "<i4"}
-LEAVES, LASER_HEIGHT, FARTHEST, SHOWN = 6, 0.75, 20.0, 80000
+LEAVES, LASER_HEIGHT, FARTHEST, LEVER, SHOWN = 6, 0.75, 20.0, 8.0, 80000
 
 
 def read_ply(path):
@@ -46,6 +47,12 @@ def distances(points, truth):
     return np.where(flat, np.minimum(plane, near_distance[:, 0]), near_distance[:, 0]), near[:, 0]
 
 
+def spread(poses):
+    """Points around each pose, since positions along a straight do not tell how the map is turned about it."""
+    axes = LEVER * Rotation.from_quat(poses[:, 4:8]).as_matrix()
+    return np.concatenate([poses[:, 1:4] + sign * axes[:, :, i] for i in range(3) for sign in (-1, 1)])
+
+
 def rigid_motion(source, target):
     """R, t that take `source` to `target` (Umeyama 1991)."""
     u, _, v = np.linalg.svd((target - target.mean(0)).T @ (source - source.mean(0)))
@@ -60,7 +67,8 @@ def main():
     interpolated = lambda at: np.column_stack([np.interp(at, true[:, 0], true[:, i]) for i in (1, 2, 3)])
     if len(sys.argv) > 3:
         estimate = np.loadtxt(sys.argv[3])
-        rotation, translation = rigid_motion(estimate[:, 1:4], interpolated(estimate[:, 0]))
+        nearest = np.clip(np.searchsorted(true[:, 0], estimate[:, 0]), 0, len(true) - 1)
+        rotation, translation = rigid_motion(spread(estimate), spread(true[nearest]))
         points = points @ rotation.T + translation
     near = np.linalg.norm(points - interpolated(stamps) - [0.0, 0.0, LASER_HEIGHT], axis=1) < FARTHEST
     chosen = np.flatnonzero(near)

@@ -4,13 +4,17 @@
 #include <algorithm>
 
 #include "urban_nav_core/geometry/small_matrices.hpp"
+#include "urban_nav_core/geometry/so3.hpp"
 
 namespace laser_mapper {
 
+using urban_nav_core::Matrix3d;
 using urban_nav_core::Matrix6d;
 using urban_nav_core::Vector3d;
 
 namespace {
+
+constexpr double kPointDistance = 8.0;  // m, of the points of the map from the robot, root mean square
 
 /// Returns the covariance of a frame that is carried along by another one, at `lever` from it.
 Matrix6d carried(const Matrix6d& covariance, const Vector3d& lever) {
@@ -30,17 +34,55 @@ Matrix6d withPositiveEigenvalues(const Matrix6d& matrix) {
   return eigen.vectors * eigen.values.cwiseAbs().asDiagonal() * eigen.vectors.transpose();
 }
 
+/// Returns the information of a pose, and of points around it, about a motion of the whole map around a centre, `lever`
+/// away from the pose.
+Matrix6d alignmentWeight(const Vector3d& lever) {
+  Matrix6d weight = Matrix6d::Identity();
+  const Matrix3d cross = urban_nav_core::skew(lever);
+  weight.topRightCorner<3, 3>() = -cross;
+  weight.bottomLeftCorner<3, 3>() = cross;
+  weight.bottomRightCorner<3, 3>() =
+      -cross * cross + 2.0 / 3.0 * kPointDistance * kPointDistance * Matrix3d::Identity();
+  return weight;
+}
+
 }  // namespace
 
+// An error of a pose is written as the motion of the whole map that it would be, around one centre. Along a chain of
+// independent steps these motions x_i are a random walk: cov(x_i, x_j) = P_min(i,j). The best alignment subtracts the
+// weighted mean of them, sum W_i x_i with sum W_i = I.
 RelativeCovariances::RelativeCovariances(const urban_nav_core::Trajectory& T_map_base,
                                          const std::vector<Matrix6d>& T_first_base) {
   const std::size_t poses = std::min(T_map_base.size(), T_first_base.size());
-  const std::size_t middle = poses / 2;
+  Vector3d centre = Vector3d::Zero();
+  std::size_t used = 0;
+  for (std::size_t i = 0; i < poses; i += kSpacing, ++used) centre += T_map_base[i].pose.t();
+  centre /= static_cast<double>(std::max<std::size_t>(used, 1));
+  std::vector<Vector3d> levers;
+  std::vector<Matrix6d> motions, weights;
+  Matrix6d sum = Matrix6d::Zero();
   for (std::size_t i = 0; i < poses; i += kSpacing) {
-    const Vector3d lever = T_map_base[i].pose.t() - T_map_base[middle].pose.t();
-    const Matrix6d relative = i >= middle ? Matrix6d(T_first_base[i] - carried(T_first_base[middle], lever))
-                                          : carried(T_first_base[middle] - carried(T_first_base[i], -lever), lever);
-    covariances_.push_back(withPositiveEigenvalues(relative));
+    levers.push_back(T_map_base[i].pose.t() - centre);
+    motions.push_back(carried(T_first_base[i], -levers.back()));
+    weights.push_back(alignmentWeight(levers.back()));
+    sum += weights.back();
+  }
+  const Matrix6d inverse = used == 0 ? Matrix6d::Zero() : Matrix6d(sum.ldlt().solve(Matrix6d::Identity()));
+  Matrix6d after = used == 0 ? Matrix6d::Zero() : Matrix6d(Matrix6d::Identity());  // sum of the weights from pose i on
+  Matrix6d mean = Matrix6d::Zero();                                                // covariance of the weighted mean
+  for (std::size_t i = 0; i < used; ++i) {
+    weights[i] = inverse * weights[i];
+    const Matrix6d from = after;
+    after -= weights[i];
+    mean += weights[i] * motions[i] * from.transpose() + after * motions[i] * weights[i].transpose();
+  }
+  Matrix6d before = Matrix6d::Zero(), shared = Matrix6d::Zero();  // sums up to pose i of W and of W P
+  for (std::size_t i = 0; i < used; ++i) {
+    before += weights[i];
+    shared += weights[i] * motions[i];
+    const Matrix6d with_mean = shared + (Matrix6d::Identity() - before) * motions[i];
+    const Matrix6d aligned = motions[i] - with_mean - with_mean.transpose() + mean;
+    covariances_.push_back(withPositiveEigenvalues(carried(aligned, levers[i])));
   }
   if (covariances_.empty()) covariances_.push_back(Matrix6d::Zero());
 }

@@ -8,10 +8,10 @@
 
 namespace laser_mapper {
 
-/// Covariances of the poses of a session relative to its middle pose, in the axes of the map: what remains of the
-/// uncertainty when the map as a whole is moved. Derived from those relative to the first pose, as if the steps of the
-/// trajectory were independent; where closures make a difference indefinite, the absolute values of its eigenvalues are
-/// used, which is right for a closed loop. Immutable, so thread-safe.
+/// Covariances of the poses of a session after the best alignment of all of them, in the axes of the map: what remains
+/// of the uncertainty when the map as a whole is moved onto the true one. Derived from those relative to the first
+/// pose, as if the steps of the trajectory were independent; where closures make a difference indefinite, the absolute
+/// values of its eigenvalues are used. Immutable, so thread-safe.
 class RelativeCovariances {
  public:
   /// `T_first_base`: covariances, one per pose; poses after the last one count as exact.

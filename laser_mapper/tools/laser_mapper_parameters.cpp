@@ -8,5 +8,6 @@
 int main(int argc, char** argv) {
   const auto& stage = laser_mapper::table();
   const auto& nodelet = laser_mapper::nodeletTable();
-  return urban_nav_core::documentParameters(argc, argv, {{stage.stage(), stage.rows()}, {nodelet.stage(), nodelet.rows()}});
+  return urban_nav_core::documentParameters(argc, argv,
+                                            {{stage.stage(), stage.rows()}, {nodelet.stage(), nodelet.rows()}});
 }
