@@ -94,8 +94,10 @@ class Bumblebee2Nodelet : public CameraNodelet {
       left_info_ = urban_nav_ros::toCameraInfoMessage(urban_nav_core::readCameraInfo(files.substr(0, comma)));
       right_info_ = urban_nav_ros::toCameraInfoMessage(urban_nav_core::readCameraInfo(files.substr(comma + 1)));
     } else if (isSimulated()) {
-      left_info_ = readStereoInfo(nodelet().port, "left");
-      right_info_ = readStereoInfo(nodelet().port, "right");
+      if (const auto left = readStereoInfo(nodelet().port, "left"))
+        left_info_ = urban_nav_ros::toCameraInfoMessage(*left);
+      if (const auto right = readStereoInfo(nodelet().port, "right"))
+        right_info_ = urban_nav_ros::toCameraInfoMessage(*right);
     }
     if (!right_info_) left_info_.reset();
   }

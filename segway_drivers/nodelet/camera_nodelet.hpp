@@ -16,7 +16,7 @@
 #include "segway_drivers/camera/frame_source.hpp"
 #include "segway_drivers/driver/driver_core.hpp"
 #include "segway_drivers/parameters.hpp"
-#include "segway_drivers/ros/bag_pictures.hpp"
+#include "segway_drivers/camera/bag_pictures.hpp"
 #include "segway_drivers/transport/host_clock.hpp"
 
 namespace segway_drivers {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "segway_drivers/ros/bag_pictures.hpp"
+#include "segway_drivers/camera/bag_pictures.hpp"
 
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
+#include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
 
@@ -14,6 +15,7 @@
 #include "segway_drivers/bumblebee2/frame.hpp"
 #include "segway_drivers/camera/pack_frames.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_ros/camera_info.hpp"
 #include "urban_nav_ros/image.hpp"
 
 namespace segway_drivers {
@@ -132,7 +134,7 @@ FrameReader readLadybugFrames(const std::string& bag) {
   };
 }
 
-std::optional<sensor_msgs::CameraInfo> readStereoInfo(const std::string& path, const std::string& side) {
+std::optional<urban_nav_core::CameraInfo> readStereoInfo(const std::string& path, const std::string& side) {
   try {
     rosbag::Bag bag(path, rosbag::bagmode::Read);
     rosbag::View view(bag, [&](const rosbag::ConnectionInfo* each) {
@@ -152,7 +154,7 @@ std::optional<sensor_msgs::CameraInfo> readStereoInfo(const std::string& path, c
         matrix[columns + 2] = (matrix[columns + 2] + 0.5) * sy - 0.5;
         if (columns == 4) matrix[3] *= sx;
       }
-      return info;
+      return urban_nav_ros::toCameraInfo(info);
     }
   } catch (const rosbag::BagException&) {
     return std::nullopt;

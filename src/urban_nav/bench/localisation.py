@@ -14,8 +14,7 @@ from pathlib import Path
 import numpy as np
 import rosbag
 
-from metric_loops import driven
-from support import commit, show, urban_nav
+from support import commit, driven, show, urban_nav
 
 COLUMNS = ("world, seed", "visitor", "starts in the map", "known and right within 10 s", "median time to KNOWN, s", "starts that leave it", "KNOWN", "of all, KNOWN and wrong", "KNOWN frames", "error, median, m", "95 %", "largest",
            "NEES of position (3 is right)", "sightings: views", "clouds")

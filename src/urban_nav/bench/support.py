@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 TOP = Path(__file__).resolve().parents[3]
+SENSORS = "stereo,lasers,imu,wheels"
 WORLDS = ("quad", "begbroke", "street")
 IS_CASE = re.compile(r"\w+:\d")  # of a world, which may name a route behind a stroke
 
@@ -24,6 +25,17 @@ def simulated_bag(bag, world, seed, duration, *options):
         print(f"drives {bag.stem} for {duration} s", file=sys.stderr)
         urban_nav("simulate", "--world", world, "--seed", seed, "--duration", duration, *options, "-o", bag)
     return bag
+
+
+def driven(folder, case):
+    """The bags of all days; what is there already is taken."""
+    world, seed, *days = case.split(":")
+    bags = []
+    for day, (duration, _, route) in enumerate((each.partition("/") for each in days), 1):
+        options = ("--day", day, "--sensors", SENSORS, *(("--route", route) if route else ()))
+        name = "_".join((f"{world}{seed}_day{day}", *((route,) if route else ())))
+        bags.append(simulated_bag(folder / f"{name}.bag", world, seed, duration, *options))
+    return bags
 
 
 def simulated(folder, world, seed, duration, *options):

@@ -5,7 +5,7 @@
 
 #include "segway_drivers/camera/bus_time.hpp"
 #include "segway_drivers/camera/record_frames.hpp"
-#include "segway_drivers/ros/bag_pictures.hpp"
+#include "segway_drivers/camera/bag_pictures.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/types/error.hpp"
 

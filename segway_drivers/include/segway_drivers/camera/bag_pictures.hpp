@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <sensor_msgs/CameraInfo.h>
-
 #include <optional>
 #include <string>
 
 #include "segway_drivers/camera/sim_source.hpp"
+#include "urban_nav_core/camera/camera_info.hpp"
 
 namespace segway_drivers {
 
@@ -17,6 +16,6 @@ FrameReader readStereoFrames(const std::string& bag);
 FrameReader readLadybugFrames(const std::string& bag);
 
 /// Calibration of one side of the stereo camera in a bag, scaled to the size of the imager; empty if the bag has none.
-std::optional<sensor_msgs::CameraInfo> readStereoInfo(const std::string& bag, const std::string& side);
+std::optional<urban_nav_core::CameraInfo> readStereoInfo(const std::string& bag, const std::string& side);
 
 }  // namespace segway_drivers

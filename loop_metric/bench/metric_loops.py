@@ -14,15 +14,17 @@ import argparse
 import csv
 import json
 import sqlite3
+import sys
 from pathlib import Path
 
 import numpy as np
 
-import bags as bag_reader
-import closures
-from end_to_end import both_truths, root_mean_square
-from support import commit, show, simulated_bag, urban_nav
-from truth import angle, inverse
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "src/urban_nav/bench"))
+import bags as bag_reader  # noqa: E402
+import closures  # noqa: E402
+from end_to_end import both_truths, root_mean_square  # noqa: E402
+from support import commit, driven, show, urban_nav  # noqa: E402
+from truth import angle, inverse  # noqa: E402
 
 WAYS = {"both": (), "views": ("--set", "loop_metric.icp=false")}
 KINDS = ("world, seed", "way", "candidates", "count", "by views", "by clouds", "accepted", "wrong", "with free directions", "error, cm: median (95 %)", "deg: median (95 %)",
@@ -30,20 +32,8 @@ KINDS = ("world, seed", "way", "candidates", "count", "by views", "by clouds", "
 MAPS = ("world, seed", "way", "driven, m", "false ones in the map", "days in one map", "odometry, rms, m", "mapped, rms, m", "of the way", "times better",
         "each day rigidly laid upon its truth, m", "between days, m: median (largest)", "NEES of poses")
 POSE = ("x", "y", "z", "qx", "qy", "qz", "qw")
-SENSORS = "stereo,lasers,imu,wheels"
 WRONG_M, WRONG_DEG = 0.5, 3.0
 DIRECTIONS = ("same direction", "across", "opposite direction", "another place")
-
-
-def driven(folder, case):
-    """The bags of all days; what is there already is taken."""
-    world, seed, *days = case.split(":")
-    bags = []
-    for day, (duration, _, route) in enumerate((each.partition("/") for each in days), 1):
-        options = ("--day", day, "--sensors", SENSORS, *(("--route", route) if route else ()))
-        name = "_".join((f"{world}{seed}_day{day}", *((route,) if route else ())))
-        bags.append(simulated_bag(folder / f"{name}.bag", world, seed, duration, *options))
-    return bags
 
 
 def candidates(bags, percent, seed, path):
