@@ -56,6 +56,10 @@ Section lasersSection(const LasersRun& run) {
       "What the lasers measured, each beam from where the robot was at its time. Points, with normals "
       "and uncertainties, are in map.ply.";
   for (const LaserMapRun& map : run.maps)
+    if (!map.viewer.empty())
+      section.figures.push_back(
+          {"In three dimensions", map.viewer, "A click names a point, the next one the distance.", true});
+  for (const LaserMapRun& map : run.maps)
     section.pictures.insert(section.pictures.end(), map.pictures.begin(), map.pictures.end());
   section.tables.push_back(beamsTable(run));
   return section;

@@ -11,6 +11,7 @@
 #include "laser_mapper/map_picture.hpp"
 #include "stage/stage_result.hpp"
 #include "stages/lasers/map_colour.hpp"
+#include "stages/lasers/map_viewer.hpp"
 
 namespace urban_nav {
 
@@ -86,6 +87,7 @@ LaserMapRun renderMap(LaserMap& map, laser_mapper::Colouriser* colouriser, std::
   urban_nav_core::PlyWriter file((std::filesystem::path(context.options.out) / run.file).string(),
                                  laser_mapper::mapLayout());
   SigmaHistogram sigmas;
+  MapViewer viewer(first_session);
   map.forEachTile([&](const laser_mapper::Tile&, std::vector<MapPoint> points) {
     if (colouriser != nullptr) run.coloured += colouriser->colour(points);
     std::string bytes;
@@ -96,11 +98,16 @@ LaserMapRun renderMap(LaserMap& map, laser_mapper::Colouriser* colouriser, std::
     file.append(bytes);
     above.draw(points);
     perspective.draw(points);
+    viewer.add(points);
   });
   run.points = file.vertices();
   run.sigma_median = sigmas.median();
   file.commit();
-  for (const auto& path : paths) above.drawPath(path);
+  for (const auto& path : paths) {
+    above.drawPath(path);
+    viewer.addPath(path);
+  }
+  run.viewer = viewer.render();
   if (run.points > 0) {
     run.pictures.push_back(pagePicture(above, "The map from above, the path of the robot in red."));
     run.pictures.push_back(pagePicture(perspective, "The map in perspective."));

@@ -22,6 +22,7 @@ struct LaserMapRun {
   double sigma_median = 0.0;  ///< m
   laser_mapper::RenderStatistics rendered;
   std::vector<PagePicture> pictures;
+  std::string viewer;  ///< markup of the view in three dimensions
 };
 
 /// What stage lasers made.

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "laser_mapper/map_point.hpp"
+#include "urban_nav_core/geometry/se3.hpp"
+
+namespace urban_nav {
+
+/// The map as a view in three dimensions inside the report: points of a map, evenly thinned to at most 500 000, and the
+/// path, drawn by WebGL. Colours by picture, reflectance, height, pass, laser or sigma; a click names a point, the next
+/// one its distance from the first. Without WebGL nothing is shown. The result depends on the order of the points. Not
+/// thread-safe.
+class MapViewer {
+ public:
+  /// `number`: makes the element's id unique on the page.
+  explicit MapViewer(std::size_t number) : number_(number) {}
+
+  void add(const std::vector<laser_mapper::MapPoint>& points);
+  void addPath(const std::vector<urban_nav_core::Vector3d>& path) { paths_.push_back(path); }
+  /// Returns the markup with data and script, which needs nothing outside it; empty without points.
+  std::string render() const;
+  /// Returns the number of points that are shown.
+  std::size_t points() const { return points_.size(); }
+
+ private:
+  const std::size_t number_;
+  std::vector<laser_mapper::MapPoint> points_;  ///< every step_-th
+  std::size_t step_ = 1, seen_ = 0;
+  std::vector<std::vector<urban_nav_core::Vector3d>> paths_;
+};
+
+/// Returns the script that draws the views of a page.
+const char* mapViewerScript();
+
+}  // namespace urban_nav
