@@ -17,6 +17,8 @@ constexpr int second_look_candidates = 10;
 RecogniserOptions recogniserOptions(const Parameters& parameters) {
   RecogniserOptions options;
   options.matcher.second_looks = parameters.second_look ? second_look_candidates : 0;
+  options.sequence = parameters.sequence;
+  options.detects_stationary = false;  // process() passes on observations of a moving camera only
   options.mask = static_cast<StampNs>(std::llround(1e9 * parameters.mask));
   return options;
 }

@@ -25,6 +25,7 @@ const PlaceModel& syntheticModel() {
     PlaceModel made = trainModel(std::move(drives), options).model;
     made.single.bias = -20.0;
     made.single.weights = {0.0, 0.0, 60.0, 0.0};
+    made.single_sequence.reset();
     made.single.floor = 0.001;
     made.single.ceiling = 0.999;
     return made;

@@ -19,7 +19,7 @@ using urban_nav_core::DataError;
 
 namespace {
 
-constexpr std::uint32_t model_version = 1;
+constexpr std::uint32_t oldest_version = 1, model_version = 2;  // 1: without sequences
 constexpr char model_name[] = "places model";
 constexpr std::size_t most_words = 1'000'000;
 
@@ -71,13 +71,22 @@ void archiveWords(Archive& archive, WordSet& set, std::size_t words) {
   set = std::move(*read);
 }
 
-void archiveCalibration(Archive& archive, PlaceCalibration& calibration) {
-  archive(calibration.bias, calibration.weights, calibration.floor, calibration.ceiling);
+void archiveCalibration(Archive& archive, PlaceCalibration& calibration, std::uint32_t version) {
+  archive(calibration.bias);
+  for (std::size_t i = 0; i + (version < 2 ? 1 : 0) < calibration.weights.size(); ++i) archive(calibration.weights[i]);
+  archive(calibration.floor, calibration.ceiling);
   archive.require(calibration.floor > 0.0 && calibration.floor < calibration.ceiling && calibration.ceiling < 1.0,
                   "limits of a calibration that are no probabilities");
 }
 
-void archiveModel(Archive& archive, PlaceModel& model) {
+void archiveSequence(Archive& archive, std::optional<PlaceCalibration>& calibration) {
+  bool is_there = calibration.has_value();
+  archive(is_there);
+  if (archive.isReading() && is_there) calibration.emplace();
+  if (is_there) archiveCalibration(archive, *calibration, model_version);
+}
+
+void archiveModel(Archive& archive, PlaceModel& model, std::uint32_t version) {
   archiveCentres(archive, model.vocabulary);
   const std::size_t words = model.vocabulary.size();
   archiveTree(archive, model.tree, words);
@@ -91,8 +100,24 @@ void archiveModel(Archive& archive, PlaceModel& model) {
   archive.count(samples, 8);
   if (archive.isReading()) model.sampled_places.assign(samples, {});
   for (WordSet& set : model.sampled_places) archiveWords(archive, set, words);
-  archiveCalibration(archive, model.single);
-  archiveCalibration(archive, model.panorama);
+  archiveCalibration(archive, model.single, version);
+  archiveCalibration(archive, model.panorama, version);
+  if (version < 2) return;
+  archiveSequence(archive, model.single_sequence);
+  archiveSequence(archive, model.panorama_sequence);
+}
+
+PlaceModel parseVersion(std::string_view content, std::uint32_t version, const std::string& name) {
+  PlaceModel model;
+  try {
+    Archive archive(content, model_name);
+    archiveModel(archive, model, version);
+    archive.finish();
+    checkTree(model.tree, "tree");
+  } catch (const urban_nav_core::Error& error) {
+    throw DataError(name, error.what(), "a model written by places train");
+  }
+  return model;
 }
 
 }  // namespace
@@ -105,7 +130,7 @@ void roundToFile(ChowLiuTree& tree) {
 std::string printModelContent(const PlaceModel& model) {
   Archive archive;
   PlaceModel copy = model;
-  archiveModel(archive, copy);
+  archiveModel(archive, copy, model_version);
   return archive.take();
 }
 
@@ -114,26 +139,17 @@ std::string printModel(const PlaceModel& model) {
 }
 
 PlaceModel parseModelContent(std::string_view content, const std::string& name) {
-  PlaceModel model;
-  try {
-    Archive archive(content, model_name);
-    archiveModel(archive, model);
-    archive.finish();
-    checkTree(model.tree, "tree");
-  } catch (const urban_nav_core::Error& error) {
-    throw DataError(name, error.what(), "a model written by places train");
-  }
-  return model;
+  return parseVersion(content, model_version, name);
 }
 
 PlaceModel parseModel(std::string_view bytes, const std::string& name) {
-  std::string_view content;
+  urban_nav_core::UnsealedState state;
   try {
-    content = urban_nav_core::unseal(model_name, model_version, bytes);
+    state = urban_nav_core::unseal(model_name, oldest_version, model_version, bytes);
   } catch (const urban_nav_core::Error& error) {
     throw DataError(name, error.what(), "a whole model written by places train");
   }
-  return parseModelContent(content, name);
+  return parseVersion(state.content, state.version, name);
 }
 
 PlaceModel readModel(const std::string& path) { return parseModel(urban_nav_core::readTextFile(path), path); }

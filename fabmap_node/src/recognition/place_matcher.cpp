@@ -84,38 +84,39 @@ void PlaceMatcher::compareAll(const LookFeatures& query, std::size_t step, std::
   });
 }
 
-PlaceMatch PlaceMatcher::judge(const DescribedPlace& query, const std::vector<Candidate>& candidates) const {
-  const Candidate& best =
-      *std::max_element(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-        return a.look.share != b.look.share ? a.look.share < b.look.share : a.log_likelihood < b.log_likelihood;
-      });
+bool PlaceMatcher::showSamePlace(const Candidate& best, const Candidate& other) const {
+  return other.look.share > same_place_share * best.look.share &&
+         secondLook(look(places_[best.place]), look(places_[other.place])).share > best.look.share * same_place_share;
+}
+
+PlaceMatch PlaceMatcher::judge(const DescribedPlace& query, const std::vector<Candidate>& candidates,
+                               std::size_t which) const {
+  const Candidate& one = candidates[which];
   PlaceMatch match;
-  match.place = best.place;
-  match.log_likelihood = best.log_likelihood;
-  match.agreeing = best.look.agreeing;
+  match.place = one.place;
+  match.session = places_[one.place].session;
+  match.log_likelihood = one.log_likelihood;
+  match.agreeing = one.look.agreeing;
   double other_likelihood = -std::numeric_limits<double>::infinity(), other_share = 0.0;
   for (const Candidate& candidate : candidates) {
-    if (!isElsewhere(best.place, candidate.place)) continue;
-    if (candidate.look.share > same_place_share * best.look.share &&
-        secondLook(look(places_[best.place]), look(places_[candidate.place])).share >
-            best.look.share * same_place_share)
-      continue;
+    if (!isElsewhere(one.place, candidate.place)) continue;
+    if (which == 0 && showSamePlace(one, candidate)) continue;
     other_likelihood = std::max(other_likelihood, candidate.log_likelihood);
     other_share = std::max(other_share, candidate.look.share);
   }
   const double words = static_cast<double>(std::max<std::size_t>(1, query.words.size()));
-  match.evidence.look = std::sqrt(best.look.share);
+  match.evidence.look = std::sqrt(one.look.share);
   match.evidence.look_margin = match.evidence.look - std::sqrt(other_share);
-  match.evidence.word_margin = std::isfinite(other_likelihood) ? (best.log_likelihood - other_likelihood) / words : 0.0;
+  match.evidence.word_margin = std::isfinite(other_likelihood) ? (one.log_likelihood - other_likelihood) / words : 0.0;
   return match;
 }
 
-std::optional<PlaceMatch> PlaceMatcher::match(const DescribedPlace& query,
+std::vector<PlaceMatch> PlaceMatcher::matches(const DescribedPlace& query,
                                               const std::function<bool(std::size_t)>& isCandidate) const {
   std::vector<double> likelihoods, at_samples;
   index_.logLikelihoods(query.words, likelihoods);
   std::vector<Candidate> candidates = likeliest(likelihoods, isCandidate);
-  if (candidates.empty()) return std::nullopt;
+  if (candidates.empty()) return {};
   if (options_.second_looks > 0) {
     const LookFeatures own = look(query);
     if (candidates.size() > static_cast<std::size_t>(options_.second_looks)) {
@@ -126,12 +127,25 @@ std::optional<PlaceMatch> PlaceMatcher::match(const DescribedPlace& query,
     }
     compareAll(own, 1, candidates);
   }
-  PlaceMatch match = judge(query, candidates);
+  std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+    return a.look.share != b.look.share ? a.look.share > b.look.share : a.log_likelihood > b.log_likelihood;
+  });
   sampled_.logLikelihoods(query.words, at_samples);
-  match.log_likelihood_new = at_samples.empty() ? match.log_likelihood : logMeanOfExponentials(at_samples);
-  match.evidence.word_ratio = (match.log_likelihood - match.log_likelihood_new) /
-                              static_cast<double>(std::max<std::size_t>(1, query.words.size()));
-  return match;
+  const double words = static_cast<double>(std::max<std::size_t>(1, query.words.size()));
+  std::vector<PlaceMatch> found;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    PlaceMatch match = judge(query, candidates, i);
+    match.log_likelihood_new = at_samples.empty() ? match.log_likelihood : logMeanOfExponentials(at_samples);
+    match.evidence.word_ratio = (match.log_likelihood - match.log_likelihood_new) / words;
+    found.push_back(match);
+  }
+  return found;
+}
+
+std::optional<PlaceMatch> PlaceMatcher::match(const DescribedPlace& query,
+                                              const std::function<bool(std::size_t)>& isCandidate) const {
+  const std::vector<PlaceMatch> found = matches(query, isCandidate);
+  return found.empty() ? std::nullopt : std::optional<PlaceMatch>(found.front());
 }
 
 }  // namespace fabmap_node

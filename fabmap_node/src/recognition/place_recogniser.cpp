@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fabmap_node/recognition/place_recogniser.hpp"
 
+#include "fabmap_node/recognition/compact_look.hpp"
+
 namespace fabmap_node {
 
 PlaceRecogniser::PlaceRecogniser(const PlaceModel& model, const RecogniserOptions& options)
@@ -12,6 +14,8 @@ PlaceRecogniser::PlaceRecogniser(const PlaceModel& model, const RecogniserOption
 void PlaceRecogniser::beginSession() {
   if (has_session_) ++session_;
   has_session_ = true;
+  filter_ = filter_before_ = LocationFilter();
+  last_look_.reset();
 }
 
 bool PlaceRecogniser::add(urban_nav_core::StampNs stamp, const PlaceDescription& description) {
@@ -28,13 +32,42 @@ PlaceRecognition PlaceRecogniser::process(urban_nav_core::StampNs stamp, const P
   result.words = description.words.size();
   if (result.status != ObservationStatus::Used) return result;
   DescribedPlace query{session_, stamp, description.words, description.look};
-  result.match = matcher_.match(query, [&](std::size_t i) {
+  const std::vector<PlaceMatch> matches = matcher_.matches(query, [&](std::size_t i) {
     const DescribedPlace& place = matcher_.place(i);
     return place.session != session_ || place.stamp <= stamp - options_.mask;
   });
-  if (result.match) result.probability = model_.calibration(description.cameras).probability(result.match->evidence);
+  if (options_.sequence && options_.detects_stationary) followLook(description.look);
+  if (!matches.empty()) judge(matches, description.cameras, result);
   matcher_.add(std::move(query));
   return result;
+}
+
+/// Takes the observation before out of the filter if the camera has not moved since.
+void PlaceRecogniser::followLook(const std::string& look) {
+  LookFeatures now = unpackLook(look, "observation");
+  if (last_look_ && isStationary(*last_look_, now)) filter_ = filter_before_;
+  last_look_ = std::move(now);
+}
+
+/// The sequence counts for places of other sessions. Within a session, a facade that repeats itself trails the robot at
+/// a constant distance, which is as consistent as a revisit.
+void PlaceRecogniser::judge(const std::vector<PlaceMatch>& matches, int cameras, PlaceRecognition& result) {
+  const PlaceCalibration& alone = model_.calibration(cameras);
+  const std::optional<PlaceCalibration>& sequence = model_.sequenceCalibration(cameras);
+  result.match = matches.front();
+  result.probability = alone.probability(result.match->evidence);
+  if (!options_.sequence || !sequence) return;
+  std::vector<LocationHypothesis> hypotheses;
+  for (const PlaceMatch& match : matches)
+    hypotheses.push_back({match.session, match.place, alone.logit(match.evidence)});
+  const PlaceMatch& likeliest = matches[likeliestLocation(filter_, hypotheses)];
+  if (matches.front().session != session_ && likeliest.session != session_) {
+    result.match = likeliest;
+    result.match->evidence.sequence = filter_.motionConsistency(likeliest.session, likeliest.place);
+    result.probability = sequence->probability(result.match->evidence);
+  }
+  filter_before_ = filter_;
+  filter_.update(hypotheses);
 }
 
 }  // namespace fabmap_node

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include "urban_nav_core/parallel/for_each.hpp"
-
 namespace fabmap_node {
 namespace {
 
@@ -23,54 +21,43 @@ WordSets observationsWithout(const std::vector<DescribedDrive>& drives, std::siz
   return sets;
 }
 
-using Admit = std::function<bool(std::size_t query, std::size_t place)>;
-/// Returns whether a match shows the same place; nullopt if it is too near to be wrong and too far to be right.
-using Label = std::function<std::optional<bool>(std::size_t query, std::size_t place)>;
-
-void addSamples(const PlaceMatcher& matcher, const DescribedDrive& queries, const Admit& admit, const Label& label,
-                std::vector<CalibrationSample>& samples) {
-  std::vector<std::optional<CalibrationSample>> found(queries.size());
-  urban_nav_core::forEach(queries.size(), 1, [&](std::size_t i) {
-    const auto match = matcher.match(queries[i], [&](std::size_t place) { return admit(i, place); });
-    if (!match) return;
-    if (const std::optional<bool> is_same = label(i, match->place))
-      found[i] = CalibrationSample{match->evidence, *is_same};
-  });
-  for (const auto& sample : found)
-    if (sample) samples.push_back(*sample);
-}
-
 std::ptrdiff_t observationsApart(std::size_t a, std::size_t b) {
   return std::abs(static_cast<std::ptrdiff_t>(a) - static_cast<std::ptrdiff_t>(b));
 }
 
 /// Observations of the drive in the map: against the others, then against places further along the same street alone.
 void addWithin(const PlaceMatcher& matcher, const DescribedDrive& drive, const MatcherOptions& options,
-               std::vector<CalibrationSample>& samples) {
+               CalibrationRuns& runs) {
   const auto apart = [&drive](std::size_t a, std::size_t b) { return std::abs(drive[a].stamp - drive[b].stamp); };
-  const Label label = [&](std::size_t query, std::size_t place) -> std::optional<bool> {
+  const LabelPlace label = [&](std::size_t query, std::size_t place) -> std::optional<bool> {
     if (observationsApart(query, place) <= near_observations) return true;
     if (apart(query, place) > options.elsewhere) return false;
     return std::nullopt;
   };
-  for (std::ptrdiff_t gap = 1; gap <= near_observations; ++gap)
-    addSamples(
+  for (std::ptrdiff_t gap = 1; gap <= near_observations; ++gap) {
+    runs.alone.push_back(matchRun(
         matcher, drive, [gap](std::size_t query, std::size_t place) { return observationsApart(query, place) >= gap; },
-        label, samples);
-  addSamples(
+        label));
+    runs.sequence.push_back(runs.alone.back());
+  }
+  const AdmitPlace isNear = [&](std::size_t query, std::size_t place) {
+    return apart(query, place) <= options.elsewhere;
+  };
+  const AdmitPlace isInStreet = [&](std::size_t query, std::size_t place) {
+    return apart(query, place) < same_street * options.elsewhere;
+  };
+  runs.alone.push_back(matchRun(
       matcher, drive,
-      [&](std::size_t query, std::size_t place) {
-        return apart(query, place) > options.elsewhere && apart(query, place) < same_street * options.elsewhere;
-      },
-      [](std::size_t, std::size_t) { return std::optional<bool>(false); }, samples);
+      [&](std::size_t query, std::size_t place) { return !isNear(query, place) && isInStreet(query, place); },
+      [](std::size_t, std::size_t) { return std::optional<bool>(false); }));
+  for (MatchedRun& run : runsElsewhere(matcher, drive, isNear, isInStreet)) runs.sequence.push_back(std::move(run));
 }
 
 }  // namespace
 
-std::vector<CalibrationSample> calibrationSamples(const std::vector<DescribedDrive>& drives, std::size_t words,
-                                                  const Detector& detector, const MatcherOptions& options,
-                                                  const std::function<void(double)>& progress) {
-  std::vector<CalibrationSample> samples;
+CalibrationRuns calibrationRuns(const std::vector<DescribedDrive>& drives, std::size_t words, const Detector& detector,
+                                const MatcherOptions& options, const std::function<void(double)>& progress) {
+  CalibrationRuns runs;
   for (std::size_t map = 0; map < drives.size(); ++map) {
     const std::size_t other = (map + 1) % drives.size();
     const WordSets rest = observationsWithout(drives, map, other, words);
@@ -78,13 +65,14 @@ std::vector<CalibrationSample> calibrationSamples(const std::vector<DescribedDri
     const LikelihoodTable table(learnChowLiuTree(rest), detector, Dependence::ChowLiu);
     PlaceMatcher matcher(table, rest.observations, options);
     for (const DescribedPlace& place : drives[map]) matcher.add(place);
-    addWithin(matcher, drives[map], options, samples);
-    addSamples(
+    addWithin(matcher, drives[map], options, runs);
+    runs.alone.push_back(matchRun(
         matcher, drives[other], [](std::size_t, std::size_t) { return true; },
-        [](std::size_t, std::size_t) { return std::optional<bool>(false); }, samples);
+        [](std::size_t, std::size_t) { return std::optional<bool>(false); }));
+    runs.sequence.push_back(runs.alone.back());
     if (progress) progress(static_cast<double>(map + 1) / static_cast<double>(drives.size()));
   }
-  return samples;
+  return runs;
 }
 
 }  // namespace fabmap_node

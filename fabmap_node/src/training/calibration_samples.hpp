@@ -4,17 +4,15 @@
 #include <functional>
 #include <vector>
 
-#include "fabmap_node/recognition/calibration.hpp"
-#include "fabmap_node/recognition/place_matcher.hpp"
+#include "training/matched_run.hpp"
 
 namespace fabmap_node {
 
 using DescribedDrive = std::vector<DescribedPlace>;
 
-/// Returns samples of both kinds from drives at different places; see trainModel(). Requires at least three drives of
-/// one vocabulary of `words`, observations of the same number of cameras.
-std::vector<CalibrationSample> calibrationSamples(const std::vector<DescribedDrive>& drives, std::size_t words,
-                                                  const Detector& detector, const MatcherOptions& options,
-                                                  const std::function<void(double share)>& progress);
+/// Returns matches with the truth of both kinds from drives at different places; see trainModel(). Requires at least
+/// three drives of one vocabulary of `words`, observations of the same number of cameras.
+CalibrationRuns calibrationRuns(const std::vector<DescribedDrive>& drives, std::size_t words, const Detector& detector,
+                                const MatcherOptions& options, const std::function<void(double share)>& progress);
 
 }  // namespace fabmap_node

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "fabmap_node/recognition/compact_look.hpp"
+#include "training/matched_run.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_core/types/error.hpp"
 
@@ -15,7 +16,6 @@ using urban_nav_core::UserError;
 
 constexpr double same_place = 7.5, another_place = 10.0;  // m, as closures are judged (Newman et al. 2009, Fig. 10)
 constexpr std::ptrdiff_t least_gap = 2;                   // observations of one day: nearer ones are the same picture
-constexpr std::size_t query_step = 1;
 
 struct LocatedPlaces {
   std::vector<DescribedPlace> places;
@@ -43,51 +43,56 @@ LocatedPlaces describeDay(const LocatedDay& day, std::size_t number, bool first_
   return described;
 }
 
-/// Samples of the queries of one day against the map of another, or of the same one. `has_right`: right ones too.
-void addDaySamples(const PlaceMatcher& matcher, const LocatedPlaces& map, const LocatedPlaces& queries,
-                   bool is_same_day, bool has_right, std::vector<CalibrationSample>& samples) {
+/// Runs of the queries of one day against the map of another, or of the same one. `has_right`: right ones too.
+void addDayRuns(const PlaceMatcher& matcher, const LocatedPlaces& map, const LocatedPlaces& queries, bool is_same_day,
+                bool has_right, CalibrationRuns& runs) {
   const auto distance = [&](std::size_t query, std::size_t place) {
     return (queries.positions[query] - map.positions[place]).norm();
   };
-  for (const bool elsewhere_only : {false, true}) {
-    if (!elsewhere_only && !has_right) continue;
-    const std::size_t count = queries.places.size() / query_step;
-    std::vector<std::vector<CalibrationSample>> found(count);
-    urban_nav_core::forEach(count, 1, [&](std::size_t k) {
-      const std::size_t i = k * query_step;
-      const auto match = matcher.match(queries.places[i], [&](std::size_t place) {
-        if (elsewhere_only) return distance(i, place) > another_place;
-        return !is_same_day ||
-               std::abs(static_cast<std::ptrdiff_t>(i) - static_cast<std::ptrdiff_t>(place)) >= least_gap;
-      });
-      if (!match) return;
-      const double off = distance(i, match->place);
-      if (off <= same_place || off > another_place) found[k].push_back({match->evidence, off <= same_place});
-    });
-    for (const auto& some : found) samples.insert(samples.end(), some.begin(), some.end());
+  const LabelPlace label = [&](std::size_t query, std::size_t place) -> std::optional<bool> {
+    const double off = distance(query, place);
+    if (off <= same_place) return true;
+    if (off > another_place) return false;
+    return std::nullopt;
+  };
+  const AdmitPlace isNear = [&](std::size_t query, std::size_t place) {
+    return distance(query, place) <= another_place;
+  };
+  if (has_right) {
+    runs.alone.push_back(matchRun(
+        matcher, queries.places,
+        [&](std::size_t i, std::size_t place) {
+          return !is_same_day ||
+                 std::abs(static_cast<std::ptrdiff_t>(i) - static_cast<std::ptrdiff_t>(place)) >= least_gap;
+        },
+        label));
+    runs.sequence.push_back(runs.alone.back());
   }
+  runs.alone.push_back(matchRun(
+      matcher, queries.places, [&](std::size_t i, std::size_t place) { return !isNear(i, place); }, label));
+  for (MatchedRun& run : runsElsewhere(matcher, queries.places, isNear, [](std::size_t, std::size_t) { return true; }))
+    runs.sequence.push_back(std::move(run));
 }
 
 /// `between_days`: right matches are those of other days too. Single images look in one direction: within 7.5 m two of
 /// them may show different things, which is right by distance and wrong by what they show.
-PlaceCalibration fitKind(const PlaceModel& model, const std::vector<LocatedPlaces>& days, bool between_days,
-                         const MatcherOptions& options, RecalibrationReport& report) {
+KindCalibration fitKind(const PlaceModel& model, const std::vector<LocatedPlaces>& days, bool between_days,
+                        const MatcherOptions& options, RecalibrationReport& report) {
   const LikelihoodTable table(model.tree, model.detector, Dependence::ChowLiu);
-  std::vector<CalibrationSample> samples;
+  CalibrationRuns runs;
   for (std::size_t m = 0; m < days.size(); ++m) {
     PlaceMatcher matcher(table, model.sampled_places, options);
     for (const DescribedPlace& place : days[m].places) matcher.add(place);
     for (std::size_t q = m; q < days.size(); ++q)
-      addDaySamples(matcher, days[m], days[q], m == q, m == q || between_days, samples);
+      addDayRuns(matcher, days[m], days[q], m == q, m == q || between_days, runs);
   }
-  const auto right = static_cast<std::size_t>(
-      std::count_if(samples.begin(), samples.end(), [](const CalibrationSample& s) { return s.is_same_place; }));
-  if (right == 0 || right == samples.size())
-    throw UserError("calibration", "all pairs are of " + std::string(right == 0 ? "two places" : "one place"),
+  KindCalibration fitted = fitRuns(runs);
+  if (fitted.right == 0 || fitted.wrong == 0)
+    throw UserError("calibration", "all pairs are of " + std::string(fitted.right == 0 ? "two places" : "one place"),
                     "days that revisit places, and places more than 10 m apart");
-  report.right += right;
-  report.wrong += samples.size() - right;
-  return fitCalibration(samples);
+  report.right += fitted.right;
+  report.wrong += fitted.wrong;
+  return fitted;
 }
 
 }  // namespace
@@ -101,8 +106,12 @@ RecalibrationReport recalibrate(PlaceModel& model, const std::vector<LocatedDay>
     if (isPanoramic(days[d])) panoramas.push_back(describeDay(days[d], d, false, model, options.look_features));
     singles.push_back(describeDay(days[d], d, true, model, options.look_features));
   }
-  model.single = fitKind(model, singles, false, options, report);
-  model.panorama = panoramas.size() > 1 ? fitKind(model, panoramas, true, options, report) : model.single;
+  const KindCalibration single = fitKind(model, singles, false, options, report);
+  const KindCalibration panorama = panoramas.size() > 1 ? fitKind(model, panoramas, true, options, report) : single;
+  model.single = single.alone;
+  model.single_sequence = single.sequence;
+  model.panorama = panorama.alone;
+  model.panorama_sequence = panorama.sequence;
   return report;
 }
 

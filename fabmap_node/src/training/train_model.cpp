@@ -92,21 +92,25 @@ void calibrate(const std::vector<TrainingDrive>& drives, const TrainingOptions& 
                TrainedModel& trained) {
   PlaceModel& model = trained.model;
   const std::size_t look_features = options.matcher.look_features;
-  const auto fit = [&](const std::vector<DescribedDrive>& kind, const char* name, PlaceCalibration& calibration) {
+  const auto fit = [&](const std::vector<DescribedDrive>& kind, const char* name, PlaceCalibration& alone,
+                       std::optional<PlaceCalibration>& sequence) {
     if (kind.size() < least_drives) return false;
-    const auto samples = calibrationSamples(kind, model.vocabulary.size(), model.detector, options.matcher,
-                                            [&](double share) { step(name, share); });
-    for (const CalibrationSample& sample : samples)
-      ++(sample.is_same_place ? trained.report.right : trained.report.wrong);
-    calibration = fitCalibration(samples);
+    const KindCalibration fitted = fitRuns(calibrationRuns(kind, model.vocabulary.size(), model.detector,
+                                                           options.matcher, [&](double share) { step(name, share); }));
+    trained.report.right += fitted.right;
+    trained.report.wrong += fitted.wrong;
+    alone = fitted.alone;
+    sequence = fitted.sequence;
     return true;
   };
-  const bool has_panoramas =
-      fit(describedDrives(drives, true, model.vocabulary, look_features), "calibration of panoramas", model.panorama);
+  const bool has_panoramas = fit(describedDrives(drives, true, model.vocabulary, look_features),
+                                 "calibration of panoramas", model.panorama, model.panorama_sequence);
   std::vector<DescribedDrive> singles = describedDrives(drives, false, model.vocabulary, look_features);
   if (singles.empty()) singles = describedDrives(firstCameras(drives), false, model.vocabulary, look_features);
-  fit(singles, "calibration of single images", model.single);
-  if (!has_panoramas) model.panorama = model.single;
+  fit(singles, "calibration of single images", model.single, model.single_sequence);
+  if (has_panoramas) return;
+  model.panorama = model.single;
+  model.panorama_sequence = model.single_sequence;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,15 +13,20 @@
 namespace fabmap_node {
 
 /// Everything that training provides: words, their dependence, samples of places for the likelihood of a new one, and
-/// the calibration of probabilities for single images and for panoramas. Plain data.
+/// the calibrations of probabilities for single images and for panoramas: of an observation alone, and with those
+/// before it. Plain data.
 struct PlaceModel {
   Vocabulary vocabulary;
   ChowLiuTree tree;  ///< probabilities in single precision, as the file has them
   Detector detector{0.39, 0.05};
   std::vector<WordSet> sampled_places;
-  PlaceCalibration single, panorama;
+  PlaceCalibration single, panorama;                                   ///< of an observation alone
+  std::optional<PlaceCalibration> single_sequence, panorama_sequence;  ///< nullopt: sequences are not used
 
   const PlaceCalibration& calibration(int cameras) const { return cameras > 1 ? panorama : single; }
+  const std::optional<PlaceCalibration>& sequenceCalibration(int cameras) const {
+    return cameras > 1 ? panorama_sequence : single_sequence;
+  }
 };
 
 /// Returns the bytes of a model: versioned, with a checksum, the same on every machine.

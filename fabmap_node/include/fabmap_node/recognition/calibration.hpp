@@ -14,9 +14,10 @@ struct PlaceEvidence {
   double word_margin = 0.0;  ///< log likelihood ratio to the likeliest place elsewhere per word, nats
   double look = 0.0;         ///< square root of LookAgreement::share; 0 without a second look
   double look_margin = 0.0;  ///< `look` less that of the best place elsewhere
+  double sequence = 0.0;     ///< LocationFilter::motionConsistency(); 0 without a sequence
 
-  static constexpr std::size_t size = 4;
-  std::array<double, size> values() const { return {word_ratio, word_margin, look, look_margin}; }
+  static constexpr std::size_t size = 5;
+  std::array<double, size> values() const { return {word_ratio, word_margin, look, look_margin, sequence}; }
 };
 
 /// Evidence with the truth, from drives that the model was not trained with.

@@ -29,9 +29,9 @@ struct DescribedPlace {
   std::string look;  ///< packLook()
 };
 
-/// Place that an observation most likely shows.
+/// Place that an observation may show.
 struct PlaceMatch {
-  std::size_t place = 0;
+  std::size_t place = 0, session = 0;
   double log_likelihood = 0.0;      ///< at this place, nats
   double log_likelihood_new = 0.0;  ///< at a new place, nats
   int agreeing = 0;                 ///< of the second look
@@ -42,7 +42,7 @@ struct PlaceMatch {
 /// section 3): likelihoods of words first, then a second look at the likeliest candidates. The likelihood of a new
 /// place is the mean over the model's sampled places (Cummins and Newman 2008, section 4.4.2).
 ///
-/// match() is deterministic for any number of threads. Const functions are thread-safe.
+/// matches() is deterministic for any number of threads. Const functions are thread-safe.
 class PlaceMatcher {
  public:
   /// The model must outlive the matcher. `sampled`: observations of places outside the map.
@@ -53,7 +53,11 @@ class PlaceMatcher {
   std::size_t size() const { return places_.size(); }
   const DescribedPlace& place(std::size_t i) const { return places_[i]; }
 
-  /// Returns the most likely of the places that `isCandidate` admits; nullopt if there are none.
+  /// Returns the places that were compared, of those that `isCandidate` admits, the most likely first; empty if there
+  /// are none. Margins of the first leave out places elsewhere that show the same as it; those of the others do not.
+  std::vector<PlaceMatch> matches(const DescribedPlace& query,
+                                  const std::function<bool(std::size_t)>& isCandidate) const;
+  /// Returns the first of matches().
   std::optional<PlaceMatch> match(const DescribedPlace& query,
                                   const std::function<bool(std::size_t)>& isCandidate) const;
 
@@ -68,7 +72,8 @@ class PlaceMatcher {
                                    const std::function<bool(std::size_t)>& isCandidate) const;
   std::vector<Candidate> selectVaried(const std::vector<Candidate>& ranked, int most) const;
   void compareAll(const LookFeatures& query, std::size_t step, std::vector<Candidate>& candidates) const;
-  PlaceMatch judge(const DescribedPlace& query, const std::vector<Candidate>& candidates) const;
+  PlaceMatch judge(const DescribedPlace& query, const std::vector<Candidate>& candidates, std::size_t which) const;
+  bool showSamePlace(const Candidate& best, const Candidate& other) const;
   LookFeatures look(const DescribedPlace& place) const;
 
   const MatcherOptions options_;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "fabmap_node/model/place_model.hpp"
+#include "fabmap_node/recognition/location_filter.hpp"
 #include "fabmap_node/recognition/place_describer.hpp"
 #include "fabmap_node/recognition/place_matcher.hpp"
 
@@ -12,6 +13,9 @@ namespace fabmap_node {
 
 struct RecogniserOptions {
   MatcherOptions matcher;
+  bool sequence =
+      true;  ///< in places of other sessions, the observations before count, if the model is calibrated for it
+  bool detects_stationary = true;  ///< an observation of a stationary camera replaces the one before in the sequence
   urban_nav_core::StampNs mask = 20'000'000'000;  ///< younger places of the same session are no candidates, ns
 };
 
@@ -42,10 +46,15 @@ class PlaceRecogniser {
   std::size_t places() const { return matcher_.size(); }
 
  private:
+  void judge(const std::vector<PlaceMatch>& matches, int cameras, PlaceRecognition& result);
+  void followLook(const std::string& look);
+
   const PlaceModel& model_;
   const RecogniserOptions options_;
   LikelihoodTable table_;
   PlaceMatcher matcher_;
+  LocationFilter filter_, filter_before_;  // after and before the last observation of this session
+  std::optional<LookFeatures> last_look_;  // of this session, if stationary observations are to be detected
   std::size_t session_ = 0;
   bool has_session_ = false;
 };

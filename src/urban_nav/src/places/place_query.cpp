@@ -54,6 +54,12 @@ std::vector<Option> placeQueryOptions() {
        false,
        false,
        {"on", "off"}},
+      {"--sequence",
+       "on,off",
+       "the images before an image count as evidence for places of other sessions (default on)",
+       false,
+       false,
+       {"on", "off"}},
       {"--topic", "ROLE:=NAME", "topics of bags: panorama0 ... panorama4, left (default: guessed)", false, true, {}}};
 }
 
@@ -61,6 +67,7 @@ fabmap_node::RecogniserOptions placeRecogniserOptions(const Arguments& arguments
   fabmap_node::RecogniserOptions options;
   options.mask = static_cast<urban_nav_core::StampNs>(std::llround(1e9 * arguments.number("mask", 20.0, 0.0, 1e6)));
   if (arguments.get("second-look", "on") == "off") options.matcher.second_looks = 0;
+  options.sequence = arguments.get("sequence", "on") == "on";
   return options;
 }
 

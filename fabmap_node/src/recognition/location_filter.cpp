@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fabmap_node/recognition/location_filter.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace fabmap_node {
+namespace {
+
+constexpr std::size_t places_around = 4;  // on each side: up to four times the speed of the first visit
+constexpr double change = 0.05;  // of known to new, new to known, one place to another: each twenty observations
+constexpr double places_elsewhere = 10.0;  // that share what is not around the last place: as many as are compared
+constexpr double largest_log_ratio = 6.0;  // of one observation: no more than a calibration supports
+
+constexpr std::size_t sequence_length = 10;
+constexpr double on_path = 1.0;  // places, of the path at constant speed
+constexpr std::array<double, 14> speeds = {0.5,  0.67,  0.8,  1.0,  1.25,  1.5,  2.0,  // places per observation
+                                           -0.5, -0.67, -0.8, -1.0, -1.25, -1.5, -2.0};
+
+bool isAround(std::size_t session_a, std::size_t a, std::size_t session_b, std::size_t b) {
+  return session_a == session_b && (a > b ? a - b : b - a) <= places_around;
+}
+
+}  // namespace
+
+double LocationFilter::priorLogOdds(std::size_t session, std::size_t place) const {
+  if (locations_.empty() && p_new_ == 0.5) return 0.0;
+  double around = 0.0;
+  for (const Location& location : locations_)
+    if (isAround(location.session, location.place, session, place)) around += location.probability;
+  const double known = 1.0 - p_new_;
+  const double elsewhere = change * (p_new_ + std::max(0.0, known - around)) / places_elsewhere;
+  const double here = (1.0 - change) * std::min(1.0, around) + elsewhere;
+  const double at_new = (1.0 - change) * p_new_ + change * known;
+  return std::log(here * places_elsewhere / at_new);
+}
+
+double LocationFilter::motionConsistency(std::size_t session, std::size_t place) const {
+  std::size_t most = 0;
+  for (const double speed : speeds) {
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < recent_.size(); ++k) {
+      if (recent_[k].session != session) continue;
+      const double expected = static_cast<double>(place) - speed * static_cast<double>(k + 1);
+      count += std::abs(static_cast<double>(recent_[k].place) - expected) <= on_path ? 1u : 0u;
+    }
+    most = std::max(most, count);
+  }
+  return static_cast<double>(most) / static_cast<double>(sequence_length);
+}
+
+void LocationFilter::update(const std::vector<LocationHypothesis>& hypotheses) {
+  if (hypotheses.empty()) return;
+  const LocationHypothesis& likeliest = hypotheses[likeliestLocation(*this, hypotheses)];
+  recent_.insert(recent_.begin(), {likeliest.session, likeliest.place, 1.0});
+  if (recent_.size() > sequence_length) recent_.pop_back();
+  std::vector<Location> ranked;
+  for (const LocationHypothesis& hypothesis : hypotheses) {
+    const double ratio = std::clamp(hypothesis.log_ratio, -largest_log_ratio, largest_log_ratio);
+    ranked.push_back(
+        {hypothesis.session, hypothesis.place, std::exp(ratio + priorLogOdds(hypothesis.session, hypothesis.place))});
+  }
+  std::stable_sort(ranked.begin(), ranked.end(),
+                   [](const Location& a, const Location& b) { return a.probability > b.probability; });
+  std::vector<Location> apart;
+  double sum = 1.0;  // NEW
+  for (const Location& location : ranked) {
+    if (std::any_of(apart.begin(), apart.end(), [&location](const Location& other) {
+          return isAround(location.session, location.place, other.session, other.place);
+        }))
+      continue;
+    apart.push_back(location);
+    sum += location.probability;
+  }
+  for (Location& location : apart) location.probability /= sum;
+  locations_ = std::move(apart);
+  p_new_ = 1.0 / sum;
+}
+
+std::size_t likeliestLocation(const LocationFilter& filter, const std::vector<LocationHypothesis>& hypotheses) {
+  std::size_t best = 0;
+  double best_value = 0.0;
+  for (std::size_t i = 0; i < hypotheses.size(); ++i) {
+    const double value = hypotheses[i].log_ratio + filter.priorLogOdds(hypotheses[i].session, hypotheses[i].place);
+    if (i > 0 && value <= best_value) continue;
+    best = i;
+    best_value = value;
+  }
+  return best;
+}
+
+}  // namespace fabmap_node
