@@ -29,7 +29,7 @@ COMMAND_FOLDERS = [  # src/urban_nav/README.md, "Inside"
     ["stage"],
     ["stages"],
     ["pipeline"],
-    ["convert", "places", "simulate", "inspect", "doctor", "explain", "device", "disparity", "relax"],
+    ["convert", "places", "simulate", "inspect", "doctor", "explain", "device", "disparity", "labels", "relax"],
     ["commands"],
 ]
 

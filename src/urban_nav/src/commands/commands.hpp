@@ -14,6 +14,7 @@ Command evaluateCommand();
 Command exportCommand();
 Command icpCommand();
 Command infoCommand();
+Command labelsCommand();
 Command mapCommand();
 Command mergeCommand();
 Command placesCommand();

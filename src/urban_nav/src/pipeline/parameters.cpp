@@ -4,6 +4,7 @@
 #include "command_line/command_parameters.hpp"
 #include "input/input_parameters.hpp"
 #include "pipeline/stage_list.hpp"
+#include "scene_labeler/parameters.hpp"
 #include "urban_nav_core/camera/camera_noise.hpp"
 
 namespace urban_nav {
@@ -28,6 +29,7 @@ ParameterSet loadParameters(const Arguments& arguments) {
   ParameterSet parameters;
   parameters.add(commandTable());
   parameters.add(inputTable());
+  parameters.add(scene_labeler::table());
   for (const std::unique_ptr<Stage>& stage : makeStages()) stage->addTables(parameters);
   parameters.load(readAssignments(arguments));
   return parameters;

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "urban_nav_core/io/cloud/cloud_columns.hpp"
+
 /// The formats of readCloud(), each in a file of its name.
 namespace urban_nav_core::cloud_formats {
 
@@ -18,6 +20,9 @@ struct Vertices {
 };
 
 Vertices parsePly(std::string_view content, const std::string& name);
+/// Numbers of the properties `wanted` of the element vertex; lists do not count.
+NumberColumns parsePlyColumns(std::string_view content, const std::string& name,
+                              const std::vector<std::string>& wanted);
 Vertices parsePcd(std::string_view content, const std::string& name);
 Vertices parseLas(std::string_view content, const std::string& name);
 Vertices parsePoints(std::string_view content, const std::string& name);  // CSV and its like

@@ -194,40 +194,68 @@ Eigen::Vector3d pick(const Columns& columns, const std::vector<double>& row) {
   return {row[columns[0]], row[columns[1]], row[columns[2]]};
 }
 
-template <class Numbers>
-Vertices readVertices(const PlyHeader& header, Numbers& numbers, const std::string& name) {
+/// Calls begin(element) for the first element `vertex`, then take(row) for each of its rows.
+template <class Numbers, class Begin, class Take>
+void forEachVertex(const PlyHeader& header, Numbers& numbers, const std::string& name, const Begin& begin,
+                   const Take& take) {
   std::vector<double> row;
-  std::optional<Vertices> found;
+  bool is_found = false;
   for (const Element& element : header.elements) {
-    const bool vertices = element.name == "vertex" && !found;
-    Vertex vertex;
-    if (vertices) {
-      vertex = parseVertex(element, name);
-      found.emplace();
-    }
+    const bool vertices = element.name == "vertex" && !is_found;
+    if (vertices) begin(element);
+    is_found = is_found || vertices;
     for (std::size_t i = 0; i < element.count && !element.properties.empty(); ++i) {
       if (!readRow(element, numbers, row)) throw tooShort(name, element);
-      if (!vertices) continue;
-      found->points.push_back(pick(vertex.point, row));
-      if (vertex.origin) found->origins.push_back(pick(*vertex.origin, row));
+      if (vertices) take(row);
     }
   }
-  if (!found) throw UserError(name, "no element vertex", "a PLY file of points");
+  if (!is_found) throw UserError(name, "no element vertex", "a PLY file of points");
   numbers.expectEnd();
-  return *found;
+}
+
+template <class Begin, class Take>
+void forEachPlyVertex(std::string_view content, const std::string& name, const Begin& begin, const Take& take) {
+  HeaderLines lines(content);
+  const PlyHeader header = readPlyHeader(lines, name);
+  if (header.format == Format::Ascii) {
+    AsciiNumbers numbers(lines, name);
+    return forEachVertex(header, numbers, name, begin, take);
+  }
+  BinaryNumbers numbers(lines.rest(), header.format == Format::Big);
+  forEachVertex(header, numbers, name, begin, take);
 }
 
 }  // namespace
 
 Vertices parsePly(std::string_view content, const std::string& name) {
-  HeaderLines lines(content);
-  const PlyHeader header = readPlyHeader(lines, name);
-  if (header.format == Format::Ascii) {
-    AsciiNumbers numbers(lines, name);
-    return readVertices(header, numbers, name);
-  }
-  BinaryNumbers numbers(lines.rest(), header.format == Format::Big);
-  return readVertices(header, numbers, name);
+  Vertices found;
+  Vertex vertex;
+  forEachPlyVertex(
+      content, name, [&](const Element& element) { vertex = parseVertex(element, name); },
+      [&](const std::vector<double>& row) {
+        found.points.push_back(pick(vertex.point, row));
+        if (vertex.origin) found.origins.push_back(pick(*vertex.origin, row));
+      });
+  return found;
+}
+
+NumberColumns parsePlyColumns(std::string_view content, const std::string& name,
+                              const std::vector<std::string>& wanted) {
+  NumberColumns columns(wanted.size());
+  std::vector<std::size_t> places(wanted.size(), 0);
+  const auto begin = [&](const Element& element) {
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      for (std::size_t at = element.properties.size(); at-- > 0;)
+        if (element.properties[at].name == wanted[i] && !element.properties[at].length) {
+          places[i] = at;
+          columns[i].emplace();
+        }
+  };
+  forEachPlyVertex(content, name, begin, [&](const std::vector<double>& row) {
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      if (columns[i]) columns[i]->push_back(row[places[i]]);
+  });
+  return columns;
 }
 
 }  // namespace urban_nav_core::cloud_formats

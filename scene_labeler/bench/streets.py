@@ -1,0 +1,75 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Trains each classifier on the training parts of two labelled streets and compares it with their validation parts.
+
+    streets.py DATA URBAN_NAV    DATA: folder with kitti_0005 and oakland; URBAN_NAV: the command
+
+Prints the tables of README.md.
+"""
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+KITTI = {0: "ignore", 1: "grass", 2: "paved", 3: "dirt_path", 4: "wall", 5: "wall", 6: "foliage", 7: "vehicle",
+         8: "other"}
+OAKLAND = {
+    **{k: "other" for k in (*range(1100, 1120), 1201, 1410, 1500, 1502, 1503, 1600, 1601)},
+    **{k: "paved" for k in (1200, 1203, 1205, 1206)}, 1301: "grass", 1204: "dirt_path",
+    **{k: "wall" for k in (1400, 1401, 1411, 1412)}, **{k: "foliage" for k in (1300, *range(1302, 1307))},
+    1501: "vehicle", **{k: "ignore" for k in (*range(1000, 1006), 1202, 9999)}}
+
+
+def copy_scenes(source, target):
+    target.mkdir(parents=True)
+    for path in source:
+        name = path.name.replace("_points.csv.gz", "").replace(".csv.gz", "")
+        shutil.copy(path, target / f"{name}_points.csv.gz")
+        image = path.parent / f"{name}.jpg"
+        if image.exists():
+            shutil.copy(image, target)
+            shutil.copy(path.parent.parent / "projection.txt", target)
+
+
+def run(*words):
+    done = subprocess.run([str(w) for w in words], capture_output=True, text=True, check=False)
+    if done.returncode:
+        sys.exit(f"{' '.join(map(str, words))}: {done.stderr}")
+
+
+def main():
+    data, command = pathlib.Path(sys.argv[1]), sys.argv[2]
+    sets = {"kitti_0005": (sorted((data / "kitti_0005/train").glob("*_points.csv.gz")),
+                           sorted((data / "kitti_0005/validation").glob("*_points.csv.gz")), KITTI,
+                           ("paved", "wall", "vehicle", "other")),
+            "oakland": (sorted((data / "oakland").glob("train_*")), sorted((data / "oakland").glob("validation_*")),
+                        OAKLAND, ("paved", "wall", "foliage", "vehicle"))}
+    print("| set | classifier | features | accuracy | mean F1 | F1 by class | calibration error | unsure | "
+          "training, s | us/point |\n|---|---|---|---|---|---|---|---|---|---|")
+    with tempfile.TemporaryDirectory() as work:
+        work = pathlib.Path(work)
+        for name, (train, validation, classes, _) in sets.items():
+            copy_scenes(train, work / name / "train")
+            copy_scenes(validation, work / name / "validation")
+            (work / name / "classes.csv").write_text(
+                "id,class\n" + "".join(f"{k},{v}\n" for k, v in sorted(classes.items())))
+        for kind, features in (("boosted", "all"), ("boosted", "paper"), ("forest", "all"), ("svm", "all")):
+            for name, (_, _, _, scored) in sets.items():
+                model, told, table = work / "model", work / "told.json", work / name / "classes.csv"
+                run(command, "labels", "train", work / name / "train", "-o", model, "--classes", table, "--classifier",
+                    kind, "--features", features, "--json", told)
+                seconds = json.loads(told.read_text())["seconds"]
+                run(command, "labels", "evaluate", model, work / name / "validation", "--classes", table, "--json", told,
+                    "--threads", 1)
+                said = json.loads(told.read_text())
+                f1 = {c: said["classes"][c]["f1"] for c in scored}
+                print(f"| {name} | {kind} | {features} | {said['accuracy']:.3f} | {sum(f1.values()) / len(f1):.3f} | "
+                      + ", ".join(f"{c} {100 * v:.0f}" for c, v in f1.items())
+                      + f" | {said['calibration_error']:.3f} | {100 * said['unsure_share']:.0f} % | {seconds:.0f} | "
+                      f"{said['us_per_point']:.0f} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()

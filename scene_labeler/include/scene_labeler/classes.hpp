@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace scene_labeler {
+
+/// Classes of a laser return, by the numbers that files hold (Newman et al. 2009, section 8; docs/files.md).
+enum class SceneClass : std::uint8_t {
+  Other = 0,
+  Grass,
+  Paved,
+  DirtPath,
+  TexturedWall,
+  SmoothWall,
+  Foliage,
+  Vehicle,
+  Wall,        ///< of a kind that its source does not distinguish
+  None = 255,  ///< not labelled, or no answer
+};
+
+constexpr std::size_t class_count = 9;  ///< without None
+
+constexpr std::size_t toIndex(SceneClass scene_class) { return static_cast<std::size_t>(scene_class); }
+
+/// Returns the name in files: "other", "grass", "paved", ...; "none".
+const char* toString(SceneClass scene_class);
+
+/// Returns the class of a name; nullopt if it names none. "none" is not a class.
+std::optional<SceneClass> classFromName(std::string_view name);
+
+/// Returns the names of all classes with ", " between them.
+std::string classNames();
+
+/// Returns Wall for textured and smooth walls, and other classes unchanged.
+SceneClass withOneWall(SceneClass scene_class);
+
+/// One number for each class, by toIndex().
+using ClassValues = std::array<float, class_count>;
+
+}  // namespace scene_labeler

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "scene_labeler/model/label_model.hpp"
+#include "scene_labeler/scene.hpp"
+
+namespace scene_labeler {
+
+/// Labels of the returns of one scene.
+struct SceneLabels {
+  std::vector<SceneClass> classes;   ///< that the model knows; columns of `probabilities`
+  std::vector<SceneClass> labels;    ///< one per return; None: no answer
+  std::vector<float> probabilities;  ///< return by return, one for each class; they sum to one, or are 0 without answer
+  std::vector<std::uint8_t> unsure;  ///< 1: unlike the training data, or no class reaches 0.5
+  std::vector<std::uint32_t> patches;  ///< of makePatches()
+  cv::Mat image;  ///< CV_8U, class of each superpixel, 255 without laser returns; empty without image
+
+  float probability(std::size_t i) const;
+};
+
+/// Labels every return of a scene: single returns by the classifier, then the returns of a superpixel together.
+/// Deterministic for any number of threads. `superpixel_size`: px. Thread-safe.
+SceneLabels labelScene(const LabelModel& model, const Scene& scene, int superpixel_size);
+
+}  // namespace scene_labeler

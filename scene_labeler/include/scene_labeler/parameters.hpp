@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "urban_nav_core/parameters/table.hpp"
+
+namespace scene_labeler {
+
+/// Parameters of the stage, one member per row of table().
+struct Parameters {
+  int superpixel;  // px
+
+  Parameters();
+};
+
+/// Table of the stage: defaults, ranges, units and descriptions.
+const urban_nav_core::Table<Parameters>& table();
+
+}  // namespace scene_labeler

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "scene_labeler/classes.hpp"
+
+namespace scene_labeler {
+
+/// One image and the place of each return of a scene in it. Each return is projected at its own time, through the lens.
+struct SceneView {
+  cv::Mat image;                        ///< CV_8UC3, blue, green, red
+  std::vector<Eigen::Vector2f> pixels;  ///< one per return, px; NaN if the image does not show it
+  std::vector<float> depths;            ///< one per return, along the optical axis, m
+};
+
+/// Laser returns of one place, and at most one image of them.
+struct Scene {
+  std::string name;
+  std::vector<Eigen::Vector3f> points;  ///< m, z up; points that are not finite get no label
+  std::vector<float> reflectance;       ///< one per point, in units of its device; empty if there is none
+  SceneView view;                       ///< empty image: shape only
+};
+
+/// Projects the points of a scene by a 3x4 matrix M: (u w, v w, w) = M (x, y, z, 1).
+void projectScene(const Eigen::Matrix<double, 3, 4>& projection, Scene& scene);
+
+/// Returns, for each return, whether the image shows it: it lies within the image, in front of the camera, and no
+/// return next to it in the image is nearer by more than a tenth of its depth.
+std::vector<std::uint8_t> visibleReturns(const SceneView& view);
+
+}  // namespace scene_labeler

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+
+#include "scene_labeler/model/label_model.hpp"
+#include "scene_labeler/training/training_data.hpp"
+
+namespace scene_labeler {
+
+struct TrainingOptions {
+  ClassifierKind kind = ClassifierKind::Boosted;
+  FeatureSet features = FeatureSet::All;
+  std::size_t samples_per_class = 3000;  ///< over all folds
+  std::uint64_t seed = 1;
+};
+
+/// Values of the settings that cross-validation compared.
+struct ValidatedSetting {
+  std::vector<std::pair<std::string, double>> values;
+  double f1_mean = 0.0;  ///< over the classes of the held-out folds
+};
+
+struct TrainedModel {
+  LabelModel model;
+  std::vector<std::pair<SceneClass, std::size_t>> samples;  ///< number of each class
+  std::size_t folds = 0;
+  std::vector<ValidatedSetting> cross_validation;
+  std::size_t chosen = 0;  ///< of cross_validation
+};
+
+/// Trains a classifier: settings by cross-validation over folds, calibration on the held-out folds. `progress`: share
+/// that is done. Deterministic for any number of threads and any order of folds. Throws DataError if there are fewer
+/// than two classes.
+TrainedModel trainModel(std::vector<TrainingFold> folds, const TrainingOptions& options,
+                        const std::function<void(double)>& progress);
+
+}  // namespace scene_labeler

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "urban_nav_registration/cloud/cell_table.hpp"
+
+namespace scene_labeler {
+
+/// Moments of points from an origin of their own.
+struct Moments {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d outer = Eigen::Matrix3d::Zero();
+  double count = 0.0;
+
+  void add(const Eigen::Vector3d& point, double weight);
+  void add(const Moments& other);
+  Eigen::Vector3d mean() const { return sum / count; }
+  Eigen::Matrix3d covariance() const;
+};
+
+/// The same points in cubes of one size, each cube with equal weight for each of the next smaller cubes in it, so that
+/// the density of the beams does not matter.
+struct CubeLevel {
+  float edge = 0.0F;  ///< m
+  urban_nav_registration::CellTable table{16};
+  std::vector<std::uint64_t> keys;  ///< of each cube
+  std::vector<Moments> cubes;
+  std::vector<float> reflectance;      ///< mean of each cube; empty without reflectance
+  std::vector<std::uint32_t> cube_of;  ///< of each point; CellTable::none for points that are not finite
+};
+
+/// Cubes of 0.1, 0.2 and 0.4 m. A neighbourhood of 2.4 m (cubes of 0.8 m) and more describes the layout of the few
+/// places that a classifier is trained on, not the surface.
+constexpr std::size_t shape_levels = 3;
+constexpr float finest_cube = 0.1F;  ///< m
+
+/// Sorts points into cubes of all levels, relative to `origin`. `reflectance`: one per point, or empty.
+std::array<CubeLevel, shape_levels> makeCubeLevels(const std::vector<Eigen::Vector3f>& points,
+                                                   const std::vector<float>& reflectance,
+                                                   const Eigen::Vector3f& origin);
+
+/// Calls take(cube) for a cube and each of its neighbours that exist, up to 26.
+template <typename Take>
+void forEachNeighbour(const CubeLevel& level, std::uint64_t key, const Take& take) {
+  for (int k = -1; k <= 1; ++k)
+    for (int j = -1; j <= 1; ++j)
+      for (int i = -1; i <= 1; ++i) {
+        const std::uint32_t cube = level.table.find(urban_nav_registration::keyBeside(key, {i, j, k}));
+        if (cube != urban_nav_registration::CellTable::none) take(cube);
+      }
+}
+
+}  // namespace scene_labeler

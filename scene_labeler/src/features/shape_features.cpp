@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "features/shape_features.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "features/cube_moments.hpp"
+#include "features/ground_height.hpp"
+#include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/parallel/for_each.hpp"
+
+namespace scene_labeler {
+namespace {
+
+using urban_nav_registration::CellTable;
+
+/// How the cubes around a cube lie; the shape of fewer than `least_cubes` is missing.
+struct CubeShape {
+  bool is_known = false;
+  float linearity = 0.0F, planarity = 0.0F, scatter = 0.0F;  // of deviations: l1 >= l2 >= l3
+  float normal_z = 0.0F, tangent_z = 0.0F;                   // absolute
+  float roughness = 0.0F;                                    // deviation along the normal, m
+  float vertical = 0.0F;                                     // deviation in height, of the edge
+  float occupied = 0.0F;                                     // share of the 27 cubes
+  Eigen::Vector3f mean = Eigen::Vector3f::Zero(), normal = Eigen::Vector3f::UnitZ();
+};
+
+constexpr double least_cubes = 3.0;
+constexpr std::size_t shape_values = 10;  // per level
+constexpr std::size_t height_level = 1, reflectance_level = 1, paper_level = 2;
+
+CubeShape shapeAround(const CubeLevel& level, std::size_t cube) {
+  Moments all;
+  forEachNeighbour(level, level.keys[cube], [&](std::uint32_t other) { all.add(level.cubes[other]); });
+  CubeShape shape;
+  shape.occupied = static_cast<float>(all.count / 27.0);
+  shape.mean = all.mean().cast<float>();
+  if (all.count < least_cubes) return shape;
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
+  eigen.computeDirect(all.covariance());
+  const Eigen::Vector3d deviation = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt();  // ascending
+  const double longest = deviation[2];
+  if (!(longest > 1e-6)) return shape;
+  shape.is_known = true;
+  shape.linearity = static_cast<float>((longest - deviation[1]) / longest);
+  shape.planarity = static_cast<float>((deviation[1] - deviation[0]) / longest);
+  shape.scatter = static_cast<float>(deviation[0] / longest);
+  shape.normal = eigen.eigenvectors().col(0).cast<float>();
+  shape.normal_z = std::abs(shape.normal.z());
+  shape.tangent_z = static_cast<float>(std::abs(eigen.eigenvectors()(2, 2)));
+  shape.roughness = static_cast<float>(deviation[0]);
+  shape.vertical = static_cast<float>(std::sqrt(std::max(all.covariance()(2, 2), 0.0))) / level.edge;
+  return shape;
+}
+
+std::vector<CubeShape> measureShapes(const CubeLevel& level) {
+  std::vector<CubeShape> shapes(level.cubes.size());
+  urban_nav_core::forEach(shapes.size(), 512, [&](std::size_t i) { shapes[i] = shapeAround(level, i); });
+  return shapes;
+}
+
+void writeLevel(const CubeLevel& level, const Scene& scene, const Eigen::Vector3f& origin, std::size_t first,
+                FeatureTable& table) {
+  const std::vector<CubeShape> shapes = measureShapes(level);
+  urban_nav_core::forEach(scene.points.size(), 4096, [&](std::size_t i) {
+    if (level.cube_of[i] == CellTable::none) return;
+    const CubeShape& shape = shapes[level.cube_of[i]];
+    float* out = table.row(i) + first;
+    const Eigen::Vector3f offset = scene.points[i] - origin - shape.mean;
+    out[8] = shape.occupied;
+    out[9] = offset.z() / level.edge;
+    if (!shape.is_known) return;
+    out[0] = shape.linearity;
+    out[1] = shape.planarity;
+    out[2] = shape.scatter;
+    out[3] = shape.normal_z;
+    out[4] = shape.tangent_z;
+    out[5] = shape.roughness;
+    out[6] = shape.vertical;
+    out[7] = std::abs(shape.normal.dot(offset)) / level.edge;
+  });
+}
+
+void writeHeights(const CubeLevel& level, std::size_t first, FeatureTable& table) {
+  const std::vector<ColumnHeights> heights = measureHeights(level);
+  for (std::size_t i = 0; i < level.cube_of.size(); ++i) {
+    if (level.cube_of[i] == CellTable::none) continue;
+    const ColumnHeights& column = heights[level.cube_of[i]];
+    float* out = table.row(i) + first;
+    out[0] = column.over_ground;
+    out[1] = column.over_lowest_1;
+    out[2] = column.over_lowest_3;
+    out[3] = column.below_highest;
+    out[4] = column.column_extent;
+    out[5] = column.filled;
+  }
+}
+constexpr std::size_t height_values = 6;
+
+void writeReflectance(const CubeLevel& level, const Scene& scene, std::size_t first, FeatureTable& table) {
+  if (scene.reflectance.empty()) return;
+  std::vector<float> means(level.cubes.size()), deviations(level.cubes.size());
+  urban_nav_core::forEach(level.cubes.size(), 512, [&](std::size_t cube) {
+    float sum = 0.0F, square = 0.0F, count = 0.0F;
+    forEachNeighbour(level, level.keys[cube], [&](std::uint32_t other) {
+      sum += level.reflectance[other];
+      square += level.reflectance[other] * level.reflectance[other];
+      count += 1.0F;
+    });
+    means[cube] = sum / count;
+    deviations[cube] = std::sqrt(std::max(0.0F, square / count - means[cube] * means[cube]));
+  });
+  for (std::size_t i = 0; i < scene.points.size(); ++i) {
+    if (level.cube_of[i] == CellTable::none) continue;
+    float* out = table.row(i) + first;
+    out[0] = scene.reflectance[i];
+    out[1] = means[level.cube_of[i]];
+    out[2] = deviations[level.cube_of[i]];
+  }
+}
+
+/// Near the points, single precision is enough.
+Eigen::Vector3f chooseOrigin(const Scene& scene) {
+  for (const Eigen::Vector3f& point : scene.points)
+    if (point.allFinite()) return point.array().round();
+  return Eigen::Vector3f::Zero();
+}
+
+}  // namespace
+
+std::vector<std::string> shapeFeatureNames() {
+  std::vector<std::string> names;
+  float edge = finest_cube;
+  for (std::size_t level = 0; level < shape_levels; ++level, edge *= 2.0F)
+    for (const char* value : {"linearity", "planarity", "scatter", "normal_z", "tangent_z", "roughness", "vertical",
+                              "off_plane", "occupied", "off_mean"})
+      names.push_back(std::string(value) + "_" + urban_nav_core::printNumber(edge));
+  for (const char* value : {"over_ground", "over_lowest_1", "over_lowest_3", "below_highest", "column_extent",
+                            "column_filled", "reflectance", "reflectance_mean", "reflectance_deviation"})
+    names.emplace_back(value);
+  return names;
+}
+
+void measureShape(const Scene& scene, std::size_t first, FeatureTable& table) {
+  const Eigen::Vector3f origin = chooseOrigin(scene);
+  const auto levels = makeCubeLevels(scene.points, scene.reflectance, origin);
+  for (const CubeLevel& level : levels) {
+    writeLevel(level, scene, origin, first, table);
+    first += shape_values;
+  }
+  writeHeights(levels[height_level], first, table);
+  writeReflectance(levels[reflectance_level], scene, first + height_values, table);
+}
+
+std::vector<std::string> paperShapeNames() { return {"over_ground", "normal_z", "planarity"}; }
+
+void measurePaperShape(const Scene& scene, std::size_t first, FeatureTable& table) {
+  const auto levels = makeCubeLevels(scene.points, {}, chooseOrigin(scene));
+  const std::vector<ColumnHeights> heights = measureHeights(levels[height_level]);
+  const CubeLevel& level = levels[paper_level];
+  const std::vector<CubeShape> shapes = measureShapes(level);
+  for (std::size_t i = 0; i < scene.points.size(); ++i) {
+    if (level.cube_of[i] == CellTable::none) continue;
+    float* out = table.row(i) + first;
+    out[0] = heights[levels[height_level].cube_of[i]].over_ground;
+    const CubeShape& shape = shapes[level.cube_of[i]];
+    if (!shape.is_known) continue;
+    out[1] = shape.normal_z;
+    out[2] = shape.planarity;
+  }
+}
+
+}  // namespace scene_labeler

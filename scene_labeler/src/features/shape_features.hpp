@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene_labeler/features/feature_table.hpp"
+#include "scene_labeler/scene.hpp"
+
+namespace scene_labeler {
+
+/// Names of the features of the cloud, reflectance last.
+std::vector<std::string> shapeFeatureNames();
+
+/// Writes the features of the cloud into columns `first`, `first` + 1, ... of a table with a row per return.
+void measureShape(const Scene& scene, std::size_t first, FeatureTable& table);
+
+/// Names of the features of the cloud that the paper uses: height over ground, vertical part of the normal, planarity.
+std::vector<std::string> paperShapeNames();
+void measurePaperShape(const Scene& scene, std::size_t first, FeatureTable& table);
+
+}  // namespace scene_labeler

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene_labeler/labelling/labeler.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene_labeler/labelling/fuse.hpp"
+#include "scene_labeler/labelling/superpixels.hpp"
+#include "urban_nav_core/parallel/for_each.hpp"
+
+namespace scene_labeler {
+namespace {
+
+constexpr float sure_probability = 0.5F;
+
+/// Log probabilities of the returns, fused over patches in place.
+void fusePatches(const LabelModel& model, const std::vector<std::uint32_t>& patches, std::vector<float>& logs) {
+  const std::size_t classes = model.classes.size();
+  std::vector<double> sums;
+  std::vector<std::size_t> counts;
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    if (patches[i] == no_patch) continue;
+    if (patches[i] >= counts.size()) {
+      counts.resize(patches[i] + std::size_t{1}, 0);
+      sums.resize((patches[i] + std::size_t{1}) * classes, 0.0);
+    }
+    ++counts[patches[i]];
+    for (std::size_t k = 0; k < classes; ++k)
+      sums[patches[i] * classes + k] += static_cast<double>(logs[i * classes + k]);
+  }
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    if (patches[i] == no_patch) continue;
+    const double factor =
+        effectiveCount(counts[patches[i]], model.correlation) / static_cast<double>(counts[patches[i]]);
+    for (std::size_t k = 0; k < classes; ++k)
+      logs[i * classes + k] = static_cast<float>(factor * sums[patches[i] * classes + k]);
+    model.patch_calibration.apply(logs.data() + i * classes);
+  }
+}
+
+/// One class for each superpixel that has returns with an answer: that of the largest sum of probabilities.
+cv::Mat paintSuperpixels(const Scene& scene, const Superpixels& superpixels, const SceneLabels& result) {
+  const std::size_t classes = result.classes.size();
+  const std::vector<std::uint8_t> visible = visibleReturns(scene.view);
+  std::vector<float> sums(static_cast<std::size_t>(superpixels.count) * classes, 0.0F);
+  for (std::size_t i = 0; i < visible.size(); ++i) {
+    if (visible[i] == 0 || result.labels[i] == SceneClass::None) continue;
+    const auto number =
+        static_cast<std::size_t>(superpixels.numbers.at<int>(static_cast<int>(std::lround(scene.view.pixels[i].y())),
+                                                             static_cast<int>(std::lround(scene.view.pixels[i].x()))));
+    for (std::size_t k = 0; k < classes; ++k) sums[number * classes + k] += result.probabilities[i * classes + k];
+  }
+  cv::Mat image(superpixels.numbers.size(), CV_8U, cv::Scalar(static_cast<double>(SceneClass::None)));
+  for (int y = 0; y < image.rows; ++y)
+    for (int x = 0; x < image.cols; ++x) {
+      const auto first = sums.begin() + superpixels.numbers.at<int>(y, x) * static_cast<std::ptrdiff_t>(classes);
+      const auto best = std::max_element(first, first + static_cast<std::ptrdiff_t>(classes));
+      if (*best > 0.0F)
+        image.at<std::uint8_t>(y, x) =
+            static_cast<std::uint8_t>(result.classes[static_cast<std::size_t>(best - first)]);
+    }
+  return image;
+}
+
+}  // namespace
+
+float SceneLabels::probability(std::size_t i) const {
+  const auto first = probabilities.begin() + static_cast<std::ptrdiff_t>(i * classes.size());
+  return *std::max_element(first, first + static_cast<std::ptrdiff_t>(classes.size()));
+}
+
+SceneLabels labelScene(const LabelModel& model, const Scene& scene, int superpixel_size) {
+  const FeatureTable table = measureFeatures(scene, model.features);
+  const Superpixels superpixels = makeSuperpixels(scene.view.image, superpixel_size);
+  const std::size_t classes = model.classes.size(), count = scene.points.size();
+  std::vector<float> logs(count * classes);
+  SceneLabels result;
+  result.classes = model.classes;
+  result.labels.assign(count, SceneClass::None);
+  result.unsure.assign(count, 0);
+  result.probabilities.assign(count * classes, 0.0F);
+  std::vector<std::uint8_t> is_novel(count, 0);
+  urban_nav_core::forEach(count, 256, [&](std::size_t i) {
+    if (!scene.points[i].allFinite()) return;
+    model.logProbabilities(table.row(i), logs.data() + i * classes);
+    is_novel[i] = model.countOutside(table.row(i)) > model.novelty.limit ? 1 : 0;
+  });
+  result.patches = makePatches(scene, superpixels);
+  fusePatches(model, result.patches, logs);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!scene.points[i].allFinite()) continue;
+    float sum = 0.0F;
+    float* probabilities = result.probabilities.data() + i * classes;
+    for (std::size_t k = 0; k < classes; ++k) sum += probabilities[k] = std::exp(logs[i * classes + k]);
+    for (std::size_t k = 0; k < classes; ++k) probabilities[k] /= sum;
+    const auto best =
+        static_cast<std::size_t>(std::max_element(probabilities, probabilities + classes) - probabilities);
+    result.labels[i] = model.classes[best];
+    result.unsure[i] = is_novel[i] != 0 || probabilities[best] < sure_probability ? 1 : 0;
+  }
+  if (!superpixels.numbers.empty()) result.image = paintSuperpixels(scene, superpixels, result);
+  return result;
+}
+
+}  // namespace scene_labeler

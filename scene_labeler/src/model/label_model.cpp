@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene_labeler/model/label_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "urban_nav_core/types/error.hpp"
+
+namespace scene_labeler {
+namespace {
+
+constexpr const char* model_name = "model of scene_labeler";
+constexpr std::uint32_t model_version = 1;
+constexpr float least_share = 1e-3F;  // of a forest's votes, before the logarithm
+constexpr std::size_t most_features = 255;
+
+}  // namespace
+
+const char* toString(ClassifierKind kind) {
+  switch (kind) {
+    case ClassifierKind::Svm: return "svm";
+    case ClassifierKind::Forest: return "forest";
+    default: return "boosted";
+  }
+}
+
+void NoveltyRanges::archive(urban_nav_core::Archive& archive) { archive(low_values, high_values, limit); }
+
+void LabelModel::logProbabilities(const float* row, float* logs) const {
+  if (kind == ClassifierKind::Svm) {
+    svm.evaluate(row, logs);
+  } else {
+    std::uint8_t codes[most_features];
+    bins.encode(row, codes);
+    trees.evaluate(codes, logs);
+    if (kind == ClassifierKind::Forest)
+      for (std::size_t k = 0; k < classes.size(); ++k) logs[k] = std::log(std::max(logs[k], least_share));
+  }
+  calibration.apply(logs);
+}
+
+std::uint32_t LabelModel::countOutside(const float* row) const {
+  std::uint32_t count = 0;
+  for (std::size_t i = 0; i < novelty.low_values.size(); ++i)
+    count += row[i] < novelty.low_values[i] || row[i] > novelty.high_values[i] ? 1U : 0U;
+  return count;
+}
+
+void LabelModel::archive(urban_nav_core::Archive& archive) {
+  archive(kind, features, classes, bins);
+  archive.require(kind <= ClassifierKind::Boosted && features <= FeatureSet::All, "an unknown classifier");
+  if (archive.isReading()) {
+    bool is_sound = classes.size() >= 2 && bins.columns() == featureNames(features).size();
+    for (std::size_t i = 0; i < classes.size(); ++i)
+      is_sound = is_sound && toIndex(classes[i]) < class_count && (i == 0 || classes[i - 1] < classes[i]);
+    archive.require(is_sound, "classes or features that do not exist");
+  }
+  if (kind == ClassifierKind::Svm) svm.archive(archive, bins.columns(), classes.size());
+  else trees.archive(archive, bins.columns());
+  archive(calibration, patch_calibration, correlation, novelty, sources);
+  if (!archive.isReading()) return;
+  archive.require((kind == ClassifierKind::Svm || trees.base.size() == classes.size()) &&
+                      calibration.bias.size() == classes.size() && patch_calibration.bias.size() == classes.size() &&
+                      correlation >= 0.0 && correlation <= 1.0 && novelty.low_values.size() == bins.columns() &&
+                      novelty.high_values.size() == bins.columns(),
+                  "parts of different sizes");
+}
+
+std::string printModel(LabelModel model) {
+  urban_nav_core::Archive archive;
+  model.archive(archive);
+  return urban_nav_core::seal(model_name, model_version, archive.take());
+}
+
+LabelModel parseModel(std::string_view bytes, const std::string& name) {
+  LabelModel model;
+  try {
+    const std::string_view content = urban_nav_core::unseal(model_name, model_version, bytes);
+    urban_nav_core::Archive archive(content, model_name);
+    model.archive(archive);
+    archive.finish();
+  } catch (const urban_nav_core::DataError& error) {
+    throw urban_nav_core::UserError(name, error.what(), "a model of `urban_nav labels train`");
+  }
+  return model;
+}
+
+std::string modelDigest(std::string_view bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325U;  // FNV-1a
+  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
+  std::string digits;
+  for (int shift = 60; shift >= 0; shift -= 4) digits += "0123456789abcdef"[hash >> shift & 15u];
+  return digits;
+}
+
+}  // namespace scene_labeler

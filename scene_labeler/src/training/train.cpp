@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene_labeler/training/train.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "scene_labeler/labelling/superpixels.hpp"
+#include "scene_labeler/training/tree_training.hpp"
+#include "training/patch_fusion.hpp"
+#include "training/svm_training.hpp"
+#include "urban_nav_core/parallel/for_each.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace scene_labeler {
+namespace {
+
+constexpr std::size_t most_folds = 5;
+constexpr std::size_t least_samples = 10;  // a class with fewer is not learnt
+
+/// Settings that cross-validation tries.
+struct TrialSetting {
+  TreeSettings trees;
+  SvmSettings svm;
+  std::vector<std::pair<std::string, double>> values;
+};
+
+std::vector<TrialSetting> makeTrials(ClassifierKind kind) {
+  std::vector<TrialSetting> trials;
+  if (kind == ClassifierKind::Svm) {
+    for (const double c : {1.0, 10.0})
+      for (const double gamma : {0.3, 1.0}) trials.push_back({{}, {c, gamma}, {{"c", c}, {"gamma", gamma}}});
+    return trials;
+  }
+  for (const double leaves :
+       kind == ClassifierKind::Boosted ? std::vector<double>{8.0, 24.0} : std::vector<double>{64.0, 128.0}) {
+    TreeSettings settings;
+    settings.leaves = static_cast<std::size_t>(leaves);
+    if (kind == ClassifierKind::Forest) {
+      settings.trees = 100;
+      settings.regularisation = 1e-3;
+      settings.least_weight = 3.0;
+      settings.feature_share = 0.15;
+      settings.sample_share = 1.0;
+    }
+    trials.push_back({settings, {}, {{"leaves", leaves}, {"trees", static_cast<double>(settings.trees)}}});
+  }
+  return trials;
+}
+
+/// Samples of all folds, each with the group of folds that cross-validation leaves out together.
+struct SamplePool {
+  std::size_t columns = 0;
+  std::vector<SceneClass> classes;
+  std::vector<float> values;
+  std::vector<std::uint8_t> labels;
+  std::vector<float> weights;
+  std::vector<std::size_t> groups;
+};
+
+constexpr std::size_t no_group = static_cast<std::size_t>(-1);  // leaves out nothing
+
+std::uint8_t positionIn(const std::vector<SceneClass>& classes, SceneClass wanted) {
+  return static_cast<std::uint8_t>(std::find(classes.begin(), classes.end(), wanted) - classes.begin());
+}
+
+/// Makes walls of any kind one class if some fold does not distinguish the kinds.
+void foldWalls(std::vector<TrainingFold>& folds) {
+  bool has_wall = false;
+  for (const TrainingFold& fold : folds)
+    for (const SceneClass label : fold.samples.labels) has_wall = has_wall || label == SceneClass::Wall;
+  if (!has_wall) return;
+  for (TrainingFold& fold : folds)
+    for (std::vector<SceneClass>* labels : {&fold.samples.labels, &fold.held_out.labels})
+      std::transform(labels->begin(), labels->end(), labels->begin(), withOneWall);
+}
+
+std::vector<SceneClass> presentClasses(const std::vector<TrainingFold>& folds) {
+  std::vector<std::size_t> counts(class_count, 0);
+  for (const TrainingFold& fold : folds)
+    for (const SceneClass label : fold.samples.labels) ++counts[toIndex(label)];
+  std::vector<SceneClass> classes;
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    if (counts[i] >= least_samples) classes.push_back(static_cast<SceneClass>(i));
+  if (classes.size() < 2)
+    throw urban_nav_core::DataError(
+        "", classes.empty() ? "no labelled points" : std::string("points of ") + toString(classes[0]) + " alone",
+        "labels of two classes or more");
+  return classes;
+}
+
+SamplePool makePool(const std::vector<TrainingFold>& folds, const TrainingOptions& options) {
+  SamplePool pool;
+  pool.columns = featureNames(options.features).size();
+  pool.classes = presentClasses(folds);
+  std::vector<std::size_t> totals(class_count, 0);
+  for (const TrainingFold& fold : folds)
+    for (const SceneClass label : fold.samples.labels) ++totals[toIndex(label)];
+  std::vector<std::size_t> seen(class_count, 0);
+  for (std::size_t f = 0; f < folds.size(); ++f) {
+    const FoldRows& rows = folds[f].samples;
+    for (std::size_t i = 0; i < rows.labels.size(); ++i) {
+      const std::size_t of_class = toIndex(rows.labels[i]), total = totals[of_class], number = seen[of_class]++;
+      const std::size_t wanted = std::min(total, options.samples_per_class);
+      if ((number + 1) * wanted / total == number * wanted / total) continue;  // evenly thinned
+      const std::uint8_t label = positionIn(pool.classes, rows.labels[i]);
+      if (label >= pool.classes.size()) continue;
+      pool.values.insert(pool.values.end(), rows.values.begin() + static_cast<std::ptrdiff_t>(i * pool.columns),
+                         rows.values.begin() + static_cast<std::ptrdiff_t>((i + 1) * pool.columns));
+      pool.labels.push_back(label);
+      pool.weights.push_back(rows.weights[i]);
+      pool.groups.push_back(f % most_folds);
+    }
+  }
+  return pool;
+}
+
+/// Every class has the same weight, so that rare ones are learnt; calibration puts the frequencies back.
+std::vector<float> balancedWeights(const std::vector<std::uint8_t>& labels, std::vector<float> weights,
+                                   std::size_t classes) {
+  std::vector<double> totals(classes, 0.0);
+  double all = 0.0;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    totals[labels[i]] += static_cast<double>(weights[i]);
+    all += static_cast<double>(weights[i]);
+  }
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    weights[i] *= static_cast<float>(std::sqrt(all / static_cast<double>(classes) / totals[labels[i]]));
+  return weights;
+}
+
+/// Fits the classifier of a model to the samples outside one group.
+void fitClassifier(const SamplePool& pool, std::size_t left_out, const TrialSetting& trial, std::uint64_t seed,
+                   LabelModel& model) {
+  CodedSamples coded;
+  ValueSamples plain;
+  coded.features = plain.features = pool.columns;
+  coded.classes = plain.classes = pool.classes.size();
+  for (std::size_t i = 0; i < pool.labels.size(); ++i) {
+    if (pool.groups[i] == left_out) continue;
+    const float* row = pool.values.data() + i * pool.columns;
+    if (model.kind == ClassifierKind::Svm) plain.values.insert(plain.values.end(), row, row + pool.columns);
+    for (std::size_t column = 0; model.kind != ClassifierKind::Svm && column < pool.columns; ++column)
+      coded.codes.push_back(model.bins.code(column, row[column]));
+    coded.labels.push_back(pool.labels[i]);
+    coded.weights.push_back(pool.weights[i]);
+  }
+  if (model.kind == ClassifierKind::Svm) {
+    plain.labels = coded.labels;
+    for (const SceneClass of_class : pool.classes)
+      plain.is_ground.push_back(of_class == SceneClass::Grass || of_class == SceneClass::Paved ||
+                                of_class == SceneClass::DirtPath);
+    const std::vector<std::string>& names = featureNames(model.features);
+    for (const char* name : {"over_ground", model.features == FeatureSet::Paper ? "normal_z" : "normal_z_0.4"})
+      plain.ground_columns.push_back(
+          static_cast<std::uint8_t>(std::find(names.begin(), names.end(), name) - names.begin()));
+    model.svm = trainSvmBank(plain, trial.svm);
+    return;
+  }
+  coded.weights = balancedWeights(coded.labels, coded.weights, coded.classes);
+  model.trees = model.kind == ClassifierKind::Boosted ? trainBoosted(coded, trial.trees, seed)
+                                                      : trainForest(coded, trial.trees, seed);
+}
+
+Calibration identityCalibration(std::size_t classes) { return {1.0, std::vector<float>(classes, 0.0F)}; }
+
+/// Appends the scores of the held-out returns of the folds of a group.
+void scoreHeldOut(const std::vector<TrainingFold>& folds, std::size_t group, const LabelModel& model,
+                  HeldOutPatches& held_out) {
+  const std::size_t classes = model.classes.size(), columns = model.bins.columns();
+  held_out.points.classes = classes;
+  for (std::size_t f = 0; f < folds.size(); ++f) {
+    if (f % most_folds != group) continue;
+    const FoldRows& rows = folds[f].held_out;
+    std::uint32_t first = 0;
+    for (const std::uint32_t patch : held_out.patches)
+      if (patch != no_patch) first = std::max(first, patch + 1);
+    std::vector<float> scores(rows.labels.size() * classes);
+    urban_nav_core::forEach(rows.labels.size(), 256, [&](std::size_t i) {
+      model.logProbabilities(rows.values.data() + i * columns, scores.data() + i * classes);
+    });
+    for (std::size_t i = 0; i < rows.labels.size(); ++i) {
+      const std::uint8_t label = positionIn(model.classes, rows.labels[i]);
+      if (label >= classes) continue;
+      held_out.points.scores.insert(held_out.points.scores.end(),
+                                    scores.begin() + static_cast<std::ptrdiff_t>(i * classes),
+                                    scores.begin() + static_cast<std::ptrdiff_t>((i + 1) * classes));
+      held_out.points.labels.push_back(label);
+      held_out.points.weights.push_back(1.0F);
+      held_out.patches.push_back(rows.patches[i] == no_patch ? no_patch : first + rows.patches[i]);
+    }
+  }
+}
+
+double meanF1(const HeldOutScores& held_out) {
+  std::vector<double> hits(held_out.classes, 0.0), stated(held_out.classes, 0.0), true_count(held_out.classes, 0.0);
+  for (std::size_t i = 0; i < held_out.size(); ++i) {
+    const auto first = held_out.scores.begin() + static_cast<std::ptrdiff_t>(i * held_out.classes);
+    const auto answer = static_cast<std::size_t>(
+        std::max_element(first, first + static_cast<std::ptrdiff_t>(held_out.classes)) - first);
+    stated[answer] += 1.0;
+    true_count[held_out.labels[i]] += 1.0;
+    if (answer == held_out.labels[i]) hits[answer] += 1.0;
+  }
+  double sum = 0.0, present = 0.0;
+  for (std::size_t k = 0; k < held_out.classes; ++k) {
+    if (true_count[k] < 1.0) continue;
+    sum += 2.0 * hits[k] / std::max(1.0, stated[k] + true_count[k]);
+    present += 1.0;
+  }
+  return present > 0.0 ? sum / present : 0.0;
+}
+
+NoveltyRanges measureRanges(const SamplePool& pool) {
+  NoveltyRanges ranges;
+  ranges.low_values.resize(pool.columns);
+  ranges.high_values.resize(pool.columns);
+  urban_nav_core::forEach(pool.columns, 1, [&](std::size_t column) {
+    std::vector<float> values;
+    for (std::size_t i = 0; i < pool.labels.size(); ++i)
+      if (const float value = pool.values[i * pool.columns + column]; !std::isnan(value)) values.push_back(value);
+    std::sort(values.begin(), values.end());
+    if (values.empty()) return;
+    const float low = values[values.size() / 500], high = values[values.size() - 1 - values.size() / 500];
+    const float margin = 0.1F * (high - low);
+    ranges.low_values[column] = low - margin;
+    ranges.high_values[column] = high + margin;
+  });
+  return ranges;
+}
+
+/// Cross-validates all settings; returns the held-out scores of the best one, before calibration.
+HeldOutPatches crossValidate(const std::vector<TrainingFold>& folds, const SamplePool& pool,
+                             const std::vector<TrialSetting>& trials, std::uint64_t seed, TrainedModel& trained,
+                             const std::function<void(double)>& progress) {
+  const std::size_t groups = std::min(folds.size(), most_folds);
+  HeldOutPatches best;
+  for (std::size_t t = 0; t < trials.size(); ++t) {
+    HeldOutPatches held_out;
+    for (std::size_t group = 0; group < groups; ++group) {
+      fitClassifier(pool, groups > 1 ? group : no_group, trials[t], seed, trained.model);
+      scoreHeldOut(folds, group, trained.model, held_out);
+      progress(static_cast<double>(t * groups + group + 1) / static_cast<double>(trials.size() * groups + 1));
+    }
+    trained.cross_validation.push_back({trials[t].values, meanF1(held_out.points)});
+    if (t > 0 && trained.cross_validation[t].f1_mean <= trained.cross_validation[trained.chosen].f1_mean) continue;
+    trained.chosen = t;
+    best = std::move(held_out);
+  }
+  return best;
+}
+
+}  // namespace
+
+TrainedModel trainModel(std::vector<TrainingFold> folds, const TrainingOptions& options,
+                        const std::function<void(double)>& progress) {
+  std::sort(folds.begin(), folds.end(), [](const TrainingFold& a, const TrainingFold& b) { return a.name < b.name; });
+  foldWalls(folds);
+  const SamplePool pool = makePool(folds, options);
+  TrainedModel trained;
+  trained.folds = folds.size();
+  LabelModel& model = trained.model;
+  model.kind = options.kind;
+  model.features = options.features;
+  model.classes = pool.classes;
+  model.bins = FeatureBins(pool.values, pool.columns);
+  model.calibration = model.patch_calibration = identityCalibration(pool.classes.size());
+  for (const TrainingFold& fold : folds) model.sources.push_back(fold.name);
+  const std::vector<TrialSetting> trials = makeTrials(options.kind);
+  HeldOutPatches held_out = crossValidate(folds, pool, trials, options.seed, trained, progress);
+  fitClassifier(pool, no_group, trials[trained.chosen], options.seed, model);
+  if (held_out.points.size() > 0) {
+    model.calibration = fitCalibration(held_out.points);
+    for (std::size_t i = 0; i < held_out.points.size(); ++i)
+      model.calibration.apply(held_out.points.scores.data() + i * pool.classes.size());
+    fitPatchFusion(held_out, model);
+  }
+  model.novelty = measureRanges(pool);
+  std::vector<std::size_t> counts(pool.classes.size(), 0);
+  for (const std::uint8_t label : pool.labels) ++counts[label];
+  for (std::size_t k = 0; k < counts.size(); ++k) trained.samples.emplace_back(pool.classes[k], counts[k]);
+  progress(1.0);
+  return trained;
+}
+
+}  // namespace scene_labeler

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene_labeler/features/features.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace scene_labeler {
+namespace {
+
+float featureAt(const FeatureTable& table, std::size_t row, const std::string& name) {
+  const auto found = std::find(table.names.begin(), table.names.end(), name);
+  EXPECT_NE(found, table.names.end()) << name;
+  return table.row(row)[found - table.names.begin()];
+}
+
+/// Ground at z = 0, a plate 2 m above it in the middle, and a wall at x = 6.
+Scene makeBox() {
+  Scene scene;
+  for (int i = 0; i <= 120; ++i)
+    for (int j = 0; j <= 120; ++j) {
+      const float a = 0.05F * static_cast<float>(i), b = 0.05F * static_cast<float>(j);
+      scene.points.emplace_back(a, b, 0.0F);
+      if (i > 40 && i < 80 && j > 40 && j < 80) scene.points.emplace_back(a, b, 2.0F);
+      scene.points.emplace_back(6.0F, a, 0.5F * b);
+    }
+  return scene;
+}
+
+TEST(Features, OfPlanesAreTheirNormalsAndHeights) {
+  const Scene scene = makeBox();
+  const FeatureTable table = measureFeatures(scene, FeatureSet::All);
+  ASSERT_EQ(table.rows(), scene.points.size());
+  std::size_t ground = 0, plate = 0, wall = 0;
+  for (std::size_t i = 0; i < scene.points.size(); ++i) {
+    const Eigen::Vector3f& p = scene.points[i];
+    if (p.x() > 1 && p.x() < 1.6F && p.y() > 1 && p.y() < 1.6F && p.z() == 0) ground = i;
+    if (p.z() == 2.0F && p.x() < 5.9F && std::abs(p.x() - 3) < 0.1F && std::abs(p.y() - 3) < 0.1F) plate = i;
+    if (p.x() == 6.0F && std::abs(p.y() - 3) < 0.1F && std::abs(p.z() - 1.5F) < 0.1F) wall = i;
+  }
+  for (const std::size_t i : {ground, plate}) {
+    EXPECT_NEAR(featureAt(table, i, "normal_z_0.4"), 1.0F, 1e-3F);
+    EXPECT_NEAR(featureAt(table, i, "scatter_0.4"), 0.0F, 1e-3F);
+    EXPECT_NEAR(featureAt(table, i, "linearity_0.4"), 0.0F, 0.15F);
+  }
+  EXPECT_NEAR(featureAt(table, wall, "normal_z_0.4"), 0.0F, 1e-3F);
+  EXPECT_NEAR(featureAt(table, ground, "over_ground"), 0.0F, 1e-3F);
+  EXPECT_NEAR(featureAt(table, plate, "over_ground"), 2.0F, 1e-3F);
+  EXPECT_NEAR(featureAt(table, plate, "over_lowest_1"), 2.0F, 1e-3F);
+  EXPECT_NEAR(featureAt(table, plate, "below_highest"), 0.0F, 1e-3F);
+  EXPECT_NEAR(featureAt(table, wall, "over_ground"), 1.5F, 0.2F);
+}
+
+TEST(Features, DoNotDependOnTheDensityOfTheBeams) {
+  Scene scene = makeBox();
+  const FeatureTable once = measureFeatures(scene, FeatureSet::All);
+  const std::size_t count = scene.points.size();
+  for (std::size_t i = 0; i < count; i += 2)
+    for (int copy = 0; copy < 3; ++copy) scene.points.push_back(scene.points[i]);
+  const FeatureTable dense = measureFeatures(scene, FeatureSet::All);
+  for (std::size_t i = 0; i < count; i += 97)
+    EXPECT_NEAR(featureAt(once, i, "normal_z_0.4"), featureAt(dense, i, "normal_z_0.4"), 0.05F);
+}
+
+TEST(Features, OfReturnsThatAreNotFiniteAreMissing) {
+  Scene scene = makeBox();
+  scene.points[7].x() = std::numeric_limits<float>::quiet_NaN();
+  scene.points[9].z() = std::numeric_limits<float>::infinity();
+  scene.reflectance.assign(scene.points.size(), 0.5F);
+  for (const FeatureSet set : {FeatureSet::Paper, FeatureSet::All}) {
+    const FeatureTable table = measureFeatures(scene, set);
+    for (std::size_t column = 0; column < table.columns(); ++column) {
+      EXPECT_TRUE(std::isnan(table.row(7)[column]));
+      EXPECT_TRUE(std::isnan(table.row(9)[column]));
+    }
+    for (const float value : table.values) EXPECT_FALSE(std::isinf(value));
+  }
+}
+
+/// A camera at the origin, looking along y, in front of a wall at y = 5: its left half is orange, its right half grey.
+Scene makeFacade() {
+  Scene scene;
+  for (int i = -40; i <= 40; ++i)
+    for (int j = -20; j <= 20; ++j)
+      scene.points.emplace_back(0.1F * static_cast<float>(i), 5.0F, 0.1F * static_cast<float>(j));
+  scene.view.image = cv::Mat(240, 320, CV_8UC3, cv::Scalar(30, 90, 180));
+  scene.view.image.colRange(160, 320).setTo(cv::Scalar(120, 120, 120));
+  Eigen::Matrix<double, 3, 4> projection;
+  projection << 200, 160, 0, 0, 0, 120, -200, 0, 0, 1, 0, 0;
+  projectScene(projection, scene);
+  return scene;
+}
+
+TEST(Features, OfAnImageAreTheColoursWhereTheReturnsAre) {
+  const Scene scene = makeFacade();
+  const FeatureTable table = measureFeatures(scene, FeatureSet::All);
+  const auto rowAt = [](int i, int j) { return static_cast<std::size_t>((i + 40) * 41 + j + 20); };
+  EXPECT_NEAR(featureAt(table, rowAt(-20, 0), "light_7"), 300.0F / 765.0F, 1e-4F);
+  EXPECT_NEAR(featureAt(table, rowAt(-20, 0), "red_7"), 0.6F, 1e-4F);
+  EXPECT_NEAR(featureAt(table, rowAt(-20, 0), "saturation_21"), 150.0F / 180.0F, 1e-4F);
+  EXPECT_NEAR(featureAt(table, rowAt(20, 0), "saturation_21"), 0.0F, 1e-4F);
+  EXPECT_NEAR(featureAt(table, rowAt(20, 0), "gradient_across_7"), 0.0F, 1e-5F);
+  EXPECT_GT(featureAt(table, rowAt(0, 0), "contrast_21"), 0.01F);
+  const FeatureTable paper = measureFeatures(scene, FeatureSet::Paper);
+  EXPECT_NEAR(featureAt(paper, rowAt(-20, 0), "hue_0"), 1.0F, 1e-5F);
+  EXPECT_NEAR(featureAt(paper, rowAt(20, 0), "saturation_0"), 1.0F, 1e-5F);
+}
+
+TEST(Features, OfAnImageAreMissingWhereItIsSaturatedOrHidden) {
+  Scene scene = makeFacade();
+  scene.view.image.setTo(cv::Scalar(255, 255, 255));
+  scene.points.emplace_back(0.0F, 30.0F, 0.0F);  // hidden by the wall
+  scene.view.pixels.emplace_back(160.0F, 120.0F);
+  scene.view.depths.push_back(30.0F);
+  EXPECT_EQ(visibleReturns(scene.view).back(), 0);
+  const FeatureTable table = measureFeatures(scene, FeatureSet::All);
+  for (std::size_t i = 0; i < table.rows(); i += 13) EXPECT_TRUE(std::isnan(featureAt(table, i, "light_7")));
+}
+
+}  // namespace
+}  // namespace scene_labeler

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene_labeler/model/label_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/yard.hpp"
+#include "urban_nav_core/testing/fuzz.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace scene_labeler {
+namespace {
+
+using urban_nav_core::UserError;
+
+class LabelModels : public ::testing::TestWithParam<ClassifierKind> {};
+
+TEST_P(LabelModels, AreTheSameAfterReading) {
+  const LabelModel model = testing::trainOnYards(GetParam());
+  const std::string bytes = printModel(model);
+  const LabelModel read = parseModel(bytes, "m");
+  EXPECT_EQ(printModel(read), bytes);
+  const FeatureTable table = measureFeatures(testing::makeYard(5).scene, model.features);
+  std::vector<float> before(model.classes.size()), after(model.classes.size());
+  for (std::size_t i = 0; i < table.rows(); i += 50) {
+    model.logProbabilities(table.row(i), before.data());
+    read.logProbabilities(table.row(i), after.data());
+    EXPECT_EQ(before, after);
+  }
+}
+
+TEST_P(LabelModels, ThatAreDamagedAreRefusedOrCanBeUsed) {
+  LabelModel model = testing::trainOnYards(GetParam());
+  model.trees.trees.resize(std::min<std::size_t>(model.trees.trees.size(), 3));
+  for (KernelMachine& machine : model.svm.machines) {
+    machine.weights.resize(std::min<std::size_t>(machine.weights.size(), 4));
+    machine.vectors.resize(machine.weights.size() * model.bins.columns());
+  }
+  const std::string sealed = printModel(model);
+  const std::string content(urban_nav_core::unseal("model of scene_labeler", 1, sealed));
+  const std::vector<float> row(model.bins.columns(), 0.3F);
+  const auto result = urban_nav_core::testing::fuzzText({content}, [&row](const std::string& text) {
+    const LabelModel read = parseModel(urban_nav_core::seal("model of scene_labeler", 1, text), "m");
+    if (read.bins.columns() != row.size()) return;
+    std::vector<float> logs(read.classes.size());
+    read.logProbabilities(row.data(), logs.data());
+  });
+  EXPECT_EQ(result.failure, "");
+  EXPECT_GT(result.accepted, 0);
+  EXPECT_GT(result.refused, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, LabelModels,
+                         ::testing::Values(ClassifierKind::Svm, ClassifierKind::Forest, ClassifierKind::Boosted));
+
+TEST(LabelModelReader, RefusesOtherFilesByName) {
+  const std::string bytes = printModel(testing::trainOnYards(ClassifierKind::Boosted));
+  for (const std::string& text : {std::string(), std::string("ply\n"), bytes.substr(0, 200), bytes + "x"}) try {
+      parseModel(text, "street.labels");
+      FAIL() << text.size();
+    } catch (const UserError& error) {
+      EXPECT_EQ(error.parts().where, "street.labels");
+    }
+}
+
+}  // namespace
+}  // namespace scene_labeler

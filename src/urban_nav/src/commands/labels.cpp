@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "command_line/usage.hpp"
+#include "commands/commands.hpp"
+#include "commands/labels_actions.hpp"
+#include "labels/class_map.hpp"
+#include "labels/label_run.hpp"
+#include "pipeline/parameters.hpp"
+#include "scene_labeler/labelling/superpixels.hpp"
+#include "scene_labeler/parameters.hpp"
+#include "scene_labeler/training/train.hpp"
+#include "urban_nav_core/io/atomic_file.hpp"
+#include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/parallel/for_each.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav {
+namespace {
+
+using scene_labeler::ClassifierKind;
+using scene_labeler::FeatureSet;
+
+ClassifierKind classifierFrom(const Arguments& arguments) {
+  const std::string name = arguments.get("classifier", toString(ClassifierKind::Boosted));
+  for (const ClassifierKind kind : {ClassifierKind::Svm, ClassifierKind::Forest})
+    if (name == toString(kind)) return kind;
+  return ClassifierKind::Boosted;
+}
+
+/// Measures scenes one after another and keeps what training draws from each.
+std::vector<scene_labeler::TrainingFold> readTrainingScenes(const std::vector<SceneFiles>& scenes, const ClassMap& map,
+                                                            FeatureSet features, int superpixel, Console& console) {
+  std::vector<scene_labeler::TrainingFold> folds;
+  const std::vector<std::string> names = uniqueSceneNames(scenes);
+  Progress progress(console, "scenes", "scenes", static_cast<std::int64_t>(scenes.size()));
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    scene_labeler::TrainingScene training;
+    training.fold = names[i];
+    training.labels = map.toClasses(readSceneLabels(scenes[i]), scenes[i].points);
+    const scene_labeler::Scene scene = readScene(scenes[i]);
+    for (std::size_t point = 0; point < scene.points.size(); ++point)
+      if (!scene.points[point].allFinite()) training.labels[point] = scene_labeler::SceneClass::None;
+    training.features = scene_labeler::measureFeatures(scene, features);
+    training.patches = scene_labeler::makePatches(scene, scene_labeler::makeSuperpixels(scene.view.image, superpixel));
+    if (scenes.size() == 1) scene_labeler::addHalves(training, scene, {}, folds);
+    else scene_labeler::addScene(training, {}, folds);
+    progress.update(static_cast<std::int64_t>(i + 1));
+  }
+  progress.finish(static_cast<std::int64_t>(scenes.size()));
+  return folds;
+}
+
+Json settingJson(const scene_labeler::ValidatedSetting& setting) {
+  Json json = Json::object();
+  for (const auto& [name, value] : setting.values) json[name] = value;
+  json["f1_mean"] = setting.f1_mean;
+  return json;
+}
+
+Json trainingJson(const scene_labeler::TrainedModel& trained, const std::string& bytes, double seconds) {
+  Json json = Json::object();
+  json["classifier"] = toString(trained.model.kind);
+  json["features"] = toString(trained.model.features);
+  json["samples"] = Json::object();
+  for (const auto& [scene_class, count] : trained.samples) json["samples"][toString(scene_class)] = count;
+  json["sources"] = Json::array();
+  for (const std::string& source : trained.model.sources) json["sources"].append(source);
+  json["folds"] = trained.folds;
+  json["cross_validation"] = Json::array();
+  for (const auto& setting : trained.cross_validation) json["cross_validation"].append(settingJson(setting));
+  json["chosen"] = settingJson(trained.cross_validation[trained.chosen]);
+  json["seconds"] = seconds;
+  json["digest"] = scene_labeler::modelDigest(bytes);
+  return json;
+}
+
+int runLabelsTrain(const Arguments& arguments, Console& console) {
+  const Usage usage;
+  const int superpixel = loadParameters(arguments).get(scene_labeler::table()).superpixel;
+  const urban_nav_core::ThreadLimit threads(static_cast<int>(arguments.integer("threads", 0, 1, 1024)));
+  scene_labeler::TrainingOptions options;
+  options.kind = classifierFrom(arguments);
+  options.features = arguments.get("features", "all") == "paper" ? FeatureSet::Paper : FeatureSet::All;
+  options.seed = static_cast<std::uint64_t>(arguments.integer("seed", 1, 0, 1'000'000'000));
+  const ClassMap map = arguments.has("classes") ? ClassMap(arguments.get("classes")) : ClassMap();
+  auto folds = readTrainingScenes(findScenes(arguments.all("SRC")), map, options.features, superpixel, console);
+  Progress progress(console, "training", "%", 100);
+  const scene_labeler::TrainedModel trained = scene_labeler::trainModel(
+      std::move(folds), options, [&](double share) { progress.update(static_cast<std::int64_t>(100.0 * share)); });
+  progress.finish(100);
+  const std::string bytes = scene_labeler::printModel(trained.model);
+  urban_nav_core::writeAtomically(arguments.get("output"), bytes);
+  console.info(std::string(toString(trained.model.kind)) + " of " + std::to_string(trained.folds) + " folds, mean F1 " +
+               urban_nav_core::printNumber(trained.cross_validation[trained.chosen].f1_mean) +
+               " in cross-validation; model " + scene_labeler::modelDigest(bytes) + ", " +
+               std::to_string(bytes.size()) + " bytes");
+  if (arguments.has("json"))
+    urban_nav_core::writeAtomically(arguments.get("json"), trainingJson(trained, bytes, usage.wallSeconds()).print());
+  return 0;
+}
+
+Command labelsTrainAction() {
+  Command action;
+  action.name = "train";
+  action.summary = "Trains a classifier of laser returns on labelled scenes.";
+  action.options = {
+      {"SRC", "", "folders of scenes NAME_points.{csv,ply}[.gz] with labels, or such files", true, true, {}},
+      {"-o,--output", "MODEL", "model to write", true, false, {}},
+      {"--classifier", "NAME", "kind of classifier (default boosted)", false, false, {"svm", "forest", "boosted"}},
+      {"--features", "NAME", "features of a return (default all)", false, false, {"paper", "all"}},
+      {"--classes", "FILE", "id,class for the values of label (default: the classes' own numbers)", false, false, {}},
+      {"--seed", "N", "of the drawn samples and features (default 1)", false, false, {}},
+      jsonOption(),
+      configOption(),
+      setOption(),
+      threadsOption()};
+  action.examples = {"urban_nav labels train street1 street2 -o street.labels --classes classes.csv"};
+  action.more_help = [](const Arguments& arguments) { return stageHelp(arguments, scene_labeler::table().stage()); };
+  action.run = runLabelsTrain;
+  return action;
+}
+
+}  // namespace
+
+Command labelsCommand() {
+  Command command;
+  command.name = "labels";
+  command.summary = "Classes of laser returns, with probabilities.";
+  command.actions = {labelsTrainAction(), labelsApplyAction(), labelsEvaluateAction()};
+  return command;
+}
+
+}  // namespace urban_nav

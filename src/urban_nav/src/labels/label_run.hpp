@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "command_line/console.hpp"
+#include "command_line/json.hpp"
+#include "labels/scene_files.hpp"
+#include "scene_labeler/labelling/labeler.hpp"
+
+namespace urban_nav {
+
+/// Reads a model. Throws UserError for a damaged file, and for `default` as long as the suite has no default model.
+scene_labeler::LabelModel readLabelModel(const std::string& path);
+
+/// What labelling some scenes took and gave.
+struct LabelRun {
+  std::size_t frames = 0, points = 0, labelled = 0, unsure = 0;
+  double seconds = 0.0;              ///< of labelling, without files
+  std::vector<double> milliseconds;  ///< of each scene
+  bool has_look = false;             ///< whether any scene has an image
+
+  /// `frames`, `points`, `ms_per_frame_median`, `us_per_point`, `modalities`, `unsure_share`.
+  Json toJson() const;
+};
+
+/// Labels scenes one after another and calls take(index, labels).
+LabelRun labelScenes(const scene_labeler::LabelModel& model, const std::vector<SceneFiles>& scenes, int superpixel,
+                     Console& console, const std::function<void(std::size_t, const scene_labeler::SceneLabels&)>& take);
+
+/// Returns NAME_labels.csv: `index,label,probability,p_CLASS...,unsure`, one row per return.
+std::string printSceneLabels(const scene_labeler::SceneLabels& labels);
+
+}  // namespace urban_nav

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene_labeler/scene.hpp"
+
+namespace urban_nav {
+
+/// Files of one scene (docs/files.md, Labels).
+struct SceneFiles {
+  std::string name;        ///< of the scene: file name without _points and extension
+  std::string points;      ///< path of the returns
+  std::string image;       ///< path; empty without one
+  std::string projection;  ///< path of projection.txt beside the image
+};
+
+/// Finds the scenes of folders and files, in the order of their names, which may stand in two folders. Throws UserError
+/// for a path that holds no scene, an image without projection.txt, and a scene that is given twice.
+std::vector<SceneFiles> findScenes(const std::vector<std::string>& sources);
+
+/// Returns a name for each scene that no other scene has: its own, or its path where two have one name.
+std::vector<std::string> uniqueSceneNames(const std::vector<SceneFiles>& scenes);
+
+/// Reads the returns and the image of a scene; no labels. Coordinates beyond 1 km are moved near the origin. Throws
+/// UserError for a file of another format, DataError for an image that cannot be decoded.
+scene_labeler::Scene readScene(const SceneFiles& files);
+
+/// Reads the column `label` of the returns. Throws UserError if there is none, or for a value that is not whole.
+std::vector<std::int64_t> readSceneLabels(const SceneFiles& files);
+
+}  // namespace urban_nav

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "command_line/command.hpp"
+#include "commands/commands.hpp"
+#include "labels/class_map.hpp"
+#include "labels/label_score.hpp"
+#include "support/folders.hpp"
+#include "urban_nav_core/io/csv.hpp"
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav {
+namespace {
+
+using scene_labeler::SceneClass;
+
+class Labels : public ::testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return folder_.file(name); }
+  int labels(std::vector<std::string> words) const {
+    words.insert(words.begin(), {"urban_nav", "labels"});
+    std::vector<const char*> argv;
+    for (const std::string& word : words) argv.push_back(word.c_str());
+    return runCommandLine({labelsCommand()}, static_cast<int>(argv.size()), argv.data());
+  }
+  /// Ground of label 20 and a wall of label 30 in `folder`, its labels in the order of `scrambled`.
+  void writeScene(const std::string& folder, const std::string& name, unsigned seed, bool scrambled = false) const {
+    std::mt19937 random(seed);
+    const auto draw = [&random](double high) {
+      return std::to_string(high * static_cast<double>(random() % 1000) / 1e3);
+    };
+    std::string text = "x,y,z,label\n";
+    for (int i = 0; i < 3000; ++i) {
+      const bool is_ground = i % 2 == 0;
+      const std::string label = is_ground != (scrambled && i % 4 < 2) ? "20" : "30";
+      text += is_ground ? draw(6) + "," + draw(6) + "," + draw(0.02) + "," + label + "\n"
+                        : "6," + draw(6) + "," + draw(3) + "," + label + "\n";
+    }
+    std::filesystem::create_directories(path(folder));
+    testing::writeFile(path(folder + "/" + name + "_points.csv"), text);
+  }
+  void writeClasses() const { testing::writeFile(path("classes.csv"), "id,class\n20,paved\n30,wall\n"); }
+  int train(const std::string& model, std::vector<std::string> sources) const {
+    sources.insert(sources.begin(), "train");
+    sources.insert(sources.end(), {"-o", path(model), "--classes", path("classes.csv")});
+    return labels(sources);
+  }
+
+ private:
+  const testing::TemporaryFolder folder_;
+};
+
+TEST_F(Labels, AreFoundInAnotherSceneWhateverItsLabels) {
+  writeScene("train", "a", 1);
+  writeScene("train", "b", 2);
+  writeScene("find", "c", 3);
+  writeScene("blind", "c", 3, true);
+  writeClasses();
+  ASSERT_EQ(train("m", {path("train")}), 0);
+  ASSERT_EQ(labels({"apply", path("m"), path("find"), "-o", path("out")}), 0);
+  ASSERT_EQ(labels({"apply", path("m"), path("blind"), "-o", path("again"), "--threads", "1"}), 0);
+  EXPECT_EQ(testing::readFile(path("out/c_labels.csv")), testing::readFile(path("again/c_labels.csv")));
+  const auto table = urban_nav_core::CsvTable::read(path("out/c_labels.csv"));
+  EXPECT_EQ(table.header(), (std::vector<std::string>{"index", "label", "probability", "p_paved", "p_wall", "unsure"}));
+  ASSERT_EQ(table.rows(), 3000u);
+  int right = 0;
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    EXPECT_NEAR(table.number(i, 3) + table.number(i, 4), 1.0, 1e-4);
+    right += table.integer(i, 1) == (i % 2 == 0 ? 2 : 8) ? 1 : 0;
+  }
+  EXPECT_GT(right, 2800);
+}
+
+TEST_F(Labels, TrainingGivesTheSameBytesForAnyOrderOfSourcesAndThreads) {
+  writeScene("one", "a", 1);
+  writeScene("two", "b", 2);
+  writeClasses();
+  ASSERT_EQ(train("m", {path("one"), path("two"), "--threads", "1"}), 0);
+  ASSERT_EQ(train("n", {path("two"), path("one"), "--threads", "2"}), 0);
+  EXPECT_EQ(testing::readFile(path("m")), testing::readFile(path("n")));
+}
+
+TEST_F(Labels, RefuseWhatTheyCannotUse) {
+  writeScene("train", "a", 1);
+  std::filesystem::create_directories(path("empty"));
+  writeClasses();
+  EXPECT_EQ(labels({"train", path("train"), "-o", path("m")}), 2);  // 20 and 30 are no classes
+  EXPECT_EQ(labels({"train", path("empty"), "-o", path("m")}), 2);
+  EXPECT_EQ(train("m", {path("train"), path("train")}), 2);  // twice
+  EXPECT_FALSE(std::filesystem::exists(path("m")));
+  ASSERT_EQ(train("m", {path("train")}), 0);
+  EXPECT_EQ(labels({"apply", "default", path("train"), "-o", path("out")}), 2);
+  EXPECT_EQ(labels({"apply", path("absent"), path("train"), "-o", path("out")}), 2);
+  testing::writeFile(path("broken"), testing::readFile(path("m")).substr(0, 200));
+  EXPECT_EQ(labels({"apply", path("broken"), path("train"), "-o", path("out")}), 2);
+  testing::writeFile(path("train/a.png"), "an image without a projection.txt");
+  EXPECT_EQ(labels({"apply", path("m"), path("train"), "-o", path("out")}), 2);
+}
+
+TEST_F(Labels, ClassFilesNameEveryLabel) {
+  testing::writeFile(path("c.csv"), "id,class\n4,wall\n9,ignore\n");
+  const ClassMap map(path("c.csv"));
+  EXPECT_EQ(map.toClasses({9, 4}, "p"), (std::vector<SceneClass>{SceneClass::None, SceneClass::Wall}));
+  EXPECT_THROW(map.toClasses({4, 5}, "p"), urban_nav_core::UserError);
+  for (const char* text : {"id,class\n4,walls\n", "id,class\n4,wall\n4,wall\n", "id\n4\n", "id,class\nx,wall\n"}) {
+    testing::writeFile(path("c.csv"), text);
+    EXPECT_THROW(ClassMap(path("c.csv")), urban_nav_core::UserError) << text;
+  }
+}
+
+TEST(LabelScores, CountMissingAnswersAsWrongAndWallsAsOneClass) {
+  scene_labeler::SceneLabels labels;
+  labels.classes = {SceneClass::Paved, SceneClass::SmoothWall};
+  labels.labels = {SceneClass::Paved, SceneClass::SmoothWall, SceneClass::None, SceneClass::Paved, SceneClass::Paved};
+  labels.probabilities = {0.8F, 0.2F, 0.1F, 0.9F, 0, 0, 0.6F, 0.4F, 1, 0};
+  labels.patches = {0, 1, 1, 2, 3};
+  LabelScore score(true);
+  score.add(labels,
+            {SceneClass::Paved, SceneClass::Wall, SceneClass::Wall, SceneClass::TexturedWall, SceneClass::None});
+  EXPECT_EQ(score.points(), 4u);
+  EXPECT_DOUBLE_EQ(score.accuracy(), 0.5);
+  // paved: precision 1/2, recall 1; wall: precision 1, recall 1/3
+  EXPECT_NEAR(score.meanF1(), 0.5 * (2.0 / 3.0 + 0.5), 1e-12);
+  EXPECT_NEAR(score.calibrationError(), (0.2 + 0.1 + 0.6) / 3.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace urban_nav
