@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "places/place_truth.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "urban_nav_core/types/error.hpp"
+
+namespace urban_nav {
+namespace {
+
+constexpr urban_nav_core::StampNs truth_second = 1'000'000'000;
+
+/// Rows 30 s apart; row i has the match and probability given.
+PlaceQuery queryOfMatches(const std::vector<std::pair<int, double>>& matches) {
+  PlaceQuery query;
+  query.sessions = {"drive"};
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    PlaceQueryRow row;
+    row.stamp = 30 * truth_second * static_cast<urban_nav_core::StampNs>(i);
+    if (matches[i].first >= 0) {
+      row.recognition.match = fabmap_node::PlaceMatch();
+      row.recognition.probability = matches[i].second;
+      row.matched_row = static_cast<std::size_t>(matches[i].first);
+    }
+    query.rows.push_back(row);
+  }
+  return query;
+}
+
+PlaceTruth truthAt(const std::vector<double>& metres) {
+  PlaceTruth truth;
+  for (const double x : metres) truth.positions.emplace_back(Eigen::Vector3d(x, 0.0, 0.0));
+  return truth;
+}
+
+std::string writeTruthFile(const std::string& name, const std::string& text) {
+  const std::string path = (std::filesystem::temp_directory_path() / ("place_truth_" + name)).string();
+  std::ofstream(path) << text;
+  return path;
+}
+
+TEST(ScorePlaces, CountsRevisitsAndWhatIsAnnounced) {
+  // Rows 2 and 3 revisit rows 0 and 1; row 4 is new, and matched wrongly with less certainty than row 2.
+  const PlaceQuery query = queryOfMatches({{-1, 0.0}, {0, 0.1}, {0, 0.995}, {1, 0.3}, {0, 0.95}});
+  const PlaceScore score = scorePlaces(query, truthAt({0.0, 100.0, 2.0, 101.0, 300.0}), 20 * truth_second);
+  EXPECT_EQ(score.revisits, 2u);
+  EXPECT_EQ(score.first, 2u);
+  EXPECT_EQ(score.found, 1u);
+  EXPECT_EQ(score.sure, 1u);
+  EXPECT_EQ(score.sure_right, 1u);
+  EXPECT_EQ(score.nearly, 1u);
+  EXPECT_EQ(score.nearly_right, 0u);
+  ASSERT_FALSE(score.curve.empty());
+  EXPECT_EQ(score.curve.front().precision, 1.0);
+  EXPECT_EQ(score.curve.front().recall, 0.5);
+}
+
+TEST(ScorePlaces, MatchesBetweenTheTwoRadiiDoNotCount) {
+  const PlaceScore score = scorePlaces(queryOfMatches({{-1, 0.0}, {0, 0.999}}), truthAt({0.0, 9.0}), 20 * truth_second);
+  EXPECT_EQ(score.revisits, 0u);
+  EXPECT_EQ(score.sure, 0u);
+}
+
+TEST(ScorePlaces, PlacesWithinTheMaskAreNoRevisits) {
+  const PlaceQuery query = queryOfMatches({{-1, 0.0}, {-1, 0.0}});
+  EXPECT_EQ(scorePlaces(query, truthAt({0.0, 0.0}), 20 * truth_second).revisits, 1u);
+  EXPECT_EQ(scorePlaces(query, truthAt({0.0, 0.0}), 40 * truth_second).revisits, 0u);
+}
+
+TEST(ReadPlaceTruth, TablesOfPositionsNeedOneRowForEachImage) {
+  const std::string path = writeTruthFile("positions.csv", "image,position\na.png,0\nb.png,5.5\n");
+  const PlaceTruth truth = readPlaceTruth(path, queryOfMatches({{-1, 0.0}, {-1, 0.0}}), std::nullopt);
+  EXPECT_EQ(truth.unit, "images");
+  EXPECT_EQ(truth.radius, 3.0);
+  ASSERT_TRUE(truth.positions.at(1));
+  EXPECT_EQ(truth.positions[1]->x(), 5.5);
+  EXPECT_THROW(readPlaceTruth(path, queryOfMatches({{-1, 0.0}}), std::nullopt), urban_nav_core::UserError);
+}
+
+TEST(ReadPlaceTruth, TrajectoriesReachTheImagesOfTheirTimes) {
+  const std::string path = writeTruthFile("path.tum", "0.0 1 0 0 0 0 0 1\n0.5 2 0 0 0 0 0 1\n");
+  const PlaceTruth truth = readPlaceTruth(path, queryOfMatches({{-1, 0.0}, {-1, 0.0}}), 6.0);
+  EXPECT_EQ(truth.radius, 6.0);
+  EXPECT_EQ(truth.elsewhere, 8.0);
+  ASSERT_TRUE(truth.positions.at(0));
+  EXPECT_EQ(truth.positions[0]->x(), 1.0);
+  EXPECT_FALSE(truth.positions.at(1));
+}
+
+}  // namespace
+}  // namespace urban_nav
