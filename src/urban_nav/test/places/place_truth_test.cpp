@@ -30,7 +30,7 @@ PlaceQuery queryOfMatches(const std::vector<std::pair<int, double>>& matches) {
   return query;
 }
 
-PlaceTruth truthAt(const std::vector<double>& metres) {
+PlaceTruth truthAlongX(const std::vector<double>& metres) {
   PlaceTruth truth;
   for (const double x : metres) truth.positions.emplace_back(Eigen::Vector3d(x, 0.0, 0.0));
   return truth;
@@ -45,7 +45,7 @@ std::string writeTruthFile(const std::string& name, const std::string& text) {
 TEST(ScorePlaces, CountsRevisitsAndWhatIsAnnounced) {
   // Rows 2 and 3 revisit rows 0 and 1; row 4 is new, and matched wrongly with less certainty than row 2.
   const PlaceQuery query = queryOfMatches({{-1, 0.0}, {0, 0.1}, {0, 0.995}, {1, 0.3}, {0, 0.95}});
-  const PlaceScore score = scorePlaces(query, truthAt({0.0, 100.0, 2.0, 101.0, 300.0}), 20 * truth_second);
+  const PlaceScore score = scorePlaces(query, truthAlongX({0.0, 100.0, 2.0, 101.0, 300.0}), 20 * truth_second);
   EXPECT_EQ(score.revisits, 2u);
   EXPECT_EQ(score.first, 2u);
   EXPECT_EQ(score.found, 1u);
@@ -59,15 +59,16 @@ TEST(ScorePlaces, CountsRevisitsAndWhatIsAnnounced) {
 }
 
 TEST(ScorePlaces, MatchesBetweenTheTwoRadiiDoNotCount) {
-  const PlaceScore score = scorePlaces(queryOfMatches({{-1, 0.0}, {0, 0.999}}), truthAt({0.0, 9.0}), 20 * truth_second);
+  const PlaceScore score =
+      scorePlaces(queryOfMatches({{-1, 0.0}, {0, 0.999}}), truthAlongX({0.0, 9.0}), 20 * truth_second);
   EXPECT_EQ(score.revisits, 0u);
   EXPECT_EQ(score.sure, 0u);
 }
 
 TEST(ScorePlaces, PlacesWithinTheMaskAreNoRevisits) {
   const PlaceQuery query = queryOfMatches({{-1, 0.0}, {-1, 0.0}});
-  EXPECT_EQ(scorePlaces(query, truthAt({0.0, 0.0}), 20 * truth_second).revisits, 1u);
-  EXPECT_EQ(scorePlaces(query, truthAt({0.0, 0.0}), 40 * truth_second).revisits, 0u);
+  EXPECT_EQ(scorePlaces(query, truthAlongX({0.0, 0.0}), 20 * truth_second).revisits, 1u);
+  EXPECT_EQ(scorePlaces(query, truthAlongX({0.0, 0.0}), 40 * truth_second).revisits, 0u);
 }
 
 TEST(ReadPlaceTruth, TablesOfPositionsNeedOneRowForEachImage) {
