@@ -31,6 +31,7 @@ class LaunchCase(unittest.TestCase):
         rospy.init_node(cls.__name__, disable_signals=True)
         # Not a frame may be dropped on a machine that is busy: bits are compared, and frames counted.
         rospy.set_param("/swf_vo/queue_size", 100000)
+        rospy.set_param("/swf_vo/max_lateness", 1.0)  # s: left and right images come on connections of their own
         rospy.set_param("/stereo_rectify/queue_size", 100000)
         cls.folder = tempfile.mkdtemp()
         cls.addClassCleanup(shutil.rmtree, cls.folder)
