@@ -37,8 +37,8 @@ std::string toText(const Diagnosis& diagnosis) {
 
 Json toJson(const std::vector<Diagnosis>& all) {
   Json json = Json::object();
-  Json& sessions = json["sessions"] = Json::array();
-  Json& findings = json["findings"] = Json::array();
+  Json sessions = Json::array();
+  Json findings = Json::array();
   bool usable = true;
   for (const Diagnosis& diagnosis : all) {
     Json session = Json::object();
@@ -62,14 +62,18 @@ Json toJson(const std::vector<Diagnosis>& all) {
     }
   }
   json["usable"] = usable;
+  json["sessions"] = sessions;
+  json["findings"] = findings;
   return json;
 }
 
 int runDoctor(const Arguments& arguments, Console& console) {
   const SourceOptions options = readSourceOptions(arguments);
   std::vector<Diagnosis> all;
-  bool usable = true;
-  for (const InputSession& session : findSessions(arguments.all("INPUT"))) {
+  const std::vector<std::string> readable = separateUnreadable(arguments.all("INPUT"), all);
+  bool usable = all.empty();
+  for (const Diagnosis& diagnosis : all) console.print(toText(diagnosis));
+  for (const InputSession& session : findSessions(readable)) {
     std::optional<Progress> bar;
     std::int64_t done = 0;
     all.push_back(examine(session, options, [&](std::int64_t pairs, std::int64_t total) {

@@ -72,10 +72,11 @@ std::vector<Finding> readerFindings(const std::vector<std::string>& sentences) {
 }
 
 Finding errorFinding(const std::string& error, const std::string& allowed) {
-  Finding finding{FindingKind::Pairs, error, allowed.empty() ? "" : "allowed: " + allowed, true};
+  Finding finding{FindingKind::Pairs, error, allowed, true};
   for (const char* word : {"camera_info", "calib", "baseline", "focal", "distortion", "sensor.yaml", "projection"})
     if (contains(error, word)) finding.kind = FindingKind::Calibration;
   if (contains(error, "encoding") || contains(error, "bits")) finding.kind = FindingKind::Depth;
+  if (contains(error, "rosbag reindex")) finding.remedy = "rosbag reindex, then doctor again";
   if (!finding.remedy.empty()) return finding;
   switch (finding.kind) {
     case FindingKind::Calibration:

@@ -120,10 +120,32 @@ class Reading {
   PairCheck images_;
 };
 
+Finding toFinding(const urban_nav_core::Error& error) {
+  const urban_nav_core::Error::Parts& parts = error.parts();
+  return errorFinding(parts.where + (parts.where.empty() ? "" : ": ") + parts.found, parts.allowed);
+}
+
 }  // namespace
 
 bool Diagnosis::isUsable() const {
   return std::none_of(findings.begin(), findings.end(), [](const Finding& finding) { return finding.unusable; });
+}
+
+std::vector<std::string> separateUnreadable(const std::vector<std::string>& inputs,
+                                            std::vector<Diagnosis>& unreadable) {
+  std::vector<std::string> readable;
+  for (const std::string& input : inputs) {
+    try {
+      findSessions({input});
+      readable.push_back(input);
+    } catch (const urban_nav_core::DataError& error) {
+      Diagnosis diagnosis;
+      diagnosis.name = input;
+      diagnosis.findings.push_back(toFinding(error));
+      unreadable.push_back(diagnosis);
+    }
+  }
+  return readable;
 }
 
 Diagnosis examine(const InputSession& session, const SourceOptions& options,
@@ -147,9 +169,7 @@ Diagnosis examine(const InputSession& session, const SourceOptions& options,
     reading.read(progress);
     reading.conclude();
   } catch (const urban_nav_core::Error& error) {
-    const urban_nav_core::Error::Parts& parts = error.parts();
-    diagnosis.findings.push_back(
-        errorFinding(parts.where + (parts.where.empty() ? "" : ": ") + parts.found, parts.allowed));
+    diagnosis.findings.push_back(toFinding(error));
   }
   return diagnosis;
 }

@@ -25,6 +25,10 @@ struct Diagnosis {
   bool isUsable() const;
 };
 
+/// Returns the inputs that can be opened. Each of the others (a bag that was cut off, or holds nothing) becomes a
+/// diagnosis. Throws UserError for an input of unknown kind.
+std::vector<std::string> separateUnreadable(const std::vector<std::string>& inputs, std::vector<Diagnosis>& unreadable);
+
 /// Reads a session once, as the stages do, and judges it. `progress`: called for each pair with the number of pairs
 /// expected, 0 if unknown. Throws nothing for defects of the input: each is a finding.
 Diagnosis examine(const InputSession& session, const SourceOptions& options,

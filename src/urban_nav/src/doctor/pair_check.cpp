@@ -6,6 +6,7 @@
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "evaluation/statistics.hpp"
 #include "report/plot.hpp"
 #include "urban_nav_core/geometry/small_matrices.hpp"
 
@@ -63,11 +64,7 @@ int countOnRow(const Features& left, const Features& right) {
   return count;
 }
 
-double medianValue(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+double medianValue(const std::vector<double>& values) { return quantile(values, 0.5); }
 
 std::string printed(double value) { return forPerson(value, 3); }
 std::string percent(double share) { return printed(100.0 * share) + " %"; }
@@ -80,11 +77,10 @@ PairCheck::Grey PairCheck::measureGrey(const ImageView& image) {
     for (int u = 0; u < image.width; ++u) {
       const std::uint8_t value = image.at(u, v);
       grey.mean += value;
-      grey.dark += value < 4;
       grey.bright += value > 251;
     }
   const double pixels = static_cast<double>(image.width) * image.height;
-  return {grey.mean / pixels, grey.dark / pixels, grey.bright / pixels};
+  return {grey.mean / pixels, grey.bright / pixels};
 }
 
 void PairCheck::add(const ImageView& left, const ImageView& right, const ImageView& right_before,
@@ -116,12 +112,12 @@ void PairCheck::add(const ImageView& left, const ImageView& right, const ImageVi
       if (std::abs(pair.dv) < kMaxRowError && std::abs(pair.du) < half_width_) matches_.push_back(pair);
   }
   if (right_before.empty() || right_after.empty()) return;
-  const int now = countOnRow(on_left, on_right);
+  const auto now = std::count_if(rows.begin(), rows.end(), [](double dv) { return std::abs(dv) < kSameRow; });
   const int before = countOnRow(on_left, extract(right_before)), after = countOnRow(on_left, extract(right_after));
   constexpr double kClearly = 1.3;
   ++compared_;
-  before_wins_ += before > kFewMatches && before > kClearly * now && before > after;
-  after_wins_ += after > kFewMatches && after > kClearly * now && after > before;
+  before_wins_ += before > kFewMatches && before > kClearly * static_cast<double>(now) && before > after;
+  after_wins_ += after > kFewMatches && after > kClearly * static_cast<double>(now) && after > before;
 }
 
 std::vector<Finding> PairCheck::findings() const {

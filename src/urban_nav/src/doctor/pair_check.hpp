@@ -30,7 +30,7 @@ class PairCheck {
     double dv;    ///< px, right minus left
   };
   struct Grey {
-    double mean = 0.0, dark = 0.0, bright = 0.0;  ///< mean; shares of pixels below 4 and above 251
+    double mean = 0.0, bright = 0.0;  ///< mean; share of pixels above 251
   };
   static Grey measureGrey(const urban_nav_core::ImageView& image);
   void rowsFindings(std::vector<Finding>& findings) const;

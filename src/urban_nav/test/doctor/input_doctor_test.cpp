@@ -275,6 +275,20 @@ TEST(BagDoctor, namesACameraThatIsMissing) {
   EXPECT_EQ(verdict.kinds.count("pairs"), 1U) << verdict.text;
 }
 
+TEST(BagDoctor, namesABagThatWasCutOff) {
+  const TemporaryFolder folder;
+  writeDoctorBag(folder.file("whole.bag"), BagRecipe());
+  const std::string bytes = readFile(folder.file("whole.bag"));
+  writeFile(folder.file("cut.bag"), bytes.substr(0, bytes.size() / 2));
+  std::vector<Diagnosis> unreadable;
+  EXPECT_EQ(separateUnreadable({folder.file("whole.bag"), folder.file("cut.bag")}, unreadable),
+            std::vector<std::string>{folder.file("whole.bag")});
+  ASSERT_EQ(unreadable.size(), 1U);
+  EXPECT_FALSE(unreadable.front().isUsable());
+  ASSERT_EQ(unreadable.front().findings.size(), 1U);
+  EXPECT_NE(unreadable.front().findings.front().remedy.find("reindex"), std::string::npos);
+}
+
 TEST(BagDoctor, namesSlowDevicesAndGapsOfDevices) {
   EXPECT_EQ(judgeBag([](BagRecipe& recipe) { recipe.imu_rate = 20.0; }).kinds.count("rates"), 1U);
   EXPECT_EQ(judgeBag([](BagRecipe& recipe) { recipe.laser_gap = true; }).kinds.count("rates"), 1U);
