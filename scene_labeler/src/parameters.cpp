@@ -18,6 +18,12 @@ const Table<Parameters>& table() {
       {
           {"superpixel", &P::superpixel, "px", std::int64_t{12}, std::int64_t{4}, std::int64_t{200}, {},
            "Edge of the superpixels, whose returns get one class.", "paper 8.1"},
+          {"spacing", &P::spacing, "m", 5.0, 0.5, 100.0, {},
+           "Distance along the path between the images of each side camera that are labelled.", "docs/files.md"},
+          {"reach", &P::reach, "m", 10.0, 1.0, 100.0, {},
+           "Length of the path before and after an image whose returns are projected into it.", "field of view of the cameras"},
+          {"samples", &P::samples, "", std::int64_t{3000}, std::int64_t{100}, std::int64_t{100000}, {},
+           "Samples of each class that training draws from all sources together.", "scene_labeler/bench"},
       });
   return rows;
 }

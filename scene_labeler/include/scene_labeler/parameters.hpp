@@ -8,6 +8,9 @@ namespace scene_labeler {
 /// Parameters of the stage, one member per row of table().
 struct Parameters {
   int superpixel;  // px
+  int samples;     // per class
+  double spacing;  // m
+  double reach;    // m
 
   Parameters();
 };

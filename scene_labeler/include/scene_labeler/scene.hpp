@@ -23,6 +23,10 @@ struct Scene {
   std::vector<Eigen::Vector3f> points;  ///< m, z up; points that are not finite get no label
   std::vector<float> reflectance;       ///< one per point, in units of its device; empty if there is none
   SceneView view;                       ///< empty image: shape only
+  /// One per point, 1: gets a label; 0: only surrounds the others. Empty: all get one.
+  std::vector<std::uint8_t> is_asked;
+
+  bool isAsked(std::size_t i) const { return is_asked.empty() || is_asked[i] != 0; }
 };
 
 /// Projects the points of a scene by a 3x4 matrix M: (u w, v w, w) = M (x, y, z, 1).

@@ -81,14 +81,16 @@ SceneLabels labelScene(const LabelModel& model, const Scene& scene, int superpix
   result.probabilities.assign(count * classes, 0.0F);
   std::vector<std::uint8_t> is_novel(count, 0);
   urban_nav_core::forEach(count, 256, [&](std::size_t i) {
-    if (!scene.points[i].allFinite()) return;
+    if (!scene.points[i].allFinite() || !scene.isAsked(i)) return;
     model.logProbabilities(table.row(i), logs.data() + i * classes);
     is_novel[i] = model.countOutside(table.row(i)) > model.novelty.limit ? 1 : 0;
   });
   result.patches = makePatches(scene, superpixels);
+  for (std::size_t i = 0; i < count; ++i)
+    if (!scene.isAsked(i)) result.patches[i] = no_patch;
   fusePatches(model, result.patches, logs);
   for (std::size_t i = 0; i < count; ++i) {
-    if (!scene.points[i].allFinite()) continue;
+    if (!scene.points[i].allFinite() || !scene.isAsked(i)) continue;
     float sum = 0.0F;
     float* probabilities = result.probabilities.data() + i * classes;
     for (std::size_t k = 0; k < classes; ++k) sum += probabilities[k] = std::exp(logs[i * classes + k]);
@@ -98,6 +100,7 @@ SceneLabels labelScene(const LabelModel& model, const Scene& scene, int superpix
     result.labels[i] = model.classes[best];
     result.unsure[i] = is_novel[i] != 0 || probabilities[best] < sure_probability ? 1 : 0;
   }
+  result.novel = std::move(is_novel);
   if (!superpixels.numbers.empty()) result.image = paintSuperpixels(scene, superpixels, result);
   return result;
 }

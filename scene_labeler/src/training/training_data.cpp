@@ -20,15 +20,20 @@ void addRow(const TrainingScene& scene, std::size_t i, std::uint32_t patch, Fold
 /// Scatters numbers, so that patches are drawn from all over a scene.
 std::uint32_t scatter(std::uint32_t number) { return number * 2654435761U; }  // Knuth 1973, 6.4
 
+std::uint32_t firstFreePatch(const FoldRows& rows) {
+  std::uint32_t first = 0;
+  for (const std::uint32_t patch : rows.patches)
+    if (patch != no_patch) first = std::max(first, patch + 1);
+  return first;
+}
+
 void addHeldOut(const TrainingScene& scene, std::size_t limit, FoldRows& rows) {
   std::size_t labelled = 0;
   for (const SceneClass label : scene.labels) labelled += label != SceneClass::None ? 1U : 0U;
   if (labelled == 0) return;
   const double share = std::min(1.0, static_cast<double>(limit) / static_cast<double>(labelled));
   const auto threshold = static_cast<std::uint32_t>(share * 4294967295.0);
-  std::uint32_t first = 0;
-  for (const std::uint32_t patch : rows.patches)
-    if (patch != no_patch) first = std::max(first, patch + 1);
+  const std::uint32_t first = firstFreePatch(rows);
   for (std::uint32_t i = 0; i < scene.labels.size(); ++i) {
     if (scene.labels[i] == SceneClass::None) continue;
     const bool has_patch = scene.patches[i] != no_patch;
@@ -37,7 +42,26 @@ void addHeldOut(const TrainingScene& scene, std::size_t limit, FoldRows& rows) {
   }
 }
 
+void appendRows(const FoldRows& from, FoldRows& to) {
+  const std::uint32_t first = firstFreePatch(to);
+  to.values.insert(to.values.end(), from.values.begin(), from.values.end());
+  to.labels.insert(to.labels.end(), from.labels.begin(), from.labels.end());
+  to.weights.insert(to.weights.end(), from.weights.begin(), from.weights.end());
+  for (const std::uint32_t patch : from.patches) to.patches.push_back(patch == no_patch ? no_patch : first + patch);
+}
+
 }  // namespace
+
+void mergeFold(TrainingFold fold, std::vector<TrainingFold>& folds) {
+  const auto known =
+      std::find_if(folds.begin(), folds.end(), [&](const TrainingFold& f) { return f.name == fold.name; });
+  if (known == folds.end()) {
+    folds.push_back(std::move(fold));
+    return;
+  }
+  appendRows(fold.samples, known->samples);
+  appendRows(fold.held_out, known->held_out);
+}
 
 void addScene(const TrainingScene& scene, const SamplingLimits& limits, std::vector<TrainingFold>& folds) {
   auto fold = std::find_if(folds.begin(), folds.end(), [&](const TrainingFold& f) { return f.name == scene.fold; });

@@ -42,6 +42,9 @@ struct SamplingLimits {
 /// Draws the training data of a scene, the same ones for the same scene. Adds to the fold of its name.
 void addScene(const TrainingScene& scene, const SamplingLimits& limits, std::vector<TrainingFold>& folds);
 
+/// Adds a fold, or its data to the fold of its name.
+void mergeFold(TrainingFold fold, std::vector<TrainingFold>& folds);
+
 /// Adds a scene that is the only one as two folds, NAME/1 and NAME/2, divided at the middle of its longer horizontal
 /// extent: calibration then has data that the classifier was not fitted to, although of the same place. Requires
 /// labels of None for points that are not finite.

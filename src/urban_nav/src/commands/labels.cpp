@@ -3,7 +3,8 @@
 #include "commands/commands.hpp"
 #include "commands/labels_actions.hpp"
 #include "labels/class_map.hpp"
-#include "labels/label_run.hpp"
+#include "labels/label_drive.hpp"
+#include "labels/label_sources.hpp"
 #include "pipeline/parameters.hpp"
 #include "scene_labeler/labelling/superpixels.hpp"
 #include "scene_labeler/parameters.hpp"
@@ -27,9 +28,10 @@ ClassifierKind classifierFrom(const Arguments& arguments) {
 }
 
 /// Measures scenes one after another and keeps what training draws from each.
-std::vector<scene_labeler::TrainingFold> readTrainingScenes(const std::vector<SceneFiles>& scenes, const ClassMap& map,
-                                                            FeatureSet features, int superpixel, Console& console) {
-  std::vector<scene_labeler::TrainingFold> folds;
+void readTrainingScenes(const std::vector<SceneFiles>& scenes, const ClassMap& map, FeatureSet features, int superpixel,
+                        Console& console, std::vector<scene_labeler::TrainingFold>& folds) {
+  if (scenes.empty()) return;
+  const bool is_alone = scenes.size() == 1 && folds.empty();
   const std::vector<std::string> names = uniqueSceneNames(scenes);
   Progress progress(console, "scenes", "scenes", static_cast<std::int64_t>(scenes.size()));
   for (std::size_t i = 0; i < scenes.size(); ++i) {
@@ -41,11 +43,20 @@ std::vector<scene_labeler::TrainingFold> readTrainingScenes(const std::vector<Sc
       if (!scene.points[point].allFinite()) training.labels[point] = scene_labeler::SceneClass::None;
     training.features = scene_labeler::measureFeatures(scene, features);
     training.patches = scene_labeler::makePatches(scene, scene_labeler::makeSuperpixels(scene.view.image, superpixel));
-    if (scenes.size() == 1) scene_labeler::addHalves(training, scene, {}, folds);
+    if (is_alone) scene_labeler::addHalves(training, scene, {}, folds);
     else scene_labeler::addScene(training, {}, folds);
     progress.update(static_cast<std::int64_t>(i + 1));
   }
   progress.finish(static_cast<std::int64_t>(scenes.size()));
+}
+
+std::vector<scene_labeler::TrainingFold> readTrainingSources(const LabelSources& sources, const ClassMap& map,
+                                                             FeatureSet features, int superpixel, Console& console) {
+  std::vector<scene_labeler::TrainingFold> folds;
+  const bool is_alone = sources.bags.size() == 1 && sources.scenes.empty();
+  for (std::size_t i = 0; i < sources.bags.size(); ++i)
+    addDriveFold(sources.bags[i], sources.drives[i], map, features, is_alone, console, folds);
+  readTrainingScenes(sources.scenes, map, features, superpixel, console, folds);
   return folds;
 }
 
@@ -75,14 +86,16 @@ Json trainingJson(const scene_labeler::TrainedModel& trained, const std::string&
 
 int runLabelsTrain(const Arguments& arguments, Console& console) {
   const Usage usage;
-  const int superpixel = loadParameters(arguments).get(scene_labeler::table()).superpixel;
+  const ParameterSet parameters = loadParameters(arguments);
   const urban_nav_core::ThreadLimit threads(static_cast<int>(arguments.integer("threads", 0, 1, 1024)));
   scene_labeler::TrainingOptions options;
   options.kind = classifierFrom(arguments);
   options.features = arguments.get("features", "all") == "paper" ? FeatureSet::Paper : FeatureSet::All;
   options.seed = static_cast<std::uint64_t>(arguments.integer("seed", 1, 0, 1'000'000'000));
   const ClassMap map = arguments.has("classes") ? ClassMap(arguments.get("classes")) : ClassMap();
-  auto folds = readTrainingScenes(findScenes(arguments.all("SRC")), map, options.features, superpixel, console);
+  options.samples_per_class = static_cast<std::size_t>(parameters.get(scene_labeler::table()).samples);
+  auto folds = readTrainingSources(findLabelSources(arguments, parameters), map, options.features,
+                                   parameters.get(scene_labeler::table()).superpixel, console);
   Progress progress(console, "training", "%", 100);
   const scene_labeler::TrainedModel trained = scene_labeler::trainModel(
       std::move(folds), options, [&](double share) { progress.update(static_cast<std::int64_t>(100.0 * share)); });
@@ -103,7 +116,12 @@ Command labelsTrainAction() {
   action.name = "train";
   action.summary = "Trains a classifier of laser returns on labelled scenes.";
   action.options = {
-      {"SRC", "", "folders of scenes NAME_points.{csv,ply}[.gz] with labels, or such files", true, true, {}},
+      {"SRC",
+       "",
+       "bags with BAG_STEM.truth, folders of scenes NAME_points.{csv,ply}[.gz] with labels, or such files",
+       true,
+       true,
+       {}},
       {"-o,--output", "MODEL", "model to write", true, false, {}},
       {"--classifier", "NAME", "kind of classifier (default boosted)", false, false, {"svm", "forest", "boosted"}},
       {"--features", "NAME", "features of a return (default all)", false, false, {"paper", "all"}},
@@ -113,6 +131,7 @@ Command labelsTrainAction() {
       configOption(),
       setOption(),
       threadsOption()};
+  for (const Option& option : driveCommandOptions()) action.options.push_back(option);
   action.examples = {"urban_nav labels train street1 street2 -o street.labels --classes classes.csv"};
   action.more_help = [](const Arguments& arguments) { return stageHelp(arguments, scene_labeler::table().stage()); };
   action.run = runLabelsTrain;

@@ -43,10 +43,10 @@ Json LabelRun::toJson() const {
   return json;
 }
 
-LabelRun labelScenes(const scene_labeler::LabelModel& model, const std::vector<SceneFiles>& scenes, int superpixel,
-                     Console& console,
-                     const std::function<void(std::size_t, const scene_labeler::SceneLabels&)>& take) {
-  LabelRun run;
+void labelScenes(const scene_labeler::LabelModel& model, const std::vector<SceneFiles>& scenes, int superpixel,
+                 Console& console, const std::function<void(std::size_t, const scene_labeler::SceneLabels&)>& take,
+                 LabelRun& run) {
+  if (scenes.empty()) return;
   Progress progress(console, "labels", "scenes", static_cast<std::int64_t>(scenes.size()));
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const scene_labeler::Scene scene = readScene(scenes[i]);
@@ -66,23 +66,31 @@ LabelRun labelScenes(const scene_labeler::LabelModel& model, const std::vector<S
     progress.update(static_cast<std::int64_t>(i + 1));
   }
   progress.finish(static_cast<std::int64_t>(scenes.size()));
-  return run;
+}
+
+std::string printClassColumns(const std::vector<scene_labeler::SceneClass>& classes) {
+  std::string text;
+  for (const scene_labeler::SceneClass known : classes) text += std::string(",p_") + toString(known);
+  return text;
+}
+
+void appendLabelCells(const scene_labeler::SceneLabels& labels, std::size_t i, std::string& text) {
+  const std::size_t classes = labels.classes.size();
+  text += "," + std::to_string(static_cast<int>(labels.labels[i])) + ",";
+  const bool has_answer = labels.labels[i] != scene_labeler::SceneClass::None;
+  if (has_answer) appendProbability(text, labels.probability(i));
+  for (std::size_t k = 0; k < classes; ++k) {
+    text += ",";
+    if (has_answer) appendProbability(text, labels.probabilities[i * classes + k]);
+  }
+  text += has_answer ? "," + std::to_string(static_cast<int>(labels.unsure[i])) + "\n" : ",\n";
 }
 
 std::string printSceneLabels(const scene_labeler::SceneLabels& labels) {
-  std::string text = "index,label,probability";
-  for (const scene_labeler::SceneClass known : labels.classes) text += std::string(",p_") + toString(known);
-  text += ",unsure\n";
-  const std::size_t classes = labels.classes.size();
+  std::string text = "index,label,probability" + printClassColumns(labels.classes) + ",unsure\n";
   for (std::size_t i = 0; i < labels.labels.size(); ++i) {
-    text += std::to_string(i) + "," + std::to_string(static_cast<int>(labels.labels[i])) + ",";
-    const bool has_answer = labels.labels[i] != scene_labeler::SceneClass::None;
-    if (has_answer) appendProbability(text, labels.probability(i));
-    for (std::size_t k = 0; k < classes; ++k) {
-      text += ",";
-      if (has_answer) appendProbability(text, labels.probabilities[i * classes + k]);
-    }
-    text += has_answer ? "," + std::to_string(static_cast<int>(labels.unsure[i])) + "\n" : ",\n";
+    text += std::to_string(i);
+    appendLabelCells(labels, i, text);
   }
   return text;
 }

@@ -26,9 +26,15 @@ struct LabelRun {
   Json toJson() const;
 };
 
-/// Labels scenes one after another and calls take(index, labels).
-LabelRun labelScenes(const scene_labeler::LabelModel& model, const std::vector<SceneFiles>& scenes, int superpixel,
-                     Console& console, const std::function<void(std::size_t, const scene_labeler::SceneLabels&)>& take);
+/// Labels scenes one after another, calls take(index, labels), and adds what that took to `run`.
+void labelScenes(const scene_labeler::LabelModel& model, const std::vector<SceneFiles>& scenes, int superpixel,
+                 Console& console, const std::function<void(std::size_t, const scene_labeler::SceneLabels&)>& take,
+                 LabelRun& run);
+
+/// Returns the names of the columns of probabilities: ",p_grass,p_paved".
+std::string printClassColumns(const std::vector<scene_labeler::SceneClass>& classes);
+/// Appends ",label,probability,p_...,unsure" of a return and ends the line.
+void appendLabelCells(const scene_labeler::SceneLabels& labels, std::size_t i, std::string& text);
 
 /// Returns NAME_labels.csv: `index,label,probability,p_CLASS...,unsure`, one row per return.
 std::string printSceneLabels(const scene_labeler::SceneLabels& labels);

@@ -129,5 +129,40 @@ TEST(LabelScores, CountMissingAnswersAsWrongAndWallsAsOneClass) {
   EXPECT_NEAR(score.calibrationError(), (0.2 + 0.1 + 0.6) / 3.0, 1e-6);
 }
 
+/// Simulates a drive of two lasers, without cameras; returns the path of the bag.
+std::string simulateLasers(const std::string& bag, int seed) {
+  const std::string number = std::to_string(seed);
+  const std::vector<const char*> argv = {"urban_nav",    "simulate",   "--world", "quad",      "--seed",
+                                         number.c_str(), "--duration", "8",       "--sensors", "lasers",
+                                         "--views",      "lasers",     "-o",      bag.c_str()};
+  EXPECT_EQ(runCommandLine({simulateCommand()}, static_cast<int>(argv.size()), argv.data()), 0);
+  return bag;
+}
+
+TEST_F(Labels, OfABagAreThoseOfItsReturnsWhateverItsTruth) {
+  const std::string one = simulateLasers(path("one.bag"), 71001), two = simulateLasers(path("two.bag"), 71002);
+  const std::string pose_one = path("one.truth/trajectory.tum"), pose_two = path("two.truth/trajectory.tum");
+  ASSERT_EQ(labels({"train", two, one, "--trajectory", pose_two, "--trajectory", pose_one, "-o", path("m"), "--set",
+                    "scene_labeler.samples=300"}),
+            0);
+  ASSERT_EQ(labels({"train", one, two, "--trajectory", pose_one, "--trajectory", pose_two, "-o", path("again"), "--set",
+                    "scene_labeler.samples=300", "--threads", "1"}),
+            0);
+  EXPECT_EQ(testing::readFile(path("m")), testing::readFile(path("again")));
+  std::filesystem::rename(path("two.truth/trajectory.tum"), path("two.tum"));
+  std::filesystem::remove_all(path("two.truth"));
+  ASSERT_EQ(labels({"apply", path("m"), two, "--trajectory", path("two.tum"), "-o", path("out")}), 0);
+  const auto table = urban_nav_core::CsvTable::read(path("out/laser_left_labels.csv"));
+  EXPECT_EQ(table.header().front(), "stamp_ns");
+  EXPECT_EQ(table.header()[1], "beam");
+  EXPECT_EQ(table.header().back(), "unsure");
+  EXPECT_GT(table.rows(), 20000u);
+  EXPECT_EQ(labels({"apply", path("m"), two, "-o", path("none")}), 2) << "neither stereo images nor tf";
+  EXPECT_EQ(labels({"evaluate", path("m"), two, "--trajectory", path("two.tum")}), 2) << "no truth";
+  ASSERT_EQ(labels({"evaluate", path("m"), one, "--trajectory", pose_one, "--json", path("j")}), 0);
+  EXPECT_NE(testing::readFile(path("j")).find("\"shape\""), std::string::npos);
+  EXPECT_EQ(testing::readFile(path("j")).find("\"look\""), std::string::npos);
+}
+
 }  // namespace
 }  // namespace urban_nav

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "scene_labeler/drive/drive_window.hpp"
+#include "scene_labeler/labelling/labeler.hpp"
+
+namespace scene_labeler {
+
+/// Labels the returns of a drive, each from all frames that show it: the mean of their log probabilities, since views
+/// of one surface err together. Returns that no frame shows are labelled by shape, with the nearest frame. Not
+/// thread-safe; the result does not depend on the number of threads.
+class DriveLabeler : public DriveObserver {
+ public:
+  /// Takes the returns that have a label, in their order; `labels`: one row per return.
+  using TakeLabels = std::function<void(const std::vector<DriveReturn>& returns, const SceneLabels& labels)>;
+  /// The model must outlive the labeler. `superpixel`: px.
+  DriveLabeler(const LabelModel& model, int superpixel, TakeLabels take)
+      : model_(model), superpixel_(superpixel), take_(std::move(take)) {}
+
+  void observe(const DriveFrame& frame, const Stretch& nearest, std::size_t first,
+               const std::vector<DriveReturn>& returns) override;
+  void settle(std::size_t end) override;
+
+  /// Returns the number of frames so far with and without an image, and of those with one.
+  std::size_t frames() const { return frames_; }
+  std::size_t imagedFrames() const { return imaged_frames_; }
+
+ private:
+  /// What the frames so far say of one return.
+  struct Votes {
+    std::uint16_t views = 0, novel = 0;
+    bool by_shape = false;  // the only view has no image of it
+    std::uint32_t patch = 0;
+  };
+  const LabelModel& model_;
+  const int superpixel_;
+  const TakeLabels take_;
+  std::size_t first_ = 0;  // index of returns_[0]
+  std::vector<DriveReturn> returns_;
+  std::vector<Votes> votes_;
+  std::vector<float> logs_;  // of each return one for each class, summed over views
+  std::uint32_t patches_ = 0;
+  std::size_t frames_ = 0, imaged_frames_ = 0;
+};
+
+/// Returns which points of a scene get a label from a frame: those that its image shows, and those of the stretch that
+/// it is nearest to.
+std::vector<std::uint8_t> labelledPoints(const DriveScene& drive, const std::vector<DriveReturn>& returns,
+                                         const DriveObserver::Stretch& nearest);
+
+}  // namespace scene_labeler

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "scene_labeler/scene.hpp"
+#include "urban_nav_core/camera/raw_camera.hpp"
+#include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_core/types/stamp.hpp"
+
+namespace scene_labeler {
+
+/// A return of a side laser along the path of the robot.
+struct DriveReturn {
+  urban_nav_core::StampNs scan = 0;                 ///< stamp of its scan
+  std::uint16_t beam = 0;                           ///< index in the scan
+  float reflectance = 0.0F;                         ///< in units of the device
+  double travelled = 0.0;                           ///< m along the path, at its scan
+  Eigen::Vector3f point = Eigen::Vector3f::Zero();  ///< m, in the world, rendered at its own time
+};
+
+/// An image of a side camera.
+struct SideView {
+  urban_nav_core::RawCamera camera;
+  urban_nav_core::Pose T_world_camera;  ///< of the optical frame, at the time of the image
+  cv::Mat image;                        ///< CV_8UC3, blue, green, red
+};
+
+/// A scene of returns thinned to one for each cube of 5 cm, the first one.
+struct DriveScene {
+  Scene scene;
+  std::vector<std::uint32_t> first_of_point;   ///< index of the return that is the point, for each point of the scene
+  std::vector<std::uint32_t> point_of_return;  ///< for each return
+};
+
+/// Thins returns and projects them into an image, through the lens. An image that is empty gives a scene without one.
+DriveScene makeDriveScene(const std::vector<DriveReturn>& returns, const SideView& view);
+
+}  // namespace scene_labeler

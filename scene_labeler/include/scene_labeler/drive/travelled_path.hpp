@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "urban_nav_core/trajectory/trajectory.hpp"
+
+namespace scene_labeler {
+
+/// Distance travelled along a trajectory. Steps below 5 cm do not count: noise of standing still is no travel.
+class TravelledPath {
+ public:
+  /// The trajectory must outlive the path.
+  explicit TravelledPath(const urban_nav_core::Trajectory& T_world_base);
+
+  /// Returns the distance from the first pose to the one nearest in time, m; nullopt outside the trajectory.
+  std::optional<double> at(urban_nav_core::StampNs stamp) const;
+
+ private:
+  const urban_nav_core::Trajectory& T_world_base_;
+  std::vector<double> travelled_;  // of each pose
+};
+
+}  // namespace scene_labeler

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene_labeler/drive/drive_labeler.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene_labeler/labelling/superpixels.hpp"
+
+namespace scene_labeler {
+namespace {
+
+constexpr float sure_when_fused = 0.5F;
+constexpr float least_probability = 1e-6F;
+
+}  // namespace
+
+std::vector<std::uint8_t> labelledPoints(const DriveScene& drive, const std::vector<DriveReturn>& returns,
+                                         const DriveObserver::Stretch& nearest) {
+  std::vector<std::uint8_t> is_labelled = visibleReturns(drive.scene.view);
+  is_labelled.resize(drive.scene.points.size(), 0);
+  for (std::size_t i = 0; i < returns.size(); ++i)
+    if (nearest.holds(returns[i].travelled)) is_labelled[drive.point_of_return[i]] = 1;
+  return is_labelled;
+}
+
+void DriveLabeler::observe(const DriveFrame& frame, const Stretch& nearest, std::size_t first,
+                           const std::vector<DriveReturn>& returns) {
+  const std::size_t classes = model_.classes.size(), known = first_ + returns_.size();
+  for (std::size_t i = known > first ? known - first : 0; i < returns.size(); ++i) returns_.push_back(returns[i]);
+  votes_.resize(returns_.size());
+  logs_.resize(returns_.size() * classes, 0.0F);
+  DriveScene drive = makeDriveScene(returns, frame.view);
+  drive.scene.is_asked = labelledPoints(drive, returns, nearest);
+  const SceneLabels labels = labelScene(model_, drive.scene, superpixel_);
+  ++frames_;
+  imaged_frames_ += frame.view.image.empty() ? 0U : 1U;
+  const std::vector<std::uint8_t> is_shown = visibleReturns(drive.scene.view);
+  std::uint32_t patches = 0;
+  for (std::size_t i = 0; i < returns.size(); ++i) {
+    const std::size_t point = drive.point_of_return[i], at = first + i - first_;
+    Votes& votes = votes_[at];
+    const bool is_shown_here = !is_shown.empty() && is_shown[point] != 0;
+    if (labels.labels[point] == SceneClass::None || (!is_shown_here && !nearest.holds(returns[i].travelled))) continue;
+    if (!is_shown_here && votes.views > 0) continue;
+    if (is_shown_here && votes.by_shape) {
+      votes = {};
+      std::fill_n(logs_.begin() + static_cast<std::ptrdiff_t>(at * classes), classes, 0.0F);
+    }
+    votes.by_shape = !is_shown_here;
+    ++votes.views;
+    if (labels.isNovel(point)) ++votes.novel;
+    votes.patch = labels.patches[point] == no_patch ? no_patch : patches_ + labels.patches[point];
+    if (labels.patches[point] != no_patch) patches = std::max(patches, labels.patches[point] + 1);
+    for (std::size_t k = 0; k < classes; ++k)
+      logs_[at * classes + k] += std::log(std::max(labels.probabilities[point * classes + k], least_probability));
+  }
+  patches_ += patches;
+}
+
+void DriveLabeler::settle(std::size_t end) {
+  const std::size_t classes = model_.classes.size(), count = std::min(end - first_, returns_.size());
+  SceneLabels labels;
+  labels.classes = model_.classes;
+  std::vector<DriveReturn> answered;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Votes& votes = votes_[i];
+    if (votes.views == 0) continue;
+    answered.push_back(returns_[i]);
+    std::vector<float> p(classes);
+    for (std::size_t k = 0; k < classes; ++k) p[k] = logs_[i * classes + k] / static_cast<float>(votes.views);
+    normaliseLogs(p.data(), classes);
+    for (float& value : p) value = std::exp(value);
+    const auto best = static_cast<std::size_t>(std::max_element(p.begin(), p.end()) - p.begin());
+    labels.labels.push_back(model_.classes[best]);
+    labels.unsure.push_back(p[best] < sure_when_fused || 2 * votes.novel > votes.views ? 1 : 0);
+    labels.patches.push_back(votes.patch);
+    labels.probabilities.insert(labels.probabilities.end(), p.begin(), p.end());
+  }
+  if (!answered.empty()) take_(answered, labels);
+  const auto gone = static_cast<std::ptrdiff_t>(count);
+  returns_.erase(returns_.begin(), returns_.begin() + gone);
+  votes_.erase(votes_.begin(), votes_.begin() + gone);
+  logs_.erase(logs_.begin(), logs_.begin() + gone * static_cast<std::ptrdiff_t>(classes));
+  first_ = end;
+}
+
+}  // namespace scene_labeler

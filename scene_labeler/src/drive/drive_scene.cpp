@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene_labeler/drive/drive_scene.hpp"
+
+#include <limits>
+
+#include "urban_nav_registration/cloud/cell_table.hpp"
+
+namespace scene_labeler {
+namespace {
+
+constexpr float thinning_per_m = 20.0F;  // cubes of 5 cm
+
+void projectReturns(const SideView& view, const Eigen::Vector3f& origin, Scene& scene) {
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  scene.view.image = view.image;
+  scene.view.pixels.assign(scene.points.size(), {nan, nan});
+  scene.view.depths.assign(scene.points.size(), 0.0F);
+  const urban_nav_core::Pose T_camera_world = view.T_world_camera.inverse();
+  for (std::size_t i = 0; i < scene.points.size(); ++i) {
+    const Eigen::Vector3d p_cam = T_camera_world * (scene.points[i] + origin).cast<double>();
+    const auto pixel = view.camera.project(p_cam);
+    if (!pixel) continue;
+    scene.view.pixels[i] = pixel->cast<float>();
+    scene.view.depths[i] = static_cast<float>(p_cam.z());
+  }
+}
+
+}  // namespace
+
+DriveScene makeDriveScene(const std::vector<DriveReturn>& returns, const SideView& view) {
+  DriveScene drive;
+  if (returns.empty()) return drive;
+  const Eigen::Vector3f origin = returns.front().point.array().round();
+  urban_nav_registration::CellTable table(returns.size() / 2 + 16);
+  drive.point_of_return.reserve(returns.size());
+  for (std::uint32_t i = 0; i < returns.size(); ++i) {
+    const Eigen::Vector3f point = returns[i].point - origin;
+    const std::uint32_t cube =
+        table.insert(urban_nav_registration::toKey(urban_nav_registration::toCell(point, thinning_per_m)));
+    drive.point_of_return.push_back(cube);
+    if (cube < drive.scene.points.size()) continue;
+    drive.scene.points.push_back(point);
+    drive.scene.reflectance.push_back(returns[i].reflectance);
+    drive.first_of_point.push_back(i);
+  }
+  if (!view.image.empty()) projectReturns(view, origin, drive.scene);
+  return drive;
+}
+
+}  // namespace scene_labeler
