@@ -3,13 +3,16 @@
 //   render_store STORE TRAJECTORY.tum MAP.ply
 // The store receives the rendered chunks: pass a copy.
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "laser_mapper/laser_map.hpp"
 #include "laser_mapper/map_files.hpp"
+#include "laser_mapper/quality/map_quality.hpp"
 #include "urban_nav_core/io/tum.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 
@@ -48,6 +51,14 @@ void renderStore(const std::string& store_path, const std::string& trajectory_pa
               100.0 * static_cast<double>(rendered.beams.out_of_range) / beams, points);
   std::printf("render %.2f s, surfaces and file %.2f s, %.2f M beams/s on %d threads\n", render_s, all_s - render_s,
               1e-6 * beams / all_s, threads);
+  const auto quality_begin = std::chrono::steady_clock::now();
+  const MapQuality quality(map);
+  for (const auto& [name, figures] : {std::pair{"walls", quality.walls()}, std::pair{"ground", quality.ground()}})
+    std::printf("%s: %zu places, %zu pairs, %.2f deg (largest %.2f, noise %.2f), %.1f mm (largest %.1f, noise %.1f)\n",
+                name, figures.places, figures.pairs, 180.0 / M_PI * figures.angle.mean,
+                180.0 / M_PI * figures.angle.largest, 180.0 / M_PI * figures.angle.sigma,
+                1e3 * figures.displacement.mean, 1e3 * figures.displacement.largest, 1e3 * figures.displacement.sigma);
+  std::printf("quality %.2f s\n", secondsSince(quality_begin));
   for (const std::string& warning : rendered.warnings) std::printf("%s\n", warning.c_str());
 }
 

@@ -24,22 +24,6 @@ namespace {
 
 using Cells = std::vector<MergedCell>;
 
-/// Cells of a chunk in a tile, as the store has them.
-struct PackedCells {
-  CellSource source;
-  std::string data;
-};
-
-Cells mergePacked(const Tile& tile, const std::vector<PackedCells>& packed, const std::string& store) {
-  TileMerger merger;
-  for (const PackedCells& each : packed) {
-    const auto cells = unpackCells(tile, each.data);
-    if (!cells) throw urban_nav_core::DataError(store, "points of tile " + toString(tile) + " are damaged", "");
-    merger.add(each.source, *cells);
-  }
-  return merger.take();
-}
-
 /// Merged tiles of up to three rows.
 class TileRows {
  public:
@@ -145,7 +129,17 @@ std::optional<Parameters> storedMapParameters(urban_nav_store::Store& store,
   return unpackMapState(*bytes).parameters;
 }
 
-std::vector<Cells> LaserMap::mergeRow(const std::vector<Tile>& tiles) const {
+Cells LaserMap::mergePacked(const Tile& tile, const std::vector<const PackedCells*>& packed) const {
+  TileMerger merger;
+  for (const PackedCells* each : packed) {
+    const auto cells = unpackCells(tile, each->data);
+    if (!cells) throw urban_nav_core::DataError(store_.path(), "points of tile " + toString(tile) + " are damaged", "");
+    merger.add(each->source, *cells);
+  }
+  return merger.take();
+}
+
+std::vector<std::vector<LaserMap::PackedCells>> LaserMap::readRow(const std::vector<Tile>& tiles) const {
   std::vector<std::vector<PackedCells>> packed(tiles.size());
   for (std::size_t s = 0; s < sessions_.size(); ++s) {
     const ChunkStore chunks(store_, sessions_[s].id);
@@ -155,10 +149,33 @@ std::vector<Cells> LaserMap::mergeRow(const std::vector<Tile>& tiles) const {
         packed[i].push_back({source, std::move(data)});
       });
   }
+  return packed;
+}
+
+std::vector<Cells> LaserMap::mergeRow(const std::vector<Tile>& tiles) const {
+  const std::vector<std::vector<PackedCells>> packed = readRow(tiles);
   std::vector<Cells> merged(tiles.size());
-  urban_nav_core::forEach(tiles.size(), 1,
-                          [&](std::size_t i) { merged[i] = mergePacked(tiles[i], packed[i], store_.path()); });
+  urban_nav_core::forEach(tiles.size(), 1, [&](std::size_t i) {
+    std::vector<const PackedCells*> all;
+    for (const PackedCells& each : packed[i]) all.push_back(&each);
+    merged[i] = mergePacked(tiles[i], all);
+  });
   return merged;
+}
+
+void LaserMap::forEachTileByPass(const PassCallback& take) const {
+  std::size_t first = 0;
+  for (const auto& [y, tiles] : byRow(tiles_)) {
+    const std::vector<std::vector<PackedCells>> packed = readRow(tiles);
+    urban_nav_core::forEach(tiles.size(), 1, [&, &row_tiles = tiles](std::size_t i) {
+      std::map<std::uint16_t, std::vector<const PackedCells*>> by_pass;
+      for (const PackedCells& each : packed[i]) by_pass[each.source.pass].push_back(&each);
+      std::vector<PassCells> passes;
+      for (const auto& [pass, chunks] : by_pass) passes.push_back({pass, mergePacked(row_tiles[i], chunks)});
+      take(first + i, passes);
+    });
+    first += tiles.size();
+  }
 }
 
 double LaserMap::poseSigma(const MergedCell& cell, const Eigen::Vector3d& p, const Eigen::Vector3d& along) const {

@@ -13,6 +13,7 @@
 #include "laser_mapper/map_point.hpp"
 #include "laser_mapper/parameters.hpp"
 #include "laser_mapper/passes.hpp"
+#include "laser_mapper/quality/plane_place.hpp"
 #include "laser_mapper/tile_cells.hpp"
 #include "urban_nav_core/trajectory/trajectory.hpp"
 #include "urban_nav_store/store.hpp"
@@ -45,6 +46,7 @@ class LaserMap {
  public:
   using ProgressCallback = std::function<void(std::size_t done, std::size_t all)>;
   using TileCallback = std::function<void(const Tile& tile, const std::vector<MapPoint>& points)>;
+  using PassCallback = std::function<void(std::size_t index, const std::vector<PassCells>& passes)>;
 
   /// The store must outlive the map. Sessions without scans are left out.
   LaserMap(const Parameters& parameters, urban_nav_store::Store& store, std::vector<MappedSession> sessions);
@@ -60,11 +62,25 @@ class LaserMap {
   /// DataError if the store is damaged.
   void forEachTile(const TileCallback& take) const;
 
+  /// Calls `take` with the cells of each tile by passes, in the order of passes; `index`: of the tile in the order of
+  /// Tile. Calls for different tiles come from several threads at once. Requires and throws as forEachTile().
+  void forEachTileByPass(const PassCallback& take) const;
+
   const std::vector<SessionPasses>& passes() const { return passes_; }
+  const Parameters& parameters() const { return parameters_; }
+  /// Returns the number of tiles that have cells.
+  std::size_t tileCount() const { return tiles_.size(); }
 
  private:
   using Tiles = std::set<Tile>;
+  /// Cells of a chunk in a tile, as the store has them.
+  struct PackedCells {
+    CellSource source;
+    std::string data;
+  };
+  std::vector<std::vector<PackedCells>> readRow(const std::vector<Tile>& tiles) const;
   std::vector<std::vector<MergedCell>> mergeRow(const std::vector<Tile>& tiles) const;
+  std::vector<MergedCell> mergePacked(const Tile& tile, const std::vector<const PackedCells*>& packed) const;
   double poseSigma(const MergedCell& cell, const Eigen::Vector3d& p, const Eigen::Vector3d& along) const;
 
   const Parameters parameters_;

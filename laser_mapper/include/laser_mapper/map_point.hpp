@@ -20,6 +20,7 @@ struct MapPoint {
   std::uint16_t pass = 0;          ///< that most of the beams came from
   std::uint16_t count = 0;         ///< beams
   float range = 0.0F;              ///< m, mean
+  float displacement = -1.0F;      ///< m, mean between the passes that measured the plane there; negative: unknown
   urban_nav_core::StampNs stamp = 0;
 };
 

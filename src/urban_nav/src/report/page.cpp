@@ -58,9 +58,9 @@ std::string formatVerdicts(const std::vector<Verdict>& verdicts) {
 std::string formatFigures(const std::vector<Figure>& figures) {
   std::string html = "<div class=\"figures\">";
   for (const Figure& figure : figures) {
-    if (figure.svg.empty()) continue;
+    if (figure.markup.empty()) continue;
     html += std::string("<figure") + (figure.wide ? " class=\"wide\"" : "") + "><h3>" + escapeHtml(figure.title) +
-            "</h3>" + figure.svg + "<figcaption>" + escapeHtml(figure.caption) + "</figcaption></figure>\n";
+            "</h3>" + figure.markup + "<figcaption>" + escapeHtml(figure.caption) + "</figcaption></figure>\n";
   }
   return html + "</div>\n";
 }

@@ -25,7 +25,7 @@ struct Verdict {
 
 struct Figure {
   std::string title;
-  std::string svg;      ///< of renderSvg; an empty one is left out with its title
+  std::string markup;   ///< HTML or SVG, as renderSvg makes it; without it the title is left out too
   std::string caption;  ///< how to read it
   bool wide = false;    ///< over the whole width of the page
 };

@@ -82,6 +82,10 @@ LaserMapRun renderMap(LaserMap& map, laser_mapper::Colouriser* colouriser, std::
     paths.push_back(thinnedPath(*trajectory));
     all.insert(all.end(), paths.back().begin(), paths.back().end());
   }
+  const laser_mapper::MapQuality quality(map);
+  run.walls = quality.walls();
+  run.ground = quality.ground();
+  if (!quality.places().empty()) run.quality_csv = quality.printCsv();
   MapPicture above(laser_mapper::viewFromAbove(all, kShownMargin, kLongestPicture));
   MapPicture perspective(laser_mapper::viewInPerspective(all, kPictureWidth, kPictureHeight));
   urban_nav_core::PlyWriter file((std::filesystem::path(context.options.out) / run.file).string(),
@@ -98,6 +102,7 @@ LaserMapRun renderMap(LaserMap& map, laser_mapper::Colouriser* colouriser, std::
     file.append(bytes);
     above.draw(points);
     perspective.draw(points);
+    for (MapPoint& point : points) point.displacement = quality.displacementAt(point.p).value_or(-1.0F);
     viewer.add(points);
   });
   run.points = file.vertices();
@@ -133,6 +138,18 @@ std::size_t LasersRun::coloured() const {
 std::size_t LasersRun::chunksRendered() const {
   std::size_t all = 0;
   for (const LaserMapRun& map : maps) all += map.rendered.chunks_rendered;
+  return all;
+}
+
+laser_mapper::QualityFigures LasersRun::walls() const {
+  laser_mapper::QualityFigures all;
+  for (const LaserMapRun& map : maps) all = all + map.walls;
+  return all;
+}
+
+laser_mapper::QualityFigures LasersRun::ground() const {
+  laser_mapper::QualityFigures all;
+  for (const LaserMapRun& map : maps) all = all + map.ground;
   return all;
 }
 

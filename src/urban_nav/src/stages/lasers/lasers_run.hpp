@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "laser_mapper/laser_map.hpp"
+#include "laser_mapper/quality/map_quality.hpp"
 #include "report/page.hpp"
 #include "stage/context.hpp"
 
@@ -21,6 +22,8 @@ struct LaserMapRun {
   std::size_t passes = 0;
   double sigma_median = 0.0;  ///< m
   laser_mapper::RenderStatistics rendered;
+  laser_mapper::QualityFigures walls, ground;  ///< agreement of the passes
+  std::string quality_csv;                     ///< content of quality.csv
   std::vector<PagePicture> pictures;
   std::string viewer;  ///< markup of the view in three dimensions
 };
@@ -33,6 +36,9 @@ struct LasersRun {
   std::size_t points() const;
   std::size_t coloured() const;
   std::size_t chunksRendered() const;
+  /// Returns the agreement of the passes on walls; on ground: over all maps.
+  laser_mapper::QualityFigures walls() const;
+  laser_mapper::QualityFigures ground() const;
   laser_mapper::BeamCounts beams() const;
 };
 

@@ -14,7 +14,9 @@ namespace {
 
 class LasersStage final : public Stage {
  public:
-  Description describe() const override { return {"lasers", "laser_mapper", true, false, false, {"map#.ply"}}; }
+  Description describe() const override {
+    return {"lasers", "laser_mapper", true, false, false, {"map#.ply", "quality#.csv"}};
+  }
   void addTables(ParameterSet& parameters) const override { parameters.add(laser_mapper::table()); }
   Selection select(const MapOptions& options) const override {
     if (!options.localise.empty()) return {false, "not with --localise", {}};
@@ -49,7 +51,12 @@ class LasersStage final : public Stage {
     made.tiles = lasersTiles(*run_);
     made.sections.push_back({report_place::map, lasersSection(*run_)});
     made.data_faults = lasersWarnings(*run_);
-    for (const LaserMapRun& map : run_->maps) made.written_files.push_back(map.file);
+    for (const LaserMapRun& map : run_->maps) {
+      made.written_files.push_back(map.file);
+      made.files.push_back({"quality" + fileSuffix(map.map) + ".csv", map.quality_csv.empty()
+                                                                          ? std::function<std::string()>()
+                                                                          : [&map] { return map.quality_csv; }});
+    }
     made.summary = toJson(*run_);
     return made;
   }

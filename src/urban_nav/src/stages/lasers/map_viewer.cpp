@@ -16,7 +16,8 @@ namespace {
 
 constexpr std::size_t kMostShown = 500'000;
 constexpr double kSteps16 = 65535.0;
-constexpr float kSigmaByte = 0.5e-3F;  // m
+constexpr float kSigmaByte = 0.5e-3F;         // m
+constexpr float kDisplacementByte = 0.5e-3F;  // m
 
 /// Ranges of the values that the page holds as 16-bit integers.
 struct ViewerBox {
@@ -43,7 +44,8 @@ void append16(std::vector<unsigned char>& bytes, double share) {
   bytes.push_back(static_cast<unsigned char>(value >> 8U));
 }
 
-/// For each point x, y, z and time in 16 bits, then red, green, blue, reflectance, laser, pass, sigma and 0 in bytes.
+/// For each point x, y, z and time in 16 bits, then red, green, blue, reflectance, laser, pass, sigma and displacement
+/// between passes (255: unknown) in bytes.
 std::vector<unsigned char> packPoints(const std::vector<MapPoint>& points, const ViewerBox& box) {
   std::vector<unsigned char> bytes;
   bytes.reserve(16 * points.size());
@@ -56,7 +58,10 @@ std::vector<unsigned char> packPoints(const std::vector<MapPoint>& points, const
   for (const MapPoint& point : points) {
     const auto sigma = static_cast<unsigned char>(std::lround(std::clamp(point.sigma / kSigmaByte, 0.0F, 255.0F)));
     const auto pass = static_cast<unsigned char>(point.pass & 255U);
-    bytes.insert(bytes.end(), {point.red, point.green, point.blue, point.intensity, point.laser, pass, sigma, 0});
+    const auto displacement = static_cast<unsigned char>(
+        point.displacement < 0.0F ? 255L : std::lround(std::min(point.displacement / kDisplacementByte, 254.0F)));
+    bytes.insert(bytes.end(),
+                 {point.red, point.green, point.blue, point.intensity, point.laser, pass, sigma, displacement});
   }
   return bytes;
 }
@@ -98,7 +103,7 @@ std::string MapViewer::render() const {
   html +=
       R"html(<p>Colour <select><option value="rgb">pictures</option><option value="reflectance">reflectance</option>)html"
       R"html(<option value="height">height</option><option value="pass">pass</option><option value="laser">laser</option>)html"
-      R"html(<option value="sigma">sigma</option></select> <output>drag: turn; shift and drag: move; wheel: zoom</output></p>)html"
+      R"html(<option value="sigma">sigma</option><option value="quality">agreement of passes</option></select> <output>drag: turn; shift and drag: move; wheel: zoom</output></p>)html"
       R"html(<canvas style="width:100%;height:min(70vh,40rem);touch-action:none"></canvas>)html";
   html += "<script type=\"application/octet-stream\">" + base64(packPoints(points_, box)) + "</script></div>\n";
   return html + "<script>" + mapViewerScript() + "</script>";

@@ -11,9 +11,9 @@
 namespace urban_nav {
 
 /// The map as a view in three dimensions inside the report: points of a map, evenly thinned to at most 500 000, and the
-/// path, drawn by WebGL. Colours by picture, reflectance, height, pass, laser or sigma; a click names a point, the next
-/// one its distance from the first. Without WebGL nothing is shown. The result depends on the order of the points. Not
-/// thread-safe.
+/// path, drawn by WebGL. Colours by picture, reflectance, height, pass, laser, sigma or agreement of passes; a click
+/// names a point, the next one its distance from the first. Without WebGL nothing is shown. The result depends on the
+/// order of the points. Not thread-safe.
 class MapViewer {
  public:
   /// `number`: makes the element's id unique on the page.

@@ -38,6 +38,7 @@ const char* mapViewerScript() {
     pass: (i) => kinds[values[8 * i + 5] % kinds.length],
     laser: (i) => kinds[values[8 * i + 4] % 5],
     sigma: (i) => ramp(Math.sqrt(values[8 * i + 6] / 255)),
+    quality: (i) => values[8 * i + 7] === 255 ? [205, 205, 205] : ramp(Math.sqrt(values[8 * i + 7] / 254)),
   };
   let yaw = -0.9, pitch = 0.6, distance = 0.7 * Math.hypot(size[0], size[1]), centre = low.map((v, k) => v + size[k] * (k < 2 ? 0.5 : 0.2)), matrix, first = null;
   const axes = () => {
@@ -86,6 +87,7 @@ const char* mapViewerScript() {
     if (best < 0) { first = null; return; }
     const p = at(best), stamp = Number(data.first) + Number(data.seconds) * places[4 * best + 3] / 65535;
     output.textContent = `stamp ${stamp.toFixed(2)} s, pass ${values[8 * best + 5]}, laser ${values[8 * best + 4]}, sigma ${(0.5 * values[8 * best + 6]).toFixed(1)} mm` +
+      (values[8 * best + 7] === 255 ? "" : `, passes ${(0.5 * values[8 * best + 7]).toFixed(1)} mm apart`) +
       (first ? `, ${Math.hypot(p[0] - first[0], p[1] - first[1], p[2] - first[2]).toFixed(3)} m from the point before` : "");
     first = first ? null : p;
   };

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "laser_mapper/tile_cells.hpp"
+#include "urban_nav_core/types/stamp.hpp"
+
+namespace laser_mapper {
+
+/// Cells of one tile that one pass measured.
+struct PassCells {
+  std::uint16_t pass = 0;
+  std::vector<MergedCell> cells;
+};
+
+/// A plane as one pass measured it.
+struct PlanePatch {
+  std::uint16_t pass = 0;
+  std::size_t cells = 0;                               ///< that it rests on
+  urban_nav_core::StampNs stamp = 0;                   ///< mean
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();    ///< m, in the map: mean of the cells
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();   ///< unit, towards the laser
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();   ///< m^2, mean about the centre
+  double thickness = 0.0;                              ///< m, standard deviation of the cells about the plane
+  double angle_sigma = 0.0, displacement_sigma = 0.0;  ///< rad; m, along the normal
+};
+
+/// A place where several passes measured one plane, and how well they agree (Newman et al. 2009, section 6.3).
+struct PlanePlace {
+  /// Two passes, at least 20 s apart.
+  struct Pair {
+    std::size_t a = 0, b = 0;                ///< indices into patches
+    double angle = 0.0, displacement = 0.0;  ///< rad, between the normals; m, between the planes along their normal
+  };
+  std::vector<PlanePatch> patches;  ///< by pass
+  std::vector<Pair> pairs;          ///< at least one
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
+  double angle = 0.0, displacement = 0.0;              ///< means over the pairs: rad; m
+  double angle_sigma = 0.0, displacement_sigma = 0.0;  ///< standard deviations of these means from noise alone
+
+  bool isWall() const;
+  bool isGround() const;
+};
+
+/// How far from its centre a place reaches, in cubes of the map.
+constexpr double kPlaceRadius = 12.0;
+
+/// Returns the places of a tile, whose cells are given by pass. The first pass that measured a planar surface in a
+/// block of 16 cubes defines a place; other passes contribute the plane that most of their cells around its centre lie
+/// on, if it faces the same side. `voxel`: edge of the cubes, m; `range_bias`: standard deviation of a laser's constant
+/// error, m. Thread-safe.
+std::vector<PlanePlace> findPlanePlaces(double voxel, double range_bias, const std::vector<PassCells>& passes);
+
+}  // namespace laser_mapper
