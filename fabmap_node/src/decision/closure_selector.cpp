@@ -7,8 +7,11 @@
 namespace fabmap_node {
 namespace {
 
-constexpr double stretch = 5.0;         // m: half a stretch over which odometry needs no help
-constexpr double most_allowance = 3.0;  // closures that may follow each other at one position
+constexpr double stretch = 5.0;           // m: half a stretch over which odometry needs no help
+constexpr double most_allowance = 3.0;    // closures that may follow each other at one position
+constexpr double clearly_likelier = 2.0;  // ratio of odds to the likeliest of those before, for one more of a pair
+
+double closureOdds(double probability) { return probability / std::max(1e-12, 1.0 - probability); }
 
 }  // namespace
 
@@ -29,9 +32,12 @@ bool ClosureSelector::select(const PlacePosition& earlier, const PlacePosition& 
   travelled_ = std::max(travelled_, query.travelled);
   if (probability <= closure_probability_ || allowance_ < 1.0) return false;
   const auto number = [](double travelled) { return static_cast<std::int64_t>(std::floor(travelled / stretch)); };
-  double& expected = expected_[{earlier.session, number(earlier.travelled), query.session, number(query.travelled)}];
-  if (expected >= enough_) return false;
-  expected += probability;
+  Proposed& before = proposed_[{earlier.session, number(earlier.travelled), query.session, number(query.travelled)}];
+  if (before.expected >= enough_) return false;
+  if (before.count >= enough_ && closureOdds(probability) < clearly_likelier * before.best_odds) return false;
+  before.expected += probability;
+  before.count += 1.0;
+  before.best_odds = std::max(before.best_odds, closureOdds(probability));
   allowance_ -= 1.0;
   return true;
 }

@@ -30,9 +30,21 @@ TEST(ClosureSelector, LeavesWellConnectedStretchesAlone) {
   ClosureSelector selector(parameters);
   int proposed = 0;
   for (int i = 0; i < 50; ++i) proposed += selector.select({0, 1.0}, {1, 0.1 * i}, 0.99) ? 1 : 0;
-  EXPECT_EQ(proposed, 4) << "the fourth brings the sum above three";
+  EXPECT_EQ(proposed, 3);
   EXPECT_TRUE(selector.select({0, 1.0}, {1, 5.5}, 0.99)) << "another stretch";
   EXPECT_TRUE(selector.select({0, 7.0}, {1, 5.6}, 0.99)) << "another place";
+}
+
+TEST(ClosureSelector, TriesStretchesThatLookAlikeAFewTimesOnly) {
+  Parameters parameters;
+  parameters.closures_per_metre = 1000.0;
+  ClosureSelector selector(parameters);
+  int proposed = 0;
+  for (int i = 0; i < 40; ++i) proposed += selector.select({0, 1.0}, {1, 0.1 * i}, 0.1 + 0.001 * (i % 3)) ? 1 : 0;
+  EXPECT_EQ(proposed, 3) << "unlikely one by one, and together";
+  EXPECT_FALSE(selector.select({0, 1.0}, {1, 4.1}, 0.15));
+  EXPECT_TRUE(selector.select({0, 1.0}, {1, 4.2}, 0.3)) << "clearly likelier than those before";
+  EXPECT_FALSE(selector.select({0, 1.0}, {1, 4.3}, 0.3));
 }
 
 TEST(TravelledDistance, InterpolatesAndIgnoresWhatIsOutOfOrder) {

@@ -17,7 +17,9 @@ struct PlacePosition {
 };
 
 /// Selects the recognitions that are worth the cost of a geometric check: likely enough, a limited number per metre
-/// driven, and none between stretches that those before connect well. Not thread-safe.
+/// driven, and none between stretches that those before connect well. Two stretches that merely look alike fail
+/// together: after some proposals between them, a further one must be clearly likelier than all before. Not
+/// thread-safe.
 class ClosureSelector {
  public:
   explicit ClosureSelector(const Parameters& parameters);
@@ -30,9 +32,15 @@ class ClosureSelector {
  private:
   using StretchPair = std::tuple<std::size_t, std::int64_t, std::size_t, std::int64_t>;
 
+  /// Closures proposed between two stretches.
+  struct Proposed {
+    double expected = 0.0;  ///< sum of their probabilities
+    double count = 0.0, best_odds = 0.0;
+  };
+
   double closure_probability_, per_metre_, enough_;
   double allowance_ = 0.0, travelled_ = 0.0;
-  std::map<StretchPair, double> expected_;  // sum of the probabilities of those proposed
+  std::map<StretchPair, Proposed> proposed_;
 };
 
 }  // namespace fabmap_node
