@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
-
 #include "command_line/console.hpp"
 #include "command_line/json.hpp"
 #include "commands/places_actions.hpp"
 #include "pipeline/parameters.hpp"
-#include "places/place_truth.hpp"
+#include "places/place_evaluation.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/io/csv.hpp"
 #include "urban_nav_core/io/numbers.hpp"
@@ -14,30 +12,53 @@
 namespace urban_nav {
 namespace {
 
-std::string percentage(std::size_t part, std::size_t whole) {
-  if (whole == 0) return "-";
-  const double tenths = std::round(1000.0 * static_cast<double>(part) / static_cast<double>(whole));
-  return urban_nav_core::printNumber(tenths / 10.0) + " %";
-}
-
-std::string printScore(const PlaceScore& score, const PlaceTruth& truth, double mask) {
-  return std::to_string(score.revisits) + " revisits within " + urban_nav_core::printNumber(truth.radius) + " " +
-         truth.unit + " (mask " + urban_nav_core::printNumber(mask) + " s)\n" +
-         "the right place is the likeliest: " + percentage(score.first, score.revisits) +
-         "\nrecall at 100 % precision: " + percentage(score.found, score.revisits) +
-         "\nannounced above 0.99: " + std::to_string(score.sure) +
-         ", right: " + percentage(score.sure_right, score.sure) +
-         "\nannounced above 0.9 up to 0.99: " + std::to_string(score.nearly) +
-         ", right: " + percentage(score.nearly_right, score.nearly) + "\n";
-}
-
-std::string printCurve(const PlaceScore& score) {
+std::string printCurve(const RankingScore& score) {
   std::string text = "probability,precision,recall\n";
-  for (const PlaceScore::RecallPoint& point : score.curve)
-    text += urban_nav_core::printCsvRow({urban_nav_core::printNumber(point.probability),
+  for (const RankingScore::RecallPoint& point : score.curve)
+    text += urban_nav_core::printCsvRow({urban_nav_core::printNumber(point.score),
                                          urban_nav_core::printNumber(point.precision),
                                          urban_nav_core::printNumber(point.recall)});
   return text;
+}
+
+Json toJson(const RankingScore& score) {
+  Json json = Json::object();
+  json["first"] = static_cast<std::int64_t>(score.first);
+  json["found_at_full_precision"] = static_cast<std::int64_t>(score.found);
+  return json;
+}
+
+Json toJson(const PlaceScore& score) {
+  Json json = toJson(score.ranking);
+  json["above_0.99"] = static_cast<std::int64_t>(score.sure);
+  json["above_0.99_right"] = static_cast<std::int64_t>(score.sure_right);
+  json["above_0.9"] = static_cast<std::int64_t>(score.nearly);
+  json["above_0.9_right"] = static_cast<std::int64_t>(score.nearly_right);
+  json["revisits_near_announced"] = static_cast<std::int64_t>(score.near_sure);
+  json["calibration_error"] = score.calibration_error;
+  return json;
+}
+
+Json toJson(const PlaceEvaluation& evaluation) {
+  Json json = toJson(evaluation.score);
+  json["images"] = static_cast<std::int64_t>(evaluation.query.rows.size());
+  json["revisits"] = static_cast<std::int64_t>(evaluation.score.ranking.revisits);
+  Json evidence = Json::object(), words = Json::object(), reliability = Json::array();
+  for (const PlaceEvaluation::Row& row : evaluation.rows) evidence[row.name] = toJson(row.score);
+  for (const PlaceEvaluation::Curve& curve : evaluation.words) words[curve.name] = toJson(curve.score);
+  for (const ReliabilityBin& bin : evaluation.score.reliability) {
+    Json one = Json::object();
+    one["from"] = bin.from;
+    one["to"] = bin.to;
+    one["claims"] = static_cast<std::int64_t>(bin.claims);
+    one["stated"] = bin.stated;
+    one["right"] = static_cast<std::int64_t>(bin.right);
+    reliability.append(one);
+  }
+  json["evidence"] = evidence;
+  json["words_alone"] = words;
+  json["reliability"] = reliability;
+  return json;
 }
 
 int runEvaluatePlaces(const Arguments& arguments, Console& console) {
@@ -47,23 +68,19 @@ int runEvaluatePlaces(const Arguments& arguments, Console& console) {
   const fabmap_node::PlaceModel model = readPlaceModel(arguments.get("MODEL"));
   std::optional<double> radius;
   if (arguments.has("radius")) radius = arguments.number("radius", 7.5, 1e-3, 1e6);
-  const PlaceQuery query = queryPlaces(model, arguments.all("SRC"), arguments.all("topic"), options, console);
-  const PlaceTruth truth = readPlaceTruth(arguments.get("truth"), query, radius);
-  const PlaceScore score = scorePlaces(query, truth, options.mask);
-  console.print(printScore(score, truth, static_cast<double>(options.mask) * 1e-9));
-  if (arguments.has("curve")) urban_nav_core::writeAtomically(arguments.get("curve"), printCurve(score));
-  if (arguments.has("json")) {
-    Json json = Json::object();
-    json["images"] = static_cast<std::int64_t>(query.rows.size());
-    json["revisits"] = static_cast<std::int64_t>(score.revisits);
-    json["first"] = static_cast<std::int64_t>(score.first);
-    json["found_at_full_precision"] = static_cast<std::int64_t>(score.found);
-    json["above_0.99"] = static_cast<std::int64_t>(score.sure);
-    json["above_0.99_right"] = static_cast<std::int64_t>(score.sure_right);
-    json["above_0.9"] = static_cast<std::int64_t>(score.nearly);
-    json["above_0.9_right"] = static_cast<std::int64_t>(score.nearly_right);
-    urban_nav_core::writeAtomically(arguments.get("json"), json.print());
-  }
+  const PlaceRecording recording =
+      recordPlaces(model, arguments.all("SRC"), arguments.all("topic"), options.matcher, console);
+  Progress progress(console, "recognise", "%", 100);
+  const PlaceEvaluation evaluation = evaluatePlaces(
+      model, recording, options,
+      [&](const PlaceQuery& query) { return readPlaceTruth(arguments.get("truth"), query, radius); },
+      [&](double share) { progress.update(static_cast<std::int64_t>(100.0 * share)); });
+  progress.finish(100);
+  console.print(printEvaluation(evaluation));
+  if (arguments.has("curve"))
+    urban_nav_core::writeAtomically(arguments.get("curve"), printCurve(evaluation.score.ranking));
+  if (arguments.has("output")) writeEvaluation(evaluation, recording, arguments.get("MODEL"), arguments.get("output"));
+  if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), toJson(evaluation).print());
   return 0;
 }
 
@@ -82,7 +99,14 @@ Command placesEvaluateAction() {
                      false,
                      false,
                      {}},
-                    {"--curve", "FILE.csv", "writes precision and recall by probability", false, false, {}}};
+                    {"--curve", "FILE.csv", "writes precision and recall by probability", false, false, {}},
+                    {"-o,--output",
+                     "DIR",
+                     "folder to write: report.html with the best and worst matches, precision_recall.svg, "
+                     "reliability.svg, confusion.csv, confusion.png, matches.csv",
+                     false,
+                     false,
+                     {}}};
   for (Option& option : placeQueryOptions()) action.options.push_back(std::move(option));
   for (const Option& option : {jsonOption(), configOption(), setOption(), threadsOption()})
     action.options.push_back(option);

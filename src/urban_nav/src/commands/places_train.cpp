@@ -36,8 +36,7 @@ int runRecalibrate(const Arguments& arguments, Console& console) {
   }
   std::vector<fabmap_node::LocatedDay> days;
   readPlaceSessions(
-      sources, arguments.all("topic"), console, nullptr,
-      [&days](std::size_t, const std::string&) { days.emplace_back(); },
+      sources, arguments.all("topic"), console, {}, [&days](std::size_t, const std::string&) { days.emplace_back(); },
       [&](StampedObservation place) {
         const urban_nav_core::Trajectory& trajectory = trajectories[days.size() - 1];
         const Eigen::Vector3d position = trajectory[trajectory.nearest(place.stamp)].pose.t();
@@ -62,7 +61,7 @@ int runTrain(const Arguments& arguments, Console& console) {
   options.k_means.seed = static_cast<std::uint64_t>(arguments.integer("seed", 1, 0, 1'000'000'000));
   std::vector<fabmap_node::TrainingDrive> drives;
   readPlaceSessions(
-      arguments.all("SRC"), arguments.all("topic"), console, nullptr,
+      arguments.all("SRC"), arguments.all("topic"), console, {},
       [&drives](std::size_t, const std::string&) { drives.emplace_back(); },
       [&drives](StampedObservation place) {
         drives.back().push_back({place.stamp, std::move(place.observation)});

@@ -2,6 +2,7 @@
 #include "places/place_sessions.hpp"
 
 #include "fabmap_node/features/feature_extractor.hpp"
+#include "fabmap_node/store/place_rows.hpp"
 #include "input/sessions.hpp"
 #include "places/place_source.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
@@ -12,19 +13,22 @@ namespace {
 
 constexpr std::size_t images_at_once = 32;  // decoded before features are extracted on all threads
 
-StampedObservation describeImages(const fabmap_node::FeatureExtractor& extractor,
-                                  const fabmap_node::PlaceDescriber* describer, const PlaceImages& images) {
+StampedObservation describeImages(const fabmap_node::FeatureExtractor& extractor, const PlaceReading& reading,
+                                  const PlaceImages& images) {
   std::vector<urban_nav_core::ImageView> views;
   for (const cv::Mat& grey : images.grey) views.push_back(urban_nav_ros::toView(grey));
-  if (describer != nullptr) return {images.stamp, {}, describer->describe(views)};
-  return {images.stamp, extractor.extract(views), {}};
+  StampedObservation observation;
+  observation.stamp = images.stamp;
+  if (reading.describer != nullptr) observation.description = reading.describer->describe(views);
+  else observation.observation = extractor.extract(views);
+  if (reading.with_thumbnails) observation.thumbnail = fabmap_node::placeThumbnail(views);
+  return observation;
 }
 
 }  // namespace
 
 void readPlaceSessions(const std::vector<std::string>& inputs, const std::vector<std::string>& topics, Console& console,
-                       const fabmap_node::PlaceDescriber* describer,
-                       const std::function<void(std::size_t, const std::string&)>& session,
+                       const PlaceReading& reading, const std::function<void(std::size_t, const std::string&)>& session,
                        const std::function<void(StampedObservation)>& place) {
   std::vector<std::unique_ptr<PlaceSource>> sources;  // all opened first: a mistake is reported before work begins
   for (const std::string& input : inputs) sources.push_back(openPlaceSource(input, topics));
@@ -47,7 +51,7 @@ void readPlaceSessions(const std::vector<std::string>& inputs, const std::vector
       }
       std::vector<StampedObservation> observations(batch.size());
       urban_nav_core::forEach(batch.size(), 1,
-                              [&](std::size_t i) { observations[i] = describeImages(extractor, describer, batch[i]); });
+                              [&](std::size_t i) { observations[i] = describeImages(extractor, reading, batch[i]); });
       for (StampedObservation& observation : observations) {
         place(std::move(observation));
         progress.update(++done);

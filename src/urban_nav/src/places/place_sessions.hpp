@@ -16,14 +16,21 @@ struct StampedObservation {
   urban_nav_core::StampNs stamp = 0;
   fabmap_node::PlaceObservation observation;  ///< without a describer
   fabmap_node::PlaceDescription description;  ///< with a describer
+  std::string thumbnail;                      ///< JPEG, if wanted
+};
+
+/// What is wanted of each observation.
+struct PlaceReading {
+  const fabmap_node::PlaceDescriber* describer = nullptr;  ///< null: features instead of descriptions
+  bool with_thumbnails = false;
 };
 
 /// Reads sessions one after the other and extracts their features on several threads. `session` is called with the
 /// index and the name of each session before its observations, `place` for each observation in order of time. The order
-/// of calls does not depend on the number of threads. `describer`: describes them on the same threads; null: none.
-/// Reports progress and notes to `console`. Throws as openPlaceSource().
+/// of calls does not depend on the number of threads. Descriptions are made on the same threads. Reports progress
+/// and notes to `console`. Throws as openPlaceSource().
 void readPlaceSessions(const std::vector<std::string>& inputs, const std::vector<std::string>& topics, Console& console,
-                       const fabmap_node::PlaceDescriber* describer,
+                       const PlaceReading& reading,
                        const std::function<void(std::size_t index, const std::string& name)>& session,
                        const std::function<void(StampedObservation observation)>& place);
 

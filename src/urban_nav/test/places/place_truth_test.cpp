@@ -46,29 +46,57 @@ TEST(ScorePlaces, CountsRevisitsAndWhatIsAnnounced) {
   // Rows 2 and 3 revisit rows 0 and 1; row 4 is new, and matched wrongly with less certainty than row 2.
   const PlaceQuery query = queryOfMatches({{-1, 0.0}, {0, 0.1}, {0, 0.995}, {1, 0.3}, {0, 0.95}});
   const PlaceScore score = scorePlaces(query, truthAlongX({0.0, 100.0, 2.0, 101.0, 300.0}), 20 * truth_second);
-  EXPECT_EQ(score.revisits, 2u);
-  EXPECT_EQ(score.first, 2u);
-  EXPECT_EQ(score.found, 1u);
+  EXPECT_EQ(score.ranking.revisits, 2u);
+  EXPECT_EQ(score.ranking.first, 2u);
+  EXPECT_EQ(score.ranking.found, 1u);
   EXPECT_EQ(score.sure, 1u);
   EXPECT_EQ(score.sure_right, 1u);
   EXPECT_EQ(score.nearly, 1u);
   EXPECT_EQ(score.nearly_right, 0u);
-  ASSERT_FALSE(score.curve.empty());
-  EXPECT_EQ(score.curve.front().precision, 1.0);
-  EXPECT_EQ(score.curve.front().recall, 0.5);
+  ASSERT_FALSE(score.ranking.curve.empty());
+  EXPECT_EQ(score.ranking.curve.front().precision, 1.0);
+  EXPECT_EQ(score.ranking.curve.front().recall, 0.5);
+}
+
+TEST(ScorePlaces, StatesHowOftenClaimsAreRight) {
+  // Rows 2 and 3 are right, row 4 is wrong; all claim the same.
+  const PlaceQuery query = queryOfMatches({{-1, 0.0}, {0, 0.0}, {0, 0.75}, {1, 0.75}, {0, 0.75}});
+  const PlaceScore score = scorePlaces(query, truthAlongX({0.0, 100.0, 2.0, 101.0, 300.0}), 20 * truth_second);
+  ASSERT_EQ(score.reliability.size(), 2u);
+  EXPECT_EQ(score.reliability[0].claims, 1u) << "of probability zero";
+  EXPECT_EQ(score.reliability[1].claims, 3u);
+  EXPECT_EQ(score.reliability[1].right, 2u);
+  EXPECT_DOUBLE_EQ(score.reliability[1].stated, 0.75);
+  EXPECT_NEAR(score.calibration_error, 0.75 - 2.0 / 3.0, 1e-12);
+}
+
+TEST(ScorePlaces, RevisitsNearAnAnnouncedOneCount) {
+  const PlaceQuery query = queryOfMatches({{-1, 0.0}, {0, 0.999}, {0, 0.2}, {0, 0.2}});
+  EXPECT_EQ(scorePlaces(query, truthAlongX({0.0, 2.0, 3.5, 6.0}), 20 * truth_second).near_sure, 2u);
+}
+
+TEST(ScoreRanking, WrongMatchesOfTheSameScoreComeFirst) {
+  const PlaceTruth truth = truthAlongX({0.0, 50.0, 1.0, 90.0});
+  const RankingScore score = scoreRanking({{2, 0, 5.0}, {3, 0, 5.0}}, truth, {false, false, true, false});
+  EXPECT_EQ(score.revisits, 1u);
+  EXPECT_EQ(score.first, 1u);
+  EXPECT_EQ(score.found, 0u);
+  ASSERT_EQ(score.curve.size(), 2u);
+  EXPECT_EQ(score.curve[0].precision, 0.0);
+  EXPECT_EQ(score.curve[1].recall, 1.0);
 }
 
 TEST(ScorePlaces, MatchesBetweenTheTwoRadiiDoNotCount) {
   const PlaceScore score =
       scorePlaces(queryOfMatches({{-1, 0.0}, {0, 0.999}}), truthAlongX({0.0, 9.0}), 20 * truth_second);
-  EXPECT_EQ(score.revisits, 0u);
+  EXPECT_EQ(score.ranking.revisits, 0u);
   EXPECT_EQ(score.sure, 0u);
 }
 
 TEST(ScorePlaces, PlacesWithinTheMaskAreNoRevisits) {
   const PlaceQuery query = queryOfMatches({{-1, 0.0}, {-1, 0.0}});
-  EXPECT_EQ(scorePlaces(query, truthAlongX({0.0, 0.0}), 20 * truth_second).revisits, 1u);
-  EXPECT_EQ(scorePlaces(query, truthAlongX({0.0, 0.0}), 40 * truth_second).revisits, 0u);
+  EXPECT_EQ(scorePlaces(query, truthAlongX({0.0, 0.0}), 20 * truth_second).ranking.revisits, 1u);
+  EXPECT_EQ(scorePlaces(query, truthAlongX({0.0, 0.0}), 40 * truth_second).ranking.revisits, 0u);
 }
 
 TEST(ReadPlaceTruth, TablesOfPositionsNeedOneRowForEachImage) {
