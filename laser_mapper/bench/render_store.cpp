@@ -23,19 +23,20 @@ double secondsSince(std::chrono::steady_clock::time_point begin) {
 }
 
 void renderStore(const std::string& store_path, const std::string& trajectory_path, const std::string& map_path,
-                 int threads) {
+                 int threads, bool leave_out) {
   const urban_nav_core::ThreadLimit limit(threads);
   urban_nav_store::Store store(store_path, urban_nav_store::Access::Write);
   const urban_nav_core::Trajectory trajectory = urban_nav_core::readTum(trajectory_path);
   const auto sessions = store.sessions().all();
   if (sessions.empty()) throw std::runtime_error(store_path + ": no session");
-  const Parameters parameters;
+  Parameters parameters;
+  parameters.ghosts = leave_out;
   const auto begin = std::chrono::steady_clock::now();
   LaserMap map(parameters, store, {{sessions.front().id, &trajectory, nullptr}});
   const RenderStatistics rendered = map.render();
   const double render_s = secondsSince(begin);
   urban_nav_core::PlyWriter file(map_path, mapLayout());
-  map.forEachTile([&](const Tile&, const std::vector<MapPoint>& points) {
+  const std::size_t ghosts = map.forEachTile([&](const Tile&, const std::vector<MapPoint>& points) {
     std::string bytes;
     for (const MapPoint& point : points) appendVertex(bytes, point);
     file.append(bytes);
@@ -49,6 +50,7 @@ void renderStore(const std::string& store_path, const std::string& trajectory_pa
               100.0 * static_cast<double>(rendered.beams.mixed) / beams,
               100.0 * static_cast<double>(rendered.beams.without_pose) / beams,
               100.0 * static_cast<double>(rendered.beams.out_of_range) / beams, points);
+  std::printf("ghosts %.2f %%\n", 100.0 * static_cast<double>(ghosts) / beams);
   std::printf("render %.2f s, surfaces and file %.2f s, %.2f M beams/s on %d threads\n", render_s, all_s - render_s,
               1e-6 * beams / all_s, threads);
   const auto quality_begin = std::chrono::steady_clock::now();
@@ -66,10 +68,10 @@ void renderStore(const std::string& store_path, const std::string& trajectory_pa
 
 int main(int argc, char** argv) try {
   if (argc < 4) {
-    std::fprintf(stderr, "usage: render_store STORE TRAJECTORY.tum MAP.ply [THREADS]\n");
+    std::fprintf(stderr, "usage: render_store STORE TRAJECTORY.tum MAP.ply [THREADS [--keep-ghosts]]\n");
     return 2;
   }
-  laser_mapper::bench::renderStore(argv[1], argv[2], argv[3], argc > 4 ? std::stoi(argv[4]) : 1);
+  laser_mapper::bench::renderStore(argv[1], argv[2], argv[3], argc > 4 ? std::stoi(argv[4]) : 1, argc < 6);
   return 0;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());

@@ -54,10 +54,13 @@ void ChunkStore::put(MapChunk header, const RenderedChunk& chunk, const MapChunk
   for (const RenderedChunk::Part& part : chunk.parts) {
     header.tiles += (header.tiles.empty() ? "" : " ") + toString(part.tile);
     header.cells += static_cast<std::int64_t>(part.cells.size());
-    cells_.put({session_, toString(part.tile), header.begin, static_cast<std::int64_t>(part.cells.size()),
-                packCells(part.tile, part.cells)});
+    putCells(part.tile, header.begin, part.cells);
   }
   chunks_.put(header);
+}
+
+void ChunkStore::putCells(const Tile& tile, StampNs begin, const std::vector<MapCell>& cells) {
+  cells_.put({session_, toString(tile), begin, static_cast<std::int64_t>(cells.size()), packCells(tile, cells)});
 }
 
 void ChunkStore::remove(const MapChunk& chunk) {
@@ -102,9 +105,10 @@ double chunkShift(const std::string& packed, const Trajectory& T_map_base, Stamp
 }
 
 std::string renderSettings(const Parameters& parameters, const std::vector<urban_nav_registration::LaserAt>& lasers) {
-  std::string text = "1";  // of this encoding
-  for (const double value : {parameters.voxel, parameters.min_range, parameters.max_range, parameters.range_sigma,
-                             parameters.max_gap, parameters.mixed_pixels ? 1.0 : 0.0})
+  std::string text = "2";  // of this encoding
+  for (const double value :
+       {parameters.voxel, parameters.min_range, parameters.max_range, parameters.range_sigma, parameters.max_gap,
+        parameters.mixed_pixels ? 1.0 : 0.0, parameters.ghosts ? parameters.ghost_gap : 0.0})
     urban_nav_store::appendNumber(text, value);
   for (const urban_nav_registration::LaserAt& laser : lasers) {
     urban_nav_store::appendText(text, laser.frame);

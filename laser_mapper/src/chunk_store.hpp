@@ -25,6 +25,8 @@ class ChunkStore {
   /// Writes a chunk; `header` describes it. `old`: the stored chunk that it replaces, if any.
   void put(urban_nav_store::MapChunk header, const RenderedChunk& chunk, const urban_nav_store::MapChunk* old);
   void remove(const urban_nav_store::MapChunk& chunk);
+  /// Replaces the cells of a stored chunk in a tile by the same cells with other flags.
+  void putCells(const Tile& tile, urban_nav_core::StampNs begin, const std::vector<MapCell>& cells);
   /// Calls `take` for the chunks with cells in a tile, in order of time.
   void forEachInTile(const Tile& tile,
                      const std::function<void(urban_nav_core::StampNs begin, std::string data)>& take) const;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "chunk_store.hpp"
+#include "ghosts/ghost_finder.hpp"
 #include "laser_mapper/tile_surface.hpp"
 #include "map_state.hpp"
 #include "relative_covariance.hpp"
@@ -27,9 +28,7 @@ using Cells = std::vector<MergedCell>;
 /// Merged tiles of up to three rows.
 class TileRows {
  public:
-  void put(const std::vector<Tile>& tiles, std::vector<Cells> cells) {
-    for (std::size_t i = 0; i < tiles.size(); ++i) tiles_[tiles[i]] = std::move(cells[i]);
-  }
+  void put(const Tile& tile, Cells cells) { tiles_[tile] = std::move(cells); }
   void dropBelow(int y) {
     while (!tiles_.empty() && tiles_.begin()->first.y < y) tiles_.erase(tiles_.begin());
   }
@@ -102,6 +101,7 @@ RenderStatistics LaserMap::render(const ProgressCallback& progress) {
     tiles_.insert(chunks.tiles().begin(), chunks.tiles().end());
     for (const std::string& warning : chunks.warnings()) statistics.warnings.push_back(warning);
   }
+  if (parameters_.ghosts) GhostFinder(parameters_, store_, sessions_).update();
   for (std::size_t s = 0; s < sessions_.size(); ++s)
     store_.states().put(sessions_[s].id, kMapState,
                         packMapState({parameters_, covariances_[s] ? covariances_[s]->values()
@@ -129,14 +129,15 @@ std::optional<Parameters> storedMapParameters(urban_nav_store::Store& store,
   return unpackMapState(*bytes).parameters;
 }
 
-Cells LaserMap::mergePacked(const Tile& tile, const std::vector<const PackedCells*>& packed) const {
+LaserMap::MergedTile LaserMap::mergePacked(const Tile& tile, const std::vector<const PackedCells*>& packed) const {
   TileMerger merger;
   for (const PackedCells* each : packed) {
     const auto cells = unpackCells(tile, each->data);
     if (!cells) throw urban_nav_core::DataError(store_.path(), "points of tile " + toString(tile) + " are damaged", "");
     merger.add(each->source, *cells);
   }
-  return merger.take();
+  const std::size_t ghosts = merger.ghostBeams();
+  return {merger.take(), ghosts};
 }
 
 std::vector<std::vector<LaserMap::PackedCells>> LaserMap::readRow(const std::vector<Tile>& tiles) const {
@@ -152,9 +153,9 @@ std::vector<std::vector<LaserMap::PackedCells>> LaserMap::readRow(const std::vec
   return packed;
 }
 
-std::vector<Cells> LaserMap::mergeRow(const std::vector<Tile>& tiles) const {
+std::vector<LaserMap::MergedTile> LaserMap::mergeRow(const std::vector<Tile>& tiles) const {
   const std::vector<std::vector<PackedCells>> packed = readRow(tiles);
-  std::vector<Cells> merged(tiles.size());
+  std::vector<MergedTile> merged(tiles.size());
   urban_nav_core::forEach(tiles.size(), 1, [&](std::size_t i) {
     std::vector<const PackedCells*> all;
     for (const PackedCells& each : packed[i]) all.push_back(&each);
@@ -171,7 +172,7 @@ void LaserMap::forEachTileByPass(const PassCallback& take) const {
       std::map<std::uint16_t, std::vector<const PackedCells*>> by_pass;
       for (const PackedCells& each : packed[i]) by_pass[each.source.pass].push_back(&each);
       std::vector<PassCells> passes;
-      for (const auto& [pass, chunks] : by_pass) passes.push_back({pass, mergePacked(row_tiles[i], chunks)});
+      for (const auto& [pass, chunks] : by_pass) passes.push_back({pass, mergePacked(row_tiles[i], chunks).cells});
       take(first + i, passes);
     });
     first += tiles.size();
@@ -189,17 +190,23 @@ double LaserMap::poseSigma(const MergedCell& cell, const Eigen::Vector3d& p, con
   return std::sqrt(std::max(0.0, jacobian.dot(covariances->at(pose) * jacobian)));
 }
 
-void LaserMap::forEachTile(const TileCallback& take) const {
+std::size_t LaserMap::forEachTile(const TileCallback& take) const {
   const std::map<int, std::vector<Tile>> rows = byRow(tiles_);
   TileRows merged;
+  std::size_t ghost_beams = 0;
   const PoseSigma pose_sigma = [this](const MergedCell& cell, const Eigen::Vector3d& p, const Eigen::Vector3d& along) {
     return poseSigma(cell, p, along);
   };
   for (const auto& [y, tiles] : rows) {
     merged.dropBelow(y - 1);
     for (const int next : {y, y + 1})
-      if (const auto row = rows.find(next); row != rows.end() && !merged.hasRow(next))
-        merged.put(row->second, mergeRow(row->second));
+      if (const auto row = rows.find(next); row != rows.end() && !merged.hasRow(next)) {
+        std::vector<MergedTile> made = mergeRow(row->second);
+        for (std::size_t i = 0; i < made.size(); ++i) {
+          ghost_beams += made[i].ghost_beams;
+          merged.put(row->second[i], std::move(made[i].cells));
+        }
+      }
     std::vector<std::vector<MapPoint>> points(tiles.size());
     urban_nav_core::forEach(tiles.size(), 1, [&, &row_tiles = tiles](std::size_t i) {
       points[i] =
@@ -207,6 +214,7 @@ void LaserMap::forEachTile(const TileCallback& take) const {
     });
     for (std::size_t i = 0; i < tiles.size(); ++i) take(tiles[i], points[i]);
   }
+  return ghost_beams;
 }
 
 }  // namespace laser_mapper

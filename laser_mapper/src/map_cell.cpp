@@ -16,9 +16,10 @@ namespace {
 
 constexpr std::size_t kMaxCellBytes = std::size_t{1} << 28;
 constexpr std::size_t kCellBytes = 23;
-constexpr int kOffsetSteps = 65535;    // of an edge
-constexpr float kRangeStep = 1e-3F;    // m
-constexpr float kDirectionStep = 127;  // per unit
+constexpr std::uint32_t kGhostBit = 128;  // of the laser's number
+constexpr int kOffsetSteps = 65535;       // of an edge
+constexpr float kRangeStep = 1e-3F;       // m
+constexpr float kDirectionStep = 127;     // per unit
 
 int floorDivide(int value, int by) { return value >= 0 ? value / by : -((-value + by - 1) / by); }
 
@@ -82,7 +83,8 @@ std::string packCells(const Tile& tile, const std::vector<MapCell>& cells) {
   columns.append(bytes, 2,
                  [&](std::size_t i) { return static_cast<std::uint32_t>(cells[i].cell.z + kMaxHeightCell + 1); });
   columns.append(bytes, 2, [&](std::size_t i) { return std::uint32_t{cells[i].count}; });
-  columns.append(bytes, 1, [&](std::size_t i) { return std::uint32_t{cells[i].laser}; });
+  columns.append(bytes, 1,
+                 [&](std::size_t i) { return std::uint32_t{cells[i].laser} | (cells[i].is_ghost ? kGhostBit : 0U); });
   columns.append(bytes, 1, [&](std::size_t i) { return std::uint32_t{cells[i].intensity}; });
   for (int axis = 0; axis < 3; ++axis)
     columns.append(bytes, 2,
@@ -110,7 +112,10 @@ std::optional<std::vector<MapCell>> unpackCells(const Tile& tile, std::string_vi
   columns.read(rest, 1, [&](std::size_t i, Value v) { cells[i].cell.y = static_cast<int>(v) + tile.y * kTileCells; });
   columns.read(rest, 2, [&](std::size_t i, Value v) { cells[i].cell.z = static_cast<int>(v) - kMaxHeightCell - 1; });
   columns.read(rest, 2, [&](std::size_t i, Value v) { cells[i].count = static_cast<std::uint16_t>(v); });
-  columns.read(rest, 1, [&](std::size_t i, Value v) { cells[i].laser = static_cast<std::uint8_t>(v); });
+  columns.read(rest, 1, [&](std::size_t i, Value v) {
+    cells[i].laser = static_cast<std::uint8_t>(v & ~kGhostBit);
+    cells[i].is_ghost = (v & kGhostBit) != 0;
+  });
   columns.read(rest, 1, [&](std::size_t i, Value v) { cells[i].intensity = static_cast<std::uint8_t>(v); });
   for (int axis = 0; axis < 3; ++axis)
     columns.read(rest, 2, [&](std::size_t i, Value v) {

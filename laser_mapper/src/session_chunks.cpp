@@ -19,13 +19,6 @@ namespace {
 constexpr std::size_t kBatch = 8;      // chunks read before they are rendered, on all threads
 constexpr double kLongestPause = 0.5;  // s between scans of a laser that runs
 
-std::vector<urban_nav_registration::LaserAt> sortedLasers(urban_nav_store::Store& store,
-                                                          const urban_nav_store::SessionId& session) {
-  std::vector<urban_nav_registration::LaserAt> lasers = urban_nav_registration::storedLasers(store, session);
-  std::sort(lasers.begin(), lasers.end(), [](const auto& a, const auto& b) { return a.frame < b.frame; });
-  return lasers;
-}
-
 int laserNumber(const std::string& frame, std::size_t index) {
   if (frame == urban_nav_core::frames::laser_left) return 0;
   if (frame == urban_nav_core::frames::laser_right) return 1;
@@ -33,6 +26,27 @@ int laserNumber(const std::string& frame, std::size_t index) {
 }
 
 }  // namespace
+
+std::vector<urban_nav_registration::LaserAt> sortedLasers(urban_nav_store::Store& store,
+                                                          const urban_nav_store::SessionId& session) {
+  std::vector<urban_nav_registration::LaserAt> lasers = urban_nav_registration::storedLasers(store, session);
+  std::sort(lasers.begin(), lasers.end(), [](const auto& a, const auto& b) { return a.frame < b.frame; });
+  return lasers;
+}
+
+std::vector<LaserInput> readLasers(urban_nav_store::Store& store, const urban_nav_store::SessionId& session,
+                                   const std::vector<urban_nav_registration::LaserAt>& lasers, StampNs begin) {
+  std::vector<LaserInput> inputs;
+  for (std::size_t i = 0; i < lasers.size(); ++i) {
+    LaserInput input;
+    input.T_base_laser = lasers[i].T_base_laser;
+    input.laser = laserNumber(lasers[i].frame, i);
+    store.scans().forEach(session, lasers[i].frame, begin, begin + kChunkNs - 1,
+                          [&](const Scan& scan) { input.scans.push_back(scan); });
+    inputs.push_back(std::move(input));
+  }
+  return inputs;
+}
 
 std::size_t SessionChunks::count(const Trajectory& T_map_base) {
   if (T_map_base.empty()) return 0;
@@ -73,16 +87,9 @@ void SessionChunks::checkContinuity(std::size_t laser, const Scan& scan) {
 SessionChunks::Task SessionChunks::readTask(StampNs begin) {
   Task task;
   task.begin = begin;
-  for (std::size_t i = 0; i < lasers_.size(); ++i) {
-    LaserInput input;
-    input.T_base_laser = lasers_[i].T_base_laser;
-    input.laser = laserNumber(lasers_[i].frame, i);
-    store_.scans().forEach(session_, lasers_[i].frame, begin, begin + kChunkNs - 1, [&](const Scan& scan) {
-      checkContinuity(i, scan);
-      input.scans.push_back(scan);
-    });
-    task.lasers.push_back(std::move(input));
-  }
+  task.lasers = readLasers(store_, session_, lasers_, begin);
+  for (std::size_t i = 0; i < task.lasers.size(); ++i)
+    for (const Scan& scan : task.lasers[i].scans) checkContinuity(i, scan);
   return task;
 }
 

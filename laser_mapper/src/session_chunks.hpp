@@ -11,6 +11,14 @@
 
 namespace laser_mapper {
 
+/// Returns the lasers of a session that have scans and extrinsics, by their frames.
+std::vector<urban_nav_registration::LaserAt> sortedLasers(urban_nav_store::Store& store,
+                                                          const urban_nav_store::SessionId& session);
+/// Returns the scans of a chunk.
+std::vector<LaserInput> readLasers(urban_nav_store::Store& store, const urban_nav_store::SessionId& session,
+                                   const std::vector<urban_nav_registration::LaserAt>& lasers,
+                                   urban_nav_core::StampNs begin);
+
 /// Brings the chunks of one session up to date with its trajectory. Not thread-safe.
 class SessionChunks {
  public:

@@ -18,6 +18,10 @@ void TileMerger::elect(MergedCell& cell, const PassVotes& votes) {
 
 void TileMerger::add(const CellSource& source, const std::vector<MapCell>& cells) {
   for (const MapCell& from : cells) {
+    if (from.is_ghost) {
+      ghost_beams_ += from.count;
+      continue;
+    }
     const std::uint32_t number = table_.insert(urban_nav_registration::toKey(from.cell));
     if (number == cells_.size()) {
       cells_.emplace_back();
@@ -49,6 +53,7 @@ void TileMerger::add(const CellSource& source, const std::vector<MapCell>& cells
 std::vector<MergedCell> TileMerger::take() {
   table_ = urban_nav_registration::CellTable(1 << 12);
   votes_.clear();
+  ghost_beams_ = 0;
   best_.clear();
   return std::exchange(cells_, {});
 }

@@ -40,8 +40,9 @@ struct RenderStatistics {
 
 /// The map of the laser scans of sessions that lie in one map (Newman et al. 2009, section 6.1). Scans are read from
 /// the store, and rendered chunks are written to it: a chunk whose poses have moved by less than Parameters::max_shift
-/// since is not rendered again. Memory depends on the width of the map, not on its length or on the duration of the
-/// sessions. The bytes do not depend on the number of threads. Not thread-safe.
+/// since is not rendered again. Points that beams of other times passed through are left out (Parameters::ghosts).
+/// Memory depends on the width of the map, not on its length or on the duration of the sessions. The bytes do not
+/// depend on the number of threads. Not thread-safe.
 class LaserMap {
  public:
   using ProgressCallback = std::function<void(std::size_t done, std::size_t all)>;
@@ -58,9 +59,10 @@ class LaserMap {
   /// been rendered along T_map_base with the parameters of this map.
   void load();
 
-  /// Calls `take` for the tiles that have points, in the order of Tile. Requires render() or load() before. Throws
-  /// DataError if the store is damaged.
-  void forEachTile(const TileCallback& take) const;
+  /// Calls `take` for the tiles that have points, in the order of Tile. Returns the number of beams left out because
+  /// beams of other times passed through their ends. Requires render() or load() before. Throws DataError if the store
+  /// is damaged.
+  std::size_t forEachTile(const TileCallback& take) const;
 
   /// Calls `take` with the cells of each tile by passes, in the order of passes; `index`: of the tile in the order of
   /// Tile. Calls for different tiles come from several threads at once. Requires and throws as forEachTile().
@@ -79,8 +81,12 @@ class LaserMap {
     std::string data;
   };
   std::vector<std::vector<PackedCells>> readRow(const std::vector<Tile>& tiles) const;
-  std::vector<std::vector<MergedCell>> mergeRow(const std::vector<Tile>& tiles) const;
-  std::vector<MergedCell> mergePacked(const Tile& tile, const std::vector<const PackedCells*>& packed) const;
+  struct MergedTile {
+    std::vector<MergedCell> cells;
+    std::size_t ghost_beams = 0;
+  };
+  std::vector<MergedTile> mergeRow(const std::vector<Tile>& tiles) const;
+  MergedTile mergePacked(const Tile& tile, const std::vector<const PackedCells*>& packed) const;
   double poseSigma(const MergedCell& cell, const Eigen::Vector3d& p, const Eigen::Vector3d& along) const;
 
   const Parameters parameters_;

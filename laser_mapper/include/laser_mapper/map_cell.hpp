@@ -23,7 +23,8 @@ constexpr int kMaxHeightCell = 32767;
 struct MapCell {
   Cell cell;                                           ///< in the map's grid
   std::uint16_t count = 0;                             ///< beams
-  std::uint8_t laser = 0;                              ///< that most of the beams came from
+  std::uint8_t laser = 0;                              ///< that most of the beams came from, 0...127
+  bool is_ghost = false;                               ///< beams of other times passed through
   std::uint8_t intensity = 0;                          ///< mean of the raw values
   Eigen::Vector3f offset = Eigen::Vector3f::Zero();    ///< mean of the ends, from the cube's corner, in edges, 0...1
   Eigen::Vector3f to_laser = Eigen::Vector3f::Zero();  ///< mean direction towards the laser

@@ -16,6 +16,8 @@ struct Parameters {
   double range_bias;   // m
   double beam_width;   // rad
   bool mixed_pixels;
+  bool ghosts;
+  double ghost_gap;  // s
   double max_gap;    // s
   double max_shift;  // m
 

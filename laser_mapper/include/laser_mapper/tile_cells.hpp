@@ -31,7 +31,10 @@ struct CellSource {
 class TileMerger {
  public:
   TileMerger() : table_(1 << 12) {}
+  /// Leaves ghosts out.
   void add(const CellSource& source, const std::vector<MapCell>& cells);
+  /// Returns the number of beams left out since the last take().
+  std::size_t ghostBeams() const { return ghost_beams_; }
   /// Returns the cubes in the order in which they came, and becomes empty.
   std::vector<MergedCell> take();
 
@@ -49,6 +52,7 @@ class TileMerger {
   urban_nav_registration::CellTable table_;
   std::vector<MergedCell> cells_;
   std::vector<PassVotes> votes_;
+  std::size_t ghost_beams_ = 0;
   std::vector<float> best_;  ///< beams of the pass that MergedCell names
 };
 

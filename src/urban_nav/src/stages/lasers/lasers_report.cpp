@@ -21,7 +21,7 @@ std::string beamPercent(std::size_t part, std::size_t all) { return forPerson(10
 
 PageTable beamsTable(const LasersRun& run) {
   const laser_mapper::BeamCounts beams = run.beams();
-  const std::size_t used = beams.all - beams.mixed - beams.without_pose - beams.out_of_range;
+  const std::size_t used = beams.all - beams.mixed - beams.without_pose - beams.out_of_range - run.ghostBeams();
   return {
       "What became of the beams",
       {"", "beams", "share"},
@@ -30,6 +30,8 @@ PageTable beamsTable(const LasersRun& run) {
        {"left out: too near or too far", std::to_string(beams.out_of_range),
         beamPercent(beams.out_of_range, beams.all)},
        {"left out: on the edge between two surfaces", std::to_string(beams.mixed), beamPercent(beams.mixed, beams.all)},
+       {"left out: on what moved, as beams of other times passed through", std::to_string(run.ghostBeams()),
+        beamPercent(run.ghostBeams(), beams.all)},
        {"left out: at a time without a pose", std::to_string(beams.without_pose),
         beamPercent(beams.without_pose, beams.all)}},
       ""};
@@ -136,6 +138,7 @@ Json toJson(const LasersRun& run) {
   json["passes"] = passes;
   json["beams"] = beams.all;
   json["beams_mixed"] = beams.mixed;
+  json["beams_ghosts"] = run.ghostBeams();
   json["beams_without_pose"] = beams.without_pose;
   json["beams_out_of_range"] = beams.out_of_range;
   json["coloured_share"] = beamShare(run.coloured(), run.points());

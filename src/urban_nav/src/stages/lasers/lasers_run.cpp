@@ -92,7 +92,7 @@ LaserMapRun renderMap(LaserMap& map, laser_mapper::Colouriser* colouriser, std::
                                  laser_mapper::mapLayout());
   SigmaHistogram sigmas;
   MapViewer viewer(first_session);
-  map.forEachTile([&](const laser_mapper::Tile&, std::vector<MapPoint> points) {
+  run.ghost_beams = map.forEachTile([&](const laser_mapper::Tile&, std::vector<MapPoint> points) {
     if (colouriser != nullptr) run.coloured += colouriser->colour(points);
     std::string bytes;
     for (const MapPoint& point : points) {
@@ -138,6 +138,12 @@ std::size_t LasersRun::coloured() const {
 std::size_t LasersRun::chunksRendered() const {
   std::size_t all = 0;
   for (const LaserMapRun& map : maps) all += map.rendered.chunks_rendered;
+  return all;
+}
+
+std::size_t LasersRun::ghostBeams() const {
+  std::size_t all = 0;
+  for (const LaserMapRun& map : maps) all += map.ghost_beams;
   return all;
 }
 

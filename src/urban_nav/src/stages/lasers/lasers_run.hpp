@@ -20,7 +20,8 @@ struct LaserMapRun {
   std::size_t coloured = 0;  ///< points with the colour of a panorama
   std::size_t views = 0;     ///< images that it was coloured from
   std::size_t passes = 0;
-  double sigma_median = 0.0;  ///< m
+  std::size_t ghost_beams = 0;  ///< left out: beams of other times passed through their ends
+  double sigma_median = 0.0;    ///< m
   laser_mapper::RenderStatistics rendered;
   laser_mapper::QualityFigures walls, ground;  ///< agreement of the passes
   std::string quality_csv;                     ///< content of quality.csv
@@ -36,6 +37,7 @@ struct LasersRun {
   std::size_t points() const;
   std::size_t coloured() const;
   std::size_t chunksRendered() const;
+  std::size_t ghostBeams() const;
   /// Returns the agreement of the passes on walls; on ground: over all maps.
   laser_mapper::QualityFigures walls() const;
   laser_mapper::QualityFigures ground() const;

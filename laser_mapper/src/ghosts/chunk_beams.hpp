@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "laser_mapper/chunk_renderer.hpp"
+#include "urban_nav_core/trajectory/trajectory.hpp"
+
+namespace laser_mapper {
+
+/// What the beams of a chunk say of a point.
+enum class Sight { None, Through, Hit };
+
+/// The beams of one chunk by scan and angle, to find those that came near a point: a visibility test in the device's
+/// own resolution. FreeSpace of urban_nav_registration answers for cubes, too coarse near the ground. Immutable, so
+/// thread-safe.
+class ChunkBeams {
+ public:
+  /// Requires planar scanners, whose beams lie in the x-y plane of the laser.
+  ChunkBeams(const urban_nav_core::Trajectory& T_map_base, const std::vector<LaserInput>& lasers,
+             urban_nav_core::StampNs max_gap);
+
+  /// Returns Through if all beams that came within 0.1 m of the point's direction ended at least 0.3 m farther away;
+  /// Hit if one ended within 0.3 m of its distance; None if too few beams came near it, or some ended before it.
+  Sight look(const Eigen::Vector3d& p) const;
+
+  /// Returns the size in memory, bytes.
+  std::size_t bytes() const;
+
+ private:
+  /// One turn of the mirror.
+  struct Sweep {
+    Eigen::Matrix3d R_laser_map = Eigen::Matrix3d::Identity();
+    Eigen::Vector3d t_laser_map = Eigen::Vector3d::Zero();
+    std::uint32_t first = 0, last = 0;  ///< beams first...last - 1, by angle
+
+    double height(const Eigen::Vector3d& p) const { return R_laser_map.row(2).dot(p) + t_laser_map.z(); }
+  };
+  struct Found {
+    float least_excess = 1e9F;  ///< m, of a beam's range over the distance of the point
+    bool hit = false;
+    int beams = 0;
+  };
+  /// Successive turns of one laser.
+  struct Stretch {
+    std::size_t first = 0, last = 0, middle = 0;  ///< indices of sweeps, last not included
+    double reach = 0.0;                           ///< m, by which heights of points differ from those over `middle`
+  };
+  struct Laser {
+    std::vector<Sweep> sweeps;
+    std::vector<Stretch> stretches;
+  };
+  static void divide(Laser& laser);
+  void lookAlong(const Laser& laser, const Stretch& stretch, const Eigen::Vector3d& p, Found& found) const;
+  void lookIn(const Sweep& sweep, const Eigen::Vector3d& p, Found& found) const;
+
+  std::vector<Laser> lasers_;
+  std::vector<float> angles_, ranges_;
+};
+
+}  // namespace laser_mapper

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <list>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "chunk_store.hpp"
+#include "ghosts/chunk_beams.hpp"
+#include "laser_mapper/laser_map.hpp"
+
+namespace laser_mapper {
+
+/// Flags the cells of a map that beams of other times passed through: what moved has left such points (Pomerleau et al.
+/// 2014). Works on the tiles that chunks concern which were rendered since the last time, and remembers in the store
+/// which it has seen. Not thread-safe.
+class GhostFinder {
+ public:
+  /// All must outlive it.
+  GhostFinder(const Parameters& parameters, urban_nav_store::Store& store, const std::vector<MappedSession>& sessions);
+
+  /// Brings the flags in the store up to date; the caller commits. Throws DataError if the store is damaged.
+  void update();
+
+ private:
+  struct Chunk {
+    std::size_t session = 0;
+    urban_nav_core::StampNs begin = 0;
+    std::int64_t revision = 0;
+    std::vector<Tile> tiles;     ///< that it has cells in
+    Tile reach_low, reach_high;  ///< that its beams may have passed through
+    bool changed = true;
+  };
+  /// Cells of one chunk in a tile.
+  struct Row {
+    std::size_t chunk = 0;
+    std::vector<MapCell> cells;
+    bool changed = false;
+  };
+  /// A cell that only one time has seen.
+  struct Candidate {
+    std::size_t row = 0, cell = 0;
+    Eigen::Vector3d p = Eigen::Vector3d::Zero();
+    int through = 0, hits = 0;  ///< chunks
+  };
+
+  void listChunks();
+  void markChanged();
+  void storeState();
+  void updateTile(const Tile& tile, const std::vector<std::size_t>& holders, const std::vector<std::size_t>& reaching);
+  std::vector<Row> readRows(const Tile& tile, const std::vector<std::size_t>& holders) const;
+  std::vector<Candidate> findCandidates(const std::vector<Row>& rows) const;
+  std::shared_ptr<const ChunkBeams> beams(std::size_t chunk);
+  bool isApart(std::size_t a, std::size_t b) const;
+
+  const Parameters& parameters_;
+  urban_nav_store::Store& store_;
+  const std::vector<MappedSession>& sessions_;
+  std::vector<Chunk> chunks_;
+  std::list<std::size_t> recent_;  ///< chunks in cache_, the latest first
+  std::map<std::size_t, std::shared_ptr<const ChunkBeams>> cache_;
+};
+
+}  // namespace laser_mapper
