@@ -16,6 +16,8 @@ const Table<Parameters>& table() {
   static const Table<Parameters> rows(
       "scene_labeler",
       {
+          {"model", &P::model, "", "default", false, false, {},
+           "Model of `labels train`, or `default`: that of simulated drives.", "scene_labeler/bench"},
           {"superpixel", &P::superpixel, "px", std::int64_t{12}, std::int64_t{4}, std::int64_t{200}, {},
            "Edge of the superpixels, whose returns get one class.", "paper 8.1"},
           {"spacing", &P::spacing, "m", 5.0, 0.5, 100.0, {},

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
+
 #include "urban_nav_core/parameters/table.hpp"
 
 namespace scene_labeler {
 
 /// Parameters of the stage, one member per row of table().
 struct Parameters {
+  std::string model;
   int superpixel;  // px
   int samples;     // per class
   double spacing;  // m

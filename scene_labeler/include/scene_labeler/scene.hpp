@@ -10,6 +10,9 @@
 
 namespace scene_labeler {
 
+/// Device of the robot's side lasers, in Scene::device.
+constexpr const char* lms291_device = "lms291";
+
 /// One image and the place of each return of a scene in it. Each return is projected at its own time, through the lens.
 struct SceneView {
   cv::Mat image;                        ///< CV_8UC3, blue, green, red
@@ -22,6 +25,7 @@ struct Scene {
   std::string name;
   std::vector<Eigen::Vector3f> points;  ///< m, z up; points that are not finite get no label
   std::vector<float> reflectance;       ///< one per point, in units of its device; empty if there is none
+  std::string device;                   ///< that measured the reflectance: "lms291"; empty: unknown
   SceneView view;                       ///< empty image: shape only
   /// One per point, 1: gets a label; 0: only surrounds the others. Empty: all get one.
   std::vector<std::uint8_t> is_asked;

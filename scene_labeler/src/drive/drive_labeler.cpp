@@ -48,7 +48,7 @@ void DriveLabeler::observe(const DriveFrame& frame, const Stretch& nearest, std:
     }
     votes.by_shape = !is_shown_here;
     ++votes.views;
-    if (labels.isNovel(point)) ++votes.novel;
+    if (labels.unsure[point] != 0) ++votes.unsure;
     votes.patch = labels.patches[point] == no_patch ? no_patch : patches_ + labels.patches[point];
     if (labels.patches[point] != no_patch) patches = std::max(patches, labels.patches[point] + 1);
     for (std::size_t k = 0; k < classes; ++k)
@@ -72,7 +72,7 @@ void DriveLabeler::settle(std::size_t end) {
     for (float& value : p) value = std::exp(value);
     const auto best = static_cast<std::size_t>(std::max_element(p.begin(), p.end()) - p.begin());
     labels.labels.push_back(model_.classes[best]);
-    labels.unsure.push_back(p[best] < sure_when_fused || 2 * votes.novel > votes.views ? 1 : 0);
+    labels.unsure.push_back(p[best] < sure_when_fused || 2 * votes.unsure > votes.views ? 1 : 0);
     labels.patches.push_back(votes.patch);
     labels.probabilities.insert(labels.probabilities.end(), p.begin(), p.end());
   }

@@ -10,7 +10,9 @@ namespace {
 
 constexpr float thinning_per_m = 20.0F;  // cubes of 5 cm
 
-void projectReturns(const SideView& view, const Eigen::Vector3f& origin, Scene& scene) {
+}  // namespace
+
+void projectView(const SideView& view, const Eigen::Vector3f& origin, Scene& scene) {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   scene.view.image = view.image;
   scene.view.pixels.assign(scene.points.size(), {nan, nan});
@@ -25,10 +27,9 @@ void projectReturns(const SideView& view, const Eigen::Vector3f& origin, Scene& 
   }
 }
 
-}  // namespace
-
 DriveScene makeDriveScene(const std::vector<DriveReturn>& returns, const SideView& view) {
   DriveScene drive;
+  drive.scene.device = lms291_device;
   if (returns.empty()) return drive;
   const Eigen::Vector3f origin = returns.front().point.array().round();
   urban_nav_registration::CellTable table(returns.size() / 2 + 16);
@@ -43,7 +44,7 @@ DriveScene makeDriveScene(const std::vector<DriveReturn>& returns, const SideVie
     drive.scene.reflectance.push_back(returns[i].reflectance);
     drive.first_of_point.push_back(i);
   }
-  if (!view.image.empty()) projectReturns(view, origin, drive.scene);
+  if (!view.image.empty()) projectView(view, origin, drive.scene);
   return drive;
 }
 

@@ -35,7 +35,7 @@ const std::vector<std::string>& featureNames(FeatureSet set) { return namedSet(s
 
 std::size_t firstImageFeature(FeatureSet set) { return namedSet(set).first_of_image; }
 
-FeatureTable measureFeatures(const Scene& scene, FeatureSet set) {
+FeatureTable measureFeatures(const Scene& scene, FeatureSet set, bool with_reflectance) {
   FeatureTable table;
   table.names = featureNames(set);
   table.values.assign(table.names.size() * scene.points.size(), missing_feature);
@@ -44,7 +44,7 @@ FeatureTable measureFeatures(const Scene& scene, FeatureSet set) {
     measurePaperShape(scene, 0, table);
     measurePaperLook(scene, look, table);
   } else {
-    measureShape(scene, 0, table);
+    measureShape(scene, with_reflectance, 0, table);
     measureLook(scene, look, table);
   }
   for (float& value : table.values)

@@ -142,7 +142,7 @@ std::vector<std::string> shapeFeatureNames() {
   return names;
 }
 
-void measureShape(const Scene& scene, std::size_t first, FeatureTable& table) {
+void measureShape(const Scene& scene, bool with_reflectance, std::size_t first, FeatureTable& table) {
   const Eigen::Vector3f origin = chooseOrigin(scene);
   const auto levels = makeCubeLevels(scene.points, scene.reflectance, origin);
   for (const CubeLevel& level : levels) {
@@ -150,7 +150,7 @@ void measureShape(const Scene& scene, std::size_t first, FeatureTable& table) {
     first += shape_values;
   }
   writeHeights(levels[height_level], first, table);
-  writeReflectance(levels[reflectance_level], scene, first + height_values, table);
+  if (with_reflectance) writeReflectance(levels[reflectance_level], scene, first + height_values, table);
 }
 
 std::vector<std::string> paperShapeNames() { return {"over_ground", "normal_z", "planarity"}; }

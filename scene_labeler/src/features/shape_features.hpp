@@ -13,7 +13,7 @@ namespace scene_labeler {
 std::vector<std::string> shapeFeatureNames();
 
 /// Writes the features of the cloud into columns `first`, `first` + 1, ... of a table with a row per return.
-void measureShape(const Scene& scene, std::size_t first, FeatureTable& table);
+void measureShape(const Scene& scene, bool with_reflectance, std::size_t first, FeatureTable& table);
 
 /// Names of the features of the cloud that the paper uses: height over ground, vertical part of the normal, planarity.
 std::vector<std::string> paperShapeNames();

@@ -12,6 +12,22 @@ namespace scene_labeler {
 namespace {
 
 constexpr float sure_probability = 0.5F;
+/// In a scene that is unlike the training data, stated probabilities are too high.
+constexpr float novel_scene_share = 0.1F, sure_in_novel_scene = 0.7F, sure_of_other_device = 0.8F;
+
+/// Returns the probability from which an answer counts as sure: more for another device than that of the training data,
+/// and for a scene with many returns unlike these.
+float leastSureProbability(const LabelModel& model, const Scene& scene, const std::vector<std::uint8_t>& is_novel) {
+  if (scene.device != model.device) return sure_of_other_device;
+  std::size_t asked = 0, novel = 0;
+  for (std::size_t i = 0; i < is_novel.size(); ++i) {
+    if (!scene.points[i].allFinite() || !scene.isAsked(i)) continue;
+    ++asked;
+    novel += is_novel[i];
+  }
+  return static_cast<float>(novel) > novel_scene_share * static_cast<float>(asked) ? sure_in_novel_scene
+                                                                                   : sure_probability;
+}
 
 /// Log probabilities of the returns, fused over patches in place.
 void fusePatches(const LabelModel& model, const std::vector<std::uint32_t>& patches, std::vector<float>& logs) {
@@ -70,7 +86,7 @@ float SceneLabels::probability(std::size_t i) const {
 }
 
 SceneLabels labelScene(const LabelModel& model, const Scene& scene, int superpixel_size) {
-  const FeatureTable table = measureFeatures(scene, model.features);
+  const FeatureTable table = measureFeatures(scene, model.features, scene.device == model.device);
   const Superpixels superpixels = makeSuperpixels(scene.view.image, superpixel_size);
   const std::size_t classes = model.classes.size(), count = scene.points.size();
   std::vector<float> logs(count * classes);
@@ -85,6 +101,7 @@ SceneLabels labelScene(const LabelModel& model, const Scene& scene, int superpix
     model.logProbabilities(table.row(i), logs.data() + i * classes);
     is_novel[i] = model.countOutside(table.row(i)) > model.novelty.limit ? 1 : 0;
   });
+  const float least_sure = leastSureProbability(model, scene, is_novel);
   result.patches = makePatches(scene, superpixels);
   for (std::size_t i = 0; i < count; ++i)
     if (!scene.isAsked(i)) result.patches[i] = no_patch;
@@ -98,9 +115,8 @@ SceneLabels labelScene(const LabelModel& model, const Scene& scene, int superpix
     const auto best =
         static_cast<std::size_t>(std::max_element(probabilities, probabilities + classes) - probabilities);
     result.labels[i] = model.classes[best];
-    result.unsure[i] = is_novel[i] != 0 || probabilities[best] < sure_probability ? 1 : 0;
+    result.unsure[i] = is_novel[i] != 0 || probabilities[best] < least_sure ? 1 : 0;
   }
-  result.novel = std::move(is_novel);
   if (!superpixels.numbers.empty()) result.image = paintSuperpixels(scene, superpixels, result);
   return result;
 }

@@ -10,7 +10,7 @@ namespace scene_labeler {
 namespace {
 
 constexpr const char* model_name = "model of scene_labeler";
-constexpr std::uint32_t model_version = 1;
+constexpr std::uint32_t model_version = 2;
 constexpr float least_share = 1e-3F;  // of a forest's votes, before the logarithm
 constexpr std::size_t most_features = 255;
 
@@ -57,7 +57,7 @@ void LabelModel::archive(urban_nav_core::Archive& archive) {
   }
   if (kind == ClassifierKind::Svm) svm.archive(archive, bins.columns(), classes.size());
   else trees.archive(archive, bins.columns());
-  archive(calibration, patch_calibration, correlation, novelty, sources);
+  archive(calibration, patch_calibration, correlation, novelty, sources, device);
   if (!archive.isReading()) return;
   archive.require((kind == ClassifierKind::Svm || trees.base.size() == classes.size()) &&
                       calibration.bias.size() == classes.size() && patch_calibration.bias.size() == classes.size() &&

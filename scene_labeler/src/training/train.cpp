@@ -262,6 +262,7 @@ TrainedModel trainModel(std::vector<TrainingFold> folds, const TrainingOptions& 
   LabelModel& model = trained.model;
   model.kind = options.kind;
   model.features = options.features;
+  model.device = options.device;
   model.classes = pool.classes;
   model.bins = FeatureBins(pool.values, pool.columns);
   model.calibration = model.patch_calibration = identityCalibration(pool.classes.size());

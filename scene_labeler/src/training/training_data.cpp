@@ -30,7 +30,7 @@ std::uint32_t firstFreePatch(const FoldRows& rows) {
 void addHeldOut(const TrainingScene& scene, std::size_t limit, FoldRows& rows) {
   std::size_t labelled = 0;
   for (const SceneClass label : scene.labels) labelled += label != SceneClass::None ? 1U : 0U;
-  if (labelled == 0) return;
+  if (labelled == 0 || limit == 0) return;
   const double share = std::min(1.0, static_cast<double>(limit) / static_cast<double>(labelled));
   const auto threshold = static_cast<std::uint32_t>(share * 4294967295.0);
   const std::uint32_t first = firstFreePatch(rows);

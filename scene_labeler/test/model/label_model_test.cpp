@@ -38,10 +38,10 @@ TEST_P(LabelModels, ThatAreDamagedAreRefusedOrCanBeUsed) {
     machine.vectors.resize(machine.weights.size() * model.bins.columns());
   }
   const std::string sealed = printModel(model);
-  const std::string content(urban_nav_core::unseal("model of scene_labeler", 1, sealed));
+  const std::string content(urban_nav_core::unseal("model of scene_labeler", 2, sealed));
   const std::vector<float> row(model.bins.columns(), 0.3F);
   const auto result = urban_nav_core::testing::fuzzText({content}, [&row](const std::string& text) {
-    const LabelModel read = parseModel(urban_nav_core::seal("model of scene_labeler", 1, text), "m");
+    const LabelModel read = parseModel(urban_nav_core::seal("model of scene_labeler", 2, text), "m");
     if (read.bins.columns() != row.size()) return;
     std::vector<float> logs(read.classes.size());
     read.logProbabilities(row.data(), logs.data());

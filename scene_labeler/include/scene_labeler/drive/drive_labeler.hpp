@@ -31,7 +31,7 @@ class DriveLabeler : public DriveObserver {
  private:
   /// What the frames so far say of one return.
   struct Votes {
-    std::uint16_t views = 0, novel = 0;
+    std::uint16_t views = 0, unsure = 0;
     bool by_shape = false;  // the only view has no image of it
     std::uint32_t patch = 0;
   };

@@ -35,6 +35,9 @@ struct DriveScene {
   std::vector<std::uint32_t> point_of_return;  ///< for each return
 };
 
+/// Projects the points of a scene, plus `origin`, into an image, through the lens, and makes it the scene's image.
+void projectView(const SideView& view, const Eigen::Vector3f& origin, Scene& scene);
+
 /// Thins returns and projects them into an image, through the lens. An image that is empty gives a scene without one.
 DriveScene makeDriveScene(const std::vector<DriveReturn>& returns, const SideView& view);
 

@@ -21,7 +21,8 @@ std::size_t firstImageFeature(FeatureSet set);
 
 /// Measures the features of all returns of a scene. Returns that the image does not show have missing values for the
 /// features of an image; returns that are not finite have missing values only. The result does not depend on the number
-/// of threads, nor on the order of the returns except for rounding. Thread-safe.
-FeatureTable measureFeatures(const Scene& scene, FeatureSet set);
+/// of threads, nor on the order of the returns except for rounding. `with_reflectance`: false leaves out the scene's
+/// reflectance. Thread-safe.
+FeatureTable measureFeatures(const Scene& scene, FeatureSet set, bool with_reflectance = true);
 
 }  // namespace scene_labeler

@@ -11,13 +11,12 @@ struct SceneLabels {
   std::vector<SceneClass> classes;   ///< that the model knows; columns of `probabilities`
   std::vector<SceneClass> labels;    ///< one per return; None: no answer
   std::vector<float> probabilities;  ///< return by return, one for each class; they sum to one, or are 0 without answer
-  std::vector<std::uint8_t> unsure;  ///< 1: unlike the training data, or no class reaches 0.5
-  std::vector<std::uint8_t> novel;   ///< 1: unlike the training data; empty: not kept
+  std::vector<std::uint8_t> unsure;  ///< 1: unlike the training data, or no class reaches 0.5 (0.7 in a scene unlike
+                                     ///< it, 0.8 with another device)
   std::vector<std::uint32_t> patches;  ///< of makePatches()
   cv::Mat image;  ///< CV_8U, class of each superpixel, 255 without laser returns; empty without image
 
   float probability(std::size_t i) const;
-  bool isNovel(std::size_t i) const { return !novel.empty() && novel[i] != 0; }
 };
 
 /// Labels every return of a scene: single returns by the classifier, then the returns of a superpixel together.

@@ -37,6 +37,7 @@ struct LabelModel {
   Calibration patch_calibration;  ///< of the fused scores of patches
   double correlation = 1.0;       ///< of the errors of returns in a patch, 0...1
   NoveltyRanges novelty;
+  std::string device;                ///< whose reflectance it was trained with; that of other devices is not used
   std::vector<std::string> sources;  ///< names of the scenes or sessions it was trained on
 
   /// Writes log probabilities of a row of features, one for each class.
@@ -50,6 +51,10 @@ struct LabelModel {
 std::string printModel(LabelModel model);
 /// Reads a model. Throws UserError with `name` if the bytes are damaged, no model, or of another version.
 LabelModel parseModel(std::string_view bytes, const std::string& name);
+
+/// Returns the model that is part of the library, from simulated drives, and its bytes.
+LabelModel defaultModel();
+std::string_view defaultModelBytes();
 
 /// Returns the digest of the bytes of a model: 16 hexadecimal digits (FNV-1a).
 std::string modelDigest(std::string_view bytes);

@@ -13,6 +13,7 @@ struct TrainingOptions {
   FeatureSet features = FeatureSet::All;
   std::size_t samples_per_class = 3000;  ///< over all folds
   std::uint64_t seed = 1;
+  std::string device = {};  ///< of the reflectance in the folds, as in Scene::device
 };
 
 /// Values of the settings that cross-validation compared.

@@ -94,8 +94,11 @@ int runLabelsTrain(const Arguments& arguments, Console& console) {
   options.seed = static_cast<std::uint64_t>(arguments.integer("seed", 1, 0, 1'000'000'000));
   const ClassMap map = arguments.has("classes") ? ClassMap(arguments.get("classes")) : ClassMap();
   options.samples_per_class = static_cast<std::size_t>(parameters.get(scene_labeler::table()).samples);
-  auto folds = readTrainingSources(findLabelSources(arguments, parameters), map, options.features,
-                                   parameters.get(scene_labeler::table()).superpixel, console);
+  const LabelSources sources = findLabelSources(arguments, parameters);
+  if (sources.scenes.empty()) options.device = scene_labeler::lms291_device;
+  else if (!sources.bags.empty()) options.device = "several";
+  auto folds =
+      readTrainingSources(sources, map, options.features, parameters.get(scene_labeler::table()).superpixel, console);
   Progress progress(console, "training", "%", 100);
   const scene_labeler::TrainedModel trained = scene_labeler::trainModel(
       std::move(folds), options, [&](double share) { progress.update(static_cast<std::int64_t>(100.0 * share)); });

@@ -5,6 +5,7 @@
 #include "commands/labels_actions.hpp"
 #include "labels/class_map.hpp"
 #include "labels/label_drive.hpp"
+#include "labels/label_model_file.hpp"
 #include "labels/label_score.hpp"
 #include "labels/label_sources.hpp"
 #include "pipeline/parameters.hpp"
@@ -34,8 +35,9 @@ void applyToBag(const scene_labeler::LabelModel& model, const std::string& bag, 
   for (urban_nav_core::AtomicFile* file : {&left, &right}) file->write(printDriveHeader(model.classes));
   labelDrive(
       model, bag, options, console,
-      [&](Side side, const std::vector<scene_labeler::DriveReturn>& returns, const scene_labeler::SceneLabels& labels) {
-        (side == Side::Left ? left : right).write(printDriveLabels(returns, labels));
+      [&](DriveSide side, const std::vector<scene_labeler::DriveReturn>& returns,
+          const scene_labeler::SceneLabels& labels) {
+        (side == DriveSide::Left ? left : right).write(printDriveLabels(returns, labels));
       },
       run);
   left.commit();
@@ -45,7 +47,7 @@ void applyToBag(const scene_labeler::LabelModel& model, const std::string& bag, 
 int runLabelsApply(const Arguments& arguments, Console& console) {
   const ParameterSet parameters = loadParameters(arguments);
   const urban_nav_core::ThreadLimit threads(static_cast<int>(arguments.integer("threads", 0, 1, 1024)));
-  const scene_labeler::LabelModel model = readLabelModel(arguments.get("MODEL"));
+  const scene_labeler::LabelModel model = readLabelModel(arguments.get("MODEL")).model;
   const LabelSources sources = findLabelSources(arguments, parameters);
   const std::vector<SceneFiles>& scenes = sources.scenes;
   for (std::size_t i = 1; i < scenes.size(); ++i)
@@ -83,8 +85,8 @@ struct SourceTruth {
 SourceTruth readSourceTruth(const LabelSources& sources, const ClassMap& map) {
   SourceTruth truth;
   for (const std::string& bag : sources.bags)
-    truth.drives.push_back(
-        {DriveTruth(DriveTruth::path(bag, Side::Left), map), DriveTruth(DriveTruth::path(bag, Side::Right), map)});
+    truth.drives.push_back({DriveTruth(DriveTruth::path(bag, DriveSide::Left), map),
+                            DriveTruth(DriveTruth::path(bag, DriveSide::Right), map)});
   for (const SceneFiles& files : sources.scenes)
     truth.scenes.push_back(map.toClasses(readSceneLabels(files), files.points));
   return truth;
@@ -101,7 +103,7 @@ bool hasOneWall(const scene_labeler::LabelModel& model, const SourceTruth& truth
 int runLabelsEvaluate(const Arguments& arguments, Console& console) {
   const ParameterSet parameters = loadParameters(arguments);
   const urban_nav_core::ThreadLimit threads(static_cast<int>(arguments.integer("threads", 0, 1, 1024)));
-  const scene_labeler::LabelModel model = readLabelModel(arguments.get("MODEL"));
+  const scene_labeler::LabelModel model = readLabelModel(arguments.get("MODEL")).model;
   const ClassMap map = arguments.has("classes") ? ClassMap(arguments.get("classes")) : ClassMap();
   const LabelSources sources = findLabelSources(arguments, parameters);
   const SourceTruth truth = readSourceTruth(sources, map);
@@ -110,7 +112,7 @@ int runLabelsEvaluate(const Arguments& arguments, Console& console) {
   for (std::size_t i = 0; i < sources.bags.size(); ++i)
     labelDrive(
         model, sources.bags[i], sources.drives[i], console,
-        [&](Side side, const std::vector<scene_labeler::DriveReturn>& returns,
+        [&](DriveSide side, const std::vector<scene_labeler::DriveReturn>& returns,
             const scene_labeler::SceneLabels& labels) {
           std::vector<scene_labeler::SceneClass> expected;
           for (const scene_labeler::DriveReturn& one : returns)

@@ -71,9 +71,9 @@ std::array<SideRig, 2> readRigs(std::list<rosbag::Bag>& bags, const std::string&
   const urban_nav_ros::StaticTransforms transforms = readStaticTransforms(bags);
   const BagPanorama head(bags, topics, transforms);
   std::array<SideRig, 2> rigs;
-  for (const Side side : both_sides) {
+  for (const DriveSide side : both_sides) {
     SideRig& rig = rigs[static_cast<std::size_t>(side)];
-    const auto topic = topics.find(side == Side::Left ? Role::LaserLeft : Role::LaserRight);
+    const auto topic = topics.find(side == DriveSide::Left ? Role::LaserLeft : Role::LaserRight);
     const auto scan = topic ? firstMessage<sensor_msgs::LaserScan>(bags, topic->name) : nullptr;
     if (!scan) continue;
     const auto T_base_laser = transforms.lookup(urban_nav_core::frames::base_link, scan->header.frame_id);
@@ -191,7 +191,7 @@ void readSides(std::list<rosbag::Bag>& bags, const std::array<SideRig, 2>& rigs,
 
 }  // namespace
 
-const char* toString(Side side) { return side == Side::Left ? "left" : "right"; }
+const char* toString(DriveSide side) { return side == DriveSide::Left ? "left" : "right"; }
 
 bool isBag(const std::string& path) {
   return std::filesystem::path(path).extension() == ".bag" && !std::filesystem::is_directory(path);
@@ -208,7 +208,7 @@ void readDrive(const std::string& bag, const DriveOptions& options, Console& con
     const BagTopics topics = chooseTopics(topicTypes(bags), options.topics);
     const std::array<SideRig, 2> rigs = readRigs(bags, bag, topics, console);
     std::vector<SideReader> sides;
-    for (const Side side : both_sides)
+    for (const DriveSide side : both_sides)
       sides.emplace_back(rigs[static_cast<std::size_t>(side)], T_world_base, path, spacing,
                          *windows[static_cast<std::size_t>(side)]);
     Progress progress(console, std::filesystem::path(bag).stem().string(), "messages", 0);

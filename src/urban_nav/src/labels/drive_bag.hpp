@@ -14,9 +14,9 @@
 namespace urban_nav {
 
 /// Sides of the robot that a laser and a camera of the panoramic head look to.
-enum class Side : std::uint8_t { Left, Right };
-constexpr std::array<Side, 2> both_sides = {Side::Left, Side::Right};
-const char* toString(Side side);
+enum class DriveSide : std::uint8_t { Left, Right };
+constexpr std::array<DriveSide, 2> both_sides = {DriveSide::Left, DriveSide::Right};
+const char* toString(DriveSide side);
 
 /// How the bags of `labels` are read.
 struct DriveOptions {

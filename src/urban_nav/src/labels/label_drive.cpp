@@ -25,6 +25,7 @@ namespace {
 
 /// Of a scene of a drive, which is one of many.
 constexpr scene_labeler::SamplingLimits drive_limits{150, 1500};
+constexpr scene_labeler::SamplingLimits variant_limits{50, 0};
 constexpr double lone_stretch = 40.0;  // m along the path: the folds of a bag that is the only source
 
 /// Times the labelling of frames.
@@ -62,7 +63,29 @@ class FoldBuilder final : public scene_labeler::DriveObserver {
 
   void observe(const DriveFrame& frame, const Stretch& nearest, std::size_t,
                const std::vector<DriveReturn>& returns) override {
-    const scene_labeler::DriveScene drive = makeDriveScene(returns, frame.view);
+    add(makeDriveScene(returns, frame.view), frame, nearest, returns, true, drive_limits);
+    addVariant(frame, nearest, returns);
+    ++frames_;
+  }
+  void settle(std::size_t) override {}
+
+ private:
+  /// Adds the scene as other sensors would have it: without reflectance, and in turn without image or thinned to a
+  /// quarter. Calibration does not use it.
+  void addVariant(const DriveFrame& frame, const Stretch& nearest, const std::vector<DriveReturn>& returns) {
+    const bool is_thinned = frames_ % 2 == 0, has_image = frames_ % 4 < 2;
+    const scene_labeler::SideView view = has_image ? frame.view : scene_labeler::SideView();
+    if (!is_thinned) return add(makeDriveScene(returns, view), frame, nearest, returns, false, variant_limits);
+    const scene_labeler::DriveScene dense = makeDriveScene(returns, view);
+    std::vector<DriveReturn> thinned;
+    for (std::size_t i = 0; i < dense.first_of_point.size(); i += 4)
+      thinned.push_back(returns[dense.first_of_point[i]]);
+    add(makeDriveScene(thinned, view), frame, nearest, thinned, false, variant_limits);
+  }
+
+  void add(const scene_labeler::DriveScene& drive, const DriveFrame& frame, const Stretch& nearest,
+           const std::vector<DriveReturn>& returns, bool with_reflectance,
+           const scene_labeler::SamplingLimits& limits) {
     const std::vector<std::uint8_t> is_labelled = labelledPoints(drive, returns, nearest);
     scene_labeler::TrainingScene training;
     training.fold = is_alone_ ? fold_ + "/" + std::to_string(static_cast<int>(frame.travelled / lone_stretch)) : fold_;
@@ -70,20 +93,18 @@ class FoldBuilder final : public scene_labeler::DriveObserver {
       const DriveReturn& one = returns[drive.first_of_point[i]];
       training.labels.push_back(is_labelled[i] != 0 ? truth_.at(one.scan, one.beam) : SceneClass::None);
     }
-    training.features = scene_labeler::measureFeatures(drive.scene, features_);
+    training.features = scene_labeler::measureFeatures(drive.scene, features_, with_reflectance);
     training.patches =
         scene_labeler::makePatches(drive.scene, scene_labeler::makeSuperpixels(drive.scene.view.image, superpixel_));
-    scene_labeler::addScene(training, drive_limits, folds_);
+    scene_labeler::addScene(training, limits, folds_);
   }
-  void settle(std::size_t) override {}
-
- private:
   const std::string fold_;
   const bool is_alone_;
   const DriveTruth& truth_;
   const scene_labeler::FeatureSet features_;
   const int superpixel_;
   std::vector<scene_labeler::TrainingFold>& folds_;
+  std::size_t frames_ = 0;
 };
 
 }  // namespace
@@ -103,7 +124,7 @@ DriveTruth::DriveTruth(const std::string& path, const ClassMap& map) {
   }
 }
 
-std::string DriveTruth::path(const std::string& bag, Side side) {
+std::string DriveTruth::path(const std::string& bag, DriveSide side) {
   const std::filesystem::path file(bag);
   return (file.parent_path() / (file.stem().string() + ".truth") / (std::string("laser_") + toString(side) + ".csv"))
       .string();
@@ -117,7 +138,7 @@ SceneClass DriveTruth::at(StampNs scan, std::uint16_t beam) const {
 void labelDrive(const scene_labeler::LabelModel& model, const std::string& bag, const DriveOptions& options,
                 Console& console, const TakeDriveLabels& take, LabelRun& run) {
   const scene_labeler::Parameters& parameters = options.parameters->get(scene_labeler::table());
-  const auto taker = [&](Side side) {
+  const auto taker = [&](DriveSide side) {
     return [&, side](const std::vector<DriveReturn>& returns, const SceneLabels& labels) {
       run.points += returns.size();
       run.labelled += returns.size();
@@ -125,8 +146,8 @@ void labelDrive(const scene_labeler::LabelModel& model, const std::string& bag, 
       take(side, returns, labels);
     };
   };
-  TimedLabeler left(model, parameters.superpixel, taker(Side::Left), run);
-  TimedLabeler right(model, parameters.superpixel, taker(Side::Right), run);
+  TimedLabeler left(model, parameters.superpixel, taker(DriveSide::Left), run);
+  TimedLabeler right(model, parameters.superpixel, taker(DriveSide::Right), run);
   DriveWindow left_window(parameters.reach, left), right_window(parameters.reach, right);
   readDrive(bag, options, console, {&left_window, &right_window});
 }
@@ -135,8 +156,8 @@ void addDriveFold(const std::string& bag, const DriveOptions& options, const Cla
                   scene_labeler::FeatureSet features, bool is_alone, Console& console,
                   std::vector<scene_labeler::TrainingFold>& folds) {
   const scene_labeler::Parameters& parameters = options.parameters->get(scene_labeler::table());
-  const DriveTruth left_truth(DriveTruth::path(bag, Side::Left), map),
-      right_truth(DriveTruth::path(bag, Side::Right), map);
+  const DriveTruth left_truth(DriveTruth::path(bag, DriveSide::Left), map),
+      right_truth(DriveTruth::path(bag, DriveSide::Right), map);
   const std::string name = std::filesystem::path(bag).stem().string();
   std::vector<scene_labeler::TrainingFold> left_folds, right_folds;  // in an order that does not depend on the messages
   FoldBuilder left(name, left_truth, features, parameters.superpixel, is_alone, left_folds),

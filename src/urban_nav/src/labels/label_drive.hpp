@@ -19,7 +19,7 @@ class DriveTruth {
   /// Throws UserError if the file cannot be read, or has a label that the map does not list.
   DriveTruth(const std::string& path, const ClassMap& map);
   /// Returns the path for a bag.
-  static std::string path(const std::string& bag, Side side);
+  static std::string path(const std::string& bag, DriveSide side);
 
   /// Returns None where the file has no class.
   scene_labeler::SceneClass at(urban_nav_core::StampNs scan, std::uint16_t beam) const;
@@ -29,7 +29,7 @@ class DriveTruth {
 };
 
 /// Called with the returns of one side, in order of time.
-using TakeDriveLabels = std::function<void(Side side, const std::vector<scene_labeler::DriveReturn>& returns,
+using TakeDriveLabels = std::function<void(DriveSide side, const std::vector<scene_labeler::DriveReturn>& returns,
                                            const scene_labeler::SceneLabels& labels)>;
 
 /// Labels the returns of a bag and adds what that took to `run`.

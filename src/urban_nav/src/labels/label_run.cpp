@@ -6,8 +6,6 @@
 #include <cmath>
 
 #include "urban_nav_core/io/numbers.hpp"
-#include "urban_nav_core/io/text_file.hpp"
-#include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav {
 namespace {
@@ -19,13 +17,6 @@ void appendProbability(std::string& text, float probability) {
 }
 
 }  // namespace
-
-scene_labeler::LabelModel readLabelModel(const std::string& path) {
-  if (path == "default")
-    throw urban_nav_core::UserError("MODEL", "default: the suite has no default model yet",
-                                    "a file of `urban_nav labels train`");
-  return scene_labeler::parseModel(urban_nav_core::readTextFile(path), path);
-}
 
 Json LabelRun::toJson() const {
   Json json = Json::object();

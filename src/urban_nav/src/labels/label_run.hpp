@@ -12,9 +12,6 @@
 
 namespace urban_nav {
 
-/// Reads a model. Throws UserError for a damaged file, and for `default` as long as the suite has no default model.
-scene_labeler::LabelModel readLabelModel(const std::string& path);
-
 /// What labelling some scenes took and gave.
 struct LabelRun {
   std::size_t frames = 0, points = 0, labelled = 0, unsure = 0;

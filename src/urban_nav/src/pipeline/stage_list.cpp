@@ -5,6 +5,7 @@
 
 #include "stages/graph/graph_stage.hpp"
 #include "stages/keyframes/keyframes_stage.hpp"
+#include "stages/labels/labels_stage.hpp"
 #include "stages/lasers/lasers_stage.hpp"
 #include "stages/localization/localization_stage.hpp"
 #include "stages/loops/loops_stage.hpp"
@@ -23,6 +24,7 @@ std::vector<std::unique_ptr<Stage>> makeStages() {
   stages.push_back(makeLoopsStage());
   stages.push_back(makeGraphStage());
   stages.push_back(makeLasersStage());
+  stages.push_back(makeLabelsStage());
   stages.push_back(makeLocalizationStage());
   return stages;
 }

@@ -94,7 +94,8 @@ TEST_F(Labels, RefuseWhatTheyCannotUse) {
   EXPECT_EQ(train("m", {path("train"), path("train")}), 2);  // twice
   EXPECT_FALSE(std::filesystem::exists(path("m")));
   ASSERT_EQ(train("m", {path("train")}), 0);
-  EXPECT_EQ(labels({"apply", "default", path("train"), "-o", path("out")}), 2);
+  EXPECT_EQ(labels({"apply", path("absent.model"), path("train"), "-o", path("out")}), 2);
+  EXPECT_EQ(labels({"apply", "default", path("train"), "-o", path("out")}), 0);
   EXPECT_EQ(labels({"apply", path("absent"), path("train"), "-o", path("out")}), 2);
   testing::writeFile(path("broken"), testing::readFile(path("m")).substr(0, 200));
   EXPECT_EQ(labels({"apply", path("broken"), path("train"), "-o", path("out")}), 2);

@@ -6,9 +6,9 @@
 #include <map>
 #include <optional>
 
+#include "stage/panorama_views.hpp"
 #include "urban_nav_store/table_store.hpp"
 #include "urban_nav_store/tables/stored_panorama.hpp"
-#include "urban_nav_store/tables/stored_panorama_camera.hpp"
 
 namespace urban_nav {
 
@@ -37,13 +37,6 @@ struct SessionViews {
   std::vector<ImageKey> images;
 };
 
-urban_nav_core::RawCamera rawCameraFromRow(const StoredPanoramaCamera& row) {
-  urban_nav_core::RawCamera camera;
-  camera.pinhole = {row.fx, row.fy, row.cx, row.cy, static_cast<int>(row.width), static_cast<int>(row.height)};
-  camera.distortion = urban_nav_core::Distortion(row.distortion);
-  return camera;
-}
-
 void addViews(urban_nav_store::Store& store, const MappedSession& session, SessionViews& made) {
   std::map<std::int64_t, StoredPanoramaCamera> cameras;
   TableStore<StoredPanoramaCamera>(store).forEach(session.id,
@@ -60,7 +53,7 @@ void addViews(urban_nav_store::Store& store, const MappedSession& session, Sessi
     last = T_map_base;
     last_camera = row.camera;
     made.views.push_back(
-        {rawCameraFromRow(camera->second), *T_map_base * camera->second.T_base_camera, row.stamp, made.images.size()});
+        {rawCamera(camera->second), *T_map_base * camera->second.T_base_camera, row.stamp, made.images.size()});
     made.images.push_back({session.id, row.camera, row.stamp});
   });
 }

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene_labeler/labelling/map_labeler.hpp"
+
+namespace urban_nav {
+
+/// Adds uchar label, float label_probability and uchar unsure to each vertex of the map.ply at `path`. Throws DataError
+/// if the file is no map or has another number of vertices than there are labels.
+void addLabelsToPly(const std::string& path, const std::vector<scene_labeler::PointLabel>& labels);
+
+}  // namespace urban_nav

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "labels/label_model_file.hpp"
+#include "report/page.hpp"
+#include "scene_labeler/labelling/map_labeler.hpp"
+#include "stage/context.hpp"
+
+namespace urban_nav {
+
+/// Extent of what a class covers in a map.
+struct ClassExtent {
+  std::size_t points = 0;
+  double area = 0.0;             ///< m2: of ground seen from above, of other surfaces by cubes of 0.2 m
+  double length = 0.0;           ///< m: of walls, seen from above
+  double probability_sum = 0.0;  ///< of the points
+};
+
+/// Labels of the map of sessions that lie in one map.
+struct LabelledMap {
+  std::string file;  ///< "map.ply", in the output folder
+  std::size_t points = 0, labelled = 0, unsure = 0;
+  std::size_t views = 0, shown = 0;  ///< images, and points that these show
+  std::array<ClassExtent, scene_labeler::class_count> extents;
+  std::vector<PagePicture> pictures;
+};
+
+/// What stage labels made.
+struct LabelsRun {
+  std::vector<LabelledMap> maps;
+  std::vector<double> milliseconds;  ///< of each image
+  std::string model;                 ///< digest
+  double seconds = 0.0;
+
+  std::size_t points() const;
+  std::size_t labelled() const;
+  std::size_t unsure() const;
+  std::size_t views() const { return milliseconds.size(); }
+};
+
+/// Labels the maps that stage lasers has left in the store and the output folder, and adds the labels to map.ply.
+LabelsRun runLabels(const NamedLabelModel& model, MapContext& context);
+
+}  // namespace urban_nav

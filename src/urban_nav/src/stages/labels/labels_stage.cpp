@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stages/labels/labels_stage.hpp"
+
+#include <algorithm>
+
+#include "report/plot.hpp"
+#include "scene_labeler/parameters.hpp"
+#include "stage/stage_result.hpp"
+#include "stages/labels/labels_report.hpp"
+#include "stages/labels/labels_run.hpp"
+
+namespace urban_nav {
+
+namespace {
+
+/// Runs after stage lasers, whose map it labels.
+class LabelsStage final : public Stage {
+ public:
+  Description describe() const override { return {"labels", "scene_labeler", true, false, false, {"labels.csv"}}; }
+  void addTables(ParameterSet& parameters) const override { parameters.add(scene_labeler::table()); }
+  Selection select(const MapOptions& options) const override {
+    if (!options.localise.empty()) return {false, "not with --localise", {}};
+    if (!isRequested(options, "labels")) return {false, "not in --stages", {}};
+    if (!isRequested(options, "lasers")) return {false, "needs stage lasers, which is not in --stages", {}};
+    const std::string& model = options.parameters.get(scene_labeler::table()).model;
+    if (model != "default") readLabelModel(model);  // reports a bad file before the work
+    return {true, "", {"labels: model " + model}};
+  }
+
+  std::string missingInput(const MapContext& context) const override {
+    const std::vector<urban_nav_store::SessionId> ids = context.ids();
+    const bool any =
+        std::any_of(ids.begin(), ids.end(), [&](const auto& id) { return !context.store->scans().lasers(id).empty(); });
+    return any ? "" : "no laser scans";
+  }
+
+  Messages run(MapContext& context) override {
+    run_ = runLabels(readLabelModel(context.options.parameters.get(scene_labeler::table()).model), context);
+    return {{"labels: " + std::to_string(run_->labelled()) + " of " + std::to_string(run_->points()) + " points from " +
+             std::to_string(run_->views()) + " images, " + std::to_string(run_->unsure()) + " of them unsure, in " +
+             forPerson(run_->seconds, 3) + " s"},
+            labelsWarnings(*run_)};
+  }
+
+  StageResult result(const MapContext&) const override {
+    StageResult made;
+    if (!run_) return made;
+    made.method = "labels";
+    made.sections.push_back({report_place::map, labelsSection(*run_)});
+    made.data_faults = labelsWarnings(*run_);
+    const LabelsRun& run = *run_;
+    made.files.push_back({"labels.csv", [run] { return printLabelsCsv(run); }});
+    made.summary = toJson(*run_);
+    return made;
+  }
+
+ private:
+  std::optional<LabelsRun> run_;
+};
+
+}  // namespace
+
+std::unique_ptr<Stage> makeLabelsStage() { return std::make_unique<LabelsStage>(); }
+
+}  // namespace urban_nav
