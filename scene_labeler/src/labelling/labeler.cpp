@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "labelling/spread.hpp"
 #include "scene_labeler/labelling/fuse.hpp"
 #include "scene_labeler/labelling/superpixels.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
@@ -52,6 +53,15 @@ void fusePatches(const LabelModel& model, const std::vector<std::uint32_t>& patc
       logs[i * classes + k] = static_cast<float>(factor * sums[patches[i] * classes + k]);
     model.patch_calibration.apply(logs.data() + i * classes);
   }
+}
+
+void spreadInScene(const Scene& scene, std::size_t classes, std::vector<float>& logs) {
+  std::vector<std::uint8_t> is_shown = visibleReturns(scene.view), is_hidden(is_shown.size(), 0);
+  for (std::size_t i = 0; i < is_shown.size(); ++i) {
+    is_hidden[i] = is_shown[i] == 0 && scene.isAsked(i) ? 1 : 0;
+    if (!scene.isAsked(i)) is_shown[i] = 0;
+  }
+  spreadToHidden(scene.points, is_shown, is_hidden, classes, logs);
 }
 
 /// One class for each superpixel that has returns with an answer: that of the largest sum of probabilities.
@@ -106,6 +116,7 @@ SceneLabels labelScene(const LabelModel& model, const Scene& scene, int superpix
   for (std::size_t i = 0; i < count; ++i)
     if (!scene.isAsked(i)) result.patches[i] = no_patch;
   fusePatches(model, result.patches, logs);
+  if (!scene.view.image.empty()) spreadInScene(scene, classes, logs);
   for (std::size_t i = 0; i < count; ++i) {
     if (!scene.points[i].allFinite() || !scene.isAsked(i)) continue;
     float sum = 0.0F;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "labelling/spread.hpp"
+
 namespace scene_labeler {
 namespace {
 
@@ -62,6 +64,25 @@ void MapLabeler::vote(const std::vector<std::uint32_t>& members, const SceneLabe
   }
 }
 
+void MapLabeler::spreadInSquare(const std::vector<std::uint32_t>& members, const std::vector<std::uint16_t>& shown,
+                                const std::vector<std::uint8_t>& is_asked) {
+  const std::size_t classes = model_.classes.size();
+  std::vector<Eigen::Vector3f> points;
+  std::vector<std::uint8_t> is_shown;
+  std::vector<float> logs;
+  for (const std::uint32_t i : members) {
+    points.push_back(points_[i]);
+    is_shown.push_back(shown[i] != 0 ? 1 : 0);
+    const float share = 1.0F / static_cast<float>(std::max<std::uint16_t>(views_[i], 1));
+    for (std::size_t k = 0; k < classes; ++k) logs.push_back(share * logs_[i * classes + k]);
+  }
+  spreadToHidden(points, is_shown, is_asked, classes, logs);
+  for (std::size_t i = 0; i < members.size(); ++i)
+    if (is_asked[i] != 0)
+      std::copy_n(logs.begin() + static_cast<std::ptrdiff_t>(i * classes), classes,
+                  logs_.begin() + static_cast<std::ptrdiff_t>(members[i] * classes));
+}
+
 std::size_t MapLabeler::add(const SideView& view) {
   const Eigen::Vector3f place = view.T_world_camera.t().cast<float>();
   std::vector<std::uint32_t> members =
@@ -87,6 +108,7 @@ std::vector<PointLabel> MapLabeler::finish() {
     for (const std::uint32_t i : members)
       scene.is_asked.push_back(shown[i] == 0 && squareAt(points_[i]) == square ? 1 : 0);
     vote(members, labelScene(model_, scene, superpixel_));
+    spreadInSquare(members, shown, scene.is_asked);
   }
   const std::size_t classes = model_.classes.size();
   std::vector<PointLabel> labels(points_.size());

@@ -18,8 +18,9 @@ struct PointLabel {
   bool is_unsure = true;
 };
 
-/// Labels the points of a map, each from all images that show it, the others by shape. The result depends on the order
-/// of the views only by rounding, and not on the number of threads. Not thread-safe.
+/// Labels the points of a map, each from all images that show it, the others by shape and by what the images say of
+/// their surroundings. The result depends on the order of the views only by rounding, and not on the number of threads.
+/// Not thread-safe.
 class MapLabeler {
  public:
   /// `points`: m, some 5 cm apart. `reflectance`: one per point, as the robot's lasers measure it. The model must
@@ -38,6 +39,9 @@ class MapLabeler {
   /// Appends the points of the squares within `reach` of a place, up to `margin` squares around `middle`.
   std::vector<std::uint32_t> pointsAround(const Square& middle, int margin) const;
   Scene makeScene(const std::vector<std::uint32_t>& members) const;
+  /// Uses the labels that images gave for the points of a square that no image shows.
+  void spreadInSquare(const std::vector<std::uint32_t>& members, const std::vector<std::uint16_t>& shown,
+                      const std::vector<std::uint8_t>& is_asked);
   void vote(const std::vector<std::uint32_t>& members, const SceneLabels& labels);
 
   const LabelModel& model_;

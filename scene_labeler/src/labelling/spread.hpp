@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+namespace scene_labeler {
+
+/// Uses what images say of the surroundings for points that no image shows: the log probabilities of such a point are
+/// multiplied by the mean probabilities of the shown points within some 2 m, if there are any. `logs`: of each point
+/// one for each class. `is_shown`, `is_hidden`: of each point; others are neither.
+void spreadToHidden(const std::vector<Eigen::Vector3f>& points, const std::vector<std::uint8_t>& is_shown,
+                    const std::vector<std::uint8_t>& is_hidden, std::size_t classes, std::vector<float>& logs);
+
+}  // namespace scene_labeler

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "labelling/spread.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace scene_labeler {
+namespace {
+
+/// Two surfaces 20 m apart, of ten shown points each: class 0 here, class 1 there; one hidden point in each and one far
+/// from both.
+TEST(Spread, GivesHiddenPointsTheClassOfTheirSurroundings) {
+  std::vector<Eigen::Vector3f> points;
+  std::vector<std::uint8_t> is_shown, is_hidden;
+  std::vector<float> logs;
+  const auto add = [&](float x, bool shown, float p) {
+    points.emplace_back(x, 0.0F, 0.0F);
+    is_shown.push_back(shown ? 1 : 0);
+    is_hidden.push_back(shown ? 0 : 1);
+    logs.push_back(std::log(p));
+    logs.push_back(std::log(1.0F - p));
+  };
+  for (int i = 0; i < 10; ++i) add(0.1F * static_cast<float>(i), true, 0.95F);
+  for (int i = 0; i < 10; ++i) add(20.0F + 0.1F * static_cast<float>(i), true, 0.05F);
+  add(0.5F, false, 0.4F);
+  add(20.5F, false, 0.6F);
+  add(80.0F, false, 0.4F);
+  const std::vector<float> before = logs;
+  spreadToHidden(points, is_shown, is_hidden, 2, logs);
+  EXPECT_GT(std::exp(logs[2 * 20]), 0.8F);
+  EXPECT_GT(std::exp(logs[2 * 21 + 1]), 0.8F);
+  EXPECT_EQ(logs[2 * 22], before[2 * 22]) << "nothing around it";
+  for (std::size_t i = 0; i < 40; ++i) EXPECT_EQ(logs[i], before[i]) << "shown points stay";
+  EXPECT_NEAR(std::exp(logs[40]) + std::exp(logs[41]), 1.0F, 1e-5F);
+}
+
+}  // namespace
+}  // namespace scene_labeler
