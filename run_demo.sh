@@ -13,7 +13,7 @@ for input; do [ -e "$input" ] || { say "run_demo.sh: $input: no such file or fol
 
 out=$root/out/demo seconds=60 part=20
 
-map_inputs() { "$program" map "$@" --out "$out" >/dev/null; }  # its results are named at the end
+map_inputs() { "$program" map "$@" --out "$out" --overwrite >/dev/null; }  # its results are named at the end
 
 # is_simulated FOLDER: the whole session, by the simulator as it is now?
 is_simulated() { [ "$1/quad_$((seconds / part - 1)).bag" -nt "$ws/devel/lib/liburban_nav_sim.so" ]; }

@@ -15,10 +15,21 @@ ROOT = Path(__file__).resolve().parent.parent
 
 # The rules that hold. A breach fails the run; every other rule of RULES is counted only.
 ENFORCED = {"long_files", "long_lines", "unity_names", "gtest_names", "command_includes", "of_functions",
-            "word_counts", "old_names", "nodelet_includes"}
+            "word_counts", "old_names", "nodelet_includes", "long_functions"}
 
 # Functions over 60 lines that are to stay, with the reason.
-LONG_FUNCTIONS = {}
+LONG_FUNCTIONS = {
+    # Tables: one row after another, without a branch.
+    "segway_drivers/src/parameters.cpp:table": "table of parameters",
+    "src/urban_nav/src/commands/simulate.cpp:simulateCommand": "table of options",
+    "src/urban_nav_live/include/urban_nav_live/stereo_input_parameters.hpp:withStereoInput": "table of parameters",
+    "src/urban_nav_registration/src/parameters.cpp:table": "table of parameters",
+    "src/urban_nav/src/stages/lasers/map_viewer_script.cpp:mapViewerScript": "one script of the page, as text",
+    # Loops of a solver whose steps share most of their variables: apart, each would take ten arguments.
+    "pose_graph/src/condense/solve_condensed.cpp:solveCondensed": "descent and its tests of convergence",
+    "pose_graph/src/incremental/incremental_solver.cpp:IncrementalSolver::relax": "descent and its tests of convergence",
+    "pose_graph/src/solve/minimise.cpp:minimise": "descent and its tests of convergence",
+}
 
 # Folders of src/urban_nav/src, lowest first; folders on one line are of one level. A folder includes itself, its level
 # and lower ones.

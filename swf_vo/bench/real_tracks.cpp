@@ -140,6 +140,39 @@ struct Starry {
   }
 };
 
+/// Poses when they are the newest of the window, when they leave it, and after back-substitution.
+struct StarryEstimates {
+  std::vector<PoseWithCovariance> now, settled, full;
+};
+
+/// Runs a window of `size` poses over all frames.
+StarryEstimates trackStarry(const Starry& data, const Matrix6d& first, int size) {
+  WindowOptions options;
+  options.size = size;
+  options.exact_undo = false;
+  options.keep_history = true;
+  Window window(options, data.camera);
+  StarryEstimates made;
+  const auto keep = [&](const SettledPose& pose) { made.settled.push_back(data.vehicle(pose.T_odom_camera)); };
+  for (std::size_t i = 0; i < data.truth.size(); ++i) {
+    if (i == 0) {
+      window.start(0, data.truth[0] * data.T_vehicle_camera, first);
+      for (std::size_t j = 0; j < data.landmarks.size(); ++j)
+        window.fixLandmark({static_cast<LandmarkId>(j), data.landmarks[j].homogeneous()});
+    } else {
+      window.addPose(static_cast<FrameId>(i), data.inputs[i]);
+    }
+    window.removePoses();
+    for (const SettledPose& pose : window.settled()) keep(pose);
+    for (const Observation& observation : data.frames[i]) window.observe(observation);
+    window.update();
+    made.now.push_back(data.vehicle(window.newest()));
+  }
+  for (const auto& [frame, pose] : window.trajectory()) made.full.push_back(data.vehicle({pose, Matrix6d::Identity()}));
+  for (const SettledPose& pose : window.flush()) keep(pose);
+  return made;
+}
+
 void starry(const std::string& folder, urban_nav_core::testing::BenchTable& table) {
   const Starry data(folder);
   const Matrix6d first = diagonalInformation(1e-3, 1e-3);
@@ -151,30 +184,7 @@ void starry(const std::string& folder, urban_nav_core::testing::BenchTable& tabl
   batch.first_information = first;
   for (const auto& frame : data.frames) batch.observations.insert(batch.observations.end(), frame.begin(), frame.end());
   for (const int size : {1, 10, 25}) {
-    WindowOptions options;
-    options.size = size;
-    options.exact_undo = false;
-    options.keep_history = true;
-    Window window(options, data.camera);
-    std::vector<PoseWithCovariance> settled, now;
-    const auto keep = [&](const SettledPose& pose) { settled.push_back(data.vehicle(pose.T_odom_camera)); };
-    for (std::size_t i = 0; i < data.truth.size(); ++i) {
-      if (i == 0) {
-        window.start(0, data.truth[0] * data.T_vehicle_camera, first);
-        for (std::size_t j = 0; j < data.landmarks.size(); ++j)
-          window.fixLandmark({static_cast<LandmarkId>(j), data.landmarks[j].homogeneous()});
-      } else {
-        window.addPose(static_cast<FrameId>(i), data.inputs[i]);
-      }
-      window.removePoses();
-      for (const SettledPose& pose : window.settled()) keep(pose);
-      for (const Observation& observation : data.frames[i]) window.observe(observation);
-      window.update();
-      now.push_back(data.vehicle(window.newest()));
-    }
-    std::vector<PoseWithCovariance> full;
-    for (const auto& [frame, pose] : window.trajectory()) full.push_back(data.vehicle({pose, Matrix6d::Identity()}));
-    for (const SettledPose& pose : window.flush()) keep(pose);
+    const auto [now, settled, full] = trackStarry(data, first, size);
     if (batch.poses.empty())
       for (const PoseWithCovariance& pose : settled) batch.poses.push_back(pose.pose * data.T_vehicle_camera);
     const auto add = [&](const char* what, const std::vector<PoseWithCovariance>& estimate, bool covariances) {

@@ -89,6 +89,26 @@ void Replenisher::gather(const Corners& corners) {
   });
 }
 
+namespace {
+
+/// Sets the surface, the uncertainty and the templates of a track that begins with a match of both images.
+void describeTrack(const StereoCamera& camera, double floor_px, const Match& match, const SlopedAlignment& found,
+                   const urban_nav_core::PatchSource& source, Track& track) {
+  track.plane = urban_nav_core::surfaceThrough(
+      camera, {match.left.pixel.x(), match.left.pixel.y(), match.right.pixel.x()}, found.slopes);
+  track.slant = found.seen.scaled(1.0 / camera.baseline);
+  track.slant_reach = camera.baseline;
+  track.creep = creep_per_change * (match.left.covariance + creep_px * creep_px * Eigen::Matrix2d::Identity());
+  track.sigma_disparity =
+      std::sqrt(match.left.covariance(0, 0) + match.right.covariance(0, 0) + 2.0 * floor_px * floor_px);
+  track.z = match.z;
+  track.source = source;
+  track.left_ready = true;
+  track.right_ready = true;
+}
+
+}  // namespace
+
 bool Replenisher::start(const Candidate& candidate, FrameId frame, const Corners& corners, const Pose& T_odom_camera,
                         Tracks& tracks, std::vector<Observation>& fresh, RowOffset& rows) {
   const ImageView& left = corners.image(Side::Left, candidate.level);
@@ -138,17 +158,7 @@ bool Replenisher::start(const Candidate& candidate, FrameId frame, const Corners
   track->born = frame;
   track->T_born_odom = T_odom_camera.inverse();
   track->ray = camera_.left.ray(match.left.pixel);
-  track->plane = urban_nav_core::surfaceThrough(
-      camera_, {match.left.pixel.x(), match.left.pixel.y(), match.right.pixel.x()}, found.slopes);
-  track->slant = found.seen.scaled(1.0 / camera_.baseline);
-  track->slant_reach = camera_.baseline;
-  track->creep = creep_per_change * (match.left.covariance + creep_px * creep_px * Eigen::Matrix2d::Identity());
-  track->sigma_disparity =
-      std::sqrt(match.left.covariance(0, 0) + match.right.covariance(0, 0) + 2.0 * floor_px_ * floor_px_);
-  track->z = match.z;
-  track->source = *source;
-  track->left_ready = true;
-  track->right_ready = true;
+  describeTrack(camera_, floor_px_, match, found, *source, *track);
   fresh.push_back({track->id, frame, match.z, match.information, Eigen::Matrix2d::Zero(), 0.0});
   return true;
 }

@@ -116,9 +116,11 @@ void Cost::accumulateProcess(State& state, NormalEquations& equations) const {
   }
 }
 
+namespace {
+
+/// Sets equations of so many poses and landmarks to zero; blocks of landmarks are assigned by the caller.
 template <bool with_matrices>
-void Cost::accumulate(State& state, NormalEquations& equations) const {
-  const std::size_t poses = state.poses.size(), slots = state.landmarks.size();
+void clear(NormalEquations& equations, std::size_t poses, std::size_t slots) {
   equations.pose_gradient.assign(poses, Vector6d::Zero());
   equations.landmark_gradient.resize(slots);
   equations.cost = 0.0;
@@ -134,6 +136,14 @@ void Cost::accumulate(State& state, NormalEquations& equations) const {
     equations.cross.clear();
     reserveWithHeadroom(equations.cross, 2 * slots);
   }
+}
+
+}  // namespace
+
+template <bool with_matrices>
+void Cost::accumulate(State& state, NormalEquations& equations) const {
+  const std::size_t slots = state.landmarks.size();
+  clear<with_matrices>(equations, state.poses.size(), slots);
   SensorModel::Linearised at;
   Vector3d z;
   for (std::size_t slot = 0; slot < slots; ++slot) {

@@ -272,6 +272,10 @@ void Marginaliser::eliminate() {
     }
   }
   product_.subtract(reduced_, 0, remaining_, panel_.data() + eliminated_, eliminated_, stride_);
+  computeGain();
+}
+
+void Marginaliser::computeGain() {
   // d_pose = G (y - F^T d - b o): its gain, transposed, is -F G^T.
   reserveWithHeadroom(departed_.gain, static_cast<std::size_t>(6 * remaining_));
   departed_.gain.assign(static_cast<std::size_t>(6 * remaining_), 0.0);

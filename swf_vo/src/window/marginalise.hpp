@@ -56,6 +56,8 @@ class Marginaliser {
   void addTerms(const State& state, const Cost& cost);
   void gatherGauge(const State& state, const Eigen::Vector3d& origin);
   void eliminate();
+  /// Computes what the departed poses gain from those that remain.
+  void computeGain();
   void timesRoot(const Block& block, const urban_nav_core::Matrix6d& G);
   void record(const State& state, History& history) const;
   void keep(State& state, Prior& prior);

@@ -73,7 +73,7 @@ int runDoctor(const Arguments& arguments, Console& console) {
   const std::vector<std::string> readable = separateUnreadable(arguments.all("INPUT"), all);
   bool usable = all.empty();
   for (const Diagnosis& diagnosis : all) console.print(toText(diagnosis));
-  for (const InputSession& session : findSessions(readable)) {
+  for (const InputSession& session : findSessions(readable, options.topics)) {
     std::optional<Progress> bar;
     std::int64_t done = 0;
     all.push_back(examine(session, options, [&](std::int64_t pairs, std::int64_t total) {

@@ -32,6 +32,7 @@ MapOptions readOptions(const Arguments& arguments) {
           static_cast<int>(arguments.integer("threads", 0, 1, 1024)),
           so_far,
           arguments.get("store"),
+          arguments.has("overwrite"),
           arguments.get("localise")};
 }
 
@@ -45,6 +46,12 @@ std::vector<Option> mapOptions() {
   return {
       {"INPUT", "", "bags, or folders of KITTI, EuRoC or New College", true, true, {}},
       {"-o,--out", "DIR", "folder to write into (made if need be)", true, false, {}},
+      {"--overwrite",
+       "",
+       "replaces the map of other inputs that DIR holds (otherwise it is refused)",
+       false,
+       false,
+       {}},
       {"--stages", "LIST", stagesSentence(), false, true, {}},
       {"--closures",
        "FILE",

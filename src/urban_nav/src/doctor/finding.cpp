@@ -16,7 +16,7 @@ constexpr KnownSentence kKnownSentences[] = {
     {"no header has a stamp", FindingKind::Stamps,
      "let the camera's driver stamp its images; until then pairs are formed by times of receipt"},
     {"stamps step back", FindingKind::Stamps,
-     "set the clock before recording, and slew it (chrony) while recording; cut the bag at the step with rosbag filter"},
+     "set the clock before recording, and slew it (chrony) while recording"},
     {"have the stamp of another", FindingKind::Stamps,
      "record the topic once; a driver that repeats images or stamps needs a restart or a repair"},
     {"came too late by their stamps", FindingKind::Stamps, "check the clock of the computer that stamps this topic"},

@@ -153,11 +153,13 @@ Diagnosis examine(const InputSession& session, const SourceOptions& options,
   Diagnosis diagnosis;
   diagnosis.name = session.paths.front();
   try {
-    const std::unique_ptr<Source> source = readAhead(openSource(session.paths, options), 8);
+    const std::unique_ptr<Source> source = readAhead(openSource(session.paths, options, nullptr, session.part), 8);
     diagnosis.name = source->info().name;
     diagnosis.kind = source->info().kind;
     diagnosis.contents = describe(source->info());
-    diagnosis.findings = readerFindings(source->info().notes);
+    std::vector<std::string> notes = source->info().notes;
+    if (!session.note.empty()) notes.push_back(session.note);
+    diagnosis.findings = readerFindings(notes);
     for (const CalibrationFault& fault : checkCalibration(source->info().camera))
       diagnosis.findings.push_back({FindingKind::Calibration, fault.text, fault.remedy});
     for (const std::string& path : session.paths) {

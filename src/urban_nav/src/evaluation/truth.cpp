@@ -70,7 +70,8 @@ std::optional<TrajectoryFile> bagTruth(const InputSession& session, const Source
   if (!topic) return std::nullopt;
   Trajectory trajectory;
   for (rosbag::Bag& bag : bags) {
-    rosbag::View view(bag, rosbag::TopicQuery(topic->name));
+    rosbag::View view;
+    addToView(view, bag, {topic->name}, session.part);
     for (const rosbag::MessageInstance& instance : view) {
       const auto message = instance.instantiate<geometry_msgs::PoseStamped>();
       if (!message) continue;

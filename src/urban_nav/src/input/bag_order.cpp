@@ -24,10 +24,12 @@ struct Sample {
   StampNs stamp = 0, receipt = 0;
 };
 
-std::vector<Sample> drawSamples(std::list<rosbag::Bag>& bags, const std::vector<std::string>& topics) {
+std::vector<Sample> drawSamples(std::list<rosbag::Bag>& bags, const std::vector<std::string>& topics,
+                                const ReceiptRange& range) {
   std::vector<Sample> samples;
   for (rosbag::Bag& bag : bags) {
-    rosbag::View view(bag, rosbag::TopicQuery(topics));
+    rosbag::View view;
+    addToView(view, bag, topics, range);
     const std::size_t every = std::max<std::size_t>(1, view.size() / kSamples);
     std::size_t i = 0;
     for (const rosbag::MessageInstance& message : view)
@@ -52,9 +54,10 @@ StampNs readHeaderStamp(const rosbag::MessageInstance& message) {
   return static_cast<StampNs>(seconds) * 1'000'000'000 + nanoseconds;
 }
 
-StampSurvey surveyStamps(std::list<rosbag::Bag>& bags, const std::vector<std::string>& topics) {
+StampSurvey surveyStamps(std::list<rosbag::Bag>& bags, const std::vector<std::string>& topics,
+                         const ReceiptRange& range) {
   StampSurvey survey;
-  const std::vector<Sample> samples = drawSamples(bags, topics);
+  const std::vector<Sample> samples = drawSamples(bags, topics, range);
   if (samples.empty()) return survey;
   survey.unset = std::all_of(samples.begin(), samples.end(), [](const Sample& sample) { return sample.stamp == 0; });
   if (survey.unset) return survey;
@@ -77,9 +80,10 @@ StampSurvey surveyStamps(std::list<rosbag::Bag>& bags, const std::vector<std::st
   return survey;
 }
 
-BagMessages::BagMessages(const std::vector<rosbag::Bag*>& bags, const std::vector<std::string>& topics, bool is_sorted)
+BagMessages::BagMessages(const std::vector<rosbag::Bag*>& bags, const std::vector<std::string>& topics, bool is_sorted,
+                         const ReceiptRange& range)
     : is_sorted_(is_sorted) {
-  for (rosbag::Bag* bag : bags) view_.addQuery(*bag, rosbag::TopicQuery(topics));
+  for (rosbag::Bag* bag : bags) addToView(view_, *bag, topics, range);
   position_ = view_.begin();
   if (!is_sorted_) return;
   all_.reserve(view_.size());

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "input/clock_steps.hpp"
 #include "urban_nav_core/types/stamp.hpp"
 
 namespace urban_nav {
@@ -29,15 +30,17 @@ struct StampSurvey {
 /// Returns the stamp (ns) of a message that begins with a std_msgs/Header.
 urban_nav_core::StampNs readHeaderStamp(const rosbag::MessageInstance& message);
 
-/// Looks at a few hundred messages of the topics, evenly distributed over the bags.
-StampSurvey surveyStamps(std::list<rosbag::Bag>& bags, const std::vector<std::string>& topics);
+/// Looks at a few hundred messages of the topics, evenly distributed over the part of the bags within `range`.
+StampSurvey surveyStamps(std::list<rosbag::Bag>& bags, const std::vector<std::string>& topics,
+                         const ReceiptRange& range = {});
 
 /// Messages of some bags one after another: as they were received, or in the order of their header stamps, those of
 /// equal stamps as they were received. Sorting reads all of them once, keeps some 60 bytes for each, and requires
-/// topics whose messages have headers.
+/// topics whose messages have headers. Messages received outside `range` are left out.
 class BagMessages {
  public:
-  BagMessages(const std::vector<rosbag::Bag*>& bags, const std::vector<std::string>& topics, bool is_sorted);
+  BagMessages(const std::vector<rosbag::Bag*>& bags, const std::vector<std::string>& topics, bool is_sorted,
+              const ReceiptRange& range = {});
 
   /// Returns null at the end; the message is valid until the next call.
   const rosbag::MessageInstance* next();

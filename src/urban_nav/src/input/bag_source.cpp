@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <list>
+#include <set>
 
 #include "input/bag_groups.hpp"
 #include "input/bag_order.hpp"
@@ -16,6 +17,7 @@
 #include "input/first_message.hpp"
 #include "input/open.hpp"
 #include "input/pair_delay.hpp"
+#include "input/unused_topics.hpp"
 #include "urban_nav_core/io/archive_types.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -51,8 +53,9 @@ constexpr std::size_t kDepthSamples = 20;  // images at the beginning of each si
 /// stamps.
 class BagSource : public Source {
  public:
-  BagSource(const std::vector<std::string>& paths, const SourceOptions& options, const BagEnd* after)
-      : options_(options), name_(paths.front()) {
+  BagSource(const std::vector<std::string>& paths, const SourceOptions& options, const BagEnd* after,
+            const ReceiptRange& part)
+      : options_(options), part_(part), name_(paths.front()) {
     for (const std::string& path : paths) bags_.emplace_back(path, rosbag::bagmode::Read);
     topics_ = chooseTopics(available(), options.topics);
     if (!topics_.find(Role::Left) || !topics_.find(Role::Right))
@@ -108,7 +111,8 @@ class BagSource : public Source {
                          " images have the stamp of another and were dropped");
       if (feed_->missing(side) > 0)
         faults.push_back(topic + ": " + std::to_string(feed_->missing(side)) +
-                         " images are missing: no partner within 5 ms" + delayHint());
+                         " images are missing: no partner within 5 ms" +
+                         describeDelay(image_stamps_[0], image_stamps_[1]));
     };
     count(urban_nav_ros::Side::Left, Role::Left);
     count(urban_nav_ros::Side::Right, Role::Right);
@@ -121,18 +125,6 @@ class BagSource : public Source {
   }
 
  private:
-  /// "" unless the stamps of one side are late by a constant time.
-  std::string delayHint() const {
-    const auto delay = constantDelay(image_stamps_[0], image_stamps_[1]);
-    constexpr urban_nav_core::StampNs kPaired = 5'000'000;
-    if (!delay || std::abs(*delay) <= kPaired) return "";
-    const double ms = std::round(1e-4 * static_cast<double>(*delay)) / 100.0;  // to 0.01 ms
-    return "; the right images are stamped " + urban_nav_core::printNumber(std::abs(ms)) + " ms " +
-           (ms > 0.0 ? "later" : "earlier") +
-           " than the left ones: if they are exposed together, --set input.right_delay=" +
-           urban_nav_core::printNumber(ms) + " shifts their stamps";
-  }
-
   std::map<std::string, std::string> available() {
     std::map<std::string, std::string> topics;
     for (rosbag::Bag& bag : bags_) {
@@ -262,7 +254,7 @@ class BagSource : public Source {
         throw DataError(name_, "has no topic for input.motion_input = " + options_.motion_input, "");
       feed.motion = true;
     }
-    const StampSurvey survey = surveyStamps(bags_, images);
+    const StampSurvey survey = surveyStamps(bags_, images, part_);
     stamps_are_receipts_ = survey.unset;
     is_sorted_ = survey.needs_sorting;
     if (stamps_are_receipts_) {
@@ -277,15 +269,28 @@ class BagSource : public Source {
                             "until the stamps have caught up");
     feed_.emplace(feed, calibration_);
     listen();
+    noteUnused();
     groups_ = groupBags(bags_);
     if (is_sorted_ && groups_.size() > 1) groups_ = asOneGroup(groups_);
-    for (rosbag::Bag& bag : bags_) info_.frames += rosbag::View(bag, rosbag::TopicQuery(images.front())).size();
     rosbag::View stereo;
-    for (rosbag::Bag& bag : bags_) stereo.addQuery(bag, rosbag::TopicQuery(images));
+    for (rosbag::Bag& bag : bags_) {
+      rosbag::View left;
+      addToView(left, bag, {images.front()}, part_);
+      info_.frames += left.size();
+      addToView(stereo, bag, images, part_);
+    }
     if (stereo.size() == 0) throw DataError(name_, "holds no images", "");
     info_.first = urban_nav_ros::toStampNs(stereo.getBeginTime());
     info_.last = urban_nav_ros::toStampNs(stereo.getEndTime());
     expectBits(images);
+  }
+
+  void noteUnused() {
+    std::set<std::string> used(names_.begin(), names_.end());
+    for (const auto& [role, topic] : topics_.chosen)
+      if (role != Role::Wheels && role != Role::Imu) used.insert(topic.name);  // these are read only if they are of use
+    if (std::string sentence = describeUnusedTopics(bags_, used); !sentence.empty())
+      info_.notes.push_back(std::move(sentence));
   }
 
   /// The depth of 16-bit images is known before the first of them is decoded.
@@ -308,7 +313,8 @@ class BagSource : public Source {
   /// The messages of the next group, if there is one.
   void readGroup() {
     messages_.reset();
-    if (group_ < groups_.size()) messages_ = std::make_unique<BagMessages>(groups_[group_].bags, names_, is_sorted_);
+    if (group_ < groups_.size())
+      messages_ = std::make_unique<BagMessages>(groups_[group_].bags, names_, is_sorted_, part_);
   }
 
   /// Nothing more comes out of the bags so far until others follow, or it is the end.
@@ -439,6 +445,7 @@ class BagSource : public Source {
   }
 
   const SourceOptions options_;
+  const ReceiptRange part_;
   const std::string name_;
   std::list<rosbag::Bag> bags_;  // a view points at them
   BagTopics topics_;
@@ -470,9 +477,9 @@ class BagSource : public Source {
 }  // namespace
 
 std::unique_ptr<Source> openBags(const std::vector<std::string>& paths, const SourceOptions& options,
-                                 const BagEnd* after) {
+                                 const BagEnd* after, const ReceiptRange& part) {
   try {
-    return std::make_unique<BagSource>(paths, options, after);
+    return std::make_unique<BagSource>(paths, options, after, part);
   } catch (const rosbag::BagException& error) {
     throw DataError(paths.front(), std::string("cannot be read: ") + error.what(),
                     "a whole bag (`rosbag reindex` mends one that was cut off)");

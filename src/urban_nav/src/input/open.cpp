@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "input/foreign_input.hpp"
 #include "input/kitti_layout.hpp"
 #include "urban_nav_core/types/error.hpp"
 
@@ -37,17 +38,19 @@ InputKind inputKind(const std::string& path) {
   if (!fs::exists(path)) throw UserError(path, "is not there", kKnownInputs);
   if (!fs::is_directory(path)) {
     if (isBag(path)) return InputKind::Bag;
+    if (const auto foreign = recogniseForeignInput(path)) throw UserError(path, foreign->found, foreign->remedy);
     throw UserError(path, "is no bag (its first line is not #ROSBAG)", kKnownInputs);
   }
   if (findKittiLayout(path)) return InputKind::KittiFolder;
   if (fs::is_directory(fs::path(path) / "mav0") || fs::is_directory(fs::path(path) / "cam0"))
     return InputKind::EurocFolder;
   if (fs::is_directory(fs::path(path) / "StereoImages") || hasAlog(path)) return InputKind::NewCollegeFolder;
+  if (const auto foreign = recogniseForeignInput(path)) throw UserError(path, foreign->found, foreign->remedy);
   throw UserError(path, "holds nothing that is known", kKnownInputs);
 }
 
 std::unique_ptr<Source> openSource(const std::vector<std::string>& paths, const SourceOptions& options,
-                                   const BagEnd* after) {
+                                   const BagEnd* after, const ReceiptRange& part) {
   const InputKind kind = inputKind(paths.front());
   if (kind != InputKind::Bag && !options.topics.empty())
     throw UserError("--topic " + options.topics.front(), "names a topic, but " + paths.front() + " is a folder",
@@ -56,7 +59,7 @@ std::unique_ptr<Source> openSource(const std::vector<std::string>& paths, const 
     case InputKind::KittiFolder: return openKittiFolder(paths.front(), options);
     case InputKind::NewCollegeFolder: return openNewCollegeFolder(paths.front(), options);
     case InputKind::EurocFolder: return openEurocFolder(paths.front(), options);
-    case InputKind::Bag: return openBags(paths, options, after);
+    case InputKind::Bag: return openBags(paths, options, after, part);
   }
   throw UserError(paths.front(), "holds nothing that is known", kKnownInputs);
 }

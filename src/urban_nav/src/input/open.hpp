@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "input/clock_steps.hpp"
 #include "input/source.hpp"
 
 namespace urban_nav {
@@ -27,14 +28,14 @@ InputKind inputKind(const std::string& path);
 
 /// One session: a folder, or the bags of a recording (more than one where it was split). `after`: where another reader
 /// of the recording stood, with bags that count as the first of `paths`; null for a reader that begins at the start.
-/// UserError where the bags do not follow.
+/// `part`: of the bags, what was received within this range. UserError where the bags do not follow.
 std::unique_ptr<Source> openSource(const std::vector<std::string>& paths, const SourceOptions& options,
-                                   const BagEnd* after = nullptr);
+                                   const BagEnd* after = nullptr, const ReceiptRange& part = {});
 
 std::unique_ptr<Source> openKittiFolder(const std::string& folder, const SourceOptions& options);
 std::unique_ptr<Source> openEurocFolder(const std::string& folder, const SourceOptions& options);
 std::unique_ptr<Source> openNewCollegeFolder(const std::string& folder, const SourceOptions& options);
 std::unique_ptr<Source> openBags(const std::vector<std::string>& paths, const SourceOptions& options,
-                                 const BagEnd* after = nullptr);
+                                 const BagEnd* after = nullptr, const ReceiptRange& part = {});
 
 }  // namespace urban_nav

@@ -2,7 +2,10 @@
 #include "input/pair_delay.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
+
+#include "urban_nav_core/io/numbers.hpp"
 
 namespace urban_nav {
 
@@ -27,6 +30,17 @@ std::optional<StampNs> constantDelay(const std::vector<StampNs>& left, const std
                                    [median](StampNs delay) { return std::abs(delay - median) <= kConstant; });
   if (static_cast<double>(alike) < kMost * static_cast<double>(delays.size())) return std::nullopt;
   return median;
+}
+
+std::string describeDelay(const std::vector<StampNs>& left, const std::vector<StampNs>& right) {
+  constexpr StampNs kPaired = 5'000'000;
+  const std::optional<StampNs> delay = constantDelay(left, right);
+  if (!delay || std::abs(*delay) <= kPaired) return "";
+  const double ms = std::round(1e-4 * static_cast<double>(*delay)) / 100.0;  // to 0.01 ms
+  return "; the right images are stamped " + urban_nav_core::printNumber(std::abs(ms)) + " ms " +
+         (ms > 0.0 ? "later" : "earlier") +
+         " than the left ones: if they are exposed together, --set input.right_delay=" +
+         urban_nav_core::printNumber(ms) + " shifts their stamps";
 }
 
 }  // namespace urban_nav

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "input/clock_steps.hpp"
 #include "urban_nav_core/types/stamp.hpp"
 
 namespace urban_nav {
@@ -13,13 +14,17 @@ struct InputSession {
   std::vector<std::string> paths;
   urban_nav_core::StampNs begin = 0;  ///< receipt of the first message of the first bag; 0 for a folder
   std::string name = {};              ///< of the stored session that these bags continue; empty: by the first path
+  ReceiptRange part = {};             ///< of the bags; {0, 0}: all of them
+  std::string note = {};              ///< why the bags are more than one session, for the user; mostly empty
 };
 /// Parts of one recording are less than this apart.
 constexpr double kLongestSplit = 5.0;  // s
 
-/// Returns the sessions of inputs: each folder is one, bags less than 5 s apart are one (a split recording). Throws
-/// UserError for an input of unknown kind, DataError for a bag that cannot be read.
-std::vector<InputSession> findSessions(const std::vector<std::string>& inputs);
+/// Returns the sessions of inputs: each folder is one, bags less than 5 s apart are one (a split recording). Where the
+/// stamps of the stereo images step back, because a clock was set, the next session begins. `topics`: ROLE:=NAME, for
+/// bags. Throws UserError for an input of unknown kind, DataError for a bag that cannot be read.
+std::vector<InputSession> findSessions(const std::vector<std::string>& inputs,
+                                       const std::vector<std::string>& topics = {});
 
 /// Returns the names of sessions in closures.csv, those of `earlier` ones first: the folder's name, or the stem of the
 /// first bag. Of two equal names the later one gets a number ("quad", "quad_2").

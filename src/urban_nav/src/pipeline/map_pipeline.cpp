@@ -36,7 +36,7 @@ class MapRun {
         folder_(options.out) {
     if (!options.truth.empty()) readTrajectory(options.truth);  // reports a bad file before the work
     if (!options.closures.empty()) context_.closures = readClosures(options.closures);
-    for (InputSession& input : findSessions(options.inputs)) {
+    for (InputSession& input : findSessions(options.inputs, options.source.topics)) {
       context_.sessions.emplace_back();
       context_.sessions.back().input = std::move(input);
     }

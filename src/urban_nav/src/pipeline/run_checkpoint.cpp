@@ -132,6 +132,10 @@ RunCheckpoint::PruneResult RunCheckpoint::pruneSessions(bool in_place) {
     const bool interrupted = !known.complete || store_->states().get(known.id, keys_.front()).has_value();
     found.interrupted = found.interrupted || interrupted;
     if (!ours) {
+      if (!in_place && !options_.overwrite)
+        throw urban_nav_core::UserError(
+            options_.out, "holds the map of another recording, " + known.name,
+            "another folder, --overwrite to replace that map, or --store " + path_ + " to continue it");
       found.difference = "other inputs";
     } else if (isFinished(at)) {
       ++found.finished;

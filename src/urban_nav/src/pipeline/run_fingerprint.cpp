@@ -162,8 +162,18 @@ std::string digestOfStore(const MapOptions& options) {
 
 }  // namespace
 
+namespace {
+
+/// Returns a digest, and the part of the bags that a session consists of, if it is not all of them.
+std::string appendPart(std::string digest, const ReceiptRange& part) {
+  if (part == ReceiptRange{}) return digest;
+  return digest + ":" + std::to_string(part.begin) + "-" + std::to_string(part.end);
+}
+
+}  // namespace
+
 RunFingerprint fingerprint(const MapOptions& options, const StageList& stages, const InputSession& session) {
-  return {{"inputs", computeDigest(session.paths, options.out, true)},
+  return {{"inputs", appendPart(computeDigest(session.paths, options.out, true), session.part)},
           {"options", digestOfOptions(options, stages)},
           {"parameters", digestOfParameters(options, stages)},
           {"program", digestOfProgram()},
@@ -172,13 +182,14 @@ RunFingerprint fingerprint(const MapOptions& options, const StageList& stages, c
 }
 
 urban_nav_store::SessionOrigin origin(const MapOptions& options, const InputSession& session) {
-  return {"", "", 0, computeDigest({session.paths.front()}, options.out, false)};
+  return {"", "", 0, appendPart(computeDigest({session.paths.front()}, options.out, false), session.part)};
 }
 
 std::vector<std::string> bagFingerprints(const MapOptions& options, const InputSession& session) {
   std::vector<std::string> digests;
   if (session.begin != 0)
-    for (const std::string& path : session.paths) digests.push_back(computeDigest({path}, options.out, true));
+    for (const std::string& path : session.paths)
+      digests.push_back(appendPart(computeDigest({path}, options.out, true), session.part));
   return digests;
 }
 

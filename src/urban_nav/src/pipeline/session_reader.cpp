@@ -22,9 +22,10 @@ SessionReader::SessionReader(MapContext& context, const StageList& stages, RunCh
 
 std::unique_ptr<Source> SessionReader::openSource(const BagEnd* after) {
   const MapOptions& options = context_.options;
-  std::unique_ptr<Source> source =
-      urban_nav::openSource(context_.sessions[session_].input.paths, options.source, after);
+  const InputSession& input = context_.sessions[session_].input;
+  std::unique_ptr<Source> source = urban_nav::openSource(input.paths, options.source, after, input.part);
   context_.sessions[session_].info = source->info();
+  if (!input.note.empty()) context_.sessions[session_].info.notes.push_back(input.note);
   if (options.threads == 1) return source;
   const urban_nav_core::Pinhole& camera = source->info().camera.left;
   const double pair_mb = std::max(0.1, 2e-6 * camera.width * camera.height);
@@ -132,6 +133,7 @@ void SessionReader::read(const ProgressCallback& progress) {
   processPanoramas(source_->panoramas());
   std::vector<std::string> faults = source_->closingFaults();
   for (std::string& fault : calibrationFaults()) faults.push_back(std::move(fault));
+  if (const std::string& note = context_.sessions[session_].input.note; !note.empty()) faults.push_back(note);
   const PassEnd end{faults, source_->forces()};
   std::vector<BagCheckpoint::StageState> states;
   for (const auto& [key, pass] : passes_) {

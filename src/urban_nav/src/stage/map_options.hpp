@@ -26,6 +26,7 @@ struct MapOptions {
   /// empty.
   std::optional<double> so_far = std::nullopt;
   std::string store = {};     ///< session store to continue from; empty: none
+  bool overwrite = false;     ///< replaces the run of other inputs that `out` holds
   std::string localise = {};  ///< session store whose map is only read; empty: none
 };
 

@@ -57,8 +57,9 @@ struct Recipe {
   std::function<double(int topic, int i, double stamp)> receipt = [](int, int, double stamp) { return stamp + 0.01; };
 };
 
-void writeBag(const std::string& path, const Recipe& recipe, double begin = kBegin) {
-  rosbag::Bag bag(path, rosbag::bagmode::Write);
+void writeBag(const std::string& path, const Recipe& recipe, double begin = kBegin,
+              rosbag::bagmode::BagMode mode = rosbag::bagmode::Write) {
+  rosbag::Bag bag(path, mode);
   for (int i = 0; i < kPairs; ++i) {
     const double stamp = begin + kPeriod * i, right = stamp + recipe.right_late;
     const auto header = [&](double time) { return recipe.stamped ? time : 0.0; };
@@ -78,8 +79,8 @@ struct Reading {
   std::string notes;
 };
 
-Reading readBag(const std::string& path, const SourceOptions& options = {}) {
-  const std::unique_ptr<Source> source = openSource({path}, options);
+Reading readBag(const std::string& path, const SourceOptions& options = {}, const ReceiptRange& part = {}) {
+  const std::unique_ptr<Source> source = openSource({path}, options, nullptr, part);
   Reading reading;
   for (const std::string& note : source->info().notes) reading.notes += note + "\n";
   while (const auto item = source->next()) {
@@ -191,6 +192,70 @@ TEST(PairDelay, isFoundWhereItIsConstant) {
   EXPECT_NEAR(static_cast<double>(constantDelay(left, right).value()), -8e6, 2e5);
   EXPECT_FALSE(constantDelay(left, varying));
   EXPECT_FALSE(constantDelay({1, 2}, {1, 2}));
+}
+
+/// Received from kBegin on without a break; after `kPairs` pairs the clock is set back by `back` (s).
+void writeBagWithStep(const std::string& path, double back) {
+  Recipe recipe;
+  writeBag(path, recipe);
+  recipe.receipt = [back](int, int, double stamp) { return stamp + back + 0.01; };
+  writeBag(path, recipe, kBegin + kPeriod * kPairs - back, rosbag::bagmode::Append);
+}
+
+TEST(ForeignBags, aClockThatIsSetBackBeginsASession) {
+  const TemporaryFolder folder;
+  for (const double back : {1.5, 3600.0}) {
+    const std::string path = folder.file("step.bag");
+    writeBagWithStep(path, back);
+    const std::vector<InputSession> sessions = findSessions({path});
+    ASSERT_EQ(sessions.size(), 2U);
+    EXPECT_TRUE(sessions[0].note.empty());
+    EXPECT_NE(sessions[1].note.find("stamps step back"), std::string::npos);
+    EXPECT_EQ(sessionNames(sessions), (std::vector<std::string>{"step", "step_2"}));
+    for (const InputSession& session : sessions) {
+      const Reading reading = readBag(path, {}, session.part);
+      EXPECT_EQ(reading.whole, kPairs);
+      EXPECT_TRUE(reading.faults.empty());
+      EXPECT_EQ(reading.notes.find("step back"), std::string::npos);
+    }
+  }
+}
+
+TEST(ForeignBags, aStepBetweenTheBagsOfARecordingBeginsASession) {
+  const TemporaryFolder folder;
+  writeBagWithStep(folder.file("a.bag"), 20.0);
+  Recipe recipe;  // the recording goes on in another bag
+  recipe.receipt = [](int, int, double stamp) { return stamp + 20.01; };
+  writeBag(folder.file("b.bag"), recipe, kBegin + 2.0 * kPeriod * kPairs - 20.0);
+  const std::vector<InputSession> sessions = findSessions({folder.file("a.bag"), folder.file("b.bag")});
+  ASSERT_EQ(sessions.size(), 2U);
+  EXPECT_EQ(sessions[0].paths, std::vector<std::string>{folder.file("a.bag")});
+  ASSERT_EQ(sessions[1].paths.size(), 2U);
+  const std::unique_ptr<Source> source = openSource(sessions[1].paths, {}, nullptr, sessions[1].part);
+  int pairs = 0;
+  while (source->next()) ++pairs;
+  EXPECT_EQ(pairs, 2 * kPairs);
+}
+
+TEST(ForeignBags, topicsThatAreNotUsedAreNamedAndCounted) {
+  const TemporaryFolder folder;
+  writeBag(folder.file("a.bag"), {});
+  EXPECT_EQ(readBag(folder.file("a.bag")).notes.find("not used"), std::string::npos);
+  {
+    rosbag::Bag bag(folder.file("a.bag"), rosbag::bagmode::Append);
+    for (int i = 0; i < 3; ++i) bag.write("/depth", ros::Time(kBegin + i), cameraInfo(kBegin + i, 0.0));
+    bag.write("/tf", ros::Time(kBegin), cameraInfo(kBegin, 0.0));
+  }
+  const std::string notes = readBag(folder.file("a.bag")).notes;
+  EXPECT_NE(notes.find("not used: /depth (sensor_msgs/CameraInfo, 3 messages)\n"), std::string::npos) << notes;
+}
+
+TEST(ForeignBags, aSlowLinkIsNoClockStep) {
+  const TemporaryFolder folder;
+  Recipe recipe;
+  recipe.receipt = [](int, int i, double stamp) { return stamp + 0.01 + (i > kPairs / 2 ? 5.0 : 0.0); };
+  writeBag(folder.file("a.bag"), recipe);
+  EXPECT_EQ(findSessions({folder.file("a.bag")}).size(), 1U);
 }
 
 }  // namespace

@@ -177,6 +177,21 @@ TEST_F(Map, refusesWhatCannotBeMapped) {
   EXPECT_THROW(map({folder.file("in")}, folder.file("out")), DataError);
 }
 
+TEST_F(Map, theMapOfAnotherRecordingIsReplacedOnRequestAlone) {
+  const TemporaryFolder folder;
+  fs::copy(in(), folder.file("other"), fs::copy_options::recursive);
+  for (const char* image : {"image_0/000015.png", "image_1/000015.png"}) fs::remove(folder.file("other") + "/" + image);
+  const std::string out_folder = folder.file("out");
+  map({in()}, out_folder);
+  const std::string before = readFile(out_folder + "/trajectory.tum");
+  EXPECT_THROW(map({folder.file("other")}, out_folder), UserError);
+  EXPECT_EQ(readFile(out_folder + "/trajectory.tum"), before);
+  map({in()}, out_folder);  // the same recording again
+  EXPECT_EQ(readFile(out_folder + "/trajectory.tum"), before);
+  map({folder.file("other")}, out_folder, 1, [](MapOptions& request) { request.overwrite = true; });
+  EXPECT_NE(readFile(out_folder + "/trajectory.tum"), before);
+}
+
 TEST_F(Map, saysWhyNoFrameWasOfUse) {
   const TemporaryFolder folder;
   fs::copy(in(), folder.file("in"), fs::copy_options::recursive);
@@ -230,7 +245,7 @@ TEST_F(Map, joinsTheBagsOfASplitRecordingAndKeepsSessionsApart) {
   EXPECT_EQ(urban_nav_core::readTum(folder.file("out/trajectory.tum")).size(), 32U);
   EXPECT_EQ(urban_nav_core::readTum(folder.file("out/trajectory_2.tum")).size(), 16U);
   EXPECT_FALSE(fs::exists(folder.file("out/trajectory_3.tum")));
-  map({folder.file("a.bag")}, folder.file("out"));
+  map({folder.file("a.bag")}, folder.file("out"), 1, [](MapOptions& request) { request.overwrite = true; });
   EXPECT_FALSE(fs::exists(folder.file("out/trajectory_2.tum"))) << "of the run before";
 }
 

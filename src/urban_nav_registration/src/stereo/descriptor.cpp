@@ -77,18 +77,8 @@ struct Weights {
   }
 };
 
-}  // namespace
-
-Eigen::Matrix<float, descriptor_size, 1> describe(const Pyramid& pyramid, const Eigen::Vector2d& centre,
-                                                  double window) {
-  static const Weights weights;
-  static const Shares shares;
-  Eigen::Matrix<float, descriptor_size, 1> made = Eigen::Matrix<float, descriptor_size, 1>::Zero();
-  const int level = std::clamp(static_cast<int>(std::floor(std::log2(window / grid))), 0, pyramid.levels() - 1);
-  const ImageView& image = pyramid.level(level);
-  const double scale = Pyramid::scale(level), step = window / grid * scale;
-  const Eigen::Vector2d middle = centre * scale;
-
+/// Returns grey values at a square grid of points, `step` px apart, about `middle`, interpolated in both directions.
+std::array<float, wide * wide> sampleWindow(const ImageView& image, const Eigen::Vector2d& middle, double step) {
   const Places columns(middle.x(), step, image.width), rows(middle.y(), step, image.height);
   std::array<float, wide * wide> grey;
   for (std::size_t j = 0; j < wide; ++j) {
@@ -100,20 +90,14 @@ Eigen::Matrix<float, descriptor_size, 1> describe(const Pyramid& pyramid, const 
       grey[j * wide + i] = top + rows.share[j] * (bottom - top);
     }
   }
-  DescriptorGrid dx, dy, size, place;
-  float contrast = 0.0F;
-  for (std::size_t j = 0; j < grid; ++j)
-    for (std::size_t i = 0; i < grid; ++i) {
-      const float* p = &grey[(j + 1) * wide + i + 1];
-      const std::size_t k = j * grid + i;
-      dx[k] = 0.5F * (p[1] - p[-1]);
-      dy[k] = 0.5F * (p[wide] - p[-wide]);
-      size[k] = std::sqrt(dx[k] * dx[k] + dy[k] * dy[k]);
-      contrast += size[k];
-    }
-  if (!(contrast > least_contrast * grid * grid)) return made;
-  computeDirections(dx, dy, place);
+  return grey;
+}
 
+/// Returns histograms of directions, of gradients of these sizes and directions, for each part of the window.
+Eigen::Matrix<float, descriptor_size, 1> histograms(const DescriptorGrid& size, const DescriptorGrid& place) {
+  static const Weights weights;
+  static const Shares shares;
+  Eigen::Matrix<float, descriptor_size, 1> made;
   // Histograms with a margin of a part on each side, for what is shared out beyond the window.
   std::array<float, (parts + 2) * (parts + 2) * directions> bins{};
   for (std::size_t j = 0; j < grid; ++j)
@@ -139,6 +123,33 @@ Eigen::Matrix<float, descriptor_size, 1> describe(const Pyramid& pyramid, const 
       for (int o = 0; o < directions; ++o)
         made[(j * parts + i) * directions + o] =
             bins[static_cast<std::size_t>(((j + 1) * (parts + 2) + i + 1) * directions + o)];
+  return made;
+}
+
+}  // namespace
+
+Eigen::Matrix<float, descriptor_size, 1> describe(const Pyramid& pyramid, const Eigen::Vector2d& centre,
+                                                  double window) {
+  Eigen::Matrix<float, descriptor_size, 1> made = Eigen::Matrix<float, descriptor_size, 1>::Zero();
+  const int level = std::clamp(static_cast<int>(std::floor(std::log2(window / grid))), 0, pyramid.levels() - 1);
+  const ImageView& image = pyramid.level(level);
+  const double scale = Pyramid::scale(level);
+  const std::array<float, wide* wide> grey = sampleWindow(image, centre * scale, window / grid * scale);
+  DescriptorGrid dx, dy, size, place;
+  float contrast = 0.0F;
+  for (std::size_t j = 0; j < grid; ++j)
+    for (std::size_t i = 0; i < grid; ++i) {
+      const float* p = &grey[(j + 1) * wide + i + 1];
+      const std::size_t k = j * grid + i;
+      dx[k] = 0.5F * (p[1] - p[-1]);
+      dy[k] = 0.5F * (p[wide] - p[-wide]);
+      size[k] = std::sqrt(dx[k] * dx[k] + dy[k] * dy[k]);
+      contrast += size[k];
+    }
+  if (!(contrast > least_contrast * grid * grid)) return made;
+  computeDirections(dx, dy, place);
+
+  made = histograms(size, place);
   made /= made.norm();
   made = made.cwiseMin(largest_element);
   made /= made.norm();

@@ -151,6 +151,25 @@ Matrix6d withCommonError(const StereoCamera& camera, const Pose& T_a_b, const Es
   return 0.5 * (made + made.transpose());
 }
 
+/// Sets the outcome of each sight, the number of inliers and their mean residual.
+void judgeSights(const std::vector<Sight>& sights, const std::vector<Reduced>& reduced, double scale2,
+                 const EstimateOptions& options, Estimate& made) {
+  made.sights.resize(sights.size());
+  double total = 0.0;
+  for (std::size_t i = 0; i < sights.size(); ++i) {
+    SightOutcome& outcome = made.sights[i];
+    if (!reduced[i].visible) continue;
+    outcome.chi2 = reduced[i].chi2;
+    outcome.residual_px = reduced[i].residual_px;
+    outcome.inlier = outcome.chi2 < scale2 * (sights[i].coordinates() == 3 ? gate_three : gate_two) &&
+                     outcome.residual_px <= options.largest_residual_px;
+    if (!outcome.inlier) continue;
+    ++made.inliers;
+    total += outcome.residual_px;
+  }
+  made.reprojection_px = made.inliers > 0 ? total / made.inliers : 0.0;
+}
+
 }  // namespace
 
 Estimate estimate(const StereoCamera& camera, const std::vector<Sight>& sights, const Pose& start,
@@ -205,20 +224,7 @@ Estimate estimate(const StereoCamera& camera, const std::vector<Sight>& sights, 
   const Eigen::Matrix<double, 6, 1> cross = H.block<6, 1>(0, of_offset);
   made.information = H.topLeftCorner<6, 6>() - cross * cross.transpose() / H(of_offset, of_offset);
   made.information = withCommonError(camera, made.T_a_b, options, made.information);
-  made.sights.resize(sights.size());
-  double total = 0.0;
-  for (std::size_t i = 0; i < sights.size(); ++i) {
-    SightOutcome& outcome = made.sights[i];
-    if (!reduced[i].visible) continue;
-    outcome.chi2 = reduced[i].chi2;
-    outcome.residual_px = reduced[i].residual_px;
-    outcome.inlier = outcome.chi2 < scale2 * (sights[i].coordinates() == 3 ? gate_three : gate_two) &&
-                     outcome.residual_px <= options.largest_residual_px;
-    if (!outcome.inlier) continue;
-    ++made.inliers;
-    total += outcome.residual_px;
-  }
-  made.reprojection_px = made.inliers > 0 ? total / made.inliers : 0.0;
+  judgeSights(sights, reduced, scale2, options, made);
   made.found = made.inliers >= 3 && made.T_a_b.isFinite() && made.information.allFinite();
   return made;
 }
