@@ -16,7 +16,7 @@ const std::set<std::string>& ownTopics() {
   return names;
 }
 
-std::string withoutSlash(const std::string& topic) {
+std::string bareTopic(const std::string& topic) {
   return !topic.empty() && topic.front() == '/' ? topic.substr(1) : topic;
 }
 
@@ -28,7 +28,7 @@ std::string describeUnusedTopics(std::list<rosbag::Bag>& bags, const std::set<st
     std::set<std::string> counted;
     for (const rosbag::ConnectionInfo* connection : rosbag::View(bag).getConnections()) {
       const std::string& name = connection->topic;
-      if (used.count(name) > 0 || ownTopics().count(withoutSlash(name)) > 0 || !counted.insert(name).second) continue;
+      if (used.count(name) > 0 || ownTopics().count(bareTopic(name)) > 0 || !counted.insert(name).second) continue;
       std::pair<std::string, std::size_t>& entry = unused[name];
       entry.first = connection->datatype;
       entry.second += rosbag::View(bag, rosbag::TopicQuery(name)).size();

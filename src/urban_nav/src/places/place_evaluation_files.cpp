@@ -6,7 +6,7 @@
 
 #include "places/confusion_picture.hpp"
 #include "places/place_evaluation.hpp"
-#include "places/place_pair_picture.hpp"
+#include "report/place_pair_picture.hpp"
 #include "report/standalone_svg.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/io/csv.hpp"

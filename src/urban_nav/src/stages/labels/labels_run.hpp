@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "labels/label_model_file.hpp"
 #include "report/page.hpp"
 #include "scene_labeler/labelling/map_labeler.hpp"
 #include "stage/context.hpp"
+#include "stage/label_model_file.hpp"
 
 namespace urban_nav {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 
-#include "places/place_pair_picture.hpp"
+#include "report/place_pair_picture.hpp"
 #include "report/plot.hpp"
 #include "stages/places/places_run.hpp"
 #include "urban_nav_store/table_store.hpp"

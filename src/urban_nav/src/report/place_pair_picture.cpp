@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "places/place_pair_picture.hpp"
+#include "report/place_pair_picture.hpp"
 
 #include <algorithm>
 #include <opencv2/imgcodecs.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "labels/label_model_file.hpp"
+#include "stage/label_model_file.hpp"
 
 #include "urban_nav_core/io/text_file.hpp"
 
