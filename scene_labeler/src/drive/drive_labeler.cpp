@@ -32,6 +32,7 @@ void DriveLabeler::observe(const DriveFrame& frame, const Stretch& nearest, std:
   DriveScene drive = makeDriveScene(returns, frame.view);
   drive.scene.is_asked = labelledPoints(drive, returns, nearest);
   const SceneLabels labels = labelScene(model_, drive.scene, superpixel_);
+  if (take_image_) take_image_(frame, labels.image);
   ++frames_;
   imaged_frames_ += frame.view.image.empty() ? 0U : 1U;
   const std::vector<std::uint8_t> is_shown = visibleReturns(drive.scene.view);

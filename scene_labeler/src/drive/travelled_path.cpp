@@ -8,17 +8,12 @@ constexpr double least_step = 0.05;  // m
 
 }  // namespace
 
-TravelledPath::TravelledPath(const urban_nav_core::Trajectory& T_world_base) : T_world_base_(T_world_base) {
-  travelled_.reserve(T_world_base.size());
-  double sum = 0.0;
-  std::size_t anchor = 0;
-  for (std::size_t i = 0; i < T_world_base.size(); ++i) {
-    const double step = (T_world_base[i].pose.t() - T_world_base[anchor].pose.t()).norm();
-    if (step >= least_step) {
-      sum += step;
-      anchor = i;
-    }
-    travelled_.push_back(sum);
+void TravelledPath::update() {
+  for (std::size_t i = travelled_.size(); i < T_world_base_.size(); ++i) {
+    const double before = i == 0 ? 0.0 : travelled_.back();
+    const double step = (T_world_base_[i].pose.t() - T_world_base_[anchor_].pose.t()).norm();
+    if (step >= least_step) anchor_ = i;
+    travelled_.push_back(step >= least_step ? before + step : before);
   }
 }
 

@@ -16,9 +16,11 @@ class DriveLabeler : public DriveObserver {
  public:
   /// Takes the returns that have a label, in their order; `labels`: one row per return.
   using TakeLabels = std::function<void(const std::vector<DriveReturn>& returns, const SceneLabels& labels)>;
+  /// Takes a frame and the classes of its superpixels (SceneLabels::image), which are empty without an image.
+  using TakeImage = std::function<void(const DriveFrame& frame, const cv::Mat& classes)>;
   /// The model must outlive the labeler. `superpixel`: px.
-  DriveLabeler(const LabelModel& model, int superpixel, TakeLabels take)
-      : model_(model), superpixel_(superpixel), take_(std::move(take)) {}
+  DriveLabeler(const LabelModel& model, int superpixel, TakeLabels take, TakeImage take_image = {})
+      : model_(model), superpixel_(superpixel), take_(std::move(take)), take_image_(std::move(take_image)) {}
 
   void observe(const DriveFrame& frame, const Stretch& nearest, std::size_t first,
                const std::vector<DriveReturn>& returns) override;
@@ -38,6 +40,7 @@ class DriveLabeler : public DriveObserver {
   const LabelModel& model_;
   const int superpixel_;
   const TakeLabels take_;
+  const TakeImage take_image_;
   std::size_t first_ = 0;  // index of returns_[0]
   std::vector<DriveReturn> returns_;
   std::vector<Votes> votes_;

@@ -12,7 +12,10 @@ namespace scene_labeler {
 class TravelledPath {
  public:
   /// The trajectory must outlive the path.
-  explicit TravelledPath(const urban_nav_core::Trajectory& T_world_base);
+  explicit TravelledPath(const urban_nav_core::Trajectory& T_world_base) : T_world_base_(T_world_base) { update(); }
+
+  /// Takes the poses that were appended to the trajectory since.
+  void update();
 
   /// Returns the distance from the first pose to the one nearest in time, m; nullopt outside the trajectory.
   std::optional<double> at(urban_nav_core::StampNs stamp) const;
@@ -20,6 +23,7 @@ class TravelledPath {
  private:
   const urban_nav_core::Trajectory& T_world_base_;
   std::vector<double> travelled_;  // of each pose
+  std::size_t anchor_ = 0;         // last pose that counted as a step
 };
 
 }  // namespace scene_labeler

@@ -15,9 +15,8 @@
 #include "input/bag_panorama.hpp"
 #include "input/bag_topics.hpp"
 #include "input/first_message.hpp"
-#include "scene_labeler/drive/travelled_path.hpp"
+#include "scene_labeler/drive/side_drive.hpp"
 #include "scene_labeler/parameters.hpp"
-#include "urban_nav_core/laser/beam_renderer.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_ros/laser_scan.hpp"
@@ -26,24 +25,19 @@
 
 namespace urban_nav {
 
-using scene_labeler::DriveReturn;
 using scene_labeler::DriveWindow;
 using urban_nav_core::DataError;
-using urban_nav_core::Pose;
-using urban_nav_core::StampNs;
 using urban_nav_core::Trajectory;
 using urban_nav_core::UserError;
 
 namespace {
 
-constexpr StampNs longest_pose_gap = 500'000'000;            // ns: between poses, nothing is rendered in a longer one
 constexpr std::array<std::size_t, 2> side_cameras = {4, 1};  // of the panoramic head, left and right
 
-/// Laser and camera of one side.
-struct SideRig {
-  std::string scan_topic, image_topic;  // empty: there is none
-  Pose T_base_laser, T_base_camera;
-  urban_nav_core::RawCamera camera;
+/// Topics of one side with its rig.
+struct SideTopics {
+  std::string scan, image;  // empty: there is none
+  scene_labeler::SideRig rig;
 };
 
 urban_nav_ros::StaticTransforms readStaticTransforms(std::list<rosbag::Bag>& bags) {
@@ -66,13 +60,13 @@ std::map<std::string, std::string> topicTypes(std::list<rosbag::Bag>& bags) {
   return types;
 }
 
-std::array<SideRig, 2> readRigs(std::list<rosbag::Bag>& bags, const std::string& name, const BagTopics& topics,
-                                Console& console) {
+std::array<SideTopics, 2> readRigs(std::list<rosbag::Bag>& bags, const std::string& name, const BagTopics& topics,
+                                   Console& console) {
   const urban_nav_ros::StaticTransforms transforms = readStaticTransforms(bags);
   const BagPanorama head(bags, topics, transforms);
-  std::array<SideRig, 2> rigs;
+  std::array<SideTopics, 2> rigs;
   for (const DriveSide side : both_sides) {
-    SideRig& rig = rigs[static_cast<std::size_t>(side)];
+    SideTopics& rig = rigs[static_cast<std::size_t>(side)];
     const auto topic = topics.find(side == DriveSide::Left ? Role::LaserLeft : Role::LaserRight);
     const auto scan = topic ? firstMessage<sensor_msgs::LaserScan>(bags, topic->name) : nullptr;
     if (!scan) continue;
@@ -82,19 +76,18 @@ std::array<SideRig, 2> readRigs(std::list<rosbag::Bag>& bags, const std::string&
                    " is not used");
       continue;
     }
-    rig.scan_topic = topic->name;
-    rig.T_base_laser = *T_base_laser;
+    rig.scan = topic->name;
+    rig.rig.T_base_laser = *T_base_laser;
     for (const PanoramaCamera& camera : head.cameras()) {
       if (camera.number != side_cameras[static_cast<std::size_t>(side)]) continue;
       if (!camera.T_base_camera || !camera.calibration) continue;
-      rig.image_topic = camera.topic;
-      rig.T_base_camera = *camera.T_base_camera;
-      rig.camera = urban_nav_core::rawCamera(*camera.calibration, camera.topic);
+      rig.image = camera.topic;
+      rig.rig.camera = {urban_nav_core::rawCamera(*camera.calibration, camera.topic), *camera.T_base_camera};
     }
-    if (rig.image_topic.empty())
+    if (rig.image.empty())
       console.warn(name + ": no calibrated camera on the " + toString(side) + ": its returns are labelled by shape");
   }
-  if (rigs[0].scan_topic.empty() && rigs[1].scan_topic.empty())
+  if (rigs[0].scan.empty() && rigs[1].scan.empty())
     throw UserError(name, "has no scans of a side laser whose place on the robot is known",
                     "--topic laser_left:=NAME, and static tf from base_link");
   return rigs;
@@ -103,80 +96,41 @@ std::array<SideRig, 2> readRigs(std::list<rosbag::Bag>& bags, const std::string&
 /// Brings the messages of one side to its window.
 class SideReader {
  public:
-  SideReader(const SideRig& rig, const Trajectory& T_world_base, const scene_labeler::TravelledPath& path,
+  SideReader(const SideTopics& topics, const Trajectory& T_world_base, const scene_labeler::TravelledPath& path,
              double spacing, DriveWindow& window)
-      : rig_(rig),
-        T_world_base_(T_world_base),
-        path_(path),
-        spacing_(spacing),
-        window_(window),
-        renderer_(T_world_base, rig.T_base_laser, Pose(), longest_pose_gap) {}
+      : topics_(topics), window_(window), drive_(topics.rig, T_world_base, path, spacing, window) {}
 
   bool takes(const std::string& topic) const {
-    return !topic.empty() && (topic == rig_.scan_topic || topic == rig_.image_topic);
+    return !topic.empty() && (topic == topics_.scan || topic == topics_.image);
   }
 
   void add(const rosbag::MessageInstance& instance) {
-    if (const auto scan = instance.instantiate<sensor_msgs::LaserScan>()) add(*scan);
-    else if (const auto raw = instance.instantiate<sensor_msgs::Image>())
+    if (const auto scan = instance.instantiate<sensor_msgs::LaserScan>()) {
+      if (const auto planar = urban_nav_ros::toPlanarScan(*scan)) drive_.add(*planar);
+    } else if (const auto raw = instance.instantiate<sensor_msgs::Image>()) {
       add(urban_nav_ros::RecordedImage(sensor_msgs::ImageConstPtr(raw)));
-    else if (const auto packed = instance.instantiate<sensor_msgs::CompressedImage>())
+    } else if (const auto packed = instance.instantiate<sensor_msgs::CompressedImage>()) {
       add(urban_nav_ros::RecordedImage(sensor_msgs::CompressedImageConstPtr(packed)));
+    }
   }
 
   void finish() { window_.finish(); }
 
  private:
-  void add(const sensor_msgs::LaserScan& message) {
-    const auto planar = urban_nav_ros::toPlanarScan(message);
-    const auto travelled = planar ? path_.at(planar->stamp) : std::nullopt;
-    if (!travelled || *travelled < latest_) return;
-    latest_ = *travelled;
-    const double wait = rig_.image_topic.empty() ? 0.0 : spacing_;
-    if (latest_ >= next_ + wait) addFrame({planar->stamp, latest_, {}});
-    points_.clear();
-    const urban_nav_core::Scan scan = urban_nav_core::toScan(*planar);
-    renderer_.render(scan, points_);
-    std::size_t beam = 0, index = 0;  // of scan.beams, of planar->ranges: each skips some of the next
-    for (const urban_nav_core::LaserPoint& point : points_) {
-      while (scan.beams[beam].stamp != point.stamp || scan.beams[beam].range != point.range) ++beam, ++index;
-      while (planar->ranges[index] != point.range) ++index;
-      window_.add(DriveReturn{planar->stamp, static_cast<std::uint16_t>(index), point.intensity, latest_, point.p});
-      ++beam;
-      ++index;
-    }
-  }
-
   void add(const urban_nav_ros::RecordedImage& image) {
-    const StampNs stamp = image.stamp();
-    const auto travelled = path_.at(stamp);
-    const auto T_world_base = T_world_base_.at(stamp, longest_pose_gap);
-    if (!travelled || !T_world_base || *travelled < next_) return;
-    const cv::Mat pixels = image.colour().pixels;
-    if (pixels.cols != rig_.camera.pinhole.width || pixels.rows != rig_.camera.pinhole.height) return;
-    addFrame({stamp, *travelled, {rig_.camera, *T_world_base * rig_.T_base_camera, pixels}});
+    if (drive_.wants(image.stamp())) drive_.add(image.stamp(), image.colour().pixels);
   }
 
-  void addFrame(scene_labeler::DriveFrame frame) {
-    next_ = frame.travelled + spacing_;
-    window_.add(std::move(frame));
-  }
-
-  const SideRig& rig_;
-  const Trajectory& T_world_base_;
-  const scene_labeler::TravelledPath& path_;
-  const double spacing_;
+  const SideTopics& topics_;
   DriveWindow& window_;
-  urban_nav_core::BeamRenderer renderer_;
-  double next_ = 0.0, latest_ = 0.0;  // m along the path: of the next frame, of the last scan
-  std::vector<urban_nav_core::LaserPoint> points_;
+  scene_labeler::SideDrive drive_;
 };
 
-void readSides(std::list<rosbag::Bag>& bags, const std::array<SideRig, 2>& rigs, std::vector<SideReader>& sides,
+void readSides(std::list<rosbag::Bag>& bags, const std::array<SideTopics, 2>& rigs, std::vector<SideReader>& sides,
                Progress& progress) {
   std::vector<std::string> topics;
-  for (const SideRig& rig : rigs)
-    for (const std::string& topic : {rig.scan_topic, rig.image_topic})
+  for (const SideTopics& side : rigs)
+    for (const std::string& topic : {side.scan, side.image})
       if (!topic.empty()) topics.push_back(topic);
   std::int64_t done = 0;
   rosbag::View view(bags.front(), rosbag::TopicQuery(topics));
@@ -206,7 +160,7 @@ void readDrive(const std::string& bag, const DriveOptions& options, Console& con
     std::list<rosbag::Bag> bags;
     bags.emplace_back(bag, rosbag::bagmode::Read);
     const BagTopics topics = chooseTopics(topicTypes(bags), options.topics);
-    const std::array<SideRig, 2> rigs = readRigs(bags, bag, topics, console);
+    const std::array<SideTopics, 2> rigs = readRigs(bags, bag, topics, console);
     std::vector<SideReader> sides;
     for (const DriveSide side : both_sides)
       sides.emplace_back(rigs[static_cast<std::size_t>(side)], T_world_base, path, spacing,

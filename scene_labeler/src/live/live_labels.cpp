@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "live/live_labels.hpp"
+
+#include <cmath>
+
+namespace scene_labeler {
+
+using urban_nav_core::StampNs;
+
+namespace {
+
+constexpr std::size_t most_waiting_scans = 4000, most_waiting_images = 40;  // per side
+constexpr double camera_patience = 2.0;  // s of scans that wait for the calibration of a camera
+
+StampNs scanEnd(const urban_nav_core::PlanarScan& scan) {
+  const double seconds = scan.time_step * static_cast<double>(scan.ranges.size());
+  return scan.stamp + static_cast<StampNs>(std::llround(1e9 * std::max(seconds, 0.0)));
+}
+
+}  // namespace
+
+LiveLabels::LiveLabels(const Parameters& parameters, LabelModel model, Outputs outputs)
+    : parameters_(parameters), model_(std::move(model)), outputs_(std::move(outputs)) {
+  reset();
+}
+
+void LiveLabels::reset() {
+  for (LiveSide& side : sides_) {
+    side.drive.reset();
+    side.window.reset();
+    side.labeler.reset();
+    side.scans.clear();
+    side.images.clear();
+  }
+  path_.reset();
+  trajectory_ = {};
+  path_ = std::make_unique<TravelledPath>(trajectory_);
+  counts_ = {};
+}
+
+void LiveLabels::addPose(const urban_nav_core::StampedPose& T_odom_base) {
+  if (!trajectory_.append(T_odom_base.stamp, T_odom_base.pose)) return;
+  ++counts_.poses;
+  path_->update();
+  for (std::size_t side = 0; side < sides_.size(); ++side) work(side);
+}
+
+void LiveLabels::addScan(std::size_t side, urban_nav_core::PlanarScan scan) {
+  ++counts_.scans;
+  sides_[side].scans.push_back(std::move(scan));
+  if (sides_[side].scans.size() > most_waiting_scans) {
+    sides_[side].scans.pop_front();
+    ++counts_.dropped;
+  }
+}
+
+void LiveLabels::addImage(std::size_t side, StampNs stamp, Decode decode) {
+  ++counts_.images;
+  sides_[side].images.push_back({stamp, std::move(decode)});
+  if (sides_[side].images.size() > most_waiting_images) {
+    sides_[side].images.pop_front();
+    ++counts_.dropped;
+  }
+}
+
+void LiveLabels::start(std::size_t number) {
+  LiveSide& side = sides_[number];
+  side.labeler = std::make_unique<DriveLabeler>(
+      model_, parameters_.superpixel, outputs_.cloud,
+      [this, number](const DriveFrame& frame, const cv::Mat& classes) { outputs_.image(number, frame, classes); });
+  side.window = std::make_unique<DriveWindow>(parameters_.reach, *side.labeler);
+  side.drive = std::make_unique<SideDrive>(SideRig{*side.T_base_laser, side.camera}, trajectory_, *path_,
+                                           parameters_.spacing, *side.window);
+}
+
+void LiveLabels::work(std::size_t number) {
+  LiveSide& side = sides_[number];
+  if (!side.T_base_laser || side.scans.empty()) return;
+  if (!side.drive) {
+    const bool may_come = !side.camera && urban_nav_core::secondsBetween(side.scans.front().stamp,
+                                                                         side.scans.back().stamp) < camera_patience;
+    if (may_come) return;
+    start(number);
+  }
+  const StampNs known = trajectory_.back().stamp;
+  while (!side.images.empty() && side.images.front().stamp <= known) {
+    const WaitingImage& image = side.images.front();
+    if (side.drive->wants(image.stamp)) side.drive->add(image.stamp, image.decode());
+    side.images.pop_front();
+  }
+  while (!side.scans.empty() && scanEnd(side.scans.front()) <= known) {
+    side.drive->add(side.scans.front());
+    side.scans.pop_front();
+  }
+}
+
+LiveLabels::Counts LiveLabels::counts() const {
+  Counts counts = counts_;
+  for (const LiveSide& side : sides_) {
+    if (!side.labeler) continue;
+    counts.frames += side.labeler->frames();
+    counts.imaged_frames += side.labeler->imagedFrames();
+  }
+  return counts;
+}
+
+}  // namespace scene_labeler

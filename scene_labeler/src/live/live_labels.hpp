@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "scene_labeler/drive/drive_labeler.hpp"
+#include "scene_labeler/drive/side_drive.hpp"
+#include "scene_labeler/parameters.hpp"
+
+namespace scene_labeler {
+
+/// Labels the returns of both side lasers while the robot drives: scans and images wait until odometry covers their
+/// time, and a return is labelled when the robot has left its surroundings. Sides: 0 left, 1 right. Not thread-safe.
+class LiveLabels {
+ public:
+  /// Decodes an image that is needed.
+  using Decode = std::function<cv::Mat()>;
+  struct Outputs {
+    DriveLabeler::TakeLabels cloud;
+    std::function<void(std::size_t side, const DriveFrame& frame, const cv::Mat& classes)> image;
+  };
+  /// Figures for the operator.
+  struct Counts {
+    std::size_t scans = 0, images = 0, poses = 0;
+    std::size_t dropped = 0;  ///< scans and images for which odometry never came
+    std::size_t frames = 0, imaged_frames = 0;
+  };
+
+  LiveLabels(const Parameters& parameters, LabelModel model, Outputs outputs);
+
+  void setLaser(std::size_t side, const urban_nav_core::Pose& T_base_laser) {
+    sides_[side].T_base_laser = T_base_laser;
+  }
+  void setCamera(std::size_t side, const SideRig::Camera& camera) { sides_[side].camera = camera; }
+  bool hasLaser(std::size_t side) const { return sides_[side].T_base_laser.has_value(); }
+  bool hasCamera(std::size_t side) const { return sides_[side].camera.has_value(); }
+
+  void addPose(const urban_nav_core::StampedPose& T_odom_base);
+  void addScan(std::size_t side, urban_nav_core::PlanarScan scan);
+  void addImage(std::size_t side, urban_nav_core::StampNs stamp, Decode decode);
+  /// Begins a new drive. Laser and camera places stay.
+  void reset();
+
+  Counts counts() const;
+  urban_nav_core::StampNs newest() const { return trajectory_.empty() ? 0 : trajectory_.back().stamp; }
+
+ private:
+  struct WaitingImage {
+    urban_nav_core::StampNs stamp = 0;
+    Decode decode;
+  };
+  struct LiveSide {
+    std::optional<urban_nav_core::Pose> T_base_laser;
+    std::optional<SideRig::Camera> camera;
+    std::deque<urban_nav_core::PlanarScan> scans;
+    std::deque<WaitingImage> images;
+    std::unique_ptr<DriveLabeler> labeler;
+    std::unique_ptr<DriveWindow> window;
+    std::unique_ptr<SideDrive> drive;
+  };
+  void work(std::size_t side);
+  void start(std::size_t side);
+
+  const Parameters parameters_;
+  const LabelModel model_;
+  const Outputs outputs_;
+  urban_nav_core::Trajectory trajectory_;
+  std::unique_ptr<TravelledPath> path_;
+  std::array<LiveSide, 2> sides_;
+  Counts counts_;
+};
+
+}  // namespace scene_labeler

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "live/nodelet_parameters.hpp"
+
+#include "urban_nav_core/types/frames.hpp"
+
+namespace scene_labeler {
+
+using urban_nav_core::Table;
+
+NodeletParameters::NodeletParameters() { nodeletTable().setDefaults(*this); }
+
+// clang-format would give each of the columns a line.
+// clang-format off
+const Table<NodeletParameters>& nodeletTable() {
+  using P = NodeletParameters;
+  static const Table<NodeletParameters> rows(
+      "",
+      {
+          {"base_frame", &P::base_frame, "", urban_nav_core::frames::base_link, false, false, {},
+           "Frame of the robot.", "REP-105"},
+          {"odom_frame", &P::odom_frame, "", urban_nav_core::frames::odom, false, false, {},
+           "Frame of the odometry and of the cloud.", "REP-105"},
+          {"compressed", &P::compressed, "", true, false, false, {},
+           "Image topics are sensor_msgs/CompressedImage; /compressed is appended to their names.", "docs/architecture.md"},
+          {"queue_size", &P::queue_size, "messages", 4000, 2, 1000000, {},
+           "Inputs that may wait; beyond that the oldest is dropped and counted.", "docs/architecture.md"},
+      });
+  return rows;
+}
+// clang-format on
+
+}  // namespace scene_labeler

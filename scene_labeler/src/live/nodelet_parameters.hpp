@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "urban_nav_core/parameters/table.hpp"
+
+namespace scene_labeler {
+
+/// Parameters of the nodelet alone, one member per row of nodeletTable().
+struct NodeletParameters {
+  std::string base_frame, odom_frame;
+  bool compressed;
+  int queue_size;  // messages
+
+  NodeletParameters();
+};
+
+const urban_nav_core::Table<NodeletParameters>& nodeletTable();
+
+}  // namespace scene_labeler

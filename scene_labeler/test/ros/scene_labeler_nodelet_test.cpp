@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <nav_msgs/Odometry.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/LaserScan.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <sensor_msgs/point_cloud2_iterator.h>
+#include <tf2_msgs/TFMessage.h>
+#include <urban_nav_msgs/RelativePose.h>
+#include <urban_nav_msgs/StageStatus.h>
+
+#include <cmath>
+#include <limits>
+#include <opencv2/core.hpp>
+
+#include "urban_nav_ros/extrinsics.hpp"
+#include "urban_nav_ros/image.hpp"
+#include "urban_nav_ros/pose.hpp"
+#include "urban_nav_ros/stamp.hpp"
+#include "urban_nav_ros/testing/listener.hpp"
+
+namespace scene_labeler {
+namespace {
+
+using urban_nav_core::Pose;
+using urban_nav_core::StampNs;
+using urban_nav_core::Vector3d;
+
+constexpr StampNs street_start = 1'225'719'872'000'000'000;
+constexpr int street_frames = 160;  // of 50 ms and 5 cm
+constexpr int columns = 96, rows = 128;
+
+/// A robot that drives along x beside a wall at y = 4, with a laser and a camera that look to the left.
+class StreetRobot : public urban_nav_ros::testing::Listener {
+ public:
+  StreetRobot() : Listener("scene_labeler") {
+    keep("labels/cloud", clouds);
+    keep("labels/image", images);
+    keep("scene_labeler/status", statuses);
+  }
+  static StampNs toStamp(int frame) { return street_start + frame * 50'000'000LL; }
+
+  void placeSensors() {
+    Eigen::Matrix3d R_laser, R_camera;
+    R_laser << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+    R_camera << 1, 0, 0, 0, 0, 1, 0, -1, 0;  // x along the street, z to the left
+    tf2_msgs::TFMessage message;
+    message.transforms.push_back(
+        urban_nav_ros::toStaticTransform("base_link", "laser_left", Pose(R_laser, Vector3d(0.0, 0.2, 1.0))));
+    message.transforms.push_back(
+        urban_nav_ros::toStaticTransform("base_link", "camera4", Pose(R_camera, Vector3d(0.0, 0.0, 1.2))));
+    tf_static_.publish(message);
+  }
+  void calibrate() {
+    sensor_msgs::CameraInfo info;
+    info.header.frame_id = "camera4";
+    info.width = columns;
+    info.height = rows;
+    info.distortion_model = "plumb_bob";
+    info.D.assign(5, 0.0);
+    info.K = {60.0, 0.0, 48.0, 0.0, 60.0, 64.0, 0.0, 0.0, 1.0};
+    info.R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    info.P = {60.0, 0.0, 48.0, 0.0, 0.0, 60.0, 64.0, 0.0, 0.0, 0.0, 1.0, 0.0};
+    info_.publish(info);
+  }
+  void drive() {
+    for (int i = 0; i < street_frames; ++i) {
+      nav_msgs::Odometry odometry;
+      odometry.header.stamp = urban_nav_ros::toRosTime(toStamp(i));
+      odometry.pose.pose =
+          urban_nav_ros::toPoseMessage(Pose(Eigen::Matrix3d::Identity(), Vector3d(0.05 * i, 0.0, 0.0)));
+      odometry_.publish(odometry);
+      if (i > 0) left_.publish(scan(toStamp(i)));
+      if (i % 10 == 5) show(toStamp(i));
+      ros::WallDuration(0.002).sleep();
+    }
+  }
+  std::size_t points() const {
+    std::size_t all = 0;
+    for (const auto& cloud : clouds) all += cloud.width * cloud.height;
+    return all;
+  }
+
+  std::vector<sensor_msgs::PointCloud2> clouds;
+  std::vector<sensor_msgs::Image> images;
+  std::vector<urban_nav_msgs::StageStatus> statuses;
+
+ private:
+  void show(StampNs stamp) {
+    sensor_msgs::Image message =
+        urban_nav_ros::toColourImageMessage(cv::Mat(rows, columns, CV_8UC3, cv::Scalar(90, 110, 130)));
+    message.header.stamp = urban_nav_ros::toRosTime(stamp);
+    message.header.frame_id = "camera4";
+    image_.publish(message);
+  }
+  static sensor_msgs::LaserScan scan(StampNs stamp) {
+    sensor_msgs::LaserScan message;
+    message.header.stamp = urban_nav_ros::toRosTime(stamp);
+    message.header.frame_id = "laser_left";
+    message.angle_min = static_cast<float>(-60.0 * M_PI / 180.0);
+    message.angle_max = static_cast<float>(40.0 * M_PI / 180.0);
+    message.angle_increment = static_cast<float>(M_PI / 180.0);
+    message.range_min = 0.1F;
+    message.range_max = 30.0F;
+    for (int degrees = -60; degrees <= 40; ++degrees) {
+      const double angle = degrees * M_PI / 180.0;
+      const double ground = angle < 0.0 ? 1.0 / std::sin(-angle) : std::numeric_limits<double>::infinity();
+      message.ranges.push_back(static_cast<float>(std::min(3.8 / std::cos(angle), ground)));
+      message.intensities.push_back(60.0F);
+    }
+    return message;
+  }
+
+  ros::Publisher tf_static_ = advertise<tf2_msgs::TFMessage>("/tf_static", true);
+  ros::Publisher odometry_ = advertise<nav_msgs::Odometry>("vo/odometry");
+  ros::Publisher relative_ = advertise<urban_nav_msgs::RelativePose>("vo/relative_pose");
+  ros::Publisher left_ = advertise<sensor_msgs::LaserScan>("laser_left/scan");
+  ros::Publisher right_ = advertise<sensor_msgs::LaserScan>("laser_right/scan");
+  ros::Publisher image_ = advertise<sensor_msgs::Image>("ladybug/camera4/image_raw");
+  ros::Publisher info_ = advertise<sensor_msgs::CameraInfo>("ladybug/camera4/camera_info");
+};
+
+TEST(SceneLabelerNodelet, LabelsWhatTheLaserAndTheCameraOfASideSee) {
+  StreetRobot robot;
+  ASSERT_TRUE(StreetRobot::until([&] { return robot.isConnected(); }));
+  robot.placeSensors();
+  ros::WallDuration(0.5).sleep();  // transforms come on another connection than scans
+  robot.calibrate();
+  ros::WallDuration(0.5).sleep();
+  robot.drive();
+  ASSERT_TRUE(StreetRobot::until([&] { return robot.points() > 4000 && robot.images.size() > 2; }))
+      << robot.points() << " points, " << robot.images.size() << " images";
+  EXPECT_EQ(robot.clouds.back().header.frame_id, "odom");
+  EXPECT_EQ(robot.images.back().encoding, "mono8");
+  EXPECT_EQ(robot.images.back().header.frame_id, "camera4");
+  EXPECT_EQ(robot.images.back().width, static_cast<unsigned>(columns));
+  sensor_msgs::PointCloud2ConstIterator<float> x(robot.clouds.front(), "x"), p(robot.clouds.front(), "probability");
+  sensor_msgs::PointCloud2ConstIterator<std::uint8_t> label(robot.clouds.front(), "label");
+  for (; x != x.end(); ++x, ++p, ++label) {
+    ASSERT_TRUE(std::abs(x[1] - 4.0F) < 0.05F || std::abs(x[2]) < 0.05F) << "neither wall nor ground";
+    ASSERT_TRUE(p[0] > 0.1F && p[0] <= 1.0F);
+    ASSERT_LE(label[0], 7);
+  }
+  ASSERT_TRUE(robot.call("reset"));
+  ASSERT_TRUE(StreetRobot::until([&] { return robot.diagnosed("frames labelled", "0"); }));
+}
+
+TEST(SceneLabelerNodelet, ASilentOdometryIsNamed) {
+  StreetRobot robot;
+  ASSERT_TRUE(StreetRobot::until([&] { return robot.isConnected(); }));
+  ASSERT_TRUE(
+      StreetRobot::until([&] { return !robot.statuses.empty() && robot.statuses.back().reason_name == "NoOdometry"; }));
+  EXPECT_EQ(robot.statuses.back().status, urban_nav_msgs::StageStatus::DEGRADED);
+}
+
+}  // namespace
+}  // namespace scene_labeler
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "scene_labeler_nodelet_test");
+  ros::NodeHandle keeps_ros_alive;
+  return RUN_ALL_TESTS();
+}
