@@ -37,6 +37,7 @@ COMMAND_FOLDERS = [  # src/urban_nav/README.md, "Inside"
     ["command_line", "report"],
     ["input"],
     ["evaluation"],
+    ["checks"],
     ["stage"],
     ["stages"],
     ["pipeline"],

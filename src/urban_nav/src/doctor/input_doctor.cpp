@@ -2,10 +2,9 @@
 #include "doctor/input_doctor.hpp"
 
 #include <algorithm>
-#include <deque>
 #include <map>
 
-#include "doctor/pair_check.hpp"
+#include "checks/sampled_pairs.hpp"
 #include "doctor/stamp_check.hpp"
 #include "input/calibration_check.hpp"
 #include "inspect/input_info.hpp"
@@ -19,7 +18,6 @@ using urban_nav_core::StampNs;
 namespace {
 
 constexpr std::int64_t kMatchedSamples = 24;  // pairs whose images are matched
-constexpr std::int64_t kGuessedFrames = 500;  // if the length is unknown
 constexpr double kIncomplete = 0.01;          // share of pairs: above it, a finding
 
 /// Faults of single pairs, alike ones counted together.
@@ -64,10 +62,8 @@ std::vector<std::string> describe(const SourceInfo& info) {
 /// Reads the pairs, and hands a sample of them with their neighbours to the judge of images.
 class Reading {
  public:
-  Reading(Source& source, Diagnosis& diagnosis) : source_(source), diagnosis_(diagnosis) {
-    const std::int64_t frames = source.info().frames > 0 ? source.info().frames : kGuessedFrames;
-    step_ = std::max<std::int64_t>(1, frames / kMatchedSamples);
-  }
+  Reading(Source& source, Diagnosis& diagnosis)
+      : source_(source), diagnosis_(diagnosis), images_(source.info().frames, kMatchedSamples, 1) {}
 
   void read(const std::function<void(std::int64_t, std::int64_t)>& progress) {
     while (std::optional<SourceItem> item = source_.next()) {
@@ -76,9 +72,7 @@ class Reading {
       stamps_.push_back(pair.stamp);
       diagnosis_.complete += !pair.left.empty() && !pair.right.empty();
       ++diagnosis_.pairs;
-      last_.push_back(std::move(item->assembled));
-      if (last_.size() > 3) last_.pop_front();
-      if (last_.size() == 3 && diagnosis_.pairs % step_ == step_ / 2 && images_.pairs() < 2 * kMatchedSamples) sample();
+      images_.add(item->assembled);
       progress(diagnosis_.pairs, source_.info().frames);
     }
   }
@@ -109,15 +103,11 @@ class Reading {
   }
 
  private:
-  void sample() { images_.add(last_[1].pair.left, last_[1].pair.right, last_[0].pair.right, last_[2].pair.right); }
-
   Source& source_;
   Diagnosis& diagnosis_;
-  std::int64_t step_ = 1;
-  std::deque<urban_nav_core::StereoPairWithMotion> last_;
   std::vector<StampNs> stamps_;
   FaultCounter faults_;
-  PairCheck images_;
+  SampledPairs images_;
 };
 
 Finding toFinding(const urban_nav_core::Error& error) {

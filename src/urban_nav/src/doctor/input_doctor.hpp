@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "doctor/finding.hpp"
+#include "checks/finding.hpp"
 #include "input/open.hpp"
 #include "input/sessions.hpp"
 

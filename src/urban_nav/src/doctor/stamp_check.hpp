@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "doctor/finding.hpp"
+#include "checks/finding.hpp"
 #include "inspect/input_info.hpp"
 #include "urban_nav_core/types/stamp.hpp"
 

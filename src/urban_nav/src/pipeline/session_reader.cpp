@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "checks/sampled_pairs.hpp"
 #include "command_line/command_parameters.hpp"
 #include "input/calibration_check.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -13,6 +14,7 @@ namespace {
 
 constexpr int kMaxReadAhead = 16;        // pairs: decoding is so even that more would only cost memory
 constexpr double kReadAheadShare = 0.1;  // of memory_mb
+constexpr std::int64_t kJudgedPairs = 12, kLeastJudgedStep = 10;
 
 }  // namespace
 
@@ -115,10 +117,12 @@ void SessionReader::read(const ProgressCallback& progress) {
   const std::int64_t frames = source_->info().frames;
   const std::vector<VoRow>& rows = context_.sessions[session_].vo->rows;
   Progress bar(context_.console, "vo", "frames", frames);
+  SampledPairs images(frames, kJudgedPairs, kLeastJudgedStep);
   while (const std::optional<SourceItem> input = source_->next()) {
     if (input->bag_end) saveBagEnd(*input->bag_end);
     checkpoint_.writeScans(input->scans);
     processPanoramas(input->panoramas);
+    images.add(input->assembled);
     PassItem item{*input};
     for (const auto& [key, pass] : passes_) pass->process(item);
     bar.update(static_cast<std::int64_t>(rows.size()));
@@ -133,6 +137,8 @@ void SessionReader::read(const ProgressCallback& progress) {
   processPanoramas(source_->panoramas());
   std::vector<std::string> faults = source_->closingFaults();
   for (std::string& fault : calibrationFaults()) faults.push_back(std::move(fault));
+  for (const Finding& finding : images.findings())
+    faults.push_back(source_->info().name + ": " + finding.text + " (" + finding.remedy + ")");
   if (const std::string& note = context_.sessions[session_].input.note; !note.empty()) faults.push_back(note);
   const PassEnd end{faults, source_->forces()};
   std::vector<BagCheckpoint::StageState> states;

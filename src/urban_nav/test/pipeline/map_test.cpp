@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "convert/convert.hpp"
 #include "pipeline/map_pipeline.hpp"
@@ -175,6 +176,23 @@ TEST_F(Map, refusesWhatCannotBeMapped) {
       writeFile(entry.path().string(), "damaged");
   }
   EXPECT_THROW(map({folder.file("in")}, folder.file("out")), DataError);
+}
+
+TEST_F(Map, warnsOfImagesWhoseRowsDiffer) {
+  const TemporaryFolder folder;
+  testing::KittiStyle style;
+  style.frames = 40;
+  testing::makeKittiFolder(folder.file("in"), style);
+  map({folder.file("in")}, folder.file("sound"));
+  EXPECT_EQ(readFile(folder.file("sound/summary.json")).find("px lower in right images"), std::string::npos);
+  for (const auto& entry : fs::directory_iterator(folder.file("in") + "/image_1")) {
+    const cv::Mat image = cv::imread(entry.path().string(), cv::IMREAD_UNCHANGED);
+    cv::Mat lower;
+    cv::copyMakeBorder(image.rowRange(0, image.rows - 2), lower, 2, 0, 0, 0, cv::BORDER_REFLECT);
+    cv::imwrite(entry.path().string(), lower);
+  }
+  map({folder.file("in")}, folder.file("lower"));
+  EXPECT_NE(readFile(folder.file("lower/summary.json")).find("px lower in right images"), std::string::npos);
 }
 
 TEST_F(Map, theMapOfAnotherRecordingIsReplacedOnRequestAlone) {

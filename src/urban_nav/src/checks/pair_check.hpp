@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "doctor/finding.hpp"
+#include "checks/finding.hpp"
 #include "urban_nav_core/image/view.hpp"
 
 namespace urban_nav {

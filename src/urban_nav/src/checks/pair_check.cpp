@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "doctor/pair_check.hpp"
+#include "checks/pair_check.hpp"
 
 #include <algorithm>
 #include <cmath>

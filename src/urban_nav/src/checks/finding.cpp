@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "doctor/finding.hpp"
+#include "checks/finding.hpp"
 
 namespace urban_nav {
 
@@ -15,8 +15,7 @@ struct KnownSentence {
 constexpr KnownSentence kKnownSentences[] = {
     {"no header has a stamp", FindingKind::Stamps,
      "let the camera's driver stamp its images; until then pairs are formed by times of receipt"},
-    {"stamps step back", FindingKind::Stamps,
-     "set the clock before recording, and slew it (chrony) while recording"},
+    {"stamps step back", FindingKind::Stamps, "set the clock before recording, and slew it (chrony) while recording"},
     {"have the stamp of another", FindingKind::Stamps,
      "record the topic once; a driver that repeats images or stamps needs a restart or a repair"},
     {"came too late by their stamps", FindingKind::Stamps, "check the clock of the computer that stamps this topic"},
