@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "command_line/command_parameters.hpp"
 #include "command_line/console.hpp"
 #include "command_line/json.hpp"
 #include "commands/commands.hpp"
+#include "inspect/map_crs.hpp"
 #include "inspect/map_export.hpp"
 #include "inspect/store_export.hpp"
 #include "pipeline/parameters.hpp"
@@ -36,16 +39,17 @@ MapFilePaths mapFilePaths(const Arguments& arguments, std::size_t number) {
   const auto path = [&](const char* option) {
     return arguments.has(option) ? numbered(arguments.get(option), number) : std::string();
   };
-  return {path("ply"), path("pcd"), path("las"), path("grid"), path("ortho")};
+  return {path("ply"), path("pcd"), path("las"), path("grid"), path("ortho"), arguments.get("crs")};
 }
 
 void checkFormats(const Arguments& arguments) {
   if (!mapFilePaths(arguments, 0).any() && !arguments.has("tum") && !arguments.has("kitti") && !arguments.has("g2o"))
     throw UserError("urban_nav export", "no format is asked for",
                     "--tum, --kitti, --g2o, --ply, --pcd, --las, --grid or --ortho FILE");
-  if (arguments.has("crs"))
-    throw urban_nav_core::DataError("--crs " + arguments.get("crs"), "the store holds no GPS fixes to place the map by",
-                                    "no --crs: coordinates of the frame map");
+  if (arguments.has("crs")) {
+    parseCrs(arguments.get("crs"));
+    if (!arguments.has("las")) throw UserError("--crs", "no --las FILE", "--las FILE, whose coordinates it sets");
+  }
   const std::string ortho = arguments.get("ortho");
   if (!ortho.empty() && std::filesystem::path(ortho).extension() != ".png")
     throw UserError("--ortho", ortho, "a name that ends in .png");
@@ -70,6 +74,18 @@ class Written {
     file["path"] = path;
     file["content"] = what;
     json_["files"].append(file);
+  }
+  /// Where a map lies on the earth.
+  void noteReference(const ExportedMap& made) {
+    console_.info(made.crs);
+    Json reference = Json::object();
+    reference["epsg"] = made.epsg;
+    reference["fixes"] = made.reference->fixes;
+    reference["residual_m_median"] = made.reference->residual;
+    reference["position_sigma_m"] = made.reference->position_sigma;
+    reference["height_sigma_m"] = made.reference->height_sigma;
+    reference["heading_sigma_deg"] = made.reference->heading_sigma * 180.0 / M_PI;
+    json_["crs"] = std::move(reference);
   }
   const Json& json() const { return json_; }
 
@@ -96,6 +112,7 @@ void writeMaps(Store& store, const Maps& maps, const Arguments& arguments, Writt
     const MapFilePaths paths = mapFilePaths(arguments, number);
     if (!holdsMap(store, map) && (number > 0 || &map != &maps.back())) continue;  // the last one reports the lack
     const ExportedMap made = exportMap(store, map, paths, memory_mb);
+    if (made.reference) written.noteReference(made);
     const std::string points = made.points > 0 ? std::to_string(made.points) + " points of " : "";
     for (const std::string& path : made.files) written.note(path, points + describe(map));
     ++number;

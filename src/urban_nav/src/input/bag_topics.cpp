@@ -17,7 +17,7 @@ struct RoleNames {
   const char* word;
   const char* topic;  // of docs/architecture.md
 };
-constexpr std::array<RoleNames, 19> kRoles = {{{Role::Left, "left", "stereo/left/image_raw"},
+constexpr std::array<RoleNames, 20> kRoles = {{{Role::Left, "left", "stereo/left/image_raw"},
                                                {Role::Right, "right", "stereo/right/image_raw"},
                                                {Role::LeftInfo, "left_info", "stereo/left/camera_info"},
                                                {Role::RightInfo, "right_info", "stereo/right/camera_info"},
@@ -26,6 +26,7 @@ constexpr std::array<RoleNames, 19> kRoles = {{{Role::Left, "left", "stereo/left
                                                {Role::LaserLeft, "laser_left", "laser_left/scan"},
                                                {Role::LaserRight, "laser_right", "laser_right/scan"},
                                                {Role::Truth, "truth", "ground_truth/pose"},
+                                               {Role::Gps, "gps", "gps/fix"},
                                                {Role::Panorama0, "panorama0", "ladybug/camera0/image_raw"},
                                                {Role::Panorama1, "panorama1", "ladybug/camera1/image_raw"},
                                                {Role::Panorama2, "panorama2", "ladybug/camera2/image_raw"},
@@ -70,6 +71,7 @@ bool fits(Role role, const std::string& type) {
     case Role::LaserLeft:
     case Role::LaserRight: return type == "sensor_msgs/LaserScan";
     case Role::Truth: return type == "geometry_msgs/PoseStamped";
+    case Role::Gps: return type == "sensor_msgs/NavSatFix";
   }
   return false;
 }
@@ -312,6 +314,7 @@ BagTopics chooseTopics(const std::map<std::string, std::string>& available, cons
   guessOther(available, kRoles[6], {"left"}, topics);
   guessOther(available, kRoles[7], {"right"}, topics);
   guessOther(available, kRoles[8], {"ground_truth", "groundtruth"}, topics);
+  guessOther(available, kRoles[9], {"gps", "fix", "gnss"}, topics);
   noteTopics(wished, topics);
   if (topics.chosen.size() > wished.size())
     topics.notes.push_back("guessed from types and names; --topic ROLE:=NAME decides");

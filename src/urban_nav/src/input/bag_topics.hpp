@@ -21,6 +21,7 @@ enum class Role {
   LaserLeft,
   LaserRight,
   Truth,
+  Gps,
   Panorama0,
   Panorama1,
   Panorama2,

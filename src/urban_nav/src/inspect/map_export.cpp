@@ -8,6 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
 
+#include "inspect/map_crs.hpp"
 #include "laser_mapper/laser_map.hpp"
 #include "laser_mapper/map_files.hpp"
 #include "laser_mapper/map_picture.hpp"
@@ -74,10 +75,11 @@ std::optional<Vector3d> beamOrigin(const MappedSessions& mapped, const MapPoint&
 /// The formats with a record for each point.
 class PointFiles {
  public:
-  explicit PointFiles(const MapFilePaths& paths) {
+  /// `crs`: of the LAS file; null: the frame map. Must outlive it.
+  PointFiles(const MapFilePaths& paths, const MapCrs* crs) : crs_(crs) {
     if (!paths.ply.empty()) ply_.emplace(paths.ply, laser_mapper::mapLayout());
     if (!paths.pcd.empty()) pcd_.emplace(paths.pcd, laser_mapper::mapPcdFields());
-    if (!paths.las.empty()) las_.emplace(paths.las, laser_mapper::mapLasAttributes(), kLocalSystem);
+    if (!paths.las.empty()) las_.emplace(paths.las, laser_mapper::mapLasAttributes(), crs ? crs->wkt() : kLocalSystem);
   }
   void append(const std::vector<MapPoint>& points) {
     for (const MapPoint& point : points) {
@@ -85,7 +87,7 @@ class PointFiles {
       if (pcd_) appendBytes(*pcd_, laser_mapper::appendPcdPoint, point);
       bytes_.clear();
       if (las_) laser_mapper::appendLasAttributes(bytes_, point);
-      if (las_) las_->append(laser_mapper::lasPoint(point), bytes_);
+      if (las_) appendLas(point);
     }
   }
   void commit() {
@@ -102,6 +104,13 @@ class PointFiles {
     writer.append(bytes_);
   }
 
+  void appendLas(const MapPoint& point) {
+    urban_nav_core::LasPoint made = laser_mapper::lasPoint(point);
+    if (crs_ != nullptr) made.p = crs_->project(made.p);
+    las_->append(made, bytes_);
+  }
+
+  const MapCrs* crs_;
   std::optional<urban_nav_core::PlyWriter> ply_;
   std::optional<urban_nav_core::PcdWriter> pcd_;
   std::optional<urban_nav_core::LasWriter> las_;
@@ -141,7 +150,7 @@ void writeGrid(const std::string& path, const LaserMap& map, const MappedSession
 
 /// Writes the formats that show points in their colours.
 std::size_t writeColoured(const MapFilePaths& paths, Store& store, const LaserMap& map, const MappedSessions& mapped,
-                          double memory_mb) {
+                          const MapCrs* crs, double memory_mb) {
   const auto colouriser = makeColouriser(store, mapped.sessions, mapped.parameters->voxel, memory_mb);
   if (colouriser) {
     map.forEachTile(
@@ -151,7 +160,7 @@ std::size_t writeColoured(const MapFilePaths& paths, Store& store, const LaserMa
   const laser_mapper::MapView view = laser_mapper::viewFromAbove(mapped.path, kOrthoMargin, kLongestOrtho);
   std::optional<laser_mapper::MapPicture> ortho;
   if (!paths.ortho.empty()) ortho.emplace(view);
-  PointFiles files(paths);
+  PointFiles files(paths, crs);
   std::size_t written = 0;
   map.forEachTile([&](const laser_mapper::Tile&, std::vector<MapPoint> points) {
     if (colouriser) colouriser->colour(points);
@@ -184,8 +193,15 @@ ExportedMap exportMap(Store& store, const std::vector<StoredTrajectory>& map, co
   LaserMap laser_map(*mapped.parameters, store, mapped.sessions);
   laser_map.load();
   ExportedMap made;
+  std::optional<MapCrs> crs;
+  if (!paths.crs.empty()) {
+    crs.emplace(paths.crs, store, map);
+    made.reference = crs->reference();
+    made.epsg = crs->epsg();
+    made.crs = crs->describe();
+  }
   if (!(paths.ply + paths.pcd + paths.las + paths.ortho).empty())
-    made.points = writeColoured(paths, store, laser_map, mapped, memory_mb);
+    made.points = writeColoured(paths, store, laser_map, mapped, crs ? &*crs : nullptr, memory_mb);
   if (!paths.grid.empty()) writeGrid(paths.grid, laser_map, mapped);
   for (const std::string& path : {paths.ply, paths.pcd, paths.las, paths.grid, paths.ortho})
     if (!path.empty()) made.files.push_back(path);

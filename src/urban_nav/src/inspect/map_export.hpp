@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "laser_mapper/georeference/georeference.hpp"
 #include "urban_nav_store/stored_map.hpp"
 
 namespace urban_nav {
@@ -12,8 +14,9 @@ namespace urban_nav {
 /// Files of a map of points, by their formats; those without a path are not written.
 struct MapFilePaths {
   std::string ply, pcd, las;
-  std::string grid;   ///< YAML of map_server; the PGM is written beside it
-  std::string ortho;  ///< PNG; its world file is written beside it
+  std::string grid;      ///< YAML of map_server; the PGM is written beside it
+  std::string ortho;     ///< PNG; its world file is written beside it
+  std::string crs = {};  ///< coordinate system of the LAS file, as MapCrs takes it; empty: the frame map
 
   bool any() const { return !(ply + pcd + las + grid + ortho).empty(); }
 };
@@ -22,6 +25,9 @@ struct MapFilePaths {
 struct ExportedMap {
   std::size_t points = 0;
   std::vector<std::string> files;
+  std::optional<laser_mapper::GeoReference> reference;  ///< of the LAS file, with MapFilePaths::crs
+  int epsg = 0;
+  std::string crs;  ///< for the user
 };
 
 /// Returns whether a store holds a map of laser points of one of these sessions.

@@ -12,6 +12,8 @@
 #include "urban_nav_core/io/cloud/cloud_file.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_core/types/frames.hpp"
+#include "urban_nav_store/table_store.hpp"
+#include "urban_nav_store/tables/stored_fix.hpp"
 
 namespace urban_nav {
 namespace {
@@ -85,6 +87,40 @@ TEST_F(MapExportTest, EveryFormatHasThePointsOfTheMap) {
     for (std::size_t i = 0; i < ply.size(); ++i) ASSERT_LT((read[i] - ply[i]).norm(), 2e-4F) << path;
   }
   for (const Eigen::Vector3f& p : ply) EXPECT_LT(std::min(std::abs(p.y() - 4.0F), std::abs(p.z())), 0.01F);
+}
+
+TEST_F(MapExportTest, AMapWithoutFixesHasNoCoordinateSystem) {
+  render();
+  MapFilePaths paths{"", "", folder_.file("m.las"), "", ""};
+  for (const std::string crs : {"auto", "EPSG:32630"}) {
+    paths.crs = crs;
+    EXPECT_THROW(exportMap(store_, map(), paths, 100.0), urban_nav_core::DataError);
+    EXPECT_FALSE(std::filesystem::exists(paths.las));
+  }
+}
+
+TEST_F(MapExportTest, FixesPlaceTheLasFileOnTheEarth) {
+  render();
+  urban_nav_store::TableStore<urban_nav_store::StoredFix> fixes(store_);
+  for (int i = 0; i <= 160; i += 10)  // x of the map to the north, from 51.75 deg N, 1.25 deg W; exact to a centimetre
+    fixes.put({kExportSession, kExportStart + i * 50'000'000LL, 51.75 + 0.05 * i / 111258.0, -1.25, 100.0, 0.02, 0.02,
+               0.05, 0.0, 0.0, 1.0});
+  MapFilePaths paths{folder_.file("m.ply"), "", folder_.file("m.las"), "", ""};
+  paths.crs = "auto";
+  const ExportedMap made = exportMap(store_, map(), paths, 100.0);
+  EXPECT_EQ(made.epsg, 32630);
+  ASSERT_TRUE(made.reference);
+  EXPECT_EQ(made.reference->fixes, 17U);
+  const auto ply = urban_nav_core::readCloud(paths.ply).cloud.points;
+  const std::string las = testing::readFile(paths.las);
+  EXPECT_NE(las.find("UTM zone 30N"), std::string::npos);
+  const auto read = urban_nav_core::readCloud(paths.las);
+  ASSERT_EQ(read.cloud.points.size(), ply.size());
+  // Distances are those of the map but for the scale of the projection, and the height is that of the fixes.
+  for (std::size_t i = 1; i < ply.size(); i += 97) {
+    const float in_map = (ply[i] - ply[0]).norm(), in_las = (read.cloud.points[i] - read.cloud.points[0]).norm();
+    EXPECT_NEAR(in_las, in_map, 4e-4F * in_map + 3e-4F);
+  }
 }
 
 TEST_F(MapExportTest, GridShowsTheWallAndTheGroundBeforeIt) {

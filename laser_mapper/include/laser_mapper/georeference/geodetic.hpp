@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+namespace laser_mapper {
+
+/// A position in WGS 84.
+struct Geodetic {
+  double latitude = 0.0, longitude = 0.0;  ///< rad
+  double height = 0.0;                     ///< m over the ellipsoid
+};
+
+/// Axes east, north and up at a point of the ellipsoid, without distortion (EPSG method 9837). Immutable, so
+/// thread-safe.
+class LocalTangent {
+ public:
+  explicit LocalTangent(const Geodetic& origin);
+
+  Eigen::Vector3d toLocal(const Geodetic& position) const;
+  /// To 0.1 mm for heights between -5 km and 20 km.
+  Geodetic toGeodetic(const Eigen::Vector3d& local) const;
+
+ private:
+  Eigen::Vector3d origin_;  ///< in the earth's frame
+  Eigen::Matrix3d R_local_earth_;
+};
+
+}  // namespace laser_mapper

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+
+#include "laser_mapper/georeference/geodetic.hpp"
+
+namespace laser_mapper {
+
+/// Returns the EPSG code of the UTM zone of a position (WGS 84); 0 nearer than 6 deg to a pole, where there is none.
+int utmZoneCode(const Geodetic& position);
+
+/// A projected coordinate system by its EPSG code. Not thread-safe.
+class MapProjection {
+ public:
+  /// Throws UserError naming `option` if there is no such system, or if its axes are not lengths in metres.
+  MapProjection(int epsg, const std::string& option);
+  ~MapProjection();
+  MapProjection(const MapProjection&) = delete;
+  MapProjection& operator=(const MapProjection&) = delete;
+
+  /// Returns easting, northing and the height over the ellipsoid, m. Throws DataError outside the area of the system.
+  Eigen::Vector3d project(const Geodetic& position) const;
+  /// Returns the system as well-known text of 2001, as LAS files state it.
+  const std::string& wkt() const { return wkt_; }
+  const std::string& name() const { return name_; }
+
+ private:
+  struct Proj;
+  std::unique_ptr<Proj> proj_;
+  std::string wkt_, name_;
+};
+
+}  // namespace laser_mapper
