@@ -55,6 +55,14 @@ void fusePatches(const LabelModel& model, const std::vector<std::uint32_t>& patc
   }
 }
 
+void smoothInScene(const Scene& scene, std::size_t classes, std::vector<float>& logs) {
+  std::vector<std::uint8_t> is_labelled = visibleReturns(scene.view);
+  if (scene.view.image.empty()) is_labelled.assign(scene.points.size(), 1);
+  for (std::size_t i = 0; i < is_labelled.size(); ++i)
+    if (!scene.isAsked(i)) is_labelled[i] = 0;
+  smoothLabels(scene.points, is_labelled, classes, logs);
+}
+
 void spreadInScene(const Scene& scene, std::size_t classes, std::vector<float>& logs) {
   std::vector<std::uint8_t> is_shown = visibleReturns(scene.view), is_hidden(is_shown.size(), 0);
   for (std::size_t i = 0; i < is_shown.size(); ++i) {
@@ -116,6 +124,7 @@ SceneLabels labelScene(const LabelModel& model, const Scene& scene, int superpix
   for (std::size_t i = 0; i < count; ++i)
     if (!scene.isAsked(i)) result.patches[i] = no_patch;
   fusePatches(model, result.patches, logs);
+  smoothInScene(scene, classes, logs);
   if (!scene.view.image.empty()) spreadInScene(scene, classes, logs);
   for (std::size_t i = 0; i < count; ++i) {
     if (!scene.points[i].allFinite() || !scene.isAsked(i)) continue;

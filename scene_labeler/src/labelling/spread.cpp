@@ -12,23 +12,26 @@ namespace {
 
 using urban_nav_registration::CellTable;
 
-constexpr float spread_per_m = 1.0F / 1.6F;
-constexpr double least_shown = 5.0;    // points around
-constexpr double share_of_any = 0.02;  // of a class that no shown point around has, together with all others
+constexpr double share_of_any = 0.02;  // of a class that no point around has, together with all others
 
-}  // namespace
+struct SpreadSettings {
+  float per_m = 1.0F / 1.6F;        // of cubes whose neighbours count as surroundings
+  double least_sources = 5.0;       // points around
+  float own = 1.0F, around = 1.0F;  // powers of the point's probabilities and of those around
+};
 
-void spreadToHidden(const std::vector<Eigen::Vector3f>& points, const std::vector<std::uint8_t>& is_shown,
-                    const std::vector<std::uint8_t>& is_hidden, std::size_t classes, std::vector<float>& logs) {
+void spreadLogs(const std::vector<Eigen::Vector3f>& points, const std::vector<std::uint8_t>& is_source,
+                const std::vector<std::uint8_t>& is_target, std::size_t classes, const SpreadSettings& settings,
+                std::vector<float>& logs) {
   if (points.empty()) return;
-  const float limit = static_cast<float>(urban_nav_registration::kFarthestCell) / spread_per_m;
+  const float limit = static_cast<float>(urban_nav_registration::kFarthestCell) / settings.per_m;
   CellTable table(points.size() / 64 + 16);
   std::vector<double> sums;  // cube by cube: number of points, then the sum of probabilities of each class
   const std::size_t stride = classes + 1;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (is_shown[i] == 0 || !points[i].allFinite() || !(points[i].cwiseAbs().maxCoeff() < limit)) continue;
+    if (is_source[i] == 0 || !points[i].allFinite() || !(points[i].cwiseAbs().maxCoeff() < limit)) continue;
     const std::size_t cube =
-        table.insert(urban_nav_registration::toKey(urban_nav_registration::toCell(points[i], spread_per_m)));
+        table.insert(urban_nav_registration::toKey(urban_nav_registration::toCell(points[i], settings.per_m)));
     if (sums.size() <= cube * stride) sums.resize((cube + 1) * stride, 0.0);
     sums[cube * stride] += 1.0;
     for (std::size_t k = 0; k < classes; ++k)
@@ -37,8 +40,8 @@ void spreadToHidden(const std::vector<Eigen::Vector3f>& points, const std::vecto
   if (sums.empty()) return;
   std::vector<double> around(stride);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (is_hidden[i] == 0 || !points[i].allFinite() || !(points[i].cwiseAbs().maxCoeff() < limit)) continue;
-    const std::uint64_t key = urban_nav_registration::toKey(urban_nav_registration::toCell(points[i], spread_per_m));
+    if (is_target[i] == 0 || !points[i].allFinite() || !(points[i].cwiseAbs().maxCoeff() < limit)) continue;
+    const std::uint64_t key = urban_nav_registration::toKey(urban_nav_registration::toCell(points[i], settings.per_m));
     std::fill(around.begin(), around.end(), 0.0);
     for (int k = -1; k <= 1; ++k)
       for (int j = -1; j <= 1; ++j)
@@ -47,11 +50,24 @@ void spreadToHidden(const std::vector<Eigen::Vector3f>& points, const std::vecto
           if (cube == CellTable::none) continue;
           for (std::size_t n = 0; n < stride; ++n) around[n] += sums[cube * stride + n];
         }
-    if (around[0] < least_shown) continue;
+    if (around[0] < settings.least_sources) continue;
     for (std::size_t k = 0; k < classes; ++k)
-      logs[i * classes + k] += static_cast<float>(std::log(around[1 + k] / around[0] + share_of_any));
+      logs[i * classes + k] = settings.own * logs[i * classes + k] +
+                              settings.around * static_cast<float>(std::log(around[1 + k] / around[0] + share_of_any));
     normaliseLogs(logs.data() + i * classes, classes);
   }
+}
+
+}  // namespace
+
+void spreadToHidden(const std::vector<Eigen::Vector3f>& points, const std::vector<std::uint8_t>& is_shown,
+                    const std::vector<std::uint8_t>& is_hidden, std::size_t classes, std::vector<float>& logs) {
+  spreadLogs(points, is_shown, is_hidden, classes, {}, logs);
+}
+
+void smoothLabels(const std::vector<Eigen::Vector3f>& points, const std::vector<std::uint8_t>& is_labelled,
+                  std::size_t classes, std::vector<float>& logs) {
+  spreadLogs(points, is_labelled, is_labelled, classes, {2.0F, 5.0, 0.7F, 0.7F}, logs);
 }
 
 }  // namespace scene_labeler

@@ -13,4 +13,9 @@ namespace scene_labeler {
 void spreadToHidden(const std::vector<Eigen::Vector3f>& points, const std::vector<std::uint8_t>& is_shown,
                     const std::vector<std::uint8_t>& is_hidden, std::size_t classes, std::vector<float>& logs);
 
+/// Smooths labels: multiplies the probabilities of each labelled point by a power of the mean probabilities within some
+/// 0.7 m, since surfaces are larger than superpixels. `is_labelled`: of each point.
+void smoothLabels(const std::vector<Eigen::Vector3f>& points, const std::vector<std::uint8_t>& is_labelled,
+                  std::size_t classes, std::vector<float>& logs);
+
 }  // namespace scene_labeler

@@ -35,5 +35,21 @@ TEST(Spread, GivesHiddenPointsTheClassOfTheirSurroundings) {
   EXPECT_NEAR(std::exp(logs[40]) + std::exp(logs[41]), 1.0F, 1e-5F);
 }
 
+TEST(SmoothLabels, OutvotesAStrayLabelAndKeepsLogProbabilities) {
+  std::vector<Eigen::Vector3f> points;
+  std::vector<float> logs;
+  for (int i = 0; i < 20; ++i) {
+    const float p = i == 10 ? 0.4F : 0.9F;
+    points.emplace_back(0.05F * static_cast<float>(i), 0.0F, 0.0F);
+    logs.push_back(std::log(p));
+    logs.push_back(std::log(1.0F - p));
+  }
+  smoothLabels(points, std::vector<std::uint8_t>(points.size(), 1), 2, logs);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_GT(logs[2 * i], logs[2 * i + 1]) << i;
+    EXPECT_NEAR(std::exp(logs[2 * i]) + std::exp(logs[2 * i + 1]), 1.0F, 1e-5F);
+  }
+}
+
 }  // namespace
 }  // namespace scene_labeler
