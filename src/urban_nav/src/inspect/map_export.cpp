@@ -13,6 +13,7 @@
 #include "laser_mapper/map_files.hpp"
 #include "laser_mapper/map_picture.hpp"
 #include "laser_mapper/occupancy_grid.hpp"
+#include "stage/labelled_map.hpp"
 #include "stages/lasers/map_colour.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -72,22 +73,28 @@ std::optional<Vector3d> beamOrigin(const MappedSessions& mapped, const MapPoint&
   return std::nullopt;
 }
 
+using MapLabels = std::optional<std::vector<scene_labeler::PointLabel>>;
+
 /// The formats with a record for each point.
 class PointFiles {
  public:
-  /// `crs`: of the LAS file; null: the frame map. Must outlive it.
-  PointFiles(const MapFilePaths& paths, const MapCrs* crs) : crs_(crs) {
-    if (!paths.ply.empty()) ply_.emplace(paths.ply, laser_mapper::mapLayout());
+  /// `crs`: of the LAS file; null: the frame map. Must outlive it. `labels`: of all points in their order; nullopt:
+  /// none.
+  PointFiles(const MapFilePaths& paths, const MapCrs* crs, MapLabels labels) : crs_(crs), labels_(std::move(labels)) {
+    std::vector<urban_nav_core::LasAttribute> attributes = laser_mapper::mapLasAttributes();
+    if (labels_) attributes.push_back(labelLasAttribute());
+    if (!paths.ply.empty()) ply_.emplace(paths.ply, labels_ ? labelledMapLayout() : laser_mapper::mapLayout());
     if (!paths.pcd.empty()) pcd_.emplace(paths.pcd, laser_mapper::mapPcdFields());
-    if (!paths.las.empty()) las_.emplace(paths.las, laser_mapper::mapLasAttributes(), crs ? crs->wkt() : kLocalSystem);
+    if (!paths.las.empty()) las_.emplace(paths.las, attributes, crs ? crs->wkt() : kLocalSystem);
   }
   void append(const std::vector<MapPoint>& points) {
     for (const MapPoint& point : points) {
-      if (ply_) appendBytes(*ply_, laser_mapper::appendVertex, point);
+      if (ply_) appendPly(point);
       if (pcd_) appendBytes(*pcd_, laser_mapper::appendPcdPoint, point);
       bytes_.clear();
       if (las_) laser_mapper::appendLasAttributes(bytes_, point);
       if (las_) appendLas(point);
+      ++next_;
     }
   }
   void commit() {
@@ -104,13 +111,26 @@ class PointFiles {
     writer.append(bytes_);
   }
 
+  void appendPly(const MapPoint& point) {
+    bytes_.clear();
+    laser_mapper::appendVertex(bytes_, point);
+    if (labels_) appendPointLabel(bytes_, (*labels_)[next_]);
+    ply_->append(bytes_);
+  }
+
   void appendLas(const MapPoint& point) {
     urban_nav_core::LasPoint made = laser_mapper::lasPoint(point);
+    if (labels_) {
+      made.classification = lasClassification((*labels_)[next_].label);
+      bytes_ += static_cast<char>((*labels_)[next_].label);
+    }
     if (crs_ != nullptr) made.p = crs_->project(made.p);
     las_->append(made, bytes_);
   }
 
   const MapCrs* crs_;
+  const MapLabels labels_;
+  std::size_t next_ = 0;  // number of the next point
   std::optional<urban_nav_core::PlyWriter> ply_;
   std::optional<urban_nav_core::PcdWriter> pcd_;
   std::optional<urban_nav_core::LasWriter> las_;
@@ -160,7 +180,7 @@ std::size_t writeColoured(const MapFilePaths& paths, Store& store, const LaserMa
   const laser_mapper::MapView view = laser_mapper::viewFromAbove(mapped.path, kOrthoMargin, kLongestOrtho);
   std::optional<laser_mapper::MapPicture> ortho;
   if (!paths.ortho.empty()) ortho.emplace(view);
-  PointFiles files(paths, crs);
+  PointFiles files(paths, crs, storedMapLabels(store, mapped.sessions.front().id, map));
   std::size_t written = 0;
   map.forEachTile([&](const laser_mapper::Tile&, std::vector<MapPoint> points) {
     if (colouriser) colouriser->colour(points);

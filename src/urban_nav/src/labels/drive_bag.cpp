@@ -50,7 +50,7 @@ urban_nav_ros::StaticTransforms readStaticTransforms(std::list<rosbag::Bag>& bag
   return transforms;
 }
 
-std::map<std::string, std::string> topicTypes(std::list<rosbag::Bag>& bags) {
+std::map<std::string, std::string> driveTopicTypes(std::list<rosbag::Bag>& bags) {
   std::map<std::string, std::string> types;
   for (rosbag::Bag& bag : bags) {
     rosbag::View view(bag);
@@ -159,7 +159,7 @@ void readDrive(const std::string& bag, const DriveOptions& options, Console& con
   try {
     std::list<rosbag::Bag> bags;
     bags.emplace_back(bag, rosbag::bagmode::Read);
-    const BagTopics topics = chooseTopics(topicTypes(bags), options.topics);
+    const BagTopics topics = chooseTopics(driveTopicTypes(bags), options.topics);
     const std::array<SideTopics, 2> rigs = readRigs(bags, bag, topics, console);
     std::vector<SideReader> sides;
     for (const DriveSide side : both_sides)

@@ -4,11 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 
 #include "laser_mapper/laser_map.hpp"
 #include "laser_mapper/map_files.hpp"
+#include "stage/labelled_map.hpp"
 #include "support/folders.hpp"
+#include "urban_nav_core/io/cloud/cloud_columns.hpp"
 #include "urban_nav_core/io/cloud/cloud_file.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_core/types/frames.hpp"
@@ -87,6 +90,37 @@ TEST_F(MapExportTest, EveryFormatHasThePointsOfTheMap) {
     for (std::size_t i = 0; i < ply.size(); ++i) ASSERT_LT((read[i] - ply[i]).norm(), 2e-4F) << path;
   }
   for (const Eigen::Vector3f& p : ply) EXPECT_LT(std::min(std::abs(p.y() - 4.0F), std::abs(p.z())), 0.01F);
+}
+
+TEST_F(MapExportTest, LabelsOfTheMapBecomeColumnsAndClassesOfTheAsprs) {
+  render();
+  const MapFilePaths paths{folder_.file("m.ply"), "", folder_.file("m.las"), "", ""};
+  const std::size_t points = exportMap(store_, map(), paths, 100.0).points;
+  const auto plain_bytes = std::filesystem::file_size(paths.las);
+  const std::vector<scene_labeler::PointLabel> labels(points, {scene_labeler::SceneClass::Paved, 255, false});
+  MapPointsDigest digest;
+  storeMapLabels(store_, kExportSession, digest, labels);
+  exportMap(store_, map(), paths, 100.0);
+  EXPECT_FALSE(urban_nav_core::readCloudColumns(paths.ply, {"label"})[0]) << "labels of another map";
+
+  const auto stored = map();
+  const urban_nav_core::Trajectory T_map_base(stored.front().T_map_base);
+  const laser_mapper::MappedSession session{kExportSession, &T_map_base, nullptr};
+  laser_mapper::LaserMap laser_map(*laser_mapper::storedMapParameters(store_, kExportSession), store_, {session});
+  laser_map.load();
+  laser_map.forEachTile(
+      [&](const laser_mapper::Tile&, const std::vector<laser_mapper::MapPoint>& tile) { digest.add(tile); });
+  storeMapLabels(store_, kExportSession, digest, labels);
+  exportMap(store_, map(), paths, 100.0);
+  const auto columns = urban_nav_core::readCloudColumns(paths.ply, {"label", "label_probability", "unsure"});
+  ASSERT_TRUE(columns[0] && columns[1] && columns[2]);
+  EXPECT_EQ(*columns[0], std::vector<double>(points, 2.0));
+  EXPECT_EQ(*columns[1], std::vector<double>(points, 1.0));
+  EXPECT_GT(std::filesystem::file_size(paths.las), plain_bytes + points - 1);
+  const std::string las = testing::readFile(paths.las);
+  std::uint32_t offset = 0;
+  std::memcpy(&offset, las.data() + 96, sizeof offset);
+  EXPECT_EQ(las[offset + 16], 11) << "classification of point format 7";
 }
 
 TEST_F(MapExportTest, AMapWithoutFixesHasNoCoordinateSystem) {

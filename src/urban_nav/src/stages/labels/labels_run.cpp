@@ -11,6 +11,7 @@
 #include "laser_mapper/map_picture.hpp"
 #include "scene_labeler/drive/travelled_path.hpp"
 #include "scene_labeler/parameters.hpp"
+#include "stage/labelled_map.hpp"
 #include "stage/panorama_views.hpp"
 #include "stage/stage_result.hpp"
 #include "stages/labels/class_colours.hpp"
@@ -121,7 +122,9 @@ LabelledMap labelMap(const NamedLabelModel& model, const std::string& file,
   map.load();
   std::vector<Eigen::Vector3f> points;
   std::vector<std::uint8_t> reflectance;
+  MapPointsDigest digest;
   map.forEachTile([&](const laser_mapper::Tile&, const std::vector<MapPoint>& tile) {
+    digest.add(tile);
     for (const MapPoint& point : tile) {
       points.push_back(point.p);
       reflectance.push_back(point.raw_intensity);
@@ -146,6 +149,7 @@ LabelledMap labelMap(const NamedLabelModel& model, const std::string& file,
     made.unsure += label.is_unsure ? 1U : 0U;
   }
   measureExtents(points, labels, made.extents);
+  storeMapLabels(*context.store, sessions.front().id, digest, labels);
   addLabelsToPly((std::filesystem::path(context.options.out) / file).string(), labels);
   if (!points.empty()) made.pictures.push_back(drawLabels(map, labels, path));
   return made;
