@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <sensor_msgs/PointCloud2.h>
+#include <std_srvs/Trigger.h>
 #include <unistd.h>
+#include <urban_nav_msgs/FileCommand.h>
 #include <pluginlib/class_list_macros.hpp>
 
 #include <chrono>
@@ -11,6 +13,7 @@
 
 #include "live/live_map.hpp"
 #include "live/nodelet_parameters.hpp"
+#include "map_messages.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/graph.hpp"
 #include "urban_nav_ros/laser_scan.hpp"
@@ -25,8 +28,9 @@ using urban_nav_ros::InfoInput;
 
 namespace {
 
-constexpr const char* kCloudTopic = "map/cloud";
-constexpr int kRestPerWork = 3;  // times as long as a cloud took until the next one begins
+constexpr const char *kCloudTopic = "map/cloud", *kTilesTopic = "map/tiles", *kQualityTopic = "map/quality";
+constexpr double kPointBytes = 50.0, kTileBytes = 100'000.0;  // of a point; between two rounds at least
+constexpr int kRestPerWork = 3;                               // times as long as a cloud took until the next one begins
 
 enum class MapFault { None = 0, NoOdometry = 1, NoLasers = 2, NoLaserPlace = 3, NotStored = 4 };
 
@@ -72,16 +76,21 @@ class LaserMapperStage {
   using Clock = std::chrono::steady_clock;
   void addScan(const sensor_msgs::LaserScan& message);
   void publish();
+  void publishCloud(const std::vector<MapPoint>& points);
+  void publishTiles();
+  bool isWanted() const;
+  std::string save(const std::string& path);
 
   Node& node_;
   NodeletParameters nodelet_;
   Parameters parameters_;
   std::unique_ptr<LiveMap> map_;
   urban_nav_ros::StaticTransforms transforms_;
-  ros::Publisher publisher_;
+  ros::Publisher cloud_, tiles_, quality_;
+  std::uint32_t tile_subscribers_ = 0;
   std::string unplaced_, store_fault_;
   bool changed_ = false;
-  Clock::time_point due_;
+  Clock::time_point due_, tiles_sent_ = Clock::now();
   double seconds_ = 0.0;  ///< of the last cloud
 };
 
@@ -89,7 +98,14 @@ LaserMapperStage::LaserMapperStage(Node& node) : node_(node) {
   std::tie(nodelet_, parameters_) = node.parameters(nodeletTable(), table());
   node.setQueueSize(nodelet_.queue_size);
   map_ = std::make_unique<LiveMap>(parameters_, temporaryStore(node.name()));
-  publisher_ = node.nh().advertise<sensor_msgs::PointCloud2>(kCloudTopic, 1, true);
+  cloud_ = node.nh().advertise<sensor_msgs::PointCloud2>(kCloudTopic, 1, true);
+  tiles_ = node.nh().advertise<urban_nav_msgs::MapTile>(kTilesTopic, 100);
+  quality_ = node.nh().advertise<urban_nav_msgs::MapQuality>(kQualityTopic, 1, true);
+  node.advertiseService<urban_nav_msgs::FileCommand>("save", [this](const auto& request, auto& response) {
+    response.message = node_.ask([&] { return save(request.path); });
+  });
+  node.advertiseService<std_srvs::Trigger>(
+      "clear", [this](const auto&, auto& response) { response.message = node_.ask([this] { return reset(); }); });
   subscribeRobot(node, nodelet_.queue_size, false, false, true);
   urban_nav_ros::TopicOptions options;
   options.is_monitored = options.is_paused = false;
@@ -126,7 +142,8 @@ void LaserMapperStage::addScan(const sensor_msgs::LaserScan& message) {
 bool LaserMapperStage::idle() {
   const urban_nav_live::StageReport now = report();
   node_.publishStatus(now.status, now.reason_name, map_->newest());
-  if (!changed_ || publisher_.getNumSubscribers() == 0 || Clock::now() < due_) return false;
+  publishTiles();
+  if (!changed_ || !isWanted() || Clock::now() < due_) return false;
   const Clock::time_point begin = Clock::now();
   try {
     publish();
@@ -143,9 +160,36 @@ bool LaserMapperStage::idle() {
   return false;
 }
 
+bool LaserMapperStage::isWanted() const {
+  return cloud_.getNumSubscribers() + tiles_.getNumSubscribers() + quality_.getNumSubscribers() > 0;
+}
+
 void LaserMapperStage::publish() {
   const std::vector<MapPoint> points = map_->render();
-  if (points.empty()) return;
+  if (cloud_.getNumSubscribers() > 0 && !points.empty()) publishCloud(points);
+  if (quality_.getNumSubscribers() > 0)
+    quality_.publish(toMapQualityMessage(map_->measureQuality(), nodelet_.map_frame, map_->newest()));
+}
+
+/// Sends what has changed within the bandwidth; everything to a new subscriber.
+void LaserMapperStage::publishTiles() {
+  const std::uint32_t subscribers = tiles_.getNumSubscribers();
+  if (subscribers > tile_subscribers_) map_->repeatAll();
+  tile_subscribers_ = subscribers;
+  if (subscribers == 0) return;
+  const double allowed =
+      1e6 * nodelet_.tile_bandwidth * std::chrono::duration<double>(Clock::now() - tiles_sent_).count();
+  if (allowed < kTileBytes) return;
+  tiles_sent_ = Clock::now();
+  for (const LiveMap::ChangedTile& tile : map_->takeChanged(static_cast<std::size_t>(allowed / kPointBytes)))
+    tiles_.publish(toMapTileMessage(tile, parameters_.voxel, nodelet_.map_frame, map_->newest()));
+}
+
+std::string LaserMapperStage::save(const std::string& path) {
+  return path + ": " + std::to_string(map_->save(path)) + " points";
+}
+
+void LaserMapperStage::publishCloud(const std::vector<MapPoint>& points) {
   std::vector<Eigen::Vector4f> rows;
   rows.reserve(points.size());
   for (const MapPoint& point : points)
@@ -153,7 +197,7 @@ void LaserMapperStage::publish() {
   sensor_msgs::PointCloud2 cloud = urban_nav_ros::toPointCloudMessage(rows, "intensity");
   cloud.header.frame_id = nodelet_.map_frame;
   cloud.header.stamp = urban_nav_ros::toRosTime(map_->newest());
-  publisher_.publish(cloud);
+  cloud_.publish(cloud);
 }
 
 std::string LaserMapperStage::reset() {

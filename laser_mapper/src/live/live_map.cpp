@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "live/live_map.hpp"
 
+#include <functional>
 #include <utility>
 
 #include "laser_mapper/laser_map.hpp"
+#include "laser_mapper/map_files.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace laser_mapper {
@@ -16,6 +18,12 @@ namespace {
 
 constexpr const char* kLiveSession = "00000000000000000000";
 constexpr StampNs kBackInTime = 1'000'000'000;
+
+std::size_t pointsDigest(const std::vector<MapPoint>& points) {
+  std::string bytes;
+  for (const MapPoint& point : points) appendVertex(bytes, point);
+  return std::hash<std::string>()(bytes);
+}
 
 }  // namespace
 
@@ -46,6 +54,7 @@ void LiveMap::clear() {
   T_odom_base_.clear();
   T_map_base_.clear();
   revision_.reset();
+  for (auto& [tile, state] : tiles_) setTile(state, {});
   counts_ = {};
 }
 
@@ -95,14 +104,65 @@ Trajectory LiveMap::trajectory() const {
   return made;
 }
 
+void LiveMap::setTile(TileState& state, std::vector<MapPoint> points) {
+  const std::size_t digest = pointsDigest(points);
+  if (state.revision > 0 && digest == state.digest) return;
+  state.digest = digest;
+  state.is_changed = true;
+  ++state.revision;
+  state.points = std::move(points);
+}
+
+std::vector<LiveMap::ChangedTile> LiveMap::takeChanged(std::size_t most) {
+  std::vector<ChangedTile> changed;
+  std::size_t points = 0;
+  for (auto& [tile, state] : tiles_) {
+    if (points >= most) break;
+    if (!std::exchange(state.is_changed, false)) continue;
+    changed.push_back({tile, state.revision, state.points});
+    points += state.points.size();
+  }
+  return changed;
+}
+
+void LiveMap::repeatAll() {
+  for (auto& [tile, state] : tiles_) state.is_changed = true;
+}
+
+MapQuality LiveMap::measureQuality() {
+  const Trajectory T_map_base = trajectory();
+  if (T_map_base.empty() || counts_.chunks == 0) return {};
+  LaserMap map(parameters_, *store_, {{kLiveSession, &T_map_base, nullptr}});
+  map.load();
+  return MapQuality(map);
+}
+
+std::size_t LiveMap::save(const std::string& path) {
+  urban_nav_core::PlyWriter file(path, mapLayout());
+  for (const MapPoint& point : render()) {
+    std::string bytes;
+    appendVertex(bytes, point);
+    file.append(bytes);
+  }
+  const std::size_t points = file.vertices();
+  file.commit();
+  return points;
+}
+
 std::vector<MapPoint> LiveMap::render() {
   std::vector<MapPoint> points;
   const Trajectory T_map_base = trajectory();
   if (T_map_base.empty() || store_->scans().lasers(kLiveSession).empty()) return points;
   LaserMap map(parameters_, *store_, {{kLiveSession, &T_map_base, nullptr}});
   const RenderStatistics rendered = map.render();
-  map.forEachTile(
-      [&](const Tile&, const std::vector<MapPoint>& tile) { points.insert(points.end(), tile.begin(), tile.end()); });
+  std::set<Tile> gone;
+  for (const auto& [tile, state] : tiles_) gone.insert(tile);
+  map.forEachTile([&](const Tile& tile, const std::vector<MapPoint>& made) {
+    points.insert(points.end(), made.begin(), made.end());
+    setTile(tiles_[tile], made);
+    gone.erase(tile);
+  });
+  for (const Tile& tile : gone) setTile(tiles_[tile], {});
   counts_.chunks = rendered.chunks;
   counts_.chunks_rendered = rendered.chunks_rendered;
   counts_.points = points.size();

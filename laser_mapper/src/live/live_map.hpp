@@ -10,6 +10,7 @@
 
 #include "laser_mapper/map_point.hpp"
 #include "laser_mapper/parameters.hpp"
+#include "laser_mapper/quality/map_quality.hpp"
 #include "urban_nav_core/laser/scan.hpp"
 #include "urban_nav_core/trajectory/trajectory.hpp"
 #include "urban_nav_core/types/graph_update.hpp"
@@ -45,8 +46,25 @@ class LiveMap {
   void addOdometry(const urban_nav_core::StampedPose& T_odom_base);
   void addGraph(const urban_nav_core::GraphUpdate& update);
 
+  /// A part of the map that render() has changed.
+  struct ChangedTile {
+    Tile tile;
+    std::int64_t revision = 0;  ///< counted from 1
+    std::vector<MapPoint> points;
+  };
+
   /// Returns the points of the whole map.
   std::vector<MapPoint> render();
+  /// Returns tiles that have changed since they were last taken, in the order of Tile, until they have `most` points or
+  /// more; none if nothing has changed.
+  std::vector<ChangedTile> takeChanged(std::size_t most);
+  /// Makes takeChanged() return all tiles once more.
+  void repeatAll();
+  /// Returns how well the passes of the last map agree.
+  MapQuality measureQuality();
+  /// Renders the map and writes it as map.ply. Returns the number of points. Throws UserError or DataError naming the
+  /// path.
+  std::size_t save(const std::string& path);
   /// Forgets scans and poses.
   void clear();
 
@@ -57,6 +75,14 @@ class LiveMap {
  private:
   void open();
   urban_nav_core::Trajectory trajectory() const;
+  /// What was sent of a tile, and what it is now.
+  struct TileState {
+    std::int64_t revision = 0;
+    std::size_t digest = 0;
+    bool is_changed = false;
+    std::vector<MapPoint> points;
+  };
+  static void setTile(TileState& state, std::vector<MapPoint> points);
 
   const Parameters parameters_;
   const std::string path_;
@@ -64,6 +90,7 @@ class LiveMap {
   std::map<std::string, urban_nav_core::Pose> placed_;
   std::map<urban_nav_core::StampNs, urban_nav_core::Pose> T_odom_base_, T_map_base_;
   std::optional<std::int64_t> revision_;
+  std::map<Tile, TileState> tiles_;
   Counts counts_;
 };
 

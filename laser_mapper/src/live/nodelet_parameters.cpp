@@ -22,6 +22,8 @@ const Table<NodeletParameters>& nodeletTable() {
            "Frame of the cloud; `odom` without a pose graph.", "REP-105"},
           {"period", &P::period, "s", 2.0, 0.1, 3600.0, {},
            "Least time between two clouds; making them takes at most a quarter of all time.", "docs/architecture.md"},
+          {"tile_bandwidth", &P::tile_bandwidth, "MB/s", 2.0, 0.01, 10000.0, {},
+           "Mean data rate of map/tiles: what has changed beyond it waits.", "docs/architecture.md"},
           {"queue_size", &P::queue_size, "messages", 4000, 2, 1000000, {},
            "Inputs that may wait; beyond that the oldest is dropped and counted.", "docs/architecture.md"},
       });

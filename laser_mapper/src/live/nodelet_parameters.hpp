@@ -10,8 +10,9 @@ namespace laser_mapper {
 /// Parameters of the nodelet alone, one member per row of nodeletTable().
 struct NodeletParameters {
   std::string base_frame, map_frame;
-  double period;   // s
-  int queue_size;  // messages
+  double period;          // s
+  double tile_bandwidth;  // MB/s
+  int queue_size;         // messages
 
   NodeletParameters();
 };

@@ -7,6 +7,8 @@
 #include <filesystem>
 
 #include "support/scanned_room.hpp"
+#include "urban_nav_core/io/cloud/cloud_file.hpp"
+#include "urban_nav_core/types/error.hpp"
 
 namespace laser_mapper {
 namespace {
@@ -84,6 +86,42 @@ TEST_F(LiveMapTest, ScansOfALaserWithoutAPlaceAreCounted) {
 TEST(LiveMapFile, IsRemovedWithTheMap) {
   { const LiveMap map(Parameters(), liveMapPath()); }
   EXPECT_FALSE(std::filesystem::exists(liveMapPath()));
+}
+
+std::size_t pointsIn(const std::vector<LiveMap::ChangedTile>& tiles) {
+  std::size_t all = 0;
+  for (const LiveMap::ChangedTile& tile : tiles) all += tile.points.size();
+  return all;
+}
+
+TEST_F(LiveMapTest, TilesAreTakenOnceUntilTheyChange) {
+  drive();
+  const std::size_t all = map_.render().size();
+  const auto first = map_.takeChanged(1);
+  ASSERT_EQ(first.size(), 1U);
+  const auto rest = map_.takeChanged(1'000'000);
+  EXPECT_EQ(pointsIn(first) + pointsIn(rest), all);
+  EXPECT_TRUE(map_.takeChanged(1'000'000).empty());
+  map_.render();
+  EXPECT_TRUE(map_.takeChanged(1'000'000).empty()) << "nothing has changed";
+  map_.repeatAll();
+  EXPECT_EQ(pointsIn(map_.takeChanged(1'000'000)), all);
+  map_.clear();
+  const auto emptied = map_.takeChanged(1'000'000);
+  EXPECT_EQ(emptied.size(), first.size() + rest.size());
+  EXPECT_EQ(pointsIn(emptied), 0U);
+  EXPECT_EQ(emptied.front().revision, 2);
+}
+
+TEST_F(LiveMapTest, IsSavedAsAFile) {
+  drive();
+  const std::string path = ::testing::TempDir() + "live_map_test.ply";
+  const std::size_t points = map_.save(path);
+  EXPECT_GT(points, 1000U);
+  EXPECT_EQ(urban_nav_core::readCloud(path).cloud.points.size(), points);
+  std::filesystem::remove(path);
+  EXPECT_THROW(map_.save("/no/such/folder/map.ply"), urban_nav_core::Error);
+  EXPECT_EQ(map_.measureQuality().walls().pairs, 0U) << "one pass alone";
 }
 
 }  // namespace

@@ -5,12 +5,18 @@
 #include <sensor_msgs/PointCloud2.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
 #include <tf2_msgs/TFMessage.h>
+#include <urban_nav_msgs/FileCommand.h>
 #include <urban_nav_msgs/GraphUpdate.h>
+#include <urban_nav_msgs/MapQuality.h>
+#include <urban_nav_msgs/MapTile.h>
 #include <urban_nav_msgs/RelativePose.h>
 #include <urban_nav_msgs/StageStatus.h>
 
 #include <cmath>
+#include <cstdio>
+#include <fstream>
 #include <limits>
+#include <map>
 
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/graph.hpp"
@@ -33,6 +39,8 @@ class WallRobot : public urban_nav_ros::testing::Listener {
  public:
   WallRobot() : Listener("laser_mapper") {
     keep("map/cloud", clouds);
+    keep("map/quality", qualities);
+    keep("map/tiles", tiles);
     keep("laser_mapper/status", statuses);
   }
   static StampNs toStamp(int frame) { return kDriveStart + frame * 50'000'000LL; }
@@ -77,6 +85,17 @@ class WallRobot : public urban_nav_ros::testing::Listener {
     return std::abs(static_cast<double>(low) - dz) < 0.05;
   }
 
+  /// The number of points in the last message of every tile.
+  std::size_t pointsOfTiles() const {
+    std::map<std::pair<int, int>, std::size_t> last;
+    for (const urban_nav_msgs::MapTile& tile : tiles) last[{tile.x, tile.y}] = tile.points.width;
+    std::size_t all = 0;
+    for (const auto& [tile, points] : last) all += points;
+    return all;
+  }
+
+  std::vector<urban_nav_msgs::MapQuality> qualities;
+  std::vector<urban_nav_msgs::MapTile> tiles;
   std::vector<sensor_msgs::PointCloud2> clouds;
   std::vector<urban_nav_msgs::StageStatus> statuses;
 
@@ -128,6 +147,44 @@ TEST(LaserMapperNodelet, TheMapGrowsFollowsTheGraphAndIsForgotten) {
   const std::size_t before = robot.clouds.size();
   robot.drive();
   ASSERT_TRUE(WallRobot::until([&] { return robot.clouds.size() > before && robot.showsWall(1500, 0.0); }));
+}
+
+TEST(LaserMapperNodelet, TilesAddUpToTheMapWhichIsSavedAndCleared) {
+  WallRobot robot;
+  ASSERT_TRUE(WallRobot::until([&] { return robot.isConnected(); }));
+  ASSERT_TRUE(robot.call("clear"));
+  robot.placeLaser();
+  ros::WallDuration(0.3).sleep();
+  robot.drive();
+  ASSERT_TRUE(WallRobot::until([&] {
+    return robot.showsWall(1500, 0.0) && robot.pointsOfTiles() == robot.clouds.back().width && !robot.qualities.empty();
+  })) << robot.pointsOfTiles()
+      << " points in tiles";
+  const urban_nav_msgs::MapTile& tile = robot.tiles.back();
+  EXPECT_EQ(tile.header.frame_id, "map");
+  EXPECT_NEAR(tile.edge, 25.6, 1e-9) << "256 cubes of 0.1 m";
+  EXPECT_GE(tile.revision, 1);
+  for (sensor_msgs::PointCloud2ConstIterator<float> p(tile.points, "x"); p != p.end(); ++p) {
+    EXPECT_GE(p[0], tile.x * tile.edge - 0.01);
+    EXPECT_LE(p[0], (tile.x + 1) * tile.edge + 0.01);
+  }
+  EXPECT_EQ(robot.qualities.back().wall_pairs, 0U) << "one pass alone";
+
+  urban_nav_msgs::FileCommand save;
+  save.request.path = ::testing::TempDir() + "laser_mapper_nodelet_test.ply";
+  ASSERT_TRUE(ros::service::call("laser_mapper/save", save) && save.response.success) << save.response.message;
+  std::ifstream file(save.request.path);
+  std::string line;
+  ASSERT_TRUE(std::getline(file, line));
+  EXPECT_EQ(line, "ply");
+  std::remove(save.request.path.c_str());
+  save.request.path = "/no/such/folder/map.ply";
+  ASSERT_TRUE(ros::service::call("laser_mapper/save", save));
+  EXPECT_FALSE(save.response.success);
+  EXPECT_NE(save.response.message.find("/no/such/folder"), std::string::npos) << save.response.message;
+
+  ASSERT_TRUE(robot.call("clear"));
+  ASSERT_TRUE(WallRobot::until([&] { return robot.pointsOfTiles() == 0; })) << "tiles are emptied";
 }
 
 TEST(LaserMapperNodelet, ASilentOdometryIsNamed) {

@@ -46,7 +46,7 @@ GpsReading toReading(const sensor_msgs::NavSatFix& fix) {
   return reading;
 }
 
-std::map<std::string, std::string> topicTypes(std::list<rosbag::Bag>& bags) {
+std::map<std::string, std::string> bagTopicTypes(std::list<rosbag::Bag>& bags) {
   std::map<std::string, std::string> types;
   for (rosbag::Bag& bag : bags) {
     rosbag::View view(bag);
@@ -77,7 +77,7 @@ BagFixes readBagFixes(const std::vector<std::string>& paths, const std::vector<s
   try {
     std::list<rosbag::Bag> bags;
     for (const std::string& path : paths) bags.emplace_back(path, rosbag::bagmode::Read);
-    const auto topic = chooseTopics(topicTypes(bags), topics).find(Role::Gps);
+    const auto topic = chooseTopics(bagTopicTypes(bags), topics).find(Role::Gps);
     if (!topic) return fixes;
     fixes.topic = topic->name;
     std::string frame;
