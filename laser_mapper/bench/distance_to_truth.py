@@ -5,7 +5,7 @@
     distance_to_truth.py MAP.ply BAG.truth [TRAJECTORY.tum]
 
 With a trajectory, the map is moved by the rigid motion that aligns its poses with the true ones. Points farther than 20 m from the
-laser, and those nearest to leaves, are left out.
+laser, those nearest to leaves, and those of dense stereo are left out, which a line of their own states.
 """
 import sys
 from pathlib import Path
@@ -15,7 +15,7 @@ from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
 TYPES = {"float": "<f4", "double": "<f8", "uchar": "u1", "ushort": "<u2", "int": "<i4"}
-LEAVES, LASER_HEIGHT, FARTHEST, LEVER, SHOWN = 6, 0.75, 20.0, 8.0, 80000
+LEAVES, LASER_HEIGHT, FARTHEST, LEVER, SHOWN, STEREO = 6, 0.75, 20.0, 8.0, 80000, 255
 
 
 def read_ply(path):
@@ -75,9 +75,15 @@ def main():
     chosen = chosen[:: max(1, len(chosen) // SHOWN)]
     truth = read_ply(folder / "cloud.ply")
     distance, nearest = distances(points[chosen], positions(truth))
-    used = truth["class"][nearest] != LEAVES
-    d, sigma = distance[used], cloud["sigma"][chosen][used]
-    print(f"{used.sum()} points: median {1e3 * np.median(d):.2f} mm, 95 % {100 * np.quantile(d, .95):.2f} cm, "
+    stereo = cloud["laser"][chosen] == STEREO
+    for name, kind in (("lasers", ~stereo), ("stereo", stereo)):
+        used = kind & (truth["class"][nearest] != LEAVES)
+        if used.any():
+            state(name, distance[used], cloud["sigma"][chosen][used])
+
+
+def state(name, d, sigma):
+    print(f"{name}, {len(d)} points: median {1e3 * np.median(d):.2f} mm, 95 % {100 * np.quantile(d, .95):.2f} cm, "
           f"99 % {100 * np.quantile(d, .99):.2f} cm; median of distance over sigma {np.median(d / sigma):.2f}")
 
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "laser_mapper/mixed_pixels.hpp"
 #include "urban_nav_core/laser/beam_renderer.hpp"
@@ -58,7 +60,7 @@ class ChunkGrid {
     }
     CellSums& sums = sums_[number];
     sums.offset += scaled - corner;
-    sums.to_laser += (point.origin - point.p) / point.range;
+    sums.to_laser += (point.origin - point.p) / std::max(point.range, 1e-6F);
     sums.range += point.range;
     sums.intensity += point.intensity;
     sums.time += point.stamp - begin_;
@@ -68,8 +70,8 @@ class ChunkGrid {
     return true;
   }
 
-  /// Returns the cubes by their tiles.
-  std::vector<RenderedChunk::Part> parts() {
+  /// Appends the cubes to those of their tiles.
+  void appendTo(std::map<Tile, std::vector<MapCell>>& parts) const {
     std::vector<std::uint32_t> order(sums_.size());
     std::vector<Tile> tiles(sums_.size());
     for (std::uint32_t i = 0; i < order.size(); ++i) {
@@ -80,12 +82,7 @@ class ChunkGrid {
       if (!(tiles[a] == tiles[b])) return tiles[a] < tiles[b];
       return toKey(sums_[a].cell) < toKey(sums_[b].cell);  // z, then y, then x
     });
-    std::vector<RenderedChunk::Part> parts;
-    for (const std::uint32_t i : order) {
-      if (parts.empty() || !(parts.back().tile == tiles[i])) parts.push_back({tiles[i], {}});
-      parts.back().cells.push_back(mean(sums_[i]));
-    }
-    return parts;
+    for (const std::uint32_t i : order) parts[tiles[i]].push_back(mean(sums_[i]));
   }
 
  private:
@@ -137,6 +134,25 @@ Scan usableBeams(const Scan& scan, const Parameters& parameters, BeamCounts& cou
   return usable;
 }
 
+/// Adds the points of a pair of images as beams from the camera, whose range is their standard deviation.
+void addStereo(const Parameters& parameters, const Trajectory& T_map_base, const StereoFrame& frame, ChunkGrid& grid) {
+  const auto T_map_then = T_map_base.at(frame.stamp, std::llround(parameters.max_gap * 1e9));
+  if (!T_map_then) return;
+  const Pose T_frame_base = grid.framePose() * *T_map_then;
+  const Eigen::Vector3d camera = T_frame_base * frame.camera_base;
+  for (const StereoFrame::Point& point : frame.points) {
+    if (!(static_cast<double>(point.sigma) <= parameters.stereo_sigma)) continue;
+    const Eigen::Vector3d p = T_frame_base * point.p_base.cast<double>();
+    LaserPoint made;
+    made.stamp = frame.stamp;
+    made.p = p.cast<float>();
+    made.origin = (p + static_cast<double>(point.sigma) * (camera - p).normalized()).cast<float>();
+    made.range = point.sigma;
+    made.intensity = point.grey;
+    grid.add(made, kStereo);
+  }
+}
+
 }  // namespace
 
 StampNs chunkBegin(StampNs stamp) {
@@ -149,9 +165,10 @@ BeamCounts operator+(const BeamCounts& a, const BeamCounts& b) {
 }
 
 RenderedChunk renderChunk(const Parameters& parameters, const Trajectory& T_map_base,
-                          const std::vector<LaserInput>& lasers, StampNs begin) {
+                          const std::vector<LaserInput>& lasers, const std::vector<StereoFrame>& stereo,
+                          StampNs begin) {
   RenderedChunk chunk;
-  ChunkGrid grid(parameters.voxel, chunkCentre(T_map_base, begin), begin);
+  ChunkGrid grid(parameters.voxel, chunkCentre(T_map_base, begin), begin), stereo_grid = grid;
   const StampNs max_gap = std::llround(parameters.max_gap * 1e9);
   std::vector<LaserPoint> points;
   for (const LaserInput& laser : lasers) {
@@ -163,7 +180,12 @@ RenderedChunk renderChunk(const Parameters& parameters, const Trajectory& T_map_
         if (!grid.add(point, laser.laser)) ++chunk.beams.out_of_range;
     }
   }
-  chunk.parts = grid.parts();
+  if (parameters.stereo)
+    for (const StereoFrame& frame : stereo) addStereo(parameters, T_map_base, frame, stereo_grid);
+  std::map<Tile, std::vector<MapCell>> parts;
+  grid.appendTo(parts);
+  stereo_grid.appendTo(parts);
+  for (auto& [tile, cells] : parts) chunk.parts.push_back({tile, std::move(cells)});
   return chunk;
 }
 

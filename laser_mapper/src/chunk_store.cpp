@@ -108,7 +108,8 @@ std::string renderSettings(const Parameters& parameters, const std::vector<urban
   std::string text = "2";  // of this encoding
   for (const double value :
        {parameters.voxel, parameters.min_range, parameters.max_range, parameters.range_sigma, parameters.max_gap,
-        parameters.mixed_pixels ? 1.0 : 0.0, parameters.ghosts ? parameters.ghost_gap : 0.0})
+        parameters.mixed_pixels ? 1.0 : 0.0, parameters.ghosts ? parameters.ghost_gap : 0.0,
+        parameters.stereo ? parameters.stereo_sigma : 0.0})
     urban_nav_store::appendNumber(text, value);
   for (const urban_nav_registration::LaserAt& laser : lasers) {
     urban_nav_store::appendText(text, laser.frame);

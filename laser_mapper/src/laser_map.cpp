@@ -28,15 +28,25 @@ using Cells = std::vector<MergedCell>;
 /// Merged tiles of up to three rows.
 class TileRows {
  public:
-  void put(const Tile& tile, Cells cells) { tiles_[tile] = std::move(cells); }
+  void put(const Tile& tile, Cells cells, Cells stereo) {
+    tiles_[tile] = std::move(cells);
+    if (!stereo.empty()) stereo_[tile] = std::move(stereo);
+  }
   void dropBelow(int y) {
-    while (!tiles_.empty() && tiles_.begin()->first.y < y) tiles_.erase(tiles_.begin());
+    for (std::map<Tile, Cells>* all : {&tiles_, &stereo_})
+      while (!all->empty() && all->begin()->first.y < y) all->erase(all->begin());
   }
   bool hasRow(int y) const {
     const auto found = tiles_.lower_bound({-(1 << 24), y});
     return found != tiles_.end() && found->first.y == y;
   }
   const Cells& at(const Tile& tile) const { return tiles_.at(tile); }
+  /// Returns the cells of dense stereo.
+  const Cells& stereo(const Tile& tile) const {
+    static const Cells none;
+    const auto found = stereo_.find(tile);
+    return found == stereo_.end() ? none : found->second;
+  }
 
   /// Returns the cells around a tile, within kTileMargin.
   Cells margin(const Tile& tile) const {
@@ -54,7 +64,7 @@ class TileRows {
   }
 
  private:
-  std::map<Tile, Cells> tiles_;
+  std::map<Tile, Cells> tiles_, stereo_;
 };
 
 /// Returns the tiles of each row.
@@ -130,14 +140,15 @@ std::optional<Parameters> storedMapParameters(urban_nav_store::Store& store,
 }
 
 LaserMap::MergedTile LaserMap::mergePacked(const Tile& tile, const std::vector<const PackedCells*>& packed) const {
-  TileMerger merger;
+  TileMerger merger, stereo;
   for (const PackedCells* each : packed) {
     const auto cells = unpackCells(tile, each->data);
     if (!cells) throw urban_nav_core::DataError(store_.path(), "points of tile " + toString(tile) + " are damaged", "");
     merger.add(each->source, *cells);
+    stereo.add(each->source, *cells, TileMerger::Kind::Stereo);
   }
   const std::size_t ghosts = merger.ghostBeams();
-  return {merger.take(), ghosts};
+  return {merger.take(), stereo.take(), ghosts};
 }
 
 std::vector<std::vector<LaserMap::PackedCells>> LaserMap::readRow(const std::vector<Tile>& tiles) const {
@@ -204,13 +215,17 @@ std::size_t LaserMap::forEachTile(const TileCallback& take) const {
         std::vector<MergedTile> made = mergeRow(row->second);
         for (std::size_t i = 0; i < made.size(); ++i) {
           ghost_beams += made[i].ghost_beams;
-          merged.put(row->second[i], std::move(made[i].cells));
+          merged.put(row->second[i], std::move(made[i].cells), std::move(made[i].stereo));
         }
       }
     std::vector<std::vector<MapPoint>> points(tiles.size());
     urban_nav_core::forEach(tiles.size(), 1, [&, &row_tiles = tiles](std::size_t i) {
-      points[i] =
-          makeSurface(parameters_, row_tiles[i], merged.at(row_tiles[i]), merged.margin(row_tiles[i]), pose_sigma);
+      const Tile& tile = row_tiles[i];
+      const Cells &cells = merged.at(tile), margin = merged.margin(tile);
+      points[i] = makeSurface(parameters_, tile, cells, margin, pose_sigma);
+      const std::vector<MapPoint> stereo =
+          makeStereoSurface(parameters_, tile, merged.stereo(tile), cells, margin, pose_sigma);
+      points[i].insert(points[i].end(), stereo.begin(), stereo.end());
     });
     for (std::size_t i = 0; i < tiles.size(); ++i) take(tiles[i], points[i]);
   }

@@ -6,6 +6,8 @@
 
 #include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_core/types/frames.hpp"
+#include "urban_nav_store/digest.hpp"
+#include "urban_nav_store/tables/near_points.hpp"
 
 namespace laser_mapper {
 
@@ -13,6 +15,7 @@ using urban_nav_core::Scan;
 using urban_nav_core::StampNs;
 using urban_nav_core::Trajectory;
 using urban_nav_store::MapChunk;
+using urban_nav_store::NearPoints;
 
 namespace {
 
@@ -72,10 +75,26 @@ SessionChunks::SessionChunks(const Parameters& parameters, urban_nav_store::Stor
       warnings_.push_back("scans of " + frame + " are left out: its pose on the robot is unknown");
 }
 
-bool SessionChunks::isCurrent(const Stored& stored, StampNs begin) const {
-  const auto found = stored.find(begin);
-  return found != stored.end() && found->second.settings == settings_ &&
-         chunkShift(found->second.poses, T_map_base_, begin, max_gap_) <= parameters_.max_shift;
+bool SessionChunks::isCurrent(const Stored& stored, const Task& task) const {
+  const auto found = stored.find(task.begin);
+  return found != stored.end() && found->second.settings == task.settings &&
+         chunkShift(found->second.poses, T_map_base_, task.begin, max_gap_) <= parameters_.max_shift;
+}
+
+void SessionChunks::readStereo(Task& task) const {
+  std::string rows;
+  if (parameters_.stereo)
+    urban_nav_store::TableStore<NearPoints>(store_).forEachBetween(
+        {session_, 0, {}, 0.0, {}}, task.begin, task.begin + kChunkNs - 1, [&](const NearPoints& row) {
+          StereoFrame frame;
+          frame.stamp = row.stamp;
+          frame.camera_base = row.camera;
+          for (const NearPoints::Point& point : row.points())
+            frame.points.push_back({point.p_base, point.sigma, static_cast<float>(point.grey)});
+          task.stereo.push_back(std::move(frame));
+          rows += row.packed;
+        });
+  task.settings = rows.empty() ? settings_ : urban_nav_store::sha256(settings_ + rows);
 }
 
 void SessionChunks::checkContinuity(std::size_t laser, const Scan& scan) {
@@ -84,25 +103,22 @@ void SessionChunks::checkContinuity(std::size_t laser, const Scan& scan) {
   last_scan_[laser] = scan.stamp;
 }
 
-SessionChunks::Task SessionChunks::readTask(StampNs begin) {
-  Task task;
-  task.begin = begin;
-  task.lasers = readLasers(store_, session_, lasers_, begin);
+void SessionChunks::readScans(Task& task) {
+  task.lasers = readLasers(store_, session_, lasers_, task.begin);
   for (std::size_t i = 0; i < task.lasers.size(); ++i)
     for (const Scan& scan : task.lasers[i].scans) checkContinuity(i, scan);
-  return task;
 }
 
 void SessionChunks::renderTasks(std::vector<Task>& tasks, const Stored& stored) {
   urban_nav_core::forEach(tasks.size(), 1, [&](std::size_t i) {
-    tasks[i].chunk = renderChunk(parameters_, T_map_base_, tasks[i].lasers, tasks[i].begin);
+    tasks[i].chunk = renderChunk(parameters_, T_map_base_, tasks[i].lasers, tasks[i].stereo, tasks[i].begin);
   });
   for (const Task& task : tasks) {
     const BeamCounts& beams = task.chunk.beams;
     MapChunk header;
     header.begin = task.begin;
     header.end = task.begin + kChunkNs;
-    header.settings = settings_;
+    header.settings = task.settings;
     header.poses = packChunkPoses(T_map_base_, task.begin, max_gap_);
     header.beams = static_cast<std::int64_t>(beams.all);
     header.mixed = static_cast<std::int64_t>(beams.mixed);
@@ -134,7 +150,10 @@ void SessionChunks::update(const std::function<void(std::size_t)>& progress) {
   std::vector<Task> tasks;
   for (StampNs begin = first; begin <= last; begin += kChunkNs) {
     ++chunks_;
-    if (isCurrent(stored, begin)) {
+    Task task;
+    task.begin = begin;
+    readStereo(task);
+    if (isCurrent(stored, task)) {
       const MapChunk& chunk = stored.at(begin);
       const auto size = [](std::int64_t n) { return static_cast<std::size_t>(n); };
       beams_ =
@@ -142,7 +161,8 @@ void SessionChunks::update(const std::function<void(std::size_t)>& progress) {
       for (const Tile& tile : chunkTiles(chunk)) tiles_.insert(tile);
       continue;
     }
-    tasks.push_back(readTask(begin));
+    readScans(task);
+    tasks.push_back(std::move(task));
     if (tasks.size() == kBatch) renderTasks(tasks, stored);
     progress(chunks_);
   }

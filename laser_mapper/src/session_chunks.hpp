@@ -42,13 +42,16 @@ class SessionChunks {
   struct Task {
     urban_nav_core::StampNs begin = 0;
     std::vector<LaserInput> lasers;
+    std::vector<StereoFrame> stereo;
+    std::string settings;
     RenderedChunk chunk;
   };
   using Stored = std::map<urban_nav_core::StampNs, urban_nav_store::MapChunk>;
 
-  Task readTask(urban_nav_core::StampNs begin);
   void renderTasks(std::vector<Task>& tasks, const Stored& stored);
-  bool isCurrent(const Stored& stored, urban_nav_core::StampNs begin) const;
+  bool isCurrent(const Stored& stored, const Task& task) const;
+  void readStereo(Task& task) const;
+  void readScans(Task& task);
   void checkContinuity(std::size_t laser, const urban_nav_core::Scan& scan);
   void reportGaps();
 

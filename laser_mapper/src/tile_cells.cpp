@@ -16,8 +16,9 @@ void TileMerger::elect(MergedCell& cell, const PassVotes& votes) {
       votes.since + static_cast<StampNs>(std::llround(1e3 * votes.time / static_cast<double>(votes.count))) * 1000;
 }
 
-void TileMerger::add(const CellSource& source, const std::vector<MapCell>& cells) {
+void TileMerger::add(const CellSource& source, const std::vector<MapCell>& cells, Kind kind) {
   for (const MapCell& from : cells) {
+    if ((from.laser == kStereo) != (kind == Kind::Stereo)) continue;
     if (from.is_ghost) {
       ghost_beams_ += from.count;
       continue;

@@ -15,7 +15,11 @@ using Eigen::Vector3f;
 namespace {
 
 constexpr float kFarRange = 20.0F;  // m: beyond, ranges are twice as noisy (data sheet of the LMS291)
-constexpr float kReach = 3.0F;      // standard deviations of a range: cubes nearer to a plane belong to it
+constexpr float kFewestPixels = 2.0F;
+constexpr float kStereoPatches = 4.0F;  // independent measurements in a neighbourhood: windows of matching overlap
+constexpr int kCoarsestStereoLevel = 2;
+constexpr float kLeastStereoCosine = 0.3F;  // grazing views: edges of the matched windows count too
+constexpr float kReach = 3.0F;              // standard deviations of a range: cubes nearer to a plane belong to it
 
 float rangeSigma(const Parameters& parameters, float range) {
   return static_cast<float>(parameters.range_sigma) * (range > kFarRange ? 2.0F : 1.0F);
@@ -43,6 +47,31 @@ float measurementVariance(const Parameters& parameters, const MergedCell& cell, 
 struct SurfacePoint {
   MapPoint point;
   bool belongs_to_another = false;
+};
+
+/// Where lasers measured something, in cubes of four edges.
+class SeenByLasers {
+ public:
+  SeenByLasers(const std::vector<MergedCell>& cells, const std::vector<MergedCell>& margin) : table_(cells.size() / 8) {
+    for (const std::vector<MergedCell>* part : {&cells, &margin})
+      for (const MergedCell& cell : *part) table_.insert(key(cell.cell));
+  }
+  /// Returns whether something is in the cube of a cell or beside it.
+  bool near(const Cell& cell) const {
+    for (int dz = -1; dz <= 1; ++dz)
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx)
+          if (table_.find(urban_nav_registration::keyBeside(key(cell), {dx, dy, dz})) !=
+              urban_nav_registration::CellTable::none)
+            return true;
+    return false;
+  }
+
+ private:
+  static std::uint64_t key(const Cell& cell) {
+    return urban_nav_registration::toKey({cell.x >> 2, cell.y >> 2, cell.z >> 2});
+  }
+  urban_nav_registration::CellTable table_;
 };
 
 }  // namespace
@@ -94,6 +123,41 @@ std::vector<MapPoint> makeSurface(const Parameters& parameters, const Tile& tile
   points.reserve(made.size());
   for (const SurfacePoint& surface : made)
     if (!surface.belongs_to_another) points.push_back(surface.point);
+  return points;
+}
+
+std::vector<MapPoint> makeStereoSurface(const Parameters& parameters, const Tile& tile,
+                                        const std::vector<MergedCell>& stereo, const std::vector<MergedCell>& cells,
+                                        const std::vector<MergedCell>& margin, const PoseSigma& pose_sigma) {
+  std::vector<MapPoint> points;
+  if (stereo.empty()) return points;
+  const SeenByLasers seen(cells, margin);
+  const LocalPlanes planes(parameters.voxel, tile, stereo, {});
+  for (const MergedCell& cell : stereo) {
+    if (cell.count < kFewestPixels || seen.near(cell.cell) || !(cell.to_laser.norm() > 0.1F)) continue;
+    const std::optional<LocalPlane> plane = planes.around(cell);
+    if (!plane || plane->level > kCoarsestStereoLevel) continue;
+    Vector3f local = planes.position(cell), normal = plane->normal;
+    const Vector3f along = cell.to_laser.normalized();
+    if (normal.dot(along) < 0.0F) normal = -normal;
+    const float cosine = std::max(kLeastStereoCosine, normal.dot(along)), sigma = cell.range * cosine;
+    const float share = noiseShare(*plane, sigma);
+    local -= share * normal.dot(local - plane->centre) * normal;
+    const Vector3d p = planes.inMap(local);
+    const double pose = pose_sigma(cell, p, normal.cast<double>());
+    MapPoint point;
+    point.p = p.cast<float>();
+    point.normal = normal;
+    const float independent = 1.0F + share * (kStereoPatches - 1.0F);
+    point.sigma = std::sqrt(sigma * sigma / independent + static_cast<float>(pose * pose));
+    point.intensity = static_cast<std::uint8_t>(std::lround(std::clamp(cell.intensity, 0.0F, 255.0F)));
+    point.raw_intensity = point.red = point.green = point.blue = point.intensity;
+    point.laser = 255;
+    point.pass = cell.pass;
+    point.count = static_cast<std::uint16_t>(std::min(cell.count, 65535.0F));
+    point.stamp = cell.stamp;
+    points.push_back(point);
+  }
   return points;
 }
 

@@ -25,6 +25,18 @@ struct LaserInput {
   std::vector<urban_nav_core::Scan> scans;
 };
 
+/// Points of dense stereo of one pair of images.
+struct StereoFrame {
+  struct Point {
+    Eigen::Vector3f p_base = Eigen::Vector3f::Zero();  ///< m
+    float sigma = 0.0F;                                ///< m, along the line of sight
+    float grey = 0.0F;                                 ///< 0...255
+  };
+  urban_nav_core::StampNs stamp = 0;
+  Eigen::Vector3d camera_base = Eigen::Vector3d::Zero();  ///< m
+  std::vector<Point> points;
+};
+
 /// Number of beams by what became of them.
 struct BeamCounts {
   std::size_t all = 0;           ///< with a valid range
@@ -40,13 +52,15 @@ struct RenderedChunk {
     Tile tile;
     std::vector<MapCell> cells;
   };
-  std::vector<Part> parts;  ///< in the order of the tiles, cells in the order of z, y, x
+  std::vector<Part> parts;  ///< in the order of the tiles, cells in the order of z, y, x, those of stereo last
   BeamCounts beams;
 };
 
 /// Renders scans along a trajectory, each beam at its own time, and averages the ends that fall into one cube of the
-/// map's grid. Ends beyond the grid (50 km, 1.6 km in height for cubes of 5 cm) count as out of range. Thread-safe.
+/// map's grid; points of dense stereo apart from them, without those less certain than Parameters::stereo_sigma. Ends
+/// beyond the grid (50 km, 1.6 km in height for cubes of 5 cm) count as out of range. Thread-safe.
 RenderedChunk renderChunk(const Parameters& parameters, const urban_nav_core::Trajectory& T_map_base,
-                          const std::vector<LaserInput>& lasers, urban_nav_core::StampNs begin);
+                          const std::vector<LaserInput>& lasers, const std::vector<StereoFrame>& stereo,
+                          urban_nav_core::StampNs begin);
 
 }  // namespace laser_mapper

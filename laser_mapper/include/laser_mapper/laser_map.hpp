@@ -82,7 +82,7 @@ class LaserMap {
   };
   std::vector<std::vector<PackedCells>> readRow(const std::vector<Tile>& tiles) const;
   struct MergedTile {
-    std::vector<MergedCell> cells;
+    std::vector<MergedCell> cells, stereo;
     std::size_t ghost_beams = 0;
   };
   std::vector<MergedTile> mergeRow(const std::vector<Tile>& tiles) const;

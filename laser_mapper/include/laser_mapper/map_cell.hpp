@@ -14,12 +14,17 @@ namespace laser_mapper {
 
 using urban_nav_registration::Cell;
 
+/// Number of dense stereo in MapCell::laser.
+constexpr std::uint8_t kStereo = 127;
+
 /// Cubes of a tile along x and y: a tile is a column of the map.
 constexpr int kTileCells = 256;
 /// Cubes higher or lower than this have no place in a tile.
 constexpr int kMaxHeightCell = 32767;
 
-/// Beams of one chunk that ended in one cube of the map's grid. Values are rounded as the store holds them.
+/// Beams of one chunk that ended in one cube of the map's grid; or points of dense stereo there (laser kStereo), whose
+/// grey is `intensity`, and whose standard deviation along the line of sight is `range`. Values are rounded as the
+/// store holds them.
 struct MapCell {
   Cell cell;                                           ///< in the map's grid
   std::uint16_t count = 0;                             ///< beams

@@ -18,8 +18,10 @@ struct Parameters {
   bool mixed_pixels;
   bool ghosts;
   double ghost_gap;  // s
-  double max_gap;    // s
-  double max_shift;  // m
+  bool stereo;
+  double stereo_sigma;  // m
+  double max_gap;       // s
+  double max_shift;     // m
 
   Parameters();
 };

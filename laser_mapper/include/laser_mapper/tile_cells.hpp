@@ -31,8 +31,10 @@ struct CellSource {
 class TileMerger {
  public:
   TileMerger() : table_(1 << 12) {}
-  /// Leaves ghosts out.
-  void add(const CellSource& source, const std::vector<MapCell>& cells);
+  /// What cells come from.
+  enum class Kind { Lasers, Stereo };
+  /// Adds the cells of one kind; leaves ghosts out.
+  void add(const CellSource& source, const std::vector<MapCell>& cells, Kind kind = Kind::Lasers);
   /// Returns the number of beams left out since the last take().
   std::size_t ghostBeams() const { return ghost_beams_; }
   /// Returns the cubes in the order in which they came, and becomes empty.

@@ -24,6 +24,14 @@ using PoseSigma = std::function<double(const MergedCell& cell, const Eigen::Vect
 std::vector<MapPoint> makeSurface(const Parameters& parameters, const Tile& tile, const std::vector<MergedCell>& cells,
                                   const std::vector<MergedCell>& margin, const PoseSigma& pose_sigma);
 
+/// Makes points of dense stereo where no laser measured anything within 0.2 m: positions moved onto the plane of their
+/// neighbourhood as far as noise explains, with their standard deviations; cubes without a plane add no point.
+/// `stereo`: cubes of the tile; `cells`, `margin`: those of the lasers, as makeSurface() takes them. Thread-safe if
+/// `pose_sigma` is.
+std::vector<MapPoint> makeStereoSurface(const Parameters& parameters, const Tile& tile,
+                                        const std::vector<MergedCell>& stereo, const std::vector<MergedCell>& cells,
+                                        const std::vector<MergedCell>& margin, const PoseSigma& pose_sigma);
+
 /// Returns an echo's value without the influence of range and incidence (0...255): near by, the optics of the device
 /// lose light; far away it falls with the distance; matt surfaces follow Lambert's law. `cosine`: of the angle between
 /// beam and normal; 1 where it is unknown.

@@ -141,6 +141,7 @@ Json toJson(const LasersRun& run) {
   json["beams_ghosts"] = run.ghostBeams();
   json["beams_without_pose"] = beams.without_pose;
   json["beams_out_of_range"] = beams.out_of_range;
+  json["points_stereo"] = run.stereo();
   json["coloured_share"] = beamShare(run.coloured(), run.points());
   json["sigma_m_median"] = run.maps.empty() ? Json() : Json(run.maps.front().sigma_median);
   json["seconds"] = run.seconds;

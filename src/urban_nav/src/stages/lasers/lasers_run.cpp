@@ -97,7 +97,8 @@ LaserMapRun renderMap(LaserMap& map, laser_mapper::Colouriser* colouriser, std::
     std::string bytes;
     for (const MapPoint& point : points) {
       appendVertex(bytes, point);
-      sigmas.add(point.sigma);
+      if (point.laser == 255) ++run.stereo;
+      else sigmas.add(point.sigma);
     }
     file.append(bytes);
     above.draw(points);
@@ -132,6 +133,12 @@ std::size_t LasersRun::points() const {
 std::size_t LasersRun::coloured() const {
   std::size_t all = 0;
   for (const LaserMapRun& map : maps) all += map.coloured;
+  return all;
+}
+
+std::size_t LasersRun::stereo() const {
+  std::size_t all = 0;
+  for (const LaserMapRun& map : maps) all += map.stereo;
   return all;
 }
 

@@ -17,6 +17,7 @@ struct LaserMapRun {
   std::size_t map = 0;  ///< number of its first session
   std::string file;     ///< "map.ply", in the output folder
   std::size_t points = 0;
+  std::size_t stereo = 0;    ///< points of dense stereo
   std::size_t coloured = 0;  ///< points with the colour of a panorama
   std::size_t views = 0;     ///< images that it was coloured from
   std::size_t passes = 0;
@@ -36,6 +37,7 @@ struct LasersRun {
 
   std::size_t points() const;
   std::size_t coloured() const;
+  std::size_t stereo() const;
   std::size_t chunksRendered() const;
   std::size_t ghostBeams() const;
   /// Returns the agreement of the passes on walls; on ground: over all maps.
