@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Maps a recording and says where the report is, on a bare Debian 12 too.
 #   ./run_demo.sh [FOLDER|BAG...]   folders as KITTI or EuRoC have them, or bags with a stereo pair
-# Without an argument: 60 s of a simulated robot in a college quad, mapped in parts of 20 s as they come; what was simulated
-# stays in build/demo for the next time. The results go to out/demo.
+# Without an argument: 60 s of a simulated robot in a college quad, with stereo, panoramas and lasers, mapped in parts of 20 s as
+# they come; what was simulated stays in build/demo for the next time. The results go to out/demo.
 set -eu
 # shellcheck source=scripts/lib.sh
 . "$(dirname "$(readlink -f "$0")")/scripts/lib.sh"
@@ -31,13 +31,13 @@ wait_for() {
   done
 }
 
-# The stereo camera alone: the stages there are need no more. Each part is mapped with those before it.
+# Each part is mapped with those before it.
 map_while_simulating() {
   local folder=$1 log=$1/simulate.log parts=() bag n
   rm -rf "$folder"
   mkdir -p "$folder"
   : >"$log"
-  "$program" simulate --world quad --seed 7 --sensors stereo --duration $seconds --split $part -o "$folder/quad.bag" >/dev/null 2>>"$log" &
+  "$program" simulate --world quad --seed 7 --route return --sensors stereo,ladybug,lasers,imu --duration $seconds --split $part -o "$folder/quad.bag" >/dev/null 2>>"$log" &
   simulator=$!
   trap 'kill $simulator 2>/dev/null' EXIT
   trap 'exit 130' INT TERM
