@@ -29,6 +29,10 @@ constexpr KnownSentence kKnownSentences[] = {
     {"no static tf", FindingKind::Tf,
      "publish it while recording: rosrun tf2_ros static_transform_publisher X Y Z QX QY QZ QW base_link FRAME"},
     {"is not used", FindingKind::Tf, "publish its transform from base_link on /tf_static"},
+    {"images are rectified already, although", FindingKind::Calibration,
+     "publish images without distortion with a camera_info whose D is zero, or record the raw images"},
+    {"although their topic is named as rectified", FindingKind::Calibration,
+     "name raw images image_raw, and rectified ones image_rect"},
     {"left aside", FindingKind::Calibration, "repair the file that the message names"},
     {"have no stamp, or angles", FindingKind::Stamps, "check the driver of this laser"},
 };

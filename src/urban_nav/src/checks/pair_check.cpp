@@ -3,10 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/features2d.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "evaluation/statistics.hpp"
+#include "input/image_features.hpp"
 #include "report/plot.hpp"
 #include "urban_nav_core/geometry/small_matrices.hpp"
 
@@ -16,7 +15,7 @@ using urban_nav_core::ImageView;
 
 namespace {
 
-constexpr int kFeatures = 1000, kFewFeatures = 100;    // of an image; fewer than the latter: nothing to match
+constexpr int kFewFeatures = 100;                      // of an image; fewer: nothing to match
 constexpr int kFewMatches = 15;                        // on neighbouring rows, in a pair that shows one scene
 constexpr double kMaxRowError = 20.0, kSameRow = 1.5;  // px
 constexpr double kOffsetTolerance = 0.8, kCornerTolerance = 1.6;  // px: above, stereo along rows loses features
@@ -24,39 +23,9 @@ constexpr double kAlikeRows = 4.0, kLeastAlike = 0.3;             // px; share o
 constexpr double kMaxScatter = 1.3;                               // px, root mean square
 constexpr int kMinPairs = 3;
 
-struct Features {
-  std::vector<cv::KeyPoint> points;
-  cv::Mat descriptors;
-};
-
-Features extract(const ImageView& image) {
-  Features features;
-  if (image.empty()) return features;
-  // OpenCV does not write through the pointer.
-  const cv::Mat pixels(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.data),  // NOLINT
-                       static_cast<std::size_t>(image.stride));
-  cv::ORB::create(kFeatures, 1.2F, 1)->detectAndCompute(pixels, cv::noArray(), features.points, features.descriptors);
-  if (features.points.empty()) return features;
-  std::vector<cv::Point2f> corners;
-  cv::KeyPoint::convert(features.points, corners);
-  cv::cornerSubPix(pixels, corners, {3, 3}, {-1, -1}, {cv::TermCriteria::EPS + cv::TermCriteria::COUNT, 10, 0.02});
-  for (std::size_t i = 0; i < corners.size(); ++i) features.points[i].pt = corners[i];
-  return features;
-}
-
-std::vector<cv::DMatch> match(const Features& left, const Features& right) {
-  std::vector<cv::DMatch> matches;
-  if (left.points.empty() || right.points.empty()) return matches;
-  cv::BFMatcher(cv::NORM_HAMMING, true).match(left.descriptors, right.descriptors, matches);
-  constexpr float kMostBits = 40.0F;
-  const auto far = [](const cv::DMatch& found) { return found.distance > kMostBits; };
-  matches.erase(std::remove_if(matches.begin(), matches.end(), far), matches.end());
-  return matches;
-}
-
-int countOnRow(const Features& left, const Features& right) {
+int countOnRow(const ImageFeatures& left, const ImageFeatures& right) {
   int count = 0;
-  for (const cv::DMatch& found : match(left, right)) {
+  for (const cv::DMatch& found : matchFeatures(left, right)) {
     const float dv = right.points[static_cast<std::size_t>(found.trainIdx)].pt.y -
                      left.points[static_cast<std::size_t>(found.queryIdx)].pt.y;
     count += std::abs(dv) < kSameRow;
@@ -90,12 +59,12 @@ void PairCheck::add(const ImageView& left, const ImageView& right, const ImageVi
   half_width_ = 0.5 * left.width, half_height_ = 0.5 * left.height;
   left_.push_back(measureGrey(left));
   right_.push_back(measureGrey(right));
-  const Features on_left = extract(left), on_right = extract(right);
+  const ImageFeatures on_left = extractFeatures(left), on_right = extractFeatures(right);
   if (static_cast<int>(std::min(on_left.points.size(), on_right.points.size())) < kFewFeatures) return;
   ++textured_;
   std::vector<Match> found;
   std::vector<double> rows;
-  for (const cv::DMatch& match_of_two : match(on_left, on_right)) {
+  for (const cv::DMatch& match_of_two : matchFeatures(on_left, on_right)) {
     const cv::Point2f a = on_left.points[static_cast<std::size_t>(match_of_two.queryIdx)].pt;
     const cv::Point2f b = on_right.points[static_cast<std::size_t>(match_of_two.trainIdx)].pt;
     found.push_back({a.x - half_width_, a.y - half_height_, a.x - b.x, b.y - a.y});
@@ -113,7 +82,8 @@ void PairCheck::add(const ImageView& left, const ImageView& right, const ImageVi
   }
   if (right_before.empty() || right_after.empty()) return;
   const auto now = std::count_if(rows.begin(), rows.end(), [](double dv) { return std::abs(dv) < kSameRow; });
-  const int before = countOnRow(on_left, extract(right_before)), after = countOnRow(on_left, extract(right_after));
+  const int before = countOnRow(on_left, extractFeatures(right_before)),
+            after = countOnRow(on_left, extractFeatures(right_after));
   constexpr double kClearly = 1.3;
   ++compared_;
   before_wins_ += before > kFewMatches && before > kClearly * static_cast<double>(now) && before > after;

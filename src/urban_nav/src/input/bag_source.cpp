@@ -17,6 +17,7 @@
 #include "input/first_message.hpp"
 #include "input/open.hpp"
 #include "input/pair_delay.hpp"
+#include "input/rectification_choice.hpp"
 #include "input/unused_topics.hpp"
 #include "urban_nav_core/io/archive_types.hpp"
 #include "urban_nav_core/io/numbers.hpp"
@@ -187,8 +188,10 @@ class BagSource : public Source {
     const std::string where = given
                                   ? options_.calibration
                                   : topics_.find(Role::LeftInfo)->name + " and " + topics_.find(Role::RightInfo)->name;
-    calibration_ =
-        std::make_shared<urban_nav_ros::StereoCalibration>(left_info, right_info, isRectifiedName(left.name), where);
+    const StereoTopics topics{left.name, topics_.find(Role::Right)->name,
+                              static_cast<urban_nav_core::StampNs>(1e6 * options_.right_delay)};
+    calibration_ = std::make_shared<urban_nav_ros::StereoCalibration>(
+        makeCalibration(bags_, topics, part_, isRectifiedName(left.name), {left_info, right_info, where}, info_.notes));
     info_.camera = calibration_->camera();
     if (calibration_->rectifies()) info_.notes.push_back("raw images with distortion, rectified on the way");
   }

@@ -57,7 +57,7 @@ class Session {
   /// Stereo pairs, to show how far it is.
   std::int64_t frames() const;
 
-  /// T_base_sensor by frame.
+  /// T_base_sensor by frame. Raw stereo images (defect Lens) have the frames of the cameras as they are mounted.
   std::map<std::string, urban_nav_core::Pose> places() const;
   urban_nav_core::CameraInfo stereoInfo(Side side) const;
   urban_nav_core::CameraInfo ladybugInfo(int camera) const;  ///< 0 ... 4

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "camera/rig.hpp"
 #include "faults/fault_filter.hpp"
 #include "ground_truth/cloud.hpp"
 #include "ground_truth/truth_files.hpp"
@@ -177,7 +178,17 @@ Pose Session::truth(StampNs taken) const { return implementation_->truth(taken);
 StampNs Session::begin() const { return implementation_->begin(); }
 double Session::duration() const { return implementation_->options().duration; }
 std::int64_t Session::frames() const { return sensorSchedule(Sensor::Stereo).count(duration()); }
-std::map<std::string, Pose> Session::places() const { return sensorPlaces(); }
+std::map<std::string, Pose> Session::places() const {
+  std::map<std::string, Pose> places = sensorPlaces();
+  const StereoImages images = stereoImages(implementation_->options().defects);
+  if (images == StereoImages::Rectified) return places;
+  // Raw images are those of the cameras as they are mounted: camera_info's R turns them into the rectified pair.
+  const std::array<Camera, 2> cameras = bumblebee(images);
+  const char* const frames[] = {urban_nav_core::frames::stereo_left, urban_nav_core::frames::stereo_right};
+  for (std::size_t i = 0; i < cameras.size(); ++i)
+    places.at(frames[i]) = places.at(frames[i]) * Pose(cameras[i].T_head_camera.R(), Eigen::Vector3d::Zero());
+  return places;
+}
 urban_nav_core::CameraInfo Session::stereoInfo(Side side) const {
   return OpticalSensors::stereoInfo(side, implementation_->options().defects);
 }
