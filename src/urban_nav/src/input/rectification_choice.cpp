@@ -22,7 +22,7 @@ namespace {
 
 constexpr StampNs kPartner = 5'000'000;          // ns, between the stamps of a pair
 constexpr StampNs kNearReceipt = 1'000'000'000;  // ns, in which the partner is looked for
-constexpr std::size_t kLeastPairs = 3, kLeastMatches = 100;
+constexpr std::size_t kLeastPairs = 3, kLeastRowMatches = 100;
 constexpr double kFarRow = 20.0;                            // px: chance matches
 constexpr double kClearlyWorse = 2.0, kVisiblyWorse = 0.5;  // times and px between the row errors
 
@@ -93,7 +93,7 @@ RectificationChoice chooseRectification(const std::vector<ImagePair>& pairs,
     if (left_view.empty() || right_view.empty()) return choice;  // of another size than the calibration
     appendRowErrors(left_view, right_view, rectified);
   }
-  if (pairs.size() < kLeastPairs || std::min(as_they_are.size(), rectified.size()) < kLeastMatches) return choice;
+  if (pairs.size() < kLeastPairs || std::min(as_they_are.size(), rectified.size()) < kLeastRowMatches) return choice;
   choice.as_they_are_px = medianError(as_they_are);
   choice.rectified_px = medianError(rectified);
   const double better = std::min(choice.as_they_are_px, choice.rectified_px);
