@@ -35,6 +35,20 @@ void projectScene(const Eigen::Matrix<double, 3, 4>& projection, Scene& scene) {
   }
 }
 
+bool isUsable(const cv::Mat& image) {
+  constexpr int black = 8, saturated = 250;  // of 255, brightest channel
+  constexpr int step = 7;                    // every 49th pixel is enough
+  std::size_t seen = 0, usable = 0;
+  for (int y = 0; y < image.rows; y += step)
+    for (int x = 0; x < image.cols; x += step) {
+      const cv::Vec3b& colour = image.at<cv::Vec3b>(y, x);
+      const int brightest = std::max({colour[0], colour[1], colour[2]});
+      ++seen;
+      usable += brightest > black && brightest < saturated ? 1U : 0U;
+    }
+  return seen > 0 && 10 * usable >= seen;
+}
+
 std::vector<std::uint8_t> visibleReturns(const SceneView& view) {
   std::vector<std::uint8_t> visible(view.pixels.size(), 0);
   if (view.image.empty()) return visible;

@@ -36,6 +36,10 @@ struct Scene {
 /// Projects the points of a scene by a 3x4 matrix M: (u w, v w, w) = M (x, y, z, 1).
 void projectScene(const Eigen::Matrix<double, 3, 4>& projection, Scene& scene);
 
+/// Returns whether an image shows anything: at least a tenth of its pixels are neither black nor saturated. That of a
+/// covered or a dazzled camera does not.
+bool isUsable(const cv::Mat& image);
+
 /// Returns, for each return, whether the image shows it: it lies within the image, in front of the camera, and no
 /// return next to it in the image is nearer by more than a tenth of its depth.
 std::vector<std::uint8_t> visibleReturns(const SceneView& view);

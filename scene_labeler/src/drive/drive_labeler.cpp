@@ -29,12 +29,14 @@ void DriveLabeler::observe(const DriveFrame& frame, const Stretch& nearest, std:
   for (std::size_t i = known > first ? known - first : 0; i < returns.size(); ++i) returns_.push_back(returns[i]);
   votes_.resize(returns_.size());
   logs_.resize(returns_.size() * classes, 0.0F);
-  DriveScene drive = makeDriveScene(returns, frame.view);
+  const bool is_blind = !frame.view.image.empty() && !isUsable(frame.view.image);
+  blind_frames_ += is_blind ? 1U : 0U;
+  DriveScene drive = makeDriveScene(returns, is_blind ? SideView() : frame.view);
   drive.scene.is_asked = labelledPoints(drive, returns, nearest);
   const SceneLabels labels = labelScene(model_, drive.scene, superpixel_);
   if (take_image_) take_image_(frame, labels.image);
   ++frames_;
-  imaged_frames_ += frame.view.image.empty() ? 0U : 1U;
+  imaged_frames_ += drive.scene.view.image.empty() ? 0U : 1U;
   const std::vector<std::uint8_t> is_shown = visibleReturns(drive.scene.view);
   std::uint32_t patches = 0;
   for (std::size_t i = 0; i < returns.size(); ++i) {

@@ -91,7 +91,7 @@ std::size_t MapLabeler::add(const SideView& view) {
     return (points_[i] - place).head<2>().norm() > static_cast<float>(reach_);
   };
   members.erase(std::remove_if(members.begin(), members.end(), is_far), members.end());
-  if (members.empty() || view.image.empty()) return 0;
+  if (members.empty() || view.image.empty() || !isUsable(view.image)) return 0;
   Scene scene = makeScene(members);
   projectView(view, Eigen::Vector3f::Zero(), scene);
   scene.is_asked = visibleReturns(scene.view);

@@ -105,6 +105,32 @@ TEST(DriveLabeler, LabelsEachReturnOnceAsItsPlaceShows) {
   EXPECT_GT(right, answers.size() * 85 / 100);
 }
 
+TEST(DriveLabeler, TakesTheImagesOfACoveredOrDazzledCameraForNone) {
+  const testing::Yard yard = testing::makeYard(22);
+  for (const int brightness : {0, 255}) {
+    std::vector<SceneClass> answers;
+    DriveLabeler labeler(testing::trainOnYards(ClassifierKind::Boosted), 12,
+                         [&](const std::vector<DriveReturn>&, const SceneLabels& labels) { answers = labels.labels; });
+    DriveWindow window(100.0, labeler);
+    SideView view;
+    view.camera.pinhole = {100.0, 100.0, 50.0, 40.0, 101, 81};
+    view.image = cv::Mat(81, 101, CV_8UC3, cv::Scalar::all(brightness));
+    window.add(DriveFrame{0, 0.0, view});
+    for (const Eigen::Vector3f& point : yard.scene.points) {
+      DriveReturn one;
+      one.point = point;
+      window.add(one);
+    }
+    window.finish();
+    EXPECT_EQ(labeler.blindFrames(), 1u);
+    EXPECT_EQ(labeler.imagedFrames(), 0u);
+    ASSERT_EQ(answers.size(), yard.labels.size());
+    std::size_t right = 0;
+    for (std::size_t i = 0; i < answers.size(); ++i) right += answers[i] == yard.labels[i] ? 1U : 0U;
+    EXPECT_GT(right, answers.size() * 9 / 10) << "by shape";
+  }
+}
+
 TEST(DriveScene, ProjectsThroughTheLensAndThinsToOneReturnPerCube) {
   SideView view;
   view.camera.pinhole = {100.0, 100.0, 50.0, 40.0, 101, 81};

@@ -64,5 +64,16 @@ TEST(LabelModelReader, RefusesOtherFilesByName) {
     }
 }
 
+TEST(LabelModel, OfANewerVersionIsRefusedByName) {
+  const std::string sealed(defaultModelBytes());
+  const std::string content(urban_nav_core::unseal("model of scene_labeler", 2, sealed));
+  try {
+    parseModel(urban_nav_core::seal("model of scene_labeler", 3, content), "tomorrow.labels");
+    FAIL() << "a model of a newer version";
+  } catch (const urban_nav_core::UserError& error) {
+    EXPECT_NE(std::string(error.what()).find("tomorrow.labels"), std::string::npos) << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace scene_labeler

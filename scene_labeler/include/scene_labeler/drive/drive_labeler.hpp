@@ -29,6 +29,8 @@ class DriveLabeler : public DriveObserver {
   /// Returns the number of frames so far with and without an image, and of those with one.
   std::size_t frames() const { return frames_; }
   std::size_t imagedFrames() const { return imaged_frames_; }
+  /// Returns how many images were black or saturated, as of a covered camera: they count as none.
+  std::size_t blindFrames() const { return blind_frames_; }
 
  private:
   /// What the frames so far say of one return.
@@ -46,7 +48,7 @@ class DriveLabeler : public DriveObserver {
   std::vector<Votes> votes_;
   std::vector<float> logs_;  // of each return one for each class, summed over views
   std::uint32_t patches_ = 0;
-  std::size_t frames_ = 0, imaged_frames_ = 0;
+  std::size_t frames_ = 0, imaged_frames_ = 0, blind_frames_ = 0;
 };
 
 /// Returns which points of a scene get a label from a frame: those that its image shows, and those of the stretch that

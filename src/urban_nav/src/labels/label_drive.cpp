@@ -150,6 +150,10 @@ void labelDrive(const scene_labeler::LabelModel& model, const std::string& bag, 
   TimedLabeler right(model, parameters.superpixel, taker(DriveSide::Right), run);
   DriveWindow left_window(parameters.reach, left), right_window(parameters.reach, right);
   readDrive(bag, options, console, {&left_window, &right_window});
+  for (const auto& [labeler, side] : {std::pair(&left, DriveSide::Left), std::pair(&right, DriveSide::Right)})
+    if (labeler->blindFrames() > 0)
+      console.warn(bag + ": " + std::to_string(labeler->blindFrames()) + " images of the " + toString(side) +
+                   " camera are black or saturated and are not used");
 }
 
 void addDriveFold(const std::string& bag, const DriveOptions& options, const ClassMap& map,
