@@ -27,6 +27,8 @@ enum class Reason {
   Disagrees,    ///< with what is accepted, by more than chance and noise explain
   Unconfirmed,  ///< could be, but so much could be there that fitting proves nothing, and no other closure supports it
   NoWitness,    ///< would join two parts of the graph that nothing else joins
+  Slipped,      ///< a step of odometry that all else contradicts
+  Undecided,    ///< agrees with others, but with no more of them than chance explains
 };
 /// A sentence.
 const char* toString(Reason reason);
@@ -42,6 +44,16 @@ struct EdgeAssessment {
   std::vector<int> contradicted_by;  ///< of an asserted edge: edges that cannot be true beside it, the worst first
 };
 
+/// How a selection among several sets of edges ended.
+struct SelectionReport {
+  bool contested = false;     ///< whether more sets than one and odometry alone were weighed
+  bool undecided = false;     ///< no set of closures is likelier than chance: odometry alone
+  bool has_rival = false;     ///< another set, with other closures, is likelier than a thousandth of the chosen one
+  double log_evidence = 0.0;  ///< of the set that was chosen, over odometry alone
+  /// Factors of the variances that the information states, of the chosen set; 1 in large graphs that nothing contests.
+  double odometry_factor = 1.0, closure_factor = 1.0;
+};
+
 template <int D>
 struct RobustSolution {
   Solution<D> solution;
@@ -49,6 +61,7 @@ struct RobustSolution {
   /// By how much the squares of the residuals differ from what the edges' information promises: below 1 it is too
   /// modest. Above 1 it boasts, and many loops of near closures say so; where there are none, it is taken at its word.
   double variance_factor = 1.0;
+  SelectionReport selection;  ///< of relaxSelected()
 };
 
 /// Relaxes a graph some of whose closures are false, without any setting. `roles`: one for each edge. Derivation:
@@ -73,5 +86,16 @@ struct RobustSolution {
 template <int D>
 RobustSolution<D> relaxRobust(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
                               const SolveOptions& options);
+
+/// relaxRobust() and, where that rejects many closures, finds the information far off or sees several sessions, its
+/// alternatives: the same with the information of odometry or of closures scaled, with steps of odometry that slipped
+/// taken out, and with sessions joined by closures that agree with each other, at least three and more than chance
+/// explains. The set with the largest evidence wins (robust/hypothesis.hpp), and odometry alone competes with all of
+/// them: where no set is likelier by a factor of 1000, no closure is accepted. Edges that are the same to the last bit
+/// count once. Where the variances of odometry and closures are off by more than a factor of 9 against each other, the
+/// poses are those of the information put right. Graphs beyond 200 000 poses are taken as relaxRobust() has them.
+template <int D>
+RobustSolution<D> relaxSelected(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
+                                const SolveOptions& options);
 
 }  // namespace pose_graph

@@ -2,6 +2,7 @@
 #include "linear/block_cholesky.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "linear/index.hpp"
@@ -285,6 +286,16 @@ typename BlockMatrix<B>::Block BlockCholesky<B>::inverseBlock(int row, int colum
       right.middleRows(B * shape.begin[sz(s)], B * shape.columns(s)).setZero();
     }
   return made;
+}
+
+template <int B>
+double BlockCholesky<B>::logDeterminant() const {
+  double sum = 0.0;
+  for (int s = 0; s < symbolic_->size(); ++s) {
+    const int height = panelRows(s);
+    for (int j = 0; j < B * symbolic_->columns(s); ++j) sum += std::log(panel(s)[sz(j) * sz(height) + sz(j)]);
+  }
+  return 2.0 * sum;
 }
 
 template class BlockCholesky<2>;

@@ -38,6 +38,9 @@ class BlockCholesky {
   /// them.
   typename BlockMatrix<B>::Block inverseBlock(int row, int column) const;
 
+  /// Logarithm of the determinant of A.
+  double logDeterminant() const;
+
   const Symbolic& symbolic() const { return *symbolic_; }
   /// The columns of supernode s: columnMajor, (columns + rows) * B long, columns * B of them.
   const double* panel(int s) const { return panels_.data() + offset_[static_cast<std::size_t>(s)]; }

@@ -43,6 +43,8 @@ class AcceptedGraph {
   /// Linearises and factors at these poses; directions without information are held by a damping that is nothing
   /// beside the others. False where even that fails.
   bool factor(const std::vector<Rigid<D>>& poses);
+  /// Of H, after factor().
+  double logDeterminant() const { return cholesky_->logDeterminant(); }
   /// X becomes H^-1 X after factor(): eight right-hand sides that lie side by side, 8 N numbers a place.
   void solveEight(double* X) const { cholesky_->solveEight(X); }
   int unknowns() const { return static_cast<int>(equations_->unknowns().pose.size()); }

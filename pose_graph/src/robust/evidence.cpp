@@ -9,6 +9,7 @@
 
 #include "linear/index.hpp"
 #include "robust/inlier_likelihood.hpp"
+#include "robust/scattered_bits.hpp"
 #include "urban_nav_core/geometry/dense_kernels.hpp"
 #include "urban_nav_core/geometry/small_matrices.hpp"
 
@@ -21,23 +22,15 @@ namespace {
 constexpr int kDisturbances = 24;
 constexpr int kAtOnce = 8;
 
-// Signs from the number of edge and direction alone, a bit for each disturbance (splitmix64, Steele, Lea, Flood 2014).
-std::uint64_t signs(std::uint64_t number) {
-  std::uint64_t z = (number + 1) * 0x9e3779b97f4a7c15u;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return z ^ (z >> 31);
-}
-
 template <int D>
 using Eight = Eigen::Matrix<double, tangent_size<D>, kAtOnce, Eigen::RowMajor>;
 
-// Disturbances first...first + 7 of an edge.
+// Disturbances first...first + 7 of an edge: signs, a bit for each.
 template <int D>
 Eight<D> disturbances(std::size_t edge, int first) {
   Eight<D> made;
   for (int a = 0; a < tangent_size<D>; ++a) {
-    const std::uint64_t bits = signs(edge * sz(tangent_size<D>) + sz(a)) >> first;
+    const std::uint64_t bits = scatteredBits(edge * sz(tangent_size<D>) + sz(a)) >> first;
     for (int c = 0; c < kAtOnce; ++c) made(a, c) = static_cast<double>(static_cast<int>(2 * (bits >> c & 1)) - 1);
   }
   return made;

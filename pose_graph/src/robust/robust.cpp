@@ -12,6 +12,7 @@
 #include "robust/admission.hpp"
 #include "robust/core_graph.hpp"
 #include "robust/information_scale.hpp"
+#include "robust/judgement.hpp"
 
 namespace pose_graph {
 using urban_nav_core::ClosureVerdict;
@@ -63,6 +64,8 @@ const char* toString(Reason reason) {
     case Reason::Fits: return "agrees with the accepted edges";
     case Reason::Disagrees: return "disagrees with the accepted edges";
     case Reason::Unconfirmed: return "too little is known there, and no other closure agrees";
+    case Reason::Slipped: return "odometry slipped: all other edges contradict it";
+    case Reason::Undecided: return "agrees with no more closures than chance explains";
     case Reason::NoWitness: return "joins two parts, and no second closure agrees";
   }
   return "";
@@ -96,14 +99,6 @@ namespace {
 
 constexpr int kReadings = 3;
 constexpr int kNearSteps = 10;  // steps, as in AcceptedGraph::settle
-
-// What is thought of the edges, and where they put the poses.
-template <int D>
-struct Judgement {
-  std::vector<EdgeAssessment> edges;  // chi2 of candidates alone
-  std::vector<Rigid<D>> poses;
-  double variance = 1.0;
-};
 
 template <int D>
 Judgement<D> judge(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const DeadReckoning<D>& reckoning) {
@@ -201,11 +196,19 @@ Judgement<D> judgeCore(CoreGraph<D>& core, const Problem<D>& problem, const std:
   return made;
 }
 
+}  // namespace
+
+template <int D>
+Judgement<D> judgeGraph(const Problem<D>& problem, const std::vector<EdgeRole>& roles) {
+  auto core = CoreGraph<D>::of(problem, roles);
+  return core ? judgeCore(*core, problem, roles) : judge(problem, roles, DeadReckoning<D>(problem, roles));
+}
+
 // From where the growth left off, which is near as a rule. Where it is at the far end of a long flat valley (over a
 // long way that few closures tie, the cost hardly tells hundreds of metres) the way from no first guess is the shorter
 // one.
 template <int D>
-Solution<D> relaxed(const Problem<D>& part, const std::vector<Rigid<D>>& given, const SolveOptions& options) {
+Solution<D> relaxAccepted(const Problem<D>& part, const std::vector<Rigid<D>>& given, const SolveOptions& options) {
   if (options.start != Start::Auto) return solve(part, options);
   SolveOptions near = options;
   near.start = Start::Vertices;
@@ -218,19 +221,14 @@ Solution<D> relaxed(const Problem<D>& part, const std::vector<Rigid<D>>& given, 
   return solve(Problem<D>{std::move(made.poses), part.edges}, near);
 }
 
-}  // namespace
-
 template <int D>
-RobustSolution<D> relaxRobust(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
-                              const SolveOptions& options) {
-  auto core = CoreGraph<D>::of(problem, roles);
-  Judgement<D> judged =
-      core ? judgeCore(*core, problem, roles) : judge(problem, roles, DeadReckoning<D>(problem, roles));
-  // The last word has the solver of graphs without false edges, on what is left.
+RobustSolution<D> solutionFrom(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
+                               const SolveOptions& options, Judgement<D> judged) {
+  // The solver of graphs without false edges has the final say, on what is left.
   std::vector<char> in;
   for (const EdgeAssessment& verdict : judged.edges) in.push_back(verdict.weight > 0.0);
   RobustSolution<D> made;
-  made.solution = relaxed(extractPart(problem, in, std::move(judged.poses)), problem.poses, options);
+  made.solution = relaxAccepted(extractPart(problem, in, std::move(judged.poses)), problem.poses, options);
   made.solution.cost_before = cost(problem, problem.poses, options.objective);
   made.variance_factor = judged.variance;
   made.edges = std::move(judged.edges);
@@ -239,8 +237,20 @@ RobustSolution<D> relaxRobust(const Problem<D>& problem, const std::vector<EdgeR
   return made;
 }
 
+template <int D>
+RobustSolution<D> relaxRobust(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
+                              const SolveOptions& options) {
+  return solutionFrom(problem, roles, options, judgeGraph(problem, roles));
+}
+
 template std::vector<EdgeRole> rolesByNumbers<2>(const Problem<2>&);
 template std::vector<EdgeRole> rolesByNumbers<3>(const Problem<3>&);
+template Judgement<2> judgeGraph<2>(const Problem<2>&, const std::vector<EdgeRole>&);
+template Judgement<3> judgeGraph<3>(const Problem<3>&, const std::vector<EdgeRole>&);
+template RobustSolution<2> solutionFrom<2>(const Problem<2>&, const std::vector<EdgeRole>&, const SolveOptions&,
+                                           Judgement<2>);
+template RobustSolution<3> solutionFrom<3>(const Problem<3>&, const std::vector<EdgeRole>&, const SolveOptions&,
+                                           Judgement<3>);
 template RobustSolution<2> relaxRobust<2>(const Problem<2>&, const std::vector<EdgeRole>&, const SolveOptions&);
 template RobustSolution<3> relaxRobust<3>(const Problem<3>&, const std::vector<EdgeRole>&, const SolveOptions&);
 

@@ -13,6 +13,7 @@
 #include "pose_graph/solution.hpp"
 #include "relax/relax_files.hpp"
 #include "relax/relax_report.hpp"
+#include "relax/relax_warnings.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/io/text_file.hpp"
 #include "urban_nav_core/io/toro.hpp"
@@ -82,7 +83,7 @@ pose_graph::RobustSolution<D> solved(const pose_graph::FileProblem<D>& file, con
                     "--solver gauss_newton, ceres");
   pose_graph::RobustSolution<D> robust;
   robust.edges.resize(file.problem.edges.size());
-  if (doubted) robust = pose_graph::relaxRobust(file.problem, file.roles, options);
+  if (doubted) robust = pose_graph::relaxSelected(file.problem, file.roles, options);
   if (solver != "gauss_newton") {
     pose_graph::Problem<D> accepted;
     accepted.poses = file.problem.poses;
@@ -142,11 +143,9 @@ void summarise(const pose_graph::FileProblem<D>& file, const pose_graph::RobustS
   report.after = computeCosts(file.problem, solution.poses);
   if (solution.components > 1)
     warnings.add(std::to_string(solution.components) + " parts that no edge connects; each stays in its own frame");
-  if (report.edges > trusted && 2 * report.rejected > report.edges - trusted)
-    warnings.add(
-        std::to_string(report.rejected) + " of " + std::to_string(report.edges - trusted) +
-        " closures rejected. If most of them are true, the file's information is larger than its errors allow: "
-        "--robust off takes them all");
+  if (!doubted || report.edges <= trusted) return;
+  report.scales = estimateScales(file.problem, file.roles, robust.edges, solution.poses, robust.selection);
+  for (const std::string& warning : selectionWarnings(file, robust, *report.scales)) warnings.add(warning);
 }
 
 template <int D>

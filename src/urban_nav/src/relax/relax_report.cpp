@@ -22,6 +22,15 @@ Json toJson(const GraphCosts& costs) {
   return json;
 }
 
+Json toJson(const pose_graph::DeviationScales& scales) {
+  const auto one = [](const std::optional<double>& scale) { return scale ? Json(*scale) : Json("unknown"); };
+  return Json::object(
+      {{"odometry",
+        Json::object({{"translation", one(scales.odometry_translation)}, {"rotation", one(scales.odometry_rotation)}})},
+       {"closures",
+        Json::object({{"translation", one(scales.closure_translation)}, {"rotation", one(scales.closure_rotation)}})}});
+}
+
 }  // namespace
 
 std::string toText(const RelaxReport& report) {
@@ -66,6 +75,7 @@ Json toJson(const RelaxReport& report) {
     json["certified"] = report.certificate->certified;
     if (report.certificate->gap) json["certified_gap"] = *report.certificate->gap;
   }
+  if (report.scales) json["scales"] = toJson(*report.scales);
   json["warnings"] = Json::array();
   for (const std::string& warning : report.warnings) json["warnings"].append(warning);
   return json;

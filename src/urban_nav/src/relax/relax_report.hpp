@@ -7,7 +7,7 @@
 
 #include "command_line/json.hpp"
 #include "pose_graph/certificate.hpp"
-#include "pose_graph/robust.hpp"
+#include "pose_graph/scales.hpp"
 
 namespace urban_nav {
 
@@ -26,6 +26,7 @@ struct RelaxReport {
   std::string ending;
   double ms = 0.0;
   std::optional<pose_graph::Certificate> certificate;  ///< of the accepted edges, by the chordal objective
+  std::optional<pose_graph::DeviationScales> scales;   ///< where closures were judged
   std::vector<std::string> warnings;
 };
 

@@ -101,8 +101,23 @@ TEST_F(Relax, UnknownLinesAreRefusedOrNamedAndCounted) {
   EXPECT_NE(readTextFile(path("a.json")).find("2 lines TUTORIAL_EDGE_SE2"), std::string::npos);
 }
 
-TEST_F(Relax, CovariancesAndRejectedEdgesAreWritten) {
+// A square that is measured well enough to tell a true closure from one anywhere by more than a factor of 1000.
+const char* const kSharpSquare =
+    "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 1.57\nVERTEX_SE2 2 1 1 3.14\nVERTEX_SE2 3 0 1 -1.57\nVERTEX_SE2 4 0 0 0\n"
+    "EDGE_SE2 0 1 1 0 1.57 1e4 0 0 1e4 0 4e4\nEDGE_SE2 1 2 1 0 1.57 1e4 0 0 1e4 0 4e4\n"
+    "EDGE_SE2 2 3 1 0 1.57 1e4 0 0 1e4 0 4e4\nEDGE_SE2 3 4 1 0 1.57 1e4 0 0 1e4 0 4e4\n"
+    "EDGE_SE2 4 0 0 0 0 1e4 0 0 1e4 0 4e4\n";
+
+TEST_F(Relax, WhatCannotBeDecidedIsOdometryAndSaysSo) {
   writeAtomically(path("in.g2o"), std::string(kSquare) + "EDGE_SE2 0 2 50 -30 1 100 0 0 100 0 400\n");
+  ASSERT_EQ(relax({path("in.g2o"), "-o", path("a.g2o"), "--edges", path("e.csv"), "--json", path("a.json")}), 0);
+  EXPECT_NE(readTextFile(path("e.csv")).find("4,0,0,rejected,"), std::string::npos);
+  EXPECT_NE(readTextFile(path("a.json")).find("nothing could be decided"), std::string::npos);
+  EXPECT_NE(readTextFile(path("a.json")).find("\"unknown\""), std::string::npos);
+}
+
+TEST_F(Relax, CovariancesAndRejectedEdgesAreWritten) {
+  writeAtomically(path("in.g2o"), std::string(kSharpSquare) + "EDGE_SE2 0 2 50 -30 1 1e4 0 0 1e4 0 4e4\n");
   ASSERT_EQ(relax({path("in.g2o"), "-o", path("a.g2o"), "--edges", path("e.csv"), "--covariance", path("c.csv"),
                    "--rejected", path("r.g2o")}),
             0);

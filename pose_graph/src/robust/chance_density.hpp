@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "robust/dead_reckoning.hpp"
+
+namespace pose_graph {
+
+/// Relative poses drawn from what a map offers, and their density anywhere, by the distance to the nearest few
+/// (Loftsgaarden, Quesenberry, A nonparametric estimate of a multivariate density function, 1965).
+template <int D>
+class PoseSample {
+ public:
+  PoseSample() = default;
+  /// `extent`: of the map, metres. `ends`: the numbers of the two poses that each lies between, or none.
+  PoseSample(std::vector<Rigid<D>> poses, double extent, std::vector<std::pair<int, int>> ends = {});
+
+  /// Pairs of poses that are the one in question, more or less: no chance.
+  struct Own {
+    int from = 0, to = 0, reach = -1;
+  };
+
+  /// Logarithm, per metre^D and radian^(directions of rotation), over no less than `volume` of these: what a
+  /// measurement does not resolve tells nothing; without the pair in question. A tenth of it is even over the extent,
+  /// as no sample knows all.
+  double logDensity(const Rigid<D>& at, double volume = 0.0, const Own& own = {}) const;
+
+ private:
+  std::vector<Rigid<D>> poses_;
+  std::vector<std::pair<int, int>> ends_;
+  double shift_ = 1.0, turn_ = 1.0;  // root mean squares of one coordinate, metres and radians
+  double even_ = 1.0;
+};
+
+/// How likely two poses of a map that have nothing to do with each other lie as a closure measures: the density of
+/// chance agreement, measured on the map itself, over pairs of poses about as far apart in number as the closure's. A
+/// map with streets in two directions has four times as many parallel pairs as an even spread of headings has, and
+/// places on a curved way are alike in heading where they are near. Between two chains, whose frames have nothing to do
+/// with each other, pairs of all distances stand for theirs.
+template <int D>
+class ChanceDensity {
+ public:
+  /// `chains` must outlive it. `closures`: how many will be asked for; of many, each sees fewer pairs.
+  ChanceDensity(const DeadReckoning<D>& chains, std::size_t closures);
+
+  /// As PoseSample::logDensity(), of what an edge measures, over what it resolves.
+  double logAt(const Edge<D>& edge);
+
+ private:
+  PoseSample<D> sample(int octave) const;
+
+  const DeadReckoning<D>& chains_;
+  std::size_t pairs_ = 0;
+  std::map<int, PoseSample<D>> of_octave_;
+};
+
+extern template class PoseSample<2>;
+extern template class PoseSample<3>;
+extern template class ChanceDensity<2>;
+extern template class ChanceDensity<3>;
+
+}  // namespace pose_graph

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "robust/hypothesis.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "linear/index.hpp"
+#include "manifold/rotation.hpp"
+#include "robust/accepted_graph.hpp"
+#include "robust/chance_density.hpp"
+#include "robust/variance_components.hpp"
+#include "start/along_edges.hpp"
+#include "urban_nav_core/geometry/small_matrices.hpp"
+
+namespace pose_graph {
+
+namespace {
+
+const double kLogTwoPiHypothesis = std::log(2.0 * M_PI);
+// A priori one step of a thousand slips.
+const double kLogSlip = std::log(1e-3);
+constexpr int kComponentRounds = 10, kHypothesisSteps = 15;
+constexpr double kMostLeap = 0.9, kLeapWithin = 2.0;  // of a ratio; of logarithms
+constexpr double kComponentsSettled = 0.05;           // of the logarithms of the factors
+constexpr double kHypothesisShare = 1e-4;
+constexpr double kOdometryMargin = 100.0;
+constexpr int kNeighbours = 10;     // poses, as in ClosureLoops
+constexpr double kLooseRow = 25.0;  // as in InformationScale: false closures found in a row err alike, more or less
+
+double logFactorial(double n) { return std::lgamma(n + 1.0); }
+
+// Logarithm of how many sets of `some` of `all` there are, times how many sizes.
+double logChoices(double all, double some) {
+  return logFactorial(all) - logFactorial(some) - logFactorial(all - some) + std::log(all + 1.0);
+}
+
+// See HypothesisJudge::largestOdometryFactor().
+template <int D>
+double boundOdometryFactor(const Problem<D>& problem, const std::vector<EdgeRole>& roles) {
+  std::vector<const Edge<D>*> step(problem.poses.size(), nullptr);
+  for (std::size_t e = 0; e < roles.size(); ++e)
+    if (roles[e] == EdgeRole::Trusted && problem.edges[e].to == problem.edges[e].from + 1)
+      step[sz(problem.edges[e].from)] = &problem.edges[e];
+  std::vector<double> squares;
+  for (std::size_t i = 0; i + 1 < step.size(); ++i) {
+    if (!step[i] || !step[i + 1]) continue;
+    Tangent<D> difference;
+    difference.template head<D>() = step[i + 1]->Z.t - step[i]->Z.t;
+    difference.template tail<rotation_size<D>>() =
+        logRotation(Rotation<D>(step[i]->Z.R.transpose() * step[i + 1]->Z.R));
+    squares.push_back(0.5 * difference.dot(step[i]->information * difference) / tangent_size<D>);
+  }
+  if (squares.empty()) return kOdometryMargin;
+  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+  std::nth_element(squares.begin(), middle, squares.end());
+  return kOdometryMargin * std::max(1.0, *middle);
+}
+
+// Logarithm of the determinant of what an information has, and its rank.
+template <int D>
+std::pair<double, int> logDeterminant(const TangentMatrix<D>& information) {
+  const auto eigen = urban_nav_core::smallEigen<tangent_size<D>>(information);
+  const double largest = eigen.values[tangent_size<D> - 1];
+  double sum = 0.0;
+  int rank = 0;
+  for (int a = 0; a < tangent_size<D>; ++a) {
+    if (!(eigen.values[a] > 1e-12 * largest)) continue;
+    sum += std::log(eigen.values[a]);
+    ++rank;
+  }
+  return {sum, rank};
+}
+
+// Adds to information with directions that say less than that a pose is somewhere in the map, what that says: evidence
+// of what may be anywhere is no number.
+template <int D>
+void boundInformation(double extent, TangentMatrix<D>& information) {
+  Tangent<D> deviation;  // of an even spread
+  deviation.template head<D>().setConstant(2.0 * extent / std::sqrt(12.0));
+  deviation.template tail<rotation_size<D>>().setConstant(2.0 * M_PI / std::sqrt(12.0));
+  const TangentMatrix<D> scaled = deviation.asDiagonal() * information * deviation.asDiagonal();
+  if (urban_nav_core::smallEigen<tangent_size<D>>(scaled).values[0] >= 1.0) return;
+  information.diagonal() += deviation.cwiseAbs2().cwiseInverse();
+}
+
+// Whether most closures do, to the last bit.
+template <int D>
+bool stateTheSame(const Problem<D>& problem, const std::vector<int>& candidates) {
+  const auto values = [&](int e) {
+    const Rigid<D>& Z = problem.edges[sz(e)].Z;
+    std::array<double, D + D * D> made;
+    std::copy(Z.t.data(), Z.t.data() + D, made.begin());
+    std::copy(Z.R.data(), Z.R.data() + D * D, made.begin() + D);
+    return made;
+  };
+  std::set<std::array<double, D + D * D>> different;
+  for (const int e : candidates) different.insert(values(e));
+  return 2 * different.size() < candidates.size();
+}
+
+// Where two steps of a slowly converging sequence lead in the end, beyond the second (Aitken 1926).
+double leap(double before, double now) {
+  const double ratio = before * now > 0.0 ? std::min(now / before, kMostLeap) : 0.0;
+  return std::clamp(now * ratio / (1.0 - ratio), -kLeapWithin, kLeapWithin);
+}
+
+// Whether both ends of two closures are: between two chains partners may be anywhere.
+template <int D>
+bool areNear(const Edge<D>& a, const Edge<D>& b) {
+  return std::abs(std::min(a.from, a.to) - std::min(b.from, b.to)) <= kNeighbours &&
+         std::abs(std::max(a.from, a.to) - std::max(b.from, b.to)) <= kNeighbours;
+}
+
+}  // namespace
+
+template <int D>
+HypothesisJudge<D>::HypothesisJudge(const Problem<D>& problem, const std::vector<EdgeRole>& roles)
+    : problem_(problem), roles_(roles), reckoning_(problem, roles) {
+  for (std::size_t e = 0; e < roles.size(); ++e)
+    if (roles[e] == EdgeRole::Candidate) candidates_.push_back(static_cast<int>(e));
+  for (Edge<D>& edge : problem_.edges) boundInformation<D>(reckoning_.extent, edge.information);
+  largest_odometry_ = boundOdometryFactor(problem, roles);
+  assertions_ = stateTheSame(problem, candidates_);
+  constexpr int N = tangent_size<D>, R = rotation_size<D>;
+  log_place_ = -R * kLogTwoPiHypothesis - D * std::log(2.0 * reckoning_.extent);
+  log_false_.assign(roles.size(), log_place_);
+  ChanceDensity<D> by_chance(reckoning_, candidates_.size());
+  for (const int e : candidates_) log_false_[sz(e)] = by_chance.logAt(problem.edges[sz(e)]);
+  neighbour_.assign(roles.size(), -1);
+  log_alike_.assign(roles.size(), 0.0);
+  const ClosureLoops<D> loops(problem, candidates_, reckoning_);
+  const double scale = assertions_ ? 1.0 : informationScale(loops).factor;
+  for (std::size_t a = 0; a < loops.size(); ++a)
+    loops.partners(a, 1, [&](std::size_t b) {
+      if (!areNear(problem.edges[sz(loops.edge(a))], problem.edges[sz(loops.edge(b))])) return;
+      const ClosureLoop loop = loops.loop(a, b);
+      if (!std::isfinite(loop.chi2) || !std::isfinite(loop.log_true)) return;
+      double best = -std::numeric_limits<double>::infinity();
+      for (const double factor : {1.0, scale, kLooseRow, kLooseRow * std::max(1.0, scale)})
+        best = std::max(best, loop.log_true - 0.5 * N * std::log(factor) - 0.5 * loop.chi2 / factor);
+      neighbour_[sz(loops.edge(b))] = loops.edge(a);
+      log_alike_[sz(loops.edge(b))] = best;
+    });
+}
+
+template <int D>
+double HypothesisJudge<D>::chance(const Hypothesis<D>& hypothesis) const {
+  // A choice for the closures within chains, and one for those between each two chains: how many of them are true has
+  // nothing to do with each other.
+  struct Choice {
+    double starts = 0.0, first_inside = 0.0, followers = 0.0, changes = 0.0;
+  };
+  std::map<std::pair<int, int>, Choice> choices;
+  double sum = 0.0;
+  for (const int e : candidates_) {
+    const int near = neighbour_[sz(e)];
+    const auto [a, b] = std::minmax(reckoning_.of_pose[sz(problem_.edges[sz(e)].from)],
+                                    reckoning_.of_pose[sz(problem_.edges[sz(e)].to)]);
+    Choice& choice = choices[a == b ? std::make_pair(-1, -1) : std::make_pair(a, b)];
+    if (near < 0) {
+      ++choice.starts;
+      choice.first_inside += hypothesis.in[sz(e)] != 0;
+    } else {
+      ++choice.followers;
+      choice.changes += (hypothesis.in[sz(e)] != 0) != (hypothesis.in[sz(near)] != 0);
+    }
+    if (hypothesis.in[sz(e)]) continue;
+    const bool alike = near >= 0 && !hypothesis.in[sz(near)];
+    sum += alike ? std::max(log_false_[sz(e)], log_alike_[sz(e)]) : log_false_[sz(e)];
+  }
+  for (const auto& [chains, choice] : choices)
+    sum -= logChoices(choice.starts, choice.first_inside) + logChoices(choice.followers, choice.changes);
+  for (std::size_t e = 0; e < roles_.size(); ++e)
+    if (roles_[e] == EdgeRole::Trusted && !hypothesis.in[e]) sum += log_false_[e] + kLogSlip;
+  return sum;
+}
+
+template <int D>
+void HypothesisJudge<D>::judge(Hypothesis<D>& hypothesis) const {
+  constexpr int N = tangent_size<D>;
+  std::vector<int> edges;
+  for (std::size_t e = 0; e < roles_.size(); ++e)
+    if (hypothesis.in[e]) edges.push_back(static_cast<int>(e));
+  std::vector<double> weights(roles_.size(), 0.0);
+  AcceptedGraph<D> graph(problem_);
+  const auto factorOf = [&](int e) {
+    return roles_[sz(e)] == EdgeRole::Candidate ? hypothesis.factors.closures : hypothesis.factors.odometry;
+  };
+  double steps_before[2] = {0.0, 0.0};
+  for (int round = 0; round <= kComponentRounds; ++round) {
+    for (const int e : edges) weights[sz(e)] = 1.0 / factorOf(e);
+    graph.take(hypothesis.in, weights);
+    graph.relax(hypothesis.poses, kHypothesisSteps, kHypothesisShare, false);
+    if (round == kComponentRounds) break;
+    const VarianceComponents components = varianceComponents(problem_, roles_, weights, hypothesis.poses);
+    const auto factor = [&](int group) {
+      const VarianceComponent &shift = components.of[group][0], &turn = components.of[group][1];
+      return likeliestFactor({shift.squares + turn.squares, shift.redundancy + turn.redundancy});
+    };
+    const VarianceFactors last = hypothesis.factors;
+    hypothesis.factors = {std::min(factor(0), largest_odometry_), assertions_ ? 1.0 : factor(1)};
+    const double steps[2] = {std::log(hypothesis.factors.odometry / last.odometry),
+                             std::log(hypothesis.factors.closures / last.closures)};
+    if (std::abs(steps[0]) < kComponentsSettled && std::abs(steps[1]) < kComponentsSettled) {
+      round = kComponentRounds - 1;  // only the poses have to follow
+    } else if (round % 2 == 1) {
+      hypothesis.factors.odometry =
+          std::min(hypothesis.factors.odometry * std::exp(leap(steps_before[0], steps[0])), largest_odometry_);
+      hypothesis.factors.closures *= std::exp(leap(steps_before[1], steps[1]));  // 1 where it is not estimated
+    }
+    std::copy(steps, steps + 2, steps_before);
+  }
+  hypothesis.log_evidence = -std::numeric_limits<double>::infinity();
+  if (!graph.factor(hypothesis.poses)) return;
+  const double unknowns = graph.unknowns();
+  double sum = chance(hypothesis) - 0.5 * graph.cost(hypothesis.poses) + unknowns * log_place_ +
+               0.5 * unknowns * N * kLogTwoPiHypothesis - 0.5 * graph.logDeterminant();
+  for (const int e : edges) {
+    const auto [log_determinant, rank] = logDeterminant<D>(problem_.edges[sz(e)].information);
+    sum += 0.5 * log_determinant - 0.5 * rank * (kLogTwoPiHypothesis + std::log(factorOf(e)));
+  }
+  sum += logPriorOfFactor(hypothesis.factors.odometry) + logPriorOfFactor(hypothesis.factors.closures);
+  if (std::isfinite(sum)) hypothesis.log_evidence = sum;
+}
+
+template <int D>
+double HypothesisJudge<D>::rowsInside(const Hypothesis<D>& hypothesis) const {
+  double rows = 0.0;
+  for (const int e : candidates_) {
+    const int near = neighbour_[sz(e)];
+    rows += hypothesis.in[sz(e)] && (near < 0 || !hypothesis.in[sz(near)]);
+  }
+  return rows;
+}
+
+template <int D>
+Hypothesis<D> HypothesisJudge<D>::withoutClosures() const {
+  Hypothesis<D> made;
+  Problem<D> part;
+  part.poses = problem_.poses;
+  for (std::size_t e = 0; e < roles_.size(); ++e) {
+    made.in.push_back(roles_[e] != EdgeRole::Candidate);
+    if (made.in.back()) part.edges.push_back(problem_.edges[e]);
+  }
+  made.poses = posesAlongEdges(part);
+  return made;
+}
+
+template class HypothesisJudge<2>;
+template class HypothesisJudge<3>;
+
+}  // namespace pose_graph

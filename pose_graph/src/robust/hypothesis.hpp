@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "pose_graph/robust.hpp"
+#include "robust/closure_loops.hpp"
+#include "robust/information_scale.hpp"
+
+namespace pose_graph {
+
+/// Factors of the variances that the information states: of edges along which the robot moved (Trusted, Asserted) and
+/// of closures (Candidate).
+struct VarianceFactors {
+  double odometry = 1.0, closures = 1.0;
+};
+
+/// A set of edges that may be the true ones, with what it explains.
+template <int D>
+struct Hypothesis {
+  std::vector<char> in;  ///< by edge: not 0 for those taken as true
+  std::vector<Rigid<D>> poses;
+  VarianceFactors factors;
+  double log_evidence = 0.0;
+};
+
+/// Judges hypotheses of one graph by their evidence: the density of all measurements, with the poses integrated out
+/// around the minimum (Laplace's approximation; MacKay, Neural Computation 1992). An edge outside has the density of
+/// chance: anywhere within what odometry can have reached, and any heading; a closure outside whose neighbour is
+/// outside too may err like that one, as places that look alike do. The number of closures inside is a priori any, and
+/// which they are as well, so that a set is worth only what it explains beyond the choice of it; of neighbours the
+/// choice is one of how often true and false ones alternate.
+template <int D>
+class HypothesisJudge {
+ public:
+  HypothesisJudge(const Problem<D>& problem, const std::vector<EdgeRole>& roles);
+
+  /// Relaxes the edges that are in from `hypothesis.poses`, estimates the factors and fills `log_evidence`. A trusted
+  /// edge outside is a slip, and costs what the rarity of slips says.
+  void judge(Hypothesis<D>& hypothesis) const;
+
+  /// The largest factor that steps of odometry allow: where errors are independent from step to step, half the square
+  /// of the difference of two successive steps bounds the variance of one, as the motion only adds to it; the middle
+  /// one of all, times 100 for errors that are not independent, and 100 at least.
+  double largestOdometryFactor() const { return largest_odometry_; }
+
+  /// Whether most closures state one and the same, as those do that say "the same place" and measure nothing. They
+  /// agree with each other exactly, all the more the looser odometry is: variances that follow from them serve to judge
+  /// one set, not to find another or to relax with.
+  bool areAssertions() const { return assertions_; }
+
+  /// How many rows of neighbouring closures are inside: closures of one row are no independent witnesses.
+  double rowsInside(const Hypothesis<D>& hypothesis) const;
+
+  /// Only trusted and asserted edges.
+  Hypothesis<D> withoutClosures() const;
+
+ private:
+  double chance(const Hypothesis<D>& hypothesis) const;
+
+  Problem<D> problem_;  // what an edge does not measure lies within the map
+  const std::vector<EdgeRole>& roles_;
+  DeadReckoning<D> reckoning_;
+  std::vector<int> candidates_;
+  double largest_odometry_ = 1.0;
+  bool assertions_ = false;
+  double log_place_ = 0.0;         ///< of one pose anywhere, density
+  std::vector<double> log_false_;  ///< by edge, density of its measurement were it anywhere
+  std::vector<int> neighbour_;     ///< by edge: a closure near it, before it; -1 without one
+  std::vector<double> log_alike_;  ///< by edge, density of its measurement were it to err like its neighbour
+};
+
+extern template class HypothesisJudge<2>;
+extern template class HypothesisJudge<3>;
+
+}  // namespace pose_graph

@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "linear/index.hpp"
+#include "robust/hypothesis.hpp"
+#include "robust/judgement.hpp"
+#include "robust/session_links.hpp"
+#include "robust/slips.hpp"
+
+namespace pose_graph {
+using urban_nav_core::ClosureVerdict;
+
+namespace {
+
+// Logarithm of the Bayes factor that a set of closures needs over odometry alone, and over another set to be decided.
+constexpr double kDecisive = 7.0;
+// And on average for each row of closures where variances are off beyond kContestedFactor.
+constexpr double kEachDecisive = 2.0;
+// A selection is contested where more than this share of the closures is rejected, or their variances are beyond that.
+constexpr double kContestedShare = 0.02, kContestedFactor = 9.0;
+constexpr double kRegrowFactor = 1.7;  // of variances: less changes no verdict
+constexpr int kRegrows = 2;
+constexpr double kHealedShare = 0.01;  // of a step's information that what takes its place has
+// Beyond so many poses what nothing contests is not judged, and beyond so many one selection is all that there is time
+// for.
+constexpr std::size_t kManyPoses = 20000, kMostPoses = 200000;
+
+// Edges that are the same to the last bit count once: they are no independent measurements.
+template <int D>
+struct UniqueEdges {
+  Problem<D> problem;
+  std::vector<EdgeRole> roles;
+  std::vector<int> of_edge;
+};
+
+template <int D>
+UniqueEdges<D> uniqueEdges(const Problem<D>& problem, const std::vector<EdgeRole>& roles) {
+  UniqueEdges<D> made;
+  made.problem.poses = problem.poses;
+  std::map<std::pair<int, int>, std::vector<int>> between;
+  for (std::size_t e = 0; e < roles.size(); ++e) {
+    const Edge<D>& edge = problem.edges[e];
+    std::vector<int>& known = between[{edge.from, edge.to}];
+    const auto same = std::find_if(known.begin(), known.end(), [&](int k) {
+      const Edge<D>& other = made.problem.edges[sz(k)];
+      return other.Z.t == edge.Z.t && other.Z.R == edge.Z.R && other.information == edge.information;
+    });
+    if (same != known.end()) {
+      made.of_edge.push_back(*same);
+      if (roles[e] != EdgeRole::Candidate) made.roles[sz(*same)] = roles[e];
+      continue;
+    }
+    known.push_back(static_cast<int>(made.problem.edges.size()));
+    made.of_edge.push_back(known.back());
+    made.problem.edges.push_back(edge);
+    made.roles.push_back(roles[e]);
+  }
+  return made;
+}
+
+template <int D>
+Problem<D> withFactors(Problem<D> problem, const std::vector<EdgeRole>& roles, const VarianceFactors& factors) {
+  for (std::size_t e = 0; e < roles.size(); ++e)
+    problem.edges[e].information /= roles[e] == EdgeRole::Candidate ? factors.closures : factors.odometry;
+  return problem;
+}
+
+bool beyond(double factor, double limit) { return factor > limit || factor < 1.0 / limit; }
+
+/// Proposes sets of edges, and keeps the best.
+template <int D>
+class Selection {
+ public:
+  Selection(const Problem<D>& problem, const std::vector<EdgeRole>& roles)
+      : problem_(problem), roles_(roles), proposed_(problem), proposed_roles_(roles) {
+    for (const EdgeRole role : roles) candidates_ += role == EdgeRole::Candidate;
+  }
+
+  void run() {
+    best_.judgement = judgeGraph(problem_, roles_);
+    if (candidates_ == 0 || problem_.poses.size() > kMostPoses) return;
+    if (problem_.poses.size() > kManyPoses && !isContested(best_.judgement)) return;
+    parts_ = sessionParts(problem_, roles_);
+    std::size_t between = 0;
+    for (std::size_t e = 0; e < roles_.size(); ++e) between += isBetween(e);
+    contested_ = isContested(best_.judgement) || between > 0;
+    judge_ = std::make_unique<HypothesisJudge<D>>(problem_, roles_);
+    odometry_ = judge_->withoutClosures();
+    judge_->judge(odometry_);
+    best_.hypothesis = hypothesisOver(best_.judgement, {});
+    weighed_.emplace_back(best_.hypothesis.log_evidence, best_.hypothesis.in);
+    if (!contested_) return;
+    if (between > 0) link();
+    heal();
+    if (!judge_->areAssertions()) rescale();
+  }
+
+  /// Whether sets of edges were weighed against odometry alone.
+  bool wasJudged() const { return judge_ != nullptr; }
+  /// Whether other sets than the first one were looked at.
+  bool wasContested() const { return contested_; }
+  // Whether another set that takes other closures is nearly as likely.
+  bool hasRival() const {
+    return std::any_of(weighed_.begin(), weighed_.end(), [&](const auto& other) {
+      if (!(other.first > best_.hypothesis.log_evidence - kDecisive)) return false;
+      std::size_t differ = 0;
+      for (std::size_t e = 0; e < roles_.size(); ++e)
+        differ += roles_[e] == EdgeRole::Candidate && other.second[e] != best_.hypothesis.in[e];
+      return static_cast<double>(differ) > kContestedShare * static_cast<double>(candidates_);
+    });
+  }
+  bool tellsVariances() const { return judge_ && !judge_->areAssertions(); }
+  double evidence() const { return best_.hypothesis.log_evidence - odometry_.log_evidence; }
+  const Hypothesis<D>& odometryAlone() const { return odometry_; }
+  const Hypothesis<D>& hypothesis() const { return best_.hypothesis; }
+  Judgement<D> take() { return std::move(best_.judgement); }
+  const std::vector<Slip<D>>& slips() const { return best_.slips; }
+
+ private:
+  struct Proposal {
+    Judgement<D> judgement;
+    Hypothesis<D> hypothesis;
+    std::vector<Slip<D>> slips;
+  };
+
+  bool rejectsMany(const Judgement<D>& judged) const {
+    const auto rejected = std::count_if(judged.edges.begin(), judged.edges.end(), [](const EdgeAssessment& edge) {
+      return edge.verdict == ClosureVerdict::Rejected;
+    });
+    return static_cast<double>(rejected) > kContestedShare * static_cast<double>(candidates_);
+  }
+  bool isContested(const Judgement<D>& judged) const {
+    return candidates_ > 0 && (rejectsMany(judged) || beyond(judged.variance, kContestedFactor));
+  }
+  bool takesNearlyAll() const { return !rejectsMany(best_.judgement) && evidence() >= kDecisive; }
+
+  Hypothesis<D> hypothesisOver(const Judgement<D>& judged, const VarianceFactors& factors) const {
+    Hypothesis<D> made;
+    for (std::size_t e = 0; e < roles_.size(); ++e) made.in.push_back(judged.edges[e].weight > 0.0);
+    made.poses = judged.poses;
+    made.factors = factors;
+    judge_->judge(made);
+    return made;
+  }
+
+  // Whether a set fits because variances were changed until it did: each row is then hardly likelier than chance.
+  bool isInflated(const Hypothesis<D>& hypothesis) const {
+    if (!beyond(hypothesis.factors.odometry, kContestedFactor) &&
+        !beyond(hypothesis.factors.closures, kContestedFactor))
+      return false;
+    return hypothesis.log_evidence - odometry_.log_evidence <
+           kDecisive + kEachDecisive * judge_->rowsInside(hypothesis);
+  }
+
+  bool isBetween(std::size_t e) const {
+    return roles_[e] == EdgeRole::Candidate && parts_[sz(problem_.edges[e].from)] != parts_[sz(problem_.edges[e].to)];
+  }
+
+  // Judges the proposed graph without what is barred.
+  Judgement<D> judgeProposed(const VarianceFactors& factors) const {
+    Problem<D> part;
+    part.poses = proposed_.poses;
+    std::vector<EdgeRole> roles;
+    std::vector<std::size_t> names;
+    for (std::size_t e = 0; e < proposed_roles_.size(); ++e) {
+      if (e < barred_.size() && barred_[e]) continue;
+      part.edges.push_back(proposed_.edges[e]);
+      roles.push_back(proposed_roles_[e]);
+      names.push_back(e);
+    }
+    Judgement<D> judged = judgeGraph(withFactors(std::move(part), roles, factors), roles), made;
+    made.poses = std::move(judged.poses);
+    made.variance = judged.variance;
+    EdgeAssessment left_out;
+    left_out.weight = 0.0;
+    left_out.verdict = ClosureVerdict::Rejected;
+    left_out.reason = Reason::NoWitness;
+    left_out.dof = tangent_size<D>;
+    made.edges.assign(roles_.size(), left_out);
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      for (int& other : judged.edges[k].contradicted_by) other = static_cast<int>(names[sz(other)]);
+      if (names[k] < roles_.size()) made.edges[names[k]] = std::move(judged.edges[k]);
+    }
+    return made;
+  }
+
+  // Judges the proposed graph with these factors; keeps what is better. Returns whether it was.
+  bool propose(const VarianceFactors& factors, const std::vector<Slip<D>>& slips, bool forced = false) {
+    Proposal made;
+    made.slips = slips;
+    made.judgement = judgeProposed(factors);
+    for (const Slip<D>& slip : slips) {
+      EdgeAssessment& edge = made.judgement.edges[sz(slip.edge)];
+      edge.weight = 0.0;
+      edge.verdict = ClosureVerdict::Rejected;
+      edge.reason = Reason::Slipped;
+    }
+    made.hypothesis = hypothesisOver(made.judgement, factors);
+    weighed_.emplace_back(made.hypothesis.log_evidence, made.hypothesis.in);
+    const bool better = made.hypothesis.log_evidence > best_.hypothesis.log_evidence && !isInflated(made.hypothesis);
+    if (!better && !forced) return false;
+    best_ = std::move(made);
+    return true;
+  }
+
+  // Joins parts that enough closures agree on, and bars all closures between others.
+  void link() {
+    std::vector<char> within = best_.hypothesis.in;
+    for (std::size_t e = 0; e < within.size(); ++e) {
+      if (isBetween(e)) within[e] = 0;
+    }
+    const std::vector<SessionLink<D>> links =
+        linkSessions(withFactors(problem_, roles_, best_.hypothesis.factors), roles_, within, best_.hypothesis.poses);
+    for (const SessionLink<D>& link : links) {
+      Edge<D> edge = problem_.edges[sz(link.closures.front())];
+      edge.from = link.from;
+      edge.to = link.to;
+      edge.Z = link.T_from_to;
+      proposed_.edges.push_back(edge);
+      proposed_roles_.push_back(EdgeRole::Trusted);
+    }
+    const std::vector<int> linked = sessionParts(proposed_, proposed_roles_);
+    barred_.assign(roles_.size(), 0);
+    bool wrongly_joined = false;
+    for (std::size_t e = 0; e < roles_.size(); ++e) {
+      barred_[e] = isBetween(e) && linked[sz(problem_.edges[e].from)] != linked[sz(problem_.edges[e].to)];
+      wrongly_joined |= barred_[e] && best_.hypothesis.in[e];
+    }
+    if (!links.empty() || wrongly_joined) propose({}, {}, wrongly_joined);
+  }
+
+  void heal() {
+    slips_ =
+        findSlips(withFactors(proposed_, proposed_roles_, best_.hypothesis.factors), proposed_roles_, odometry_.poses);
+    slips_.erase(std::remove_if(slips_.begin(), slips_.end(),
+                                [&](const Slip<D>& slip) { return slip.edge >= static_cast<int>(roles_.size()); }),
+                 slips_.end());
+    if (slips_.empty()) return;
+    const Problem<D> before = proposed_;
+    for (const Slip<D>& slip : slips_) {
+      proposed_.edges[sz(slip.edge)].Z = slip.T_from_to;
+      proposed_.edges[sz(slip.edge)].information *= kHealedShare;
+    }
+    if (propose({}, slips_)) return;
+    proposed_ = before;
+    slips_.clear();
+  }
+
+  void rescale() {
+    const VarianceFactors& found = best_.hypothesis.factors;
+    if (!isContested(best_.judgement) && !beyond(found.odometry, kContestedFactor) &&
+        !beyond(found.closures, kContestedFactor))
+      return;
+    constexpr double far = 100.0;
+    for (const VarianceFactors& factors : {VarianceFactors{far, far}, {far, 1.0}, {1.0, far}, {1.0 / far, 1.0 / far}})
+      if (!takesNearlyAll() && factors.odometry <= judge_->largestOdometryFactor()) propose(factors, slips_);
+    VarianceFactors last;
+    for (int i = 0; i < kRegrows; ++i) {
+      const VarianceFactors now = best_.hypothesis.factors;
+      if (!beyond(now.odometry / last.odometry, kRegrowFactor) && !beyond(now.closures / last.closures, kRegrowFactor))
+        break;
+      propose(now, slips_);
+      last = now;
+    }
+  }
+
+  const Problem<D>& problem_;
+  const std::vector<EdgeRole>& roles_;
+  Problem<D> proposed_;  // with what takes the place of slips and of steps between sessions
+  std::vector<EdgeRole> proposed_roles_;
+  std::size_t candidates_ = 0;
+  std::vector<int> parts_;    // by pose, what odometry holds together
+  std::vector<char> barred_;  // by edge: joins parts that too few closures agree on
+  bool contested_ = false;
+  std::unique_ptr<HypothesisJudge<D>> judge_;
+  Hypothesis<D> odometry_;
+  Proposal best_;
+  std::vector<std::pair<double, std::vector<char>>> weighed_;  // evidence of each set, and what is in it
+  std::vector<Slip<D>> slips_;
+};
+
+}  // namespace
+
+template <int D>
+RobustSolution<D> relaxSelected(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
+                                const SolveOptions& options) {
+  const UniqueEdges<D> unique = uniqueEdges(problem, roles);
+  Selection<D> selection(unique.problem, unique.roles);
+  selection.run();
+  SelectionReport report;
+  VarianceFactors factors;
+  if (selection.wasJudged()) {
+    report.contested = selection.wasContested();
+    report.log_evidence = selection.evidence();
+    report.undecided = !(selection.evidence() >= (report.contested ? kDecisive : 0.0));
+    report.has_rival = report.contested && !report.undecided && selection.hasRival();
+    if (selection.tellsVariances()) factors = selection.hypothesis().factors;
+    report.odometry_factor = factors.odometry;
+    report.closure_factor = factors.closures;
+  }
+  Judgement<D> judged = selection.take();
+  if (report.undecided) {
+    factors = {};
+    judged.poses = selection.odometryAlone().poses;
+    for (std::size_t e = 0; e < unique.roles.size(); ++e) {
+      EdgeAssessment& edge = judged.edges[e];
+      const bool out = unique.roles[e] == EdgeRole::Candidate;
+      edge.weight = out ? 0.0 : 1.0;
+      edge.verdict = out ? ClosureVerdict::Rejected : ClosureVerdict::Accepted;
+      if (!out) edge.reason = Reason::Role;
+      else if (edge.reason == Reason::Fits) edge.reason = Reason::Undecided;
+    }
+  }
+  Judgement<D> all;
+  all.poses = std::move(judged.poses);
+  all.variance = judged.variance;
+  for (const int e : unique.of_edge) all.edges.push_back(judged.edges[sz(e)]);
+  const bool rescaled = beyond(factors.odometry / factors.closures, kContestedFactor);
+  RobustSolution<D> made = rescaled ? solutionFrom(withFactors(problem, roles, factors), roles, options, std::move(all))
+                                    : solutionFrom(problem, roles, options, std::move(all));
+  made.selection = report;
+  return made;
+}
+
+template RobustSolution<2> relaxSelected<2>(const Problem<2>&, const std::vector<EdgeRole>&, const SolveOptions&);
+template RobustSolution<3> relaxSelected<3>(const Problem<3>&, const std::vector<EdgeRole>&, const SolveOptions&);
+
+}  // namespace pose_graph

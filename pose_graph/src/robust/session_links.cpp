@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "robust/session_links.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <numeric>
+
+#include "linear/disjoint_sets.hpp"
+#include "linear/index.hpp"
+#include "manifold/rotation.hpp"
+#include "pose_graph/marginals.hpp"
+#include "robust/chance_density.hpp"
+#include "robust/dead_reckoning.hpp"
+#include "robust/scattered_bits.hpp"
+#include "urban_nav_core/geometry/small_matrices.hpp"
+#include "urban_nav_core/trajectory/chi_square.hpp"
+
+namespace pose_graph {
+
+namespace {
+
+constexpr double kLinkChance = 0.01, kPairQuantile = 0.999;
+constexpr std::uint64_t kDrawnLoops = 20000;
+constexpr std::size_t kLeastLink = 3, kMostPerPair = 400;
+// Pairs whose loop is off by more than this share of the map's extent, or turned by more, are not looked at any closer.
+constexpr double kRoughShare = 0.2, kRoughTurn = 0.5;
+
+struct BetweenClosure {
+  int edge = 0, from = 0, to = 0;  // in the order of the parts
+};
+
+template <int D>
+class PairwiseConsistency {
+ public:
+  PairwiseConsistency(const Problem<D>& problem, const std::vector<Rigid<D>>& poses, const Marginals<D>& marginals,
+                      double extent)
+      : problem_(problem), poses_(poses), marginals_(marginals), extent_(extent) {}
+
+  /// Whether two closures agree; adds the chance that two random ones would to `chance` where it was worked out.
+  bool agree(const BetweenClosure& a, const BetweenClosure& b) {
+    const Rigid<D> Z_a = measured(a), Z_b = measured(b);
+    const Rigid<D> along_to = poses_[sz(a.to)].inverse() * poses_[sz(b.to)];
+    const Rigid<D> along_from = poses_[sz(b.from)].inverse() * poses_[sz(a.from)];
+    const Rigid<D> back = Z_a * along_to * Z_b.inverse();
+    const Rigid<D> remains = back * along_from;
+    Tangent<D> d;
+    d.template head<D>() = remains.t;
+    d.template tail<rotation_size<D>>() = logRotation(remains.R);
+    ++pairs;
+    const bool rough =
+        remains.t.norm() <= kRoughShare * extent_ && d.template tail<rotation_size<D>>().norm() <= kRoughTurn;
+    // Every pair has its share in the chance; few are enough to know it.
+    if (!rough && pairs % 37 != 0) return false;
+    const Marginal<D> to = marginals_.between(a.to, b.to), from = marginals_.between(b.from, a.from);
+    if (to.knowledge != Knowledge::Full || from.knowledge != Knowledge::Full) return false;
+    const Rigid<D> there = Z_a * along_to;
+    const TangentMatrix<D> S = spread(Rotation<D>::Identity(), covariance(a, false), remains.t - Z_a.t) +
+                               spread(Z_a.R, to.covariance, remains.t - there.t) +
+                               spread(there.R, covariance(b, true), remains.t - back.t) +
+                               spread(back.R, from.covariance, Eigen::Matrix<double, D, 1>::Zero());
+    const urban_nav_core::SmallCholesky<tangent_size<D>> factored(S);
+    if (!factored.succeeded()) return false;
+    double log_volume = 0.0;
+    for (int i = 0; i < tangent_size<D>; ++i) log_volume += std::log(factored.factor()(i, i));
+    static const double limit = urban_nav_core::chiSquareQuantile(kPairQuantile, tangent_size<D>);
+    const double ball = tangent_size<D> == 3 ? 4.0 / 3.0 * M_PI : M_PI * M_PI * M_PI / 6.0;
+    chance += std::min(1.0, ball * std::pow(limit, 0.5 * tangent_size<D>) * std::exp(log_volume + log_density_));
+    ++counted;
+    return rough && d.dot(factored.solve(d)) <= limit;
+  }
+
+  /// Measures how often the loop of two closures that have nothing to do with each other closes: over these
+  /// measurements, between poses drawn from the two parts.
+  void measureChance(const std::vector<BetweenClosure>& closures, const std::vector<int>& froms,
+                     const std::vector<int>& tos) {
+    std::vector<Rigid<D>> loops;
+    for (std::uint64_t k = 0; k < kDrawnLoops; ++k) {
+      const auto pose = [&](const std::vector<int>& part, std::uint64_t number) {
+        return poses_[sz(part[drawIndex(6 * k + number, part.size())])];
+      };
+      const Rigid<D> Z_a = measured(closures[drawIndex(6 * k, closures.size())]);
+      const Rigid<D> Z_b = measured(closures[drawIndex(6 * k + 1, closures.size())]);
+      const Rigid<D> along_to = pose(tos, 2).inverse() * pose(tos, 3);
+      loops.push_back(Z_a * along_to * Z_b.inverse() * (pose(froms, 4).inverse() * pose(froms, 5)));
+    }
+    log_density_ = PoseSample<D>(std::move(loops), extent_).logDensity({});
+  }
+
+  double pairChance() const { return counted > 0 ? chance / static_cast<double>(counted) : 1.0; }
+
+  Rigid<D> measured(const BetweenClosure& closure) const {
+    const Edge<D>& edge = problem_.edges[sz(closure.edge)];
+    return edge.from == closure.from ? edge.Z : edge.Z.inverse();
+  }
+
+ private:
+  static TangentMatrix<D> blockTurn(const Rotation<D>& R) {
+    TangentMatrix<D> made = TangentMatrix<D>::Identity();
+    made.template topLeftCorner<D, D>() = R;
+    if constexpr (D == 3) made.template bottomRightCorner<3, 3>() = R;
+    return made;
+  }
+  // Of a motion (rho, phi) in the axes R, at the end of the loop, `lever` away.
+  static TangentMatrix<D> spread(const Rotation<D>& R, const TangentMatrix<D>& covariance,
+                                 const Eigen::Matrix<double, D, 1>& lever) {
+    TangentMatrix<D> body = TangentMatrix<D>::Identity();
+    body.template topRightCorner<D, rotation_size<D>>() = turned(lever);
+    const TangentMatrix<D> all = body * blockTurn(R);
+    return all * covariance * all.transpose();
+  }
+  // Of measured() or its inverse, as (rho, phi) of [Exp(phi) R, t + rho].
+  TangentMatrix<D> covariance(const BetweenClosure& closure, bool inverted) const {
+    const Edge<D>& edge = problem_.edges[sz(closure.edge)];
+    const TangentMatrix<D> turn = blockTurn(edge.Z.R);
+    const TangentMatrix<D> forward = turn * boundedCovariance<D>(edge.information, extent_) * turn.transpose();
+    if ((edge.from == closure.from) != inverted) return forward;
+    TangentMatrix<D> back = -blockTurn(Rotation<D>(edge.Z.R.transpose()));
+    back.template topRightCorner<D, rotation_size<D>>() = edge.Z.R.transpose() * turned(edge.Z.t);
+    return back * forward * back.transpose();
+  }
+
+  const Problem<D>& problem_;
+  const std::vector<Rigid<D>>& poses_;
+  const Marginals<D>& marginals_;
+  double extent_;
+  double log_density_ = 0.0;  // of a loop that closes by chance
+
+ public:
+  std::size_t pairs = 0, counted = 0;
+  double chance = 0.0;
+};
+
+// By pair, whether they agree.
+template <int D>
+std::vector<std::vector<char>> compareAll(PairwiseConsistency<D>& consistency,
+                                          const std::vector<BetweenClosure>& closures) {
+  const std::size_t size = closures.size();
+  std::vector<std::vector<char>> agree(size, std::vector<char>(size, 0));
+  for (std::size_t i = 0; i < size; ++i)
+    for (std::size_t j = i + 1; j < size; ++j) agree[i][j] = agree[j][i] = consistency.agree(closures[i], closures[j]);
+  return agree;
+}
+
+// The largest set that is pairwise consistent, grown greedily from each member by how many it agrees with.
+std::vector<std::size_t> largestClique(const std::vector<std::vector<char>>& agree) {
+  const std::size_t n = agree.size();
+  std::vector<std::size_t> degree(n, 0), order(n), best;
+  for (std::size_t i = 0; i < n; ++i)
+    degree[i] = static_cast<std::size_t>(std::count(agree[i].begin(), agree[i].end(), 1));
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return degree[a] > degree[b]; });
+  for (const std::size_t seed : order) {
+    if (degree[seed] + 1 <= best.size()) break;
+    std::vector<std::size_t> set{seed};
+    for (const std::size_t next : order)
+      if (next != seed && std::all_of(set.begin(), set.end(), [&](std::size_t i) { return agree[next][i] != 0; }))
+        set.push_back(next);
+    if (set.size() > best.size()) best = set;
+  }
+  return best;
+}
+
+}  // namespace
+
+template <int D>
+std::vector<int> sessionParts(const Problem<D>& problem, const std::vector<EdgeRole>& roles) {
+  std::vector<int> above(problem.poses.size());
+  std::iota(above.begin(), above.end(), 0);
+  for (std::size_t e = 0; e < roles.size(); ++e) {
+    if (roles[e] == EdgeRole::Candidate || problem.edges[e].information.isZero(0.0)) continue;
+    const int a = findRoot(above, problem.edges[e].from), b = findRoot(above, problem.edges[e].to);
+    above[sz(std::max(a, b))] = std::min(a, b);
+  }
+  std::vector<int> part(above.size());
+  for (std::size_t i = 0; i < part.size(); ++i) part[i] = findRoot(above, static_cast<int>(i));
+  return part;
+}
+
+template <int D>
+std::vector<SessionLink<D>> linkSessions(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
+                                         const std::vector<char>& in, const std::vector<Rigid<D>>& poses) {
+  std::vector<SessionLink<D>> made;
+  std::vector<int> above(problem.poses.size());
+  std::iota(above.begin(), above.end(), 0);
+  std::vector<double> weights(in.begin(), in.end());
+  for (std::size_t e = 0; e < in.size(); ++e) {
+    if (!in[e]) continue;
+    const int a = findRoot(above, problem.edges[e].from), b = findRoot(above, problem.edges[e].to);
+    if (a != b) above[sz(std::max(a, b))] = std::min(a, b);
+  }
+  std::map<std::pair<int, int>, std::vector<BetweenClosure>> between;
+  for (std::size_t e = 0; e < in.size(); ++e) {
+    if (roles[e] != EdgeRole::Candidate || in[e]) continue;
+    const Edge<D>& edge = problem.edges[e];
+    const int a = findRoot(above, edge.from), b = findRoot(above, edge.to);
+    if (a == b) continue;
+    between[{std::min(a, b), std::max(a, b)}].push_back(
+        {static_cast<int>(e), a < b ? edge.from : edge.to, a < b ? edge.to : edge.from});
+  }
+  if (between.empty()) return made;
+  std::vector<int> part(above.size());
+  for (int i = 0; i < static_cast<int>(above.size()); ++i) part[sz(i)] = findRoot(above, i);
+  const Marginals<D> marginals(problem, poses, weights);
+  const DeadReckoning<D> reckoning(problem, roles);
+  std::vector<std::pair<std::size_t, std::pair<int, int>>> by_size;
+  for (const auto& [parts, closures] : between) by_size.emplace_back(closures.size(), parts);
+  std::stable_sort(by_size.begin(), by_size.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  for (const auto& [all, parts] : by_size) {
+    if (findRoot(above, parts.first) == findRoot(above, parts.second) || all < kLeastLink) continue;
+    std::vector<BetweenClosure> closures;
+    const std::size_t every = 1 + all / kMostPerPair;
+    for (std::size_t i = 0; i < all; i += every) closures.push_back(between[parts][i]);
+    const std::size_t size = closures.size();
+    PairwiseConsistency<D> consistency(problem, poses, marginals, reckoning.extent);
+    std::vector<int> froms, tos;
+    for (int i = 0; i < static_cast<int>(above.size()); ++i) {
+      if (part[sz(i)] == parts.first) froms.push_back(i);
+      if (part[sz(i)] == parts.second) tos.push_back(i);
+    }
+    consistency.measureChance(closures, froms, tos);
+    const std::vector<std::size_t> set = largestClique(compareAll(consistency, closures));
+    const double n = static_cast<double>(size), k = static_cast<double>(set.size());
+    const double log_chance = std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0) +
+                              (k - 1.0) * std::log(consistency.pairChance());
+    if (set.size() < kLeastLink || log_chance > std::log(kLinkChance)) continue;
+    SessionLink<D> link;
+    const BetweenClosure& first = closures[set.front()];
+    link.from = first.from;
+    link.to = first.to;
+    link.T_from_to = consistency.measured(first);
+    for (const std::size_t i : set) link.closures.push_back(closures[i].edge);
+    made.push_back(std::move(link));
+    const int a = findRoot(above, parts.first), b = findRoot(above, parts.second);
+    above[sz(std::max(a, b))] = std::min(a, b);
+  }
+  return made;
+}
+
+template std::vector<int> sessionParts<2>(const Problem<2>&, const std::vector<EdgeRole>&);
+template std::vector<int> sessionParts<3>(const Problem<3>&, const std::vector<EdgeRole>&);
+template std::vector<SessionLink<2>> linkSessions<2>(const Problem<2>&, const std::vector<EdgeRole>&,
+                                                     const std::vector<char>&, const std::vector<Rigid<2>>&);
+template std::vector<SessionLink<3>> linkSessions<3>(const Problem<3>&, const std::vector<EdgeRole>&,
+                                                     const std::vector<char>&, const std::vector<Rigid<3>>&);
+
+}  // namespace pose_graph

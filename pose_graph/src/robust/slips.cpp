@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "robust/slips.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+#include "linear/index.hpp"
+#include "manifold/rotation.hpp"
+#include "robust/accepted_graph.hpp"
+#include "robust/scattered_bits.hpp"
+#include "robust/whitened_edge.hpp"
+
+namespace pose_graph {
+
+namespace {
+
+constexpr int kCauchyRounds = 100;
+constexpr double kCauchyShare = 1e-4;  // ends where the weights hardly change the cost any more
+// Chi-square of a slip, in units of its degrees of freedom and of the middle one of all steps: what ordinary errors of
+// odometry reach lies far below.
+constexpr double kSlipSquare = 100.0;
+constexpr std::size_t kMostSlips = 20;
+// A step stands out from all others if the few that it is most alike are that much farther from it than those of any
+// other step that would explain the slip as well are from that one.
+constexpr std::size_t kAlike = 3;
+constexpr double kStandsOut = 4.0;  // of squares
+constexpr double kBelieved = 0.5;   // weight under Cauchy's kernel
+constexpr int kSlipReach = 200;     // poses: so far from where it shows a slip is looked for
+
+/// Steps of odometry between consecutive poses. Of a slip the graph tells no more than which closures span it: steps
+/// that the same closures span, in one run between ends of closures or in several, would explain it alike.
+template <int D>
+class Steps {
+ public:
+  Steps(const Problem<D>& problem, const std::vector<EdgeRole>& roles, const std::vector<WhitenedEdge<D>>& whitened,
+        const std::vector<double>& weights)
+      : problem_(problem), whitened_(whitened), into_(problem.poses.size(), -1), spanned_(problem.poses.size(), 0) {
+    for (std::size_t e = 0; e < roles.size(); ++e) {
+      const auto [first, last] = std::minmax(problem.edges[e].from, problem.edges[e].to);
+      if (roles[e] != EdgeRole::Candidate) {
+        if (last == first + 1 && into_[sz(last)] < 0) into_[sz(last)] = static_cast<int>(e);
+      } else if (weights[e] > kBelieved) {
+        // A closure's number is in the sum of those that span the steps from its first pose on to its last.
+        const std::uint64_t number = scatteredBits(e);
+        for (const int end : {first, last})
+          if (end + 1 < static_cast<int>(spanned_.size())) spanned_[sz(end + 1)] ^= number;
+      }
+    }
+    for (std::size_t i = 1; i < spanned_.size(); ++i) spanned_[i] ^= spanned_[i - 1];
+  }
+
+  /// The step that is least like all others, of those that the same closures span as e, where that is plain; else e.
+  int mostUnlike(int e) const {
+    const int at = std::max(problem_.edges[sz(e)].from, problem_.edges[sz(e)].to);
+    if (into_[sz(at)] != e) return e;
+    int best = e;
+    double most = 0.0, second = 0.0;
+    const auto compare = [&](int pose) {
+      if (spanned_[sz(pose)] != spanned_[sz(at)]) return;
+      const double square = unlikeness(into_[sz(pose)]);
+      if (square > most) {
+        second = most;
+        most = square;
+        best = into_[sz(pose)];
+      } else {
+        second = std::max(second, square);
+      }
+    };
+    const int poses = static_cast<int>(into_.size());
+    for (int pose = at; pose > 0 && into_[sz(pose)] >= 0 && pose > at - kSlipReach; --pose) compare(pose);
+    for (int pose = at + 1; pose < poses && into_[sz(pose)] >= 0 && pose < at + kSlipReach; ++pose) compare(pose);
+    return most > kStandsOut * second ? best : e;
+  }
+
+  /// T_from_to of `f` where the slip is its and not e's, and the poses between the two move as one body.
+  Rigid<D> motionInstead(int f, int e, const std::vector<Rigid<D>>& poses) const {
+    const auto ends = [&](int edge) { return std::minmax(problem_.edges[sz(edge)].from, problem_.edges[sz(edge)].to); };
+    const auto [e_from, e_to] = ends(e);
+    const auto [f_from, f_to] = ends(f);
+    Rigid<D> from = poses[sz(f_from)], to = poses[sz(f_to)];
+    if (f_from > e_from) from = poses[sz(e_from)] * forward(e) * (poses[sz(e_to)].inverse() * from);
+    if (f_from < e_from) to = poses[sz(e_to)] * forward(e).inverse() * (poses[sz(e_from)].inverse() * to);
+    const Rigid<D> motion = from.inverse() * to;
+    return problem_.edges[sz(f)].from < problem_.edges[sz(f)].to ? motion : motion.inverse();
+  }
+
+ private:
+  Rigid<D> forward(int e) const {
+    const Edge<D>& edge = problem_.edges[sz(e)];
+    return edge.from < edge.to ? edge.Z : edge.Z.inverse();
+  }
+
+  // Square of the distance to the kAlike-th nearest other step, in its own deviations.
+  double unlikeness(int e) const {
+    const Rigid<D> own = forward(e);
+    std::vector<double> squares;
+    for (const int other : into_) {
+      if (other < 0 || other == e) continue;
+      const Rigid<D> difference = own.inverse() * forward(other);
+      Tangent<D> d;
+      d.template head<D>() = difference.t;
+      d.template tail<rotation_size<D>>() = logRotation(difference.R);
+      squares.push_back((whitened_[sz(e)].W * d).squaredNorm());
+    }
+    if (squares.size() < kAlike) return 0.0;
+    std::nth_element(squares.begin(), squares.begin() + kAlike - 1, squares.end());
+    return squares[kAlike - 1];
+  }
+
+  const Problem<D>& problem_;
+  const std::vector<WhitenedEdge<D>>& whitened_;
+  std::vector<int> into_;               // step that ends at a pose, -1 without one
+  std::vector<std::uint64_t> spanned_;  // by the end of a step, sum without carry of the closures that span it
+};
+
+}  // namespace
+
+template <int D>
+std::vector<Slip<D>> findSlips(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
+                               const std::vector<Rigid<D>>& odometry) {
+  std::vector<WhitenedEdge<D>> edges;
+  for (const Edge<D>& edge : problem.edges) edges.push_back(whitened(edge));
+  std::vector<char> in;
+  for (const WhitenedEdge<D>& edge : edges) in.push_back(edge.rank > 0);
+  std::vector<Rigid<D>> poses = odometry;
+  std::vector<double> weights(edges.size(), 1.0);
+  AcceptedGraph<D> graph(problem);
+  const auto squareOver = [&](std::size_t e) {
+    const WhitenedEdge<D>& edge = edges[e];
+    return whitenedError(edge, poses[sz(edge.from)], poses[sz(edge.to)]).squaredNorm() / std::max(1, edge.rank);
+  };
+  double last = 0.0;
+  for (int round = 0; round < kCauchyRounds; ++round) {
+    double cost = 0.0;
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      const double square = squareOver(e);
+      weights[e] = 1.0 / (1.0 + square);
+      cost += std::log1p(square);
+    }
+    if (round > 0 && std::abs(last - cost) <= kCauchyShare * cost) break;
+    last = cost;
+    graph.take(in, weights);
+    graph.relax(poses, 1, 0.0, false);
+  }
+  std::vector<double> squares;
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    if (roles[e] == EdgeRole::Trusted && edges[e].rank > 0) squares.push_back(squareOver(e));
+  std::vector<Slip<D>> made;
+  if (squares.empty()) return made;
+  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+  std::nth_element(squares.begin(), middle, squares.end());
+  const double limit = kSlipSquare * std::max(1.0, *middle);
+  const Steps<D> steps(problem, roles, edges, weights);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    if (roles[e] != EdgeRole::Trusted || !(squareOver(e) > limit)) continue;
+    const int likeliest = steps.mostUnlike(static_cast<int>(e));
+    if (std::any_of(made.begin(), made.end(), [&](const Slip<D>& slip) { return slip.edge == likeliest; })) continue;
+    made.push_back({likeliest, steps.motionInstead(likeliest, static_cast<int>(e), poses)});
+  }
+  if (made.size() > kMostSlips) made.clear();  // odometry as a whole is not what its information says
+  return made;
+}
+
+template std::vector<Slip<2>> findSlips<2>(const Problem<2>&, const std::vector<EdgeRole>&,
+                                           const std::vector<Rigid<2>>&);
+template std::vector<Slip<3>> findSlips<3>(const Problem<3>&, const std::vector<EdgeRole>&,
+                                           const std::vector<Rigid<3>>&);
+
+}  // namespace pose_graph

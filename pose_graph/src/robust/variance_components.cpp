@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "robust/variance_components.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "linear/index.hpp"
+#include "manifold/rotation.hpp"
+#include "pose_graph/marginals.hpp"
+#include "pose_graph/scales.hpp"
+#include "robust/whitened_edge.hpp"
+
+namespace pose_graph {
+
+namespace {
+
+const double kDeviationPrior = std::log(3.0);
+constexpr double kSmallestFactor = 1e-8, kLargestFactor = 1e8;
+constexpr std::size_t kClosuresToTell = 100;
+
+}  // namespace
+
+template <int D>
+VarianceComponents varianceComponents(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
+                                      const std::vector<double>& weights, const std::vector<Rigid<D>>& poses) {
+  constexpr int R = rotation_size<D>;
+  const Marginals<D> marginals(problem, poses, weights);
+  VarianceComponents made;
+  for (std::size_t e = 0; e < roles.size(); ++e) {
+    if (!(weights[e] > 0.0)) continue;
+    const Edge<D>& edge = problem.edges[e];
+    const Marginal<D> marginal = marginals.between(edge.from, edge.to);
+    if (marginal.knowledge != Knowledge::Full) continue;
+    const Rotation<D> A = poses[sz(edge.from)].R * edge.Z.R;
+    Tangent<D> error;
+    error.template head<D>() =
+        A.transpose() * (poses[sz(edge.to)].t - poses[sz(edge.from)].t) - edge.Z.R.transpose() * edge.Z.t;
+    error.template tail<R>() = logRotation(Rotation<D>(A.transpose() * poses[sz(edge.to)].R));
+    TangentMatrix<D> turn = TangentMatrix<D>::Identity();
+    turn.template topLeftCorner<D, D>() = edge.Z.R.transpose();
+    if constexpr (D == 3) turn.template bottomRightCorner<3, 3>() = edge.Z.R.transpose();
+    const TangentMatrix<D> covariance = turn * marginal.covariance * turn.transpose();
+    const Tangent<D> weighted = edge.information * error;
+    const TangentMatrix<D> leverage = weights[e] * edge.information * covariance;
+    VarianceComponent* const group = made.of[roles[e] == EdgeRole::Candidate];
+    const int rank = whitened(edge).rank;
+    const double rank_turn = std::min(rank, edge.information.template bottomRightCorner<R, R>().trace() > 0.0 ? R : 0);
+    group[0].squares += error.template head<D>().dot(weighted.template head<D>());
+    group[0].redundancy += std::max(0.0, rank - rank_turn - leverage.template topLeftCorner<D, D>().trace());
+    group[1].squares += error.template tail<R>().dot(weighted.template tail<R>());
+    group[1].redundancy += std::max(0.0, rank_turn - leverage.template bottomRightCorner<R, R>().trace());
+  }
+  return made;
+}
+
+double likeliestFactor(const VarianceComponent& component) {
+  double u = 0.0;  // logarithm of the factor
+  const double variance = 4.0 * kDeviationPrior * kDeviationPrior;
+  for (int i = 0; i < 60; ++i) {
+    const double ratio = std::max(0.0, component.squares) * std::exp(-u);
+    const double gradient = 0.5 * (ratio - component.redundancy) - u / variance;
+    const double step = gradient / (0.5 * ratio + 1.0 / variance);
+    u += std::max(-2.0, std::min(2.0, step));
+    if (std::abs(step) < 1e-6) break;
+  }
+  return std::max(kSmallestFactor, std::min(kLargestFactor, std::exp(u)));
+}
+
+double logPriorOfFactor(double factor) {
+  const double z = 0.5 * std::log(factor) / kDeviationPrior;
+  return -0.5 * z * z;
+}
+
+template <int D>
+DeviationScales estimateScales(const Problem<D>& problem, const std::vector<EdgeRole>& roles,
+                               const std::vector<EdgeAssessment>& edges, const std::vector<Rigid<D>>& poses,
+                               const SelectionReport& selection) {
+  std::vector<double> weights;
+  std::size_t closures = 0;
+  for (std::size_t e = 0; e < roles.size(); ++e) {
+    const bool closure = roles[e] == EdgeRole::Candidate;
+    weights.push_back(edges[e].weight / (closure ? selection.closure_factor : selection.odometry_factor));
+    closures += closure && edges[e].weight > 0.0;
+  }
+  if (closures < kClosuresToTell) return {};
+  const VarianceComponents components = varianceComponents(problem, roles, weights, poses);
+  const auto deviation = [&](int group, int kind) { return std::sqrt(likeliestFactor(components.of[group][kind])); };
+  return {deviation(0, 0), deviation(0, 1), deviation(1, 0), deviation(1, 1)};
+}
+
+template VarianceComponents varianceComponents<2>(const Problem<2>&, const std::vector<EdgeRole>&,
+                                                  const std::vector<double>&, const std::vector<Rigid<2>>&);
+template VarianceComponents varianceComponents<3>(const Problem<3>&, const std::vector<EdgeRole>&,
+                                                  const std::vector<double>&, const std::vector<Rigid<3>>&);
+template DeviationScales estimateScales<2>(const Problem<2>&, const std::vector<EdgeRole>&,
+                                           const std::vector<EdgeAssessment>&, const std::vector<Rigid<2>>&,
+                                           const SelectionReport&);
+template DeviationScales estimateScales<3>(const Problem<3>&, const std::vector<EdgeRole>&,
+                                           const std::vector<EdgeAssessment>&, const std::vector<Rigid<3>>&,
+                                           const SelectionReport&);
+
+}  // namespace pose_graph

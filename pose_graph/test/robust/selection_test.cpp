@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "pose_graph/robust.hpp"
+#include "pose_graph/scales.hpp"
+#include "support/drawn.hpp"
+#include "urban_nav_core/testing/false_closures.hpp"
+#include "urban_nav_core/testing/graphs.hpp"
+
+namespace pose_graph {
+
+using urban_nav_core::ClosureVerdict;
+
+namespace {
+
+using test::simulatedProblem;
+using urban_nav_core::testing::addFalseClosures;
+using urban_nav_core::testing::FalseClosures;
+using urban_nav_core::testing::SimulatedGraph;
+
+SimulatedGraph drawTown(std::uint64_t seed) {
+  return urban_nav_core::testing::manhattanGraph(600, 12, 0.5, urban_nav_core::testing::evenNoise(0.05, 0.01), seed);
+}
+SimulatedGraph drawGlobe(std::uint64_t seed) {
+  return urban_nav_core::testing::sphereGraph(12, 24, 20.0, urban_nav_core::testing::evenNoise(0.05, 0.01), seed);
+}
+bool isStep(const urban_nav_core::testing::GraphEdge& edge) { return edge.b == edge.a + 1; }
+
+template <int D>
+struct Selected {
+  Problem<D> problem;
+  std::vector<EdgeRole> roles;
+  RobustSolution<D> robust;
+
+  explicit Selected(Problem<D> given)
+      : problem(std::move(given)), roles(rolesByNumbers(problem)), robust(relaxSelected(problem, roles, {})) {}
+
+  bool accepted(std::size_t e) const { return robust.edges[e].verdict == ClosureVerdict::Accepted; }
+  std::size_t closures(ClosureVerdict verdict) const {
+    std::size_t made = 0;
+    for (std::size_t e = 0; e < roles.size(); ++e)
+      made += roles[e] == EdgeRole::Candidate && robust.edges[e].verdict == verdict;
+    return made;
+  }
+};
+
+template <int D>
+void expectNearTruth(const SimulatedGraph& graph, const std::vector<Rigid<D>>& poses, double metres) {
+  for (std::size_t i = 0; i < graph.truth.size(); ++i)
+    EXPECT_LT((poses[i].t - toRigid<D>(graph.truth[i]).t).norm(), metres) << i;
+}
+
+template <int D>
+void staysWithOdometry(SimulatedGraph (*draw)(std::uint64_t), std::size_t wrong) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    SimulatedGraph graph = draw(seed);
+    addFalseClosures(graph, FalseClosures::Random, wrong, seed + 10);
+    std::vector<urban_nav_core::testing::GraphEdge> edges;
+    for (const auto& edge : graph.edges)
+      if (isStep(edge) || edge.wrong) edges.push_back(edge);
+    graph.edges = edges;
+    const Selected<D> selected(simulatedProblem<D>(graph, deadReckoning(graph)));
+    EXPECT_TRUE(selected.robust.selection.undecided) << seed;
+    EXPECT_EQ(selected.closures(ClosureVerdict::Accepted), 0u) << seed;
+    EXPECT_LT(test::largestDifference<D>(selected.robust.solution.poses, selected.problem.poses), 1e-6) << seed;
+  }
+}
+
+TEST(Selection, AChainWithFalseClosuresAloneStaysWithOdometry) {
+  for (const std::size_t wrong : {5, 20, 80}) {
+    staysWithOdometry<2>(drawTown, wrong);
+    staysWithOdometry<3>(drawGlobe, wrong);
+  }
+}
+
+TEST(Selection, WhatNothingContestsEndsWhereRobustSelectionDoes) {
+  const SimulatedGraph graph = drawTown(4);
+  const Selected<2> selected(simulatedProblem<2>(graph, deadReckoning(graph)));
+  const RobustSolution<2> plain = relaxRobust(selected.problem, selected.roles, {});
+  EXPECT_EQ(selected.closures(ClosureVerdict::Rejected), 0u);
+  EXPECT_FALSE(selected.robust.selection.undecided);
+  EXPECT_LT(test::largestDifference<2>(selected.robust.solution.poses, plain.solution.poses), 1e-9);
+}
+
+// The step is longer by two metres and turned by a radian; nothing else is like it.
+TEST(Selection, ASlippedStepIsFoundAndCostsNoClosure) {
+  for (const std::uint64_t seed : {1, 5, 9}) {
+    const SimulatedGraph graph = drawTown(seed);
+    Problem<2> problem = simulatedProblem<2>(graph, deadReckoning(graph));
+    const std::size_t slipped = 200 + 37 * seed;
+    problem.edges[slipped].Z.t[0] += 2.0;
+    problem.edges[slipped].Z.R = expRotation(RotationVector<2>(1.0)) * problem.edges[slipped].Z.R;
+    const Selected<2> selected(problem);
+    EXPECT_EQ(selected.robust.edges[slipped].reason, Reason::Slipped) << seed;
+    EXPECT_FALSE(selected.accepted(slipped)) << seed;
+    EXPECT_EQ(selected.closures(ClosureVerdict::Rejected), 0u) << seed;
+    expectNearTruth<2>(graph, selected.robust.solution.poses, 1.0);
+  }
+}
+
+TEST(Selection, AChainThatNothingRefutesIsNotTornApart) {
+  SimulatedGraph graph = drawTown(2);
+  graph.edges.resize(graph.truth.size() - 1);
+  Problem<2> problem = simulatedProblem<2>(graph, deadReckoning(graph));
+  problem.edges[300].Z.t[0] += 5.0;
+  const Selected<2> selected(problem);
+  for (std::size_t e = 0; e < problem.edges.size(); ++e) EXPECT_TRUE(selected.accepted(e)) << e;
+}
+
+// Factors of the information of odometry and of closures. What it states is in deviations.
+TEST(Selection, InformationOfTheWrongScaleCostsNoClosure) {
+  const double factors[][2] = {{100.0, 1.0}, {1.0, 100.0}, {100.0, 100.0}, {0.01, 0.01}};
+  for (const auto& [odometry, closures] : factors) {
+    const SimulatedGraph graph = drawTown(6);
+    Problem<2> problem = simulatedProblem<2>(graph, deadReckoning(graph));
+    for (std::size_t e = 0; e < problem.edges.size(); ++e)
+      problem.edges[e].information *= isStep(graph.edges[e]) ? odometry : closures;
+    const Selected<2> selected(problem);
+    EXPECT_EQ(selected.closures(ClosureVerdict::Rejected), 0u) << odometry << ' ' << closures;
+    expectNearTruth<2>(graph, selected.robust.solution.poses, 1.0);
+    const DeviationScales scales = estimateScales(selected.problem, selected.roles, selected.robust.edges,
+                                                  selected.robust.solution.poses, selected.robust.selection);
+    const auto expectWithinTwo = [&](const std::optional<double>& scale, double factor, const char* what) {
+      ASSERT_TRUE(scale.has_value()) << what;
+      EXPECT_LT(std::abs(std::log(*scale / std::sqrt(factor))), std::log(2.0)) << what << ' ' << *scale;
+    };
+    expectWithinTwo(scales.odometry_translation, odometry, "odometry's translation");
+    expectWithinTwo(scales.odometry_rotation, odometry, "odometry's rotation");
+    expectWithinTwo(scales.closure_translation, closures, "the closures' translation");
+    expectWithinTwo(scales.closure_rotation, closures, "the closures' rotation");
+  }
+}
+
+TEST(Selection, FewClosuresStateNoScale) {
+  SimulatedGraph graph = drawTown(6);
+  graph.edges.resize(graph.truth.size() - 1 + 50);
+  const Selected<2> selected(simulatedProblem<2>(graph, deadReckoning(graph)));
+  const DeviationScales scales = estimateScales(selected.problem, selected.roles, selected.robust.edges,
+                                                selected.robust.solution.poses, selected.robust.selection);
+  EXPECT_FALSE(scales.odometry_translation || scales.odometry_rotation || scales.closure_translation ||
+               scales.closure_rotation);
+}
+
+TEST(Selection, AnEdgeGivenTenTimesCountsOnce) {
+  SimulatedGraph graph = drawTown(8);
+  addFalseClosures(graph, FalseClosures::Random, 60, 3);
+  const Problem<2> once = simulatedProblem<2>(graph, deadReckoning(graph));
+  Problem<2> often = once;
+  often.edges.clear();
+  for (const Edge<2>& edge : once.edges) often.edges.insert(often.edges.end(), 10, edge);
+  const Selected<2> one(once), ten(often);
+  for (std::size_t e = 0; e < often.edges.size(); ++e) EXPECT_EQ(ten.accepted(e), one.accepted(e / 10)) << e;
+}
+
+// Closures that measure nothing agree with each other and with a map that is one point, if odometry is loosened.
+TEST(Selection, ClosuresThatOnlySayTheSamePlaceDoNotShrinkTheMap) {
+  SimulatedGraph graph = drawTown(3);
+  addFalseClosures(graph, FalseClosures::Random, 80, 5);
+  Problem<2> problem = simulatedProblem<2>(graph, deadReckoning(graph));
+  for (std::size_t e = 0; e < problem.edges.size(); ++e) {
+    if (isStep(graph.edges[e])) {
+      problem.edges[e].information *= 100.0;
+    } else {
+      problem.edges[e].Z = {};
+      problem.edges[e].information = Eigen::Vector3d(4.0, 4.0, 0.0).asDiagonal();
+    }
+  }
+  const Selected<2> selected(problem);
+  const auto radius = [](const std::vector<Rigid<2>>& poses) {
+    Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+    for (const Rigid<2>& pose : poses) middle += pose.t / static_cast<double>(poses.size());
+    double sum = 0.0;
+    for (const Rigid<2>& pose : poses) sum += (pose.t - middle).squaredNorm() / static_cast<double>(poses.size());
+    return std::sqrt(sum);
+  };
+  std::vector<Rigid<2>> truth;
+  for (const auto& pose : graph.truth) truth.push_back(toRigid<2>(pose));
+  EXPECT_NEAR(radius(selected.robust.solution.poses) / radius(truth), 1.0, 0.2);
+}
+
+// The second half of the town's way as a session of its own, and `links` of the true closures between the two, and as
+// many random ones as `wrong`.
+Problem<2> drawSessions(const SimulatedGraph& graph, std::size_t links, std::size_t wrong,
+                        std::vector<std::size_t>* true_links) {
+  const std::size_t half = graph.truth.size() / 2;
+  const Problem<2> whole = simulatedProblem<2>(graph, deadReckoning(graph));
+  Problem<2> made;
+  made.poses = whole.poses;
+  std::vector<std::size_t> between;
+  for (std::size_t e = 0; e < whole.edges.size(); ++e) {
+    if ((graph.edges[e].a < half) == (graph.edges[e].b < half)) made.edges.push_back(whole.edges[e]);
+    else if (!isStep(graph.edges[e])) between.push_back(e);
+  }
+  for (std::size_t k = 0; k < links; ++k) {
+    true_links->push_back(made.edges.size());
+    made.edges.push_back(whole.edges[between[k * between.size() / links]]);
+  }
+  test::Dice dice(17);
+  for (std::size_t k = 0; k < wrong; ++k) {
+    Edge<2> edge = whole.edges[between.front()];
+    edge.from = static_cast<int>(dice.below(half));
+    edge.to = static_cast<int>(half + dice.below(half));
+    edge.Z = test::drawRigid<2>(dice, 1.0, 2.0);
+    made.edges.push_back(edge);
+  }
+  return made;
+}
+
+TEST(Selection, AFewClosuresThatAgreeJoinTwoSessions) {
+  const SimulatedGraph graph = drawTown(12);
+  for (const auto& [links, wrong] : {std::make_pair(8, 0), std::make_pair(5, 20), std::make_pair(8, 60)}) {
+    std::vector<std::size_t> true_links;
+    const Selected<2> selected(
+        drawSessions(graph, static_cast<std::size_t>(links), static_cast<std::size_t>(wrong), &true_links));
+    for (const std::size_t e : true_links) EXPECT_TRUE(selected.accepted(e)) << links << ' ' << wrong;
+    EXPECT_LE(selected.closures(ClosureVerdict::Rejected), static_cast<std::size_t>(wrong));
+    EXPECT_GE(selected.closures(ClosureVerdict::Rejected) + 1, static_cast<std::size_t>(wrong));
+    EXPECT_EQ(selected.robust.solution.components, 1) << links << ' ' << wrong;
+    expectNearTruth<2>(graph, selected.robust.solution.poses, 1.5);
+  }
+}
+
+TEST(Selection, OneClosureAloneJoinsNothing) {
+  const SimulatedGraph graph = drawTown(12);
+  for (const std::size_t wrong : {0, 20, 60})
+    for (const std::size_t right : {0, 1}) {
+      std::vector<std::size_t> true_links;
+      const Selected<2> selected(drawSessions(graph, right, wrong, &true_links));
+      EXPECT_EQ(selected.robust.solution.components, 2) << right << ' ' << wrong;
+      EXPECT_EQ(selected.closures(ClosureVerdict::Rejected), right + wrong);
+    }
+}
+
+}  // namespace
+}  // namespace pose_graph

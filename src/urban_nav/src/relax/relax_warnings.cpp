@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "relax/relax_warnings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "report/plot.hpp"
+
+namespace urban_nav {
+
+using pose_graph::EdgeRole;
+using urban_nav_core::ClosureVerdict;
+
+namespace {
+
+constexpr double kImplausible = 3.0;  // of deviations
+
+struct Rejections {
+  std::size_t rejected = 0, all = 0;
+};
+
+template <int D>
+Rejections count(const std::vector<int>& edges, const pose_graph::FileProblem<D>& file,
+                 const pose_graph::RobustSolution<D>& robust, EdgeRole role) {
+  Rejections made;
+  for (const int edge : edges) {
+    if (edge < 0 || file.roles[static_cast<std::size_t>(edge)] != role) continue;
+    ++made.all;
+    made.rejected += robust.edges[static_cast<std::size_t>(edge)].verdict == ClosureVerdict::Rejected;
+  }
+  return made;
+}
+
+// The poses around a slip up to the next ends of accepted closures: in between nothing tells which step it was.
+template <int D>
+std::string describeSlip(const pose_graph::FileProblem<D>& file, const pose_graph::RobustSolution<D>& robust,
+                         std::size_t edge) {
+  const int from = std::min(file.problem.edges[edge].from, file.problem.edges[edge].to);
+  const int to = std::max(file.problem.edges[edge].from, file.problem.edges[edge].to);
+  int first = 0, last = static_cast<int>(file.ids.size()) - 1;
+  for (std::size_t e = 0; e < file.roles.size(); ++e) {
+    if (file.roles[e] != EdgeRole::Candidate || robust.edges[e].verdict == ClosureVerdict::Rejected) continue;
+    for (const int end : {file.problem.edges[e].from, file.problem.edges[e].to}) {
+      if (end <= from) first = std::max(first, end);
+      if (end >= to) last = std::min(last, end);
+    }
+  }
+  const auto id = [&](int pose) { return std::to_string(file.ids[static_cast<std::size_t>(pose)]); };
+  return "odometry slipped between " + id(first) + " and " + id(last) + ", most likely from " + id(from) + " to " +
+         id(to) + ": this edge is rejected";
+}
+
+void addScale(const std::string& what, const std::optional<double>& scale, std::vector<std::string>& warnings) {
+  if (scale && (*scale > kImplausible || *scale < 1.0 / kImplausible))
+    warnings.push_back("the errors of " + what + " are " + forPerson(*scale, 2) +
+                       " times the deviations that its information states");
+}
+
+}  // namespace
+
+template <int D>
+std::vector<std::string> selectionWarnings(const pose_graph::FileProblem<D>& file,
+                                           const pose_graph::RobustSolution<D>& robust,
+                                           const pose_graph::DeviationScales& scales) {
+  std::vector<std::string> warnings;
+  const Rejections closures = count(file.edges, file, robust, EdgeRole::Candidate);
+  if (robust.selection.undecided)
+    warnings.push_back("nothing could be decided: no set of the " + std::to_string(closures.all) +
+                       " closures agrees with odometry and itself better than chance explains; the answer is odometry");
+  else if (2 * closures.rejected > closures.all)
+    warnings.push_back(std::to_string(closures.rejected) + " of " + std::to_string(closures.all) +
+                       " closures are rejected: more than half");
+  if (robust.selection.has_rival)
+    warnings.push_back("another set of closures is nearly as likely as the accepted one: what differs is a guess");
+  const Rejections priors = count(file.priors, file, robust, EdgeRole::Candidate);
+  if (2 * priors.rejected > priors.all)
+    warnings.push_back(std::to_string(priors.rejected) + " of " + std::to_string(priors.all) +
+                       " priors are rejected: more than half");
+  for (std::size_t e = 0; e < file.roles.size(); ++e)
+    if (file.roles[e] == EdgeRole::Trusted && robust.edges[e].verdict == ClosureVerdict::Rejected)
+      warnings.push_back(describeSlip(file, robust, e));
+  addScale("odometry's translation", scales.odometry_translation, warnings);
+  addScale("odometry's rotation", scales.odometry_rotation, warnings);
+  addScale("the closures' translation", scales.closure_translation, warnings);
+  addScale("the closures' rotation", scales.closure_rotation, warnings);
+  return warnings;
+}
+
+template std::vector<std::string> selectionWarnings<2>(const pose_graph::FileProblem<2>&,
+                                                       const pose_graph::RobustSolution<2>&,
+                                                       const pose_graph::DeviationScales&);
+template std::vector<std::string> selectionWarnings<3>(const pose_graph::FileProblem<3>&,
+                                                       const pose_graph::RobustSolution<3>&,
+                                                       const pose_graph::DeviationScales&);
+
+}  // namespace urban_nav

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pose_graph/graph_file.hpp"
+#include "pose_graph/robust.hpp"
+#include "pose_graph/scales.hpp"
+
+namespace urban_nav {
+
+/// What a user should know of a selection, a sentence each: nothing could be decided, more than half of a kind of edge
+/// is rejected, odometry slipped, or the information is off by more than a factor of 3 in its deviations.
+template <int D>
+std::vector<std::string> selectionWarnings(const pose_graph::FileProblem<D>& file,
+                                           const pose_graph::RobustSolution<D>& robust,
+                                           const pose_graph::DeviationScales& scales);
+
+}  // namespace urban_nav
