@@ -7,7 +7,6 @@
 #include "manifold/rotation.hpp"
 #include "pose_graph/robust.hpp"
 #include "program.hpp"
-#include "urban_nav_core/testing/dice.hpp"
 
 namespace pose_graph::bench {
 
@@ -36,6 +35,8 @@ Rigid<D> nearlyNothing(Dice& dice) {
   }
   return T;
 }
+
+}  // namespace
 
 template <int D>
 void addFalse(Problem<D>& problem, const FalseKind& kind, std::size_t count, Dice& dice) {
@@ -73,6 +74,13 @@ double apart(const std::vector<Rigid<D>>& a, const std::vector<Rigid<D>>& b) {
   for (std::size_t i = 0; i < a.size(); ++i) sum += (R * (a[i].t - mean_a) - (b[i].t - mean_b)).squaredNorm();
   return std::sqrt(sum / n);
 }
+
+template void addFalse<2>(Problem<2>&, const FalseKind&, std::size_t, Dice&);
+template void addFalse<3>(Problem<3>&, const FalseKind&, std::size_t, Dice&);
+template double apart<2>(const std::vector<Rigid<2>>&, const std::vector<Rigid<2>>&);
+template double apart<3>(const std::vector<Rigid<3>>&, const std::vector<Rigid<3>>&);
+
+namespace {
 
 template <int D>
 FalseOutcome makeOutcome(const Problem<D>& clean, const std::vector<Rigid<D>>& optimum, const FalseKind& kind,

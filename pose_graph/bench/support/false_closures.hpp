@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "problems.hpp"
+#include "urban_nav_core/testing/dice.hpp"
 
 namespace pose_graph::bench {
 
@@ -17,6 +19,14 @@ struct FalseKind {
 };
 constexpr FalseKind kFalseKinds[] = {
     {"random", false, 1}, {"random, in tens", false, 10}, {"local", true, 1}, {"local, in tens", true, 10}};
+
+/// Appends `count` false closures with the information of the graph's first closure.
+template <int D>
+void addFalse(Problem<D>& problem, const FalseKind& kind, std::size_t count, urban_nav_core::testing::Dice& dice);
+
+/// Root mean square of the distances of two sets of positions after the best rigid motion, metres.
+template <int D>
+double apart(const std::vector<Rigid<D>>& a, const std::vector<Rigid<D>>& b);
 
 /// What became of a graph with false closures added.
 struct FalseOutcome {
