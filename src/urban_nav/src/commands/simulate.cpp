@@ -47,6 +47,8 @@ SimulateJob makeJob(const Arguments& arguments) {
   for (const std::string& word : arguments.list("with")) job.session.defects.switchOn(word);
   for (const std::string& fault : arguments.all("fault"))
     job.session.faults.push_back(urban_nav_sim::parseFault(fault));
+  job.lags = arguments.all("lag");
+  job.misplaced = arguments.all("misplace");
   job.bag = arguments.get("output");
   if (std::filesystem::path(job.bag).extension() != ".bag")
     throw UserError("--output", job.bag, "a name that ends in .bag; the truth goes beside it");
@@ -134,6 +136,18 @@ Command simulateCommand() {
        "FAULT",
        "KIND:SENSOR:START_S:DURATION_S[:VALUE], KIND one of " + urban_nav_sim::faultList() +
            "; VALUE: share of drop and corrupt, seconds of jump",
+       false,
+       true,
+       {}},
+      {"--lag",
+       "DEVICE:S",
+       "stamps of laser_left, laser_right or panorama that are late by a constant time, in s",
+       false,
+       true,
+       {}},
+      {"--misplace",
+       "FRAME:ROLL,PITCH,YAW",
+       "a mounting error in deg, in /tf_static alone: laser_left:0,1,0",
        false,
        true,
        {}},

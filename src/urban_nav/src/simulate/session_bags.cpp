@@ -12,10 +12,11 @@ namespace urban_nav {
 
 using urban_nav_core::StampNs;
 
-SessionBags::SessionBags(std::string path, double part, const urban_nav_sim::Session& session)
+SessionBags::SessionBags(std::string path, double part, const urban_nav_sim::Session& session, CalibrationErrors errors)
     : path_(std::move(path)),
       part_(static_cast<StampNs>(std::llround(1e9 * part))),
       session_(session),
+      errors_(std::move(errors)),
       messages_(session) {
   begin();
 }
@@ -31,7 +32,9 @@ void SessionBags::begin() {
   const auto number = static_cast<StampNs>(paths_.size());
   paths_.push_back(makePath(paths_.size()));
   bag_.emplace(paths_.back());
-  bag_->writeStaticTransforms(session_.begin() + number * part_, urban_nav_sim::staticTransforms(session_));
+  std::vector<geometry_msgs::TransformStamped> transforms = urban_nav_sim::staticTransforms(session_);
+  errors_.apply(transforms);
+  bag_->writeStaticTransforms(session_.begin() + number * part_, transforms);
 }
 
 void SessionBags::end() {
@@ -45,8 +48,10 @@ void SessionBags::write(const urban_nav_sim::Measurement& measurement, StampNs t
     end();
     begin();
   }
-  for (const urban_nav_sim::TopicMessage& message : messages_.convert(measurement))
+  for (urban_nav_sim::TopicMessage& message : messages_.convert(measurement)) {
+    errors_.apply(message);
     std::visit([&](const auto& pointer) { bag_->write("/" + message.topic, taken, *pointer); }, message.message);
+  }
 }
 
 void SessionBags::commit() { end(); }

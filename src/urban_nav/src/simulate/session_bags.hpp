@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "convert/bag_writer.hpp"
+#include "simulate/calibration_errors.hpp"
 #include "urban_nav_sim/ros/measurement_messages.hpp"
 
 namespace urban_nav {
@@ -18,7 +19,7 @@ namespace urban_nav {
 class SessionBags {
  public:
   /// `part`: s of the session in a bag; 0: all of it.
-  SessionBags(std::string path, double part, const urban_nav_sim::Session& session);
+  SessionBags(std::string path, double part, const urban_nav_sim::Session& session, CalibrationErrors errors);
 
   /// `taken`, which does not decrease from call to call, is when a recorder receives it; the stamp in its header may be
   /// any.
@@ -39,6 +40,7 @@ class SessionBags {
   std::string path_;
   urban_nav_core::StampNs part_;  // ns; 0: no parts
   const urban_nav_sim::Session& session_;
+  const CalibrationErrors errors_;
   urban_nav_sim::MeasurementMessages messages_;
   std::vector<std::string> paths_;
   std::optional<BagWriter> bag_;

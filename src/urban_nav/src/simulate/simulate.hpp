@@ -14,9 +14,10 @@ class Console;
 
 struct SimulateJob {
   urban_nav_sim::SessionOptions session;
-  std::string bag, folder;      ///< folder: empty for none
-  double part = 0.0;            ///< s of the session in a bag; 0: one bag for all
-  double false_closures = 0.0;  ///< per cent of the true ones
+  std::string bag, folder;                             ///< folder: empty for none
+  double part = 0.0;                                   ///< s of the session in a bag; 0: one bag for all
+  double false_closures = 0.0;                         ///< per cent of the true ones
+  std::vector<std::string> lags = {}, misplaced = {};  ///< as parseCalibrationErrors() takes them
 };
 
 struct Simulated {

@@ -9,9 +9,12 @@
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/LaserScan.h>
+#include <tf2_msgs/TFMessage.h>
 
+#include <cmath>
 #include <csignal>
 #include <filesystem>
+#include <map>
 #include <opencv2/imgcodecs.hpp>
 
 #include "command_line/console.hpp"
@@ -44,6 +47,69 @@ int runSimulate(std::vector<std::string> words) {
   std::vector<const char*> argv;
   for (const std::string& word : words) argv.push_back(word.c_str());
   return runCommandLine({simulateCommand()}, static_cast<int>(argv.size()), argv.data());
+}
+
+template <typename Message>
+std::vector<Message> messagesOfTopic(const std::string& path, const std::string& topic) {
+  rosbag::Bag bag(path, rosbag::bagmode::Read);
+  rosbag::View view(bag, rosbag::TopicQuery(topic));
+  std::vector<Message> messages;
+  for (const rosbag::MessageInstance& instance : view) messages.push_back(*instance.instantiate<Message>());
+  return messages;
+}
+
+std::map<std::string, geometry_msgs::Quaternion> statedRotations(const std::string& path) {
+  std::map<std::string, geometry_msgs::Quaternion> rotations;
+  for (const auto& message : messagesOfTopic<tf2_msgs::TFMessage>(path, "/tf_static"))
+    for (const auto& transform : message.transforms) rotations[transform.child_frame_id] = transform.transform.rotation;
+  return rotations;
+}
+
+TEST(Simulate, LagsShiftStampsAndMisplacedFramesTurnInTfAlone) {
+  const TemporaryFolder right, wrong;
+  Console console;
+  SimulateJob job = shortJob(right);
+  job.session.sensors = {urban_nav_sim::Sensor::Lasers, urban_nav_sim::Sensor::Imu};
+  simulate(job, console);
+  job.bag = wrong.file("session.bag");
+  job.lags = {"laser_right:0.03"};
+  job.misplaced = {"laser_left:0,1,0"};
+  simulate(job, console);
+  for (const std::string side : {"left", "right"}) {
+    const auto before = messagesOfTopic<sensor_msgs::LaserScan>(right.file("session.bag"), "/laser_" + side + "/scan");
+    const auto after = messagesOfTopic<sensor_msgs::LaserScan>(job.bag, "/laser_" + side + "/scan");
+    ASSERT_EQ(before.size(), after.size());
+    ASSERT_FALSE(before.empty());
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      EXPECT_EQ((after[i].header.stamp - before[i].header.stamp).toNSec(), side == "right" ? 30'000'000 : 0);
+      EXPECT_EQ(after[i].ranges, before[i].ranges) << "measurements are the same";
+    }
+  }
+  EXPECT_EQ(readFile(right.file("session.truth/trajectory.tum")), readFile(wrong.file("session.truth/trajectory.tum")));
+  const auto before = statedRotations(right.file("session.bag")), after = statedRotations(job.bag);
+  ASSERT_EQ(before.size(), after.size());
+  for (const auto& [frame, q] : before) {
+    const geometry_msgs::Quaternion& p = after.at(frame);
+    const double cosine = std::min(1.0, std::abs(q.w * p.w + q.x * p.x + q.y * p.y + q.z * p.z));
+    EXPECT_NEAR(2.0 * std::acos(cosine) * 180.0 / M_PI, frame == "laser_left" ? 1.0 : 0.0, 1e-5) << frame;
+  }
+}
+
+TEST(Simulate, RefusesErrorsOfUnknownDevicesAndFrames) {
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"--lag", "stereo:0.1"},
+                                             {"--lag", "laser_left"},
+                                             {"--lag", "laser_left:fast"},
+                                             {"--lag", "laser_left:60"},
+                                             {"--misplace", "laser_left:1,2"},
+                                             {"--misplace", "nose:1,2,3"},
+                                             {"--misplace", "laser_left:1,2,x"}}) {
+    const TemporaryFolder folder;
+    std::vector<std::string> all = {"--duration", "0.2", "--sensors", "imu", "-o", folder.file("s.bag")};
+    all.insert(all.end(), words.begin(), words.end());
+    EXPECT_EQ(runSimulate(all), 2) << words[1];
+    EXPECT_FALSE(fs::exists(folder.file("s.bag")));
+  }
 }
 
 TEST(Simulate, WritesEveryTopicTheFolderAndTheTruth) {

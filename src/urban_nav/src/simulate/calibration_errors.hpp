@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_core/types/stamp.hpp"
+#include "urban_nav_sim/ros/measurement_messages.hpp"
+
+namespace urban_nav {
+
+/// Constant errors of a robot's calibration that a bag has: stamps of a device that are late, and frames whose rotation
+/// /tf_static states wrongly. Measurements and truth are those of the robot without them.
+struct CalibrationErrors {
+  std::map<std::string, urban_nav_core::StampNs> lags;    ///< by device: laser_left, laser_right, panorama
+  std::map<std::string, urban_nav_core::Matrix3d> turns;  ///< R_true_stated by frame
+
+  bool any() const { return !lags.empty() || !turns.empty(); }
+  /// Shifts the stamp of a message of a device with a lag.
+  void apply(urban_nav_sim::TopicMessage& message) const;
+  /// Turns the frames that are misplaced, about their own axes.
+  void apply(std::vector<geometry_msgs::TransformStamped>& transforms) const;
+};
+
+/// Returns the errors of the options --lag DEVICE:S and --misplace FRAME:ROLL,PITCH,YAW (deg). `frames`: of the robot.
+/// Throws UserError naming what is allowed.
+CalibrationErrors parseCalibrationErrors(const std::vector<std::string>& lags,
+                                         const std::vector<std::string>& misplaced,
+                                         const std::vector<std::string>& frames);
+
+}  // namespace urban_nav
