@@ -27,17 +27,29 @@ void ClosureSelector::beginSession() {
   travelled_ = 0.0;
 }
 
+/// After enough of them, one more has to be clearly likelier than all before.
+bool ClosureSelector::isWorthOneMore(const Proposed& before, double probability) const {
+  return before.count < enough_ || closureOdds(probability) >= clearly_likelier * before.best_odds;
+}
+
+void ClosureSelector::add(double probability, Proposed& proposed) {
+  proposed.expected += probability;
+  proposed.count += 1.0;
+  proposed.best_odds = std::max(proposed.best_odds, closureOdds(probability));
+}
+
 bool ClosureSelector::select(const PlacePosition& earlier, const PlacePosition& query, double probability) {
   allowance_ = std::min(most_allowance, allowance_ + per_metre_ * std::max(0.0, query.travelled - travelled_));
   travelled_ = std::max(travelled_, query.travelled);
   if (probability <= closure_probability_ || allowance_ < 1.0) return false;
   const auto number = [](double travelled) { return static_cast<std::int64_t>(std::floor(travelled / stretch)); };
-  Proposed& before = proposed_[{earlier.session, number(earlier.travelled), query.session, number(query.travelled)}];
-  if (before.expected >= enough_) return false;
-  if (before.count >= enough_ && closureOdds(probability) < clearly_likelier * before.best_odds) return false;
-  before.expected += probability;
-  before.count += 1.0;
-  before.best_odds = std::max(before.best_odds, closureOdds(probability));
+  Proposed& pair = proposed_[{earlier.session, number(earlier.travelled), query.session, number(query.travelled)}];
+  Proposed& unlikely = unlikely_[{query.session, number(query.travelled)}];
+  const bool is_unlikely = probability < 0.5;
+  if (pair.expected >= enough_ || !isWorthOneMore(pair, probability)) return false;
+  if (is_unlikely && !isWorthOneMore(unlikely, probability)) return false;
+  add(probability, pair);
+  if (is_unlikely) add(probability, unlikely);
   allowance_ -= 1.0;
   return true;
 }

@@ -18,6 +18,7 @@ namespace {
 constexpr double same_place_share = 0.5;
 constexpr std::size_t thinning = 4;     // of the descriptors of a first look
 constexpr int smallest_selection = 10;  // candidates without any look
+constexpr double usual_share = 0.1;     // of agreement at a revisit
 
 double logMeanOfExponentials(const std::vector<double>& logs) {
   const double top = *std::max_element(logs.begin(), logs.end());
@@ -27,6 +28,15 @@ double logMeanOfExponentials(const std::vector<double>& logs) {
 }
 
 }  // namespace
+
+std::vector<LocationHypothesis> locationHypotheses(const std::vector<PlaceMatch>& matches,
+                                                   const PlaceCalibration& alone, bool has_second_look) {
+  std::vector<LocationHypothesis> hypotheses;
+  for (const PlaceMatch& match : matches)
+    hypotheses.push_back({match.session, match.place, alone.logit(match.evidence),
+                          has_second_look ? match.evidence.look * match.evidence.look : usual_share});
+  return hypotheses;
+}
 
 PlaceMatcher::PlaceMatcher(const LikelihoodTable& table, const std::vector<WordSet>& sampled,
                            const MatcherOptions& options)
@@ -89,8 +99,8 @@ bool PlaceMatcher::showSamePlace(const Candidate& best, const Candidate& other) 
          secondLook(look(places_[best.place]), look(places_[other.place])).share > best.look.share * same_place_share;
 }
 
-PlaceMatch PlaceMatcher::judge(const DescribedPlace& query, const std::vector<Candidate>& candidates,
-                               std::size_t which) const {
+PlaceMatch PlaceMatcher::judge(const DescribedPlace& query, const std::vector<Candidate>& candidates, std::size_t which,
+                               double log_likelihood_new) const {
   const Candidate& one = candidates[which];
   PlaceMatch match;
   match.place = one.place;
@@ -108,16 +118,23 @@ PlaceMatch PlaceMatcher::judge(const DescribedPlace& query, const std::vector<Ca
   match.evidence.look = std::sqrt(one.look.share);
   match.evidence.look_margin = match.evidence.look - std::sqrt(other_share);
   match.evidence.word_margin = std::isfinite(other_likelihood) ? (one.log_likelihood - other_likelihood) / words : 0.0;
+  match.log_likelihood_new = std::isfinite(log_likelihood_new) ? log_likelihood_new : one.log_likelihood;
+  match.evidence.word_ratio = (match.log_likelihood - match.log_likelihood_new) / words;
   return match;
 }
 
-std::vector<PlaceMatch> PlaceMatcher::matches(const DescribedPlace& query,
-                                              const std::function<bool(std::size_t)>& isCandidate) const {
-  std::vector<double> likelihoods, at_samples;
-  index_.logLikelihoods(query.words, likelihoods);
+/// Infinite without sampled places.
+double PlaceMatcher::logLikelihoodNew(const WordSet& query) const {
+  std::vector<double> at_samples;
+  sampled_.logLikelihoods(query, at_samples);
+  return at_samples.empty() ? std::numeric_limits<double>::infinity() : logMeanOfExponentials(at_samples);
+}
+
+std::vector<PlaceMatcher::Candidate> PlaceMatcher::comparedCandidates(
+    const DescribedPlace& query, const std::vector<double>& likelihoods,
+    const std::function<bool(std::size_t)>& isCandidate) const {
   std::vector<Candidate> candidates = likeliest(likelihoods, isCandidate);
-  if (candidates.empty()) return {};
-  if (options_.second_looks > 0) {
+  if (options_.second_looks > 0 && !candidates.empty()) {
     const LookFeatures own = look(query);
     if (candidates.size() > static_cast<std::size_t>(options_.second_looks)) {
       compareAll(own, thinning, candidates);
@@ -130,16 +147,46 @@ std::vector<PlaceMatch> PlaceMatcher::matches(const DescribedPlace& query,
   std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
     return a.look.share != b.look.share ? a.look.share > b.look.share : a.log_likelihood > b.log_likelihood;
   });
-  sampled_.logLikelihoods(query.words, at_samples);
-  const double words = static_cast<double>(std::max<std::size_t>(1, query.words.size()));
+  return candidates;
+}
+
+std::vector<PlaceMatch> PlaceMatcher::matches(const DescribedPlace& query,
+                                              const std::function<bool(std::size_t)>& isCandidate) const {
+  std::vector<double> likelihoods;
+  index_.logLikelihoods(query.words, likelihoods);
+  const std::vector<Candidate> candidates = comparedCandidates(query, likelihoods, isCandidate);
+  if (candidates.empty()) return {};
+  const double at_new = logLikelihoodNew(query.words);
   std::vector<PlaceMatch> found;
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    PlaceMatch match = judge(query, candidates, i);
-    match.log_likelihood_new = at_samples.empty() ? match.log_likelihood : logMeanOfExponentials(at_samples);
-    match.evidence.word_ratio = (match.log_likelihood - match.log_likelihood_new) / words;
-    found.push_back(match);
-  }
+  for (std::size_t i = 0; i < candidates.size(); ++i) found.push_back(judge(query, candidates, i, at_new));
   return found;
+}
+
+PlaceComparison PlaceMatcher::compare(const DescribedPlace& query, std::size_t place,
+                                      const std::function<bool(std::size_t)>& isCandidate) const {
+  PlaceComparison comparison;
+  std::vector<double> likelihoods;
+  index_.logLikelihoods(query.words, likelihoods);
+  std::vector<Candidate> candidates = comparedCandidates(query, likelihoods, isCandidate);
+  auto found = std::find_if(candidates.begin(), candidates.end(),
+                            [place](const Candidate& candidate) { return candidate.place == place; });
+  comparison.is_compared = found != candidates.end();
+  comparison.is_first = comparison.is_compared && found == candidates.begin();
+  if (!comparison.is_compared) {
+    candidates.push_back({place, likelihoods[place], {}});
+    if (options_.second_looks > 0) candidates.back().look = secondLook(look(query), look(places_[place]));
+    found = candidates.end() - 1;
+  }
+  comparison.look = found->look;
+  comparison.match =
+      judge(query, candidates, static_cast<std::size_t>(found - candidates.begin()), logLikelihoodNew(query.words));
+  comparison.rank_by_words = 1;
+  for (std::size_t i = 0; i < likelihoods.size(); ++i) {
+    if (!isCandidate(i)) continue;
+    ++comparison.candidates;
+    comparison.rank_by_words += likelihoods[i] > likelihoods[place] ? 1u : 0u;
+  }
+  return comparison;
 }
 
 std::optional<PlaceMatch> PlaceMatcher::match(const DescribedPlace& query,

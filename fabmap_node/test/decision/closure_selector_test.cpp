@@ -47,6 +47,17 @@ TEST(ClosureSelector, TriesStretchesThatLookAlikeAFewTimesOnly) {
   EXPECT_FALSE(selector.select({0, 1.0}, {1, 4.3}, 0.3));
 }
 
+TEST(ClosureSelector, StretchesWithoutAnythingKnownProposeLittle) {
+  Parameters parameters;
+  parameters.closures_per_metre = 1000.0;
+  ClosureSelector selector(parameters);
+  int proposed = 0;
+  for (int i = 0; i < 40; ++i) proposed += selector.select({0, 37.0 * i}, {1, 0.1 * i}, 0.2) ? 1 : 0;
+  EXPECT_EQ(proposed, 3) << "another place each time, none of them likely";
+  EXPECT_TRUE(selector.select({0, 2000.0}, {1, 4.5}, 0.9)) << "likely ones are not limited by them";
+  EXPECT_TRUE(selector.select({0, 2100.0}, {1, 5.5}, 0.2)) << "another stretch";
+}
+
 TEST(TravelledDistance, InterpolatesAndIgnoresWhatIsOutOfOrder) {
   TravelledDistance travelled;
   EXPECT_EQ(travelled.at(5), 0.0);

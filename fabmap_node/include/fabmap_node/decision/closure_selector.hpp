@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <tuple>
+#include <utility>
 
 #include "fabmap_node/parameters.hpp"
 
@@ -30,17 +31,22 @@ class ClosureSelector {
   bool select(const PlacePosition& earlier, const PlacePosition& query, double probability);
 
  private:
+  using Stretch = std::pair<std::size_t, std::int64_t>;
   using StretchPair = std::tuple<std::size_t, std::int64_t, std::size_t, std::int64_t>;
 
-  /// Closures proposed between two stretches.
+  /// Closures proposed between two stretches, or from one.
   struct Proposed {
     double expected = 0.0;  ///< sum of their probabilities
     double count = 0.0, best_odds = 0.0;
   };
 
+  bool isWorthOneMore(const Proposed& before, double probability) const;
+  static void add(double probability, Proposed& proposed);
+
   double closure_probability_, per_metre_, enough_;
   double allowance_ = 0.0, travelled_ = 0.0;
   std::map<StretchPair, Proposed> proposed_;
+  std::map<Stretch, Proposed> unlikely_;  // by the stretch of the query
 };
 
 }  // namespace fabmap_node

@@ -9,6 +9,7 @@
 
 #include "fabmap_node/model/place_model.hpp"
 #include "fabmap_node/places/place_index.hpp"
+#include "fabmap_node/recognition/location_filter.hpp"
 #include "fabmap_node/recognition/second_look.hpp"
 #include "urban_nav_core/types/stamp.hpp"
 
@@ -38,6 +39,21 @@ struct PlaceMatch {
   PlaceEvidence evidence;
 };
 
+/// One place held against a query, whether or not a search would compare it.
+struct PlaceComparison {
+  PlaceMatch match;
+  LookAgreement look;             ///< zero without a second look
+  std::size_t candidates = 0;     ///< places that were admitted
+  std::size_t rank_by_words = 0;  ///< of the place among them; 1: the likeliest
+  bool is_compared = false;       ///< a search compares it descriptor by descriptor
+  bool is_first = false;          ///< a search returns it as the most likely one
+};
+
+/// Returns matches as hypotheses about the location, with the evidence of the observation alone.
+/// `has_second_look`: it is their agreement; otherwise all agree alike.
+std::vector<LocationHypothesis> locationHypotheses(const std::vector<PlaceMatch>& matches,
+                                                   const PlaceCalibration& alone, bool has_second_look);
+
 /// Places with their words and descriptors, and the search for the one that an observation shows (Newman et al. 2009,
 /// section 3): likelihoods of words first, then a second look at the likeliest candidates. The likelihood of a new
 /// place is the mean over the model's sampled places (Cummins and Newman 2008, section 4.4.2).
@@ -60,6 +76,9 @@ class PlaceMatcher {
   /// Returns the first of matches().
   std::optional<PlaceMatch> match(const DescribedPlace& query,
                                   const std::function<bool(std::size_t)>& isCandidate) const;
+  /// Returns the evidence that a query shows `place`, which need not be a candidate. Requires place < size().
+  PlaceComparison compare(const DescribedPlace& query, std::size_t place,
+                          const std::function<bool(std::size_t)>& isCandidate) const;
 
  private:
   struct Candidate {
@@ -71,8 +90,12 @@ class PlaceMatcher {
   std::vector<Candidate> likeliest(const std::vector<double>& likelihoods,
                                    const std::function<bool(std::size_t)>& isCandidate) const;
   std::vector<Candidate> selectVaried(const std::vector<Candidate>& ranked, int most) const;
+  std::vector<Candidate> comparedCandidates(const DescribedPlace& query, const std::vector<double>& likelihoods,
+                                            const std::function<bool(std::size_t)>& isCandidate) const;
+  double logLikelihoodNew(const WordSet& query) const;
   void compareAll(const LookFeatures& query, std::size_t step, std::vector<Candidate>& candidates) const;
-  PlaceMatch judge(const DescribedPlace& query, const std::vector<Candidate>& candidates, std::size_t which) const;
+  PlaceMatch judge(const DescribedPlace& query, const std::vector<Candidate>& candidates, std::size_t which,
+                   double log_likelihood_new) const;
   bool showSamePlace(const Candidate& best, const Candidate& other) const;
   LookFeatures look(const DescribedPlace& place) const;
 

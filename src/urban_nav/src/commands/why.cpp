@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <cmath>
 
 #include "command_line/console.hpp"
 #include "commands/commands.hpp"
 #include "explain/explanation.hpp"
+#include "explain/place_pair.hpp"
 #include "pipeline/parameters.hpp"
 #include "report/plot.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
@@ -27,20 +27,24 @@ const StoredClosure& byNumber(const std::vector<StoredClosure>& closures, std::i
   return closures[static_cast<std::size_t>(id - 1)];
 }
 
-const StoredClosure& byTimes(const std::vector<StoredClosure>& closures, const std::string& path, const TimeQuery& one,
-                             const TimeQuery& other) {
-  if (closures.empty()) throw DataError(path, "holds no closures", "");
+/// The closure nearest to two times; null if none is within kNear of both.
+const StoredClosure* byTimes(const std::vector<StoredClosure>& closures, const TimeQuery& one, const TimeQuery& other) {
   const auto nearest = std::min_element(closures.begin(), closures.end(), [&](const auto& x, const auto& y) {
     return computeDistance(x, one, other) < computeDistance(y, one, other);
   });
-  if (const double distance = computeDistance(*nearest, one, other); !(distance <= kNear))
-    throw DataError(path,
-                    "no candidate lies within 1 s of these moments: closures.csv does not pair them" +
-                        (std::isfinite(distance) ? "; the nearest is " + std::to_string(nearest->id) + ", " +
-                                                       forPerson(distance, 3) + " s off"
-                                                 : std::string()),
-                    "");
-  return *nearest;
+  return nearest != closures.end() && computeDistance(*nearest, one, other) <= kNear ? &*nearest : nullptr;
+}
+
+/// Explains a pair that was never proposed.
+void explainUnproposed(const Arguments& arguments, urban_nav_store::Store& store, const TimeQuery& one,
+                       const TimeQuery& other, Console& console) {
+  const PlacePair pair = explainPlaces(store, one, other, loadParameters(arguments).get(fabmap_node::table()));
+  console.print(explain(pair));
+  if (arguments.has("output")) {
+    urban_nav_core::writeAtomically(arguments.get("output"), renderPage(explainOnPage(pair, store.path())));
+    console.print(arguments.get("output") + "\n");
+  }
+  if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), explainAsJson(pair).print());
 }
 
 int runWhy(const Arguments& arguments, Console& console) {
@@ -57,9 +61,18 @@ int runWhy(const Arguments& arguments, Console& console) {
     console.print(makeList(closures));
     return 0;
   }
-  const StoredClosure& closure = moments ? byTimes(closures, store.path(), parseTimeQuery(arguments.get("T1"), "T1"),
-                                                   parseTimeQuery(arguments.get("T2"), "T2"))
-                                         : byNumber(closures, arguments.integer("closure", 0, 1, 1'000'000'000));
+  const StoredClosure* found = nullptr;
+  if (moments) {
+    const TimeQuery one = parseTimeQuery(arguments.get("T1"), "T1"), other = parseTimeQuery(arguments.get("T2"), "T2");
+    found = byTimes(closures, one, other);
+    if (found == nullptr) {
+      explainUnproposed(arguments, store, one, other, console);
+      return 0;
+    }
+  } else {
+    found = &byNumber(closures, arguments.integer("closure", 0, 1, 1'000'000'000));
+  }
+  const StoredClosure& closure = *found;
   console.print(explain(closure));
   if (arguments.has("output")) {
     urban_nav_core::writeAtomically(arguments.get("output"),
@@ -75,7 +88,8 @@ int runWhy(const Arguments& arguments, Console& console) {
 Command whyCommand() {
   Command command;
   command.name = "why";
-  command.summary = "Says why a loop closure was accepted or rejected, from the evidence in a session store.";
+  command.summary =
+      "Says why a loop closure was accepted or rejected, or never proposed, from the evidence in a session store.";
   command.options = {
       {"STORE", "", "session.db of a map; it is only read", true, false, {}},
       {"T1",
