@@ -18,7 +18,6 @@ namespace {
 constexpr double same_place_share = 0.5;
 constexpr std::size_t thinning = 4;     // of the descriptors of a first look
 constexpr int smallest_selection = 10;  // candidates without any look
-constexpr double usual_share = 0.1;     // of agreement at a revisit
 
 double logMeanOfExponentials(const std::vector<double>& logs) {
   const double top = *std::max_element(logs.begin(), logs.end());
@@ -28,15 +27,6 @@ double logMeanOfExponentials(const std::vector<double>& logs) {
 }
 
 }  // namespace
-
-std::vector<LocationHypothesis> locationHypotheses(const std::vector<PlaceMatch>& matches,
-                                                   const PlaceCalibration& alone, bool has_second_look) {
-  std::vector<LocationHypothesis> hypotheses;
-  for (const PlaceMatch& match : matches)
-    hypotheses.push_back({match.session, match.place, alone.logit(match.evidence),
-                          has_second_look ? match.evidence.look * match.evidence.look : usual_share});
-  return hypotheses;
-}
 
 PlaceMatcher::PlaceMatcher(const LikelihoodTable& table, const std::vector<WordSet>& sampled,
                            const MatcherOptions& options)

@@ -9,7 +9,6 @@
 
 #include "fabmap_node/model/place_model.hpp"
 #include "fabmap_node/places/place_index.hpp"
-#include "fabmap_node/recognition/location_filter.hpp"
 #include "fabmap_node/recognition/second_look.hpp"
 #include "urban_nav_core/types/stamp.hpp"
 
@@ -48,11 +47,6 @@ struct PlaceComparison {
   bool is_compared = false;       ///< a search compares it descriptor by descriptor
   bool is_first = false;          ///< a search returns it as the most likely one
 };
-
-/// Returns matches as hypotheses about the location, with the evidence of the observation alone.
-/// `has_second_look`: it is their agreement; otherwise all agree alike.
-std::vector<LocationHypothesis> locationHypotheses(const std::vector<PlaceMatch>& matches,
-                                                   const PlaceCalibration& alone, bool has_second_look);
 
 /// Places with their words and descriptors, and the search for the one that an observation shows (Newman et al. 2009,
 /// section 3): likelihoods of words first, then a second look at the likeliest candidates. The likelihood of a new
