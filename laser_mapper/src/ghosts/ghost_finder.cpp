@@ -24,7 +24,7 @@ constexpr const char* kGhostState = "laser_mapper_ghosts";
 constexpr double kLongestSight = 20.0;     // m, from the path
 constexpr std::size_t kCachedChunks = 96;  // some 1 MB each
 constexpr StampNs kPathStep = 250'000'000;
-constexpr std::size_t kCandidatesPerTask = 256;
+constexpr std::size_t kCandidatesPerTask = 256, kChunksPerRound = 16;
 
 /// First and last time at which a cube and those beside it had a beam.
 struct SeenTimes {
@@ -160,20 +160,35 @@ std::shared_ptr<const ChunkBeams> GhostFinder::beams(std::size_t chunk) {
   return made;
 }
 
+void GhostFinder::lookAtAll(const std::vector<Row>& rows, const std::vector<std::size_t>& chunks,
+                            std::vector<Candidate>& candidates) {
+  std::vector<std::shared_ptr<const ChunkBeams>> seen;
+  for (const std::size_t chunk : chunks) seen.push_back(beams(chunk));
+  urban_nav_core::forEach(candidates.size(), kCandidatesPerTask, [&](std::size_t i) {
+    Candidate& candidate = candidates[i];
+    for (std::size_t c = 0; c < chunks.size(); ++c) {
+      if (!isApart(rows[candidate.row].chunk, chunks[c])) continue;
+      const Sight sight = seen[c]->look(candidate.p);
+      if (sight == Sight::Through) ++candidate.through;
+      if (sight == Sight::Hit) ++candidate.hits;
+    }
+  });
+}
+
 void GhostFinder::updateTile(const Tile& tile, const std::vector<std::size_t>& holders,
                              const std::vector<std::size_t>& reaching) {
   std::vector<Row> rows = readRows(tile, holders);
   std::vector<Candidate> candidates = findCandidates(rows);
-  for (const std::size_t chunk : reaching) {
-    const bool apart = std::any_of(rows.begin(), rows.end(), [&](const Row& row) { return isApart(row.chunk, chunk); });
-    if (!apart || candidates.empty()) continue;
-    const std::shared_ptr<const ChunkBeams> seen = beams(chunk);
-    urban_nav_core::forEach(candidates.size(), kCandidatesPerTask, [&](std::size_t i) {
-      if (!isApart(rows[candidates[i].row].chunk, chunk)) return;
-      const Sight sight = seen->look(candidates[i].p);
-      if (sight == Sight::Through) ++candidates[i].through;
-      if (sight == Sight::Hit) ++candidates[i].hits;
-    });
+  std::vector<std::size_t> asked;
+  for (const std::size_t chunk : reaching)
+    if (std::any_of(rows.begin(), rows.end(), [&](const Row& row) { return isApart(row.chunk, chunk); }))
+      asked.push_back(chunk);
+  if (candidates.empty()) asked.clear();
+  for (std::size_t first = 0; first < asked.size(); first += kChunksPerRound) {
+    const std::vector<std::size_t> round(
+        asked.begin() + static_cast<std::ptrdiff_t>(first),
+        asked.begin() + static_cast<std::ptrdiff_t>(std::min(asked.size(), first + kChunksPerRound)));
+    lookAtAll(rows, round, candidates);
   }
   std::vector<std::vector<std::uint8_t>> ghosts;
   for (const Row& row : rows) ghosts.emplace_back(row.cells.size(), 0);

@@ -54,6 +54,9 @@ class GhostFinder {
   void updateTile(const Tile& tile, const std::vector<std::size_t>& holders, const std::vector<std::size_t>& reaching);
   std::vector<Row> readRows(const Tile& tile, const std::vector<std::size_t>& holders) const;
   std::vector<Candidate> findCandidates(const std::vector<Row>& rows) const;
+  /// Counts for each candidate what the beams of the chunks say of it.
+  void lookAtAll(const std::vector<Row>& rows, const std::vector<std::size_t>& chunks,
+                 std::vector<Candidate>& candidates);
   std::shared_ptr<const ChunkBeams> beams(std::size_t chunk);
   bool isApart(std::size_t a, std::size_t b) const;
 
