@@ -17,10 +17,11 @@ namespace pose_graph {
 
 namespace {
 
-// A covariance from 24 samples is good to three tenths, and inverted too large by 24 / (23 - N) (the mean of an inverse
-// Wishart matrix), which is taken off. Chosen for its time; whether more would decide better is not measured.
-constexpr int kDisturbances = 24;
 constexpr int kAtOnce = 8;
+// Of the inverse of a covariance from as many samples (the mean of an inverse Wishart matrix).
+template <int D>
+constexpr double kShrink =
+    static_cast<double>(ClosureEvaluator<D>::kDisturbances - tangent_size<D> - 1) / ClosureEvaluator<D>::kDisturbances;
 
 template <int D>
 using Eight = Eigen::Matrix<double, tangent_size<D>, kAtOnce, Eigen::RowMajor>;
@@ -62,36 +63,28 @@ ClosureEvaluator<D>::ClosureEvaluator(const Problem<D>& problem, const std::vect
 }
 
 template <int D>
-Evidence ClosureEvaluator<D>::evaluate(AcceptedGraph<D>& graph, const std::vector<char>& in,
-                                       const std::vector<Rigid<D>>& poses, double variance,
-                                       const std::vector<int>& small_group, double uncontrolled) const {
-  constexpr int N = tangent_size<D>;
-  using Samples = Eigen::Matrix<double, N, kDisturbances, Eigen::RowMajor>;
-  const std::size_t edges = problem_->edges.size();
-  Evidence made;
-  made.chi2.assign(edges, 0.0);
-  made.group_chi2.assign(edges, 0.0);
-  made.likelier.assign(edges, 0.0);
-  made.group_likelier.assign(edges, 0.0);
-  made.variance = variance;
-  made.known = graph.factor(poses);
-  if (!made.known) return made;
-
-  std::vector<WhitenedJacobians<D>> at(edges);
-  std::vector<char> is_candidate(edges, 0);
+std::vector<WhitenedJacobians<D>> ClosureEvaluator<D>::linearise(const std::vector<char>& in,
+                                                                 const std::vector<Rigid<D>>& poses) const {
+  std::vector<WhitenedJacobians<D>> at(edges_.size());
+  std::vector<char> is_candidate(edges_.size(), 0);
   for (int e : candidates_) is_candidate[sz(e)] = 1;
-  for (std::size_t e = 0; e < edges; ++e)
+  for (std::size_t e = 0; e < edges_.size(); ++e)
     if (in[e] || is_candidate[e])
       at[e] = whitenedJacobians(edges_[e], poses[sz(edges_[e].from)], poses[sz(edges_[e].to)]);
+  return at;
+}
 
-  // What the disturbances do to each candidate: to its residual if inside, to its prediction if outside.
+template <int D>
+std::vector<typename ClosureEvaluator<D>::Samples> ClosureEvaluator<D>::disturb(
+    AcceptedGraph<D>& graph, const std::vector<char>& in, const std::vector<WhitenedJacobians<D>>& at) const {
+  constexpr int N = tangent_size<D>;
   std::vector<Samples> moved(candidates_.size(), Samples::Zero());
   std::vector<double> x;
   const auto at_place = [&x](int place) { return x.data() + sz(place * N * kAtOnce); };
   static const auto kernels = urban_nav_core::kernels::instructionSets().front();
   for (int first = 0; first < kDisturbances && graph.unknowns() > 0; first += kAtOnce) {
     x.assign(sz(graph.unknowns() * N * kAtOnce), 0.0);
-    for (std::size_t e = 0; e < edges; ++e) {
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
       if (!in[e]) continue;
       const int from = graph.place(edges_[e].from), to = graph.place(edges_[e].to);
       const Eight<D> y = -disturbances<D>(e, first);
@@ -109,68 +102,96 @@ Evidence ClosureEvaluator<D>::evaluate(AcceptedGraph<D>& graph, const std::vecto
       moved[k].template middleCols<kAtOnce>(first) = z;
     }
   }
+  return moved;
+}
 
-  constexpr double kShrink = static_cast<double>(kDisturbances - N - 1) / kDisturbances;
+template <int D>
+void ClosureEvaluator<D>::evaluateOne(std::size_t k, bool inside, const WhitenedJacobians<D>& at, const Samples& moved,
+                                      double uncontrolled, Evidence& made) const {
+  constexpr int N = tangent_size<D>;
+  const std::size_t e = sz(candidates_[k]);
+  const int rank = edges_[e].rank;
+  TangentMatrix<D> C = moved.lazyProduct(moved.transpose()) / kDisturbances;
+  for (int a = rank; a < N; ++a) C(a, a) = 1.0;  // measures nothing there: rows of W are zero, so is the error
+  double log = false_log_[k] - 0.5 * rank * std::log(2.0 * M_PI);
+  if (inside) {
+    // What is left of its own unit covariance is the inverse of that which its residual would have were it outside.
+    log += 0.5 * std::log(std::max(1e-300, C.determinant()));
+    C.diagonal().array() += uncontrolled;
+    made.chi2[e] = at.error.dot(urban_nav_core::SmallCholesky<N>(C).solve(at.error)) * kShrink<D> / made.variance;
+  } else {
+    C.topLeftCorner(rank, rank) /= kShrink<D>;
+    C.diagonal().head(rank).array() += 1.0;
+    const urban_nav_core::SmallCholesky<N> factored(C);
+    made.chi2[e] = at.error.dot(factored.solve(at.error)) / made.variance;
+    for (int a = 0; a < rank; ++a) log -= std::log(factored.factor()(a, a));
+  }
+  made.likelier[e] = logInlierLikelihood(log, rank, made.chi2[e] * made.variance, made.variance);
+}
+
+// One bias of a whole group: its far ends moved as one body.
+template <int D>
+void ClosureEvaluator<D>::evaluateGroup(const std::vector<std::size_t>& members, const std::vector<Rigid<D>>& poses,
+                                        const std::vector<WhitenedJacobians<D>>& at, const std::vector<Samples>& moved,
+                                        double uncontrolled, Evidence& made) const {
+  constexpr int N = tangent_size<D>;
+  Samples spread = Samples::Zero();
+  Tangent<D> sum = Tangent<D>::Zero();
+  TangentMatrix<D> weight = TangentMatrix<D>::Zero();
+  const WhitenedEdge<D>& head = edges_[sz(candidates_[members.front()])];
+  const Eigen::Matrix<double, D, 1> middle = poses[sz(std::max(head.from, head.to))].t;
+  for (std::size_t k : members) {
+    const std::size_t e = sz(candidates_[k]);
+    const bool forward = edges_[e].from < edges_[e].to;
+    const Rigid<D>& end = poses[sz(forward ? edges_[e].to : edges_[e].from)];
+    TangentMatrix<D> body = TangentMatrix<D>::Identity();
+    body.template topRightCorner<D, rotation_size<D>>() = turned(Eigen::Matrix<double, D, 1>(end.t - middle));
+    const TangentMatrix<D> bias = (forward ? at[e].by_to : at[e].by_from) * body;
+    spread.noalias() += bias.transpose() * moved[k];
+    sum.noalias() += bias.transpose() * at[e].error;
+    weight.noalias() += bias.transpose() * bias;
+  }
+  TangentMatrix<D> C = spread.lazyProduct(spread.transpose()) / kDisturbances + uncontrolled * weight;
+  C.diagonal().array() += 1e-12 * std::max(1e-300, C.diagonal().maxCoeff());
+  const double chi2 = sum.dot(urban_nav_core::SmallCholesky<N>(C).solve(sum)) * kShrink<D> / made.variance;
+  double width = 0.0;
+  for (std::size_t k : members) width = std::max(width, width_log_[k]);
+  const double log = width - 0.5 * N * std::log(2.0 * M_PI) + 0.5 * std::log(std::max(1e-300, C.determinant()));
+  for (std::size_t k : members) {
+    made.group_chi2[sz(candidates_[k])] = std::isfinite(chi2) ? chi2 : 0.0;
+    made.group_likelier[sz(candidates_[k])] = logInlierLikelihood(log, N, chi2 * made.variance, made.variance);
+  }
+}
+
+template <int D>
+Evidence ClosureEvaluator<D>::evaluate(AcceptedGraph<D>& graph, const std::vector<char>& in,
+                                       const std::vector<Rigid<D>>& poses, double variance,
+                                       const std::vector<int>& small_group, double uncontrolled) const {
+  const std::size_t edges = problem_->edges.size();
+  Evidence made;
+  made.chi2.assign(edges, 0.0);
+  made.group_chi2.assign(edges, 0.0);
+  made.likelier.assign(edges, 0.0);
+  made.group_likelier.assign(edges, 0.0);
+  made.variance = variance;
+  made.known = graph.factor(poses);
+  if (!made.known) return made;
+
+  const std::vector<WhitenedJacobians<D>> at = linearise(in, poses);
+  const std::vector<Samples> moved = disturb(graph, in, at);
   std::map<int, std::vector<std::size_t>> groups;
   for (std::size_t k = 0; k < candidates_.size(); ++k) {
     const std::size_t e = sz(candidates_[k]);
-    const WhitenedEdge<D>& edge = edges_[e];
-    if (graph.component(edge.from) != graph.component(edge.to)) {
+    if (graph.component(edges_[e].from) != graph.component(edges_[e].to)) {
       made.chi2[e] = made.likelier[e] = std::numeric_limits<double>::infinity();
       made.likelier[e] *= -1.0;
       continue;
     }
-    TangentMatrix<D> C = moved[k].lazyProduct(moved[k].transpose()) / kDisturbances;
-    for (int a = edge.rank; a < N; ++a) C(a, a) = 1.0;  // measures nothing there: rows of W are zero, so is the error
-    const double log_at_zero = false_log_[k] - 0.5 * edge.rank * std::log(2.0 * M_PI);
-    if (in[e]) {
-      // What is left of its own unit covariance is the inverse of that which its residual would have were it outside.
-      const double log = log_at_zero + 0.5 * std::log(std::max(1e-300, C.determinant()));
-      C.diagonal().array() += uncontrolled;
-      made.chi2[e] = at[e].error.dot(urban_nav_core::SmallCholesky<N>(C).solve(at[e].error)) * kShrink / variance;
-      made.likelier[e] = logInlierLikelihood(log, edge.rank, made.chi2[e] * variance, variance);
-      if (small_group[e] >= 0) groups[small_group[e]].push_back(k);
-      continue;
-    }
-    C.topLeftCorner(edge.rank, edge.rank) /= kShrink;
-    C.diagonal().head(edge.rank).array() += 1.0;
-    const urban_nav_core::SmallCholesky<N> factored(C);
-    made.chi2[e] = at[e].error.dot(factored.solve(at[e].error)) / variance;
-    double log = log_at_zero;
-    for (int a = 0; a < edge.rank; ++a) log -= std::log(factored.factor()(a, a));
-    made.likelier[e] = logInlierLikelihood(log, edge.rank, made.chi2[e] * variance, variance);
+    evaluateOne(k, in[e] != 0, at[e], moved[k], uncontrolled, made);
+    if (in[e] && small_group[e] >= 0) groups[small_group[e]].push_back(k);
   }
-
-  // One bias of a whole group: its far ends moved as one body.
-  for (const auto& [name, members] : groups) {
-    if (members.size() < 2) continue;
-    Samples spread = Samples::Zero();
-    Tangent<D> sum = Tangent<D>::Zero();
-    TangentMatrix<D> weight = TangentMatrix<D>::Zero();
-    const WhitenedEdge<D>& head = edges_[sz(candidates_[members.front()])];
-    const Eigen::Matrix<double, D, 1> middle = poses[sz(std::max(head.from, head.to))].t;
-    for (std::size_t k : members) {
-      const std::size_t e = sz(candidates_[k]);
-      const bool forward = edges_[e].from < edges_[e].to;
-      const Rigid<D>& end = poses[sz(forward ? edges_[e].to : edges_[e].from)];
-      TangentMatrix<D> body = TangentMatrix<D>::Identity();
-      body.template topRightCorner<D, rotation_size<D>>() = turned(Eigen::Matrix<double, D, 1>(end.t - middle));
-      const TangentMatrix<D> bias = (forward ? at[e].by_to : at[e].by_from) * body;
-      spread.noalias() += bias.transpose() * moved[k];
-      sum.noalias() += bias.transpose() * at[e].error;
-      weight.noalias() += bias.transpose() * bias;
-    }
-    TangentMatrix<D> C = spread.lazyProduct(spread.transpose()) / kDisturbances + uncontrolled * weight;
-    C.diagonal().array() += 1e-12 * std::max(1e-300, C.diagonal().maxCoeff());
-    const double chi2 = sum.dot(urban_nav_core::SmallCholesky<N>(C).solve(sum)) * kShrink / variance;
-    double width = 0.0;
-    for (std::size_t k : members) width = std::max(width, width_log_[k]);
-    const double log = width - 0.5 * N * std::log(2.0 * M_PI) + 0.5 * std::log(std::max(1e-300, C.determinant()));
-    for (std::size_t k : members) {
-      made.group_chi2[sz(candidates_[k])] = std::isfinite(chi2) ? chi2 : 0.0;
-      made.group_likelier[sz(candidates_[k])] = logInlierLikelihood(log, N, chi2 * variance, variance);
-    }
-  }
+  for (const auto& [name, members] : groups)
+    if (members.size() > 1) evaluateGroup(members, poses, at, moved, uncontrolled, made);
   return made;
 }
 
