@@ -133,7 +133,7 @@ void Colouriser::addSurface(const std::vector<MapPoint>& points) {
   });
   for (const MapPoint& point : points) {
     if (seen_++ % sample_step_ != 0 || point.normal.squaredNorm() < 0.5F) continue;
-    samples_.push_back(point.p);
+    samples_.push_back(point);
     if (samples_.size() < kMaxSamples) continue;
     for (std::size_t i = 0; 2 * i < samples_.size(); ++i) samples_[i] = samples_[2 * i];
     samples_.resize(samples_.size() / 2);
@@ -148,8 +148,8 @@ void Colouriser::equalise() {
     if (picture->bgr.empty()) continue;
     const ViewData& data = data_[view];
     for (std::size_t i = 0; i < samples_.size(); ++i) {
-      const auto at = data.projection.project(samples_[i]);
-      if (!at || !data.depth.isVisible(*at)) continue;
+      const auto at = data.projection.project(samples_[i].p);
+      if (!at || !data.depth.isVisible(*at, data.projection.toCamera(samples_[i]))) continue;
       const Colour colour = patchColour(*picture, *at, 2.0 * voxel_, data.projection.focal());
       if (isUsable(colour)) observations.push_back({view, i, colour});
     }
@@ -182,7 +182,7 @@ std::size_t Colouriser::colour(std::vector<MapPoint>& points) {
     const ViewData& data = data_[view];
     urban_nav_core::forEach(points.size(), kPointGrain, [&](std::size_t i) {
       const auto at = data.projection.project(points[i].p);
-      if (!at || !data.depth.isVisible(*at)) return;
+      if (!at || !data.depth.isVisible(*at, data.projection.toCamera(points[i]))) return;
       PointView seen{viewWeight(points[i], *at, data.projection),
                      patchColour(*picture, *at, voxel_, data.projection.focal())};
       for (std::size_t c = 0; c < 3; ++c) seen.colour[c] *= gains_[view][c];

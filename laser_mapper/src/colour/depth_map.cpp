@@ -17,6 +17,7 @@ constexpr int kReduction = 4;                                 // pixels of the i
 constexpr int kLargestPoint = 6;                              // px of the depth map
 constexpr float kDepthTolerance = 0.1F, kDepthShare = 0.03F;  // m, and of the distance: a surface does not hide itself
 constexpr float kEdgeTolerance = 0.3F;                        // m: an edge beside the line of sight
+constexpr double kPlaneTolerance = 0.1;                       // m: how uneven a surface is
 
 /// Tangent of the widest angle that an image shows along one axis, with 5 % to spare.
 double widestTangent(const urban_nav_core::RawCamera& camera, bool horizontal) {
@@ -55,9 +56,14 @@ std::optional<ImagePoint> ViewProjection::project(const Eigen::Vector3f& p) cons
   return ImagePoint{pixel->x(), pixel->y(), depth};
 }
 
+SurfacePoint ViewProjection::toCamera(const MapPoint& point) const {
+  return {R_ * point.p.cast<double>() + t_, R_ * point.normal.cast<double>()};
+}
+
 DepthMap::DepthMap(const ColourView& view)
     : width_((view.camera.pinhole.width + kReduction - 1) / kReduction),
       height_((view.camera.pinhole.height + kReduction - 1) / kReduction),
+      focal_(view.camera.pinhole.fx, view.camera.pinhole.fy),
       depth_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),
              std::numeric_limits<float>::infinity()) {}
 
@@ -73,7 +79,16 @@ void DepthMap::add(const ImagePoint& at, double edge, double focal) {
     }
 }
 
-bool DepthMap::isVisible(const ImagePoint& at) const {
+bool DepthMap::isOnPlane(const ImagePoint& at, const SurfacePoint& surface, int u, int v, double front) const {
+  if (surface.normal.squaredNorm() < 0.5) return false;
+  const Eigen::Vector2d away(kReduction * (u + 0.5) - at.u, kReduction * (v + 0.5) - at.v);  // px, to the cell's middle
+  const Vector3d ray = surface.p / surface.p.z() +
+                       Vector3d(away.x() / focal_.x(), away.y() / focal_.y(), 0.0);  // the lens bends neighbours alike
+  const double within_cell = 0.5 * kReduction / focal_.x() * front;
+  return std::abs(surface.normal.dot(front * ray.normalized() - surface.p)) < kPlaneTolerance + within_cell;
+}
+
+bool DepthMap::isVisible(const ImagePoint& at, const SurfacePoint& surface) const {
   const int u0 = static_cast<int>(at.u / kReduction), v0 = static_cast<int>(at.v / kReduction);
   const auto depth = static_cast<float>(at.depth);
   for (int v = std::max(0, v0 - 1); v <= std::min(height_ - 1, v0 + 1); ++v)
@@ -81,7 +96,9 @@ bool DepthMap::isVisible(const ImagePoint& at) const {
       const float front =
           depth_[static_cast<std::size_t>(v) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(u)];
       const bool here = u == u0 && v == v0;
-      if (front < depth - (here ? kDepthTolerance : kEdgeTolerance) - kDepthShare * depth) return false;
+      if (front < depth - (here ? kDepthTolerance : kEdgeTolerance) - kDepthShare * depth &&
+          !isOnPlane(at, surface, u, v, static_cast<double>(front)))
+        return false;
     }
   return true;
 }

@@ -86,6 +86,53 @@ TEST(Colouriser, WhatIsHiddenIsNotColoured) {
   }
 }
 
+/// The ground 1.5 m below the camera, from z = `near` to `far`.
+std::vector<MapPoint> groundFrom(float near, float far) {
+  std::vector<MapPoint> points;
+  for (float z = near; z < far; z += 0.05F)
+    for (float x = -2.0F; x < 2.0F; x += 0.05F) {
+      MapPoint point;
+      point.p = {x, 1.5F, z};
+      point.normal = -Eigen::Vector3f::UnitY();
+      points.push_back(point);
+    }
+  return points;
+}
+
+TEST(Colouriser, GroundSeenAtAGrazingAngleDoesNotHideItself) {
+  Colouriser colouriser(
+      {viewFrom(0.0, 0)}, [](std::size_t) { return uniform(10, 20, 200); }, 0.05, 1);
+  std::vector<MapPoint> ground = groundFrom(3.0F, 16.0F);
+  colouriser.addSurface(ground);
+  colouriser.equalise();
+  EXPECT_EQ(colouriser.colour(ground), ground.size());
+}
+
+TEST(Colouriser, WhatStandsOnTheGroundHidesTheGroundAfterIt) {
+  Colouriser colouriser(
+      {viewFrom(0.0, 0)}, [](std::size_t) { return uniform(10, 20, 200); }, 0.05, 1);
+  std::vector<MapPoint> ground = groundFrom(3.0F, 16.0F), box;
+  for (float y = 0.5F; y < 1.5F; y += 0.05F)  // 1 m high, at z = 8
+    for (float x = -2.0F; x < 2.0F; x += 0.05F) {
+      MapPoint point;
+      point.p = {x, y, 8.0F};
+      point.normal = -Eigen::Vector3f::UnitZ();
+      box.push_back(point);
+    }
+  colouriser.addSurface(ground);
+  colouriser.addSurface(box);
+  colouriser.equalise();
+  colouriser.colour(ground);
+  for (const MapPoint& point : ground) {
+    if (point.p.z() < 7.5F) {
+      EXPECT_EQ(point.red, 200) << point.p.transpose();
+    }
+    if (point.p.z() > 9.0F && std::abs(point.p.x()) < 1.8F) {
+      EXPECT_EQ(point.red, 0) << point.p.transpose();
+    }
+  }
+}
+
 TEST(Colouriser, ImagesThatCannotBeReadAreLeftOut) {
   const auto load = [](std::size_t image) {
     return image == 0 ? Picture() : image == 1 ? Picture{3, 1, std::vector<std::uint8_t>(9, 0)} : uniform(1, 200, 3);

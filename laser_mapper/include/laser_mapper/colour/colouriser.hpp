@@ -46,7 +46,7 @@ class Colouriser {
   const double voxel_;
   const std::size_t cached_images_;
   std::vector<ViewData> data_;
-  std::vector<Eigen::Vector3f> samples_;  ///< points by which images are compared
+  std::vector<MapPoint> samples_;  ///< points by which images are compared
   std::size_t sample_step_ = 1, seen_ = 0;
   std::vector<Colour> gains_;
   std::list<std::size_t> recent_;  ///< views of cache_, the one used last first
