@@ -56,7 +56,7 @@ std::optional<ImagePoint> ViewProjection::project(const Eigen::Vector3f& p) cons
   return ImagePoint{pixel->x(), pixel->y(), depth};
 }
 
-SurfacePoint ViewProjection::toCamera(const MapPoint& point) const {
+ViewedPoint ViewProjection::toCamera(const MapPoint& point) const {
   return {R_ * point.p.cast<double>() + t_, R_ * point.normal.cast<double>()};
 }
 
@@ -79,7 +79,7 @@ void DepthMap::add(const ImagePoint& at, double edge, double focal) {
     }
 }
 
-bool DepthMap::isOnPlane(const ImagePoint& at, const SurfacePoint& surface, int u, int v, double front) const {
+bool DepthMap::isOnPlane(const ImagePoint& at, const ViewedPoint& surface, int u, int v, double front) const {
   if (surface.normal.squaredNorm() < 0.5) return false;
   const Eigen::Vector2d away(kReduction * (u + 0.5) - at.u, kReduction * (v + 0.5) - at.v);  // px, to the cell's middle
   const Vector3d ray = surface.p / surface.p.z() +
@@ -88,7 +88,7 @@ bool DepthMap::isOnPlane(const ImagePoint& at, const SurfacePoint& surface, int 
   return std::abs(surface.normal.dot(front * ray.normalized() - surface.p)) < kPlaneTolerance + within_cell;
 }
 
-bool DepthMap::isVisible(const ImagePoint& at, const SurfacePoint& surface) const {
+bool DepthMap::isVisible(const ImagePoint& at, const ViewedPoint& surface) const {
   const int u0 = static_cast<int>(at.u / kReduction), v0 = static_cast<int>(at.v / kReduction);
   const auto depth = static_cast<float>(at.depth);
   for (int v = std::max(0, v0 - 1); v <= std::min(height_ - 1, v0 + 1); ++v)

@@ -13,7 +13,7 @@ namespace laser_mapper {
 constexpr double kColourDistance = 20.0;
 
 /// A point and the normal of its surface; zero: unknown.
-struct SurfacePoint {
+struct ViewedPoint {
   Eigen::Vector3d p, normal;
 };
 
@@ -24,7 +24,7 @@ class ViewProjection {
   /// Returns nullopt for points outside the image, nearer than 0.3 m or farther than kColourDistance.
   std::optional<ImagePoint> project(const Eigen::Vector3f& p) const;
   /// Returns a point of the map and its normal, in the camera's frame.
-  SurfacePoint toCamera(const MapPoint& point) const;
+  ViewedPoint toCamera(const MapPoint& point) const;
   /// Returns whether a box of the map may hold such points.
   bool mayObserve(const Eigen::Vector3d& low, const Eigen::Vector3d& high) const;
   const Eigen::Vector3d& centre() const { return centre_; }
@@ -46,10 +46,10 @@ class DepthMap {
   void add(const ImagePoint& at, double edge, double focal);
   /// Returns whether nothing of the map is in front of a point, nor beside its line of sight and much nearer. What lies
   /// on the plane of the point, such as the ground on the way to it, is not in front of it.
-  bool isVisible(const ImagePoint& at, const SurfacePoint& surface) const;
+  bool isVisible(const ImagePoint& at, const ViewedPoint& surface) const;
 
  private:
-  bool isOnPlane(const ImagePoint& at, const SurfacePoint& surface, int u, int v, double front) const;
+  bool isOnPlane(const ImagePoint& at, const ViewedPoint& surface, int u, int v, double front) const;
 
   int width_, height_;
   Eigen::Vector2d focal_;
