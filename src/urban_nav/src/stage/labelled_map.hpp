@@ -29,7 +29,7 @@ urban_nav_core::LasAttribute labelLasAttribute();
 class MapPointsDigest {
  public:
   void add(const std::vector<laser_mapper::MapPoint>& points);
-  std::int64_t value() const { return static_cast<std::int64_t>(hash_ >> 1U); }
+  std::int64_t value() const { return static_cast<std::int64_t>(hash_ >> 2U); }
 
  private:
   std::uint64_t hash_ = 0xcbf29ce484222325U;  // FNV-1a

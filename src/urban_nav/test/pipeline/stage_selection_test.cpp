@@ -78,7 +78,7 @@ TEST_F(StageSelectionTest, localizationTakesThePlaceOfMapping) {
 }
 
 TEST_F(StageSelectionTest, refusesUnknownAndPlannedWords) {
-  for (const char* word : {"vision", "labels", "keyframes"}) {
+  for (const char* word : {"vision", "keyframes"}) {
     options.stages = {word};
     EXPECT_THROW(select(), UserError) << word;
     ::testing::internal::GetCapturedStderr();
