@@ -9,6 +9,8 @@
 #include "report/plot.hpp"
 #include "stage/store_keys.hpp"
 #include "urban_nav_store/stored_map.hpp"
+#include "urban_nav_store/table_store.hpp"
+#include "urban_nav_store/tables/stored_place.hpp"
 
 namespace urban_nav {
 
@@ -17,6 +19,7 @@ using urban_nav_core::StampNs;
 using urban_nav_store::Edge;
 using urban_nav_store::EdgeKind;
 using urban_nav_store::Store;
+using urban_nav_store::StoredPlace;
 using urban_nav_store::StoredTrajectory;
 
 namespace {
@@ -95,6 +98,8 @@ std::string toText(const StoredSession& each) {
     text += "    stream " + stream.name + ": " + std::to_string(stream.messages) + " at " +
             forPerson(stream.rate_hz, 4) + " Hz, longest gap " + forPerson(stream.longest_gap_s, 3) + " s" +
             (stream.type.empty() ? "" : ", " + stream.type) + "\n";
+  for (const auto& [model, places] : each.places)
+    text += "    places: " + std::to_string(places) + ", words of model " + model + "\n";
   for (const auto& [laser, scans] : each.scans) text += "    scans of " + laser + ": " + std::to_string(scans) + "\n";
   if (!each.frames.empty()) {
     text += "    frames base_link";
@@ -138,6 +143,8 @@ StoreInfo lookIntoStore(const std::string& path) {
     each.streams = listStreams(store, session.id);
     for (const std::string& laser : store.scans().lasers(session.id))
       each.scans[laser] = store.scans().count(session.id, laser);
+    urban_nav_store::TableStore<StoredPlace>(store).forEach(session.id,
+                                                            [&](const StoredPlace& row) { ++each.places[row.model]; });
     for (const urban_nav_store::Extrinsic& extrinsic : store.sessions().extrinsics(session.id))
       each.frames.push_back(extrinsic.frame);
     const std::vector<std::string> stages = store.states().stages(session.id);
@@ -212,6 +219,8 @@ Json toJson(const StoreInfo& info) {
     }
     Json& scans = entry["scans"] = Json::object();
     for (const auto& [laser, count] : each.scans) scans[laser] = count;
+    Json& of_places = entry["places"] = Json::object();
+    for (const auto& [model, count] : each.places) of_places[model] = count;
     Json& frames = entry["frames"] = Json::array();
     for (const std::string& frame : each.frames) frames.append(frame);
     entry["map"] = each.map;

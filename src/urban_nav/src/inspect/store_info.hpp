@@ -20,10 +20,11 @@ struct StoredSession {
   std::map<std::string, std::int64_t> status_counts;
   /// Edges from nodes of this session, by kind and verdict.
   std::map<std::string, std::map<std::string, std::int64_t>> edges;
-  std::vector<StreamInfo> streams;            ///< what the stages saw, by the order of inputs; `type`: "n not used"
-  std::map<std::string, std::int64_t> scans;  ///< kept, by laser
-  std::vector<std::string> frames;            ///< sensors whose place on the robot is known
-  std::string map;                            ///< id of the session that gives its map the frame
+  std::vector<StreamInfo> streams;             ///< what the stages saw, by the order of inputs; `type`: "n not used"
+  std::map<std::string, std::int64_t> scans;   ///< kept, by laser
+  std::map<std::string, std::int64_t> places;  ///< observations of places by the hash of the model of their words
+  std::vector<std::string> frames;             ///< sensors whose place on the robot is known
+  std::string map;                             ///< id of the session that gives its map the frame
   bool relaxed = false;
   bool resumable = false;        ///< holds the state of a run that was cut off
   bool next_bag = false;         ///< holds the state at the end of a bag, from which the next one goes on
