@@ -21,13 +21,13 @@ class LabelsStage final : public Stage {
   Selection select(const MapOptions& options) const override {
     if (!options.localise.empty()) return {false, "not with --localise", {}};
     if (!isRequested(options, "labels")) return {false, "not in --stages", {}};
-    if (!isRequested(options, "lasers")) return {false, "needs stage lasers, which is not in --stages", {}};
     const std::string& model = options.parameters.get(scene_labeler::table()).model;
     if (model != "default") readLabelModel(model);  // reports a bad file before the work
     return {true, "", {"labels: model " + model}};
   }
 
   std::string missingInput(const MapContext& context) const override {
+    if (!isRequested(context.options, "lasers")) return "no map of the lasers: stage lasers is not in --stages";
     const std::vector<urban_nav_store::SessionId> ids = context.ids();
     const bool any =
         std::any_of(ids.begin(), ids.end(), [&](const auto& id) { return !context.store->scans().lasers(id).empty(); });
