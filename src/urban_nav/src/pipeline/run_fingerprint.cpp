@@ -109,10 +109,15 @@ int addObject(dl_phdr_info* object, std::size_t, void* bytes) {
   return 0;
 }
 
-std::string digestOfProgram() {
-  std::string bytes;
-  dl_iterate_phdr(addObject, &bytes);
-  return sha256(bytes);
+/// Returns a digest of the program and its libraries, those that are loaded when it is called first: OpenCV and TBB load
+/// others while they work.
+const std::string& digestOfProgram() {
+  static const std::string digest = [] {
+    std::string bytes;
+    dl_iterate_phdr(addObject, &bytes);
+    return sha256(bytes);
+  }();
+  return digest;
 }
 
 std::string digestOfParameters(const MapOptions& options, const StageList& stages) {
