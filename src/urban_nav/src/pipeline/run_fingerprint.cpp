@@ -109,8 +109,8 @@ int addObject(dl_phdr_info* object, std::size_t, void* bytes) {
   return 0;
 }
 
-/// Returns a digest of the program and its libraries, those that are loaded when it is called first: OpenCV and TBB load
-/// others while they work.
+/// Returns a digest of the program and its libraries, those that are loaded when it is called first: OpenCV and TBB
+/// load others while they work.
 const std::string& digestOfProgram() {
   static const std::string digest = [] {
     std::string bytes;

@@ -275,13 +275,14 @@ std::vector<Route> routesOfQuad(std::uint32_t seed) {
   garden.insert(garden.end(), p.garden_path.begin() + 1, p.garden_path.end());
   for (const Vector2d& v : {Vector2d(p.garden + 1, p.gate), Vector2d(x1, p.gate), Vector2d(x1, 0), Vector2d(0, 0)})
     garden.push_back(v);
-  const std::vector<Vector2d> there_and_back = {{0, 0}, {x1, 0}, {x1, p.gate}, {x1, 0}, {0, 0}, {x0, 0}};
+  const std::vector<Vector2d> there_and_back = {{0, 0}, {x1, 0}, {x1, p.gate}, {x1, 0}, {0, 0}, {x0, 0}, {x0, y1}};
   return {{"loops", "round the lawn, round again and half way back, then through the archway around the gardens",
            through(loops)},
           {"orbits4", "four times round the lawn", through(orbits4)},
           {"reversed", "loops from its end to its start", backwards(through(loops))},
           {"gardens", "through the archway, around the gardens and back", through(garden)},
-          {"return", "to the archway and back, within a minute", through(there_and_back)}};
+          {"return", "to the archway and back within a minute, then round the other half of the lawn",
+           through(there_and_back)}};
 }
 
 }  // namespace urban_nav_sim
