@@ -10,7 +10,8 @@ namespace scene_labeler {
 namespace {
 
 constexpr const char* model_name = "model of scene_labeler";
-constexpr std::uint32_t model_version = 2;
+constexpr std::uint32_t oldest_version = 2;  // without samples
+constexpr std::uint32_t model_version = 3;
 constexpr float least_share = 1e-3F;  // of a forest's votes, before the logarithm
 constexpr std::size_t most_features = 255;
 
@@ -69,15 +70,17 @@ void LabelModel::archive(urban_nav_core::Archive& archive) {
 std::string printModel(LabelModel model) {
   urban_nav_core::Archive archive;
   model.archive(archive);
+  model.samples.archive(archive, model.bins.columns(), model.classes.size());
   return urban_nav_core::seal(model_name, model_version, archive.take());
 }
 
 LabelModel parseModel(std::string_view bytes, const std::string& name) {
   LabelModel model;
   try {
-    const std::string_view content = urban_nav_core::unseal(model_name, model_version, bytes);
-    urban_nav_core::Archive archive(content, model_name);
+    const auto unsealed = urban_nav_core::unseal(model_name, oldest_version, model_version, bytes);
+    urban_nav_core::Archive archive(unsealed.content, model_name);
     model.archive(archive);
+    if (unsealed.version > oldest_version) model.samples.archive(archive, model.bins.columns(), model.classes.size());
     archive.finish();
   } catch (const urban_nav_core::DataError& error) {
     throw urban_nav_core::UserError(name, error.what(), "a model of `urban_nav labels train`");

@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t most_folds = 5;
 constexpr std::size_t least_samples = 10;  // a class with fewer is not learnt
+constexpr std::size_t most_model_bytes = 900'000, least_sample_bytes = 200'000, most_sample_bytes = 600'000;
 
 /// Settings that cross-validation tries.
 struct TrialSetting {
@@ -56,6 +57,7 @@ struct SamplePool {
   std::vector<std::uint8_t> labels;
   std::vector<float> weights;
   std::vector<std::size_t> groups;
+  std::vector<std::uint16_t> folds;  // place among the folds
 };
 
 constexpr std::size_t no_group = static_cast<std::size_t>(-1);  // leaves out nothing
@@ -110,6 +112,7 @@ SamplePool makePool(const std::vector<TrainingFold>& folds, const TrainingOption
       pool.labels.push_back(label);
       pool.weights.push_back(rows.weights[i]);
       pool.groups.push_back(f % most_folds);
+      pool.folds.push_back(static_cast<std::uint16_t>(f));
     }
   }
   return pool;
@@ -186,7 +189,7 @@ void scoreHeldOut(const std::vector<TrainingFold>& folds, std::size_t group, con
                                     scores.begin() + static_cast<std::ptrdiff_t>(i * classes),
                                     scores.begin() + static_cast<std::ptrdiff_t>((i + 1) * classes));
       held_out.points.labels.push_back(label);
-      held_out.points.weights.push_back(1.0F);
+      held_out.points.weights.push_back(rows.weights[i]);
       held_out.patches.push_back(rows.patches[i] == no_patch ? no_patch : first + rows.patches[i]);
     }
   }
@@ -227,6 +230,51 @@ NoveltyRanges measureRanges(const SamplePool& pool) {
     ranges.high_values[column] = high + margin;
   });
   return ranges;
+}
+
+/// Keeps what a later training continues from: of each class evenly thinned samples, as many as the file has room for.
+ModelSamples keepSamples(const SamplePool& pool, const std::vector<TrainingFold>& folds, const LabelModel& model) {
+  const std::size_t classes = pool.classes.size(), used = printModel(model).size();
+  const std::size_t room =
+      std::clamp(most_model_bytes - std::min(used, most_model_bytes), least_sample_bytes, most_sample_bytes);
+  const std::size_t limit = room / (pool.columns + 4) / classes;  // label, weight and place take four bytes
+  ModelSamples kept;
+  for (const TrainingFold& fold : folds) kept.folds.push_back(fold.name);
+  std::vector<std::size_t> totals(classes, 0), seen(classes, 0);
+  for (const std::uint8_t label : pool.labels) ++totals[label];
+  for (std::size_t i = 0; i < pool.labels.size(); ++i) {
+    const std::size_t total = totals[pool.labels[i]], number = seen[pool.labels[i]]++;
+    const std::size_t wanted = std::min(total, limit);
+    if ((number + 1) * wanted / total == number * wanted / total) continue;
+    for (std::size_t column = 0; column < pool.columns; ++column)
+      kept.codes.push_back(model.bins.code(column, pool.values[i * pool.columns + column]));
+    kept.labels.push_back(pool.labels[i]);
+    kept.weights.push_back(static_cast<std::uint8_t>(std::clamp(pool.weights[i], 1.0F, 255.0F)));
+    kept.places.push_back(pool.folds[i]);
+  }
+  kept.frequencies.assign(classes, 0.0F);
+  for (const TrainingFold& fold : folds)
+    for (std::size_t i = 0; i < fold.held_out.labels.size(); ++i)
+      if (const std::uint8_t label = positionIn(pool.classes, fold.held_out.labels[i]); label < classes)
+        kept.frequencies[label] += fold.held_out.weights[i];
+  return kept;
+}
+
+/// Widens the ranges of features to those of the model that training continues from: its samples are coarse.
+void keepRanges(const NoveltyRanges& before, NoveltyRanges& ranges) {
+  for (std::size_t i = 0; i < ranges.low_values.size() && i < before.low_values.size(); ++i) {
+    ranges.low_values[i] = std::min(ranges.low_values[i], before.low_values[i]);
+    ranges.high_values[i] = std::max(ranges.high_values[i], before.high_values[i]);
+  }
+}
+
+/// Fits the fusion of patches, or takes it from the model that training continues from where no return has a patch.
+void fitOrKeepFusion(const HeldOutPatches& held_out, const LabelModel* base, LabelModel& model) {
+  const bool has_patches =
+      std::any_of(held_out.patches.begin(), held_out.patches.end(), [](std::uint32_t p) { return p != no_patch; });
+  if (has_patches || !base) return fitPatchFusion(held_out, model);
+  model.correlation = base->correlation;
+  if (base->classes == model.classes) model.patch_calibration = base->patch_calibration;
 }
 
 /// Cross-validates all settings; returns the held-out scores of the best one, before calibration.
@@ -274,9 +322,11 @@ TrainedModel trainModel(std::vector<TrainingFold> folds, const TrainingOptions& 
     model.calibration = fitCalibration(held_out.points);
     for (std::size_t i = 0; i < held_out.points.size(); ++i)
       model.calibration.apply(held_out.points.scores.data() + i * pool.classes.size());
-    fitPatchFusion(held_out, model);
+    fitOrKeepFusion(held_out, options.base, model);
   }
   model.novelty = measureRanges(pool);
+  if (options.base) keepRanges(options.base->novelty, model.novelty);
+  model.samples = keepSamples(pool, folds, model);
   std::vector<std::size_t> counts(pool.classes.size(), 0);
   for (const std::uint8_t label : pool.labels) ++counts[label];
   for (std::size_t k = 0; k < counts.size(); ++k) trained.samples.emplace_back(pool.classes[k], counts[k]);

@@ -32,16 +32,20 @@ TEST_P(LabelModels, AreTheSameAfterReading) {
 
 TEST_P(LabelModels, ThatAreDamagedAreRefusedOrCanBeUsed) {
   LabelModel model = testing::trainOnYards(GetParam());
+  model.samples.codes.resize(3 * model.bins.columns());
+  model.samples.labels.resize(3);
+  model.samples.weights.resize(3);
+  model.samples.places.resize(3);
   model.trees.trees.resize(std::min<std::size_t>(model.trees.trees.size(), 3));
   for (KernelMachine& machine : model.svm.machines) {
     machine.weights.resize(std::min<std::size_t>(machine.weights.size(), 4));
     machine.vectors.resize(machine.weights.size() * model.bins.columns());
   }
   const std::string sealed = printModel(model);
-  const std::string content(urban_nav_core::unseal("model of scene_labeler", 2, sealed));
+  const std::string content(urban_nav_core::unseal("model of scene_labeler", 3, sealed));
   const std::vector<float> row(model.bins.columns(), 0.3F);
   const auto result = urban_nav_core::testing::fuzzText({content}, [&row](const std::string& text) {
-    const LabelModel read = parseModel(urban_nav_core::seal("model of scene_labeler", 2, text), "m");
+    const LabelModel read = parseModel(urban_nav_core::seal("model of scene_labeler", 3, text), "m");
     if (read.bins.columns() != row.size()) return;
     std::vector<float> logs(read.classes.size());
     read.logProbabilities(row.data(), logs.data());
@@ -65,10 +69,10 @@ TEST(LabelModelReader, RefusesOtherFilesByName) {
 }
 
 TEST(LabelModel, OfANewerVersionIsRefusedByName) {
-  const std::string sealed(defaultModelBytes());
-  const std::string content(urban_nav_core::unseal("model of scene_labeler", 2, sealed));
+  const std::string sealed = printModel(testing::trainOnYards(ClassifierKind::Boosted));
+  const std::string content(urban_nav_core::unseal("model of scene_labeler", 3, sealed));
   try {
-    parseModel(urban_nav_core::seal("model of scene_labeler", 3, content), "tomorrow.labels");
+    parseModel(urban_nav_core::seal("model of scene_labeler", 4, content), "tomorrow.labels");
     FAIL() << "a model of a newer version";
   } catch (const urban_nav_core::UserError& error) {
     EXPECT_NE(std::string(error.what()).find("tomorrow.labels"), std::string::npos) << error.what();

@@ -9,6 +9,7 @@
 #include "scene_labeler/features/features.hpp"
 #include "scene_labeler/model/calibration.hpp"
 #include "scene_labeler/model/feature_bins.hpp"
+#include "scene_labeler/model/model_samples.hpp"
 #include "scene_labeler/model/svm_bank.hpp"
 #include "scene_labeler/model/tree_ensemble.hpp"
 
@@ -39,17 +40,20 @@ struct LabelModel {
   NoveltyRanges novelty;
   std::string device;                ///< whose reflectance it was trained with; that of other devices is not used
   std::vector<std::string> sources;  ///< names of the scenes or sessions it was trained on
+  ModelSamples samples;              ///< to continue training from; empty in models of version 2
 
   /// Writes log probabilities of a row of features, one for each class.
   void logProbabilities(const float* row, float* logs) const;
   /// Returns how many features of a row lie outside the training data.
   std::uint32_t countOutside(const float* row) const;
+  /// Everything but the samples.
   void archive(urban_nav_core::Archive& archive);
 };
 
 /// Returns the bytes of a model, with its version and a checksum.
 std::string printModel(LabelModel model);
-/// Reads a model. Throws UserError with `name` if the bytes are damaged, no model, or of another version.
+/// Reads a model of this version or the one before it. Throws UserError with `name` if the bytes are damaged, no model,
+/// or of another version.
 LabelModel parseModel(std::string_view bytes, const std::string& name);
 
 /// Returns the model that is part of the library, from simulated drives, and its bytes.

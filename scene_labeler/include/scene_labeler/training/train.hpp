@@ -14,6 +14,9 @@ struct TrainingOptions {
   std::size_t samples_per_class = 3000;  ///< over all folds
   std::uint64_t seed = 1;
   std::string device = {};  ///< of the reflectance in the folds, as in Scene::device
+  /// Model that training continues from, with its samples among the folds (restoreFolds()): the ranges of its features
+  /// stay, and its fusion of patches where no fold has patches.
+  const LabelModel* base = nullptr;
 };
 
 /// Values of the settings that cross-validation compared.

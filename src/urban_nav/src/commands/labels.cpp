@@ -5,6 +5,7 @@
 #include "labels/class_map.hpp"
 #include "labels/label_drive.hpp"
 #include "labels/label_sources.hpp"
+#include "labels/label_teaching.hpp"
 #include "pipeline/parameters.hpp"
 #include "scene_labeler/labelling/superpixels.hpp"
 #include "scene_labeler/parameters.hpp"
@@ -20,8 +21,8 @@ namespace {
 using scene_labeler::ClassifierKind;
 using scene_labeler::FeatureSet;
 
-ClassifierKind classifierFrom(const Arguments& arguments) {
-  const std::string name = arguments.get("classifier", toString(ClassifierKind::Boosted));
+ClassifierKind classifierFrom(const Arguments& arguments, ClassifierKind preset) {
+  const std::string name = arguments.get("classifier", toString(preset));
   for (const ClassifierKind kind : {ClassifierKind::Svm, ClassifierKind::Forest})
     if (name == toString(kind)) return kind;
   return ClassifierKind::Boosted;
@@ -51,9 +52,9 @@ void readTrainingScenes(const std::vector<SceneFiles>& scenes, const ClassMap& m
 }
 
 std::vector<scene_labeler::TrainingFold> readTrainingSources(const LabelSources& sources, const ClassMap& map,
-                                                             FeatureSet features, int superpixel, Console& console) {
-  std::vector<scene_labeler::TrainingFold> folds;
-  const bool is_alone = sources.bags.size() == 1 && sources.scenes.empty();
+                                                             FeatureSet features, int superpixel, Console& console,
+                                                             std::vector<scene_labeler::TrainingFold> folds) {
+  const bool is_alone = folds.empty() && sources.bags.size() == 1 && sources.scenes.empty();
   for (std::size_t i = 0; i < sources.bags.size(); ++i)
     addDriveFold(sources.bags[i], sources.drives[i], map, features, is_alone, console, folds);
   readTrainingScenes(sources.scenes, map, features, superpixel, console, folds);
@@ -88,17 +89,20 @@ int runLabelsTrain(const Arguments& arguments, Console& console) {
   const Usage usage;
   const ParameterSet parameters = loadParameters(arguments);
   const urban_nav_core::ThreadLimit threads(static_cast<int>(arguments.integer("threads", 0, 1, 1024)));
+  const LabelTeaching teaching(arguments);
   scene_labeler::TrainingOptions options;
-  options.kind = classifierFrom(arguments);
-  options.features = arguments.get("features", "all") == "paper" ? FeatureSet::Paper : FeatureSet::All;
+  options.base = teaching.base();
+  options.kind = classifierFrom(arguments, options.base ? options.base->kind : ClassifierKind::Boosted);
+  options.features = teaching.features();
   options.seed = static_cast<std::uint64_t>(arguments.integer("seed", 1, 0, 1'000'000'000));
   const ClassMap map = arguments.has("classes") ? ClassMap(arguments.get("classes")) : ClassMap();
   options.samples_per_class = static_cast<std::size_t>(parameters.get(scene_labeler::table()).samples);
   const LabelSources sources = findLabelSources(arguments, parameters);
-  if (sources.scenes.empty()) options.device = scene_labeler::lms291_device;
-  else if (!sources.bags.empty()) options.device = "several";
-  auto folds =
-      readTrainingSources(sources, map, options.features, parameters.get(scene_labeler::table()).superpixel, console);
+  options.device = teaching.device(sources);
+  const int superpixel = parameters.get(scene_labeler::table()).superpixel;
+  auto folds = teaching.folds();
+  folds = readTrainingSources(sources, map, options.features, superpixel, console, std::move(folds));
+  teaching.addCorrections(map, superpixel, console, folds);
   Progress progress(console, "training", "%", 100);
   const scene_labeler::TrainedModel trained = scene_labeler::trainModel(
       std::move(folds), options, [&](double share) { progress.update(static_cast<std::int64_t>(100.0 * share)); });
@@ -122,7 +126,7 @@ Command labelsTrainAction() {
       {"SRC",
        "",
        "bags with BAG_STEM.truth, folders of scenes NAME_points.{csv,ply}[.gz] with labels, or such files",
-       true,
+       false,
        true,
        {}},
       {"-o,--output", "MODEL", "model to write", true, false, {}},
@@ -130,12 +134,15 @@ Command labelsTrainAction() {
       {"--features", "NAME", "features of a return (default all)", false, false, {"paper", "all"}},
       {"--classes", "FILE", "id,class for the values of label (default: the classes' own numbers)", false, false, {}},
       {"--seed", "N", "of the drawn samples and features (default 1)", false, false, {}},
+      {"--add", "MODEL", "model whose samples are learnt too; SRC may be omitted with --corrections", false, false, {}},
+      {"--corrections", "EDITED.ply", "map.ply or scene with edited column label or scalar_label", false, false, {}},
       jsonOption(),
       configOption(),
       setOption(),
       threadsOption()};
   for (const Option& option : driveCommandOptions()) action.options.push_back(option);
-  action.examples = {"urban_nav labels train street1 street2 -o street.labels --classes classes.csv"};
+  action.examples = {"urban_nav labels train street1 street2 -o street.labels --classes classes.csv",
+                     "urban_nav labels train --add street.labels --corrections edited.ply -o taught.labels"};
   action.more_help = [](const Arguments& arguments) { return stageHelp(arguments, scene_labeler::table().stage()); };
   action.run = runLabelsTrain;
   return action;

@@ -144,10 +144,11 @@ scene_labeler::Scene readScene(const SceneFiles& files) {
 }
 
 std::vector<std::int64_t> readSceneLabels(const SceneFiles& files) {
-  const auto columns = urban_nav_core::readCloudColumns(files.points, {"label"});
-  if (!columns[0]) throw UserError(files.points, "has no column label", "x,y,z[,reflectance],label");
+  const auto columns = urban_nav_core::readCloudColumns(files.points, {"label", "scalar_label"});
+  const auto& column = columns[0] ? columns[0] : columns[1];
+  if (!column) throw UserError(files.points, "has no column label", "x,y,z[,reflectance],label");
   std::vector<std::int64_t> labels;
-  for (const double value : *columns[0]) {
+  for (const double value : *column) {
     if (!(std::abs(value) <= 1e9) || value != std::floor(value))
       throw UserError(files.points, "label = " + urban_nav_core::printNumber(value), "whole numbers");
     labels.push_back(static_cast<std::int64_t>(value));

@@ -29,7 +29,8 @@ std::vector<std::string> uniqueSceneNames(const std::vector<SceneFiles>& scenes)
 /// UserError for a file of another format, DataError for an image that cannot be decoded.
 scene_labeler::Scene readScene(const SceneFiles& files);
 
-/// Reads the column `label` of the returns. Throws UserError if there is none, or for a value that is not whole.
+/// Reads the column `label`, or `scalar_label` as CloudCompare names it, of the returns. Throws UserError if there is
+/// neither, or for a value that is not whole.
 std::vector<std::int64_t> readSceneLabels(const SceneFiles& files);
 
 }  // namespace urban_nav

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene_labeler/model/label_model.hpp"
+#include "scene_labeler/training/training_data.hpp"
+
+namespace scene_labeler {
+
+/// Weight of a corrected return; that of others is 1.
+constexpr float correction_weight = 10.0F;
+
+/// Returns the samples that a model holds as training data, fold by fold: samples of weight 1 also serve calibration,
+/// in the frequencies of the data that the model was calibrated on. Empty if the model holds none.
+std::vector<TrainingFold> restoreFolds(const LabelModel& model);
+
+/// Number of returns that were compared with a model, and of those that differ from its answer.
+struct CorrectionCount {
+  std::size_t labelled = 0, corrected = 0;
+};
+
+/// Adds the returns of a scene whose label differs from the answer of the model as a fold of its own, with
+/// correction_weight; labels that equal the answer are not learnt. `labels`: one per return, None is no label; kinds of
+/// wall are one class for a model that does not distinguish them. Requires a fold name that `folds` does not hold.
+CorrectionCount addCorrections(const LabelModel& model, const Scene& scene, std::vector<SceneClass> labels,
+                               int superpixel_size, const std::string& fold, std::vector<TrainingFold>& folds);
+
+}  // namespace scene_labeler

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene_labeler/training/teaching.hpp"
+
+#include <algorithm>
+
+#include "scene_labeler/labelling/labeler.hpp"
+#include "scene_labeler/labelling/superpixels.hpp"
+
+namespace scene_labeler {
+
+std::vector<TrainingFold> restoreFolds(const LabelModel& model) {
+  const ModelSamples& stored = model.samples;
+  const std::size_t columns = model.bins.columns();
+  std::vector<TrainingFold> folds;
+  for (const std::string& name : stored.folds) folds.push_back({name, {}, {}});
+  std::vector<float> counts(model.classes.size(), 0.0F);
+  for (std::size_t i = 0; i < stored.size(); ++i)
+    if (stored.weights[i] == 1) counts[stored.labels[i]] += 1.0F;
+  const auto add = [&](std::size_t i, float weight, FoldRows& rows) {
+    for (std::size_t column = 0; column < columns; ++column)
+      rows.values.push_back(model.bins.decode(column, stored.codes[i * columns + column]));
+    rows.labels.push_back(model.classes[stored.labels[i]]);
+    rows.patches.push_back(no_patch);
+    rows.weights.push_back(weight);
+  };
+  for (std::size_t i = 0; i < stored.size(); ++i) {
+    TrainingFold& fold = folds[stored.places[i]];
+    add(i, stored.weights[i], fold.samples);
+    const float frequency = stored.frequencies[stored.labels[i]];
+    if (stored.weights[i] == 1 && frequency > 0.0F) add(i, frequency / counts[stored.labels[i]], fold.held_out);
+  }
+  return folds;
+}
+
+CorrectionCount addCorrections(const LabelModel& model, const Scene& scene, std::vector<SceneClass> labels,
+                               int superpixel_size, const std::string& fold, std::vector<TrainingFold>& folds) {
+  const bool has_one_wall =
+      std::find(model.classes.begin(), model.classes.end(), SceneClass::Wall) != model.classes.end();
+  const SceneLabels answer = labelScene(model, scene, superpixel_size);
+  CorrectionCount count;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (has_one_wall) labels[i] = withOneWall(labels[i]);
+    if (answer.labels[i] == SceneClass::None) labels[i] = SceneClass::None;
+    count.labelled += labels[i] != SceneClass::None ? 1U : 0U;
+    if (labels[i] == answer.labels[i]) labels[i] = SceneClass::None;
+    count.corrected += labels[i] != SceneClass::None ? 1U : 0U;
+  }
+  if (count.corrected == 0) return count;
+  SamplingLimits limits;
+  limits.held_out = 0;  // wrong answers alone say nothing of probabilities
+  std::vector<TrainingFold> made;
+  addScene({fold, measureFeatures(scene, model.features, scene.device == model.device), labels,
+            std::vector<std::uint32_t>(labels.size(), no_patch)},
+           limits, made);
+  for (float& weight : made.front().samples.weights) weight = correction_weight;
+  folds.push_back(std::move(made.front()));
+  return count;
+}
+
+}  // namespace scene_labeler

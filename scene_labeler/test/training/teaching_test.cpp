@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene_labeler/training/teaching.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "scene_labeler/labelling/labeler.hpp"
+#include "support/yard.hpp"
+#include "urban_nav_core/parallel/for_each.hpp"
+
+namespace scene_labeler {
+namespace {
+
+/// A yard with level roofs of vehicles, which no training yard has.
+testing::Yard makeYardWithRoofs(unsigned seed) {
+  testing::Yard yard = testing::makeYard(seed);
+  std::mt19937 random(seed);
+  const auto draw = [&random](float size) { return size * static_cast<float>(random() % 10000U) / 1e4F; };
+  for (const float x : {-6.0F, -12.0F}) {
+    for (int i = 0; i < 2000; ++i) yard.add({x + draw(4), draw(2), draw(0.04F)}, SceneClass::Paved);
+    for (int i = 0; i < 1000; ++i) yard.add({x + draw(4), draw(2), 1.4F + draw(0.04F)}, SceneClass::Vehicle);
+  }
+  return yard;
+}
+
+double f1(const LabelModel& model, const testing::Yard& yard, SceneClass wanted) {
+  const SceneLabels labels = labelScene(model, yard.scene, 12);
+  double hits = 0.0, sum = 0.0;
+  for (std::size_t i = 0; i < yard.labels.size(); ++i) {
+    sum += (labels.labels[i] == wanted ? 1.0 : 0.0) + (yard.labels[i] == wanted ? 1.0 : 0.0);
+    hits += labels.labels[i] == wanted && yard.labels[i] == wanted ? 1.0 : 0.0;
+  }
+  return sum > 0.0 ? 2.0 * hits / sum : 1.0;
+}
+
+/// Corrects what the model gets wrong in a yard, and trains again.
+LabelModel teach(const LabelModel& model, const testing::Yard& yard) {
+  std::vector<TrainingFold> folds = restoreFolds(model);
+  addCorrections(model, yard.scene, yard.labels, 12, "corrections", folds);
+  TrainingOptions options;
+  options.kind = model.kind;
+  options.features = model.features;
+  options.samples_per_class = 300;
+  options.base = &model;
+  return trainModel(std::move(folds), options, [](double) {}).model;
+}
+
+TEST(Teaching, ImprovesTheCorrectedClassElsewhereAndKeepsTheOthers) {
+  const LabelModel& model = testing::trainOnYards(ClassifierKind::Boosted);
+  const testing::Yard held_out = makeYardWithRoofs(12), plain = testing::makeYard(5);
+  ASSERT_EQ(f1(model, held_out, SceneClass::Vehicle), 0.0);
+  const LabelModel taught = teach(model, makeYardWithRoofs(11));
+  EXPECT_GT(f1(taught, held_out, SceneClass::Vehicle), 0.8);
+  for (const SceneClass other : {SceneClass::Paved, SceneClass::Wall, SceneClass::Foliage})
+    for (const testing::Yard* yard : {&held_out, &plain})
+      EXPECT_GT(f1(taught, *yard, other), f1(model, *yard, other) - 0.03) << toString(other);
+}
+
+TEST(Teaching, GivesTheSameBytesForAnyNumberOfThreads) {
+  const LabelModel& model = testing::trainOnYards(ClassifierKind::Boosted);
+  const testing::Yard yard = makeYardWithRoofs(11);
+  const auto bytes = [&](int threads) {
+    const urban_nav_core::ThreadLimit limit(threads);
+    return printModel(teach(model, yard));
+  };
+  EXPECT_EQ(bytes(1), bytes(2));
+}
+
+TEST(Teaching, LearnsNothingFromLabelsThatEqualTheAnswer) {
+  const LabelModel& model = testing::trainOnYards(ClassifierKind::Boosted);
+  const testing::Yard yard = testing::makeYard(5);
+  std::vector<TrainingFold> folds;
+  const CorrectionCount count =
+      addCorrections(model, yard.scene, labelScene(model, yard.scene, 12).labels, 12, "corrections", folds);
+  EXPECT_EQ(count.labelled, yard.labels.size());
+  EXPECT_EQ(count.corrected, 0U);
+  EXPECT_TRUE(folds.empty());
+}
+
+TEST(Teaching, GivesCorrectionsTenfoldWeight) {
+  const LabelModel& model = testing::trainOnYards(ClassifierKind::Boosted);
+  const testing::Yard yard = makeYardWithRoofs(11);
+  std::vector<TrainingFold> folds;
+  EXPECT_GE(addCorrections(model, yard.scene, yard.labels, 12, "corrections", folds).corrected, 2000U);
+  ASSERT_EQ(folds.size(), 1U);
+  EXPECT_TRUE(folds[0].held_out.labels.empty());
+  for (const float weight : folds[0].samples.weights) EXPECT_EQ(weight, 10.0F);
+  const LabelModel taught = teach(model, yard);
+  EXPECT_GT(std::count(taught.samples.weights.begin(), taught.samples.weights.end(), 10), 0);
+}
+
+TEST(ModelSamples, AreBoundedAndRestoreTheFoldsOfTheTraining) {
+  for (const ClassifierKind kind : {ClassifierKind::Forest, ClassifierKind::Boosted}) {
+    const LabelModel& model = testing::trainOnYards(kind);
+    EXPECT_LE(printModel(model).size(), 1'000'000U);
+    const std::vector<TrainingFold> before = testing::yardFolds(FeatureSet::All), after = restoreFolds(model);
+    ASSERT_EQ(after.size(), before.size());
+    std::size_t held_out = 0;
+    float frequency = 0.0F;
+    for (std::size_t f = 0; f < after.size(); ++f) {
+      EXPECT_EQ(after[f].name, before[f].name);
+      EXPECT_EQ(after[f].samples.values.size(), after[f].samples.labels.size() * model.bins.columns());
+      EXPECT_FALSE(after[f].samples.labels.empty());
+      held_out += before[f].held_out.labels.size();
+      for (const float weight : after[f].held_out.weights) frequency += weight;
+    }
+    EXPECT_NEAR(frequency, static_cast<float>(held_out), 0.01F * static_cast<float>(held_out));
+  }
+}
+
+TEST(ModelSamples, AreMissingInModelsOfTheVersionBefore) {
+  LabelModel model = testing::trainOnYards(ClassifierKind::Boosted);
+  urban_nav_core::Archive archive;
+  model.archive(archive);
+  const LabelModel read = parseModel(urban_nav_core::seal("model of scene_labeler", 2, archive.take()), "m");
+  EXPECT_TRUE(restoreFolds(read).empty());
+  EXPECT_EQ(read.classes, model.classes);
+}
+
+}  // namespace
+}  // namespace scene_labeler

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "command_line/console.hpp"
+#include "labels/class_map.hpp"
+#include "labels/label_sources.hpp"
+#include "scene_labeler/training/teaching.hpp"
+
+namespace urban_nav {
+
+/// What `labels train` takes from a model and from corrections by hand.
+class LabelTeaching {
+ public:
+  /// Reads the options --add, --corrections and --features. Throws UserError for a file that is no model, a model
+  /// without samples or of other features, corrections without a model, and a command with nothing to learn.
+  explicit LabelTeaching(const Arguments& arguments);
+
+  /// Returns the model that training continues from; nullptr without --add.
+  const scene_labeler::LabelModel* base() const { return base_ ? &*base_ : nullptr; }
+  scene_labeler::FeatureSet features() const { return features_; }
+  /// Returns the device of the reflectance in the model and the sources together.
+  std::string device(const LabelSources& sources) const;
+  /// Returns the samples of the model; empty without --add.
+  std::vector<scene_labeler::TrainingFold> folds() const;
+  /// Adds the corrections to `folds`. Throws UserError for a file without labels or with an unknown one, DataError if
+  /// no label differs from the answer of the model.
+  void addCorrections(const ClassMap& map, int superpixel, Console& console,
+                      std::vector<scene_labeler::TrainingFold>& folds) const;
+
+ private:
+  std::optional<scene_labeler::LabelModel> base_;
+  scene_labeler::FeatureSet features_ = scene_labeler::FeatureSet::All;
+  std::string corrections_;
+};
+
+}  // namespace urban_nav
