@@ -47,6 +47,8 @@ std::optional<Pose> StaticTransforms::lookup(const std::string& to, const std::s
   return up_to->T_root_frame.inverse() * up_from->T_root_frame;
 }
 
+bool StaticTransforms::hasParent(const std::string& child) const { return parents_.count(bare(child)) > 0; }
+
 bool StaticTransforms::has(const std::string& frame) const {
   const std::vector<std::string> all = frames();
   return std::find(all.begin(), all.end(), bare(frame)) != all.end();

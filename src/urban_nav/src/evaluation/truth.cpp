@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <list>
 
+#include "input/bag_contents.hpp"
 #include "input/bag_topics.hpp"
 #include "input/euroc_layout.hpp"
 #include "input/kitti_layout.hpp"
@@ -59,14 +60,8 @@ std::optional<TrajectoryFile> kittiTruth(const std::string& folder, const Source
 
 std::optional<TrajectoryFile> bagTruth(const InputSession& session, const SourceOptions& options) {
   std::list<rosbag::Bag> bags;
-  std::map<std::string, std::string> available;
-  for (const std::string& path : session.paths) {
-    bags.emplace_back(path, rosbag::bagmode::Read);
-    rosbag::View view(bags.back());
-    for (const rosbag::ConnectionInfo* connection : view.getConnections())
-      available[connection->topic] = connection->datatype;
-  }
-  const std::optional<ChosenTopic> topic = chooseTopics(available, options.topics).find(Role::Truth);
+  for (const std::string& path : session.paths) bags.emplace_back(path, rosbag::bagmode::Read);
+  const std::optional<ChosenTopic> topic = chooseTopics(topicTypes(bags), options.topics).find(Role::Truth);
   if (!topic) return std::nullopt;
   Trajectory trajectory;
   for (rosbag::Bag& bag : bags) {

@@ -4,11 +4,11 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <sensor_msgs/NavSatFix.h>
-#include <tf2_msgs/TFMessage.h>
 
 #include <cmath>
 #include <list>
 
+#include "input/bag_contents.hpp"
 #include "input/bag_topics.hpp"
 #include "input/open.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -46,23 +46,8 @@ GpsReading toReading(const sensor_msgs::NavSatFix& fix) {
   return reading;
 }
 
-std::map<std::string, std::string> bagTopicTypes(std::list<rosbag::Bag>& bags) {
-  std::map<std::string, std::string> types;
-  for (rosbag::Bag& bag : bags) {
-    rosbag::View view(bag);
-    for (const rosbag::ConnectionInfo* connection : view.getConnections())
-      types[connection->topic] = connection->datatype;
-  }
-  return types;
-}
-
 void placeAntenna(std::list<rosbag::Bag>& bags, const std::string& frame, BagFixes& fixes) {
-  urban_nav_ros::StaticTransforms transforms;
-  for (rosbag::Bag& bag : bags) {
-    rosbag::View view(bag, rosbag::TopicQuery(std::vector<std::string>{"/tf_static", "tf_static"}));
-    for (const rosbag::MessageInstance& instance : view)
-      if (const auto message = instance.instantiate<tf2_msgs::TFMessage>()) transforms.add(*message);
-  }
+  const urban_nav_ros::StaticTransforms transforms = readTransforms(bags);
   if (const auto T_base_gps = transforms.lookup(urban_nav_core::frames::base_link, frame)) {
     fixes.p_base = T_base_gps->t();
     fixes.is_placed = true;
@@ -77,7 +62,7 @@ BagFixes readBagFixes(const std::vector<std::string>& paths, const std::vector<s
   try {
     std::list<rosbag::Bag> bags;
     for (const std::string& path : paths) bags.emplace_back(path, rosbag::bagmode::Read);
-    const auto topic = chooseTopics(bagTopicTypes(bags), topics).find(Role::Gps);
+    const auto topic = chooseTopics(topicTypes(bags), topics).find(Role::Gps);
     if (!topic) return fixes;
     fixes.topic = topic->name;
     std::string frame;

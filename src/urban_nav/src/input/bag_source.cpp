@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
-#include <tf2_msgs/TFMessage.h>
 
 #include <array>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <list>
 #include <set>
 
+#include "input/bag_contents.hpp"
 #include "input/bag_groups.hpp"
 #include "input/bag_order.hpp"
 #include "input/bag_panorama.hpp"
@@ -58,7 +58,7 @@ class BagSource : public Source {
             const ReceiptRange& part)
       : options_(options), part_(part), name_(paths.front()) {
     for (const std::string& path : paths) bags_.emplace_back(path, rosbag::bagmode::Read);
-    topics_ = chooseTopics(available(), options.topics);
+    topics_ = chooseTopics(topicTypes(bags_), options.topics);
     if (!topics_.find(Role::Left) || !topics_.find(Role::Right))
       throw DataError(name_, "has no stereo pair of image topics: " + listing(), "");
     info_.name = name_ + (paths.size() > 1 ? " and " + std::to_string(paths.size() - 1) + " more" : "");
@@ -126,19 +126,9 @@ class BagSource : public Source {
   }
 
  private:
-  std::map<std::string, std::string> available() {
-    std::map<std::string, std::string> topics;
-    for (rosbag::Bag& bag : bags_) {
-      rosbag::View view(bag);
-      for (const rosbag::ConnectionInfo* connection : view.getConnections())
-        topics[connection->topic] = connection->datatype;
-    }
-    return topics;
-  }
-
   std::string listing() {
     std::string text;
-    for (const auto& [topic, type] : available()) {
+    for (const auto& [topic, type] : topicTypes(bags_)) {
       if (isImageType(type)) text += (text.empty() ? "" : ", ") + topic;
     }
     return text.empty() ? "it has no images at all" : text + " (--topic left:=NAME --topic right:=NAME)";
@@ -197,13 +187,7 @@ class BagSource : public Source {
   }
 
   void place() {
-    urban_nav_ros::StaticTransforms transforms;
-    for (rosbag::Bag& bag : bags_) {
-      rosbag::View view(bag, rosbag::TopicQuery(std::vector<std::string>{"/tf_static", "tf_static"}));
-      for (const rosbag::MessageInstance& instance : view) {
-        if (const auto message = instance.instantiate<tf2_msgs::TFMessage>()) transforms.add(*message);
-      }
-    }
+    const urban_nav_ros::StaticTransforms transforms = readTransforms(bags_);
     if (const std::optional<urban_nav_core::Pose> T_base_optical =
             transforms.lookup(frames::base_link, camera_frame_)) {
       info_.T_base_camera = *T_base_optical * calibration_->T_optical_rectified();

@@ -12,6 +12,7 @@
 #include <optional>
 #include <utility>
 
+#include "input/bag_contents.hpp"
 #include "input/bag_order.hpp"
 #include "input/bag_topics.hpp"
 #include "input/open.hpp"
@@ -76,15 +77,10 @@ Extent computeExtent(const std::string& path) {
 /// Returns the places at which the stamps of the stereo images of a recording step back.
 std::vector<ClockStep> findStereoSteps(const std::vector<std::string>& paths, const std::vector<std::string>& wishes) {
   std::list<rosbag::Bag> bags;
-  std::map<std::string, std::string> available;
-  for (const std::string& path : paths) {
-    rosbag::View view(bags.emplace_back(path, rosbag::bagmode::Read));
-    for (const rosbag::ConnectionInfo* connection : view.getConnections())
-      available[connection->topic] = connection->datatype;
-  }
+  for (const std::string& path : paths) bags.emplace_back(path, rosbag::bagmode::Read);
   std::vector<std::string> topics;
   try {
-    const BagTopics chosen = chooseTopics(available, wishes);
+    const BagTopics chosen = chooseTopics(topicTypes(bags), wishes);
     for (const Role role : {Role::Left, Role::Right})
       if (const std::optional<ChosenTopic> topic = chosen.find(role)) topics.push_back(topic->name);
   } catch (const urban_nav_core::UserError&) {

@@ -5,13 +5,13 @@
 #include <rosbag/view.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/LaserScan.h>
-#include <tf2_msgs/TFMessage.h>
 
 #include <filesystem>
 #include <list>
 #include <map>
 #include <optional>
 
+#include "input/bag_contents.hpp"
 #include "input/bag_panorama.hpp"
 #include "input/bag_topics.hpp"
 #include "input/first_message.hpp"
@@ -40,29 +40,9 @@ struct SideTopics {
   scene_labeler::SideRig rig;
 };
 
-urban_nav_ros::StaticTransforms readStaticTransforms(std::list<rosbag::Bag>& bags) {
-  urban_nav_ros::StaticTransforms transforms;
-  for (rosbag::Bag& bag : bags) {
-    rosbag::View view(bag, rosbag::TopicQuery(std::vector<std::string>{"/tf_static", "tf_static"}));
-    for (const rosbag::MessageInstance& instance : view)
-      if (const auto message = instance.instantiate<tf2_msgs::TFMessage>()) transforms.add(*message);
-  }
-  return transforms;
-}
-
-std::map<std::string, std::string> driveTopicTypes(std::list<rosbag::Bag>& bags) {
-  std::map<std::string, std::string> types;
-  for (rosbag::Bag& bag : bags) {
-    rosbag::View view(bag);
-    for (const rosbag::ConnectionInfo* connection : view.getConnections())
-      types[connection->topic] = connection->datatype;
-  }
-  return types;
-}
-
 std::array<SideTopics, 2> readRigs(std::list<rosbag::Bag>& bags, const std::string& name, const BagTopics& topics,
                                    Console& console) {
-  const urban_nav_ros::StaticTransforms transforms = readStaticTransforms(bags);
+  const urban_nav_ros::StaticTransforms transforms = readTransforms(bags);
   const BagPanorama head(bags, topics, transforms);
   std::array<SideTopics, 2> rigs;
   for (const DriveSide side : both_sides) {
@@ -159,7 +139,7 @@ void readDrive(const std::string& bag, const DriveOptions& options, Console& con
   try {
     std::list<rosbag::Bag> bags;
     bags.emplace_back(bag, rosbag::bagmode::Read);
-    const BagTopics topics = chooseTopics(driveTopicTypes(bags), options.topics);
+    const BagTopics topics = chooseTopics(topicTypes(bags), options.topics);
     const std::array<SideTopics, 2> rigs = readRigs(bags, bag, topics, console);
     std::vector<SideReader> sides;
     for (const DriveSide side : both_sides)

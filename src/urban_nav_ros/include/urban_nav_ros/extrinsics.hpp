@@ -25,6 +25,8 @@ class StaticTransforms {
   /// is connected to itself.
   std::optional<urban_nav_core::Pose> lookup(const std::string& to, const std::string& from) const;
   bool has(const std::string& frame) const;
+  /// Returns whether a transform to this child is known.
+  bool hasParent(const std::string& child) const;
   bool empty() const { return parents_.empty(); }
   std::vector<std::string> frames() const;
   const std::vector<std::string>& faults() const { return faults_; }
