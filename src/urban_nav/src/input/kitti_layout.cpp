@@ -53,7 +53,9 @@ std::optional<KittiLayout> findKittiLayout(const std::string& folder) {
     const fs::path left = fs::path(folder) / names.left;
     const fs::path right = fs::path(folder) / names.right;
     if (!fs::is_directory(left) && !fs::is_directory(right)) continue;
-    const std::string inside = fs::is_directory(left / "data") || fs::is_directory(right / "data") ? "data" : "";
+    std::string inside;
+    for (const char* name : {"data", "data_rect"})  // KITTI raw, KITTI-360
+      if (inside.empty() && (fs::is_directory(left / name) || fs::is_directory(right / name))) inside = name;
     return KittiLayout{folder, (left / inside).string(), (right / inside).string(), names.pair};
   }
   return std::nullopt;
@@ -74,12 +76,14 @@ std::map<std::int64_t, std::string> listFrames(const std::string& folder) {
 
 StereoCamera readKittiCamera(const KittiLayout& layout, int width, int height) {
   const fs::path folder(layout.folder);
-  for (const fs::path& path : {folder / "calib.txt", folder / "calib_cam_to_cam.txt",
-                               fs::absolute(folder).parent_path() / "calib_cam_to_cam.txt"}) {
+  const fs::path above = fs::absolute(folder / ".").lexically_normal().parent_path().parent_path();
+  for (const fs::path& path : {folder / "calib.txt", folder / "calib_cam_to_cam.txt", above / "calib_cam_to_cam.txt",
+                               folder / "perspective.txt", above.parent_path() / "calibration" / "perspective.txt"}) {
     if (fs::exists(path)) return urban_nav_core::readKittiCalibration(path.string(), width, height, layout.pair);
   }
-  throw UserError((folder / "calib.txt").string(), "is not there",
-                  "calib.txt with rows P0 and P1, calib_cam_to_cam.txt, or --calibration FILE");
+  throw UserError(
+      (folder / "calib.txt").string(), "is not there",
+      "calib.txt with rows P0 and P1, calib_cam_to_cam.txt, KITTI-360's calibration/perspective.txt, or --calibration FILE");
 }
 
 KittiTimes readKittiTimes(const KittiLayout& layout) {

@@ -14,7 +14,7 @@
 namespace urban_nav {
 
 /// Where a KITTI folder has what: `image_0` and `image_1` (odometry), `image_00` and `image_01` (raw), each with or
-/// without `data/` inside; `image_2`, `image_3` (colour) where these are all there is.
+/// without `data/` inside, or `data_rect/` (KITTI-360); `image_2`, `image_3` (colour) where these are all there is.
 struct KittiLayout {
   std::string folder;
   std::string left, right;  ///< folders of images
@@ -25,7 +25,8 @@ std::optional<KittiLayout> findKittiLayout(const std::string& folder);
 /// Frame number (the digits of the file name) to file, for one folder of images.
 std::map<std::int64_t, std::string> listFrames(const std::string& folder);
 
-/// The rectified pair out of calib.txt, or calib_cam_to_cam.txt in the folder or above it; `width` x `height` are the
+/// The rectified pair out of calib.txt, or calib_cam_to_cam.txt in the folder or above it, or perspective.txt in the
+/// folder or where KITTI-360 has it (../../calibration); `width` x `height` are the
 /// images'. UserError naming file and line where a row is missing or wrong.
 urban_nav_core::StereoCamera readKittiCamera(const KittiLayout& layout, int width, int height);
 

@@ -58,6 +58,29 @@ TEST(KittiFolder, readsEachLayout) {
   }
 }
 
+TEST(KittiFolder, readsADriveOfKitti360) {
+  const TemporaryFolder folder;
+  const std::string drive = folder.file("data_2d_raw") + "/2013_05_28_drive_0000_sync";
+  KittiStyle style;
+  style.left = "image_00/data_rect";
+  style.right = "image_01/data_rect";
+  style.digits = 10;
+  style.frames = 2;
+  std::filesystem::create_directories(drive);
+  testing::makeKittiFolder(drive, style);
+  std::string calibration = readFile(drive + "/calib.txt");
+  for (const char side : {'0', '1'})
+    calibration.replace(calibration.find(std::string("P") + side + ":"), 3, std::string("P_rect_0") + side + ":");
+  std::filesystem::remove(drive + "/calib.txt");
+  std::filesystem::create_directory(folder.file("calibration"));
+  writeFile(folder.file("calibration") + "/perspective.txt", "calib_time: 10-Sep-2013 12:00:00\n" + calibration);
+  for (const char* end : {"", "/"}) {
+    const auto source = openKittiFolder(drive + end, {});
+    EXPECT_NEAR(source->info().camera.baseline, 0.12, 1e-9);
+    EXPECT_EQ(all(*source).size(), 2U);
+  }
+}
+
 TEST(KittiFolder, takesStampsFromRawTimestampsAndRates) {
   const TemporaryFolder folder;
   KittiStyle style;
