@@ -2,6 +2,7 @@
 #include "input/clock_steps.hpp"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 
 #include "input/bag_order.hpp"
@@ -27,16 +28,21 @@ class TopicStamps {
 
   std::size_t size() const { return messages_.size(); }
   StampNs receipt(std::size_t i) const { return urban_nav_ros::toStampNs(messages_[i].getTime()); }
-  StampNs stamp(std::size_t i) const { return readHeaderStamp(messages_[i]); }
-  StampNs delay(std::size_t i) const { return receipt(i) - stamp(i); }
+  StampNs stamp(std::size_t i) {
+    const auto [known, is_new] = stamps_.try_emplace(i, 0);
+    if (is_new) known->second = readHeaderStamp(messages_[i]);  // reads the whole message
+    return known->second;
+  }
+  StampNs delay(std::size_t i) { return receipt(i) - stamp(i); }
 
  private:
   rosbag::View view_;
   std::vector<rosbag::MessageInstance> messages_;
+  std::map<std::size_t, StampNs> stamps_;  // read so far
 };
 
 /// Returns the step between two messages, by bisection on the delay from stamp to receipt, which a step back increases.
-std::optional<ClockStep> findStepBetween(const TopicStamps& topic, std::size_t before, std::size_t after) {
+std::optional<ClockStep> findStepBetween(TopicStamps& topic, std::size_t before, std::size_t after) {
   const StampNs low = topic.delay(before), high = topic.delay(after);
   if (high - low < kSmallestStep) return std::nullopt;
   while (after - before > 1) {
@@ -64,7 +70,7 @@ void addToView(rosbag::View& view, rosbag::Bag& bag, const std::vector<std::stri
 std::vector<ClockStep> findClockSteps(std::list<rosbag::Bag>& bags, const std::vector<std::string>& topics) {
   std::vector<ClockStep> found;
   for (const std::string& name : topics) {
-    const TopicStamps topic(bags, name);
+    TopicStamps topic(bags, name);
     if (topic.size() < 2) continue;
     const std::size_t stride = std::max<std::size_t>(1, topic.size() / kProbes);
     for (std::size_t i = 0; i + 1 < topic.size(); i += stride) {
