@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "local_planes.hpp"
+#include "urban_nav_core/laser/reflectance.hpp"
 
 namespace laser_mapper {
 
@@ -76,12 +77,6 @@ class SeenByLasers {
 
 }  // namespace
 
-float normalisedIntensity(float raw, float range, float cosine) {
-  const float optics = range / (range + 0.5F), distance = range > 8.0F ? 8.0F / range : 1.0F;
-  const float lambert = std::pow(std::clamp(cosine, 0.2F, 1.0F), 0.85F);
-  return std::clamp(raw / (std::max(optics, 0.1F) * distance * lambert), 0.0F, 255.0F);
-}
-
 std::vector<MapPoint> makeSurface(const Parameters& parameters, const Tile& tile, const std::vector<MergedCell>& cells,
                                   const std::vector<MergedCell>& margin, const PoseSigma& pose_sigma) {
   const LocalPlanes planes(parameters.voxel, tile, cells, margin);
@@ -110,8 +105,8 @@ std::vector<MapPoint> makeSurface(const Parameters& parameters, const Tile& tile
     point.p = p.cast<float>();
     point.sigma = std::sqrt(variance + static_cast<float>(pose * pose));
     point.raw_intensity = static_cast<std::uint8_t>(std::lround(std::clamp(cell.intensity, 0.0F, 255.0F)));
-    point.intensity =
-        static_cast<std::uint8_t>(std::lround(normalisedIntensity(cell.intensity, cell.range, plane ? cosine : 1.0F)));
+    point.intensity = static_cast<std::uint8_t>(
+        std::lround(urban_nav_core::normaliseReflectance(cell.intensity, cell.range, plane ? cosine : 1.0F)));
     point.red = point.green = point.blue = point.intensity;
     point.laser = cell.laser;
     point.pass = cell.pass;

@@ -32,9 +32,4 @@ std::vector<MapPoint> makeStereoSurface(const Parameters& parameters, const Tile
                                         const std::vector<MergedCell>& stereo, const std::vector<MergedCell>& cells,
                                         const std::vector<MergedCell>& margin, const PoseSigma& pose_sigma);
 
-/// Returns an echo's value without the influence of range and incidence (0...255): near by, the optics of the device
-/// lose light; far away it falls with the distance; matt surfaces follow Lambert's law. `cosine`: of the angle between
-/// beam and normal; 1 where it is unknown.
-float normalisedIntensity(float raw, float range, float cosine);
-
 }  // namespace laser_mapper

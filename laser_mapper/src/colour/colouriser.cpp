@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "colour/depth_map.hpp"
 #include "colour/image_gains.hpp"
+#include "colour/view_projection.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 
 namespace laser_mapper {
 
 using Eigen::Vector3d;
+using urban_nav_registration::ImagePoint;
 using urban_nav_registration::Picture;
 
 namespace {
@@ -95,9 +96,9 @@ float viewWeight(const MapPoint& point, const ImagePoint& at, const ViewProjecti
 }  // namespace
 
 struct Colouriser::ViewData {
-  explicit ViewData(const ColourView& view) : projection(view), depth(view) {}
+  explicit ViewData(const ColourView& view) : projection(view), depth(view.camera.pinhole) {}
   ViewProjection projection;
-  DepthMap depth;
+  urban_nav_registration::DepthMap depth;
 };
 
 Colouriser::Colouriser(std::vector<ColourView> views, ImageLoader load, double voxel, std::size_t cached_images)
@@ -129,7 +130,7 @@ void Colouriser::addSurface(const std::vector<MapPoint>& points) {
   urban_nav_core::forEach(near.size(), 1, [&](std::size_t i) {
     ViewData& view = data_[near[i]];
     for (const MapPoint& point : points)
-      if (const auto at = view.projection.project(point.p)) view.depth.add(*at, voxel_, view.projection.focal());
+      if (const auto at = view.projection.project(point.p)) view.depth.add(*at, voxel_);
   });
   for (const MapPoint& point : points) {
     if (seen_++ % sample_step_ != 0 || point.normal.squaredNorm() < 0.5F) continue;

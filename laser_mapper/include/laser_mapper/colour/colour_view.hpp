@@ -24,10 +24,4 @@ struct ColourView {
 /// Returns an image by its number; an empty picture if it cannot be read. Called from one thread.
 using ImageLoader = std::function<urban_nav_registration::Picture(std::size_t image)>;
 
-/// A place in an image.
-struct ImagePoint {
-  double u = 0.0, v = 0.0;  ///< px
-  double depth = 0.0;       ///< m, along the line of sight
-};
-
 }  // namespace laser_mapper
