@@ -1,17 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <geometry_msgs/PointStamped.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
+#include <urban_nav_msgs/CorrectLabel.h>
+#include <urban_nav_msgs/FileCommand.h>
 #include <pluginlib/class_list_macros.hpp>
 
+#include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <memory>
+#include <thread>
 #include <tuple>
 #include <variant>
 
 #include "live/live_labels.hpp"
 #include "live/nodelet_parameters.hpp"
+#include "scene_labeler/class_map.hpp"
+#include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/io/text_file.hpp"
 #include "urban_nav_ros/camera_info.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
@@ -26,12 +35,17 @@ namespace {
 
 constexpr const char* image_topic = "labels/image";
 constexpr const char* cloud_topic = "labels/cloud";
-constexpr std::array<int, 2> side_cameras = {4, 1};  // of the panoramic head, left and right
-constexpr double camera_timeout = 5.0;               // s
+constexpr const char* click_topic = "/clicked_point";  // of the tool publish_point of rviz
+constexpr std::array<int, 2> side_cameras = {4, 1};    // of the panoramic head, left and right
+constexpr double camera_timeout = 5.0;                 // s
+constexpr std::chrono::milliseconds training_poll{20};
 
 struct CameraImage {
   std::size_t side = 0;
   urban_nav_ros::RecordedImage image;
+};
+struct ClassImage {
+  sensor_msgs::ImageConstPtr image;
 };
 struct CameraCalibration {
   std::size_t side = 0;
@@ -70,7 +84,7 @@ class SceneLabelerStage {
   static constexpr const char* topic = "labels";
   using Input = std::variant<urban_nav_ros::ImageInput, urban_nav_ros::InfoInput, tf2_msgs::TFMessageConstPtr,
                              sensor_msgs::LaserScanConstPtr, urban_nav_core::StampedPose, urban_nav_core::RelativePose,
-                             CameraImage, CameraCalibration>;
+                             CameraImage, ClassImage, CameraCalibration, geometry_msgs::PointStampedConstPtr>;
   using Node = urban_nav_ros::StageNodeWith<Input>;
 
   explicit SceneLabelerStage(Node& node);
@@ -85,8 +99,12 @@ class SceneLabelerStage {
   template <typename Message>
   void subscribeCamera(std::size_t side);
   void addScan(const sensor_msgs::LaserScan& message);
+  void addClasses(const sensor_msgs::Image& message);
   void calibrate(const CameraCalibration& calibration);
   LiveLabels::Outputs outputs();
+  void advertiseServices();
+  std::string correct(const std::string& label);
+  void adoptTaughtModel();
 
   Node& node_;
   NodeletParameters nodelet_;
@@ -95,6 +113,9 @@ class SceneLabelerStage {
   std::array<std::string, 2> camera_frames_;
   ros::Publisher image_, cloud_;
   std::string fault_;  // of a camera or laser without a place
+  geometry_msgs::PointStampedConstPtr click_;
+  std::string taught_fault_;
+  ClassMap class_map_;  // of class images
 };
 
 SceneLabelerStage::SceneLabelerStage(Node& node) : node_(node) {
@@ -108,6 +129,50 @@ SceneLabelerStage::SceneLabelerStage(Node& node) : node_(node) {
   for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
     if (nodelet_.compressed) subscribeCamera<sensor_msgs::CompressedImage>(side);
     else subscribeCamera<sensor_msgs::Image>(side);
+  }
+  urban_nav_ros::TopicOptions options;
+  options.is_monitored = options.is_paused = false;
+  if (!parameters.class_file.empty()) class_map_ = ClassMap(parameters.class_file);
+  if (!parameters.class_topic.empty())
+    node.subscribeInput<sensor_msgs::Image>(
+        parameters.class_topic, options,
+        [](const sensor_msgs::ImageConstPtr& message) { return Input(ClassImage{message}); });
+  node.subscribeInput<geometry_msgs::PointStamped>(
+      click_topic, options, [](const geometry_msgs::PointStampedConstPtr& message) { return Input(message); });
+  advertiseServices();
+}
+
+void SceneLabelerStage::advertiseServices() {
+  node_.advertiseService<urban_nav_msgs::CorrectLabel>("correct", [this](const auto& request, auto& response) {
+    response.message = node_.ask([&] { return correct(request.label); });
+  });
+  node_.advertiseService<urban_nav_msgs::FileCommand>("save", [this](const auto& request, auto& response) {
+    response.message = node_.ask([&] {
+      urban_nav_core::writeAtomically(request.path, printModel(labels_->model()));
+      return "the model is in " + request.path;
+    });
+  });
+}
+
+std::string SceneLabelerStage::correct(const std::string& label) {
+  const auto known = classFromName(label);
+  if (!known) throw urban_nav_core::UserError("", "label = " + label, classNames());
+  if (!click_) throw urban_nav_core::UserError("", "no point was clicked", "the tool publish_point of rviz");
+  if (click_->header.frame_id != nodelet_.odom_frame)
+    throw urban_nav_core::UserError("", "the point that was clicked is in frame " + click_->header.frame_id,
+                                    nodelet_.odom_frame + ", as fixed frame of rviz");
+  const auto& p = click_->point;
+  return labels_->correct(Eigen::Vector3d(p.x, p.y, p.z).cast<float>(), *known);
+}
+
+void SceneLabelerStage::adoptTaughtModel() {
+  try {
+    if (!labels_->adoptTaughtModel()) return;
+    taught_fault_.clear();
+    node_.logInfo("labels by the taught model from here on; service save writes it");
+  } catch (const urban_nav_core::Error& error) {
+    taught_fault_ = error.what();
+    node_.logError(taught_fault_);
   }
 }
 
@@ -152,6 +217,11 @@ void SceneLabelerStage::handle(Input& input) {
   if (const auto* scan = std::get_if<sensor_msgs::LaserScanConstPtr>(&input)) return addScan(**scan);
   if (const auto* pose = std::get_if<urban_nav_core::StampedPose>(&input)) return labels_->addPose(*pose);
   if (const auto* calibration = std::get_if<CameraCalibration>(&input)) return calibrate(*calibration);
+  if (const auto* classes = std::get_if<ClassImage>(&input)) return addClasses(*classes->image);
+  if (const auto* click = std::get_if<geometry_msgs::PointStampedConstPtr>(&input)) {
+    click_ = *click;
+    return;
+  }
   if (const auto* image = std::get_if<CameraImage>(&input)) {
     const urban_nav_ros::RecordedImage recorded = image->image;
     labels_->addImage(image->side, recorded.stamp(), [recorded] { return recorded.colour().pixels; });
@@ -169,6 +239,15 @@ void SceneLabelerStage::addScan(const sensor_msgs::LaserScan& message) {
   const std::size_t side = T_base_laser->t().y() >= 0.0 ? 0 : 1;  // REP-103: y to the left
   if (!labels_->hasLaser(side)) labels_->setLaser(side, *T_base_laser);
   labels_->addScan(side, *planar);
+}
+
+void SceneLabelerStage::addClasses(const sensor_msgs::Image& message) {
+  const auto frame = std::find(camera_frames_.begin(), camera_frames_.end(), message.header.frame_id);
+  if (frame == camera_frames_.end() || (message.encoding != "mono8" && message.encoding != "8UC1"))
+    return node_.gate().countInvalid();
+  labels_->addClasses(static_cast<std::size_t>(frame - camera_frames_.begin()),
+                      urban_nav_ros::toStampNs(message.header.stamp),
+                      toClassImage(urban_nav_ros::toGrey(message).pixels, class_map_));
 }
 
 void SceneLabelerStage::calibrate(const CameraCalibration& calibration) {
@@ -189,9 +268,12 @@ void SceneLabelerStage::calibrate(const CameraCalibration& calibration) {
 }
 
 bool SceneLabelerStage::idle() {
+  adoptTaughtModel();
   const urban_nav_live::StageReport now = report();
   node_.publishStatus(now.status, now.reason_name, labels_->newest());
-  return false;
+  if (!labels_->teaching().isTraining()) return false;
+  std::this_thread::sleep_for(training_poll);  // progress and the taught model do not wait for the next input
+  return true;
 }
 
 std::string SceneLabelerStage::reset() {
@@ -212,13 +294,21 @@ urban_nav_live::StageReport SceneLabelerStage::report() const {
   set(1, "NoOdometry", odometry);
   set(2, "NoLasers", lasers);
   set(3, "NoPlace", fault_);
+  set(4, "NotTaught", taught_fault_);
   const LiveLabels::Counts counts = labels_->counts();
+  set(5, "UpsideDown", counts.upside_down_frames == 0 ? "" : "a side camera seems to be mounted upside down");
   report.add("scans", counts.scans);
   report.add("images", counts.images);
   report.add("poses of odometry", counts.poses);
   report.add("scans and images dropped without odometry", counts.dropped);
   report.add("frames labelled", counts.frames);
   report.add("of these with an image", counts.imaged_frames);
+  report.add("of these with a class image", counts.class_frames);
+  report.add("black or saturated images", counts.blind_frames);
+  const LiveTeaching& teaching = labels_->teaching();
+  report.add("corrections", teaching.corrections());
+  report.add("training",
+             teaching.isTraining() ? std::to_string(std::lround(100.0 * teaching.progress())) + " %" : "none");
   return report;
 }
 

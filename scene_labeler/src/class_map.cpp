@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "labels/class_map.hpp"
+#include "scene_labeler/class_map.hpp"
 
 #include "urban_nav_core/io/csv.hpp"
 #include "urban_nav_core/types/error.hpp"
 
-namespace urban_nav {
+namespace scene_labeler {
 
-using scene_labeler::SceneClass;
 using urban_nav_core::UserError;
 
 ClassMap::ClassMap(const std::string& path) : path_(path) {
@@ -15,32 +14,42 @@ ClassMap::ClassMap(const std::string& path) : path_(path) {
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const std::int64_t id = table.integer(row, id_column);
     const std::string& name = table.text(row, class_column);
-    const auto known = scene_labeler::classFromName(name);
-    if (!known && name != "ignore")
-      throw UserError(table.where(row), "class = " + name, scene_labeler::classNames() + ", ignore");
+    const auto known = classFromName(name);
+    if (!known && name != "ignore") throw UserError(table.where(row), "class = " + name, classNames() + ", ignore");
     if (!classes_.emplace(id, known.value_or(SceneClass::None)).second)
       throw UserError(table.where(row), "id = " + std::to_string(id) + " again", "each id once");
   }
+}
+
+std::optional<SceneClass> ClassMap::classOf(std::int64_t label) const {
+  if (path_.empty()) {
+    const bool is_known = (label >= 0 && label < static_cast<std::int64_t>(class_count)) || label == 255;
+    return is_known ? std::optional(static_cast<SceneClass>(label)) : std::nullopt;
+  }
+  const auto found = classes_.find(label);
+  return found == classes_.end() ? std::nullopt : std::optional(found->second);
 }
 
 std::vector<SceneClass> ClassMap::toClasses(const std::vector<std::int64_t>& labels, const std::string& where) const {
   std::vector<SceneClass> classes;
   classes.reserve(labels.size());
   for (const std::int64_t label : labels) {
-    if (path_.empty()) {
-      const bool is_known =
-          (label >= 0 && label < static_cast<std::int64_t>(scene_labeler::class_count)) || label == 255;
-      if (!is_known)
-        throw UserError(where, "label = " + std::to_string(label),
-                        "0...8 and 255, or --classes FILE for other numbers");
-      classes.push_back(static_cast<SceneClass>(label));
-      continue;
-    }
-    const auto found = classes_.find(label);
-    if (found == classes_.end()) throw UserError(where, "label = " + std::to_string(label), "the ids in " + path_);
-    classes.push_back(found->second);
+    const auto known = classOf(label);
+    if (!known)
+      throw UserError(where, "label = " + std::to_string(label),
+                      path_.empty() ? "0...8 and 255, or --classes FILE for other numbers" : "the ids in " + path_);
+    classes.push_back(*known);
   }
   return classes;
 }
 
-}  // namespace urban_nav
+cv::Mat toClassImage(const cv::Mat& ids, const ClassMap& map) {
+  if (ids.empty() || ids.type() != CV_8U) return {};
+  cv::Mat table(1, 256, CV_8U), classes;
+  for (int id = 0; id < 256; ++id)
+    table.at<std::uint8_t>(id) = static_cast<std::uint8_t>(map.classOf(id).value_or(SceneClass::None));
+  cv::LUT(ids, table, classes);
+  return classes;
+}
+
+}  // namespace scene_labeler

@@ -14,6 +14,8 @@ struct Parameters {
   int samples;     // per class
   double spacing;  // m
   double reach;    // m
+  std::string class_topic, class_file;
+  double class_accuracy;
 
   Parameters();
 };

@@ -16,7 +16,7 @@ constexpr float least_probability = 1e-6F;
 
 std::vector<std::uint8_t> labelledPoints(const DriveScene& drive, const std::vector<DriveReturn>& returns,
                                          const DriveObserver::Stretch& nearest) {
-  std::vector<std::uint8_t> is_labelled = visibleReturns(drive.scene.view);
+  std::vector<std::uint8_t> is_labelled = drive.scene.view.is_visible;
   is_labelled.resize(drive.scene.points.size(), 0);
   for (std::size_t i = 0; i < returns.size(); ++i)
     if (nearest.holds(returns[i].travelled)) is_labelled[drive.point_of_return[i]] = 1;
@@ -32,12 +32,19 @@ void DriveLabeler::observe(const DriveFrame& frame, const Stretch& nearest, std:
   const bool is_blind = !frame.view.image.empty() && !isUsable(frame.view.image);
   blind_frames_ += is_blind ? 1U : 0U;
   DriveScene drive = makeDriveScene(returns, is_blind ? SideView() : frame.view);
+  FeatureTable table = measureSceneFeatures(model_, drive.scene);
+  mounting_.add(drive.scene, table);
+  if (!drive.scene.view.image.empty() && mounting_.isUpsideDown()) {
+    ++upside_down_frames_;
+    drive.scene.view = {};
+    measureImageFeatures(drive.scene, model_.features, table);
+  }
   drive.scene.is_asked = labelledPoints(drive, returns, nearest);
-  const SceneLabels labels = labelScene(model_, drive.scene, superpixel_);
+  const SceneLabels labels = labelScene(model_, drive.scene, parameters_.superpixel, table);
   if (take_image_) take_image_(frame, labels.image);
   ++frames_;
   imaged_frames_ += drive.scene.view.image.empty() ? 0U : 1U;
-  const std::vector<std::uint8_t> is_shown = visibleReturns(drive.scene.view);
+  const std::vector<std::uint8_t>& is_shown = drive.scene.view.is_visible;
   std::uint32_t patches = 0;
   for (std::size_t i = 0; i < returns.size(); ++i) {
     const std::size_t point = drive.point_of_return[i], at = first + i - first_;
@@ -58,6 +65,31 @@ void DriveLabeler::observe(const DriveFrame& frame, const Stretch& nearest, std:
       logs_[at * classes + k] += std::log(std::max(labels.probabilities[point * classes + k], least_probability));
   }
   patches_ += patches;
+  if (!frame.view.classes.empty()) addClasses(frame, drive, first);
+  if (take_scene_) take_scene_(std::move(drive));
+}
+
+void DriveLabeler::addClasses(const DriveFrame& frame, const DriveScene& drive, std::size_t first) {
+  const SceneView& view = drive.scene.view;
+  if (view.image.empty() || frame.view.classes.size() != view.image.size()) return;
+  ++class_frames_;
+  const std::size_t classes = model_.classes.size();
+  const bool has_one_wall =
+      std::find(model_.classes.begin(), model_.classes.end(), SceneClass::Wall) != model_.classes.end();
+  const auto right = static_cast<float>(std::log(parameters_.class_accuracy));
+  const auto wrong =
+      static_cast<float>(std::log((1.0 - parameters_.class_accuracy) / static_cast<double>(classes - 1)));
+  for (std::size_t i = 0; i < drive.point_of_return.size(); ++i) {
+    const std::size_t point = drive.point_of_return[i], at = first + i - first_;
+    if (view.is_visible[point] == 0 || votes_[at].views == 0) continue;
+    auto named = static_cast<SceneClass>(frame.view.classes.at<std::uint8_t>(
+        static_cast<int>(std::lround(view.pixels[point].y())), static_cast<int>(std::lround(view.pixels[point].x()))));
+    if (has_one_wall) named = withOneWall(named);
+    const auto known = std::find(model_.classes.begin(), model_.classes.end(), named);
+    if (known == model_.classes.end()) continue;
+    ++votes_[at].views;
+    for (std::size_t k = 0; k < classes; ++k) logs_[at * classes + k] += model_.classes[k] == named ? right : wrong;
+  }
 }
 
 void DriveLabeler::settle(std::size_t end) {

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "urban_nav_registration/cloud/cell_table.hpp"
+#include "visibility.hpp"
 
 namespace scene_labeler {
 namespace {
@@ -25,26 +26,28 @@ void projectView(const SideView& view, const Eigen::Vector3f& origin, Scene& sce
     scene.view.pixels[i] = pixel->cast<float>();
     scene.view.depths[i] = static_cast<float>(p_cam.z());
   }
+  findVisible({view.camera.pinhole, T_camera_world.R(), T_camera_world * origin.cast<double>()}, scene);
 }
 
 DriveScene makeDriveScene(const std::vector<DriveReturn>& returns, const SideView& view) {
   DriveScene drive;
   drive.scene.device = lms291_device;
   if (returns.empty()) return drive;
-  const Eigen::Vector3f origin = returns.front().point.array().round();
+  drive.origin = returns.front().point.array().round();
   urban_nav_registration::CellTable table(returns.size() / 2 + 16);
   drive.point_of_return.reserve(returns.size());
   for (std::uint32_t i = 0; i < returns.size(); ++i) {
-    const Eigen::Vector3f point = returns[i].point - origin;
+    const Eigen::Vector3f point = returns[i].point - drive.origin;
     const std::uint32_t cube =
         table.insert(urban_nav_registration::toKey(urban_nav_registration::toCell(point, thinning_per_m)));
     drive.point_of_return.push_back(cube);
     if (cube < drive.scene.points.size()) continue;
     drive.scene.points.push_back(point);
     drive.scene.reflectance.push_back(returns[i].reflectance);
+    drive.scene.to_sensor.push_back(returns[i].to_laser);
     drive.first_of_point.push_back(i);
   }
-  if (!view.image.empty()) projectView(view, origin, drive.scene);
+  if (!view.image.empty()) projectView(view, drive.origin, drive.scene);
   return drive;
 }
 

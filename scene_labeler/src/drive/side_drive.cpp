@@ -31,7 +31,8 @@ void SideDrive::add(const urban_nav_core::PlanarScan& planar) {
       ++index;
       while (planar.ranges[index] != scan.beams[beam].range) ++index;
     }
-    window_.add(DriveReturn{planar.stamp, static_cast<std::uint16_t>(index), point.intensity, latest_, point.p});
+    window_.add(DriveReturn{planar.stamp, static_cast<std::uint16_t>(index), point.intensity, latest_, point.p,
+                            point.origin - point.p});
     ++beam;
     ++index;
   }
@@ -42,12 +43,12 @@ bool SideDrive::wants(StampNs stamp) const {
   return rig_.camera && travelled && *travelled >= next_;
 }
 
-void SideDrive::add(StampNs stamp, const cv::Mat& image) {
+void SideDrive::add(StampNs stamp, const cv::Mat& image, const cv::Mat& classes) {
   const auto T_world_base = T_world_base_.at(stamp, longest_pose_gap);
   if (!wants(stamp) || !T_world_base || image.type() != CV_8UC3) return;
   const urban_nav_core::Pinhole& pinhole = rig_.camera->raw.pinhole;
   if (image.cols != pinhole.width || image.rows != pinhole.height) return;
-  addFrame({stamp, *path_.at(stamp), {rig_.camera->raw, *T_world_base * rig_.camera->T_base_camera, image}});
+  addFrame({stamp, *path_.at(stamp), {rig_.camera->raw, *T_world_base * rig_.camera->T_base_camera, image, classes}});
 }
 
 void SideDrive::addFrame(DriveFrame frame) {

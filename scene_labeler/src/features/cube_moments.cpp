@@ -40,19 +40,16 @@ Cell cellOfKey(std::uint64_t key) {
   return {part(0), part(21), part(42)};
 }
 
-/// Gives each cube the weight of one point, and its mean reflectance.
+/// Gives each cube the weight of one point.
 void normalise(CubeLevel& level) {
-  for (std::size_t i = 0; i < level.cubes.size(); ++i) {
-    Moments& cube = level.cubes[i];
-    if (!level.reflectance.empty()) level.reflectance[i] /= static_cast<float>(cube.count);
+  for (Moments& cube : level.cubes) {
     cube.sum /= cube.count;
     cube.outer /= cube.count;
     cube.count = 1.0;
   }
 }
 
-CubeLevel finestLevel(const std::vector<Eigen::Vector3f>& points, const std::vector<float>& reflectance,
-                      const Eigen::Vector3f& origin) {
+CubeLevel finestLevel(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3f& origin) {
   CubeLevel level;
   level.edge = finest_cube;
   level.table = CellTable(points.size() / 8 + 16);
@@ -65,10 +62,6 @@ CubeLevel finestLevel(const std::vector<Eigen::Vector3f>& points, const std::vec
     const std::uint32_t cube = insertCube(level, urban_nav_registration::toCell(point, per_m));
     level.cube_of[i] = cube;
     level.cubes[cube].add(point.cast<double>(), 1.0);
-    if (!reflectance.empty()) {
-      level.reflectance.resize(level.cubes.size());
-      level.reflectance[cube] += reflectance[i];
-    }
   }
   normalise(level);
   return level;
@@ -83,10 +76,6 @@ CubeLevel coarserLevel(const CubeLevel& finer) {
     const Cell cell = cellOfKey(finer.keys[i]);
     coarse_of[i] = insertCube(level, {cell.x >> 1, cell.y >> 1, cell.z >> 1});
     level.cubes[coarse_of[i]].add(finer.cubes[i]);
-    if (!finer.reflectance.empty()) {
-      level.reflectance.resize(level.cubes.size());
-      level.reflectance[coarse_of[i]] += finer.reflectance[i];
-    }
   }
   level.cube_of.reserve(finer.cube_of.size());
   for (const std::uint32_t cube : finer.cube_of)
@@ -97,13 +86,36 @@ CubeLevel coarserLevel(const CubeLevel& finer) {
 
 }  // namespace
 
-std::array<CubeLevel, shape_levels> makeCubeLevels(const std::vector<Eigen::Vector3f>& points,
-                                                   const std::vector<float>& reflectance,
-                                                   const Eigen::Vector3f& origin) {
-  std::array<CubeLevel, shape_levels> levels;
-  levels[0] = finestLevel(points, reflectance, origin);
+CubeLevels makeCubeLevels(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3f& origin) {
+  CubeLevels levels;
+  levels[0] = finestLevel(points, origin);
   for (std::size_t i = 1; i < levels.size(); ++i) levels[i] = coarserLevel(levels[i - 1]);
   return levels;
+}
+
+std::vector<float> meanOverCubes(const CubeLevels& levels, std::size_t level, const std::vector<float>& values) {
+  struct Mean {
+    float sum = 0.0F, count = 0.0F;
+    void add(float value) {
+      sum += value;
+      count += 1.0F;
+    }
+  };
+  std::vector<Mean> means(levels[0].cubes.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (levels[0].cube_of[i] != CellTable::none) means[levels[0].cube_of[i]].add(values[i]);
+  for (std::size_t next = 1; next <= level; ++next) {
+    std::vector<std::uint32_t> parents(levels[next - 1].cubes.size());
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (levels[next].cube_of[i] != CellTable::none) parents[levels[next - 1].cube_of[i]] = levels[next].cube_of[i];
+    std::vector<Mean> coarser(levels[next].cubes.size());
+    for (std::size_t cube = 0; cube < parents.size(); ++cube)
+      coarser[parents[cube]].add(means[cube].sum / means[cube].count);
+    means = std::move(coarser);
+  }
+  std::vector<float> result;
+  for (const Mean& mean : means) result.push_back(mean.sum / mean.count);
+  return result;
 }
 
 }  // namespace scene_labeler

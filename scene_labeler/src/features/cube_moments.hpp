@@ -29,7 +29,6 @@ struct CubeLevel {
   urban_nav_registration::CellTable table{16};
   std::vector<std::uint64_t> keys;  ///< of each cube
   std::vector<Moments> cubes;
-  std::vector<float> reflectance;      ///< mean of each cube; empty without reflectance
   std::vector<std::uint32_t> cube_of;  ///< of each point; CellTable::none for points that are not finite
 };
 
@@ -38,10 +37,14 @@ struct CubeLevel {
 constexpr std::size_t shape_levels = 3;
 constexpr float finest_cube = 0.1F;  ///< m
 
-/// Sorts points into cubes of all levels, relative to `origin`. `reflectance`: one per point, or empty.
-std::array<CubeLevel, shape_levels> makeCubeLevels(const std::vector<Eigen::Vector3f>& points,
-                                                   const std::vector<float>& reflectance,
-                                                   const Eigen::Vector3f& origin);
+using CubeLevels = std::array<CubeLevel, shape_levels>;
+
+/// Sorts points into cubes of all levels, relative to `origin`.
+CubeLevels makeCubeLevels(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3f& origin);
+
+/// Returns the mean of values over each cube of a level, each of the next smaller cubes in it with equal weight.
+/// `values`: one per point.
+std::vector<float> meanOverCubes(const CubeLevels& levels, std::size_t level, const std::vector<float>& values);
 
 /// Calls take(cube) for a cube and each of its neighbours that exist, up to 26.
 template <typename Take>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene_labeler/features/features.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "features/look_features.hpp"
@@ -35,20 +36,26 @@ const std::vector<std::string>& featureNames(FeatureSet set) { return namedSet(s
 
 std::size_t firstImageFeature(FeatureSet set) { return namedSet(set).first_of_image; }
 
+void measureImageFeatures(const Scene& scene, FeatureSet set, FeatureTable& table) {
+  const std::size_t first = firstImageFeature(set);
+  for (std::size_t i = 0; i < table.rows(); ++i)
+    std::fill(table.row(i) + first, table.row(i) + table.columns(), missing_feature);
+  if (set == FeatureSet::Paper) measurePaperLook(scene, first, table);
+  else measureLook(scene, first, table);
+  for (std::size_t i = 0; i < table.rows(); ++i)
+    for (float* value = table.row(i) + first; value != table.row(i) + table.columns(); ++value)
+      if (!std::isfinite(*value)) *value = missing_feature;
+}
+
 FeatureTable measureFeatures(const Scene& scene, FeatureSet set, bool with_reflectance) {
   FeatureTable table;
   table.names = featureNames(set);
   table.values.assign(table.names.size() * scene.points.size(), missing_feature);
-  const std::size_t look = firstImageFeature(set);
-  if (set == FeatureSet::Paper) {
-    measurePaperShape(scene, 0, table);
-    measurePaperLook(scene, look, table);
-  } else {
-    measureShape(scene, with_reflectance, 0, table);
-    measureLook(scene, look, table);
-  }
+  if (set == FeatureSet::Paper) measurePaperShape(scene, 0, table);
+  else measureShape(scene, with_reflectance, 0, table);
   for (float& value : table.values)
     if (!std::isfinite(value)) value = missing_feature;
+  measureImageFeatures(scene, set, table);
   return table;
 }
 

@@ -148,7 +148,7 @@ ImageMeans imageMeans(const WindowSums& sums, const cv::Mat& image) {
 /// Calls write(i, pixel) for the returns that the image shows, several at a time.
 template <typename Write>
 void forEachVisible(const SceneView& view, const Write& write) {
-  const std::vector<std::uint8_t> visible = visibleReturns(view);
+  const std::vector<std::uint8_t>& visible = view.is_visible;
   urban_nav_core::forEach(visible.size(), 2048, [&](std::size_t i) {
     if (visible[i] != 0) write(i, view.pixels[i]);
   });

@@ -8,12 +8,15 @@
 #include "features/cube_moments.hpp"
 #include "features/ground_height.hpp"
 #include "urban_nav_core/io/numbers.hpp"
+#include "urban_nav_core/laser/reflectance.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 
 namespace scene_labeler {
 namespace {
 
 using urban_nav_registration::CellTable;
+
+constexpr float least_planarity = 0.4F;  // of a surface with a normal
 
 /// How the cubes around a cube lie; the shape of fewer than `least_cubes` is missing.
 struct CubeShape {
@@ -24,6 +27,8 @@ struct CubeShape {
   float vertical = 0.0F;                                     // deviation in height, of the edge
   float occupied = 0.0F;                                     // share of the 27 cubes
   Eigen::Vector3f mean = Eigen::Vector3f::Zero(), normal = Eigen::Vector3f::UnitZ();
+
+  bool isPlane() const { return is_known && planarity > least_planarity; }
 };
 
 constexpr double least_cubes = 3.0;
@@ -60,9 +65,8 @@ std::vector<CubeShape> measureShapes(const CubeLevel& level) {
   return shapes;
 }
 
-void writeLevel(const CubeLevel& level, const Scene& scene, const Eigen::Vector3f& origin, std::size_t first,
-                FeatureTable& table) {
-  const std::vector<CubeShape> shapes = measureShapes(level);
+void writeLevel(const CubeLevel& level, const std::vector<CubeShape>& shapes, const Scene& scene,
+                const Eigen::Vector3f& origin, std::size_t first, FeatureTable& table) {
   urban_nav_core::forEach(scene.points.size(), 4096, [&](std::size_t i) {
     if (level.cube_of[i] == CellTable::none) return;
     const CubeShape& shape = shapes[level.cube_of[i]];
@@ -98,31 +102,50 @@ void writeHeights(const CubeLevel& level, std::size_t first, FeatureTable& table
 }
 constexpr std::size_t height_values = 6;
 
-void writeReflectance(const CubeLevel& level, const Scene& scene, std::size_t first, FeatureTable& table) {
-  if (scene.reflectance.empty()) return;
+/// Returns the reflectance without the influence of range and incidence where the place of the sensor is known.
+std::vector<float> normalisedReflectance(const Scene& scene, const CubeLevel& level,
+                                         const std::vector<CubeShape>& shapes) {
+  if (scene.to_sensor.empty()) return scene.reflectance;
+  std::vector<float> values(scene.reflectance.size());
+  urban_nav_core::forEach(values.size(), 4096, [&](std::size_t i) {
+    const float range = scene.to_sensor[i].norm();
+    const std::uint32_t cube = level.cube_of[i];
+    float cosine = 1.0F;
+    if (cube != CellTable::none && shapes[cube].isPlane() && range > 0.0F)
+      cosine = std::abs(shapes[cube].normal.dot(scene.to_sensor[i])) / range;
+    values[i] = urban_nav_core::normaliseReflectance(scene.reflectance[i], range, cosine);
+  });
+  return values;
+}
+
+void writeReflectance(const CubeLevels& levels, const std::vector<float>& reflectance, std::size_t first,
+                      FeatureTable& table) {
+  if (reflectance.empty()) return;
+  const CubeLevel& level = levels[reflectance_level];
+  const std::vector<float> of_cubes = meanOverCubes(levels, reflectance_level, reflectance);
   std::vector<float> means(level.cubes.size()), deviations(level.cubes.size());
   urban_nav_core::forEach(level.cubes.size(), 512, [&](std::size_t cube) {
     float sum = 0.0F, square = 0.0F, count = 0.0F;
     forEachNeighbour(level, level.keys[cube], [&](std::uint32_t other) {
-      sum += level.reflectance[other];
-      square += level.reflectance[other] * level.reflectance[other];
+      sum += of_cubes[other];
+      square += of_cubes[other] * of_cubes[other];
       count += 1.0F;
     });
     means[cube] = sum / count;
     deviations[cube] = std::sqrt(std::max(0.0F, square / count - means[cube] * means[cube]));
   });
-  for (std::size_t i = 0; i < scene.points.size(); ++i) {
+  for (std::size_t i = 0; i < reflectance.size(); ++i) {
     if (level.cube_of[i] == CellTable::none) continue;
     float* out = table.row(i) + first;
-    out[0] = scene.reflectance[i];
+    out[0] = reflectance[i];
     out[1] = means[level.cube_of[i]];
     out[2] = deviations[level.cube_of[i]];
   }
 }
 
 /// Near the points, single precision is enough.
-Eigen::Vector3f chooseOrigin(const Scene& scene) {
-  for (const Eigen::Vector3f& point : scene.points)
+Eigen::Vector3f chooseOrigin(const std::vector<Eigen::Vector3f>& points) {
+  for (const Eigen::Vector3f& point : points)
     if (point.allFinite()) return point.array().round();
   return Eigen::Vector3f::Zero();
 }
@@ -143,20 +166,33 @@ std::vector<std::string> shapeFeatureNames() {
 }
 
 void measureShape(const Scene& scene, bool with_reflectance, std::size_t first, FeatureTable& table) {
-  const Eigen::Vector3f origin = chooseOrigin(scene);
-  const auto levels = makeCubeLevels(scene.points, scene.reflectance, origin);
+  const Eigen::Vector3f origin = chooseOrigin(scene.points);
+  const CubeLevels levels = makeCubeLevels(scene.points, origin);
+  std::vector<CubeShape> shapes;
   for (const CubeLevel& level : levels) {
-    writeLevel(level, scene, origin, first, table);
+    shapes = measureShapes(level);
+    writeLevel(level, shapes, scene, origin, first, table);
     first += shape_values;
   }
   writeHeights(levels[height_level], first, table);
-  if (with_reflectance) writeReflectance(levels[reflectance_level], scene, first + height_values, table);
+  if (with_reflectance)
+    writeReflectance(levels, normalisedReflectance(scene, levels.back(), shapes), first + height_values, table);
+}
+
+std::vector<Eigen::Vector3f> measureNormals(const std::vector<Eigen::Vector3f>& points) {
+  const CubeLevels levels = makeCubeLevels(points, chooseOrigin(points));
+  const std::vector<CubeShape> shapes = measureShapes(levels.back());
+  std::vector<Eigen::Vector3f> normals(points.size(), Eigen::Vector3f::Zero());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (const std::uint32_t cube = levels.back().cube_of[i]; cube != CellTable::none && shapes[cube].isPlane())
+      normals[i] = shapes[cube].normal;
+  return normals;
 }
 
 std::vector<std::string> paperShapeNames() { return {"over_ground", "normal_z", "planarity"}; }
 
 void measurePaperShape(const Scene& scene, std::size_t first, FeatureTable& table) {
-  const auto levels = makeCubeLevels(scene.points, {}, chooseOrigin(scene));
+  const auto levels = makeCubeLevels(scene.points, chooseOrigin(scene.points));
   const std::vector<ColumnHeights> heights = measureHeights(levels[height_level]);
   const CubeLevel& level = levels[paper_level];
   const std::vector<CubeShape> shapes = measureShapes(level);

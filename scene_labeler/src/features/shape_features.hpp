@@ -15,6 +15,9 @@ std::vector<std::string> shapeFeatureNames();
 /// Writes the features of the cloud into columns `first`, `first` + 1, ... of a table with a row per return.
 void measureShape(const Scene& scene, bool with_reflectance, std::size_t first, FeatureTable& table);
 
+/// Returns the unit normal of the surface around each point, of either sign; zero where there is no surface.
+std::vector<Eigen::Vector3f> measureNormals(const std::vector<Eigen::Vector3f>& points);
+
 /// Names of the features of the cloud that the paper uses: height over ground, vertical part of the normal, planarity.
 std::vector<std::string> paperShapeNames();
 void measurePaperShape(const Scene& scene, std::size_t first, FeatureTable& table);

@@ -56,7 +56,7 @@ void fusePatches(const LabelModel& model, const std::vector<std::uint32_t>& patc
 }
 
 void smoothInScene(const Scene& scene, std::size_t classes, std::vector<float>& logs) {
-  std::vector<std::uint8_t> is_labelled = visibleReturns(scene.view);
+  std::vector<std::uint8_t> is_labelled = scene.view.is_visible;
   if (scene.view.image.empty()) is_labelled.assign(scene.points.size(), 1);
   for (std::size_t i = 0; i < is_labelled.size(); ++i)
     if (!scene.isAsked(i)) is_labelled[i] = 0;
@@ -64,7 +64,7 @@ void smoothInScene(const Scene& scene, std::size_t classes, std::vector<float>& 
 }
 
 void spreadInScene(const Scene& scene, std::size_t classes, std::vector<float>& logs) {
-  std::vector<std::uint8_t> is_shown = visibleReturns(scene.view), is_hidden(is_shown.size(), 0);
+  std::vector<std::uint8_t> is_shown = scene.view.is_visible, is_hidden(is_shown.size(), 0);
   for (std::size_t i = 0; i < is_shown.size(); ++i) {
     is_hidden[i] = is_shown[i] == 0 && scene.isAsked(i) ? 1 : 0;
     if (!scene.isAsked(i)) is_shown[i] = 0;
@@ -75,7 +75,7 @@ void spreadInScene(const Scene& scene, std::size_t classes, std::vector<float>& 
 /// One class for each superpixel that has returns with an answer: that of the largest sum of probabilities.
 cv::Mat paintSuperpixels(const Scene& scene, const Superpixels& superpixels, const SceneLabels& result) {
   const std::size_t classes = result.classes.size();
-  const std::vector<std::uint8_t> visible = visibleReturns(scene.view);
+  const std::vector<std::uint8_t>& visible = scene.view.is_visible;
   std::vector<float> sums(static_cast<std::size_t>(superpixels.count) * classes, 0.0F);
   for (std::size_t i = 0; i < visible.size(); ++i) {
     if (visible[i] == 0 || result.labels[i] == SceneClass::None) continue;
@@ -103,8 +103,15 @@ float SceneLabels::probability(std::size_t i) const {
   return *std::max_element(first, first + static_cast<std::ptrdiff_t>(classes.size()));
 }
 
+FeatureTable measureSceneFeatures(const LabelModel& model, const Scene& scene) {
+  return measureFeatures(scene, model.features, scene.device == model.device);
+}
+
 SceneLabels labelScene(const LabelModel& model, const Scene& scene, int superpixel_size) {
-  const FeatureTable table = measureFeatures(scene, model.features, scene.device == model.device);
+  return labelScene(model, scene, superpixel_size, measureSceneFeatures(model, scene));
+}
+
+SceneLabels labelScene(const LabelModel& model, const Scene& scene, int superpixel_size, const FeatureTable& table) {
   const Superpixels superpixels = makeSuperpixels(scene.view.image, superpixel_size);
   const std::size_t classes = model.classes.size(), count = scene.points.size();
   std::vector<float> logs(count * classes);

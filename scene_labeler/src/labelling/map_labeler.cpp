@@ -3,126 +3,181 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "labelling/spread.hpp"
 
 namespace scene_labeler {
 namespace {
 
-constexpr float square_edge = 10.0F;  // m
+constexpr double square_edge = 10.0;  // m
 constexpr float fused_sure = 0.5F;
 constexpr float least_fused = 1e-6F;
 
+int toSquare(double coordinate) { return static_cast<int>(std::floor(coordinate / square_edge)); }
+
+std::vector<PlacedView> inOrder(std::vector<PlacedView> views) {
+  std::stable_sort(views.begin(), views.end(), [](const PlacedView& a, const PlacedView& b) {
+    return a.T_map_camera.t().y() < b.T_map_camera.t().y();
+  });
+  return views;
+}
+
 }  // namespace
 
-MapLabeler::MapLabeler(const LabelModel& model, int superpixel, double reach, std::vector<Eigen::Vector3f> points,
-                       std::vector<std::uint8_t> reflectance)
+MapLabeler::MapLabeler(const LabelModel& model, int superpixel, double reach, std::vector<PlacedView> views,
+                       Callbacks callbacks)
     : model_(model),
       superpixel_(superpixel),
       reach_(reach),
-      points_(std::move(points)),
-      reflectance_(std::move(reflectance)),
-      logs_(points_.size() * model.classes.size(), 0.0F),
-      views_(points_.size(), 0),
-      unsure_(points_.size(), 0) {
-  for (std::uint32_t i = 0; i < points_.size(); ++i)
-    if (points_[i].allFinite()) squares_[squareAt(points_[i])].push_back(i);
+      views_(inOrder(std::move(views))),
+      callbacks_(std::move(callbacks)),
+      next_row_(std::numeric_limits<int>::min()) {}
+
+void MapLabeler::addPoints(const std::vector<Eigen::Vector3f>& points, const std::vector<std::uint8_t>& reflectance) {
+  for (std::size_t i = 0; i < points.size(); ++i, ++next_point_) {
+    if (!points[i].allFinite()) {
+      callbacks_.take_label(next_point_, {});
+      continue;
+    }
+    SquarePoints& square =
+        squares_[{toSquare(static_cast<double>(points[i].y())), toSquare(static_cast<double>(points[i].x()))}];
+    square.numbers.push_back(next_point_);
+    square.points.push_back(points[i]);
+    square.reflectance.push_back(reflectance[i]);
+    square.is_shown.push_back(0);
+    square.logs.resize(square.logs.size() + model_.classes.size(), 0.0F);
+    square.views.push_back(0);
+    square.unsure.push_back(0);
+    ++held_;
+  }
 }
 
-MapLabeler::Square MapLabeler::squareAt(const Eigen::Vector3f& point) const {
-  return {static_cast<int>(std::floor(point.x() / square_edge)), static_cast<int>(std::floor(point.y() / square_edge))};
-}
-
-std::vector<std::uint32_t> MapLabeler::pointsAround(const Square& middle, int margin) const {
-  std::vector<std::uint32_t> members;
-  for (int y = middle.second - margin; y <= middle.second + margin; ++y)
-    for (int x = middle.first - margin; x <= middle.first + margin; ++x)
-      if (const auto square = squares_.find({x, y}); square != squares_.end())
-        members.insert(members.end(), square->second.begin(), square->second.end());
+std::vector<MapLabeler::Member> MapLabeler::pointsAround(const Square& middle, int margin) {
+  std::vector<Member> members;
+  for (int row = middle.first - margin; row <= middle.first + margin; ++row)
+    for (int column = middle.second - margin; column <= middle.second + margin; ++column)
+      if (const auto square = squares_.find({row, column}); square != squares_.end())
+        for (std::size_t i = 0; i < square->second.points.size(); ++i) members.push_back({&square->second, i});
   return members;
 }
 
-Scene MapLabeler::makeScene(const std::vector<std::uint32_t>& members) const {
+Scene MapLabeler::makeScene(const std::vector<Member>& members) {
   Scene scene;
   scene.device = lms291_device;
-  for (const std::uint32_t i : members) {
-    scene.points.push_back(points_[i]);
-    scene.reflectance.push_back(static_cast<float>(reflectance_[i]));
+  for (const Member& member : members) {
+    scene.points.push_back(member.point());
+    scene.reflectance.push_back(static_cast<float>(member.square->reflectance[member.index]));
   }
   return scene;
 }
 
-void MapLabeler::vote(const std::vector<std::uint32_t>& members, const SceneLabels& labels) {
+void MapLabeler::vote(const std::vector<Member>& members, const SceneLabels& labels, bool by_image) {
   const std::size_t classes = model_.classes.size();
   for (std::size_t i = 0; i < members.size(); ++i) {
     if (labels.labels[i] == SceneClass::None) continue;
-    const std::uint32_t point = members[i];
-    ++views_[point];
-    if (labels.unsure[i] != 0) ++unsure_[point];
+    SquarePoints& square = *members[i].square;
+    const std::size_t point = members[i].index;
+    ++square.views[point];
+    if (by_image) square.is_shown[point] = 1;
+    if (labels.unsure[i] != 0) ++square.unsure[point];
     for (std::size_t k = 0; k < classes; ++k)
-      logs_[point * classes + k] += std::log(std::max(labels.probabilities[i * classes + k], least_fused));
+      square.logs[point * classes + k] += std::log(std::max(labels.probabilities[i * classes + k], least_fused));
   }
 }
 
-void MapLabeler::spreadInSquare(const std::vector<std::uint32_t>& members, const std::vector<std::uint16_t>& shown,
-                                const std::vector<std::uint8_t>& is_asked) {
+void MapLabeler::spreadInSquare(const std::vector<Member>& members, const std::vector<std::uint8_t>& is_asked) {
   const std::size_t classes = model_.classes.size();
   std::vector<Eigen::Vector3f> points;
   std::vector<std::uint8_t> is_shown;
   std::vector<float> logs;
-  for (const std::uint32_t i : members) {
-    points.push_back(points_[i]);
-    is_shown.push_back(shown[i] != 0 ? 1 : 0);
-    const float share = 1.0F / static_cast<float>(std::max<std::uint16_t>(views_[i], 1));
-    for (std::size_t k = 0; k < classes; ++k) logs.push_back(share * logs_[i * classes + k]);
+  for (const Member& member : members) {
+    const SquarePoints& square = *member.square;
+    points.push_back(member.point());
+    is_shown.push_back(square.is_shown[member.index]);
+    const float share = 1.0F / static_cast<float>(std::max<std::uint16_t>(square.views[member.index], 1));
+    for (std::size_t k = 0; k < classes; ++k) logs.push_back(share * square.logs[member.index * classes + k]);
   }
   spreadToHidden(points, is_shown, is_asked, classes, logs);
   for (std::size_t i = 0; i < members.size(); ++i)
     if (is_asked[i] != 0)
       std::copy_n(logs.begin() + static_cast<std::ptrdiff_t>(i * classes), classes,
-                  logs_.begin() + static_cast<std::ptrdiff_t>(members[i] * classes));
+                  members[i].square->logs.begin() + static_cast<std::ptrdiff_t>(members[i].index * classes));
 }
 
-std::size_t MapLabeler::add(const SideView& view) {
-  const Eigen::Vector3f place = view.T_world_camera.t().cast<float>();
-  std::vector<std::uint32_t> members =
-      pointsAround(squareAt(place), static_cast<int>(std::ceil(reach_ / static_cast<double>(square_edge))));
-  const auto is_far = [&](std::uint32_t i) {
-    return (points_[i] - place).head<2>().norm() > static_cast<float>(reach_);
+void MapLabeler::labelView(const PlacedView& view) {
+  const Eigen::Vector3f place = view.T_map_camera.t().cast<float>();
+  std::vector<Member> members = pointsAround({toSquare(view.T_map_camera.t().y()), toSquare(view.T_map_camera.t().x())},
+                                             static_cast<int>(std::ceil(reach_ / square_edge)));
+  const auto is_far = [&](const Member& member) {
+    return (member.point() - place).head<2>().norm() > static_cast<float>(reach_);
   };
   members.erase(std::remove_if(members.begin(), members.end(), is_far), members.end());
-  if (members.empty() || view.image.empty() || !isUsable(view.image)) return 0;
+  if (members.empty()) return;
+  const SideView shown{view.camera, view.T_map_camera, callbacks_.load(view.image)};
+  const bool is_sound = shown.image.type() == CV_8UC3 && shown.image.cols == view.camera.pinhole.width &&
+                        shown.image.rows == view.camera.pinhole.height;
+  if (!is_sound || !isUsable(shown.image)) return callbacks_.take_view(view.image, 0);
   Scene scene = makeScene(members);
-  projectView(view, Eigen::Vector3f::Zero(), scene);
-  scene.is_asked = visibleReturns(scene.view);
-  vote(members, labelScene(model_, scene, superpixel_));
-  return static_cast<std::size_t>(std::count(scene.is_asked.begin(), scene.is_asked.end(), 1));
+  projectView(shown, Eigen::Vector3f::Zero(), scene);
+  scene.is_asked = scene.view.is_visible;
+  vote(members, labelScene(model_, scene, superpixel_), true);
+  callbacks_.take_view(view.image,
+                       static_cast<std::size_t>(std::count(scene.is_asked.begin(), scene.is_asked.end(), 1)));
 }
 
-std::vector<PointLabel> MapLabeler::finish() {
-  const std::vector<std::uint16_t> shown = views_;
-  for (const auto& [square, own] : squares_) {
-    if (std::all_of(own.begin(), own.end(), [&](std::uint32_t i) { return shown[i] != 0; })) continue;
-    const std::vector<std::uint32_t> members = pointsAround(square, 1);
-    Scene scene = makeScene(members);
-    for (const std::uint32_t i : members)
-      scene.is_asked.push_back(shown[i] == 0 && squareAt(points_[i]) == square ? 1 : 0);
-    vote(members, labelScene(model_, scene, superpixel_));
-    spreadInSquare(members, shown, scene.is_asked);
-  }
-  const std::size_t classes = model_.classes.size();
-  std::vector<PointLabel> labels(points_.size());
-  std::vector<float> p(classes);
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (views_[i] == 0) continue;
-    for (std::size_t k = 0; k < classes; ++k) p[k] = logs_[i * classes + k] / static_cast<float>(views_[i]);
-    normaliseLogs(p.data(), classes);
-    const auto best = static_cast<std::size_t>(std::max_element(p.begin(), p.end()) - p.begin());
-    const float probability = std::exp(p[best]);
-    labels[i] = {model_.classes[best], static_cast<std::uint8_t>(std::lround(255.0F * probability)),
-                 probability < fused_sure || 2 * unsure_[i] > views_[i]};
-  }
-  return labels;
+void MapLabeler::labelHidden(const Square& square, const SquarePoints& own) {
+  if (std::all_of(own.is_shown.begin(), own.is_shown.end(), [](std::uint8_t shown) { return shown != 0; })) return;
+  const std::vector<Member> members = pointsAround(square, 1);
+  Scene scene = makeScene(members);
+  for (const Member& member : members)
+    scene.is_asked.push_back(member.square == &own && own.is_shown[member.index] == 0 ? 1 : 0);
+  vote(members, labelScene(model_, scene, superpixel_), false);
+  spreadInSquare(members, scene.is_asked);
 }
+
+void MapLabeler::giveLabels(const SquarePoints& square) {
+  const std::size_t classes = model_.classes.size();
+  std::vector<float> p(classes);
+  for (std::size_t i = 0; i < square.points.size(); ++i) {
+    PointLabel label;
+    if (square.views[i] > 0) {
+      for (std::size_t k = 0; k < classes; ++k)
+        p[k] = square.logs[i * classes + k] / static_cast<float>(square.views[i]);
+      normaliseLogs(p.data(), classes);
+      const auto best = static_cast<std::size_t>(std::max_element(p.begin(), p.end()) - p.begin());
+      const float probability = std::exp(p[best]);
+      label = {model_.classes[best], static_cast<std::uint8_t>(std::lround(255.0F * probability)),
+               probability < fused_sure || 2 * square.unsure[i] > square.views[i]};
+    }
+    callbacks_.take_label(square.numbers[i], label);
+  }
+}
+
+void MapLabeler::labelRowsBelow(double y) {
+  const auto isComplete = [&](int row) {  // the row after it is one of its surroundings
+    return static_cast<double>(row + 2) * square_edge + reach_ <= y;
+  };
+  for (auto& [square, own] : squares_) {
+    if (square.first < next_row_) continue;
+    if (!isComplete(square.first)) break;
+    labelHidden(square, own);
+    giveLabels(own);
+  }
+  while (!squares_.empty() && isComplete(squares_.begin()->first.first + 1)) {
+    held_ -= squares_.begin()->second.points.size();
+    squares_.erase(squares_.begin());
+  }
+  for (const auto& entry : squares_)
+    if (isComplete(entry.first.first)) next_row_ = std::max(next_row_, entry.first.first + 1);
+}
+
+void MapLabeler::sweepTo(double y) {
+  while (next_view_ < views_.size() && views_[next_view_].T_map_camera.t().y() + reach_ < y)
+    labelView(views_[next_view_++]);
+  labelRowsBelow(y - reach_);
+}
+
+void MapLabeler::finish() { sweepTo(std::numeric_limits<double>::infinity()); }
 
 }  // namespace scene_labeler

@@ -46,7 +46,7 @@ Superpixels makeSuperpixels(const cv::Mat& image, int size) {
 std::vector<std::uint32_t> makePatches(const Scene& scene, const Superpixels& superpixels) {
   if (superpixels.numbers.empty()) return cubePatches(scene.points);
   std::vector<std::uint32_t> patches(scene.points.size(), no_patch);
-  const std::vector<std::uint8_t> visible = visibleReturns(scene.view);
+  const std::vector<std::uint8_t>& visible = scene.view.is_visible;
   std::vector<std::vector<std::uint32_t>> members(static_cast<std::size_t>(superpixels.count));
   for (std::uint32_t i = 0; i < visible.size(); ++i) {
     if (visible[i] == 0) continue;

@@ -10,6 +10,8 @@ using urban_nav_core::StampNs;
 namespace {
 
 constexpr std::size_t most_waiting_scans = 4000, most_waiting_images = 40;  // per side
+constexpr std::size_t most_waiting_classes = 40;                            // per side
+constexpr double class_patience = 2.0;   // s of odometry after an image whose class image has not come
 constexpr double camera_patience = 2.0;  // s of scans that wait for the calibration of a camera
 
 StampNs scanEnd(const urban_nav_core::PlanarScan& scan) {
@@ -20,7 +22,10 @@ StampNs scanEnd(const urban_nav_core::PlanarScan& scan) {
 }  // namespace
 
 LiveLabels::LiveLabels(const Parameters& parameters, LabelModel model, Outputs outputs)
-    : parameters_(parameters), model_(std::move(model)), outputs_(std::move(outputs)) {
+    : parameters_(parameters),
+      model_(std::make_shared<const LabelModel>(std::move(model))),
+      teaching_(parameters, model_),
+      outputs_(std::move(outputs)) {
   reset();
 }
 
@@ -31,11 +36,27 @@ void LiveLabels::reset() {
     side.labeler.reset();
     side.scans.clear();
     side.images.clear();
+    side.classes.clear();
   }
   path_.reset();
   trajectory_ = {};
   path_ = std::make_unique<TravelledPath>(trajectory_);
   counts_ = {};
+  teaching_.forgetScenes();
+}
+
+bool LiveLabels::adoptTaughtModel() {
+  std::optional<LabelModel> taught = teaching_.takeTaught();
+  if (!taught) return false;
+  for (LiveSide& side : sides_) {
+    if (side.window) side.window->finish();
+    count(side, counts_);
+    side.drive.reset();
+    side.window.reset();
+    side.labeler.reset();
+  }
+  model_ = std::make_shared<const LabelModel>(std::move(*taught));
+  return true;
 }
 
 void LiveLabels::addPose(const urban_nav_core::StampedPose& T_odom_base) {
@@ -63,11 +84,34 @@ void LiveLabels::addImage(std::size_t side, StampNs stamp, Decode decode) {
   }
 }
 
+void LiveLabels::addClasses(std::size_t side, StampNs stamp, const cv::Mat& classes) {
+  sides_[side].classes[stamp] = classes;
+  if (sides_[side].classes.size() > most_waiting_classes) sides_[side].classes.erase(sides_[side].classes.begin());
+}
+
+bool LiveLabels::workImages(LiveSide& side) {
+  const StampNs known = trajectory_.back().stamp;
+  while (!side.images.empty() && side.images.front().stamp <= known) {
+    const WaitingImage& image = side.images.front();
+    if (side.drive->wants(image.stamp)) {
+      const auto classes = side.classes.find(image.stamp);
+      const bool may_come = !parameters_.class_topic.empty() && classes == side.classes.end() &&
+                            urban_nav_core::secondsBetween(image.stamp, known) < class_patience;
+      if (may_come) return false;
+      side.drive->add(image.stamp, image.decode(), classes == side.classes.end() ? cv::Mat() : classes->second);
+    }
+    side.classes.erase(side.classes.begin(), side.classes.upper_bound(image.stamp));
+    side.images.pop_front();
+  }
+  return true;
+}
+
 void LiveLabels::start(std::size_t number) {
   LiveSide& side = sides_[number];
   side.labeler = std::make_unique<DriveLabeler>(
-      model_, parameters_.superpixel, outputs_.cloud,
-      [this, number](const DriveFrame& frame, const cv::Mat& classes) { outputs_.image(number, frame, classes); });
+      *model_, parameters_, outputs_.cloud,
+      [this, number](const DriveFrame& frame, const cv::Mat& classes) { outputs_.image(number, frame, classes); },
+      [this](DriveScene drive) { teaching_.keep(std::move(drive)); });
   side.window = std::make_unique<DriveWindow>(parameters_.reach, *side.labeler);
   side.drive = std::make_unique<SideDrive>(SideRig{*side.T_base_laser, side.camera}, trajectory_, *path_,
                                            parameters_.spacing, *side.window);
@@ -82,12 +126,8 @@ void LiveLabels::work(std::size_t number) {
     if (may_come) return;
     start(number);
   }
+  if (!workImages(side)) return;
   const StampNs known = trajectory_.back().stamp;
-  while (!side.images.empty() && side.images.front().stamp <= known) {
-    const WaitingImage& image = side.images.front();
-    if (side.drive->wants(image.stamp)) side.drive->add(image.stamp, image.decode());
-    side.images.pop_front();
-  }
   while (!side.scans.empty() && scanEnd(side.scans.front()) <= known) {
     side.drive->add(side.scans.front());
     side.scans.pop_front();
@@ -96,12 +136,17 @@ void LiveLabels::work(std::size_t number) {
 
 LiveLabels::Counts LiveLabels::counts() const {
   Counts counts = counts_;
-  for (const LiveSide& side : sides_) {
-    if (!side.labeler) continue;
-    counts.frames += side.labeler->frames();
-    counts.imaged_frames += side.labeler->imagedFrames();
-  }
+  for (const LiveSide& side : sides_) count(side, counts);
   return counts;
+}
+
+void LiveLabels::count(const LiveSide& side, Counts& counts) const {
+  if (!side.labeler) return;
+  counts.frames += side.labeler->frames();
+  counts.imaged_frames += side.labeler->imagedFrames();
+  counts.blind_frames += side.labeler->blindFrames();
+  counts.upside_down_frames += side.labeler->upsideDownFrames();
+  counts.class_frames += side.labeler->classFrames();
 }
 
 }  // namespace scene_labeler

@@ -4,9 +4,11 @@
 #include <array>
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 
+#include "live/live_teaching.hpp"
 #include "scene_labeler/drive/drive_labeler.hpp"
 #include "scene_labeler/drive/side_drive.hpp"
 #include "scene_labeler/parameters.hpp"
@@ -19,6 +21,7 @@ class LiveLabels {
  public:
   /// Decodes an image that is needed.
   using Decode = std::function<cv::Mat()>;
+  /// `image`: called with each frame.
   struct Outputs {
     DriveLabeler::TakeLabels cloud;
     std::function<void(std::size_t side, const DriveFrame& frame, const cv::Mat& classes)> image;
@@ -27,7 +30,7 @@ class LiveLabels {
   struct Counts {
     std::size_t scans = 0, images = 0, poses = 0;
     std::size_t dropped = 0;  ///< scans and images for which odometry never came
-    std::size_t frames = 0, imaged_frames = 0;
+    std::size_t frames = 0, imaged_frames = 0, blind_frames = 0, upside_down_frames = 0, class_frames = 0;
   };
 
   LiveLabels(const Parameters& parameters, LabelModel model, Outputs outputs);
@@ -42,8 +45,19 @@ class LiveLabels {
   void addPose(const urban_nav_core::StampedPose& T_odom_base);
   void addScan(std::size_t side, urban_nav_core::PlanarScan scan);
   void addImage(std::size_t side, urban_nav_core::StampNs stamp, Decode decode);
-  /// Begins a new drive. Laser and camera places stay.
+  /// Adds a class image by another source (CV_8U, SceneClass), of the image with this stamp. Images wait for theirs at
+  /// most 2 s, if there is a class topic.
+  void addClasses(std::size_t side, urban_nav_core::StampNs stamp, const cv::Mat& classes);
+  /// Begins a new drive. Laser and camera places stay, and so do corrections.
   void reset();
+
+  /// Says what the superpixels at a place in the world show (LiveTeaching::correct()).
+  std::string correct(const Eigen::Vector3f& place, SceneClass label) { return teaching_.correct(place, label); }
+  /// Goes on with the taught model, once it is trained: what the old one has seen is settled. Returns whether it was.
+  bool adoptTaughtModel();
+  const LiveTeaching& teaching() const { return teaching_; }
+  /// Returns the model that is used.
+  const LabelModel& model() const { return *model_; }
 
   Counts counts() const;
   urban_nav_core::StampNs newest() const { return trajectory_.empty() ? 0 : trajectory_.back().stamp; }
@@ -58,15 +72,20 @@ class LiveLabels {
     std::optional<SideRig::Camera> camera;
     std::deque<urban_nav_core::PlanarScan> scans;
     std::deque<WaitingImage> images;
+    std::map<urban_nav_core::StampNs, cv::Mat> classes;  // by the stamp of the image that they are of
     std::unique_ptr<DriveLabeler> labeler;
     std::unique_ptr<DriveWindow> window;
     std::unique_ptr<SideDrive> drive;
   };
   void work(std::size_t side);
   void start(std::size_t side);
+  void count(const LiveSide& side, Counts& counts) const;
+  /// Adds the images whose time odometry covers. Returns false if one waits for its class image.
+  bool workImages(LiveSide& side);
 
   const Parameters parameters_;
-  const LabelModel model_;
+  std::shared_ptr<const LabelModel> model_;
+  LiveTeaching teaching_;
   const Outputs outputs_;
   urban_nav_core::Trajectory trajectory_;
   std::unique_ptr<TravelledPath> path_;

@@ -49,12 +49,35 @@ CorrectionCount addCorrections(const LabelModel& model, const Scene& scene, std:
   SamplingLimits limits;
   limits.held_out = 0;  // wrong answers alone say nothing of probabilities
   std::vector<TrainingFold> made;
-  addScene({fold, measureFeatures(scene, model.features, scene.device == model.device), labels,
-            std::vector<std::uint32_t>(labels.size(), no_patch)},
+  addScene({fold, measureSceneFeatures(model, scene), labels, std::vector<std::uint32_t>(labels.size(), no_patch)},
            limits, made);
   for (float& weight : made.front().samples.weights) weight = correction_weight;
   folds.push_back(std::move(made.front()));
   return count;
+}
+
+std::size_t addPatchCorrections(const LabelModel& model, const Scene& scene,
+                                const std::vector<PatchCorrection>& corrections, int superpixel_size,
+                                TrainingFold& fold) {
+  if (corrections.empty()) return 0;
+  const std::vector<std::uint32_t> patches = makePatches(scene, makeSuperpixels(scene.view.image, superpixel_size));
+  const FeatureTable table = measureSceneFeatures(model, scene);
+  const bool has_one_wall =
+      std::find(model.classes.begin(), model.classes.end(), SceneClass::Wall) != model.classes.end();
+  std::size_t added = 0;
+  for (const PatchCorrection& correction : corrections)
+    for (std::size_t i = 0; i < patches.size(); ++i) {
+      const bool is_member =
+          i == correction.point || (patches[i] == patches[correction.point] && patches[i] != no_patch);
+      if (!is_member) continue;
+      FoldRows& rows = fold.samples;
+      rows.values.insert(rows.values.end(), table.row(i), table.row(i) + table.columns());
+      rows.labels.push_back(has_one_wall ? withOneWall(correction.label) : correction.label);
+      rows.patches.push_back(no_patch);
+      rows.weights.push_back(correction_weight);
+      ++added;
+    }
+  return added;
 }
 
 }  // namespace scene_labeler

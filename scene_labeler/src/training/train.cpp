@@ -16,8 +16,8 @@ namespace scene_labeler {
 namespace {
 
 constexpr std::size_t most_folds = 5;
-constexpr std::size_t least_samples = 10;  // a class with fewer is not learnt
-constexpr std::size_t most_model_bytes = 900'000, least_sample_bytes = 200'000, most_sample_bytes = 600'000;
+constexpr float least_samples = 10.0F;  // sum of weights: a class with less is not learnt
+constexpr std::size_t most_model_bytes = 980'000, least_sample_bytes = 200'000, most_sample_bytes = 840'000;
 
 /// Settings that cross-validation tries.
 struct TrialSetting {
@@ -78,9 +78,10 @@ void foldWalls(std::vector<TrainingFold>& folds) {
 }
 
 std::vector<SceneClass> presentClasses(const std::vector<TrainingFold>& folds) {
-  std::vector<std::size_t> counts(class_count, 0);
+  std::vector<float> counts(class_count, 0.0F);
   for (const TrainingFold& fold : folds)
-    for (const SceneClass label : fold.samples.labels) ++counts[toIndex(label)];
+    for (std::size_t i = 0; i < fold.samples.labels.size(); ++i)
+      counts[toIndex(fold.samples.labels[i])] += fold.samples.weights[i];
   std::vector<SceneClass> classes;
   for (std::size_t i = 0; i < counts.size(); ++i)
     if (counts[i] >= least_samples) classes.push_back(static_cast<SceneClass>(i));
@@ -237,7 +238,7 @@ ModelSamples keepSamples(const SamplePool& pool, const std::vector<TrainingFold>
   const std::size_t classes = pool.classes.size(), used = printModel(model).size();
   const std::size_t room =
       std::clamp(most_model_bytes - std::min(used, most_model_bytes), least_sample_bytes, most_sample_bytes);
-  const std::size_t limit = room / (pool.columns + 4) / classes;  // label, weight and place take four bytes
+  const std::size_t limit = room / (pool.columns + 10) / classes;  // label, weight and place take ten bytes
   ModelSamples kept;
   for (const TrainingFold& fold : folds) kept.folds.push_back(fold.name);
   std::vector<std::size_t> totals(classes, 0), seen(classes, 0);

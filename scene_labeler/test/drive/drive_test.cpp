@@ -88,7 +88,7 @@ TEST(DriveLabeler, LabelsEachReturnOnceAsItsPlaceShows) {
                    [](const auto& a, const auto& b) { return a.first.travelled < b.first.travelled; });
   std::vector<std::uint8_t> answers(yard.labels.size(), 0);
   std::size_t right = 0;
-  DriveLabeler labeler(testing::trainOnYards(ClassifierKind::Boosted), 12,
+  DriveLabeler labeler(testing::trainOnYards(ClassifierKind::Boosted), Parameters(),
                        [&](const std::vector<DriveReturn>& returns, const SceneLabels& labels) {
                          ASSERT_EQ(returns.size(), labels.labels.size());
                          for (std::size_t i = 0; i < returns.size(); ++i) {
@@ -109,7 +109,7 @@ TEST(DriveLabeler, TakesTheImagesOfACoveredOrDazzledCameraForNone) {
   const testing::Yard yard = testing::makeYard(22);
   for (const int brightness : {0, 255}) {
     std::vector<SceneClass> answers;
-    DriveLabeler labeler(testing::trainOnYards(ClassifierKind::Boosted), 12,
+    DriveLabeler labeler(testing::trainOnYards(ClassifierKind::Boosted), Parameters(),
                          [&](const std::vector<DriveReturn>&, const SceneLabels& labels) { answers = labels.labels; });
     DriveWindow window(100.0, labeler);
     SideView view;
@@ -129,6 +129,47 @@ TEST(DriveLabeler, TakesTheImagesOfACoveredOrDazzledCameraForNone) {
     for (std::size_t i = 0; i < answers.size(); ++i) right += answers[i] == yard.labels[i] ? 1U : 0U;
     EXPECT_GT(right, answers.size() * 9 / 10) << "by shape";
   }
+}
+
+TEST(DriveLabeler, CountsAClassImageOfAnotherSourceAsAView) {
+  const testing::Yard yard = testing::makeYard(23);
+  Parameters parameters;
+  parameters.class_accuracy = 0.99;
+  SideView view;  // at the ground, from above
+  view.camera.pinhole = {40.0, 40.0, 50.0, 40.0, 101, 81};
+  Eigen::Matrix3d R_world_camera;
+  R_world_camera << 1, 0, 0, 0, -1, 0, 0, 0, -1;
+  view.T_world_camera = Pose(Eigen::Quaterniond(R_world_camera), {4.0, 4.0, 6.0});
+  view.image = cv::Mat(81, 101, CV_8UC3, cv::Scalar(90, 110, 120));
+  const auto sumFoliage = [&](const cv::Mat& classes) {  // of probabilities
+    float sum = 0.0F;
+    DriveLabeler labeler(testing::trainOnYards(ClassifierKind::Boosted), parameters,
+                         [&](const std::vector<DriveReturn>&, const SceneLabels& labels) {
+                           const auto foliage =
+                               std::find(labels.classes.begin(), labels.classes.end(), SceneClass::Foliage);
+                           const std::size_t classes_of_model = labels.classes.size();
+                           for (auto i = static_cast<std::size_t>(foliage - labels.classes.begin());
+                                i < labels.probabilities.size(); i += classes_of_model)
+                             sum += labels.probabilities[i];
+                         });
+    DriveWindow window(100.0, labeler);
+    view.classes = classes;
+    window.add(DriveFrame{0, 0.0, view});
+    for (const Eigen::Vector3f& point : yard.scene.points) {
+      DriveReturn one;
+      one.point = point;
+      window.add(one);
+    }
+    window.finish();
+    EXPECT_EQ(labeler.classFrames(), classes.size() == view.image.size() ? 1U : 0U);
+    return sum;
+  };
+  const auto with = [](int scene_class) { return cv::Mat(81, 101, CV_8U, cv::Scalar(scene_class)); };
+  const float without = sumFoliage({});
+  EXPECT_GT(sumFoliage(with(6)), without + 100.0F);
+  EXPECT_EQ(sumFoliage(with(255)), without) << "the source names none";
+  EXPECT_EQ(sumFoliage(with(1)), without) << "a class that the model does not know";
+  EXPECT_EQ(sumFoliage(cv::Mat(10, 10, CV_8U, cv::Scalar(6))), without) << "another size";
 }
 
 TEST(DriveScene, ProjectsThroughTheLensAndThinsToOneReturnPerCube) {

@@ -78,9 +78,29 @@ TEST(Features, OfReturnsThatAreNotFiniteAreMissing) {
   }
 }
 
-/// A camera at the origin, looking along y, in front of a wall at y = 5: its left half is orange, its right half grey.
-Scene makeFacade() {
+TEST(Features, ReflectanceIsThatOfTheMaterialWhereTheSensorIsKnown) {
   Scene scene;
+  for (int i = 0; i < 60; ++i)
+    for (int j = 0; j < 60; ++j)
+      scene.points.emplace_back(0.05F * static_cast<float>(i), 2.0F + 0.2F * static_cast<float>(j), 0.0F);
+  const Eigen::Vector3f sensor(1.5F, 0.0F, 1.0F);
+  for (const Eigen::Vector3f& point : scene.points) {
+    scene.to_sensor.push_back(sensor - point);
+    const float range = scene.to_sensor.back().norm(), cosine = 1.0F / range;
+    const float light = range / (range + 0.5F) * std::min(1.0F, 8.0F / range) * std::pow(std::max(cosine, 0.2F), 0.85F);
+    scene.reflectance.push_back(120.0F * light);
+  }
+  const FeatureTable table = measureFeatures(scene, FeatureSet::All);
+  for (std::size_t i = 0; i < table.rows(); i += 37) EXPECT_NEAR(featureAt(table, i, "reflectance"), 120.0F, 6.0F) << i;
+  scene.to_sensor.clear();
+  const FeatureTable plain = measureFeatures(scene, FeatureSet::All);
+  EXPECT_FLOAT_EQ(featureAt(plain, 777, "reflectance"), scene.reflectance[777]);
+}
+
+/// A camera at the origin, looking along y, in front of a wall at y = 5: its left half is orange, its right half grey.
+Scene makeFacade(const std::vector<Eigen::Vector3f>& others = {}) {
+  Scene scene;
+  scene.points = others;
   for (int i = -40; i <= 40; ++i)
     for (int j = -20; j <= 20; ++j)
       scene.points.emplace_back(0.1F * static_cast<float>(i), 5.0F, 0.1F * static_cast<float>(j));
@@ -108,12 +128,11 @@ TEST(Features, OfAnImageAreTheColoursWhereTheReturnsAre) {
 }
 
 TEST(Features, OfAnImageAreMissingWhereItIsSaturatedOrHidden) {
-  Scene scene = makeFacade();
+  Scene scene = makeFacade({{0.0F, 30.0F, 0.0F}, {0.0F, -1.0F, 0.0F}, {0.0F, 4.0F, 0.0F}});
+  EXPECT_EQ(scene.view.is_visible[0], 0) << "hidden by the wall";
+  EXPECT_EQ(scene.view.is_visible[1], 0) << "after the camera";
+  EXPECT_EQ(scene.view.is_visible[2], 1) << "before the wall";
   scene.view.image.setTo(cv::Scalar(255, 255, 255));
-  scene.points.emplace_back(0.0F, 30.0F, 0.0F);  // hidden by the wall
-  scene.view.pixels.emplace_back(160.0F, 120.0F);
-  scene.view.depths.push_back(30.0F);
-  EXPECT_EQ(visibleReturns(scene.view).back(), 0);
   const FeatureTable table = measureFeatures(scene, FeatureSet::All);
   for (std::size_t i = 0; i < table.rows(); i += 13) EXPECT_TRUE(std::isnan(featureAt(table, i, "light_7")));
 }

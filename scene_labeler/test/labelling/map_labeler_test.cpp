@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "support/yard.hpp"
@@ -10,36 +11,112 @@
 namespace scene_labeler {
 namespace {
 
-TEST(MapLabeler, LabelsEveryFinitePointByShapeWhereNoImageShowsIt) {
+/// Labels of points, and what was noted on the way.
+struct LabelledYard {
+  std::vector<PointLabel> labels;
+  std::vector<int> times;          // that each point got a label
+  std::vector<std::size_t> shown;  // by each view
+  std::size_t most_held = 0;
+};
+
+/// Labels points that come in order of y, a metre at a time; `at_once`: all before any is labelled.
+LabelledYard labelPoints(std::vector<Eigen::Vector3f> points, std::vector<PlacedView> views, const cv::Mat& image,
+                         bool at_once = false) {
+  std::stable_sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.y() < b.y(); });
+  LabelledYard made;
+  made.labels.resize(points.size());
+  made.times.resize(points.size(), 0);
+  MapLabeler::Callbacks callbacks;
+  callbacks.load = [&](std::size_t) { return image; };
+  callbacks.take_view = [&](std::size_t, std::size_t shown) { made.shown.push_back(shown); };
+  callbacks.take_label = [&](std::size_t point, const PointLabel& label) {
+    made.labels[point] = label;
+    ++made.times[point];
+  };
+  MapLabeler labeler(testing::trainOnYards(ClassifierKind::Boosted), 12, 15.0, std::move(views), callbacks);
+  for (std::size_t begin = 0; begin < points.size();) {
+    const float row = points[begin].y();
+    if (!at_once) labeler.sweepTo(static_cast<double>(row));
+    std::size_t end = begin;
+    while (end < points.size() && points[end].y() < row + 1.0F) ++end;
+    labeler.addPoints(
+        {points.begin() + static_cast<std::ptrdiff_t>(begin), points.begin() + static_cast<std::ptrdiff_t>(end)},
+        std::vector<std::uint8_t>(end - begin, 100));
+    made.most_held = std::max(made.most_held, labeler.heldPoints());
+    begin = end;
+  }
+  labeler.finish();
+  EXPECT_EQ(labeler.heldPoints(), 0U);
+  return made;
+}
+
+/// A camera that looks along x, at the wall.
+PlacedView viewAt(double x, double y) {
+  PlacedView view;
+  view.camera.pinhole = {100.0, 100.0, 50.0, 40.0, 101, 81};
+  Eigen::Matrix3d R_map_camera;
+  R_map_camera << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  view.T_map_camera = urban_nav_core::Pose(Eigen::Quaterniond(R_map_camera), {x, y, 1.0});
+  return view;
+}
+
+const cv::Mat grey_image(81, 101, CV_8UC3, cv::Scalar(90, 100, 110));
+
+TEST(MapLabeler, LabelsEveryPointOnceByShapeWhereNoImageShowsIt) {
   testing::Yard yard = testing::makeYard(31);
-  yard.scene.points[7].x() = std::numeric_limits<float>::quiet_NaN();
-  const std::vector<std::uint8_t> reflectance(yard.labels.size(), 100);
-  MapLabeler labeler(testing::trainOnYards(ClassifierKind::Boosted), 12, 15.0, yard.scene.points, reflectance);
-  const std::vector<PointLabel> labels = labeler.finish();
-  ASSERT_EQ(labels.size(), yard.labels.size());
-  EXPECT_EQ(labels[7].label, SceneClass::None);
-  EXPECT_TRUE(labels[7].is_unsure);
+  std::vector<std::pair<Eigen::Vector3f, SceneClass>> sorted;
+  for (std::size_t i = 0; i < yard.labels.size(); ++i) sorted.emplace_back(yard.scene.points[i], yard.labels[i]);
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const auto& a, const auto& b) { return a.first.y() < b.first.y(); });
+  const LabelledYard made = labelPoints(yard.scene.points, {}, {});
+  EXPECT_EQ(std::count(made.times.begin(), made.times.end(), 1), static_cast<std::ptrdiff_t>(yard.labels.size()));
   std::size_t right = 0;
-  for (std::size_t i = 0; i < labels.size(); ++i) right += labels[i].label == yard.labels[i] ? 1U : 0U;
-  EXPECT_GT(right, labels.size() * 9 / 10);
+  for (std::size_t i = 0; i < sorted.size(); ++i) right += made.labels[i].label == sorted[i].second ? 1U : 0U;
+  EXPECT_GT(right, sorted.size() * 9 / 10);
+}
+
+TEST(MapLabeler, GivesNoLabelToPointsThatAreNotFinite) {
+  std::vector<PointLabel> labels;
+  MapLabeler::Callbacks callbacks;
+  callbacks.take_label = [&](std::size_t, const PointLabel& label) { labels.push_back(label); };
+  MapLabeler labeler(testing::trainOnYards(ClassifierKind::Boosted), 12, 15.0, {}, callbacks);
+  labeler.addPoints({{std::numeric_limits<float>::quiet_NaN(), 0.0F, 0.0F}}, {100});
+  labeler.finish();
+  ASSERT_EQ(labels.size(), 1U);
+  EXPECT_EQ(labels[0].label, SceneClass::None);
+  EXPECT_TRUE(labels[0].is_unsure);
 }
 
 TEST(MapLabeler, UsesAnImageForThePointsThatItShows) {
   const testing::Yard yard = testing::makeYard(32);
-  const std::vector<std::uint8_t> reflectance(yard.labels.size(), 100);
-  MapLabeler labeler(testing::trainOnYards(ClassifierKind::Boosted), 12, 15.0, yard.scene.points, reflectance);
-  SideView view;
-  view.camera.pinhole = {100.0, 100.0, 50.0, 40.0, 101, 81};
-  Eigen::Matrix3d R_world_camera;  // looks along x, at the wall
-  R_world_camera << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  view.T_world_camera = urban_nav_core::Pose(Eigen::Quaterniond(R_world_camera), {4.0, 4.0, 1.0});
-  EXPECT_EQ(labeler.add(view), 0u) << "no image";
-  view.image = cv::Mat(81, 101, CV_8UC3, cv::Scalar(90, 100, 110));
-  const std::size_t shown = labeler.add(view);
-  EXPECT_GT(shown, 500u);
-  EXPECT_LT(shown, yard.labels.size());
-  view.T_world_camera = urban_nav_core::Pose(Eigen::Quaterniond(R_world_camera), {4000.0, 4.0, 1.0});
-  EXPECT_EQ(labeler.add(view), 0u) << "elsewhere";
+  const LabelledYard made = labelPoints(yard.scene.points, {viewAt(4.0, 4.0), viewAt(4000.0, 4.0)}, grey_image);
+  ASSERT_EQ(made.shown.size(), 1U) << "the other one is elsewhere";
+  EXPECT_GT(made.shown[0], 500U);
+  EXPECT_LT(made.shown[0], yard.labels.size());
+  EXPECT_EQ(labelPoints(yard.scene.points, {viewAt(4.0, 4.0)}, {}).shown, std::vector<std::size_t>{0}) << "no image";
+  EXPECT_EQ(labelPoints(yard.scene.points, {viewAt(4.0, 4.0)}, cv::Mat(81, 101, CV_8UC3, cv::Scalar::all(0))).shown,
+            std::vector<std::size_t>{0})
+      << "a covered camera";
+}
+
+TEST(MapLabeler, HoldsThePointsOfAPartOfALongMapAndLabelsThemAsIfItHeldAll) {
+  std::vector<Eigen::Vector3f> points;
+  std::vector<PlacedView> views;
+  for (unsigned part = 0; part < 12; ++part) {
+    for (const Eigen::Vector3f& point : testing::makeYard(40 + part).scene.points)
+      points.push_back(point + Eigen::Vector3f(0.0F, 15.0F * static_cast<float>(part), 0.0F));
+    views.push_back(viewAt(4.0, 15.0 * part + 4.0));
+  }
+  const LabelledYard swept = labelPoints(points, views, grey_image),
+                     at_once = labelPoints(points, views, grey_image, true);
+  EXPECT_EQ(std::count(swept.times.begin(), swept.times.end(), 1), static_cast<std::ptrdiff_t>(points.size()));
+  EXPECT_LT(swept.most_held, points.size() * 6 / 10);
+  EXPECT_EQ(swept.shown, at_once.shown);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    ASSERT_EQ(swept.labels[i].label, at_once.labels[i].label) << i;
+    ASSERT_EQ(swept.labels[i].probability, at_once.labels[i].probability) << i;
+    ASSERT_EQ(swept.labels[i].is_unsure, at_once.labels[i].is_unsure) << i;
+  }
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <geometry_msgs/PointStamped.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/CameraInfo.h>
@@ -7,10 +8,13 @@
 #include <sensor_msgs/PointCloud2.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
 #include <tf2_msgs/TFMessage.h>
+#include <urban_nav_msgs/CorrectLabel.h>
+#include <urban_nav_msgs/FileCommand.h>
 #include <urban_nav_msgs/RelativePose.h>
 #include <urban_nav_msgs/StageStatus.h>
 
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <opencv2/core.hpp>
 
@@ -82,6 +86,22 @@ class StreetRobot : public urban_nav_ros::testing::Listener {
     return all;
   }
 
+  void click(const std::string& frame, float x, float y, float z) {
+    geometry_msgs::PointStamped message;
+    message.header.frame_id = frame;
+    message.point.x = x;
+    message.point.y = y;
+    message.point.z = z;
+    click_.publish(message);
+    ros::WallDuration(0.3).sleep();  // clicks come on another connection than services
+  }
+  static urban_nav_msgs::CorrectLabel::Response correct(const std::string& label) {
+    urban_nav_msgs::CorrectLabel service;
+    service.request.label = label;
+    EXPECT_TRUE(ros::service::call("scene_labeler/correct", service));
+    return service.response;
+  }
+
   std::vector<sensor_msgs::PointCloud2> clouds;
   std::vector<sensor_msgs::Image> images;
   std::vector<urban_nav_msgs::StageStatus> statuses;
@@ -118,6 +138,7 @@ class StreetRobot : public urban_nav_ros::testing::Listener {
   ros::Publisher left_ = advertise<sensor_msgs::LaserScan>("laser_left/scan");
   ros::Publisher right_ = advertise<sensor_msgs::LaserScan>("laser_right/scan");
   ros::Publisher image_ = advertise<sensor_msgs::Image>("ladybug/camera4/image_raw");
+  ros::Publisher click_ = advertise<geometry_msgs::PointStamped>("/clicked_point");
   ros::Publisher info_ = advertise<sensor_msgs::CameraInfo>("ladybug/camera4/camera_info");
 };
 
@@ -142,6 +163,21 @@ TEST(SceneLabelerNodelet, LabelsWhatTheLaserAndTheCameraOfASideSee) {
     ASSERT_TRUE(p[0] > 0.1F && p[0] <= 1.0F);
     ASSERT_LE(label[0], 7);
   }
+  EXPECT_NE(StreetRobot::correct("gravel").message.find("paved"), std::string::npos) << "the classes are named";
+  EXPECT_FALSE(StreetRobot::correct("dirt_path").success) << "no point was clicked";
+  const sensor_msgs::PointCloud2ConstIterator<float> last(robot.clouds.back(), "x");
+  robot.click("map", last[0], last[1], last[2]);
+  EXPECT_NE(StreetRobot::correct("dirt_path").message.find("odom"), std::string::npos) << "another frame";
+  robot.click("odom", last[0], last[1], last[2] + 20.0F);
+  EXPECT_FALSE(StreetRobot::correct("dirt_path").success) << "nothing is there";
+  robot.click("odom", last[0], last[1], last[2]);
+  EXPECT_TRUE(StreetRobot::correct("dirt_path").success);
+  EXPECT_TRUE(StreetRobot::until([&] { return robot.diagnosed("corrections", "1"); }));
+  urban_nav_msgs::FileCommand save;
+  save.request.path = "/tmp/scene_labeler_nodelet_test.labels";
+  ASSERT_TRUE(ros::service::call("scene_labeler/save", save));
+  EXPECT_TRUE(save.response.success) << save.response.message;
+  EXPECT_EQ(std::remove(save.request.path.c_str()), 0);
   ASSERT_TRUE(robot.call("reset"));
   ASSERT_TRUE(StreetRobot::until([&] { return robot.diagnosed("frames labelled", "0"); }));
 }

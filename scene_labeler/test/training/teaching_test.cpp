@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "scene_labeler/labelling/labeler.hpp"
+#include "scene_labeler/labelling/superpixels.hpp"
 #include "support/yard.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 
@@ -88,6 +89,30 @@ TEST(Teaching, GivesCorrectionsTenfoldWeight) {
   for (const float weight : folds[0].samples.weights) EXPECT_EQ(weight, 10.0F);
   const LabelModel taught = teach(model, yard);
   EXPECT_GT(std::count(taught.samples.weights.begin(), taught.samples.weights.end(), 10), 0);
+}
+
+TEST(Teaching, LearnsTheSuperpixelsAtCorrectedReturns) {
+  const LabelModel& model = testing::trainOnYards(ClassifierKind::Boosted);
+  const testing::Yard yard = makeYardWithRoofs(11), held_out = makeYardWithRoofs(12);
+  const std::vector<std::uint32_t> patches = makePatches(yard.scene, {});
+  std::vector<PatchCorrection> corrections;
+  for (std::size_t i = 0; i < yard.labels.size() && corrections.size() < 20; i += 7)
+    if (yard.labels[i] == SceneClass::Vehicle) corrections.push_back({i, SceneClass::Vehicle});
+  TrainingFold fold;
+  fold.name = "corrections";
+  const std::size_t added = addPatchCorrections(model, yard.scene, corrections, 12, fold);
+  std::size_t members = 0;
+  for (const PatchCorrection& one : corrections)
+    members += static_cast<std::size_t>(std::count(patches.begin(), patches.end(), patches[one.point]));
+  EXPECT_EQ(added, members);
+  EXPECT_GT(added, corrections.size());
+  std::vector<TrainingFold> folds = restoreFolds(model);
+  folds.push_back(fold);
+  TrainingOptions options;
+  options.samples_per_class = 300;
+  options.base = &model;
+  const LabelModel taught = trainModel(std::move(folds), options, [](double) {}).model;
+  EXPECT_GT(f1(taught, held_out, SceneClass::Vehicle), 0.8);
 }
 
 TEST(ModelSamples, AreBoundedAndRestoreTheFoldsOfTheTraining) {

@@ -6,21 +6,32 @@
 
 #include "scene_labeler/drive/drive_window.hpp"
 #include "scene_labeler/labelling/labeler.hpp"
+#include "scene_labeler/labelling/mounting_check.hpp"
+#include "scene_labeler/parameters.hpp"
 
 namespace scene_labeler {
 
 /// Labels the returns of a drive, each from all frames that show it: the mean of their log probabilities, since views
-/// of one surface err together. Returns that no frame shows are labelled by shape, with the nearest frame. Not
-/// thread-safe; the result does not depend on the number of threads.
+/// of one surface err together. Class images of another source count as further views, right in the share
+/// `class_accuracy`. Returns that no frame shows are labelled by shape, with the nearest frame. Not thread-safe; the
+/// result does not depend on the number of threads.
 class DriveLabeler : public DriveObserver {
  public:
   /// Takes the returns that have a label, in their order; `labels`: one row per return.
   using TakeLabels = std::function<void(const std::vector<DriveReturn>& returns, const SceneLabels& labels)>;
   /// Takes a frame and the classes of its superpixels (SceneLabels::image), which are empty without an image.
   using TakeImage = std::function<void(const DriveFrame& frame, const cv::Mat& classes)>;
-  /// The model must outlive the labeler. `superpixel`: px.
-  DriveLabeler(const LabelModel& model, int superpixel, TakeLabels take, TakeImage take_image = {})
-      : model_(model), superpixel_(superpixel), take_(std::move(take)), take_image_(std::move(take_image)) {}
+  /// Takes the scene of a frame, with is_asked set where it gave labels.
+  using TakeScene = std::function<void(DriveScene drive)>;
+  /// The model must outlive the labeler.
+  DriveLabeler(const LabelModel& model, const Parameters& parameters, TakeLabels take, TakeImage take_image = {},
+               TakeScene take_scene = {})
+      : model_(model),
+        parameters_(parameters),
+        take_(std::move(take)),
+        take_image_(std::move(take_image)),
+        take_scene_(std::move(take_scene)),
+        mounting_(model) {}
 
   void observe(const DriveFrame& frame, const Stretch& nearest, std::size_t first,
                const std::vector<DriveReturn>& returns) override;
@@ -31,6 +42,10 @@ class DriveLabeler : public DriveObserver {
   std::size_t imagedFrames() const { return imaged_frames_; }
   /// Returns how many images were black or saturated, as of a covered camera: they count as none.
   std::size_t blindFrames() const { return blind_frames_; }
+  /// Returns how many images were those of a camera that seems to be mounted upside down: they count as none.
+  std::size_t upsideDownFrames() const { return upside_down_frames_; }
+  /// Returns the number of frames with a class image of another source (SideView::classes).
+  std::size_t classFrames() const { return class_frames_; }
 
  private:
   /// What the frames so far say of one return.
@@ -39,16 +54,21 @@ class DriveLabeler : public DriveObserver {
     bool by_shape = false;  // the only view has no image of it
     std::uint32_t patch = 0;
   };
+  /// Adds what a class image of another source says, as one more view of the returns that the frame shows.
+  void addClasses(const DriveFrame& frame, const DriveScene& drive, std::size_t first);
+
   const LabelModel& model_;
-  const int superpixel_;
+  const Parameters parameters_;
   const TakeLabels take_;
   const TakeImage take_image_;
+  const TakeScene take_scene_;
+  MountingCheck mounting_;
   std::size_t first_ = 0;  // index of returns_[0]
   std::vector<DriveReturn> returns_;
   std::vector<Votes> votes_;
   std::vector<float> logs_;  // of each return one for each class, summed over views
   std::uint32_t patches_ = 0;
-  std::size_t frames_ = 0, imaged_frames_ = 0, blind_frames_ = 0;
+  std::size_t frames_ = 0, imaged_frames_ = 0, blind_frames_ = 0, upside_down_frames_ = 0, class_frames_ = 0;
 };
 
 /// Returns which points of a scene get a label from a frame: those that its image shows, and those of the stretch that

@@ -14,11 +14,12 @@ namespace scene_labeler {
 
 /// A return of a side laser along the path of the robot.
 struct DriveReturn {
-  urban_nav_core::StampNs scan = 0;                 ///< stamp of its scan
-  std::uint16_t beam = 0;                           ///< index in the scan
-  float reflectance = 0.0F;                         ///< in units of the device
-  double travelled = 0.0;                           ///< m along the path, at its scan
-  Eigen::Vector3f point = Eigen::Vector3f::Zero();  ///< m, in the world, rendered at its own time
+  urban_nav_core::StampNs scan = 0;                    ///< stamp of its scan
+  std::uint16_t beam = 0;                              ///< index in the scan
+  float reflectance = 0.0F;                            ///< in units of the device
+  double travelled = 0.0;                              ///< m along the path, at its scan
+  Eigen::Vector3f point = Eigen::Vector3f::Zero();     ///< m, in the world, rendered at its own time
+  Eigen::Vector3f to_laser = Eigen::Vector3f::Zero();  ///< m, from the point to the laser at that time
 };
 
 /// An image of a side camera.
@@ -26,16 +27,19 @@ struct SideView {
   urban_nav_core::RawCamera camera;
   urban_nav_core::Pose T_world_camera;  ///< of the optical frame, at the time of the image
   cv::Mat image;                        ///< CV_8UC3, blue, green, red
+  cv::Mat classes = {};  ///< CV_8U, SceneClass of each pixel by another source; empty: there is none of this image
 };
 
 /// A scene of returns thinned to one for each cube of 5 cm, the first one.
 struct DriveScene {
-  Scene scene;
+  Scene scene;                                       ///< its points are relative to `origin`
+  Eigen::Vector3f origin = Eigen::Vector3f::Zero();  ///< m, in the world
   std::vector<std::uint32_t> first_of_point;   ///< index of the return that is the point, for each point of the scene
   std::vector<std::uint32_t> point_of_return;  ///< for each return
 };
 
-/// Projects the points of a scene, plus `origin`, into an image, through the lens, and makes it the scene's image.
+/// Projects the points of a scene, plus `origin`, into an image, through the lens, makes it the scene's image, and
+/// finds the points that it shows.
 void projectView(const SideView& view, const Eigen::Vector3f& origin, Scene& scene);
 
 /// Thins returns and projects them into an image, through the lens. An image that is empty gives a scene without one.

@@ -34,8 +34,8 @@ class SideDrive {
   void add(const urban_nav_core::PlanarScan& scan);
   /// Returns whether an image of this time begins a new frame.
   bool wants(urban_nav_core::StampNs stamp) const;
-  /// Adds an image that it wants; one of another size than the camera's is left out.
-  void add(urban_nav_core::StampNs stamp, const cv::Mat& image);
+  /// Adds an image that it wants; one of another size than the camera's is left out. `classes`: SideView::classes.
+  void add(urban_nav_core::StampNs stamp, const cv::Mat& image, const cv::Mat& classes = {});
 
  private:
   void addFrame(DriveFrame frame);

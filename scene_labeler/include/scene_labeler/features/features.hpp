@@ -25,4 +25,7 @@ std::size_t firstImageFeature(FeatureSet set);
 /// reflectance. Thread-safe.
 FeatureTable measureFeatures(const Scene& scene, FeatureSet set, bool with_reflectance = true);
 
+/// Measures the features of the image of a scene again; those of the cloud stay. Thread-safe.
+void measureImageFeatures(const Scene& scene, FeatureSet set, FeatureTable& table);
+
 }  // namespace scene_labeler

@@ -23,4 +23,10 @@ struct SceneLabels {
 /// Deterministic for any number of threads. `superpixel_size`: px. Thread-safe.
 SceneLabels labelScene(const LabelModel& model, const Scene& scene, int superpixel_size);
 
+/// Labels a scene whose features are measured: measureSceneFeatures() of the model.
+SceneLabels labelScene(const LabelModel& model, const Scene& scene, int superpixel_size, const FeatureTable& table);
+
+/// Returns the features of a scene as a model takes them: without the reflectance of another device.
+FeatureTable measureSceneFeatures(const LabelModel& model, const Scene& scene);
+
 }  // namespace scene_labeler

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <utility>
 #include <vector>
@@ -18,40 +19,75 @@ struct PointLabel {
   bool is_unsure = true;
 };
 
+/// An image that can be loaded, and its place in the map.
+struct PlacedView {
+  urban_nav_core::RawCamera camera;
+  urban_nav_core::Pose T_map_camera;  ///< of the optical frame, at the time of the image
+  std::size_t image = 0;              ///< number for MapLabeler::Callbacks::load
+};
+
 /// Labels the points of a map, each from all images that show it, the others by shape and by what the images say of
-/// their surroundings. The result depends on the order of the views only by rounding, and not on the number of threads.
-/// Not thread-safe.
+/// their surroundings. Points come in rows along y, and are kept until the labels of their surroundings are known, so
+/// that memory depends on the width of the map, not on its length. The result depends on the order of points and views
+/// only by rounding, and not on the number of threads. Not thread-safe.
 class MapLabeler {
  public:
-  /// `points`: m, some 5 cm apart. `reflectance`: one per point, as the robot's lasers measure it. The model must
-  /// outlive the labeler. `superpixel`: px. `reach`: m, of a view.
-  MapLabeler(const LabelModel& model, int superpixel, double reach, std::vector<Eigen::Vector3f> points,
-             std::vector<std::uint8_t> reflectance);
+  struct Callbacks {
+    /// Returns an image (CV_8UC3, blue, green, red) by its number; an empty one if there is none.
+    std::function<cv::Mat(std::size_t image)> load;
+    /// Called after each image. `shown`: number of points that it labels; 0 of one that is black, saturated or empty.
+    std::function<void(std::size_t image, std::size_t shown)> take_view;
+    /// Called once for each point, by its number in the order of addPoints().
+    std::function<void(std::size_t point, const PointLabel& label)> take_label;
+  };
 
-  /// Labels what an image shows. Returns the number of these points.
-  std::size_t add(const SideView& view);
-  /// Labels the points that no image has shown, and returns the labels of all points.
-  std::vector<PointLabel> finish();
+  /// The model must outlive the labeler. `superpixel`: px. `reach`: m, of a view.
+  MapLabeler(const LabelModel& model, int superpixel, double reach, std::vector<PlacedView> views, Callbacks callbacks);
+
+  /// Adds points, m, some 5 cm apart. `reflectance`: one per point, that of the robot's lasers without the influence of
+  /// range and incidence.
+  void addPoints(const std::vector<Eigen::Vector3f>& points, const std::vector<std::uint8_t>& reflectance);
+  /// Labels what it can: no later point will have a y below this.
+  void sweepTo(double y);
+  /// Labels all other points.
+  void finish();
+
+  /// Returns the number of points that wait for labels of their surroundings.
+  std::size_t heldPoints() const { return held_; }
 
  private:
-  using Square = std::pair<int, int>;
-  Square squareAt(const Eigen::Vector3f& point) const;
-  /// Appends the points of the squares within `reach` of a place, up to `margin` squares around `middle`.
-  std::vector<std::uint32_t> pointsAround(const Square& middle, int margin) const;
-  Scene makeScene(const std::vector<std::uint32_t>& members) const;
+  using Square = std::pair<int, int>;  // of the ground: row along y, column along x
+  struct SquarePoints {
+    std::vector<std::size_t> numbers;
+    std::vector<Eigen::Vector3f> points;
+    std::vector<std::uint8_t> reflectance, is_shown;
+    std::vector<float> logs;  // of each point one for each class, summed over views
+    std::vector<std::uint16_t> views, unsure;
+  };
+  struct Member {
+    SquarePoints* square = nullptr;
+    std::size_t index = 0;
+    const Eigen::Vector3f& point() const { return square->points[index]; }
+  };
+  /// Returns the points of the squares around one, up to `margin` squares away.
+  std::vector<Member> pointsAround(const Square& middle, int margin);
+  static Scene makeScene(const std::vector<Member>& members);
+  void labelView(const PlacedView& view);
+  void labelHidden(const Square& square, const SquarePoints& own);
   /// Uses the labels that images gave for the points of a square that no image shows.
-  void spreadInSquare(const std::vector<std::uint32_t>& members, const std::vector<std::uint16_t>& shown,
-                      const std::vector<std::uint8_t>& is_asked);
-  void vote(const std::vector<std::uint32_t>& members, const SceneLabels& labels);
+  void spreadInSquare(const std::vector<Member>& members, const std::vector<std::uint8_t>& is_asked);
+  void vote(const std::vector<Member>& members, const SceneLabels& labels, bool by_image);
+  void giveLabels(const SquarePoints& square);
+  void labelRowsBelow(double y);
 
   const LabelModel& model_;
   const int superpixel_;
   const double reach_;
-  const std::vector<Eigen::Vector3f> points_;
-  const std::vector<std::uint8_t> reflectance_;
-  std::map<Square, std::vector<std::uint32_t>> squares_;  // points of squares of the ground
-  std::vector<float> logs_;                               // of each point one for each class, summed over views
-  std::vector<std::uint16_t> views_, unsure_;
+  const std::vector<PlacedView> views_;  // in the order of y
+  const Callbacks callbacks_;
+  std::size_t next_view_ = 0, next_point_ = 0, held_ = 0;
+  int next_row_;  // of squares: those before have their labels
+  std::map<Square, SquarePoints> squares_;
 };
 
 }  // namespace scene_labeler

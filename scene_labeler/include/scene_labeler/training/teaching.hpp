@@ -27,4 +27,16 @@ struct CorrectionCount {
 CorrectionCount addCorrections(const LabelModel& model, const Scene& scene, std::vector<SceneClass> labels,
                                int superpixel_size, const std::string& fold, std::vector<TrainingFold>& folds);
 
+/// A return of a scene and the class that a person gave to the superpixel there.
+struct PatchCorrection {
+  std::size_t point = 0;  ///< index in the scene
+  SceneClass label = SceneClass::None;
+};
+
+/// Adds the returns of the superpixels of a scene at the given returns (without an image: of the cubes of
+/// makePatches()) to a fold, with correction_weight, whatever the model's answer is. Returns how many were added.
+std::size_t addPatchCorrections(const LabelModel& model, const Scene& scene,
+                                const std::vector<PatchCorrection>& corrections, int superpixel_size,
+                                TrainingFold& fold);
+
 }  // namespace scene_labeler

@@ -2,11 +2,11 @@
 #include "command_line/usage.hpp"
 #include "commands/commands.hpp"
 #include "commands/labels_actions.hpp"
-#include "labels/class_map.hpp"
 #include "labels/label_drive.hpp"
 #include "labels/label_sources.hpp"
 #include "labels/label_teaching.hpp"
 #include "pipeline/parameters.hpp"
+#include "scene_labeler/class_map.hpp"
 #include "scene_labeler/labelling/superpixels.hpp"
 #include "scene_labeler/parameters.hpp"
 #include "scene_labeler/training/train.hpp"
@@ -19,6 +19,7 @@ namespace urban_nav {
 namespace {
 
 using scene_labeler::ClassifierKind;
+using scene_labeler::ClassMap;
 using scene_labeler::FeatureSet;
 
 ClassifierKind classifierFrom(const Arguments& arguments, ClassifierKind preset) {
@@ -102,7 +103,7 @@ int runLabelsTrain(const Arguments& arguments, Console& console) {
   const int superpixel = parameters.get(scene_labeler::table()).superpixel;
   auto folds = teaching.folds();
   folds = readTrainingSources(sources, map, options.features, superpixel, console, std::move(folds));
-  teaching.addCorrections(map, superpixel, console, folds);
+  teaching.addCorrections(map, {&parameters, arguments.all("topic"), ""}, console, folds);
   Progress progress(console, "training", "%", 100);
   const scene_labeler::TrainedModel trained = scene_labeler::trainModel(
       std::move(folds), options, [&](double share) { progress.update(static_cast<std::int64_t>(100.0 * share)); });
@@ -135,7 +136,12 @@ Command labelsTrainAction() {
       {"--classes", "FILE", "id,class for the values of label (default: the classes' own numbers)", false, false, {}},
       {"--seed", "N", "of the drawn samples and features (default 1)", false, false, {}},
       {"--add", "MODEL", "model whose samples are learnt too; SRC may be omitted with --corrections", false, false, {}},
-      {"--corrections", "EDITED.ply", "map.ply or scene with edited column label or scalar_label", false, false, {}},
+      {"--corrections",
+       "EDITED",
+       "map.ply or scene with edited column label or scalar_label, or bag,side,stamp_ns,beam,class of clicks in bags",
+       false,
+       false,
+       {}},
       jsonOption(),
       configOption(),
       setOption(),

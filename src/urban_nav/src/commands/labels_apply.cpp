@@ -3,11 +3,11 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "commands/labels_actions.hpp"
-#include "labels/class_map.hpp"
 #include "labels/label_drive.hpp"
 #include "labels/label_score.hpp"
 #include "labels/label_sources.hpp"
 #include "pipeline/parameters.hpp"
+#include "scene_labeler/class_map.hpp"
 #include "scene_labeler/parameters.hpp"
 #include "stage/label_model_file.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
@@ -16,6 +16,9 @@
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav {
+
+using scene_labeler::ClassMap;
+
 namespace {
 
 std::string labelsHelp(const Arguments& arguments) { return stageHelp(arguments, scene_labeler::table().stage()); }

@@ -15,6 +15,7 @@
 #include "input/bag_panorama.hpp"
 #include "input/bag_topics.hpp"
 #include "input/first_message.hpp"
+#include "labels/class_images.hpp"
 #include "scene_labeler/drive/side_drive.hpp"
 #include "scene_labeler/parameters.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -77,8 +78,8 @@ std::array<SideTopics, 2> readRigs(std::list<rosbag::Bag>& bags, const std::stri
 class SideReader {
  public:
   SideReader(const SideTopics& topics, const Trajectory& T_world_base, const scene_labeler::TravelledPath& path,
-             double spacing, DriveWindow& window)
-      : topics_(topics), window_(window), drive_(topics.rig, T_world_base, path, spacing, window) {}
+             double spacing, const ClassImages& classes, DriveWindow& window)
+      : topics_(topics), classes_(classes), window_(window), drive_(topics.rig, T_world_base, path, spacing, window) {}
 
   bool takes(const std::string& topic) const {
     return !topic.empty() && (topic == topics_.scan || topic == topics_.image);
@@ -98,10 +99,12 @@ class SideReader {
 
  private:
   void add(const urban_nav_ros::RecordedImage& image) {
-    if (drive_.wants(image.stamp())) drive_.add(image.stamp(), image.colour().pixels);
+    if (drive_.wants(image.stamp()))
+      drive_.add(image.stamp(), image.colour().pixels, classes_.at(image.frame(), image.stamp()));
   }
 
   const SideTopics& topics_;
+  const ClassImages& classes_;
   DriveWindow& window_;
   scene_labeler::SideDrive drive_;
 };
@@ -135,15 +138,16 @@ void readDrive(const std::string& bag, const DriveOptions& options, Console& con
                const std::array<DriveWindow*, 2>& windows) {
   const Trajectory T_world_base = readDriveTrajectory(bag, options, console);
   const scene_labeler::TravelledPath path(T_world_base);
-  const double spacing = options.parameters->get(scene_labeler::table()).spacing;
+  const scene_labeler::Parameters& parameters = options.parameters->get(scene_labeler::table());
   try {
     std::list<rosbag::Bag> bags;
     bags.emplace_back(bag, rosbag::bagmode::Read);
     const BagTopics topics = chooseTopics(topicTypes(bags), options.topics);
     const std::array<SideTopics, 2> rigs = readRigs(bags, bag, topics, console);
+    const ClassImages classes(bags.front(), parameters.class_topic, parameters.class_file);
     std::vector<SideReader> sides;
     for (const DriveSide side : both_sides)
-      sides.emplace_back(rigs[static_cast<std::size_t>(side)], T_world_base, path, spacing,
+      sides.emplace_back(rigs[static_cast<std::size_t>(side)], T_world_base, path, parameters.spacing, classes,
                          *windows[static_cast<std::size_t>(side)]);
     Progress progress(console, std::filesystem::path(bag).stem().string(), "messages", 0);
     readSides(bags, rigs, sides, progress);

@@ -31,8 +31,9 @@ constexpr double lone_stretch = 40.0;  // m along the path: the folds of a bag t
 /// Times the labelling of frames.
 class TimedLabeler final : public DriveLabeler {
  public:
-  TimedLabeler(const scene_labeler::LabelModel& model, int superpixel, TakeLabels take, LabelRun& run)
-      : DriveLabeler(model, superpixel, std::move(take)), run_(run) {}
+  TimedLabeler(const scene_labeler::LabelModel& model, const scene_labeler::Parameters& parameters, TakeLabels take,
+               LabelRun& run)
+      : DriveLabeler(model, parameters, std::move(take)), run_(run) {}
 
   void observe(const DriveFrame& frame, const Stretch& nearest, std::size_t first,
                const std::vector<DriveReturn>& returns) override {
@@ -109,7 +110,7 @@ class FoldBuilder final : public scene_labeler::DriveObserver {
 
 }  // namespace
 
-DriveTruth::DriveTruth(const std::string& path, const ClassMap& map) {
+DriveTruth::DriveTruth(const std::string& path, const scene_labeler::ClassMap& map) {
   const auto table = urban_nav_core::CsvTable::read(path);
   const std::size_t stamp = table.column("stamp_ns"), beam = table.column("beam"), label = table.column("class");
   for (std::size_t row = 0; row < table.rows(); ++row) {
@@ -146,17 +147,24 @@ void labelDrive(const scene_labeler::LabelModel& model, const std::string& bag, 
       take(side, returns, labels);
     };
   };
-  TimedLabeler left(model, parameters.superpixel, taker(DriveSide::Left), run);
-  TimedLabeler right(model, parameters.superpixel, taker(DriveSide::Right), run);
+  TimedLabeler left(model, parameters, taker(DriveSide::Left), run);
+  TimedLabeler right(model, parameters, taker(DriveSide::Right), run);
   DriveWindow left_window(parameters.reach, left), right_window(parameters.reach, right);
   readDrive(bag, options, console, {&left_window, &right_window});
-  for (const auto& [labeler, side] : {std::pair(&left, DriveSide::Left), std::pair(&right, DriveSide::Right)})
+  if (!parameters.class_topic.empty())
+    console.info(bag + ": class images for " + std::to_string(left.classFrames() + right.classFrames()) + " of " +
+                 std::to_string(left.imagedFrames() + right.imagedFrames()) + " images");
+  for (const auto& [labeler, side] : {std::pair(&left, DriveSide::Left), std::pair(&right, DriveSide::Right)}) {
+    if (labeler->upsideDownFrames() > 0)
+      console.warn(bag + ": the " + toString(side) + " camera seems to be mounted upside down: " +
+                   std::to_string(labeler->upsideDownFrames()) + " of its images are not used");
     if (labeler->blindFrames() > 0)
       console.warn(bag + ": " + std::to_string(labeler->blindFrames()) + " images of the " + toString(side) +
                    " camera are black or saturated and are not used");
+  }
 }
 
-void addDriveFold(const std::string& bag, const DriveOptions& options, const ClassMap& map,
+void addDriveFold(const std::string& bag, const DriveOptions& options, const scene_labeler::ClassMap& map,
                   scene_labeler::FeatureSet features, bool is_alone, Console& console,
                   std::vector<scene_labeler::TrainingFold>& folds) {
   const scene_labeler::Parameters& parameters = options.parameters->get(scene_labeler::table());

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "labels/class_map.hpp"
 #include "labels/drive_bag.hpp"
 #include "labels/label_run.hpp"
+#include "scene_labeler/class_map.hpp"
 #include "scene_labeler/training/training_data.hpp"
 
 namespace urban_nav {
@@ -17,7 +17,7 @@ namespace urban_nav {
 class DriveTruth {
  public:
   /// Throws UserError if the file cannot be read, or has a label that the map does not list.
-  DriveTruth(const std::string& path, const ClassMap& map);
+  DriveTruth(const std::string& path, const scene_labeler::ClassMap& map);
   /// Returns the path for a bag.
   static std::string path(const std::string& bag, DriveSide side);
 
@@ -38,7 +38,7 @@ void labelDrive(const scene_labeler::LabelModel& model, const std::string& bag, 
 
 /// Measures the returns of a bag with their truth and adds them as one fold, its name that of the bag; a bag that is
 /// the only source is divided into folds along its path.
-void addDriveFold(const std::string& bag, const DriveOptions& options, const ClassMap& map,
+void addDriveFold(const std::string& bag, const DriveOptions& options, const scene_labeler::ClassMap& map,
                   scene_labeler::FeatureSet features, bool is_alone, Console& console,
                   std::vector<scene_labeler::TrainingFold>& folds);
 

@@ -34,7 +34,9 @@ void LabelScore::add(const scene_labeler::SceneLabels& labels, const std::vector
     const SceneClass expected = one_wall_ ? withOneWall(truth[i]) : truth[i];
     const SceneClass answer = one_wall_ ? withOneWall(labels.labels[i]) : labels.labels[i];
     ++points_;
-    ++confusion_[toIndex(expected)][answer == SceneClass::None ? none_index : toIndex(answer)];
+    const std::size_t column = answer == SceneClass::None ? none_index : toIndex(answer);
+    ++confusion_[toIndex(expected)][column];
+    if (labels.unsure[i] == 0) ++sure_confusion_[toIndex(expected)][column];
     if (labels.patches[i] != scene_labeler::no_patch) patches[toIndex(expected)].insert(labels.patches[i]);
     if (answer == SceneClass::None) continue;
     const auto stated = static_cast<double>(labels.probability(i));
@@ -85,17 +87,23 @@ double LabelScore::calibrationError() const {
   return points > 0.0 ? sum / points : 0.0;
 }
 
+Json LabelScore::toJson(const Confusion& confusion) {
+  Json names = Json::array(), rows = Json::array();
+  for (std::size_t k = 0; k <= class_count; ++k) names.append(nameAt(k));
+  for (const auto& answers : confusion) {
+    Json row = Json::array();
+    for (const std::size_t count : answers) row.append(count);
+    rows.append(std::move(row));
+  }
+  return Json::object({{"names", std::move(names)}, {"rows", std::move(rows)}});
+}
+
 void LabelScore::addTo(Json& json) const {
   json["points"] = points_;
   json["accuracy"] = accuracy();
   json["f1_mean"] = meanF1();
   json["classes"] = Json::object();
-  Json names = Json::array(), rows = Json::array();
-  for (std::size_t k = 0; k <= class_count; ++k) names.append(nameAt(k));
   for (std::size_t k = 0; k < class_count; ++k) {
-    Json row = Json::array();
-    for (const std::size_t count : confusion_[k]) row.append(count);
-    rows.append(std::move(row));
     if (truthCount(k) == 0) continue;
     const Pair pair = pairAt(k);
     json["classes"][nameAt(k)] = Json::object({{"points", truthCount(k)},
@@ -104,7 +112,8 @@ void LabelScore::addTo(Json& json) const {
                                                {"recall", pair.recall},
                                                {"f1", pair.f1}});
   }
-  json["confusion"] = Json::object({{"names", std::move(names)}, {"rows", std::move(rows)}});
+  json["confusion"] = toJson(confusion_);
+  json["sure_confusion"] = toJson(sure_confusion_);
   json["reliability"] = Json::array();
   for (std::size_t i = 0; i < bins_.size(); ++i) {
     const Bin& bin = bins_[i];

@@ -23,7 +23,8 @@ class LabelScore {
   double meanF1() const;  ///< over the classes with a truth
   /// Mean distance of stated probability and share that is right, over ten bins weighted by their returns.
   double calibrationError() const;
-  /// Sets `points`, `accuracy`, `f1_mean`, `classes`, `confusion`, `reliability`, `calibration_error`.
+  /// Sets `points`, `accuracy`, `f1_mean`, `classes`, `confusion`, `sure_confusion`, `reliability`,
+  /// `calibration_error`.
   void addTo(Json& json) const;
   /// Returns a table for people.
   std::string print() const;
@@ -42,7 +43,10 @@ class LabelScore {
 
   bool one_wall_;
   std::size_t points_ = 0;
-  std::array<std::array<std::size_t, scene_labeler::class_count + 1>, scene_labeler::class_count> confusion_{};
+  /// Number of answers by truth and answer; none_index: no answer.
+  using Confusion = std::array<std::array<std::size_t, scene_labeler::class_count + 1>, scene_labeler::class_count>;
+  static Json toJson(const Confusion& confusion);
+  Confusion confusion_{}, sure_confusion_{};  // of all answers, and of those that are not unsure
   std::array<std::size_t, scene_labeler::class_count> patches_{};
   std::array<Bin, 10> bins_{};
 };

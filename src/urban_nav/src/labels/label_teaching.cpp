@@ -2,9 +2,14 @@
 #include "labels/label_teaching.hpp"
 
 #include <algorithm>
+#include <filesystem>
 
+#include "labels/label_clicks.hpp"
 #include "labels/scene_files.hpp"
+#include "scene_labeler/parameters.hpp"
 #include "stage/label_model_file.hpp"
+#include "urban_nav_core/io/csv.hpp"
+#include "urban_nav_core/io/text.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav {
@@ -12,6 +17,24 @@ namespace urban_nav {
 using scene_labeler::FeatureSet;
 using scene_labeler::TrainingFold;
 using urban_nav_core::UserError;
+
+namespace {
+
+/// Returns `plain`, or it with a number if a fold has that name.
+std::string freeName(const std::string& plain, const std::vector<TrainingFold>& folds) {
+  std::string name = plain;
+  const auto is_taken = [&] {
+    return std::any_of(folds.begin(), folds.end(), [&](const TrainingFold& fold) { return fold.name == name; });
+  };
+  for (int number = 2; is_taken(); ++number) name = plain + ", " + std::to_string(number);
+  return name;
+}
+
+bool isClickFile(const std::string& path) {
+  return urban_nav_core::endsWith(path, ".csv") && urban_nav_core::CsvTable::read(path).has("bag");
+}
+
+}  // namespace
 
 LabelTeaching::LabelTeaching(const Arguments& arguments) {
   if (arguments.has("corrections")) corrections_ = arguments.get("corrections");
@@ -43,18 +66,28 @@ std::vector<TrainingFold> LabelTeaching::folds() const {
   return base_ ? scene_labeler::restoreFolds(*base_) : std::vector<TrainingFold>();
 }
 
-void LabelTeaching::addCorrections(const ClassMap& map, int superpixel, Console& console,
+void LabelTeaching::addClicks(const DriveOptions& options, Console& console, std::vector<TrainingFold>& folds) const {
+  const LabelClicks clicks(corrections_);
+  TrainingFold fold;
+  fold.name = freeName("corrections of " + std::filesystem::path(corrections_).stem().string(), folds);
+  const std::size_t added = clicks.addTo(*base_, options, console, fold);
+  if (added == 0)
+    throw urban_nav_core::DataError(corrections_, "no frame shows a clicked return",
+                                    "rows of returns that have a label");
+  console.info(corrections_ + ": " + std::to_string(added) + " returns in the superpixels of " +
+               std::to_string(clicks.size()) + " clicks");
+  folds.push_back(std::move(fold));
+}
+
+void LabelTeaching::addCorrections(const scene_labeler::ClassMap& map, const DriveOptions& options, Console& console,
                                    std::vector<TrainingFold>& folds) const {
   if (corrections_.empty()) return;
+  if (isClickFile(corrections_)) return addClicks(options, console, folds);
+  const int superpixel = options.parameters->get(scene_labeler::table()).superpixel;
   const std::vector<SceneFiles> files = findScenes({corrections_});
   if (files.size() != 1) throw UserError(corrections_, std::to_string(files.size()) + " scenes", "one edited scene");
   const std::vector<scene_labeler::SceneClass> labels = map.toClasses(readSceneLabels(files[0]), corrections_);
-  const std::string plain = "corrections of " + files[0].name;
-  std::string name = plain;
-  const auto is_taken = [&] {
-    return std::any_of(folds.begin(), folds.end(), [&](const TrainingFold& fold) { return fold.name == name; });
-  };
-  for (int number = 2; is_taken(); ++number) name = plain + ", " + std::to_string(number);
+  const std::string name = freeName("corrections of " + files[0].name, folds);
   const auto count = scene_labeler::addCorrections(*base_, readScene(files[0]), labels, superpixel, name, folds);
   if (count.corrected == 0)
     throw urban_nav_core::DataError(corrections_, "no label differs from the answer of the model", "corrected labels");

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "command_line/console.hpp"
-#include "labels/class_map.hpp"
 #include "labels/label_sources.hpp"
+#include "scene_labeler/class_map.hpp"
 #include "scene_labeler/training/teaching.hpp"
 
 namespace urban_nav {
@@ -26,12 +26,14 @@ class LabelTeaching {
   std::string device(const LabelSources& sources) const;
   /// Returns the samples of the model; empty without --add.
   std::vector<scene_labeler::TrainingFold> folds() const;
-  /// Adds the corrections to `folds`. Throws UserError for a file without labels or with an unknown one, DataError if
-  /// no label differs from the answer of the model.
-  void addCorrections(const ClassMap& map, int superpixel, Console& console,
+  /// Adds the corrections to `folds`: an edited scene, or clicks in bags (LabelClicks). Throws UserError for a file
+  /// without labels or with an unknown one, DataError if nothing is corrected.
+  void addCorrections(const scene_labeler::ClassMap& map, const DriveOptions& options, Console& console,
                       std::vector<scene_labeler::TrainingFold>& folds) const;
 
  private:
+  void addClicks(const DriveOptions& options, Console& console, std::vector<scene_labeler::TrainingFold>& folds) const;
+
   std::optional<scene_labeler::LabelModel> base_;
   scene_labeler::FeatureSet features_ = scene_labeler::FeatureSet::All;
   std::string corrections_;

@@ -2,6 +2,9 @@
 #pragma once
 
 #include "urban_nav_core/camera/raw_camera.hpp"
+#include "urban_nav_registration/pictures/picture.hpp"
+#include "urban_nav_store/table_store.hpp"
+#include "urban_nav_store/tables/stored_panorama.hpp"
 #include "urban_nav_store/tables/stored_panorama_camera.hpp"
 
 namespace urban_nav {
@@ -12,6 +15,20 @@ inline urban_nav_core::RawCamera rawCamera(const urban_nav_store::StoredPanorama
   camera.pinhole = {row.fx, row.fy, row.cx, row.cy, static_cast<int>(row.width), static_cast<int>(row.height)};
   camera.distortion = urban_nav_core::Distortion(row.distortion);
   return camera;
+}
+
+/// Key of an image of the panoramic head in the store.
+struct PanoramaKey {
+  urban_nav_store::SessionId session;
+  std::int64_t camera = 0;
+  urban_nav_core::StampNs stamp = 0;
+};
+
+/// Reads and decodes an image; an empty picture if the store does not have it.
+inline urban_nav_registration::Picture loadPanorama(urban_nav_store::Store& store, const PanoramaKey& key) {
+  using urban_nav_store::StoredPanorama;
+  const auto row = urban_nav_store::TableStore<StoredPanorama>(store).get({key.session, key.camera, key.stamp, {}});
+  return row ? urban_nav_registration::decodePicture(row->jpeg) : urban_nav_registration::Picture();
 }
 
 }  // namespace urban_nav

@@ -8,8 +8,8 @@
 
 #include "command_line/command.hpp"
 #include "commands/commands.hpp"
-#include "labels/class_map.hpp"
 #include "labels/label_score.hpp"
+#include "scene_labeler/class_map.hpp"
 #include "support/folders.hpp"
 #include "urban_nav_core/io/csv.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -17,6 +17,7 @@
 namespace urban_nav {
 namespace {
 
+using scene_labeler::ClassMap;
 using scene_labeler::SceneClass;
 
 class Labels : public ::testing::Test {
@@ -163,6 +164,13 @@ TEST_F(Labels, OfABagAreThoseOfItsReturnsWhateverItsTruth) {
   ASSERT_EQ(labels({"evaluate", path("m"), one, "--trajectory", pose_one, "--json", path("j")}), 0);
   EXPECT_NE(testing::readFile(path("j")).find("\"shape\""), std::string::npos);
   EXPECT_EQ(testing::readFile(path("j")).find("\"look\""), std::string::npos);
+  const auto teach = [&](const std::string& row) {
+    testing::writeFile(path("clicks.csv"), "bag,side,stamp_ns,beam,class,trajectory\n" + row + "\n");
+    return labels({"train", "--add", path("m"), "--corrections", path("clicks.csv"), "-o", path("taught")});
+  };
+  EXPECT_EQ(teach("two.bag,left," + table.text(1000, 0) + "," + table.text(1000, 1) + ",foliage,two.tum"), 0);
+  EXPECT_EQ(teach("two.bag,left,17," + table.text(1000, 1) + ",foliage,two.tum"), 2) << "no such scan";
+  EXPECT_EQ(teach("three.bag,left," + table.text(1000, 0) + ",5,foliage,two.tum"), 2) << "no such bag";
 }
 
 }  // namespace

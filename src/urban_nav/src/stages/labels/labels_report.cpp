@@ -60,6 +60,9 @@ std::vector<std::string> labelsWarnings(const LabelsRun& run) {
   std::vector<std::string> warnings;
   if (run.points() > 0 && run.views() == 0)
     warnings.emplace_back("no image of a side camera: the map is labelled by shape alone");
+  if (run.unusable() > 0)
+    warnings.push_back(std::to_string(run.unusable()) + " of " + std::to_string(run.views()) +
+                       " images of the side cameras show no point of the map, or are black or saturated: not used");
   const double unsure = labelShare(run.unsure(), run.labelled());
   if (unsure > many_unsure)
     warnings.push_back(forPerson(100.0 * unsure, 3) +
@@ -76,6 +79,10 @@ Section labelsSection(const LabelsRun& run) {
                          " % of them are unsure. They are in map.ply and labels.csv.";
   for (const LabelledMap& map : run.maps)
     section.pictures.insert(section.pictures.end(), map.pictures.begin(), map.pictures.end());
+  for (const LabelledMap& map : run.maps)
+    if (!map.layer.empty())
+      section.figures.push_back({"In three dimensions", map.layer,
+                                 "The view of the map shows the classes if `class` is chosen as colour.", true});
   section.tables.push_back(classesTable(run));
   return section;
 }

@@ -11,7 +11,9 @@
 #include "laser_mapper/map_picture.hpp"
 #include "scene_labeler/drive/travelled_path.hpp"
 #include "scene_labeler/parameters.hpp"
+#include "stage/even_thinning.hpp"
 #include "stage/labelled_map.hpp"
+#include "stage/map_layer.hpp"
 #include "stage/panorama_views.hpp"
 #include "stage/stage_result.hpp"
 #include "stages/labels/class_colours.hpp"
@@ -24,6 +26,7 @@ namespace urban_nav {
 
 using laser_mapper::LaserMap;
 using laser_mapper::MapPoint;
+using scene_labeler::LabelModel;
 using scene_labeler::MapLabeler;
 using scene_labeler::PointLabel;
 using scene_labeler::SceneClass;
@@ -39,6 +42,7 @@ constexpr std::array<std::int64_t, 2> labelled_cameras = {1, 4};  // right and l
 constexpr urban_nav_core::StampNs longest_view_gap = 500'000'000;
 constexpr float extent_per_m = 5.0F;  // cubes and squares of 0.2 m
 constexpr double above_margin = 25.0;
+constexpr double row_margin = 1.0;   // m: points may lie beside their tile, on the plane of their surroundings
 constexpr int above_longest = 2000;  // px
 
 double millisecondsSince(LabelsClock::time_point begin) {
@@ -50,10 +54,14 @@ cv::Mat toImage(const urban_nav_registration::Picture& picture) {
   return cv::Mat(picture.height, picture.width, CV_8UC3, const_cast<std::uint8_t*>(picture.bgr.data())).clone();
 }
 
-/// Labels from the images of one side camera of a session, every `spacing` along its path.
-void addCamera(urban_nav_store::Store& store, const laser_mapper::MappedSession& session,
-               const StoredPanoramaCamera& camera, double spacing, MapLabeler& labeler, LabelledMap& made,
-               std::vector<double>& milliseconds) {
+/// Images of the side cameras, every `spacing` along the path of their session.
+struct PlannedViews {
+  std::vector<scene_labeler::PlacedView> views;
+  std::vector<PanoramaKey> images;
+};
+
+void planCamera(urban_nav_store::Store& store, const laser_mapper::MappedSession& session,
+                const StoredPanoramaCamera& camera, double spacing, PlannedViews& planned) {
   const scene_labeler::TravelledPath path(*session.T_map_base);
   double next = 0.0;
   TableStore<StoredPanorama>(store).forEach(session.id, [&](const StoredPanorama& row) {
@@ -61,97 +69,154 @@ void addCamera(urban_nav_store::Store& store, const laser_mapper::MappedSession&
     const auto travelled = path.at(row.stamp);
     const auto T_map_base = session.T_map_base->at(row.stamp, longest_view_gap);
     if (!travelled || !T_map_base || *travelled < next) return;
-    const auto begin = LabelsClock::now();
-    const cv::Mat image = toImage(urban_nav_registration::decodePicture(row.jpeg));
-    if (image.cols != camera.width || image.rows != camera.height) return;
     next = *travelled + spacing;
-    made.shown += labeler.add({rawCamera(camera), *T_map_base * camera.T_base_camera, image});
-    ++made.views;
-    milliseconds.push_back(millisecondsSince(begin));
+    planned.views.push_back({rawCamera(camera), *T_map_base * camera.T_base_camera, planned.images.size()});
+    planned.images.push_back({session.id, row.camera, row.stamp});
   });
+}
+
+PlannedViews planViews(urban_nav_store::Store& store, const std::vector<laser_mapper::MappedSession>& sessions,
+                       double spacing) {
+  PlannedViews planned;
+  for (const laser_mapper::MappedSession& session : sessions)
+    TableStore<StoredPanoramaCamera>(store).forEach(session.id, [&](const StoredPanoramaCamera& camera) {
+      if (std::find(labelled_cameras.begin(), labelled_cameras.end(), camera.camera) != labelled_cameras.end())
+        planCamera(store, session, camera, spacing, planned);
+    });
+  return planned;
 }
 
 /// Surfaces of each class: by squares of the ground and cubes.
-void measureExtents(const std::vector<Eigen::Vector3f>& points, const std::vector<PointLabel>& labels,
-                    std::array<ClassExtent, scene_labeler::class_count>& extents) {
-  using urban_nav_registration::CellTable;
-  std::vector<CellTable> cubes(scene_labeler::class_count, CellTable(64)), squares = cubes;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (labels[i].label == SceneClass::None) continue;
-    const std::size_t k = toIndex(labels[i].label);
-    ++extents[k].points;
-    extents[k].probability_sum += labels[i].probability / 255.0;
-    const urban_nav_registration::Cell cell = urban_nav_registration::toCell(points[i], extent_per_m);
-    cubes[k].insert(urban_nav_registration::toKey(cell));
-    squares[k].insert(urban_nav_registration::toKey({cell.x, cell.y, 0}));
+class ExtentMeter {
+ public:
+  void add(const Eigen::Vector3f& point, const PointLabel& label) {
+    if (label.label == SceneClass::None) return;
+    const std::size_t k = toIndex(label.label);
+    ++extents_[k].points;
+    extents_[k].probability_sum += label.probability / 255.0;
+    const urban_nav_registration::Cell cell = urban_nav_registration::toCell(point, extent_per_m);
+    cubes_[k].insert(urban_nav_registration::toKey(cell));
+    squares_[k].insert(urban_nav_registration::toKey({cell.x, cell.y, 0}));
   }
-  constexpr double edge = 1.0 / static_cast<double>(extent_per_m);
+
+  std::array<ClassExtent, scene_labeler::class_count> finish() {
+    constexpr double edge = 1.0 / static_cast<double>(extent_per_m);
+    for (std::size_t k = 0; k < scene_labeler::class_count; ++k) {
+      const auto label = static_cast<SceneClass>(k);
+      const bool is_ground = label == SceneClass::Grass || label == SceneClass::Paved || label == SceneClass::DirtPath;
+      const bool is_wall = withOneWall(label) == SceneClass::Wall;
+      extents_[k].area = edge * edge * static_cast<double>(is_ground ? squares_[k].size() : cubes_[k].size());
+      if (is_wall) extents_[k].length = edge * static_cast<double>(squares_[k].size());
+    }
+    return extents_;
+  }
+
+ private:
+  using CellTable = urban_nav_registration::CellTable;
+  std::vector<CellTable> cubes_{scene_labeler::class_count, CellTable(64)};
+  std::vector<CellTable> squares_{scene_labeler::class_count, CellTable(64)};
+  std::array<ClassExtent, scene_labeler::class_count> extents_{};
+};
+
+/// Shows the classes in the view of the map that stage lasers made.
+std::string drawLayer(std::size_t view, const std::vector<PointLabel>& labels) {
+  EvenThinning<unsigned char> kinds(most_shown_points);
+  for (const PointLabel& label : labels) kinds.add(static_cast<unsigned char>(label.label));
+  std::vector<std::array<int, 3>> colours;
   for (std::size_t k = 0; k < scene_labeler::class_count; ++k) {
-    const auto label = static_cast<SceneClass>(k);
-    const bool is_ground = label == SceneClass::Grass || label == SceneClass::Paved || label == SceneClass::DirtPath;
-    const bool is_wall = withOneWall(label) == SceneClass::Wall;
-    extents[k].area = edge * edge * static_cast<double>(is_ground ? squares[k].size() : cubes[k].size());
-    if (is_wall) extents[k].length = edge * static_cast<double>(squares[k].size());
+    const ClassColour colour = classColour(static_cast<SceneClass>(k));
+    colours.push_back({colour.red, colour.green, colour.blue});
   }
+  return renderMapLayer(view, "class", kinds.items(), colours);
 }
 
-PagePicture drawLabels(const LaserMap& map, const std::vector<PointLabel>& labels,
-                       const std::vector<urban_nav_core::Vector3d>& path) {
+/// Draws the labels and measures what they cover.
+void describeLabels(const LaserMap& map, const std::vector<PointLabel>& labels,
+                    const std::vector<urban_nav_core::Vector3d>& path, LabelledMap& made) {
   laser_mapper::MapPicture above(laser_mapper::viewFromAbove(path, above_margin, above_longest));
+  ExtentMeter extents;
   std::size_t next = 0;
   map.forEachTile([&](const laser_mapper::Tile&, std::vector<MapPoint> points) {
     for (MapPoint& point : points) {
-      const ClassColour colour = classColour(labels[next].label);
+      const PointLabel& label = labels[next++];
+      extents.add(point.p, label);
+      const ClassColour colour = classColour(label.label);
       point.red = colour.red;
       point.green = colour.green;
       point.blue = colour.blue;
-      ++next;
     }
     above.draw(points);
   });
+  made.extents = extents.finish();
   const urban_nav_registration::Picture picture = above.finish(above.shownBox());
-  return {"The map from above in the colours of the classes: " + classColourNames() + ".",
-          urban_nav_registration::encodeJpeg(picture), picture.width, picture.height};
+  made.pictures.push_back({"The map from above in the colours of the classes: " + classColourNames() + ".",
+                           urban_nav_registration::encodeJpeg(picture), picture.width, picture.height});
 }
 
-LabelledMap labelMap(const NamedLabelModel& model, const std::string& file,
+/// Labels all points of a map, in its order, row of tiles by row of tiles.
+std::vector<PointLabel> labelPoints(const LabelModel& model, const scene_labeler::Parameters& parameters,
+                                    const LaserMap& map, const PlannedViews& planned, urban_nav_store::Store& store,
+                                    MapPointsDigest& digest, LabelledMap& made, std::vector<double>& milliseconds) {
+  std::vector<PointLabel> labels;
+  LabelsClock::time_point begin;
+  MapLabeler::Callbacks callbacks;
+  callbacks.load = [&](std::size_t image) {
+    begin = LabelsClock::now();
+    return toImage(loadPanorama(store, planned.images[image]));
+  };
+  callbacks.take_view = [&](std::size_t, std::size_t shown) {
+    made.shown += shown;
+    made.unusable += shown == 0 ? 1U : 0U;
+    ++made.views;
+    milliseconds.push_back(millisecondsSince(begin));
+  };
+  callbacks.take_label = [&](std::size_t point, const PointLabel& label) { labels[point] = label; };
+  MapLabeler labeler(model, parameters.superpixel, 1.5 * parameters.reach, planned.views, callbacks);
+  const double tile_edge = laser_mapper::kTileCells * map.parameters().voxel;
+  std::optional<int> row;
+  map.forEachTile([&](const laser_mapper::Tile& tile, const std::vector<MapPoint>& points) {
+    if (row != tile.y) labeler.sweepTo(tile.y * tile_edge - row_margin);
+    row = tile.y;
+    digest.add(points);
+    std::vector<Eigen::Vector3f> places;
+    std::vector<std::uint8_t> reflectance;
+    for (const MapPoint& point : points) {
+      places.push_back(point.p);
+      reflectance.push_back(point.intensity);
+    }
+    labels.resize(labels.size() + points.size());
+    labeler.addPoints(places, reflectance);
+  });
+  labeler.finish();
+  return labels;
+}
+
+LabelledMap labelMap(const NamedLabelModel& model, std::size_t number,
                      const std::vector<laser_mapper::MappedSession>& sessions, MapContext& context,
                      std::vector<double>& milliseconds) {
   const scene_labeler::Parameters& parameters = context.options.parameters.get(scene_labeler::table());
   LaserMap map(context.options.parameters.get(laser_mapper::table()), *context.store, sessions);
   map.load();
-  std::vector<Eigen::Vector3f> points;
-  std::vector<std::uint8_t> reflectance;
-  MapPointsDigest digest;
-  map.forEachTile([&](const laser_mapper::Tile&, const std::vector<MapPoint>& tile) {
-    digest.add(tile);
-    for (const MapPoint& point : tile) {
-      points.push_back(point.p);
-      reflectance.push_back(point.raw_intensity);
-    }
-  });
   LabelledMap made;
-  made.file = file;
-  made.points = points.size();
-  MapLabeler labeler(model.model, parameters.superpixel, 1.5 * parameters.reach, points, std::move(reflectance));
-  std::vector<urban_nav_core::Vector3d> path;
-  for (const laser_mapper::MappedSession& session : sessions) {
-    TableStore<StoredPanoramaCamera>(*context.store).forEach(session.id, [&](const StoredPanoramaCamera& camera) {
-      if (std::find(labelled_cameras.begin(), labelled_cameras.end(), camera.camera) != labelled_cameras.end())
-        addCamera(*context.store, session, camera, parameters.spacing, labeler, made, milliseconds);
-    });
-    for (const urban_nav_core::StampedPose& pose : *session.T_map_base) path.push_back(pose.pose.t());
-  }
-  const std::vector<PointLabel> labels = labeler.finish();
+  made.file = "map" + fileSuffix(number) + ".ply";
+  const PlannedViews planned = planViews(*context.store, sessions, parameters.spacing);
+  MapPointsDigest digest;
+  const std::vector<PointLabel> labels =
+      labelPoints(model.model, parameters, map, planned, *context.store, digest, made, milliseconds);
+  made.points = labels.size();
   for (const PointLabel& label : labels) {
     if (label.label == SceneClass::None) continue;
     ++made.labelled;
     made.unsure += label.is_unsure ? 1U : 0U;
   }
-  measureExtents(points, labels, made.extents);
   storeMapLabels(*context.store, sessions.front().id, digest, labels);
-  addLabelsToPly((std::filesystem::path(context.options.out) / file).string(), labels);
-  if (!points.empty()) made.pictures.push_back(drawLabels(map, labels, path));
+  addLabelsToPly((std::filesystem::path(context.options.out) / made.file).string(), labels);
+  if (labels.empty()) return made;
+  std::vector<urban_nav_core::Vector3d> path;
+  for (const laser_mapper::MappedSession& session : sessions)
+    for (const urban_nav_core::StampedPose& pose : *session.T_map_base) path.push_back(pose.pose.t());
+  describeLabels(map, labels, path, made);
+  made.layer = drawLayer(number, labels);
   return made;
 }
 
@@ -165,6 +230,7 @@ std::size_t sumOverMaps(const LabelsRun& run, std::size_t LabelledMap::*member) 
 
 std::size_t LabelsRun::points() const { return sumOverMaps(*this, &LabelledMap::points); }
 std::size_t LabelsRun::labelled() const { return sumOverMaps(*this, &LabelledMap::labelled); }
+std::size_t LabelsRun::unusable() const { return sumOverMaps(*this, &LabelledMap::unusable); }
 std::size_t LabelsRun::unsure() const { return sumOverMaps(*this, &LabelledMap::unsure); }
 
 LabelsRun runLabels(const NamedLabelModel& model, MapContext& context) {
@@ -180,7 +246,7 @@ LabelsRun runLabels(const NamedLabelModel& model, MapContext& context) {
   run.model = model.digest;
   Progress bar(context.console, "labels", "maps", static_cast<std::int64_t>(sessions_of_map.size()));
   for (const auto& [map, sessions] : sessions_of_map) {
-    run.maps.push_back(labelMap(model, "map" + fileSuffix(map) + ".ply", sessions, context, run.milliseconds));
+    run.maps.push_back(labelMap(model, map, sessions, context, run.milliseconds));
     bar.update(static_cast<std::int64_t>(run.maps.size()));
   }
   bar.finish(static_cast<std::int64_t>(run.maps.size()));

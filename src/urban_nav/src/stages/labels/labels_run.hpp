@@ -26,8 +26,10 @@ struct LabelledMap {
   std::string file;  ///< "map.ply", in the output folder
   std::size_t points = 0, labelled = 0, unsure = 0;
   std::size_t views = 0, shown = 0;  ///< images, and points that these show
+  std::size_t unusable = 0;          ///< images that show no point, or are black or saturated
   std::array<ClassExtent, scene_labeler::class_count> extents;
   std::vector<PagePicture> pictures;
+  std::string layer;  ///< markup of the classes in the view of the map; empty without points
 };
 
 /// What stage labels made.
@@ -41,6 +43,7 @@ struct LabelsRun {
   std::size_t labelled() const;
   std::size_t unsure() const;
   std::size_t views() const { return milliseconds.size(); }
+  std::size_t unusable() const;
 };
 
 /// Labels the maps that stage lasers has left in the store and the output folder, and adds the labels to map.ply.

@@ -25,16 +25,9 @@ namespace {
 constexpr double kViewDistance = 0.7, kViewAngle = 0.26;  // m, rad: between views of one camera
 constexpr StampNs kLongestViewGap = 500'000'000;
 
-/// Key of an image in the store.
-struct ImageKey {
-  urban_nav_store::SessionId session;
-  std::int64_t camera = 0;
-  StampNs stamp = 0;
-};
-
 struct SessionViews {
   std::vector<ColourView> views;
-  std::vector<ImageKey> images;
+  std::vector<PanoramaKey> images;
 };
 
 void addViews(urban_nav_store::Store& store, const MappedSession& session, SessionViews& made) {
@@ -68,11 +61,7 @@ std::unique_ptr<laser_mapper::Colouriser> makeColouriser(urban_nav_store::Store&
   if (made.views.empty()) return nullptr;
   const urban_nav_core::Pinhole& pinhole = made.views.front().camera.pinhole;
   const double image_mb = std::max(0.1, 3e-6 * pinhole.width * pinhole.height);
-  const auto load = [&store, images = made.images](std::size_t image) {
-    const ImageKey& key = images[image];
-    const auto row = TableStore<StoredPanorama>(store).get({key.session, key.camera, key.stamp, {}});
-    return row ? urban_nav_registration::decodePicture(row->jpeg) : urban_nav_registration::Picture();
-  };
+  const auto load = [&store, images = made.images](std::size_t image) { return loadPanorama(store, images[image]); };
   return std::make_unique<laser_mapper::Colouriser>(std::move(made.views), load, voxel,
                                                     static_cast<std::size_t>(std::max(8.0, memory_mb / image_mb)));
 }

@@ -14,7 +14,6 @@ using urban_nav_core::Vector3d;
 
 namespace {
 
-constexpr std::size_t kMostShown = 500'000;
 constexpr double kSteps16 = 65535.0;
 constexpr float kSigmaByte = 0.5e-3F;         // m
 constexpr float kDisplacementByte = 0.5e-3F;  // m
@@ -75,18 +74,13 @@ std::string listNumbers(const Vector3d& v) {
 }  // namespace
 
 void MapViewer::add(const std::vector<MapPoint>& points) {
-  for (const MapPoint& point : points)
-    if (seen_++ % step_ == 0) points_.push_back(point);
-  while (points_.size() > kMostShown) {
-    for (std::size_t i = 0; 2 * i < points_.size(); ++i) points_[i] = points_[2 * i];
-    points_.resize((points_.size() + 1) / 2);
-    step_ *= 2;
-  }
+  for (const MapPoint& point : points) points_.add(point);
 }
 
 std::string MapViewer::render() const {
-  if (points_.empty()) return "";
-  const ViewerBox box = boxAroundPoints(points_);
+  const std::vector<MapPoint>& shown = points_.items();
+  if (shown.empty()) return "";
+  const ViewerBox box = boxAroundPoints(shown);
   std::string paths;
   for (const std::vector<Vector3d>& path : paths_) {
     paths += paths.empty() ? "[" : ",[";
@@ -95,7 +89,7 @@ std::string MapViewer::render() const {
     paths += "]";
   }
   std::string html = "<div class=\"map-view\" id=\"map-view-" + std::to_string(number_) + "\" data-points=\"" +
-                     std::to_string(points_.size()) + "\" data-low=\"" + listNumbers(box.low) + "\" data-high=\"" +
+                     std::to_string(shown.size()) + "\" data-low=\"" + listNumbers(box.low) + "\" data-high=\"" +
                      listNumbers(box.high) + "\" data-first=\"" + urban_nav_core::printStamp(box.first) +
                      "\" data-seconds=\"" +
                      urban_nav_core::printNumber(urban_nav_core::secondsBetween(box.first, box.last)) +
@@ -105,7 +99,7 @@ std::string MapViewer::render() const {
       R"html(<option value="height">height</option><option value="pass">pass</option><option value="laser">laser</option>)html"
       R"html(<option value="sigma">sigma</option><option value="quality">agreement of passes</option></select> <output>drag: turn; shift and drag: move; wheel: zoom</output></p>)html"
       R"html(<canvas style="width:100%;height:min(70vh,40rem);touch-action:none"></canvas>)html";
-  html += "<script type=\"application/octet-stream\">" + base64(packPoints(points_, box)) + "</script></div>\n";
+  html += "<script type=\"application/octet-stream\">" + base64(packPoints(shown, box)) + "</script></div>\n";
   return html + "<script>" + mapViewerScript() + "</script>";
 }
 

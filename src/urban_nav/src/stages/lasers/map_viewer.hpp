@@ -6,14 +6,15 @@
 #include <vector>
 
 #include "laser_mapper/map_point.hpp"
+#include "stage/even_thinning.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
 
 namespace urban_nav {
 
 /// The map as a view in three dimensions inside the report: points of a map, evenly thinned to at most 500 000, and the
 /// path, drawn by WebGL. Colours by picture, reflectance, height, pass, laser, sigma or agreement of passes; a click
-/// names a point, the next one its distance from the first. Without WebGL nothing is shown. The result depends on the
-/// order of the points. Not thread-safe.
+/// names a point, the next one its distance from the first. Other stages add ways of colouring (renderMapLayer()).
+/// Without WebGL nothing is shown. The result depends on the order of the points. Not thread-safe.
 class MapViewer {
  public:
   /// `number`: makes the element's id unique on the page.
@@ -24,12 +25,11 @@ class MapViewer {
   /// Returns the markup with data and script, which needs nothing outside it; empty without points.
   std::string render() const;
   /// Returns the number of points that are shown.
-  std::size_t points() const { return points_.size(); }
+  std::size_t points() const { return points_.items().size(); }
 
  private:
   const std::size_t number_;
-  std::vector<laser_mapper::MapPoint> points_;  ///< every step_-th
-  std::size_t step_ = 1, seen_ = 0;
+  EvenThinning<laser_mapper::MapPoint> points_{most_shown_points};
   std::vector<std::vector<urban_nav_core::Vector3d>> paths_;
 };
 

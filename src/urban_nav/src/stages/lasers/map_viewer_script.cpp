@@ -108,6 +108,12 @@ const char* mapViewerScript() {
   canvas.addEventListener("wheel", (event) => { event.preventDefault(); distance *= Math.exp(0.001 * event.deltaY); draw(); }, {passive: false});
   choice.addEventListener("change", paint);
   addEventListener("resize", draw);
+  view.addLayer = (name, text, colours) => {
+    const kindOf = atob(text);
+    if (kindOf.length !== n) return;
+    modes[name] = (i) => colours[kindOf.charCodeAt(i)] || [60, 60, 60];
+    choice.add(new Option(name, name));
+  };
   paint();
 })([...document.querySelectorAll(".map-view")].pop());
 )js";

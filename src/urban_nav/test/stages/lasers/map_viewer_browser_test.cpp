@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "report/page.hpp"
+#include "stage/map_layer.hpp"
 #include "stages/lasers/map_viewer.hpp"
 #include "support/folders.hpp"
 
@@ -120,6 +121,18 @@ TEST_F(MapInABrowser, EachWayOfColouringShowsPointsInItsOwnColours) {
       EXPECT_GT(cv::norm(picture, before, cv::NORM_L1), 1e5) << mode << " looks like " << other;
     pictures[mode] = picture;
   }
+}
+
+TEST_F(MapInABrowser, ALayerIsAChoiceIfItHasAsManyValuesAsThereArePoints) {
+  const std::vector<unsigned char> kinds(shownPoints().size(), 1), few(10, 1);
+  const std::string layers = renderMapLayer(0, "class", kinds, {{250, 0, 0}, {0, 0, 250}}) +
+                             renderMapLayer(0, "few", few, {{250, 0, 0}, {0, 0, 250}}) +
+                             renderMapLayer(7, "elsewhere", kinds, {{250, 0, 0}, {0, 0, 250}});
+  expectNoErrors(open("<!DOCTYPE html><body>" + viewer_.render() + layers, "--dump-dom"));
+  const std::string dom = testing::readFile(folder_.file("dom"));
+  EXPECT_NE(dom.find("<option value=\"class\">"), std::string::npos);
+  EXPECT_EQ(dom.find("<option value=\"few\">"), std::string::npos);
+  EXPECT_EQ(dom.find("<option value=\"elsewhere\">"), std::string::npos);
 }
 
 TEST_F(MapInABrowser, TheReportHoldsTheViewAndHasNoErrors) {

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene_labeler/labelling/mounting_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <vector>
+
+namespace scene_labeler {
+namespace {
+
+constexpr std::size_t most_frames = 6;      // then the camera is known
+constexpr std::size_t least_returns = 200;  // of a frame
+constexpr float sure_by_shape = 0.7F;       // probability of a class by shape alone
+constexpr float least_log = -4.0F;          // one return decides nothing
+
+}  // namespace
+
+void MountingCheck::add(const Scene& scene, const FeatureTable& table) {
+  if (frames_ >= most_frames || scene.view.image.empty()) return;
+  Scene turned = scene;
+  cv::rotate(scene.view.image, turned.view.image, cv::ROTATE_180);
+  FeatureTable upside_down = table;
+  measureImageFeatures(turned, model_.features, upside_down);
+  const std::size_t first_of_image = firstImageFeature(model_.features), classes = model_.classes.size();
+  std::vector<float> row(table.columns()), by_shape(classes), by_image(classes), by_turned(classes);
+  double sum = 0.0;
+  std::size_t returns = 0;
+  for (std::size_t i = 0; i < scene.points.size(); ++i) {
+    if (scene.view.is_visible[i] == 0) continue;
+    std::copy_n(table.row(i), first_of_image, row.begin());
+    std::fill(row.begin() + static_cast<std::ptrdiff_t>(first_of_image), row.end(), missing_feature);
+    model_.logProbabilities(row.data(), by_shape.data());
+    const auto best = static_cast<std::size_t>(std::max_element(by_shape.begin(), by_shape.end()) - by_shape.begin());
+    if (by_shape[best] < std::log(sure_by_shape)) continue;
+    model_.logProbabilities(table.row(i), by_image.data());
+    model_.logProbabilities(upside_down.row(i), by_turned.data());
+    sum += static_cast<double>(std::max(by_turned[best], least_log) - std::max(by_image[best], least_log));
+    ++returns;
+  }
+  if (returns < least_returns) return;
+  evidence_ += sum / static_cast<double>(returns);
+  ++frames_;
+}
+
+}  // namespace scene_labeler
