@@ -104,16 +104,16 @@ double chunkShift(const std::string& packed, const Trajectory& T_map_base, Stamp
   return largest;
 }
 
-std::string renderSettings(const Parameters& parameters, const std::vector<urban_nav_registration::LaserAt>& lasers) {
+std::string renderSettings(const Parameters& parameters, const std::vector<MountedLaser>& lasers) {
   std::string text = "2";  // of this encoding
   for (const double value :
        {parameters.voxel, parameters.min_range, parameters.max_range, parameters.range_sigma, parameters.max_gap,
         parameters.mixed_pixels ? 1.0 : 0.0, parameters.ghosts ? parameters.ghost_gap : 0.0,
         parameters.stereo ? parameters.stereo_sigma : 0.0})
     urban_nav_store::appendNumber(text, value);
-  for (const urban_nav_registration::LaserAt& laser : lasers) {
+  for (const MountedLaser& laser : lasers) {
     urban_nav_store::appendText(text, laser.frame);
-    appendStampedPose(text, 0, laser.T_base_laser);
+    appendStampedPose(text, laser.delay, laser.T_base_laser);
   }
   return urban_nav_store::sha256(text);
 }

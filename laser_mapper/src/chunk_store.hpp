@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "laser_mapper/chunk_renderer.hpp"
-#include "urban_nav_registration/session/session_lasers.hpp"
+#include "mounted_laser.hpp"
 #include "urban_nav_store/store.hpp"
 #include "urban_nav_store/table_store.hpp"
 #include "urban_nav_store/tables/map_chunk.hpp"
@@ -49,6 +49,6 @@ double chunkShift(const std::string& packed, const urban_nav_core::Trajectory& T
                   urban_nav_core::StampNs begin, urban_nav_core::StampNs max_gap);
 
 /// Digest of all that a chunk depends on besides its poses and scans.
-std::string renderSettings(const Parameters& parameters, const std::vector<urban_nav_registration::LaserAt>& lasers);
+std::string renderSettings(const Parameters& parameters, const std::vector<MountedLaser>& lasers);
 
 }  // namespace laser_mapper

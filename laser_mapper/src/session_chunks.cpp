@@ -30,22 +30,19 @@ int laserNumber(const std::string& frame, std::size_t index) {
 
 }  // namespace
 
-std::vector<urban_nav_registration::LaserAt> sortedLasers(urban_nav_store::Store& store,
-                                                          const urban_nav_store::SessionId& session) {
-  std::vector<urban_nav_registration::LaserAt> lasers = urban_nav_registration::storedLasers(store, session);
-  std::sort(lasers.begin(), lasers.end(), [](const auto& a, const auto& b) { return a.frame < b.frame; });
-  return lasers;
-}
-
 std::vector<LaserInput> readLasers(urban_nav_store::Store& store, const urban_nav_store::SessionId& session,
-                                   const std::vector<urban_nav_registration::LaserAt>& lasers, StampNs begin) {
+                                   const std::vector<MountedLaser>& lasers, StampNs begin) {
   std::vector<LaserInput> inputs;
   for (std::size_t i = 0; i < lasers.size(); ++i) {
     LaserInput input;
     input.T_base_laser = lasers[i].T_base_laser;
     input.laser = laserNumber(lasers[i].frame, i);
-    store.scans().forEach(session, lasers[i].frame, begin, begin + kChunkNs - 1,
-                          [&](const Scan& scan) { input.scans.push_back(scan); });
+    const StampNs delay = lasers[i].delay;
+    store.scans().forEach(session, lasers[i].frame, begin + delay, begin + delay + kChunkNs - 1, [&](const Scan& scan) {
+      input.scans.push_back(scan);
+      input.scans.back().stamp -= delay;
+      for (urban_nav_core::Beam& beam : input.scans.back().beams) beam.stamp -= delay;
+    });
     inputs.push_back(std::move(input));
   }
   return inputs;
@@ -65,7 +62,7 @@ SessionChunks::SessionChunks(const Parameters& parameters, urban_nav_store::Stor
       session_(session),
       T_map_base_(T_map_base),
       max_gap_(std::llround(parameters.max_gap * 1e9)),
-      lasers_(sortedLasers(store, session)),
+      lasers_(mountedLasers(store, session)),
       chunk_store_(store, session),
       settings_(renderSettings(parameters, lasers_)),
       last_scan_(lasers_.size(), 0),

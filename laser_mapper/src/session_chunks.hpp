@@ -11,13 +11,9 @@
 
 namespace laser_mapper {
 
-/// Returns the lasers of a session that have scans and extrinsics, by their frames.
-std::vector<urban_nav_registration::LaserAt> sortedLasers(urban_nav_store::Store& store,
-                                                          const urban_nav_store::SessionId& session);
-/// Returns the scans of a chunk.
+/// Returns the scans of a chunk, without the delays of their lasers.
 std::vector<LaserInput> readLasers(urban_nav_store::Store& store, const urban_nav_store::SessionId& session,
-                                   const std::vector<urban_nav_registration::LaserAt>& lasers,
-                                   urban_nav_core::StampNs begin);
+                                   const std::vector<MountedLaser>& lasers, urban_nav_core::StampNs begin);
 
 /// Brings the chunks of one session up to date with its trajectory. Not thread-safe.
 class SessionChunks {
@@ -60,7 +56,7 @@ class SessionChunks {
   const urban_nav_store::SessionId session_;
   const urban_nav_core::Trajectory& T_map_base_;
   const urban_nav_core::StampNs max_gap_;
-  std::vector<urban_nav_registration::LaserAt> lasers_;
+  std::vector<MountedLaser> lasers_;
   ChunkStore chunk_store_;
   const std::string settings_;
 

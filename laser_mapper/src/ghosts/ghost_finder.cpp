@@ -150,7 +150,7 @@ std::shared_ptr<const ChunkBeams> GhostFinder::beams(std::size_t chunk) {
   const Chunk& at = chunks_[chunk];
   const MappedSession& session = sessions_[at.session];
   auto made = std::make_shared<const ChunkBeams>(
-      *session.T_map_base, readLasers(store_, session.id, sortedLasers(store_, session.id), at.begin),
+      *session.T_map_base, readLasers(store_, session.id, mountedLasers(store_, session.id), at.begin),
       std::llround(1e9 * parameters_.max_gap));
   cache_[chunk] = made;
   if (recent_.size() > kCachedChunks) {

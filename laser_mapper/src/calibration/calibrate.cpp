@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "calibration/calibration_stretch.hpp"
+#include "calibration/term_selection.hpp"
+#include "laser_mapper/calibration/laser_calibration.hpp"
+#include "urban_nav_core/geometry/dense.hpp"
+
+namespace laser_mapper {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using urban_nav_core::StampNs;
+
+namespace {
+
+constexpr StampNs kLongestStretch = 300'000'000'000;
+// m between surfels of one place: errors of the calibration at first, then what is left of them.
+constexpr double kReaches[] = {0.5, 0.4, 0.3, 0.2, 0.15, 0.1, 0.1, 0.1, 0.1, 0.1};
+constexpr int kRefinements = 4;
+constexpr double kLastReach = 0.1;     // m
+constexpr double kConverged = 0.05;    // of a standard deviation
+constexpr double kBeyondChance = 3.0;  // standard errors
+
+/// The terms of all lasers of a session while they are estimated.
+class Calibrator {
+ public:
+  Calibrator(const Parameters& parameters, urban_nav_store::Store& store, const urban_nav_store::SessionId& session,
+             const urban_nav_core::Trajectory& T_map_base, const urban_nav_core::OdometryChain* odometry)
+      : lasers_(statedLasers(store, session)), terms_(lasers_.size(), TermVector::Zero()) {
+    if (T_map_base.size() < 2) return;
+    const StampNs begin = T_map_base.front().stamp, duration = T_map_base.back().stamp - begin + 1;
+    const StampNs parts = (duration + kLongestStretch - 1) / kLongestStretch;
+    for (StampNs i = 0; i < parts; ++i)
+      stretches_.push_back(std::make_unique<CalibrationStretch>(
+          parameters, lasers_, T_map_base, odometry,
+          sampleScans(parameters, store, session, lasers_, begin + duration * i / parts,
+                      begin + duration * (i + 1) / parts)));
+  }
+
+  const std::vector<MountedLaser>& lasers() const { return lasers_; }
+  const std::vector<TermVector>& terms() const { return terms_; }
+  std::size_t places() const { return places_; }
+
+  /// Estimates the terms in `wanted`; the others stay zero.
+  TermEstimate estimate(const std::vector<bool>& wanted) {
+    for (std::size_t i = 0; i < terms_.size(); ++i)
+      for (int t = 0; t < kCalibrationTerms; ++t)
+        if (!wanted[kCalibrationTerms * i + static_cast<std::size_t>(t)]) terms_[i](t) = 0.0;
+    const bool all = std::find(wanted.begin(), wanted.end(), false) == wanted.end();
+    const int iterations = all ? static_cast<int>(std::size(kReaches)) : kRefinements;
+    TermEstimate estimate;
+    for (int i = 0; i < iterations; ++i) {
+      const double reach = all ? kReaches[i] : kLastReach;
+      const VectorXd change = step(wanted, reach, estimate);
+      if (reach <= kLastReach && isSmall(change, estimate)) break;
+    }
+    return estimate;
+  }
+
+  std::vector<CalibrationStretch::Spread> compareHeldOut() const {
+    std::vector<CalibrationStretch::Spread> all;
+    for (const auto& stretch : stretches_) {
+      const auto part = stretch->compareHeldOut(terms_);
+      all.insert(all.end(), part.begin(), part.end());
+    }
+    return all;
+  }
+
+ private:
+  VectorXd stacked() const {
+    VectorXd all(static_cast<Index>(kCalibrationTerms * terms_.size()));
+    for (std::size_t i = 0; i < terms_.size(); ++i)
+      all.segment<kCalibrationTerms>(static_cast<Index>(kCalibrationTerms * i)) = terms_[i];
+    return all;
+  }
+
+  /// One Gauss-Newton step of terms and trajectory; `estimate` is that after it.
+  VectorXd step(const std::vector<bool>& wanted, double reach, TermEstimate& estimate) {
+    TermEquations equations = zeroEquations(lasers_.size());
+    for (const auto& stretch : stretches_) equations += stretch->linearise(terms_, reach);
+    places_ = equations.patches;
+    const VectorXd before = stacked();
+    for (Index i = 0; i < before.size(); ++i) {
+      const double prior = 1.0 / std::pow(priorSigmas()(i % kCalibrationTerms), 2);
+      equations.information(i, i) += prior;
+      equations.scatter(i, i) += prior;
+      equations.gradient(i) -= prior * before(i);
+      if (wanted[static_cast<std::size_t>(i)]) continue;
+      for (MatrixXd* matrix : {&equations.information, &equations.scatter}) {
+        matrix->row(i).setZero();
+        matrix->col(i).setZero();
+        (*matrix)(i, i) = prior;
+      }
+      equations.gradient(i) = 0.0;
+    }
+    const auto covariance = urban_nav_core::invertPositiveDefinite(equations.information);
+    if (!covariance) return VectorXd::Zero(before.size());
+    const VectorXd change = *covariance * equations.gradient;
+    for (std::size_t i = 0; i < terms_.size(); ++i)
+      terms_[i] = changedTerms(terms_[i], change.segment<kCalibrationTerms>(static_cast<Index>(kCalibrationTerms * i)));
+    for (const auto& stretch : stretches_) stretch->moveTrajectory(change);
+    // Errors within a place are correlated: each term's variance is that by the scatter of the places, if it is larger.
+    const MatrixXd by_scatter = *covariance * equations.scatter * *covariance;
+    const VectorXd inflation =
+        (by_scatter.diagonal().array() / covariance->diagonal().array()).max(1.0).sqrt().matrix();
+    estimate.mean = stacked();
+    estimate.covariance = inflation.asDiagonal() * *covariance * inflation.asDiagonal();
+    estimate.conditional_sigma = equations.information.diagonal().cwiseSqrt().cwiseInverse();
+    return change;
+  }
+
+  static bool isSmall(const VectorXd& change, const TermEstimate& estimate) {
+    for (Index i = 0; i < change.size(); ++i)
+      if (std::abs(change(i)) > kConverged * estimate.sigma(i)) return false;
+    return true;
+  }
+
+  const std::vector<MountedLaser> lasers_;
+  std::vector<TermVector> terms_;
+  std::vector<std::unique_ptr<CalibrationStretch>> stretches_;
+  std::size_t places_ = 0;
+};
+
+void judgeByHeldOut(const std::vector<CalibrationStretch::Spread>& spreads, CalibrationResult& result) {
+  result.held_out = spreads.size();
+  if (spreads.size() < 2) return;
+  const auto count = static_cast<double>(spreads.size());
+  double square = 0.0;
+  for (const CalibrationStretch::Spread& spread : spreads) {
+    const double difference = spread.stated - spread.calibrated;
+    result.stated_spread += spread.stated / count;
+    result.calibrated_spread += spread.calibrated / count;
+    result.improvement += difference / count;
+    square += difference * difference / count;
+  }
+  result.improvement_sigma = std::sqrt(std::max(0.0, square - result.improvement * result.improvement) / (count - 1.0));
+  result.improves = result.improvement > kBeyondChance * result.improvement_sigma && result.improvement > 0.0;
+}
+
+}  // namespace
+
+CalibrationResult calibrateLasers(const Parameters& parameters, urban_nav_store::Store& store,
+                                  const urban_nav_store::SessionId& session,
+                                  const urban_nav_core::Trajectory& T_map_base,
+                                  const urban_nav_core::OdometryChain* odometry) {
+  CalibrationResult result;
+  Calibrator calibrator(parameters, store, session, T_map_base, odometry);
+  const std::size_t terms = kCalibrationTerms * calibrator.lasers().size();
+  if (terms == 0 || T_map_base.size() < 2) return result;
+  const TermEstimate all = calibrator.estimate(std::vector<bool>(terms, true));
+  if (all.mean.size() == 0) return result;
+  result.places = calibrator.places();
+  result.unconstrained = describeUnconstrained(all, calibrator.lasers());
+  const std::vector<bool> significant = significantTerms(all);
+  result.is_significant = std::find(significant.begin(), significant.end(), true) != significant.end();
+  const TermEstimate chosen = result.is_significant ? calibrator.estimate(significant) : all;
+  judgeByHeldOut(calibrator.compareHeldOut(), result);
+  for (std::size_t i = 0; i < calibrator.lasers().size(); ++i) {
+    LaserCalibration laser;
+    laser.frame = calibrator.lasers()[i].frame;
+    for (std::size_t t = 0; t < laser.terms.size(); ++t) {
+      const std::size_t term = kCalibrationTerms * i + t;
+      const auto at = static_cast<Index>(term);
+      const TermEstimate& from = significant[term] ? chosen : all;
+      laser.terms[t] = {from.mean(at), from.sigma(at), all.isConstrained(at),
+                        significant[term] && result.isAdopted() ? chosen.mean(at) : 0.0};
+    }
+    result.lasers.push_back(laser);
+  }
+  return result;
+}
+
+}  // namespace laser_mapper

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "calibration/calibration_patches.hpp"
+#include "calibration/trajectory_prior.hpp"
+#include "urban_nav_core/trajectory/odometry_chain.hpp"
+
+namespace laser_mapper {
+
+/// Normal equations of the terms of all lasers, 7 each, from which planes and errors of the trajectory are eliminated.
+struct TermEquations {
+  Eigen::MatrixXd information;
+  Eigen::VectorXd gradient;  ///< information * change = gradient
+  Eigen::MatrixXd scatter;   ///< of the gradients of the places: larger than `information` where errors of a place are
+                             ///< correlated
+  std::size_t patches = 0;
+
+  TermEquations& operator+=(const TermEquations& other);
+};
+TermEquations zeroEquations(std::size_t lasers);
+
+/// A stretch of a session whose beams calibrate its lasers. Unknown besides their terms are the plane of every place,
+/// and a correction of the trajectory at every second, a random walk with the covariance of odometry. Not thread-safe.
+class CalibrationStretch {
+ public:
+  /// References must outlive the stretch.
+  CalibrationStretch(const Parameters& parameters, const std::vector<MountedLaser>& lasers,
+                     const urban_nav_core::Trajectory& T_map_base, const urban_nav_core::OdometryChain* odometry,
+                     SampledScans samples);
+
+  /// Matches surfels up to `reach` (m) apart and returns the equations at these terms, without held-out places.
+  TermEquations linearise(const std::vector<TermVector>& terms, double reach);
+  /// Moves the trajectory as the equations of the last linearise() ask for with this change of all terms.
+  void moveTrajectory(const Eigen::VectorXd& change);
+
+  /// Spread of one held-out place along the trajectory as given.
+  struct Spread {
+    double stated = 0.0, calibrated = 0.0;  ///< m
+  };
+  /// Compares the held-out places with the stated calibration, where surfels are matched, and with `terms`.
+  std::vector<Spread> compareHeldOut(const std::vector<TermVector>& terms) const;
+
+ private:
+  struct PatchEquations;
+  struct FullEquations;
+  PatchEquations equationsOf(const CalibrationPatch& patch, const SurfelSet& set, const std::vector<ScanPlace>& places,
+                             double scale) const;
+  TermEquations eliminateTrajectory(FullEquations all, const std::vector<PatchEquations>& patches);
+  std::vector<ScanPlace> placesWith(const std::vector<TermVector>& terms,
+                                    const std::vector<PoseCorrection>& corrections) const;
+  Eigen::Index termCount() const { return static_cast<Eigen::Index>(kCalibrationTerms * lasers_.size()); }
+
+  const Parameters& parameters_;
+  const std::vector<MountedLaser>& lasers_;
+  const urban_nav_core::Trajectory& T_map_base_;
+  const SampledScans samples_;
+  const TrajectoryPrior prior_;
+  std::vector<PoseCorrection> corrections_;  ///< at whole seconds
+  // Of the last linearise(): corrections change by trajectory_change_ - per_term_ * change of the terms.
+  Eigen::VectorXd trajectory_change_;
+  Eigen::MatrixXd per_term_;
+};
+
+}  // namespace laser_mapper
