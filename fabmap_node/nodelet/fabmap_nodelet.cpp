@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <nav_msgs/Odometry.h>
+#include <urban_nav_msgs/FileCommand.h>
 #include <urban_nav_msgs/PlaceBelief.h>
 #include <urban_nav_msgs/TopologicalClosure.h>
 #include <pluginlib/class_list_macros.hpp>
@@ -70,6 +71,8 @@ class FabmapStage {
   template <typename Message>
   void subscribeCameras();
   void subscribeOdometry();
+  void advertiseFiles();
+  void loadMap();
   void startFeed();
   void process(const Panorama& panorama);
 
@@ -84,10 +87,12 @@ class FabmapStage {
 FabmapStage::FabmapStage(Node& node) : node_(node) {
   std::tie(nodelet_, parameters_) = node.parameters(nodeletTable(), table());
   node.setQueueSize(nodelet_.queue_size);
-  places_ = std::make_unique<LivePlaces>(parameters_);
+  places_ = std::make_unique<LivePlaces>(parameters_, LiveSessionName{nodelet_.robot, nodelet_.recording});
+  loadMap();
   startFeed();
   belief_ = node.nh().advertise<urban_nav_msgs::PlaceBelief>(belief_topic, 100);
   closure_ = node.nh().advertise<urban_nav_msgs::TopologicalClosure>(urban_nav_ros::topics::place_closure, 1000);
+  advertiseFiles();
   subscribeOdometry();
   if (nodelet_.compressed) subscribeCameras<sensor_msgs::CompressedImage>();
   else subscribeCameras<sensor_msgs::Image>();
@@ -120,6 +125,20 @@ void FabmapStage::subscribeOdometry() {
         if (!T_odom_base) return std::nullopt;
         return urban_nav_core::StampedPose{urban_nav_ros::toStampNs(message->header.stamp), *T_odom_base};
       });
+}
+
+void FabmapStage::advertiseFiles() {
+  using urban_nav_msgs::FileCommand;
+  node_.advertiseService<FileCommand>("save", [this](const auto& request, auto& response) {
+    response.message = node_.ask([this, path = request.path] { return places_->save(path); });
+  });
+  node_.advertiseService<FileCommand>("load", [this](const auto& request, auto& response) {
+    response.message = node_.ask([this, path = request.path] { return places_->load(path); });
+  });
+}
+
+void FabmapStage::loadMap() {
+  if (!nodelet_.map.empty()) places_->load(nodelet_.map);
 }
 
 void FabmapStage::startFeed() {
@@ -159,8 +178,10 @@ bool FabmapStage::idle() {
 
 std::string FabmapStage::reset() {
   places_->reset();
+  loadMap();
   startFeed();
-  return "all places are forgotten, the next panorama begins a new session";
+  return std::string("all places ") + (nodelet_.map.empty() ? "" : "but those of the map ") +
+         "are forgotten, the next panorama begins a new session";
 }
 
 class FabmapNodelet : public urban_nav_ros::StageNodelet<FabmapStage> {};

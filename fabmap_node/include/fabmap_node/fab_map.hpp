@@ -58,6 +58,12 @@ class FabMap {
   PlaceOutput process(urban_nav_core::StampNs stamp, const PlaceDescription& description, double travelled);
 
   std::size_t places() const { return recogniser_.places(); }
+  /// Returns a place of the map; requires i < places(). Its session is an index of sessions().
+  const DescribedPlace& place(std::size_t i) const { return recogniser_.place(i); }
+  /// Returns the distance driven in its session until a place, m.
+  double travelled(std::size_t i) const { return travelled_[i]; }
+  /// Returns the names of the sessions.
+  const std::vector<std::string>& sessions() const { return sessions_; }
 
  private:
   PlaceBelief decide(const PlaceRecognition& recognition) const;

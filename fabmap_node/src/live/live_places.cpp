@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "live/live_places.hpp"
 
+#include "urban_nav_core/io/text_file.hpp"
+
 namespace fabmap_node {
 
 using urban_nav_core::Health;
 
 namespace {
 
-PlaceModel readNamedModel(const Parameters& parameters) {
-  return parameters.model == "default" ? defaultModel() : readModel(parameters.model);
+std::string readNamedModel(const Parameters& parameters) {
+  return parameters.model == "default" ? std::string(defaultModelBytes())
+                                       : urban_nav_core::readTextFile(parameters.model);
 }
 
 /// Numbers are published: new ones are appended.
@@ -16,16 +19,22 @@ enum class PlacesReason { None = 0, NoUsableImages = 1, CameraMissing = 2 };
 
 }  // namespace
 
-LivePlaces::LivePlaces(const Parameters& parameters)
+LivePlaces::LivePlaces(const Parameters& parameters, LiveSessionName name)
     : parameters_(parameters),
-      model_(readNamedModel(parameters)),
+      name_(std::move(name)),
+      model_bytes_(readNamedModel(parameters)),
+      model_(parseModel(model_bytes_, parameters.model)),
       describer_(model_.vocabulary, featureOptions(parameters), MatcherOptions().look_features) {
   reset();
 }
 
-void LivePlaces::addOdometry(const urban_nav_core::StampedPose& pose) { travelled_.add(pose.stamp, pose.pose.t()); }
+void LivePlaces::addOdometry(const urban_nav_core::StampedPose& pose) {
+  if (!begin_) begin_ = pose.stamp;
+  travelled_.add(pose.stamp, pose.pose.t());
+}
 
 PlaceOutput LivePlaces::process(urban_nav_core::StampNs stamp, const std::vector<urban_nav_core::ImageView>& images) {
+  if (!begin_) begin_ = stamp;
   const PlaceDescription description = describer_.describe(images);
   PlaceOutput output = map_->process(stamp, description, travelled_.at(stamp));
   ++counts_.observations;
@@ -41,6 +50,8 @@ void LivePlaces::reset() {
   map_ = std::make_unique<FabMap>(model_, parameters_);
   map_->beginSession("");
   travelled_ = TravelledDistance();
+  loaded_.clear();
+  begin_.reset();
   counts_ = Counts();
   last_ = PlaceBelief();
 }

@@ -24,6 +24,12 @@ const Table<NodeletParameters>& nodeletTable() {
            "Images and poses that may wait; when the queue is full, the oldest is dropped and counted.", "docs/architecture.md"},
           {"max_lateness", &P::max_lateness, "s", 0.2, 0.0, 10.0, {},
            "Time by stamps that a panorama waits for missing images.", "docs/architecture.md"},
+          {"robot", &P::robot, "", "", false, false, {},
+           "Name of the robot; with the name of the recording and the first stamp it makes the id of the session in ~save.", "docs/files.md"},
+          {"recording", &P::recording, "", "", false, false, {},
+           "Name of the recording, the same on all computers of the robot.", "docs/files.md"},
+          {"map", &P::map, "", "", false, false, {},
+           "Absolute path of a session store whose places are in the map from the start, as with ~load. Empty: none.", "docs/files.md"},
       });
   return rows;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
+
 #include "urban_nav_core/parameters/table.hpp"
 
 namespace fabmap_node {
@@ -11,6 +13,8 @@ struct NodeletParameters {
   bool compressed;
   int queue_size;       // images
   double max_lateness;  // s
+  std::string robot, recording;
+  std::string map;  // path of a store; empty: none
 
   NodeletParameters();
 };

@@ -3,9 +3,12 @@
 #include <ros/ros.h>
 #include <sensor_msgs/Image.h>
 #include <std_srvs/Trigger.h>
+#include <urban_nav_msgs/FileCommand.h>
 #include <urban_nav_msgs/PlaceBelief.h>
 #include <urban_nav_msgs/TopologicalClosure.h>
 
+#include <cstdlib>
+#include <filesystem>
 #include <functional>
 #include <opencv2/core.hpp>
 #include <random>
@@ -71,6 +74,12 @@ class Head {
     std_srvs::Trigger call;
     return ros::service::call("fabmap_node/reset", call) && call.response.success;
   }
+  static urban_nav_msgs::FileCommand::Response command(const std::string& service, const std::string& path) {
+    urban_nav_msgs::FileCommand call;
+    call.request.path = path;
+    EXPECT_TRUE(ros::service::call("fabmap_node/" + service, call));
+    return call.response;
+  }
 
   std::vector<urban_nav_msgs::PlaceBelief> beliefs;
   std::vector<urban_nav_msgs::TopologicalClosure> closures;
@@ -104,6 +113,32 @@ TEST(FabmapNodelet, forgetsOnResetAndContinuesWithFourCameras) {
   for (unsigned place = 10; place < 15; ++place) head.show(place, first_stamp + place * half_second, 2);
   ASSERT_TRUE(Head::until([&] { return head.beliefs.size() >= 3; })) << "the others may still be completed";
   for (const auto& belief : head.beliefs) EXPECT_EQ(belief.observation, "used");
+}
+
+TEST(FabmapNodelet, recognisesPlacesOfASessionThatWasSaved) {
+  std::string folder = (std::filesystem::temp_directory_path() / "fabmap_node_XXXXXX").string();
+  ASSERT_NE(mkdtemp(folder.data()), nullptr);
+  const std::string path = folder + "/places.db";
+  Head head;
+  ASSERT_TRUE(head.connected());
+  ASSERT_TRUE(head.reset());
+  EXPECT_FALSE(Head::command("save", path).success) << "there are no places yet";
+  for (unsigned place = 20; place < 25; ++place) head.show(place, first_stamp + place * half_second);
+  ASSERT_TRUE(Head::until([&] { return head.beliefs.size() == 5; }));
+  const auto saved = Head::command("save", path);
+  EXPECT_TRUE(saved.success) << saved.message;
+  EXPECT_FALSE(Head::command("save", "relative.db").success);
+  EXPECT_FALSE(Head::command("load", folder + "/absent.db").success);
+  ASSERT_TRUE(head.reset());
+  const auto loaded = Head::command("load", path);
+  EXPECT_TRUE(loaded.success) << loaded.message;
+  head.show(22, first_stamp + 10'000 * half_second);
+  ASSERT_TRUE(Head::until([&] { return head.beliefs.size() == 6; }));
+  const auto& belief = head.beliefs.back();
+  ASSERT_FALSE(belief.places.empty());
+  EXPECT_EQ(urban_nav_ros::toStampNs(belief.places[0].stamp), first_stamp + 22 * half_second);
+  EXPECT_EQ(belief.places[0].session.size(), 20U) << "the id of an earlier session";
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fabmap_node/store/place_sessions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "fabmap_node/model/place_model.hpp"
+#include "support/synthetic_places.hpp"
+
+namespace fabmap_node {
+namespace {
+
+using testing::syntheticPlace;
+using urban_nav_store::Access;
+using urban_nav_store::Store;
+
+constexpr urban_nav_core::StampNs second = 1'000'000'000;
+
+/// Folder that is removed at the end.
+class Folder {
+ public:
+  Folder() : path_((std::filesystem::temp_directory_path() / "places_XXXXXX").string()) {
+    if (mkdtemp(path_.data()) == nullptr) path_.clear();
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  std::string file(const std::string& name) const { return path_ + "/" + name; }
+
+ private:
+  std::string path_;
+};
+
+PlaceSession makeSession(const PlaceModel& model, const std::string& recording, urban_nav_core::StampNs start) {
+  PlaceSession made;
+  made.session = {urban_nav_store::makeSessionId({"lisa", recording, start, ""}), recording, "lisa", recording, start,
+                  false};
+  const PlaceDescriber describer(model.vocabulary, {}, 540);
+  for (std::uint32_t i = 0; i < 5; ++i)
+    made.places.push_back({start + i * second, describer.describe(syntheticPlace(i, 0, 5)), 2.0 * i});
+  return made;
+}
+
+TEST(PlaceSessions, AreReadAsTheyWereWritten) {
+  const Folder folder;
+  const PlaceModel model = defaultModel();
+  const std::string bytes(defaultModelBytes());
+  const std::vector<PlaceSession> written = {makeSession(model, "monday", second), makeSession(model, "tuesday", 99)};
+  {
+    Store store(folder.file("places.db"), Access::Write);
+    writePlaces(store, written, bytes);
+    store.commit();
+  }
+  Store store(folder.file("places.db"), Access::Read);
+  const StoredPlaces read = readPlaces(store, modelHash(bytes), model.vocabulary.size());
+  EXPECT_EQ(read.other_model, 0u);
+  ASSERT_EQ(read.sessions.size(), 2u);
+  for (const PlaceSession& expected : written) {
+    const PlaceSession& session = read.sessions[expected.session.start == second ? 1 : 0];
+    EXPECT_EQ(session.session, expected.session);
+    ASSERT_EQ(session.places.size(), expected.places.size());
+    for (std::size_t i = 0; i < session.places.size(); ++i) {
+      EXPECT_EQ(session.places[i].stamp, expected.places[i].stamp);
+      EXPECT_EQ(session.places[i].description.words, expected.places[i].description.words);
+      EXPECT_EQ(session.places[i].description.look, expected.places[i].description.look);
+      if (i == 0) continue;
+      EXPECT_GT(session.places[i].travelled, session.places[i - 1].travelled) << "no trajectory is stored";
+    }
+  }
+}
+
+TEST(PlaceSessions, LeavesOutPlacesOfAnotherModel) {
+  const Folder folder;
+  const PlaceModel model = defaultModel();
+  {
+    Store store(folder.file("places.db"), Access::Write);
+    writePlaces(store, {makeSession(model, "monday", second)}, std::string(defaultModelBytes()));
+    store.commit();
+  }
+  Store store(folder.file("places.db"), Access::Read);
+  const StoredPlaces read = readPlaces(store, "0123456789abcdef", model.vocabulary.size());
+  EXPECT_TRUE(read.sessions.empty());
+  EXPECT_EQ(read.other_model, 5u);
+}
+
+}  // namespace
+}  // namespace fabmap_node
