@@ -2,6 +2,7 @@
 #include "filter/unsupported_regions.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "sgm/bytes.hpp"
 
@@ -15,6 +16,8 @@ constexpr float rounding_noise = 0.06F;      // grey levels^2, of two images wit
 constexpr double least_share = 0.15;         // of a window's pixels
 constexpr int flat_range = 4;                // grey levels in 3x3 px
 constexpr int saturated = 254;
+constexpr int outline_reach = 8;   // px, of the windows of census and alignment
+constexpr int outline_range = 32;  // grey levels in 3x3 px, of an outline
 
 }  // namespace
 
@@ -24,23 +27,52 @@ void UnsupportedRegions::remove(const Padded<std::uint8_t>& left, const Winners&
   evidence_.resize(width, height);
   sums_.resize(width, height);
   column_.resize(static_cast<std::size_t>(width));
+  outline_.resize(width, height);
+  beside_.resize(width, height);
+  removed_.resize(width, height);
+  grown_.resize(width, height);
   markFlat(left);
+  markBesideOutlines();
   markEvidence(left, winners, field);
   sumWindows();
   markPoorWindows();
   sumWindows();
   for (int v = 0; v < height; ++v) {
-    float* d = field.disparity.row(v);
     const std::uint8_t* flat = flat_.row(v);
     const std::uint16_t* poor = sums_.row(v);
+    std::uint8_t* removed = removed_.row(v);
+    for (int u = 0; u < width; ++u) removed[u] = poor[u] != 0 && flat[u] != 0 ? 255 : 0;
+  }
+  growThroughFlat();
+  growOverBlur(left);
+  for (int v = 0; v < height; ++v) {
+    float* d = field.disparity.row(v);
+    const std::uint8_t* removed = removed_.row(v);
     for (int u = 0; u < width; ++u)
-      if (poor[u] != 0 && flat[u] != 0) d[u] = DisparityField::invalid;
+      if (removed[u] != 0) d[u] = DisparityField::invalid;
   }
 }
 
-/// 255 where the 3x3 pixels around are equal but for noise.
+/// Grows removed_ by one pixel a round, through flat pixels beside outlines.
+void UnsupportedRegions::growThroughFlat() {
+  for (int round = 0; round < outline_reach; ++round) {
+    for (int v = 0; v < removed_.height(); ++v) {
+      const std::uint8_t* rows[3] = {removed_.clampedRow(v - 1), removed_.row(v), removed_.clampedRow(v + 1)};
+      for (int u = 0; u < removed_.width(); u += 16) {
+        Bytes near = Bytes::splat(0);
+        for (const std::uint8_t* row : rows)
+          for (int k = -1; k <= 1; ++k) near = either(near, Bytes::load(row + u + k));
+        either(Bytes::load(rows[1] + u), both(near, Bytes::load(beside_.row(v) + u))).store(grown_.row(v) + u);
+      }
+    }
+    std::swap(removed_, grown_);
+  }
+}
+
+/// flat_ is 255 where the 3x3 pixels around are equal but for noise, outline_ where they differ much.
 void UnsupportedRegions::markFlat(const Padded<std::uint8_t>& left) {
-  const Bytes range = Bytes::splat(flat_range), zero = Bytes::splat(0), all = Bytes::splat(255);
+  const Bytes range = Bytes::splat(flat_range), outline = Bytes::splat(outline_range - 1);
+  const Bytes zero = Bytes::splat(0), all = Bytes::splat(255);
   for (int v = 0; v < left.height(); ++v) {
     const std::uint8_t* rows[3] = {left.clampedRow(v - 1), left.row(v), left.clampedRow(v + 1)};
     for (int u = 0; u < left.width(); u += 16) {
@@ -53,8 +85,29 @@ void UnsupportedRegions::markFlat(const Padded<std::uint8_t>& left) {
         }
       const Bytes spread = subtract(exclusiveOr(greatest_complement, all), least);
       equal(subtract(spread, range), zero).store(flat_.row(v) + u);
+      exclusiveOr(equal(subtract(spread, outline), zero), all).store(outline_.row(v) + u);
     }
   }
+}
+
+/// beside_ is 255 at flat pixels whose windows hold an outline.
+void UnsupportedRegions::markBesideOutlines() {
+  const int height = outline_.height(), width = outline_.width();
+  for (int v = 0; v < height; ++v)
+    for (int u = 0; u < width; u += 16) {
+      Bytes near = Bytes::load(outline_.row(v) + u);
+      for (int k = 1; k <= outline_reach; ++k)
+        near = either(near, either(Bytes::load(outline_.row(v) + u - k), Bytes::load(outline_.row(v) + u + k)));
+      near.store(grown_.row(v) + u);
+    }
+  for (int v = 0; v < height; ++v)
+    for (int u = 0; u < width; u += 16) {
+      Bytes near = Bytes::load(grown_.row(v) + u);
+      for (int k = 1; k <= outline_reach; ++k)
+        near =
+            either(near, either(Bytes::load(grown_.clampedRow(v - k) + u), Bytes::load(grown_.clampedRow(v + k) + u)));
+      both(near, Bytes::load(flat_.row(v) + u)).store(beside_.row(v) + u);
+    }
 }
 
 /// Evidence is 1 or 0; pixels without it count as flat from here on.
@@ -115,6 +168,33 @@ void UnsupportedRegions::markPoorWindows() {
       poor[u] = sums[u] <= least_share * rows * columns ? 1 : 0;
     }
   }
+}
+
+/// Grows removed_ by a pixel over the blurred outline: to pixels whose brightness lies between those of their removed
+/// neighbour and of the pixel two further on, which differs much, and nearer to the former.
+void UnsupportedRegions::growOverBlur(const Padded<std::uint8_t>& left) {
+  const Bytes zero = Bytes::splat(0), all = Bytes::splat(255), contrast = Bytes::splat(outline_range - 1),
+              noise = Bytes::splat(flat_range);
+  constexpr int directions[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+  for (int v = 0; v < removed_.height(); ++v) {
+    for (int u = 0; u < removed_.width(); u += 16) {
+      const Bytes here = Bytes::load(left.row(v) + u);
+      Bytes grown = Bytes::load(removed_.row(v) + u);
+      for (const auto& [du, dv] : directions) {
+        const Bytes neighbour = Bytes::load(left.clampedRow(v + dv) + u + du);
+        const Bytes beyond = Bytes::load(left.clampedRow(v - 2 * dv) + u - 2 * du);
+        const Bytes to_neighbour = absoluteDifference(here, neighbour), to_beyond = absoluteDifference(here, beyond);
+        const Bytes apart = absoluteDifference(neighbour, beyond);
+        const Bytes is_nearer = equal(subtract(to_neighbour, to_beyond), zero);
+        const Bytes is_between = equal(subtract(add(to_neighbour, to_beyond), add(apart, noise)), zero);
+        const Bytes differs = exclusiveOr(equal(subtract(apart, contrast), zero), all);
+        const Bytes is_removed = Bytes::load(removed_.clampedRow(v + dv) + u + du);
+        grown = either(grown, both(is_removed, both(both(is_nearer, is_between), differs)));
+      }
+      grown.store(grown_.row(v) + u);
+    }
+  }
+  std::swap(removed_, grown_);
 }
 
 }  // namespace dense_stereo

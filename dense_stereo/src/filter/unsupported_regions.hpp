@@ -14,7 +14,8 @@ namespace dense_stereo {
 /// sky above it. A pixel has evidence if the images fix its disparity (information against noise) or no other
 /// disparity explains the pixels as well (distance of the rival), or something of both. Where a window of 21x21 holds
 /// little evidence, pixels in it that have none, or whose own neighbourhood is flat, are unsupported; small flat
-/// patches within texture are supported. Keeps its memory. Not thread-safe.
+/// patches within texture are supported. Flat pixels that lead from an unsupported region towards an outline are
+/// unsupported too: their evidence is the outline's, which their windows hold. Keeps its memory. Not thread-safe.
 class UnsupportedRegions {
  public:
   /// Makes unsupported pixels of the field invalid. `left`: rows extended by extendRows.
@@ -27,9 +28,14 @@ class UnsupportedRegions {
   void markEvidence(const Padded<std::uint8_t>& left, const Winners& winners, const DisparityField& field);
   void sumWindows();
   void markPoorWindows();
+  void markBesideOutlines();
+  void growThroughFlat();
+  void growOverBlur(const Padded<std::uint8_t>& left);
 
-  Padded<std::uint8_t> flat_, evidence_;  ///< 255: yes; 1: yes
-  Padded<std::uint16_t> sums_;            ///< over the window
+  Padded<std::uint8_t> flat_, evidence_;   ///< 255: yes; 1: yes
+  Padded<std::uint8_t> outline_, beside_;  ///< 255: much contrast in 3x3 px; flat, and near such a pixel
+  Padded<std::uint8_t> removed_, grown_;   ///< 255: unsupported
+  Padded<std::uint16_t> sums_;             ///< over the window
   std::vector<std::uint16_t> column_;
 };
 

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <limits>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 namespace dense_stereo {
@@ -21,6 +23,8 @@ constexpr std::size_t scored_points = 1500;
 constexpr double least_support = 0.1;       // of all points within range: a strip of ground between obstacles
 constexpr double ground_band = 0.3;         // m, above and below the plane: what may be ground
 constexpr double least_planar_share = 0.8;  // of the area in that band
+constexpr int plan_cells = 128;             // along each side of the plan, over twice the range
+constexpr std::uint8_t on_plane = 1, in_band = 2;
 constexpr double degrees = M_PI / 180.0;
 constexpr double points_of_a_window = 80.0;  // whose disparities share their errors
 constexpr double far_margin = 1.1;
@@ -132,20 +136,34 @@ class GroundSearch {
   }
 
   /// The share of all points that is on the plane, and the share of the ground's area, which is what lies in a band
-  /// around the plane.
+  /// around the plane: cells of the plan that have a point on the plane, of those that have one in the band. What
+  /// stands upright covers few cells, however many pixels it has.
   std::pair<double, double> findSupport(const SpacePlane& plane) const {
-    double on = 0.0, on_area = 0.0, near_area = 0.0;
+    double farthest = 0.0, on = 0.0;
+    for (const DensePoint& point : points_) farthest = std::max(farthest, static_cast<double>(point.p_cam.norm()));
+    const double cells_per_metre = 0.5 * plan_cells / std::max(farthest, 1e-3);
+    const Eigen::Vector3d forward = (Eigen::Vector3d::UnitZ() - plane.up.z() * plane.up).normalized();
+    const Eigen::Vector3d right = forward.cross(plane.up);
+    std::vector<std::uint8_t> plan(static_cast<std::size_t>(plan_cells) * plan_cells, 0);
     for (const DensePoint& point : points_) {
-      const double area = std::pow(static_cast<double>(point.disparity), -3.0);  // of ground that a pixel shows
-      const double height = plane.up.dot(point.p_cam.cast<double>()) + plane.height;
+      const Eigen::Vector3d p = point.p_cam.cast<double>();
+      const double height = plane.up.dot(p) + plane.height;
       const double sigma =
           std::sqrt(static_cast<double>(point.variance)) * plane.height / static_cast<double>(point.disparity);
       const bool is_on = std::abs(height) < 2.0 * options_.tolerance + 2.0 * sigma;
       on += is_on ? 1.0 : 0.0;
-      on_area += is_on ? area : 0.0;
-      near_area += is_on || std::abs(height) < ground_band ? area : 0.0;
+      if (!is_on && std::abs(height) >= ground_band) continue;
+      const auto cell = [&](double metres) {
+        return static_cast<std::size_t>(std::clamp(0.5 * plan_cells + cells_per_metre * metres, 0.0, plan_cells - 1.0));
+      };
+      plan[cell(forward.dot(p)) * plan_cells + cell(right.dot(p))] |= is_on ? on_plane : in_band;
     }
-    return {on / static_cast<double>(points_.size()), near_area > 0.0 ? on_area / near_area : 0.0};
+    double on_cells = 0.0, all_cells = 0.0;
+    for (const std::uint8_t cell : plan) {
+      on_cells += (cell & on_plane) != 0 ? 1.0 : 0.0;
+      all_cells += cell != 0 ? 1.0 : 0.0;
+    }
+    return {on / static_cast<double>(points_.size()), all_cells > 0.0 ? on_cells / all_cells : 0.0};
   }
 
   /// First-order covariance of (up, height) from that of the plane's three coefficients.

@@ -112,5 +112,33 @@ TEST(UnsupportedRegions, RemovesTheFlatSkyAndKeepsTexture) {
   }
 }
 
+/// The windows of the seven lowest rows of a flat sky hold the texture below it.
+TEST(UnsupportedRegions, RemovesTheSkyUpToTheOutlineAndKeepsAFlatPatchWithinTexture) {
+  constexpr int horizon = 60, reached = 53;
+  std::mt19937 random(2);
+  Padded<std::uint8_t> left = constantMap(96, 128, 220);
+  Winners winners;
+  winners.disparity = constantMap(96, 128, 12);
+  winners.cost = constantMap(96, 128, 20);
+  winners.rival = constantMap(96, 128, 30);
+  DisparityField field;
+  field.disparity.resize(96, 128, 12.0F);
+  field.noise.resize(96, 128, 0.1F);
+  field.information.resize(96, 128, 0.0F);
+  const auto isPatch = [](int u, int v) { return u >= 40 && u < 48 && v >= 90 && v < 98; };
+  for (int v = reached; v < 128; ++v)
+    for (int u = 0; u < 96; ++u) {
+      field.information.row(v)[u] = 500.0F;
+      winners.rival.row(v)[u] = 120;
+      if (v >= horizon) left.row(v)[u] = isPatch(u, v) ? 220 : static_cast<std::uint8_t>(random() % 120);
+    }
+  extendRows(left);
+  UnsupportedRegions().remove(left, winners, field);
+  for (int u = 0; u < 96; ++u) {
+    for (int v = 0; v < horizon; ++v) ASSERT_LT(field.disparity.row(v)[u], 0.0F) << u << " " << v;
+    for (int v = horizon + 1; v < 128; ++v) ASSERT_EQ(field.disparity.row(v)[u], 12.0F) << u << " " << v;
+  }
+}
+
 }  // namespace
 }  // namespace dense_stereo

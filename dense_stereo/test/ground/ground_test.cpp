@@ -78,6 +78,15 @@ TEST(GroundPlane, ReportsStepsAndABreakInTheSlope) {
   EXPECT_EQ(slope.verdict, GroundVerdict::NotPlanar) << slope.support;
 }
 
+/// A wall across the view at 3.2 m has more pixels near the ground than the ground has, and covers none of it.
+TEST(GroundPlane, IsFoundBeforeAWall) {
+  const GroundPlane plane =
+      findGround(pointsOn([](double, double z) { return z < 3.2 ? 0.0 : 50.0; }, 0.1, 1), groundCamera());
+  ASSERT_TRUE(plane.isFound()) << plane.sentence;
+  EXPECT_LT(std::acos(std::min(1.0, plane.up.dot(-Eigen::Vector3d::UnitY()))), 0.3 * rad);
+  EXPECT_NEAR(plane.height, 1.0, 0.01);
+}
+
 TEST(GroundPlane, NeedsPointsAndADirectionNearGravity) {
   EXPECT_EQ(findGround({}, groundCamera()).verdict, GroundVerdict::TooFewPoints);
   GroundOptions sideways;

@@ -4,13 +4,8 @@
 // so once more on another day.
 //   revisits [--world W] [--seed N] [--places 36] [--step 2] [--folder DIR]
 #include <array>
-#include <filesystem>
-#include <fstream>
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
-#include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "camera/heads.hpp"
 #include "camera/sky.hpp"
@@ -18,8 +13,7 @@
 #include "ray_tracing/tracer.hpp"
 #include "rig/sensor_poses.hpp"
 #include "support/program.hpp"
-#include "urban_nav_core/io/calibration.hpp"
-#include "urban_nav_core/io/kitti.hpp"
+#include "support/stereo_folder.hpp"
 #include "urban_nav_core/types/frames.hpp"
 
 namespace {
@@ -56,35 +50,6 @@ void goAside(const Noise& noise, Aside& motion) {
                            {0.0, draw(4, kMostAside), draw(5, kMostLifted)});
 }
 
-class Folder {
- public:
-  explicit Folder(std::string path) : path_(std::move(path)) {
-    for (const char* side : {"/image_0", "/image_1"}) std::filesystem::create_directories(path_ + side);
-  }
-
-  void add(const std::array<cv::Mat, 2>& images, const Pose& T_world_left) {
-    std::string name = std::to_string(poses_.size());
-    name.insert(0, 6 - name.size(), '0');
-    for (std::size_t side = 0; side < 2; ++side) {
-      const std::string path = path_ + "/image_" + std::to_string(side) + "/" + name + ".png";
-      if (!cv::imwrite(path, images[side])) throw std::runtime_error(path + ": not written");
-    }
-    poses_.push_back(T_world_left);
-  }
-
-  void finish(const std::array<Camera, 2>& cameras) const {
-    std::ofstream times(path_ + "/times.txt");
-    for (std::size_t i = 0; i < poses_.size(); ++i) times << i << "\n";
-    std::ofstream(path_ + "/calib.txt") << urban_nav_core::printKittiCalibration(
-        urban_nav_core::stereoCamera(cameras[0].info, cameras[1].info, "revisits"));
-    urban_nav_core::writeKitti(path_ + "/poses.txt", poses_);
-  }
-
- private:
-  std::string path_;
-  std::vector<Pose> poses_;
-};
-
 }  // namespace
 
 int main(int argc, char** argv) try {
@@ -95,10 +60,9 @@ int main(int argc, char** argv) try {
   const double step = options.number("--step", 2.0);  // s of the motion
   const Pose T_base_left = sensorPose(urban_nav_core::frames::stereo_left);
   const Noise noise(seed, "revisits");
-  Folder folder(options.text("--folder", world));
+  StereoFolder folder(options.text("--folder", world));
   DriveOptions ride_options;
   ride_options.duration = kStart + kMostBefore + step * places + 1.0;
-  const std::array<Camera, 2> cameras = bumblebee(StereoImages::Rectified);
   for (const int pass : {0, 1, 2}) {
     const World on_day = buildWorld(world, seed, pass == 2 ? 2 : 1);
     const auto way = simulateDrive(on_day, makeRoute(world, seed, "loops"), ride_options);
@@ -115,7 +79,7 @@ int main(int argc, char** argv) try {
       folder.add(images, motion.at(t).T_world_base * T_base_left);
     }
   }
-  folder.finish(cameras);
+  folder.finish(bumblebee(StereoImages::Rectified));
   return 0;
 } catch (const std::exception& error) {
   return urban_nav_sim::bench::complain(error);
