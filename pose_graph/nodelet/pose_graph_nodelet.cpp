@@ -14,6 +14,7 @@
 #include "services.hpp"
 #include "urban_nav_ros/accelerometer.hpp"
 #include "urban_nav_ros/closure.hpp"
+#include "urban_nav_ros/ground_normals.hpp"
 #include "urban_nav_ros/pose.hpp"
 #include "urban_nav_ros/stage_nodelet.hpp"
 #include "urban_nav_ros/topics.hpp"
@@ -57,7 +58,12 @@ class PoseGraphStage {
  private:
   GraphWorker::Listener listener();
   void subscribe();
-  void subscribeAccelerometer();
+  void subscribeGravity();
+  template <typename Sample>
+  bool pushAll(const std::vector<Sample>& samples) {
+    for (const Sample& sample : samples) node_.push(sample);
+    return !samples.empty();
+  }
   void relaxed(const LiveGraph::Outcome& outcome, const LiveGraph& graph, double ms);
   void publishIdle(const LiveGraph& graph);
   void followStore(const LiveGraph& graph);
@@ -67,6 +73,9 @@ class PoseGraphStage {
   std::unique_ptr<Publisher> publisher_;
   std::unique_ptr<urban_nav_ros::Accelerometer>
       accelerometer_;  // of the callbacks of the node's queue, which are sequential
+  // As accelerometer_. The subscription ends with the first sample of an accelerometer: dense stereo is expensive.
+  std::unique_ptr<urban_nav_ros::GroundNormals> ground_;
+  ros::Subscriber ground_subscriber_;
   std::unique_ptr<GraphWorker> worker_;
 
   std::optional<Clock::time_point> last_picture_;
@@ -81,6 +90,7 @@ PoseGraphStage::PoseGraphStage(Node& node) : node_(node) {
   node.setQueueSize(nodelet_.queue_size);
   publisher_ = std::make_unique<Publisher>(node.nh(), nodelet_);
   accelerometer_ = std::make_unique<urban_nav_ros::Accelerometer>(nodelet_.base_frame);
+  ground_ = std::make_unique<urban_nav_ros::GroundNormals>(nodelet_.base_frame);
   worker_ = std::make_unique<GraphWorker>(
       std::make_unique<LivePoseGraph>(parameters, nodelet_.robot, nodelet_.recording, nodelet_.store), listener());
   advertiseServices(node, *worker_);
@@ -108,18 +118,25 @@ void PoseGraphStage::subscribe() {
     else node_.gate().countInvalid();
     publisher_->sendTransform(stamp);
   });
-  subscribeAccelerometer();
+  subscribeGravity();
 }
 
-void PoseGraphStage::subscribeAccelerometer() {
+void PoseGraphStage::subscribeGravity() {
   TopicOptions options;
   options.is_monitored = options.is_paused = false;
-  const auto add = [this](const auto& message) {
-    for (const SpecificForce& sample : accelerometer_->add(*message)) node_.push(sample);
-  };
-  node_.subscribe<tf2_msgs::TFMessage>(topics::static_transforms, options, add);
+  node_.subscribe<tf2_msgs::TFMessage>(topics::static_transforms, options, [this](const auto& message) {
+    pushAll(accelerometer_->add(*message));
+    pushAll(ground_->add(*message));
+  });
   options.queue = nodelet_.queue_size;
-  node_.subscribe<sensor_msgs::Imu>(topics::imu, options, add);
+  node_.subscribe<sensor_msgs::Imu>(topics::imu, options, [this](const auto& message) {
+    if (pushAll(accelerometer_->add(*message))) ground_subscriber_.shutdown();
+  });
+  if (!nodelet_.ground) return;
+  const boost::function<void(const urban_nav_msgs::GroundPlaneConstPtr&)> add =
+      [this](const urban_nav_msgs::GroundPlaneConstPtr& message) { pushAll(ground_->add(*message)); };
+  ground_subscriber_ = node_.nh().subscribe<urban_nav_msgs::GroundPlane>(
+      topics::ground_plane, static_cast<std::uint32_t>(nodelet_.queue_size), add);
 }
 
 GraphWorker::Listener PoseGraphStage::listener() {

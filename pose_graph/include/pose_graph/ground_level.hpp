@@ -4,15 +4,11 @@
 #include <vector>
 
 #include "pose_graph/level.hpp"
+#include "urban_nav_core/types/ground_normal.hpp"
 
 namespace pose_graph {
 
-/// Normal of the ground as a camera saw it at a time.
-struct GroundNormal {
-  urban_nav_core::StampNs stamp = 0;
-  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< unit vector in the axes of base_link, away from the ground
-  double sigma = 0.0;                             ///< rad, standard deviation of its direction
-};
+using urban_nav_core::GroundNormal;
 
 /// Estimates the upward direction from the ground along a trajectory, seen from a pose of the trajectory's world: the
 /// robust mean of the normals (Tukey's weights), for robots without an accelerometer. Normals whose stamp is that of no

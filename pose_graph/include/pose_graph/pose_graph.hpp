@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "pose_graph/level.hpp"
+#include "pose_graph/ground_level.hpp"
 #include "pose_graph/node_index.hpp"
 #include "pose_graph/parameters.hpp"
 #include "pose_graph/solution.hpp"
@@ -153,6 +153,10 @@ class PoseGraph {
   /// heading of its first pose.
   void putForces(const SessionId& session, const std::vector<SpecificForce>& forces);
   const std::vector<SpecificForce>& forces(std::size_t track) const { return forces_[track]; }
+  /// Adds normals of the ground at poses of a session, in order of time; those that are not later than the newest known
+  /// one are left out. They level maps of which no session knows the direction of gravity from an accelerometer.
+  void putGround(const SessionId& session, const std::vector<GroundNormal>& normals);
+  const std::vector<GroundNormal>& ground(std::size_t track) const { return ground_[track]; }
   /// Levels what is not level yet where that is known by now, and tells of it as relax() does.
   std::optional<Relaxed> level();
   /// Whether the map that a session lies in is level.
@@ -255,6 +259,7 @@ class PoseGraph {
   }
   std::map<Name, ClosureId> by_name_;
   std::vector<std::vector<SpecificForce>> forces_;  ///< of each track
+  std::vector<std::vector<GroundNormal>> ground_;   ///< of each track
   std::vector<bool> level_;                         ///< of each track: whether the map that begins with it is
   std::vector<Closure> removed_;                    ///< since the last relaxation, of those that were accepted
   ClosureId next_id_ = 1;

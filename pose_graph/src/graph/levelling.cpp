@@ -43,6 +43,14 @@ void PoseGraph::putForces(const SessionId& session, const std::vector<SpecificFo
   known.insert(known.end(), forces.begin(), forces.end());
 }
 
+void PoseGraph::putGround(const SessionId& session, const std::vector<GroundNormal>& normals) {
+  const auto found = track_of_.find(session);
+  if (found == track_of_.end()) throw UserError("pose_graph", "no session " + session, "a session of the graph");
+  std::vector<GroundNormal>& known = ground_[found->second];
+  for (const GroundNormal& normal : normals)
+    if (known.empty() || normal.stamp > known.back().stamp) known.push_back(normal);
+}
+
 bool PoseGraph::isLevel(const SessionId& session) const {
   const auto found = track_of_.find(session);
   return found != track_of_.end() && level_[findMap(tracks_, found->second)];
@@ -51,12 +59,16 @@ bool PoseGraph::isLevel(const SessionId& session) const {
 std::vector<std::size_t> PoseGraph::level(Laid& laid, bool stay) {
   std::vector<Level> levels(tracks_.size());
   std::vector<std::size_t> maps;
-  for (std::size_t t = 0; t < tracks_.size(); ++t) {
-    const std::size_t map = findMap(tracks_, t);
-    maps.push_back(map);
-    if (levels[map].known() || forces_[t].empty() || laid[map].empty() || (stay && level_[map])) continue;
-    levels[map] = estimateLevel(makeTrajectory(tracks_[t], laid[t]), forces_[t], laid[map].front());
-  }
+  for (std::size_t t = 0; t < tracks_.size(); ++t) maps.push_back(findMap(tracks_, t));
+  const auto estimate = [&](const auto& measured) {
+    for (std::size_t t = 0; t < tracks_.size(); ++t) {
+      const std::size_t map = maps[t];
+      if (levels[map].known() || measured[t].empty() || laid[map].empty() || (stay && level_[map])) continue;
+      levels[map] = estimateLevel(makeTrajectory(tracks_[t], laid[t]), measured[t], laid[map].front());
+    }
+  };
+  estimate(forces_);
+  estimate(ground_);
   std::vector<std::size_t> first_time;
   std::vector<Pose> turns;
   for (std::size_t t = 0; t < tracks_.size(); ++t) {

@@ -20,8 +20,9 @@ namespace pose_graph {
 /// Batches run in a second thread, and inputs do not wait for them. Used by one thread, unless stated otherwise.
 class GraphWorker {
  public:
-  using Input = std::variant<urban_nav_core::RelativePose, urban_nav_core::MetricClosure,
-                             urban_nav_core::RelativeConstraint, urban_nav_core::StampedPose, SpecificForce>;
+  using Input =
+      std::variant<urban_nav_core::RelativePose, urban_nav_core::MetricClosure, urban_nav_core::RelativeConstraint,
+                   urban_nav_core::StampedPose, SpecificForce, GroundNormal>;
 
   struct Listener {
     std::function<void(const LiveGraph::Outcome& outcome, const LiveGraph& graph, double ms)> relaxed;

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "pose_graph/level.hpp"
+#include "pose_graph/ground_level.hpp"
 #include "pose_graph/stored_graph.hpp"
 #include "urban_nav_core/trajectory/trajectory.hpp"
 #include "urban_nav_core/types/closure.hpp"
@@ -79,6 +79,7 @@ class LiveGraph {
   /// Adds T_odom_base as odometry published it.
   virtual void add(const urban_nav_core::StampedPose& odometry) = 0;
   virtual void add(const SpecificForce& sample) = 0;
+  virtual void add(const GroundNormal& normal) = 0;
 
   /// Returns true if inputs require a relaxation.
   virtual bool isRelaxationPending() const = 0;

@@ -23,7 +23,7 @@ constexpr std::size_t kMaxHeld = 1000;
 // The earliest time to align a map with gravity: three spans of 2 s (level.hpp). The next attempt follows after twice
 // the drive.
 constexpr StampNs kFirstLevel = 6'500'000'000;
-// Longest time until specific forces reach the graph, and from there the store.
+// Longest time until specific forces and the ground reach the graph, and from there the store.
 constexpr StampNs kForcesPeriod = 10'000'000'000;
 
 class LiveBatch : public LiveGraph::Batch {
@@ -69,6 +69,7 @@ void LivePoseGraph::beginSession(const std::string& name, StampNs start) {
     session_ended_ = newest() > 0;
   }
   forces_.beginSession();
+  ground_.beginSession();
   start_ = start;
   level_at_ = start + kFirstLevel;
   forces_at_ = start + kForcesPeriod;
@@ -114,7 +115,7 @@ void LivePoseGraph::add(const urban_nav_core::RelativePose& step) {
   for (std::size_t i = 0; i < tracks.size(); ++i)
     if (tracks[i].session == session_) revisions_[i].grow(tracks[i].stamps.size(), graph_.revision());
   updateMapToOdom();
-  if (step.to >= forces_at_) putForces();
+  if (step.to >= forces_at_) putGravity();
   if (step.to >= level_at_) level();
   addHeldClosures();
 }
@@ -124,15 +125,19 @@ void LivePoseGraph::add(const urban_nav_core::StampedPose& odometry) {
   updateMapToOdom();
 }
 
-void LivePoseGraph::putForces() {
+void LivePoseGraph::putGravity() {
   forces_at_ = newest() + kForcesPeriod;
-  if (const Track* track = running()) graph_.putForces(session_, forces_.meansAt(track->stamps));
+  const Track* track = running();
+  if (track == nullptr) return;
+  graph_.putForces(session_, forces_.meansAt(track->stamps));
+  const std::vector<GroundNormal> normals = ground_.takeAt(*track);
+  if (forces_.empty()) graph_.putGround(session_, normals);
 }
 
 void LivePoseGraph::level() {
   level_at_ = start_ + 2 * (newest() - start_);
   if (graph_.isLevel(session_)) return;
-  putForces();
+  putGravity();
   if (const auto levelled = graph_.level()) ready_.push_back(finish(*levelled));
 }
 
@@ -213,7 +218,7 @@ LiveGraph::Outcome LivePoseGraph::relax() {
 
 std::unique_ptr<LiveGraph::Batch> LivePoseGraph::beginBatch() {
   batch_due_ = session_ended_ = false;
-  putForces();
+  putGravity();
   return std::make_unique<LiveBatch>(graph_.batch(), generation_);
 }
 
@@ -221,7 +226,7 @@ std::optional<LiveGraph::Outcome> LivePoseGraph::finishBatch(const Batch& batch)
   const auto& done = dynamic_cast<const LiveBatch&>(batch);
   // If another batch is due for which an update would not do, it would replace this one at once.
   if (done.generation() != generation_ || batch_due_) return std::nullopt;
-  putForces();
+  putGravity();
   changed_ = false;
   is_exact_ = true;
   return finish(graph_.take(done.batch()));
@@ -256,6 +261,7 @@ LivePoseGraph::Loaded LivePoseGraph::addStored(const StoredGraph& stored, bool o
     graph_.beginSession(id);
     for (const urban_nav_core::RelativePose& step : chain.steps) graph_.addOdometry(id, step);
     graph_.putForces(id, chain.forces);
+    graph_.putGround(id, chain.ground);
     const std::size_t track = graph_.tracks().size() - 1, poses = graph_.tracks().back().stamps.size();
     sessions_[id] = chain.session;
     if (own) {

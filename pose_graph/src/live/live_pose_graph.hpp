@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "live/closure_input.hpp"
+#include "live/ground_normal_buffer.hpp"
 #include "live/live_graph.hpp"
 #include "live/map_to_odom_estimator.hpp"
 #include "live/pose_revisions.hpp"
@@ -36,6 +37,7 @@ class LivePoseGraph : public LiveGraph {
   void add(const urban_nav_core::RelativeConstraint& constraint) override;
   void add(const urban_nav_core::StampedPose& odometry) override;
   void add(const SpecificForce& sample) override { forces_.add(sample); }
+  void add(const GroundNormal& normal) override { ground_.add(normal); }
 
   bool isRelaxationPending() const override { return (changed_ && !batch_due_) || !ready_.empty(); }
   Outcome relax() override;
@@ -80,7 +82,8 @@ class LivePoseGraph : public LiveGraph {
   Loaded addStored(const StoredGraph& stored, bool own);
   Outcome finish(const Relaxed& relaxed);
   void updateMapToOdom() { T_map_odom_ = map_to_odom_.estimate(running()); }
-  void putForces();
+  /// Hands the graph what an accelerometer, or else the ground, says of the direction of gravity.
+  void putGravity();
   /// Aligns the map with gravity, if that is possible.
   void level();
   const Track* running() const { return graph_.track(session_); }
@@ -106,10 +109,11 @@ class LivePoseGraph : public LiveGraph {
   MapToOdomEstimator map_to_odom_;
   std::optional<Pose> T_map_odom_;
   SpecificForceBuffer forces_;
+  GroundNormalBuffer ground_;
   // Of the running session.
   StampNs start_ = 0;
   StampNs level_at_ = 0;   // the next attempt to align the map with gravity
-  StampNs forces_at_ = 0;  // the next update of the graph's specific forces
+  StampNs forces_at_ = 0;  // the next update of what the graph knows of gravity
 };
 
 }  // namespace pose_graph

@@ -20,6 +20,7 @@ struct NodeletParameters {
   int queue_size;               // messages
   double visualization_period;  // s
   double path_spacing;          // m
+  bool ground;
 
   NodeletParameters();
 };

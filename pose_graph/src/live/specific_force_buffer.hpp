@@ -13,6 +13,8 @@ class SpecificForceBuffer {
  public:
   /// Adds a sample. One whose stamp jumps back belongs to the session that begins next.
   void add(const SpecificForce& sample);
+  /// Returns true if there was no sample yet.
+  bool empty() const { return samples_.empty() && next_session_.empty(); }
   /// Begins a session without poses.
   void beginSession();
   /// Returns the means at the session's poses (forcesAt), from the first one that was not final before. `stamps`: of

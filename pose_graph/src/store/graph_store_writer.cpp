@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "pose_graph/forces_state.hpp"
+#include "pose_graph/ground_views.hpp"
 #include "pose_graph/stored_graph.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
 
@@ -150,6 +151,7 @@ void GraphStoreWriter::markStored(const PoseGraph& graph, std::size_t track) {
   if (tracks_.size() <= track) tracks_.resize(track + 1);
   tracks_[track].nodes = graph.tracks()[track].stamps.size();
   tracks_[track].forces = graph.forces(track).size();
+  tracks_[track].ground = graph.ground(track).size();
 }
 
 void GraphStoreWriter::markStored(const Closure& closure) {
@@ -165,12 +167,14 @@ void GraphStoreWriter::reset() {
 
 void GraphStoreWriter::sync(const PoseGraph& graph, bool exactly) {
   tracks_.resize(graph.tracks().size());
-  if (syncPending() && syncNodes(graph) && syncForces(graph, false)) syncRelaxation(graph, exactly, false);
+  if (syncPending() && syncNodes(graph) && syncForces(graph, false) && syncGround(graph))
+    syncRelaxation(graph, exactly, false);
 }
 
 void GraphStoreWriter::flush(const PoseGraph& graph) {
   tracks_.resize(graph.tracks().size());
-  if (syncPending() && syncNodes(graph) && syncForces(graph, true)) syncRelaxation(graph, true, true);
+  if (syncPending() && syncNodes(graph) && syncForces(graph, true) && syncGround(graph))
+    syncRelaxation(graph, true, true);
 }
 
 bool GraphStoreWriter::syncPending() {
@@ -204,6 +208,18 @@ bool GraphStoreWriter::syncForces(const PoseGraph& graph, bool at_once) {
     if (!post([session, forces](Store& store) { store.states().put(session, kForcesStage, packForces(forces)); }))
       return false;
     tracks_[t].forces = forces.size();
+  }
+  return true;
+}
+
+bool GraphStoreWriter::syncGround(const PoseGraph& graph) {
+  for (std::size_t t = 0; t < tracks_.size(); ++t) {
+    const std::vector<GroundNormal>& ground = graph.ground(t);
+    if (ground.size() <= tracks_[t].ground) continue;
+    const SessionId& session = graph.tracks()[t].session;
+    std::vector<GroundNormal> added(ground.begin() + static_cast<std::ptrdiff_t>(tracks_[t].ground), ground.end());
+    if (!post([session, added](Store& store) { writeGround(store, session, added); })) return false;
+    tracks_[t].ground = ground.size();
   }
   return true;
 }

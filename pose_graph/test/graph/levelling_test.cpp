@@ -122,6 +122,26 @@ TEST(Levelling, oneSessionLevelsTheMapOfAllThatAreInIt) {
   EXPECT_EQ(findMap(graph.tracks(), 1), 0u);
 }
 
+TEST(Levelling, theGroundLevelsAMapOfWhichNoSessionHasForces) {
+  PoseGraph graph{Parameters()};
+  drive(graph, "a", 0, 2 * kLap);
+  std::vector<GroundNormal> ground;
+  for (std::size_t i = 0; i < graph.tracks()[0].stamps.size(); i += 4) {
+    const Eigen::Vector3d up = kT_level_first.R().transpose() * Eigen::Vector3d::UnitZ();
+    ground.push_back({graph.tracks()[0].stamps[i], graph.tracks()[0].odom[i].R().transpose() * up, 1e-3});
+  }
+  graph.putGround("a", {ground.begin(), ground.begin() + 4});
+  EXPECT_FALSE(graph.level()) << "four normals are too few";
+  graph.putGround("a", ground);
+  EXPECT_EQ(graph.ground(0).size(), ground.size()) << "each once";
+  ASSERT_TRUE(graph.level());
+  EXPECT_LT(computeTilt(graph), 1e-6);
+  EXPECT_TRUE(graph.isLevel("a"));
+  graph.relax();
+  EXPECT_LT(computeTilt(graph), 1e-6);
+  EXPECT_THROW(graph.putGround("b", ground), urban_nav_core::UserError);
+}
+
 TEST(Levelling, laterForcesTakeThePlaceOfWhatWasKnownThere) {
   PoseGraph graph{Parameters()}, whole{Parameters()};
   for (PoseGraph* each : {&graph, &whole}) drive(*each, "a", 0, 2 * kLap);

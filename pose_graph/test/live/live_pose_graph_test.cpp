@@ -47,6 +47,19 @@ class LivePoseGraphTest : public ::testing::Test {
   static void feel(LivePoseGraph& graph, int end) {
     for (int i = -5; i < end + 5; ++i) graph.add(SpecificForce{i * kPeriod, Eigen::Vector3d(0.0, 0.5, 9.79)});
   }
+  /// What the camera sees of level ground while the robot drives a circle that is tilted in the axes of its first pose.
+  static void seeGround(LivePoseGraph& graph, int end) {
+    Pose T;
+    for (int i = 0; i < end; ++i) {
+      graph.add(GroundNormal{i * kPeriod, T.R().transpose() * up_, 1e-3, 0.0, 0.9});
+      T = T * testing::stepAt(i).T_from_to;
+    }
+  }
+  /// Tilt of the map, rad.
+  static double tilt(const LivePoseGraph& graph) {
+    const Pose first = graph.trajectory(0, 0, 0).runs[0].poses[0].T_map_base;
+    return (first.R() * up_ - Eigen::Vector3d::UnitZ()).norm();
+  }
   static std::size_t countPoses(const LivePoseGraph& graph) {
     std::size_t poses = 0;
     for (const auto& run : graph.trajectory(0, 0, 0).runs) poses += run.poses.size();
@@ -81,6 +94,7 @@ class LivePoseGraphTest : public ::testing::Test {
     }
   }
 
+  static inline const Eigen::Vector3d up_ = Eigen::Vector3d(0.1, -0.05, 1.0).normalized();
   const StoreFolder place;
 };
 
@@ -286,6 +300,48 @@ TEST_F(LivePoseGraphTest, forcesLevelTheMapAfterARestartToo) {
   EXPECT_EQ(stored().chains[0].forces.size(), 3u * kLap + 1);
   graph = begin();
   EXPECT_TRUE(graph->isBatchPending());
+  relaxAll(*graph);
+  expectSame(graph->trajectory(0, 0, 0), before);
+}
+
+TEST_F(LivePoseGraphTest, theGroundLevelsTheMapWithoutAnAccelerometer) {
+  auto graph = begin("monday", "");
+  seeGround(*graph, 2 * kLap);
+  drive(*graph, 0, 2 * kLap);
+  ASSERT_TRUE(graph->isRelaxationPending());
+  const LiveGraph::Outcome outcome = graph->relax();
+  ASSERT_EQ(outcome.jumps.size(), 1u);
+  EXPECT_EQ(outcome.jumps[0].reason_name, "Levelled");
+  EXPECT_LT(tilt(*graph), 0.02);
+  relaxAll(*graph);
+  EXPECT_LT(tilt(*graph), 0.02);
+}
+
+TEST_F(LivePoseGraphTest, anAccelerometerIsBelievedBeforeTheGround) {
+  auto graph = begin("monday", ""), alone = begin("monday", "");
+  for (LivePoseGraph* each : {graph.get(), alone.get()}) {
+    feel(*each, 3 * kLap);
+    if (each == graph.get()) seeGround(*each, 2 * kLap);
+    drive(*each, 0, 2 * kLap);
+    relaxAll(*each);
+  }
+  expectSame(graph->trajectory(0, 0, 0), alone->trajectory(0, 0, 0));
+  EXPECT_GT(tilt(*graph), 0.05);
+}
+
+TEST_F(LivePoseGraphTest, theGroundLevelsTheMapAfterARestartToo) {
+  auto graph = begin();
+  seeGround(*graph, 2 * kLap);
+  drive(*graph, 0, 2 * kLap);
+  relaxAll(*graph);
+  const LiveGraph::Trajectory before = graph->trajectory(0, 0, 0);
+  graph.reset();
+  ASSERT_EQ(stored().chains.size(), 1u);
+  const std::vector<GroundNormal> ground = stored().chains[0].ground;
+  EXPECT_GT(ground.size(), 2u * kLap / 4u) << "0.1 m a step";
+  EXPECT_LT(ground.size(), 2u * kLap / 2u);
+  EXPECT_EQ(ground[0].support, 0.9);
+  graph = begin();
   relaxAll(*graph);
   expectSame(graph->trajectory(0, 0, 0), before);
 }

@@ -6,6 +6,7 @@
 #include <tf2_msgs/TFMessage.h>
 #include <urban_nav_msgs/GraphState.h>
 #include <urban_nav_msgs/GraphUpdate.h>
+#include <urban_nav_msgs/GroundPlane.h>
 #include <urban_nav_msgs/MapJump.h>
 #include <urban_nav_msgs/MetricClosure.h>
 #include <urban_nav_msgs/RelativeConstraint.h>
@@ -49,6 +50,7 @@ class Listener : public urban_nav_ros::testing::Listener {
   ros::Publisher odometry = advertise<nav_msgs::Odometry>("vo/odometry");
   ros::Publisher closures = advertise<urban_nav_msgs::MetricClosure>("loops/metric");
   ros::Publisher constraints = advertise<urban_nav_msgs::RelativeConstraint>("map/constraints");
+  ros::Publisher ground = advertise<urban_nav_msgs::GroundPlane>("stereo/ground_plane");
   std::vector<urban_nav_msgs::GraphUpdate> updates;
   std::vector<urban_nav_msgs::MapJump> jumps;
   std::vector<nav_msgs::Path> paths;

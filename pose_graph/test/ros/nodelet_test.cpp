@@ -6,6 +6,7 @@
 #include <urban_nav_msgs/NewSession.h>
 #include <urban_nav_msgs/RemoveEdge.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -13,6 +14,7 @@
 
 #include "listener.hpp"
 #include "urban_nav_ros/closure.hpp"
+#include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/graph.hpp"
 #include "urban_nav_ros/pose.hpp"
 #include "urban_nav_ros/stamp.hpp"
@@ -122,6 +124,35 @@ class PoseGraphNodelet : public ::testing::Test {
   static Listener* listener_;
 };
 Listener* PoseGraphNodelet::listener_ = nullptr;
+
+/// Without a place of the camera in /tf_static it is at base_link.
+TEST_F(PoseGraphNodelet, theGroundLevelsTheMapWithoutAnAccelerometer) {
+  constexpr int poses = 80;
+  const Eigen::Vector3d up = Eigen::Vector3d(0.1, 0.0, 1.0).normalized();
+  const auto publish = [&](int i) {
+    const Eigen::Vector3d up_camera = urban_nav_ros::opticalInBody().R().transpose() * odomPose(i).R().transpose() * up;
+    urban_nav_msgs::GroundPlane plane;
+    plane.header.stamp = urban_nav_ros::toRosTime(toStamp(i));
+    plane.header.frame_id = "camera";
+    plane.up.x = up_camera.x();
+    plane.up.y = up_camera.y();
+    plane.up.z = up_camera.z();
+    plane.support = 1.0;
+    listener().ground.publish(plane);
+  };
+  publish(0);
+  ros::WallDuration(1.2).sleep();
+  for (int i = 1; i <= poses; ++i) publish(i);
+  ros::WallDuration(0.2).sleep();  // topics have no order among each other
+  drive(0, poses);
+  const auto isLevelled = [](const auto& jump) { return jump.reason_name == "Levelled"; };
+  EXPECT_TRUE(
+      Listener::until([&] { return std::any_of(listener().jumps.begin(), listener().jumps.end(), isLevelled); }));
+  const auto runs = trajectory().runs;
+  ASSERT_FALSE(runs.empty());
+  const Pose first = *urban_nav_ros::toPose(runs[0].T_map_base[0]);
+  EXPECT_LT((first.R() * up - Eigen::Vector3d::UnitZ()).norm(), 0.01);
+}
 
 TEST_F(PoseGraphNodelet, aClosureBringsTheRobotHome) {
   drive(0, lap);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "pose_graph/ground_views.hpp"
 #include "report/plot.hpp"
 #include "stage/closure_notes.hpp"
 #include "stages/graph/graph_g2o.hpp"
@@ -10,8 +11,6 @@
 #include "stages/graph/graph_run.hpp"
 #include "stages/graph/graph_store_export.hpp"
 #include "stages/graph/graph_trajectories.hpp"
-#include "urban_nav_store/table_store.hpp"
-#include "urban_nav_store/tables/ground_view.hpp"
 
 namespace urban_nav {
 
@@ -40,13 +39,8 @@ bool anyMeasuredByIcp(const std::vector<ClosureRow>& closures) {
 /// Returns the normals of the ground that dense stereo has stored, over all sessions.
 SessionGrounds readGrounds(const MapContext& context) {
   SessionGrounds grounds;
-  const urban_nav_store::TableStore<urban_nav_store::GroundView> views(*context.store);
-  for (const urban_nav_store::SessionId& id : context.ids()) {
-    std::vector<pose_graph::GroundNormal>& normals = grounds.emplace_back();
-    views.forEach(id, [&](const urban_nav_store::GroundView& view) {
-      if (view.verdict == "found") normals.push_back({view.stamp, view.up, view.sigma});
-    });
-  }
+  for (const urban_nav_store::SessionId& id : context.ids())
+    grounds.push_back(pose_graph::readGround(*context.store, id));
   return grounds;
 }
 
