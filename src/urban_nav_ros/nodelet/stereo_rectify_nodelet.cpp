@@ -55,6 +55,7 @@ StereoRectifyStage::StereoRectifyStage(Node& node) {
   listener.fault = [&node](const std::string& fault) { node.logWarning("fault", fault); };
   StereoRectifier::Options options;
   options.rectified = areRectified(parameters.image_type, node.nh().resolveName(topics::left_image));
+  options.judges_images = parameters.image_type == "auto";
   options.queue = parameters.queue_size;
   options.where = node.nh().resolveName("stereo");
   rectifier_ = std::make_unique<StereoRectifier>(options, listener);

@@ -2,8 +2,8 @@
 #include "urban_nav_ros/stereo_rectifier.hpp"
 
 #include <sensor_msgs/image_encodings.h>
-#include <algorithm>
 
+#include <algorithm>
 #include <boost/make_shared.hpp>
 #include <utility>
 
@@ -47,7 +47,10 @@ void StereoRectifier::handle(const InfoInput& info) {
   sensor_msgs::CameraInfoConstPtr& known = info.side == Side::Left ? left_info_ : right_info_;
   if (known && isSameCalibration(*known, *info.message)) return;
   // A new left camera does not match the old right one: its camera_info must arrive again.
-  if (known) (info.side == Side::Left ? right_info_ : left_info_).reset();
+  if (known) {
+    (info.side == Side::Left ? right_info_ : left_info_).reset();
+    judge_.reset();
+  }
   known = info.message;
   calibration_.reset();
   fault_.clear();
@@ -56,8 +59,13 @@ void StereoRectifier::handle(const InfoInput& info) {
 }
 
 void StereoRectifier::calibrate() {
+  const bool must_decide = waiting_.size() >= static_cast<std::size_t>(options_.queue);
   try {
-    calibration_.emplace(toCameraInfo(*left_info_), toCameraInfo(*right_info_), options_.rectified, options_.where);
+    const urban_nav_core::CameraInfo left = toCameraInfo(*left_info_), right = toCameraInfo(*right_info_);
+    const std::optional<bool> are_rectified = judge_.decide(left, right, options_.where, must_decide);
+    if (!are_rectified) return;
+    calibration_.emplace(left, right, *are_rectified, options_.where);
+    if (!judge_.contradiction().empty()) listener_.fault(judge_.contradiction());
   } catch (const urban_nav_core::Error& error) {
     fault_ = error.what();
     listener_.fault(fault_);
@@ -70,6 +78,8 @@ void StereoRectifier::handle(const ImageInput& image) {
   if (images_.add(image.stamp)) forgetStream();
   if (calibration_) return process(image);
   waiting_.push_back(image);
+  judge_.add(image);
+  if (left_info_ && right_info_ && fault_.empty()) calibrate();
   if (waiting_.size() <= static_cast<std::size_t>(options_.queue)) return;
   waiting_.pop_front();
   ++counts_.dropped;

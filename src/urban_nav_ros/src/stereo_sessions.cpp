@@ -23,7 +23,8 @@ bool isSameCalibration(const sensor_msgs::CameraInfo& a, const sensor_msgs::Came
 
 std::string StereoSessions::Camera::sentence() const {
   return std::to_string(camera.left.width) + "x" + std::to_string(camera.left.height) + " px, " +
-         (rectifies ? "rectified here" : "rectified already") + "; " + mounting;
+         (rectifies ? "rectified here" : "rectified already") + "; " + mounting +
+         (contradiction.empty() ? "" : "; " + contradiction);
 }
 
 void StereoSessions::Counts::addTo(urban_nav_live::StageReport& report) const {
@@ -54,7 +55,10 @@ void StereoSessions::handleInfo(const InfoInput& info) {
   if (known && isSameCalibration(*known, *info.message)) return;
   if (feed_) end("the calibration changed");
   // A new left camera does not match the old right one: its camera_info must arrive again.
-  if (known) (info.side == Side::Left ? right_info_ : left_info_).reset();
+  if (known) {
+    (info.side == Side::Left ? right_info_ : left_info_).reset();
+    judge_.reset();
+  }
   known = info.message;
   setFault("");
 }
@@ -70,6 +74,7 @@ void StereoSessions::handleSensor(const Message& message) {
     if (images_.jumpsBack(image->stamp)) end("time went back");
     images_.advance(image->stamp);
     if (!first_image_) first_image_ = Clock::now();
+    judge_.add(*image);
   }
   if (const auto* imu = std::get_if<sensor_msgs::ImuConstPtr>(&message)) imu_frame_ = (*imu)->header.frame_id;
   if (feed_) return feed(message);
@@ -93,16 +98,19 @@ void StereoSessions::tryToBegin() {
   if (!first_image_ || !left_info_ || !right_info_ || !fault_.empty()) return;
   const bool placed = transforms_.lookup(options_.base_frame, left_info_->header.frame_id).has_value();
   if (!placed && Clock::now() - *first_image_ < std::chrono::duration<double>(options_.tf_timeout)) return;
+  const bool must_decide = waiting_.size() + 1 >= static_cast<std::size_t>(options_.queue_size);
   try {
-    begin();
+    const std::optional<bool> are_rectified =
+        judge_.decide(toCameraInfo(*left_info_), toCameraInfo(*right_info_), options_.where, must_decide);
+    if (are_rectified) begin(*are_rectified);
   } catch (const urban_nav_core::Error& error) {
     setFault(error.what());
   }
 }
 
-void StereoSessions::begin() {
+void StereoSessions::begin(bool are_rectified) {
   const auto calibration = std::make_shared<StereoCalibration>(toCameraInfo(*left_info_), toCameraInfo(*right_info_),
-                                                               options_.rectified, options_.where);
+                                                               are_rectified, options_.where);
   StereoFeed::Options options;
   options.max_lateness = toNanoseconds(options_.max_lateness);
   options.pairing_tolerance = toNanoseconds(options_.sync_tolerance);
@@ -113,6 +121,7 @@ void StereoSessions::begin() {
   camera.camera = calibration->camera();
   camera.frame = left_info_->header.frame_id;
   camera.rectifies = calibration->rectifies();
+  camera.contradiction = judge_.contradiction();
   const auto T_base_camera = transforms_.lookup(options_.base_frame, camera.frame);
   camera.is_mounting_known = T_base_camera.has_value();
   camera.T_base_left = T_base_camera.value_or(opticalInBody()) * calibration->T_optical_rectified();

@@ -11,6 +11,7 @@
 #include "urban_nav_ros/camera_info.hpp"
 #include "urban_nav_ros/image.hpp"
 #include "urban_nav_ros/stamp.hpp"
+#include "urban_nav_ros/stereo_feed.hpp"
 
 namespace urban_nav_ros {
 namespace {

@@ -5,13 +5,16 @@
 #include <cmath>
 
 #include "evaluation/statistics.hpp"
-#include "input/image_features.hpp"
 #include "report/plot.hpp"
 #include "urban_nav_core/geometry/small_matrices.hpp"
+#include "urban_nav_ros/image_features.hpp"
 
 namespace urban_nav {
 
 using urban_nav_core::ImageView;
+using urban_nav_ros::extractFeatures;
+using urban_nav_ros::ImageFeatures;
+using urban_nav_ros::matchFeatures;
 
 namespace {
 

@@ -137,7 +137,9 @@ int runExport(const Arguments& arguments, Console& console) {
     written.write(
         arguments.get("g2o"), graph.text,
         std::to_string(graph.vertices) + " vertices, " + std::to_string(graph.edges) + " edges" +
-            (graph.left_out > 0 ? "; " + std::to_string(graph.left_out) + " that are not accepted left out" : ""));
+            (graph.left_out > 0 ? "; " + std::to_string(graph.left_out) + " that are not accepted left out" : "") +
+            (graph.outside > 0 ? "; " + std::to_string(graph.outside) + " to poses that are not exported left out"
+                               : ""));
   }
   if (mapFilePaths(arguments, 0).any()) writeMaps(store, maps, arguments, written);
   if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), written.json().print());

@@ -129,6 +129,11 @@ class NewCollege {
                       " odometry rows have no tilt: roll and pitch are 0");
     if (counts.out_of_order > 0)
       notes.push_back(std::to_string(counts.out_of_order) + " rows came over 2 s late and are left out");
+    std::string unused;
+    for (const auto& [variable, rows] : counts.unused)
+      unused += (unused.empty() ? "not used: " : ", ") + variable + " (" + std::to_string(rows) +
+                (rows == 1 ? " row)" : " rows)");
+    if (!unused.empty()) notes.push_back(unused);
   }
 
   void writeImagesUntil(StampNs stamp, BagWriter& bag) {

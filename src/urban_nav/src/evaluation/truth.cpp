@@ -5,6 +5,7 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <list>
 
@@ -34,6 +35,12 @@ TrajectoryFile stamped(const std::string& path, const Trajectory& trajectory) {
   return file;
 }
 
+void noteLeftOut(TrajectoryFile& file, std::int64_t count, const std::string& why) {
+  if (count > 0)
+    file.notes.push_back(file.path + ": " + std::to_string(count) + (count == 1 ? " pose has " : " poses have ") + why +
+                         ", and " + (count == 1 ? "is" : "are") + " left out");
+}
+
 /// Poses of the left camera relative to its first, line by line, as poses of base_link.
 Trajectory baseOfCamera(const std::vector<Pose>& poses, const std::vector<StampNs>& stamps, const Pose& T_base_camera,
                         const std::string& path) {
@@ -52,10 +59,12 @@ std::optional<TrajectoryFile> kittiTruth(const std::string& folder, const Source
   if (!fs::exists(path)) return std::nullopt;
   std::vector<Pose> poses = urban_nav_core::readKitti(path);
   const KittiFrames frames = listKittiFrames(*findKittiLayout(folder), options.rate);
-  if (poses.size() != frames.stamps.size() && frames.numbers.back() < static_cast<std::int64_t>(poses.size())) {
+  const std::size_t lines = poses.size();
+  if (lines != frames.stamps.size() && frames.numbers.back() < static_cast<std::int64_t>(lines))
     poses = {poses.begin() + frames.numbers.front(), poses.begin() + frames.numbers.back() + 1};
-  }
-  return stamped(path, baseOfCamera(poses, frames.stamps, info.T_base_camera, path));
+  TrajectoryFile file = stamped(path, baseOfCamera(poses, frames.stamps, info.T_base_camera, path));
+  noteLeftOut(file, static_cast<std::int64_t>(lines - poses.size()), "no frame in the folder");
+  return file;
 }
 
 std::optional<TrajectoryFile> bagTruth(const InputSession& session, const SourceOptions& options) {
@@ -64,19 +73,24 @@ std::optional<TrajectoryFile> bagTruth(const InputSession& session, const Source
   const std::optional<ChosenTopic> topic = chooseTopics(topicTypes(bags), options.topics).find(Role::Truth);
   if (!topic) return std::nullopt;
   Trajectory trajectory;
+  std::int64_t not_finite = 0, out_of_order = 0;
   for (rosbag::Bag& bag : bags) {
     rosbag::View view;
     addToView(view, bag, {topic->name}, session.part);
     for (const rosbag::MessageInstance& instance : view) {
       const auto message = instance.instantiate<geometry_msgs::PoseStamped>();
       if (!message) continue;
-      if (const std::optional<Pose> pose = urban_nav_ros::toPose(message->pose))
-        trajectory.append(urban_nav_ros::toStampNs(message->header.stamp), *pose);
+      const std::optional<Pose> pose = urban_nav_ros::toPose(message->pose);
+      if (!pose) ++not_finite;
+      else if (!trajectory.append(urban_nav_ros::toStampNs(message->header.stamp), *pose)) ++out_of_order;
     }
   }
   const std::string where = session.paths.front() + ", topic " + topic->name;
   if (trajectory.size() < 2) throw UserError(where, "holds no two poses", "");
-  return stamped(where, trajectory);
+  TrajectoryFile file = stamped(where, trajectory);
+  noteLeftOut(file, not_finite, "no rotation, or a number that is not finite");
+  noteLeftOut(file, out_of_order, "a stamp that is not later than the one before");
+  return file;
 }
 
 }  // namespace

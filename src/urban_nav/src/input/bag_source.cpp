@@ -8,6 +8,7 @@
 #include <list>
 #include <set>
 
+#include "input/bag_calibration.hpp"
 #include "input/bag_contents.hpp"
 #include "input/bag_groups.hpp"
 #include "input/bag_order.hpp"
@@ -17,7 +18,6 @@
 #include "input/first_message.hpp"
 #include "input/open.hpp"
 #include "input/pair_delay.hpp"
-#include "input/rectification_choice.hpp"
 #include "input/unused_topics.hpp"
 #include "urban_nav_core/io/archive_types.hpp"
 #include "urban_nav_core/io/numbers.hpp"
@@ -156,15 +156,22 @@ class BagSource : public Source {
     return {image->header.frame_id, pixels.cols, pixels.rows};
   }
 
-  CameraInfo makeInfo(Role role) {
+  sensor_msgs::CameraInfoConstPtr findInfo(Role role) {
     const std::optional<ChosenTopic> topic = topics_.find(role);
-    const auto message = topic ? first<sensor_msgs::CameraInfo>(topic->name) : nullptr;
-    if (!message)
-      throw UserError(
-          name_, std::string("has no camera_info for the ") + (role == Role::LeftInfo ? "left" : "right") + " images",
-          std::string("--calibration FILE, or --topic ") + toString(role) + ":=NAME");
-    if (role == Role::LeftInfo) camera_frame_ = message->header.frame_id;
-    return urban_nav_ros::toCameraInfo(*message);
+    return topic ? first<sensor_msgs::CameraInfo>(topic->name) : nullptr;
+  }
+
+  std::pair<CameraInfo, CameraInfo> makeInfos() {
+    const auto left = findInfo(Role::LeftInfo), right = findInfo(Role::RightInfo);
+    if (!left && !right)
+      throw UserError(name_, "has no camera_info for the left and the right images",
+                      "--calibration FILE, or --topic left_info:=NAME --topic right_info:=NAME");
+    if (!left || !right)
+      throw UserError(name_, std::string("has no camera_info for the ") + (left ? "right" : "left") + " images",
+                      std::string("--calibration FILE, or --topic ") +
+                          toString(left ? Role::RightInfo : Role::LeftInfo) + ":=NAME");
+    camera_frame_ = left->header.frame_id;
+    return {urban_nav_ros::toCameraInfo(*left), urban_nav_ros::toCameraInfo(*right)};
   }
 
   void calibrate() {
@@ -172,8 +179,8 @@ class BagSource : public Source {
     const Look seen = look(left);
     camera_frame_ = seen.frame;
     const bool given = !options_.calibration.empty();
-    const auto [left_info, right_info] = given ? readCalibration(options_.calibration, seen.width, seen.height)
-                                               : std::make_pair(makeInfo(Role::LeftInfo), makeInfo(Role::RightInfo));
+    const auto [left_info, right_info] =
+        given ? readCalibration(options_.calibration, seen.width, seen.height) : makeInfos();
     if (camera_frame_.empty()) camera_frame_ = seen.frame;
     const std::string where = given
                                   ? options_.calibration

@@ -4,6 +4,7 @@
 #include "input/euroc_layout.hpp"
 #include "input/image_file.hpp"
 #include "input/open.hpp"
+#include "input/unused_files.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav {
@@ -32,6 +33,9 @@ class EurocFolder : public Source {
     readForces();
     info_.notes.push_back("raw images, rectified on the way; base_link is at the left camera");
     if (!options.calibration.empty()) info_.notes.push_back("--calibration is left aside: sensor.yaml counts");
+    if (std::string sentence = describeUnusedFiles(mav0_, {"cam0", "cam1", "imu0", "state_groundtruth_estimate0"});
+        !sentence.empty())
+      info_.notes.push_back(std::move(sentence));
   }
 
   const SourceInfo& info() const override { return info_; }

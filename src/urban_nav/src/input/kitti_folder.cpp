@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <set>
+#include <string>
 #include <tuple>
+#include <utility>
 
 #include "input/calibration_file.hpp"
 #include "input/image_file.hpp"
 #include "input/kitti_layout.hpp"
 #include "input/open.hpp"
+#include "input/unused_files.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
@@ -33,6 +37,7 @@ class KittiFolder : public Source {
       throw urban_nav_core::DataError(
           folder, "holds images alone, nothing for input.motion_input = " + options.motion_input, "");
     look(options.calibration);
+    noteUnused(folder);
   }
 
   const SourceInfo& info() const override { return info_; }
@@ -51,6 +56,14 @@ class KittiFolder : public Source {
   }
 
  private:
+  void noteUnused(const std::string& folder) {
+    std::set<std::string> used = {"calib.txt", "calib_cam_to_cam.txt", "perspective.txt",
+                                  "times.txt", "timestamps.txt",       "poses.txt"};
+    for (const std::string& images : {layout_.left, layout_.right}) used.insert(firstPartWithin(folder, images));
+    if (std::string sentence = describeUnusedFiles(folder, used); !sentence.empty())
+      info_.notes.push_back(std::move(sentence));
+  }
+
   /// Size and depth of the images, from the first that can be read, and with the size the camera.
   void look(const std::string& calibration) {
     std::string fault;

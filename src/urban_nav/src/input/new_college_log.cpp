@@ -93,8 +93,10 @@ void NewCollegeLog::take(const AlogRow& row) {
   const std::string where = atLine(path_, row.line);
   if (row.variable == "LMS_LASER_2D_LEFT") return put(scan(row, Side::Left));
   if (row.variable == "LMS_LASER_2D_RIGHT") return put(scan(row, Side::Right));
-  if (row.variable != "ODOMETRY_POSE" && row.variable != "RAW_ODOMETRY_POSE" && row.variable != "CAMERA_FILE_WRITE")
+  if (row.variable != "ODOMETRY_POSE" && row.variable != "RAW_ODOMETRY_POSE" && row.variable != "CAMERA_FILE_WRITE") {
+    ++counts_.unused[std::string(row.variable)];
     return;
+  }
 
   const AlogFields fields(row.value, where);
   const StampNs stamp = computeTime(row, fields);

@@ -52,7 +52,8 @@ struct NewCollegeCounts {
   std::int64_t odometry = 0;
   std::int64_t odometry_without_tilt = 0;  ///< no RAW row of the same stamp: roll and pitch are 0
   std::int64_t panoramas = 0;
-  std::int64_t out_of_order = 0;  ///< came more than two seconds late: left out
+  std::int64_t out_of_order = 0;               ///< came more than two seconds late: left out
+  std::map<std::string, std::int64_t> unused;  ///< rows of other variables, by name
 };
 
 /// Reads a log in order of stamps, through a window of two seconds, in bounded memory.
@@ -62,7 +63,8 @@ class NewCollegeLog {
   explicit NewCollegeLog(const std::string& path);
 
   /// The next event; empty at the end. Throws UserError with file and line for a row of a known variable that is
-  /// damaged, also where the file was cut off within one. Variables that are not known are skipped.
+  /// damaged, also where the file was cut off within one. Rows of other variables are
+  /// counted.
   std::optional<NewCollegeEvent> next();
   const NewCollegeCounts& counts() const { return counts_; }
 

@@ -97,7 +97,11 @@ ExportedGraph exportG2o(Store& store, const std::vector<std::vector<StoredTrajec
     for (const StoredTrajectory& each : map) {
       store.graph().forEachEdge(each.session.id, [&](const Edge& edge) {
         const auto a = ids.find({edge.a.session, edge.a.stamp}), b = ids.find({edge.b.session, edge.b.stamp});
-        if (a == ids.end() || b == ids.end() || edge.kind == EdgeKind::Session) return;
+        if (edge.kind == EdgeKind::Session) return;  // the order of sessions, no measurement
+        if (a == ids.end() || b == ids.end()) {
+          ++exported.outside;
+          return;
+        }
         if (edge.verdict != ClosureVerdict::Accepted) {
           ++exported.left_out;
           return;

@@ -22,6 +22,7 @@ struct ExportedGraph {
   std::string text;
   std::int64_t vertices = 0, edges = 0;
   std::int64_t left_out = 0;  ///< edges that are rejected or wait
+  std::int64_t outside = 0;   ///< edges to poses of sessions that are not exported
 };
 /// Every node, and every accepted edge between them but those without information; the first vertex of each map is
 /// fixed.

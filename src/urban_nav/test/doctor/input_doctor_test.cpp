@@ -16,6 +16,7 @@
 #include <set>
 
 #include "support/folders.hpp"
+#include "urban_nav_core/testing/fuzz.hpp"
 
 namespace urban_nav {
 namespace {
@@ -202,7 +203,8 @@ struct BagRecipe {
   double right_late = 0.0;  ///< s
   bool stamped = true, right_exists = true;
   double imu_rate = 100.0;  ///< Hz; 0: none
-  bool laser_gap = false;
+  bool laser_gap = false, calibrated = true;
+  int frames = 40;
   std::function<double(int)> time = [](int i) { return 1.5e9 + 0.05 * i; };
 };
 
@@ -221,14 +223,14 @@ void writeDoctorBag(const std::string& path, const BagRecipe& recipe) {
   sensor_msgs::CameraInfo info;
   info.width = 32;
   info.height = 24;
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < recipe.frames; ++i) {
     const double left = recipe.time(i), right = left + recipe.right_late, receipt = 1.5e9 + 0.05 * i + 0.01;
     for (const bool is_right : {false, true}) {
       if (is_right && !recipe.right_exists) continue;
       const std::string side = is_right ? "/stereo/right/" : "/stereo/left/";
       info.P = {30, 0, 15.5, is_right ? -6.0 : 0.0, 0, 30, 11.5, 0, 0, 0, 1, 0};
       add(side + "image_raw", image, receipt, is_right ? right : left, "camera");
-      add(side + "camera_info", info, receipt, is_right ? right : left, "camera");
+      if (recipe.calibrated) add(side + "camera_info", info, receipt, is_right ? right : left, "camera");
     }
     if (!recipe.laser_gap || i < 10 || i > 38)
       for (int k = 0; k < 2; ++k) add("/laser_left/scan", sensor_msgs::LaserScan(), receipt + 0.02 * k, left, "laser");
@@ -273,6 +275,32 @@ TEST(BagDoctor, namesACameraThatIsMissing) {
   const JudgedInput verdict = judgeBag([](BagRecipe& recipe) { recipe.right_exists = false; });
   EXPECT_FALSE(verdict.usable);
   EXPECT_EQ(verdict.kinds.count("pairs"), 1U) << verdict.text;
+}
+
+TEST(BagDoctor, namesTheCalibrationOfBothCameras) {
+  const JudgedInput verdict = judgeBag([](BagRecipe& recipe) { recipe.calibrated = false; });
+  EXPECT_FALSE(verdict.usable);
+  EXPECT_EQ(verdict.kinds.count("calibration"), 1U) << verdict.text;
+  EXPECT_NE(verdict.text.find("the left and the right images"), std::string::npos) << verdict.text;
+  EXPECT_NE(verdict.text.find("--topic left_info:=NAME --topic right_info:=NAME"), std::string::npos) << verdict.text;
+}
+
+TEST(BagDoctor, survivesAnyDamage) {
+  const TemporaryFolder folder;
+  BagRecipe recipe;
+  recipe.frames = 4;
+  recipe.imu_rate = 5.0;
+  writeDoctorBag(folder.file("a.bag"), recipe);
+  const urban_nav_core::testing::FuzzResult result =
+      urban_nav_core::testing::fuzzFile({readFile(folder.file("a.bag"))}, "damaged.bag", [](const std::string& path) {
+        std::vector<Diagnosis> unreadable;
+        for (const InputSession& session : findSessions(separateUnreadable({path}, unreadable)))
+          for (const Finding& finding : examine(session, {}, [](std::int64_t, std::int64_t) {}).findings)
+            EXPECT_FALSE(finding.remedy.empty()) << finding.text;
+        for (const Diagnosis& diagnosis : unreadable) EXPECT_FALSE(diagnosis.findings.empty());
+      });
+  EXPECT_EQ(result.failure, "");
+  EXPECT_GT(result.accepted, 1);
 }
 
 TEST(BagDoctor, namesABagThatWasCutOff) {

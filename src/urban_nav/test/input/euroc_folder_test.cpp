@@ -57,6 +57,14 @@ TEST(EurocFolder, isRectifiedOnTheWay) {
   EXPECT_EQ(input->assembled.pair.right.at(32, 24), 90);
 }
 
+TEST(EurocFolder, namesWhatIsNotUsed) {
+  const TemporaryFolder folder;
+  makeEuroc(folder.file("in"));
+  std::filesystem::create_directories(folder.file("in") + "/mav0/leica0");
+  const auto source = openEurocFolder(folder.file("in"), {});
+  EXPECT_EQ(source->info().notes.back(), "not used: leica0/");
+}
+
 TEST(EurocFolder, namesAnImageThatIsNotThere) {
   const TemporaryFolder folder;
   makeEuroc(folder.file("in"));

@@ -58,6 +58,27 @@ TEST(KittiFolder, readsEachLayout) {
   }
 }
 
+TEST(KittiFolder, namesWhatIsNotUsed) {
+  const TemporaryFolder folder;
+  KittiStyle style;
+  style.frames = 2;
+  style.left = "image_00/data";
+  style.right = "image_01/data";
+  testing::makeKittiFolder(folder.file("in"), style);
+  const auto unused = [&folder] {
+    for (const std::string& note : openKittiFolder(folder.file("in"), {})->info().notes)
+      if (note.rfind("not used", 0) == 0) return note;
+    return std::string();
+  };
+  EXPECT_EQ(unused(), "");
+  std::filesystem::create_directories(folder.file("in") + "/velodyne_points");
+  writeFile(folder.file("in") + "/oxts.txt", "0");
+  writeFile(folder.file("in") + "/.hidden", "0");
+  EXPECT_EQ(unused(), "not used: oxts.txt, velodyne_points/");
+  for (int i = 0; i < 20; ++i) writeFile(folder.file("in") + "/a" + std::to_string(10 + i), "");
+  EXPECT_EQ(unused(), "not used: a10, a11, a12, a13, a14, a15, a16, a17 and 14 more");
+}
+
 TEST(KittiFolder, readsADriveOfKitti360) {
   const TemporaryFolder folder;
   const std::string drive = folder.file("data_2d_raw") + "/2013_05_28_drive_0000_sync";

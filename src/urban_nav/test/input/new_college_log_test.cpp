@@ -117,6 +117,13 @@ TEST_F(NewCollege, LostScansAndTooLateRowsAreCounted) {
   EXPECT_EQ(all.size(), 4U - 1U);
   EXPECT_EQ(counts_.scans_lost, 1 + 290);
   EXPECT_EQ(counts_.out_of_order, 1);
+  EXPECT_TRUE(counts_.unused.empty());
+}
+
+TEST_F(NewCollege, RowsOfOtherVariablesAreCounted) {
+  const std::string other = "61.8 GPS_STATUS iGPS Fix=1\n";
+  EXPECT_EQ(events(std::string(kStart) + other + kScan + other).size(), 1U);
+  EXPECT_EQ(counts_.unused, (std::map<std::string, std::int64_t>{{"GPS_STATUS", 2}}));
 }
 
 TEST_F(NewCollege, DamageIsNamedWithItsLine) {

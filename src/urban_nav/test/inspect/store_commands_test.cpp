@@ -243,6 +243,9 @@ TEST_F(StoreCommands, relaxedSessionsOfOneMapAreExportedTogether) {
   EXPECT_EQ(graph.vertices, 6);
   EXPECT_EQ(graph.edges, 1);
   EXPECT_EQ(graph.left_out, 1);
+  EXPECT_EQ(graph.outside, 0);
+  EXPECT_EQ(exportG2o(store, readMaps(store, selectSessions(store, {"one"}))).outside, 2)
+      << "both to the other session";
   EXPECT_EQ(urban_nav_core::parseG2o(graph.text, "x").edges.front().to, 3);
   store.commit();
   store.close();

@@ -13,7 +13,8 @@
 
 #include "urban_nav_live/stage_report.hpp"
 #include "urban_nav_live/time_jump.hpp"
-#include "urban_nav_ros/stereo_sessions.hpp"
+#include "urban_nav_ros/rectification_judge.hpp"
+#include "urban_nav_ros/stereo_input.hpp"
 
 namespace urban_nav_ros {
 
@@ -26,6 +27,7 @@ class StereoRectifier {
  public:
   struct Options {
     bool rectified = false;        ///< the images are rectified already
+    bool judges_images = false;    ///< `rectified` is a guess: the first pairs decide, where they can
     int queue = 200;               ///< images that wait for the calibration
     std::string where = "stereo";  ///< what an error of the calibration begins with
   };
@@ -37,7 +39,10 @@ class StereoRectifier {
     std::int64_t rectified = 0, passed = 0, damaged = 0, dropped = 0;  ///< images
   };
 
-  StereoRectifier(Options options, Listener listener) : options_(std::move(options)), listener_(std::move(listener)) {}
+  StereoRectifier(Options options, Listener listener)
+      : options_(std::move(options)),
+        listener_(std::move(listener)),
+        judge_(options_.rectified, options_.judges_images) {}
 
   void handle(const InfoInput& info);
   void handle(const ImageInput& image);
@@ -57,6 +62,7 @@ class StereoRectifier {
   const Options options_;
   const Listener listener_;
   sensor_msgs::CameraInfoConstPtr left_info_, right_info_;
+  RectificationJudge judge_;
   std::optional<StereoCalibration> calibration_;
   std::deque<ImageInput> waiting_;  // for the calibration
   urban_nav_live::TimeJumpDetector images_;

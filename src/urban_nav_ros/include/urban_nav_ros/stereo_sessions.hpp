@@ -17,32 +17,18 @@
 #include "urban_nav_live/stage_report.hpp"
 #include "urban_nav_live/time_jump.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
+#include "urban_nav_ros/rectification_judge.hpp"
 #include "urban_nav_ros/stereo_feed.hpp"
+#include "urban_nav_ros/stereo_input.hpp"
 
 namespace urban_nav_ros {
-
-/// Image of one side as it arrived, raw or compressed.
-struct ImageInput {
-  Side side;
-  std::variant<sensor_msgs::ImageConstPtr, sensor_msgs::CompressedImageConstPtr> message;
-  urban_nav_core::StampNs stamp;
-};
-
-/// Calibration of one side.
-struct InfoInput {
-  Side side;
-  sensor_msgs::CameraInfoConstPtr message;
-};
-
-/// Returns true if two messages describe the same camera, whatever their headers.
-bool isSameCalibration(const sensor_msgs::CameraInfo& a, const sensor_msgs::CameraInfo& b);
 
 /// Divides the messages of a stereo camera, and of a motion sensor, into sessions: each has one calibration, one
 /// mounting and stamps that do not jump back. Pairs are the same as offline. Used by one thread.
 ///
 /// A session begins when both camera_info have arrived and /tf_static connects base and camera, at the latest
 /// `tf_timeout` after the first image; earlier images are kept. Without the transform the left camera is taken to be at
-/// the base, with axes as in REP 103.
+/// the base, with axes as in REP 103. Where it is not certain that images are rectified, the first pairs are awaited.
 class StereoSessions {
  public:
   using Message = std::variant<ImageInput, InfoInput, tf2_msgs::TFMessageConstPtr, nav_msgs::OdometryConstPtr,
@@ -51,6 +37,7 @@ class StereoSessions {
   struct Options {
     std::string base_frame = urban_nav_core::frames::base_link;
     bool rectified = false;         ///< the images are rectified already
+    bool judges_images = false;     ///< `rectified` is a guess: the first pairs decide, where they can
     int queue_size = 200;           ///< messages kept before a session begins
     double max_lateness = 0.1;      ///< s, by stamps, that an image waits for its partner and for motion inputs
     double sync_tolerance = 0.005;  ///< s between the stamps of left and right image
@@ -65,6 +52,7 @@ class StereoSessions {
     urban_nav_core::Pose T_base_left;  ///< of the rectified left camera
     std::string frame;                 ///< of the left camera
     bool rectifies = false;            ///< images are rectified here
+    std::string contradiction;         ///< sentence where what the images show contradicts their name
     std::string mounting;              ///< sentence on how T_base_left is known
     bool is_mounting_known = false;
     /// Returns "512x384 px, rectified here; camera at tf base_link -> left".
@@ -87,7 +75,10 @@ class StereoSessions {
     void addTo(urban_nav_live::StageReport& report) const;
   };
 
-  StereoSessions(Options options, Listener listener) : options_(std::move(options)), listener_(std::move(listener)) {}
+  StereoSessions(Options options, Listener listener)
+      : options_(std::move(options)),
+        listener_(std::move(listener)),
+        judge_(options_.rectified, options_.judges_images, options_.sync_tolerance) {}
 
   /// Handles a message; calls the listener.
   void handle(const Message& message);
@@ -110,7 +101,7 @@ class StereoSessions {
   void feed(const Message& message);
   void setFault(const std::string& fault);
   void tryToBegin();
-  void begin();
+  void begin(bool are_rectified);
   void deliverPairs();
 
   const Options options_;
@@ -119,6 +110,7 @@ class StereoSessions {
   sensor_msgs::CameraInfoConstPtr left_info_, right_info_;
   std::string imu_frame_ = urban_nav_core::frames::imu;
   std::deque<Message> waiting_;  // for a session
+  RectificationJudge judge_;
   std::optional<Clock::time_point> first_image_;
   urban_nav_live::TimeJumpDetector images_;
   std::string fault_;

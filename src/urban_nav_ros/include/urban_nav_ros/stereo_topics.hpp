@@ -26,6 +26,7 @@ inline StereoSessions::Options toStereoOptions(const urban_nav_live::StereoInput
   StereoSessions::Options options;
   options.base_frame = parameters.base_frame;
   options.rectified = areRectified(parameters.image_type, nh.resolveName(topics::left_image));
+  options.judges_images = parameters.image_type == "auto";
   options.queue_size = parameters.queue_size;
   options.max_lateness = parameters.max_lateness;
   options.sync_tolerance = parameters.sync_tolerance;

@@ -7,7 +7,7 @@
 
 #include "urban_nav_core/image/view.hpp"
 
-namespace urban_nav {
+namespace urban_nav_ros {
 
 /// Corners all over an image, to a fraction of a pixel, with ORB descriptors (Rublee et al. 2011).
 struct ImageFeatures {
@@ -22,4 +22,4 @@ ImageFeatures extractFeatures(const urban_nav_core::ImageView& image);
 /// assumed about rows or disparities.
 std::vector<cv::DMatch> matchFeatures(const ImageFeatures& left, const ImageFeatures& right);
 
-}  // namespace urban_nav
+}  // namespace urban_nav_ros

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "input/image_features.hpp"
+#include "urban_nav_ros/image_features.hpp"
 
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
-namespace urban_nav {
+namespace urban_nav_ros {
 
 ImageFeatures extractFeatures(const urban_nav_core::ImageView& image) {
   constexpr int kMostFeatures = 1000;
@@ -33,4 +33,4 @@ std::vector<cv::DMatch> matchFeatures(const ImageFeatures& left, const ImageFeat
   return matches;
 }
 
-}  // namespace urban_nav
+}  // namespace urban_nav_ros
