@@ -11,9 +11,8 @@
 #include "live/loops_report.hpp"
 #include "live/nodelet_parameters.hpp"
 #include "publisher.hpp"
-#include "urban_nav_live/time_jump.hpp"
 #include "urban_nav_ros/closure.hpp"
-#include "urban_nav_ros/laser_scan.hpp"
+#include "urban_nav_ros/robot_inputs.hpp"
 #include "urban_nav_ros/robot_topics.hpp"
 #include "urban_nav_ros/stage_nodelet.hpp"
 
@@ -22,7 +21,6 @@ namespace loop_metric {
 using urban_nav_live::StoreWriterLink;
 using urban_nav_ros::ImageInput;
 using urban_nav_ros::InfoInput;
-using urban_nav_ros::StereoSessions;
 
 namespace {
 
@@ -49,18 +47,17 @@ class LoopMetricStage {
 
   explicit LoopMetricStage(Node& node);
 
-  void handle(Input& input);
+  void handle(Input& input) {
+    std::visit([this](const auto& each) { inputs_->handle(each); }, input);
+  }
   bool idle();
   std::string reset();
   void close() { recorder_->end(); }
   urban_nav_live::StageReport report() const { return makeReport(state()); }
 
  private:
+  using Inputs = urban_nav_ros::RobotInputs<SessionRecorder, urban_nav_registration::MountedCamera>;
   void subscribeCandidates();
-  StereoSessions::Listener stereoListener();
-  void handleImage(const ImageInput& image);
-  void handleScan(const sensor_msgs::LaserScan& message);
-  void placeLasers();
   void publish(const ClosureVerifier::Verdict& verdict);
   void logStore(const urban_nav_live::StoreState& store);
   LoopsState state() const;
@@ -75,10 +72,7 @@ class LoopMetricStage {
   std::unique_ptr<StoreWriterLink> store_;
   std::unique_ptr<ClosureVerifier> verifier_;
   std::unique_ptr<SessionRecorder> recorder_;
-  std::unique_ptr<StereoSessions> sessions_;
-  urban_nav_live::TimeJumpDetector image_time_;
-  bool images_jumped_ = false;
-  std::string camera_;
+  std::unique_ptr<Inputs> inputs_;
   std::string store_fault_;
   std::int64_t store_lost_ = 0;
   std::atomic<std::int64_t> candidates_{0};
@@ -94,7 +88,9 @@ LoopMetricStage::LoopMetricStage(Node& node) : node_(node) {
                                                 [this](const auto& verdict) { publish(verdict); });
   recorder_ = std::make_unique<SessionRecorder>(
       parameters_.registration, SessionRecorder::Options{nodelet_.robot, nodelet_.recording}, *store_, *verifier_);
-  sessions_ = std::make_unique<StereoSessions>(urban_nav_ros::toStereoOptions(nodelet_, node.nh()), stereoListener());
+  inputs_ = std::make_unique<Inputs>(urban_nav_ros::toStereoOptions(nodelet_, node.nh()), *recorder_,
+                                     Inputs::Listener{[this](const std::string& fault) { node_.logError(fault); },
+                                                      [this] { node_.gate().countInvalid(); }});
   subscribeRobot(node, nodelet_.queue_size, parameters_.stereo, nodelet_.compressed, parameters_.icp);
   subscribeCandidates();
 }
@@ -114,61 +110,8 @@ void LoopMetricStage::subscribeCandidates() {
       });
 }
 
-StereoSessions::Listener LoopMetricStage::stereoListener() {
-  StereoSessions::Listener listener;
-  listener.began = [this](const StereoSessions::Camera& camera) {
-    camera_ = camera.is_mounting_known ? "" : camera.mounting;
-    recorder_->setCamera(urban_nav_registration::MountedCamera{camera.camera, camera.T_base_left});
-  };
-  listener.pair = [this](urban_nav_ros::DecodedPair& pair) { recorder_->addPair(std::move(pair.assembled)); };
-  listener.ended = [this](const std::string&) {
-    if (std::exchange(images_jumped_, false)) recorder_->restartImages();
-    recorder_->setCamera(std::nullopt);
-  };
-  listener.refused = [this](const std::string& fault) {
-    if (!fault.empty()) node_.logError(fault);
-  };
-  return listener;
-}
-
-void LoopMetricStage::handle(Input& input) {
-  if (const auto* image = std::get_if<ImageInput>(&input)) {
-    handleImage(*image);
-  } else if (const auto* info = std::get_if<InfoInput>(&input)) {
-    sessions_->handle(*info);
-  } else if (const auto* transforms = std::get_if<tf2_msgs::TFMessageConstPtr>(&input)) {
-    sessions_->handle(*transforms);
-    placeLasers();
-  } else if (const auto* scan = std::get_if<sensor_msgs::LaserScanConstPtr>(&input)) {
-    handleScan(**scan);
-  } else if (const auto* odometry = std::get_if<urban_nav_core::StampedPose>(&input)) {
-    recorder_->addOdometry(*odometry);
-  } else {
-    recorder_->addStep(std::get<urban_nav_core::RelativePose>(input));
-  }
-}
-
-void LoopMetricStage::handleImage(const ImageInput& image) {
-  images_jumped_ = image_time_.add(image.stamp);
-  sessions_->handle(image);
-  if (std::exchange(images_jumped_, false)) recorder_->restartImages();  // no stereo session was running
-}
-
-void LoopMetricStage::handleScan(const sensor_msgs::LaserScan& message) {
-  const auto planar = urban_nav_ros::toPlanarScan(message);
-  if (!planar) return node_.gate().countInvalid();
-  recorder_->addScan(message.header.frame_id, urban_nav_core::toScan(*planar));
-  placeLasers();
-}
-
-void LoopMetricStage::placeLasers() {
-  for (const std::string& frame : recorder_->unplacedLasers())
-    if (const auto T_base_laser = sessions_->transforms().lookup(nodelet_.base_frame, frame))
-      recorder_->setLaser(frame, *T_base_laser);
-}
-
 bool LoopMetricStage::idle() {
-  sessions_->idle();
+  inputs_->idle();
   recorder_->idle();
   const LoopsState now = state();
   const urban_nav_live::StageReport report = makeReport(now);
@@ -218,11 +161,10 @@ LoopsState LoopMetricStage::state() const {
   state.odometry_fault = monitor.fault(urban_nav_ros::topic_groups::odometry);
   state.image_fault = monitor.fault(urban_nav_ros::topic_groups::images);
   state.laser_fault = monitor.fault(urban_nav_ros::topic_groups::lasers);
-  state.camera_fault = sessions_->fault();
-  for (const std::string& frame : recorder_->unplacedLasers())
-    state.laser_pose_fault = "no static tf from " + nodelet_.base_frame + " to " + frame;
-  state.camera = camera_;
-  state.damaged_images = sessions_->counts().damaged;
+  state.camera_fault = inputs_->sessions().fault();
+  state.laser_pose_fault = inputs_->laserFault();
+  state.camera = inputs_->mountingFault();
+  state.damaged_images = inputs_->sessions().counts().damaged;
   state.candidates = candidates_;
   const std::lock_guard<std::mutex> lock(mutex_);
   state.last_verdict = last_verdict_;

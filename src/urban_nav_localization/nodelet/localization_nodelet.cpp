@@ -5,14 +5,14 @@
 #include <atomic>
 #include <memory>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include "initial_pose.hpp"
 #include "live/localization_report.hpp"
 #include "live/nodelet_parameters.hpp"
 #include "publisher.hpp"
-#include "urban_nav_live/time_jump.hpp"
-#include "urban_nav_ros/laser_scan.hpp"
+#include "urban_nav_ros/robot_inputs.hpp"
 #include "urban_nav_ros/robot_topics.hpp"
 #include "urban_nav_ros/stage_nodelet.hpp"
 
@@ -22,7 +22,6 @@ using urban_nav_core::Error;
 using urban_nav_core::UserError;
 using urban_nav_ros::ImageInput;
 using urban_nav_ros::InfoInput;
-using urban_nav_ros::StereoSessions;
 using urban_nav_store::Access;
 using urban_nav_store::Store;
 
@@ -47,13 +46,10 @@ class LocalizationStage {
   urban_nav_live::StageReport report() const;
 
  private:
+  using Inputs = urban_nav_ros::RobotInputs<LiveLocaliser, urban_nav_registration::MountedCamera>;
   /// Throws UserError that names the parameter.
   void openMap();
   void subscribe();
-  StereoSessions::Listener stereoListener();
-  void handleImage(const ImageInput& image);
-  void handleScan(const sensor_msgs::LaserScan& message);
-  void placeLasers();
 
   Node& node_;
   NodeletParameters nodelet_;
@@ -61,10 +57,8 @@ class LocalizationStage {
   std::vector<urban_nav_store::StoredTrajectory> map_;
   std::unique_ptr<LocalizationPublisher> publisher_;
   std::unique_ptr<LiveLocaliser> localiser_;
-  std::unique_ptr<StereoSessions> sessions_;
-  urban_nav_live::TimeJumpDetector image_time_;
-  bool images_jumped_ = false;
-  std::string camera_, map_fault_;
+  std::unique_ptr<Inputs> inputs_;
+  std::string map_fault_;
   std::atomic<std::int64_t> initial_poses_refused_{0};
 };
 
@@ -73,7 +67,9 @@ LocalizationStage::LocalizationStage(Node& node) : node_(node) {
       node.nh(), node.privateHandle(), nodeletTable(), table(), urban_nav_registration::table());
   node.setQueueSize(nodelet_.queue_size);
   openMap();
-  sessions_ = std::make_unique<StereoSessions>(urban_nav_ros::toStereoOptions(nodelet_, node.nh()), stereoListener());
+  inputs_ = std::make_unique<Inputs>(urban_nav_ros::toStereoOptions(nodelet_, node.nh()), *localiser_,
+                                     Inputs::Listener{[this](const std::string& fault) { node_.logError(fault); },
+                                                      [this] { node_.gate().countInvalid(); }});
   subscribe();
 }
 
@@ -116,63 +112,17 @@ void LocalizationStage::subscribe() {
       });
 }
 
-StereoSessions::Listener LocalizationStage::stereoListener() {
-  StereoSessions::Listener listener;
-  listener.began = [this](const StereoSessions::Camera& camera) {
-    camera_ = camera.is_mounting_known ? "" : camera.mounting;
-    localiser_->setCamera(urban_nav_registration::MountedCamera{camera.camera, camera.T_base_left});
-  };
-  listener.pair = [this](urban_nav_ros::DecodedPair& pair) { localiser_->addPair(std::move(pair.assembled)); };
-  listener.ended = [this](const std::string&) {
-    if (std::exchange(images_jumped_, false)) localiser_->restartImages();
-    localiser_->setCamera(std::nullopt);
-  };
-  listener.refused = [this](const std::string& fault) {
-    if (!fault.empty()) node_.logError(fault);
-  };
-  return listener;
-}
-
 void LocalizationStage::handle(Input& input) {
-  if (const auto* image = std::get_if<ImageInput>(&input)) {
-    handleImage(*image);
-  } else if (const auto* info = std::get_if<InfoInput>(&input)) {
-    sessions_->handle(*info);
-  } else if (const auto* transforms = std::get_if<tf2_msgs::TFMessageConstPtr>(&input)) {
-    sessions_->handle(*transforms);
-    placeLasers();
-  } else if (const auto* scan = std::get_if<sensor_msgs::LaserScanConstPtr>(&input)) {
-    handleScan(**scan);
-  } else if (const auto* odometry = std::get_if<urban_nav_core::StampedPose>(&input)) {
-    localiser_->addOdometry(*odometry);
-  } else if (const auto* step = std::get_if<urban_nav_core::RelativePose>(&input)) {
-    localiser_->addStep(*step);
-  } else {
-    localiser_->addInitialPose(std::get<LiveLocaliser::InitialPose>(input));
-  }
-}
-
-void LocalizationStage::handleImage(const ImageInput& image) {
-  images_jumped_ = image_time_.add(image.stamp);
-  sessions_->handle(image);
-  if (std::exchange(images_jumped_, false)) localiser_->restartImages();  // no stereo session was running
-}
-
-void LocalizationStage::handleScan(const sensor_msgs::LaserScan& message) {
-  const auto planar = urban_nav_ros::toPlanarScan(message);
-  if (!planar) return node_.gate().countInvalid();
-  localiser_->addScan(message.header.frame_id, urban_nav_core::toScan(*planar));
-  placeLasers();
-}
-
-void LocalizationStage::placeLasers() {
-  for (const std::string& frame : localiser_->unplacedLasers())
-    if (const auto T_base_laser = sessions_->transforms().lookup(nodelet_.base_frame, frame))
-      localiser_->setLaser(frame, *T_base_laser);
+  if (const auto* pose = std::get_if<LiveLocaliser::InitialPose>(&input)) return localiser_->addInitialPose(*pose);
+  std::visit(
+      [this](const auto& each) {
+        if constexpr (!std::is_same_v<std::decay_t<decltype(each)>, LiveLocaliser::InitialPose>) inputs_->handle(each);
+      },
+      input);
 }
 
 bool LocalizationStage::idle() {
-  sessions_->idle();
+  inputs_->idle();
   const bool busy = localiser_->work();
   const urban_nav_live::StageReport now = report();
   node_.publishStatus(now.status, now.reason_name, urban_nav_ros::toStampNs(ros::Time::now()));
@@ -189,12 +139,11 @@ urban_nav_live::StageReport LocalizationStage::report() const {
   state.map = nodelet_.store;
   state.odometry_fault = node_.monitor().fault(urban_nav_ros::topic_groups::odometry);
   state.image_fault = node_.monitor().fault(urban_nav_ros::topic_groups::images);
-  state.camera_fault = sessions_->fault();
-  for (const std::string& frame : localiser_->unplacedLasers())
-    state.laser_pose_fault = "no static tf from " + nodelet_.base_frame + " to " + frame;
-  state.camera = camera_;
+  state.camera_fault = inputs_->sessions().fault();
+  state.laser_pose_fault = inputs_->laserFault();
+  state.camera = inputs_->mountingFault();
   state.initial_poses_refused = initial_poses_refused_;
-  state.damaged_images = sessions_->counts().damaged;
+  state.damaged_images = inputs_->sessions().counts().damaged;
   return makeReport(state);
 }
 

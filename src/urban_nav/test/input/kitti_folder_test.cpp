@@ -66,7 +66,8 @@ TEST(KittiFolder, namesWhatIsNotUsed) {
   style.right = "image_01/data";
   testing::makeKittiFolder(folder.file("in"), style);
   const auto unused = [&folder] {
-    for (const std::string& note : openKittiFolder(folder.file("in"), {})->info().notes)
+    const auto source = openKittiFolder(folder.file("in"), {});
+    for (const std::string& note : source->info().notes)
       if (note.rfind("not used", 0) == 0) return note;
     return std::string();
   };

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <sensor_msgs/LaserScan.h>
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "urban_nav_core/trajectory/trajectory.hpp"
+#include "urban_nav_core/types/pose_with_covariance.hpp"
+#include "urban_nav_live/time_jump.hpp"
+#include "urban_nav_ros/laser_scan.hpp"
+#include "urban_nav_ros/stereo_sessions.hpp"
+
+namespace urban_nav_ros {
+
+/// Takes what subscribeRobot() delivers to a core that builds keyframes and local clouds: stereo pairs with the mounted
+/// camera, scans with the places of their lasers, both poses of the odometry. Used by one thread.
+///
+/// Requires of Sink: setCamera(optional<MountedCamera>), addPair, restartImages, addScan, unplacedLasers, setLaser,
+/// addOdometry and addStep. It must outlive this object.
+template <typename Sink, typename MountedCamera>
+class RobotInputs {
+ public:
+  struct Listener {
+    std::function<void(const std::string& fault)> refused;  ///< the calibration makes no stereo camera
+    std::function<void()> invalid_scan;
+  };
+
+  RobotInputs(const StereoSessions::Options& options, Sink& sink, Listener listener)
+      : base_frame_(options.base_frame),
+        sink_(sink),
+        listener_(std::move(listener)),
+        sessions_(options, stereoListener()) {}
+
+  void handle(const ImageInput& image) {
+    images_jumped_ = image_time_.add(image.stamp);
+    sessions_.handle(image);
+    if (std::exchange(images_jumped_, false)) sink_.restartImages();  // no stereo session was running
+  }
+  void handle(const InfoInput& info) { sessions_.handle(info); }
+  void handle(const tf2_msgs::TFMessageConstPtr& transforms) {
+    sessions_.handle(transforms);
+    placeLasers();
+  }
+  void handle(const sensor_msgs::LaserScanConstPtr& message) {
+    const auto planar = toPlanarScan(*message);
+    if (!planar) return listener_.invalid_scan();
+    sink_.addScan(message->header.frame_id, urban_nav_core::toScan(*planar));
+    placeLasers();
+  }
+  void handle(const urban_nav_core::StampedPose& odometry) { sink_.addOdometry(odometry); }
+  void handle(const urban_nav_core::RelativePose& step) { sink_.addStep(step); }
+  /// Begins a session whose wait for /tf_static is over. To be called some ten times a second.
+  void idle() { sessions_.idle(); }
+
+  const StereoSessions& sessions() const { return sessions_; }
+  /// Returns a sentence if the camera's mounting is not known; else nothing.
+  const std::string& mountingFault() const { return mounting_fault_; }
+  /// Returns a sentence that names a laser whose place is not known; else nothing.
+  std::string laserFault() const {
+    std::string fault;
+    for (const std::string& frame : sink_.unplacedLasers()) fault = "no static tf from " + base_frame_ + " to " + frame;
+    return fault;
+  }
+
+ private:
+  StereoSessions::Listener stereoListener() {
+    StereoSessions::Listener listener;
+    listener.began = [this](const StereoSessions::Camera& camera) {
+      mounting_fault_ = camera.is_mounting_known ? "" : camera.mounting;
+      sink_.setCamera(MountedCamera{camera.camera, camera.T_base_left});
+    };
+    listener.pair = [this](DecodedPair& pair) { sink_.addPair(std::move(pair.assembled)); };
+    listener.ended = [this](const std::string&) {
+      if (std::exchange(images_jumped_, false)) sink_.restartImages();
+      sink_.setCamera(std::nullopt);
+    };
+    listener.refused = [this](const std::string& fault) {
+      if (!fault.empty()) listener_.refused(fault);
+    };
+    return listener;
+  }
+
+  void placeLasers() {
+    for (const std::string& frame : sink_.unplacedLasers())
+      if (const auto T_base_laser = sessions_.transforms().lookup(base_frame_, frame))
+        sink_.setLaser(frame, *T_base_laser);
+  }
+
+  const std::string base_frame_;
+  Sink& sink_;
+  const Listener listener_;
+  StereoSessions sessions_;
+  urban_nav_live::TimeJumpDetector image_time_;
+  bool images_jumped_ = false;
+  std::string mounting_fault_;
+};
+
+}  // namespace urban_nav_ros
