@@ -39,13 +39,13 @@ MapFilePaths mapFilePaths(const Arguments& arguments, std::size_t number) {
   const auto path = [&](const char* option) {
     return arguments.has(option) ? numbered(arguments.get(option), number) : std::string();
   };
-  return {path("ply"), path("pcd"), path("las"), path("grid"), path("ortho"), arguments.get("crs")};
+  return {path("ply"), path("pcd"), path("las"), path("grid"), path("ortho"), path("mesh"), arguments.get("crs")};
 }
 
 void checkFormats(const Arguments& arguments) {
   if (!mapFilePaths(arguments, 0).any() && !arguments.has("tum") && !arguments.has("kitti") && !arguments.has("g2o"))
     throw UserError("urban_nav export", "no format is asked for",
-                    "--tum, --kitti, --g2o, --ply, --pcd, --las, --grid or --ortho FILE");
+                    "--tum, --kitti, --g2o, --ply, --pcd, --las, --grid, --ortho or --mesh FILE");
   if (arguments.has("crs")) {
     parseCrs(arguments.get("crs"));
     if (!arguments.has("las")) throw UserError("--crs", "no --las FILE", "--las FILE, whose coordinates it sets");
@@ -53,6 +53,9 @@ void checkFormats(const Arguments& arguments) {
   const std::string ortho = arguments.get("ortho");
   if (!ortho.empty() && std::filesystem::path(ortho).extension() != ".png")
     throw UserError("--ortho", ortho, "a name that ends in .png");
+  const std::string mesh = arguments.get("mesh");
+  if (!mesh.empty() && std::filesystem::path(mesh).extension() != ".ply")
+    throw UserError("--mesh", mesh, "a name that ends in .ply");
   const std::string grid = arguments.get("grid");
   if (!grid.empty() && std::filesystem::path(grid).extension() != ".yaml")
     throw UserError("--grid", grid, "a name that ends in .yaml");
@@ -178,6 +181,7 @@ Command exportCommand() {
        false,
        {}},
       {"--ortho", "FILE.png", "the map from above; its world file is written beside it", false, false, {}},
+      {"--mesh", "FILE.ply", "the surface of the map as coloured triangles", false, false, {}},
       {"--session", "ID", "only sessions whose id or name begins so (default: all)", false, true, {}},
       jsonOption(),
       configOption(),

@@ -12,6 +12,7 @@
 #include "laser_mapper/laser_map.hpp"
 #include "laser_mapper/map_files.hpp"
 #include "laser_mapper/map_picture.hpp"
+#include "laser_mapper/mesh/surface_mesh.hpp"
 #include "laser_mapper/occupancy_grid.hpp"
 #include "stage/labelled_map.hpp"
 #include "stages/lasers/map_colour.hpp"
@@ -181,16 +182,20 @@ std::size_t writeColoured(const MapFilePaths& paths, Store& store, const LaserMa
   const laser_mapper::MapView view = laser_mapper::viewFromAbove(mapped.path, kOrthoMargin, kLongestOrtho);
   std::optional<laser_mapper::MapPicture> ortho;
   if (!paths.ortho.empty()) ortho.emplace(view);
+  std::optional<laser_mapper::SurfaceMesher> mesher;
+  if (!paths.mesh.empty()) mesher.emplace(mapped.parameters->voxel);
   PointFiles files(paths, crs, storedMapLabels(store, mapped.sessions.front().id, map));
   std::size_t written = 0;
-  map.forEachTile([&](const laser_mapper::Tile&, std::vector<MapPoint> points) {
+  map.forEachTile([&](const laser_mapper::Tile& tile, std::vector<MapPoint> points) {
     if (colouriser) colouriser->colour(points);
     files.append(points);
     if (ortho) ortho->draw(points);
+    if (mesher) mesher->add(tile, points);
     written += points.size();
   });
   files.commit();
   if (ortho) writeOrtho(paths.ortho, view, *ortho);
+  if (mesher) urban_nav_core::writeAtomically(paths.mesh, printMeshPly(mesher->finish()));
   return written;
 }
 
@@ -221,10 +226,10 @@ ExportedMap exportMap(Store& store, const std::vector<StoredTrajectory>& map, co
     made.epsg = crs->epsg();
     made.crs = crs->describe();
   }
-  if (!(paths.ply + paths.pcd + paths.las + paths.ortho).empty())
+  if (!(paths.ply + paths.pcd + paths.las + paths.ortho + paths.mesh).empty())
     made.points = writeColoured(paths, store, laser_map, mapped, crs ? &*crs : nullptr, memory_mb);
   if (!paths.grid.empty()) writeGrid(paths.grid, laser_map, mapped);
-  for (const std::string& path : {paths.ply, paths.pcd, paths.las, paths.grid, paths.ortho})
+  for (const std::string& path : {paths.ply, paths.pcd, paths.las, paths.grid, paths.ortho, paths.mesh})
     if (!path.empty()) made.files.push_back(path);
   return made;
 }

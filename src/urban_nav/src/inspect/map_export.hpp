@@ -14,11 +14,12 @@ namespace urban_nav {
 /// Files of a map of points, by their formats; those without a path are not written.
 struct MapFilePaths {
   std::string ply, pcd, las;
-  std::string grid;      ///< YAML of map_server; the PGM is written beside it
-  std::string ortho;     ///< PNG; its world file is written beside it
-  std::string crs = {};  ///< coordinate system of the LAS file, as MapCrs takes it; empty: the frame map
+  std::string grid;       ///< YAML of map_server; the PGM is written beside it
+  std::string ortho;      ///< PNG; its world file is written beside it
+  std::string mesh = {};  ///< PLY with vertices and faces
+  std::string crs = {};   ///< coordinate system of the LAS file, as MapCrs takes it; empty: the frame map
 
-  bool any() const { return !(ply + pcd + las + grid + ortho).empty(); }
+  bool any() const { return !(ply + pcd + las + grid + ortho + mesh).empty(); }
 };
 
 /// What exportMap() wrote.

@@ -192,6 +192,24 @@ TEST_F(MapExportTest, OrthophotoIsPlacedByItsWorldFile) {
   EXPECT_EQ(testing::readFile(folder_.file("m.png")).substr(1, 3), "PNG");
 }
 
+TEST_F(MapExportTest, TheMeshIsTheWallAndTheGround) {
+  render();
+  MapFilePaths paths;
+  paths.mesh = folder_.file("mesh.ply");
+  EXPECT_EQ(exportMap(store_, map(), paths, 100.0).files, std::vector<std::string>{paths.mesh});
+  const auto vertices = urban_nav_core::readCloud(paths.mesh).cloud.points;
+  ASSERT_GT(vertices.size(), 1000U);
+  std::size_t wall = 0, ground = 0;
+  for (const Eigen::Vector3f& p : vertices) {
+    const float to_wall = std::abs(p.y() - 4.0F), to_ground = std::abs(p.z());
+    EXPECT_LT(std::min(to_wall, to_ground), p.y() > 3.5F && p.z() < 0.5F ? 0.12F : 0.01F) << "corners are rounded";
+    wall += to_wall < to_ground ? 1 : 0;
+    ground += to_wall < to_ground ? 0 : 1;
+  }
+  EXPECT_GT(wall, 500U);
+  EXPECT_GT(ground, 500U);
+}
+
 TEST_F(MapExportTest, RefusesAStoreWithoutAMap) {
   EXPECT_FALSE(holdsMap(store_, map()));
   EXPECT_THROW(exportMap(store_, map(), {folder_.file("m.ply"), "", "", "", ""}, 100.0), urban_nav_core::DataError);
