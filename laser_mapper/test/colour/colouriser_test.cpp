@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <utility>
 
 #include "urban_nav_core/parallel/for_each.hpp"
 
@@ -145,9 +146,9 @@ TEST(Colouriser, ImagesThatCannotBeReadAreLeftOut) {
   EXPECT_EQ(wall.front().green, 200);
 }
 
-TEST(Colouriser, DoesNotDependOnTheNumberOfThreads) {
+TEST(Colouriser, DoesNotDependOnTheNumberOfThreadsNorOnTheMemoryForImages) {
   std::vector<std::vector<MapPoint>> results;
-  for (const int threads : {1, 2}) {
+  for (const auto& [threads, cached_images] : {std::pair(1, 2), std::pair(2, 2), std::pair(2, 1), std::pair(1, 100)}) {
     const urban_nav_core::ThreadLimit limit(threads);
     std::vector<ColourView> views;
     for (std::size_t i = 0; i < 4; ++i) views.push_back(viewFrom(0.3 * static_cast<double>(i), i));
@@ -159,17 +160,18 @@ TEST(Colouriser, DoesNotDependOnTheNumberOfThreads) {
             picture.bgr[i] = static_cast<std::uint8_t>(30 + (i / 7 + 13 * image) % 180);
           return picture;
         },
-        0.05, 2);
+        0.05, static_cast<std::size_t>(cached_images));
     std::vector<MapPoint> wall = wallAt(3.0F, -1.0F, 1.5F);
     colouriser.addSurface(wall);
     colouriser.equalise();
     colouriser.colour(wall);
     results.push_back(wall);
   }
-  for (std::size_t i = 0; i < results[0].size(); ++i) {
-    EXPECT_EQ(results[0][i].red, results[1][i].red);
-    EXPECT_EQ(results[0][i].blue, results[1][i].blue);
-  }
+  for (const std::vector<MapPoint>& result : results)
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      EXPECT_EQ(results[0][i].red, result[i].red);
+      EXPECT_EQ(results[0][i].blue, result[i].blue);
+    }
 }
 
 }  // namespace

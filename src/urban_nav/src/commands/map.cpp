@@ -33,13 +33,25 @@ MapOptions readOptions(const Arguments& arguments) {
           so_far,
           arguments.get("store"),
           arguments.has("overwrite"),
-          arguments.get("localise")};
+          arguments.get("localise"),
+          arguments.has("calibrate")};
 }
 
 std::string stagesSentence() {
   std::string names;
   for (const std::string& name : stageNames()) names += (names.empty() ? "" : ", ") + name;
   return "of " + names + " (default: all whose inputs exist)";
+}
+
+Option calibrateOption() {
+  return {
+      "--calibrate",
+      "",
+      "estimate delay and mounting of the lasers against the trajectory; adopted where places that were left out of "
+      "the estimate agree better, and reported in every case",
+      false,
+      false,
+      {}};
 }
 
 std::vector<Option> mapOptions() {
@@ -87,6 +99,7 @@ std::vector<Option> mapOptions() {
        false,
        false,
        {}},
+      calibrateOption(),
       {"--truth", "FILE", "trajectory for the report alone (default: what the input has)", false, false, {}},
       {"--so-far",
        "SHARE",

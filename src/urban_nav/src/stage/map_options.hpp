@@ -28,6 +28,7 @@ struct MapOptions {
   std::string store = {};     ///< session store to continue from; empty: none
   bool overwrite = false;     ///< replaces the run of other inputs that `out` holds
   std::string localise = {};  ///< session store whose map is only read; empty: none
+  bool calibrate = false;     ///< estimates delay and mounting of the lasers before the map is rendered
 };
 
 /// Returns whether --stages allows a stage: it is listed, or the list is empty.

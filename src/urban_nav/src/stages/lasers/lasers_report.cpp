@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "report/plot.hpp"
+#include "stages/lasers/calibration_report.hpp"
 
 namespace urban_nav {
 
@@ -97,6 +98,7 @@ Section lasersSection(const LasersRun& run) {
   for (const LaserMapRun& map : run.maps)
     section.pictures.insert(section.pictures.end(), map.pictures.begin(), map.pictures.end());
   if (run.walls().pairs + run.ground().pairs > 0) section.tables.push_back(qualityTable(run));
+  for (PageTable& table : calibrationTables(run)) section.tables.push_back(std::move(table));
   section.tables.push_back(beamsTable(run));
   return section;
 }
@@ -127,7 +129,8 @@ Json toJson(const LasersRun& run) {
   json["ground_planes"] = ground.places;
   json["ground_angle_deg_mean"] = known(ground, kDegreesPerRad * ground.angle.mean);
   json["ground_displacement_m_mean"] = known(ground, ground.displacement.mean);
-  json["delays_ms"] = Json::object();
+  json["delays_ms"] = delaysJson(run);
+  if (!run.calibrations.empty()) json["calibration"] = calibrationJson(run);
   std::size_t chunks = 0, passes = 0;
   for (const LaserMapRun& map : run.maps) {
     chunks += map.rendered.chunks;

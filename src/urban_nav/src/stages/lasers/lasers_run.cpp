@@ -122,6 +122,24 @@ LaserMapRun renderMap(LaserMap& map, laser_mapper::Colouriser* colouriser, std::
   return run;
 }
 
+/// Calibrates the lasers of a session of this run if that is asked for; otherwise its map uses the extrinsics alone.
+/// Previous sessions keep what their own runs have adopted.
+void calibrateSession(const laser_mapper::Parameters& parameters, std::size_t session, MapContext& context,
+                      LasersRun& run) {
+  const std::size_t previous = context.previous.runs.size();
+  if (session < previous) return;
+  const urban_nav_store::SessionId id = context.ids()[session];
+  if (!context.options.calibrate) {
+    laser_mapper::forgetCalibration(*context.store, id);
+    return;
+  }
+  const urban_nav_core::OdometryChain odometry = odometryChain(*context.runs()[session]);
+  run.calibrations.push_back(
+      {context.names[session], laser_mapper::calibrateLasers(parameters, *context.store, id,
+                                                             context.trajectories[session].T_map_base, &odometry)});
+  laser_mapper::storeCalibration(*context.store, id, run.calibrations.back().found);
+}
+
 }  // namespace
 
 std::size_t LasersRun::points() const {
@@ -185,6 +203,7 @@ LasersRun runLasers(const laser_mapper::Parameters& parameters, MapContext& cont
     for (const std::size_t s : sessions) {
       const SessionTrajectory& session = context.trajectories[s];
       if (context.store->scans().lasers(ids[s]).empty()) continue;
+      calibrateSession(parameters, s, context, run);
       mapped.push_back({ids[s], &session.T_map_base, &session.covariances});
       trajectories.push_back(&session.T_map_base);
     }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "laser_mapper/calibration/laser_calibration.hpp"
 #include "laser_mapper/laser_map.hpp"
 #include "laser_mapper/quality/map_quality.hpp"
 #include "report/page.hpp"
@@ -30,9 +31,16 @@ struct LaserMapRun {
   std::string viewer;  ///< markup of the view in three dimensions
 };
 
+/// Calibration of the lasers of one session, with --calibrate.
+struct SessionCalibration {
+  std::string session;  ///< name
+  laser_mapper::CalibrationResult found;
+};
+
 /// What stage lasers made.
 struct LasersRun {
   std::vector<LaserMapRun> maps;
+  std::vector<SessionCalibration> calibrations;
   double seconds = 0.0;  ///< of the whole stage
 
   std::size_t points() const;

@@ -5,9 +5,11 @@
 
 #include "input/bag_fixes.hpp"
 #include "report/plot.hpp"
+#include "stages/lasers/calibration_report.hpp"
 #include "stages/lasers/lasers_report.hpp"
 #include "stages/lasers/lasers_run.hpp"
 #include "stages/lasers/panorama_pass.hpp"
+#include "urban_nav_core/types/error.hpp"
 #include "urban_nav_store/table_store.hpp"
 #include "urban_nav_store/tables/stored_fix.hpp"
 
@@ -32,8 +34,12 @@ class LasersStage final : public Stage {
   }
   void addTables(ParameterSet& parameters) const override { parameters.add(laser_mapper::table()); }
   Selection select(const MapOptions& options) const override {
+    const bool is_enabled = options.localise.empty() && isRequested(options, "lasers");
+    if (options.calibrate && !is_enabled)
+      throw urban_nav_core::UserError("--calibrate", "stage lasers does not run",
+                                      "allowed with lasers among --stages, and without --localise");
     if (!options.localise.empty()) return {false, "not with --localise", {}};
-    if (!isRequested(options, "lasers")) return {false, "not in --stages", {}};
+    if (!is_enabled) return {false, "not in --stages", {}};
     return {true, "", {}};
   }
 
@@ -53,9 +59,11 @@ class LasersStage final : public Stage {
   Messages run(MapContext& context) override {
     run_ = runLasers(context.options.parameters.get(laser_mapper::table()), context);
     const laser_mapper::BeamCounts beams = run_->beams();
-    return {{"lasers: " + std::to_string(run_->points()) + " points of " + std::to_string(beams.all) + " beams, " +
-             std::to_string(run_->chunksRendered()) + " chunks rendered in " + forPerson(run_->seconds, 3) + " s"},
-            lasersWarnings(*run_)};
+    Messages messages{calibrationSentences(*run_), lasersWarnings(*run_)};
+    messages.info.push_back("lasers: " + std::to_string(run_->points()) + " points of " + std::to_string(beams.all) +
+                            " beams, " + std::to_string(run_->chunksRendered()) + " chunks rendered in " +
+                            forPerson(run_->seconds, 3) + " s");
+    return messages;
   }
 
   StageResult result(const MapContext&) const override {

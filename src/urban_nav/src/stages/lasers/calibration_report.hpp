@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "command_line/json.hpp"
+#include "report/page.hpp"
+#include "stages/lasers/lasers_run.hpp"
+
+namespace urban_nav {
+
+/// Return what --calibrate found, for the console, the report and summary.json; nothing without it.
+std::vector<std::string> calibrationSentences(const LasersRun& run);
+std::vector<PageTable> calibrationTables(const LasersRun& run);
+Json calibrationJson(const LasersRun& run);
+/// Returns the delay of each device that its session constrains, ms, of the first session that was calibrated.
+Json delaysJson(const LasersRun& run);
+
+}  // namespace urban_nav
