@@ -19,13 +19,13 @@ using urban_nav_registration::CellTable;
 namespace {
 
 constexpr double kBlock = 0.8;  // m
-constexpr std::uint32_t kFewestBeams = 12;
-constexpr double kMostThickness = 0.015;  // m: walls, paving and mown grass, as for the quality of the map
-constexpr double kLeastExtent = 0.1;      // m, standard deviation in the shorter direction
-constexpr double kAside = 0.6;            // m
-constexpr double kMostTurn = 0.35;        // rad between normals
-constexpr double kHeldOutEdge = 4.0;      // m, of the squares that are held out as a whole
-constexpr int kHeldOutShare = 5;          // one in so many
+constexpr std::uint32_t kFewestSurfelBeams = 12;
+constexpr double kMostSurfelThickness = 0.015;  // m: walls, paving and mown grass, as for the quality of the map
+constexpr double kLeastSurfelExtent = 0.1;      // m, standard deviation in the shorter direction
+constexpr double kAside = 0.6;                  // m
+constexpr double kMostSurfelTurn = 0.35;        // rad between normals
+constexpr double kHeldOutEdge = 4.0;            // m, of the squares that are held out as a whole
+constexpr int kHeldOutShare = 5;                // one in so many
 
 Cell blockAt(const Vector3d& p) {
   const auto part = [](double value) { return static_cast<int>(std::floor(value / kBlock)); };
@@ -105,14 +105,14 @@ double fitSurfel(const SampledScans& samples, const std::vector<ScanPlace>& plac
 SurfelSet surfelsOfWindow(const SampledScans& samples, const std::vector<ScanPlace>& places, const Window& window) {
   SurfelSet set;
   for (const BlockBeams& block : divideIntoBlocks(samples, places, window)) {
-    if (block.beams.size() < kFewestBeams) continue;
+    if (block.beams.size() < kFewestSurfelBeams) continue;
     CalibrationSurfel surfel;
     surfel.block = block.key;
     surfel.window = samples.scans[window.first].window;
     surfel.laser = samples.scans[window.first].laser;
     surfel.last = static_cast<std::uint32_t>(block.beams.size());
     const double extent = fitSurfel(samples, places, block.beams, surfel);
-    if (surfel.thickness > kMostThickness || extent < kLeastExtent) continue;
+    if (surfel.thickness > kMostSurfelThickness || extent < kLeastSurfelExtent) continue;
     surfel.first += static_cast<std::uint32_t>(set.beams.size());
     surfel.last += static_cast<std::uint32_t>(set.beams.size());
     set.beams.insert(set.beams.end(), block.beams.begin(), block.beams.end());
@@ -156,7 +156,7 @@ class SurfelIndex {
 };
 
 bool isOnPlane(const CalibrationSurfel& seed, const CalibrationSurfel& other, double reach) {
-  if (seed.normal.dot(other.normal) < std::cos(kMostTurn)) return false;
+  if (seed.normal.dot(other.normal) < std::cos(kMostSurfelTurn)) return false;
   const Vector3d d = other.centre - seed.centre;
   const double across = seed.normal.dot(d);
   return std::abs(across) < reach && (d - across * seed.normal).squaredNorm() < kAside * kAside;

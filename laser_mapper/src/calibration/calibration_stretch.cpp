@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kHeldOutReach = 0.5;                       // m between surfels of a held-out place
 constexpr double kRobust = 2.5 * 1.48, kLeastScale = 0.01;  // of the median spread; m
-constexpr std::size_t kBatch = 512;                         // places whose equations are in memory at a time
+constexpr std::size_t kPatchBatch = 512;                    // places whose equations are in memory at a time
 
 double patchSpread(const CalibrationPatch& patch, const std::vector<CalibrationSurfel>& surfels) {
   double sum = 0.0, weights = 0.0;
@@ -201,8 +201,8 @@ TermEquations CalibrationStretch::linearise(const std::vector<TermVector>& terms
                     VectorXd::Zero(size)};
   prior_.addTo(corrections_, all.corrections, all.gradient);
   std::vector<PatchEquations> equations(patches.size());
-  for (std::size_t first = 0; first < patches.size(); first += kBatch) {
-    const std::size_t count = std::min(kBatch, patches.size() - first);
+  for (std::size_t first = 0; first < patches.size(); first += kPatchBatch) {
+    const std::size_t count = std::min(kPatchBatch, patches.size() - first);
     urban_nav_core::forEach(
         count, 16, [&](std::size_t i) { equations[first + i] = equationsOf(patches[first + i], set, places, scale); });
     for (std::size_t i = first; i < first + count; ++i) {

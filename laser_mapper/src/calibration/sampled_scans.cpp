@@ -14,7 +14,7 @@ using urban_nav_core::StampNs;
 namespace {
 
 constexpr StampNs kScanSpacing = 40'000'000, kWindow = 1'000'000'000;
-constexpr std::size_t kBeamStep = 2;
+constexpr std::size_t kSampledBeamStep = 2;
 constexpr double kFarthest = 20.0;  // m: beyond, neighbouring beams are too far apart to show a plane
 
 void appendScan(const Parameters& parameters, const Scan& scan, std::uint8_t laser, SampledScans& samples) {
@@ -27,7 +27,7 @@ void appendScan(const Parameters& parameters, const Scan& scan, std::uint8_t las
   sampled.window = static_cast<std::uint32_t>(
       std::clamp(sampled.middle - samples.begin, StampNs{0}, samples.end - samples.begin - 1) / kWindow);
   sampled.first = static_cast<std::uint32_t>(samples.beams.size());
-  for (std::size_t i = 0; i < scan.beams.size(); i += kBeamStep) {
+  for (std::size_t i = 0; i < scan.beams.size(); i += kSampledBeamStep) {
     const urban_nav_core::Beam& beam = scan.beams[i];
     const double range = static_cast<double>(beam.range);
     if (mixed[i] != 0 || range < parameters.min_range || range > std::min(parameters.max_range, kFarthest)) continue;

@@ -13,7 +13,7 @@ using urban_nav_core::Trajectory;
 
 namespace {
 
-constexpr StampNs kAround = 25'000'000;  // before and after, for the motion: half a period of the cameras
+constexpr StampNs kMotionSpan = 25'000'000;  // before and after, for the motion: half a period of the cameras
 constexpr std::size_t kGrain = 256;
 
 }  // namespace
@@ -25,8 +25,8 @@ std::vector<ScanPlace> placeScans(const SampledScans& samples, const std::vector
   urban_nav_core::forEach(places.size(), kGrain, [&](std::size_t i) {
     const SampledScans::Scan& scan = samples.scans[i];
     const StampNs stamp = scan.middle - std::llround(1e9 * delaySeconds(terms[scan.laser]));
-    const auto before = T_map_base.at(stamp - kAround, max_gap), at = T_map_base.at(stamp, max_gap),
-               after = T_map_base.at(stamp + kAround, max_gap);
+    const auto before = T_map_base.at(stamp - kMotionSpan, max_gap), at = T_map_base.at(stamp, max_gap),
+               after = T_map_base.at(stamp + kMotionSpan, max_gap);
     if (!before || !at || !after) return;
     ScanPlace& place = places[i];
     place.is_known = true;
@@ -36,7 +36,7 @@ std::vector<ScanPlace> placeScans(const SampledScans& samples, const std::vector
     const Pose T_map_base_now = urban_nav_core::boxPlus(*at, correction);
     const Pose T_stated_laser = statedToTrue(terms[scan.laser]);
     const Pose T_base_laser = lasers[scan.laser].T_base_laser * T_stated_laser;
-    const double seconds = 2e-9 * static_cast<double>(kAround);
+    const double seconds = 2e-9 * static_cast<double>(kMotionSpan);
     place.base = T_map_base_now.t();
     place.R_map_stated = (T_map_base_now.q() * lasers[scan.laser].T_base_laser.q()).toRotationMatrix();
     place.R_map_laser = place.R_map_stated * T_stated_laser.R();

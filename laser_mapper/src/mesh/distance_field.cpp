@@ -12,7 +12,7 @@ using urban_nav_registration::CellTable;
 
 namespace {
 
-constexpr int kReach = 2;             // edges around a point whose nodes it describes
+constexpr int kPointReach = 2;        // edges around a point whose nodes it describes
 constexpr float kLeastWeight = 0.2F;  // of a point that lies on the node
 
 Vector3d positionOf(const DistanceField::Node& node, double edge) { return edge * Vector3d(node.x, node.y, node.z); }
@@ -26,12 +26,12 @@ void DistanceField::add(const MapPoint& point) {
   const Node middle{static_cast<int>(std::lround(scaled.x())), static_cast<int>(std::lround(scaled.y())),
                     static_cast<int>(std::lround(scaled.z()))};
   const Vector3f colour(point.red, point.green, point.blue);
-  for (int dz = -kReach; dz <= kReach; ++dz)
-    for (int dy = -kReach; dy <= kReach; ++dy)
-      for (int dx = -kReach; dx <= kReach; ++dx) {
+  for (int dz = -kPointReach; dz <= kPointReach; ++dz)
+    for (int dy = -kPointReach; dy <= kPointReach; ++dy)
+      for (int dx = -kPointReach; dx <= kPointReach; ++dx) {
         const Node node{middle.x + dx, middle.y + dy, middle.z + dz};
         const Vector3d d = Vector3d(node.x, node.y, node.z) - scaled;
-        const double square = d.squaredNorm() / (kReach * kReach);
+        const double square = d.squaredNorm() / (kPointReach * kPointReach);
         if (square >= 1.0) continue;
         const auto weight = static_cast<float>((1.0 - square) * (1.0 - square));
         const std::uint32_t number = table_.insert(toKey(node));

@@ -46,7 +46,7 @@ Trajectory roundTheRoom() {
 }
 
 /// Straight along the room.
-Trajectory straightOn() {
+Trajectory straightThroughRoom() {
   Trajectory trajectory;
   for (int i = 0; i <= 300; ++i)
     trajectory.append(kRoomStart + static_cast<StampNs>(i) * 50'000'000,
@@ -171,7 +171,7 @@ TEST_F(LaserCalibrationTest, OnTheLevelTheHeightOfALaserIsNotConstrained) {
 }
 
 TEST_F(LaserCalibrationTest, OnAStraightNothingIsFoundAndTheDelayIsNamed) {
-  const Trajectory trajectory = straightOn();
+  const Trajectory trajectory = straightThroughRoom();
   scanWith("laser_left", testing_room::roomLaser(), trajectory, 30'000'000, Vector3d::Zero());
   scanWith("laser_right", rightLaser(), trajectory, 0, Vector3d(0.0, kDegree, 0.0));
   const CalibrationResult found = calibrate(trajectory);

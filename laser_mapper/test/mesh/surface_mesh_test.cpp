@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr double kVoxel = 0.05;
+constexpr double kMeshVoxel = 0.05;
 
 /// Points of a sphere as seen from outside, some 4 cm apart, by tiles.
 std::map<Tile, std::vector<MapPoint>> spherePoints(const Vector3f& centre, float radius) {
@@ -29,7 +29,7 @@ std::map<Tile, std::vector<MapPoint>> spherePoints(const Vector3f& centre, float
     point.red = 200;
     point.green = point.p.z() > centre.z() ? 100 : 0;
     const auto part = [](float value) {
-      return static_cast<int>(std::floor(static_cast<double>(value) / (kVoxel * kTileCells)));
+      return static_cast<int>(std::floor(static_cast<double>(value) / (kMeshVoxel * kTileCells)));
     };
     tiles[{part(point.p.x()), part(point.p.y())}].push_back(point);
   }
@@ -37,7 +37,7 @@ std::map<Tile, std::vector<MapPoint>> spherePoints(const Vector3f& centre, float
 }
 
 TriangleMesh meshOf(const std::map<Tile, std::vector<MapPoint>>& tiles) {
-  SurfaceMesher mesher(kVoxel);
+  SurfaceMesher mesher(kMeshVoxel);
   for (const auto& [tile, points] : tiles) mesher.add(tile, points);
   return mesher.finish();
 }

@@ -20,14 +20,14 @@ struct TermText {
   const char* unit;
   double scale;
 };
-constexpr double kDegreesPerRad = 180.0 / M_PI;
+constexpr double kCalibrationDegrees = 180.0 / M_PI;
 constexpr TermText kTerms[] = {{"delay of its stamps", "delay_ms", "ms", 1e3},
                                {"shift along x", "shift_x_mm", "mm", 1e3},
                                {"shift along y", "shift_y_mm", "mm", 1e3},
                                {"shift along z", "shift_z_mm", "mm", 1e3},
-                               {"turn about x", "turn_x_deg", "deg", kDegreesPerRad},
-                               {"turn about y", "turn_y_deg", "deg", kDegreesPerRad},
-                               {"turn about z", "turn_z_deg", "deg", kDegreesPerRad}};
+                               {"turn about x", "turn_x_deg", "deg", kCalibrationDegrees},
+                               {"turn about y", "turn_y_deg", "deg", kCalibrationDegrees},
+                               {"turn about z", "turn_z_deg", "deg", kCalibrationDegrees}};
 
 std::string toText(const TermText& term, double value) { return forPerson(term.scale * value, 3) + " " + term.unit; }
 
