@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t most_frames = 6;      // then the camera is known
 constexpr std::size_t least_returns = 200;  // of a frame
 constexpr float sure_by_shape = 0.7F;       // probability of a class by shape alone
-constexpr float least_log = -4.0F;          // one return decides nothing
+constexpr float least_image_log = -4.0F;    // one return decides nothing
 
 }  // namespace
 
@@ -35,7 +35,7 @@ void MountingCheck::add(const Scene& scene, const FeatureTable& table) {
     if (by_shape[best] < std::log(sure_by_shape)) continue;
     model_.logProbabilities(table.row(i), by_image.data());
     model_.logProbabilities(upside_down.row(i), by_turned.data());
-    sum += static_cast<double>(std::max(by_turned[best], least_log) - std::max(by_image[best], least_log));
+    sum += static_cast<double>(std::max(by_turned[best], least_image_log) - std::max(by_image[best], least_image_log));
     ++returns;
   }
   if (returns < least_returns) return;

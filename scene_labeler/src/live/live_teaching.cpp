@@ -95,6 +95,7 @@ void LiveTeaching::train(const std::vector<ShownCorrection>& shown) {
     options.samples_per_class = static_cast<std::size_t>(parameters_.samples);
     options.device = base_->device;
     options.base = base_.get();
+    options.adds_trees = true;
     taught = trainModel(std::move(folds), options, [this](double share) {
                progress_ = share;
                if (is_stopped_) throw Stopped();

@@ -10,7 +10,8 @@
 namespace scene_labeler {
 namespace {
 
-constexpr double prior_weight = 20.0;  // samples: a class with fewer held-out samples keeps the bias of 0
+constexpr double prior_weight = 20.0;  // samples: a class with fewer held-out samples keeps a bias near 0
+constexpr double no_score = -1e3;      // of a class that no held-out sample has: its frequency is unknown
 constexpr double least_scale = 0.05, most_scale = 5.0;
 constexpr int newton_steps = 40;
 
@@ -21,7 +22,8 @@ struct LikelihoodTerms {
   double cost = 0.0;
 };
 
-LikelihoodTerms evaluateLikelihood(const HeldOutScores& samples, const Eigen::VectorXd& parameters) {
+LikelihoodTerms evaluateLikelihood(const HeldOutScores& samples, const std::vector<bool>& is_present,
+                                   const Eigen::VectorXd& parameters) {
   const auto classes = static_cast<Eigen::Index>(samples.classes);
   LikelihoodTerms terms{Eigen::VectorXd::Zero(classes + 1), Eigen::MatrixXd::Zero(classes + 1, classes + 1), 0.0};
   Eigen::VectorXd z(classes), score(classes);
@@ -29,6 +31,8 @@ LikelihoodTerms evaluateLikelihood(const HeldOutScores& samples, const Eigen::Ve
     for (Eigen::Index k = 0; k < classes; ++k)
       score[k] = static_cast<double>(samples.scores[i * samples.classes + static_cast<std::size_t>(k)]);
     z = parameters[0] * score + parameters.tail(classes);
+    for (Eigen::Index k = 0; k < classes; ++k)
+      if (!is_present[static_cast<std::size_t>(k)]) z[k] = no_score;
     z.array() -= z.maxCoeff();
     const double logsum = std::log(z.array().exp().sum());
     const Eigen::VectorXd p = (z.array() - logsum).exp();
@@ -76,14 +80,16 @@ Calibration fitCalibration(const HeldOutScores& samples) {
   const auto classes = static_cast<Eigen::Index>(samples.classes);
   Eigen::VectorXd parameters = Eigen::VectorXd::Zero(classes + 1);
   parameters[0] = 1.0;
-  LikelihoodTerms terms = evaluateLikelihood(samples, parameters);
+  std::vector<bool> is_present(samples.classes, false);
+  for (const std::uint8_t label : samples.labels) is_present[label] = true;
+  LikelihoodTerms terms = evaluateLikelihood(samples, is_present, parameters);
   for (int step = 0; step < newton_steps; ++step) {
     Eigen::VectorXd change = -terms.curvature.ldlt().solve(terms.gradient);
     bool is_better = false;
     for (int halving = 0; halving < 12 && !is_better; ++halving, change *= 0.5) {
       Eigen::VectorXd next = parameters + change;
       next[0] = std::clamp(next[0], least_scale, most_scale);
-      LikelihoodTerms candidate = evaluateLikelihood(samples, next);
+      LikelihoodTerms candidate = evaluateLikelihood(samples, is_present, next);
       if (!(candidate.cost < terms.cost)) continue;
       is_better = true;
       parameters = next;

@@ -2,11 +2,17 @@
 #include "scene_labeler/training/teaching.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "scene_labeler/labelling/labeler.hpp"
 #include "scene_labeler/labelling/superpixels.hpp"
 
 namespace scene_labeler {
+namespace {
+
+constexpr float patch_weight = 50.0F;  // of a superpixel in one frame: large ones do not outweigh all other samples
+
+}  // namespace
 
 std::vector<TrainingFold> restoreFolds(const LabelModel& model) {
   const ModelSamples& stored = model.samples;
@@ -65,18 +71,22 @@ std::size_t addPatchCorrections(const LabelModel& model, const Scene& scene,
   const bool has_one_wall =
       std::find(model.classes.begin(), model.classes.end(), SceneClass::Wall) != model.classes.end();
   std::size_t added = 0;
-  for (const PatchCorrection& correction : corrections)
+  FoldRows& rows = fold.samples;
+  for (const PatchCorrection& correction : corrections) {
+    const std::size_t before = rows.labels.size();
     for (std::size_t i = 0; i < patches.size(); ++i) {
       const bool is_member =
           i == correction.point || (patches[i] == patches[correction.point] && patches[i] != no_patch);
       if (!is_member) continue;
-      FoldRows& rows = fold.samples;
       rows.values.insert(rows.values.end(), table.row(i), table.row(i) + table.columns());
       rows.labels.push_back(has_one_wall ? withOneWall(correction.label) : correction.label);
       rows.patches.push_back(no_patch);
-      rows.weights.push_back(correction_weight);
-      ++added;
     }
+    const std::size_t members = rows.labels.size() - before;
+    const float weight = std::round(patch_weight / static_cast<float>(members));
+    rows.weights.resize(rows.labels.size(), std::clamp(weight, 2.0F, correction_weight));
+    added += members;
+  }
   return added;
 }
 

@@ -16,7 +16,9 @@ namespace scene_labeler {
 namespace {
 
 constexpr std::size_t most_folds = 5;
-constexpr float least_samples = 10.0F;  // sum of weights: a class with less is not learnt
+constexpr std::size_t added_trees = 60;
+constexpr float least_new_score = -7.0F;  // log: of a class that the base does not know, before trees are added
+constexpr float least_samples = 10.0F;    // sum of weights: a class with less is not learnt
 constexpr std::size_t most_model_bytes = 980'000, least_sample_bytes = 200'000, most_sample_bytes = 840'000;
 
 /// Settings that cross-validation tries.
@@ -133,37 +135,50 @@ std::vector<float> balancedWeights(const std::vector<std::uint8_t>& labels, std:
   return weights;
 }
 
+/// Returns the samples outside one group, in codes of the model's bins, with balanced weights.
+CodedSamples codeSamples(const SamplePool& pool, std::size_t left_out, const FeatureBins& bins) {
+  CodedSamples coded;
+  coded.features = pool.columns;
+  coded.classes = pool.classes.size();
+  for (std::size_t i = 0; i < pool.labels.size(); ++i) {
+    if (pool.groups[i] == left_out) continue;
+    for (std::size_t column = 0; column < pool.columns; ++column)
+      coded.codes.push_back(bins.code(column, pool.values[i * pool.columns + column]));
+    coded.labels.push_back(pool.labels[i]);
+    coded.weights.push_back(pool.weights[i]);
+    coded.is_anchor.push_back(pool.weights[i] > 1.0F ? 0 : 1);  // corrections have more
+  }
+  coded.weights = balancedWeights(coded.labels, coded.weights, coded.classes);
+  return coded;
+}
+
 /// Fits the classifier of a model to the samples outside one group.
 void fitClassifier(const SamplePool& pool, std::size_t left_out, const TrialSetting& trial, std::uint64_t seed,
                    LabelModel& model) {
-  CodedSamples coded;
+  if (model.kind != ClassifierKind::Svm) {
+    CodedSamples coded = codeSamples(pool, left_out, model.bins);
+    coded.is_anchor.clear();
+    model.trees = model.kind == ClassifierKind::Boosted ? trainBoosted(coded, trial.trees, seed)
+                                                        : trainForest(coded, trial.trees, seed);
+    return;
+  }
   ValueSamples plain;
-  coded.features = plain.features = pool.columns;
-  coded.classes = plain.classes = pool.classes.size();
+  plain.features = pool.columns;
+  plain.classes = pool.classes.size();
   for (std::size_t i = 0; i < pool.labels.size(); ++i) {
     if (pool.groups[i] == left_out) continue;
     const float* row = pool.values.data() + i * pool.columns;
-    if (model.kind == ClassifierKind::Svm) plain.values.insert(plain.values.end(), row, row + pool.columns);
-    for (std::size_t column = 0; model.kind != ClassifierKind::Svm && column < pool.columns; ++column)
-      coded.codes.push_back(model.bins.code(column, row[column]));
-    coded.labels.push_back(pool.labels[i]);
-    coded.weights.push_back(pool.weights[i]);
+    plain.values.insert(plain.values.end(), row, row + pool.columns);
+    plain.labels.push_back(pool.labels[i]);
   }
-  if (model.kind == ClassifierKind::Svm) {
-    plain.labels = coded.labels;
-    for (const SceneClass of_class : pool.classes)
-      plain.is_ground.push_back(of_class == SceneClass::Grass || of_class == SceneClass::Paved ||
-                                of_class == SceneClass::DirtPath);
-    const std::vector<std::string>& names = featureNames(model.features);
-    for (const char* name : {"over_ground", model.features == FeatureSet::Paper ? "normal_z" : "normal_z_0.4"})
-      plain.ground_columns.push_back(
-          static_cast<std::uint8_t>(std::find(names.begin(), names.end(), name) - names.begin()));
-    model.svm = trainSvmBank(plain, trial.svm);
-    return;
-  }
-  coded.weights = balancedWeights(coded.labels, coded.weights, coded.classes);
-  model.trees = model.kind == ClassifierKind::Boosted ? trainBoosted(coded, trial.trees, seed)
-                                                      : trainForest(coded, trial.trees, seed);
+  for (const SceneClass of_class : pool.classes)
+    plain.is_ground.push_back(of_class == SceneClass::Grass || of_class == SceneClass::Paved ||
+                              of_class == SceneClass::DirtPath);
+  const std::vector<std::string>& names = featureNames(model.features);
+  for (const char* name : {"over_ground", model.features == FeatureSet::Paper ? "normal_z" : "normal_z_0.4"})
+    plain.ground_columns.push_back(
+        static_cast<std::uint8_t>(std::find(names.begin(), names.end(), name) - names.begin()));
+  model.svm = trainSvmBank(plain, trial.svm);
 }
 
 Calibration identityCalibration(std::size_t classes) { return {1.0, std::vector<float>(classes, 0.0F)}; }
@@ -269,13 +284,61 @@ void keepRanges(const NoveltyRanges& before, NoveltyRanges& ranges) {
   }
 }
 
+/// Returns the values of `before`, one per class of `from`, for the classes of `to`; `absent` for those it lacks.
+std::vector<float> forClasses(const std::vector<float>& before, const std::vector<SceneClass>& from,
+                              const std::vector<SceneClass>& to, float absent) {
+  std::vector<float> values;
+  for (const SceneClass of_class : to) {
+    const std::uint8_t at = positionIn(from, of_class);
+    values.push_back(at < from.size() ? before[at] : absent);
+  }
+  return values;
+}
+
 /// Fits the fusion of patches, or takes it from the model that training continues from where no return has a patch.
 void fitOrKeepFusion(const HeldOutPatches& held_out, const LabelModel* base, LabelModel& model) {
   const bool has_patches =
       std::any_of(held_out.patches.begin(), held_out.patches.end(), [](std::uint32_t p) { return p != no_patch; });
   if (has_patches || !base) return fitPatchFusion(held_out, model);
   model.correlation = base->correlation;
-  if (base->classes == model.classes) model.patch_calibration = base->patch_calibration;
+  model.patch_calibration = base->patch_calibration;
+  model.patch_calibration.bias = forClasses(base->patch_calibration.bias, base->classes, model.classes, 0.0F);
+}
+
+/// Returns an ensemble for more classes, which it gives least_new_score.
+TreeEnsemble widenEnsemble(TreeEnsemble ensemble, const std::vector<SceneClass>& from,
+                           const std::vector<SceneClass>& to) {
+  ensemble.base = forClasses(ensemble.base, from, to, least_new_score);
+  for (LabelTree& tree : ensemble.trees) {
+    std::vector<float> leaves;
+    for (std::size_t leaf = 0; leaf < tree.leaves.size(); leaf += from.size()) {
+      const auto begin = tree.leaves.begin() + static_cast<std::ptrdiff_t>(leaf);
+      const std::vector<float> wide =
+          forClasses({begin, begin + static_cast<std::ptrdiff_t>(from.size())}, from, to, 0.0F);
+      leaves.insert(leaves.end(), wide.begin(), wide.end());
+    }
+    tree.leaves = std::move(leaves);
+  }
+  return ensemble;
+}
+
+/// Adds trees to those of the base; returns false if they cannot be added: another kind, or classes that are gone.
+bool addTrees(const SamplePool& pool, const TrainingOptions& options, LabelModel& model) {
+  const LabelModel* base = options.base;
+  if (!options.adds_trees || !base || base->kind != ClassifierKind::Boosted || options.kind != base->kind) return false;
+  for (const SceneClass before : base->classes)
+    if (positionIn(pool.classes, before) == pool.classes.size()) return false;
+  model.bins = base->bins;
+  TreeSettings settings;
+  settings.trees = added_trees;
+  model.trees = continueBoosted(widenEnsemble(base->trees, base->classes, pool.classes),
+                                codeSamples(pool, no_group, model.bins), settings, options.seed);
+  model.calibration = base->calibration;
+  model.calibration.bias = forClasses(base->calibration.bias, base->classes, pool.classes, 0.0F);
+  model.patch_calibration = base->patch_calibration;
+  model.patch_calibration.bias = forClasses(base->patch_calibration.bias, base->classes, pool.classes, 0.0F);
+  model.correlation = base->correlation;
+  return true;
 }
 
 /// Cross-validates all settings; returns the held-out scores of the best one, before calibration.
@@ -299,6 +362,20 @@ HeldOutPatches crossValidate(const std::vector<TrainingFold>& folds, const Sampl
   return best;
 }
 
+/// Trains with the best setting of cross-validation, and calibrates on the held-out folds.
+void trainAnew(const std::vector<TrainingFold>& folds, const SamplePool& pool, const TrainingOptions& options,
+               const std::function<void(double)>& progress, TrainedModel& trained) {
+  LabelModel& model = trained.model;
+  const std::vector<TrialSetting> trials = makeTrials(options.kind);
+  HeldOutPatches held_out = crossValidate(folds, pool, trials, options.seed, trained, progress);
+  fitClassifier(pool, no_group, trials[trained.chosen], options.seed, model);
+  if (held_out.points.size() == 0) return;
+  model.calibration = fitCalibration(held_out.points);
+  for (std::size_t i = 0; i < held_out.points.size(); ++i)
+    model.calibration.apply(held_out.points.scores.data() + i * pool.classes.size());
+  fitOrKeepFusion(held_out, options.base, model);
+}
+
 }  // namespace
 
 TrainedModel trainModel(std::vector<TrainingFold> folds, const TrainingOptions& options,
@@ -316,15 +393,7 @@ TrainedModel trainModel(std::vector<TrainingFold> folds, const TrainingOptions& 
   model.bins = FeatureBins(pool.values, pool.columns);
   model.calibration = model.patch_calibration = identityCalibration(pool.classes.size());
   for (const TrainingFold& fold : folds) model.sources.push_back(fold.name);
-  const std::vector<TrialSetting> trials = makeTrials(options.kind);
-  HeldOutPatches held_out = crossValidate(folds, pool, trials, options.seed, trained, progress);
-  fitClassifier(pool, no_group, trials[trained.chosen], options.seed, model);
-  if (held_out.points.size() > 0) {
-    model.calibration = fitCalibration(held_out.points);
-    for (std::size_t i = 0; i < held_out.points.size(); ++i)
-      model.calibration.apply(held_out.points.scores.data() + i * pool.classes.size());
-    fitOrKeepFusion(held_out, options.base, model);
-  }
+  if (!addTrees(pool, options, model)) trainAnew(folds, pool, options, progress, trained);
   model.novelty = measureRanges(pool);
   if (options.base) keepRanges(options.base->novelty, model.novelty);
   model.samples = keepSamples(pool, folds, model);

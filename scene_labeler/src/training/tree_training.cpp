@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "training/tree_builder.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 
 namespace scene_labeler {
 namespace {
+
+constexpr float largest_added_leaf = 0.5F;  // like the largest step of Chen and Guestrin's library for rare classes
 
 std::vector<double> weightedShares(const CodedSamples& samples) {
   std::vector<double> shares(samples.classes, 1e-6);
@@ -21,18 +24,35 @@ std::vector<double> weightedShares(const CodedSamples& samples) {
   return shares;
 }
 
+/// Writes probabilities of the classes.
+void softmax(const float* scores, std::size_t classes, float* probabilities) {
+  const float highest = *std::max_element(scores, scores + classes);
+  float sum = 0.0F;
+  for (std::size_t k = 0; k < classes; ++k) sum += probabilities[k] = std::exp(scores[k] - highest);
+  for (std::size_t k = 0; k < classes; ++k) probabilities[k] /= sum;
+}
+
+/// Returns for each sample and class the probability that is learnt: 1 of its label, or the present one of anchors.
+std::vector<float> learntProbabilities(const CodedSamples& samples, const std::vector<float>& scores) {
+  const std::size_t classes = samples.classes;
+  std::vector<float> targets(samples.size() * classes, 0.0F);
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    if (samples.is_anchor.empty() || samples.is_anchor[i] == 0) targets[i * classes + samples.labels[i]] = 1.0F;
+    else softmax(scores.data() + i * classes, classes, targets.data() + i * classes);
+  return targets;
+}
+
 /// First and second derivatives of the deviance at these scores.
-void deviance(const CodedSamples& samples, const std::vector<float>& scores, Derivatives& derivatives) {
+void deviance(const CodedSamples& samples, const std::vector<float>& targets, const std::vector<float>& scores,
+              Derivatives& derivatives) {
   const std::size_t classes = samples.classes;
   urban_nav_core::forEach(samples.size(), 1024, [&](std::size_t i) {
     const float* score = scores.data() + i * classes;
     float* out = derivatives.data() + i * 2 * classes;
-    const float highest = *std::max_element(score, score + classes);
-    float sum = 0.0F;
-    for (std::size_t k = 0; k < classes; ++k) sum += out[k] = std::exp(score[k] - highest);
+    softmax(score, classes, out);
     for (std::size_t k = 0; k < classes; ++k) {
-      const float p = out[k] / sum;
-      out[k] = samples.weights[i] * (p - (samples.labels[i] == k ? 1.0F : 0.0F));
+      const float p = out[k];
+      out[k] = samples.weights[i] * (p - targets[i * classes + k]);
       out[classes + k] = samples.weights[i] * std::max(p * (1.0F - p), 1e-6F);
     }
   });
@@ -58,27 +78,46 @@ std::vector<std::uint32_t> drawWith(std::size_t count, double share, std::mt1993
 
 }  // namespace
 
-TreeEnsemble trainBoosted(const CodedSamples& samples, const TreeSettings& settings, std::uint64_t seed) {
-  TreeEnsemble ensemble;
-  for (const double share : weightedShares(samples)) ensemble.base.push_back(static_cast<float>(std::log(share)));
+namespace {
+
+/// Adds trees to an ensemble. `largest_leaf`: bound of their values.
+void boost(const CodedSamples& samples, const TreeSettings& settings, float largest_leaf, std::uint64_t seed,
+           TreeEnsemble& ensemble) {
   std::mt19937_64 random(seed);
   TreeBuilder builder(samples, settings);
-  std::vector<float> scores;
-  for (std::size_t i = 0; i < samples.size(); ++i)
-    scores.insert(scores.end(), ensemble.base.begin(), ensemble.base.end());
+  std::vector<float> scores(samples.size() * samples.classes);
+  urban_nav_core::forEach(samples.size(), 256, [&](std::size_t i) {
+    ensemble.evaluate(samples.codes.data() + i * samples.features, scores.data() + i * samples.classes);
+  });
+  const std::vector<float> targets = learntProbabilities(samples, scores);
   Derivatives derivatives(samples.size() * 2 * samples.classes);
   for (std::size_t round = 0; round < settings.trees; ++round) {
-    deviance(samples, scores, derivatives);
+    deviance(samples, targets, scores, derivatives);
     const auto drawn = drawWithout(samples.size(), settings.sample_share, random);
     ensemble.trees.push_back(
         builder.build(derivatives, drawn, false, static_cast<float>(settings.learning_rate), random));
-    const LabelTree& tree = ensemble.trees.back();
+    LabelTree& tree = ensemble.trees.back();
+    for (float& value : tree.leaves) value = std::clamp(value, -largest_leaf, largest_leaf);
     urban_nav_core::forEach(samples.size(), 1024, [&](std::size_t i) {
       const float* leaf =
           tree.leaves.data() + tree.findLeaf(samples.codes.data() + i * samples.features) * samples.classes;
       for (std::size_t k = 0; k < samples.classes; ++k) scores[i * samples.classes + k] += leaf[k];
     });
   }
+}
+
+}  // namespace
+
+TreeEnsemble trainBoosted(const CodedSamples& samples, const TreeSettings& settings, std::uint64_t seed) {
+  TreeEnsemble ensemble;
+  for (const double share : weightedShares(samples)) ensemble.base.push_back(static_cast<float>(std::log(share)));
+  boost(samples, settings, std::numeric_limits<float>::max(), seed, ensemble);
+  return ensemble;
+}
+
+TreeEnsemble continueBoosted(TreeEnsemble ensemble, const CodedSamples& samples, const TreeSettings& settings,
+                             std::uint64_t seed) {
+  boost(samples, settings, largest_added_leaf, seed, ensemble);
   return ensemble;
 }
 

@@ -43,5 +43,19 @@ TEST(Calibration, GivesLogProbabilitiesThatSumToOne) {
   EXPECT_NEAR(std::exp(scores[0]) + std::exp(scores[1]) + std::exp(scores[2]), 1.0F, 1e-5F);
 }
 
+TEST(Calibration, LeavesAClassThatNoSampleHasAsItIs) {
+  HeldOutScores samples;
+  samples.classes = 3;
+  for (int i = 0; i < 2000; ++i) {
+    const bool is_first = i % 2 == 0;
+    for (const float score : {is_first ? 0.5F : 0.0F, is_first ? 0.0F : 0.5F, 1.0F}) samples.scores.push_back(score);
+    samples.labels.push_back(is_first ? 0 : 1);
+    samples.weights.push_back(1.0F);
+  }
+  const Calibration calibration = fitCalibration(samples);
+  EXPECT_NEAR(calibration.bias[2], 0.0F, 1e-4F) << "although its score is always the highest";
+  EXPECT_GT(calibration.scale, 1.5) << "the others are always right";
+}
+
 }  // namespace
 }  // namespace scene_labeler

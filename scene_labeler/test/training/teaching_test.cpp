@@ -44,6 +44,7 @@ LabelModel teach(const LabelModel& model, const testing::Yard& yard) {
   options.features = model.features;
   options.samples_per_class = 300;
   options.base = &model;
+  options.adds_trees = true;
   return trainModel(std::move(folds), options, [](double) {}).model;
 }
 
@@ -111,6 +112,7 @@ TEST(Teaching, LearnsTheSuperpixelsAtCorrectedReturns) {
   TrainingOptions options;
   options.samples_per_class = 300;
   options.base = &model;
+  options.adds_trees = true;
   const LabelModel taught = trainModel(std::move(folds), options, [](double) {}).model;
   EXPECT_GT(f1(taught, held_out, SceneClass::Vehicle), 0.8);
 }

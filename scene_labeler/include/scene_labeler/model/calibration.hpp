@@ -29,7 +29,8 @@ struct HeldOutScores {
 };
 
 /// Fits scale and bias by the likelihood of held-out samples (Guo et al. 2017, vector scaling with one scale), with a
-/// prior that keeps the bias of rare classes near 0.
+/// prior that keeps the bias of rare classes near 0. A class that no sample has keeps 0: one that only corrections have
+/// is not less likely for being new.
 Calibration fitCalibration(const HeldOutScores& samples);
 
 /// Replaces log values by log probabilities that sum to one.

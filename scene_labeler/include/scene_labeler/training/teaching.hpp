@@ -34,7 +34,8 @@ struct PatchCorrection {
 };
 
 /// Adds the returns of the superpixels of a scene at the given returns (without an image: of the cubes of
-/// makePatches()) to a fold, with correction_weight, whatever the model's answer is. Returns how many were added.
+/// makePatches()) to a fold, whatever the model's answer is. A superpixel of up to five returns has correction_weight,
+/// the returns of a larger one have less, so that all superpixels count about the same. Returns how many were added.
 std::size_t addPatchCorrections(const LabelModel& model, const Scene& scene,
                                 const std::vector<PatchCorrection>& corrections, int superpixel_size,
                                 TrainingFold& fold);

@@ -17,6 +17,9 @@ struct TrainingOptions {
   /// Model that training continues from, with its samples among the folds (restoreFolds()): the ranges of its features
   /// stay, and its fusion of patches where no fold has patches.
   const LabelModel* base = nullptr;
+  /// Adds trees to those of a boosted base, whose calibration stays, instead of training anew: for folds that add
+  /// corrections alone. The samples that a model holds are fewer than those that it was trained with.
+  bool adds_trees = false;
 };
 
 /// Values of the settings that cross-validation compared.
@@ -29,8 +32,8 @@ struct TrainedModel {
   LabelModel model;
   std::vector<std::pair<SceneClass, std::size_t>> samples;  ///< number of each class
   std::size_t folds = 0;
-  std::vector<ValidatedSetting> cross_validation;
-  std::size_t chosen = 0;  ///< of cross_validation
+  std::vector<ValidatedSetting> cross_validation;  ///< empty if trees were added to a base
+  std::size_t chosen = 0;                          ///< of cross_validation
 };
 
 /// Trains a classifier: settings by cross-validation over folds, calibration on the held-out folds. `progress`: share

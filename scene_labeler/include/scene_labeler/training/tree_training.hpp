@@ -14,6 +14,8 @@ struct CodedSamples {
   std::vector<std::uint8_t> codes;   ///< sample by sample
   std::vector<std::uint8_t> labels;  ///< one per sample, below `classes`
   std::vector<float> weights;        ///< one per sample, positive
+  /// One per sample for continueBoosted(), 1: its answer shall stay what it was, whatever its label. Empty: none.
+  std::vector<std::uint8_t> is_anchor;
 
   std::size_t size() const { return labels.size(); }
 };
@@ -32,6 +34,11 @@ struct TreeSettings {
 /// Trains gradient boosted trees on the multinomial deviance (Friedman 2001), with all classes in each tree and second
 /// derivatives as in Chen and Guestrin 2016. Deterministic for any number of threads.
 TreeEnsemble trainBoosted(const CodedSamples& samples, const TreeSettings& settings, std::uint64_t seed);
+
+/// Adds settings.trees boosted trees to an ensemble of the same classes, which stays as it is. Their leaves are at most
+/// 0.5, since the ensemble may be wrong of samples with certainty. Deterministic for any number of threads.
+TreeEnsemble continueBoosted(TreeEnsemble ensemble, const CodedSamples& samples, const TreeSettings& settings,
+                             std::uint64_t seed);
 
 /// Trains a random forest (Breiman 2001) whose scores are shares of votes.
 TreeEnsemble trainForest(const CodedSamples& samples, const TreeSettings& settings, std::uint64_t seed);

@@ -80,7 +80,8 @@ Json trainingJson(const scene_labeler::TrainedModel& trained, const std::string&
   json["folds"] = trained.folds;
   json["cross_validation"] = Json::array();
   for (const auto& setting : trained.cross_validation) json["cross_validation"].append(settingJson(setting));
-  json["chosen"] = settingJson(trained.cross_validation[trained.chosen]);
+  json["chosen"] = Json::object();
+  if (!trained.cross_validation.empty()) json["chosen"] = settingJson(trained.cross_validation[trained.chosen]);
   json["seconds"] = seconds;
   json["digest"] = scene_labeler::modelDigest(bytes);
   return json;
@@ -93,6 +94,7 @@ int runLabelsTrain(const Arguments& arguments, Console& console) {
   const LabelTeaching teaching(arguments);
   scene_labeler::TrainingOptions options;
   options.base = teaching.base();
+  options.adds_trees = arguments.all("SRC").empty();
   options.kind = classifierFrom(arguments, options.base ? options.base->kind : ClassifierKind::Boosted);
   options.features = teaching.features();
   options.seed = static_cast<std::uint64_t>(arguments.integer("seed", 1, 0, 1'000'000'000));
@@ -110,10 +112,14 @@ int runLabelsTrain(const Arguments& arguments, Console& console) {
   progress.finish(100);
   const std::string bytes = scene_labeler::printModel(trained.model);
   urban_nav_core::writeAtomically(arguments.get("output"), bytes);
-  console.info(std::string(toString(trained.model.kind)) + " of " + std::to_string(trained.folds) + " folds, mean F1 " +
-               urban_nav_core::printNumber(trained.cross_validation[trained.chosen].f1_mean) +
-               " in cross-validation; model " + scene_labeler::modelDigest(bytes) + ", " +
-               std::to_string(bytes.size()) + " bytes");
+  const std::string quality = trained.cross_validation.empty()
+                                  ? "with trees for the corrections"
+                                  : "mean F1 " +
+                                        urban_nav_core::printNumber(trained.cross_validation[trained.chosen].f1_mean) +
+                                        " in cross-validation";
+  console.info(std::string(toString(trained.model.kind)) + " of " + std::to_string(trained.folds) + " folds, " +
+               quality + "; model " + scene_labeler::modelDigest(bytes) + ", " + std::to_string(bytes.size()) +
+               " bytes");
   if (arguments.has("json"))
     urban_nav_core::writeAtomically(arguments.get("json"), trainingJson(trained, bytes, usage.wallSeconds()).print());
   return 0;

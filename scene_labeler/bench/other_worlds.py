@@ -1,0 +1,31 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Trains on the drives of two simulated worlds and tries the third, each in turn: prints the table of README.md.
+
+    other_worlds.py FOLDER     # for the bags and models: those that are there are not made again
+"""
+import sys
+
+import simulated
+
+
+def main():
+    folder = sys.argv[1]
+    print("| tried on | mean F1, % | F1 by class, % | not unsure, % | of these right, % | unknown class: called something else and not unsure, % |")
+    print("|---|---|---|---|---|---|")
+    for world in simulated.WORLDS:
+        result = simulated.evaluated(simulated.model_without(folder, world), simulated.training_drives(folder, world))
+        names, rows, sure = result["confusion"]["names"], result["confusion"]["rows"], result["sure_confusion"]["rows"]
+        known = {name for k, name in enumerate(names) if sum(row[k] for row in rows)}
+        scored = simulated.scored_classes(result)
+        f1 = {name: simulated.f1_of(rows, names.index(name)) for name in scored}
+        known_rows = [k for k in range(len(rows)) if names[k] in known]
+        returns, told = sum(sum(rows[k]) for k in known_rows), sum(sum(sure[k]) for k in known_rows)
+        right = sum(sure[k][k] for k in known_rows)
+        unknown = [f"{name} {100 * sum(sure[names.index(name)]) / sum(rows[names.index(name)]):.0f}" for name in scored if name not in known]
+        print(f"| {world} | {sum(f1.values()) / len(f1):.0f} | " + ", ".join(f"{name} {value:.0f}" for name, value in f1.items())
+              + f" | {100 * told / returns:.0f} | {100 * right / max(1, told):.0f} | {', '.join(unknown) or 'none'} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,65 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Teaches a model of two simulated worlds the third one by 20 corrected superpixels, drawn from the wrong returns of two of its drives, and tries both
+models on its other drives: prints the table of README.md.
+
+    teaching.py FOLDER     # for the bags and models: those that are there are not made again
+"""
+import csv
+import random
+import sys
+import tempfile
+from pathlib import Path
+
+import simulated
+
+CLICKS = 20
+TEACHING_DRIVES = 2  # of each world; the others are for the trial
+
+
+def wrong_returns(model, bag, names):
+    """Side, stamp, beam and true class of the returns that a model gets wrong."""
+    wrong = []
+    with tempfile.TemporaryDirectory() as out:
+        simulated.urban_nav("labels", "apply", model, *simulated.with_poses([bag]), "-o", out)
+        for side in ("left", "right"):
+            with open(simulated.truth(bag) / f"laser_{side}.csv") as file:
+                true = {(row["stamp_ns"], row["beam"]): row["class"] for row in csv.DictReader(file) if row["class"]}
+            with open(Path(out) / f"laser_{side}_labels.csv") as file:
+                for row in csv.DictReader(file):
+                    label = true.get((row["stamp_ns"], row["beam"]))
+                    if label is not None and label != row["label"]:
+                        wrong.append((bag, side, row["stamp_ns"], row["beam"], names[int(label)]))
+    return wrong
+
+
+def taught(folder, world, model, bags, names):
+    """The model after the corrections."""
+    wrong = [one for bag in bags for one in wrong_returns(model, bag, names)]
+    clicks = Path(folder) / f"clicks_{world}.csv"
+    with open(clicks, "w", newline="") as file:
+        rows = csv.writer(file)
+        rows.writerow(["bag", "side", "stamp_ns", "beam", "class", "trajectory"])
+        for bag, *one in random.Random(1).sample(wrong, CLICKS):
+            rows.writerow([bag.resolve(), *one, (simulated.truth(bag) / "trajectory.tum").resolve()])
+    out = Path(folder) / f"taught_{world}.labels"
+    simulated.urban_nav("labels", "train", "--add", model, "--corrections", clicks, "-o", out)
+    return out
+
+
+def main():
+    folder = sys.argv[1]
+    print("| taught | mean F1 before, % | after, % | by class |\n|---|---|---|---|")
+    for world in simulated.WORLDS:
+        bags, model = simulated.training_drives(folder, world), simulated.model_without(folder, world)
+        tried = bags[TEACHING_DRIVES:]
+        before = simulated.evaluated(model, tried)
+        names, scored = before["confusion"]["names"], simulated.scored_classes(before)
+        after = simulated.evaluated(taught(folder, world, model, bags[:TEACHING_DRIVES], names), tried)
+        f1 = {name: [simulated.f1_of(one["confusion"]["rows"], names.index(name)) for one in (before, after)] for name in scored}
+        means = [sum(pair[i] for pair in f1.values()) / len(f1) for i in (0, 1)]
+        print(f"| {world} | {means[0]:.0f} | {means[1]:.0f} | " + ", ".join(f"{name} {a:.0f} to {b:.0f}" for name, (a, b) in f1.items()) + " |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
