@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "device_parameters.hpp"
+#include "segway_drivers/transport/session_begin.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/stamp.hpp"
 
@@ -15,6 +16,7 @@ namespace segway_drivers {
 
 namespace {
 
+constexpr TimeNs session_lead = 4'000'000'000;                                         // ns
 constexpr TimeNs frame_wait = 100'000'000;                                             // ns
 constexpr TimeNs least_camera_pause = 200'000'000, most_camera_pause = 2'000'000'000;  // ns
 
@@ -24,7 +26,7 @@ CameraNodelet::~CameraNodelet() { shutDown(); }
 
 void CameraNodelet::shutDown() {
   stop_ = true;
-  timer_.stop();
+  diagnostics_.stop();
   if (reader_.joinable()) reader_.join();
 }
 
@@ -44,18 +46,15 @@ void CameraNodelet::onInit() {
       makeCamera(*source_);
     } else {
       NODELET_WARN("%s", error.c_str());
-      detail_ = error;
+      setState(DriverState::Absent, error);
     }
   } catch (const urban_nav_core::Error& error) {
     NODELET_FATAL("%s", error.what());
     throw;
   }
   time_reference_ = getNodeHandle().advertise<sensor_msgs::TimeReference>(device() + "/time_reference", 100);
-  updater_ = std::make_unique<diagnostic_updater::Updater>(getNodeHandle(), getPrivateNodeHandle(), getName());
-  updater_->setHardwareID(model() + " " + nodelet_.port);
-  updater_->add("driver", [this](diagnostic_updater::DiagnosticStatusWrapper& status) { fill(status); });
-  timer_ = getNodeHandle().createWallTimer(ros::WallDuration(1.0),
-                                           [this](const ros::WallTimerEvent&) { updater_->force_update(); });
+  diagnostics_.start(getNodeHandle(), getPrivateNodeHandle(), getName(), model() + " " + nodelet_.port, nodelet_.port,
+                     [this](DeviceDiagnostics::Status& status) { addDiagnostics(status); });
   if (source_) reader_ = std::thread([this] { run(); });
 }
 
@@ -64,6 +63,7 @@ std::unique_ptr<FrameSource> CameraNodelet::makeSource(std::string& error) {
   SimCameraOptions options;
   options.model = simulatedModel();
   try {
+    if (!nodelet_.session_begin.empty()) options.begin = agreeOnBegin(nodelet_.session_begin, session_lead);
     return std::make_unique<SimSource>(readBag(nodelet_.port), options, realSimClock());
   } catch (const urban_nav_core::UserError& no_pictures) {
     error = no_pictures.what();
@@ -82,7 +82,7 @@ void CameraNodelet::run() {
       continue;
     }
     wait = least_camera_pause;
-    setState(DriverState::Configuring, identity());
+    setState(DriverState::Configuring, "");
     stream(*source_);
     source_->stop();
     pause(wait);
@@ -98,22 +98,14 @@ void CameraNodelet::stream(FrameSource& source) {
     step(frame_wait);
     if (counters().frames != frames) {
       last = steadyTime();
-      if (!std::exchange(streams, true)) countOpening();
+      if (!std::exchange(streams, true)) ++openings_;
     }
     if (const TimeNs change = clock_.follow(); change != 0)
       NODELET_WARN("the host's clock stepped by %lld ms", static_cast<long long>(change / 1'000'000));
     for (const DriverEvent& event : takeEvents()) NODELET_WARN("%s", event.text.c_str());
-    const std::lock_guard<std::mutex> guard(mutex_);
-    counters_ = counters();
-    identity_ = identity();
+    setState(streams ? DriverState::Streaming : DriverState::Configuring, "");
   }
   if (!stop_) setState(source.isGone() ? DriverState::Lost : DriverState::Stalled, "no image");
-}
-
-void CameraNodelet::countOpening() {
-  setState(DriverState::Streaming, identity());
-  const std::lock_guard<std::mutex> guard(mutex_);
-  ++openings_;
 }
 
 void CameraNodelet::pause(TimeNs duration) const {
@@ -131,28 +123,18 @@ void CameraNodelet::publishTimeReference(const std::string& frame, TimeNs arriva
   time_reference_.publish(reference);
 }
 
-void CameraNodelet::setState(DriverState state, const std::string& detail) {
-  const std::lock_guard<std::mutex> guard(mutex_);
-  if (state != state_) NODELET_INFO("%s: %s", toString(state), detail.c_str());
-  state_ = state;
-  detail_ = detail;
-}
-
-void CameraNodelet::fill(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  const std::lock_guard<std::mutex> guard(mutex_);
-  const bool good = state_ == DriverState::Streaming;
-  const bool bad = state_ == DriverState::Absent || state_ == DriverState::Lost;
-  status.summary(static_cast<unsigned char>(good ? 0 : bad ? 2 : 1), toString(state_));
-  status.add("port", nodelet_.port);
-  status.add("identity", identity_);
-  if (!good) status.add("reason", detail_);
-  status.add("bytes", counters_.bytes);
-  status.add("frames", counters_.frames);
-  status.add("bad frames", counters_.bad_checksums);
-  status.add("gaps", counters_.gaps);
-  status.add("without a time", counters_.unexpected);
-  status.add("reconnections", std::max(openings_ - 1, 0));
-  addDiagnostics(status);
+void CameraNodelet::setState(DriverState state, const std::string& reason) {
+  DeviceSnapshot snapshot;
+  snapshot.state = state;
+  snapshot.reason = reason;
+  if (source_) {
+    snapshot.identity = identity();
+    snapshot.counters = counters();
+  }
+  snapshot.counters.reconnections = std::max(openings_ - 1, 0);
+  if (state != diagnostics_.get().state)
+    NODELET_INFO("%s: %s", toString(state), (reason.empty() ? snapshot.identity : reason).c_str());
+  diagnostics_.set(std::move(snapshot));
 }
 
 }  // namespace segway_drivers

@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <diagnostic_updater/diagnostic_updater.h>
 #include <nodelet/nodelet.h>
 #include <ros/publisher.h>
 
 #include <atomic>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "device_diagnostics.hpp"
 #include "live/nodelet_parameters.hpp"
+#include "segway_drivers/camera/bag_pictures.hpp"
 #include "segway_drivers/camera/frame_source.hpp"
 #include "segway_drivers/driver/driver_core.hpp"
 #include "segway_drivers/parameters.hpp"
-#include "segway_drivers/camera/bag_pictures.hpp"
 #include "segway_drivers/transport/host_clock.hpp"
 
 namespace segway_drivers {
@@ -63,26 +62,18 @@ class CameraNodelet : public nodelet::Nodelet {
   std::unique_ptr<FrameSource> makeSource(std::string& error);
   void run();
   void stream(FrameSource& source);
-  void countOpening();
-  void setState(DriverState state, const std::string& detail);
+  void setState(DriverState state, const std::string& reason);
   void pause(TimeNs duration) const;
-  void fill(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   NodeletParameters nodelet_;
   Parameters parameters_;
   HostClock clock_;
   ros::Publisher time_reference_;
   std::unique_ptr<FrameSource> source_;
-  std::unique_ptr<diagnostic_updater::Updater> updater_;
-  ros::WallTimer timer_;
+  DeviceDiagnostics diagnostics_;
   std::thread reader_;
   std::atomic<bool> stop_{false};
-
-  std::mutex mutex_;  // guards what follows
-  DriverState state_ = DriverState::Absent;
-  std::string detail_, identity_;
-  DeviceCounters counters_;
-  int openings_ = 0;
+  int openings_ = 0;  // of the reading thread
 };
 
 }  // namespace segway_drivers

@@ -21,12 +21,9 @@ constexpr TimeNs snapshot_period = 100'000'000;  // ns, between updates of what 
 DriverNodelet::~DriverNodelet() { shutDown(); }
 
 void DriverNodelet::shutDown() {
-  {
-    const std::lock_guard<std::mutex> guard(mutex_);
-    stop_ = true;
-  }
-  wake_.notify_all();
-  timer_.stop();
+  stop_ = true;
+  queue_.stop();
+  diagnostics_.stop();
   if (reader_.joinable()) reader_.join();
   if (publisher_.joinable()) publisher_.join();
 }
@@ -44,12 +41,10 @@ void DriverNodelet::onInit() {
     NODELET_FATAL("%s", error.what());
     throw;
   }
-  updater_ = std::make_unique<diagnostic_updater::Updater>(getNodeHandle(), getPrivateNodeHandle(), getName());
-  updater_->setHardwareID(nodelet_.port);
-  updater_->add("driver", [this](diagnostic_updater::DiagnosticStatusWrapper& status) { fill(status); });
-  timer_ = getNodeHandle().createWallTimer(ros::WallDuration(1.0),
-                                           [this](const ros::WallTimerEvent&) { updater_->force_update(); });
-  publisher_ = std::thread([this] { publishQueued(); });
+  diagnostics_.start(getNodeHandle(), getPrivateNodeHandle(), getName(), nodelet_.port, nodelet_.port,
+                     [this](DeviceDiagnostics::Status& status) { addRows(status); });
+  queue_.setCapacity(static_cast<std::size_t>(nodelet_.queue));
+  publisher_ = std::thread([this] { queue_.run(); });
   reader_ = std::thread([this] { run(); });
 }
 
@@ -73,48 +68,11 @@ void DriverNodelet::run() {
     }
     if (now < next_snapshot) continue;
     next_snapshot = now + snapshot_period;
-    const std::lock_guard<std::mutex> guard(mutex_);
-    counters_ = driver_->counters();
-    state_ = driver_->state();
-    identity_ = driver_->identity();
-    remark_ = loop.remark();
-    if (const ClockFilter* filter = driver_->clock()) {
-      has_clock_ = true;
-      offset_s_ = filter->offset();
-      skew_ppm_ = 1e6 * filter->skew();
-      sigma_us_ = 1e6 * filter->sigma();
-      excess_ms_ = 1e3 * filter->meanExcess();
-    }
+    takeSnapshot(loop.remark());
   }
 }
 
 ros::Time DriverNodelet::toRos(TimeNs steady) const { return urban_nav_ros::toRosTime(clock_.toReal(steady)); }
-
-void DriverNodelet::publish(std::function<void()> work) {
-  {
-    const std::lock_guard<std::mutex> guard(mutex_);
-    if (queue_.size() >= static_cast<std::size_t>(nodelet_.queue)) {
-      ++dropped_;
-      return;
-    }
-    queue_.push_back(std::move(work));
-  }
-  wake_.notify_one();
-}
-
-void DriverNodelet::publishQueued() {
-  while (true) {
-    std::function<void()> work;
-    {
-      std::unique_lock<std::mutex> guard(mutex_);
-      wake_.wait(guard, [this] { return stop_ || !queue_.empty(); });
-      if (queue_.empty()) return;
-      work = std::move(queue_.front());
-      queue_.pop_front();
-    }
-    work();
-  }
-}
 
 void DriverNodelet::publishTimeReference(const std::string& frame, TimeNs arrival, double device_s) {
   sensor_msgs::TimeReference reference;
@@ -125,30 +83,34 @@ void DriverNodelet::publishTimeReference(const std::string& frame, TimeNs arriva
   publish([this, reference] { time_reference_.publish(reference); });
 }
 
-void DriverNodelet::fill(diagnostic_updater::DiagnosticStatusWrapper& status) {
+void DriverNodelet::takeSnapshot(const std::string& remark) {
+  DeviceSnapshot snapshot;
+  snapshot.state = driver_->state();
+  snapshot.identity = driver_->identity();
+  snapshot.counters = driver_->counters();
   const std::lock_guard<std::mutex> guard(mutex_);
-  const bool good = state_ == DriverState::Streaming;
-  const bool bad = state_ == DriverState::Absent || state_ == DriverState::Lost;
-  status.summary(static_cast<unsigned char>(good ? 0 : bad ? 2 : 1), toString(state_));
-  status.add("port", nodelet_.port);
-  status.add("identity", identity_);
+  snapshot.reason = last_warning_;
+  diagnostics_.set(std::move(snapshot));
+  remark_ = remark;
+  if (const ClockFilter* filter = driver_->clock()) {
+    has_clock_ = true;
+    offset_s_ = filter->offset();
+    skew_ppm_ = 1e6 * filter->skew();
+    sigma_us_ = 1e6 * filter->sigma();
+    excess_ms_ = 1e3 * filter->meanExcess();
+  }
+}
+
+void DriverNodelet::addRows(DeviceDiagnostics::Status& status) {
+  const std::lock_guard<std::mutex> guard(mutex_);
   if (!remark_.empty()) status.add("port remark", remark_);
   if (!last_warning_.empty()) status.add("last warning", last_warning_);
-  status.add("bytes", counters_.bytes);
-  status.add("frames", counters_.frames);
-  status.add("bad checksums", counters_.bad_checksums);
-  status.add("bytes skipped", counters_.bytes_skipped);
-  status.add("gaps", counters_.gaps);
-  status.add("unexpected replies", counters_.unexpected);
-  status.add("timeouts", counters_.timeouts);
-  status.add("reconnections", counters_.reconnections);
-  status.add("messages dropped", dropped_);
+  status.add("messages dropped", queue_.dropped());
   if (has_clock_) {
     status.add("clock offset (s)", offset_s_);
     status.add("clock skew (ppm)", skew_ppm_);
     status.add("clock sigma (us)", sigma_us_);
     status.add("mean delay above the least (ms)", excess_ms_);
-    status.add("clock epochs", counters_.epochs);
   }
   addDiagnostics(status);
 }

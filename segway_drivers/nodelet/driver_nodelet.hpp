@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <diagnostic_updater/diagnostic_updater.h>
 #include <nodelet/nodelet.h>
 #include <ros/publisher.h>
 
 #include <atomic>
-#include <condition_variable>
-#include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 
+#include "device_diagnostics.hpp"
 #include "live/nodelet_parameters.hpp"
+#include "live/work_queue.hpp"
 #include "segway_drivers/driver/run_device.hpp"
 #include "segway_drivers/transport/host_clock.hpp"
 
@@ -45,7 +45,7 @@ class DriverNodelet : public nodelet::Nodelet {
   /// ROS time of a steady time. For callbacks of the driver.
   ros::Time toRos(TimeNs steady) const;
   /// Queues work for the publishing thread. For callbacks of the driver.
-  void publish(std::function<void()> work);
+  void publish(std::function<void()> work) { queue_.push(std::move(work)); }
   /// Publishes raw arrival and device time on time_reference.
   void publishTimeReference(const std::string& frame, TimeNs arrival, double device_s);
   std::mutex& lock() { return mutex_; }
@@ -53,26 +53,21 @@ class DriverNodelet : public nodelet::Nodelet {
  private:
   void onInit() final;
   void run();
-  void publishQueued();
-  void fill(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void addRows(DeviceDiagnostics::Status& status);
+  void takeSnapshot(const std::string& remark);
 
   NodeletParameters nodelet_;
   Parameters parameters_;
   std::unique_ptr<DriverCore> driver_;
   HostClock clock_;
   ros::Publisher time_reference_;
-  std::unique_ptr<diagnostic_updater::Updater> updater_;
-  ros::WallTimer timer_;
+  DeviceDiagnostics diagnostics_;
+  WorkQueue queue_;
   std::thread reader_, publisher_;
   std::atomic<bool> stop_{false};
 
   std::mutex mutex_;  // guards what follows
-  std::condition_variable wake_;
-  std::deque<std::function<void()>> queue_;
-  std::int64_t dropped_ = 0;
-  DeviceCounters counters_;
-  DriverState state_ = DriverState::Absent;
-  std::string identity_, remark_, last_warning_;
+  std::string remark_, last_warning_;
   double offset_s_ = 0.0, skew_ppm_ = 0.0, sigma_us_ = 0.0, excess_ms_ = 0.0;
   bool has_clock_ = false;
 };

@@ -57,6 +57,7 @@ class BagGroups {
       : topics_(std::move(topics)), size_(size) {
     try {
       bag_.open(path, rosbag::bagmode::Read);
+      begin_ = rosbag::View(bag_).getBeginTime();
       view_.addQuery(
           bag_, [this](const rosbag::ConnectionInfo* each) { return topics_.count(withoutSlash(each->topic)) != 0; });
       next_ = view_.begin();
@@ -77,8 +78,7 @@ class BagGroups {
       group.resize(size_);
       group[topics_.at(withoutSlash(instance.getTopic()))] = decode(instance);
       if (std::any_of(group.begin(), group.end(), [](const cv::Mat& each) { return each.empty(); })) continue;
-      if (!first_) first_ = stamp;
-      frame.time = (stamp - *first_).toSec();
+      frame.time = std::max((stamp - begin_).toSec(), 0.0);
       frame.recorded = static_cast<TimeNs>(stamp.toNSec());
       std::vector<cv::Mat> complete = std::move(group);
       waiting_.erase(waiting_.begin(), waiting_.upper_bound(stamp));
@@ -95,7 +95,7 @@ class BagGroups {
   rosbag::View view_;
   rosbag::View::iterator next_;
   std::map<ros::Time, std::vector<cv::Mat>> waiting_;
-  std::optional<ros::Time> first_;
+  ros::Time begin_;
 };
 
 }  // namespace

@@ -66,12 +66,13 @@ void SimSource::powerOn() {
 }
 
 double SimSource::busTime(double elapsed_s) const {
-  return std::fmod(options_.bus_begin + elapsed_s * (1.0 + options_.bus_skew), bus_time_wrap);
+  const double time = std::fmod(options_.bus_begin + elapsed_s * (1.0 + options_.bus_skew), bus_time_wrap);
+  return time < 0.0 ? time + bus_time_wrap : time;
 }
 
 bool SimSource::open(std::string& error) {
   streams_ = false;
-  if (!begin_) begin_ = clock_.now();
+  if (!begin_) begin_ = options_.begin.value_or(clock_.now());
   if (isGone()) {
     error = "no such camera on the simulated bus";
     return false;

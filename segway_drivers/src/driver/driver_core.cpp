@@ -33,6 +33,7 @@ void DriverCore::close(TimeNs) {
 void DriverCore::setState(DriverState state, const std::string& reason) {
   if (state == state_) return;
   state_ = state;
+  stalls_ += state == DriverState::Stalled ? 1 : 0;
   const bool warning = state == DriverState::Stalled || state == DriverState::Lost;
   report(warning, std::string(toString(state)) + (reason.empty() ? "" : ": " + reason));
 }
@@ -41,6 +42,7 @@ DeviceCounters DriverCore::counters() const {
   DeviceCounters counters = streamCounters();
   counters.unexpected += unexpected_;
   counters.timeouts += timeouts_;
+  counters.stalls = stalls_;
   counters.reconnections = std::max<std::int64_t>(openings_ - 1, 0);
   return counters;
 }

@@ -22,6 +22,8 @@ const Table<NodeletParameters>& nodeletTable() {
            "Frame of the robot, for the odometry of the base.", "REP-105"},
           {"publish_tf", &P::publish_tf, "", false, false, true, {},
            "Whether the base publishes its odometry on /tf; visual odometry does so by default.", "REP-105"},
+          {"session_begin", &P::session_begin, "", "", false, false, {},
+           "File in which the simulated devices of a launch agree on the begin of their session, new for each launch; empty: a camera's session begins when it is opened.", ""},
           {"queue", &P::queue, "messages", 1000, 10, 100000, {},
            "Messages that may wait for publication; beyond that new ones are dropped and counted. Reading never waits.", ""},
       });

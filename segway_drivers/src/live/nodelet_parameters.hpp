@@ -14,6 +14,7 @@ struct NodeletParameters {
   std::string frame;
   std::string base_frame;
   bool publish_tf;
+  std::string session_begin;
   int queue;  // messages
 
   NodeletParameters();

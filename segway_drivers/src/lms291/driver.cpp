@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::array<int, 4> lms_rates = {500000, 38400, 19200, 9600};
 constexpr TimeNs lms_listen = 100'000'000, lms_find_timeout = 200'000'000, lms_settle = 250'000'000;  // ns
-constexpr TimeNs lms_mode_timeout = 3'000'000'000, lms_query_timeout = 1'000'000'000,
+constexpr TimeNs lms_mode_timeout = 3'000'000'000, lms_query_timeout = 400'000'000, lms_first_timeout = 250'000'000,
                  lms_rewrite_timeout = 15'000'000'000;
 constexpr TimeNs lms_silence = 200'000'000;
 constexpr int lms_soft_restarts = 3, lms_rounds_per_opening = 3;
@@ -55,7 +55,7 @@ void LmsDriver::enter(Phase phase, TimeNs now) {
       stream_.clear();
       deadline_ = now + lms_settle;
       break;
-    case Phase::Status: request_.start(lmsStatusCommand(), lms_query_timeout); break;
+    case Phase::Status: request_.start(lmsStatusCommand(), lms_first_timeout); break;
     case Phase::Type: request_.start(lmsTypeCommand(), lms_query_timeout); break;
     case Phase::Configuration: request_.start(lmsConfigurationCommand(), lms_query_timeout); break;
     case Phase::Installation: request_.start(lmsInstallationCommand(), lms_mode_timeout); break;

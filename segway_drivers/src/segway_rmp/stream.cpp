@@ -11,6 +11,7 @@ namespace {
 
 constexpr double rmp_period = 0.01;  // s
 constexpr double rmp_usb_baud = 460800.0;
+constexpr TimeNs rmp_silence = 50'000'000;  // ns, between messages of adjacent cycles at most
 
 ClockOptions rmpClockOptions() {
   ClockOptions options;
@@ -47,13 +48,21 @@ void RmpStream::add(const CanFrame& frame, std::uint64_t offset, TimeNs arrival)
 void RmpStream::placeCycle(const CanFrame& frame, TimeNs arrival) {
   if (arrival == 0) return;
   const auto latency = static_cast<TimeNs>(std::llround(1e9 * latency_));
+  if (last_arrival_ &&
+      arrival - *last_arrival_ > rmp_silence) {  // the time of this cycle is not known before its count
+    cycle_arrival_.reset();
+    cycle_stamp_.reset();
+    is_resumed_ = true;
+  }
+  last_arrival_ = arrival;
   if (frame.id == 0x400) {
     cycle_arrival_ = arrival;
     const ClockEstimate estimate = clock_.estimate(cycle_time_ + rmp_period);
     cycle_stamp_.reset();
-    if (estimate.time) cycle_stamp_ = *estimate.time - latency;
+    if (estimate.time && !is_resumed_) cycle_stamp_ = *estimate.time - latency;
   }
   if (frame.id != 0x402) return;
+  is_resumed_ = false;
   const TimeNs begin = cycle_arrival_.value_or(arrival);
   cycle_arrival_.reset();
   const UnwrappedCount position = counter_.add(frame.word(3), begin);

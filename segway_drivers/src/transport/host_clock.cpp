@@ -12,7 +12,7 @@ constexpr TimeNs least_clock_step = 1'000'000;  // ns
 }  // namespace
 
 TimeNs HostClock::follow() {
-  const TimeNs offset = realTimeOffset(), step = offset - offset_;
+  const TimeNs offset = read_(), step = offset - offset_;
   if (std::llabs(step) < least_clock_step) {
     offset_ += step / 16;  // averages the readings
     return 0;

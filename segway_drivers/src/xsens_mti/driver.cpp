@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::array<int, 4> mti_rates = {115200, 460800, 230400, 57600};
 constexpr TimeNs mti_find_timeout = 100'000'000, mti_timeout = 500'000'000, mti_silence = 200'000'000;  // ns
-constexpr int mti_find_tries = 20, mti_soft_restarts = 3, mti_samples_as_it_is = 100;
+constexpr int mti_find_tries = 20, mti_other_tries = 4, mti_soft_restarts = 3, mti_samples_as_it_is = 100;
 constexpr std::uint8_t mti_answer_to = 1;  // added to the identifier of a request
 constexpr std::uint8_t mti_not_implemented = 0x04;
 
@@ -39,9 +39,11 @@ MtiDriver::MtiDriver(const Options& options) : options_(options), stream_(option
 void MtiDriver::begin(TimeNs now) {
   now_ = last_sample_ = now;
   soft_restarts_ = 0;
-  find(0);
+  find(known_rate_.value_or(0));
 }
 
+/// The rate at which the device has answered before is tried for 2 s, since it may be booting; others then more
+/// briefly.
 void MtiDriver::find(std::size_t rate) {
   rate_ = rate;
   ignored_ = 0;
@@ -52,7 +54,8 @@ void MtiDriver::find(std::size_t rate) {
   stream_.setBaud(mti_rates[rate_]);
   stream_.clear();
   phase_ = Phase::Find;
-  request_.start(mtiGoToConfigCommand(), mti_find_timeout, mti_find_tries);
+  request_.start(mtiGoToConfigCommand(), mti_find_timeout,
+                 known_rate_ && *known_rate_ != rate ? mti_other_tries : mti_find_tries);
 }
 
 std::uint16_t MtiDriver::periodCounts() const { return static_cast<std::uint16_t>(115200 / options_.rate); }
@@ -103,11 +106,11 @@ void MtiDriver::fail() {
   } else if (phase_ == Phase::Find && ignored_ >= mti_samples_as_it_is) {
     report(true, "streams and ignores requests: used as it is; switch it off and on to configure it");
     enter(Phase::Stream);
-  } else if (phase_ == Phase::Find && rate_ + 1 == mti_rates.size()) {
+  } else if (phase_ == Phase::Find && (rate_ + 1) % mti_rates.size() == known_rate_.value_or(0)) {
     write(mtiResetCommand());
     reopen();
   } else {
-    find(phase_ == Phase::Find ? rate_ + 1 : rate_);
+    find(phase_ == Phase::Find ? (rate_ + 1) % mti_rates.size() : rate_);
   }
 }
 
@@ -119,7 +122,7 @@ void MtiDriver::watch(TimeNs now) {
     write(mtiGoToMeasurementCommand());
   } else {
     soft_restarts_ = 0;
-    find(0);
+    find(known_rate_.value_or(0));
   }
 }
 
@@ -155,6 +158,7 @@ void MtiDriver::takeAnswer(const MtiMessage& message) {
       enter(Phase::DeviceId);
       break;
     case Phase::DeviceId:
+      known_rate_ = rate_;
       setIdentity("MTi " + printHex(data));
       enter(Phase::Product);
       break;

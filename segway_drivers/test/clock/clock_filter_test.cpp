@@ -102,6 +102,15 @@ TEST(ClockFilter, ARiseSoonAfterTheStartDoesNotTiltTheLine) {
   }
 }
 
+/// An adapter that hands over bytes every 16 ms: a period that beats against it meets the least delay again and again.
+TEST(ClockFilter, BatchesOfAnAdapter) {
+  const auto delay = [](double t, std::mt19937&) { return 0.016 * std::ceil((t + 1e-3) / 0.016) - t; };
+  const ClockTrial trial = runClock(0.0133381, 60.0, 20.0, delay, 7);
+  EXPECT_LT(trial.worst_early, 1e-3);
+  EXPECT_LT(trial.worst, 0.3e-3);
+  EXPECT_TRUE(trial.rises);
+}
+
 TEST(ClockFilter, AStallWithABacklogDoesNotTiltAYoungLine) {
   const auto delay = [](double t, std::mt19937& random) {
     return longTail(t, random) + (t > 10.0 && t < 12.0 ? 12.0 - t : 0.0);

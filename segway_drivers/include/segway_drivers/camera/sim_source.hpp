@@ -46,6 +46,7 @@ struct SimCameraOptions {
   double transfer = 0.02;              ///< s from the middle of the exposure to the arrival
   double bus_begin = 0.0;              ///< s, time of the bus when the session begins
   double bus_skew = 0.0;               ///< bus seconds per second less 1
+  std::optional<TimeNs> begin;         ///< of the session by the clock, ns; nullopt: when the camera is first opened
   std::vector<SimCameraFault> faults;
 };
 

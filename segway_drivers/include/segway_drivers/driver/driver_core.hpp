@@ -73,7 +73,7 @@ class DriverCore {
   std::string identity_;
   std::vector<DriverAction> actions_;
   std::vector<DriverEvent> events_;
-  std::int64_t openings_ = 0, unexpected_ = 0, timeouts_ = 0;
+  std::int64_t openings_ = 0, stalls_ = 0, unexpected_ = 0, timeouts_ = 0;
 };
 
 /// A request that is repeated until its answer comes, three times at most.

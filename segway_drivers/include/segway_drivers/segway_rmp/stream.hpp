@@ -46,7 +46,8 @@ class RmpStream {
   FrameStream::Sink sink_;
   ClockFilter clock_;
   CounterUnwrapper counter_;
-  std::optional<TimeNs> cycle_arrival_, cycle_stamp_;
+  std::optional<TimeNs> last_arrival_, cycle_arrival_, cycle_stamp_;
+  bool is_resumed_ = false;  // after a silence, until the next count
   double cycle_time_ = 0.0;  // s of the device
   std::int64_t frames_ = 0, gaps_ = 0, unexpected_ = 0;
 };

@@ -14,6 +14,7 @@ struct DeviceCounters {
   std::int64_t gaps = 0;           ///< measurements missing by the device's counter
   std::int64_t unexpected = 0;     ///< replies and messages that nothing asked for
   std::int64_t timeouts = 0;       ///< replies that did not come, frames that did not end
+  std::int64_t stalls = 0;         ///< times that a stream fell silent
   std::int64_t reconnections = 0;  ///< times that the port was opened again
   std::int64_t epochs = 0;         ///< times that the estimate of the device clock began again after the first
 };

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
+#include <utility>
+
 #include "segway_drivers/transport/port.hpp"
 
 namespace segway_drivers {
@@ -9,13 +12,15 @@ namespace segway_drivers {
 /// reports its steps. Not thread-safe.
 class HostClock {
  public:
-  HostClock() : offset_(realTimeOffset()) {}
+  /// `read`: real time minus steady time, ns.
+  explicit HostClock(std::function<TimeNs()> read = realTimeOffset) : read_(std::move(read)), offset_(read_()) {}
 
   TimeNs toReal(TimeNs steady) const { return steady + offset_; }
   /// To be called often. Returns the size of a step of the real clock, ns, beyond 1 ms; 0 if there was none.
   TimeNs follow();
 
  private:
+  std::function<TimeNs()> read_;
   TimeNs offset_;
 };
 

@@ -64,6 +64,7 @@ class MtiDriver : public DriverCore {
   PendingRequest request_;
   Phase phase_ = Phase::Find;
   std::size_t rate_ = 0;
+  std::optional<std::size_t> known_rate_;  // at which the device has answered
   unsigned mode_ = 0, settings_ = 0;  // in force
   TimeNs now_ = 0, last_sample_ = 0;
   int ignored_ = 0, soft_restarts_ = 0;

@@ -68,6 +68,7 @@ Json jsonOfCounters(const segway_drivers::DeviceCounters& counters, const std::s
   json["gaps"] = counters.gaps;
   json["unexpected"] = counters.unexpected;
   json["timeouts"] = counters.timeouts;
+  json["stalls"] = counters.stalls;
   json["reconnections"] = counters.reconnections;
   json["epochs"] = counters.epochs;
   json["state"] = state;
@@ -159,12 +160,26 @@ urban_nav_sim::DeviceOptions deviceOptions(const Arguments& arguments) {
   return options;
 }
 
+/// The session that --world and its options describe, for jobs without --bag.
+urban_nav_sim::SessionOptions sessionOptions(const Arguments& arguments) {
+  if (!arguments.has("bag") && !arguments.has("world"))
+    throw UserError("urban_nav device", "--bag is missing", "--bag BAG, or --world W");
+  urban_nav_sim::SessionOptions session;
+  session.world = arguments.get("world", session.world);
+  session.route = arguments.get("route", session.route);
+  session.day = static_cast<int>(arguments.integer("day", 1, 1, 100000));
+  session.duration = arguments.number("duration", session.duration, 0.1, 86400.0);
+  session.seed = static_cast<std::uint32_t>(arguments.integer("seed", 1, 0, 4294967295));
+  return session;
+}
+
 std::int64_t runSimulatedCamera(const std::string& kind, const Arguments& arguments,
                                 const std::function<bool()>& stop) {
   SimulateCameraJob job;
   job.kind = kind;
   job.source = requiredValue(arguments, "source");
-  job.bag = requiredValue(arguments, "bag");
+  job.bag = arguments.get("bag");
+  job.session = sessionOptions(arguments);
   job.truth = arguments.get("truth");
   job.options = deviceOptions(arguments);
   return simulateCamera(job, stop);
@@ -178,15 +193,10 @@ std::int64_t runSimulatedDevice(const std::string& kind, const Arguments& argume
   job.tcp = static_cast<int>(arguments.integer("tcp", 0, 1, 65535));
   if (job.tcp > 0 && job.kind != "gps") throw UserError("--tcp", job.kind, "gps");
   if (job.tcp == 0) job.link = requiredValue(arguments, "link");
-  if (!arguments.has("bag") && !arguments.has("world"))
-    throw UserError("urban_nav device", "--bag is missing", "--bag BAG, or --world W");
   job.bag = arguments.get("bag");
-  job.session.world = arguments.get("world", job.session.world);
-  job.session.route = arguments.get("route", job.session.route);
-  job.session.day = static_cast<int>(arguments.integer("day", 1, 1, 100000));
-  job.session.duration = arguments.number("duration", job.session.duration, 0.1, 86400.0);
-  job.session.seed = static_cast<std::uint32_t>(arguments.integer("seed", 1, 0, 4294967295));
+  job.session = sessionOptions(arguments);
   job.side = arguments.get("side", "left");
+  job.begin = arguments.get("begin");
   job.truth = arguments.get("truth");
   job.options = deviceOptions(arguments);
   return simulateDevice(job, stop);
@@ -235,7 +245,7 @@ std::string deviceHelp(const Arguments& arguments) {
          "  encode KIND COMMAND [ARGUMENT...]    the bytes of a command, in hexadecimal\n"
          "  run KIND --port PATH --duration S -o OUT.csv  a device at a serial port, or gpsd at HOST:PORT\n"
          "  simulate KIND --link PATH --bag BAG  a device on a pseudo-terminal, fed by a bag of simulate or by --world\n"
-         "  simulate CAMERA --source FILE --bag BAG  raw frames of a camera, and FILE.csv, their index\n"
+         "  simulate CAMERA --source FILE --bag BAG  raw frames of a camera, and FILE.csv, their index; or by --world\n"
          "  stamp IN.csv -o OUT.csv              device_s,arrival_ns through the clock filter\n"
          "kinds: " +
          kinds + "\n\nparameters (--config FILE, --set segway_drivers.KEY=VALUE):\n" +
@@ -276,6 +286,12 @@ Command deviceCommand() {
       {"--fault", "KIND:START_S:DURATION_S[:VALUE]", "simulate: " + urban_nav_sim::deviceFaultList(), false, true, {}},
       {"--clock", "OFFSET_S:PPM", "simulate: clock of the device against the host's", false, false, {}},
       {"--delay", "MODEL", "simulate: exponential:MIN:MEAN:MAX, uniform:MIN:MAX or batch:MS, in ms", false, false, {}},
+      {"--begin",
+       "FILE",
+       "simulate: devices that name the same new file begin their sessions together",
+       false,
+       false,
+       {}},
       {"--truth", "FILE", "simulate: write sequence,true_ns of each measurement", false, false, {}},
       {"--period", "S", "stamp: nominal spacing of the device times, s (default 0.01)", false, false, {}},
       {"--tolerance-ppm", "P", "stamp: largest skew of the device clock, ppm (default 200)", false, false, {}},

@@ -25,7 +25,8 @@ namespace {
 
 constexpr double earth_field = 50e-6;  // T, about 1 unit of an MTi
 
-/// Calls `take(message, time)` for each message of a topic; `time`: s since the first.
+/// Calls `take(message, time)` for each message of a topic; `time`: s since the bag begins, the same for all devices.
+/// Returns the begin, s.
 template <typename Message>
 double forEachOfTopic(const std::string& path, const std::string& topic,
                       const std::function<void(const Message& message, double time)>& take) {
@@ -33,16 +34,16 @@ double forEachOfTopic(const std::string& path, const std::string& topic,
     rosbag::Bag bag(path, rosbag::bagmode::Read);
     rosbag::View view(
         bag, [&](const rosbag::ConnectionInfo* each) { return each->topic == topic || each->topic == "/" + topic; });
-    double first = -1.0;
+    const double begin = rosbag::View(bag).getBeginTime().toSec();
+    bool is_empty = true;
     for (const rosbag::MessageInstance& instance : view) {
       const auto message = instance.instantiate<Message>();
       if (!message) continue;
-      const double stamp = message->header.stamp.toSec();
-      if (first < 0.0) first = stamp;
-      take(*message, stamp - first);
+      is_empty = false;
+      take(*message, std::max(message->header.stamp.toSec() - begin, 0.0));
     }
-    if (first < 0.0) throw DataError(path, "holds nothing on " + topic, "");
-    return first;
+    if (is_empty) throw DataError(path, "holds nothing on " + topic, "");
+    return begin;
   } catch (const rosbag::BagException& error) {
     throw UserError(path, error.what(), "a bag of urban_nav simulate");
   }

@@ -3,9 +3,10 @@
 
 #include <cmath>
 
+#include "device/session_frames.hpp"
+#include "segway_drivers/camera/bag_pictures.hpp"
 #include "segway_drivers/camera/bus_time.hpp"
 #include "segway_drivers/camera/record_frames.hpp"
-#include "segway_drivers/camera/bag_pictures.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/types/error.hpp"
 
@@ -39,6 +40,12 @@ SimCameraOptions toCameraOptions(const SimulateCameraJob& job) {
   return options;
 }
 
+segway_drivers::FrameReader readFrames(const SimulateCameraJob& job, SimCameraOptions::Model model) {
+  if (job.bag.empty()) return simulateFrames(job.session, model);
+  return model == SimCameraOptions::Model::Ladybug2 ? segway_drivers::readLadybugFrames(job.bag)
+                                                    : segway_drivers::readStereoFrames(job.bag);
+}
+
 }  // namespace
 
 bool isCamera(const std::string& kind) { return kind == "bumblebee2" || kind == "ladybug2"; }
@@ -46,9 +53,7 @@ bool isCamera(const std::string& kind) { return kind == "bumblebee2" || kind == 
 std::int64_t simulateCamera(const SimulateCameraJob& job, const std::function<bool()>& stop) {
   const SimCameraOptions options = toCameraOptions(job);
   if (job.options.delay) throw UserError("--delay", job.kind, "a serial device: cameras are stamped by the bus");
-  const segway_drivers::FrameReader read = options.model == SimCameraOptions::Model::Ladybug2
-                                               ? segway_drivers::readLadybugFrames(job.bag)
-                                               : segway_drivers::readStereoFrames(job.bag);
+  const segway_drivers::FrameReader read = readFrames(job, options.model);
   urban_nav_core::AtomicFile frames(job.source);
   std::string index = "offset,arrival_ns,sequence,bytes,corrupt\n", truth = "sequence,true_ns\n";
   std::size_t offset = 0;

@@ -6,12 +6,14 @@
 #include <string>
 
 #include "urban_nav_sim/device/simulated_device.hpp"
+#include "urban_nav_sim/session.hpp"
 
 namespace urban_nav {
 
 struct SimulateCameraJob {
-  std::string kind;    ///< bumblebee2, ladybug2
-  std::string bag;     ///< recorded session
+  std::string kind;  ///< bumblebee2, ladybug2
+  std::string bag;   ///< recorded session; empty: `session` is simulated
+  urban_nav_sim::SessionOptions session;
   std::string source;  ///< raw frames one after another; `SOURCE.csv` is their index
   std::string truth;   ///< file of `sequence,true_ns`, or empty
   urban_nav_sim::DeviceOptions options;

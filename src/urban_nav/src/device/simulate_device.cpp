@@ -4,12 +4,15 @@
 #include <memory>
 
 #include "device/session_readings.hpp"
+#include "segway_drivers/transport/session_begin.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_sim/device/device_server.hpp"
 
 namespace urban_nav {
 
 namespace {
+
+constexpr urban_nav_sim::DeviceTime session_lead = 4'000'000'000;  // ns, for the other devices to start
 
 std::unique_ptr<urban_nav_sim::SimulatedDevice> makeSimulatedDevice(const SimulateDeviceJob& job,
                                                                     DeviceReadings readings) {
@@ -31,7 +34,9 @@ std::int64_t simulateDevice(const SimulateDeviceJob& job, const std::function<bo
   const auto device = makeSimulatedDevice(job, std::move(readings));
   const auto link = job.tcp > 0 ? urban_nav_sim::openTcpServer(job.tcp, urban_nav_sim::gpsdGreeting())
                                 : urban_nav_sim::openPseudoTerminal(job.link);
-  const std::vector<urban_nav_sim::DeviceTruth> truth = serveDevice(*device, *link, stop);
+  std::optional<urban_nav_sim::DeviceTime> begin;
+  if (!job.begin.empty()) begin = segway_drivers::agreeOnBegin(job.begin, session_lead);
+  const std::vector<urban_nav_sim::DeviceTruth> truth = serveDevice(*device, *link, stop, begin);
   if (!job.truth.empty()) {
     std::string text = "sequence,true_ns\n";
     for (const auto& each : truth) text += std::to_string(each.sequence) + "," + std::to_string(each.time) + "\n";

@@ -18,6 +18,7 @@ struct SimulateDeviceJob {
   std::string link;           ///< path of the port
   int tcp = 0;                ///< gps: serve gpsd's protocol at this port instead
   std::string truth;          ///< file of `sequence,true_ns`, or empty
+  std::string begin;          ///< file in which devices agree on the begin of the session; empty: at once
   urban_nav_sim::DeviceOptions options;
 };
 

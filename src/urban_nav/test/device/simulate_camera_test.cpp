@@ -83,6 +83,15 @@ TEST_F(SimulateCamera, FramesHoldTheImagesOfTheBagAndTheIndexTheirTimes) {
   }
 }
 
+TEST_F(SimulateCamera, ASessionIsSimulatedWhereThereIsNoBag) {
+  job_.bag.clear();
+  job_.session.duration = 0.2;
+  EXPECT_EQ(simulate(), 4);
+  EXPECT_EQ(urban_nav_core::readTextFile(job_.source).size(), 4 * segway_drivers::bb2_frame_size);
+  job_.kind = "ladybug2";
+  EXPECT_EQ(simulate(), 1);
+}
+
 TEST_F(SimulateCamera, TheSameJobGivesTheSameBytes) {
   job_.options.faults = {urban_nav_sim::parseDeviceFault("unplug:0.5:0.5")};
   EXPECT_NEAR(static_cast<double>(simulate()), 30.0, 1.0);

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "segway_drivers/driver/driver_core.hpp"
@@ -25,11 +27,19 @@ class SteppedDevice {
   std::int64_t now() const { return now_; }
   double seconds() const { return 1e-9 * static_cast<double>(now_ - begin); }
   const std::vector<urban_nav_sim::DeviceTruth>& truth() const { return truth_; }
+  /// For long runs: what was recorded of the truth is dropped.
+  void forgetTruth() { truth_.clear(); }
   const std::vector<segway_drivers::DriverEvent>& events() const { return events_; }
   bool reported(const std::string& text) const {
     return std::any_of(events_.begin(), events_.end(), [&](const segway_drivers::DriverEvent& each) {
       return each.text.find(text) != std::string::npos;
     });
+  }
+  /// When an event with this text was first reported at or after a time, s; empty: never.
+  std::optional<double> reportedAt(const std::string& text, double after) const {
+    for (std::size_t i = 0; i < events_.size(); ++i)
+      if (event_times_[i] >= after && events_[i].text.find(text) != std::string::npos) return event_times_[i];
+    return std::nullopt;
   }
   static constexpr std::int64_t step = 1'000'000, begin = 1'000'000'000'000;
 
@@ -62,7 +72,10 @@ class SteppedDevice {
       driver_.tick(now_);
       act();
     }
-    for (segway_drivers::DriverEvent& event : driver_.takeEvents()) events_.push_back(std::move(event));
+    for (segway_drivers::DriverEvent& event : driver_.takeEvents()) {
+      events_.push_back(std::move(event));
+      event_times_.push_back(seconds());
+    }
   }
 
   segway_drivers::DriverCore& driver_;
@@ -72,6 +85,7 @@ class SteppedDevice {
   bool is_open_ = false;
   std::vector<urban_nav_sim::DeviceTruth> truth_;
   std::vector<segway_drivers::DriverEvent> events_;
+  std::vector<double> event_times_;  // s, of each event
 };
 
 }  // namespace urban_nav::testing

@@ -17,10 +17,11 @@ DeviceTime readServerClock(clockid_t clock) {
 
 }  // namespace
 
-std::vector<DeviceTruth> serveDevice(SimulatedDevice& device, DeviceLink& link, const std::function<bool()>& stop) {
+std::vector<DeviceTruth> serveDevice(SimulatedDevice& device, DeviceLink& link, const std::function<bool()>& stop,
+                                     std::optional<DeviceTime> begin) {
   std::vector<DeviceTruth> truth;
   DeviceTime next = readServerClock(CLOCK_MONOTONIC);
-  device.start(next);
+  device.start(begin.value_or(next));
   bool plugged = true;
   while (!device.isFinished() && !stop()) {
     next += server_step;

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,8 +29,10 @@ std::unique_ptr<DeviceLink> openPseudoTerminal(const std::string& path);
 /// TCP server for one client at a time at a port of this host; each is sent the greeting. Throws DataError.
 std::unique_ptr<DeviceLink> openTcpServer(int port, const std::string& greeting);
 
-/// Runs a device in real time until its session ends or `stop` returns true. Returns the truth of all measurements, by
-/// real time.
-std::vector<DeviceTruth> serveDevice(SimulatedDevice& device, DeviceLink& link, const std::function<bool()>& stop);
+/// Runs a device in real time until its session ends or `stop` returns true. `begin`: of the session by the steady
+/// clock, ns; before it the device is there and does not measure; nullopt: now. Returns the truth of all measurements,
+/// by real time.
+std::vector<DeviceTruth> serveDevice(SimulatedDevice& device, DeviceLink& link, const std::function<bool()>& stop,
+                                     std::optional<DeviceTime> begin = {});
 
 }  // namespace urban_nav_sim
