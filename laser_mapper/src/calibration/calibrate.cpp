@@ -50,7 +50,7 @@ class Calibrator {
     for (std::size_t i = 0; i < terms_.size(); ++i)
       for (int t = 0; t < kCalibrationTerms; ++t)
         if (!wanted[kCalibrationTerms * i + static_cast<std::size_t>(t)]) terms_[i](t) = 0.0;
-    const bool all = std::find(wanted.begin(), wanted.end(), false) == wanted.end();
+    const bool all = std::all_of(wanted.begin(), wanted.end(), [](bool is_wanted) { return is_wanted; });
     const int iterations = all ? static_cast<int>(std::size(kReaches)) : kRefinements;
     TermEstimate estimate;
     for (int i = 0; i < iterations; ++i) {
@@ -125,6 +125,10 @@ class Calibrator {
   std::size_t places_ = 0;
 };
 
+bool holdsTrue(const std::vector<bool>& values) {
+  return std::find(values.begin(), values.end(), true) != values.end();
+}
+
 void judgeByHeldOut(const std::vector<CalibrationStretch::Spread>& spreads, CalibrationResult& result) {
   result.held_out = spreads.size();
   if (spreads.size() < 2) return;
@@ -155,9 +159,17 @@ CalibrationResult calibrateLasers(const Parameters& parameters, urban_nav_store:
   if (all.mean.size() == 0) return result;
   result.places = calibrator.places();
   result.unconstrained = describeUnconstrained(all, calibrator.lasers());
-  const std::vector<bool> significant = significantTerms(all);
-  result.is_significant = std::find(significant.begin(), significant.end(), true) != significant.end();
-  const TermEstimate chosen = result.is_significant ? calibrator.estimate(significant) : all;
+  std::vector<bool> significant = significantTerms(all);
+  TermEstimate chosen = all;
+  for (bool is_settled = !holdsTrue(significant); !is_settled;) {
+    chosen = calibrator.estimate(significant);
+    is_settled = true;
+    for (std::size_t term = 0; term < terms;
+         ++term)  // what is not observable beside the others is not adopted with them
+      if (significant[term] && !chosen.isConstrained(static_cast<Index>(term))) significant[term] = is_settled = false;
+    is_settled = is_settled || !holdsTrue(significant);
+  }
+  result.is_significant = holdsTrue(significant);
   judgeByHeldOut(calibrator.compareHeldOut(), result);
   for (std::size_t i = 0; i < calibrator.lasers().size(); ++i) {
     LaserCalibration laser;
@@ -166,7 +178,7 @@ CalibrationResult calibrateLasers(const Parameters& parameters, urban_nav_store:
       const std::size_t term = kCalibrationTerms * i + t;
       const auto at = static_cast<Index>(term);
       const TermEstimate& from = significant[term] ? chosen : all;
-      laser.terms[t] = {from.mean(at), from.sigma(at), all.isConstrained(at),
+      laser.terms[t] = {from.mean(at), from.sigma(at), from.isConstrained(at),
                         significant[term] && result.isAdopted() ? chosen.mean(at) : 0.0};
     }
     result.lasers.push_back(laser);
