@@ -9,16 +9,17 @@
 namespace scene_labeler {
 namespace {
 
-constexpr std::size_t most_frames = 6;      // then the camera is known
-constexpr std::size_t least_returns = 200;  // of a frame
-constexpr float sure_by_shape = 0.7F;       // probability of a class by shape alone
-constexpr float least_image_log = -4.0F;    // one return decides nothing
+constexpr std::size_t most_frames = 4;                           // then the camera is known
+constexpr std::size_t least_returns = 200, most_returns = 2000;  // of a frame
+constexpr float sure_by_shape = 0.7F;                            // probability of a class by shape alone
+constexpr float least_image_log = -4.0F;                         // one return decides nothing
 
 }  // namespace
 
 void MountingCheck::add(const Scene& scene, const FeatureTable& table) {
   if (frames_ >= most_frames || scene.view.image.empty()) return;
   Scene turned = scene;
+  turned.view.image = cv::Mat();  // the copy shares the pixels
   cv::rotate(scene.view.image, turned.view.image, cv::ROTATE_180);
   FeatureTable upside_down = table;
   measureImageFeatures(turned, model_.features, upside_down);
@@ -26,8 +27,12 @@ void MountingCheck::add(const Scene& scene, const FeatureTable& table) {
   std::vector<float> row(table.columns()), by_shape(classes), by_image(classes), by_turned(classes);
   double sum = 0.0;
   std::size_t returns = 0;
+  const auto visible =
+      static_cast<std::size_t>(std::count(scene.view.is_visible.begin(), scene.view.is_visible.end(), std::uint8_t{1}));
+  const std::size_t step = visible / most_returns + 1;
+  std::size_t number = 0;
   for (std::size_t i = 0; i < scene.points.size(); ++i) {
-    if (scene.view.is_visible[i] == 0) continue;
+    if (scene.view.is_visible[i] == 0 || number++ % step != 0) continue;
     std::copy_n(table.row(i), first_of_image, row.begin());
     std::fill(row.begin() + static_cast<std::ptrdiff_t>(first_of_image), row.end(), missing_feature);
     model_.logProbabilities(row.data(), by_shape.data());
