@@ -29,8 +29,8 @@ struct StoredPlaces {
   std::size_t other_model = 0;         ///< places left out: their words are those of another model
 };
 
-/// Reads the places whose words are those of the model with this hash, with the distance driven by the trajectory of the
-/// store; without one, places count as one metre apart. Throws DataError if a row is damaged.
+/// Reads the places whose words are those of the model with this hash, with the distance driven along the stored
+/// trajectory; without one, places count as one metre apart. Throws DataError if a row is damaged.
 StoredPlaces readPlaces(urban_nav_store::Store& store, const std::string& model_hash, std::size_t vocabulary_size);
 
 /// Writes sessions with their places and the model whose words these are. The store is not committed.

@@ -9,6 +9,7 @@
 #include "commands/commands.hpp"
 #include "inspect/map_crs.hpp"
 #include "inspect/map_export.hpp"
+#include "inspect/place_export.hpp"
 #include "inspect/store_export.hpp"
 #include "pipeline/parameters.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
@@ -43,9 +44,11 @@ MapFilePaths mapFilePaths(const Arguments& arguments, std::size_t number) {
 }
 
 void checkFormats(const Arguments& arguments) {
-  if (!mapFilePaths(arguments, 0).any() && !arguments.has("tum") && !arguments.has("kitti") && !arguments.has("g2o"))
+  const bool any = mapFilePaths(arguments, 0).any() || arguments.has("tum") || arguments.has("kitti") ||
+                   arguments.has("g2o") || arguments.has("places");
+  if (!any)
     throw UserError("urban_nav export", "no format is asked for",
-                    "--tum, --kitti, --g2o, --ply, --pcd, --las, --grid, --ortho or --mesh FILE");
+                    "--tum, --kitti, --g2o, --ply, --pcd, --las, --grid, --ortho or --mesh FILE, or --places DIR");
   if (arguments.has("crs")) {
     parseCrs(arguments.get("crs"));
     if (!arguments.has("las")) throw UserError("--crs", "no --las FILE", "--las FILE, whose coordinates it sets");
@@ -144,6 +147,11 @@ int runExport(const Arguments& arguments, Console& console) {
             (graph.outside > 0 ? "; " + std::to_string(graph.outside) + " to poses that are not exported left out"
                                : ""));
   }
+  if (arguments.has("places")) {
+    const ExportedPlaces places = exportPlaces(store, maps, arguments.get("places"));
+    for (const std::string& path : places.files)
+      written.note(path, std::to_string(places.places) + " places, " + std::to_string(places.thumbnails) + " thumbnails");
+  }
   if (mapFilePaths(arguments, 0).any()) writeMaps(store, maps, arguments, written);
   if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), written.json().print());
   return 0;
@@ -182,6 +190,12 @@ Command exportCommand() {
        {}},
       {"--ortho", "FILE.png", "the map from above; its world file is written beside it", false, false, {}},
       {"--mesh", "FILE.ply", "the surface of the map as coloured triangles", false, false, {}},
+      {"--places",
+       "DIR",
+       "folder to write: places.csv with the pose of each place, their thumbnails, and the model of their words",
+       false,
+       false,
+       {}},
       {"--session", "ID", "only sessions whose id or name begins so (default: all)", false, true, {}},
       jsonOption(),
       configOption(),

@@ -5,16 +5,21 @@
 
 #include "commands/commands.hpp"
 #include "convert/convert.hpp"
+#include "inspect/place_export.hpp"
 #include "inspect/store_export.hpp"
 #include "inspect/store_info.hpp"
 #include "stage/closures_file.hpp"
 #include "support/folders.hpp"
+#include "urban_nav_core/io/csv.hpp"
 #include "urban_nav_core/io/g2o.hpp"
 #include "urban_nav_core/io/kitti.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/io/tum.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_store/dump.hpp"
+#include "urban_nav_store/table_store.hpp"
+#include "urban_nav_store/tables/stored_model.hpp"
+#include "urban_nav_store/tables/stored_place.hpp"
 
 namespace urban_nav {
 namespace {
@@ -252,6 +257,39 @@ TEST_F(StoreCommands, relaxedSessionsOfOneMapAreExportedTogether) {
   const StoreInfo info = lookIntoStore(file("joined.db"));
   EXPECT_EQ(info.joined.size(), 1U);
   EXPECT_NE(toText(info).find("joined by closures"), std::string::npos);
+}
+
+TEST_F(StoreCommands, placesAreExportedWithPosesThumbnailsAndModel) {
+  Store store(file("places.db"), Access::Write);
+  store.sessions().put({"one", "monday", "", "", 0, true});
+  for (int i = 0; i < 2; ++i) {
+    urban_nav_store::Node node;
+    node.stamp = 100 * i;
+    node.T_odom_base = Pose(urban_nav_core::Quaterniond::Identity(), {2.0 * i, 0.0, 0.0});
+    store.graph().put("one", node);
+  }
+  urban_nav_store::TableStore<urban_nav_store::StoredPlace> rows(store);
+  for (const std::int64_t stamp : {50, 900}) {
+    urban_nav_store::StoredPlace row;
+    row.session = "one";
+    row.stamp = stamp;
+    row.status = "used";
+    row.model = "abc";
+    row.thumbnail = stamp == 50 ? "jpeg" : "";
+    rows.put(row);
+  }
+  urban_nav_store::TableStore<urban_nav_store::StoredModel>(store).put({"one", "abc", "fabmap_node", "bytes"});
+  store.commit();
+  const ExportedPlaces made = exportPlaces(store, readMaps(store, selectSessions(store, {})), file("exported"));
+  EXPECT_EQ(made.places, 2);
+  EXPECT_EQ(made.thumbnails, 1);
+  const auto table = urban_nav_core::CsvTable::read(file("exported/places.csv"));
+  ASSERT_EQ(table.rows(), 2U);
+  EXPECT_DOUBLE_EQ(table.number(0, table.column("x")), 1.0) << "between its neighbours in time";
+  EXPECT_EQ(table.text(1, table.column("x")), "") << "after the trajectory";
+  EXPECT_EQ(readFile(file("exported/" + table.text(0, table.column("thumbnail")))), "jpeg");
+  EXPECT_EQ(readFile(file("exported/abc.places")), "bytes");
+  EXPECT_EQ(call({"export", file("a/session.db"), "--places", file("none")}), 1) << "a map without places";
 }
 
 }  // namespace
