@@ -10,7 +10,9 @@ namespace fabmap_node {
 namespace {
 
 constexpr int unknowns = static_cast<int>(PlaceEvidence::size) + 1;  // the weights, then the bias
-constexpr double ridge = 0.01;  // of weights of standardised evidence, relative to one sample of mean weight
+constexpr double alike = 20.0;          // neighbouring samples that count as one: 10 m of panoramas at 2 Hz and 1 m/s
+constexpr double prior_deviation = 5.0;  // of weights of standardised evidence (Gelman et al. 2008, section 3)
+constexpr double ridge = alike / (prior_deviation * prior_deviation);
 constexpr int newton_steps = 60;
 using Unknowns = Eigen::Matrix<double, unknowns, 1>;
 
@@ -72,6 +74,9 @@ PlaceCalibration fitCalibration(const std::vector<CalibrationSample>& samples) {
   // Targets as Platt (1999) has them: a sample is evidence of its kind, not certainty.
   const double yes = (static_cast<double>(right) + 1.0) / (static_cast<double>(right) + 2.0);
   const double no = 1.0 / (static_cast<double>(wrong) + 2.0);
+  double right_weight = 0.0, wrong_weight = 0.0;
+  for (const CalibrationSample& sample : samples)
+    (sample.is_same_place ? right_weight : wrong_weight) += sample.weight;
   Unknowns mean = Unknowns::Zero(), deviation = Unknowns::Zero();
   std::vector<WeightedRow> rows;
   for (const CalibrationSample& sample : samples) {
@@ -80,8 +85,8 @@ PlaceCalibration fitCalibration(const std::vector<CalibrationSample>& samples) {
     for (std::size_t i = 0; i < values.size(); ++i) row.x(static_cast<Eigen::Index>(i)) = values[i];
     row.x(unknowns - 1) = 1.0;
     row.target = sample.is_same_place ? yes : no;
-    row.weight =
-        static_cast<double>(samples.size()) / (2.0 * static_cast<double>(sample.is_same_place ? right : wrong));
+    row.weight = sample.weight * static_cast<double>(samples.size()) /
+                 (2.0 * (sample.is_same_place ? right_weight : wrong_weight));
     mean += row.x / static_cast<double>(samples.size());
     rows.push_back(row);
   }

@@ -35,9 +35,11 @@ void addWithin(const PlaceMatcher& matcher, const DescribedDrive& drive, const M
     return std::nullopt;
   };
   for (std::ptrdiff_t gap = 1; gap <= near_observations; ++gap) {
-    runs.alone.push_back(matchRun(
-        matcher, drive, [gap](std::size_t query, std::size_t place) { return observationsApart(query, place) >= gap; },
-        label));
+    runs.alone.push_back(
+        {matchRun(
+             matcher, drive,
+             [gap](std::size_t query, std::size_t place) { return observationsApart(query, place) >= gap; }, label),
+         Situation::SameDay});
     runs.sequence.push_back(runs.alone.back());
   }
   const AdmitPlace isNear = [&](std::size_t query, std::size_t place) {
@@ -46,11 +48,14 @@ void addWithin(const PlaceMatcher& matcher, const DescribedDrive& drive, const M
   const AdmitPlace isInStreet = [&](std::size_t query, std::size_t place) {
     return apart(query, place) < same_street * options.elsewhere;
   };
-  runs.alone.push_back(matchRun(
-      matcher, drive,
-      [&](std::size_t query, std::size_t place) { return !isNear(query, place) && isInStreet(query, place); },
-      [](std::size_t, std::size_t) { return std::optional<bool>(false); }));
-  for (MatchedRun& run : runsElsewhere(matcher, drive, isNear, isInStreet)) runs.sequence.push_back(std::move(run));
+  runs.alone.push_back(
+      {matchRun(
+           matcher, drive,
+           [&](std::size_t query, std::size_t place) { return !isNear(query, place) && isInStreet(query, place); },
+           [](std::size_t, std::size_t) { return std::optional<bool>(false); }),
+       Situation::Elsewhere});
+  for (MatchedRun& run : runsElsewhere(matcher, drive, isNear, isInStreet))
+    runs.sequence.push_back({std::move(run), Situation::Elsewhere});
 }
 
 }  // namespace
@@ -66,9 +71,10 @@ CalibrationRuns calibrationRuns(const std::vector<DescribedDrive>& drives, std::
     PlaceMatcher matcher(table, rest.observations, options);
     for (const DescribedPlace& place : drives[map]) matcher.add(place);
     addWithin(matcher, drives[map], options, runs);
-    runs.alone.push_back(matchRun(
-        matcher, drives[other], [](std::size_t, std::size_t) { return true; },
-        [](std::size_t, std::size_t) { return std::optional<bool>(false); }));
+    runs.alone.push_back({matchRun(
+                              matcher, drives[other], [](std::size_t, std::size_t) { return true; },
+                              [](std::size_t, std::size_t) { return std::optional<bool>(false); }),
+                          Situation::Stranger});
     runs.sequence.push_back(runs.alone.back());
     if (progress) progress(static_cast<double>(map + 1) / static_cast<double>(drives.size()));
   }

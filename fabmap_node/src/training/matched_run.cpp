@@ -2,6 +2,8 @@
 #include "training/matched_run.hpp"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include "fabmap_node/recognition/location_filter.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
@@ -11,20 +13,42 @@ namespace {
 
 constexpr std::size_t stretch_queries = 30;
 
-std::vector<CalibrationSample> samplesAlone(const std::vector<MatchedRun>& runs) {
+constexpr double least_samples = 10.0;  // of a situation for its whole weight
+
+/// Samples with their situations.
+struct SituationSamples {
   std::vector<CalibrationSample> samples;
-  for (const MatchedRun& run : runs)
-    for (const std::vector<LabelledMatch>& matches : run)
-      if (!matches.empty() && matches.front().is_same_place)
-        samples.push_back({matches.front().match.evidence, *matches.front().is_same_place});
-  return samples;
+  std::vector<Situation> situations;
+
+  void add(const LabelledMatch& match, const PlaceEvidence& evidence, Situation situation) {
+    if (!match.is_same_place) return;
+    samples.push_back({evidence, *match.is_same_place, 1.0});
+    situations.push_back(situation);
+  }
+  /// Returns the samples with weights, by which situations count the same among the right ones and the wrong ones.
+  std::vector<CalibrationSample> weighted() const {
+    std::map<std::pair<bool, Situation>, double> counts;
+    for (std::size_t i = 0; i < samples.size(); ++i) counts[{samples[i].is_same_place, situations[i]}] += 1.0;
+    std::vector<CalibrationSample> made = samples;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      made[i].weight = 1.0 / std::max(least_samples, counts[{samples[i].is_same_place, situations[i]}]);
+    return made;
+  }
+};
+
+std::vector<CalibrationSample> samplesAlone(const std::vector<SituationRun>& runs) {
+  SituationSamples samples;
+  for (const SituationRun& each : runs)
+    for (const std::vector<LabelledMatch>& matches : each.run)
+      if (!matches.empty()) samples.add(matches.front(), matches.front().match.evidence, each.situation);
+  return samples.weighted();
 }
 
-std::vector<CalibrationSample> samplesInSequence(const std::vector<MatchedRun>& runs, const PlaceCalibration& alone) {
-  std::vector<CalibrationSample> samples;
-  for (const MatchedRun& run : runs) {
+std::vector<CalibrationSample> samplesInSequence(const std::vector<SituationRun>& runs, const PlaceCalibration& alone) {
+  SituationSamples samples;
+  for (const SituationRun& each : runs) {
     LocationFilter filter;
-    for (const std::vector<LabelledMatch>& matches : run) {
+    for (const std::vector<LabelledMatch>& matches : each.run) {
       if (matches.empty()) continue;
       std::vector<LocationHypothesis> hypotheses;
       for (const LabelledMatch& one : matches)
@@ -32,11 +56,11 @@ std::vector<CalibrationSample> samplesInSequence(const std::vector<MatchedRun>& 
       const LabelledMatch& likeliest = matches[likeliestLocation(filter, hypotheses)];
       PlaceEvidence evidence = likeliest.match.evidence;
       evidence.sequence = filter.motionConsistency(likeliest.match.session, likeliest.match.place);
-      if (likeliest.is_same_place) samples.push_back({evidence, *likeliest.is_same_place});
+      samples.add(likeliest, evidence, each.situation);
       filter.update(hypotheses);
     }
   }
-  return samples;
+  return samples.weighted();
 }
 
 }  // namespace

@@ -41,13 +41,27 @@ struct KindCalibration {
   std::size_t right = 0, wrong = 0;          ///< samples of observations alone
 };
 
-/// Runs to calibrate with.
-struct CalibrationRuns {
-  std::vector<MatchedRun> alone;     ///< each observation by itself; its first match counts
-  std::vector<MatchedRun> sequence;  ///< observations in order; the place that LocationFilter finds likeliest counts
+/// Situation of a robot whose runs are calibrated with.
+enum class Situation {
+  SameDay,    ///< places of its own drive
+  OtherDay,   ///< places of another day
+  Elsewhere,  ///< a stretch of the site that the map does not have
+  Stranger,   ///< another site than those of the map
 };
 
-/// Fits both calibrations; that of sequences has the consistency of motion as further evidence.
+struct SituationRun {
+  MatchedRun run;
+  Situation situation = Situation::SameDay;
+};
+
+/// Runs to calibrate with.
+struct CalibrationRuns {
+  std::vector<SituationRun> alone;     ///< each observation by itself; its first match counts
+  std::vector<SituationRun> sequence;  ///< observations in order; the place that LocationFilter finds likeliest counts
+};
+
+/// Fits both calibrations; that of sequences has the consistency of motion as further evidence. Situations weigh the
+/// same among the samples of one kind, however many runs they have.
 KindCalibration fitRuns(const CalibrationRuns& runs);
 
 }  // namespace fabmap_node

@@ -15,12 +15,15 @@ namespace {
 using urban_nav_core::UserError;
 
 constexpr double same_place = 7.5, another_place = 10.0;  // m, as closures are judged (Newman et al. 2009, Fig. 10)
+constexpr double same_view = 3.0;                         // m; single images from so near show the same, if they have
+constexpr double same_direction = 0.866;                  // at least this cosine of their directions: 30 deg
 constexpr std::ptrdiff_t least_gap = 2;                   // observations of one day: nearer ones are the same picture
 
 struct LocatedPlaces {
   std::vector<DescribedPlace> places;
-  std::vector<Eigen::Vector3d> positions;
+  std::vector<Eigen::Vector3d> positions, directions;
 };
+using PlaceSite = std::vector<LocatedPlaces>;  // days
 
 /// `first_camera`: only its features, as a single image.
 LocatedPlaces describeDay(const LocatedDay& day, std::size_t number, bool first_camera, const PlaceModel& model,
@@ -39,54 +42,94 @@ LocatedPlaces describeDay(const LocatedDay& day, std::size_t number, bool first_
     described.places[i] = {number, day[i].stamp, model.vocabulary.words(observation),
                            packLook(lookFeatures(observation, look_features))};
   });
-  for (const LocatedImage& image : day) described.positions.push_back(image.position);
+  for (const LocatedImage& image : day) {
+    described.positions.push_back(image.position);
+    described.directions.push_back(image.forward);
+  }
   return described;
 }
 
-/// Runs of the queries of one day against the map of another, or of the same one. `has_right`: right ones too.
-void addDayRuns(const PlaceMatcher& matcher, const LocatedPlaces& map, const LocatedPlaces& queries, bool is_same_day,
-                bool has_right, CalibrationRuns& runs) {
-  const auto distance = [&](std::size_t query, std::size_t place) {
-    return (queries.positions[query] - map.positions[place]).norm();
-  };
-  const LabelPlace label = [&](std::size_t query, std::size_t place) -> std::optional<bool> {
-    const double off = distance(query, place);
-    if (off <= same_place) return true;
-    if (off > another_place) return false;
-    return std::nullopt;
-  };
-  const AdmitPlace isNear = [&](std::size_t query, std::size_t place) {
-    return distance(query, place) <= another_place;
-  };
-  if (has_right) {
-    runs.alone.push_back(matchRun(
-        matcher, queries.places,
-        [&](std::size_t i, std::size_t place) {
-          return !is_same_day ||
-                 std::abs(static_cast<std::ptrdiff_t>(i) - static_cast<std::ptrdiff_t>(place)) >= least_gap;
-        },
-        label));
-    runs.sequence.push_back(runs.alone.back());
-  }
-  runs.alone.push_back(matchRun(
-      matcher, queries.places, [&](std::size_t i, std::size_t place) { return !isNear(i, place); }, label));
-  for (MatchedRun& run : runsElsewhere(matcher, queries.places, isNear, [](std::size_t, std::size_t) { return true; }))
-    runs.sequence.push_back(std::move(run));
-}
+const LabelPlace always_wrong = [](std::size_t, std::size_t) { return std::optional<bool>(false); };
+const AdmitPlace every_place = [](std::size_t, std::size_t) { return true; };
 
-/// `between_days`: right matches are those of other days too. Single images look in one direction: within 7.5 m two of
-/// them may show different things, which is right by distance and wrong by what they show.
-KindCalibration fitKind(const PlaceModel& model, const std::vector<LocatedPlaces>& days, bool between_days,
-                        const MatcherOptions& options, RecalibrationReport& report) {
-  const LikelihoodTable table(model.tree, model.detector, Dependence::ChowLiu);
-  CalibrationRuns runs;
-  for (std::size_t m = 0; m < days.size(); ++m) {
-    PlaceMatcher matcher(table, model.sampled_places, options);
-    for (const DescribedPlace& place : days[m].places) matcher.add(place);
-    for (std::size_t q = m; q < days.size(); ++q)
-      addDayRuns(matcher, days[m], days[q], m == q, m == q || between_days, runs);
+/// Calibration runs of one kind of observation.
+class SiteRuns {
+ public:
+  SiteRuns(const PlaceModel& model, bool panoramas, const MatcherOptions& options)
+      : table_(model.tree, model.detector, Dependence::ChowLiu),
+        sampled_(model.sampled_places),
+        panoramas_(panoramas),
+        options_(options) {}
+
+  /// Runs of the queries of one day against the map of another day of the site, or of the same one.
+  void addDays(const LocatedPlaces& map, const LocatedPlaces& queries, bool is_same_day) {
+    const auto distance = [&](std::size_t query, std::size_t place) {
+      return (queries.positions[query] - map.positions[place]).norm();
+    };
+    const LabelPlace label = [&](std::size_t query, std::size_t place) -> std::optional<bool> {
+      const double off = distance(query, place);
+      if (off > another_place) return false;
+      const bool shows_other_things =
+          !panoramas_ && !is_same_day &&
+          (off > same_view || queries.directions[query].dot(map.directions[place]) < same_direction);
+      if (off > same_place || shows_other_things) return std::nullopt;
+      return true;
+    };
+    const AdmitPlace isNear = [&](std::size_t query, std::size_t place) {
+      return distance(query, place) <= another_place;
+    };
+    const AdmitPlace isOtherPicture = [&](std::size_t i, std::size_t place) {
+      return !is_same_day || std::abs(static_cast<std::ptrdiff_t>(i) - static_cast<std::ptrdiff_t>(place)) >= least_gap;
+    };
+    PlaceMatcher matcher(table_, sampled_, options_);
+    for (const DescribedPlace& place : map.places) matcher.add(place);
+    const SituationRun run{matchRun(matcher, queries.places, isOtherPicture, label),
+                           is_same_day ? Situation::SameDay : Situation::OtherDay};
+    // Within a session, single images are compared with neighbours: between days they may show different things.
+    if (panoramas_ || is_same_day) runs_.alone.push_back(run);
+    std::vector<SituationRun> away;
+    for (MatchedRun& each : runsElsewhere(matcher, queries.places, isNear, every_place))
+      away.push_back({std::move(each), Situation::Elsewhere});
+    runs_.alone.insert(runs_.alone.end(), away.begin(), away.end());
+    if (is_same_day) return;  // sequences count between sessions only
+    runs_.sequence.push_back(run);
+    runs_.sequence.insert(runs_.sequence.end(), away.begin(), away.end());
   }
-  KindCalibration fitted = fitRuns(runs);
+
+  /// Runs of all days of a site against the map of all other sites.
+  void addStranger(const std::vector<PlaceSite>& sites, std::size_t stranger) {
+    PlaceMatcher matcher(table_, sampled_, options_);
+    for (std::size_t s = 0; s < sites.size(); ++s)
+      if (s != stranger)
+        for (const LocatedPlaces& day : sites[s])
+          for (const DescribedPlace& place : day.places) matcher.add(place);
+    if (matcher.size() == 0) return;
+    for (const LocatedPlaces& day : sites[stranger]) {
+      runs_.alone.push_back({matchRun(matcher, day.places, every_place, always_wrong), Situation::Stranger});
+      runs_.sequence.push_back(runs_.alone.back());
+    }
+  }
+
+  const CalibrationRuns& runs() const { return runs_; }
+
+ private:
+  const LikelihoodTable table_;
+  const std::vector<WordSet>& sampled_;
+  const bool panoramas_;
+  const MatcherOptions options_;
+  CalibrationRuns runs_;
+};
+
+KindCalibration fitKind(const PlaceModel& model, const std::vector<PlaceSite>& sites, bool panoramas,
+                        const MatcherOptions& options, RecalibrationReport& report) {
+  SiteRuns runs(model, panoramas, options);
+  for (std::size_t s = 0; s < sites.size(); ++s) {
+    for (std::size_t m = 0; m < sites[s].size(); ++m)
+      for (std::size_t q = m == 0 ? 0 : m + 1; q < sites[s].size(); ++q)
+        runs.addDays(sites[s][m], sites[s][q], m == q);
+    runs.addStranger(sites, s);
+  }
+  KindCalibration fitted = fitRuns(runs.runs());
   if (fitted.right == 0 || fitted.wrong == 0)
     throw UserError("calibration", "all pairs are of " + std::string(fitted.right == 0 ? "two places" : "one place"),
                     "days that revisit places, and places more than 10 m apart");
@@ -95,19 +138,27 @@ KindCalibration fitKind(const PlaceModel& model, const std::vector<LocatedPlaces
   return fitted;
 }
 
+bool hasTwoDays(const std::vector<PlaceSite>& sites) {
+  return std::any_of(sites.begin(), sites.end(), [](const PlaceSite& site) { return site.size() > 1; });
+}
+
 }  // namespace
 
-RecalibrationReport recalibrate(PlaceModel& model, const std::vector<LocatedDay>& days, const MatcherOptions& options) {
-  if (days.size() < 2) throw UserError("calibration", std::to_string(days.size()) + " day", "at least two");
+RecalibrationReport recalibrate(PlaceModel& model, const std::vector<LocatedSite>& sites,
+                                const MatcherOptions& options) {
   RecalibrationReport report;
-  const auto isPanoramic = [](const LocatedDay& day) { return !day.empty() && day.front().observation.cameras > 1; };
-  std::vector<LocatedPlaces> panoramas, singles;
-  for (std::size_t d = 0; d < days.size(); ++d) {
-    if (isPanoramic(days[d])) panoramas.push_back(describeDay(days[d], d, false, model, options.look_features));
-    singles.push_back(describeDay(days[d], d, true, model, options.look_features));
-  }
+  std::vector<PlaceSite> panoramas(sites.size()), singles(sites.size());
+  std::size_t number = 0;
+  for (std::size_t s = 0; s < sites.size(); ++s)
+    for (const LocatedDay& day : sites[s]) {
+      if (!day.empty() && day.front().observation.cameras > 1)
+        panoramas[s].push_back(describeDay(day, number, false, model, options.look_features));
+      singles[s].push_back(describeDay(day, number, true, model, options.look_features));
+      ++number;
+    }
+  if (!hasTwoDays(singles)) throw UserError("calibration", "no site with two days", "two days at one site at least");
   const KindCalibration single = fitKind(model, singles, false, options, report);
-  const KindCalibration panorama = panoramas.size() > 1 ? fitKind(model, panoramas, true, options, report) : single;
+  const KindCalibration panorama = hasTwoDays(panoramas) ? fitKind(model, panoramas, true, options, report) : single;
   model.single = single.alone;
   model.single_sequence = single.sequence;
   model.panorama = panorama.alone;

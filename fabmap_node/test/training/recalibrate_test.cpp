@@ -34,10 +34,10 @@ PlaceModel modelOfSyntheticDrives() {
 
 TEST(Recalibrate, SeparatesPlacesSeenOnOtherDays) {
   PlaceModel model = modelOfSyntheticDrives();
-  std::vector<LocatedDay> days = {locatedDay(0), locatedDay(1)};
-  for (LocatedDay& day : days)
+  std::vector<LocatedSite> sites = {{locatedDay(0), locatedDay(1)}};
+  for (LocatedDay& day : sites[0])
     for (LocatedImage& image : day) image.observation.cameras = 5;
-  const RecalibrationReport report = recalibrate(model, days, {});
+  const RecalibrationReport report = recalibrate(model, sites, {});
   EXPECT_GT(report.right, 30u);
   EXPECT_GT(report.wrong, 30u);
   PlaceEvidence same, other;
@@ -48,10 +48,27 @@ TEST(Recalibrate, SeparatesPlacesSeenOnOtherDays) {
   EXPECT_LT(model.panorama.probability(other), 0.1);
 }
 
+TEST(Recalibrate, ClaimsLessWhereOtherSitesLookTheSame) {
+  const PlaceModel model = modelOfSyntheticDrives();
+  std::vector<LocatedSite> sites = {{locatedDay(0), locatedDay(1)}};
+  PlaceModel alone = model, beside_its_double = model;
+  recalibrate(alone, sites, {});
+  sites.push_back({locatedDay(2)});  // the same views, at another site
+  recalibrate(beside_its_double, sites, {});
+  PlaceEvidence same;
+  same.word_ratio = same.word_margin = 1.0;
+  same.look = same.look_margin = 0.8;
+  same.sequence = 1.0;
+  EXPECT_LT(beside_its_double.single.probability(same), alone.single.probability(same));
+  ASSERT_TRUE(alone.single_sequence && beside_its_double.single_sequence);
+  EXPECT_LT(beside_its_double.single_sequence->probability(same), alone.single_sequence->probability(same));
+}
+
 TEST(Recalibrate, RefusesWhatShowsNoDifference) {
   PlaceModel model = modelOfSyntheticDrives();
-  EXPECT_THROW(recalibrate(model, {locatedDay(0)}, {}), urban_nav_core::UserError);
-  EXPECT_THROW(recalibrate(model, {LocatedDay(), LocatedDay()}, {}), urban_nav_core::UserError);
+  EXPECT_THROW(recalibrate(model, {{locatedDay(0)}}, {}), urban_nav_core::UserError);
+  EXPECT_THROW(recalibrate(model, {{locatedDay(0)}, {locatedDay(1)}}, {}), urban_nav_core::UserError);
+  EXPECT_THROW(recalibrate(model, {{LocatedDay(), LocatedDay()}}, {}), urban_nav_core::UserError);
 }
 
 }  // namespace

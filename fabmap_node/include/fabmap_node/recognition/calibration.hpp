@@ -24,6 +24,7 @@ struct PlaceEvidence {
 struct CalibrationSample {
   PlaceEvidence evidence;
   bool is_same_place = false;
+  double weight = 1.0;  ///< relative to other samples of its kind
 };
 
 /// Logistic regression from evidence to the probability that the place is right. The probability never exceeds what the
@@ -37,9 +38,10 @@ struct PlaceCalibration {
   double probability(const PlaceEvidence& evidence) const;
 };
 
-/// Fits a calibration by penalised maximum likelihood. Both kinds of samples weigh the same in total. Weights that
-/// would be negative are set to zero and the others fitted again. Returns the default, which announces nothing, unless
-/// there are samples of both kinds.
+/// Fits a calibration by maximum a posteriori likelihood. Both kinds of samples weigh the same in total: an observation
+/// is at a place of the map or at a new one with the same prior probability. Samples are those of drives: neighbours
+/// look alike, and twenty of them count as one. Weights that would be negative are set to zero and the others fitted
+/// again. Returns the default, which announces nothing, unless there are samples of both kinds.
 PlaceCalibration fitCalibration(const std::vector<CalibrationSample>& samples);
 
 }  // namespace fabmap_node

@@ -14,21 +14,28 @@ namespace fabmap_node {
 struct LocatedImage {
   urban_nav_core::StampNs stamp = 0;
   PlaceObservation observation;
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m, in a frame that all days share
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();   ///< m, in a frame that all days of the site share
+  Eigen::Vector3d forward = Eigen::Vector3d::UnitX();  ///< direction of the robot in that frame, a unit vector
 };
 /// Observations of one day in order of time, with positions.
 using LocatedDay = std::vector<LocatedImage>;
+/// Days at one site.
+using LocatedSite = std::vector<LocatedDay>;
 
 struct RecalibrationReport {
   std::size_t right = 0, wrong = 0;  ///< samples of each kind
 };
 
-/// Fits the calibrations of a model anew, with several days at one place that the model was not trained with: light and
-/// weather change between them, which neighbours in one drive do not show.
+/// Fits the calibrations of a model anew, with days at sites that the model was not trained with: light and weather
+/// change between days, and other sites of the same kind look alike, which drives of `places train` do not show.
 ///
-/// Each observation is compared with each day. A match within 7.5 m is right, beyond 10 m wrong. Each observation is
-/// also compared with the places beyond 10 m alone, as one at a new place is. Days of panoramas calibrate single images
-/// too, with their first cameras. Throws UserError if there are fewer than two days, or no samples of one kind.
-RecalibrationReport recalibrate(PlaceModel& model, const std::vector<LocatedDay>& days, const MatcherOptions& options);
+/// Each observation is compared with the places of its own day (the first of each site), of each day before it at its
+/// site, of both without those nearer than 10 m, and of all other sites. A match within 7.5 m is right, beyond 10 m
+/// wrong. These situations count the same, as do right and wrong matches; sequences, which count between sessions only,
+/// are calibrated without the first. Panoramas calibrate single images too, with their first cameras; between days,
+/// those are right within 3 m in the same direction. Throws UserError if no site has two days, or if there are no
+/// samples of one kind.
+RecalibrationReport recalibrate(PlaceModel& model, const std::vector<LocatedSite>& sites,
+                                const MatcherOptions& options);
 
 }  // namespace fabmap_node

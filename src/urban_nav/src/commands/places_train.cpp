@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
 #include "command_line/console.hpp"
 #include "command_line/json.hpp"
 #include "commands/places_actions.hpp"
@@ -22,7 +24,22 @@ Json trainSummary(const fabmap_node::PlaceModel& model, const std::string& bytes
   return json;
 }
 
-/// Fits the calibrations of an existing model with days at one place whose positions are known.
+/// Groups sources by their --site; the first of each opens it.
+std::vector<std::size_t> siteNumbers(const std::vector<std::string>& names, std::size_t sources) {
+  if (!names.empty() && names.size() != sources)
+    throw urban_nav_core::UserError("--site", std::to_string(names.size()) + " names",
+                                    std::to_string(sources) + ": one for each SRC; or none, for one site");
+  std::vector<std::size_t> numbers(sources, 0);
+  std::vector<std::string> known;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    auto found = std::find(known.begin(), known.end(), names[i]);
+    if (found == known.end()) found = known.insert(known.end(), names[i]);
+    numbers[i] = static_cast<std::size_t>(found - known.begin());
+  }
+  return numbers;
+}
+
+/// Fits the calibrations of an existing model with days at sites whose positions are known.
 int runRecalibrate(const Arguments& arguments, Console& console) {
   const std::vector<std::string> sources = arguments.all("SRC"), truths = arguments.all("truth");
   if (truths.size() != sources.size())
@@ -34,15 +51,22 @@ int runRecalibrate(const Arguments& arguments, Console& console) {
     trajectories.push_back(urban_nav_core::readTum(truth));
     if (trajectories.back().empty()) throw urban_nav_core::UserError(truth, "holds no poses", "a TUM trajectory");
   }
-  std::vector<fabmap_node::LocatedDay> days;
+  const std::vector<std::size_t> site_of = siteNumbers(arguments.all("site"), sources.size());
+  std::vector<fabmap_node::LocatedSite> sites(1 + *std::max_element(site_of.begin(), site_of.end()));
+  std::size_t source = 0;
   readPlaceSessions(
-      sources, arguments.all("topic"), console, {}, [&days](std::size_t, const std::string&) { days.emplace_back(); },
+      sources, arguments.all("topic"), console, {},
+      [&](std::size_t index, const std::string&) {
+        source = index;
+        sites[site_of[source]].emplace_back();
+      },
       [&](StampedObservation place) {
-        const urban_nav_core::Trajectory& trajectory = trajectories[days.size() - 1];
-        const Eigen::Vector3d position = trajectory[trajectory.nearest(place.stamp)].pose.t();
-        days.back().push_back({place.stamp, std::move(place.observation), position});
+        const urban_nav_core::Trajectory& trajectory = trajectories[source];
+        const urban_nav_core::Pose& T_site_base = trajectory[trajectory.nearest(place.stamp)].pose;
+        sites[site_of[source]].back().push_back(
+            {place.stamp, std::move(place.observation), T_site_base.t(), T_site_base.q() * Eigen::Vector3d::UnitX()});
       });
-  const auto report = fabmap_node::recalibrate(model, days, {});
+  const auto report = fabmap_node::recalibrate(model, sites, {});
   const std::string bytes = fabmap_node::printModel(model);
   urban_nav_core::writeAtomically(arguments.get("output"), bytes);
   console.info("calibrated with " + std::to_string(report.right) + " pairs of one place and " +
@@ -110,11 +134,22 @@ Command placesTrainAction() {
       {"--sampled", "N", "observations stored for the likelihood of a new place (default 400)", false, false, {}},
       {"--calibrate",
        "MODEL",
-       "takes words and tree from MODEL and only calibrates it, on days at one place with --truth",
+       "takes words and tree from MODEL and only calibrates it, on days at known positions",
        false,
        false,
        {}},
-      {"--truth", "FILE.tum", "with --calibrate: positions, one file for each SRC, in one frame", false, true, {}},
+      {"--truth",
+       "FILE.tum",
+       "with --calibrate: poses, one file for each SRC; those of one site share a frame",
+       false,
+       true,
+       {}},
+      {"--site",
+       "NAME",
+       "with --calibrate: site of each SRC; another site never shows the same place (default: one site)",
+       false,
+       true,
+       {}},
       {"--topic", "ROLE:=NAME", "topics of bags: panorama0 ... panorama4, left (default: guessed)", false, true, {}},
       {"--seed", "N", "of the first cluster centres (default 1)", false, false, {}},
       jsonOption(),
