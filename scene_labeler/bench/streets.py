@@ -8,6 +8,7 @@ Prints the tables of README.md.
 """
 import json
 import pathlib
+import resource
 import shutil
 import subprocess
 import sys
@@ -34,9 +35,13 @@ def copy_scenes(source, target):
 
 
 def run(*words):
+    """Runs a command; returns the processor time that it took, s."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
     done = subprocess.run([str(w) for w in words], capture_output=True, text=True, check=False)
     if done.returncode:
         sys.exit(f"{' '.join(map(str, words))}: {done.stderr}")
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
 def try_default(command, work, sets):
@@ -62,7 +67,7 @@ def main():
             "oakland": (sorted((data / "oakland").glob("train_*")), sorted((data / "oakland").glob("validation_*")),
                         OAKLAND, ("paved", "wall", "foliage", "vehicle"))}
     print("| set | classifier | features | accuracy | mean F1 | F1 by class | calibration error | unsure | "
-          "training, s | us/point |\n|---|---|---|---|---|---|---|---|---|---|")
+          "training, CPU s | CPU us/point |\n|---|---|---|---|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as work:
         work = pathlib.Path(work)
         for name, (train, validation, classes, _) in sets.items():
@@ -73,17 +78,16 @@ def main():
         for kind, features in (("boosted", "all"), ("boosted", "paper"), ("forest", "all"), ("svm", "all")):
             for name, (_, _, _, scored) in sets.items():
                 model, told, table = work / "model", work / "told.json", work / name / "classes.csv"
-                run(command, "labels", "train", work / name / "train", "-o", model, "--classes", table, "--classifier",
-                    kind, "--features", features, "--json", told)
-                seconds = json.loads(told.read_text())["seconds"]
-                run(command, "labels", "evaluate", model, work / name / "validation", "--classes", table, "--json", told,
-                    "--threads", 1)
+                seconds = run(command, "labels", "train", work / name / "train", "-o", model, "--classes", table, "--classifier",
+                              kind, "--features", features, "--json", told)
+                labelling = run(command, "labels", "evaluate", model, work / name / "validation", "--classes", table, "--json", told,
+                                "--threads", 1)
                 said = json.loads(told.read_text())
                 f1 = {c: said["classes"][c]["f1"] for c in scored}
                 print(f"| {name} | {kind} | {features} | {said['accuracy']:.3f} | {sum(f1.values()) / len(f1):.3f} | "
                       + ", ".join(f"{c} {100 * v:.0f}" for c, v in f1.items())
                       + f" | {said['calibration_error']:.3f} | {100 * said['unsure_share']:.0f} % | {seconds:.0f} | "
-                      f"{said['us_per_point']:.0f} |", flush=True)
+                      f"{1e6 * labelling / said['points']:.0f} |", flush=True)
         try_default(command, work, sets)
 
 

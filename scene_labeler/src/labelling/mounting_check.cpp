@@ -9,10 +9,10 @@
 namespace scene_labeler {
 namespace {
 
-constexpr std::size_t most_frames = 4;                           // then the camera is known
-constexpr std::size_t least_returns = 200, most_returns = 2000;  // of a frame
-constexpr float sure_by_shape = 0.7F;                            // probability of a class by shape alone
-constexpr float least_image_log = -4.0F;                         // one return decides nothing
+constexpr std::size_t most_frames = 4;                             // then the camera is known
+constexpr std::size_t least_compared = 200, most_compared = 2000;  // of a frame
+constexpr float sure_by_shape = 0.7F;                              // probability of a class by shape alone
+constexpr float least_image_log = -4.0F;                           // one return decides nothing
 
 }  // namespace
 
@@ -29,7 +29,7 @@ void MountingCheck::add(const Scene& scene, const FeatureTable& table) {
   std::size_t returns = 0;
   const auto visible =
       static_cast<std::size_t>(std::count(scene.view.is_visible.begin(), scene.view.is_visible.end(), std::uint8_t{1}));
-  const std::size_t step = visible / most_returns + 1;
+  const std::size_t step = visible / most_compared + 1;
   std::size_t number = 0;
   for (std::size_t i = 0; i < scene.points.size(); ++i) {
     if (scene.view.is_visible[i] == 0 || number++ % step != 0) continue;
@@ -43,7 +43,7 @@ void MountingCheck::add(const Scene& scene, const FeatureTable& table) {
     sum += static_cast<double>(std::max(by_turned[best], least_image_log) - std::max(by_image[best], least_image_log));
     ++returns;
   }
-  if (returns < least_returns) return;
+  if (returns < least_compared) return;
   evidence_ += sum / static_cast<double>(returns);
   ++frames_;
 }
