@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "calibration/calibration_state.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "laser_mapper/calibration/laser_calibration.hpp"
 #include "urban_nav_core/io/archive.hpp"
 
@@ -13,6 +16,13 @@ using urban_nav_core::Vector3d;
 namespace {
 
 constexpr std::uint32_t kCalibrationVersion = 1;
+constexpr const char* kPanorama = "panorama";  // beside the frames of lasers
+
+std::vector<AdoptedCalibration> adoptedCalibrations(urban_nav_store::Store& store,
+                                                    const urban_nav_store::SessionId& session) {
+  const auto bytes = store.states().get(session, kCalibrationState);
+  return bytes ? unpackCalibration(*bytes) : std::vector<AdoptedCalibration>();
+}
 
 Vector3d adoptedVector(const LaserCalibration& laser, CalibrationTerm first) {
   const auto begin = static_cast<std::size_t>(first);
@@ -54,6 +64,22 @@ void storeCalibration(urban_nav_store::Store& store, const urban_nav_store::Sess
                              adoptedVector(laser, CalibrationTerm::ShiftX))});
   if (lasers.empty()) forgetCalibration(store, session);
   else store.states().put(session, kCalibrationState, packCalibration(std::move(lasers)));
+}
+
+void storePanoramaDelay(urban_nav_store::Store& store, const urban_nav_store::SessionId& session, double delay) {
+  std::vector<AdoptedCalibration> adopted = adoptedCalibrations(store, session);
+  adopted.erase(
+      std::remove_if(adopted.begin(), adopted.end(), [](const auto& each) { return each.frame == kPanorama; }),
+      adopted.end());
+  if (delay != 0.0) adopted.push_back({kPanorama, std::llround(1e9 * delay), Pose()});
+  if (adopted.empty()) forgetCalibration(store, session);
+  else store.states().put(session, kCalibrationState, packCalibration(std::move(adopted)));
+}
+
+urban_nav_core::StampNs panoramaDelay(urban_nav_store::Store& store, const urban_nav_store::SessionId& session) {
+  for (const AdoptedCalibration& each : adoptedCalibrations(store, session))
+    if (each.frame == kPanorama) return each.delay;
+  return 0;
 }
 
 void forgetCalibration(urban_nav_store::Store& store, const urban_nav_store::SessionId& session) {

@@ -63,7 +63,11 @@ CalibrationResult calibrateLasers(const Parameters& parameters, urban_nav_store:
 /// Chunks rendered with another calibration are rendered again by LaserMap::render().
 void storeCalibration(urban_nav_store::Store& store, const urban_nav_store::SessionId& session,
                       const CalibrationResult& calibration);
-/// Makes the map of a session use its extrinsics alone.
+/// Makes the colours of a session's map use its panoramas as late by `delay` (s); 0: as stamped.
+void storePanoramaDelay(urban_nav_store::Store& store, const urban_nav_store::SessionId& session, double delay);
+/// Returns by how much the panoramas of a session are late. Throws DataError if the stored calibration is damaged.
+urban_nav_core::StampNs panoramaDelay(urban_nav_store::Store& store, const urban_nav_store::SessionId& session);
+/// Makes the map of a session use its extrinsics and stamps alone.
 void forgetCalibration(urban_nav_store::Store& store, const urban_nav_store::SessionId& session);
 
 }  // namespace laser_mapper

@@ -52,6 +52,21 @@ std::string listOf(const std::vector<std::string>& sentences) {
   return all;
 }
 
+std::string panoramaSentence(const laser_mapper::ViewDelay& found) {
+  if (!found.delay.constrained) return "the session does not say whether its stamps are late";
+  return "delay of its stamps " + withSigma(kTerms[0], found.delay) +
+         (found.delay.adopted != 0.0 ? ", adopted" : ", the stamps are kept");
+}
+
+Json termJson(const TermText& text, const CalibrationEstimate& term) {
+  Json row = Json::object();
+  row["found"] = text.scale * term.value;
+  row["sigma"] = text.scale * term.sigma;
+  row["observable"] = term.constrained;
+  row["adopted"] = text.scale * term.adopted;
+  return row;
+}
+
 }  // namespace
 
 std::vector<std::string> calibrationSentences(const LasersRun& run) {
@@ -67,6 +82,7 @@ std::vector<std::string> calibrationSentences(const LasersRun& run) {
               (adopted.empty() ? "" : ", ") + std::string(kTerms[i].name) + " " + withSigma(kTerms[i], laser.terms[i]);
       if (!adopted.empty()) sentences.push_back("  " + laser.frame + ": " + adopted);
     }
+    if (session.panorama) sentences.push_back("  panorama: " + panoramaSentence(*session.panorama));
     if (!found.unconstrained.empty()) sentences.push_back("  the session does not say: " + listOf(found.unconstrained));
   }
   return sentences;
@@ -86,6 +102,11 @@ std::vector<PageTable> calibrationTables(const LasersRun& run) {
                               term.constrained ? withSigma(kTerms[i], term) : "not observable",
                               term.adopted == 0.0 ? "as stated" : toText(kTerms[i], term.adopted)});
       }
+    if (session.panorama)
+      table.rows.push_back(
+          {"panorama, delay of its stamps",
+           session.panorama->delay.constrained ? withSigma(kTerms[0], session.panorama->delay) : "not observable",
+           session.panorama->delay.adopted == 0.0 ? "as stated" : toText(kTerms[0], session.panorama->delay.adopted)});
     table.caption =
         "Difference from the extrinsics and stamps of the recording, in the axes of each laser's frame, by "
         "the sharpness of " +
@@ -113,15 +134,9 @@ Json calibrationJson(const LasersRun& run) {
     Json& lasers = json["devices"] = Json::object();
     for (const LaserCalibration& laser : found.lasers) {
       Json& terms = lasers[laser.frame] = Json::object();
-      for (std::size_t i = 0; i < laser.terms.size(); ++i) {
-        const CalibrationEstimate& term = laser.terms[i];
-        Json& row = terms[kTerms[i].key] = Json::object();
-        row["found"] = kTerms[i].scale * term.value;
-        row["sigma"] = kTerms[i].scale * term.sigma;
-        row["observable"] = term.constrained;
-        row["adopted"] = kTerms[i].scale * term.adopted;
-      }
+      for (std::size_t i = 0; i < laser.terms.size(); ++i) terms[kTerms[i].key] = termJson(kTerms[i], laser.terms[i]);
     }
+    if (session.panorama) lasers["panorama"][kTerms[0].key] = termJson(kTerms[0], session.panorama->delay);
     Json& unobservable = json["not_observable"] = Json::array();
     for (const std::string& sentence : found.unconstrained) unobservable.append(sentence);
     sessions.append(json);
@@ -136,6 +151,8 @@ Json delaysJson(const LasersRun& run) {
     const CalibrationEstimate& delay = laser.at(laser_mapper::CalibrationTerm::Delay);
     delays[laser.frame] = delay.constrained ? Json(1e3 * delay.value) : Json();
   }
+  if (const auto& panorama = run.calibrations.front().panorama)
+    delays["panorama"] = panorama->delay.constrained ? Json(1e3 * panorama->delay.value) : Json();
   return delays;
 }
 

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <map>
+#include <memory>
 
 #include "command_line/command_parameters.hpp"
 #include "laser_mapper/map_files.hpp"
@@ -62,20 +64,26 @@ class SigmaHistogram {
   std::size_t all_ = 0;
 };
 
-LaserMapRun renderMap(LaserMap& map, laser_mapper::Colouriser* colouriser, std::size_t first_session,
-                      const std::vector<const Trajectory*>& trajectories, const MapContext& context) {
+/// Shows the surface of a map to its colouriser; returns the number of views.
+std::size_t prepareColours(const LaserMap& map, laser_mapper::Colouriser& colouriser) {
+  map.forEachTile(
+      [&](const laser_mapper::Tile&, const std::vector<MapPoint>& points) { colouriser.addSurface(points); });
+  colouriser.equalise();
+  return colouriser.views();
+}
+
+/// `make_colouriser`: called when the map is rendered.
+LaserMapRun renderMap(LaserMap& map, const std::function<std::unique_ptr<laser_mapper::Colouriser>()>& make_colouriser,
+                      std::size_t first_session, const std::vector<const Trajectory*>& trajectories,
+                      const MapContext& context) {
   LaserMapRun run;
   run.map = first_session;
   run.file = "map" + fileSuffix(first_session) + ".ply";
   Progress bar(context.console, "lasers", "chunks", 0);
   run.rendered = map.render([&](std::size_t done, std::size_t) { bar.update(static_cast<std::int64_t>(done)); });
   bar.finish(static_cast<std::int64_t>(run.rendered.chunks));
-  if (colouriser != nullptr) {
-    map.forEachTile(
-        [&](const laser_mapper::Tile&, const std::vector<MapPoint>& points) { colouriser->addSurface(points); });
-    colouriser->equalise();
-    run.views = colouriser->views();
-  }
+  const std::unique_ptr<laser_mapper::Colouriser> colouriser = make_colouriser();
+  if (colouriser != nullptr) run.views = prepareColours(map, *colouriser);
   std::vector<std::vector<urban_nav_core::Vector3d>> paths;
   std::vector<urban_nav_core::Vector3d> all;
   for (const Trajectory* trajectory : trajectories) {
@@ -134,10 +142,24 @@ void calibrateSession(const laser_mapper::Parameters& parameters, std::size_t se
     return;
   }
   const urban_nav_core::OdometryChain odometry = odometryChain(*context.runs()[session]);
-  run.calibrations.push_back(
-      {context.names[session], laser_mapper::calibrateLasers(parameters, *context.store, id,
-                                                             context.trajectories[session].T_map_base, &odometry)});
+  run.calibrations.push_back({session, context.names[session],
+                              laser_mapper::calibrateLasers(parameters, *context.store, id,
+                                                            context.trajectories[session].T_map_base, &odometry)});
   laser_mapper::storeCalibration(*context.store, id, run.calibrations.back().found);
+}
+
+/// Calibrates the panoramas of sessions whose lasers have been calibrated, by the map that these have made.
+void calibratePanoramas(const std::vector<std::size_t>& sessions, const LaserMap& map,
+                        const std::vector<laser_mapper::MappedSession>& mapped, MapContext& context, LasersRun& run) {
+  for (SessionCalibration& calibration : run.calibrations) {
+    if (std::find(sessions.begin(), sessions.end(), calibration.number) == sessions.end()) continue;
+    for (const laser_mapper::MappedSession& session : mapped) {
+      if (session.id != context.ids()[calibration.number]) continue;
+      calibration.panorama = estimatePanoramaDelay(*context.store, session, map);
+      if (calibration.panorama)
+        laser_mapper::storePanoramaDelay(*context.store, session.id, calibration.panorama->delay.adopted);
+    }
+  }
 }
 
 }  // namespace
@@ -210,8 +232,11 @@ LasersRun runLasers(const laser_mapper::Parameters& parameters, MapContext& cont
     if (mapped.empty()) continue;
     LaserMap laser_map(parameters, *context.store, mapped);
     const double memory_mb = kImageMemoryShare * context.options.parameters.get(commandTable()).memory_mb;
-    const auto colouriser = makeColouriser(*context.store, mapped, parameters.voxel, memory_mb);
-    run.maps.push_back(renderMap(laser_map, colouriser.get(), map, trajectories, context));
+    const auto make_colouriser = [&, &sessions_of_this_map = sessions] {
+      calibratePanoramas(sessions_of_this_map, laser_map, mapped, context, run);
+      return makeColouriser(*context.store, mapped, parameters.voxel, memory_mb);
+    };
+    run.maps.push_back(renderMap(laser_map, make_colouriser, map, trajectories, context));
   }
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return run;

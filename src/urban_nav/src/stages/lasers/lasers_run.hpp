@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "laser_mapper/calibration/laser_calibration.hpp"
+#include "laser_mapper/calibration/view_delay.hpp"
 #include "laser_mapper/laser_map.hpp"
 #include "laser_mapper/quality/map_quality.hpp"
 #include "report/page.hpp"
@@ -33,8 +35,10 @@ struct LaserMapRun {
 
 /// Calibration of the lasers of one session, with --calibrate.
 struct SessionCalibration {
-  std::string session;  ///< name
+  std::size_t number = 0;  ///< over all sessions
+  std::string session;     ///< name
   laser_mapper::CalibrationResult found;
+  std::optional<laser_mapper::ViewDelay> panorama;  ///< nullopt: there are no panoramas
 };
 
 /// What stage lasers made.

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "laser_mapper/calibration/view_delay.hpp"
 #include "laser_mapper/colour/colouriser.hpp"
 #include "laser_mapper/laser_map.hpp"
 #include "urban_nav_store/store.hpp"
@@ -16,5 +18,11 @@ namespace urban_nav {
 std::unique_ptr<laser_mapper::Colouriser> makeColouriser(urban_nav_store::Store& store,
                                                          const std::vector<laser_mapper::MappedSession>& sessions,
                                                          double voxel, double memory_mb);
+
+/// Estimates by how much the panoramas of a session are late, from the colours of its map as they are stamped; nullopt
+/// if there are none.
+std::optional<laser_mapper::ViewDelay> estimatePanoramaDelay(urban_nav_store::Store& store,
+                                                             const laser_mapper::MappedSession& session,
+                                                             const laser_mapper::LaserMap& map);
 
 }  // namespace urban_nav

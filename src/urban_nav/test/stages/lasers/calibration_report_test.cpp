@@ -21,6 +21,8 @@ LasersRun runWithCalibration(bool improves) {
   session.session = "quad";
   session.found.lasers = {left, right};
   session.found.unconstrained = {"delay of laser_right"};
+  session.panorama.emplace();
+  session.panorama->delay = {0.02, 0.001, true, improves ? 0.02 : 0.0};
   session.found.places = 1000;
   session.found.held_out = 200;
   session.found.is_significant = true;
@@ -43,7 +45,8 @@ TEST(CalibrationReport, SaysWhatWasFoundAndWhatTheSessionCannotTell) {
   EXPECT_TRUE(holds(sentences, "the session does not say: delay of laser_right"));
   const std::vector<PageTable> tables = calibrationTables(run);
   ASSERT_EQ(tables.size(), 1U);
-  EXPECT_EQ(tables[0].rows.size(), 14U);
+  EXPECT_EQ(tables[0].rows.size(), 15U);
+  EXPECT_TRUE(holds(sentences, "panorama: delay of its stamps 20 +- 1 ms, adopted"));
   EXPECT_EQ(tables[0].rows[7],
             (std::vector<std::string>{"laser_right, delay of its stamps", "not observable", "as stated"}));
   const std::string delays = delaysJson(run).print();
