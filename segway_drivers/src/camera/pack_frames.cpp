@@ -18,7 +18,7 @@ constexpr std::array<int, 4> channel_of_slot = {0, 1, 1, 2};  // B G G R of BGR
 cv::Mat scaleTo(const cv::Mat& image, cv::Size size) {
   if (image.size() == size) return image;
   cv::Mat scaled;
-  cv::resize(image, scaled, size, 0.0, 0.0, cv::INTER_LINEAR);
+  cv::resize(image, scaled, size, 0.0, 0.0, cv::INTER_LANCZOS4);
   return scaled;
 }
 

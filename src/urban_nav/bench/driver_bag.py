@@ -25,7 +25,7 @@ except ImportError:
     rosbag = None
 
 TOPICS = ("/laser_left/scan", "/laser_right/scan", "/imu/data", "/wheel_odom", "/gps/fix", "/stereo/left/image_raw", "/stereo/right/image_raw")
-INFOS = ("/stereo/left/camera_info", "/stereo/right/camera_info", "/tf_static")
+INFOS = ("/stereo/left/camera_info", "/stereo/right/camera_info")
 LEAD, PATIENCE = 8, 12  # s for the session to begin, and for its end
 SIZE = 384, 512  # rows and columns of the session's images
 MOST_RMS = 5.0  # grey levels, of images that count as equal
@@ -75,6 +75,15 @@ def record(session, recorded, duration):
     for process in (recorder, launch):
         os.killpg(process.pid, signal.SIGINT)
         process.wait()
+    add_mounting(session, recorded)
+
+
+def add_mounting(session, recorded):
+    """The places of the sensors, which the robot's description publishes and no driver."""
+    with rosbag.Bag(str(session)) as bag, rosbag.Bag(str(recorded), "a") as out:
+        begin = out.get_start_time()
+        for topic, message, time_ in bag.read_messages(["/tf_static"]):
+            out.write(topic, message, type(time_).from_sec(begin))
 
 
 def match(theirs, ours, topic):
