@@ -17,6 +17,7 @@ using urban_nav_core::logSe3;
 using urban_nav_core::Matrix6d;
 using urban_nav_core::MotionInput;
 using urban_nav_core::Pose;
+using urban_nav_core::Vector3d;
 using urban_nav_core::Vector6d;
 
 namespace {
@@ -75,7 +76,7 @@ ProcessInput Prediction::step(double seconds, const std::vector<MotionInput>& in
   ProcessInput u;
   const double steps = 1.0 + unmeasured_;
   const bool known = known_ && seconds < velocity_holds;
-  u.T_from_to = known ? expSe3(velocity_ * seconds) : Pose();
+  u.T_from_to = known ? expSe3(fadedVelocity() * seconds) : Pose();
   // What was known of the velocity is never worth less than nothing; m steps at one unknown velocity are m times as
   // uncertain as one.
   const double speed = unknown_speed * std::sqrt(2.0 * steps - 1.0) * seconds,
@@ -102,10 +103,34 @@ void Prediction::learn(const Pose& T_last_camera, double seconds, bool measured,
   unmeasured_ = measured ? 0 : unmeasured_ + 1;
   if (!measured && !blind && unmeasured_ >= patience) known_ = false;
   if (!measured || !(seconds > 0.0) || (reckoned && known_)) return;
-  velocity_ = logSe3(T_last_camera) / seconds;
+  const Vector6d velocity = logSe3(T_last_camera) / seconds;
+  if (known_ && !reckoned) {
+    translation_.see(velocity_.head<3>(), velocity.head<3>());
+    rotation_.see(velocity_.tail<3>(), velocity.tail<3>());
+  }
+  velocity_ = velocity;
   known_ = true;
 }
 
-void Prediction::archive(urban_nav_core::Archive& archive) { archive(velocity_, known_, unmeasured_); }
+void Prediction::Persistence::see(const Vector3d& before, const Vector3d& now) {
+  constexpr double kKept = 0.9;
+  product = kKept * product + before.dot(now);
+  square = kKept * square + 0.5 * (before.squaredNorm() + now.squaredNorm());
+}
+
+double Prediction::Persistence::correlation() const {
+  return square > 0.0 ? std::clamp(product / square, 0.0, 1.0) : 1.0;
+}
+
+Vector6d Prediction::fadedVelocity() const {
+  Vector6d velocity = velocity_;
+  velocity.head<3>() *= std::pow(translation_.correlation(), unmeasured_);
+  velocity.tail<3>() *= std::pow(rotation_.correlation(), unmeasured_);
+  return velocity;
+}
+
+void Prediction::archive(urban_nav_core::Archive& archive) {
+  archive(velocity_, known_, unmeasured_, translation_, rotation_);
+}
 
 }  // namespace swf_vo

@@ -21,7 +21,8 @@ constexpr double unknown_angular_speed = 1.0;  // rad/s
 /// a dt^2. It is weak on purpose, since the velocity itself comes from the same images. After m steps by prediction
 /// alone sigma is m times that, so that the sum over m steps grows as the random walk of the velocity does (m^3 / 3 in
 /// variance), although the window takes steps as independent; and no larger than it would be if nothing had ever been
-/// known of the velocity.
+/// known of the velocity. The velocity itself fades over these steps by the correlation that velocities of neighbouring
+/// frames had, which is near 1 for a vehicle and less for a camera shaken in a hand.
 class Prediction {
  public:
   Prediction(const Parameters& parameters, const urban_nav_core::Pose& T_base_camera);
@@ -39,12 +40,23 @@ class Prediction {
   void archive(urban_nav_core::Archive& archive);
 
  private:
+  /// How alike the velocities of neighbouring frames are, over some ten frames.
+  struct Persistence {
+    double product = 0.0, square = 0.0;
+    void see(const urban_nav_core::Vector3d& before, const urban_nav_core::Vector3d& now);
+    /// Returns the correlation, 0...1; 1 where nothing is known.
+    double correlation() const;
+    void archive(urban_nav_core::Archive& archive) { archive(product, square); }
+  };
+  urban_nav_core::Vector6d fadedVelocity() const;
+
   urban_nav_core::Pose T_base_camera_;
   double acceleration_;
   double angular_acceleration_;
   urban_nav_core::Vector6d velocity_;  // tangent of SE(3) in the camera, per second
   bool known_ = false;
   int unmeasured_ = 0;
+  Persistence translation_, rotation_;
 };
 
 }  // namespace swf_vo

@@ -35,7 +35,7 @@ constexpr double astray_periods = 3.5;
 constexpr int landmarks_per_feature = 4;
 
 constexpr const char* state_name = "swf_vo";
-constexpr std::uint32_t state_version = 1;  // one more whenever what is archived becomes other bytes
+constexpr std::uint32_t state_version = 2;  // one more whenever what is archived becomes other bytes
 
 WindowOptions windowOptions(const Parameters& parameters, const StereoCamera& camera) {
   WindowOptions options;
@@ -64,6 +64,22 @@ void check(const StereoCamera& camera) {
                     "> 0 (m): the right camera lies to the right of the left one");
   if (left.width < 64 || left.height < 64)
     throw UserError("calibration", "the images are smaller than 64x64", "at least 64x64 px");
+}
+
+/// Returns the standard deviation of a predicted translation, m.
+double translationSigma(const ProcessInput& u) {
+  return 1.0 / std::sqrt(std::max(1e-12, u.information.diagonal().head<3>().minCoeff()));
+}
+
+/// Returns the prediction of a frame in which no landmark was found, turned as its image as a whole shows: where only
+/// blur hides the landmarks, the heading stays known.
+ProcessInput turned(const ProcessInput& u, const Pose& last, const FrontEndResult& seen) {
+  constexpr double kLeastSigma = 0.01, kSigmaPerAngle = 0.05;  // rad, rad/rad
+  ProcessInput result = u;
+  result.T_from_to = last.inverse() * seen.T_odom_turned;
+  const double sigma = kLeastSigma + kSigmaPerAngle * angleBetween(Pose(), result.T_from_to);
+  result.information.bottomRightCorner<3, 3>() += urban_nav_core::Matrix3d::Identity() / (sigma * sigma);
+  return result;
 }
 
 /// Returns "name = value" as stored states have it: two parameters had other names when these began.
@@ -129,7 +145,7 @@ class SwfVo::Implementation {
     const FrontEndResult* seen = nullptr;
     if (evidence.image.usable) {
       seen = &front_end_.process(frame_, usable, last, last * u.T_from_to, window_.map(), window_.disparityOffset(),
-                                 periods > astray_periods, evidence.image.edges);
+                                 {periods > astray_periods, translationSigma(u)}, evidence.image.edges);
       evidence.localised = seen->localised;
       evidence.tracked = static_cast<int>(seen->tracked.size());
       evidence.features = evidence.tracked + static_cast<int>(seen->fresh.size());
@@ -141,6 +157,7 @@ class SwfVo::Implementation {
     const bool blurred = evidence.image.reason == Reason::Blurred;
     // As long as all is blurred, what was known before may come back any frame: nothing begins anew.
     const bool adrift = started_ && trusted && isAdrift(*seen);
+    if (started_ && !trusted && seen != nullptr && seen->turned) u = turned(u, last, *seen);
     // Too long a time to predict over: from metres away no residual would lead to where the images say.
     if (started_ && trusted && periods > astray_periods) u.T_from_start = last.inverse() * seen->T_odom_camera;
     takeStep(u, adrift && !blurred ? seen : nullptr);

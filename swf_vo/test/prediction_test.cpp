@@ -3,10 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <functional>
+
 namespace swf_vo {
 namespace {
 
 using urban_nav_core::expSe3;
+using urban_nav_core::logSe3;
 using urban_nav_core::Matrix6d;
 using urban_nav_core::MotionInput;
 using urban_nav_core::Pose;
@@ -62,6 +66,23 @@ TEST(Prediction, givesUpAVelocityThatFindsNothingInGoodImagesButNotInTheDark) {
   }
   EXPECT_TRUE(isApprox(seeing.step(0.1, {}).T_from_to, Pose(), 1e-12));
   EXPECT_TRUE(isApprox(blind.step(0.1, {}).T_from_to, step, 1e-12));
+}
+
+TEST(Prediction, aVelocityThatTurnsBackAllTheTimeFadesInTheDark) {
+  const auto stepInTheDark = [](const std::function<double(int)>& speed) {
+    Prediction prediction{Parameters(), Pose()};
+    const auto at = [&](int i) { return twist(speed(i), 0.0, 0.0, 0.0, speed(i), 0.0); };
+    for (int i = 0; i < 20; ++i) prediction.learn(expSe3(at(i) * 0.2), 0.2, true);
+    const Pose next = prediction.step(0.2, {}).T_from_to;
+    EXPECT_TRUE(isApprox(next, expSe3(at(19) * 0.2), 1e-9)) << "the very next step is as the last";
+    for (int i = 0; i < 3; ++i) prediction.learn(next, 0.2, false, true);
+    return logSe3(prediction.step(0.2, {}).T_from_to);
+  };
+  const Vector6d steady = stepInTheDark([](int) { return 0.5; });
+  EXPECT_NEAR(steady[0], 0.1, 1e-9);
+  EXPECT_NEAR(steady[4], 0.1, 1e-9);
+  const Vector6d shaken = stepInTheDark([](int i) { return 0.5 * std::cos(2.5 * i); });
+  EXPECT_LT(shaken.norm(), 0.01);
 }
 
 TEST(Prediction, takesAGoodInputInsteadOfTheVelocity) {

@@ -102,6 +102,15 @@ Motion wander(const Vector3d& position, const Vector3d& reach, double yaw, doubl
   };
 }
 
+Motion shake(const Vector3d& position, double reach, double angle, double hz) {
+  return [=](double t) {
+    const auto wave = [&](double factor, double phase) { return std::sin(2.0 * M_PI * hz * factor * t + phase); };
+    const Vector3d offset(wave(0.83, 0.3), wave(1.0, 1.9), 0.5 * wave(1.21, 4.0));
+    return lookingAlong(position + reach * offset, angle * wave(1.07, 0.0), 0.5 * angle * wave(0.91, 2.2),
+                        0.3 * angle * wave(1.33, 5.1));
+  };
+}
+
 Motion drive(double speed, double height) {
   return [=](double t) {
     const double x = speed * t;

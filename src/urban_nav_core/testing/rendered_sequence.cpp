@@ -67,14 +67,28 @@ void RenderedSequence::expose(const std::vector<float>& radiance, double gain, d
   }
 }
 
-void RenderedSequence::draw(int i) {
-  if (i == drawn_) return;
-  const double t = time(i);
+void RenderedSequence::addRadiance(double t, float share) {
   const Pose T_world_left = motion_(t);
   const Pose T_world_right = T_world_left * Pose(Quaterniond::Identity(), Vector3d(options_.camera.baseline, 0.0, 0.0));
   if (scene_) still_ = scene_(t);
-  radiance_left_ = renderer_.draw(still_, T_world_left);
-  radiance_right_ = renderer_.draw(still_, T_world_right);
+  for (const auto& [T_world_camera, sum] :
+       {std::pair(&T_world_left, &radiance_left_), {&T_world_right, &radiance_right_}}) {
+    const std::vector<float>& radiance = renderer_.draw(still_, *T_world_camera);
+    sum->resize(radiance.size(), 0.0F);
+    for (std::size_t i = 0; i < radiance.size(); ++i) (*sum)[i] += share * radiance[i];
+  }
+}
+
+void RenderedSequence::draw(int i) {
+  constexpr int kMoments = 8;
+  if (i == drawn_) return;
+  radiance_left_.clear();
+  radiance_right_.clear();
+  const int moments = options_.exposure > 0.0 ? kMoments : 1;
+  for (int k = 0; k < moments; ++k) {
+    const double t = time(i) + options_.exposure * ((k + 0.5) / moments - 0.5);
+    addRadiance(std::max(0.0, t), 1.0F / static_cast<float>(moments));
+  }
   drawn_ = i;
 }
 

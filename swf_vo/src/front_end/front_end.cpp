@@ -16,6 +16,7 @@
 #include "front_end/replenish.hpp"
 #include "front_end/rotation.hpp"
 #include "front_end/row_offset.hpp"
+#include "front_end/search_radius.hpp"
 #include "front_end/temporal.hpp"
 #include "front_end/tracks.hpp"
 
@@ -30,10 +31,6 @@ namespace {
 
 constexpr double reference_area = 512.0 * 384.0;  // of the parameter `features`
 constexpr int top_width = 160;                    // the image whose rotation is found is at most this wide
-constexpr double first_radius = 3.0;              // of the search radius, while the motion is not known yet
-// The window follows what the prediction was off by in the frame before (px, and times the 90 % quantile), up to the
-// search radius.
-constexpr double least_radius = 8.0, radius_per_error = 3.0, radius_offset = 4.0;
 constexpr double coarse_slack_px = 1.0, fine_slack_px = 0.1;
 constexpr double noticed_row_offset = 0.1;  // px
 // A template that was last seen a while ago has been warped far, by a slant of its surface that is known roughly.
@@ -42,10 +39,8 @@ constexpr double astray_slack_px = 0.5;
 // src/urban_nav/bench); where the pose was right at least 21 % did, after a second without pictures in a real street
 // seen from a car (the recordings of bench/faults).
 constexpr double least_share_in_view = 0.15;
-// Where so little agrees that nothing is known of the motion: how far around landmarks are then looked for (share of
-// the width; about as far as the nearest of them stand apart in the two images), and how many motions are tried, for
-// one match in five to be right.
-constexpr double widest_radius = 0.16;
+// Where so little agrees that nothing is known of the motion: how many motions are tried, for one match in five to be
+// right.
 constexpr int wide_samples = 400;
 // Within the window a landmark stands still, and what it creeps by there has to be in its measurements: n of them with
 // this share of n^2 steps added to their variance show a motion along the track as badly as n steps of a random walk do
@@ -84,6 +79,7 @@ class FrontEnd::Implementation {
         rotation_(camera.left),
         capacity_(4 * featuresIn(camera, parameters.features)),
         pose_estimator_(camera_, capacity_),
+        radius_(parameters.search_radius, camera.left, static_cast<std::size_t>(capacity_)),
         tracks_(capacity_),
         noise_(capacity_),
         rows_(4 * capacity_),
@@ -104,8 +100,8 @@ class FrontEnd::Implementation {
   }
 
   const FrontEndResult& process(FrameId frame, const StereoPair& pair, const Pose& last, const Pose& predicted,
-                                const std::vector<MapPoint>& map, double disparity_offset, bool astray,
-                                const Edges& edges) {
+                                const std::vector<MapPoint>& map, double disparity_offset,
+                                const PredictionQuality& quality, const Edges& edges) {
     clear(predicted);
     edges_ = edges;
     camera_.disparity_offset = disparity_offset;
@@ -117,9 +113,12 @@ class FrontEnd::Implementation {
     T_window_odom_ = last.inverse();
     if (next) learnNoise();
     for (Match& match : matches_) match.inflation = noise_.of(match.track->noise);
-    if (!next || astray) radius_ = first_radius * parameters_.search_radius;
-    astray_ = astray_ || astray || !next;
-    locate(turn(next ? last : T_odom_localised_, predicted), predicted.inverse());
+    if (!next || quality.astray) radius_.setUnknown();
+    astray_ = astray_ || quality.astray || !next;
+    radius_.setLimit(quality.sigma_m, T_window_odom_, matches_);
+    const Pose T_turned_odom = turn(next ? last : T_odom_localised_, predicted);
+    result_.T_odom_turned = T_turned_odom.inverse();
+    locate(T_turned_odom, predicted.inverse());
     for (Match& match : matches_) follow(frame, match);
     replenish(frame);
     for (Observation& observation : result_.fresh) {
@@ -142,7 +141,6 @@ class FrontEnd::Implementation {
     archive(radius_, astray_, frame_, T_odom_localised_, T_window_odom_);
     archive.require(residual_test_.size() == static_cast<std::size_t>(parameters_.pyramid_levels),
                     "levels are missing");
-    archive.require(radius_ >= 0.0 && radius_ <= first_radius * parameters_.search_radius, "a search radius is none");
   }
 
  private:
@@ -152,7 +150,7 @@ class FrontEnd::Implementation {
     result_.ended.clear();
     result_.refuted.clear();
     result_.T_odom_camera = predicted;
-    result_.localised = false;
+    result_.localised = result_.turned = false;
     result_.corners = result_.candidates = 0;
     result_.inlier_share = result_.reprojection_px = 0.0;
   }
@@ -196,6 +194,7 @@ class FrontEnd::Implementation {
     }
     const RotationEstimate seen =
         rotation_.track(corners_.image(Side::Left, corners_.top()), corners_.top(), T_now_last.q(), parallax_);
+    result_.turned = seen.found;
     if (!seen.found) return predicted.inverse();
     // The camera stays where it was predicted to be and is turned there.
     const Quaterniond correction = seen.q_now_last * T_now_last.q().inverse();
@@ -251,7 +250,7 @@ class FrontEnd::Implementation {
 
   /// First matches, in one image each, and the pose that most of them agree on to about a pixel.
   PoseEstimate matchCoarsely(const Pose& T_turned_odom, const Pose& T_predicted_odom) {
-    matchTemporal(corners_, camera_, T_turned_odom, radius_, matches_, rows_.px());
+    matchTemporal(corners_, camera_, T_turned_odom, radius_.px(), matches_, rows_.px());
     for (Match& match : matches_) measure(match);
     starts_.assign({T_predicted_odom, T_turned_odom});
     PoseEstimatorOptions options;
@@ -260,25 +259,36 @@ class FrontEnd::Implementation {
     return pose_estimator_.locate(starts_, options, matches_);
   }
 
+  /// The camera may have stopped or turned back: turned as the images show, it is sought where it was. Without more
+  /// matches that agree, all stays as it was.
+  PoseEstimate matchAsIfStill(const PoseEstimate& moving, const Pose& T_turned_odom) {
+    spare_ = matches_;
+    const Pose T_still_odom(T_turned_odom.q(), -(T_turned_odom.q() * T_window_odom_.inverse().t()));
+    const PoseEstimate still = matchCoarsely(T_still_odom, T_still_odom);
+    if (still.found && still.inliers > moving.inliers) return still;
+    matches_.swap(spare_);
+    return moving;
+  }
+
   /// After frames without measurements the prediction may be far off, most of all in heading, and what is warped by it
   /// fits badly. From the headings about it, and from where the camera was last, for a clock may jump and the camera
   /// need not; then from the pose that most matches agree on, they are sought again.
   PoseEstimate matchAstray(PoseEstimate best, const Pose& T_turned_odom, const Pose& T_predicted_odom) {
-    radius_ = first_radius * parameters_.search_radius;
+    radius_.setUnknown();
     if (!best.found || 2 * best.inliers < best.candidates) {
       const auto tryFrom = [&](const Pose& T_camera_odom) {
         const PoseEstimate other = matchCoarsely(T_camera_odom, T_camera_odom);
         if (other.found && (!best.found || other.inliers > best.inliers)) best = other;
       };
       for (const double share : {0.0, -0.5, 0.5, -1.0, 1.0}) {
-        const double yaw = std::atan(share * radius_ / camera_.left.fx);
+        const double yaw = std::atan(share * radius_.px() / camera_.left.fx);
         const Quaterniond q(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitY()));
         tryFrom(Pose(q, Eigen::Vector3d::Zero()) * T_predicted_odom);
       }
       tryFrom(T_window_odom_);
     }
     if (!best.found) return matchCoarsely(T_turned_odom, T_predicted_odom);
-    radius_ = parameters_.search_radius;
+    radius_.setUsual();
     return matchCoarsely(best.T_camera_odom, best.T_camera_odom);
   }
 
@@ -286,8 +296,7 @@ class FrontEnd::Implementation {
   /// matches again from there. Taken if it explains clearly more than `explained` matches; else all stays as it was.
   std::optional<PoseEstimate> searchWidely(const Pose& T_turned_odom, int explained) {
     spare_ = matches_;
-    const double radius = std::max(first_radius * parameters_.search_radius, widest_radius * camera_.left.width);
-    matchAnywhere(corners_, camera_, T_turned_odom, radius, matches_, rows_.px());
+    matchAnywhere(corners_, camera_, T_turned_odom, radius_.anywhere(), matches_, rows_.px());
     for (Match& match : matches_) measure(match);
     starts_.assign({T_turned_odom});
     PoseEstimatorOptions options;
@@ -311,11 +320,7 @@ class FrontEnd::Implementation {
       const auto expected = projectInto(Side::Left, camera_, T_expected_odom, match.p_odom);
       if (expected) errors_.push_back((match.left.pixel - *expected).norm());
     }
-    if (errors_.empty()) return;
-    const auto quantile = errors_.begin() + static_cast<std::ptrdiff_t>(errors_.size() * 9 / 10);
-    std::nth_element(errors_.begin(), quantile, errors_.end());
-    radius_ = std::clamp(radius_per_error * *quantile + radius_offset,
-                         std::min(least_radius, parameters_.search_radius), parameters_.search_radius);
+    radius_.learn(errors_);
   }
 
   /// What the coarse motion explains is completed in the other image and placed to a hundredth of a pixel.
@@ -339,10 +344,9 @@ class FrontEnd::Implementation {
   void locate(const Pose& T_turned_odom, const Pose& T_predicted_odom) {
     if (matches_.empty()) return;
     PoseEstimate coarse = matchCoarsely(T_turned_odom, T_predicted_odom);
-    if (radius_ < parameters_.search_radius && 2 * coarse.inliers < coarse.candidates) {
-      radius_ = parameters_.search_radius;
+    if (2 * coarse.inliers < coarse.candidates && radius_.widen())
       coarse = matchCoarsely(T_turned_odom, T_predicted_odom);
-    }
+    if (2 * coarse.inliers < coarse.candidates) coarse = matchAsIfStill(coarse, T_turned_odom);
     if (astray_) coarse = matchAstray(coarse, T_turned_odom, T_predicted_odom);
     PoseEstimate fine = matchFinely(coarse, T_turned_odom, T_predicted_odom);
     if (fine.inliers < parameters_.degraded_features)
@@ -351,7 +355,7 @@ class FrontEnd::Implementation {
 
     result_.candidates = fine.candidates;
     result_.localised = fine.found && !isOneEyed(fine.inliers) && !(astray_ && isByChance(fine));
-    radius_ = first_radius * parameters_.search_radius;
+    radius_.setUnknown();
     if (!result_.localised) {
       for (Match& match : matches_) match.inlier = false;
       return;
@@ -461,6 +465,7 @@ class FrontEnd::Implementation {
   RotationTracker rotation_;
   int capacity_;
   PoseEstimator pose_estimator_;
+  SearchRadius radius_;
   Tracks tracks_;
   NoiseScale noise_;
   RowOffset rows_;
@@ -473,7 +478,6 @@ class FrontEnd::Implementation {
   std::vector<Pose> starts_;
   std::vector<double> errors_;
   Edges edges_;
-  double radius_ = 0.0;  // px of level 0
   bool astray_ = false;  // nothing says where the frame before was but the prediction
   FrameId frame_ = -2;
   Pose T_odom_localised_;  // of the frame processed here last, as it was localised
@@ -485,9 +489,9 @@ FrontEnd::FrontEnd(const Parameters& parameters, const StereoCamera& camera)
 FrontEnd::~FrontEnd() = default;
 
 const FrontEndResult& FrontEnd::process(FrameId frame, const StereoPair& pair, const Pose& last, const Pose& predicted,
-                                        const std::vector<MapPoint>& map, double disparity_offset, bool astray,
-                                        const Edges& edges) {
-  return implementation_->process(frame, pair, last, predicted, map, disparity_offset, astray, edges);
+                                        const std::vector<MapPoint>& map, double disparity_offset,
+                                        const PredictionQuality& quality, const Edges& edges) {
+  return implementation_->process(frame, pair, last, predicted, map, disparity_offset, quality, edges);
 }
 
 void FrontEnd::archive(urban_nav_core::Archive& archive) { implementation_->archive(archive); }

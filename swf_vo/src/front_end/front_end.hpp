@@ -23,12 +23,20 @@ struct FrontEndResult {
       refuted;  ///< landmarks that move or were matched wrongly: also earlier measurements should be withdrawn
   urban_nav_core::Pose T_odom_camera;  ///< by m-estimation over the matches; the prediction if there were too few
   bool localised = false;              ///< T_odom_camera comes from matches, not from the prediction
+  urban_nav_core::Pose T_odom_turned;  ///< the prediction, turned as the images of this frame and the last one show
+  bool turned = false;                 ///< they show how
   int corners = 0;                     ///< FAST corners in the left image
   int candidates = 0;                  ///< matches before outliers were removed
   double inlier_share = 0.0;
   double reprojection_px = 0.0;  ///< of the inliers, root mean square in the left image
   double row_offset_px = 0.0;    ///< RowOffset, as known by now
   double noise_scale = 1.0;      ///< NoiseScale::typical(), in standard deviations
+};
+
+/// What is known of a predicted pose.
+struct PredictionQuality {
+  bool astray = false;   ///< so much time has passed since the frame before that the prediction may be far off
+  double sigma_m = 0.0;  ///< standard deviation of the predicted translation
 };
 
 /// How many landmarks are followed at a time in images of this size, of the parameter `features`.
@@ -42,12 +50,12 @@ class FrontEnd {
 
   /// `predicted`: T_odom_camera of this frame by the process model; `last` that of the frame processed last, as the
   /// window has it now. `map`: the landmarks of the window that are still being followed. `disparity_offset`: of the
-  /// camera, as the window has it now (px). `astray`: so much time has passed since the frame before that the
-  /// prediction may be far off, as it is after frames that were left out here. `edges`: how sharp the images are. The
-  /// result lives until the next call.
+  /// camera, as the window has it now (px). `quality`: of `predicted`; frames that were left out here make it astray
+  /// too. `edges`: how sharp the images are. The result lives until the next call.
   const FrontEndResult& process(FrameId frame, const urban_nav_core::StereoPair& pair, const urban_nav_core::Pose& last,
                                 const urban_nav_core::Pose& predicted, const std::vector<MapPoint>& map,
-                                double disparity_offset, bool astray = false, const Edges& edges = Edges());
+                                double disparity_offset, const PredictionQuality& quality = {},
+                                const Edges& edges = Edges());
   void archive(urban_nav_core::Archive& archive);
 
  private:

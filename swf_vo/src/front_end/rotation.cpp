@@ -17,6 +17,7 @@ using urban_nav_core::Vector3d;
 namespace {
 
 constexpr int most_rotation_steps = 10;
+constexpr double far_turn = 0.07;      // rad: 4 deg
 constexpr double settled = 1e-4;       // rad
 constexpr double longest_step = 0.05;  // rad
 constexpr int wanted_pixels = 1500;    // of which the sums are made
@@ -128,20 +129,11 @@ RotationTracker::Normal RotationTracker::sum(int level, const Matrix3d& R) const
   return n;
 }
 
-RotationEstimate RotationTracker::track(const ImageView& image, int level, const Quaterniond& start,
-                                        const std::vector<Parallax>& known) {
-  RotationEstimate estimate;
-  estimate.q_now_last = start;
-  std::swap(last_, now_);
-  fill(image, now_);
-  if (last_.width != now_.width || last_.height != now_.height) return estimate;
-
-  choose(level, known);
+RotationTracker::Descent RotationTracker::descend(int level, const Quaterniond& start) const {
   Quaterniond q = start;
   Normal normal = sum(level, q.toRotationMatrix());
-  estimate.before = normal.rms();
-  double best = estimate.before;
-  if (best < 0.0) return estimate;
+  Descent descent{start, normal.rms(), normal.rms()};
+  if (descent.before < 0.0) return descent;
   for (int i = 0; i < most_rotation_steps; ++i) {
     normal.H.diagonal().array() += 1e-3F;
     Vector3d d = normal.H.ldlt().solve(normal.b).head<3>().cast<double>();
@@ -152,11 +144,33 @@ RotationEstimate RotationTracker::track(const ImageView& image, int level, const
     normal = sum(level, q.toRotationMatrix());
     const double rms = normal.rms();
     if (rms < 0.0) break;
-    if (rms < best) {
-      best = rms;
-      estimate.q_now_last = q;
+    if (rms < descent.after) {
+      descent.after = rms;
+      descent.q = q;
     }
   }
+  return descent;
+}
+
+RotationEstimate RotationTracker::track(const ImageView& image, int level, const Quaterniond& start,
+                                        const std::vector<Parallax>& known) {
+  RotationEstimate estimate;
+  estimate.q_now_last = start;
+  std::swap(last_, now_);
+  fill(image, now_);
+  if (last_.width != now_.width || last_.height != now_.height) return estimate;
+
+  choose(level, known);
+  Descent descent = descend(level, start);
+  estimate.before = descent.before;
+  if (descent.before < 0.0) return estimate;
+  // A camera that is shaken turns back where the prediction turns on.
+  if (start.angularDistance(Quaterniond::Identity()) > far_turn) {
+    const Descent back = descend(level, Quaterniond::Identity());
+    if (back.before >= 0.0 && back.after < descent.after) descent = back;
+  }
+  const double best = descent.after;
+  estimate.q_now_last = descent.q;
   estimate.after = best;
   estimate.found = best < improvement * estimate.before;
   if (!estimate.found) estimate.q_now_last = start;

@@ -35,7 +35,8 @@ class RotationTracker {
   /// `camera`: of level 0.
   explicit RotationTracker(const urban_nav_core::Pinhole& camera) : camera_(camera) {}
 
-  /// Turns the image kept last into this one, starting from `start`, and keeps this one. The first image, or one of
+  /// Turns the image kept last into this one, starting from `start`, and from no turn where `start` is a
+  /// large one; keeps this image. The first image, or one of
   /// another size, gives `found` false. `known`: may be empty.
   RotationEstimate track(const urban_nav_core::ImageView& image, int level, const urban_nav_core::Quaterniond& start,
                          const std::vector<Parallax>& known);
@@ -51,9 +52,14 @@ class RotationTracker {
     Eigen::Vector3f ray, shift;
   };
   struct Normal;
+  struct Descent {
+    urban_nav_core::Quaterniond q;
+    double before, after;  // root mean square difference, grey levels; below zero: the images do not overlap
+  };
   static void fill(const urban_nav_core::ImageView& image, Plane& plane);
   void choose(int level, const std::vector<Parallax>& known);
   Normal sum(int level, const urban_nav_core::Matrix3d& R) const;
+  Descent descend(int level, const urban_nav_core::Quaterniond& start) const;
 
   urban_nav_core::Pinhole camera_;
   Plane last_, now_;

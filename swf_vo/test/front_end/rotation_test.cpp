@@ -21,7 +21,8 @@ using namespace urban_nav_core::testing;
 constexpr double kDegree = M_PI / 180.0;
 
 /// Error of the rotation found between two views from one place, deg.
-double computeError(const Vector3d& turn, double gain, const std::vector<Parallax>& known = {}) {
+double computeError(const Vector3d& turn, double gain, const std::vector<Parallax>& known = {},
+                    const Quaterniond& start_of_search = Quaterniond::Identity()) {
   SequenceOptions options = smallCamera(2.0);
   options.gain = [gain](double t) { return t > 0.0 ? gain : 1.0; };
   const Pose start = lookingAlong({0.3, 0.2, 1.2}, 0.4);
@@ -32,7 +33,7 @@ double computeError(const Vector3d& turn, double gain, const std::vector<Paralla
   Pyramid pyramid(3);
   for (int i = 0; i < 2; ++i) {
     pyramid.build(sequence.frame(i).left.view());
-    const RotationEstimate found = tracker.track(pyramid.level(2), 2, Quaterniond::Identity(), known);
+    const RotationEstimate found = tracker.track(pyramid.level(2), 2, start_of_search, known);
     EXPECT_EQ(found.found, i == 1);
     if (i == 1) return found.q_now_last.angularDistance(expSo3(-turn)) / kDegree;
   }
@@ -48,6 +49,11 @@ TEST(Rotation, ThreeDegreesAFrameAreFound) {
 }
 
 TEST(Rotation, SixtyDegreesASecondAtTenHertzAreFound) { EXPECT_LT(computeError({0.0, 6.0 * kDegree, 0.0}, 1.0), 0.2); }
+
+TEST(Rotation, ACameraThatTurnsBackIsFoundWhereALargeTurnWasPredicted) {
+  for (const double predicted : {-12.0, 12.0})
+    EXPECT_LT(computeError({0.0, 1.0 * kDegree, 0.0}, 1.0, {}, expSo3({0.0, predicted * kDegree, 0.0})), 0.1);
+}
 
 TEST(Rotation, BrightnessDoesNotMatter) {
   EXPECT_LT(computeError({0.0, 3.0 * kDegree, 0.0}, 0.5), 0.15);

@@ -33,6 +33,9 @@ Motion spin(const Vector3d& position, double rate, double ramp_s, double lever);
 /// Random and smooth in all six degrees of freedom: sums of slow sines, within `reach` (m) of `position` and `angle`
 /// (rad) of looking along +x in pitch and roll; heading swings through `yaw` (rad) to either side.
 Motion wander(const Vector3d& position, const Vector3d& reach, double yaw, double angle, std::uint32_t seed);
+/// A camera in a hand that shakes: sines of about `hz` in all six degrees of freedom, `reach` (m) and `angle` (rad) to
+/// either side of looking along +x at `position`.
+Motion shake(const Vector3d& position, double reach, double angle, double hz);
 /// Along a street in +x at `speed` (m/s), swaying and pitching a little as a car does.
 Motion drive(double speed, double height);
 

@@ -37,6 +37,7 @@ struct SequenceOptions {
   double rate = 20.0;      ///< Hz
   double noise = 1.0;      ///< standard deviation of the image noise, grey levels
   std::uint32_t seed = 1;  ///< of the noise: each frame and camera has its own
+  double exposure = 0.0;   ///< s, about the stamp: what moves meanwhile is blurred
   StampNs first_stamp = 1'000'000'000;
   std::function<double(double t)> gain;  ///< exposure, a factor on the grey levels; none: 1
 };
@@ -62,6 +63,7 @@ class RenderedSequence {
 
  private:
   void draw(int i);
+  void addRadiance(double t, float share);
   void expose(const std::vector<float>& radiance, double gain, double noise, std::uint64_t stream,
               GreyImage& image) const;
 
