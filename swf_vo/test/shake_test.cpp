@@ -40,8 +40,7 @@ TEST_P(Shaken, endsWithinAPerCentOfThePath) {
   EXPECT_LT(error, 0.01 * path) << path << " m";
 }
 
-INSTANTIATE_TEST_SUITE_P(FewFrames, Shaken,
-                         ::testing::Values(Shaking{10.0, 0.0}, Shaking{10.0, 0.02}));
+INSTANTIATE_TEST_SUITE_P(FewFrames, Shaken, ::testing::Values(Shaking{10.0, 0.0}, Shaking{10.0, 0.02}));
 
 }  // namespace
 }  // namespace swf_vo
