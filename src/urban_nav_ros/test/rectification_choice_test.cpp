@@ -24,7 +24,7 @@ using urban_nav_core::StampNs;
 
 constexpr StampNs frame_interval = 50'000'000, first_stamp = 1'600'000'000'000'000'000;
 
-/// Calibration of a rendered room's cameras (240x180 px, f 190 px) behind lenses that differ.
+/// Calibration of a rendered room's cameras (240x180 px, f 190 px), whose lenses differ.
 CameraInfo lensInfo(bool is_right) {
   CameraInfo info;
   info.width = 240;
