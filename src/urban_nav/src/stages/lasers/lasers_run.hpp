@@ -38,7 +38,7 @@ struct SessionCalibration {
   std::size_t number = 0;  ///< over all sessions
   std::string session;     ///< name
   laser_mapper::CalibrationResult found;
-  std::optional<laser_mapper::ViewDelay> panorama;  ///< nullopt: there are no panoramas
+  std::optional<laser_mapper::ViewDelay> panorama = {};  ///< nullopt: there are no panoramas
 };
 
 /// What stage lasers made.
