@@ -142,10 +142,13 @@ void calibrateSession(const laser_mapper::Parameters& parameters, std::size_t se
     return;
   }
   const urban_nav_core::OdometryChain odometry = odometryChain(*context.runs()[session]);
-  run.calibrations.push_back({session, context.names[session],
-                              laser_mapper::calibrateLasers(parameters, *context.store, id,
-                                                            context.trajectories[session].T_map_base, &odometry)});
-  laser_mapper::storeCalibration(*context.store, id, run.calibrations.back().found);
+  SessionCalibration calibration;
+  calibration.number = session;
+  calibration.session = context.names[session];
+  calibration.found = laser_mapper::calibrateLasers(parameters, *context.store, id,
+                                                    context.trajectories[session].T_map_base, &odometry);
+  laser_mapper::storeCalibration(*context.store, id, calibration.found);
+  run.calibrations.push_back(std::move(calibration));
 }
 
 /// Calibrates the panoramas of sessions whose lasers have been calibrated, by the map that these have made.
