@@ -120,6 +120,7 @@ TEST(LabelScores, CountMissingAnswersAsWrongAndWallsAsOneClass) {
   labels.classes = {SceneClass::Paved, SceneClass::SmoothWall};
   labels.labels = {SceneClass::Paved, SceneClass::SmoothWall, SceneClass::None, SceneClass::Paved, SceneClass::Paved};
   labels.probabilities = {0.8F, 0.2F, 0.1F, 0.9F, 0, 0, 0.6F, 0.4F, 1, 0};
+  labels.unsure = {0, 0, 1, 0, 0};
   labels.patches = {0, 1, 1, 2, 3};
   LabelScore score(true);
   score.add(labels,
