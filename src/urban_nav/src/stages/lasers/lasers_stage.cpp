@@ -37,7 +37,7 @@ class LasersStage final : public Stage {
     const bool is_enabled = options.localise.empty() && isRequested(options, "lasers");
     if (options.calibrate && !is_enabled)
       throw urban_nav_core::UserError("--calibrate", "stage lasers does not run",
-                                      "allowed with lasers among --stages, and without --localise");
+                                      "lasers among --stages, and without --localise");
     if (!options.localise.empty()) return {false, "not with --localise", {}};
     if (!is_enabled) return {false, "not in --stages", {}};
     return {true, "", {}};
