@@ -40,14 +40,16 @@ std::optional<PatchFit> fitPatch(std::uint16_t pass, const std::vector<PlacedCel
   if (cells.size() < kFewestCells) return std::nullopt;
   PatchFit fit;
   Vector3d to_laser = Vector3d::Zero();
-  double weight = 0.0, seconds = 0.0;
+  double weight = 0.0, seconds = 0.0, squares = 0.0;
   const StampNs since = cells.front().cell->stamp;
   for (const PlacedCell& placed : cells) {
     const double w = static_cast<double>(std::min(placed.cell->count, kMostBeams));
     weight += w;
     fit.patch.centre += w * placed.p;
     to_laser += placed.cell->to_laser.cast<double>();
-    seconds += w * urban_nav_core::secondsBetween(since, placed.cell->stamp);
+    const double t = urban_nav_core::secondsBetween(since, placed.cell->stamp);
+    seconds += w * t;
+    squares += w * t * t;
   }
   fit.patch.centre /= weight;
   for (const PlacedCell& placed : cells) {
@@ -61,7 +63,9 @@ std::optional<PatchFit> fitPatch(std::uint16_t pass, const std::vector<PlacedCel
   fit.extent = std::sqrt(std::max(0.0, eigen.values(1)));
   fit.patch.pass = pass;
   fit.patch.cells = cells.size();
+  fit.patch.session = cells.front().cell->session;
   fit.patch.stamp = since + std::llround(1e9 * seconds / weight);
+  fit.patch.stamp_spread = std::sqrt(std::max(0.0, squares / weight - seconds / weight * (seconds / weight)));
   return fit;
 }
 

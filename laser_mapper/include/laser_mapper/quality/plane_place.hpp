@@ -20,8 +20,10 @@ struct PassCells {
 /// A plane as one pass measured it.
 struct PlanePatch {
   std::uint16_t pass = 0;
+  std::uint16_t session = 0;                           ///< index, of the pass
   std::size_t cells = 0;                               ///< that it rests on
   urban_nav_core::StampNs stamp = 0;                   ///< mean
+  double stamp_spread = 0.0;                           ///< s, standard deviation of the stamps
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();    ///< m, in the map: mean of the cells
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();   ///< unit, towards the laser
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();   ///< m^2, mean about the centre

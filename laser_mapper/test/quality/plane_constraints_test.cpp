@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "laser_mapper/quality/plane_constraints.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_core/geometry/small_matrices.hpp"
+
+namespace laser_mapper {
+namespace {
+
+using Eigen::Vector3d;
+using urban_nav_core::Matrix6d;
+using urban_nav_core::Pose;
+using urban_nav_core::StampNs;
+using urban_nav_core::Trajectory;
+using urban_nav_core::Vector6d;
+
+constexpr StampNs kFirstPose = 1'225'719'872'000'000'000, kPassTime = 60'000'000'000;
+constexpr double kBias = 0.003;
+
+struct Plane {
+  Vector3d p, normal;
+};
+const Plane kWallAhead[] = {{{9.0, -2.0, 1.0}, -Vector3d::UnitX()},
+                            {{9.0, 2.0, 1.0}, -Vector3d::UnitX()},
+                            {{9.0, 0.0, 3.0}, -Vector3d::UnitX()},
+                            {{9.0, 0.5, 0.5}, -Vector3d::UnitX()}};
+const Plane kWallBeside[] = {{{0.0, 5.0, 1.0}, -Vector3d::UnitY()},
+                             {{3.0, 5.0, 1.0}, -Vector3d::UnitY()},
+                             {{3.0, 5.0, 3.0}, -Vector3d::UnitY()},
+                             {{6.0, 5.0, 2.0}, -Vector3d::UnitY()}};
+const Plane kFloor[] = {
+    {{0.0, 2.0, 0.0}, Vector3d::UnitZ()}, {{3.0, -3.0, 0.0}, Vector3d::UnitZ()}, {{6.0, 3.0, 0.0}, Vector3d::UnitZ()}};
+
+/// A robot that stands at one pose per pass, `passes` of them a minute apart, and whose map has pose i at
+/// boxPlus(true pose, drift of i).
+class PlaneConstraintTest : public ::testing::Test {
+ protected:
+  void stand(const std::vector<Vector6d>& drifts) {
+    for (std::size_t i = 0; i < drifts.size(); ++i) {
+      const double step = static_cast<double>(i);
+      truth_.emplace_back(Eigen::Quaterniond(Eigen::AngleAxisd(0.4 + 0.3 * step, Vector3d::UnitZ())),
+                          Vector3d(1.0 + 0.5 * step, 0.2 * step, 0.1));
+      mapped_.push_back(urban_nav_core::boxPlus(truth_[i], drifts[i]));
+      trajectory_.append(kFirstPose + static_cast<StampNs>(i) * kPassTime, mapped_[i]);
+    }
+  }
+  template <std::size_t N>
+  void see(const Plane (&planes)[N]) {
+    for (const Plane& plane : planes) places_.push_back(seen(plane));
+  }
+  /// The patches of a plane, each as its pass measured it, exactly, at another part of the plane.
+  PlanePlace seen(const Plane& plane) const {
+    PlanePlace place;
+    for (std::size_t i = 0; i < truth_.size(); ++i) {
+      const Pose T_map_true = mapped_[i] * truth_[i].inverse();
+      PlanePatch patch;
+      patch.pass = static_cast<std::uint16_t>(i);
+      patch.stamp = trajectory_[i].stamp;
+      patch.centre = T_map_true * (plane.p + 0.1 * static_cast<double>(i) * plane.normal.unitOrthogonal());
+      patch.normal = T_map_true.q() * plane.normal;
+      patch.displacement_sigma = 0.0004;
+      patch.angle_sigma = 0.001;
+      place.patches.push_back(patch);
+      for (std::size_t before = 0; before < i; ++before) place.pairs.push_back({before, i, 0.0, 0.0});
+    }
+    return place;
+  }
+  std::vector<PlaneConstraint> find() const { return findPlaneConstraints(places_, {&trajectory_}, kBias); }
+  /// Error of a measured transform, by the axes of pose a.
+  Vector6d errorOf(const PlaneConstraint& constraint, std::size_t a = 0, std::size_t b = 1) const {
+    return urban_nav_core::boxMinus(constraint.measured.T_a_b, truth_[a].inverse() * truth_[b]);
+  }
+
+  std::vector<Pose> truth_, mapped_;
+  Trajectory trajectory_;
+  std::vector<PlanePlace> places_;
+};
+
+Vector6d drift() { return (Vector6d() << 0.06, -0.04, 0.03, 0.003, -0.002, 0.006).finished(); }
+
+TEST_F(PlaneConstraintTest, WallsAndFloorGiveTheTrueRelativePose) {
+  stand({Vector6d::Zero(), drift()});
+  see(kWallAhead);
+  see(kWallBeside);
+  see(kFloor);
+  const auto constraints = find();
+  ASSERT_EQ(constraints.size(), 1U);
+  EXPECT_EQ(constraints[0].stamp_a, kFirstPose);
+  EXPECT_EQ(constraints[0].stamp_b, kFirstPose + kPassTime);
+  EXPECT_EQ(constraints[0].planes, 11U);
+  // The equations are linear in the turn: what is left is of second order, 10 m of arm times the square of 7 mrad.
+  EXPECT_LT(errorOf(constraints[0]).head<3>().norm(), 1e-3);
+  EXPECT_LT(errorOf(constraints[0]).tail<3>().norm(), 1e-4);
+  EXPECT_GT(urban_nav_core::smallEigen<6>(constraints[0].measured.information).values(0), 1.0);
+}
+
+TEST_F(PlaneConstraintTest, OneWallTellsNothingAlongItselfNorOfTheTurnAboutItsNormal) {
+  stand({Vector6d::Zero(), drift()});
+  see(kWallAhead);
+  const auto constraints = find();
+  ASSERT_EQ(constraints.size(), 1U);
+  const Matrix6d& information = constraints[0].measured.information;
+  const auto values = urban_nav_core::smallEigen<6>(information).values;
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(values(i), 0.0, 1e-9 * values(5));
+  EXPECT_GT(values(3), 0.0);
+  // Residual of the truth: nil where the wall tells something.
+  const Vector6d error = errorOf(constraints[0]);
+  EXPECT_LT(error.dot(information * error), 0.1);
+  EXPECT_GT(error.head<3>().norm(), 0.03) << "along the wall the map's own error stays";
+  // Moving pose b along the wall costs nothing.
+  const Vector3d along = truth_[0].q().conjugate() * Vector3d::UnitY();
+  Vector6d slide = Vector6d::Zero();
+  slide.head<3>() = along;
+  EXPECT_LT(slide.dot(information * slide), 0.02 * values(5)) << "drift turns the wall by a few mrad in the map";
+}
+
+TEST_F(PlaneConstraintTest, APlaneThatContradictsTheOthersIsLeftOut) {
+  stand({Vector6d::Zero(), drift()});
+  see(kWallAhead);
+  see(kWallBeside);
+  see(kFloor);
+  places_[2].patches[1].centre.x() += 0.08;  // another surface
+  const auto constraints = find();
+  ASSERT_EQ(constraints.size(), 1U);
+  EXPECT_EQ(constraints[0].planes, 10U);
+  EXPECT_LT(errorOf(constraints[0]).head<3>().norm(), 1e-3);
+}
+
+TEST_F(PlaneConstraintTest, FewPlanesAndSmearedOnesGiveNothing) {
+  stand({Vector6d::Zero(), drift()});
+  see(kWallAhead);
+  std::vector<PlanePlace> all = places_;
+  places_.resize(2);
+  EXPECT_TRUE(find().empty());
+  places_ = all;
+  for (PlanePlace& place : places_) place.patches[0].stamp_spread = 5.0;
+  EXPECT_TRUE(find().empty()) << "seen twice in one pass, from poses far apart";
+  EXPECT_TRUE(findPlaneConstraints({}, {&trajectory_}, kBias).empty());
+}
+
+TEST_F(PlaneConstraintTest, APlaneSeenInManyPassesCountsOncePerPass) {
+  stand({Vector6d::Zero(), drift()});
+  see(kFloor);
+  const Matrix6d two = find().at(0).measured.information;
+  truth_.clear();
+  mapped_.clear();
+  places_.clear();
+  trajectory_ = Trajectory();
+  const Vector6d none = Vector6d::Zero();
+  stand({none, none, none, none});
+  see(kFloor);
+  const auto constraints = find();
+  ASSERT_EQ(constraints.size(), 6U);
+  // Heights: one pair of two passes against six of four, each before the error that a group has in common.
+  const auto heightVariance = [](const Matrix6d& information) { return 1.0 / information(2, 2) - 2.0 * kBias * kBias; };
+  EXPECT_LT(1.0 / two(2, 2), 2.0 * kBias * kBias + kBias * kBias);
+  for (const PlaneConstraint& constraint : constraints)
+    EXPECT_NEAR(heightVariance(constraint.measured.information), 2.0 * heightVariance(two), 0.2 * heightVariance(two));
+}
+
+}  // namespace
+}  // namespace laser_mapper
