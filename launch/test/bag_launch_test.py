@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """bag.launch as a user starts it: once at three times the speed, once paused, once looped; and against the offline command."""
-import csv
 import subprocess
 import sys
 from pathlib import Path
@@ -60,22 +59,14 @@ class BagLaunch(LaunchCase):
         out = Path(self.folder) / "out"
         subprocess.run([command(), "map", str(self.bag), "--stages", "vo", "--out", str(out)], check=True,
                        stdout=subprocess.DEVNULL)
-        with open(out / "stats.csv") as file:
-            rows = list(csv.DictReader(file))
         self.play(rate=3, paused="true")
         self.play_on()
         self.expect(lambda: len(self.listener.odometry) >= 5, "five frames")
         for topic, type_name in TOPICS.items():
             self.expect_topic(topic, type_name)
-        self.expect(lambda: len(self.listener.odometry) == len(rows), lambda: f"{len(self.listener.odometry)} of {len(rows)} frames")
+        self.expect_bits(out)
         for frame in SENSOR_FRAMES:
             self.assertTrue(self.listener.connected("map", frame), f"{frame} hangs from nothing: {self.listener.links}")
-
-        for row, message in zip(rows, self.listener.odometry):
-            self.assertEqual(int(row["stamp_ns"]), stamp_of(message))
-            p, q = message.pose.pose.position, message.pose.pose.orientation
-            now = [float(row["now_" + name]) for name in ("x", "y", "z", "qx", "qy", "qz", "qw")]
-            self.assertEqual(now, [p.x, p.y, p.z, q.x, q.y, q.z, q.w], f"stamp {row['stamp_ns']}")
 
         # Settled frames follow when the window is emptied.
         subprocess.run(["rosservice", "call", "/swf_vo/reset"], check=True, stdout=subprocess.DEVNULL)

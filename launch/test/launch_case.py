@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The case from which the tests of launch files derive: a bag for all of them, and for each a listener and what it launched."""
+import csv
 import shutil
 import tempfile
 import unittest
@@ -63,6 +64,17 @@ class LaunchCase(unittest.TestCase):
     def expect_topic(self, topic, type_name, what=""):
         """Waits for it: each node comes when it comes, and what is there first says nothing about the others."""
         self.expect(lambda: published().get(topic) == type_name, lambda: f"{topic} is {published().get(topic)}, not {type_name}. {what}")
+
+    def expect_bits(self, out):
+        """Waits until the odometry has told all the frames of a run of `map` in the folder `out`, and demands the same stamps and the same bits."""
+        with open(out / "stats.csv") as file:
+            rows = list(csv.DictReader(file))
+        self.expect(lambda: len(self.listener.odometry) == len(rows), lambda: f"{len(self.listener.odometry)} of {len(rows)} frames")
+        for row, message in zip(rows, self.listener.odometry):
+            self.assertEqual(int(row["stamp_ns"]), message.header.stamp.to_nsec())
+            p, q = message.pose.pose.position, message.pose.pose.orientation
+            now = [float(row["now_" + name]) for name in ("x", "y", "z", "qx", "qy", "qz", "qw")]
+            self.assertEqual(now, [p.x, p.y, p.z, q.x, q.y, q.z, q.w], f"stamp {row['stamp_ns']}")
 
     def look_at(self, path):
         """Every display of an rviz file reads a topic that is there, in frames that are."""

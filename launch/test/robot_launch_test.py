@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""robot.launch on simulated devices that a bag feeds, as a user starts it: every device comes, odometry runs on the stereo driver's images, a pulled plug is reported and survived, and all ends clean."""
+"""robot.launch on simulated devices that a bag feeds, as a user starts it: every device comes, odometry runs on the stereo driver's images, a pulled plug is reported and survived, what is recorded gives the bits of the live run again, and all ends clean."""
 import subprocess
 import sys
 from pathlib import Path
@@ -9,14 +9,15 @@ import rosbag
 import rospy
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import CompressedImage, Image, Imu, LaserScan, NavSatFix
-from urban_nav_msgs.msg import RawFrame
+from urban_nav_msgs.msg import RawFrame, VoFrame
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from graph import command  # noqa: E402
+from graph import Launched, command, connections  # noqa: E402
 from launch_case import LaunchCase  # noqa: E402
 
 TOPICS = {"/laser_left/scan": LaserScan, "/laser_right/scan": LaserScan, "/imu/data": Imu, "/wheel_odom": Odometry, "/gps/fix": NavSatFix,
           "/stereo/left/image_raw": Image, "/ladybug/raw": RawFrame, "/ladybug/camera2/image_raw/compressed": CompressedImage, "/vo/odometry": Odometry}
+STEREO_TOPICS = {"/tf_static", *(f"/stereo/{side}/{topic}" for side in ("left", "right") for topic in ("image_raw", "camera_info"))}
 
 
 def longest_gap(messages):
@@ -63,6 +64,45 @@ class RobotLaunch(LaunchCase):
         for messages in received.values():
             stamps = [message.header.stamp.to_nsec() for message in messages]
             self.assertEqual(stamps, sorted(stamps))
+
+    def record_cameras(self):
+        """record.launch on what the odometry reads; gives the beginning of the names of its bags."""
+        prefix = Path(self.folder) / "recorded"
+        recorder = Launched("record.launch", output=prefix, topics=" ".join(STEREO_TOPICS), least_speed=1)
+        self.addCleanup(recorder.stop)
+        self.expect(lambda: STEREO_TOPICS <= connections("/record"), lambda: f"the recorder hears {connections('/record')}\n{recorder.output()}")
+        return recorder, prefix
+
+    def test_what_is_recorded_gives_the_bits_of_the_live_run_again(self):
+        self.launch("robot.launch", simulated=self.bag, ports=Path(self.folder) / "recorded_devices", loops="false")
+        self.expect(lambda: self.listener.odometry, "odometry")
+        recorder, prefix = self.record_cameras()
+        # Now that the recorder hears all, the odometry begins again: from here on both have the same images.
+        subprocess.run(["rosservice", "call", "/swf_vo/reset"], check=True, stdout=subprocess.DEVNULL)
+        self.expect(lambda: self.session_frames(), "a frame after the reset")
+        self.expect(lambda: len(self.session_frames()) >= 60, lambda: f"{len(self.session_frames())} frames")
+        self.assertEqual(recorder.stop(), "")
+        recorded, = prefix.parent.glob(f"{prefix.name}_*.bag")
+        begin = self.session_frames()[0].header.stamp
+        with rosbag.Bag(str(recorded)) as bag:
+            last = min(max(message.header.stamp for _, message, _ in bag.read_messages([f"/stereo/{side}/image_raw"])) for side in ("left", "right"))
+            pairs = Path(self.folder) / "since_the_reset.bag"
+            with rosbag.Bag(str(pairs), "w") as target:
+                for topic, message, received in bag.read_messages():
+                    if topic == "/tf_static" or begin <= message.header.stamp <= last:
+                        target.write(topic, message, received)
+        self.expect(lambda: self.listener.odometry[-1].header.stamp >= last, "the odometry of the last pair that was recorded")
+        self.listener.odometry = [message for message in self.listener.odometry if begin <= message.header.stamp <= last]
+        out = Path(self.folder) / "again"
+        subprocess.run([command(), "map", str(pairs), "--stages", "vo", "--out", str(out)], check=True, stdout=subprocess.DEVNULL)
+        self.expect_bits(out)
+        self.assertEqual([frame.text for frame in self.session_frames() if frame.status == VoFrame.LOST], [])
+
+    def session_frames(self):
+        """The frames of the odometry since its newest session began."""
+        frames = list(self.listener.frames)
+        begin = max((k for k, frame in enumerate(frames) if frame.frame == 0 and k > 0), default=None)
+        return frames[begin:] if begin is not None else []
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@
 #include "services.hpp"
 #include "urban_nav_ros/accelerometer.hpp"
 #include "urban_nav_ros/closure.hpp"
+#include "urban_nav_ros/gps_fixes.hpp"
 #include "urban_nav_ros/ground_normals.hpp"
 #include "urban_nav_ros/pose.hpp"
 #include "urban_nav_ros/stage_nodelet.hpp"
@@ -59,6 +60,7 @@ class PoseGraphStage {
   GraphWorker::Listener listener();
   void subscribe();
   void subscribeGravity();
+  void subscribeGps();
   template <typename Sample>
   bool pushAll(const std::vector<Sample>& samples) {
     for (const Sample& sample : samples) node_.push(sample);
@@ -76,6 +78,7 @@ class PoseGraphStage {
   // As accelerometer_. The subscription ends with the first sample of an accelerometer: dense stereo is expensive.
   std::unique_ptr<urban_nav_ros::GroundNormals> ground_;
   ros::Subscriber ground_subscriber_;
+  std::unique_ptr<urban_nav_ros::GpsFixes> fixes_;  // as accelerometer_; null: not wanted
   std::unique_ptr<GraphWorker> worker_;
 
   std::optional<Clock::time_point> last_picture_;
@@ -91,6 +94,7 @@ PoseGraphStage::PoseGraphStage(Node& node) : node_(node) {
   publisher_ = std::make_unique<Publisher>(node.nh(), nodelet_);
   accelerometer_ = std::make_unique<urban_nav_ros::Accelerometer>(nodelet_.base_frame);
   ground_ = std::make_unique<urban_nav_ros::GroundNormals>(nodelet_.base_frame);
+  if (parameters.gps) fixes_ = std::make_unique<urban_nav_ros::GpsFixes>(nodelet_.base_frame);
   worker_ = std::make_unique<GraphWorker>(
       std::make_unique<LivePoseGraph>(parameters, nodelet_.robot, nodelet_.recording, nodelet_.store), listener());
   advertiseServices(node, *worker_);
@@ -119,6 +123,15 @@ void PoseGraphStage::subscribe() {
     publisher_->sendTransform(stamp);
   });
   subscribeGravity();
+  if (fixes_) subscribeGps();
+}
+
+void PoseGraphStage::subscribeGps() {
+  TopicOptions options;
+  options.is_monitored = options.is_paused = false;
+  options.queue = nodelet_.queue_size;
+  node_.subscribe<sensor_msgs::NavSatFix>(topics::gps_fix, options,
+                                          [this](const auto& message) { pushAll(fixes_->add(*message)); });
 }
 
 void PoseGraphStage::subscribeGravity() {
@@ -127,6 +140,7 @@ void PoseGraphStage::subscribeGravity() {
   node_.subscribe<tf2_msgs::TFMessage>(topics::static_transforms, options, [this](const auto& message) {
     pushAll(accelerometer_->add(*message));
     pushAll(ground_->add(*message));
+    if (fixes_) pushAll(fixes_->add(*message));
   });
   options.queue = nodelet_.queue_size;
   node_.subscribe<sensor_msgs::Imu>(topics::imu, options, [this](const auto& message) {

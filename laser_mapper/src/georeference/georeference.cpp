@@ -6,12 +6,15 @@
 #include <cmath>
 #include <utility>
 
+#include "urban_nav_core/geometry/level_motion.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 
 namespace laser_mapper {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+using urban_nav_core::LevelMotion;
+using urban_nav_core::LocalTangent;
 
 namespace {
 
@@ -23,42 +26,12 @@ constexpr double kNarrower = 0.7;           // per round, from the width that ke
 constexpr int kMostRounds = 60;
 constexpr std::size_t kMostInSums = 500;  // fixes
 
-/// A turn about the vertical, and a shift.
-struct PlaneFit {
-  double yaw = 0.0;
-  Vector3d shift = Vector3d::Zero();
-  Vector3d apply(const Vector3d& p) const { return Eigen::AngleAxisd(yaw, Vector3d::UnitZ()) * p + shift; }
-};
-
 double horizontalSigma(const AntennaFix& fix) {
   return std::max(0.01, std::hypot(fix.sigma.x(), fix.sigma.y()) / M_SQRT2);
 }
 
-PlaneFit fitWeighted(const std::vector<AntennaFix>& fixes, const std::vector<Vector3d>& local,
-                     const std::vector<double>& weights) {
-  double all = 0.0;
-  Vector3d map_mean = Vector3d::Zero(), local_mean = Vector3d::Zero();
-  for (std::size_t i = 0; i < fixes.size(); ++i) {
-    all += weights[i];
-    map_mean += weights[i] * fixes[i].p_map;
-    local_mean += weights[i] * local[i];
-  }
-  map_mean /= all;
-  local_mean /= all;
-  double sine = 0.0, cosine = 0.0;
-  for (std::size_t i = 0; i < fixes.size(); ++i) {
-    const Vector3d a = fixes[i].p_map - map_mean, b = local[i] - local_mean;
-    sine += weights[i] * (a.x() * b.y() - a.y() * b.x());
-    cosine += weights[i] * (a.x() * b.x() + a.y() * b.y());
-  }
-  PlaneFit fit;
-  fit.yaw = std::atan2(sine, cosine);
-  fit.shift = local_mean - Eigen::AngleAxisd(fit.yaw, Vector3d::UnitZ()) * map_mean;
-  return fit;
-}
-
-double normalisedError(const PlaneFit& fit, const AntennaFix& fix, const Vector3d& local) {
-  return (fit.apply(fix.p_map) - local).head<2>().norm() / horizontalSigma(fix);
+double normalisedError(const LevelMotion& fit, const AntennaFix& fix, const Vector3d& local) {
+  return (fit * fix.p_map - local).head<2>().norm() / horizontalSigma(fix);
 }
 
 double middleValue(std::vector<double> values) {
@@ -77,11 +50,13 @@ std::string roundedText(double value, double step) {
 }
 
 /// Fits with all fixes, then with an ever narrower kernel.
-PlaneFit fitRobustly(const std::vector<AntennaFix>& fixes, const std::vector<Vector3d>& local,
-                     std::vector<double>& weights) {
+LevelMotion fitRobustly(const std::vector<AntennaFix>& fixes, const std::vector<Vector3d>& local,
+                        std::vector<double>& weights) {
+  std::vector<Vector3d> places;
+  for (const AntennaFix& fix : fixes) places.push_back(fix.p_map);
   weights.assign(fixes.size(), 0.0);
   for (std::size_t i = 0; i < fixes.size(); ++i) weights[i] = 1.0 / std::pow(horizontalSigma(fixes[i]), 2);
-  PlaneFit fit = fitWeighted(fixes, local, weights);
+  LevelMotion fit = urban_nav_core::fitLevelMotion(places, local, weights);
   double width = kCauchyWidth;
   for (std::size_t i = 0; i < fixes.size(); ++i) width = std::max(width, normalisedError(fit, fixes[i], local[i]));
   for (int round = 0; round < kMostRounds; ++round, width = std::max(kCauchyWidth, kNarrower * width)) {
@@ -89,13 +64,13 @@ PlaneFit fitRobustly(const std::vector<AntennaFix>& fixes, const std::vector<Vec
       const double error = normalisedError(fit, fixes[i], local[i]) / width;
       weights[i] = 1.0 / (std::pow(horizontalSigma(fixes[i]), 2) * (1.0 + error * error));
     }
-    fit = fitWeighted(fixes, local, weights);
+    fit = urban_nav_core::fitLevelMotion(places, local, weights);
   }
   return fit;
 }
 
 /// Takes the heights' median: they do not depend on the heading.
-void fitHeight(const std::vector<AntennaFix>& fixes, const std::vector<Vector3d>& local, PlaneFit& fit) {
+void fitHeight(const std::vector<AntennaFix>& fixes, const std::vector<Vector3d>& local, LevelMotion& fit) {
   std::vector<double> differences;
   for (std::size_t i = 0; i < fixes.size(); ++i) differences.push_back(local[i].z() - fixes[i].p_map.z());
   fit.shift.z() = middleValue(differences);
@@ -164,10 +139,10 @@ GeoFit fitGeoReference(const std::vector<AntennaFix>& fixes) {
   std::vector<Vector3d> local;
   for (const AntennaFix& fix : fixes) local.push_back(tangent.toLocal(fix.measured));
   std::vector<double> weights, residuals;
-  PlaneFit fit = fitRobustly(fixes, local, weights);
+  LevelMotion fit = fitRobustly(fixes, local, weights);
   fitHeight(fixes, local, fit);
   for (std::size_t i = 0; i < fixes.size(); ++i)
-    residuals.push_back((fit.apply(fixes[i].p_map) - local[i]).head<2>().norm());
+    residuals.push_back((fit * fixes[i].p_map - local[i]).head<2>().norm());
   made.T_local_map = urban_nav_core::Pose(Eigen::Quaterniond(Eigen::AngleAxisd(fit.yaw, Vector3d::UnitZ())), fit.shift);
   made.fixes = fixes.size();
   made.residual = middleValue(residuals);

@@ -14,10 +14,10 @@
 
 namespace pose_graph {
 
-/// Writes a growing graph, and the specific force and the ground at its poses, to a store: hands what is new to a
-/// LiveWriter, which commits once a second. Never waits for the disk. What the disk does not take (it is full, say)
-/// remains in the graph and is handed over when there is room: nothing is lost while the process lives, and no second
-/// copy grows. Used by one thread at a time.
+/// Writes a growing graph, and the specific force, the ground and the GPS fixes at its poses, to a store: hands what is
+/// new to a LiveWriter, which commits once a second. Never waits for the disk. What the disk does not take (it is full,
+/// say) remains in the graph and is handed over when there is room: nothing is lost while the process lives, and no
+/// second copy grows. Used by one thread at a time.
 class GraphStoreWriter {
  public:
   using StoredEdge = urban_nav_store::Edge;
@@ -59,7 +59,7 @@ class GraphStoreWriter {
  private:
   using Write = LiveWriter::Write;
   struct Stored {
-    std::size_t nodes = 0, forces = 0, ground = 0;
+    std::size_t nodes = 0, forces = 0, ground = 0, fixes = 0;
     std::vector<Pose> map;  // where the store has the first poses; later ones are as odometry
   };
   struct Batch;
@@ -69,6 +69,7 @@ class GraphStoreWriter {
   bool syncNodes(const PoseGraph& graph);
   bool syncForces(const PoseGraph& graph, bool at_once);
   bool syncGround(const PoseGraph& graph);
+  bool syncFixes(const PoseGraph& graph);
   void syncRelaxation(const PoseGraph& graph, bool exactly, bool at_once);
   void collectPoses(const PoseGraph& graph, bool exactly, Batch& batch);
   void collectClosures(const PoseGraph& graph, Batch& batch);

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "pose_graph/fix_use.hpp"
 #include "pose_graph/ground_level.hpp"
 #include "pose_graph/node_index.hpp"
 #include "pose_graph/parameters.hpp"
@@ -111,10 +112,12 @@ struct Batch {
                        ///< when it has run
   std::vector<std::vector<StampNs>> stamps;        ///< of each track
   std::vector<std::vector<SpecificForce>> forces;  ///< of each track; who knows more than the graph may put it in
+  std::vector<std::vector<PositionFix>> fixes;     ///< of each track, likewise
   std::map<ClosureId, Closure> closures;           ///< judged when it has run
   Solution<3> solution;
   double odometry_variance = 1.0;
   double odometry_lean = 0.0;
+  FixUse fix_use;
 };
 /// Deterministic. Who ends it by SolveOptions::progress must not take it.
 void run(Batch& batch, const SolveOptions& options = {});
@@ -157,6 +160,12 @@ class PoseGraph {
   /// one are left out. They level maps of which no session knows the direction of gravity from an accelerometer.
   void putGround(const SessionId& session, const std::vector<GroundNormal>& normals);
   const std::vector<GroundNormal>& ground(std::size_t track) const { return ground_[track]; }
+  /// Adds positions that satellites measured during a session, in order of time; those that are not later than the
+  /// newest known one are left out. With Parameters::gps batches use them.
+  void putFixes(const SessionId& session, const std::vector<PositionFix>& fixes);
+  const std::vector<PositionFix>& fixes(std::size_t track) const { return fixes_[track]; }
+  /// What the last batch made of the fixes.
+  const FixUse& fixUse() const { return fix_use_; }
   /// Levels what is not level yet where that is known by now, and tells of it as relax() does.
   std::optional<Relaxed> level();
   /// Whether the map that a session lies in is level.
@@ -260,8 +269,10 @@ class PoseGraph {
   std::map<Name, ClosureId> by_name_;
   std::vector<std::vector<SpecificForce>> forces_;  ///< of each track
   std::vector<std::vector<GroundNormal>> ground_;   ///< of each track
-  std::vector<bool> level_;                         ///< of each track: whether the map that begins with it is
-  std::vector<Closure> removed_;                    ///< since the last relaxation, of those that were accepted
+  std::vector<std::vector<PositionFix>> fixes_;     ///< of each track
+  FixUse fix_use_;
+  std::vector<bool> level_;       ///< of each track: whether the map that begins with it is
+  std::vector<Closure> removed_;  ///< since the last relaxation, of those that were accepted
   ClosureId next_id_ = 1;
   std::size_t running_ = 0;  ///< number of the track that is being recorded
   std::int64_t revision_ = 0;

@@ -18,6 +18,7 @@ struct StoredGraph {
         steps;                          ///< in order of time; one that does not begin where the last ended: a gap
     std::vector<SpecificForce> forces;  ///< at its poses
     std::vector<GroundNormal> ground;   ///< at its poses
+    std::vector<PositionFix> fixes;
   };
   std::vector<Chain> chains;      ///< in the order in which the sessions began
   std::vector<Closure> closures;  ///< in the order of the later of their two poses; as offered, not judged

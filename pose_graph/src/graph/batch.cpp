@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 
+#include "fixes/use_fixes.hpp"
 #include "graph/jump_gate.hpp"
 #include "graph/odometry_variance.hpp"
 #include "gravity/level_odometry.hpp"
@@ -16,6 +17,34 @@ bool isSame(const Closure& a, const Closure& b) {
   return a.measured.T_a_b.t() == b.measured.T_a_b.t() &&
          a.measured.T_a_b.q().coeffs() == b.measured.T_a_b.q().coeffs() &&
          a.measured.information == b.measured.information && a.odometry_gate == b.odometry_gate;
+}
+
+/// The graph with the edges that are believed.
+Problem<3> acceptedGraph(const Problem<3>& problem, const std::vector<double>& weights) {
+  Problem<3> accepted;
+  accepted.poses = problem.poses;
+  for (std::size_t e = 0; e < problem.edges.size(); ++e)
+    if (weights[e] > 0.0) accepted.edges.push_back(problem.edges[e]);
+  return accepted;
+}
+
+/// Relaxes with the fixes too. The steps of odometry take over by how much that moves their ends against each other, as
+/// they do what the accelerometer says: what is relaxed later without fixes stays where these have it.
+void takeFixes(Batch& batch, std::size_t chains, const std::vector<double>& weights, const SolveOptions& options) {
+  std::size_t unplaced = 0;
+  const std::vector<FixedPart> parts =
+      placeFixes(acceptedGraph(batch.problem, weights), batch.solution.poses, batch.stamps, batch.forces, batch.fixes,
+                 batch.parameters.gps_correlation, unplaced);
+  const std::vector<Rigid<3>> before = batch.solution.poses;
+  batch.fix_use = useFixes(batch.problem, chains, weights, parts, options, batch.solution, batch.odometry_variance);
+  batch.fix_use.unplaced = unplaced;
+  if (parts.empty()) return;
+  for (std::size_t e = 0; e < chains; ++e) {
+    Edge<3>& step = batch.problem.edges[e];
+    const auto from = static_cast<std::size_t>(step.from), to = static_cast<std::size_t>(step.to);
+    const Rigid<3> residual = step.Z.inverse() * (before[from].inverse() * before[to]);
+    step.Z = batch.solution.poses[from].inverse() * batch.solution.poses[to] * residual.inverse();
+  }
 }
 
 void append(std::vector<Relaxed::Run>& runs, const std::vector<Relaxed::Run>& more) {
@@ -34,6 +63,7 @@ Batch PoseGraph::batch() const {
       if (steps_[t][i].joins) (edge++)->Z = toRigid<3>(measured_[t][i].T_from_to);
   for (const Track& track : tracks_) made.stamps.push_back(track.stamps);
   made.forces = forces_;
+  made.fixes = fixes_;
   made.closures = closures_;
   return made;
 }
@@ -51,6 +81,7 @@ void run(Batch& batch, const SolveOptions& options) {
     weights.push_back(closure.weight);
   }
   batch.odometry_variance = takeOdometryVariance(batch.problem, chains, weights, wanted, batch.solution);
+  if (batch.parameters.gps) takeFixes(batch, chains, weights, wanted);
 }
 
 Relaxed PoseGraph::take(const Batch& batch) {
@@ -59,6 +90,7 @@ Relaxed PoseGraph::take(const Batch& batch) {
   takeVerdicts(batch);
   odometry_variance_ = batch.odometry_variance;
   odometry_lean_ = batch.odometry_lean;
+  fix_use_ = batch.fix_use;
   takeSteps(batch);
   live_.reset();
   Relaxed made;

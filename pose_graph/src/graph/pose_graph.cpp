@@ -62,6 +62,7 @@ void PoseGraph::beginSession(const SessionId& session) {
   runs_.emplace_back();
   forces_.emplace_back();
   ground_.emplace_back();
+  fixes_.emplace_back();
   level_.push_back(false);
   running_ = tracks_.size() - 1;
 }

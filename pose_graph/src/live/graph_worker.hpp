@@ -22,7 +22,7 @@ class GraphWorker {
  public:
   using Input =
       std::variant<urban_nav_core::RelativePose, urban_nav_core::MetricClosure, urban_nav_core::RelativeConstraint,
-                   urban_nav_core::StampedPose, SpecificForce, GroundNormal>;
+                   urban_nav_core::StampedPose, SpecificForce, GroundNormal, PositionFix>;
 
   struct Listener {
     std::function<void(const LiveGraph::Outcome& outcome, const LiveGraph& graph, double ms)> relaxed;

@@ -80,6 +80,8 @@ class LiveGraph {
   virtual void add(const urban_nav_core::StampedPose& odometry) = 0;
   virtual void add(const SpecificForce& sample) = 0;
   virtual void add(const GroundNormal& normal) = 0;
+  /// Fixes of satellite navigation; used only with Parameters::gps.
+  virtual void add(const PositionFix& fix) = 0;
 
   /// Returns true if inputs require a relaxation.
   virtual bool isRelaxationPending() const = 0;

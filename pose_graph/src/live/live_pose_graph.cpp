@@ -26,6 +26,11 @@ constexpr StampNs kFirstLevel = 6'500'000'000;
 // Longest time until specific forces and the ground reach the graph, and from there the store.
 constexpr StampNs kForcesPeriod = 10'000'000'000;
 
+// Time between batches for the sake of GPS fixes: within it odometry drifts by less than a fix is off.
+constexpr StampNs kFixesPeriod = 30'000'000'000;
+
+constexpr std::size_t kMostEarlyFixes = 1000;
+
 class LiveBatch : public LiveGraph::Batch {
  public:
   LiveBatch(pose_graph::Batch batch, int generation) : batch_(std::move(batch)), generation_(generation) {}
@@ -73,6 +78,7 @@ void LivePoseGraph::beginSession(const std::string& name, StampNs start) {
   start_ = start;
   level_at_ = start + kFirstLevel;
   forces_at_ = start + kForcesPeriod;
+  fixes_at_ = start + kFixesPeriod;
   odometry_time_.reset();
   odometry_time_.advance(start);
 
@@ -123,6 +129,20 @@ void LivePoseGraph::add(const urban_nav_core::RelativePose& step) {
 void LivePoseGraph::add(const urban_nav_core::StampedPose& odometry) {
   map_to_odom_.addOdometry(odometry);
   updateMapToOdom();
+}
+
+void LivePoseGraph::add(const PositionFix& fix) {
+  if (!parameters_.gps) return;
+  if (session_.empty()) {  // odometry lags by a window
+    if (early_fixes_.size() == kMostEarlyFixes) early_fixes_.pop_front();
+    early_fixes_.push_back(fix);
+    return;
+  }
+  for (const PositionFix& early : std::exchange(early_fixes_, {})) graph_.putFixes(session_, {early});
+  graph_.putFixes(session_, {fix});
+  if (fix.reading.stamp < fixes_at_) return;
+  fixes_at_ = fix.reading.stamp + kFixesPeriod;
+  fixes_due_ = true;
 }
 
 void LivePoseGraph::putGravity() {
@@ -217,7 +237,7 @@ LiveGraph::Outcome LivePoseGraph::relax() {
 }
 
 std::unique_ptr<LiveGraph::Batch> LivePoseGraph::beginBatch() {
-  batch_due_ = session_ended_ = false;
+  batch_due_ = session_ended_ = fixes_due_ = false;
   putGravity();
   return std::make_unique<LiveBatch>(graph_.batch(), generation_);
 }
@@ -262,6 +282,7 @@ LivePoseGraph::Loaded LivePoseGraph::addStored(const StoredGraph& stored, bool o
     for (const urban_nav_core::RelativePose& step : chain.steps) graph_.addOdometry(id, step);
     graph_.putForces(id, chain.forces);
     graph_.putGround(id, chain.ground);
+    graph_.putFixes(id, chain.fixes);
     const std::size_t track = graph_.tracks().size() - 1, poses = graph_.tracks().back().stamps.size();
     sessions_[id] = chain.session;
     if (own) {
@@ -402,7 +423,7 @@ void LivePoseGraph::reset() {
   held_.clear();
   revisions_.clear();
   ready_.clear();
-  changed_ = batch_due_ = session_ended_ = false;
+  changed_ = batch_due_ = session_ended_ = fixes_due_ = false;
   ++generation_;
   map_to_odom_.forgetSessions();
   updateMapToOdom();

@@ -38,10 +38,11 @@ class LivePoseGraph : public LiveGraph {
   void add(const urban_nav_core::StampedPose& odometry) override;
   void add(const SpecificForce& sample) override { forces_.add(sample); }
   void add(const GroundNormal& normal) override { ground_.add(normal); }
+  void add(const PositionFix& fix) override;
 
   bool isRelaxationPending() const override { return (changed_ && !batch_due_) || !ready_.empty(); }
   Outcome relax() override;
-  bool isBatchPending() const override { return batch_due_ || session_ended_; }
+  bool isBatchPending() const override { return batch_due_ || session_ended_ || fixes_due_; }
   std::unique_ptr<Batch> beginBatch() override;
   std::optional<Outcome> finishBatch(const Batch& batch) override;
 
@@ -105,14 +106,17 @@ class LivePoseGraph : public LiveGraph {
   bool batch_due_ = false;      // an update would not do: sessions were loaded, an edge was removed
   bool is_exact_ = false;       // the last relaxation was a batch: the store gets every digit
   bool session_ended_ = false;  // a batch follows
+  bool fixes_due_ = false;      // likewise: enough fixes have come since the last one
   int generation_ = 0;          // of the graph: a batch of an earlier one is discarded
   MapToOdomEstimator map_to_odom_;
   std::optional<Pose> T_map_odom_;
   SpecificForceBuffer forces_;
   GroundNormalBuffer ground_;
+  std::deque<PositionFix> early_fixes_;  // before the first odometry
   // Of the running session.
   StampNs start_ = 0;
   StampNs level_at_ = 0;   // the next attempt to align the map with gravity
+  StampNs fixes_at_ = 0;   // the next batch for the sake of GPS fixes
   StampNs forces_at_ = 0;  // the next update of what the graph knows of gravity
 };
 

@@ -6,6 +6,7 @@
 
 #include "pose_graph/forces_state.hpp"
 #include "pose_graph/ground_views.hpp"
+#include "pose_graph/stored_fixes.hpp"
 #include "pose_graph/stored_graph.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
 
@@ -152,6 +153,7 @@ void GraphStoreWriter::markStored(const PoseGraph& graph, std::size_t track) {
   tracks_[track].nodes = graph.tracks()[track].stamps.size();
   tracks_[track].forces = graph.forces(track).size();
   tracks_[track].ground = graph.ground(track).size();
+  tracks_[track].fixes = graph.fixes(track).size();
 }
 
 void GraphStoreWriter::markStored(const Closure& closure) {
@@ -167,13 +169,13 @@ void GraphStoreWriter::reset() {
 
 void GraphStoreWriter::sync(const PoseGraph& graph, bool exactly) {
   tracks_.resize(graph.tracks().size());
-  if (syncPending() && syncNodes(graph) && syncForces(graph, false) && syncGround(graph))
+  if (syncPending() && syncNodes(graph) && syncForces(graph, false) && syncGround(graph) && syncFixes(graph))
     syncRelaxation(graph, exactly, false);
 }
 
 void GraphStoreWriter::flush(const PoseGraph& graph) {
   tracks_.resize(graph.tracks().size());
-  if (syncPending() && syncNodes(graph) && syncForces(graph, true) && syncGround(graph))
+  if (syncPending() && syncNodes(graph) && syncForces(graph, true) && syncGround(graph) && syncFixes(graph))
     syncRelaxation(graph, true, true);
 }
 
@@ -220,6 +222,18 @@ bool GraphStoreWriter::syncGround(const PoseGraph& graph) {
     std::vector<GroundNormal> added(ground.begin() + static_cast<std::ptrdiff_t>(tracks_[t].ground), ground.end());
     if (!post([session, added](Store& store) { writeGround(store, session, added); })) return false;
     tracks_[t].ground = ground.size();
+  }
+  return true;
+}
+
+bool GraphStoreWriter::syncFixes(const PoseGraph& graph) {
+  for (std::size_t t = 0; t < tracks_.size(); ++t) {
+    const std::vector<PositionFix>& fixes = graph.fixes(t);
+    if (fixes.size() <= tracks_[t].fixes) continue;
+    const SessionId& session = graph.tracks()[t].session;
+    std::vector<PositionFix> added(fixes.begin() + static_cast<std::ptrdiff_t>(tracks_[t].fixes), fixes.end());
+    if (!post([session, added](Store& store) { writeFixes(store, session, added); })) return false;
+    tracks_[t].fixes = fixes.size();
   }
   return true;
 }

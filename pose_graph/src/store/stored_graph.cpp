@@ -8,6 +8,7 @@
 
 #include "pose_graph/forces_state.hpp"
 #include "pose_graph/ground_views.hpp"
+#include "pose_graph/stored_fixes.hpp"
 
 namespace pose_graph {
 
@@ -75,7 +76,11 @@ StoredGraph readGraph(Store& store) {
       made.closures.push_back(toClosure(edge));
       made.closures.back().odometry_gate = passedOdometryGate(store.graph().evidence(edge).value_or(""));
     });
-    made.chains.push_back({session, collectSteps(store, session.id, steps), {}, readGround(store, session.id)});
+    made.chains.push_back({session,
+                           collectSteps(store, session.id, steps),
+                           {},
+                           readGround(store, session.id),
+                           readFixes(store, session.id)});
     if (const auto forces = store.states().get(session.id, kForcesStage))
       made.chains.back().forces = unpackForces(*forces).value_or(std::vector<SpecificForce>());
     store.graph().forEachRelaxed(session.id, [&](const urban_nav_store::RelaxedPose& pose) {

@@ -38,6 +38,7 @@ class Note : public LiveGraph {
   void add(const urban_nav_core::StampedPose&) override {}
   void add(const SpecificForce&) override {}
   void add(const GroundNormal&) override {}
+  void add(const PositionFix&) override {}
   bool isRelaxationPending() const override { return changed_; }
   Outcome relax() override {
     std::this_thread::sleep_for(relaxing_);

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "../support/driven.hpp"
+#include "../support/gps_drive.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace pose_graph {
@@ -343,6 +344,39 @@ TEST_F(LivePoseGraphTest, theGroundLevelsTheMapAfterARestartToo) {
   EXPECT_EQ(ground[0].support, 0.9);
   graph = begin();
   relaxAll(*graph);
+  expectSame(graph->trajectory(0, 0, 0), before);
+}
+
+TEST_F(LivePoseGraphTest, fixesBendTheWayAndAreThereAfterARestart) {
+  testing::GpsDrive way;
+  way.turn_drift = 0.003;
+  way.white = 0.3;
+  testing::makeDrive(3, 700.0, way);
+  Parameters parameters;
+  parameters.gps = true;
+  const auto start = [&] { return std::make_unique<LivePoseGraph>(parameters, "lisa", "monday", place.file("s.db")); };
+  auto graph = start();
+  graph->syncStore();
+  graph->add(way.fixes[0]);  // before any odometry
+  std::size_t next = 1;
+  for (const urban_nav_core::RelativePose& step : way.odometry) {
+    for (; next < way.fixes.size() && way.fixes[next].reading.stamp <= step.to; ++next) graph->add(way.fixes[next]);
+    graph->add(step);
+    if (graph->isBatchPending()) batch(*graph);
+  }
+  batch(*graph);
+  graph->syncStore();
+  const LiveGraph::Trajectory before = graph->trajectory(0, 0, 0);
+  Track track;
+  for (const auto& pose : before.runs.at(0).poses) track.map.push_back(pose.T_map_base);
+  EXPECT_LT(testing::positionError(way, track),
+            0.5 * testing::positionError(way, testing::relaxDrive(way, false).tracks()[0]));
+  graph.reset();
+  ASSERT_EQ(stored().chains.size(), 1u);
+  EXPECT_EQ(stored().chains[0].fixes.size(), way.fixes.size());
+  graph = start();
+  relaxAll(*graph);
+  batch(*graph);
   expectSame(graph->trajectory(0, 0, 0), before);
 }
 

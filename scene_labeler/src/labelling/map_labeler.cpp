@@ -117,13 +117,21 @@ void MapLabeler::labelView(const PlacedView& view) {
   const SideView shown{view.camera, view.T_map_camera, callbacks_.load(view.image)};
   const bool is_sound = shown.image.type() == CV_8UC3 && shown.image.cols == view.camera.pinhole.width &&
                         shown.image.rows == view.camera.pinhole.height;
-  if (!is_sound || !isUsable(shown.image)) return callbacks_.take_view(view.image, 0);
+  if (!is_sound || !isUsable(shown.image)) return callbacks_.take_view(view.image, {});
   Scene scene = makeScene(members);
   projectView(shown, Eigen::Vector3f::Zero(), scene);
   scene.is_asked = scene.view.is_visible;
-  vote(members, labelScene(model_, scene, superpixel_), true);
-  callbacks_.take_view(view.image,
-                       static_cast<std::size_t>(std::count(scene.is_asked.begin(), scene.is_asked.end(), 1)));
+  const FeatureTable table = measureSceneFeatures(model_, scene);
+  MountingCheck& mounting = mountingOf(view.device);
+  mounting.add(scene, table);
+  if (mounting.isUpsideDown()) return callbacks_.take_view(view.image, {0, true});
+  vote(members, labelScene(model_, scene, superpixel_, table), true);
+  const auto labelled = std::count(scene.is_asked.begin(), scene.is_asked.end(), std::uint8_t{1});
+  callbacks_.take_view(view.image, {static_cast<std::size_t>(labelled), false});
+}
+
+MountingCheck& MapLabeler::mountingOf(std::size_t device) {
+  return mountings_.try_emplace(device, model_).first->second;
 }
 
 void MapLabeler::labelHidden(const Square& square, const SquarePoints& own) {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "support/yard.hpp"
+#include "support/pictured_yard.hpp"
 
 namespace scene_labeler {
 namespace {
@@ -16,24 +16,29 @@ struct LabelledYard {
   std::vector<PointLabel> labels;
   std::vector<int> times;          // that each point got a label
   std::vector<std::size_t> shown;  // by each view
+  std::size_t upside_down = 0;     // views
   std::size_t most_held = 0;
 };
 
 /// Labels points that come in order of y, a metre at a time; `at_once`: all before any is labelled.
 LabelledYard labelPoints(std::vector<Eigen::Vector3f> points, std::vector<PlacedView> views, const cv::Mat& image,
-                         bool at_once = false) {
+                         bool at_once = false,
+                         const LabelModel& model = testing::trainOnYards(ClassifierKind::Boosted)) {
   std::stable_sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.y() < b.y(); });
   LabelledYard made;
   made.labels.resize(points.size());
   made.times.resize(points.size(), 0);
   MapLabeler::Callbacks callbacks;
   callbacks.load = [&](std::size_t) { return image; };
-  callbacks.take_view = [&](std::size_t, std::size_t shown) { made.shown.push_back(shown); };
+  callbacks.take_view = [&](std::size_t, const ViewUse& use) {
+    made.shown.push_back(use.shown);
+    made.upside_down += use.is_upside_down ? 1U : 0U;
+  };
   callbacks.take_label = [&](std::size_t point, const PointLabel& label) {
     made.labels[point] = label;
     ++made.times[point];
   };
-  MapLabeler labeler(testing::trainOnYards(ClassifierKind::Boosted), 12, 15.0, std::move(views), callbacks);
+  MapLabeler labeler(model, 12, 15.0, std::move(views), callbacks);
   for (std::size_t begin = 0; begin < points.size();) {
     const float row = points[begin].y();
     if (!at_once) labeler.sweepTo(static_cast<double>(row));
@@ -97,6 +102,28 @@ TEST(MapLabeler, UsesAnImageForThePointsThatItShows) {
   EXPECT_EQ(labelPoints(yard.scene.points, {viewAt(4.0, 4.0)}, cv::Mat(81, 101, CV_8UC3, cv::Scalar::all(0))).shown,
             std::vector<std::size_t>{0})
       << "a covered camera";
+}
+
+TEST(MapLabeler, LeavesOutTheImagesOfACameraThatIsUpsideDown) {
+  const testing::Yard yard = testing::makePicturedYard(9);
+  const LabelModel model = testing::makePictureModel(measureFeatures(yard.scene, FeatureSet::All));
+  PlacedView view = viewAt(-1.0, 4.0);
+  view.camera.pinhole = {150.0, 150.0, 160.0, 120.0, 320, 240};
+  view.T_map_camera = urban_nav_core::Pose(view.T_map_camera.q(), {-1.0, 4.0, 1.2});
+  const cv::Mat upright = yard.scene.view.image;
+  cv::Mat turned;
+  cv::rotate(upright, turned, cv::ROTATE_180);
+  const std::vector<PlacedView> views(6, view);
+  const LabelledYard seen = labelPoints(yard.scene.points, views, upright, false, model);
+  EXPECT_EQ(seen.upside_down, 0U);
+  EXPECT_GT(seen.shown.at(0), 200U);
+  const LabelledYard made = labelPoints(yard.scene.points, views, turned, false, model);
+  EXPECT_GE(made.upside_down, 4U) << "one or two images tell it";
+  EXPECT_EQ(static_cast<std::size_t>(std::count(made.shown.begin(), made.shown.end(), 0U)), made.upside_down);
+  std::vector<PlacedView> of_two = views;
+  for (std::size_t i = 0; i < of_two.size(); ++i) of_two[i].device = i;
+  EXPECT_EQ(labelPoints(yard.scene.points, of_two, turned, false, model).upside_down, 0U)
+      << "each camera is judged by itself";
 }
 
 TEST(MapLabeler, HoldsThePointsOfAPartOfALongMapAndLabelsThemAsIfItHeldAll) {

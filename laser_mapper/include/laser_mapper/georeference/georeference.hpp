@@ -6,11 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "laser_mapper/georeference/geodetic.hpp"
+#include "urban_nav_core/geometry/geodetic.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
 #include "urban_nav_core/types/stamp.hpp"
 
 namespace laser_mapper {
+
+using urban_nav_core::Geodetic;
 
 /// A position of the robot's antenna that GPS measured.
 struct AntennaFix {

@@ -5,9 +5,11 @@
 #include <memory>
 #include <string>
 
-#include "laser_mapper/georeference/geodetic.hpp"
+#include "urban_nav_core/geometry/geodetic.hpp"
 
 namespace laser_mapper {
+
+using urban_nav_core::Geodetic;
 
 /// Returns the EPSG code of the UTM zone of a position (WGS 84); 0 nearer than 6 deg to a pole, where there is none.
 int utmZoneCode(const Geodetic& position);

@@ -9,6 +9,7 @@
 
 #include "scene_labeler/drive/drive_scene.hpp"
 #include "scene_labeler/labelling/labeler.hpp"
+#include "scene_labeler/labelling/mounting_check.hpp"
 
 namespace scene_labeler {
 
@@ -24,6 +25,13 @@ struct PlacedView {
   urban_nav_core::RawCamera camera;
   urban_nav_core::Pose T_map_camera;  ///< of the optical frame, at the time of the image
   std::size_t image = 0;              ///< number for MapLabeler::Callbacks::load
+  std::size_t device = 0;             ///< number of the camera that took it: views of one camera share their mounting
+};
+
+/// What became of an image.
+struct ViewUse {
+  std::size_t shown = 0;        ///< points that it labels; 0 of an image that is black, saturated, empty or upside down
+  bool is_upside_down = false;  ///< its camera seems to be mounted upside down: it is not used
 };
 
 /// Labels the points of a map, each from all images that show it, the others by shape and by what the images say of
@@ -35,8 +43,8 @@ class MapLabeler {
   struct Callbacks {
     /// Returns an image (CV_8UC3, blue, green, red) by its number; an empty one if there is none.
     std::function<cv::Mat(std::size_t image)> load;
-    /// Called after each image. `shown`: number of points that it labels; 0 of one that is black, saturated or empty.
-    std::function<void(std::size_t image, std::size_t shown)> take_view;
+    /// Called after each image.
+    std::function<void(std::size_t image, const ViewUse& use)> take_view;
     /// Called once for each point, by its number in the order of addPoints().
     std::function<void(std::size_t point, const PointLabel& label)> take_label;
   };
@@ -73,6 +81,8 @@ class MapLabeler {
   std::vector<Member> pointsAround(const Square& middle, int margin);
   static Scene makeScene(const std::vector<Member>& members);
   void labelView(const PlacedView& view);
+  /// Returns the mounting of a camera, as far as its images have shown it.
+  MountingCheck& mountingOf(std::size_t device);
   void labelHidden(const Square& square, const SquarePoints& own);
   /// Uses the labels that images gave for the points of a square that no image shows.
   void spreadInSquare(const std::vector<Member>& members, const std::vector<std::uint8_t>& is_asked);
@@ -88,6 +98,7 @@ class MapLabeler {
   std::size_t next_view_ = 0, next_point_ = 0, held_ = 0;
   int next_row_;  // of squares: those before have their labels
   std::map<Square, SquarePoints> squares_;
+  std::map<std::size_t, MountingCheck> mountings_;  // by device
 };
 
 }  // namespace scene_labeler

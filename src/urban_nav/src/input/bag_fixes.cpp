@@ -5,7 +5,6 @@
 #include <rosbag/view.h>
 #include <sensor_msgs/NavSatFix.h>
 
-#include <cmath>
 #include <list>
 
 #include "input/bag_contents.hpp"
@@ -14,37 +13,11 @@
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
-#include "urban_nav_ros/stamp.hpp"
+#include "urban_nav_ros/gps_reading.hpp"
 
 namespace urban_nav {
 
-using urban_nav_core::Vector3d;
-
 namespace {
-
-constexpr double kUnknownSigma = 5.0;  // m, of single receivers in towns
-constexpr double kLeastSigma = 0.01;   // m
-
-bool isUsable(const sensor_msgs::NavSatFix& fix) {
-  return fix.status.status >= sensor_msgs::NavSatStatus::STATUS_FIX && std::abs(fix.latitude) <= 90.0 &&
-         std::abs(fix.longitude) <= 360.0 && std::isfinite(fix.altitude) && !fix.header.stamp.isZero();
-}
-
-GpsReading toReading(const sensor_msgs::NavSatFix& fix) {
-  GpsReading reading;
-  reading.stamp = urban_nav_ros::toStampNs(fix.header.stamp);
-  reading.latitude = fix.latitude;
-  reading.longitude = fix.longitude;
-  reading.height = fix.altitude;
-  reading.sigma = kUnknownSigma * Vector3d(1.0, 1.0, 2.0);
-  if (fix.position_covariance_type == sensor_msgs::NavSatFix::COVARIANCE_TYPE_UNKNOWN) return reading;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double variance = fix.position_covariance[4 * axis];
-    if (std::isfinite(variance) && variance >= 0.0)
-      reading.sigma(static_cast<Eigen::Index>(axis)) = std::max(kLeastSigma, std::sqrt(variance));
-  }
-  return reading;
-}
 
 void placeAntenna(std::list<rosbag::Bag>& bags, const std::string& frame, BagFixes& fixes) {
   const urban_nav_ros::StaticTransforms transforms = readTransforms(bags);
@@ -72,7 +45,7 @@ BagFixes readBagFixes(const std::vector<std::string>& paths, const std::vector<s
         const auto message = instance.instantiate<sensor_msgs::NavSatFix>();
         if (!message) continue;
         frame = message->header.frame_id;
-        if (isUsable(*message)) fixes.readings.push_back(toReading(*message));
+        if (const auto reading = urban_nav_ros::toGpsReading(*message)) fixes.readings.push_back(*reading);
       }
     }
     if (!frame.empty()) placeAntenna(bags, frame, fixes);

@@ -31,7 +31,7 @@ class MapCrs {
  private:
   int epsg_ = 0;
   laser_mapper::GeoReference reference_;
-  std::optional<laser_mapper::LocalTangent> tangent_;
+  std::optional<urban_nav_core::LocalTangent> tangent_;
   std::unique_ptr<laser_mapper::MapProjection> projection_;
 };
 

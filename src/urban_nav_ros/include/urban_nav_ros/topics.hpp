@@ -17,6 +17,7 @@ constexpr const char* laser_left = "laser_left/scan";
 constexpr const char* laser_right = "laser_right/scan";
 constexpr const char* wheel_odometry = "wheel_odom";
 constexpr const char* imu = "imu/data";
+constexpr const char* gps_fix = "gps/fix";
 
 // swf_vo.
 constexpr const char* vo_odometry = "vo/odometry";

@@ -238,6 +238,15 @@ Json toJson(const GraphRun& graph, const std::vector<SessionEvaluations>& evalua
   json["sessions"] = graph.sessions.size();
   json["sessions_joined"] = joined;
   json["level"] = toJson(graph.levels.front());
+  const pose_graph::FixUse& fixes = graph.graph.fixUse();
+  if (fixes.used + fixes.rejected + fixes.unplaced > 0) {
+    Json& gps = json["gps"] = Json::object();
+    gps["fixes_used"] = fixes.used;
+    gps["fixes_rejected"] = fixes.rejected;
+    gps["fixes_unplaced"] = fixes.unplaced;
+    gps["sigma_factor"] = fixes.sigma_factor;
+    gps["moved_m"] = fixes.moved;
+  }
   Json& warnings = json["warnings"] = Json::array();
   for (const std::string& warning : graph.warnings) warnings.append(warning);
   Json sessions = Json::array();

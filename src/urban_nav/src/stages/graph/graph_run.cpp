@@ -8,6 +8,7 @@
 
 #include "pose_graph/graph_file.hpp"
 #include "pose_graph/map_levels.hpp"
+#include "report/plot.hpp"
 #include "stages/graph/closure_import.hpp"
 
 namespace urban_nav {
@@ -24,6 +25,9 @@ using urban_nav_core::Trajectory;
 namespace {
 
 constexpr double kMetresPerRadian = 10.0;  // for display of free directions: a turn moves what is seen at this distance
+
+constexpr double kManyRejected = 3.0;  // one fix of so many: said to the user
+constexpr double kOptimistic = 2.0;    // times the stated deviation: likewise
 
 using Clock = std::chrono::steady_clock;
 
@@ -108,6 +112,27 @@ void leaveToOdometry(GraphRun& run, const std::vector<const VoRun*>& runs) {
   }
 }
 
+/// What a user who asked for GPS should know of it.
+void addFixWarnings(const pose_graph::Parameters& parameters, GraphRun& run) {
+  if (!parameters.gps) return;
+  const pose_graph::FixUse& use = run.graph.fixUse();
+  const std::size_t all = use.used + use.rejected;
+  if (all == 0) {
+    run.warnings.emplace_back("pose_graph.gps: no GPS fix at the time of a pose; nothing was made of it");
+    return;
+  }
+  if (use.unplaced > 0)
+    run.warnings.push_back("pose_graph.gps: " + std::to_string(use.unplaced) + " of " +
+                           std::to_string(all + use.unplaced) +
+                           " GPS fixes are not used: there is no pose at their time");
+  if (kManyRejected * static_cast<double>(use.rejected) > static_cast<double>(all))
+    run.warnings.push_back("pose_graph.gps: " + std::to_string(use.rejected) + " of " + std::to_string(all) +
+                           " GPS fixes contradict odometry and closures; not used");
+  if (use.sigma_factor > kOptimistic)
+    run.warnings.push_back("pose_graph.gps: the receiver's standard deviations are too small by a factor of " +
+                           forPerson(use.sigma_factor, 2));
+}
+
 /// As the graph has it: the first pose of a map is the identity there.
 Trajectory relaxedTrack(const GraphRun& run, std::size_t session) {
   Trajectory made;
@@ -176,7 +201,7 @@ Trajectory GraphRun::trajectory(std::size_t session) const {
 
 GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<const VoRun*>& runs,
                   const std::vector<std::string>& sessions, const std::vector<ClosureRow>& closures,
-                  const std::vector<PreviousClosure>& known, const SessionGrounds& grounds) {
+                  const std::vector<PreviousClosure>& known, const SessionGrounds& grounds, const SessionFixes& fixes) {
   GraphRun made;
   made.graph = PoseGraph(parameters);
   made.sessions = sessions;
@@ -184,12 +209,14 @@ GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<co
     made.graph.beginSession(sessions[s]);
     for (std::size_t i = 1; i < runs[s]->settled.size(); ++i)
       made.graph.addOdometry(sessions[s], runs[s]->settled[i].from_previous);
+    if (s < fixes.size()) made.graph.putFixes(sessions[s], fixes[s]);
   }
   const ClosureIds ids = importClosures(made, runs, closures, known);
   const auto begin = Clock::now();
   made.relaxed = relax(made.graph, runs);
   made.ms = millisecondsSince(begin);
   judge(made, ids, known.size());
+  addFixWarnings(parameters, made);
   const auto relaxed = Clock::now();
   made.covariances = computeCovariances(made.graph, sessions);
   leaveToOdometry(made, runs);

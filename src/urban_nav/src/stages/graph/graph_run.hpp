@@ -43,12 +43,16 @@ struct GraphRun {
 /// Normals of the ground of each session, in the order of the runs; empty: none.
 using SessionGrounds = std::vector<std::vector<pose_graph::GroundNormal>>;
 
+/// Fixes of satellite navigation of each session, in the order of the runs; empty: none.
+using SessionFixes = std::vector<std::vector<pose_graph::PositionFix>>;
+
 /// Relaxes the smoothed odometry chains of the runs with the closures. A closure between two frames is carried to the
 /// nearest ones by the odometry in between. One that cannot be used is rejected with a reason, never lost. A closure in
 /// the file replaces a previous one between the same poses and of the same kind. The poses do not depend on the order
 /// of the closures, bit by bit.
 GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<const VoRun*>& runs,
                   const std::vector<std::string>& sessions, const std::vector<ClosureRow>& closures,
-                  const std::vector<PreviousClosure>& previous = {}, const SessionGrounds& grounds = {});
+                  const std::vector<PreviousClosure>& previous = {}, const SessionGrounds& grounds = {},
+                  const SessionFixes& fixes = {});
 
 }  // namespace urban_nav

@@ -4,8 +4,10 @@
 #include <algorithm>
 
 #include "pose_graph/ground_views.hpp"
+#include "pose_graph/stored_fixes.hpp"
 #include "report/plot.hpp"
 #include "stage/closure_notes.hpp"
+#include "stage/session_fixes.hpp"
 #include "stages/graph/graph_g2o.hpp"
 #include "stages/graph/graph_report.hpp"
 #include "stages/graph/graph_run.hpp"
@@ -44,6 +46,13 @@ SessionGrounds readGrounds(const MapContext& context) {
   return grounds;
 }
 
+/// Returns the GPS fixes of all sessions that the store holds.
+SessionFixes readFixes(const MapContext& context) {
+  SessionFixes fixes;
+  for (const urban_nav_store::SessionId& id : context.ids()) fixes.push_back(pose_graph::readFixes(*context.store, id));
+  return fixes;
+}
+
 class GraphStage final : public Stage {
  public:
   Description describe() const override { return {"graph", "pose_graph", true, true, true, {"graph#.g2o"}}; }
@@ -55,17 +64,23 @@ class GraphStage final : public Stage {
     return {true, "", measured ? std::vector<std::string>() : closureNotes(options, false)};
   }
 
+  std::unique_ptr<SessionPass> beginSession(MapContext& context, const SessionStart& start) override {
+    if (usesGps(context)) storeFixes(context, start.session);
+    return nullptr;
+  }
+
   Messages run(MapContext& context) override {
     const pose_graph::Parameters& parameters = context.options.parameters.get(pose_graph::table());
     const std::vector<const VoRun*> runs = context.runs();
     const std::vector<PreviousClosure> previous = previousClosures(context);
     const SessionGrounds grounds = readGrounds(context);
-    run_ = runGraph(parameters, runs, context.names, context.closures, previous, grounds);
+    const SessionFixes fixes = usesGps(context) ? readFixes(context) : SessionFixes();
+    run_ = runGraph(parameters, runs, context.names, context.closures, previous, grounds, fixes);
     if (anyMeasuredByIcp(context.closures)) {
       std::vector<ClosureRow> by_stereo;
       for (const ClosureRow& row : context.closures)
         if (row.kind != "icp") by_stereo.push_back(row);
-      const GraphRun without_icp = runGraph(parameters, runs, context.names, by_stereo, previous, grounds);
+      const GraphRun without_icp = runGraph(parameters, runs, context.names, by_stereo, previous, grounds, fixes);
       for (std::size_t s = 0; s < runs.size(); ++s) context.stereo_only.push_back(without_icp.trajectory(s));
     }
     exportGraph(*context.store, context.ids(), *run_, context.previous.revision);
@@ -89,16 +104,25 @@ class GraphStage final : public Stage {
   }
 
  private:
+  static bool usesGps(const MapContext& context) { return context.options.parameters.get(pose_graph::table()).gps; }
+
   std::vector<std::string> describeRun() const {
     const pose_graph::Relaxed& relaxed = run_->relaxed;
     const pose_graph::Level& level = run_->levels.front();
-    return {"graph: " + std::to_string(relaxed.poses) + " poses, " + std::to_string(relaxed.closures) + " closures, " +
-                std::to_string(relaxed.accepted) + " accepted; cost " + forPerson(relaxed.cost_before, 5) + " -> " +
-                forPerson(relaxed.cost_after, 5) + " in " + forPerson(run_->ms, 3) + " ms",
-            level.known()
-                ? std::string("map aligned with ") + (pose_graph::isFromGround(level) ? "the ground" : "gravity") +
-                      " (sigma " + forPerson(kDegreesPerRadian * level.sigma, 2) + " deg)"
-                : "map not aligned with gravity: " + level.sentence};
+    const pose_graph::FixUse& fixes = run_->graph.fixUse();
+    std::vector<std::string> lines = {
+        "graph: " + std::to_string(relaxed.poses) + " poses, " + std::to_string(relaxed.closures) + " closures, " +
+            std::to_string(relaxed.accepted) + " accepted; cost " + forPerson(relaxed.cost_before, 5) + " -> " +
+            forPerson(relaxed.cost_after, 5) + " in " + forPerson(run_->ms, 3) + " ms",
+        level.known()
+            ? std::string("map aligned with ") + (pose_graph::isFromGround(level) ? "the ground" : "gravity") +
+                  " (sigma " + forPerson(kDegreesPerRadian * level.sigma, 2) + " deg)"
+            : "map not aligned with gravity: " + level.sentence};
+    if (fixes.used > 0)
+      lines.push_back("GPS: " + std::to_string(fixes.used) + " of " +
+                      std::to_string(fixes.used + fixes.rejected + fixes.unplaced) +
+                      " fixes used, poses moved by up to " + forPerson(fixes.moved, 3) + " m");
+    return lines;
   }
 
   std::optional<GraphRun> run_;

@@ -63,6 +63,10 @@ std::vector<std::string> labelsWarnings(const LabelsRun& run) {
   if (run.unusable() > 0)
     warnings.push_back(std::to_string(run.unusable()) + " of " + std::to_string(run.views()) +
                        " images of the side cameras show no point of the map, or are black or saturated: not used");
+  if (run.upsideDown() > 0)
+    warnings.push_back("a side camera seems to be mounted upside down, or to have the calibration of one that is: " +
+                       std::to_string(run.upsideDown()) + " of " + std::to_string(run.views()) +
+                       " images of the side cameras are not used");
   const double unsure = labelShare(run.unsure(), run.labelled());
   if (unsure > many_unsure)
     warnings.push_back(forPerson(100.0 * unsure, 3) +

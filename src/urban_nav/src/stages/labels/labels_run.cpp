@@ -58,10 +58,12 @@ cv::Mat toImage(const urban_nav_registration::Picture& picture) {
 struct PlannedViews {
   std::vector<scene_labeler::PlacedView> views;
   std::vector<PanoramaKey> images;
+  std::size_t devices = 0;  ///< cameras of sessions
 };
 
 void planCamera(urban_nav_store::Store& store, const laser_mapper::MappedSession& session,
                 const StoredPanoramaCamera& camera, double spacing, PlannedViews& planned) {
+  const std::size_t device = planned.devices++;
   const scene_labeler::TravelledPath path(*session.T_map_base);
   double next = 0.0;
   TableStore<StoredPanorama>(store).forEach(session.id, [&](const StoredPanorama& row) {
@@ -70,7 +72,7 @@ void planCamera(urban_nav_store::Store& store, const laser_mapper::MappedSession
     const auto T_map_base = session.T_map_base->at(row.stamp, longest_view_gap);
     if (!travelled || !T_map_base || *travelled < next) return;
     next = *travelled + spacing;
-    planned.views.push_back({rawCamera(camera), *T_map_base * camera.T_base_camera, planned.images.size()});
+    planned.views.push_back({rawCamera(camera), *T_map_base * camera.T_base_camera, planned.images.size(), device});
     planned.images.push_back({session.id, row.camera, row.stamp});
   });
 }
@@ -164,9 +166,10 @@ std::vector<PointLabel> labelPoints(const LabelModel& model, const scene_labeler
     begin = LabelsClock::now();
     return toImage(loadPanorama(store, planned.images[image]));
   };
-  callbacks.take_view = [&](std::size_t, std::size_t shown) {
-    made.shown += shown;
-    made.unusable += shown == 0 ? 1U : 0U;
+  callbacks.take_view = [&](std::size_t, const scene_labeler::ViewUse& use) {
+    made.shown += use.shown;
+    made.unusable += use.shown == 0 && !use.is_upside_down ? 1U : 0U;
+    made.upside_down += use.is_upside_down ? 1U : 0U;
     ++made.views;
     milliseconds.push_back(millisecondsSince(begin));
   };
@@ -231,6 +234,7 @@ std::size_t sumOverMaps(const LabelsRun& run, std::size_t LabelledMap::*member) 
 std::size_t LabelsRun::points() const { return sumOverMaps(*this, &LabelledMap::points); }
 std::size_t LabelsRun::labelled() const { return sumOverMaps(*this, &LabelledMap::labelled); }
 std::size_t LabelsRun::unusable() const { return sumOverMaps(*this, &LabelledMap::unusable); }
+std::size_t LabelsRun::upsideDown() const { return sumOverMaps(*this, &LabelledMap::upside_down); }
 std::size_t LabelsRun::unsure() const { return sumOverMaps(*this, &LabelledMap::unsure); }
 
 LabelsRun runLabels(const NamedLabelModel& model, MapContext& context) {

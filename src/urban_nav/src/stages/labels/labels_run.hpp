@@ -27,6 +27,7 @@ struct LabelledMap {
   std::size_t points = 0, labelled = 0, unsure = 0;
   std::size_t views = 0, shown = 0;  ///< images, and points that these show
   std::size_t unusable = 0;          ///< images that show no point, or are black or saturated
+  std::size_t upside_down = 0;       ///< images whose camera seems to be mounted upside down
   std::array<ClassExtent, scene_labeler::class_count> extents;
   std::vector<PagePicture> pictures;
   std::string layer;  ///< markup of the classes in the view of the map; empty without points
@@ -44,6 +45,7 @@ struct LabelsRun {
   std::size_t unsure() const;
   std::size_t views() const { return milliseconds.size(); }
   std::size_t unusable() const;
+  std::size_t upsideDown() const;
 };
 
 /// Labels the maps that stage lasers has left in the store and the output folder, and adds the labels to map.ply.

@@ -3,29 +3,17 @@
 
 #include <algorithm>
 
-#include "input/bag_fixes.hpp"
 #include "report/plot.hpp"
+#include "stage/session_fixes.hpp"
 #include "stages/lasers/calibration_report.hpp"
 #include "stages/lasers/lasers_report.hpp"
 #include "stages/lasers/lasers_run.hpp"
 #include "stages/lasers/panorama_pass.hpp"
 #include "urban_nav_core/types/error.hpp"
-#include "urban_nav_store/table_store.hpp"
-#include "urban_nav_store/tables/stored_fix.hpp"
 
 namespace urban_nav {
 
 namespace {
-
-/// Stores the GPS fixes of a session, which export --crs needs.
-void storeFixes(MapContext& context, std::size_t session) {
-  const BagFixes fixes = readBagFixes(context.sessions[session].input.paths, context.options.source.topics);
-  urban_nav_store::TableStore<urban_nav_store::StoredFix> rows(*context.store);
-  for (const GpsReading& reading : fixes.readings)
-    rows.put({context.sessions[session].id, reading.stamp, reading.latitude, reading.longitude, reading.height,
-              reading.sigma.x(), reading.sigma.y(), reading.sigma.z(), fixes.p_base.x(), fixes.p_base.y(),
-              fixes.p_base.z()});
-}
 
 class LasersStage final : public Stage {
  public:
@@ -44,7 +32,7 @@ class LasersStage final : public Stage {
   }
 
   std::unique_ptr<SessionPass> beginSession(MapContext& context, const SessionStart& start) override {
-    storeFixes(context, start.session);
+    storeFixes(context, start.session);  // export --crs needs them
     if (context.sessions[start.session].info.panorama.empty()) return nullptr;
     return std::make_unique<PanoramaPass>(context, start);
   }

@@ -139,6 +139,34 @@ TEST(GraphRunTest, leavesASessionWithoutClosuresAsOdometryHasIt) {
   EXPECT_NE(run.covariances[0].back(), monday.settled.back().T_odom_base.covariance);
 }
 
+TEST(GraphRunTest, usesGpsFixesIfAskedToAndSaysWhatBecameOfThem) {
+  const VoRun run = drive(0, 1200, 1e-3);
+  const urban_nav_core::LocalTangent tangent({0.9, 0.0, 100.0});
+  constexpr double kDegrees = 180.0 / M_PI;
+  std::vector<urban_nav_core::PositionFix> fixes;
+  for (int i = 0; i <= 1200; i += 20) {
+    const urban_nav_core::Geodetic at = tangent.toGeodetic(truthAt(i).t());
+    const Vector3d sigma = Vector3d::Constant(0.1);
+    fixes.push_back({{i * kStep, kDegrees * at.latitude, kDegrees * at.longitude, at.height, sigma}, Vector3d::Zero()});
+  }
+  pose_graph::Parameters parameters;
+  parameters.gps_correlation = 1.0;
+  const double without =
+      worstError(runGraph(parameters, {&run}, {"monday"}, {}, {}, {}, {fixes}).trajectory(0), Pose());
+  parameters.gps = true;
+  const GraphRun used = runGraph(parameters, {&run}, {"monday"}, {}, {}, {}, {fixes});
+  EXPECT_GT(without, 2.0) << "odometry alone: fixes are not used unless asked for";
+  EXPECT_LT(worstError(used.trajectory(0), Pose()), 0.25 * without);
+  EXPECT_EQ(used.graph.fixUse().used, fixes.size());
+  const GraphRun none = runGraph(parameters, {&run}, {"monday"}, {});
+  ASSERT_EQ(none.warnings.size(), 1U);
+  EXPECT_NE(none.warnings[0].find("no GPS fix"), std::string::npos);
+  fixes.back().reading.stamp += 3600'000'000'000;
+  const GraphRun late = runGraph(parameters, {&run}, {"monday"}, {}, {}, {}, {fixes});
+  ASSERT_FALSE(late.warnings.empty());
+  EXPECT_NE(late.warnings[0].find("1 of 61 GPS fixes"), std::string::npos) << late.warnings[0];
+}
+
 TEST(GraphRunTest, takesClosuresInAnyOrderAndFromWhereverTheyAreKnown) {
   const VoRun monday = drive(0, 900, 2e-4), tuesday = drive(300, 900, -1e-4);
   std::vector<ClosureRow> rows;

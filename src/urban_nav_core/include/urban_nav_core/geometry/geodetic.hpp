@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace laser_mapper {
+namespace urban_nav_core {
 
 /// A position in WGS 84.
 struct Geodetic {
@@ -26,4 +26,4 @@ class LocalTangent {
   Eigen::Matrix3d R_local_earth_;
 };
 
-}  // namespace laser_mapper
+}  // namespace urban_nav_core

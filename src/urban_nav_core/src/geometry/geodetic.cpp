@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "laser_mapper/georeference/geodetic.hpp"
+#include "urban_nav_core/geometry/geodetic.hpp"
 
 #include <cmath>
 
-namespace laser_mapper {
-
-using Eigen::Vector3d;
+namespace urban_nav_core {
 
 namespace {
 
@@ -48,4 +46,4 @@ Geodetic LocalTangent::toGeodetic(const Vector3d& local) const {
   return at;
 }
 
-}  // namespace laser_mapper
+}  // namespace urban_nav_core

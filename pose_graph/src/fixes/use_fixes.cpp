@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fixes/use_fixes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "graph/odometry_variance.hpp"
+#include "urban_nav_core/geometry/level_motion.hpp"
+
+namespace pose_graph {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double kCauchyWidth = 2.4;   // standard deviations: 95 % efficient on normal errors
+constexpr double kNarrower = 0.7;      // per round, from the width that keeps all fixes
+constexpr int kMostRounds = 60;        // enough for an error of 10^8 standard deviations
+constexpr int kFinalRounds = 4;        // with the narrowest kernel
+constexpr double kMedianChi2 = 2.366;  // of three numbers
+constexpr double kRejected = 3.37;     // standard deviations: 99 % of three numbers
+
+std::size_t at(int number) { return static_cast<std::size_t>(number); }
+
+/// The graph with the frame of each part's datum as a pose more, and its fixes as edges.
+class FixGraph {
+ public:
+  FixGraph(const Problem<3>& problem, const std::vector<double>& weights, const std::vector<FixedPart>& parts,
+           const std::vector<Rigid<3>>& poses)
+      : parts_(parts), first_edge_(problem.edges.size()), frames_(poses.size()) {
+    graph_ = problem;
+    graph_.poses = poses;
+    weights_ = weights;
+    for (const FixedPart& part : parts_) {
+      graph_.poses.push_back(firstFrame(part, poses));
+      addUpEdge(part);
+      for (const PlacedFix& fix : part.fixes) addFixEdge(fix);
+    }
+  }
+
+  /// Errors of all fixes in stated standard deviations, at the present poses.
+  std::vector<double> errors() const {
+    std::vector<double> made;
+    forEachFix([&](std::size_t, const Rigid<3>& frame, const PlacedFix& fix) {
+      const Rigid<3>& pose = graph_.poses[at(fix.pose)];
+      const Vector3d seen = frame.R.transpose() * (pose.t + pose.R * fix.lever - frame.t);
+      made.push_back((seen - fix.measured).cwiseQuotient(fix.sigma).norm());
+    });
+    return made;
+  }
+
+  /// Weighs the fixes by their errors, and their information by a factor of their standard deviations.
+  void weigh(const std::vector<double>& errors, double width, double sigma_factor) {
+    std::size_t i = 0;
+    forEachFix([&](std::size_t edge, const Rigid<3>& frame, const PlacedFix& fix) {
+      const double relative = errors[i++] / width;
+      const double weight = fix.share / (sigma_factor * sigma_factor * (1.0 + relative * relative));
+      graph_.edges[edge].information.topLeftCorner<3, 3>() =
+          Matrix3d((weight / fix.sigma.array().square()).matrix().asDiagonal());
+      // The lever arm is that of the present rotations: it is short, and they are known well.
+      graph_.edges[edge].Z.t = fix.measured - frame.R.transpose() * (graph_.poses[at(fix.pose)].R * fix.lever);
+    });
+  }
+
+  void relax(const SolveOptions& options) { take(solve(graph_, options, weights_)); }
+
+  /// Returns the factor by which the variances of the chains were enlarged.
+  double enlargeVariance(std::size_t chains, const SolveOptions& options) {
+    Solution<3> solution;
+    solution.poses = graph_.poses;
+    const double factor = takeOdometryVariance(graph_, chains, weights_, options, solution);
+    take(std::move(solution));
+    return factor;
+  }
+
+  std::vector<Rigid<3>> poses() const {
+    return {graph_.poses.begin(), graph_.poses.begin() + static_cast<std::ptrdiff_t>(frames_)};
+  }
+  const Problem<3>& graph() const { return graph_; }
+
+ private:
+  template <typename Visit>
+  void forEachFix(Visit visit) const {
+    std::size_t edge = first_edge_, part_number = 0;
+    for (const FixedPart& part : parts_) {
+      const Rigid<3>& frame = graph_.poses[frames_ + part_number++];
+      ++edge;  // that of the vertical
+      for (const PlacedFix& fix : part.fixes) visit(edge++, frame, fix);
+    }
+  }
+
+  void take(Solution<3> solution) { graph_.poses = std::move(solution.poses); }
+
+  /// Where the fixes as they are have the datum's frame.
+  static Rigid<3> firstFrame(const FixedPart& part, const std::vector<Rigid<3>>& poses) {
+    const Rigid<3>& first = poses[at(part.first_pose)];
+    const Matrix3d R_level_map =
+        Eigen::Quaterniond::FromTwoVectors(first.R * part.up, Vector3d::UnitZ()).toRotationMatrix();
+    std::vector<Vector3d> level, measured;
+    std::vector<double> weights;
+    for (const PlacedFix& fix : part.fixes) {
+      const Rigid<3>& pose = poses[at(fix.pose)];
+      level.emplace_back(R_level_map * (pose.t + pose.R * fix.lever));
+      measured.push_back(fix.measured);
+      weights.push_back(fix.share / fix.sigma.squaredNorm());
+    }
+    const urban_nav_core::Pose T_local_level = urban_nav_core::fitLevelMotion(level, measured, weights).pose();
+    const Rigid<3> T_local_map{T_local_level.q().toRotationMatrix() * R_level_map, T_local_level.t()};
+    return T_local_map.inverse();
+  }
+
+  /// The first pose of the part stands upright, as surely as is known.
+  void addUpEdge(const FixedPart& part) {
+    const Rigid<3>& frame = graph_.poses.back();
+    Edge<3> edge;
+    edge.from = static_cast<int>(graph_.poses.size()) - 1;
+    edge.to = part.first_pose;
+    edge.Z.R = frame.R.transpose() * graph_.poses[at(part.first_pose)].R;
+    edge.information.setZero();
+    edge.information.bottomRightCorner<3, 3>() =
+        (Matrix3d::Identity() - part.up * part.up.transpose()) / (part.up_sigma * part.up_sigma);
+    graph_.edges.push_back(edge);
+    weights_.push_back(1.0);
+  }
+
+  void addFixEdge(const PlacedFix& fix) {
+    Edge<3> edge;
+    edge.from = static_cast<int>(graph_.poses.size()) - 1;
+    edge.to = fix.pose;
+    edge.information.setZero();  // weigh() gives it
+    graph_.edges.push_back(edge);
+    weights_.push_back(1.0);
+  }
+
+  const std::vector<FixedPart>& parts_;
+  const std::size_t first_edge_, frames_;  // numbers of the first edge and the first pose that are added
+  Problem<3> graph_;
+  std::vector<double> weights_;
+};
+
+double medianOf(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+FixUse useFixes(Problem<3>& problem, std::size_t chains, const std::vector<double>& weights,
+                const std::vector<FixedPart>& parts, const SolveOptions& options, Solution<3>& solution,
+                double& odometry_variance) {
+  FixUse use;
+  if (parts.empty()) return use;
+  SolveOptions from_here = options;
+  from_here.start = Start::Vertices;
+  FixGraph graph(problem, weights, parts, solution.poses);
+  std::vector<double> errors = graph.errors();
+  double width = std::max(kCauchyWidth, *std::max_element(errors.begin(), errors.end()));
+  int final_rounds = 0;
+  for (int round = 0; round < kMostRounds && final_rounds < kFinalRounds; ++round) {
+    graph.weigh(errors, width * use.sigma_factor, use.sigma_factor);
+    graph.relax(from_here);
+    const bool is_final = width <= kCauchyWidth;
+    if (is_final) {
+      odometry_variance *= graph.enlargeVariance(chains, from_here);
+      ++final_rounds;
+    }
+    errors = graph.errors();
+    if (is_final) use.sigma_factor = std::max(1.0, medianOf(errors) / std::sqrt(kMedianChi2));
+    width = std::max(kCauchyWidth, kNarrower * width);
+  }
+  for (const double error : errors) ++(error > kRejected * use.sigma_factor ? use.rejected : use.used);
+  std::vector<Rigid<3>> poses = graph.poses();
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    use.moved = std::max(use.moved, (poses[i].t - solution.poses[i].t).norm());
+  for (std::size_t e = 0; e < chains; ++e) problem.edges[e].information = graph.graph().edges[e].information;
+  solution.poses = std::move(poses);
+  solution.cost = cost(problem, solution.poses, options.objective, weights);
+  return use;
+}
+
+}  // namespace pose_graph

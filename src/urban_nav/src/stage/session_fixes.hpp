@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+
+#include "stage/context.hpp"
+
+namespace urban_nav {
+
+/// Stores the GPS fixes of a session, unless another stage has done so. Bags without any are fine.
+void storeFixes(MapContext& context, std::size_t session);
+
+}  // namespace urban_nav
