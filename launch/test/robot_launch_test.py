@@ -69,7 +69,7 @@ class RobotLaunch(LaunchCase):
         """record.launch on what the odometry reads; gives the beginning of the names of its bags."""
         prefix = Path(self.folder) / "recorded"
         recorder = Launched("record.launch", output=prefix, topics=" ".join(STEREO_TOPICS), least_speed=1)
-        self.addCleanup(recorder.stop)
+        self.addCleanup(lambda: recorder.process.poll() is None and recorder.stop())
         self.expect(lambda: STEREO_TOPICS <= connections("/record"), lambda: f"the recorder hears {connections('/record')}\n{recorder.output()}")
         return recorder, prefix
 
