@@ -18,7 +18,7 @@ using urban_nav_core::Trajectory;
 
 namespace {
 
-constexpr StampNs kLongestGap = 500'000'000;
+constexpr StampNs kLongestFixGap = 500'000'000;
 constexpr double kMountedUpright = 0.17;  // rad: a robot whose direction of gravity is not known stands like this
 
 bool isSound(const PositionFix& fix) {
@@ -45,7 +45,7 @@ std::optional<PlacedFix> placeFix(const PositionFix& fix, const TrackPoses& trac
     const std::size_t other = stamp > at ? nearest + 1 : nearest - 1;  // wraps around where there is none
     if (other >= track.trajectory.size()) return std::nullopt;
     const int other_pose = track.first + static_cast<int>(other);
-    const auto then = track.trajectory.at(stamp, kLongestGap);
+    const auto then = track.trajectory.at(stamp, kLongestFixGap);
     if (!then || component[static_cast<std::size_t>(placed.pose)] != component[static_cast<std::size_t>(other_pose)])
       return std::nullopt;
     T_pose_then = track.trajectory[nearest].pose.inverse() * *then;
