@@ -14,12 +14,12 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kCauchyWidth = 2.4;   // standard deviations: 95 % efficient on normal errors
-constexpr double kNarrower = 0.7;      // per round, from the width that keeps all fixes
-constexpr int kMostRounds = 60;        // enough for an error of 10^8 standard deviations
-constexpr int kFinalRounds = 4;        // with the narrowest kernel
-constexpr double kMedianChi2 = 2.366;  // of three numbers
-constexpr double kRejected = 3.37;     // standard deviations: 99 % of three numbers
+constexpr double kCauchyWidth = 2.4;    // standard deviations: 95 % efficient on normal errors
+constexpr double kNarrowerFixes = 0.7;  // per round, from the width that keeps all fixes
+constexpr int kMostRounds = 60;         // enough for an error of 10^8 standard deviations
+constexpr int kFinalRounds = 4;         // with the narrowest kernel
+constexpr double kMedianChi2 = 2.366;   // of three numbers
+constexpr double kRejected = 3.37;      // standard deviations: 99 % of three numbers
 
 std::size_t indexOf(int number) { return static_cast<std::size_t>(number); }
 
@@ -168,7 +168,7 @@ FixUse useFixes(Problem<3>& problem, std::size_t chains, const std::vector<doubl
     }
     errors = graph.errors();
     if (is_final) use.sigma_factor = std::max(1.0, medianOf(errors) / std::sqrt(kMedianChi2));
-    width = std::max(kCauchyWidth, kNarrower * width);
+    width = std::max(kCauchyWidth, kNarrowerFixes * width);
   }
   for (const double error : errors) ++(error > kRejected * use.sigma_factor ? use.rejected : use.used);
   std::vector<Rigid<3>> poses = graph.poses();
