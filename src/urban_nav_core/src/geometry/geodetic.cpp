@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "urban_nav_core/geometry/se3.hpp"
+
 namespace urban_nav_core {
 
 namespace {
